@@ -1,0 +1,123 @@
+#pragma once
+// The frames that all nodes hear at once: the time stamp of SYNC, the path-time rate, and the stop instant that an
+// EMCY carries. The gateway sends the first two as its own TPDOs (node id 127), so every bus tool decodes them.
+
+#include <cstdint>
+#include <optional>
+
+#include "protocol/bytes.hpp"
+#include "protocol/can/frame.hpp"
+#include "protocol/time.hpp"
+
+namespace kinebus {
+
+inline constexpr std::uint8_t kGatewayNodeId = 127;
+inline constexpr std::uint32_t kRateCobId = 0x180 + kGatewayNodeId;       // TPDO1 of the gateway: above all PDOs
+inline constexpr std::uint32_t kSyncStampCobId = 0x280 + kGatewayNodeId;  // TPDO2 of the gateway
+
+/// Two-step SYNC: when the SYNC with this counter really was on the bus, on the gateway's clock.
+struct SyncStamp {
+  std::uint8_t counter = 0;  ///< the counter byte of the SYNC that this stamps, 1..240
+  std::uint8_t epoch = 0;    ///< changes when the gateway's clock starts anew
+  BusTime time{0};           ///< low 32 bits of the microseconds travel, plus nanoseconds 0..999
+
+  friend constexpr bool operator==(const SyncStamp&, const SyncStamp&) = default;
+};
+
+constexpr CanFrame encode(const SyncStamp& stamp) {
+  CanFrame frame{.id = kSyncStampCobId, .length = 8};
+  const std::int64_t us = stamp.time.count() / 1000;
+  frame.data[0] = stamp.counter;
+  frame.data[1] = stamp.epoch;
+  put_u16_le(std::span(frame.data).subspan(2), static_cast<std::uint16_t>(stamp.time.count() % 1000));
+  put_u32_le(std::span(frame.data).subspan(4), static_cast<std::uint32_t>(us));
+  return frame;
+}
+
+/// The full time nearest to `reference` that a 32-bit microsecond value can mean (it wraps after 71 minutes).
+constexpr BusTime unwrap_us(std::uint32_t low_us, BusTime reference) {
+  const std::int64_t ref_us = reference.count() / 1000;
+  const auto delta = static_cast<std::int32_t>(low_us - static_cast<std::uint32_t>(ref_us));
+  return BusTime{(ref_us + delta) * 1000};
+}
+
+/// `reference`: any time within half an hour of the stamp. nullopt: malformed.
+constexpr std::optional<SyncStamp> decode_sync_stamp(const CanFrame& frame, BusTime reference) {
+  if (frame.length != 8) return std::nullopt;
+  const std::uint16_t ns = get_u16_le(std::span(frame.data).subspan(2));
+  if (ns > 999 || frame.data[0] == 0 || frame.data[0] > 240) return std::nullopt;
+  return SyncStamp{frame.data[0], frame.data[1],
+                   unwrap_us(get_u32_le(std::span(frame.data).subspan(4)), reference) + BusTime{ns}};
+}
+
+/// d tau/dt goes from what it is to `rate` along a straight ramp that starts at bus time `start`.
+/// The ramp takes `full_ramp` for a change of 1.0, and in proportion less for a smaller one, so that its slope,
+/// which is what the joints feel, is the stated one.
+struct RateCommand {
+  enum class Kind : std::uint8_t {
+    kRate = 1,   ///< feed hold (rate 0), resume, override
+    kStop = 2,   ///< to rate 0 and latched: only kClear lets kRate work again
+    kClear = 3,  ///< lifts the latch; accepted only at rest
+  };
+  Kind kind = Kind::kRate;
+  std::uint8_t counter = 0;       ///< 0..15, a doubled frame is no second command
+  std::uint16_t rate_q15 = 0;     ///< 0..32768 = 0..1.0
+  std::uint8_t full_ramp_2ms = 50;  ///< 2 ms units, 1..255
+  BusTime start{0};               ///< whole microseconds
+
+  friend constexpr bool operator==(const RateCommand&, const RateCommand&) = default;
+};
+inline constexpr std::uint16_t kFullRateQ15 = 32768;
+
+constexpr CanFrame encode(const RateCommand& c) {
+  CanFrame frame{.id = kRateCobId, .length = 8};
+  frame.data[0] = static_cast<std::uint8_t>((static_cast<unsigned>(c.kind) << 4) | (c.counter & 0xFu));
+  put_u16_le(std::span(frame.data).subspan(1), c.rate_q15);
+  frame.data[3] = c.full_ramp_2ms;
+  put_u32_le(std::span(frame.data).subspan(4), static_cast<std::uint32_t>(c.start.count() / 1000));
+  return frame;
+}
+
+constexpr std::optional<RateCommand> decode_rate_command(const CanFrame& frame, BusTime reference) {
+  if (frame.length != 8) return std::nullopt;
+  const unsigned kind = frame.data[0] >> 4;
+  const std::uint16_t rate = get_u16_le(std::span(frame.data).subspan(1));
+  if (kind < 1 || kind > 3 || rate > kFullRateQ15 || frame.data[3] == 0) return std::nullopt;
+  return RateCommand{static_cast<RateCommand::Kind>(kind), static_cast<std::uint8_t>(frame.data[0] & 0xF), rate,
+                     frame.data[3], unwrap_us(get_u32_le(std::span(frame.data).subspan(4)), reference)};
+}
+
+/// Stop requests of nodes travel in EMCY's five vendor bytes: byte 3 the reason and axis, bytes 4..7 the bus time in
+/// microseconds (low 32 bits) at which every node, sender included, starts the stop ramp. The sender names a time
+/// `kStopMargin` ahead, so that the frame reaches all nodes before it; the earliest stop named wins.
+inline constexpr BusTime kStopMargin = std::chrono::microseconds{1500};
+
+/// TPDO2 of a node: everything that a stream needs to go on.
+struct StreamStatus {
+  std::uint8_t next_sequence = 0;  ///< 0..127: the record expected next
+  std::uint8_t free_records = 0;   ///< room in the queue now
+  std::uint8_t flags = 0;          ///< kStream... below
+  std::uint8_t sync_error_us = 0;  ///< bound of the clock estimate's error, saturates at 255
+  std::uint32_t path_units = 0;    ///< path time in 16 us units, low 32 bits
+
+  static constexpr std::uint8_t kRunning = 0x01;    ///< executing records
+  static constexpr std::uint8_t kAtRest = 0x02;     ///< queue ended by an end record, or never started
+  static constexpr std::uint8_t kStopped = 0x04;    ///< stop latched
+  static constexpr std::uint8_t kSequenceError = 0x08;
+  static constexpr std::uint8_t kUnderrun = 0x10;
+  static constexpr std::uint8_t kCheckpointError = 0x20;
+  static constexpr std::uint8_t kSynchronised = 0x40;
+};
+
+constexpr std::uint64_t encode(const StreamStatus& s) {
+  return static_cast<std::uint64_t>(s.next_sequence) | (static_cast<std::uint64_t>(s.free_records) << 8) |
+         (static_cast<std::uint64_t>(s.flags) << 16) | (static_cast<std::uint64_t>(s.sync_error_us) << 24) |
+         (static_cast<std::uint64_t>(s.path_units) << 32);
+}
+constexpr StreamStatus decode_stream_status(std::uint64_t raw) {
+  return {static_cast<std::uint8_t>(raw & 0x7F), static_cast<std::uint8_t>((raw >> 8) & 0xFF),
+          static_cast<std::uint8_t>((raw >> 16) & 0xFF), static_cast<std::uint8_t>((raw >> 24) & 0xFF),
+          static_cast<std::uint32_t>(raw >> 32)};
+}
+
+}  // namespace kinebus

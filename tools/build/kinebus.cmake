@@ -1,0 +1,85 @@
+# How every target of Kinebus is built. Targets are layers: a library lists the layers it may include, so an
+# include of a layer that is not linked does not compile (include paths travel with the targets' links).
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release)
+endif()
+
+find_program(CCACHE ccache)
+if(CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
+endif()
+
+add_library(kinebus_options INTERFACE)
+target_include_directories(kinebus_options INTERFACE ${PROJECT_SOURCE_DIR})
+target_compile_options(kinebus_options INTERFACE
+  -Wall -Wextra -Wconversion -Wshadow -Werror
+  # Identical arithmetic on every platform and build: no fused multiply-add behind our back.
+  -ffp-contract=off)
+if(KINEBUS_SANITIZE)
+  target_compile_options(kinebus_options INTERFACE -fsanitize=${KINEBUS_SANITIZE} -fno-omit-frame-pointer
+    -fno-sanitize-recover=all)
+  target_link_options(kinebus_options INTERFACE -fsanitize=${KINEBUS_SANITIZE})
+endif()
+if(KINEBUS_FUZZ)
+  target_compile_options(kinebus_options INTERFACE -fsanitize=fuzzer-no-link)
+endif()
+
+# kinebus_library(NAME SOURCES a.cpp ... LINK layer ...)
+function(kinebus_library name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LINK")
+  if(arg_SOURCES)
+    add_library(${name} STATIC ${arg_SOURCES})
+    target_link_libraries(${name} PUBLIC kinebus_options ${arg_LINK})
+  else()
+    add_library(${name} INTERFACE)
+    target_link_libraries(${name} INTERFACE kinebus_options ${arg_LINK})
+  endif()
+endfunction()
+
+# kinebus_test(NAME SOURCES a_test.cpp ... LINK layer ... [LABELS core] [TIMEOUT s]): one GoogleTest program.
+# The label "core" marks the tests that also run on arm64 and under every sanitizer.
+function(kinebus_test name)
+  if(KINEBUS_FIRMWARE OR KINEBUS_FUZZ)
+    return()
+  endif()
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "TIMEOUT" "SOURCES;LINK;LABELS")
+  find_package(GTest REQUIRED)
+  add_executable(${name} ${arg_SOURCES})
+  target_link_libraries(${name} PRIVATE ${arg_LINK} kinebus_options GTest::gtest GTest::gtest_main)
+  add_test(NAME ${name} COMMAND ${name})
+  if(NOT arg_TIMEOUT)
+    set(arg_TIMEOUT 300)
+  endif()
+  if(NOT arg_LABELS)
+    set(arg_LABELS core)
+  endif()
+  set_tests_properties(${name} PROPERTIES TIMEOUT ${arg_TIMEOUT} LABELS "${arg_LABELS}")
+endfunction()
+
+# kinebus_fuzz(NAME SOURCES x_fuzz.cpp LINK layer ...): a libFuzzer program, only in the fuzz preset. Its corpus is
+# the folder corpus/NAME beside the source.
+function(kinebus_fuzz name)
+  if(NOT KINEBUS_FUZZ)
+    return()
+  endif()
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LINK")
+  add_executable(${name} ${arg_SOURCES})
+  target_link_libraries(${name} PRIVATE ${arg_LINK} kinebus_options)
+  target_link_options(${name} PRIVATE -fsanitize=fuzzer)
+  set_property(GLOBAL APPEND PROPERTY KINEBUS_FUZZ_TARGETS ${name})
+endfunction()
+
+# kinebus_bench(NAME SOURCES x_bench.cpp LINK layer ...): a Google Benchmark program, run by tools/bench.
+function(kinebus_bench name)
+  if(KINEBUS_FIRMWARE OR KINEBUS_FUZZ OR KINEBUS_SANITIZE OR CMAKE_CROSSCOMPILING)
+    return()
+  endif()
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LINK")
+  find_package(benchmark REQUIRED)
+  add_executable(${name} ${arg_SOURCES})
+  target_link_libraries(${name} PRIVATE ${arg_LINK} kinebus_options benchmark::benchmark benchmark::benchmark_main)
+endfunction()
