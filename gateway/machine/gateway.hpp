@@ -1,0 +1,106 @@
+#pragma once
+// The whole gateway as one sans-IO state machine: it brings up the nodes, homes, plans and streams motion,
+// holds and stops it, and tells what it does. Whoever owns it feeds frames and time in, and pulls frames and
+// events out:
+//
+//   on_frame / on_frame_sent / on_time  ->  Gateway  ->  next_frame (until empty) / next_event /
+//   next_deadline
+//
+// All times are the owner's monotonic bus clock. on_frame_sent must report every frame of next_frame() that
+// really went out, with the time of its end of frame: the time stamp of SYNC is made of it. The work in one
+// call is bounded (Options::planning_budget), so that an event loop stays responsive.
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gateway/jobs/byte_source.hpp"
+#include "gateway/kinematics/kinematics.hpp"
+#include "gateway/machine/event.hpp"
+#include "gateway/machine/state.hpp"
+#include "gateway/machine/status.hpp"
+#include "gateway/result.hpp"
+#include "protocol/can/frame.hpp"
+#include "protocol/time.hpp"
+
+namespace kinebus {
+
+struct MachineDescription;  // gateway/machine/description
+
+/// Why a command was not carried out. Nothing has changed then.
+struct Refusal {
+  std::string words;
+};
+
+/// A relative move of the tool in the machine frame.
+struct JogRequest {
+  PoseVector delta{};      ///< mm, mm, mm, rad, rad, mm
+  double speed_per_s = 0;  ///< of the tool tip, mm/s, or of the turning axis, rad/s; 0: the machine's default
+};
+
+class Gateway {
+ public:
+  struct Options {
+    std::uint8_t epoch = 1;     ///< of the time stamps: another value after every start of the gateway
+    int planning_budget = 400;  ///< G-code lines interpreted in one on_time() call, at most
+    std::chrono::milliseconds horizon{500};  ///< motion kept in the nodes' queues, path time at full rate
+    double bus_budget = 0.6;                 ///< fraction of 1 Mbit/s that motion may load the bus with
+    bool simulated_heaters = true;           ///< hotend and bed are the built-in first-order models
+  };
+
+  explicit Gateway(const MachineDescription& machine);
+  Gateway(const MachineDescription& machine, Options options);
+  ~Gateway();
+  Gateway(const Gateway&) = delete;
+  Gateway& operator=(const Gateway&) = delete;
+
+  // The bus and the time.
+  void on_frame(BusTime when, const CanFrame& frame);  ///< `when`: as the receiver time-stamped it
+  void on_frame_sent(BusTime when,
+                     const CanFrame& frame);  ///< a frame of next_frame() was on the bus at `when`
+  void on_time(BusTime now);
+  /// What to send now, most urgent first: rate and stop, SYNC, stamp, NMT, SDO, records by earliest deadline.
+  /// Pull when the bus can take a frame, not ahead: the order is decided late.
+  std::optional<CanFrame> next_frame(BusTime now);
+  BusTime next_deadline() const;  ///< when on_time is next needed
+  /// The bus controller reported bus-off or lost its carrier: motion cannot be commanded any more.
+  void on_bus_failure(BusTime now, std::string_view what);
+
+  // Commands. Each is refused with a reason when the machine's state does not allow it.
+  Result<void, Refusal> bring_up();
+  Result<void, Refusal> home();
+  Result<void, Refusal> go_to_reference();
+  Result<void, Refusal> jog(const JogRequest& request);
+  /// Checks the whole job (kChecking), then runs it. Problems come as kProblem events; with errors nothing
+  /// moves.
+  Result<void, Refusal> run(std::unique_ptr<ByteSource> job, std::string name);
+  Result<void, Refusal> hold();
+  Result<void, Refusal> resume();
+  Result<void, Refusal> cancel();
+  Result<void, Refusal> stop();                           ///< latched, in every state
+  Result<void, Refusal> clear();                          ///< lifts a stop or an alarm
+  Result<void, Refusal> set_feed_override(double ratio);  ///< 0.01 .. 5
+  Result<void, Refusal> motors_off();
+  Result<void, Refusal> set_temperature(bool bed, double celsius);
+  /// One line of a text session (M105, M114, M115, M119, G28, M112, M24, M25 ...): the reply, without "ok".
+  Result<std::string, Refusal> text_line(std::string_view line);
+
+  MachineState state() const;
+  MachineStatus status() const;
+  std::optional<MachineEvent> next_event();
+  /// Path time by the gateway's own copy of the nodes' arithmetic.
+  PathTime path_time(BusTime at) const;
+  /// The planned pose at a path time of the motion that is queued or running; nullopt: at rest or out of the
+  /// window of about a second. For checkers and displays.
+  std::optional<PoseVector> planned_pose(PathTime tau) const;
+
+ private:
+  class Core;
+  std::unique_ptr<Core> core_;
+};
+
+}  // namespace kinebus
