@@ -1,0 +1,147 @@
+#include "protocol/host/socketcan.hpp"
+
+#include <fcntl.h>
+#include <linux/can.h>
+#include <linux/can/error.h>
+#include <linux/can/raw.h>
+#include <net/if.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <ctime>
+#include <utility>
+
+namespace kinebus {
+namespace {
+
+LocalTime clock_now(clockid_t clock) {
+  timespec t{};
+  clock_gettime(clock, &t);
+  return LocalTime{t.tv_sec * 1'000'000'000LL + t.tv_nsec};
+}
+
+/// The kernel stamps with the wall clock, which may be stepped. Only a frame's age, measured now, is used; an
+/// age that cannot be true (clock stepped in between) counts as zero.
+LocalTime to_monotonic(const timespec& wall) {
+  const LocalTime stamp{wall.tv_sec * 1'000'000'000LL + wall.tv_nsec};
+  const LocalTime age = clock_now(CLOCK_REALTIME) - stamp;
+  const LocalTime now = clock_now(CLOCK_MONOTONIC);
+  constexpr LocalTime kOldest = std::chrono::seconds{1};
+  return age < LocalTime{0} || age > kOldest ? now : now - age;
+}
+
+CanFrame from_kernel(const can_frame& raw) {
+  CanFrame frame;
+  frame.extended = (raw.can_id & CAN_EFF_FLAG) != 0;
+  frame.remote = (raw.can_id & CAN_RTR_FLAG) != 0;
+  frame.id = raw.can_id & (frame.extended ? CAN_EFF_MASK : CAN_SFF_MASK);
+  frame.length = raw.can_dlc > 8 ? std::uint8_t{8} : raw.can_dlc;
+  std::memcpy(frame.data.data(), raw.data, frame.length);
+  return frame;
+}
+
+}  // namespace
+
+LocalTime monotonic_now() {
+  return clock_now(CLOCK_MONOTONIC);
+}
+
+SocketCan::SocketCan(SocketCan&& other) noexcept
+    : fd_(std::exchange(other.fd_, -1)), counters_(other.counters_) {}
+
+SocketCan& SocketCan::operator=(SocketCan&& other) noexcept {
+  std::swap(fd_, other.fd_);
+  std::swap(counters_, other.counters_);
+  return *this;
+}
+
+SocketCan::~SocketCan() {
+  if (fd_ >= 0) ::close(fd_);
+}
+
+std::string SocketCan::open(const std::string& interface, bool own_frames) {
+  const auto because = [&](const char* what) {
+    return "CAN interface " + interface + ": " + what + ": " + std::strerror(errno);
+  };
+  if (interface.empty() || interface.size() >= IFNAMSIZ)
+    return "CAN interface name \"" + interface + "\": expected 1 to 15 characters, such as can0";
+  fd_ = ::socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC | SOCK_NONBLOCK, CAN_RAW);
+  if (fd_ < 0) return because("this kernel offers no CAN sockets (module can_raw)");
+
+  const unsigned index = if_nametoindex(interface.c_str());
+  if (index == 0) return because("no such interface; for a virtual one: ip link add dev vcan0 type vcan");
+  const int on = 1;
+  const int own = own_frames ? 1 : 0;
+  const can_err_mask_t errors = CAN_ERR_BUSOFF | CAN_ERR_CRTL | CAN_ERR_RESTARTED;
+  const int receive_bytes = 1 << 20;
+  if (::setsockopt(fd_, SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on) != 0) return because("time stamps");
+  if (::setsockopt(fd_, SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, &own, sizeof own) != 0)
+    return because("own frames");
+  if (::setsockopt(fd_, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, &errors, sizeof errors) != 0)
+    return because("error filter");
+  ::setsockopt(fd_, SOL_SOCKET, SO_RCVBUF, &receive_bytes, sizeof receive_bytes);
+  ::setsockopt(fd_, SOL_SOCKET, SO_RXQ_OVFL, &on, sizeof on);
+
+  sockaddr_can address{};
+  address.can_family = AF_CAN;
+  address.can_ifindex = static_cast<int>(index);
+  if (::bind(fd_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
+    return because("is it up? (ip link set up)");
+  return {};
+}
+
+SocketCan::Sent SocketCan::send(const CanFrame& frame) {
+  can_frame raw{};
+  raw.can_id = frame.id | (frame.extended ? CAN_EFF_FLAG : 0u) | (frame.remote ? CAN_RTR_FLAG : 0u);
+  raw.can_dlc = frame.length;
+  std::memcpy(raw.data, frame.data.data(), frame.length);
+  if (::write(fd_, &raw, sizeof raw) == sizeof raw) return Sent::kYes;
+  if (errno == ENOBUFS || errno == EAGAIN || errno == EINTR) {
+    ++counters_.tx_full;
+    return Sent::kFull;
+  }
+  return Sent::kDown;
+}
+
+std::optional<SocketCan::Received> SocketCan::receive() {
+  can_frame raw{};
+  iovec data{&raw, sizeof raw};
+  alignas(cmsghdr) std::array<char, 256> control{};
+  msghdr message{};
+  message.msg_iov = &data;
+  message.msg_iovlen = 1;
+  message.msg_control = control.data();
+  message.msg_controllen = control.size();
+  const ssize_t count = ::recvmsg(fd_, &message, 0);
+  if (count < 0) {
+    if (errno == ENETDOWN || errno == ENODEV || errno == ENXIO)
+      return Received{.kind = Kind::kDown, .when = monotonic_now()};
+    return std::nullopt;
+  }
+  if (count != sizeof raw) return std::nullopt;
+
+  Received received{.kind = (message.msg_flags & MSG_CONFIRM) != 0 ? Kind::kOwn : Kind::kFrame};
+  received.when = monotonic_now();
+  for (cmsghdr* c = CMSG_FIRSTHDR(&message); c != nullptr; c = CMSG_NXTHDR(&message, c)) {
+    if (c->cmsg_level != SOL_SOCKET) continue;
+    if (c->cmsg_type == SCM_TIMESTAMPNS) {
+      timespec stamp{};
+      std::memcpy(&stamp, CMSG_DATA(c), sizeof stamp);
+      received.when = to_monotonic(stamp);
+    } else if (c->cmsg_type == SO_RXQ_OVFL) {
+      std::memcpy(&counters_.rx_overflow, CMSG_DATA(c), sizeof counters_.rx_overflow);
+    }
+  }
+  if ((raw.can_id & CAN_ERR_FLAG) != 0) {
+    received.kind = Kind::kBusError;
+    received.error = raw.can_id & CAN_ERR_MASK;
+    return received;
+  }
+  received.frame = from_kernel(raw);
+  return received;
+}
+
+}  // namespace kinebus

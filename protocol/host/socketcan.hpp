@@ -1,0 +1,57 @@
+#pragma once
+// SocketCAN access for every Linux program of Kinebus (daemon, virtual nodes, tools). Hosted code: not part
+// of the freestanding protocol library, and never linked into the firmware.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "protocol/can/frame.hpp"
+#include "protocol/time.hpp"
+
+namespace kinebus {
+
+/// CLOCK_MONOTONIC as this process's local time.
+LocalTime monotonic_now();
+
+/// One raw CAN socket, non-blocking. Frames come with the kernel's receive time mapped to monotonic_now()'s
+/// clock; own frames come back when they were really sent.
+class SocketCan {
+ public:
+  enum class Kind : std::uint8_t {
+    kFrame,     ///< from another participant
+    kOwn,       ///< one of ours, now on the bus
+    kBusError,  ///< controller reports: `error` says what
+    kDown,      ///< the interface went down
+  };
+  struct Received {
+    Kind kind{};
+    LocalTime when{0};
+    CanFrame frame{};
+    std::uint32_t error = 0;  ///< kBusError: CAN_ERR_... class bits
+  };
+  enum class Sent : std::uint8_t { kYes, kFull, kDown };
+  struct Counters {
+    std::uint32_t rx_overflow = 0;  ///< frames that the kernel dropped because we were slow
+    std::uint32_t tx_full = 0;
+  };
+
+  SocketCan() = default;
+  SocketCan(SocketCan&& other) noexcept;
+  SocketCan& operator=(SocketCan&& other) noexcept;
+  ~SocketCan();
+
+  /// Empty string: open. Otherwise what is wrong and what to do. `own_frames`: report own frames when sent.
+  std::string open(const std::string& interface, bool own_frames);
+
+  int fd() const { return fd_; }
+  Sent send(const CanFrame& frame);
+  std::optional<Received> receive();
+  const Counters& counters() const { return counters_; }
+
+ private:
+  int fd_ = -1;
+  Counters counters_;
+};
+
+}  // namespace kinebus
