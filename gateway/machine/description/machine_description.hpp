@@ -1,0 +1,238 @@
+#pragma once
+// Everything that one machine file says: one plain struct, units in the names, defaults where a default is
+// safe. Inside: mm, s, rad. The file itself has degrees; machine_file.hpp reads and writes it.
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "gateway/kinematics/geometry.hpp"
+
+namespace kinebus {
+
+using KinematicsGeometry = std::variant<M1Geometry, CartesianGeometry, CoreXyGeometry, LinearDeltaGeometry>;
+
+/// From motor to joint. A unit is mm for a linear joint, rad for a rotary one.
+struct DriveTrain {
+  std::uint32_t full_steps_per_turn = 200;
+  std::uint32_t microsteps = 256;  ///< a full step
+  double travel_per_turn = 40;     ///< mm or rad of the joint for one turn of the motor
+  bool inverted = false;           ///< positive counts move the joint in the negative direction
+
+  /// Signed: negative when inverted. Calibration is not in it.
+  double counts_per_unit() const {
+    const double counts = static_cast<double>(full_steps_per_turn) * static_cast<double>(microsteps);
+    return (inverted ? -counts : counts) / travel_per_turn;
+  }
+  friend bool operator==(const DriveTrain&, const DriveTrain&) = default;
+};
+
+/// How a joint finds its zero. Directions are those of the joint; an inverted drive runs the mirrored CiA
+/// method.
+struct HomingDescription {
+  /// CiA 402 method in joint directions: 19/20 home switch near the positive end, 21/22 near the negative
+  /// end, 17/18 negative/positive limit switch, 37 take the present position.
+  std::int8_t method = 20;
+  std::uint8_t switch_input = 1;  ///< 1..7, on the joint's own node
+  double fast_per_s = 40;         ///< mm/s or rad/s
+  double slow_per_s = 4;
+  double accel_per_s2 = 500;
+  double back_off = 5;            ///< mm or rad off the switch before the slow approach
+  double switch_position = 1030;  ///< joint position at the switch's edge: the home position
+  double max_search = 600;        ///< mm or rad travelled without finding the switch: alarm
+  std::uint8_t order = 1;         ///< joints of one order home together, order 1 first
+
+  bool towards_positive() const { return method == 18 || method == 19 || method == 20; }
+  /// The method to write to the node (0x6098): the mirrored one for an inverted drive train.
+  std::int8_t node_method(const DriveTrain& drive) const {
+    if (!drive.inverted) return method;
+    switch (method) {
+      case 17:
+        return 18;
+      case 18:
+        return 17;
+      case 19:
+        return 21;
+      case 20:
+        return 22;
+      case 21:
+        return 19;
+      case 22:
+        return 20;
+      default:
+        return method;
+    }
+  }
+  friend bool operator==(const HomingDescription&, const HomingDescription&) = default;
+};
+
+/// Measured deviation of a joint from its drive train: true = commanded * (1 + scale) + offset.
+struct JointCalibration {
+  double scale = 0;   ///< relative, for example -0.00025
+  double offset = 0;  ///< mm or rad, added to the home switch position
+  friend bool operator==(const JointCalibration&, const JointCalibration&) = default;
+};
+
+struct JointDescription {
+  std::string name;          ///< as Kinematics::joint_info names it: "tower1", "C", "E"
+  bool rotary = false;       ///< units are rad instead of mm
+  std::uint8_t node_id = 1;  ///< 1..126
+  std::uint8_t axis = 0;     ///< 0 or 1 on that node (A or B)
+  DriveTrain drive;
+  Interval travel;  ///< min == max: endless
+  double speed_per_s = 450;
+  double accel_per_s2 = 5000;
+  double stop_accel_per_s2 = 10000;  ///< path deceleration and stop ramp together stay below it
+  std::uint16_t run_current_ma = 2000;
+  std::uint16_t hold_current_ma = 1500;
+  std::optional<HomingDescription> homing;  ///< none: the position at power-up is zero (E, endless C)
+  JointCalibration calibration;
+  friend bool operator==(const JointDescription&, const JointDescription&) = default;
+};
+
+/// Limits of the tool tip relative to the part, and of the pose axes that are no joints of their own.
+struct PathLimits {
+  double tool_speed_mm_per_s = 300;
+  double tool_accel_mm_per_s2 = 3000;
+  /// Of pose axes, by PoseAxis: mm or rad. 0: no limit of its own (the tool's, and the joints', still hold).
+  PoseVector axis_speed_per_s{0, 0, 0, 90 * kRadPerDeg, 360 * kRadPerDeg, 60};
+  PoseVector axis_accel_per_s2{0, 0, 0, 900 * kRadPerDeg, 3600 * kRadPerDeg, 3000};
+  friend bool operator==(const PathLimits&, const PathLimits&) = default;
+};
+
+struct PathTolerances {
+  double blend_mm = 0.005;      ///< corners (G64 without P)
+  double merge_mm = 0.003;      ///< runs of short lines against the smooth curve put through them
+  double segment_counts = 0.5;  ///< streamed segments against q(tau), in microsteps of each joint
+  friend bool operator==(const PathTolerances&, const PathTolerances&) = default;
+};
+
+struct StopDescription {
+  /// Path-time ramp for a full change of rate; whole 2 ms, 2..510 ms.
+  std::chrono::milliseconds ramp{100};
+  /// A gentler ramp for feed hold, resume and override.
+  std::chrono::milliseconds hold_ramp{200};
+  friend bool operator==(const StopDescription&, const StopDescription&) = default;
+};
+
+struct BusDescription {
+  std::string interface = "can0";
+  std::uint32_t bitrate = 1'000'000;
+  double budget = 0.60;  ///< share of the bus that streaming may use
+  std::chrono::milliseconds sync_period{50};
+  std::chrono::milliseconds sync_timeout{175};  ///< without SYNC for so long a node stops on the path
+  std::chrono::milliseconds heartbeat_period{500};
+  std::chrono::milliseconds heartbeat_timeout{1500};
+  friend bool operator==(const BusDescription&, const BusDescription&) = default;
+};
+
+enum class SwitchFunction : std::uint8_t {
+  kNone,
+  kHome,
+  kPositiveLimit,
+  kNegativeLimit,
+  kEmergencyStop,
+  kProbe
+};
+
+/// One of a node's seven switch inputs.
+struct SwitchInput {
+  SwitchFunction function = SwitchFunction::kNone;
+  std::uint8_t axis = 0;  ///< 0 or 1: whose home or limit switch it is
+  bool active_low = false;
+  std::chrono::microseconds debounce{200};
+  friend bool operator==(const SwitchInput&, const SwitchInput&) = default;
+};
+inline constexpr std::size_t kSwitchInputs = 7;
+
+struct NodeDescription {
+  std::uint8_t id = 1;  ///< 1..126
+  /// Identity expected in 0x1018; absent: anything is accepted.
+  std::optional<std::uint32_t> vendor, product, serial;
+  std::array<SwitchInput, kSwitchInputs> inputs{};  ///< input n is inputs[n - 1]
+  friend bool operator==(const NodeDescription&, const NodeDescription&) = default;
+};
+
+struct HomingRun {
+  /// Largest difference between the travels of carriages that home together: a parallel mechanism must not be
+  /// torn.
+  double max_spread_mm = 15;
+  std::chrono::seconds timeout{120};
+  friend bool operator==(const HomingRun&, const HomingRun&) = default;
+};
+
+/// Hotend or bed: its limits, and the heat model that the simulated device uses.
+struct HeaterDescription {
+  bool present = true;
+  double max_c = 300;
+  double window_c = 2;             ///< reached: within the window ...
+  std::chrono::seconds settle{3};  ///< ... for so long
+  double sim_power_w = 40;
+  double sim_heat_capacity_j_per_k = 10;
+  double sim_loss_w_per_k = 0.12;
+  friend bool operator==(const HeaterDescription&, const HeaterDescription&) = default;
+};
+
+struct ThermalDescription {
+  HeaterDescription hotend;
+  HeaterDescription bed{
+      .max_c = 120, .sim_power_w = 150, .sim_heat_capacity_j_per_k = 300, .sim_loss_w_per_k = 1.0};
+  double ambient_c = 23;
+  double min_extrude_c = 170;  ///< E does not move forward below it
+  friend bool operator==(const ThermalDescription&, const ThermalDescription&) = default;
+};
+
+struct GcodeDescription {
+  double initial_feed_mm_per_min = 1500;  ///< until the job states its first F
+  double traverse_mm_per_s = 300;         ///< tool speed of G0
+  double filament_diameter_mm = 1.75;
+  double arc_radius_tolerance_mm = 0.01;  ///< start and end radius of G2/G3 may differ by it
+  double retract_mm = 0.8;                ///< G10/G11 without words, or M207
+  double retract_mm_per_s = 35;
+  double retract_lift_mm = 0;
+  bool optional_stop = false;  ///< M1 stops
+  bool block_delete = false;   ///< lines that begin with / are left out
+  friend bool operator==(const GcodeDescription&, const GcodeDescription&) = default;
+};
+
+struct MachineDescription {
+  std::string name = "machine";
+  KinematicsGeometry kinematics;         ///< travel and limits of joints and poses already filled in
+  std::vector<JointDescription> joints;  ///< in the order of the kinematics' joints
+  std::vector<NodeDescription> nodes;    ///< ascending ids; every node that a joint names
+  PathLimits path;
+  PathTolerances tolerances;
+  StopDescription stop;
+  BusDescription bus;
+  HomingRun homing;
+  ThermalDescription thermal;
+  GcodeDescription gcode;
+  std::string jobs_directory = "/var/lib/kinebus/jobs";
+  friend bool operator==(const MachineDescription&, const MachineDescription&) = default;
+
+  const NodeDescription* node(std::uint8_t id) const {
+    for (const NodeDescription& n : nodes)
+      if (n.id == id) return &n;
+    return nullptr;
+  }
+};
+
+/// The default machine: M1, 4 towers on nodes 1 and 2, table C and extruder E on node 3. Equal to
+/// machines/m1.toml.
+MachineDescription default_m1();
+
+/// The names of the joints that this kind of kinematics has, in their order, and which of them turn.
+struct JointName {
+  std::string name;
+  bool rotary = false;
+};
+std::vector<JointName> joint_names(const KinematicsGeometry& geometry);
+
+/// The kinematics that the description states. Error: see geometry.hpp.
+Result<std::unique_ptr<Kinematics>, GeometryError> make_kinematics(const MachineDescription& description);
+
+}  // namespace kinebus
