@@ -1,9 +1,12 @@
 #pragma once
-// The frames that all nodes hear at once: the time stamp of SYNC, the path-time rate, and the stop instant that an
-// EMCY carries. The gateway sends the first two as its own TPDOs (node id 127), so every bus tool decodes them.
+// The frames that all nodes hear at once: the time stamp of SYNC, the path-time rate, and the stop instant
+// that an EMCY carries. The gateway sends the first two as its own TPDOs (node id 127), so every bus tool
+// decodes them.
 
+#include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "protocol/bytes.hpp"
 #include "protocol/can/frame.hpp"
@@ -12,7 +15,7 @@
 namespace kinebus {
 
 inline constexpr std::uint8_t kGatewayNodeId = 127;
-inline constexpr std::uint32_t kRateCobId = 0x180 + kGatewayNodeId;       // TPDO1 of the gateway: above all PDOs
+inline constexpr std::uint32_t kRateCobId = 0x180 + kGatewayNodeId;  // TPDO1 of the gateway: above all PDOs
 inline constexpr std::uint32_t kSyncStampCobId = 0x280 + kGatewayNodeId;  // TPDO2 of the gateway
 
 /// Two-step SYNC: when the SYNC with this counter really was on the bus, on the gateway's clock.
@@ -51,8 +54,8 @@ constexpr std::optional<SyncStamp> decode_sync_stamp(const CanFrame& frame, BusT
 }
 
 /// d tau/dt goes from what it is to `rate` along a straight ramp that starts at bus time `start`.
-/// The ramp takes `full_ramp` for a change of 1.0, and in proportion less for a smaller one, so that its slope,
-/// which is what the joints feel, is the stated one.
+/// The ramp takes `full_ramp` for a change of 1.0, and in proportion less for a smaller one, so that its
+/// slope, which is what the joints feel, is the stated one.
 struct RateCommand {
   enum class Kind : std::uint8_t {
     kRate = 1,   ///< feed hold (rate 0), resume, override
@@ -60,10 +63,10 @@ struct RateCommand {
     kClear = 3,  ///< lifts the latch; accepted only at rest
   };
   Kind kind = Kind::kRate;
-  std::uint8_t counter = 0;       ///< 0..15, a doubled frame is no second command
-  std::uint16_t rate_q15 = 0;     ///< 0..32768 = 0..1.0
+  std::uint8_t counter = 0;         ///< 0..15, a doubled frame is no second command
+  std::uint16_t rate_q15 = 0;       ///< 0..32768 = 0..1.0
   std::uint8_t full_ramp_2ms = 50;  ///< 2 ms units, 1..255
-  BusTime start{0};               ///< whole microseconds
+  BusTime start{0};                 ///< whole microseconds
 
   friend constexpr bool operator==(const RateCommand&, const RateCommand&) = default;
 };
@@ -83,14 +86,56 @@ constexpr std::optional<RateCommand> decode_rate_command(const CanFrame& frame, 
   const unsigned kind = frame.data[0] >> 4;
   const std::uint16_t rate = get_u16_le(std::span(frame.data).subspan(1));
   if (kind < 1 || kind > 3 || rate > kFullRateQ15 || frame.data[3] == 0) return std::nullopt;
-  return RateCommand{static_cast<RateCommand::Kind>(kind), static_cast<std::uint8_t>(frame.data[0] & 0xF), rate,
-                     frame.data[3], unwrap_us(get_u32_le(std::span(frame.data).subspan(4)), reference)};
+  return RateCommand{static_cast<RateCommand::Kind>(kind), static_cast<std::uint8_t>(frame.data[0] & 0xF),
+                     rate, frame.data[3], unwrap_us(get_u32_le(std::span(frame.data).subspan(4)), reference)};
 }
 
-/// Stop requests of nodes travel in EMCY's five vendor bytes: byte 3 the reason and axis, bytes 4..7 the bus time in
-/// microseconds (low 32 bits) at which every node, sender included, starts the stop ramp. The sender names a time
-/// `kStopMargin` ahead, so that the frame reaches all nodes before it; the earliest stop named wins.
+/// Stop requests of nodes travel in EMCY's five vendor bytes: byte 3 the reason and axis, bytes 4..7 the bus
+/// time in microseconds (low 32 bits) at which every node, sender included, starts the stop ramp. The sender
+/// names a time `kStopMargin` ahead, so that the frame reaches all nodes before it; the earliest stop named
+/// wins.
 inline constexpr BusTime kStopMargin = std::chrono::microseconds{1500};
+
+/// Why a node asks all nodes to stop: the low 7 bits of EMCY's byte 3; bit 7 is the axis that is the cause.
+enum class StopReason : std::uint8_t {
+  kNone = 0,  ///< this EMCY stops nobody
+  kStarved = 1,
+  kSequenceError = 2,
+  kCheckpointError = 3,
+  kStreamError = 4,  ///< unknown record, late start, end in motion, acceleration above the limits
+  kEmergencyStopInput = 5,
+  kLimitSwitch = 6,
+  kGatewayLost = 7,  ///< heartbeat of the gateway missing
+  kSyncLost = 8,     ///< needs no frame: every node knows the same instant by itself
+  kAxisFault = 9,
+  kCommand = 10,  ///< quick stop or switching off by controlword, or NMT, in the middle of a streamed motion
+  kPeer = 11,     ///< another node's request, in a node's own records
+};
+
+struct StopRequest {
+  StopReason reason = StopReason::kNone;
+  std::uint8_t axis = 0;
+  BusTime start{0};  ///< whole microseconds
+
+  friend constexpr bool operator==(const StopRequest&, const StopRequest&) = default;
+};
+
+/// The five vendor bytes of EMCY.
+constexpr std::array<std::uint8_t, 5> encode(const StopRequest& s) {
+  std::array<std::uint8_t, 5> bytes{};
+  bytes[0] = static_cast<std::uint8_t>((static_cast<unsigned>(s.reason) & 0x7Fu) | ((s.axis & 1u) << 7));
+  put_u32_le(std::span(bytes).subspan(1), static_cast<std::uint32_t>(s.start.count() / 1000));
+  return bytes;
+}
+/// nullopt: not an EMCY that asks for a stop. `frame`: any frame.
+constexpr std::optional<StopRequest> decode_stop_request(const CanFrame& frame, BusTime reference) {
+  if (frame.extended || frame.remote || frame.length != 8 || frame.id <= 0x080 || frame.id > 0x0FF)
+    return std::nullopt;
+  if ((frame.data[3] & 0x7F) == 0) return std::nullopt;
+  return StopRequest{static_cast<StopReason>(frame.data[3] & 0x7F),
+                     static_cast<std::uint8_t>(frame.data[3] >> 7),
+                     unwrap_us(get_u32_le(std::span(frame.data).subspan(4)), reference)};
+}
 
 /// TPDO2 of a node: everything that a stream needs to go on.
 struct StreamStatus {
@@ -100,9 +145,9 @@ struct StreamStatus {
   std::uint8_t sync_error_us = 0;  ///< bound of the clock estimate's error, saturates at 255
   std::uint32_t path_units = 0;    ///< path time in 16 us units, low 32 bits
 
-  static constexpr std::uint8_t kRunning = 0x01;    ///< executing records
-  static constexpr std::uint8_t kAtRest = 0x02;     ///< queue ended by an end record, or never started
-  static constexpr std::uint8_t kStopped = 0x04;    ///< stop latched
+  static constexpr std::uint8_t kRunning = 0x01;  ///< executing records
+  static constexpr std::uint8_t kAtRest = 0x02;   ///< queue ended by an end record, or never started
+  static constexpr std::uint8_t kStopped = 0x04;  ///< stop latched
   static constexpr std::uint8_t kSequenceError = 0x08;
   static constexpr std::uint8_t kUnderrun = 0x10;
   static constexpr std::uint8_t kCheckpointError = 0x20;
