@@ -1,0 +1,142 @@
+#pragma once
+// What is known of one entry of an object dictionary before any node exists: address, name, type, access,
+// limits.
+
+#include <cstdint>
+#include <limits>
+#include <string_view>
+
+namespace kinebus {
+
+struct ObjectAddress {
+  std::uint16_t index = 0;
+  std::uint8_t subindex = 0;
+
+  /// For switch statements and sorting: index << 8 | subindex.
+  constexpr std::uint32_t key() const { return (static_cast<std::uint32_t>(index) << 8) | subindex; }
+  friend constexpr auto operator<=>(const ObjectAddress&, const ObjectAddress&) = default;
+};
+
+/// Offset of the second axis' objects (CiA 402 for 0x6000 ff., and the same for the manufacturer's 0x2140
+/// ff.).
+inline constexpr std::uint16_t kAxisOffset = 0x800;
+
+/// Numbers are those of CiA 301, as EDS files and dummy mapping use them.
+enum class DataType : std::uint16_t {
+  kBoolean = 0x01,
+  kI8 = 0x02,
+  kI16 = 0x03,
+  kI32 = 0x04,
+  kU8 = 0x05,
+  kU16 = 0x06,
+  kU32 = 0x07,
+  kString = 0x09,
+  kI64 = 0x15,
+  kU64 = 0x1B,
+};
+
+/// Bytes on the wire; 0 for a string, whose length is that of its text.
+constexpr std::uint8_t size_of(DataType type) {
+  switch (type) {
+    case DataType::kBoolean:
+    case DataType::kI8:
+    case DataType::kU8:
+      return 1;
+    case DataType::kI16:
+    case DataType::kU16:
+      return 2;
+    case DataType::kI32:
+    case DataType::kU32:
+      return 4;
+    case DataType::kI64:
+    case DataType::kU64:
+      return 8;
+    case DataType::kString:
+      return 0;
+  }
+  return 0;
+}
+
+constexpr bool is_signed(DataType type) {
+  return type == DataType::kI8 || type == DataType::kI16 || type == DataType::kI32 || type == DataType::kI64;
+}
+
+/// The value that these raw wire bits mean: sign extended for signed types, else zero extended. A u64 above
+/// 2^63-1 keeps its bits and so appears negative; u64 objects are packed records, never compared.
+constexpr std::int64_t value_of(DataType type, std::uint64_t raw) {
+  const int unused = 64 - 8 * size_of(type);
+  if (unused >= 64) return 0;
+  if (is_signed(type)) return static_cast<std::int64_t>(raw << unused) >> unused;
+  return static_cast<std::int64_t>((raw << unused) >> unused);
+}
+
+enum class Access : std::uint8_t { kConst, kReadOnly, kWriteOnly, kReadWrite };
+
+/// Whether, and into which kind of PDO, an object may be mapped.
+enum class Mapping : std::uint8_t { kNone = 0, kRpdo = 1, kTpdo = 2, kBoth = 3 };
+
+/// Where the value of an object is.
+enum class Binding : std::uint8_t {
+  kConstant,   ///< in the table: the default (or `text`), node-id relative if so marked
+  kParameter,  ///< in the dictionary's values; kept by "store parameters" (1010h) and part of the fingerprint
+               ///< (2116h)
+  kVariable,   ///< in the dictionary's values; gone at reset
+  kLive,       ///< with the dictionary's owner, asked on every access
+};
+
+enum class ObjectCode : std::uint8_t { kVar = 7, kArray = 8, kRecord = 9 };
+
+/// One row of the table: one (index, subindex).
+struct ObjectEntry {
+  ObjectAddress address{};
+  std::string_view object{};  ///< name of the whole object; the same in all rows of an index
+  std::string_view name{};    ///< name of this entry; equals `object` for a plain variable
+  ObjectCode code = ObjectCode::kVar;
+  DataType type = DataType::kU32;
+  Access access = Access::kReadOnly;
+  Mapping mapping = Mapping::kNone;
+  Binding binding = Binding::kConstant;
+  std::int8_t axis = -1;          ///< 0, 1; -1: belongs to the node as a whole
+  bool node_id_relative = false;  ///< the value at reset is `initial` + node id
+  bool limited = false;           ///< low and high are narrower than the type
+  std::int64_t initial = 0;
+  std::int64_t low = 0, high = 0;
+  std::string_view unit{};  ///< for people and DBC files: "counts", "ms", ...
+  std::string_view text{};  ///< strings only
+
+  /// The address with the second axis' offset taken off: what code for either axis switches on.
+  constexpr ObjectAddress base() const {
+    return {static_cast<std::uint16_t>(axis == 1 ? address.index - kAxisOffset : address.index),
+            address.subindex};
+  }
+  constexpr bool readable() const { return access != Access::kWriteOnly; }
+  constexpr bool writable() const { return access == Access::kReadWrite || access == Access::kWriteOnly; }
+  constexpr bool maps_to(Mapping kind) const {
+    return (static_cast<unsigned>(mapping) & static_cast<unsigned>(kind)) != 0;
+  }
+  constexpr std::uint8_t size() const {
+    return type == DataType::kString ? static_cast<std::uint8_t>(text.size()) : size_of(type);
+  }
+
+  // For the table only: a row reads as one sentence.
+  constexpr ObjectEntry& between(std::int64_t lowest, std::int64_t highest) {
+    limited = true;
+    low = lowest;
+    high = highest;
+    return *this;
+  }
+  constexpr ObjectEntry& in(std::string_view unit_text) {
+    unit = unit_text;
+    return *this;
+  }
+  constexpr ObjectEntry& maps(Mapping kind) {
+    mapping = kind;
+    return *this;
+  }
+  constexpr ObjectEntry& plus_node_id() {
+    node_id_relative = true;
+    return *this;
+  }
+};
+
+}  // namespace kinebus

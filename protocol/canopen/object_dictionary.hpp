@@ -1,0 +1,64 @@
+#pragma once
+// The node's object dictionary at run time: the values of kNodeObjects, with CiA 301's rules for access.
+//
+//   class Node : ObjectOwner { ObjectDictionary objects_{*this}; ... };
+//   objects_.value(slot_of(object::kStopRamp))                    what the node itself uses: no checks, no
+//   search objects_.value(slot_of_axes(object::kTargetPosition)[axis]) objects_.read(address, bytes, length)
+//   /  objects_.write(address, bytes)      what the bus uses: all checks
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "protocol/canopen/abort_code.hpp"
+#include "protocol/canopen/node_objects.hpp"
+
+namespace kinebus {
+
+/// The device behind a dictionary: has the live values, and may refuse any new one.
+class ObjectOwner {
+ public:
+  /// Value now of an object bound as Binding::kLive.
+  virtual AbortCode read(const ObjectEntry& entry, std::int64_t& value) = 0;
+  /// `value` is about to become that of `entry`; existence, access, length and limits are checked. For a live
+  /// object the owner takes it; for the others the dictionary stores it when this returns kNone.
+  virtual AbortCode write(const ObjectEntry& entry, std::int64_t value) = 0;
+
+ protected:
+  ~ObjectOwner() = default;
+};
+
+class ObjectDictionary {
+ public:
+  /// All values at their defaults, those relative to the node id with `node_id` added.
+  explicit ObjectDictionary(ObjectOwner& owner, std::uint8_t node_id = 0);
+
+  /// Back to the defaults: parameters and variables, or parameters only. The owner is not asked.
+  void restore(std::uint8_t node_id);
+
+  std::int64_t value(ObjectSlot slot) const { return values_[slot.value]; }
+  void set_value(ObjectSlot slot, std::int64_t value) { values_[slot.value] = value; }
+
+  // By slot (from find_slot), for PDOs: access rights are those of the mapping, checked when it was made.
+  AbortCode read_value(int slot, std::int64_t& value);
+  AbortCode write_value(int slot, std::int64_t value);
+
+  /// By address, for SDO. Numbers are little endian. `bytes` must have room for 8 bytes, or for the longest
+  /// string.
+  AbortCode read(ObjectAddress address, std::span<std::uint8_t> bytes, std::size_t& length);
+  AbortCode write(ObjectAddress address, std::span<const std::uint8_t> bytes);
+
+  /// CRC-32 (IEEE) over address and value of every parameter: equal configurations have equal fingerprints.
+  /// The node id does not count: values relative to it are taken without it.
+  std::uint32_t fingerprint() const;
+
+ private:
+  ObjectOwner& owner_;
+  std::uint8_t node_id_ = 0;
+  std::array<std::int64_t, kNodeObjectCount> values_{};
+};
+
+/// Finds `address`, telling a missing object from a missing subindex.
+AbortCode locate(ObjectAddress address, int& slot);
+
+}  // namespace kinebus
