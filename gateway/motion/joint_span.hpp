@@ -1,6 +1,7 @@
 #pragma once
-// q(tau) in the form that the segmenter fits: cubic polynomials in time, joined with continuous value and slope.
-// A span's error against the exact inverse kinematics of pose(tau) is below JointSampler's stated bound.
+// q(tau) in the form that the segmenter fits: cubic polynomials in time, joined with continuous value and
+// slope. A span's error against the exact inverse kinematics of pose(tau) is below JointSampler's stated
+// bound.
 
 #include <array>
 #include <cstdint>
@@ -10,10 +11,10 @@
 namespace kinebus {
 
 struct JointSpan {
-  double start_s = 0;      ///< path time since the start of the run
+  double start_s = 0;  ///< path time since the start of the run
   double duration_s = 0;
   std::array<std::array<double, 4>, kMaxJoints> coefficients{};  ///< [joint][power of (t - start)], mm or rad
-  bool last = false;       ///< the run ends at rest with this span
+  bool last = false;                                             ///< the run ends at rest with this span
   bool breaks_after = false;  ///< the acceleration jumps at this span's end: a good place for a knot
   std::uint32_t line = 0;
 

@@ -1,6 +1,7 @@
 #pragma once
-// The planner's output: pose(tau) as a chain of phases. Each phase is a piece of path, traversed with one constant
-// path acceleration. Position and velocity are continuous from phase to phase (no velocity step anywhere).
+// The planner's output: pose(tau) as a chain of phases. Each phase is a piece of path, traversed with one
+// constant path acceleration. Position and velocity are continuous from phase to phase (no velocity step
+// anywhere).
 
 #include <array>
 #include <cstdint>
@@ -9,9 +10,10 @@
 
 namespace kinebus {
 
-/// A piece of path, as a function of its parameter s (mm, close to arc length; for moves without tool motion the
-/// dominant axis' own unit). Polynomial of degree <= 3 on every pose axis; plus, for arcs, a circle in the plane
-/// (u, v) that replaces nothing but adds to X Y Z: radius * (u cos(angle) + v sin(angle)), angle = angle0 + s * angle1.
+/// A piece of path, as a function of its parameter s (mm, close to arc length; for moves without tool motion
+/// the dominant axis' own unit). Polynomial of degree <= 3 on every pose axis; plus, for arcs, a circle in
+/// the plane (u, v) that replaces nothing but adds to X Y Z: radius * (u cos(angle) + v sin(angle)), angle =
+/// angle0 + s * angle1.
 struct PathPiece {
   std::array<std::array<double, 4>, kPoseAxes> coefficients{};  ///< [axis][power of s]
   bool arc = false;
@@ -29,7 +31,8 @@ struct Phase {
   PathPiece piece;
   double s0 = 0, v0 = 0, a = 0;
   double duration_s = 0;
-  std::uint32_t line = 0;  ///< the job's line whose motion this is (a blend: the later one)
+  std::uint32_t line = 0;  ///< the job's line whose motion this is (a blend or a merged curve: the last one)
+  bool last = false;       ///< the run ends at rest with this phase
 
   double s(double t) const { return s0 + t * (v0 + 0.5 * a * t); }
   double speed(double t) const { return v0 + a * t; }

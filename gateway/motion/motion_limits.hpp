@@ -1,0 +1,38 @@
+#pragma once
+// What the planner may ask of the machine. Plain numbers; units are in the names (per_s: mm/s or rad/s, by
+// axis).
+
+#include <array>
+#include <limits>
+
+#include "gateway/kinematics/kinematics.hpp"
+
+namespace kinebus {
+
+inline constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+
+/// Defaults: machine M1 (four carriages, table C, extruder E as joints 0..5). Every value is > 0.
+struct MotionLimits {
+  /// Tool tip relative to the frame of the move: length of its velocity and of its acceleration vector.
+  double tool_speed_mm_per_s = 300;
+  double tool_accel_mm_per_s2 = 3000;
+  /// Each pose axis by itself, X Y Z A C E. X Y Z are usually limited by the tool and the joints alone.
+  PoseVector axis_speed_per_s{kUnlimited, kUnlimited, kUnlimited, 1.5707963267948966, 6.283185307179586, 60};
+  PoseVector axis_accel_per_s2{kUnlimited,        kUnlimited,        kUnlimited,
+                               31.41592653589793, 62.83185307179586, 3000};
+  /// Each joint, in the kinematics' order; both terms of q'' count.
+  JointVector joint_speed_per_s{450, 450, 450, 450, 6.283185307179586, 60, kUnlimited, kUnlimited};
+  JointVector joint_accel_per_s2{5000, 5000, 5000, 5000, 62.83185307179586, 3000, kUnlimited, kUnlimited};
+
+  /// G64 without P: how far the planned path may leave the programmed one (X Y Z, distance).
+  double blend_tolerance_mm = 0.005;
+  /// The same for filament at the nozzle, and for the rotations under tool-centre-point control (where they
+  /// do not move the tip). In Frame::kMachine the rotations' own tolerance is what moves the tip by the blend
+  /// tolerance.
+  double blend_tolerance_e_mm = 0.02;
+  double blend_tolerance_rad = 2e-4;
+  /// G61: deviation that counts as exact.
+  double exact_tolerance_mm = 1e-4;
+};
+
+}  // namespace kinebus

@@ -1,0 +1,43 @@
+#pragma once
+// How far a pose is from the programmed path: the measure of checkers and tests, independent of the planner's
+// own idea of the path. Fed with the same canonical commands; a window moves along with the queries.
+
+#include <cstdint>
+#include <deque>
+
+#include "gateway/gcode/canonical.hpp"
+#include "gateway/kinematics/kinematics.hpp"
+
+namespace kinebus {
+
+class PathDistance {
+ public:
+  /// Takes Traverse, Feed, Arc and SetPosition; ignores the rest. May run ahead of the queries without bound;
+  /// moves that the queries have left behind are dropped.
+  void add(const canonical::Line& line);
+
+  /// Distance in X Y Z (mm) from `pose` to the nearest point of the programmed moves around the place of the
+  /// last query, looking ahead as far as `line`. Queries go along the path. Cost: < 0.5 us for queries of a
+  /// millisecond.
+  double distance_mm(const PoseVector& pose, std::uint32_t line);
+
+  /// Job line of the move that the last query found nearest.
+  std::uint32_t nearest_line() const { return nearest_line_; }
+
+ private:
+  struct Move {
+    std::array<double, 3> from{}, to{};
+    bool arc = false;
+    std::array<double, 3> centre{}, normal{};
+    double sweep_rad = 0;
+    std::uint32_t line = 0;
+  };
+  static double distance_to(const Move& move, const std::array<double, 3>& point);
+
+  std::deque<Move> moves_;
+  std::size_t nearest_ = 0;
+  std::uint32_t nearest_line_ = 0;
+  PoseVector end_{};
+};
+
+}  // namespace kinebus

@@ -1,0 +1,39 @@
+#include "gateway/motion/trajectory.hpp"
+
+#include <cmath>
+
+namespace kinebus {
+
+PosePoint PathPiece::evaluate(double s) const {
+  PosePoint p;
+  for (std::size_t i = 0; i < kPoseAxes; ++i) {
+    const auto& c = coefficients[i];
+    p.x[i] = c[0] + s * (c[1] + s * (c[2] + s * c[3]));
+    p.x1[i] = c[1] + s * (2 * c[2] + s * 3 * c[3]);
+    p.x2[i] = 2 * c[2] + 6 * c[3] * s;
+  }
+  if (arc) {
+    const double angle = angle0_rad + s * angle1_rad_per_mm;
+    const double cosine = std::cos(angle), sine = std::sin(angle);
+    const double w = angle1_rad_per_mm;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double radial = radius_mm * (u[i] * cosine + v[i] * sine);
+      p.x[i] += radial;
+      p.x1[i] += radius_mm * w * (v[i] * cosine - u[i] * sine);
+      p.x2[i] -= w * w * radial;
+    }
+  }
+  return p;
+}
+
+PosePoint Phase::at(double t) const {
+  PosePoint p = piece.evaluate(s(t));
+  const double rate = speed(t);
+  for (std::size_t i = 0; i < kPoseAxes; ++i) {
+    p.x2[i] = p.x2[i] * rate * rate + p.x1[i] * a;
+    p.x1[i] *= rate;
+  }
+  return p;
+}
+
+}  // namespace kinebus
