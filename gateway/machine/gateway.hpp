@@ -11,6 +11,7 @@
 // call is bounded (Options::planning_budget), so that an event loop stays responsive.
 
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>

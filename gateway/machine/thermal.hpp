@@ -1,0 +1,78 @@
+#pragma once
+// Heaters and fan behind one interface, and their simulation: a first-order model with a thermostat, so that a
+// wait for a temperature (M109) takes time on the virtual machine too.
+
+#include <array>
+#include <chrono>
+#include <optional>
+#include <string>
+
+#include "gateway/machine/status.hpp"
+#include "gateway/result.hpp"
+#include "protocol/time.hpp"
+
+namespace kinebus {
+
+enum class Heater : std::uint8_t { kHotend, kBed };
+
+/// What the gateway asks of the heaters, real or simulated. Temperatures in deg C.
+class ThermalDevice {
+ public:
+  virtual ~ThermalDevice() = default;
+  virtual void set_target(Heater heater, double celsius) = 0;  ///< 0: off
+  virtual void set_fan(double ratio) = 0;                      ///< 0..1
+  virtual HeaterStatus heater(Heater heater) const = 0;
+  virtual double fan() const = 0;
+  virtual void on_time(BusTime now) = 0;
+  /// Plain words when a heater is out of control (sensor broken, no rise); then all heaters are off already.
+  virtual std::optional<std::string> fault() const = 0;
+};
+
+/// T' = (ambient + rise * power - T) / time_constant, solved exactly for any step; the thermostat is a proportional
+/// band of `band` around the target with the model's own holding power, so the temperature settles on the target.
+class SimulatedThermal : public ThermalDevice {
+ public:
+  struct Model {
+    double rise_celsius = 320;   ///< above ambient at full power, in the end
+    double time_constant_s = 90;
+    double band_celsius = 4;
+  };
+  struct Options {
+    double ambient_celsius = 22;
+    Model hotend{};
+    Model bed{110, 240, 2};
+  };
+  SimulatedThermal() : SimulatedThermal(Options{}) {}
+  explicit SimulatedThermal(Options options);
+
+  void set_target(Heater heater, double celsius) override;
+  void set_fan(double ratio) override { fan_ = ratio; }
+  HeaterStatus heater(Heater heater) const override;
+  double fan() const override { return fan_; }
+  void on_time(BusTime now) override;
+  std::optional<std::string> fault() const override { return std::nullopt; }
+
+ private:
+  struct State {
+    Model model;
+    double celsius = 0;
+    double target = 0;
+  };
+  void advance(State& state, double seconds) const;
+
+  double ambient_;
+  std::array<State, 2> heaters_;
+  double fan_ = 0;
+  std::optional<BusTime> last_;
+};
+
+/// A wait for a temperature: reached within `kTemperatureWindow` (and not above it when cooling counts too).
+inline constexpr double kTemperatureWindow = 1.0;
+struct TemperatureWait {
+  Heater heater{};
+  double celsius = 0;
+  bool cooling_too = false;
+  bool over(const ThermalDevice& device) const;
+};
+
+}  // namespace kinebus
