@@ -1,0 +1,86 @@
+#pragma once
+// G-code lines to canonical commands: RS274/NGC and the 3D-printing dialect in one interpreter.
+// The supported codes are listed in gateway/gcode/README.md.
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gateway/gcode/canonical.hpp"
+#include "gateway/gcode/error.hpp"
+#include "gateway/gcode/state.hpp"
+#include "gateway/result.hpp"
+
+namespace kinebus::gcode {
+
+/// Canonical commands are appended here; the caller clears and reuses it, so that nothing is allocated per
+/// line.
+using CommandBuffer = std::vector<canonical::Line>;
+
+enum class DwellUnit : std::uint8_t { kMilliseconds, kSeconds };
+
+/// What the machine file says about the dialect.
+struct Options {
+  Pose start{};  ///< where the machine stands when the job begins, machine frame (mm, rad)
+  Pose home{};   ///< where it stands after G28, machine frame; E unused
+  /// G4 P counts milliseconds in printer firmware and seconds in RS274/NGC. G4 S is always seconds.
+  DwellUnit dwell_p_unit = DwellUnit::kMilliseconds;
+  double default_feed_mm_per_s = 0;  ///< until the first F; 0: a feed move without F is refused
+  bool traverse_uses_feed = false;   ///< G0 means G1, as in Marlin
+  bool block_delete = false;         ///< lines that begin with / are skipped
+  /// How far the start and end radius of an arc may differ. Arcs within it are corrected to go through both
+  /// ends.
+  double arc_radius_tolerance_mm = 0.005;
+  double a_min_rad = -0.7853981633974483, a_max_rad = 0.7853981633974483;    ///< what G53.1 may choose from
+  int tools = 1;                                                             ///< T0 .. T(tools - 1)
+  std::vector<double> tool_length_mm;                                        ///< G43 H1 is the first entry
+  double retract_length_mm = 1, retract_mm_per_s = 40, retract_lift_mm = 0;  ///< until M207
+  double recover_extra_mm = 0, recover_mm_per_s = 40;                        ///< until M208
+};
+
+class Core;
+
+/// Reads lines one after the other. Sans-IO, no exceptions; a plain G1 line costs no allocation.
+class Interpreter {
+ public:
+  explicit Interpreter(Options options = {});
+  ~Interpreter();
+  Interpreter(Interpreter&&) noexcept;
+  Interpreter& operator=(Interpreter&&) noexcept;
+
+  /// Carries out one line (without its line end). Appends canonical commands; the first call appends
+  /// SetPosition first. On an error nothing of the line is done: state and `out` are as before the call.
+  /// Lines after the program's end (M2, M30, second %) begin a new program, with the modal state reset as
+  /// RS274/NGC says.
+  Result<void, ParseError> execute(std::string_view line, std::uint32_t line_number, CommandBuffer& out);
+
+  /// The text is at its end: appends End unless the job did.
+  void finish(std::uint32_t line_number, CommandBuffer& out);
+
+  /// M2, M30 or the closing % was read: the rest of a file is not part of the program.
+  bool ended() const { return state().modal.ended; }
+
+  const State& state() const;
+  /// Goes on from a saved state; the next line appends SetPosition first.
+  void restore(const State& state);
+  /// The machine was moved by something else (jog, homing, reset) and stands here; E is kept. The next line
+  /// appends SetPosition first.
+  void set_position(const Pose& pose, Frame frame);
+
+  /// The current point as the job would write it: mm and degrees.
+  Pose program_position() const;
+  /// "G1 G17 G21 G90 G91.1 G94 G54 G49 G64 G69 M82": for status displays.
+  std::string modal_codes() const;
+
+  /// What was accepted without effect since clear_notes(), once for each code.
+  std::span<const Note> notes() const;
+  void clear_notes();
+
+ private:
+  std::unique_ptr<Core> core_;
+};
+
+}  // namespace kinebus::gcode

@@ -1,0 +1,89 @@
+#pragma once
+// Everything that the interpreter remembers between two lines. Plain data: copy it to save a point to resume
+// from.
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gateway/gcode/canonical.hpp"
+
+namespace kinebus::gcode {
+
+using canonical::Frame;
+using canonical::Pose;
+
+enum Axis : std::uint8_t { kAxisX, kAxisY, kAxisZ, kAxisA, kAxisC, kAxisE };
+inline constexpr int kAxes = 6;
+inline constexpr int kCoordinateSystems = 9;  ///< G54 .. G59, G59.1 .. G59.3
+
+enum class Motion : std::uint8_t { kNone, kTraverse, kFeed, kArcClockwise, kArcCounterclockwise };
+enum class Plane : std::uint8_t { kXy, kZx, kYz };
+
+using Matrix3 = std::array<std::array<double, 3>, 3>;
+inline constexpr Matrix3 kIdentity{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+
+/// Modal codes, offsets and position. Trivially copyable. Lengths mm, angles rad, whatever units the job
+/// uses.
+struct ModalState {
+  Motion motion = Motion::kNone;
+  Plane plane = Plane::kXy;
+  bool inches = false;             ///< G20
+  bool incremental = false;        ///< G91
+  bool incremental_e = false;      ///< M83, or G91
+  bool absolute_centre = false;    ///< G90.1
+  bool inverse_time = false;       ///< G93
+  bool tool_centre_point = false;  ///< G43.4
+  bool exact_path = false;         ///< G61, G61.1
+  double path_tolerance_mm = 0;    ///< G64 P
+  double merge_tolerance_mm = 0;   ///< G64 Q
+  int tool = 0;
+  double tool_length_mm = 0;  ///< G43 H; 0 after G49
+
+  bool feed_known = false;
+  double feed_mm_per_s = 0;   ///< the last F as a tool speed
+  double feed_rad_per_s = 0;  ///< the same F for a move of only A and C
+  double feed_ratio = 1;      ///< M220
+  double flow_ratio = 1;      ///< M221
+
+  int coordinate_system = 0;                                  ///< 0: G54
+  std::array<Pose, kCoordinateSystems> coordinate_offsets{};  ///< X Y Z A C; E unused
+  Pose g92_offset{};                                          ///< X Y Z A C; E unused
+  bool g92_active = false;
+
+  bool tilted = false;  ///< G68.2
+  std::array<double, 3> tilt_origin_mm{};
+  Matrix3 tilt = kIdentity;  ///< columns: the plane's X, Y, Z in work coordinates
+
+  /// E: canonical = e_canonical_base + flow_ratio * (programmed - e_program_base), and the retraction on top.
+  double e_program_base_mm = 0, e_canonical_base_mm = 0;
+
+  bool retracted = false;
+  double retracted_mm = 0, lifted_mm = 0;  ///< what G10 took back, and how high it lifted
+  double retract_length_mm = 0, retract_mm_per_s = 0, retract_lift_mm = 0;  ///< M207
+  double recover_extra_mm = 0, recover_mm_per_s = 0;                        ///< M208
+
+  Pose program{};   ///< the current point as the job would write it (mm, rad)
+  Pose position{};  ///< the same point as the last canonical command left it
+  Frame frame = Frame::kMachine;
+  bool ended = false;  ///< M2, M30 or the closing % was read
+  bool percent_seen = false;
+};
+
+/// #1 .. #5400 and #<name>.
+struct ParameterState {
+  static constexpr int kCount = 5401;
+  static constexpr std::size_t kMaxNamed = 1000;
+  static constexpr std::size_t kMaxNameLength = 64;
+  std::array<double, kCount> numbered{};
+  std::vector<std::pair<std::string, double>> named;  ///< sorted by name
+};
+
+struct State {
+  ModalState modal;
+  ParameterState parameters;
+};
+
+}  // namespace kinebus::gcode
