@@ -1,0 +1,47 @@
+#pragma once
+// Joint mm or rad <-> counts of a node's axis: the one place where this happens.
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "gateway/kinematics/kinematics.hpp"
+#include "protocol/motion/segment.hpp"
+
+namespace kinebus {
+
+/// One axis of a node: which joint it moves, and how. Calibration stays out of the kinematics: a rail whose
+/// measured travel is (1 + scale_correction) times the commanded one gets that number here (paper M5's
+/// table).
+struct AxisScaling {
+  int joint = -1;                    ///< index into JointVector; -1: the axis is not used and holds
+  double counts_per_unit = 1280;     ///< counts per mm or rad; 51,200 a turn and 40 mm a turn: 1280
+  bool reversed = false;             ///< counts grow when the joint value falls
+  double scale_correction = 0;       ///< ratio, |x| < 0.1
+  double offset = 0;                 ///< mm or rad: the joint's value where the counts are 0
+  double tolerance_counts = 0.5;     ///< how far the streamed motion may leave q(tau)
+  double acceleration_limit = 5000;  ///< mm/s^2 or rad/s^2, of the joint; segments stay below. 0: not limited
+
+  /// Counts per joint unit, with sign and correction.
+  double slope() const { return (reversed ? -counts_per_unit : counts_per_unit) / (1 + scale_correction); }
+  double to_counts(double joint_value) const { return slope() * (joint_value - offset); }
+  double to_joint(double counts) const { return counts / slope() + offset; }
+};
+
+/// A node and its two axes.
+struct NodeAxes {
+  std::uint8_t node_id = 0;
+  std::array<AxisScaling, kAxesPerNode> axes{};
+};
+
+inline constexpr double kCountFraction = 4294967296.0;  ///< 2^32: AxisState's fractions of a count
+
+/// Position with 32 fractional bits, as the node counts it.
+inline std::int64_t to_fixed(double counts) {
+  return std::llround(counts * kCountFraction);
+}
+inline double to_counts(std::int64_t fixed) {
+  return static_cast<double>(fixed) / kCountFraction;
+}
+
+}  // namespace kinebus

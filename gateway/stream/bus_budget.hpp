@@ -1,0 +1,41 @@
+#pragma once
+// How fast path time may run, so that every record is in its node in time and the bus keeps its share free.
+
+#include <cstdint>
+#include <span>
+
+#include "gateway/stream/node_stream.hpp"
+#include "protocol/time.hpp"
+
+namespace kinebus {
+
+/// Deadline test over the records that wait: all bits due before tau + x must fit the budget while path time
+/// covers x. Queued path time is slack, so a short burst does not slow the path and a long dense stretch
+/// does, early.
+class BusBudget {
+ public:
+  struct Options {
+    double share = 0.60;     ///< of the bus, for everything together
+    double overhead = 0.03;  ///< share for SYNC, stamps, statuses, heartbeats, SDO
+    double bits_per_second = 1e6;
+    double bits_per_record = 137;  ///< 135 stuffed at most, and 1.6 % checkpoints
+    /// Path time that must be in a node beyond now: half of the stop ramp (50 ms), a status interval and
+    /// margin.
+    SegmentUnits reserve{7'500};  ///< 120 ms
+    int node_records = 120;       ///< queue of a node
+    double lowest_rate = 0.05;
+  };
+
+  BusBudget() : BusBudget(Options{}) {}
+  explicit BusBudget(Options options) : options_(options) {}
+
+  /// Greatest rate (0..1) that the waiting records allow at path time tau. 0 only when a node is about to run
+  /// dry and the run is not complete. Cost: a few dozen look-ups.
+  double allowed_rate(std::span<const NodeStream* const> nodes, PathTime tau, bool run_complete) const;
+  const Options& options() const { return options_; }
+
+ private:
+  Options options_;
+};
+
+}  // namespace kinebus

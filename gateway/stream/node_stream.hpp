@@ -1,0 +1,115 @@
+#pragma once
+// The records of one node: numbering, checkpoints, credit, horizon, and what each of them means exactly.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "gateway/stream/segmenter.hpp"
+#include "gateway/stream/stream_error.hpp"
+#include "protocol/can/frame.hpp"
+#include "protocol/motion/broadcast.hpp"
+#include "protocol/motion/segment.hpp"
+#include "protocol/time.hpp"
+
+namespace kinebus {
+
+/// Sends segment records to one node ahead of their time, within what the node has room for.
+/// A record is kept until the node's path time has passed its end: so after a stop the exact position at any
+/// tau is known, and records that were lost can be sent again (rewind).
+class NodeStream {
+ public:
+  struct Options {
+    /// Path time ahead of now that is kept in the node: stop ramp (half of 100 ms) + status interval 100 ms +
+    /// margin.
+    SegmentUnits horizon{25'000};  ///< 400 ms
+    /// Records between two checkpoints, axes in turn. 1.6 % more frames; a wrong axis is seen after 128
+    /// records.
+    int checkpoint_interval = 64;
+    /// Sent but not accepted for this long, while statuses do come: the records are lost.
+    BusTime lost_after{std::chrono::milliseconds{350}};
+  };
+  struct Counters {
+    std::uint64_t records = 0, checkpoints = 0, statuses = 0, rewinds = 0;
+  };
+  static constexpr std::size_t kCapacity = 1024;  ///< records kept: executed-not-confirmed, sent and waiting
+
+  explicit NodeStream(std::uint8_t node_id) : NodeStream(node_id, Options{}) {}
+  NodeStream(std::uint8_t node_id, Options options);
+
+  /// Where the node stands and which record it expects (from its status at rest); forgets all records.
+  void reset(const std::array<AxisState, kAxesPerNode>& states, std::uint8_t next_sequence,
+             std::uint8_t free_records);
+  bool has_room() const { return end_ - begin_ + 2 < kCapacity; }
+  /// Room for this many more records is left.
+  std::size_t room() const { return kCapacity - 2 - static_cast<std::size_t>(end_ - begin_); }
+
+  void push_start(std::int64_t start_units);  ///< absolute path time, units; no motion may be pending
+  void push(const FittedSegment& segment);    ///< times relative to the last push_start
+  void push_end();
+
+  /// Next frame that may go out at path time tau; nullopt: nothing now (credit, horizon or all sent).
+  std::optional<CanFrame> next_frame(BusTime now, PathTime tau);
+  Result<void, StreamError> on_status(BusTime now, const StreamStatus& status, PathTime tau);
+  /// Sends again from the record that the node expects: after a stop on a lost record, at rest.
+  void rewind();
+
+  bool all_sent() const { return sent_ == end_; }
+  bool all_accepted() const { return accepted_ == end_; }
+  std::uint64_t records_unsent() const { return end_ - sent_; }
+  /// Accepted records end at this path time (units); what the node can still run on its own.
+  std::int64_t accepted_until_units() const { return until_units(accepted_); }
+  std::int64_t sent_until_units() const { return until_units(sent_); }
+  std::int64_t produced_until_units() const { return until_units(end_); }
+  /// Records sent but not executed, or not sent, up to and with the one whose end is at or before `units`.
+  std::uint64_t unsent_until(std::int64_t units) const;
+
+  /// Exact state of both axes at path time tau, by the records kept. nullopt: tau lies before the records
+  /// kept.
+  std::optional<std::array<AxisState, kAxesPerNode>> state_at(PathTime tau) const;
+  const std::array<AxisState, kAxesPerNode>& final_state() const { return tail_; }
+  const std::array<AxisState, kAxesPerNode>& accepted_state() const;
+  /// The job's line at path time tau; 0: none known.
+  std::uint32_t line_at(PathTime tau) const;
+  std::optional<StreamStatus> last_status() const { return last_status_; }
+  std::uint8_t node_id() const { return node_id_; }
+  const Counters& counters() const { return counters_; }
+
+ private:
+  struct Record {
+    std::int64_t start_units = 0;  ///< absolute path time of its first knot
+    std::int32_t duration = 0;     ///< 0: control record
+    std::array<std::int32_t, kAxesPerNode> acceleration{};
+    std::array<AxisState, kAxesPerNode> start{};
+    std::uint32_t line = 0;
+    SegmentControl control = SegmentControl::kNone;
+    std::uint8_t checkpoints = 0;  ///< bit per axis: sent before this record
+  };
+  Record& at(std::uint64_t n) { return records_[n & (kCapacity - 1)]; }
+  const Record& at(std::uint64_t n) const { return records_[n & (kCapacity - 1)]; }
+  const Record* covering(PathTime tau) const;
+  std::int64_t until_units(std::uint64_t n) const;
+  void append(Record record);
+  void forget_before(std::int64_t units);
+
+  std::uint8_t node_id_;
+  Options options_;
+  Counters counters_;
+  std::vector<Record> records_;  ///< ring of kCapacity, allocated once
+  // Record numbers since reset(), unwrapped; sequence on the wire is the number mod 128. begin <= accepted <=
+  // sent <= end.
+  std::uint64_t begin_ = 0, accepted_ = 0, sent_ = 0, end_ = 0, credit_ = 0;
+  std::uint8_t checkpoints_due_ = 0;  ///< of record sent_, still to go out
+  bool checkpoints_loaded_ = false;
+  std::uint64_t next_checkpoint_ = 0;
+  int checkpoint_axis_ = 0;
+  std::uint64_t released_ = 0;  ///< records before this one have absolute times
+  std::int64_t run_start_units_ = 0, tail_units_ = 0;
+  std::array<AxisState, kAxesPerNode> tail_{}, origin_{};
+  std::optional<StreamStatus> last_status_;
+  BusTime progress_{0};
+  int silent_statuses_ = 0;
+};
+
+}  // namespace kinebus

@@ -1,0 +1,118 @@
+#pragma once
+// From phases to frames, for all nodes of the machine together.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "gateway/kinematics/kinematics.hpp"
+#include "gateway/motion/trajectory.hpp"
+#include "gateway/result.hpp"
+#include "gateway/stream/axis_scaling.hpp"
+#include "gateway/stream/bus_budget.hpp"
+#include "gateway/stream/joint_sampler.hpp"
+#include "gateway/stream/node_stream.hpp"
+#include "gateway/stream/segmenter.hpp"
+#include "gateway/stream/stream_error.hpp"
+#include "protocol/can/frame.hpp"
+#include "protocol/motion/broadcast.hpp"
+#include "protocol/time.hpp"
+
+namespace kinebus {
+
+/// Owns sampler, segmenters and node streams. One run = START on all nodes at one path time, motion, END at
+/// rest.
+///
+///   set_state(node, ...) for each node    where it stands, once after homing or a restart
+///   begin_run()                           then push(phase) while wants_phases(), finish() after the last
+///   release(tau_start)                    names the START time; from then on frames come
+///   next_frame(now, tau), on_status(...)  tau: the gateway's own path clock
+///   run_done(tau)                         all nodes are at rest behind their END
+///
+/// Feed hold and resume need nothing here: path time stops and goes on. After a run was lost, cancel() and
+/// start anew from joints_at(tau).
+class StreamGroup {
+ public:
+  struct Options {
+    JointSampler::Options sampler;
+    Segmenter::Options segmenter;
+    NodeStream::Options stream;
+    BusBudget::Options budget;
+    /// Path time that is fitted ahead of now, s: horizon 0.4, look-ahead of the rate 0.5, and some.
+    double lead_s = 1.5;
+  };
+  enum class State : std::uint8_t { kIdle, kFilling, kRunning, kDone };
+
+  StreamGroup(const Kinematics& kinematics, std::vector<NodeAxes> nodes)
+      : StreamGroup(kinematics, nodes, Options{}) {}
+  StreamGroup(const Kinematics& kinematics, std::vector<NodeAxes> nodes, Options options);
+
+  std::size_t node_count() const { return nodes_.size(); }
+  /// Where the axes of a node stand (velocity 0), and the stream status it last reported. Only when idle or
+  /// done.
+  void set_state(std::uint8_t node_id, const std::array<AxisState, kAxesPerNode>& states,
+                 const StreamStatus& status);
+
+  void begin_run();
+  /// One more phase can be taken: buffers have room and less than lead_s is fitted beyond `tau`.
+  bool wants_phases(PathTime tau) const;
+  Result<void, StreamError> push(const Phase& phase);
+  Result<void, StreamError> finish();
+  /// START at this path time on all nodes (rounded up to 16 us); must lie after the previous run's end.
+  void release(PathTime start);
+  /// Drops all that is not sent; nodes must be stopped and their queues cleared. Then set_state() again.
+  void cancel();
+
+  /// Next frame for the bus, nodes in turn, the one with the least queued path time first.
+  std::optional<CanFrame> next_frame(BusTime now, PathTime tau);
+  Result<void, StreamError> on_status(BusTime now, std::uint8_t node_id, const StreamStatus& status,
+                                      PathTime tau);
+  /// After a lost record, with all nodes stopped on the path: sends again what the nodes wait for.
+  void resend();
+
+  State state() const { return state_; }
+  /// All records up to END are made (finish() was called and every span is fitted).
+  bool complete() const;
+  /// The nodes hold enough for path time to run: reserve and horizon, or the whole run.
+  bool primed(PathTime tau) const;
+  /// Every node accepted its END, and tau is past it.
+  bool run_done(PathTime tau) const;
+  /// Rate (0..1) that bus and buffers allow now; 1 when idle.
+  double allowed_rate(PathTime tau) const;
+
+  PathTime run_start() const { return PathTime{start_units_ * kPathTicksPerUnit}; }
+  /// End of what is fitted so far; after complete(): the run's end at rest.
+  PathTime fitted_until() const;
+  /// Exact states and joint positions at path time tau, from the records kept.
+  std::optional<std::array<AxisState, kAxesPerNode>> state_at(std::uint8_t node_id, PathTime tau) const;
+  std::optional<JointVector> joints_at(PathTime tau) const;
+  std::uint32_t line_at(PathTime tau) const;
+
+  const JointSampler& sampler() const { return sampler_; }
+  const Segmenter& segmenter(std::size_t i) const { return nodes_[i].segmenter; }
+  const NodeStream& stream(std::size_t i) const { return nodes_[i].stream; }
+
+ private:
+  struct Node {
+    Segmenter segmenter;
+    NodeStream stream;
+    std::array<AxisState, kAxesPerNode> state{};
+    bool started = false, end_pushed = false;
+  };
+  Node* find(std::uint8_t node_id);
+  const Node* find(std::uint8_t node_id) const;
+  Result<void, StreamError> pump();
+  void drain(Node& node);
+
+  Options options_;
+  JointSampler sampler_;
+  BusBudget budget_;
+  std::vector<Node> nodes_;
+  State state_ = State::kIdle;
+  bool released_ = false, finished_ = false;
+  std::int64_t start_units_ = 0;
+  std::size_t turn_ = 0;
+};
+
+}  // namespace kinebus
