@@ -33,6 +33,7 @@ enum class SwitchFunction : std::uint8_t {
   kNegativeLimitA = 5,
   kNegativeLimitB = 6,
   kEmergencyStop = 7,
+  kProbe = 8,  ///< latches the positions of both axes (2140h:8), stops nothing
 };
 
 /// Addresses that code names; axis objects at their base (first axis).
@@ -50,7 +51,7 @@ inline constexpr ObjectAddress kSegmentRecord{0x2100, 0}, kCheckpoint{0x2101, 0}
     kSwitchLevels{0x2133, 0};
 inline constexpr ObjectAddress kAccelerationShift{0x2140, 1}, kRunCurrent{0x2140, 2}, kHoldCurrent{0x2140, 3},
     kDirectionInvert{0x2140, 4}, kCountsPerUnit{0x2140, 5}, kPositionKnown{0x2140, 6},
-    kStreamPosition{0x2140, 7}, kHomeLatch{0x2140, 8};
+    kStreamPosition{0x2140, 7}, kHomeLatch{0x2140, 8}, kHomingTravel{0x2140, 9}, kHomingBackOff{0x2140, 10};
 inline constexpr ObjectAddress kErrorCode{0x603F, 0}, kControlword{0x6040, 0}, kStatusword{0x6041, 0},
     kQuickStopOption{0x605A, 0}, kShutdownOption{0x605B, 0}, kDisableOption{0x605C, 0},
     kHaltOption{0x605D, 0}, kFaultReactionOption{0x605E, 0}, kModeOfOperation{0x6060, 0},
@@ -89,7 +90,11 @@ enum class NodeCounter : std::uint8_t {
   kEmergencies,
   kStorageErrors,
   kWatchdogResets,
-  kLast = kWatchdogResets,
+  kCoordinatedStops,
+  kLateStops,
+  kHomingErrors,
+  kDriveFaults,
+  kLast = kDriveFaults,
 };
 
 namespace object_table {
@@ -262,7 +267,11 @@ inline constexpr std::array<std::string_view, static_cast<std::size_t>(NodeCount
     "Switch glitches rejected",
     "Emergencies",
     "Storage CRC failures",
-    "Watchdog resets"};
+    "Watchdog resets",
+    "Stops on the path",
+    "Stops heard too late",
+    "Homing errors",
+    "Drive faults"};
 
 template <typename T>
 constexpr void add_communication_objects(T& t) {
@@ -356,7 +365,7 @@ constexpr void add_manufacturer_objects(T& t) {
   t.head(0x2130, "Switch input function", ObjectCode::kArray, kSwitchInputs);
   for (std::uint8_t i = 0; i < kSwitchInputs; ++i)
     t.sub(static_cast<std::uint8_t>(i + 1), kInputNames[i], kU8, kReadWrite, kParameter, i < 2 ? i + 1 : 0)
-        .between(0, static_cast<std::int64_t>(SwitchFunction::kEmergencyStop));
+        .between(0, static_cast<std::int64_t>(SwitchFunction::kProbe));
   t.head(0x2131, "Switch input polarity", ObjectCode::kArray,
          kSwitchInputs);  // 1: active when the pin is low
   for (std::uint8_t i = 0; i < kSwitchInputs; ++i)
@@ -371,7 +380,7 @@ constexpr void add_manufacturer_objects(T& t) {
 
 template <typename T>
 constexpr void add_manufacturer_axis_objects(T& t) {
-  t.head(0x2140, "Axis", ObjectCode::kRecord, 8);
+  t.head(0x2140, "Axis", ObjectCode::kRecord, 10);
   t.sub(1, "Acceleration shift", kU8, kReadWrite, kParameter, 2).between(0, 7);
   t.sub(2, "Run current", kU16, kReadWrite, kParameter, 1500).between(0, 5000).in("mA");
   t.sub(3, "Hold current", kU16, kReadWrite, kParameter, 1000).between(0, 5000).in("mA");
@@ -381,6 +390,9 @@ constexpr void add_manufacturer_axis_objects(T& t) {
   t.sub(6, "Position known", kU8, kReadOnly, kLive).maps(Mapping::kTpdo);
   t.sub(7, "Exact position", kI64, kReadOnly, kLive).maps(Mapping::kTpdo).in("2^-32 counts");
   t.sub(8, "Home latch position", kI64, kReadOnly, kLive).maps(Mapping::kTpdo).in("2^-32 counts");
+  // Homing gives up after so far without the edge it looks for: towards the switch, and off it.
+  t.sub(9, "Homing travel", kU32, kReadWrite, kParameter, 1'280'000).in("counts");
+  t.sub(10, "Homing back-off travel", kU32, kReadWrite, kParameter, 64'000).in("counts");
 }
 
 // Defaults suit a carriage of the default machine: 1280 counts/mm; 450 mm/s, 5000 mm/s2 at most.
@@ -405,6 +417,7 @@ constexpr void add_drive_objects(T& t) {
   t.var(0x6066, "Following error time out", kU16, kReadWrite, kParameter, 10).in("ms");
   t.var(0x606C, "Velocity actual value", kI32, kReadOnly, kLive).maps(Mapping::kTpdo).in("counts/s");
   t.var(0x607A, "Target position", kI32, kReadWrite, kVariable).maps(Mapping::kRpdo).in("counts");
+  // The position is made equal to this at the edge of the home switch.
   t.var(0x607C, "Home offset", kI32, kReadWrite, kParameter).in("counts");
   t.head(0x607D, "Software position limit", ObjectCode::kArray, 2);
   t.sub(1, "Min position limit", kI32, kReadWrite, kParameter, i32_min).in("counts");
