@@ -68,7 +68,7 @@ struct Home {                 ///< G28
   Frame frame{};
 };
 struct Pause { bool optional = false; };                    ///< M0 / M1
-struct MotorsOff {};                                        ///< M18 / M84
+struct MotorsOff { std::uint8_t axes = 0; };               ///< M18 / M84: bit per axis in the order of Pose; 0: all
 struct MotorsOn {};                                         ///< M17
 struct WaitIdle {};                                         ///< M400
 /// M220/M221, ratios; 0: unchanged. For status only: the feeds and E of the commands that follow contain them.
