@@ -1,1 +1,26 @@
-# Debian packages by `cpack -G DEB`. Components are declared where their targets are installed.
+# Debian packages by `cpack -G DEB`: kinebus-daemon and kinebus-cli. Components are named where targets are installed.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME kinebus)
+set(CPACK_PACKAGE_CONTACT "The Kinebus developers <kinebus@localhost>")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_ALL daemon cli)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION misc)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+if(CMAKE_CROSSCOMPILING)
+  set(CPACK_DEBIAN_PACKAGE_ARCHITECTURE arm64)
+  set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS OFF)
+  set(CPACK_DEBIAN_PACKAGE_DEPENDS "libc6, libstdc++6")
+endif()
+set(CPACK_DEBIAN_DAEMON_PACKAGE_NAME kinebus-daemon)
+set(CPACK_COMPONENT_DAEMON_DESCRIPTION
+  "Kinebus gateway daemon\n Plans G-code under joint limits and streams motion to CAN stepper nodes.")
+set(CPACK_DEBIAN_DAEMON_PACKAGE_RECOMMENDS kinebus-cli)
+set(CPACK_DEBIAN_DAEMON_PACKAGE_PREDEPENDS adduser)
+set(CPACK_DEBIAN_DAEMON_PACKAGE_CONTROL_EXTRA
+  "${PROJECT_SOURCE_DIR}/gateway/io/package/postinst;${PROJECT_SOURCE_DIR}/gateway/io/package/prerm;${PROJECT_SOURCE_DIR}/gateway/io/package/conffiles")
+set(CPACK_DEBIAN_CLI_PACKAGE_NAME kinebus-cli)
+set(CPACK_COMPONENT_CLI_DESCRIPTION
+  "Kinebus command line\n Commands the gateway daemon, plans and simulates jobs, and offers virtual nodes.")
+include(CPack)

@@ -1,0 +1,118 @@
+#include "gateway/io/daemon.hpp"
+
+#include <spdlog/spdlog.h>
+#include <sys/epoll.h>
+
+#include <algorithm>
+
+#include "gateway/io/realtime.hpp"
+#include "protocol/host/socketcan.hpp"
+
+namespace kinebus {
+namespace {
+constexpr LocalTime kQuitWithin = std::chrono::seconds{2};
+// Half of the WatchdogSec in kinebusd.service.
+constexpr LocalTime kWatchdogPeriod = std::chrono::seconds{1};
+// Frames taken in one turn, so that a flooded bus cannot keep the loop from its deadlines.
+constexpr int kFramesPerTurn = 256;
+
+bool at_rest(MachineState state) {
+  switch (state) {
+    case MachineState::kOff:
+    case MachineState::kUnhomed:
+    case MachineState::kReady:
+    case MachineState::kHeld:
+    case MachineState::kStopped:
+    case MachineState::kAlarm:
+    case MachineState::kChecking:
+      return true;
+    default:
+      return false;
+  }
+}
+
+void log_event(const MachineEvent& event) {
+  switch (event.kind) {
+    case MachineEvent::Kind::kAlarm:
+      spdlog::error("alarm 0x{:04X} node {}: {} {}", event.code, event.node, event.words, event.advice);
+      break;
+    case MachineEvent::Kind::kProblem:
+      spdlog::warn("line {}: {}", event.line, event.words);
+      break;
+    case MachineEvent::Kind::kState:
+      spdlog::info("state {}: {}", to_string(event.state), event.words);
+      break;
+    default:
+      spdlog::info("{}", event.words);
+  }
+}
+}  // namespace
+
+Daemon::Daemon(EventLoop& loop, BusPort& bus, Gateway& gateway, ControlServer& server)
+    : loop_(loop), bus_(bus), gateway_(gateway), server_(server) {
+  if (bus_.fd() >= 0) loop_.watch(bus_.fd(), EPOLLIN, [](std::uint32_t) {});
+}
+
+void Daemon::exchange_frames() {
+  for (int i = 0; i < kFramesPerTurn; ++i) {
+    const auto received = bus_.receive(monotonic_now());
+    if (!received) break;
+    switch (received->kind) {
+      case BusPort::Received::Kind::kFrame:
+        gateway_.on_frame(received->when, received->frame);
+        break;
+      case BusPort::Received::Kind::kSent:
+        gateway_.on_frame_sent(received->when, received->frame);
+        break;
+      case BusPort::Received::Kind::kFailure:
+        gateway_.on_bus_failure(received->when, received->failure);
+        break;
+    }
+  }
+  LocalTime now = monotonic_now();
+  if (now >= gateway_.next_deadline()) gateway_.on_time(now);
+  while (bus_.can_send(now)) {
+    const auto frame = gateway_.next_frame(now);
+    if (!frame) break;
+    bus_.send(now, *frame);
+    now = monotonic_now();
+  }
+}
+
+void Daemon::report_events() {
+  while (auto event = gateway_.next_event()) {
+    log_event(*event);
+    server_.on_event(*event);
+  }
+}
+
+LocalTime Daemon::next_deadline() const {
+  return std::min({gateway_.next_deadline(), bus_.next_deadline(), server_.next_deadline()});
+}
+
+void Daemon::run(const volatile std::sig_atomic_t* quit) {
+  LocalTime next_watchdog{0};
+  LocalTime quit_at = LocalTime::max();
+  for (;;) {
+    exchange_frames();
+    report_events();
+    const LocalTime now = monotonic_now();
+    server_.on_time(now);
+    if (now >= next_watchdog) {
+      notify_systemd("WATCHDOG=1");
+      next_watchdog = now + kWatchdogPeriod;
+    }
+    if (*quit != 0 && quit_at == LocalTime::max()) {
+      spdlog::info("asked to end: bringing the machine to rest on its path");
+      notify_systemd("STOPPING=1");
+      quit_at = now + kQuitWithin;
+      if (!at_rest(gateway_.state()))
+        if (const auto held = gateway_.hold(); !held) static_cast<void>(gateway_.stop());
+    }
+    if (*quit != 0 && (at_rest(gateway_.state()) || now >= quit_at)) return;
+    loop_.wait(
+        std::min({next_deadline(), next_watchdog, quit_at, *quit != 0 ? now + BusTime{1'000'000} : quit_at}));
+  }
+}
+
+}  // namespace kinebus

@@ -1,0 +1,32 @@
+#pragma once
+// The daemon's loop: bus, gateway core and local socket on one thread. No logic of the machine is here.
+
+#include <csignal>
+
+#include "gateway/io/bus_port.hpp"
+#include "gateway/io/control_server.hpp"
+#include "gateway/io/event_loop.hpp"
+#include "gateway/machine/gateway.hpp"
+
+namespace kinebus {
+
+class Daemon {
+ public:
+  Daemon(EventLoop& loop, BusPort& bus, Gateway& gateway, ControlServer& server);
+
+  /// Runs until `*quit` is not 0 (set by a signal handler) and the machine has come to rest, at most 2 s
+  /// later.
+  void run(const volatile std::sig_atomic_t* quit);
+
+ private:
+  void exchange_frames();
+  void report_events();
+  LocalTime next_deadline() const;
+
+  EventLoop& loop_;
+  BusPort& bus_;
+  Gateway& gateway_;
+  ControlServer& server_;
+};
+
+}  // namespace kinebus

@@ -1,0 +1,31 @@
+#pragma once
+// A SocketCAN interface as the daemon's bus.
+
+#include <memory>
+#include <string>
+
+#include "gateway/io/bus_port.hpp"
+#include "gateway/result.hpp"
+#include "protocol/host/socketcan.hpp"
+
+namespace kinebus {
+
+class SocketCanBus : public BusPort {
+ public:
+  static Result<std::unique_ptr<SocketCanBus>, std::string> open(const std::string& interface);
+
+  int fd() const override { return socket_.fd(); }
+  LocalTime next_deadline() const override;
+  bool can_send(LocalTime now) override;
+  void send(LocalTime now, const CanFrame& frame) override;
+  std::optional<Received> receive(LocalTime now) override;
+
+ private:
+  SocketCan socket_;
+  int in_flight_ = 0;  ///< sent by us, not yet seen on the bus
+  LocalTime last_sent_{0};
+  LocalTime full_until_{0};  ///< the kernel's queue was full
+  std::optional<CanFrame> refused_;
+};
+
+}  // namespace kinebus

@@ -1,0 +1,120 @@
+// kinebusd: builds the parts of the gateway, connects them, and loops.
+
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <cstdlib>
+#include <ctime>
+
+#include "gateway/io/daemon.hpp"
+#include "gateway/io/realtime.hpp"
+#include "gateway/io/socketcan_bus.hpp"
+#include "gateway/machine/description/machine_file.hpp"
+#include "node_firmware/port/host/inproc_bus.hpp"
+
+namespace {
+
+volatile std::sig_atomic_t quit = 0;
+void on_signal(int) { quit = 1; }
+
+struct Arguments {
+  std::string machine;
+  std::string bus;
+  std::string socket;
+  std::string group;
+  std::string jobs;
+  std::string log_level = "info";
+  int realtime_priority = 80;
+  bool no_realtime = false;
+};
+
+std::string default_socket() {
+  if (const char* named = std::getenv("KINEBUS_SOCKET")) return named;
+  if (::geteuid() == 0 || std::getenv("RUNTIME_DIRECTORY") != nullptr) return "/run/kinebus/kinebus.sock";
+  const char* runtime = std::getenv("XDG_RUNTIME_DIR");
+  return runtime != nullptr ? std::string(runtime) + "/kinebus.sock" : "/tmp/kinebus.sock";
+}
+
+kinebus::Result<kinebus::MachineDescription, std::string> read_machine(const std::string& path) {
+  if (path.empty()) return kinebus::default_m1();
+  auto machine = kinebus::load_machine(path);
+  if (!machine) return kinebus::Error<std::string>(kinebus::to_string(machine.error()));
+  return *machine;
+}
+
+kinebus::Result<std::unique_ptr<kinebus::BusPort>, std::string> open_bus(const std::string& name,
+                                                                         const kinebus::MachineDescription& machine) {
+  if (name == "inproc") return kinebus::make_inproc_bus(machine);
+  auto bus = kinebus::SocketCanBus::open(name);
+  if (!bus) return kinebus::Error<std::string>(bus.error());
+  return std::move(*bus);
+}
+
+int fail(const std::string& words) {
+  spdlog::critical("{}", words);
+  return 1;
+}
+
+int serve(const Arguments& arguments) {
+  const auto machine = read_machine(arguments.machine);
+  if (!machine) return fail(machine.error());
+
+  auto bus = open_bus(arguments.bus.empty() ? machine->bus.interface : arguments.bus, *machine);
+  if (!bus) return fail(bus.error());
+
+  kinebus::JobFolder jobs(arguments.jobs.empty() ? machine->jobs_directory : arguments.jobs);
+  if (std::string error = jobs.prepare(); !error.empty()) return fail("job folder " + error);
+
+  kinebus::EventLoop loop;
+  // The epoch must differ from the one before: nodes then join the new clock without a step.
+  kinebus::Gateway gateway(*machine, {.epoch = static_cast<std::uint8_t>(std::time(nullptr) & 0xFF)});
+  kinebus::ControlServer server(loop, gateway, jobs,
+                                {.path = arguments.socket.empty() ? default_socket() : arguments.socket,
+                                 .group = arguments.group});
+  if (std::string error = server.listen(); !error.empty()) return fail("local socket " + error);
+
+  if (!arguments.no_realtime)
+    if (const std::string missing = kinebus::become_realtime(arguments.realtime_priority); !missing.empty())
+      spdlog::warn("running without {}: expect more jitter", missing);
+
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+  std::signal(SIGPIPE, SIG_IGN);
+  spdlog::info("{} on bus {}, listening at {}", machine->name, arguments.bus.empty() ? machine->bus.interface : arguments.bus,
+               arguments.socket.empty() ? default_socket() : arguments.socket);
+  kinebus::notify_systemd("READY=1");
+  kinebus::Daemon(loop, **bus, gateway, server).run(&quit);
+  spdlog::info("ended at rest");
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Arguments arguments;
+  CLI::App app("kinebusd: the Kinebus gateway. Plans G-code and moves the machine's CAN nodes.");
+  app.add_option("--machine", arguments.machine, "Machine file (TOML); without it the built-in default machine M1")
+      ->check(CLI::ExistingFile);
+  app.add_option("--bus", arguments.bus,
+                 "SocketCAN interface such as can0, or \"inproc\": simulated nodes inside this process (default: the "
+                 "machine file's)");
+  app.add_option("--socket", arguments.socket, "Local socket for 'kinebus' (default: /run/kinebus or the user's)");
+  app.add_option("--group", arguments.group, "Group whose members may use the local socket");
+  app.add_option("--jobs", arguments.jobs, "Folder of stored jobs (default: the machine file's)");
+  app.add_option("--log-level", arguments.log_level, "trace debug info warn error")
+      ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error"}));
+  app.add_option("--priority", arguments.realtime_priority, "SCHED_FIFO priority")->check(CLI::Range(1, 99));
+  app.add_flag("--no-realtime", arguments.no_realtime, "Do not ask for SCHED_FIFO and locked memory");
+  app.set_version_flag("--version", KINEBUS_VERSION);
+  CLI11_PARSE(app, argc, argv);
+  spdlog::set_default_logger(spdlog::stderr_logger_st("kinebusd"));
+  spdlog::set_level(spdlog::level::from_str(arguments.log_level));
+  try {
+    return serve(arguments);
+  } catch (const std::exception& error) {
+    return fail(error.what());
+  }
+}

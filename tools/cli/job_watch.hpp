@@ -1,0 +1,23 @@
+#pragma once
+// Sending a job and showing how it goes.
+
+#include <string>
+
+#include "tools/cli/client.hpp"
+
+namespace kinebus {
+
+/// "1 h 02 min", "3 min 10 s", "12 s".
+std::string time_words(double seconds);
+
+/// Waits until the machine rests; events are printed. Returns the exit code: 0 fine, 1 alarm or stop.
+/// The client must be watching.
+int wait_until_rest(Client& client);
+
+/// Shows a progress bar until the job ended. 0: complete; 1: not.
+int watch_job(Client& client);
+
+/// Uploads `file` (or takes the stored job of that name), runs it, and watches unless `detach`.
+int run_job(Client& client, const std::string& file, bool detach);
+
+}  // namespace kinebus
