@@ -2,6 +2,7 @@
 // Phase -> JointSpans: q(tau) as cubic Hermite polynomials in time through exact joint positions and
 // velocities.
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
@@ -13,17 +14,18 @@
 
 namespace kinebus {
 
-/// Post-condition: spans join with equal value and slope; each stays within `tolerance` of the exact inverse
-/// kinematics of pose(tau) (checked where a cubic Hermite's error is largest: at its middle).
-/// Pull style: push one phase when wants_phase(), then call next() until it gives no more.
-/// Cost: one inverse_along a span, and one inverse for its check. No heap.
+/// Post-condition: spans join with equal value and slope; each stays within the tolerance of the exact
+/// inverse kinematics of pose(tau) (checked where a cubic Hermite's error is largest: at its middle). Pull
+/// style: push one phase when wants_phase(), then call next() until it gives no more. Cost: one inverse_along
+/// a span, and one inverse for its check. No heap.
 class JointSampler {
  public:
   struct Options {
-    double tolerance = 20e-6;      ///< mm or rad: 0.02 um, a twentieth of half a count
-    double longest_span_s = 0.25;  ///< about two of the longest segments
-    /// Not checked below this: |q''''| <= 3 a^2 / r = 0.27e6 mm/s^4 for a = 3000 mm/s^2 and a radius of
-    /// curvature of the inverse kinematics of 100 mm; times 0.005^4 / 384 that is 0.0005 um.
+    double tolerance_mm = 12e-6;    ///< a thirtieth of half a count of a carriage, a twentieth of E's
+    double tolerance_rad = 0.6e-6;  ///< the same for M1's table: 24,446 counts a rad
+    double longest_span_s = 0.25;   ///< about two of the longest segments
+    /// Not checked below this: the fourth derivative is at most 3 a^2 / r = 0.27e6 mm/s^4 for a = 3000 mm/s^2
+    /// and inverse kinematics with a radius of curvature of 100 mm; times 0.005^4 / 384 that is 0.0005 um.
     double unchecked_span_s = 0.005;
   };
   struct Counters {
@@ -35,14 +37,16 @@ class JointSampler {
 
   /// Begins a new run at path time 0 of the run.
   void restart();
-  bool wants_phase() const { return !active_ && !finished_; }
-  /// Phases shorter than a nanosecond are passed over. Error kPose: where the path cannot be reached.
+  bool wants_phase() const { return !active_ && !ended_; }
+  /// Error kPose: its first pose cannot be taken; kPhaseOrder: not asked for; kNotAtRest: a speed at the
+  /// run's start or, with phase.last, at its end. Phases shorter than a nanosecond are passed over.
   Result<void, StreamError> push(const Phase& phase);
-  /// No more phases: the last span is released, marked `last`.
-  void finish();
-  /// The next span; nullopt: push a phase (or, after finish(), the run is over). Error kPose ends the run.
+  /// The next span, of which the one that ends a phase with `last` is marked `last`. nullopt: push a phase,
+  /// or the run is over. Error kPose: the path cannot be reached there.
   Result<std::optional<JointSpan>, StreamError> next();
 
+  /// The run's last span was given out.
+  bool ended() const { return ended_; }
   /// Path time up to which phases were taken, s since the run's start.
   double end_s() const { return phase_start_s_ + (active_ ? phase_.duration_s : 0.0); }
   const Counters& counters() const { return counters_; }
@@ -52,19 +56,20 @@ class JointSampler {
     JointVector q{}, q1{};
   };
   Result<void, StreamError> evaluate(double t, Knot& knot);
+  /// Largest error over tolerance at the middle of `span`, which covers t0..t1 of the phase.
   Result<double, StreamError> middle_error(const JointSpan& span, double t0, double t1);
-  JointSpan hermite(const Knot& a, const Knot& b, double t0, double t1) const;
+  void hermite(const Knot& a, const Knot& b, double duration_s, JointSpan& span) const;
   StreamError pose_error(const PoseError& error) const;
 
   const Kinematics* kinematics_;
   Options options_;
   Counters counters_;
-  int joints_;
+  std::size_t joints_;
+  JointVector per_tolerance_{};  ///< 1 / tolerance of each joint
   Phase phase_{};
-  bool active_ = false, finished_ = false, have_knot_ = false;
+  bool active_ = false, ended_ = false, have_knot_ = false;
   double phase_start_s_ = 0, done_s_ = 0, step_s_ = 0;
   Knot knot_{};
-  std::optional<JointSpan> held_;  ///< kept back until it is known whether it is the last
 };
 
 }  // namespace kinebus

@@ -8,15 +8,24 @@ namespace {
 const char* rule(StreamError::Kind kind) {
   using Kind = StreamError::Kind;
   switch (kind) {
-    case Kind::kPose: return "the path leaves the machine's reach";
-    case Kind::kPhaseOrder: return "a phase came when none was asked for";
-    case Kind::kStartMismatch: return "the run does not start where the axis stands (counts apart)";
-    case Kind::kNotAtRest: return "the run must begin and end at rest (counts/s)";
-    case Kind::kSequence: return "the node lost a record (waits for record)";
-    case Kind::kCheckpoint: return "the node's state differs from the gateway's";
-    case Kind::kUnderrun: return "the node ran out of records";
-    case Kind::kUnknownRecord: return "the node expects a record that was never sent (record)";
-    case Kind::kSilent: return "records were sent but not accepted (ms)";
+    case Kind::kPose:
+      return "the path leaves the machine's reach";
+    case Kind::kPhaseOrder:
+      return "a phase came when none was asked for";
+    case Kind::kStartMismatch:
+      return "the run does not start where the axis stands (counts apart)";
+    case Kind::kNotAtRest:
+      return "the run must begin and end at rest (counts/s)";
+    case Kind::kSequence:
+      return "the node lost a record (waits for record)";
+    case Kind::kCheckpoint:
+      return "the node's state differs from the gateway's";
+    case Kind::kUnderrun:
+      return "the node ran out of records";
+    case Kind::kUnknownRecord:
+      return "the node expects a record that was never sent (record)";
+    case Kind::kSilent:
+      return "records were sent but not accepted (ms)";
   }
   return "unknown";
 }

@@ -25,7 +25,7 @@ namespace kinebus {
 /// rest.
 ///
 ///   set_state(node, ...) for each node    where it stands, once after homing or a restart
-///   begin_run()                           then push(phase) while wants_phases(), finish() after the last
+///   begin_run()                           then push(phase) while wants_phases(), up to the one marked `last`
 ///   release(tau_start)                    names the START time; from then on frames come
 ///   next_frame(now, tau), on_status(...)  tau: the gateway's own path clock
 ///   run_done(tau)                         all nodes are at rest behind their END
@@ -58,7 +58,6 @@ class StreamGroup {
   /// One more phase can be taken: buffers have room and less than lead_s is fitted beyond `tau`.
   bool wants_phases(PathTime tau) const;
   Result<void, StreamError> push(const Phase& phase);
-  Result<void, StreamError> finish();
   /// START at this path time on all nodes (rounded up to 16 us); must lie after the previous run's end.
   void release(PathTime start);
   /// Drops all that is not sent; nodes must be stopped and their queues cleared. Then set_state() again.
@@ -72,7 +71,7 @@ class StreamGroup {
   void resend();
 
   State state() const { return state_; }
-  /// All records up to END are made (finish() was called and every span is fitted).
+  /// All records up to END are made (the last phase came and every span of it is fitted).
   bool complete() const;
   /// The nodes hold enough for path time to run: reserve and horizon, or the whole run.
   bool primed(PathTime tau) const;
@@ -110,7 +109,7 @@ class StreamGroup {
   BusBudget budget_;
   std::vector<Node> nodes_;
   State state_ = State::kIdle;
-  bool released_ = false, finished_ = false;
+  bool released_ = false;
   std::int64_t start_units_ = 0;
   std::size_t turn_ = 0;
 };
