@@ -1,0 +1,45 @@
+# Shared by the tests of this folder: a vcan interface of its own, the programs under test, and a capture that stays.
+# Source it with the folder of the programs as $1.
+set -euo pipefail
+bin=$1
+work=$(mktemp -d)
+keep=${LAB_KEEP:-$work}
+interface=kbv$(( $$ % 1000 ))
+export KINEBUS_SOCKET=$work/kinebus.sock
+pids=()
+
+finish() {
+  local status=$?
+  for pid in "${pids[@]}"; do kill "$pid" 2>/dev/null || true; done
+  wait 2>/dev/null || true
+  ip link del "$interface" 2>/dev/null || true
+  cp "$work"/*.log "$keep"/ 2>/dev/null || true
+  [[ $status == 0 ]] || { echo "--- daemon's log"; tail -n 40 "$work/kinebusd.log"; echo "--- last frames"; tail -n 30 "$work/bus.log"; } 2>/dev/null
+  exit "$status"
+}
+trap finish EXIT
+
+fail() { echo "FAILED: $*"; exit 1; }
+# until_true SECONDS WHAT COMMAND...: polls a condition; the time is only the limit.
+until_true() {
+  local limit=$((SECONDS + $1)) what=$2; shift 2
+  until "$@" >/dev/null 2>&1; do
+    (( SECONDS < limit )) || fail "no $what in time"
+    read -rt 0.05 <> <(:) || true
+  done
+}
+
+start_bus() {
+  ip link add dev "$interface" type vcan && ip link set "$interface" up
+  candump -L "$interface" > "$work/bus.log" & pids+=($!)
+}
+start_nodes() {
+  local node
+  for node in 1 2 3; do
+    "$bin/kinebus-vnode" --interface "$interface" --node "$node" "$@" > "$work/node$node.log" 2>&1 & pids+=($!)
+  done
+}
+start_daemon() {
+  "$bin/kinebusd" --bus "$interface" --jobs "$work/jobs" "$@" > "$work/kinebusd.log" 2>&1 & pids+=($!); daemon=$!
+  until_true 20 "daemon" test -S "$KINEBUS_SOCKET"
+}
