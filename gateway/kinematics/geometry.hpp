@@ -26,7 +26,7 @@ struct Interval {
 /// Where the tool may be. X Y Z and radius in table coordinates (they turn with the part); A of the platform,
 /// rad.
 struct PoseLimits {
-  Interval x_mm, y_mm, z_mm, a_rad, c_rad;
+  Interval x_mm{}, y_mm{}, z_mm{}, a_rad{}, c_rad{};
   double radius_mm = 0;  ///< sqrt(x^2 + y^2); 0: no limit
   friend bool operator==(const PoseLimits&, const PoseLimits&) = default;
 };
@@ -78,7 +78,7 @@ struct RotaryTable {
 struct CartesianGeometry {
   Interval x_mm{-100, 100}, y_mm{-100, 100}, z_mm{0, 200};  ///< joint travel; joint 0 is at pose 0
   bool has_table = false;
-  RotaryTable table;
+  RotaryTable table{};
   double bed_reference_mm = 20;
   friend bool operator==(const CartesianGeometry&, const CartesianGeometry&) = default;
 };
@@ -96,8 +96,8 @@ struct LinearDeltaGeometry {
       140;  ///< horizontal distance of the rod ends, tower side to effector side, at the centre
   double arm_length_mm = 333;
   std::array<double, 3> tower_angle_rad{210 * kRadPerDeg, 330 * kRadPerDeg, 90 * kRadPerDeg};
-  std::array<Interval, 3> travel_mm{{{0, 700}, {0, 700}, {0, 700}}};  ///< height of the upper rod end
-  PoseLimits limits{.z_mm = {-5, 330}, .radius_mm = 130};
+  std::array<Interval, 3> travel_mm{{{0, 600}, {0, 600}, {0, 600}}};  ///< height of the upper rod end
+  PoseLimits limits{.z_mm = {-5, 290}, .radius_mm = 140};
   double max_arm_angle_rad = 75 * kRadPerDeg;  ///< between an arm and its tower
   double bed_reference_mm = 20;
   friend bool operator==(const LinearDeltaGeometry&, const LinearDeltaGeometry&) = default;

@@ -4,8 +4,8 @@
 // Pose: where the tool tip is relative to the part, and the rotations. Two frames for X Y Z:
 //   Frame::kPart    q, in table coordinates: they turn with the table (tool-centre-point control, G43.4)
 //   Frame::kMachine m, along the axes of the machine frame {O}: XYZ do not follow A and C (G49)
-// Both have their zero at the table's centre (M1: platform point with the nozzle on it; the bed reference position),
-// and are the same at A = C = 0. M1: p = n - m = n - R_X(A) R_Z(C) q.
+// Both have their zero at the table's centre (M1: platform point with the nozzle on it; the bed reference
+// position), and are the same at A = C = 0. M1: p = n - m = n - R_X(A) R_Z(C) q.
 
 #include <array>
 #include <cstdint>
@@ -21,7 +21,8 @@ enum PoseAxis : std::uint8_t { kX, kY, kZ, kA, kC, kE };  ///< mm, mm, mm, rad, 
 inline constexpr int kPoseAxes = 6;
 inline constexpr int kMaxJoints = 8;
 using PoseVector = std::array<double, kPoseAxes>;
-using JointVector = std::array<double, kMaxJoints>;  ///< mm for linear, rad for rotary joints; unused entries 0
+using JointVector =
+    std::array<double, kMaxJoints>;  ///< mm for linear, rad for rotary joints; unused entries 0
 
 enum class Frame : std::uint8_t { kPart, kMachine };
 
@@ -38,26 +39,28 @@ struct JointPoint {
   JointVector q2{};
 };
 
-/// Why a pose cannot be taken. `joint`: which joint or leg, -1 where none; `amount`: by how much (mm, rad or ratio).
+/// Why a pose cannot be taken. `joint`: which joint or leg, -1 where none; `amount`: by how much (mm, rad or
+/// ratio).
 struct PoseError {
   enum class Kind : std::uint8_t {
-    kOutOfReach,      ///< amount: mm that the leg is too short
-    kJointLimit,      ///< amount: mm or rad outside the joint's travel
-    kLegAngle,        ///< amount: rad over the allowed lateral leg angle
-    kPoseLimit,       ///< joint: the PoseAxis; amount: mm or rad outside
-    kSingular,        ///< amount: condition number reached
-    kNoConvergence,   ///< forward kinematics; amount: residual, mm
+    kOutOfReach,     ///< amount: mm that the leg is too short
+    kJointLimit,     ///< amount: mm or rad outside the joint's travel
+    kLegAngle,       ///< amount: rad over the allowed lateral leg angle
+    kClearance,      ///< amount: rad too near to a rail (joint < 4 legs), or a leg to the platform
+    kPoseLimit,      ///< joint: the PoseAxis; amount: mm or rad outside
+    kSingular,       ///< amount: condition number reached
+    kNoConvergence,  ///< forward kinematics; amount: residual, mm
   };
   Kind kind{};
   int joint = -1;
   double amount = 0;
+  bool angular = false;  ///< kJointLimit, kPoseLimit: amount is rad, not mm
 };
-std::string to_string(const PoseError& error);
 
 struct JointInfo {
-  std::string name;        ///< "tower1", "C", "E"
-  bool rotary = false;     ///< rad instead of mm
-  double min = 0, max = 0; ///< travel; min == max: unlimited
+  std::string name;         ///< "tower1", "C", "E"
+  bool rotary = false;      ///< rad instead of mm
+  double min = 0, max = 0;  ///< travel; min == max: unlimited
 };
 
 class Kinematics {
@@ -73,7 +76,8 @@ class Kinematics {
 
   /// Joints and their first and second derivatives along a path: q1 = J x1, q2 = J x2 + J' x1 (both terms).
   /// Cost M1: <= 200 ns.
-  virtual Result<void, PoseError> inverse_along(Frame frame, const PosePoint& pose, JointPoint& joints) const = 0;
+  virtual Result<void, PoseError> inverse_along(Frame frame, const PosePoint& pose,
+                                                JointPoint& joints) const = 0;
 
   /// Jacobian dq/dx, row-major joint_count() x kPoseAxes. Cost M1 together with inverse: <= 150 ns.
   virtual Result<void, PoseError> jacobian(Frame frame, const PoseVector& pose, JointVector& joints,
@@ -89,9 +93,14 @@ class Kinematics {
   /// Condition number of the Jacobian of the machine's parallel part, rotations scaled as the machine states.
   virtual double condition(Frame frame, const PoseVector& pose) const = 0;
 
-  /// The joints' home switch positions' pose aside, where the machine waits before a job (M1: table centre under
-  /// the nozzle at the configured height).
+  /// The joints' home switch positions' pose aside, where the machine waits before a job (M1: table centre
+  /// under the nozzle at the configured height).
   virtual PoseVector bed_reference() const = 0;
 };
+
+/// In plain words with units: "tower3: the carriage would be 4.210 mm beyond its travel". Without the
+/// kinematics, joints are named by their number from 1.
+std::string to_string(const PoseError& error);
+std::string to_string(const PoseError& error, const Kinematics& kinematics);
 
 }  // namespace kinebus

@@ -1,0 +1,59 @@
+#pragma once
+// Checks that several kinematics share.
+
+#include <cmath>
+#include <optional>
+
+#include "gateway/kinematics/geometry.hpp"
+
+namespace kinebus {
+
+/// How far `value` is outside, > 0; 0: inside or not limited. Not a number is infinitely far outside.
+inline double outside(const Interval& interval, double value) {
+  // Rounding in q(forward(q)) must not turn a joint that stands on its limit into an error: 1 nm, 1 nrad.
+  constexpr double kSlack = 1e-6;
+  if (!std::isfinite(value)) return HUGE_VAL;
+  if (!interval.limited()) return 0;
+  const double d = value < interval.min ? interval.min - value : value - interval.max;
+  return d > kSlack ? d : 0;
+}
+
+inline std::optional<PoseError> outside_error(PoseError::Kind kind, int index, const Interval& interval,
+                                              double value, bool angular) {
+  const double by = outside(interval, value);
+  if (by > 0) return PoseError{kind, index, by, angular};
+  return std::nullopt;
+}
+
+/// `q`: table coordinates.
+inline std::optional<PoseError> check_pose_limits(const PoseLimits& limits, const Vector3& q, double a_rad,
+                                                  double c_rad) {
+  using Kind = PoseError::Kind;
+  if (auto e = outside_error(Kind::kPoseLimit, kX, limits.x_mm, q[0], false)) return e;
+  if (auto e = outside_error(Kind::kPoseLimit, kY, limits.y_mm, q[1], false)) return e;
+  if (auto e = outside_error(Kind::kPoseLimit, kZ, limits.z_mm, q[2], false)) return e;
+  if (auto e = outside_error(Kind::kPoseLimit, kA, limits.a_rad, a_rad, true)) return e;
+  if (auto e = outside_error(Kind::kPoseLimit, kC, limits.c_rad, c_rad, true)) return e;
+  if (limits.radius_mm > 0) {
+    const double radius = std::hypot(q[0], q[1]);
+    const int axis = std::abs(q[0]) >= std::abs(q[1]) ? kX : kY;
+    if (auto e = outside_error(Kind::kPoseLimit, axis, {0, limits.radius_mm}, radius, false)) return e;
+  }
+  return std::nullopt;
+}
+
+/// A machine without a table stands at A = C = 0 only.
+inline std::optional<PoseError> check_no_rotation(const PoseVector& pose) {
+  for (const PoseAxis axis : {kA, kC})
+    if (pose[axis] != 0) return PoseError{PoseError::Kind::kPoseLimit, axis, std::abs(pose[axis]), true};
+  return std::nullopt;
+}
+
+/// Condition number (largest over smallest singular value) of an n x n row-major matrix, n <= 4; infinite if
+/// singular.
+double condition_number(const double* matrix, int n);
+
+/// An upper bound of it that costs a determinant only (Guggenheimer, Edelman, Johnson 1995), 4 x 4.
+double condition_bound_4(const double* matrix);
+
+}  // namespace kinebus
