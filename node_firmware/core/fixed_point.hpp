@@ -1,0 +1,106 @@
+#pragma once
+// The fixed-point arithmetic of profiles made on the node. Integers only, no 128-bit type (the Cortex-M4 has
+// none), so that every platform gives the same bits.
+//
+//   position      counts, 32 fractional bits, |position| <= kPositionBound
+//   velocity      counts per tick, 56 fractional bits
+//   acceleration  counts per tick^2, 60 fractional bits (limits; a ramp itself has more)
+//   tick          1/16 us of local time
+
+#include <cstdint>
+
+#include "protocol/time.hpp"
+
+namespace kinebus {
+
+inline constexpr std::int64_t kOneCount = std::int64_t{1} << 32;
+/// 2^30 counts: half of what 32 bits hold, so that no difference of two positions leaves 64 bits.
+inline constexpr std::int64_t kPositionBound = std::int64_t{1} << 62;
+inline constexpr std::int64_t kTicksPerSecond = 16'000'000;
+/// 2^24 counts/s (13 m/s at 0.78125 um): keeps a velocity below 2^57.
+inline constexpr std::uint32_t kMaxCountsPerSecond = 1u << 24;
+
+using ProfileTicks = std::int64_t;
+
+/// Exact for the grid of both units: 1 ns = 2/125 ticks. Rounds down.
+constexpr ProfileTicks to_ticks(LocalTime t) {
+  const std::int64_t ns = t.count();
+  const std::int64_t whole = ns / 125;
+  const std::int64_t rest = ns % 125;
+  return whole * 2 + (rest * 2 - (rest < 0 ? 124 : 0)) / 125;
+}
+/// The first whole nanosecond that is not before `ticks`.
+constexpr LocalTime to_local(ProfileTicks ticks) {
+  return LocalTime{(ticks >> 1) * 125 + ((ticks & 1) != 0 ? 63 : 0)};
+}
+
+constexpr std::int64_t velocity_from(std::uint32_t counts_per_s) {
+  constexpr std::int64_t kPerTick = (std::int64_t{1} << 56) / kTicksPerSecond;
+  return static_cast<std::int64_t>(counts_per_s < kMaxCountsPerSecond ? counts_per_s : kMaxCountsPerSecond) *
+         kPerTick;
+}
+/// Rounds towards zero, at least 1.
+constexpr std::int64_t acceleration_from(std::uint32_t counts_per_s2) {
+  // 2^60 / (16e6)^2 = 4503.599627
+  const std::uint64_t a = static_cast<std::uint64_t>(counts_per_s2) * 4'503'599'627u / 1'000'000u;
+  return a == 0 ? 1 : static_cast<std::int64_t>(a);
+}
+/// Counts per second, rounded to nearest.
+constexpr std::int32_t counts_per_second(std::int64_t velocity) {
+  // 16e6 / 2^56: in two shifts, to stay within 64 bits.
+  const std::int64_t scaled = (velocity >> 24) * kTicksPerSecond;
+  return static_cast<std::int32_t>((scaled + (std::int64_t{1} << 31)) >> 32);
+}
+
+/// velocity * ticks as a distance with 32 fractional bits, rounded down. ticks >= 0.
+constexpr std::int64_t distance_of(std::int64_t velocity, ProfileTicks ticks) {
+  constexpr std::uint64_t kLow = (1u << 24) - 1;
+  const auto high = static_cast<std::uint64_t>(velocity >> 24);
+  const auto low = static_cast<std::uint64_t>(velocity) & kLow;
+  const auto t = static_cast<std::uint64_t>(ticks);
+  return static_cast<std::int64_t>(high * t + low * (t >> 24) + ((low * (t & kLow)) >> 24));
+}
+
+/// The velocity that covers `distance` (32 fractional bits, >= 0) in `ticks` (> 0); rounded down.
+constexpr std::int64_t velocity_over(std::uint64_t distance, ProfileTicks ticks) {
+  const auto divisor = static_cast<std::uint64_t>(ticks);
+  std::uint64_t quotient = distance / divisor;
+  std::uint64_t rest = distance % divisor;
+  for (int bit = 0; bit < 24; ++bit) {
+    quotient <<= 1;
+    rest <<= 1;
+    if (rest >= divisor) {
+      rest -= divisor;
+      ++quotient;
+    }
+  }
+  return static_cast<std::int64_t>(quotient);
+}
+
+/// Largest r with r*r <= value.
+constexpr std::uint64_t square_root(std::uint64_t value) {
+  std::uint64_t root = 0;
+  for (std::uint64_t bit = std::uint64_t{1} << 62; bit != 0; bit >>= 2) {
+    if (value >= root + bit) {
+      value -= root + bit;
+      root = (root >> 1) + bit;
+    } else {
+      root >>= 1;
+    }
+  }
+  return root;
+}
+
+constexpr std::int64_t divide_up(std::int64_t value, std::int64_t divisor) {
+  return (value + divisor - 1) / divisor;
+}
+
+/// Nearest whole count, as the 32-bit objects show a position.
+constexpr std::int32_t whole_counts(std::int64_t position) {
+  return static_cast<std::int32_t>((position + (kOneCount >> 1)) >> 32);
+}
+constexpr std::int64_t from_counts(std::int64_t counts) {
+  return counts * kOneCount;
+}
+
+}  // namespace kinebus

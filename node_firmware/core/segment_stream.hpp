@@ -1,0 +1,122 @@
+#pragma once
+// The streamed motion of a node: the queue of records, where its end will be, and where the axes are at a
+// path time. Records are checked when they come, by walking the exact state at the end of the queue along
+// with them, so a wrong record is refused before it can move anything. Evaluation is on demand and walks over
+// elapsed segments.
+
+#include <array>
+#include <cstdint>
+
+#include "protocol/motion/segment.hpp"
+#include "protocol/time.hpp"
+
+namespace kinebus {
+
+class SegmentStream {
+ public:
+  static constexpr int kCapacity = 120;
+  /// Checkpoints may run ahead of their record by so many: 128 sequence numbers less a full queue, less one.
+  static constexpr int kMaxAhead = kSequenceModulus - kCapacity - 1;
+
+  enum class Verdict : std::uint8_t {
+    kAccepted,
+    kDuplicate,        ///< the record accepted last came again: ignored
+    kSequence,         ///< a record is missing
+    kOverflow,         ///< more than the credit
+    kUnknown,          ///< control record of unknown kind
+    kLateStart,        ///< START names a path time that has passed, or one before the last END
+    kStartInMotion,    ///< START without an END before it
+    kNotStarted,       ///< a segment or END without START
+    kEndInMotion,      ///< END at a knot with velocity
+    kOutOfLimits,      ///< the segment would leave the velocity or position limits
+    kCheckpoint,       ///< an absolute checkpoint differs
+    kStaleCheckpoint,  ///< its record is executed already: it says nothing any more
+  };
+
+  /// Per axis. `velocity`: counts per unit, 32 fractional bits. Positions: 32 fractional bits.
+  struct Limits {
+    std::int64_t velocity = std::int64_t{1} << 40;
+    std::int64_t min_position = -(std::int64_t{1} << 62);
+    std::int64_t max_position = std::int64_t{1} << 62;
+  };
+
+  // Only while idle() (asserted by ignoring the call otherwise).
+  void set_limits(int axis, const Limits& limits);
+  void set_shift(int shift);
+  void set_rest_position(int axis, std::int64_t position);
+
+  /// A record from the bus; `now`: path time now. Only kAccepted changes the queue.
+  Verdict push(std::uint64_t raw, PathTime now);
+  /// A checkpoint from the bus: kAccepted (agrees, or waits for its record), kCheckpoint or kStaleCheckpoint.
+  /// A waiting one is compared by the push() of the record before its own, which then returns kCheckpoint.
+  Verdict check(std::uint64_t raw);
+  /// Everything queued is dropped; the axes rest where they are at `at`; sequence numbers start again at 0.
+  /// Only when path time stands still.
+  void clear(PathTime at);
+
+  /// Walks to `at` (never backwards). False: the queue ran out in motion, the axes were held at the last
+  /// knot.
+  bool advance_to(PathTime at);
+  /// At the path time of the last advance_to(), or, within the segment of that time, at a later one.
+  std::int64_t position(int axis) const { return position_[static_cast<std::size_t>(axis)]; }
+  std::int64_t velocity(int axis) const { return velocity_[static_cast<std::size_t>(axis)]; }
+
+  bool idle() const { return phase_ == Phase::kRest && size_ == 0; }
+  bool moving() const { return phase_ == Phase::kRunning && in_segment_; }
+  bool resting() const { return phase_ == Phase::kRest; }
+  /// Motion without END is queued: it must be followed by more before horizon().
+  bool open() const { return !tail_.resting; }
+  PathTime horizon() const { return PathTime{tail_.knot_units * kPathTicksPerUnit}; }
+  /// When the motion at the end of the queue begins or began.
+  PathTime tail_start() const { return PathTime{tail_.start_units * kPathTicksPerUnit}; }
+  const AxisState& tail_state(int axis) const { return tail_.axes[static_cast<std::size_t>(axis)]; }
+  std::uint8_t next_sequence() const { return next_sequence_; }
+  int free_records() const { return kCapacity - size_; }
+  int size() const { return size_; }
+  std::uint32_t consumed() const { return consumed_; }  ///< records executed since power-up
+  bool underrun() const { return phase_ == Phase::kUnderrun; }
+
+ private:
+  enum class Phase : std::uint8_t { kRest, kRunning, kUnderrun };
+  struct Tail {
+    std::array<AxisState, kAxesPerNode> axes{};
+    std::int64_t knot_units = 0;
+    std::int64_t start_units = 0;
+    bool resting = true;
+  };
+  struct Pending {
+    bool waiting = false;
+    Checkpoint checkpoint;
+  };
+
+  Verdict admit(const Segment& record, PathTime now, Tail& next) const;
+  bool pending_agree();
+  void put(std::uint64_t raw);
+  void pop();
+  Segment front() const;
+  bool step(std::int64_t ticks);
+  void evaluate(std::int64_t ticks);
+
+  std::array<std::uint64_t, kCapacity> records_{};
+  int head_ = 0;
+  int size_ = 0;
+  int shift_ = kDefaultAccelerationShift;
+  std::uint8_t next_sequence_ = 0;
+  bool any_accepted_ = false;
+  std::uint64_t last_raw_ = 0;
+  std::uint32_t consumed_ = 0;
+  Tail tail_;
+  std::array<Pending, kAxesPerNode> pending_{};
+  std::array<Limits, kAxesPerNode> limits_{};
+
+  // The executed end: exact state at the last knot, and the segment that follows it when there is one.
+  Phase phase_ = Phase::kRest;
+  std::array<AxisState, kAxesPerNode> knot_{};
+  std::int64_t knot_ticks_ = 0;
+  Segment current_;
+  bool in_segment_ = false;
+  std::array<std::int64_t, kAxesPerNode> position_{};
+  std::array<std::int64_t, kAxesPerNode> velocity_{};
+};
+
+}  // namespace kinebus
