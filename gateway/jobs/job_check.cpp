@@ -1,0 +1,98 @@
+#include "gateway/jobs/job_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace kinebus {
+namespace {
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+}  // namespace
+
+JobCheck::JobCheck(const MachineDescription& machine, const Kinematics& kinematics)
+    : JobCheck(machine, kinematics, Options{}) {}
+JobCheck::JobCheck(const MachineDescription& machine, const Kinematics& kinematics, Options options)
+    : machine_(machine),
+      kinematics_(kinematics),
+      options_(options),
+      hotend_celsius_(options.hotend_celsius) {}
+
+void JobCheck::add(Problem::Severity severity, std::uint32_t line, std::string words) {
+  problems_.add({severity, line, 0, std::move(words)});
+}
+
+void JobCheck::phase(const Phase& phase) {
+  const double from = phase.s0;
+  const double to = phase.s(phase.duration_s);
+  const PosePoint end = phase.piece.evaluate(to);
+  const double length = std::abs(to - from);
+  // What one unit of s moves: s is close to arc length, or the dominant axis' own unit.
+  const double mm = std::sqrt(end.x1[kX] * end.x1[kX] + end.x1[kY] * end.x1[kY] + end.x1[kZ] * end.x1[kZ]);
+  const double rad = std::max(std::abs(end.x1[kA]), std::abs(end.x1[kC]));
+  if (end.x1[kE] > 1e-9 && !cold_reported_) check_extrusion(phase);
+  since_mm_ += length * mm;
+  since_rad_ += length * rad;
+  if (since_mm_ < options_.pose_distance_mm && since_rad_ < options_.pose_distance_rad && !phase.last) return;
+  const double checks = std::max({1.0, std::ceil(length * mm / options_.pose_distance_mm),
+                                  std::ceil(length * rad / options_.pose_distance_rad)});
+  for (double i = 1; i <= checks; ++i) check_pose(phase, from + (to - from) * i / checks);
+  since_mm_ = since_rad_ = 0;
+}
+
+void JobCheck::check_pose(const Phase& phase, double s) {
+  const auto checked = kinematics_.check(phase.piece.frame, phase.piece.evaluate(s).x);
+  if (!checked && !bad_pose_) add(Problem::Severity::kError, phase.line, to_string(checked.error()));
+  bad_pose_ = !checked;
+}
+
+void JobCheck::check_extrusion(const Phase& phase) {
+  if (!machine_.thermal.hotend.present) return;
+  if (!hotend_celsius_) {
+    cold_reported_ = true;
+    add(Problem::Severity::kWarning, phase.line,
+        "filament is fed before the job has set a hotend temperature (M104)");
+  } else if (*hotend_celsius_ < machine_.thermal.min_extrude_c) {
+    cold_reported_ = true;
+    add(Problem::Severity::kError, phase.line,
+        "filament is fed with the hotend at " + number(*hotend_celsius_) + " C; at least " +
+            number(machine_.thermal.min_extrude_c) + " C is needed");
+  }
+}
+
+void JobCheck::command(const canonical::Line& line) {
+  if (const auto* thermal = std::get_if<canonical::Thermal>(&line.command))
+    check_thermal(*thermal, line.line);
+  if (std::holds_alternative<canonical::EmergencyStop>(line.command))
+    add(Problem::Severity::kWarning, line.line, "M112 stops the machine here");
+  if (std::holds_alternative<canonical::Settings>(line.command))
+    add(Problem::Severity::kWarning, line.line,
+        "settings are kept in the machine file: M500 to M503 do nothing in a job");
+}
+
+void JobCheck::check_thermal(const canonical::Thermal& thermal, std::uint32_t line) {
+  using What = canonical::Thermal::What;
+  if (thermal.what == What::kFan) return;
+  const bool hotend = thermal.what == What::kHotend;
+  const HeaterDescription& heater = hotend ? machine_.thermal.hotend : machine_.thermal.bed;
+  const char* const name = hotend ? "hotend" : "bed";
+  if (!heater.present && thermal.value > 0)
+    add(Problem::Severity::kError, line, std::string("this machine has no ") + name + " heater");
+  else if (thermal.value < 0 || thermal.value > heater.max_c)
+    add(Problem::Severity::kError, line,
+        std::string(name) + " temperature " + number(thermal.value) + " C; allowed are 0 to " +
+            number(heater.max_c) + " C");
+  else if (thermal.wait && thermal.wait_cooling && thermal.value < machine_.thermal.ambient_c &&
+           thermal.value > 0)
+    add(Problem::Severity::kError, line,
+        std::string(name) + " would wait forever: " + number(thermal.value) + " C is below the room's " +
+            number(machine_.thermal.ambient_c) + " C");
+  if (hotend && thermal.index == 0) hotend_celsius_ = thermal.value;
+}
+
+}  // namespace kinebus

@@ -1,0 +1,51 @@
+#pragma once
+// The rules that a job must keep, applied to what the pipeline gives out: poses along the path, temperatures,
+// commands out of place. Collects every problem with its line.
+
+#include <cstdint>
+#include <optional>
+
+#include "gateway/gcode/canonical.hpp"
+#include "gateway/jobs/problem.hpp"
+#include "gateway/machine/description/machine_description.hpp"
+#include "gateway/motion/trajectory.hpp"
+
+namespace kinebus {
+
+class JobCheck {
+ public:
+  struct Options {
+    /// Along the path a pose is checked at least this often. The workspace's borders are smooth: between two
+    /// good poses 1 mm apart the path leaves it by less than 2 um (radius of curvature >= 100 mm).
+    double pose_distance_mm = 1;
+    double pose_distance_rad = 0.01;
+    /// Hotend target when the job begins; nullopt: not known.
+    std::optional<double> hotend_celsius;
+  };
+
+  JobCheck(const MachineDescription& machine, const Kinematics& kinematics);
+  JobCheck(const MachineDescription& machine, const Kinematics& kinematics, Options options);
+
+  void phase(const Phase& phase);
+  void command(const canonical::Line& line);
+  void problem(Problem problem) { problems_.add(std::move(problem)); }
+
+  const ProblemList& problems() const { return problems_; }
+
+ private:
+  void check_pose(const Phase& phase, double s);
+  void check_extrusion(const Phase& phase);
+  void check_thermal(const canonical::Thermal& thermal, std::uint32_t line);
+  void add(Problem::Severity severity, std::uint32_t line, std::string words);
+
+  const MachineDescription& machine_;
+  const Kinematics& kinematics_;
+  Options options_;
+  ProblemList problems_;
+  bool bad_pose_ = false;                    ///< the last pose checked was bad: one report for each way out
+  double since_mm_ = 1e9, since_rad_ = 1e9;  ///< travelled since the last check
+  std::optional<double> hotend_celsius_;
+  bool cold_reported_ = false;
+};
+
+}  // namespace kinebus

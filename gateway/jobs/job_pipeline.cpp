@@ -1,0 +1,271 @@
+#include "gateway/jobs/job_pipeline.hpp"
+
+#include <cstring>
+#include <utility>
+
+#include "gateway/jobs/machine_setup.hpp"
+
+namespace kinebus {
+namespace {
+
+using namespace canonical;
+
+constexpr std::size_t kTextBytes = 16'384;
+
+template <typename... Ts>
+bool is_any(const Command& command) {
+  return (std::holds_alternative<Ts>(command) || ...);
+}
+
+/// For which motion must have come to rest.
+bool is_barrier(const Command& command, bool optional_stop) {
+  if (const auto* thermal = std::get_if<Thermal>(&command)) return thermal->wait;
+  if (const auto* pause = std::get_if<Pause>(&command)) return !pause->optional || optional_stop;
+  return is_any<Dwell, Home, MotorsOff, MotorsOn, WaitIdle>(command);
+}
+
+/// Values that are stated (not 0) take the place of the ones before.
+void merge(Limits& all, const Limits& more) {
+  const auto take = [](double& old, double value) {
+    if (value != 0) old = value;
+  };
+  for (std::size_t i = 0; i < 6; ++i) {
+    take(all.axis_speed_per_s[i], more.axis_speed_per_s[i]);
+    take(all.axis_accel_per_s2[i], more.axis_accel_per_s2[i]);
+  }
+  take(all.print_accel_mm_per_s2, more.print_accel_mm_per_s2);
+  take(all.travel_accel_mm_per_s2, more.travel_accel_mm_per_s2);
+  take(all.retract_accel_mm_per_s2, more.retract_accel_mm_per_s2);
+}
+
+/// Target of a motion command.
+std::optional<SetPosition> target_of(const Command& command) {
+  if (const auto* m = std::get_if<Traverse>(&command)) return SetPosition{m->target, m->frame};
+  if (const auto* m = std::get_if<Feed>(&command)) return SetPosition{m->target, m->frame};
+  if (const auto* m = std::get_if<Arc>(&command)) return SetPosition{m->target, m->frame};
+  if (const auto* m = std::get_if<SetPosition>(&command)) return *m;
+  return std::nullopt;
+}
+
+kinebus::Frame frame_of(canonical::Frame frame) {
+  return frame == canonical::Frame::kPart ? kinebus::Frame::kPart : kinebus::Frame::kMachine;
+}
+
+}  // namespace
+
+JobPipeline::JobPipeline(const MachineDescription& machine, const Kinematics& kinematics)
+    : machine_(machine),
+      kinematics_(kinematics),
+      planner_(kinematics, motion_limits(machine)),
+      text_(kTextBytes) {}
+
+void JobPipeline::begin(const PoseVector& start) {
+  planner_.reset(start, kinebus::Frame::kMachine);
+  commands_.clear();
+  next_command_ = 0;
+  first_.clear();
+  events_.clear();
+  path_mode_.reset();
+  limits_ = {};
+  stage_ = Stage::kFeeding;
+  in_run_ = ends_ = phase_waits_ = false;
+  barrier_.reset();
+  refused_.reset();
+  run_s_ = event_s_ = 0;
+  lines_ = 0;
+  bytes_ = 0;
+  text_at_ = text_end_ = 0;
+}
+
+void JobPipeline::start_job(ByteSource& source, const PoseVector& start) {
+  begin(start);
+  const PoseVector home = kinematics_.bed_reference();
+  interpreter_ = std::make_unique<gcode::Interpreter>(interpreter_options(machine_, start, home));
+  reader_ = std::make_unique<gcode::JobReader>(*interpreter_);
+  source_ = &source;
+  text_done_ = false;
+}
+
+void JobPipeline::start_commands(std::vector<canonical::Line> commands, const PoseVector& start) {
+  begin(start);
+  commands_ = std::move(commands);
+  source_ = nullptr;
+  text_done_ = true;
+}
+
+void JobPipeline::refuse(std::uint32_t line, std::uint32_t column, std::string words) {
+  refused_ = Problem{Problem::Severity::kError, line, column, std::move(words)};
+}
+
+JobPipeline::Step JobPipeline::next(int& budget) {
+  for (;;) {
+    if (refused_) {
+      problem_ = std::move(*refused_);
+      refused_.reset();
+      return Step::kProblem;
+    }
+    if (phase_waits_ || stage_ == Stage::kDraining || (stage_ == Stage::kFeeding && !planner_.wants_more())) {
+      if (const auto step = take_phase()) return *step;
+      if (stage_ == Stage::kDraining) stage_ = Stage::kSettled;
+    }
+    if (stage_ == Stage::kSettled) {
+      if (const auto step = settle()) return *step;
+      continue;
+    }
+    if (stage_ == Stage::kEnded) return Step::kEnd;
+    if (!first_.empty()) {
+      const canonical::Line line = std::move(first_.front());
+      first_.pop_front();
+      take(line);
+    } else if (next_command_ < commands_.size()) {
+      take(commands_[next_command_++]);
+    } else if (text_done_) {
+      ends_ = true;
+      drain(std::nullopt);
+    } else {
+      if (budget <= 0) return Step::kMore;
+      read_text(budget);
+    }
+  }
+}
+
+/// The next phase, or an event that falls due before it.
+std::optional<JobPipeline::Step> JobPipeline::take_phase() {
+  if (!phase_waits_) phase_waits_ = planner_.next(phase_);
+  if (!phase_waits_) return std::nullopt;
+  if (!in_run_) run_s_ = 0;
+  in_run_ = true;
+  if (!events_.empty() && events_.front().line < phase_.line) {
+    command_ = std::move(events_.front());
+    events_.pop_front();
+    event_s_ = run_s_;
+    return Step::kEvent;
+  }
+  phase_waits_ = false;
+  run_s_ += phase_.duration_s;
+  return Step::kPhase;
+}
+
+/// After the last phase: the events left, the run's end, the barrier, the job's end.
+std::optional<JobPipeline::Step> JobPipeline::settle() {
+  if (!events_.empty()) {
+    command_ = std::move(events_.front());
+    events_.pop_front();
+    event_s_ = in_run_ ? run_s_ : 0;
+    return Step::kEvent;
+  }
+  if (in_run_) {
+    in_run_ = false;
+    return Step::kRunEnd;
+  }
+  if (barrier_) {
+    command_ = std::move(*barrier_);
+    barrier_.reset();
+    stage_ = Stage::kFeeding;
+    if (const auto* h = std::get_if<Home>(&command_.command)) {
+      home(Home(*h), command_.line);
+      return std::nullopt;
+    }
+    return Step::kBarrier;
+  }
+  stage_ = ends_ ? Stage::kEnded : Stage::kFeeding;
+  return std::nullopt;
+}
+
+void JobPipeline::read_text(int& budget) {
+  commands_.clear();
+  next_command_ = 0;
+  char* const begin = text_.data();
+  const char* end_of_line =
+      static_cast<const char*>(std::memchr(begin + text_at_, '\n', text_end_ - text_at_));
+  Result<void, gcode::ParseError> read{};
+  if (end_of_line) {
+    const auto length = static_cast<std::size_t>(end_of_line + 1 - begin) - text_at_;
+    read = reader_->read({begin + text_at_, length}, commands_);
+    text_at_ += length;
+    bytes_ += length;
+  } else {
+    // The front of a line whose end is not here yet: the reader keeps it.
+    const std::size_t length = text_end_ - text_at_;
+    if (length > 0) read = reader_->read({begin + text_at_, length}, commands_);
+    bytes_ += length;
+    text_at_ = 0;
+    text_end_ = source_->read(text_);
+    if (text_end_ == 0 && read) {
+      text_done_ = true;
+      read = reader_->finish(commands_);
+    }
+  }
+  lines_ = reader_->lines();
+  --budget;
+  if (!read) {
+    refuse(read.error().line, read.error().column, read.error().message);
+    reader_->skip_refused();
+  }
+}
+
+void JobPipeline::take(const canonical::Line& line) {
+  const Command& command = line.command;
+  if (is_any<Feed, Traverse, Arc, SetPosition>(command)) return take_motion(line);
+  if (const auto* mode = std::get_if<PathMode>(&command)) path_mode_ = *mode;
+  if (const auto* limits = std::get_if<Limits>(&command)) merge(limits_, *limits);
+  if (is_any<PathMode, Limits>(command)) return add_to_planner(line);
+  if (std::holds_alternative<End>(command)) {
+    ends_ = true;
+    return drain(std::nullopt);
+  }
+  if (std::holds_alternative<StoredJob>(command))
+    return refuse(line.line, 0, "a job cannot manage stored jobs: M20 to M32 belong to a session");
+  if (is_barrier(command, machine_.gcode.optional_stop)) return drain(line);
+  if (std::holds_alternative<Pause>(command)) return;
+  events_.push_back(line);
+}
+
+void JobPipeline::take_motion(const canonical::Line& line) {
+  if (feed_scale_ == 1 || !is_any<Feed, Arc>(line.command)) return add_to_planner(line);
+  canonical::Line scaled = line;
+  const auto scale = [this](auto& move) {
+    move.feed_per_s *= feed_scale_;
+    move.inverse_time_s /= feed_scale_;
+  };
+  if (auto* feed = std::get_if<Feed>(&scaled.command)) scale(*feed);
+  if (auto* arc = std::get_if<Arc>(&scaled.command)) scale(*arc);
+  add_to_planner(scaled);
+}
+
+void JobPipeline::add_to_planner(const canonical::Line& line) {
+  const auto added = planner_.add(line);
+  if (added) return;
+  refuse(added.error().line, 0, to_string(added.error()));
+  // The planner refuses everything now. It goes on behind the refused move, so that later problems are seen
+  // too.
+  if (const auto target = target_of(line.command))
+    planner_.reset(target->pose, frame_of(target->frame));
+  else
+    planner_.reset(planner_.end_pose(), planner_.end_frame());
+  if (path_mode_) static_cast<void>(planner_.add({line.line, *path_mode_}));
+  static_cast<void>(planner_.add({line.line, limits_}));
+}
+
+void JobPipeline::drain(std::optional<canonical::Line> barrier) {
+  barrier_ = std::move(barrier);
+  stage_ = Stage::kDraining;
+  if (const auto finished = planner_.finish(); !finished)
+    refuse(finished.error().line, 0, to_string(finished.error()));
+}
+
+/// G28 while positions are known: the machine goes where homing would leave it.
+void JobPipeline::home(const Home& home, std::uint32_t line) {
+  const kinebus::Frame frame = frame_of(home.frame);
+  if (planner_.end_frame() != frame) {
+    const auto pose = convert_pose(kinematics_, planner_.end_frame(), planner_.end_pose(), frame);
+    if (!pose) return refuse(line, 0, "G28: " + to_string(pose.error()));
+    first_.push_back({line, SetPosition{*pose, home.frame}});
+  }
+  Pose target = home.afterwards;
+  target[kE] = planner_.end_pose()[kE];
+  first_.push_back({line, Traverse{target, home.frame}});
+  first_.push_back({line, WaitIdle{}});
+}
+
+}  // namespace kinebus

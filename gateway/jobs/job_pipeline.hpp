@@ -1,0 +1,111 @@
+#pragma once
+// text -> interpreter -> planner -> phases, step by step, with the commands that are no motion in between,
+// each at its place on the path. Memory does not grow with the job.
+//
+// A job is a chain of runs. A run is motion from rest to rest; between two runs stand the commands for which
+// motion must have come to rest (barriers: dwell, waits, pauses). Commands that need no rest (M104, M106,
+// messages) are events: they name the path time of their run at which they fall due, and motion goes on.
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "gateway/gcode/interpreter.hpp"
+#include "gateway/gcode/job_reader.hpp"
+#include "gateway/jobs/byte_source.hpp"
+#include "gateway/jobs/problem.hpp"
+#include "gateway/machine/description/machine_description.hpp"
+#include "gateway/motion/planner.hpp"
+
+namespace kinebus {
+
+class JobPipeline {
+ public:
+  enum class Step : std::uint8_t {
+    kPhase,    ///< phase() is the next piece of motion of this run
+    kEvent,    ///< command() falls due at event_s() of the run; motion goes on
+    kRunEnd,   ///< all phases of the run were given out (only after at least one); it ends at rest
+    kBarrier,  ///< command() is to be carried out at rest, before the next step is asked for
+    kEnd,      ///< the job is over
+    kProblem,  ///< problem(): a line is refused. The next step goes on with the line after it.
+    kMore,     ///< the budget is used up: call again
+  };
+
+  JobPipeline(const MachineDescription& machine, const Kinematics& kinematics);
+
+  /// A job's text. The machine stands at `start` (Frame::kMachine). `source` must outlive the job and be at
+  /// its beginning.
+  void start_job(ByteSource& source, const PoseVector& start);
+  /// Motion put in by hand (jog, reference): the commands, then the end.
+  void start_commands(std::vector<canonical::Line> commands, const PoseVector& start);
+
+  /// Does work worth at most about `budget` lines (and takes the lines done off it).
+  Step next(int& budget);
+
+  const Phase& phase() const { return phase_; }
+  const canonical::Line& command() const { return command_; }
+  double event_s() const { return event_s_; }
+  const Problem& problem() const { return problem_; }
+
+  /// Motion ends of the phases given out, s of the present run.
+  double run_s() const { return run_s_; }
+  std::uint32_t lines() const { return lines_; }  ///< lines read so far
+  std::uint64_t bytes() const { return bytes_; }  ///< bytes read so far
+  const Planner& planner() const { return planner_; }
+  /// Feed override above 1, for motion that is not planned yet. 1 and below is a matter of path time, not of
+  /// planning.
+  void set_feed_scale(double scale) { feed_scale_ = scale; }
+
+ private:
+  enum class Stage : std::uint8_t {
+    kFeeding,   ///< commands go into the planner
+    kDraining,  ///< a barrier or the end was met: the planner gives out what it holds
+    kSettled,   ///< nothing is left in the planner: events, the run's end, the barrier
+    kEnded,
+  };
+
+  void begin(const PoseVector& start);
+  void refuse(std::uint32_t line, std::uint32_t column, std::string words);
+  std::optional<Step> take_phase();
+  std::optional<Step> settle();
+  void read_text(int& budget);
+  void take(const canonical::Line& line);
+  void take_motion(const canonical::Line& line);
+  void add_to_planner(const canonical::Line& line);
+  void drain(std::optional<canonical::Line> barrier);
+  void home(const canonical::Home& home, std::uint32_t line);
+
+  const MachineDescription& machine_;
+  const Kinematics& kinematics_;
+  Planner planner_;
+  std::unique_ptr<gcode::Interpreter> interpreter_;
+  std::unique_ptr<gcode::JobReader> reader_;
+  ByteSource* source_ = nullptr;
+  std::vector<char> text_;  ///< read, not yet interpreted: from text_at_ to text_end_
+  std::size_t text_at_ = 0, text_end_ = 0;
+
+  gcode::CommandBuffer commands_;  ///< interpreted, not yet taken: from next_command_ on
+  std::size_t next_command_ = 0;
+  std::deque<canonical::Line> first_;             ///< go before commands_ (G28)
+  std::deque<canonical::Line> events_;            ///< wait for the motion of a later line
+  std::optional<canonical::PathMode> path_mode_;  ///< in force: the planner forgets it at reset
+  canonical::Limits limits_{};                    ///< the same
+
+  Stage stage_ = Stage::kEnded;
+  bool in_run_ = false;       ///< phases of this run were given out
+  bool text_done_ = true;     ///< nothing more to read
+  bool ends_ = false;         ///< draining towards the job's end
+  bool phase_waits_ = false;  ///< phase_ was pulled; events due before it go first
+  std::optional<canonical::Line> barrier_;
+  std::optional<Problem> refused_;  ///< waits to be given out
+  Phase phase_{};
+  canonical::Line command_;
+  double event_s_ = 0, run_s_ = 0, feed_scale_ = 1;
+  Problem problem_;
+  std::uint32_t lines_ = 0;
+  std::uint64_t bytes_ = 0;
+};
+
+}  // namespace kinebus

@@ -1,0 +1,83 @@
+#include "gateway/jobs/machine_setup.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kinebus {
+
+MotionLimits motion_limits(const MachineDescription& machine) {
+  MotionLimits limits;
+  limits.tool_speed_mm_per_s = machine.path.tool_speed_mm_per_s;
+  limits.tool_accel_mm_per_s2 = machine.path.tool_accel_mm_per_s2;
+  const auto limit = [](double value) { return value > 0 ? value : kUnlimited; };
+  for (std::size_t axis = 0; axis < kPoseAxes; ++axis) {
+    limits.axis_speed_per_s[axis] = limit(machine.path.axis_speed_per_s[axis]);
+    limits.axis_accel_per_s2[axis] = limit(machine.path.axis_accel_per_s2[axis]);
+  }
+  limits.joint_speed_per_s.fill(kUnlimited);
+  limits.joint_accel_per_s2.fill(kUnlimited);
+  for (std::size_t joint = 0; joint < machine.joints.size() && joint < kMaxJoints; ++joint) {
+    limits.joint_speed_per_s[joint] = limit(machine.joints[joint].speed_per_s);
+    limits.joint_accel_per_s2[joint] = limit(machine.joints[joint].accel_per_s2);
+  }
+  limits.blend_tolerance_mm = machine.tolerances.blend_mm;
+  return limits;
+}
+
+gcode::Options interpreter_options(const MachineDescription& machine, const PoseVector& start,
+                                   const PoseVector& home) {
+  gcode::Options options;
+  options.start = start;
+  options.home = home;
+  options.default_feed_mm_per_s = machine.gcode.initial_feed_mm_per_min / 60;
+  options.block_delete = machine.gcode.block_delete;
+  options.arc_radius_tolerance_mm = machine.gcode.arc_radius_tolerance_mm;
+  options.retract_length_mm = machine.gcode.retract_mm;
+  options.retract_mm_per_s = options.recover_mm_per_s = machine.gcode.retract_mm_per_s;
+  options.retract_lift_mm = machine.gcode.retract_lift_mm;
+  if (const auto* m1 = std::get_if<M1Geometry>(&machine.kinematics)) {
+    options.a_min_rad = m1->limits.a_rad.min;
+    options.a_max_rad = m1->limits.a_rad.max;
+  }
+  return options;
+}
+
+std::vector<NodeAxes> node_axes(const MachineDescription& machine) {
+  std::vector<NodeAxes> nodes;
+  for (const NodeDescription& node : machine.nodes) nodes.push_back({.node_id = node.id, .axes = {}});
+  std::sort(nodes.begin(), nodes.end(), [](const auto& a, const auto& b) { return a.node_id < b.node_id; });
+  for (std::size_t joint = 0; joint < machine.joints.size(); ++joint) {
+    const JointDescription& j = machine.joints[joint];
+    for (NodeAxes& node : nodes) {
+      if (node.node_id != j.node_id) continue;
+      node.axes[j.axis & 1u] = {.joint = static_cast<int>(joint),
+                                .counts_per_unit = std::abs(j.drive.counts_per_unit()),
+                                .reversed = j.drive.inverted,
+                                .scale_correction = j.calibration.scale,
+                                .offset = 0,
+                                .tolerance_counts = machine.tolerances.segment_counts,
+                                .acceleration_limit = j.accel_per_s2};
+    }
+  }
+  return nodes;
+}
+
+StreamGroup::Options stream_options(const MachineDescription& machine) {
+  StreamGroup::Options options;
+  options.budget.share = machine.bus.budget;
+  return options;
+}
+
+Result<PoseVector, PoseError> convert_pose(const Kinematics& kinematics, Frame from, const PoseVector& pose,
+                                           Frame to) {
+  if (from == to) return pose;
+  JointVector joints{};
+  if (const auto reached = kinematics.inverse(from, pose, joints); !reached)
+    return Error<PoseError>(reached.error());
+  PoseVector converted = pose;
+  if (const auto found = kinematics.forward(to, joints, converted); !found)
+    return Error<PoseError>(found.error());
+  return converted;
+}
+
+}  // namespace kinebus

@@ -1,0 +1,30 @@
+#pragma once
+// What the machine description means for each core that a job passes through.
+
+#include <vector>
+
+#include "gateway/gcode/interpreter.hpp"
+#include "gateway/machine/description/machine_description.hpp"
+#include "gateway/motion/motion_limits.hpp"
+#include "gateway/stream/axis_scaling.hpp"
+#include "gateway/stream/stream_group.hpp"
+
+namespace kinebus {
+
+MotionLimits motion_limits(const MachineDescription& machine);
+
+/// `start`: where the machine stands when the job begins, `home`: after G28; both Frame::kMachine.
+gcode::Options interpreter_options(const MachineDescription& machine, const PoseVector& start,
+                                   const PoseVector& home);
+
+/// Nodes in ascending order of their ids; an axis that no joint names has joint -1. Counts are 0 where the
+/// joint value is 0.
+std::vector<NodeAxes> node_axes(const MachineDescription& machine);
+
+StreamGroup::Options stream_options(const MachineDescription& machine);
+
+/// The same place in the other frame, by way of the joints.
+Result<PoseVector, PoseError> convert_pose(const Kinematics& kinematics, Frame from, const PoseVector& pose,
+                                           Frame to);
+
+}  // namespace kinebus

@@ -1,0 +1,51 @@
+#include "gateway/jobs/preflight.hpp"
+
+namespace kinebus {
+
+void count_command(const canonical::Command& command, JobReport& report) {
+  if (const auto* dwell = std::get_if<canonical::Dwell>(&command)) report.dwell_s += dwell->seconds;
+  if (std::holds_alternative<canonical::Pause>(command)) ++report.pauses;
+  if (const auto* thermal = std::get_if<canonical::Thermal>(&command))
+    report.heat_waits += thermal->wait ? 1 : 0;
+}
+
+Preflight::Preflight(const MachineDescription& machine, const Kinematics& kinematics, ByteSource& source,
+                     const PoseVector& start)
+    : Preflight(machine, kinematics, source, start, JobCheck::Options{}) {}
+
+Preflight::Preflight(const MachineDescription& machine, const Kinematics& kinematics, ByteSource& source,
+                     const PoseVector& start, JobCheck::Options options)
+    : pipeline_(machine, kinematics), check_(machine, kinematics, options) {
+  pipeline_.start_job(source, start);
+}
+
+bool Preflight::step(int lines) {
+  using Step = JobPipeline::Step;
+  for (;;) {
+    switch (pipeline_.next(lines)) {
+      case Step::kPhase:
+        report_.motion_s += pipeline_.phase().duration_s;
+        check_.phase(pipeline_.phase());
+        break;
+      case Step::kEvent:
+      case Step::kBarrier:
+        check_.command(pipeline_.command());
+        count_command(pipeline_.command().command, report_);
+        break;
+      case Step::kRunEnd:
+        ++report_.runs;
+        break;
+      case Step::kProblem:
+        check_.problem(pipeline_.problem());
+        break;
+      case Step::kMore:
+        return false;
+      case Step::kEnd:
+        report_.lines = pipeline_.lines();
+        report_.moves = pipeline_.planner().counters().moves;
+        return true;
+    }
+  }
+}
+
+}  // namespace kinebus

@@ -1,0 +1,48 @@
+#pragma once
+// A whole job checked before anything moves or heats: the same pipeline that will run it, with its phases
+// checked instead of streamed. One pass, bounded memory.
+
+#include <cstdint>
+
+#include "gateway/jobs/byte_source.hpp"
+#include "gateway/jobs/job_check.hpp"
+#include "gateway/jobs/job_pipeline.hpp"
+
+namespace kinebus {
+
+/// What is known of a job after its pre-flight.
+struct JobReport {
+  std::uint32_t lines = 0;
+  std::uint64_t moves = 0;   ///< motion commands with a length
+  double motion_s = 0;       ///< time in motion at 100 %
+  double dwell_s = 0;        ///< stated waits (G4)
+  std::uint32_t runs = 0;    ///< stretches of motion from rest to rest
+  std::uint32_t pauses = 0;  ///< M0, M1
+  std::uint32_t heat_waits = 0;
+};
+
+/// Takes what a command adds to the report.
+void count_command(const canonical::Command& command, JobReport& report);
+
+class Preflight {
+ public:
+  /// `source` at its beginning; must outlive this. The job starts at `start`, Frame::kMachine.
+  Preflight(const MachineDescription& machine, const Kinematics& kinematics, ByteSource& source,
+            const PoseVector& start, JobCheck::Options options);
+  Preflight(const MachineDescription& machine, const Kinematics& kinematics, ByteSource& source,
+            const PoseVector& start);
+
+  /// Works on about `lines` lines. True: done.
+  bool step(int lines);
+
+  const JobReport& report() const { return report_; }
+  const ProblemList& problems() const { return check_.problems(); }
+  std::uint64_t bytes() const { return pipeline_.bytes(); }
+
+ private:
+  JobPipeline pipeline_;
+  JobCheck check_;
+  JobReport report_;
+};
+
+}  // namespace kinebus
