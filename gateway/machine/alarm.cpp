@@ -12,7 +12,8 @@ struct EmergencyRow {
   const char* advice;
 };
 constexpr std::array kEmergencies{
-    EmergencyRow{0x2310, "over-current in a motor phase", "check the motor and its cable for a short, then clear"},
+    EmergencyRow{0x2310, "over-current in a motor phase",
+                 "check the motor and its cable for a short, then clear"},
     EmergencyRow{0x2320, "a motor phase is shorted", "switch off, check the motor and its cable"},
     EmergencyRow{0x3210, "supply voltage too high", "check the power supply"},
     EmergencyRow{0x3220, "supply voltage too low", "check the power supply and its wiring"},
@@ -25,7 +26,8 @@ constexpr std::array kEmergencies{
     EmergencyRow{0x7305, "encoder fault", "check the encoder's cable"},
     EmergencyRow{0x8110, "CAN frames were lost (overrun)", "check the load of the bus"},
     EmergencyRow{0x8120, "many CAN errors", "check cable and termination of the bus"},
-    EmergencyRow{0x8130, "the gateway's heartbeat or SYNC was missed", "check the gateway and the bus, then clear"},
+    EmergencyRow{0x8130, "the gateway's heartbeat or SYNC was missed",
+                 "check the gateway and the bus, then clear"},
     EmergencyRow{0x8140, "recovered from bus-off", "check cable and termination of the bus"},
     EmergencyRow{0x8150, "two nodes use the same id", "give one of them another id (LSS)"},
     EmergencyRow{0x8250, "an expected PDO did not arrive", "check the load of the bus"},
@@ -65,24 +67,42 @@ AlarmText describe_emergency(std::uint8_t node, std::uint16_t error_code, std::u
 
 std::string_view advice_for(AlarmCode code) {
   switch (code) {
-    case AlarmCode::kNodeMissing: return "check the node's power and the bus cable, then bring up again";
-    case AlarmCode::kWrongIdentity: return "connect the right node or update its firmware";
-    case AlarmCode::kConfiguration: return "check the machine file against the node's limits";
-    case AlarmCode::kEnableFailed: return "look at the drive's fault, clear, then bring up again";
-    case AlarmCode::kSecondGateway: return "switch one of the gateways off";
-    case AlarmCode::kHeartbeatLost: return "check the node's power and the bus cable, then clear and bring up again";
-    case AlarmCode::kNodeRestarted: return "check the node's power, then clear, bring up and home again";
-    case AlarmCode::kSyncError: return "check the bus for errors, then clear";
-    case AlarmCode::kHomingFailed: return "check switch and wiring, then clear and home again";
-    case AlarmCode::kHomingSpread: return "check the switches of the carriages that went on, then clear and home again";
-    case AlarmCode::kHomingTimeout: return "check switches and home speeds, then clear and home again";
-    case AlarmCode::kStreamLost: return "clear: positions are known, the job can be run again";
-    case AlarmCode::kPathTimeDiffers: return "clear; when it comes again, check the bus for lost frames";
-    case AlarmCode::kBusFailure: return "check cable and termination of the bus, then clear and bring up again";
-    case AlarmCode::kThermal: return "check heater and sensor, then clear";
-    case AlarmCode::kJobError: return "correct the job, then clear";
-    case AlarmCode::kEmergencyStop: return "clear when the machine is safe";
-    case AlarmCode::kStopTimeout: return "switch the machine off and on, home again";
+    case AlarmCode::kNodeMissing:
+      return "check the node's power and the bus cable, then bring up again";
+    case AlarmCode::kWrongIdentity:
+      return "connect the right node or update its firmware";
+    case AlarmCode::kConfiguration:
+      return "check the machine file against the node's limits";
+    case AlarmCode::kEnableFailed:
+      return "look at the drive's fault, clear, then bring up again";
+    case AlarmCode::kSecondGateway:
+      return "switch one of the gateways off";
+    case AlarmCode::kHeartbeatLost:
+      return "check the node's power and the bus cable, then clear and bring up again";
+    case AlarmCode::kNodeRestarted:
+      return "check the node's power, then clear, bring up and home again";
+    case AlarmCode::kSyncError:
+      return "check the bus for errors, then clear";
+    case AlarmCode::kHomingFailed:
+      return "check switch and wiring, then clear and home again";
+    case AlarmCode::kHomingSpread:
+      return "check the switches of the carriages that went on, then clear and home again";
+    case AlarmCode::kHomingTimeout:
+      return "check switches and home speeds, then clear and home again";
+    case AlarmCode::kStreamLost:
+      return "clear: positions are known, the job can be run again";
+    case AlarmCode::kPathTimeDiffers:
+      return "clear; when it comes again, check the bus for lost frames";
+    case AlarmCode::kBusFailure:
+      return "check cable and termination of the bus, then clear and bring up again";
+    case AlarmCode::kThermal:
+      return "check heater and sensor, then clear";
+    case AlarmCode::kJobError:
+      return "correct the job, then clear";
+    case AlarmCode::kEmergencyStop:
+      return "clear when the machine is safe";
+    case AlarmCode::kStopTimeout:
+      return "switch the machine off and on, home again";
   }
   return "clear";
 }

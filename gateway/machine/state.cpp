@@ -8,7 +8,9 @@ namespace {
 using S = MachineState;
 using C = MachineCommand;
 
-constexpr std::uint32_t bit(S s) { return 1u << static_cast<unsigned>(s); }
+constexpr std::uint32_t bit(S s) {
+  return 1u << static_cast<unsigned>(s);
+}
 template <typename... States>
 constexpr std::uint32_t set(States... states) {
   return (0u | ... | bit(states));
@@ -48,7 +50,8 @@ constexpr std::array<StateRule, kMachineStates> kStates{{
     {S::kBringUp, "bring-up", set(S::kOff, S::kStopped, S::kAlarm)},
     {S::kUnhomed, "not homed", set(S::kBringUp, S::kHoming, S::kStopped, S::kAlarm)},
     {S::kHoming, "homing", set(S::kUnhomed, S::kReady)},
-    {S::kReady, "ready", set(S::kHoming, S::kMoving, S::kChecking, S::kRunning, S::kCancelling, S::kStopped, S::kAlarm)},
+    {S::kReady, "ready",
+     set(S::kHoming, S::kMoving, S::kChecking, S::kRunning, S::kCancelling, S::kStopped, S::kAlarm)},
     {S::kMoving, "moving", set(S::kReady, S::kHeld, S::kHolding, S::kHoming)},
     {S::kChecking, "checking the job", set(S::kReady)},
     {S::kRunning, "running", set(S::kChecking, S::kHeld, S::kHolding)},
@@ -71,8 +74,12 @@ static_assert(tables_are_in_order());
 
 }  // namespace
 
-std::string_view to_string(MachineState state) { return kStates[static_cast<std::size_t>(state)].name; }
-std::string_view to_string(MachineCommand command) { return kCommands[static_cast<std::size_t>(command)].name; }
+std::string_view to_string(MachineState state) {
+  return kStates[static_cast<std::size_t>(state)].name;
+}
+std::string_view to_string(MachineCommand command) {
+  return kCommands[static_cast<std::size_t>(command)].name;
+}
 
 bool allowed(MachineCommand command, MachineState state) {
   return (kCommands[static_cast<std::size_t>(command)].states & bit(state)) != 0;

@@ -7,7 +7,8 @@ namespace kinebus {
 
 SimulatedThermal::SimulatedThermal(Options options)
     : ambient_(options.ambient_celsius),
-      heaters_{State{options.hotend, options.ambient_celsius, 0}, State{options.bed, options.ambient_celsius, 0}} {}
+      heaters_{State{options.hotend, options.ambient_celsius, 0},
+               State{options.bed, options.ambient_celsius, 0}} {}
 
 void SimulatedThermal::set_target(Heater heater, double celsius) {
   heaters_[static_cast<std::size_t>(heater)].target = celsius;
@@ -32,7 +33,8 @@ void SimulatedThermal::advance(State& s, double seconds) const {
   while (seconds > 0) {
     const double dt = std::min(seconds, step_s);
     const double hold = (s.target - ambient_) / s.model.rise_celsius;
-    const double power = s.target <= 0 ? 0 : std::clamp(hold + (s.target - s.celsius) / s.model.band_celsius, 0.0, 1.0);
+    const double power =
+        s.target <= 0 ? 0 : std::clamp(hold + (s.target - s.celsius) / s.model.band_celsius, 0.0, 1.0);
     const double end = ambient_ + s.model.rise_celsius * power;
     s.celsius = end + (s.celsius - end) * std::exp(-dt / s.model.time_constant_s);
     seconds -= dt;

@@ -1,6 +1,6 @@
 #pragma once
-// Heaters and fan behind one interface, and their simulation: a first-order model with a thermostat, so that a
-// wait for a temperature (M109) takes time on the virtual machine too.
+// Heaters and fan behind one interface, and their simulation: a first-order model with a thermostat, so that
+// a wait for a temperature (M109) takes time on the virtual machine too.
 
 #include <array>
 #include <chrono>
@@ -28,12 +28,13 @@ class ThermalDevice {
   virtual std::optional<std::string> fault() const = 0;
 };
 
-/// T' = (ambient + rise * power - T) / time_constant, solved exactly for any step; the thermostat is a proportional
-/// band of `band` around the target with the model's own holding power, so the temperature settles on the target.
+/// T' = (ambient + rise * power - T) / time_constant, solved exactly for any step; the thermostat is a
+/// proportional band of `band` around the target with the model's own holding power, so the temperature
+/// settles on the target.
 class SimulatedThermal : public ThermalDevice {
  public:
   struct Model {
-    double rise_celsius = 320;   ///< above ambient at full power, in the end
+    double rise_celsius = 320;  ///< above ambient at full power, in the end
     double time_constant_s = 90;
     double band_celsius = 4;
   };

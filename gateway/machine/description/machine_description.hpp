@@ -130,7 +130,9 @@ struct BusDescription {
   friend bool operator==(const BusDescription&, const BusDescription&) = default;
 };
 
-enum class SwitchFunction : std::uint8_t {
+// Named apart from the object table's SwitchFunction and kSwitchInputs (protocol/canopen/node_objects.hpp),
+// which code of the gateway sees too.
+enum class InputFunction : std::uint8_t {
   kNone,
   kHome,
   kPositiveLimit,
@@ -141,19 +143,19 @@ enum class SwitchFunction : std::uint8_t {
 
 /// One of a node's seven switch inputs.
 struct SwitchInput {
-  SwitchFunction function = SwitchFunction::kNone;
+  InputFunction function = InputFunction::kNone;
   std::uint8_t axis = 0;  ///< 0 or 1: whose home or limit switch it is
   bool active_low = false;
   std::chrono::microseconds debounce{200};
   friend bool operator==(const SwitchInput&, const SwitchInput&) = default;
 };
-inline constexpr std::size_t kSwitchInputs = 7;
+inline constexpr std::size_t kNodeInputs = 7;
 
 struct NodeDescription {
   std::uint8_t id = 1;  ///< 1..126
   /// Identity expected in 0x1018; absent: anything is accepted.
   std::optional<std::uint32_t> vendor, product, serial;
-  std::array<SwitchInput, kSwitchInputs> inputs{};  ///< input n is inputs[n - 1]
+  std::array<SwitchInput, kNodeInputs> inputs{};  ///< input n is inputs[n - 1]
   friend bool operator==(const NodeDescription&, const NodeDescription&) = default;
 };
 
