@@ -32,7 +32,7 @@ class PathDistance {
     double sweep_rad = 0;
     std::uint32_t line = 0;
   };
-  static double distance_to(const Move& move, const std::array<double, 3>& point);
+  static double distance2_to(const Move& move, const std::array<double, 3>& point);
 
   std::deque<Move> moves_;
   std::size_t nearest_ = 0;

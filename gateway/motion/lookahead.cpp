@@ -1,0 +1,97 @@
+#include "gateway/motion/lookahead.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace kinebus {
+namespace {
+
+// New pieces between two backward passes. A pass covers the braking distance besides; 128 keeps that small
+// change.
+constexpr std::uint64_t kBatch = 128;
+
+}  // namespace
+
+Lookahead::Lookahead(std::size_t window_pieces)
+    : pieces_(window_pieces * 2),
+      geometry_(window_pieces * 2),
+      window_(std::max<std::size_t>(window_pieces, 8)) {}
+
+void Lookahead::add(const PlanPiece& piece) {
+  PlanPiece& added = pieces_.push();
+  added = piece;
+  added.geometry = geometry_.end() - 1;
+  finishing_ = false;
+  if (pieces_.end() - planned_ >= kBatch) plan_backward();
+}
+
+void Lookahead::stop_here() {
+  if (!pieces_.empty()) pieces_.back().stop_after = true;
+}
+
+void Lookahead::finish() {
+  stop_here();
+  plan_backward();
+  final_ = pieces_.end();
+  finishing_ = true;
+}
+
+double Lookahead::boundary_cap(std::uint64_t index) const {
+  // Before the oldest piece of the window: where the machine will be, at the speed that was promised.
+  if (index == pieces_.begin()) return x_;
+  const PlanPiece& before = pieces_[index - 1];
+  return before.stop_after ? 0 : std::min(before.cap, pieces_[index].cap);
+}
+
+void Lookahead::plan_backward() {
+  double exit = 0;
+  std::uint64_t newest_capped = final_;
+  for (std::uint64_t i = pieces_.end(); i-- > std::max(final_, pieces_.begin());) {
+    PlanPiece& piece = pieces_[i];
+    const double cap = boundary_cap(i);
+    const double entry = std::min(cap, piece.reach_decelerating(exit));
+    if (entry == cap && newest_capped == final_) newest_capped = i;
+    const bool unchanged = i < planned_ && entry == piece.entry;
+    piece.entry = entry;
+    exit = entry;
+    if (unchanged) break;
+  }
+  final_ = std::max(final_, newest_capped);
+  planned_ = pieces_.end();
+}
+
+bool Lookahead::take(Step& step) {
+  if (pieces_.empty()) return false;
+  const std::uint64_t index = pieces_.begin();
+  const bool last_known = index + 1 == pieces_.end();
+  if (!finishing_ && full() && index + 1 > final_) {
+    plan_backward();
+    if (index + 1 > final_) {
+      // Nothing is final in a full window: take half of it with the speeds that a stop at its end allows.
+      final_ = index + pieces_.size() / 2;
+      ++forced_;
+    }
+  }
+  if (last_known ? !finishing_ : index + 1 > final_) return false;
+
+  const PlanPiece& piece = pieces_[index];
+  step.piece = &piece;
+  step.geometry = &geometry_[piece.geometry];
+  step.x_start = x_;
+  step.x_end = last_known ? 0 : std::min(pieces_[index + 1].entry, piece.reach_accelerating(x_));
+  step.last = last_known;
+  x_ = step.x_end;
+  geometry_.drop_to(piece.geometry);
+  pieces_.drop_to(index + 1);
+  return true;
+}
+
+void Lookahead::clear() {
+  pieces_.clear();
+  geometry_.clear();
+  planned_ = final_ = pieces_.end();
+  x_ = 0;
+  finishing_ = false;
+}
+
+}  // namespace kinebus

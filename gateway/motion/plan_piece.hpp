@@ -1,0 +1,75 @@
+#pragma once
+// A piece of path with its limits, as the look-ahead sees it. Speeds appear as x = (ds/dt)^2, because with
+// constant path acceleration a over a length d: x_end = x_start + 2 a d.
+//
+// The tool's acceleration is a vector: |x_ss x + x_s a| <= A. With the bounds w >= |x_s|, k >= |x_ss| and
+// c >= |x_s . x_ss| over the piece, every |a| <= tool_accel(x) satisfies it. Joints and axes are linear in
+// (x, a); the least of them is a concave function of x, so the straight line between its values at x = 0 and
+// x = cap lies below it. Both bounds are concave in x: what holds at both ends of a speed change holds in
+// between.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace kinebus {
+
+struct PlanPiece {
+  double s0 = 0;  ///< where this piece begins on its PathPiece
+  double length = 0;
+  double cap = 0;    ///< greatest x anywhere on the piece
+  double accel = 0;  ///< A; straight pieces: all that limits a, divided by |x_s|
+  double k2 = 0, c = 0, w2 = 1;
+  double up0 = 0, up1 = 0;      ///< linear part: greatest a at x = 0 and at x = cap
+  double down0 = 0, down1 = 0;  ///< the same for -a
+  double entry = 0;  ///< look-ahead: greatest x at the start from which the rest of the path is feasible
+  std::uint64_t geometry = 0;
+  std::uint32_t line = 0;
+  bool curved = false;  ///< k2, c, w2 count
+  bool linear = false;  ///< up and down count
+  bool stop_after = false;
+
+  double tool_accel(double x) const {
+    if (!curved) return accel;
+    const double under = c * c * x * x + w2 * (accel * accel - k2 * x * x);
+    return (std::sqrt(std::max(under, 0.0)) - c * x) / w2;
+  }
+  double up(double x) const { return up0 + (up1 - up0) * (x / cap); }
+  double down(double x) const { return down0 + (down1 - down0) * (x / cap); }
+  /// Greatest constant acceleration (deceleration) for a change of speed between low and high.
+  double accel_between(double low, double high) const {
+    const double tool = tool_accel(high);
+    return linear ? std::min({tool, up(low), up(high)}) : tool;
+  }
+  double decel_between(double low, double high) const {
+    const double tool = tool_accel(high);
+    return linear ? std::min({tool, down(low), down(high)}) : tool;
+  }
+
+  /// Greatest x (<= cap) that one constant acceleration over the whole piece reaches from x0.
+  double reach_accelerating(double x0) const { return linear ? reach(x0, up0, up1) : reach_tool(x0); }
+  /// Greatest x (<= cap) from which one constant deceleration over the whole piece gets down to x1.
+  double reach_decelerating(double x1) const { return linear ? reach(x1, down0, down1) : reach_tool(x1); }
+
+ private:
+  double reach_tool(double x) const {
+    const double twice = 2 * length;
+    if (!curved) return std::min(cap, x + twice * accel);
+    // k2 y^2 + 2 c y a + w2 a^2 = A^2 with a = (y - x) / twice, solved for y.
+    const double quadratic = k2 * twice * twice + 2 * c * twice + w2;
+    const double half_linear = (c * twice + w2) * x;
+    const double constant = w2 * x * x - accel * accel * twice * twice;
+    const double root = std::sqrt(std::max(half_linear * half_linear - quadratic * constant, 0.0));
+    return std::min(cap, std::max(x, (half_linear + root) / quadratic));
+  }
+  double reach(double x, double at_zero, double at_cap) const {
+    const double twice = 2 * length;
+    const double slope = (at_cap - at_zero) / cap;
+    double y = std::min(reach_tool(x), x + twice * std::max(at_zero + slope * x, 0.0));
+    const double divisor = 1 - twice * slope;
+    if (divisor > 0) y = std::min(y, std::max(x, (x + twice * at_zero) / divisor));
+    return y;
+  }
+};
+
+}  // namespace kinebus

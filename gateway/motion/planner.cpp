@@ -1,0 +1,295 @@
+#include "gateway/motion/planner.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include "gateway/motion/arc_piece.hpp"
+#include "gateway/motion/lookahead.hpp"
+#include "gateway/motion/path_builder.hpp"
+#include "gateway/motion/path_limits.hpp"
+#include "gateway/motion/phase_emitter.hpp"
+
+namespace kinebus {
+namespace {
+
+// Shorter moves are not moves of their own; what they add up to comes with the next one. 1 nm (or nrad).
+constexpr double kShortestMove = 1e-6;
+// A move whose rotations or filament dwarf its tool motion is measured by them: s grows at least by this
+// share of their dynamically equal length. For table C at 3600 deg/s2 this begins at 2 rad a millimetre.
+constexpr double kDwarfs = 0.01;
+
+bool finite(const PoseVector& pose) {
+  return std::all_of(pose.begin(), pose.end(), [](double x) { return std::isfinite(x); });
+}
+
+Frame frame_of(canonical::Frame frame) {
+  return frame == canonical::Frame::kPart ? Frame::kPart : Frame::kMachine;
+}
+
+double lower(double machine, double asked) {
+  return asked > 0 ? std::min(machine, asked) : machine;
+}
+
+}  // namespace
+
+struct Planner::Impl {
+  Impl(const Kinematics& machine, const MotionLimits& machine_limits, Options options)
+      : limits(machine_limits),
+        current(machine_limits),
+        lookahead(options.window_pieces),
+        path_limits(machine, machine_limits, lookahead),
+        builder(machine_limits, path_limits, lookahead) {
+    reset_modes();
+  }
+
+  void reset_modes() {
+    current = limits;
+    path_limits.set_limits(current);
+    builder.set_limits(current);
+    exact = false;
+    tolerance_mm = limits.blend_tolerance_mm;
+    feed_ratio = 1;
+    print_accel = travel_accel = retract_accel = limits.tool_accel_mm_per_s2;
+  }
+
+  Result<void, PlanError> fail(PlanError::Kind kind, std::uint32_t line, PoseError pose = {}) {
+    failed = PlanError{kind, line, pose};
+    has_failed = true;
+    return Error<PlanError>(failed);
+  }
+  Result<void, PlanError> take(const Result<void, PathBuilder::Unreachable>& built) {
+    if (built) return {};
+    return fail(PlanError::Kind::kPose, built.error().line, built.error().pose);
+  }
+
+  Result<void, PlanError> come_to_rest() {
+    auto ok = take(builder.close());
+    if (ok) lookahead.stop_here();
+    return ok;
+  }
+
+  Result<void, PlanError> add_straight(const PoseVector& target, canonical::Frame in, double feed,
+                                       double duration, bool traverse, std::uint32_t line);
+  Result<void, PlanError> add_arc(const canonical::Arc& arc, std::uint32_t line);
+  Result<void, PlanError> complete(Move& move, double feed, double duration, double feed_length);
+  Result<void, PlanError> set_position(const canonical::SetPosition& set);
+  Result<void, PlanError> set_limits(const canonical::Limits& asked);
+
+  MotionLimits limits;   ///< the machine's
+  MotionLimits current;  ///< lowered by the job
+  Lookahead lookahead;
+  PathLimits path_limits;
+  PathBuilder builder;
+  PhaseEmitter emitter;
+  PoseVector end{};
+  Frame frame = Frame::kMachine;
+  bool exact = false;
+  double tolerance_mm = 0, feed_ratio = 1;
+  double print_accel = 0, travel_accel = 0, retract_accel = 0;
+  bool has_failed = false;
+  PlanError failed{};
+  std::uint64_t phases = 0;
+  Counters counters;
+};
+
+Result<void, PlanError> Planner::Impl::add_straight(const PoseVector& target, canonical::Frame in,
+                                                    double feed, double duration, bool traverse,
+                                                    std::uint32_t line) {
+  if (!finite(target)) return fail(PlanError::Kind::kBadNumber, line);
+  if (frame_of(in) != frame) return fail(PlanError::Kind::kFrame, line);
+  PoseVector delta;
+  for (std::size_t i = 0; i < kPoseAxes; ++i) delta[i] = target[i] - end[i];
+  const double tool = norm_xyz(delta);
+  std::size_t dominant = kA;
+  double others = 0;
+  for (std::size_t i = 3; i < kPoseAxes; ++i) {
+    if (std::abs(delta[i]) > std::abs(delta[dominant])) dominant = i;
+    if (std::isfinite(limits.axis_accel_per_s2[i])) {
+      others =
+          std::max(others, std::abs(delta[i]) * limits.tool_accel_mm_per_s2 / limits.axis_accel_per_s2[i]);
+    } else {
+      others = std::max(others, std::abs(delta[i]));
+    }
+  }
+  const bool tool_motion = tool >= kShortestMove;
+  if (!tool_motion && others < kShortestMove) return {};
+
+  Move& move = builder.new_move();
+  move.length = tool_motion ? std::max(tool, kDwarfs * others) : others;
+  for (std::size_t i = 0; i < kPoseAxes; ++i) move.u[i] = delta[i] / move.length;
+  move.u_end = move.u;
+  move.from = end;
+  move.to = target;
+  move.arc = false;
+  move.tool_motion = tool_motion && move.length == tool;
+  move.traverse = traverse;
+  move.line = line;
+  const bool retracting = delta[kE] < 0 || (!tool_motion && delta[kE] != 0);
+  move.accel_mm_per_s2 =
+      retracting ? retract_accel : (traverse || delta[kE] == 0 ? travel_accel : print_accel);
+  return complete(move, feed, duration, tool_motion ? tool : std::abs(delta[dominant]));
+}
+
+Result<void, PlanError> Planner::Impl::add_arc(const canonical::Arc& arc, std::uint32_t line) {
+  if (!finite(arc.target)) return fail(PlanError::Kind::kBadNumber, line);
+  if (frame_of(arc.frame) != frame) return fail(PlanError::Kind::kFrame, line);
+  Move& move = builder.new_move();
+  if (!shape_arc(arc, end, move)) {
+    builder.discard_move();
+    return fail(PlanError::Kind::kArc, line);
+  }
+  move.from = end;
+  move.to = arc.target;
+  move.tool_motion = true;
+  move.traverse = false;
+  move.line = line;
+  move.accel_mm_per_s2 = arc.target[kE] == end[kE] ? travel_accel : print_accel;
+  return complete(move, arc.feed_per_s, arc.inverse_time_s, move.length);
+}
+
+/// What lines and arcs have in common. `feed_length`: the length that the feed is measured along.
+Result<void, PlanError> Planner::Impl::complete(Move& move, double feed, double duration,
+                                                double feed_length) {
+  if (move.traverse) {
+    move.speed = kUnlimited;
+  } else if (duration > 0) {
+    move.speed = move.length / duration * feed_ratio;
+  } else {
+    move.speed = feed * feed_ratio * move.length / feed_length;
+  }
+  if (!(move.speed > 0)) {
+    builder.discard_move();
+    return fail(PlanError::Kind::kBadNumber, move.line);
+  }
+  move.exact = exact;
+  move.tolerance_mm = tolerance_mm;
+  move.frame = frame;
+  end = move.to;
+  return take(builder.move_added());
+}
+
+Result<void, PlanError> Planner::Impl::set_position(const canonical::SetPosition& set) {
+  if (set.pose == end && frame_of(set.frame) == frame) return {};
+  auto ok = come_to_rest();
+  end = set.pose;
+  frame = frame_of(set.frame);
+  return ok;
+}
+
+Result<void, PlanError> Planner::Impl::set_limits(const canonical::Limits& asked) {
+  if (asked.print_accel_mm_per_s2 > 0)
+    print_accel = lower(limits.tool_accel_mm_per_s2, asked.print_accel_mm_per_s2);
+  if (asked.travel_accel_mm_per_s2 > 0) {
+    travel_accel = lower(limits.tool_accel_mm_per_s2, asked.travel_accel_mm_per_s2);
+  }
+  if (asked.retract_accel_mm_per_s2 > 0) {
+    retract_accel = lower(limits.tool_accel_mm_per_s2, asked.retract_accel_mm_per_s2);
+  }
+  MotionLimits changed = current;
+  for (std::size_t i = 0; i < kPoseAxes; ++i) {
+    if (asked.axis_speed_per_s[i] > 0) {
+      changed.axis_speed_per_s[i] = lower(limits.axis_speed_per_s[i], asked.axis_speed_per_s[i]);
+    }
+    if (asked.axis_accel_per_s2[i] > 0) {
+      changed.axis_accel_per_s2[i] = lower(limits.axis_accel_per_s2[i], asked.axis_accel_per_s2[i]);
+    }
+  }
+  if (changed.axis_speed_per_s == current.axis_speed_per_s &&
+      changed.axis_accel_per_s2 == current.axis_accel_per_s2) {
+    return {};
+  }
+  // Axis limits hold for what comes after them: the path rests in between, which jobs do only before they
+  // begin.
+  auto ok = come_to_rest();
+  current = changed;
+  path_limits.set_limits(current);
+  builder.set_limits(current);
+  return ok;
+}
+
+Planner::Planner(const Kinematics& kinematics, const MotionLimits& limits)
+    : Planner(kinematics, limits, Options{}) {}
+Planner::Planner(const Kinematics& kinematics, const MotionLimits& limits, Options options)
+    : impl_(std::make_unique<Impl>(kinematics, limits, options)) {}
+Planner::~Planner() = default;
+Planner::Planner(Planner&&) noexcept = default;
+Planner& Planner::operator=(Planner&&) noexcept = default;
+
+Result<void, PlanError> Planner::add(const canonical::Line& line) {
+  Impl& d = *impl_;
+  if (d.has_failed) return Error<PlanError>(d.failed);
+  if (const auto* feed = std::get_if<canonical::Feed>(&line.command)) {
+    return d.add_straight(feed->target, feed->frame, feed->feed_per_s, feed->inverse_time_s, false,
+                          line.line);
+  }
+  if (const auto* traverse = std::get_if<canonical::Traverse>(&line.command)) {
+    return d.add_straight(traverse->target, traverse->frame, 0, 0, true, line.line);
+  }
+  if (const auto* arc = std::get_if<canonical::Arc>(&line.command)) return d.add_arc(*arc, line.line);
+  if (const auto* mode = std::get_if<canonical::PathMode>(&line.command)) {
+    d.exact = mode->exact;
+    d.tolerance_mm = mode->exact
+                         ? d.limits.exact_tolerance_mm
+                         : (mode->tolerance_mm > 0 ? mode->tolerance_mm : d.limits.blend_tolerance_mm);
+    return {};
+  }
+  if (const auto* set = std::get_if<canonical::SetPosition>(&line.command)) return d.set_position(*set);
+  if (const auto* asked = std::get_if<canonical::Limits>(&line.command)) return d.set_limits(*asked);
+  if (const auto* ratio = std::get_if<canonical::Override>(&line.command)) {
+    if (ratio->feed > 0) d.feed_ratio = ratio->feed;
+  }
+  return {};
+}
+
+Result<void, PlanError> Planner::finish() {
+  if (impl_->has_failed) return Error<PlanError>(impl_->failed);
+  auto ok = impl_->come_to_rest();
+  if (ok) impl_->lookahead.finish();
+  return ok;
+}
+
+bool Planner::wants_more() const {
+  return !impl_->lookahead.full();
+}
+
+bool Planner::next(Phase& phase) {
+  Impl& d = *impl_;
+  while (!d.emitter.next(phase)) {
+    Lookahead::Step step;
+    if (!d.lookahead.take(step)) return false;
+    d.emitter.start(step);
+  }
+  ++d.phases;
+  return true;
+}
+
+bool Planner::idle() const {
+  return impl_->lookahead.empty() && impl_->emitter.empty() && impl_->builder.empty();
+}
+const PoseVector& Planner::end_pose() const {
+  return impl_->end;
+}
+Frame Planner::end_frame() const {
+  return impl_->frame;
+}
+
+void Planner::reset(const PoseVector& pose, Frame frame) {
+  impl_->lookahead.clear();
+  impl_->builder.clear();
+  impl_->emitter.clear();
+  impl_->has_failed = false;
+  impl_->end = pose;
+  impl_->frame = frame;
+  impl_->reset_modes();
+}
+
+const Planner::Counters& Planner::counters() const {
+  const auto& built = impl_->builder.counters();
+  impl_->counters = {built.moves,   built.merged,
+                     built.blends,  impl_->lookahead.added(),
+                     impl_->phases, impl_->lookahead.forced()};
+  return impl_->counters;
+}
+
+}  // namespace kinebus
