@@ -205,7 +205,7 @@ void ClockEstimate::fit() {
     for (int i = 0; i < count_; ++i)
       if (const std::int64_t r = residual(at(i)); r <= limit) sum += r, ++used;
     const std::int64_t mean = sum / std::max<std::int64_t>(used, 1);
-    limit = (round < 3 ? 3 * mean : 5 * mean / 2) + 100;
+    limit = (round < 3 ? 3 * mean : count_ < 96 ? 5 * mean / 2 : 11 * mean / 5) + 100;
   }
 
   // Then the thinnest strip: one of its edges lies on an edge of a hull.

@@ -1,0 +1,225 @@
+#include "protocol/motion/path_clock.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace kinebus {
+namespace {
+
+constexpr int kScaleBits = 50;
+constexpr std::int64_t kLongAgo = std::numeric_limits<std::int64_t>::min() / 4;
+
+// 128-bit unsigned, for processors and compilers without one: just what a leg needs.
+struct U128 {
+  std::uint64_t high = 0, low = 0;
+};
+constexpr U128 multiply(std::uint64_t x, std::uint64_t y) {
+  const std::uint64_t x0 = x & 0xFFFF'FFFFu, x1 = x >> 32, y0 = y & 0xFFFF'FFFFu, y1 = y >> 32;
+  const std::uint64_t low = x0 * y0;
+  const std::uint64_t middle = x1 * y0 + (low >> 32);
+  const std::uint64_t middle2 = x0 * y1 + (middle & 0xFFFF'FFFFu);
+  return {x1 * y1 + (middle >> 32) + (middle2 >> 32), (middle2 << 32) | (low & 0xFFFF'FFFFu)};
+}
+constexpr U128 add(U128 x, U128 y) {
+  const std::uint64_t low = x.low + y.low;
+  return {x.high + y.high + (low < x.low ? 1u : 0u), low};
+}
+constexpr U128 subtract(U128 x, U128 y) {
+  return {x.high - y.high - (x.low < y.low ? 1u : 0u), x.low - y.low};
+}
+constexpr std::uint64_t shift_right(U128 x, int bits) {  // 0 < bits < 64; the result fits
+  return (x.high << (64 - bits)) | (x.low >> bits);
+}
+
+// 16 ticks a microsecond: 0.016 ticks for each nanosecond at rate 1, with 64 fractional bits (rounded down).
+constexpr std::uint64_t kTicksPerNsQ64 = 295'147'905'179'352'825u;
+constexpr std::uint64_t full_ramp_ns(std::uint8_t full_ramp_2ms) {
+  return full_ramp_2ms * std::uint64_t{2'000'000};
+}
+
+}  // namespace
+
+std::int64_t PathClock::Leg::tau_at(std::int64_t t) const {
+  if (a == 0 && b == 0) return tau0;
+  const auto dt = static_cast<std::uint64_t>(std::max<std::int64_t>(t - start, 0));
+  U128 sum = multiply(a, dt);
+  if (b != 0) {
+    // A ramp lasts 510 ms at most, so dt^2 is below 2^58. One rounding, at the end: tau cannot run back.
+    const U128 bend = multiply(b, dt * dt);
+    sum = rising ? add(sum, bend) : subtract(sum, bend);
+  }
+  return tau0 + static_cast<std::int64_t>(shift_right(sum, kScaleBits));
+}
+
+std::uint64_t PathClock::Leg::rate_at(std::int64_t t) const {
+  if (full_ramp_ns == 0) return rate_q32;
+  const auto dt = static_cast<std::uint64_t>(std::max<std::int64_t>(t - start, 0));
+  const std::uint64_t change = (dt << 32) / full_ramp_ns;
+  return rising ? rate_q32 + change : rate_q32 - std::min(rate_q32, change);
+}
+
+PathClock::PathClock(Options options) : options_(options) {
+  legs_[0].start = kLongAgo;
+}
+
+const PathClock::Leg& PathClock::leg_at(std::int64_t t) const {
+  int i = count_ - 1;
+  while (i > 0 && t < legs_[static_cast<std::size_t>(i)].start) --i;
+  return legs_[static_cast<std::size_t>(i)];
+}
+
+PathTime PathClock::tau(BusTime t) const {
+  return PathTime{leg_at(t.count()).tau_at(t.count()) >> kTauBits};
+}
+
+std::uint64_t PathClock::rate_q32(BusTime t) const {
+  return leg_at(t.count()).rate_at(t.count());
+}
+
+void PathClock::push(std::int64_t start, std::int64_t tau0, std::uint64_t rate_q32, std::uint64_t full_ramp,
+                     bool rising) {
+  Leg leg{.start = start, .tau0 = tau0, .rate_q32 = rate_q32, .full_ramp_ns = full_ramp, .rising = rising};
+  // a = rate * 0.016 * 2^(12+50), b = 0.016 * 2^(12+50) / (2 * ramp); both rounded down, so a falling ramp's
+  // parabola never passes its vertex within the ramp.
+  leg.a = shift_right(multiply(rate_q32, kTicksPerNsQ64), 64 + 32 - kTauBits - kScaleBits);
+  if (full_ramp != 0) leg.b = (kTicksPerNsQ64 >> (64 - kTauBits - kScaleBits + 1)) / full_ramp;
+  legs_[static_cast<std::size_t>(count_++)] = leg;
+}
+
+/// Puts a ramp to `target_q32` at `start` in place of all that came after.
+void PathClock::change(std::int64_t start, std::uint64_t target_q32, std::uint8_t full_ramp_2ms) {
+  const Leg& base = leg_at(start);
+  const std::uint64_t from_q32 = base.rate_at(start);
+  const std::int64_t tau0 = base.tau_at(start);
+  while (count_ > 1 && legs_[static_cast<std::size_t>(count_ - 1)].start >= start) --count_;
+  const std::uint64_t ramp = full_ramp_ns(std::max(full_ramp_2ms, options_.least_full_ramp_2ms));
+  const bool rising = target_q32 > from_q32;
+  const std::uint64_t difference = rising ? target_q32 - from_q32 : from_q32 - target_q32;
+  const auto duration = static_cast<std::int64_t>((difference * ramp) >> 32);
+  std::int64_t end_tau = tau0;
+  if (duration > 0) {
+    push(start, tau0, from_q32, ramp, rising);
+    end_tau = legs_[static_cast<std::size_t>(count_ - 1)].tau_at(start + duration);
+  }
+  push(start + duration, end_tau, target_q32, 0, false);
+}
+
+PathClock::Outcome PathClock::settle_start(BusTime start, BusTime now, std::int64_t& effective) const {
+  effective = start.count();
+  if (start >= now) return Outcome::kScheduled;
+  if (now - start <= options_.rewind && effective >= legs_[0].start) return Outcome::kLateRewound;
+  effective = now.count();
+  return Outcome::kLateStarted;
+}
+
+PathClock::Outcome PathClock::apply(const RateCommand& command, BusTime now) {
+  if (last_ == command) return Outcome::kDuplicate;
+  forget_before(now);
+  Outcome outcome = Outcome::kScheduled;
+  switch (command.kind) {
+    case RateCommand::Kind::kStop:
+      outcome = stop_at(command.start, command.full_ramp_2ms, now);
+      break;
+    case RateCommand::Kind::kClear:
+      if (!at_rest(std::max(now, command.start))) return Outcome::kNotAtRest;
+      stop_.reset();
+      cleared_ = command.start.count();
+      break;
+    case RateCommand::Kind::kRate: {
+      std::int64_t start = 0;
+      outcome = settle_start(command.start, now, start);
+      if (start < cleared_ || (stop_ && start >= stop_->start)) return Outcome::kLatched;
+      if (count_ + 4 > kMaxLegs) return Outcome::kFull;  // the other two are a stop's: it is never refused
+      change(start, static_cast<std::uint64_t>(command.rate_q15) << 17, command.full_ramp_2ms);
+      if (stop_) change(stop_->start, 0, stop_->full_ramp_2ms);
+      break;
+    }
+  }
+  last_ = command;
+  return outcome;
+}
+
+PathClock::Outcome PathClock::stop_at(BusTime start, std::uint8_t full_ramp_2ms, BusTime now) {
+  std::int64_t effective = 0;
+  const Outcome outcome = settle_start(start, now, effective);
+  if (stop_ && effective >= stop_->start) return Outcome::kDuplicate;
+  stop_ = Stop{effective, full_ramp_2ms};
+  change(effective, 0, full_ramp_2ms);
+  return outcome;
+}
+
+std::optional<BusTime> PathClock::when(PathTime path) const {
+  const std::int64_t wanted = path.count() << kTauBits;
+  if (wanted <= legs_[0].tau0) return BusTime{legs_[0].start};
+  for (int i = 0; i < count_; ++i) {
+    const Leg& leg = legs_[static_cast<std::size_t>(i)];
+    const bool last = i + 1 == count_;
+    std::int64_t low = leg.start;  // tau(low) < wanted
+    std::int64_t high = low;
+    if (!last) {
+      high = legs_[static_cast<std::size_t>(i + 1)].start;
+      if (legs_[static_cast<std::size_t>(i + 1)].tau0 < wanted) continue;
+    } else {
+      if (leg.rate_q32 == 0) return std::nullopt;
+      // At rate 1, 62.5 ns a tick: a first guess that is never too late.
+      std::int64_t step = std::max<std::int64_t>(((wanted - leg.tau0) >> kTauBits) * 62, 64);
+      high = low + step;
+      while (leg.tau_at(high) < wanted) low = high, step *= 2, high = low + step;
+    }
+    while (high - low > 1) {
+      const std::int64_t middle = low + (high - low) / 2;
+      (leg.tau_at(middle) < wanted ? low : high) = middle;
+    }
+    return BusTime{high};
+  }
+  return std::nullopt;
+}
+
+bool PathClock::at_rest(BusTime t) const {
+  if (rate_q32(t) != 0) return false;
+  for (int i = 0; i < count_; ++i) {
+    const Leg& leg = legs_[static_cast<std::size_t>(i)];
+    if (leg.start > t.count() && (leg.rate_q32 != 0 || leg.rising)) return false;
+  }
+  return !leg_at(t.count()).rising;
+}
+
+std::optional<BusTime> PathClock::stop_start() const {
+  if (!stop_) return std::nullopt;
+  return BusTime{stop_->start};
+}
+
+std::optional<BusTime> PathClock::next_change(BusTime t) const {
+  for (int i = 0; i < count_; ++i)
+    if (legs_[static_cast<std::size_t>(i)].start > t.count())
+      return BusTime{legs_[static_cast<std::size_t>(i)].start};
+  return std::nullopt;
+}
+
+bool PathClock::set_tau(PathTime path, BusTime now) {
+  if (!at_rest(now)) return false;
+  count_ = 0;
+  push(kLongAgo, path.count() << kTauBits, 0, 0, false);
+  return true;
+}
+
+void PathClock::shift(BusTime by) {
+  for (int i = 0; i < count_; ++i) {
+    std::int64_t& start = legs_[static_cast<std::size_t>(i)].start;
+    if (start != kLongAgo) start += by.count();
+  }
+  if (stop_) stop_->start += by.count();
+  cleared_ += by.count();
+  last_.reset();
+}
+
+void PathClock::forget_before(BusTime now) {
+  const std::int64_t kept = (now - options_.rewind).count();
+  int old = 0;
+  while (old + 1 < count_ && legs_[static_cast<std::size_t>(old + 1)].start <= kept) ++old;
+  if (old == 0) return;
+  std::move(legs_.begin() + old, legs_.begin() + count_, legs_.begin());
+  count_ -= old;
+}
+
+}  // namespace kinebus

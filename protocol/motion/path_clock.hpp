@@ -1,0 +1,102 @@
+#pragma once
+// Path time tau as a function of bus time: d tau/dt (the rate) follows straight ramps named by rate commands
+// and stop requests. Every node and the gateway run this class; for equal commands they give the same tau at
+// the same bus time to the last bit: integers only, and each command takes effect at the bus time that it
+// names, whenever it arrives.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "protocol/motion/broadcast.hpp"
+#include "protocol/time.hpp"
+
+namespace kinebus {
+
+class PathClock {
+ public:
+  struct Options {
+    /// A command that arrives this long after its start still counts from its start: tau at times past is
+    /// corrected, by at most late^2 / (2 * ramp): 5 us of path time for 1 ms on a ramp of 100 ms. A later one
+    /// starts at once.
+    BusTime rewind = std::chrono::milliseconds{5};
+    /// No ramp is steeper than 0..1 in this: a command for a shorter one gets this one. 2 ms units.
+    std::uint8_t least_full_ramp_2ms = 1;
+  };
+  enum class Outcome : std::uint8_t {
+    kScheduled,
+    kLateRewound,  ///< start was past, within Options::rewind: tau is as if it had come in time
+    kLateStarted,  ///< start was long past: began `now`, so other nodes may be at another tau. An alarm.
+    kDuplicate,    ///< the last command again, or a stop no earlier than the one latched
+    kLatched,      ///< refused: a stop is latched and comes first
+    kNotAtRest,    ///< refused: kClear while moving
+    kFull,         ///< refused: more changes ahead than kMaxLegs
+  };
+
+  PathClock() : PathClock(Options{}) {}
+  explicit PathClock(Options options);
+
+  Outcome apply(const RateCommand& command, BusTime now);
+  /// A stop asked for by any node (EMCY), or by this one. Earliest start wins; latched until kClear.
+  Outcome stop_at(BusTime start, std::uint8_t full_ramp_2ms, BusTime now);
+
+  /// Never decreases in `t` (a rewinding command excepted). Cost: about 10 ns; no division.
+  PathTime tau(BusTime t) const;
+  /// 0 .. 2^32 = 0 .. 1.0.
+  std::uint64_t rate_q32(BusTime t) const;
+  /// Earliest bus time at which tau >= `path`; nullopt: never, as commanded so far. Cost: some 40 tau().
+  std::optional<BusTime> when(PathTime path) const;
+
+  /// The rate is 0 at `t`, and stays so as commanded so far.
+  bool at_rest(BusTime t) const;
+  /// A stop is commanded, even if its start is still ahead.
+  bool stop_latched() const { return stop_.has_value(); }
+  /// Start of the latched stop.
+  std::optional<BusTime> stop_start() const;
+  /// Next time after `t` at which a ramp begins or ends.
+  std::optional<BusTime> next_change(BusTime t) const;
+
+  /// Sets tau at rest (and drops what is ahead); false: not at rest.
+  bool set_tau(PathTime path, BusTime now);
+  /// The bus clock was set on by `shift` (a new epoch): every time that this holds moves with it.
+  void shift(BusTime shift);
+  /// Forgets what is older than the rewind time; to be called now and then (each SYNC will do).
+  void forget_before(BusTime now);
+
+ private:
+  // tau in 1/4096 ticks: 15 ps, good for 4 years of path time.
+  static constexpr int kTauBits = 12;
+  static constexpr int kMaxLegs = 24;
+
+  // From `start` on, until the next leg: tau = tau0 + (a * dt -/+ b * dt^2) / 2^50.
+  struct Leg {
+    std::int64_t start = 0;          // ns
+    std::int64_t tau0 = 0;           // 1/4096 ticks
+    std::uint64_t rate_q32 = 0;      // at the start
+    std::uint64_t full_ramp_ns = 0;  // 0: constant rate
+    bool rising = false;
+    std::uint64_t a = 0, b = 0;
+
+    std::int64_t tau_at(std::int64_t t) const;
+    std::uint64_t rate_at(std::int64_t t) const;
+  };
+  struct Stop {
+    std::int64_t start = 0;
+    std::uint8_t full_ramp_2ms = 50;
+  };
+
+  const Leg& leg_at(std::int64_t t) const;
+  Outcome settle_start(BusTime start, BusTime now, std::int64_t& effective) const;
+  void change(std::int64_t start, std::uint64_t target_q32, std::uint8_t full_ramp_2ms);
+  void push(std::int64_t start, std::int64_t tau0, std::uint64_t rate_q32, std::uint64_t full_ramp_ns,
+            bool rising);
+
+  Options options_;
+  std::array<Leg, kMaxLegs> legs_{};
+  int count_ = 1;
+  std::optional<Stop> stop_;
+  std::optional<RateCommand> last_;
+  std::int64_t cleared_ = 0;  // rate commands for before the last kClear are void
+};
+
+}  // namespace kinebus
