@@ -1,8 +1,8 @@
 #pragma once
 // The canonical commands: what a G-code job means, free of dialect, offsets, units and modal state.
-// The seam between interpreter and planner, and what golden tests compare. All lengths mm, angles rad, speeds mm/s
-// or rad/s, absolute poses. Poses are given in `frame` (see kinematics.hpp for kPart and kMachine, repeated here
-// as an own type, because gcode includes nothing of the layers behind it).
+// The seam between interpreter and planner, and what golden tests compare. All lengths mm, angles rad, speeds
+// mm/s or rad/s, absolute poses. Poses are given in `frame` (see kinematics.hpp for kPart and kMachine,
+// repeated here as an own type, because gcode includes nothing of the layers behind it).
 
 #include <array>
 #include <cstdint>
@@ -23,9 +23,9 @@ struct Traverse {  ///< G0: as fast as the machine allows
 struct Feed {  ///< G1
   Pose target{};
   Frame frame{};
-  /// Speed of the tool tip relative to the part, mm/s. A move without tool motion (only A, C or E): the speed of the
-  /// axis that moves farthest, in its own unit per second (mm/s or rad/s). Farthest: the greatest change in mm or rad
-  /// as numbers; of equals the first in the order of Pose.
+  /// Speed of the tool tip relative to the part, mm/s. A move without tool motion (only A, C or E): the speed
+  /// of the axis that moves farthest, in its own unit per second (mm/s or rad/s). Farthest: the greatest
+  /// change in mm or rad as numbers; of equals the first in the order of Pose.
   double feed_per_s = 0;
   /// G93: the whole move takes this long, s; 0: feed_per_s counts.
   double inverse_time_s = 0;
@@ -41,55 +41,87 @@ struct Arc {  ///< G2/G3: circular or helical, in any plane (G68.2 tilts it); A,
   double inverse_time_s = 0;
 };
 
-struct Dwell { double seconds = 0; };                       ///< G4: after motion has come to rest
+struct Dwell {
+  double seconds = 0;
+};                 ///< G4: after motion has come to rest
 struct PathMode {  ///< G61, G61.1 / G64
   bool exact = false;
-  double tolerance_mm = 0;        ///< G64 P; 0: the machine's default
-  double merge_tolerance_mm = 0;  ///< G64 Q: how far merging short lines may leave them; 0: the machine's default
+  double tolerance_mm = 0;  ///< G64 P; 0: the machine's default
+  double merge_tolerance_mm =
+      0;  ///< G64 Q: how far merging short lines may leave them; 0: the machine's default
 };
-struct SetPosition { Pose pose{}; Frame frame{}; };          ///< the path's start, or its frame changed in place
-struct Limits {                                             ///< M201/M203/M204/M205; 0: unchanged
+struct SetPosition {
+  Pose pose{};
+  Frame frame{};
+};               ///< the path's start, or its frame changed in place
+struct Limits {  ///< M201/M203/M204/M205; 0: unchanged
   std::array<double, 6> axis_speed_per_s{};
   std::array<double, 6> axis_accel_per_s2{};
   double print_accel_mm_per_s2 = 0;
   double travel_accel_mm_per_s2 = 0;
   double retract_accel_mm_per_s2 = 0;
 };
-struct Thermal {  ///< M104/M109 (hotend), M140/M190 (bed), M106/M107 (fan): handed to the thermal device in path order
+struct Thermal {  ///< M104/M109 (hotend), M140/M190 (bed), M106/M107 (fan): handed to the thermal device in
+                  ///< path order
   enum class What : std::uint8_t { kHotend, kBed, kFan } what{};
   double value = 0;  ///< deg C, or 0..1 for the fan
   bool wait = false;
   bool wait_cooling = false;  ///< R form: also waits for it to fall
   int index = 0;
 };
-struct Home {                 ///< G28
-  std::uint8_t axes = 0;      ///< bit per axis in the order of Pose (X bit 0 ... C bit 4); 0: all
-  Pose afterwards{};          ///< where the machine has to stand when homing is done (axes not named: as before; E: unchanged)
+struct Home {             ///< G28
+  std::uint8_t axes = 0;  ///< bit per axis in the order of Pose (X bit 0 ... C bit 4); 0: all
+  Pose afterwards{};  ///< where the machine has to stand when homing is done (axes not named: as before; E:
+                      ///< unchanged)
   Frame frame{};
 };
-struct Pause { bool optional = false; };                    ///< M0 / M1
-struct MotorsOff { std::uint8_t axes = 0; };               ///< M18 / M84: bit per axis in the order of Pose; 0: all
-struct MotorsOn {};                                         ///< M17
-struct WaitIdle {};                                         ///< M400
-/// M220/M221, ratios; 0: unchanged. For status only: the feeds and E of the commands that follow contain them.
-struct Override { double feed = 0; double flow = 0; };
-struct Message { std::string text; };                       ///< M117, (MSG,...)
-struct Query {                                              ///< answered to whoever sent the line
+struct Pause {
+  bool optional = false;
+};  ///< M0 / M1
+struct MotorsOff {
+  std::uint8_t axes = 0;
+};                   ///< M18 / M84: bit per axis in the order of Pose; 0: all
+struct MotorsOn {};  ///< M17
+struct WaitIdle {};  ///< M400
+/// M220/M221, ratios; 0: unchanged. For status only: the feeds and E of the commands that follow contain
+/// them.
+struct Override {
+  double feed = 0;
+  double flow = 0;
+};
+struct Message {
+  std::string text;
+};              ///< M117, (MSG,...)
+struct Query {  ///< answered to whoever sent the line
   enum class What : std::uint8_t { kPosition, kFirmware, kSwitches, kTemperature, kSettings } what{};
 };
-struct EmergencyStop {};                                    ///< M112
-struct StoredJob {                                          ///< M20..M32
+struct EmergencyStop {};  ///< M112
+struct StoredJob {        ///< M20..M32
   enum class What : std::uint8_t {
-    kList, kInit, kRelease, kSelect, kStart, kPause, kSetPosition, kStatus, kBeginWrite, kEndWrite, kDelete, kRun
+    kList,
+    kInit,
+    kRelease,
+    kSelect,
+    kStart,
+    kPause,
+    kSetPosition,
+    kStatus,
+    kBeginWrite,
+    kEndWrite,
+    kDelete,
+    kRun
   } what{};
   std::string name;
   std::uint64_t position = 0;  ///< M26 S: byte of the job to go on from
 };
-struct Settings { enum class What : std::uint8_t { kStore, kLoad, kReset, kReport } what{}; };  ///< M500..M503
-struct End {};                                              ///< M2 / M30, or the end of the text
+struct Settings {
+  enum class What : std::uint8_t { kStore, kLoad, kReset, kReport } what{};
+};              ///< M500..M503
+struct End {};  ///< M2 / M30, or the end of the text
 
-using Command = std::variant<Traverse, Feed, Arc, Dwell, PathMode, SetPosition, Limits, Thermal, Home, Pause, MotorsOff,
-                             MotorsOn, WaitIdle, Override, Message, Query, EmergencyStop, StoredJob, Settings, End>;
+using Command =
+    std::variant<Traverse, Feed, Arc, Dwell, PathMode, SetPosition, Limits, Thermal, Home, Pause, MotorsOff,
+                 MotorsOn, WaitIdle, Override, Message, Query, EmergencyStop, StoredJob, Settings, End>;
 
 /// One command with the line of the job that it came from (1-based).
 struct Line {

@@ -68,8 +68,8 @@ struct ModalState {
   Pose program{};   ///< the current point as the job would write it (mm, rad)
   Pose position{};  ///< the same point as the last canonical command left it
   Frame frame = Frame::kMachine;
-  bool ended = false;  ///< M2, M30 or the closing % was read
-  bool percent_seen = false;
+  bool ended = false;         ///< M2, M30 or the closing % was read
+  bool content_seen = false;  ///< a block came before: a % now is the closing one
 };
 
 /// #1 .. #5400 and #<name>.

@@ -1,0 +1,97 @@
+#include "gateway/gcode/arc.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+namespace kinebus::gcode {
+namespace {
+
+constexpr double kTurn = 2 * std::numbers::pi;
+// Ends nearer than this are one point: 1 nm, far below what a job writes.
+constexpr double kSamePoint_mm = 1e-6;
+// Moving the centre by more than this many tolerances would bend the arc visibly.
+constexpr double kLargestShift = 10;
+
+Point2 minus(Point2 a, Point2 b) {
+  return {a[0] - b[0], a[1] - b[1]};
+}
+double length(Point2 a) {
+  return std::hypot(a[0], a[1]);
+}
+double dot(Point2 a, Point2 b) {
+  return a[0] * b[0] + a[1] * b[1];
+}
+double cross(Point2 a, Point2 b) {
+  return a[0] * b[1] - a[1] * b[0];
+}
+
+/// Angle from `from` to `to` in the turn's direction, 0 < angle <= 2 pi.
+double swept(Point2 from, Point2 to, bool clockwise) {
+  double angle = std::atan2(cross(from, to), dot(from, to));
+  if (clockwise) angle = -angle;
+  return angle > 0 ? angle : angle + kTurn;
+}
+
+std::string millimetres(double value) {
+  std::array<char, 40> text{};
+  std::snprintf(text.data(), text.size(), "%.4f mm", value);
+  return text.data();
+}
+
+}  // namespace
+
+Result<ArcGeometry, std::string> arc_by_centre(Point2 start, Point2 end, Point2 centre, bool clockwise,
+                                               int turns, double tolerance_mm) {
+  const double start_radius = length(minus(start, centre));
+  const double end_radius = length(minus(end, centre));
+  const double more_turns = kTurn * (turns - 1);
+  if (start_radius < kSamePoint_mm) return Error<std::string>("the centre of the arc is its start");
+  if (std::abs(start_radius - end_radius) > tolerance_mm)
+    return Error<std::string>("the arc's end is " + millimetres(end_radius) + " from the centre, its start " +
+                              millimetres(start_radius) + " (they may differ by " +
+                              millimetres(tolerance_mm) + ")");
+  const Point2 chord = minus(end, start);
+  const double chord_length = length(chord);
+  if (chord_length < kSamePoint_mm) return ArcGeometry{centre, start, kTurn + more_turns};
+
+  // The centre's offset from the chord's perpendicular bisector, as a fraction of the chord.
+  const Point2 middle = {start[0] + chord[0] / 2, start[1] + chord[1] / 2};
+  const double shift = dot(minus(middle, centre), chord) / (chord_length * chord_length);
+  if (std::abs(shift) * chord_length <= kLargestShift * tolerance_mm) {
+    const Point2 moved = {centre[0] + shift * chord[0], centre[1] + shift * chord[1]};
+    if (length(minus(start, moved)) < kSamePoint_mm)
+      return Error<std::string>("the centre of the arc is its start");
+    return ArcGeometry{moved, end, swept(minus(start, moved), minus(end, moved), clockwise) + more_turns};
+  }
+  const double scale = start_radius / end_radius;
+  const Point2 on_circle = {centre[0] + (end[0] - centre[0]) * scale,
+                            centre[1] + (end[1] - centre[1]) * scale};
+  return ArcGeometry{centre, on_circle,
+                     swept(minus(start, centre), minus(on_circle, centre), clockwise) + more_turns};
+}
+
+Result<ArcGeometry, std::string> arc_by_radius(Point2 start, Point2 end, double radius_mm, bool clockwise,
+                                               int turns, double tolerance_mm) {
+  const Point2 chord = minus(end, start);
+  const double half = length(chord) / 2;
+  const double radius = std::abs(radius_mm);
+  if (half < kSamePoint_mm / 2)
+    return Error<std::string>(
+        "an arc with R needs an end other than its start; a full circle needs I, J or K");
+  if (radius == 0) return Error<std::string>("R must not be 0");
+  if (half > radius && 2 * half - 2 * radius > tolerance_mm)
+    return Error<std::string>("the arc's ends are " + millimetres(2 * half) + " apart, more than twice R (" +
+                              millimetres(radius) + ")");
+  const double height = half < radius ? std::sqrt((radius - half) * (radius + half)) : 0;
+  // The centre lies left of the chord for a short counterclockwise arc.
+  const double side = (radius_mm > 0) == clockwise ? -1 : 1;
+  const Point2 left = {-chord[1] / (2 * half), chord[0] / (2 * half)};
+  const Point2 centre = {start[0] + chord[0] / 2 + side * height * left[0],
+                         start[1] + chord[1] / 2 + side * height * left[1]};
+  double sweep = 2 * std::asin(std::min(1.0, half / radius));
+  if (radius_mm < 0) sweep = kTurn - sweep;
+  return ArcGeometry{centre, end, sweep + kTurn * (turns - 1)};
+}
+
+}  // namespace kinebus::gcode

@@ -1,0 +1,293 @@
+#include "gateway/gcode/core.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "gateway/gcode/parameters.hpp"
+
+namespace kinebus::gcode {
+namespace {
+
+constexpr std::uint32_t kStraightWords = Block::bit('X') | Block::bit('Y') | Block::bit('Z') |
+                                         Block::bit('A') | Block::bit('C') | Block::bit('E') |
+                                         Block::bit('F');
+constexpr std::size_t kMaxLine = 4096;
+constexpr int kNoteForG = 100000;  // keys of notes: M numbers, G tenths above this
+
+}  // namespace
+
+Core::Core(Options options) : options_(std::move(options)) {
+  ModalState& m = state_.modal;
+  m.position = in_frame(options_.start, Frame::kMachine, m.frame);
+  m.feed_known = options_.default_feed_mm_per_s > 0;
+  m.feed_mm_per_s = options_.default_feed_mm_per_s;
+  m.feed_rad_per_s = options_.default_feed_mm_per_s * std::numbers::pi / 180;
+  m.retract_length_mm = options_.retract_length_mm;
+  m.retract_mm_per_s = options_.retract_mm_per_s;
+  m.retract_lift_mm = options_.retract_lift_mm;
+  m.recover_extra_mm = options_.recover_extra_mm;
+  m.recover_mm_per_s = options_.recover_mm_per_s;
+  m.e_canonical_base_mm = m.position[kAxisE];
+  refresh();
+}
+
+bool Core::fail(std::uint32_t column, std::string message) {
+  error_.line = line_;
+  error_.column = column;
+  error_.message = std::move(message);
+  return false;
+}
+
+bool Core::execute(std::string_view line, std::uint32_t line_number, CommandBuffer& out) {
+  out_ = &out;
+  line_ = line_number;
+  SyntaxError error;
+  if (!read_block(line, state_, block_, error)) return fail(error.column, std::move(error.message));
+  used_ = 0;
+  if (block_.is_plain() && !announce_ && !state_.modal.ended && (block_.present & ~kStraightWords) == 0 &&
+      block_.present != 0) {
+    const int g = block_.has(GGroup::kMotion) ? block_.code(GGroup::kMotion).number : -1;
+    const Motion motion = g == 10  ? Motion::kFeed
+                          : g == 0 ? Motion::kTraverse
+                          : g < 0  ? state_.modal.motion
+                                   : Motion::kNone;
+    if (motion == Motion::kFeed || motion == Motion::kTraverse) {
+      // A straight move checks everything before it changes anything.
+      if (!run_straight(motion == Motion::kTraverse)) return false;
+      state_.modal.motion = motion;
+      return true;
+    }
+  }
+  if (line.size() > kMaxLine && !block_.is_plain())
+    return fail(kMaxLine + 1, "the line is longer than 4096 bytes");
+  return run_careful();
+}
+
+bool Core::run_careful() {
+  const ModalState before = state_.modal;
+  const bool announce_before = announce_;
+  const std::size_t size_before = out_->size();
+  if (state_.modal.ended) begin_program();
+  if (announce_) announce();
+  if (run_block()) return true;
+  state_.modal = before;
+  announce_ = announce_before;
+  out_->resize(size_before);
+  refresh_shift();
+  return false;
+}
+
+bool Core::run_block() {
+  if (block_.percent) {
+    if (!state_.modal.content_seen) {
+      state_.modal.content_seen = true;
+    } else {
+      emit(canonical::End{});
+      state_.modal.ended = true;
+    }
+    return true;
+  }
+  if (block_.deleted && options_.block_delete) return true;
+  const bool has_content = block_.groups != 0 || block_.m_count != 0 || block_.present != 0;
+  if (has_content) state_.modal.content_seen = true;
+  for (const std::string_view text : block_.messages) emit(canonical::Message{std::string(text)});
+  if (block_.harmless_g >= 0)
+    note(kNoteForG + block_.harmless_g, g_name(block_.harmless_g) + " has no effect on this machine");
+
+  // Units first: they hold for every length of the line. Then codes that own words (M207 F) before those
+  // words' usual owners, modes, actions without motion, motion, and last what stops the program.
+  if (block_.has(GGroup::kUnits)) state_.modal.inches = block_.code(GGroup::kUnits).number == 200;
+  for (int i = 0; i < block_.m_count; ++i) {
+    const Code code = block_.m[static_cast<std::size_t>(i)];
+    if (m_group(code.number) != MGroup::kStop && !run_machine_code(code)) return false;
+  }
+  if (!run_modes()) return false;
+  if (block_.has(GGroup::kNonmodal) && !run_nonmodal(block_.code(GGroup::kNonmodal))) return false;
+  if (!run_motion()) return false;
+  if (!check_leftovers()) return false;
+  // Last of what can be refused, so that a refused line assigns nothing.
+  if (!assign_parameters()) return false;
+  return run_stop();
+}
+
+bool Core::run_nonmodal(Code code) {
+  const bool uses_axes = code.number == 280 || code.number == 920 || (code.number == 100 && has('L'));
+  const Code motion = block_.code(GGroup::kMotion);
+  if (uses_axes && block_.has(GGroup::kMotion))
+    return fail(code.column, g_name(code.number) + " and " + g_name(motion.number) +
+                                 " would both use the line's axis words: write them in two lines");
+  switch (code.number) {
+    case 40:
+      return dwell();
+    case 100:
+      return has('L') ? set_coordinate_system() : retract();
+    case 110:
+      return recover();
+    case 280:
+      return home();
+    case 531:
+      return orient_tool();
+    case 530:
+      return true;  // changes how run_motion() reads the axis words
+    default:
+      return set_g92(code);
+  }
+}
+
+bool Core::run_stop() {
+  for (int i = 0; i < block_.m_count; ++i) {
+    const Code code = block_.m[static_cast<std::size_t>(i)];
+    if (m_group(code.number) != MGroup::kStop) continue;
+    if (code.number <= 1) {
+      emit(canonical::Pause{code.number == 1});
+    } else if (code.number == 30 && !block_.text.empty() && block_.text.front() != '(') {
+      emit(canonical::StoredJob{canonical::StoredJob::What::kDelete, std::string(block_.text), 0});
+    } else {
+      emit(canonical::End{});
+      state_.modal.ended = true;
+    }
+  }
+  return true;
+}
+
+bool Core::assign_parameters() {
+  if (block_.assignments.empty()) return true;
+  for (const Assignment& assignment : block_.assignments) {
+    const int index = assignment.target.index;
+    if (index == 0) continue;
+    if (parameter_use(index) != ParameterUse::kReadWrite)
+      return fail(assignment.column, std::string("#").append(std::to_string(index)) + " can only be read");
+    if (is_offset_parameter(index) && state_.modal.tilted)
+      return fail(assignment.column, "offsets cannot change in a tilted plane: end it with G69 first");
+    if (!(std::abs(assignment.value) <= 1e9) && is_offset_parameter(index))
+      return fail(assignment.column, "the offset is too large (10^9 at most)");
+  }
+  std::size_t new_names = 0;
+  for (const Assignment& assignment : block_.assignments)
+    if (assignment.target.index == 0 && !read_named(state_.parameters, assignment.target.name)) ++new_names;
+  if (state_.parameters.named.size() + new_names > ParameterState::kMaxNamed)
+    return fail(block_.assignments.front().column, "too many named parameters (1000 at most)");
+  for (const Assignment& assignment : block_.assignments) {
+    if (assignment.target.index != 0)
+      write_parameter(state_, assignment.target.index, assignment.value);
+    else
+      write_named(state_.parameters, assignment.target.name, assignment.value);
+  }
+  refresh();
+  return true;
+}
+
+bool Core::check_leftovers() {
+  const std::uint32_t left = block_.present & ~used_;
+  if (left == 0) return true;
+  // The leftmost of them.
+  char letter = 0;
+  for (char c = 'A'; c <= 'Z'; ++c)
+    if ((left & Block::bit(c)) != 0 && (letter == 0 || block_.column_of(c) < block_.column_of(letter)))
+      letter = c;
+  const std::string name(1, letter);
+  if (letter == 'U' || letter == 'V' || letter == 'W' || letter == 'B')
+    return fail(block_.column_of(letter),
+                "the machine has no axis " + name + "; its axes are X Y Z A C and E");
+  for (const char axis : kAxisLetters)
+    if (axis == letter)
+      return fail(block_.column_of(letter),
+                  name + " has no use in this line: no motion code is given or active");
+  return fail(block_.column_of(letter), name + " has no use in this line");
+}
+
+void Core::finish(std::uint32_t line_number, CommandBuffer& out) {
+  out_ = &out;
+  line_ = line_number;
+  if (state_.modal.ended) return;
+  if (announce_) announce();
+  emit(canonical::End{});
+  state_.modal.ended = true;
+}
+
+void Core::begin_program() {
+  // RS274/NGC, 3.6.1 (M2, M30): what the end of a program resets.
+  ModalState& m = state_.modal;
+  m.ended = false;
+  m.content_seen = false;
+  m.motion = Motion::kNone;
+  m.plane = Plane::kXy;
+  m.incremental = m.incremental_e = m.absolute_centre = m.inverse_time = false;
+  m.coordinate_system = 0;
+  m.g92_active = false;
+  m.tool_centre_point = m.tilted = false;
+  m.tool_length_mm = 0;
+  m.feed_known = options_.default_feed_mm_per_s > 0;
+  m.feed_mm_per_s = options_.default_feed_mm_per_s;
+  m.feed_rad_per_s = options_.default_feed_mm_per_s * std::numbers::pi / 180;
+  m.position = in_frame(m.position, m.frame, wanted_frame());
+  m.frame = wanted_frame();
+  refresh();
+  announce_ = true;
+}
+
+void Core::restore(const State& state) {
+  state_ = state;
+  announce_ = true;
+  refresh_shift();
+}
+
+void Core::set_position(const Pose& pose, Frame frame) {
+  ModalState& m = state_.modal;
+  const double e = m.position[kAxisE];
+  m.position = in_frame(pose, frame, m.frame);
+  m.position[kAxisE] = e;
+  m.lifted_mm = 0;
+  refresh();
+  announce_ = true;
+}
+
+void Core::announce() {
+  announce_ = false;
+  out_->push_back({line_, canonical::SetPosition{state_.modal.position, state_.modal.frame}});
+}
+
+canonical::Command& Core::emit(canonical::Command command) {
+  return out_->emplace_back(canonical::Line{line_, std::move(command)}).command;
+}
+
+void Core::note(int key, std::string text) {
+  if (std::find(noted_.begin(), noted_.end(), key) != noted_.end()) return;
+  noted_.push_back(key);
+  notes_.push_back({line_, std::move(text)});
+}
+
+bool Core::take(char letter, double& value) {
+  const std::uint32_t bit = Block::bit(letter);
+  const std::string name(1, letter);
+  if ((used_ & bit) != 0)
+    return fail(block_.column_of(letter),
+                "two codes of this line would both use " + name + ": write them in two lines");
+  if ((block_.bare & bit) != 0) return fail(block_.column_of(letter), name + " needs a number");
+  used_ |= bit;
+  value = block_[letter];
+  return true;
+}
+
+bool Core::take_if_given(char letter, double& value) {
+  return !block_.has(letter) || take(letter, value);
+}
+
+bool Core::take_integer(char letter, int lowest, int highest, int& value) {
+  if (!block_.has(letter)) return true;
+  double number = 0;
+  if (!take(letter, number)) return false;
+  if (number < lowest || number > highest || std::abs(number - std::round(number)) > 1e-4)
+    return fail(block_.column_of(letter), std::string(1, letter) + " must be a whole number from " +
+                                              std::to_string(lowest) + " to " + std::to_string(highest));
+  value = static_cast<int>(std::lround(number));
+  return true;
+}
+
+double Core::axis_value(int axis, double value) const {
+  return axis == kAxisA || axis == kAxisC ? value * (std::numbers::pi / 180) : length(value);
+}
+
+}  // namespace kinebus::gcode

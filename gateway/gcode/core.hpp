@@ -1,0 +1,135 @@
+#pragma once
+// Inside of the interpreter. One block is carried out step by step in the order of RS274/NGC, table 8; each
+// step is a function that returns false after fail(). One bool, because an expected<void, ParseError> per
+// step would cost more than the step itself.
+//   core.cpp            lines, order of execution, errors      modes.cpp       modal codes, feed, dwell
+//   moves.cpp           G0-G3, G53, retraction                 offsets.cpp     coordinate systems, frames,
+//   G28 machine_codes.cpp   M codes
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gateway/gcode/block.hpp"
+#include "gateway/gcode/interpreter.hpp"
+#include "gateway/gcode/rotation.hpp"
+
+namespace kinebus::gcode {
+
+/// Changes smaller than this (mm, rad) are rounding, not motion.
+inline constexpr double kNoMotion = 1e-9;
+
+class Core {
+ public:
+  explicit Core(Options options);
+
+  bool execute(std::string_view line, std::uint32_t line_number, CommandBuffer& out);
+  void finish(std::uint32_t line_number, CommandBuffer& out);
+  void restore(const State& state);
+  void set_position(const Pose& pose, Frame frame);
+
+  const State& state() const { return state_; }
+  const ParseError& error() const { return error_; }
+  std::vector<Note>& notes() { return notes_; }
+
+ private:
+  struct FeedRate {
+    bool known = false;
+    double mm_per_s = 0, rad_per_s = 0;
+  };
+
+  // core.cpp
+  bool fail(std::uint32_t column, std::string message);
+  bool run_careful();  ///< any block; state and output are put back on an error
+  bool run_block();
+  bool run_nonmodal(Code code);
+  bool run_stop();
+  bool assign_parameters();
+  bool check_leftovers();
+  void begin_program();
+  void announce();
+  canonical::Command& emit(canonical::Command command);
+  void note(int key, std::string text);
+
+  // Words. take(): the word belongs to the code at work; refused when it has no number or another code took
+  // it.
+  bool has(char letter) const { return block_.has(letter) && (used_ & Block::bit(letter)) == 0; }
+  bool take(char letter, double& value);
+  bool take_if_given(char letter, double& value);
+  bool take_integer(char letter, int lowest, int highest, int& value);
+  void pass_over(char letter) { used_ |= Block::bit(letter) & block_.present; }
+  double length(double value) const { return state_.modal.inches ? value * 25.4 : value; }
+  /// A word's value for an axis, in mm or rad.
+  double axis_value(int axis, double value) const;
+
+  // modes.cpp
+  bool run_modes();
+  bool run_feed_word();
+  bool feed_from(double value, FeedRate& feed);
+  bool dwell();
+  bool set_path_mode(Code code);
+
+  // moves.cpp
+  bool run_motion();
+  bool run_straight(bool traverse);
+  bool run_arc(bool clockwise);
+  bool run_machine_coordinates();
+  void program_target(Pose& program) const;
+  bool move_to(const Pose& program, const Pose& target, bool traverse);
+  bool check_turning();
+  bool speed_for(bool turns_alone, const FeedRate& feed, double& feed_per_s, double& inverse_time_s);
+  bool arc_words(const Pose& start, bool& by_radius, double& radius_mm, std::array<double, 2>& centre,
+                 int& turns);
+  bool retract();
+  bool recover();
+  void move_lift(double height_mm);
+
+  // offsets.cpp
+  bool select_coordinate_system(Code code);
+  bool set_coordinate_system();
+  bool set_g92(Code code);
+  bool set_tool_length(Code code);
+  bool set_tilt(Code code);
+  bool orient_tool();
+  bool home();
+  bool refuse_in_tilt(Code code);
+  Frame wanted_frame() const;
+  void change_frame();
+  void refresh_shift();
+  void refresh();  ///< after any change of an offset: shift_ and the program's current point
+  Vector3 offset_xyz() const;
+  Vector3 to_canonical_xyz(const Vector3& program) const;
+  double canonical_e(double program_e) const;
+  Pose canonical_pose(const Pose& program) const;
+  void base_e_here(double program_e);  ///< the current point's E gets this number
+
+  // machine_codes.cpp
+  bool run_machine_code(Code code);
+  bool thermal(Code code);
+  bool fan(Code code);
+  bool motors(Code code);
+  bool axis_limits(Code code);
+  bool acceleration_limits();
+  bool jerk();
+  bool retract_settings(Code code);
+  bool override_ratio(Code code);
+  bool stored_job(Code code);
+
+  Options options_;
+  State state_;
+  Block block_;
+  ParseError error_;
+  std::vector<Note> notes_;
+  std::vector<int> noted_;
+  CommandBuffer* out_ = nullptr;
+  std::uint32_t line_ = 0;
+  std::uint32_t used_ = 0;  ///< words of the block that a code has taken
+  Pose shift_{};            ///< canonical = program + shift for X Y Z A C, outside a tilted plane
+  bool announce_ = true;    ///< SetPosition is due before the next command
+};
+
+/// The letters of the axes, in the order of Pose.
+inline constexpr std::array<char, kAxes> kAxisLetters = {'X', 'Y', 'Z', 'A', 'C', 'E'};
+
+}  // namespace kinebus::gcode

@@ -1,0 +1,74 @@
+#include "gateway/gcode/interpreter.hpp"
+
+#include <numbers>
+#include <utility>
+
+#include "gateway/gcode/core.hpp"
+
+namespace kinebus::gcode {
+
+Interpreter::Interpreter(Options options) : core_(std::make_unique<Core>(std::move(options))) {}
+Interpreter::~Interpreter() = default;
+Interpreter::Interpreter(Interpreter&&) noexcept = default;
+Interpreter& Interpreter::operator=(Interpreter&&) noexcept = default;
+
+Result<void, ParseError> Interpreter::execute(std::string_view line, std::uint32_t line_number,
+                                              CommandBuffer& out) {
+  if (core_->execute(line, line_number, out)) return {};
+  return Error<ParseError>(core_->error());
+}
+
+void Interpreter::finish(std::uint32_t line_number, CommandBuffer& out) {
+  core_->finish(line_number, out);
+}
+
+const State& Interpreter::state() const {
+  return core_->state();
+}
+void Interpreter::restore(const State& state) {
+  core_->restore(state);
+}
+void Interpreter::set_position(const Pose& pose, Frame frame) {
+  core_->set_position(pose, frame);
+}
+
+std::span<const Note> Interpreter::notes() const {
+  return core_->notes();
+}
+void Interpreter::clear_notes() {
+  core_->notes().clear();
+}
+
+Pose Interpreter::program_position() const {
+  Pose pose = state().modal.program;
+  pose[kAxisA] *= 180 / std::numbers::pi;
+  pose[kAxisC] *= 180 / std::numbers::pi;
+  return pose;
+}
+
+std::string Interpreter::modal_codes() const {
+  const ModalState& m = state().modal;
+  static constexpr std::array kMotions = {"G80", "G0", "G1", "G2", "G3"};
+  static constexpr std::array kPlanes = {"G17", "G18", "G19"};
+  static constexpr std::array kSystems = {"G54", "G55",   "G56",   "G57",  "G58",
+                                          "G59", "G59.1", "G59.2", "G59.3"};
+  std::string text = kMotions[static_cast<std::size_t>(m.motion)];
+  const auto add = [&text](const char* code) {
+    text += ' ';
+    text += code;
+  };
+  add(kPlanes[static_cast<std::size_t>(m.plane)]);
+  add(m.inches ? "G20" : "G21");
+  add(m.incremental ? "G91" : "G90");
+  add(m.absolute_centre ? "G90.1" : "G91.1");
+  add(m.inverse_time ? "G93" : "G94");
+  add(kSystems[static_cast<std::size_t>(m.coordinate_system)]);
+  add(m.tool_centre_point ? "G43.4" : m.tool_length_mm != 0 ? "G43" : "G49");
+  add(m.exact_path ? "G61" : "G64");
+  add(m.tilted ? "G68.2" : "G69");
+  add(m.g92_active ? "G92" : "G92.1");
+  add(m.incremental_e ? "M83" : "M82");
+  return text;
+}
+
+}  // namespace kinebus::gcode

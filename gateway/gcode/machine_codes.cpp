@@ -1,0 +1,288 @@
+// M codes, except what M0, M1, M2, M30 stop and M82, M83 set.
+
+#include <cmath>
+#include <numbers>
+
+#include "gateway/gcode/core.hpp"
+
+namespace kinebus::gcode {
+namespace {
+
+constexpr double kLargestRatio = 10;  // M220 S1000
+
+using StoredWhat = canonical::StoredJob::What;
+struct JobCode {
+  int number;
+  StoredWhat what;
+  bool needs_name;
+};
+constexpr std::array<JobCode, 12> kJobCodes = {{{20, StoredWhat::kList, false},
+                                                {21, StoredWhat::kInit, false},
+                                                {22, StoredWhat::kRelease, false},
+                                                {23, StoredWhat::kSelect, true},
+                                                {24, StoredWhat::kStart, false},
+                                                {25, StoredWhat::kPause, false},
+                                                {26, StoredWhat::kSetPosition, false},
+                                                {27, StoredWhat::kStatus, false},
+                                                {28, StoredWhat::kBeginWrite, true},
+                                                {29, StoredWhat::kEndWrite, false},
+                                                {31, StoredWhat::kStatus, false},
+                                                {32, StoredWhat::kRun, true}}};
+
+}  // namespace
+
+bool Core::run_machine_code(Code code) {
+  using canonical::Query;
+  using canonical::Settings;
+  switch (code.number) {
+    case 5:
+    case 9:
+    case 82:
+    case 83:
+      return true;  // no spindle, no coolant; the E modes are set in run_modes()
+    case 17:
+    case 18:
+    case 84:
+      return motors(code);
+    case 104:
+    case 109:
+    case 140:
+    case 190:
+      return thermal(code);
+    case 106:
+    case 107:
+      return fan(code);
+    case 105:
+      pass_over('T');
+      emit(Query{Query::What::kTemperature});
+      return true;
+    case 110:
+      pass_over('N');
+      return true;  // line numbers are checked where lines are received
+    case 112:
+      emit(canonical::EmergencyStop{});
+      return true;
+    case 114:
+      emit(Query{Query::What::kPosition});
+      return true;
+    case 115:
+      emit(Query{Query::What::kFirmware});
+      return true;
+    case 119:
+      emit(Query{Query::What::kSwitches});
+      return true;
+    case 117:
+    case 118:
+      emit(canonical::Message{std::string(block_.text)});
+      return true;
+    case 201:
+    case 203:
+      return axis_limits(code);
+    case 204:
+      return acceleration_limits();
+    case 205:
+      return jerk();
+    case 207:
+    case 208:
+      return retract_settings(code);
+    case 220:
+    case 221:
+      return override_ratio(code);
+    case 400:
+      emit(canonical::WaitIdle{});
+      return true;
+    case 500:
+      emit(Settings{Settings::What::kStore});
+      return true;
+    case 501:
+      emit(Settings{Settings::What::kLoad});
+      return true;
+    case 502:
+      emit(Settings{Settings::What::kReset});
+      return true;
+    case 503:
+      pass_over('S');
+      emit(Settings{Settings::What::kReport});
+      return true;
+    default:
+      break;
+  }
+  if (m_group(code.number) == MGroup::kJobs) return stored_job(code);
+  note(code.number, m_name(code.number) + " has no effect on this machine");
+  return true;
+}
+
+bool Core::motors(Code code) {
+  if (code.number != 17 && has('S')) {
+    // M84 S120 sets an idle time in printer firmware and switches nothing off at once.
+    pass_over('S');
+    note(code.number,
+         "the idle time of M" + std::to_string(code.number) + " S has no effect on this machine");
+    return true;
+  }
+  unsigned axes = 0;
+  for (std::size_t axis = 0; axis < kAxes; ++axis) {
+    if (!has(kAxisLetters[axis])) continue;
+    pass_over(kAxisLetters[axis]);
+    axes |= 1U << axis;
+  }
+  if (code.number == 17)
+    emit(canonical::MotorsOn{});
+  else
+    emit(canonical::MotorsOff{static_cast<std::uint8_t>(axes)});
+  return true;
+}
+
+bool Core::thermal(Code code) {
+  using What = canonical::Thermal::What;
+  canonical::Thermal command;
+  const std::string name = m_name(code.number);
+  command.what = code.number < 140 ? What::kHotend : What::kBed;
+  command.wait = code.number == 109 || code.number == 190;
+  const bool rising = has('S'), both = command.wait && has('R');
+  if (rising && both) return fail(block_.column_of('R'), name + " takes S or R, not both");
+  if (!rising && !both)
+    return fail(code.column,
+                name + (command.wait ? " needs a temperature S or R" : " needs a temperature S"));
+  const char letter = rising ? 'S' : 'R';
+  if (!take(letter, command.value)) return false;
+  if (command.value < 0)
+    return fail(block_.column_of(letter), "a target temperature cannot be below 0 deg C");
+  command.wait_cooling = both;
+  if (command.what == What::kHotend) {
+    command.index = state_.modal.tool;
+    if (!take_integer('T', 0, options_.tools - 1, command.index)) return false;
+  }
+  emit(command);
+  return true;
+}
+
+bool Core::fan(Code code) {
+  canonical::Thermal command;
+  command.what = canonical::Thermal::What::kFan;
+  if (!take_integer('P', 0, 7, command.index)) return false;
+  if (code.number == 106) {
+    double speed = 255;
+    if (!take_if_given('S', speed)) return false;
+    if (speed < 0 || speed > 255) return fail(block_.column_of('S'), "the fan's speed S is 0 to 255");
+    command.value = speed / 255;
+  }
+  emit(command);
+  return true;
+}
+
+bool Core::axis_limits(Code code) {
+  canonical::Limits command;
+  auto& values = code.number == 201 ? command.axis_accel_per_s2 : command.axis_speed_per_s;
+  bool any = false;
+  for (int axis = 0; axis < kAxes; ++axis) {
+    const char letter = kAxisLetters[static_cast<std::size_t>(axis)];
+    double value = 0;
+    if (!has(letter)) continue;
+    if (!take(letter, value)) return false;
+    if (!(value > 0)) return fail(block_.column_of(letter), "a limit must be greater than 0");
+    values[static_cast<std::size_t>(axis)] = axis_value(axis, value);
+    any = true;
+  }
+  if (!any) return fail(code.column, m_name(code.number) + " needs at least one axis word");
+  emit(command);
+  return true;
+}
+
+bool Core::acceleration_limits() {
+  canonical::Limits command;
+  double both = 0;
+  const auto read = [&](char letter, double& value) {
+    if (!has(letter)) return true;
+    if (!take(letter, value)) return false;
+    value = length(value);
+    return value > 0 || fail(block_.column_of(letter), "an acceleration must be greater than 0");
+  };
+  // S is the older form: printing and travel.
+  if (!read('S', both)) return false;
+  command.print_accel_mm_per_s2 = command.travel_accel_mm_per_s2 = both;
+  if (!read('P', command.print_accel_mm_per_s2) || !read('T', command.travel_accel_mm_per_s2) ||
+      !read('R', command.retract_accel_mm_per_s2))
+    return false;
+  emit(command);
+  return true;
+}
+
+bool Core::jerk() {
+  for (const char letter : {'X', 'Y', 'Z', 'A', 'C', 'E', 'J', 'S', 'T', 'B'}) pass_over(letter);
+  note(205,
+       "M205 (jerk, junction deviation) has no effect: corners are blended within the tolerance of G64 P");
+  return true;
+}
+
+bool Core::retract_settings(Code code) {
+  ModalState& m = state_.modal;
+  const bool is_retract = code.number == 207;
+  double s = is_retract ? m.retract_length_mm : m.recover_extra_mm;
+  double f = is_retract ? m.retract_mm_per_s : m.recover_mm_per_s;
+  double z = m.retract_lift_mm;
+  if (has('S')) {
+    if (!take('S', s)) return false;
+    s = length(s);
+    if (is_retract && s < 0) return fail(block_.column_of('S'), "the retraction's length cannot be negative");
+  }
+  if (has('F')) {
+    if (!take('F', f)) return false;
+    f = length(f) / 60;
+    if (!(f > 0)) return fail(block_.column_of('F'), "F must be greater than 0");
+  }
+  if (is_retract && has('Z')) {
+    if (!take('Z', z)) return false;
+    z = length(z);
+    if (z < 0) return fail(block_.column_of('Z'), "the retraction's lift cannot be negative");
+  }
+  (is_retract ? m.retract_length_mm : m.recover_extra_mm) = s;
+  (is_retract ? m.retract_mm_per_s : m.recover_mm_per_s) = f;
+  m.retract_lift_mm = z;
+  return true;
+}
+
+bool Core::override_ratio(Code code) {
+  ModalState& m = state_.modal;
+  const std::string name = m_name(code.number);
+  double percent = 0;
+  if (!has('S')) return fail(code.column, name + " needs a percentage S");
+  if (!take('S', percent)) return false;
+  const double ratio = percent / 100;
+  if (!(ratio > 0 && ratio <= kLargestRatio))
+    return fail(block_.column_of('S'), "the percentage of " + name + " is above 0 and at most 1000");
+  if (code.number == 220) {
+    m.feed_ratio = ratio;
+    emit(canonical::Override{ratio, 0});
+  } else {
+    pass_over('T');
+    base_e_here(m.program[kAxisE]);
+    m.flow_ratio = ratio;
+    emit(canonical::Override{0, ratio});
+  }
+  return true;
+}
+
+bool Core::stored_job(Code code) {
+  for (const JobCode& entry : kJobCodes) {
+    if (entry.number != code.number) continue;
+    canonical::StoredJob command{entry.what, {}, 0};
+    if (entry.needs_name) {
+      command.name = block_.text;
+      if (command.name.empty())
+        return fail(code.column, m_name(code.number) + " needs the name of a stored job");
+    }
+    if (entry.what == StoredWhat::kSetPosition) {
+      int position = 0;
+      if (!has('S')) return fail(code.column, "M26 needs a byte position S");
+      if (!take_integer('S', 0, 1'000'000'000, position)) return false;
+      command.position = static_cast<std::uint64_t>(position);
+    }
+    if (code.number == 27) pass_over('S');
+    emit(std::move(command));
+    return true;
+  }
+  return fail(code.column, unknown_m(code.number));
+}
+
+}  // namespace kinebus::gcode

@@ -1,0 +1,81 @@
+// Modal codes other than motion, F, T and G4.
+
+#include <cmath>
+#include <numbers>
+
+#include "gateway/gcode/core.hpp"
+
+namespace kinebus::gcode {
+
+bool Core::run_modes() {
+  ModalState& m = state_.modal;
+  if (block_.has(GGroup::kFeedMode)) {
+    const bool inverse_time = block_.code(GGroup::kFeedMode).number == 930;
+    // An F of the other mode means something else.
+    if (inverse_time != m.inverse_time) m.feed_known = false;
+    m.inverse_time = inverse_time;
+  }
+  if (has('F') && !m.inverse_time && !run_feed_word()) return false;
+  if (has('T') && !take_integer('T', 0, options_.tools - 1, m.tool)) return false;
+  if (block_.has(GGroup::kPlane)) {
+    const int number = block_.code(GGroup::kPlane).number;
+    m.plane = number == 170 ? Plane::kXy : number == 180 ? Plane::kZx : Plane::kYz;
+  }
+  if (block_.has(GGroup::kToolLength) && !set_tool_length(block_.code(GGroup::kToolLength))) return false;
+  if (block_.has(GGroup::kCoordinates) && !select_coordinate_system(block_.code(GGroup::kCoordinates)))
+    return false;
+  if (block_.has(GGroup::kPathMode) && !set_path_mode(block_.code(GGroup::kPathMode))) return false;
+  if (block_.has(GGroup::kDistance))
+    m.incremental = m.incremental_e = block_.code(GGroup::kDistance).number == 910;
+  if (block_.has_m(82)) m.incremental_e = false;
+  if (block_.has_m(83)) m.incremental_e = true;
+  if (block_.has(GGroup::kCentre)) m.absolute_centre = block_.code(GGroup::kCentre).number == 901;
+  if (block_.has(GGroup::kTilt) && !set_tilt(block_.code(GGroup::kTilt))) return false;
+  return true;
+}
+
+bool Core::feed_from(double value, FeedRate& feed) {
+  if (!(value > 0)) return fail(block_.column_of('F'), "F must be greater than 0");
+  feed.known = true;
+  feed.mm_per_s = length(value) / 60;
+  feed.rad_per_s = value * (std::numbers::pi / 180 / 60);
+  return true;
+}
+
+bool Core::run_feed_word() {
+  double value = 0;
+  FeedRate feed;
+  if (!take('F', value) || !feed_from(value, feed)) return false;
+  state_.modal.feed_known = true;
+  state_.modal.feed_mm_per_s = feed.mm_per_s;
+  state_.modal.feed_rad_per_s = feed.rad_per_s;
+  return true;
+}
+
+bool Core::dwell() {
+  double p = 0, s = 0;
+  const bool has_p = block_.has('P'), has_s = block_.has('S');
+  if (has_p && has_s) return fail(block_.column_of('S'), "G4 takes P or S, not both");
+  if (!take_if_given('P', p) || !take_if_given('S', s)) return false;
+  const double seconds = has_s ? s : options_.dwell_p_unit == DwellUnit::kSeconds ? p : p / 1000;
+  if (seconds < 0) return fail(block_.column_of(has_s ? 'S' : 'P'), "G4 cannot wait for a negative time");
+  emit(canonical::Dwell{seconds});
+  return true;
+}
+
+bool Core::set_path_mode(Code code) {
+  ModalState& m = state_.modal;
+  double tolerance = 0, merge = 0;
+  if (code.number == 640) {
+    if (!take_if_given('P', tolerance) || !take_if_given('Q', merge)) return false;
+    if (tolerance < 0) return fail(block_.column_of('P'), "the tolerance P of G64 cannot be negative");
+    if (merge < 0) return fail(block_.column_of('Q'), "the tolerance Q of G64 cannot be negative");
+  }
+  m.exact_path = code.number != 640;
+  m.path_tolerance_mm = length(tolerance);
+  m.merge_tolerance_mm = length(merge);
+  emit(canonical::PathMode{m.exact_path, m.path_tolerance_mm, m.merge_tolerance_mm});
+  return true;
+}
+
+}  // namespace kinebus::gcode

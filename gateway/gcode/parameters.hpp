@@ -1,0 +1,31 @@
+#pragma once
+// #1 .. #5400, #<name>, and the numbers that stand for something: offsets, tool, current point
+// (RS274/NGC, 3.2.1).
+
+#include <optional>
+#include <string_view>
+
+#include "gateway/gcode/state.hpp"
+
+namespace kinebus::gcode {
+
+/// What a parameter number may be used for.
+enum class ParameterUse : std::uint8_t { kNone, kRead, kReadWrite };
+ParameterUse parameter_use(int index);
+
+/// Value of #index, which must be readable. #5211-#5219 are the G92 offsets, #5221-#5229 those of G54, and so
+/// on in steps of 20 to G59.3 (X Y Z A B C U V W: mm, degrees), #5210: G92 is active, #5220: 1 for G54 ... 9
+/// for G59.3, #5400: tool, #5420-#5425: current point X Y Z A B C (mm, degrees).
+double read_parameter(const State& state, int index);
+
+bool is_offset_parameter(int index);
+
+/// Sets #index, which must be writable.
+void write_parameter(State& state, int index, double value);
+
+/// `name` in lower case without blanks.
+std::optional<double> read_named(const ParameterState& parameters, std::string_view name);
+/// False when there are kMaxNamed others already.
+bool write_named(ParameterState& parameters, std::string_view name, double value);
+
+}  // namespace kinebus::gcode

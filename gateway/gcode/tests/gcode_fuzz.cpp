@@ -1,0 +1,63 @@
+// Arbitrary bytes, in chunks, never crash the reader, and a refused line changes nothing.
+
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <string_view>
+
+#include "gateway/gcode/canonical_text.hpp"
+#include "gateway/gcode/job_reader.hpp"
+
+using namespace kinebus;
+
+namespace {
+void require(bool condition) {
+  if (!condition) std::abort();
+}
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return 0;
+  const std::string_view text(reinterpret_cast<const char*>(data) + 1, size - 1);
+  gcode::CommandBuffer out;
+
+  // Line by line, going on after errors.
+  gcode::Options options;
+  options.tool_length_mm = {5};
+  options.block_delete = (data[0] & 1U) != 0;
+  options.default_feed_mm_per_s = (data[0] & 2U) != 0 ? 10 : 0;
+  gcode::Interpreter interpreter(options);
+  std::size_t start = 0;
+  std::uint32_t number = 0;
+  while (start <= text.size()) {
+    const std::size_t end = text.find('\n', start);
+    const std::string_view line = text.substr(start, end - start);
+    const gcode::ModalState before = interpreter.state().modal;
+    const std::size_t size_before = out.size();
+    if (auto result = interpreter.execute(line, ++number, out); !result) {
+      require(!result.error().message.empty() && result.error().column >= 1);
+      require(out.size() == size_before);
+      require(std::memcmp(before.position.data(), interpreter.state().modal.position.data(),
+                          sizeof before.position) == 0);
+      require(std::memcmp(before.program.data(), interpreter.state().modal.program.data(),
+                          sizeof before.program) == 0);
+    }
+    for (std::size_t i = size_before; i < out.size(); ++i) (void)canonical::to_text(out[i]);
+    for (const double value : interpreter.state().modal.position) require(std::isfinite(value));
+    (void)interpreter.modal_codes();
+    if (end == std::string_view::npos) break;
+    start = end + 1;
+    if (out.size() > 10000) out.clear();
+  }
+
+  // The same text in chunks, up to the first error.
+  gcode::Interpreter second(options);
+  gcode::JobReader reader(second);
+  const std::size_t chunk = 1 + data[0] / 8;
+  out.clear();
+  for (std::size_t at = 0; at < text.size(); at += chunk)
+    if (!reader.read(text.substr(at, chunk), out)) return 0;
+  (void)reader.finish(out);
+  return 0;
+}

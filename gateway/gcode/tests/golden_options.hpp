@@ -1,0 +1,28 @@
+#pragma once
+// The machine that golden files run on.
+
+#include <string_view>
+
+#include "gateway/gcode/interpreter.hpp"
+
+namespace kinebus::gcode {
+
+/// Home 200 mm above the table, one spare tool of 12.5 mm. A file changes it with "options: word word"
+/// anywhere in its text: block_delete, dwell_seconds, traverse_uses_feed, default_feed, two_tools.
+inline Options golden_options(std::string_view text) {
+  Options options;
+  options.home = {0, 0, 200, 0, 0, 0};
+  options.tool_length_mm = {12.5};
+  const std::size_t at = text.find("options:");
+  if (at == std::string_view::npos) return options;
+  const std::string_view line = text.substr(at, text.find('\n', at) - at);
+  const auto says = [line](std::string_view word) { return line.find(word) != std::string_view::npos; };
+  options.block_delete = says("block_delete");
+  options.traverse_uses_feed = says("traverse_uses_feed");
+  if (says("dwell_seconds")) options.dwell_p_unit = DwellUnit::kSeconds;
+  if (says("default_feed")) options.default_feed_mm_per_s = 25;
+  if (says("two_tools")) options.tools = 2;
+  return options;
+}
+
+}  // namespace kinebus::gcode
