@@ -125,7 +125,6 @@ void JobPlan::end_run() {
   in_run_ = false;
   ++report_.runs;
   if (!streaming_) return;
-  if (const auto finished = group_.finish(); !finished) return fail(finished.error());
   if (!released_) group_.release(path_time(tau_ticks_ + ticks_of(kStartLead)));
   released_ = true;
   // Far more ticks than the motion that can be buffered at the lowest rate: a run that does not end is a

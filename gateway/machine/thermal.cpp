@@ -48,8 +48,8 @@ void SimulatedThermal::advance(State& s, double seconds) const {
 
 bool TemperatureWait::over(const ThermalDevice& device) const {
   const double actual = device.heater(heater).actual_celsius;
-  if (actual < celsius - kTemperatureWindow) return false;
-  return !cooling_too || actual <= celsius + kTemperatureWindow;
+  if (actual < celsius - window_celsius) return false;
+  return !cooling_too || actual <= celsius + window_celsius;
 }
 
 }  // namespace kinebus

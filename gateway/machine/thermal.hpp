@@ -67,11 +67,11 @@ class SimulatedThermal : public ThermalDevice {
   std::optional<BusTime> last_;
 };
 
-/// A wait for a temperature: reached within `kTemperatureWindow` (and not above it when cooling counts too).
-inline constexpr double kTemperatureWindow = 1.0;
+/// A wait for a temperature: reached within the window (and not above it when cooling counts too).
 struct TemperatureWait {
   Heater heater{};
   double celsius = 0;
+  double window_celsius = 1;
   bool cooling_too = false;
   bool over(const ThermalDevice& device) const;
 };

@@ -1,0 +1,30 @@
+#pragma once
+// What the machine description means for one node's object dictionary: the value of every parameter, and the
+// fingerprint (2116h) of a node that has them all.
+
+#include <cstdint>
+#include <vector>
+
+#include "gateway/machine/description/machine_description.hpp"
+#include "protocol/canopen/object.hpp"
+
+namespace kinebus {
+
+struct ParameterWrite {
+  ObjectAddress address;
+  std::uint8_t size = 0;  ///< bytes
+  std::int64_t value = 0;
+};
+
+struct NodeConfiguration {
+  std::uint32_t fingerprint = 0;
+  /// Every parameter outside the PDO and COB-ID objects, which keep their defaults; in the order of addresses.
+  std::vector<ParameterWrite> writes;
+};
+
+NodeConfiguration configure_node(const MachineDescription& machine, std::uint8_t node_id);
+
+/// Counts that the node shows when the joint stands at its home switch (607Ch).
+std::int32_t home_counts(const JointDescription& joint);
+
+}  // namespace kinebus

@@ -1,0 +1,64 @@
+#include "gateway/machine/path_rate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kinebus {
+namespace {
+
+std::uint8_t ramp_2ms(std::chrono::milliseconds ramp) {
+  return static_cast<std::uint8_t>(std::clamp<std::int64_t>((ramp.count() + 1) / 2, 1, 255));
+}
+
+}  // namespace
+
+void PathRate::send(RateCommand command, BusTime now) {
+  counter_ = (counter_ + 1) & 0xF;
+  command.counter = counter_;
+  // Whole microseconds travel; commands take effect in the order in which they were given.
+  const BusTime start = std::max(now + options_.lead, last_start_);
+  command.start = BusTime{(start.count() + 999) / 1000 * 1000};
+  last_start_ = command.start;
+  clock_.apply(command, now);
+  out_.push_back(encode(command));
+  ++counters_.commands;
+}
+
+void PathRate::request(double rate, std::chrono::milliseconds full_ramp, BusTime now) {
+  if (clock_.stop_latched()) return;
+  const auto q15 = static_cast<std::uint16_t>(std::lround(std::clamp(rate, 0.0, 1.0) * kFullRateQ15));
+  if (q15 == target_q15_) return;
+  target_q15_ = q15;
+  send({.kind = RateCommand::Kind::kRate, .rate_q15 = q15, .full_ramp_2ms = ramp_2ms(full_ramp)}, now);
+}
+
+void PathRate::stop(BusTime now) {
+  target_q15_ = 0;
+  // A stop does not queue up behind a rate command that is still ahead.
+  last_start_ = BusTime{0};
+  send({.kind = RateCommand::Kind::kStop, .rate_q15 = 0, .full_ramp_2ms = ramp_2ms(options_.stop_ramp)}, now);
+}
+
+void PathRate::on_stop_request(const StopRequest& request, BusTime now) {
+  target_q15_ = 0;
+  clock_.stop_at(request.start, ramp_2ms(options_.stop_ramp), now);
+}
+
+void PathRate::clear(BusTime now) {
+  target_q15_ = 0;
+  send({.kind = RateCommand::Kind::kClear, .rate_q15 = 0, .full_ramp_2ms = 1}, now);
+}
+
+std::optional<CanFrame> PathRate::next_frame() {
+  if (out_.empty()) return std::nullopt;
+  const CanFrame frame = out_.front();
+  out_.pop_front();
+  return frame;
+}
+
+void PathRate::on_frame_sent(BusTime when, const CanFrame& frame) {
+  if (frame.id != kRateCobId) return;
+  if (const auto command = decode_rate_command(frame, when); command && command->start < when) ++counters_.late;
+}
+
+}  // namespace kinebus

@@ -1,0 +1,69 @@
+#pragma once
+// The gateway's hand on path time: rate and stop broadcasts, and the same clock that the nodes run.
+
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <optional>
+
+#include "protocol/can/frame.hpp"
+#include "protocol/motion/broadcast.hpp"
+#include "protocol/motion/path_clock.hpp"
+#include "protocol/time.hpp"
+
+namespace kinebus {
+
+class PathRate {
+ public:
+  struct Options {
+    std::chrono::milliseconds stop_ramp{100};
+    /// A command names a start so far ahead, that its frame is with all nodes before: the frames already in the
+    /// controller's mailboxes (3 of 135 us) and the scheduling of the sending thread. A hold answers within it.
+    BusTime lead = std::chrono::milliseconds{5};
+  };
+  struct Counters {
+    std::uint32_t commands = 0;
+    std::uint32_t late = 0;  ///< went out after the start that they name
+  };
+
+  PathRate() : PathRate(Options{}) {}
+  explicit PathRate(Options options) : options_(options) {}
+
+  PathTime tau(BusTime at) const { return clock_.tau(at); }
+  double rate(BusTime at) const { return static_cast<double>(clock_.rate_q32(at)) / 4294967296.0; }
+  /// The rate that was asked for last, 0..1.
+  double target() const { return static_cast<double>(target_q15_) / kFullRateQ15; }
+  bool at_rest(BusTime at) const { return clock_.at_rest(at); }
+  bool stop_latched() const { return clock_.stop_latched(); }
+
+  /// Goes to `rate` (0..1) with a slope of 1 in `full_ramp` (2..510 ms). Nothing happens when that is the target
+  /// already, or while a stop is latched.
+  void request(double rate, std::chrono::milliseconds full_ramp, BusTime now);
+  /// Stop of all nodes, latched.
+  void stop(BusTime now);
+  /// A node's stop request was heard on the bus.
+  void on_stop_request(const StopRequest& request, BusTime now);
+  /// Lifts the latch; only at rest.
+  void clear(BusTime now);
+  /// Path time of the nodes, taken over at rest.
+  void set_tau(PathTime tau, BusTime now) { clock_.set_tau(tau, now); }
+
+  std::optional<CanFrame> next_frame();
+  void on_frame_sent(BusTime when, const CanFrame& frame);
+  /// Now and then, so that the clock forgets what is past.
+  void on_time(BusTime now) { clock_.forget_before(now); }
+  const Counters& counters() const { return counters_; }
+
+ private:
+  void send(RateCommand command, BusTime now);
+
+  Options options_;
+  Counters counters_;
+  PathClock clock_;
+  std::uint16_t target_q15_ = 0;
+  std::uint8_t counter_ = 0;
+  std::deque<CanFrame> out_;
+  BusTime last_start_{0};
+};
+
+}  // namespace kinebus
