@@ -1,0 +1,26 @@
+// kinebus: the command line. Each command is in a file of its own.
+
+#include <fmt/format.h>
+
+#include <exception>
+
+#include "tools/cli/machine_commands.hpp"
+#include "tools/cli/plan_command.hpp"
+
+int main(int argc, char** argv) {
+  CLI::App app("kinebus: run, watch, plan and simulate jobs of a Kinebus machine");
+  app.require_subcommand(1);
+  app.set_version_flag("--version", KINEBUS_VERSION);
+  int exit_code = 0;
+  kinebus::add_machine_commands(app, std::make_shared<kinebus::MachineOptions>(), exit_code);
+  kinebus::add_plan_command(app, exit_code);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "kinebus: {}\n", error.what());
+    return 1;
+  }
+  return exit_code;
+}
