@@ -28,6 +28,14 @@ class JobReader {
   /// The text is complete: carries out an unfinished last line and appends End if the job did not.
   Result<void, ParseError> finish(CommandBuffer& out);
 
+  /// Goes on behind a refused line, so that a check finds all errors of a job. What is left of the chunk that
+  /// held it is lost: give one line at a time.
+  void skip_refused() {
+    failed_ = {};
+    carry_.clear();
+    long_comment_ = false;
+  }
+
   std::uint32_t lines() const { return line_; }   ///< lines seen so far
   std::uint64_t bytes() const { return bytes_; }  ///< bytes handed to read()
 
