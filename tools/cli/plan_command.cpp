@@ -74,7 +74,7 @@ void print_report(const PlanReport& r, const ProblemList& problems) {
 int plan(const PlanArguments& arguments) {
   const MachineDescription machine = read_machine(arguments.machine);
   const auto kinematics = make_kinematics(machine);
-  if (!kinematics) throw std::runtime_error(kinematics.error().words);
+  if (!kinematics) throw std::runtime_error(kinematics.error().what);
   auto source = FileSource::open(arguments.job);
   if (!source) throw std::runtime_error(source.error());
 
