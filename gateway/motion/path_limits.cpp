@@ -318,6 +318,13 @@ Result<void, PoseError> PathLimits::add_curve(const PieceDemand& demand) {
     axes_on(sample.pose, piece);
     tip_cap(demand, sample.pose, piece);
   }
+  for (std::size_t i = 3; i < kPoseAxes && !geometry.arc; ++i) {
+    // Where an axis is fastest within the cubic.
+    const auto& cubic = geometry.coefficients[i];
+    const double s = cubic[3] != 0 ? -cubic[2] / (3 * cubic[3]) : -1;
+    const double rate = (cubic[1] + cubic[2] * s) * inverse_axis_speed_[i];
+    if (s > 0 && s < geometry.length && rate * rate * piece.cap > 1) piece.cap = 1 / (rate * rate);
+  }
   double ratio = 0;
   for (std::size_t i = 0; i < kPoints; i += 2) {
     if (auto ok = evaluate(geometry.frame, samples[i]); !ok) return ok;

@@ -20,15 +20,15 @@ double length_used(const PlanPiece& piece, double x0, double x1, double peak) {
 
 /// Greatest speed between the ends that still leaves room to slow down; on the feasible side.
 double peak_speed(const PlanPiece& piece, double x0, double x1) {
-  const double most = piece.cap;
-  double low = std::max(x0, x1);
-  if (length_used(piece, x0, x1, most) <= piece.length) return most;
+  const double floor = std::max(x0, x1);
+  if (length_used(piece, x0, x1, piece.cap) <= piece.length) return piece.cap;
   if (!piece.curved && !piece.linear) {
-    return std::clamp(0.5 * (x0 + x1) + piece.accel * piece.length, low, most);
+    return std::clamp(0.5 * (x0 + x1) + piece.accel * piece.length, floor, piece.cap);
   }
-  double high = most;
-  // 12 halvings: the peak to 1/4096 of what there is to gain.
-  for (int i = 0; i < 12; ++i) {
+  double low = floor, high = std::min(piece.cap, floor + piece.greatest_accel(floor) * piece.length);
+  // 12 halvings: the peak to 1/4096 of what there is to gain; more only where the ends are at rest, and the piece
+  // would not be passed at all.
+  for (int i = 0; i < 12 || (low == 0 && i < 200); ++i) {
     const double middle = 0.5 * (low + high);
     (length_used(piece, x0, x1, middle) <= piece.length ? low : high) = middle;
   }
@@ -55,7 +55,7 @@ void PhaseEmitter::start(const Lookahead::Step& step) {
   if (piece.cap > higher * (1 + kWorthwhilePeak)) {
     // Even with full acceleration to the middle there may be nothing to gain: cheaper to see than the peak
     // itself.
-    const double bound = higher + piece.accel_between(higher, higher) * length;
+    const double bound = higher + piece.greatest_accel(higher) * length;
     if (bound > higher * (1 + kWorthwhilePeak)) peak = peak_speed(piece, x0, x1);
   }
   if (peak <= higher * (1 + kWorthwhilePeak) && higher > 0 && x0 != x1) {

@@ -32,7 +32,7 @@ struct PlanPiece {
   double tool_accel(double x) const {
     if (!curved) return accel;
     const double under = c * c * x * x + w2 * (accel * accel - k2 * x * x);
-    return (std::sqrt(std::max(under, 0.0)) - c * x) / w2;
+    return std::max(std::sqrt(std::max(under, 0.0)) - c * x, 0.0) / w2;
   }
   double up(double x) const { return up0 + (up1 - up0) * (x / cap); }
   double down(double x) const { return down0 + (down1 - down0) * (x / cap); }
@@ -44,6 +44,12 @@ struct PlanPiece {
   double decel_between(double low, double high) const {
     const double tool = tool_accel(high);
     return linear ? std::min({tool, down(low), down(high)}) : tool;
+  }
+
+  /// No acceleration or deceleration at speeds from x on is greater.
+  double greatest_accel(double x) const {
+    const double tool = tool_accel(x);
+    return linear ? std::min(tool, std::max({up0, up1, down0, down1})) : tool;
   }
 
   /// Greatest x (<= cap) that one constant acceleration over the whole piece reaches from x0.

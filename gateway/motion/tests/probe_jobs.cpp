@@ -1,0 +1,131 @@
+// The jobs that planner tests and benchmarks run.
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <numbers>
+#include <random>
+
+#include "gateway/motion/tests/trajectory_probe.hpp"
+
+namespace kinebus::probe {
+namespace {
+
+double rounded(double x, double unit) { return std::round(x / unit) * unit; }
+
+struct PipeCloser {
+  void operator()(std::FILE* file) const { pclose(file); }
+};
+
+}  // namespace
+
+Lines dense_curve(int count, double size_mm, double feed_mm_per_s, double tilt_rad, double turn_rad) {
+  const auto at = [&](double angle) {
+    PoseVector p{};
+    const double radius = size_mm * (1 + 0.25 * std::sin(3 * angle));
+    p[kX] = radius * std::cos(angle);
+    p[kY] = radius * std::sin(angle);
+    p[kZ] = 20 + 2 * std::sin(2 * angle);
+    p[kA] = tilt_rad * std::sin(angle);
+    p[kC] = turn_rad * std::sin(0.5 * angle);
+    return p;
+  };
+  double angle = 0, filament = 0;
+  Job job(at(0));
+  job.feed(feed_mm_per_s);
+  for (int i = 0; i < count; ++i) {
+    const PoseVector here = at(angle), ahead = at(angle + 1e-4);
+    const double rate = std::hypot(ahead[0] - here[0], ahead[1] - here[1], ahead[2] - here[2]) / 1e-4;
+    angle += 0.2 / rate;
+    filament += 0.2 * 0.033;
+    PoseVector p = at(angle);
+    for (const auto axis : {kX, kY, kZ}) p[axis] = rounded(p[axis], 1e-3);
+    for (const auto axis : {kA, kC}) p[axis] = rounded(p[axis], 1e-4 * std::numbers::pi / 180);
+    p[kE] = rounded(filament, 1e-5);
+    job.to(p);
+  }
+  return job.lines();
+}
+
+Lines random_print(std::uint64_t seed, int moves) {
+  std::mt19937_64 random(seed);
+  const auto pick = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  PoseVector p{};
+  p[kZ] = 0.2;
+  Job job(p);
+  const auto print_to = [&](double x, double y) {
+    const double length = std::hypot(x - p[kX], y - p[kY]);
+    p[kX] = rounded(x, 1e-3);
+    p[kY] = rounded(y, 1e-3);
+    p[kE] = rounded(p[kE] + 0.0389 * length, 1e-5);
+    job.to(p);
+  };
+  while (static_cast<int>(job.lines().size()) < moves) {
+    p[kE] -= 0.8;
+    job.feed(40).to(p);
+    p[kX] = rounded(pick(-70, 70), 1e-3);
+    p[kY] = rounded(pick(-70, 70), 1e-3);
+    if (pick(0, 1) < 0.05) p[kZ] += 0.2;
+    job.feed(200).to(p);
+    p[kE] += 0.8;
+    job.feed(40).to(p);
+    job.feed(pick(20, 120));
+    const double kind = pick(0, 1);
+    if (kind < 0.5) {  // an arc as a slicer writes it
+      const double radius = pick(0.5, 25), step = pick(0.1, 1.5) / radius;
+      const double cx = p[kX] - radius, cy = p[kY];
+      for (double a = step; a < pick(1, 6); a += step) print_to(cx + radius * std::cos(a), cy + radius * std::sin(a));
+    } else if (kind < 0.8) {  // infill
+      double y = p[kY];
+      const double width = pick(2, 40), x0 = p[kX];
+      for (int i = 0; i < 12; ++i) {
+        print_to(i % 2 == 0 ? x0 + width : x0, y);
+        print_to(p[kX], y += 0.45);
+      }
+    } else {  // anything
+      for (int i = 0; i < 20; ++i) print_to(p[kX] + pick(-3, 3), p[kY] + pick(-3, 3));
+    }
+  }
+  return job.lines();
+}
+
+Lines sliced_file(const std::string& path) {
+  const bool packed = path.ends_with(".gz");
+  const std::string command = (packed ? "zcat '" : "cat '") + path + "' 2>/dev/null";
+  const std::unique_ptr<std::FILE, PipeCloser> file(popen(command.c_str(), "r"));
+  Lines lines;
+  if (!file) return lines;
+  lines.push_back({0, canonical::SetPosition{{}, canonical::Frame::kPart}});
+  PoseVector at{};
+  double feed = 100, offset = 0;
+  std::uint32_t number = 0;
+  char text[512];
+  while (std::fgets(text, sizeof text, file.get()) != nullptr) {
+    ++number;
+    const bool move = std::strncmp(text, "G1 ", 3) == 0 || std::strncmp(text, "G0 ", 3) == 0;
+    const bool set = std::strncmp(text, "G92 ", 4) == 0;
+    if (!move && !set) continue;
+    PoseVector target = at;
+    for (char* word = std::strchr(text, ' '); word != nullptr; word = std::strchr(word, ' ')) {
+      ++word;
+      if (*word == ';') break;
+      const double value = std::strtod(word + 1, nullptr);
+      if (*word == 'X') target[kX] = value;
+      if (*word == 'Y') target[kY] = value;
+      if (*word == 'Z') target[kZ] = value;
+      if (*word == 'F') feed = value / 60;
+      if (*word == 'E') {
+        if (set) offset = at[kE] - value;
+        target[kE] = value + offset;
+      }
+    }
+    if (set || target == at) continue;
+    at = target;
+    lines.push_back({number, canonical::Feed{target, canonical::Frame::kPart, feed, 0}});
+  }
+  return lines;
+}
+
+}  // namespace kinebus::probe
