@@ -80,9 +80,19 @@ bool Lookahead::take(Step& step) {
   step.x_start = x_;
   step.x_end = last_known ? 0 : std::min(pieces_[index + 1].entry, piece.reach_accelerating(x_));
   step.last = last_known;
+  step.length = piece.length;
+  std::uint64_t next = index + 1;
+  if (x_ == piece.cap && step.x_end == piece.cap) {
+    // Parts of one curve at one speed: one step, so that they become one phase.
+    for (; next + 1 < pieces_.end() && next + 1 <= final_; ++next) {
+      const PlanPiece& part = pieces_[next];
+      if (part.geometry != piece.geometry || part.cap != piece.cap || pieces_[next + 1].entry != piece.cap) break;
+      step.length += part.length;
+    }
+  }
   x_ = step.x_end;
   geometry_.drop_to(piece.geometry);
-  pieces_.drop_to(index + 1);
+  pieces_.drop_to(next);
   return true;
 }
 

@@ -35,6 +35,7 @@ class Lookahead {
   struct Step {
     const PlanPiece* piece = nullptr;
     const PathPiece* geometry = nullptr;
+    double length = 0;  ///< of the piece, or of several that are cruised through as one
     double x_start = 0, x_end = 0;
     bool last = false;  ///< the finished path ends here
   };

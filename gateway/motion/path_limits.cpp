@@ -21,13 +21,16 @@ constexpr double kFarTurn_rad = 0.1;
 constexpr double kNearLine_mm = 2.5;
 constexpr double kNearTurn_rad = 0.025;
 constexpr int kMostParts = 256;
-// Least share of the braking distance that one part of an arc may be, so that speed can change within an arc.
-constexpr double kArcPart = 0.3;
+// Curves whose curvature takes this share of the acceleration at their speed are divided into parts of this
+// share of the braking distance, so that curvature and acceleration are nearly constant on each.
+constexpr double kBent = 0.3;
+constexpr double kCurvePart = 0.5;
+constexpr double kLeastPart_mm = 0.05;
+constexpr double kArcLook_rad = 0.35;
 // The bounds of a cubic's slope are taken at five points; between them it is greater by less than this.
 constexpr double kBetweenSamples = 1 + 1e-4;
-// Used where nothing limits: 1 km/s2, and 1 km/s, squared. Finite, so that 0 x limit stays 0.
+// Used where nothing limits: 1 km/s2 and 1 km/s. Finite, so that 0 x limit stays 0.
 constexpr double kNoAccel = 1e6;
-constexpr double kNoSpeed2 = 1e12;
 
 double inverse_of(double limit) {
   return std::isfinite(limit) ? 1 / limit : 0;
@@ -51,6 +54,11 @@ double tip_rate(const PosePoint& p) {
   const double dy = p.x1[kY] - (wz * p.x[kX] - wx * p.x[kZ]);
   const double dz = p.x1[kZ] - (wx * p.x[kY] - wy * p.x[kX]);
   return std::sqrt(dx * dx + dy * dy + dz * dz);
+}
+
+void begin_linear(PlanPiece& piece) {
+  piece.linear = true;
+  piece.up0 = piece.up1 = piece.down0 = piece.down1 = kNoAccel;
 }
 
 double dot3(const PoseVector& a, const PoseVector& b) {
@@ -91,17 +99,16 @@ Result<void, PoseError> PathLimits::evaluate(Frame frame, Sample& sample) const 
   return kinematics_->inverse_along(frame, sample.pose, sample.joints);
 }
 
-void PathLimits::demand_on(const PieceDemand& demand, const PathPiece& geometry, double tool_rate,
-                           PlanPiece& piece) const {
+void PathLimits::set_cap(const PieceDemand& demand, double tool_rate, PlanPiece& piece) const {
   const double tool_speed = tool_rate > 0 ? limits_.tool_speed_mm_per_s / tool_rate : kNoAccel;
-  const double speed = std::min({demand.tip_feed ? kNoAccel : demand.speed, tool_speed, kNoAccel});
+  // The feed is along X Y Z where s is, and a curve may be a little longer than its parameter.
+  const double feed = demand.tip_feed ? kNoAccel : demand.speed;
+  const double speed = std::min({feed, tool_speed, kNoAccel});
   piece.cap = speed * speed;
-  piece.length = geometry.length;
-  piece.line = demand.line;
 }
 
 /// Speed caps of the single axes, at a point where x1 and x2 are known.
-void PathLimits::axes_on(const PosePoint& pose, PlanPiece& piece) const {
+void PathLimits::axis_caps(const PosePoint& pose, PlanPiece& piece) const {
   double speed = 0, accel = 0;
   for (std::size_t i = limited_xyz_ ? 0 : 3; i < kPoseAxes; ++i) {
     speed = std::max(speed, std::abs(pose.x1[i]) * inverse_axis_speed_[i]);
@@ -167,9 +174,80 @@ Result<void, PoseError> PathLimits::start_of_line(const PathPiece& geometry) {
   return {};
 }
 
-/// Parts with their joints' terms at both ends, each by itself.
-Result<void, PoseError> PathLimits::add_divided(const PieceDemand& demand, const PathPiece& geometry,
-                                                const PlanPiece& whole, int parts) {
+/// Speed cap and acceleration bounds of geometry's stretch from piece.s0 over piece.length, joints aside.
+void PathLimits::bound_curve(const PieceDemand& demand, const PathPiece& geometry, PlanPiece& piece) const {
+  constexpr int kPoints = 5;
+  std::array<PosePoint, kPoints> points;
+  double w2 = 0, k2 = 0, c = 0;
+  for (int i = 0; i < kPoints; ++i) {
+    PosePoint& p = points[static_cast<std::size_t>(i)];
+    p = geometry.evaluate(piece.s0 + piece.length * i / (kPoints - 1));
+    w2 = std::max(w2, dot3(p.x1, p.x1));
+    k2 = std::max(k2, dot3(p.x2, p.x2));
+    c = std::max(c, std::abs(dot3(p.x1, p.x2)));
+  }
+  set_cap(demand, std::sqrt(w2) * kBetweenSamples, piece);
+  piece.curved = true;
+  piece.accel = demand.accel_mm_per_s2;
+  piece.k2 = k2 * kBetweenSamples * kBetweenSamples;
+  piece.c = c;
+  piece.w2 = std::max(w2 * kBetweenSamples * kBetweenSamples, 1e-12);
+  if (piece.k2 * piece.cap * piece.cap > piece.accel * piece.accel) {
+    piece.cap = piece.accel / std::sqrt(piece.k2);
+  }
+  for (const PosePoint& point : points) {
+    axis_caps(point, piece);
+    tip_cap(demand, point, piece);
+  }
+  for (std::size_t i = 3; i < kPoseAxes && !geometry.arc; ++i) {
+    // Where an axis is fastest within the cubic.
+    const auto& cubic = geometry.coefficients[i];
+    const double s = cubic[3] != 0 ? -cubic[2] / (3 * cubic[3]) : -1;
+    const double rate = (cubic[1] + cubic[2] * s) * inverse_axis_speed_[i];
+    if (s > piece.s0 && s < piece.s0 + piece.length && rate * rate * piece.cap > 1) {
+      piece.cap = 1 / (rate * rate);
+    }
+  }
+  double ratio = 0;
+  for (const PosePoint& point : points) {
+    for (std::size_t i = limited_xyz_ ? 0 : 3; i < kPoseAxes; ++i) {
+      const double most = std::abs(point.x2[i]) * piece.cap + std::abs(point.x1[i]) * piece.accel;
+      ratio = std::max(ratio, most * inverse_axis_accel_[i]);
+    }
+  }
+  if (ratio <= kNear) return;
+  begin_linear(piece);
+  for (const PosePoint& point : points) axis_accels(point, piece);
+}
+
+/// Adds a curve in equal parts. near: joints count, with their terms at both ends of each part.
+Result<void, PoseError> PathLimits::add_curve_parts(const PieceDemand& demand, const PathPiece& geometry,
+                                                    int parts, bool near) {
+  Sample before, after;
+  before.pose = geometry.evaluate(0);
+  if (near) {
+    if (auto ok = evaluate(geometry.frame, before); !ok) return ok;
+  }
+  for (int i = 0; i < parts; ++i) {
+    PlanPiece part;
+    part.line = demand.line;
+    part.s0 = geometry.length * i / parts;
+    part.length = geometry.length * (i + 1) / parts - part.s0;
+    bound_curve(demand, geometry, part);
+    if (near) {
+      after.pose = geometry.evaluate(part.s0 + part.length);
+      if (auto ok = evaluate(geometry.frame, after); !ok) return ok;
+      add_joints(before.joints, after.joints, part);
+      before = after;
+    }
+    lookahead_->add(part);
+  }
+  return {};
+}
+
+/// Adds a line in equal parts, with the joints' terms at both ends of each.
+Result<void, PoseError> PathLimits::add_line_parts(const PieceDemand& demand, const PathPiece& geometry,
+                                                   const PlanPiece& whole, int parts) {
   Sample before, after;
   before.pose = geometry.evaluate(0);
   if (auto ok = evaluate(geometry.frame, before); !ok) return ok;
@@ -179,20 +257,30 @@ Result<void, PoseError> PathLimits::add_divided(const PieceDemand& demand, const
     part.length = geometry.length * (i + 1) / parts - part.s0;
     after.pose = geometry.evaluate(part.s0 + part.length);
     if (auto ok = evaluate(geometry.frame, after); !ok) return ok;
-    for (const Sample* sample : {&before, &after}) {
-      joint_caps(sample->joints, part);
-      tip_cap(demand, sample->pose, part);
-    }
-    part.linear = true;
-    part.up0 = part.up1 = part.down0 = part.down1 = kNoAccel;
-    for (const Sample* sample : {&before, &after}) {
-      joint_accels(sample->joints, part);
-      axis_accels(sample->pose, part);
-    }
+    tip_cap(demand, before.pose, part);
+    tip_cap(demand, after.pose, part);
+    add_joints(before.joints, after.joints, part);
     lookahead_->add(part);
     before = after;
   }
   return {};
+}
+
+/// The joints' terms at both ends of a piece: cap and accelerations.
+void PathLimits::add_joints(const JointPoint& before, const JointPoint& after, PlanPiece& piece) const {
+  const double cap = piece.cap;
+  joint_caps(before, piece);
+  joint_caps(after, piece);
+  if (piece.linear) {
+    // The axes' share was for the cap before: a lower cap only leaves more, up to the value at rest.
+    const double down = piece.cap / cap;
+    piece.up1 = piece.up0 + (piece.up1 - piece.up0) * down;
+    piece.down1 = piece.down0 + (piece.down1 - piece.down0) * down;
+  } else {
+    begin_linear(piece);
+  }
+  joint_accels(before, piece);
+  joint_accels(after, piece);
 }
 
 Result<void, PoseError> PathLimits::add_line(const PieceDemand& demand) {
@@ -203,8 +291,10 @@ Result<void, PoseError> PathLimits::add_line(const PieceDemand& demand) {
   const double tool_rate = std::sqrt(dot3(direction.x1, direction.x1));
 
   PlanPiece piece;
-  demand_on(demand, geometry, tool_rate, piece);
-  axes_on(direction, piece);
+  piece.line = demand.line;
+  piece.length = geometry.length;
+  set_cap(demand, tool_rate, piece);
+  axis_caps(direction, piece);
   piece.accel = tool_rate > 0 ? demand.accel_mm_per_s2 / tool_rate : kNoAccel;
   for (std::size_t i = limited_xyz_ ? 0 : 3; i < kPoseAxes; ++i) {
     const double rate = std::abs(direction.x1[i]) * inverse_axis_accel_[i];
@@ -229,7 +319,7 @@ Result<void, PoseError> PathLimits::add_line(const PieceDemand& demand) {
     lookahead_->add(piece);
     return {};
   }
-  return add_divided(demand, geometry, piece, parts_for(geometry, kNearLine_mm, kNearTurn_rad));
+  return add_line_parts(demand, geometry, piece, parts_for(geometry, kNearLine_mm, kNearTurn_rad));
 }
 
 Result<void, PoseError> PathLimits::add_parabola(const PieceDemand& demand) {
@@ -245,7 +335,9 @@ Result<void, PoseError> PathLimits::add_parabola(const PieceDemand& demand) {
   // |x_s| is convex along a parabola, and x_s . x_ss linear: both are greatest at an end.
   const double w = std::max(std::sqrt(dot3(start.x1, start.x1)), std::sqrt(dot3(end.pose.x1, end.pose.x1)));
   PlanPiece piece;
-  demand_on(demand, geometry, w, piece);
+  piece.line = demand.line;
+  piece.length = geometry.length;
+  set_cap(demand, w, piece);
   piece.curved = true;
   piece.accel = demand.accel_mm_per_s2;
   piece.k2 = dot3(bend, bend);
@@ -255,8 +347,8 @@ Result<void, PoseError> PathLimits::add_parabola(const PieceDemand& demand) {
     piece.cap = piece.accel / std::sqrt(piece.k2);
   PosePoint first = start, last = end.pose;
   first.x2 = last.x2 = bend;
-  axes_on(first, piece);
-  axes_on(last, piece);
+  axis_caps(first, piece);
+  axis_caps(last, piece);
   tip_cap(demand, first, piece);
   tip_cap(demand, last, piece);
 
@@ -278,8 +370,7 @@ Result<void, PoseError> PathLimits::add_parabola(const PieceDemand& demand) {
                                       std::abs(first.x1[kA]), std::abs(first.x1[kC]), std::abs(first.x1[kE]),
                                       std::abs(last.x1[kA]), std::abs(last.x1[kC]), std::abs(last.x1[kE])});
   if (axis_accel > 0 || limited_xyz_ || joint_ratio(joints, piece) >= kNear) {
-    piece.linear = true;
-    piece.up0 = piece.up1 = piece.down0 = piece.down1 = kNoAccel;
+    begin_linear(piece);
     axis_accels(first, piece);
     axis_accels(last, piece);
     for (const double sign : {1.0, -1.0}) {
@@ -295,67 +386,37 @@ Result<void, PoseError> PathLimits::add_parabola(const PieceDemand& demand) {
 Result<void, PoseError> PathLimits::add_curve(const PieceDemand& demand) {
   const PathPiece& geometry = lookahead_->newest_geometry();
   tail_valid_ = false;
-  constexpr int kPoints = 5;
-  std::array<Sample, kPoints> samples;
-  double w2 = 0, k2 = 0, c = 0;
-  for (int i = 0; i < kPoints; ++i) {
-    PosePoint& p = samples[static_cast<std::size_t>(i)].pose;
-    p = geometry.evaluate(geometry.length * i / (kPoints - 1));
-    w2 = std::max(w2, dot3(p.x1, p.x1));
-    k2 = std::max(k2, dot3(p.x2, p.x2));
-    c = std::max(c, std::abs(dot3(p.x1, p.x2)));
-  }
   PlanPiece piece;
-  demand_on(demand, geometry, std::sqrt(w2) * kBetweenSamples, piece);
-  piece.curved = true;
-  piece.accel = demand.accel_mm_per_s2;
-  piece.k2 = k2 * kBetweenSamples * kBetweenSamples;
-  piece.c = c;
-  piece.w2 = std::max(w2, 1e-12);
-  if (piece.k2 * piece.cap * piece.cap > piece.accel * piece.accel)
-    piece.cap = piece.accel / std::sqrt(piece.k2);
-  for (const Sample& sample : samples) {
-    axes_on(sample.pose, piece);
-    tip_cap(demand, sample.pose, piece);
-  }
-  for (std::size_t i = 3; i < kPoseAxes && !geometry.arc; ++i) {
-    // Where an axis is fastest within the cubic.
-    const auto& cubic = geometry.coefficients[i];
-    const double s = cubic[3] != 0 ? -cubic[2] / (3 * cubic[3]) : -1;
-    const double rate = (cubic[1] + cubic[2] * s) * inverse_axis_speed_[i];
-    if (s > 0 && s < geometry.length && rate * rate * piece.cap > 1) piece.cap = 1 / (rate * rate);
-  }
+  piece.line = demand.line;
+  piece.length = geometry.length;
+  bound_curve(demand, geometry, piece);
+
+  // An arc may be long: then it is looked at in more places.
+  const double angle = geometry.arc ? geometry.length * geometry.angle1_rad_per_mm : 0;
+  const int looks = 2 + static_cast<int>(std::min(angle / kArcLook_rad, static_cast<double>(kMostParts)));
   double ratio = 0;
-  for (std::size_t i = 0; i < kPoints; i += 2) {
-    if (auto ok = evaluate(geometry.frame, samples[i]); !ok) return ok;
-    ratio = std::max(ratio, joint_ratio(samples[i].joints, piece));
+  Sample sample;
+  for (int i = 0; i <= looks; ++i) {
+    sample.pose = geometry.evaluate(geometry.length * i / looks);
+    if (auto ok = evaluate(geometry.frame, sample); !ok) return ok;
+    ratio = std::max(ratio, joint_ratio(sample.joints, piece));
   }
-  int parts = 1;
-  if (geometry.arc) {
-    const double angle = geometry.length * geometry.angle1_rad_per_mm;
-    parts =
-        std::max(parts_for(geometry, std::max(kArcPart * piece.cap / (2 * piece.accel), 0.05), kFarTurn_rad),
-                 static_cast<int>(std::min(std::ceil(angle / 0.35), 0.5 * kMostParts)));
+  const bool near = ratio >= kNear;
+  // Where curvature or joints set the speed, it varies along the curve: parts of a share of the braking
+  // distance.
+  double part_mm = kFarLine_mm;
+  const bool bent = piece.k2 * piece.cap * piece.cap > kBent * kBent * piece.accel * piece.accel;
+  if (bent || near) {
+    const double cap = near ? piece.cap / std::max(ratio, 1.0) : piece.cap;
+    part_mm = std::max(kCurvePart * cap / (2 * piece.accel), kLeastPart_mm);
   }
-  if (ratio >= kNear) parts = std::max(parts, parts_for(geometry, kNearLine_mm, kNearTurn_rad));
-  if (ratio < kNear && parts == 1) {
-    double axes = 0;
-    for (const Sample& sample : samples) {
-      for (std::size_t i = limited_xyz_ ? 0 : 3; i < kPoseAxes; ++i) {
-        axes = std::max(
-            axes, (std::abs(sample.pose.x2[i]) * piece.cap + std::abs(sample.pose.x1[i]) * piece.accel) *
-                      inverse_axis_accel_[i]);
-      }
-    }
-    if (axes > kNear) {
-      piece.linear = true;
-      piece.up0 = piece.up1 = piece.down0 = piece.down1 = kNoAccel;
-      for (const Sample& sample : samples) axis_accels(sample.pose, piece);
-    }
+  if (near) part_mm = std::min(part_mm, kNearLine_mm);
+  const int parts = parts_for(geometry, part_mm, near ? kNearTurn_rad : kFarTurn_rad);
+  if (!near && parts == 1) {
     lookahead_->add(piece);
     return {};
   }
-  return add_divided(demand, geometry, piece, parts);
+  return add_curve_parts(demand, geometry, parts, near);
 }
 
 }  // namespace kinebus

@@ -44,16 +44,19 @@ class PathLimits {
   };
   Result<void, PoseError> evaluate(Frame frame, Sample& sample) const;
   Result<void, PoseError> start_of_line(const PathPiece& geometry);
-  void demand_on(const PieceDemand& demand, const PathPiece& geometry, double tool_rate,
-                 PlanPiece& piece) const;
-  void axes_on(const PosePoint& pose, PlanPiece& piece) const;
-  double joint_ratio(const JointPoint& joints, const PlanPiece& piece) const;
-  void joint_caps(const JointPoint& joints, PlanPiece& piece) const;
-  void joint_accels(const JointPoint& joints, PlanPiece& piece) const;
-  void axis_accels(const PosePoint& pose, PlanPiece& piece) const;
+  void set_cap(const PieceDemand& demand, double tool_rate, PlanPiece& piece) const;
+  void axis_caps(const PosePoint& pose, PlanPiece& piece) const;
   void tip_cap(const PieceDemand& demand, const PosePoint& pose, PlanPiece& piece) const;
-  Result<void, PoseError> add_divided(const PieceDemand& demand, const PathPiece& geometry,
-                                      const PlanPiece& whole, int parts);
+  void joint_caps(const JointPoint& joints, PlanPiece& piece) const;
+  double joint_ratio(const JointPoint& joints, const PlanPiece& piece) const;
+  void axis_accels(const PosePoint& pose, PlanPiece& piece) const;
+  void joint_accels(const JointPoint& joints, PlanPiece& piece) const;
+  void add_joints(const JointPoint& before, const JointPoint& after, PlanPiece& piece) const;
+  void bound_curve(const PieceDemand& demand, const PathPiece& geometry, PlanPiece& piece) const;
+  Result<void, PoseError> add_line_parts(const PieceDemand& demand, const PathPiece& geometry,
+                                         const PlanPiece& whole, int parts);
+  Result<void, PoseError> add_curve_parts(const PieceDemand& demand, const PathPiece& geometry, int parts,
+                                          bool near);
 
   const Kinematics* kinematics_;
   MotionLimits limits_{};

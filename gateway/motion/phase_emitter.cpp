@@ -26,8 +26,8 @@ double peak_speed(const PlanPiece& piece, double x0, double x1) {
     return std::clamp(0.5 * (x0 + x1) + piece.accel * piece.length, floor, piece.cap);
   }
   double low = floor, high = std::min(piece.cap, floor + piece.greatest_accel(floor) * piece.length);
-  // 12 halvings: the peak to 1/4096 of what there is to gain; more only where the ends are at rest, and the piece
-  // would not be passed at all.
+  // 12 halvings: the peak to 1/4096 of what there is to gain; more only where the ends are at rest, and the
+  // piece would not be passed at all.
   for (int i = 0; i < 12 || (low == 0 && i < 200); ++i) {
     const double middle = 0.5 * (low + high);
     (length_used(piece, x0, x1, middle) <= piece.length ? low : high) = middle;
@@ -43,7 +43,7 @@ void PhaseEmitter::append(double distance, double x0, double x1) {
 
 void PhaseEmitter::start(const Lookahead::Step& step) {
   const PlanPiece& piece = *step.piece;
-  const double x0 = step.x_start, x1 = step.x_end, length = piece.length;
+  const double x0 = step.x_start, x1 = step.x_end, length = step.length;
   index_ = count_ = 0;
   s_ = piece.s0;
   line_ = piece.line;

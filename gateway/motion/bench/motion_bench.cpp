@@ -35,8 +35,8 @@ void plan(benchmark::State& state, const Lines& lines) {
     counters = planner.counters();
   }
   const auto moves = static_cast<double>(counters.moves);
-  state.counters["per_move"] = benchmark::Counter(moves, benchmark::Counter::kIsIterationInvariantRate |
-                                                             benchmark::Counter::kInvert);
+  state.counters["per_move"] =
+      benchmark::Counter(moves, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
   state.counters["moves"] = moves;
   state.counters["job_s"] = seconds;
   state.counters["merged"] = static_cast<double>(counters.merged_moves) / moves;
@@ -48,9 +48,15 @@ void BM_PlanSlicedFile(benchmark::State& state) {
   const char* path = std::getenv("KINEBUS_SLICED_FILE");
   plan(state, path == nullptr ? Lines{} : sliced_file(path));
 }
-void BM_PlanRandomPrint(benchmark::State& state) { plan(state, random_print(1, 100'000)); }
-void BM_PlanDenseCurve(benchmark::State& state) { plan(state, dense_curve(100'000, 30, 100, 0, 0)); }
-void BM_PlanDenseFiveAxisCurve(benchmark::State& state) { plan(state, dense_curve(100'000, 30, 100, 0.5, 1)); }
+void BM_PlanRandomPrint(benchmark::State& state) {
+  plan(state, random_print(1, 100'000));
+}
+void BM_PlanDenseCurve(benchmark::State& state) {
+  plan(state, dense_curve(100'000, 30, 100, 0, 0));
+}
+void BM_PlanDenseFiveAxisCurve(benchmark::State& state) {
+  plan(state, dense_curve(100'000, 30, 100, 0.5, 1));
+}
 
 BENCHMARK(BM_PlanSlicedFile)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_PlanRandomPrint)->Unit(benchmark::kMillisecond);

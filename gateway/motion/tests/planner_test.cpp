@@ -37,11 +37,14 @@ void expect_within_limits(const Measured& m, const MotionLimits& limits, double 
 }
 
 void print(const char* what, const Measured& m) {
-  std::printf("%s: %.3f s, %zu phases, %lu moves (%lu merged), %lu pieces, v %.1f a %.1f joint v %.3f a %.3f axis v %.3f a %.3f "
-              "path %.2f um, jump %.2g %.2g, %s\n",
-              what, m.duration_s, m.phases, m.counters.moves, m.counters.merged_moves, m.counters.pieces,
-              m.tool_speed_mm_per_s, m.tool_accel_mm_per_s2, m.joint_speed_ratio, m.joint_accel_ratio, m.axis_speed_ratio,
-              m.axis_accel_ratio, m.path_error_mm * 1000, m.position_jump, m.velocity_jump, m.error.c_str());
+  std::printf(
+      "%s: %.3f s, %zu phases, %lu moves (%lu merged), %lu pieces, v %.1f a %.1f joint v %.3f a %.3f axis v "
+      "%.3f a %.3f "
+      "path %.2f um, jump %.2g %.2g, %s\n",
+      what, m.duration_s, m.phases, m.counters.moves, m.counters.merged_moves, m.counters.pieces,
+      m.tool_speed_mm_per_s, m.tool_accel_mm_per_s2, m.joint_speed_ratio, m.joint_accel_ratio,
+      m.axis_speed_ratio, m.axis_accel_ratio, m.path_error_mm * 1000, m.position_jump, m.velocity_jump,
+      m.error.c_str());
 }
 
 TEST(Planner, LineFromRestToRestIsATrapezoid) {
@@ -56,7 +59,11 @@ TEST(Planner, LineFromRestToRestIsATrapezoid) {
 TEST(Planner, Square) {
   const MotionLimits limits;
   Job job;
-  job.feed(100).by({20, 0, 0, 0, 0, 1}).by({0, 20, 0, 0, 0, 1}).by({-20, 0, 0, 0, 0, 1}).by({0, -20, 0, 0, 0, 1});
+  job.feed(100)
+      .by({20, 0, 0, 0, 0, 1})
+      .by({0, 20, 0, 0, 0, 1})
+      .by({-20, 0, 0, 0, 0, 1})
+      .by({0, -20, 0, 0, 0, 1});
   const Measured m = measure(m1(), limits, job.lines());
   expect_within_limits(m, limits, 0.005);
   print("square", m);
@@ -81,7 +88,11 @@ TEST(Planner, Optimal) {
     std::printf("   %.3f s, optimal %.3f s, ratio %.4f\n", m.duration_s, best, m.duration_s / best);
   };
   Job job;
-  job.feed(1000).by({20, 0, 0, 0, 0, 1}).by({0, 20, 0, 0, 0, 1}).by({-20, 0, 0, 0, 0, 1}).by({0, -20, 0, 0, 0, 1});
+  job.feed(1000)
+      .by({20, 0, 0, 0, 0, 1})
+      .by({0, 20, 0, 0, 0, 1})
+      .by({-20, 0, 0, 0, 0, 1})
+      .by({0, -20, 0, 0, 0, 1});
   ratio("square", job.lines(), 1000, 0.02);
   ratio("dense 100", dense_curve(3000, 30, 100, 0, 0), 100, 0.02);
   ratio("dense 300", dense_curve(3000, 30, 300, 0, 0), 300, 0.02);
@@ -90,19 +101,19 @@ TEST(Planner, Optimal) {
   ratio("tilted 300", dense_curve(3000, 30, 300, 0.5, 1), 300, 0.02);
   ratio("tilted 60 100", dense_curve(3000, 60, 300, 0.7, 1), 300, 0.02);
   for (const double f : {50., 100., 1000.}) {
-  Lines print = random_print(7, 2000);
-  for (auto& line : print)
-    if (auto* feed = std::get_if<canonical::Feed>(&line.command)) feed->feed_per_s = f;
-  ratio("print", print, f, 0.02);
+    Lines print = random_print(7, 2000);
+    for (auto& line : print)
+      if (auto* feed = std::get_if<canonical::Feed>(&line.command)) feed->feed_per_s = f;
+    ratio("print", print, f, 0.02);
   }
 }
 
 TEST(Planner, Random) {
   const MotionLimits limits;
   for (int seed = 0; seed < 10; ++seed) {
-  const Measured m = measure(m1(), limits, random_print(static_cast<std::uint64_t>(seed), 3000), 8);
-  expect_within_limits(m, limits, 0.005);
-  print("random", m);
+    const Measured m = measure(m1(), limits, random_print(static_cast<std::uint64_t>(seed), 3000), 8);
+    expect_within_limits(m, limits, 0.005);
+    print("random", m);
   }
 }
 

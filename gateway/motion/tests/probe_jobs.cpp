@@ -13,7 +13,9 @@
 namespace kinebus::probe {
 namespace {
 
-double rounded(double x, double unit) { return std::round(x / unit) * unit; }
+double rounded(double x, double unit) {
+  return std::round(x / unit) * unit;
+}
 
 struct PipeCloser {
   void operator()(std::FILE* file) const { pclose(file); }
@@ -51,7 +53,9 @@ Lines dense_curve(int count, double size_mm, double feed_mm_per_s, double tilt_r
 
 Lines random_print(std::uint64_t seed, int moves) {
   std::mt19937_64 random(seed);
-  const auto pick = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  const auto pick = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
   PoseVector p{};
   p[kZ] = 0.2;
   Job job(p);
@@ -76,7 +80,8 @@ Lines random_print(std::uint64_t seed, int moves) {
     if (kind < 0.5) {  // an arc as a slicer writes it
       const double radius = pick(0.5, 25), step = pick(0.1, 1.5) / radius;
       const double cx = p[kX] - radius, cy = p[kY];
-      for (double a = step; a < pick(1, 6); a += step) print_to(cx + radius * std::cos(a), cy + radius * std::sin(a));
+      for (double a = step; a < pick(1, 6); a += step)
+        print_to(cx + radius * std::cos(a), cy + radius * std::sin(a));
     } else if (kind < 0.8) {  // infill
       double y = p[kY];
       const double width = pick(2, 40), x0 = p[kX];

@@ -128,13 +128,14 @@ class Reference {
 };
 
 bool same_piece(const PathPiece& a, const PathPiece& b) {
-  return a.coefficients == b.coefficients && a.length == b.length && a.arc == b.arc && a.angle0_rad == b.angle0_rad;
+  return a.coefficients == b.coefficients && a.length == b.length && a.arc == b.arc &&
+         a.angle0_rad == b.angle0_rad;
 }
 
 }  // namespace
 
-double time_optimal_s(const Kinematics& kinematics, const MotionLimits& limits, const std::vector<Phase>& phases,
-                      double feed_mm_per_s, double grid_mm) {
+double time_optimal_s(const Kinematics& kinematics, const MotionLimits& limits,
+                      const std::vector<Phase>& phases, double feed_mm_per_s, double grid_mm) {
   if (phases.empty()) return 0;
   Reference reference(kinematics, limits, feed_mm_per_s);
   for (std::size_t i = 0; i < phases.size(); ++i) {

@@ -15,7 +15,9 @@ double greatest(const PoseVector& a, const PoseVector& b) {
   return most;
 }
 
-double length3(const PoseVector& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+double length3(const PoseVector& v) {
+  return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
 
 class Prober {
  public:
@@ -61,8 +63,10 @@ class Prober {
       return;
     }
     for (std::size_t j = 0; j < static_cast<std::size_t>(kinematics_.joint_count()); ++j) {
-      m.joint_speed_ratio = std::max(m.joint_speed_ratio, std::abs(joints.q1[j]) / limits_.joint_speed_per_s[j]);
-      m.joint_accel_ratio = std::max(m.joint_accel_ratio, std::abs(joints.q2[j]) / limits_.joint_accel_per_s2[j]);
+      m.joint_speed_ratio =
+          std::max(m.joint_speed_ratio, std::abs(joints.q1[j]) / limits_.joint_speed_per_s[j]);
+      m.joint_accel_ratio =
+          std::max(m.joint_accel_ratio, std::abs(joints.q2[j]) / limits_.joint_accel_per_s2[j]);
     }
     const double off = path.distance_mm(p.x, phase.line);
     if (off > m.path_error_mm) {
@@ -81,8 +85,8 @@ class Prober {
 
 }  // namespace
 
-Measured measure(const Kinematics& kinematics, const MotionLimits& limits, const Lines& lines, int samples, bool keep,
-                 Planner::Options options) {
+Measured measure(const Kinematics& kinematics, const MotionLimits& limits, const Lines& lines, int samples,
+                 bool keep, Planner::Options options) {
   Measured m;
   Planner planner(kinematics, limits, options);
   PathDistance path;
@@ -135,8 +139,8 @@ Job& Job::rapid(const PoseVector& target) {
   at_ = target;
   return add(canonical::Traverse{target, frame_});
 }
-Job& Job::arc(const PoseVector& target, const std::array<double, 3>& centre, const std::array<double, 3>& normal,
-              double sweep_rad) {
+Job& Job::arc(const PoseVector& target, const std::array<double, 3>& centre,
+              const std::array<double, 3>& normal, double sweep_rad) {
   at_ = target;
   return add(canonical::Arc{target, frame_, centre, normal, sweep_rad, feed_, 0});
 }

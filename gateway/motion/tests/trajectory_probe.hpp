@@ -25,29 +25,32 @@ struct Measured {
   double tool_speed_mm_per_s = 0, tool_accel_mm_per_s2 = 0;
   double joint_speed_ratio = 0, joint_accel_ratio = 0;  ///< to the limits
   double axis_speed_ratio = 0, axis_accel_ratio = 0;
-  double path_error_mm = 0;          ///< to the programmed moves
+  double path_error_mm = 0;  ///< to the programmed moves
   std::uint32_t path_error_line = 0;
-  double position_jump = 0;          ///< between phases, any axis, mm or rad
-  double velocity_jump = 0;          ///< between phases, any axis, per s
-  double speed_at_ends = 0;          ///< ds/dt at start and end of the run
-  double end_error = 0;              ///< last pose against the programmed end, any axis
-  bool last_marked = false;          ///< exactly the last phase carries `last`
-  std::vector<Phase> all;            ///< when asked for
+  double position_jump = 0;  ///< between phases, any axis, mm or rad
+  double velocity_jump = 0;  ///< between phases, any axis, per s
+  double speed_at_ends = 0;  ///< ds/dt at start and end of the run
+  double end_error = 0;      ///< last pose against the programmed end, any axis
+  bool last_marked = false;  ///< exactly the last phase carries `last`
+  std::vector<Phase> all;    ///< when asked for
 };
 
-/// Feeds and pulls as the interface says, finishes, and measures. samples: at least this many a phase, and one a
-/// millisecond.
-Measured measure(const Kinematics& kinematics, const MotionLimits& limits, const Lines& lines, int samples = 8,
-                 bool keep = false, Planner::Options options = {});
+/// Feeds and pulls as the interface says, finishes, and measures. samples: at least this many a phase, and
+/// one a millisecond.
+Measured measure(const Kinematics& kinematics, const MotionLimits& limits, const Lines& lines,
+                 int samples = 8, bool keep = false, Planner::Options options = {});
 
 /// A programmed job, written short.
 class Job {
  public:
   explicit Job(const PoseVector& start = {}, Frame frame = Frame::kPart);
-  Job& feed(double mm_per_s) { feed_ = mm_per_s; return *this; }
-  Job& to(const PoseVector& target);        ///< Feed
-  Job& by(const PoseVector& delta);         ///< Feed, relative
-  Job& rapid(const PoseVector& target);     ///< Traverse
+  Job& feed(double mm_per_s) {
+    feed_ = mm_per_s;
+    return *this;
+  }
+  Job& to(const PoseVector& target);     ///< Feed
+  Job& by(const PoseVector& delta);      ///< Feed, relative
+  Job& rapid(const PoseVector& target);  ///< Traverse
   Job& arc(const PoseVector& target, const std::array<double, 3>& centre, const std::array<double, 3>& normal,
            double sweep_rad);
   Job& add(const canonical::Command& command);
@@ -61,11 +64,12 @@ class Job {
   Lines lines_;
 };
 
-/// 0.2 mm lines along a smooth closed curve of this size, coordinates rounded to 1 um as in a file, E with 5 digits.
-/// tilt_rad, turn_rad: amplitude of A and C along it; 0: three axes.
+/// 0.2 mm lines along a smooth closed curve of this size, coordinates rounded to 1 um as in a file, E with 5
+/// digits. tilt_rad, turn_rad: amplitude of A and C along it; 0: three axes.
 Lines dense_curve(int count, double size_mm, double feed_mm_per_s, double tilt_rad, double turn_rad);
 
-/// A print like a slicer's: outlines with arcs of short lines, infill, travels, retractions. Reproducible by seed.
+/// A print like a slicer's: outlines with arcs of short lines, infill, travels, retractions. Reproducible by
+/// seed.
 Lines random_print(std::uint64_t seed, int moves);
 
 /// Moves of a sliced file (plain, or .gz by zcat); empty when it cannot be read.
