@@ -8,9 +8,9 @@ namespace kinebus {
 namespace {
 constexpr double kShortestPhase_s = 1e-9;
 constexpr double kRestSpeed = 1e-3;  // mm/s: what the planner's rounding may leave of a stop
-// The middle is where the error is largest as long as q'''' hardly changes over the span; the rest is for
-// when it does.
-constexpr double kMiddleShare = 0.7;
+// Both checks hold exactly as long as the fourth derivative is constant over the span; the rest is for when
+// it is not.
+constexpr double kCheckedShare = 0.85;
 }  // namespace
 
 JointSampler::JointSampler(const Kinematics& kinematics, Options options)
@@ -19,7 +19,7 @@ JointSampler::JointSampler(const Kinematics& kinematics, Options options)
       joints_(static_cast<std::size_t>(kinematics.joint_count())) {
   for (std::size_t j = 0; j < joints_; ++j) {
     const bool rotary = kinematics.joint_info(static_cast<int>(j)).rotary;
-    per_tolerance_[j] = 1 / (kMiddleShare * (rotary ? options_.tolerance_rad : options_.tolerance_mm));
+    per_tolerance_[j] = 1 / (kCheckedShare * (rotary ? options_.tolerance_rad : options_.tolerance_mm));
   }
 }
 
@@ -41,6 +41,7 @@ Result<void, StreamError> JointSampler::evaluate(double t, Knot& knot) {
   ++counters_.evaluations;
   knot.q = joints.q;
   knot.q1 = joints.q1;
+  knot.q2 = joints.q2;
   return {};
 }
 
@@ -85,6 +86,17 @@ Result<double, StreamError> JointSampler::middle_error(const JointSpan& span, do
   return worst;
 }
 
+double JointSampler::end_error(const JointSpan& span, const Knot& end, double h) const {
+  // A cubic Hermite's error is q4 t^2 (h - t)^2 / 24: q4 h^4 / 384 in the middle, with a second derivative of
+  // q4 h^2 / 12 at both ends.
+  double worst = 0;
+  for (std::size_t j = 0; j < joints_; ++j)
+    worst =
+        std::max(worst, std::abs(end.q2[j] - 2 * span.coefficients[j][2] - 6 * h * span.coefficients[j][3]) *
+                            per_tolerance_[j]);
+  return worst * h * h / 32;
+}
+
 Result<std::optional<JointSpan>, StreamError> JointSampler::next() {
   if (!active_) return std::nullopt;
   std::optional<JointSpan> result{std::in_place};
@@ -97,13 +109,20 @@ Result<std::optional<JointSpan>, StreamError> JointSampler::next() {
     if (auto ok = evaluate(t1, end); !ok) return Error<StreamError>(ok.error());
     if (final && phase_.last) end.q1 = {};
     hermite(knot_, end, t1 - done_s_, span);
-    if (t1 - done_s_ <= options_.unchecked_span_s) break;
-    const auto error = middle_error(span, done_s_, t1);
-    if (!error) return Error<StreamError>(error.error());
-    if (*error <= 1) break;
+    const double h = t1 - done_s_;
+    if (h <= options_.unchecked_span_s) break;
+    double error = 0;
+    if (h <= options_.end_checked_span_s) {
+      error = end_error(span, end, h);
+    } else {
+      const auto middle = middle_error(span, done_s_, t1);
+      if (!middle) return Error<StreamError>(middle.error());
+      error = *middle;
+    }
+    if (error <= 1) break;
     // The error goes with the fourth power of the span; the rest of the phase is divided evenly.
     const double rest = phase_.duration_s - done_s_;
-    const double wanted = (t1 - done_s_) * std::max(0.1, 0.95 / std::sqrt(std::sqrt(*error)));
+    const double wanted = h * std::max(0.1, 0.95 / std::sqrt(std::sqrt(error)));
     step_s_ = rest / std::ceil(rest / wanted);
   }
   span.start_s = phase_start_s_ + done_s_;

@@ -15,18 +15,20 @@
 namespace kinebus {
 
 /// Post-condition: spans join with equal value and slope; each stays within the tolerance of the exact
-/// inverse kinematics of pose(tau) (checked where a cubic Hermite's error is largest: at its middle). Pull
-/// style: push one phase when wants_phase(), then call next() until it gives no more. Cost: one inverse_along
-/// a span, and one inverse for its check. No heap.
+/// inverse kinematics of pose(tau). Pull style: push one phase when wants_phase(), then call next() until it
+/// gives no more. Cost: one inverse_along a span, and one inverse for the check of a long one. No heap.
 class JointSampler {
  public:
   struct Options {
-    double tolerance_mm = 12e-6;    ///< a thirtieth of half a count of a carriage, a twentieth of E's
-    double tolerance_rad = 0.6e-6;  ///< the same for M1's table: 24,446 counts a rad
+    double tolerance_mm = 35e-6;    ///< 0.045 counts of a carriage: a tenth of the half count for everything
+    double tolerance_rad = 1.8e-6;  ///< the same for M1's table: 24,446 counts a rad
     double longest_span_s = 0.25;   ///< about two of the longest segments
     /// Not checked below this: the fourth derivative is at most 3 a^2 / r = 0.27e6 mm/s^4 for a = 3000 mm/s^2
     /// and inverse kinematics with a radius of curvature of 100 mm; times 0.005^4 / 384 that is 0.0005 um.
     double unchecked_span_s = 0.005;
+    /// Up to this the check costs nothing: by what the cubic's second derivative misses at the span's end.
+    /// Beyond, where the fourth derivative may change on the way, by the position in the middle.
+    double end_checked_span_s = 0.03;
   };
   struct Counters {
     std::uint64_t phases = 0, spans = 0, evaluations = 0;
@@ -53,11 +55,13 @@ class JointSampler {
 
  private:
   struct Knot {
-    JointVector q{}, q1{};
+    JointVector q{}, q1{}, q2{};  ///< q2: as seen from the span before
   };
   Result<void, StreamError> evaluate(double t, Knot& knot);
   /// Largest error over tolerance at the middle of `span`, which covers t0..t1 of the phase.
   Result<double, StreamError> middle_error(const JointSpan& span, double t0, double t1);
+  /// The same, by the second derivative at its end.
+  double end_error(const JointSpan& span, const Knot& end, double duration_s) const;
   void hermite(const Knot& a, const Knot& b, double duration_s, JointSpan& span) const;
   StreamError pose_error(const PoseError& error) const;
 

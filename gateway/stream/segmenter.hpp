@@ -3,12 +3,14 @@
 // tolerance of q(tau) on both axes with as few knots as that needs.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "gateway/motion/joint_span.hpp"
 #include "gateway/stream/axis_scaling.hpp"
+#include "gateway/stream/cubic_error.hpp"
 #include "protocol/motion/segment.hpp"
 
 namespace kinebus {
@@ -23,15 +25,15 @@ struct FittedSegment {
 };
 
 /// Post-conditions: at every time both axes are within tolerance_counts of q(tau) as sampled (unless
-/// counters().loose says otherwise); every segment's acceleration lies between the least and the greatest of
-/// q'' that it covers, widened by at most three quarters of what is left to the joint's limit; the last knot
-/// is at or after the run's end, with velocity exactly 0. Look-ahead: two of the longest segments (262 ms) or
-/// kCapacity spans, whichever is less.
+/// counters().loose says otherwise); every segment's acceleration lies between the least and the greatest q''
+/// that it covers, widened by at most three quarters of what is left to the joint's limit; the last knot is
+/// at or after the run's end, with velocity exactly 0. Look-ahead: two of the longest segments (262 ms) or
+/// kCapacity spans, whichever is less. No heap after construction.
 class Segmenter {
  public:
   struct Options {
-    /// Kept free of the tolerance, counts: sampling error 0.026 and the rounding of path ticks.
-    double margin_counts = 0.03;
+    /// Kept free of the tolerance, counts: the sampling error (35 nm = 0.045) and the rounding of path ticks.
+    double margin_counts = 0.05;
     int acceleration_shift = kDefaultAccelerationShift;
   };
   struct Counters {
@@ -47,7 +49,8 @@ class Segmenter {
 
   /// Begins a run from these exact states, at rest.
   void start(const std::array<AxisState, kAxesPerNode>& states);
-  bool has_room() const { return count_ < kCapacity; }
+  /// A span brings one piece, the last span two.
+  bool has_room() const { return count_ + 2 <= kCapacity; }
   /// Spans in order of time, the last one marked `last`. Only when has_room().
   void push(const JointSpan& span);
   /// nullopt: push more spans, or the run has ended.
@@ -58,52 +61,88 @@ class Segmenter {
   /// The last knot given out: time since the run's start, and the exact states there.
   std::int64_t knot_units() const { return knot_; }
   const std::array<AxisState, kAxesPerNode>& states() const { return states_; }
+  /// Counts between q at the run's start and the state that it starts from, the worse axis; 0 before the
+  /// first span.
+  double start_offset_counts() const { return start_offset_; }
   const Counters& counters() const { return counters_; }
   const NodeAxes& node() const { return node_; }
 
  private:
+  /// One cubic on both axes: counts, as powers of units since `start`.
   struct Piece {
-    double start = 0, end = 0;                            ///< units since the run's start
-    std::array<std::array<double, 4>, kAxesPerNode> c{};  ///< counts, powers of units since `start`
-    double jump = 0;      ///< acceleration jump at its end over tolerance, 1/unit^2 (worse axis)
-    double free_run = 0;  ///< units that one segment can cover of this cubic without end (worse axis)
-    bool breaks_after = false;
+    double start = 0, end = 0;  ///< units since the run's start
+    std::array<std::array<double, 4>, kAxesPerNode> c{};
+    double bend = 0;  ///< |c3| / tolerance, worse axis: what a constant acceleration misses
+    double jump = 0;  ///< jump of q''/2 at its end / tolerance, worse axis
     std::uint32_t line = 0;
   };
   struct Axis {
-    double p = 0, v = 0;  ///< state at the knot, counts and counts/unit
-    double tolerance = 0.47, limit = 0;
+    double p = 0, v = 0;  ///< exact state at the knot as counts and counts/unit
+    double base_tolerance = 0.47;
+    double tolerance = 0.47;  ///< base, or wider while the state at the knot is out of it
+    double limit = 0;         ///< of q''/2, counts/unit^2; 0: none
   };
+  /// A segment on trial.
   struct Fit {
     std::int32_t units = 0;
     std::array<std::int32_t, kAxesPerNode> acceleration{};
     double error = 0;  ///< largest error / tolerance
+    double drift = 0;  ///< how much of the tolerance the end state will cost the next segment
+    bool good() const { return score() <= 1; }
+    double score() const;
   };
-  enum class Goal : std::uint8_t { kRunOn, kHalfway, kRest };
+  /// Where the first guess ends: at `units`, because of a jump there (`at_jump`), the run's end, or the bend.
+  struct Reach {
+    double units = 0;
+    std::size_t piece = 0;
+    bool at_jump = false, at_end = false;
+  };
+  /// What the end of a segment shall be like.
+  enum class Goal : std::uint8_t {
+    kRunOn,    ///< position and velocity such that the next segment can be long
+    kHalfway,  ///< such that one more segment comes to rest at the run's end
+    kRest,     ///< at rest
+  };
+  /// An axis at the end of a segment without acceleration: what is missing in position, and in velocity
+  /// against the best start of the next segment.
+  struct Miss {
+    double position = 0, velocity = 0;
+  };
 
   const Piece& piece(std::size_t i) const { return pieces_[(first_ + i) & (kCapacity - 1)]; }
   Piece& piece(std::size_t i) { return pieces_[(first_ + i) & (kCapacity - 1)]; }
-  void load_states();
+  void append(const Piece& piece);
   bool ready() const;
   std::size_t piece_at(double t, std::size_t hint) const;
-  double region_end(double& reach) const;
-  double next_run(double t, std::size_t index, double cap) const;
-  Fit fit(std::int32_t units, Goal goal, double give_up);
-  double error_over(const Fit& f, std::size_t last) const;
+  bool stops_at(std::size_t index, double b) const;
+  Reach reach() const;
+  double next_units(double t, std::size_t index, double most) const;
+  Miss miss(std::size_t axis, double h, double next, std::size_t index) const;
+  double resting_acceleration(std::size_t axis, double h, Goal goal) const;
+  std::array<double, 2> bounds(std::size_t axis, double h, std::size_t last) const;
+  Extreme error_over(std::size_t axis, double a, double h, std::size_t last) const;
+  Fit fit(std::int32_t units, Goal goal);
   Fit choose();
-  Fit choose_rest(double remaining);
-  Fit shrink(std::int32_t units, Goal goal, Fit best);
-  FittedSegment emit(const Fit& f);
+  Fit come_to_rest();
+  double steadied(double h) const;
+  Fit run_on(const Reach& reach);
+  Fit cross_jumps(Fit best, const Reach& reach);
+  Fit shrink(Fit failed);
+  FittedSegment emit(const Fit& fit);
+  std::optional<FittedSegment> settle();
 
   NodeAxes node_;
   Options options_;
   Counters counters_;
-  std::vector<Piece> pieces_;  ///< ring of kCapacity, allocated once
+  double raw_per_unit_;        ///< raw acceleration for 1 count/unit^2
+  std::vector<Piece> pieces_;  ///< ring of kCapacity
   std::size_t first_ = 0, count_ = 0;
   std::array<Axis, kAxesPerNode> axes_{};
   std::array<AxisState, kAxesPerNode> states_{};
   std::int64_t knot_ = 0;
-  bool complete_ = false, ended_ = true, trim_ = false;
+  double run_end_ = 0;  ///< units; valid when complete_
+  double start_offset_ = 0;
+  bool complete_ = false, ended_ = true;
 };
 
 }  // namespace kinebus

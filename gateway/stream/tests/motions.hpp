@@ -1,0 +1,36 @@
+#pragma once
+// Motions to stream, as a planner makes them: printed lines with blended corners, and smooth curves in cubic
+// pieces.
+
+#include <cstdint>
+#include <vector>
+
+#include "gateway/motion/trajectory.hpp"
+
+namespace kinebus::testing {
+
+struct PrintedLines {
+  int lines = 100;
+  double mean_length_mm = 5;
+  double speed_mm_per_s = 60;
+  double accel_mm_per_s2 = 2900;
+  double blend_mm = 0.005;
+  double extrusion = 0.04;  ///< mm of filament for a mm of line, on average
+  double radius_mm = 60;    ///< all lines stay within
+};
+/// Lines in random directions at z = 10 mm; rest to rest, the last phase marked.
+std::vector<Phase> printed_lines(std::uint32_t seed, const PrintedLines& shape);
+
+struct SmoothCurve {
+  double seconds = 5;
+  double speed_mm_per_s = 100;
+  double accel_mm_per_s2 = 2000;  ///< along the path, at both ends
+  double piece_mm = 4;
+  double radius_mm = 40;
+  double tilt_rad = 0;  ///< A swings between +- this
+  double turn_rad = 0;  ///< C swings between +- this
+};
+/// A curve of sine waves, as cubic pieces with common tangents.
+std::vector<Phase> smooth_curve(std::uint32_t seed, const SmoothCurve& shape);
+
+}  // namespace kinebus::testing
