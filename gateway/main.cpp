@@ -9,16 +9,18 @@
 #include <cstdlib>
 #include <ctime>
 
+#include "gateway/inproc/inproc_bus.hpp"
 #include "gateway/io/daemon.hpp"
 #include "gateway/io/realtime.hpp"
 #include "gateway/io/socketcan_bus.hpp"
 #include "gateway/machine/description/machine_file.hpp"
-#include "node_firmware/port/host/inproc_bus.hpp"
 
 namespace {
 
 volatile std::sig_atomic_t quit = 0;
-void on_signal(int) { quit = 1; }
+void on_signal(int) {
+  quit = 1;
+}
 
 struct Arguments {
   std::string machine;
@@ -45,9 +47,9 @@ kinebus::Result<kinebus::MachineDescription, std::string> read_machine(const std
   return *machine;
 }
 
-kinebus::Result<std::unique_ptr<kinebus::BusPort>, std::string> open_bus(const std::string& name,
-                                                                         const kinebus::MachineDescription& machine) {
-  if (name == "inproc") return kinebus::make_inproc_bus(machine);
+kinebus::Result<std::unique_ptr<kinebus::BusPort>, std::string> open_bus(
+    const std::string& name, const kinebus::MachineDescription& machine) {
+  if (name == "inproc") return std::make_unique<kinebus::InprocBus>(machine, kinebus::monotonic_now());
   auto bus = kinebus::SocketCanBus::open(name);
   if (!bus) return kinebus::Error<std::string>(bus.error());
   return std::move(*bus);
@@ -71,9 +73,9 @@ int serve(const Arguments& arguments) {
   kinebus::EventLoop loop;
   // The epoch must differ from the one before: nodes then join the new clock without a step.
   kinebus::Gateway gateway(*machine, {.epoch = static_cast<std::uint8_t>(std::time(nullptr) & 0xFF)});
-  kinebus::ControlServer server(loop, gateway, jobs,
-                                {.path = arguments.socket.empty() ? default_socket() : arguments.socket,
-                                 .group = arguments.group});
+  kinebus::ControlServer server(
+      loop, gateway, jobs,
+      {.path = arguments.socket.empty() ? default_socket() : arguments.socket, .group = arguments.group});
   if (std::string error = server.listen(); !error.empty()) return fail("local socket " + error);
 
   if (!arguments.no_realtime)
@@ -83,7 +85,8 @@ int serve(const Arguments& arguments) {
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
   std::signal(SIGPIPE, SIG_IGN);
-  spdlog::info("{} on bus {}, listening at {}", machine->name, arguments.bus.empty() ? machine->bus.interface : arguments.bus,
+  spdlog::info("{} on bus {}, listening at {}", machine->name,
+               arguments.bus.empty() ? machine->bus.interface : arguments.bus,
                arguments.socket.empty() ? default_socket() : arguments.socket);
   kinebus::notify_systemd("READY=1");
   kinebus::Daemon(loop, **bus, gateway, server).run(&quit);
@@ -96,12 +99,15 @@ int serve(const Arguments& arguments) {
 int main(int argc, char** argv) {
   Arguments arguments;
   CLI::App app("kinebusd: the Kinebus gateway. Plans G-code and moves the machine's CAN nodes.");
-  app.add_option("--machine", arguments.machine, "Machine file (TOML); without it the built-in default machine M1")
+  app.add_option("--machine", arguments.machine,
+                 "Machine file (TOML); without it the built-in default machine M1")
       ->check(CLI::ExistingFile);
-  app.add_option("--bus", arguments.bus,
-                 "SocketCAN interface such as can0, or \"inproc\": simulated nodes inside this process (default: the "
-                 "machine file's)");
-  app.add_option("--socket", arguments.socket, "Local socket for 'kinebus' (default: /run/kinebus or the user's)");
+  app.add_option(
+      "--bus", arguments.bus,
+      "SocketCAN interface such as can0, or \"inproc\": simulated nodes inside this process (default: the "
+      "machine file's)");
+  app.add_option("--socket", arguments.socket,
+                 "Local socket for 'kinebus' (default: /run/kinebus or the user's)");
   app.add_option("--group", arguments.group, "Group whose members may use the local socket");
   app.add_option("--jobs", arguments.jobs, "Folder of stored jobs (default: the machine file's)");
   app.add_option("--log-level", arguments.log_level, "trace debug info warn error")

@@ -1,0 +1,26 @@
+#pragma once
+// The nodes that a machine description names, as virtual nodes with motors and switches behind them.
+
+#include <cstdint>
+#include <vector>
+
+#include "gateway/machine/description/machine_description.hpp"
+#include "node_firmware/port/host/virtual_machine.hpp"
+
+namespace kinebus {
+
+struct VirtualClocks {
+  double drift_ppm = 0;    ///< crystals are spread evenly over +- this
+  BusTime latency_max{0};  ///< interrupt latency at the nodes, 0 .. this
+  BusTime offset_max{0};   ///< power-up times differ by up to this
+};
+
+/// Carriages stand somewhere inside their travel, a few mm apart (from `seed`), with their positions unknown
+/// to the nodes; home switches stand where the description says, shifted by the calibration offset.
+std::vector<VirtualNodeOptions> virtual_nodes_of(const MachineDescription& machine,
+                                                 const VirtualClocks& clocks, std::uint64_t seed);
+
+/// The joint position, mm or rad, that true counts of its axis mean (drive train only, no calibration).
+double joint_from_counts(const JointDescription& joint, double counts);
+
+}  // namespace kinebus

@@ -1,0 +1,91 @@
+#pragma once
+// Nodes, their motors and switches, and the bus that joins them, in virtual time: the machine without its
+// gateway. The simulation drives it with the gateway in one virtual time; the daemon's `--bus inproc` drives
+// it by the wall clock. All times are true time (BusTime of the bus itself); every node has a clock of its
+// own.
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <random>
+#include <vector>
+
+#include "node_firmware/core/node.hpp"
+#include "protocol/host/bus_model.hpp"
+
+namespace kinebus {
+
+/// What stands behind one axis: a motor that follows its node exactly, and perhaps a switch on its way.
+struct VirtualAxis {
+  double start_counts = 0;        ///< where the carriage stands at power-up, counts from the joint's zero
+  int switch_input = 0;           ///< 1..7 on this node; 0: none
+  double switch_counts = 0;       ///< where the switch's edge is
+  bool active_above = true;       ///< the switch is active at and above its edge (else at and below)
+  bool active_low = false;        ///< electrically
+  double max_counts_per_s = 1e6;  ///< bound used to find the edge without fine ticks
+};
+
+struct VirtualNodeOptions {
+  NodeOptions node;
+  std::array<VirtualAxis, 2> axes{};
+  BusTime clock_offset{0};
+  double clock_drift_ppm = 0;
+  BusTime latency_max{0};  ///< interrupt latency, one-sided, uniform, at every reception
+};
+
+class VirtualMachine {
+ public:
+  struct Counters {
+    std::uint64_t receptions = 0;
+  };
+
+  VirtualMachine(const std::vector<VirtualNodeOptions>& nodes, std::uint64_t seed, int gateway_mailboxes = 1);
+  ~VirtualMachine();
+
+  // The gateway's side of the bus.
+  bool can_send() const { return bus_.has_room(gateway_); }
+  void send(BusTime now, const CanFrame& frame) { bus_.send(gateway_, now, frame); }
+  struct Received {
+    BusTime when{0};
+    bool own = false;  ///< the gateway's frame, now sent
+    CanFrame frame;
+  };
+  std::optional<Received> receive();
+
+  /// When advance() has something to do next.
+  BusTime next_event() const;
+  /// Does everything that falls due up to `now`, in order. Stops early, right after a delivery to the
+  /// gateway, so that the gateway can react in time: call again until it returns true.
+  bool advance(BusTime now);
+
+  /// True position, counts, of an axis now. `at` at or after the last advance().
+  double true_counts(int node, int axis, BusTime at);
+  /// The node's own idea of path time at true time `at`.
+  PathTime path_time(int node, BusTime at);
+  Node& node(int index);
+  int node_count() const { return static_cast<int>(nodes_.size()); }
+  const BusModel& bus() const { return bus_; }
+
+  /// A raw level on an input that no axis drives (E-stop button).
+  void set_input(int node, BusTime at, int input, bool level);
+
+ private:
+  struct VirtualNode;
+  struct Pending {  // a delivered frame on its way through interrupt latency
+    BusTime at{0};
+    CanFrame frame;
+  };
+  void deliver(const BusModel::Delivery& delivery);
+  void serve(VirtualNode& node, BusTime now);
+  void check_switches(VirtualNode& node, BusTime now);
+
+  BusModel bus_;
+  BusModel::Port gateway_;
+  std::vector<std::unique_ptr<VirtualNode>> nodes_;
+  std::vector<Received> received_;
+  std::size_t next_received_ = 0;
+  std::mt19937_64 random_;
+};
+
+}  // namespace kinebus
