@@ -20,8 +20,12 @@ void SegmentStream::set_limits(int axis, const Limits& limits) {
   mine.velocity = std::clamp<std::int64_t>(limits.velocity, 0, kFastest);
 }
 
-void SegmentStream::set_shift(int shift) {
-  if (idle()) shift_ = std::clamp(shift, 0, kMaxAccelerationShift);
+void SegmentStream::set_shift(int axis, int shift) {
+  if (idle()) shift_[index_of(axis)] = std::clamp(shift, 0, kMaxAccelerationShift);
+}
+
+void SegmentStream::set_following(int axis, bool following) {
+  following_[index_of(axis)] = following;
 }
 
 void SegmentStream::set_rest_position(int axis, std::int64_t position) {
@@ -39,6 +43,7 @@ SegmentStream::Verdict SegmentStream::push(std::uint64_t raw, PathTime now) {
     const bool again = any_accepted_ && raw == last_raw_;
     return again ? Verdict::kDuplicate : Verdict::kSequence;
   }
+  if (phase_ == Phase::kUnderrun) return Verdict::kNotStarted;
   if (size_ == kCapacity) return Verdict::kOverflow;
   const auto record = decode_segment(raw);
   if (!record) return Verdict::kUnknown;
@@ -68,9 +73,10 @@ SegmentStream::Verdict SegmentStream::admit(const Segment& record, PathTime now,
     return Verdict::kAccepted;
   }
   for (std::size_t i = 0; i < next.axes.size(); ++i) {
+    if (record.acceleration[i] != 0 && !following_[i]) return Verdict::kNotFollowing;
     const Limits& limits = limits_[i];
     AxisState& axis = next.axes[i];
-    axis = advance(axis, record.acceleration[i], record.duration, shift_);
+    axis = advance(axis, record.acceleration[i], record.duration, shift_[i]);
     if (axis.velocity > limits.velocity || axis.velocity < -limits.velocity) return Verdict::kOutOfLimits;
     if (axis.position > limits.max_position || axis.position < limits.min_position)
       return Verdict::kOutOfLimits;
@@ -107,7 +113,8 @@ SegmentStream::Verdict SegmentStream::check(std::uint64_t raw) {
   for (int i = 0; i < size_ - behind; ++i) {
     const auto record = decode_segment(records_[index_of((head_ + i) % kCapacity)]);
     if (record && record->duration != 0)
-      state = advance(state, record->acceleration[checkpoint.axis], record->duration, shift_);
+      state =
+          advance(state, record->acceleration[checkpoint.axis], record->duration, shift_[checkpoint.axis]);
   }
   return verdict(state);
 }
@@ -142,13 +149,12 @@ bool SegmentStream::step(std::int64_t ticks) {
     pop();
     return true;
   }
-  if (ticks < knot_ticks_) return false;
+  if (ticks < knot_ticks_ || phase_ == Phase::kUnderrun) return false;
   if (!in_segment_) {
     if (size_ == 0) {
       phase_ = Phase::kUnderrun;
       return false;
     }
-    phase_ = Phase::kRunning;
     current_ = front();
     if (current_.control == SegmentControl::kEnd) {
       phase_ = Phase::kRest;
@@ -160,7 +166,7 @@ bool SegmentStream::step(std::int64_t ticks) {
   const std::int64_t end = knot_ticks_ + current_.duration * kPathTicksPerUnit;
   if (ticks < end) return false;
   for (std::size_t i = 0; i < knot_.size(); ++i)
-    knot_[i] = advance(knot_[i], current_.acceleration[i], current_.duration, shift_);
+    knot_[i] = advance(knot_[i], current_.acceleration[i], current_.duration, shift_[i]);
   knot_ticks_ = end;
   in_segment_ = false;
   pop();
@@ -171,8 +177,8 @@ void SegmentStream::evaluate(std::int64_t ticks) {
   const std::int64_t into = in_segment_ ? std::max<std::int64_t>(ticks - knot_ticks_, 0) : 0;
   for (std::size_t i = 0; i < knot_.size(); ++i) {
     position_[i] =
-        in_segment_ ? position_at(knot_[i], current_.acceleration[i], into, shift_) : knot_[i].position;
-    velocity_[i] = in_segment_ ? velocity_at(knot_[i], current_.acceleration[i], into, shift_) : 0;
+        in_segment_ ? position_at(knot_[i], current_.acceleration[i], into, shift_[i]) : knot_[i].position;
+    velocity_[i] = in_segment_ ? velocity_at(knot_[i], current_.acceleration[i], into, shift_[i]) : 0;
   }
 }
 

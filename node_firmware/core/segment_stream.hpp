@@ -28,6 +28,7 @@ class SegmentStream {
     kStartInMotion,    ///< START without an END before it
     kNotStarted,       ///< a segment or END without START
     kEndInMotion,      ///< END at a knot with velocity
+    kNotFollowing,     ///< the segment moves an axis that does not follow the stream
     kOutOfLimits,      ///< the segment would leave the velocity or position limits
     kCheckpoint,       ///< an absolute checkpoint differs
     kStaleCheckpoint,  ///< its record is executed already: it says nothing any more
@@ -42,8 +43,12 @@ class SegmentStream {
 
   // Only while idle() (asserted by ignoring the call otherwise).
   void set_limits(int axis, const Limits& limits);
-  void set_shift(int shift);
+  void set_shift(int axis, int shift);
   void set_rest_position(int axis, std::int64_t position);
+
+  /// Whether the axis executes what the stream says; one that does not may only be told to rest.
+  void set_following(int axis, bool following);
+  bool following(int axis) const { return following_[static_cast<std::size_t>(axis)]; }
 
   /// A record from the bus; `now`: path time now. Only kAccepted changes the queue.
   Verdict push(std::uint64_t raw, PathTime now);
@@ -74,6 +79,7 @@ class SegmentStream {
   int free_records() const { return kCapacity - size_; }
   int size() const { return size_; }
   std::uint32_t consumed() const { return consumed_; }  ///< records executed since power-up
+  /// Ran out of records in motion: everything is refused until clear().
   bool underrun() const { return phase_ == Phase::kUnderrun; }
 
  private:
@@ -100,7 +106,8 @@ class SegmentStream {
   std::array<std::uint64_t, kCapacity> records_{};
   int head_ = 0;
   int size_ = 0;
-  int shift_ = kDefaultAccelerationShift;
+  std::array<int, kAxesPerNode> shift_{kDefaultAccelerationShift, kDefaultAccelerationShift};
+  std::array<bool, kAxesPerNode> following_{};
   std::uint8_t next_sequence_ = 0;
   bool any_accepted_ = false;
   std::uint64_t last_raw_ = 0;

@@ -1,0 +1,222 @@
+#include "node_firmware/core/drive_axis.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace kinebus {
+namespace {
+
+namespace control = cia402::control;
+
+// The device's own EMCY codes; FF01h to FF04h are those of the path.
+constexpr std::uint16_t kEmcyCommand = 0xFF05;
+
+constexpr auto kTarget = slot_of_axes(object::kTargetPosition);
+constexpr auto kSlowDown = slot_of_axes(object::kProfileDeceleration);
+constexpr auto kQuickStop = slot_of_axes(object::kQuickStopDeceleration);
+
+}  // namespace
+
+DriveAxis::DriveAxis(int axis, ObjectDictionary& objects, PathMotion& path, const SwitchInputs& inputs)
+    : index_(static_cast<std::size_t>(axis)), objects_(objects), path_(path), inputs_(inputs) {
+  profile_.hold(0);
+}
+
+void DriveAxis::on_initialised() {
+  power_.on_initialised();
+}
+
+void DriveAxis::on_controlword(LocalTime now, std::uint16_t word) {
+  on_time(now);
+  const auto rising = static_cast<std::uint16_t>(word & ~word_);
+  const bool start_changed = ((word ^ word_) & control::kHomingStart) != 0;
+  word_ = word;
+  power_.on_controlword(word, stop_options());
+  serve_power(now);
+  serve_stop(now);
+  const bool may_move = power_.moves() && was_enabled_ && !blocked() && source_ != Source::kStream;
+  if (mode_ == Mode::kProfilePosition) {
+    if (may_move && source_ == Source::kProfile)
+      profile_position_.on_controlword(to_ticks(now), word, next_set_point(word), profile_);
+    else if (!halted_)
+      profile_position_.reset(word);
+  }
+  if (mode_ == Mode::kHoming && start_changed) {
+    const bool start = (rising & control::kHomingStart) != 0;
+    if (!start || may_move) start_or_end_homing(now, start);
+  }
+  on_time(now);
+}
+
+void DriveAxis::on_mode(LocalTime now, int mode) {
+  wanted_mode_ = static_cast<Mode>(mode);
+  on_time(now);
+}
+
+void DriveAxis::on_fault(LocalTime now, std::uint16_t code, bool power_lost) {
+  on_time(now);
+  if (power_.state() == cia402::State::kFault) return;
+  error_code_ = code;
+  emergency_ = code;
+  power_.on_fault(stop_options(), power_lost);
+  on_time(now);
+}
+
+void DriveAxis::on_path_stop(LocalTime now) {
+  on_time(now);
+  if (source_ == Source::kStream || !moving(now)) return;
+  homing_.abort();
+  profile_position_.reset(word_);
+  halted_ = false;
+  brake(to_ticks(now), unsigned_parameter(kQuickStop));
+}
+
+void DriveAxis::on_stream_cleared(LocalTime now) {
+  if (source_ != Source::kStream) return;
+  to_profile(to_ticks(now));
+  profile_.stop(to_ticks(now), profile_.at(to_ticks(now)), unsigned_parameter(kSlowDown));
+}
+
+void DriveAxis::on_time(LocalTime now) {
+  serve_motion(now);
+  serve_stop(now);
+  serve_power(now);
+  serve_mode(now);
+}
+
+// Power on or off, enabled or not: what these changes mean for the motion.
+void DriveAxis::serve_power(LocalTime now) {
+  const bool enabled = power_.state() == cia402::State::kOperationEnabled;
+  if (was_powered_ && !power_.powered()) {
+    // Without current the motor may be moved by anything.
+    homing_.abort();
+    position_known_ = false;
+    to_profile(to_ticks(now));
+  }
+  if (enabled && !was_enabled_) {
+    profile_position_.reset(word_);
+    objects_.set_value(kTarget[index_], whole_counts(position(now)));
+    limited_ = false;
+  }
+  if (!enabled && was_enabled_) halted_ = false;
+  was_powered_ = power_.powered();
+  was_enabled_ = enabled;
+  const bool faulty =
+      power_.state() == cia402::State::kFault || power_.state() == cia402::State::kFaultReactionActive;
+  if (error_code_ != 0 && !faulty) {
+    error_code_ = 0;
+    fault_cleared_ = true;
+  }
+}
+
+// The ramp that the power state machine asks for: begun once, and reported when the axis rests.
+void DriveAxis::serve_stop(LocalTime now) {
+  const ProfileTicks t = to_ticks(now);
+  const cia402::Stop asked = power_.stop();
+  if (asked != serving_) {
+    serving_ = asked;
+    const bool was_halted = std::exchange(halted_, power_.halted() && asked != cia402::Stop::kNone);
+    if (asked == cia402::Stop::kNone) {
+      const bool resumes = was_halted && power_.moves() && !blocked();
+      if (resumes && mode_ == Mode::kProfilePosition && source_ == Source::kProfile)
+        profile_position_.resume(t, profile_);
+      if (resumes && mode_ == Mode::kHoming && (word_ & control::kHomingStart) != 0)
+        start_or_end_homing(now, true);
+    } else {
+      homing_.abort();
+      if (!halted_) profile_position_.reset(word_);
+      const bool slow = asked == cia402::Stop::kSlowDown;
+      if (source_ != Source::kStream)
+        brake(t, unsigned_parameter(slow ? kSlowDown : kQuickStop));
+      else if (!path_.at_rest(now) && !path_.stream().idle())
+        path_.request_stop(StopReason::kCommand, static_cast<int>(index_), kEmcyCommand, now);
+    }
+  }
+  if (serving_ == cia402::Stop::kNone) return;
+  const bool rests =
+      source_ == Source::kStream ? path_.at_rest(now) || path_.stream().idle() : profile_.done(t);
+  if (!rests) return;
+  power_.on_stop_finished(stop_options());
+  serving_ = power_.stop();
+}
+
+void DriveAxis::serve_motion(LocalTime now) {
+  const ProfileTicks t = to_ticks(now);
+  if (homing_.running()) serve_homing(now);
+  if (source_ == Source::kProfile && mode_ == Mode::kProfilePosition && serving_ == cia402::Stop::kNone)
+    profile_position_.on_time(t, profile_);
+  // So that a checkpoint before the first record compares with where the axis is.
+  if (source_ != Source::kStream && path_.stream().idle() && !moving(now))
+    path_.stream().set_rest_position(static_cast<int>(index_), state_at(t).position);
+}
+
+void DriveAxis::to_profile(ProfileTicks t) {
+  if (source_ == Source::kStream) {
+    path_.stream().set_following(static_cast<int>(index_), false);
+    path_.give_up_stream(to_local(t));
+  }
+  profile_.hold(state_at(t).position);
+  source_ = Source::kProfile;
+}
+
+void DriveAxis::brake(ProfileTicks t, std::uint32_t deceleration) {
+  const ProfileState from = state_at(t);
+  if (source_ == Source::kProfile && profile_.done(t)) return;
+  source_ = Source::kProfile;
+  profile_.stop(t, from, deceleration);
+}
+
+ProfileState DriveAxis::state_at(ProfileTicks t) const {
+  switch (source_) {
+    case Source::kLine:
+      return line_.at(t);
+    case Source::kStream:
+      return {path_.stream().position(static_cast<int>(index_)), 0};
+    case Source::kProfile:
+      break;
+  }
+  return profile_.at(t);
+}
+
+std::int64_t DriveAxis::position(LocalTime at) const {
+  return state_at(to_ticks(at)).position;
+}
+
+std::int32_t DriveAxis::velocity(LocalTime at) const {
+  if (source_ != Source::kStream) return counts_per_second(state_at(to_ticks(at)).velocity);
+  const std::int64_t per_unit = path_.stream().velocity(static_cast<int>(index_));
+  const std::int64_t real = ((per_unit >> 12) * static_cast<std::int64_t>(path_.rate_q32(at) >> 12)) >> 8;
+  return whole_counts(real * 62'500);  // 16 us units in a second
+}
+
+bool DriveAxis::moving(LocalTime at) const {
+  const ProfileTicks t = to_ticks(at);
+  if (source_ == Source::kProfile) return !profile_.done(t);
+  if (source_ == Source::kLine) return !line_.done(t);
+  return path_.stream().moving() && path_.rate_q32(at) != 0;
+}
+
+LocalTime DriveAxis::next_deadline() const {
+  const bool ends = source_ == Source::kProfile || source_ == Source::kLine;
+  const ProfileTicks end = source_ == Source::kLine ? line_.end() : profile_.end();
+  return ends && end > served_until_ ? to_local(end) : LocalTime::max();
+}
+
+cia402::StopOptions DriveAxis::stop_options() const {
+  const auto option = [&](AxisSlots slots) { return static_cast<std::int16_t>(parameter(slots)); };
+  return {.quick_stop = option(slot_of_axes(object::kQuickStopOption)),
+          .shutdown = option(slot_of_axes(object::kShutdownOption)),
+          .disable_operation = option(slot_of_axes(object::kDisableOption)),
+          .halt = option(slot_of_axes(object::kHaltOption)),
+          .fault_reaction = option(slot_of_axes(object::kFaultReactionOption))};
+}
+
+std::uint16_t DriveAxis::take_emergency() {
+  return std::exchange(emergency_, std::uint16_t{0});
+}
+
+bool DriveAxis::take_fault_cleared() {
+  return std::exchange(fault_cleared_, false);
+}
+
+}  // namespace kinebus

@@ -1,0 +1,125 @@
+#pragma once
+// One CiA 402 axis: power state machine, mode of operation, and which of its motions is the one that counts:
+// the trapezoid (profile position, homing, stops), the line from SYNC to SYNC, or the stream of the node.
+// Whatever changes, the position goes on from where it is.
+
+#include <cstdint>
+#include <limits>
+
+#include "node_firmware/core/homing.hpp"
+#include "node_firmware/core/linear_interpolator.hpp"
+#include "node_firmware/core/path_motion.hpp"
+#include "node_firmware/core/profile_position.hpp"
+#include "node_firmware/core/switch_inputs.hpp"
+#include "protocol/canopen/cia402.hpp"
+#include "protocol/canopen/object_dictionary.hpp"
+
+namespace kinebus {
+
+class DriveAxis {
+ public:
+  DriveAxis(int axis, ObjectDictionary& objects, PathMotion& path, const SwitchInputs& inputs);
+
+  void on_initialised();
+  void on_controlword(LocalTime now, std::uint16_t word);
+  void on_mode(LocalTime now, int mode);
+  void on_sync(LocalTime now);
+  void on_switch(LocalTime now, const SwitchEvent& event);
+  /// `power_lost`: the power stage is off already.
+  void on_fault(LocalTime now, std::uint16_t code, bool power_lost);
+  /// The instant of a stop of all nodes has come: own motions brake too.
+  void on_path_stop(LocalTime now);
+  /// The stream's queue was dropped in motion: creeps to the nearest whole count.
+  void on_stream_cleared(LocalTime now);
+  /// Whatever has become due; call after every other input too.
+  void on_time(LocalTime now);
+  LocalTime next_deadline() const;
+
+  /// In the coordinates of the objects; 32 fractional bits. The path must have been advanced to `at`.
+  std::int64_t position(LocalTime at) const;
+  /// The same, but continuous through homing: what the motor is driven by.
+  std::int64_t motor_position(LocalTime at) const {
+    return static_cast<std::int64_t>(static_cast<std::uint64_t>(position(at)) -
+                                     static_cast<std::uint64_t>(origin_));
+  }
+  std::int32_t velocity(LocalTime at) const;  ///< counts/s
+  bool moving(LocalTime at) const;
+  bool powered() const { return power_.powered(); }
+
+  std::uint16_t statusword(LocalTime now) const;
+  int mode_display() const { return static_cast<int>(mode_); }
+  std::uint16_t error_code() const { return error_code_; }
+  cia402::State state() const { return power_.state(); }
+  bool position_known() const { return position_known_; }
+  /// Position at the last home edge, in the coordinates of before, or at the last probe edge.
+  std::int64_t home_latch() const { return home_latch_; }
+  void set_probe(std::int64_t latched) { home_latch_ = latched; }
+  HomingError homing_error() const { return homing_.error(); }
+  std::uint32_t homing_errors() const { return homing_errors_; }
+  /// A homing that runs uses this switch: it is no limit then.
+  bool homes_with(SwitchFunction function) const;
+
+  /// Set once when an error of this axis asks for an EMCY; 0: none.
+  std::uint16_t take_emergency();
+  /// Set once when a fault has been reset.
+  bool take_fault_cleared();
+
+ private:
+  using Mode = cia402::Mode;
+  enum class Source : std::uint8_t { kProfile, kLine, kStream };
+
+  ProfileState state_at(ProfileTicks t) const;
+  std::int64_t parameter(AxisSlots slots) const { return objects_.value(slots[index_]); }
+  std::uint32_t unsigned_parameter(AxisSlots slots) const {
+    return static_cast<std::uint32_t>(parameter(slots));
+  }
+  cia402::StopOptions stop_options() const;
+  ProfilePosition::SetPoint next_set_point(std::uint16_t word);
+  std::int64_t within_limits(std::int64_t target);
+  HomingConfig homing_config() const;
+  SwitchFunction homing_function() const;
+
+  void to_profile(ProfileTicks t);
+  void brake(ProfileTicks t, std::uint32_t deceleration);
+  void serve_power(LocalTime now);
+  void serve_stop(LocalTime now);
+  void serve_mode(LocalTime now);
+  void serve_motion(LocalTime now);
+  void serve_homing(LocalTime now);
+  void enter_mode(LocalTime now, Mode mode);
+  void begin_stream(LocalTime now);
+  void start_or_end_homing(LocalTime now, bool start);
+  bool blocked() const { return path_.stop_latched(); }
+
+  std::size_t index_;
+  ObjectDictionary& objects_;
+  PathMotion& path_;
+  const SwitchInputs& inputs_;
+
+  cia402::PowerStateMachine power_;
+  Mode mode_ = Mode::kNone;
+  Mode wanted_mode_ = Mode::kNone;
+  Source source_ = Source::kProfile;
+  Trapezoid profile_;
+  LinearInterpolator line_;
+  ProfilePosition profile_position_;
+  Homing homing_;
+  std::uint16_t word_ = 0;
+  cia402::Stop serving_ = cia402::Stop::kNone;
+  bool was_powered_ = false;
+  bool was_enabled_ = false;
+  bool halted_ = false;
+  bool position_known_ = false;
+  bool leaving_ = false;  // brakes for a change of mode
+  bool homing_error_told_ = false;
+  ProfileTicks served_until_ = std::numeric_limits<ProfileTicks>::min();
+  bool limited_ = false;  // a target was cut to a limit
+  std::int64_t origin_ = 0;
+  std::int64_t home_latch_ = 0;
+  std::uint16_t error_code_ = 0;
+  std::uint16_t emergency_ = 0;
+  bool fault_cleared_ = false;
+  std::uint32_t homing_errors_ = 0;
+};
+
+}  // namespace kinebus

@@ -1,0 +1,233 @@
+// DriveAxis: the modes of operation, how they are entered and left, and what they show in the statusword.
+
+#include <algorithm>
+
+#include "node_firmware/core/drive_axis.hpp"
+
+namespace kinebus {
+namespace {
+
+namespace control = cia402::control;
+namespace status = cia402::status;
+
+constexpr std::uint16_t kEmcyHoming = 0xFF10;
+
+constexpr auto kSubMode = slot_of_axes(object::kInterpolationSubMode);
+
+/// 60C2h as ticks: value * 10^index seconds, 100 us to 10 s.
+ProfileTicks interpolation_period(std::int64_t value, std::int64_t exponent) {
+  std::int64_t ticks = value * kTicksPerSecond;
+  for (; exponent < 0 && ticks > 0; ++exponent) ticks /= 10;
+  for (; exponent > 0 && ticks < kTicksPerSecond * 10; --exponent) ticks *= 10;
+  return std::clamp<std::int64_t>(ticks, kTicksPerSecond / 10'000, kTicksPerSecond * 10);
+}
+
+}  // namespace
+
+void DriveAxis::serve_mode(LocalTime now) {
+  const bool stream_rests = path_.stream().idle();
+  if (source_ == Source::kStream) {
+    const bool still = wanted_mode_ == Mode::kInterpolatedPosition && parameter(kSubMode) < 0;
+    if (!still && stream_rests) to_profile(to_ticks(now));
+  }
+  if (wanted_mode_ != mode_ && source_ != Source::kStream) {
+    if (!moving(now)) {
+      enter_mode(now, wanted_mode_);
+    } else if (homing_.running() || source_ == Source::kLine || !leaving_) {
+      // A motion that the new mode knows nothing of ends first.
+      homing_.abort();
+      brake(to_ticks(now), unsigned_parameter(slot_of_axes(object::kProfileDeceleration)));
+      leaving_ = true;
+    }
+  }
+  begin_stream(now);
+  served_until_ = std::max(served_until_, to_ticks(now));
+}
+
+void DriveAxis::enter_mode(LocalTime now, Mode mode) {
+  to_profile(to_ticks(now));
+  mode_ = mode;
+  leaving_ = false;
+  limited_ = false;
+  homing_.abort();
+  profile_position_.reset(word_);
+  const std::int32_t here = whole_counts(position(now));
+  objects_.set_value(slot_of_axes(object::kInterpolationData)[index_], here);
+  if (mode == Mode::kCyclicSynchronousPosition)
+    objects_.set_value(slot_of_axes(object::kTargetPosition)[index_], here);
+}
+
+// The stream takes over an axis that rests, while the stream rests: both then are at the same place.
+void DriveAxis::begin_stream(LocalTime now) {
+  if (mode_ != Mode::kInterpolatedPosition || wanted_mode_ != mode_ || parameter(kSubMode) >= 0) return;
+  if (source_ == Source::kStream || !power_.moves() || moving(now) || !path_.stream().idle()) return;
+  SegmentStream& stream = path_.stream();
+  const int axis = static_cast<int>(index_);
+  SegmentStream::Limits limits;
+  const std::int64_t fastest = unsigned_parameter(slot_of_axes(object::kMaxProfileVelocity));
+  limits.velocity = fastest * kOneCount / 62'500;
+  if (position_known_) {
+    limits.min_position = from_counts(parameter(slot_of_axes(object::kMinPositionLimit)));
+    limits.max_position = from_counts(parameter(slot_of_axes(object::kMaxPositionLimit)));
+  }
+  stream.set_limits(axis, limits);
+  stream.set_shift(axis, static_cast<int>(parameter(slot_of_axes(object::kAccelerationShift))));
+  stream.set_rest_position(axis, state_at(to_ticks(now)).position);
+  stream.set_following(axis, true);
+  source_ = Source::kStream;
+}
+
+void DriveAxis::on_sync(LocalTime now) {
+  on_time(now);
+  const bool cyclic = mode_ == Mode::kCyclicSynchronousPosition;
+  const bool linear = mode_ == Mode::kInterpolatedPosition && parameter(kSubMode) == 0 &&
+                      (word_ & control::kInterpolationEnable) != 0;
+  if ((!cyclic && !linear) || wanted_mode_ != mode_ || !power_.moves() || blocked()) return;
+  const ProfileTicks t = to_ticks(now);
+  if (source_ == Source::kProfile && !profile_.done(t)) return;
+  if (source_ != Source::kLine) line_.hold(state_at(t).position);
+  source_ = Source::kLine;
+  const std::int64_t wanted = cyclic ? parameter(slot_of_axes(object::kTargetPosition)) +
+                                           parameter(slot_of_axes(object::kPositionOffset))
+                                     : parameter(slot_of_axes(object::kInterpolationData));
+  limited_ = false;
+  const std::int64_t target =
+      within_limits(from_counts(std::clamp<std::int64_t>(wanted, -(1 << 30), 1 << 30)));
+  const ProfileTicks period = interpolation_period(parameter(slot_of_axes(object::kInterpolationPeriod)),
+                                                   parameter(slot_of_axes(object::kInterpolationIndex)));
+  if (!line_.go(t, target, period, unsigned_parameter(slot_of_axes(object::kMaxProfileVelocity))))
+    limited_ = true;
+}
+
+ProfilePosition::SetPoint DriveAxis::next_set_point(std::uint16_t word) {
+  const auto least = [&](AxisSlots a, AxisSlots b) {
+    return std::max(std::min(unsigned_parameter(a), unsigned_parameter(b)), 1u);
+  };
+  ProfilePosition::SetPoint next;
+  next.limits = {least(slot_of_axes(object::kProfileVelocity), slot_of_axes(object::kMaxProfileVelocity)),
+                 least(slot_of_axes(object::kProfileAcceleration), slot_of_axes(object::kMaxAcceleration)),
+                 least(slot_of_axes(object::kProfileDeceleration), slot_of_axes(object::kMaxDeceleration))};
+  const std::int64_t target = parameter(slot_of_axes(object::kTargetPosition));
+  const bool relative = (word & control::kRelative) != 0;
+  const std::int64_t base = relative ? whole_counts(profile_position_.base(profile_)) : 0;
+  limited_ = false;
+  next.target = within_limits(from_counts(std::clamp<std::int64_t>(base + target, -(1 << 30), 1 << 30)));
+  return next;
+}
+
+std::int64_t DriveAxis::within_limits(std::int64_t target) {
+  std::int64_t low = -kPositionBound, high = kPositionBound;
+  if (position_known_) {
+    low = std::max(low, from_counts(parameter(slot_of_axes(object::kMinPositionLimit))));
+    high = std::min(high, from_counts(parameter(slot_of_axes(object::kMaxPositionLimit))));
+  }
+  const auto mine = [&](SwitchFunction a, SwitchFunction b) { return inputs_.active(index_ == 0 ? a : b); };
+  const std::int64_t here = state_at(served_until_).position;
+  // On a limit switch only the way back is open.
+  if (mine(SwitchFunction::kPositiveLimitA, SwitchFunction::kPositiveLimitB)) high = std::min(high, here);
+  if (mine(SwitchFunction::kNegativeLimitA, SwitchFunction::kNegativeLimitB)) low = std::max(low, here);
+  const std::int64_t cut = low > high ? here : std::clamp(target, low, high);
+  if (cut != target) limited_ = true;
+  return cut;
+}
+
+HomingConfig DriveAxis::homing_config() const {
+  return {.method = static_cast<int>(parameter(slot_of_axes(object::kHomingMethod))),
+          .fast = unsigned_parameter(slot_of_axes(object::kHomingFastSpeed)),
+          .slow = unsigned_parameter(slot_of_axes(object::kHomingSlowSpeed)),
+          .acceleration = unsigned_parameter(slot_of_axes(object::kHomingAcceleration)),
+          .offset = static_cast<std::int32_t>(
+              std::clamp<std::int64_t>(parameter(slot_of_axes(object::kHomeOffset)), -(1 << 29), 1 << 29)),
+          .travel = unsigned_parameter(slot_of_axes(object::kHomingTravel)),
+          .back_off = unsigned_parameter(slot_of_axes(object::kHomingBackOff))};
+}
+
+SwitchFunction DriveAxis::homing_function() const {
+  const bool a = index_ == 0;
+  switch (Homing::switch_of(static_cast<int>(parameter(slot_of_axes(object::kHomingMethod))))) {
+    case Homing::Switch::kHome:
+      return a ? SwitchFunction::kHomeA : SwitchFunction::kHomeB;
+    case Homing::Switch::kNegativeLimit:
+      return a ? SwitchFunction::kNegativeLimitA : SwitchFunction::kNegativeLimitB;
+    case Homing::Switch::kPositiveLimit:
+      return a ? SwitchFunction::kPositiveLimitA : SwitchFunction::kPositiveLimitB;
+    case Homing::Switch::kNone:
+      break;
+  }
+  return SwitchFunction::kNone;
+}
+
+void DriveAxis::start_or_end_homing(LocalTime now, bool start) {
+  const ProfileTicks t = to_ticks(now);
+  if (start) {
+    to_profile(t);
+    const SwitchFunction function = homing_function();
+    homing_.start(t, homing_config(), function != SwitchFunction::kNone && inputs_.active(function),
+                  profile_);
+    serve_homing(now);
+  } else if (homing_.running()) {
+    homing_.abort();
+    brake(t, unsigned_parameter(slot_of_axes(object::kHomingAcceleration)));
+  }
+}
+
+bool DriveAxis::homes_with(SwitchFunction function) const {
+  return homing_.running() && function == homing_function();
+}
+
+void DriveAxis::on_switch(LocalTime now, const SwitchEvent& event) {
+  on_time(now);
+  if (!homes_with(event.function)) return;
+  homing_.on_switch(to_ticks(now), event.active, event.latched[index_], profile_);
+  serve_homing(now);
+  on_time(now);
+}
+
+void DriveAxis::serve_homing(LocalTime now) {
+  homing_.on_time(to_ticks(now), profile_);
+  std::int64_t by = 0;
+  if (homing_.take_shift(by)) {
+    // Around the end of 64 bits and on: only differences of motor positions mean anything.
+    origin_ = static_cast<std::int64_t>(static_cast<std::uint64_t>(origin_) + static_cast<std::uint64_t>(by));
+    position_known_ = true;
+    home_latch_ = homing_.latched();
+  }
+  if (homing_.error() != HomingError::kNone && !homing_error_told_) {
+    ++homing_errors_;
+    emergency_ = kEmcyHoming;
+  }
+  homing_error_told_ = homing_.error() != HomingError::kNone;
+}
+
+std::uint16_t DriveAxis::statusword(LocalTime now) const {
+  unsigned word = power_.statusword();
+  if (limited_ || blocked()) word |= status::kInternalLimit;
+  const bool rests = !moving(now);
+  switch (mode_) {
+    case Mode::kProfilePosition:
+      if (halted_ ? rests : profile_position_.reached(to_ticks(now), profile_))
+        word |= status::kTargetReached;
+      if (profile_position_.acknowledged()) word |= status::kSetPointAcknowledged;
+      break;
+    case Mode::kHoming:
+      if (rests && !homing_.running()) word |= status::kTargetReached;
+      if (homing_.attained()) word |= status::kHomingAttained;
+      if (homing_.error() != HomingError::kNone) word |= status::kHomingError;
+      break;
+    case Mode::kInterpolatedPosition:
+      if (source_ == Source::kStream ? path_.stream().resting() : rests) word |= status::kTargetReached;
+      if (source_ == Source::kStream || (source_ == Source::kLine && power_.moves()))
+        word |= status::kInterpolationActive;
+      break;
+    case Mode::kCyclicSynchronousPosition:
+      if (rests) word |= status::kTargetReached;
+      if (source_ == Source::kLine && power_.moves()) word |= status::kFollowsCommand;
+      break;
+    case Mode::kNone:
+      if (rests) word |= status::kTargetReached;
+      break;
+  }
+  return static_cast<std::uint16_t>(word);
+}
+
+}  // namespace kinebus

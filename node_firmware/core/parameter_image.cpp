@@ -1,0 +1,100 @@
+#include "node_firmware/core/parameter_image.hpp"
+
+#include <algorithm>
+
+#include "protocol/bytes.hpp"
+#include "protocol/canopen/crc.hpp"
+
+namespace kinebus {
+namespace {
+
+constexpr std::uint32_t kMagic = 0x4950'424B;  // "KBPI"
+
+std::uint32_t crc_of(std::span<const std::uint8_t> bytes) {
+  Crc32 crc;
+  crc.add(bytes);
+  return crc.value();
+}
+
+std::int64_t relative_part(const ObjectEntry& entry, std::uint8_t node_id) {
+  return entry.node_id_relative ? node_id : 0;
+}
+
+}  // namespace
+
+ParameterImage::Load ParameterImage::adopt(std::span<const std::uint8_t> stored) {
+  clear(0);
+  if (stored.empty()) return Load::kEmpty;
+  if (stored.size() < kHeader + kTail) return Load::kDamaged;
+  const std::size_t entries = get_u16_le(stored.subspan(6));
+  const std::size_t size = kHeader + entries * kEntry + kTail;
+  // Flash is read as a whole page: what follows the image does not matter.
+  if (get_u32_le(stored) != kMagic || get_u16_le(stored.subspan(4)) != kVersion || size > stored.size() ||
+      size > bytes_.size())
+    return Load::kDamaged;
+  if (crc_of(stored.first(size - kTail)) != get_u32_le(stored.subspan(size - kTail))) return Load::kDamaged;
+  std::copy_n(stored.begin(), size, bytes_.begin());
+  size_ = size;
+  return Load::kGood;
+}
+
+void ParameterImage::clear(std::uint8_t node_id) {
+  begin(node_id);
+  finish(0);
+}
+
+void ParameterImage::save(const ObjectDictionary& objects, std::uint8_t node_id) {
+  begin(node_id);
+  std::size_t entries = 0;
+  for (std::size_t i = 0; i < kNodeObjectCount; ++i) {
+    const ObjectEntry& entry = kNodeObjects[i];
+    if (entry.binding != Binding::kParameter) continue;
+    const std::int64_t value = objects.value({static_cast<std::uint16_t>(i)}) - relative_part(entry, node_id);
+    if (value == entry.initial) continue;
+    const auto place = std::span(bytes_).subspan(kHeader + entries * kEntry);
+    put_u32_le(place, entry.address.key());
+    put_u64_le(place.subspan(4), static_cast<std::uint64_t>(value));
+    ++entries;
+  }
+  finish(entries);
+}
+
+void ParameterImage::apply(ObjectDictionary& objects, std::uint8_t node_id) const {
+  const std::size_t entries = get_u16_le(std::span(bytes_).subspan(6));
+  for (std::size_t i = 0; i < entries; ++i) {
+    const auto place = std::span(bytes_).subspan(kHeader + i * kEntry);
+    const std::uint32_t key = get_u32_le(place);
+    const auto value = static_cast<std::int64_t>(get_u64_le(place.subspan(4)));
+    const int slot = find_slot({static_cast<std::uint16_t>(key >> 8), static_cast<std::uint8_t>(key & 0xFF)});
+    if (slot < 0) continue;
+    const ObjectEntry& entry = kNodeObjects[static_cast<std::size_t>(slot)];
+    const bool allowed = !entry.limited || (value >= entry.low && value <= entry.high);
+    if (entry.binding == Binding::kParameter && allowed)
+      objects.set_value({static_cast<std::uint16_t>(slot)}, value + relative_part(entry, node_id));
+  }
+}
+
+void ParameterImage::set_node_id(std::uint8_t node_id) {
+  bytes_[8] = node_id;
+  finish(get_u16_le(std::span(bytes_).subspan(6)));
+}
+
+std::uint8_t ParameterImage::node_id() const {
+  return bytes_[8] <= 127 ? bytes_[8] : std::uint8_t{0};
+}
+
+void ParameterImage::begin(std::uint8_t node_id) {
+  bytes_ = {};
+  put_u32_le(bytes_, kMagic);
+  put_u16_le(std::span(bytes_).subspan(4), kVersion);
+  bytes_[8] = node_id;
+}
+
+void ParameterImage::finish(std::size_t entries) {
+  put_u16_le(std::span(bytes_).subspan(6), static_cast<std::uint16_t>(entries));
+  const std::size_t end = kHeader + entries * kEntry;
+  put_u32_le(std::span(bytes_).subspan(end), crc_of(std::span(bytes_).first(end)));
+  size_ = end + kTail;
+}
+
+}  // namespace kinebus

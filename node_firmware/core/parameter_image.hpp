@@ -1,0 +1,52 @@
+#pragma once
+// The stored parameters as bytes: every parameter that differs from its default, by address, so that an image
+// stays readable when objects are added. The port keeps the bytes; damage is found by length, version and
+// CRC-32.
+//
+//   "KBPI" | version u16 | entries u16 | node id u8, 3 bytes 0 | entries x (index<<8|sub u32, value i64) |
+//   CRC-32 u32
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "protocol/canopen/object_dictionary.hpp"
+
+namespace kinebus {
+
+class ParameterImage {
+ public:
+  enum class Load : std::uint8_t { kEmpty, kGood, kDamaged };
+
+  /// Takes over what the port's memory holds. kDamaged and kEmpty: as after clear().
+  Load adopt(std::span<const std::uint8_t> stored);
+  /// No parameters, only the node id.
+  void clear(std::uint8_t node_id);
+  /// The dictionary as it is now. `node_id`: the one in use, and what node-id relative values are relative
+  /// to.
+  void save(const ObjectDictionary& objects, std::uint8_t node_id);
+  /// Writes the stored values into a dictionary that has its defaults. Addresses that are gone, and values
+  /// that are out of their limits now, are left out.
+  void apply(ObjectDictionary& objects, std::uint8_t node_id) const;
+  void set_node_id(std::uint8_t node_id);
+
+  std::uint8_t node_id() const;  ///< 0: none stored
+  std::span<const std::uint8_t> bytes() const { return {bytes_.data(), size_}; }
+
+ private:
+  static constexpr std::size_t kHeader = 12, kEntry = 12, kTail = 4;
+  static constexpr std::uint16_t kVersion = 1;
+  static constexpr std::size_t kMostEntries = [] {
+    std::size_t n = 0;
+    for (const ObjectEntry& entry : kNodeObjects) n += entry.binding == Binding::kParameter ? 1 : 0;
+    return n;
+  }();
+
+  void begin(std::uint8_t node_id);
+  void finish(std::size_t entries);
+
+  std::array<std::uint8_t, kHeader + kMostEntries * kEntry + kTail> bytes_{};
+  std::size_t size_ = 0;
+};
+
+}  // namespace kinebus

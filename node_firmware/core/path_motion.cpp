@@ -1,0 +1,262 @@
+#include "node_firmware/core/path_motion.hpp"
+
+#include <algorithm>
+
+namespace kinebus {
+namespace {
+
+using Verdict = SegmentStream::Verdict;
+
+// EMCY codes: FF00h ff. is for the device.
+constexpr std::uint16_t kEmcySync = 0x8700;
+constexpr std::uint16_t kEmcyStarved = 0xFF01;
+constexpr std::uint16_t kEmcySequence = 0xFF02;
+constexpr std::uint16_t kEmcyCheckpoint = 0xFF03;
+constexpr std::uint16_t kEmcyStream = 0xFF04;
+// Half of the 2 us that two nodes may differ, and as much again for what a bound is above an error.
+constexpr BusTime kClockAlarm = std::chrono::microseconds{4};
+// Shortest pause between two looks at the queue's end while the rate is low.
+constexpr LocalTime kLook = std::chrono::microseconds{200};
+
+}  // namespace
+
+void PathMotion::set_options(const Options& options) {
+  options_ = options;
+}
+
+void PathMotion::on_sync(std::uint8_t counter, LocalTime arrival) {
+  clock_.on_sync(counter, arrival);
+}
+
+void PathMotion::on_stamp(const CanFrame& frame, LocalTime now) {
+  const auto stamp = decode_sync_stamp(frame, clock_.to_bus(now));
+  if (!stamp) return;
+  const auto update = clock_.on_stamp(*stamp, now);
+  if (update.epoch_joined) path_.shift(update.epoch_shift);
+  if (update.used) sync_lost_ = false;
+  path_.forget_before(clock_.to_bus(now));
+  const bool out = clock_.synchronised() && clock_.error_bound(now) > kClockAlarm;
+  if (out && !out_of_bound_) ++counters_.clock_out_of_bound;
+  out_of_bound_ = out;
+}
+
+bool PathMotion::on_rate_command(const CanFrame& frame, LocalTime now, bool clear_allowed) {
+  const BusTime bus_now = clock_.to_bus(now);
+  const auto command = decode_rate_command(frame, bus_now);
+  if (!command) return false;
+  using Kind = RateCommand::Kind;
+  if (command->kind == Kind::kClear && !clear_allowed) return false;
+  const bool starts = command->kind == Kind::kRate && command->rate_q15 != 0;
+  const auto outcome = path_.apply(*command, bus_now);
+  using Outcome = PathClock::Outcome;
+  if (outcome == Outcome::kDuplicate) ++counters_.duplicates;
+  count_late(outcome, command->kind == Kind::kStop ? counters_.late_stops : counters_.late_rates);
+  const bool taken =
+      outcome == Outcome::kScheduled || outcome == Outcome::kLateRewound || outcome == Outcome::kLateStarted;
+  if (taken && command->kind == Kind::kStop) ++counters_.stops;
+  if (taken && command->kind == Kind::kClear) error_flags_ = 0;
+  // All nodes run or none: one that cannot says so while the ramp still begins.
+  if (taken && starts && !clock_.synchronised()) request_stop(StopReason::kSyncLost, 0, kEmcySync, now);
+  if (taken && starts && (given_up_ || stream_.underrun()))
+    request_stop(StopReason::kStreamError, 0, kEmcyStream, now);
+  plan_starvation_check(now);
+  return taken || outcome == Outcome::kDuplicate;
+}
+
+void PathMotion::count_late(PathClock::Outcome outcome, std::uint32_t& counter) {
+  if (outcome == PathClock::Outcome::kLateRewound || outcome == PathClock::Outcome::kLateStarted) ++counter;
+}
+
+void PathMotion::on_peer_emcy(const CanFrame& frame, LocalTime now) {
+  const BusTime bus_now = clock_.to_bus(now);
+  const auto request = decode_stop_request(frame, bus_now);
+  if (!request) return;
+  // A node without bus time names nonsense: then now is the best there is.
+  constexpr BusTime kPlausible = std::chrono::seconds{1};
+  const BusTime distance = request->start > bus_now ? request->start - bus_now : bus_now - request->start;
+  const BusTime start = clock_.synchronised() && distance < kPlausible ? request->start : bus_now;
+  const auto outcome = path_.stop_at(start, options_.stop_ramp_2ms, bus_now);
+  count_late(outcome, counters_.late_stops);
+  if (outcome != PathClock::Outcome::kDuplicate) ++counters_.stops;
+}
+
+SegmentStream::Verdict PathMotion::on_record(std::uint64_t raw, LocalTime now) {
+  advance_to(now);
+  const Verdict verdict = stream_.push(raw, tau(now));
+  judge(verdict, now);
+  if (verdict == Verdict::kAccepted && starvation_check_ == LocalTime::max()) plan_starvation_check(now);
+  return verdict;
+}
+
+SegmentStream::Verdict PathMotion::on_checkpoint(std::uint64_t raw, LocalTime now) {
+  advance_to(now);
+  const Verdict verdict = stream_.check(raw);
+  if (verdict != Verdict::kStaleCheckpoint) judge(verdict, now);
+  return verdict;
+}
+
+void PathMotion::judge(Verdict verdict, LocalTime now) {
+  const auto stop_once = [&](std::uint8_t flag, StopReason reason, std::uint16_t code) {
+    const bool known = (error_flags_ & flag) != 0;
+    error_flags_ = static_cast<std::uint8_t>(error_flags_ | flag);
+    if (!known) request_stop(reason, 0, code, now);
+  };
+  switch (verdict) {
+    case Verdict::kAccepted:
+    case Verdict::kStaleCheckpoint:
+      return;
+    case Verdict::kDuplicate:
+      ++counters_.duplicates;
+      return;
+    case Verdict::kSequence:
+      ++counters_.sequence_errors;
+      return stop_once(StreamStatus::kSequenceError, StopReason::kSequenceError, kEmcySequence);
+    case Verdict::kOverflow:
+      ++counters_.overflows;
+      return stop_once(StreamStatus::kSequenceError, StopReason::kSequenceError, kEmcySequence);
+    case Verdict::kCheckpoint:
+      ++counters_.checkpoint_errors;
+      return stop_once(StreamStatus::kCheckpointError, StopReason::kCheckpointError, kEmcyCheckpoint);
+    case Verdict::kUnknown:
+    case Verdict::kLateStart:
+    case Verdict::kStartInMotion:
+    case Verdict::kNotStarted:
+    case Verdict::kEndInMotion:
+    case Verdict::kNotFollowing:
+    case Verdict::kOutOfLimits:
+      ++counters_.sequence_errors;
+      return stop_once(StreamStatus::kSequenceError, StopReason::kStreamError, kEmcyStream);
+  }
+}
+
+bool PathMotion::clear_stream(LocalTime now) {
+  if (!at_rest(now) && !stream_.idle()) return false;
+  stream_.clear(tau(now));
+  error_flags_ = 0;
+  given_up_ = false;
+  starvation_check_ = LocalTime::max();
+  return true;
+}
+
+bool PathMotion::set_path_time(PathTime tau_wanted, LocalTime now) {
+  // With motion queued, another path time would be another position.
+  return stream_.idle() && path_.set_tau(tau_wanted, clock_.to_bus(now));
+}
+
+void PathMotion::request_stop(StopReason reason, int axis, std::uint16_t emcy_code, LocalTime now) {
+  const BusTime ahead = clock_.to_bus(now) + kStopMargin;
+  // The wire carries whole microseconds: this node must use what the others read.
+  raise(reason, axis, emcy_code, BusTime{ahead.count() / 1000 * 1000}, now);
+}
+
+void PathMotion::raise(StopReason reason, int axis, std::uint16_t emcy_code, BusTime start, LocalTime now) {
+  const auto outcome = path_.stop_at(start, options_.stop_ramp_2ms, clock_.to_bus(now));
+  if (outcome != PathClock::Outcome::kDuplicate) ++counters_.stops;
+  count_late(outcome, counters_.late_stops);
+  if (alarm_count_ < kMaxAlarms)
+    alarms_[static_cast<std::size_t>(alarm_count_++)] = {{reason, static_cast<std::uint8_t>(axis), start},
+                                                         emcy_code};
+}
+
+void PathMotion::give_up_stream(LocalTime now) {
+  if (stream_.idle() || given_up_) return;
+  given_up_ = true;
+  if (!at_rest(now)) request_stop(StopReason::kCommand, 0, kEmcyStream, now);
+}
+
+void PathMotion::advance_to(LocalTime at) {
+  const bool ran = stream_.underrun();
+  if (stream_.advance_to(tau(at)) || ran) return;
+  // The ramp should have come first; there is no path left to stop on.
+  ++counters_.underruns;
+  error_flags_ |= StreamStatus::kUnderrun;
+  request_stop(StopReason::kStarved, 0, kEmcyStarved, at);
+}
+
+// Path time that a stop takes from now: the way of the ramp, and what passes until all nodes have heard of
+// it.
+std::int64_t PathMotion::ticks_to_stop(std::uint64_t rate_q32) const {
+  const std::uint64_t rate_q16 = rate_q32 >> 16;
+  const std::uint64_t square_q16 = (rate_q16 * rate_q16) >> 16;
+  const auto ramp_ticks = static_cast<std::uint64_t>(options_.stop_ramp_2ms) * 32'000;
+  constexpr std::uint64_t kMarginTicks =
+      2 * 1500 * 16;  // kStopMargin, and once more for this node's own delay
+  const std::uint64_t margin = kMarginTicks + static_cast<std::uint64_t>(options_.starvation_margin.count());
+  return static_cast<std::int64_t>(((square_q16 * ramp_ticks) >> 17) + ((rate_q16 * margin) >> 16));
+}
+
+bool PathMotion::starved(LocalTime now) const {
+  const std::int64_t stop_tau = tau(now).count() + ticks_to_stop(rate_q32(now));
+  return stream_.open() && stop_tau > stream_.tail_start().count() && stop_tau > stream_.horizon().count();
+}
+
+// A lower bound of when starved() may turn true: path time passes at most as fast as time.
+void PathMotion::plan_starvation_check(LocalTime now) {
+  starvation_check_ = LocalTime::max();
+  if (!stream_.open() || at_rest(now) || path_.stop_latched()) return;
+  const std::int64_t end = std::max(stream_.horizon(), stream_.tail_start()).count();
+  const std::int64_t slack = end - tau(now).count() - ticks_to_stop(std::uint64_t{1} << 32);
+  // 62 ns a tick of 62.5: also for a crystal that is fast by 8000 ppm.
+  starvation_check_ = now + std::max(kLook, LocalTime{slack * 62});
+}
+
+void PathMotion::watch_sync(LocalTime now) {
+  if (!clock_.synchronised() || sync_lost_ || now - clock_.last_sync_local() < options_.sync_timeout) return;
+  sync_lost_ = true;
+  ++counters_.sync_lost;
+  if (at_rest(now)) return;
+  // The same instant on every node that heard the same SYNCs.
+  const BusTime start = clock_.last_sync_bus() + options_.sync_timeout;
+  raise(StopReason::kSyncLost, 0, kEmcySync, BusTime{start.count() / 1000 * 1000}, now);
+}
+
+void PathMotion::on_time(LocalTime now) {
+  advance_to(now);
+  watch_sync(now);
+  if (now < starvation_check_) return;
+  if (!path_.stop_latched() && starved(now)) {
+    ++counters_.underruns;
+    error_flags_ |= StreamStatus::kUnderrun;
+    request_stop(StopReason::kStarved, 0, kEmcyStarved, now);
+  }
+  plan_starvation_check(now);
+}
+
+LocalTime PathMotion::next_deadline() const {
+  LocalTime deadline = starvation_check_;
+  if (clock_.synchronised() && !sync_lost_)
+    deadline = std::min(deadline, clock_.last_sync_local() + options_.sync_timeout);
+  return deadline;
+}
+
+std::optional<PathAlarm> PathMotion::next_alarm() {
+  if (alarm_count_ == 0) return std::nullopt;
+  const PathAlarm alarm = alarms_[0];
+  std::move(alarms_.begin() + 1, alarms_.begin() + alarm_count_, alarms_.begin());
+  --alarm_count_;
+  return alarm;
+}
+
+std::optional<LocalTime> PathMotion::stop_start() const {
+  const auto start = path_.stop_start();
+  if (!start) return std::nullopt;
+  return clock_.to_local(*start);
+}
+
+StreamStatus PathMotion::status(LocalTime now) const {
+  StreamStatus status;
+  status.next_sequence = stream_.next_sequence();
+  status.free_records = static_cast<std::uint8_t>(stream_.free_records());
+  unsigned flags = error_flags_;
+  if (stream_.moving()) flags |= StreamStatus::kRunning;
+  if (stream_.resting()) flags |= StreamStatus::kAtRest;
+  if (path_.stop_latched()) flags |= StreamStatus::kStopped;
+  if (clock_.synchronised() && !sync_lost_) flags |= StreamStatus::kSynchronised;
+  status.flags = static_cast<std::uint8_t>(flags);
+  const std::int64_t error_us = clock_.error_bound(now).count() / 1000;
+  status.sync_error_us = static_cast<std::uint8_t>(std::clamp<std::int64_t>(error_us, 0, 255));
+  status.path_units = static_cast<std::uint32_t>(tau(now).count() / kPathTicksPerUnit);
+  return status;
+}
+
+}  // namespace kinebus

@@ -1,0 +1,60 @@
+#include "node_firmware/core/switch_inputs.hpp"
+
+#include <algorithm>
+
+namespace kinebus {
+
+void SwitchInputs::configure(int input, const Config& config) {
+  inputs_[static_cast<std::size_t>(input)].config = config;
+}
+
+void SwitchInputs::on_level(LocalTime at, int input, bool level, const LatchedPositions& latched) {
+  if (input < 0 || input >= kSwitchInputs) return;
+  Input& in = inputs_[static_cast<std::size_t>(input)];
+  if (level == in.level) {
+    if (in.pending) ++glitches_;
+    in.pending = false;
+  } else if (!in.pending) {
+    in.pending = true;
+    in.since = at;
+    in.latched = latched;
+  }
+}
+
+std::optional<SwitchEvent> SwitchInputs::next_event(LocalTime now) {
+  Input* first = nullptr;
+  for (Input& in : inputs_)
+    if (in.pending && now - in.since >= in.config.debounce && (first == nullptr || in.since < first->since))
+      first = &in;
+  if (first == nullptr) return std::nullopt;
+  first->pending = false;
+  first->level = !first->level;
+  return SwitchEvent{static_cast<int>(first - inputs_.data()), first->config.function, first->active(),
+                     first->since, first->latched};
+}
+
+LocalTime SwitchInputs::next_deadline() const {
+  LocalTime deadline = LocalTime::max();
+  for (const Input& in : inputs_)
+    if (in.pending) deadline = std::min(deadline, in.since + in.config.debounce);
+  return deadline;
+}
+
+std::uint8_t SwitchInputs::active_inputs() const {
+  unsigned bits = 0;
+  for (std::size_t i = 0; i < inputs_.size(); ++i)
+    if (inputs_[i].active()) bits |= 1u << i;
+  return static_cast<std::uint8_t>(bits);
+}
+
+bool SwitchInputs::active(SwitchFunction function) const {
+  return std::any_of(inputs_.begin(), inputs_.end(),
+                     [&](const Input& in) { return in.config.function == function && in.active(); });
+}
+
+bool SwitchInputs::configured(SwitchFunction function) const {
+  return std::any_of(inputs_.begin(), inputs_.end(),
+                     [&](const Input& in) { return in.config.function == function; });
+}
+
+}  // namespace kinebus
