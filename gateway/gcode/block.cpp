@@ -226,8 +226,8 @@ class BlockReader {
     for (int i = 0; i < block_.m_count; ++i) {
       const Code other = block_.m[static_cast<std::size_t>(i)];
       if (other.number == code.number || (group != MGroup::kOther && m_group(other.number) == group))
-        return fail(column, m_name(code.number) + " and M" + std::to_string(other.number) +
-                                " (column " + std::to_string(other.column) +
+        return fail(column, m_name(code.number) + " and M" + std::to_string(other.number) + " (column " +
+                                std::to_string(other.column) +
                                 ") exclude one another: only one can stand in a line");
     }
     if (block_.m_count == Block::kMaxMCodes) return fail(column, "too many M codes in one line (8 at most)");

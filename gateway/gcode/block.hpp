@@ -57,6 +57,7 @@ struct Block {
   static constexpr std::size_t index(char letter) { return static_cast<std::size_t>(letter - 'A'); }
   static constexpr std::uint32_t bit(char letter) { return 1U << index(letter); }
   bool has(char letter) const { return (present & bit(letter)) != 0; }
+  bool is_bare(char letter) const { return (bare & bit(letter)) != 0; }
   double operator[](char letter) const { return value[index(letter)]; }
   std::uint32_t column_of(char letter) const { return column[index(letter)]; }
   bool has(GGroup group) const { return (groups >> static_cast<unsigned>(group) & 1U) != 0; }

@@ -214,7 +214,7 @@ void Core::begin_program() {
   m.content_seen = false;
   m.motion = Motion::kNone;
   m.plane = Plane::kXy;
-  m.incremental = m.incremental_e = m.absolute_centre = m.inverse_time = false;
+  m.incremental = m.incremental_e = m.relative_extruder = m.absolute_centre = m.inverse_time = false;
   m.coordinate_system = 0;
   m.g92_active = false;
   m.tool_centre_point = m.tilted = false;
@@ -265,7 +265,7 @@ bool Core::take(char letter, double& value) {
   if ((used_ & bit) != 0)
     return fail(block_.column_of(letter),
                 "two codes of this line would both use " + name + ": write them in two lines");
-  if ((block_.bare & bit) != 0) return fail(block_.column_of(letter), name + " needs a number");
+  if (block_.is_bare(letter)) return fail(block_.column_of(letter), name + " needs a number");
   used_ |= bit;
   value = block_[letter];
   return true;

@@ -16,7 +16,12 @@ bool Core::run_modes() {
     m.inverse_time = inverse_time;
   }
   if (has('F') && !m.inverse_time && !run_feed_word()) return false;
-  if (has('T') && !take_integer('T', 0, options_.tools - 1, m.tool)) return false;
+  if (has('T')) {
+    if (!block_.is_bare('T') && block_['T'] >= options_.tools)
+      return fail(block_.column_of('T'),
+                  "the machine has no such tool: the last is T" + std::to_string(options_.tools - 1));
+    if (!take_integer('T', 0, options_.tools - 1, m.tool)) return false;
+  }
   if (block_.has(GGroup::kPlane)) {
     const int number = block_.code(GGroup::kPlane).number;
     m.plane = number == 170 ? Plane::kXy : number == 180 ? Plane::kZx : Plane::kYz;
@@ -25,10 +30,13 @@ bool Core::run_modes() {
   if (block_.has(GGroup::kCoordinates) && !select_coordinate_system(block_.code(GGroup::kCoordinates)))
     return false;
   if (block_.has(GGroup::kPathMode) && !set_path_mode(block_.code(GGroup::kPathMode))) return false;
-  if (block_.has(GGroup::kDistance))
-    m.incremental = m.incremental_e = block_.code(GGroup::kDistance).number == 910;
-  if (block_.has_m(82)) m.incremental_e = false;
-  if (block_.has_m(83)) m.incremental_e = true;
+  if (block_.has(GGroup::kDistance)) {
+    // G91 takes E along; G90 goes back to what M82 or M83 said.
+    m.incremental = block_.code(GGroup::kDistance).number == 910;
+    m.incremental_e = m.incremental || m.relative_extruder;
+  }
+  if (block_.has_m(82)) m.incremental_e = m.relative_extruder = false;
+  if (block_.has_m(83)) m.incremental_e = m.relative_extruder = true;
   if (block_.has(GGroup::kCentre)) m.absolute_centre = block_.code(GGroup::kCentre).number == 901;
   if (block_.has(GGroup::kTilt) && !set_tilt(block_.code(GGroup::kTilt))) return false;
   return true;

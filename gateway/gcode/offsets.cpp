@@ -219,6 +219,7 @@ bool Core::orient_tool() {
   const Vector3 normal = {m.tilt[0][2], m.tilt[1][2], m.tilt[2][2]};
   const double slope = std::hypot(normal[0], normal[1]);
   constexpr double kLevel = 1e-12;
+  constexpr double kRounding = 1e-9;
   bool found = false;
   Pose best = m.position;
   for (const int sign : {1, -1}) {
@@ -227,15 +228,18 @@ bool Core::orient_tool() {
     pose[kAxisA] = std::atan2(sign * slope, normal[2]);
     if (slope > kLevel)
       pose[kAxisC] = nearest_turn(std::atan2(sign * normal[0], sign * normal[1]), m.position[kAxisC]);
-    constexpr double kRounding = 1e-9;
     if (pose[kAxisA] < options_.a_min_rad - kRounding || pose[kAxisA] > options_.a_max_rad + kRounding)
       continue;
-    if (!found || std::abs(pose[kAxisC] - m.position[kAxisC]) < std::abs(best[kAxisC] - m.position[kAxisC]))
-      best = pose;
+    // The nearer C; of two as near, the positive A.
+    const double turn = std::abs(pose[kAxisC] - m.position[kAxisC]);
+    if (!found || turn < std::abs(best[kAxisC] - m.position[kAxisC]) - kRounding) best = pose;
     found = true;
   }
   if (!found) return fail(code.column, "no A within the machine's range makes the tool normal to the plane");
 
+  if (std::abs(best[kAxisA] - m.position[kAxisA]) <= kRounding &&
+      std::abs(best[kAxisC] - m.position[kAxisC]) <= kRounding)
+    return true;
   if (m.tool_centre_point) {
     emit(canonical::Traverse{best, m.frame});
     m.position = best;
@@ -260,13 +264,13 @@ bool Core::home() {
     const char letter = kAxisLetters[axis];
     if (!has(letter)) continue;
     // G28 X0 is common; an intermediate point as in RS274/NGC has no meaning when home is a switch.
-    if ((block_.bare & Block::bit(letter)) == 0 && block_[letter] != 0)
+    if (!block_.is_bare(letter) && block_[letter] != 0)
       return fail(block_.column_of(letter), "G28 finds the home switches: name axes without a number");
     pass_over(letter);
     axes |= 1U << axis;
   }
   // G28 W: without bed levelling, which is never done here.
-  if ((block_.bare & Block::bit('W')) != 0) pass_over('W');
+  if (block_.is_bare('W')) pass_over('W');
   Pose machine = in_frame(m.position, m.frame, Frame::kMachine);
   for (std::size_t axis = kAxisX; axis <= kAxisC; ++axis)
     if (axes == 0 || (axes >> axis & 1U) != 0) machine[axis] = options_.home[axis];

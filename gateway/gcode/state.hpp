@@ -32,7 +32,8 @@ struct ModalState {
   Plane plane = Plane::kXy;
   bool inches = false;             ///< G20
   bool incremental = false;        ///< G91
-  bool incremental_e = false;      ///< M83, or G91
+  bool incremental_e = false;      ///< M83, or since G91
+  bool relative_extruder = false;  ///< M83: what G90 goes back to
   bool absolute_centre = false;    ///< G90.1
   bool inverse_time = false;       ///< G93
   bool tool_centre_point = false;  ///< G43.4

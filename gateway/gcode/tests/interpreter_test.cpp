@@ -1,1 +1,191 @@
-#include <gtest/gtest.h>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <new>
+#include <random>
+
+#include "gateway/gcode/job_reader.hpp"
+#include "gateway/gcode/tests/test_support.hpp"
+
+namespace {
+std::size_t allocations = 0;
+}  // namespace
+
+// Counts every allocation of the test program.
+void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+
+namespace kinebus::gcode {
+namespace {
+
+TEST(Interpreter, ARefusedLineChangesNothing) {
+  Session session;
+  session.must("G1 X1 F600");
+  const auto before = session.texts();
+  const std::string codes = session.interpreter.modal_codes();
+  for (const char* line : {"G20 G91 G18 F100 G55 G1 X5 Y", "G92 X7 D1", "G10 L2 P1 X5 Q1", "G68.2 J10 X",
+                           "G43.4 G0 X1 D9", "M220 S50 D4", "G10 D4", "G28 D4", "M3", "X2 F0", "M2 D1"}) {
+    EXPECT_NE(session.run(line), "") << line;
+    EXPECT_EQ(session.texts(), before) << line;
+    EXPECT_EQ(session.interpreter.modal_codes(), codes) << line;
+    EXPECT_EQ(session.interpreter.program_position()[kAxisX], 1) << line;
+  }
+  session.must("X2");
+  EXPECT_EQ(session.texts().back(), "13 feed machine x2 y0 z0 a0 c0 e0 f10");
+}
+
+TEST(Interpreter, ASavedStateGoesOnExactlyWhereItWas) {
+  const std::string first =
+      "G10 L2 P2 X5 Y6\nG55 M83 G1 F1200 X1 Y1 E1\nM220 S80\nM221 S95\nG92 X3\n#7=2.5\nG43.4\nG10\n";
+  const std::string second = "G1 X#7 E.5\nG11\nG2 X4 I.75 E1\nG92.1\nG91\nG1 X1\nG49\nY2 A3\n";
+  Session whole;
+  whole.must(first);
+  const std::size_t split = whole.commands.size();
+  const State saved = whole.interpreter.state();
+  const std::uint32_t line = whole.number;
+  whole.must(second);
+  Session resumed;
+  resumed.interpreter.restore(saved);
+  resumed.number = line;
+  resumed.must(second);
+  auto expected = whole.texts(split), actual = resumed.texts();
+  ASSERT_FALSE(actual.empty());
+  EXPECT_EQ(actual.front().find(" position part"), actual.front().find(' '));
+  actual.erase(actual.begin());
+  EXPECT_EQ(actual, expected);
+}
+
+TEST(Interpreter, FilamentIsContinuousThroughG92RetractionAndFlow) {
+  constexpr unsigned kSeed = 11;
+  std::mt19937 random(kSeed);
+  Session session;
+  session.must("G1 F600\nM207 S1.5");
+  double program = 0, sum = 0, flow = 1;
+  bool relative = false, retracted = false;
+  const auto uniform = [&random](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  const auto decimal = [](double value) {
+    std::array<char, 40> text{};
+    std::snprintf(text.data(), text.size(), "%.5f", value);
+    return std::string(text.data());
+  };
+  for (int i = 0; i < 3000; ++i) {
+    switch (random() % 8) {
+      case 0: {
+        const std::string e = decimal(uniform(-5, 5));
+        session.must("G92 E" + e);
+        program = std::strtod(e.c_str(), nullptr);
+        break;
+      }
+      case 1:
+        relative = !relative;
+        session.must(relative ? "M83" : "M82");
+        break;
+      case 2: {
+        const int percent = static_cast<int>(uniform(50, 150));
+        session.must("M221 S" + std::to_string(percent));
+        flow = percent / 100.0;
+        break;
+      }
+      case 3:
+        session.must(retracted ? "G11" : "G10");
+        retracted = !retracted;
+        break;
+      default: {
+        const double step = std::strtod(decimal(uniform(-1, 3)).c_str(), nullptr);
+        const std::string e = decimal(relative ? step : program + step);
+        const double next = relative ? program + step : std::strtod(e.c_str(), nullptr);
+        session.must("G1 X" + std::to_string(i) + " E" + e);
+        sum += flow * (next - program);
+        program = next;
+      }
+    }
+    ASSERT_NEAR(session.interpreter.state().modal.position[kAxisE], sum - (retracted ? 1.5 : 0), 1e-8)
+        << "seed " << kSeed << " step " << i;
+  }
+}
+
+TEST(Interpreter, NothingIsAllocatedForALine) {
+  Interpreter interpreter;
+  CommandBuffer out;
+  out.reserve(100);
+  ASSERT_TRUE(interpreter.execute("G1 X1 Y1 F600", 1, out));
+  const std::size_t before = allocations;
+  int accepted = 0;
+  for (std::uint32_t line = 2; line < 50; ++line) {
+    for (const char* text :
+         {"G1 X10.5 Y-3.25 E.01234 F1800", "N7 G1 X[1+2] Y#1 (computed)", ";TYPE:Perimeter", "G92 E0",
+          "M106 S100", "G3 X10.5 Y-3.25 R50", "G0 X1 Y1", "G2 X1 Y1 I5 J0", "G4 P5", "G91 G1 X1", "G90"})
+      if (interpreter.execute(text, line, out)) ++accepted;
+    if (out.size() > 80) out.clear();
+  }
+  const std::size_t after = allocations;
+  EXPECT_EQ(accepted, 48 * 11);
+  EXPECT_EQ(after, before);
+}
+
+TEST(Interpreter, KnownButUselessCodesAreNotedOnce) {
+  Session session;
+  session.must("M73 P1\nM73 P2\nG29\nM900 K.05\nG29 P1");
+  ASSERT_EQ(session.interpreter.notes().size(), 3U);
+  EXPECT_EQ(session.interpreter.notes()[0].line, 1U);
+  EXPECT_EQ(session.interpreter.notes()[1].text, "G29 has no effect on this machine");
+  session.interpreter.clear_notes();
+  session.must("M73 P3");
+  EXPECT_TRUE(session.interpreter.notes().empty());
+}
+
+TEST(Interpreter, TellsModalCodesAndPosition) {
+  Session session;
+  EXPECT_EQ(session.interpreter.modal_codes(), "G80 G17 G21 G90 G91.1 G94 G54 G49 G64 G69 G92.1 M82");
+  session.must("G20 G91 G18 G90.1 G55 G61 M83 G1 X1 A90 F60\nG43.4\nG92 Y0");
+  EXPECT_EQ(session.interpreter.modal_codes(), "G1 G18 G20 G91 G90.1 G94 G55 G43.4 G61 G69 G92 M83");
+  const Pose position = session.interpreter.program_position();
+  EXPECT_NEAR(position[kAxisX], 25.4, 1e-12);
+  EXPECT_NEAR(position[kAxisA], 90, 1e-12);
+}
+
+TEST(Interpreter, AMoveFromOutsideIsAnnounced) {
+  Session session;
+  session.must("G10 L2 P1 X5\nG1 X1 E2 F600");
+  session.interpreter.set_position({20, 30, 40, 0, 0, 99}, Frame::kMachine);
+  EXPECT_EQ(session.interpreter.program_position()[kAxisX], 15);
+  session.must("G1 X16 E3");
+  const auto texts = session.texts(session.commands.size() - 2);
+  EXPECT_EQ(texts[0], "3 position machine x20 y30 z40 a0 c0 e2");
+  EXPECT_EQ(texts[1], "3 feed machine x21 y30 z40 a0 c0 e3 f10");
+}
+
+TEST(Interpreter, AProgramAfterTheEndBeginsWithDefaults) {
+  Session session;
+  session.must("G91 G55 G18 G1 X1 F600\nM2");
+  EXPECT_TRUE(session.interpreter.ended());
+  session.interpreter.finish(3, session.commands);
+  EXPECT_EQ(session.all<canonical::End>().size(), 1U);
+  session.must("G0 Y1");
+  EXPECT_FALSE(session.interpreter.ended());
+  EXPECT_EQ(session.interpreter.modal_codes(), "G0 G17 G21 G90 G91.1 G94 G54 G49 G64 G69 G92.1 M82");
+  EXPECT_EQ(session.texts().back(), "3 traverse machine x1 y1 z0 a0 c0 e0");
+}
+
+TEST(Interpreter, BlankAndCommentLinesDoNothing) {
+  Session session;
+  session.must("G0 X1");
+  const std::size_t before = session.commands.size();
+  for (const char* line : {"", " ", "\t", ";", " ; text", "()", "(a) (b) ; c", "N5", "G1 F1200", "\r"})
+    session.must(line);
+  EXPECT_EQ(session.commands.size(), before);
+}
+
+}  // namespace
+}  // namespace kinebus::gcode
