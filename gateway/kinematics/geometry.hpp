@@ -92,8 +92,8 @@ struct CoreXyGeometry {
 
 /// Linear delta: three vertical towers, carriage heights above the bed; then E. Nothing turns.
 struct LinearDeltaGeometry {
-  double radius_mm =
-      140;  ///< horizontal distance of the rod ends, tower side to effector side, at the centre
+  /// Horizontal distance of an arm's ends with the effector at the centre.
+  double radius_mm = 174.75;
   double arm_length_mm = 333;
   std::array<double, 3> tower_angle_rad{210 * kRadPerDeg, 330 * kRadPerDeg, 90 * kRadPerDeg};
   std::array<Interval, 3> travel_mm{{{0, 600}, {0, 600}, {0, 600}}};  ///< height of the upper rod end

@@ -309,8 +309,8 @@ class Reader {
       }
     }
     const std::string full = l.path.empty() ? std::string(name) : l.path + "." + std::string(name);
-    const std::string expected = nearest != nullptr ? "did you mean " + *nearest + "?"
-                                                    : (all.empty() ? "nothing here" : "one of " + all);
+    const std::string expected =
+        nearest != nullptr ? "perhaps " + *nearest : (all.empty() ? "nothing here" : "one of " + all);
     errors_.push_back({file_, key.source().begin.line, full, "a key that does not exist", expected});
   }
 
