@@ -86,7 +86,8 @@ bool Lookahead::take(Step& step) {
     // Parts of one curve at one speed: one step, so that they become one phase.
     for (; next + 1 < pieces_.end() && next + 1 <= final_; ++next) {
       const PlanPiece& part = pieces_[next];
-      if (part.geometry != piece.geometry || part.cap != piece.cap || pieces_[next + 1].entry != piece.cap) break;
+      if (part.geometry != piece.geometry || part.cap != piece.cap || pieces_[next + 1].entry != piece.cap)
+        break;
       step.length += part.length;
     }
   }

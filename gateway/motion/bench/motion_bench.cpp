@@ -5,6 +5,8 @@
 #include <cstdlib>
 
 #include "gateway/kinematics/geometry.hpp"
+#include "gateway/motion/path_distance.hpp"
+#include "gateway/motion/tests/time_optimal.hpp"
 #include "gateway/motion/tests/trajectory_probe.hpp"
 
 namespace kinebus::probe {
@@ -17,7 +19,7 @@ const Kinematics& m1() {
 
 void plan(benchmark::State& state, const Lines& lines) {
   if (lines.empty()) {
-    state.SkipWithError("no job: set KINEBUS_SLICED_FILE to a sliced file");
+    state.SkipWithError("no moves in the job");
     return;
   }
   double seconds = 0;
@@ -44,10 +46,6 @@ void plan(benchmark::State& state, const Lines& lines) {
   state.counters["phases"] = static_cast<double>(counters.phases) / moves;
 }
 
-void BM_PlanSlicedFile(benchmark::State& state) {
-  const char* path = std::getenv("KINEBUS_SLICED_FILE");
-  plan(state, path == nullptr ? Lines{} : sliced_file(path));
-}
 void BM_PlanRandomPrint(benchmark::State& state) {
   plan(state, random_print(1, 100'000));
 }
@@ -57,11 +55,72 @@ void BM_PlanDenseCurve(benchmark::State& state) {
 void BM_PlanDenseFiveAxisCurve(benchmark::State& state) {
   plan(state, dense_curve(100'000, 30, 100, 0.5, 1));
 }
-
-BENCHMARK(BM_PlanSlicedFile)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_PlanRandomPrint)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_PlanDenseCurve)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_PlanDenseFiveAxisCurve)->Unit(benchmark::kMillisecond);
+
+/// Job time over that of the time-optimal profile on the same path under the same limits.
+void over_optimal(benchmark::State& state, const Lines& lines, double feed) {
+  for (auto _ : state) {
+    const MotionLimits limits;
+    const Measured m = measure(m1(), limits, lines, 4, true);
+    const double best = time_optimal_s(m1(), limits, m.all, feed, 0.02);
+    state.counters["job_s"] = m.duration_s;
+    state.counters["optimal_s"] = best;
+    state.counters["over_optimal"] = m.duration_s / best;
+    state.counters["joint_accel_ratio"] = m.joint_accel_ratio;
+  }
+}
+
+Lines at_feed(Lines lines, double feed) {
+  for (auto& line : lines) {
+    if (auto* move = std::get_if<canonical::Feed>(&line.command)) move->feed_per_s = feed;
+  }
+  return lines;
+}
+
+void BM_OverOptimalPrint(benchmark::State& state) {
+  over_optimal(state, at_feed(random_print(7, 2000), 100), 100);
+}
+void BM_OverOptimalDenseCurve(benchmark::State& state) {
+  over_optimal(state, dense_curve(3000, 30, 300, 0, 0), 300);
+}
+void BM_OverOptimalTiltedCurve(benchmark::State& state) {
+  over_optimal(state, dense_curve(3000, 30, 300, 0.5, 1), 300);
+}
+BENCHMARK(BM_OverOptimalPrint)->Iterations(1)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_OverOptimalDenseCurve)->Iterations(1)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_OverOptimalTiltedCurve)->Iterations(1)->Unit(benchmark::kMillisecond);
+
+void BM_PathDistance(benchmark::State& state) {
+  const Lines lines = dense_curve(20'000, 30, 100, 0, 0);
+  PathDistance path;
+  for (const auto& line : lines) path.add(line);
+  std::size_t at = 1;
+  for (auto _ : state) {
+    if (++at == lines.size()) {
+      state.PauseTiming();
+      path = PathDistance{};
+      for (const auto& line : lines) path.add(line);
+      at = 1;
+      state.ResumeTiming();
+    }
+    PoseVector pose = std::get<canonical::Feed>(lines[at].command).target;
+    pose[kX] += 0.002;
+    benchmark::DoNotOptimize(path.distance_mm(pose, lines[at].line + 30));
+  }
+}
+BENCHMARK(BM_PathDistance);
+
+// Sliced jobs are not in the repository: KINEBUS_SLICED_FILE names one, plain or .gz.
+[[maybe_unused]] const bool kSlicedFile = [] {
+  if (const char* path = std::getenv("KINEBUS_SLICED_FILE")) {
+    benchmark::RegisterBenchmark("BM_PlanSlicedFile", [path](benchmark::State& state) {
+      plan(state, sliced_file(path));
+    })->Unit(benchmark::kMillisecond);
+  }
+  return true;
+}();
 
 }  // namespace
 }  // namespace kinebus::probe

@@ -1,5 +1,6 @@
 // The jobs that planner tests and benchmarks run.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -91,6 +92,66 @@ Lines random_print(std::uint64_t seed, int moves) {
       }
     } else {  // anything
       for (int i = 0; i < 20; ++i) print_to(p[kX] + pick(-3, 3), p[kY] + pick(-3, 3));
+    }
+  }
+  return job.lines();
+}
+
+Lines random_five_axis(std::uint64_t seed, int moves, Frame frame) {
+  std::mt19937_64 random(seed);
+  const auto pick = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  PoseVector p{0, 0, 40, 0, 0, 0};
+  Job job(p, frame);
+  while (static_cast<int>(job.lines().size()) < moves) {
+    job.feed(std::exp(pick(std::log(2.0), std::log(400.0))));
+    const double kind = pick(0, 1);
+    const double size = std::exp(pick(std::log(0.02), std::log(30.0)));
+    if (kind < 0.08) {
+      p[kE] += pick(-1, 1);
+      job.to(p);
+      continue;
+    }
+    if (kind < 0.14) {
+      p[kC] += pick(-1, 1);
+      if (pick(0, 1) < 0.5) p[kA] = std::clamp(p[kA] + pick(-0.3, 0.3), -0.4, 0.4);
+      job.feed(pick(0.1, 5)).to(p);
+      continue;
+    }
+    if (kind < 0.24) {  // an arc about Z, or leaning, around a centre at some distance, with a rise
+      const double radius = pick(0.3, 15), from = pick(0, 2 * std::numbers::pi), sweep = pick(0.05, 7);
+      const std::array<double, 3> centre{p[kX] - radius * std::cos(from), p[kY] - radius * std::sin(from),
+                                         p[kZ]};
+      const double sign = pick(0, 1) < 0.5 ? 1 : -1;
+      p[kX] = centre[0] + radius * std::cos(from + sign * sweep);
+      p[kY] = centre[1] + radius * std::sin(from + sign * sweep);
+      p[kZ] = std::clamp(p[kZ] + pick(-2, 2), 5.0, 80.0);
+      p[kE] += 0.04 * sweep * radius;
+      job.arc(p, centre, {0, 0, sign}, sweep);
+    } else {
+      const int count = kind < 0.5 ? 25 : 1;  // a run of lines that turn and tilt a little each, or one
+      double heading = pick(0, 6.28), turn = pick(-0.2, 0.2), dc = pick(-0.05, 0.05), da = pick(-0.02, 0.02);
+      if (count == 1 && pick(0, 1) < 0.5) dc = da = 0;
+      for (int i = 0; i < count; ++i, heading += turn) {
+        const double step = count == 1 ? size : std::min(size, 1.0);
+        p[kX] += step * std::cos(heading);
+        p[kY] += step * std::sin(heading);
+        p[kZ] = std::clamp(p[kZ] + (count == 1 ? pick(-1, 1) : 0.02) * step, 5.0, 80.0);
+        p[kC] += dc * step;
+        p[kA] = std::clamp(p[kA] + da * step, -0.4, 0.4);
+        p[kE] += 0.04 * step;
+        if (count == 1 && pick(0, 1) < 0.2) {
+          job.rapid(p);
+        } else {
+          job.to(p);
+        }
+      }
+    }
+    if (std::hypot(p[kX], p[kY]) > 60) {
+      p[kX] = pick(-20, 20);
+      p[kY] = pick(-20, 20);
+      job.rapid(p);
     }
   }
   return job.lines();

@@ -72,6 +72,10 @@ Lines dense_curve(int count, double size_mm, double feed_mm_per_s, double tilt_r
 /// seed.
 Lines random_print(std::uint64_t seed, int moves);
 
+/// Anything that moves, on five axes: lines from 0.02 to 30 mm, runs of short ones, arcs and helices,
+/// traverses, moves of A, C or E alone, feeds from 2 to 400 mm/s. Reproducible by seed.
+Lines random_five_axis(std::uint64_t seed, int moves, Frame frame);
+
 /// Moves of a sliced file (plain, or .gz by zcat); empty when it cannot be read.
 Lines sliced_file(const std::string& path);
 

@@ -1,0 +1,53 @@
+#include "gateway/motion/path_distance.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "gateway/motion/tests/trajectory_probe.hpp"
+
+namespace kinebus::probe {
+namespace {
+
+TEST(PathDistance, MeasuresToTheLineBesideThePose) {
+  PathDistance path;
+  for (const auto& line : Job().to({10, 0, 0, 0, 0, 0}).to({10, 10, 0, 0, 0, 0}).lines()) path.add(line);
+  EXPECT_NEAR(path.distance_mm({5, 0.3, 0, 0, 0, 0}, 2), 0.3, 1e-12);
+  EXPECT_EQ(path.nearest_line(), 2u);
+  EXPECT_NEAR(path.distance_mm({10.3, -0.4, 0, 0, 0, 0}, 3), 0.5, 1e-12);
+  EXPECT_NEAR(path.distance_mm({10, 4, 0.2, 0, 0, 0}, 3), 0.2, 1e-12);
+  EXPECT_EQ(path.nearest_line(), 3u);
+}
+
+TEST(PathDistance, MeasuresToArcsAndHelices) {
+  PathDistance path;
+  Job job({10, 0, 0, 0, 0, 0});
+  job.arc({10, 0, 4, 0, 0, 0}, {0, 0, 0}, {0, 0, 1}, 4 * std::numbers::pi);
+  for (const auto& line : job.lines()) path.add(line);
+  EXPECT_NEAR(path.distance_mm({0, 10.01, 0.5, 0, 0, 0}, 2), 0.01, 1e-6);
+  EXPECT_NEAR(path.distance_mm({-9.98, 0, 3, 0, 0, 0}, 2), 0.02, 1e-6);
+}
+
+TEST(PathDistance, FollowsADenseCurveAndForgetsWhatLiesBehind) {
+  const Lines lines = dense_curve(5000, 10, 100, 0, 0);  // 1 m around a curve of 70 mm: it comes back often
+  PathDistance path;
+  std::size_t fed = 0;
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    for (; fed < lines.size() && fed < i + 100; ++fed) path.add(lines[fed]);
+    PoseVector pose = std::get<canonical::Feed>(lines[i].command).target;
+    pose[kZ] += 0.003;
+    const double distance = path.distance_mm(pose, lines[i].line + 20);
+    EXPECT_LE(distance, 0.003 + 1e-9);
+    EXPECT_GE(distance, 0.0025);  // the curve climbs
+    EXPECT_LE(std::abs(static_cast<double>(path.nearest_line()) - static_cast<double>(lines[i].line)), 2);
+  }
+}
+
+TEST(PathDistance, WithoutMovesThereIsNothingToLeave) {
+  PathDistance path;
+  EXPECT_EQ(path.distance_mm({1, 2, 3, 0, 0, 0}, 1), 0);
+}
+
+}  // namespace
+}  // namespace kinebus::probe
