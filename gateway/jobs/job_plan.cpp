@@ -43,7 +43,7 @@ JobPlan::JobPlan(const MachineDescription& machine, const Kinematics& kinematics
     group_.set_state(node.node_id, states, nodes_.back().status(PathTime{0}));
   }
   // Typical contents: stuffing differs by a few bits.
-  const auto bits = [](CanFrame frame) { return static_cast<std::int64_t>(wire_bits(frame)); };
+  const auto bits = [](CanFrame frame) { return static_cast<std::int64_t>(bit_length(frame)); };
   const CanFrame sync = CanFrame::make(kSyncCobId, {77});
   const CanFrame stamp = encode(SyncStamp{77, 1, BusTime{1'234'567'890'123}});
   const CanFrame heartbeat = CanFrame::make(0x701, {5});
@@ -83,7 +83,7 @@ void JobPlan::tick() {
   tau_ticks_ += rate * ticks_of(kTick);
   const PathTime tau = path_time(tau_ticks_);
   while (const auto frame = group_.next_frame(now_, tau)) {
-    count(static_cast<std::int64_t>(wire_bits(*frame)));
+    count(static_cast<std::int64_t>(bit_length(*frame)));
     for (IdealNode& node : nodes_) node.on_frame(*frame);
   }
   for (IdealNode& node : nodes_) {

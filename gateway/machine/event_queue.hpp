@@ -20,7 +20,11 @@ class EventQueue {
     events_.push_back(std::move(event));
   }
   void message(BusTime when, std::string words, std::uint32_t line = 0) {
-    push({.kind = MachineEvent::Kind::kMessage, .when = when, .line = line, .words = std::move(words), .advice = {}});
+    push({.kind = MachineEvent::Kind::kMessage,
+          .when = when,
+          .line = line,
+          .words = std::move(words),
+          .advice = {}});
   }
   void alarm(BusTime when, AlarmCode code, std::string words, std::uint8_t node = 0, std::uint32_t line = 0) {
     push({.kind = MachineEvent::Kind::kAlarm,

@@ -19,8 +19,8 @@ struct NoDevice : ObjectOwner {
   AbortCode write(const ObjectEntry&, std::int64_t) override { return AbortCode::kNone; }
 };
 
-// The node guards what it is told with these; the gateway keeps to the exact limits. The margins are for rounding to
-// counts and for the carriage's run-out behind its switch.
+// The node guards what it is told with these; the gateway keeps to the exact limits. The margins are for
+// rounding to counts and for the carriage's run-out behind its switch.
 constexpr double kSpeedMargin = 1.02;
 constexpr double kAccelerationMargin = 1.05;
 constexpr double kTravelMargin = 2;  // mm or rad
@@ -53,7 +53,9 @@ class Writer {
   ObjectDictionary dictionary_;
 };
 
-double milliseconds(std::chrono::milliseconds time) { return static_cast<double>(time.count()); }
+double milliseconds(std::chrono::milliseconds time) {
+  return static_cast<double>(time.count());
+}
 
 SwitchFunction function_of(const SwitchInput& input) {
   switch (input.function) {
@@ -128,7 +130,8 @@ void set_joint(Writer& writer, const JointDescription& joint) {
 std::int32_t home_counts(const JointDescription& joint) {
   if (!joint.homing) return 0;
   const double slope = joint.drive.counts_per_unit() / (1 + joint.calibration.scale);
-  return static_cast<std::int32_t>(std::lround(slope * (joint.homing->switch_position + joint.calibration.offset)));
+  return static_cast<std::int32_t>(
+      std::lround(slope * (joint.homing->switch_position + joint.calibration.offset)));
 }
 
 NodeConfiguration configure_node(const MachineDescription& machine, std::uint8_t node_id) {

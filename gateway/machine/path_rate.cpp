@@ -58,7 +58,8 @@ std::optional<CanFrame> PathRate::next_frame() {
 
 void PathRate::on_frame_sent(BusTime when, const CanFrame& frame) {
   if (frame.id != kRateCobId) return;
-  if (const auto command = decode_rate_command(frame, when); command && command->start < when) ++counters_.late;
+  if (const auto command = decode_rate_command(frame, when); command && command->start < when)
+    ++counters_.late;
 }
 
 }  // namespace kinebus

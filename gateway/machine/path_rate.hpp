@@ -17,8 +17,9 @@ class PathRate {
  public:
   struct Options {
     std::chrono::milliseconds stop_ramp{100};
-    /// A command names a start so far ahead, that its frame is with all nodes before: the frames already in the
-    /// controller's mailboxes (3 of 135 us) and the scheduling of the sending thread. A hold answers within it.
+    /// A command names a start so far ahead, that its frame is with all nodes before: the frames already in
+    /// the controller's mailboxes (3 of 135 us) and the scheduling of the sending thread. A hold answers
+    /// within it.
     BusTime lead = std::chrono::milliseconds{5};
   };
   struct Counters {
@@ -36,8 +37,8 @@ class PathRate {
   bool at_rest(BusTime at) const { return clock_.at_rest(at); }
   bool stop_latched() const { return clock_.stop_latched(); }
 
-  /// Goes to `rate` (0..1) with a slope of 1 in `full_ramp` (2..510 ms). Nothing happens when that is the target
-  /// already, or while a stop is latched.
+  /// Goes to `rate` (0..1) with a slope of 1 in `full_ramp` (2..510 ms). Nothing happens when that is the
+  /// target already, or while a stop is latched.
   void request(double rate, std::chrono::milliseconds full_ramp, BusTime now);
   /// Stop of all nodes, latched.
   void stop(BusTime now);

@@ -11,7 +11,8 @@ namespace {
 constexpr std::chrono::milliseconds kRampAtRest{2};
 /// From the naming of a run's START to path time: knots lie on a 16 us grid, and START must lie ahead of tau.
 constexpr PathTime kStartLead = std::chrono::milliseconds{1};
-/// The rate is raised at most so often, and lowered when it has to be: the bus is not filled with rate commands.
+/// The rate is raised at most so often, and lowered when it has to be: the bus is not filled with rate
+/// commands.
 constexpr BusTime kRaisePeriod = std::chrono::milliseconds{250};
 constexpr double kRateStep = 0.02;
 
@@ -23,8 +24,8 @@ std::string celsius_words(const char* what, double celsius) {
 
 }  // namespace
 
-Runner::Runner(const MachineDescription& machine, const Kinematics& kinematics, StreamGroup& group, PathRate& rate,
-               ThermalDevice& thermal, EventQueue& events)
+Runner::Runner(const MachineDescription& machine, const Kinematics& kinematics, StreamGroup& group,
+               PathRate& rate, ThermalDevice& thermal, EventQueue& events)
     : machine_(machine),
       group_(group),
       rate_(rate),
@@ -135,7 +136,8 @@ bool Runner::wait_is_over(BusTime now) {
         return false;
       }
       if (!in_window_since_) in_window_since_ = now;
-      const auto& heater = heating_.heater == Heater::kHotend ? machine_.thermal.hotend : machine_.thermal.bed;
+      const auto& heater =
+          heating_.heater == Heater::kHotend ? machine_.thermal.hotend : machine_.thermal.bed;
       if (now - *in_window_since_ < heater.settle) return false;
       break;
     }
@@ -187,7 +189,8 @@ Runner::Outcome Runner::take(BusTime now, JobPipeline::Step step) {
     }
     case Step::kEvent: {
       const auto offset = static_cast<std::int64_t>(pipeline_.event_s() * 16e6);
-      events_.push_back({streaming_ ? group_.run_start() + PathTime{offset} : PathTime{0}, pipeline_.command()});
+      events_.push_back(
+          {streaming_ ? group_.run_start() + PathTime{offset} : PathTime{0}, pipeline_.command()});
       execute_due(now);
       return stop_asked_ ? Outcome::kEmergencyStop : Outcome::kBusy;
     }

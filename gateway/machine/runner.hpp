@@ -1,6 +1,6 @@
 #pragma once
-// Carries a job or a single move out: takes the pipeline's steps, streams motion, executes what stands between runs,
-// and says at which rate path time may run.
+// Carries a job or a single move out: takes the pipeline's steps, streams motion, executes what stands
+// between runs, and says at which rate path time may run.
 
 #include <cstdint>
 #include <deque>

@@ -1,0 +1,373 @@
+#include "gateway/machine/bring_up.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <utility>
+
+#include "protocol/canopen/node_objects.hpp"
+
+namespace kinebus {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Another gateway shows itself by SYNC (50 ms) and heartbeat (500 ms) in this time.
+constexpr BusTime kListenTime = 600ms;
+constexpr BusTime kOperationalTimeout = 2s;
+constexpr BusTime kRestartTimeout = 5s;
+/// 24 SYNCs make a clock estimate; twice that, and as much again for lost ones.
+constexpr BusTime kSynchroniseTimeout = 10s;
+constexpr BusTime kEnableTimeout = 5s;
+constexpr BusTime kRepeat = 200ms;
+constexpr PathTime kPathTimeGap = 1s;
+
+}  // namespace
+
+BringUp::BringUp(const MachineDescription& machine, std::deque<NodeLink>& links, PathRate& rate)
+    : machine_(machine), links_(links), rate_(rate) {
+  for (const NodeLink& link : links) {
+    Node node;
+    node.configuration = configure_node(machine, link.id());
+    for (const JointDescription& joint : machine.joints)
+      if (joint.node_id == link.id()) node.used[joint.axis & 1u] = true;
+    nodes_.push_back(std::move(node));
+  }
+}
+
+void BringUp::start(BusTime now) {
+  for (NodeLink& link : links_) link.forget();
+  for (Node& node : nodes_) {
+    node.config = Config::kCheck;
+    node.rewritten = false;
+  }
+  foreign_ = failed_ = equalising_ = false;
+  out_.clear();
+  enter(Stage::kListen, now);
+}
+
+void BringUp::enter(Stage stage, BusTime now) {
+  stage_ = stage;
+  entered_ = now;
+  for (Node& node : nodes_) {
+    node.done = node.requested = false;
+    node.attempts = 0;
+    node.asked = now - kRepeat;
+  }
+}
+
+bool BringUp::all_done() const {
+  return std::all_of(nodes_.begin(), nodes_.end(), [](const Node& n) { return n.done; });
+}
+
+void BringUp::fail(AlarmCode code, std::uint8_t node, std::string words) {
+  if (failed_) return;
+  failed_ = true;
+  failure_ = {code, node, std::move(words)};
+}
+
+std::optional<CanFrame> BringUp::next_frame() {
+  if (out_.empty()) return std::nullopt;
+  const CanFrame frame = out_.front();
+  out_.pop_front();
+  return frame;
+}
+
+std::string BringUp::doing() const {
+  switch (stage_) {
+    case Stage::kIdle:
+      return "";
+    case Stage::kListen:
+      return "listening for another gateway";
+    case Stage::kIdentify:
+      return "looking for the nodes";
+    case Stage::kConfigure:
+      return "checking the nodes' parameters";
+    case Stage::kOperational:
+      return "starting the nodes";
+    case Stage::kSynchronise:
+      return "synchronising the clocks";
+    case Stage::kPathTime:
+    case Stage::kLatch:
+      return "equalising path time";
+    case Stage::kEnable:
+      return "enabling the drives";
+    case Stage::kEnd:
+      return "";
+  }
+  return "";
+}
+
+BringUp::Outcome BringUp::on_time(BusTime now) {
+  if (stage_ == Stage::kIdle) return Outcome::kDone;
+  if (foreign_)
+    fail(AlarmCode::kSecondGateway, 0,
+         "another gateway speaks on this bus (SYNC, stamps or heartbeat of node 127)");
+  if (stage_ == Stage::kListen) {
+    if (!failed_ && now - entered_ >= kListenTime) enter(Stage::kIdentify, now);
+  } else {
+    for (std::size_t i = 0; i < nodes_.size() && !failed_; ++i)
+      if (!nodes_[i].done) step(now, i);
+  }
+  if (failed_) {
+    stage_ = Stage::kIdle;
+    for (NodeLink& link : links_) link.sdo().abandon();
+    return Outcome::kFailed;
+  }
+  if (stage_ == Stage::kListen || !all_done()) return Outcome::kBusy;
+  if (stage_ == Stage::kPathTime) {
+    std::int64_t most = 0;
+    bool equal = true;
+    for (const Node& node : nodes_) {
+      most = std::max(most, node.path_ticks);
+      equal = equal && node.path_ticks == nodes_.front().path_ticks;
+    }
+    if (!equal) {
+      // Nodes that were switched on at different times: all take a time that none of them has seen.
+      most = (most / kPathTicksPerUnit) * kPathTicksPerUnit + kPathTimeGap.count();
+      equalising_ = true;
+      for (Node& node : nodes_) node.path_ticks = most;
+      enter(Stage::kPathTime, now);
+      return Outcome::kBusy;
+    }
+    rate_.set_tau(PathTime{most}, now);
+    rate_.clear(now);
+  }
+  enter(static_cast<Stage>(static_cast<int>(stage_) + 1), now);
+  if (stage_ != Stage::kEnd) return Outcome::kBusy;
+  stage_ = Stage::kIdle;
+  return Outcome::kDone;
+}
+
+void BringUp::step(BusTime now, std::size_t i) {
+  NodeLink& link = links_[i];
+  Node& node = nodes_[i];
+  switch (stage_) {
+    case Stage::kIdentify:
+      return identify(link, node);
+    case Stage::kConfigure:
+      return configure(now, link, node);
+    case Stage::kOperational:
+      return operational(now, link, node);
+    case Stage::kSynchronise:
+      return synchronise(now, link, node);
+    case Stage::kPathTime:
+      return path_time(link, node);
+    case Stage::kLatch:
+      return latch(now, link, node);
+    case Stage::kEnable:
+      return enable(now, link, node);
+    case Stage::kEnd:
+    case Stage::kIdle:
+    case Stage::kListen:
+      return;
+  }
+}
+
+std::optional<SdoResult> BringUp::result(NodeLink& link, AlarmCode code) {
+  const auto answer = link.sdo().next_result();
+  if (!answer || answer->abort == AbortCode::kNone) return answer;
+  if (answer->abort == AbortCode::kTimeout) code = AlarmCode::kNodeMissing;
+  fail(code, link.id(), to_string(link.id(), *answer));
+  return std::nullopt;
+}
+
+void BringUp::identify(NodeLink& link, Node& node) {
+  if (!node.requested) {
+    node.requested = true;
+    for (std::uint8_t sub = 1; sub <= 4; ++sub) link.sdo().read({object::kVendorIdentity.index, sub});
+    return;
+  }
+  while (const auto answer = result(link, AlarmCode::kWrongIdentity)) {
+    node.identity[answer->address.subindex - 1u] = static_cast<std::uint32_t>(answer->value);
+    if (answer->address.subindex < 4) continue;
+    const NodeDescription* wanted = machine_.node(link.id());
+    const std::array<std::optional<std::uint32_t>, 4> rules{
+        wanted ? wanted->vendor : std::nullopt, wanted ? wanted->product : std::nullopt, std::nullopt,
+        wanted ? wanted->serial : std::nullopt};
+    constexpr std::array kNames{"vendor", "product", "revision", "serial number"};
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (!rules[k] || *rules[k] == node.identity[k]) continue;
+      char words[96];
+      std::snprintf(words, sizeof words, "node %u: %s is %08Xh, the machine file wants %08Xh",
+                    static_cast<unsigned>(link.id()), kNames[k], static_cast<unsigned>(node.identity[k]),
+                    static_cast<unsigned>(*rules[k]));
+      return fail(AlarmCode::kWrongIdentity, link.id(), words);
+    }
+    node.done = true;
+  }
+}
+
+/// Fingerprint equal: done. Else all parameters are written; when that does not do, after a return to the
+/// defaults.
+void BringUp::configure(BusTime now, NodeLink& link, Node& node) {
+  if (node.config == Config::kRestarting) {
+    if (link.take_boot_up()) {
+      node.config = Config::kWriting;
+      node.requested = false;
+    } else if (now - node.asked > kRestartTimeout) {
+      fail(AlarmCode::kNodeMissing, link.id(),
+           "node " + std::to_string(link.id()) +
+               " did not come back after the return to its default parameters");
+    }
+    return;
+  }
+  if (!node.requested) {
+    node.requested = true;
+    switch (node.config) {
+      case Config::kCheck:
+      case Config::kVerify:
+        link.sdo().read(object::kFingerprint);
+        break;
+      case Config::kWriting:
+        for (const ParameterWrite& write : node.configuration.writes) link.sdo().write(write);
+        break;
+      case Config::kStoring:
+        link.sdo().write({object::kStoreParameters, 4, kSaveSignature});
+        break;
+      case Config::kRestoring:
+        link.sdo().write({object::kRestoreParameters, 4, kLoadSignature});
+        break;
+      case Config::kRestarting:
+      case Config::kDone:
+        break;
+    }
+    return;
+  }
+  // A node without memory for its parameters works as well; it is written to at every bring-up.
+  if (node.config == Config::kStoring) static_cast<void>(link.sdo().next_result());
+  while (const auto answer = result(link, AlarmCode::kConfiguration))
+    if (answer->read) return check_fingerprint(link, node, static_cast<std::uint32_t>(answer->value));
+  if (failed_ || !link.sdo().idle()) return;
+  node.requested = false;
+  if (node.config == Config::kWriting) {
+    node.config = Config::kVerify;
+  } else if (node.config == Config::kStoring) {
+    node.config = Config::kDone;
+    node.done = true;
+  } else if (node.config == Config::kRestoring) {
+    static_cast<void>(link.take_boot_up());
+    out_.push_back(nmt_frame(NmtCommand::kResetNode, link.id()));
+    node.asked = now;
+    node.config = Config::kRestarting;
+  }
+}
+
+void BringUp::check_fingerprint(NodeLink& link, Node& node, std::uint32_t fingerprint) {
+  node.requested = false;
+  const bool equal = fingerprint == node.configuration.fingerprint;
+  if (node.config == Config::kCheck) {
+    node.config = equal ? Config::kDone : Config::kWriting;
+    node.done = equal;
+  } else if (equal) {
+    node.config = Config::kStoring;
+  } else if (!std::exchange(node.rewritten, true)) {
+    node.config = Config::kRestoring;
+  } else {
+    char words[128];
+    std::snprintf(
+        words, sizeof words,
+        "node %u: its parameters have the fingerprint %08Xh, the machine file's have %08Xh, after all were "
+        "written",
+        static_cast<unsigned>(link.id()), static_cast<unsigned>(fingerprint),
+        static_cast<unsigned>(node.configuration.fingerprint));
+    fail(AlarmCode::kConfiguration, link.id(), words);
+  }
+}
+
+void BringUp::operational(BusTime now, NodeLink& link, Node& node) {
+  if (now - node.asked >= kRepeat) {
+    out_.push_back(nmt_frame(NmtCommand::kStart, link.id()));
+    node.asked = now;
+  }
+  if (link.nmt_state() == NmtState::kOperational) {
+    node.done = true;
+    static_cast<void>(link.take_boot_up());
+  } else if (now - entered_ > kOperationalTimeout + machine_.bus.heartbeat_timeout) {
+    fail(AlarmCode::kNodeMissing, link.id(),
+         "node " + std::to_string(link.id()) + " does not become operational");
+  }
+}
+
+void BringUp::synchronise(BusTime now, NodeLink& link, Node& node) {
+  if (!node.requested && now - node.asked >= kRepeat) {
+    node.requested = true;
+    node.asked = now;
+    link.sdo().read(object::kStreamStatus);
+  }
+  while (const auto answer = result(link, AlarmCode::kSyncError)) {
+    node.requested = false;
+    const StreamStatus status = decode_stream_status(static_cast<std::uint64_t>(answer->value));
+    if ((status.flags & StreamStatus::kSynchronised) != 0) node.done = true;
+  }
+  if (!node.done && now - entered_ > kSynchroniseTimeout)
+    fail(AlarmCode::kSyncError, link.id(),
+         "node " + std::to_string(link.id()) + " does not synchronise its clock");
+}
+
+void BringUp::path_time(NodeLink& link, Node& node) {
+  if (!node.requested) {
+    node.requested = true;
+    if (equalising_)
+      link.sdo().write({object::kPathTime, 8, node.path_ticks});
+    else
+      link.sdo().read(object::kPathTime);
+    return;
+  }
+  while (const auto answer = result(link, AlarmCode::kPathTimeDiffers)) {
+    if (answer->read) node.path_ticks = answer->value;
+    node.done = true;
+  }
+}
+
+/// A stop that was latched before is lifted by the rate broadcast; the status says when it is.
+void BringUp::latch(BusTime now, NodeLink& link, Node& node) {
+  if (!node.requested && now - node.asked >= kRepeat / 4 && now - entered_ >= kRepeat / 4) {
+    node.requested = true;
+    node.asked = now;
+    link.sdo().read(object::kStreamStatus);
+  }
+  while (const auto answer = result(link, AlarmCode::kStopTimeout)) {
+    node.requested = false;
+    const StreamStatus status = decode_stream_status(static_cast<std::uint64_t>(answer->value));
+    if ((status.flags & StreamStatus::kStopped) == 0) node.done = true;
+  }
+  if (!node.done && now - entered_ > kEnableTimeout)
+    fail(AlarmCode::kStopTimeout, link.id(),
+         "node " + std::to_string(link.id()) +
+             " keeps its stop latched: an emergency stop or limit switch is active");
+}
+
+void BringUp::enable(BusTime now, NodeLink& link, Node& node) {
+  constexpr auto kMode = static_cast<std::int8_t>(cia402::Mode::kInterpolatedPosition);
+  bool enabled = link.drive_known();
+  for (std::size_t axis = 0; axis < kAxesPerNode; ++axis) {
+    if (!node.used[axis] || !link.drive_known()) continue;
+    const cia402::State state = link.drive_state(axis);
+    if (state == cia402::State::kOperationEnabled) {
+      link.set_control(axis, cia402::control::kOperation | cia402::control::kInterpolationEnable, kMode);
+      continue;
+    }
+    enabled = false;
+    const std::uint16_t next = cia402::next_controlword(state);
+    // Fault reset works on its edge: the bit goes down between two attempts.
+    const bool low = state == cia402::State::kFault && (node.attempts & 1) != 0;
+    link.set_control(axis, low ? 0 : next, kMode);
+  }
+  if (enabled) {
+    node.done = true;
+    return;
+  }
+  if (now - node.asked >= kRepeat) {
+    node.asked = now;
+    ++node.attempts;
+    link.repeat_control();
+  }
+  if (now - entered_ <= kEnableTimeout) return;
+  char words[128];
+  std::snprintf(words, sizeof words, "node %u: its drives do not enable (statuswords %04Xh and %04Xh)",
+                static_cast<unsigned>(link.id()), static_cast<unsigned>(link.statusword(0)),
+                static_cast<unsigned>(link.statusword(1)));
+  fail(AlarmCode::kEnableFailed, link.id(), words);
+}
+
+}  // namespace kinebus

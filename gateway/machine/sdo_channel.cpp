@@ -1,0 +1,96 @@
+#include "gateway/machine/sdo_channel.hpp"
+
+#include <cstdio>
+
+#include <algorithm>
+
+#include "protocol/bytes.hpp"
+#include "protocol/canopen/node_objects.hpp"
+
+namespace kinebus {
+
+std::string to_string(std::uint8_t node, const SdoResult& result) {
+  char words[160];
+  const std::string_view reason = result.abort == AbortCode::kTimeout ? "no answer" : text(result.abort);
+  std::snprintf(words, sizeof words, "node %u, object %04Xh:%u: %.*s", static_cast<unsigned>(node),
+                static_cast<unsigned>(result.address.index), static_cast<unsigned>(result.address.subindex),
+                static_cast<int>(reason.size()), reason.data());
+  return words;
+}
+
+SdoChannel::SdoChannel(std::uint8_t node_id) : node_id_(node_id) {}
+
+void SdoChannel::read(ObjectAddress address) {
+  requests_.push_back({.address = address, .read = true, .size = 8, .bytes = {}});
+}
+
+void SdoChannel::write(const ParameterWrite& write) {
+  Request request{.address = write.address, .read = false, .size = write.size, .bytes = {}};
+  put_le(request.bytes, static_cast<std::uint64_t>(write.value), write.size);
+  requests_.push_back(request);
+}
+
+std::optional<SdoResult> SdoChannel::next_result() {
+  if (results_.empty()) return std::nullopt;
+  const SdoResult result = results_.front();
+  results_.pop_front();
+  return result;
+}
+
+void SdoChannel::abandon() {
+  if (client_.status() == SdoClient::Status::kBusy) client_.cancel();
+  requests_.clear();
+  results_.clear();
+  attempts_ = 0;
+}
+
+void SdoChannel::begin(BusTime now) {
+  const Request& request = requests_.front();
+  ++attempts_;
+  buffer_ = request.bytes;
+  if (request.read)
+    client_.upload(now, node_id_, request.address, buffer_);
+  else
+    client_.download(now, node_id_, request.address, std::span(buffer_).first(request.size));
+}
+
+/// Takes the result of a transfer that has ended.
+void SdoChannel::settle() {
+  if (requests_.empty() || attempts_ == 0 || client_.status() == SdoClient::Status::kBusy) return;
+  const Request& request = requests_.front();
+  SdoResult result{.address = request.address, .read = request.read};
+  if (client_.status() == SdoClient::Status::kFailed) {
+    result.abort = client_.abort_code();
+    if (result.abort == AbortCode::kTimeout) {
+      ++counters_.timeouts;
+      if (attempts_ < kAttempts) return;  // next_frame() begins again
+    } else {
+      ++counters_.aborts;
+    }
+  } else if (request.read) {
+    const int slot = find_slot(request.address);
+    const std::uint64_t raw = get_le(buffer_, std::min<std::size_t>(client_.received(), buffer_.size()));
+    result.value = slot < 0 ? static_cast<std::int64_t>(raw)
+                            : value_of(kNodeObjects[static_cast<std::size_t>(slot)].type, raw);
+  }
+  results_.push_back(result);
+  requests_.pop_front();
+  attempts_ = 0;
+}
+
+void SdoChannel::on_frame(BusTime now, const CanFrame& frame) {
+  client_.on_frame(now, frame);
+  settle();
+}
+
+void SdoChannel::on_time(BusTime now) {
+  client_.on_time(now);
+  settle();
+}
+
+std::optional<CanFrame> SdoChannel::next_frame(BusTime now) {
+  if (!requests_.empty() && client_.status() != SdoClient::Status::kBusy) begin(now);
+  return client_.next_frame();
+}
+
+}  // namespace kinebus

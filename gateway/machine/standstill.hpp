@@ -1,0 +1,46 @@
+#pragma once
+// With the nodes at rest: empties their queues and reads where they stand, exactly. The beginning of every
+// new motion after bring-up, homing, a cancel or a lost stream.
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "gateway/machine/bring_up.hpp"
+#include "gateway/machine/description/machine_description.hpp"
+#include "gateway/machine/node_link.hpp"
+#include "protocol/motion/segment.hpp"
+
+namespace kinebus {
+
+class Standstill {
+ public:
+  enum class Outcome : std::uint8_t { kBusy, kDone, kFailed };
+  struct Node {
+    std::array<AxisState, kAxesPerNode> position{};
+    std::array<bool, kAxesPerNode> known{};
+    StreamStatus stream;
+  };
+
+  Standstill(const MachineDescription& machine, std::deque<NodeLink>& links);
+
+  void start();
+  Outcome on_time();
+  bool busy() const { return busy_; }
+  const StepFailure& failure() const { return failure_; }
+
+  // After kDone.
+  const Node& node(std::size_t i) const { return nodes_[i]; }
+  /// Every joint that homes knows its position.
+  bool positions_known() const;
+
+ private:
+  const MachineDescription& machine_;
+  std::deque<NodeLink>& links_;
+  std::vector<Node> nodes_;
+  bool busy_ = false;
+  StepFailure failure_;
+};
+
+}  // namespace kinebus
