@@ -29,6 +29,8 @@ class NodeStream {
     int checkpoint_interval = 64;
     /// Sent but not accepted for this long, while statuses do come: the records are lost.
     BusTime lost_after{std::chrono::milliseconds{350}};
+    int acceleration_shift = kDefaultAccelerationShift;
+    int queue_records = 120;  ///< a node's queue: more credit than this is not believed
   };
   struct Counters {
     std::uint64_t records = 0, checkpoints = 0, statuses = 0, rewinds = 0;
@@ -45,9 +47,11 @@ class NodeStream {
   /// Room for this many more records is left.
   std::size_t room() const { return kCapacity - 2 - static_cast<std::size_t>(end_ - begin_); }
 
-  void push_start(std::int64_t start_units);  ///< absolute path time, units; no motion may be pending
-  void push(const FittedSegment& segment);    ///< times relative to the last push_start
+  void push_start();                        ///< opens a run; its records wait for release()
+  void push(const FittedSegment& segment);  ///< times relative to the run's start
   void push_end();
+  /// The open run starts at this absolute path time (16 us units): its records may now go out.
+  void release(std::int64_t start_units);
 
   /// Next frame that may go out at path time tau; nullopt: nothing now (credit, horizon or all sent).
   std::optional<CanFrame> next_frame(BusTime now, PathTime tau);
@@ -57,18 +61,22 @@ class NodeStream {
 
   bool all_sent() const { return sent_ == end_; }
   bool all_accepted() const { return accepted_ == end_; }
-  std::uint64_t records_unsent() const { return end_ - sent_; }
-  /// Accepted records end at this path time (units); what the node can still run on its own.
-  std::int64_t accepted_until_units() const { return until_units(accepted_); }
-  std::int64_t sent_until_units() const { return until_units(sent_); }
-  std::int64_t produced_until_units() const { return until_units(end_); }
-  /// Records sent but not executed, or not sent, up to and with the one whose end is at or before `units`.
+  /// Path time (units) at which the node runs out of accepted records, of sent ones, of all that are made.
+  std::int64_t accepted_until_units() const { return begins_units(accepted_); }
+  std::int64_t sent_until_units() const { return begins_units(sent_); }
+  std::int64_t made_until_units() const { return tail_units_; }
+  /// The n-th record that is not sent begins here (path time, units); n may go beyond the last.
+  std::int64_t unsent_begins_units(std::uint64_t n) const { return begins_units(sent_ + n); }
+  std::uint64_t unsent() const { return end_ - sent_; }
+  /// How many of those begin at or before `units`. Cost: ten comparisons.
   std::uint64_t unsent_until(std::int64_t units) const;
 
   /// Exact state of both axes at path time tau, by the records kept. nullopt: tau lies before the records
   /// kept.
   std::optional<std::array<AxisState, kAxesPerNode>> state_at(PathTime tau) const;
+  /// Behind all records made.
   const std::array<AxisState, kAxesPerNode>& final_state() const { return tail_; }
+  /// Behind the last record that the node accepted.
   const std::array<AxisState, kAxesPerNode>& accepted_state() const;
   /// The job's line at path time tau; 0: none known.
   std::uint32_t line_at(PathTime tau) const;
@@ -88,8 +96,8 @@ class NodeStream {
   };
   Record& at(std::uint64_t n) { return records_[n & (kCapacity - 1)]; }
   const Record& at(std::uint64_t n) const { return records_[n & (kCapacity - 1)]; }
-  const Record* covering(PathTime tau) const;
-  std::int64_t until_units(std::uint64_t n) const;
+  const Record* covering(std::int64_t units) const;
+  std::int64_t begins_units(std::uint64_t n) const { return n < end_ ? at(n).start_units : tail_units_; }
   void append(Record record);
   void forget_before(std::int64_t units);
 
@@ -97,19 +105,18 @@ class NodeStream {
   Options options_;
   Counters counters_;
   std::vector<Record> records_;  ///< ring of kCapacity, allocated once
-  // Record numbers since reset(), unwrapped; sequence on the wire is the number mod 128. begin <= accepted <=
-  // sent <= end.
+  // Record numbers since reset(), unwrapped; the sequence on the wire is the number mod 128.
+  // begin <= accepted <= sent <= end.
   std::uint64_t begin_ = 0, accepted_ = 0, sent_ = 0, end_ = 0, credit_ = 0;
-  std::uint8_t checkpoints_due_ = 0;  ///< of record sent_, still to go out
-  bool checkpoints_loaded_ = false;
+  std::uint64_t released_ = 0;  ///< records before this one have absolute times
+  bool open_ = false;  ///< a run is begun and not released: its records have times relative to its start
+  std::uint8_t checkpoints_sent_ = 0;  ///< of record sent_
   std::uint64_t next_checkpoint_ = 0;
   int checkpoint_axis_ = 0;
-  std::uint64_t released_ = 0;  ///< records before this one have absolute times
   std::int64_t run_start_units_ = 0, tail_units_ = 0;
-  std::array<AxisState, kAxesPerNode> tail_{}, origin_{};
+  std::array<AxisState, kAxesPerNode> tail_{};
   std::optional<StreamStatus> last_status_;
-  BusTime progress_{0};
-  int silent_statuses_ = 0;
+  BusTime progress_{0};  ///< when a record was last accepted, or first sent after that
 };
 
 }  // namespace kinebus

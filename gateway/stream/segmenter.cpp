@@ -24,13 +24,14 @@ constexpr double kLongest = kMaxSegmentUnits;
 constexpr double kForever = std::numeric_limits<double>::infinity();
 // A velocity error w at a knot costs the next segment w h / 3 when it is taken back over two segments.
 constexpr double kVelocityCost = 1.0 / 3;
-constexpr double kMostDrift = 3;
+constexpr double kMostDrift = 2.5;
 // Position error that an end state may have for the sake of its velocity, in tolerances.
-constexpr double kMostEndError = 0.5;
+constexpr double kMostEndError = 0.55;
 constexpr int kTries = 14;
 // A fit that misses by less than this is corrected at the one place where it misses, to this share of the
 // tolerance.
-constexpr double kRepairable = 0.3, kTouch = 0.97;
+// Only behind this part of its length, where the acceleration has some effect.
+constexpr double kRepairable = 0.3, kTouch = 0.97, kRepairFrom = 0.25, kMostRepairedEndError = 0.8;
 constexpr double kHopeless = 2.5;       // estimated error beyond which a jump is not tried to be crossed
 constexpr double kImpossible = 100;     // error of a fit that no acceleration within bounds gives
 constexpr std::int32_t kShortest = 64;  // 1 ms
@@ -277,13 +278,16 @@ Segmenter::Fit Segmenter::fit(std::int32_t units, Goal goal) {
     const auto [low, high] = bounds(i, h, last);
     Miss m;
     double a = 0;
+    // The acceleration nearest to `wanted` that ends within this share of the tolerance.
+    const auto end_within = [&](double share, double wanted) {
+      const double most = share * axes_[i].base_tolerance;
+      return std::clamp(wanted, (m.position - most) / (h * h), (m.position + most) / (h * h));
+    };
     if (goal == Goal::kRunOn) {
       // Least r^2 + rho^2 w^2 at the end, rho = next / 2. rho = h / 2 takes an error back in two segments.
       m = miss(i, h, next, last);
       a = (m.position + 0.5 * weight * weight * h * m.velocity) / ((1 + weight * weight) * h * h);
-      const double least = (m.position - kMostEndError * axes_[i].base_tolerance) / (h * h);
-      const double most = (m.position + kMostEndError * axes_[i].base_tolerance) / (h * h);
-      a = std::clamp(std::clamp(a, least, most), low, high);
+      a = std::clamp(end_within(kMostEndError, a), low, high);
     } else {
       a = resting_acceleration(i, h, goal);
       if (a < low || a > high) f.error = kImpossible;
@@ -298,8 +302,10 @@ Segmenter::Fit Segmenter::fit(std::int32_t units, Goal goal) {
     };
     apply(a);
     const double tolerance = axes_[i].tolerance, excess = std::abs(worst.value) - kTouch * tolerance;
-    if (goal == Goal::kRunOn && excess > 0 && excess < kRepairable * tolerance)
-      apply(std::clamp(a + std::copysign(excess, worst.value) / (worst.x * worst.x), low, high));
+    if (goal == Goal::kRunOn && excess > 0 && excess < kRepairable * tolerance && worst.x > kRepairFrom * h) {
+      const double repaired = a + std::copysign(excess, worst.value) / (worst.x * worst.x);
+      apply(std::clamp(end_within(kMostRepairedEndError, repaired), low, high));
+    }
     f.error = std::max(f.error, std::abs(worst.value) / tolerance);
     if (goal != Goal::kRunOn) continue;
     const double r = std::abs(m.position - a * h * h), w = std::abs(m.velocity - 2 * a * h);

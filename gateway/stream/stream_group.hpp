@@ -39,8 +39,10 @@ class StreamGroup {
     Segmenter::Options segmenter;
     NodeStream::Options stream;
     BusBudget::Options budget;
-    /// Path time that is fitted ahead of now, s: horizon 0.4, look-ahead of the rate 0.5, and some.
-    double lead_s = 1.5;
+    /// Path time that is fitted ahead of now, s: horizon 0.4, look-ahead of the rate 1.0, and some.
+    double lead_s = 1.6;
+    /// A run may begin this far from where an axis stands; the first segments take it back.
+    double start_offset_counts = 4;
   };
   enum class State : std::uint8_t { kIdle, kFilling, kRunning, kDone };
 
@@ -63,7 +65,7 @@ class StreamGroup {
   /// Drops all that is not sent; nodes must be stopped and their queues cleared. Then set_state() again.
   void cancel();
 
-  /// Next frame for the bus, nodes in turn, the one with the least queued path time first.
+  /// Next frame for the bus: the node with the least queued path time first.
   std::optional<CanFrame> next_frame(BusTime now, PathTime tau);
   Result<void, StreamError> on_status(BusTime now, std::uint8_t node_id, const StreamStatus& status,
                                       PathTime tau);
@@ -96,11 +98,11 @@ class StreamGroup {
   struct Node {
     Segmenter segmenter;
     NodeStream stream;
-    std::array<AxisState, kAxesPerNode> state{};
-    bool started = false, end_pushed = false;
+    bool end_pushed = false;
   };
   Node* find(std::uint8_t node_id);
   const Node* find(std::uint8_t node_id) const;
+  /// Sampler to segmenters to streams, as far as there is room.
   Result<void, StreamError> pump();
   void drain(Node& node);
 
@@ -109,9 +111,8 @@ class StreamGroup {
   BusBudget budget_;
   std::vector<Node> nodes_;
   State state_ = State::kIdle;
-  bool released_ = false;
+  bool released_ = false, begun_ = false;
   std::int64_t start_units_ = 0;
-  std::size_t turn_ = 0;
 };
 
 }  // namespace kinebus

@@ -1,0 +1,59 @@
+#include "gateway/stream/bus_budget.hpp"
+
+#include <algorithm>
+
+namespace kinebus {
+
+namespace {
+// Look-ahead of the deadline test: 40 steps of 25 ms. Dense stretches are seen a second before they begin.
+constexpr std::int64_t kStepUnits = 1'563;
+constexpr int kSteps = 40;
+constexpr std::uint64_t kWindowStride = 16;  // records between two windows of a full queue
+}  // namespace
+
+double BusBudget::allowed_rate(std::span<const NodeStream* const> nodes, PathTime tau,
+                               bool run_complete) const {
+  const std::int64_t now = tau.count() / kPathTicksPerUnit;
+  const double reserve_s = static_cast<double>(options_.reserve.count()) * kSecondsPerUnit;
+  const double bits_per_s = options_.bits_per_second * std::max(options_.share - options_.overhead, 0.01);
+  double rate = 1;
+  // A record that begins x path seconds from now must be there reserve_s before: x / rate - reserve_s >= bits
+  // / bps.
+  const auto limit = [&](std::int64_t begins_units, double records) {
+    const double x = static_cast<double>(std::max<std::int64_t>(begins_units - now, 0)) * kSecondsPerUnit;
+    rate = std::min(rate, x / (records * options_.bits_per_record / bits_per_s + reserve_s));
+  };
+
+  std::int64_t made = INT64_MAX;
+  for (const NodeStream* node : nodes) made = std::min(made, node->made_until_units());
+  if (!run_complete) limit(made, 0);
+
+  for (int k = 1; k <= kSteps; ++k) {
+    const std::int64_t until = std::min(now + k * kStepUnits, made);
+    std::uint64_t records = 0;
+    std::int64_t first = INT64_MAX;
+    for (const NodeStream* node : nodes) {
+      const std::uint64_t waiting = node->unsent_until(until);
+      records += waiting;
+      if (waiting > 0) first = std::min(first, node->unsent_begins_units(waiting - 1));
+    }
+    if (records > 0) limit(first, static_cast<double>(records));
+    if (until == made) break;
+  }
+
+  // A full queue must cover the reserve, too.
+  const auto queue = static_cast<std::uint64_t>(options_.node_records);
+  for (const NodeStream* node : nodes) {
+    const std::uint64_t waiting = node->unsent();
+    for (std::uint64_t n = 0; n + queue < waiting; n += kWindowStride) {
+      const std::int64_t begins = node->unsent_begins_units(n);
+      if (begins > now + kSteps * kStepUnits) break;
+      const auto covered =
+          static_cast<double>(node->unsent_begins_units(n + queue) - begins) * kSecondsPerUnit;
+      rate = std::min(rate, std::max(covered / reserve_s, options_.lowest_rate));
+    }
+  }
+  return rate;
+}
+
+}  // namespace kinebus

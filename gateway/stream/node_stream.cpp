@@ -1,0 +1,211 @@
+#include "gateway/stream/node_stream.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace kinebus {
+
+namespace {
+constexpr std::uint32_t kSegmentCobId = 0x400;     // RPDO3 of node n
+constexpr std::uint32_t kCheckpointCobId = 0x500;  // RPDO4
+constexpr std::uint8_t kBothAxes = 0b11;
+
+CanFrame frame_of(std::uint32_t id, std::uint64_t raw) {
+  CanFrame frame{.id = id, .length = 8};
+  put_u64_le(frame.data, raw);
+  return frame;
+}
+
+std::int64_t floor_units(PathTime tau) {
+  return tau.count() >> 8;
+}
+}  // namespace
+
+NodeStream::NodeStream(std::uint8_t node_id, Options options)
+    : node_id_(node_id), options_(options), records_(kCapacity) {}
+
+void NodeStream::reset(const std::array<AxisState, kAxesPerNode>& states, std::uint8_t next_sequence,
+                       std::uint8_t free_records) {
+  begin_ = accepted_ = sent_ = end_ = next_sequence;
+  credit_ =
+      accepted_ + std::min<std::uint64_t>(free_records, static_cast<std::uint64_t>(options_.queue_records));
+  open_ = false;
+  checkpoints_sent_ = 0;
+  tail_ = states;
+}
+
+void NodeStream::append(Record record) {
+  assert(end_ - begin_ < kCapacity);
+  if (end_ >= next_checkpoint_ && record.control == SegmentControl::kNone) {
+    record.checkpoints |= static_cast<std::uint8_t>(1u << checkpoint_axis_);
+    checkpoint_axis_ ^= 1;
+    next_checkpoint_ = end_ + static_cast<std::uint64_t>(options_.checkpoint_interval);
+  }
+  at(end_++) = record;
+}
+
+void NodeStream::push_start() {
+  assert(!open_);
+  open_ = true;
+  released_ = end_;
+  run_start_units_ = tail_units_ = 0;
+  append({.start = tail_, .control = SegmentControl::kStart});
+}
+
+void NodeStream::push(const FittedSegment& segment) {
+  Record record{.start_units = run_start_units_ + segment.start_units,
+                .duration = segment.duration,
+                .acceleration = segment.acceleration,
+                .start = segment.start,
+                .line = segment.line};
+  if (at(end_ - 1).control == SegmentControl::kStart) {
+    record.checkpoints = kBothAxes;
+    next_checkpoint_ = end_ + static_cast<std::uint64_t>(options_.checkpoint_interval);
+  }
+  append(record);
+  for (std::size_t i = 0; i < tail_.size(); ++i)
+    tail_[i] =
+        advance(segment.start[i], segment.acceleration[i], segment.duration, options_.acceleration_shift);
+  tail_units_ = record.start_units + segment.duration;
+}
+
+void NodeStream::push_end() {
+  assert(tail_[0].velocity == 0 && tail_[1].velocity == 0);
+  append({.start_units = tail_units_, .start = tail_, .control = SegmentControl::kEnd});
+}
+
+void NodeStream::release(std::int64_t start_units) {
+  assert(open_);
+  for (std::uint64_t n = released_; n < end_; ++n) at(n).start_units += start_units;
+  run_start_units_ = start_units;
+  tail_units_ += start_units;
+  open_ = false;
+}
+
+std::optional<CanFrame> NodeStream::next_frame(BusTime now, PathTime tau) {
+  if (sent_ == end_ || sent_ >= credit_ || (open_ && sent_ >= released_)) return std::nullopt;
+  const Record& record = at(sent_);
+  if (record.start_units > floor_units(tau) + options_.horizon.count()) return std::nullopt;
+  const auto sequence = static_cast<std::uint8_t>(sent_ % kSequenceModulus);
+  const std::uint8_t due = record.checkpoints & static_cast<std::uint8_t>(~checkpoints_sent_);
+  if (due != 0) {
+    const std::uint8_t axis = (due & 1u) != 0 ? 0 : 1;
+    checkpoints_sent_ |= static_cast<std::uint8_t>(1u << axis);
+    ++counters_.checkpoints;
+    return frame_of(kCheckpointCobId + node_id_,
+                    encode(Checkpoint{sequence, axis, record.start[axis].position}));
+  }
+  if (accepted_ == sent_) progress_ = now;
+  ++sent_;
+  checkpoints_sent_ = 0;
+  ++counters_.records;
+  Segment segment{.sequence = sequence,
+                  .duration = static_cast<std::uint16_t>(record.duration),
+                  .acceleration = record.acceleration,
+                  .control = record.control};
+  if (record.control == SegmentControl::kStart) segment.start_units = record.start_units;
+  return frame_of(kSegmentCobId + node_id_, encode(segment));
+}
+
+Result<void, StreamError> NodeStream::on_status(BusTime now, const StreamStatus& status, PathTime tau) {
+  ++counters_.statuses;
+  last_status_ = status;
+  StreamError error{.node_id = node_id_};
+  const auto known = static_cast<std::uint8_t>(accepted_ % kSequenceModulus);
+  const std::uint64_t accepted = accepted_ + static_cast<std::uint8_t>((status.next_sequence - known) & 0x7F);
+  if (accepted > sent_) {
+    error.kind = StreamError::Kind::kUnknownRecord;
+    error.amount = status.next_sequence;
+    return Error<StreamError>(error);
+  }
+  if (accepted > accepted_) progress_ = now;
+  accepted_ = accepted;
+  credit_ = accepted_ +
+            std::min<std::uint64_t>(status.free_records, static_cast<std::uint64_t>(options_.queue_records));
+  // What node and gateway have both passed: the node's path time is 32 bits wide, nearest to the gateway's.
+  const std::int64_t here = floor_units(tau);
+  const std::int64_t node =
+      here + static_cast<std::int32_t>(status.path_units - static_cast<std::uint32_t>(here));
+  forget_before(std::min(here, node));
+
+  if ((status.flags & StreamStatus::kSequenceError) != 0) {
+    error.kind = StreamError::Kind::kSequence;
+    error.amount = status.next_sequence;
+  } else if ((status.flags & StreamStatus::kCheckpointError) != 0) {
+    error.kind = StreamError::Kind::kCheckpoint;
+  } else if ((status.flags & StreamStatus::kUnderrun) != 0) {
+    error.kind = StreamError::Kind::kUnderrun;
+  } else if (accepted_ < sent_ && now - progress_ > options_.lost_after) {
+    error.kind = StreamError::Kind::kSilent;
+    error.amount = to_seconds(now - progress_) * 1e3;
+  } else {
+    return {};
+  }
+  error.line = line_at(tau);
+  return Error<StreamError>(error);
+}
+
+void NodeStream::rewind() {
+  if (sent_ == accepted_) return;
+  sent_ = accepted_;
+  checkpoints_sent_ = 0;
+  ++counters_.rewinds;
+}
+
+void NodeStream::forget_before(std::int64_t units) {
+  if (open_) return;
+  while (begin_ < accepted_ && begins_units(begin_ + 1) <= units) ++begin_;
+}
+
+std::uint64_t NodeStream::unsent_until(std::int64_t units) const {
+  std::uint64_t low = sent_, high = end_;
+  while (low < high) {
+    const std::uint64_t middle = low + (high - low) / 2;
+    if (at(middle).start_units <= units)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return low - sent_;
+}
+
+const NodeStream::Record* NodeStream::covering(std::int64_t units) const {
+  // The last record that begins at or before `units`, and is not a START that is still to come.
+  const std::uint64_t stop = open_ ? released_ : end_;
+  std::uint64_t low = begin_, high = stop;
+  while (low < high) {
+    const std::uint64_t middle = low + (high - low) / 2;
+    if (at(middle).start_units <= units)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  if (low == begin_) return begin_ < stop && at(begin_).duration == 0 ? &at(begin_) : nullptr;
+  return &at(low - 1);
+}
+
+std::optional<std::array<AxisState, kAxesPerNode>> NodeStream::state_at(PathTime tau) const {
+  const Record* record = covering(floor_units(tau));
+  if (record == nullptr) return begin_ == end_ ? std::optional(tail_) : std::nullopt;
+  if (record->duration == 0) return record->start;
+  const std::int64_t ticks = tau.count() - record->start_units * kPathTicksPerUnit;
+  const std::int64_t most = record->duration * kPathTicksPerUnit;
+  std::array<AxisState, kAxesPerNode> states;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const std::int64_t t = std::min(ticks, most);
+    states[i] = {position_at(record->start[i], record->acceleration[i], t, options_.acceleration_shift),
+                 velocity_at(record->start[i], record->acceleration[i], t, options_.acceleration_shift)};
+  }
+  return states;
+}
+
+const std::array<AxisState, kAxesPerNode>& NodeStream::accepted_state() const {
+  return accepted_ < end_ ? at(accepted_).start : tail_;
+}
+
+std::uint32_t NodeStream::line_at(PathTime tau) const {
+  const Record* record = covering(floor_units(tau));
+  return record == nullptr ? 0 : record->line;
+}
+
+}  // namespace kinebus

@@ -1,0 +1,202 @@
+#include "gateway/stream/stream_group.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+
+namespace kinebus {
+
+StreamGroup::StreamGroup(const Kinematics& kinematics, std::vector<NodeAxes> nodes, Options options)
+    : options_(options), sampler_(kinematics, options.sampler), budget_(options.budget) {
+  options_.stream.acceleration_shift = options_.segmenter.acceleration_shift;
+  nodes_.reserve(nodes.size());
+  for (const NodeAxes& node : nodes)
+    nodes_.push_back({Segmenter(node, options_.segmenter), NodeStream(node.node_id, options_.stream)});
+}
+
+StreamGroup::Node* StreamGroup::find(std::uint8_t node_id) {
+  for (Node& node : nodes_)
+    if (node.stream.node_id() == node_id) return &node;
+  return nullptr;
+}
+
+const StreamGroup::Node* StreamGroup::find(std::uint8_t node_id) const {
+  return const_cast<StreamGroup*>(this)->find(node_id);
+}
+
+void StreamGroup::set_state(std::uint8_t node_id, const std::array<AxisState, kAxesPerNode>& states,
+                            const StreamStatus& status) {
+  assert(state_ == State::kIdle || state_ == State::kDone);
+  if (Node* node = find(node_id)) node->stream.reset(states, status.next_sequence, status.free_records);
+}
+
+void StreamGroup::begin_run() {
+  assert(state_ == State::kIdle || state_ == State::kDone);
+  sampler_.restart();
+  for (Node& node : nodes_) {
+    node.segmenter.start(node.stream.final_state());
+    node.stream.push_start();
+    node.end_pushed = false;
+  }
+  released_ = begun_ = false;
+  start_units_ = 0;
+  state_ = State::kFilling;
+}
+
+bool StreamGroup::wants_phases(PathTime tau) const {
+  if (state_ != State::kFilling && state_ != State::kRunning) return false;
+  if (!sampler_.wants_phase()) return false;
+  const double now_s = released_ ? to_seconds(tau) - to_seconds(run_start()) : 0.0;
+  return sampler_.end_s() - std::max(now_s, 0.0) < options_.lead_s;
+}
+
+Result<void, StreamError> StreamGroup::push(const Phase& phase) {
+  if (auto ok = sampler_.push(phase); !ok) return ok;
+  return pump();
+}
+
+void StreamGroup::drain(Node& node) {
+  while (node.stream.has_room()) {
+    const auto segment = node.segmenter.next();
+    if (!segment) break;
+    node.stream.push(*segment);
+  }
+  if (node.segmenter.ended() && !node.end_pushed && node.stream.has_room()) {
+    node.stream.push_end();
+    node.end_pushed = true;
+  }
+}
+
+Result<void, StreamError> StreamGroup::pump() {
+  if (state_ != State::kFilling && state_ != State::kRunning) return {};
+  for (Node& node : nodes_) drain(node);
+  const auto room = [](const Node& node) { return node.segmenter.has_room() && node.stream.has_room(); };
+  while (std::all_of(nodes_.begin(), nodes_.end(), room)) {
+    const auto span = sampler_.next();
+    if (!span) return Error<StreamError>(span.error());
+    if (!*span) break;
+    for (Node& node : nodes_) {
+      node.segmenter.push(**span);
+      if (!begun_ && node.segmenter.start_offset_counts() > options_.start_offset_counts)
+        return Error<StreamError>({.kind = StreamError::Kind::kStartMismatch,
+                                   .node_id = node.stream.node_id(),
+                                   .line = (*span)->line,
+                                   .amount = node.segmenter.start_offset_counts()});
+      drain(node);
+    }
+    begun_ = true;
+  }
+  return {};
+}
+
+void StreamGroup::release(PathTime start) {
+  assert(state_ == State::kFilling && !released_);
+  start_units_ = (start.count() + kPathTicksPerUnit - 1) / kPathTicksPerUnit;
+  for (Node& node : nodes_) node.stream.release(start_units_);
+  released_ = true;
+  state_ = State::kRunning;
+}
+
+void StreamGroup::cancel() {
+  state_ = State::kIdle;
+  sampler_.restart();
+}
+
+std::optional<CanFrame> StreamGroup::next_frame(BusTime now, PathTime tau) {
+  if (state_ != State::kRunning) return std::nullopt;
+  std::int64_t passed = std::numeric_limits<std::int64_t>::min();
+  // Nodes in order of what they hold; equal ones in order of their place.
+  std::size_t passed_index = 0;
+  for (std::size_t tried = 0; tried < nodes_.size(); ++tried) {
+    std::size_t best = nodes_.size();
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      const std::int64_t until = nodes_[i].stream.sent_until_units();
+      const bool after = until > passed || (until == passed && i > passed_index) || tried == 0;
+      if (after && (best == nodes_.size() || until < nodes_[best].stream.sent_until_units())) best = i;
+    }
+    if (best == nodes_.size()) break;
+    if (auto frame = nodes_[best].stream.next_frame(now, tau)) return frame;
+    passed = nodes_[best].stream.sent_until_units();
+    passed_index = best;
+  }
+  return std::nullopt;
+}
+
+Result<void, StreamError> StreamGroup::on_status(BusTime now, std::uint8_t node_id,
+                                                 const StreamStatus& status, PathTime tau) {
+  Node* node = find(node_id);
+  if (node == nullptr) return {};
+  if (auto ok = node->stream.on_status(now, status, tau); !ok) return ok;
+  if (auto ok = pump(); !ok) return ok;
+  if (run_done(tau)) state_ = State::kDone;
+  return {};
+}
+
+void StreamGroup::resend() {
+  for (Node& node : nodes_) node.stream.rewind();
+}
+
+bool StreamGroup::complete() const {
+  return std::all_of(nodes_.begin(), nodes_.end(), [](const Node& node) { return node.end_pushed; });
+}
+
+bool StreamGroup::primed(PathTime tau) const {
+  const std::int64_t from = std::max(tau.count() / kPathTicksPerUnit, start_units_);
+  const std::int64_t enough = from + options_.budget.reserve.count();
+  return released_ && std::all_of(nodes_.begin(), nodes_.end(), [&](const Node& node) {
+           const auto status = node.stream.last_status();
+           return (node.end_pushed && node.stream.all_accepted()) ||
+                  node.stream.accepted_until_units() >= enough || (status && status->free_records == 0);
+         });
+}
+
+bool StreamGroup::run_done(PathTime tau) const {
+  if (state_ == State::kDone) return true;
+  return state_ == State::kRunning && complete() && tau >= fitted_until() &&
+         std::all_of(nodes_.begin(), nodes_.end(),
+                     [](const Node& node) { return node.stream.all_accepted(); });
+}
+
+double StreamGroup::allowed_rate(PathTime tau) const {
+  if (state_ != State::kRunning || nodes_.empty()) return 1;
+  std::array<const NodeStream*, 127> streams{};
+  for (std::size_t i = 0; i < nodes_.size(); ++i) streams[i] = &nodes_[i].stream;
+  return budget_.allowed_rate({streams.data(), nodes_.size()}, tau, complete());
+}
+
+PathTime StreamGroup::fitted_until() const {
+  // Before END all nodes have about the same; behind it the one that settled last counts.
+  std::int64_t least = std::numeric_limits<std::int64_t>::max(), most = 0;
+  for (const Node& node : nodes_) {
+    least = std::min(least, node.segmenter.knot_units());
+    most = std::max(most, node.segmenter.knot_units());
+  }
+  if (nodes_.empty()) least = 0;
+  return PathTime{(start_units_ + (complete() ? most : least)) * kPathTicksPerUnit};
+}
+
+std::optional<std::array<AxisState, kAxesPerNode>> StreamGroup::state_at(std::uint8_t node_id,
+                                                                         PathTime tau) const {
+  const Node* node = find(node_id);
+  return node == nullptr ? std::nullopt : node->stream.state_at(tau);
+}
+
+std::optional<JointVector> StreamGroup::joints_at(PathTime tau) const {
+  JointVector joints{};
+  for (const Node& node : nodes_) {
+    const auto states = node.stream.state_at(tau);
+    if (!states) return std::nullopt;
+    for (std::size_t i = 0; i < states->size(); ++i) {
+      const AxisScaling& scaling = node.segmenter.node().axes[i];
+      if (scaling.joint >= 0)
+        joints[static_cast<std::size_t>(scaling.joint)] = scaling.to_joint(to_counts((*states)[i].position));
+    }
+  }
+  return joints;
+}
+
+std::uint32_t StreamGroup::line_at(PathTime tau) const {
+  return nodes_.empty() ? 0 : nodes_[0].stream.line_at(tau);
+}
+
+}  // namespace kinebus

@@ -1,0 +1,45 @@
+#include "gateway/stream/sync_producer.hpp"
+
+namespace kinebus {
+
+void SyncProducer::start(BusTime first) {
+  due_ = first;
+  awaiting_sent_ = false;
+  stamp_.reset();
+}
+
+void SyncProducer::restart(std::uint8_t epoch, BusTime first) {
+  options_.epoch = epoch;
+  start(first);
+}
+
+std::optional<CanFrame> SyncProducer::next_frame(BusTime now) {
+  if (stamp_) {
+    const CanFrame frame = encode(*stamp_);
+    stamp_.reset();
+    ++counters_.stamps;
+    return frame;
+  }
+  if (now < due_) return std::nullopt;
+  if (awaiting_sent_) ++counters_.unstamped;
+  due_ += options_.period;
+  if (due_ <= now) {
+    const auto missed = static_cast<std::uint32_t>((now - due_) / options_.period + 1);
+    counters_.late += missed;
+    due_ += missed * options_.period;
+  }
+  counter_ = counter_ >= kLastSyncCounter ? std::uint8_t{1} : static_cast<std::uint8_t>(counter_ + 1);
+  awaiting_sent_ = true;
+  ++counters_.syncs;
+  return CanFrame::make(kSyncCobId, {counter_});
+}
+
+void SyncProducer::on_frame_sent(BusTime when, const CanFrame& frame) {
+  if (!awaiting_sent_ || frame.extended || frame.id != kSyncCobId || frame.length != 1 ||
+      frame.data[0] != counter_)
+    return;
+  awaiting_sent_ = false;
+  stamp_ = SyncStamp{counter_, options_.epoch, when};
+}
+
+}  // namespace kinebus
