@@ -12,7 +12,9 @@ namespace {
 
 TEST(PathDistance, MeasuresToTheLineBesideThePose) {
   PathDistance path;
-  for (const auto& line : Job().to({10, 0, 0, 0, 0, 0}).to({10, 10, 0, 0, 0, 0}).lines()) path.add(line);
+  Job job;
+  job.to({10, 0, 0, 0, 0, 0}).to({10, 10, 0, 0, 0, 0});
+  for (const auto& line : job.lines()) path.add(line);
   EXPECT_NEAR(path.distance_mm({5, 0.3, 0, 0, 0, 0}, 2), 0.3, 1e-12);
   EXPECT_EQ(path.nearest_line(), 2u);
   EXPECT_NEAR(path.distance_mm({10.3, -0.4, 0, 0, 0, 0}, 3), 0.5, 1e-12);
