@@ -61,6 +61,22 @@ AbortCode ObjectDictionary::write(ObjectAddress address, std::span<const std::ui
   return write_value(slot, value_of(entry.type, get_le(bytes, bytes.size())));
 }
 
+AbortCode ObjectDictionary::sdo_read(ObjectAddress address, std::uint32_t offset, std::span<std::uint8_t> out,
+                                     std::uint32_t& total) {
+  std::array<std::uint8_t, 64> bytes{};
+  std::size_t length = 0;
+  if (const AbortCode refused = read(address, bytes, length); refused != AbortCode::kNone) return refused;
+  total = static_cast<std::uint32_t>(length);
+  if (offset < length)
+    std::copy_n(bytes.begin() + offset, std::min<std::size_t>(out.size(), length - offset), out.begin());
+  return AbortCode::kNone;
+}
+
+AbortCode ObjectDictionary::sdo_write(ObjectAddress address, std::uint32_t offset,
+                                      std::span<const std::uint8_t> bytes, bool last) {
+  return offset == 0 && last ? write(address, bytes) : AbortCode::kTooLong;
+}
+
 std::uint32_t ObjectDictionary::fingerprint() const {
   Crc32 crc;
   for (std::size_t i = 0; i < kNodeObjectCount; ++i) {

@@ -12,6 +12,7 @@
 
 #include "protocol/canopen/abort_code.hpp"
 #include "protocol/canopen/node_objects.hpp"
+#include "protocol/canopen/sdo.hpp"
 
 namespace kinebus {
 
@@ -28,7 +29,7 @@ class ObjectOwner {
   ~ObjectOwner() = default;
 };
 
-class ObjectDictionary {
+class ObjectDictionary final : public SdoObjects {
  public:
   /// All values at their defaults, those relative to the node id with `node_id` added.
   explicit ObjectDictionary(ObjectOwner& owner, std::uint8_t node_id = 0);
@@ -47,6 +48,12 @@ class ObjectDictionary {
   /// string.
   AbortCode read(ObjectAddress address, std::span<std::uint8_t> bytes, std::size_t& length);
   AbortCode write(ObjectAddress address, std::span<const std::uint8_t> bytes);
+
+  /// The same for an SdoServer. Every object here fits one piece.
+  AbortCode sdo_read(ObjectAddress address, std::uint32_t offset, std::span<std::uint8_t> out,
+                     std::uint32_t& total) override;
+  AbortCode sdo_write(ObjectAddress address, std::uint32_t offset, std::span<const std::uint8_t> bytes,
+                      bool last) override;
 
   /// CRC-32 (IEEE) over address and value of every parameter: equal configurations have equal fingerprints.
   /// The node id does not count: values relative to it are taken without it.
