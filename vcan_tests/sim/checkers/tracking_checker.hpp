@@ -1,0 +1,35 @@
+#pragma once
+// The tool against the planned pose at equal path time, and every joint against q(tau) of its own node's path
+// time.
+
+#include "gateway/machine/description/machine_description.hpp"
+#include "gateway/machine/gateway.hpp"
+#include "vcan_tests/sim/sample.hpp"
+
+namespace kinebus {
+
+class TrackingChecker {
+ public:
+  TrackingChecker(const MachineDescription& machine, const Kinematics& kinematics, const Gateway& gateway)
+      : machine_(machine), kinematics_(kinematics), gateway_(gateway) {}
+
+  void on_sample(const Sample& sample);
+
+  double max_tool_um() const { return max_tool_um_; }
+  /// Largest distance of a motor from q(tau), in its own microsteps.
+  double max_joint_counts() const { return max_joint_counts_; }
+  double last_tool_um() const { return last_tool_um_; }
+  double worst_time_s() const { return worst_time_s_; }
+  std::uint32_t worst_line() const { return worst_line_; }
+  std::uint64_t samples() const { return samples_; }
+
+ private:
+  const MachineDescription& machine_;
+  const Kinematics& kinematics_;
+  const Gateway& gateway_;
+  double max_tool_um_ = 0, max_joint_counts_ = 0, last_tool_um_ = 0, worst_time_s_ = 0;
+  std::uint32_t worst_line_ = 0;
+  std::uint64_t samples_ = 0;
+};
+
+}  // namespace kinebus

@@ -1,0 +1,74 @@
+#include "vcan_tests/sim/report.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+namespace kinebus {
+
+std::string to_json_text(const SimulationReport& r) {
+  const nlohmann::json json{{"finished", r.finished},
+                            {"outcome", r.outcome},
+                            {"seed", r.seed},
+                            {"job_time_s", r.job_time_s},
+                            {"machine_time_s", r.machine_time_s},
+                            {"cpu_s", r.cpu_s},
+                            {"speedup", r.speedup},
+                            {"max_tracking_error_um", r.max_tracking_error_um},
+                            {"max_path_error_um", r.max_path_error_um},
+                            {"max_joint_error_counts", r.max_joint_error_counts},
+                            {"max_joint_velocity_ratio", r.max_joint_velocity_ratio},
+                            {"max_joint_acceleration_ratio", r.max_joint_acceleration_ratio},
+                            {"max_measured_acceleration_ratio", r.max_measured_acceleration_ratio},
+                            {"max_node_time_skew_us", r.max_node_time_skew_us},
+                            {"bus_load_mean", r.bus_load_mean},
+                            {"bus_load_peak_1s", r.bus_load_peak_1s},
+                            {"segments", r.segments},
+                            {"frames", r.frames},
+                            {"lines", r.lines},
+                            {"samples", r.samples},
+                            {"underruns", r.underruns},
+                            {"sequence_errors", r.sequence_errors},
+                            {"checkpoint_errors", r.checkpoint_errors},
+                            {"bus_slowdowns", r.bus_slowdowns},
+                            {"starvation_holds", r.starvation_holds},
+                            {"trace_hash", fmt::format("{:016x}", r.trace_hash)},
+                            {"worst_tracking_s", r.worst_tracking_s},
+                            {"worst_tracking_line", r.worst_tracking_line},
+                            {"worst_path_s", r.worst_path_s},
+                            {"worst_path_line", r.worst_path_line},
+                            {"messages", r.messages}};
+  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+std::string to_table(const SimulationReport& r) {
+  std::string text;
+  for (const std::string& message : r.messages) text += message + "\n";
+  const auto row = [&](const char* name, const std::string& value, const std::string& note) {
+    text += fmt::format("{:32} {:>14}   {}\n", name, value, note);
+  };
+  row("outcome", r.outcome, fmt::format("seed {}", r.seed));
+  row("job_time_s", fmt::format("{:.3f}", r.job_time_s), fmt::format("{} lines", r.lines));
+  row("cpu_s", fmt::format("{:.2f}", r.cpu_s), fmt::format("{:.0f} x real time", r.speedup));
+  row("max_tracking_error_um", fmt::format("{:.3f}", r.max_tracking_error_um),
+      fmt::format("tool to planned pose; line {}, {:.3f} s", r.worst_tracking_line, r.worst_tracking_s));
+  row("max_path_error_um", fmt::format("{:.3f}", r.max_path_error_um),
+      fmt::format("tool to programmed path; line {}, {:.3f} s", r.worst_path_line, r.worst_path_s));
+  row("max_joint_error_counts", fmt::format("{:.3f}", r.max_joint_error_counts),
+      "motor to q(tau), microsteps");
+  row("max_joint_velocity_ratio", fmt::format("{:.4f}", r.max_joint_velocity_ratio), "of the limit");
+  row("max_joint_acceleration_ratio", fmt::format("{:.4f}", r.max_joint_acceleration_ratio),
+      fmt::format("of the limit; by 1 ms differences {:.4f}", r.max_measured_acceleration_ratio));
+  row("max_node_time_skew_us", fmt::format("{:.3f}", r.max_node_time_skew_us), "path time, node to node");
+  row("bus_load_mean", fmt::format("{:.4f}", r.bus_load_mean), "of 1 Mbit/s");
+  row("bus_load_peak_1s", fmt::format("{:.4f}", r.bus_load_peak_1s), "busiest second");
+  row("segments", fmt::format("{}", r.segments), "");
+  row("frames", fmt::format("{}", r.frames), "all, SYNC and status included");
+  row("underruns", fmt::format("{}", r.underruns),
+      fmt::format("sequence errors {}, checkpoint errors {}, slowed for the bus {}, for planning {}",
+                  r.sequence_errors, r.checkpoint_errors, r.bus_slowdowns, r.starvation_holds));
+  row("trace_hash", fmt::format("{:016x}", r.trace_hash), "same seed, same hash");
+  return text;
+}
+
+}  // namespace kinebus

@@ -1,0 +1,42 @@
+#pragma once
+// What a simulation measured.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace kinebus {
+
+struct SimulationReport {
+  bool finished = false;  ///< the job ran to its end
+  std::string outcome;    ///< in words
+  std::uint64_t seed = 0;
+  double job_time_s = 0;      ///< of the machine, from the job's start to its end
+  double machine_time_s = 0;  ///< with bring-up, homing and reference
+  double cpu_s = 0;
+  double speedup = 0;  ///< machine time to CPU time
+  double max_tracking_error_um = 0;
+  double max_path_error_um = 0;
+  double max_joint_error_counts = 0;
+  double max_joint_velocity_ratio = 0;
+  double max_joint_acceleration_ratio = 0;
+  double max_measured_acceleration_ratio = 0;
+  double max_node_time_skew_us = 0;
+  double bus_load_mean = 0;
+  double bus_load_peak_1s = 0;
+  std::uint64_t segments = 0;
+  std::uint64_t frames = 0;
+  std::uint32_t lines = 0;
+  std::uint64_t samples = 0;
+  std::uint32_t underruns = 0, sequence_errors = 0, checkpoint_errors = 0, bus_slowdowns = 0,
+                starvation_holds = 0;
+  std::uint64_t trace_hash = 0;  ///< over all frames and their times: same seed, same hash
+  double worst_tracking_s = 0, worst_path_s = 0;
+  std::uint32_t worst_tracking_line = 0, worst_path_line = 0;
+  std::vector<std::string> messages;  ///< alarms and problems, in words
+};
+
+std::string to_json_text(const SimulationReport& report);
+std::string to_table(const SimulationReport& report);
+
+}  // namespace kinebus

@@ -1,0 +1,29 @@
+#pragma once
+// What the checkers see of the machine at one instant: positions of the simulated motors, never what gateway
+// or nodes believe.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "gateway/kinematics/kinematics.hpp"
+#include "protocol/time.hpp"
+
+namespace kinebus {
+
+inline constexpr int kMaxNodes = 4;
+
+struct Sample {
+  BusTime time{0};
+  int node_count = 0;
+  std::array<PathTime, kMaxNodes> node_tau{};  ///< each node's own path time at this instant
+  PathTime tau{0};                             ///< their mean
+  JointVector joints{};                        ///< true, mm or rad
+  PoseVector pose{};                           ///< Frame::kPart, by forward kinematics of the true joints
+  std::optional<PoseVector> planned;           ///< at tau, Frame::kPart
+  std::uint32_t line = 0;                      ///< the job's line that the gateway says is in motion
+  double rate = 0;                             ///< d tau / dt
+  bool in_job = false;
+};
+
+}  // namespace kinebus

@@ -1,0 +1,209 @@
+#include "vcan_tests/sim/simulate.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <ctime>
+
+#include "gateway/machine/description/machine_file.hpp"
+#include "vcan_tests/sim/checkers/bus_checker.hpp"
+#include "vcan_tests/sim/checkers/joint_checker.hpp"
+#include "vcan_tests/sim/checkers/path_checker.hpp"
+#include "vcan_tests/sim/checkers/skew_checker.hpp"
+#include "vcan_tests/sim/checkers/tracking_checker.hpp"
+
+namespace kinebus {
+namespace {
+
+using std::chrono::hours;
+using std::chrono::minutes;
+
+double cpu_now() {
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+bool ready(MachineState s) {
+  return s == MachineState::kReady;
+}
+bool over(MachineState s) {
+  return s == MachineState::kReady || s == MachineState::kAlarm || s == MachineState::kStopped ||
+         s == MachineState::kHeld;
+}
+
+/// All checkers together, fed by one simulation.
+struct Checkers {
+  Checkers(const MachineDescription& machine, const Kinematics& kinematics, Simulation& simulation,
+           ByteSource& text, const PoseVector& start)
+      : tracking(machine, kinematics, simulation.gateway()),
+        path(machine, kinematics, text, start),
+        joints(machine) {}
+  TrackingChecker tracking;
+  PathChecker path;
+  JointChecker joints;
+  SkewChecker skew;
+  BusChecker bus;
+};
+
+class Run {
+ public:
+  Run(const MachineDescription& machine, const Kinematics& kinematics, const SimulateOptions& options)
+      : machine_(machine),
+        kinematics_(kinematics),
+        options_(options),
+        simulation_(machine, kinematics, options.simulation) {
+    simulation_.on_event = [this](const MachineEvent& event) { note(event); };
+  }
+
+  SimulationReport go(std::unique_ptr<ByteSource> job, ByteSource& same_job) {
+    const double began = cpu_now();
+    report_.seed = options_.simulation.seed;
+    if (prepare()) print(std::move(job), same_job);
+    report_.machine_time_s = to_seconds(simulation_.now());
+    report_.cpu_s = cpu_now() - began;
+    report_.speedup = report_.cpu_s > 0 ? report_.machine_time_s / report_.cpu_s : 0;
+    report_.trace_hash = simulation_.trace_hash();
+    return report_;
+  }
+
+ private:
+  void note(const MachineEvent& event) {
+    if (event.kind == MachineEvent::Kind::kAlarm)
+      report_.messages.push_back("ALARM " + event.words + " " + event.advice);
+    if (event.kind == MachineEvent::Kind::kProblem && report_.messages.size() < 100)
+      report_.messages.push_back(fmt::format("line {}: {}", event.line, event.words));
+  }
+
+  bool fail(std::string words) {
+    report_.outcome = std::move(words);
+    return false;
+  }
+
+  bool prepare() {
+    Gateway& gateway = simulation_.gateway();
+    if (const auto home = gateway.home(); !home) return fail("homing refused: " + home.error().words);
+    simulation_.run_until(simulation_.now() + BusTime{1'000'000});
+    if (!simulation_.run_until_state(over, minutes{5}) || !ready(gateway.state()))
+      return fail(fmt::format("homing ended in state {}", to_string(gateway.state())));
+    if (const auto move = gateway.go_to_reference(); !move)
+      return fail("reference refused: " + move.error().words);
+    simulation_.run_until(simulation_.now() + BusTime{1'000'000});
+    if (!simulation_.run_until_state(over, minutes{5}) || !ready(gateway.state()))
+      return fail(fmt::format("the move to the bed reference ended in state {}", to_string(gateway.state())));
+    return true;
+  }
+
+  void print(std::unique_ptr<ByteSource> job, ByteSource& same_job) {
+    Gateway& gateway = simulation_.gateway();
+    checkers_ = std::make_unique<Checkers>(machine_, kinematics_, simulation_, same_job,
+                                           gateway.status().machine_pose);
+    simulation_.on_frame = [this](BusTime, const CanFrame& frame) { checkers_->joints.on_frame(frame); };
+    simulation_.on_sample = [this](const Sample& sample) { take(sample); };
+    if (const auto run = gateway.run(std::move(job), "job"); !run) {
+      fail("the job was refused: " + run.error().words);
+      return;
+    }
+    const auto started = [](MachineState s) { return s != MachineState::kChecking; };
+    simulation_.run_until_state(started, hours{1});
+    begin_ = simulation_.now();
+    simulation_.in_job = true;
+    const BusTime limit = options_.limit_s > 0 ? BusTime{static_cast<std::int64_t>(options_.limit_s * 1e9)}
+                                               : BusTime{hours{500}};
+    const bool ended = simulation_.run_until_state(over, limit);
+    report_.job_time_s = to_seconds(simulation_.now() - begin_);
+    report_.finished = ended && ready(gateway.state()) && report_.messages.empty();
+    if (report_.finished)
+      report_.outcome = "finished";
+    else if (!ended && options_.limit_s > 0)
+      report_.outcome = "measured to the limit";
+    else
+      report_.outcome = fmt::format("ended in state {}", to_string(gateway.state()));
+    fill();
+  }
+
+  void take(const Sample& sample) {
+    checkers_->joints.on_sample(sample);
+    checkers_->skew.on_sample(sample);
+    checkers_->bus.on_sample(sample, simulation_.machine().bus().statistics());
+    if (!sample.in_job) return;
+    checkers_->tracking.on_sample(sample);
+    checkers_->path.on_sample(sample);
+    report_.lines = std::max(report_.lines, sample.line);
+    if (options_.plot != nullptr) plot(sample);
+    if (options_.on_progress && ++since_progress_ >= 2000) {
+      since_progress_ = 0;
+      options_.on_progress(simulation_.gateway().status().progress, to_seconds(sample.time - begin_));
+    }
+  }
+
+  void plot(const Sample& sample) {
+    PlotData::Point point;
+    point.time_s = static_cast<float>(to_seconds(sample.time - begin_));
+    double square = 0;
+    for (const PoseAxis axis : {kX, kY, kZ}) {
+      point.tool_mm[axis] = static_cast<float>(sample.pose[axis]);
+      square += (sample.pose[axis] - last_pose_[axis]) * (sample.pose[axis] - last_pose_[axis]);
+    }
+    const double dt = to_seconds(sample.time - last_time_);
+    if (dt > 0 && dt < 0.01) point.speed_mm_per_s = static_cast<float>(std::sqrt(square) / dt);
+    point.e_mm = static_cast<float>(sample.pose[kE]);
+    point.error_um = static_cast<float>(checkers_->tracking.last_tool_um());
+    point.bus_load = static_cast<float>(checkers_->bus.last_100ms());
+    for (std::size_t j = 0; j < machine_.joints.size() && j < point.joints.size(); ++j)
+      point.joints[j] = static_cast<float>(sample.joints[j]);
+    last_pose_ = sample.pose;
+    last_time_ = sample.time;
+    options_.plot->joint_count = static_cast<int>(machine_.joints.size());
+    options_.plot->add(point);
+  }
+
+  void fill() {
+    const Checkers& c = *checkers_;
+    report_.max_tracking_error_um = c.tracking.max_tool_um();
+    report_.worst_tracking_s = c.tracking.worst_time_s() - to_seconds(begin_);
+    report_.worst_tracking_line = c.tracking.worst_line();
+    report_.samples = c.tracking.samples();
+    report_.max_joint_error_counts = c.tracking.max_joint_counts();
+    report_.max_path_error_um = c.path.max_um();
+    report_.worst_path_s = c.path.worst_time_s() - to_seconds(begin_);
+    report_.worst_path_line = c.path.worst_line();
+    report_.max_joint_velocity_ratio = c.joints.max_velocity_ratio();
+    report_.max_joint_acceleration_ratio = c.joints.max_acceleration_ratio();
+    report_.max_measured_acceleration_ratio = c.joints.max_measured_acceleration_ratio();
+    report_.max_node_time_skew_us = c.skew.max_us();
+    report_.bus_load_mean = c.bus.mean();
+    report_.bus_load_peak_1s = c.bus.peak_1s();
+    report_.frames = c.bus.frames();
+    report_.segments = c.joints.segments();
+    const MachineCounters counters = simulation_.gateway().status().counters;
+    report_.underruns = counters.underruns;
+    report_.sequence_errors = counters.sequence_errors;
+    report_.checkpoint_errors = counters.checkpoint_errors;
+    report_.bus_slowdowns = counters.bus_slowdowns;
+    report_.starvation_holds = counters.starvation_holds;
+  }
+
+  const MachineDescription& machine_;
+  const Kinematics& kinematics_;
+  const SimulateOptions& options_;
+  Simulation simulation_;
+  std::unique_ptr<Checkers> checkers_;
+  SimulationReport report_;
+  BusTime begin_{0}, last_time_{0};
+  PoseVector last_pose_{};
+  int since_progress_ = 0;
+};
+
+}  // namespace
+
+SimulationReport simulate(const MachineDescription& machine, std::unique_ptr<ByteSource> job,
+                          ByteSource& same_job, const SimulateOptions& options) {
+  const auto kinematics = make_kinematics(machine);
+  if (!kinematics) {
+    SimulationReport report;
+    report.outcome = kinematics.error().what;
+    return report;
+  }
+  return Run(machine, **kinematics, options).go(std::move(job), same_job);
+}
+
+}  // namespace kinebus

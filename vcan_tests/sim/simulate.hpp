@@ -1,0 +1,28 @@
+#pragma once
+// One job on the whole simulated machine, with all checkers: the engine of `kinebus simulate`.
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "gateway/jobs/byte_source.hpp"
+#include "gateway/machine/description/machine_description.hpp"
+#include "vcan_tests/sim/plot.hpp"
+#include "vcan_tests/sim/report.hpp"
+#include "vcan_tests/sim/simulation.hpp"
+
+namespace kinebus {
+
+struct SimulateOptions {
+  SimulationOptions simulation;
+  double limit_s = 0;        ///< stop measuring after so much job time; 0: the whole job
+  PlotData* plot = nullptr;  ///< filled along the way
+  std::function<void(double progress, double job_s)> on_progress;
+};
+
+/// Brings the machine up, homes it, goes to the bed reference, runs the job and measures. `job` and
+/// `same_job` are two readers of the same text: one for the machine, one for the checker.
+SimulationReport simulate(const MachineDescription& machine, std::unique_ptr<ByteSource> job,
+                          ByteSource& same_job, const SimulateOptions& options);
+
+}  // namespace kinebus

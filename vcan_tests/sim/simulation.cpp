@@ -1,0 +1,127 @@
+#include "vcan_tests/sim/simulation.hpp"
+
+#include <algorithm>
+
+namespace kinebus {
+namespace {
+// The line in motion is asked for so often; in between it is known well enough for the checkers' window.
+constexpr std::uint32_t kSamplesPerLine = 10;
+}  // namespace
+
+Simulation::Simulation(const MachineDescription& machine, const Kinematics& kinematics,
+                       const SimulationOptions& options)
+    : description_(machine),
+      kinematics_(kinematics),
+      options_(options),
+      gateway_(machine, {.epoch = static_cast<std::uint8_t>(1 + options.seed % 250)}),
+      virtual_machine_(virtual_nodes_of(machine, options.clocks, options.seed), options.seed),
+      random_(options.seed ^ 0x9E3779B97F4A7C15ULL),
+      warm_(kinematics.bed_reference()) {
+  for (const JointDescription& joint : machine.joints)
+    for (std::size_t n = 0; n < machine.nodes.size(); ++n)
+      if (machine.nodes[n].id == joint.node_id) node_of_joint_.push_back(static_cast<int>(n));
+}
+
+void Simulation::hash(BusTime when, const CanFrame& frame) {
+  const auto mix = [&](std::uint64_t value) { hash_ = (hash_ ^ value) * 1099511628211ULL; };
+  mix(static_cast<std::uint64_t>(when.count()));
+  mix(frame.id);
+  for (const std::uint8_t byte : frame.bytes()) mix(byte);
+}
+
+BusTime Simulation::gateway_due() {
+  const BusTime deadline = gateway_.next_deadline();
+  if (deadline != asked_) {
+    asked_ = deadline;
+    woken_ = deadline;
+    if (deadline != BusTime::max() && options_.gateway_latency_max > BusTime{0})
+      woken_ += BusTime{static_cast<std::int64_t>(
+          random_() % static_cast<std::uint64_t>(options_.gateway_latency_max.count()))};
+  }
+  return std::max(woken_, now_);
+}
+
+void Simulation::serve_gateway(BusTime now) {
+  while (virtual_machine_.can_send()) {
+    const auto frame = gateway_.next_frame(now);
+    if (!frame) break;
+    virtual_machine_.send(now, *frame);
+  }
+  while (auto event = gateway_.next_event())
+    if (on_event) on_event(*event);
+}
+
+void Simulation::step(BusTime until) {
+  const BusTime gateway_time = gateway_due();
+  const BusTime next =
+      std::min({until, next_sample_, gateway_time, std::max(virtual_machine_.next_event(), now_)});
+  const bool done = virtual_machine_.advance(next);
+  bool stirred = false;
+  while (const auto got = virtual_machine_.receive()) {
+    now_ = std::max(now_, got->when);
+    hash(got->when, got->frame);
+    if (on_frame) on_frame(got->when, got->frame);
+    if (got->own)
+      gateway_.on_frame_sent(got->when, got->frame);
+    else
+      gateway_.on_frame(got->when, got->frame);
+    stirred = true;
+  }
+  if (done) now_ = std::max(now_, next);
+  if (done && now_ >= gateway_time) {
+    gateway_.on_time(now_);
+    asked_ = BusTime::max();
+    stirred = true;
+  }
+  if (stirred) serve_gateway(now_);
+  if (done && now_ >= next_sample_) {
+    next_sample_ += options_.sample_period;
+    if (on_sample) on_sample(sample());
+  }
+}
+
+void Simulation::run_until(BusTime until) {
+  serve_gateway(now_);
+  while (now_ < until) step(until);
+}
+
+bool Simulation::run_until_state(const std::function<bool(MachineState)>& done, BusTime limit) {
+  serve_gateway(now_);
+  const BusTime until = now_ + limit;
+  while (!done(gateway_.state())) {
+    if (now_ >= until) return false;
+    step(until);
+  }
+  return true;
+}
+
+Sample Simulation::sample() {
+  Sample s;
+  s.time = now_;
+  s.in_job = in_job;
+  s.node_count = std::min(virtual_machine_.node_count(), kMaxNodes);
+  std::int64_t sum = 0;
+  for (int n = 0; n < s.node_count; ++n) {
+    s.node_tau[static_cast<std::size_t>(n)] = virtual_machine_.path_time(n, now_);
+    sum += (s.node_tau[static_cast<std::size_t>(n)] - s.node_tau[0]).count();
+  }
+  s.tau = s.node_tau[0] + PathTime{s.node_count > 0 ? sum / s.node_count : 0};
+  const BusTime dt = s.time - last_.time;
+  if (dt > BusTime{0}) s.rate = to_seconds(s.tau - last_.tau) / to_seconds(dt);
+
+  for (std::size_t j = 0; j < description_.joints.size(); ++j) {
+    const JointDescription& joint = description_.joints[j];
+    s.joints[j] = joint_from_counts(joint, virtual_machine_.true_counts(node_of_joint_[j], joint.axis, now_));
+  }
+  s.pose = warm_;
+  if (kinematics_.forward(Frame::kPart, s.joints, s.pose)) warm_ = s.pose;
+  if (in_job) {
+    s.planned = gateway_.planned_pose(s.tau);
+    s.line = last_.line;
+    if (samples_since_line_++ % kSamplesPerLine == 0) s.line = gateway_.status().line;
+  }
+  last_ = s;
+  return s;
+}
+
+}  // namespace kinebus

@@ -1,0 +1,76 @@
+#pragma once
+// The whole machine in virtual time: gateway core, node cores, motors, switches, bus and clocks, from one
+// seed. Deterministic: the same seed gives the same run, frame for frame.
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "gateway/inproc/virtual_nodes.hpp"
+#include "gateway/machine/description/machine_description.hpp"
+#include "gateway/machine/gateway.hpp"
+#include "node_firmware/port/host/virtual_machine.hpp"
+#include "vcan_tests/sim/sample.hpp"
+
+namespace kinebus {
+
+struct SimulationOptions {
+  std::uint64_t seed = 1;
+  /// Crystals over +-25 ppm (50 ppm apart), interrupts up to 20 us late, power-up times apart.
+  VirtualClocks clocks{.drift_ppm = 25,
+                       .latency_max = std::chrono::microseconds{20},
+                       .offset_max = std::chrono::milliseconds{900}};
+  /// The gateway's task wakes up late by up to this (Linux).
+  BusTime gateway_latency_max = std::chrono::microseconds{200};
+  BusTime sample_period = std::chrono::milliseconds{1};
+};
+
+class Simulation {
+ public:
+  Simulation(const MachineDescription& machine, const Kinematics& kinematics,
+             const SimulationOptions& options);
+
+  Gateway& gateway() { return gateway_; }
+  VirtualMachine& machine() { return virtual_machine_; }
+  BusTime now() const { return now_; }
+
+  /// Runs until `until`, calling on_sample (if set) every sample period.
+  void run_until(BusTime until);
+  /// Runs until the gateway's state satisfies `done`, at most `limit`. False: not reached.
+  bool run_until_state(const std::function<bool(MachineState)>& done, BusTime limit);
+
+  Sample sample();
+
+  std::function<void(const Sample&)> on_sample;
+  std::function<void(BusTime, const CanFrame&)> on_frame;
+  std::function<void(const MachineEvent&)> on_event;
+  bool in_job = false;
+
+  std::uint64_t trace_hash() const { return hash_; }
+
+ private:
+  void step(BusTime until);
+  void serve_gateway(BusTime now);
+  void hash(BusTime when, const CanFrame& frame);
+  BusTime gateway_due();
+
+  const MachineDescription& description_;
+  const Kinematics& kinematics_;
+  SimulationOptions options_;
+  Gateway gateway_;
+  VirtualMachine virtual_machine_;
+  std::vector<int> node_of_joint_;
+  std::mt19937_64 random_;
+  BusTime now_{0};
+  BusTime next_sample_{0};
+  BusTime asked_{BusTime::max()}, woken_{0};  // the gateway's deadline, and when Linux lets it run
+  Sample last_{};
+  PoseVector warm_{};
+  std::uint32_t samples_since_line_ = 0;
+  std::uint64_t hash_ = 1469598103934665603ULL;
+};
+
+}  // namespace kinebus
