@@ -6,6 +6,7 @@
 
 #include "tools/cli/machine_commands.hpp"
 #include "tools/cli/plan_command.hpp"
+#include "tools/cli/simulate_command.hpp"
 
 int main(int argc, char** argv) {
   CLI::App app("kinebus: run, watch, plan and simulate jobs of a Kinebus machine");
@@ -14,6 +15,7 @@ int main(int argc, char** argv) {
   int exit_code = 0;
   kinebus::add_machine_commands(app, std::make_shared<kinebus::MachineOptions>(), exit_code);
   kinebus::add_plan_command(app, exit_code);
+  kinebus::add_simulate_command(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -186,8 +186,6 @@ void write_demo(const TextSink& sink, std::uint32_t lines) {
   Writer out(sink);
   out.header("a lobed vase, printed as one spiral on a base of two layers");
   out.put("M104 S205");
-  out.put("M140 S60");
-  out.put("M190 S60");
   out.put("M109 S205");
   out.put("M106 S255");
   const auto vase = [](double turns) {
@@ -226,7 +224,6 @@ void write_demo(const TextSink& sink, std::uint32_t lines) {
   out.put("G1 E{:.5f} F2400", e_line - 1);
   out.put("G1 Z{:.3f} F6000", 0.4 + lines * 0.6 / kCorners + 10);
   out.put("M104 S0");
-  out.put("M140 S0");
   out.put("M107");
 }
 

@@ -1,0 +1,76 @@
+#include "tools/cli/simulate_command.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+
+#include "gateway/io/job_files.hpp"
+#include "tools/cli/job_watch.hpp"
+#include "tools/cli/offline.hpp"
+#include "vcan_tests/sim/simulate.hpp"
+
+namespace kinebus {
+namespace {
+
+struct Arguments {
+  std::string job, machine, json_path, plot_path;
+  std::uint64_t seed = 1;
+  double limit_s = 0;
+};
+
+std::unique_ptr<FileSource> open_job(const std::string& path) {
+  auto source = FileSource::open(path);
+  if (!source) throw std::runtime_error(source.error());
+  return std::move(*source);
+}
+
+int run(const Arguments& arguments) {
+  const MachineDescription machine = read_machine(arguments.machine);
+  const auto checkers_text = open_job(arguments.job);
+  PlotData plot;
+  SimulateOptions options;
+  options.simulation.seed = arguments.seed;
+  options.limit_s = arguments.limit_s;
+  if (!arguments.plot_path.empty()) options.plot = &plot;
+  if (::isatty(STDERR_FILENO) != 0)
+    options.on_progress = [](double progress, double job_s) {
+      fmt::print(stderr, "\r{:5.1f} %  {} simulated\033[K", 100 * progress, time_words(job_s));
+    };
+  const SimulationReport report = simulate(machine, open_job(arguments.job), *checkers_text, options);
+  if (options.on_progress) fmt::print(stderr, "\r\033[K");
+  fmt::print("{}", to_table(report));
+  if (!arguments.json_path.empty()) write_text(arguments.json_path, to_json_text(report));
+  if (!arguments.plot_path.empty())
+    write_text(
+        arguments.plot_path,
+        draw_plot(plot, machine,
+                  std::filesystem::path(arguments.job).filename().string() + " on " + machine.name,
+                  fmt::format(
+                      "{} lines in {}   tool error <= {:.2f} um   path error <= {:.2f} um   bus load {:.1f} %"
+                      "   seed {}",
+                      report.lines, time_words(report.job_time_s), report.max_tracking_error_um,
+                      report.max_path_error_um, 100 * report.bus_load_mean, report.seed)));
+  return report.finished || (arguments.limit_s > 0 && report.messages.empty()) ? 0 : 1;
+}
+
+}  // namespace
+
+void add_simulate_command(CLI::App& app, int& exit_code) {
+  auto* command =
+      app.add_subcommand("simulate", "Run a job on the whole simulated machine and measure it from outside");
+  auto arguments = std::make_shared<Arguments>();
+  command->add_option("job", arguments->job, "G-code file")->required()->check(CLI::ExistingFile);
+  command->add_option("--machine", arguments->machine, "Machine file; without it the default machine M1")
+      ->check(CLI::ExistingFile);
+  command->add_option("--json", arguments->json_path, "Also write the report here");
+  command->add_option("--plot", arguments->plot_path,
+                      "Draw tool path, carriages, speed, error and bus load (SVG)");
+  command->add_option("--seed", arguments->seed, "Of clocks, latencies and start positions (default 1)");
+  command->add_option("--limit-seconds", arguments->limit_s, "Measure only so much of the job, machine time");
+  command->callback([=, &exit_code] { exit_code = run(*arguments); });
+}
+
+}  // namespace kinebus
