@@ -112,7 +112,7 @@ class M1 final : public Kinematics {
       radicand[i] = t.ll[i] - (sx * sx + sy * sy + sz * sz) + u * u;
       const double along = t.branch[i] * std::sqrt(std::max(radicand[i], 0.0));
       const double w = u + along;
-      joints[i] = w - t.c[i];
+      joints[static_cast<std::size_t>(i)] = w - t.c[i];
       // dq = g . ds with g = L / (L . d^); ds = -dm + dA x^ x R b.
       const double inv = -1 / along;
       const double gx = (sx - w * t.dx[i]) * inv, gy = (sy - w * t.dy[i]) * inv,

@@ -15,6 +15,7 @@
 #include "gateway/machine/description/machine_file.hpp"
 #include "gateway/machine/description/machine_rules.hpp"
 #include "gateway/machine/description/machine_schema.hpp"
+#include "gateway/machine/description/toml_characters.hpp"
 
 namespace kinebus {
 namespace {
@@ -67,7 +68,7 @@ std::size_t distance(std::string_view a, std::string_view b) {
 class Reader {
  public:
   Reader(const toml::table& root, std::string_view file) : file_(file) {
-    levels_.push_back({&root, "", {}, true});
+    levels_.push_back({&root, "", {}, true, {}});
   }
 
   void finish() { end_table(); }
@@ -167,7 +168,7 @@ class Reader {
     const toml::node* node = find(key, need, expected);
     if (node == nullptr) return;
     if (const auto* t = node->as_table()) {
-      levels_.push_back({t, path(key), {}, true});
+      levels_.push_back({t, path(key), {}, true, {}});
       content();
       end_table();
     } else {
@@ -196,6 +197,7 @@ class Reader {
 
   void node_ids(std::vector<NodeDescription>& nodes) {
     nodes.clear();
+    level().others = "a node id in 1 .. 126";
     for (const auto& [key, node] : *level().table) {
       const std::string_view text = key.str();
       unsigned id = 0;
@@ -227,6 +229,7 @@ class Reader {
     std::string path;
     std::set<std::string> known;
     bool judged;
+    std::string others{};  // what keys the table takes besides the known ones
   };
 
   Level& level() { return levels_.back(); }
@@ -309,8 +312,8 @@ class Reader {
       }
     }
     const std::string full = l.path.empty() ? std::string(name) : l.path + "." + std::string(name);
-    const std::string expected =
-        nearest != nullptr ? "perhaps " + *nearest : (all.empty() ? "nothing here" : "one of " + all);
+    std::string expected = l.others;
+    if (expected.empty()) expected = nearest != nullptr ? "perhaps " + *nearest : "one of " + all;
     errors_.push_back({file_, key.source().begin.line, full, "a key that does not exist", expected});
   }
 
@@ -324,6 +327,9 @@ class Reader {
 }  // namespace
 
 Result<MachineDescription, MachineFileErrors> parse_machine(std::string_view text, std::string_view name) {
+  if (const auto line = misplaced_character(text))
+    return Error<MachineFileErrors>({{std::string(name), *line, "", "a character beyond ASCII",
+                                      "such characters in comments and strings only"}});
   const toml::parse_result parsed = toml::parse(text, name);
   if (!parsed) {
     const toml::parse_error& e = parsed.error();

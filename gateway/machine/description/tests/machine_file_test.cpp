@@ -215,6 +215,19 @@ TEST(MachineFile, TextThatIsNoTomlIsRefusedWithTheLine) {
   EXPECT_FALSE(machine.error().front().expected.empty());
 }
 
+TEST(MachineFile, CharactersBeyondAsciiAreForCommentsAndStrings) {
+  EXPECT_TRUE(parse_machine(edited("name = \"M1\"", "name = \"Drucker Nº 1\" # größer").text, "m1.toml"));
+  EXPECT_TRUE(
+      parse_machine(edited("name = \"M1\"", "name = \"\"\"a \"\"ü\"\" \\\" b\"\"\"").text, "m1.toml"));
+  EXPECT_TRUE(parse_machine(edited("name = \"M1\"", "name = 'é\\'").text, "m1.toml"));
+  const Edited e = edited("budget = 0.6", "budget = 0.6\u00BD");
+  const auto machine = parse_machine(e.text, "m1.toml");
+  ASSERT_FALSE(machine);
+  EXPECT_EQ(to_string(machine.error().front()),
+            "m1.toml:" + std::to_string(e.line) +
+                ": found a character beyond ASCII; expected such characters in comments and strings only");
+}
+
 TEST(MachineFile, AnEmptyFileListsTheTablesThatItNeeds) {
   const auto machine = parse_machine("", "m1.toml");
   ASSERT_FALSE(machine);
