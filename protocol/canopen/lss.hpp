@@ -91,7 +91,7 @@ class LssMaster {
   /// frames at most, scan_wait each: about 1.4 s. kNotFound: there is none.
   bool fastscan(LocalTime now);
 
-  void on_frame(LocalTime now, const CanFrame& frame);
+  void on_frame(const CanFrame& frame);
   void on_time(LocalTime now);
   std::optional<CanFrame> next_frame();
   LocalTime next_deadline() const { return status_ == Status::kBusy ? due_ : LocalTime::max(); }

@@ -114,16 +114,14 @@ void LssMaster::next_scan(LocalTime now, bool answered) {
   send_scan(now);
 }
 
-void LssMaster::on_frame(LocalTime now, const CanFrame& frame) {
+void LssMaster::on_frame(const CanFrame& frame) {
   if (status_ != Status::kBusy || frame.id != cob_id::kLssReply || frame.extended || frame.length != 8)
     return;
   if (request_at_ < request_count_) return;  // an answer to what was not asked yet
   if (service_ == Service::kFastscan) {
-    // Several nodes may answer at once with the same frame: the first answer ends the wait.
-    if (frame.data[0] == lss::kIdentified && !answered_) {
-      answered_ = true;
-      next_scan(now, true);
-    }
+    // Several nodes may answer, one after another: their answers are awaited, so that none counts for the
+    // next scan.
+    if (frame.data[0] == lss::kIdentified) answered_ = true;
     return;
   }
   if (frame.data[0] != expected_) return;
@@ -139,7 +137,7 @@ void LssMaster::on_time(LocalTime now) {
   if (status_ != Status::kBusy || now < due_) return;
   switch (service_) {
     case Service::kFastscan:
-      return next_scan(now, false);
+      return next_scan(now, answered_);
     case Service::kSwitchAll:
       status_ = Status::kDone;
       return;  // unconfirmed
