@@ -47,22 +47,54 @@ constexpr std::array kClasses{
     EmergencyRow{0xF000, "additional function fault", "look at the node's state, then clear"},
 };
 
+struct ReasonRow {
+  const char* words;
+  const char* advice;
+};
+/// By StopReason.
+constexpr std::array kReasons{
+    ReasonRow{"", ""},
+    ReasonRow{"its queue ran low",
+              "clear and resume; when it comes again, check the load of gateway and bus"},
+    ReasonRow{"a record was lost", "clear; when it comes again, check the bus for errors"},
+    ReasonRow{"its position is not the gateway's", "clear and home again"},
+    ReasonRow{"a record broke its limits", "clear; check the machine file against the node's limits"},
+    ReasonRow{"the emergency stop input", "release the emergency stop when it is safe, then clear"},
+    ReasonRow{"a limit switch", "move the carriage off the switch, then clear and home again"},
+    ReasonRow{"the gateway's heartbeat is missing", "check the gateway and the bus, then clear"},
+    ReasonRow{"SYNC is missing", "check the gateway and the bus, then clear"},
+    ReasonRow{"fault of a drive", "look at the drive's fault, then clear"},
+    ReasonRow{"its drives were switched off in motion", "clear and enable again"},
+    ReasonRow{"another node asked for it", "look at the other node's message"},
+};
+
 }  // namespace
 
-AlarmText describe_emergency(std::uint8_t node, std::uint16_t error_code, std::uint8_t vendor) {
+AlarmText describe_emergency(const Emergency& emergency) {
   const EmergencyRow* found = nullptr;
   for (const auto& row : kEmergencies)
-    if (row.code == error_code) found = &row;
+    if (row.code == emergency.code) found = &row;
   if (!found)
     for (const auto& row : kClasses)
-      if ((error_code & 0xF000) == row.code) found = &row;
-  char head[64];
-  std::snprintf(head, sizeof head, "node %u: ", static_cast<unsigned>(node));
-  char tail[48];
-  std::snprintf(tail, sizeof tail, " (EMCY %04Xh, reason %02Xh)", static_cast<unsigned>(error_code),
-                static_cast<unsigned>(vendor));
-  return {head + std::string(found ? found->words : "unknown fault") + tail,
-          found ? found->advice : "look at the node's state, then clear"};
+      if ((emergency.code & 0xF000) == row.code) found = &row;
+  const auto reason = static_cast<std::size_t>(emergency.vendor[0] & 0x7F);
+  AlarmText text;
+  text.words = "node " + std::to_string(emergency.node) + ": ";
+  const bool own = (emergency.code & 0xFF00) == 0xFF00;
+  if (!own || reason == 0 || reason >= kReasons.size()) text.words += found ? found->words : "unknown fault";
+  if (reason > 0 && reason < kReasons.size()) {
+    if (!own) text.words += "; ";
+    text.words += kReasons[reason].words;
+  }
+  if ((emergency.vendor[0] & 0x80) != 0) text.words += ", axis B";
+  char code[24];
+  std::snprintf(code, sizeof code, " (EMCY %04Xh)", static_cast<unsigned>(emergency.code));
+  text.words += code;
+  const bool by_reason = own && reason > 0 && reason < kReasons.size();
+  text.advice = by_reason ? kReasons[reason].advice
+                : found   ? found->advice
+                          : "look at the node's state, then clear";
+  return text;
 }
 
 std::string_view advice_for(AlarmCode code) {

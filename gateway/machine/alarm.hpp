@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "protocol/canopen/emcy.hpp"
+
 namespace kinebus {
 
 enum class AlarmCode : std::uint16_t {
@@ -34,8 +36,8 @@ struct AlarmText {
   std::string advice;
 };
 
-/// Words for an EMCY error code of node `node`; `vendor` is the reason byte (byte 3 of the EMCY).
-AlarmText describe_emergency(std::uint8_t node, std::uint16_t error_code, std::uint8_t vendor);
+/// Words for what a node reports; why it asks all to stop (StopReason) is part of them.
+AlarmText describe_emergency(const Emergency& emergency);
 /// Advice for the gateway's own alarms.
 std::string_view advice_for(AlarmCode code);
 

@@ -34,7 +34,7 @@ BringUp::BringUp(const MachineDescription& machine, std::deque<NodeLink>& links,
   }
 }
 
-void BringUp::start(BusTime now) {
+void BringUp::start(BusTime now, bool alone) {
   for (NodeLink& link : links_) link.forget();
   for (Node& node : nodes_) {
     node.config = Config::kCheck;
@@ -42,7 +42,7 @@ void BringUp::start(BusTime now) {
   }
   foreign_ = failed_ = equalising_ = false;
   out_.clear();
-  enter(Stage::kListen, now);
+  enter(alone ? Stage::kIdentify : Stage::kListen, now);
 }
 
 void BringUp::enter(Stage stage, BusTime now) {
@@ -97,6 +97,12 @@ std::string BringUp::doing() const {
   return "";
 }
 
+void BringUp::abort() {
+  if (stage_ == Stage::kIdle) return;
+  stage_ = Stage::kIdle;
+  for (NodeLink& link : links_) link.sdo().abandon();
+}
+
 BringUp::Outcome BringUp::on_time(BusTime now) {
   if (stage_ == Stage::kIdle) return Outcome::kDone;
   if (foreign_)
@@ -109,8 +115,7 @@ BringUp::Outcome BringUp::on_time(BusTime now) {
       if (!nodes_[i].done) step(now, i);
   }
   if (failed_) {
-    stage_ = Stage::kIdle;
-    for (NodeLink& link : links_) link.sdo().abandon();
+    abort();
     return Outcome::kFailed;
   }
   if (stage_ == Stage::kListen || !all_done()) return Outcome::kBusy;

@@ -31,8 +31,11 @@ class BringUp {
 
   BringUp(const MachineDescription& machine, std::deque<NodeLink>& links, PathRate& rate);
 
-  void start(BusTime now);
+  /// `alone`: this gateway speaks on the bus already, so there is no other to listen for.
+  void start(BusTime now, bool alone);
   Outcome on_time(BusTime now);
+  /// Ends it: drives stay as they are.
+  void abort();
   /// A frame that only another gateway sends was heard.
   void on_foreign_gateway() { foreign_ = true; }
 

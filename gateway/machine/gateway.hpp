@@ -43,6 +43,13 @@ struct JogRequest {
   double speed_per_s = 0;  ///< of the tool tip, mm/s, or of the turning axis, rad/s; 0: the machine's default
 };
 
+/// The exact planned pose, before any sampling.
+struct PlannedPose {
+  PoseVector pose{};
+  Frame frame = Frame::kPart;
+  std::uint32_t line = 0;
+};
+
 class Gateway {
  public:
   struct Options {
@@ -95,9 +102,9 @@ class Gateway {
   std::optional<MachineEvent> next_event();
   /// Path time by the gateway's own copy of the nodes' arithmetic.
   PathTime path_time(BusTime at) const;
-  /// The planned pose at a path time of the motion that is queued or running; nullopt: at rest or out of the
-  /// window of about a second. For checkers and displays.
-  std::optional<PoseVector> planned_pose(PathTime tau) const;
+  /// The planned pose at a path time of the motion that is queued or running; nullopt: no motion there, or
+  /// more than about a second ago. For checkers and displays.
+  std::optional<PlannedPose> planned_pose(PathTime tau) const;
 
  private:
   class Core;

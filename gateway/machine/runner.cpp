@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
 #include <utility>
 
 namespace kinebus {
@@ -15,6 +16,13 @@ constexpr PathTime kStartLead = std::chrono::milliseconds{1};
 /// commands.
 constexpr BusTime kRaisePeriod = std::chrono::milliseconds{250};
 constexpr double kRateStep = 0.02;
+
+/// planned_pose() knows so much of the past.
+constexpr PathTime kPlannedMemory = std::chrono::seconds{1};
+
+PathTime after(PathTime start, double seconds) {
+  return start + PathTime{static_cast<std::int64_t>(seconds * 16e6)};
+}
 
 std::string celsius_words(const char* what, double celsius) {
   char text[64];
@@ -38,6 +46,7 @@ void Runner::begin() {
   held_ = streaming_ = started_ = finished_ = stop_asked_ = false;
   wait_ = Wait::kNone;
   events_.clear();
+  planned_.clear();
   finished_runs_s_ = 0;
   last_line_ = 0;
   doing_ = "moving";
@@ -67,7 +76,7 @@ void Runner::hold(BusTime now) {
 void Runner::resume(BusTime now) {
   held_ = false;
   if (wait_ == Wait::kPause) wait_ = Wait::kNone;
-  last_rate_change_ = now;
+  last_rate_change_ = now - kRaisePeriod;
 }
 
 void Runner::drop() {
@@ -80,6 +89,21 @@ void Runner::drop() {
 double Runner::done_s(BusTime now) const {
   if (!streaming_) return finished_runs_s_;
   return finished_runs_s_ + std::max(0.0, to_seconds(rate_.tau(now) - group_.run_start()));
+}
+
+PathTime Runner::end_of(const PlannedPhase& p) {
+  return after(p.start, p.start_s + p.phase.duration_s);
+}
+
+std::optional<PlannedPose> Runner::planned_pose(PathTime tau) const {
+  const auto found =
+      std::upper_bound(planned_.begin(), planned_.end(), tau,
+                       [](PathTime t, const PlannedPhase& p) { return t < after(p.start, p.start_s); });
+  if (found == planned_.begin()) return std::nullopt;
+  const PlannedPhase& p = *std::prev(found);
+  const double t = to_seconds(tau - p.start) - p.start_s;
+  if (t > p.phase.duration_s + 1e-6) return std::nullopt;
+  return PlannedPose{p.phase.at(std::clamp(t, 0.0, p.phase.duration_s)).x, p.phase.piece.frame, p.phase.line};
 }
 
 std::uint32_t Runner::line(BusTime now) const {
@@ -99,6 +123,8 @@ Runner::Outcome Runner::on_time(BusTime now, int budget) {
   if (wait_ == Wait::kDwell && !held_) dwell_left_ -= std::min(dwell_left_, elapsed);
   execute_due(now);
   if (stop_asked_) return Outcome::kEmergencyStop;
+  const PathTime forgotten = rate_.tau(now) - kPlannedMemory;
+  while (!planned_.empty() && end_of(planned_.front()) < forgotten) planned_.pop_front();
   Outcome outcome = Outcome::kBusy;
   while (outcome == Outcome::kBusy && budget > 0) {
     if (wait_ != Wait::kNone && !wait_is_over(now)) break;
@@ -185,6 +211,8 @@ Runner::Outcome Runner::take(BusTime now, JobPipeline::Step step) {
       if (const auto pushed = group_.push(pipeline_.phase()); !pushed)
         return fail(pushed.error().line, to_string(pushed.error()), true);
       if (first) group_.release(rate_.tau(now) + kStartLead);
+      planned_.push_back(
+          {group_.run_start(), pipeline_.run_s() - pipeline_.phase().duration_s, pipeline_.phase()});
       return Outcome::kBusy;
     }
     case Step::kEvent: {

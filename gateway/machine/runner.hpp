@@ -11,6 +11,7 @@
 
 #include "gateway/jobs/job_pipeline.hpp"
 #include "gateway/machine/event_queue.hpp"
+#include "gateway/machine/gateway.hpp"
 #include "gateway/machine/path_rate.hpp"
 #include "gateway/machine/thermal.hpp"
 #include "gateway/stream/stream_group.hpp"
@@ -57,16 +58,24 @@ class Runner {
   double done_s(BusTime now) const;
   std::uint32_t line(BusTime now) const;
   std::uint64_t bytes() const { return pipeline_.bytes(); }
+  /// The exact planned pose at path time `tau`, by the phases of the last second and all that are queued.
+  std::optional<PlannedPose> planned_pose(PathTime tau) const;
   const std::string& doing() const { return doing_; }
   const Counters& counters() const { return counters_; }
 
  private:
   enum class Wait : std::uint8_t { kNone, kRunDone, kRest, kDwell, kHeating, kPause };
+  struct PlannedPhase {
+    PathTime start;  ///< of the run that it belongs to
+    double start_s;  ///< since then
+    Phase phase;
+  };
   struct Event {
     PathTime due;
     canonical::Line line;
   };
 
+  static PathTime end_of(const PlannedPhase& phase);
   void begin();
   void control_rate(BusTime now);
   bool wait_is_over(BusTime now);
@@ -92,6 +101,7 @@ class Runner {
   bool stop_asked_ = false;
   Wait wait_ = Wait::kNone;
   std::deque<Event> events_;
+  std::deque<PlannedPhase> planned_;
   TemperatureWait heating_;
   std::optional<BusTime> in_window_since_;
   BusTime last_time_{0}, dwell_left_{0}, last_rate_change_{0};

@@ -20,6 +20,12 @@ void Standstill::start() {
   }
 }
 
+void Standstill::abort() {
+  if (!busy_) return;
+  busy_ = false;
+  for (NodeLink& link : links_) link.sdo().abandon();
+}
+
 Standstill::Outcome Standstill::on_time() {
   if (!busy_) return Outcome::kDone;
   bool idle = true;
@@ -29,8 +35,7 @@ Standstill::Outcome Standstill::on_time() {
       if (answer->abort != AbortCode::kNone) {
         failure_ = {answer->abort == AbortCode::kTimeout ? AlarmCode::kNodeMissing : AlarmCode::kStreamLost,
                     links_[i].id(), to_string(links_[i].id(), *answer)};
-        busy_ = false;
-        for (NodeLink& link : links_) link.sdo().abandon();
+        abort();
         return Outcome::kFailed;
       }
       if (!answer->read) continue;

@@ -27,6 +27,7 @@ class Standstill {
 
   void start();
   Outcome on_time();
+  void abort();
   bool busy() const { return busy_; }
   const StepFailure& failure() const { return failure_; }
 

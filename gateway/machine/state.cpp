@@ -46,17 +46,17 @@ struct StateRule {
 };
 // kStopping and kAlarm may follow every state: a stop or a fault asks for no permission.
 constexpr std::array<StateRule, kMachineStates> kStates{{
-    {S::kOff, "off", set(S::kBringUp, S::kUnhomed, S::kReady, S::kStopped, S::kAlarm)},
-    {S::kBringUp, "bring-up", set(S::kOff, S::kStopped, S::kAlarm)},
-    {S::kUnhomed, "not homed", set(S::kBringUp, S::kHoming, S::kStopped, S::kAlarm)},
+    {S::kOff, "off", set(S::kUnhomed, S::kReady, S::kStopped, S::kAlarm)},
+    {S::kBringUp, "bring-up", set(S::kOff)},
+    {S::kUnhomed, "not homed", set(S::kBringUp, S::kCancelling, S::kStopped, S::kAlarm)},
     {S::kHoming, "homing", set(S::kUnhomed, S::kReady)},
     {S::kReady, "ready",
      set(S::kHoming, S::kMoving, S::kChecking, S::kRunning, S::kCancelling, S::kStopped, S::kAlarm)},
-    {S::kMoving, "moving", set(S::kReady, S::kHeld, S::kHolding, S::kHoming)},
+    {S::kMoving, "moving", set(S::kReady, S::kHeld)},
     {S::kChecking, "checking the job", set(S::kReady)},
-    {S::kRunning, "running", set(S::kChecking, S::kHeld, S::kHolding)},
+    {S::kRunning, "running", set(S::kChecking, S::kHeld)},
     {S::kHolding, "holding", set(S::kMoving, S::kRunning)},
-    {S::kHeld, "held", set(S::kHolding, S::kRunning, S::kMoving)},
+    {S::kHeld, "held", set(S::kHolding, S::kStopped)},
     {S::kCancelling, "cancelling", kInMotion},
     {S::kStopping, "stopping", kAny},
     {S::kStopped, "stopped", set(S::kStopping)},

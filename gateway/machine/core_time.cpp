@@ -1,0 +1,391 @@
+// What each state of the machine does as time passes, and what the nodes' news mean.
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+#include "gateway/machine/core.hpp"
+
+namespace kinebus {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// After path time has come to rest: the nodes' last status frames (100 ms apart) are here.
+constexpr BusTime kSettle = 150ms;
+/// A stop takes its ramp and no more; a node that does not say so is lost.
+constexpr BusTime kStopTimeout = 3s;
+constexpr BusTime kClearTimeout = 3s;
+
+}  // namespace
+
+void Gateway::Core::enter(MachineState state) {
+  if (state == state_) return;
+  assert(may_follow(state_, state));
+  state_ = state;
+  entered_ = now_;
+  events_.push({.kind = MachineEvent::Kind::kState,
+                .when = now_,
+                .state = state,
+                .words = std::string(to_string(state)),
+                .advice = {}});
+}
+
+void Gateway::Core::alarm(AlarmCode code, std::string words, std::uint8_t node, std::uint32_t line) {
+  events_.alarm(now_, code, std::move(words), node, line);
+}
+
+void Gateway::Core::stop_all(bool fault) {
+  fault_ = fault_ || fault;
+  bring_up_.abort();
+  if (homing_.busy()) {
+    homing_.abort();
+    homed_ = false;
+  }
+  preflight_.reset();
+  standstill_.abort();
+  clearing_ = false;
+  if (state_ == MachineState::kRunning || state_ == MachineState::kMoving) held_from_ = state_;
+  if (speaking_ && !rate_.stop_latched()) rate_.stop(now_);
+  if (fault_) {
+    thermal_.set_target(Heater::kHotend, 0);
+    thermal_.set_target(Heater::kBed, 0);
+  }
+  if (state_ != MachineState::kAlarm && state_ != MachineState::kStopped) enter(MachineState::kStopping);
+}
+
+void Gateway::Core::on_bus_failure(BusTime now, std::string_view what) {
+  now_ = std::max(now_, now);
+  if (need_bring_up_ && state_ == MachineState::kAlarm) return;
+  need_bring_up_ = true;
+  if (state_ == MachineState::kOff) return;
+  alarm(AlarmCode::kBusFailure, "the bus failed: " + std::string(what));
+  stop_all(true);
+}
+
+void Gateway::Core::on_time(BusTime now) {
+  now_ = std::max(now_, now);
+  load_.advance(now_);
+  rate_.on_time(now_);
+  thermal_.on_time(now_);
+  for (NodeLink& link : links_) link.on_time(now_);
+  watch_nodes();
+  switch (state_) {
+    case MachineState::kBringUp:
+      step_bring_up();
+      break;
+    case MachineState::kHoming:
+      step_homing();
+      break;
+    case MachineState::kChecking:
+      step_checking();
+      break;
+    case MachineState::kMoving:
+    case MachineState::kRunning:
+      step_running();
+      break;
+    case MachineState::kHolding:
+      step_hold();
+      break;
+    case MachineState::kCancelling:
+      step_cancel();
+      break;
+    case MachineState::kStopping:
+      step_stop();
+      break;
+    case MachineState::kStopped:
+    case MachineState::kAlarm:
+      step_clear();
+      break;
+    case MachineState::kOff:
+    case MachineState::kUnhomed:
+    case MachineState::kReady:
+    case MachineState::kHeld:
+      break;
+  }
+}
+
+// Bring-up and homing
+// ------------------------------------------------------------------------------------------
+
+void Gateway::Core::step_bring_up() {
+  if (standstill_.busy()) return step_standstill();
+  const BringUp::Outcome outcome = bring_up_.on_time(now_);
+  if (bring_up_.may_speak() && !speaking_) {
+    speaking_ = true;
+    sync_.start(now_);
+    heartbeat_.set_period(machine_.bus.heartbeat_period, now_);
+  }
+  if (outcome == BringUp::Outcome::kBusy) return;
+  if (outcome == BringUp::Outcome::kDone) return begin_standstill(After::kBringUp);
+  const StepFailure& failure = bring_up_.failure();
+  if (failure.code == AlarmCode::kSecondGateway) speaking_ = false;
+  need_bring_up_ = true;
+  alarm(failure.code, failure.words, failure.node);
+  enter(MachineState::kAlarm);
+}
+
+void Gateway::Core::step_homing() {
+  if (standstill_.busy()) return step_standstill();
+  const MachineHoming::Outcome outcome = homing_.on_time(now_);
+  if (outcome == MachineHoming::Outcome::kBusy) return;
+  if (outcome == MachineHoming::Outcome::kDone) return begin_standstill(After::kHoming);
+  alarm(homing_.failure().code, homing_.failure().words, homing_.failure().node);
+  stop_all(true);
+}
+
+void Gateway::Core::begin_standstill(After after) {
+  after_ = after;
+  standstill_.start();
+}
+
+void Gateway::Core::step_standstill() {
+  const Standstill::Outcome outcome = standstill_.on_time();
+  if (outcome == Standstill::Outcome::kBusy) return;
+  if (outcome == Standstill::Outcome::kDone) return finish_standstill();
+  need_bring_up_ = true;
+  alarm(standstill_.failure().code, standstill_.failure().words, standstill_.failure().node);
+  if (state_ == MachineState::kAlarm) return;
+  fault_ = true;
+  enter(MachineState::kAlarm);
+}
+
+/// Positions are read and queues are empty: every motion can begin from here.
+void Gateway::Core::finish_standstill() {
+  group_.cancel();
+  for (std::size_t i = 0; i < links_.size(); ++i)
+    group_.set_state(links_[i].id(), standstill_.node(i).position, standstill_.node(i).stream);
+  homed_ = standstill_.positions_known();
+  stream_lost_ = fault_ = false;
+  runner_.drop();
+  job_name_.clear();
+  for (std::size_t i = 0; i < links_.size(); ++i) positions_[i] = standstill_.node(i).position;
+  if (after_ == After::kHoming && !homed_) {
+    alarm(AlarmCode::kHomingFailed, "a node does not know its position after homing");
+    return stop_all(true);
+  }
+  if (after_ == After::kHoming)
+    events_.push({.kind = MachineEvent::Kind::kFinished, .when = now_, .words = "homed", .advice = {}});
+  if (after_ == After::kCancel) events_.message(now_, "cancelled: positions are known");
+  enter(homed_ ? MachineState::kReady : MachineState::kUnhomed);
+}
+
+// Jobs and moves
+// -----------------------------------------------------------------------------------------------
+
+void Gateway::Core::report_problems() {
+  const auto& problems = preflight_->problems().all();
+  for (; problems_reported_ < problems.size(); ++problems_reported_) {
+    const Problem& problem = problems[problems_reported_];
+    const bool error = problem.severity == Problem::Severity::kError;
+    events_.push({.kind = MachineEvent::Kind::kProblem,
+                  .when = now_,
+                  .line = problem.line,
+                  .words = (error ? "error: " : "warning: ") + problem.words,
+                  .advice = {}});
+  }
+}
+
+void Gateway::Core::step_checking() {
+  const bool done = preflight_->step(options_.planning_budget);
+  report_problems();
+  if (!done) return;
+  job_report_ = preflight_->report();
+  const std::uint64_t errors = preflight_->problems().errors();
+  preflight_.reset();
+  if (errors > 0 || !job_->rewind()) {
+    events_.push({.kind = MachineEvent::Kind::kFinished,
+                  .when = now_,
+                  .words = "the job was not begun: it has " + std::to_string(errors) + " errors",
+                  .advice = "correct the lines named, then run it again"});
+    job_.reset();
+    job_name_.clear();
+    return enter(MachineState::kReady);
+  }
+  const auto pose = machine_pose();
+  if (!pose) {
+    alarm(AlarmCode::kJobError, pose.error().words);
+    return stop_all(true);
+  }
+  PoseVector target = kinematics_->bed_reference();
+  target[kE] = (*pose)[kE];
+  runner_.start_commands({{0, canonical::Traverse{target, canonical::Frame::kMachine}}}, *pose);
+  job_follows_ = true;
+  job_started_ = now_;
+  enter(MachineState::kRunning);
+}
+
+void Gateway::Core::step_running() {
+  switch (runner_.on_time(now_, options_.planning_budget)) {
+    case Runner::Outcome::kBusy:
+      return;
+    case Runner::Outcome::kPaused:
+      held_from_ = state_;
+      enter(MachineState::kHolding);
+      return enter(MachineState::kHeld);
+    case Runner::Outcome::kDone:
+      return finish_motion();
+    case Runner::Outcome::kEmergencyStop:
+      alarm(AlarmCode::kEmergencyStop, "M112 in the job", 0, runner_.line(now_));
+      return stop_all(false);
+    case Runner::Outcome::kFailed: {
+      const Runner::Failure& failure = runner_.failure();
+      stream_lost_ = true;
+      alarm(failure.stream ? AlarmCode::kStreamLost : AlarmCode::kJobError, failure.words, 0, failure.line);
+      return stop_all(false);
+    }
+  }
+}
+
+void Gateway::Core::finish_motion() {
+  runner_.drop();
+  remember_positions();
+  if (std::exchange(job_follows_, false)) {
+    PoseVector start = kinematics_->bed_reference();
+    if (const auto pose = machine_pose()) start[kE] = (*pose)[kE];
+    runner_.start_job(std::move(job_), start);
+    return;
+  }
+  const bool job = state_ == MachineState::kRunning;
+  events_.push({.kind = MachineEvent::Kind::kFinished,
+                .when = now_,
+                .words = job ? "job done: " + job_name_ : "move done",
+                .advice = {}});
+  if (job) job_name_.clear();
+  enter(MachineState::kReady);
+}
+
+void Gateway::Core::step_hold() {
+  // A wait between runs stands still at once; planning ahead goes on.
+  static_cast<void>(runner_.on_time(now_, options_.planning_budget));
+  if (standing()) enter(MachineState::kHeld);
+}
+
+void Gateway::Core::step_cancel() {
+  if (standstill_.busy()) return step_standstill();
+  if (!standing()) return;
+  if (now_ - rest_since_ >= kSettle) begin_standstill(After::kCancel);
+}
+
+/// Path time stands, and for how long.
+bool Gateway::Core::standing() {
+  if (!rate_.at_rest(now_)) {
+    rest_since_ = now_;
+    return false;
+  }
+  return true;
+}
+
+// Stops
+// --------------------------------------------------------------------------------------------------------
+
+void Gateway::Core::step_stop() {
+  const bool rest = standing();
+  if (rest && now_ - rest_since_ >= kSettle && now_ - entered_ >= kSettle)
+    return enter(fault_ ? MachineState::kAlarm : MachineState::kStopped);
+  if (now_ - entered_ < kStopTimeout) return;
+  alarm(AlarmCode::kStopTimeout, "path time did not come to rest");
+  fault_ = need_bring_up_ = true;
+  enter(MachineState::kAlarm);
+}
+
+/// After clear(): the latch is lifted on all nodes, then the run can go on, or its rest is dropped.
+void Gateway::Core::step_clear() {
+  if (standstill_.busy()) return step_standstill();
+  if (!clearing_) return;
+  bool lifted = !rate_.stop_latched() && now_ - clearing_since_ >= kSettle;
+  bool enabled = true;
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    NodeLink& link = links_[i];
+    if (link.stream() && (link.stream()->flags & StreamStatus::kStopped) != 0) lifted = false;
+    for (std::size_t axis = 0; axis < kAxesPerNode; ++axis) {
+      if (axes_[i].axes[axis].joint < 0) continue;
+      const cia402::State drive = link.drive_state(axis);
+      const bool follows = drive == cia402::State::kOperationEnabled;
+      enabled = enabled && follows;
+      constexpr auto kMode = static_cast<std::int8_t>(cia402::Mode::kInterpolatedPosition);
+      if (follows)
+        link.set_control(axis, cia402::control::kOperation | cia402::control::kInterpolationEnable, kMode);
+      else if (drive != cia402::State::kFault || (repeats_ & 1) != 0)
+        link.set_control(axis, cia402::next_controlword(drive), kMode);
+      else
+        link.set_control(axis, 0, kMode);
+    }
+  }
+  if (now_ >= next_repeat_) {
+    next_repeat_ = now_ + 200ms;
+    ++repeats_;
+    for (NodeLink& link : links_) link.repeat_control();
+  }
+  if (lifted && enabled) {
+    clearing_ = false;
+    fault_ = false;
+    const bool goes_on = runner_.active() && !stream_lost_ && homed_ && state_ == MachineState::kStopped;
+    if (!goes_on) return begin_standstill(After::kClear);
+    runner_.hold(now_);
+    return enter(MachineState::kHeld);
+  }
+  if (now_ - clearing_since_ < kClearTimeout) return;
+  clearing_ = false;
+  alarm(enabled ? AlarmCode::kStopTimeout : AlarmCode::kEnableFailed,
+        enabled ? "a node keeps its stop latched: is an emergency stop or a limit switch still active?"
+                : "a drive does not enable again: its fault is still there");
+}
+
+// News of the nodes
+// --------------------------------------------------------------------------------------------
+
+void Gateway::Core::watch_nodes() {
+  for (NodeLink& link : links_) {
+    take_emergencies(link);
+    const bool watched = state_ != MachineState::kOff && state_ != MachineState::kBringUp && !need_bring_up_;
+    if (!watched) continue;
+    const std::string name = "node " + std::to_string(link.id());
+    if (link.take_boot_up()) {
+      need_bring_up_ = true;
+      homed_ = false;
+      alarm(AlarmCode::kNodeRestarted, name + " has restarted", link.id());
+      stop_all(true);
+    } else if (now_ - link.last_heard() > machine_.bus.heartbeat_timeout) {
+      need_bring_up_ = true;
+      alarm(AlarmCode::kHeartbeatLost, name + " is silent", link.id());
+      stop_all(true);
+    }
+  }
+}
+
+void Gateway::Core::take_emergencies(NodeLink& link) {
+  while (const auto emergency = link.next_emergency()) {
+    if (emergency->code == emcy::kNoError) continue;
+    const AlarmText text = describe_emergency(*emergency);
+    events_.push({.kind = MachineEvent::Kind::kAlarm,
+                  .when = now_,
+                  .code = emergency->code,
+                  .node = emergency->node,
+                  .words = text.words,
+                  .advice = text.advice});
+    const auto reason = static_cast<StopReason>(emergency->vendor[0] & 0x7F);
+    if (reason == StopReason::kNone || bring_up_.busy() || state_ == MachineState::kOff) continue;
+    const bool lost = reason == StopReason::kStarved || reason == StopReason::kSequenceError ||
+                      reason == StopReason::kCheckpointError || reason == StopReason::kStreamError;
+    stream_lost_ = stream_lost_ || lost;
+    stop_all(reason == StopReason::kAxisFault);
+  }
+}
+
+void Gateway::Core::take_stream_status(NodeLink& link) {
+  const auto status = link.take_stream();
+  if (!status || !streams_flow() || !runner_.active()) return;
+  const auto taken = group_.on_status(now_, link.id(), *status, rate_.tau(now_));
+  if (taken) return;
+  using Kind = StreamError::Kind;
+  const Kind kind = taken.error().kind;
+  counters_.sequence_errors += kind == Kind::kSequence || kind == Kind::kSilent ? 1 : 0;
+  counters_.checkpoint_errors += kind == Kind::kCheckpoint ? 1 : 0;
+  counters_.underruns += kind == Kind::kUnderrun ? 1 : 0;
+  stream_lost_ = true;
+  alarm(AlarmCode::kStreamLost, to_string(taken.error()), link.id(), taken.error().line);
+  stop_all(false);
+}
+
+}  // namespace kinebus

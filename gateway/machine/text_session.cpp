@@ -1,0 +1,148 @@
+// Lines of a text session (serial terminal, print host): queries and commands that need no job, Marlin's way.
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "gateway/machine/core.hpp"
+
+namespace kinebus {
+namespace {
+
+constexpr double kDegrees = 57.29577951308232;
+
+/// "M104 S205" -> 'M', 104; letters' values by word().
+struct Words {
+  char letter = 0;
+  int number = -1;
+  std::string_view rest;
+
+  explicit Words(std::string_view line) {
+    while (!line.empty() && (line.front() == ' ' || line.front() == '\t')) line.remove_prefix(1);
+    if (line.empty()) return;
+    letter = static_cast<char>(std::toupper(static_cast<unsigned char>(line.front())));
+    line.remove_prefix(1);
+    int value = 0, digits = 0;
+    while (!line.empty() && line.front() >= '0' && line.front() <= '9' && digits < 5) {
+      value = value * 10 + (line.front() - '0');
+      ++digits;
+      line.remove_prefix(1);
+    }
+    if (digits > 0) number = value;
+    rest = line;
+  }
+  std::optional<double> word(char wanted) const {
+    for (std::size_t i = 0; i < rest.size(); ++i) {
+      if (rest[i] == ';') break;
+      if (std::toupper(static_cast<unsigned char>(rest[i])) != wanted) continue;
+      const std::string text(rest.substr(i + 1, 24));
+      char* end = nullptr;
+      const double value = std::strtod(text.c_str(), &end);
+      if (end != text.c_str() && std::isfinite(value)) return value;
+    }
+    return std::nullopt;
+  }
+};
+
+template <typename... Values>
+std::string print(const char* format, Values... values) {
+  char text[256];
+  std::snprintf(text, sizeof text, format, values...);
+  return text;
+}
+
+Result<std::string, Refusal> reply(Result<void, Refusal> done) {
+  if (!done) return Error<Refusal>(done.error());
+  return std::string();
+}
+
+std::string temperatures(const MachineStatus& s) {
+  return print("T:%.2f /%.2f B:%.2f /%.2f @:0 B@:0", s.hotend.actual_celsius, s.hotend.target_celsius,
+               s.bed.actual_celsius, s.bed.target_celsius);
+}
+
+std::string position(const MachineStatus& s) {
+  std::string text = print("X:%.3f Y:%.3f Z:%.3f A:%.4f C:%.4f E:%.4f Count", s.pose[kX], s.pose[kY],
+                           s.pose[kZ], s.pose[kA] * kDegrees, s.pose[kC] * kDegrees, s.pose[kE]);
+  for (int joint = 0; joint < s.joint_count; ++joint)
+    text += print(" %d:%.4f", joint + 1, s.joints[static_cast<std::size_t>(joint)]);
+  return text + (s.positions_known ? "" : " (not homed)");
+}
+
+std::string switches(const MachineStatus& s, const MachineDescription& machine) {
+  std::string text = "Reporting endstop status";
+  for (const JointDescription& joint : machine.joints) {
+    if (!joint.homing || joint.homing->switch_input == 0) continue;
+    for (const NodeStatus& node : s.nodes)
+      if (node.id == joint.node_id)
+        text += "\n" + joint.name + ": " +
+                ((node.inputs >> (joint.homing->switch_input - 1)) & 1u ? "TRIGGERED" : "open");
+  }
+  return text;
+}
+
+}  // namespace
+
+Result<std::string, Refusal> Gateway::Core::text_line(std::string_view line) {
+  const Words words(line);
+  const auto temperature = [&](bool bed) -> Result<std::string, Refusal> {
+    const auto celsius = words.word('S');
+    if (!celsius) return Error<Refusal>(Refusal{"a temperature needs S"});
+    return reply(set_temperature(bed, *celsius));
+  };
+  if (words.letter == 0 || words.letter == ';') return std::string();
+  if (words.letter == 'G' && words.number == 28)
+    return reply(state_ == MachineState::kReady ? go_to_reference() : home());
+  if (words.letter == 'M') {
+    switch (words.number) {
+      case 17:
+        return reply(bring_up());
+      case 18:
+      case 84:
+        return reply(motors_off());
+      case 24:
+        return reply(resume());
+      case 25:
+        return reply(hold());
+      case 27: {
+        const MachineStatus s = status();
+        if (s.job.empty()) return std::string("Not SD printing");
+        return print("SD printing line %u, %.1f %%", static_cast<unsigned>(s.line), 100 * s.progress);
+      }
+      case 104:
+        return temperature(false);
+      case 140:
+        return temperature(true);
+      case 105:
+        return temperatures(status());
+      case 106:
+        thermal_.set_fan(std::clamp(words.word('S').value_or(255) / 255, 0.0, 1.0));
+        return std::string();
+      case 107:
+        thermal_.set_fan(0);
+        return std::string();
+      case 112:
+      case 410:
+        return reply(stop("stop by the session"));
+      case 114:
+        return position(status());
+      case 115:
+        return "FIRMWARE_NAME:Kinebus PROTOCOL_VERSION:1.0 MACHINE_TYPE:" + machine_.name +
+               " EXTRUDER_COUNT:1 CAP:EMERGENCY_PARSER:1";
+      case 119:
+        return switches(status(), machine_);
+      case 220:
+        return reply(set_feed_override(words.word('S').value_or(100) / 100));
+      case 524:
+        return reply(cancel());
+      case 999:
+        return reply(clear());
+      default:
+        break;
+    }
+  }
+  return Error<Refusal>(
+      Refusal{"not a command of a session: " + std::string(line.substr(0, 60)) + "; send motion as a job"});
+}
+
+}  // namespace kinebus
