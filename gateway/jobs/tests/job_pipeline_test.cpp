@@ -1,0 +1,173 @@
+#include "gateway/jobs/job_pipeline.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "gateway/jobs/tests/job_support.hpp"
+
+namespace kinebus {
+namespace {
+
+using Step = JobPipeline::Step;
+using job_test::kinematics;
+using job_test::machine;
+
+/// The steps of a job as letters: p phases (a run of them is one letter), e event, r run's end, b barrier, x
+/// problem.
+struct Trace {
+  std::string steps;
+  std::vector<double> event_s;
+  std::vector<Problem> problems;
+  double motion_s = 0;
+  PoseVector end{};
+  Frame frame{};
+  std::uint32_t lines = 0;
+};
+
+Trace trace(const std::string& job, PoseVector start = kinematics().bed_reference(), int budget = 1'000'000) {
+  StringSource source(job);
+  JobPipeline pipeline(machine(), kinematics());
+  pipeline.start_job(source, start);
+  Trace t;
+  for (int guard = 0; guard < 2'000'000; ++guard) {
+    int left = budget;
+    switch (pipeline.next(left)) {
+      case Step::kPhase:
+        if (t.steps.empty() || t.steps.back() != 'p') t.steps += 'p';
+        t.motion_s += pipeline.phase().duration_s;
+        t.end = pipeline.phase().at(pipeline.phase().duration_s).x;
+        t.frame = pipeline.phase().piece.frame;
+        break;
+      case Step::kEvent:
+        t.steps += 'e';
+        t.event_s.push_back(pipeline.event_s());
+        break;
+      case Step::kRunEnd:
+        t.steps += 'r';
+        break;
+      case Step::kBarrier:
+        t.steps += 'b';
+        break;
+      case Step::kProblem:
+        t.steps += 'x';
+        t.problems.push_back(pipeline.problem());
+        break;
+      case Step::kMore:
+        break;
+      case Step::kEnd:
+        t.lines = pipeline.lines();
+        return t;
+    }
+  }
+  ADD_FAILURE() << "the job does not end";
+  return t;
+}
+
+TEST(JobPipeline, EmptyJobEndsAtOnce) {
+  EXPECT_EQ(trace("").steps, "");
+}
+
+TEST(JobPipeline, MovesMakeOneRunThatEndsAtTheLastTarget) {
+  const Trace t = trace("G1 X10 Y0 Z20 F3000\nG1 X10 Y10\n");
+  EXPECT_EQ(t.steps, "pr");
+  EXPECT_NEAR(t.end[kX], 10, 1e-6);
+  EXPECT_NEAR(t.end[kY], 10, 1e-6);
+  EXPECT_GT(t.motion_s, 0.4);
+}
+
+TEST(JobPipeline, DwellSplitsMotionIntoTwoRuns) {
+  EXPECT_EQ(trace("G1 X10 F3000\nG4 P500\nG1 X0\n").steps, "prbpr");
+}
+
+TEST(JobPipeline, TemperatureWithoutWaitFallsDueInTheMidstOfARun) {
+  const Trace t = trace("G1 X10 F3000\nM104 S200\nG1 X20\nG1 X30\n");
+  EXPECT_EQ(t.steps, "pepr");
+  ASSERT_EQ(t.event_s.size(), 1u);
+  EXPECT_NEAR(t.event_s[0], 10 / 50.0, 0.05);
+}
+
+TEST(JobPipeline, WaitForTemperatureIsABarrier) {
+  EXPECT_EQ(trace("G1 X10 F3000\nM109 S200\nG1 X20\n").steps, "prbpr");
+}
+
+TEST(JobPipeline, EventsAfterTheLastMoveComeBeforeTheRunsEnd) {
+  EXPECT_EQ(trace("G1 X10 F3000\nM107\nM104 S0\n").steps, "peer");
+}
+
+TEST(JobPipeline, EventsBeforeAnyMoveComeFirst) {
+  const Trace t = trace("M106 S255\nG1 X10 F3000\n");
+  EXPECT_EQ(t.steps, "epr");
+  EXPECT_EQ(t.event_s[0], 0);
+}
+
+TEST(JobPipeline, HomingInAJobGoesToTheBedReferenceAndRests) {
+  const Trace t = trace("G1 X10 F3000\nG28\n");
+  EXPECT_EQ(t.steps, "prprb");
+  const PoseVector reference = kinematics().bed_reference();
+  for (const int axis : {kX, kY, kZ}) EXPECT_NEAR(t.end[axis], reference[axis], 1e-6) << axis;
+}
+
+TEST(JobPipeline, AProblemNamesItsLineAndTheRestIsStillRead) {
+  const Trace t = trace("G1 X10 F3000\nG1 X10 Q\nG1 X20\nG7777\nG1 X0\n");
+  ASSERT_EQ(t.problems.size(), 2u);
+  EXPECT_EQ(t.problems[0].line, 2u);
+  EXPECT_EQ(t.problems[1].line, 4u);
+  EXPECT_FALSE(t.problems[0].words.empty());
+  EXPECT_EQ(t.lines, 5u);
+}
+
+TEST(JobPipeline, OutOfReachIsAProblemOfItsLine) {
+  const Trace t = trace("G1 X10 F3000\nG1 X5000\nG1 X0\nG1 Y5000\n");
+  ASSERT_EQ(t.problems.size(), 2u);
+  EXPECT_EQ(t.problems[0].line, 2u);
+  EXPECT_EQ(t.problems[1].line, 4u);
+}
+
+TEST(JobPipeline, StoredJobCommandsAreRefusedInAJob) {
+  const Trace t = trace("M23 other.gcode\nG1 X1 F3000\n");
+  ASSERT_FALSE(t.problems.empty());
+  EXPECT_EQ(t.problems[0].line, 1u);
+}
+
+TEST(JobPipeline, BudgetOfOneLineGivesTheSameJob) {
+  const std::string job = job_test::spiral(20);
+  const Trace all = trace(job);
+  const Trace piecewise = trace(job, kinematics().bed_reference(), 1);
+  EXPECT_EQ(all.steps, piecewise.steps);
+  EXPECT_DOUBLE_EQ(all.motion_s, piecewise.motion_s);
+}
+
+TEST(JobPipeline, ReadInPiecesOfOneByteGivesTheSameJob) {
+  struct Drops : StringSource {
+    using StringSource::StringSource;
+    std::size_t read(std::span<char> buffer) override { return StringSource::read(buffer.first(1)); }
+  };
+  const std::string job = job_test::spiral(5);
+  const double whole = trace(job).motion_s;
+  Drops source(job);
+  JobPipeline pipeline(machine(), kinematics());
+  pipeline.start_job(source, kinematics().bed_reference());
+  double motion_s = 0;
+  int budget = 1 << 30;
+  for (Step step = pipeline.next(budget); step != Step::kEnd; step = pipeline.next(budget))
+    if (step == Step::kPhase) motion_s += pipeline.phase().duration_s;
+  EXPECT_DOUBLE_EQ(motion_s, whole);
+}
+
+TEST(JobPipeline, FeedScaleMakesAJobFaster) {
+  StringSource source("G1 X50 F600\n");
+  JobPipeline pipeline(machine(), kinematics());
+  pipeline.start_job(source, kinematics().bed_reference());
+  pipeline.set_feed_scale(2);
+  double motion_s = 0;
+  int budget = 1000;
+  for (Step step = pipeline.next(budget); step != Step::kEnd; step = pipeline.next(budget))
+    if (step == Step::kPhase) motion_s += pipeline.phase().duration_s;
+  EXPECT_NEAR(motion_s, 50 / 20.0, 0.1);
+}
+
+}  // namespace
+}  // namespace kinebus

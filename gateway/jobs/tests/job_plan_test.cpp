@@ -1,0 +1,72 @@
+#include "gateway/jobs/job_plan.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "gateway/jobs/tests/job_support.hpp"
+
+namespace kinebus {
+namespace {
+
+using job_test::kinematics;
+using job_test::machine;
+
+struct Planned {
+  PlanReport report;
+  ProblemList problems;
+};
+
+Planned plan(const std::string& job, int lines = 1000) {
+  StringSource source(job);
+  JobPlan p(machine(), kinematics(), source);
+  while (!p.step(lines)) {
+  }
+  return {p.report(), p.problems()};
+}
+
+TEST(JobPlan, SpiralIsStreamedWholeAndInTime) {
+  const Planned p = plan(job_test::spiral(40));
+  ASSERT_EQ(p.problems.errors(), 0u) << p.problems.all()[0].words;
+  EXPECT_GT(p.report.segments, 500u);
+  EXPECT_GT(p.report.frames, p.report.segments);
+  // The start lead, the run's last tick, nothing else.
+  EXPECT_NEAR(p.report.job_time_s, p.report.motion_s, 0.5);
+  EXPECT_GT(p.report.bus_load_mean, 0.01);
+  EXPECT_LT(p.report.bus_load_peak_1s, 0.6);
+}
+
+TEST(JobPlan, DwellIsPartOfTheJobTime) {
+  const Planned p = plan("G1 X10 F3000\nG4 S3\nG1 X0\n");
+  EXPECT_NEAR(p.report.job_time_s, p.report.motion_s + 3, 1.0);
+}
+
+TEST(JobPlan, ProblemsAreCollectedToTheEndOfTheJob) {
+  const Planned p = plan("G1 X10 F3000\nG1 X5000\nG1 X0\nG1 X200\nG99\n");
+  ASSERT_GE(p.problems.errors(), 3u);
+  EXPECT_EQ(p.problems.all()[0].line, 2u);
+}
+
+TEST(JobPlan, ChunksOfWorkDoNotChangeTheResult) {
+  const std::string job = job_test::spiral(15);
+  const Planned whole = plan(job), small = plan(job, 3);
+  EXPECT_EQ(whole.report.segments, small.report.segments);
+  EXPECT_EQ(whole.report.frames, small.report.frames);
+  EXPECT_DOUBLE_EQ(whole.report.job_time_s, small.report.job_time_s);
+}
+
+TEST(JobPlan, DenseFiveAxisCurveStaysUnderAThirdOfTheBus) {
+  std::string job = "G21\nG90\nM83\nM104 S210\nG43.4\nG1 X40 Y0 Z20 A0 C0 F6000\n";
+  for (int i = 1; i <= 3000; ++i) {
+    const double t = i * 0.2 / 40;
+    job += "G1 X" + std::to_string(40 * std::cos(t)) + " Y" + std::to_string(40 * std::sin(t)) + " A" +
+           std::to_string(10 * std::sin(t / 2)) + " C" + std::to_string(20 * std::sin(t)) + " E0.006\n";
+  }
+  const Planned p = plan(job);
+  ASSERT_EQ(p.problems.errors(), 0u) << p.problems.all()[0].line << p.problems.all()[0].words;
+  EXPECT_LT(p.report.bus_load_mean, 0.35);
+}
+
+}  // namespace
+}  // namespace kinebus

@@ -1,0 +1,91 @@
+#include "gateway/jobs/preflight.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "gateway/jobs/tests/job_support.hpp"
+
+namespace kinebus {
+namespace {
+
+using job_test::kinematics;
+using job_test::machine;
+
+struct Checked {
+  JobReport report;
+  ProblemList problems;
+};
+
+Checked check(const std::string& job, JobCheck::Options options = {}) {
+  StringSource source(job);
+  Preflight preflight(machine(), kinematics(), source, kinematics().bed_reference(), options);
+  while (!preflight.step(1000)) {
+  }
+  return {preflight.report(), preflight.problems()};
+}
+
+TEST(Preflight, GoodJobHasNoErrors) {
+  const Checked c = check(job_test::spiral(30));
+  EXPECT_EQ(c.problems.errors(), 0u) << c.problems.all()[0].words;
+  EXPECT_EQ(c.report.lines, 125u);
+  EXPECT_GT(c.report.motion_s, 10);
+}
+
+TEST(Preflight, LeavingTheWorkspaceIsReportedOncePerWayOutWithItsLine) {
+  const Checked c = check("G1 X0 F6000\nG1 X170\nG1 X175\nG1 X0\nG1 X-170\nG1 X0\n");
+  ASSERT_EQ(c.problems.errors(), 2u);
+  EXPECT_EQ(c.problems.all()[0].line, 2u);
+  EXPECT_EQ(c.problems.all()[1].line, 5u);
+}
+
+TEST(Preflight, BorderIsFoundWithinAMillimetre) {
+  EXPECT_EQ(check("G1 X149.9 F6000\n").problems.errors(), 0u);
+  EXPECT_EQ(check("G1 X150.1 F6000\n").problems.errors(), 1u);
+}
+
+TEST(Preflight, TiltBeyondTheLimitIsReported) {
+  EXPECT_EQ(check("G1 A44 Z60 F3000\n").problems.errors(), 0u);
+  const Checked c = check("G1 Z60 F3000\nG1 A50\n");
+  ASSERT_GE(c.problems.errors(), 1u);
+  EXPECT_EQ(c.problems.all()[0].line, 2u);
+}
+
+TEST(Preflight, TemperatureOutOfRangeIsAnError) {
+  const Checked c = check("M104 S500\nM140 S60\nM190 S130\n");
+  ASSERT_EQ(c.problems.errors(), 2u);
+  EXPECT_EQ(c.problems.all()[0].line, 1u);
+  EXPECT_EQ(c.problems.all()[1].line, 3u);
+}
+
+TEST(Preflight, ColdExtrusionIsAnErrorOnce) {
+  const Checked c = check("M104 S100\nM83\nG1 X10 E1 F1200\nG1 X20 E1\n");
+  ASSERT_EQ(c.problems.errors(), 1u);
+  EXPECT_EQ(c.problems.all()[0].line, 3u);
+}
+
+TEST(Preflight, ExtrusionWithoutAnyTemperatureIsOnlyWarnedOf) {
+  const Checked c = check("M83\nG1 X10 E1 F1200\n");
+  EXPECT_EQ(c.problems.errors(), 0u);
+  EXPECT_EQ(c.problems.warnings(), 1u);
+}
+
+TEST(Preflight, ListOfProblemsIsCappedAndCountsOn) {
+  std::string job;
+  for (int i = 0; i < 1000; ++i) job += "G1 X1 Q\n";
+  const Checked c = check(job);
+  EXPECT_EQ(c.problems.errors(), 1000u);
+  EXPECT_EQ(c.problems.all().size(), 300u);
+  EXPECT_TRUE(c.problems.truncated());
+}
+
+TEST(Preflight, DwellsAndWaitsAreCounted) {
+  const Checked c = check("G4 S2\nM109 S200\nM0\nG1 X1 F600\n");
+  EXPECT_NEAR(c.report.dwell_s, 2, 1e-9);
+  EXPECT_EQ(c.report.heat_waits, 1u);
+  EXPECT_EQ(c.report.pauses, 1u);
+  EXPECT_EQ(c.report.runs, 1u);
+}
+
+}  // namespace
+}  // namespace kinebus
