@@ -31,7 +31,10 @@ void NodeStream::reset(const std::array<AxisState, kAxesPerNode>& states, std::u
       accepted_ + std::min<std::uint64_t>(free_records, static_cast<std::uint64_t>(options_.queue_records));
   open_ = false;
   checkpoints_sent_ = 0;
+  next_checkpoint_ = end_;
+  tail_units_ = 0;
   tail_ = states;
+  for (AxisState& state : tail_) state.velocity = 0;
 }
 
 void NodeStream::append(Record record) {
@@ -143,13 +146,6 @@ Result<void, StreamError> NodeStream::on_status(BusTime now, const StreamStatus&
   }
   error.line = line_at(tau);
   return Error<StreamError>(error);
-}
-
-void NodeStream::rewind() {
-  if (sent_ == accepted_) return;
-  sent_ = accepted_;
-  checkpoints_sent_ = 0;
-  ++counters_.rewinds;
 }
 
 void NodeStream::forget_before(std::int64_t units) {

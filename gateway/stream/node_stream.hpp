@@ -16,8 +16,8 @@
 namespace kinebus {
 
 /// Sends segment records to one node ahead of their time, within what the node has room for.
-/// A record is kept until the node's path time has passed its end: so after a stop the exact position at any
-/// tau is known, and records that were lost can be sent again (rewind).
+/// A record is kept until the node's path time has passed its end, so the exact position at the tau of a stop
+/// is known.
 class NodeStream {
  public:
   struct Options {
@@ -33,14 +33,14 @@ class NodeStream {
     int queue_records = 120;  ///< a node's queue: more credit than this is not believed
   };
   struct Counters {
-    std::uint64_t records = 0, checkpoints = 0, statuses = 0, rewinds = 0;
+    std::uint64_t records = 0, checkpoints = 0, statuses = 0;
   };
   static constexpr std::size_t kCapacity = 1024;  ///< records kept: executed-not-confirmed, sent and waiting
 
   explicit NodeStream(std::uint8_t node_id) : NodeStream(node_id, Options{}) {}
   NodeStream(std::uint8_t node_id, Options options);
 
-  /// Where the node stands and which record it expects (from its status at rest); forgets all records.
+  /// Where the node stands (its velocity counts as 0) and which record it expects; forgets all records.
   void reset(const std::array<AxisState, kAxesPerNode>& states, std::uint8_t next_sequence,
              std::uint8_t free_records);
   bool has_room() const { return end_ - begin_ + 2 < kCapacity; }
@@ -56,8 +56,6 @@ class NodeStream {
   /// Next frame that may go out at path time tau; nullopt: nothing now (credit, horizon or all sent).
   std::optional<CanFrame> next_frame(BusTime now, PathTime tau);
   Result<void, StreamError> on_status(BusTime now, const StreamStatus& status, PathTime tau);
-  /// Sends again from the record that the node expects: after a stop on a lost record, at rest.
-  void rewind();
 
   bool all_sent() const { return sent_ == end_; }
   bool all_accepted() const { return accepted_ == end_; }

@@ -28,6 +28,9 @@ constexpr double kMostDrift = 2.5;
 // Position error that an end state may have for the sake of its velocity, in tolerances.
 constexpr double kMostEndError = 0.55;
 constexpr int kTries = 14;
+// An end state up to this drift needs no proof that it can be followed.
+constexpr double kSafeDrift = 1.0;
+constexpr int kProofs = 8, kProofDepth = 3;
 // A fit that misses by less than this is corrected at the one place where it misses, to this share of the
 // tolerance.
 // Only behind this part of its length, where the acceleration has some effect.
@@ -56,40 +59,41 @@ Segmenter::Segmenter(const NodeAxes& node, Options options)
       options_(options),
       raw_per_unit_(kCountFraction / static_cast<double>(1 << options.acceleration_shift)),
       pieces_(kCapacity) {
-  for (std::size_t i = 0; i < axes_.size(); ++i) {
+  for (std::size_t i = 0; i < at_.axes.size(); ++i) {
     const AxisScaling& scaling = node.axes[i];
-    axes_[i].base_tolerance =
+    at_.axes[i].base_tolerance =
         std::max(scaling.tolerance_counts - options.margin_counts, 0.5 * scaling.tolerance_counts);
-    axes_[i].limit =
+    at_.axes[i].limit =
         0.5 * std::abs(scaling.slope()) * scaling.acceleration_limit * kSecondsPerUnit * kSecondsPerUnit;
   }
 }
 
 void Segmenter::start(const std::array<AxisState, kAxesPerNode>& states) {
   assert(states[0].velocity == 0 && states[1].velocity == 0);
-  states_ = states;
-  first_ = count_ = 0;
-  knot_ = 0;
+  at_.states = states;
+  at_.first = at_.count = 0;
+  at_.knot = 0;
   start_offset_ = 0;
+  planned_.reset();
   complete_ = ended_ = false;
-  for (std::size_t i = 0; i < axes_.size(); ++i) {
-    axes_[i].p = to_counts(states[i].position);
-    axes_[i].v = 0;
-    axes_[i].tolerance = axes_[i].base_tolerance;
+  for (std::size_t i = 0; i < at_.axes.size(); ++i) {
+    at_.axes[i].p = to_counts(states[i].position);
+    at_.axes[i].v = 0;
+    at_.axes[i].tolerance = at_.axes[i].base_tolerance;
   }
 }
 
 void Segmenter::append(const Piece& next) {
-  if (count_ > 0) {
-    Piece& before = piece(count_ - 1);
+  if (at_.count > 0) {
+    Piece& before = piece(at_.count - 1);
     const double d = before.end - before.start;
     before.jump = 0;
-    for (std::size_t i = 0; i < axes_.size(); ++i)
+    for (std::size_t i = 0; i < at_.axes.size(); ++i)
       before.jump = std::max(before.jump, std::abs(next.c[i][2] - before.c[i][2] - 3 * before.c[i][3] * d) /
-                                              axes_[i].base_tolerance);
+                                              at_.axes[i].base_tolerance);
   }
-  ++count_;
-  piece(count_ - 1) = next;
+  ++at_.count;
+  piece(at_.count - 1) = next;
 }
 
 void Segmenter::push(const JointSpan& span) {
@@ -99,29 +103,29 @@ void Segmenter::push(const JointSpan& span) {
   p.start = span.start_s / u;
   p.end = (span.start_s + span.duration_s) / u;
   p.line = span.line;
-  for (std::size_t i = 0; i < axes_.size(); ++i) {
+  for (std::size_t i = 0; i < at_.axes.size(); ++i) {
     const AxisScaling& scaling = node_.axes[i];
     if (scaling.joint < 0) {
-      p.c[i] = {to_counts(states_[i].position), 0, 0, 0};
+      p.c[i] = {to_counts(at_.states[i].position), 0, 0, 0};
       continue;
     }
     const auto& c = span.coefficients[static_cast<std::size_t>(scaling.joint)];
     const double k = scaling.slope();
     p.c[i] = {scaling.to_counts(c[0]), k * u * c[1], k * u * u * c[2], k * u * u * u * c[3]};
-    p.bend = std::max(p.bend, std::abs(p.c[i][3]) / axes_[i].base_tolerance);
+    p.bend = std::max(p.bend, std::abs(p.c[i][3]) / at_.axes[i].base_tolerance);
   }
-  if (count_ == 0 && knot_ == 0)
-    for (std::size_t i = 0; i < axes_.size(); ++i) {
-      const double offset = std::abs(p.c[i][0] - axes_[i].p);
+  if (at_.count == 0 && at_.knot == 0)
+    for (std::size_t i = 0; i < at_.axes.size(); ++i) {
+      const double offset = std::abs(p.c[i][0] - at_.axes[i].p);
       start_offset_ = std::max(start_offset_, offset);
-      axes_[i].tolerance = std::max(axes_[i].base_tolerance, 1.2 * offset);
+      at_.axes[i].tolerance = std::max(at_.axes[i].base_tolerance, 1.2 * offset);
     }
   append(p);
   if (!span.last) return;
   complete_ = true;
   run_end_ = p.end;
   Piece rest{.start = p.end, .end = kForever, .line = span.line};
-  for (std::size_t i = 0; i < axes_.size(); ++i) {
+  for (std::size_t i = 0; i < at_.axes.size(); ++i) {
     const double d = p.end - p.start;
     rest.c[i][0] = p.c[i][0] + d * (p.c[i][1] + d * (p.c[i][2] + d * p.c[i][3]));
   }
@@ -129,14 +133,14 @@ void Segmenter::push(const JointSpan& span) {
 }
 
 bool Segmenter::ready() const {
-  if (count_ == 0) return false;
-  return complete_ || !has_room() || piece(count_ - 1).end >= static_cast<double>(knot_) + 2 * kLongest;
+  if (at_.count == 0) return false;
+  return complete_ || !has_room() || piece(at_.count - 1).end >= static_cast<double>(at_.knot) + 3 * kLongest;
 }
 
 /// The piece that holds at time t. A knot is rounded to the grid, so one within half a unit before a boundary
 /// belongs to what follows the boundary.
 std::size_t Segmenter::piece_at(double t, std::size_t hint) const {
-  while (hint + 1 < count_ && piece(hint).end < t + 0.5) ++hint;
+  while (hint + 1 < at_.count && piece(hint).end < t + 0.5) ++hint;
   return hint;
 }
 
@@ -144,11 +148,11 @@ std::size_t Segmenter::piece_at(double t, std::size_t hint) const {
 /// neither get far beyond the jump, nor is the jump small.
 bool Segmenter::stops_at(std::size_t index, double b) const {
   const double jump = piece(index).jump;
-  if (complete_ && index + 2 == count_) return true;
+  if (complete_ && index + 2 == at_.count) return true;
   if (jump * b * b < kStopAtJump) return false;
   const double enough = std::sqrt(kStopAtJump / jump);
   double after = 0;
-  for (std::size_t i = index + 1; i < count_; ++i) {
+  for (std::size_t i = index + 1; i < at_.count; ++i) {
     after += piece(i).end - piece(i).start;
     if (after > enough) return true;
     if (piece(i).jump > 0.2 * jump) return false;
@@ -158,14 +162,14 @@ bool Segmenter::stops_at(std::size_t index, double b) const {
 
 /// First guess of how far one segment can go: by the error that bends and jumps add up to on the way.
 Segmenter::Reach Segmenter::reach() const {
-  const double knot = static_cast<double>(knot_);
+  const double knot = static_cast<double>(at_.knot);
   double change = 0;  // of q''/2 so far, over tolerance
   double begin = 0;   // of the piece, from the knot
   for (std::size_t i = 0;; ++i) {
     const Piece& p = piece(i);
     const double end = p.end - knot, to = std::min(end, kLongest);
     const auto error = [&](double h) { return kBendError * h * h * (change / 3 + p.bend * (h - begin)); };
-    if (complete_ && i + 1 == count_) return {begin, i, false, true};
+    if (complete_ && i + 1 == at_.count) return {begin, i, false, true};
     if (error(to) > kAim) {
       double h = 0;
       if (begin <= 0) {
@@ -177,8 +181,8 @@ Segmenter::Reach Segmenter::reach() const {
       }
       return {h, i, false, false};
     }
-    if (end >= kLongest || i + 1 == count_) return {to, i, false, false};
-    if (stops_at(i, end) && !(complete_ && i + 2 == count_)) return {end, i + 1, true, false};
+    if (end >= kLongest || i + 1 == at_.count) return {to, i, false, false};
+    if (stops_at(i, end) && !(complete_ && i + 2 == at_.count)) return {end, i + 1, true, false};
     change += p.jump + 3 * p.bend * (end - std::max(begin, 0.0));
     begin = end;
   }
@@ -187,7 +191,7 @@ Segmenter::Reach Segmenter::reach() const {
 /// How far a segment that begins at t, in piece `index`, will go at most.
 double Segmenter::next_units(double t, std::size_t index, double most) const {
   double bend = 0;
-  for (std::size_t i = index; i < count_; ++i) {
+  for (std::size_t i = index; i < at_.count; ++i) {
     const Piece& p = piece(i);
     const double b = p.end - t;
     bend = std::max(bend, p.bend);
@@ -200,8 +204,8 @@ double Segmenter::next_units(double t, std::size_t index, double most) const {
 }
 
 Segmenter::Miss Segmenter::miss(std::size_t axis, double h, double next, std::size_t index) const {
-  const Axis& a = axes_[axis];
-  const double t = static_cast<double>(knot_) + h;
+  const Axis& a = at_.axes[axis];
+  const double t = static_cast<double>(at_.knot) + h;
   const Piece& p = piece(index);
   const auto& c = p.c[axis];
   const double x = t - p.start;
@@ -223,18 +227,18 @@ Segmenter::Miss Segmenter::miss(std::size_t axis, double h, double next, std::si
 /// kRest: velocity 0 at the end. kHalfway: this and one more segment bring position and velocity to the run's
 /// end.
 double Segmenter::resting_acceleration(std::size_t axis, double h, Goal goal) const {
-  const Axis& a = axes_[axis];
+  const Axis& a = at_.axes[axis];
   if (goal == Goal::kRest) return -0.5 * a.v / h;
-  const double whole = std::max(std::ceil(run_end_ - static_cast<double>(knot_) - 1e-6), h + 1);
-  const double missing = piece(count_ - 1).c[axis][0] - a.p - a.v * whole;
+  const double whole = std::max(std::ceil(run_end_ - static_cast<double>(at_.knot) - 1e-6), h + 1);
+  const double missing = piece(at_.count - 1).c[axis][0] - a.p - a.v * whole;
   return (missing + 0.5 * (whole - h) * a.v) / (h * whole);
 }
 
 /// Where an acceleration may lie: in what q''/2 does on the way, and a part of what is left to the limit.
 std::array<double, 2> Segmenter::bounds(std::size_t axis, double h, std::size_t last) const {
-  const double limit = axes_[axis].limit;
+  const double limit = at_.axes[axis].limit;
   if (limit <= 0) return {-kForever, kForever};
-  const double knot = static_cast<double>(knot_);
+  const double knot = static_cast<double>(at_.knot);
   double low = kForever, high = -kForever;
   for (std::size_t i = 0; i <= last; ++i) {
     const Piece& p = piece(i);
@@ -251,8 +255,8 @@ std::array<double, 2> Segmenter::bounds(std::size_t axis, double h, std::size_t 
 
 /// Largest q - p - v t - a t^2 over the segment, piece by piece, exact. x: units from the knot.
 Extreme Segmenter::error_over(std::size_t axis, double a, double h, std::size_t last) const {
-  const Axis& s = axes_[axis];
-  const double knot = static_cast<double>(knot_);
+  const Axis& s = at_.axes[axis];
+  const double knot = static_cast<double>(at_.knot);
   Extreme worst;
   for (std::size_t i = 0; i <= last; ++i) {
     const Piece& p = piece(i);
@@ -270,17 +274,17 @@ Extreme Segmenter::error_over(std::size_t axis, double a, double h, std::size_t 
 Segmenter::Fit Segmenter::fit(std::int32_t units, Goal goal) {
   ++counters_.candidates;
   Fit f{.units = std::clamp(units, 1, kMaxSegmentUnits)};
-  const double h = f.units, end = static_cast<double>(knot_) + h;
+  const double h = f.units, end = static_cast<double>(at_.knot) + h;
   const std::size_t last = piece_at(end, 0);
   const double next = goal == Goal::kRunOn ? next_units(end, last, std::min(kLongest, kMostNext * h)) : 0;
   const double weight = std::clamp(next / h, kLeastNext, kMostNext);
-  for (std::size_t i = 0; i < axes_.size(); ++i) {
+  for (std::size_t i = 0; i < at_.axes.size(); ++i) {
     const auto [low, high] = bounds(i, h, last);
     Miss m;
     double a = 0;
     // The acceleration nearest to `wanted` that ends within this share of the tolerance.
     const auto end_within = [&](double share, double wanted) {
-      const double most = share * axes_[i].base_tolerance;
+      const double most = share * at_.axes[i].base_tolerance;
       return std::clamp(wanted, (m.position - most) / (h * h), (m.position + most) / (h * h));
     };
     if (goal == Goal::kRunOn) {
@@ -301,7 +305,7 @@ Segmenter::Fit Segmenter::fit(std::int32_t units, Goal goal) {
       worst = error_over(i, a, h, last);
     };
     apply(a);
-    const double tolerance = axes_[i].tolerance, excess = std::abs(worst.value) - kTouch * tolerance;
+    const double tolerance = at_.axes[i].tolerance, excess = std::abs(worst.value) - kTouch * tolerance;
     if (goal == Goal::kRunOn && excess > 0 && excess < kRepairable * tolerance && worst.x > kRepairFrom * h) {
       const double repaired = a + std::copysign(excess, worst.value) / (worst.x * worst.x);
       apply(std::clamp(end_within(kMostRepairedEndError, repaired), low, high));
@@ -309,7 +313,11 @@ Segmenter::Fit Segmenter::fit(std::int32_t units, Goal goal) {
     f.error = std::max(f.error, std::abs(worst.value) / tolerance);
     if (goal != Goal::kRunOn) continue;
     const double r = std::abs(m.position - a * h * h), w = std::abs(m.velocity - 2 * a * h);
-    f.drift = std::max(f.drift, (r + kVelocityCost * std::min(h, next) * w) / axes_[i].base_tolerance);
+    // Moving away, it must be brought back within the tolerance by what acceleration there is to spare.
+    const double away =
+        (m.position - a * h * h) * (m.velocity - 2 * a * h) > 0 ? w * w / (2 * (high - low)) : 0;
+    const double cost = std::max(r + kVelocityCost * std::min(h, next) * w, r + away);
+    f.drift = std::max(f.drift, cost / at_.axes[i].base_tolerance);
   }
   return f;
 }
@@ -321,7 +329,7 @@ Segmenter::Fit Segmenter::choose() {
 }
 
 Segmenter::Fit Segmenter::come_to_rest() {
-  const double remaining = run_end_ - static_cast<double>(knot_);
+  const double remaining = run_end_ - static_cast<double>(at_.knot);
   const std::int32_t units = std::max(round_up(remaining), 1);
   Fit best = fit(units, Goal::kRest);
   if (best.good()) return best;
@@ -337,20 +345,20 @@ Segmenter::Fit Segmenter::come_to_rest() {
 /// w0, a segment that meets the position ends with M h^2 / 6 - w0; so the steady state is reached at once by
 /// h^2 (1/2 + w0 / 2w). From w0 = 0 that is h / sqrt(2).
 double Segmenter::steadied(double h) const {
-  const double knot = static_cast<double>(knot_);
+  const double knot = static_cast<double>(at_.knot);
   const Piece& p = piece(0);
   const Piece& e = piece(piece_at(knot + h, 0));
   const double x = knot - p.start, y = knot + h - e.start;
   double steady = 0, now = 0;  // of the axis that bends more, in tolerances
-  for (std::size_t i = 0; i < axes_.size(); ++i) {
+  for (std::size_t i = 0; i < at_.axes.size(); ++i) {
     const auto& c = p.c[i];
     const auto& d = e.c[i];
     const double q = c[0] + x * (c[1] + x * (c[2] + x * c[3])), q1 = c[1] + x * (2 * c[2] + x * 3 * c[3]);
     const double r = d[0] + y * (d[1] + y * (d[2] + y * d[3])), r1 = d[1] + y * (2 * d[2] + y * 3 * d[3]);
-    const double wanted = (0.5 * (q1 + r1) - (r - q) / h) / axes_[i].base_tolerance;
+    const double wanted = (0.5 * (q1 + r1) - (r - q) / h) / at_.axes[i].base_tolerance;
     if (std::abs(wanted) <= std::abs(steady)) continue;
     steady = wanted;
-    now = (q1 - axes_[i].v) / axes_[i].base_tolerance;
+    now = (q1 - at_.axes[i].v) / at_.axes[i].base_tolerance;
   }
   if (std::abs(steady) * h < 1) return h;
   return h * std::sqrt(std::clamp(0.5 + 0.5 * now / steady, 0.15, 1.2));
@@ -359,11 +367,11 @@ double Segmenter::steadied(double h) const {
 Segmenter::Fit Segmenter::run_on(const Reach& far) {
   double h = far.at_jump ? far.units : steadied(far.units);
   const Piece& p = piece(far.piece);
-  const double rest = p.end - static_cast<double>(knot_);
+  const double rest = p.end - static_cast<double>(at_.knot);
   bool halfway = false;
   if (!far.at_jump && rest < 6 * h) {
     // Even parts up to a jump, so that no short one is left over.
-    const bool run_end = complete_ && far.piece + 2 == count_;
+    const bool run_end = complete_ && far.piece + 2 == at_.count;
     const double parts = std::ceil(rest / std::min(1.05 * h, kLongest));
     if (run_end || p.jump * h * h > kStopAtJump) {
       h = rest / parts;
@@ -389,8 +397,8 @@ Segmenter::Fit Segmenter::run_on(const Reach& far) {
 
 /// From a jump on: perhaps the piece behind it is so short that the segment can go on to its end.
 Segmenter::Fit Segmenter::cross_jumps(Fit best, const Reach& far) {
-  const double knot = static_cast<double>(knot_);
-  const std::size_t stop = complete_ ? count_ - 1 : count_;
+  const double knot = static_cast<double>(at_.knot);
+  const std::size_t stop = complete_ ? at_.count - 1 : at_.count;
   for (std::size_t i = far.piece; i < stop; ++i) {
     const double h = piece(i).end - knot, over = h - best.units;
     if (h > kLongest) break;
@@ -413,26 +421,58 @@ Segmenter::Fit Segmenter::shrink(Fit failed) {
   return best;
 }
 
-FittedSegment Segmenter::emit(const Fit& f) {
-  FittedSegment segment{knot_, f.units, f.acceleration, states_, piece(0).line};
-  ++counters_.segments;
-  counters_.worst_ratio = std::max(counters_.worst_ratio, f.error);
-  if (f.error > 1) ++counters_.loose;
-  knot_ += f.units;
-  const std::size_t last = piece_at(static_cast<double>(knot_), 0);
-  for (std::size_t i = 0; i < axes_.size(); ++i) {
-    states_[i] = advance(states_[i], f.acceleration[i], f.units, options_.acceleration_shift);
-    Axis& a = axes_[i];
-    a.p = to_counts(states_[i].position);
-    a.v = to_counts(states_[i].velocity);
-    const Piece& p = piece(last);
-    const double x = static_cast<double>(knot_) - p.start;
+/// Whether what follows `f` can be fitted, too: until a segment comes that needs no proof. Remembers the next
+/// one.
+bool Segmenter::leads_on(const Fit& f, int depth) {
+  if (f.drift <= kSafeDrift) return true;
+  const Position before = at_;
+  apply(f);
+  const Fit following = choose();
+  const bool proved = following.error <= 1 && (depth <= 1 || leads_on(following, depth - 1));
+  at_ = before;
+  if (proved) planned_ = following;
+  return proved;
+}
+
+Segmenter::Fit Segmenter::choose_safe() {
+  Fit f = planned_ ? *planned_ : choose();
+  planned_.reset();
+  Fit best = f;
+  for (int i = 0; i < kProofs; ++i) {
+    if (f.error <= 1 && leads_on(f, kProofDepth)) return f;
+    planned_.reset();
+    if (f.units < 4) break;
+    // A dead end: a shorter segment has more to choose from.
+    f = fit(f.units * 5 / 8, Goal::kRunOn);
+    if (best.error > 1 ? f.error < best.error : f.score() < best.score()) best = f;
+  }
+  return best;
+}
+
+void Segmenter::apply(const Fit& f) {
+  at_.knot += f.units;
+  const std::size_t last = piece_at(static_cast<double>(at_.knot), 0);
+  const Piece& p = piece(last);
+  const double x = static_cast<double>(at_.knot) - p.start;
+  for (std::size_t i = 0; i < at_.axes.size(); ++i) {
+    at_.states[i] = advance(at_.states[i], f.acceleration[i], f.units, options_.acceleration_shift);
+    Axis& a = at_.axes[i];
+    a.p = to_counts(at_.states[i].position);
+    a.v = to_counts(at_.states[i].velocity);
     const double q = p.c[i][0] + x * (p.c[i][1] + x * (p.c[i][2] + x * p.c[i][3]));
     const double offset = std::abs(q - a.p);
     a.tolerance = offset > a.base_tolerance ? 1.1 * offset : a.base_tolerance;
   }
-  first_ += last;
-  count_ -= last;
+  at_.first += last;
+  at_.count -= last;
+}
+
+FittedSegment Segmenter::emit(const Fit& f) {
+  FittedSegment segment{at_.knot, f.units, f.acceleration, at_.states, piece(0).line};
+  ++counters_.segments;
+  counters_.worst_ratio = std::max(counters_.worst_ratio, f.error);
+  if (f.error > 1) ++counters_.loose;
+  apply(f);
   return segment;
 }
 
@@ -441,8 +481,8 @@ FittedSegment Segmenter::emit(const Fit& f) {
 std::optional<FittedSegment> Segmenter::settle() {
   Fit f{.units = 1};
   bool moving = false;
-  for (std::size_t i = 0; i < axes_.size(); ++i) {
-    const std::int64_t raw = states_[i].velocity >> (options_.acceleration_shift + 1);
+  for (std::size_t i = 0; i < at_.axes.size(); ++i) {
+    const std::int64_t raw = at_.states[i].velocity >> (options_.acceleration_shift + 1);
     if (std::abs(raw) > kMaxSegmentUnits) return std::nullopt;
     f.acceleration[i] = static_cast<std::int32_t>(-raw);
     moving = moving || raw != 0;
@@ -454,11 +494,11 @@ std::optional<FittedSegment> Segmenter::settle() {
 
 std::optional<FittedSegment> Segmenter::next() {
   if (ended_ || !ready()) return std::nullopt;
-  if (complete_ && run_end_ - static_cast<double>(knot_) < 1e-6) {
+  if (complete_ && run_end_ - static_cast<double>(at_.knot) < 1e-6) {
     auto segment = settle();
     if (segment || ended_) return segment;
   }
-  return emit(choose());
+  return emit(choose_safe());
 }
 
 }  // namespace kinebus

@@ -27,7 +27,7 @@ struct FittedSegment {
 /// Post-conditions: at every time both axes are within tolerance_counts of q(tau) as sampled (unless
 /// counters().loose says otherwise); every segment's acceleration lies between the least and the greatest q''
 /// that it covers, widened by at most three quarters of what is left to the joint's limit; the last knot is
-/// at or after the run's end, with velocity exactly 0. Look-ahead: two of the longest segments (262 ms) or
+/// at or after the run's end, with velocity exactly 0. Look-ahead: three of the longest segments (393 ms) or
 /// kCapacity spans, whichever is less. No heap after construction.
 class Segmenter {
  public:
@@ -50,7 +50,7 @@ class Segmenter {
   /// Begins a run from these exact states, at rest.
   void start(const std::array<AxisState, kAxesPerNode>& states);
   /// A span brings one piece, the last span two.
-  bool has_room() const { return count_ + 2 <= kCapacity; }
+  bool has_room() const { return at_.count + 2 <= kCapacity; }
   /// Spans in order of time, the last one marked `last`. Only when has_room().
   void push(const JointSpan& span);
   /// nullopt: push more spans, or the run has ended.
@@ -59,8 +59,8 @@ class Segmenter {
   bool ended() const { return ended_; }
 
   /// The last knot given out: time since the run's start, and the exact states there.
-  std::int64_t knot_units() const { return knot_; }
-  const std::array<AxisState, kAxesPerNode>& states() const { return states_; }
+  std::int64_t knot_units() const { return at_.knot; }
+  const std::array<AxisState, kAxesPerNode>& states() const { return at_.states; }
   /// Counts between q at the run's start and the state that it starts from, the worse axis; 0 before the
   /// first span.
   double start_offset_counts() const { return start_offset_; }
@@ -109,8 +109,8 @@ class Segmenter {
     double position = 0, velocity = 0;
   };
 
-  const Piece& piece(std::size_t i) const { return pieces_[(first_ + i) & (kCapacity - 1)]; }
-  Piece& piece(std::size_t i) { return pieces_[(first_ + i) & (kCapacity - 1)]; }
+  const Piece& piece(std::size_t i) const { return pieces_[(at_.first + i) & (kCapacity - 1)]; }
+  Piece& piece(std::size_t i) { return pieces_[(at_.first + i) & (kCapacity - 1)]; }
   void append(const Piece& piece);
   bool ready() const;
   std::size_t piece_at(double t, std::size_t hint) const;
@@ -128,19 +128,28 @@ class Segmenter {
   Fit run_on(const Reach& reach);
   Fit cross_jumps(Fit best, const Reach& reach);
   Fit shrink(Fit failed);
+  bool leads_on(const Fit& fit, int depth);
+  Fit choose_safe();
+  void apply(const Fit& fit);
   FittedSegment emit(const Fit& fit);
   std::optional<FittedSegment> settle();
+
+  /// Everything that apply() changes.
+  struct Position {
+    std::size_t first = 0, count = 0;
+    std::int64_t knot = 0;
+    std::array<Axis, kAxesPerNode> axes{};
+    std::array<AxisState, kAxesPerNode> states{};
+  };
 
   NodeAxes node_;
   Options options_;
   Counters counters_;
   double raw_per_unit_;        ///< raw acceleration for 1 count/unit^2
   std::vector<Piece> pieces_;  ///< ring of kCapacity
-  std::size_t first_ = 0, count_ = 0;
-  std::array<Axis, kAxesPerNode> axes_{};
-  std::array<AxisState, kAxesPerNode> states_{};
-  std::int64_t knot_ = 0;
-  double run_end_ = 0;  ///< units; valid when complete_
+  Position at_;
+  std::optional<Fit> planned_;  ///< the segment behind the last one given out, found when that one was proved
+  double run_end_ = 0;          ///< units; valid when complete_
   double start_offset_ = 0;
   bool complete_ = false, ended_ = true;
 };

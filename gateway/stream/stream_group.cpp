@@ -132,10 +132,6 @@ Result<void, StreamError> StreamGroup::on_status(BusTime now, std::uint8_t node_
   return {};
 }
 
-void StreamGroup::resend() {
-  for (Node& node : nodes_) node.stream.rewind();
-}
-
 bool StreamGroup::complete() const {
   return std::all_of(nodes_.begin(), nodes_.end(), [](const Node& node) { return node.end_pushed; });
 }

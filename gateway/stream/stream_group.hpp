@@ -51,8 +51,8 @@ class StreamGroup {
   StreamGroup(const Kinematics& kinematics, std::vector<NodeAxes> nodes, Options options);
 
   std::size_t node_count() const { return nodes_.size(); }
-  /// Where the axes of a node stand (velocity 0), and the stream status it last reported. Only when idle or
-  /// done.
+  /// Where the axes of a node stand (their velocity counts as 0), and the stream status it last reported.
+  /// Only when idle or done.
   void set_state(std::uint8_t node_id, const std::array<AxisState, kAxesPerNode>& states,
                  const StreamStatus& status);
 
@@ -69,9 +69,6 @@ class StreamGroup {
   std::optional<CanFrame> next_frame(BusTime now, PathTime tau);
   Result<void, StreamError> on_status(BusTime now, std::uint8_t node_id, const StreamStatus& status,
                                       PathTime tau);
-  /// After a lost record, with all nodes stopped on the path: sends again what the nodes wait for.
-  void resend();
-
   State state() const { return state_; }
   /// All records up to END are made (the last phase came and every span of it is fitted).
   bool complete() const;

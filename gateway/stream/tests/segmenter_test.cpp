@@ -1,0 +1,286 @@
+#include "gateway/stream/segmenter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "gateway/stream/tests/m1_axes.hpp"
+#include "gateway/stream/tests/motions.hpp"
+#include "protocol/time.hpp"
+
+namespace kinebus::testing {
+namespace {
+
+std::vector<FittedSegment> fit_all(Segmenter& segmenter, const std::vector<JointSpan>& spans,
+                                   const std::array<AxisState, kAxesPerNode>& from) {
+  segmenter.start(from);
+  std::vector<FittedSegment> segments;
+  std::size_t k = 0;
+  while (!segmenter.ended()) {
+    while (k < spans.size() && segmenter.has_room()) segmenter.push(spans[k++]);
+    while (const auto segment = segmenter.next()) segments.push_back(*segment);
+  }
+  return segments;
+}
+
+struct Measured {
+  double error_counts = 0;        ///< largest distance from the spans, at 16 places of every segment
+  double acceleration_ratio = 0;  ///< largest acceleration over the axis' limit
+  double excess = 0;              ///< how far accelerations leave those of the spans, over the limit
+};
+
+/// From outside: what a node does with the segments, against the spans.
+Measured measure(const NodeAxes& node, const std::vector<JointSpan>& spans,
+                 const std::vector<FittedSegment>& segments,
+                 const std::array<AxisState, kAxesPerNode>& from) {
+  Measured m;
+  std::array<AxisState, kAxesPerNode> state = from;
+  std::int64_t knot = 0;
+  std::size_t first = 0;
+  constexpr double u = kSecondsPerUnit;
+  for (const FittedSegment& s : segments) {
+    EXPECT_EQ(s.start_units, knot);
+    EXPECT_EQ(s.start, state);
+    EXPECT_GE(s.duration, 1);
+    EXPECT_LE(s.duration, kMaxSegmentUnits);
+    const double begin = static_cast<double>(knot) * u, end = static_cast<double>(knot + s.duration) * u;
+    while (first + 1 < spans.size() && spans[first].start_s + spans[first].duration_s < begin) ++first;
+    for (std::size_t i = 0; i < kAxesPerNode; ++i) {
+      const AxisScaling& axis = node.axes[i];
+      if (axis.joint < 0) {
+        EXPECT_EQ(s.acceleration[i], 0);
+        continue;
+      }
+      double least = 1e300, most = -1e300;
+      for (int k = 0; k <= 16; ++k) {
+        const std::int64_t ticks = static_cast<std::int64_t>(s.duration) * kPathTicksPerUnit * k / 16;
+        const double t = begin + static_cast<double>(ticks) * u / static_cast<double>(kPathTicksPerUnit);
+        std::size_t span = first;
+        while (span + 1 < spans.size() && spans[span].start_s + spans[span].duration_s < t) ++span;
+        const double x = std::min(t - spans[span].start_s, spans[span].duration_s);
+        const double q = axis.to_counts(spans[span].position(axis.joint, x));
+        const double is =
+            to_counts(position_at(state[i], s.acceleration[i], ticks, kDefaultAccelerationShift));
+        m.error_counts = std::max(m.error_counts, std::abs(q - is) / (axis.tolerance_counts / 0.5));
+      }
+      for (std::size_t k = first; k < spans.size() && spans[k].start_s <= end + u; ++k) {
+        const auto& c = spans[k].coefficients[static_cast<std::size_t>(axis.joint)];
+        for (const double x : {std::clamp(begin - spans[k].start_s, 0.0, spans[k].duration_s),
+                               std::clamp(end - spans[k].start_s, 0.0, spans[k].duration_s)}) {
+          least = std::min(least, 2 * c[2] + 6 * c[3] * x);
+          most = std::max(most, 2 * c[2] + 6 * c[3] * x);
+        }
+      }
+      const double a = 2 * s.acceleration[i] * 4 / kCountFraction / (u * u) / axis.slope();
+      m.acceleration_ratio = std::max(m.acceleration_ratio, std::abs(a) / axis.acceleration_limit);
+      m.excess = std::max(m.excess, std::max(a - most, least - a) / axis.acceleration_limit);
+      state[i] = advance(state[i], s.acceleration[i], s.duration, kDefaultAccelerationShift);
+    }
+    knot += s.duration;
+  }
+  for (const AxisState& s : state) EXPECT_EQ(s.velocity, 0);
+  EXPECT_GE(static_cast<double>(knot) * u, spans.back().start_s + spans.back().duration_s - 1e-9);
+  return m;
+}
+
+struct Outcome {
+  Measured measured;
+  double per_second = 0;
+  std::size_t segments = 0;
+  Segmenter::Counters counters;
+};
+
+Outcome stream(const NodeAxes& node, const std::vector<JointSpan>& spans) {
+  Segmenter segmenter(node);
+  const auto from = standing_at(node, spans.front());
+  const auto segments = fit_all(segmenter, spans, from);
+  Outcome o{measure(node, spans, segments, from), 0, segments.size(), segmenter.counters()};
+  o.per_second = static_cast<double>(segments.size()) / (spans.back().start_s + spans.back().duration_s);
+  return o;
+}
+
+TEST(Segmenter, PrintedLinesStayWithinHalfACountAndBelowTheAccelerationLimit) {
+  const auto kinematics = m1();
+  for (std::uint32_t seed = 1; seed <= 6; ++seed)
+    for (const double length : {0.3, 1.0, 5.0, 40.0}) {
+      const auto phases = printed_lines(seed, {.lines = static_cast<int>(300 / (1 + length)),
+                                               .mean_length_mm = length,
+                                               .speed_mm_per_s = 40 + 30.0 * seed});
+      const auto spans = sample(*kinematics, phases);
+      for (const NodeAxes& node : m1_axes()) {
+        const Outcome o = stream(node, spans);
+        EXPECT_LE(o.measured.error_counts, 0.5) << "seed " << seed << " length " << length;
+        EXPECT_LE(o.measured.acceleration_ratio, 1.0) << "seed " << seed << " length " << length;
+        EXPECT_EQ(o.counters.loose, 0u) << "seed " << seed << " length " << length;
+      }
+    }
+}
+
+TEST(Segmenter, CurvesInFiveAxesStayWithinHalfACount) {
+  const auto kinematics = m1();
+  for (std::uint32_t seed = 1; seed <= 4; ++seed)
+    for (const double piece : {0.5, 4.0}) {
+      const auto spans = sample(
+          *kinematics, smooth_curve(seed, {.seconds = 3, .piece_mm = piece, .tilt_rad = 0.4, .turn_rad = 1}));
+      for (const NodeAxes& node : m1_axes()) {
+        const Outcome o = stream(node, spans);
+        EXPECT_LE(o.measured.error_counts, 0.5) << "seed " << seed;
+        EXPECT_LE(o.measured.acceleration_ratio, 1.0) << "seed " << seed;
+        EXPECT_EQ(o.counters.loose, 0u) << "seed " << seed;
+      }
+    }
+}
+
+/// Spans with random lengths and accelerations: jumps everywhere, some spans far shorter than a knot can
+/// follow.
+std::vector<JointSpan> jumpy_spans(std::uint32_t seed, double accel, int count) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> any(-1, 1);
+  std::vector<JointSpan> spans;
+  double t = 0;
+  std::array<double, 2> q{700, 640}, v{};
+  for (int k = 0; k < count; ++k) {
+    JointSpan span;
+    span.start_s = t;
+    span.duration_s = 0.0001 * std::pow(500.0, 0.5 + 0.5 * any(random));
+    span.line = static_cast<std::uint32_t>(k + 1);
+    span.breaks_after = true;
+    const double h = span.duration_s;
+    for (std::size_t j = 0; j < 2; ++j) {
+      double a = accel * any(random), jerk = k % 3 == 0 ? (accel * any(random) - a) / h : 0;
+      if (k + 1 == count) {  // the last span comes to rest
+        span.duration_s = 0.1;
+        a = -v[j] / 0.1;
+        jerk = 0;
+      } else if (std::abs(v[j] + a * h) > 200) {
+        a = -a;
+        jerk = 0;
+      }
+      span.coefficients[j] = {q[j], v[j], a / 2, jerk / 6};
+      q[j] = span.position(static_cast<int>(j), span.duration_s);
+      v[j] = span.velocity(static_cast<int>(j), span.duration_s);
+    }
+    t += span.duration_s;
+    spans.push_back(span);
+  }
+  spans.back().last = true;
+  return spans;
+}
+
+TEST(Segmenter, FollowsRandomJumpsOfAcceleration) {
+  for (std::uint32_t seed = 1; seed <= 20; ++seed) {
+    const auto spans = jumpy_spans(seed, 4000, 400);
+    const Outcome o = stream(m1_axes()[0], spans);
+    EXPECT_LE(o.measured.error_counts, 0.5) << "seed " << seed;
+    EXPECT_LE(o.measured.acceleration_ratio, 1.0) << "seed " << seed;
+    EXPECT_EQ(o.counters.loose, 0u) << "seed " << seed;
+  }
+}
+
+TEST(Segmenter, NearTheLimitAccelerationsHardlyLeaveThoseOfTheMotion) {
+  for (std::uint32_t seed = 1; seed <= 10; ++seed) {
+    const auto spans = jumpy_spans(seed, 4900, 300);
+    const Outcome o = stream(m1_axes()[0], spans);
+    EXPECT_LE(o.measured.acceleration_ratio, 1.0) << "seed " << seed;
+    EXPECT_LE(o.measured.error_counts, 0.5) << "seed " << seed;
+  }
+}
+
+/// One joint along a straight axis: accelerate, cruise, decelerate.
+std::vector<JointSpan> trapezoid_spans(double accel, double speed, double cruise_s) {
+  const double ramp = speed / accel;
+  std::vector<JointSpan> spans(3);
+  spans[0].duration_s = spans[2].duration_s = ramp;
+  spans[1].duration_s = cruise_s;
+  spans[1].start_s = ramp;
+  spans[2].start_s = ramp + cruise_s;
+  double q = 600;
+  spans[0].coefficients[0] = {q, 0, accel / 2, 0};
+  q = spans[0].position(0, ramp);
+  spans[1].coefficients[0] = {q, speed, 0, 0};
+  q = spans[1].position(0, cruise_s);
+  spans[2].coefficients[0] = {q, speed, -accel / 2, 0};
+  spans[2].last = true;
+  return spans;
+}
+
+TEST(Segmenter, AStraightTrapezoidTakesThreeSegmentsAndOneToSettle) {
+  NodeAxes node;
+  node.axes[0].joint = 0;
+  for (const double speed : {17.3, 60.0, 123.4, 299.0}) {
+    const Outcome o = stream(node, trapezoid_spans(2990, speed, 0.1));
+    EXPECT_LE(o.segments, 4u) << speed;
+    EXPECT_LE(o.measured.error_counts, 0.5) << speed;
+  }
+}
+
+TEST(Segmenter, ALongCruiseTakesTheLongestSegments) {
+  NodeAxes node;
+  node.axes[0].joint = 0;
+  EXPECT_LE(stream(node, trapezoid_spans(3000, 50, 13.1)).segments, 105u);
+}
+
+TEST(Segmenter, APrintedLineTakesOneSegmentForEachPhase) {
+  const auto kinematics = m1();
+  const auto phases = printed_lines(5, {.lines = 400});
+  const auto spans = sample(*kinematics, phases);
+  for (const NodeAxes& node : m1_axes()) {
+    const Outcome o = stream(node, spans);
+    EXPECT_LE(static_cast<double>(o.segments), 1.1 * static_cast<double>(phases.size()));
+  }
+}
+
+TEST(Segmenter, TakesBackAnOffsetAtTheRunsStart) {
+  NodeAxes node;
+  node.axes[0].joint = 0;
+  const auto spans = trapezoid_spans(3000, 100, 0.2);
+  auto from = standing_at(node, spans.front());
+  from[0].position += to_fixed(2.5);
+  Segmenter segmenter(node);
+  const auto segments = fit_all(segmenter, spans, from);
+  EXPECT_NEAR(segmenter.start_offset_counts(), 2.5, 1e-6);
+  const double end = node.axes[0].to_counts(spans.back().position(0, spans.back().duration_s));
+  EXPECT_NEAR(to_counts(segmenter.states()[0].position), end, 0.5);
+  EXPECT_EQ(segmenter.states()[0].velocity, 0);
+}
+
+TEST(Segmenter, AReversedAxisMirrorsTheMotion) {
+  NodeAxes node;
+  node.axes[0].joint = 0;
+  node.axes[0].reversed = true;
+  node.axes[0].scale_correction = 0.0014;
+  node.axes[0].offset = 530;
+  const Outcome o = stream(node, trapezoid_spans(2900, 80, 0.1));
+  EXPECT_LE(o.measured.error_counts, 0.5);
+}
+
+TEST(Segmenter, AnUnusedAxisNeverMoves) {
+  const auto spans = jumpy_spans(9, 3000, 100);
+  NodeAxes node;
+  node.axes[1].joint = 1;
+  Segmenter segmenter(node);
+  const auto from = standing_at(node, spans.front());
+  for (const FittedSegment& s : fit_all(segmenter, spans, from)) EXPECT_EQ(s.acceleration[0], 0);
+  EXPECT_EQ(segmenter.states()[0], from[0]);
+}
+
+TEST(Segmenter, WaitsForItsLookAheadAndNoLonger) {
+  Segmenter segmenter(m1_axes()[0]);
+  JointSpan span;
+  span.duration_s = 0.05;
+  for (std::size_t j = 0; j < 2; ++j) span.coefficients[j] = {700, 0, 0, 0};
+  std::array<AxisState, kAxesPerNode> from{};
+  for (AxisState& s : from) s.position = to_fixed(700 * 1280);
+  segmenter.start(from);
+  int pushed = 0;
+  for (; pushed < 20 && !segmenter.next(); ++pushed) {
+    segmenter.push(span);
+    span.start_s += span.duration_s;
+  }
+  EXPECT_EQ(pushed, 8);  // 393 ms in spans of 50 ms
+}
+
+}  // namespace
+}  // namespace kinebus::testing
