@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <utility>
 
+#include "node_firmware/core/emergency_codes.hpp"
+
 namespace kinebus {
 namespace {
 
 namespace control = cia402::control;
-
-// The device's own EMCY codes; FF01h to FF04h are those of the path.
-constexpr std::uint16_t kEmcyCommand = 0xFF05;
 
 constexpr auto kTarget = slot_of_axes(object::kTargetPosition);
 constexpr auto kSlowDown = slot_of_axes(object::kProfileDeceleration);
@@ -24,6 +23,18 @@ DriveAxis::DriveAxis(int axis, ObjectDictionary& objects, PathMotion& path, cons
 
 void DriveAxis::on_initialised() {
   power_.on_initialised();
+}
+
+void DriveAxis::on_reset(LocalTime now) {
+  power_ = {};
+  serve_power(now);
+  mode_ = wanted_mode_ = Mode::kNone;
+  serving_ = cia402::Stop::kNone;
+  word_ = 0;
+  halted_ = limited_ = leaving_ = position_known_ = false;
+  homing_ = {};
+  profile_position_.reset(0);
+  profile_.hold(position(now));
 }
 
 void DriveAxis::on_controlword(LocalTime now, std::uint16_t word) {
@@ -104,8 +115,7 @@ void DriveAxis::serve_power(LocalTime now) {
   const bool faulty =
       power_.state() == cia402::State::kFault || power_.state() == cia402::State::kFaultReactionActive;
   if (error_code_ != 0 && !faulty) {
-    error_code_ = 0;
-    fault_cleared_ = true;
+    cleared_fault_ = std::exchange(error_code_, std::uint16_t{0});
   }
 }
 
@@ -129,7 +139,7 @@ void DriveAxis::serve_stop(LocalTime now) {
       if (source_ != Source::kStream)
         brake(t, unsigned_parameter(slow ? kSlowDown : kQuickStop));
       else if (!path_.at_rest(now) && !path_.stream().idle())
-        path_.request_stop(StopReason::kCommand, static_cast<int>(index_), kEmcyCommand, now);
+        path_.request_stop(StopReason::kCommand, static_cast<int>(index_), node_emcy::kCommand, now);
     }
   }
   if (serving_ == cia402::Stop::kNone) return;
@@ -215,8 +225,8 @@ std::uint16_t DriveAxis::take_emergency() {
   return std::exchange(emergency_, std::uint16_t{0});
 }
 
-bool DriveAxis::take_fault_cleared() {
-  return std::exchange(fault_cleared_, false);
+std::uint16_t DriveAxis::take_cleared_fault() {
+  return std::exchange(cleared_fault_, std::uint16_t{0});
 }
 
 }  // namespace kinebus

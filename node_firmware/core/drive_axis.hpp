@@ -21,12 +21,15 @@ class DriveAxis {
   DriveAxis(int axis, ObjectDictionary& objects, PathMotion& path, const SwitchInputs& inputs);
 
   void on_initialised();
+  /// NMT reset node: power off, no mode, position unknown; the motor's position goes on.
+  void on_reset(LocalTime now);
   void on_controlword(LocalTime now, std::uint16_t word);
   void on_mode(LocalTime now, int mode);
   void on_sync(LocalTime now);
   void on_switch(LocalTime now, const SwitchEvent& event);
   /// `power_lost`: the power stage is off already.
   void on_fault(LocalTime now, std::uint16_t code, bool power_lost);
+  void set_fault_present(bool present) { power_.set_fault_present(present); }
   /// The instant of a stop of all nodes has come: own motions brake too.
   void on_path_stop(LocalTime now);
   /// The stream's queue was dropped in motion: creeps to the nearest whole count.
@@ -37,18 +40,15 @@ class DriveAxis {
 
   /// In the coordinates of the objects; 32 fractional bits. The path must have been advanced to `at`.
   std::int64_t position(LocalTime at) const;
-  /// The same, but continuous through homing: what the motor is driven by.
-  std::int64_t motor_position(LocalTime at) const {
-    return static_cast<std::int64_t>(static_cast<std::uint64_t>(position(at)) -
-                                     static_cast<std::uint64_t>(origin_));
-  }
-  std::int32_t velocity(LocalTime at) const;  ///< counts/s
+  std::int64_t origin() const { return origin_; }  ///< coordinates of the objects, less those of the motor
+  std::int32_t velocity(LocalTime at) const;       ///< counts/s
   bool moving(LocalTime at) const;
   bool powered() const { return power_.powered(); }
 
   std::uint16_t statusword(LocalTime now) const;
   int mode_display() const { return static_cast<int>(mode_); }
   std::uint16_t error_code() const { return error_code_; }
+  std::uint16_t controlword() const { return word_; }
   cia402::State state() const { return power_.state(); }
   bool position_known() const { return position_known_; }
   /// Position at the last home edge, in the coordinates of before, or at the last probe edge.
@@ -61,8 +61,8 @@ class DriveAxis {
 
   /// Set once when an error of this axis asks for an EMCY; 0: none.
   std::uint16_t take_emergency();
-  /// Set once when a fault has been reset.
-  bool take_fault_cleared();
+  /// The code of a fault that has been reset, once; 0: none.
+  std::uint16_t take_cleared_fault();
 
  private:
   using Mode = cia402::Mode;
@@ -118,7 +118,7 @@ class DriveAxis {
   std::int64_t home_latch_ = 0;
   std::uint16_t error_code_ = 0;
   std::uint16_t emergency_ = 0;
-  bool fault_cleared_ = false;
+  std::uint16_t cleared_fault_ = 0;
   std::uint32_t homing_errors_ = 0;
 };
 

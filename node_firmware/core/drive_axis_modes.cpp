@@ -3,14 +3,13 @@
 #include <algorithm>
 
 #include "node_firmware/core/drive_axis.hpp"
+#include "node_firmware/core/emergency_codes.hpp"
 
 namespace kinebus {
 namespace {
 
 namespace control = cia402::control;
 namespace status = cia402::status;
-
-constexpr std::uint16_t kEmcyHoming = 0xFF10;
 
 constexpr auto kSubMode = slot_of_axes(object::kInterpolationSubMode);
 
@@ -101,7 +100,7 @@ void DriveAxis::on_sync(LocalTime now) {
 
 ProfilePosition::SetPoint DriveAxis::next_set_point(std::uint16_t word) {
   const auto least = [&](AxisSlots a, AxisSlots b) {
-    return std::max(std::min(unsigned_parameter(a), unsigned_parameter(b)), 1u);
+    return std::max<std::uint32_t>(std::min(unsigned_parameter(a), unsigned_parameter(b)), 1);
   };
   ProfilePosition::SetPoint next;
   next.limits = {least(slot_of_axes(object::kProfileVelocity), slot_of_axes(object::kMaxProfileVelocity)),
@@ -194,7 +193,7 @@ void DriveAxis::serve_homing(LocalTime now) {
   }
   if (homing_.error() != HomingError::kNone && !homing_error_told_) {
     ++homing_errors_;
-    emergency_ = kEmcyHoming;
+    emergency_ = node_emcy::kHoming;
   }
   homing_error_told_ = homing_.error() != HomingError::kNone;
 }

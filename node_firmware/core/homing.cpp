@@ -91,7 +91,8 @@ bool Homing::take_shift(std::int64_t& by) {
 void Homing::go(Phase phase, ProfileTicks now, Trapezoid& motion, int direction, std::uint32_t speed,
                 std::uint32_t travel) {
   const ProfileState from = motion.at(now);
-  const std::int64_t target = from.position + direction * from_counts(std::min(travel, 1u << 29));
+  const std::int64_t target =
+      from.position + direction * from_counts(std::min<std::uint32_t>(travel, 1u << 29));
   const std::int64_t within = std::clamp(target, -kPositionBound, kPositionBound);
   motion.move(now, from, within, {speed, config_.acceleration, config_.acceleration});
   phase_ = phase;

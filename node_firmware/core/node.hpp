@@ -8,20 +8,33 @@
 // standard two-axis drive for any CANopen master; with the gateway's SYNC, time stamps and rate broadcasts it
 // also streams.
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
 
+#include "node_firmware/core/drive_axis.hpp"
+#include "node_firmware/core/parameter_image.hpp"
+#include "node_firmware/core/path_motion.hpp"
+#include "node_firmware/core/switch_inputs.hpp"
 #include "protocol/can/frame.hpp"
+#include "protocol/canopen/emcy.hpp"
+#include "protocol/canopen/heartbeat.hpp"
+#include "protocol/canopen/lss.hpp"
+#include "protocol/canopen/nmt.hpp"
+#include "protocol/canopen/object_dictionary.hpp"
+#include "protocol/canopen/pdo_engine.hpp"
+#include "protocol/canopen/sdo_server.hpp"
+#include "protocol/canopen/sync.hpp"
 #include "protocol/time.hpp"
 
 namespace kinebus {
 
 /// 1018h: who this board is, for LSS and for the gateway's check at bring-up.
 struct NodeIdentity {
-  std::uint32_t vendor_id = 0;
-  std::uint32_t product_code = 0;
-  std::uint32_t revision = 0;
+  std::uint32_t vendor_id = kVendorId;
+  std::uint32_t product_code = kProductCode;
+  std::uint32_t revision = kRevisionNumber;
   std::uint32_t serial = 0;
 };
 
@@ -32,17 +45,20 @@ struct NodeOptions {
 
 /// What the power stage of one axis is to do. The currents are objects of the parameter set.
 struct DriveOutput {
-  bool power = false;    ///< half-bridges on
-  bool holding = false;  ///< hold current is enough: the axis rests
+  bool power = false;     ///< half-bridges on
+  bool holding = false;   ///< hold current is enough: the axis rests
+  bool inverted = false;  ///< positive counts turn the motor the other way round: the port's business
 };
 
-class Node {
+class Node final : private ObjectOwner {
  public:
-  static constexpr int kSwitchInputs = 7;
+  static constexpr int kSwitchInputs = kinebus::kSwitchInputs;
 
-  /// `stored_image`: what store_image() gave once, as the port's memory returns it; empty: nothing stored. A
-  /// damaged image leaves the defaults in force and is told by EMCY 5530h.
+  /// `stored_image`: what image_to_store() gave once, as the port's memory returns it; empty: nothing stored.
+  /// A damaged image leaves the defaults in force and is told by EMCY 5530h.
   Node(const NodeOptions& options, LocalTime now, std::span<const std::uint8_t> stored_image = {});
+  Node(const Node&) = delete;
+  Node& operator=(const Node&) = delete;
 
   // In. `now` and `at` never decrease by more than an interrupt's delay (about a millisecond).
   /// `at`: receive time stamp, as close to the end of the frame as the port can tell.
@@ -52,6 +68,10 @@ class Node {
   /// Hardware fault of a power stage: its power is off from now on. `emcy_code`: for example 2310h
   /// over-current.
   void on_drive_fault(LocalTime at, int axis, std::uint16_t emcy_code);
+  /// The cause of that fault has gone: a fault reset works again.
+  void on_drive_fault_gone(LocalTime at, int axis);
+  /// Something that only the port sees: receive overrun, transmit queue full, bus-off, watchdog reset.
+  void count(NodeCounter counter, std::uint32_t times = 1);
   /// Needed at next_deadline(); allowed at any time.
   void on_time(LocalTime now);
 
@@ -60,16 +80,22 @@ class Node {
   std::optional<CanFrame> next_frame();
   LocalTime next_deadline() const;
 
-  /// Commanded position of axis 0 or 1: counts (microsteps) with 32 fractional bits, continuous in time.
+  /// What the motor of axis 0 or 1 is driven by: counts (microsteps) with 32 fractional bits, 0 at power-up,
+  /// continuous in time whatever happens to the coordinates (homing gives 6064h a new zero, not this).
   /// Calls in order of time are O(1) on average; `at` before the last input gives the position at that input.
   std::int64_t position(LocalTime at, int axis);
+  /// The same in the coordinates of 6064h and of the stream.
+  std::int64_t user_position(LocalTime at, int axis);
+  bool moving(LocalTime at) const;
   DriveOutput drive(int axis) const;
 
-  /// Path time and its rate (0..1 in 2^-32) by this node's own clock estimate.
-  PathTime path_time(LocalTime at);
-  std::uint32_t path_rate_q32(LocalTime at);
+  /// Path time and its rate (0..2^32) by this node's own clock estimate.
+  PathTime path_time(LocalTime at) const { return path_.tau(at); }
+  std::uint64_t path_rate_q32(LocalTime at) const { return path_.rate_q32(at); }
+  const PathMotion& path() const { return path_; }
+  const DriveAxis& axis(int index) const { return axes_[static_cast<std::size_t>(index)]; }
 
-  // Storage: set when 1010h, 1011h or LSS asked for it. The answer on the bus waits for on_image_stored().
+  // Storage: asked for by 1010h, 1011h or LSS, whose answer on the bus waits for on_image_stored().
   /// The image to write, once; empty: nothing to do. Valid until the next call of any member.
   std::span<const std::uint8_t> image_to_store();
   void on_image_stored(bool good);
@@ -79,7 +105,70 @@ class Node {
   bool take_reset_request();
   /// Watchdog: true as long as every timed job has been served within its time. Feed the watchdog only then.
   bool healthy(LocalTime now) const;
-  std::uint8_t node_id() const;
+  std::uint8_t node_id() const { return node_id_; }
+  NmtState nmt_state() const { return nmt_.state(); }
+
+ private:
+  enum class Storing : std::uint8_t { kNothing, kWanted, kWriting };
+
+  AbortCode read(const ObjectEntry& entry, std::int64_t& value) override;
+  AbortCode write(const ObjectEntry& entry, std::int64_t value) override;
+  bool read_node_object(ObjectAddress address, std::int64_t& value);
+  bool read_axis_object(const DriveAxis& axis, ObjectAddress base, std::int64_t& value);
+  AbortCode write_node_object(const ObjectEntry& entry, std::int64_t value);
+  AbortCode write_axis_object(const ObjectEntry& entry, std::int64_t value);
+  AbortCode command_storage(ObjectAddress address, std::int64_t value);
+  std::int64_t counter_value(NodeCounter counter) const;
+
+  void boot();
+  void reset_communication();
+  void apply_parameters();
+  void apply_node_id();
+  void on_nmt(NmtCommand command);
+  void on_sync(const SyncReception& sync);
+  void on_lss();
+  void serve();
+  void serve_switches();
+  void serve_stops();
+  void serve_emergencies();
+  void serve_stream_status();
+  void watch_levels();
+  bool clear_allowed() const;
+  void end_stop();
+
+  NodeOptions options_;
+  LocalTime now_;
+  std::uint8_t node_id_ = 0;
+  ParameterImage image_;
+  ObjectDictionary objects_;
+
+  PathMotion path_;
+  SwitchInputs inputs_;
+  std::array<DriveAxis, kAxesPerNode> axes_;
+
+  NmtSlave nmt_;
+  HeartbeatProducer heartbeat_;
+  HeartbeatConsumer watched_;
+  EmcyProducer emcy_;
+  SdoServer sdo_;
+  PdoEngine pdo_;
+  LssSlave lss_;
+
+  std::optional<CanFrame> boot_up_;
+  std::array<std::uint32_t, static_cast<std::size_t>(NodeCounter::kLast) + 1> counters_{};
+  Storing storing_ = Storing::kNothing;
+  bool storing_for_lss_ = false;
+  bool parameters_changed_ = false;
+  bool reset_requested_ = false;
+  bool stop_served_ = false;
+  bool was_latched_ = false;
+  bool emergency_stop_ = false;
+  std::array<bool, 4> limit_active_{};
+  std::uint8_t told_flags_ = 0;
+  std::uint32_t told_consumed_ = 0;
+  LocalTime status_look_ = LocalTime::max();
+  LocalTime status_told_at_{0};
+  std::array<std::int64_t, 2> watched_entries_{};
 };
 
 }  // namespace kinebus

@@ -43,8 +43,8 @@ void ParameterImage::clear(std::uint8_t node_id) {
   finish(0);
 }
 
-void ParameterImage::save(const ObjectDictionary& objects, std::uint8_t node_id) {
-  begin(node_id);
+void ParameterImage::save(const ObjectDictionary& objects, std::uint8_t node_id, std::uint8_t kept_node_id) {
+  begin(kept_node_id);
   std::size_t entries = 0;
   for (std::size_t i = 0; i < kNodeObjectCount; ++i) {
     const ObjectEntry& entry = kNodeObjects[i];
@@ -59,14 +59,14 @@ void ParameterImage::save(const ObjectDictionary& objects, std::uint8_t node_id)
   finish(entries);
 }
 
-void ParameterImage::apply(ObjectDictionary& objects, std::uint8_t node_id) const {
+void ParameterImage::apply(ObjectDictionary& objects, std::uint8_t node_id, std::uint32_t end_index) const {
   const std::size_t entries = get_u16_le(std::span(bytes_).subspan(6));
   for (std::size_t i = 0; i < entries; ++i) {
     const auto place = std::span(bytes_).subspan(kHeader + i * kEntry);
     const std::uint32_t key = get_u32_le(place);
     const auto value = static_cast<std::int64_t>(get_u64_le(place.subspan(4)));
     const int slot = find_slot({static_cast<std::uint16_t>(key >> 8), static_cast<std::uint8_t>(key & 0xFF)});
-    if (slot < 0) continue;
+    if (slot < 0 || key >> 8 >= end_index) continue;
     const ObjectEntry& entry = kNodeObjects[static_cast<std::size_t>(slot)];
     const bool allowed = !entry.limited || (value >= entry.low && value <= entry.high);
     if (entry.binding == Binding::kParameter && allowed)

@@ -22,12 +22,13 @@ class ParameterImage {
   Load adopt(std::span<const std::uint8_t> stored);
   /// No parameters, only the node id.
   void clear(std::uint8_t node_id);
-  /// The dictionary as it is now. `node_id`: the one in use, and what node-id relative values are relative
-  /// to.
-  void save(const ObjectDictionary& objects, std::uint8_t node_id);
+  /// The dictionary as it is now. `node_id`: the one in use, which node-id relative values are relative to;
+  /// `kept_node_id`: the one to keep in the image.
+  void save(const ObjectDictionary& objects, std::uint8_t node_id, std::uint8_t kept_node_id);
   /// Writes the stored values into a dictionary that has its defaults. Addresses that are gone, and values
   /// that are out of their limits now, are left out.
-  void apply(ObjectDictionary& objects, std::uint8_t node_id) const;
+  /// Only objects below `end_index`: for a reset of communication.
+  void apply(ObjectDictionary& objects, std::uint8_t node_id, std::uint32_t end_index = 0x10000) const;
   void set_node_id(std::uint8_t node_id);
 
   std::uint8_t node_id() const;  ///< 0: none stored

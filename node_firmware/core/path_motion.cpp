@@ -2,17 +2,13 @@
 
 #include <algorithm>
 
+#include "node_firmware/core/emergency_codes.hpp"
+
 namespace kinebus {
 namespace {
 
 using Verdict = SegmentStream::Verdict;
 
-// EMCY codes: FF00h ff. is for the device.
-constexpr std::uint16_t kEmcySync = 0x8700;
-constexpr std::uint16_t kEmcyStarved = 0xFF01;
-constexpr std::uint16_t kEmcySequence = 0xFF02;
-constexpr std::uint16_t kEmcyCheckpoint = 0xFF03;
-constexpr std::uint16_t kEmcyStream = 0xFF04;
 // Half of the 2 us that two nodes may differ, and as much again for what a bound is above an error.
 constexpr BusTime kClockAlarm = std::chrono::microseconds{4};
 // Shortest pause between two looks at the queue's end while the rate is low.
@@ -56,11 +52,20 @@ bool PathMotion::on_rate_command(const CanFrame& frame, LocalTime now, bool clea
   if (taken && command->kind == Kind::kStop) ++counters_.stops;
   if (taken && command->kind == Kind::kClear) error_flags_ = 0;
   // All nodes run or none: one that cannot says so while the ramp still begins.
-  if (taken && starts && !clock_.synchronised()) request_stop(StopReason::kSyncLost, 0, kEmcySync, now);
+  if (taken && starts && !clock_.synchronised())
+    request_stop(StopReason::kSyncLost, 0, emcy::kSyncController, now);
   if (taken && starts && (given_up_ || stream_.underrun()))
-    request_stop(StopReason::kStreamError, 0, kEmcyStream, now);
+    request_stop(StopReason::kStreamError, 0, node_emcy::kStream, now);
   plan_starvation_check(now);
   return taken || outcome == Outcome::kDuplicate;
+}
+
+bool PathMotion::clear_stop(LocalTime now) {
+  if (!path_.stop_latched()) return false;
+  const RateCommand clear{.kind = RateCommand::Kind::kClear, .full_ramp_2ms = 1, .start = clock_.to_bus(now)};
+  if (path_.apply(clear, clock_.to_bus(now)) != PathClock::Outcome::kScheduled) return false;
+  error_flags_ = 0;
+  return true;
 }
 
 void PathMotion::count_late(PathClock::Outcome outcome, std::uint32_t& counter) {
@@ -110,13 +115,13 @@ void PathMotion::judge(Verdict verdict, LocalTime now) {
       return;
     case Verdict::kSequence:
       ++counters_.sequence_errors;
-      return stop_once(StreamStatus::kSequenceError, StopReason::kSequenceError, kEmcySequence);
+      return stop_once(StreamStatus::kSequenceError, StopReason::kSequenceError, node_emcy::kSequence);
     case Verdict::kOverflow:
       ++counters_.overflows;
-      return stop_once(StreamStatus::kSequenceError, StopReason::kSequenceError, kEmcySequence);
+      return stop_once(StreamStatus::kSequenceError, StopReason::kSequenceError, node_emcy::kSequence);
     case Verdict::kCheckpoint:
       ++counters_.checkpoint_errors;
-      return stop_once(StreamStatus::kCheckpointError, StopReason::kCheckpointError, kEmcyCheckpoint);
+      return stop_once(StreamStatus::kCheckpointError, StopReason::kCheckpointError, node_emcy::kCheckpoint);
     case Verdict::kUnknown:
     case Verdict::kLateStart:
     case Verdict::kStartInMotion:
@@ -125,7 +130,7 @@ void PathMotion::judge(Verdict verdict, LocalTime now) {
     case Verdict::kNotFollowing:
     case Verdict::kOutOfLimits:
       ++counters_.sequence_errors;
-      return stop_once(StreamStatus::kSequenceError, StopReason::kStreamError, kEmcyStream);
+      return stop_once(StreamStatus::kSequenceError, StopReason::kStreamError, node_emcy::kStream);
   }
 }
 
@@ -161,7 +166,7 @@ void PathMotion::raise(StopReason reason, int axis, std::uint16_t emcy_code, Bus
 void PathMotion::give_up_stream(LocalTime now) {
   if (stream_.idle() || given_up_) return;
   given_up_ = true;
-  if (!at_rest(now)) request_stop(StopReason::kCommand, 0, kEmcyStream, now);
+  if (!at_rest(now)) request_stop(StopReason::kCommand, 0, node_emcy::kStream, now);
 }
 
 void PathMotion::advance_to(LocalTime at) {
@@ -170,7 +175,7 @@ void PathMotion::advance_to(LocalTime at) {
   // The ramp should have come first; there is no path left to stop on.
   ++counters_.underruns;
   error_flags_ |= StreamStatus::kUnderrun;
-  request_stop(StopReason::kStarved, 0, kEmcyStarved, at);
+  request_stop(StopReason::kStarved, 0, node_emcy::kStarved, at);
 }
 
 // Path time that a stop takes from now: the way of the ramp, and what passes until all nodes have heard of
@@ -207,23 +212,27 @@ void PathMotion::watch_sync(LocalTime now) {
   if (at_rest(now)) return;
   // The same instant on every node that heard the same SYNCs.
   const BusTime start = clock_.last_sync_bus() + options_.sync_timeout;
-  raise(StopReason::kSyncLost, 0, kEmcySync, BusTime{start.count() / 1000 * 1000}, now);
+  raise(StopReason::kSyncLost, 0, emcy::kSyncController, BusTime{start.count() / 1000 * 1000}, now);
 }
 
 void PathMotion::on_time(LocalTime now) {
   advance_to(now);
+  served_ = now;
   watch_sync(now);
   if (now < starvation_check_) return;
   if (!path_.stop_latched() && starved(now)) {
     ++counters_.underruns;
     error_flags_ |= StreamStatus::kUnderrun;
-    request_stop(StopReason::kStarved, 0, kEmcyStarved, now);
+    request_stop(StopReason::kStarved, 0, node_emcy::kStarved, now);
   }
   plan_starvation_check(now);
 }
 
 LocalTime PathMotion::next_deadline() const {
   LocalTime deadline = starvation_check_;
+  if (const auto change = path_.next_change(clock_.to_bus(served_)))
+    deadline = std::min(deadline, clock_.to_local(*change) + LocalTime{1'000});
+  if (const auto start = stop_start(); start && *start > served_) deadline = std::min(deadline, *start);
   if (clock_.synchronised() && !sync_lost_)
     deadline = std::min(deadline, clock_.last_sync_local() + options_.sync_timeout);
   return deadline;

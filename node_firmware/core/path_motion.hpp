@@ -38,6 +38,8 @@ class PathMotion {
   void on_stamp(const CanFrame& frame, LocalTime now);
   /// false: malformed, or refused (latched, not at rest).
   bool on_rate_command(const CanFrame& frame, LocalTime now, bool clear_allowed);
+  /// Lifts the latch without the gateway; false: nothing latched, or not at rest.
+  bool clear_stop(LocalTime now);
   void on_peer_emcy(const CanFrame& frame, LocalTime now);
   /// What became of it; errors raise an alarm.
   SegmentStream::Verdict on_record(std::uint64_t raw, LocalTime now);
@@ -95,6 +97,7 @@ class PathMotion {
   bool out_of_bound_ = false;
   bool given_up_ = false;
   LocalTime starvation_check_ = LocalTime::max();
+  LocalTime served_ = LocalTime{0};
 };
 
 }  // namespace kinebus

@@ -131,7 +131,7 @@ Problem problem_from(ProfileState from, std::int64_t target, const ProfileLimits
   const auto b = static_cast<std::uint64_t>(target);
   return {.distance = up ? b - a : a - b,
           .v0 = up ? from.velocity : -from.velocity,
-          .vmax = velocity_from(std::max(limits.velocity, 1u)),
+          .vmax = velocity_from(std::max<std::uint32_t>(limits.velocity, 1)),
           .acceleration = acceleration_from(limits.acceleration),
           .deceleration = acceleration_from(limits.deceleration),
           .to_rest = to_rest};

@@ -1,0 +1,277 @@
+#include "node_firmware/core/node.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "node_firmware/core/emergency_codes.hpp"
+
+namespace kinebus {
+namespace {
+
+/// A timed job may be late by so much before the watchdog is left unfed.
+constexpr LocalTime kLatestService = std::chrono::milliseconds{50};
+
+LssIdentity lss_identity(const NodeIdentity& id) {
+  return {id.vendor_id, id.product_code, id.revision, id.serial};
+}
+
+std::uint8_t usable_id(std::uint8_t wanted, std::uint8_t stored) {
+  if (wanted >= 1 && wanted <= 127) return wanted;
+  return stored;
+}
+
+}  // namespace
+
+Node::Node(const NodeOptions& options, LocalTime now, std::span<const std::uint8_t> stored_image)
+    : options_(options),
+      now_(now),
+      objects_(*this),
+      axes_{DriveAxis(0, objects_, path_, inputs_), DriveAxis(1, objects_, path_, inputs_)},
+      sdo_(objects_),
+      pdo_(objects_),
+      lss_(lss_identity(options.identity), kUnconfiguredNodeId) {
+  const bool damaged = image_.adopt(stored_image) == ParameterImage::Load::kDamaged;
+  node_id_ = usable_id(options.node_id, image_.node_id());
+  lss_ = LssSlave(lss_identity(options.identity), node_id_ == 0 ? kUnconfiguredNodeId : node_id_);
+  boot();
+  if (!damaged) return;
+  count(NodeCounter::kStorageErrors);
+  emcy_.raise(emcy::kStorage);
+}
+
+// From power-up, and after NMT reset node: values as stored, drives without power.
+void Node::boot() {
+  objects_.restore(node_id_);
+  image_.apply(objects_, node_id_);
+  for (DriveAxis& axis : axes_) axis.on_initialised();
+  apply_node_id();
+}
+
+void Node::reset_communication() {
+  for (std::size_t i = 0; i < kNodeObjectCount && kNodeObjects[i].address.index < 0x2000; ++i)
+    objects_.set_value({static_cast<std::uint16_t>(i)},
+                       kNodeObjects[i].initial + (kNodeObjects[i].node_id_relative ? node_id_ : 0));
+  image_.apply(objects_, node_id_, 0x2000);
+  apply_node_id();
+}
+
+void Node::apply_node_id() {
+  sdo_.reset(node_id_);
+  pdo_.set_operational(false, now_);
+  pdo_.configure();
+  apply_parameters();
+  if (node_id_ != 0) boot_up_ = nmt_.boot(node_id_);
+}
+
+void Node::apply_parameters() {
+  parameters_changed_ = false;
+  const auto value = [&](ObjectSlot slot) { return objects_.value(slot); };
+  path_.set_options({.stop_ramp_2ms = static_cast<std::uint8_t>(value(slot_of(object::kStopRamp)) / 2),
+                     .sync_timeout = LocalTime{value(slot_of(object::kSyncLossTimeout)) * 1'000'000},
+                     .starvation_margin = PathTime{value(slot_of(object::kStarvationMargin)) * 16'000}});
+  constexpr ObjectSlot function = slot_of(object::kSwitchFunction),
+                       polarity = slot_of(object::kSwitchPolarity),
+                       debounce = slot_of(object::kSwitchDebounce);
+  for (int i = 0; i < kSwitchInputs; ++i) {
+    const auto nth = [&](ObjectSlot first) { return value({static_cast<std::uint16_t>(first.value + i)}); };
+    inputs_.configure(
+        i, {static_cast<SwitchFunction>(nth(function)), nth(polarity) != 0, LocalTime{nth(debounce) * 1000}});
+  }
+  const std::chrono::milliseconds period{value(slot_of(object::kProducerHeartbeat))};
+  if (period != heartbeat_.period()) heartbeat_.set_period(period, now_);
+  for (std::size_t i = 0; i < watched_entries_.size(); ++i) {
+    const std::int64_t entry =
+        value({static_cast<std::uint16_t>(slot_of(object::kConsumerHeartbeat).value + i)});
+    // Writing the same again must not forget that the node is alive.
+    if (std::exchange(watched_entries_[i], entry) != entry)
+      watched_.configure(i, static_cast<std::uint32_t>(entry));
+  }
+  emcy_.set_inhibit_time(LocalTime{value(slot_of(object::kEmcyInhibitTime)) * 100'000});
+}
+
+void Node::on_frame(LocalTime at, const CanFrame& frame) {
+  now_ = std::max(now_, at);
+  serve();
+  const SyncReception sync = decode_sync(
+      frame, cob_id::kSync, static_cast<std::uint8_t>(objects_.value(slot_of(object::kSyncCounterOverflow))));
+  if (sync.is_sync) {
+    if (!sync.length_error) path_.on_sync(sync.counter, at);
+    on_sync(sync);
+  } else if (lss_.on_frame(frame)) {
+    on_lss();
+  } else if (const auto command = nmt_.on_frame(frame)) {
+    on_nmt(*command);
+  } else if (nmt_.state() != NmtState::kInitialising) {
+    path_.on_peer_emcy(frame, now_);
+    static_cast<void>(watched_.on_frame(now_, frame));
+    if (nmt_.allows_sdo()) sdo_.on_frame(now_, frame);
+    static_cast<void>(pdo_.on_frame(now_, frame));
+  }
+  serve();
+}
+
+void Node::on_sync(const SyncReception& sync) {
+  if (!nmt_.allows_sync()) return;
+  if (sync.length_error) {
+    count(NodeCounter::kRxMalformed);
+    if (!emcy_.active(emcy::kSyncLength)) emcy_.raise(emcy::kSyncLength);
+    return;
+  }
+  // What synchronous RPDOs brought since the last SYNC is what the axes start for now.
+  pdo_.on_sync(now_, sync.counter);
+  for (DriveAxis& axis : axes_) axis.on_sync(now_);
+}
+
+void Node::on_lss() {
+  if (lss_.take_store_request()) {
+    const std::uint8_t id = lss_.pending_node_id();
+    image_.set_node_id(id == kUnconfiguredNodeId ? std::uint8_t{0} : id);
+    storing_ = Storing::kWanted;
+    storing_for_lss_ = true;
+  }
+  if (const auto id = lss_.take_node_id()) {
+    node_id_ = *id;
+    boot();
+  }
+}
+
+void Node::on_nmt(NmtCommand command) {
+  const bool moves = !path_.at_rest(now_) && !path_.stream().idle();
+  // Without PDOs the stream would starve; all others stop with this node, at once.
+  if (command != NmtCommand::kStart && moves && !path_.stop_latched())
+    path_.request_stop(StopReason::kCommand, 0, node_emcy::kCommand, now_);
+  switch (command) {
+    case NmtCommand::kStart:
+      emcy_.clear(emcy::kSyncLength);
+      emcy_.clear(emcy::kPdoTooShort);
+      emcy_.clear(emcy::kPdoTooLong);
+      break;
+    case NmtCommand::kResetNode:
+      for (DriveAxis& axis : axes_) axis.on_reset(now_);
+      reset_requested_ = true;
+      [[fallthrough]];
+    case NmtCommand::kResetCommunication:
+      serve_emergencies();
+      lss_.activate();
+      node_id_ = lss_.active_node_id() == kUnconfiguredNodeId ? std::uint8_t{0} : lss_.active_node_id();
+      command == NmtCommand::kResetNode ? boot() : reset_communication();
+      break;
+    case NmtCommand::kStop:
+    case NmtCommand::kEnterPreOperational:
+      break;
+  }
+  pdo_.set_operational(nmt_.allows_pdo(), now_);
+}
+
+void Node::on_switch(LocalTime at, int input, bool level) {
+  // Where the axes were at the edge; a stream is never looked at backwards.
+  path_.advance_to(at);
+  const LatchedPositions latched{axes_[0].position(at), axes_[1].position(at)};
+  inputs_.on_level(at, input, level, latched);
+  now_ = std::max(now_, at);
+  serve();
+}
+
+void Node::on_drive_fault(LocalTime at, int axis, std::uint16_t emcy_code) {
+  now_ = std::max(now_, at);
+  serve();
+  count(NodeCounter::kDriveFaults);
+  DriveAxis& faulty = axes_[static_cast<std::size_t>(axis & 1)];
+  faulty.set_fault_present(true);
+  faulty.on_fault(now_, emcy_code, true);
+  serve();
+}
+
+void Node::on_drive_fault_gone(LocalTime at, int axis) {
+  now_ = std::max(now_, at);
+  axes_[static_cast<std::size_t>(axis & 1)].set_fault_present(false);
+}
+
+void Node::count(NodeCounter counter, std::uint32_t times) {
+  counters_[std::min<std::size_t>(static_cast<std::size_t>(counter), counters_.size() - 1)] += times;
+}
+
+void Node::on_time(LocalTime now) {
+  now_ = std::max(now_, now);
+  serve();
+}
+
+std::int64_t Node::position(LocalTime at, int axis) {
+  const std::int64_t user = user_position(at, axis);
+  const DriveAxis& mine = axes_[static_cast<std::size_t>(axis & 1)];
+  return static_cast<std::int64_t>(static_cast<std::uint64_t>(user) -
+                                   static_cast<std::uint64_t>(mine.origin()));
+}
+
+std::int64_t Node::user_position(LocalTime at, int axis) {
+  DriveAxis& mine = axes_[static_cast<std::size_t>(axis & 1)];
+  path_.advance_to(at);
+  // A set-point that waits for the end of the motion before it begins at that end, whoever looks first.
+  if (at >= mine.next_deadline()) mine.on_time(at);
+  return mine.position(at);
+}
+
+bool Node::moving(LocalTime at) const {
+  return axes_[0].moving(at) || axes_[1].moving(at);
+}
+
+DriveOutput Node::drive(int axis) const {
+  const auto i = static_cast<std::size_t>(axis & 1);
+  return {.power = axes_[i].powered(),
+          .holding = !axes_[i].moving(now_),
+          .inverted = objects_.value(slot_of_axes(object::kDirectionInvert)[i]) != 0};
+}
+
+std::optional<CanFrame> Node::next_frame() {
+  if (auto reply = lss_.next_frame()) return reply;
+  if (node_id_ == 0) return std::nullopt;
+  if (boot_up_) return std::exchange(boot_up_, std::nullopt);
+  // A stop request goes out in every state: the other nodes move.
+  const bool urgent = emcy_.next_deadline() == LocalTime::min();
+  if (nmt_.allows_emcy() || urgent)
+    if (auto frame = emcy_.next_frame(now_, node_id_)) return frame;
+  if (auto frame = pdo_.next_frame(now_)) return frame;
+  if (auto frame = heartbeat_.next_frame(now_, nmt_.state(), node_id_)) return frame;
+  return nmt_.allows_sdo() ? sdo_.next_frame() : std::nullopt;
+}
+
+LocalTime Node::next_deadline() const {
+  LocalTime deadline =
+      std::min({path_.next_deadline(), inputs_.next_deadline(), axes_[0].next_deadline(),
+                axes_[1].next_deadline(), watched_.next_deadline(), sdo_.next_deadline(), status_look_});
+  // A frame that is due waits for the bus, not for on_time().
+  const auto if_ahead = [&](LocalTime due) {
+    if (due > now_) deadline = std::min(deadline, due);
+  };
+  if_ahead(pdo_.next_deadline());
+  if_ahead(emcy_.next_deadline());
+  if (node_id_ != 0) if_ahead(heartbeat_.next_deadline());
+  return deadline;
+}
+
+std::span<const std::uint8_t> Node::image_to_store() {
+  if (storing_ != Storing::kWanted) return {};
+  storing_ = Storing::kWriting;
+  return image_.bytes();
+}
+
+void Node::on_image_stored(bool good) {
+  if (storing_ != Storing::kWriting) return;
+  storing_ = Storing::kNothing;
+  if (std::exchange(storing_for_lss_, false)) lss_.finish_store(good);
+  if (sdo_.deferred()) sdo_.finish(good ? AbortCode::kNone : AbortCode::kHardware);
+  if (good) return;
+  count(NodeCounter::kStorageErrors);
+  emcy_.raise(emcy::kStorage);
+}
+
+bool Node::take_reset_request() {
+  return std::exchange(reset_requested_, false);
+}
+
+bool Node::healthy(LocalTime now) const {
+  const LocalTime deadline = next_deadline();
+  return deadline == LocalTime::max() || now - deadline <= kLatestService;
+}
+
+}  // namespace kinebus

@@ -1,0 +1,252 @@
+// Node: the objects whose values are the node's own state, and the commands that are given by writing
+// objects.
+
+#include <algorithm>
+
+#include "node_firmware/core/node.hpp"
+#include "protocol/bytes.hpp"
+
+namespace kinebus {
+namespace {
+
+CanFrame frame_of_bits(std::int64_t bits) {
+  CanFrame frame{.length = 8};
+  put_u64_le(frame.data, static_cast<std::uint64_t>(bits));
+  return frame;
+}
+
+AbortCode verdict_code(SegmentStream::Verdict verdict) {
+  using Verdict = SegmentStream::Verdict;
+  const bool good = verdict == Verdict::kAccepted || verdict == Verdict::kDuplicate;
+  return good ? AbortCode::kNone : AbortCode::kInvalidValue;
+}
+
+bool known_mode(std::int64_t mode) {
+  return mode == 0 || mode == 1 || mode == 6 || mode == 7 || mode == 8;
+}
+
+}  // namespace
+
+AbortCode Node::read(const ObjectEntry& entry, std::int64_t& value) {
+  const bool known = entry.axis < 0
+                         ? read_node_object(entry.address, value)
+                         : read_axis_object(axes_[static_cast<std::size_t>(entry.axis)], entry.base(), value);
+  return known ? AbortCode::kNone : AbortCode::kNoData;
+}
+
+bool Node::read_node_object(ObjectAddress address, std::int64_t& value) {
+  switch (address.index) {
+    case 0x1001:
+      value = emcy_.error_register();
+      return true;
+    case 0x1002:
+      value = path_.status(now_).flags;
+      return true;
+    case 0x1003:
+      value = address.subindex == 0 ? emcy_.history_length() : 0;
+      if (address.subindex > emcy_.history_length()) return false;
+      if (address.subindex > 0) value = emcy_.history(address.subindex - 1u);
+      return true;
+    case 0x1010:
+    case 0x1011:
+      value = 1;  // on command, of all parameters
+      return true;
+    case 0x1013:
+      value = static_cast<std::uint32_t>(path_.clock().to_bus(now_).count() / 1000);
+      return true;
+    case 0x1018: {
+      const NodeIdentity& id = options_.identity;
+      const std::array<std::uint32_t, 4> fields{id.vendor_id, id.product_code, id.revision, id.serial};
+      value = fields[(address.subindex - 1u) & 3u];
+      return true;
+    }
+    case 0x2102:
+      value = static_cast<std::int64_t>(encode(path_.status(now_)));
+      return true;
+    case 0x2112:
+      value = path_.tau(now_).count();
+      return true;
+    case 0x2116:
+      value = objects_.fingerprint();
+      return true;
+    case 0x2120:
+      value = counter_value(static_cast<NodeCounter>(address.subindex));
+      return true;
+    case 0x2133:
+      value = inputs_.active_inputs();
+      return true;
+    default:
+      return false;
+  }
+}
+
+bool Node::read_axis_object(const DriveAxis& axis, ObjectAddress base, std::int64_t& value) {
+  switch (base.index) {
+    case 0x2140:
+      if (base == object::kPositionKnown) value = axis.position_known() ? 1 : 0;
+      if (base == object::kStreamPosition) value = axis.position(now_);
+      if (base == object::kHomeLatch) value = axis.home_latch();
+      return true;
+    case 0x603F:
+      value = axis.error_code();
+      return true;
+    case 0x6041:
+      value = axis.statusword(now_);
+      return true;
+    case 0x6061:
+      value = axis.mode_display();
+      return true;
+    case 0x6062:
+    case 0x6064:  // no encoder: the motor is where it is told to be
+      value = whole_counts(axis.position(now_));
+      return true;
+    case 0x606C:
+      value = axis.velocity(now_);
+      return true;
+    case 0x60C4:
+      value = base.subindex == object::kBufferPosition.subindex ? path_.stream().size()
+                                                                : SegmentStream::kCapacity;
+      return true;
+    case 0x60F4:
+      value = 0;
+      return true;
+    case 0x60FD: {
+      const bool a = &axis == &axes_[0];
+      const auto bit = [&](SwitchFunction first, SwitchFunction second, unsigned place) {
+        return inputs_.active(a ? first : second) ? 1u << place : 0u;
+      };
+      value =
+          static_cast<std::int64_t>(bit(SwitchFunction::kNegativeLimitA, SwitchFunction::kNegativeLimitB, 0) |
+                                    bit(SwitchFunction::kPositiveLimitA, SwitchFunction::kPositiveLimitB, 1) |
+                                    bit(SwitchFunction::kHomeA, SwitchFunction::kHomeB, 2) |
+                                    (static_cast<unsigned>(inputs_.active_inputs()) << 16));
+      return true;
+    }
+    default:
+      return false;
+  }
+}
+
+std::int64_t Node::counter_value(NodeCounter counter) const {
+  const PathMotion::Counters& path = path_.counters();
+  const std::uint32_t own =
+      counters_[std::min<std::size_t>(static_cast<std::size_t>(counter), counters_.size() - 1)];
+  switch (counter) {
+    case NodeCounter::kSyncLost:
+      return path.sync_lost;
+    case NodeCounter::kStampLost:
+      return path_.clock().counters().syncs_unstamped + path_.clock().counters().stamps_unmatched;
+    case NodeCounter::kClockOutOfBound:
+      return path.clock_out_of_bound;
+    case NodeCounter::kSequenceErrors:
+      return path.sequence_errors;
+    case NodeCounter::kQueueOverflows:
+      return path.overflows;
+    case NodeCounter::kUnderruns:
+      return path.underruns;
+    case NodeCounter::kCheckpointErrors:
+      return path.checkpoint_errors;
+    case NodeCounter::kLateRateCommands:
+      return path.late_rates;
+    case NodeCounter::kDuplicateFrames:
+      return path.duplicates + path_.clock().counters().syncs_doubled;
+    case NodeCounter::kSdoAborts:
+      return sdo_.counters().aborts_sent;
+    case NodeCounter::kSwitchGlitches:
+      return inputs_.glitches();
+    case NodeCounter::kEmergencies:
+      return emcy_.sent();
+    case NodeCounter::kCoordinatedStops:
+      return path.stops;
+    case NodeCounter::kLateStops:
+      return path.late_stops;
+    case NodeCounter::kHomingErrors:
+      return axes_[0].homing_errors() + axes_[1].homing_errors();
+    default:
+      return own;
+  }
+}
+
+AbortCode Node::write(const ObjectEntry& entry, std::int64_t value) {
+  if (entry.binding == Binding::kParameter) parameters_changed_ = true;
+  return entry.axis < 0 ? write_node_object(entry, value) : write_axis_object(entry, value);
+}
+
+AbortCode Node::write_node_object(const ObjectEntry& entry, std::int64_t value) {
+  const ObjectAddress address = entry.address;
+  if (PdoEngine::owns(address)) return pdo_.accept(entry, value);
+  switch (address.index) {
+    case 0x1003:
+      if (value != 0) return AbortCode::kInvalidValue;
+      emcy_.clear_history();
+      return AbortCode::kNone;
+    case 0x1005:
+      // The gateway sends SYNC, and where it always is.
+      return value == 0x80 ? AbortCode::kNone : AbortCode::kInvalidValue;
+    case 0x1014:
+      return value == 0x80 + node_id_ ? AbortCode::kNone : AbortCode::kInvalidValue;
+    case 0x1010:
+    case 0x1011:
+      return command_storage(address, value);
+    case 0x2100:
+      return verdict_code(path_.on_record(static_cast<std::uint64_t>(value), now_));
+    case 0x2101:
+      return verdict_code(path_.on_checkpoint(static_cast<std::uint64_t>(value), now_));
+    case 0x2110:
+      return path_.on_rate_command(frame_of_bits(value), now_, clear_allowed()) ? AbortCode::kNone
+                                                                                : AbortCode::kDeviceState;
+    case 0x2111:
+      path_.on_stamp(frame_of_bits(value), now_);
+      return AbortCode::kNone;
+    case 0x2112:
+      return value >= 0 && path_.set_path_time(PathTime{value}, now_) ? AbortCode::kNone
+                                                                      : AbortCode::kDeviceState;
+    default:
+      return AbortCode::kNone;
+  }
+}
+
+AbortCode Node::write_axis_object(const ObjectEntry& entry, std::int64_t value) {
+  DriveAxis& axis = axes_[static_cast<std::size_t>(entry.axis)];
+  const ObjectAddress base = entry.base();
+  if (base == object::kControlword) {
+    // A master that sends no SYNC has no rate broadcast either: its fault reset lifts a stop.
+    const bool reset = (value & ~axis.controlword() & cia402::control::kFaultReset) != 0;
+    if (reset && !path_.clock().synchronised() && clear_allowed()) path_.clear_stop(now_);
+    axis.on_controlword(now_, static_cast<std::uint16_t>(value));
+    return AbortCode::kNone;
+  }
+  if (base == object::kModeOfOperation) {
+    if (!known_mode(value)) return AbortCode::kInvalidValue;
+    axis.on_mode(now_, static_cast<int>(value));
+    return AbortCode::kNone;
+  }
+  if (base == object::kHomingMethod)
+    return value == 0 || Homing::supports(static_cast<int>(value)) ? AbortCode::kNone
+                                                                   : AbortCode::kInvalidValue;
+  if (base == object::kBufferClear) {
+    if (value != 0) return AbortCode::kNone;  // 1: the buffer is in use, which it always is
+    if (!path_.clear_stream(now_)) return AbortCode::kDeviceState;
+    for (DriveAxis& each : axes_) each.on_stream_cleared(now_);
+    return AbortCode::kNone;
+  }
+  if (base.index == 0x60C4 && entry.binding == Binding::kLive)
+    return value <= SegmentStream::kCapacity ? AbortCode::kNone : AbortCode::kTooHigh;
+  return AbortCode::kNone;
+}
+
+AbortCode Node::command_storage(ObjectAddress address, std::int64_t value) {
+  const bool save = address == object::kStoreParameters;
+  if (value != (save ? kSaveSignature : kLoadSignature)) return AbortCode::kCannotStore;
+  // Writing flash holds up the processor for longer than a moving motor can wait.
+  if (moving(now_) || storing_ != Storing::kNothing) return AbortCode::kDeviceState;
+  if (save)
+    image_.save(objects_, node_id_, image_.node_id());
+  else
+    image_.clear(image_.node_id());  // the defaults come into force at the next reset
+  storing_ = Storing::kWanted;
+  sdo_.defer();
+  return AbortCode::kNone;
+}
+
+}  // namespace kinebus

@@ -1,0 +1,140 @@
+// Node: what is looked after on every input and at every deadline, one job a function.
+
+#include <algorithm>
+#include <utility>
+
+#include "node_firmware/core/emergency_codes.hpp"
+#include "node_firmware/core/node.hpp"
+
+namespace kinebus {
+namespace {
+
+/// TPDO2: so often at least while the stream runs, or when so many records were executed since.
+constexpr LocalTime kStatusPeriod = std::chrono::milliseconds{100};
+constexpr std::uint32_t kStatusRecords = 32;
+/// 32 records of the shortest segments that a bus at its budget can bring (1 ms) are looked for in time.
+constexpr LocalTime kStatusLook = std::chrono::milliseconds{20};
+constexpr int kStreamStatusPdo = 2;
+
+struct Limit {
+  SwitchFunction function;
+  int axis;
+};
+constexpr std::array<Limit, 4> kLimits{{{SwitchFunction::kPositiveLimitA, 0},
+                                        {SwitchFunction::kPositiveLimitB, 1},
+                                        {SwitchFunction::kNegativeLimitA, 0},
+                                        {SwitchFunction::kNegativeLimitB, 1}}};
+
+}  // namespace
+
+void Node::serve() {
+  path_.on_time(now_);
+  serve_switches();
+  if (parameters_changed_) apply_parameters();
+  watch_levels();
+  serve_stops();
+  for (DriveAxis& axis : axes_) axis.on_time(now_);
+  serve_emergencies();
+  sdo_.on_time(now_);
+  serve_stream_status();
+  pdo_.on_time(now_);
+}
+
+void Node::serve_switches() {
+  while (const auto event = inputs_.next_event(now_)) {
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+      axes_[i].on_switch(now_, *event);
+      if (event->function == SwitchFunction::kProbe && event->active) axes_[i].set_probe(event->latched[i]);
+    }
+  }
+}
+
+// Levels, not edges: an input that becomes an E-stop input while it is active stops too.
+void Node::watch_levels() {
+  const bool pressed = inputs_.active(SwitchFunction::kEmergencyStop);
+  if (pressed && !std::exchange(emergency_stop_, pressed))
+    path_.request_stop(StopReason::kEmergencyStopInput, 0, node_emcy::kEmergencyStop, now_);
+  emergency_stop_ = pressed;
+  for (std::size_t i = 0; i < kLimits.size(); ++i) {
+    const Limit& limit = kLimits[i];
+    const bool active = inputs_.active(limit.function);
+    const bool came = active && !std::exchange(limit_active_[i], active);
+    limit_active_[i] = active;
+    const bool moves = moving(now_) || !path_.at_rest(now_);
+    if (came && moves && !axes_[static_cast<std::size_t>(limit.axis)].homes_with(limit.function))
+      path_.request_stop(StopReason::kLimitSwitch, limit.axis, node_emcy::kLimitSwitch, now_);
+  }
+}
+
+bool Node::clear_allowed() const {
+  return !inputs_.active(SwitchFunction::kEmergencyStop);
+}
+
+// The stream follows the stop by path time itself; motions by local time brake from the same instant.
+void Node::serve_stops() {
+  const auto start = path_.stop_start();
+  if (start && now_ >= *start && !stop_served_) {
+    stop_served_ = true;
+    for (DriveAxis& axis : axes_) axis.on_path_stop(now_);
+  }
+  if (!start && std::exchange(stop_served_, false)) end_stop();
+  if (!start && was_latched_) end_stop();
+  was_latched_ = start.has_value();
+}
+
+void Node::end_stop() {
+  for (const std::uint16_t code : node_emcy::kEndWithClear) emcy_.clear(code);
+}
+
+void Node::serve_emergencies() {
+  bool homing_error = false;
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    DriveAxis& axis = axes_[i];
+    homing_error = homing_error || axis.homing_error() != HomingError::kNone;
+    if (const std::uint16_t cleared = axis.take_cleared_fault(); cleared != 0) emcy_.clear(cleared);
+    const std::uint16_t code = axis.take_emergency();
+    if (code == 0) continue;
+    // A carriage that does not home stops the others that home with it. Without a gateway there are none.
+    if (code != node_emcy::kHoming || path_.clock().synchronised())
+      path_.request_stop(StopReason::kAxisFault, static_cast<int>(i), code, now_);
+    else
+      emcy_.raise(code);
+  }
+  if (!homing_error) emcy_.clear(node_emcy::kHoming);
+  while (const auto lost = watched_.on_time(now_)) {
+    const bool matters = path_.clock().synchronised() || moving(now_);
+    if (matters)
+      path_.request_stop(StopReason::kGatewayLost, 0, emcy::kHeartbeat, now_);
+    else
+      emcy_.raise(emcy::kHeartbeat);
+    nmt_.on_error(static_cast<std::uint8_t>(objects_.value(slot_of(object::kErrorBehaviour))));
+    pdo_.set_operational(nmt_.allows_pdo(), now_);
+  }
+  const bool missing = std::any_of(watched_entries_.begin(), watched_entries_.end(), [&](std::int64_t entry) {
+    return watched_.health(static_cast<std::uint8_t>((entry >> 16) & 0x7F)) ==
+           HeartbeatConsumer::Health::kLost;
+  });
+  if (!missing) emcy_.clear(emcy::kHeartbeat);
+  while (const auto problem = pdo_.next_problem()) {
+    count(NodeCounter::kPdoLengthErrors);
+    if (!emcy_.active(problem->emcy_code)) emcy_.raise(problem->emcy_code, {0, problem->rpdo});
+  }
+  while (const auto alarm = path_.next_alarm()) emcy_.raise(alarm->emcy_code, encode(alarm->stop), true);
+}
+
+void Node::serve_stream_status() {
+  const StreamStatus status = path_.status(now_);
+  const std::uint32_t consumed = path_.stream().consumed();
+  const bool running = path_.rate_q32(now_) != 0 && !path_.stream().idle();
+  const bool due = status.flags != told_flags_ || consumed - told_consumed_ >= kStatusRecords ||
+                   (running && now_ - status_told_at_ >= kStatusPeriod);
+  if (due) {
+    told_flags_ = status.flags;
+    told_consumed_ = consumed;
+    status_told_at_ = now_;
+    pdo_.trigger(kStreamStatusPdo);
+  }
+  status_look_ = running ? now_ + kStatusLook : LocalTime::max();
+}
+
+}  // namespace kinebus

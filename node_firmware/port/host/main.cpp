@@ -1,0 +1,62 @@
+// kinebus-vnode: one node of the machine as a Linux process on SocketCAN.
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "node_firmware/port/host/virtual_node.hpp"
+
+namespace {
+
+// The default machine: carriages of 1280 counts/mm on nodes 1 and 2, a bit different in height, with their
+// switches at 1030 mm; node 3 turns the table and feeds the filament.
+void set_default_plant(kinebus::VirtualNodeProcessOptions& options) {
+  constexpr std::int64_t kCountsPerMm = 1280;
+  if (options.node.node_id > 2) return;
+  for (int axis = 0; axis < 2; ++axis)
+    options.plant[static_cast<std::size_t>(axis)] = {
+        .start_counts = (960 + 2 * options.node.node_id - axis) * kCountsPerMm,
+        .switch_input = axis + 1,
+        .switch_counts = 1030 * kCountsPerMm};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  kinebus::VirtualNodeProcessOptions options;
+  int node = 1;
+  std::array<std::optional<std::int64_t>, 2> start, edge;
+  CLI::App app{
+      "One Kinebus node on a CAN interface, with simulated motors and switches.\n"
+      "SIGUSR1 presses and releases the E-stop button; SIGTERM ends."};
+  app.add_option("-i,--interface", options.interface, "SocketCAN interface, such as vcan0")->required();
+  app.add_option("-n,--node", node, "Node id; 0: as stored, or given by LSS")->check(CLI::Range(0, 127));
+  app.add_option("--serial", options.node.identity.serial, "Serial number (default: 1000 + node id)");
+  app.add_option("--store", options.image_path, "File for stored parameters; without it nothing is kept");
+  app.add_option("--estop-input", options.emergency_input, "Input of the E-stop button")
+      ->check(CLI::Range(1, 7))
+      ->capture_default_str();
+  app.add_option("--start-a", start[0], "Carriage A at power-up, counts");
+  app.add_option("--start-b", start[1], "Carriage B at power-up, counts");
+  app.add_option("--switch-a", edge[0], "Edge of switch A (input 1), counts; active above");
+  app.add_option("--switch-b", edge[1], "Edge of switch B (input 2), counts; active above");
+  CLI11_PARSE(app, argc, argv);
+
+  options.node.node_id = static_cast<std::uint8_t>(node);
+  if (options.node.identity.serial == 0) options.node.identity.serial = 1000u + static_cast<unsigned>(node);
+  set_default_plant(options);
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    if (start[axis]) options.plant[axis].start_counts = *start[axis];
+    if (!edge[axis]) continue;
+    options.plant[axis].switch_counts = *edge[axis];
+    options.plant[axis].switch_input = static_cast<int>(axis) + 1;
+  }
+
+  kinebus::VirtualNodeProcess process(options);
+  std::string error = process.open();
+  if (error.empty()) {
+    std::fprintf(stderr, "kinebus-vnode: node %d on %s\n", node, options.interface.c_str());
+    error = process.run();
+  }
+  if (!error.empty()) std::fprintf(stderr, "kinebus-vnode: %s\n", error.c_str());
+  return error.empty() ? 0 : 1;
+}
