@@ -303,9 +303,10 @@ constexpr void add_communication_objects(T& t) {
   t.sub(2, "Consumer heartbeat time 2", kU32, kReadWrite, kParameter);
   t.var(0x1017, "Producer heartbeat time", kU16, kReadWrite, kParameter, 500).in("ms");
   t.head(0x1018, "Identity object", ObjectCode::kRecord, 4);
-  t.sub(1, "Vendor-ID", kU32, kConst, kConstant, kVendorId);
-  t.sub(2, "Product code", kU32, kConst, kConstant, kProductCode);
-  t.sub(3, "Revision number", kU32, kConst, kConstant, kRevisionNumber);
+  // A board tells its own; these are what a standard one says.
+  t.sub(1, "Vendor-ID", kU32, kReadOnly, kLive, kVendorId);
+  t.sub(2, "Product code", kU32, kReadOnly, kLive, kProductCode);
+  t.sub(3, "Revision number", kU32, kReadOnly, kLive, kRevisionNumber);
   t.sub(4, "Serial number", kU32, kReadOnly, kLive);
   t.var(0x1019, "Synchronous counter overflow value", kU8, kReadWrite, kParameter, 240).between(0, 240);
   t.head(0x1029, "Error behaviour", ObjectCode::kArray, 1);
