@@ -1,0 +1,268 @@
+// Both files are read back by readers of their own and compared with the object table and the codecs.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "protocol/canopen/cob_id.hpp"
+#include "protocol/canopen/emcy.hpp"
+#include "protocol/canopen/node_objects.hpp"
+#include "protocol/motion/broadcast.hpp"
+#include "protocol/motion/segment.hpp"
+#include "tools/dictionary/dbc.hpp"
+#include "tools/dictionary/eds.hpp"
+
+namespace kinebus {
+namespace {
+
+using Section = std::map<std::string, std::string>;
+
+std::map<std::string, Section> read_ini(const std::string& text) {
+  std::map<std::string, Section> sections;
+  std::istringstream in(text);
+  std::string line, current;
+  while (std::getline(in, line)) {
+    EXPECT_TRUE(!line.empty() && line.back() == '\r');
+    line.pop_back();
+    if (line.empty()) continue;
+    if (line.front() == '[') {
+      current = line.substr(1, line.size() - 2);
+      EXPECT_EQ(sections.count(current), 0u) << current;
+      sections[current];
+      continue;
+    }
+    const auto equals = line.find('=');
+    EXPECT_NE(equals, std::string::npos) << line;
+    sections[current][line.substr(0, equals)] = line.substr(equals + 1);
+  }
+  return sections;
+}
+
+std::string section_name(ObjectAddress address, bool sub) {
+  char text[32];
+  std::snprintf(text, sizeof text, sub ? "%04Xsub%X" : "%04X", address.index, address.subindex);
+  return text;
+}
+std::int64_t number(const std::string& text) {
+  return text.rfind("0x", 0) == 0 ? static_cast<std::int64_t>(std::stoull(text, nullptr, 16))
+                                  : std::stoll(text);
+}
+
+TEST(Eds, SaysOfEveryObjectWhatTheTableSays) {
+  auto sections = read_ini(eds_text());
+  std::size_t values = 0;
+  for (const ObjectEntry& entry : kNodeObjects) {
+    const bool var = entry.code == ObjectCode::kVar;
+    const std::string name = section_name(entry.address, !var);
+    ASSERT_EQ(sections.count(name), 1u) << name;
+    Section& s = sections[name];
+    ++values;
+    EXPECT_EQ(s["ParameterName"], entry.name) << name;
+    EXPECT_EQ(number(s["ObjectType"]), 7) << name;
+    EXPECT_EQ(number(s["DataType"]), static_cast<std::int64_t>(entry.type)) << name;
+    const std::map<std::string, Access> accesses{{"const", Access::kConst},
+                                                 {"ro", Access::kReadOnly},
+                                                 {"wo", Access::kWriteOnly},
+                                                 {"rw", Access::kReadWrite}};
+    EXPECT_EQ(accesses.at(s["AccessType"]), entry.access) << name;
+    EXPECT_EQ(s["PDOMapping"] == "1", entry.mapping != Mapping::kNone) << name;
+    std::string initial = s["DefaultValue"];
+    if (entry.type == DataType::kString) {
+      EXPECT_EQ(initial, entry.text);
+    } else {
+      const bool relative = initial.rfind("$NODEID+", 0) == 0;
+      EXPECT_EQ(relative, entry.node_id_relative) << name;
+      if (relative) initial = initial.substr(8);
+      EXPECT_EQ(initial.empty() ? 0 : number(initial), entry.initial) << name;
+    }
+    EXPECT_EQ(s.count("LowLimit") == 1, entry.limited) << name;
+    if (entry.limited) {
+      EXPECT_EQ(number(s["LowLimit"]), entry.low) << name;
+      EXPECT_EQ(number(s["HighLimit"]), entry.high) << name;
+    }
+    if (!var && entry.address.subindex == 0) {
+      Section& whole = sections[section_name(entry.address, false)];
+      EXPECT_EQ(whole["ParameterName"], entry.object);
+      EXPECT_EQ(number(whole["ObjectType"]), static_cast<std::int64_t>(entry.code));
+      std::int64_t entries = 0;
+      for (const ObjectEntry& other : kNodeObjects)
+        entries += other.address.index == entry.address.index ? 1 : 0;
+      EXPECT_EQ(number(whole["SubNumber"]), entries);
+    }
+  }
+  EXPECT_EQ(values, kNodeObjectCount);
+}
+
+TEST(Eds, ListsEveryObjectOnceInItsPart) {
+  auto sections = read_ini(eds_text());
+  std::set<std::int64_t> listed;
+  for (const auto& [part, low, high] :
+       {std::tuple{"MandatoryObjects", 0x1000, 0x1018}, std::tuple{"OptionalObjects", 0x1000, 0x9FFF},
+        std::tuple{"ManufacturerObjects", 0x2000, 0x5FFF}}) {
+    Section& s = sections[part];
+    const std::int64_t count = number(s["SupportedObjects"]);
+    EXPECT_EQ(static_cast<std::size_t>(count) + 1, s.size()) << part;
+    for (std::int64_t i = 1; i <= count; ++i) {
+      const std::int64_t index = number(s[std::to_string(i)]);
+      EXPECT_TRUE(index >= low && index <= high) << part << " " << index;
+      EXPECT_TRUE(listed.insert(index).second) << index;
+    }
+  }
+  std::set<std::int64_t> indices;
+  for (const ObjectEntry& entry : kNodeObjects) indices.insert(entry.address.index);
+  EXPECT_EQ(listed, indices);
+  EXPECT_EQ(number(sections["DeviceInfo"]["NrOfRXPDO"]), kRpdoCount);
+  EXPECT_EQ(number(sections["DeviceInfo"]["VendorNumber"]), kVendorId);
+}
+
+struct Signal {
+  int start = 0, bits = 0;
+  bool is_signed = false;
+  double factor = 0;
+};
+struct Message {
+  std::string name, sender;
+  int length = 0;
+  std::vector<std::string> order;
+  std::map<std::string, Signal> signals;
+};
+
+std::map<unsigned, Message> read_dbc(const std::string& text) {
+  std::map<unsigned, Message> messages;
+  std::istringstream in(text);
+  std::string line;
+  Message* current = nullptr;
+  while (std::getline(in, line)) {
+    char name[64], sender[64], unit[64], sign = 0;
+    unsigned id = 0;
+    Message m;
+    Signal s;
+    if (std::sscanf(line.c_str(), "BO_ %u %63[^:]: %d %63s", &id, name, &m.length, sender) == 4) {
+      EXPECT_EQ(messages.count(id), 0u) << line;
+      m.name = name;
+      m.sender = sender;
+      current = &(messages[id] = m);
+    } else if (std::sscanf(line.c_str(), " SG_ %63s : %d|%d@1%c (%lf,0) [0|0] \"%63[^\n]", name, &s.start,
+                           &s.bits, &sign, &s.factor, unit) == 6) {
+      EXPECT_NE(current, nullptr);
+      s.is_signed = sign == '-';
+      EXPECT_TRUE(current->signals.emplace(name, s).second) << line;
+      EXPECT_LE(s.start + s.bits, 8 * current->length) << line;
+      current->order.emplace_back(name);
+    } else {
+      EXPECT_EQ(line.find("SG_ "), line.rfind("CM_ SG_ ", 0) == 0 ? 4u : std::string::npos)
+          << "not read: " << line;
+    }
+  }
+  return messages;
+}
+
+double decode(const Message& message, const std::string& signal, const CanFrame& frame) {
+  const Signal& s = message.signals.at(signal);
+  std::uint64_t raw = get_u64_le(frame.data) >> s.start;
+  if (s.bits < 64) raw &= (std::uint64_t{1} << s.bits) - 1;
+  auto value = static_cast<std::int64_t>(raw);
+  if (s.is_signed && s.bits < 64 && ((raw >> (s.bits - 1)) & 1) != 0) value -= std::int64_t{1} << s.bits;
+  return static_cast<double>(value) * s.factor;
+}
+CanFrame frame_of(std::uint64_t record) {
+  CanFrame frame{.length = 8};
+  put_u64_le(frame.data, record);
+  return frame;
+}
+
+TEST(Dbc, PdosAreThoseOfTheTable) {
+  using namespace object_table;
+  const auto messages = read_dbc(dbc_text());
+  const auto check = [&](const PdoDefault& pdo, unsigned id) {
+    ASSERT_EQ(messages.count(id), 1u) << pdo.name;
+    const Message& m = messages.at(id);
+    int bits = 0;
+    std::vector<std::pair<int, int>> expected, got;
+    for (const auto mapping : pdo.map) {
+      const int size = static_cast<int>(mapping & 0xFF);
+      if (size != 0 && size != 64) expected.emplace_back(bits, size);
+      bits += size;
+    }
+    EXPECT_EQ(m.length * 8, bits) << pdo.name;
+    if (expected.empty()) return;  // a packed record: see below
+    for (const auto& name : m.order) got.emplace_back(m.signals.at(name).start, m.signals.at(name).bits);
+    EXPECT_EQ(got, expected) << pdo.name;
+  };
+  for (unsigned node = 1; node <= kDbcNodes; ++node) {
+    for (const auto& pdo : kTpdoDefaults)
+      if ((pdo.cob_id & kPdoOff) == 0) check(pdo, (pdo.cob_id & 0x7FF) + node);
+    for (const auto& pdo : kRpdoDefaults) check(pdo, (pdo.cob_id & 0x7FF) + (pdo.plus_node_id ? node : 0));
+  }
+  const Message& status = messages.at(0x181);
+  EXPECT_EQ(status.sender, "NODE1");
+  EXPECT_TRUE(status.signals.at("ModesOfOperationDisplay_B").is_signed);
+  EXPECT_EQ(messages.at(0x201).sender, "GATEWAY");
+}
+
+TEST(Dbc, PackedRecordsDecodeAsTheCodecPacks) {
+  const auto messages = read_dbc(dbc_text());
+  const CanFrame segment =
+      frame_of(encode(Segment{.sequence = 101, .duration = 5000, .acceleration = {-2000000, 77}}));
+  const Message& m = messages.at(0x402);
+  EXPECT_EQ(decode(m, "Sequence", segment), 101);
+  EXPECT_EQ(decode(m, "Duration", segment), 80000);
+  EXPECT_EQ(decode(m, "Acceleration_A", segment), -2000000);
+  EXPECT_EQ(decode(m, "Acceleration_B", segment), 77);
+
+  const CanFrame checkpoint = frame_of(encode(Checkpoint{9, 1, -(std::int64_t{3} << 31)}));
+  EXPECT_EQ(decode(messages.at(0x501), "Sequence", checkpoint), 9);
+  EXPECT_EQ(decode(messages.at(0x501), "Axis", checkpoint), 1);
+  EXPECT_EQ(decode(messages.at(0x501), "Position", checkpoint), -1.5);
+
+  const CanFrame status =
+      frame_of(encode(StreamStatus{77, 120, StreamStatus::kStopped | StreamStatus::kSynchronised, 3, 1000}));
+  const Message& stream = messages.at(0x283);
+  EXPECT_EQ(decode(stream, "NextSequence", status), 77);
+  EXPECT_EQ(decode(stream, "FreeRecords", status), 120);
+  EXPECT_EQ(decode(stream, "Stopped", status), 1);
+  EXPECT_EQ(decode(stream, "Synchronised", status), 1);
+  EXPECT_EQ(decode(stream, "Running", status), 0);
+  EXPECT_EQ(decode(stream, "SyncError", status), 3);
+  EXPECT_EQ(decode(stream, "PathTime", status), 16000);
+
+  const CanFrame rate = encode(RateCommand{RateCommand::Kind::kStop, 7, 16384, 50, BusTime{123'456'000}});
+  EXPECT_EQ(decode(messages.at(rate.id), "Counter", rate), 7);
+  EXPECT_EQ(decode(messages.at(rate.id), "Kind", rate), 2);
+  EXPECT_EQ(decode(messages.at(rate.id), "Rate", rate), 0.5);
+  EXPECT_EQ(decode(messages.at(rate.id), "FullRamp", rate), 100);
+  EXPECT_EQ(decode(messages.at(rate.id), "Start", rate), 123456);
+
+  const CanFrame stamp = encode(SyncStamp{240, 3, BusTime{5'000'789}});
+  EXPECT_EQ(decode(messages.at(stamp.id), "Counter", stamp), 240);
+  EXPECT_EQ(decode(messages.at(stamp.id), "Epoch", stamp), 3);
+  EXPECT_EQ(decode(messages.at(stamp.id), "Nanoseconds", stamp), 789);
+  EXPECT_EQ(decode(messages.at(stamp.id), "Microseconds", stamp), 5000);
+
+  const CanFrame emergency = encode(Emergency{2, emcy::kFollowingError, 0x21, {0x83, 0x10, 0x27, 0, 0}});
+  EXPECT_EQ(decode(messages.at(0x082), "ErrorCode", emergency), 0x8611);
+  EXPECT_EQ(decode(messages.at(0x082), "ErrorRegister", emergency), 0x21);
+  EXPECT_EQ(decode(messages.at(0x082), "StopReason", emergency), 3);
+  EXPECT_EQ(decode(messages.at(0x082), "StopAxis", emergency), 1);
+  EXPECT_EQ(decode(messages.at(0x082), "StopStart", emergency), 10000);
+}
+
+TEST(Dbc, EverySignalOfAMessageHasItsOwnBits) {
+  for (const auto& [id, message] : read_dbc(dbc_text())) {
+    std::uint64_t used = 0;
+    for (const auto& [name, s] : message.signals) {
+      const std::uint64_t mask = (s.bits == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << s.bits) - 1)
+                                 << s.start;
+      EXPECT_EQ(used & mask, 0u) << message.name << " " << name;
+      used |= mask;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace kinebus
