@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "gateway/kinematics/kinematics.hpp"
+#include "gateway/machine/gateway.hpp"
 #include "protocol/time.hpp"
 
 namespace kinebus {
@@ -20,8 +21,8 @@ struct Sample {
   PathTime tau{0};                             ///< their mean
   JointVector joints{};                        ///< true, mm or rad
   PoseVector pose{};                           ///< Frame::kPart, by forward kinematics of the true joints
-  std::optional<PoseVector> planned;           ///< at tau, Frame::kPart
-  std::uint32_t line = 0;                      ///< the job's line that the gateway says is in motion
+  std::optional<PlannedPose> planned;          ///< at tau; none: no motion is planned there
+  std::uint32_t line = 0;                      ///< the job's line in motion, by the plan
   double rate = 0;                             ///< d tau / dt
   bool in_job = false;
 };

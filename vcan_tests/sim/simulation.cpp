@@ -3,10 +3,6 @@
 #include <algorithm>
 
 namespace kinebus {
-namespace {
-// The line in motion is asked for so often; in between it is known well enough for the checkers' window.
-constexpr std::uint32_t kSamplesPerLine = 10;
-}  // namespace
 
 Simulation::Simulation(const MachineDescription& machine, const Kinematics& kinematics,
                        const SimulationOptions& options)
@@ -117,8 +113,7 @@ Sample Simulation::sample() {
   if (kinematics_.forward(Frame::kPart, s.joints, s.pose)) warm_ = s.pose;
   if (in_job) {
     s.planned = gateway_.planned_pose(s.tau);
-    s.line = last_.line;
-    if (samples_since_line_++ % kSamplesPerLine == 0) s.line = gateway_.status().line;
+    s.line = s.planned ? s.planned->line : last_.line;
   }
   last_ = s;
   return s;

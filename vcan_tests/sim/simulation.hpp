@@ -69,7 +69,6 @@ class Simulation {
   BusTime asked_{BusTime::max()}, woken_{0};  // the gateway's deadline, and when Linux lets it run
   Sample last_{};
   PoseVector warm_{};
-  std::uint32_t samples_since_line_ = 0;
   std::uint64_t hash_ = 1469598103934665603ULL;
 };
 

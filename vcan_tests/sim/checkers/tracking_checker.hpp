@@ -18,16 +18,23 @@ class TrackingChecker {
   double max_tool_um() const { return max_tool_um_; }
   /// Largest distance of a motor from q(tau), in its own microsteps.
   double max_joint_counts() const { return max_joint_counts_; }
+  int worst_joint() const { return worst_joint_; }
+  double worst_joint_time_s() const { return worst_joint_time_s_; }
   double last_tool_um() const { return last_tool_um_; }
   double worst_time_s() const { return worst_time_s_; }
   std::uint32_t worst_line() const { return worst_line_; }
   std::uint64_t samples() const { return samples_; }
 
  private:
+  void check_tool(const Sample& sample);
+  void check_joints(const Sample& sample);
+
   const MachineDescription& machine_;
   const Kinematics& kinematics_;
   const Gateway& gateway_;
-  double max_tool_um_ = 0, max_joint_counts_ = 0, last_tool_um_ = 0, worst_time_s_ = 0;
+  double max_tool_um_ = 0, max_joint_counts_ = 0, last_tool_um_ = 0, worst_time_s_ = 0,
+         worst_joint_time_s_ = 0;
+  int worst_joint_ = -1;
   std::uint32_t worst_line_ = 0;
   std::uint64_t samples_ = 0;
 };
