@@ -11,6 +11,8 @@ namespace {
 
 /// Virtual time between two looks at the streams. Short against the horizon (400 ms) and a status period.
 constexpr BusTime kTick = std::chrono::milliseconds{20};
+/// The rate that the bus allows looks half a second ahead.
+constexpr BusTime kRatePeriod = std::chrono::milliseconds{100};
 /// From the first frame of a run to its START: the queues are filled meanwhile.
 constexpr BusTime kStartLead = std::chrono::milliseconds{200};
 
@@ -77,10 +79,13 @@ void JobPlan::pass(BusTime duration) {
 }
 
 void JobPlan::tick() {
-  const double rate = released_ ? group_.allowed_rate(path_time(tau_ticks_)) : 1;
-  report_.lowest_rate = std::min(report_.lowest_rate, rate);
+  if (now_ >= next_rate_) {
+    next_rate_ = now_ + kRatePeriod;
+    rate_ = group_.allowed_rate(path_time(tau_ticks_));
+    report_.lowest_rate = std::min(report_.lowest_rate, rate_);
+  }
   pass(kTick);
-  tau_ticks_ += rate * ticks_of(kTick);
+  tau_ticks_ += rate_ * ticks_of(kTick);
   const PathTime tau = path_time(tau_ticks_);
   while (const auto frame = group_.next_frame(now_, tau)) {
     count(static_cast<std::int64_t>(bit_length(*frame)));

@@ -61,7 +61,8 @@ class JobPlan {
   PlanReport report_;
   std::int64_t status_bits_ = 0;
   BusTime now_{0};
-  double tau_ticks_ = 0;
+  BusTime next_rate_{0};
+  double tau_ticks_ = 0, rate_ = 1;
   bool in_run_ = false;  ///< phases of this run are being streamed
   bool released_ = false;
   bool streaming_ = true;  ///< false after a problem: the rest is only checked
