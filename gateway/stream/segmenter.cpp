@@ -30,7 +30,7 @@ constexpr double kMostEndError = 0.55;
 constexpr int kTries = 14;
 // An end state up to this drift needs no proof that it can be followed.
 constexpr double kSafeDrift = 1.0;
-constexpr int kProofs = 8, kProofDepth = 3;
+constexpr int kProofs = 8, kProofDepth = 2, kMoreProofs = 3;
 // A fit that misses by less than this is corrected at the one place where it misses, to this share of the
 // tolerance.
 // Only behind this part of its length, where the acceleration has some effect.
@@ -40,6 +40,8 @@ constexpr double kImpossible = 100;     // error of a fit that no acceleration w
 constexpr std::int32_t kShortest = 64;  // 1 ms
 // Accelerations may leave those of q'' by this share of what is left to the joint's limit.
 constexpr double kRoomShare = 0.75, kLeastWidening = 0.002;
+// A motion that is over the limit itself is followed anyway, with this much to spare.
+constexpr double kOverLimit = 1.02, kOverLimitWidening = 0.05;
 
 // Weight of velocity against position at the end: by the length of the next segment, within these multiples.
 constexpr double kLeastNext = 0.5, kMostNext = 1.5;
@@ -221,7 +223,7 @@ Segmenter::Miss Segmenter::miss(std::size_t axis, double h, double next, std::si
     const double qn1 = d[1] + y * (2 * d[2] + y * 3 * d[3]);
     wanted = 0.5 * (q1 + qn1) - (qn - q) / next;
   }
-  return {q - a.p - a.v * h, q1 - a.v - wanted};
+  return {q - a.p - a.v * h, q1 - a.v - wanted, c[2] + 3 * c[3] * x};
 }
 
 /// kRest: velocity 0 at the end. kHalfway: this and one more segment bring position and velocity to the run's
@@ -232,6 +234,14 @@ double Segmenter::resting_acceleration(std::size_t axis, double h, Goal goal) co
   const double whole = std::max(std::ceil(run_end_ - static_cast<double>(at_.knot) - 1e-6), h + 1);
   const double missing = piece(at_.count - 1).c[axis][0] - a.p - a.v * whole;
   return (missing + 0.5 * (whole - h) * a.v) / (h * whole);
+}
+
+/// How far an acceleration may leave those of the motion, which reach `most`.
+double Segmenter::spare(std::size_t axis, double most) const {
+  const double limit = at_.axes[axis].limit;
+  if (limit <= 0) return kForever;
+  if (most > kOverLimit * limit) return kOverLimitWidening * limit;
+  return std::max(kRoomShare * (limit - most), kLeastWidening * limit);
 }
 
 /// Where an acceleration may lie: in what q''/2 does on the way, and a part of what is left to the limit.
@@ -248,8 +258,7 @@ std::array<double, 2> Segmenter::bounds(std::size_t axis, double h, std::size_t 
     low = std::min({low, a0, a1});
     high = std::max({high, a0, a1});
   }
-  const double room = limit - std::max(std::abs(low), std::abs(high));
-  const double wider = std::max(kRoomShare * room, kLeastWidening * limit);
+  const double wider = spare(axis, std::max(std::abs(low), std::abs(high)));
   return {low - wider, high + wider};
 }
 
@@ -313,10 +322,10 @@ Segmenter::Fit Segmenter::fit(std::int32_t units, Goal goal) {
     f.error = std::max(f.error, std::abs(worst.value) / tolerance);
     if (goal != Goal::kRunOn) continue;
     const double r = std::abs(m.position - a * h * h), w = std::abs(m.velocity - 2 * a * h);
-    // Moving away, it must be brought back within the tolerance by what acceleration there is to spare.
-    const double away =
-        (m.position - a * h * h) * (m.velocity - 2 * a * h) > 0 ? w * w / (2 * (high - low)) : 0;
-    const double cost = std::max(r + kVelocityCost * std::min(h, next) * w, r + away);
+    // What there is to spare of acceleration must be able to brake it before it leaves the tolerance.
+    const bool away = (m.position - a * h * h) * (m.velocity - 2 * a * h) > 0;
+    const double cost = std::max(r + kVelocityCost * std::min(h, next) * w,
+                                 (away ? r : -r) + w * w / (4 * spare(i, std::abs(m.bend))));
     f.drift = std::max(f.drift, cost / at_.axes[i].base_tolerance);
   }
   return f;
@@ -428,7 +437,9 @@ bool Segmenter::leads_on(const Fit& f, int depth) {
   const Position before = at_;
   apply(f);
   const Fit following = choose();
-  const bool proved = following.error <= 1 && (depth <= 1 || leads_on(following, depth - 1));
+  const bool far_enough = depth <= 0 && f.units + following.units >= kShortest;
+  const bool proved =
+      following.error <= 1 && (far_enough || (depth > -kMoreProofs && leads_on(following, depth - 1)));
   at_ = before;
   if (proved) planned_ = following;
   return proved;

@@ -107,6 +107,7 @@ class Segmenter {
   /// against the best start of the next segment.
   struct Miss {
     double position = 0, velocity = 0;
+    double bend = 0;  ///< q''/2 there
   };
 
   const Piece& piece(std::size_t i) const { return pieces_[(at_.first + i) & (kCapacity - 1)]; }
@@ -119,6 +120,7 @@ class Segmenter {
   double next_units(double t, std::size_t index, double most) const;
   Miss miss(std::size_t axis, double h, double next, std::size_t index) const;
   double resting_acceleration(std::size_t axis, double h, Goal goal) const;
+  double spare(std::size_t axis, double most) const;
   std::array<double, 2> bounds(std::size_t axis, double h, std::size_t last) const;
   Extreme error_over(std::size_t axis, double a, double h, std::size_t last) const;
   Fit fit(std::int32_t units, Goal goal);

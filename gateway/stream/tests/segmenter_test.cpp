@@ -122,8 +122,12 @@ TEST(Segmenter, CurvesInFiveAxesStayWithinHalfACount) {
   const auto kinematics = m1();
   for (std::uint32_t seed = 1; seed <= 4; ++seed)
     for (const double piece : {0.5, 4.0}) {
-      const auto spans = sample(
-          *kinematics, smooth_curve(seed, {.seconds = 3, .piece_mm = piece, .tilt_rad = 0.4, .turn_rad = 1}));
+      const auto spans = sample(*kinematics, smooth_curve(seed, {.seconds = 3,
+                                                                 .speed_mm_per_s = 60,
+                                                                 .accel_mm_per_s2 = 1000,
+                                                                 .piece_mm = piece,
+                                                                 .tilt_rad = 0.4,
+                                                                 .turn_rad = 1}));
       for (const NodeAxes& node : m1_axes()) {
         const Outcome o = stream(node, spans);
         EXPECT_LE(o.measured.error_counts, 0.5) << "seed " << seed;
