@@ -51,7 +51,7 @@ Result<void, ParseError> JobReader::read(std::string_view chunk, CommandBuffer& 
       }
     }
     if (!whole) continue;
-    const auto result = line(carry_, out);
+    auto result = line(carry_, out);
     carry_.clear();
     long_comment_ = false;
     if (!result) return result;
@@ -62,7 +62,7 @@ Result<void, ParseError> JobReader::read(std::string_view chunk, CommandBuffer& 
 Result<void, ParseError> JobReader::finish(CommandBuffer& out) {
   if (!failed_) return failed_;
   if (!carry_.empty()) {
-    const auto result = line(carry_, out);
+    auto result = line(carry_, out);
     carry_.clear();
     long_comment_ = false;
     if (!result) return result;

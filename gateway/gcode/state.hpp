@@ -30,6 +30,7 @@ inline constexpr Matrix3 kIdentity{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 struct ModalState {
   Motion motion = Motion::kNone;
   Plane plane = Plane::kXy;
+  Frame frame = Frame::kMachine;   ///< of `position`
   bool inches = false;             ///< G20
   bool incremental = false;        ///< G91
   bool incremental_e = false;      ///< M83, or since G91
@@ -38,39 +39,38 @@ struct ModalState {
   bool inverse_time = false;       ///< G93
   bool tool_centre_point = false;  ///< G43.4
   bool exact_path = false;         ///< G61, G61.1
-  double path_tolerance_mm = 0;    ///< G64 P
-  double merge_tolerance_mm = 0;   ///< G64 Q
-  int tool = 0;
-  double tool_length_mm = 0;  ///< G43 H; 0 after G49
-
+  bool g92_active = false;
+  bool tilted = false;  ///< G68.2
   bool feed_known = false;
+  bool retracted = false;     ///< G10
+  bool ended = false;         ///< M2, M30 or the closing % was read
+  bool content_seen = false;  ///< a block came before: a % now is the closing one
+  int tool = 0;
+  int coordinate_system = 0;  ///< 0: G54
+
+  double path_tolerance_mm = 0;   ///< G64 P
+  double merge_tolerance_mm = 0;  ///< G64 Q
+  double tool_length_mm = 0;      ///< G43 H; 0 after G49
+
   double feed_mm_per_s = 0;   ///< the last F as a tool speed
   double feed_rad_per_s = 0;  ///< the same F for a move of only A and C
   double feed_ratio = 1;      ///< M220
   double flow_ratio = 1;      ///< M221
 
-  int coordinate_system = 0;                                  ///< 0: G54
   std::array<Pose, kCoordinateSystems> coordinate_offsets{};  ///< X Y Z A C; E unused
   Pose g92_offset{};                                          ///< X Y Z A C; E unused
-  bool g92_active = false;
 
-  bool tilted = false;  ///< G68.2
   std::array<double, 3> tilt_origin_mm{};
   Matrix3 tilt = kIdentity;  ///< columns: the plane's X, Y, Z in work coordinates
 
-  /// E: canonical = e_canonical_base + flow_ratio * (programmed - e_program_base), and the retraction on top.
+  /// E: canonical = e_canonical_base + flow_ratio * (programmed - e_program_base), less the retraction.
   double e_program_base_mm = 0, e_canonical_base_mm = 0;
-
-  bool retracted = false;
   double retracted_mm = 0, lifted_mm = 0;  ///< what G10 took back, and how high it lifted
   double retract_length_mm = 0, retract_mm_per_s = 0, retract_lift_mm = 0;  ///< M207
   double recover_extra_mm = 0, recover_mm_per_s = 0;                        ///< M208
 
   Pose program{};   ///< the current point as the job would write it (mm, rad)
   Pose position{};  ///< the same point as the last canonical command left it
-  Frame frame = Frame::kMachine;
-  bool ended = false;         ///< M2, M30 or the closing % was read
-  bool content_seen = false;  ///< a block came before: a % now is the closing one
 };
 
 /// #1 .. #5400 and #<name>.

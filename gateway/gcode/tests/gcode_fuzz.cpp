@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
-#include <cstring>
 #include <string_view>
 
 #include "gateway/gcode/canonical_text.hpp"
@@ -38,10 +37,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (auto result = interpreter.execute(line, ++number, out); !result) {
       require(!result.error().message.empty() && result.error().column >= 1);
       require(out.size() == size_before);
-      require(std::memcmp(before.position.data(), interpreter.state().modal.position.data(),
-                          sizeof before.position) == 0);
-      require(std::memcmp(before.program.data(), interpreter.state().modal.program.data(),
-                          sizeof before.program) == 0);
+      require(before.position == interpreter.state().modal.position);
+      require(before.program == interpreter.state().modal.program);
     }
     for (std::size_t i = size_before; i < out.size(); ++i) (void)canonical::to_text(out[i]);
     for (const double value : interpreter.state().modal.position) require(std::isfinite(value));
