@@ -112,7 +112,7 @@ class Gateway::Core {
   std::vector<NodeAxes> axes_;
   std::deque<NodeLink> links_;
   PathRate rate_;
-  SyncProducer sync_;
+  StampedSyncProducer sync_;
   HeartbeatProducer heartbeat_;
   StreamGroup group_;
   SimulatedThermal thermal_;

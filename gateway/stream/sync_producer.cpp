@@ -2,18 +2,18 @@
 
 namespace kinebus {
 
-void SyncProducer::start(BusTime first) {
+void StampedSyncProducer::start(BusTime first) {
   due_ = first;
   awaiting_sent_ = false;
   stamp_.reset();
 }
 
-void SyncProducer::restart(std::uint8_t epoch, BusTime first) {
+void StampedSyncProducer::restart(std::uint8_t epoch, BusTime first) {
   options_.epoch = epoch;
   start(first);
 }
 
-std::optional<CanFrame> SyncProducer::next_frame(BusTime now) {
+std::optional<CanFrame> StampedSyncProducer::next_frame(BusTime now) {
   if (stamp_) {
     const CanFrame frame = encode(*stamp_);
     stamp_.reset();
@@ -34,7 +34,7 @@ std::optional<CanFrame> SyncProducer::next_frame(BusTime now) {
   return CanFrame::make(kSyncCobId, {counter_});
 }
 
-void SyncProducer::on_frame_sent(BusTime when, const CanFrame& frame) {
+void StampedSyncProducer::on_frame_sent(BusTime when, const CanFrame& frame) {
   if (!awaiting_sent_ || frame.extended || frame.id != kSyncCobId || frame.length != 1 ||
       frame.data[0] != counter_)
     return;

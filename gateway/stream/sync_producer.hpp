@@ -13,7 +13,8 @@ namespace kinebus {
 inline constexpr std::uint32_t kSyncCobId = 0x080;
 inline constexpr std::uint8_t kLastSyncCounter = 240;  // 0x1019; CiA 301 allows up to 240
 
-class SyncProducer {
+/// The gateway's SYNC. (protocol/canopen/sync.hpp has the plain one of CiA 301.)
+class StampedSyncProducer {
  public:
   struct Options {
     BusTime period{std::chrono::milliseconds{50}};
@@ -25,8 +26,8 @@ class SyncProducer {
     std::uint32_t unstamped = 0;  ///< SYNCs whose sending was never reported before the next was due
   };
 
-  SyncProducer() : SyncProducer(Options{}) {}
-  explicit SyncProducer(Options options) : options_(options) {}
+  StampedSyncProducer() : StampedSyncProducer(Options{}) {}
+  explicit StampedSyncProducer(Options options) : options_(options) {}
 
   /// SYNC first falls due at `first`.
   void start(BusTime first);
