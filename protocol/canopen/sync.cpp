@@ -2,7 +2,7 @@
 
 namespace kinebus {
 
-std::optional<CanFrame> SyncProducer::next_frame(BusTime now) {
+std::optional<CanFrame> PlainSyncProducer::next_frame(BusTime now) {
   if (!running_ || now < due_) return std::nullopt;
   due_ += options_.period;
   if (due_ <= now) due_ += (now - due_) / options_.period * options_.period + options_.period;

@@ -12,15 +12,16 @@ namespace kinebus {
 
 inline constexpr std::uint8_t kSyncCounterOverflow = 240;
 
-/// Sends SYNC on a fixed grid of times.
-class SyncProducer {
+/// Sends SYNC on a fixed grid of times, without the stamps that follow it on a Kinebus
+/// (stream/sync_producer.hpp).
+class PlainSyncProducer {
  public:
   struct Options {
     BusTime period = std::chrono::milliseconds{50};
     std::uint8_t counter_overflow = kSyncCounterOverflow;  ///< 2..240; 0: no counter byte
   };
-  SyncProducer() = default;
-  explicit SyncProducer(Options options) : options_(options) {}
+  PlainSyncProducer() = default;
+  explicit PlainSyncProducer(Options options) : options_(options) {}
 
   void start(BusTime first) {
     due_ = first;

@@ -85,7 +85,7 @@ TEST(Heartbeat, ConsumerTellsComingChangingAndGoing) {
 }
 
 TEST(Sync, ProducerCountsOneToTwoHundredForty) {
-  SyncProducer producer;
+  PlainSyncProducer producer;
   producer.start(milliseconds{10});
   EXPECT_EQ(str(producer.next_frame(milliseconds{9})), "none");
   EXPECT_EQ(str(producer.next_frame(milliseconds{10})), "080#01");
