@@ -223,7 +223,6 @@ std::uint16_t DriveAxis::statusword(LocalTime now) const {
       if (source_ == Source::kLine && power_.moves()) word |= status::kFollowsCommand;
       break;
     case Mode::kNone:
-      if (rests) word |= status::kTargetReached;
       break;
   }
   return static_cast<std::uint16_t>(word);

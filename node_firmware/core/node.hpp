@@ -39,7 +39,7 @@ struct NodeIdentity {
 };
 
 struct NodeOptions {
-  NodeIdentity identity;
+  NodeIdentity identity{};
   std::uint8_t node_id = 0;  ///< 1..127; 0: as stored, and without that the node waits for LSS
 };
 
@@ -164,7 +164,7 @@ class Node final : private ObjectOwner {
   bool was_latched_ = false;
   bool emergency_stop_ = false;
   std::array<bool, 4> limit_active_{};
-  std::uint8_t told_flags_ = 0;
+  std::uint8_t told_flags_ = 0, told_sequence_ = 0;
   std::uint32_t told_consumed_ = 0;
   LocalTime status_look_ = LocalTime::max();
   LocalTime status_told_at_{0};

@@ -126,15 +126,17 @@ void Node::serve_stream_status() {
   const StreamStatus status = path_.status(now_);
   const std::uint32_t consumed = path_.stream().consumed();
   const bool running = path_.rate_q32(now_) != 0 && !path_.stream().idle();
-  const bool due = status.flags != told_flags_ || consumed - told_consumed_ >= kStatusRecords ||
-                   (running && now_ - status_told_at_ >= kStatusPeriod);
-  if (due) {
+  // At rest the queue is filled: the gateway hears that all has arrived.
+  const bool news = running || status.next_sequence != told_sequence_;
+  if (status.flags != told_flags_ || consumed - told_consumed_ >= kStatusRecords ||
+      (news && now_ - status_told_at_ >= kStatusPeriod)) {
     told_flags_ = status.flags;
+    told_sequence_ = status.next_sequence;
     told_consumed_ = consumed;
     status_told_at_ = now_;
     pdo_.trigger(kStreamStatusPdo);
   }
-  status_look_ = running ? now_ + kStatusLook : LocalTime::max();
+  status_look_ = running ? now_ + kStatusLook : news ? status_told_at_ + kStatusPeriod : LocalTime::max();
 }
 
 }  // namespace kinebus
