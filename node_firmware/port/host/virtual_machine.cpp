@@ -87,6 +87,8 @@ void VirtualMachine::deliver(const BusModel::Delivery& delivery) {
 }
 
 void VirtualMachine::serve(VirtualNode& node, BusTime now) {
+  // Parameters are stored at once; a virtual node powers up with its defaults all the same.
+  if (!node.core.image_to_store().empty()) node.core.on_image_stored(true);
   while (bus_.has_room(node.port)) {
     const auto frame = node.core.next_frame();
     if (!frame) break;
