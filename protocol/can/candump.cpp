@@ -13,17 +13,22 @@ int hex_value(char c) {
   return -1;
 }
 
+/// substr() without its exception: the caller has checked the bounds.
+std::string_view slice(std::string_view text, std::size_t from, std::size_t to) {
+  return {text.data() + from, to - from};
+}
+
 std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(kBlanks);
   if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+  return slice(text, first, text.find_last_not_of(kBlanks) + 1);
 }
 
 /// Takes the first word off `text`.
 std::string_view take_word(std::string_view& text) {
   text = trimmed(text);
   const auto end = std::min(text.find_first_of(kBlanks), text.size());
-  const std::string_view word = text.substr(0, end);
+  const std::string_view word = slice(text, 0, end);
   text.remove_prefix(end);
   return word;
 }
@@ -40,11 +45,11 @@ std::optional<std::int64_t> parse_number(std::string_view digits) {
 
 std::optional<std::chrono::microseconds> parse_time(std::string_view word) {
   if (word.size() < 3 || word.front() != '(' || word.back() != ')') return std::nullopt;
-  word = word.substr(1, word.size() - 2);
+  word = slice(word, 1, word.size() - 1);
   const auto dot = word.find('.');
   if (dot == std::string_view::npos || word.size() - dot - 1 != 6) return std::nullopt;
-  const auto seconds = parse_number(word.substr(0, dot));
-  const auto micros = parse_number(word.substr(dot + 1));
+  const auto seconds = parse_number(slice(word, 0, dot));
+  const auto micros = parse_number(slice(word, dot + 1, word.size()));
   if (!seconds || !micros) return std::nullopt;
   return std::chrono::microseconds{*seconds * 1'000'000 + *micros};
 }
@@ -92,7 +97,7 @@ CandumpText to_candump(const CandumpLine& line) {
     text.add(") ");
   }
   if (!line.interface.empty()) {
-    text.add(line.interface.substr(0, 16));
+    text.add(slice(line.interface, 0, std::min<std::size_t>(line.interface.size(), 16)));
     text.add(' ');
   }
   text.add(to_text(line.frame).view());
@@ -105,7 +110,7 @@ std::optional<CanFrame> parse_frame(std::string_view text) {
   if (hash != 3 && hash != 8) return std::nullopt;
   CanFrame frame;
   frame.extended = hash == 8;
-  for (const char c : text.substr(0, hash)) {
+  for (const char c : slice(text, 0, hash)) {
     const int digit = hex_value(c);
     if (digit < 0) return std::nullopt;
     frame.id = (frame.id << 4) | static_cast<std::uint32_t>(digit);
