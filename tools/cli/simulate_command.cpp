@@ -4,10 +4,12 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <stdexcept>
 
 #include "gateway/io/job_files.hpp"
+#include "protocol/can/candump.hpp"
 #include "tools/cli/job_watch.hpp"
 #include "tools/cli/offline.hpp"
 #include "vcan_tests/sim/simulate.hpp"
@@ -16,7 +18,7 @@ namespace kinebus {
 namespace {
 
 struct Arguments {
-  std::string job, machine, json_path, plot_path;
+  std::string job, machine, json_path, plot_path, candump_path;
   std::uint64_t seed = 1;
   double limit_s = 0;
 };
@@ -39,6 +41,14 @@ int run(const Arguments& arguments) {
     options.on_progress = [](double progress, double job_s) {
       fmt::print(stderr, "\r{:5.1f} %  {} simulated\033[K", 100 * progress, time_words(job_s));
     };
+  std::ofstream candump;
+  if (!arguments.candump_path.empty()) {
+    candump.open(arguments.candump_path);
+    options.on_frame = [&candump](BusTime when, const CanFrame& frame) {
+      const auto time = std::chrono::duration_cast<std::chrono::microseconds>(when);
+      candump << to_candump({time, "can0", frame}).view() << "\n";
+    };
+  }
   const SimulationReport report = simulate(machine, open_job(arguments.job), *checkers_text, options);
   if (options.on_progress) fmt::print(stderr, "\r\033[K");
   fmt::print("{}", to_table(report));
@@ -68,6 +78,7 @@ void add_simulate_command(CLI::App& app, int& exit_code) {
   command->add_option("--json", arguments->json_path, "Also write the report here");
   command->add_option("--plot", arguments->plot_path,
                       "Draw tool path, carriages, speed, error and bus load (SVG)");
+  command->add_option("--candump", arguments->candump_path, "Write all frames here, as candump -l does");
   command->add_option("--seed", arguments->seed, "Of clocks, latencies and start positions (default 1)");
   command->add_option("--limit-seconds", arguments->limit_s, "Measure only so much of the job, machine time");
   command->callback([=, &exit_code] { exit_code = run(*arguments); });

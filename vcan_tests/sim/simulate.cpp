@@ -22,12 +22,13 @@ double cpu_now() {
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
-bool ready(MachineState s) {
-  return s == MachineState::kReady;
-}
-bool over(MachineState s) {
-  return s == MachineState::kReady || s == MachineState::kAlarm || s == MachineState::kStopped ||
-         s == MachineState::kHeld;
+// The nodes' power comes up before the gateway looks for them.
+constexpr BusTime kPowerUp = std::chrono::seconds{1};
+
+/// Nothing goes on by itself any more.
+bool settled(MachineState s) {
+  return s == MachineState::kOff || s == MachineState::kUnhomed || s == MachineState::kReady ||
+         s == MachineState::kAlarm || s == MachineState::kStopped || s == MachineState::kHeld;
 }
 
 /// All checkers together, fed by one simulation.
@@ -52,6 +53,10 @@ class Run {
         options_(options),
         simulation_(machine, kinematics, options.simulation) {
     simulation_.on_event = [this](const MachineEvent& event) { note(event); };
+    simulation_.on_frame = [this](BusTime when, const CanFrame& frame) {
+      if (options_.on_frame) options_.on_frame(when, frame);
+      if (checkers_) checkers_->joints.on_frame(frame);
+    };
   }
 
   SimulationReport go(std::unique_ptr<ByteSource> job, ByteSource& same_job) {
@@ -80,23 +85,24 @@ class Run {
 
   bool prepare() {
     Gateway& gateway = simulation_.gateway();
-    if (const auto home = gateway.home(); !home) return fail("homing refused: " + home.error().words);
-    simulation_.run_until(simulation_.now() + BusTime{1'000'000});
-    if (!simulation_.run_until_state(over, minutes{5}) || !ready(gateway.state()))
-      return fail(fmt::format("homing ended in state {}", to_string(gateway.state())));
-    if (const auto move = gateway.go_to_reference(); !move)
-      return fail("reference refused: " + move.error().words);
-    simulation_.run_until(simulation_.now() + BusTime{1'000'000});
-    if (!simulation_.run_until_state(over, minutes{5}) || !ready(gateway.state()))
-      return fail(fmt::format("the move to the bed reference ended in state {}", to_string(gateway.state())));
-    return true;
+    simulation_.run_until(kPowerUp);
+    return finish("bring-up", gateway.bring_up(), MachineState::kUnhomed) &&
+           finish("homing", gateway.home(), MachineState::kReady) &&
+           finish("the move to the bed reference", gateway.go_to_reference(), MachineState::kReady);
+  }
+
+  /// Waits until a command that was accepted has been carried out.
+  bool finish(const char* what, const Result<void, Refusal>& accepted, MachineState goal) {
+    if (!accepted) return fail(fmt::format("{} was refused: {}", what, accepted.error().words));
+    simulation_.run_until_state(settled, minutes{5});
+    const MachineState state = simulation_.gateway().state();
+    return state == goal || fail(fmt::format("{} ended in state {}", what, to_string(state)));
   }
 
   void print(std::unique_ptr<ByteSource> job, ByteSource& same_job) {
     Gateway& gateway = simulation_.gateway();
     checkers_ = std::make_unique<Checkers>(machine_, kinematics_, simulation_, same_job,
                                            gateway.status().machine_pose);
-    simulation_.on_frame = [this](BusTime, const CanFrame& frame) { checkers_->joints.on_frame(frame); };
     simulation_.on_sample = [this](const Sample& sample) { take(sample); };
     if (const auto run = gateway.run(std::move(job), "job"); !run) {
       fail("the job was refused: " + run.error().words);
@@ -108,9 +114,9 @@ class Run {
     simulation_.in_job = true;
     const BusTime limit = options_.limit_s > 0 ? BusTime{static_cast<std::int64_t>(options_.limit_s * 1e9)}
                                                : BusTime{hours{500}};
-    const bool ended = simulation_.run_until_state(over, limit);
+    const bool ended = simulation_.run_until_state(settled, limit);
     report_.job_time_s = to_seconds(simulation_.now() - begin_);
-    report_.finished = ended && ready(gateway.state()) && report_.messages.empty();
+    report_.finished = ended && gateway.state() == MachineState::kReady && report_.messages.empty();
     if (report_.finished)
       report_.outcome = "finished";
     else if (!ended && options_.limit_s > 0)

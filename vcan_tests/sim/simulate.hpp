@@ -18,6 +18,7 @@ struct SimulateOptions {
   double limit_s = 0;        ///< stop measuring after so much job time; 0: the whole job
   PlotData* plot = nullptr;  ///< filled along the way
   std::function<void(double progress, double job_s)> on_progress;
+  std::function<void(BusTime, const CanFrame&)> on_frame;  ///< every frame on the bus, from power-up on
 };
 
 /// Brings the machine up, homes it, goes to the bed reference, runs the job and measures. `job` and
