@@ -84,7 +84,12 @@ void add_plain(CLI::App& app, const Options& options, int& exit_code, const std:
     command->add_flag("--no-wait", *no_wait, "Return at once instead of when the machine is at rest");
   command->callback([=, &exit_code] {
     Client client(Client::find_socket(options->socket));
-    if (moves && !*no_wait) client.ask({{"do", "watch"}, {"hz", 10}});
+    client.ask({{"do", "watch"}, {"hz", 10}});
+    if (word == "home" && status_of(client)["state"] == "off") {
+      const json up = client.ask({{"do", "bring-up"}});
+      exit_code = up.value("ok", false) ? wait_until_rest(client) : refused(up);
+      if (exit_code != 0) return;
+    }
     const json reply = client.ask({{"do", word}});
     if (!reply.value("ok", false)) {
       exit_code = refused(reply);
