@@ -128,7 +128,7 @@ Runner::Outcome Runner::on_time(BusTime now, int budget) {
   Outcome outcome = Outcome::kBusy;
   while (outcome == Outcome::kBusy && budget > 0) {
     if (wait_ != Wait::kNone && !wait_is_over(now)) break;
-    if (streaming_ && !group_.wants_phases(rate_.tau(now))) break;
+    if (streaming_ && !finished_ && !group_.wants_phases(rate_.tau(now))) break;
     const JobPipeline::Step step = pipeline_.next(budget);
     if (step == JobPipeline::Step::kMore) break;
     outcome = take(now, step);
@@ -205,8 +205,9 @@ Runner::Outcome Runner::take(BusTime now, JobPipeline::Step step) {
       if (first) {
         group_.begin_run();
         streaming_ = true;
-        started_ = finished_ = false;
+        started_ = false;
       }
+      finished_ = pipeline_.phase().last;
       last_line_ = pipeline_.phase().line;
       if (const auto pushed = group_.push(pipeline_.phase()); !pushed)
         return fail(pushed.error().line, to_string(pushed.error()), true);
@@ -223,7 +224,6 @@ Runner::Outcome Runner::take(BusTime now, JobPipeline::Step step) {
       return stop_asked_ ? Outcome::kEmergencyStop : Outcome::kBusy;
     }
     case Step::kRunEnd:
-      finished_ = true;
       wait_ = Wait::kRunDone;
       return Outcome::kBusy;
     case Step::kBarrier:

@@ -97,7 +97,7 @@ class Runner {
   bool active_ = false, held_ = false;
   bool streaming_ = false;  ///< a run is in the group
   bool started_ = false;    ///< path time was let go for this run
-  bool finished_ = false;   ///< all phases of this run are in the group
+  bool finished_ = false;   ///< the run's last phase is in the group
   bool stop_asked_ = false;
   Wait wait_ = Wait::kNone;
   std::deque<Event> events_;

@@ -1,0 +1,127 @@
+#pragma once
+// The gateway core joined with real node cores, their motors and switches, on a modelled bus, in virtual
+// time.
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gateway/inproc/virtual_nodes.hpp"
+#include "gateway/machine/alarm.hpp"
+#include "gateway/machine/gateway.hpp"
+#include "node_firmware/port/host/virtual_machine.hpp"
+
+namespace kinebus {
+
+class MachineRig {
+ public:
+  explicit MachineRig(MachineDescription description = default_m1(), std::uint64_t seed = 1)
+      : machine(std::move(description)),
+        gateway(machine),
+        nodes(
+            virtual_nodes_of(machine, {.drift_ppm = 40, .latency_max = std::chrono::microseconds{10}}, seed),
+            seed) {}
+
+  /// Frames on their way to the gateway for which this is true are lost.
+  std::function<bool(const CanFrame&)> lose_to_gateway;
+  /// Sees all frames of the bus.
+  std::function<void(BusTime, const CanFrame&)> on_frame;
+
+  void run_for(BusTime duration) {
+    run_until([] { return false; }, duration);
+  }
+  /// False: not within `limit`.
+  bool run_until(const std::function<bool()>& done, BusTime limit) {
+    const BusTime until = now + limit;
+    serve();
+    while (!done()) {
+      if (now >= until) return false;
+      step(until);
+    }
+    return true;
+  }
+  bool reach(MachineState state, BusTime limit = std::chrono::seconds{60}) {
+    return run_until([&] { return gateway.state() == state; }, limit);
+  }
+  /// Brings up, homes and goes to the bed reference.
+  bool make_ready() {
+    using namespace std::chrono_literals;
+    if (!gateway.bring_up() || !reach(MachineState::kUnhomed, 30s)) return false;
+    if (!gateway.home() || !reach(MachineState::kReady, 120s)) return false;
+    return gateway.go_to_reference() && reach(MachineState::kReady, 60s);
+  }
+  bool run_job(std::string text, BusTime limit = std::chrono::seconds{120}) {
+    return gateway.run(std::make_unique<StringSource>(std::move(text)), "test") &&
+           reach(MachineState::kReady, limit);
+  }
+
+  /// Where the motors really are: joint values, mm or rad.
+  JointVector joints() {
+    JointVector values{};
+    for (std::size_t j = 0; j < machine.joints.size(); ++j) {
+      const JointDescription& joint = machine.joints[j];
+      for (std::size_t n = 0; n < machine.nodes.size(); ++n)
+        if (machine.nodes[n].id == joint.node_id)
+          values[j] = joint_from_counts(joint, nodes.true_counts(static_cast<int>(n), joint.axis, now));
+    }
+    return values;
+  }
+  /// All that was told, one a line.
+  std::string story() const {
+    std::string text;
+    for (const MachineEvent& e : events)
+      text += std::to_string(to_seconds(e.when)) + " s: " + e.words +
+              (e.advice.empty() ? "" : " -> " + e.advice) + "\n";
+    return text;
+  }
+  bool told(MachineEvent::Kind kind) const {
+    for (const MachineEvent& e : events)
+      if (e.kind == kind) return true;
+    return false;
+  }
+  bool told(AlarmCode code) const {
+    for (const MachineEvent& e : events)
+      if (e.kind == MachineEvent::Kind::kAlarm && e.code == static_cast<std::uint16_t>(code)) return true;
+    return false;
+  }
+
+  MachineDescription machine;
+  Gateway gateway;
+  VirtualMachine nodes;
+  BusTime now{0};
+  std::vector<MachineEvent> events;
+
+ private:
+  void serve() {
+    while (nodes.can_send()) {
+      const auto frame = gateway.next_frame(now);
+      if (!frame) break;
+      nodes.send(now, *frame);
+    }
+    while (auto event = gateway.next_event()) events.push_back(std::move(*event));
+  }
+  void step(BusTime until) {
+    const BusTime due = std::max(gateway.next_deadline(), now);
+    const BusTime next = std::min({until, due, std::max(nodes.next_event(), now)});
+    const bool done = nodes.advance(next);
+    bool stirred = false;
+    while (const auto got = nodes.receive()) {
+      now = std::max(now, got->when);
+      if (on_frame) on_frame(got->when, got->frame);
+      stirred = true;
+      if (got->own)
+        gateway.on_frame_sent(got->when, got->frame);
+      else if (!lose_to_gateway || !lose_to_gateway(got->frame))
+        gateway.on_frame(got->when, got->frame);
+    }
+    if (done) now = std::max(now, next);
+    if (done && now >= due) {
+      gateway.on_time(now);
+      stirred = true;
+    }
+    if (stirred) serve();
+  }
+};
+
+}  // namespace kinebus

@@ -1,0 +1,189 @@
+// The whole machine from its gateway's side: bring-up, homing, moves, jobs, hold, cancel, stop.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "gateway/machine/tests/machine_rig.hpp"
+
+namespace kinebus {
+namespace {
+
+using namespace std::chrono_literals;
+
+TEST(Machine, BringUpEndsUnhomedWithDrivesEnabledAndClocksSynchronised) {
+  MachineRig rig;
+  ASSERT_TRUE(rig.gateway.bring_up());
+  ASSERT_TRUE(rig.reach(MachineState::kUnhomed, 30s)) << rig.story() << rig.gateway.status().doing;
+  const MachineStatus status = rig.gateway.status();
+  ASSERT_EQ(status.nodes.size(), 3u);
+  for (const NodeStatus& node : status.nodes) {
+    EXPECT_TRUE(node.present);
+    EXPECT_TRUE(node.synchronised);
+    for (const std::uint16_t word : node.statusword) EXPECT_EQ(word & 0x6F, 0x27) << std::hex << word;
+  }
+  EXPECT_FALSE(status.positions_known);
+}
+
+TEST(Machine, HomingTakesAllCarriagesToTheirSwitches) {
+  MachineRig rig;
+  ASSERT_TRUE(rig.gateway.bring_up());
+  ASSERT_TRUE(rig.reach(MachineState::kUnhomed, 30s)) << rig.story();
+  ASSERT_TRUE(rig.gateway.home());
+  ASSERT_TRUE(rig.reach(MachineState::kReady, 120s)) << rig.story() << rig.gateway.status().doing;
+  const JointVector joints = rig.joints();
+  const JointVector told = rig.gateway.status().joints;
+  for (std::size_t tower = 0; tower < 4; ++tower) {
+    EXPECT_NEAR(joints[tower], 1030, 0.1);
+    EXPECT_NEAR(told[tower], joints[tower], 0.002);
+  }
+  EXPECT_TRUE(rig.gateway.status().positions_known);
+}
+
+TEST(Machine, BedReferenceStandsTheNozzleOverTheTablesCentre) {
+  MachineRig rig;
+  ASSERT_TRUE(rig.make_ready()) << rig.story();
+  const MachineStatus status = rig.gateway.status();
+  EXPECT_NEAR(status.machine_pose[kX], 0, 1e-3);
+  EXPECT_NEAR(status.machine_pose[kY], 0, 1e-3);
+  EXPECT_NEAR(status.machine_pose[kZ], 20, 1e-3);
+  const JointVector joints = rig.joints();
+  for (std::size_t tower = 0; tower < 4; ++tower) EXPECT_NEAR(joints[tower], status.joints[tower], 0.002);
+}
+
+TEST(Machine, JobMovesTheToolToItsEnd) {
+  MachineRig rig;
+  ASSERT_TRUE(rig.make_ready()) << rig.story();
+  ASSERT_TRUE(rig.run_job("G21 G90\nG1 X20 Y10 Z15 F6000\nG1 X-20 F3000\nG1 Y-10 A5\n")) << rig.story();
+  const MachineStatus status = rig.gateway.status();
+  EXPECT_NEAR(status.machine_pose[kX], -20, 2e-3) << rig.story();
+  EXPECT_NEAR(status.machine_pose[kY], -10, 2e-3);
+  EXPECT_NEAR(status.machine_pose[kZ], 15, 2e-3);
+  EXPECT_NEAR(status.machine_pose[kA] * 57.29577951, 5, 2e-3);
+  EXPECT_FALSE(rig.told(MachineEvent::Kind::kAlarm)) << rig.story();
+}
+
+TEST(Machine, JobWithAnErrorMovesNothing) {
+  MachineRig rig;
+  ASSERT_TRUE(rig.make_ready()) << rig.story();
+  const JointVector before = rig.joints();
+  ASSERT_TRUE(rig.run_job("G1 X20 F6000\nG1 X400\n"));
+  EXPECT_TRUE(rig.told(MachineEvent::Kind::kProblem));
+  const JointVector after = rig.joints();
+  for (std::size_t joint = 0; joint < 6; ++joint) EXPECT_EQ(before[joint], after[joint]);
+}
+
+TEST(Machine, HoldStandsStillAndResumeFinishesTheJob) {
+  MachineRig rig;
+  ASSERT_TRUE(rig.make_ready()) << rig.story();
+  ASSERT_TRUE(rig.gateway.run(std::make_unique<StringSource>("G1 X60 F1200\nG1 X0\n"), "line"));
+  ASSERT_TRUE(rig.run_until([&] { return rig.gateway.status().machine_pose[kX] > 20; }, 30s)) << rig.story();
+  ASSERT_TRUE(rig.gateway.hold());
+  ASSERT_TRUE(rig.reach(MachineState::kHeld, 1s)) << rig.story();
+  rig.run_for(200ms);
+  const JointVector still = rig.joints();
+  rig.run_for(2s);
+  EXPECT_EQ(rig.joints(), still);
+  ASSERT_TRUE(rig.gateway.resume());
+  ASSERT_TRUE(rig.reach(MachineState::kReady, 60s)) << rig.story();
+  EXPECT_NEAR(rig.gateway.status().machine_pose[kX], 0, 2e-3);
+  EXPECT_FALSE(rig.told(MachineEvent::Kind::kAlarm)) << rig.story();
+}
+
+TEST(Machine, CancelDropsTheJobAndTheNextOneStartsFromThere) {
+  MachineRig rig;
+  ASSERT_TRUE(rig.make_ready()) << rig.story();
+  ASSERT_TRUE(rig.gateway.run(std::make_unique<StringSource>("G1 X60 F1200\nG1 X0\n"), "line"));
+  ASSERT_TRUE(rig.run_until([&] { return rig.gateway.status().machine_pose[kX] > 20; }, 30s)) << rig.story();
+  ASSERT_TRUE(rig.gateway.cancel());
+  ASSERT_TRUE(rig.reach(MachineState::kReady, 5s)) << rig.story();
+  const MachineStatus status = rig.gateway.status();
+  EXPECT_GT(status.machine_pose[kX], 20);
+  EXPECT_LT(status.machine_pose[kX], 30);
+  const JointVector joints = rig.joints();
+  for (std::size_t tower = 0; tower < 4; ++tower) EXPECT_NEAR(joints[tower], status.joints[tower], 0.001);
+  ASSERT_TRUE(rig.run_job("G1 X-10 F3000\n")) << rig.story();
+  EXPECT_NEAR(rig.gateway.status().machine_pose[kX], -10, 2e-3);
+  EXPECT_FALSE(rig.told(MachineEvent::Kind::kAlarm)) << rig.story();
+}
+
+TEST(Machine, StopIsLatchedAndAfterClearTheJobGoesOn) {
+  MachineRig rig;
+  ASSERT_TRUE(rig.make_ready()) << rig.story();
+  ASSERT_TRUE(rig.gateway.run(std::make_unique<StringSource>("G1 X60 F1200\nG1 X0\n"), "line"));
+  ASSERT_TRUE(rig.run_until([&] { return rig.gateway.status().machine_pose[kX] > 20; }, 30s)) << rig.story();
+  ASSERT_TRUE(rig.gateway.stop());
+  ASSERT_TRUE(rig.reach(MachineState::kStopped, 2s)) << rig.story();
+  EXPECT_FALSE(rig.gateway.resume());
+  const JointVector still = rig.joints();
+  rig.run_for(1s);
+  EXPECT_EQ(rig.joints(), still);
+  ASSERT_TRUE(rig.gateway.clear());
+  ASSERT_TRUE(rig.reach(MachineState::kHeld, 5s)) << rig.story();
+  ASSERT_TRUE(rig.gateway.resume());
+  ASSERT_TRUE(rig.reach(MachineState::kReady, 60s)) << rig.story();
+  EXPECT_NEAR(rig.gateway.status().machine_pose[kX], 0, 2e-3);
+}
+
+TEST(Machine, WaitForTemperatureTakesVirtualTime) {
+  MachineRig rig;
+  ASSERT_TRUE(rig.make_ready()) << rig.story();
+  const BusTime begin = rig.now;
+  ASSERT_TRUE(rig.run_job("M109 S200\nG1 X5 F3000\n", 600s)) << rig.story();
+  EXPECT_GT(to_seconds(rig.now - begin), 10);
+  EXPECT_NEAR(rig.gateway.status().hotend.actual_celsius, 200, 3);
+}
+
+TEST(Machine, PauseInTheJobWaitsForResume) {
+  MachineRig rig;
+  ASSERT_TRUE(rig.make_ready()) << rig.story();
+  ASSERT_TRUE(rig.gateway.run(std::make_unique<StringSource>("G1 X5 F3000\nM0\nG1 X10\n"), "pause"));
+  ASSERT_TRUE(rig.reach(MachineState::kHeld, 30s)) << rig.story();
+  rig.run_for(1s);
+  EXPECT_NEAR(rig.gateway.status().machine_pose[kX], 5, 2e-3);
+  ASSERT_TRUE(rig.gateway.resume());
+  ASSERT_TRUE(rig.reach(MachineState::kReady, 30s)) << rig.story();
+  EXPECT_NEAR(rig.gateway.status().machine_pose[kX], 10, 2e-3);
+}
+
+TEST(Machine, FeedOverrideSlowsTheJobDown) {
+  MachineRig rig;
+  ASSERT_TRUE(rig.make_ready()) << rig.story();
+  ASSERT_TRUE(rig.gateway.set_feed_override(0.5));
+  const BusTime begin = rig.now;
+  ASSERT_TRUE(rig.run_job("G1 X60 F1200\n")) << rig.story();
+  EXPECT_GT(to_seconds(rig.now - begin), 5.9);
+  EXPECT_LT(to_seconds(rig.now - begin), 8);
+}
+
+TEST(Machine, JogMovesRelativeAndIsRefusedBeyondTheWorkspace) {
+  MachineRig rig;
+  ASSERT_TRUE(rig.make_ready()) << rig.story();
+  ASSERT_TRUE(rig.gateway.jog({.delta = {5, -3, 0, 0, 0, 0}, .speed_per_s = 20}));
+  ASSERT_TRUE(rig.reach(MachineState::kReady, 10s));
+  EXPECT_NEAR(rig.gateway.status().machine_pose[kX], 5, 2e-3);
+  EXPECT_NEAR(rig.gateway.status().machine_pose[kY], -3, 2e-3);
+  EXPECT_FALSE(rig.gateway.jog({.delta = {500, 0, 0, 0, 0, 0}}));
+  EXPECT_FALSE(rig.gateway.jog({.delta = {0, 0, 0, 0, 0, 5}})) << "cold extrusion";
+}
+
+TEST(Machine, SecondBringUpFindsConfiguredNodesAndTakesTheirPositions) {
+  MachineRig rig;
+  ASSERT_TRUE(rig.make_ready()) << rig.story();
+  // A gateway that starts anew while the nodes go on: another core on the same bus.
+  rig.run_for(3s);
+  Gateway second(rig.machine, {.epoch = 2});
+  EXPECT_EQ(second.state(), MachineState::kOff);
+  EXPECT_FALSE(second.home());
+}
+
+TEST(Machine, MotorsOffLosesPositions) {
+  MachineRig rig;
+  ASSERT_TRUE(rig.make_ready()) << rig.story();
+  ASSERT_TRUE(rig.gateway.motors_off());
+  EXPECT_EQ(rig.gateway.state(), MachineState::kOff);
+  EXPECT_FALSE(rig.gateway.run(std::make_unique<StringSource>("G1 X1 F600\n"), "x"));
+}
+
+}  // namespace
+}  // namespace kinebus
