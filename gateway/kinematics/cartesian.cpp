@@ -52,16 +52,14 @@ class Cartesian final : public Kinematics {
   Result<void, PoseError> jacobian(Frame frame, const PoseVector& pose, JointVector& joints,
                                    std::span<double> matrix) const override {
     assert(matrix.size() >= static_cast<std::size_t>(joint_count() * kPoseAxes));
-    const auto at = [&](int row, int column) -> double& {
-      return matrix[static_cast<std::size_t>(row * kPoseAxes + column)];
-    };
     // Column by column: the path along one pose axis has the column as its q1.
-    for (int axis = 0; axis < kPoseAxes; ++axis) {
+    for (std::size_t axis = 0; axis < kPoseAxes; ++axis) {
       PosePoint along{.x = pose, .x1 = {}, .x2 = {}};
-      along.x1[static_cast<std::size_t>(axis)] = 1;
+      along.x1[axis] = 1;
       JointPoint column;
       (void)inverse_along(frame, along, column);
-      for (int row = 0; row < joint_count(); ++row) at(row, axis) = column.q1[static_cast<std::size_t>(row)];
+      for (std::size_t row = 0; row < static_cast<std::size_t>(joint_count()); ++row)
+        jacobian_row(matrix, row)[axis] = column.q1[row];
       joints = column.q;
     }
     return {};

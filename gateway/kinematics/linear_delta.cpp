@@ -68,19 +68,19 @@ class LinearDelta final : public Kinematics {
   Result<void, PoseError> jacobian(Frame, const PoseVector& pose, JointVector& joints,
                                    std::span<double> matrix) const override {
     assert(matrix.size() >= kJoints * kPoseAxes);
-    std::fill(matrix.begin(), matrix.begin() + kJoints * kPoseAxes, 0.0);
+    for (double& v : matrix.first(std::size_t{kJoints} * kPoseAxes)) v = 0;
     double radicand[kArms];
     for (int i = 0; i < kArms; ++i) {
       const double hx = pose[kX] - tx_[i], hy = pose[kY] - ty_[i];
       radicand[i] = ll_ - hx * hx - hy * hy;
       const double root = std::sqrt(std::max(radicand[i], 0.0));
-      double* row = &matrix[static_cast<std::size_t>(i * kPoseAxes)];
+      const std::span<double> row = jacobian_row(matrix, static_cast<std::size_t>(i));
       row[kX] = -hx / root;
       row[kY] = -hy / root;
       row[kZ] = 1;
       joints[static_cast<std::size_t>(i)] = pose[kZ] + root;
     }
-    matrix[kJointE * kPoseAxes + kE] = 1;
+    jacobian_row(matrix, kJointE)[kE] = 1;
     joints[kJointE] = pose[kE];
     return reach(radicand);
   }

@@ -127,13 +127,14 @@ class M1 final : public Kinematics {
       col[i][3] = gz * arm_y - gy * arm_z;
       col[i][4] = part ? gx * ry - hy * mx : 0;
     }
-    for (int i = 0; i < kLegs; ++i) {
-      for (int k = 0; k < 5; ++k) matrix[static_cast<std::size_t>(i * kPoseAxes + k)] = col[i][k];
-      matrix[static_cast<std::size_t>(i * kPoseAxes + kE)] = 0;
+    for (std::size_t i = 0; i < kLegs; ++i) {
+      const std::span<double> row = jacobian_row(matrix, i);
+      for (std::size_t k = 0; k < 5; ++k) row[k] = col[i][k];
+      row[kE] = 0;
     }
-    for (int k = 0; k < kPoseAxes; ++k) {
-      matrix[static_cast<std::size_t>(kJointC * kPoseAxes + k)] = k == kC ? 1 : 0;
-      matrix[static_cast<std::size_t>(kJointE * kPoseAxes + k)] = k == kE ? 1 : 0;
+    for (std::size_t k = 0; k < kPoseAxes; ++k) {
+      jacobian_row(matrix, kJointC)[k] = k == kC ? 1 : 0;
+      jacobian_row(matrix, kJointE)[k] = k == kE ? 1 : 0;
     }
     joints[kJointC] = pose[kC];
     joints[kJointE] = pose[kE];
@@ -269,7 +270,7 @@ class M1 final : public Kinematics {
       const double lx = p[0] + t.bx_ax[i] - w * t.dx[i];
       const double ly = p[1] + by - t.ay[i] - w * t.dy[i], lz = p[2] + bz - t.az[i] - w * t.dz[i];
       const double inv = 1 / (lx * t.dx[i] + ly * t.dy[i] + lz * t.dz[i]);
-      double* row = matrix + 4 * i;
+      double* row = matrix + std::ptrdiff_t{4} * i;
       row[0] = lx * inv;
       row[1] = ly * inv;
       row[2] = lz * inv;

@@ -143,7 +143,8 @@ double solve_platform(const LegTable& legs, const M1Geometry& geometry, const Jo
       x = {pose.p_mm[0], pose.p_mm[1], pose.p_mm[2], pose.a_rad * scale};
     } else {
       // Table centre at three heights, level and tilted both ways.
-      const double height = z.min + (z.max - z.min) * (0.25 + 0.25 * ((k - 1) / 3));
+      const int level = (k - 1) / 3;
+      const double height = z.min + (z.max - z.min) * (0.25 + 0.25 * level);
       const double tilt =
           ((k - 1) % 3 == 0 ? 0.0 : ((k - 1) % 3 == 1 ? 0.6 : -0.6)) * std::min(a_max, -a_min);
       x = {geometry.nozzle_mm[0], geometry.nozzle_mm[1], geometry.nozzle_mm[2] - height, tilt * scale};

@@ -49,6 +49,11 @@ inline std::optional<PoseError> check_no_rotation(const PoseVector& pose) {
   return std::nullopt;
 }
 
+/// Row `row` of a Jacobian with kPoseAxes columns.
+inline std::span<double> jacobian_row(std::span<double> matrix, std::size_t row) {
+  return matrix.subspan(row * kPoseAxes, kPoseAxes);
+}
+
 /// Condition number (largest over smallest singular value) of an n x n row-major matrix, n <= 4; infinite if
 /// singular.
 double condition_number(const double* matrix, int n);

@@ -170,14 +170,19 @@ void visit_path(V& v, MachineDescription& d) {
   v.table("path", Need::kRequired, [&] {
     v.number("tool_speed_mm_per_s", d.path.tool_speed_mm_per_s, {0.1, 10000}, Need::kRequired);
     v.number("tool_accel_mm_per_s2", d.path.tool_accel_mm_per_s2, {1, 1e6}, Need::kRequired);
-    constexpr std::string_view kNames[kPoseAxes] = {"x", "y", "z", "a", "c", "e"};
+    struct Keys {
+      const char *speed, *accel;
+      double unit;
+    };
+    constexpr Keys kKeys[kPoseAxes] = {{"x_speed_mm_per_s", "x_accel_mm_per_s2", 1},
+                                       {"y_speed_mm_per_s", "y_accel_mm_per_s2", 1},
+                                       {"z_speed_mm_per_s", "z_accel_mm_per_s2", 1},
+                                       {"a_speed_deg_per_s", "a_accel_deg_per_s2", kRadPerDeg},
+                                       {"c_speed_deg_per_s", "c_accel_deg_per_s2", kRadPerDeg},
+                                       {"e_speed_mm_per_s", "e_accel_mm_per_s2", 1}};
     for (std::size_t k = 0; k < kPoseAxes; ++k) {
-      const bool turns = k == kA || k == kC;
-      const std::string u = turns ? "_deg_per_s" : "_mm_per_s";
-      const double unit = turns ? kRadPerDeg : 1;
-      const std::string name(kNames[k]);
-      v.number(name + "_speed" + u, d.path.axis_speed_per_s[k], {0, 100000}, Need::kOptional, unit);
-      v.number(name + "_accel" + u + "2", d.path.axis_accel_per_s2[k], {0, 1e6}, Need::kOptional, unit);
+      v.number(kKeys[k].speed, d.path.axis_speed_per_s[k], {0, 100000}, Need::kOptional, kKeys[k].unit);
+      v.number(kKeys[k].accel, d.path.axis_accel_per_s2[k], {0, 1e6}, Need::kOptional, kKeys[k].unit);
     }
   });
   v.table("tolerance", Need::kOptional, [&] {
