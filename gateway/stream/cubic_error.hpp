@@ -1,6 +1,7 @@
 #pragma once
 // How far a cubic gets from zero: the error of a quadratic against a cubic, exactly.
 
+#include <algorithm>
 #include <cmath>
 
 namespace kinebus {
@@ -29,6 +30,15 @@ inline Extreme extreme_of_cubic(double d0, double d1, double d2, double d3, doub
     if (xb > x0 && xb < x1) look_at(xb);
   }
   return worst;
+}
+
+/// An upper bound of the same, by the Bernstein coefficients: no root, no division.
+inline double bound_of_cubic(double d0, double d1, double d2, double d3, double x0, double x1) {
+  const double third = (x1 - x0) * (1.0 / 3);
+  const double b0 = d0 + x0 * (d1 + x0 * (d2 + x0 * d3)), b3 = d0 + x1 * (d1 + x1 * (d2 + x1 * d3));
+  const double b1 = b0 + third * (d1 + x0 * (2 * d2 + x0 * 3 * d3));
+  const double b2 = b3 - third * (d1 + x1 * (2 * d2 + x1 * 3 * d3));
+  return std::max(std::max(std::abs(b0), std::abs(b3)), std::max(std::abs(b1), std::abs(b2)));
 }
 
 }  // namespace kinebus

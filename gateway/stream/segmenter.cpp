@@ -3,48 +3,15 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 
+#include "gateway/stream/segmenter_tuning.hpp"
 #include "protocol/time.hpp"
 
 namespace kinebus {
 
+using namespace segmenter;
+
 namespace {
-
-// The best C1 quadratic spline misses a cubic with q''' = M by 0.00802 M h^3, where position is met and
-// velocity is off by M h^2 / 12 at every knot (the Bernoulli polynomial of degree 3). With M = 6 c3:
-constexpr double kBendError = 6 * 0.00802;  // times c3 h^3
-// A jump J of q''/2 costs J x^2 / 8 at best when a segment goes x beyond it, and leaves a velocity error of J
-// x: a segment stops at a jump for which J x^2 / tolerance is above this on both sides.
-constexpr double kStopAtJump = 0.3;
-// Share of the tolerance that a first guess aims at. The rest is for what the start state brings along, and
-// for a velocity target that is a few percent off (the target times h is 10 tolerances).
-constexpr double kAim = 0.6;
-constexpr double kLongest = kMaxSegmentUnits;
-constexpr double kForever = std::numeric_limits<double>::infinity();
-// A velocity error w at a knot costs the next segment w h / 3 when it is taken back over two segments.
-constexpr double kVelocityCost = 1.0 / 3;
-constexpr double kMostDrift = 2.5;
-// Position error that an end state may have for the sake of its velocity, in tolerances.
-constexpr double kMostEndError = 0.55;
-constexpr int kTries = 14;
-// An end state up to this drift needs no proof that it can be followed.
-constexpr double kSafeDrift = 1.0;
-constexpr int kProofs = 8, kProofDepth = 2, kMoreProofs = 3;
-// A fit that misses by less than this is corrected at the one place where it misses, to this share of the
-// tolerance.
-// Only behind this part of its length, where the acceleration has some effect.
-constexpr double kRepairable = 0.3, kTouch = 0.97, kRepairFrom = 0.25, kMostRepairedEndError = 0.8;
-constexpr double kHopeless = 2.5;       // estimated error beyond which a jump is not tried to be crossed
-constexpr double kImpossible = 100;     // error of a fit that no acceleration within bounds gives
-constexpr std::int32_t kShortest = 64;  // 1 ms
-// Accelerations may leave those of q'' by this share of what is left to the joint's limit.
-constexpr double kRoomShare = 0.75, kLeastWidening = 0.002;
-// A motion that is over the limit itself is followed anyway, with this much to spare.
-constexpr double kOverLimit = 1.02, kOverLimitWidening = 0.05;
-
-// Weight of velocity against position at the end: by the length of the next segment, within these multiples.
-constexpr double kLeastNext = 0.5, kMostNext = 1.5;
 
 std::int32_t round_up(double x) {
   return static_cast<std::int32_t>(std::ceil(x - 1e-6));
@@ -60,11 +27,14 @@ Segmenter::Segmenter(const NodeAxes& node, Options options)
     : node_(node),
       options_(options),
       raw_per_unit_(kCountFraction / static_cast<double>(1 << options.acceleration_shift)),
+      unit_per_raw_(1 / raw_per_unit_),
       pieces_(kCapacity) {
   for (std::size_t i = 0; i < at_.axes.size(); ++i) {
     const AxisScaling& scaling = node.axes[i];
     at_.axes[i].base_tolerance =
         std::max(scaling.tolerance_counts - options.margin_counts, 0.5 * scaling.tolerance_counts);
+    at_.axes[i].per_base_tolerance = 1 / at_.axes[i].base_tolerance;
+    slope_[i] = scaling.slope();
     at_.axes[i].limit =
         0.5 * std::abs(scaling.slope()) * scaling.acceleration_limit * kSecondsPerUnit * kSecondsPerUnit;
   }
@@ -81,7 +51,18 @@ void Segmenter::start(const std::array<AxisState, kAxesPerNode>& states) {
   for (std::size_t i = 0; i < at_.axes.size(); ++i) {
     at_.axes[i].p = to_counts(states[i].position);
     at_.axes[i].v = 0;
-    at_.axes[i].tolerance = at_.axes[i].base_tolerance;
+    widen(at_.axes[i], 0);
+  }
+}
+
+/// The tolerance, while the state at the knot is `offset` counts off.
+void Segmenter::widen(Axis& axis, double offset) {
+  if (offset <= axis.base_tolerance) {
+    axis.tolerance = axis.base_tolerance;
+    axis.per_tolerance = axis.per_base_tolerance;
+  } else {
+    axis.tolerance = 1.1 * offset;
+    axis.per_tolerance = 1 / axis.tolerance;
   }
 }
 
@@ -91,8 +72,8 @@ void Segmenter::append(const Piece& next) {
     const double d = before.end - before.start;
     before.jump = 0;
     for (std::size_t i = 0; i < at_.axes.size(); ++i)
-      before.jump = std::max(before.jump, std::abs(next.c[i][2] - before.c[i][2] - 3 * before.c[i][3] * d) /
-                                              at_.axes[i].base_tolerance);
+      before.jump = std::max(before.jump, std::abs(next.c[i][2] - before.c[i][2] - 3 * before.c[i][3] * d) *
+                                              at_.axes[i].per_base_tolerance);
   }
   ++at_.count;
   piece(at_.count - 1) = next;
@@ -100,10 +81,10 @@ void Segmenter::append(const Piece& next) {
 
 void Segmenter::push(const JointSpan& span) {
   assert(has_room() && !complete_ && !ended_);
-  constexpr double u = kSecondsPerUnit;
+  constexpr double u = kSecondsPerUnit, per_u = 1 / kSecondsPerUnit;
   Piece p;
-  p.start = span.start_s / u;
-  p.end = (span.start_s + span.duration_s) / u;
+  p.start = span.start_s * per_u;
+  p.end = (span.start_s + span.duration_s) * per_u;
   p.line = span.line;
   for (std::size_t i = 0; i < at_.axes.size(); ++i) {
     const AxisScaling& scaling = node_.axes[i];
@@ -112,15 +93,15 @@ void Segmenter::push(const JointSpan& span) {
       continue;
     }
     const auto& c = span.coefficients[static_cast<std::size_t>(scaling.joint)];
-    const double k = scaling.slope();
-    p.c[i] = {scaling.to_counts(c[0]), k * u * c[1], k * u * u * c[2], k * u * u * u * c[3]};
-    p.bend = std::max(p.bend, std::abs(p.c[i][3]) / at_.axes[i].base_tolerance);
+    const double k = slope_[i];
+    p.c[i] = {k * (c[0] - scaling.offset), k * u * c[1], k * u * u * c[2], k * u * u * u * c[3]};
+    p.bend = std::max(p.bend, std::abs(p.c[i][3]) * at_.axes[i].per_base_tolerance);
   }
   if (at_.count == 0 && at_.knot == 0)
     for (std::size_t i = 0; i < at_.axes.size(); ++i) {
       const double offset = std::abs(p.c[i][0] - at_.axes[i].p);
       start_offset_ = std::max(start_offset_, offset);
-      at_.axes[i].tolerance = std::max(at_.axes[i].base_tolerance, 1.2 * offset);
+      widen(at_.axes[i], offset);
     }
   append(p);
   if (!span.last) return;
@@ -144,191 +125,6 @@ bool Segmenter::ready() const {
 std::size_t Segmenter::piece_at(double t, std::size_t hint) const {
   while (hint + 1 < at_.count && piece(hint).end < t + 0.5) ++hint;
   return hint;
-}
-
-/// Whether a segment that begins b units before the end of piece `index` had better end there: when it could
-/// neither get far beyond the jump, nor is the jump small.
-bool Segmenter::stops_at(std::size_t index, double b) const {
-  const double jump = piece(index).jump;
-  if (complete_ && index + 2 == at_.count) return true;
-  if (jump * b * b < kStopAtJump) return false;
-  const double enough = std::sqrt(kStopAtJump / jump);
-  double after = 0;
-  for (std::size_t i = index + 1; i < at_.count; ++i) {
-    after += piece(i).end - piece(i).start;
-    if (after > enough) return true;
-    if (piece(i).jump > 0.2 * jump) return false;
-  }
-  return false;
-}
-
-/// First guess of how far one segment can go: by the error that bends and jumps add up to on the way.
-Segmenter::Reach Segmenter::reach() const {
-  const double knot = static_cast<double>(at_.knot);
-  double change = 0;  // of q''/2 so far, over tolerance
-  double begin = 0;   // of the piece, from the knot
-  for (std::size_t i = 0;; ++i) {
-    const Piece& p = piece(i);
-    const double end = p.end - knot, to = std::min(end, kLongest);
-    const auto error = [&](double h) { return kBendError * h * h * (change / 3 + p.bend * (h - begin)); };
-    if (complete_ && i + 1 == at_.count) return {begin, i, false, true};
-    if (error(to) > kAim) {
-      double h = 0;
-      if (begin <= 0) {
-        h = std::cbrt(kAim / (kBendError * p.bend));
-      } else {
-        double low = begin, high = to;
-        for (int k = 0; k < 5; ++k) (error(0.5 * (low + high)) > kAim ? high : low) = 0.5 * (low + high);
-        h = low;
-      }
-      return {h, i, false, false};
-    }
-    if (end >= kLongest || i + 1 == at_.count) return {to, i, false, false};
-    if (stops_at(i, end) && !(complete_ && i + 2 == at_.count)) return {end, i + 1, true, false};
-    change += p.jump + 3 * p.bend * (end - std::max(begin, 0.0));
-    begin = end;
-  }
-}
-
-/// How far a segment that begins at t, in piece `index`, will go at most.
-double Segmenter::next_units(double t, std::size_t index, double most) const {
-  double bend = 0;
-  for (std::size_t i = index; i < at_.count; ++i) {
-    const Piece& p = piece(i);
-    const double b = p.end - t;
-    bend = std::max(bend, p.bend);
-    const double to = std::min(b, most);
-    if (kBendError * bend * to * to * to > kAim) return std::min(to, std::cbrt(kAim / (kBendError * bend)));
-    if (b >= most) return most;
-    if (stops_at(i, b)) return std::max(b, 1.0);
-  }
-  return most;
-}
-
-Segmenter::Miss Segmenter::miss(std::size_t axis, double h, double next, std::size_t index) const {
-  const Axis& a = at_.axes[axis];
-  const double t = static_cast<double>(at_.knot) + h;
-  const Piece& p = piece(index);
-  const auto& c = p.c[axis];
-  const double x = t - p.start;
-  const double q = c[0] + x * (c[1] + x * (c[2] + x * c[3]));
-  const double q1 = c[1] + x * (2 * c[2] + x * 3 * c[3]);
-  // The velocity error at this knot that splits the next segment's error evenly: M next^2 / 12 for a cubic.
-  double wanted = 0.5 * c[3] * next * next;
-  if (t + next > p.end + 1) {
-    const Piece& e = piece(piece_at(t + next, index));
-    const auto& d = e.c[axis];
-    const double y = t + next - e.start;
-    const double qn = d[0] + y * (d[1] + y * (d[2] + y * d[3]));
-    const double qn1 = d[1] + y * (2 * d[2] + y * 3 * d[3]);
-    wanted = 0.5 * (q1 + qn1) - (qn - q) / next;
-  }
-  return {q - a.p - a.v * h, q1 - a.v - wanted, c[2] + 3 * c[3] * x};
-}
-
-/// kRest: velocity 0 at the end. kHalfway: this and one more segment bring position and velocity to the run's
-/// end.
-double Segmenter::resting_acceleration(std::size_t axis, double h, Goal goal) const {
-  const Axis& a = at_.axes[axis];
-  if (goal == Goal::kRest) return -0.5 * a.v / h;
-  const double whole = std::max(std::ceil(run_end_ - static_cast<double>(at_.knot) - 1e-6), h + 1);
-  const double missing = piece(at_.count - 1).c[axis][0] - a.p - a.v * whole;
-  return (missing + 0.5 * (whole - h) * a.v) / (h * whole);
-}
-
-/// How far an acceleration may leave those of the motion, which reach `most`.
-double Segmenter::spare(std::size_t axis, double most) const {
-  const double limit = at_.axes[axis].limit;
-  if (limit <= 0) return kForever;
-  if (most > kOverLimit * limit) return kOverLimitWidening * limit;
-  return std::max(kRoomShare * (limit - most), kLeastWidening * limit);
-}
-
-/// Where an acceleration may lie: in what q''/2 does on the way, and a part of what is left to the limit.
-std::array<double, 2> Segmenter::bounds(std::size_t axis, double h, std::size_t last) const {
-  const double limit = at_.axes[axis].limit;
-  if (limit <= 0) return {-kForever, kForever};
-  const double knot = static_cast<double>(at_.knot);
-  double low = kForever, high = -kForever;
-  for (std::size_t i = 0; i <= last; ++i) {
-    const Piece& p = piece(i);
-    const auto& c = p.c[axis];
-    const double x0 = std::max(knot - p.start, 0.0), x1 = std::min(knot + h, p.end) - p.start;
-    const double a0 = c[2] + 3 * c[3] * x0, a1 = c[2] + 3 * c[3] * x1;
-    low = std::min({low, a0, a1});
-    high = std::max({high, a0, a1});
-  }
-  const double wider = spare(axis, std::max(std::abs(low), std::abs(high)));
-  return {low - wider, high + wider};
-}
-
-/// Largest q - p - v t - a t^2 over the segment, piece by piece, exact. x: units from the knot.
-Extreme Segmenter::error_over(std::size_t axis, double a, double h, std::size_t last) const {
-  const Axis& s = at_.axes[axis];
-  const double knot = static_cast<double>(at_.knot);
-  Extreme worst;
-  for (std::size_t i = 0; i <= last; ++i) {
-    const Piece& p = piece(i);
-    const auto& c = p.c[axis];
-    const double t = p.start - knot;  // the quadratic, expanded about the piece's start
-    const double x0 = std::max(-t, 0.0), x1 = std::min(h - t, p.end - p.start);
-    if (x1 < x0) continue;
-    const Extreme e =
-        extreme_of_cubic(c[0] - s.p - t * (s.v + a * t), c[1] - s.v - 2 * a * t, c[2] - a, c[3], x0, x1);
-    if (std::abs(e.value) > std::abs(worst.value)) worst = {e.x + t, e.value};
-  }
-  return worst;
-}
-
-Segmenter::Fit Segmenter::fit(std::int32_t units, Goal goal) {
-  ++counters_.candidates;
-  Fit f{.units = std::clamp(units, 1, kMaxSegmentUnits)};
-  const double h = f.units, end = static_cast<double>(at_.knot) + h;
-  const std::size_t last = piece_at(end, 0);
-  const double next = goal == Goal::kRunOn ? next_units(end, last, std::min(kLongest, kMostNext * h)) : 0;
-  const double weight = std::clamp(next / h, kLeastNext, kMostNext);
-  for (std::size_t i = 0; i < at_.axes.size(); ++i) {
-    const auto [low, high] = bounds(i, h, last);
-    Miss m;
-    double a = 0;
-    // The acceleration nearest to `wanted` that ends within this share of the tolerance.
-    const auto end_within = [&](double share, double wanted) {
-      const double most = share * at_.axes[i].base_tolerance;
-      return std::clamp(wanted, (m.position - most) / (h * h), (m.position + most) / (h * h));
-    };
-    if (goal == Goal::kRunOn) {
-      // Least r^2 + rho^2 w^2 at the end, rho = next / 2. rho = h / 2 takes an error back in two segments.
-      m = miss(i, h, next, last);
-      a = (m.position + 0.5 * weight * weight * h * m.velocity) / ((1 + weight * weight) * h * h);
-      a = std::clamp(end_within(kMostEndError, a), low, high);
-    } else {
-      a = resting_acceleration(i, h, goal);
-      if (a < low || a > high) f.error = kImpossible;
-    }
-    Extreme worst;
-    const auto apply = [&](double wanted) {
-      const double raw =
-          std::clamp<double>(wanted * raw_per_unit_, -kMaxSegmentAcceleration, kMaxSegmentAcceleration);
-      f.acceleration[i] = static_cast<std::int32_t>(raw + std::copysign(0.5, raw));
-      a = f.acceleration[i] / raw_per_unit_;
-      worst = error_over(i, a, h, last);
-    };
-    apply(a);
-    const double tolerance = at_.axes[i].tolerance, excess = std::abs(worst.value) - kTouch * tolerance;
-    if (goal == Goal::kRunOn && excess > 0 && excess < kRepairable * tolerance && worst.x > kRepairFrom * h) {
-      const double repaired = a + std::copysign(excess, worst.value) / (worst.x * worst.x);
-      apply(std::clamp(end_within(kMostRepairedEndError, repaired), low, high));
-    }
-    f.error = std::max(f.error, std::abs(worst.value) / tolerance);
-    if (goal != Goal::kRunOn) continue;
-    const double r = std::abs(m.position - a * h * h), w = std::abs(m.velocity - 2 * a * h);
-    // What there is to spare of acceleration must be able to brake it before it leaves the tolerance.
-    const bool away = (m.position - a * h * h) * (m.velocity - 2 * a * h) > 0;
-    const double cost = std::max(r + kVelocityCost * std::min(h, next) * w,
-                                 (away ? r : -r) + w * w / (4 * spare(i, std::abs(m.bend))));
-    f.drift = std::max(f.drift, cost / at_.axes[i].base_tolerance);
-  }
-  return f;
 }
 
 /// The longest segment that is good, as far as a few trials find it.
@@ -471,8 +267,7 @@ void Segmenter::apply(const Fit& f) {
     a.p = to_counts(at_.states[i].position);
     a.v = to_counts(at_.states[i].velocity);
     const double q = p.c[i][0] + x * (p.c[i][1] + x * (p.c[i][2] + x * p.c[i][3]));
-    const double offset = std::abs(q - a.p);
-    a.tolerance = offset > a.base_tolerance ? 1.1 * offset : a.base_tolerance;
+    widen(a, std::abs(q - a.p));
   }
   at_.first += last;
   at_.count -= last;

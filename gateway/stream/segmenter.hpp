@@ -80,7 +80,8 @@ class Segmenter {
     double p = 0, v = 0;  ///< exact state at the knot as counts and counts/unit
     double base_tolerance = 0.47;
     double tolerance = 0.47;  ///< base, or wider while the state at the knot is out of it
-    double limit = 0;         ///< of q''/2, counts/unit^2; 0: none
+    double per_base_tolerance = 0, per_tolerance = 0;
+    double limit = 0;  ///< of q''/2, counts/unit^2; 0: none
   };
   /// A segment on trial.
   struct Fit {
@@ -103,6 +104,18 @@ class Segmenter {
     kHalfway,  ///< such that one more segment comes to rest at the run's end
     kRest,     ///< at rest
   };
+  /// What a segment on trial shall reach, the same for both axes.
+  struct Target {
+    Goal goal{};
+    double per_h2 = 0;
+    std::size_t last = 0;                  ///< piece that holds at the segment's end
+    double next = 0;                       ///< units that the next segment will go
+    double velocity_share = 0, scale = 0;  ///< a = (position + velocity_share * velocity) * scale
+  };
+  struct Bounds {
+    double low = 0, high = 0;
+    double clamp(double a) const { return a < low ? low : a > high ? high : a; }
+  };
   /// An axis at the end of a segment without acceleration: what is missing in position, and in velocity
   /// against the best start of the next segment.
   struct Miss {
@@ -113,6 +126,7 @@ class Segmenter {
   const Piece& piece(std::size_t i) const { return pieces_[(at_.first + i) & (kCapacity - 1)]; }
   Piece& piece(std::size_t i) { return pieces_[(at_.first + i) & (kCapacity - 1)]; }
   void append(const Piece& piece);
+  static void widen(Axis& axis, double offset);
   bool ready() const;
   std::size_t piece_at(double t, std::size_t hint) const;
   bool stops_at(std::size_t index, double b) const;
@@ -121,9 +135,10 @@ class Segmenter {
   Miss miss(std::size_t axis, double h, double next, std::size_t index) const;
   double resting_acceleration(std::size_t axis, double h, Goal goal) const;
   double spare(std::size_t axis, double most) const;
-  std::array<double, 2> bounds(std::size_t axis, double h, std::size_t last) const;
+  Bounds bounds(std::size_t axis, double h, std::size_t last) const;
   Extreme error_over(std::size_t axis, double a, double h, std::size_t last) const;
   Fit fit(std::int32_t units, Goal goal);
+  void fit_axis(std::size_t axis, const Target& target, Fit& f) const;
   Fit choose();
   Fit come_to_rest();
   double steadied(double h) const;
@@ -147,8 +162,9 @@ class Segmenter {
   NodeAxes node_;
   Options options_;
   Counters counters_;
-  double raw_per_unit_;        ///< raw acceleration for 1 count/unit^2
-  std::vector<Piece> pieces_;  ///< ring of kCapacity
+  double raw_per_unit_, unit_per_raw_;        ///< raw acceleration for 1 count/unit^2 of q''/2, and back
+  std::array<double, kAxesPerNode> slope_{};  ///< counts per joint unit
+  std::vector<Piece> pieces_;                 ///< ring of kCapacity
   Position at_;
   std::optional<Fit> planned_;  ///< the segment behind the last one given out, found when that one was proved
   double run_end_ = 0;          ///< units; valid when complete_
