@@ -131,9 +131,10 @@ std::int64_t DriveAxis::within_limits(std::int64_t target) {
 }
 
 HomingConfig DriveAxis::homing_config() const {
+  const std::uint32_t fastest = unsigned_parameter(slot_of_axes(object::kMaxProfileVelocity));
   return {.method = static_cast<int>(parameter(slot_of_axes(object::kHomingMethod))),
-          .fast = unsigned_parameter(slot_of_axes(object::kHomingFastSpeed)),
-          .slow = unsigned_parameter(slot_of_axes(object::kHomingSlowSpeed)),
+          .fast = std::min(unsigned_parameter(slot_of_axes(object::kHomingFastSpeed)), fastest),
+          .slow = std::min(unsigned_parameter(slot_of_axes(object::kHomingSlowSpeed)), fastest),
           .acceleration = unsigned_parameter(slot_of_axes(object::kHomingAcceleration)),
           .offset = static_cast<std::int32_t>(
               std::clamp<std::int64_t>(parameter(slot_of_axes(object::kHomeOffset)), -(1 << 29), 1 << 29)),

@@ -73,7 +73,7 @@ struct StreamTest : testing::Test {
       for (const int sign : {1, -1, -1, 1})
         for (Feed& feed : feeds) {
           if (checkpoints) bench.send(feed.checkpoint(i & 1));
-          bench.send(feed.segment(1250, sign * (9000 + 100 * feed.id), -sign * 4000 * feed.id));
+          bench.send(feed.segment(1250, sign * (600'000 + 1000 * feed.id), -sign * 250'000 * feed.id));
         }
   }
   void end_all() {
@@ -103,9 +103,9 @@ struct StreamTest : testing::Test {
         for (int axis = 0; axis < 2; ++axis) {
           const std::int64_t here = bench.position(i, axis);
           std::int64_t& before = last[i][static_cast<std::size_t>(axis)];
-          // Twice the waves' top speed of about 85,000 counts/s.
+          // The waves reach 110,000 counts/s: 55 counts in 500 us.
           if (!first) {
-            EXPECT_LE(std::abs(here - before), from_counts(85)) << "node " << i + 1;
+            EXPECT_LE(std::abs(here - before), from_counts(60)) << "node " << i + 1;
           }
           before = here;
         }
@@ -209,8 +209,8 @@ TEST_F(StreamTest, AMissingRecordStopsAllAndTheExpectedOneIsStillTaken) {
   bench.rate(1.0);
   watch(150ms);
   Feed& feed = feeds[1];
-  const CanFrame lost = feed.segment(1250, 5000, 0);
-  const CanFrame after = feed.segment(1250, -5000, 0);
+  const CanFrame lost = feed.segment(1250, 50'000, 0);
+  const CanFrame after = feed.segment(1250, -50'000, 0);
   bench.send(after);
   watch(200ms);
   expect_stopped_together();
@@ -247,7 +247,7 @@ TEST_F(StreamTest, AWrongCheckpointStopsAll) {
 TEST_F(StreamTest, AnEndInMotionIsRefusedAndStopsAll) {
   start_all(1000);
   wave(5);
-  for (Feed& feed : feeds) bench.send(feed.segment(600, 3000, 0));
+  for (Feed& feed : feeds) bench.send(feed.segment(600, 300'000, 0));
   bench.run(50ms);
   bench.rate(1.0);
   watch(100ms);
