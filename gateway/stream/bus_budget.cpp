@@ -24,9 +24,19 @@ double BusBudget::allowed_rate(std::span<const NodeStream* const> nodes, PathTim
     rate = std::min(rate, x / (records * options_.bits_per_record / bits_per_s + reserve_s));
   };
 
-  std::int64_t made = INT64_MAX;
-  for (const NodeStream* node : nodes) made = std::min(made, node->made_until_units());
+  std::int64_t made = INT64_MAX, next = INT64_MAX;
+  std::uint64_t all = 0;
+  for (const NodeStream* node : nodes) {
+    made = std::min(made, node->made_until_units());
+    if (node->unsent() > 0) next = std::min(next, node->unsent_begins_units(0));
+    all += node->unsent();
+  }
   if (!run_complete) limit(made, 0);
+  // All that waits fits before the first of it is due: the usual case, at once.
+  const double before = rate;
+  if (all > 0) limit(next, static_cast<double>(all));
+  if (rate >= before && all <= static_cast<std::uint64_t>(options_.node_records)) return rate;
+  rate = before;
 
   for (int k = 1; k <= kSteps; ++k) {
     const std::int64_t until = std::min(now + k * kStepUnits, made);
