@@ -101,7 +101,7 @@ constexpr void add_manufacturer_objects(T& t) {
   t.var(0x2115, "Starvation margin", kU16, kReadWrite, kParameter, 50).between(0, 1000).in("ms");
   t.var(0x2116, "Configuration fingerprint", kU32, kReadOnly, kLive);
   t.head(0x2120, "Counters", ObjectCode::kRecord, static_cast<std::uint8_t>(NodeCounter::kLast));
-  for (std::uint8_t i = 0; i < kCounterNames.size(); ++i)
+  for (std::uint8_t i = 0; i < static_cast<std::uint8_t>(NodeCounter::kLast); ++i)
     t.sub(static_cast<std::uint8_t>(i + 1), kCounterNames[i], kU32, kReadOnly, kLive);
   t.head(0x2130, "Switch input function", ObjectCode::kArray, kSwitchInputs);
   for (std::uint8_t i = 0; i < kSwitchInputs; ++i)

@@ -14,7 +14,10 @@ struct ObjectAddress {
 
   /// For switch statements and sorting: index << 8 | subindex.
   constexpr std::uint32_t key() const { return (static_cast<std::uint32_t>(index) << 8) | subindex; }
-  friend constexpr auto operator<=>(const ObjectAddress&, const ObjectAddress&) = default;
+  friend constexpr bool operator==(const ObjectAddress&, const ObjectAddress&) = default;
+  friend constexpr bool operator<(const ObjectAddress& a, const ObjectAddress& b) {
+    return a.key() < b.key();
+  }
 };
 
 /// Offset of the second axis' objects (CiA 402 for 0x6000 ff., and the same for the manufacturer's 0x2140

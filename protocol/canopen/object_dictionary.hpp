@@ -34,7 +34,7 @@ class ObjectDictionary final : public SdoObjects {
   /// All values at their defaults, those relative to the node id with `node_id` added.
   explicit ObjectDictionary(ObjectOwner& owner, std::uint8_t node_id = 0);
 
-  /// Back to the defaults: parameters and variables, or parameters only. The owner is not asked.
+  /// All values back to their defaults. The owner is not asked.
   void restore(std::uint8_t node_id);
 
   std::int64_t value(ObjectSlot slot) const { return values_[slot.value]; }

@@ -9,6 +9,7 @@ namespace {
 constexpr std::int64_t kHorizonNs = 16'000'000'000;
 // A sample further than this from the fit is a mistake (a wrong pairing, a clock that jumped), not latency.
 constexpr std::int64_t kMistakeNs = 8'000'000;
+constexpr std::int64_t kLongestGapNs = 30'000'000'000;
 // So many mistakes one after another mean that the fit is the mistake.
 constexpr int kMaxStrangers = 3;
 constexpr std::int64_t kMaxSlopePpm = 300;
@@ -79,14 +80,16 @@ ClockEstimate::Update ClockEstimate::on_stamp(const SyncStamp& stamp, LocalTime 
     strangers_ = 0;
   }
   const Sample sample{bus - origin_bus_, local - bus - origin_delta_};
-  const bool backwards = count_ != 0 && sample.bus <= at(count_ - 1).bus;
-  if (count_ != 0 && (backwards || magnitude(residual(sample)) > kMistakeNs)) {
+  // A stamp of long after would leave the 64 bits of residual(), and tells nothing about the line before it.
+  const std::int64_t gap = count_ == 0 ? 1 : sample.bus - at(count_ - 1).bus;
+  const bool strange = gap <= 0 || gap > kLongestGapNs;
+  if (count_ != 0 && (strange || magnitude(residual(sample)) > kMistakeNs)) {
     ++counters_.outliers;
     if (++strangers_ < kMaxStrangers) return update;
     count_ = 0;
     origin_bus_ = bus;
     origin_delta_ = local - bus;
-    synchronised_ = joining_ = false;
+    joining_ = started_;
     strangers_ = 0;
     add({0, 0});
   } else {
@@ -156,8 +159,8 @@ int ClockEstimate::hull(Hull& out, bool lower, std::int64_t residual_limit) cons
     const Sample& c = at(i);
     if (!lower && residual(c) > residual_limit) continue;
     while (size >= 2) {
-      const Sample& a = at(out[static_cast<std::size_t>(size - 2)]);
-      const Sample& b = at(out[static_cast<std::size_t>(size - 1)]);
+      const Sample& a = corner(out, size - 2);
+      const Sample& b = corner(out, size - 1);
       const std::int64_t turn = (b.delta - a.delta) * (c.bus - a.bus) - (c.delta - a.delta) * (b.bus - a.bus);
       if (lower ? turn < 0 : turn > 0) break;
       --size;
@@ -180,7 +183,7 @@ void ClockEstimate::fit() {
   // First the line that bears the cloud at its middle, to tell outliers by.
   const std::int64_t middle = (at(0).bus + at(count_ - 1).bus) / 2;
   int edge = 0;
-  while (edge + 2 < low_size && at(low[static_cast<std::size_t>(edge + 1)]).bus < middle) ++edge;
+  while (edge + 2 < low_size && corner(low, edge + 1).bus < middle) ++edge;
   const auto slope_between = [&](const Sample& a, const Sample& b) {
     const std::int64_t rise = std::clamp<std::int64_t>(b.delta - a.delta, -(1 << 23), 1 << 23);
     return std::clamp((rise << kRateBits) / (b.bus - a.bus), -max_slope, max_slope);
@@ -188,13 +191,12 @@ void ClockEstimate::fit() {
   const auto lowest = [&](std::int64_t slope) {
     std::int64_t value = std::numeric_limits<std::int64_t>::max();
     for (int i = 0; i < low_size; ++i) {
-      const Sample& s = at(low[static_cast<std::size_t>(i)]);
+      const Sample& s = corner(low, i);
       value = std::min(value, s.delta - ((slope * s.bus) >> kRateBits));
     }
     return value;
   };
-  slope_ =
-      slope_between(at(low[static_cast<std::size_t>(edge)]), at(low[static_cast<std::size_t>(edge + 1)]));
+  slope_ = slope_between(corner(low, edge), corner(low, edge + 1));
   offset_ = lowest(slope_);
 
   // The mean latency of all but the far outliers; 2.5 times it holds any latency spread evenly over an
@@ -215,16 +217,14 @@ void ClockEstimate::fit() {
   const auto consider = [&](std::int64_t slope) {
     std::int64_t top = std::numeric_limits<std::int64_t>::min();
     for (int i = 0; i < high_size; ++i) {
-      const Sample& s = at(high[static_cast<std::size_t>(i)]);
+      const Sample& s = corner(high, i);
       top = std::max(top, s.delta - ((slope * s.bus) >> kRateBits));
     }
     const std::int64_t width = top - lowest(slope);
     if (width < best_width) best_width = width, best_slope = slope;
   };
-  for (int i = 0; i + 1 < low_size; ++i)
-    consider(slope_between(at(low[static_cast<std::size_t>(i)]), at(low[static_cast<std::size_t>(i + 1)])));
-  for (int i = 0; i + 1 < high_size; ++i)
-    consider(slope_between(at(high[static_cast<std::size_t>(i)]), at(high[static_cast<std::size_t>(i + 1)])));
+  for (int i = 0; i + 1 < low_size; ++i) consider(slope_between(corner(low, i), corner(low, i + 1)));
+  for (int i = 0; i + 1 < high_size; ++i) consider(slope_between(corner(high, i), corner(high, i + 1)));
   if (high_size >= 2) {
     slope_ = best_slope;
     offset_ = lowest(slope_);

@@ -30,8 +30,9 @@ class ClockEstimate {
   };
   struct Update {
     bool used = false;  ///< a sample more
-    bool epoch_joined =
-        false;  ///< to_bus() has just stepped by `epoch_shift`: shift all that is named by bus time
+    /// to_bus() has just stepped by `epoch_shift` (a new epoch, or a gateway clock that jumped without
+    /// telling): shift all that is named by bus time.
+    bool epoch_joined = false;
     BusTime epoch_shift{0};
   };
 
@@ -87,6 +88,7 @@ class ClockEstimate {
   void add(const Sample& sample);
   void drop_old();
   const Sample& at(int i) const { return samples_[static_cast<std::size_t>((first_ + i) % kWindow)]; }
+  const Sample& corner(const Hull& hull, int i) const { return at(hull[static_cast<std::size_t>(i)]); }
   void rebase();
   void fit();
   int hull(Hull& out, bool lower, std::int64_t residual_limit) const;

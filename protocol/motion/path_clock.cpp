@@ -64,8 +64,8 @@ PathClock::PathClock(Options options) : options_(options) {
 
 const PathClock::Leg& PathClock::leg_at(std::int64_t t) const {
   int i = count_ - 1;
-  while (i > 0 && t < legs_[static_cast<std::size_t>(i)].start) --i;
-  return legs_[static_cast<std::size_t>(i)];
+  while (i > 0 && t < leg(i).start) --i;
+  return leg(i);
 }
 
 PathTime PathClock::tau(BusTime t) const {
@@ -78,12 +78,12 @@ std::uint64_t PathClock::rate_q32(BusTime t) const {
 
 void PathClock::push(std::int64_t start, std::int64_t tau0, std::uint64_t rate_q32, std::uint64_t full_ramp,
                      bool rising) {
-  Leg leg{.start = start, .tau0 = tau0, .rate_q32 = rate_q32, .full_ramp_ns = full_ramp, .rising = rising};
+  Leg fresh{.start = start, .tau0 = tau0, .rate_q32 = rate_q32, .full_ramp_ns = full_ramp, .rising = rising};
   // a = rate * 0.016 * 2^(12+50), b = 0.016 * 2^(12+50) / (2 * ramp); both rounded down, so a falling ramp's
   // parabola never passes its vertex within the ramp.
-  leg.a = shift_right(multiply(rate_q32, kTicksPerNsQ64), 64 + 32 - kTauBits - kScaleBits);
-  if (full_ramp != 0) leg.b = (kTicksPerNsQ64 >> (64 - kTauBits - kScaleBits + 1)) / full_ramp;
-  legs_[static_cast<std::size_t>(count_++)] = leg;
+  fresh.a = shift_right(multiply(rate_q32, kTicksPerNsQ64), 64 + 32 - kTauBits - kScaleBits);
+  if (full_ramp != 0) fresh.b = (kTicksPerNsQ64 >> (64 - kTauBits - kScaleBits + 1)) / full_ramp;
+  leg(count_++) = fresh;
 }
 
 /// Puts a ramp to `target_q32` at `start` in place of all that came after.
@@ -91,7 +91,7 @@ void PathClock::change(std::int64_t start, std::uint64_t target_q32, std::uint8_
   const Leg& base = leg_at(start);
   const std::uint64_t from_q32 = base.rate_at(start);
   const std::int64_t tau0 = base.tau_at(start);
-  while (count_ > 1 && legs_[static_cast<std::size_t>(count_ - 1)].start >= start) --count_;
+  while (count_ > 1 && leg(count_ - 1).start >= start) --count_;
   const std::uint64_t ramp = full_ramp_ns(std::max(full_ramp_2ms, options_.least_full_ramp_2ms));
   const bool rising = target_q32 > from_q32;
   const std::uint64_t difference = rising ? target_q32 - from_q32 : from_q32 - target_q32;
@@ -99,7 +99,7 @@ void PathClock::change(std::int64_t start, std::uint64_t target_q32, std::uint8_
   std::int64_t end_tau = tau0;
   if (duration > 0) {
     push(start, tau0, from_q32, ramp, rising);
-    end_tau = legs_[static_cast<std::size_t>(count_ - 1)].tau_at(start + duration);
+    end_tau = leg(count_ - 1).tau_at(start + duration);
   }
   push(start + duration, end_tau, target_q32, 0, false);
 }
@@ -152,23 +152,23 @@ std::optional<BusTime> PathClock::when(PathTime path) const {
   const std::int64_t wanted = path.count() << kTauBits;
   if (wanted <= legs_[0].tau0) return BusTime{legs_[0].start};
   for (int i = 0; i < count_; ++i) {
-    const Leg& leg = legs_[static_cast<std::size_t>(i)];
+    const Leg& here = leg(i);
     const bool last = i + 1 == count_;
-    std::int64_t low = leg.start;  // tau(low) < wanted
-    std::int64_t high = low;
+    std::int64_t low = here.start;  // tau(low) < wanted
+    std::int64_t high;
     if (!last) {
-      high = legs_[static_cast<std::size_t>(i + 1)].start;
-      if (legs_[static_cast<std::size_t>(i + 1)].tau0 < wanted) continue;
+      high = leg(i + 1).start;
+      if (leg(i + 1).tau0 < wanted) continue;
     } else {
-      if (leg.rate_q32 == 0) return std::nullopt;
+      if (here.rate_q32 == 0) return std::nullopt;
       // At rate 1, 62.5 ns a tick: a first guess that is never too late.
-      std::int64_t step = std::max<std::int64_t>(((wanted - leg.tau0) >> kTauBits) * 62, 64);
+      std::int64_t step = std::max<std::int64_t>(((wanted - here.tau0) >> kTauBits) * 62, 64);
       high = low + step;
-      while (leg.tau_at(high) < wanted) low = high, step *= 2, high = low + step;
+      while (here.tau_at(high) < wanted) low = high, step *= 2, high = low + step;
     }
     while (high - low > 1) {
       const std::int64_t middle = low + (high - low) / 2;
-      (leg.tau_at(middle) < wanted ? low : high) = middle;
+      (here.tau_at(middle) < wanted ? low : high) = middle;
     }
     return BusTime{high};
   }
@@ -178,8 +178,8 @@ std::optional<BusTime> PathClock::when(PathTime path) const {
 bool PathClock::at_rest(BusTime t) const {
   if (rate_q32(t) != 0) return false;
   for (int i = 0; i < count_; ++i) {
-    const Leg& leg = legs_[static_cast<std::size_t>(i)];
-    if (leg.start > t.count() && (leg.rate_q32 != 0 || leg.rising)) return false;
+    const Leg& here = leg(i);
+    if (here.start > t.count() && (here.rate_q32 != 0 || here.rising)) return false;
   }
   return !leg_at(t.count()).rising;
 }
@@ -191,8 +191,7 @@ std::optional<BusTime> PathClock::stop_start() const {
 
 std::optional<BusTime> PathClock::next_change(BusTime t) const {
   for (int i = 0; i < count_; ++i)
-    if (legs_[static_cast<std::size_t>(i)].start > t.count())
-      return BusTime{legs_[static_cast<std::size_t>(i)].start};
+    if (leg(i).start > t.count()) return BusTime{leg(i).start};
   return std::nullopt;
 }
 
@@ -205,7 +204,7 @@ bool PathClock::set_tau(PathTime path, BusTime now) {
 
 void PathClock::shift(BusTime by) {
   for (int i = 0; i < count_; ++i) {
-    std::int64_t& start = legs_[static_cast<std::size_t>(i)].start;
+    std::int64_t& start = leg(i).start;
     if (start != kLongAgo) start += by.count();
   }
   if (stop_) stop_->start += by.count();
@@ -216,7 +215,7 @@ void PathClock::shift(BusTime by) {
 void PathClock::forget_before(BusTime now) {
   const std::int64_t kept = (now - options_.rewind).count();
   int old = 0;
-  while (old + 1 < count_ && legs_[static_cast<std::size_t>(old + 1)].start <= kept) ++old;
+  while (old + 1 < count_ && leg(old + 1).start <= kept) ++old;
   if (old == 0) return;
   std::move(legs_.begin() + old, legs_.begin() + count_, legs_.begin());
   count_ -= old;

@@ -85,6 +85,8 @@ class PathClock {
     std::uint8_t full_ramp_2ms = 50;
   };
 
+  Leg& leg(int i) { return legs_[static_cast<std::size_t>(i)]; }
+  const Leg& leg(int i) const { return legs_[static_cast<std::size_t>(i)]; }
   const Leg& leg_at(std::int64_t t) const;
   Outcome settle_start(BusTime start, BusTime now, std::int64_t& effective) const;
   void change(std::int64_t start, std::uint64_t target_q32, std::uint8_t full_ramp_2ms);

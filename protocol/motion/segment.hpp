@@ -1,9 +1,11 @@
 #pragma once
-// A segment: what one streamed frame tells a node. Duration and one constant acceleration for each of its two axes;
-// position and velocity simply continue. The arithmetic below is exact in integers and runs on the node, in the
-// gateway and in the simulation alike, so the gateway knows every node's position to the last bit.
+// A segment: what one streamed frame tells a node. Duration and one constant acceleration for each of its two
+// axes; position and velocity simply continue. The arithmetic below is exact in integers and runs on the
+// node, in the gateway and in the simulation alike, so the gateway knows every node's position to the last
+// bit.
 //
-// The frame's 64 bits, least significant first: sequence 7 | duration 13 | acceleration A 22 | acceleration B 22.
+// The frame's 64 bits, least significant first: sequence 7 | duration 13 | acceleration A 22 | acceleration
+// B 22.
 //   duration 1..8191 units of 16 us (up to 131 ms); duration 0: a control record (see SegmentControl).
 //   acceleration: signed, unit 2^(shift+1) * 2^-32 counts/unit^2; with the default shift of 2 that is
 //   7.28 counts/s^2, range +-15.3e6 counts/s^2 (11.9 m/s^2 at 0.78125 um a count).
@@ -50,13 +52,14 @@ constexpr std::int64_t velocity_at(AxisState s, std::int32_t acceleration, std::
   return s.velocity + ((static_cast<std::int64_t>(acceleration) * ticks) >> (7 - shift));
 }
 
-/// What a record of duration 0 says. `start`: the following segments begin at path time `start_units` (in 16 us
-/// units; a knot is always on this grid). `end`: motion ends here, at rest; an empty queue is then no underrun.
+/// What a record of duration 0 says. `start`: the following segments begin at path time `start_units` (in 16
+/// us units; a knot is always on this grid). `end`: motion ends here, at rest; an empty queue is then no
+/// underrun.
 enum class SegmentControl : std::uint8_t { kNone = 0, kStart = 1, kEnd = 2 };
 
 struct Segment {
-  std::uint8_t sequence = 0;    ///< 0..127, counts every record of a node, control records included
-  std::uint16_t duration = 0;   ///< units of 16 us; 0: control record
+  std::uint8_t sequence = 0;   ///< 0..127, counts every record of a node, control records included
+  std::uint16_t duration = 0;  ///< units of 16 us; 0: control record
   std::array<std::int32_t, kAxesPerNode> acceleration{};
   SegmentControl control = SegmentControl::kNone;
   std::int64_t start_units = 0;  ///< kStart only; 0 .. 2^42-1 (2.2 years)
@@ -92,9 +95,9 @@ constexpr std::optional<Segment> decode_segment(std::uint64_t raw) {
   return s;
 }
 
-/// An absolute checkpoint: what the state of one axis must be at the knot *before* record `sequence` is executed.
-/// Bits: sequence 7 | axis 1 | position, the 56 bits above the 8 lowest of AxisState::position (24 fractional bits
-/// and 32 of whole counts). The node compares exactly and stops on the path when it differs.
+/// An absolute checkpoint: what the state of one axis must be at the knot *before* record `sequence` is
+/// executed. Bits: sequence 7 | axis 1 | position, the 56 bits above the 8 lowest of AxisState::position (24
+/// fractional bits and 32 of whole counts). The node compares exactly and stops on the path when it differs.
 struct Checkpoint {
   std::uint8_t sequence = 0;
   std::uint8_t axis = 0;
@@ -109,6 +112,8 @@ constexpr Checkpoint decode_checkpoint(std::uint64_t raw) {
   return {static_cast<std::uint8_t>(raw & 0x7F), static_cast<std::uint8_t>((raw >> 7) & 1),
           (static_cast<std::int64_t>(raw) >> 8) * 256};
 }
-constexpr bool agrees(const Checkpoint& c, const AxisState& s) { return (s.position >> 8) == (c.position >> 8); }
+constexpr bool agrees(const Checkpoint& c, const AxisState& s) {
+  return (s.position >> 8) == (c.position >> 8);
+}
 
 }  // namespace kinebus

@@ -233,6 +233,27 @@ TEST(ClockEstimate, JoinsANewEpochByOneToldShift) {
   EXPECT_TRUE(estimate.synchronised());
 }
 
+TEST(ClockEstimate, AJumpOfTheGatewaysClockIsToldLikeAnEpoch) {
+  ClockEstimate estimate;
+  int joined_at = 0;
+  for (int i = 1; i < 200; ++i) {
+    const BusTime t = seconds{50} + milliseconds{50} * i;
+    const BusTime stamped = i > 100 ? t + milliseconds{70} : t;
+    const auto counter = static_cast<std::uint8_t>(i);
+    estimate.on_sync(counter, t + microseconds{(i * 7) % 20});
+    const LocalTime now = t + milliseconds{1};
+    const BusTime before = estimate.to_bus(now);
+    const auto update = estimate.on_stamp({counter, 1, stamped}, now);
+    if (update.epoch_joined) {
+      joined_at = i;
+      EXPECT_LT(std::chrono::abs(update.epoch_shift - milliseconds{70}), BusTime{microseconds{40}});
+    } else if (i > ClockEstimate::kMinimumSamples) {
+      EXPECT_LT(std::chrono::abs(estimate.to_bus(now) - before), BusTime{microseconds{1}}) << i;
+    }
+  }
+  EXPECT_NEAR(joined_at, 102 + ClockEstimate::kMinimumSamples, 2);
+}
+
 TEST(ClockEstimate, StampsWithoutTheirSyncAreCountedNotUsed) {
   ClockEstimate estimate;
   EXPECT_FALSE(estimate.on_stamp({5, 1, seconds{1}}, seconds{1}).used);
