@@ -151,6 +151,8 @@ Segmenter::Fit Segmenter::fit(std::int32_t units, Goal goal) {
   Fit f{.units = std::clamp(units, 1, kMaxSegmentUnits)};
   const double h = f.units, end = static_cast<double>(at_.knot) + h;
   Target target{.goal = goal, .per_h2 = 1 / (h * h), .last = piece_at(end, 0)};
+  // A piece that only the rounding of the knot touches counts for the end state, which is compared itself.
+  target.covered = target.last > 0 && piece(target.last).start > end - 1 ? target.last - 1 : target.last;
   if (goal == Goal::kRunOn) {
     target.next = next_units(end, target.last, std::min(kLongest, kMostNext * h));
     const double weight = std::clamp(target.next * h * target.per_h2, kLeastNext, kMostNext);
@@ -164,7 +166,7 @@ Segmenter::Fit Segmenter::fit(std::int32_t units, Goal goal) {
 void Segmenter::fit_axis(std::size_t axis, const Target& target, Fit& f) const {
   const Axis& state = at_.axes[axis];
   const double h = f.units;
-  const Bounds bound = bounds(axis, h, target.last);
+  const Bounds bound = bounds(axis, h, target.covered);
   Miss m;
   double a = 0;
   Extreme worst;
@@ -178,7 +180,7 @@ void Segmenter::fit_axis(std::size_t axis, const Target& target, Fit& f) const {
         std::clamp<double>(wanted * raw_per_unit_, -kMaxSegmentAcceleration, kMaxSegmentAcceleration);
     f.acceleration[axis] = static_cast<std::int32_t>(raw + std::copysign(0.5, raw));
     a = f.acceleration[axis] * unit_per_raw_;
-    worst = error_over(axis, a, h, target.last);
+    worst = error_over(axis, a, h, target.covered);
   };
   if (target.goal != Goal::kRunOn) {
     a = resting_acceleration(axis, h, target.goal);
@@ -196,8 +198,8 @@ void Segmenter::fit_axis(std::size_t axis, const Target& target, Fit& f) const {
     const double repaired = a + std::copysign(excess, worst.value) / (worst.x * worst.x);
     apply(bound.clamp(end_within(kMostRepairedEndError, repaired)));
   }
-  f.error = std::max(f.error, std::abs(worst.value) * state.per_tolerance);
   const double r = m.position - a * h * h, w = m.velocity - 2 * a * h;
+  f.error = std::max(f.error, std::max(std::abs(worst.value), std::abs(r)) * state.per_tolerance);
   // What there is to spare of acceleration must be able to brake w before it leaves the tolerance.
   const double braked = std::copysign(1.0, w) * r + w * w / (4 * spare(axis, std::abs(m.bend)));
   const double cost = std::max(std::abs(r) + kVelocityCost * std::min(h, target.next) * std::abs(w), braked);

@@ -108,7 +108,7 @@ class Segmenter {
   struct Target {
     Goal goal{};
     double per_h2 = 0;
-    std::size_t last = 0;                  ///< piece that holds at the segment's end
+    std::size_t last = 0, covered = 0;     ///< pieces that hold at the segment's end, and just before it
     double next = 0;                       ///< units that the next segment will go
     double velocity_share = 0, scale = 0;  ///< a = (position + velocity_share * velocity) * scale
   };
