@@ -3,6 +3,9 @@
 #include <algorithm>
 
 namespace kinebus {
+namespace {
+constexpr BusTime kShortestTurn = std::chrono::microseconds{20};
+}  // namespace
 
 Simulation::Simulation(const MachineDescription& machine, const Kinematics& kinematics,
                        const SimulationOptions& options)
@@ -34,7 +37,8 @@ BusTime Simulation::gateway_due() {
       woken_ += BusTime{static_cast<std::int64_t>(
           random_() % static_cast<std::uint64_t>(options_.gateway_latency_max.count()))};
   }
-  return std::max(woken_, now_);
+  // A task that has just run does not run again in the same instant.
+  return std::max({woken_, served_ + kShortestTurn, now_});
 }
 
 void Simulation::serve_gateway(BusTime now) {
@@ -66,6 +70,7 @@ void Simulation::step(BusTime until) {
   if (done) now_ = std::max(now_, next);
   if (done && now_ >= gateway_time) {
     gateway_.on_time(now_);
+    served_ = now_;
     asked_ = BusTime::max();
     stirred = true;
   }

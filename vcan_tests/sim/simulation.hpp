@@ -67,6 +67,7 @@ class Simulation {
   BusTime now_{0};
   BusTime next_sample_{0};
   BusTime asked_{BusTime::max()}, woken_{0};  // the gateway's deadline, and when Linux lets it run
+  BusTime served_{-1'000'000};                // when it ran last
   Sample last_{};
   PoseVector warm_{};
   std::uint64_t hash_ = 1469598103934665603ULL;
