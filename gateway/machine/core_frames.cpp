@@ -92,7 +92,10 @@ BusTime Gateway::Core::next_deadline() const {
       break;
   }
   BusTime due = now_ + wait;
-  if (speaking_) due = std::min({due, sync_.next_deadline(), heartbeat_.next_deadline()});
+  if (!speaking_) return due;
+  // What is due already waits for the bus, not for time: it is pulled when a frame can be sent.
+  for (const BusTime deadline : {sync_.next_deadline(), heartbeat_.next_deadline()})
+    if (deadline > now_) due = std::min(due, deadline);
   return due;
 }
 

@@ -74,7 +74,7 @@ class Gateway {
   /// What to send now, most urgent first: rate and stop, SYNC, stamp, NMT, SDO, records by earliest deadline.
   /// Pull when the bus can take a frame, not ahead: the order is decided late.
   std::optional<CanFrame> next_frame(BusTime now);
-  BusTime next_deadline() const;  ///< when on_time is next needed
+  BusTime next_deadline() const;  ///< when on_time is next needed: always later than the last time given
   /// The bus controller reported bus-off or lost its carrier: motion cannot be commanded any more.
   void on_bus_failure(BusTime now, std::string_view what);
 

@@ -16,15 +16,16 @@ namespace kinebus {
 
 class MachineRig {
  public:
-  explicit MachineRig(MachineDescription description = default_m1(), std::uint64_t seed = 1)
-      : machine(std::move(description)),
-        gateway(machine),
-        nodes(
-            virtual_nodes_of(machine, {.drift_ppm = 40, .latency_max = std::chrono::microseconds{10}}, seed),
-            seed) {}
+  using Nodes = std::vector<VirtualNodeOptions>;
+  /// `alter`: changes the virtual nodes before they are built.
+  explicit MachineRig(MachineDescription description = default_m1(),
+                      const std::function<void(Nodes&)>& alter = {}, std::uint64_t seed = 1)
+      : machine(std::move(description)), gateway(machine), nodes(make_nodes(machine, alter, seed), seed) {}
 
   /// Frames on their way to the gateway for which this is true are lost.
   std::function<bool(const CanFrame&)> lose_to_gateway;
+  /// Frames of the gateway for which this is true are lost, though it believes they went out.
+  std::function<bool(const CanFrame&)> lose_from_gateway;
   /// Sees all frames of the bus.
   std::function<void(BusTime, const CanFrame&)> on_frame;
 
@@ -93,11 +94,21 @@ class MachineRig {
   std::vector<MachineEvent> events;
 
  private:
+  static Nodes make_nodes(const MachineDescription& machine, const std::function<void(Nodes&)>& alter,
+                          std::uint64_t seed) {
+    Nodes made =
+        virtual_nodes_of(machine, {.drift_ppm = 40, .latency_max = std::chrono::microseconds{10}}, seed);
+    if (alter) alter(made);
+    return made;
+  }
   void serve() {
     while (nodes.can_send()) {
       const auto frame = gateway.next_frame(now);
       if (!frame) break;
-      nodes.send(now, *frame);
+      if (lose_from_gateway && lose_from_gateway(*frame))
+        gateway.on_frame_sent(now, *frame);
+      else
+        nodes.send(now, *frame);
     }
     while (auto event = gateway.next_event()) events.push_back(std::move(*event));
   }
