@@ -6,7 +6,9 @@
 namespace kinebus {
 
 namespace {
-constexpr double kShortestPhase_s = 1e-9;
+// Shorter phases have no span of their own: rounding would show as acceleration (1e-13 mm over 1e-8 s is 1000
+// mm/s^2). The span after them begins before them; a change of 6000 mm/s^2 in between costs it 0.004 um.
+constexpr double kShortestPhase_s = 2e-7;
 constexpr double kRestSpeed = 1e-3;  // mm/s: what the planner's rounding may leave of a stop
 // Both checks hold exactly as long as the fourth derivative is constant over the span; the rest is for when
 // it is not.
@@ -52,15 +54,18 @@ Result<void, StreamError> JointSampler::push(const Phase& phase) {
   if (speed > kRestSpeed)
     return Error<StreamError>({.kind = StreamError::Kind::kNotAtRest, .line = phase.line, .amount = speed});
   ++counters_.phases;
-  if (phase.duration_s < kShortestPhase_s && !phase.last) return {};
   phase_ = phase;
   if (!have_knot_) {
     if (auto ok = evaluate(0, knot_); !ok) return ok;
     knot_.q1 = {};
     have_knot_ = true;
   }
+  if (phase.duration_s < kShortestPhase_s && !phase.last) {
+    done_s_ -= phase.duration_s;
+    phase_start_s_ += phase.duration_s;
+    return {};
+  }
   active_ = true;
-  done_s_ = 0;
   step_s_ = phase.duration_s / std::max(1.0, std::ceil(phase.duration_s / options_.longest_span_s));
   return {};
 }
@@ -136,6 +141,7 @@ Result<std::optional<JointSpan>, StreamError> JointSampler::next() {
     span.last = phase_.last;
     ended_ = phase_.last;
     phase_start_s_ += phase_.duration_s;
+    done_s_ = 0;
     active_ = false;
   }
   return result;

@@ -41,7 +41,7 @@ class JointSampler {
   void restart();
   bool wants_phase() const { return !active_ && !ended_; }
   /// Error kPose: its first pose cannot be taken; kPhaseOrder: not asked for; kNotAtRest: a speed at the
-  /// run's start or, with phase.last, at its end. Phases shorter than a nanosecond are passed over.
+  /// run's start or, with phase.last, at its end. Phases below 0.2 us go into the next span.
   Result<void, StreamError> push(const Phase& phase);
   /// The next span, of which the one that ends a phase with `last` is marked `last`. nullopt: push a phase,
   /// or the run is over. Error kPose: the path cannot be reached there.
@@ -72,7 +72,9 @@ class JointSampler {
   JointVector per_tolerance_{};  ///< 1 / tolerance of each joint
   Phase phase_{};
   bool active_ = false, ended_ = false, have_knot_ = false;
-  double phase_start_s_ = 0, done_s_ = 0, step_s_ = 0;
+  double phase_start_s_ = 0;
+  double done_s_ = 0;  ///< of the phase; negative at first where shorter phases came before
+  double step_s_ = 0;
   Knot knot_{};
 };
 

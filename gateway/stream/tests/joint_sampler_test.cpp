@@ -62,6 +62,27 @@ TEST(JointSampler, SpansJoinWithEqualValueAndSlope) {
   EXPECT_NEAR(spans.back().velocity(0, spans.back().duration_s), 0, 1e-9);
 }
 
+TEST(JointSampler, PhasesOfNanosecondsMakeNoSpikesOfAcceleration) {
+  const auto kinematics = m1();
+  auto phases = printed_lines(4, {.lines = 30});
+  // A cut 5 ns before the end of every phase, as rounding in a planner makes it.
+  std::vector<Phase> cut;
+  for (const Phase& phase : phases) {
+    Phase head = phase, tail = phase;
+    head.duration_s -= 5e-9;
+    head.last = false;
+    tail.s0 = phase.s(head.duration_s);
+    tail.v0 = phase.speed(head.duration_s);
+    tail.duration_s = 5e-9;
+    cut.push_back(head);
+    cut.push_back(tail);
+  }
+  for (const JointSpan& span : sample(*kinematics, cut))
+    for (std::size_t j = 0; j < kJoints; ++j)
+      for (const double t : {0.0, span.duration_s})
+        EXPECT_LT(std::abs(2 * span.coefficients[j][2] + 6 * span.coefficients[j][3] * t), 5000);
+}
+
 TEST(JointSampler, TakesOneEvaluationForMostSpansOfAPrint) {
   const auto kinematics = m1();
   JointSampler sampler(*kinematics);
