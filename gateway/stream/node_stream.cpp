@@ -86,9 +86,8 @@ void NodeStream::release(std::int64_t start_units) {
 }
 
 std::optional<CanFrame> NodeStream::next_frame(BusTime now, PathTime tau) {
-  if (sent_ == end_ || sent_ >= credit_ || (open_ && sent_ >= released_)) return std::nullopt;
+  if (!has_frame(tau)) return std::nullopt;
   const Record& record = at(sent_);
-  if (record.start_units > floor_units(tau) + options_.horizon.count()) return std::nullopt;
   const auto sequence = static_cast<std::uint8_t>(sent_ % kSequenceModulus);
   const std::uint8_t due = record.checkpoints & static_cast<std::uint8_t>(~checkpoints_sent_);
   if (due != 0) {

@@ -53,7 +53,13 @@ class NodeStream {
   /// The open run starts at this absolute path time (16 us units): its records may now go out.
   void release(std::int64_t start_units);
 
-  /// Next frame that may go out at path time tau; nullopt: nothing now (credit, horizon or all sent).
+  /// A frame may go out at path time tau: there is a record, the node has room for it, and it is within the
+  /// horizon.
+  bool has_frame(PathTime tau) const {
+    return sent_ < end_ && sent_ < credit_ && !(open_ && sent_ >= released_) &&
+           at(sent_).start_units <= (tau.count() >> 8) + options_.horizon.count();
+  }
+  /// That frame; nullopt: none now.
   std::optional<CanFrame> next_frame(BusTime now, PathTime tau);
   Result<void, StreamError> on_status(BusTime now, const StreamStatus& status, PathTime tau);
 

@@ -104,22 +104,12 @@ void StreamGroup::cancel() {
 
 std::optional<CanFrame> StreamGroup::next_frame(BusTime now, PathTime tau) {
   if (state_ != State::kRunning) return std::nullopt;
-  std::int64_t passed = std::numeric_limits<std::int64_t>::min();
-  // Nodes in order of what they hold; equal ones in order of their place.
-  std::size_t passed_index = 0;
-  for (std::size_t tried = 0; tried < nodes_.size(); ++tried) {
-    std::size_t best = nodes_.size();
-    for (std::size_t i = 0; i < nodes_.size(); ++i) {
-      const std::int64_t until = nodes_[i].stream.sent_until_units();
-      const bool after = until > passed || (until == passed && i > passed_index) || tried == 0;
-      if (after && (best == nodes_.size() || until < nodes_[best].stream.sent_until_units())) best = i;
-    }
-    if (best == nodes_.size()) break;
-    if (auto frame = nodes_[best].stream.next_frame(now, tau)) return frame;
-    passed = nodes_[best].stream.sent_until_units();
-    passed_index = best;
-  }
-  return std::nullopt;
+  NodeStream* first = nullptr;
+  for (Node& node : nodes_)
+    if (node.stream.has_frame(tau) &&
+        (first == nullptr || node.stream.sent_until_units() < first->sent_until_units()))
+      first = &node.stream;
+  return first == nullptr ? std::nullopt : first->next_frame(now, tau);
 }
 
 Result<void, StreamError> StreamGroup::on_status(BusTime now, std::uint8_t node_id,
