@@ -61,9 +61,18 @@ std::string temperatures(const MachineStatus& s) {
                s.bed.actual_celsius, s.bed.target_celsius);
 }
 
+/// No "-0.000".
+double tidy3(double value) {
+  return std::abs(value) < 5e-4 ? 0.0 : value;
+}
+double tidy(double value) {
+  return std::abs(value) < 5e-5 ? 0.0 : value;
+}
+
 std::string position(const MachineStatus& s) {
-  std::string text = print("X:%.3f Y:%.3f Z:%.3f A:%.4f C:%.4f E:%.4f Count", s.pose[kX], s.pose[kY],
-                           s.pose[kZ], s.pose[kA] * kDegrees, s.pose[kC] * kDegrees, s.pose[kE]);
+  std::string text =
+      print("X:%.3f Y:%.3f Z:%.3f A:%.4f C:%.4f E:%.4f Count", tidy3(s.pose[kX]), tidy3(s.pose[kY]),
+            tidy3(s.pose[kZ]), tidy(s.pose[kA] * kDegrees), tidy(s.pose[kC] * kDegrees), tidy(s.pose[kE]));
   for (int joint = 0; joint < s.joint_count; ++joint)
     text += print(" %d:%.4f", joint + 1, s.joints[static_cast<std::size_t>(joint)]);
   return text + (s.positions_known ? "" : " (not homed)");

@@ -20,7 +20,9 @@ class MachineRig {
   /// `alter`: changes the virtual nodes before they are built.
   explicit MachineRig(MachineDescription description = default_m1(),
                       const std::function<void(Nodes&)>& alter = {}, std::uint64_t seed = 1)
-      : machine(std::move(description)), gateway(machine), nodes(make_nodes(machine, alter, seed), seed) {}
+      : machine(std::move(description)),
+        gateway(std::make_unique<Gateway>(machine)),
+        nodes(make_nodes(machine, alter, seed), seed) {}
 
   /// Frames on their way to the gateway for which this is true are lost.
   std::function<bool(const CanFrame&)> lose_to_gateway;
@@ -43,17 +45,17 @@ class MachineRig {
     return true;
   }
   bool reach(MachineState state, BusTime limit = std::chrono::seconds{60}) {
-    return run_until([&] { return gateway.state() == state; }, limit);
+    return run_until([&] { return gateway->state() == state; }, limit);
   }
   /// Brings up, homes and goes to the bed reference.
   bool make_ready() {
     using namespace std::chrono_literals;
-    if (!gateway.bring_up() || !reach(MachineState::kUnhomed, 30s)) return false;
-    if (!gateway.home() || !reach(MachineState::kReady, 120s)) return false;
-    return gateway.go_to_reference() && reach(MachineState::kReady, 60s);
+    if (!gateway->bring_up() || !reach(MachineState::kUnhomed, 30s)) return false;
+    if (!gateway->home() || !reach(MachineState::kReady, 120s)) return false;
+    return gateway->go_to_reference() && reach(MachineState::kReady, 60s);
   }
   bool run_job(std::string text, BusTime limit = std::chrono::seconds{120}) {
-    return gateway.run(std::make_unique<StringSource>(std::move(text)), "test") &&
+    return gateway->run(std::make_unique<StringSource>(std::move(text)), "test") &&
            reach(MachineState::kReady, limit);
   }
 
@@ -88,7 +90,7 @@ class MachineRig {
   }
 
   MachineDescription machine;
-  Gateway gateway;
+  std::unique_ptr<Gateway> gateway;
   VirtualMachine nodes;
   BusTime now{0};
   std::vector<MachineEvent> events;
@@ -103,17 +105,17 @@ class MachineRig {
   }
   void serve() {
     while (nodes.can_send()) {
-      const auto frame = gateway.next_frame(now);
+      const auto frame = gateway->next_frame(now);
       if (!frame) break;
       if (lose_from_gateway && lose_from_gateway(*frame))
-        gateway.on_frame_sent(now, *frame);
+        gateway->on_frame_sent(now, *frame);
       else
         nodes.send(now, *frame);
     }
-    while (auto event = gateway.next_event()) events.push_back(std::move(*event));
+    while (auto event = gateway->next_event()) events.push_back(std::move(*event));
   }
   void step(BusTime until) {
-    const BusTime due = std::max(gateway.next_deadline(), now);
+    const BusTime due = std::max(gateway->next_deadline(), now);
     const BusTime next = std::min({until, due, std::max(nodes.next_event(), now)});
     const bool done = nodes.advance(next);
     bool stirred = false;
@@ -122,13 +124,13 @@ class MachineRig {
       if (on_frame) on_frame(got->when, got->frame);
       stirred = true;
       if (got->own)
-        gateway.on_frame_sent(got->when, got->frame);
+        gateway->on_frame_sent(got->when, got->frame);
       else if (!lose_to_gateway || !lose_to_gateway(got->frame))
-        gateway.on_frame(got->when, got->frame);
+        gateway->on_frame(got->when, got->frame);
     }
     if (done) now = std::max(now, next);
     if (done && now >= due) {
-      gateway.on_time(now);
+      gateway->on_time(now);
       stirred = true;
     }
     if (stirred) serve();

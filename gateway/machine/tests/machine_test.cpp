@@ -13,9 +13,9 @@ using namespace std::chrono_literals;
 
 TEST(Machine, BringUpEndsUnhomedWithDrivesEnabledAndClocksSynchronised) {
   MachineRig rig;
-  ASSERT_TRUE(rig.gateway.bring_up());
-  ASSERT_TRUE(rig.reach(MachineState::kUnhomed, 30s)) << rig.story() << rig.gateway.status().doing;
-  const MachineStatus status = rig.gateway.status();
+  ASSERT_TRUE(rig.gateway->bring_up());
+  ASSERT_TRUE(rig.reach(MachineState::kUnhomed, 30s)) << rig.story() << rig.gateway->status().doing;
+  const MachineStatus status = rig.gateway->status();
   ASSERT_EQ(status.nodes.size(), 3u);
   for (const NodeStatus& node : status.nodes) {
     EXPECT_TRUE(node.present);
@@ -27,23 +27,23 @@ TEST(Machine, BringUpEndsUnhomedWithDrivesEnabledAndClocksSynchronised) {
 
 TEST(Machine, HomingTakesAllCarriagesToTheirSwitches) {
   MachineRig rig;
-  ASSERT_TRUE(rig.gateway.bring_up());
+  ASSERT_TRUE(rig.gateway->bring_up());
   ASSERT_TRUE(rig.reach(MachineState::kUnhomed, 30s)) << rig.story();
-  ASSERT_TRUE(rig.gateway.home());
-  ASSERT_TRUE(rig.reach(MachineState::kReady, 120s)) << rig.story() << rig.gateway.status().doing;
+  ASSERT_TRUE(rig.gateway->home());
+  ASSERT_TRUE(rig.reach(MachineState::kReady, 120s)) << rig.story() << rig.gateway->status().doing;
   const JointVector joints = rig.joints();
-  const JointVector told = rig.gateway.status().joints;
+  const JointVector told = rig.gateway->status().joints;
   for (std::size_t tower = 0; tower < 4; ++tower) {
     EXPECT_NEAR(joints[tower], 1030, 0.1);
     EXPECT_NEAR(told[tower], joints[tower], 0.002);
   }
-  EXPECT_TRUE(rig.gateway.status().positions_known);
+  EXPECT_TRUE(rig.gateway->status().positions_known);
 }
 
 TEST(Machine, BedReferenceStandsTheNozzleOverTheTablesCentre) {
   MachineRig rig;
   ASSERT_TRUE(rig.make_ready()) << rig.story();
-  const MachineStatus status = rig.gateway.status();
+  const MachineStatus status = rig.gateway->status();
   EXPECT_NEAR(status.machine_pose[kX], 0, 1e-3);
   EXPECT_NEAR(status.machine_pose[kY], 0, 1e-3);
   EXPECT_NEAR(status.machine_pose[kZ], 20, 1e-3);
@@ -55,7 +55,7 @@ TEST(Machine, JobMovesTheToolToItsEnd) {
   MachineRig rig;
   ASSERT_TRUE(rig.make_ready()) << rig.story();
   ASSERT_TRUE(rig.run_job("G21 G90\nG1 X20 Y10 Z15 F6000\nG1 X-20 F3000\nG1 Y-10 A5\n")) << rig.story();
-  const MachineStatus status = rig.gateway.status();
+  const MachineStatus status = rig.gateway->status();
   EXPECT_NEAR(status.machine_pose[kX], -20, 2e-3) << rig.story();
   EXPECT_NEAR(status.machine_pose[kY], -10, 2e-3);
   EXPECT_NEAR(status.machine_pose[kZ], 15, 2e-3);
@@ -76,53 +76,53 @@ TEST(Machine, JobWithAnErrorMovesNothing) {
 TEST(Machine, HoldStandsStillAndResumeFinishesTheJob) {
   MachineRig rig;
   ASSERT_TRUE(rig.make_ready()) << rig.story();
-  ASSERT_TRUE(rig.gateway.run(std::make_unique<StringSource>("G1 X60 F1200\nG1 X0\n"), "line"));
-  ASSERT_TRUE(rig.run_until([&] { return rig.gateway.status().machine_pose[kX] > 20; }, 30s)) << rig.story();
-  ASSERT_TRUE(rig.gateway.hold());
+  ASSERT_TRUE(rig.gateway->run(std::make_unique<StringSource>("G1 X60 F1200\nG1 X0\n"), "line"));
+  ASSERT_TRUE(rig.run_until([&] { return rig.gateway->status().machine_pose[kX] > 20; }, 30s)) << rig.story();
+  ASSERT_TRUE(rig.gateway->hold());
   ASSERT_TRUE(rig.reach(MachineState::kHeld, 1s)) << rig.story();
   rig.run_for(200ms);
   const JointVector still = rig.joints();
   rig.run_for(2s);
   EXPECT_EQ(rig.joints(), still);
-  ASSERT_TRUE(rig.gateway.resume());
+  ASSERT_TRUE(rig.gateway->resume());
   ASSERT_TRUE(rig.reach(MachineState::kReady, 60s)) << rig.story();
-  EXPECT_NEAR(rig.gateway.status().machine_pose[kX], 0, 2e-3);
+  EXPECT_NEAR(rig.gateway->status().machine_pose[kX], 0, 2e-3);
   EXPECT_FALSE(rig.told(MachineEvent::Kind::kAlarm)) << rig.story();
 }
 
 TEST(Machine, CancelDropsTheJobAndTheNextOneStartsFromThere) {
   MachineRig rig;
   ASSERT_TRUE(rig.make_ready()) << rig.story();
-  ASSERT_TRUE(rig.gateway.run(std::make_unique<StringSource>("G1 X60 F1200\nG1 X0\n"), "line"));
-  ASSERT_TRUE(rig.run_until([&] { return rig.gateway.status().machine_pose[kX] > 20; }, 30s)) << rig.story();
-  ASSERT_TRUE(rig.gateway.cancel());
+  ASSERT_TRUE(rig.gateway->run(std::make_unique<StringSource>("G1 X60 F1200\nG1 X0\n"), "line"));
+  ASSERT_TRUE(rig.run_until([&] { return rig.gateway->status().machine_pose[kX] > 20; }, 30s)) << rig.story();
+  ASSERT_TRUE(rig.gateway->cancel());
   ASSERT_TRUE(rig.reach(MachineState::kReady, 5s)) << rig.story();
-  const MachineStatus status = rig.gateway.status();
+  const MachineStatus status = rig.gateway->status();
   EXPECT_GT(status.machine_pose[kX], 20);
   EXPECT_LT(status.machine_pose[kX], 30);
   const JointVector joints = rig.joints();
   for (std::size_t tower = 0; tower < 4; ++tower) EXPECT_NEAR(joints[tower], status.joints[tower], 0.001);
   ASSERT_TRUE(rig.run_job("G1 X-10 F3000\n")) << rig.story();
-  EXPECT_NEAR(rig.gateway.status().machine_pose[kX], -10, 2e-3);
+  EXPECT_NEAR(rig.gateway->status().machine_pose[kX], -10, 2e-3);
   EXPECT_FALSE(rig.told(MachineEvent::Kind::kAlarm)) << rig.story();
 }
 
 TEST(Machine, StopIsLatchedAndAfterClearTheJobGoesOn) {
   MachineRig rig;
   ASSERT_TRUE(rig.make_ready()) << rig.story();
-  ASSERT_TRUE(rig.gateway.run(std::make_unique<StringSource>("G1 X60 F1200\nG1 X0\n"), "line"));
-  ASSERT_TRUE(rig.run_until([&] { return rig.gateway.status().machine_pose[kX] > 20; }, 30s)) << rig.story();
-  ASSERT_TRUE(rig.gateway.stop());
+  ASSERT_TRUE(rig.gateway->run(std::make_unique<StringSource>("G1 X60 F1200\nG1 X0\n"), "line"));
+  ASSERT_TRUE(rig.run_until([&] { return rig.gateway->status().machine_pose[kX] > 20; }, 30s)) << rig.story();
+  ASSERT_TRUE(rig.gateway->stop());
   ASSERT_TRUE(rig.reach(MachineState::kStopped, 2s)) << rig.story();
-  EXPECT_FALSE(rig.gateway.resume());
+  EXPECT_FALSE(rig.gateway->resume());
   const JointVector still = rig.joints();
   rig.run_for(1s);
   EXPECT_EQ(rig.joints(), still);
-  ASSERT_TRUE(rig.gateway.clear());
+  ASSERT_TRUE(rig.gateway->clear());
   ASSERT_TRUE(rig.reach(MachineState::kHeld, 5s)) << rig.story();
-  ASSERT_TRUE(rig.gateway.resume());
+  ASSERT_TRUE(rig.gateway->resume());
   ASSERT_TRUE(rig.reach(MachineState::kReady, 60s)) << rig.story();
-  EXPECT_NEAR(rig.gateway.status().machine_pose[kX], 0, 2e-3);
+  EXPECT_NEAR(rig.gateway->status().machine_pose[kX], 0, 2e-3);
 }
 
 TEST(Machine, WaitForTemperatureTakesVirtualTime) {
@@ -131,25 +131,25 @@ TEST(Machine, WaitForTemperatureTakesVirtualTime) {
   const BusTime begin = rig.now;
   ASSERT_TRUE(rig.run_job("M109 S200\nG1 X5 F3000\n", 600s)) << rig.story();
   EXPECT_GT(to_seconds(rig.now - begin), 10);
-  EXPECT_NEAR(rig.gateway.status().hotend.actual_celsius, 200, 3);
+  EXPECT_NEAR(rig.gateway->status().hotend.actual_celsius, 200, 3);
 }
 
 TEST(Machine, PauseInTheJobWaitsForResume) {
   MachineRig rig;
   ASSERT_TRUE(rig.make_ready()) << rig.story();
-  ASSERT_TRUE(rig.gateway.run(std::make_unique<StringSource>("G1 X5 F3000\nM0\nG1 X10\n"), "pause"));
+  ASSERT_TRUE(rig.gateway->run(std::make_unique<StringSource>("G1 X5 F3000\nM0\nG1 X10\n"), "pause"));
   ASSERT_TRUE(rig.reach(MachineState::kHeld, 30s)) << rig.story();
   rig.run_for(1s);
-  EXPECT_NEAR(rig.gateway.status().machine_pose[kX], 5, 2e-3);
-  ASSERT_TRUE(rig.gateway.resume());
+  EXPECT_NEAR(rig.gateway->status().machine_pose[kX], 5, 2e-3);
+  ASSERT_TRUE(rig.gateway->resume());
   ASSERT_TRUE(rig.reach(MachineState::kReady, 30s)) << rig.story();
-  EXPECT_NEAR(rig.gateway.status().machine_pose[kX], 10, 2e-3);
+  EXPECT_NEAR(rig.gateway->status().machine_pose[kX], 10, 2e-3);
 }
 
 TEST(Machine, FeedOverrideSlowsTheJobDown) {
   MachineRig rig;
   ASSERT_TRUE(rig.make_ready()) << rig.story();
-  ASSERT_TRUE(rig.gateway.set_feed_override(0.5));
+  ASSERT_TRUE(rig.gateway->set_feed_override(0.5));
   const BusTime begin = rig.now;
   ASSERT_TRUE(rig.run_job("G1 X60 F1200\n")) << rig.story();
   EXPECT_GT(to_seconds(rig.now - begin), 5.9);
@@ -159,30 +159,53 @@ TEST(Machine, FeedOverrideSlowsTheJobDown) {
 TEST(Machine, JogMovesRelativeAndIsRefusedBeyondTheWorkspace) {
   MachineRig rig;
   ASSERT_TRUE(rig.make_ready()) << rig.story();
-  ASSERT_TRUE(rig.gateway.jog({.delta = {5, -3, 0, 0, 0, 0}, .speed_per_s = 20}));
+  ASSERT_TRUE(rig.gateway->jog({.delta = {5, -3, 0, 0, 0, 0}, .speed_per_s = 20}));
   ASSERT_TRUE(rig.reach(MachineState::kReady, 10s));
-  EXPECT_NEAR(rig.gateway.status().machine_pose[kX], 5, 2e-3);
-  EXPECT_NEAR(rig.gateway.status().machine_pose[kY], -3, 2e-3);
-  EXPECT_FALSE(rig.gateway.jog({.delta = {500, 0, 0, 0, 0, 0}}));
-  EXPECT_FALSE(rig.gateway.jog({.delta = {0, 0, 0, 0, 0, 5}})) << "cold extrusion";
+  EXPECT_NEAR(rig.gateway->status().machine_pose[kX], 5, 2e-3);
+  EXPECT_NEAR(rig.gateway->status().machine_pose[kY], -3, 2e-3);
+  EXPECT_FALSE(rig.gateway->jog({.delta = {500, 0, 0, 0, 0, 0}}));
+  EXPECT_FALSE(rig.gateway->jog({.delta = {0, 0, 0, 0, 0, 5}})) << "cold extrusion";
 }
 
-TEST(Machine, SecondBringUpFindsConfiguredNodesAndTakesTheirPositions) {
+TEST(Machine, TextSessionAnswersItsQueries) {
   MachineRig rig;
   ASSERT_TRUE(rig.make_ready()) << rig.story();
-  // A gateway that starts anew while the nodes go on: another core on the same bus.
-  rig.run_for(3s);
-  Gateway second(rig.machine, {.epoch = 2});
-  EXPECT_EQ(second.state(), MachineState::kOff);
-  EXPECT_FALSE(second.home());
+  EXPECT_EQ(rig.gateway->text_line("M114")->substr(0, 25), "X:0.000 Y:0.000 Z:20.000 ")
+      << *rig.gateway->text_line("M114");
+  EXPECT_EQ(rig.gateway->text_line("M105")->substr(0, 13), "T:23.00 /0.00");
+  EXPECT_NE(rig.gateway->text_line("M115")->find("FIRMWARE_NAME:Kinebus"), std::string::npos);
+  EXPECT_NE(rig.gateway->text_line("M119")->find("tower1: open"), std::string::npos);
+  ASSERT_TRUE(rig.gateway->text_line("M104 S60"));
+  EXPECT_EQ(rig.gateway->status().hotend.target_celsius, 60);
+  EXPECT_FALSE(rig.gateway->text_line("M104 S900"));
+  EXPECT_FALSE(rig.gateway->text_line("G1 X10"));
+  ASSERT_TRUE(rig.gateway->text_line("M112"));
+  EXPECT_TRUE(rig.reach(MachineState::kStopped, 2s));
+}
+
+TEST(Machine, PlannedPoseIsWhereTheToolIs) {
+  MachineRig rig;
+  ASSERT_TRUE(rig.make_ready()) << rig.story();
+  ASSERT_TRUE(rig.gateway->run(std::make_unique<StringSource>("G1 X40 Y20 F3000\nG1 X0\n"), "line"));
+  ASSERT_TRUE(rig.run_until([&] { return rig.gateway->status().machine_pose[kX] > 5; }, 30s));
+  for (int i = 0; i < 20; ++i) {
+    rig.run_for(37ms);
+    const auto planned = rig.gateway->planned_pose(rig.gateway->path_time(rig.now));
+    ASSERT_TRUE(planned);
+    const JointVector joints = rig.joints();
+    PoseVector pose = planned->pose;
+    const auto kinematics = make_kinematics(rig.machine);
+    ASSERT_TRUE((*kinematics)->forward(planned->frame, joints, pose));
+    for (const int axis : {kX, kY, kZ}) EXPECT_NEAR(pose[axis], planned->pose[axis], 1.5e-3) << axis;
+  }
 }
 
 TEST(Machine, MotorsOffLosesPositions) {
   MachineRig rig;
   ASSERT_TRUE(rig.make_ready()) << rig.story();
-  ASSERT_TRUE(rig.gateway.motors_off());
-  EXPECT_EQ(rig.gateway.state(), MachineState::kOff);
-  EXPECT_FALSE(rig.gateway.run(std::make_unique<StringSource>("G1 X1 F600\n"), "x"));
+  ASSERT_TRUE(rig.gateway->motors_off());
+  EXPECT_EQ(rig.gateway->state(), MachineState::kOff);
+  EXPECT_FALSE(rig.gateway->run(std::make_unique<StringSource>("G1 X1 F600\n"), "x"));
 }
 
 }  // namespace

@@ -1,0 +1,120 @@
+// Any frames, commands and times into the gateway core: nothing may crash, hang or break a state rule.
+//
+// The input is a script: an op byte, then its operands. Real nodes stand behind the bus for the first half of
+// the scripts (first byte even), so that the deep states are reached; the others are only fuzz.
+
+#include <cstdlib>
+#include <memory>
+
+#include "gateway/machine/tests/machine_rig.hpp"
+
+namespace kinebus {
+namespace {
+
+class Script {
+ public:
+  Script(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}
+  bool over() const { return at_ >= size_; }
+  std::uint8_t byte() { return over() ? std::uint8_t{0} : data_[at_++]; }
+
+ private:
+  const std::uint8_t* data_;
+  std::size_t size_;
+  std::size_t at_ = 0;
+};
+
+CanFrame any_frame(Script& script) {
+  CanFrame frame;
+  const unsigned kind = script.byte();
+  // Mostly identifiers that mean something.
+  constexpr std::uint32_t kBases[] = {0x000, 0x080, 0x180, 0x280, 0x380, 0x580, 0x700, 0x7E4};
+  frame.id = (kBases[kind & 7] + script.byte() % 128) & 0x7FF;
+  frame.remote = (kind & 0x40) != 0;
+  frame.extended = (kind & 0x80) != 0;
+  frame.length = static_cast<std::uint8_t>(script.byte() % 9);
+  for (std::size_t i = 0; i < frame.length; ++i) frame.data[i] = script.byte();
+  return frame;
+}
+
+void command(Gateway& gateway, Script& script) {
+  static constexpr const char* kJobs[] = {"G1 X10 F3000\nG1 X0\n", "M109 S200\nG1 X5\n", "G1 X900\n",
+                                          "G4 P100\nM0\nG28\n", "G2 X10 Y0 I5 F1200\nM104 S0\n"};
+  switch (script.byte() % 14) {
+    case 0:
+      static_cast<void>(gateway.bring_up());
+      break;
+    case 1:
+      static_cast<void>(gateway.home());
+      break;
+    case 2:
+      static_cast<void>(gateway.go_to_reference());
+      break;
+    case 3:
+      static_cast<void>(gateway.jog({.delta = {1.0 * (script.byte() - 128), 0, 0, 0, 0, 0}}));
+      break;
+    case 4:
+      static_cast<void>(gateway.run(std::make_unique<StringSource>(kJobs[script.byte() % 5]), "fuzz"));
+      break;
+    case 5:
+      static_cast<void>(gateway.hold());
+      break;
+    case 6:
+      static_cast<void>(gateway.resume());
+      break;
+    case 7:
+      static_cast<void>(gateway.cancel());
+      break;
+    case 8:
+      static_cast<void>(gateway.stop());
+      break;
+    case 9:
+      static_cast<void>(gateway.clear());
+      break;
+    case 10:
+      static_cast<void>(gateway.set_feed_override(script.byte() / 50.0));
+      break;
+    case 11:
+      static_cast<void>(gateway.motors_off());
+      break;
+    case 12:
+      static_cast<void>(gateway.text_line(std::string{'M', static_cast<char>(script.byte()), '1'}));
+      break;
+    case 13:
+      static_cast<void>(gateway.set_temperature((script.byte() & 1) != 0, script.byte()));
+      break;
+  }
+}
+
+}  // namespace
+}  // namespace kinebus
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace kinebus;
+  using namespace std::chrono_literals;
+  Script script(data, std::min<std::size_t>(size, 600));
+  MachineRig rig;
+  if ((script.byte() & 1) == 0) {
+    static_cast<void>(rig.gateway->bring_up());
+    rig.reach(MachineState::kUnhomed, 5s);
+  }
+  for (BusTime end = rig.now + 60s; !script.over() && rig.now < end;) {
+    switch (script.byte() % 4) {
+      case 0:
+        rig.gateway->on_frame(rig.now, any_frame(script));
+        break;
+      case 1:
+        command(*rig.gateway, script);
+        break;
+      case 2:
+        rig.run_for(std::chrono::milliseconds{script.byte()});
+        break;
+      case 3:
+        rig.run_for(std::chrono::milliseconds{20 * script.byte()});
+        break;
+    }
+    const MachineStatus status = rig.gateway->status();
+    if (!(status.rate >= 0 && status.rate <= 1) || !(status.progress >= 0 && status.progress <= 1))
+      std::abort();
+  }
+  return 0;
+}

@@ -1,0 +1,71 @@
+#include "gateway/machine/node_configuration.hpp"
+
+#include <gtest/gtest.h>
+
+#include "gateway/machine/alarm.hpp"
+#include "protocol/canopen/node_objects.hpp"
+
+namespace kinebus {
+namespace {
+
+std::optional<std::int64_t> written(const NodeConfiguration& configuration, ObjectAddress address) {
+  for (const ParameterWrite& write : configuration.writes)
+    if (write.address == address) return write.value;
+  return std::nullopt;
+}
+ObjectAddress second(ObjectAddress base) {
+  return {static_cast<std::uint16_t>(base.index + kAxisOffset), base.subindex};
+}
+
+TEST(NodeConfiguration, TowersHaveTheirHomeSwitchAndItsPositionInCounts) {
+  const NodeConfiguration c = configure_node(default_m1(), 1);
+  EXPECT_EQ(written(c, object::kHomingMethod), 20);
+  EXPECT_EQ(written(c, object::kHomeOffset), 1030 * 1280);
+  EXPECT_EQ(written(c, object::kHomingFastSpeed), 40 * 1280);
+  EXPECT_EQ(written(c, object::kSwitchFunction), static_cast<int>(SwitchFunction::kHomeA));
+  EXPECT_EQ(written(c, {object::kSwitchFunction.index, 2}), static_cast<int>(SwitchFunction::kHomeB));
+  EXPECT_EQ(written(c, object::kConsumerHeartbeat), (127 << 16) + 1500);
+}
+
+TEST(NodeConfiguration, JointsWithoutSwitchTakeThePresentPosition) {
+  const NodeConfiguration c = configure_node(default_m1(), 3);
+  EXPECT_EQ(written(c, object::kHomingMethod), 37);
+  EXPECT_EQ(written(c, second(object::kHomingMethod)), 37);
+}
+
+TEST(NodeConfiguration, FingerprintTellsEveryChange) {
+  const MachineDescription m1 = default_m1();
+  MachineDescription other = m1;
+  other.joints[1].run_current_ma += 1;
+  EXPECT_EQ(configure_node(m1, 1).fingerprint, configure_node(m1, 1).fingerprint);
+  EXPECT_NE(configure_node(m1, 1).fingerprint, configure_node(other, 1).fingerprint);
+  EXPECT_EQ(configure_node(m1, 2).fingerprint, configure_node(other, 2).fingerprint);
+}
+
+TEST(NodeConfiguration, InvertedDriveHomesTheMirroredWay) {
+  MachineDescription m1 = default_m1();
+  m1.joints[0].drive.inverted = true;
+  const NodeConfiguration c = configure_node(m1, 1);
+  EXPECT_EQ(written(c, object::kHomingMethod), 22);
+  EXPECT_EQ(written(c, object::kHomeOffset), -1030 * 1280);
+  EXPECT_LT(*written(c, object::kMinPositionLimit), *written(c, object::kMaxPositionLimit));
+}
+
+TEST(NodeConfiguration, ValuesBeyondAnObjectsRangeAreHeldAtItsBorder) {
+  MachineDescription m1 = default_m1();
+  m1.stop.ramp = std::chrono::milliseconds{100'000};
+  EXPECT_EQ(written(configure_node(m1, 1), object::kStopRamp), 510);
+}
+
+TEST(Alarms, EmergenciesAreToldInWords) {
+  const AlarmText current = describe_emergency({2, 0x2310, 3, {9, 0, 0, 0, 0}});
+  EXPECT_EQ(current.words, "node 2: over-current in a motor phase; fault of a drive (EMCY 2310h)");
+  EXPECT_FALSE(current.advice.empty());
+  const AlarmText starved = describe_emergency({1, 0xFF00, 0x81, {1, 0, 0, 0, 0}});
+  EXPECT_EQ(starved.words, "node 1: its queue ran low (EMCY FF00h)");
+  const AlarmText unknown = describe_emergency({1, 0x5999, 1, {0x7F, 0, 0, 0, 0}});
+  EXPECT_EQ(unknown.words, "node 1: hardware fault (EMCY 5999h)");
+}
+
+}  // namespace
+}  // namespace kinebus

@@ -1,0 +1,47 @@
+#include "gateway/machine/state.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+namespace kinebus {
+namespace {
+
+using S = MachineState;
+using C = MachineCommand;
+
+TEST(State, StopIsAllowedAndPossibleEverywhere) {
+  for (int i = 0; i < kMachineStates; ++i) {
+    const auto state = static_cast<S>(i);
+    EXPECT_TRUE(allowed(C::kStop, state)) << to_string(state);
+    EXPECT_TRUE(may_follow(state, S::kStopping)) << to_string(state);
+    EXPECT_TRUE(may_follow(state, S::kAlarm)) << to_string(state);
+  }
+}
+
+TEST(State, MotionBeginsOnlyWhenReady) {
+  for (int i = 0; i < kMachineStates; ++i)
+    for (const C command : {C::kJog, C::kRun, C::kReference})
+      EXPECT_EQ(allowed(command, static_cast<S>(i)), static_cast<S>(i) == S::kReady);
+}
+
+TEST(State, EveryStateCanBeReachedAndLeft) {
+  std::set<S> reached{S::kOff};
+  for (bool grown = true; grown;) {
+    grown = false;
+    for (const S from : std::set<S>(reached))
+      for (int to = 0; to < kMachineStates; ++to)
+        if (may_follow(from, static_cast<S>(to)) && reached.insert(static_cast<S>(to)).second) grown = true;
+  }
+  EXPECT_EQ(reached.size(), static_cast<std::size_t>(kMachineStates));
+}
+
+TEST(State, NamesAreDistinct) {
+  std::set<std::string> names;
+  for (int i = 0; i < kMachineStates; ++i) names.insert(std::string(to_string(static_cast<S>(i))));
+  EXPECT_EQ(names.size(), static_cast<std::size_t>(kMachineStates));
+}
+
+}  // namespace
+}  // namespace kinebus
