@@ -26,12 +26,12 @@ const StreamGroup::Node* StreamGroup::find(std::uint8_t node_id) const {
 
 void StreamGroup::set_state(std::uint8_t node_id, const std::array<AxisState, kAxesPerNode>& states,
                             const StreamStatus& status) {
-  assert(state_ == State::kIdle || state_ == State::kDone);
+  assert(may_begin());
   if (Node* node = find(node_id)) node->stream.reset(states, status.next_sequence, status.free_records);
 }
 
 void StreamGroup::begin_run() {
-  assert(state_ == State::kIdle || state_ == State::kDone);
+  assert(may_begin());
   sampler_.restart();
   for (Node& node : nodes_) {
     node.segmenter.start(node.stream.final_state());
@@ -41,6 +41,11 @@ void StreamGroup::begin_run() {
   released_ = begun_ = false;
   start_units_ = 0;
   state_ = State::kFilling;
+}
+
+bool StreamGroup::may_begin() const {
+  if (state_ == State::kIdle || state_ == State::kDone) return true;
+  return state_ == State::kRunning && complete() && all_accepted();
 }
 
 bool StreamGroup::wants_phases(PathTime tau) const {
@@ -138,8 +143,11 @@ bool StreamGroup::primed(PathTime tau) const {
 
 bool StreamGroup::run_done(PathTime tau) const {
   if (state_ == State::kDone) return true;
-  return state_ == State::kRunning && complete() && tau >= fitted_until() &&
-         std::all_of(nodes_.begin(), nodes_.end(),
+  return state_ == State::kRunning && complete() && tau >= fitted_until() && all_accepted();
+}
+
+bool StreamGroup::all_accepted() const {
+  return std::all_of(nodes_.begin(), nodes_.end(),
                      [](const Node& node) { return node.stream.all_accepted(); });
 }
 

@@ -56,6 +56,7 @@ class StreamGroup {
   void set_state(std::uint8_t node_id, const std::array<AxisState, kAxesPerNode>& states,
                  const StreamStatus& status);
 
+  /// Only when idle, or when every node has accepted the END of the run before.
   void begin_run();
   /// One more phase can be taken: buffers have room and less than lead_s is fitted beyond `tau`.
   bool wants_phases(PathTime tau) const;
@@ -70,6 +71,8 @@ class StreamGroup {
   Result<void, StreamError> on_status(BusTime now, std::uint8_t node_id, const StreamStatus& status,
                                       PathTime tau);
   State state() const { return state_; }
+  /// begin_run() may be called.
+  bool may_begin() const;
   /// All records up to END are made (the last phase came and every span of it is fitted).
   bool complete() const;
   /// The nodes hold enough for path time to run: reserve and horizon, or the whole run.
@@ -99,6 +102,7 @@ class StreamGroup {
   };
   Node* find(std::uint8_t node_id);
   const Node* find(std::uint8_t node_id) const;
+  bool all_accepted() const;
   /// Sampler to segmenters to streams, as far as there is room.
   Result<void, StreamError> pump();
   void drain(Node& node);
