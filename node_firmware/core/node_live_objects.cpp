@@ -28,9 +28,8 @@ bool known_mode(std::int64_t mode) {
 }  // namespace
 
 AbortCode Node::read(const ObjectEntry& entry, std::int64_t& value) {
-  const bool known = entry.axis < 0
-                         ? read_node_object(entry.address, value)
-                         : read_axis_object(axes_[static_cast<std::size_t>(entry.axis)], entry.base(), value);
+  const bool known = entry.axis < 0 ? read_node_object(entry.address, value)
+                                    : read_axis_object(axes_[entry.axis == 1 ? 1 : 0], entry.base(), value);
   return known ? AbortCode::kNone : AbortCode::kNoData;
 }
 
@@ -207,7 +206,7 @@ AbortCode Node::write_node_object(const ObjectEntry& entry, std::int64_t value) 
 }
 
 AbortCode Node::write_axis_object(const ObjectEntry& entry, std::int64_t value) {
-  DriveAxis& axis = axes_[static_cast<std::size_t>(entry.axis)];
+  DriveAxis& axis = axes_[entry.axis == 1 ? 1 : 0];
   const ObjectAddress base = entry.base();
   if (base == object::kControlword) {
     // A master that sends no SYNC has no rate broadcast either: its fault reset lifts a stop.

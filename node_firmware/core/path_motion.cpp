@@ -184,8 +184,8 @@ std::int64_t PathMotion::ticks_to_stop(std::uint64_t rate_q32) const {
   const std::uint64_t rate_q16 = rate_q32 >> 16;
   const std::uint64_t square_q16 = (rate_q16 * rate_q16) >> 16;
   const auto ramp_ticks = static_cast<std::uint64_t>(options_.stop_ramp_2ms) * 32'000;
-  constexpr std::uint64_t kMarginTicks =
-      2 * 1500 * 16;  // kStopMargin, and once more for this node's own delay
+  // kStopMargin, and once more for this node's own delay.
+  constexpr std::uint64_t kMarginTicks = std::uint64_t{2} * 1500 * 16;
   const std::uint64_t margin = kMarginTicks + static_cast<std::uint64_t>(options_.starvation_margin.count());
   return static_cast<std::int64_t>(((square_q16 * ramp_ticks) >> 17) + ((rate_q16 * margin) >> 16));
 }

@@ -70,7 +70,7 @@ TEST_F(SegmentStreamTest, KnotsAreExactAndBetweenThemPositionIsThatOfTheContract
   for (std::size_t i = 0; i < segments.size(); ++i)
     for (int k = 0; k < 5; ++k) {
       const std::int64_t into =
-          k == 0 ? 0 : static_cast<std::int64_t>(random()) % (segments[i].duration * 256);
+          k == 0 ? 0 : static_cast<std::int64_t>(random()) % (std::int64_t{256} * segments[i].duration);
       if (k != 0 && into < k) continue;
       SegmentStream copy = stream;
       ASSERT_TRUE(copy.advance_to(units(times[i]) + PathTime{into}));

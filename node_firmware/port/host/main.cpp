@@ -19,9 +19,18 @@ void set_default_plant(kinebus::VirtualNodeProcessOptions& options) {
         .switch_counts = 1030 * kCountsPerMm};
 }
 
-}  // namespace
+int serve(const kinebus::VirtualNodeProcessOptions& options) {
+  kinebus::VirtualNodeProcess process(options);
+  std::string error = process.open();
+  if (error.empty()) {
+    std::fprintf(stderr, "kinebus-vnode: node %d on %s\n", options.node.node_id, options.interface.c_str());
+    error = process.run();
+  }
+  if (!error.empty()) std::fprintf(stderr, "kinebus-vnode: %s\n", error.c_str());
+  return error.empty() ? 0 : 1;
+}
 
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   kinebus::VirtualNodeProcessOptions options;
   int node = 1;
   std::array<std::optional<std::int64_t>, 2> start, edge;
@@ -50,13 +59,16 @@ int main(int argc, char** argv) {
     options.plant[axis].switch_counts = *edge[axis];
     options.plant[axis].switch_input = static_cast<int>(axis) + 1;
   }
+  return serve(options);
+}
 
-  kinebus::VirtualNodeProcess process(options);
-  std::string error = process.open();
-  if (error.empty()) {
-    std::fprintf(stderr, "kinebus-vnode: node %d on %s\n", node, options.interface.c_str());
-    error = process.run();
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "kinebus-vnode: %s\n", error.what());
+    return 1;
   }
-  if (!error.empty()) std::fprintf(stderr, "kinebus-vnode: %s\n", error.c_str());
-  return error.empty() ? 0 : 1;
 }

@@ -6,8 +6,8 @@
 namespace kinebus {
 namespace {
 
-// The edge of a switch is found within this time: at 5 mm/s of a slow approach 50 nm.
-constexpr BusTime kFinestCheck{10'000};
+// The edge of a switch is found within this time: at 4 mm/s of a slow approach 4 nm.
+constexpr BusTime kFinestCheck{1'000};
 // Far from any switch, or at rest, it is still looked at so often.
 constexpr BusTime kCoarsestCheck{50'000'000};
 constexpr int kMailboxes = 3;
