@@ -63,7 +63,7 @@ int run(const Arguments& arguments) {
                       "   seed {}",
                       report.lines, time_words(report.job_time_s), report.max_tracking_error_um,
                       report.max_path_error_um, 100 * report.bus_load_mean, report.seed)));
-  return report.finished || (arguments.limit_s > 0 && report.messages.empty()) ? 0 : 1;
+  return report.finished || (arguments.limit_s > 0 && !report.trouble) ? 0 : 1;
 }
 
 }  // namespace

@@ -33,6 +33,8 @@ std::string to_json_text(const SimulationReport& r) {
                             {"bus_slowdowns", r.bus_slowdowns},
                             {"starvation_holds", r.starvation_holds},
                             {"trace_hash", fmt::format("{:016x}", r.trace_hash)},
+                            {"worst_joint", r.worst_joint},
+                            {"worst_joint_s", r.worst_joint_s},
                             {"worst_tracking_s", r.worst_tracking_s},
                             {"worst_tracking_line", r.worst_tracking_line},
                             {"worst_path_s", r.worst_path_s},
@@ -55,7 +57,7 @@ std::string to_table(const SimulationReport& r) {
   row("max_path_error_um", fmt::format("{:.3f}", r.max_path_error_um),
       fmt::format("tool to programmed path; line {}, {:.3f} s", r.worst_path_line, r.worst_path_s));
   row("max_joint_error_counts", fmt::format("{:.3f}", r.max_joint_error_counts),
-      "motor to q(tau), microsteps");
+      fmt::format("motor to q(tau), microsteps; {}, {:.3f} s", r.worst_joint, r.worst_joint_s));
   row("max_joint_velocity_ratio", fmt::format("{:.4f}", r.max_joint_velocity_ratio), "of the limit");
   row("max_joint_acceleration_ratio", fmt::format("{:.4f}", r.max_joint_acceleration_ratio),
       fmt::format("of the limit; by 1 ms differences {:.4f}", r.max_measured_acceleration_ratio));

@@ -9,6 +9,7 @@ namespace kinebus {
 
 struct SimulationReport {
   bool finished = false;  ///< the job ran to its end
+  bool trouble = false;   ///< an alarm, or an error in the job
   std::string outcome;    ///< in words
   std::uint64_t seed = 0;
   double job_time_s = 0;      ///< of the machine, from the job's start to its end
@@ -31,7 +32,8 @@ struct SimulationReport {
   std::uint32_t underruns = 0, sequence_errors = 0, checkpoint_errors = 0, bus_slowdowns = 0,
                 starvation_holds = 0;
   std::uint64_t trace_hash = 0;  ///< over all frames and their times: same seed, same hash
-  double worst_tracking_s = 0, worst_path_s = 0;
+  double worst_tracking_s = 0, worst_path_s = 0, worst_joint_s = 0;
+  std::string worst_joint;
   std::uint32_t worst_tracking_line = 0, worst_path_line = 0;
   std::vector<std::string> messages;  ///< alarms and problems, in words
 };

@@ -72,10 +72,16 @@ class Run {
 
  private:
   void note(const MachineEvent& event) {
-    if (event.kind == MachineEvent::Kind::kAlarm)
+    constexpr std::size_t kMessages = 100;
+    if (event.kind == MachineEvent::Kind::kAlarm) {
+      report_.trouble = true;
       report_.messages.push_back("ALARM " + event.words + " " + event.advice);
-    if (event.kind == MachineEvent::Kind::kProblem && report_.messages.size() < 100)
-      report_.messages.push_back(fmt::format("line {}: {}", event.line, event.words));
+    }
+    if (event.kind == MachineEvent::Kind::kProblem) {
+      report_.trouble = report_.trouble || event.words.starts_with("error");
+      if (report_.messages.size() < kMessages)
+        report_.messages.push_back(fmt::format("line {}: {}", event.line, event.words));
+    }
   }
 
   bool fail(std::string words) {
@@ -116,7 +122,7 @@ class Run {
                                                : BusTime{hours{500}};
     const bool ended = simulation_.run_until_state(settled, limit);
     report_.job_time_s = to_seconds(simulation_.now() - begin_);
-    report_.finished = ended && gateway.state() == MachineState::kReady && report_.messages.empty();
+    report_.finished = ended && gateway.state() == MachineState::kReady && !report_.trouble;
     if (report_.finished)
       report_.outcome = "finished";
     else if (!ended && options_.limit_s > 0)
@@ -133,6 +139,8 @@ class Run {
     if (!sample.in_job) return;
     checkers_->tracking.on_sample(sample);
     checkers_->path.on_sample(sample);
+    if (options_.on_sample)
+      options_.on_sample(sample, checkers_->path.last_um(), checkers_->path.nearest_line());
     report_.lines = std::max(report_.lines, sample.line);
     if (options_.plot != nullptr) plot(sample);
     if (options_.on_progress && ++since_progress_ >= 2000) {
@@ -169,6 +177,9 @@ class Run {
     report_.worst_tracking_line = c.tracking.worst_line();
     report_.samples = c.tracking.samples();
     report_.max_joint_error_counts = c.tracking.max_joint_counts();
+    report_.worst_joint_s = c.tracking.worst_joint_time_s() - to_seconds(begin_);
+    if (c.tracking.worst_joint() >= 0)
+      report_.worst_joint = machine_.joints[static_cast<std::size_t>(c.tracking.worst_joint())].name;
     report_.max_path_error_um = c.path.max_um();
     report_.worst_path_s = c.path.worst_time_s() - to_seconds(begin_);
     report_.worst_path_line = c.path.worst_line();

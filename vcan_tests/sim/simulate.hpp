@@ -18,6 +18,8 @@ struct SimulateOptions {
   double limit_s = 0;        ///< stop measuring after so much job time; 0: the whole job
   PlotData* plot = nullptr;  ///< filled along the way
   std::function<void(double progress, double job_s)> on_progress;
+  /// Every sample of the job, with the distance from the programmed path and its line there.
+  std::function<void(const Sample&, double path_um, std::uint32_t line)> on_sample;
   std::function<void(BusTime, const CanFrame&)> on_frame;  ///< every frame on the bus, from power-up on
 };
 

@@ -7,12 +7,6 @@
 #include "gateway/jobs/machine_setup.hpp"
 
 namespace kinebus {
-namespace {
-// Lines read beyond the one in motion: the planner's blends and merged runs may already be in lines that come
-// later.
-constexpr std::uint32_t kLinesAhead = 64;
-}  // namespace
-
 PathChecker::PathChecker(const MachineDescription& machine, const Kinematics& kinematics, ByteSource& source,
                          const PoseVector& start)
     : kinematics_(kinematics), source_(source), text_(64 * 1024) {
@@ -59,14 +53,15 @@ void PathChecker::read_ahead(std::uint32_t line) {
 
 void PathChecker::on_sample(const Sample& sample) {
   if (!sample.planned || sample.line == 0) return;
-  read_ahead(sample.line + kLinesAhead);
+  read_ahead(sample.line);
   while (frames_.size() > 1 && frames_[1].first <= sample.line) frames_.pop_front();
   PoseVector pose = sample.pose;
   if (!frames_.empty() && frames_.front().second == canonical::Frame::kMachine &&
       (pose[kA] != 0 || pose[kC] != 0))
     if (const auto converted = convert_pose(kinematics_, Frame::kPart, pose, Frame::kMachine))
       pose = *converted;
-  last_um_ = 1000 * distance_.distance_mm(pose, sample.line + kLinesAhead / 2);
+  // No farther than the line in motion: a later line that crosses here is not where the tool should be.
+  last_um_ = 1000 * distance_.distance_mm(pose, sample.line);
   if (last_um_ > max_um_) {
     max_um_ = last_um_;
     worst_time_s_ = to_seconds(sample.time);

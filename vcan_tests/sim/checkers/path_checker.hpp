@@ -26,6 +26,7 @@ class PathChecker {
   void on_sample(const Sample& sample);
   double max_um() const { return max_um_; }
   double last_um() const { return last_um_; }
+  std::uint32_t nearest_line() const { return distance_.nearest_line(); }
   double worst_time_s() const { return worst_time_s_; }
   std::uint32_t worst_line() const { return worst_line_; }
 
