@@ -233,7 +233,7 @@ bool Segmenter::leads_on(const Fit& f, int depth) {
   const Position before = at_;
   apply(f);
   const Fit following = choose();
-  const bool far_enough = depth <= 0 && f.units + following.units >= kShortest;
+  const bool far_enough = depth <= 0 && f.units + following.units >= kProofUnits;
   const bool proved =
       following.error <= 1 && (far_enough || (depth > -kMoreProofs && leads_on(following, depth - 1)));
   at_ = before;

@@ -12,7 +12,7 @@ namespace kinebus::segmenter {
 
 inline constexpr double kForever = std::numeric_limits<double>::infinity();
 inline constexpr double kLongest = kMaxSegmentUnits;
-inline constexpr std::int32_t kShortest = 64;  // 1 ms: less says nothing about what follows
+inline constexpr std::int32_t kShortest = 64;  // 1 ms
 
 // First guess.
 // The best C1 quadratic spline misses a cubic with q''' = M by 0.00802 M h^3, where position is met and
@@ -34,10 +34,11 @@ inline constexpr double kMostEndError = 0.55;
 // A velocity error w at a knot costs the next segment w h / 3 when it is taken back over two segments.
 inline constexpr double kVelocityCost = 1.0 / 3;
 // Tolerances that the end state may cost: without a proof that it can be followed, and at all.
-inline constexpr double kSafeDrift = 1.0, kMostDrift = 2.5;
-// Segments looked ahead for the proof; more if those are shorter than kShortest; other ends tried if it
+inline constexpr double kSafeDrift = 0.5, kMostDrift = 2.5;
+// Segments looked ahead for the proof; more if those are shorter than this (4 ms); other ends tried if it
 // fails.
-inline constexpr int kProofDepth = 2, kMoreProofs = 3, kProofs = 8;
+inline constexpr int kProofDepth = 2, kMoreProofs = 8, kProofs = 16;
+inline constexpr std::int32_t kProofUnits = 256;
 
 // Repair: a fit that misses by less than this share of the tolerance is corrected at the one place where it
 // misses, if that is behind this part of its length, where the acceleration has some effect.

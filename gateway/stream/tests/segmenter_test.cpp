@@ -159,7 +159,7 @@ std::vector<JointSpan> jumpy_spans(std::uint32_t seed, double accel, int count) 
         a = -v[j] / 0.1;
         jerk = 0;
       } else if (std::abs(v[j] + a * h) > 200) {
-        a = -a;
+        a = -std::copysign(a, v[j]);
         jerk = 0;
       }
       span.coefficients[j] = {q[j], v[j], a / 2, jerk / 6};
