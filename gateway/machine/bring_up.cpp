@@ -18,6 +18,8 @@ constexpr BusTime kRestartTimeout = 5s;
 /// 24 SYNCs make a clock estimate; twice that, and as much again for lost ones.
 constexpr BusTime kSynchroniseTimeout = 10s;
 constexpr BusTime kEnableTimeout = 5s;
+/// Erasing a sector of flash memory takes up to 2 s on the board; nothing else is answered meanwhile.
+constexpr BusTime kStoreTimeout = 8s;
 constexpr BusTime kRepeat = 200ms;
 constexpr PathTime kPathTimeGap = 1s;
 
@@ -216,6 +218,7 @@ void BringUp::configure(BusTime now, NodeLink& link, Node& node) {
     }
     return;
   }
+  if (node.config == Config::kSettling) return settle(now, link, node);
   if (!node.requested) {
     node.requested = true;
     switch (node.config) {
@@ -232,28 +235,52 @@ void BringUp::configure(BusTime now, NodeLink& link, Node& node) {
       case Config::kRestoring:
         link.sdo().write({object::kRestoreParameters, 4, kLoadSignature});
         break;
+      case Config::kSettling:
       case Config::kRestarting:
       case Config::kDone:
         break;
     }
     return;
   }
-  // A node without memory for its parameters works as well; it is written to at every bring-up.
-  if (node.config == Config::kStoring) static_cast<void>(link.sdo().next_result());
+  if (node.config == Config::kStoring) {
+    // A node without memory for its parameters works as well; it is written to at every bring-up.
+    if (!link.sdo().next_result()) return;
+    node.config = Config::kSettling;
+    node.requested = false;
+    node.stored = node.asked = now;
+    return;
+  }
   while (const auto answer = result(link, AlarmCode::kConfiguration))
     if (answer->read) return check_fingerprint(link, node, static_cast<std::uint32_t>(answer->value));
   if (failed_ || !link.sdo().idle()) return;
   node.requested = false;
   if (node.config == Config::kWriting) {
     node.config = Config::kVerify;
-  } else if (node.config == Config::kStoring) {
-    node.config = Config::kDone;
-    node.done = true;
   } else if (node.config == Config::kRestoring) {
     static_cast<void>(link.take_boot_up());
     out_.push_back(nmt_frame(NmtCommand::kResetNode, link.id()));
     node.asked = now;
     node.config = Config::kRestarting;
+  }
+}
+
+/// Until the node answers again after storing.
+void BringUp::settle(BusTime now, NodeLink& link, Node& node) {
+  if (!node.requested) {
+    if (now - node.asked < kRepeat && now != node.stored) return;
+    node.requested = true;
+    link.sdo().read(object::kFingerprint);
+    return;
+  }
+  const auto answer = link.sdo().next_result();
+  if (!answer) return;
+  node.requested = false;
+  node.asked = now;
+  if (answer->abort == AbortCode::kNone) {
+    node.config = Config::kDone;
+    node.done = true;
+  } else if (now - node.stored > kStoreTimeout) {
+    fail(AlarmCode::kConfiguration, link.id(), to_string(link.id(), *answer));
   }
 }
 

@@ -60,7 +60,16 @@ class BringUp {
     kEnable,
     kEnd
   };
-  enum class Config : std::uint8_t { kCheck, kWriting, kVerify, kStoring, kRestoring, kRestarting, kDone };
+  enum class Config : std::uint8_t {
+    kCheck,
+    kWriting,
+    kVerify,
+    kStoring,
+    kSettling,
+    kRestoring,
+    kRestarting,
+    kDone
+  };
   struct Node {
     NodeConfiguration configuration;
     Config config = Config::kCheck;
@@ -71,7 +80,7 @@ class BringUp {
     std::array<std::uint32_t, 4> identity{};
     std::int64_t path_ticks = 0;
     std::array<bool, kAxesPerNode> used{};
-    BusTime asked{0};
+    BusTime asked{0}, stored{0};
   };
 
   void enter(Stage stage, BusTime now);
@@ -80,6 +89,7 @@ class BringUp {
   void step(BusTime now, std::size_t i);
   void identify(NodeLink& link, Node& node);
   void configure(BusTime now, NodeLink& link, Node& node);
+  void settle(BusTime now, NodeLink& link, Node& node);
   void check_fingerprint(NodeLink& link, Node& node, std::uint32_t fingerprint);
   void operational(BusTime now, NodeLink& link, Node& node);
   void synchronise(BusTime now, NodeLink& link, Node& node);

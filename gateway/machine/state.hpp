@@ -46,7 +46,7 @@ std::string_view to_string(MachineCommand command);
 
 /// Whether `command` may be given in `state`; the table is in state.cpp.
 bool allowed(MachineCommand command, MachineState state);
-/// Whether the machine may go from one state to another; Gateway asserts it on every change.
+/// Whether the machine may go from one state to another; the program ends on any other change.
 bool may_follow(MachineState from, MachineState to);
 
 }  // namespace kinebus
