@@ -47,12 +47,31 @@ nlohmann::json heater_json(const HeaterStatus& heater) {
 
 }  // namespace
 
+bool at_rest(MachineState state) {
+  switch (state) {
+    case MachineState::kOff:
+    case MachineState::kUnhomed:
+    case MachineState::kReady:
+    case MachineState::kHeld:
+    case MachineState::kStopped:
+    case MachineState::kAlarm:
+      return true;
+    default:
+      return false;
+  }
+}
+
 nlohmann::json to_json(const MachineStatus& status) {
   nlohmann::json nodes = nlohmann::json::array();
   for (const NodeStatus& node : status.nodes) nodes.push_back(node_json(node));
   nlohmann::json joints = nlohmann::json::array();
   for (int i = 0; i < status.joint_count; ++i) joints.push_back(status.joints[static_cast<std::size_t>(i)]);
   return {{"state", to_string(status.state)},
+          {"at_rest", at_rest(status.state)},
+          {"ready", status.state == MachineState::kReady},
+          {"off", status.state == MachineState::kOff},
+          {"trouble", status.state == MachineState::kStopped || status.state == MachineState::kAlarm},
+          {"held", status.state == MachineState::kHeld},
           {"doing", status.doing},
           {"positions_known", status.positions_known},
           {"pose", pose_json(status.pose)},

@@ -16,4 +16,7 @@ namespace kinebus {
 nlohmann::json to_json(const MachineStatus& status);
 nlohmann::json to_json(const MachineEvent& event);
 
+/// Nothing moves and nothing will by itself.
+bool at_rest(MachineState state);
+
 }  // namespace kinebus

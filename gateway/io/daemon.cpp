@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "gateway/io/control_text.hpp"
 #include "gateway/io/realtime.hpp"
 #include "protocol/host/socketcan.hpp"
 
@@ -16,19 +17,9 @@ constexpr LocalTime kWatchdogPeriod = std::chrono::seconds{1};
 // Frames taken in one turn, so that a flooded bus cannot keep the loop from its deadlines.
 constexpr int kFramesPerTurn = 256;
 
-bool at_rest(MachineState state) {
-  switch (state) {
-    case MachineState::kOff:
-    case MachineState::kUnhomed:
-    case MachineState::kReady:
-    case MachineState::kHeld:
-    case MachineState::kStopped:
-    case MachineState::kAlarm:
-    case MachineState::kChecking:
-      return true;
-    default:
-      return false;
-  }
+// A check of a job moves nothing either.
+bool may_leave(MachineState state) {
+  return at_rest(state) || state == MachineState::kChecking;
 }
 
 void log_event(const MachineEvent& event) {
@@ -106,10 +97,10 @@ void Daemon::run(const volatile std::sig_atomic_t* quit) {
       spdlog::info("asked to end: bringing the machine to rest on its path");
       notify_systemd("STOPPING=1");
       quit_at = now + kQuitWithin;
-      if (!at_rest(gateway_.state()))
+      if (!may_leave(gateway_.state()))
         if (const auto held = gateway_.hold(); !held) static_cast<void>(gateway_.stop());
     }
-    if (*quit != 0 && (at_rest(gateway_.state()) || now >= quit_at)) return;
+    if (*quit != 0 && (may_leave(gateway_.state()) || now >= quit_at)) return;
     loop_.wait(
         std::min({next_deadline(), next_watchdog, quit_at, *quit != 0 ? now + BusTime{1'000'000} : quit_at}));
   }

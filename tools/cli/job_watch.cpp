@@ -16,15 +16,6 @@ namespace {
 using nlohmann::json;
 constexpr int kBarWidth = 32;
 
-bool resting(const std::string& state) {
-  return state == "off" || state == "unhomed" || state == "ready" || state == "held" || state == "stopped" ||
-         state == "alarm";
-}
-
-bool troubled(const std::string& state) {
-  return state == "stopped" || state == "alarm";
-}
-
 /// One line that is written over on a terminal, and a line every ten per cent elsewhere.
 class ProgressLine {
  public:
@@ -82,9 +73,9 @@ void upload(Client& client, const std::string& file, const std::string& name) {
   if (!reply.value("ok", false)) throw ClientError("upload: " + reply.value("error", "failed"));
 }
 
-/// Follows statuses and events until `done(state)`; returns the last state.
+/// Follows statuses and events until `done(status)`; returns the last status.
 template <typename Done>
-std::string follow(Client& client, ProgressLine& line, Done done) {
+json follow(Client& client, ProgressLine& line, Done done) {
   for (;;) {
     const json message = client.next(10'000);
     if (message.is_null()) throw ClientError("the daemon has gone silent");
@@ -94,14 +85,13 @@ std::string follow(Client& client, ProgressLine& line, Done done) {
     }
     if (!message.contains("status")) continue;
     const json& status = message["status"];
-    const std::string state = status.value("state", "");
     if (!status.value("job", "").empty())
       line.show(status.value("progress", 0.0),
-                fmt::format("line {}  {}  {} to go", status.value("line", 0), state,
+                fmt::format("line {}  {}  {} to go", status.value("line", 0), status.value("doing", ""),
                             time_words(status.value("remaining_s", 0.0))));
-    if (done(state)) {
+    if (done(status)) {
       line.end();
-      return state;
+      return status;
     }
   }
 }
@@ -115,16 +105,17 @@ std::string time_words(double seconds) {
   return fmt::format("{} s", whole);
 }
 
-int wait_until_rest(Client& client) {
+int wait_until_rest(Client& client, const std::function<bool(const json&)>& good) {
   ProgressLine line;
-  return troubled(follow(client, line, resting)) ? 1 : 0;
+  const json status = follow(client, line, [](const json& s) { return s.value("at_rest", false); });
+  return good(status) ? 0 : 1;
 }
 
 int watch_job(Client& client) {
   ProgressLine line;
-  const std::string state =
-      follow(client, line, [](const std::string& s) { return resting(s) && s != "held"; });
-  return state == "ready" ? 0 : 1;
+  const json status = follow(
+      client, line, [](const json& s) { return s.value("at_rest", false) && !s.value("held", false); });
+  return status.value("ready", false) ? 0 : 1;
 }
 
 int run_job(Client& client, const std::string& file, bool detach) {

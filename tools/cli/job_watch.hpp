@@ -1,6 +1,8 @@
 #pragma once
 // Sending a job and showing how it goes.
 
+#include <functional>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "tools/cli/client.hpp"
@@ -10,9 +12,9 @@ namespace kinebus {
 /// "1 h 02 min", "3 min 10 s", "12 s".
 std::string time_words(double seconds);
 
-/// Waits until the machine rests; events are printed. Returns the exit code: 0 fine, 1 alarm or stop.
-/// The client must be watching.
-int wait_until_rest(Client& client);
+/// Waits until the machine rests; events are printed. Returns the exit code: 0 when the status then is
+/// `good`. The client must be watching.
+int wait_until_rest(Client& client, const std::function<bool(const nlohmann::json&)>& good);
 
 /// Shows a progress bar until the job ended. 0: complete; 1: not.
 int watch_job(Client& client);

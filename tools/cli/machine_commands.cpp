@@ -26,6 +26,13 @@ json status_of(Client& client) {
   return client.ask({{"do", "status"}}).at("status");
 }
 
+bool ready(const json& status) {
+  return status.value("ready", false);
+}
+bool brought_up(const json& status) {
+  return !status.value("off", true) && !status.value("trouble", true);
+}
+
 std::string pose_words(const json& pose) {
   return fmt::format("X {:.3f}  Y {:.3f}  Z {:.3f} mm   A {:.3f}  C {:.3f} deg   E {:.3f} mm",
                      pose["x"].get<double>(), pose["y"].get<double>(), pose["z"].get<double>(),
@@ -85,9 +92,9 @@ void add_plain(CLI::App& app, const Options& options, int& exit_code, const std:
   command->callback([=, &exit_code] {
     Client client(Client::find_socket(options->socket));
     client.ask({{"do", "watch"}, {"hz", 10}});
-    if (word == "home" && status_of(client)["state"] == "off") {
+    if (word == "home" && status_of(client).value("off", false)) {
       const json up = client.ask({{"do", "bring-up"}});
-      exit_code = up.value("ok", false) ? wait_until_rest(client) : refused(up);
+      exit_code = up.value("ok", false) ? wait_until_rest(client, brought_up) : refused(up);
       if (exit_code != 0) return;
     }
     const json reply = client.ask({{"do", word}});
@@ -95,7 +102,7 @@ void add_plain(CLI::App& app, const Options& options, int& exit_code, const std:
       exit_code = refused(reply);
       return;
     }
-    if (moves && !*no_wait) exit_code = wait_until_rest(client);
+    if (moves && !*no_wait) exit_code = wait_until_rest(client, word == "bring-up" ? brought_up : ready);
   });
 }
 
@@ -126,7 +133,7 @@ void add_jog(CLI::App& app, const Options& options, int& exit_code) {
     json request{{"do", "jog"}};
     for (const auto& [key, value] : *values) request[key] = value;
     const json reply = client.ask(request);
-    exit_code = reply.value("ok", false) ? wait_until_rest(client) : refused(reply);
+    exit_code = reply.value("ok", false) ? wait_until_rest(client, ready) : refused(reply);
   });
 }
 
