@@ -20,6 +20,7 @@ std::string to_json_text(const SimulationReport& r) {
                             {"max_joint_velocity_ratio", r.max_joint_velocity_ratio},
                             {"max_joint_acceleration_ratio", r.max_joint_acceleration_ratio},
                             {"max_measured_acceleration_ratio", r.max_measured_acceleration_ratio},
+                            {"max_velocity_step_ratio", r.max_velocity_step_ratio},
                             {"max_node_time_skew_us", r.max_node_time_skew_us},
                             {"bus_load_mean", r.bus_load_mean},
                             {"bus_load_peak_1s", r.bus_load_peak_1s},
@@ -32,6 +33,9 @@ std::string to_json_text(const SimulationReport& r) {
                             {"checkpoint_errors", r.checkpoint_errors},
                             {"bus_slowdowns", r.bus_slowdowns},
                             {"starvation_holds", r.starvation_holds},
+                            {"queue_fullest", r.queue_fullest},
+                            {"queue_overruns", r.queue_overruns},
+                            {"records_out_of_sequence", r.records_out_of_sequence},
                             {"trace_hash", fmt::format("{:016x}", r.trace_hash)},
                             {"worst_joint", r.worst_joint},
                             {"worst_joint_s", r.worst_joint_s},
@@ -61,7 +65,11 @@ std::string to_table(const SimulationReport& r) {
   row("max_joint_velocity_ratio", fmt::format("{:.4f}", r.max_joint_velocity_ratio), "of the limit");
   row("max_joint_acceleration_ratio", fmt::format("{:.4f}", r.max_joint_acceleration_ratio),
       fmt::format("of the limit; by 1 ms differences {:.4f}", r.max_measured_acceleration_ratio));
-  row("max_node_time_skew_us", fmt::format("{:.3f}", r.max_node_time_skew_us), "path time, node to node");
+  row("max_velocity_step_ratio", fmt::format("{:.4f}", r.max_velocity_step_ratio),
+      fmt::format("in 1 ms, of the stop limit, from power-up on; {}, {:.3f} s", r.worst_step_joint,
+                  r.worst_step_s));
+  row("max_node_time_skew_us", fmt::format("{:.3f}", r.max_node_time_skew_us),
+      fmt::format("path time, node to node; {:.3f} s", r.worst_skew_s));
   row("bus_load_mean", fmt::format("{:.4f}", r.bus_load_mean), "of 1 Mbit/s");
   row("bus_load_peak_1s", fmt::format("{:.4f}", r.bus_load_peak_1s), "busiest second");
   row("segments", fmt::format("{}", r.segments), "");
@@ -69,6 +77,9 @@ std::string to_table(const SimulationReport& r) {
   row("underruns", fmt::format("{}", r.underruns),
       fmt::format("sequence errors {}, checkpoint errors {}, slowed for the bus {}, for planning {}",
                   r.sequence_errors, r.checkpoint_errors, r.bus_slowdowns, r.starvation_holds));
+  row("queue_fullest", fmt::format("{}", r.queue_fullest),
+      fmt::format("records; sent without room {}, out of sequence {}", r.queue_overruns,
+                  r.records_out_of_sequence));
   row("trace_hash", fmt::format("{:016x}", r.trace_hash), "same seed, same hash");
   return text;
 }

@@ -14,6 +14,13 @@ namespace kinebus {
 
 inline constexpr int kMaxNodes = 4;
 
+/// Path time on all nodes at one instant.
+struct Probe {
+  BusTime time{0};
+  int node_count = 0;
+  std::array<PathTime, kMaxNodes> tau{};
+};
+
 struct Sample {
   BusTime time{0};
   int node_count = 0;

@@ -9,7 +9,9 @@
 #include "vcan_tests/sim/checkers/bus_checker.hpp"
 #include "vcan_tests/sim/checkers/joint_checker.hpp"
 #include "vcan_tests/sim/checkers/path_checker.hpp"
+#include "vcan_tests/sim/checkers/queue_checker.hpp"
 #include "vcan_tests/sim/checkers/skew_checker.hpp"
+#include "vcan_tests/sim/checkers/step_checker.hpp"
 #include "vcan_tests/sim/checkers/tracking_checker.hpp"
 
 namespace kinebus {
@@ -43,6 +45,7 @@ struct Checkers {
   JointChecker joints;
   SkewChecker skew;
   BusChecker bus;
+  QueueChecker queues;
 };
 
 class Run {
@@ -51,11 +54,18 @@ class Run {
       : machine_(machine),
         kinematics_(kinematics),
         options_(options),
-        simulation_(machine, kinematics, options.simulation) {
+        simulation_(machine, kinematics, options.simulation),
+        steps_(machine) {
+    simulation_.on_sample = [this](const Sample& sample) { take(sample); };
+    simulation_.on_probe = [this](const Probe& probe) {
+      if (simulation_.in_job) checkers_->skew.on_probe(probe);
+    };
     simulation_.on_event = [this](const MachineEvent& event) { note(event); };
     simulation_.on_frame = [this](BusTime when, const CanFrame& frame) {
       if (options_.on_frame) options_.on_frame(when, frame);
-      if (checkers_) checkers_->joints.on_frame(frame);
+      if (!checkers_) return;
+      checkers_->joints.on_frame(frame);
+      checkers_->queues.on_frame(frame);
     };
   }
 
@@ -63,6 +73,9 @@ class Run {
     const double began = cpu_now();
     report_.seed = options_.simulation.seed;
     if (prepare()) print(std::move(job), same_job);
+    report_.max_velocity_step_ratio = steps_.max_ratio();
+    report_.worst_step_s = steps_.worst_time_s();
+    report_.worst_step_joint = steps_.worst_joint();
     report_.machine_time_s = to_seconds(simulation_.now());
     report_.cpu_s = cpu_now() - began;
     report_.speedup = report_.cpu_s > 0 ? report_.machine_time_s / report_.cpu_s : 0;
@@ -109,18 +122,24 @@ class Run {
     Gateway& gateway = simulation_.gateway();
     checkers_ = std::make_unique<Checkers>(machine_, kinematics_, simulation_, same_job,
                                            gateway.status().machine_pose);
-    simulation_.on_sample = [this](const Sample& sample) { take(sample); };
     if (const auto run = gateway.run(std::move(job), "job"); !run) {
       fail("the job was refused: " + run.error().words);
       return;
     }
     const auto started = [](MachineState s) { return s != MachineState::kChecking; };
     simulation_.run_until_state(started, hours{1});
+    if (gateway.state() != MachineState::kRunning) {
+      fail("the job was not begun");
+      return;
+    }
     begin_ = simulation_.now();
     simulation_.in_job = true;
     const BusTime limit = options_.limit_s > 0 ? BusTime{static_cast<std::int64_t>(options_.limit_s * 1e9)}
                                                : BusTime{hours{500}};
-    const bool ended = simulation_.run_until_state(settled, limit);
+    const auto over = [&](MachineState s) {
+      return settled(s) && !(s == MachineState::kHeld && options_.operate);
+    };
+    const bool ended = simulation_.run_until_state(over, limit);
     report_.job_time_s = to_seconds(simulation_.now() - begin_);
     report_.finished = ended && gateway.state() == MachineState::kReady && !report_.trouble;
     if (report_.finished)
@@ -133,8 +152,9 @@ class Run {
   }
 
   void take(const Sample& sample) {
+    steps_.on_sample(sample);
+    if (!checkers_) return;
     checkers_->joints.on_sample(sample);
-    checkers_->skew.on_sample(sample);
     checkers_->bus.on_sample(sample, simulation_.machine().bus().statistics());
     if (!sample.in_job) return;
     checkers_->tracking.on_sample(sample);
@@ -143,6 +163,7 @@ class Run {
       options_.on_sample(sample, checkers_->path.last_um(), checkers_->path.nearest_line());
     report_.lines = std::max(report_.lines, sample.line);
     if (options_.plot != nullptr) plot(sample);
+    if (options_.operate) options_.operate(simulation_.gateway(), to_seconds(sample.time - begin_));
     if (options_.on_progress && ++since_progress_ >= 2000) {
       since_progress_ = 0;
       options_.on_progress(simulation_.gateway().status().progress, to_seconds(sample.time - begin_));
@@ -187,6 +208,10 @@ class Run {
     report_.max_joint_acceleration_ratio = c.joints.max_acceleration_ratio();
     report_.max_measured_acceleration_ratio = c.joints.max_measured_acceleration_ratio();
     report_.max_node_time_skew_us = c.skew.max_us();
+    report_.worst_skew_s = c.skew.worst_time_s() - to_seconds(begin_);
+    report_.queue_fullest = c.queues.findings().fullest;
+    report_.queue_overruns = c.queues.findings().overruns;
+    report_.records_out_of_sequence = c.queues.findings().out_of_sequence;
     report_.bus_load_mean = c.bus.mean();
     report_.bus_load_peak_1s = c.bus.peak_1s();
     report_.frames = c.bus.frames();
@@ -203,6 +228,7 @@ class Run {
   const Kinematics& kinematics_;
   const SimulateOptions& options_;
   Simulation simulation_;
+  StepChecker steps_;
   std::unique_ptr<Checkers> checkers_;
   SimulationReport report_;
   BusTime begin_{0}, last_time_{0};

@@ -20,6 +20,8 @@ struct SimulateOptions {
   std::function<void(double progress, double job_s)> on_progress;
   /// Every sample of the job, with the distance from the programmed path and its line there.
   std::function<void(const Sample&, double path_um, std::uint32_t line)> on_sample;
+  /// Called every millisecond of the job: may hold, resume, override, stop. A held job then is not the end.
+  std::function<void(Gateway&, double job_s)> operate;
   std::function<void(BusTime, const CanFrame&)> on_frame;  ///< every frame on the bus, from power-up on
 };
 

@@ -53,8 +53,8 @@ void Simulation::serve_gateway(BusTime now) {
 
 void Simulation::step(BusTime until) {
   const BusTime gateway_time = gateway_due();
-  const BusTime next =
-      std::min({until, next_sample_, gateway_time, std::max(virtual_machine_.next_event(), now_)});
+  const BusTime next = std::min(
+      {until, next_sample_, next_probe_, gateway_time, std::max(virtual_machine_.next_event(), now_)});
   const bool done = virtual_machine_.advance(next);
   bool stirred = false;
   while (const auto got = virtual_machine_.receive()) {
@@ -75,6 +75,12 @@ void Simulation::step(BusTime until) {
     stirred = true;
   }
   if (stirred) serve_gateway(now_);
+  if (done && now_ >= next_probe_) {
+    const BusTime period = options_.sample_period;
+    next_probe_ = period * (now_ / period + 1) +
+                  BusTime{static_cast<std::int64_t>(random_() % static_cast<std::uint64_t>(period.count()))};
+    if (on_probe) on_probe(probe());
+  }
   if (done && now_ >= next_sample_) {
     next_sample_ += options_.sample_period;
     if (on_sample) on_sample(sample());
@@ -96,16 +102,25 @@ bool Simulation::run_until_state(const std::function<bool(MachineState)>& done, 
   return true;
 }
 
+Probe Simulation::probe() {
+  Probe p;
+  p.time = now_;
+  p.node_count = std::min(virtual_machine_.node_count(), kMaxNodes);
+  for (int n = 0; n < p.node_count; ++n)
+    p.tau[static_cast<std::size_t>(n)] = virtual_machine_.path_time(n, now_);
+  return p;
+}
+
 Sample Simulation::sample() {
   Sample s;
   s.time = now_;
   s.in_job = in_job;
-  s.node_count = std::min(virtual_machine_.node_count(), kMaxNodes);
+  const Probe now = probe();
+  s.node_count = now.node_count;
+  s.node_tau = now.tau;
   std::int64_t sum = 0;
-  for (int n = 0; n < s.node_count; ++n) {
-    s.node_tau[static_cast<std::size_t>(n)] = virtual_machine_.path_time(n, now_);
+  for (int n = 0; n < s.node_count; ++n)
     sum += (s.node_tau[static_cast<std::size_t>(n)] - s.node_tau[0]).count();
-  }
   s.tau = s.node_tau[0] + PathTime{s.node_count > 0 ? sum / s.node_count : 0};
   const BusTime dt = s.time - last_.time;
   if (dt > BusTime{0}) s.rate = to_seconds(s.tau - last_.tau) / to_seconds(dt);

@@ -43,8 +43,10 @@ class Simulation {
   bool run_until_state(const std::function<bool(MachineState)>& done, BusTime limit);
 
   Sample sample();
+  Probe probe();
 
   std::function<void(const Sample&)> on_sample;
+  std::function<void(const Probe&)> on_probe;  ///< at a random instant of every sample period
   std::function<void(BusTime, const CanFrame&)> on_frame;
   std::function<void(const MachineEvent&)> on_event;
   bool in_job = false;
@@ -65,7 +67,7 @@ class Simulation {
   std::vector<int> node_of_joint_;
   std::mt19937_64 random_;
   BusTime now_{0};
-  BusTime next_sample_{0};
+  BusTime next_sample_{0}, next_probe_{0};
   BusTime asked_{BusTime::max()}, woken_{0};  // the gateway's deadline, and when Linux lets it run
   BusTime served_{-1'000'000};                // when it ran last
   Sample last_{};
