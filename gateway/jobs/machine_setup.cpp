@@ -42,6 +42,21 @@ gcode::Options interpreter_options(const MachineDescription& machine, const Pose
   return options;
 }
 
+namespace {
+
+// A table's error moves the tip by its lever. Within the radius of 100 mm that M1 prints in, it shall not
+// move it farther than a carriage's half microstep does (0.39 um); half a microstep of the table would be 2
+// um.
+constexpr double kRotaryToleranceRad = 3.9e-6;
+
+double segment_tolerance(const MachineDescription& machine, const JointDescription& joint) {
+  const double counts = machine.tolerances.segment_counts;
+  if (!joint.rotary) return counts;
+  return std::min(counts, 2 * counts * kRotaryToleranceRad * std::abs(joint.drive.counts_per_unit()));
+}
+
+}  // namespace
+
 std::vector<NodeAxes> node_axes(const MachineDescription& machine) {
   std::vector<NodeAxes> nodes;
   for (const NodeDescription& node : machine.nodes) nodes.push_back({.node_id = node.id, .axes = {}});
@@ -55,7 +70,7 @@ std::vector<NodeAxes> node_axes(const MachineDescription& machine) {
                                 .reversed = j.drive.inverted,
                                 .scale_correction = j.calibration.scale,
                                 .offset = 0,
-                                .tolerance_counts = machine.tolerances.segment_counts,
+                                .tolerance_counts = segment_tolerance(machine, j),
                                 .acceleration_limit = j.accel_per_s2};
     }
   }
