@@ -66,8 +66,9 @@ static void mount_root(void) {
   need(mount("tmpfs", "/over", "tmpfs", 0, "size=70%") == 0, "tmpfs");
   mkdir("/over/upper", 0755);
   mkdir("/over/work", 0755);
-  need(mount("overlay", "/root", "overlay", 0, "lowerdir=/lower,upperdir=/over/upper,workdir=/over/work") == 0,
-       "overlay");
+  need(
+      mount("overlay", "/root", "overlay", 0, "lowerdir=/lower,upperdir=/over/upper,workdir=/over/work") == 0,
+      "overlay");
   need(mount("proc", "/root/proc", "proc", 0, NULL) == 0, "proc");
   need(mount("sysfs", "/root/sys", "sysfs", 0, NULL) == 0, "sysfs");
   need(mount("devtmpfs", "/root/dev", "devtmpfs", 0, NULL) == 0, "devtmpfs");
@@ -106,8 +107,8 @@ int main(void) {
   if (job == 0) {
     setsid();
     char* const arguments[] = {"/bin/bash", "/run/lab/job.sh", NULL};
-    char* const environment[] = {"PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin", "HOME=/tmp",
-                                 "LANG=C.UTF-8", "KINEBUS_LAB=1", NULL};
+    char* const environment[] = {"PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin",
+                                 "HOME=/tmp", "LANG=C.UTF-8", "KINEBUS_LAB=1", NULL};
     execve(arguments[0], arguments, environment);
     _exit(126);
   }
