@@ -91,10 +91,11 @@ class Gateway::Core {
   void finish_motion();
   void remember_positions();
 
-  // What the nodes say.
+  // What the nodes say (core_nodes.cpp).
   void watch_nodes();
   void take_emergencies(NodeLink& link);
   void take_stream_status(NodeLink& link);
+  bool check_clock(const NodeLink& link, const StreamStatus& status);
 
   /// Path time stands; notes since when.
   bool standing();

@@ -1,4 +1,4 @@
-// What each state of the machine does as time passes, and what the nodes' news mean.
+// What each state of the machine does as time passes.
 
 #include <algorithm>
 #include <cstdlib>
@@ -21,7 +21,8 @@ constexpr BusTime kClearTimeout = 3s;
 
 void Gateway::Core::enter(MachineState state) {
   if (state == state_) return;
-  // A program error, and no state to go on from: the daemon ends, and the nodes stop on the path by themselves.
+  // A program error, and no state to go on from: the daemon ends, and the nodes stop on the path by
+  // themselves.
   if (!may_follow(state_, state)) std::abort();
   state_ = state;
   entered_ = now_;
@@ -331,62 +332,6 @@ void Gateway::Core::step_clear() {
   alarm(enabled ? AlarmCode::kStopTimeout : AlarmCode::kEnableFailed,
         enabled ? "a node keeps its stop latched: is an emergency stop or a limit switch still active?"
                 : "a drive does not enable again: its fault is still there");
-}
-
-// News of the nodes
-// --------------------------------------------------------------------------------------------
-
-void Gateway::Core::watch_nodes() {
-  for (NodeLink& link : links_) {
-    take_emergencies(link);
-    const bool watched = state_ != MachineState::kOff && state_ != MachineState::kBringUp && !need_bring_up_;
-    if (!watched) continue;
-    const std::string name = "node " + std::to_string(link.id());
-    if (link.take_boot_up()) {
-      need_bring_up_ = true;
-      homed_ = false;
-      alarm(AlarmCode::kNodeRestarted, name + " has restarted", link.id());
-      stop_all(true);
-    } else if (now_ - link.last_heard() > machine_.bus.heartbeat_timeout) {
-      need_bring_up_ = true;
-      alarm(AlarmCode::kHeartbeatLost, name + " is silent", link.id());
-      stop_all(true);
-    }
-  }
-}
-
-void Gateway::Core::take_emergencies(NodeLink& link) {
-  while (const auto emergency = link.next_emergency()) {
-    if (emergency->code == emcy::kNoError) continue;
-    const AlarmText text = describe_emergency(*emergency);
-    events_.push({.kind = MachineEvent::Kind::kAlarm,
-                  .when = now_,
-                  .code = emergency->code,
-                  .node = emergency->node,
-                  .words = text.words,
-                  .advice = text.advice});
-    const auto reason = static_cast<StopReason>(emergency->vendor[0] & 0x7F);
-    if (reason == StopReason::kNone || bring_up_.busy() || state_ == MachineState::kOff) continue;
-    const bool lost = reason == StopReason::kStarved || reason == StopReason::kSequenceError ||
-                      reason == StopReason::kCheckpointError || reason == StopReason::kStreamError;
-    stream_lost_ = stream_lost_ || lost;
-    stop_all(reason == StopReason::kAxisFault);
-  }
-}
-
-void Gateway::Core::take_stream_status(NodeLink& link) {
-  const auto status = link.take_stream();
-  if (!status || !streams_flow() || !runner_.active()) return;
-  const auto taken = group_.on_status(now_, link.id(), *status, rate_.tau(now_));
-  if (taken) return;
-  using Kind = StreamError::Kind;
-  const Kind kind = taken.error().kind;
-  counters_.sequence_errors += kind == Kind::kSequence || kind == Kind::kSilent ? 1 : 0;
-  counters_.checkpoint_errors += kind == Kind::kCheckpoint ? 1 : 0;
-  counters_.underruns += kind == Kind::kUnderrun ? 1 : 0;
-  stream_lost_ = true;
-  alarm(AlarmCode::kStreamLost, to_string(taken.error()), link.id(), taken.error().line);
-  stop_all(false);
 }
 
 }  // namespace kinebus

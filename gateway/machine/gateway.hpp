@@ -55,9 +55,6 @@ class Gateway {
   struct Options {
     std::uint8_t epoch = 1;     ///< of the time stamps: another value after every start of the gateway
     int planning_budget = 400;  ///< G-code lines interpreted in one on_time() call, at most
-    std::chrono::milliseconds horizon{500};  ///< motion kept in the nodes' queues, path time at full rate
-    double bus_budget = 0.6;                 ///< fraction of 1 Mbit/s that motion may load the bus with
-    bool simulated_heaters = true;           ///< hotend and bed are the built-in first-order models
   };
 
   explicit Gateway(const MachineDescription& machine);

@@ -172,6 +172,34 @@ TEST(MachineFaults, EmergencyStopInputStopsAllOnThePath) {
   ASSERT_TRUE(rig.reach(MachineState::kReady, 60s)) << rig.story();
 }
 
+CanFrame stream_status(std::uint8_t node, const StreamStatus& status) {
+  CanFrame frame{.id = cob_id::tpdo(2, node), .length = 8};
+  put_u64_le(frame.data, encode(status));
+  return frame;
+}
+
+TEST(MachineFaults, NodeThatLosesSynchronisationStopsTheMachine) {
+  Midway rig;
+  ASSERT_TRUE(rig.begin()) << rig.story();
+  rig.gateway->on_frame(rig.now, stream_status(1, {.flags = StreamStatus::kRunning}));
+  ASSERT_TRUE(rig.reach(MachineState::kStopped, 5s)) << rig.story();
+  EXPECT_TRUE(rig.told(AlarmCode::kSyncError)) << rig.story();
+  EXPECT_TRUE(rig.rests());
+}
+
+TEST(MachineFaults, NodeThatRestsAtAnotherPathTimeIsAnAlarm) {
+  Midway rig;
+  ASSERT_TRUE(rig.begin()) << rig.story();
+  ASSERT_TRUE(rig.gateway->hold());
+  ASSERT_TRUE(rig.reach(MachineState::kHeld, 1s));
+  rig.run_for(200ms);
+  const auto units = static_cast<std::uint32_t>(rig.gateway->path_time(rig.now).count() / 256);
+  rig.gateway->on_frame(rig.now,
+                        stream_status(2, {.flags = StreamStatus::kSynchronised, .path_units = units + 5}));
+  ASSERT_TRUE(rig.reach(MachineState::kAlarm, 5s)) << rig.story();
+  EXPECT_TRUE(rig.told(AlarmCode::kPathTimeDiffers)) << rig.story();
+}
+
 TEST(MachineFaults, BusFailureIsAnAlarmAndTheMachineComesBack) {
   Midway rig;
   ASSERT_TRUE(rig.begin()) << rig.story();

@@ -1,0 +1,92 @@
+// What the nodes' news mean for the machine.
+
+#include <utility>
+
+#include "gateway/machine/core.hpp"
+
+namespace kinebus {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// A status frame is at most so old when it comes.
+constexpr BusTime kFrameDelay = 50ms;
+
+}  // namespace
+
+// --------------------------------------------------------------------------------------------
+
+void Gateway::Core::watch_nodes() {
+  for (NodeLink& link : links_) {
+    take_emergencies(link);
+    const bool watched = state_ != MachineState::kOff && state_ != MachineState::kBringUp && !need_bring_up_;
+    if (!watched) continue;
+    const std::string name = "node " + std::to_string(link.id());
+    if (link.take_boot_up()) {
+      need_bring_up_ = true;
+      homed_ = false;
+      alarm(AlarmCode::kNodeRestarted, name + " has restarted", link.id());
+      stop_all(true);
+    } else if (now_ - link.last_heard() > machine_.bus.heartbeat_timeout) {
+      need_bring_up_ = true;
+      alarm(AlarmCode::kHeartbeatLost, name + " is silent", link.id());
+      stop_all(true);
+    }
+  }
+}
+
+void Gateway::Core::take_emergencies(NodeLink& link) {
+  while (const auto emergency = link.next_emergency()) {
+    if (emergency->code == emcy::kNoError) continue;
+    const AlarmText text = describe_emergency(*emergency);
+    events_.push({.kind = MachineEvent::Kind::kAlarm,
+                  .when = now_,
+                  .code = emergency->code,
+                  .node = emergency->node,
+                  .words = text.words,
+                  .advice = text.advice});
+    const auto reason = static_cast<StopReason>(emergency->vendor[0] & 0x7F);
+    if (reason == StopReason::kNone || bring_up_.busy() || state_ == MachineState::kOff) continue;
+    const bool lost = reason == StopReason::kStarved || reason == StopReason::kSequenceError ||
+                      reason == StopReason::kCheckpointError || reason == StopReason::kStreamError;
+    stream_lost_ = stream_lost_ || lost;
+    stop_all(reason == StopReason::kAxisFault);
+  }
+}
+
+/// Path time at rest is the same number everywhere, and clocks stay synchronised as long as anything moves.
+bool Gateway::Core::check_clock(const NodeLink& link, const StreamStatus& status) {
+  const std::string name = "node " + std::to_string(link.id());
+  if ((status.flags & StreamStatus::kSynchronised) == 0) {
+    alarm(AlarmCode::kSyncError, name + " has lost the synchronisation of its clock", link.id());
+    stop_all(false);
+    return false;
+  }
+  const bool rested = rate_.at_rest(now_) && rate_.rate(now_ - kFrameDelay) == 0;
+  const auto units = static_cast<std::uint32_t>(rate_.tau(now_).count() / kPathTicksPerUnit);
+  if (!rested || status.path_units == units) return true;
+  alarm(AlarmCode::kPathTimeDiffers,
+        name + " rests at another path time than the gateway: " +
+            std::to_string(static_cast<std::int32_t>(status.path_units - units) * 16) + " us apart",
+        link.id());
+  need_bring_up_ = true;
+  stop_all(true);
+  return false;
+}
+
+void Gateway::Core::take_stream_status(NodeLink& link) {
+  const auto status = link.take_stream();
+  if (!status || !streams_flow() || !runner_.active() || !check_clock(link, *status)) return;
+  const auto taken = group_.on_status(now_, link.id(), *status, rate_.tau(now_));
+  if (taken) return;
+  using Kind = StreamError::Kind;
+  const Kind kind = taken.error().kind;
+  counters_.sequence_errors += kind == Kind::kSequence || kind == Kind::kSilent ? 1 : 0;
+  counters_.checkpoint_errors += kind == Kind::kCheckpoint ? 1 : 0;
+  counters_.underruns += kind == Kind::kUnderrun ? 1 : 0;
+  stream_lost_ = true;
+  alarm(AlarmCode::kStreamLost, to_string(taken.error()), link.id(), taken.error().line);
+  stop_all(false);
+}
+
+}  // namespace kinebus
