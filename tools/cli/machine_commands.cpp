@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -34,9 +35,12 @@ bool brought_up(const json& status) {
 }
 
 std::string pose_words(const json& pose) {
-  return fmt::format("X {:.3f}  Y {:.3f}  Z {:.3f} mm   A {:.3f}  C {:.3f} deg   E {:.3f} mm",
-                     pose["x"].get<double>(), pose["y"].get<double>(), pose["z"].get<double>(),
-                     pose["a"].get<double>(), pose["c"].get<double>(), pose["e"].get<double>());
+  // Rounded first: a coordinate of -1e-9 is shown as 0.000, not as -0.000.
+  const auto value = [&](const char* axis) {
+    return std::round(pose[axis].get<double>() * 1000) / 1000 + 0.0;
+  };
+  return fmt::format("X {:.3f}  Y {:.3f}  Z {:.3f} mm   A {:.3f}  C {:.3f} deg   E {:.3f} mm", value("x"),
+                     value("y"), value("z"), value("a"), value("c"), value("e"));
 }
 
 void print_status(const json& s) {
