@@ -55,8 +55,10 @@ void PathDistance::add(const canonical::Line& line) {
   move.from = xyz(end_);
   move.to = xyz(*target);
   move.line = line.line;
-  moves_.push_back(move);
   end_ = *target;
+  // Moves of E and of rotations alone are no places of their own; a row of them would end the search.
+  if (!move.arc && move.from == move.to && !moves_.empty()) return;
+  moves_.push_back(move);
 }
 
 double PathDistance::distance2_to(const Move& move, const Vector3& point) {

@@ -46,6 +46,17 @@ TEST(PathDistance, FollowsADenseCurveAndForgetsWhatLiesBehind) {
   }
 }
 
+TEST(PathDistance, ARowOfRetractionsDoesNotEndTheSearch) {
+  PathDistance path;
+  Job job;
+  job.to({10, 0, 0, 0, 0, 0});
+  for (int i = 1; i <= 10; ++i) job.to({10, 0, 0, 0, 0, static_cast<double>(i % 2)});
+  job.to({10, 10, 0, 0, 0, 0});
+  for (const auto& line : job.lines()) path.add(line);
+  EXPECT_NEAR(path.distance_mm({9.9, 0.01, 0, 0, 0, 0}, 2), 0.01, 1e-12);
+  EXPECT_NEAR(path.distance_mm({10.01, 1, 0, 0, 0, 0}, 20), 0.01, 1e-12);
+}
+
 TEST(PathDistance, WithoutMovesThereIsNothingToLeave) {
   PathDistance path;
   EXPECT_EQ(path.distance_mm({1, 2, 3, 0, 0, 0}, 1), 0);
