@@ -57,7 +57,7 @@ void PathDistance::add(const canonical::Line& line) {
   move.line = line.line;
   end_ = *target;
   // Moves of E and of rotations alone are no places of their own; a row of them would end the search.
-  if (!move.arc && move.from == move.to && !moves_.empty()) return;
+  if (!move.arc && move.from == move.to && !moves_.empty() && moves_.back().to == move.to) return;
   moves_.push_back(move);
 }
 
