@@ -15,7 +15,7 @@ Simulation::Simulation(const MachineDescription& machine, const Kinematics& kine
       gateway_(machine, {.epoch = static_cast<std::uint8_t>(1 + options.seed % 250)}),
       virtual_machine_(virtual_nodes_of(machine, options.clocks, options.seed), options.seed),
       random_(options.seed ^ 0x9E3779B97F4A7C15ULL),
-      warm_(kinematics.bed_reference()) {
+      warm_{kinematics.bed_reference(), kinematics.bed_reference()} {
   for (const JointDescription& joint : machine.joints)
     for (std::size_t n = 0; n < machine.nodes.size(); ++n)
       if (machine.nodes[n].id == joint.node_id) node_of_joint_.push_back(static_cast<int>(n));
@@ -129,8 +129,9 @@ Sample Simulation::sample() {
     const JointDescription& joint = description_.joints[j];
     s.joints[j] = joint_from_counts(joint, virtual_machine_.true_counts(node_of_joint_[j], joint.axis, now_));
   }
-  s.pose = warm_;
-  if (kinematics_.forward(Frame::kPart, s.joints, s.pose)) warm_ = s.pose;
+  // Begins where the pose goes on to: one step of Newton's method then is enough.
+  for (std::size_t axis = 0; axis < s.pose.size(); ++axis) s.pose[axis] = 2 * warm_[0][axis] - warm_[1][axis];
+  if (kinematics_.forward(Frame::kPart, s.joints, s.pose)) warm_ = {s.pose, warm_[0]};
   if (in_job) {
     s.planned = gateway_.planned_pose(s.tau);
     s.line = s.planned ? s.planned->line : last_.line;

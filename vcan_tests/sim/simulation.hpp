@@ -2,6 +2,7 @@
 // The whole machine in virtual time: gateway core, node cores, motors, switches, bus and clocks, from one
 // seed. Deterministic: the same seed gives the same run, frame for frame.
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -71,7 +72,7 @@ class Simulation {
   BusTime asked_{BusTime::max()}, woken_{0};  // the gateway's deadline, and when Linux lets it run
   BusTime served_{-1'000'000};                // when it ran last
   Sample last_{};
-  PoseVector warm_{};
+  std::array<PoseVector, 2> warm_{};  // the last two poses found
   std::uint64_t hash_ = 1469598103934665603ULL;
 };
 

@@ -15,7 +15,8 @@ void TrackingChecker::on_sample(const Sample& sample) {
 /// In part coordinates, so that an error of the table's rotations counts where the tip is.
 void TrackingChecker::check_tool(const Sample& sample) {
   PoseVector planned = sample.planned->pose;
-  if (sample.planned->frame != Frame::kPart) {
+  // Both frames are the same where the table has not turned.
+  if (sample.planned->frame != Frame::kPart && (planned[kA] != 0 || planned[kC] != 0)) {
     JointVector q{};
     if (!kinematics_.inverse(sample.planned->frame, planned, q)) return;
     planned = sample.pose;
