@@ -147,12 +147,12 @@ void draw_bed(std::string& svg, const View& view) {
   for (double v = x.low; v <= x.high + 1e-6; v += sx) {
     line(svg, view.at(v, y.low, z.low), view.at(v, y.high, z.low), kGrid);
     const auto [u, w] = view.at(v, y.low, z.low);
-    text(svg, u + 4, w + 16, fmt::format("{:g}", v), kMiddleLabel);
+    text(svg, u - 6, w + 18, fmt::format("{:g}", v), kMiddleLabel);
   }
   for (double v = y.low; v <= y.high + 1e-6; v += sy) {
     line(svg, view.at(x.low, v, z.low), view.at(x.high, v, z.low), kGrid);
     const auto [u, w] = view.at(x.high, v, z.low);
-    text(svg, u + 20, w + 10, fmt::format("{:g}", v), kMiddleLabel);
+    text(svg, u + 22, w + 8, fmt::format("{:g}", v), kMiddleLabel);
   }
   line(svg, view.at(x.low, y.high, z.low), view.at(x.low, y.high, z.high), "stroke=\"#afb8c1\"");
   for (double v = z.low; v <= z.high + 1e-6; v += sz) {
@@ -167,7 +167,36 @@ void draw_bed(std::string& svg, const View& view) {
   text(svg, zu - 8, zv - 12, "Z mm", kRightLabel);
 }
 
-void draw_path(std::string& svg, const View& view, const PlotData& data, double fastest) {
+/// What the path's colour shows: speed, or height where the speed hardly changes.
+struct Scale {
+  bool height = false;
+  double low = 0, high = 1;
+  double fraction(const PlotData::Point& p) const {
+    return ((height ? p.tool_mm[2] : p.speed_mm_per_s) - low) / (high - low);
+  }
+};
+
+bool prints(const PlotData::Point& before, const PlotData::Point& now) {
+  return now.e_mm > before.e_mm + 1e-6f;
+}
+
+Scale make_scale(const PlotData& data) {
+  const auto& points = data.points();
+  std::vector<float> speeds;
+  Range height;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    if (!prints(points[i - 1], points[i])) continue;
+    speeds.push_back(points[i].speed_mm_per_s);
+    height.include(points[i].tool_mm[2]);
+  }
+  if (speeds.empty()) return {};
+  std::sort(speeds.begin(), speeds.end());
+  const double fastest = std::max<double>(speeds.back(), 1), slow = speeds[speeds.size() / 10];
+  if (slow > 0.95 * fastest && height.span() > 1) return {true, height.low, height.high};
+  return {false, 0, fastest};
+}
+
+void draw_path(std::string& svg, const View& view, const PlotData& data, const Scale& scale) {
   const auto& points = data.points();
   const std::size_t step = std::max<std::size_t>(1, points.size() / kDrawnPath);
   constexpr int kBands = 24;
@@ -183,8 +212,7 @@ void draw_path(std::string& svg, const View& view, const PlotData& data, double 
   for (std::size_t i = step; i < points.size(); i += step) {
     const auto& a = points[i - step];
     const auto& b = points[i];
-    const bool prints = b.e_mm > a.e_mm + 1e-6f;
-    const int now = prints ? static_cast<int>(std::min(0.999, b.speed_mm_per_s / fastest) * kBands) : -1;
+    const int now = prints(a, b) ? static_cast<int>(std::clamp(scale.fraction(b), 0.0, 0.999) * kBands) : -1;
     if (now != band) {
       flush();
       band = now;
@@ -199,7 +227,7 @@ void draw_path(std::string& svg, const View& view, const PlotData& data, double 
   flush();
 }
 
-void draw_scale(std::string& svg, double fastest) {
+void draw_scale(std::string& svg, const Scale& scale) {
   const double x = kWidth - 50, top = kTop + 60, height = 260;
   constexpr int kSteps = 40;
   for (int i = 0; i < kSteps; ++i)
@@ -207,9 +235,10 @@ void draw_scale(std::string& svg, double fastest) {
                        top + height * (1 - (i + 1.0) / kSteps), height / kSteps + 0.5,
                        colour((i + 0.5) / kSteps));
   for (int i = 0; i <= 4; ++i)
-    text(svg, x - 22, top + height * (1 - i / 4.0) + 4, fmt::format("{:.0f}", fastest * i / 4), kRightLabel);
-  text(svg, x + 2, top - 26, "tool speed", kRightLabel);
-  text(svg, x + 2, top - 10, "mm/s", kRightLabel);
+    text(svg, x - 22, top + height * (1 - i / 4.0) + 4,
+         fmt::format("{:.0f}", scale.low + (scale.high - scale.low) * i / 4), kRightLabel);
+  text(svg, x + 2, top - 26, scale.height ? "height" : "tool speed", kRightLabel);
+  text(svg, x + 2, top - 10, scale.height ? "mm" : "mm/s", kRightLabel);
   line(svg, {x - 16, top + height + 22}, {x, top + height + 22}, "stroke=\"#c3cad1\" stroke-width=\"1.5\"");
   text(svg, x - 22, top + height + 26, "travel", kRightLabel);
 }
@@ -292,15 +321,12 @@ std::string draw_plot(const PlotData& data, const MachineDescription& machine, c
     return svg + "</svg>\n";
   }
 
-  double fastest = 1;
-  for (std::size_t i = 1; i < data.points().size(); ++i)
-    if (data.points()[i].e_mm > data.points()[i - 1].e_mm)
-      fastest = std::max<double>(fastest, data.points()[i].speed_mm_per_s);
+  const Scale scale = make_scale(data);
   const View view = make_view(data);
   text(svg, kMargin, kTop + 4, "Tool path of the simulated machine", kHeading);
   draw_bed(svg, view);
-  draw_path(svg, view, data, fastest);
-  draw_scale(svg, fastest);
+  draw_path(svg, view, data, scale);
+  draw_scale(svg, scale);
 
   static constexpr std::array<const char*, 4> kColours{"#0969da", "#bf3989", "#1a7f37", "#bc4c00"};
   std::vector<Series> carriages;

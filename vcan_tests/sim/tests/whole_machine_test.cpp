@@ -151,6 +151,22 @@ TEST(WholeMachine, StopsOnThePathFromFullSpeed) {
   EXPECT_LE(r.max_node_time_skew_us, 2.0);
 }
 
+TEST(WholeMachine, SlowsThePathWhenTheBusIsTooSmallForIt) {
+  std::string job = "G21 G90 M83\nM104 S200\nG1 Z10 F6000\n";  // a saw of 0.2 mm teeth
+  for (int i = 0; i < 800; ++i)
+    job += fmt::format("G1 X{:.1f} Y{:.2f} E0.01 F18000\n", 0.1 * i, i % 2 == 0 ? 0.07 : -0.07);
+  MachineDescription machine = default_m1();
+  const SimulationReport fast = simulate_text(job);
+  expect_within_bounds(fast);
+  machine.bus.budget = 0.04;
+  StringSource same(job);
+  const SimulationReport slow = simulate(machine, std::make_unique<StringSource>(job), same, {});
+  expect_within_bounds(slow);
+  EXPECT_GT(fast.bus_load_peak_1s, 0.06);
+  EXPECT_LT(slow.bus_load_peak_1s, 0.055);  // the budget, SYNC, status and heartbeats
+  EXPECT_GT(slow.bus_slowdowns, 0u);
+}
+
 TEST(WholeMachine, AJobWithAnErrorDoesNotBegin) {
   const SimulationReport r = simulate_text("G21 G90\nG1 X10 F3000\nG1 X500\n");
   EXPECT_FALSE(r.finished);
