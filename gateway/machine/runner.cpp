@@ -278,7 +278,9 @@ void Runner::control_rate(BusTime now) {
     if (!group_.primed(tau)) return;
     started_ = true;
     last_rate_change_ = now;
-    rate_.request(std::min(override_, group_.allowed_rate(tau)), kRampAtRest, now);
+    const double allowed = group_.allowed_rate(tau);
+    if (allowed < std::min(override_, 1.0)) ++counters_.bus_slowdowns;
+    rate_.request(std::min(override_, allowed), kRampAtRest, now);
     return;
   }
   const double allowed = group_.allowed_rate(tau);
