@@ -10,26 +10,11 @@
 
 namespace kinebus {
 
-void PlotData::add(const Point& point) {
-  largest_error_ = std::max(largest_error_, point.error_um);
-  if (seen_++ % every_ != 0) return;
-  points_.push_back(point);
-  points_.back().error_um = largest_error_;
-  largest_error_ = 0;
-  if (points_.size() < kCapacity) return;
-  for (std::size_t i = 0; i < kCapacity / 2; ++i) {
-    points_[i] = points_[2 * i];
-    points_[i].error_um = std::max(points_[2 * i].error_um, points_[2 * i + 1].error_um);
-  }
-  points_.resize(kCapacity / 2);
-  every_ *= 2;
-}
-
 namespace {
 
 constexpr double kWidth = 1200, kMargin = 70, kSceneHeight = 620, kChartHeight = 170, kGap = 62, kTop = 96;
 // Points drawn: enough for any detail that a picture of this size can show.
-constexpr std::size_t kDrawnPath = 16'000, kDrawnChart = 1'500;
+constexpr std::size_t kDrawnChart = 1'500;
 
 /// Blue over green to yellow (dark to light, also for readers who do not see colours well).
 std::string colour(double fraction) {
@@ -171,8 +156,8 @@ void draw_bed(std::string& svg, const View& view) {
 struct Scale {
   bool height = false;
   double low = 0, high = 1;
-  double fraction(const PlotData::Point& p) const {
-    return ((height ? p.tool_mm[2] : p.speed_mm_per_s) - low) / (high - low);
+  double fraction(const PlotData::PathPoint& p) const {
+    return ((height ? p.mm[2] : p.speed_mm_per_s) - low) / (high - low);
   }
 };
 
@@ -197,34 +182,36 @@ Scale make_scale(const PlotData& data) {
 }
 
 void draw_path(std::string& svg, const View& view, const PlotData& data, const Scale& scale) {
-  const auto& points = data.points();
-  const std::size_t step = std::max<std::size_t>(1, points.size() / kDrawnPath);
-  constexpr int kBands = 24;
+  constexpr int kBands = 24, kTravel = kBands;
+  svg += "<style>path.p{fill:none;stroke-width:1.3;stroke-linejoin:round}";
+  for (int i = 0; i < kBands; ++i) svg += fmt::format(".c{}{{stroke:{}}}", i, colour((i + 0.5) / kBands));
+  svg += fmt::format("path.c{}{{stroke:#c3cad1;stroke-width:0.6}}</style>\n", kTravel);
+
   std::string run;
   int band = -1;
   const auto flush = [&] {
-    if (!run.empty())
-      svg += fmt::format(
-          "<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\"/>\n", run,
-          band < 0 ? "#c3cad1" : colour((band + 0.5) / kBands), band < 0 ? 0.6 : 1.3);
+    if (!run.empty()) svg += fmt::format("<path class=\"p c{}\" d=\"{}\"/>\n", band, run);
     run.clear();
   };
-  for (std::size_t i = step; i < points.size(); i += step) {
-    const auto& a = points[i - step];
-    const auto& b = points[i];
-    const int now = prints(a, b) ? static_cast<int>(std::clamp(scale.fraction(b), 0.0, 0.999) * kBands) : -1;
-    if (now != band) {
-      flush();
-      band = now;
+  for (const PlotData::Stretch& stretch : data.path()) {
+    for (std::size_t i = 1; i < stretch.size(); ++i) {
+      const auto& a = stretch[i - 1].mm;
+      const auto& b = stretch[i];
+      const int now =
+          b.prints ? static_cast<int>(std::clamp(scale.fraction(b), 0.0, 0.999) * kBands) : kTravel;
+      if (now != band) {
+        flush();
+        band = now;
+      }
+      if (run.empty()) {
+        const auto [u, v] = view.at(a[0], a[1], a[2]);
+        run = fmt::format("M{:.1f} {:.1f}", u, v);
+      }
+      const auto [u, v] = view.at(b.mm[0], b.mm[1], b.mm[2]);
+      run += fmt::format("L{:.1f} {:.1f}", u, v);
     }
-    if (run.empty()) {
-      const auto [u, v] = view.at(a.tool_mm[0], a.tool_mm[1], a.tool_mm[2]);
-      run = fmt::format("M{:.1f} {:.1f}", u, v);
-    }
-    const auto [u, v] = view.at(b.tool_mm[0], b.tool_mm[1], b.tool_mm[2]);
-    run += fmt::format("L{:.1f} {:.1f}", u, v);
+    flush();
   }
-  flush();
 }
 
 void draw_scale(std::string& svg, const Scale& scale) {
@@ -324,6 +311,8 @@ std::string draw_plot(const PlotData& data, const MachineDescription& machine, c
   const Scale scale = make_scale(data);
   const View view = make_view(data);
   text(svg, kMargin, kTop + 4, "Tool path of the simulated machine", kHeading);
+  if (data.drawn_stretch() > 1)
+    text(svg, kMargin, kTop + 24, fmt::format("one layer in {} is drawn", data.drawn_stretch()), kLabel);
   draw_bed(svg, view);
   draw_path(svg, view, data, scale);
   draw_scale(svg, scale);
