@@ -22,9 +22,9 @@
 namespace kinebus {
 namespace {
 using nlohmann::json;
-constexpr std::size_t kMaxLine = 64 * 1024;
+constexpr std::size_t kMaxLine = 65'536;
 // A watcher that does not read is cut off rather than kept in memory without bound.
-constexpr std::size_t kMaxBacklog = 4 * 1024 * 1024;
+constexpr std::size_t kMaxBacklog = 4'194'304;
 }  // namespace
 
 struct ControlServer::Client {
@@ -189,7 +189,7 @@ json ControlServer::begin_watch(Client& client, const json& request) {
 
 void ControlServer::serve(Client& client, std::uint32_t events) {
   if ((events & (EPOLLIN | EPOLLHUP | EPOLLERR)) != 0) {
-    std::array<char, 64 * 1024> buffer;
+    std::array<char, 65'536> buffer;
     const ssize_t count = ::recv(client.fd, buffer.data(), buffer.size(), 0);
     if (count == 0 || (count < 0 && errno != EAGAIN && errno != EINTR)) return close_client(client.fd);
     if (count > 0) client.in.append(buffer.data(), static_cast<std::size_t>(count));

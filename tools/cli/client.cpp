@@ -90,7 +90,7 @@ json Client::ask_with_bytes(json request, std::string_view bytes,
   request["id"] = ++last_id_;
   request["bytes"] = bytes.size();
   send_all(request.dump() + "\n");
-  constexpr std::size_t kPiece = 64 * 1024;
+  constexpr std::size_t kPiece = 65'536;
   for (std::size_t sent = 0; sent < bytes.size(); sent += kPiece) {
     send_all(bytes.substr(sent, kPiece));
     if (on_progress) on_progress(std::min(bytes.size(), sent + kPiece));
