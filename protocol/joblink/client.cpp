@@ -1,0 +1,376 @@
+#include "protocol/joblink/client.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace kinebus::joblink {
+namespace {
+
+constexpr LocalTime kHelloAgain = std::chrono::seconds{1};
+/// Chunks are made when less than this waits to be sent, so that a hold never queues behind a whole job.
+constexpr std::size_t kOutputWanted = 128U << 10;
+/// News that nobody pulls: the oldest status goes first.
+constexpr std::size_t kMaxNews = 4096;
+
+Problem lost(const std::string& why) {
+  Problem problem;
+  problem.set_rule("the link to the gateway is broken: " + why);
+  problem.set_code(ERROR_LINK_LOST);
+  return problem;
+}
+
+std::uint32_t next_session(std::uint32_t session) {
+  // A step that visits every number: sessions of one client never repeat in practice; 0 is no session.
+  session = session * 747'796'405U + 2'891'336'453U;
+  return session == 0 ? 1 : session;
+}
+
+}  // namespace
+
+struct Client::Upload {
+  UploadId id = 0;
+  UploadRequest request;
+  std::unique_ptr<UploadSource> source;
+  enum class Step : std::uint8_t { kIdle, kBegun, kSending, kCommitted } step = Step::kIdle;
+  std::uint32_t gateway_id = 0;
+  std::uint64_t sent_bytes = 0;
+  std::uint64_t received_bytes = 0;
+  std::unordered_map<RequestId, bool> open;  ///< its own requests without an answer
+};
+
+Client::Client(Options options) : options_(std::move(options)), session_(options_.session_seed) {}
+Client::~Client() = default;
+
+void Client::on_connected(LocalTime now) {
+  now_ = now;
+  if (phase_ != Phase::kClosed) end_session(now, "the stream was opened anew", false);
+  reader_.clear();
+  out_.clear();
+  out_sent_ = 0;
+  begin_session(now);
+}
+
+void Client::on_disconnected(LocalTime now, std::string why) {
+  now_ = now;
+  if (phase_ == Phase::kClosed) return;
+  end_session(now, why, false);
+  phase_ = Phase::kClosed;
+  out_.clear();
+  out_sent_ = 0;
+}
+
+void Client::begin_session(LocalTime now) {
+  session_ = next_session(session_);
+  sequence_ = 0;
+  incoming_.begin(session_, 0);
+  phase_ = Phase::kGreeting;
+  last_heard_ = now;
+  retry_at_ = now + options_.silence_limit;
+  ClientMessage message;
+  Hello& hello = *message.mutable_hello();
+  hello.set_version_major(kVersionMajor);
+  hello.set_version_minor(kVersionMinor);
+  hello.set_client_name(options_.name);
+  hello.set_client_version(options_.version);
+  hello.set_token(options_.token);
+  hello.set_resume_key(resume_key_);
+  open_[write_request(message)] = false;
+}
+
+void Client::end_session(LocalTime now, const std::string& why, bool retry) {
+  const bool was_open = phase_ == Phase::kOpen;
+  phase_ = Phase::kWaiting;
+  retry_at_ = retry ? now + kHelloAgain : LocalTime::max();
+  std::vector<RequestId> unanswered;
+  for (const auto& [id, own] : open_)
+    if (own) unanswered.push_back(id);
+  std::sort(unanswered.begin(), unanswered.end());
+  open_.clear();
+  for (const RequestId id : unanswered) {
+    Reply reply;
+    reply.set_request_id(id);
+    *reply.mutable_error() = lost(why);
+    news_.emplace_back(Answer{id, std::move(reply)});
+  }
+  if (!uploads_.empty()) {
+    Upload& upload = *uploads_.front();
+    upload.open.clear();
+    upload.step = Upload::Step::kIdle;
+    tell_upload(UploadNews::Phase::kWaiting);
+  }
+  if (was_open) news_.emplace_back(Disconnected{why});
+}
+
+void Client::write(const ClientMessage& message) {
+  if (out_sent_ > 0) {
+    out_.erase(0, out_sent_);
+    out_sent_ = 0;
+  }
+  append_frame(out_, session_, sequence_, message.SerializeAsString());
+  sequence_ = SessionSequence::after(sequence_);
+  last_written_ = now_;
+}
+
+RequestId Client::write_request(ClientMessage& message) {
+  message.set_request_id(++last_request_);
+  write(message);
+  return last_request_;
+}
+
+RequestId Client::send(ClientMessage request) {
+  if (phase_ == Phase::kOpen) {
+    const RequestId id = write_request(request);
+    open_[id] = true;
+    return id;
+  }
+  Reply reply;
+  reply.set_request_id(++last_request_);
+  *reply.mutable_error() = lost("not connected");
+  news_.emplace_back(Answer{last_request_, std::move(reply)});
+  return last_request_;
+}
+
+UploadId Client::upload(UploadRequest request, std::unique_ptr<UploadSource> source) {
+  auto upload = std::make_unique<Upload>();
+  upload->id = ++last_upload_;
+  upload->request = std::move(request);
+  upload->source = std::move(source);
+  uploads_.push_back(std::move(upload));
+  if (uploads_.size() == 1) begin_upload();
+  return last_upload_;
+}
+
+void Client::abort_upload(UploadId upload, bool discard) {
+  const auto found =
+      std::find_if(uploads_.begin(), uploads_.end(), [&](const auto& u) { return u->id == upload; });
+  if (found == uploads_.end()) return;
+  Problem aborted;
+  aborted.set_rule("the upload was stopped by its owner");
+  if (found != uploads_.begin()) {
+    news_.emplace_back(
+        UploadNews{UploadNews::Phase::kFailed, upload, 0, (*found)->request.size_bytes, aborted});
+    uploads_.erase(found);
+    return;
+  }
+  if (phase_ == Phase::kOpen && (*found)->step == Upload::Step::kSending) {
+    ClientMessage message;
+    message.mutable_upload_abort()->set_upload_id((*found)->gateway_id);
+    message.mutable_upload_abort()->set_discard(discard);
+    open_[write_request(message)] = false;
+  }
+  finish_upload(UploadNews::Phase::kFailed, aborted);
+}
+
+void Client::begin_upload() {
+  if (phase_ != Phase::kOpen || uploads_.empty()) return;
+  Upload& upload = *uploads_.front();
+  if (upload.step != Upload::Step::kIdle) return;
+  ClientMessage message;
+  UploadBegin& begin = *message.mutable_upload_begin();
+  begin.set_name(upload.request.name);
+  begin.set_size_bytes(upload.request.size_bytes);
+  begin.set_sha256(upload.request.sha256);
+  begin.set_replace(upload.request.replace);
+  upload.open[write_request(message)] = true;
+  upload.step = Upload::Step::kBegun;
+}
+
+void Client::tell_upload(UploadNews::Phase phase) {
+  const Upload& upload = *uploads_.front();
+  news_.emplace_back(UploadNews{phase, upload.id, upload.received_bytes, upload.request.size_bytes, {}});
+}
+
+void Client::finish_upload(UploadNews::Phase phase, const Problem& error) {
+  const Upload& upload = *uploads_.front();
+  news_.emplace_back(UploadNews{phase, upload.id, upload.received_bytes, upload.request.size_bytes, error});
+  uploads_.pop_front();
+  begin_upload();
+}
+
+void Client::feed_upload() {
+  if (phase_ != Phase::kOpen || uploads_.empty()) return;
+  Upload& upload = *uploads_.front();
+  if (upload.step != Upload::Step::kSending) return;
+  const std::size_t chunk_bytes =
+      std::clamp<std::size_t>(hello_.max_chunk_bytes(), 1024, kMaxMessageBytes - 1024);
+  const std::uint64_t window = std::max<std::uint64_t>(hello_.upload_window_bytes(), chunk_bytes);
+  while (out_.size() - out_sent_ < kOutputWanted && upload.sent_bytes < upload.request.size_bytes &&
+         upload.sent_bytes - upload.received_bytes + chunk_bytes <= window) {
+    const auto size = static_cast<std::size_t>(
+        std::min<std::uint64_t>(chunk_bytes, upload.request.size_bytes - upload.sent_bytes));
+    ClientMessage message;
+    UploadChunk& chunk = *message.mutable_upload_chunk();
+    chunk.set_upload_id(upload.gateway_id);
+    chunk.set_offset_bytes(upload.sent_bytes);
+    chunk.mutable_data()->resize(size);
+    if (upload.source->read(upload.sent_bytes, {chunk.mutable_data()->data(), size}) != size) {
+      Problem problem;
+      problem.set_place(upload.request.name);
+      problem.set_rule("the file cannot be read any more, or has become shorter");
+      return finish_upload(UploadNews::Phase::kFailed, problem);
+    }
+    upload.open[write_request(message)] = true;
+    upload.sent_bytes += size;
+  }
+  if (upload.received_bytes == upload.request.size_bytes) {
+    ClientMessage message;
+    message.mutable_upload_commit()->set_upload_id(upload.gateway_id);
+    upload.open[write_request(message)] = true;
+    upload.step = Upload::Step::kCommitted;
+  }
+}
+
+std::span<const std::uint8_t> Client::next_bytes() {
+  feed_upload();
+  return {reinterpret_cast<const std::uint8_t*>(out_.data()) + out_sent_, out_.size() - out_sent_};
+}
+
+void Client::on_bytes_sent(std::size_t count) {
+  out_sent_ += count;
+  if (out_sent_ >= out_.size()) {
+    out_.clear();
+    out_sent_ = 0;
+  }
+}
+
+void Client::on_bytes(LocalTime now, std::span<const std::uint8_t> bytes) {
+  now_ = now;
+  if (phase_ == Phase::kClosed) return;
+  reader_.add(bytes);
+  while (const auto frame = reader_.next()) {
+    switch (incoming_.take(*frame)) {
+      case SessionSequence::Verdict::kBegins:
+      case SessionSequence::Verdict::kStale:
+        continue;
+      case SessionSequence::Verdict::kGap:
+        if (phase_ == Phase::kWaiting) continue;
+        end_session(now, "a message was lost on the way", true);
+        continue;
+      case SessionSequence::Verdict::kNext:
+        break;
+    }
+    if (phase_ == Phase::kWaiting) continue;
+    last_heard_ = now;
+    ServerMessage message;
+    if (message.ParseFromArray(frame->message.data(), static_cast<int>(frame->message.size())))
+      take(now, message);
+    else
+      end_session(now, "a message could not be understood", true);
+  }
+}
+
+void Client::take(LocalTime now, const ServerMessage& message) {
+  switch (message.message_case()) {
+    case ServerMessage::kReply:
+      take_reply(message.reply());
+      break;
+    case ServerMessage::kStatus:
+      // Who does not keep up gets the newest status, not all old ones.
+      if (news_.size() >= kMaxNews || (!news_.empty() && std::holds_alternative<Status>(news_.back())))
+        std::erase_if(news_, [](const News& n) { return std::holds_alternative<Status>(n); });
+      news_.emplace_back(message.status());
+      break;
+    case ServerMessage::kEvent:
+      if (news_.size() < kMaxNews) news_.emplace_back(message.event());
+      break;
+    case ServerMessage::kSessionEnd:
+      end_session(now, message.session_end().reason(), message.session_end().resync());
+      break;
+    case ServerMessage::MESSAGE_NOT_SET:
+      break;  // of a newer minor version
+  }
+}
+
+void Client::take_reply(Reply reply) {
+  if (!uploads_.empty() && uploads_.front()->open.erase(reply.request_id()) != 0) {
+    take_upload_reply(reply);
+    return;
+  }
+  const auto found = open_.find(reply.request_id());
+  if (found == open_.end()) return;
+  const bool own = found->second;
+  open_.erase(found);
+  if (own) {
+    const RequestId id = reply.request_id();
+    news_.emplace_back(Answer{id, std::move(reply)});
+    return;
+  }
+  if (phase_ != Phase::kGreeting) return;
+  if (reply.has_error()) {
+    phase_ = Phase::kWaiting;
+    retry_at_ = LocalTime::max();
+    news_.emplace_back(Disconnected{reply.error().rule()});
+    return;
+  }
+  if (!reply.has_hello()) return;
+  hello_ = reply.hello();
+  resume_key_ = hello_.resume_key();
+  phase_ = Phase::kOpen;
+  ClientMessage watch;
+  watch.mutable_watch()->set_status_hz(options_.status_hz);
+  watch.mutable_watch()->set_events(options_.events);
+  open_[write_request(watch)] = false;
+  news_.emplace_back(Connected{hello_});
+  begin_upload();
+}
+
+void Client::take_upload_reply(const Reply& reply) {
+  Upload& upload = *uploads_.front();
+  if (reply.has_error()) return finish_upload(UploadNews::Phase::kFailed, reply.error());
+  const UploadState& state = reply.upload();
+  upload.received_bytes = std::min(state.received_bytes(), upload.request.size_bytes);
+  if (state.stored()) return finish_upload(UploadNews::Phase::kStored, {});
+  if (upload.step == Upload::Step::kBegun) {
+    upload.step = Upload::Step::kSending;
+    upload.gateway_id = state.upload_id();
+    upload.sent_bytes = upload.received_bytes;
+  }
+  tell_upload(UploadNews::Phase::kSending);
+}
+
+void Client::on_time(LocalTime now) {
+  now_ = now;
+  switch (phase_) {
+    case Phase::kClosed:
+      return;
+    case Phase::kWaiting:
+    case Phase::kGreeting:
+      if (now >= retry_at_) begin_session(now);
+      return;
+    case Phase::kOpen:
+      break;
+  }
+  if (now >= last_heard_ + options_.silence_limit) {
+    end_session(now, "the gateway has gone silent", true);
+    return;
+  }
+  if (now >= last_written_ + options_.ping_period && out_.size() == out_sent_) {
+    ClientMessage ping;
+    ping.mutable_ping();
+    open_[write_request(ping)] = false;
+  }
+}
+
+LocalTime Client::next_deadline() const {
+  switch (phase_) {
+    case Phase::kClosed:
+      return LocalTime::max();
+    case Phase::kWaiting:
+    case Phase::kGreeting:
+      return retry_at_;
+    case Phase::kOpen:
+      break;
+  }
+  const LocalTime silence = last_heard_ + options_.silence_limit;
+  // With output waiting the stream is slow: a ping behind it would tell nothing.
+  return out_.size() == out_sent_ ? std::min(silence, last_written_ + options_.ping_period) : silence;
+}
+
+std::optional<News> Client::next_news() {
+  if (news_.empty()) return std::nullopt;
+  News news = std::move(news_.front());
+  news_.pop_front();
+  return news;
+}
+
+}  // namespace kinebus::joblink
