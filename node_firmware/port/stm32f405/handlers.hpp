@@ -1,0 +1,19 @@
+#pragma once
+// The interrupt handlers by name, as the vector table holds them.
+
+extern "C" {
+[[noreturn]] void reset_handler();
+/// Hard fault, NMI and all other exceptions of the core, and a failed assert: power off, then reset.
+[[noreturn]] void isr_fault();
+[[noreturn]] void isr_unexpected();
+
+void isr_switches();      ///< EXTI: time-stamps an edge
+void isr_control();       ///< ADC: end of the injected conversions, 20 kHz
+void isr_can_receive();   ///< time-stamps and queues
+void isr_can_transmit();  ///< a mailbox has become free
+void isr_can_state();     ///< error passive, bus-off
+void isr_break_a();       ///< TIM1: over-current comparator
+void isr_break_b();       ///< TIM8
+void isr_console();
+void isr_usb();
+}

@@ -1,0 +1,281 @@
+#pragma once
+// Registers of the STM32F405 that the firmware uses, and no others: names, order and bits as in the reference
+// manual RM0090, core peripherals as in the ARMv7-M manual.
+
+#include <cstddef>
+#include <cstdint>
+
+namespace kinebus::stm32 {
+
+using Reg = volatile std::uint32_t;
+
+/// The one place where a number becomes a peripheral.
+template <typename T>
+inline T& peripheral(std::uint32_t address) {
+  return *reinterpret_cast<T*>(address);  // NOLINT(performance-no-int-to-ptr): hardware is at fixed addresses
+}
+
+constexpr std::uint32_t bit(int n) {
+  return std::uint32_t{1} << n;
+}
+
+struct Rcc {
+  Reg CR, PLLCFGR, CFGR, CIR;
+  Reg AHB1RSTR, AHB2RSTR, AHB3RSTR, reserved0, APB1RSTR, APB2RSTR, reserved1[2];
+  Reg AHB1ENR, AHB2ENR, AHB3ENR, reserved2, APB1ENR, APB2ENR, reserved3[2];
+  Reg AHB1LPENR, AHB2LPENR, AHB3LPENR, reserved4, APB1LPENR, APB2LPENR, reserved5[2];
+  Reg BDCR, CSR;
+  static constexpr std::uint32_t kHseOn = bit(16), kHseReady = bit(17), kPllOn = bit(24), kPllReady = bit(25);
+  static constexpr std::uint32_t kPllFromHse = bit(22);
+  static constexpr std::uint32_t kSwitchPll = 2, kSwitchStatusMask = 3u << 2, kSwitchStatusPll = 2u << 2;
+  static constexpr std::uint32_t kWatchdogReset = bit(29), kSoftwareReset = bit(28),
+                                 kClearResetFlags = bit(24);
+  // AHB1ENR
+  static constexpr std::uint32_t kGpioA = bit(0), kGpioB = bit(1), kGpioC = bit(2), kGpioD = bit(3),
+                                 kGpioH = bit(7), kUsbHs = bit(29);
+  // APB1ENR
+  static constexpr std::uint32_t kTim2 = bit(0), kSpi3 = bit(15), kCan1 = bit(25), kPower = bit(28);
+  // APB2ENR
+  static constexpr std::uint32_t kTim1 = bit(0), kTim8 = bit(1), kUsart1 = bit(4), kAdc1 = bit(8),
+                                 kAdc2 = bit(9), kAdc3 = bit(10), kSpi1 = bit(12), kSysConfig = bit(14);
+};
+inline Rcc& rcc() {
+  return peripheral<Rcc>(0x4002'3800);
+}
+
+struct Pwr {
+  Reg CR, CSR;
+  static constexpr std::uint32_t kScale1 = bit(14);  // VOS: 168 MHz
+};
+inline Pwr& pwr() {
+  return peripheral<Pwr>(0x4000'7000);
+}
+
+struct FlashInterface {
+  Reg ACR, KEYR, OPTKEYR, SR, CR, OPTCR;
+  static constexpr std::uint32_t kWaitStates5 = 5, kPrefetch = bit(8), kInstructionCache = bit(9),
+                                 kDataCache = bit(10), kInstructionCacheReset = bit(11),
+                                 kDataCacheReset = bit(12);
+  static constexpr std::uint32_t kKey1 = 0x4567'0123, kKey2 = 0xCDEF'89AB;
+  static constexpr std::uint32_t kEndOfOperation = bit(0), kBusy = bit(16), kErrors = 0xF2;
+  static constexpr std::uint32_t kProgram = bit(0), kSectorErase = bit(1), kStart = bit(16), kLock = bit(31);
+  static constexpr std::uint32_t kSizeWord = 2u << 8;  // PSIZE x32: 2.7 to 3.6 V
+  static constexpr std::uint32_t sector(unsigned n) { return n << 3; }
+};
+inline FlashInterface& flash_interface() {
+  return peripheral<FlashInterface>(0x4002'3C00);
+}
+
+struct Gpio {
+  Reg MODER, OTYPER, OSPEEDR, PUPDR, IDR, ODR, BSRR, LCKR, AFR[2];
+};
+/// port: 0 = A, 1 = B, ...
+inline Gpio& gpio(unsigned port) {
+  return peripheral<Gpio>(0x4002'0000 + 0x400 * port);
+}
+
+struct SysConfig {
+  Reg MEMRMP, PMC, EXTICR[4];
+};
+inline SysConfig& sysconfig() {
+  return peripheral<SysConfig>(0x4001'3800);
+}
+
+struct Exti {
+  Reg IMR, EMR, RTSR, FTSR, SWIER, PR;
+};
+inline Exti& exti() {
+  return peripheral<Exti>(0x4001'3C00);
+}
+
+struct Timer {
+  Reg CR1, CR2, SMCR, DIER, SR, EGR, CCMR1, CCMR2, CCER, CNT, PSC, ARR, RCR, CCR[4], BDTR, DCR, DMAR;
+  static constexpr std::uint32_t kEnable = bit(0), kAutoReloadPreload = bit(7), kCentreAligned1 = 1u << 5;
+  static constexpr std::uint32_t kMasterUpdate = 2u << 4;                            // CR2 MMS: TRGO = update
+  static constexpr std::uint32_t kUpdateFlag = bit(0), kBreakFlag = bit(7);          // SR
+  static constexpr std::uint32_t kBreakInterrupt = bit(7);                           // DIER
+  static constexpr std::uint32_t kGenerateUpdate = bit(0), kGenerateBreak = bit(7);  // EGR
+  // CCMR: PWM mode 1 with preload on both channels of the register.
+  static constexpr std::uint32_t kPwm1Preload = (6u << 4 | bit(3)) | (6u << 12 | bit(11));
+  static constexpr std::uint32_t kAllOutputs = bit(0) | bit(4) | bit(8) | bit(12);  // CCER CC1E..CC4E
+  // BDTR. OSSI and OSSR stay 0: with MOE = 0 the pins float, which the gate drivers take as "both off".
+  static constexpr std::uint32_t kBreakEnable = bit(12), kBreakActiveHigh = bit(13), kMainOutput = bit(15);
+};
+inline Timer& tim1() {
+  return peripheral<Timer>(0x4001'0000);
+}
+inline Timer& tim8() {
+  return peripheral<Timer>(0x4001'0400);
+}
+inline Timer& tim2() {
+  return peripheral<Timer>(0x4000'0000);
+}
+
+struct Adc {
+  Reg SR, CR1, CR2, SMPR1, SMPR2, JOFR[4], HTR, LTR, SQR1, SQR2, SQR3, JSQR, JDR[4], DR;
+  static constexpr std::uint32_t kEndOfConversion = bit(1), kInjectedEnd = bit(2);                  // SR
+  static constexpr std::uint32_t kInjectedInterrupt = bit(7), kScan = bit(8);                       // CR1
+  static constexpr std::uint32_t kOn = bit(0), kSoftwareStart = bit(30);                            // CR2
+  static constexpr std::uint32_t kInjectedByTim1Update = 1u << 16, kInjectedRisingEdge = 1u << 20;  // CR2
+};
+inline Adc& adc(int n) {
+  return peripheral<Adc>(0x4001'2000 + 0x100 * static_cast<std::uint32_t>(n - 1));
+}
+struct AdcCommon {
+  Reg CSR, CCR, CDR;
+  static constexpr std::uint32_t kInjectedSimultaneous =
+      5;                                                  // MULTI: ADC1 master, ADC2 slave; ADC3 for itself
+  static constexpr std::uint32_t kPrescaler4 = 1u << 16;  // 84 MHz / 4 = 21 MHz
+};
+inline AdcCommon& adc_common() {
+  return peripheral<AdcCommon>(0x4001'2300);
+}
+
+struct Spi {
+  Reg CR1, CR2, SR, DR;
+  // AS5047: 16 bits, clock low at rest, data taken at the second edge (CPOL 0, CPHA 1).
+  static constexpr std::uint32_t kSecondEdge = bit(0), kMaster = bit(2), kEnable = bit(6),
+                                 kInternalSelect = bit(8), kSoftwareSelect = bit(9), kFrame16 = bit(11);
+  static constexpr std::uint32_t divide(unsigned log2) { return (log2 - 1u) << 3; }
+  static constexpr std::uint32_t kReceived = bit(0), kSendEmpty = bit(1), kBusy = bit(7);
+};
+inline Spi& spi1() {
+  return peripheral<Spi>(0x4001'3000);
+}
+inline Spi& spi3() {
+  return peripheral<Spi>(0x4000'3C00);
+}
+
+struct Usart {
+  Reg SR, DR, BRR, CR1, CR2, CR3, GTPR;
+  static constexpr std::uint32_t kReceived = bit(5), kSendEmpty = bit(7);                       // SR
+  static constexpr std::uint32_t kReceiver = bit(2), kTransmitter = bit(3), kEnable = bit(13);  // CR1
+};
+inline Usart& usart1() {
+  return peripheral<Usart>(0x4001'1000);
+}
+
+struct Can {
+  Reg MCR, MSR, TSR, RFR[2], IER, ESR, BTR, reserved0[88];
+  struct TxMailbox {
+    Reg TIR, TDTR, TDLR, TDHR;
+  } tx[3];
+  struct RxFifo {
+    Reg RIR, RDTR, RDLR, RDHR;
+  } rx[2];
+  Reg reserved1[12];
+  Reg FMR, FM1R, reserved2, FS1R, reserved3, FFA1R, reserved4, FA1R, reserved5[8];
+  struct Filter {
+    Reg R1, R2;
+  } filter[28];
+  static constexpr std::uint32_t kInitRequest = bit(0), kSleepRequest = bit(1), kAutoWakeUp = bit(5),
+                                 kAutoBusOff = bit(6);                                          // MCR
+  static constexpr std::uint32_t kInitDone = bit(0), kErrorInterruptFlag = bit(2);              // MSR
+  static constexpr std::uint32_t kRequestDone[3] = {bit(0), bit(8), bit(16)};                   // TSR RQCP
+  static constexpr std::uint32_t kSentGood[3] = {bit(1), bit(9), bit(17)};                      // TSR TXOK
+  static constexpr std::uint32_t kAbort[3] = {bit(7), bit(15), bit(23)};                        // TSR ABRQ
+  static constexpr std::uint32_t kEmpty[3] = {bit(26), bit(27), bit(28)};                       // TSR TME
+  static constexpr std::uint32_t kFifoCount = 3, kFifoOverrun = bit(4), kFifoRelease = bit(5);  // RFR
+  static constexpr std::uint32_t kOnMailboxEmpty = bit(0), kOnFifo0 = bit(1), kOnOverrun0 = bit(3),
+                                 kOnPassive = bit(9), kOnBusOff = bit(10), kOnError = bit(15);  // IER
+  static constexpr std::uint32_t kWarning = bit(0), kPassive = bit(1), kBusOff = bit(2);        // ESR
+  static constexpr std::uint32_t kTransmit = bit(0), kRemote = bit(1), kExtended = bit(2);      // TIR, RIR
+  static constexpr std::uint32_t kFilterInit = bit(0);                                          // FMR
+};
+static_assert(offsetof(Can, tx) == 0x180 && offsetof(Can, rx) == 0x1B0 && offsetof(Can, FMR) == 0x200 &&
+              offsetof(Can, FA1R) == 0x21C && offsetof(Can, filter) == 0x240);
+inline Can& can1() {
+  return peripheral<Can>(0x4000'6400);
+}
+
+struct IndependentWatchdog {
+  Reg KR, PR, RLR, SR;
+  static constexpr std::uint32_t kFeed = 0xAAAA, kUnlock = 0x5555, kStart = 0xCCCC;
+};
+inline IndependentWatchdog& watchdog() {
+  return peripheral<IndependentWatchdog>(0x4000'3000);
+}
+
+/// 96 bits that no other chip has.
+inline const volatile std::uint32_t* unique_id() {
+  return &peripheral<Reg>(0x1FFF'7A10);
+}
+
+// Core.
+struct Nvic {
+  Reg ISER[8], reserved0[24], ICER[8], reserved1[24], ISPR[8], reserved2[24], ICPR[8], reserved3[24], IABR[8],
+      reserved4[56];
+  volatile std::uint8_t IPR[240];
+};
+inline Nvic& nvic() {
+  return peripheral<Nvic>(0xE000'E100);
+}
+struct SystemControl {
+  Reg CPUID, ICSR, VTOR, AIRCR, SCR, CCR, SHPR[3], SHCSR, CFSR, HFSR, DFSR, MMFAR, BFAR, AFSR, reserved0[18],
+      CPACR;
+  static constexpr std::uint32_t kFloatingPoint = 0xFu << 20;           // CPACR: CP10 and CP11
+  static constexpr std::uint32_t kResetRequest = 0x05FA'0000 | bit(2);  // AIRCR
+};
+static_assert(offsetof(SystemControl, CPACR) == 0x88);
+inline SystemControl& system_control() {
+  return peripheral<SystemControl>(0xE000'ED00);
+}
+/// Cycle counter, for measuring: DEMCR.TRCENA, then DWT.CTRL.CYCCNTENA.
+struct Dwt {
+  Reg CTRL, CYCCNT;
+};
+inline Dwt& dwt() {
+  return peripheral<Dwt>(0xE000'1000);
+}
+inline Reg& debug_control() {
+  return peripheral<Reg>(0xE000'EDFC);
+}
+
+/// Places in the vector table after the 16 of the core.
+enum class Irq : int {
+  kExti0 = 6,
+  kExti1 = 7,
+  kExti3 = 9,
+  kExti4 = 10,
+  kAdc = 18,
+  kCan1Tx = 19,
+  kCan1Rx0 = 20,
+  kCan1Sce = 22,
+  kExti9To5 = 23,
+  kTim1Break = 24,
+  kUsart1 = 37,
+  kExti15To10 = 40,
+  kTim8Break = 43,
+  kUsbHs = 77,
+};
+inline constexpr int kInterruptCount = 82;
+
+/// priority: 0 (most urgent) to 15.
+inline void enable_interrupt(Irq irq, unsigned priority) {
+  const auto n = static_cast<unsigned>(irq);
+  nvic().IPR[n] = static_cast<std::uint8_t>(priority << 4);
+  nvic().ISER[n / 32] = std::uint32_t{1} << (n % 32);
+}
+
+inline void wait_for_interrupt() {
+  asm volatile("wfi" ::: "memory");
+}
+inline void disable_interrupts() {
+  asm volatile("cpsid i" ::: "memory");
+}
+inline void enable_interrupts() {
+  asm volatile("cpsie i" ::: "memory");
+}
+inline void barrier() {
+  asm volatile("dsb\n isb" ::: "memory");
+}
+
+/// Waits for a register bit, so many looks at most. False: it never came.
+template <typename Condition>
+bool wait_until(Condition condition, std::uint32_t looks = 2'000'000) {
+  while (looks-- != 0)
+    if (condition()) return true;
+  return false;
+}
+
+}  // namespace kinebus::stm32
