@@ -1,0 +1,103 @@
+#include "gateway/io/stream_hub.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+
+#include "protocol/host/socketcan.hpp"
+
+namespace kinebus {
+
+struct StreamHub::Pair {
+  std::unique_ptr<ByteStream> stream;
+  std::unique_ptr<ByteSession> session;
+  std::uint32_t interest = 0;
+  bool closed = false;
+};
+
+StreamHub::StreamHub(EventLoop& loop) : StreamHub(loop, Options()) {}
+
+StreamHub::StreamHub(EventLoop& loop, Options options) : loop_(loop), options_(options) {}
+
+StreamHub::~StreamHub() {
+  for (const auto& pair : pairs_)
+    if (!pair->closed) close(*pair, "the gateway ends");
+}
+
+bool StreamHub::add(std::unique_ptr<ByteStream> stream, std::unique_ptr<ByteSession> session) {
+  if (pairs_.size() >= options_.max_streams) return false;
+  auto pair = std::make_unique<Pair>();
+  pair->stream = std::move(stream);
+  pair->session = std::move(session);
+  pair->interest = pair->stream->interest(false);
+  Pair& kept = *pair;
+  pairs_.push_back(std::move(pair));
+  loop_.watch(kept.stream->fd(), kept.interest,
+              [this, &kept](std::uint32_t events) { on_ready(kept, events); });
+  send(kept);
+  return true;
+}
+
+void StreamHub::close(Pair& pair, const char* why) {
+  pair.closed = true;
+  loop_.forget(pair.stream->fd());
+  const std::string reason = pair.stream->closed_reason();
+  pair.session->on_closed(monotonic_now(), reason.empty() ? why : reason);
+}
+
+void StreamHub::on_ready(Pair& pair, std::uint32_t events) {
+  if (pair.closed) return;
+  // A stream that is not read now would report its end again and again.
+  if ((events & (EPOLLHUP | EPOLLERR)) != 0 && !pair.session->wants_bytes())
+    return close(pair, "the other side ended the connection");
+  std::array<std::uint8_t, 65'536> buffer;
+  std::size_t taken = 0;
+  while (taken < options_.bytes_per_turn && pair.session->wants_bytes()) {
+    const ByteStream::Moved moved = pair.stream->read(buffer);
+    if (moved.count > 0) pair.session->on_bytes(monotonic_now(), std::span(buffer).first(moved.count));
+    if (moved.closed) return close(pair, "the other side ended the connection");
+    if (moved.count == 0) break;
+    taken += moved.count;
+  }
+  send(pair);
+}
+
+void StreamHub::send(Pair& pair) {
+  std::size_t sent = 0;
+  bool waits = false;
+  while (!waits && sent < options_.bytes_per_turn) {
+    const auto bytes = pair.session->next_bytes();
+    if (bytes.empty()) break;
+    const ByteStream::Moved moved = pair.stream->write(bytes);
+    if (moved.closed) return close(pair, "the other side ended the connection");
+    pair.session->on_bytes_sent(moved.count);
+    sent += moved.count;
+    waits = moved.count < bytes.size();
+  }
+  if (!waits && pair.session->ended() && pair.session->next_bytes().empty())
+    return close(pair, "the session has ended");
+  std::uint32_t interest = pair.stream->interest(waits || sent >= options_.bytes_per_turn);
+  if (!pair.session->wants_bytes()) interest &= ~std::uint32_t{EPOLLIN};
+  if (interest != pair.interest) loop_.change(pair.stream->fd(), interest);
+  pair.interest = interest;
+}
+
+void StreamHub::on_time(LocalTime now) {
+  // Sessions may make new streams' sessions speak, and close each other: the list is walked by index.
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    Pair& pair = *pairs_[i];
+    if (pair.closed) continue;
+    if (now >= pair.session->next_deadline()) pair.session->on_time(now);
+    send(pair);
+  }
+  std::erase_if(pairs_, [](const auto& pair) { return pair->closed; });
+}
+
+LocalTime StreamHub::next_deadline() const {
+  LocalTime next = LocalTime::max();
+  for (const auto& pair : pairs_) next = std::min(next, pair->session->next_deadline());
+  return next;
+}
+
+}  // namespace kinebus

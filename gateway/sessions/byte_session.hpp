@@ -1,0 +1,32 @@
+#pragma once
+// One conversation on one byte stream, sans-IO: the job link's and the serial port's sessions look the same
+// to whoever moves the bytes (gateway/io/stream_hub.hpp).
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "protocol/time.hpp"
+
+namespace kinebus {
+
+class ByteSession {
+ public:
+  virtual ~ByteSession() = default;
+
+  virtual void on_bytes(LocalTime now, std::span<const std::uint8_t> bytes) = 0;
+  virtual void on_time(LocalTime now) = 0;
+  virtual LocalTime next_deadline() const = 0;
+  /// What to send now; empty: nothing. Valid until the next call of anything here.
+  virtual std::span<const std::uint8_t> next_bytes() = 0;
+  virtual void on_bytes_sent(std::size_t count) = 0;
+  /// False: more input is not taken now (what is here must be worked off first); the stream is not read.
+  virtual bool wants_bytes() const { return true; }
+  /// True: the stream is to be closed when all of next_bytes() is sent.
+  virtual bool ended() const = 0;
+  /// The stream is gone. The session is destroyed soon after.
+  virtual void on_closed(LocalTime now, std::string_view why) = 0;
+};
+
+}  // namespace kinebus
