@@ -1,0 +1,126 @@
+#pragma once
+// The processor: Unicorn executes Thumb-2 code, this class does what a Cortex-M4 does around it: time,
+// exception entry and return with the floating-point context, WFI, reset. Deterministic: the same image and
+// inputs give the same run, cycle for cycle.
+//
+// Time is the sum of estimated instruction timings (cycle_estimate.hpp), counted a basic block at a time;
+// interrupts are taken between blocks.
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "vcan_tests/emulator/cpu/elf_image.hpp"
+#include "vcan_tests/emulator/cpu/nvic.hpp"
+#include "vcan_tests/emulator/cycle.hpp"
+
+namespace kinebus::emulator {
+
+/// Everything outside the processor: registers and their life in time.
+class Devices {
+ public:
+  virtual ~Devices() = default;
+  virtual std::uint32_t read(std::uint32_t address, int size, Cycle now) = 0;
+  virtual void write(std::uint32_t address, std::uint32_t value, int size, Cycle now) = 0;
+  /// A store of the program to flash: the flash controller decides. True: memory has changed.
+  virtual bool write_flash(std::uint32_t address, std::uint32_t value, int size, Cycle now) = 0;
+  virtual Cycle next_event() const = 0;
+  virtual void advance(Cycle now) = 0;
+};
+
+/// What an interrupt cost; preemption by others is not counted.
+struct ExceptionCost {
+  std::uint64_t calls = 0;
+  std::uint64_t instructions = 0, cycles = 0;
+  std::uint32_t worst_instructions = 0, worst_cycles = 0;
+  Cycle worst_latency = 0;  ///< from pending (as the processor saw it) to the first instruction
+};
+
+class CortexM4 {
+ public:
+  static constexpr std::uint32_t kFlash = 0x08000000, kFlashSize = 1024 * 1024;
+  static constexpr std::uint32_t kSram = 0x20000000, kSramSize = 128 * 1024;
+  static constexpr std::uint32_t kCcm = 0x10000000, kCcmSize = 64 * 1024;
+  static constexpr std::uint32_t kSystemMemory = 0x1FFF7800, kSystemMemorySize = 1024;
+
+  explicit CortexM4(Devices& devices);
+  ~CortexM4();
+  CortexM4(const CortexM4&) = delete;
+  CortexM4& operator=(const CortexM4&) = delete;
+
+  void load(const ElfImage& image);
+  /// Starts at the vector table in flash. RAM keeps what it has, as on the chip.
+  void reset();
+  /// Runs up to `limit` and at most a block further. Throws std::runtime_error with registers and reason when
+  /// the program does what a processor would answer by a fault, or runs into a breakpoint.
+  void run(Cycle limit);
+
+  Cycle now() const { return now_; }
+  std::uint64_t instructions() const { return instructions_; }
+  const ExceptionCost& cost(int exception) const { return costs_[static_cast<std::size_t>(exception)]; }
+  void clear_costs() { costs_ = {}; }
+  /// Cycles spent asleep in WFI.
+  Cycle idle() const { return idle_; }
+  Nvic& nvic() { return nvic_; }
+  const Nvic& nvic() const { return nvic_; }
+
+  std::span<std::uint8_t> flash() { return flash_; }
+  std::span<std::uint8_t> sram() { return {sram_, kSramSize}; }
+  std::span<std::uint8_t> system_memory() { return {system_memory_, kSystemMemorySize}; }
+  /// As a debugger sees memory: flash, SRAM and CCM. Throws std::out_of_range.
+  std::uint32_t peek(std::uint32_t address);
+  void poke(std::uint32_t address, std::uint32_t value);
+  /// Lowest stack pointer seen at any exception entry.
+  std::uint32_t lowest_stack() const { return lowest_stack_; }
+
+ private:
+  struct Hooks;  // Unicorn's callbacks
+  struct Running {
+    int exception = 0;
+    std::uint64_t instructions = 0;
+    Cycle cycles = 0;
+  };
+
+  void on_block(std::uint32_t address, std::uint32_t size);
+  void on_intr(std::uint32_t number);
+  std::uint32_t mmio_read(std::uint32_t address, int size);
+  void mmio_write(std::uint32_t address, std::uint32_t value, int size);
+  std::uint32_t code_cost(std::uint32_t address, std::uint32_t size);
+  void serve_time();
+  bool take_exception(std::uint32_t return_address);
+  void return_from_exception(std::uint32_t exc_return);
+  void enter(int exception, std::uint32_t return_address);
+  void begin_count(int exception);
+  void end_count();
+  void count(std::uint32_t instructions, std::uint32_t cycles);
+  bool wakes() const;
+  std::uint8_t* host(std::uint32_t address, std::uint32_t size);
+  [[noreturn]] void fail(const std::string& what);
+
+  void* uc_ = nullptr;
+  Devices& devices_;
+  Nvic nvic_;
+  std::vector<std::uint8_t> flash_;
+  std::uint8_t *sram_ = nullptr, *ccm_ = nullptr, *system_memory_ = nullptr;
+  std::vector<std::uint32_t>
+      block_costs_;  // by flash half-word: instructions << 16 | cycles, 0: not yet known
+
+  Cycle now_ = 0, limit_ = 0, next_stop_ = 0, idle_ = 0;
+  std::uint64_t instructions_ = 0;
+  std::uint32_t pc_ = 0;
+  std::uint32_t skip_block_ = 1;  // a block that is begun again after a stop is not counted twice
+  bool asleep_ = false;
+  bool stopped_ = false;  // by on_block, at a limit
+  bool flash_changed_ = false;
+  std::uint32_t lowest_stack_ = 0xFFFFFFFF;
+  std::string failure_;
+
+  std::array<ExceptionCost, Nvic::kExceptions> costs_{};
+  std::vector<Running> running_;
+  Cycle pending_since_ = kNever;
+};
+
+}  // namespace kinebus::emulator
