@@ -3,6 +3,7 @@
 #include <cstring>
 #include <utility>
 
+#include "gateway/jobs/live_lines.hpp"
 #include "gateway/jobs/machine_setup.hpp"
 
 namespace kinebus {
@@ -22,20 +23,6 @@ bool is_barrier(const Command& command, bool optional_stop) {
   if (const auto* thermal = std::get_if<Thermal>(&command)) return thermal->wait;
   if (const auto* pause = std::get_if<Pause>(&command)) return !pause->optional || optional_stop;
   return is_any<Dwell, Home, MotorsOff, MotorsOn, WaitIdle>(command);
-}
-
-/// Values that are stated (not 0) take the place of the ones before.
-void merge(Limits& all, const Limits& more) {
-  const auto take = [](double& old, double value) {
-    if (value != 0) old = value;
-  };
-  for (std::size_t i = 0; i < 6; ++i) {
-    take(all.axis_speed_per_s[i], more.axis_speed_per_s[i]);
-    take(all.axis_accel_per_s2[i], more.axis_accel_per_s2[i]);
-  }
-  take(all.print_accel_mm_per_s2, more.print_accel_mm_per_s2);
-  take(all.travel_accel_mm_per_s2, more.travel_accel_mm_per_s2);
-  take(all.retract_accel_mm_per_s2, more.retract_accel_mm_per_s2);
 }
 
 /// Target of a motion command.
@@ -93,6 +80,30 @@ void JobPipeline::start_commands(std::vector<canonical::Line> commands, const Po
   text_done_ = true;
 }
 
+void JobPipeline::start_live(const PoseVector& start) {
+  begin(start);
+  source_ = nullptr;
+  text_done_ = false;
+}
+
+void JobPipeline::add(const canonical::Line& line) {
+  constexpr std::size_t kUsedAtMost = 256;
+  if (next_command_ == commands_.size() || next_command_ >= kUsedAtMost) {
+    commands_.erase(commands_.begin(), commands_.begin() + static_cast<std::ptrdiff_t>(next_command_));
+    next_command_ = 0;
+  }
+  commands_.push_back(line);
+}
+
+bool JobPipeline::live_idle() const {
+  return waiting() == 0 && first_.empty() && events_.empty() && !in_run_ && !phase_waits_ && !barrier_ &&
+         !refused_ && stage_ == Stage::kFeeding && planner_.idle();
+}
+
+void JobPipeline::settle_live() {
+  if (stage_ == Stage::kFeeding && waiting() == 0 && !live_idle()) drain(std::nullopt);
+}
+
 void JobPipeline::refuse(std::uint32_t line, std::uint32_t column, std::string words) {
   refused_ = Problem{Problem::Severity::kError, line, column, std::move(words)};
 }
@@ -122,6 +133,10 @@ JobPipeline::Step JobPipeline::next(int& budget) {
     } else if (text_done_) {
       ends_ = true;
       drain(std::nullopt);
+    } else if (source_ == nullptr) {
+      planner_.plan_known();
+      const auto step = take_phase();
+      return step ? *step : Step::kStarved;
     } else {
       if (budget <= 0) return Step::kMore;
       read_text(budget);
@@ -208,7 +223,7 @@ void JobPipeline::take(const canonical::Line& line) {
   const Command& command = line.command;
   if (is_any<Feed, Traverse, Arc, SetPosition>(command)) return take_motion(line);
   if (const auto* mode = std::get_if<PathMode>(&command)) path_mode_ = *mode;
-  if (const auto* limits = std::get_if<Limits>(&command)) merge(limits_, *limits);
+  if (const auto* limits = std::get_if<Limits>(&command)) merge_limits(limits_, *limits);
   if (is_any<PathMode, Limits>(command)) return add_to_planner(line);
   if (std::holds_alternative<End>(command)) {
     ends_ = true;

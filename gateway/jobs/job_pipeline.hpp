@@ -31,6 +31,7 @@ class JobPipeline {
     kEnd,      ///< the job is over
     kProblem,  ///< problem(): a line is refused. The next step goes on with the line after it.
     kMore,     ///< the budget is used up: call again
+    kStarved,  ///< live commands only: all that was added is used, and what follows is not known yet
   };
 
   JobPipeline(const MachineDescription& machine, const Kinematics& kinematics);
@@ -40,6 +41,17 @@ class JobPipeline {
   void start_job(ByteSource& source, const PoseVector& start);
   /// Motion put in by hand (jog, reference): the commands, then the end.
   void start_commands(std::vector<canonical::Line> commands, const PoseVector& start);
+
+  /// Commands that come over time, by add(), until end_live(). What was added is given out as far as it can
+  /// be planned without knowing what follows; settle_live() gives out the rest, to a stop.
+  void start_live(const PoseVector& start);
+  void add(const canonical::Line& line);
+  void settle_live();
+  void end_live() { text_done_ = true; }
+  /// Commands added and not yet used.
+  std::size_t waiting() const { return commands_.size() - next_command_; }
+  /// All that was added is used and given out.
+  bool live_idle() const;
 
   /// Does work worth at most about `budget` lines (and takes the lines done off it).
   Step next(int& budget);

@@ -167,6 +167,7 @@ bool JobPlan::take(JobPipeline::Step step) {
       check_.problem(pipeline_.problem());
       return false;
     case Step::kMore:
+    case Step::kStarved:
       return true;
     case Step::kEnd:
       finish();

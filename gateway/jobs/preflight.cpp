@@ -39,6 +39,7 @@ bool Preflight::step(int lines) {
         check_.problem(pipeline_.problem());
         break;
       case Step::kMore:
+      case Step::kStarved:
         return false;
       case Step::kEnd:
         report_.lines = pipeline_.lines();

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gateway/jobs/bus_load.hpp"
+#include "gateway/jobs/live_lines.hpp"
 #include "gateway/jobs/preflight.hpp"
 #include "gateway/machine/bring_up.hpp"
 #include "gateway/machine/event_queue.hpp"
@@ -53,6 +54,15 @@ class Gateway::Core {
   Result<void, Refusal> set_feed_override(double ratio);
   Result<void, Refusal> motors_off();
   Result<void, Refusal> set_temperature(bool bed, double celsius);
+
+  // core_lines.cpp
+  Result<void, Refusal> open_lines(std::string name);
+  Result<void, Refusal> take_line(std::string_view line, std::uint32_t number);
+  std::size_t line_room() const;
+  bool lines_open() const;
+  bool lines_idle() const;
+  void close_lines();
+  void forget_line_modes();
 
   // core_status.cpp
   MachineStatus status() const;
@@ -145,6 +155,9 @@ class Gateway::Core {
   std::unique_ptr<Preflight> preflight_;
   std::size_t problems_reported_ = 0;
   JobReport job_report_;
+  LiveLines live_lines_;
+  gcode::CommandBuffer live_commands_;  ///< of the line at work
+  bool lines_closing_ = false;
   bool job_follows_ = false;  ///< the move to the bed reference is under way, then comes the job
   BusTime job_started_{0};
   double override_ = 1;

@@ -240,6 +240,7 @@ void Gateway::Core::step_running() {
 }
 
 void Gateway::Core::finish_motion() {
+  const bool live = runner_.live();
   runner_.drop();
   remember_positions();
   if (std::exchange(job_follows_, false)) {
@@ -251,7 +252,9 @@ void Gateway::Core::finish_motion() {
   const bool job = state_ == MachineState::kRunning;
   events_.push({.kind = MachineEvent::Kind::kFinished,
                 .when = now_,
-                .words = job ? "job done: " + job_name_ : "move done",
+                .words = !job   ? "move done"
+                         : live ? "all lines done: " + job_name_
+                                : "job done: " + job_name_,
                 .advice = {}});
   if (job) job_name_.clear();
   enter(MachineState::kReady);

@@ -44,7 +44,8 @@ Gateway::Core::Core(const MachineDescription& machine, Options options)
       homing_(machine_, links_),
       standstill_(machine_, links_),
       runner_(machine_, *kinematics_, group_, rate_, thermal_, events_),
-      positions_(axes_.size()) {}
+      positions_(axes_.size()),
+      live_lines_(machine_, *kinematics_) {}
 
 Gateway::Gateway(const MachineDescription& machine) : Gateway(machine, Options{}) {}
 Gateway::Gateway(const MachineDescription& machine, Options options)
@@ -108,6 +109,27 @@ Result<void, Refusal> Gateway::motors_off() {
 }
 Result<void, Refusal> Gateway::set_temperature(bool bed, double celsius) {
   return core_->set_temperature(bed, celsius);
+}
+Result<void, Refusal> Gateway::open_lines(std::string name) {
+  return core_->open_lines(std::move(name));
+}
+Result<void, Refusal> Gateway::take_line(std::string_view line, std::uint32_t number) {
+  return core_->take_line(line, number);
+}
+std::size_t Gateway::line_room() const {
+  return core_->line_room();
+}
+bool Gateway::lines_open() const {
+  return core_->lines_open();
+}
+bool Gateway::lines_idle() const {
+  return core_->lines_idle();
+}
+void Gateway::close_lines() {
+  core_->close_lines();
+}
+void Gateway::forget_line_modes() {
+  core_->forget_line_modes();
 }
 Result<std::string, Refusal> Gateway::text_line(std::string_view line) {
   return core_->text_line(line);

@@ -91,6 +91,19 @@ class Gateway {
   Result<void, Refusal> set_feed_override(double ratio);  ///< 0.01 .. 5
   Result<void, Refusal> motors_off();
   Result<void, Refusal> set_temperature(bool bed, double celsius);
+  // Lines as they come from a print host or a console, instead of a whole job. From kReady; the state is
+  // kRunning until close_lines() and the last motion's end (or cancel()). Every line is checked before it is
+  // taken. The host may be slow: motion then ends in a planned stop and goes on with the next line.
+  Result<void, Refusal> open_lines(std::string name);
+  /// One line. Refused: why, and nothing has changed. Outside open_lines() lines that do not move are taken,
+  /// too: modes and limits count from then on, heaters are set at once. Give no more than line_room().
+  Result<void, Refusal> take_line(std::string_view line, std::uint32_t number);
+  std::size_t line_room() const;  ///< lines that can be taken now, of kLineRoom; 0 also while closing
+  bool lines_open() const;
+  bool lines_idle() const;  ///< every line taken is carried out, and nothing moves
+  void close_lines();
+  void forget_line_modes();  ///< G-code modes, offsets and limits of lines are as after switching on
+  static constexpr std::size_t kLineRoom = 32;
   /// One line of a text session (M105, M114, M115, M119, G28, M112, M24, M25 ...): the reply, without "ok".
   Result<std::string, Refusal> text_line(std::string_view line);
 

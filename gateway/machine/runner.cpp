@@ -17,6 +17,12 @@ constexpr PathTime kStartLead = std::chrono::milliseconds{1};
 constexpr BusTime kRaisePeriod = std::chrono::milliseconds{250};
 constexpr double kRateStep = 0.02;
 
+/// Live commands: a run under way is brought to a planned stop when less than this is left to move, so that
+/// the stop is in the nodes long before their reserve (120 ms) begins.
+constexpr double kLiveReserve_s = 0.6;
+/// At rest the first commands wait so long for more, so that a stream of short moves begins as one.
+constexpr BusTime kLiveGather = std::chrono::milliseconds{100};
+
 /// planned_pose() knows so much of the past.
 constexpr PathTime kPlannedMemory = std::chrono::seconds{1};
 
@@ -43,7 +49,7 @@ Runner::Runner(const MachineDescription& machine, const Kinematics& kinematics, 
 
 void Runner::begin() {
   active_ = true;
-  held_ = streaming_ = started_ = finished_ = stop_asked_ = false;
+  held_ = streaming_ = started_ = finished_ = stop_asked_ = live_ = false;
   wait_ = Wait::kNone;
   events_.clear();
   planned_.clear();
@@ -61,6 +67,31 @@ void Runner::start_job(std::unique_ptr<ByteSource> source, const PoseVector& sta
 void Runner::start_commands(std::vector<canonical::Line> commands, const PoseVector& start) {
   pipeline_.start_commands(std::move(commands), start);
   begin();
+}
+
+void Runner::start_live(const PoseVector& start) {
+  pipeline_.start_live(start);
+  begin();
+  live_ = true;
+  doing_ = "waiting for lines";
+}
+
+void Runner::add(BusTime now, const canonical::Line& line) {
+  pipeline_.add(line);
+  last_added_ = now;
+}
+
+/// The pipeline has nothing more to give out before the next live command comes.
+void Runner::settle_when_late(BusTime now) {
+  if (!streaming_) {
+    if (pipeline_.live_idle()) doing_ = "waiting for lines";
+    if (now - last_added_ >= kLiveGather) pipeline_.settle_live();
+    return;
+  }
+  const double left = group_.sampler().end_s() - to_seconds(rate_.tau(now) - group_.run_start());
+  if (finished_ || left >= kLiveReserve_s) return;
+  pipeline_.settle_live();
+  ++counters_.live_stops;
 }
 
 void Runner::set_override(double ratio) {
@@ -131,6 +162,10 @@ Runner::Outcome Runner::on_time(BusTime now, int budget) {
     if (streaming_ && !finished_ && !group_.wants_phases(rate_.tau(now))) break;
     const JobPipeline::Step step = pipeline_.next(budget);
     if (step == JobPipeline::Step::kMore) break;
+    if (step == JobPipeline::Step::kStarved) {
+      settle_when_late(now);
+      break;
+    }
     outcome = take(now, step);
   }
   if (outcome == Outcome::kBusy) control_rate(now);
@@ -233,6 +268,7 @@ Runner::Outcome Runner::take(BusTime now, JobPipeline::Step step) {
     case Step::kProblem:
       return fail(pipeline_.problem().line, pipeline_.problem().words, false);
     case Step::kMore:
+    case Step::kStarved:
       break;
   }
   return Outcome::kBusy;

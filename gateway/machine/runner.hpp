@@ -28,6 +28,7 @@ class Runner {
   };
   struct Counters {
     std::uint32_t bus_slowdowns = 0, starvation_holds = 0;
+    std::uint32_t live_stops = 0;  ///< planned stops in motion, because the next line had not come yet
   };
 
   Runner(const MachineDescription& machine, const Kinematics& kinematics, StreamGroup& group, PathRate& rate,
@@ -37,6 +38,15 @@ class Runner {
   void start_job(std::unique_ptr<ByteSource> source, const PoseVector& start);
   /// Motion by hand.
   void start_commands(std::vector<canonical::Line> commands, const PoseVector& start);
+  /// Commands that come over time, by add(). When they come too slowly motion ends in a planned stop and goes
+  /// on with the next ones. Over after end_live(), when all are carried out.
+  void start_live(const PoseVector& start);
+  void add(BusTime now, const canonical::Line& line);
+  void end_live() { pipeline_.end_live(); }
+  bool live() const { return active_ && live_; }
+  std::size_t live_waiting() const { return pipeline_.waiting(); }  ///< commands not yet planned
+  /// All that was added is carried out, at rest.
+  bool live_idle() const { return live() && !streaming_ && wait_ == Wait::kNone && pipeline_.live_idle(); }
   bool active() const { return active_; }
 
   /// Plans at most about `budget` lines ahead, executes what is due.
@@ -78,6 +88,7 @@ class Runner {
   static PathTime end_of(const PlannedPhase& phase);
   void begin();
   void control_rate(BusTime now);
+  void settle_when_late(BusTime now);
   bool wait_is_over(BusTime now);
   void execute_due(BusTime now);
   void execute(BusTime now, const canonical::Line& line);
@@ -95,6 +106,7 @@ class Runner {
   std::unique_ptr<ByteSource> source_;
 
   bool active_ = false, held_ = false;
+  bool live_ = false;       ///< commands come over time
   bool streaming_ = false;  ///< a run is in the group
   bool started_ = false;    ///< path time was let go for this run
   bool finished_ = false;   ///< the run's last phase is in the group
@@ -104,7 +116,7 @@ class Runner {
   std::deque<PlannedPhase> planned_;
   TemperatureWait heating_;
   std::optional<BusTime> in_window_since_;
-  BusTime last_time_{0}, dwell_left_{0}, last_rate_change_{0};
+  BusTime last_time_{0}, dwell_left_{0}, last_rate_change_{0}, last_added_{0};
   double override_ = 1;
   double finished_runs_s_ = 0;
   std::uint32_t last_line_ = 0;

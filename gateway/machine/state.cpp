@@ -55,7 +55,7 @@ constexpr std::array<StateRule, kMachineStates> kStates{{
          S::kAlarm)},
     {S::kMoving, "moving", set(S::kReady, S::kHeld)},
     {S::kChecking, "checking the job", set(S::kReady)},
-    {S::kRunning, "running", set(S::kChecking, S::kHeld)},
+    {S::kRunning, "running", set(S::kReady, S::kChecking, S::kHeld)},
     {S::kHolding, "holding", set(S::kMoving, S::kRunning)},
     {S::kHeld, "held", set(S::kHolding, S::kStopped)},
     {S::kCancelling, "cancelling", kInMotion},

@@ -25,6 +25,10 @@ void Lookahead::add(const PlanPiece& piece) {
   if (pieces_.end() - planned_ >= kBatch) plan_backward();
 }
 
+void Lookahead::plan_known() {
+  if (planned_ < pieces_.end()) plan_backward();
+}
+
 void Lookahead::stop_here() {
   if (!pieces_.empty()) pieces_.back().stop_after = true;
 }

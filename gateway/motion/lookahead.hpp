@@ -27,6 +27,8 @@ class Lookahead {
   PathPiece& newest_geometry() { return geometry_.back(); }
   /// A new piece on the newest geometry; its `geometry` and `entry` are set here.
   void add(const PlanPiece& piece);
+  /// The backward pass for what was added since the last one, though it is less than a batch.
+  void plan_known();
   /// The path comes to rest at the end of what was added so far.
   void stop_here();
   /// No more follows: everything becomes final.

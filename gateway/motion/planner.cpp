@@ -249,6 +249,10 @@ Result<void, PlanError> Planner::finish() {
   return ok;
 }
 
+void Planner::plan_known() {
+  impl_->lookahead.plan_known();
+}
+
 bool Planner::wants_more() const {
   return !impl_->lookahead.full();
 }

@@ -66,6 +66,10 @@ class Planner {
   /// afterwards (it starts from rest there), but only after all phases have been pulled.
   Result<void, PlanError> finish();
 
+  /// Plans what was added so far. Input that comes slowly needs it: without, pieces are planned in batches,
+  /// and the newest of them become final only with those that follow.
+  void plan_known();
+
   /// Feed more (true) or pull phases first (false). Feeding beyond is allowed, but makes the window grow.
   bool wants_more() const;
 

@@ -56,6 +56,7 @@ Trace trace(const std::string& job, PoseVector start = kinematics().bed_referenc
         t.problems.push_back(pipeline.problem());
         break;
       case Step::kMore:
+      case Step::kStarved:
         break;
       case Step::kEnd:
         t.lines = pipeline.lines();

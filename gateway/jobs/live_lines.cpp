@@ -1,0 +1,218 @@
+#include "gateway/jobs/live_lines.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "gateway/jobs/machine_setup.hpp"
+#include "gateway/motion/arc_piece.hpp"
+
+namespace kinebus {
+namespace {
+
+using Refused = std::optional<std::string>;
+
+// As in a job's check: the workspace's borders are smooth, between good poses 1 mm apart the path leaves it
+// by less than 2 um.
+constexpr double kCheckStep_mm = 1;
+constexpr double kCheckStep_rad = 0.01;
+constexpr double kLongestMove_mm = 1e5;
+constexpr double kLongestTurn_rad = 1000;
+constexpr double kNoExtrusion_mm = 1e-9;
+
+kinebus::Frame frame_of(canonical::Frame frame) {
+  return frame == canonical::Frame::kPart ? kinebus::Frame::kPart : kinebus::Frame::kMachine;
+}
+
+std::string celsius(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g C", value);
+  return text;
+}
+
+}  // namespace
+
+void merge_limits(canonical::Limits& all, const canonical::Limits& more) {
+  const auto take = [](double& old, double value) {
+    if (value != 0) old = value;
+  };
+  for (std::size_t i = 0; i < 6; ++i) {
+    take(all.axis_speed_per_s[i], more.axis_speed_per_s[i]);
+    take(all.axis_accel_per_s2[i], more.axis_accel_per_s2[i]);
+  }
+  take(all.print_accel_mm_per_s2, more.print_accel_mm_per_s2);
+  take(all.travel_accel_mm_per_s2, more.travel_accel_mm_per_s2);
+  take(all.retract_accel_mm_per_s2, more.retract_accel_mm_per_s2);
+}
+
+LiveLines::LiveLines(const MachineDescription& machine, const Kinematics& kinematics)
+    : machine_(machine), kinematics_(kinematics) {
+  forget();
+}
+
+void LiveLines::forget() {
+  const PoseVector home = kinematics_.bed_reference();
+  interpreter_ = gcode::Interpreter(interpreter_options(machine_, home, home));
+  limits_ = {};
+  path_mode_.reset();
+  may_move_ = cold_noted_ = false;
+}
+
+void LiveLines::begin(const PoseVector& pose, std::optional<double> hotend_celsius,
+                      gcode::CommandBuffer& out) {
+  // The program's E stays; what it stands for on the machine is where the machine's E is.
+  gcode::State state = interpreter_.state();
+  state.modal.e_canonical_base_mm += pose[kE] - state.modal.position[kE];
+  state.modal.position[kE] = pose[kE];
+  interpreter_.restore(state);
+  interpreter_.set_position(pose, canonical::Frame::kMachine);
+  place_ = {pose, canonical::Frame::kMachine};
+  hotend_celsius_ = hotend_celsius;
+  may_move_ = true;
+  if (path_mode_) out.push_back({0, *path_mode_});
+  out.push_back({0, limits_});
+}
+
+Result<void, Problem> LiveLines::take(std::string_view line, std::uint32_t number,
+                                      gcode::CommandBuffer& out) {
+  const auto refuse = [&](std::uint32_t column, std::string words) {
+    return Error<Problem>({Problem::Severity::kError, number, column, std::move(words)});
+  };
+  const gcode::State before = interpreter_.state();
+  const Place place = place_;
+  const auto hotend = hotend_celsius_;
+  const std::size_t first = out.size();
+  if (auto read = interpreter_.execute(line, number, out); !read) {
+    out.resize(first);
+    return refuse(read.error().column, read.error().message);
+  }
+  for (std::size_t i = first; i < out.size(); ++i) {
+    auto words = check(out[i].command);
+    if (!words) continue;
+    interpreter_.restore(before);
+    place_ = place;
+    hotend_celsius_ = hotend;
+    out.resize(first);
+    return refuse(0, std::move(*words));
+  }
+  for (std::size_t i = first; i < out.size(); ++i) {
+    if (const auto* mode = std::get_if<canonical::PathMode>(&out[i].command)) path_mode_ = *mode;
+    if (const auto* limits = std::get_if<canonical::Limits>(&out[i].command)) merge_limits(limits_, *limits);
+  }
+  for (const gcode::Note& note : interpreter_.notes()) notes_.push_back(note.text);
+  interpreter_.clear_notes();
+  return {};
+}
+
+std::vector<std::string> LiveLines::take_notes() {
+  return std::exchange(notes_, {});
+}
+
+Refused LiveLines::check(const canonical::Command& command) {
+  if (const auto* set = std::get_if<canonical::SetPosition>(&command)) {
+    place_ = {set->pose, set->frame};
+    return std::nullopt;
+  }
+  if (const auto* thermal = std::get_if<canonical::Thermal>(&command)) return check_thermal(*thermal);
+  if (std::holds_alternative<canonical::StoredJob>(command))
+    return "stored jobs are managed by the session: M20 to M32 stand alone in a line";
+  const auto* feed = std::get_if<canonical::Feed>(&command);
+  const auto* traverse = std::get_if<canonical::Traverse>(&command);
+  const auto* arc = std::get_if<canonical::Arc>(&command);
+  const auto* home = std::get_if<canonical::Home>(&command);
+  if (!feed && !traverse && !arc && !home) return std::nullopt;
+  if (!may_move_) return "the machine is not ready to move: home it first (G28)";
+  if (home) return check_home(*home);
+  if (arc) return check_arc(*arc);
+  return feed ? check_straight(feed->target, feed->frame) : check_straight(traverse->target, traverse->frame);
+}
+
+Refused LiveLines::check_straight(const PoseVector& target, canonical::Frame frame) {
+  if (auto cold = check_extrusion(target)) return cold;
+  const PoseVector from = place_.pose;
+  double mm = 0, rad = 0;
+  for (std::size_t axis = 0; axis < kPoseAxes; ++axis) {
+    if (!std::isfinite(target[axis])) return "a move needs numbers";
+    const double way = std::abs(target[axis] - from[axis]);
+    if (axis == kA || axis == kC)
+      rad = std::max(rad, way);
+    else if (axis != kE)
+      mm = std::hypot(mm, way);
+  }
+  const auto end = kinematics_.check(frame_of(frame), target);
+  if (!end) return to_string(end.error());
+  // The end lies within the workspace: only turns may be long.
+  if (mm > kLongestMove_mm || rad > kLongestTurn_rad) return "the move is too long to be checked";
+  const double steps = std::ceil(std::max(mm / kCheckStep_mm, rad / kCheckStep_rad));
+  for (double i = 1; i < steps; ++i) {
+    PoseVector pose = from;
+    for (std::size_t axis = 0; axis < kPoseAxes; ++axis)
+      pose[axis] += (target[axis] - from[axis]) * i / steps;
+    if (const auto fits = kinematics_.check(frame_of(frame), pose); !fits) return to_string(fits.error());
+  }
+  place_ = {target, frame};
+  return std::nullopt;
+}
+
+Refused LiveLines::check_arc(const canonical::Arc& arc) {
+  if (auto cold = check_extrusion(arc.target)) return cold;
+  Move move;
+  move.from = place_.pose;
+  move.to = arc.target;
+  move.frame = frame_of(arc.frame);
+  if (!shape_arc(arc, place_.pose, move)) return "centre, plane and target do not make an arc";
+  if (!(move.length <= kLongestMove_mm)) return "the arc is too long to be checked";
+  const double turning =
+      std::max(std::abs(arc.target[kA] - place_.pose[kA]), std::abs(arc.target[kC] - place_.pose[kC]));
+  if (!(turning <= kLongestTurn_rad)) return "the arc turns too far to be checked";
+  const double steps = std::ceil(std::max(move.length / kCheckStep_mm, turning / kCheckStep_rad));
+  for (double i = 1; i <= steps; ++i)
+    if (const auto fits = kinematics_.check(move.frame, point_on(move, move.length * i / steps).x); !fits)
+      return to_string(fits.error());
+  place_ = {arc.target, arc.frame};
+  return std::nullopt;
+}
+
+/// The machine will go where homing leaves it, in a straight line of the homing frame.
+Refused LiveLines::check_home(const canonical::Home& home) {
+  const auto from = convert_pose(kinematics_, frame_of(place_.frame), place_.pose, frame_of(home.frame));
+  if (!from) return "G28: " + to_string(from.error());
+  PoseVector target = home.afterwards;
+  target[kE] = place_.pose[kE];
+  place_ = {*from, home.frame};
+  place_.pose[kE] = target[kE];
+  return check_straight(target, home.frame);
+}
+
+Refused LiveLines::check_extrusion(const PoseVector& target) {
+  if (!machine_.thermal.hotend.present || target[kE] - place_.pose[kE] <= kNoExtrusion_mm)
+    return std::nullopt;
+  if (!hotend_celsius_) {
+    if (!std::exchange(cold_noted_, true))
+      notes_.emplace_back("filament is fed before a hotend temperature is set");
+    return std::nullopt;
+  }
+  if (*hotend_celsius_ >= machine_.thermal.min_extrude_c) return std::nullopt;
+  return "filament would be fed with the hotend at " + celsius(*hotend_celsius_) + "; at least " +
+         celsius(machine_.thermal.min_extrude_c) + " is needed";
+}
+
+Refused LiveLines::check_thermal(const canonical::Thermal& thermal) {
+  using What = canonical::Thermal::What;
+  if (thermal.what == What::kFan) return std::nullopt;
+  const bool hotend = thermal.what == What::kHotend;
+  const HeaterDescription& heater = hotend ? machine_.thermal.hotend : machine_.thermal.bed;
+  const std::string name = hotend ? "hotend" : "bed";
+  if (!heater.present && thermal.value > 0) return "this machine has no " + name + " heater";
+  if (!(thermal.value >= 0 && thermal.value <= heater.max_c))
+    return name + " temperature " + celsius(thermal.value) + "; allowed are 0 to " + celsius(heater.max_c);
+  if (thermal.wait && thermal.wait_cooling && thermal.value > 0 && thermal.value < machine_.thermal.ambient_c)
+    return name + " would wait forever: " + celsius(thermal.value) + " is below the room's " +
+           celsius(machine_.thermal.ambient_c);
+  // A cold end after a print is no news: only lines that feed filament afterwards are refused.
+  if (hotend && thermal.index == 0) hotend_celsius_ = thermal.value;
+  return std::nullopt;
+}
+
+}  // namespace kinebus

@@ -1,0 +1,65 @@
+#pragma once
+// G-code that comes line by line (print host, console) instead of as a whole job. Nobody has checked it
+// before, so each line is checked before it is taken: what it would move through is within the machine's
+// reach, what it would heat is allowed. A refused line has no effect at all: the next one goes on from where
+// the tool is.
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "gateway/gcode/interpreter.hpp"
+#include "gateway/jobs/problem.hpp"
+#include "gateway/machine/description/machine_description.hpp"
+#include "gateway/result.hpp"
+
+namespace kinebus {
+
+class LiveLines {
+ public:
+  /// Both must outlive this.
+  LiveLines(const MachineDescription& machine, const Kinematics& kinematics);
+
+  /// Modal state, offsets and limits are forgotten, as after switching on.
+  void forget();
+  /// The machine stands at `pose` (Frame::kMachine) and may move from here on. Modal state is kept, also the
+  /// program's E. `hotend_celsius`: its target, if it has one. Appends what is in force to `out`.
+  void begin(const PoseVector& pose, std::optional<double> hotend_celsius, gcode::CommandBuffer& out);
+  /// Lines that move are refused from here on, until begin().
+  void end() { may_move_ = false; }
+
+  /// Carries out one line (without its end). Refused: why, and nothing has changed.
+  Result<void, Problem> take(std::string_view line, std::uint32_t number, gcode::CommandBuffer& out);
+
+  /// What was accepted without effect since the last call, in words.
+  std::vector<std::string> take_notes();
+
+ private:
+  struct Place {
+    PoseVector pose{};
+    canonical::Frame frame = canonical::Frame::kMachine;
+  };
+  std::optional<std::string> check(const canonical::Command& command);
+  std::optional<std::string> check_straight(const PoseVector& target, canonical::Frame frame);
+  std::optional<std::string> check_arc(const canonical::Arc& arc);
+  std::optional<std::string> check_home(const canonical::Home& home);
+  std::optional<std::string> check_thermal(const canonical::Thermal& thermal);
+  std::optional<std::string> check_extrusion(const PoseVector& target);
+
+  const MachineDescription& machine_;
+  const Kinematics& kinematics_;
+  gcode::Interpreter interpreter_;
+  bool may_move_ = false;
+  Place place_;  ///< where the lines taken so far lead
+  std::optional<double> hotend_celsius_;
+  bool cold_noted_ = false;
+  canonical::Limits limits_{};  ///< in force
+  std::optional<canonical::PathMode> path_mode_;
+  std::vector<std::string> notes_;
+};
+
+/// Values that are stated (not 0) take the place of the ones before.
+void merge_limits(canonical::Limits& all, const canonical::Limits& more);
+
+}  // namespace kinebus
