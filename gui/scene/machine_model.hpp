@@ -1,0 +1,54 @@
+#pragma once
+// What a picture of the machine needs to know of it: dimensions and reach. Comes from the gateway
+// (MachineInfo).
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gui/scene/vec.hpp"
+
+namespace kinebus::gui {
+
+struct Range {
+  double min = 0, max = 0;
+  friend bool operator==(const Range&, const Range&) = default;
+};
+
+/// Tool relative to the part: X Y Z in table coordinates (mm), A and C (rad).
+struct PartPose {
+  Vec3 q_mm{};
+  double a_rad = 0, c_rad = 0;
+};
+
+struct MachineModel {
+  enum class Kind { kM1, kCartesian, kCoreXy, kLinearDelta };
+  struct Leg {
+    Vec3 foot_mm{}, rail{0, 0, 1}, attachment_mm{};
+    double length_mm = 640, connector_mm = 0;
+    bool carriage_above = true;
+    Range travel_mm{530, 1030};
+    double speed_mm_per_s = 450;
+  };
+  Kind kind = Kind::kM1;
+  std::string name;
+  Vec3 nozzle_mm{};       ///< fixed in the machine frame (M1); elsewhere the tool moves
+  std::vector<Leg> legs;  ///< M1: four; linear delta: three towers with their arms
+  double max_leg_angle_rad = 1.2;
+  double tower_radius_mm = 0;                            ///< linear delta: of the rails, as drawn
+  Range x_mm{-100, 100}, y_mm{-100, 100}, z_mm{0, 200};  ///< where the tool may be, table coordinates
+  double radius_mm = 0;                                  ///< 0: the workspace is the box alone
+  bool turns = false;                                    ///< has A or C
+
+  bool round() const { return radius_mm > 0; }
+  /// Carriage travels for a pose, by the closure of each leg; nullopt: out of reach. Only machines with legs.
+  std::optional<std::array<double, 4>> carriages_mm(const PartPose& pose) const;
+  /// Platform's point under the tool, machine frame (M1: p = n - R_X(A) R_Z(C) q).
+  Vec3 platform_mm(const PartPose& pose) const;
+  /// How far a pose is from the nearest limit of reach, 0 (at it or beyond) .. 1 (as free as can be): travel
+  /// of the carriages, angle of the legs, workspace.
+  double margin(const PartPose& pose) const;
+};
+
+}  // namespace kinebus::gui

@@ -1,0 +1,138 @@
+#include "gui/scene/path_plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kinebus::gui {
+namespace {
+
+QVector3D to_qt(const std::array<float, 3>& v) {
+  return {v[0], v[1], v[2]};
+}
+
+/// Outside one of the clip planes with all corners.
+bool out_of_sight(const Box& box, const QMatrix4x4& clip) {
+  std::array<int, 5> outside{};
+  for (int corner = 0; corner < 8; ++corner) {
+    const QVector4D p = clip * QVector4D((corner & 1) != 0 ? box.high_mm[0] : box.low_mm[0],
+                                         (corner & 2) != 0 ? box.high_mm[1] : box.low_mm[1],
+                                         (corner & 4) != 0 ? box.high_mm[2] : box.low_mm[2], 1);
+    outside[0] += p.x() < -p.w();
+    outside[1] += p.x() > p.w();
+    outside[2] += p.y() < -p.w();
+    outside[3] += p.y() > p.w();
+    outside[4] += p.z() < -p.w();
+  }
+  return std::find(outside.begin(), outside.end(), 8) != outside.end();
+}
+
+float distance_mm(const Box& box, const QVector3D& eye) {
+  const QVector3D low = to_qt(box.low_mm), high = to_qt(box.high_mm);
+  const QVector3D nearest(std::clamp(eye.x(), low.x(), high.x()), std::clamp(eye.y(), low.y(), high.y()),
+                          std::clamp(eye.z(), low.z(), high.z()));
+  return (eye - nearest).length();
+}
+
+class Planner {
+ public:
+  Planner(const PathLevels& levels, const PathView& view) : levels_(levels), view_(view) {}
+
+  DrawPlan plan() {
+    select();
+    // First coarser levels; when the coarsest is still too much, every n-th chunk, but always the topmost
+    // ones: they are what is seen.
+    std::uint8_t coarser = 0;
+    while (coarser + 1u < kPathLevels && cost(coarser) > view_.max_lines) ++coarser;
+    std::size_t stride = 1;
+    const std::size_t total = cost(coarser);
+    if (total > view_.max_lines && view_.max_lines > 0) stride = total / view_.max_lines + 1;
+    DrawPlan plan;
+    plan.thinned = coarser > 0 || stride > 1;
+    const std::size_t top = chosen_.size() > kTopChunks ? chosen_.size() - kTopChunks : 0;
+    for (std::size_t i = 0; i < chosen_.size(); ++i)
+      if (stride == 1 || i % stride == 0 || i >= top) add(plan, chosen_[i], coarser);
+    for (const DrawRange& range : plan.ranges) plan.lines += range.lines.count();
+    return plan;
+  }
+
+ private:
+  static constexpr std::size_t kTopChunks = 4;
+  struct Chosen {
+    const PathChunk* chunk;
+    std::uint8_t level;
+  };
+
+  void select() {
+    for (const PathChunk& chunk : levels_.chunks) {
+      if (chunk.layer < view_.first_layer || chunk.layer > view_.last_layer) continue;
+      if (!view_.show_remaining && chunk.first_vertex >= view_.done_vertex) break;
+      if (chunk.bounds_mm.empty() || out_of_sight(chunk.bounds_mm, view_.clip)) continue;
+      const float pixel_mm = distance_mm(chunk.bounds_mm, view_.eye_mm) * view_.mm_per_pixel_at_1mm;
+      std::uint8_t level = 0;
+      while (level + 1u < kPathLevels && kLevelTolerance_mm[level + 1u] <= pixel_mm * 0.8F) ++level;
+      chosen_.push_back({&chunk, level});
+    }
+  }
+
+  static std::uint8_t raised(std::uint8_t level, std::uint8_t coarser) {
+    return static_cast<std::uint8_t>(std::min<std::size_t>(kPathLevels - 1, std::size_t{level} + coarser));
+  }
+  std::size_t cost(std::uint8_t coarser) const {
+    std::size_t lines = 0;
+    for (const Chosen& c : chosen_) {
+      lines += c.chunk->work[raised(c.level, coarser)].count();
+      if (view_.show_travel) lines += c.chunk->travel[c.level + coarser > 1 ? 1 : 0].count();
+    }
+    return lines;
+  }
+
+  /// First line of a range whose end is not made yet.
+  std::uint32_t cut(const std::vector<std::uint32_t>& indices, IndexRange range) const {
+    std::uint32_t low = range.first, high = range.last;
+    while (low < high) {
+      const std::uint32_t middle = low + (high - low) / 2;
+      if (indices[std::size_t{2} * middle + 1] < view_.done_vertex)
+        low = middle + 1;
+      else
+        high = middle;
+    }
+    return low;
+  }
+
+  static void append(DrawPlan& plan, PathStyle style, std::uint8_t level, IndexRange lines) {
+    if (lines.count() == 0) return;
+    // The last range of the same list, if this one goes on where it ended.
+    for (auto last = plan.ranges.rbegin(); last != plan.ranges.rend() && last - plan.ranges.rbegin() < 3;
+         ++last)
+      if (last->style == style && last->level == level && last->lines.last == lines.first) {
+        last->lines.last = lines.last;
+        return;
+      }
+    plan.ranges.push_back({style, level, lines});
+  }
+
+  void add(DrawPlan& plan, const Chosen& chosen, std::uint8_t coarser) const {
+    const std::uint8_t level = raised(chosen.level, coarser);
+    const IndexRange work = chosen.chunk->work[level];
+    const std::uint32_t done = cut(levels_.work[level], work);
+    append(plan, PathStyle::kWork, level, {work.first, done});
+    if (view_.show_remaining) append(plan, PathStyle::kRemaining, level, {done, work.last});
+    if (!view_.show_travel) return;
+    const auto travel_level = static_cast<std::uint8_t>(chosen.level + coarser > 1 ? 1 : 0);
+    const IndexRange travel = chosen.chunk->travel[travel_level];
+    const std::uint32_t end = view_.show_remaining ? travel.last : cut(levels_.travel[travel_level], travel);
+    append(plan, PathStyle::kTravel, travel_level, {travel.first, end});
+  }
+
+  const PathLevels& levels_;
+  const PathView& view_;
+  std::vector<Chosen> chosen_;
+};
+
+}  // namespace
+
+DrawPlan plan_drawing(const PathLevels& levels, const PathView& view) {
+  return Planner(levels, view).plan();
+}
+
+}  // namespace kinebus::gui

@@ -1,0 +1,338 @@
+#include "gui/scene/scene_renderer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace kinebus::gui {
+namespace {
+
+struct Look {
+  QVector3D light, dark;
+  float gloss = 0.1F;
+  float glow = 0;
+};
+
+Look look_of(Finish finish) {
+  switch (finish) {
+    case Finish::kFrame:
+      return {{0.72F, 0.74F, 0.77F}, {0.30F, 0.33F, 0.37F}, 0.10F, 0};
+    case Finish::kRail:
+      return {{0.82F, 0.84F, 0.87F}, {0.58F, 0.62F, 0.67F}, 0.45F, 0};
+    case Finish::kCarriage:
+      return {{0.06F, 0.52F, 0.62F}, {0.07F, 0.58F, 0.68F}, 0.25F, 0};
+    case Finish::kLeg:
+      return {{0.20F, 0.22F, 0.25F}, {0.13F, 0.145F, 0.165F}, 0.30F, 0};
+    case Finish::kJoint:
+      return {{0.48F, 0.51F, 0.55F}, {0.42F, 0.45F, 0.50F}, 0.40F, 0};
+    case Finish::kPlatform:
+      return {{0.62F, 0.65F, 0.69F}, {0.36F, 0.40F, 0.45F}, 0.15F, 0};
+    case Finish::kTable:
+      return {{0.28F, 0.31F, 0.35F}, {0.17F, 0.19F, 0.22F}, 0.12F, 0};
+    case Finish::kTableRim:
+      return {{0.86F, 0.87F, 0.89F}, {0.50F, 0.54F, 0.59F}, 0.35F, 0};
+    case Finish::kBrass:
+      return {{0.86F, 0.68F, 0.30F}, {0.80F, 0.62F, 0.27F}, 0.60F, 0};
+    case Finish::kHot:
+      return {{0.93F, 0.42F, 0.16F}, {0.96F, 0.44F, 0.16F}, 0.20F, 0.35F};
+    case Finish::kMark:
+      return {{0.95F, 0.61F, 0.13F}, {0.95F, 0.61F, 0.13F}, 0.10F, 0.15F};
+  }
+  return {};
+}
+
+std::vector<QVector3D> circle(float radius_mm, float z_mm) {
+  constexpr int kPieces = 96;
+  std::vector<QVector3D> points;
+  for (int i = 0; i < kPieces; ++i) {
+    const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(i) / kPieces;
+    points.emplace_back(radius_mm * std::cos(angle), radius_mm * std::sin(angle), z_mm);
+  }
+  return points;
+}
+
+}  // namespace
+
+QString SceneRenderer::initialise() {
+  gl_.initializeOpenGLFunctions();
+  if (QString wrong = programs_.build(); !wrong.isEmpty()) return wrong;
+  bodies_.build(gl_);
+  empty_.create();
+  plain_array_.create();
+  plain_array_.bind();
+  plain_buffer_.create();
+  plain_buffer_.bind();
+  plain_buffer_.setUsagePattern(QOpenGLBuffer::StreamDraw);
+  gl_.glEnableVertexAttribArray(0);
+  gl_.glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(QVector3D), nullptr);
+  plain_array_.release();
+  return {};
+}
+
+void SceneRenderer::release() {
+  path_.release();
+  bodies_.release();
+  plain_buffer_.destroy();
+  plain_array_.destroy();
+  empty_.destroy();
+  programs_ = {};
+  quick_.reset();
+  rest_.reset();
+  begun_ = refined_ = false;
+}
+
+void SceneRenderer::set_path(std::shared_ptr<const ScenePath> scene) {
+  path_.set(gl_, std::move(scene));
+  begun_ = refined_ = false;
+}
+
+void SceneRenderer::prepare(std::unique_ptr<QOpenGLFramebufferObject>& picture, QSize pixels) {
+  if (picture == nullptr || picture->size() != pixels) {
+    QOpenGLFramebufferObjectFormat format;
+    format.setSamples(budget_.samples);
+    format.setAttachment(QOpenGLFramebufferObject::CombinedDepthStencil);
+    picture = std::make_unique<QOpenGLFramebufferObject>(pixels, format);
+  }
+  picture->bind();
+  gl_.glViewport(0, 0, pixels.width(), pixels.height());
+}
+
+void SceneRenderer::draw_quick(const SceneContent& content, QSize pixels) {
+  content_ = content;
+  pixels_ = pixels;
+  begun_ = refined_ = false;
+  world_clip_ = content.camera.projection(pixels) * content.camera.view();
+  path_.copy_some(gl_, budget_.copy_bytes);
+  prepare(quick_, pixels);
+  draw_surroundings();
+  lines_drawn_ = 0;
+  if (path_.ready()) {
+    const DrawPlan plan = plan_drawing(path_.scene()->levels, path_view(budget_.quick_lines));
+    // A path that is small enough has its beads at once: nothing changes when it comes to rest.
+    const bool ribbons = !plan.thinned && plan.lines <= budget_.slice_lines;
+    for (const DrawRange& range : plan.ranges) {
+      use(range.style, ribbons);
+      path_.draw(gl_, range, 0, range.lines.count());
+    }
+    lines_drawn_ = plan.lines;
+    if (ribbons) refined_ = true;
+  } else if (path_.scene() == nullptr) {
+    refined_ = true;
+  }
+  draw_reach();
+  draw_mark();
+  quick_->release();
+}
+
+bool SceneRenderer::refine() {
+  if (refined_ || quick_ == nullptr) return true;
+  if (!path_.ready()) return false;
+  prepare(rest_, pixels_);
+  if (!begun_) {
+    begun_ = true;
+    draw_surroundings();
+    rest_plan_ = plan_drawing(path_.scene()->levels, path_view(budget_.rest_lines));
+    rest_range_ = 0;
+    rest_skip_ = 0;
+  } else {
+    gl_.glEnable(GL_DEPTH_TEST);
+  }
+  std::size_t left = budget_.slice_lines;
+  while (left > 0 && rest_range_ < rest_plan_.ranges.size()) {
+    const DrawRange& range = rest_plan_.ranges[rest_range_];
+    const auto count =
+        static_cast<std::uint32_t>(std::min<std::size_t>(left, range.lines.count() - rest_skip_));
+    use(range.style, true);
+    path_.draw(gl_, range, rest_skip_, count);
+    left -= count;
+    rest_skip_ += count;
+    if (rest_skip_ == range.lines.count()) {
+      ++rest_range_;
+      rest_skip_ = 0;
+    }
+  }
+  if (rest_range_ == rest_plan_.ranges.size()) {
+    draw_reach();
+    draw_mark();
+    lines_drawn_ = rest_plan_.lines;
+    refined_ = true;
+    std::swap(quick_, rest_);
+  }
+  gl_.glFlush();
+  QOpenGLFramebufferObject::bindDefault();
+  return refined_;
+}
+
+void SceneRenderer::present(GLuint target) {
+  if (quick_ == nullptr) return;
+  gl_.glBindFramebuffer(GL_READ_FRAMEBUFFER, quick_->handle());
+  gl_.glBindFramebuffer(GL_DRAW_FRAMEBUFFER, target);
+  gl_.glBlitFramebuffer(0, 0, quick_->width(), quick_->height(), 0, 0, quick_->width(), quick_->height(),
+                        GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  gl_.glBindFramebuffer(GL_FRAMEBUFFER, target);
+}
+
+PathView SceneRenderer::path_view(std::size_t max_lines) const {
+  PathView view;
+  view.clip = world_clip_ * content_.figure.part_frame;
+  view.eye_mm = content_.figure.part_frame.inverted().map(content_.camera.eye_mm());
+  view.mm_per_pixel_at_1mm = content_.camera.mm_per_pixel(pixels_) / content_.camera.distance_mm;
+  view.first_layer = content_.first_layer;
+  view.last_layer = content_.last_layer;
+  view.done_vertex = content_.done_vertex;
+  view.show_remaining = content_.show_remaining;
+  view.show_travel = content_.show_travel;
+  view.max_lines = max_lines;
+  return view;
+}
+
+void SceneRenderer::use(PathStyle style, bool ribbons) {
+  // Travel is never a bead: nothing is deposited there.
+  bind_path_program(ribbons && style != PathStyle::kTravel ? *programs_.ribbons : *programs_.lines, style);
+}
+
+void SceneRenderer::bind_path_program(QOpenGLShaderProgram& program, PathStyle style) {
+  program.bind();
+  const PathView view = path_view(0);
+  program.setUniformValue("clip", view.clip);
+  program.setUniformValue("eye", view.eye_mm);
+  program.setUniformValue("half_width", style == PathStyle::kRemaining ? 0.0F : content_.bead_mm / 2);
+  program.setUniformValue("pixel_at_1mm", view.mm_per_pixel_at_1mm);
+  const QVector3D key =
+      content_.figure.part_frame.inverted().mapVector(QVector3D(0.35F, -0.55F, 0.75F)).normalized();
+  program.setUniformValue("key", key);
+  program.setUniformValue("colouring", static_cast<int>(content_.colouring));
+  program.setUniformValue("style", static_cast<int>(style));
+  program.setUniformValue("travel_colour", content_.colours.travel);
+  program.setUniformValue("remaining_colour", content_.colours.remaining);
+  program.setUniformValueArray("ramp", colour_ramp(content_.colouring)[0].data(), 9, 3);
+}
+
+void SceneRenderer::draw_surroundings() {
+  gl_.glDisable(GL_BLEND);
+  gl_.glDisable(GL_CULL_FACE);
+  gl_.glDepthMask(GL_TRUE);
+  gl_.glClear(GL_DEPTH_BUFFER_BIT);
+  gl_.glDisable(GL_DEPTH_TEST);
+  programs_.sky->bind();
+  programs_.sky->setUniformValue("low", content_.colours.sky_low);
+  programs_.sky->setUniformValue("high", content_.colours.sky_high);
+  empty_.bind();
+  gl_.glDrawArrays(GL_TRIANGLES, 0, 3);
+  empty_.release();
+  gl_.glEnable(GL_DEPTH_TEST);
+  gl_.glDepthFunc(GL_LEQUAL);
+  if (content_.has_machine) draw_figure();
+}
+
+void SceneRenderer::draw_figure() {
+  QOpenGLShaderProgram& program = *programs_.bodies;
+  program.bind();
+  program.setUniformValue("clip", world_clip_);
+  program.setUniformValue("eye", content_.camera.eye_mm());
+  for (const FigurePart& part : content_.figure.parts) {
+    const bool bed = part.finish == Finish::kTable || part.finish == Finish::kTableRim;
+    if (!content_.show_machine && !bed) continue;
+    const Look look = look_of(part.finish);
+    program.setUniformValue("place", part.place);
+    program.setUniformValue("normal_matrix", part.place.normalMatrix());
+    program.setUniformValue("colour", content_.colours.dark ? look.dark : look.light);
+    program.setUniformValue("gloss", look.gloss);
+    program.setUniformValue("glow", look.glow);
+    bodies_.draw(gl_, part.body);
+  }
+  // The bed's grid, every 50 mm, just above the table.
+  std::vector<QVector3D> grid;
+  const MachineModel& m = content_.model;
+  const double half_x = m.round() ? m.radius_mm : m.x_mm.max, half_y = m.round() ? m.radius_mm : m.y_mm.max;
+  const double low_x = m.round() ? -half_x : m.x_mm.min, low_y = m.round() ? -half_y : m.y_mm.min;
+  const auto line = [&](double x0, double y0, double x1, double y1) {
+    grid.emplace_back(static_cast<float>(x0), static_cast<float>(y0), 0.1F);
+    grid.emplace_back(static_cast<float>(x1), static_cast<float>(y1), 0.1F);
+  };
+  for (double x = std::ceil(low_x / 50) * 50; x <= half_x; x += 50) {
+    const double y = m.round() ? std::sqrt(std::max(0.0, half_y * half_y - x * x)) : half_y;
+    line(x, m.round() ? -y : low_y, x, y);
+  }
+  for (double y = std::ceil(low_y / 50) * 50; y <= half_y; y += 50) {
+    const double x = m.round() ? std::sqrt(std::max(0.0, half_x * half_x - y * y)) : half_x;
+    line(m.round() ? -x : low_x, y, x, y);
+  }
+  const QMatrix4x4 clip = world_clip_ * content_.figure.part_frame;
+  draw_plain(grid, GL_LINES, clip, QVector4D(content_.colours.grid, 1));
+  draw_plain({{0, 0, 0.4F}, {25, 0, 0.4F}}, GL_LINES, clip, {0.90F, 0.27F, 0.27F, 1});
+  draw_plain({{0, 0, 0.4F}, {0, 25, 0.4F}}, GL_LINES, clip, {0.30F, 0.72F, 0.36F, 1});
+}
+
+void SceneRenderer::draw_reach() {
+  if (!content_.has_machine || !content_.show_reach) return;
+  const MachineModel& m = content_.model;
+  const QMatrix4x4 clip = world_clip_ * content_.figure.part_frame;
+  const QVector4D colour(content_.colours.reach, 0.55F);
+  gl_.glEnable(GL_BLEND);
+  gl_.glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  const auto low = static_cast<float>(std::max(0.0, m.z_mm.min)), high = static_cast<float>(m.z_mm.max);
+  std::vector<QVector3D> uprights;
+  if (m.round()) {
+    const auto radius = static_cast<float>(m.radius_mm);
+    draw_plain(circle(radius, low + 0.2F), GL_LINE_LOOP, clip, colour);
+    draw_plain(circle(radius, high), GL_LINE_LOOP, clip, colour);
+    const auto ring = circle(radius, 0);
+    for (std::size_t i = 0; i < ring.size(); i += 12)
+      for (const float z : {low, high}) uprights.emplace_back(ring[i].x(), ring[i].y(), z);
+  } else {
+    const auto x0 = static_cast<float>(m.x_mm.min), x1 = static_cast<float>(m.x_mm.max);
+    const auto y0 = static_cast<float>(m.y_mm.min), y1 = static_cast<float>(m.y_mm.max);
+    for (const float z : {low + 0.2F, high})
+      draw_plain({{x0, y0, z}, {x1, y0, z}, {x1, y1, z}, {x0, y1, z}}, GL_LINE_LOOP, clip, colour);
+    for (const auto& [x, y] : {std::pair{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}})
+      for (const float z : {low, high}) uprights.emplace_back(x, y, z);
+  }
+  draw_plain(uprights, GL_LINES, clip, QVector4D(content_.colours.reach, 0.22F));
+  gl_.glDisable(GL_BLEND);
+}
+
+/// A pin over the place the user asked for, always in front.
+void SceneRenderer::draw_mark() {
+  const ScenePath* scene = path_.scene();
+  if (scene == nullptr || content_.marked_vertex >= scene->path.size()) return;
+  const auto& p = scene->path.points_mm[content_.marked_vertex];
+  const QVector3D place = content_.figure.part_frame.map(QVector3D(p[0], p[1], p[2]));
+  const float size = content_.camera.mm_per_pixel(pixels_) * 9;
+  gl_.glDisable(GL_DEPTH_TEST);
+  QOpenGLShaderProgram& program = *programs_.bodies;
+  program.bind();
+  program.setUniformValue("clip", world_clip_);
+  program.setUniformValue("eye", content_.camera.eye_mm());
+  program.setUniformValue("gloss", 0.3F);
+  program.setUniformValue("glow", 0.4F);
+  program.setUniformValue("colour", QVector3D(0.93F, 0.20F, 0.42F));
+  QMatrix4x4 pin;
+  pin.translate(place + QVector3D(0, 0, size * 1.3F));
+  pin.scale(size * 1.1F, size * 1.1F, size * 2.6F);
+  program.setUniformValue("place", pin);
+  program.setUniformValue("normal_matrix", pin.normalMatrix());
+  bodies_.draw(gl_, Body::kCone);
+  QMatrix4x4 head;
+  head.translate(place + QVector3D(0, 0, size * 2.9F));
+  head.scale(size * 1.5F);
+  program.setUniformValue("place", head);
+  program.setUniformValue("normal_matrix", head.normalMatrix());
+  bodies_.draw(gl_, Body::kSphere);
+  gl_.glEnable(GL_DEPTH_TEST);
+}
+
+void SceneRenderer::draw_plain(const std::vector<QVector3D>& points, GLenum mode, const QMatrix4x4& clip,
+                               QVector4D colour) {
+  if (points.empty()) return;
+  programs_.plain->bind();
+  programs_.plain->setUniformValue("clip", clip);
+  programs_.plain->setUniformValue("colour", colour);
+  plain_array_.bind();
+  plain_buffer_.bind();
+  plain_buffer_.allocate(points.data(), static_cast<int>(points.size() * sizeof(QVector3D)));
+  gl_.glDrawArrays(mode, 0, static_cast<GLsizei>(points.size()));
+  plain_array_.release();
+}
+
+}  // namespace kinebus::gui
