@@ -1,0 +1,92 @@
+// What the store knows of runs and of pre-flights.
+
+#include <algorithm>
+
+#include "gateway/jobs/store/job_store.hpp"
+
+namespace kinebus {
+namespace {
+
+constexpr const char* kRunColumns = "id, name, sha256, begun, duration, estimate, result, line, first_error";
+/// Runs kept; the oldest go.
+constexpr std::int64_t kMaxRuns = 10'000;
+
+StoredRun run_of(const Database::Statement& row) {
+  StoredRun run;
+  run.id = row.integer(0);
+  run.name = row.text(1);
+  run.sha256 = row.text(2);
+  run.begun_unix_s = row.real(3);
+  run.duration_s = row.real(4);
+  run.estimate_s = row.real(5);
+  run.result = static_cast<RunResult>(std::clamp<std::int64_t>(row.integer(6), 0, 5));
+  run.line = static_cast<std::uint32_t>(row.integer(7));
+  run.first_error = row.text(8);
+  return run;
+}
+
+}  // namespace
+
+Result<void, StoreError> JobStore::save_preflight(std::string_view sha256, std::string_view machine,
+                                                  const StoredPreflight& found) {
+  Database::Statement insert(
+      *database_,
+      "INSERT OR REPLACE INTO preflights(sha256, machine, errors, warnings, lines, motion_s, dwell_s)"
+      " VALUES(?, ?, ?, ?, ?, ?, ?)");
+  return insert.bind_blob(sha256)
+      .bind(machine)
+      .bind(std::int64_t{found.errors})
+      .bind(std::int64_t{found.warnings})
+      .bind(std::int64_t{found.lines})
+      .bind(found.motion_s)
+      .bind(found.dwell_s)
+      .finish();
+}
+
+Result<std::int64_t, StoreError> JobStore::begin_run(const StoredRun& run) {
+  Database::Statement insert(
+      *database_,
+      "INSERT INTO runs(name, sha256, begun, duration, estimate, result, line, first_error)"
+      " VALUES(?, ?, ?, 0, ?, 0, 0, '')");
+  const auto begun =
+      insert.bind(run.name).bind_blob(run.sha256).bind(run.begun_unix_s).bind(run.estimate_s).finish();
+  if (!begun) return Error<StoreError>(begun.error());
+  const std::int64_t id = database_->last_id();
+  Database::Statement forget(*database_, "DELETE FROM runs WHERE id <= ?");
+  static_cast<void>(forget.bind(id - kMaxRuns).finish());
+  return id;
+}
+
+Result<void, StoreError> JobStore::end_run(std::int64_t id, RunResult result, double duration_s,
+                                           std::uint32_t line, std::string_view first_error) {
+  Database::Statement update(
+      *database_, "UPDATE runs SET result = ?, duration = ?, line = ?, first_error = ? WHERE id = ?");
+  return update.bind(static_cast<std::int64_t>(result))
+      .bind(duration_s)
+      .bind(std::int64_t{line})
+      .bind(first_error)
+      .bind(id)
+      .finish();
+}
+
+Result<std::vector<StoredRun>, StoreError> JobStore::history(std::int64_t before, std::size_t max) {
+  const std::string sql =
+      std::string("SELECT ") + kRunColumns + " FROM runs WHERE ?1 = 0 OR id < ?1 ORDER BY id DESC LIMIT ?2";
+  Database::Statement rows(*database_, sql.c_str());
+  rows.bind(before).bind(static_cast<std::int64_t>(std::min<std::size_t>(max, 1000)));
+  std::vector<StoredRun> runs;
+  while (rows.step()) runs.push_back(run_of(rows));
+  if (const auto ok = rows.error(); !ok) return Error<StoreError>(ok.error());
+  return runs;
+}
+
+std::optional<StoredRun> JobStore::last_run(std::string_view name) {
+  const std::string sql =
+      std::string("SELECT ") + kRunColumns + " FROM runs WHERE name = ? ORDER BY id DESC LIMIT 1";
+  Database::Statement row(*database_, sql.c_str());
+  row.bind(name);
+  if (!row.step()) return std::nullopt;
+  return run_of(row);
+}
+
+}  // namespace kinebus

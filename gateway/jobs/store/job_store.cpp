@@ -1,0 +1,313 @@
+#include "gateway/jobs/store/job_store.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <system_error>
+#include <utility>
+
+#include "gateway/jobs/store/file_source.hpp"
+#include "gateway/jobs/store/upload_file.hpp"
+#include "protocol/joblink/sha256.hpp"
+
+namespace kinebus {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr const char* kDatabaseName = ".jobs.sqlite";
+constexpr std::size_t kPiece = 1U << 20;
+
+/// What tells a file from the one that was entered: size and time of the last change.
+struct FileMark {
+  std::uint64_t size_bytes = 0;
+  std::int64_t changed_ns = 0;
+  double changed_unix_s = 0;
+};
+
+std::optional<FileMark> mark_of(const fs::path& path) {
+  struct stat found {};
+  if (::lstat(path.c_str(), &found) != 0 || !S_ISREG(found.st_mode)) return std::nullopt;
+  const auto ns = static_cast<std::int64_t>(found.st_mtim.tv_sec) * 1'000'000'000 + found.st_mtim.tv_nsec;
+  return FileMark{static_cast<std::uint64_t>(found.st_size), ns, static_cast<double>(ns) * 1e-9};
+}
+
+std::optional<std::string> sha256_of_file(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  joblink::Sha256 sum;
+  std::string piece(kPiece, '\0');
+  while (in) {
+    in.read(piece.data(), static_cast<std::streamsize>(piece.size()));
+    sum.add(std::string_view(piece).substr(0, static_cast<std::size_t>(in.gcount())));
+  }
+  if (!in.eof()) return std::nullopt;
+  return sum.finish();
+}
+
+Error<StoreError> no_such_job(std::string_view name) {
+  return Error<StoreError>({StoreError::Kind::kNoSuchJob, "no stored job has the name " + std::string(name)});
+}
+
+}  // namespace
+
+StoreError disk_error(const fs::path& path, int error) {
+  switch (error) {
+    case ENOSPC:
+    case EDQUOT:
+    case EFBIG:
+      return {StoreError::Kind::kDiskFull, "the disk is full"};
+    case EROFS:
+    case EACCES:
+    case EPERM:
+      return {StoreError::Kind::kReadOnly, path.string() + " cannot be written: " + std::strerror(error)};
+    default:
+      return {StoreError::Kind::kDisk, path.string() + ": " + std::strerror(error)};
+  }
+}
+
+void sync_folder(const fs::path& folder) {
+  const int fd = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (fd < 0) return;
+  ::fsync(fd);
+  ::close(fd);
+}
+
+std::string JobStore::check_name(std::string_view name) {
+  const auto bad = [](char c) {
+    return static_cast<unsigned char>(c) < 0x20 || c == '/' || c == '\\' || c == 0x7F;
+  };
+  if (name.empty() || name.size() > 200) return "a job's name has 1 to 200 bytes";
+  if (name.front() == '.') return "a job's name does not begin with a dot";
+  if (std::any_of(name.begin(), name.end(), bad))
+    return "a job's name has no slashes and no control characters";
+  return {};
+}
+
+JobStore::JobStore(Options options) : options_(std::move(options)) {}
+JobStore::~JobStore() = default;
+
+std::unique_ptr<JobStore> JobStore::open(Options options, double now_unix_s) {
+  std::unique_ptr<JobStore> store(new JobStore(std::move(options)));
+  std::error_code error;
+  fs::create_directories(store->options_.folder, error);
+  if (error || ::access(store->options_.folder.c_str(), W_OK) != 0) {
+    store->writable_ = false;
+    store->notes_.push_back(store->options_.folder.string() + ": jobs cannot be stored here: " +
+                            (error ? error.message() : std::string(std::strerror(errno))));
+  }
+  store->open_database();
+  store->agree_with_files();
+  store->forget_old_uploads(now_unix_s);
+  return store;
+}
+
+void JobStore::open_database() {
+  const fs::path path = options_.folder / kDatabaseName;
+  for (int attempt = 0; writable_ && attempt < 2; ++attempt) {
+    auto opened = Database::open(path);
+    if (opened) {
+      database_.emplace(std::move(*opened));
+      const bool sound = database_->sound();
+      const auto made = sound ? make_tables() : Result<void, StoreError>();
+      if (sound && made) return;
+      if (sound && made.error().kind != StoreError::Kind::kDisk) {
+        writable_ = false;
+        notes_.push_back(made.error().words);
+        break;
+      }
+      database_.reset();
+    } else if (opened.error().kind != StoreError::Kind::kDisk) {
+      writable_ = false;
+      notes_.push_back(opened.error().words);
+      break;
+    }
+    std::error_code error;
+    fs::rename(path, options_.folder / (std::string(kDatabaseName) + ".damaged"), error);
+    fs::remove(options_.folder / (std::string(kDatabaseName) + "-journal"), error);
+    notes_.emplace_back(
+        "the job store's database was damaged: it is kept as .jobs.sqlite.damaged, its history is lost, the "
+        "jobs themselves are not");
+  }
+  if (database_) return;
+  if (auto memory = Database::open(":memory:")) {
+    database_.emplace(std::move(*memory));
+    static_cast<void>(make_tables());
+  }
+}
+
+Result<void, StoreError> JobStore::make_tables() {
+  auto made = database_->run(
+      "BEGIN IMMEDIATE;"
+      "CREATE TABLE IF NOT EXISTS jobs(name TEXT PRIMARY KEY, sha256 BLOB NOT NULL, size INTEGER NOT NULL,"
+      " changed_ns INTEGER NOT NULL, stored REAL NOT NULL);"
+      "CREATE TABLE IF NOT EXISTS preflights(sha256 BLOB NOT NULL, machine TEXT NOT NULL, errors INTEGER,"
+      " warnings INTEGER, lines INTEGER, motion_s REAL, dwell_s REAL, PRIMARY KEY(sha256, machine));"
+      "CREATE TABLE IF NOT EXISTS uploads(partial TEXT PRIMARY KEY, size INTEGER NOT NULL, secured INTEGER "
+      "NOT NULL,"
+      " begun REAL NOT NULL);"
+      "CREATE TABLE IF NOT EXISTS runs(id INTEGER PRIMARY KEY AUTOINCREMENT, name TEXT NOT NULL, sha256 BLOB "
+      "NOT NULL,"
+      " begun REAL NOT NULL, duration REAL NOT NULL, estimate REAL NOT NULL, result INTEGER NOT NULL,"
+      " line INTEGER NOT NULL, first_error TEXT NOT NULL);"
+      "CREATE INDEX IF NOT EXISTS runs_by_name ON runs(name, id);"
+      // Who was running when the gateway ended was interrupted.
+      "UPDATE runs SET result = 5, first_error = CASE first_error WHEN '' THEN 'the gateway ended while the "
+      "job ran'"
+      " ELSE first_error END WHERE result = 0;"
+      "COMMIT;");
+  return made;
+}
+
+Result<void, StoreError> JobStore::enter(std::string_view name, std::string_view sha256,
+                                         double stored_unix_s) {
+  const auto mark = mark_of(options_.folder / name);
+  if (!mark) return no_such_job(name);
+  Database::Statement insert(*database_,
+                             "INSERT OR REPLACE INTO jobs(name, sha256, size, changed_ns, stored)"
+                             " VALUES(?, ?, ?, ?, ?)");
+  return insert.bind(name)
+      .bind_blob(sha256)
+      .bind(static_cast<std::int64_t>(mark->size_bytes))
+      .bind(mark->changed_ns)
+      .bind(stored_unix_s)
+      .finish();
+}
+
+/// Files that came, went or changed without the database's knowledge: after a power cut, or by hand.
+void JobStore::agree_with_files() {
+  std::map<std::string, FileMark> files;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(options_.folder, error)) {
+    const std::string name = entry.path().filename().string();
+    if (!check_name(name).empty()) continue;
+    if (const auto mark = mark_of(entry.path())) files[name] = *mark;
+  }
+  std::vector<std::string> gone;
+  {
+    Database::Statement rows(*database_, "SELECT name, size, changed_ns FROM jobs");
+    while (rows.step()) {
+      const auto found = files.find(rows.text(0));
+      if (found == files.end()) {
+        gone.push_back(rows.text(0));
+      } else if (static_cast<std::int64_t>(found->second.size_bytes) == rows.integer(1) &&
+                 found->second.changed_ns == rows.integer(2)) {
+        files.erase(found);
+      }
+    }
+  }
+  for (const std::string& name : gone) {
+    Database::Statement remove(*database_, "DELETE FROM jobs WHERE name = ?");
+    static_cast<void>(remove.bind(name).finish());
+  }
+  for (const auto& [name, mark] : files)
+    if (const auto sha256 = sha256_of_file(options_.folder / name))
+      static_cast<void>(enter(name, *sha256, mark.changed_unix_s));
+}
+
+std::uint64_t JobStore::used_bytes() const {
+  std::uint64_t used = 0;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(options_.folder, error)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with('.') && !name.starts_with(kPartialPrefix)) continue;
+    if (const auto mark = mark_of(entry.path())) used += mark->size_bytes;
+  }
+  return used;
+}
+
+Result<void, StoreError> JobStore::writable_or_error() const {
+  if (writable_) return {};
+  return Error<StoreError>({StoreError::Kind::kReadOnly, options_.folder.string() + " cannot be written"});
+}
+
+Result<JobListing, StoreError> JobStore::list() {
+  JobListing listing;
+  Database::Statement rows(
+      *database_,
+      "SELECT j.name, j.sha256, j.size, j.stored, p.errors, p.warnings, p.lines, p.motion_s, p.dwell_s,"
+      " (SELECT COUNT(*) FROM runs r WHERE r.name = j.name)"
+      " FROM jobs j LEFT JOIN preflights p ON p.sha256 = j.sha256 AND p.machine = ? ORDER BY j.name");
+  rows.bind(machine_);
+  while (rows.step()) {
+    StoredJob job;
+    job.name = rows.text(0);
+    job.sha256 = rows.text(1);
+    job.size_bytes = static_cast<std::uint64_t>(rows.integer(2));
+    job.stored_unix_s = rows.real(3);
+    if (!rows.null(4))
+      job.preflight = StoredPreflight{
+          static_cast<std::uint32_t>(rows.integer(4)), static_cast<std::uint32_t>(rows.integer(5)),
+          static_cast<std::uint32_t>(rows.integer(6)), rows.real(7), rows.real(8)};
+    job.times_run = static_cast<std::uint32_t>(rows.integer(9));
+    listing.jobs.push_back(std::move(job));
+  }
+  if (const auto ok = rows.error(); !ok) return Error<StoreError>(ok.error());
+  for (StoredJob& job : listing.jobs)
+    if (job.times_run > 0) job.last_run = last_run(job.name);
+  listing.used_bytes = used_bytes();
+  listing.quota_bytes = options_.quota_bytes;
+  std::error_code error;
+  listing.free_bytes = fs::space(options_.folder, error).available;
+  if (error) listing.free_bytes = 0;
+  return listing;
+}
+
+std::optional<StoredJob> JobStore::find(std::string_view name) {
+  Database::Statement row(*database_, "SELECT sha256, size, changed_ns, stored FROM jobs WHERE name = ?");
+  row.bind(name);
+  if (!check_name(name).empty() || !row.step()) return std::nullopt;
+  const auto mark = mark_of(options_.folder / name);
+  if (!mark || mark->changed_ns != row.integer(2) ||
+      static_cast<std::int64_t>(mark->size_bytes) != row.integer(1))
+    return std::nullopt;
+  StoredJob job;
+  job.name = name;
+  job.sha256 = row.text(0);
+  job.size_bytes = mark->size_bytes;
+  job.stored_unix_s = row.real(3);
+  return job;
+}
+
+Result<std::unique_ptr<ByteSource>, StoreError> JobStore::open_job(std::string_view name) {
+  if (std::string broken = check_name(name); !broken.empty())
+    return Error<StoreError>({StoreError::Kind::kName, broken});
+  if (!mark_of(options_.folder / name)) return no_such_job(name);
+  auto source = FileSource::open(options_.folder / name);
+  if (!source) return Error<StoreError>({StoreError::Kind::kDisk, source.error()});
+  return std::move(*source);
+}
+
+Result<std::string, StoreError> JobStore::read(std::string_view name, std::uint64_t offset_bytes,
+                                               std::size_t max_bytes) {
+  if (std::string broken = check_name(name); !broken.empty())
+    return Error<StoreError>({StoreError::Kind::kName, broken});
+  const auto mark = mark_of(options_.folder / name);
+  if (!mark) return no_such_job(name);
+  std::string text;
+  if (offset_bytes >= mark->size_bytes) return text;
+  text.resize(static_cast<std::size_t>(std::min<std::uint64_t>(max_bytes, mark->size_bytes - offset_bytes)));
+  std::ifstream in(options_.folder / name, std::ios::binary);
+  in.seekg(static_cast<std::streamoff>(offset_bytes));
+  if (!in.read(text.data(), static_cast<std::streamsize>(text.size())))
+    return Error<StoreError>(disk_error(options_.folder / name, errno));
+  return text;
+}
+
+Result<void, StoreError> JobStore::remove(std::string_view name) {
+  if (std::string broken = check_name(name); !broken.empty())
+    return Error<StoreError>({StoreError::Kind::kName, broken});
+  if (auto ok = writable_or_error(); !ok) return ok;
+  if (!mark_of(options_.folder / name)) return no_such_job(name);
+  if (::unlink((options_.folder / name).c_str()) != 0)
+    return Error<StoreError>(disk_error(options_.folder / name, errno));
+  sync_folder(options_.folder);
+  Database::Statement remove(*database_, "DELETE FROM jobs WHERE name = ?");
+  return remove.bind(name).finish();
+}
+
+}  // namespace kinebus

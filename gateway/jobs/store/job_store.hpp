@@ -1,0 +1,153 @@
+#pragma once
+// The jobs on the gateway: their texts as files in one folder, and what is known of them in an SQLite
+// database beside them.
+//
+//   upload: begin -> append ... -> commit     a hidden file that takes the job's name only when all of it is
+//   on the disk run:    begin_run -> end_run              history; what was under way when the gateway died
+//   is "interrupted"
+//
+// Power may go at any moment: a job is there whole, or as it was before. The files are the truth of what is
+// stored; open() makes the database agree with them. An upload that was broken off goes on at the last byte
+// known to be on the disk.
+//
+// Calls block on the disk: one thread beside the control loop owns the store. Times are given by the caller,
+// in s since 1970.
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gateway/jobs/byte_source.hpp"
+#include "gateway/jobs/store/sqlite.hpp"
+#include "gateway/jobs/store/store_error.hpp"
+#include "gateway/result.hpp"
+
+namespace kinebus {
+
+struct UploadIdentity {
+  std::string name{};
+  std::uint64_t size_bytes = 0;
+  std::string sha256{};  ///< 32 bytes
+};
+struct UploadProgress {
+  std::uint32_t id = 0;
+  std::uint64_t received_bytes = 0;
+  bool stored = false;  ///< the job is in the store, nothing is to be sent
+};
+
+/// What a pre-flight found, for lists. Valid for the machine file with this fingerprint.
+struct StoredPreflight {
+  std::uint32_t errors = 0, warnings = 0, lines = 0;
+  double motion_s = 0, dwell_s = 0;
+};
+
+enum class RunResult : std::uint8_t { kRunning, kComplete, kCancelled, kRefused, kFailed, kInterrupted };
+struct StoredRun {
+  std::int64_t id = 0;
+  std::string name{};
+  std::string sha256{};
+  double begun_unix_s = 0, duration_s = 0, estimate_s = 0;
+  RunResult result = RunResult::kRunning;
+  std::uint32_t line = 0;  ///< reached
+  std::string first_error{};
+};
+
+struct StoredJob {
+  std::string name;
+  std::string sha256;
+  std::uint64_t size_bytes = 0;
+  double stored_unix_s = 0;
+  std::optional<StoredPreflight> preflight;
+  std::uint32_t times_run = 0;
+  std::optional<StoredRun> last_run;
+};
+struct JobListing {
+  std::vector<StoredJob> jobs;  ///< by name
+  std::uint64_t used_bytes = 0, quota_bytes = 0, free_bytes = 0;
+};
+
+class JobStore {
+ public:
+  struct Options {
+    std::filesystem::path folder;
+    std::uint64_t quota_bytes = 16ULL << 30;
+    std::uint64_t max_job_bytes = 4ULL << 30;
+    /// Left free on the disk for everything else.
+    std::uint64_t margin_bytes = 16ULL << 20;
+    double forget_uploads_after_s = 7.0 * 24 * 3600;
+  };
+
+  /// Never fails for what the disk holds: a damaged database is set aside and made anew from the files, a
+  /// folder that cannot be written gives a store that reads only. notes() tells of both.
+  static std::unique_ptr<JobStore> open(Options options, double now_unix_s);
+  ~JobStore();
+  JobStore(const JobStore&) = delete;
+  JobStore& operator=(const JobStore&) = delete;
+
+  const std::vector<std::string>& notes() const { return notes_; }
+  bool writable() const { return writable_; }
+  const std::filesystem::path& folder() const { return options_.folder; }
+
+  /// Empty: fine. Otherwise the rule that the name breaks. Nothing outside the folder can be reached by a
+  /// name.
+  static std::string check_name(std::string_view name);
+
+  // upload.cpp
+  Result<UploadProgress, StoreError> begin_upload(const UploadIdentity& identity, bool replace,
+                                                  double now_unix_s);
+  Result<UploadProgress, StoreError> append(std::uint32_t upload, std::uint64_t offset_bytes,
+                                            std::string_view bytes);
+  Result<UploadProgress, StoreError> commit(std::uint32_t upload, double now_unix_s);
+  void abort(std::uint32_t upload, bool discard);
+
+  // job_store.cpp
+  Result<JobListing, StoreError> list();
+  std::optional<StoredJob> find(std::string_view name);
+  Result<std::unique_ptr<ByteSource>, StoreError> open_job(std::string_view name);
+  Result<std::string, StoreError> read(std::string_view name, std::uint64_t offset_bytes,
+                                       std::size_t max_bytes);
+  Result<void, StoreError> remove(std::string_view name);
+
+  // history.cpp
+  Result<void, StoreError> save_preflight(std::string_view sha256, std::string_view machine,
+                                          const StoredPreflight& found);
+  /// Pre-flights in lists are those of this machine file (any text that names it).
+  void set_machine(std::string machine) { machine_ = std::move(machine); }
+  Result<std::int64_t, StoreError> begin_run(const StoredRun& run);
+  Result<void, StoreError> end_run(std::int64_t id, RunResult result, double duration_s, std::uint32_t line,
+                                   std::string_view first_error);
+  /// Newest first, with ids below `before` (0: all).
+  Result<std::vector<StoredRun>, StoreError> history(std::int64_t before, std::size_t max);
+
+ private:
+  struct Upload;
+  explicit JobStore(Options options);
+
+  void open_database();
+  Result<void, StoreError> make_tables();
+  void agree_with_files();
+  void forget_old_uploads(double now_unix_s);
+  Result<void, StoreError> enter(std::string_view name, std::string_view sha256, double stored_unix_s);
+  Result<void, StoreError> check_room(const UploadIdentity& identity, std::uint64_t on_disk_bytes);
+  std::uint64_t used_bytes() const;
+  std::optional<StoredRun> last_run(std::string_view name);
+  std::filesystem::path partial_of(const UploadIdentity& identity) const;
+  Result<std::unique_ptr<Upload>, StoreError> reopen(const UploadIdentity& identity);
+  Result<void, StoreError> secure(Upload& upload);
+  void forget_partial(const UploadIdentity& identity);
+  Result<void, StoreError> writable_or_error() const;
+
+  Options options_;
+  std::optional<Database> database_;
+  std::vector<std::string> notes_;
+  std::string machine_;
+  bool writable_ = true;
+  std::vector<std::unique_ptr<Upload>> uploads_;  ///< open, the oldest first
+  std::uint32_t last_upload_ = 0;
+};
+
+}  // namespace kinebus

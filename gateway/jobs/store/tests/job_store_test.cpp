@@ -1,0 +1,272 @@
+#include "gateway/jobs/store/job_store.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <fstream>
+#include <sstream>
+
+#include "gateway/jobs/store/tests/temporary_folder.hpp"
+#include "protocol/joblink/sha256.hpp"
+
+namespace kinebus {
+namespace {
+
+namespace fs = std::filesystem;
+using joblink::sha256_of;
+
+std::string text_of(std::size_t size, unsigned seed = 1) {
+  std::string text(size, '\0');
+  for (char& c : text) c = static_cast<char>((seed = seed * 1'103'515'245U + 12'345U) >> 16);
+  return text;
+}
+std::string file_text(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return std::move(text).str();
+}
+UploadIdentity identity_of(const std::string& name, const std::string& text) {
+  return {name, text.size(), sha256_of(text)};
+}
+
+class JobStoreTest : public ::testing::Test {
+ protected:
+  TemporaryFolder folder_;
+  JobStore::Options options_{.folder = folder_.path() / "jobs", .margin_bytes = 0};
+  std::unique_ptr<JobStore> store_ = JobStore::open(options_, 1000);
+
+  void reopen(double now = 2000) {
+    store_.reset();
+    store_ = JobStore::open(options_, now);
+  }
+  /// Empty: stored.
+  std::string put(const std::string& name, const std::string& text, bool replace = true) {
+    const auto begun = store_->begin_upload(identity_of(name, text), replace, 1000);
+    if (!begun) return begun.error().words;
+    if (begun->stored) return {};
+    const auto sent = store_->append(begun->id, begun->received_bytes,
+                                     std::string_view(text).substr(begun->received_bytes));
+    if (!sent) return sent.error().words;
+    const auto done = store_->commit(begun->id, 1234);
+    return done ? std::string() : done.error().words;
+  }
+};
+
+TEST_F(JobStoreTest, AnUploadIsInvisibleUntilItIsWhole) {
+  const std::string text = text_of(5000);
+  const auto begun = store_->begin_upload(identity_of("a.gcode", text), false, 1000);
+  ASSERT_TRUE(begun);
+  ASSERT_TRUE(store_->append(begun->id, 0, std::string_view(text).substr(0, 4999)));
+  EXPECT_TRUE(store_->list()->jobs.empty());
+  EXPECT_EQ(store_->commit(begun->id, 1234).error().kind, StoreError::Kind::kOrder);
+  ASSERT_TRUE(store_->append(begun->id, 4999, std::string_view(text).substr(4999)));
+  ASSERT_TRUE(store_->commit(begun->id, 1234));
+  const auto jobs = store_->list()->jobs;
+  ASSERT_EQ(jobs.size(), 1U);
+  EXPECT_EQ(jobs[0].name, "a.gcode");
+  EXPECT_EQ(jobs[0].sha256, sha256_of(text));
+  EXPECT_EQ(jobs[0].stored_unix_s, 1234);
+  EXPECT_EQ(file_text(options_.folder / "a.gcode"), text);
+}
+
+TEST_F(JobStoreTest, AnUploadGoesOnAfterTheStoreWasClosedAtAnyByte) {
+  const std::string text = text_of(3000);
+  for (std::size_t cut = 0; cut <= text.size(); cut += 271) {
+    const std::string name = "cut" + std::to_string(cut);
+    const auto begun = store_->begin_upload(identity_of(name, text), false, 1000);
+    ASSERT_TRUE(begun);
+    ASSERT_TRUE(store_->append(begun->id, 0, std::string_view(text).substr(0, cut)));
+    store_->abort(begun->id, false);
+    reopen();
+    const auto again = store_->begin_upload(identity_of(name, text), false, 1000);
+    ASSERT_TRUE(again);
+    EXPECT_EQ(again->received_bytes, cut);
+    ASSERT_TRUE(store_->append(again->id, cut, std::string_view(text).substr(cut)));
+    ASSERT_TRUE(store_->commit(again->id, 1)) << "cut at " << cut;
+    EXPECT_EQ(file_text(options_.folder / name), text);
+  }
+}
+
+TEST_F(JobStoreTest, ASecondBeginTakesTheUploadOver) {
+  const std::string text = text_of(100);
+  const auto first = store_->begin_upload(identity_of("a", text), false, 1000);
+  ASSERT_TRUE(store_->append(first->id, 0, std::string_view(text).substr(0, 60)));
+  const auto second = store_->begin_upload(identity_of("a", text), false, 1000);
+  ASSERT_TRUE(second);
+  EXPECT_EQ(second->received_bytes, 60U);
+  EXPECT_EQ(store_->append(first->id, 60, "x").error().kind, StoreError::Kind::kOrder);
+}
+
+TEST_F(JobStoreTest, BytesThatAreNotThoseAnnouncedAreNotStored) {
+  const std::string text = text_of(100);
+  const auto begun = store_->begin_upload({"a", 100, sha256_of("another text")}, false, 1000);
+  ASSERT_TRUE(store_->append(begun->id, 0, text));
+  EXPECT_EQ(store_->commit(begun->id, 1).error().kind, StoreError::Kind::kChecksum);
+  EXPECT_TRUE(store_->list()->jobs.empty());
+  EXPECT_EQ(store_->list()->used_bytes, 0U);
+  EXPECT_EQ(store_->append(begun->id, 0, text).error().kind, StoreError::Kind::kOrder);
+}
+
+TEST_F(JobStoreTest, PiecesOutOfPlaceAreRefused) {
+  const auto begun = store_->begin_upload(identity_of("a", text_of(100)), false, 1000);
+  EXPECT_EQ(store_->append(begun->id, 1, "x").error().kind, StoreError::Kind::kOrder);
+  EXPECT_EQ(store_->append(begun->id, 0, text_of(101)).error().kind, StoreError::Kind::kOrder);
+  EXPECT_EQ(store_->append(begun->id + 1, 0, "x").error().kind, StoreError::Kind::kOrder);
+}
+
+TEST_F(JobStoreTest, NamesStayWithinTheFolder) {
+  for (const char* name :
+       {"", ".", "..", "../a", "a/b", "/etc/passwd", ".hidden", ".jobs.sqlite", "a\\b", "a\nb"}) {
+    EXPECT_EQ(store_->begin_upload({name, 1, std::string(32, 'x')}, true, 1).error().kind,
+              StoreError::Kind::kName)
+        << name;
+    EXPECT_FALSE(store_->open_job(name)) << name;
+    EXPECT_FALSE(store_->read(name, 0, 10)) << name;
+    EXPECT_FALSE(store_->remove(name)) << name;
+  }
+  EXPECT_EQ(store_->begin_upload({std::string(201, 'a'), 1, std::string(32, 'x')}, true, 1).error().kind,
+            StoreError::Kind::kName);
+  EXPECT_EQ(put("Würfel kalibriert (2).gcode", "G0"), "");
+}
+
+TEST_F(JobStoreTest, ALinkInTheFolderIsNoJob) {
+  fs::create_symlink("/etc/passwd", options_.folder / "link");
+  reopen();
+  EXPECT_TRUE(store_->list()->jobs.empty());
+  EXPECT_EQ(store_->open_job("link").error().kind, StoreError::Kind::kNoSuchJob);
+}
+
+TEST_F(JobStoreTest, TheQuotaHoldsAndAReplacedJobDoesNotCountTwice) {
+  options_.quota_bytes = 1000;
+  reopen();
+  EXPECT_EQ(put("a", text_of(600)), "");
+  const auto over = store_->begin_upload(identity_of("b", text_of(401)), false, 1);
+  EXPECT_EQ(over.error().kind, StoreError::Kind::kQuota);
+  EXPECT_EQ(put("a", text_of(900, 5)), "");
+  EXPECT_EQ(store_->list()->used_bytes, 900U);
+  EXPECT_TRUE(store_->remove("a"));
+  EXPECT_EQ(put("b", text_of(1000)), "");
+}
+
+TEST_F(JobStoreTest, HalfUploadsCountForTheQuota) {
+  options_.quota_bytes = 1000;
+  reopen();
+  const auto half = store_->begin_upload(identity_of("a", text_of(800)), false, 1);
+  ASSERT_TRUE(store_->append(half->id, 0, text_of(500)));
+  EXPECT_EQ(store_->begin_upload(identity_of("b", text_of(501)), false, 1).error().kind,
+            StoreError::Kind::kQuota);
+}
+
+TEST_F(JobStoreTest, OldHalfUploadsAreForgotten) {
+  const std::string text = text_of(100);
+  const auto begun = store_->begin_upload(identity_of("a", text), false, 1000);
+  ASSERT_TRUE(store_->append(begun->id, 0, std::string_view(text).substr(0, 50)));
+  store_->abort(begun->id, false);
+  reopen(1000 + options_.forget_uploads_after_s + 1);
+  EXPECT_EQ(store_->list()->used_bytes, 0U);
+}
+
+TEST_F(JobStoreTest, ADiskThatIsFullIsReportedAndTheUploadGoesOnLater) {
+  const std::string text = text_of(300'000);
+  const auto begun = store_->begin_upload(identity_of("a", text), false, 1000);
+  ASSERT_TRUE(begun);
+  ASSERT_TRUE(store_->append(begun->id, 0, std::string_view(text).substr(0, 100'000)));
+  rlimit old{};
+  ::getrlimit(RLIMIT_FSIZE, &old);
+  const rlimit small{150'000, old.rlim_max};
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  ::setrlimit(RLIMIT_FSIZE, &small);
+  const auto full = store_->append(begun->id, 100'000, std::string_view(text).substr(100'000));
+  ::setrlimit(RLIMIT_FSIZE, &old);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_EQ(full.error().kind, StoreError::Kind::kDiskFull);
+  ASSERT_TRUE(store_->append(begun->id, 100'000, std::string_view(text).substr(100'000)));
+  EXPECT_TRUE(store_->commit(begun->id, 1));
+  EXPECT_EQ(file_text(options_.folder / "a"), text);
+}
+
+TEST_F(JobStoreTest, ADiskWithoutRoomIsReportedBeforeAnyByteIsSent) {
+  options_.margin_bytes = 1ULL << 60;
+  reopen();
+  EXPECT_EQ(store_->begin_upload(identity_of("a", "x"), false, 1).error().kind, StoreError::Kind::kDiskFull);
+}
+
+TEST_F(JobStoreTest, AFolderThatCannotBeWrittenGivesAStoreThatReads) {
+  options_.folder = "/dev/null/jobs";
+  reopen();
+  EXPECT_FALSE(store_->writable());
+  EXPECT_FALSE(store_->notes().empty());
+  EXPECT_EQ(store_->begin_upload(identity_of("a", "x"), false, 1).error().kind, StoreError::Kind::kReadOnly);
+  EXPECT_TRUE(store_->list()->jobs.empty());
+}
+
+TEST_F(JobStoreTest, FilesPutInOrTakenOutByHandAreSeenAtTheNextStart) {
+  EXPECT_EQ(put("gone", "1"), "");
+  EXPECT_EQ(put("changed", "2"), "");
+  fs::remove(options_.folder / "gone");
+  std::ofstream(options_.folder / "changed") << "changed by hand";
+  std::ofstream(options_.folder / "new.gcode") << "G0 X1";
+  reopen();
+  const auto jobs = store_->list()->jobs;
+  ASSERT_EQ(jobs.size(), 2U);
+  EXPECT_EQ(jobs[0].name, "changed");
+  EXPECT_EQ(jobs[0].sha256, sha256_of("changed by hand"));
+  EXPECT_EQ(jobs[1].sha256, sha256_of("G0 X1"));
+}
+
+TEST_F(JobStoreTest, HistoryTellsHowEachRunEnded) {
+  EXPECT_EQ(put("a", "1"), "");
+  const auto first =
+      store_->begin_run({.name = "a", .sha256 = sha256_of("1"), .begun_unix_s = 10, .estimate_s = 60});
+  ASSERT_TRUE(first);
+  EXPECT_TRUE(store_->end_run(*first, RunResult::kComplete, 61.5, 900, ""));
+  const auto second = store_->begin_run({.name = "a", .sha256 = sha256_of("1"), .begun_unix_s = 100});
+  ASSERT_TRUE(second);
+  reopen();
+  const auto runs = *store_->history(0, 10);
+  ASSERT_EQ(runs.size(), 2U);
+  EXPECT_EQ(runs[0].result, RunResult::kInterrupted);
+  EXPECT_EQ(runs[0].first_error, "the gateway ended while the job ran");
+  EXPECT_EQ(runs[1].result, RunResult::kComplete);
+  EXPECT_EQ(runs[1].duration_s, 61.5);
+  EXPECT_EQ(runs[1].estimate_s, 60);
+  EXPECT_EQ(store_->history(runs[0].id, 10)->size(), 1U);
+  EXPECT_EQ(store_->list()->jobs[0].times_run, 2U);
+  EXPECT_EQ(store_->list()->jobs[0].last_run->id, runs[0].id);
+}
+
+TEST_F(JobStoreTest, APreflightIsThatOfItsMachineAndText) {
+  EXPECT_EQ(put("a", "1"), "");
+  store_->set_machine("m1");
+  EXPECT_TRUE(store_->save_preflight(sha256_of("1"), "m1", {.errors = 2, .lines = 7, .motion_s = 1.5}));
+  ASSERT_TRUE(store_->list()->jobs[0].preflight);
+  EXPECT_EQ(store_->list()->jobs[0].preflight->errors, 2U);
+  store_->set_machine("m2");
+  EXPECT_FALSE(store_->list()->jobs[0].preflight);
+  store_->set_machine("m1");
+  EXPECT_EQ(put("a", "2"), "");
+  EXPECT_FALSE(store_->list()->jobs[0].preflight);
+}
+
+TEST_F(JobStoreTest, ReadsAnyPartOfAJob) {
+  EXPECT_EQ(put("a", "0123456789"), "");
+  EXPECT_EQ(*store_->read("a", 3, 4), "3456");
+  EXPECT_EQ(*store_->read("a", 8, 100), "89");
+  EXPECT_EQ(*store_->read("a", 10, 100), "");
+  EXPECT_EQ(store_->read("b", 0, 1).error().kind, StoreError::Kind::kNoSuchJob);
+}
+
+TEST_F(JobStoreTest, AJobThatIsReplacedGoesOnToBeReadByWhoHasItOpen) {
+  EXPECT_EQ(put("a", "old text"), "");
+  auto source = store_->open_job("a");
+  ASSERT_TRUE(source);
+  EXPECT_EQ(put("a", "new"), "");
+  std::string text(8, '\0');
+  EXPECT_EQ((*source)->read(text), 8U);
+  EXPECT_EQ(text, "old text");
+}
+
+}  // namespace
+}  // namespace kinebus

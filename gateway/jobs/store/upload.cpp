@@ -1,0 +1,259 @@
+// Uploads: begun, resumed at any byte, secured on the way, checked whole, and given their name in one step.
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <system_error>
+#include <utility>
+
+#include "gateway/jobs/store/job_store.hpp"
+#include "gateway/jobs/store/upload_file.hpp"
+
+namespace kinebus {
+namespace {
+
+namespace fs = std::filesystem;
+/// After so many bytes they are made safe: what a power cut costs at most.
+constexpr std::uint64_t kSecureEvery = 16ULL << 20;
+/// Uploads that are open at once; the one that began first goes back to the disk alone.
+constexpr std::size_t kMaxOpen = 8;
+constexpr std::size_t kPiece = 1U << 20;
+
+Error<StoreError> fail(StoreError::Kind kind, std::string words) {
+  return Error<StoreError>({kind, std::move(words)});
+}
+
+Error<StoreError> not_open() {
+  return fail(StoreError::Kind::kOrder, "this upload is not open: begin it again, it goes on where it was");
+}
+
+bool same(const UploadIdentity& a, const UploadIdentity& b) {
+  return a.name == b.name && a.size_bytes == b.size_bytes && a.sha256 == b.sha256;
+}
+
+}  // namespace
+
+JobStore::Upload::~Upload() {
+  if (fd >= 0) ::close(fd);
+}
+
+fs::path JobStore::partial_of(const UploadIdentity& identity) const {
+  joblink::Sha256 sum;
+  sum.add(identity.sha256);
+  sum.add(std::to_string(identity.size_bytes) + "/");
+  sum.add(identity.name);
+  return options_.folder / (std::string(kPartialPrefix) + joblink::to_hex(sum.finish()).substr(0, 32));
+}
+
+void JobStore::forget_partial(const UploadIdentity& identity) {
+  const fs::path partial = partial_of(identity);
+  ::unlink(partial.c_str());
+  Database::Statement remove(*database_, "DELETE FROM uploads WHERE partial = ?");
+  static_cast<void>(remove.bind(partial.filename().string()).finish());
+}
+
+void JobStore::forget_old_uploads(double now_unix_s) {
+  std::error_code error;
+  std::vector<fs::path> old;
+  for (const auto& entry : fs::directory_iterator(options_.folder, error)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with(kPartialPrefix)) continue;
+    Database::Statement row(*database_, "SELECT begun FROM uploads WHERE partial = ?");
+    row.bind(name);
+    if (!row.step() || row.real(0) < now_unix_s - options_.forget_uploads_after_s)
+      old.push_back(entry.path());
+  }
+  for (const fs::path& path : old) {
+    ::unlink(path.c_str());
+    Database::Statement remove(*database_, "DELETE FROM uploads WHERE partial = ?");
+    static_cast<void>(remove.bind(path.filename().string()).finish());
+  }
+}
+
+Result<void, StoreError> JobStore::check_room(const UploadIdentity& identity, std::uint64_t on_disk_bytes) {
+  std::uint64_t used = used_bytes() - on_disk_bytes;
+  if (const auto present = find(identity.name)) used -= std::min(used, present->size_bytes);
+  if (identity.size_bytes > options_.max_job_bytes)
+    return fail(StoreError::Kind::kQuota,
+                "a job has at most " + std::to_string(options_.max_job_bytes >> 20) + " MiB");
+  if (used + identity.size_bytes > options_.quota_bytes)
+    return fail(StoreError::Kind::kQuota, "the store's quota of " +
+                                              std::to_string(options_.quota_bytes >> 20) +
+                                              " MiB has no room for this job: delete others first");
+  std::error_code error;
+  const auto space = fs::space(options_.folder, error);
+  if (!error && space.available + on_disk_bytes < identity.size_bytes + options_.margin_bytes)
+    return fail(StoreError::Kind::kDiskFull, "the disk has no room for this job: delete others first");
+  return {};
+}
+
+/// The bytes of an earlier attempt that are surely there, or an empty file.
+Result<std::unique_ptr<JobStore::Upload>, StoreError> JobStore::reopen(const UploadIdentity& identity) {
+  auto upload = std::make_unique<Upload>();
+  upload->identity = identity;
+  const fs::path partial = partial_of(identity);
+  upload->fd = ::open(partial.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0644);
+  if (upload->fd < 0) return Error<StoreError>(disk_error(partial, errno));
+  Database::Statement row(*database_, "SELECT secured FROM uploads WHERE partial = ?");
+  row.bind(partial.filename().string());
+  const std::uint64_t secured = row.step() ? static_cast<std::uint64_t>(row.integer(0)) : 0;
+  std::string piece(kPiece, '\0');
+  while (upload->received_bytes < secured) {
+    const auto wanted =
+        static_cast<std::size_t>(std::min<std::uint64_t>(kPiece, secured - upload->received_bytes));
+    const ssize_t count = ::read(upload->fd, piece.data(), wanted);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) break;
+    upload->sum.add(std::string_view(piece).substr(0, static_cast<std::size_t>(count)));
+    upload->received_bytes += static_cast<std::uint64_t>(count);
+  }
+  upload->secured_bytes = upload->received_bytes;
+  if (::ftruncate(upload->fd, static_cast<off_t>(upload->received_bytes)) != 0 ||
+      ::lseek(upload->fd, static_cast<off_t>(upload->received_bytes), SEEK_SET) < 0)
+    return Error<StoreError>(disk_error(partial, errno));
+  return upload;
+}
+
+Result<UploadProgress, StoreError> JobStore::begin_upload(const UploadIdentity& identity, bool replace,
+                                                          double now_unix_s) {
+  if (std::string broken = check_name(identity.name); !broken.empty())
+    return fail(StoreError::Kind::kName, broken);
+  if (identity.sha256.size() != joblink::kSha256Bytes)
+    return fail(StoreError::Kind::kChecksum, "an upload names the SHA-256 of its job: 32 bytes");
+  if (auto ok = writable_or_error(); !ok) return Error<StoreError>(ok.error());
+  if (const auto present = find(identity.name)) {
+    if (present->sha256 == identity.sha256 && present->size_bytes == identity.size_bytes)
+      return UploadProgress{0, identity.size_bytes, true};
+    if (!replace)
+      return fail(StoreError::Kind::kName, "another job has the name " + identity.name + " already");
+  }
+  const auto open = std::find_if(uploads_.begin(), uploads_.end(),
+                                 [&](const auto& u) { return same(u->identity, identity); });
+  if (open != uploads_.end()) {
+    // The same client after a broken link, or a second one with the same file: the older conversation's id is
+    // void.
+    Upload& upload = **open;
+    upload.id = ++last_upload_;
+    upload.replace = replace;
+    return UploadProgress{upload.id, upload.received_bytes, false};
+  }
+  struct stat there {};
+  const bool begun = ::stat(partial_of(identity).c_str(), &there) == 0;
+  if (auto ok = check_room(identity, begun ? static_cast<std::uint64_t>(there.st_size) : 0); !ok)
+    return Error<StoreError>(ok.error());
+  auto upload = reopen(identity);
+  if (!upload) return Error<StoreError>(upload.error());
+  Database::Statement insert(
+      *database_, "INSERT OR REPLACE INTO uploads(partial, size, secured, begun) VALUES(?, ?, ?, ?)");
+  if (auto ok = insert.bind(partial_of(identity).filename().string())
+                    .bind(static_cast<std::int64_t>(identity.size_bytes))
+                    .bind(static_cast<std::int64_t>((*upload)->secured_bytes))
+                    .bind(now_unix_s)
+                    .finish();
+      !ok)
+    return Error<StoreError>(ok.error());
+  if (uploads_.size() >= kMaxOpen) {
+    static_cast<void>(secure(*uploads_.front()));
+    uploads_.erase(uploads_.begin());
+  }
+  (*upload)->id = ++last_upload_;
+  (*upload)->replace = replace;
+  const UploadProgress progress{(*upload)->id, (*upload)->received_bytes, false};
+  uploads_.push_back(std::move(*upload));
+  return progress;
+}
+
+/// All bytes received are on the disk, and the database knows it.
+Result<void, StoreError> JobStore::secure(Upload& upload) {
+  if (::fdatasync(upload.fd) != 0) return Error<StoreError>(disk_error(partial_of(upload.identity), errno));
+  upload.secured_bytes = upload.received_bytes;
+  Database::Statement update(*database_, "UPDATE uploads SET secured = ? WHERE partial = ?");
+  return update.bind(static_cast<std::int64_t>(upload.secured_bytes))
+      .bind(partial_of(upload.identity).filename().string())
+      .finish();
+}
+
+Result<UploadProgress, StoreError> JobStore::append(std::uint32_t id, std::uint64_t offset_bytes,
+                                                    std::string_view bytes) {
+  const auto found =
+      std::find_if(uploads_.begin(), uploads_.end(), [&](const auto& u) { return u->id == id; });
+  if (found == uploads_.end()) return not_open();
+  Upload& upload = **found;
+  if (offset_bytes != upload.received_bytes)
+    return fail(StoreError::Kind::kOrder, "the next byte of this upload is " +
+                                              std::to_string(upload.received_bytes) + ", not " +
+                                              std::to_string(offset_bytes));
+  if (bytes.size() > upload.identity.size_bytes - upload.received_bytes)
+    return fail(StoreError::Kind::kOrder, "more bytes than were announced");
+  std::string_view rest = bytes;
+  while (!rest.empty()) {
+    const ssize_t count = ::write(upload.fd, rest.data(), rest.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) {
+      const StoreError error = disk_error(partial_of(upload.identity), errno);
+      // A piece that is there in part is taken back: the upload goes on at this piece when there is room.
+      if (::ftruncate(upload.fd, static_cast<off_t>(upload.received_bytes)) != 0 ||
+          ::lseek(upload.fd, static_cast<off_t>(upload.received_bytes), SEEK_SET) < 0)
+        uploads_.erase(found);
+      return Error<StoreError>(error);
+    }
+    rest.remove_prefix(static_cast<std::size_t>(count));
+  }
+  upload.sum.add(bytes);
+  upload.received_bytes += bytes.size();
+  if (upload.received_bytes - upload.secured_bytes >= kSecureEvery)
+    if (auto ok = secure(upload); !ok) return Error<StoreError>(ok.error());
+  return UploadProgress{id, upload.received_bytes, false};
+}
+
+Result<UploadProgress, StoreError> JobStore::commit(std::uint32_t id, double now_unix_s) {
+  const auto found =
+      std::find_if(uploads_.begin(), uploads_.end(), [&](const auto& u) { return u->id == id; });
+  if (found == uploads_.end()) return not_open();
+  Upload& upload = **found;
+  const UploadIdentity identity = upload.identity;
+  if (upload.received_bytes != identity.size_bytes)
+    return fail(StoreError::Kind::kOrder, std::to_string(identity.size_bytes - upload.received_bytes) +
+                                              " bytes of the job have not come yet");
+  if (!upload.replace && find(identity.name))
+    return fail(StoreError::Kind::kName, "another job has the name " + identity.name + " already");
+  if (upload.sum.finish() != identity.sha256) {
+    uploads_.erase(found);
+    forget_partial(identity);
+    return fail(
+        StoreError::Kind::kChecksum,
+        "the bytes that came are not those that were announced (SHA-256 differs): send the job again");
+  }
+  const fs::path partial = partial_of(identity);
+  const bool stored =
+      ::fsync(upload.fd) == 0 && ::rename(partial.c_str(), (options_.folder / identity.name).c_str()) == 0;
+  const int error = errno;
+  uploads_.erase(found);
+  if (!stored) return Error<StoreError>(disk_error(partial, error));
+  sync_folder(options_.folder);
+  if (auto ok = database_->run("BEGIN IMMEDIATE"); !ok) return Error<StoreError>(ok.error());
+  auto entered = enter(identity.name, identity.sha256, now_unix_s);
+  Database::Statement remove(*database_, "DELETE FROM uploads WHERE partial = ?");
+  if (entered) entered = remove.bind(partial.filename().string()).finish();
+  if (entered) entered = database_->run("COMMIT");
+  if (!entered) {
+    static_cast<void>(database_->run("ROLLBACK"));
+    return Error<StoreError>(entered.error());
+  }
+  return UploadProgress{0, identity.size_bytes, true};
+}
+
+void JobStore::abort(std::uint32_t id, bool discard) {
+  const auto found =
+      std::find_if(uploads_.begin(), uploads_.end(), [&](const auto& u) { return u->id == id; });
+  if (found == uploads_.end()) return;
+  const UploadIdentity identity = (*found)->identity;
+  if (!discard) static_cast<void>(secure(**found));
+  uploads_.erase(found);
+  if (discard) forget_partial(identity);
+}
+
+}  // namespace kinebus
