@@ -192,6 +192,15 @@ std::int64_t DriveAxis::position(LocalTime at) const {
   return state_at(to_ticks(at)).position;
 }
 
+std::int64_t DriveAxis::position_ahead(LocalTime at, const SegmentStream::Preview& stream) const {
+  if (source_ == Source::kStream) return stream.position(static_cast<int>(index_));
+  const ProfileTicks t = to_ticks(at);
+  const ProfileState state = state_at(t);
+  // A motion that ends with velocity goes over into one that is not planned before that end.
+  const bool goes_on = source_ == Source::kProfile && state.velocity != 0 && profile_.done(t);
+  return goes_on ? state.position + distance_of(state.velocity, t - profile_.end()) : state.position;
+}
+
 std::int32_t DriveAxis::velocity(LocalTime at) const {
   if (source_ != Source::kStream) return counts_per_second(state_at(to_ticks(at)).velocity);
   const std::int64_t per_unit = path_.stream().velocity(static_cast<int>(index_));

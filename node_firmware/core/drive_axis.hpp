@@ -40,6 +40,8 @@ class DriveAxis {
 
   /// In the coordinates of the objects; 32 fractional bits. The path must have been advanced to `at`.
   std::int64_t position(LocalTime at) const;
+  /// Where it will be if nothing more comes; `at`: from the last input on, the preview advanced to it.
+  std::int64_t position_ahead(LocalTime at, const SegmentStream::Preview& stream) const;
   std::int64_t origin() const { return origin_; }  ///< coordinates of the objects, less those of the motor
   std::int32_t velocity(LocalTime at) const;       ///< counts/s
   bool moving(LocalTime at) const;

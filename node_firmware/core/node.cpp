@@ -187,6 +187,21 @@ void Node::on_drive_fault_gone(LocalTime at, int axis) {
   axes_[static_cast<std::size_t>(axis & 1)].set_fault_present(false);
 }
 
+void Node::on_axis_trouble(LocalTime at, int axis, std::uint16_t emcy_code) {
+  now_ = std::max(now_, at);
+  serve();
+  if (emcy_.active(emcy_code)) return;
+  count(NodeCounter::kDriveFaults);
+  path_.request_stop(StopReason::kAxisFault, axis & 1, emcy_code, now_);
+  serve();
+}
+
+void Node::set_motor(int axis, std::uint32_t resistance_mohm, std::uint32_t inductance_uh) {
+  const auto i = static_cast<std::size_t>(axis & 1);
+  objects_.set_value(slot_of_axes(object::kPhaseResistance)[i], resistance_mohm);
+  objects_.set_value(slot_of_axes(object::kPhaseInductance)[i], inductance_uh);
+}
+
 void Node::count(NodeCounter counter, std::uint32_t times) {
   counters_[std::min<std::size_t>(static_cast<std::size_t>(counter), counters_.size() - 1)] += times;
 }
@@ -209,6 +224,27 @@ std::int64_t Node::user_position(LocalTime at, int axis) {
   // A set-point that waits for the end of the motion before it begins at that end, whoever looks first.
   if (at >= mine.next_deadline()) mine.on_time(at);
   return mine.position(at);
+}
+
+LatchedPositions NodePreview::positions(LocalTime at) {
+  stream_.advance_to(node_.path_.tau(at));
+  LatchedPositions motor{};
+  for (std::size_t i = 0; i < motor.size(); ++i) {
+    const DriveAxis& axis = node_.axes_[i];
+    motor[i] = static_cast<std::int64_t>(static_cast<std::uint64_t>(axis.position_ahead(at, stream_)) -
+                                         static_cast<std::uint64_t>(axis.origin()));
+  }
+  return motor;
+}
+
+std::array<std::uint16_t, kRpdoCount> Node::rpdo_cob_ids() const {
+  std::array<std::uint16_t, kRpdoCount> ids{};
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const int slot = find_slot({static_cast<std::uint16_t>(0x1400 + i), 1});
+    const std::int64_t cob_id = objects_.value({static_cast<std::uint16_t>(slot)});
+    if (pdo_.rpdo_valid(static_cast<int>(i) + 1)) ids[i] = static_cast<std::uint16_t>(cob_id & 0x7FF);
+  }
+  return ids;
 }
 
 bool Node::moving(LocalTime at) const {

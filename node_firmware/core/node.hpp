@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "node_firmware/core/drive_axis.hpp"
 #include "node_firmware/core/parameter_image.hpp"
@@ -50,6 +51,15 @@ struct DriveOutput {
   bool inverted = false;  ///< positive counts turn the motor the other way round: the port's business
 };
 
+/// What a port with sensors knows of one axis.
+struct DriveFeedback {
+  std::int32_t following_error = 0;  ///< counts: command less encoder; 0 without encoder
+  std::uint16_t supply_mv = 0;
+  std::int16_t temperature_dc = 0;  ///< 0.1 C
+  std::int16_t current_ma = 0;      ///< amplitude
+  std::uint8_t tune_state = 0;      ///< 0 idle, 1 runs, 2 done, 3 failed
+};
+
 class Node final : private ObjectOwner {
  public:
   static constexpr int kSwitchInputs = kinebus::kSwitchInputs;
@@ -70,6 +80,22 @@ class Node final : private ObjectOwner {
   void on_drive_fault(LocalTime at, int axis, std::uint16_t emcy_code);
   /// The cause of that fault has gone: a fault reset works again.
   void on_drive_fault_gone(LocalTime at, int axis);
+  /// Something is wrong with an axis that keeps its power (lost steps, supply, heat, encoder): all nodes stop
+  /// on the path, and the axis holds. Told once until on_axis_trouble_gone().
+  void on_axis_trouble(LocalTime at, int axis, std::uint16_t emcy_code);
+  void on_axis_trouble_gone(std::uint16_t emcy_code) { emcy_.clear(emcy_code); }
+  /// Told by EMCY, stops nobody: 8110h receive overrun, 8140h back from bus-off.
+  void report(std::uint16_t emcy_code) { emcy_.raise(emcy_code); }
+  /// The auto-tune of an axis was asked for; once.
+  bool take_tune_request(int axis) {
+    return std::exchange(tune_requested_[static_cast<std::size_t>(axis & 1)], false);
+  }
+  /// What an auto-tune found; 1010h keeps it.
+  void set_motor(int axis, std::uint32_t resistance_mohm, std::uint32_t inductance_uh);
+  /// What the port measures, for the objects that show it.
+  void set_feedback(int axis, const DriveFeedback& feedback) {
+    feedback_[static_cast<std::size_t>(axis & 1)] = feedback;
+  }
   /// Something that only the port sees: receive overrun, transmit queue full, bus-off, watchdog reset.
   void count(NodeCounter counter, std::uint32_t times = 1);
   /// Needed at next_deadline(); allowed at any time.
@@ -88,6 +114,12 @@ class Node final : private ObjectOwner {
   std::int64_t user_position(LocalTime at, int axis);
   bool moving(LocalTime at) const;
   DriveOutput drive(int axis) const;
+  /// COB-IDs of the receive PDOs that are on, for a port that filters; 0: off.
+  std::array<std::uint16_t, kRpdoCount> rpdo_cob_ids() const;
+  /// A parameter of an axis, by its slot: currents, windows and what else the port's control needs.
+  std::int64_t axis_parameter(AxisSlots slots, int axis) const {
+    return objects_.value(slots[static_cast<std::size_t>(axis & 1)]);
+  }
 
   /// Path time and its rate (0..2^32) by this node's own clock estimate.
   PathTime path_time(LocalTime at) const { return path_.tau(at); }
@@ -154,6 +186,9 @@ class Node final : private ObjectOwner {
   PdoEngine pdo_;
   LssSlave lss_;
 
+  friend class NodePreview;
+  std::array<DriveFeedback, kAxesPerNode> feedback_{};
+  std::array<bool, kAxesPerNode> tune_requested_{};
   std::optional<CanFrame> boot_up_;
   std::array<std::uint32_t, static_cast<std::size_t>(NodeCounter::kLast) + 1> counters_{};
   Storing storing_ = Storing::kNothing;
@@ -169,6 +204,19 @@ class Node final : private ObjectOwner {
   LocalTime status_look_ = LocalTime::max();
   LocalTime status_told_at_{0};
   std::array<std::int64_t, 2> watched_entries_{};
+};
+
+/// Looks ahead of a node without changing it: where the motors will be if nothing more comes. Valid until the
+/// node's next input.
+class NodePreview {
+ public:
+  explicit NodePreview(const Node& node) : node_(node), stream_(node.path_.stream()) {}
+  /// In order of time, from the node's last input on. As Node::position().
+  LatchedPositions positions(LocalTime at);
+
+ private:
+  const Node& node_;
+  SegmentStream::Preview stream_;
 };
 
 }  // namespace kinebus

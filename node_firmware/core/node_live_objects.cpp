@@ -80,7 +80,16 @@ bool Node::read_node_object(ObjectAddress address, std::int64_t& value) {
 }
 
 bool Node::read_axis_object(const DriveAxis& axis, ObjectAddress base, std::int64_t& value) {
+  const DriveFeedback& feedback = feedback_[&axis == &axes_[0] ? 0 : 1];
   switch (base.index) {
+    case 0x2150:
+      if (base == object::kAutoTune) value = feedback.tune_state;
+      if (base == object::kMotorCurrent) value = feedback.current_ma;
+      if (base == object::kStageTemperature) value = feedback.temperature_dc;
+      return true;
+    case 0x6079:
+      value = feedback.supply_mv;
+      return true;
     case 0x2140:
       if (base == object::kPositionKnown) value = axis.position_known() ? 1 : 0;
       if (base == object::kStreamPosition) value = axis.position(now_);
@@ -96,8 +105,10 @@ bool Node::read_axis_object(const DriveAxis& axis, ObjectAddress base, std::int6
       value = axis.mode_display();
       return true;
     case 0x6062:
-    case 0x6064:  // no encoder: the motor is where it is told to be
       value = whole_counts(axis.position(now_));
+      return true;
+    case 0x6064:  // without encoder the motor is where it is told to be
+      value = whole_counts(axis.position(now_)) - feedback.following_error;
       return true;
     case 0x606C:
       value = axis.velocity(now_);
@@ -107,7 +118,7 @@ bool Node::read_axis_object(const DriveAxis& axis, ObjectAddress base, std::int6
                                                                 : SegmentStream::kCapacity;
       return true;
     case 0x60F4:
-      value = 0;
+      value = feedback.following_error;
       return true;
     case 0x60FD: {
       const bool a = &axis == &axes_[0];
@@ -223,6 +234,12 @@ AbortCode Node::write_axis_object(const ObjectEntry& entry, std::int64_t value) 
   if (base == object::kHomingMethod)
     return value == 0 || Homing::supports(static_cast<int>(value)) ? AbortCode::kNone
                                                                    : AbortCode::kInvalidValue;
+  if (base == object::kAutoTune) {
+    // The motor is supplied and does not move while it is measured.
+    if (value != 1 || !axis.powered() || axis.moving(now_)) return AbortCode::kDeviceState;
+    tune_requested_[entry.axis == 1 ? 1 : 0] = true;
+    return AbortCode::kNone;
+  }
   if (base == object::kBufferClear) {
     if (value != 0) return AbortCode::kNone;  // 1: the buffer is in use, which it always is
     if (!path_.clear_stream(now_)) return AbortCode::kDeviceState;

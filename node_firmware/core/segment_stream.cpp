@@ -32,7 +32,7 @@ void SegmentStream::set_rest_position(int axis, std::int64_t position) {
   if (!idle()) return;
   const AxisState rest{position, 0};
   tail_.axes[index_of(axis)] = rest;
-  knot_[index_of(axis)] = rest;
+  run_.knot[index_of(axis)] = rest;
   position_[index_of(axis)] = position;
   velocity_[index_of(axis)] = 0;
 }
@@ -43,8 +43,8 @@ SegmentStream::Verdict SegmentStream::push(std::uint64_t raw, PathTime now) {
     const bool again = any_accepted_ && raw == last_raw_;
     return again ? Verdict::kDuplicate : Verdict::kSequence;
   }
-  if (phase_ == Phase::kUnderrun) return Verdict::kNotStarted;
-  if (size_ == kCapacity) return Verdict::kOverflow;
+  if (run_.phase == Phase::kUnderrun) return Verdict::kNotStarted;
+  if (run_.size == kCapacity) return Verdict::kOverflow;
   const auto record = decode_segment(raw);
   if (!record) return Verdict::kUnknown;
 
@@ -102,16 +102,16 @@ SegmentStream::Verdict SegmentStream::check(std::uint64_t raw) {
   };
   const int behind = (next_sequence_ - checkpoint.sequence) & (kSequenceModulus - 1);
   if (behind == 0) return verdict(tail_.axes[checkpoint.axis]);
-  if (behind > size_) {
+  if (behind > run_.size) {
     const bool ahead = kSequenceModulus - behind <= kMaxAhead;
     if (!ahead) return Verdict::kStaleCheckpoint;
     pending_[checkpoint.axis] = {true, checkpoint};
     return Verdict::kAccepted;
   }
   // Its record waits in the queue: walk there from the knot that is executed.
-  AxisState state = knot_[checkpoint.axis];
-  for (int i = 0; i < size_ - behind; ++i) {
-    const auto record = decode_segment(records_[index_of((head_ + i) % kCapacity)]);
+  AxisState state = run_.knot[checkpoint.axis];
+  for (int i = 0; i < run_.size - behind; ++i) {
+    const auto record = decode_segment(records_[index_of((run_.head + i) % kCapacity)]);
     if (record && record->duration != 0)
       state =
           advance(state, record->acceleration[checkpoint.axis], record->duration, shift_[checkpoint.axis]);
@@ -121,83 +121,96 @@ SegmentStream::Verdict SegmentStream::check(std::uint64_t raw) {
 
 void SegmentStream::clear(PathTime at) {
   advance_to(at);
-  for (std::size_t i = 0; i < knot_.size(); ++i) knot_[i] = AxisState{position_[i], 0};
+  for (std::size_t i = 0; i < run_.knot.size(); ++i) run_.knot[i] = AxisState{position_[i], 0};
   velocity_ = {};
-  tail_ = Tail{.axes = knot_};
-  head_ = size_ = 0;
+  tail_ = Tail{.axes = run_.knot};
+  run_.head = run_.size = 0;
   next_sequence_ = 0;
   any_accepted_ = false;
   pending_ = {};
-  phase_ = Phase::kRest;
-  in_segment_ = false;
+  run_.phase = Phase::kRest;
+  run_.in_segment = false;
 }
 
 bool SegmentStream::advance_to(PathTime at) {
   const std::int64_t ticks = at.count();
-  while (step(ticks)) {
+  while (step(run_, ticks)) {
   }
   evaluate(ticks);
-  return phase_ != Phase::kUnderrun;
+  return run_.phase != Phase::kUnderrun;
+}
+
+void SegmentStream::Preview::advance_to(PathTime at) {
+  ticks_ = at.count();
+  while (stream_.step(run_, ticks_)) {
+  }
 }
 
 // One record further when its time has passed; false: nothing more to execute until `ticks`.
-bool SegmentStream::step(std::int64_t ticks) {
-  if (phase_ == Phase::kRest) {
-    if (size_ == 0) return false;
-    knot_ticks_ = front().start_units * kPathTicksPerUnit;  // admit() lets only START follow a rest
-    phase_ = Phase::kRunning;
-    pop();
+bool SegmentStream::step(Execution& run, std::int64_t ticks) const {
+  if (run.phase == Phase::kRest) {
+    if (run.size == 0) return false;
+    run.knot_ticks = front(run).start_units * kPathTicksPerUnit;  // admit() lets only START follow a rest
+    run.phase = Phase::kRunning;
+    pop(run);
     return true;
   }
-  if (ticks < knot_ticks_ || phase_ == Phase::kUnderrun) return false;
-  if (!in_segment_) {
-    if (size_ == 0) {
-      phase_ = Phase::kUnderrun;
+  if (ticks < run.knot_ticks || run.phase == Phase::kUnderrun) return false;
+  if (!run.in_segment) {
+    if (run.size == 0) {
+      run.phase = Phase::kUnderrun;
       return false;
     }
-    current_ = front();
-    if (current_.control == SegmentControl::kEnd) {
-      phase_ = Phase::kRest;
-      pop();
+    run.current = front(run);
+    if (run.current.control == SegmentControl::kEnd) {
+      run.phase = Phase::kRest;
+      pop(run);
       return true;
     }
-    in_segment_ = true;
+    run.in_segment = true;
   }
-  const std::int64_t end = knot_ticks_ + current_.duration * kPathTicksPerUnit;
+  const std::int64_t end = run.knot_ticks + run.current.duration * kPathTicksPerUnit;
   if (ticks < end) return false;
-  for (std::size_t i = 0; i < knot_.size(); ++i)
-    knot_[i] = advance(knot_[i], current_.acceleration[i], current_.duration, shift_[i]);
-  knot_ticks_ = end;
-  in_segment_ = false;
-  pop();
+  for (std::size_t i = 0; i < run.knot.size(); ++i)
+    run.knot[i] = advance(run.knot[i], run.current.acceleration[i], run.current.duration, shift_[i]);
+  run.knot_ticks = end;
+  run.in_segment = false;
+  pop(run);
   return true;
 }
 
+std::int64_t SegmentStream::position_in(const Execution& run, int axis, std::int64_t ticks) const {
+  const std::size_t i = index_of(axis);
+  if (!run.in_segment) return run.knot[i].position;
+  const std::int64_t into = std::max<std::int64_t>(ticks - run.knot_ticks, 0);
+  return position_at(run.knot[i], run.current.acceleration[i], into, shift_[i]);
+}
+
 void SegmentStream::evaluate(std::int64_t ticks) {
-  const std::int64_t into = in_segment_ ? std::max<std::int64_t>(ticks - knot_ticks_, 0) : 0;
-  for (std::size_t i = 0; i < knot_.size(); ++i) {
-    position_[i] =
-        in_segment_ ? position_at(knot_[i], current_.acceleration[i], into, shift_[i]) : knot_[i].position;
-    velocity_[i] = in_segment_ ? velocity_at(knot_[i], current_.acceleration[i], into, shift_[i]) : 0;
+  const std::int64_t into = run_.in_segment ? std::max<std::int64_t>(ticks - run_.knot_ticks, 0) : 0;
+  for (std::size_t i = 0; i < velocity_.size(); ++i) {
+    position_[i] = position_in(run_, static_cast<int>(i), ticks);
+    velocity_[i] =
+        run_.in_segment ? velocity_at(run_.knot[i], run_.current.acceleration[i], into, shift_[i]) : 0;
   }
 }
 
 void SegmentStream::put(std::uint64_t raw) {
-  records_[index_of((head_ + size_) % kCapacity)] = raw;
-  ++size_;
+  records_[index_of((run_.head + run_.size) % kCapacity)] = raw;
+  ++run_.size;
   next_sequence_ = static_cast<std::uint8_t>((next_sequence_ + 1) % kSequenceModulus);
   last_raw_ = raw;
   any_accepted_ = true;
 }
 
-void SegmentStream::pop() {
-  head_ = (head_ + 1) % kCapacity;
-  --size_;
-  ++consumed_;
+void SegmentStream::pop(Execution& run) {
+  run.head = (run.head + 1) % kCapacity;
+  --run.size;
+  ++run.consumed;
 }
 
-Segment SegmentStream::front() const {
-  return decode_segment(records_[index_of(head_)]).value_or(Segment{});
+Segment SegmentStream::front(const Execution& run) const {
+  return decode_segment(records_[index_of(run.head)]).value_or(Segment{});
 }
 
 }  // namespace kinebus

@@ -66,9 +66,9 @@ class SegmentStream {
   std::int64_t position(int axis) const { return position_[static_cast<std::size_t>(axis)]; }
   std::int64_t velocity(int axis) const { return velocity_[static_cast<std::size_t>(axis)]; }
 
-  bool idle() const { return phase_ == Phase::kRest && size_ == 0; }
-  bool moving() const { return phase_ == Phase::kRunning && in_segment_; }
-  bool resting() const { return phase_ == Phase::kRest; }
+  bool idle() const { return run_.phase == Phase::kRest && run_.size == 0; }
+  bool moving() const { return run_.phase == Phase::kRunning && run_.in_segment; }
+  bool resting() const { return run_.phase == Phase::kRest; }
   /// Motion without END is queued: it must be followed by more before horizon().
   bool open() const { return !tail_.resting; }
   PathTime horizon() const { return PathTime{tail_.knot_units * kPathTicksPerUnit}; }
@@ -76,14 +76,29 @@ class SegmentStream {
   PathTime tail_start() const { return PathTime{tail_.start_units * kPathTicksPerUnit}; }
   const AxisState& tail_state(int axis) const { return tail_.axes[static_cast<std::size_t>(axis)]; }
   std::uint8_t next_sequence() const { return next_sequence_; }
-  int free_records() const { return kCapacity - size_; }
-  int size() const { return size_; }
-  std::uint32_t consumed() const { return consumed_; }  ///< records executed since power-up
+  int free_records() const { return kCapacity - run_.size; }
+  int size() const { return run_.size; }
+  std::uint32_t consumed() const { return run_.consumed; }  ///< records executed since power-up
+  /// Looks ahead of the execution and leaves it as it is: where the axes will be if nothing more comes.
+  class Preview;
+
   /// Ran out of records in motion: everything is refused until clear().
-  bool underrun() const { return phase_ == Phase::kUnderrun; }
+  bool underrun() const { return run_.phase == Phase::kUnderrun; }
 
  private:
   enum class Phase : std::uint8_t { kRest, kRunning, kUnderrun };
+  // The executed end: exact state at the last knot, the segment that follows it when there is one, and the
+  // records that wait.
+  struct Execution {
+    Phase phase = Phase::kRest;
+    bool in_segment = false;
+    int head = 0;
+    int size = 0;
+    std::uint32_t consumed = 0;
+    std::array<AxisState, kAxesPerNode> knot{};
+    std::int64_t knot_ticks = 0;
+    Segment current;
+  };
   struct Tail {
     std::array<AxisState, kAxesPerNode> axes{};
     std::int64_t knot_units = 0;
@@ -98,32 +113,39 @@ class SegmentStream {
   Verdict admit(const Segment& record, PathTime now, Tail& next) const;
   bool pending_agree();
   void put(std::uint64_t raw);
-  void pop();
-  Segment front() const;
-  bool step(std::int64_t ticks);
+  static void pop(Execution& run);
+  Segment front(const Execution& run) const;
+  bool step(Execution& run, std::int64_t ticks) const;
+  std::int64_t position_in(const Execution& run, int axis, std::int64_t ticks) const;
   void evaluate(std::int64_t ticks);
 
   std::array<std::uint64_t, kCapacity> records_{};
-  int head_ = 0;
-  int size_ = 0;
   std::array<int, kAxesPerNode> shift_{kDefaultAccelerationShift, kDefaultAccelerationShift};
   std::array<bool, kAxesPerNode> following_{};
   std::uint8_t next_sequence_ = 0;
   bool any_accepted_ = false;
   std::uint64_t last_raw_ = 0;
-  std::uint32_t consumed_ = 0;
   Tail tail_;
   std::array<Pending, kAxesPerNode> pending_{};
   std::array<Limits, kAxesPerNode> limits_{};
 
-  // The executed end: exact state at the last knot, and the segment that follows it when there is one.
-  Phase phase_ = Phase::kRest;
-  std::array<AxisState, kAxesPerNode> knot_{};
-  std::int64_t knot_ticks_ = 0;
-  Segment current_;
-  bool in_segment_ = false;
+  Execution run_;
   std::array<std::int64_t, kAxesPerNode> position_{};
   std::array<std::int64_t, kAxesPerNode> velocity_{};
+};
+
+/// Valid until the stream changes.
+class SegmentStream::Preview {
+ public:
+  explicit Preview(const SegmentStream& stream) : stream_(stream), run_(stream.run_) {}
+  /// In order of time; the same bits that the stream's own advance_to() and position() would give.
+  void advance_to(PathTime at);
+  std::int64_t position(int axis) const { return stream_.position_in(run_, axis, ticks_); }
+
+ private:
+  const SegmentStream& stream_;
+  Execution run_;
+  std::int64_t ticks_ = 0;
 };
 
 }  // namespace kinebus

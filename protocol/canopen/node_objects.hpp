@@ -134,6 +134,20 @@ constexpr void add_manufacturer_axis_objects(T& t) {
   // Homing gives up after so far without the edge it looks for: towards the switch, and off it.
   t.sub(9, "Homing travel", kU32, kReadWrite, kParameter, 1'280'000).in("counts");
   t.sub(10, "Homing back-off travel", kU32, kReadWrite, kParameter, 64'000).in("counts");
+  t.head(0x2150, "Motor", ObjectCode::kRecord, 10);
+  // While it accelerates, when above the run current.
+  t.sub(1, "Boost current", kU16, kReadWrite, kParameter, 0).between(0, 5000).in("mA");
+  t.sub(2, "Phase resistance", kU16, kReadWrite, kParameter, 1500).between(20, 60'000).in("mOhm");
+  t.sub(3, "Phase inductance", kU16, kReadWrite, kParameter, 2500).between(50, 60'000).in("uH");
+  // Peak of the phase's back-EMF divided by the electrical angular frequency.
+  t.sub(4, "Flux linkage", kU16, kReadWrite, kParameter, 0).between(0, 60'000).in("uVs");
+  t.sub(5, "Current loop bandwidth", kU16, kReadWrite, kParameter, 1500).between(100, 3000).in("Hz");
+  // 0: none; 1: watches for lost steps; 2: also keeps step by it. Plus 4: it counts the other way round.
+  t.sub(6, "Encoder", kU8, kReadWrite, kParameter).between(0, 6);
+  t.sub(7, "Encoder offset", kI32, kReadWrite, kParameter).in("counts");  // where the motor's angle 0 is
+  t.sub(8, "Auto-tune", kU8, kReadWrite, kLive);  // write 1; reads 0 idle, 1 runs, 2 done, 3 failed
+  t.sub(9, "Motor current", kI16, kReadOnly, kLive).maps(Mapping::kTpdo).in("mA");
+  t.sub(10, "Power stage temperature", kI16, kReadOnly, kLive).maps(Mapping::kTpdo).in("0.1C");
 }
 
 // Defaults suit a carriage of the default machine: 1280 counts/mm; 450 mm/s, 5000 mm/s2 at most.
@@ -157,6 +171,7 @@ constexpr void add_drive_objects(T& t) {
   t.var(0x6065, "Following error window", kU32, kReadWrite, kParameter, 1024).in("counts");
   t.var(0x6066, "Following error time out", kU16, kReadWrite, kParameter, 10).in("ms");
   t.var(0x606C, "Velocity actual value", kI32, kReadOnly, kLive).maps(Mapping::kTpdo).in("counts/s");
+  t.var(0x6079, "DC link circuit voltage", kU32, kReadOnly, kLive).maps(Mapping::kTpdo).in("mV");
   t.var(0x607A, "Target position", kI32, kReadWrite, kVariable).maps(Mapping::kRpdo).in("counts");
   // The position is made equal to this at the edge of the home switch.
   t.var(0x607C, "Home offset", kI32, kReadWrite, kParameter).in("counts");

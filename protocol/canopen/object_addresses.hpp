@@ -48,6 +48,10 @@ inline constexpr ObjectAddress kSegmentRecord{0x2100, 0}, kCheckpoint{0x2101, 0}
 inline constexpr ObjectAddress kAccelerationShift{0x2140, 1}, kRunCurrent{0x2140, 2}, kHoldCurrent{0x2140, 3},
     kDirectionInvert{0x2140, 4}, kCountsPerUnit{0x2140, 5}, kPositionKnown{0x2140, 6},
     kStreamPosition{0x2140, 7}, kHomeLatch{0x2140, 8}, kHomingTravel{0x2140, 9}, kHomingBackOff{0x2140, 10};
+inline constexpr ObjectAddress kBoostCurrent{0x2150, 1}, kPhaseResistance{0x2150, 2},
+    kPhaseInductance{0x2150, 3}, kFluxLinkage{0x2150, 4}, kCurrentBandwidth{0x2150, 5},
+    kEncoderMode{0x2150, 6}, kEncoderOffset{0x2150, 7}, kAutoTune{0x2150, 8}, kMotorCurrent{0x2150, 9},
+    kStageTemperature{0x2150, 10};
 inline constexpr ObjectAddress kErrorCode{0x603F, 0}, kControlword{0x6040, 0}, kStatusword{0x6041, 0},
     kQuickStopOption{0x605A, 0}, kShutdownOption{0x605B, 0}, kDisableOption{0x605C, 0},
     kHaltOption{0x605D, 0}, kFaultReactionOption{0x605E, 0}, kModeOfOperation{0x6060, 0},

@@ -1,0 +1,112 @@
+#include "node_firmware/port/stm32f405/can_port.hpp"
+
+#include "node_firmware/port/stm32f405/registers.hpp"
+#include "protocol/bytes.hpp"
+
+namespace kinebus::stm32 {
+namespace {
+
+constexpr std::uint32_t identifier(std::uint32_t id) {
+  return id << 21;
+}
+
+}  // namespace
+
+CanFrame CanPort::Received::frame() const {
+  CanFrame frame;
+  frame.extended = (identifier & Can::kExtended) != 0;
+  frame.remote = (identifier & Can::kRemote) != 0;
+  frame.id = frame.extended ? identifier >> 3 : identifier >> 21;
+  frame.length = static_cast<std::uint8_t>((length & 0xF) > 8 ? 8 : length & 0xF);
+  put_u32_le(frame.data, low);
+  put_u32_le(std::span(frame.data).subspan(4), high);
+  return frame;
+}
+
+bool CanPort::start() {
+  rcc().APB1ENR = rcc().APB1ENR | Rcc::kCan1;
+  Can& can = can1();
+  can.MCR = Can::kInitRequest;
+  if (!wait_until([&] { return (can.MSR & Can::kInitDone) != 0; })) return false;
+  can.MCR = Can::kInitRequest | Can::kAutoBusOff;
+  can.BTR = kCanTiming.register_value();
+  can.IER = Can::kOnMailboxEmpty | Can::kOnFifo0 | Can::kOnOverrun0 | Can::kOnPassive | Can::kOnBusOff |
+            Can::kOnError;
+  can.MCR = Can::kAutoBusOff;
+  enable_interrupt(Irq::kCan1Rx0, 0);
+  enable_interrupt(Irq::kCan1Tx, 12);
+  enable_interrupt(Irq::kCan1Sce, 12);
+  return wait_until([&] { return (can.MSR & Can::kInitDone) == 0; });
+}
+
+void CanPort::accept(std::span<const Accept> filters) {
+  Can& can = can1();
+  can.FMR = can.FMR | Can::kFilterInit;
+  can.FA1R = 0;
+  can.FM1R = 0;       // identifier and mask
+  can.FS1R = 0x3FFF;  // 32 bits
+  can.FFA1R = 0;      // all to FIFO 0: one order of arrival
+  std::uint32_t active = 0;
+  for (std::size_t i = 0; i < filters.size() && i < kFilters; ++i) {
+    can.filter[i].R1 = identifier(filters[i].value);
+    can.filter[i].R2 = identifier(filters[i].mask) | Can::kExtended | Can::kRemote;
+    active |= bit(static_cast<int>(i));
+  }
+  can.FA1R = active;
+  can.FMR = can.FMR & ~Can::kFilterInit;
+}
+
+void CanPort::on_receive(std::uint32_t counts) {
+  Can& can = can1();
+  while ((can.RFR[0] & Can::kFifoCount) != 0) {
+    const Can::RxFifo& fifo = can.rx[0];
+    if (!received_.push({fifo.RIR, fifo.RDTR, fifo.RDLR, fifo.RDHR, counts})) ++events_.overruns;
+    can.RFR[0] = Can::kFifoRelease;
+    // The hardware needs a moment before the count shows the release; the flag clears by itself.
+    if (!wait_until([&] { return (can.RFR[0] & Can::kFifoRelease) == 0; }, 100)) break;
+  }
+  if ((can.RFR[0] & Can::kFifoOverrun) != 0) {
+    can.RFR[0] = Can::kFifoOverrun;
+    ++events_.overruns;
+  }
+}
+
+void CanPort::on_state() {
+  Can& can = can1();
+  const std::uint32_t state = can.ESR;
+  const bool off = (state & Can::kBusOff) != 0;
+  const bool passive = (state & Can::kPassive) != 0;
+  if (off && !was_off_) ++events_.bus_off;
+  if (passive && !was_passive_) ++events_.passive;
+  was_off_ = off;
+  was_passive_ = passive;
+  can.MSR = Can::kErrorInterruptFlag;
+}
+
+bool CanPort::bus_off() const {
+  return (can1().ESR & Can::kBusOff) != 0;
+}
+
+void CanPort::serve_mailboxes() {
+  Can& can = can1();
+  for (int i = 0; i < TransmitQueue::kMailboxes; ++i) {
+    const std::uint32_t status = can.TSR;
+    if ((status & Can::kRequestDone[i]) == 0) continue;
+    can.TSR = Can::kRequestDone[i];
+    queue_.on_empty(i, (status & Can::kSentGood[i]) != 0);
+  }
+  for (auto action = queue_.next(); action.kind != TransmitQueue::Action::Kind::kNothing;
+       action = queue_.next()) {
+    if (action.kind == TransmitQueue::Action::Kind::kAbort) {
+      can.TSR = Can::kAbort[action.mailbox];
+      return;
+    }
+    Can::TxMailbox& mailbox = can.tx[action.mailbox];
+    mailbox.TDTR = action.frame.length;
+    mailbox.TDLR = get_u32_le(action.frame.data);
+    mailbox.TDHR = get_u32_le(std::span(action.frame.data).subspan(4));
+    mailbox.TIR = identifier(action.frame.id) | Can::kTransmit;
+  }
+}
+
+}  // namespace kinebus::stm32

@@ -1,0 +1,65 @@
+#pragma once
+// bxCAN: 1 Mbit/s, receive time stamps at interrupt entry, mailboxes by TransmitQueue, recovery from bus-off
+// by the controller itself.
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "node_firmware/core/transmit_queue.hpp"
+#include "node_firmware/port/stm32f405/board.hpp"
+#include "node_firmware/port/stm32f405/can_timing.hpp"
+#include "node_firmware/port/stm32f405/ring.hpp"
+#include "protocol/can/frame.hpp"
+
+namespace kinebus::stm32 {
+
+inline constexpr CanTiming kCanTiming = can_timing(board::kApb1Hz, 1'000'000, 800);
+static_assert(kCanTiming.prescaler * kCanTiming.quanta() * 1'000'000 == board::kApb1Hz);
+static_assert(kCanTiming.sample_permille() >= 750 && kCanTiming.sample_permille() <= 875,
+              "CiA 301: 75 to 87.5 %");
+
+class CanPort {
+ public:
+  /// As the controller gives it: the interrupt only copies.
+  struct Received {
+    std::uint32_t identifier = 0, length = 0, low = 0, high = 0;
+    std::uint32_t counts = 0;  ///< local time at interrupt entry
+    CanFrame frame() const;
+  };
+  struct Events {
+    std::uint32_t overruns = 0, bus_off = 0, passive = 0;
+  };
+  /// Standard data frames with (id & mask) == value reach the processor.
+  struct Accept {
+    std::uint16_t value = 0, mask = 0x7FF;
+    friend constexpr bool operator==(const Accept&, const Accept&) = default;
+  };
+  static constexpr std::size_t kFilters = 14;
+
+  /// False: the controller does not leave its initialisation: no bus with recessive level.
+  bool start();
+  void accept(std::span<const Accept> filters);
+
+  /// Main loop.
+  const Received* front() const { return received_.front(); }
+  void drop() { received_.drop(); }
+  TransmitQueue& queue() { return queue_; }
+  /// Moves frames into the mailboxes, and finds those that were sent.
+  void serve_mailboxes();
+  /// Since power-up.
+  Events events() const { return events_; }
+  bool bus_off() const;
+
+  // Interrupts.
+  void on_receive(std::uint32_t counts);
+  void on_state();
+
+ private:
+  TransmitQueue queue_;
+  Ring<Received, 64> received_;
+  Events events_;  // written by interrupts, words read singly
+  bool was_off_ = false, was_passive_ = false;
+};
+
+}  // namespace kinebus::stm32

@@ -1,0 +1,51 @@
+// The node's firmware: builds the parts, connects them, loops.
+
+#include <optional>
+
+#include "node_firmware/port/stm32f405/clock_tree.hpp"
+#include "node_firmware/port/stm32f405/handlers.hpp"
+#include "node_firmware/port/stm32f405/node_program.hpp"
+#include "node_firmware/port/stm32f405/pins.hpp"
+
+namespace {
+
+using namespace kinebus;
+using namespace kinebus::stm32;
+
+constinit CanPort can_port;
+constinit SwitchPort switch_port;
+constinit MotionPlanExchange motion_plan;
+constinit std::optional<NodeProgram> program;
+
+}  // namespace
+
+extern "C" {
+void isr_can_receive() {
+  can_port.on_receive(local_counts());
+}
+void isr_can_state() {
+  can_port.on_state();
+}
+void isr_switches() {
+  switch_port.on_edges(local_counts());
+}
+void isr_can_transmit() {
+  // Wakes the main loop, which serves the mailboxes; until then no further interrupt.
+  can1().IER = can1().IER & ~Can::kOnMailboxEmpty;
+}
+}
+
+int main() {
+  configure_pins();
+  if (!start_clocks()) isr_fault();
+  system_control().VTOR = board::kProgramAddress;
+  start_local_time();
+  if (!can_port.start()) isr_fault();
+  program.emplace(NodeOptions{.identity = {.serial = serial_number()}}, can_port, switch_port, motion_plan);
+  switch_port.start(local_counts());
+  enable_interrupts();
+  for (;;) {
+    program->pass();
+    wait_for_interrupt();
+  }
+}

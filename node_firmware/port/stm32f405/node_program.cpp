@@ -1,0 +1,124 @@
+#include "node_firmware/port/stm32f405/node_program.hpp"
+
+#include <algorithm>
+
+#include "node_firmware/port/stm32f405/registers.hpp"
+#include "protocol/bytes.hpp"
+#include "protocol/canopen/crc.hpp"
+
+namespace kinebus::stm32 {
+namespace {
+
+// Half of the plan's horizon: a main loop that is late by the other half harms nothing.
+constexpr LocalTime kPlanPeriod = kPlanCount * (MotionPlan::kHorizon / 2);
+constexpr LocalTime kFilterPeriod = std::chrono::milliseconds{10};
+// Frames of one pass; more wait for the next, so that what is due in between is served.
+constexpr int kInputsPerPass = 8;
+
+}  // namespace
+
+std::uint32_t serial_number() {
+  Crc32 crc;
+  for (int word = 0; word < 3; ++word) {
+    std::array<std::uint8_t, 4> bytes{};
+    put_u32_le(bytes, unique_id()[word]);
+    crc.add(bytes);
+  }
+  return crc.value();
+}
+
+NodeProgram::NodeProgram(const NodeOptions& options, CanPort& can, SwitchPort& switches,
+                         MotionPlanExchange& plan)
+    : can_(can), switches_(switches), plan_(plan), now_(clock_.now()), node_(options, now_) {
+  plan_.renew(node_, now_, local_counts());
+  filter();
+}
+
+void NodeProgram::pass() {
+  now_ = clock_.now();
+  bool changed = take_inputs();
+  if (now_ >= node_.next_deadline()) {
+    node_.on_time(now_);
+    changed = true;
+  }
+  if (changed || now_ >= plan_due_) {
+    // The plan begins now, and never before what the node knows.
+    const std::uint32_t counts = local_counts();
+    plan_.renew(node_, clock_.at(counts), counts);
+    plan_due_ = now_ + kPlanPeriod;
+  }
+  send();
+  report_bus();
+  if (now_ >= filter_due_) filter();
+}
+
+// Frames and edges in the order in which they happened.
+bool NodeProgram::take_inputs() {
+  int taken = 0;
+  for (; taken < kInputsPerPass; ++taken) {
+    const CanPort::Received* frame = can_.front();
+    const SwitchPort::Edge* edge = switches_.front();
+    const bool edge_first =
+        edge != nullptr && (frame == nullptr || static_cast<std::int32_t>(edge->counts - frame->counts) < 0);
+    if (edge_first) {
+      node_.on_switch(clock_.at(edge->counts), edge->input, edge->level);
+      switches_.drop();
+    } else if (frame != nullptr) {
+      node_.on_frame(clock_.at(frame->counts), frame->frame());
+      can_.drop();
+    } else {
+      break;
+    }
+  }
+  return taken != 0;
+}
+
+void NodeProgram::send() {
+  can_.serve_mailboxes();
+  while (can_.queue().has_room()) {
+    const auto frame = node_.next_frame();
+    if (!frame) break;
+    can_.queue().push(*frame);
+    can_.serve_mailboxes();
+  }
+}
+
+// What this node has to hear: its own requests and PDOs, what all hear, and heartbeats.
+void NodeProgram::filter() {
+  filter_due_ = now_ + kFilterPeriod;
+  std::array<CanPort::Accept, CanPort::kFilters> wanted{};
+  std::size_t count = 0;
+  const auto add = [&](std::uint32_t value, std::uint32_t mask = 0x7FF) {
+    wanted[count++] = {static_cast<std::uint16_t>(value), static_cast<std::uint16_t>(mask)};
+  };
+  add(0x000);         // NMT
+  add(0x080, 0x780);  // SYNC, and the EMCYs of others: stop requests
+  add(0x7E5);         // LSS
+  if (node_.node_id() != 0) {
+    add(0x600u + node_.node_id());
+    add(0x700, 0x780);
+    for (const std::uint16_t id : node_.rpdo_cob_ids())
+      if (id != 0) add(id);
+  }
+  if (wanted == filters_) return;
+  filters_ = wanted;
+  can_.accept(std::span(wanted).first(count));
+}
+
+void NodeProgram::report_bus() {
+  const CanPort::Events events = can_.events();
+  if (events.overruns != told_.overruns) {
+    node_.count(NodeCounter::kRxOverrun, events.overruns - told_.overruns);
+    node_.report(emcy::kCanOverrun);
+  }
+  if (events.passive != told_.passive) node_.report(emcy::kErrorPassive);
+  if (events.bus_off != told_.bus_off) node_.count(NodeCounter::kBusOff, events.bus_off - told_.bus_off);
+  const bool off = can_.bus_off();
+  // Told when the bus can hear it again.
+  if ((was_off_ && !off) || (!off && !was_off_ && events.bus_off != told_.bus_off))
+    node_.report(emcy::kBusOffRecovered);
+  was_off_ = off;
+  told_ = events;
+}
+
+}  // namespace kinebus::stm32

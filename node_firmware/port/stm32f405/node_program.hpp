@@ -1,0 +1,45 @@
+#pragma once
+// The node's core on the board: feeds it frames, edges and time in their order, and carries out what it says.
+// One pass of the main loop; interrupts come through the ports.
+
+#include <optional>
+
+#include "node_firmware/core/motion_plan.hpp"
+#include "node_firmware/core/node.hpp"
+#include "node_firmware/port/stm32f405/can_port.hpp"
+#include "node_firmware/port/stm32f405/local_time.hpp"
+#include "node_firmware/port/stm32f405/switch_port.hpp"
+
+namespace kinebus::stm32 {
+
+class NodeProgram {
+ public:
+  NodeProgram(const NodeOptions& options, CanPort& can, SwitchPort& switches, MotionPlanExchange& plan);
+
+  /// Everything that has come since the last pass. Call at least every millisecond.
+  void pass();
+  Node& node() { return node_; }
+  LocalTime now() const { return now_; }
+
+ private:
+  bool take_inputs();
+  void send();
+  void filter();
+  void report_bus();
+
+  CanPort& can_;
+  SwitchPort& switches_;
+  MotionPlanExchange& plan_;
+  LocalClock clock_;
+  LocalTime now_;
+  Node node_;
+  LocalTime plan_due_{0}, filter_due_{0};
+  std::array<CanPort::Accept, CanPort::kFilters> filters_{};
+  CanPort::Events told_;
+  bool was_off_ = false;
+};
+
+/// 32 bits of the chip's 96-bit unique number, for 1018h:4.
+std::uint32_t serial_number();
+
+}  // namespace kinebus::stm32
