@@ -75,11 +75,11 @@ void DriveAxis::on_fault(LocalTime now, std::uint16_t code, bool power_lost) {
 
 void DriveAxis::on_path_stop(LocalTime now) {
   on_time(now);
-  if (source_ == Source::kStream || !moving(now)) return;
+  if (source_ == Source::kStream) return;
   homing_.abort();
-  profile_position_.reset(word_);
+  profile_position_.reset(word_);  // also of an axis that is halted: what waits there is not to begin later
   halted_ = false;
-  brake(to_ticks(now), unsigned_parameter(kQuickStop));
+  if (moving(now)) brake(to_ticks(now), unsigned_parameter(kQuickStop));
 }
 
 void DriveAxis::on_stream_cleared(LocalTime now) {
@@ -154,7 +154,7 @@ void DriveAxis::serve_motion(LocalTime now) {
   const ProfileTicks t = to_ticks(now);
   if (homing_.running()) serve_homing(now);
   if (source_ == Source::kProfile && mode_ == Mode::kProfilePosition && serving_ == cia402::Stop::kNone)
-    profile_position_.on_time(t, profile_);
+    profile_position_.on_time(t, served_until_, profile_);
   // So that a checkpoint before the first record compares with where the axis is.
   if (source_ != Source::kStream && path_.stream().idle() && !moving(now))
     path_.stream().set_rest_position(static_cast<int>(index_), state_at(t).position);

@@ -35,6 +35,7 @@ void DriveAxis::serve_mode(LocalTime now) {
     } else if (homing_.running() || source_ == Source::kLine || !leaving_) {
       // A motion that the new mode knows nothing of ends first.
       homing_.abort();
+      profile_position_.reset(word_);
       brake(to_ticks(now), unsigned_parameter(slot_of_axes(object::kProfileDeceleration)));
       leaving_ = true;
     }
@@ -83,7 +84,8 @@ void DriveAxis::on_sync(LocalTime now) {
                       (word_ & control::kInterpolationEnable) != 0;
   if ((!cyclic && !linear) || wanted_mode_ != mode_ || !power_.moves() || blocked()) return;
   const ProfileTicks t = to_ticks(now);
-  if (source_ == Source::kProfile && !profile_.done(t)) return;
+  // An axis on the stream leaves it only when the stream rests.
+  if (source_ == Source::kStream || (source_ == Source::kProfile && !profile_.done(t))) return;
   if (source_ != Source::kLine) line_.hold(state_at(t).position);
   source_ = Source::kLine;
   const std::int64_t wanted = cyclic ? parameter(slot_of_axes(object::kTargetPosition)) +
@@ -160,7 +162,7 @@ SwitchFunction DriveAxis::homing_function() const {
 void DriveAxis::start_or_end_homing(LocalTime now, bool start) {
   const ProfileTicks t = to_ticks(now);
   if (start) {
-    to_profile(t);
+    if (source_ != Source::kProfile) to_profile(t);  // a motion that still brakes goes over into the new one
     const SwitchFunction function = homing_function();
     homing_.start(t, homing_config(), function != SwitchFunction::kNone && inputs_.active(function),
                   profile_);

@@ -43,17 +43,25 @@ bool PathMotion::on_rate_command(const CanFrame& frame, LocalTime now, bool clea
   using Kind = RateCommand::Kind;
   if (command->kind == Kind::kClear && !clear_allowed) return false;
   const bool starts = command->kind == Kind::kRate && command->rate_q15 != 0;
+  // All nodes run or none: one that cannot says so, and the stop comes before the start that was named.
+  // Without bus time it must not move either: the estimate still steps.
+  if (starts && !clock_.synchronised()) {
+    request_stop(StopReason::kSyncLost, 0, emcy::kSyncController, now);
+    return false;
+  }
   const auto outcome = path_.apply(*command, bus_now);
   using Outcome = PathClock::Outcome;
   if (outcome == Outcome::kDuplicate) ++counters_.duplicates;
   count_late(outcome, command->kind == Kind::kStop ? counters_.late_stops : counters_.late_rates);
-  const bool taken =
-      outcome == Outcome::kScheduled || outcome == Outcome::kLateRewound || outcome == Outcome::kLateStarted;
+  const bool taken = outcome == Outcome::kScheduled || outcome == Outcome::kLateRewound ||
+                     outcome == Outcome::kLateCaughtUp || outcome == Outcome::kLateStarted;
   if (taken && command->kind == Kind::kStop) ++counters_.stops;
   if (taken && command->kind == Kind::kClear) error_flags_ = 0;
-  // All nodes run or none: one that cannot says so while the ramp still begins.
-  if (taken && starts && !clock_.synchronised())
-    request_stop(StopReason::kSyncLost, 0, emcy::kSyncController, now);
+  // Too late for the others' path time, or held back by a stop that the others may not have heard of: either
+  // way this node's carriages are not where theirs are.
+  if (outcome == Outcome::kLateStarted && command->kind == Kind::kRate)
+    request_stop(StopReason::kCommand, 0, node_emcy::kCommand, now);
+  if (outcome == Outcome::kLatched && starts) request_stop(StopReason::kCommand, 0, node_emcy::kCommand, now);
   if (taken && starts && (given_up_ || stream_.underrun()))
     request_stop(StopReason::kStreamError, 0, node_emcy::kStream, now);
   plan_starvation_check(now);
@@ -69,7 +77,10 @@ bool PathMotion::clear_stop(LocalTime now) {
 }
 
 void PathMotion::count_late(PathClock::Outcome outcome, std::uint32_t& counter) {
-  if (outcome == PathClock::Outcome::kLateRewound || outcome == PathClock::Outcome::kLateStarted) ++counter;
+  using Outcome = PathClock::Outcome;
+  if (outcome == Outcome::kLateRewound || outcome == Outcome::kLateCaughtUp ||
+      outcome == Outcome::kLateStarted)
+    ++counter;
 }
 
 void PathMotion::on_peer_emcy(const CanFrame& frame, LocalTime now) {

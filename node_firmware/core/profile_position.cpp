@@ -48,9 +48,9 @@ void ProfilePosition::begin(ProfileTicks now, Trapezoid& motion) {
   motion.move(now, motion.at(now), moving_.target, moving_.limits);
 }
 
-void ProfilePosition::on_time(ProfileTicks now, Trapezoid& motion) {
+void ProfilePosition::on_time(ProfileTicks now, ProfileTicks looked, Trapezoid& motion) {
   if (!waiting_ || !motion.done(now)) return;
-  begin(motion.end(), motion);
+  begin(motion.end() >= looked ? motion.end() : now, motion);
   acknowledged_ = last_bit_;
 }
 

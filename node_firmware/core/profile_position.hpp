@@ -19,8 +19,9 @@ class ProfilePosition {
   void reset(std::uint16_t word);
   /// Looks at the handshake bits. `next`: what 607Ah and the profile objects say now, absolute.
   void on_controlword(ProfileTicks now, std::uint16_t word, const SetPoint& next, Trapezoid& motion);
-  /// The moving one has ended: the waiting one starts, at the instant of the end.
-  void on_time(ProfileTicks now, Trapezoid& motion);
+  /// The moving one has ended: the waiting one starts, at the instant of the end. An end before `looked` was
+  /// seen as a standstill since: then it starts now.
+  void on_time(ProfileTicks now, ProfileTicks looked, Trapezoid& motion);
   /// Goes on to the target after a halt.
   void resume(ProfileTicks now, Trapezoid& motion);
 

@@ -76,39 +76,92 @@ std::uint64_t PathClock::rate_q32(BusTime t) const {
   return leg_at(t.count()).rate_at(t.count());
 }
 
-void PathClock::push(std::int64_t start, std::int64_t tau0, std::uint64_t rate_q32, std::uint64_t full_ramp,
-                     bool rising) {
+PathClock::Leg PathClock::make_leg(std::int64_t start, std::int64_t tau0, std::uint64_t rate_q32,
+                                   std::uint64_t full_ramp, bool rising) {
   Leg fresh{.start = start, .tau0 = tau0, .rate_q32 = rate_q32, .full_ramp_ns = full_ramp, .rising = rising};
   // a = rate * 0.016 * 2^(12+50), b = 0.016 * 2^(12+50) / (2 * ramp); both rounded down, so a falling ramp's
   // parabola never passes its vertex within the ramp.
   fresh.a = shift_right(multiply(rate_q32, kTicksPerNsQ64), 64 + 32 - kTauBits - kScaleBits);
   if (full_ramp != 0) fresh.b = (kTicksPerNsQ64 >> (64 - kTauBits - kScaleBits + 1)) / full_ramp;
-  leg(count_++) = fresh;
+  return fresh;
 }
 
-/// Puts a ramp to `target_q32` at `start` in place of all that came after.
-void PathClock::change(std::int64_t start, std::uint64_t target_q32, std::uint8_t full_ramp_2ms) {
+/// A ramp to `target_q32` from `start` on, from what is in force then.
+PathClock::Change PathClock::planned(std::int64_t start, std::uint64_t target_q32, std::uint64_t ramp) const {
   const Leg& base = leg_at(start);
   const std::uint64_t from_q32 = base.rate_at(start);
   const std::int64_t tau0 = base.tau_at(start);
-  while (count_ > 1 && leg(count_ - 1).start >= start) --count_;
-  const std::uint64_t ramp = full_ramp_ns(std::max(full_ramp_2ms, options_.least_full_ramp_2ms));
   const bool rising = target_q32 > from_q32;
   const std::uint64_t difference = rising ? target_q32 - from_q32 : from_q32 - target_q32;
   const auto duration = static_cast<std::int64_t>((difference * ramp) >> 32);
-  std::int64_t end_tau = tau0;
-  if (duration > 0) {
-    push(start, tau0, from_q32, ramp, rising);
-    end_tau = leg(count_ - 1).tau_at(start + duration);
-  }
-  push(start + duration, end_tau, target_q32, 0, false);
+  Change result{.ramp = make_leg(start, tau0, from_q32, ramp, rising), .middle = {}, .after = {}};
+  const std::int64_t end_tau = duration > 0 ? result.ramp.tau_at(start + duration) : tau0;
+  result.after = make_leg(start + duration, end_tau, target_q32, 0, false);
+  return result;
 }
 
-PathClock::Outcome PathClock::settle_start(BusTime start, BusTime now, std::int64_t& effective) const {
-  effective = start.count();
-  if (start >= now) return Outcome::kScheduled;
-  if (now - start <= options_.rewind && effective >= legs_[0].start) return Outcome::kLateRewound;
-  effective = now.count();
+/// A ramp from `now` on, that goes over into what comes after `in_time`. With the rates r0 now and r1 after,
+/// it has to last D = 2 (after(now) - tau(now)) / (r0 - r1), where after() is carried on backwards.
+std::optional<PathClock::Change> PathClock::caught_up(const Change& in_time, std::int64_t now,
+                                                      std::uint64_t ramp) const {
+  const Leg& base = leg_at(now);
+  const std::uint64_t from = base.rate_at(now), target = in_time.after.rate_q32;
+  if (from == target || in_time.after.start <= now) return std::nullopt;
+  const bool rising = target > from;
+  const std::uint64_t difference = rising ? target - from : from - target;
+  const Leg carried = make_leg(now, 0, target, 0, false);
+  const std::int64_t after_now = in_time.after.tau0 - carried.tau_at(in_time.after.start);
+  const std::int64_t gap = rising ? base.tau_at(now) - after_now : after_now - base.tau_at(now);
+  if (gap <= 0) return std::nullopt;
+  // Ramps end after half a second: the gap is below 2^36, in 1/4096 ticks of 62.5 ns. 2 * 62.5 ns = 125 ns.
+  const auto gap_ns = (static_cast<std::uint64_t>(gap) * 125) >> kTauBits;  // twice the gap
+  if (gap_ns >= std::uint64_t{1} << 31) return std::nullopt;
+  // 8 ns to the side on which rounding leaves tau going forward by some ns, never back.
+  const std::uint64_t exact = (gap_ns << 32) / difference;
+  const std::uint64_t duration = rising ? exact + 8 : exact - std::min<std::uint64_t>(exact, 8);
+  const std::uint64_t steeper = (duration << 32) / std::max<std::uint64_t>(difference, 1);
+  if (duration >= std::uint64_t{1} << 31 || steeper < ramp - ramp / 4 || steeper > ramp) return std::nullopt;
+  const auto end = now + static_cast<std::int64_t>(duration);
+  if (end > in_time.after.start) return std::nullopt;
+  // Then along the line that in_time.after goes on with, to the bit from there on.
+  const Leg line = make_leg(end, 0, target, 0, false);
+  const std::int64_t tau_end = in_time.after.tau0 - line.tau_at(in_time.after.start);
+  return Change{.ramp = make_leg(now, base.tau_at(now), from, steeper, rising),
+                .middle = make_leg(end, tau_end, target, 0, false),
+                .after = in_time.after};
+}
+
+/// In place of all that came after its start.
+void PathClock::put(const Change& change) {
+  while (count_ > 1 && leg(count_ - 1).start >= change.ramp.start) --count_;
+  if (change.ramp.start < change.after.start) leg(count_++) = change.ramp;
+  if (change.middle) leg(count_++) = *change.middle;
+  leg(count_++) = change.after;
+}
+
+PathClock::Outcome PathClock::change(std::int64_t start, std::uint64_t target_q32, std::uint8_t full_ramp_2ms,
+                                     std::int64_t now, std::int64_t& effective) {
+  const std::uint64_t ramp = full_ramp_ns(std::max(full_ramp_2ms, options_.least_full_ramp_2ms));
+  effective = start;
+  if (start >= now) {
+    put(planned(start, target_q32, ramp));
+    return Outcome::kScheduled;
+  }
+  if (now - start <= options_.rewind.count() && start >= legs_[0].start) {
+    const Change in_time = planned(start, target_q32, ramp);
+    const Leg& then = now < in_time.after.start ? in_time.ramp : in_time.after;
+    const std::int64_t step = then.tau_at(now) - leg_at(now).tau_at(now);
+    if ((step < 0 ? -step : step) <= kMostStep.count() << kTauBits) {
+      put(in_time);
+      return Outcome::kLateRewound;
+    }
+    if (const auto catching = caught_up(in_time, now, ramp)) {
+      put(*catching);
+      return Outcome::kLateCaughtUp;
+    }
+  }
+  effective = now;
+  put(planned(now, target_q32, ramp));
   return Outcome::kLateStarted;
 }
 
@@ -126,12 +179,14 @@ PathClock::Outcome PathClock::apply(const RateCommand& command, BusTime now) {
       cleared_ = command.start.count();
       break;
     case RateCommand::Kind::kRate: {
-      std::int64_t start = 0;
-      outcome = settle_start(command.start, now, start);
-      if (start < cleared_ || (stop_ && start >= stop_->start)) return Outcome::kLatched;
-      if (count_ + 4 > kMaxLegs) return Outcome::kFull;  // the other two are a stop's: it is never refused
-      change(start, static_cast<std::uint64_t>(command.rate_q15) << 17, command.full_ramp_2ms);
-      if (stop_) change(stop_->start, 0, stop_->full_ramp_2ms);
+      const bool in_time = command.start >= now - options_.rewind;
+      const std::int64_t earliest = in_time ? command.start.count() : now.count();
+      if (command.start.count() < cleared_ || (stop_ && earliest >= stop_->start)) return Outcome::kLatched;
+      if (count_ + 6 > kMaxLegs) return Outcome::kFull;  // the other three are a stop's: it is never refused
+      std::int64_t effective = 0;
+      outcome = change(command.start.count(), static_cast<std::uint64_t>(command.rate_q15) << 17,
+                       command.full_ramp_2ms, now.count(), effective);
+      if (stop_) static_cast<void>(change(stop_->start, 0, stop_->full_ramp_2ms, now.count(), effective));
       break;
     }
   }
@@ -140,11 +195,11 @@ PathClock::Outcome PathClock::apply(const RateCommand& command, BusTime now) {
 }
 
 PathClock::Outcome PathClock::stop_at(BusTime start, std::uint8_t full_ramp_2ms, BusTime now) {
+  const bool in_time = start >= now - options_.rewind;
+  if (stop_ && (in_time ? start : now).count() >= stop_->start) return Outcome::kDuplicate;
   std::int64_t effective = 0;
-  const Outcome outcome = settle_start(start, now, effective);
-  if (stop_ && effective >= stop_->start) return Outcome::kDuplicate;
+  const Outcome outcome = change(start.count(), 0, full_ramp_2ms, now.count(), effective);
   stop_ = Stop{effective, full_ramp_2ms};
-  change(effective, 0, full_ramp_2ms);
   return outcome;
 }
 
@@ -197,8 +252,8 @@ std::optional<BusTime> PathClock::next_change(BusTime t) const {
 
 bool PathClock::set_tau(PathTime path, BusTime now) {
   if (!at_rest(now)) return false;
-  count_ = 0;
-  push(kLongAgo, path.count() << kTauBits, 0, 0, false);
+  legs_[0] = make_leg(kLongAgo, path.count() << kTauBits, 0, 0, false);
+  count_ = 1;
   return true;
 }
 

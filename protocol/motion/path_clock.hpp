@@ -16,25 +16,30 @@ namespace kinebus {
 class PathClock {
  public:
   struct Options {
-    /// A command that arrives this long after its start still counts from its start: tau at times past is
-    /// corrected, by at most late^2 / (2 * ramp): 5 us of path time for 1 ms on a ramp of 100 ms. A later one
-    /// starts at once.
-    BusTime rewind = std::chrono::milliseconds{5};
+    /// A command that arrives this long after its start still ends at the tau that it would have ended at,
+    /// however it gets there: see kLateRewound and kLateCaughtUp. A later one starts at once.
+    BusTime rewind = std::chrono::milliseconds{12};
     /// No ramp is steeper than 0..1 in this: a command for a shorter one gets this one. 2 ms units.
     std::uint8_t least_full_ramp_2ms = 1;
   };
   enum class Outcome : std::uint8_t {
     kScheduled,
-    kLateRewound,  ///< start was past, within Options::rewind: tau is as if it had come in time
-    kLateStarted,  ///< start was long past: began `now`, so other nodes may be at another tau. An alarm.
-    kDuplicate,    ///< the last command again, or a stop no earlier than the one latched
-    kLatched,      ///< refused: a stop is latched and comes first
-    kNotAtRest,    ///< refused: kClear while moving
-    kFull,         ///< refused: more changes ahead than kMaxLegs
+    kLateRewound,   ///< start was just past: tau is as if it had come in time, a step of at most kMostStep
+    kLateCaughtUp,  ///< a steeper ramp from `now` on, up to 4/3; after it, tau is as if it had come in time
+    kLateStarted,   ///< start was long past: began `now`, so other nodes may be at another tau. An alarm.
+    kDuplicate,     ///< the last command again, or a stop no earlier than the one latched
+    kLatched,       ///< refused: a stop is latched and comes first
+    kNotAtRest,     ///< refused: kClear while moving
+    kFull,          ///< refused: more changes ahead than kMaxLegs
   };
+
+  /// tau may be corrected by so much at once when a command comes late: 5 us. No motor feels it.
+  static constexpr PathTime kMostStep{80};
 
   PathClock() : PathClock(Options{}) {}
   explicit PathClock(Options options);
+
+  void set_least_full_ramp(std::uint8_t full_ramp_2ms) { options_.least_full_ramp_2ms = full_ramp_2ms; }
 
   Outcome apply(const RateCommand& command, BusTime now);
   /// A stop asked for by any node (EMCY), or by this one. Earliest start wins; latched until kClear.
@@ -88,10 +93,20 @@ class PathClock {
   Leg& leg(int i) { return legs_[static_cast<std::size_t>(i)]; }
   const Leg& leg(int i) const { return legs_[static_cast<std::size_t>(i)]; }
   const Leg& leg_at(std::int64_t t) const;
-  Outcome settle_start(BusTime start, BusTime now, std::int64_t& effective) const;
-  void change(std::int64_t start, std::uint64_t target_q32, std::uint8_t full_ramp_2ms);
-  void push(std::int64_t start, std::int64_t tau0, std::uint64_t rate_q32, std::uint64_t full_ramp_ns,
-            bool rising);
+  /// A ramp and what comes after it; a ramp that was made steeper waits on `middle` for `after`.
+  struct Change {
+    Leg ramp;
+    std::optional<Leg> middle;
+    Leg after;
+  };
+
+  Change planned(std::int64_t start, std::uint64_t target_q32, std::uint64_t full_ramp_ns) const;
+  std::optional<Change> caught_up(const Change& in_time, std::int64_t now, std::uint64_t full_ramp_ns) const;
+  Outcome change(std::int64_t start, std::uint64_t target_q32, std::uint8_t full_ramp_2ms, std::int64_t now,
+                 std::int64_t& effective);
+  void put(const Change& change);
+  static Leg make_leg(std::int64_t start, std::int64_t tau0, std::uint64_t rate_q32,
+                      std::uint64_t full_ramp_ns, bool rising);
 
   Options options_;
   std::array<Leg, kMaxLegs> legs_{};

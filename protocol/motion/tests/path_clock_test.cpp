@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 #include <vector>
 
@@ -103,8 +104,39 @@ TEST(PathClock, AShortlyLateCommandCountsFromItsStart) {
   PathClock in_time, late;
   for (PathClock* clock : {&in_time, &late}) clock->apply(rate(1.0, seconds{1}), seconds{0});
   in_time.stop_at(seconds{2}, 50, seconds{1});
-  EXPECT_EQ(late.stop_at(seconds{2}, 50, seconds{2} + milliseconds{1}), Outcome::kLateRewound);
+  EXPECT_EQ(late.stop_at(seconds{2}, 50, seconds{2} + microseconds{900}), Outcome::kLateRewound);
   for (BusTime t = seconds{2}; t < seconds{3}; t += microseconds{500}) ASSERT_EQ(in_time.tau(t), late.tau(t));
+}
+
+// 5 ms late at full rate: what has been run too far is 125 us of path. It is taken back by a steeper ramp,
+// never by a step, and all end at the same place.
+TEST(PathClock, ALateCommandCatchesUpWithoutAStep) {
+  struct Case {
+    double from, to;
+    int late_us;
+  };
+  for (const Case c : {Case{1, 0, 5000}, Case{0, 1, 5000}, Case{1, 0.25, 8000}, Case{0.3, 1, 2500},
+                       Case{1, 0, 11900}, Case{0.5, 0, 4000}}) {
+    SCOPED_TRACE(testing::Message() << c.from << " to " << c.to << ", late by " << c.late_us << " us");
+    PathClock in_time, late;
+    for (PathClock* clock : {&in_time, &late}) clock->apply(rate(c.from, seconds{1}), seconds{0});
+    const BusTime heard = seconds{2} + microseconds{c.late_us};
+    const PathTime before = late.tau(heard);
+    in_time.apply(rate(c.to, seconds{2}, 1), seconds{2});
+    EXPECT_EQ(late.apply(rate(c.to, seconds{2}, 1), heard), Outcome::kLateCaughtUp);
+    EXPECT_EQ(late.tau(heard), before);
+    PathTime last = before;
+    double last_rate = static_cast<double>(late.rate_q32(heard));
+    for (BusTime t = heard; t < heard + milliseconds{120}; t += microseconds{10}) {
+      ASSERT_GE(late.tau(t), last);
+      ASSERT_LE(late.tau(t) - last, PathTime{162});  // 10 us of 16 ticks, and rounding
+      ASSERT_LE(std::abs(static_cast<double>(late.rate_q32(t)) - last_rate), 4294967296.0 * 1.34e-4);
+      last = late.tau(t);
+      last_rate = static_cast<double>(late.rate_q32(t));
+    }
+    for (BusTime t = seconds{2} + milliseconds{101}; t < seconds{3}; t += microseconds{500})
+      ASSERT_EQ(in_time.tau(t), late.tau(t));
+  }
 }
 
 TEST(PathClock, AVeryLateCommandStartsNowAndSaysSo) {
@@ -178,9 +210,12 @@ TEST(PathClock, IsMonotoneExactAndInvertibleUnderRandomCommands) {
         }
         last = i == 0 ? tau : std::max(last, tau);
       }
-      late.apply(command, heard);
+      const PathTime before = late.tau(heard);
+      const Outcome outcome = late.apply(command, heard);
+      ASSERT_LE(std::abs((late.tau(heard) - before).count()), PathClock::kMostStep.count());
+      const BusTime same = outcome == Outcome::kLateCaughtUp ? start + milliseconds{510} : start;
       for (int i = 0; i < 20; ++i) {
-        const BusTime u = start + BusTime{below(1'000'000'000)};
+        const BusTime u = same + BusTime{below(1'000'000'000)};
         ASSERT_EQ(early.tau(u), late.tau(u)) << "seed " << seed << " step " << step;
         const PathTime wanted = early.tau(u) + PathTime{1};
         if (const auto when = early.when(wanted)) {
