@@ -47,6 +47,18 @@ void BusModel::send(Port port, BusTime now, const CanFrame& frame) {
   assert(false && "send() without has_room()");
 }
 
+bool BusModel::withdraw(Port port, const CanFrame& frame) {
+  Participant& p = ports_[static_cast<std::size_t>(port)];
+  for (int i = 0; i < p.size; ++i) {
+    Mailbox& m = p.mailboxes[static_cast<std::size_t>(i)];
+    if (!m.full || m.frame != frame) continue;
+    m.full = false;
+    --waiting_;
+    return true;
+  }
+  return false;
+}
+
 void BusModel::arbitrate(BusTime start) {
   Mailbox* winner = nullptr;
   Port from = 0;

@@ -33,6 +33,9 @@ class BusModel {
   /// Puts a frame into a mailbox; has_room() must hold. `now` must not be before the last delivery's end.
   void send(Port port, BusTime now, const CanFrame& frame);
 
+  /// Takes a waiting frame out of its mailbox again. False: it is on the wire already, or not there.
+  bool withdraw(Port port, const CanFrame& frame);
+
   /// When the frame on the wire ends; max() on an idle bus.
   BusTime next_event() const { return on_wire_ ? on_wire_->end : BusTime::max(); }
   /// The frame that has ended by `now`, if any. Its sender's mailbox is free again.

@@ -1,6 +1,7 @@
 #include "vcan_tests/sim/simulation.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace kinebus {
 namespace {
@@ -9,11 +10,17 @@ constexpr BusTime kShortestTurn = std::chrono::microseconds{20};
 
 Simulation::Simulation(const MachineDescription& machine, const Kinematics& kinematics,
                        const SimulationOptions& options)
+    : Simulation(machine, kinematics, options,
+                 std::make_unique<VirtualMachine>(virtual_nodes_of(machine, options.clocks, options.seed),
+                                                  options.seed)) {}
+
+Simulation::Simulation(const MachineDescription& machine, const Kinematics& kinematics,
+                       const SimulationOptions& options, std::unique_ptr<NodeMachine> nodes)
     : description_(machine),
       kinematics_(kinematics),
       options_(options),
       gateway_(machine, {.epoch = static_cast<std::uint8_t>(1 + options.seed % 250)}),
-      virtual_machine_(virtual_nodes_of(machine, options.clocks, options.seed), options.seed),
+      nodes_(std::move(nodes)),
       random_(options.seed ^ 0x9E3779B97F4A7C15ULL),
       warm_{kinematics.bed_reference(), kinematics.bed_reference()} {
   for (const JointDescription& joint : machine.joints)
@@ -42,10 +49,10 @@ BusTime Simulation::gateway_due() {
 }
 
 void Simulation::serve_gateway(BusTime now) {
-  while (virtual_machine_.can_send()) {
+  while (nodes_->can_send()) {
     const auto frame = gateway_.next_frame(now);
     if (!frame) break;
-    virtual_machine_.send(now, *frame);
+    nodes_->send(now, *frame);
   }
   while (auto event = gateway_.next_event())
     if (on_event) on_event(*event);
@@ -54,10 +61,10 @@ void Simulation::serve_gateway(BusTime now) {
 void Simulation::step(BusTime until) {
   const BusTime gateway_time = gateway_due();
   const BusTime next = std::min(
-      {until, next_sample_, next_probe_, gateway_time, std::max(virtual_machine_.next_event(), now_)});
-  const bool done = virtual_machine_.advance(next);
+      {until, next_sample_, next_probe_, gateway_time, std::max(nodes_->next_event(), now_)});
+  const bool done = nodes_->advance(next);
   bool stirred = false;
-  while (const auto got = virtual_machine_.receive()) {
+  while (const auto got = nodes_->receive()) {
     now_ = std::max(now_, got->when);
     hash(got->when, got->frame);
     if (on_frame) on_frame(got->when, got->frame);
@@ -105,9 +112,9 @@ bool Simulation::run_until_state(const std::function<bool(MachineState)>& done, 
 Probe Simulation::probe() {
   Probe p;
   p.time = now_;
-  p.node_count = std::min(virtual_machine_.node_count(), kMaxNodes);
+  p.node_count = std::min(nodes_->node_count(), kMaxNodes);
   for (int n = 0; n < p.node_count; ++n)
-    p.tau[static_cast<std::size_t>(n)] = virtual_machine_.path_time(n, now_);
+    p.tau[static_cast<std::size_t>(n)] = nodes_->path_time(n, now_);
   return p;
 }
 
@@ -127,7 +134,7 @@ Sample Simulation::sample() {
 
   for (std::size_t j = 0; j < description_.joints.size(); ++j) {
     const JointDescription& joint = description_.joints[j];
-    s.joints[j] = joint_from_counts(joint, virtual_machine_.true_counts(node_of_joint_[j], joint.axis, now_));
+    s.joints[j] = joint_from_counts(joint, nodes_->true_counts(node_of_joint_[j], joint.axis, now_));
   }
   // Begins where the pose goes on to: one step of Newton's method then is enough.
   for (std::size_t axis = 0; axis < s.pose.size(); ++axis) s.pose[axis] = 2 * warm_[0][axis] - warm_[1][axis];

@@ -33,9 +33,12 @@ class Simulation {
  public:
   Simulation(const MachineDescription& machine, const Kinematics& kinematics,
              const SimulationOptions& options);
+  /// With nodes of another make (firmware images on emulated boards) for the same machine description.
+  Simulation(const MachineDescription& machine, const Kinematics& kinematics, const SimulationOptions& options,
+             std::unique_ptr<NodeMachine> nodes);
 
   Gateway& gateway() { return gateway_; }
-  VirtualMachine& machine() { return virtual_machine_; }
+  NodeMachine& machine() { return *nodes_; }
   BusTime now() const { return now_; }
 
   /// Runs until `until`, calling on_sample (if set) every sample period.
@@ -64,7 +67,7 @@ class Simulation {
   const Kinematics& kinematics_;
   SimulationOptions options_;
   Gateway gateway_;
-  VirtualMachine virtual_machine_;
+  std::unique_ptr<NodeMachine> nodes_;
   std::vector<int> node_of_joint_;
   std::mt19937_64 random_;
   BusTime now_{0};

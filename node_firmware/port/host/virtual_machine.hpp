@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "node_firmware/core/node.hpp"
+#include "node_firmware/port/host/node_machine.hpp"
 #include "protocol/host/bus_model.hpp"
 
 namespace kinebus {
@@ -34,41 +35,36 @@ struct VirtualNodeOptions {
   BusTime latency_max{0};  ///< interrupt latency, one-sided, uniform, at every reception
 };
 
-class VirtualMachine {
+class VirtualMachine final : public NodeMachine {
  public:
   struct Counters {
     std::uint64_t receptions = 0;
   };
 
   VirtualMachine(const std::vector<VirtualNodeOptions>& nodes, std::uint64_t seed, int gateway_mailboxes = 1);
-  ~VirtualMachine();
+  ~VirtualMachine() override;
 
   // The gateway's side of the bus.
-  bool can_send() const { return bus_.has_room(gateway_); }
-  void send(BusTime now, const CanFrame& frame) { bus_.send(gateway_, now, frame); }
-  struct Received {
-    BusTime when{0};
-    bool own = false;  ///< the gateway's frame, now sent
-    CanFrame frame;
-  };
-  std::optional<Received> receive();
+  bool can_send() const override { return bus_.has_room(gateway_); }
+  void send(BusTime now, const CanFrame& frame) override { bus_.send(gateway_, now, frame); }
+  std::optional<Received> receive() override;
 
   /// When advance() has something to do next.
-  BusTime next_event() const;
+  BusTime next_event() const override;
   /// Does everything that falls due up to `now`, in order. Stops early, right after a delivery to the
   /// gateway, so that the gateway can react in time: call again until it returns true.
-  bool advance(BusTime now);
+  bool advance(BusTime now) override;
 
   /// True position, counts, of an axis now. `at` at or after the last advance().
-  double true_counts(int node, int axis, BusTime at);
+  double true_counts(int node, int axis, BusTime at) override;
   /// The node's own idea of path time at true time `at`.
-  PathTime path_time(int node, BusTime at);
+  PathTime path_time(int node, BusTime at) override;
   Node& node(int index);
-  int node_count() const { return static_cast<int>(nodes_.size()); }
-  const BusModel& bus() const { return bus_; }
+  int node_count() const override { return static_cast<int>(nodes_.size()); }
+  const BusModel& bus() const override { return bus_; }
 
   /// A raw level on an input that no axis drives (E-stop button).
-  void set_input(int node, BusTime at, int input, bool level);
+  void set_input(int node, BusTime at, int input, bool level) override;
 
  private:
   struct VirtualNode;
