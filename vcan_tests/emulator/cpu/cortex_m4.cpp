@@ -185,11 +185,11 @@ void CortexM4::load(const ElfImage& image) {
   flash_changed_ = true;
 }
 
-void CortexM4::reset() {
-  while (nvic_.depth() > 0) nvic_.leave(nvic_.active_exception());
-  nvic_.reset();
+void CortexM4::reset(std::uint32_t vectors) {
+  nvic_.reset(vectors);
   running_.clear();
-  asleep_ = false;
+  asleep_ = stop_asked_ = false;
+  stalled_until_ = 0;
   pending_since_ = kNever;
   skip_block_ = 1;
   write_register(uc_, UC_ARM_REG_IPSR, 0);
@@ -198,8 +198,8 @@ void CortexM4::reset() {
   write_register(uc_, UC_ARM_REG_FAULTMASK, 0);
   write_register(uc_, UC_ARM_REG_CONTROL, 0);
   write_register(uc_, UC_ARM_REG_LR, 0xFFFFFFFF);
-  write_register(uc_, UC_ARM_REG_SP, peek(kFlash));
-  pc_ = peek(kFlash + 4) & ~1u;
+  write_register(uc_, UC_ARM_REG_SP, peek(vectors));
+  pc_ = peek(vectors + 4) & ~1u;
 }
 
 std::uint8_t* CortexM4::host(std::uint32_t address, std::uint32_t size) {
@@ -271,8 +271,10 @@ void CortexM4::on_block(std::uint32_t address, std::uint32_t size) {
   }
   if (now_ < next_stop_) return;
 
+  if (stalled_until_ > now_) now_ = stalled_until_;
   serve_time();
-  if (nvic_.any_pending() && take_exception(address)) {
+  if (stop_asked_) limit_ = now_;
+  if (!stop_asked_ && nvic_.any_pending() && take_exception(address)) {
     // The block has not run: it is counted when it does.
     instructions_ -= cost >> 16;
     now_ -= cost & 0xFFFF;
@@ -451,7 +453,7 @@ bool CortexM4::wakes() const {
 
 void CortexM4::run(Cycle limit) {
   limit_ = limit;
-  while (now_ < limit_) {
+  while (now_ < limit_ && !stop_asked_) {
     if (asleep_) {
       devices_.advance(now_);
       nvic_.advance(now_);
@@ -461,7 +463,7 @@ void CortexM4::run(Cycle limit) {
         now_ = until;
         devices_.advance(now_);
         nvic_.advance(now_);
-        if (!wakes()) continue;
+        if (stop_asked_ || !wakes()) continue;
       }
       asleep_ = false;
       pending_since_ = now_;
@@ -488,6 +490,7 @@ void CortexM4::run(Cycle limit) {
       fail("unexplained stop");
     asleep_ = true;
   }
+  stop_asked_ = false;
 }
 
 void CortexM4::fail(const std::string& what) {

@@ -52,11 +52,27 @@ class CortexM4 {
   CortexM4& operator=(const CortexM4&) = delete;
 
   void load(const ElfImage& image);
-  /// Starts at the vector table in flash. RAM keeps what it has, as on the chip.
-  void reset();
+  /// Starts with the vector table at `vectors`. RAM keeps what it has, as on the chip.
+  void reset(std::uint32_t vectors = kFlash);
   /// Runs up to `limit` and at most a block further. Throws std::runtime_error with registers and reason when
   /// the program does what a processor would answer by a fault, or runs into a breakpoint.
   void run(Cycle limit);
+
+  /// Ends run() before the next block: for devices that saw something that the processor must not outlive.
+  void stop() {
+    stop_asked_ = true;
+    next_stop_ = 0;
+  }
+  /// The program stands still until then (flash is busy, and the program runs from it).
+  void stall_until(Cycle until) {
+    stalled_until_ = until;
+    next_stop_ = 0;
+  }
+  /// Memory that may have been executed has changed under the processor.
+  void forget_code() {
+    flash_changed_ = true;
+    next_stop_ = 0;
+  }
 
   Cycle now() const { return now_; }
   std::uint64_t instructions() const { return instructions_; }
@@ -113,6 +129,8 @@ class CortexM4 {
   std::uint32_t pc_ = 0;
   std::uint32_t skip_block_ = 1;  // a block that is begun again after a stop is not counted twice
   bool asleep_ = false;
+  bool stop_asked_ = false;
+  Cycle stalled_until_ = 0;
   bool stopped_ = false;  // by on_block, at a limit
   bool flash_changed_ = false;
   std::uint32_t lowest_stack_ = 0xFFFFFFFF;

@@ -59,7 +59,7 @@ void Nvic::find_best() {
   }
 }
 
-void Nvic::reset() {
+void Nvic::reset(std::uint32_t vectors) {
   priority_ = {};
   enabled_ = {};
   pending_ = {};
@@ -67,7 +67,7 @@ void Nvic::reset() {
   depth_ = 0;
   pending_count_ = 0;
   best_ = kThread;
-  vtor_ = kBootVectors;
+  vtor_ = vectors;
   aircr_ = scr_ = shcsr_ = cpacr_ = cfsr_ = hfsr_ = 0;
   systick_control_ = systick_reload_ = 0;
   systick_event_ = kNever;

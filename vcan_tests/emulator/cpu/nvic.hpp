@@ -25,6 +25,8 @@ struct Masks {  // the processor's special registers
 
 class Nvic final : public Peripheral, public InterruptLines {
  public:
+  static constexpr std::uint32_t kBootVectors =
+      0x08000000;  ///< flash, as it appears at address 0 after reset
   static constexpr int kInterrupts = 82;
   static constexpr int kExceptions = kFirstInterrupt + kInterrupts;
 
@@ -54,12 +56,12 @@ class Nvic final : public Peripheral, public InterruptLines {
   std::uint32_t vector_table() const { return vtor_; }
   bool fpu_enabled() const { return (cpacr_ & 0x00F00000u) == 0x00F00000u; }
   bool take_reset_request();
+  bool reset_requested() const { return reset_requested_; }
   /// The processor's reset: everything off, levels of the lines as they are.
-  void reset();
+  void reset(std::uint32_t vectors = kBootVectors);
 
  private:
   static constexpr int kNoPriority = 256;
-  static constexpr std::uint32_t kBootVectors = 0x08000000;  // flash, as it appears at address 0 after reset
   void find_best();
   int priority(int exception) const;
   int group_priority(int value) const;

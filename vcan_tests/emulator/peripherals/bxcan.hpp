@@ -1,0 +1,99 @@
+#pragma once
+// bxCAN: three mailboxes, two FIFOs of three with overrun, filter banks, error counters up to bus-off and
+// back. The bus is outside: it asks for what is to be sent, and tells what was sent, what came, and what went
+// wrong.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "protocol/can/frame.hpp"
+#include "vcan_tests/emulator/peripherals/peripheral.hpp"
+
+namespace kinebus::emulator {
+
+class BxCan final : public Peripheral {
+ public:
+  static constexpr int kTransmitIrq = 19, kFifo0Irq = 20, kFifo1Irq = 21, kStateIrq = 22;
+  static constexpr int kMailboxes = 3;
+
+  struct Request {  // from the program to the bus
+    Cycle at = 0;
+    int mailbox = 0;
+    bool abort = false;
+    CanFrame frame;
+  };
+  struct Counters {
+    std::uint64_t sent = 0, received = 0, accepted = 0, overruns = 0, bus_offs = 0;
+  };
+
+  explicit BxCan(InterruptLines& lines) : lines_(lines) {}
+  std::uint32_t read(std::uint32_t offset, Cycle now) override;
+  void write(std::uint32_t offset, std::uint32_t value, Cycle now) override;
+  Cycle next_event() const override { return recovers_; }
+  void advance(Cycle now) override;
+  void reset();
+
+  // The bus.
+  /// What the program has asked for since the last call, in order.
+  std::vector<Request> take_requests();
+  bool listening() const { return (mcr_ & 3) == 0 && !bus_off_; }
+  void on_sent(int mailbox);
+  void on_aborted(int mailbox);
+  void on_frame(const CanFrame& frame);
+  /// An error frame while sending or receiving (ISO 11898-1's counting, its special cases left out).
+  void on_error(bool sending, Cycle now);
+
+  /// Bits a second as the registers say; 0: not set up.
+  std::uint32_t bit_rate() const;
+  double sample_point() const;
+  const Counters& counters() const { return counters_; }
+  std::uint32_t transmit_errors() const { return tec_; }
+  std::uint32_t receive_errors() const { return rec_; }
+  bool bus_off() const { return bus_off_; }
+
+ private:
+  struct Mailbox {
+    std::uint32_t tir = 0, tdtr = 0, low = 0, high = 0;
+    bool pending = false, abort_asked = false;
+  };
+  struct Stored {
+    std::uint32_t rir = 0, rdtr = 0, low = 0, high = 0;
+  };
+  struct Fifo {
+    std::array<Stored, 3> stored{};
+    int count = 0;
+    bool overrun = false, full_flag = false;
+  };
+  struct Bank {
+    std::uint32_t r1 = 0, r2 = 0;
+  };
+
+  static CanFrame frame_of(const Mailbox& mailbox);
+  struct Match {
+    int fifo = 0, index = 0;
+  };
+  std::optional<Match> match(const CanFrame& frame) const;
+  void store(Fifo& fifo, const CanFrame& frame, int index);
+  void enter_bus_off(Cycle now);
+  void watch_errors();
+  std::uint32_t tsr() const;
+  std::uint32_t esr() const;
+  void update_lines();
+
+  InterruptLines& lines_;
+  std::uint32_t mcr_ = 0x10002, msr_flags_ = 0, ier_ = 0, btr_ = 0x01230000, done_flags_ = 0;
+  std::array<Mailbox, kMailboxes> mailboxes_{};
+  std::array<Fifo, 2> fifos_{};
+  std::uint32_t fmr_ = 0x2A1C0E01, fm1r_ = 0, fs1r_ = 0, ffa1r_ = 0, fa1r_ = 0;
+  std::array<Bank, 28> banks_{};
+  std::uint32_t tec_ = 0, rec_ = 0;
+  std::uint32_t last_state_ = 0, lec_ = 0;
+  bool bus_off_ = false;
+  Cycle recovers_ = kNever;
+  std::vector<Request> requests_;
+  Counters counters_{};
+};
+
+}  // namespace kinebus::emulator

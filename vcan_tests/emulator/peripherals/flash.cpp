@@ -1,0 +1,109 @@
+#include "vcan_tests/emulator/peripherals/flash.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace kinebus::emulator {
+namespace {
+constexpr std::uint32_t kKey1 = 0x45670123, kKey2 = 0xCDEF89AB;
+constexpr std::uint32_t kProgram = 1, kSectorErase = 2, kStart = 1u << 16, kLock = 1u << 31;
+constexpr std::uint32_t kBusy = 1u << 16, kSequenceError = 1u << 7, kSizeError = 1u << 6,
+                        kProtectionError = 1u << 4;
+// Datasheet, x32 parallelism, typical.
+constexpr Cycle kProgramTime = kCoreHz / 1'000'000 * 16;
+constexpr Cycle kErase16 = kCoreHz / 1000 * 250, kErase64 = kCoreHz / 1000 * 550, kErase128 = kCoreHz;
+}  // namespace
+
+FlashController::Sector FlashController::sector(unsigned number) {
+  if (number < 4) return {number * 0x4000, 0x4000};
+  if (number == 4) return {0x10000, 0x10000};
+  return {(number - 4) * 0x20000, 0x20000};
+}
+
+void FlashController::reset() {
+  acr_ = sr_ = 0;
+  cr_ = kLock;
+  key_step_ = 0;
+  busy_until_ = 0;
+}
+
+bool FlashController::take_erased() {
+  return std::exchange(erased_, false);
+}
+
+std::uint32_t FlashController::read(std::uint32_t offset, Cycle now) {
+  switch (offset) {
+    case 0x00:
+      return acr_;
+    case 0x0C:
+      return sr_ | (now < busy_until_ ? kBusy : 0);
+    case 0x10:
+      return cr_;
+    case 0x14:
+      return 0x0FFFAAED;
+    default:
+      return 0;
+  }
+}
+
+void FlashController::write(std::uint32_t offset, std::uint32_t value, Cycle now) {
+  switch (offset) {
+    case 0x00:
+      acr_ = value;
+      break;
+    case 0x04:
+      if (key_step_ == 0 && value == kKey1)
+        key_step_ = 1;
+      else if (key_step_ == 1 && value == kKey2) {
+        cr_ &= ~kLock;
+        key_step_ = 0;
+      } else
+        key_step_ = 2;  // a wrong key locks until reset
+      break;
+    case 0x0C:
+      sr_ &= ~(value & 0xF3);
+      break;
+    case 0x10: {
+      if ((cr_ & kLock) != 0) break;
+      cr_ = value & ~kStart;
+      if ((value & kLock) != 0) cr_ |= kLock;
+      if ((value & kStart) == 0 || (value & kSectorErase) == 0) break;
+      const unsigned number = value >> 3 & 0xF;
+      if (number > 11) {
+        sr_ |= kProtectionError;
+        break;
+      }
+      const Sector s = sector(number);
+      const auto area = memory_.subspan(s.offset, s.size);
+      std::fill(area.begin(), area.end(), std::uint8_t{0xFF});
+      erased_ = true;
+      ++erases_;
+      busy_until_ = std::max(busy_until_, now) + (s.size == 0x4000    ? kErase16
+                                                  : s.size == 0x10000 ? kErase64
+                                                                      : kErase128);
+      break;
+    }
+    default:
+      break;
+  }
+}
+
+bool FlashController::program(std::uint32_t address, std::uint32_t value, int size, Cycle now) {
+  if ((cr_ & kLock) != 0 || (cr_ & kProgram) == 0) {
+    sr_ |= kSequenceError;
+    return false;
+  }
+  if (size != 1 << (cr_ >> 8 & 3)) {
+    sr_ |= kSizeError;
+    return false;
+  }
+  const std::uint32_t at = address - kBase;
+  if (at + static_cast<std::uint32_t>(size) > memory_.size()) return false;
+  for (int i = 0; i < size; ++i)
+    memory_[at + static_cast<std::uint32_t>(i)] &= static_cast<std::uint8_t>(value >> (8 * i));
+  busy_until_ = std::max(busy_until_, now) + kProgramTime;
+  ++programs_;
+  return true;
+}
+
+}  // namespace kinebus::emulator

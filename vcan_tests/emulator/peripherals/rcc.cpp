@@ -1,0 +1,75 @@
+#include "vcan_tests/emulator/peripherals/rcc.hpp"
+
+namespace kinebus::emulator {
+namespace {
+constexpr std::uint32_t kCr = 0x00, kPllCfgr = 0x04, kCfgr = 0x08, kCsr = 0x74;
+constexpr std::uint32_t kCrystalHz = 8'000'000, kInternalHz = 16'000'000;
+constexpr std::uint32_t kPowerOnReset = 1u << 27, kPinReset = 1u << 26, kSoftwareReset = 1u << 28,
+                        kWatchdogReset = 1u << 29;
+
+std::uint32_t apb_divider(std::uint32_t code) {
+  return code < 4 ? 1 : 2u << (code - 4);
+}
+}  // namespace
+
+void Rcc::reset(ResetCause cause) {
+  for (std::uint32_t offset = 0; offset < 0x90; offset += 4) word(offset) = 0;
+  word(kCr) = 0x83;
+  word(kPllCfgr) = 0x24003010;
+  switch (cause) {
+    case ResetCause::kPowerOn:
+      causes_ |= kPowerOnReset | kPinReset;
+      break;
+    case ResetCause::kSoftware:
+      causes_ |= kSoftwareReset | kPinReset;
+      break;
+    case ResetCause::kWatchdog:
+      causes_ |= kWatchdogReset | kPinReset;
+      break;
+  }
+}
+
+std::uint32_t Rcc::read(std::uint32_t offset, Cycle) {
+  std::uint32_t value = word(offset);
+  if (offset == kCr) value |= (value & 0x01010001u) << 1;  // what is switched on is ready
+  if (offset == kCfgr) value = (value & ~0xCu) | (value & 3) << 2;
+  if (offset == kCsr) value = (value & 1) | (value & 1) << 1 | causes_;
+  return value;
+}
+
+void Rcc::write(std::uint32_t offset, std::uint32_t value, Cycle) {
+  if (offset == kCsr && (value & 1u << 24) != 0) causes_ = 0;
+  word(offset) = value;
+}
+
+std::optional<std::uint32_t> Rcc::system_hz() {
+  const std::uint32_t source = word(kCfgr) & 3;
+  if (source == 0) return kInternalHz;
+  if (source == 1) return (word(kCr) & 1u << 16) != 0 ? std::optional(kCrystalHz) : std::nullopt;
+  if (source != 2 || (word(kCr) & 1u << 24) == 0) return std::nullopt;
+  const std::uint32_t pll = word(kPllCfgr);
+  const std::uint32_t m = pll & 0x3F, n = pll >> 6 & 0x1FF, p = 2 * ((pll >> 16 & 3) + 1);
+  const std::uint32_t input = (pll & 1u << 22) != 0 ? kCrystalHz : kInternalHz;
+  if (m < 2 || n < 50 || n > 432) return std::nullopt;
+  const std::uint32_t compare = input / m;
+  const std::uint64_t vco = std::uint64_t{compare} * n;
+  if (compare < 950'000 || compare > 2'100'000 || vco < 100'000'000 || vco > 432'000'000) return std::nullopt;
+  const auto hz = static_cast<std::uint32_t>(vco / p);
+  return hz <= 168'000'000 ? std::optional(hz) : std::nullopt;
+}
+
+std::optional<std::uint32_t> Rcc::apb1_hz() {
+  const auto system = system_hz();
+  if (!system) return std::nullopt;
+  const std::uint32_t hz = *system / apb_divider(word(kCfgr) >> 10 & 7);
+  return hz <= 42'000'000 ? std::optional(hz) : std::nullopt;
+}
+
+std::optional<std::uint32_t> Rcc::apb2_hz() {
+  const auto system = system_hz();
+  if (!system) return std::nullopt;
+  const std::uint32_t hz = *system / apb_divider(word(kCfgr) >> 13 & 7);
+  return hz <= 84'000'000 ? std::optional(hz) : std::nullopt;
+}
+
+}  // namespace kinebus::emulator

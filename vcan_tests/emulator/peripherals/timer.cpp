@@ -1,0 +1,238 @@
+#include "vcan_tests/emulator/peripherals/timer.hpp"
+
+namespace kinebus::emulator {
+namespace {
+constexpr std::uint32_t kEnable = 1, kUpdateDisable = 2, kUpdateRequestSource = 4, kOnePulse = 8,
+                        kPreload = 0x80;
+constexpr std::uint32_t kUpdateFlag = 1, kBreakFlag = 0x80;
+constexpr std::uint32_t kBreakEnable = 1u << 12, kBreakHigh = 1u << 13, kAutomatic = 1u << 14,
+                        kMainOutput = 1u << 15;
+}  // namespace
+
+void Timer::reset(Cycle now) {
+  if (before_change) before_change(now);
+  cr1_ = cr2_ = smcr_ = dier_ = sr_ = ccer_ = psc_ = rcr_ = bdtr_ = 0;
+  arr_ = arr_in_force_ = setup_.advanced ? 0xFFFF : 0xFFFFFFFF;
+  ccmr_ = {};
+  ccr_ = ccr_in_force_ = {};
+  psc_in_force_ = repetitions_left_ = frozen_count_ = 0;
+  update_lines();
+}
+
+Cycle Timer::sweep_length() const {
+  const Cycle ticks = centre_aligned()
+                          ? Cycle{arr_in_force_} - (up_ ? count_at_begin_ : arr_in_force_ - count_at_begin_)
+                          : Cycle{arr_in_force_} + 1 - count_at_begin_;
+  return ticks * tick();
+}
+
+void Timer::begin_sweep(Cycle at, bool up) {
+  sweep_begin_ = at;
+  up_ = up;
+  count_at_begin_ = up ? 0 : arr_in_force_;
+}
+
+std::uint32_t Timer::count(Cycle now) const {
+  if (!running()) return frozen_count_;
+  const auto ticks = static_cast<std::uint32_t>((now - sweep_begin_) / tick());
+  return up_ ? count_at_begin_ + ticks : count_at_begin_ - ticks;
+}
+
+Cycle Timer::next_event() const {
+  if (!running() || arr_in_force_ == 0) return kNever;
+  return sweep_begin_ + sweep_length();
+}
+
+void Timer::advance(Cycle now) {
+  while (running() && arr_in_force_ != 0 && sweep_begin_ + sweep_length() <= now) {
+    const Cycle end = sweep_begin_ + sweep_length();
+    if (before_change) before_change(end);
+    const bool next_up = !centre_aligned() || !up_;
+    if (repetitions_left_ == 0)
+      update_event(end, true);
+    else
+      --repetitions_left_;
+    begin_sweep(end, next_up);
+    if ((cr1_ & kOnePulse) != 0) {
+      cr1_ &= ~kEnable;
+      frozen_count_ = 0;
+    }
+  }
+}
+
+void Timer::update_event(Cycle now, bool sets_flag) {
+  if ((cr1_ & kUpdateDisable) != 0) return;
+  psc_in_force_ = psc_;
+  arr_in_force_ = arr_;
+  ccr_in_force_ = ccr_;
+  repetitions_left_ = rcr_ & 0xFF;
+  if ((bdtr_ & kAutomatic) != 0 && !break_active()) bdtr_ |= kMainOutput;
+  if (sets_flag) {
+    sr_ |= kUpdateFlag;
+    update_lines();
+  }
+  if ((cr2_ >> 4 & 7) == 2 && on_trigger) on_trigger(now);
+}
+
+void Timer::update_lines() {
+  if (setup_.update_irq >= 0) lines_.set_line(setup_.update_irq, (sr_ & dier_ & kUpdateFlag) != 0);
+  if (setup_.break_irq >= 0) lines_.set_line(setup_.break_irq, (sr_ & dier_ & kBreakFlag) != 0);
+}
+
+bool Timer::break_active() const {
+  return (bdtr_ & kBreakEnable) != 0 && break_high_ == ((bdtr_ & kBreakHigh) != 0);
+}
+
+void Timer::trip(Cycle now) {
+  if (before_change) before_change(now);
+  bdtr_ &= ~kMainOutput;
+  sr_ |= kBreakFlag;
+  update_lines();
+}
+
+void Timer::set_break_level(bool high, Cycle now) {
+  break_high_ = high;
+  if (break_active() && ((bdtr_ & kMainOutput) != 0 || (sr_ & kBreakFlag) == 0)) trip(now);
+}
+
+Timer::Sweep Timer::sweep() const {
+  Sweep s;
+  s.begin = sweep_begin_;
+  s.end = running() ? sweep_begin_ + sweep_length() : kNever;
+  s.up = up_;
+  s.compare = ccr_in_force_;
+  s.main_output = (bdtr_ & kMainOutput) != 0;
+  for (unsigned i = 0; i < 4; ++i)
+    s.enabled[i] = (ccer_ >> (4 * i) & 1) != 0 && (ccmr_[i / 2] >> (8 * (i % 2) + 4) & 7) == 6;
+  return s;
+}
+
+std::uint32_t Timer::read(std::uint32_t offset, Cycle now) {
+  switch (offset) {
+    case 0x00:
+      return cr1_ | (up_ ? 0 : 0x10);
+    case 0x04:
+      return cr2_;
+    case 0x08:
+      return smcr_;
+    case 0x0C:
+      return dier_;
+    case 0x10:
+      return sr_;
+    case 0x18:
+      return ccmr_[0];
+    case 0x1C:
+      return ccmr_[1];
+    case 0x20:
+      return ccer_;
+    case 0x24:
+      advance(now);
+      return count(now);
+    case 0x28:
+      return psc_;
+    case 0x2C:
+      return arr_;
+    case 0x30:
+      return rcr_;
+    case 0x34:
+    case 0x38:
+    case 0x3C:
+    case 0x40:
+      return ccr_[(offset - 0x34) / 4];
+    case 0x44:
+      return bdtr_;
+    default:
+      return 0;
+  }
+}
+
+void Timer::write(std::uint32_t offset, std::uint32_t value, Cycle now) {
+  advance(now);
+  switch (offset) {
+    case 0x00: {
+      if (before_change) before_change(now);
+      const bool was = running();
+      const std::uint32_t at = count(now);
+      cr1_ = value & 0x3FF;
+      if (running() && !was) {
+        begin_sweep(now, (value & 0x10) == 0 || centre_aligned());
+        count_at_begin_ = frozen_count_;
+      } else if (!running() && was) {
+        frozen_count_ = at;
+      }
+      break;
+    }
+    case 0x04:
+      cr2_ = value;
+      break;
+    case 0x08:
+      smcr_ = value;
+      break;
+    case 0x0C:
+      dier_ = value;
+      break;
+    case 0x10:
+      sr_ &= value;
+      break;  // cleared by writing zeros
+    case 0x14:
+      if ((value & 1) != 0) {
+        if (before_change) before_change(now);
+        update_event(now, (cr1_ & kUpdateRequestSource) == 0);
+        frozen_count_ = 0;
+        begin_sweep(now, true);
+      }
+      if ((value & 0x80) != 0) trip(now);
+      break;
+    case 0x18:
+      ccmr_[0] = value;
+      break;
+    case 0x1C:
+      ccmr_[1] = value;
+      break;
+    case 0x20:
+      if (before_change) before_change(now);
+      ccer_ = value;
+      break;
+    case 0x24:
+      if (before_change) before_change(now);
+      if (running()) {
+        begin_sweep(now, up_);
+        count_at_begin_ = value;
+      } else {
+        frozen_count_ = value;
+      }
+      break;
+    case 0x28:
+      psc_ = value & 0xFFFF;
+      break;
+    case 0x2C:
+      arr_ = value;
+      if ((cr1_ & kPreload) == 0) arr_in_force_ = value;
+      break;
+    case 0x30:
+      rcr_ = value;
+      break;
+    case 0x34:
+    case 0x38:
+    case 0x3C:
+    case 0x40: {
+      const std::uint32_t i = (offset - 0x34) / 4;
+      ccr_[i] = value;
+      if ((ccmr_[i / 2] >> (8 * (i % 2) + 3) & 1) == 0) {
+        if (before_change) before_change(now);
+        ccr_in_force_[i] = value;
+      }
+      break;
+    }
+    case 0x44:
+      if (before_change) before_change(now);
+      bdtr_ = value & 0xFFFF;
+      if (break_active()) trip(now);  // no way to switch on while it lasts
+      break;
+    default:
+      return;
+  }
+  update_lines();
+}
+
+}  // namespace kinebus::emulator
