@@ -174,7 +174,8 @@ Refused LiveLines::check_arc(const canonical::Arc& arc) {
   return std::nullopt;
 }
 
-/// The machine will go where homing leaves it, in a straight line of the homing frame.
+/// The machine will go where homing leaves it, in a straight line of the homing frame. From the switches,
+/// which lie outside the workspace, this is the way in: then only its end is checked.
 Refused LiveLines::check_home(const canonical::Home& home) {
   const auto from = convert_pose(kinematics_, frame_of(place_.frame), place_.pose, frame_of(home.frame));
   if (!from) return "G28: " + to_string(from.error());
@@ -182,6 +183,7 @@ Refused LiveLines::check_home(const canonical::Home& home) {
   target[kE] = place_.pose[kE];
   place_ = {*from, home.frame};
   place_.pose[kE] = target[kE];
+  if (!kinematics_.check(frame_of(home.frame), place_.pose)) place_.pose = target;
   return check_straight(target, home.frame);
 }
 

@@ -1,0 +1,69 @@
+// Any bytes on the serial port, at any times: nothing may crash, hang or grow without bound, and every line
+// gets its "ok" or is asked for again. The same lines go into the checker of live lines with a machine that
+// may move.
+
+#include <cstdlib>
+#include <string_view>
+
+#include "gateway/jobs/live_lines.hpp"
+#include "gateway/machine/description/machine_description.hpp"
+#include "gateway/sessions/serial/marlin_session.hpp"
+
+namespace kinebus {
+namespace {
+
+class NoFiles : public SerialFiles {
+ public:
+  std::vector<Entry> list() override { return {{"part.gcode", 12}}; }
+  Result<std::unique_ptr<ByteSource>, std::string> open(std::string_view name) override {
+    if (name != "part.gcode") return Error<std::string>("no such job");
+    return std::make_unique<StringSource>("G1 X1 F600\n");
+  }
+  std::string run(std::string_view) override { return "not ready"; }
+  std::string remove(std::string_view) override { return {}; }
+  std::string store(std::string_view, std::string_view) override { return {}; }
+};
+
+void check(bool holds) {
+  if (!holds) std::abort();
+}
+
+}  // namespace
+}  // namespace kinebus
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace kinebus;
+  static const MachineDescription machine = default_m1();
+  static const std::unique_ptr<Kinematics> kinematics = std::move(*make_kinematics(machine));
+
+  Gateway gateway(machine);
+  NoFiles files;
+  MarlinSession session(gateway, files);
+  LocalTime now{1'000'000'000};
+  // 0x01 lets time pass; all else is what came.
+  for (std::size_t at = 0; at < size;) {
+    std::size_t end = at;
+    while (end < size && data[end] != 1) ++end;
+    if (session.wants_bytes()) session.on_bytes(now, {data + at, end - at});
+    now += std::chrono::milliseconds{500};
+    gateway.on_time(now);
+    session.on_time(now);
+    check(session.next_bytes().size() < (2U << 20U));
+    if (end % 3 == 0) session.on_bytes_sent(session.next_bytes().size());
+    at = end + 1;
+  }
+  session.on_closed(now, "the end");
+
+  LiveLines lines(machine, *kinematics);
+  gcode::CommandBuffer out;
+  lines.begin(kinematics->bed_reference(), std::nullopt, out);
+  std::string_view text(reinterpret_cast<const char*>(data), size);
+  std::uint32_t number = 0;
+  while (!text.empty() && number < 200) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    out.clear();
+    if (!lines.take(text.substr(0, end), ++number, out)) check(out.empty());
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return 0;
+}
