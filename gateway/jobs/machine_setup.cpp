@@ -35,9 +35,10 @@ gcode::Options interpreter_options(const MachineDescription& machine, const Pose
   options.retract_length_mm = machine.gcode.retract_mm;
   options.retract_mm_per_s = options.recover_mm_per_s = machine.gcode.retract_mm_per_s;
   options.retract_lift_mm = machine.gcode.retract_lift_mm;
-  if (const auto* m1 = std::get_if<M1Geometry>(&machine.kinematics)) {
-    options.a_min_rad = m1->limits.a_rad.min;
-    options.a_max_rad = m1->limits.a_rad.max;
+  if (const PoseLimits* limits = pose_limits(machine.kinematics);
+      limits != nullptr && limits->a_rad.limited()) {
+    options.a_min_rad = limits->a_rad.min;
+    options.a_max_rad = limits->a_rad.max;
   }
   return options;
 }

@@ -65,6 +65,21 @@ struct M1Geometry {
   friend bool operator==(const M1Geometry&, const M1Geometry&) = default;
 };
 
+/// What calibration found of one leg: true less nominal.
+struct M1LegCorrection {
+  Vector3 foot_mm{};
+  Vector3 rail{};  ///< of the direction at length 1
+  Vector3 attachment_mm{};
+  double length_mm = 0;
+  friend bool operator==(const M1LegCorrection&, const M1LegCorrection&) = default;
+};
+struct M1Correction {
+  std::array<M1LegCorrection, 4> legs{};
+  friend bool operator==(const M1Correction&, const M1Correction&) = default;
+};
+/// The machine as it was measured. Rails come out at length 1.
+M1Geometry corrected(const M1Geometry& nominal, const M1Correction& correction);
+
 /// Optional rotary table of a Cartesian machine: A tilts it about X, C turns it about its own Z.
 struct RotaryTable {
   /// Where the A and C axes meet, from the table's centre at A = C = 0, machine frame.
@@ -103,6 +118,37 @@ struct LinearDeltaGeometry {
   friend bool operator==(const LinearDeltaGeometry&, const LinearDeltaGeometry&) = default;
 };
 
+/// Five-axis mill: planar 2-RRP + PRP mechanism that carries the spindle (Y, Z and tilt), a table that slides
+/// along X and turns about Z. Joints: rail1, rail2, rail3, X, C. No filament: E stays 0.
+///
+/// The paper's plane is the machine's YZ plane: its x is Y, its y is Z. A is the tilt of the part as the tool
+/// sees it, as on every machine here, so the spindle tilts by -A and the triangle stands at phi = spindle -
+/// A. The mechanism is singular along a curve that passes through phi = 0 at y = 0 (x and phi then change
+/// with all rails at rest): the spindle is mounted at an angle to the triangle that keeps the workspace on
+/// one side of it.
+struct M4Geometry {
+  double rod_mm = 890;                   ///< L1
+  double triangle_mm = 173;              ///< L2: side of the tool triangle
+  double rails_mm = 840;                 ///< L3: distance of the two rails
+  double spindle_rad = 60 * kRadPerDeg;  ///< phi with the tool upright
+  double tool_mm = 120;                  ///< from P, the middle of AB, down to the tool's tip
+  double table_y_mm = 0;                 ///< the table's centre in the mechanism's plane
+  double table_z_mm = -250;
+  std::array<Interval, 3> travel_mm{{{300, 1300}, {300, 1300}, {-150, 450}}};  ///< y1, y2, y3
+  Interval table_travel_mm{-200, 200};
+  PoseLimits limits{.z_mm = {-5, 200}, .a_rad = {-25 * kRadPerDeg, 25 * kRadPerDeg}, .radius_mm = 150};
+  double max_leg_angle_rad = 58 * kRadPerDeg;  ///< between a rod and its rail
+  double max_condition = 20;                   ///< of d(y1, y2, y3) / d(y, z, phi * rotation_scale_mm)
+  double rotation_scale_mm = 100;
+  double bed_reference_mm = 50;
+  friend bool operator==(const M4Geometry&, const M4Geometry&) = default;
+};
+
+/// M1's mechanism as a four-axis mill on ball screws: rails 1..4 and nothing else. C and E stay 0.
+struct M5Geometry : M1Geometry {
+  friend bool operator==(const M5Geometry&, const M5Geometry&) = default;
+};
+
 /// A geometry no machine can have, or none can be controlled with: the reason, in words.
 struct GeometryError {
   std::string what;
@@ -116,5 +162,7 @@ Result<std::unique_ptr<Kinematics>, GeometryError> make_cartesian_kinematics(
 Result<std::unique_ptr<Kinematics>, GeometryError> make_corexy_kinematics(const CoreXyGeometry& geometry);
 Result<std::unique_ptr<Kinematics>, GeometryError> make_linear_delta_kinematics(
     const LinearDeltaGeometry& geometry);
+Result<std::unique_ptr<Kinematics>, GeometryError> make_m4_kinematics(const M4Geometry& geometry);
+Result<std::unique_ptr<Kinematics>, GeometryError> make_m5_kinematics(const M5Geometry& geometry);
 
 }  // namespace kinebus

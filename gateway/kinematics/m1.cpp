@@ -346,6 +346,24 @@ std::optional<std::string> wrong_everywhere(const M1& m1, const M1Geometry& g) {
 
 }  // namespace
 
+M1Geometry corrected(const M1Geometry& nominal, const M1Correction& correction) {
+  M1Geometry g = nominal;
+  for (std::size_t i = 0; i < kLegs; ++i) {
+    M1Leg& leg = g.legs[i];
+    const M1LegCorrection& c = correction.legs[i];
+    const double norm = std::hypot(leg.rail[0], leg.rail[1], leg.rail[2]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      leg.foot_mm[k] += c.foot_mm[k];
+      leg.rail[k] = leg.rail[k] / norm + c.rail[k];
+      leg.attachment_mm[k] += c.attachment_mm[k];
+    }
+    const double again = std::hypot(leg.rail[0], leg.rail[1], leg.rail[2]);
+    for (double& v : leg.rail) v /= again;
+    leg.length_mm += c.length_mm;
+  }
+  return g;
+}
+
 LegTable::LegTable(const M1Geometry& g) {
   for (std::size_t i = 0; i < kLegs; ++i) {
     const M1Leg& leg = g.legs[i];

@@ -80,17 +80,38 @@ std::vector<JointName> joint_names(const KinematicsGeometry& geometry) {
     return {{"X"}, {"Y"}, {"Z"}, {"E"}};
   }
   if (std::holds_alternative<CoreXyGeometry>(geometry)) return {{"beltA"}, {"beltB"}, {"Z"}, {"E"}};
+  if (std::holds_alternative<M4Geometry>(geometry))
+    return {{"rail1"}, {"rail2"}, {"rail3"}, {"X"}, {"C", true}};
+  if (std::holds_alternative<M5Geometry>(geometry)) return {{"rail1"}, {"rail2"}, {"rail3"}, {"rail4"}};
   return {{"tower1"}, {"tower2"}, {"tower3"}, {"E"}};
+}
+
+const PoseLimits* pose_limits(const KinematicsGeometry& geometry) {
+  return std::visit(
+      [](const auto& g) -> const PoseLimits* {
+        if constexpr (requires { g.limits; })
+          return &g.limits;
+        else
+          return nullptr;
+      },
+      geometry);
 }
 
 Result<std::unique_ptr<Kinematics>, GeometryError> make_kinematics(const MachineDescription& description) {
   struct Make {
-    auto operator()(const M1Geometry& g) const { return make_m1_kinematics(g); }
+    const std::optional<M1Correction>& correction;
+    auto operator()(const M1Geometry& g) const {
+      return make_m1_kinematics(correction ? corrected(g, *correction) : g);
+    }
     auto operator()(const CartesianGeometry& g) const { return make_cartesian_kinematics(g); }
     auto operator()(const CoreXyGeometry& g) const { return make_corexy_kinematics(g); }
     auto operator()(const LinearDeltaGeometry& g) const { return make_linear_delta_kinematics(g); }
+    auto operator()(const M4Geometry& g) const { return make_m4_kinematics(g); }
+    auto operator()(const M5Geometry& g) const {
+      return make_m5_kinematics(correction ? M5Geometry{corrected(g, *correction)} : g);
+    }
   };
-  return std::visit(Make{}, description.kinematics);
+  return std::visit(Make{description.geometry_calibration}, description.kinematics);
 }
 
 namespace machine_schema {
@@ -110,8 +131,20 @@ void prepare_kinematics(MachineDescription& d, int kind) {
     case 2:
       d.kinematics = CoreXyGeometry{};
       break;
-    default: {
+    case 3: {
       LinearDeltaGeometry g;
+      g.limits = {};
+      d.kinematics = g;
+      break;
+    }
+    case 4: {
+      M4Geometry g;
+      g.limits = {};
+      d.kinematics = g;
+      break;
+    }
+    default: {
+      M5Geometry g;
       g.limits = {};
       d.kinematics = g;
       break;
@@ -154,6 +187,12 @@ void connect_travel(MachineDescription& d) {
     corexy->z_mm = j[2].travel;
     j[0].travel = {corexy->x_mm.min + corexy->y_mm.min, corexy->x_mm.max + corexy->y_mm.max};
     j[1].travel = {corexy->x_mm.min - corexy->y_mm.max, corexy->x_mm.max - corexy->y_mm.min};
+  } else if (auto* m4 = std::get_if<M4Geometry>(&d.kinematics)) {
+    for (std::size_t i = 0; i < 3; ++i) m4->travel_mm[i] = j[i].travel;
+    m4->table_travel_mm = j[3].travel;
+    m4->limits.c_rad = j[4].travel;
+  } else if (auto* m5 = std::get_if<M5Geometry>(&d.kinematics)) {
+    for (std::size_t i = 0; i < 4; ++i) m5->legs[i].travel_mm = j[i].travel;
   } else if (auto* delta = std::get_if<LinearDeltaGeometry>(&d.kinematics)) {
     for (std::size_t i = 0; i < 3; ++i) delta->travel_mm[i] = j[i].travel;
   }

@@ -10,11 +10,16 @@
 #include <variant>
 #include <vector>
 
+#include "gateway/calibration/joint_calibration.hpp"
 #include "gateway/kinematics/geometry.hpp"
 
 namespace kinebus {
 
-using KinematicsGeometry = std::variant<M1Geometry, CartesianGeometry, CoreXyGeometry, LinearDeltaGeometry>;
+using KinematicsGeometry =
+    std::variant<M1Geometry, CartesianGeometry, CoreXyGeometry, LinearDeltaGeometry, M4Geometry, M5Geometry>;
+
+/// Where the tool may be, for kinematics that state it; nullptr: by the joints' travel alone.
+const PoseLimits* pose_limits(const KinematicsGeometry& geometry);
 
 /// From motor to joint. A unit is mm for a linear joint, rad for a rotary one.
 struct DriveTrain {
@@ -68,13 +73,6 @@ struct HomingDescription {
     }
   }
   friend bool operator==(const HomingDescription&, const HomingDescription&) = default;
-};
-
-/// Measured deviation of a joint from its drive train: true = commanded * (1 + scale) + offset.
-struct JointCalibration {
-  double scale = 0;   ///< relative, for example -0.00025
-  double offset = 0;  ///< mm or rad, added to the home switch position
-  friend bool operator==(const JointCalibration&, const JointCalibration&) = default;
 };
 
 struct JointDescription {
@@ -215,6 +213,8 @@ struct MachineDescription {
   HomingRun homing;
   ThermalDescription thermal;
   GcodeDescription gcode;
+  /// M1 and M5: how the machine's geometry was measured to differ from the one above it in the file.
+  std::optional<M1Correction> geometry_calibration;
   std::string jobs_directory = "/var/lib/kinebus/jobs";
   friend bool operator==(const MachineDescription&, const MachineDescription&) = default;
 
@@ -236,7 +236,7 @@ struct JointName {
 };
 std::vector<JointName> joint_names(const KinematicsGeometry& geometry);
 
-/// The kinematics that the description states. Error: see geometry.hpp.
+/// The kinematics that the description states, calibration of the geometry included. Error: see geometry.hpp.
 Result<std::unique_ptr<Kinematics>, GeometryError> make_kinematics(const MachineDescription& description);
 
 }  // namespace kinebus

@@ -102,6 +102,24 @@ class Reader {
       if (!take_number(*node, range, unit, value)) wrong(key, *node, expected);
   }
 
+  void unless_zero(std::string_view key, double& value, Range range, double unit) {
+    number(key, value, range, Need::kOptional, unit);
+  }
+
+  void numbers(std::string_view key, std::vector<double>& values, Range range, std::size_t most,
+               double unit) {
+    const std::string expected =
+        "at most " + std::to_string(most) + " numbers, each in " + interval_text(range);
+    const toml::node* node = find(key, Need::kOptional, expected);
+    if (node == nullptr) return;
+    const auto* array = node->as_array();
+    if (array == nullptr || array->size() > most) return wrong(key, *node, expected);
+    std::vector<double> read(array->size());
+    for (std::size_t k = 0; k < read.size(); ++k)
+      if (!take_number((*array)[k], range, unit, read[k])) return wrong(key, *node, expected);
+    values = std::move(read);
+  }
+
   template <typename T>
   void integer(std::string_view key, T& value, std::int64_t low, std::int64_t high, Need need) {
     const std::string expected = "a whole number in " + std::to_string(low) + " .. " + std::to_string(high);

@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <set>
 
+#include "gateway/calibration/joint_map.hpp"
+
 namespace kinebus {
 namespace {
 
@@ -61,6 +63,28 @@ class Rules {
     require(j.homing.has_value() || !j.travel.limited() || belt, {key + "homing", key + "travel_" + u},
             "no table", "[" + key + "homing]: a joint with limited travel must find its position");
     if (j.homing) homing(j, *j.homing, key + "homing.");
+    calibration(j, key + "calibration.");
+  }
+
+  void calibration(const JointDescription& j, const std::string& key) {
+    const JointCalibration& c = j.calibration;
+    const std::string u = j.rotary ? "deg" : "mm";
+    require(c.pitch > 0 || (c.periodic_sine == 0 && c.periodic_cosine == 0),
+            {key + "pitch_" + u, key + "periodic_sine_" + u, key + "periodic_cosine_" + u}, "no pitch",
+            "the pitch that the periodic error repeats with");
+    require(c.table.empty() || c.table.size() >= 2, {key + "table_" + u}, "one number", "two or more");
+    require(c.table.empty() || c.table_step > 0, {key + "table_step_" + u, key + "table_" + u},
+            number(c.table_step), "the distance of the table's places, above 0");
+    // A steeper error would be a joint that goes backwards, or nearly: no measurement of a machine says that.
+    constexpr double kSteepest = 0.05;
+    const double slope = JointMap(c).largest_slope();
+    require(slope <= kSteepest, {key + "table_" + u, key + "table_step_" + u, key + "pitch_" + u},
+            "an error with a slope of " + number(slope), "at most " + number(kSteepest));
+    const JointReserve reserve = reserve_for(c, j.speed_per_s, j.accel_per_s2);
+    require(reserve.accel_per_s2 > 0.1 * j.accel_per_s2 && reserve.speed_per_s > 0.1 * j.speed_per_s,
+            {key + "table_" + u, key + "pitch_" + u, key + "backlash_" + u},
+            "a correction that needs nearly all of the joint's speed or acceleration",
+            "smaller errors, or higher limits of the joint");
   }
 
   void homing(const JointDescription& j, const HomingDescription& h, const std::string& key) {

@@ -26,7 +26,8 @@ struct Choice {
   std::string_view word;
   int value;
 };
-inline constexpr Choice kKinds[] = {{"m1", 0}, {"cartesian", 1}, {"corexy", 2}, {"linear_delta", 3}};
+inline constexpr Choice kKinds[] = {{"m1", 0},           {"cartesian", 1}, {"corexy", 2},
+                                    {"linear_delta", 3}, {"m4", 4},        {"m5", 5}};
 inline constexpr Choice kAxes[] = {{"A", 0}, {"B", 1}};
 inline constexpr Choice kCarriage[] = {{"below", 0}, {"above", 1}};
 inline constexpr Choice kInputFunctions[] = {
@@ -106,6 +107,22 @@ void visit_geometry(V& v, LinearDeltaGeometry& g) {
 }
 
 template <class V>
+void visit_geometry(V& v, M4Geometry& g) {
+  v.number("rod_mm", g.rod_mm, {1, 10000}, Need::kRequired);
+  v.number("triangle_mm", g.triangle_mm, {1, 10000}, Need::kRequired);
+  v.number("rails_mm", g.rails_mm, {1, 10000}, Need::kRequired);
+  v.number("spindle_deg", g.spindle_rad, kAngle_deg, Need::kRequired, kRadPerDeg);
+  v.number("tool_mm", g.tool_mm, {0, 1000}, Need::kRequired);
+  v.number("table_y_mm", g.table_y_mm, kAnywhere_mm, Need::kOptional);
+  v.number("table_z_mm", g.table_z_mm, kAnywhere_mm, Need::kRequired);
+  v.number("bed_reference_mm", g.bed_reference_mm, kAnywhere_mm, Need::kOptional);
+  v.number("max_leg_angle_deg", g.max_leg_angle_rad, {1, 90}, Need::kRequired, kRadPerDeg);
+  v.number("max_condition", g.max_condition, {1, 1000}, Need::kOptional);
+  v.number("rotation_scale_mm", g.rotation_scale_mm, {1, 10000}, Need::kOptional);
+  visit_workspace(v, g.limits, true);
+}
+
+template <class V>
 void visit_joint(V& v, JointDescription& j, bool own_travel) {
   const std::string u = j.rotary ? "deg" : "mm";
   const double unit = j.rotary ? kRadPerDeg : 1;
@@ -135,6 +152,14 @@ void visit_joint(V& v, JointDescription& j, bool own_travel) {
   v.table("calibration", Need::kOptional, [&] {
     v.number("scale", j.calibration.scale, {-0.05, 0.05}, Need::kOptional);
     v.number("offset_" + u, j.calibration.offset, {-50, 50}, Need::kOptional, unit);
+    // What most machines never measure stays out of their files.
+    v.unless_zero("backlash_" + u, j.calibration.backlash, {0, 5}, unit);
+    v.unless_zero("pitch_" + u, j.calibration.pitch, {0, 1000}, unit);
+    v.unless_zero("periodic_sine_" + u, j.calibration.periodic_sine, {-5, 5}, unit);
+    v.unless_zero("periodic_cosine_" + u, j.calibration.periodic_cosine, {-5, 5}, unit);
+    v.unless_zero("table_start_" + u, j.calibration.table_start, {-100000, 100000}, unit);
+    v.unless_zero("table_step_" + u, j.calibration.table_step, {0, 10000}, unit);
+    v.numbers("table_" + u, j.calibration.table, {-5, 5}, 1000, unit);
   });
 }
 
@@ -225,6 +250,19 @@ void visit_gcode(V& v, GcodeDescription& g) {
 }
 
 template <class V>
+void visit_correction(V& v, std::optional<M1Correction>& correction) {
+  v.optional_table("calibration", correction, [&](M1Correction& c) {
+    for (std::size_t i = 0; i < c.legs.size(); ++i)
+      v.table_unless_default("leg" + std::to_string(i + 1), c.legs[i], [&](M1LegCorrection& leg) {
+        v.vector3("foot_mm", leg.foot_mm, {-50, 50}, Need::kOptional);
+        v.vector3("rail", leg.rail, {-0.2, 0.2}, Need::kOptional);
+        v.vector3("attachment_mm", leg.attachment_mm, {-50, 50}, Need::kOptional);
+        v.number("length_mm", leg.length_mm, {-50, 50}, Need::kOptional);
+      });
+  });
+}
+
+template <class V>
 void visit_machine(V& v, MachineDescription& d) {
   v.text("name", d.name, Need::kRequired);
   v.text("jobs_directory", d.jobs_directory, Need::kOptional);
@@ -260,6 +298,8 @@ void visit_machine(V& v, MachineDescription& d) {
     visit_heater(v, "bed", d.thermal.bed);
   });
   visit_gcode(v, d.gcode);
+  if (!known_kind || d.kinematics.index() == 0 || d.kinematics.index() == 5)
+    visit_correction(v, d.geometry_calibration);
 }
 
 }  // namespace kinebus::machine_schema

@@ -74,6 +74,12 @@ class Writer {
   void number(std::string_view key, double value, Range, Need, double unit = 1) {
     line(key, decimal(value, unit));
   }
+  void unless_zero(std::string_view key, double value, Range, double unit) {
+    if (value != 0) line(key, decimal(value, unit));
+  }
+  void numbers(std::string_view key, const std::vector<double>& values, Range, std::size_t, double unit) {
+    if (!values.empty()) line(key, list(values, unit));
+  }
   template <typename T>
   void integer(std::string_view key, T value, std::int64_t, std::int64_t, Need) {
     line(key, std::to_string(static_cast<std::int64_t>(value)));

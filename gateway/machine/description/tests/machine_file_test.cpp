@@ -65,7 +65,7 @@ TEST(MachineFile, EveryMachineOfTheRepositoryLoadsAndHasKinematicsWithItsJoints)
     ASSERT_TRUE(again) << to_string(again.error());
     EXPECT_TRUE(*again == *machine) << entry.path();
   }
-  EXPECT_GE(files, 4);
+  EXPECT_GE(files, 8);
 }
 
 struct Wrong {
@@ -100,7 +100,7 @@ TEST(MachineFile, AWrongKeyIsRefusedWithItsLineWhatWasFoundAndWhatIsAllowed) {
       {"inverted = false ", "inverted = 0 ", "joint.tower1.inverted: found 0; expected true or false"},
       {"name = \"M1\"", "name = 1", "name: found 1; expected a text"},
       {"type = \"m1\"", "type = \"hexapod\"",
-       "kinematics.type: found 'hexapod'; expected one of \"m1\" \"cartesian\" \"corexy\" \"linear_delta\""},
+       "kinematics.type: found 'hexapod'; expected one of \"m1\" \"cartesian\" \"corexy\" \"linear_delta\" \"m4\" \"m5\""},
       {"budget = 0.6", "budget = 60", "bus.budget: found 60; expected a number in 0.05 .. 0.95"},
       {"bitrate = 1000000", "bitrate = 999999",
        "bus.bitrate: found 999999; expected a CiA 301 bit rate: 10000, 20000, 50000, 125000, 250000, 500000, "
@@ -205,6 +205,34 @@ TEST(MachineFile, AMirroredMechanismIsRefusedWithTheReason) {
   EXPECT_EQ(machine.error().front().key, "kinematics");
   EXPECT_NE(machine.error().front().expected.find("singular"), std::string::npos)
       << to_string(machine.error());
+}
+
+TEST(MachineFile, CalibrationBendsTheGeometryAndNotTheStatedOne) {
+  std::string text = write_machine(default_m1());
+  text += "\n[calibration.leg2]\nfoot_mm = [0.5, 0, 0]\nlength_mm = -0.25\n";
+  const auto machine = parse_machine(text, "calibrated");
+  ASSERT_TRUE(machine) << to_string(machine.error());
+  EXPECT_EQ(std::get<M1Geometry>(machine->kinematics).legs[1].length_mm, 640);
+  JointVector nominal{}, measured{};
+  const PoseVector pose{10, 20, 30, 0.1, 0, 0};
+  ASSERT_TRUE((*make_kinematics(default_m1()))->inverse(Frame::kPart, pose, nominal));
+  ASSERT_TRUE((*make_kinematics(*machine))->inverse(Frame::kPart, pose, measured));
+  EXPECT_EQ(nominal[0], measured[0]);
+  EXPECT_GT(std::abs(nominal[1] - measured[1]), 0.1);
+  EXPECT_EQ(nominal[2], measured[2]);
+  const auto refused =
+      parse_machine("[calibration.leg5]\nlength_mm = 1\n" + write_machine(default_m1()), "x");
+  EXPECT_FALSE(refused);
+}
+
+TEST(MachineFile, ACorrectionThatNoJointCanFollowIsRefused) {
+  MachineDescription d = default_m1();
+  d.joints[0].calibration.pitch = 2;
+  d.joints[0].calibration.periodic_sine = 0.1;
+  const auto refused = parse_machine(write_machine(d), "steep");
+  ASSERT_FALSE(refused);
+  EXPECT_NE(to_string(refused.error()).find("slope of 0.314159; expected at most 0.05"), std::string::npos)
+      << to_string(refused.error());
 }
 
 TEST(MachineFile, TextThatIsNoTomlIsRefusedWithTheLine) {
@@ -318,6 +346,20 @@ TEST(MachineFile, WhatIsWrittenReadsBackToTheLastBit) {
       j.accel_per_s2 = in(1000, 9000) * (j.rotary ? kRadPerDeg : 1);
       j.stop_accel_per_s2 = (j.accel_per_s2 + 10 * j.speed_per_s) * in(1.001, 2);
       j.calibration = {in(-0.01, 0.01), in(-1, 1) * (j.rotary ? kRadPerDeg : 1)};
+      const double unit = j.rotary ? kRadPerDeg : 1;
+      if (*rc::gen::arbitrary<bool>()) {
+        j.calibration.backlash = in(0, 0.1) * unit;
+        j.calibration.pitch = in(10, 40) * unit;
+        j.calibration.periodic_sine = in(-0.002, 0.002) * unit;
+        j.calibration.table_step = 50 * unit;
+        j.calibration.table = {in(-0.01, 0.01) * unit, in(-0.01, 0.01) * unit, in(-0.01, 0.01) * unit};
+      }
+    }
+    if (*rc::gen::arbitrary<bool>()) {
+      d.geometry_calibration.emplace();
+      d.geometry_calibration->legs[1].foot_mm = {in(-1, 1), in(-1, 1), 0};
+      d.geometry_calibration->legs[3].length_mm = in(-1, 1);
+      d.geometry_calibration->legs[3].rail = {in(-0.01, 0.01), in(-0.01, 0.01), 0};
     }
     d.path.axis_speed_per_s[kA] = in(0, 400) * kRadPerDeg;
     d.tolerances.blend_mm = in(0, 1);
