@@ -22,12 +22,10 @@
 
 #include "protocol/joblink/frame_codec.hpp"
 #include "protocol/joblink/kinebus.pb.h"
+#include "protocol/joblink/version.hpp"
 #include "protocol/time.hpp"
 
 namespace kinebus::joblink {
-
-inline constexpr std::uint32_t kVersionMajor = 1;
-inline constexpr std::uint32_t kVersionMinor = 0;
 
 /// Where the bytes of an upload come from: a file, a string.
 class UploadSource {

@@ -58,11 +58,14 @@ Result<std::int64_t, StoreError> JobStore::begin_run(const StoredRun& run) {
 }
 
 Result<void, StoreError> JobStore::end_run(std::int64_t id, RunResult result, double duration_s,
-                                           std::uint32_t line, std::string_view first_error) {
+                                           double estimate_s, std::uint32_t line,
+                                           std::string_view first_error) {
   Database::Statement update(
-      *database_, "UPDATE runs SET result = ?, duration = ?, line = ?, first_error = ? WHERE id = ?");
+      *database_,
+      "UPDATE runs SET result = ?, duration = ?, estimate = ?, line = ?, first_error = ? WHERE id = ?");
   return update.bind(static_cast<std::int64_t>(result))
       .bind(duration_s)
+      .bind(estimate_s)
       .bind(std::int64_t{line})
       .bind(first_error)
       .bind(id)

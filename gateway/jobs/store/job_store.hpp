@@ -118,8 +118,8 @@ class JobStore {
   /// Pre-flights in lists are those of this machine file (any text that names it).
   void set_machine(std::string machine) { machine_ = std::move(machine); }
   Result<std::int64_t, StoreError> begin_run(const StoredRun& run);
-  Result<void, StoreError> end_run(std::int64_t id, RunResult result, double duration_s, std::uint32_t line,
-                                   std::string_view first_error);
+  Result<void, StoreError> end_run(std::int64_t id, RunResult result, double duration_s, double estimate_s,
+                                   std::uint32_t line, std::string_view first_error);
   /// Newest first, with ids below `before` (0: all).
   Result<std::vector<StoredRun>, StoreError> history(std::int64_t before, std::size_t max);
 

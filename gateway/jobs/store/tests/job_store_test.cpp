@@ -218,10 +218,9 @@ TEST_F(JobStoreTest, FilesPutInOrTakenOutByHandAreSeenAtTheNextStart) {
 
 TEST_F(JobStoreTest, HistoryTellsHowEachRunEnded) {
   EXPECT_EQ(put("a", "1"), "");
-  const auto first =
-      store_->begin_run({.name = "a", .sha256 = sha256_of("1"), .begun_unix_s = 10, .estimate_s = 60});
+  const auto first = store_->begin_run({.name = "a", .sha256 = sha256_of("1"), .begun_unix_s = 10});
   ASSERT_TRUE(first);
-  EXPECT_TRUE(store_->end_run(*first, RunResult::kComplete, 61.5, 900, ""));
+  EXPECT_TRUE(store_->end_run(*first, RunResult::kComplete, 61.5, 60, 900, ""));
   const auto second = store_->begin_run({.name = "a", .sha256 = sha256_of("1"), .begun_unix_s = 100});
   ASSERT_TRUE(second);
   reopen();

@@ -37,7 +37,7 @@ std::string text_of(int version) {
     // Stored by the process before, which was killed before it could say so.
     if (!begun->stored && (!store->append(begun->id, 0, text) || !store->commit(begun->id, version)))
       ::_exit(2);
-    if (!store->end_run(*run, RunResult::kComplete, 1, 1, "")) ::_exit(3);
+    if (!store->end_run(*run, RunResult::kComplete, 1, 1, 1, "")) ::_exit(3);
     if (::write(pipe, "x", 1) != 1) ::_exit(1);
   }
 }

@@ -1,0 +1,31 @@
+#include "gateway/sessions/event_log.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace kinebus {
+
+void EventLog::add(joblink::Event event) {
+  event.set_id(++newest_);
+  if (event.kind() == joblink::EVENT_ALARM) {
+    if (alarms_.size() >= kAlarmCapacity) alarms_.pop_front();
+    alarms_.push_back(event);
+  }
+  if (events_.size() >= kCapacity) events_.pop_front();
+  events_.push_back(std::move(event));
+}
+
+const joblink::Event* EventLog::after(std::uint64_t id) const {
+  const auto found = std::upper_bound(events_.begin(), events_.end(), id,
+                                      [](std::uint64_t i, const joblink::Event& e) { return i < e.id(); });
+  return found != events_.end() ? &*found : nullptr;
+}
+
+std::vector<joblink::Event> EventLog::list(std::uint64_t after_id, std::size_t max, bool alarms_only) const {
+  std::vector<joblink::Event> found;
+  for (const joblink::Event& event : alarms_only ? alarms_ : events_)
+    if (event.id() > after_id && found.size() < max) found.push_back(event);
+  return found;
+}
+
+}  // namespace kinebus

@@ -1,0 +1,185 @@
+#include "gateway/sessions/job_link_server.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "gateway/sessions/job_check_task.hpp"
+#include "gateway/sessions/job_link_session.hpp"
+#include "gateway/sessions/messages.hpp"
+#include "protocol/joblink/sha256.hpp"
+#include "protocol/joblink/version.hpp"
+
+namespace kinebus {
+namespace {
+
+/// So often a running job is looked at for the history; its end is seen at once by its event.
+constexpr LocalTime kRecordPeriod = std::chrono::milliseconds{500};
+
+joblink::MachineInfo info_of(const MachineDescription& machine) {
+  const auto kinematics = make_kinematics(machine);
+  return to_message(machine, kinematics ? (*kinematics)->bed_reference() : PoseVector{});
+}
+
+}  // namespace
+
+JobLinkServer::JobLinkServer(Gateway& gateway, const MachineDescription& machine, JobStore& store,
+                             Worker& worker, MachineFilePort& machine_file, Control& control, Options options)
+    : gateway_(gateway),
+      machine_(machine),
+      store_(store),
+      worker_(worker),
+      machine_file_(machine_file),
+      control_(control),
+      options_(std::move(options)),
+      run_id_(std::make_shared<std::int64_t>(0)),
+      machine_info_(info_of(machine)) {
+  worker_.post([&store = store_, mark = options_.machine_mark] { store.set_machine(mark); }, [] {});
+}
+
+JobLinkServer::~JobLinkServer() = default;
+
+std::unique_ptr<ByteSession> JobLinkServer::open(LocalTime now, SessionInfo info) {
+  if (sessions_.size() >= options_.max_sessions) return nullptr;
+  return std::make_unique<JobLinkSession>(*this, ++last_session_, std::move(info), now);
+}
+
+JobLinkSession* JobLinkServer::find(std::uint64_t session) {
+  const auto found = sessions_.find(session);
+  return found != sessions_.end() ? found->second : nullptr;
+}
+
+void JobLinkServer::answer(const Asker& asker, joblink::Reply reply) {
+  JobLinkSession* session = find(asker.session);
+  if (session == nullptr) return;
+  joblink::ServerMessage message;
+  *message.mutable_reply() = std::move(reply);
+  message.mutable_reply()->set_request_id(asker.request);
+  session->answered();
+  session->send(message);
+}
+
+void JobLinkServer::refuse(const Asker& asker, joblink::Problem error) {
+  joblink::Reply reply;
+  *reply.mutable_error() = std::move(error);
+  answer(asker, std::move(reply));
+}
+
+joblink::Problem JobLinkServer::no_control() const {
+  return problem(joblink::ERROR_NO_CONTROL, {},
+                 control_.name_of(control_.holder()) + " has control of the machine",
+                 "ask for it to be handed over, or take control by force");
+}
+
+void JobLinkServer::welcome(LocalTime now, JobLinkSession& session, const joblink::Hello& hello,
+                            joblink::HelloReply& reply) {
+  latest_ = now;
+  // The same client may be back before its old stream is known to be dead.
+  for (const auto& [id, other] : sessions_)
+    if (other != &session && !hello.resume_key().empty() && other->resume_key() == hello.resume_key() &&
+        other->client() != 0) {
+      other->superseded(now);
+      break;
+    }
+  const ClientId client = control_.attach(hello.client_name().substr(0, 100), session.transport());
+  if (!vanished_key_.empty() && vanished_key_ == hello.resume_key() && control_.take(client, false))
+    vanished_key_.clear();
+  const std::string key =
+      joblink::sha256_of(options_.secret + "/" + std::to_string(++keys_made_)).substr(0, 16);
+  session.welcomed(client, key);
+  reply.set_version_major(joblink::kVersionMajor);
+  reply.set_version_minor(joblink::kVersionMinor);
+  reply.set_gateway_version(options_.version);
+  reply.set_machine_name(machine_info_.name());
+  reply.set_gateway_id(options_.gateway_id);
+  reply.set_client_id(client);
+  reply.set_resume_key(key);
+  for (const char* what : {"upload", "check", "history", "console", "work_offset", "machine_file", "events"})
+    reply.add_capabilities(what);
+  reply.set_max_chunk_bytes(JobLinkSession::kMaxChunk);
+  reply.set_upload_window_bytes(JobLinkSession::kUploadWindow);
+  reply.set_event_id(events_.newest());
+}
+
+double JobLinkServer::unix_s(LocalTime now) const {
+  return options_.unix_s_at_zero + to_seconds(now);
+}
+
+void JobLinkServer::tell(LocalTime now, joblink::Event event) {
+  if (event.time_s() == 0) event.set_time_s(to_seconds(now));
+  event.set_unix_s(options_.unix_s_at_zero + event.time_s());
+  events_.add(std::move(event));
+}
+
+void JobLinkServer::on_event(LocalTime now, const MachineEvent& event) {
+  latest_ = now;
+  recorder_.on_event(event);
+  tell(now, to_message(event));
+  // A job's end is looked at now: the next job may begin before the next period.
+  if (event.kind == MachineEvent::Kind::kState) record_run(now);
+}
+
+const std::string& JobLinkServer::status_message(LocalTime now) {
+  if (now == status_at_) return status_bytes_;
+  status_at_ = now;
+  joblink::ServerMessage message;
+  joblink::Status& status = *message.mutable_status();
+  status = to_message(gateway_.status(), machine_);
+  status.set_controller(control_.holder());
+  for (const Control::Client& client : control_.clients()) {
+    joblink::ClientInfo& info = *status.add_clients();
+    info.set_id(client.id);
+    info.set_name(client.name);
+    info.set_transport(client.transport);
+  }
+  status_bytes_ = message.SerializeAsString();
+  return status_bytes_;
+}
+
+void JobLinkServer::run_begins(const std::string& name, const std::string& sha256) {
+  recorder_.begin(latest_);
+  run_id_ = std::make_shared<std::int64_t>(0);
+  StoredRun run{.name = name, .sha256 = sha256, .begun_unix_s = unix_s(latest_)};
+  worker_.post(
+      [&store = store_, id = run_id_, run = std::move(run)] {
+        if (const auto begun = store.begin_run(run)) *id = *begun;
+      },
+      [] {});
+}
+
+void JobLinkServer::record_run(LocalTime now) {
+  if (!recorder_.active()) return;
+  next_record_ = now + kRecordPeriod;
+  const auto ended = recorder_.on_status(gateway_.status());
+  if (!ended) return;
+  static constexpr RunResult kResults[] = {RunResult::kComplete, RunResult::kCancelled, RunResult::kRefused,
+                                           RunResult::kFailed};
+  worker_.post(
+      [&store = store_, id = run_id_, ended = *ended] {
+        if (*id != 0)
+          static_cast<void>(store.end_run(*id, kResults[static_cast<std::size_t>(ended.result)],
+                                          ended.duration_s, ended.estimate_s, ended.line, ended.first_error));
+      },
+      [this, now] {
+        joblink::Event event;
+        event.set_kind(joblink::EVENT_JOBS);
+        tell(now, std::move(event));
+      });
+}
+
+void JobLinkServer::on_time(LocalTime now) {
+  latest_ = now;
+  if (now >= next_record_) record_run(now);
+  if (control_.holder() == told_holder_) return;
+  told_holder_ = control_.holder();
+  joblink::Event event;
+  event.set_kind(joblink::EVENT_CONTROL);
+  event.set_client(told_holder_);
+  event.set_words(told_holder_ != 0 ? control_.name_of(told_holder_) + " has control" : "nobody has control");
+  tell(now, std::move(event));
+}
+
+LocalTime JobLinkServer::next_deadline() const {
+  return recorder_.active() ? next_record_ : LocalTime::max();
+}
+
+}  // namespace kinebus

@@ -1,0 +1,115 @@
+#pragma once
+// The gateway's end of the job link, sans-IO: several clients at once, of whom one commands the machine and
+// all may watch.
+//
+//   open() -> a session for each stream (byte_session.hpp); the owner moves its bytes
+//   on_event: news of the machine, to all who watch        on_time: history of runs, control that moved
+//
+// What waits for the disk goes through the Worker; the control loop never does.
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "gateway/jobs/store/job_store.hpp"
+#include "gateway/machine/gateway.hpp"
+#include "gateway/sessions/byte_session.hpp"
+#include "gateway/sessions/control.hpp"
+#include "gateway/sessions/event_log.hpp"
+#include "gateway/sessions/machine_file_port.hpp"
+#include "gateway/sessions/run_recorder.hpp"
+#include "gateway/sessions/worker.hpp"
+#include "protocol/joblink/kinebus.pb.h"
+
+namespace kinebus {
+
+struct MachineDescription;
+class JobLinkSession;
+class JobCheckTask;
+
+/// Which stream a session is on, and what it must prove.
+struct SessionInfo {
+  std::string transport = "local";  ///< shown to clients: "local", "usb", "tcp 10.0.0.7"
+  std::string token;                ///< must be said in the hello; empty: none is needed
+};
+
+class JobLinkServer {
+ public:
+  struct Options {
+    std::string version;        ///< of the gateway
+    std::string gateway_id;     ///< the same over restarts
+    std::string secret = "?";   ///< random, of this start: makes the keys of clients that come back
+    std::string machine_mark;   ///< names the machine file in use: pre-flights stored are valid for it alone
+    double unix_s_at_zero = 0;  ///< wall time at time 0 of the monotonic clock
+    LocalTime silence_limit =
+        std::chrono::seconds{4};  ///< a client that says nothing for so long has vanished
+    std::size_t max_sessions = 32;
+  };
+
+  /// All of them must outlive the server and its sessions. `store` is touched by `worker` alone.
+  JobLinkServer(Gateway& gateway, const MachineDescription& machine, JobStore& store, Worker& worker,
+                MachineFilePort& machine_file, Control& control, Options options);
+  ~JobLinkServer();
+  JobLinkServer(const JobLinkServer&) = delete;
+  JobLinkServer& operator=(const JobLinkServer&) = delete;
+
+  /// nullptr: too many sessions.
+  std::unique_ptr<ByteSession> open(LocalTime now, SessionInfo info);
+
+  void on_event(LocalTime now, const MachineEvent& event);
+  void on_time(LocalTime now);
+  LocalTime next_deadline() const;
+
+ private:
+  friend class JobLinkSession;
+  friend class JobRequests;
+  friend class MachineRequests;
+
+  /// What a request may use to answer, now or later.
+  struct Asker {
+    std::uint64_t session = 0;
+    std::uint32_t request = 0;
+  };
+  JobLinkSession* find(std::uint64_t session);
+  /// Gives the client its number, and its control back if it lost it by vanishing.
+  void welcome(LocalTime now, JobLinkSession& session, const joblink::Hello& hello,
+               joblink::HelloReply& reply);
+  /// Sends the reply if the asker is still there.
+  void answer(const Asker& asker, joblink::Reply reply);
+  void refuse(const Asker& asker, joblink::Problem problem);
+  void tell(LocalTime now, joblink::Event event);
+  joblink::Problem no_control() const;
+  double unix_s(LocalTime now) const;
+  void run_begins(const std::string& name, const std::string& sha256);
+  const std::string& status_message(LocalTime now);
+  void record_run(LocalTime now);
+
+  Gateway& gateway_;
+  const MachineDescription& machine_;
+  JobStore& store_;
+  Worker& worker_;
+  MachineFilePort& machine_file_;
+  Control& control_;
+  Options options_;
+  EventLog events_;
+  RunRecorder recorder_;
+  std::shared_ptr<std::int64_t> run_id_;  ///< of the history; written by the worker alone
+  joblink::MachineInfo machine_info_;
+
+  std::unordered_map<std::uint64_t, JobLinkSession*> sessions_;
+  std::uint64_t last_session_ = 0;
+  std::string vanished_key_;  ///< of the client that lost control by vanishing
+  std::uint64_t keys_made_ = 0;
+  ClientId told_holder_ = 0;
+  LocalTime next_record_{0}, latest_{0};
+
+  std::vector<std::shared_ptr<JobCheckTask>> checks_;
+  std::string status_bytes_;  ///< the last status made, for all sessions of one instant
+  LocalTime status_at_ = LocalTime::min();
+};
+
+}  // namespace kinebus

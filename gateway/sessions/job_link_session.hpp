@@ -1,0 +1,76 @@
+#pragma once
+// One client's conversation on one stream: frames, hello, what it is told without asking, and how much of it
+// is taken at once.
+
+#include <cstdint>
+#include <string>
+
+#include "gateway/sessions/job_link_server.hpp"
+#include "protocol/joblink/frame_codec.hpp"
+
+namespace kinebus {
+
+class JobLinkSession : public ByteSession {
+ public:
+  static constexpr std::size_t kMaxChunk = 128U << 10;
+  static constexpr std::size_t kUploadWindow = 1U << 20;
+
+  JobLinkSession(JobLinkServer& server, std::uint64_t id, SessionInfo info, LocalTime now);
+  ~JobLinkSession() override;
+
+  void on_bytes(LocalTime now, std::span<const std::uint8_t> bytes) override;
+  void on_time(LocalTime now) override;
+  LocalTime next_deadline() const override;
+  std::span<const std::uint8_t> next_bytes() override;
+  void on_bytes_sent(std::size_t count) override;
+  bool wants_bytes() const override;
+  bool ended() const override { return ended_; }
+  void on_closed(LocalTime now, std::string_view why) override;
+
+  std::uint64_t id() const { return id_; }
+  ClientId client() const { return client_; }
+  const std::string& resume_key() const { return resume_key_; }
+  const std::string& transport() const { return info_.transport; }
+  void welcomed(ClientId client, std::string resume_key);
+  void send(const joblink::ServerMessage& message);
+  /// Bytes of an upload are with the worker.
+  void owe(std::size_t bytes) { owed_bytes_ += bytes; }
+  void paid(std::size_t bytes);
+  std::uint32_t upload() const { return upload_; }
+  void set_upload(std::uint32_t upload) { upload_ = upload; }
+  /// A reply that comes later counts until it is sent.
+  void answered() { --open_requests_; }
+  /// The same client speaks on another stream now.
+  void superseded(LocalTime now);
+
+ private:
+  void process(LocalTime now);
+  void take(LocalTime now, const joblink::FrameView& frame);
+  void begin(LocalTime now, const joblink::FrameView& frame);
+  void hello(LocalTime now, const joblink::ClientMessage& message);
+  void request(LocalTime now, const joblink::ClientMessage& message);
+  void leave(LocalTime now);
+  void resynchronise(LocalTime now, const char* why);
+  void write(std::string_view message);
+  bool full() const;
+
+  JobLinkServer& server_;
+  std::uint64_t id_;
+  SessionInfo info_;
+  joblink::FrameReader reader_;
+  joblink::SessionSequence incoming_;
+  std::uint32_t session_ = 0, sequence_ = 0;
+  std::string out_;
+  std::size_t out_sent_ = 0;
+
+  ClientId client_ = 0;  ///< 0: no hello yet
+  std::string resume_key_;
+  LocalTime last_heard_{0}, status_period_{0}, next_status_ = LocalTime::max(), now_{0};
+  bool watches_events_ = false, ended_ = false;
+  std::uint64_t told_event_ = 0;
+  std::size_t owed_bytes_ = 0;
+  int open_requests_ = 0;
+  std::uint32_t upload_ = 0;
+};
+
+}  // namespace kinebus

@@ -1,0 +1,291 @@
+#include "gateway/sessions/job_requests.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "gateway/sessions/job_check_task.hpp"
+#include "gateway/sessions/job_link_session.hpp"
+#include "gateway/sessions/messages.hpp"
+#include "protocol/joblink/frame_codec.hpp"
+#include "protocol/joblink/sha256.hpp"
+
+namespace kinebus {
+namespace {
+
+using joblink::ClientMessage;
+using joblink::Reply;
+
+constexpr std::size_t kMaxRead = 512U << 10;
+constexpr std::size_t kMaxMachineFile = 512U << 10;
+constexpr std::size_t kMaxChecks = 8;
+
+Reply upload_reply(const UploadProgress& progress) {
+  Reply reply;
+  reply.mutable_upload()->set_upload_id(progress.id);
+  reply.mutable_upload()->set_received_bytes(progress.received_bytes);
+  reply.mutable_upload()->set_stored(progress.stored);
+  return reply;
+}
+
+template <typename T>
+Reply error_reply(const Result<T, StoreError>& result) {
+  Reply reply;
+  *reply.mutable_error() = problem(result.error());
+  return reply;
+}
+
+joblink::Event jobs_changed(const std::string& name) {
+  joblink::Event event;
+  event.set_kind(joblink::EVENT_JOBS);
+  event.set_job(name);
+  return event;
+}
+
+}  // namespace
+
+bool JobRequests::take(const Asker& asker, const ClientMessage& message) {
+  switch (message.request_case()) {
+    case ClientMessage::kUploadBegin:
+      begin_upload(asker, message.upload_begin());
+      return true;
+    case ClientMessage::kUploadChunk:
+      chunk(asker, message.upload_chunk());
+      return true;
+    case ClientMessage::kUploadCommit:
+      commit(asker, message.upload_commit());
+      return true;
+    case ClientMessage::kUploadAbort:
+      abort(asker, message.upload_abort());
+      return true;
+    case ClientMessage::kListJobs:
+      list(asker);
+      return true;
+    case ClientMessage::kDeleteJob:
+      remove(asker, message.delete_job().name());
+      return true;
+    case ClientMessage::kReadJob:
+      read(asker, message.read_job());
+      return true;
+    case ClientMessage::kCheckJob:
+      check(asker, message.check_job().name());
+      return true;
+    case ClientMessage::kGetHistory:
+      history(asker, message.get_history());
+      return true;
+    case ClientMessage::kReadMachineFile:
+      read_machine_file(asker);
+      return true;
+    case ClientMessage::kCheckMachineFile:
+      check_machine_file(asker, message.check_machine_file().text());
+      return true;
+    case ClientMessage::kWriteMachineFile:
+      write_machine_file(asker, message.write_machine_file());
+      return true;
+    default:
+      return false;
+  }
+}
+
+void JobRequests::begin_upload(const Asker& asker, const joblink::UploadBegin& request) {
+  UploadIdentity identity{request.name(), request.size_bytes(), request.sha256()};
+  server_.worker_.ask(
+      [&store = server_.store_, identity = std::move(identity), replace = request.replace(),
+       unix_s = server_.unix_s(now_)] { return store.begin_upload(identity, replace, unix_s); },
+      [&server = server_, asker](const Result<UploadProgress, StoreError>& begun) {
+        JobLinkSession* session = server.find(asker.session);
+        if (session != nullptr && begun) session->set_upload(begun->id);
+        server.answer(asker, begun ? upload_reply(*begun) : error_reply(begun));
+      });
+}
+
+void JobRequests::chunk(const Asker& asker, const joblink::UploadChunk& request) {
+  const std::size_t size = request.data().size();
+  session_.owe(size);
+  server_.worker_.ask([&store = server_.store_, id = request.upload_id(), offset = request.offset_bytes(),
+                       data = request.data()] { return store.append(id, offset, data); },
+                      [&server = server_, asker, size](const Result<UploadProgress, StoreError>& taken) {
+                        server.answer(asker, taken ? upload_reply(*taken) : error_reply(taken));
+                        if (JobLinkSession* session = server.find(asker.session)) session->paid(size);
+                      });
+}
+
+void JobRequests::commit(const Asker& asker, const joblink::UploadCommit& request) {
+  server_.worker_.ask([&store = server_.store_, id = request.upload_id(),
+                       unix_s = server_.unix_s(now_)] { return store.commit(id, unix_s); },
+                      [&server = server_, asker, now = now_](const Result<UploadProgress, StoreError>& done) {
+                        if (JobLinkSession* session = server.find(asker.session)) session->set_upload(0);
+                        server.answer(asker, done ? upload_reply(*done) : error_reply(done));
+                        if (done) server.tell(now, jobs_changed({}));
+                      });
+}
+
+void JobRequests::abort(const Asker& asker, const joblink::UploadAbort& request) {
+  if (session_.upload() == request.upload_id()) session_.set_upload(0);
+  server_.worker_.post([&store = server_.store_, id = request.upload_id(),
+                        discard = request.discard()] { store.abort(id, discard); },
+                       [&server = server_, asker] { server.answer(asker, {}); });
+}
+
+void JobRequests::list(const Asker& asker) {
+  server_.worker_.ask([&store = server_.store_] { return store.list(); },
+                      [&server = server_, asker](const Result<JobListing, StoreError>& listing) {
+                        if (!listing) return server.answer(asker, error_reply(listing));
+                        Reply reply;
+                        joblink::JobList& list = *reply.mutable_jobs();
+                        for (const StoredJob& job : listing->jobs) *list.add_jobs() = to_message(job);
+                        list.set_used_bytes(listing->used_bytes);
+                        list.set_quota_bytes(listing->quota_bytes);
+                        list.set_free_bytes(listing->free_bytes);
+                        server.answer(asker, std::move(reply));
+                      });
+}
+
+void JobRequests::remove(const Asker& asker, const std::string& name) {
+  if (server_.gateway_.status().job == name)
+    return server_.refuse(asker, problem(joblink::ERROR_JOB_IN_USE, name, "this job is running"));
+  server_.worker_.ask([&store = server_.store_, name] { return store.remove(name); },
+                      [&server = server_, asker, name, now = now_](const Result<void, StoreError>& removed) {
+                        server.answer(asker, removed ? Reply() : error_reply(removed));
+                        if (removed) server.tell(now, jobs_changed(name));
+                      });
+}
+
+void JobRequests::read(const Asker& asker, const joblink::ReadJob& request) {
+  struct Read {
+    Result<std::string, StoreError> text;
+    std::uint64_t size = 0;
+  };
+  const std::size_t max = std::min<std::size_t>(request.max_bytes(), kMaxRead);
+  server_.worker_.ask(
+      [&store = server_.store_, name = request.name(), offset = request.offset_bytes(), max] {
+        Read read{store.read(name, offset, max), 0};
+        if (const auto job = store.find(name)) read.size = job->size_bytes;
+        return read;
+      },
+      [&server = server_, asker, offset = request.offset_bytes()](Read read) {
+        if (!read.text) return server.answer(asker, error_reply(read.text));
+        Reply reply;
+        reply.mutable_job_text()->set_offset_bytes(offset);
+        reply.mutable_job_text()->set_size_bytes(read.size);
+        reply.mutable_job_text()->set_data(std::move(*read.text));
+        server.answer(asker, std::move(reply));
+      });
+}
+
+void JobRequests::check(const Asker& asker, const std::string& name) {
+  if (server_.checks_.size() >= kMaxChecks)
+    return server_.refuse(
+        asker, problem(joblink::ERROR_BUSY, name, "too many jobs are being checked: ask again later"));
+  auto task =
+      std::make_shared<JobCheckTask>(server_.store_, server_.machine_, server_.options_.machine_mark, name);
+  server_.checks_.push_back(task);
+  task->run(
+      server_.worker_,
+      [&server = server_, name](double progress) {
+        joblink::Event event;
+        event.set_kind(joblink::EVENT_PREFLIGHT);
+        event.set_job(name);
+        event.set_progress(progress);
+        server.tell(server.latest_, std::move(event));
+      },
+      [&server = server_, asker,
+       task = task.get()](const Result<joblink::PreflightResult, StoreError>& result) {
+        Reply reply;
+        if (result)
+          *reply.mutable_preflight() = *result;
+        else
+          reply = error_reply(result);
+        server.answer(asker, std::move(reply));
+        std::erase_if(server.checks_, [&](const auto& t) { return t.get() == task; });
+      });
+}
+
+void JobRequests::history(const Asker& asker, const joblink::GetHistory& request) {
+  const std::size_t max = request.max_runs() == 0 ? 100 : request.max_runs();
+  server_.worker_.ask(
+      [&store = server_.store_, before = static_cast<std::int64_t>(request.before_id() & INT64_MAX), max] {
+        return store.history(before, max);
+      },
+      [&server = server_, asker](const Result<std::vector<StoredRun>, StoreError>& runs) {
+        if (!runs) return server.answer(asker, error_reply(runs));
+        Reply reply;
+        reply.mutable_history();
+        for (const StoredRun& run : *runs) *reply.mutable_history()->add_runs() = to_message(run);
+        server.answer(asker, std::move(reply));
+      });
+}
+
+void JobRequests::read_machine_file(const Asker& asker) {
+  server_.worker_.ask(
+      [&file = server_.machine_file_] { return file.read(); },
+      [&server = server_, asker](const Result<MachineFilePort::Text, std::string>& text) {
+        if (!text) return server.refuse(asker, problem(joblink::ERROR_STORAGE, "machine file", text.error()));
+        Reply reply;
+        joblink::MachineFile& file = *reply.mutable_machine_file();
+        file.set_text(text->text);
+        file.set_path(text->path);
+        file.set_sha256(joblink::sha256_of(text->text));
+        file.set_writable(text->writable);
+        file.set_restart_needed(!text->path.empty() &&
+                                joblink::to_hex(file.sha256()) != server.options_.machine_mark);
+        server.answer(asker, std::move(reply));
+      });
+}
+
+void JobRequests::check_machine_file(const Asker& asker, const std::string& text) {
+  if (text.size() > kMaxMachineFile)
+    return server_.refuse(asker,
+                          problem(joblink::ERROR_BAD_VALUE, "text", "a machine file has at most 512 KiB"));
+  server_.worker_.ask(
+      [text] {
+        const auto parsed = parse_machine(text, "machine file");
+        return parsed ? MachineFileErrors() : parsed.error();
+      },
+      [&server = server_, asker](const MachineFileErrors& errors) {
+        Reply reply;
+        *reply.mutable_machine_file_check() = to_message(errors);
+        server.answer(asker, std::move(reply));
+      });
+}
+
+void JobRequests::write_machine_file(const Asker& asker, const joblink::WriteMachineFile& request) {
+  if (!server_.control_.may_command(session_.client())) return server_.refuse(asker, server_.no_control());
+  if (request.text().size() > kMaxMachineFile)
+    return server_.refuse(asker,
+                          problem(joblink::ERROR_BAD_VALUE, "text", "a machine file has at most 512 KiB"));
+  struct Written {
+    MachineFileErrors errors;
+    std::string failure;
+    bool conflict = false;
+  };
+  server_.worker_.ask(
+      [&file = server_.machine_file_, text = request.text(), expected = request.expected_sha256()] {
+        Written written;
+        if (const auto parsed = parse_machine(text, "machine file"); !parsed) {
+          written.errors = parsed.error();
+          return written;
+        }
+        if (const auto present = file.read(); !expected.empty() && present)
+          written.conflict = joblink::sha256_of(present->text) != expected;
+        if (written.conflict) return written;
+        if (const auto stored = file.write(text); !stored) written.failure = stored.error();
+        return written;
+      },
+      [&server = server_, asker](const Written& written) {
+        if (written.conflict)
+          return server.refuse(asker, problem(joblink::ERROR_CONFLICT, "machine file",
+                                              "the file was changed by somebody else: read it again"));
+        if (!written.failure.empty())
+          return server.refuse(asker, problem(joblink::ERROR_STORAGE, "machine file", written.failure));
+        Reply reply;
+        *reply.mutable_machine_file_check() = to_message(written.errors);
+        if (!written.errors.empty())
+          *reply.mutable_error() =
+              problem(joblink::ERROR_BAD_VALUE, written.errors.front().key, to_string(written.errors.front()),
+                      written.errors.front().expected);
+        if (!written.errors.empty()) reply.mutable_error()->set_line(written.errors.front().line);
+        server.answer(asker, std::move(reply));
+      });
+}
+
+}  // namespace kinebus

@@ -1,0 +1,29 @@
+#pragma once
+// Requests to the machine itself, and about who may make them.
+
+#include "gateway/sessions/job_link_server.hpp"
+
+namespace kinebus {
+
+class MachineRequests {
+ public:
+  MachineRequests(JobLinkServer& server, JobLinkSession& session, LocalTime now)
+      : server_(server), session_(session), now_(now) {}
+  /// False: not one of these.
+  bool take(const JobLinkServer::Asker& asker, const joblink::ClientMessage& message);
+
+ private:
+  using Asker = JobLinkServer::Asker;
+  bool take_free(const Asker& asker, const joblink::ClientMessage& message);
+  bool take_control_request(const Asker& asker, const joblink::ClientMessage& message);
+  Result<void, Refusal> carry_out(const joblink::ClientMessage& message);
+  Result<void, Refusal> set_work_offset(const joblink::SetWorkOffset& request);
+  void start(const Asker& asker, const std::string& name);
+  void console(const Asker& asker, const std::string& line);
+
+  JobLinkServer& server_;
+  JobLinkSession& session_;
+  LocalTime now_;
+};
+
+}  // namespace kinebus

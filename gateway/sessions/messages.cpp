@@ -1,0 +1,370 @@
+#include "gateway/sessions/messages.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace kinebus {
+namespace {
+
+/// Text from a job may hold bytes that are no UTF-8, which a message cannot carry: they are shown as '?'.
+std::string clean(std::string_view text) {
+  std::string out;
+  out.reserve(text.size());
+  for (std::size_t i = 0; i < text.size();) {
+    const auto lead = static_cast<unsigned char>(text[i]);
+    const std::size_t length = lead < 0x80                   ? 1
+                               : lead >= 0xC2 && lead < 0xE0 ? 2
+                               : lead >= 0xE0 && lead < 0xF0 ? 3
+                               : lead >= 0xF0 && lead < 0xF5 ? 4
+                                                             : 0;
+    bool whole = length > 0 && i + length <= text.size();
+    for (std::size_t k = 1; whole && k < length; ++k)
+      whole = (static_cast<unsigned char>(text[i + k]) & 0xC0) == 0x80;
+    if (whole && length == 3) {
+      const auto second = static_cast<unsigned char>(text[i + 1]);
+      whole = !(lead == 0xE0 && second < 0xA0) && !(lead == 0xED && second > 0x9F);
+    }
+    if (whole && length == 4) {
+      const auto second = static_cast<unsigned char>(text[i + 1]);
+      whole = !(lead == 0xF0 && second < 0x90) && !(lead == 0xF4 && second > 0x8F);
+    }
+    if (whole) {
+      out.append(text.substr(i, length));
+      i += length;
+    } else {
+      out += '?';
+      ++i;
+    }
+  }
+  return out;
+}
+
+void set_range(joblink::Range& message, const Interval& interval) {
+  message.set_min(interval.min);
+  message.set_max(interval.max);
+}
+void set_vector(joblink::Vector& message, const Vector3& v) {
+  message.set_x_mm(v[0]);
+  message.set_y_mm(v[1]);
+  message.set_z_mm(v[2]);
+}
+void set_heater(joblink::Heater& message, const HeaterStatus& heater) {
+  message.set_actual_celsius(heater.actual_celsius);
+  message.set_target_celsius(heater.target_celsius);
+}
+void set_reach(joblink::Reach& reach, const PoseLimits& limits) {
+  set_range(*reach.mutable_x_mm(), limits.x_mm);
+  set_range(*reach.mutable_y_mm(), limits.y_mm);
+  set_range(*reach.mutable_z_mm(), limits.z_mm);
+  set_range(*reach.mutable_a_rad(), limits.a_rad);
+  set_range(*reach.mutable_c_rad(), limits.c_rad);
+  reach.set_radius_mm(limits.radius_mm);
+}
+
+constexpr std::uint16_t kStateBits = 0x6F;  // CiA 402
+constexpr bool operation_enabled(std::uint16_t statusword) {
+  return (statusword & kStateBits) == 0x27;
+}
+constexpr bool in_fault(std::uint16_t statusword) {
+  return (statusword & 0x4F) == 0x08 || (statusword & 0x4F) == 0x0F;
+}
+
+void set_node(joblink::NodeStatus& message, const NodeStatus& node, const MachineDescription& machine,
+              bool moves) {
+  message.set_id(node.id);
+  message.set_present(node.present);
+  message.set_nmt_state(node.nmt_state);
+  message.set_inputs(node.inputs);
+  message.set_synchronised(node.synchronised);
+  message.set_sync_error_s(node.sync_error_us * 1e-6);
+  message.set_queue_records(static_cast<std::uint32_t>(std::max(node.queue_records, 0)));
+  message.set_stopped(node.stopped);
+  message.set_records_sent(node.records_sent);
+  message.set_emergencies(node.emergencies);
+  for (std::size_t axis = 0; axis < node.statusword.size(); ++axis) {
+    joblink::AxisStatus& a = *message.add_axes();
+    a.set_statusword(node.statusword[axis]);
+    a.set_enabled(node.present && operation_enabled(node.statusword[axis]));
+    a.set_fault(node.present && in_fault(node.statusword[axis]));
+    for (const JointDescription& joint : machine.joints)
+      if (joint.node_id == node.id && joint.axis == axis && a.enabled())
+        a.set_current_a((moves ? joint.run_current_ma : joint.hold_current_ma) * 1e-3);
+  }
+}
+
+struct GeometryMessage {
+  joblink::MachineInfo& info;
+  void operator()(const M1Geometry& g) const {
+    info.set_kinematics("m1");
+    set_reach(*info.mutable_reach(), g.limits);
+    for (const M1Leg& leg : g.legs) {
+      joblink::LegGeometry::Leg& l = *info.mutable_legs()->add_legs();
+      set_vector(*l.mutable_foot(), leg.foot_mm);
+      set_vector(*l.mutable_rail(), leg.rail);
+      set_vector(*l.mutable_attachment(), leg.attachment_mm);
+      l.set_length_mm(leg.length_mm);
+      l.set_connector_mm(leg.connector_mm);
+      l.set_carriage_above(leg.carriage_above);
+      set_range(*l.mutable_travel_mm(), leg.travel_mm);
+    }
+    set_vector(*info.mutable_legs()->mutable_nozzle(), g.nozzle_mm);
+  }
+  void operator()(const CartesianGeometry& g) const {
+    info.set_kinematics("cartesian");
+    joblink::Reach& reach = *info.mutable_reach();
+    set_range(*reach.mutable_x_mm(), g.x_mm);
+    set_range(*reach.mutable_y_mm(), g.y_mm);
+    set_range(*reach.mutable_z_mm(), g.z_mm);
+    info.mutable_cartesian()->set_table(g.has_table);
+    if (!g.has_table) return;
+    set_range(*reach.mutable_a_rad(), g.table.a_rad);
+    set_range(*reach.mutable_c_rad(), g.table.c_rad);
+    set_vector(*info.mutable_cartesian()->mutable_pivot(), g.table.pivot_mm);
+  }
+  void operator()(const CoreXyGeometry& g) const {
+    info.set_kinematics("corexy");
+    joblink::Reach& reach = *info.mutable_reach();
+    set_range(*reach.mutable_x_mm(), g.x_mm);
+    set_range(*reach.mutable_y_mm(), g.y_mm);
+    set_range(*reach.mutable_z_mm(), g.z_mm);
+    info.mutable_cartesian()->set_core_xy(true);
+  }
+  void operator()(const LinearDeltaGeometry& g) const {
+    info.set_kinematics("delta");
+    set_reach(*info.mutable_reach(), g.limits);
+    info.mutable_delta()->set_radius_mm(g.radius_mm);
+    info.mutable_delta()->set_arm_length_mm(g.arm_length_mm);
+    for (const double angle : g.tower_angle_rad) info.mutable_delta()->add_tower_angle_rad(angle);
+  }
+};
+
+std::string input_words(const SwitchInput& input) {
+  const std::string axis = input.axis == 0 ? " A" : " B";
+  switch (input.function) {
+    case InputFunction::kNone:
+      return "";
+    case InputFunction::kHome:
+      return "home" + axis;
+    case InputFunction::kPositiveLimit:
+      return "positive limit" + axis;
+    case InputFunction::kNegativeLimit:
+      return "negative limit" + axis;
+    case InputFunction::kEmergencyStop:
+      return "emergency stop";
+    case InputFunction::kProbe:
+      return "probe";
+  }
+  return "";
+}
+
+}  // namespace
+
+bool at_rest(MachineState state) {
+  switch (state) {
+    case MachineState::kOff:
+    case MachineState::kUnhomed:
+    case MachineState::kReady:
+    case MachineState::kHeld:
+    case MachineState::kStopped:
+    case MachineState::kAlarm:
+      return true;
+    default:
+      return false;
+  }
+}
+
+void set_pose(joblink::Pose& message, const PoseVector& pose) {
+  message.set_x_mm(pose[kX]);
+  message.set_y_mm(pose[kY]);
+  message.set_z_mm(pose[kZ]);
+  message.set_a_rad(pose[kA]);
+  message.set_c_rad(pose[kC]);
+  message.set_e_mm(pose[kE]);
+}
+
+PoseVector pose_of(const joblink::Pose& message) {
+  return {message.x_mm(), message.y_mm(), message.z_mm(), message.a_rad(), message.c_rad(), message.e_mm()};
+}
+
+joblink::Status to_message(const MachineStatus& s, const MachineDescription& machine) {
+  joblink::Status m;
+  m.set_time_s(to_seconds(s.now));
+  m.set_state(static_cast<joblink::State>(s.state));
+  m.set_state_words(std::string(to_string(s.state)));
+  m.set_doing(clean(s.doing));
+  m.set_at_rest(at_rest(s.state));
+  m.set_positions_known(s.positions_known);
+  set_pose(*m.mutable_tool(), s.pose);
+  set_pose(*m.mutable_machine(), s.machine_pose);
+  for (int i = 0; i < s.joint_count; ++i) m.add_joints(s.joints[static_cast<std::size_t>(i)]);
+  m.set_path_time_s(s.path_time_s);
+  m.set_rate(s.rate);
+  m.set_feed_override(s.feed_override);
+  m.set_job(clean(s.job));
+  m.set_line(s.line);
+  m.set_progress(s.progress);
+  m.set_elapsed_s(s.elapsed_s);
+  m.set_remaining_s(s.remaining_s);
+  set_heater(*m.mutable_hotend(), s.hotend);
+  set_heater(*m.mutable_bed(), s.bed);
+  m.set_fan(s.fan);
+  m.set_bus_load(s.bus_load);
+  m.set_bus_load_peak(s.bus_load_peak);
+  for (const NodeStatus& node : s.nodes) set_node(*m.add_nodes(), node, machine, s.rate > 0);
+  joblink::Counters& c = *m.mutable_counters();
+  c.set_frames_sent(s.counters.frames_sent);
+  c.set_frames_received(s.counters.frames_received);
+  c.set_segments_sent(s.counters.segments_sent);
+  c.set_malformed_frames(s.counters.malformed_frames);
+  c.set_foreign_frames(s.counters.foreign_frames);
+  c.set_sequence_errors(s.counters.sequence_errors);
+  c.set_underruns(s.counters.underruns);
+  c.set_checkpoint_errors(s.counters.checkpoint_errors);
+  c.set_sdo_aborts(s.counters.sdo_aborts);
+  c.set_sdo_timeouts(s.counters.sdo_timeouts);
+  c.set_bus_slowdowns(s.counters.bus_slowdowns);
+  c.set_starvation_holds(s.counters.starvation_holds);
+  return m;
+}
+
+joblink::Event to_message(const MachineEvent& event) {
+  joblink::Event m;
+  m.set_kind(static_cast<joblink::EventKind>(event.kind));
+  m.set_time_s(to_seconds(event.when));
+  m.set_state(static_cast<joblink::State>(event.state));
+  m.set_code(event.code);
+  m.set_node(event.node);
+  m.set_line(event.line);
+  m.set_words(clean(event.words));
+  m.set_advice(clean(event.advice));
+  return m;
+}
+
+joblink::MachineInfo to_message(const MachineDescription& machine, const PoseVector& bed_reference) {
+  joblink::MachineInfo m;
+  m.set_name(clean(machine.name));
+  for (const JointDescription& joint : machine.joints) {
+    joblink::Joint& j = *m.add_joints();
+    j.set_name(clean(joint.name));
+    j.set_rotary(joint.rotary);
+    j.set_node(joint.node_id);
+    j.set_axis(joint.axis);
+    set_range(*j.mutable_travel(), joint.travel);
+    j.set_speed_per_s(joint.speed_per_s);
+    j.set_accel_per_s2(joint.accel_per_s2);
+    j.set_run_current_a(joint.run_current_ma * 1e-3);
+    j.set_hold_current_a(joint.hold_current_ma * 1e-3);
+    if (joint.homing) j.set_home_switch(joint.homing->switch_input);
+  }
+  for (const NodeDescription& node : machine.nodes) {
+    joblink::Node& n = *m.add_nodes();
+    n.set_id(node.id);
+    for (const SwitchInput& input : node.inputs) n.add_inputs(input_words(input));
+  }
+  std::visit(GeometryMessage{m}, machine.kinematics);
+  set_pose(*m.mutable_bed_reference(), bed_reference);
+  m.set_tool_speed_mm_per_s(machine.path.tool_speed_mm_per_s);
+  m.set_tool_accel_mm_per_s2(machine.path.tool_accel_mm_per_s2);
+  m.set_hotend_max_celsius(machine.thermal.hotend.present ? machine.thermal.hotend.max_c : 0);
+  m.set_bed_max_celsius(machine.thermal.bed.present ? machine.thermal.bed.max_c : 0);
+  m.set_filament_diameter_mm(machine.gcode.filament_diameter_mm);
+  m.set_bus(clean(machine.bus.interface));
+  return m;
+}
+
+joblink::PreflightSummary to_message(const StoredPreflight& found) {
+  joblink::PreflightSummary m;
+  m.set_errors(found.errors);
+  m.set_warnings(found.warnings);
+  m.set_lines(found.lines);
+  m.set_motion_s(found.motion_s);
+  m.set_dwell_s(found.dwell_s);
+  return m;
+}
+
+joblink::Job to_message(const StoredJob& job) {
+  joblink::Job m;
+  m.set_name(clean(job.name));
+  m.set_sha256(job.sha256);
+  m.set_size_bytes(job.size_bytes);
+  m.set_stored_unix_s(job.stored_unix_s);
+  if (job.preflight) *m.mutable_preflight() = to_message(*job.preflight);
+  m.set_times_run(job.times_run);
+  if (job.last_run) *m.mutable_last_run() = to_message(*job.last_run);
+  return m;
+}
+
+joblink::JobRun to_message(const StoredRun& run) {
+  joblink::JobRun m;
+  m.set_id(static_cast<std::uint64_t>(run.id));
+  m.set_name(clean(run.name));
+  m.set_sha256(run.sha256);
+  m.set_begun_unix_s(run.begun_unix_s);
+  m.set_duration_s(run.duration_s);
+  m.set_estimate_s(run.estimate_s);
+  m.set_result(static_cast<joblink::JobResult>(run.result));
+  m.set_line(run.line);
+  m.set_first_error(clean(run.first_error));
+  return m;
+}
+
+joblink::PreflightResult to_message(const JobReport& report, const ProblemList& problems) {
+  joblink::PreflightResult m;
+  joblink::PreflightSummary& summary = *m.mutable_summary();
+  summary.set_errors(static_cast<std::uint32_t>(problems.errors()));
+  summary.set_warnings(static_cast<std::uint32_t>(problems.warnings()));
+  summary.set_lines(report.lines);
+  summary.set_motion_s(report.motion_s);
+  summary.set_dwell_s(report.dwell_s);
+  m.set_moves(report.moves);
+  m.set_pauses(report.pauses);
+  m.set_heat_waits(report.heat_waits);
+  for (const Problem& p : problems.all()) {
+    joblink::JobProblem& out = *m.add_problems();
+    out.set_error(p.severity == Problem::Severity::kError);
+    out.set_line(p.line);
+    out.set_column(p.column);
+    out.set_words(clean(p.words));
+  }
+  return m;
+}
+
+joblink::MachineFileCheck to_message(const MachineFileErrors& errors) {
+  joblink::MachineFileCheck m;
+  for (const MachineFileError& error : errors) {
+    joblink::Problem& p = *m.add_problems();
+    p = problem(joblink::ERROR_BAD_VALUE, error.key, error.found.empty() ? "missing" : "found " + error.found,
+                error.expected);
+    p.set_line(error.line);
+  }
+  return m;
+}
+
+joblink::Problem problem(joblink::ErrorCode code, std::string place, std::string rule, std::string expected) {
+  joblink::Problem p;
+  p.set_code(code);
+  p.set_place(clean(place));
+  p.set_rule(clean(rule));
+  p.set_expected(clean(expected));
+  return p;
+}
+
+joblink::Problem problem(const Refusal& refusal) {
+  return problem(joblink::ERROR_MACHINE_STATE, {}, refusal.words);
+}
+
+joblink::Problem problem(const StoreError& error) {
+  using Kind = StoreError::Kind;
+  static constexpr std::pair<Kind, joblink::ErrorCode> kCodes[] = {
+      {Kind::kName, joblink::ERROR_NAME},        {Kind::kNoSuchJob, joblink::ERROR_NO_SUCH_JOB},
+      {Kind::kQuota, joblink::ERROR_QUOTA},      {Kind::kDiskFull, joblink::ERROR_QUOTA},
+      {Kind::kReadOnly, joblink::ERROR_STORAGE}, {Kind::kChecksum, joblink::ERROR_CHECKSUM},
+      {Kind::kOrder, joblink::ERROR_BAD_VALUE},  {Kind::kDisk, joblink::ERROR_STORAGE},
+  };
+  joblink::ErrorCode code = joblink::ERROR_STORAGE;
+  for (const auto& [kind, number] : kCodes)
+    if (kind == error.kind) code = number;
+  return problem(code, {}, error.words);
+}
+
+}  // namespace kinebus

@@ -1,0 +1,52 @@
+#include "gateway/sessions/run_recorder.hpp"
+
+#include <algorithm>
+
+namespace kinebus {
+
+void RunRecorder::begin(LocalTime now) {
+  *this = RunRecorder();
+  active_ = true;
+  begun_ = now;
+}
+
+void RunRecorder::on_event(const MachineEvent& event) {
+  if (!active_) return;
+  switch (event.kind) {
+    case MachineEvent::Kind::kState:
+      ran_ = ran_ || event.state == MachineState::kRunning;
+      break;
+    case MachineEvent::Kind::kProblem:
+      if (first_error_.empty() && event.words.starts_with("error"))
+        first_error_ = "line " + std::to_string(event.line) + ": " + event.words;
+      break;
+    case MachineEvent::Kind::kAlarm:
+      if (!alarm_) first_error_ = event.words;
+      alarm_ = true;
+      break;
+    case MachineEvent::Kind::kFinished:
+      finished_ = true;
+      break;
+    case MachineEvent::Kind::kMessage:
+      break;
+  }
+}
+
+std::optional<RunRecorder::Ended> RunRecorder::on_status(const MachineStatus& status) {
+  if (!active_) return std::nullopt;
+  line_ = std::max(line_, status.line);
+  if (estimate_s_ == 0 && status.state == MachineState::kRunning && status.remaining_s > 0)
+    estimate_s_ = status.elapsed_s + status.remaining_s;
+  const bool over = status.state == MachineState::kReady || status.state == MachineState::kUnhomed ||
+                    status.state == MachineState::kOff;
+  if (!over) return std::nullopt;
+  active_ = false;
+  Ended ended{Result::kCancelled, to_seconds(status.now - begun_), estimate_s_, line_, first_error_};
+  if (alarm_)
+    ended.result = Result::kFailed;
+  else if (finished_)
+    ended.result = ran_ ? Result::kComplete : Result::kRefused;
+  return ended;
+}
+
+}  // namespace kinebus

@@ -1,0 +1,40 @@
+#pragma once
+// Watches the machine while a job runs, and says at its end what the history is to hold.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "gateway/machine/event.hpp"
+#include "gateway/machine/status.hpp"
+
+namespace kinebus {
+
+class RunRecorder {
+ public:
+  enum class Result : std::uint8_t { kComplete, kCancelled, kRefused, kFailed };
+  struct Ended {
+    Result result{};
+    double duration_s = 0;
+    double estimate_s = 0;  ///< when it began to move
+    std::uint32_t line = 0;
+    std::string first_error;
+  };
+
+  /// A job was accepted at `now`.
+  void begin(LocalTime now);
+  bool active() const { return active_; }
+  void on_event(const MachineEvent& event);
+  /// Called now and then while active, and after every event.
+  std::optional<Ended> on_status(const MachineStatus& status);
+
+ private:
+  bool active_ = false, ran_ = false, finished_ = false;
+  LocalTime begun_{0};
+  std::uint32_t line_ = 0;
+  double estimate_s_ = 0;
+  std::string first_error_;
+  bool alarm_ = false;
+};
+
+}  // namespace kinebus
