@@ -37,7 +37,7 @@ bool settled(MachineState s) {
 struct Checkers {
   Checkers(const MachineDescription& machine, const Kinematics& kinematics, Simulation& simulation,
            ByteSource& text, const PoseVector& start)
-      : tracking(machine, kinematics, simulation.gateway()),
+      : tracking(machine, kinematics, [&simulation](PathTime tau) { return simulation.planned_pose(tau); }),
         path(machine, kinematics, text, start),
         joints(machine) {}
   TrackingChecker tracking;

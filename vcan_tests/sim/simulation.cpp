@@ -19,13 +19,33 @@ Simulation::Simulation(const MachineDescription& machine, const Kinematics& kine
     : description_(machine),
       kinematics_(kinematics),
       options_(options),
-      gateway_(machine, {.epoch = static_cast<std::uint8_t>(1 + options.seed % 250)}),
       nodes_(std::move(nodes)),
       random_(options.seed ^ 0x9E3779B97F4A7C15ULL),
       warm_{kinematics.bed_reference(), kinematics.bed_reference()} {
   for (const JointDescription& joint : machine.joints)
     for (std::size_t n = 0; n < machine.nodes.size(); ++n)
       if (machine.nodes[n].id == joint.node_id) node_of_joint_.push_back(static_cast<int>(n));
+  start_gateway();
+}
+
+std::uint8_t Simulation::next_epoch() {
+  return static_cast<std::uint8_t>(1 + (options_.seed + gateways_.size()) % 250);
+}
+
+void Simulation::kill_gateway() {
+  alive_ = false;
+}
+
+void Simulation::start_gateway() {
+  gateways_.push_back(std::make_unique<Gateway>(description_, Gateway::Options{.epoch = next_epoch()}));
+  alive_ = true;
+  asked_ = BusTime::max();
+}
+
+std::optional<PlannedPose> Simulation::planned_pose(PathTime tau) const {
+  for (auto gateway = gateways_.rbegin(); gateway != gateways_.rend(); ++gateway)
+    if (const auto pose = (*gateway)->planned_pose(tau)) return pose;
+  return std::nullopt;
 }
 
 void Simulation::hash(BusTime when, const CanFrame& frame) {
@@ -36,25 +56,28 @@ void Simulation::hash(BusTime when, const CanFrame& frame) {
 }
 
 BusTime Simulation::gateway_due() {
-  const BusTime deadline = gateway_.next_deadline();
+  if (!alive_) return BusTime::max();
+  const BusTime deadline = gateway().next_deadline();
   if (deadline != asked_) {
     asked_ = deadline;
     woken_ = deadline;
     if (deadline != BusTime::max() && options_.gateway_latency_max > BusTime{0})
       woken_ += BusTime{static_cast<std::int64_t>(
           random_() % static_cast<std::uint64_t>(options_.gateway_latency_max.count()))};
+    if (deadline != BusTime::max() && options_.gateway_delay) woken_ += options_.gateway_delay(now_);
   }
   // A task that has just run does not run again in the same instant.
   return std::max({woken_, served_ + kShortestTurn, now_});
 }
 
 void Simulation::serve_gateway(BusTime now) {
+  if (!alive_) return;
   while (nodes_->can_send()) {
-    const auto frame = gateway_.next_frame(now);
+    const auto frame = gateway().next_frame(now);
     if (!frame) break;
     nodes_->send(now, *frame);
   }
-  while (auto event = gateway_.next_event())
+  while (auto event = gateway().next_event())
     if (on_event) on_event(*event);
 }
 
@@ -68,15 +91,16 @@ void Simulation::step(BusTime until) {
     now_ = std::max(now_, got->when);
     hash(got->when, got->frame);
     if (on_frame) on_frame(got->when, got->frame);
+    if (!alive_) continue;
     if (got->own)
-      gateway_.on_frame_sent(got->when, got->frame);
+      gateway().on_frame_sent(got->when, got->frame);
     else
-      gateway_.on_frame(got->when, got->frame);
+      gateway().on_frame(got->when, got->frame);
     stirred = true;
   }
   if (done) now_ = std::max(now_, next);
   if (done && now_ >= gateway_time) {
-    gateway_.on_time(now_);
+    gateway().on_time(now_);
     served_ = now_;
     asked_ = BusTime::max();
     stirred = true;
@@ -102,7 +126,7 @@ void Simulation::run_until(BusTime until) {
 bool Simulation::run_until_state(const std::function<bool(MachineState)>& done, BusTime limit) {
   serve_gateway(now_);
   const BusTime until = now_ + limit;
-  while (!done(gateway_.state())) {
+  while (!done(gateway().state())) {
     if (now_ >= until) return false;
     step(until);
   }
@@ -140,7 +164,7 @@ Sample Simulation::sample() {
   for (std::size_t axis = 0; axis < s.pose.size(); ++axis) s.pose[axis] = 2 * warm_[0][axis] - warm_[1][axis];
   if (kinematics_.forward(Frame::kPart, s.joints, s.pose)) warm_ = {s.pose, warm_[0]};
   if (in_job) {
-    s.planned = gateway_.planned_pose(s.tau);
+    s.planned = planned_pose(s.tau);
     s.line = s.planned ? s.planned->line : last_.line;
   }
   last_ = s;

@@ -27,6 +27,8 @@ struct SimulationOptions {
   /// The gateway's task wakes up late by up to this (Linux).
   BusTime gateway_latency_max = std::chrono::microseconds{200};
   BusTime sample_period = std::chrono::milliseconds{1};
+  /// How much later than that the gateway's task wakes up at this time (a slow or busy computer).
+  std::function<BusTime(BusTime now)> gateway_delay;
 };
 
 class Simulation {
@@ -37,7 +39,14 @@ class Simulation {
   Simulation(const MachineDescription& machine, const Kinematics& kinematics, const SimulationOptions& options,
              std::unique_ptr<NodeMachine> nodes);
 
-  Gateway& gateway() { return gateway_; }
+  Gateway& gateway() { return *gateways_.back(); }
+  /// The daemon is dead: nothing is served until start_gateway(). What it had planned can still be asked.
+  void kill_gateway();
+  /// A new one, with nothing but its machine file.
+  void start_gateway();
+  bool gateway_alive() const { return alive_; }
+  /// The planned pose at a path time by the gateway that runs, or ran last.
+  std::optional<PlannedPose> planned_pose(PathTime tau) const;
   NodeMachine& machine() { return *nodes_; }
   BusTime now() const { return now_; }
 
@@ -58,6 +67,7 @@ class Simulation {
   std::uint64_t trace_hash() const { return hash_; }
 
  private:
+  std::uint8_t next_epoch();
   void step(BusTime until);
   void serve_gateway(BusTime now);
   void hash(BusTime when, const CanFrame& frame);
@@ -66,7 +76,8 @@ class Simulation {
   const MachineDescription& description_;
   const Kinematics& kinematics_;
   SimulationOptions options_;
-  Gateway gateway_;
+  std::vector<std::unique_ptr<Gateway>> gateways_;  // the last one is the one that runs
+  bool alive_ = true;
   std::unique_ptr<NodeMachine> nodes_;
   std::vector<int> node_of_joint_;
   std::mt19937_64 random_;

@@ -16,6 +16,7 @@ class NodeMachine {
     BusTime when{0};
     bool own = false;  ///< the gateway's frame, now sent
     CanFrame frame;
+    BusModel::Port from = 0;
   };
   NodeMachine() = default;
   NodeMachine(const NodeMachine&) = delete;

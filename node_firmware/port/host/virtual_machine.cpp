@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace kinebus {
 namespace {
@@ -10,13 +12,14 @@ namespace {
 constexpr BusTime kFinestCheck{1'000};
 // Far from any switch, or at rest, it is still looked at so often.
 constexpr BusTime kCoarsestCheck{50'000'000};
+constexpr BusTime kStalledCheck{1'000'000};
 constexpr int kMailboxes = 3;
 
 }  // namespace
 
 struct VirtualMachine::VirtualNode {
-  VirtualNode(const VirtualNodeOptions& o, BusModel::Port p)
-      : options(o), port(p), core(o.node, to_local(BusTime{0})) {}
+  VirtualNode(const VirtualNodeOptions& o, BusModel::Port p, int i)
+      : options(o), port(p), index(i), core(std::in_place, o.node, to_local(BusTime{0})) {}
 
   LocalTime to_local(BusTime t) const {
     return t + options.clock_offset +
@@ -29,17 +32,27 @@ struct VirtualMachine::VirtualNode {
     return BusTime{static_cast<std::int64_t>(std::ceil(since / (1 + options.clock_drift_ppm * 1e-6))) + 1};
   }
   double counts(int axis, BusTime at) {
-    return options.axes[static_cast<std::size_t>(axis)].start_counts +
-           static_cast<double>(core.position(to_local(at), axis)) / 4294967296.0;
+    const double start = options.axes[static_cast<std::size_t>(axis)].start_counts;
+    return core ? start + static_cast<double>(core->position(to_local(at), axis)) / 4294967296.0 : start;
   }
   BusTime next_due() const {
-    return std::min({deadline, next_check, pending.empty() ? BusTime::max() : pending.front().at});
+    if (!core || stalled) return next_check;
+    return std::min({deadline, next_check, pending.empty() ? BusTime::max() : pending.front().at,
+                     edges.empty() ? BusTime::max() : edges.front().at});
   }
 
   VirtualNodeOptions options;
   BusModel::Port port;
-  Node core;
+  int index;
+  std::optional<Node> core;  // none: without power
+  bool stalled = false;
   std::vector<Pending> pending;
+  struct RawEdge {
+    BusTime at{0};
+    int input = 0;
+    bool level = false;
+  };
+  std::vector<RawEdge> edges;  // raw levels to come, by time
   BusTime deadline{0};
   BusTime next_check{0};
   std::array<int, 2> switch_level{-1, -1};
@@ -49,7 +62,8 @@ VirtualMachine::VirtualMachine(const std::vector<VirtualNodeOptions>& nodes, std
                                int gateway_mailboxes)
     : gateway_(bus_.add_port(gateway_mailboxes)), random_(seed) {
   for (const VirtualNodeOptions& options : nodes)
-    nodes_.push_back(std::make_unique<VirtualNode>(options, bus_.add_port(kMailboxes)));
+    nodes_.push_back(
+        std::make_unique<VirtualNode>(options, bus_.add_port(kMailboxes), static_cast<int>(nodes_.size())));
 }
 
 VirtualMachine::~VirtualMachine() = default;
@@ -66,12 +80,27 @@ std::optional<VirtualMachine::Received> VirtualMachine::receive() {
 BusTime VirtualMachine::next_event() const {
   BusTime next = bus_.next_event();
   for (const auto& node : nodes_) next = std::min(next, node->next_due());
+  if (!gateway_pending_.empty()) next = std::min(next, gateway_pending_.front().at);
   return next;
 }
 
 void VirtualMachine::deliver(const BusModel::Delivery& delivery) {
-  received_.push_back({delivery.end, delivery.from == gateway_, delivery.frame});
+  std::vector<Arrival> arrivals;
+  const auto disturbed = [&](int station, BusTime at) -> std::vector<Arrival>& {
+    arrivals.assign(1, {at, delivery.frame});
+    arrival_hook_(station, arrivals);
+    return arrivals;
+  };
+  if (delivery.from == gateway_ || !arrival_hook_)
+    received_.push_back({delivery.end, delivery.from == gateway_, delivery.frame, delivery.from});
+  else
+    for (const Arrival& arrival : disturbed(kGatewayStation, delivery.end))
+      if (arrival.at <= delivery.end)
+        received_.push_back({delivery.end, false, arrival.frame, delivery.from});
+      else
+        take_in_at_gateway(arrival);
   for (const auto& node : nodes_) {
+    if (!node->core) continue;
     if (node->port == delivery.from) {
       serve(*node, delivery.end);  // its mailbox is free again
       continue;
@@ -80,25 +109,97 @@ void VirtualMachine::deliver(const BusModel::Delivery& delivery) {
     if (node->options.latency_max > BusTime{0})
       at += BusTime{static_cast<std::int64_t>(
           random_() % static_cast<std::uint64_t>(node->options.latency_max.count() + 1))};
-    // Interrupts are served in order: a later frame never overtakes an earlier one.
-    if (!node->pending.empty()) at = std::max(at, node->pending.back().at);
-    node->pending.push_back({at, delivery.frame});
+    if (!arrival_hook_) {
+      take_in(*node, {at, delivery.frame});
+      continue;
+    }
+    for (const Arrival& arrival : disturbed(node->index, at)) {
+      if (arrival.at == at) {
+        take_in(*node, arrival);
+        continue;
+      }
+      // Delayed on purpose: others may overtake it.
+      const auto place = std::upper_bound(node->pending.begin(), node->pending.end(), arrival,
+                                          [](const Arrival& a, const Arrival& b) { return a.at < b.at; });
+      node->pending.insert(place, arrival);
+    }
   }
+}
+
+void VirtualMachine::take_in(VirtualNode& node, Arrival arrival) {
+  if (node.stalled && node.pending.size() >= kStallQueue) {
+    node.core->count(NodeCounter::kRxOverrun);
+    return;
+  }
+  // Interrupts are served in order: a later frame never overtakes an earlier one.
+  if (!node.pending.empty() && !arrival_hook_) arrival.at = std::max(arrival.at, node.pending.back().at);
+  const auto place = std::upper_bound(node.pending.begin(), node.pending.end(), arrival,
+                                      [](const Arrival& a, const Arrival& b) { return a.at < b.at; });
+  node.pending.insert(place, arrival);
+}
+
+void VirtualMachine::take_in_at_gateway(const Arrival& arrival) {
+  const auto place = std::upper_bound(gateway_pending_.begin(), gateway_pending_.end(), arrival,
+                                      [](const Arrival& a, const Arrival& b) { return a.at < b.at; });
+  gateway_pending_.insert(place, arrival);
+}
+
+BusModel::Port VirtualMachine::node_port(int node) const {
+  return nodes_[static_cast<std::size_t>(node)]->port;
+}
+
+bool VirtualMachine::powered(int node) const {
+  return nodes_[static_cast<std::size_t>(node)]->core.has_value();
+}
+
+void VirtualMachine::set_power(int node, BusTime now, bool on) {
+  VirtualNode& n = *nodes_[static_cast<std::size_t>(node)];
+  if (on == n.core.has_value()) return;
+  n.pending.clear();
+  n.edges.clear();
+  n.stalled = false;
+  if (!on) {
+    for (int axis = 0; axis < 2; ++axis) n.options.axes[static_cast<std::size_t>(axis)].start_counts = n.counts(axis, now);
+    n.core.reset();
+    bus_.clear(n.port);
+    n.next_check = BusTime::max();
+    return;
+  }
+  n.core.emplace(n.options.node, n.to_local(now));
+  n.switch_level = {-1, -1};
+  n.next_check = now;
+  serve(n, now);
+}
+
+void VirtualMachine::set_stalled(int node, BusTime now, bool stalled) {
+  VirtualNode& n = *nodes_[static_cast<std::size_t>(node)];
+  if (!n.core || n.stalled == stalled) return;
+  n.stalled = stalled;
+  for (Pending& p : n.pending) p.at = std::max(p.at, stalled ? p.at : now);
+  if (!stalled) n.deadline = std::max(n.deadline, now);
+}
+
+void VirtualMachine::lose_steps(int node, int axis, double counts) {
+  nodes_[static_cast<std::size_t>(node)]->options.axes[static_cast<std::size_t>(axis)].start_counts += counts;
 }
 
 void VirtualMachine::serve(VirtualNode& node, BusTime now) {
   // Parameters are stored at once; a virtual node powers up with its defaults all the same.
-  if (!node.core.image_to_store().empty()) node.core.on_image_stored(true);
+  if (!node.core->image_to_store().empty()) node.core->on_image_stored(true);
   while (bus_.has_room(node.port)) {
-    const auto frame = node.core.next_frame();
+    const auto frame = node.core->next_frame();
     if (!frame) break;
     bus_.send(node.port, now, *frame);
   }
-  node.deadline = node.to_true(node.core.next_deadline());
+  node.deadline = node.to_true(node.core->next_deadline());
 }
 
 void VirtualMachine::check_switches(VirtualNode& node, BusTime now) {
   BusTime next = now + kCoarsestCheck;
+  if (node.stalled) {
+    node.next_check = now + kStalledCheck;
+    return;
+  }
   for (int axis = 0; axis < 2; ++axis) {
     const VirtualAxis& a = node.options.axes[static_cast<std::size_t>(axis)];
     if (a.switch_input == 0) continue;
@@ -107,7 +208,13 @@ void VirtualMachine::check_switches(VirtualNode& node, BusTime now) {
     const int level = active != a.active_low ? 1 : 0;
     if (level != node.switch_level[static_cast<std::size_t>(axis)]) {
       node.switch_level[static_cast<std::size_t>(axis)] = level;
-      node.core.on_switch(node.to_local(now), a.switch_input - 1, level == 1);
+      std::vector<Edge> edges{{now, level == 1}};
+      if (switch_hook_) switch_hook_(node.index, a.switch_input, edges);
+      for (const Edge& edge : edges)
+        if (edge.at <= now)
+          node.core->on_switch(node.to_local(now), a.switch_input - 1, edge.level);
+        else
+          node.edges.push_back({edge.at, a.switch_input, edge.level});
     }
     const BusTime nearest{static_cast<std::int64_t>(1e9 * std::abs(above) / a.max_counts_per_s)};
     next = std::min(next, now + std::max(nearest, kFinestCheck));
@@ -124,6 +231,11 @@ bool VirtualMachine::advance(BusTime now) {
         next = node->next_due();
         due = node.get();
       }
+    if (!gateway_pending_.empty() && gateway_pending_.front().at <= std::min(next, now)) {
+      received_.push_back({gateway_pending_.front().at, false, gateway_pending_.front().frame, -1});
+      gateway_pending_.erase(gateway_pending_.begin());
+      return false;
+    }
     if (next > now) return true;
     if (due == nullptr) {
       if (const auto delivery = bus_.advance(next)) {
@@ -133,12 +245,18 @@ bool VirtualMachine::advance(BusTime now) {
       continue;
     }
     if (due->next_check <= next) check_switches(*due, next);
+    if (due->stalled) continue;
+    if (!due->edges.empty() && due->edges.front().at <= next) {
+      const VirtualNode::RawEdge edge = due->edges.front();
+      due->edges.erase(due->edges.begin());
+      due->core->on_switch(due->to_local(next), edge.input - 1, edge.level);
+    }
     if (!due->pending.empty() && due->pending.front().at <= next) {
       const CanFrame frame = due->pending.front().frame;
       due->pending.erase(due->pending.begin());
-      due->core.on_frame(due->to_local(next), frame);
+      due->core->on_frame(due->to_local(next), frame);
     }
-    if (due->deadline <= next) due->core.on_time(due->to_local(next));
+    if (due->deadline <= next) due->core->on_time(due->to_local(next));
     serve(*due, next);
     // A deadline that stays in the past would stop time: the next turn is a microsecond later.
     due->deadline = std::max(due->deadline, next + BusTime{1'000});
@@ -151,16 +269,17 @@ double VirtualMachine::true_counts(int node, int axis, BusTime at) {
 
 PathTime VirtualMachine::path_time(int node, BusTime at) {
   VirtualNode& n = *nodes_[static_cast<std::size_t>(node)];
-  return n.core.path_time(n.to_local(at));
+  return n.core ? n.core->path_time(n.to_local(at)) : PathTime{0};
 }
 
 Node& VirtualMachine::node(int index) {
-  return nodes_[static_cast<std::size_t>(index)]->core;
+  return *nodes_[static_cast<std::size_t>(index)]->core;
 }
 
 void VirtualMachine::set_input(int node, BusTime at, int input, bool level) {
   VirtualNode& n = *nodes_[static_cast<std::size_t>(node)];
-  n.core.on_switch(n.to_local(at), input - 1, level);
+  if (!n.core) return;
+  n.core->on_switch(n.to_local(at), input - 1, level);
   serve(n, at);
 }
 

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <random>
@@ -37,9 +38,21 @@ struct VirtualNodeOptions {
 
 class VirtualMachine final : public NodeMachine {
  public:
-  struct Counters {
-    std::uint64_t receptions = 0;
+  static constexpr int kGatewayStation = -1;
+  /// A frame on its way into one station; a fault may drop, delay, double or change it.
+  struct Arrival {
+    BusTime at{0};
+    CanFrame frame;
   };
+  /// `station`: a node's place, or kGatewayStation. `arrivals` holds the one undisturbed.
+  using ArrivalHook = std::function<void(int station, std::vector<Arrival>& arrivals)>;
+  /// What an input of a node shows instead of the level that its carriage gives; times of further raw edges
+  /// (bounce) may be added. nullopt: this edge does not show.
+  struct Edge {
+    BusTime at{0};
+    bool level = false;
+  };
+  using SwitchHook = std::function<void(int node, int input, std::vector<Edge>& edges)>;
 
   VirtualMachine(const std::vector<VirtualNodeOptions>& nodes, std::uint64_t seed, int gateway_mailboxes = 1);
   ~VirtualMachine() override;
@@ -63,24 +76,45 @@ class VirtualMachine final : public NodeMachine {
   int node_count() const override { return static_cast<int>(nodes_.size()); }
   const BusModel& bus() const override { return bus_; }
 
+  // Faults.
+  BusModel& bus_for_faults() { return bus_; }
+  BusModel::Port gateway_port() const { return gateway_; }
+  BusModel::Port node_port(int node) const;
+  /// Another station on the bus, that nobody knows of.
+  BusModel::Port add_stranger(int mailboxes) { return bus_.add_port(mailboxes); }
+  void set_arrival_hook(ArrivalHook hook) { arrival_hook_ = std::move(hook); }
+  void set_switch_hook(SwitchHook hook) { switch_hook_ = std::move(hook); }
+  /// Off: the board is dead, its motors stand where they are. On again: it boots with its defaults.
+  void set_power(int node, BusTime now, bool on);
+  bool powered(int node) const;
+  /// Its main loop hangs, while interrupts go on: motors follow the plan, frames queue up to `kStallQueue`.
+  void set_stalled(int node, BusTime now, bool stalled);
+  /// The motor does not follow: the carriage is `counts` from where it should be, from now on.
+  void lose_steps(int node, int axis, double counts);
+
   /// A raw level on an input that no axis drives (E-stop button).
   void set_input(int node, BusTime at, int input, bool level) override;
 
  private:
   struct VirtualNode;
-  struct Pending {  // a delivered frame on its way through interrupt latency
-    BusTime at{0};
-    CanFrame frame;
-  };
+  using Pending = Arrival;  // a delivered frame on its way through interrupt latency
   void deliver(const BusModel::Delivery& delivery);
   void serve(VirtualNode& node, BusTime now);
   void check_switches(VirtualNode& node, BusTime now);
+
+  static constexpr std::size_t kStallQueue = 64;
+
+  void take_in(VirtualNode& node, Arrival arrival);
+  void take_in_at_gateway(const Arrival& arrival);
 
   BusModel bus_;
   BusModel::Port gateway_;
   std::vector<std::unique_ptr<VirtualNode>> nodes_;
   std::vector<Received> received_;
   std::size_t next_received_ = 0;
+  std::vector<Arrival> gateway_pending_;
+  ArrivalHook arrival_hook_;
+  SwitchHook switch_hook_;
   std::mt19937_64 random_;
 };
 

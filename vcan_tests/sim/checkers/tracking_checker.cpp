@@ -37,7 +37,7 @@ void TrackingChecker::check_tool(const Sample& sample) {
 
 void TrackingChecker::check_joints(const Sample& sample) {
   for (std::size_t n = 0; n < machine_.nodes.size(); ++n) {
-    const auto planned = gateway_.planned_pose(sample.node_tau[n]);
+    const auto planned = planned_(sample.node_tau[n]);
     JointVector q{};
     if (!planned || !kinematics_.inverse(planned->frame, planned->pose, q)) continue;
     for (std::size_t j = 0; j < machine_.joints.size(); ++j) {

@@ -2,6 +2,10 @@
 // The tool against the planned pose at equal path time, and every joint against q(tau) of its own node's path
 // time.
 
+#include <functional>
+#include <optional>
+#include <utility>
+
 #include "gateway/machine/description/machine_description.hpp"
 #include "gateway/machine/gateway.hpp"
 #include "vcan_tests/sim/sample.hpp"
@@ -10,8 +14,9 @@ namespace kinebus {
 
 class TrackingChecker {
  public:
-  TrackingChecker(const MachineDescription& machine, const Kinematics& kinematics, const Gateway& gateway)
-      : machine_(machine), kinematics_(kinematics), gateway_(gateway) {}
+  using Planned = std::function<std::optional<PlannedPose>(PathTime)>;
+  TrackingChecker(const MachineDescription& machine, const Kinematics& kinematics, Planned planned)
+      : machine_(machine), kinematics_(kinematics), planned_(std::move(planned)) {}
 
   void on_sample(const Sample& sample);
 
@@ -31,7 +36,7 @@ class TrackingChecker {
 
   const MachineDescription& machine_;
   const Kinematics& kinematics_;
-  const Gateway& gateway_;
+  Planned planned_;
   double max_tool_um_ = 0, max_joint_counts_ = 0, last_tool_um_ = 0, worst_time_s_ = 0,
          worst_joint_time_s_ = 0;
   int worst_joint_ = -1;
