@@ -122,7 +122,8 @@ std::optional<BusModel::Delivery> BusModel::advance(BusTime now) {
   on_wire_.reset();
   if (!spoilt)
     for (std::size_t port = 0; port < ports_.size(); ++port) {
-      int& counter = static_cast<Port>(port) == done.from ? ports_[port].errors.transmit : ports_[port].errors.receive;
+      int& counter =
+          static_cast<Port>(port) == done.from ? ports_[port].errors.transmit : ports_[port].errors.receive;
       counter = std::max(counter - 1, 0);
     }
   if (waiting_ > 0) arbitrate(free_at_);

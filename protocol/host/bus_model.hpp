@@ -1,7 +1,8 @@
 #pragma once
 // A CAN bus in virtual time: arbitration by identifier, frame lengths to the bit (stuffing included), and the
-// simultaneous end of frame for everybody. Errors on the wire destroy a frame for everybody; it is sent again,
-// and the error counters of ISO 11898-1 decide who becomes error-passive or bus-off. Used by the simulation and by the daemon's bus inside the process.
+// simultaneous end of frame for everybody. Errors on the wire destroy a frame for everybody; it is sent
+// again, and the error counters of ISO 11898-1 decide who becomes error-passive or bus-off. Used by the
+// simulation and by the daemon's bus inside the process.
 
 #include <array>
 #include <cstdint>
@@ -24,7 +25,7 @@ class BusModel {
   };
   struct Statistics {
     std::uint64_t frames = 0;
-    std::uint64_t bits = 0;  ///< intermission included
+    std::uint64_t bits = 0;    ///< intermission included
     std::uint64_t errors = 0;  ///< frames destroyed
   };
 
@@ -80,7 +81,7 @@ class BusModel {
   std::optional<Delivery> on_wire_;
   std::uint64_t wire_order_ = 0;
   bool abandoned_ = false;  // the sender of what is on the wire has gone meanwhile: it is not sent again
-  BusTime free_at_{0};  // the intermission after the last frame ends
+  BusTime free_at_{0};      // the intermission after the last frame ends
   int waiting_ = 0;
   std::uint64_t order_ = 0;
   Statistics statistics_;

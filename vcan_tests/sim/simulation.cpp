@@ -83,8 +83,8 @@ void Simulation::serve_gateway(BusTime now) {
 
 void Simulation::step(BusTime until) {
   const BusTime gateway_time = gateway_due();
-  const BusTime next = std::min(
-      {until, next_sample_, next_probe_, gateway_time, std::max(nodes_->next_event(), now_)});
+  const BusTime next =
+      std::min({until, next_sample_, next_probe_, gateway_time, std::max(nodes_->next_event(), now_)});
   const bool done = nodes_->advance(next);
   bool stirred = false;
   while (const auto got = nodes_->receive()) {
@@ -137,8 +137,7 @@ Probe Simulation::probe() {
   Probe p;
   p.time = now_;
   p.node_count = std::min(nodes_->node_count(), kMaxNodes);
-  for (int n = 0; n < p.node_count; ++n)
-    p.tau[static_cast<std::size_t>(n)] = nodes_->path_time(n, now_);
+  for (int n = 0; n < p.node_count; ++n) p.tau[static_cast<std::size_t>(n)] = nodes_->path_time(n, now_);
   return p;
 }
 

@@ -36,8 +36,8 @@ class Simulation {
   Simulation(const MachineDescription& machine, const Kinematics& kinematics,
              const SimulationOptions& options);
   /// With nodes of another make (firmware images on emulated boards) for the same machine description.
-  Simulation(const MachineDescription& machine, const Kinematics& kinematics, const SimulationOptions& options,
-             std::unique_ptr<NodeMachine> nodes);
+  Simulation(const MachineDescription& machine, const Kinematics& kinematics,
+             const SimulationOptions& options, std::unique_ptr<NodeMachine> nodes);
 
   Gateway& gateway() { return *gateways_.back(); }
   /// The daemon is dead: nothing is served until start_gateway(). What it had planned can still be asked.

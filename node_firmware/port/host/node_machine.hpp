@@ -1,6 +1,6 @@
 #pragma once
-// Nodes with motors and switches behind them, joined by a bus in virtual time, as the gateway's side sees them:
-// virtual nodes (VirtualMachine), or firmware images on emulated boards.
+// Nodes with motors and switches behind them, joined by a bus in virtual time, as the gateway's side sees
+// them: virtual nodes (VirtualMachine), or firmware images on emulated boards.
 
 #include <optional>
 

@@ -159,7 +159,8 @@ void VirtualMachine::set_power(int node, BusTime now, bool on) {
   n.edges.clear();
   n.stalled = false;
   if (!on) {
-    for (int axis = 0; axis < 2; ++axis) n.options.axes[static_cast<std::size_t>(axis)].start_counts = n.counts(axis, now);
+    for (int axis = 0; axis < 2; ++axis)
+      n.options.axes[static_cast<std::size_t>(axis)].start_counts = n.counts(axis, now);
     n.core.reset();
     bus_.clear(n.port);
     n.next_check = BusTime::max();
