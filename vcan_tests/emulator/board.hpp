@@ -3,6 +3,7 @@
 // and switches, wired as node_firmware/port/stm32f405/board.hpp says. One crystal: time is the processor's
 // cycles.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <deque>
@@ -58,6 +59,8 @@ class Board final : public Devices {
 
   /// True carriage position at the last run(), counts (51200 a turn) from the joint's zero.
   double true_counts(int axis) const;
+  /// TIM2's count at a time not long after now().
+  std::uint32_t local_counts(Cycle at) { return tim2_.read(0x24, std::max(at, cpu_.now())); }
   /// The level on switch input 0..6 from outside; inputs that an axis drives follow it.
   void set_input(int input, bool level);
   void set_supply(double volts);

@@ -49,3 +49,16 @@ int main() {
     wait_for_interrupt();
   }
 }
+
+// For a debugger, and for the emulator that looks into the image as one does (gdb: call debug_path_time(n));
+// the program itself never calls them.
+extern "C" {
+/// Path ticks at a count of local time.
+[[gnu::used, gnu::section(".kept.debug_calls")]] std::int64_t debug_path_time(std::uint32_t counts) {
+  return program ? program->path_time(counts).count() : 0;
+}
+/// What the control interrupt would take as command now: counts with 32 fractional bits.
+[[gnu::used, gnu::section(".kept.debug_calls")]] std::int64_t debug_position(int axis) {
+  return motion_plan.current().at(axis, local_counts()).position;
+}
+}

@@ -20,6 +20,7 @@ class NodeProgram {
   void pass();
   Node& node() { return node_; }
   LocalTime now() const { return now_; }
+  PathTime path_time(std::uint32_t counts) const { return node_.path_time(clock_.at(counts)); }
 
  private:
   bool take_inputs();

@@ -16,6 +16,7 @@ namespace kinebus::emulator {
 namespace {
 
 constexpr std::uint32_t kExcReturn = 0xFFFFFF00;
+constexpr std::uint32_t kCallReturn = 0xFFFFFF01;  // where a debugger's call returns to
 constexpr std::uint16_t kWfi = 0xBF30, kWfe = 0xBF20, kYield = 0xBF10;
 constexpr std::uint32_t kEntryCycles = 12, kReturnCycles = 10;
 constexpr std::uint32_t kControlFpca = 4, kControlSpsel = 2;
@@ -256,6 +257,10 @@ void CortexM4::count(std::uint32_t instructions, std::uint32_t cycles) {
 }
 
 void CortexM4::on_block(std::uint32_t address, std::uint32_t size) {
+  if (call_ != Call::kNone) {
+    if (++call_blocks_ > 1'000'000) uc_emu_stop(engine(uc_));
+    return;
+  }
   std::uint32_t cost = 0;
   if (address == skip_block_) {
     skip_block_ = 1;
@@ -271,7 +276,7 @@ void CortexM4::on_block(std::uint32_t address, std::uint32_t size) {
   }
   if (now_ < next_stop_) return;
 
-  if (stalled_until_ > now_) now_ = stalled_until_;
+  if (stalled_until_ > now_ && address - kFlash < kFlashSize) now_ = stalled_until_;
   serve_time();
   if (stop_asked_) limit_ = now_;
   if (!stop_asked_ && nvic_.any_pending() && take_exception(address)) {
@@ -430,6 +435,11 @@ void CortexM4::return_from_exception(std::uint32_t exc_return) {
 
 void CortexM4::on_intr(std::uint32_t number) {
   const std::uint32_t pc = read_register(uc_, UC_ARM_REG_PC);
+  if (call_ != Call::kNone) {
+    if ((number == 3 || number == 8) && (pc | 1) == kCallReturn) call_ = Call::kDone;
+    uc_emu_stop(engine(uc_));
+    return;
+  }
   if ((number == 3 || number == 8) && (pc | 1) >= kExcReturn) {
     return_from_exception(pc | 1);
     return;
@@ -491,6 +501,30 @@ void CortexM4::run(Cycle limit) {
     asleep_ = true;
   }
   stop_asked_ = false;
+}
+
+std::optional<std::uint64_t> CortexM4::call(std::uint32_t function, std::uint64_t argument) {
+  uc_context* saved = nullptr;
+  check(uc_context_alloc(engine(uc_), &saved), "context");
+  check(uc_context_save(engine(uc_), saved), "context");
+  // Below a frame that the interrupted code may use under its stack pointer.
+  const std::uint32_t sp = (read_register(uc_, UC_ARM_REG_SP) - 256) & ~7u;
+  write_register(uc_, UC_ARM_REG_SP, sp);
+  write_register(uc_, UC_ARM_REG_R0, static_cast<std::uint32_t>(argument));
+  write_register(uc_, UC_ARM_REG_R1, static_cast<std::uint32_t>(argument >> 32));
+  write_register(uc_, UC_ARM_REG_LR, kCallReturn);
+  write_register(uc_, UC_ARM_REG_ITSTATE, 0);
+  call_ = Call::kRunning;
+  call_blocks_ = 0;
+  uc_emu_start(engine(uc_), function | 1, 0, 0, 0);
+  const bool good = call_ == Call::kDone;
+  call_ = Call::kNone;
+  const std::uint64_t result =
+      std::uint64_t{read_register(uc_, UC_ARM_REG_R1)} << 32 | read_register(uc_, UC_ARM_REG_R0);
+  check(uc_context_restore(engine(uc_), saved), "context");
+  uc_context_free(saved);
+  if (!good) return std::nullopt;
+  return result;
 }
 
 void CortexM4::fail(const std::string& what) {

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -74,6 +75,12 @@ class CortexM4 {
     next_stop_ = 0;
   }
 
+  /// Calls a function of the program between two of its instructions, as a debugger does: no time passes, no
+  /// interrupt comes, registers are as before. Empty: it ran into a fault or took more than a million
+  /// instructions.
+  std::optional<std::uint64_t> call(std::uint32_t function, std::uint64_t argument);
+  bool asleep() const { return asleep_; }
+
   Cycle now() const { return now_; }
   std::uint64_t instructions() const { return instructions_; }
   const ExceptionCost& cost(int exception) const { return costs_[static_cast<std::size_t>(exception)]; }
@@ -130,6 +137,8 @@ class CortexM4 {
   std::uint32_t skip_block_ = 1;  // a block that is begun again after a stop is not counted twice
   bool asleep_ = false;
   bool stop_asked_ = false;
+  enum class Call : std::uint8_t { kNone, kRunning, kDone } call_ = Call::kNone;
+  std::uint64_t call_blocks_ = 0;
   Cycle stalled_until_ = 0;
   bool stopped_ = false;  // by on_block, at a limit
   bool flash_changed_ = false;

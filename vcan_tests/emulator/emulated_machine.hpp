@@ -1,0 +1,87 @@
+#pragma once
+// Emulated boards on one modelled bus, in one thread and one virtual time: the same firmware image in each,
+// the place of VirtualMachine in a simulation. Time goes on in quanta shorter than the shortest frame, so
+// that arbitration is exact.
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "node_firmware/port/host/node_machine.hpp"
+#include "protocol/canopen/lss.hpp"
+#include "vcan_tests/emulator/board.hpp"
+
+namespace kinebus::emulator {
+
+struct EmulatedNodeOptions {
+  BoardOptions board;
+  std::uint8_t node_id = 1;   ///< given by LSS before time zero, as a commissioning tool does
+  BusTime powered_before{0};  ///< how long before the others' commissioning it was switched on
+  double clock_drift_ppm = 0;
+};
+
+/// The boards that stand for these virtual nodes: same places, switches, crystals, power-up times.
+std::vector<EmulatedNodeOptions> boards_like(const std::vector<VirtualNodeOptions>& nodes);
+
+class EmulatedMachine final : public NodeMachine {
+ public:
+  /// Powers the boards up and gives them their node ids. Throws std::runtime_error when one does not answer.
+  EmulatedMachine(const ElfImage& image, const std::vector<EmulatedNodeOptions>& nodes,
+                  int gateway_mailboxes = 1);
+  ~EmulatedMachine() override;
+
+  bool can_send() const override { return bus_.has_room(gateway_); }
+  void send(BusTime now, const CanFrame& frame) override { bus_.send(gateway_, now + epoch_, frame); }
+  std::optional<Received> receive() override;
+  BusTime next_event() const override {
+    return bus_.next_event() == BusTime::max() ? bus_.next_event() : bus_.next_event() - epoch_;
+  }
+  bool advance(BusTime now) override;
+  double true_counts(int node, int axis, BusTime at) override;
+  PathTime path_time(int node, BusTime at) override;
+  int node_count() const override { return static_cast<int>(nodes_.size()); }
+  const BusModel& bus() const override { return bus_; }
+  void set_input(int node, BusTime at, int input, bool level) override;
+
+  Board& board(int node) { return *nodes_[static_cast<std::size_t>(node)]->board; }
+  /// The processor is asleep: what the main loop keeps is consistent.
+  bool idle(int node) { return board(node).cpu().asleep(); }
+  /// What the program's motion asks of a motor now: counts with 32 fractional bits, 0 at power-up.
+  std::optional<std::int64_t> commanded(int node, int axis);
+
+  /// The next frames of this node are destroyed on the wire: error frames, counters, repeats.
+  void disturb(int node, int frames) { nodes_[static_cast<std::size_t>(node)]->disturbed = frames; }
+
+ private:
+  struct Node {
+    std::unique_ptr<Board> board;
+    BusModel::Port port = 0;
+    BusTime powered{0};
+    double drift_ppm = 0;
+    std::array<CanFrame, BxCan::kMailboxes> in_mailbox{};
+    std::array<bool, BxCan::kMailboxes> waiting{};
+    int disturbed = 0;
+    PathTime last_path{0};
+
+    Cycle cycle_at(BusTime at) const;
+    BusTime time_of(Cycle cycle) const;
+  };
+  bool advance_to(BusTime until);
+  void collect(BusTime now);
+  void deliver(const BusModel::Delivery& delivery);
+  void commission(const std::vector<EmulatedNodeOptions>& options);
+
+  const ElfImage& image_;
+  BusModel bus_;
+  BusModel::Port gateway_;
+  std::vector<std::unique_ptr<Node>> nodes_;
+  std::vector<Received> received_;
+  std::size_t next_received_ = 0;
+  BusTime time_{0};   // since the first power-up
+  BusTime epoch_{0};  // what callers call zero
+};
+
+}  // namespace kinebus::emulator
