@@ -74,11 +74,14 @@ void Daemon::report_events() {
   while (auto event = gateway_.next_event()) {
     log_event(*event);
     server_.on_event(*event);
+    for (DaemonPart* part : parts_) part->on_event(*event);
   }
 }
 
 LocalTime Daemon::next_deadline() const {
-  return std::min({gateway_.next_deadline(), bus_.next_deadline(), server_.next_deadline()});
+  LocalTime next = std::min({gateway_.next_deadline(), bus_.next_deadline(), server_.next_deadline()});
+  for (const DaemonPart* part : parts_) next = std::min(next, part->next_deadline());
+  return next;
 }
 
 void Daemon::run(const volatile std::sig_atomic_t* quit) {
@@ -89,6 +92,7 @@ void Daemon::run(const volatile std::sig_atomic_t* quit) {
     report_events();
     const LocalTime now = monotonic_now();
     server_.on_time(now);
+    for (DaemonPart* part : parts_) part->on_time(now);
     if (now >= next_watchdog) {
       notify_systemd("WATCHDOG=1");
       next_watchdog = now + kWatchdogPeriod;

@@ -2,9 +2,11 @@
 // The daemon's loop: bus, gateway core and local socket on one thread. No logic of the machine is here.
 
 #include <csignal>
+#include <vector>
 
 #include "gateway/io/bus_port.hpp"
 #include "gateway/io/control_server.hpp"
+#include "gateway/io/daemon_part.hpp"
 #include "gateway/io/event_loop.hpp"
 #include "gateway/machine/gateway.hpp"
 
@@ -13,6 +15,9 @@ namespace kinebus {
 class Daemon {
  public:
   Daemon(EventLoop& loop, BusPort& bus, Gateway& gateway, ControlServer& server);
+
+  /// One more part that lives on the loop; must outlive run().
+  void add(DaemonPart& part) { parts_.push_back(&part); }
 
   /// Runs until `*quit` is not 0 (set by a signal handler) and the machine has come to rest, at most 2 s
   /// later.
@@ -27,6 +32,7 @@ class Daemon {
   BusPort& bus_;
   Gateway& gateway_;
   ControlServer& server_;
+  std::vector<DaemonPart*> parts_;
 };
 
 }  // namespace kinebus
