@@ -14,6 +14,7 @@
 #include "gateway/io/realtime.hpp"
 #include "gateway/io/socketcan_bus.hpp"
 #include "gateway/machine/description/machine_file.hpp"
+#include "protocol/host/guarded_main.hpp"
 
 namespace {
 
@@ -94,9 +95,7 @@ int serve(const Arguments& arguments) {
   return 0;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   Arguments arguments;
   CLI::App app("kinebusd: the Kinebus gateway. Plans G-code and moves the machine's CAN nodes.");
   app.add_option("--machine", arguments.machine,
@@ -123,4 +122,10 @@ int main(int argc, char** argv) {
   } catch (const std::exception& error) {
     return fail(error.what());
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return kinebus::guarded_main("kinebusd", [&] { return run(argc, argv); });
 }

@@ -41,7 +41,9 @@ void JobCheck::phase(const Phase& phase) {
   if (since_mm_ < options_.pose_distance_mm && since_rad_ < options_.pose_distance_rad && !phase.last) return;
   const double checks = std::max({1.0, std::ceil(length * mm / options_.pose_distance_mm),
                                   std::ceil(length * rad / options_.pose_distance_rad)});
-  for (double i = 1; i <= checks; ++i) check_pose(phase, from + (to - from) * i / checks);
+  const auto count = static_cast<std::int64_t>(checks);
+  for (std::int64_t i = 1; i <= count; ++i)
+    check_pose(phase, from + (to - from) * static_cast<double>(i) / checks);
   since_mm_ = since_rad_ = 0;
 }
 

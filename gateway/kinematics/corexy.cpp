@@ -45,7 +45,7 @@ class CoreXy final : public Kinematics {
 
   Result<void, PoseError> jacobian(Frame, const PoseVector& pose, JointVector& joints,
                                    std::span<double> matrix) const override {
-    assert(matrix.size() >= 4 * kPoseAxes);
+    assert(matrix.size() >= std::size_t{4} * kPoseAxes);
     constexpr double kMatrix[4][kPoseAxes] = {
         {1, 1, 0, 0, 0, 0}, {1, -1, 0, 0, 0, 0}, {0, 0, 1, 0, 0, 0}, {0, 0, 0, 0, 0, 1}};
     for (std::size_t i = 0; i < 4; ++i)

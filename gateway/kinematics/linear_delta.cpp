@@ -67,7 +67,7 @@ class LinearDelta final : public Kinematics {
 
   Result<void, PoseError> jacobian(Frame, const PoseVector& pose, JointVector& joints,
                                    std::span<double> matrix) const override {
-    assert(matrix.size() >= kJoints * kPoseAxes);
+    assert(matrix.size() >= std::size_t{kJoints} * kPoseAxes);
     for (double& v : matrix.first(std::size_t{kJoints} * kPoseAxes)) v = 0;
     double radicand[kArms];
     for (int i = 0; i < kArms; ++i) {

@@ -97,7 +97,7 @@ class M1 final : public Kinematics {
 
   Result<void, PoseError> jacobian(Frame frame, const PoseVector& pose, JointVector& joints,
                                    std::span<double> matrix) const override {
-    assert(matrix.size() >= kJoints * kPoseAxes);
+    assert(matrix.size() >= std::size_t{kJoints} * kPoseAxes);
     const Turn a(pose[kA]), c(frame == Frame::kPart ? pose[kC] : 0);
     const Vector3 p = platform(frame, pose, a);
     const bool part = frame == Frame::kPart;

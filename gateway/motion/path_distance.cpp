@@ -84,8 +84,8 @@ double PathDistance::distance2_to(const Move& move, const Vector3& point) {
   if (angle < 0) angle += kTurn;
   double best = std::min(dot(minus(point, move.from), minus(point, move.from)),
                          dot(minus(point, move.to), minus(point, move.to)));
-  for (; angle <= move.sweep_rad; angle += kTurn) {
-    const double part = angle / move.sweep_rad;
+  for (int turn = 0; angle + turn * kTurn <= move.sweep_rad; ++turn) {
+    const double part = (angle + turn * kTurn) / move.sweep_rad;
     const double dr = radius - (radius0 + part * (radius1 - radius0));
     const double dh = height - (height0 + part * (height1 - height0));
     best = std::min(best, dr * dr + dh * dh);

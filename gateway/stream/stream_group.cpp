@@ -6,7 +6,7 @@
 
 namespace kinebus {
 
-StreamGroup::StreamGroup(const Kinematics& kinematics, std::vector<NodeAxes> nodes, Options options)
+StreamGroup::StreamGroup(const Kinematics& kinematics, const std::vector<NodeAxes>& nodes, Options options)
     : options_(options), sampler_(kinematics, options.sampler), budget_(options.budget) {
   options_.stream.acceleration_shift = options_.segmenter.acceleration_shift;
   nodes_.reserve(nodes.size());

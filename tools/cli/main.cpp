@@ -4,11 +4,14 @@
 
 #include <exception>
 
+#include "protocol/host/guarded_main.hpp"
 #include "tools/cli/machine_commands.hpp"
 #include "tools/cli/plan_command.hpp"
 #include "tools/cli/simulate_command.hpp"
 
-int main(int argc, char** argv) {
+namespace {
+
+int run(int argc, char** argv) {
   CLI::App app("kinebus: run, watch, plan and simulate jobs of a Kinebus machine");
   app.require_subcommand(1);
   app.set_version_flag("--version", KINEBUS_VERSION);
@@ -25,4 +28,10 @@ int main(int argc, char** argv) {
     return 1;
   }
   return exit_code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return kinebus::guarded_main("kinebus", [&] { return run(argc, argv); });
 }

@@ -4,10 +4,13 @@
 #include <iostream>
 #include <string>
 
+#include "protocol/host/guarded_main.hpp"
 #include "tools/dictionary/dbc.hpp"
 #include "tools/dictionary/eds.hpp"
 
-int main(int argc, char** argv) {
+namespace {
+
+int print_dictionary(int argc, char** argv) {
   const std::string kind = argc > 1 ? argv[1] : "";
   const bool to_file = argc == 4 && std::string(argv[2]) == "-o";
   if ((kind != "eds" && kind != "dbc") || (argc != 2 && !to_file)) {
@@ -27,4 +30,10 @@ int main(int argc, char** argv) {
   if (file) return 0;
   std::perror(argv[3]);
   return 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return kinebus::guarded_main("kinebus-dictionary", [&] { return print_dictionary(argc, argv); });
 }

@@ -156,8 +156,10 @@ void gear_outline(Writer& out, double inset, double feed) {
 void gear_infill(Writer& out, int layer, double feed) {
   const std::complex<double> turn = std::polar(1.0, kPi / 4 + (layer % 2) * kPi / 2);
   constexpr double kRadius = 28.5, kPitch = 0.9;
+  constexpr int kLines = static_cast<int>(2 * kRadius / kPitch);
   bool first = true, back = false;
-  for (double y = -kRadius + kPitch; y < kRadius; y += kPitch, back = !back) {
+  for (int line = 1; line <= kLines; ++line, back = !back) {
+    const double y = -kRadius + kPitch * line;
     const double x = std::sqrt(kRadius * kRadius - y * y);
     const auto a = turn * std::complex(back ? x : -x, y), b = turn * std::complex(back ? -x : x, y);
     if (first)
@@ -198,10 +200,11 @@ void write_demo(const TextSink& sink, std::uint32_t lines) {
     out.put("G1 Z{:.1f} F6000", 0.2 * (layer + 1));
     const std::complex<double> turn = std::polar(1.0, kPi / 4 + layer * kPi / 2);
     bool back = false;
-    for (double y = -18; y <= 18; y += 1.8, back = !back) {
+    for (int line = 0; line <= 20; ++line, back = !back) {
+      const double y = -18 + 1.8 * line;
       const double x = std::sqrt(20.0 * 20.0 - y * y) * (back ? -1 : 1);
       const auto a = turn * std::complex(-x, y), b = turn * std::complex(x, y);
-      if (y == -18)
+      if (line == 0)
         out.travel(a.real(), a.imag());
       else
         out.extrude(a.real(), a.imag());

@@ -6,9 +6,12 @@
 #include <cstdio>
 #include <fstream>
 
+#include "protocol/host/guarded_main.hpp"
 #include "vcan_tests/sim/job_generator.hpp"
 
-int main(int argc, char** argv) {
+namespace {
+
+int make_job(int argc, char** argv) {
   CLI::App app("kinebus-make-job: write a G-code job for demo, test or benchmark");
   std::string kind, path;
   std::uint32_t lines = 0;
@@ -40,4 +43,10 @@ int main(int argc, char** argv) {
   for (const auto& k : kinebus::job_kinds())
     if (k.name == kind) k.write(sink, lines != 0 ? lines : k.default_lines);
   return path.empty() || file.flush() ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return kinebus::guarded_main("kinebus-make-job", [&] { return make_job(argc, argv); });
 }

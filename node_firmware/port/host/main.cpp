@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "node_firmware/port/host/virtual_node.hpp"
+#include "protocol/host/guarded_main.hpp"
 
 namespace {
 
@@ -65,10 +66,5 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "kinebus-vnode: %s\n", error.what());
-    return 1;
-  }
+  return kinebus::guarded_main("kinebus-vnode", [&] { return run(argc, argv); });
 }

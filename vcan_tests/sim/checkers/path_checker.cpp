@@ -9,7 +9,7 @@
 namespace kinebus {
 PathChecker::PathChecker(const MachineDescription& machine, const Kinematics& kinematics, ByteSource& source,
                          const PoseVector& start)
-    : kinematics_(kinematics), source_(source), text_(64 * 1024) {
+    : kinematics_(kinematics), source_(source), text_(std::size_t{64} * 1024) {
   const PoseVector home = kinematics.bed_reference();
   interpreter_ = std::make_unique<gcode::Interpreter>(interpreter_options(machine, start, home));
   reader_ = std::make_unique<gcode::JobReader>(*interpreter_);
