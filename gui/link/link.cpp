@@ -1,0 +1,1 @@
+#include "gui/link/link.hpp"  // its signals need a home

@@ -1,0 +1,29 @@
+#pragma once
+// The joints of the machine: where each is, what its motor gets, its switch.
+
+#include <QAbstractTableModel>
+
+#include "protocol/joblink/kinebus.pb.h"
+
+namespace kinebus::gui {
+
+class Session;
+
+class AxesModel : public QAbstractTableModel {
+  Q_OBJECT
+ public:
+  enum Column { kJoint, kPosition, kTravel, kCurrent, kDrive, kSwitch, kPlace, kColumns };
+  enum Role { kShare = Qt::UserRole, kFault, kSwitchOn };
+  explicit AxesModel(Session& session, QObject* parent = nullptr);
+  int rowCount(const QModelIndex& parent = {}) const override;
+  int columnCount(const QModelIndex& parent = {}) const override;
+  QVariant data(const QModelIndex& index, int role) const override;
+  QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
+
+ private:
+  const joblink::NodeStatus* node_of(const joblink::Joint& joint) const;
+  const joblink::AxisStatus* axis_of(const joblink::Joint& joint) const;
+  Session& session_;
+};
+
+}  // namespace kinebus::gui

@@ -1,0 +1,98 @@
+#include "gui/models/path_source.hpp"
+
+#include <QFileInfo>
+
+#include "gui/models/machine_picture.hpp"
+#include "gui/session/job_download.hpp"
+#include "gui/session/job_upload.hpp"
+#include "gui/session/session.hpp"
+
+namespace kinebus::gui {
+
+PathSource::PathSource(Session& session, QObject* parent) : QObject(parent), session_(session), loader_(this) {
+  connect(&loader_, &PathLoader::progressed, this, [this](double share) {
+    progress_ = share;
+    emit changed();
+  });
+  connect(&loader_, &PathLoader::loaded, this, [this](const std::shared_ptr<const ScenePath>& scene) {
+    scene_ = scene;
+    loading_ = false;
+    emit changed();
+  });
+  connect(&loader_, &PathLoader::failed, this, [this](const QString& why) {
+    loading_ = false;
+    error_ = why;
+    emit changed();
+  });
+  connect(&session, &Session::status_changed, this, &PathSource::follow_status);
+  connect(&session, &Session::upload_begun, this, [this](JobUpload* upload) {
+    connect(upload, &JobUpload::changed, this, [this, upload] {
+      if (upload->phase() == JobUpload::Phase::kStored) uploaded_files_[upload->name()] = upload->file_path();
+    });
+  });
+}
+
+void PathSource::follow_status() {
+  const QString job = QString::fromStdString(session_.status().job());
+  if (job == running_) return;
+  // Wait until the list of jobs has it: the hash tells whether it is in the cache.
+  const auto& jobs = session_.jobs().jobs();
+  const bool known = std::any_of(jobs.begin(), jobs.end(), [&](const auto& j) { return j.name() == session_.status().job(); });
+  if (!job.isEmpty() && !known) return;
+  running_ = job;
+  if (!job.isEmpty()) show_job(job);
+}
+
+void PathSource::clear() {
+  loader_.cancel();
+  delete download_;
+  name_.clear();
+  file_path_.clear();
+  error_.clear();
+  running_.clear();
+  scene_ = nullptr;
+  loading_ = false;
+  emit changed();
+}
+
+void PathSource::show_file(const QString& path) {
+  name_ = QFileInfo(path).fileName();
+  load(path);
+}
+
+void PathSource::load(const QString& path) {
+  file_path_ = path;
+  error_.clear();
+  loading_ = true;
+  progress_ = 0;
+  loader_.load(path, model_of(session_.machine()));
+  emit changed();
+}
+
+void PathSource::show_job(const QString& name) {
+  const joblink::Job* job = nullptr;
+  for (const auto& j : session_.jobs().jobs())
+    if (j.name() == name.toStdString()) job = &j;
+  if (job == nullptr || (name == name_ && (loading_ || scene_ != nullptr))) return;
+  name_ = name;
+  scene_ = nullptr;
+  error_.clear();
+  delete download_;
+  const QFileInfo local(uploaded_files_.value(name));
+  if (local.exists() && local.size() == static_cast<qint64>(job->size_bytes())) return load(local.filePath());
+  loading_ = true;
+  progress_ = 0;
+  file_path_.clear();
+  loader_.cancel();
+  download_ = new JobDownload(session_, *job, this);
+  connect(download_, &JobDownload::finished, this, &PathSource::load);
+  connect(download_, &JobDownload::failed, this, [this](const QString& why) {
+    loading_ = false;
+    error_ = why;
+    emit changed();
+  });
+  download_->begin();
+  emit changed();
+}
+
+}  // namespace kinebus::gui

@@ -1,0 +1,125 @@
+#pragma once
+// The conversation with one gateway: commands as methods, news as signals. A link that breaks is opened again by
+// itself; the job link's client resumes where it was.
+
+#include <QElapsedTimer>
+#include <QObject>
+#include <QTimer>
+#include <functional>
+#include <memory>
+#include <unordered_map>
+
+#include "protocol/joblink/client.hpp"
+
+namespace kinebus::gui {
+
+class Link;
+class JobUpload;
+
+class Session : public QObject {
+  Q_OBJECT
+ public:
+  enum class LinkState { kNone, kConnecting, kConnected, kLost };
+  Q_ENUM(LinkState)
+  using LinkMaker = std::function<std::unique_ptr<Link>()>;
+  using AnswerHandler = std::function<void(const joblink::Reply&)>;
+
+  explicit Session(QObject* parent = nullptr);
+  ~Session() override;
+
+  /// Leaves the gateway before and turns to another. `title`: what the user calls it.
+  void connect_to(LinkMaker maker, const QString& title);
+  void disconnect_from_gateway();
+
+  LinkState link_state() const { return link_state_; }
+  const QString& gateway_title() const { return title_; }
+  const QString& link_words() const { return link_words_; }  ///< why it is lost, or how it is connected
+  const joblink::HelloReply& hello() const { return client_->hello(); }
+  const joblink::Status& status() const { return status_; }
+  const joblink::MachineInfo& machine() const { return machine_; }
+  const joblink::JobList& jobs() const { return jobs_; }
+  bool connected() const { return link_state_ == LinkState::kConnected; }
+  bool has_control() const;
+  bool others_have_control() const;
+  double round_trip_ms() const { return round_trip_ms_; }  ///< of the newest answer
+
+  /// Sends what `request` holds; the answer comes to `then`, also when it is a refusal. Refusals nobody handles are told
+  /// by refused().
+  void send(joblink::ClientMessage request, AnswerHandler then = {});
+  /// As send(), for what needs control: takes it first when nobody has it.
+  void command(joblink::ClientMessage request, AnswerHandler then = {});
+
+  // The machine.
+  void start_job(const QString& name);
+  void hold();
+  void resume();
+  void cancel();
+  void stop();
+  void clear();
+  void bring_up();
+  void home();
+  void go_to_reference();
+  void motors_off();
+  void jog(const joblink::Pose& delta, double speed_per_s);
+  void set_override(double ratio);
+  void set_temperature(bool bed, double celsius);
+  void set_fan(double ratio);
+  void set_work_offset(std::uint32_t system, const joblink::Pose& offset, bool here);
+  void console(const QString& line, AnswerHandler then);
+  void take_control(bool force);
+  void release_control();
+
+  // Jobs.
+  void list_jobs();
+  void delete_job(const QString& name);
+  void check_job(const QString& name, AnswerHandler then);
+  /// Reads, hashes and sends a file; its object tells how it goes and belongs to the session.
+  JobUpload* upload(const QString& file_path);
+  joblink::Client& client() { return *client_; }
+  /// Sends what the client has to say. After client() was used directly.
+  void pump();
+
+ signals:
+  void link_changed();
+  void status_changed();
+  void machine_changed();
+  void jobs_changed();
+  void event_arrived(const kinebus::joblink::Event& event);
+  void event_history(const kinebus::joblink::EventList& events);
+  void upload_news(const kinebus::joblink::UploadNews& news);
+  void upload_begun(kinebus::gui::JobUpload* upload);
+  /// A command was not carried out; `words` is for the user.
+  void refused(const QString& words);
+
+ private:
+  void open_link();
+  void on_link_closed(const QString& why);
+  void on_connected();
+  void take(joblink::News& news);
+  void set_link_state(LinkState state, const QString& words);
+  kinebus::LocalTime now() const;
+  void arm();
+
+  std::unique_ptr<joblink::Client> client_;
+  std::unique_ptr<Link> link_;
+  LinkMaker maker_;
+  QString title_, link_words_;
+  LinkState link_state_ = LinkState::kNone;
+  bool had_gateway_ = false;
+  QElapsedTimer clock_;
+  QTimer timer_, again_;
+  struct Open {
+    AnswerHandler then;
+    qint64 sent_ns = 0;
+  };
+  std::unordered_map<joblink::RequestId, Open> open_;
+  joblink::Status status_;
+  joblink::MachineInfo machine_;
+  joblink::JobList jobs_;
+  double round_trip_ms_ = 0;
+};
+
+/// A problem in one line: place, rule, expectation.
+QString to_words(const joblink::Problem& problem);
+
+}  // namespace kinebus::gui

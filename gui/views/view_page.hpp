@@ -1,0 +1,66 @@
+#pragma once
+// The main view: the scene with its tools, the layer slider, and what the colours mean.
+
+#include <QComboBox>
+#include <QProgressBar>
+#include <QSlider>
+
+#include "gui/views/desk.hpp"
+#include "gui/views/scene_view.hpp"
+#include "gui/views/widgets.hpp"
+
+namespace kinebus::gui {
+
+/// A bar in the colours of the path, with its two ends named.
+class RampLegend : public QWidget {
+  Q_OBJECT
+ public:
+  explicit RampLegend(QWidget* parent = nullptr);
+  void set(PathColouring colouring, const QString& low, const QString& high);
+  QSize sizeHint() const override;
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+
+ private:
+  PathColouring colouring_ = PathColouring::kFeed;
+  QString low_, high_;
+};
+
+class ViewPage : public SpeakingWidget {
+  Q_OBJECT
+ public:
+  explicit ViewPage(Desk& desk, QWidget* parent = nullptr);
+  SceneView& scene() { return *scene_; }
+  /// Shows the place of a line of the job.
+  void show_line(std::uint32_t line);
+  void set_colouring(PathColouring colouring);
+  void save(QSettings& settings) const;
+  void restore(QSettings& settings);
+
+ private:
+  QWidget* make_tools();
+  QWidget* make_bottom();
+  void take_status();
+  void take_path();
+  void take_theme();
+  void tell_legend();
+  void tell_job();
+  void tell_layer();
+
+  Desk& desk_;
+  SceneView* scene_;
+  QSlider* layers_;
+  QLabel* layer_text_;
+  QComboBox* colouring_;
+  RampLegend* legend_;
+  ElidedLabel* job_text_;
+  QProgressBar* loading_;
+  QLabel* broken_;
+  QToolButton *machine_, *reach_, *travel_, *remaining_;
+  std::shared_ptr<const ScenePath> shown_;
+  std::uint32_t wanted_line_ = 0;
+  bool fitted_ = false;
+};
+
+}  // namespace kinebus::gui

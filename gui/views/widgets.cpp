@@ -1,0 +1,87 @@
+#include "gui/views/widgets.hpp"
+
+#include <QEvent>
+#include <QPainter>
+#include <QStyle>
+
+#include "gui/views/theme.hpp"
+
+namespace kinebus::gui {
+
+void SpeakingWidget::says(std::function<void()> say) {
+  say();
+  sayings_.push_back(std::move(say));
+}
+
+void SpeakingWidget::changeEvent(QEvent* event) {
+  if (event->type() == QEvent::LanguageChange)
+    for (const auto& say : sayings_) say();
+  QWidget::changeEvent(event);
+}
+
+Card::Card(QWidget* parent) : QFrame(parent), column_(new QVBoxLayout(this)) {
+  setProperty("card", true);
+  column_->setContentsMargins(16, 13, 16, 15);
+  column_->setSpacing(9);
+}
+
+QLabel* make_label(const char* role, QWidget* parent) {
+  auto* label = new QLabel(parent);
+  label->setProperty("role", QString::fromLatin1(role));
+  return label;
+}
+
+void set_role(QWidget* widget, const char* property, const QString& value) {
+  if (widget->property(property).toString() == value) return;
+  widget->setProperty(property, value);
+  widget->style()->unpolish(widget);
+  widget->style()->polish(widget);
+}
+
+QPushButton* make_button(const Theme& theme, const QString& icon, const char* kind, QWidget* parent) {
+  auto* button = new QPushButton(parent);
+  button->setProperty("kind", QString::fromLatin1(kind));
+  button->setAutoDefault(false);
+  const auto colour_icon = [button, icon, &theme, primary = QLatin1String(kind) == QLatin1String("primary"),
+                            danger = QLatin1String(kind) == QLatin1String("danger")] {
+    if (icon.isEmpty()) return;
+    button->setIcon(theme.icon(icon, primary  ? theme.colours().accent_text
+                                     : danger ? theme.colours().danger
+                                              : QColor()));
+    button->setIconSize({17, 17});
+  };
+  colour_icon();
+  QObject::connect(&theme, &Theme::changed, button, colour_icon);
+  return button;
+}
+
+QToolButton* make_tool(const Theme& theme, const QString& icon, bool checkable, QWidget* parent) {
+  auto* button = new QToolButton(parent);
+  button->setCheckable(checkable);
+  button->setIconSize({20, 20});
+  button->setFocusPolicy(Qt::TabFocus);
+  const auto colour_icon = [button, icon, &theme] { button->setIcon(theme.icon(icon)); };
+  colour_icon();
+  QObject::connect(&theme, &Theme::changed, button, colour_icon);
+  return button;
+}
+
+void ElidedLabel::set_text(const QString& text) {
+  if (text == this->text()) return;
+  setText(text);
+  setToolTip(text);
+}
+
+QSize ElidedLabel::minimumSizeHint() const {
+  return {20, QLabel::minimumSizeHint().height()};
+}
+
+void ElidedLabel::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  painter.setPen(palette().color(foregroundRole()));
+  const QRect room = contentsRect();
+  painter.drawText(room, static_cast<int>(QStyle::visualAlignment(layoutDirection(), alignment())),
+                   fontMetrics().elidedText(text(), Qt::ElideRight, room.width()));
+}
+
+}  // namespace kinebus::gui

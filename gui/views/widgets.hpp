@@ -1,0 +1,64 @@
+#pragma once
+// Small pieces that the pages are made of.
+
+#include <QBoxLayout>
+#include <QComboBox>
+#include <QFrame>
+#include <QGridLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QToolButton>
+#include <functional>
+#include <vector>
+
+namespace kinebus::gui {
+
+class Theme;
+
+/// A widget that says its words again when the language changes.
+class SpeakingWidget : public QWidget {
+  Q_OBJECT
+ public:
+  using QWidget::QWidget;
+
+ protected:
+  /// Does `say` now and after every change of language.
+  void says(std::function<void()> say);
+  void changeEvent(QEvent* event) override;
+
+ private:
+  std::vector<std::function<void()>> sayings_;
+};
+
+/// A white (or dark) box with rounded corners.
+class Card : public QFrame {
+  Q_OBJECT
+ public:
+  explicit Card(QWidget* parent = nullptr);
+  QVBoxLayout* column() const { return column_; }
+
+ private:
+  QVBoxLayout* column_;
+};
+
+/// role: title, heading, muted, small, danger.
+QLabel* make_label(const char* role, QWidget* parent = nullptr);
+void set_role(QWidget* widget, const char* property, const QString& value);
+
+/// A push button whose icon follows the theme.
+QPushButton* make_button(const Theme& theme, const QString& icon, const char* kind = "", QWidget* parent = nullptr);
+QToolButton* make_tool(const Theme& theme, const QString& icon, bool checkable, QWidget* parent = nullptr);
+
+/// A label whose text is cut with dots instead of widening its window.
+class ElidedLabel : public QLabel {
+  Q_OBJECT
+ public:
+  using QLabel::QLabel;
+  void set_text(const QString& text);
+  QSize minimumSizeHint() const override;
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+};
+
+}  // namespace kinebus::gui
