@@ -64,10 +64,9 @@ struct MotionPlan {
   static Point faded(const Point& end, std::uint32_t beyond) {
     constexpr std::uint32_t kFade = std::uint32_t{1} << kFadeBits;
     const std::uint32_t t = beyond < kFade ? beyond : kFade;
-    // velocity * (t - t^2 / (2 fade)); t^2 fits 34 bits, so it is shortened first.
-    const auto way =
-        static_cast<std::int64_t>(t) - static_cast<std::int64_t>((std::uint64_t{t} * t) >> (kFadeBits + 1));
-    return {end.position + ((end.velocity >> kPieceBits) * way),
+    // velocity * (t - t^2 / (2 fade)), the time in 1/256 counts.
+    const std::uint64_t way_q8 = (std::uint64_t{t} << 8) - ((std::uint64_t{t} * t) >> (kFadeBits + 1 - 8));
+    return {end.position + (((end.velocity >> kPieceBits) * static_cast<std::int64_t>(way_q8)) >> 8),
             (end.velocity >> kFadeBits) * static_cast<std::int64_t>(kFade - t)};
   }
   /// The parabola through the positions at the start, the middle and the end of a piece.

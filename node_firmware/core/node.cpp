@@ -196,10 +196,12 @@ void Node::on_axis_trouble(LocalTime at, int axis, std::uint16_t emcy_code) {
   serve();
 }
 
-void Node::set_motor(int axis, std::uint32_t resistance_mohm, std::uint32_t inductance_uh) {
+void Node::set_motor(int axis, std::uint32_t resistance_mohm, std::uint32_t inductance_uh,
+                     std::int32_t encoder_offset) {
   const auto i = static_cast<std::size_t>(axis & 1);
   objects_.set_value(slot_of_axes(object::kPhaseResistance)[i], resistance_mohm);
   objects_.set_value(slot_of_axes(object::kPhaseInductance)[i], inductance_uh);
+  if (encoder_offset >= 0) objects_.set_value(slot_of_axes(object::kEncoderOffset)[i], encoder_offset);
 }
 
 void Node::count(NodeCounter counter, std::uint32_t times) {

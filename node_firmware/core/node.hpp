@@ -91,7 +91,8 @@ class Node final : private ObjectOwner {
     return std::exchange(tune_requested_[static_cast<std::size_t>(axis & 1)], false);
   }
   /// What an auto-tune found; 1010h keeps it.
-  void set_motor(int axis, std::uint32_t resistance_mohm, std::uint32_t inductance_uh);
+  void set_motor(int axis, std::uint32_t resistance_mohm, std::uint32_t inductance_uh,
+                 std::int32_t encoder_offset);
   /// What the port measures, for the objects that show it.
   void set_feedback(int axis, const DriveFeedback& feedback) {
     feedback_[static_cast<std::size_t>(axis & 1)] = feedback;

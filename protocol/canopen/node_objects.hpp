@@ -137,14 +137,16 @@ constexpr void add_manufacturer_axis_objects(T& t) {
   t.head(0x2150, "Motor", ObjectCode::kRecord, 10);
   // While it accelerates, when above the run current.
   t.sub(1, "Boost current", kU16, kReadWrite, kParameter, 0).between(0, 5000).in("mA");
-  t.sub(2, "Phase resistance", kU16, kReadWrite, kParameter, 1500).between(20, 60'000).in("mOhm");
-  t.sub(3, "Phase inductance", kU16, kReadWrite, kParameter, 2500).between(50, 60'000).in("uH");
+  // 0: not measured yet.
+  t.sub(2, "Phase resistance", kU16, kReadWrite, kParameter).between(0, 60'000).in("mOhm");
+  t.sub(3, "Phase inductance", kU16, kReadWrite, kParameter).between(0, 60'000).in("uH");
   // Peak of the phase's back-EMF divided by the electrical angular frequency.
   t.sub(4, "Flux linkage", kU16, kReadWrite, kParameter, 0).between(0, 60'000).in("uVs");
   t.sub(5, "Current loop bandwidth", kU16, kReadWrite, kParameter, 1500).between(100, 3000).in("Hz");
   // 0: none; 1: watches for lost steps; 2: also keeps step by it. Plus 4: it counts the other way round.
   t.sub(6, "Encoder", kU8, kReadWrite, kParameter).between(0, 6);
-  t.sub(7, "Encoder offset", kI32, kReadWrite, kParameter).in("counts");  // where the motor's angle 0 is
+  // The encoder's counts, modulo an electrical turn of 1024, where the motor's angle is 0; -1: not measured.
+  t.sub(7, "Encoder offset", kI16, kReadWrite, kParameter, -1).between(-1, 1023).in("counts");
   t.sub(8, "Auto-tune", kU8, kReadWrite, kLive);  // write 1; reads 0 idle, 1 runs, 2 done, 3 failed
   t.sub(9, "Motor current", kI16, kReadOnly, kLive).maps(Mapping::kTpdo).in("mA");
   t.sub(10, "Power stage temperature", kI16, kReadOnly, kLive).maps(Mapping::kTpdo).in("0.1C");

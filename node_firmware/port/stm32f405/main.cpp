@@ -3,9 +3,12 @@
 #include <optional>
 
 #include "node_firmware/port/stm32f405/clock_tree.hpp"
+#include "node_firmware/port/stm32f405/flash_port.hpp"
 #include "node_firmware/port/stm32f405/handlers.hpp"
+#include "node_firmware/port/stm32f405/motor_port.hpp"
 #include "node_firmware/port/stm32f405/node_program.hpp"
 #include "node_firmware/port/stm32f405/pins.hpp"
+#include "node_firmware/port/stm32f405/watchdog_port.hpp"
 
 namespace {
 
@@ -15,11 +18,36 @@ using namespace kinebus::stm32;
 constinit CanPort can_port;
 constinit SwitchPort switch_port;
 constinit MotionPlanExchange motion_plan;
+constinit MotorPort motors{motion_plan};
+constinit ParameterFlash parameter_flash;
+constinit PageStore parameters{parameter_flash};
+constinit WatchdogPort dog;
 constinit std::optional<NodeProgram> program;
+
+// An erase that a save needs is made now, while nothing moves.
+constexpr std::size_t kLargestImage = 5000;
+
+void store(Node& node) {
+  const auto image = node.image_to_store();
+  if (image.empty()) return;
+  const bool erases = parameters.save_erases(image.size());
+  if (erases) dog.allow_erase();
+  node.on_image_stored(parameters.save(image));
+  if (erases) dog.back_to_normal();
+}
 
 }  // namespace
 
 extern "C" {
+void isr_control() {
+  motors.on_control();
+}
+void isr_break_a() {
+  motors.on_break(0);
+}
+void isr_break_b() {
+  motors.on_break(1);
+}
 void isr_can_receive() {
   can_port.on_receive(local_counts());
 }
@@ -41,11 +69,25 @@ int main() {
   system_control().VTOR = board::kProgramAddress;
   start_local_time();
   if (!can_port.start()) isr_fault();
-  program.emplace(NodeOptions{.identity = {.serial = serial_number()}}, can_port, switch_port, motion_plan);
+  const auto stored = parameters.load();
+  static_cast<void>(parameters.prepare(kLargestImage));
+  program.emplace(NodeOptions{.identity = {.serial = serial_number()}}, stored, can_port, switch_port,
+                  motion_plan);
+  Node& node = program->node();
+  if (WatchdogPort::caused_reset()) node.count(NodeCounter::kWatchdogResets);
+  rcc().CSR = rcc().CSR | Rcc::kClearResetFlags;
   switch_port.start(local_counts());
   enable_interrupts();
+  const bool motors_good = motors.start();
+  dog.start();
   for (;;) {
     program->pass();
+    if (motors_good)
+      motors.serve(node, program->now());
+    else
+      program->refuse_power();
+    store(node);
+    dog.serve(node.healthy(program->now()), motors.ticks());
     wait_for_interrupt();
   }
 }

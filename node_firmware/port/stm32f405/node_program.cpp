@@ -27,9 +27,9 @@ std::uint32_t serial_number() {
   return crc.value();
 }
 
-NodeProgram::NodeProgram(const NodeOptions& options, CanPort& can, SwitchPort& switches,
-                         MotionPlanExchange& plan)
-    : can_(can), switches_(switches), plan_(plan), now_(clock_.now()), node_(options, now_) {
+NodeProgram::NodeProgram(const NodeOptions& options, std::span<const std::uint8_t> stored, CanPort& can,
+                         SwitchPort& switches, MotionPlanExchange& plan)
+    : can_(can), switches_(switches), plan_(plan), now_(clock_.now()), node_(options, now_, stored) {
   plan_.renew(node_, now_, local_counts());
   filter();
 }
@@ -81,6 +81,11 @@ void NodeProgram::send() {
     can_.queue().push(*frame);
     can_.serve_mailboxes();
   }
+}
+
+void NodeProgram::refuse_power() {
+  for (int axis = 0; axis < 2; ++axis)
+    if (node_.drive(axis).power) node_.on_drive_fault(now_, axis, 0x5200);  // 5200h: device hardware, control
 }
 
 // What this node has to hear: its own requests and PDOs, what all hear, and heartbeats.

@@ -14,10 +14,13 @@ namespace kinebus::stm32 {
 
 class NodeProgram {
  public:
-  NodeProgram(const NodeOptions& options, CanPort& can, SwitchPort& switches, MotionPlanExchange& plan);
+  NodeProgram(const NodeOptions& options, std::span<const std::uint8_t> stored, CanPort& can,
+              SwitchPort& switches, MotionPlanExchange& plan);
 
   /// Everything that has come since the last pass. Call at least every millisecond.
   void pass();
+  /// The power stage does not measure: an axis that is switched on has a fault.
+  void refuse_power();
   Node& node() { return node_; }
   LocalTime now() const { return now_; }
   PathTime path_time(std::uint32_t counts) const { return node_.path_time(clock_.at(counts)); }

@@ -1,0 +1,195 @@
+#include "node_firmware/motor/axis_control.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kinebus::motor {
+namespace {
+
+constexpr std::int64_t kCount = std::int64_t{1} << 32;
+constexpr std::int64_t kElectricalTurn = 1024 * kCount;
+constexpr std::int64_t kQuarter = 256 * kCount;  // 90 degrees electrical: the most torque
+// Current comes and goes evenly: from nothing to 1 A in 50 ms, so that the rotor is drawn and not struck.
+constexpr float kEnableAmperesPerPeriod = 20.0F * kControlPeriodS;
+constexpr float kBoostAmperesPerPeriod = 500.0F * kControlPeriodS;
+constexpr int kRestBeforeHold = periods(0.2F);
+// What counts as accelerating: 2 mm/s in 1 ms on a carriage, 2000 mm/s^2.
+constexpr float kBoostChange = 2.56e6F * kControlPeriodS;
+// Faster than the timers' range of duty is a position that jumps.
+constexpr float kMostCountsPerSecond = 16.8e6F;
+// Closed loop: the rest of an error decays within 25 ms; the trim is at most half a full step.
+constexpr int kTrimShift = 9;
+constexpr std::int64_t kMostTrim = 128 * kCount;
+
+std::int64_t wrap(std::int64_t counts) {  // to +-half an electrical turn
+  return static_cast<std::int64_t>(static_cast<std::uint64_t>(counts) << 22) >> 22;
+}
+static_assert(kElectricalTurn == std::int64_t{1} << 42);
+
+}  // namespace
+
+bool AxisControl::configure(const AxisConfig& config) {
+  if (config_waits_.load(std::memory_order_acquire)) return false;
+  next_config_ = config;
+  config_waits_.store(true, std::memory_order_release);
+  return true;
+}
+
+void AxisControl::take_config() {
+  config_ = next_config_;
+  config_waits_.store(false, std::memory_order_release);
+  loop_.configure(config_.motor, CurrentGains::of(config_.motor, config_.bandwidth_hz));
+  encoder_.set_reversed(config_.encoder_reversed);
+  off_course_ = Persistence(config_.following_periods);
+}
+
+void AxisControl::trip(std::uint16_t code) {
+  on_ = false;
+  amplitude_a_ = 0;
+  tune_.stop();
+  tripped_.store(code, std::memory_order_release);
+}
+
+// The first angle is the one where the rotor stands: by the encoder, or else where it was left.
+void AxisControl::begin(const AxisInputs& in) {
+  on_ = true;
+  amplitude_a_ = 0;
+  trim_ = 0;
+  rest_periods_ = 0;
+  loop_.reset();
+  power_faults_.reset();
+  off_course_.reset();
+  if (config_.encoder != EncoderMode::kNone && encoder_.known()) {
+    if (config_.encoder_offset >= 0) {
+      const std::int64_t rotor = encoder_.absolute() - config_.encoder_offset * kCount;
+      angle_shift_ = wrap(rotor - sign_position_);
+    }
+    follow_origin_ = sign_position_ - encoder_.position();
+  }
+  static_cast<void>(in);
+}
+
+void AxisControl::serve_encoder(const AxisInputs& in) {
+  std::uint8_t troubles = surroundings_.look(in.supply_v, in.temperature_c);
+  std::int64_t error = 0;
+  if (config_.encoder != EncoderMode::kNone) {
+    const bool was_known = encoder_.known();
+    static_cast<void>(encoder_.on_frame(in.encoder_frame));
+    if (encoder_.lost() && encoder_.known()) encoder_.restart();
+    if (!was_known && encoder_.known()) follow_origin_ = sign_position_ - encoder_.position();
+    if (encoder_.lost()) troubles |= Surroundings::kEncoder;
+    if (encoder_.known() && on_) error = sign_position_ - encoder_.position() - follow_origin_;
+    const std::int64_t whole = (error + kCount / 2) >> 32;
+    if (off_course_.look(std::llabs(whole) > config_.following_window)) troubles |= Surroundings::kFollowing;
+    const auto shown = static_cast<std::int32_t>(std::clamp<std::int64_t>(whole, -(1 << 30), 1 << 30));
+    following_.store(config_.inverted ? -shown : shown, std::memory_order_relaxed);
+  }
+  troubles_.store(troubles, std::memory_order_relaxed);
+}
+
+// Run, hold or boost, and the way from one to the other.
+void AxisControl::slew_current(const AxisInputs& in) {
+  const bool resting = resting_.load(std::memory_order_relaxed) && in.velocity == 0;
+  rest_periods_ = resting ? std::min(rest_periods_ + 1, kRestBeforeHold) : 0;
+  const bool accelerates = std::fabs(sign_velocity_ - last_velocity_) > kBoostChange;
+  float wanted = rest_periods_ >= kRestBeforeHold ? config_.hold_a : config_.run_a;
+  if (accelerates) wanted = std::max(wanted, config_.boost_a);
+  const float rate = wanted > amplitude_a_ && rest_periods_ == 0 && amplitude_a_ >= config_.hold_a
+                         ? kBoostAmperesPerPeriod
+                         : kEnableAmperesPerPeriod;
+  amplitude_a_ += std::clamp(wanted - amplitude_a_, -kEnableAmperesPerPeriod, rate);
+}
+
+Angle AxisControl::commanded_angle(const AxisInputs& in) {
+  std::int64_t electrical = sign_position_ + angle_shift_;
+  if (config_.encoder == EncoderMode::kClosedLoop && encoder_.known()) {
+    const std::int64_t error = sign_position_ - encoder_.position() - follow_origin_;
+    // At rest or slow motion the average error goes to zero; a big one is none that trimming should chase.
+    if (std::fabs(in.velocity) < 20'000 && std::llabs(error) < kQuarter) {
+      trim_ = std::clamp(trim_ + (error >> kTrimShift), -kMostTrim, kMostTrim);
+    }
+    // The current never leads the rotor by more than the angle of the most torque: no step is lost.
+    const std::int64_t lead = std::clamp(error + trim_, -kQuarter, kQuarter);
+    electrical += lead - error;
+  }
+  return angle_of(electrical);
+}
+
+AxisOutputs AxisControl::apply(const Vector& volts, const Vector& wanted, float supply_v) const {
+  const float lost = supply_v * config_.dead_time_share;
+  const float scale = 1.0F / supply_v;
+  const auto duty = [&](float v, float a) {
+    return std::clamp((v + dead_time_volts(a, lost)) * scale, -kLargestDuty, kLargestDuty);
+  };
+  return {{duty(volts.x, wanted.x), duty(volts.y, wanted.y)}, true};
+}
+
+AxisOutputs AxisControl::tune(const AxisInputs& in, Angle angle) {
+  const SineCosine at = sine_cosine(angle);
+  const float direct_a = turn_back(in.current_a, at).x;
+  const AutoTune::Wish wish = tune_.step(loop_.direct_v(), direct_a, in.supply_v);
+  const Vector wanted = turn({wish.current_a, 0}, at);
+  Vector volts;
+  if (wish.open)
+    volts = turn({wish.added_v, 0}, at);
+  else
+    volts = loop_.step(in.current_a, {wish.current_a, angle, 0}, in.supply_v);
+  amplitude_a_ = wish.current_a;
+  if (tune_.state() != AutoTune::State::kRuns) {
+    loop_.reset();
+    if (encoder_.known()) {
+      const std::int64_t offset = encoder_.absolute() - static_cast<std::int64_t>(std::uint64_t{angle} << 10);
+      tuned_offset_ = static_cast<std::int32_t>(((offset + kCount / 2) >> 32) & 1023);
+    }
+    tune_state_.store(tune_.state(), std::memory_order_release);
+  }
+  // No dead-time compensation in the wave: its sign is that of the mean current, which does not change.
+  return apply(volts, wanted, in.supply_v);
+}
+
+AxisOutputs AxisControl::step(const AxisInputs& in) {
+  if (config_waits_.load(std::memory_order_acquire)) take_config();
+  const std::int64_t last = sign_position_;
+  sign_position_ = config_.inverted ? -in.position : in.position;
+  last_velocity_ = sign_velocity_;
+  sign_velocity_ = config_.inverted ? -in.velocity : in.velocity;
+  serve_encoder(in);
+
+  const bool wanted = wanted_power_.load(std::memory_order_relaxed);
+  if (acknowledged_.exchange(false, std::memory_order_relaxed)) tripped_.store(fault::kNone);
+  if (tripped_.load(std::memory_order_relaxed) != fault::kNone) return {};
+  if (!wanted) {
+    on_ = false;
+    amplitude_a_ = 0;
+    return {};
+  }
+  if (!on_) begin(in);
+  if (in.break_seen) return trip(fault::kShortCircuit), AxisOutputs{};
+  if (in.supply_v > Surroundings::kDeadlyV) return trip(fault::kOverVoltage), AxisOutputs{};
+  if (in.temperature_c > Surroundings::kDeadlyC) return trip(fault::kTemperature), AxisOutputs{};
+  if (std::llabs(sign_position_ - last) >
+      static_cast<std::int64_t>(kMostCountsPerSecond * kControlPeriodS) * kCount)
+    return trip(fault::kSoftware), AxisOutputs{};
+
+  const Angle angle = commanded_angle(in);
+  const float omega = sign_velocity_ * kRadiansPerCount;
+  const float largest = std::max({config_.run_a, config_.hold_a, config_.boost_a});
+  const float trip_a = std::min(1.5F * largest + 0.75F, 6.5F);
+  const Vector reference = turn({amplitude_a_, 0}, sine_cosine(angle));
+  const std::uint16_t code =
+      power_faults_.look(in.current_a, reference, amplitude_a_, loop_.direct_v(),
+                         config_.motor_measured ? config_.motor.resistance_ohm : 0, omega, trip_a);
+  if (code != fault::kNone) return trip(code), AxisOutputs{};
+
+  if (wanted_tune_.exchange(false, std::memory_order_relaxed) && sign_velocity_ == 0) {
+    tune_.start(config_.run_a);
+    tune_state_.store(AutoTune::State::kRuns, std::memory_order_release);
+  }
+  if (tune_.state() == AutoTune::State::kRuns) return tune(in, angle);
+
+  slew_current(in);
+  const Vector volts = loop_.step(in.current_a, {amplitude_a_, angle, omega}, in.supply_v);
+  return apply(volts, reference, in.supply_v);
+}
+
+}  // namespace kinebus::motor

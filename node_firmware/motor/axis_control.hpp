@@ -1,0 +1,111 @@
+#pragma once
+// The control of one motor, called 20,000 times a second: from the commanded position and the measured
+// currents to the duty of its two H-bridges. Decides by itself what cannot wait (power off at a fault) and
+// leaves the rest to the main loop as flags.
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+
+#include "node_firmware/motor/auto_tune.hpp"
+#include "node_firmware/motor/current_loop.hpp"
+#include "node_firmware/motor/encoder.hpp"
+#include "node_firmware/motor/supervision.hpp"
+
+namespace kinebus::motor {
+
+enum class EncoderMode : std::uint8_t { kNone, kWatch, kClosedLoop };
+
+struct AxisConfig {
+  MotorModel motor;
+  bool motor_measured = false;  ///< else a cautious guess, and shorted turns are not looked for
+  /// Of the supply, that a phase's two half-bridges lose to dead time.
+  float dead_time_share = 0;
+  float bandwidth_hz = 1500;
+  float run_a = 1.5F, hold_a = 1.0F, boost_a = 0;
+  bool inverted = false;
+  EncoderMode encoder = EncoderMode::kNone;
+  bool encoder_reversed = false;
+  /// Encoder's absolute counts, modulo an electrical turn, where the motor's angle is 0; < 0: never found.
+  std::int32_t encoder_offset = -1;
+  std::int32_t following_window = 1024;  ///< counts
+  int following_periods = 200;
+};
+
+struct AxisInputs {
+  Vector current_a;  ///< phases A and B, at the sampling instant
+  float supply_v = 24;
+  float temperature_c = 25;
+  std::int64_t position = 0;  ///< command: counts, 32 fractional bits
+  float velocity = 0;         ///< counts/s
+  std::uint16_t encoder_frame = 0;
+  bool break_seen = false;  ///< the hardware has switched the outputs off
+};
+
+struct AxisOutputs {
+  Vector duty;         ///< of the supply, -1..1, phases A and B
+  bool power = false;  ///< outputs on
+};
+
+class AxisControl {
+ public:
+  // Main loop; all of these are words.
+  void set_power(bool on) { wanted_power_.store(on, std::memory_order_relaxed); }
+  void set_resting(bool resting) { resting_.store(resting, std::memory_order_relaxed); }
+  void request_tune() { wanted_tune_.store(true, std::memory_order_relaxed); }
+  /// Taken over by the next control interrupt; false: the last one is not taken yet.
+  bool configure(const AxisConfig& config);
+  /// The fault that has switched the power off; stays until acknowledge().
+  std::uint16_t tripped() const { return tripped_.load(std::memory_order_acquire); }
+  void acknowledge() { acknowledged_.store(true, std::memory_order_relaxed); }
+  /// Bits of Surroundings.
+  std::uint8_t troubles() const { return troubles_.load(std::memory_order_relaxed); }
+  /// Counts, command less encoder; 0 without encoder.
+  std::int32_t following_error() const { return following_.load(std::memory_order_relaxed); }
+  AutoTune::State tune_state() const { return tune_state_.load(std::memory_order_acquire); }
+  /// Valid when tune_state() is kDone.
+  AutoTune::Result tune_result() const { return tune_.result(); }
+  std::int32_t tuned_encoder_offset() const { return tuned_offset_; }
+  float amplitude_a() const { return amplitude_a_; }
+  const Encoder& encoder() const { return encoder_; }
+
+  /// Control interrupt.
+  AxisOutputs step(const AxisInputs& in);
+
+ private:
+  void take_config();
+  void trip(std::uint16_t code);
+  void begin(const AxisInputs& in);
+  void serve_encoder(const AxisInputs& in);
+  void slew_current(const AxisInputs& in);
+  Angle commanded_angle(const AxisInputs& in);
+  AxisOutputs tune(const AxisInputs& in, Angle angle);
+  AxisOutputs apply(const Vector& volts, const Vector& wanted, float supply_v) const;
+
+  AxisConfig config_, next_config_;
+  std::atomic<bool> config_waits_{false}, wanted_power_{false}, resting_{true}, wanted_tune_{false},
+      acknowledged_{false};
+  std::atomic<std::uint16_t> tripped_{0};
+  std::atomic<std::uint8_t> troubles_{0};
+  std::atomic<std::int32_t> following_{0};
+  std::atomic<AutoTune::State> tune_state_{AutoTune::State::kIdle};
+
+  CurrentLoop loop_;
+  Encoder encoder_;
+  AutoTune tune_;
+  PowerFaults power_faults_;
+  Surroundings surroundings_;
+  Persistence off_course_{200};
+
+  bool on_ = false;
+  float amplitude_a_ = 0;
+  int rest_periods_ = 0;
+  std::int64_t sign_position_ = 0;  // command, with the sense of the motor
+  float sign_velocity_ = 0, last_velocity_ = 0;
+  std::int64_t angle_shift_ = 0;    // electrical: where the current began, less the command, counts << 32
+  std::int64_t follow_origin_ = 0;  // command less encoder when the power came
+  std::int64_t trim_ = 0;           // closed loop: what keeps the rotor off the command at rest
+  std::int32_t tuned_offset_ = -1;
+};
+
+}  // namespace kinebus::motor

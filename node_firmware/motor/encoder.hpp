@@ -1,0 +1,79 @@
+#pragma once
+// An AS5047-type angle encoder on the motor's shaft: frames with parity, turns counted, loss told.
+
+#include <bit>
+#include <cstdint>
+
+namespace kinebus::motor {
+
+/// The command that reads the compensated angle; its answer comes with the next frame. Parity bit included.
+inline constexpr std::uint16_t kReadAngle = 0xFFFF;
+/// 51200 counts a turn over 16384 steps: 3.125 counts, with 32 fractional bits.
+inline constexpr std::int64_t kCountsPerEncoderStep = std::int64_t{25} << 29;
+
+class Encoder {
+ public:
+  /// Frames that may be bad one after another: 1 ms. The position then is not known any more.
+  static constexpr int kMostBad = 20;
+  /// More steps than this in a control period is no motion (40 rev/s).
+  static constexpr int kMostSteps = 40;
+
+  void set_reversed(bool reversed) { reversed_ = reversed; }
+
+  /// One answer each control period. False: parity or error flag or a jump.
+  bool on_frame(std::uint16_t frame) {
+    const bool sound = (std::popcount(frame) & 1) == 0 && (frame & 0x4000) == 0;
+    const std::uint16_t raw = frame & 0x3FFF;
+    if (!sound) return bad();
+    if (!known_) {
+      known_ = true;
+      raw_ = raw;
+      bad_ = 0;
+      return true;
+    }
+    int steps = static_cast<int>(static_cast<unsigned>(raw - raw_) & 0x3FFF);
+    if (steps >= 0x2000) steps -= 0x4000;
+    // After lost frames the motor may be further on.
+    const int most = kMostSteps * (1 + bad_);
+    if (steps > most || steps < -most) return bad();
+    raw_ = raw;
+    bad_ = 0;
+    position_ += (reversed_ ? -steps : steps) * kCountsPerEncoderStep;
+    return true;
+  }
+
+  bool known() const { return known_; }
+  bool lost() const { return lost_; }
+  std::uint32_t errors() const { return errors_; }
+  /// Counts with 32 fractional bits since the encoder became known.
+  std::int64_t position() const { return position_; }
+  /// Within the turn: counts with 32 fractional bits.
+  std::int64_t absolute() const {
+    const std::int64_t steps = reversed_ ? (0x4000 - raw_) & 0x3FFF : raw_;
+    return steps * kCountsPerEncoderStep;
+  }
+  /// Starts anew after a loss.
+  void restart() {
+    known_ = lost_ = false;
+    bad_ = 0;
+  }
+
+ private:
+  bool bad() {
+    ++errors_;
+    if (++bad_ >= kMostBad) {
+      lost_ = true;
+      known_ = false;
+      bad_ = kMostBad;
+    }
+    return false;
+  }
+
+  std::int64_t position_ = 0;
+  std::uint32_t errors_ = 0;
+  std::uint16_t raw_ = 0;
+  int bad_ = 0;
+  bool known_ = false, lost_ = false, reversed_ = false;
+};
+
+}  // namespace kinebus::motor

@@ -1,0 +1,202 @@
+#include "node_firmware/motor/axis_control.hpp"
+
+#include <gtest/gtest.h>
+
+#include "node_firmware/motor/tests/motor_model.hpp"
+
+namespace kinebus::motor {
+namespace {
+
+TEST(AxisControl, PowerComesAndTheRotorStays) {
+  // The rotor was left at a third of a full step, where the command stands too.
+  Bench bench;
+  bench.position = 85;
+  bench.motor.theta = 85.0 / 512 * std::numbers::pi / 50;
+  bench.run(0.001);
+  bench.control.set_power(true);
+  double most = 0;
+  for (int i = 0; i < 4000; ++i) {
+    bench.period();
+    most = std::max(most, std::abs(bench.motor.counts() - 85));
+  }
+  EXPECT_LT(most, 2);
+  EXPECT_NEAR(std::hypot(bench.motor.ia, bench.motor.ib), 1.5, 0.05);
+}
+
+TEST(AxisControl, EncoderTellsTheFirstAngle) {
+  AxisConfig config = Bench::standard();
+  config.encoder = EncoderMode::kWatch;
+  config.encoder_offset = 0;
+  Bench bench(config);
+  bench.encoder_present = true;
+  bench.motor.theta = 400.0 / 512 * std::numbers::pi / 50;  // nobody told the command
+  bench.run(0.001);
+  bench.control.set_power(true);
+  double most = 0;
+  for (int i = 0; i < 4000; ++i) {
+    bench.period();
+    most = std::max(most, std::abs(bench.motor.counts() - 400));
+  }
+  EXPECT_LT(most, 6) << "two steps of the encoder";
+  EXPECT_LE(std::abs(bench.control.following_error()), 4);
+}
+
+TEST(AxisControl, HoldCurrentComesAfterARest) {
+  Bench bench;
+  bench.control.set_power(true);
+  bench.run(0.15);
+  EXPECT_NEAR(bench.control.amplitude_a(), 1.5F, 0.01F);
+  bench.run(0.3);
+  EXPECT_NEAR(bench.control.amplitude_a(), 1.0F, 0.01F);
+}
+
+TEST(AxisControl, FollowsFromRestToTenTurnsASecond) {
+  Bench bench;
+  bench.control.set_power(true);
+  bench.run(0.3);
+  double worst = 0;
+  // 6.4e6 counts/s^2 to 512,000 counts/s: the default carriage's 5000 mm/s^2 to 400 mm/s.
+  while (bench.velocity < 512'000) {
+    bench.velocity += 6.4e6 * 50e-6;
+    bench.period();
+    worst = std::max(worst, std::abs(bench.motor.counts() - bench.position));
+  }
+  bench.run(0.2);
+  worst = std::max(worst, std::abs(bench.motor.counts() - bench.position));
+  EXPECT_LT(worst, 51) << "two tenths of a full step, in counts";
+  EXPECT_EQ(bench.control.tripped(), fault::kNone);
+}
+
+TEST(AxisControl, OpenPhaseIsFound) {
+  Bench bench;
+  bench.control.set_power(true);
+  bench.run(0.3);
+  bench.motor.open_a = true;
+  bench.run(0.02);
+  EXPECT_EQ(bench.control.tripped(), fault::kPhaseOpen);
+  EXPECT_FALSE(bench.out.power);
+}
+
+TEST(AxisControl, ShortedTurnsAreFound) {
+  Bench bench;
+  bench.motor.resistance = 0.15;
+  bench.motor.inductance = 0.3e-3;
+  bench.control.set_power(true);
+  bench.run(0.4);
+  const bool found =
+      bench.control.tripped() == fault::kShortCircuit || bench.control.tripped() == fault::kOverCurrent;
+  EXPECT_TRUE(found) << std::hex << bench.control.tripped();
+}
+
+TEST(AxisControl, OverCurrentSwitchesOffWithinTwoPeriods) {
+  Bench bench;
+  bench.control.set_power(true);
+  bench.run(0.3);
+  bench.motor.ia = 4.5;
+  bench.period();
+  bench.motor.ia = 4.5;
+  bench.period();
+  EXPECT_EQ(bench.control.tripped(), fault::kOverCurrent);
+  EXPECT_FALSE(bench.out.power);
+  bench.motor.ia = 0;
+  bench.control.set_power(false);
+  bench.control.acknowledge();
+  bench.period();
+  EXPECT_EQ(bench.control.tripped(), fault::kNone);
+}
+
+TEST(AxisControl, SupplyAndHeatAreTroublesWithAWayBack) {
+  Bench bench;
+  bench.control.set_power(true);
+  bench.run(0.1);
+  bench.supply = 8;
+  bench.run(0.01);
+  EXPECT_EQ(bench.control.troubles(), Surroundings::kUnder);
+  EXPECT_TRUE(bench.out.power) << "the axis holds as well as it can";
+  bench.supply = 24;
+  bench.temperature = 95;
+  bench.run(0.2);
+  EXPECT_EQ(bench.control.troubles(), Surroundings::kHot);
+  bench.temperature = 112;
+  bench.run(0.01);
+  EXPECT_EQ(bench.control.tripped(), fault::kTemperature);
+}
+
+TEST(AxisControl, BlockedMotorIsAFollowingError) {
+  AxisConfig config = Bench::standard();
+  config.encoder = EncoderMode::kWatch;
+  Bench bench(config);
+  bench.encoder_present = true;
+  bench.control.set_power(true);
+  bench.run(0.3);
+  bench.motor.blocked = true;
+  bench.velocity = 50'000;
+  bench.run(0.05);
+  EXPECT_EQ(bench.control.troubles(), Surroundings::kFollowing);
+  EXPECT_GT(bench.control.following_error(), 1024);
+}
+
+TEST(AxisControl, LoadIsTakenUpWithTheEncoder) {
+  AxisConfig config = Bench::standard();
+  config.encoder = EncoderMode::kClosedLoop;
+  Bench bench(config);
+  bench.encoder_present = true;
+  bench.motor.friction = 3e-3;
+  bench.control.set_power(true);
+  bench.run(0.5);
+  bench.motor.load = 0.05;
+  bench.run(0.5);
+  // Half a step of the encoder: 1.6 counts.
+  EXPECT_LT(std::abs(bench.motor.counts()), 3.2);
+}
+
+TEST(AxisControl, ClosedLoopKeepsStepWhereOpenLoopLosesIt) {
+  for (const bool closed : {false, true}) {
+    AxisConfig config = Bench::standard();
+    config.encoder = closed ? EncoderMode::kClosedLoop : EncoderMode::kWatch;
+    Bench bench(config);
+    bench.encoder_present = true;
+    bench.motor.friction = 1e-3;
+    bench.control.set_power(true);
+    bench.run(0.3);
+    bench.velocity = 60'000;
+    bench.motor.load = 0.4;  // more than the motor has
+    bench.run(0.03);
+    bench.motor.load = 0;
+    bench.run(0.1);
+    bench.velocity = 0;
+    bench.run(0.3);
+    const double error = std::abs(bench.motor.counts() - bench.position);
+    if (closed) {
+      EXPECT_LT(error, 10) << "back in step";
+    } else {
+      EXPECT_GT(error, 500) << "the test's blow should make an open loop lose steps";
+    }
+  }
+}
+
+TEST(AxisControl, AutoTuneFindsResistanceAndInductance) {
+  AxisConfig config = Bench::standard();
+  config.motor = {1.0F, 1.0e-3F, 0};
+  config.motor_measured = false;
+  config.bandwidth_hz = 500;
+  for (const auto& [resistance, inductance] : {std::pair{0.6, 0.9e-3}, {1.2, 2.2e-3}, {3.5, 8e-3}}) {
+    Bench bench(config);
+    bench.encoder_present = true;
+    bench.encoder_zero = 0.3;
+    bench.motor.resistance = resistance;
+    bench.motor.inductance = inductance;
+    bench.control.set_power(true);
+    bench.run(0.3);
+    bench.control.request_tune();
+    bench.run(1.0);
+    ASSERT_EQ(bench.control.tune_state(), AutoTune::State::kDone);
+    EXPECT_NEAR(bench.control.tune_result().resistance_ohm, resistance, 0.03 * resistance);
+    EXPECT_NEAR(bench.control.tune_result().inductance_h, inductance, 0.08 * inductance);
+    EXPECT_EQ(bench.control.tripped(), fault::kNone);
+    EXPECT_LT(std::abs(bench.motor.counts()), 2) << "the rotor stays while it is measured";
+  }
+}
+
+}  // namespace
+}  // namespace kinebus::motor

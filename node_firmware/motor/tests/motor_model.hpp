@@ -1,0 +1,89 @@
+#pragma once
+// A two-phase stepper with its rotor, for the tests of the control: average voltages, exact enough at 2.5 us.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "node_firmware/motor/axis_control.hpp"
+
+namespace kinebus::motor {
+
+struct TestMotor {
+  double resistance = 1.2, inductance = 2.2e-3, flux = 3.0e-3;  // ohm, H, Vs
+  double inertia = 5.7e-6, friction = 1e-4;                     // kg m^2, N m s
+  double detent = 0, load = 0;                                  // N m
+  bool open_a = false, blocked = false;
+  double ia = 0, ib = 0, theta = 0, omega = 0;  // theta: mechanical, rad
+  static constexpr int kPolePairs = 50;
+
+  double electrical() const { return kPolePairs * theta; }
+  double counts() const { return electrical() * 512 / std::numbers::pi; }
+
+  void run(double va, double vb, double seconds) {
+    constexpr double kStep = 2.5e-6;
+    for (double t = 0; t < seconds - kStep / 2; t += kStep) {
+      const double s = std::sin(electrical()), c = std::cos(electrical());
+      const double speed = kPolePairs * omega;
+      ia += (va - resistance * ia + flux * speed * s) / inductance * kStep;
+      ib += (vb - resistance * ib - flux * speed * c) / inductance * kStep;
+      if (open_a) ia = 0;
+      const double torque = kPolePairs * flux * (ib * c - ia * s) - detent * std::sin(4 * electrical()) -
+                            friction * omega - load;
+      omega += torque / inertia * kStep;
+      if (blocked) omega = 0;
+      theta += omega * kStep;
+    }
+  }
+};
+
+/// The control and its motor, period by period, with the delays of the board: sampled at the start of a
+/// period, applied in the next.
+struct Bench {
+  TestMotor motor;
+  AxisControl control;
+  double supply = 24, temperature = 25;
+  double position = 0, velocity = 0;  // command: counts, counts/s
+  AxisOutputs out;
+  bool encoder_present = false;
+  double encoder_zero = 0;  // rad
+
+  explicit Bench(AxisConfig config = standard()) { static_cast<void>(control.configure(config)); }
+
+  static AxisConfig standard() {
+    AxisConfig config;
+    config.motor = {1.2F, 2.2e-3F, 3.0e-3F};
+    config.motor_measured = true;
+    return config;
+  }
+  std::uint16_t encoder_frame() const {
+    if (!encoder_present) return 0xFFFF;
+    const double turns = (motor.theta + encoder_zero) / (2 * std::numbers::pi);
+    auto raw = static_cast<std::uint16_t>(static_cast<std::int64_t>(std::floor(turns * 16384)) & 0x3FFF);
+    if ((std::popcount(raw) & 1) != 0) raw |= 0x8000;
+    return raw;
+  }
+  static double quantised(double amperes) { return std::round(amperes / 0.004028) * 0.004028; }
+
+  void period() {
+    AxisInputs in;
+    in.current_a = {static_cast<float>(quantised(motor.ia)), static_cast<float>(quantised(motor.ib))};
+    in.supply_v = static_cast<float>(supply);
+    in.temperature_c = static_cast<float>(temperature);
+    in.position = static_cast<std::int64_t>(position * 4294967296.0);
+    in.velocity = static_cast<float>(velocity);
+    in.encoder_frame = encoder_frame();
+    const AxisOutputs next = control.step(in);
+    const bool on = out.power;
+    motor.run(on ? out.duty.x * supply : 0, on ? out.duty.y * supply : 0, 50e-6);
+    if (!on) motor.ia = motor.ib = 0;
+    out = next;
+    position += velocity * 50e-6;
+  }
+  void run(double seconds) {
+    for (int i = 0; i < static_cast<int>(std::lround(seconds * 20'000)); ++i) period();
+  }
+};
+
+}  // namespace kinebus::motor

@@ -1,0 +1,158 @@
+#include "node_firmware/port/stm32f405/power_stage.hpp"
+
+#include "node_firmware/port/stm32f405/pins.hpp"
+#include "node_firmware/port/stm32f405/thermistor.hpp"
+
+namespace kinebus::stm32 {
+namespace {
+
+Timer& timer(int axis) {
+  return axis == 0 ? tim1() : tim8();
+}
+Spi& spi(int axis) {
+  return axis == 0 ? spi1() : spi3();
+}
+
+// BKE, active low; the outputs float when the break comes (OSSI 0), by hardware alone.
+constexpr std::uint32_t kBreakSetting = Timer::kBreakEnable;
+
+void start_timer(Timer& t) {
+  t.PSC = 0;
+  t.ARR = board::kPwmTop;
+  t.RCR = board::kPwmRepetition;
+  for (Reg& compare : t.CCR) compare = board::kPwmTop / 2;
+  t.CCMR1 = Timer::kPwm1Preload;
+  t.CCMR2 = Timer::kPwm1Preload;
+  t.CCER = Timer::kAllOutputs;
+  t.BDTR = kBreakSetting;
+  t.CR1 = Timer::kCentreAligned1 | Timer::kAutoReloadPreload;
+  t.EGR = Timer::kGenerateUpdate;
+  t.SR = 0;
+  t.DIER = Timer::kBreakInterrupt;
+}
+
+void start_converters() {
+  // Sampling 15 cycles for the currents (0.7 us), 144 for the slow channels.
+  for (const int n : {1, 2}) {
+    Adc& a = adc(n);
+    a.SMPR2 = 0x0000'0249;  // channels 0 to 3
+    const auto& channel = n == 1 ? board::kPhaseAChannel : board::kPhaseBChannel;
+    // Two conversions: they are written in the places 3 and 4 of the four.
+    a.JSQR = 1u << 20 | static_cast<std::uint32_t>(channel[0]) << 10 |
+             static_cast<std::uint32_t>(channel[1]) << 15;
+    a.CR1 = Adc::kScan | (n == 1 ? Adc::kInjectedInterrupt : 0);
+  }
+  adc(3).SMPR1 = 0x0000'01B6;  // channels 10 to 12: 144 cycles each
+  adc_common().CCR = AdcCommon::kInjectedSimultaneous | AdcCommon::kPrescaler4;
+  adc(1).CR2 = Adc::kOn | Adc::kInjectedByTim1Update | Adc::kInjectedRisingEdge;
+  adc(2).CR2 = Adc::kOn;
+  adc(3).CR2 = Adc::kOn;
+}
+
+void start_encoders() {
+  constexpr std::uint32_t kSetting =
+      Spi::kSecondEdge | Spi::kMaster | Spi::kInternalSelect | Spi::kSoftwareSelect | Spi::kFrame16;
+  spi1().CR1 = kSetting | Spi::divide(4) | Spi::kEnable;  // 84 MHz / 16 = 5.25 MHz
+  spi3().CR1 = kSetting | Spi::divide(3) | Spi::kEnable;  // 42 MHz / 8
+}
+
+}  // namespace
+
+void PowerStage::start() {
+  rcc().APB2ENR = rcc().APB2ENR | Rcc::kTim1 | Rcc::kTim8 | Rcc::kAdc1 | Rcc::kAdc2 | Rcc::kAdc3 | Rcc::kSpi1;
+  rcc().APB1ENR = rcc().APB1ENR | Rcc::kSpi3;
+  start_converters();
+  start_encoders();
+  start_timer(tim1());
+  start_timer(tim8());
+  tim1().CR2 = Timer::kMasterUpdate;
+  for (int axis = 0; axis < 2; ++axis) begin_encoder(axis);
+  adc(3).SQR3 = board::kSlowChannels[slow_];
+  adc(3).CR2 = adc(3).CR2 | Adc::kSoftwareStart;
+  enable_interrupt(Irq::kTim1Break, 1);
+  enable_interrupt(Irq::kTim8Break, 1);
+  enable_interrupt(Irq::kAdc, 3);
+  // Motor B's timer lags by one conversion.
+  tim1().CNT = board::kMotorBLag;
+  tim8().CNT = 0;
+  tim1().CR1 = tim1().CR1 | Timer::kEnable;
+  tim8().CR1 = tim8().CR1 | Timer::kEnable;
+}
+
+std::array<std::uint32_t, 2> PowerStage::raw(int axis) {
+  return {adc(1).JDR[axis], adc(2).JDR[axis]};
+}
+
+motor::Vector PowerStage::currents(int axis) const {
+  const auto [a, b] = raw(axis);
+  const motor::Vector& zero = zero_[static_cast<std::size_t>(axis)];
+  return {(static_cast<float>(a) - zero.x) * board::kAmperesPerStep,
+          (static_cast<float>(b) - zero.y) * board::kAmperesPerStep};
+}
+
+void PowerStage::after_break(int axis) {
+  write(board::kDriverEnable[static_cast<std::size_t>(axis)], false);
+  // The flag stays set, and the interrupt pending, as long as the input is active: the next power-on asks
+  // again.
+  timer(axis).DIER = 0;
+  timer(axis).SR = ~Timer::kBreakFlag;
+  on_[static_cast<std::size_t>(axis)] = false;
+}
+
+void PowerStage::apply(int axis, const motor::AxisOutputs& outputs) {
+  Timer& t = timer(axis);
+  bool& on = on_[static_cast<std::size_t>(axis)];
+  if (!outputs.power) {
+    if (on) {
+      t.BDTR = kBreakSetting;
+      write(board::kDriverEnable[static_cast<std::size_t>(axis)], false);
+      on = false;
+    }
+    return;
+  }
+  constexpr float kHalf = static_cast<float>(board::kPwmTop) / 2;
+  const float a = outputs.duty.x * kHalf, b = outputs.duty.y * kHalf;
+  t.CCR[0] = static_cast<std::uint32_t>(kHalf + a + 0.5F);
+  t.CCR[1] = static_cast<std::uint32_t>(kHalf - a + 0.5F);
+  t.CCR[2] = static_cast<std::uint32_t>(kHalf + b + 0.5F);
+  t.CCR[3] = static_cast<std::uint32_t>(kHalf - b + 0.5F);
+  if (!on) {
+    // A break of before is over when the input says so; MOE cannot be set while it is active.
+    t.SR = ~Timer::kBreakFlag;
+    t.DIER = Timer::kBreakInterrupt;
+    t.BDTR = kBreakSetting | Timer::kMainOutput;
+    write(board::kDriverEnable[static_cast<std::size_t>(axis)], true);
+    on = true;
+  }
+}
+
+void PowerStage::serve_slow() {
+  if ((adc(3).SR & Adc::kEndOfConversion) == 0) return;
+  const std::uint32_t steps = adc(3).DR;
+  if (slow_ == 0)
+    supply_v_ = static_cast<float>(steps) * board::kSupplyVoltsPerStep;
+  else
+    temperature_c_[slow_ - 1] = thermistor_celsius(steps);
+  // The supply is what a dip shows in: every other conversion is of it.
+  static constexpr std::array<std::size_t, 4> kOrder{0, 1, 0, 2};
+  turn_ = (turn_ + 1) % kOrder.size();
+  slow_ = kOrder[turn_];
+  adc(3).SQR3 = board::kSlowChannels[slow_];
+  adc(3).CR2 = adc(3).CR2 | Adc::kSoftwareStart;
+}
+
+std::uint16_t PowerStage::take_encoder(int axis) {
+  Spi& s = spi(axis);
+  const board::OutputPin select = board::kEncoderSelect[static_cast<std::size_t>(axis)];
+  const bool answered = (s.SR & Spi::kReceived) != 0;
+  const auto answer = static_cast<std::uint16_t>(s.DR);
+  write(select, true);
+  return answered ? answer : std::uint16_t{0xFFFF};
+}
+
+void PowerStage::begin_encoder(int axis) {
+  write(board::kEncoderSelect[static_cast<std::size_t>(axis)], false);
+  spi(axis).DR = motor::kReadAngle;
+}
+
+}  // namespace kinebus::stm32

@@ -1,0 +1,51 @@
+#pragma once
+// Both motors' half-bridges and what is measured with them: PWM of TIM1 and TIM8, the injected conversions
+// that TIM1 triggers, the slow conversions, break inputs, and the encoders. Set up once; then the control
+// interrupt reads and writes words.
+
+#include <array>
+#include <cstdint>
+
+#include "node_firmware/motor/axis_control.hpp"
+#include "node_firmware/port/stm32f405/board.hpp"
+#include "node_firmware/port/stm32f405/registers.hpp"
+
+namespace kinebus::stm32 {
+
+class PowerStage {
+ public:
+  /// Starts timers and converters; outputs stay off, and the control interrupt begins.
+  void start();
+
+  // Control interrupt.
+  /// Phase currents of the sampling that has just ended, in amperes.
+  motor::Vector currents(int axis) const;
+  /// The hardware has switched the outputs off: the drivers are disabled too, and the flag cleared.
+  void after_break(int axis);
+  /// Duty -1..1 of the supply for phases A and B; power on or off at once.
+  void apply(int axis, const motor::AxisOutputs& outputs);
+  /// Collects one slow conversion and begins the next.
+  void serve_slow();
+  float supply_v() const { return supply_v_; }
+  float temperature_c(int axis) const { return temperature_c_[static_cast<std::size_t>(axis)]; }
+  /// The encoder's last answer; 0xFFFF, which is none, when there is none. Ends that frame.
+  static std::uint16_t take_encoder(int axis);
+  /// The next reading; at least 350 ns after take_encoder(), ready 3 us later.
+  static void begin_encoder(int axis);
+
+  /// Main loop: the shunt amplifiers' zero, averaged while nothing flows. `steps`: sums of a conversion each.
+  void set_zero(int axis, float phase_a_steps, float phase_b_steps) {
+    zero_[static_cast<std::size_t>(axis)] = {phase_a_steps, phase_b_steps};
+  }
+  static std::array<std::uint32_t, 2> raw(int axis);
+
+ private:
+  std::array<motor::Vector, 2> zero_{motor::Vector{board::kCurrentZero, board::kCurrentZero},
+                                     motor::Vector{board::kCurrentZero, board::kCurrentZero}};
+  std::array<bool, 2> on_{};
+  float supply_v_ = 0;
+  std::array<float, 2> temperature_c_{25, 25};
+  std::size_t slow_ = 0, turn_ = 0;  // place in board::kSlowChannels, and in the order of conversions
+};
+
+}  // namespace kinebus::stm32

@@ -1,0 +1,39 @@
+#pragma once
+// The independent watchdog, on its own 32 kHz oscillator (17 to 47 kHz over all chips).
+
+#include "node_firmware/port/stm32f405/registers.hpp"
+
+namespace kinebus::stm32 {
+
+class WatchdogPort {
+ public:
+  /// Resets the processor when it is not fed for 100 ms (68 to 190 ms).
+  void start() {
+    watchdog().KR = IndependentWatchdog::kStart;
+    set(3, 100);  // 32 kHz / 32 = 1 kHz
+  }
+  /// Before flash is erased: 4 s.
+  void allow_erase() { set(6, 500); }  // 125 Hz
+  void back_to_normal() { set(3, 100); }
+
+  /// `ticks`: control interrupts so far. Feeds only when both they and the main loop are well.
+  void serve(bool healthy, std::uint32_t ticks) {
+    if (!healthy || ticks == fed_at_) return;
+    fed_at_ = ticks;
+    watchdog().KR = IndependentWatchdog::kFeed;
+  }
+  static bool caused_reset() { return (rcc().CSR & Rcc::kWatchdogReset) != 0; }
+
+ private:
+  static void set(std::uint32_t prescaler, std::uint32_t reload) {
+    watchdog().KR = IndependentWatchdog::kUnlock;
+    static_cast<void>(wait_until([] { return watchdog().SR == 0; }, 100'000));
+    watchdog().PR = prescaler;
+    watchdog().RLR = reload;
+    static_cast<void>(wait_until([] { return watchdog().SR == 0; }, 100'000));
+    watchdog().KR = IndependentWatchdog::kFeed;
+  }
+  std::uint32_t fed_at_ = 0;
+};
+
+}  // namespace kinebus::stm32
