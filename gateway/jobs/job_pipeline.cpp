@@ -62,6 +62,9 @@ void JobPipeline::begin(const PoseVector& start) {
   lines_ = 0;
   bytes_ = 0;
   text_at_ = text_end_ = 0;
+  feed_scale_ = 1;
+  moves_taken_ = 0;
+  scales_.clear();
 }
 
 void JobPipeline::start_job(ByteSource& source, const PoseVector& start) {
@@ -237,6 +240,11 @@ void JobPipeline::take(const canonical::Line& line) {
 }
 
 void JobPipeline::take_motion(const canonical::Line& line) {
+  while (!scales_.empty() && scales_.front().move <= moves_taken_) {
+    feed_scale_ = scales_.front().scale;
+    scales_.pop_front();
+  }
+  ++moves_taken_;
   if (feed_scale_ == 1 || !is_any<Feed, Arc>(line.command)) return add_to_planner(line);
   canonical::Line scaled = line;
   const auto scale = [this](auto& move) {

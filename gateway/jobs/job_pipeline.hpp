@@ -15,6 +15,7 @@
 #include "gateway/gcode/interpreter.hpp"
 #include "gateway/gcode/job_reader.hpp"
 #include "gateway/jobs/byte_source.hpp"
+#include "gateway/jobs/job_place.hpp"
 #include "gateway/jobs/problem.hpp"
 #include "gateway/machine/description/machine_description.hpp"
 #include "gateway/motion/planner.hpp"
@@ -69,6 +70,11 @@ class JobPipeline {
   /// Feed override above 1, for motion that is not planned yet. 1 and below is a matter of path time, not of
   /// planning.
   void set_feed_scale(double scale) { feed_scale_ = scale; }
+  double feed_scale() const { return feed_scale_; }
+  /// Motion commands planned so far: where a change of the scale takes effect.
+  std::uint64_t moves_taken() const { return moves_taken_; }
+  /// Changes of the scale that a reading of this job before this one had, in their order.
+  void replay_feed_scales(std::vector<FeedScale> scales) { scales_.assign(scales.begin(), scales.end()); }
 
  private:
   enum class Stage : std::uint8_t {
@@ -115,6 +121,8 @@ class JobPipeline {
   Phase phase_{};
   canonical::Line command_;
   double event_s_ = 0, run_s_ = 0, feed_scale_ = 1;
+  std::uint64_t moves_taken_ = 0;
+  std::deque<FeedScale> scales_;
   Problem problem_;
   std::uint32_t lines_ = 0;
   std::uint64_t bytes_ = 0;

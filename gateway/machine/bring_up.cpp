@@ -41,6 +41,7 @@ void BringUp::start(BusTime now, bool alone) {
   }
   foreign_ = failed_ = equalising_ = false;
   out_.clear();
+  found_.clear();
   enter(alone ? Stage::kIdentify : Stage::kListen, now);
 }
 
@@ -119,16 +120,18 @@ BringUp::Outcome BringUp::on_time(BusTime now) {
   }
   if (stage_ == Stage::kListen || !all_done()) return Outcome::kBusy;
   if (stage_ == Stage::kPathTime) {
+    if (found_.empty())
+      for (const Node& node : nodes_) found_.emplace_back(node.path_ticks);
     std::int64_t most = 0;
     bool equal = true;
     for (const Node& node : nodes_) {
       most = std::max(most, node.path_ticks);
       equal = equal && node.path_ticks == nodes_.front().path_ticks;
     }
-    if (!equal) {
-      // Nodes that were switched on at different times: all take a time that none of them has seen.
-      most = (most / kPathTicksPerUnit) * kPathTicksPerUnit + kPathTimeGap.count();
-      equalising_ = true;
+    if (!std::exchange(equalising_, true)) {
+      // Nodes that were switched on at different times: all take a time that none of them has seen. Equal
+      // ones take it again without the fractions of a tick that SDO does not tell.
+      if (!equal) most = (most / kPathTicksPerUnit) * kPathTicksPerUnit + kPathTimeGap.count();
       for (Node& node : nodes_) node.path_ticks = most;
       enter(Stage::kPathTime, now);
       return Outcome::kBusy;
@@ -234,15 +237,18 @@ void BringUp::synchronise(BusTime now, NodeLink& link, Node& node) {
 void BringUp::path_time(NodeLink& link, Node& node) {
   if (!node.requested) {
     node.requested = true;
-    if (equalising_)
+    if (equalising_) {
+      // With motion queued another path time would be another position.
+      link.sdo().write({object::kBufferClear, 1, 0});
       link.sdo().write({object::kPathTime, 8, node.path_ticks});
-    else
+    } else {
       link.sdo().read(object::kPathTime);
+    }
     return;
   }
   while (const auto answer = result(link, AlarmCode::kPathTimeDiffers)) {
     if (answer->read) node.path_ticks = answer->value;
-    node.done = true;
+    node.done = link.sdo().idle();
   }
 }
 

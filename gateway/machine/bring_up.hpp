@@ -45,6 +45,8 @@ class BringUp {
   bool may_speak() const { return stage_ != Stage::kListen; }
   const StepFailure& failure() const { return failure_; }
   std::string doing() const;
+  /// Where the nodes' path time stood, before it was made equal; empty: not read yet.
+  const std::vector<PathTime>& found_path_times() const { return found_; }
   bool busy() const { return stage_ != Stage::kIdle; }
 
  private:
@@ -104,6 +106,7 @@ class BringUp {
   PathRate& rate_;
   std::vector<Node> nodes_;
   std::deque<CanFrame> out_;
+  std::vector<PathTime> found_;
   Stage stage_ = Stage::kIdle;
   BusTime entered_{0};
   bool foreign_ = false, failed_ = false, equalising_ = false;

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "gateway/jobs/bus_load.hpp"
+#include "gateway/jobs/hashed_source.hpp"
+#include "gateway/jobs/journal/journal_queue.hpp"
 #include "gateway/jobs/live_lines.hpp"
 #include "gateway/jobs/preflight.hpp"
 #include "gateway/machine/bring_up.hpp"
@@ -64,9 +66,14 @@ class Gateway::Core {
   void close_lines();
   void forget_line_modes();
 
+  // core_resume.cpp
+  Result<void, Refusal> recover(journal::State state, std::unique_ptr<ByteSource> job);
+  std::optional<journal::Record> next_journal_record() { return journal_.pop(); }
+  void on_journal_stored(std::uint64_t count) { journal_.on_stored(count); }
+
   // core_status.cpp
   MachineStatus status() const;
-  std::optional<PlannedPose> planned_pose(PathTime tau) const { return runner_.planned_pose(tau); }
+  std::optional<PlannedPose> planned_pose(PathTime tau) const { return runner_->planned_pose(tau); }
 
   // text_session.cpp
   Result<std::string, Refusal> text_line(std::string_view line);
@@ -81,6 +88,8 @@ class Gateway::Core {
 
   Result<void, Refusal> check(MachineCommand command) const;
   void enter(MachineState state);
+  Result<void, Refusal> begin_bring_up();
+  void begin_homing();
   void alarm(AlarmCode code, std::string words, std::uint8_t node = 0, std::uint32_t line = 0);
   /// Stops everything on the path; with `fault` the machine ends in kAlarm.
   void stop_all(bool fault);
@@ -100,6 +109,35 @@ class Gateway::Core {
   void report_problems();
   void finish_motion();
   void remember_positions();
+
+  // Interruption and resume (core_resume.cpp).
+  /// A job is interrupted: it can go on, or be cancelled.
+  bool interrupted() const {
+    const bool nodes_lost = state_ == MachineState::kOff || state_ == MachineState::kBringUp;
+    return recovery_ || (print_.active() && (print_.suspended() || nodes_lost));
+  }
+  /// The stream is gone; what the job has left from `tau` on is kept.
+  void interrupt(PathTime tau);
+  /// The path time at which the nodes were found, of those that lie in the run from `start` on.
+  PathTime found_tau(PathTime start, PathTime otherwise) const;
+  Result<void, Refusal> go_on();
+  Result<void, Refusal> begin_return();
+  void note_found();
+  void step_recovery();
+  void finish_recovery();
+  void finish_return();
+  void give_up_job();
+  void begin_job(const PoseVector& start);
+  void note_progress();
+  void try_by_itself();
+  /// Distance of where the axes stand from the joints' values, counts: the filament's, and the greatest
+  /// other.
+  struct Distance {
+    double filament = 0, others = 0;
+  };
+  Distance distance_from(const JointVector& wanted, const PlannedPose& place) const;
+  std::vector<canonical::Line> heating() const;
+  void add_approach(std::vector<canonical::Line>& commands, const PoseVector& from, PoseVector target) const;
 
   // What the nodes say (core_nodes.cpp).
   void watch_nodes();
@@ -131,7 +169,10 @@ class Gateway::Core {
   BringUp bring_up_;
   MachineHoming homing_;
   Standstill standstill_;
-  Runner runner_;
+  journal::Queue journal_;
+  Runner hand_;              ///< moves by hand, and the ways to a job's place
+  Runner print_;             ///< the job
+  Runner* runner_ = &hand_;  ///< whose motion it is
   BusLoad load_;
   MachineCounters counters_;
 
@@ -150,7 +191,7 @@ class Gateway::Core {
   std::vector<std::array<AxisState, kAxesPerNode>> positions_;  ///< where the nodes rest, by node
 
   // The job.
-  std::unique_ptr<ByteSource> job_;
+  std::unique_ptr<HashedSource> job_;
   std::string job_name_;
   std::unique_ptr<Preflight> preflight_;
   std::size_t problems_reported_ = 0;
@@ -160,6 +201,26 @@ class Gateway::Core {
   bool lines_closing_ = false;
   bool job_follows_ = false;  ///< the move to the bed reference is under way, then comes the job
   BusTime job_started_{0};
+  std::uint64_t job_bytes_ = 0, job_hash_ = 0;
+
+  // Interruption.
+  struct Recovery {  ///< what the gateway before has left
+    journal::State state;
+    std::unique_ptr<ByteSource> job;
+    bool replaying = false;
+  };
+  std::optional<Recovery> recovery_;
+  bool job_failed_ = false;     ///< the job itself is wrong: it cannot go on
+  bool going_on_ = false;       ///< resume() was given: bring-up, homing and return follow one another
+  bool by_itself_ = false;      ///< nobody has given it
+  bool asked_itself_ = false;   ///< once is enough
+  bool returning_ = false;      ///< the move to the interrupted job's place is under way
+  bool filament_lost_ = false;  ///< nobody knows where it stands
+  PathTime tau_before_{0};      ///< of the gateway itself, before a bring-up
+  std::optional<journal::Thermal>
+      heat_wanted_;  ///< what the interrupted job wants, when heaters were switched off
+  journal::Thermal heat_noted_;
+  BusTime progress_due_{0};
   double override_ = 1;
 };
 

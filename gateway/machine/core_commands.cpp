@@ -18,6 +18,11 @@ Error<Refusal> refuse(std::string words) {
 /// Between two poses of a jog: the workspace is checked so often.
 constexpr double kCheckStep = 1.0;  // mm
 constexpr double kCheckStepRad = 0.01;
+/// Nothing is under way there, but perhaps an interrupted job waits.
+bool idle(MachineState state) {
+  return state == MachineState::kOff || state == MachineState::kUnhomed || state == MachineState::kReady;
+}
+
 constexpr double kDefaultJogSpeed = 20;       // mm/s
 constexpr double kDefaultTurnSpeed = 0.3;     // rad/s
 constexpr double kDefaultExtrusionSpeed = 3;  // mm/s of filament
@@ -26,6 +31,10 @@ constexpr double kDefaultExtrusionSpeed = 3;  // mm/s of filament
 
 Done Gateway::Core::check(MachineCommand command) const {
   if (!defect_.empty()) return refuse(defect_);
+  const bool for_interrupted = (command == MachineCommand::kResume && state_ != MachineState::kHeld) ||
+                               (command == MachineCommand::kCancel && idle(state_));
+  if (allowed(command, state_) && for_interrupted && !interrupted())
+    return refuse("there is no interrupted job to " + std::string(to_string(command)));
   if (allowed(command, state_)) return {};
   std::string words =
       "cannot " + std::string(to_string(command)) + " while the machine is " + std::string(to_string(state_));
@@ -47,9 +56,15 @@ Done Gateway::Core::check(MachineCommand command) const {
 }
 
 Done Gateway::Core::bring_up() {
+  going_on_ = false;
+  return begin_bring_up();
+}
+
+Done Gateway::Core::begin_bring_up() {
   if (auto ok = check(MachineCommand::kBringUp); !ok) return ok;
   need_bring_up_ = fault_ = stream_lost_ = homed_ = false;
-  runner_.drop();
+  hand_.drop();
+  tau_before_ = rate_.tau(now_);
   bring_up_.start(now_, speaking_);
   enter(MachineState::kBringUp);
   return {};
@@ -57,10 +72,15 @@ Done Gateway::Core::bring_up() {
 
 Done Gateway::Core::home() {
   if (auto ok = check(MachineCommand::kHome); !ok) return ok;
+  going_on_ = false;
+  begin_homing();
+  return {};
+}
+
+void Gateway::Core::begin_homing() {
   homed_ = false;
   homing_.start(now_);
   enter(MachineState::kHoming);
-  return {};
 }
 
 Result<PoseVector, Refusal> Gateway::Core::machine_pose() const {
@@ -71,10 +91,11 @@ Result<PoseVector, Refusal> Gateway::Core::machine_pose() const {
 }
 
 void Gateway::Core::start_move(canonical::Command move, const PoseVector& from) {
-  job_name_.clear();
-  job_follows_ = false;
-  runner_.start_commands({{0, std::move(move)}}, from);
-  runner_.set_override(override_);
+  if (!interrupted()) job_name_.clear();
+  job_follows_ = returning_ = false;
+  runner_ = &hand_;
+  hand_.start_commands({{0, std::move(move)}}, from);
+  hand_.set_override(override_);
   job_started_ = now_;
   enter(MachineState::kMoving);
 }
@@ -125,7 +146,8 @@ Done Gateway::Core::jog(const JogRequest& request) {
 Done Gateway::Core::run(std::unique_ptr<ByteSource> job, std::string name) {
   if (auto ok = check(MachineCommand::kRun); !ok) return ok;
   if (!job || !job->rewind()) return refuse("the job cannot be read twice: it is checked before it runs");
-  job_ = std::move(job);
+  give_up_job();
+  job_ = std::make_unique<HashedSource>(std::move(job));
   job_name_ = std::move(name);
   problems_reported_ = 0;
   JobCheck::Options check_options;
@@ -133,7 +155,6 @@ Done Gateway::Core::run(std::unique_ptr<ByteSource> job, std::string name) {
     check_options.hotend_celsius = target;
   preflight_ =
       std::make_unique<Preflight>(machine_, *kinematics_, *job_, kinematics_->bed_reference(), check_options);
-  runner_.set_override(override_);
   enter(MachineState::kChecking);
   return {};
 }
@@ -141,14 +162,16 @@ Done Gateway::Core::run(std::unique_ptr<ByteSource> job, std::string name) {
 Done Gateway::Core::hold() {
   if (auto ok = check(MachineCommand::kHold); !ok) return ok;
   held_from_ = state_;
-  runner_.hold(now_);
+  runner_->hold(now_);
   enter(MachineState::kHolding);
   return {};
 }
 
 Done Gateway::Core::resume() {
   if (auto ok = check(MachineCommand::kResume); !ok) return ok;
-  runner_.resume(now_);
+  by_itself_ = false;
+  if (state_ != MachineState::kHeld || print_.suspended()) return go_on();
+  runner_->resume(now_);
   enter(held_from_);
   return {};
 }
@@ -158,12 +181,16 @@ Done Gateway::Core::cancel() {
   if (state_ == MachineState::kChecking) {
     preflight_.reset();
     job_.reset();
-    job_name_.clear();
+    give_up_job();
     enter(MachineState::kReady);
     return {};
   }
-  runner_.hold(now_);
-  job_follows_ = false;
+  if (idle(state_)) {
+    give_up_job();
+    return {};
+  }
+  runner_->hold(now_);
+  job_follows_ = returning_ = false;
   rest_since_ = now_;
   enter(MachineState::kCancelling);
   return {};
@@ -181,9 +208,11 @@ Done Gateway::Core::clear() {
   if (auto ok = check(MachineCommand::kClear); !ok) return ok;
   if (need_bring_up_ || !speaking_) {
     fault_ = homed_ = false;
-    runner_.drop();
-    job_name_.clear();
-    events_.message(now_, "cleared: bring the machine up again");
+    hand_.drop();
+    if (!print_.active()) job_name_.clear();
+    events_.message(now_, print_.active()
+                              ? "cleared: resume brings the machine up again and goes on with the job"
+                              : "cleared: bring the machine up again");
     enter(MachineState::kOff);
     return {};
   }
@@ -199,7 +228,8 @@ Done Gateway::Core::set_feed_override(double ratio) {
   if (!(ratio >= 0.01 && ratio <= 5)) return refuse("a feed override is 0.01 to 5");
   if (auto ok = check(MachineCommand::kFeedOverride); !ok) return ok;
   override_ = ratio;
-  runner_.set_override(ratio);
+  runner_->set_override(ratio);
+  if (print_.active()) journal_.push(journal::Override{ratio});
   return {};
 }
 
@@ -208,7 +238,9 @@ Done Gateway::Core::motors_off() {
   for (NodeLink& link : links_)
     for (std::size_t axis = 0; axis < kAxesPerNode; ++axis)
       link.set_control(axis, cia402::control::kShutdown);
-  runner_.drop();
+  hand_.drop();
+  interrupt(rate_.tau(now_));
+  filament_lost_ = true;
   standstill_.abort();
   clearing_ = homed_ = false;
   enter(MachineState::kOff);
@@ -222,6 +254,7 @@ Done Gateway::Core::set_temperature(bool bed, double celsius) {
   if (!(celsius >= 0 && celsius <= heater.max_c))
     return refuse("the temperature must be 0 to " + std::to_string(std::lround(heater.max_c)) + " C");
   thermal_.set_target(bed ? Heater::kBed : Heater::kHotend, celsius);
+  if (heat_wanted_) (bed ? heat_wanted_->bed_celsius : heat_wanted_->hotend_celsius) = celsius;
   return {};
 }
 

@@ -10,7 +10,7 @@ namespace kinebus {
 bool Gateway::Core::lines_open() const {
   const bool runs =
       state_ == MachineState::kRunning || state_ == MachineState::kHolding || state_ == MachineState::kHeld;
-  return runs && runner_.live() && !lines_closing_;
+  return runs && print_.live() && !lines_closing_;
 }
 
 Result<void, Refusal> Gateway::Core::open_lines(std::string name) {
@@ -20,9 +20,11 @@ Result<void, Refusal> Gateway::Core::open_lines(std::string name) {
   live_commands_.clear();
   const double target = thermal_.heater(Heater::kHotend).target_celsius;
   live_lines_.begin(*pose, target > 0 ? std::optional(target) : std::nullopt, live_commands_);
-  runner_.start_live(*pose);
-  runner_.set_override(override_);
-  for (const canonical::Line& command : live_commands_) runner_.add(now_, command);
+  give_up_job();
+  runner_ = &print_;
+  print_.start_live(*pose);
+  print_.set_override(override_);
+  for (const canonical::Line& command : live_commands_) print_.add(now_, command);
   job_name_ = std::move(name);
   job_report_ = {};
   job_started_ = now_;
@@ -40,7 +42,7 @@ Result<void, Refusal> Gateway::Core::take_line(std::string_view line, std::uint3
   for (std::string& note : live_lines_.take_notes()) events_.message(now_, std::move(note), number);
   for (const canonical::Line& command : live_commands_) {
     if (open) {
-      runner_.add(now_, command);
+      print_.add(now_, command);
     } else if (const auto* thermal = std::get_if<canonical::Thermal>(&command.command)) {
       if (auto ok = check(MachineCommand::kThermal); !ok) return ok;
       if (thermal->what == canonical::Thermal::What::kFan)
@@ -57,17 +59,17 @@ Result<void, Refusal> Gateway::Core::take_line(std::string_view line, std::uint3
 }
 
 std::size_t Gateway::Core::line_room() const {
-  return lines_open() ? kLineRoom - std::min(kLineRoom, runner_.live_waiting()) : 0;
+  return lines_open() ? kLineRoom - std::min(kLineRoom, print_.live_waiting()) : 0;
 }
 
 bool Gateway::Core::lines_idle() const {
-  return lines_open() && runner_.live_idle();
+  return lines_open() && print_.live_idle();
 }
 
 void Gateway::Core::close_lines() {
   if (!lines_open()) return;
   lines_closing_ = true;
-  runner_.end_live();
+  print_.end_live();
 }
 
 void Gateway::Core::forget_line_modes() {

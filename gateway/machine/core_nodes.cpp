@@ -76,7 +76,8 @@ bool Gateway::Core::check_clock(const NodeLink& link, const StreamStatus& status
 
 void Gateway::Core::take_stream_status(NodeLink& link) {
   const auto status = link.take_stream();
-  if (!status || !streams_flow() || !runner_.active() || !check_clock(link, *status)) return;
+  if (!status || !streams_flow() || !runner_->active() || runner_->suspended() || !check_clock(link, *status))
+    return;
   const auto taken = group_.on_status(now_, link.id(), *status, rate_.tau(now_));
   if (taken) return;
   using Kind = StreamError::Kind;

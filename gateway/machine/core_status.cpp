@@ -18,13 +18,14 @@ void Gateway::Core::remember_positions() {
 
 /// By the records of the run under way, else where the nodes rest.
 JointVector Gateway::Core::joints_now() const {
-  if (runner_.active() && !runner_.between_runs())
+  const bool moves = runner_->active() && !runner_->suspended();
+  if (moves && !runner_->between_runs())
     if (const auto joints = group_.joints_at(rate_.tau(now_))) return *joints;
   JointVector joints{};
   for (std::size_t i = 0; i < axes_.size(); ++i)
     for (std::size_t axis = 0; axis < kAxesPerNode; ++axis) {
       const AxisScaling& scaling = axes_[i].axes[axis];
-      const AxisState& state = runner_.active() ? group_.stream(i).final_state()[axis] : positions_[i][axis];
+      const AxisState& state = moves ? group_.stream(i).final_state()[axis] : positions_[i][axis];
       if (scaling.joint >= 0)
         joints[static_cast<std::size_t>(scaling.joint)] = scaling.to_joint(to_counts(state.position));
     }
@@ -37,7 +38,7 @@ MachineStatus Gateway::Core::status() const {
   s.now = now_;
   s.positions_known = homed_;
   s.doing = bring_up_.busy()     ? bring_up_.doing()
-            : runner_.active()   ? runner_.doing()
+            : runner_->active()  ? runner_->doing()
             : standstill_.busy() ? "reading where the nodes stand"
                                  : std::string(to_string(state_));
   s.joint_count = static_cast<int>(machine_.joints.size());
@@ -52,11 +53,12 @@ MachineStatus Gateway::Core::status() const {
   s.rate = rate_.rate(now_);
   s.feed_override = override_;
   s.job = job_name_;
-  if (runner_.active() && !job_follows_) {
-    s.line = runner_.line(now_);
+  s.interrupted = interrupted() && state_ != MachineState::kRunning;
+  if (runner_->active() && !job_follows_) {
+    s.line = runner_->line(now_);
     s.elapsed_s = to_seconds(now_ - job_started_);
     const double all = job_name_.empty() ? 0 : job_report_.motion_s;
-    const double done = runner_.done_s(now_);
+    const double done = runner_->done_s(now_);
     if (all > 0) {
       s.progress = std::clamp(done / all, 0.0, 1.0);
       s.remaining_s = std::max(0.0, all - done) / override_;
@@ -68,8 +70,8 @@ MachineStatus Gateway::Core::status() const {
   s.bus_load = load_.last_second();
   s.bus_load_peak = load_.peak_second();
   s.counters = counters_;
-  s.counters.bus_slowdowns = runner_.counters().bus_slowdowns;
-  s.counters.starvation_holds = runner_.counters().starvation_holds;
+  s.counters.bus_slowdowns = hand_.counters().bus_slowdowns + print_.counters().bus_slowdowns;
+  s.counters.starvation_holds = hand_.counters().starvation_holds + print_.counters().starvation_holds;
   for (std::size_t i = 0; i < links_.size(); ++i) {
     s.nodes.push_back(links_[i].status(now_, machine_.bus.heartbeat_timeout));
     s.nodes.back().records_sent = group_.stream(i).counters().records;

@@ -39,10 +39,18 @@ void Gateway::Core::alarm(AlarmCode code, std::string words, std::uint8_t node, 
 
 void Gateway::Core::stop_all(bool fault) {
   fault_ = fault_ || fault;
+  going_on_ = returning_ = false;
   bring_up_.abort();
   if (homing_.busy()) {
     homing_.abort();
     homed_ = false;
+  }
+  if (recovery_ && recovery_->replaying) {
+    recovery_->job = print_.take_source();
+    recovery_->replaying = false;
+    print_.drop();
+  } else if (recovery_ && job_) {
+    recovery_->job = std::move(job_);
   }
   preflight_.reset();
   standstill_.abort();
@@ -50,6 +58,7 @@ void Gateway::Core::stop_all(bool fault) {
   if (state_ == MachineState::kRunning || state_ == MachineState::kMoving) held_from_ = state_;
   if (speaking_ && !rate_.stop_latched()) rate_.stop(now_);
   if (fault_) {
+    if (print_.active() && !heat_wanted_) heat_wanted_ = heat_noted_;
     thermal_.set_target(Heater::kHotend, 0);
     thermal_.set_target(Heater::kBed, 0);
   }
@@ -72,6 +81,7 @@ void Gateway::Core::on_time(BusTime now) {
   thermal_.on_time(now_);
   for (NodeLink& link : links_) link.on_time(now_);
   watch_nodes();
+  note_progress();
   switch (state_) {
     case MachineState::kBringUp:
       step_bring_up();
@@ -100,6 +110,8 @@ void Gateway::Core::on_time(BusTime now) {
       step_clear();
       break;
     case MachineState::kOff:
+      try_by_itself();
+      break;
     case MachineState::kUnhomed:
     case MachineState::kReady:
     case MachineState::kHeld:
@@ -118,11 +130,13 @@ void Gateway::Core::step_bring_up() {
     sync_.start(now_);
     heartbeat_.set_period(machine_.bus.heartbeat_period, now_);
   }
+  note_found();
   if (outcome == BringUp::Outcome::kBusy) return;
   if (outcome == BringUp::Outcome::kDone) return begin_standstill(After::kBringUp);
   const StepFailure& failure = bring_up_.failure();
   if (failure.code == AlarmCode::kSecondGateway) speaking_ = false;
   need_bring_up_ = true;
+  going_on_ = false;
   alarm(failure.code, failure.words, failure.node);
   enter(MachineState::kAlarm);
 }
@@ -158,18 +172,27 @@ void Gateway::Core::finish_standstill() {
   for (std::size_t i = 0; i < links_.size(); ++i)
     group_.set_state(links_[i].id(), standstill_.node(i).position, standstill_.node(i).stream);
   homed_ = standstill_.positions_known();
+  const bool cancelled = after_ == After::kCancel, job_failed = std::exchange(job_failed_, false);
   stream_lost_ = fault_ = false;
-  runner_.drop();
-  job_name_.clear();
+  hand_.drop();
   for (std::size_t i = 0; i < links_.size(); ++i) positions_[i] = standstill_.node(i).position;
   if (after_ == After::kHoming && !homed_) {
     alarm(AlarmCode::kHomingFailed, "a node does not know its position after homing");
     return stop_all(true);
   }
+  if (cancelled || job_failed)
+    give_up_job();
+  else
+    interrupt(after_ == After::kBringUp ? found_tau(print_.run_start(), tau_before_) : rate_.tau(now_));
+  if (!interrupted()) job_name_.clear();
+  filament_lost_ = filament_lost_ || (interrupted() && !homed_);
   if (after_ == After::kHoming)
     events_.push({.kind = MachineEvent::Kind::kFinished, .when = now_, .words = "homed", .advice = {}});
   if (after_ == After::kCancel) events_.message(now_, "cancelled: positions are known");
+  // What was interrupted by a stop alone is held; elsewhere the machine may be moved first.
+  if (after_ == After::kClear && homed_ && print_.active()) return enter(MachineState::kHeld);
   enter(homed_ ? MachineState::kReady : MachineState::kUnhomed);
+  if (going_on_) finish_recovery();
 }
 
 // Jobs and moves
@@ -189,12 +212,15 @@ void Gateway::Core::report_problems() {
 }
 
 void Gateway::Core::step_checking() {
+  if (recovery_) return step_recovery();
   const bool done = preflight_->step(options_.planning_budget);
   report_problems();
   if (!done) return;
   job_report_ = preflight_->report();
   const std::uint64_t errors = preflight_->problems().errors();
   preflight_.reset();
+  job_bytes_ = job_->bytes();
+  job_hash_ = job_->hash();
   if (errors > 0 || !job_->rewind()) {
     events_.push({.kind = MachineEvent::Kind::kFinished,
                   .when = now_,
@@ -211,14 +237,16 @@ void Gateway::Core::step_checking() {
   }
   PoseVector target = kinematics_->bed_reference();
   target[kE] = (*pose)[kE];
-  runner_.start_commands({{0, canonical::Traverse{target, canonical::Frame::kMachine}}}, *pose);
+  runner_ = &hand_;
+  hand_.start_commands({{0, canonical::Traverse{target, canonical::Frame::kMachine}}}, *pose);
+  hand_.set_override(override_);
   job_follows_ = true;
   job_started_ = now_;
   enter(MachineState::kRunning);
 }
 
 void Gateway::Core::step_running() {
-  switch (runner_.on_time(now_, options_.planning_budget)) {
+  switch (runner_->on_time(now_, options_.planning_budget)) {
     case Runner::Outcome::kBusy:
       return;
     case Runner::Outcome::kPaused:
@@ -228,11 +256,12 @@ void Gateway::Core::step_running() {
     case Runner::Outcome::kDone:
       return finish_motion();
     case Runner::Outcome::kEmergencyStop:
-      alarm(AlarmCode::kEmergencyStop, "M112 in the job", 0, runner_.line(now_));
+      alarm(AlarmCode::kEmergencyStop, "M112 in the job", 0, runner_->line(now_));
       return stop_all(false);
     case Runner::Outcome::kFailed: {
-      const Runner::Failure& failure = runner_.failure();
+      const Runner::Failure& failure = runner_->failure();
       stream_lost_ = true;
+      job_failed_ = runner_ == &print_ && !failure.stream;
       alarm(failure.stream ? AlarmCode::kStreamLost : AlarmCode::kJobError, failure.words, 0, failure.line);
       return stop_all(false);
     }
@@ -240,13 +269,15 @@ void Gateway::Core::step_running() {
 }
 
 void Gateway::Core::finish_motion() {
-  const bool live = runner_.live();
-  runner_.drop();
+  const bool live = runner_->live();
+  if (runner_ == &print_) journal_.push(journal::JobEnd{});
+  runner_->drop();
   remember_positions();
+  if (std::exchange(returning_, false)) return finish_return();
   if (std::exchange(job_follows_, false)) {
     PoseVector start = kinematics_->bed_reference();
     if (const auto pose = machine_pose()) start[kE] = (*pose)[kE];
-    runner_.start_job(std::move(job_), start);
+    begin_job(start);
     return;
   }
   const bool job = state_ == MachineState::kRunning;
@@ -262,7 +293,7 @@ void Gateway::Core::finish_motion() {
 
 void Gateway::Core::step_hold() {
   // A wait between runs stands still at once; planning ahead goes on.
-  static_cast<void>(runner_.on_time(now_, options_.planning_budget));
+  static_cast<void>(runner_->on_time(now_, options_.planning_budget));
   if (standing()) enter(MachineState::kHeld);
 }
 
@@ -325,9 +356,10 @@ void Gateway::Core::step_clear() {
   if (lifted && enabled) {
     clearing_ = false;
     fault_ = false;
-    const bool goes_on = runner_.active() && !stream_lost_ && homed_ && state_ == MachineState::kStopped;
+    const bool goes_on = runner_->active() && !runner_->suspended() && !stream_lost_ && homed_ &&
+                         state_ == MachineState::kStopped;
     if (!goes_on) return begin_standstill(After::kClear);
-    runner_.hold(now_);
+    runner_->hold(now_);
     return enter(MachineState::kHeld);
   }
   if (now_ - clearing_since_ < kClearTimeout) return;

@@ -43,9 +43,14 @@ Gateway::Core::Core(const MachineDescription& machine, Options options)
       bring_up_(machine_, links_, rate_),
       homing_(machine_, links_),
       standstill_(machine_, links_),
-      runner_(machine_, *kinematics_, group_, rate_, thermal_, events_),
+      hand_(machine_, *kinematics_, group_, rate_, thermal_, events_, journal_),
+      print_(machine_, *kinematics_, group_, rate_, thermal_, events_, journal_),
       positions_(axes_.size()),
-      live_lines_(machine_, *kinematics_) {}
+      live_lines_(machine_, *kinematics_) {
+  if (!options_.journal) return;
+  journal_.enable();
+  journal_.push(journal::Epoch{options_.epoch});
+}
 
 Gateway::Gateway(const MachineDescription& machine) : Gateway(machine, Options{}) {}
 Gateway::Gateway(const MachineDescription& machine, Options options)
@@ -133,6 +138,16 @@ void Gateway::forget_line_modes() {
 }
 Result<std::string, Refusal> Gateway::text_line(std::string_view line) {
   return core_->text_line(line);
+}
+
+std::optional<journal::Record> Gateway::next_journal_record() {
+  return core_->next_journal_record();
+}
+void Gateway::on_journal_stored(std::uint64_t count) {
+  core_->on_journal_stored(count);
+}
+Result<void, Refusal> Gateway::recover(journal::State state, std::unique_ptr<ByteSource> job) {
+  return core_->recover(std::move(state), std::move(job));
 }
 
 MachineState Gateway::state() const {

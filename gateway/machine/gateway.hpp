@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "gateway/jobs/byte_source.hpp"
+#include "gateway/jobs/journal/journal_state.hpp"
 #include "gateway/kinematics/kinematics.hpp"
 #include "gateway/machine/event.hpp"
 #include "gateway/machine/state.hpp"
@@ -55,6 +56,7 @@ class Gateway {
   struct Options {
     std::uint8_t epoch = 1;     ///< of the time stamps: another value after every start of the gateway
     int planning_budget = 400;  ///< G-code lines interpreted in one on_time() call, at most
+    bool journal = false;       ///< somebody stores next_journal_record(); a run waits (briefly) for it
   };
 
   explicit Gateway(const MachineDescription& machine);
@@ -84,6 +86,7 @@ class Gateway {
   /// moves.
   Result<void, Refusal> run(std::unique_ptr<ByteSource> job, std::string name);
   Result<void, Refusal> hold();
+  /// From a hold; or an interrupted job, from wherever the machine is: brings up, homes and heats as needed.
   Result<void, Refusal> resume();
   Result<void, Refusal> cancel();
   Result<void, Refusal> stop();                           ///< latched, in every state
@@ -106,6 +109,13 @@ class Gateway {
   static constexpr std::size_t kLineRoom = 32;
   /// One line of a text session (M105, M114, M115, M119, G28, M112, M24, M25 ...): the reply, without "ok".
   Result<std::string, Refusal> text_line(std::string_view line);
+
+  // The journal: what another gateway needs to take up the job of this one.
+  std::optional<journal::Record> next_journal_record();
+  /// The first `count` records are stored, or never will be.
+  void on_journal_stored(std::uint64_t count);
+  /// Right after the start: what the gateway before has noted, and the text of its job. resume() takes it up.
+  Result<void, Refusal> recover(journal::State state, std::unique_ptr<ByteSource> job);
 
   MachineState state() const;
   MachineStatus status() const;

@@ -10,8 +10,6 @@ namespace {
 
 /// At rest no joint feels a ramp: path time is let go and caught at once.
 constexpr std::chrono::milliseconds kRampAtRest{2};
-/// From the naming of a run's START to path time: knots lie on a 16 us grid, and START must lie ahead of tau.
-constexpr PathTime kStartLead = std::chrono::milliseconds{1};
 /// The rate is raised at most so often, and lowered when it has to be: the bus is not filled with rate
 /// commands.
 constexpr BusTime kRaisePeriod = std::chrono::milliseconds{250};
@@ -25,10 +23,8 @@ constexpr BusTime kLiveGather = std::chrono::milliseconds{100};
 
 /// planned_pose() knows so much of the past.
 constexpr PathTime kPlannedMemory = std::chrono::seconds{1};
-
-PathTime after(PathTime start, double seconds) {
-  return start + PathTime{static_cast<std::int64_t>(seconds * 16e6)};
-}
+/// A run waits at most so long for the journal to have its beginning on the disk.
+constexpr BusTime kJournalPatience = std::chrono::milliseconds{500};
 
 std::string celsius_words(const char* what, double celsius) {
   char text[64];
@@ -39,21 +35,23 @@ std::string celsius_words(const char* what, double celsius) {
 }  // namespace
 
 Runner::Runner(const MachineDescription& machine, const Kinematics& kinematics, StreamGroup& group,
-               PathRate& rate, ThermalDevice& thermal, EventQueue& events)
+               PathRate& rate, ThermalDevice& thermal, EventQueue& events, journal::Queue& journal)
     : machine_(machine),
       group_(group),
       rate_(rate),
       thermal_(thermal),
       events_out_(events),
-      pipeline_(machine, kinematics) {}
+      journal_(journal),
+      pipeline_(machine, kinematics),
+      feed_(group) {}
 
 void Runner::begin() {
   active_ = true;
-  held_ = streaming_ = started_ = finished_ = stop_asked_ = live_ = false;
+  held_ = suspended_ = started_ = finished_ = stop_asked_ = barrier_waits_ = live_ = false;
   wait_ = Wait::kNone;
+  waits_done_ = waits_replayed_ = 0;
   events_.clear();
-  planned_.clear();
-  finished_runs_s_ = 0;
+  feed_.reset();
   last_line_ = 0;
   doing_ = "moving";
 }
@@ -61,16 +59,22 @@ void Runner::begin() {
 void Runner::start_job(std::unique_ptr<ByteSource> source, const PoseVector& start) {
   source_ = std::move(source);
   pipeline_.start_job(*source_, start);
+  start_ = start;
+  noted_ = true;
   begin();
 }
 
 void Runner::start_commands(std::vector<canonical::Line> commands, const PoseVector& start) {
   pipeline_.start_commands(std::move(commands), start);
+  start_ = start;
+  noted_ = false;
   begin();
 }
 
 void Runner::start_live(const PoseVector& start) {
   pipeline_.start_live(start);
+  start_ = start;
+  noted_ = false;
   begin();
   live_ = true;
   doing_ = "waiting for lines";
@@ -83,7 +87,7 @@ void Runner::add(BusTime now, const canonical::Line& line) {
 
 /// The pipeline has nothing more to give out before the next live command comes.
 void Runner::settle_when_late(BusTime now) {
-  if (!streaming_) {
+  if (!feed_.streaming()) {
     if (pipeline_.live_idle()) doing_ = "waiting for lines";
     if (now - last_added_ >= kLiveGather) pipeline_.settle_live();
     return;
@@ -96,49 +100,45 @@ void Runner::settle_when_late(BusTime now) {
 
 void Runner::set_override(double ratio) {
   override_ = ratio;
-  pipeline_.set_feed_scale(std::max(1.0, ratio));
+  const double scale = std::max(1.0, ratio);
+  if (scale == pipeline_.feed_scale()) return;
+  pipeline_.set_feed_scale(scale);
+  if (noted_ && active_) journal_.push(journal::Scale{{pipeline_.moves_taken(), scale}});
 }
 
 void Runner::hold(BusTime now) {
   held_ = true;
-  rate_.request(0, streaming_ ? machine_.stop.hold_ramp : kRampAtRest, now);
+  rate_.request(0, feed_.streaming() ? machine_.stop.hold_ramp : kRampAtRest, now);
 }
 
 void Runner::resume(BusTime now) {
   held_ = false;
-  if (wait_ == Wait::kPause) wait_ = Wait::kNone;
+  if (wait_ == Wait::kPause) end_wait();
   last_rate_change_ = now - kRaisePeriod;
 }
 
 void Runner::drop() {
-  active_ = streaming_ = false;
+  active_ = suspended_ = false;
+  feed_.reset();
   events_.clear();
   source_.reset();
   doing_.clear();
 }
 
 double Runner::done_s(BusTime now) const {
-  if (!streaming_) return finished_runs_s_;
-  return finished_runs_s_ + std::max(0.0, to_seconds(rate_.tau(now) - group_.run_start()));
-}
-
-PathTime Runner::end_of(const PlannedPhase& p) {
-  return after(p.start, p.start_s + p.phase.duration_s);
+  return feed_.done_s(rate_.tau(now));
 }
 
 std::optional<PlannedPose> Runner::planned_pose(PathTime tau) const {
-  const auto found =
-      std::upper_bound(planned_.begin(), planned_.end(), tau,
-                       [](PathTime t, const PlannedPhase& p) { return t < after(p.start, p.start_s); });
-  if (found == planned_.begin()) return std::nullopt;
-  const PlannedPhase& p = *std::prev(found);
-  const double t = to_seconds(tau - p.start) - p.start_s;
-  if (t > p.phase.duration_s + 1e-6) return std::nullopt;
-  return PlannedPose{p.phase.at(std::clamp(t, 0.0, p.phase.duration_s)).x, p.phase.piece.frame, p.phase.line};
+  PlannedPose planned;
+  const auto point = feed_.pose(tau, planned.frame, planned.line);
+  if (!point) return std::nullopt;
+  planned.pose = point->x;
+  return planned;
 }
 
 std::uint32_t Runner::line(BusTime now) const {
-  const std::uint32_t line = streaming_ ? group_.line_at(rate_.tau(now)) : 0;
+  const std::uint32_t line = feed_.streaming() ? group_.line_at(rate_.tau(now)) : 0;
   return line != 0 ? line : last_line_;
 }
 
@@ -151,15 +151,19 @@ Runner::Outcome Runner::on_time(BusTime now, int budget) {
   if (!active_) return Outcome::kDone;
   const BusTime elapsed = std::max(BusTime{0}, now - last_time_);
   last_time_ = now;
+  if (suspended_) return Outcome::kBusy;
   if (wait_ == Wait::kDwell && !held_) dwell_left_ -= std::min(dwell_left_, elapsed);
   execute_due(now);
   if (stop_asked_) return Outcome::kEmergencyStop;
-  const PathTime forgotten = rate_.tau(now) - kPlannedMemory;
-  while (!planned_.empty() && end_of(planned_.front()) < forgotten) planned_.pop_front();
+  feed_.forget_before(group_.confirmed(rate_.tau(now)) - kPlannedMemory);
   Outcome outcome = Outcome::kBusy;
+  if (std::exchange(barrier_waits_, false)) outcome = barrier(now);
+  if (outcome == Outcome::kBusy) outcome = stream(now);
   while (outcome == Outcome::kBusy && budget > 0) {
+    if (feed_.pending()) break;
     if (wait_ != Wait::kNone && !wait_is_over(now)) break;
-    if (streaming_ && !finished_ && !group_.wants_phases(rate_.tau(now))) break;
+    if (stop_asked_) return Outcome::kEmergencyStop;
+    if (!finished_ && !feed_.wants_phase(rate_.tau(now))) break;
     const JobPipeline::Step step = pipeline_.next(budget);
     if (step == JobPipeline::Step::kMore) break;
     if (step == JobPipeline::Step::kStarved) {
@@ -173,14 +177,110 @@ Runner::Outcome Runner::on_time(BusTime now, int budget) {
   return outcome;
 }
 
+/// What was planned goes into the group as far as it wants.
+Runner::Outcome Runner::stream(BusTime now) {
+  const auto pumped = feed_.pump(rate_.tau(now));
+  if (const auto run = feed_.take_begun()) {
+    started_ = false;
+    run_noted_ = now;
+    if (noted_)
+      journal_.push(journal::RunBegin{run->start, run->from, run->ramp_s, feed_.extruder_shift_mm()});
+  }
+  return pumped ? Outcome::kBusy : fail(pumped.error().line, to_string(pumped.error()), true);
+}
+
+// Interruption
+// -------------------------------------------------------------------------------------------------
+
+void Runner::suspend(PathTime tau) {
+  if (!active_ || suspended_) return;
+  suspended_ = true;
+  feed_.suspend(tau);
+  // The run was over but for the waiting.
+  const bool over = wait_ == Wait::kRunDone || wait_ == Wait::kRest;
+  if (over && !feed_.pending()) wait_ = Wait::kNone;
+  if (noted_) journal_.push(journal::Interrupted{feed_.place(tau), feed_.extruder_shift_mm()});
+}
+
+void Runner::go_on(BusTime now) {
+  suspended_ = held_ = false;
+  if (wait_ == Wait::kPause) end_wait();
+  feed_.go_on(to_seconds(BusTime{machine_.stop.hold_ramp}));
+  in_window_since_.reset();
+  last_time_ = now;
+}
+
+PlannedPose Runner::rest_pose() const {
+  PlannedPose rest{start_, Frame::kMachine, 0};
+  static_cast<void>(feed_.rest_pose(rest.pose, rest.frame, rest.line));
+  return rest;
+}
+
+void Runner::shift_extruder(double by_mm) {
+  feed_.shift_extruder(by_mm);
+  start_[kE] += by_mm;
+}
+
+void Runner::start_replay(std::unique_ptr<ByteSource> source, const journal::State& state, PathTime tau) {
+  start_job(std::move(source), state.job->start);
+  pipeline_.replay_feed_scales(state.scales);
+  waits_replayed_ = state.waits_done;
+  doing_ = "reading the job up to where it was";
+  if (state.run) {
+    const journal::RunBegin& run = *state.run;
+    feed_.replay_to(RunFeed::Run{run.start, run.from, run.ramp_s}, tau);
+    feed_.shift_extruder(run.extruder_shift_mm);
+  } else {
+    feed_.replay_to(state.interrupted ? state.interrupted->place : JobPlace{});
+    feed_.shift_extruder(state.interrupted ? state.interrupted->extruder_shift_mm : 0);
+  }
+}
+
+Runner::Outcome Runner::replay(int budget) {
+  using Step = JobPipeline::Step;
+  while (feed_.replaying()) {
+    switch (pipeline_.next(budget)) {
+      case Step::kMore:
+        return Outcome::kBusy;
+      case Step::kPhase:
+        finished_ = pipeline_.phase().last;
+        last_line_ = pipeline_.phase().line;
+        feed_.add(pipeline_.phase());
+        break;
+      case Step::kBarrier:
+        last_line_ = pipeline_.command().line;
+        if (!waits(pipeline_.command())) break;
+        if (waits_done_ < waits_replayed_) {
+          ++waits_done_;
+          break;
+        }
+        barrier_waits_ = true;
+        feed_.end_replay();
+        break;
+      case Step::kEnd:
+        feed_.end_replay();
+        break;
+      case Step::kProblem:
+        return fail(pipeline_.problem().line, pipeline_.problem().words, false);
+      case Step::kEvent:  // what it set is in the journal
+      case Step::kRunEnd:
+      case Step::kStarved:
+        break;
+    }
+  }
+  suspended_ = true;
+  doing_ = "interrupted";
+  return Outcome::kDone;
+}
+
 bool Runner::wait_is_over(BusTime now) {
   switch (wait_) {
     case Wait::kNone:
       return true;
     case Wait::kRunDone:
       if (!group_.run_done(rate_.tau(now))) return false;
-      finished_runs_s_ += pipeline_.run_s();
-      streaming_ = false;
+      feed_.end_run();
+      execute_due(now);
       rate_.request(0, kRampAtRest, now);
       wait_ = Wait::kRest;
       return wait_is_over(now);
@@ -205,14 +305,23 @@ bool Runner::wait_is_over(BusTime now) {
     case Wait::kPause:
       return false;
   }
-  wait_ = Wait::kNone;
-  doing_ = "moving";
+  end_wait();
   return true;
 }
 
+void Runner::end_wait() {
+  const bool of_job = wait_ == Wait::kDwell || wait_ == Wait::kHeating || wait_ == Wait::kPause;
+  wait_ = Wait::kNone;
+  doing_ = "moving";
+  if (!of_job) return;
+  ++waits_done_;
+  if (noted_) journal_.push(journal::WaitsDone{waits_done_});
+}
+
 void Runner::execute_due(BusTime now) {
-  const PathTime tau = rate_.tau(now);
-  while (!events_.empty() && (!streaming_ || events_.front().due <= tau)) {
+  if (events_.empty()) return;
+  const std::uint64_t done = feed_.place(rate_.tau(now)).phase;
+  while (!events_.empty() && (!feed_.streaming() || events_.front().phase <= done)) {
     execute(now, events_.front().line);
     events_.pop_front();
   }
@@ -235,31 +344,18 @@ void Runner::execute(BusTime now, const canonical::Line& line) {
 Runner::Outcome Runner::take(BusTime now, JobPipeline::Step step) {
   using Step = JobPipeline::Step;
   switch (step) {
-    case Step::kPhase: {
-      const bool first = !streaming_;
-      if (first) {
-        group_.begin_run();
-        streaming_ = true;
-        started_ = false;
-      }
+    case Step::kPhase:
       finished_ = pipeline_.phase().last;
       last_line_ = pipeline_.phase().line;
-      if (const auto pushed = group_.push(pipeline_.phase()); !pushed)
-        return fail(pushed.error().line, to_string(pushed.error()), true);
-      if (first) group_.release(rate_.tau(now) + kStartLead);
-      planned_.push_back(
-          {group_.run_start(), pipeline_.run_s() - pipeline_.phase().duration_s, pipeline_.phase()});
-      return Outcome::kBusy;
-    }
-    case Step::kEvent: {
-      const auto offset = static_cast<std::int64_t>(pipeline_.event_s() * 16e6);
-      events_.push_back(
-          {streaming_ ? group_.run_start() + PathTime{offset} : PathTime{0}, pipeline_.command()});
+      feed_.add(pipeline_.phase());
+      return stream(now);
+    case Step::kEvent:
+      events_.push_back({feed_.added(), pipeline_.command()});
       execute_due(now);
       return stop_asked_ ? Outcome::kEmergencyStop : Outcome::kBusy;
-    }
     case Step::kRunEnd:
-      wait_ = Wait::kRunDone;
+      finished_ = false;
+      if (feed_.streaming()) wait_ = Wait::kRunDone;
       return Outcome::kBusy;
     case Step::kBarrier:
       return barrier(now);
@@ -272,6 +368,14 @@ Runner::Outcome Runner::take(BusTime now, JobPipeline::Step step) {
       break;
   }
   return Outcome::kBusy;
+}
+
+/// Whether the machine waits there; the same for every reading of the job.
+bool Runner::waits(const canonical::Line& line) {
+  if (const auto* thermal = std::get_if<canonical::Thermal>(&line.command))
+    return thermal->value > 0 || thermal->wait_cooling;
+  return std::holds_alternative<canonical::Dwell>(line.command) ||
+         std::holds_alternative<canonical::Pause>(line.command);
 }
 
 Runner::Outcome Runner::barrier(BusTime now) {
@@ -308,10 +412,12 @@ void Runner::begin_heating(const canonical::Thermal& thermal) {
 
 /// Path time runs while a run's records are in the nodes in time, and no faster than bus and override allow.
 void Runner::control_rate(BusTime now) {
-  if (!streaming_ || held_ || rate_.stop_latched()) return;
+  if (!feed_.streaming() || held_ || rate_.stop_latched()) return;
   const PathTime tau = rate_.tau(now);
   if (!started_) {
     if (!group_.primed(tau)) return;
+    // Another gateway must find in the journal what path time means from here on.
+    if (noted_ && !journal_.all_stored() && now - run_noted_ < kJournalPatience) return;
     started_ = true;
     last_rate_change_ = now;
     const double allowed = group_.allowed_rate(tau);

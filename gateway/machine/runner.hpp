@@ -10,9 +10,12 @@
 #include <vector>
 
 #include "gateway/jobs/job_pipeline.hpp"
+#include "gateway/jobs/journal/journal_queue.hpp"
+#include "gateway/jobs/journal/journal_state.hpp"
 #include "gateway/machine/event_queue.hpp"
 #include "gateway/machine/gateway.hpp"
 #include "gateway/machine/path_rate.hpp"
+#include "gateway/machine/run_feed.hpp"
 #include "gateway/machine/thermal.hpp"
 #include "gateway/stream/stream_group.hpp"
 
@@ -32,7 +35,7 @@ class Runner {
   };
 
   Runner(const MachineDescription& machine, const Kinematics& kinematics, StreamGroup& group, PathRate& rate,
-         ThermalDevice& thermal, EventQueue& events);
+         ThermalDevice& thermal, EventQueue& events, journal::Queue& journal);
 
   /// A job's text from its beginning, the machine standing at `start` (Frame::kMachine).
   void start_job(std::unique_ptr<ByteSource> source, const PoseVector& start);
@@ -46,8 +49,31 @@ class Runner {
   bool live() const { return active_ && live_; }
   std::size_t live_waiting() const { return pipeline_.waiting(); }  ///< commands not yet planned
   /// All that was added is carried out, at rest.
-  bool live_idle() const { return live() && !streaming_ && wait_ == Wait::kNone && pipeline_.live_idle(); }
+  bool live_idle() const {
+    return live() && !feed_.streaming() && !feed_.pending() && wait_ == Wait::kNone && pipeline_.live_idle();
+  }
   bool active() const { return active_; }
+
+  // Interruption: the stream is lost, the job is not.
+  /// What the job has left from path time `tau` on is kept; nothing happens until go_on().
+  void suspend(PathTime tau);
+  bool suspended() const { return suspended_; }
+  /// From rest, with the tool at rest_pose().
+  void go_on(BusTime now);
+  /// Where the tool has to stand for go_on(), and the line of the job there.
+  PlannedPose rest_pose() const;
+  /// The filament stands this much further than planned, mm, and is right so.
+  void shift_extruder(double by_mm);
+  double extruder_shift_mm() const { return feed_.extruder_shift_mm(); }
+  PathTime run_start() const { return feed_.run_start(); }
+  std::unique_ptr<ByteSource> take_source() { return std::move(source_); }
+  JobPlace place(PathTime tau) const { return feed_.place(tau); }
+
+  /// Reads a job again, up to where `state` says that it was, and suspends it there. `tau`: where the nodes'
+  /// path time stands, when `state` knows a run. Then replay() until it is no longer busy.
+  void start_replay(std::unique_ptr<ByteSource> source, const journal::State& state, PathTime tau);
+  /// Worth at most about `budget` lines. kDone: suspended(); kFailed: failure().
+  Outcome replay(int budget);
 
   /// Plans at most about `budget` lines ahead, executes what is due.
   Outcome on_time(BusTime now, int budget);
@@ -63,7 +89,7 @@ class Runner {
   void drop();
 
   /// No motion is queued or under way: a hold or a cancel needs no ramp.
-  bool between_runs() const { return !streaming_; }
+  bool between_runs() const { return !feed_.streaming(); }
   /// Path time of motion carried out and in all, s: what progress is measured by.
   double done_s(BusTime now) const;
   std::uint32_t line(BusTime now) const;
@@ -75,18 +101,15 @@ class Runner {
 
  private:
   enum class Wait : std::uint8_t { kNone, kRunDone, kRest, kDwell, kHeating, kPause };
-  struct PlannedPhase {
-    PathTime start;  ///< of the run that it belongs to
-    double start_s;  ///< since then
-    Phase phase;
-  };
   struct Event {
-    PathTime due;
+    std::uint64_t phase;  ///< due when so many phases of the job are done
     canonical::Line line;
   };
 
-  static PathTime end_of(const PlannedPhase& phase);
   void begin();
+  Outcome stream(BusTime now);
+  static bool waits(const canonical::Line& line);
+  void end_wait();
   void control_rate(BusTime now);
   void settle_when_late(BusTime now);
   bool wait_is_over(BusTime now);
@@ -102,23 +125,26 @@ class Runner {
   PathRate& rate_;
   ThermalDevice& thermal_;
   EventQueue& events_out_;
+  journal::Queue& journal_;
   JobPipeline pipeline_;
+  RunFeed feed_;
   std::unique_ptr<ByteSource> source_;
+  PoseVector start_{};
 
-  bool active_ = false, held_ = false;
-  bool live_ = false;       ///< commands come over time
-  bool streaming_ = false;  ///< a run is in the group
-  bool started_ = false;    ///< path time was let go for this run
-  bool finished_ = false;   ///< the run's last phase is in the group
+  bool active_ = false, held_ = false, suspended_ = false;
+  bool live_ = false;           ///< commands come over time
+  bool noted_ = false;          ///< in the journal: a job, not a motion by hand
+  bool started_ = false;        ///< path time was let go for this run
+  bool finished_ = false;       ///< the run's last phase came from the pipeline
+  bool barrier_waits_ = false;  ///< the pipeline's command is to be carried out first
+  std::uint64_t waits_done_ = 0, waits_replayed_ = 0;
   bool stop_asked_ = false;
   Wait wait_ = Wait::kNone;
   std::deque<Event> events_;
-  std::deque<PlannedPhase> planned_;
   TemperatureWait heating_;
   std::optional<BusTime> in_window_since_;
-  BusTime last_time_{0}, dwell_left_{0}, last_rate_change_{0}, last_added_{0};
+  BusTime last_time_{0}, dwell_left_{0}, last_rate_change_{0}, run_noted_{0}, last_added_{0};
   double override_ = 1;
-  double finished_runs_s_ = 0;
   std::uint32_t last_line_ = 0;
   std::string doing_;
   Failure failure_;

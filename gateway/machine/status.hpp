@@ -55,9 +55,10 @@ struct MachineStatus {
   double rate = 0;         ///< d tau / dt now
   double feed_override = 1;
 
-  std::string job;         ///< name; empty: none
-  std::uint32_t line = 0;  ///< in motion now
-  double progress = 0;     ///< 0..1, by path time
+  std::string job;           ///< name; empty: none
+  bool interrupted = false;  ///< `job` waits for resume or cancel, wherever the machine is
+  std::uint32_t line = 0;    ///< in motion now
+  double progress = 0;       ///< 0..1, by path time
   double elapsed_s = 0;
   double remaining_s = 0;  ///< estimate at the present override
 

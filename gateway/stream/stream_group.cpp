@@ -151,6 +151,18 @@ bool StreamGroup::all_accepted() const {
                      [](const Node& node) { return node.stream.all_accepted(); });
 }
 
+PathTime StreamGroup::confirmed(PathTime tau) const {
+  PathTime least = tau;
+  for (const Node& node : nodes_) {
+    const auto status = node.stream.last_status();
+    if (!status) continue;
+    const std::int64_t here = tau.count() / kPathTicksPerUnit;
+    const auto behind = static_cast<std::int32_t>(status->path_units - static_cast<std::uint32_t>(here));
+    least = std::min(least, PathTime{(here + behind) * kPathTicksPerUnit});
+  }
+  return least;
+}
+
 double StreamGroup::allowed_rate(PathTime tau) const {
   if (state_ != State::kRunning || nodes_.empty()) return 1;
   std::array<const NodeStream*, 127> streams{};

@@ -79,6 +79,8 @@ class StreamGroup {
   bool primed(PathTime tau) const;
   /// Every node accepted its END, and tau is past it.
   bool run_done(PathTime tau) const;
+  /// All nodes have passed this path time, by what they said last; at most `tau`.
+  PathTime confirmed(PathTime tau) const;
   /// Rate (0..1) that bus and buffers allow now; 1 when idle.
   double allowed_rate(PathTime tau) const;
 

@@ -117,6 +117,21 @@ struct StopDescription {
   friend bool operator==(const StopDescription&, const StopDescription&) = default;
 };
 
+/// How an interrupted job goes on.
+struct ResumeDescription {
+  enum class Then : std::uint8_t {
+    kAsk,   ///< on command
+    kGoOn,  ///< by itself
+  };
+  Then after_restart = Then::kAsk;     ///< of the gateway, with nodes that know where they stand
+  Then after_power_loss = Then::kAsk;  ///< of nodes: they have to home first
+  /// The tool comes back to its place from so far above, where it has left it.
+  double lift_mm = 5;
+  double approach_mm_per_s = 10;  ///< down to the place
+  double prime_mm = 0;            ///< filament pushed there, when the filament's position was lost
+  friend bool operator==(const ResumeDescription&, const ResumeDescription&) = default;
+};
+
 struct BusDescription {
   std::string interface = "can0";
   std::uint32_t bitrate = 1'000'000;
@@ -209,6 +224,7 @@ struct MachineDescription {
   PathLimits path;
   PathTolerances tolerances;
   StopDescription stop;
+  ResumeDescription resume;
   BusDescription bus;
   HomingRun homing;
   ThermalDescription thermal;

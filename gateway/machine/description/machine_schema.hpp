@@ -30,6 +30,8 @@ inline constexpr Choice kKinds[] = {{"m1", 0},           {"cartesian", 1}, {"cor
                                     {"linear_delta", 3}, {"m4", 4},        {"m5", 5}};
 inline constexpr Choice kAxes[] = {{"A", 0}, {"B", 1}};
 inline constexpr Choice kCarriage[] = {{"below", 0}, {"above", 1}};
+inline constexpr Choice kResumeThen[] = {{"ask", static_cast<int>(ResumeDescription::Then::kAsk)},
+                                         {"go_on", static_cast<int>(ResumeDescription::Then::kGoOn)}};
 inline constexpr Choice kInputFunctions[] = {
     {"none", static_cast<int>(InputFunction::kNone)},
     {"home", static_cast<int>(InputFunction::kHome)},
@@ -218,6 +220,13 @@ void visit_path(V& v, MachineDescription& d) {
   v.table("stop", Need::kOptional, [&] {
     v.duration("ramp_ms", d.stop.ramp, 2, 510, Need::kOptional);
     v.duration("hold_ramp_ms", d.stop.hold_ramp, 2, 510, Need::kOptional);
+  });
+  v.table("resume", Need::kOptional, [&] {
+    v.choice("after_restart", d.resume.after_restart, kResumeThen, Need::kOptional);
+    v.choice("after_power_loss", d.resume.after_power_loss, kResumeThen, Need::kOptional);
+    v.number("lift_mm", d.resume.lift_mm, {0, 200}, Need::kOptional);
+    v.number("approach_mm_per_s", d.resume.approach_mm_per_s, {0.1, 1000}, Need::kOptional);
+    v.number("prime_mm", d.resume.prime_mm, {0, 100}, Need::kOptional);
   });
 }
 

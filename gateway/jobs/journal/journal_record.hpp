@@ -1,0 +1,82 @@
+#pragma once
+// What the gateway notes of a job under way, so that another gateway (after a crash, a restart, a power loss)
+// can take it up from the exact place. Path time at rest is what the nodes remember themselves; the journal
+// tells which place of the job it is.
+
+#include <cstdint>
+#include <string>
+#include <variant>
+
+#include "gateway/jobs/job_place.hpp"
+#include "gateway/kinematics/kinematics.hpp"
+#include "protocol/time.hpp"
+
+namespace kinebus::journal {
+
+/// A gateway began to speak, with this time epoch.
+struct Epoch {
+  std::uint8_t epoch = 0;
+  friend bool operator==(const Epoch&, const Epoch&) = default;
+};
+/// A job begins; whatever was noted before is void.
+struct JobBegin {
+  std::string name;
+  std::uint64_t bytes = 0;  ///< read of its text
+  std::uint64_t hash = 0;   ///< of them: fnv1a64()
+  PoseVector start{};       ///< Frame::kMachine
+  friend bool operator==(const JobBegin&, const JobBegin&) = default;
+};
+/// A run of motion begins at a path time.
+struct RunBegin {
+  PathTime start{0};
+  JobPlace from;
+  double ramp_s = 0;
+  double extruder_shift_mm = 0;
+  friend bool operator==(const RunBegin&, const RunBegin&) = default;
+};
+/// So many waits (dwell, heating, pause) of the job are over.
+struct WaitsDone {
+  std::uint64_t count = 0;
+  friend bool operator==(const WaitsDone&, const WaitsDone&) = default;
+};
+/// Feed override above 100 %, from this motion command on.
+struct Scale {
+  FeedScale scale;
+  friend bool operator==(const Scale&, const Scale&) = default;
+};
+struct Override {
+  double ratio = 1;
+  friend bool operator==(const Override&, const Override&) = default;
+};
+/// Targets, deg C (0: off), and the fan, 0..1.
+struct Thermal {
+  double hotend_celsius = 0, bed_celsius = 0, fan = 0;
+  friend bool operator==(const Thermal&, const Thermal&) = default;
+};
+/// Now and then in motion: the place that counts when the nodes have lost theirs.
+struct Progress {
+  PathTime tau{0};
+  std::uint32_t line = 0;
+  JointVector joints{};  ///< mm or rad: for who looks
+  friend bool operator==(const Progress&, const Progress&) = default;
+};
+/// The job was interrupted at this place; no path time means anything any more.
+struct Interrupted {
+  JobPlace place;
+  double extruder_shift_mm = 0;
+  friend bool operator==(const Interrupted&, const Interrupted&) = default;
+};
+/// After a restart: the nodes were found at this path time of the run. From now on path time is another.
+struct Found {
+  PathTime tau{0};
+  friend bool operator==(const Found&, const Found&) = default;
+};
+/// The job is done, or given up.
+struct JobEnd {
+  friend bool operator==(const JobEnd&, const JobEnd&) = default;
+};
+
+using Record = std::variant<Epoch, JobBegin, RunBegin, WaitsDone, Scale, Override, Thermal, Progress,
+                            Interrupted, Found, JobEnd>;
+
+}  // namespace kinebus::journal

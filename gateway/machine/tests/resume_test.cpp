@@ -1,0 +1,375 @@
+// A job that was interrupted, by whatever, ends as if it had not been: the same path, the same filament.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "gateway/jobs/journal/journal_codec.hpp"
+#include "gateway/jobs/machine_setup.hpp"
+#include "gateway/machine/tests/machine_rig.hpp"
+#include "protocol/canopen/cob_id.hpp"
+#include "protocol/canopen/nmt.hpp"
+
+namespace kinebus {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// A rounded zigzag with extrusion: corners, an arc, a retraction, a wait.
+const std::string kJob =
+    "G21 G90 M83\n"
+    "G1 Z10 F6000\n"
+    "G1 X20 E1 F2400\n"
+    "G1 Y15 E0.7\n"
+    "G2 X-5 Y15 I-12.5 J0 E2\n"
+    "G1 E-0.8 F2000\n"
+    "G4 P0.2\n"
+    "G1 E0.8\n"
+    "G1 X-20 Y-10 E1.5 F3000\n"
+    "G1 X30 Y-12 E2\n"
+    "M106 S128\n"
+    "G1 X0 Y0 Z12 E1\n";
+
+/// Watches the motors: the tool's distance from the programmed path, and the filament.
+class ResumeRig : public MachineRig {
+ public:
+  explicit ResumeRig(MachineDescription description = default_m1(), std::uint64_t seed = 1)
+      : MachineRig(std::move(description), {}, seed) {
+    machine.thermal.min_extrude_c = 0;
+    gateway = std::make_unique<Gateway>(machine, Gateway::Options{.journal = true});
+    kinematics_ = std::move(*make_kinematics(machine));
+  }
+
+  bool begin(double at_s) {
+    if (!make_ready()) return false;
+    gateway->set_temperature(false, 0);
+    if (!gateway->run(std::make_unique<StringSource>(kJob), "part")) return false;
+    if (!reach(MachineState::kRunning, 5s)) return false;
+    if (!run_until([&] { return gateway->status().line >= 2; }, 30s)) return false;
+    run_for(BusTime{static_cast<std::int64_t>(at_s * 1e9)});
+    return gateway->state() == MachineState::kRunning;
+  }
+  /// Lets the job go on to its end, measuring.
+  bool finish(BusTime limit = 120s) {
+    return run_until(
+        [&] {
+          watch();
+          return gateway->state() == MachineState::kReady && !gateway->status().interrupted;
+        },
+        limit);
+  }
+  /// A new gateway in place of the old one, with what its journal has in the file.
+  void replace_gateway(std::size_t cut = 0) {
+    store();
+    file_.resize(file_.size() - std::min(cut, file_.size()));
+    const auto decoded = journal::decode(file_);
+    epoch_ = static_cast<std::uint8_t>(epoch_ + 1);
+    gateway = std::make_unique<Gateway>(machine, Gateway::Options{.epoch = epoch_, .journal = true});
+    file_.clear();
+    number_ = 0;
+    for (const journal::Record& record : decoded.state.records()) journal::encode(record, number_++, file_);
+    job_noted = decoded.state.job.has_value();
+    const auto recovered = gateway->recover(decoded.state, std::make_unique<StringSource>(kJob));
+    ASSERT_TRUE(recovered) << recovered.error().words;
+    run_for(10ms);
+  }
+  /// As the daemon does.
+  void store() {
+    while (auto record = gateway->next_journal_record()) {
+      journal::encode(*record, number_++, file_);
+      ++stored_;
+    }
+    gateway->on_journal_stored(stored_);
+  }
+  void run(BusTime duration) {
+    const BusTime until = now + duration;
+    run_until(
+        [&] {
+          watch();
+          return now >= until;
+        },
+        duration);
+  }
+  void watch() {
+    store();
+    const JointVector j = joints();
+    PoseVector pose = kinematics_->bed_reference();
+    if (!kinematics_->forward(Frame::kMachine, j, pose)) return;
+    filament_mm = pose[kE];
+    lowest_mm = std::min(lowest_mm, pose[kZ]);
+    if (last_) {
+      for (std::size_t i = 0; i < machine.joints.size(); ++i) {
+        const double speed = std::abs(j[i] - (*last_)[i]);
+        worst_step = std::max(worst_step, speed);
+      }
+    }
+    if (track_) track_->push_back(pose);
+  }
+
+  double filament_mm = 0, worst_step = 0, lowest_mm = 1e9;
+  bool job_noted = false;
+  std::vector<PoseVector>* track_ = nullptr;
+
+ private:
+  std::unique_ptr<Kinematics> kinematics_;
+  std::vector<std::uint8_t> file_;
+  std::uint32_t number_ = 0;
+  std::uint64_t stored_ = 0;
+  std::uint8_t epoch_ = 1;
+  std::optional<JointVector> last_;
+};
+
+/// Distance of `p` from the polyline of `track`, mm.
+double distance_from(const std::vector<PoseVector>& track, const PoseVector& p) {
+  double best = 1e9;
+  for (std::size_t i = 0; i + 1 < track.size(); ++i) {
+    const PoseVector &a = track[i], &b = track[i + 1];
+    double ab = 0, ap = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      ab += (b[k] - a[k]) * (b[k] - a[k]);
+      ap += (b[k] - a[k]) * (p[k] - a[k]);
+    }
+    const double t = ab > 0 ? std::clamp(ap / ab, 0.0, 1.0) : 0;
+    double d = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double x = a[k] + t * (b[k] - a[k]) - p[k];
+      d += x * x;
+    }
+    best = std::min(best, d);
+  }
+  return std::sqrt(best);
+}
+
+struct Undisturbed {
+  std::vector<PoseVector> track;
+  double filament_mm = 0;
+};
+const Undisturbed& undisturbed() {
+  static const Undisturbed result = [] {
+    Undisturbed made;
+    ResumeRig rig;
+    EXPECT_TRUE(rig.begin(0)) << rig.story();
+    // Slowly, so that corners are seen in all their roundness.
+    EXPECT_TRUE(rig.gateway->set_feed_override(0.1));
+    rig.track_ = &made.track;
+    EXPECT_TRUE(rig.finish()) << rig.story();
+    made.filament_mm = rig.filament_mm;
+    return made;
+  }();
+  return result;
+}
+
+void expect_same_part(const ResumeRig& rig, const std::vector<PoseVector>& track, double path_um = 5) {
+  const Undisturbed& clean = undisturbed();
+  double worst = 0;
+  for (std::size_t i = 0; i < track.size(); i += 3)
+    worst = std::max(worst, distance_from(clean.track, track[i]));
+  EXPECT_LE(worst * 1000, path_um) << rig.story();
+  EXPECT_NEAR(rig.filament_mm, clean.filament_mm, 0.01) << rig.story();
+}
+
+TEST(Resume, LostRecordGoesOnFromTheExactPlace) {
+  ResumeRig rig;
+  ASSERT_TRUE(rig.begin(0.6)) << rig.story();
+  std::vector<PoseVector> track;
+  rig.track_ = &track;
+  bool lost = false;
+  rig.lose_from_gateway = [&](const CanFrame& frame) {
+    return frame.id == cob_id::rpdo(3, 2) && !std::exchange(lost, true);
+  };
+  ASSERT_TRUE(rig.reach(MachineState::kStopped, 10s)) << rig.story();
+  ASSERT_TRUE(rig.gateway->clear());
+  ASSERT_TRUE(rig.reach(MachineState::kHeld, 5s)) << rig.story();
+  EXPECT_TRUE(rig.gateway->status().interrupted);
+  ASSERT_TRUE(rig.gateway->resume());
+  ASSERT_TRUE(rig.finish()) << rig.story();
+  expect_same_part(rig, track);
+}
+
+TEST(Resume, StopByCommandGoesOnFromTheExactPlace) {
+  ResumeRig rig;
+  ASSERT_TRUE(rig.begin(1.1)) << rig.story();
+  std::vector<PoseVector> track;
+  rig.track_ = &track;
+  ASSERT_TRUE(rig.gateway->stop());
+  ASSERT_TRUE(rig.reach(MachineState::kStopped, 5s));
+  ASSERT_TRUE(rig.gateway->clear());
+  ASSERT_TRUE(rig.reach(MachineState::kHeld, 5s)) << rig.story();
+  ASSERT_TRUE(rig.gateway->resume());
+  ASSERT_TRUE(rig.finish()) << rig.story();
+  expect_same_part(rig, track);
+}
+
+TEST(Resume, SilentNodeGoesOnAfterBringUpWithoutHoming) {
+  ResumeRig rig;
+  ASSERT_TRUE(rig.begin(0.9)) << rig.story();
+  std::vector<PoseVector> track;
+  rig.track_ = &track;
+  rig.lose_to_gateway = [](const CanFrame& frame) { return (frame.id & 0x7F) == 2; };
+  ASSERT_TRUE(rig.reach(MachineState::kAlarm, 10s)) << rig.story();
+  rig.lose_to_gateway = {};
+  ASSERT_TRUE(rig.gateway->clear());
+  ASSERT_TRUE(rig.gateway->resume());
+  ASSERT_TRUE(rig.finish()) << rig.story();
+  EXPECT_EQ(rig.story().find("homing"), rig.story().rfind("homing")) << "homed again\n" << rig.story();
+  expect_same_part(rig, track);
+}
+
+TEST(Resume, CutBusGoesOnThoughTheNodesStoppedElsewhereThanTheGateway) {
+  ResumeRig rig;
+  ASSERT_TRUE(rig.begin(0.9)) << rig.story();
+  std::vector<PoseVector> track;
+  rig.track_ = &track;
+  rig.lose_to_gateway = rig.lose_from_gateway = [](const CanFrame&) { return true; };
+  ASSERT_TRUE(rig.reach(MachineState::kAlarm, 10s)) << rig.story();
+  rig.lose_to_gateway = rig.lose_from_gateway = {};
+  rig.run(1s);
+  ASSERT_TRUE(rig.gateway->clear());
+  ASSERT_TRUE(rig.gateway->resume());
+  ASSERT_TRUE(rig.finish()) << rig.story();
+  expect_same_part(rig, track);
+}
+
+TEST(Resume, AnotherGatewayTakesUpTheJobFromTheJournal) {
+  for (const double at_s : {0.02, 0.4, 0.83, 1.3, 1.71, 2.2, 2.9, 3.4}) {
+    SCOPED_TRACE("killed " + std::to_string(at_s) + " s into the job");
+    ResumeRig rig;
+    ASSERT_TRUE(rig.begin(at_s)) << rig.story();
+    std::vector<PoseVector> track;
+    rig.track_ = &track;
+    rig.store();
+    // The gateway is gone: its frames stop, and nobody hears the nodes.
+    rig.lose_from_gateway = rig.lose_to_gateway = [](const CanFrame&) { return true; };
+    rig.run_for(1200ms);
+    rig.lose_from_gateway = rig.lose_to_gateway = {};
+    rig.replace_gateway();
+    ASSERT_TRUE(rig.job_noted);
+    ASSERT_TRUE(rig.gateway->resume());
+    ASSERT_TRUE(rig.finish()) << rig.story();
+    expect_same_part(rig, track);
+  }
+}
+
+TEST(Resume, GatewayAfterGatewayTakesUpTheSameJob) {
+  ResumeRig rig;
+  ASSERT_TRUE(rig.begin(0.1)) << rig.story();
+  std::vector<PoseVector> track;
+  rig.track_ = &track;
+  for (const auto after : {300ms, 150ms, 700ms, 20ms}) {
+    rig.run(after);
+    rig.store();
+    rig.lose_from_gateway = rig.lose_to_gateway = [](const CanFrame&) { return true; };
+    rig.run_for(500ms);
+    rig.lose_from_gateway = rig.lose_to_gateway = {};
+    rig.replace_gateway();
+    ASSERT_TRUE(rig.gateway->resume());
+    ASSERT_TRUE(rig.run_until(
+        [&] {
+          rig.watch();
+          return rig.gateway->state() == MachineState::kRunning && rig.gateway->status().rate > 0.2;
+        },
+        30s))
+        << rig.story();
+  }
+  ASSERT_TRUE(rig.finish()) << rig.story();
+  expect_same_part(rig, track);
+}
+
+TEST(Resume, AnotherJobUnderTheSameNameIsNotTakenUp) {
+  ResumeRig rig;
+  ASSERT_TRUE(rig.begin(0.5));
+  rig.store();
+  journal::State state;
+  state.take(journal::JobBegin{"part", 5, 1234, {}});
+  rig.lose_from_gateway = [](const CanFrame&) { return true; };
+  rig.run_for(1s);
+  rig.lose_from_gateway = {};
+  rig.gateway = std::make_unique<Gateway>(rig.machine, Gateway::Options{.epoch = 9});
+  ASSERT_TRUE(rig.gateway->recover(state, std::make_unique<StringSource>(kJob)));
+  ASSERT_TRUE(rig.gateway->resume());
+  ASSERT_TRUE(rig.reach(MachineState::kReady, 30s)) << rig.story();
+  rig.run_for(2s);
+  EXPECT_EQ(rig.gateway->state(), MachineState::kReady);
+  EXPECT_FALSE(rig.gateway->status().interrupted);
+  EXPECT_NE(rig.story().find("is not the text that was interrupted"), std::string::npos) << rig.story();
+}
+
+TEST(Resume, CancelGivesTheInterruptedJobUp) {
+  ResumeRig rig;
+  ASSERT_TRUE(rig.begin(0.5));
+  rig.store();
+  rig.lose_from_gateway = [](const CanFrame&) { return true; };
+  rig.run_for(1s);
+  rig.lose_from_gateway = {};
+  rig.replace_gateway();
+  EXPECT_TRUE(rig.gateway->status().interrupted);
+  EXPECT_TRUE(rig.gateway->cancel());
+  EXPECT_FALSE(rig.gateway->status().interrupted);
+  EXPECT_FALSE(rig.gateway->resume());
+  rig.replace_gateway();
+  EXPECT_FALSE(rig.job_noted);
+}
+
+TEST(Resume, PowerLossHomesAndGoesBackFromAbove) {
+  ResumeRig rig;
+  ASSERT_TRUE(rig.begin(1.0)) << rig.story();
+  rig.store();
+  // Nodes and gateway lose their power together; the platform stays where it is.
+  rig.lose_from_gateway = rig.lose_to_gateway = [](const CanFrame&) { return true; };
+  rig.run_for(1s);
+  rig.nodes.send(rig.now, nmt_frame(NmtCommand::kResetNode, 0));
+  rig.run_for(100ms);
+  rig.lose_from_gateway = rig.lose_to_gateway = {};
+  rig.replace_gateway();
+  ASSERT_TRUE(rig.gateway->resume());
+  ASSERT_TRUE(rig.reach(MachineState::kHoming, 30s)) << rig.story();
+  std::vector<PoseVector> track;
+  ASSERT_TRUE(rig.run_until([&] { return rig.story().find("goes on") != std::string::npos; }, 120s))
+      << rig.story();
+  rig.track_ = &track;
+  ASSERT_TRUE(rig.finish()) << rig.story();
+  double worst = 0;
+  for (const PoseVector& pose : track) worst = std::max(worst, distance_from(undisturbed().track, pose));
+  // Homing finds its zero again within its repeatability.
+  EXPECT_LE(worst, 0.02) << rig.story();
+}
+
+TEST(Journal, ACutAtAnyByteLeavesAnEarlierState) {
+  journal::State state;
+  std::vector<std::uint8_t> bytes;
+  std::vector<std::size_t> ends{0};
+  std::vector<journal::State> states{state};
+  const std::vector<journal::Record> records{journal::Epoch{7},
+                                             journal::JobBegin{"a part", 100, 42, {1, 2, 3, 0, 0, 5}},
+                                             journal::Override{1.5},
+                                             journal::Scale{{0, 1.5}},
+                                             journal::RunBegin{PathTime{1000}, {0, 0}, 0, 0},
+                                             journal::Progress{PathTime{5000}, 7, {1, 2, 3}},
+                                             journal::WaitsDone{1},
+                                             journal::Thermal{200, 60, 0.5},
+                                             journal::RunBegin{PathTime{9000}, {12, 0.25}, 0.2, 0.1},
+                                             journal::Found{PathTime{9500}},
+                                             journal::Interrupted{{14, 0.125}, 0.1},
+                                             journal::JobEnd{}};
+  for (const journal::Record& record : records) {
+    journal::encode(record, static_cast<std::uint32_t>(ends.size() - 1), bytes);
+    state.take(record);
+    ends.push_back(bytes.size());
+    states.push_back(state);
+  }
+  for (std::size_t cut = 0; cut <= bytes.size(); ++cut) {
+    const auto decoded = journal::decode(std::span(bytes).first(cut));
+    const auto whole =
+        static_cast<std::size_t>(std::upper_bound(ends.begin(), ends.end(), cut) - ends.begin() - 1);
+    ASSERT_EQ(decoded.records, whole) << "cut at " << cut;
+    ASSERT_EQ(decoded.state, states[whole]) << "cut at " << cut;
+    if (cut == bytes.size()) continue;
+    // And a byte that is not what was written.
+    std::vector<std::uint8_t> wrong(bytes);
+    wrong[cut] ^= 0x10;
+    ASSERT_LE(journal::decode(wrong).records, whole) << "changed at " << cut;
+  }
+}
+
+}  // namespace
+}  // namespace kinebus
