@@ -10,9 +10,11 @@
 #include <ctime>
 
 #include "gateway/inproc/inproc_bus.hpp"
+#include "gateway/io/bus_log.hpp"
 #include "gateway/io/daemon.hpp"
 #include "gateway/io/realtime.hpp"
 #include "gateway/io/socketcan_bus.hpp"
+#include "gateway/io/usb/serial_ports.hpp"
 #include "gateway/machine/description/machine_file.hpp"
 #include "protocol/host/guarded_main.hpp"
 
@@ -29,6 +31,8 @@ struct Arguments {
   std::string socket;
   std::string group;
   std::string jobs;
+  std::string bus_log;
+  kinebus::SerialPorts::Options serial;
   std::string log_level = "info";
   int realtime_priority = 80;
   bool no_realtime = false;
@@ -67,6 +71,8 @@ int serve(const Arguments& arguments) {
 
   auto bus = open_bus(arguments.bus.empty() ? machine->bus.interface : arguments.bus, *machine);
   if (!bus) return fail(bus.error());
+  if (!arguments.bus_log.empty()) bus = kinebus::LoggedBus::open(std::move(*bus), arguments.bus_log);
+  if (!bus) return fail("bus log " + bus.error());
 
   kinebus::JobFolder jobs(arguments.jobs.empty() ? machine->jobs_directory : arguments.jobs);
   if (std::string error = jobs.prepare(); !error.empty()) return fail("job folder " + error);
@@ -79,6 +85,10 @@ int serve(const Arguments& arguments) {
       {.path = arguments.socket.empty() ? default_socket() : arguments.socket, .group = arguments.group});
   if (std::string error = server.listen(); !error.empty()) return fail("local socket " + error);
 
+  kinebus::FolderFiles serial_files(jobs, gateway);
+  kinebus::SerialPorts serial(loop, gateway, serial_files, arguments.serial);
+  if (std::string error = serial.open(); !error.empty()) return fail("serial port " + error);
+
   if (!arguments.no_realtime)
     if (const std::string missing = kinebus::become_realtime(arguments.realtime_priority); !missing.empty())
       spdlog::warn("running without {}: expect more jitter", missing);
@@ -90,7 +100,9 @@ int serve(const Arguments& arguments) {
                arguments.bus.empty() ? machine->bus.interface : arguments.bus,
                arguments.socket.empty() ? default_socket() : arguments.socket);
   kinebus::notify_systemd("READY=1");
-  kinebus::Daemon(loop, **bus, gateway, server).run(&quit);
+  kinebus::Daemon daemon(loop, **bus, gateway, server);
+  daemon.add(serial);
+  daemon.run(&quit);
   spdlog::info("ended at rest");
   return 0;
 }
@@ -109,6 +121,16 @@ int run(int argc, char** argv) {
                  "Local socket for 'kinebus' (default: /run/kinebus or the user's)");
   app.add_option("--group", arguments.group, "Group whose members may use the local socket");
   app.add_option("--jobs", arguments.jobs, "Folder of stored jobs (default: the machine file's)");
+  app.add_option("--serial-pty", arguments.serial.pty,
+                 "Offer print hosts a serial port under this path (a link to a pty)");
+  app.add_option(
+      "--serial-device", arguments.serial.device,
+      "Speak to print hosts on this serial device, whenever it is there (USB gadget: /dev/ttyGS0)");
+  app.add_option(
+      "--serial-tcp", arguments.serial.tcp,
+      "Speak to print hosts on address:port; there is no password, use it in closed networks only");
+  app.add_option("--bus-log", arguments.bus_log,
+                 "Write all frames of the bus to this file, as candump -L does");
   app.add_option("--log-level", arguments.log_level, "trace debug info warn error")
       ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error"}));
   app.add_option("--priority", arguments.realtime_priority, "SCHED_FIFO priority")->check(CLI::Range(1, 99));

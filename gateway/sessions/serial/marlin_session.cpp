@@ -17,7 +17,7 @@ using serial::Urgent;
 
 /// Lines kept; a host that waits for "ok" never has so many under way.
 constexpr std::size_t kMostLines = 256;
-constexpr std::size_t kMostOutput = 1U << 20U;
+constexpr std::size_t kMostOutput = 256U << 10U;
 /// How often a waiting line is asked again.
 constexpr LocalTime kPoll = std::chrono::milliseconds{4};
 constexpr LocalTime kHeatReport = std::chrono::seconds{1};
@@ -68,8 +68,12 @@ MarlinSession::~MarlinSession() = default;
 // -------------------------------------------------------------------------------------------------------
 
 void MarlinSession::say(std::string_view line) {
-  // Who does not read gets no more: the newest lines are lost, never memory.
-  if (out_.size() - out_sent_ > kMostOutput) return;
+  if (out_.size() - out_sent_ > kMostOutput) {
+    // Nobody reads: what is old is of no use to the next who does.
+    out_.clear();
+    out_sent_ = 0;
+    temperature_period_ = progress_period_ = LocalTime{0};
+  }
   for (const char c : line) out_ += c == '\0' ? ' ' : c;
   out_ += '\n';
 }
@@ -100,7 +104,7 @@ void MarlinSession::on_bytes_sent(std::size_t count) {
 // --------------------------------------------------------------------------------------------------------
 
 bool MarlinSession::wants_bytes() const {
-  return lines_.size() < kMostLines && out_.size() - out_sent_ < kMostOutput;
+  return lines_.size() < kMostLines;
 }
 
 void MarlinSession::on_bytes(LocalTime now, std::span<const std::uint8_t> bytes) {

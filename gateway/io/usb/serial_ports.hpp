@@ -1,0 +1,68 @@
+#pragma once
+// Where print hosts reach the daemon: the gadget's serial port (ACM), a pty with a link of its own, TCP. On
+// each speaks a session in Marlin's dialect.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gateway/io/daemon_part.hpp"
+#include "gateway/io/job_files.hpp"
+#include "gateway/io/stream_hub.hpp"
+#include "gateway/machine/gateway.hpp"
+#include "gateway/sessions/serial/marlin_session.hpp"
+
+namespace kinebus {
+
+/// The folder of stored jobs, for M20 to M32.
+class FolderFiles : public SerialFiles {
+ public:
+  FolderFiles(JobFolder& folder, Gateway& gateway) : folder_(folder), gateway_(gateway) {}
+  std::vector<Entry> list() override;
+  Result<std::unique_ptr<ByteSource>, std::string> open(std::string_view name) override;
+  std::string run(std::string_view name) override;
+  std::string remove(std::string_view name) override;
+  std::string store(std::string_view name, std::string_view text) override;
+
+ private:
+  JobFolder& folder_;
+  Gateway& gateway_;
+};
+
+class SerialPorts : public DaemonPart {
+ public:
+  struct Options {
+    std::string pty;     ///< path of the link to the pty; empty: none
+    std::string device;  ///< a tty such as /dev/ttyGS0, opened whenever it is there; empty: none
+    std::string tcp;     ///< "address:port"; there is no password: only for closed networks. Empty: none
+  };
+  SerialPorts(EventLoop& loop, Gateway& gateway, SerialFiles& files, Options options);
+  ~SerialPorts() override;
+  SerialPorts(const SerialPorts&) = delete;
+  SerialPorts& operator=(const SerialPorts&) = delete;
+
+  std::string open();  ///< empty: done
+  void on_event(const MachineEvent& event) override;
+  void on_time(LocalTime now) override;
+  LocalTime next_deadline() const override;
+
+ private:
+  class Session;
+  std::unique_ptr<MarlinSession> new_session(const char* name);
+  std::string open_pty();
+  std::string listen_tcp();
+  void accept_tcp();
+  void try_device();
+
+  EventLoop& loop_;
+  Gateway& gateway_;
+  SerialFiles& files_;
+  Options options_;
+  std::vector<MarlinSession*> sessions_;
+  int pty_slave_ = -1, listener_ = -1;
+  bool device_open_ = false;
+  LocalTime next_device_{0};
+  std::unique_ptr<StreamHub> hub_;  ///< last: its sessions leave sessions_
+};
+
+}  // namespace kinebus
