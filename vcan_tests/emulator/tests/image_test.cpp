@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "vcan_tests/emulator/emulated_machine.hpp"
 
 namespace kinebus::emulator {
@@ -27,6 +29,10 @@ struct OneNode {
     }
     return frames;
   }
+  std::vector<CanFrame> ask(const CanFrame& frame, BusTime duration = 5ms) {
+    machine.send(now, frame);
+    return run(duration);
+  }
   EmulatedMachine machine;
   BusTime now{0};
 };
@@ -42,6 +48,25 @@ TEST(Image, SetsTheClockTreeAndTheBitTimingThatTheBoardNeeds) {
   EXPECT_GE(board.can().sample_point(), 0.75);
   EXPECT_LE(board.can().sample_point(), 0.88);
   EXPECT_TRUE(board.strange_accesses().empty()) << std::hex << board.strange_accesses().front();
+}
+
+TEST(Image, AnswersSdoAndSendsItsHeartbeat) {
+  OneNode node;
+  const auto answer = node.ask(CanFrame::make(0x605, {0x40, 0x00, 0x10, 0, 0, 0, 0, 0}));
+  ASSERT_EQ(answer.size(), 1u);
+  EXPECT_EQ(answer[0], CanFrame::make(0x585, {0x43, 0x00, 0x10, 0, 0x92, 0x01, 0xFF, 0xFF}));
+  node.ask(CanFrame::make(0x605, {0x2B, 0x17, 0x10, 0, 10, 0, 0, 0}));  // 10 ms
+  node.ask(CanFrame::make(0x000, {1, 5}));
+  const auto beats = node.run(100ms);
+  EXPECT_GE(beats.size(), 9u);
+  EXPECT_LE(beats.size(), 11u);
+  EXPECT_EQ(beats.front(), CanFrame::make(0x705, {5}));
+}
+
+TEST(Image, StartsAgainAfterResetByNmt) {
+  OneNode node;
+  const auto frames = node.ask(CanFrame::make(0x000, {0x81, 5}), 50ms);
+  EXPECT_NE(std::find(frames.begin(), frames.end(), CanFrame::make(0x705, {0})), frames.end());
 }
 
 TEST(Image, TheSameRunTwice) {
