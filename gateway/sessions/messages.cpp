@@ -129,6 +129,22 @@ struct GeometryMessage {
     set_range(*reach.mutable_z_mm(), g.z_mm);
     info.mutable_cartesian()->set_core_xy(true);
   }
+  void operator()(const M5Geometry& g) const {
+    (*this)(static_cast<const M1Geometry&>(g));
+    info.set_kinematics("m5");
+  }
+  void operator()(const M4Geometry& g) const {
+    info.set_kinematics("m4");
+    set_reach(*info.mutable_reach(), g.limits);
+    joblink::PlanarGeometry& planar = *info.mutable_planar();
+    planar.set_rod_mm(g.rod_mm);
+    planar.set_triangle_mm(g.triangle_mm);
+    planar.set_rails_mm(g.rails_mm);
+    planar.set_spindle_rad(g.spindle_rad);
+    planar.set_tool_mm(g.tool_mm);
+    planar.set_table_y_mm(g.table_y_mm);
+    planar.set_table_z_mm(g.table_z_mm);
+  }
   void operator()(const LinearDeltaGeometry& g) const {
     info.set_kinematics("delta");
     set_reach(*info.mutable_reach(), g.limits);
