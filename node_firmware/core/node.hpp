@@ -41,7 +41,8 @@ struct NodeIdentity {
 
 struct NodeOptions {
   NodeIdentity identity{};
-  std::uint8_t node_id = 0;  ///< 1..127; 0: as stored, and without that the node waits for LSS
+  std::uint8_t node_id = 0;       ///< 1..127; 0: as stored, and without that the node waits for LSS
+  std::uint32_t program_crc = 0;  ///< 1F56h; 0: a program that no boot loader has started
 };
 
 /// What the power stage of one axis is to do. The currents are objects of the parameter set.
@@ -136,6 +137,9 @@ class Node final : private ObjectOwner {
   /// NMT reset node asked for, after which the port may restart the processor; the node has reset itself
   /// already.
   bool take_reset_request();
+  /// 1F51h = 0: the program is to give way to the boot loader when its answer is on the bus. No axis has
+  /// power.
+  bool program_stop_requested() const { return program_stop_requested_; }
   /// Watchdog: true as long as every timed job has been served within its time. Feed the watchdog only then.
   bool healthy(LocalTime now) const;
   std::uint8_t node_id() const { return node_id_; }
@@ -196,6 +200,7 @@ class Node final : private ObjectOwner {
   bool storing_for_lss_ = false;
   bool parameters_changed_ = false;
   bool reset_requested_ = false;
+  bool program_stop_requested_ = false;
   bool stop_served_ = false;
   bool was_latched_ = false;
   bool emergency_stop_ = false;

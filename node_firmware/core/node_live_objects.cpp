@@ -59,6 +59,15 @@ bool Node::read_node_object(ObjectAddress address, std::int64_t& value) {
       value = fields[(address.subindex - 1u) & 3u];
       return true;
     }
+    case 0x1F51:
+      value = 1;  // a program runs: this one
+      return true;
+    case 0x1F56:
+      value = options_.program_crc;
+      return true;
+    case 0x1F57:
+      value = 0;
+      return true;
     case 0x2102:
       value = static_cast<std::int64_t>(encode(path_.status(now_)));
       return true;
@@ -198,6 +207,13 @@ AbortCode Node::write_node_object(const ObjectEntry& entry, std::int64_t value) 
     case 0x1010:
     case 0x1011:
       return command_storage(address, value);
+    case 0x1F51:
+      if (value == 1) return AbortCode::kNone;
+      // Stop. A platform on vertical rails would fall without power; the boot loader has none to give.
+      if (value != 0 || options_.program_crc == 0 || axes_[0].powered() || axes_[1].powered())
+        return AbortCode::kDeviceState;
+      program_stop_requested_ = true;
+      return AbortCode::kNone;
     case 0x2100:
       return verdict_code(path_.on_record(static_cast<std::uint64_t>(value), now_));
     case 0x2101:

@@ -86,6 +86,17 @@ constexpr void add_mapping_objects(T& t, const PdoDefault& pdo, std::string_view
     t.sub(static_cast<std::uint8_t>(i + 1), kMappedNames[i], kU32, kReadWrite, kParameter, pdo.map[i]);
 }
 
+/// CiA 302. 1F50h, the program itself, is the boot loader's: it answers on the same node id after 1F51h = 0.
+template <typename T>
+constexpr void add_program_objects(T& t) {
+  t.head(0x1F51, "Program control", ObjectCode::kArray, 1);
+  t.sub(1, "Program control 1", kU8, kReadWrite, kLive).between(0, 3);
+  t.head(0x1F56, "Program software identification", ObjectCode::kArray, 1);
+  t.sub(1, "Program software identification 1", kU32, kReadOnly, kLive);
+  t.head(0x1F57, "Flash status identification", ObjectCode::kArray, 1);
+  t.sub(1, "Flash status identification 1", kU32, kReadOnly, kLive);
+}
+
 template <typename T>
 constexpr void add_manufacturer_objects(T& t) {
   // Packed records: protocol/motion/segment.hpp and broadcast.hpp say what their bits are.
@@ -234,6 +245,7 @@ constexpr auto build() {
     add_pdo_objects(t, kTpdoDefaults[i], kTpdoNames[0][i], static_cast<std::uint16_t>(0x1800 + i), true);
   for (std::uint16_t i = 0; i < kTpdoCount; ++i)
     add_mapping_objects(t, kTpdoDefaults[i], kTpdoNames[1][i], static_cast<std::uint16_t>(0x1A00 + i));
+  add_program_objects(t);
   add_manufacturer_objects(t);
   std::size_t from = t.count;
   add_manufacturer_axis_objects(t);

@@ -5,6 +5,8 @@
 #include "node_firmware/port/stm32f405/clock_tree.hpp"
 #include "node_firmware/port/stm32f405/flash_port.hpp"
 #include "node_firmware/port/stm32f405/handlers.hpp"
+#include "node_firmware/port/stm32f405/handover_port.hpp"
+#include "node_firmware/port/stm32f405/identity.hpp"
 #include "node_firmware/port/stm32f405/motor_port.hpp"
 #include "node_firmware/port/stm32f405/node_program.hpp"
 #include "node_firmware/port/stm32f405/pins.hpp"
@@ -26,6 +28,7 @@ constinit std::optional<NodeProgram> program;
 
 // An erase that a save needs is made now, while nothing moves.
 constexpr std::size_t kLargestImage = 5000;
+constexpr LocalTime kProved = std::chrono::seconds{5};
 
 void store(Node& node) {
   const auto image = node.image_to_store();
@@ -34,6 +37,12 @@ void store(Node& node) {
   if (erases) dog.allow_erase();
   node.on_image_stored(parameters.save(image));
   if (erases) dog.back_to_normal();
+}
+
+// Asked for by 1F51h; the answer is on the bus first. Motors have no power then (Node refuses otherwise).
+void give_way(const Node& node) {
+  handover_ram = Handover{.stay = 1, .node_id = node.node_id()};
+  reset_processor();
 }
 
 }  // namespace
@@ -71,8 +80,8 @@ int main() {
   if (!can_port.start()) isr_fault();
   const auto stored = parameters.load();
   static_cast<void>(parameters.prepare(kLargestImage));
-  program.emplace(NodeOptions{.identity = {.serial = serial_number()}}, stored, can_port, switch_port,
-                  motion_plan);
+  program.emplace(NodeOptions{.identity = {.serial = serial_number()}, .program_crc = kImageHeader.crc},
+                  stored, can_port, switch_port, motion_plan);
   Node& node = program->node();
   if (WatchdogPort::caused_reset()) node.count(NodeCounter::kWatchdogResets);
   rcc().CSR = rcc().CSR | Rcc::kClearResetFlags;
@@ -87,6 +96,9 @@ int main() {
     else
       program->refuse_power();
     store(node);
+    if (node.program_stop_requested() && can_port.queue().idle()) give_way(node);
+    // So long without a reset: this program is good.
+    if (program->now() > kProved) handover_ram.starts = 0;
     dog.serve(node.healthy(program->now()), motors.ticks());
     wait_for_interrupt();
   }

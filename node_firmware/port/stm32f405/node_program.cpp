@@ -3,8 +3,6 @@
 #include <algorithm>
 
 #include "node_firmware/port/stm32f405/registers.hpp"
-#include "protocol/bytes.hpp"
-#include "protocol/canopen/crc.hpp"
 
 namespace kinebus::stm32 {
 namespace {
@@ -16,16 +14,6 @@ constexpr LocalTime kFilterPeriod = std::chrono::milliseconds{10};
 constexpr int kInputsPerPass = 8;
 
 }  // namespace
-
-std::uint32_t serial_number() {
-  Crc32 crc;
-  for (int word = 0; word < 3; ++word) {
-    std::array<std::uint8_t, 4> bytes{};
-    put_u32_le(bytes, unique_id()[word]);
-    crc.add(bytes);
-  }
-  return crc.value();
-}
 
 NodeProgram::NodeProgram(const NodeOptions& options, std::span<const std::uint8_t> stored, CanPort& can,
                          SwitchPort& switches, MotionPlanExchange& plan)

@@ -43,7 +43,4 @@ class NodeProgram {
   bool was_off_ = false;
 };
 
-/// 32 bits of the chip's 96-bit unique number, for 1018h:4.
-std::uint32_t serial_number();
-
 }  // namespace kinebus::stm32

@@ -1,0 +1,40 @@
+#pragma once
+// A boot loader on flash that can lose its power, and images for it.
+
+#include <memory>
+#include <vector>
+
+#include "node_firmware/boot/boot_loader.hpp"
+#include "node_firmware/boot/handover.hpp"
+#include "node_firmware/core/tests/flash_model.hpp"
+
+namespace kinebus {
+
+inline constexpr LssIdentity kBootIdentity{kVendorId, kProductCode, kRevisionNumber, 0x1234};
+
+inline std::vector<std::uint8_t> make_image(std::size_t bytes, std::uint8_t seed,
+                                            const ImageHeader& like = {}) {
+  std::vector<std::uint8_t> image(bytes);
+  for (std::size_t i = 0; i < bytes; ++i) image[i] = static_cast<std::uint8_t>(seed + i * i / 7);
+  ImageHeader header = like;
+  header.length = static_cast<std::uint32_t>(bytes);
+  encode_image_header(header, image);
+  header.crc = image_crc(image);
+  encode_image_header(header, image);
+  return image;
+}
+
+struct ModelFlash final : ProgramFlash {
+  ModelFlash(std::size_t size, std::uint32_t seed) : model(size, seed) {}
+  std::span<const std::uint8_t> bytes() const override { return model.bytes(); }
+  bool erase() override {
+    model.erase(0, model.bytes().size());
+    ++erasures;
+    return true;
+  }
+  bool program(std::uint32_t offset, std::uint32_t word) override { return model.program(offset, word); }
+  FlashModel model;
+  int erasures = 0;
+};
+
+}  // namespace kinebus

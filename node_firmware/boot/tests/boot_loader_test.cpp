@@ -1,0 +1,181 @@
+#include "node_firmware/boot/boot_loader.hpp"
+
+#include <gtest/gtest.h>
+
+#include "node_firmware/boot/tests/boot_bench.hpp"
+#include "protocol/canopen/sdo_client.hpp"
+
+namespace kinebus {
+namespace {
+
+constexpr std::size_t kRoom = 8192;
+
+// A board: reset starts the program or the boot loader, as their handover and the flash say.
+struct BootTest : testing::Test {
+  ModelFlash flash{kRoom, 5};
+  Handover handover{.magic = 0};  // as the RAM comes up
+  std::unique_ptr<BootLoader> boot;
+  LocalTime now{0};
+
+  bool reset() {
+    boot.reset();
+    if (start_program(handover, check_image(flash.bytes()))) return true;
+    boot = std::make_unique<BootLoader>(kBootIdentity, 7, flash, now);
+    return false;
+  }
+  AbortCode transfer(const auto& begin) {
+    SdoClient client(SdoClient::Options{.timeout = std::chrono::seconds{10}});
+    begin(client);
+    for (int i = 0; i < 100'000 && client.status() == SdoClient::Status::kBusy; ++i) {
+      now += std::chrono::microseconds{100};
+      boot->on_time(now);
+      while (const auto frame = client.next_frame()) boot->on_frame(now, *frame);
+      while (const auto frame = boot->next_frame()) client.on_frame(now, *frame);
+    }
+    return client.status() == SdoClient::Status::kDone ? AbortCode::kNone : client.abort_code();
+  }
+  AbortCode download(std::span<const std::uint8_t> image,
+                     SdoClient::Method method = SdoClient::Method::kBlock) {
+    return transfer([&](SdoClient& c) { c.download(now, 7, {0x1F50, 1}, image, method); });
+  }
+  AbortCode control(std::uint8_t command) {
+    const std::array<std::uint8_t, 1> byte{command};
+    return transfer([&](SdoClient& c) { c.download(now, 7, {0x1F51, 1}, byte); });
+  }
+  std::uint32_t read(std::uint16_t index, std::uint8_t sub) {
+    std::array<std::uint8_t, 4> bytes{};
+    EXPECT_EQ(transfer([&](SdoClient& c) { c.upload(now, 7, {index, sub}, bytes); }), AbortCode::kNone);
+    return get_u32_le(bytes);
+  }
+};
+
+TEST_F(BootTest, ABlankBoardAnswersTakesAProgramAndStartsIt) {
+  ASSERT_FALSE(reset());
+  EXPECT_EQ(read(0x1018, 2), kProductCode);
+  EXPECT_EQ(read(0x1F57, 1), 2u) << "no valid program";
+  EXPECT_EQ(control(program_control::kStart), AbortCode::kDeviceState);
+  const auto image = make_image(5000, 1);
+  EXPECT_EQ(control(program_control::kClear), AbortCode::kNone);
+  EXPECT_EQ(download(image), AbortCode::kNone);
+  EXPECT_EQ(read(0x1F57, 1), 0u);
+  EXPECT_EQ(read(0x1F56, 1), decode_image_header(image).crc);
+  EXPECT_FALSE(boot->start_requested());
+  EXPECT_EQ(control(program_control::kStart), AbortCode::kNone);
+  EXPECT_TRUE(boot->start_requested());
+  EXPECT_TRUE(reset());
+}
+
+TEST_F(BootTest, ASegmentedDownloadDoesAsWell) {
+  ASSERT_FALSE(reset());
+  EXPECT_EQ(download(make_image(3004, 1), SdoClient::Method::kSegmented), AbortCode::kNone);
+  EXPECT_TRUE(reset());
+}
+
+TEST_F(BootTest, AnImageForSomethingElseLeavesTheProgramAlone) {
+  ASSERT_FALSE(reset());
+  ASSERT_EQ(download(make_image(5000, 1)), AbortCode::kNone);
+  const int erasures = flash.erasures;
+  ImageHeader other;
+  other.product_code = kProductCode + 1;
+  EXPECT_EQ(download(make_image(4000, 2, other)), AbortCode::kCannotStore);
+  EXPECT_EQ(read(0x1F57, 1), static_cast<std::uint32_t>(ProgramStatus::kFormatError) << 1);
+  other = {};
+  other.hardware = 1;
+  EXPECT_EQ(download(make_image(4000, 2, other)), AbortCode::kCannotStore);
+  EXPECT_EQ(download(std::vector<std::uint8_t>(2000, 0x55)), AbortCode::kCannotStore);
+  auto too_long = make_image(4000, 2);
+  ImageHeader header = decode_image_header(too_long);
+  header.length = kRoom + 4;
+  encode_image_header(header, too_long);
+  EXPECT_EQ(download(too_long), AbortCode::kTooLong);
+  EXPECT_EQ(flash.erasures, erasures);
+  EXPECT_TRUE(reset());
+}
+
+TEST_F(BootTest, ADamagedImageIsNotStarted) {
+  ASSERT_FALSE(reset());
+  auto image = make_image(5000, 1);
+  image[3000] ^= 4;
+  EXPECT_EQ(download(image), AbortCode::kCrc);
+  EXPECT_EQ(control(program_control::kStart), AbortCode::kDeviceState);
+  EXPECT_FALSE(reset());
+}
+
+TEST_F(BootTest, TheProgramGivesWayWhenAsked) {
+  ASSERT_FALSE(reset());
+  ASSERT_EQ(download(make_image(5000, 1)), AbortCode::kNone);
+  ASSERT_TRUE(reset());
+  handover.stay = 1;
+  EXPECT_FALSE(reset());
+  EXPECT_EQ(read(0x1F51, 1), 0u);
+}
+
+TEST_F(BootTest, AProgramThatNeverProvesItselfIsNotStartedForEver) {
+  ASSERT_FALSE(reset());
+  ASSERT_EQ(download(make_image(5000, 1)), AbortCode::kNone);
+  for (std::uint32_t i = 0; i < Handover::kMostStarts; ++i) EXPECT_TRUE(reset()) << i;
+  EXPECT_FALSE(reset()) << "the boot loader answers instead";
+  ASSERT_EQ(download(make_image(5000, 2)), AbortCode::kNone);
+}
+
+TEST_F(BootTest, ANodeWithoutIdGetsOneByLss) {
+  boot = std::make_unique<BootLoader>(kBootIdentity, 0, flash, now);
+  EXPECT_FALSE(boot->next_frame().has_value());
+  LssMaster master;
+  const auto finish = [&] {
+    while (master.status() == LssMaster::Status::kBusy) {
+      now += std::chrono::milliseconds{1};
+      while (const auto frame = master.next_frame()) boot->on_frame(now, *frame);
+      while (const auto frame = boot->next_frame()) master.on_frame(*frame);
+      master.on_time(now);
+    }
+    return master.status();
+  };
+  master.select(now, kBootIdentity);
+  EXPECT_EQ(finish(), LssMaster::Status::kDone);
+  master.configure_node_id(now, 7);
+  EXPECT_EQ(finish(), LssMaster::Status::kDone);
+  master.switch_all(now, false);
+  finish();
+  EXPECT_EQ(read(0x1F51, 1), 0u);
+}
+
+// A thousand updates, each cut at any byte that is erased or programmed: every time the node answers, with a
+// program or with the boot loader, and a further update makes it whole.
+TEST_F(BootTest, PowerMayGoAtAnyByteOfAnUpdate) {
+  const std::array images{make_image(6000, 1), make_image(7004, 2)};
+  std::mt19937 random(302);
+  int old_kept = 0, answered_by_loader = 0;
+  for (std::size_t round = 0; round < 1000; ++round) {
+    const std::vector<std::uint8_t>& next = images[round % 2];
+    handover.stay = 1;
+    ASSERT_FALSE(reset());
+    flash.model.cut_after(static_cast<std::int64_t>(random() % (kRoom + next.size())));
+    try {
+      static_cast<void>(control(program_control::kClear));
+      static_cast<void>(download(next));
+    } catch (const PowerCut&) {
+    }
+    flash.model.cut_after(-1);
+    handover = Handover{.magic = static_cast<std::uint32_t>(random())};
+    if (reset()) {
+      const bool whole = std::equal(next.begin(), next.end(), flash.bytes().begin());
+      const std::vector<std::uint8_t>& before = images[1 - round % 2];
+      const bool old = std::equal(before.begin(), before.end(), flash.bytes().begin());
+      ASSERT_TRUE(whole || old) << "round " << round << ": started neither the old nor the new program";
+      old_kept += old ? 1 : 0;
+      handover.stay = 1;
+      ASSERT_FALSE(reset());
+    } else {
+      ++answered_by_loader;
+    }
+    handover.stay = 0;
+    ASSERT_EQ(download(next), AbortCode::kNone) << "round " << round;
+    ASSERT_TRUE(reset()) << "round " << round;
+  }
+  EXPECT_GT(answered_by_loader, 500);
+  RecordProperty("old_kept", old_kept);
+}
+
+}  // namespace
+}  // namespace kinebus

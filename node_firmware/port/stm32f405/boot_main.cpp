@@ -1,0 +1,106 @@
+// The boot loader's program: starts the node's program when it is good and nobody asked for anything else, or
+// serves a download over CAN.
+
+#include <optional>
+
+#include "node_firmware/boot/boot_loader.hpp"
+#include "node_firmware/core/parameter_image.hpp"
+#include "node_firmware/port/stm32f405/can_port.hpp"
+#include "node_firmware/port/stm32f405/clock_tree.hpp"
+#include "node_firmware/port/stm32f405/flash_port.hpp"
+#include "node_firmware/port/stm32f405/handlers.hpp"
+#include "node_firmware/port/stm32f405/handover_port.hpp"
+#include "node_firmware/port/stm32f405/identity.hpp"
+#include "node_firmware/port/stm32f405/local_time.hpp"
+#include "node_firmware/port/stm32f405/pins.hpp"
+
+namespace {
+
+using namespace kinebus;
+using namespace kinebus::stm32;
+
+class ProgramSector final : public ProgramFlash {
+ public:
+  std::span<const std::uint8_t> bytes() const override {
+    return flash::bytes(board::kProgramAddress, board::kProgramBytes);
+  }
+  bool erase() override { return flash::erase(board::kProgramSector); }
+  bool program(std::uint32_t offset, std::uint32_t word) override {
+    return flash::program(board::kProgramAddress + offset, word);
+  }
+};
+
+constinit ProgramSector program_sector;
+constinit CanPort can_port;
+constinit ParameterFlash parameter_flash;
+constinit PageStore parameters{parameter_flash};
+constinit ParameterImage parameter_image;
+constinit std::optional<BootLoader> boot_loader;
+
+// Nothing has been touched since reset: the program finds the processor as after one.
+[[noreturn]] void jump_to_program() {
+  system_control().VTOR = board::kProgramAddress;
+  barrier();
+  const std::uint32_t stack = peripheral<Reg>(board::kProgramAddress);
+  const std::uint32_t entry = peripheral<Reg>(board::kProgramAddress + 4);
+  asm volatile("msr msp, %0\n bx %1" ::"r"(stack), "r"(entry) : "memory");
+  __builtin_unreachable();
+}
+
+std::uint8_t node_id() {
+  if (handover_ram.node_id >= 1 && handover_ram.node_id <= 127)
+    return static_cast<std::uint8_t>(handover_ram.node_id);
+  return parameter_image.adopt(parameters.load()) == ParameterImage::Load::kGood ? parameter_image.node_id()
+                                                                                 : std::uint8_t{0};
+}
+
+void hear(std::uint8_t id) {
+  std::array<CanPort::Accept, 3> filters{{{0x000}, {0x7E5}, {static_cast<std::uint16_t>(0x600 + id)}}};
+  can_port.accept(std::span(filters).first(id == 0 ? 2 : 3));
+}
+
+}  // namespace
+
+extern "C" {
+void isr_can_receive() {
+  can_port.on_receive(local_counts());
+}
+void isr_can_state() {
+  can_port.on_state();
+}
+void isr_can_transmit() {
+  can1().IER = can1().IER & ~Can::kOnMailboxEmpty;
+}
+}
+
+int main() {
+  if (start_program(handover_ram, check_image(program_sector.bytes()))) jump_to_program();
+  configure_pins();
+  if (!start_clocks()) isr_fault();
+  start_local_time();
+  if (!can_port.start()) isr_fault();
+  LocalClock clock;
+  const LssIdentity identity{kVendorId, kProductCode, kRevisionNumber, serial_number()};
+  boot_loader.emplace(identity, node_id(), program_sector, clock.now());
+  std::uint8_t heard = boot_loader->node_id();
+  hear(heard);
+  for (;;) {
+    boot_loader->on_time(clock.now());
+    while (const CanPort::Received* received = can_port.front()) {
+      boot_loader->on_frame(clock.now(), received->frame());
+      can_port.drop();
+    }
+    can_port.serve_mailboxes();
+    while (can_port.queue().has_room()) {
+      const auto frame = boot_loader->next_frame();
+      if (!frame) break;
+      can_port.queue().push(*frame);
+      can_port.serve_mailboxes();
+    }
+    if (heard != boot_loader->node_id()) hear(heard = boot_loader->node_id());
+    if (boot_loader->start_requested() && can_port.queue().idle()) {
+      handover_ram = Handover{};
+      reset_processor();
+    }
+  }
+}
