@@ -188,6 +188,7 @@ void CortexM4::load(const ElfImage& image) {
 
 void CortexM4::reset(std::uint32_t vectors) {
   nvic_.reset(vectors);
+  uc_ctl_remove_cache(engine(uc_), kSram, kSram + kSramSize);
   running_.clear();
   asleep_ = stop_asked_ = false;
   stalled_until_ = 0;
