@@ -33,6 +33,13 @@ bool settled(MachineState s) {
          s == MachineState::kAlarm || s == MachineState::kStopped || s == MachineState::kHeld;
 }
 
+std::unique_ptr<NodeMachine> make_nodes(const MachineDescription& machine, const SimulateOptions& options) {
+  const std::uint64_t seed = options.simulation.seed;
+  const auto nodes = virtual_nodes_of(machine, options.simulation.clocks, seed);
+  if (options.make_nodes) return options.make_nodes(nodes);
+  return std::make_unique<VirtualMachine>(nodes, seed);
+}
+
 /// All checkers together, fed by one simulation.
 struct Checkers {
   Checkers(const MachineDescription& machine, const Kinematics& kinematics, Simulation& simulation,
@@ -54,7 +61,7 @@ class Run {
       : machine_(machine),
         kinematics_(kinematics),
         options_(options),
-        simulation_(machine, kinematics, options.simulation),
+        simulation_(machine, kinematics, options.simulation, make_nodes(machine, options)),
         steps_(machine) {
     simulation_.on_sample = [this](const Sample& sample) { take(sample); };
     simulation_.on_probe = [this](const Probe& probe) {

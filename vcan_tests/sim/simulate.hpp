@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "gateway/jobs/byte_source.hpp"
 #include "gateway/machine/description/machine_description.hpp"
@@ -15,6 +17,8 @@ namespace kinebus {
 
 struct SimulateOptions {
   SimulationOptions simulation;
+  /// Nodes of another make in the place of these virtual ones (firmware images on emulated boards).
+  std::function<std::unique_ptr<NodeMachine>(const std::vector<VirtualNodeOptions>&)> make_nodes;
   double limit_s = 0;        ///< stop measuring after so much job time; 0: the whole job
   PlotData* plot = nullptr;  ///< filled along the way
   std::function<void(double progress, double job_s)> on_progress;

@@ -1,0 +1,67 @@
+// A whole job with homing on three firmware images with motors: the gateway core drives emulated boards in
+// the simulation's place of the virtual nodes, and the tool is where the rotors put it.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "vcan_tests/emulator/emulated_machine.hpp"
+#include "vcan_tests/sim/simulate.hpp"
+
+namespace kinebus::emulator {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr const char* kJob =
+    "G21 G90 M83\nG0 X0 Y0 Z10\nG1 X12 Y0 F6000\nG1 X12 Y12 E0.4\nG3 X0 Y12 I-6 J0 E0.6\nG1 X-8 Y4 Z10.4 "
+    "E0.4\n"
+    "G1 X-8 Y-8 F12000 E0.4\nG1 X8 Y-8 C30 E0.5\nG1 X0 Y0 E0.3\n";
+
+const ElfImage& image() {
+  static const ElfImage loaded = load_elf(KINEBUS_FIRMWARE_IMAGE);
+  return loaded;
+}
+
+// The carriages stand a little under their switches: homing takes a second, not ten.
+std::vector<VirtualNodeOptions> near_the_switches(std::vector<VirtualNodeOptions> nodes) {
+  double below = 9'000;
+  for (VirtualNodeOptions& node : nodes)
+    for (VirtualAxis& axis : node.axes)
+      if (axis.switch_input != 0) axis.start_counts = axis.switch_counts - (below += 1'111);
+  return nodes;
+}
+
+SimulationReport run(bool emulated, EmulatedMachine** machine = nullptr) {
+  SimulateOptions options;
+  options.simulation.seed = 3;
+  options.simulation.clocks.offset_max = 50ms;
+  options.make_nodes = [&](const std::vector<VirtualNodeOptions>& nodes) -> std::unique_ptr<NodeMachine> {
+    if (!emulated) return std::make_unique<VirtualMachine>(near_the_switches(nodes), 3);
+    auto boards = std::make_unique<EmulatedMachine>(image(), boards_like(near_the_switches(nodes)));
+    if (machine != nullptr) *machine = boards.get();
+    return boards;
+  };
+  StringSource same(kJob);
+  return simulate(default_m1(), std::make_unique<StringSource>(kJob), same, options);
+}
+
+TEST(Job, ThreeImagesPrintWithTheirRotorsOnThePath) {
+  const SimulationReport ideal = run(false);
+  const SimulationReport rotors = run(true);
+  fmt::print(
+      "tool against planned pose: virtual nodes {:.2f} um, rotors of three images {:.2f} um\n"
+      "joints: {:.2f} and {:.2f} microsteps; path {:.2f} and {:.2f} um; skew {:.2f} and {:.2f} us\n"
+      "job {:.2f} s, machine {:.1f} s in {:.1f} s of one core\n",
+      ideal.max_tracking_error_um, rotors.max_tracking_error_um, ideal.max_joint_error_counts,
+      rotors.max_joint_error_counts, ideal.max_path_error_um, rotors.max_path_error_um,
+      ideal.max_node_time_skew_us, rotors.max_node_time_skew_us, rotors.job_time_s, rotors.machine_time_s,
+      rotors.cpu_s);
+  EXPECT_TRUE(ideal.finished) << ideal.outcome;
+  EXPECT_TRUE(rotors.finished) << rotors.outcome << "\n" << to_table(rotors);
+  EXPECT_LE(rotors.max_node_time_skew_us, 2.0);
+  EXPECT_EQ(rotors.underruns, 0u);
+  EXPECT_EQ(rotors.records_out_of_sequence, 0u);
+}
+
+}  // namespace
+}  // namespace kinebus::emulator
