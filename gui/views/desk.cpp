@@ -4,13 +4,18 @@
 
 namespace kinebus::gui {
 
+void Desk::connect_to(const FoundGateway& gateway) {
+  demo.reset();
+  session.connect_to([this, gateway] { return finder.link_to(gateway); }, gateway.title);
+}
+
 void Desk::start_demo(const std::function<void(const QString&)>& failed) {
   session.disconnect_from_gateway();
   demo = std::make_unique<DemoGateway>();
   QObject::connect(demo.get(), &DemoGateway::failed, &session, failed);
   QObject::connect(demo.get(), &DemoGateway::ready, &session, [this] {
-    const QString path = demo->socket_path();
-    session.connect_to([path] { return std::make_unique<SocketLink>(path); },
+    const QString socket = demo->socket_path();
+    session.connect_to([socket] { return std::make_unique<SocketLink>(socket); },
                        QCoreApplication::translate("Desk", "Demo machine"));
   });
   demo->start();

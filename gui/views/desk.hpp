@@ -30,10 +30,7 @@ struct Desk {
   Language language;
   std::unique_ptr<DemoGateway> demo;
 
-  void connect_to(const FoundGateway& gateway) {
-    demo.reset();
-    session.connect_to([this, gateway] { return finder.link_to(gateway); }, gateway.title);
-  }
+  void connect_to(const FoundGateway& gateway);
   /// Starts the demo machine and turns to it; `failed` hears why it does not work.
   void start_demo(const std::function<void(const QString&)>& failed);
 };

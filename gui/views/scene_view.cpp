@@ -152,7 +152,7 @@ Box SceneView::machine_box() const {
     for (int corner = 0; corner < 8; ++corner) {
       const QVector3D p = part.place.map(QVector3D((corner & 1) != 0 ? 0.5F : -0.5F, (corner & 2) != 0 ? 0.5F : -0.5F,
                                                    (corner & 4) != 0 ? 0.5F : -0.5F));
-      box.add({p.x(), p.y(), p.z()});
+      box.add(std::array<float, 3>{p.x(), p.y(), p.z()});
     }
   return box;
 }
@@ -167,7 +167,7 @@ void SceneView::fit_part() {
   const Box part = next_path_ != nullptr ? next_path_->path.bounds_mm : Box{};
   const auto add = [&](float x, float y, float z) {
     const QVector3D p = content_.figure.part_frame.map(QVector3D(x, y, z));
-    box.add({p.x(), p.y(), p.z()});
+    box.add(std::array<float, 3>{p.x(), p.y(), p.z()});
   };
   if (!part.empty()) {
     for (int corner = 0; corner < 8; ++corner)

@@ -1,0 +1,74 @@
+// kinebus-gui: builds the parts, connects them, and loops.
+
+#include <QApplication>
+#include <QCommandLineParser>
+#include <QSettings>
+#include <QStyleHints>
+#include <cstdio>
+
+#include "gui/views/connect_page.hpp"
+#include "gui/views/jobs_page.hpp"
+#include "gui/views/main_window.hpp"
+#include "gui/views/scene_view.hpp"
+
+namespace {
+
+bool system_is_dark() {
+  return QGuiApplication::palette().color(QPalette::Window).lightness() < 128;
+}
+
+int run(int argc, char** argv) {
+  kinebus::gui::SceneView::choose_format();
+  QApplication app(argc, argv);
+  QApplication::setOrganizationName(QStringLiteral("kinebus"));
+  QApplication::setApplicationName(QStringLiteral("kinebus-gui"));
+  QApplication::setApplicationVersion(QStringLiteral(KINEBUS_VERSION));
+  QApplication::setDesktopFileName(QStringLiteral("kinebus-gui"));
+
+  QCommandLineParser arguments;
+  arguments.setApplicationDescription(QStringLiteral("Kinebus: send a job to the gateway and watch the machine print."));
+  arguments.addHelpOption();
+  arguments.addVersionOption();
+  const QCommandLineOption demo(QStringLiteral("demo"), QStringLiteral("Start the simulated demo machine and connect to it."));
+  const QCommandLineOption socket(QStringLiteral("socket"), QStringLiteral("Connect to the gateway that listens at this local socket."), QStringLiteral("PATH"));
+  const QCommandLineOption language(QStringLiteral("language"), QStringLiteral("en, tr or fa."), QStringLiteral("CODE"));
+  arguments.addOptions({demo, socket, language});
+  arguments.addPositionalArgument(QStringLiteral("files"), QStringLiteral("G-code files to upload once connected."), QStringLiteral("[FILE...]"));
+  arguments.process(app);
+
+  QSettings settings;
+  QStringList sockets;
+  if (arguments.isSet(socket)) sockets << arguments.value(socket);
+  kinebus::gui::Desk desk(sockets);
+  desk.theme.apply(settings.value(QStringLiteral("theme/dark"), system_is_dark()).toBool());
+  const QString saved = settings.value(QStringLiteral("language"), kinebus::gui::Language::system_code()).toString();
+  desk.language.apply(arguments.isSet(language) ? arguments.value(language) : saved);
+
+  kinebus::gui::MainWindow window(desk);
+  window.restore(settings);
+  window.show();
+  if (arguments.isSet(demo)) {
+    window.connect_page().start_demo();
+  } else if (arguments.isSet(socket)) {
+    kinebus::gui::FoundGateway gateway;
+    gateway.way = kinebus::gui::FoundGateway::Way::kSocket;
+    gateway.title = gateway.socket_path = arguments.value(socket);
+    desk.connect_to(gateway);
+  }
+  QStringList files = arguments.positionalArguments();
+  QObject::connect(&desk.session, &kinebus::gui::Session::link_changed, &window, [&] {
+    if (desk.session.connected() && !files.isEmpty()) window.jobs_page().upload(std::exchange(files, {}));
+  });
+  return QApplication::exec();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "kinebus-gui: %s\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,26 @@
+#pragma once
+// What has happened and what to do next. The newest open alarm stands on top, large.
+
+#include <QListView>
+
+#include "gui/views/desk.hpp"
+#include "gui/views/widgets.hpp"
+
+namespace kinebus::gui {
+
+class AlarmsPage : public SpeakingWidget {
+  Q_OBJECT
+ public:
+  explicit AlarmsPage(Desk& desk, QWidget* parent = nullptr);
+
+ private:
+  void take();
+
+  Desk& desk_;
+  Card* open_;
+  QLabel *title_, *details_, *advice_, *fine_;
+  QPushButton* clear_;
+  QListView* list_;
+};
+
+}  // namespace kinebus::gui

@@ -1,0 +1,128 @@
+#include "gui/views/job_panel.hpp"
+
+#include <QMessageBox>
+#include <cmath>
+
+#include "gui/models/format.hpp"
+
+namespace kinebus::gui {
+
+JobPanel::JobPanel(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(desk) {
+  auto* outer = new QVBoxLayout(this);
+  outer->setContentsMargins(6, 2, 12, 10);
+  auto* card = new Card(this);
+  card->column()->setContentsMargins(16, 11, 16, 13);
+  card->column()->setSpacing(6);
+  outer->addWidget(card);
+  outer->addStretch(1);
+
+  name_ = new ElidedLabel(card);
+  name_->setProperty("role", "heading");
+  doing_ = new ElidedLabel(card);
+  doing_->setProperty("role", "small");
+  progress_ = new QProgressBar(card);
+  progress_->setRange(0, 1000);
+  progress_->setTextVisible(false);
+  card->column()->addWidget(name_);
+  card->column()->addWidget(doing_);
+  card->column()->addWidget(progress_);
+
+  auto* facts = new QGridLayout;
+  facts->setVerticalSpacing(2);
+  facts->setColumnStretch(1, 1);
+  const auto fact = [&](int row, QLabel*& value, auto words) {
+    auto* name = make_label("muted", card);
+    value = new QLabel(card);
+    value->setAlignment(Qt::AlignTrailing);
+    facts->addWidget(name, row, 0);
+    facts->addWidget(value, row, 1);
+    says([name, words] { name->setText(words()); });
+  };
+  fact(0, percent_, [] { return tr("Progress"); });
+  fact(1, elapsed_, [] { return tr("Elapsed"); });
+  fact(2, remaining_, [] { return tr("Remaining"); });
+  fact(3, line_, [] { return tr("Line"); });
+  card->column()->addLayout(facts);
+
+  auto* speed = new QHBoxLayout;
+  auto* speed_name = make_label("muted", card);
+  override_ = new QSlider(Qt::Horizontal, card);
+  override_->setRange(10, 200);
+  override_->setPageStep(10);
+  override_->setValue(100);
+  override_text_ = new QLabel(card);
+  override_text_->setMinimumWidth(override_text_->fontMetrics().horizontalAdvance(QStringLiteral("200%")) + 6);
+  override_text_->setAlignment(Qt::AlignTrailing);
+  speed->addWidget(speed_name);
+  speed->addWidget(override_, 1);
+  speed->addWidget(override_text_);
+  card->column()->addLayout(speed);
+  connect(override_, &QSlider::valueChanged, this, [this](int percent) { override_text_->setText(Format::percent(percent / 100.0)); });
+  const auto send = [this] {
+    if (desk_.session.connected()) desk_.session.set_override(override_->value() / 100.0);
+  };
+  connect(override_, &QSlider::sliderReleased, this, send);
+  connect(override_, &QSlider::actionTriggered, this, [this, send](int action) {
+    if (action != QAbstractSlider::SliderMove) QTimer::singleShot(0, this, send);
+  });
+
+  pause_ = make_button(desk_.theme, QStringLiteral("pause"), "primary", card);
+  resume_ = make_button(desk_.theme, QStringLiteral("play"), "primary", card);
+  cancel_ = make_button(desk_.theme, QStringLiteral("cancel"), "danger", card);
+  auto* buttons = new QHBoxLayout;
+  buttons->setSpacing(8);
+  buttons->addWidget(pause_, 1);
+  buttons->addWidget(resume_, 1);
+  buttons->addWidget(cancel_, 1);
+  card->column()->addSpacing(2);
+  card->column()->addLayout(buttons);
+  connect(pause_, &QPushButton::clicked, &desk_.session, &Session::hold);
+  connect(resume_, &QPushButton::clicked, &desk_.session, &Session::resume);
+  connect(cancel_, &QPushButton::clicked, this, [this] {
+    auto* question = new QMessageBox(QMessageBox::Question, tr("Cancel the job"), tr("Cancel the job? What is printed stays on the bed."),
+                                     QMessageBox::NoButton, window());
+    question->setAttribute(Qt::WA_DeleteOnClose);
+    auto* yes = question->addButton(tr("Cancel the job"), QMessageBox::DestructiveRole);
+    question->addButton(tr("Go on"), QMessageBox::RejectRole);
+    connect(yes, &QAbstractButton::clicked, &desk_.session, &Session::cancel);
+    question->open();
+  });
+  connect(&desk_.session, &Session::status_changed, this, &JobPanel::take_status);
+  connect(&desk_.session, &Session::link_changed, this, &JobPanel::take_status);
+  says([this, speed_name] {
+    speed_name->setText(tr("Speed"));
+    override_->setAccessibleName(tr("Feed override in percent"));
+    pause_->setText(tr("Pause"));
+    resume_->setText(tr("Resume"));
+    cancel_->setText(tr("Cancel"));
+    override_text_->setText(Format::percent(override_->value() / 100.0));
+    take_status();
+  });
+}
+
+void JobPanel::take_status() {
+  const joblink::Status& s = desk_.session.status();
+  const bool connected = desk_.session.connected(), job = connected && !s.job().empty();
+  name_->set_text(job ? QString::fromStdString(s.job()) : tr("No job is running"));
+  doing_->set_text(connected ? StateWords::next(s.state()) : QString());
+  doing_->setVisible(!doing_->text().isEmpty());
+  progress_->setValue(job ? static_cast<int>(std::lround(s.progress() * 1000)) : 0);
+  const QString none = QStringLiteral("—");
+  percent_->setText(job ? Format::percent(s.progress(), 1) : none);
+  elapsed_->setText(job ? Format::duration(s.elapsed_s()) : none);
+  remaining_->setText(job ? Format::duration(s.remaining_s()) : none);
+  line_->setText(job && s.line() > 0 ? Format::number(s.line(), 0) : none);
+  if (!override_->isSliderDown() && connected && s.feed_override() > 0) {
+    const QSignalBlocker quiet(override_);
+    override_->setValue(static_cast<int>(std::lround(s.feed_override() * 100)));
+    override_text_->setText(Format::percent(override_->value() / 100.0));
+  }
+  const Allowed allowed = connected ? allowed_in(s.state()) : Allowed{};
+  pause_->setVisible(!allowed.resume);
+  pause_->setEnabled(allowed.hold);
+  resume_->setVisible(allowed.resume);
+  cancel_->setEnabled(allowed.cancel);
+  override_->setEnabled(connected);
+}
+
+}  // namespace kinebus::gui

@@ -1,0 +1,227 @@
+#include "gui/views/main_window.hpp"
+
+#include <QButtonGroup>
+#include <QCloseEvent>
+#include <QDockWidget>
+#include <QSettings>
+#include <QScrollArea>
+#include <QShortcut>
+
+#include "gui/views/alarms_page.hpp"
+#include "gui/views/connect_page.hpp"
+#include "gui/views/console_page.hpp"
+#include "gui/views/job_panel.hpp"
+#include "gui/views/jobs_page.hpp"
+#include "gui/views/jog_page.hpp"
+#include "gui/views/machine_page.hpp"
+#include "gui/views/position_panel.hpp"
+#include "gui/views/top_bar.hpp"
+#include "gui/views/view_page.hpp"
+
+namespace kinebus::gui {
+namespace {
+constexpr int kBanner_ms = 9000;
+constexpr int kLayoutVersion = 1;
+constexpr std::array<const char*, MainWindow::kPages> kIcons{"gateway", "view", "jobs", "jog", "console", "alarms", "machine"};
+}  // namespace
+
+MainWindow::MainWindow(Desk& desk) : desk_(desk), banner_timer_(this) {
+  setWindowIcon(QIcon(QStringLiteral(":/icons/kinebus.svg")));
+  setWindowTitle(QStringLiteral("Kinebus"));
+  setMinimumSize(980, 600);
+  setDockNestingEnabled(true);
+
+  top_ = new TopBar(desk_, this);
+  pages_ = new QStackedWidget(this);
+  connect_ = new ConnectPage(desk_, pages_);
+  view_ = new ViewPage(desk_, pages_);
+  jobs_ = new JobsPage(desk_, pages_);
+  jog_ = new JogPage(desk_, pages_);
+  console_ = new ConsolePage(desk_, pages_);
+  alarms_ = new AlarmsPage(desk_, pages_);
+  machine_ = new MachinePage(desk_, pages_);
+  for (QWidget* page : {static_cast<QWidget*>(connect_), static_cast<QWidget*>(view_), static_cast<QWidget*>(jobs_), static_cast<QWidget*>(jog_),
+                        static_cast<QWidget*>(console_), static_cast<QWidget*>(alarms_), static_cast<QWidget*>(machine_)})
+    pages_->addWidget(page);
+
+  banner_ = new QWidget(this);
+  banner_->setObjectName(QStringLiteral("banner"));
+  banner_->setProperty("kind", "danger");
+  banner_->setAttribute(Qt::WA_StyledBackground);
+  auto* banner_row = new QHBoxLayout(banner_);
+  banner_row->setContentsMargins(14, 7, 8, 7);
+  banner_text_ = new QLabel(banner_);
+  banner_text_->setWordWrap(true);
+  auto* banner_close = make_tool(desk_.theme, QStringLiteral("cancel"), false, banner_);
+  banner_row->addWidget(banner_text_, 1);
+  banner_row->addWidget(banner_close);
+  banner_->hide();
+  banner_timer_.setSingleShot(true);
+  connect(&banner_timer_, &QTimer::timeout, banner_, &QWidget::hide);
+  connect(banner_close, &QToolButton::clicked, banner_, &QWidget::hide);
+
+  auto* centre = new QWidget(this);
+  auto* side = new QHBoxLayout(centre);
+  side->setContentsMargins(0, 0, 0, 0);
+  side->setSpacing(0);
+  side->addWidget(make_navigation());
+  auto* column = new QVBoxLayout;
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(0);
+  auto* banner_room = new QVBoxLayout;
+  banner_room->setContentsMargins(12, 0, 12, 0);
+  banner_room->addWidget(banner_);
+  column->addLayout(banner_room);
+  column->addWidget(pages_, 1);
+  side->addLayout(column, 1);
+  setCentralWidget(centre);
+  setMenuWidget(top_);
+
+  position_dock_ = make_dock(QStringLiteral("position"), new PositionPanel(desk_));
+  job_dock_ = make_dock(QStringLiteral("job"), new JobPanel(desk_));
+  addDockWidget(Qt::RightDockWidgetArea, job_dock_);
+  addDockWidget(Qt::RightDockWidgetArea, position_dock_);
+
+  connect(top_, &TopBar::theme_chosen, this, &MainWindow::set_theme);
+  connect(top_, &TopBar::language_chosen, this, &MainWindow::set_language);
+  connect(top_, &TopBar::gateways_wanted, this, [this] { show_page(kConnect); });
+  connect(jobs_, &JobsPage::show_place, view_, &ViewPage::show_line);
+  connect(jobs_, &JobsPage::show_view, this, [this] { show_page(kView); });
+  connect(&desk_.session, &Session::link_changed, this, &MainWindow::take_link);
+  connect(&desk_.session, &Session::refused, this, &MainWindow::take_refusal);
+  connect(&desk_.events, &EventsModel::open_alarms_changed, this, &MainWindow::retranslate);
+  connect(&desk_.events, &EventsModel::alarm_arrived, this, [this] {
+    take_refusal(desk_.events.index(0).data(EventsModel::kTitle).toString() + QStringLiteral(" — ") + desk_.events.index(0).data(EventsModel::kAdvice).toString());
+  });
+  for (int i = 0; i < kPages; ++i) {
+    auto* shortcut = new QShortcut(QKeySequence(Qt::CTRL | static_cast<Qt::Key>(Qt::Key_1 + i)), this);
+    connect(shortcut, &QShortcut::activated, this, [this, i] { show_page(static_cast<Page>(i)); });
+  }
+  retranslate();
+  take_link();
+  show_page(kConnect);
+  resize(1280, 720);
+}
+
+QWidget* MainWindow::make_navigation() {
+  auto* bar = new QWidget(this);
+  bar->setObjectName(QStringLiteral("navigation"));
+  bar->setAttribute(Qt::WA_StyledBackground);
+  bar->setFixedWidth(96);
+  auto* column = new QVBoxLayout(bar);
+  column->setContentsMargins(0, 8, 0, 8);
+  column->setSpacing(1);
+  navigation_ = new QButtonGroup(bar);
+  for (int i = 0; i < kPages; ++i) {
+    QToolButton* button = make_tool(desk_.theme, QString::fromLatin1(kIcons[static_cast<std::size_t>(i)]), true, bar);
+    button->setToolButtonStyle(Qt::ToolButtonTextUnderIcon);
+    button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+    button->setIconSize({23, 23});
+    navigation_->addButton(button, i);
+    column->addWidget(button);
+  }
+  column->addStretch(1);
+  connect(navigation_, &QButtonGroup::idClicked, this, [this](int page) { show_page(static_cast<Page>(page)); });
+  return bar;
+}
+
+QDockWidget* MainWindow::make_dock(const QString& name, QWidget* content) {
+  auto* dock = new QDockWidget(this);
+  dock->setObjectName(name);
+  dock->setFeatures(QDockWidget::DockWidgetMovable | QDockWidget::DockWidgetFloatable);
+  dock->setAllowedAreas(Qt::LeftDockWidgetArea | Qt::RightDockWidgetArea);
+  auto* scroll = new QScrollArea(dock);
+  scroll->setWidgetResizable(true);
+  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  scroll->setFocusPolicy(Qt::NoFocus);
+  scroll->setWidget(content);
+  scroll->setMinimumWidth(content->minimumWidth() + 26);
+  dock->setWidget(scroll);
+  return dock;
+}
+
+void MainWindow::retranslate() {
+  const std::array<QString, kPages> names{tr("Gateways"), tr("View"), tr("Jobs"), tr("Jog"), tr("Console"), tr("Alarms"), tr("Machine")};
+  for (int i = 0; i < kPages; ++i) {
+    QAbstractButton* button = navigation_->button(i);
+    QString name = names[static_cast<std::size_t>(i)];
+    if (i == kAlarms && desk_.events.open_alarms() > 0) name += QStringLiteral(" (%1)").arg(QLocale().toString(desk_.events.open_alarms()));
+    button->setText(name);
+    button->setToolTip(QStringLiteral("%1 (Ctrl+%2)").arg(names[static_cast<std::size_t>(i)]).arg(i + 1));
+  }
+  position_dock_->setWindowTitle(tr("Position"));
+  job_dock_->setWindowTitle(tr("Job"));
+}
+
+void MainWindow::changeEvent(QEvent* event) {
+  if (event->type() == QEvent::LanguageChange) retranslate();
+  QMainWindow::changeEvent(event);
+}
+
+MainWindow::Page MainWindow::page() const {
+  return static_cast<Page>(pages_->currentIndex());
+}
+
+void MainWindow::show_page(Page page) {
+  pages_->setCurrentIndex(page);
+  navigation_->button(page)->setChecked(true);
+  if (page == kJog || page == kConsole) pages_->currentWidget()->setFocus();
+  if (page == kView) view_->scene().setFocus();
+  if (page == kView) view_->scene().redraw();
+}
+
+void MainWindow::take_link() {
+  const bool connected = desk_.session.connected();
+  const bool none = desk_.session.link_state() == Session::LinkState::kNone;
+  for (int i = kView; i < kPages; ++i) navigation_->button(i)->setEnabled(true);
+  position_dock_->setVisible(!none);
+  job_dock_->setVisible(!none);
+  if (connected && !was_connected_ && page() == kConnect) show_page(kView);
+  if (none) {
+    desk_.path.clear();
+    show_page(kConnect);
+  }
+  was_connected_ = connected;
+}
+
+void MainWindow::take_refusal(const QString& words) {
+  banner_text_->setText(words);
+  banner_->show();
+  banner_timer_.start(kBanner_ms);
+}
+
+void MainWindow::set_theme(bool dark) {
+  desk_.theme.apply(dark);
+}
+
+void MainWindow::set_language(const QString& code) {
+  desk_.language.apply(code);
+}
+
+void MainWindow::save(QSettings& settings) const {
+  settings.setValue(QStringLiteral("window/geometry"), saveGeometry());
+  if (!position_dock_->isHidden()) settings.setValue(QStringLiteral("window/layout"), saveState(kLayoutVersion));
+  settings.setValue(QStringLiteral("window/page"), static_cast<int>(page()));
+  settings.setValue(QStringLiteral("theme/dark"), desk_.theme.dark());
+  settings.setValue(QStringLiteral("language"), desk_.language.code());
+  settings.setValue(QStringLiteral("console/history"), console_->history());
+  view_->save(settings);
+}
+
+void MainWindow::restore(QSettings& settings) {
+  restoreGeometry(settings.value(QStringLiteral("window/geometry")).toByteArray());
+  const bool shown = !position_dock_->isHidden();
+  restoreState(settings.value(QStringLiteral("window/layout")).toByteArray(), kLayoutVersion);
+  position_dock_->setVisible(shown);
+  job_dock_->setVisible(shown);
+  console_->set_history(settings.value(QStringLiteral("console/history")).toStringList());
+  view_->restore(settings);
+}
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+  QSettings settings;
+  save(settings);
+  event->accept();
+}
+
+}  // namespace kinebus::gui

@@ -1,0 +1,72 @@
+#pragma once
+// Puts the pages together: bar on top, pages at the side, position and job in docks that can be moved.
+
+#include <QMainWindow>
+#include <QStackedWidget>
+
+#include "gui/views/desk.hpp"
+
+class QButtonGroup;
+class QSettings;
+
+namespace kinebus::gui {
+
+class AlarmsPage;
+class ConnectPage;
+class ConsolePage;
+class JobsPage;
+class JogPage;
+class MachinePage;
+class TopBar;
+class ViewPage;
+
+class MainWindow : public QMainWindow {
+  Q_OBJECT
+ public:
+  enum Page { kConnect, kView, kJobs, kJog, kConsole, kAlarms, kMachine, kPages };
+  explicit MainWindow(Desk& desk);
+
+  void show_page(Page page);
+  Page page() const;
+  void set_theme(bool dark);
+  void set_language(const QString& code);
+  void save(QSettings& settings) const;
+  void restore(QSettings& settings);
+
+  ViewPage& view_page() { return *view_; }
+  JobsPage& jobs_page() { return *jobs_; }
+  ConsolePage& console_page() { return *console_; }
+  MachinePage& machine_page() { return *machine_; }
+  ConnectPage& connect_page() { return *connect_; }
+  TopBar& top_bar() { return *top_; }
+
+ protected:
+  void closeEvent(QCloseEvent* event) override;
+  void changeEvent(QEvent* event) override;
+
+ private:
+  QWidget* make_navigation();
+  QDockWidget* make_dock(const QString& name, QWidget* content);
+  void retranslate();
+  void take_link();
+  void take_refusal(const QString& words);
+
+  Desk& desk_;
+  TopBar* top_;
+  QStackedWidget* pages_;
+  QButtonGroup* navigation_;
+  ConnectPage* connect_;
+  ViewPage* view_;
+  JobsPage* jobs_;
+  JogPage* jog_;
+  ConsolePage* console_;
+  AlarmsPage* alarms_;
+  MachinePage* machine_;
+  QDockWidget *position_dock_, *job_dock_;
+  QWidget* banner_;
+  QLabel* banner_text_;
+  QTimer banner_timer_;
+  bool was_connected_ = false;
+};
+
+}  // namespace kinebus::gui

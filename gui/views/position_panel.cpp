@@ -1,0 +1,210 @@
+#include "gui/views/position_panel.hpp"
+
+#include <QPainter>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "gui/models/format.hpp"
+
+namespace kinebus::gui {
+namespace {
+constexpr double kDegPerRad = 180 / std::numbers::pi;
+
+QFont digits_font(const QFont& base, double points, bool bold) {
+  QFont font = base;
+  font.setFamilies({QStringLiteral("DejaVu Sans Mono"), QStringLiteral("Noto Sans Mono"), QStringLiteral("monospace")});
+  font.setPointSizeF(points);
+  font.setBold(bold);
+  return font;
+}
+}  // namespace
+
+TravelBar::TravelBar(QWidget* parent) : QWidget(parent) {
+  setFixedHeight(12);
+  setMinimumWidth(50);
+}
+
+void TravelBar::set(double share, const QColor& colour) {
+  if (share_ == share && colour_ == colour) return;
+  share_ = share;
+  colour_ = colour;
+  update();
+}
+
+void TravelBar::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  painter.setRenderHint(QPainter::Antialiasing);
+  const QRectF groove(0, height() / 2.0 - 2, width(), 4);
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(palette().color(QPalette::Mid));
+  painter.drawRoundedRect(groove, 2, 2);
+  if (share_ < 0) return;
+  const double at = std::clamp(share_, 0.0, 1.0) * (width() - 8);
+  painter.setBrush(colour_);
+  painter.drawRoundedRect(QRectF(at, height() / 2.0 - 6, 8, 12), 3, 3);
+}
+
+PositionPanel::PositionPanel(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(desk) {
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(6, 2, 12, 6);
+  column->setSpacing(8);
+  column->addWidget(make_axes());
+  joints_card_ = new Card(this);
+  joints_card_->column()->setContentsMargins(16, 10, 16, 11);
+  joints_heading_ = make_label("heading", this);
+  joints_card_->column()->addWidget(joints_heading_);
+  joints_grid_ = new QGridLayout;
+  joints_grid_->setHorizontalSpacing(10);
+  joints_grid_->setVerticalSpacing(3);
+  joints_grid_->setColumnStretch(1, 1);
+  joints_card_->column()->addLayout(joints_grid_);
+  column->addWidget(joints_card_);
+  column->addWidget(make_heaters());
+  column->addStretch(1);
+  setMinimumWidth(268);
+  connect(&desk_.session, &Session::machine_changed, this, &PositionPanel::rebuild_joints);
+  connect(&desk_.session, &Session::status_changed, this, &PositionPanel::take_status);
+  connect(&desk_.theme, &Theme::changed, this, &PositionPanel::take_status);
+  rebuild_joints();
+  says([this] {
+    joints_heading_->setText(tr("Carriages and axes"));
+    heat_heading_->setText(tr("Heat"));
+    hotend_target_->setAccessibleName(tr("Target temperature of the nozzle"));
+    bed_target_->setAccessibleName(tr("Target temperature of the bed"));
+    hotend_target_->setSpecialValueText(tr("off"));
+    bed_target_->setSpecialValueText(tr("off"));
+    take_status();
+  });
+}
+
+QWidget* PositionPanel::make_axes() {
+  auto* card = new Card(this);
+  card->column()->setContentsMargins(16, 10, 16, 11);
+  frame_text_ = make_label("small", card);
+  card->column()->addWidget(frame_text_);
+  auto* grid = new QGridLayout;
+  grid->setHorizontalSpacing(9);
+  grid->setVerticalSpacing(1);
+  grid->setColumnStretch(1, 1);
+  static constexpr std::array<const char*, 6> kNames{"X", "Y", "Z", "A", "C", "E"};
+  for (int i = 0; i < 6; ++i) {
+    AxisRow row{make_label("heading", card), new QLabel(card), make_label("small", card)};
+    row.name->setText(QString::fromLatin1(kNames[static_cast<std::size_t>(i)]));
+    row.value->setFont(digits_font(font(), i < 3 ? 17 : 13, i < 3));
+    row.value->setStyleSheet(QStringLiteral("font-family: 'DejaVu Sans Mono', 'Noto Sans Mono', monospace; font-size: %1pt; font-weight: %2;")
+                                 .arg(i < 3 ? 17 : 13)
+                                 .arg(i < 3 ? 600 : 400));
+    row.value->setAlignment(Qt::AlignRight | Qt::AlignAbsolute | Qt::AlignVCenter);
+    row.unit->setText(i == 3 || i == 4 ? QStringLiteral("°") : QStringLiteral("mm"));
+    row.unit->setMinimumWidth(22);
+    grid->addWidget(row.name, i, 0);
+    grid->addWidget(row.value, i, 1);
+    grid->addWidget(row.unit, i, 2);
+    axes_.push_back(row);
+  }
+  card->column()->addLayout(grid);
+  return card;
+}
+
+QWidget* PositionPanel::make_heaters() {
+  auto* card = new Card(this);
+  card->column()->setContentsMargins(16, 10, 16, 11);
+  heat_heading_ = make_label("heading", card);
+  card->column()->addWidget(heat_heading_);
+  auto* grid = new QGridLayout;
+  grid->setHorizontalSpacing(10);
+  grid->setVerticalSpacing(5);
+  grid->setColumnStretch(1, 1);
+  const auto add = [&](int row, QLabel*& actual, QDoubleSpinBox*& target, double max, bool bed) {
+    auto* name = new QLabel(card);
+    actual = new QLabel(card);
+    target = new QDoubleSpinBox(card);
+    target->setRange(0, max);
+    target->setDecimals(0);
+    target->setSingleStep(5);
+    target->setSuffix(QStringLiteral(" °C"));
+    target->setKeyboardTracking(false);
+    target->setButtonSymbols(QAbstractSpinBox::NoButtons);
+    target->setAlignment(Qt::AlignRight);
+    target->setFixedWidth(84);
+    grid->addWidget(name, row, 0);
+    grid->addWidget(actual, row, 1, Qt::AlignTrailing);
+    grid->addWidget(target, row, 2);
+    connect(target, &QDoubleSpinBox::editingFinished, this, [this, target, bed] {
+      const auto& heater = bed ? desk_.session.status().bed() : desk_.session.status().hotend();
+      if (desk_.session.connected() && std::abs(target->value() - heater.target_celsius()) > 0.5)
+        desk_.session.set_temperature(bed, target->value());
+    });
+    says([this, name, bed] { name->setText(bed ? tr("Bed") : tr("Nozzle")); });
+  };
+  add(0, hotend_, hotend_target_, 300, false);
+  add(1, bed_, bed_target_, 120, true);
+  auto* fan_name = new QLabel(card);
+  fan_ = new QLabel(card);
+  grid->addWidget(fan_name, 2, 0);
+  grid->addWidget(fan_, 2, 2, Qt::AlignTrailing);
+  says([this, fan_name] { fan_name->setText(tr("Fan")); });
+  card->column()->addLayout(grid);
+  return card;
+}
+
+void PositionPanel::rebuild_joints() {
+  for (const JointRow& row : joints_)
+    for (QWidget* w : {static_cast<QWidget*>(row.name), static_cast<QWidget*>(row.value), static_cast<QWidget*>(row.bar)}) w->deleteLater();
+  joints_.clear();
+  const auto& machine = desk_.session.machine();
+  int i = 0;
+  for (const auto& joint : machine.joints()) {
+    JointRow row{make_label("muted", joints_card_), new QLabel(joints_card_), new TravelBar(joints_card_)};
+    row.name->setText(QString::fromStdString(joint.name()));
+    row.value->setStyleSheet(QStringLiteral("font-family: 'DejaVu Sans Mono', 'Noto Sans Mono', monospace;"));
+    row.value->setMinimumWidth(row.value->fontMetrics().horizontalAdvance(QStringLiteral("-00000.000")) + 8);
+    row.value->setAlignment(Qt::AlignRight | Qt::AlignAbsolute | Qt::AlignVCenter);
+    row.bar->setLayoutDirection(Qt::LeftToRight);
+    row.bar->setVisible(joint.travel().min() < joint.travel().max());
+    joints_grid_->addWidget(row.name, i, 0);
+    joints_grid_->addWidget(row.bar, i, 1);
+    joints_grid_->addWidget(row.value, i, 2);
+    joints_.push_back(row);
+    ++i;
+  }
+  joints_card_->setVisible(!joints_.isEmpty());
+  hotend_target_->setMaximum(machine.hotend_max_celsius() > 0 ? machine.hotend_max_celsius() : 300);
+  bed_target_->setMaximum(machine.bed_max_celsius() > 0 ? machine.bed_max_celsius() : 120);
+  take_status();
+}
+
+void PositionPanel::take_status() {
+  const joblink::Status& s = desk_.session.status();
+  const bool known = desk_.session.connected() && s.positions_known();
+  const joblink::Pose& t = s.tool();
+  const std::array<double, 6> values{t.x_mm(), t.y_mm(), t.z_mm(), t.a_rad() * kDegPerRad, t.c_rad() * kDegPerRad, t.e_mm()};
+  for (int i = 0; i < 6; ++i) {
+    const double v = values[static_cast<std::size_t>(i)];
+    // Coordinates keep the digits of G-code in every language.
+    const double shown = std::abs(v) < 5e-4 ? 0 : v;
+    axes_[i].value->setText(known ? QString::number(shown, 'f', i == 3 || i == 4 ? 2 : 3) : QStringLiteral("—"));
+  }
+  frame_text_->setText(known ? tr("Tool over the part") : tr("Position not known yet"));
+  for (int i = 0; i < joints_.size(); ++i) {
+    const auto& joint = desk_.session.machine().joints(i);
+    const bool here = known && i < s.joints_size();
+    const double q = here ? s.joints(i) : 0;
+    joints_[i].value->setText(here ? QString::number(joint.rotary() ? q * kDegPerRad : q, 'f', joint.rotary() ? 2 : 3) : QStringLiteral("—"));
+    const double span = joint.travel().max() - joint.travel().min();
+    const double share = here && span > 0 ? (q - joint.travel().min()) / span : -1;
+    const bool near = share >= 0 && (share < 0.04 || share > 0.96);
+    joints_[i].bar->set(share, near ? desk_.theme.colours().waiting : desk_.theme.colours().accent);
+  }
+  const auto heat = [&](QLabel* actual, QDoubleSpinBox* target, const joblink::Heater& heater) {
+    actual->setText(desk_.session.connected() ? Format::isolated(Format::temperature(heater.actual_celsius())) : QStringLiteral("—"));
+    if (!target->hasFocus()) target->setValue(heater.target_celsius());
+    target->setEnabled(desk_.session.connected());
+  };
+  heat(hotend_, hotend_target_, s.hotend());
+  heat(bed_, bed_target_, s.bed());
+  fan_->setText(desk_.session.connected() ? Format::percent(s.fan()) : QStringLiteral("—"));
+}
+
+}  // namespace kinebus::gui
