@@ -7,11 +7,13 @@
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdlib>
-#include <ctime>
+#include <filesystem>
+#include <random>
 
 #include "gateway/inproc/inproc_bus.hpp"
 #include "gateway/io/bus_log.hpp"
 #include "gateway/io/daemon.hpp"
+#include "gateway/io/journal_file.hpp"
 #include "gateway/io/realtime.hpp"
 #include "gateway/io/socketcan_bus.hpp"
 #include "gateway/io/usb/serial_ports.hpp"
@@ -33,6 +35,7 @@ struct Arguments {
   std::string jobs;
   std::string bus_log;
   kinebus::SerialPorts::Options serial;
+  std::string journal;
   std::string log_level = "info";
   int realtime_priority = 80;
   bool no_realtime = false;
@@ -78,8 +81,19 @@ int serve(const Arguments& arguments) {
   if (std::string error = jobs.prepare(); !error.empty()) return fail("job folder " + error);
 
   kinebus::EventLoop loop;
+  const std::filesystem::path journal_path =
+      arguments.journal.empty() ? std::filesystem::absolute(jobs.path()).parent_path() / "resume.journal"
+                                : std::filesystem::absolute(arguments.journal);
+  const kinebus::journal::State noted = kinebus::JournalFile::read(journal_path);
   // The epoch must differ from the one before: nodes then join the new clock without a step.
-  kinebus::Gateway gateway(*machine, {.epoch = static_cast<std::uint8_t>(std::time(nullptr) & 0xFF)});
+  const auto epoch = static_cast<std::uint8_t>(noted.epoch ? *noted.epoch + 1 : std::random_device{}());
+  kinebus::Gateway gateway(*machine, {.epoch = epoch, .journal = true});
+  kinebus::JournalFile journal(journal_path, noted, gateway);
+  if (noted.job) {
+    auto text = jobs.open(noted.job->name);
+    if (const auto taken = gateway.recover(noted, text ? std::move(*text) : nullptr); !taken)
+      spdlog::warn("{}", taken.error().words);
+  }
   kinebus::ControlServer server(
       loop, gateway, jobs,
       {.path = arguments.socket.empty() ? default_socket() : arguments.socket, .group = arguments.group});
@@ -102,6 +116,7 @@ int serve(const Arguments& arguments) {
   kinebus::notify_systemd("READY=1");
   kinebus::Daemon daemon(loop, **bus, gateway, server);
   daemon.add(serial);
+  daemon.add(journal);
   daemon.run(&quit);
   spdlog::info("ended at rest");
   return 0;
@@ -131,6 +146,9 @@ int run(int argc, char** argv) {
       "Speak to print hosts on address:port; there is no password, use it in closed networks only");
   app.add_option("--bus-log", arguments.bus_log,
                  "Write all frames of the bus to this file, as candump -L does");
+  app.add_option(
+      "--journal", arguments.journal,
+      "File in which the place of the running job is noted (default: resume.journal beside the jobs)");
   app.add_option("--log-level", arguments.log_level, "trace debug info warn error")
       ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error"}));
   app.add_option("--priority", arguments.realtime_priority, "SCHED_FIFO priority")->check(CLI::Range(1, 99));

@@ -221,6 +221,7 @@ class Gateway::Core {
       heat_wanted_;  ///< what the interrupted job wants, when heaters were switched off
   journal::Thermal heat_noted_;
   BusTime progress_due_{0};
+  std::optional<BusTime> found_noted_;
   double override_ = 1;
 };
 

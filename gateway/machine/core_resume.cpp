@@ -116,6 +116,7 @@ void Gateway::Core::note_found() {
   const PathTime tau = found_tau(state.run->start, state.progress ? state.progress->tau : state.run->start);
   recovery_->state.found = tau;
   journal_.push(journal::Found{tau});
+  found_noted_ = now_;
 }
 
 PathTime Gateway::Core::found_tau(PathTime start, PathTime otherwise) const {

@@ -16,6 +16,7 @@ constexpr BusTime kSettle = 150ms;
 /// A stop takes its ramp and no more; a node that does not say so is lost.
 constexpr BusTime kStopTimeout = 3s;
 constexpr BusTime kClearTimeout = 3s;
+constexpr BusTime kJournalPatience = 500ms;
 
 }  // namespace
 
@@ -124,6 +125,8 @@ void Gateway::Core::on_time(BusTime now) {
 
 void Gateway::Core::step_bring_up() {
   if (standstill_.busy()) return step_standstill();
+  // What was found is on the disk before the nodes lose it.
+  if (found_noted_ && !journal_.all_stored() && now_ - *found_noted_ < kJournalPatience) return;
   const BringUp::Outcome outcome = bring_up_.on_time(now_);
   if (bring_up_.may_speak() && !speaking_) {
     speaking_ = true;
