@@ -45,6 +45,7 @@ int run(int argc, char** argv) {
   app.add_option("--estop-input", options.emergency_input, "Input of the E-stop button")
       ->check(CLI::Range(1, 7))
       ->capture_default_str();
+  app.add_option("--trace", options.trace_path, "File for the true positions of both motors, every 2 ms");
   app.add_option("--start-a", start[0], "Carriage A at power-up, counts");
   app.add_option("--start-b", start[1], "Carriage B at power-up, counts");
   app.add_option("--switch-a", edge[0], "Edge of switch A (input 1), counts; active above");

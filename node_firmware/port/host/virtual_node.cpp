@@ -45,6 +45,7 @@ std::string VirtualNodeProcess::open() {
     if (fd < 0 || ::epoll_ctl(epoll_, EPOLL_CTL_ADD, fd, &event) != 0)
       return std::string("event loop: ") + std::strerror(errno);
   }
+  if (!trace_.open(options_.trace_path)) return "trace " + options_.trace_path + ": " + std::strerror(errno);
   const std::vector<std::uint8_t> stored = image_.read();
   node_.emplace(options_.node, monotonic_now(), stored);
   return {};
@@ -54,6 +55,7 @@ std::string VirtualNodeProcess::run() {
   std::array<epoll_event, 4> events{};
   for (;;) {
     const LocalTime now = monotonic_now();
+    trace_.sample(*node_, now);
     if (now >= node_->next_deadline()) node_->on_time(now);
     if (now >= next_look_) look_at_switches(now);
     send();
@@ -76,6 +78,7 @@ std::string VirtualNodeProcess::run() {
 
 void VirtualNodeProcess::receive() {
   while (const auto got = can_.receive()) {
+    trace_.sample(*node_, got->when);
     if (got->kind == SocketCan::Kind::kFrame) node_->on_frame(got->when, got->frame);
     if (got->kind == SocketCan::Kind::kDown) {
       bus_down_ = true;

@@ -8,6 +8,7 @@
 #include "node_firmware/core/node.hpp"
 #include "node_firmware/port/host/axis_plant.hpp"
 #include "node_firmware/port/host/image_file.hpp"
+#include "node_firmware/port/host/position_trace.hpp"
 #include "protocol/host/socketcan.hpp"
 
 namespace kinebus {
@@ -18,6 +19,7 @@ struct VirtualNodeProcessOptions {
   std::array<AxisPlantOptions, 2> plant{};
   int emergency_input = 7;  ///< 1..7: SIGUSR1 turns its level
   std::string image_path;
+  std::string trace_path;  ///< see PositionTrace; empty: none
 };
 
 class VirtualNodeProcess {
@@ -47,6 +49,7 @@ class VirtualNodeProcess {
   std::optional<Node> node_;
   std::array<AxisPlant, 2> plant_;
   std::optional<CanFrame> unsent_;
+  PositionTrace trace_;
   LocalTime next_look_{0};
   bool emergency_ = false;
   bool bus_down_ = false;
