@@ -1,0 +1,152 @@
+// kinebus-flash: new programs for nodes: over CAN with progress, or by the standard tools for USB and SWD.
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <poll.h>
+#include <unistd.h>
+#include <CLI/CLI.hpp>
+
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <vector>
+
+#include "node_firmware/boot/image_header.hpp"
+#include "protocol/host/guarded_main.hpp"
+#include "protocol/host/socketcan.hpp"
+#include "tools/flash/program_update.hpp"
+
+namespace {
+
+using namespace kinebus;
+using namespace std::chrono_literals;
+
+struct Arguments {
+  std::string image, interface = "can0";
+  std::vector<int> nodes;
+  bool all = false, force = false, dfu = false, swd = false;
+};
+
+/// Frames until `end`, or until `done` says so.
+template <typename OnFrame, typename Done>
+void receive_until(SocketCan& can, LocalTime end, OnFrame on_frame, Done done) {
+  for (LocalTime now = monotonic_now(); now < end && !done(); now = monotonic_now()) {
+    pollfd wait{.fd = can.fd(), .events = POLLIN, .revents = 0};
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - now).count();
+    ::poll(&wait, 1, static_cast<int>(std::min<std::int64_t>(left, 100)));
+    while (const auto got = can.receive())
+      if (got->kind == SocketCan::Kind::kFrame) on_frame(got->when, got->frame);
+  }
+}
+
+/// Whoever sends a heartbeat, or answers to a question for its program.
+std::set<std::uint8_t> find_nodes(SocketCan& can) {
+  std::set<std::uint8_t> found;
+  for (std::uint8_t id = 1; id < 127; ++id) {
+    const CanFrame question = sdo::frame_of(cob_id::kSdoRequest + id, 0x40, {0x1F51, 1});
+    while (can.send(question) == SocketCan::Sent::kFull) ::usleep(200);
+  }
+  receive_until(
+      can, monotonic_now() + 300ms,
+      [&](LocalTime, const CanFrame& frame) {
+        const std::uint32_t id = frame.id - cob_id::kSdoReply;
+        if (id >= 1 && id < 127 && frame.length == 8 && sdo::specifier(frame) == sdo::kReplyInitiateUpload)
+          found.insert(static_cast<std::uint8_t>(id));
+      },
+      [] { return false; });
+  return found;
+}
+
+bool update(SocketCan& can, std::uint8_t node, const std::vector<std::uint8_t>& image, bool force) {
+  const LocalTime began = monotonic_now();
+  ProgramUpdate::Options options;
+  options.even_if_same = force;
+  ProgramUpdate work(node, image, began, options);
+  std::string shown;
+  while (work.status() == ProgramUpdate::Status::kBusy) {
+    while (const auto frame = work.next_frame())
+      for (auto sent = can.send(*frame); sent != SocketCan::Sent::kYes; sent = can.send(*frame)) {
+        if (sent == SocketCan::Sent::kDown) return fmt::print(stderr, "the CAN interface went down\n"), false;
+        ::usleep(200);
+      }
+    bool heard = false;
+    receive_until(
+        can, std::min(work.next_deadline(), monotonic_now() + 200ms),
+        [&](LocalTime when, const CanFrame& frame) { heard = true, work.on_frame(when, frame); },
+        [&] { return heard || work.status() != ProgramUpdate::Status::kBusy; });
+    work.on_time(monotonic_now());
+    const std::string line = fmt::format("node {}: {:<22} {:3} %", node, work.message(), work.percent());
+    if (line != shown && ::isatty(STDOUT_FILENO) != 0) {
+      fmt::print("\r{}", shown = line);
+      std::fflush(stdout);
+    }
+  }
+  const double seconds = to_seconds(monotonic_now() - began);
+  if (::isatty(STDOUT_FILENO) != 0) fmt::print("\r");
+  fmt::print("node {}: {} ({:.1f} s)\n", node, work.message(), seconds);
+  std::fflush(stdout);
+  return work.status() == ProgramUpdate::Status::kDone;
+}
+
+/// Hands over to a standard tool, which must be installed.
+int hand_over(const std::vector<std::string>& command) {
+  std::vector<char*> arguments;
+  for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+  fmt::print("{}\n", fmt::join(command, " "));
+  std::fflush(stdout);
+  ::execvp(arguments[0], arguments.data());
+  fmt::print(stderr, "{} is not installed: apt-get install {}\n", command[0], command[0]);
+  return 1;
+}
+
+int flash(const Arguments& arguments) {
+  if (arguments.dfu)
+    return hand_over(
+        {"dfu-util", "-a", "0", "-d", "0483:df11", "-s", "0x08020000:leave", "-D", arguments.image});
+  if (arguments.swd)
+    return hand_over({"openocd", "-f", "interface/stlink.cfg", "-f", "target/stm32f4x.cfg", "-c",
+                      fmt::format("program {} 0x08020000 verify reset exit", arguments.image)});
+  std::ifstream file(arguments.image, std::ios::binary);
+  const std::vector<std::uint8_t> image{std::istreambuf_iterator<char>(file), {}};
+  if (!file && image.empty()) return fmt::print(stderr, "cannot read {}\n", arguments.image), 1;
+  if (const ImageCheck check = check_image(image); check != ImageCheck::kGood) {
+    ProgramUpdate refused(1, image, LocalTime{0}, {});
+    return fmt::print(stderr, "{}: {}\n", arguments.image, refused.message()), 1;
+  }
+  SocketCan can;
+  if (const std::string error = can.open(arguments.interface, false); !error.empty())
+    return fmt::print(stderr, "{}\n", error), 1;
+  std::set<std::uint8_t> nodes(arguments.nodes.begin(), arguments.nodes.end());
+  if (arguments.all) nodes = find_nodes(can);
+  if (nodes.empty()) return fmt::print(stderr, "no node answers on {}\n", arguments.interface), 1;
+  int failed = 0;
+  // One after another: a bus has room for one download, and the others stay what they are meanwhile.
+  for (const std::uint8_t node : nodes) failed += update(can, node, image, arguments.force) ? 0 : 1;
+  if (failed != 0) fmt::print(stderr, "{} of {} nodes not updated: run it again\n", failed, nodes.size());
+  return failed == 0 ? 0 : 1;
+}
+
+int run(int argc, char** argv) {
+  CLI::App app("kinebus-flash: writes a program into nodes, over CAN, USB (DFU) or SWD");
+  Arguments arguments;
+  app.add_option("image", arguments.image, "kinebus-node.bin of the firmware preset")->required();
+  app.add_option("-i,--interface", arguments.interface, "SocketCAN interface")->capture_default_str();
+  auto* node =
+      app.add_option("-n,--node", arguments.nodes, "Node id; may be given again")->check(CLI::Range(1, 126));
+  auto* all = app.add_flag("-a,--all", arguments.all, "Every node that answers")->excludes(node);
+  app.add_flag("-f,--force", arguments.force, "Also when the node runs this program already");
+  auto* dfu =
+      app.add_flag("--dfu", arguments.dfu, "By USB: the chip's own boot loader (BOOT0), with dfu-util");
+  auto* swd = app.add_flag("--swd", arguments.swd, "By a debug probe, with openocd");
+  CLI11_PARSE(app, argc, argv);
+  if (*dfu || *swd || *node || *all) return flash(arguments);
+  fmt::print(stderr, "say which: --node ID, --all, --dfu or --swd\n");
+  return 2;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return kinebus::guarded_main("kinebus-flash", [&] { return run(argc, argv); });
+}

@@ -1,0 +1,201 @@
+#include "tools/flash/program_update.hpp"
+
+#include <array>
+#include <utility>
+
+#include "node_firmware/boot/boot_loader.hpp"
+#include "protocol/canopen/heartbeat.hpp"
+#include "protocol/canopen/nmt.hpp"
+
+namespace kinebus {
+namespace {
+
+constexpr ObjectAddress kProgramData{0x1F50, 1}, kProgramControl{0x1F51, 1}, kProgramId{0x1F56, 1},
+    kFlashStatus{0x1F57, 1}, kProduct{0x1018, 2};
+
+std::string what_is_wrong(ImageCheck check) {
+  switch (check) {
+    case ImageCheck::kNone:
+      return "the file is no node image: give kinebus-node.bin";
+    case ImageCheck::kOtherDevice:
+      return "the image is for another device or board";
+    case ImageCheck::kLength:
+      return "the image's length is wrong: the file may be cut off";
+    case ImageCheck::kCrc:
+      return "the image's CRC is wrong: the file is damaged";
+    case ImageCheck::kGood:
+      break;
+  }
+  return {};
+}
+
+}  // namespace
+
+ProgramUpdate::ProgramUpdate(std::uint8_t node, std::span<const std::uint8_t> image, LocalTime now,
+                             const Options& options)
+    : options_(options),
+      node_(node),
+      image_(image),
+      client_(SdoClient::Options{.timeout = options.answer}),
+      attempts_left_(options.attempts) {
+  if (const ImageCheck check = check_image(image); check != ImageCheck::kGood) {
+    fail(what_is_wrong(check));
+    return;
+  }
+  image_ = image.first(decode_image_header(image).length);
+  crc_ = decode_image_header(image).crc;
+  go(now, Step::kReadControl);
+}
+
+void ProgramUpdate::fail(std::string message) {
+  status_ = Status::kFailed;
+  message_ = std::move(message);
+}
+
+void ProgramUpdate::upload(LocalTime now, ObjectAddress address) {
+  value_ = {};
+  client_.upload(now, node_, address, value_);
+}
+
+void ProgramUpdate::download(LocalTime now, ObjectAddress address, std::span<const std::uint8_t> bytes) {
+  client_.download(now, node_, address, bytes);
+}
+
+void ProgramUpdate::go(LocalTime now, Step step) {
+  step_ = step;
+  const auto control = [&](std::uint8_t command) {
+    command_ = {command};
+    download(now, kProgramControl, command_);
+  };
+  switch (step) {
+    case Step::kReadControl:
+      message_ = "asking";
+      return upload(now, kProgramControl);
+    case Step::kReadIdentity:
+      return upload(now, kProduct);
+    case Step::kReadProgram:
+      return upload(now, kProgramId);
+    case Step::kStop:
+      message_ = "stopping the program";
+      nmt_ = nmt_frame(NmtCommand::kEnterPreOperational, node_);
+      return control(program_control::kStop);
+    case Step::kAwaitBootLoader:
+    case Step::kAwaitProgram:
+      boot_due_ = now + options_.boot;
+      return;
+    case Step::kClear:
+      message_ = "erasing";
+      return control(program_control::kClear);
+    case Step::kDownload:
+      message_ = "writing";
+      client_.download(now, node_, kProgramData, image_, SdoClient::Method::kBlock);
+      return;
+    case Step::kReadStatus:
+      message_ = "checking";
+      return upload(now, kFlashStatus);
+    case Step::kStart:
+      message_ = "starting";
+      return control(program_control::kStart);
+    case Step::kVerify:
+      return upload(now, kProgramId);
+  }
+}
+
+void ProgramUpdate::on_transfer(LocalTime now) {
+  switch (step_) {
+    case Step::kReadControl:
+      in_boot_loader_ = value_[0] == program_control::kStop;
+      return go(now, Step::kReadIdentity);
+    case Step::kReadIdentity:
+      if (get_u32_le(value_) != kProductCode)
+        return fail("is no Kinebus node: product code differs (1018h:2)");
+      return go(now, in_boot_loader_ ? Step::kClear : Step::kReadProgram);
+    case Step::kReadProgram:
+      if (get_u32_le(value_) == crc_ && !options_.even_if_same) {
+        status_ = Status::kDone;
+        message_ = "runs this program already";
+        return;
+      }
+      return go(now, Step::kStop);
+    case Step::kStop:
+      return go(now, Step::kAwaitBootLoader);
+    case Step::kClear:
+      return go(now, Step::kDownload);
+    case Step::kDownload:
+      return go(now, Step::kReadStatus);
+    case Step::kReadStatus:
+      if (value_[0] != 0) return fail("the node refuses the program: 1F57h = " + std::to_string(value_[0]));
+      return go(now, Step::kStart);
+    case Step::kStart:
+      return go(now, Step::kAwaitProgram);
+    case Step::kVerify:
+      if (get_u32_le(value_) != crc_) return fail("another program came up than was written");
+      status_ = Status::kDone;
+      message_ = "updated";
+      return;
+    case Step::kAwaitBootLoader:
+    case Step::kAwaitProgram:
+      return;
+  }
+}
+
+void ProgramUpdate::on_failed_transfer(LocalTime now) {
+  const AbortCode code = client_.abort_code();
+  const std::string reason(text(code));
+  const bool written = step_ == Step::kClear || step_ == Step::kDownload || step_ == Step::kReadStatus;
+  if (written && attempts_left_ > 1) {
+    --attempts_left_;
+    return go(now, Step::kReadControl);
+  }
+  if (step_ == Step::kStop && code == AbortCode::kDeviceState)
+    return fail(
+        "its motors have power, or no boot loader started it: switch the drives off, or flash by SWD");
+  if (step_ == Step::kReadControl && code == AbortCode::kTimeout) return fail("does not answer");
+  fail(message_ + ": " + reason);
+}
+
+void ProgramUpdate::on_frame(LocalTime now, const CanFrame& frame) {
+  if (status_ != Status::kBusy) return;
+  client_.on_frame(now, frame);
+  const auto heartbeat = decode_heartbeat(frame);
+  if (heartbeat && heartbeat->node == node_ && heartbeat->state == NmtState::kInitialising &&
+      boot_due_ != LocalTime::max()) {
+    boot_due_ = LocalTime::max();
+    go(now, step_ == Step::kAwaitBootLoader ? Step::kClear : Step::kVerify);
+  }
+  on_time(now);
+}
+
+void ProgramUpdate::on_time(LocalTime now) {
+  if (status_ != Status::kBusy) return;
+  client_.on_time(now);
+  if (now >= boot_due_) {
+    boot_due_ = LocalTime::max();
+    // The boot-up message may have been lost: whoever answers now says what it is.
+    if (--attempts_left_ <= 0) return fail("did not come back after its reset");
+    return go(now, step_ == Step::kAwaitProgram ? Step::kVerify : Step::kReadControl);
+  }
+  if (boot_due_ != LocalTime::max()) return;
+  if (client_.status() == SdoClient::Status::kDone)
+    on_transfer(now);
+  else if (client_.status() == SdoClient::Status::kFailed)
+    on_failed_transfer(now);
+}
+
+std::optional<CanFrame> ProgramUpdate::next_frame() {
+  if (status_ != Status::kBusy) return std::nullopt;
+  if (nmt_) return std::exchange(nmt_, std::nullopt);
+  return client_.next_frame();
+}
+
+LocalTime ProgramUpdate::next_deadline() const {
+  return status_ == Status::kBusy ? std::min(client_.next_deadline(), boot_due_) : LocalTime::max();
+}
+
+int ProgramUpdate::percent() const {
+  if (step_ < Step::kDownload) return 0;
+  if (step_ > Step::kDownload || image_.empty()) return 100;
+  return static_cast<int>(100 * client_.received() / image_.size());
+}
+
+}  // namespace kinebus

@@ -1,0 +1,81 @@
+#pragma once
+// One node gets a new program over CAN, by CiA 302: the running program is stopped, the flash cleared, the
+// image downloaded in blocks, checked and started. No input or output of its own; whatever was cut off
+// before, it begins anew.
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "protocol/can/frame.hpp"
+#include "protocol/canopen/sdo_client.hpp"
+
+namespace kinebus {
+
+class ProgramUpdate {
+ public:
+  enum class Status : std::uint8_t { kBusy, kDone, kFailed };
+  struct Options {
+    /// An erase of 128 kB takes up to 2 s, in which a node says nothing.
+    LocalTime answer = std::chrono::seconds{6};
+    LocalTime boot = std::chrono::seconds{3};  ///< from a reset to the boot-up message
+    int attempts = 3;  ///< downloads that fail by a timeout or a wrong CRC are repeated
+    bool even_if_same = false;
+  };
+
+  /// `image`: as kinebus-node.bin; must stay. Failed at once when it is no image for this board.
+  ProgramUpdate(std::uint8_t node, std::span<const std::uint8_t> image, LocalTime now,
+                const Options& options);
+
+  void on_frame(LocalTime now, const CanFrame& frame);
+  void on_time(LocalTime now);
+  std::optional<CanFrame> next_frame();
+  LocalTime next_deadline() const;
+
+  Status status() const { return status_; }
+  /// What is done now, what went wrong, or that there was nothing to do.
+  const std::string& message() const { return message_; }
+  /// Of the download, 0..100.
+  int percent() const;
+  std::uint8_t node() const { return node_; }
+
+ private:
+  enum class Step : std::uint8_t {
+    kReadControl,
+    kReadIdentity,
+    kReadProgram,
+    kStop,
+    kAwaitBootLoader,
+    kClear,
+    kDownload,
+    kReadStatus,
+    kStart,
+    kAwaitProgram,
+    kVerify,
+  };
+
+  void go(LocalTime now, Step step);
+  void upload(LocalTime now, ObjectAddress address);
+  void download(LocalTime now, ObjectAddress address, std::span<const std::uint8_t> bytes);
+  void on_transfer(LocalTime now);
+  void on_failed_transfer(LocalTime now);
+  void fail(std::string message);
+
+  Options options_;
+  std::uint8_t node_;
+  std::span<const std::uint8_t> image_;
+  std::uint32_t crc_ = 0;
+  SdoClient client_;
+  Step step_ = Step::kReadControl;
+  Status status_ = Status::kBusy;
+  std::string message_;
+  std::array<std::uint8_t, 8> value_{};
+  std::array<std::uint8_t, 1> command_{};
+  std::optional<CanFrame> nmt_;
+  LocalTime boot_due_ = LocalTime::max();
+  bool in_boot_loader_ = false;
+  int attempts_left_;
+};
+
+}  // namespace kinebus
