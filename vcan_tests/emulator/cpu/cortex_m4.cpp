@@ -204,6 +204,17 @@ void CortexM4::reset(std::uint32_t vectors) {
   pc_ = peek(vectors + 4) & ~1u;
 }
 
+void CortexM4::start_profile() {
+  profile_.assign(kFlashSize / 2, 0);
+}
+
+std::uint64_t CortexM4::profiled_cycles(std::uint32_t begin, std::uint32_t end) const {
+  std::uint64_t sum = 0;
+  for (std::uint32_t at = begin; at < end && (at - kFlash) / 2 < profile_.size(); at += 2)
+    sum += profile_[(at - kFlash) / 2];
+  return sum;
+}
+
 std::uint8_t* CortexM4::host(std::uint32_t address, std::uint32_t size) {
   const auto within = [&](std::uint32_t base, std::uint32_t length) {
     return address >= base && size <= length && address - base <= length - size;
@@ -274,6 +285,7 @@ void CortexM4::on_block(std::uint32_t address, std::uint32_t size) {
       cost = code_cost(address, size);  // in RAM: may change, and is rare
     }
     count(cost >> 16, cost & 0xFFFF);
+    if (!profile_.empty() && index < profile_.size()) profile_[index] += cost & 0xFFFF;
   }
   if (now_ < next_stop_) return;
 
@@ -299,10 +311,11 @@ void CortexM4::on_block(std::uint32_t address, std::uint32_t size) {
 }
 
 void CortexM4::serve_time() {
+  const Cycle due = std::min({now_, devices_.next_event(), nvic_.next_event()});
   devices_.advance(now_);
   nvic_.advance(now_);
   if (nvic_.any_pending()) {
-    if (pending_since_ == kNever) pending_since_ = now_;
+    if (pending_since_ == kNever) pending_since_ = due;
     next_stop_ = 0;  // masked: looked at before every block
   } else {
     pending_since_ = kNever;

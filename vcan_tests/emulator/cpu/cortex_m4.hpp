@@ -85,6 +85,10 @@ class CortexM4 {
   std::uint64_t instructions() const { return instructions_; }
   const ExceptionCost& cost(int exception) const { return costs_[static_cast<std::size_t>(exception)]; }
   void clear_costs() { costs_ = {}; }
+  /// From now on cycles are also counted by address.
+  void start_profile();
+  /// Estimated cycles spent in blocks that begin at begin .. end, in flash.
+  std::uint64_t profiled_cycles(std::uint32_t begin, std::uint32_t end) const;
   /// Cycles spent asleep in WFI.
   Cycle idle() const { return idle_; }
   Nvic& nvic() { return nvic_; }
@@ -146,6 +150,7 @@ class CortexM4 {
   std::string failure_;
 
   std::array<ExceptionCost, Nvic::kExceptions> costs_{};
+  std::vector<std::uint64_t> profile_;
   std::vector<Running> running_;
   Cycle pending_since_ = kNever;
 };

@@ -1,0 +1,124 @@
+// kinebus-emulate: the firmware's image on emulated boards, for a look at its cost or on a real CAN
+// interface.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+
+#include "protocol/bytes.hpp"
+#include "protocol/canopen/nmt.hpp"
+#include "vcan_tests/emulator/cost_report.hpp"
+#include "vcan_tests/emulator/live_boards.hpp"
+
+namespace {
+
+using namespace kinebus;
+using namespace kinebus::emulator;
+using namespace std::chrono_literals;
+
+// The default machine's carriages on nodes 1 and 2, with switches at 1030 mm; node 3 turns the table and the
+// extruder.
+EmulatedNodeOptions board_of(int node) {
+  constexpr double kCountsPerMm = 1280;
+  EmulatedNodeOptions options;
+  options.node_id = static_cast<std::uint8_t>(node);
+  options.board.unique_id = {0x00330045, 0x31365108, 0x36373800u + static_cast<std::uint32_t>(node)};
+  if (node > 2) return options;
+  for (int axis = 0; axis < 2; ++axis) {
+    VirtualAxis& a = options.board.axes[static_cast<std::size_t>(axis)];
+    a.start_counts = (960 + 2 * node - axis) * kCountsPerMm;
+    a.switch_input = axis + 1;
+    a.switch_counts = 1030 * kCountsPerMm;
+  }
+  return options;
+}
+
+void advance(EmulatedMachine& machine, BusTime& now, BusTime span) {
+  now += span;
+  while (!machine.advance(now)) {
+  }
+  while (machine.receive()) {
+  }
+}
+
+void write(EmulatedMachine& machine, BusTime& now, std::uint16_t index, std::uint8_t sub, int size,
+           std::int64_t value) {
+  CanFrame request{.id = 0x601, .length = 8};
+  request.data[0] = static_cast<std::uint8_t>(0x23 | ((4 - size) << 2));
+  put_u16_le(std::span(request.data).subspan(1), index);
+  request.data[3] = sub;
+  put_u32_le(std::span(request.data).subspan(4), static_cast<std::uint32_t>(value));
+  machine.send(now, request);
+  advance(machine, now, 3ms);
+}
+
+/// Both motors up to `turns_per_s` and on for a while: the costs of everything that runs then.
+void report(const ElfImage& image, double turns_per_s, double seconds) {
+  EmulatedMachine machine(image, {board_of(1)});
+  Board& board = machine.board(0);
+  BusTime now{0};
+  machine.send(now, nmt_frame(NmtCommand::kStart, 1));
+  advance(machine, now, 20ms);
+  for (const std::uint16_t axis : {std::uint16_t{0}, std::uint16_t{0x800}}) {
+    write(machine, now, static_cast<std::uint16_t>(0x6060 + axis), 0, 1, 1);
+    for (const int word : {6, 7, 15})
+      write(machine, now, static_cast<std::uint16_t>(0x6040 + axis), 0, 2, word);
+  }
+  advance(machine, now, 200ms);
+  for (const std::uint16_t axis : {std::uint16_t{0}, std::uint16_t{0x800}}) {
+    write(machine, now, static_cast<std::uint16_t>(0x607F + axis), 0, 4, 1'000'000);
+    write(machine, now, static_cast<std::uint16_t>(0x6081 + axis), 0, 4, std::llround(turns_per_s * 51200));
+    write(machine, now, static_cast<std::uint16_t>(0x6083 + axis), 0, 4, 4'000'000);
+    write(machine, now, static_cast<std::uint16_t>(0x607A + axis), 0, 4, 1'000'000'000);
+    write(machine, now, static_cast<std::uint16_t>(0x6040 + axis), 0, 2, 0x1F);
+  }
+  advance(machine, now, 300ms);
+  board.cpu().clear_costs();
+  board.cpu().start_profile();
+  const Cycle began = board.now(), idle = board.cpu().idle();
+  advance(machine, now, BusTime{static_cast<std::int64_t>(seconds * 1e9)});
+  fmt::print("both motors at {:.2f} turns/s (rotors {:.2f} and {:.2f}), {:.2f} s\n", turns_per_s,
+             board.motor(0).speed_rad_per_s() / 6.283185307, board.motor(1).speed_rad_per_s() / 6.283185307,
+             seconds);
+  fmt::print("{}\n{}", cost_table(board, began, idle), profile_table(board, 25));
+  if (const std::string text = board.console().take_sent(); !text.empty()) fmt::print("console:\n{}\n", text);
+}
+
+int run(int argc, char** argv) {
+  CLI::App app{
+      "Runs the firmware's image on emulated boards.\n"
+      "Without an interface: turns both motors of one board and prints what its interrupts cost."};
+  std::string file, interface;
+  std::vector<int> nodes;
+  double speed = 15, seconds = 0.5;
+  app.add_option("image", file, "kinebus-node.elf")->required();
+  app.add_option("-i,--interface", interface, "SocketCAN interface, such as vcan0: runs live until stopped");
+  app.add_option("-n,--node", nodes, "Node id, given by LSS; once for each board")->check(CLI::Range(1, 126));
+  app.add_option("--speed", speed, "Report: turns a second")->capture_default_str();
+  app.add_option("--seconds", seconds, "Report: measured so long")->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  const ElfImage image = load_elf(file);
+  if (interface.empty()) {
+    report(image, speed, seconds);
+    return 0;
+  }
+  if (nodes.empty()) nodes = {1};
+  std::vector<EmulatedNodeOptions> boards;
+  for (const int node : nodes) boards.push_back(board_of(node));
+  const std::string error = run_live(image, boards, interface);
+  if (!error.empty()) std::fprintf(stderr, "kinebus-emulate: %s\n", error.c_str());
+  return error.empty() ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "kinebus-emulate: %s\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,125 @@
+// The image turns motors: accuracy at rest, speed, cost of its interrupts, a bus that is full.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "vcan_tests/emulator/tests/one_board.hpp"
+
+namespace kinebus::emulator {
+namespace {
+
+constexpr double kFullStep = 256;  // counts
+
+struct Travel {
+  double largest_error = 0;
+  double peak_a = 0, turns_per_s = 0;
+};
+
+/// A move of both motors; what the rotors did against their commands.
+Travel travel(OneBoard& node, std::int64_t counts, std::int64_t speed, std::int64_t acceleration) {
+  Travel t;
+  for (int axis = 0; axis < 2; ++axis) {
+    node.board.motor(axis).clear_peak();
+    node.bench.move(OneBoard::kId, axis, axis == 0 ? counts : -counts, speed, acceleration);
+  }
+  const double seconds = static_cast<double>(counts) / static_cast<double>(speed) +
+                         static_cast<double>(speed) / static_cast<double>(acceleration) + 0.05;
+  node.bench.run(BusTime{static_cast<std::int64_t>(seconds * 1e9)}, 1ms, [&] {
+    for (int axis = 0; axis < 2; ++axis) {
+      t.largest_error = std::max(t.largest_error, std::abs(node.error(axis)));
+      t.turns_per_s =
+          std::max(t.turns_per_s, std::abs(node.board.motor(axis).speed_rad_per_s()) / (2 * std::numbers::pi));
+    }
+  });
+  for (int axis = 0; axis < 2; ++axis) t.peak_a = std::max(t.peak_a, node.board.motor(axis).peak_current_a());
+  return t;
+}
+
+TEST(Motion, FifteenTurnsASecondWithoutALostStep) {
+  OneBoard node;
+  // 1.5 A: with more than 1.9 A, 24 V do not suffice for this motor's inductance and back-EMF.
+  node.configure(1500, 0);
+  node.enable(1);
+  node.board.cpu().clear_costs();
+  const Cycle idle = node.board.cpu().idle(), began = node.board.now();
+  const Travel t = travel(node, 400'000, 768'000, 4'000'000);
+  const ExceptionCost& control = node.board.cpu().cost(kFirstInterrupt + 18);
+  const double periods =
+      static_cast<double>(node.board.now() - began) / (static_cast<double>(kCoreHz) / 20'000);
+  const auto calls = static_cast<double>(control.calls);
+  fmt::print(
+      "{:.2f} turns/s: rotor at most {:.1f} counts ({:.3f} full steps) from its command, peak current {:.2f} "
+      "A\n",
+      t.turns_per_s, t.largest_error, t.largest_error / kFullStep, t.peak_a);
+  fmt::print(
+      "control interrupt: {} calls, {:.0f} instructions mean, {} worst; estimated cycles {:.0f} mean, {} "
+      "worst of 8400 ({:.1f} %); idle {:.0f} %\n",
+      control.calls, static_cast<double>(control.instructions) / calls, control.worst_instructions,
+      static_cast<double>(control.cycles) / calls, control.worst_cycles, control.worst_cycles / 84.0,
+      100.0 * static_cast<double>(node.board.cpu().idle() - idle) /
+          static_cast<double>(node.board.now() - began));
+  EXPECT_LE(control.worst_cycles, 0.35 * 8400);
+  EXPECT_NEAR(static_cast<double>(control.calls), periods, 2) << "no control period is left out";
+  node.bench.run(200ms);
+  for (int axis = 0; axis < 2; ++axis) EXPECT_LT(std::abs(node.error(axis)), 0.5 * kFullStep) << "lost steps";
+  EXPECT_GT(t.turns_per_s, 14.9);
+  EXPECT_LT(t.largest_error, 0.2 * kFullStep);
+  EXPECT_TRUE(node.bench.emergencies(OneBoard::kId).empty());
+}
+
+TEST(Motion, RestsWithinASixtyFourthOfAStepAndInTheEncodersResolution) {
+  for (const int mode : {0, 2}) {
+    OneBoard node;
+    node.configure(2500, mode);
+    node.enable(1);
+    double worst = 0;
+    for (const std::int64_t target : {1'000, 1'777, 40'123, -3'333}) {
+      travel(node, target, 100'000, 1'000'000);
+      node.bench.run(400ms);
+      for (int axis = 0; axis < 2; ++axis) worst = std::max(worst, std::abs(node.error(axis)));
+    }
+    fmt::print("at rest, encoder mode {}: rotor within {:.2f} counts of its command\n", mode, worst);
+    // The encoder's own step is 3.1 counts: closing the loop on it cannot be finer than that to both sides.
+    EXPECT_LE(worst, mode == 0 ? kFullStep / 64 : kFullStep / 32);
+  }
+}
+
+TEST(Motion, AFullBusLosesNoFrameAndStampsSyncInTime) {
+  OneBoard node({}, 3);
+  node.configure(2500, 0);
+  node.enable(1);
+  Board& board = node.board;
+  board.cpu().clear_costs();
+  const auto frames = node.machine.bus().statistics();
+  const std::uint64_t received = board.can().counters().received;
+  const BusTime begin = node.bench.now;
+  BusTime now = begin;
+  // Shortest frames back to back, each of which the node must look at: SYNC, and heartbeats of others.
+  std::uint8_t n = 0;
+  while (now < begin + 200ms) {
+    while (node.machine.can_send()) {
+      ++n;
+      node.machine.send(now, n % 4 == 0 ? CanFrame::make(0x080, {}) : CanFrame::make(0x710u + n % 8, {}));
+    }
+    now += 40us;
+    while (!node.machine.advance(now)) {
+    }
+    while (const auto got = node.machine.receive()) static_cast<void>(got);
+  }
+  const auto after = node.machine.bus().statistics();
+  const double load = static_cast<double>(after.bits - frames.bits) / 200'000;
+  const ExceptionCost& receive = board.cpu().cost(kFirstInterrupt + BxCan::kFifo0Irq);
+  fmt::print(
+      "bus load {:.1f} %, {} frames, {} overruns; receive interrupt starts within {:.2f} us, takes {} cycles "
+      "at most\n",
+      100 * load, board.can().counters().received - received, board.can().counters().overruns,
+      static_cast<double>(receive.worst_latency) / 168, receive.worst_cycles);
+  EXPECT_GT(load, 0.99);
+  EXPECT_EQ(board.can().counters().overruns, 0u);
+  EXPECT_LE(static_cast<double>(receive.worst_latency) / 168, 5.0);
+}
+
+}  // namespace
+}  // namespace kinebus::emulator
