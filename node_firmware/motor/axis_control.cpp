@@ -36,11 +36,13 @@ bool AxisControl::configure(const AxisConfig& config) {
 }
 
 void AxisControl::take_config() {
+  // The same configuration comes every few milliseconds: what counts periods goes on counting.
+  if (next_config_.following_periods != config_.following_periods)
+    off_course_ = Persistence(next_config_.following_periods);
   config_ = next_config_;
   config_waits_.store(false, std::memory_order_release);
   loop_.configure(config_.motor, CurrentGains::of(config_.motor, config_.bandwidth_hz));
   encoder_.set_reversed(config_.encoder_reversed);
-  off_course_ = Persistence(config_.following_periods);
 }
 
 void AxisControl::trip(std::uint16_t code) {
