@@ -29,8 +29,8 @@ Travel travel(OneBoard& node, std::int64_t counts, std::int64_t speed, std::int6
   node.bench.run(BusTime{static_cast<std::int64_t>(seconds * 1e9)}, 1ms, [&] {
     for (int axis = 0; axis < 2; ++axis) {
       t.largest_error = std::max(t.largest_error, std::abs(node.error(axis)));
-      t.turns_per_s =
-          std::max(t.turns_per_s, std::abs(node.board.motor(axis).speed_rad_per_s()) / (2 * std::numbers::pi));
+      t.turns_per_s = std::max(t.turns_per_s,
+                               std::abs(node.board.motor(axis).speed_rad_per_s()) / (2 * std::numbers::pi));
     }
   });
   for (int axis = 0; axis < 2; ++axis) t.peak_a = std::max(t.peak_a, node.board.motor(axis).peak_current_a());
