@@ -7,18 +7,24 @@ keep=${LAB_KEEP:-$work}
 interface=kbv$(( $$ % 1000 ))
 export KINEBUS_SOCKET=$work/kinebus.sock
 pids=()
+nodes=()  # by node id - 1
 
 finish() {
   local status=$?
   for pid in "${pids[@]}"; do kill "$pid" 2>/dev/null || true; done
   wait 2>/dev/null || true
   ip link del "$interface" 2>/dev/null || true
-  cp "$work"/*.log "$keep"/ 2>/dev/null || true
+  sync_traces
+  cp "$work"/*.log "$work"/*.trace "$keep"/ 2>/dev/null || true
   [[ $status == 0 ]] || { echo "--- daemon's log"; tail -n 40 "$work/kinebusd.log"; echo "--- last frames"; tail -n 30 "$work/bus.log"; } 2>/dev/null
   exit "$status"
 }
 trap finish EXIT
 
+# Nodes that are still there write their traces when they end.
+sync_traces() { local pid; for pid in "${nodes[@]}"; do wait "$pid" 2>/dev/null || true; done; }
+# wait_ms N: of the test's own choice, such as the moment of a fault; never instead of a condition.
+wait_ms() { read -rt "$(( $1 / 1000 )).$(printf %03d $(( $1 % 1000 )))" <> <(:) || true; }
 fail() { echo "FAILED: $*"; exit 1; }
 # until_true SECONDS WHAT COMMAND...: polls a condition; the time is only the limit.
 until_true() {
@@ -36,8 +42,13 @@ start_bus() {
 start_nodes() {
   local node
   for node in 1 2 3; do
-    "$bin/kinebus-vnode" --interface "$interface" --node "$node" "$@" > "$work/node$node.log" 2>&1 & pids+=($!)
+    start_node "$node" "$@"
   done
+}
+start_node() {
+  local node=$1; shift
+  "$bin/kinebus-vnode" --interface "$interface" --node "$node" --trace "$work/node$node.trace" "$@" \
+    >> "$work/node$node.log" 2>&1 & pids+=($!); nodes[node - 1]=$!
 }
 start_daemon() {
   "$bin/kinebusd" --bus "$interface" --jobs "$work/jobs" "$@" > "$work/kinebusd.log" 2>&1 & pids+=($!); daemon=$!

@@ -1,0 +1,187 @@
+// Compares what the motors of the default machine really did, by the traces of its kinebus-vnode processes,
+// with what the job plans: the tool's distance from the planned path, and the filament at every place of it.
+//   kinebus-track-check JOB TRACE1 TRACE2 TRACE3 [--path-um 5] [--filament-mm 0.01]
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "gateway/gcode/interpreter.hpp"
+#include "gateway/io/job_files.hpp"
+#include "gateway/jobs/job_pipeline.hpp"
+#include "gateway/jobs/machine_setup.hpp"
+#include "gateway/machine/description/machine_description.hpp"
+#include "protocol/host/guarded_main.hpp"
+
+namespace {
+
+using namespace kinebus;
+
+struct Arguments {
+  std::string job;
+  std::vector<std::string> traces;
+  double path_um = 5, filament_mm = 0.01;
+};
+
+/// The planned path as a polyline, dense enough that chords are as good as arcs.
+std::vector<PoseVector> planned(const MachineDescription& machine, const Kinematics& kinematics,
+                                ByteSource& job) {
+  std::vector<PoseVector> points;
+  JobPipeline pipeline(machine, kinematics);
+  pipeline.start_job(job, kinematics.bed_reference());
+  points.push_back(kinematics.bed_reference());
+  for (;;) {
+    int budget = 100;
+    const auto step = pipeline.next(budget);
+    if (step == JobPipeline::Step::kEnd) return points;
+    if (step != JobPipeline::Step::kPhase) continue;
+    const Phase& phase = pipeline.phase();
+    const double length = phase.s(phase.duration_s) - phase.s0;
+    const double pieces = std::ceil(std::max(2.0, length / 0.05));
+    for (double i = 1; i <= pieces; ++i) {
+      const double share = i / pieces;
+      PoseVector pose = phase.piece.evaluate(phase.s0 + share * length).x;
+      if (const auto machine_pose = convert_pose(kinematics, phase.piece.frame, pose, Frame::kMachine))
+        pose = *machine_pose;
+      points.push_back(pose);
+    }
+  }
+}
+
+using Samples = std::map<std::int64_t, std::array<std::int64_t, 2>>;
+
+Samples read_trace(const std::string& path) {
+  Samples samples;
+  std::FILE* file = std::fopen(path.c_str(), "rb");
+  if (file == nullptr) return samples;
+  std::array<std::int64_t, 3> row{};
+  while (std::fread(row.data(), sizeof row, 1, file) == 1) samples[row[0]] = {row[1], row[2]};
+  std::fclose(file);
+  return samples;
+}
+
+/// Poses of the tool, machine frame, in the order of time. The traces count from power-up: homing has put the
+/// joints' zero elsewhere, which the last positions tell, because the job's end is known.
+std::vector<PoseVector> tool_track(const MachineDescription& machine, const Kinematics& kinematics,
+                                   const std::array<Samples, 3>& traces, const PoseVector& end) {
+  const std::vector<NodeAxes> nodes = node_axes(machine);
+  JointVector end_joints{};
+  std::vector<PoseVector> track;
+  if (!kinematics.inverse(Frame::kMachine, end, end_joints)) return track;
+  std::vector<JointVector> joints;
+  for (const auto& [time, first] : traces[0]) {
+    JointVector values{};
+    bool whole = true;
+    for (std::size_t n = 0; n < nodes.size(); ++n) {
+      const auto found = traces[n].find(time);
+      whole = whole && found != traces[n].end();
+      for (std::size_t axis = 0; axis < 2 && whole; ++axis) {
+        const AxisScaling& scaling = nodes[n].axes[axis];
+        if (scaling.joint >= 0)
+          values[static_cast<std::size_t>(scaling.joint)] = to_counts(found->second[axis]) / scaling.slope();
+      }
+    }
+    if (whole) joints.push_back(values);
+  }
+  if (joints.empty()) return track;
+  const JointVector last = joints.back();
+  PoseVector pose = kinematics.bed_reference();
+  for (JointVector values : joints) {
+    for (std::size_t j = 0; j < machine.joints.size(); ++j) {
+      // Whole counts: the zero is where a whole count is.
+      values[j] += end_joints[j] - last[j];
+    }
+    if (kinematics.forward(Frame::kMachine, values, pose)) track.push_back(pose);
+  }
+  return track;
+}
+
+struct Nearest {
+  double distance_mm = 1e9, filament_mm = 0;
+  std::size_t at = 0;
+};
+
+/// The nearest place of the path from `from` on, at most `ahead` points farther. Where the tool stands and
+/// only filament moves, the filament decides.
+Nearest nearest(const std::vector<PoseVector>& path, std::size_t from, std::size_t ahead,
+                const PoseVector& p) {
+  Nearest best;
+  double best_score = 1e9;
+  for (std::size_t i = from; i + 1 < path.size() && i < from + ahead; ++i) {
+    const PoseVector &a = path[i], &b = path[i + 1];
+    double way = 0, along = 0;
+    for (const std::size_t k : {0, 1, 2, 5}) {
+      const double weight = k == 5 ? 0.2 : 1;
+      way += weight * (b[k] - a[k]) * (b[k] - a[k]);
+      along += weight * (b[k] - a[k]) * (p[k] - a[k]);
+    }
+    const double t = way > 0 ? std::clamp(along / way, 0.0, 1.0) : 0;
+    double square = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double off = a[k] + t * (b[k] - a[k]) - p[k];
+      square += off * off;
+    }
+    const double filament = p[kE] - (a[kE] + t * (b[kE] - a[kE]));
+    const double score = square + 0.01 * filament * filament;
+    if (score >= best_score) continue;
+    best_score = score;
+    best = {std::sqrt(square), filament, i};
+  }
+  return best;
+}
+
+int check(const Arguments& arguments) {
+  const MachineDescription machine = default_m1();
+  const auto kinematics = make_kinematics(machine);
+  auto job = FileSource::open(arguments.job);
+  if (!kinematics || !job) return std::printf("cannot read %s\n", arguments.job.c_str()), 2;
+  const std::vector<PoseVector> path = planned(machine, **kinematics, **job);
+  std::array<Samples, 3> traces;
+  for (std::size_t i = 0; i < traces.size(); ++i) traces[i] = read_trace(arguments.traces[i]);
+  const std::vector<PoseVector> track = tool_track(machine, **kinematics, traces, path.back());
+  if (track.empty()) return std::printf("no samples of all three nodes\n"), 2;
+
+  // From the last time that the tool stood where the job begins.
+  std::size_t begin = track.size();
+  const PoseVector& start = path.front();
+  const auto stands_at_start = [&](const PoseVector& p) {
+    return std::hypot(p[kX] - start[kX], p[kY] - start[kY], p[kZ] - start[kZ]) < 0.004;
+  };
+  while (begin > 0 && !stands_at_start(track[begin - 1])) --begin;
+  if (begin == 0) return std::printf("the tool never stood where the job begins\n"), 1;
+
+  double worst_mm = 0, worst_filament_mm = 0;
+  std::size_t at = 0, samples = 0;
+  for (std::size_t i = begin - 1; i < track.size(); ++i, ++samples) {
+    const Nearest near = nearest(path, at > 20 ? at - 20 : 0, 200, track[i]);
+    at = std::max(at, near.at);
+    worst_mm = std::max(worst_mm, near.distance_mm);
+    worst_filament_mm = std::max(worst_filament_mm, std::abs(near.filament_mm));
+  }
+  const bool reached = at + 20 >= path.size();
+  std::printf("%zu samples: path within %.2f um, filament within %.4f mm, %s\n", samples, worst_mm * 1e3,
+              worst_filament_mm, reached ? "to its end" : "NOT to its end");
+  const bool good =
+      reached && worst_mm * 1e3 <= arguments.path_um && worst_filament_mm <= arguments.filament_mm;
+  return good ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return kinebus::guarded_main("kinebus-track-check", [&] {
+    Arguments arguments;
+    CLI::App app("Compares the true positions of three virtual nodes with the path that a job plans.");
+    app.add_option("job", arguments.job)->required();
+    app.add_option("traces", arguments.traces)->required()->expected(3);
+    app.add_option("--path-um", arguments.path_um)->capture_default_str();
+    app.add_option("--filament-mm", arguments.filament_mm)->capture_default_str();
+    CLI11_PARSE(app, argc, argv);
+    return check(arguments);
+  });
+}
