@@ -15,11 +15,17 @@ constexpr std::chrono::milliseconds kRampAtRest{2};
 constexpr BusTime kRaisePeriod = std::chrono::milliseconds{250};
 constexpr double kRateStep = 0.02;
 
-/// Live commands: a run under way is brought to a planned stop when less than this is left to move, so that
-/// the stop is in the nodes long before their reserve (120 ms) begins.
+/// Live commands: a run under way is brought to a planned stop when less than this is left to move and no
+/// line came for a while, or when less than the second is left: the stop is in the nodes long before their
+/// reserve (120 ms) begins.
 constexpr double kLiveReserve_s = 0.6;
-/// At rest the first commands wait so long for more, so that a stream of short moves begins as one.
+constexpr double kLiveLast_s = 0.35;
+constexpr BusTime kLiveQuiet = std::chrono::milliseconds{30};
+/// A run begins when so much of it is known, or when no line came for a while, or after the longest wait: a
+/// stream of short moves then begins as one.
+constexpr double kLiveStart_s = 1.0;
 constexpr BusTime kLiveGather = std::chrono::milliseconds{100};
+constexpr BusTime kLiveLongestWait = std::chrono::milliseconds{500};
 
 /// planned_pose() knows so much of the past.
 constexpr PathTime kPlannedMemory = std::chrono::seconds{1};
@@ -92,10 +98,25 @@ void Runner::settle_when_late(BusTime now) {
     if (now - last_added_ >= kLiveGather) pipeline_.settle_live();
     return;
   }
-  const double left = group_.sampler().end_s() - to_seconds(rate_.tau(now) - group_.run_start());
-  if (finished_ || left >= kLiveReserve_s) return;
+  if (finished_ || !started_) {
+    if (!finished_ && now - last_added_ >= kLiveGather) pipeline_.settle_live();
+    return;
+  }
+  const double left = live_left_s(now);
+  if (left >= kLiveReserve_s || (left >= kLiveLast_s && now - last_added_ < kLiveQuiet)) return;
   pipeline_.settle_live();
   ++counters_.live_stops;
+}
+
+/// Motion known and not yet carried out.
+double Runner::live_left_s(BusTime now) const {
+  return group_.sampler().end_s() - std::max(0.0, to_seconds(rate_.tau(now) - group_.run_start()));
+}
+
+/// A live run waits a little for more of it.
+bool Runner::live_waits(BusTime now) const {
+  return live_ && !finished_ && live_left_s(now) < kLiveStart_s && now - last_added_ < kLiveGather &&
+         now - run_begun_ < kLiveLongestWait;
 }
 
 void Runner::set_override(double ratio) {

@@ -112,6 +112,8 @@ class Runner {
   void end_wait();
   void control_rate(BusTime now);
   void settle_when_late(BusTime now);
+  double live_left_s(BusTime now) const;
+  bool live_waits(BusTime now) const;
   bool wait_is_over(BusTime now);
   void execute_due(BusTime now);
   void execute(BusTime now, const canonical::Line& line);
@@ -143,7 +145,7 @@ class Runner {
   std::deque<Event> events_;
   TemperatureWait heating_;
   std::optional<BusTime> in_window_since_;
-  BusTime last_time_{0}, dwell_left_{0}, last_rate_change_{0}, run_noted_{0}, last_added_{0};
+  BusTime last_time_{0}, dwell_left_{0}, last_rate_change_{0}, run_noted_{0}, last_added_{0}, run_begun_{0};
   double override_ = 1;
   std::uint32_t last_line_ = 0;
   std::string doing_;

@@ -6,9 +6,11 @@
 // interface, never by its number; the ids are those of the Linux Foundation's composite gadget and shared
 // with other devices.
 //
-// A bulk endpoint carries the job link's bytes as a stream: where a transfer ends means nothing. No
-// zero-length packets are needed; frames find their own ends. After every (re)connection both sides begin
-// their frame decoder anew, and stale bytes of the connection before are dropped by the job link's session.
+// A bulk endpoint carries the job link's bytes as a stream: where a transfer ends means nothing to the
+// frames. But a receiver that asked for more than came sees a transfer's end only by a short packet: both
+// sides send transfers of transfer_bytes(), so that none ends with a full packet, and no zero-length packets
+// are needed. After every (re)connection both sides begin their frame decoder anew, and stale bytes of the
+// connection before are dropped by the job link's session.
 
 #include <cstddef>
 #include <cstdint>
@@ -33,6 +35,13 @@ inline constexpr std::uint16_t kHighSpeedPacket = 512;
 inline constexpr std::uint16_t kSuperSpeedPacket = 1024;
 /// Transfers of this size reach full speed on both sides.
 inline constexpr std::size_t kTransferBytes = 65'536;
+
+/// How many of `waiting` bytes (> 0) the next transfer takes.
+constexpr std::size_t transfer_bytes(std::size_t waiting) {
+  const std::size_t bytes = waiting < kTransferBytes ? waiting : kTransferBytes;
+  // Every packet size is a multiple of the smallest.
+  return bytes % kFullSpeedPacket == 0 ? bytes - 1 : bytes;
+}
 
 inline constexpr const char* kManufacturer = "Kinebus";
 inline constexpr const char* kProductName = "Kinebus gateway";

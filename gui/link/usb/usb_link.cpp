@@ -50,7 +50,7 @@ class UsbLink::Pipe : public std::enable_shared_from_this<Pipe> {
         }
         free->busy = true;
       }
-      const auto part = static_cast<int>(std::min<qint64>(size - taken, kBytes));
+      const auto part = static_cast<int>(usb_ids::transfer_bytes(static_cast<std::size_t>(size - taken)));
       std::memcpy(free->bytes.data(), data + taken, static_cast<std::size_t>(part));
       if (!submit(*free, link_.bulk_out, part)) break;
       taken += part;
