@@ -4,6 +4,8 @@
 #include <cmath>
 #include <random>
 
+#include "gateway/calibration/joint_map.hpp"
+
 namespace kinebus {
 namespace {
 
@@ -25,7 +27,11 @@ VirtualAxis axis_of(const JointDescription& joint, const NodeDescription& node, 
   if (joint.homing && joint.homing->switch_input != 0) {
     const HomingDescription& homing = *joint.homing;
     axis.switch_input = homing.switch_input;
-    axis.switch_counts = (homing.switch_position + joint.calibration.offset) * counts_per_unit;
+    // The edge is met by the joint; the motor then stands where the joint's true errors put it.
+    const JointCalibration& truth = joint.calibration;
+    const double drive = JointMap(truth).to_drive(homing.switch_position + truth.offset) +
+                         homing.edge_direction() * truth.backlash / 2;
+    axis.switch_counts = drive / (1 + truth.scale) * counts_per_unit;
     axis.active_above = homing.towards_positive() != joint.drive.inverted;
     axis.active_low = node.inputs[static_cast<std::size_t>(homing.switch_input - 1)].active_low;
   }
@@ -61,6 +67,14 @@ std::vector<VirtualNodeOptions> virtual_nodes_of(const MachineDescription& machi
     nodes.push_back(options);
   }
   return nodes;
+}
+
+double JointPlant::at(double counts) {
+  const double drive = counts / drive_.counts_per_unit() * (1 + truth_.scale);
+  const double half = truth_.backlash / 2;
+  contact_ = std::clamp(met_ ? contact_ : drive, drive - half, drive + half);
+  met_ = true;
+  return map_.to_joint(contact_);
 }
 
 double joint_from_counts(const JointDescription& joint, double counts) {

@@ -17,8 +17,10 @@ MotionLimits motion_limits(const MachineDescription& machine) {
   limits.joint_speed_per_s.fill(kUnlimited);
   limits.joint_accel_per_s2.fill(kUnlimited);
   for (std::size_t joint = 0; joint < machine.joints.size() && joint < kMaxJoints; ++joint) {
-    limits.joint_speed_per_s[joint] = limit(machine.joints[joint].speed_per_s);
-    limits.joint_accel_per_s2[joint] = limit(machine.joints[joint].accel_per_s2);
+    const JointDescription& j = machine.joints[joint];
+    const JointReserve reserve = reserve_for(j.calibration, j.speed_per_s, j.accel_per_s2);
+    limits.joint_speed_per_s[joint] = limit(reserve.speed_per_s);
+    limits.joint_accel_per_s2[joint] = limit(reserve.accel_per_s2);
   }
   limits.blend_tolerance_mm = machine.tolerances.blend_mm;
   return limits;
@@ -73,6 +75,13 @@ std::vector<NodeAxes> node_axes(const MachineDescription& machine) {
                                 .offset = 0,
                                 .tolerance_counts = segment_tolerance(machine, j),
                                 .acceleration_limit = j.accel_per_s2};
+      AxisScaling& axis = node.axes[j.axis & 1u];
+      if (j.homing) axis.home_side = j.homing->edge_direction();
+      if (j.calibration.linear()) continue;
+      const JointReserve reserve = reserve_for(j.calibration, j.speed_per_s, j.accel_per_s2);
+      axis.map = std::make_shared<JointMap>(j.calibration);
+      axis.gap = j.calibration.backlash;
+      axis.take_up_per_s2 = reserve.take_up_per_s2;
     }
   }
   return nodes;

@@ -27,7 +27,10 @@ using Kind = PoseError::Kind;
 
 class M1 final : public Kinematics {
  public:
-  explicit M1(const M1Geometry& geometry) : g_(geometry), legs_(geometry) {}
+  explicit M1(const M1Geometry& geometry)
+      : g_(geometry),
+        legs_(geometry),
+        least_cosine_(std::cos(std::min(geometry.max_leg_angle_rad, std::numbers::pi / 2))) {}
 
   std::string name() const override { return "m1"; }
   int joint_count() const override { return kJoints; }
@@ -233,9 +236,12 @@ class M1 final : public Kinematics {
                                             const JointVector& joints) const {
     for (int i = 0; i < kLegs; ++i) {
       const M1Leg& leg = g_.legs[static_cast<std::size_t>(i)];
-      const double angle = std::acos(std::min(1.0, std::sqrt(radicand[i] / legs_.ll[i])));
-      if (angle > g_.max_leg_angle_rad)
+      // The angle itself is needed only for the message.
+      if (radicand[i] < least_cosine_ * least_cosine_ * legs_.ll[i]) {
+        const double angle = std::acos(std::min(1.0, std::sqrt(radicand[i] / legs_.ll[i])));
         return PoseError{Kind::kLegAngle, i, angle - g_.max_leg_angle_rad, true};
+      }
+      if (!(g_.min_rail_clearance_rad > 0) && !(g_.min_platform_clearance_rad > 0)) continue;
       const Vector3 b = turn_x(a, leg.attachment_mm);
       if (g_.min_rail_clearance_rad > 0) {
         const double length = std::hypot(b[0], b[1], b[2]);
@@ -280,6 +286,7 @@ class M1 final : public Kinematics {
 
   M1Geometry g_;
   LegTable legs_;
+  double least_cosine_;  ///< of a leg's angle against its rail
 };
 
 /// Rules that do not need a pose.

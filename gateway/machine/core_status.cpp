@@ -27,7 +27,8 @@ JointVector Gateway::Core::joints_now() const {
       const AxisScaling& scaling = axes_[i].axes[axis];
       const AxisState& state = moves ? group_.stream(i).final_state()[axis] : positions_[i][axis];
       if (scaling.joint >= 0)
-        joints[static_cast<std::size_t>(scaling.joint)] = scaling.to_joint(to_counts(state.position));
+        joints[static_cast<std::size_t>(scaling.joint)] =
+            scaling.to_joint(to_counts(state.position), group_.side(scaling.joint));
     }
   return joints;
 }

@@ -174,6 +174,7 @@ void Gateway::Core::finish_standstill() {
   group_.cancel();
   for (std::size_t i = 0; i < links_.size(); ++i)
     group_.set_state(links_[i].id(), standstill_.node(i).position, standstill_.node(i).stream);
+  if (after_ == After::kHoming) group_.homed();
   homed_ = standstill_.positions_known();
   const bool cancelled = after_ == After::kCancel, job_failed = std::exchange(job_failed_, false);
   stream_lost_ = fault_ = false;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "gateway/calibration/joint_map.hpp"
 #include "gateway/jobs/machine_setup.hpp"
 #include "protocol/canopen/object_dictionary.hpp"
 
@@ -129,9 +130,11 @@ void set_joint(Writer& writer, const JointDescription& joint) {
 
 std::int32_t home_counts(const JointDescription& joint) {
   if (!joint.homing) return 0;
-  const double slope = joint.drive.counts_per_unit() / (1 + joint.calibration.scale);
+  const JointCalibration& c = joint.calibration;
+  const double slope = joint.drive.counts_per_unit() / (1 + c.scale);
+  const double drive = JointMap(c).to_drive(joint.homing->switch_position + c.offset);
   return static_cast<std::int32_t>(
-      std::lround(slope * (joint.homing->switch_position + joint.calibration.offset)));
+      std::lround(slope * (drive + joint.homing->edge_direction() * c.backlash / 2)));
 }
 
 NodeConfiguration configure_node(const MachineDescription& machine, std::uint8_t node_id) {

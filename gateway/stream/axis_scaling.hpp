@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 
+#include "gateway/calibration/joint_map.hpp"
 #include "gateway/kinematics/kinematics.hpp"
 #include "protocol/motion/segment.hpp"
 
@@ -12,7 +14,7 @@ namespace kinebus {
 
 /// One axis of a node: which joint it moves, and how. Calibration stays out of the kinematics: a rail whose
 /// measured travel is (1 + scale_correction) times the commanded one gets that number here (paper M5's
-/// table).
+/// table), one whose error bends gets a map, one with play gets a gap.
 struct AxisScaling {
   int joint = -1;                    ///< index into JointVector; -1: the axis is not used and holds
   double counts_per_unit = 1280;     ///< counts per mm or rad; 51,200 a turn and 40 mm a turn: 1280
@@ -22,10 +24,23 @@ struct AxisScaling {
   double tolerance_counts = 0.5;     ///< how far the streamed motion may leave q(tau)
   double acceleration_limit = 5000;  ///< mm/s^2 or rad/s^2, of the joint; segments stay below. 0: not limited
 
+  std::shared_ptr<const JointMap> map{};  ///< what the motor must do for the joint; none: the same
+  double gap = 0;                         ///< backlash, mm or rad
+  double take_up_per_s2 = 0;              ///< acceleration with which it is taken up
+  double home_side = 1;                   ///< side of the gap after homing, see BacklashTakeUp
+
   /// Counts per joint unit, with sign and correction.
   double slope() const { return (reversed ? -counts_per_unit : counts_per_unit) / (1 + scale_correction); }
-  double to_counts(double joint_value) const { return slope() * (joint_value - offset); }
-  double to_joint(double counts) const { return counts / slope() + offset; }
+  /// `side`: of the gap, -1..1.
+  double to_counts(double joint_value, double side) const {
+    return slope() * ((map ? map->to_drive(joint_value) : joint_value) + side * gap / 2 - offset);
+  }
+  double to_joint(double counts, double side) const {
+    const double drive = counts / slope() + offset - side * gap / 2;
+    return map ? map->to_joint(drive) : drive;
+  }
+  double to_counts(double joint_value) const { return to_counts(joint_value, home_side); }
+  double to_joint(double counts) const { return to_joint(counts, home_side); }
 };
 
 /// A node and its two axes.

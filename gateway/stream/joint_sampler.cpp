@@ -44,7 +44,22 @@ Result<void, StreamError> JointSampler::evaluate(double t, Knot& knot) {
   knot.q = joints.q;
   knot.q1 = joints.q1;
   knot.q2 = joints.q2;
+  for (std::size_t j = 0; j < joints_; ++j) {
+    if (!options_.maps[j]) continue;
+    const JointMap::Value v = options_.maps[j]->at(knot.q[j]);
+    knot.q2[j] = v.g1 * knot.q2[j] + v.g2 * knot.q1[j] * knot.q1[j];
+    knot.q1[j] *= v.g1;
+    knot.q[j] = v.g;
+  }
   return {};
+}
+
+double JointSampler::stretch(const Knot& end) const {
+  double worst = 0;
+  for (std::size_t j = 0; j < joints_; ++j)
+    if (options_.maps[j])
+      worst = std::max(worst, std::abs(end.q[j] - knot_.q[j]) / options_.maps[j]->longest_step());
+  return worst;
 }
 
 Result<void, StreamError> JointSampler::push(const Phase& phase) {
@@ -87,6 +102,8 @@ Result<double, StreamError> JointSampler::middle_error(const JointSpan& span, do
   ++counters_.evaluations;
   double worst = 0;
   for (std::size_t j = 0; j < joints_; ++j)
+    if (options_.maps[j]) q[j] = options_.maps[j]->to_drive(q[j]);
+  for (std::size_t j = 0; j < joints_; ++j)
     worst = std::max(worst, std::abs(span.position(static_cast<int>(j), t - t0) - q[j]) * per_tolerance_[j]);
   return worst;
 }
@@ -117,7 +134,9 @@ Result<std::optional<JointSpan>, StreamError> JointSampler::next() {
     const double h = t1 - done_s_;
     if (h <= options_.unchecked_span_s) break;
     double error = 0;
-    if (h <= options_.end_checked_span_s) {
+    if (const double far = stretch(end); far > 1) {
+      error = far * far * far * far;
+    } else if (h <= options_.end_checked_span_s) {
       error = end_error(span, end, h);
     } else {
       const auto middle = middle_error(span, done_s_, t1);

@@ -2,10 +2,13 @@
 // Phase -> JointSpans: q(tau) as cubic Hermite polynomials in time through exact joint positions and
 // velocities.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 
+#include "gateway/calibration/joint_map.hpp"
 #include "gateway/kinematics/kinematics.hpp"
 #include "gateway/motion/joint_span.hpp"
 #include "gateway/motion/trajectory.hpp"
@@ -29,6 +32,8 @@ class JointSampler {
     /// Up to this the check costs nothing: by what the cubic's second derivative misses at the span's end.
     /// Beyond, where the fourth derivative may change on the way, by the position in the middle.
     double end_checked_span_s = 0.03;
+    /// Calibration: spans are in the motors' own coordinates then. nullptr: the joint's.
+    std::array<std::shared_ptr<const JointMap>, kMaxJoints> maps{};
   };
   struct Counters {
     std::uint64_t phases = 0, spans = 0, evaluations = 0;
@@ -63,6 +68,8 @@ class JointSampler {
   /// The same, by the second derivative at its end.
   double end_error(const JointSpan& span, const Knot& end, double duration_s) const;
   void hermite(const Knot& a, const Knot& b, double duration_s, JointSpan& span) const;
+  /// How far the span goes, over what its ends and middle can vouch for; 1 or less: near enough.
+  double stretch(const Knot& end) const;
   StreamError pose_error(const PoseError& error) const;
 
   const Kinematics* kinematics_;

@@ -5,9 +5,34 @@
 #include <limits>
 
 namespace kinebus {
+namespace {
+
+JointSampler::Options with_maps(JointSampler::Options options, const std::vector<NodeAxes>& nodes) {
+  for (const NodeAxes& node : nodes)
+    for (const AxisScaling& axis : node.axes)
+      if (axis.joint >= 0) options.maps[static_cast<std::size_t>(axis.joint)] = axis.map;
+  return options;
+}
+
+BacklashTakeUp::Joints gaps_of(const std::vector<NodeAxes>& nodes) {
+  BacklashTakeUp::Joints joints{};
+  for (const NodeAxes& node : nodes)
+    for (const AxisScaling& axis : node.axes)
+      if (axis.joint >= 0)
+        joints[static_cast<std::size_t>(axis.joint)] = {.gap = axis.gap,
+                                                        .accel_per_s2 = axis.take_up_per_s2,
+                                                        .hysteresis = 2 / std::abs(axis.slope()),
+                                                        .home_side = axis.home_side};
+  return joints;
+}
+
+}  // namespace
 
 StreamGroup::StreamGroup(const Kinematics& kinematics, const std::vector<NodeAxes>& nodes, Options options)
-    : options_(options), sampler_(kinematics, options.sampler), budget_(options.budget) {
+    : options_(options),
+      sampler_(kinematics, with_maps(options.sampler, nodes)),
+      take_up_(gaps_of(nodes)),
+      budget_(options.budget) {
   options_.stream.acceleration_shift = options_.segmenter.acceleration_shift;
   nodes_.reserve(nodes.size());
   for (const NodeAxes& node : nodes)
@@ -33,6 +58,7 @@ void StreamGroup::set_state(std::uint8_t node_id, const std::array<AxisState, kA
 void StreamGroup::begin_run() {
   assert(may_begin());
   sampler_.restart();
+  take_up_.restart();
   for (Node& node : nodes_) {
     node.segmenter.start(node.stream.final_state());
     node.stream.push_start();
@@ -77,15 +103,20 @@ Result<void, StreamError> StreamGroup::pump() {
   for (Node& node : nodes_) drain(node);
   const auto room = [](const Node& node) { return node.segmenter.has_room() && node.stream.has_room(); };
   while (std::all_of(nodes_.begin(), nodes_.end(), room)) {
-    const auto span = sampler_.next();
-    if (!span) return Error<StreamError>(span.error());
-    if (!*span) break;
+    auto piece = take_up_.next();
+    if (!piece) {
+      const auto span = sampler_.next();
+      if (!span) return Error<StreamError>(span.error());
+      if (!*span) break;
+      take_up_.push(**span);
+      piece = take_up_.next();
+    }
     for (Node& node : nodes_) {
-      node.segmenter.push(**span);
+      node.segmenter.push(*piece);
       if (!begun_ && node.segmenter.start_offset_counts() > options_.start_offset_counts)
         return Error<StreamError>({.kind = StreamError::Kind::kStartMismatch,
                                    .node_id = node.stream.node_id(),
-                                   .line = (*span)->line,
+                                   .line = piece->line,
                                    .amount = node.segmenter.start_offset_counts()});
       drain(node);
     }
@@ -103,12 +134,14 @@ void StreamGroup::release(PathTime start) {
 }
 
 void StreamGroup::cancel() {
+  if (state_ == State::kRunning) take_up_.abandon(run_time(last_tau_));
   state_ = State::kIdle;
   sampler_.restart();
 }
 
 std::optional<CanFrame> StreamGroup::next_frame(BusTime now, PathTime tau) {
   if (state_ != State::kRunning) return std::nullopt;
+  last_tau_ = tau;
   NodeStream* first = nullptr;
   for (Node& node : nodes_)
     if (node.stream.has_frame(tau) &&
@@ -195,7 +228,8 @@ std::optional<JointVector> StreamGroup::joints_at(PathTime tau) const {
     for (std::size_t i = 0; i < states->size(); ++i) {
       const AxisScaling& scaling = node.segmenter.node().axes[i];
       if (scaling.joint >= 0)
-        joints[static_cast<std::size_t>(scaling.joint)] = scaling.to_joint(to_counts((*states)[i].position));
+        joints[static_cast<std::size_t>(scaling.joint)] = scaling.to_joint(
+            to_counts((*states)[i].position), take_up_.side_at(scaling.joint, run_time(tau)));
     }
   }
   return joints;

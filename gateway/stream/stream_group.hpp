@@ -10,6 +10,7 @@
 #include "gateway/motion/trajectory.hpp"
 #include "gateway/result.hpp"
 #include "gateway/stream/axis_scaling.hpp"
+#include "gateway/stream/backlash_take_up.hpp"
 #include "gateway/stream/bus_budget.hpp"
 #include "gateway/stream/joint_sampler.hpp"
 #include "gateway/stream/node_stream.hpp"
@@ -63,6 +64,10 @@ class StreamGroup {
   Result<void, StreamError> push(const Phase& phase);
   /// START at this path time on all nodes (rounded up to 16 us); must lie after the previous run's end.
   void release(PathTime start);
+  /// Homing has brought every joint to its home side of the gap.
+  void homed() { take_up_.homed(); }
+  /// Where a joint's motor stands in its gap, for AxisScaling.
+  double side(int joint) const { return take_up_.side(joint); }
   /// Drops all that is not sent; nodes must be stopped and their queues cleared. Then set_state() again.
   void cancel();
 
@@ -108,12 +113,16 @@ class StreamGroup {
   /// Sampler to segmenters to streams, as far as there is room.
   Result<void, StreamError> pump();
   void drain(Node& node);
+  /// Time of the run, s.
+  double run_time(PathTime tau) const { return to_seconds(tau) - to_seconds(run_start()); }
 
   Options options_;
   JointSampler sampler_;
+  BacklashTakeUp take_up_;
   BusBudget budget_;
   std::vector<Node> nodes_;
   State state_ = State::kIdle;
+  PathTime last_tau_{0};
   bool released_ = false, begun_ = false;
   std::int64_t start_units_ = 0;
 };

@@ -11,8 +11,9 @@ constexpr BusTime kShortestTurn = std::chrono::microseconds{20};
 Simulation::Simulation(const MachineDescription& machine, const Kinematics& kinematics,
                        const SimulationOptions& options)
     : Simulation(machine, kinematics, options,
-                 std::make_unique<VirtualMachine>(virtual_nodes_of(machine, options.clocks, options.seed),
-                                                  options.seed)) {}
+                 std::make_unique<VirtualMachine>(
+                     virtual_nodes_of(options.plant ? *options.plant : machine, options.clocks, options.seed),
+                     options.seed)) {}
 
 Simulation::Simulation(const MachineDescription& machine, const Kinematics& kinematics,
                        const SimulationOptions& options, std::unique_ptr<NodeMachine> nodes)
@@ -25,6 +26,10 @@ Simulation::Simulation(const MachineDescription& machine, const Kinematics& kine
   for (const JointDescription& joint : machine.joints)
     for (std::size_t n = 0; n < machine.nodes.size(); ++n)
       if (machine.nodes[n].id == joint.node_id) node_of_joint_.push_back(static_cast<int>(n));
+  for (const JointDescription& joint : (options.plant ? *options.plant : machine).joints)
+    plants_.emplace_back(joint);
+  if (options.plant)
+    if (auto made = make_kinematics(*options.plant)) plant_kinematics_ = std::move(*made);
   start_gateway();
 }
 
@@ -157,11 +162,12 @@ Sample Simulation::sample() {
 
   for (std::size_t j = 0; j < description_.joints.size(); ++j) {
     const JointDescription& joint = description_.joints[j];
-    s.joints[j] = joint_from_counts(joint, nodes_->true_counts(node_of_joint_[j], joint.axis, now_));
+    s.joints[j] = plants_[j].at(nodes_->true_counts(node_of_joint_[j], joint.axis, now_));
   }
   // Begins where the pose goes on to: one step of Newton's method then is enough.
   for (std::size_t axis = 0; axis < s.pose.size(); ++axis) s.pose[axis] = 2 * warm_[0][axis] - warm_[1][axis];
-  if (kinematics_.forward(Frame::kPart, s.joints, s.pose)) warm_ = {s.pose, warm_[0]};
+  const Kinematics& real = plant_kinematics_ ? *plant_kinematics_ : kinematics_;
+  if (real.forward(Frame::kPart, s.joints, s.pose)) warm_ = {s.pose, warm_[0]};
   if (in_job) {
     s.planned = planned_pose(s.tau);
     s.line = s.planned ? s.planned->line : last_.line;

@@ -19,6 +19,9 @@
 namespace kinebus {
 
 struct SimulationOptions {
+  /// The machine as it really is, where it is not as described: geometry, and calibration as the truth about
+  /// each joint. Same joints and nodes. Must outlive the simulation. nullptr: as described.
+  const MachineDescription* plant = nullptr;
   std::uint64_t seed = 1;
   /// Crystals over +-25 ppm (50 ppm apart), interrupts up to 20 us late, power-up times apart.
   VirtualClocks clocks{.drift_ppm = 25,
@@ -80,6 +83,8 @@ class Simulation {
   bool alive_ = true;
   std::unique_ptr<NodeMachine> nodes_;
   std::vector<int> node_of_joint_;
+  std::vector<JointPlant> plants_;                ///< by joint
+  std::unique_ptr<Kinematics> plant_kinematics_;  ///< of options.plant, if there is one
   std::mt19937_64 random_;
   BusTime now_{0};
   BusTime next_sample_{0}, next_probe_{0};

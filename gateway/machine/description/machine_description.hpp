@@ -52,6 +52,8 @@ struct HomingDescription {
   std::uint8_t order = 1;         ///< joints of one order home together, order 1 first
 
   bool towards_positive() const { return method == 18 || method == 19 || method == 20; }
+  /// +1: the edge is taken moving in positive direction, which leaves the joint on that side of its gap.
+  double edge_direction() const { return method == 18 || method == 19 || method == 22 ? -1 : 1; }
   /// The method to write to the node (0x6098): the mirrored one for an inverted drive train.
   std::int8_t node_method(const DriveTrain& drive) const {
     if (!drive.inverted) return method;

@@ -1,0 +1,21 @@
+#pragma once
+// A new calibration in a machine file that somebody wrote by hand: everything else stays as it is, comments
+// included.
+
+#include <filesystem>
+#include <string>
+
+#include "gateway/machine/description/machine_description.hpp"
+
+namespace kinebus {
+
+/// `text` with its [joint.*.calibration] and [calibration.*] tables replaced by those of `machine`.
+/// Post-condition: parse_machine() of it gives `machine`. Error: why that cannot be, in words (`text` is left
+/// alone then).
+Result<std::string, std::string> with_calibration(const std::string& text, const MachineDescription& machine);
+
+/// Writes `text` in place of the file, after keeping the old one beside it: "m1.toml.before-1", -2, ...
+/// Returns that name. Throws std::runtime_error when it cannot; the file is then unchanged.
+std::filesystem::path replace_machine_file(const std::filesystem::path& file, const std::string& text);
+
+}  // namespace kinebus

@@ -1,0 +1,201 @@
+// kinebus-workspace: what a machine can reach, and how well.
+
+#include <CLI/CLI.hpp>
+#include <bit>
+#include <cstdio>
+#include <fstream>
+#include <stdexcept>
+
+#include "gateway/machine/description/machine_file.hpp"
+#include "tools/workspace/boundary.hpp"
+#include "tools/workspace/optimise.hpp"
+#include "tools/workspace/picture.hpp"
+
+namespace kinebus::workspace {
+namespace {
+
+struct Arguments {
+  std::string machine, svg, stl, ply;
+  double step_mm = 2, tilt_step_deg = 2, dexterous = 4;
+  int threads = 2;
+  std::vector<double> wanted;  // radius, height, tilt from, tilt to
+  bool optimise = false;
+};
+
+MachineDescription read_machine(const std::string& path) {
+  if (path.empty()) return default_m1();
+  auto machine = load_machine(path);
+  if (!machine) throw std::runtime_error(to_string(machine.error()));
+  return std::move(*machine);
+}
+
+Room room_of(const MachineDescription& machine) {
+  Room room;
+  if (const PoseLimits* limits = pose_limits(machine.kinematics)) {
+    if (limits->radius_mm > 0) room.radius_mm = limits->radius_mm;
+    if (limits->z_mm.limited()) {
+      room.z_min_mm = limits->z_mm.min;
+      room.z_max_mm = limits->z_mm.max;
+    }
+    room.tilt_min_rad = limits->a_rad.min;
+    room.tilt_max_rad = limits->a_rad.max;
+  }
+  return room;
+}
+
+void write(const std::string& path, const auto& what) {
+  if (path.empty()) return;
+  std::ofstream out(path, std::ios::binary);
+  what(out);
+  if (!out.flush()) throw std::runtime_error("cannot write " + path);
+  std::printf("wrote %s\n", path.c_str());
+}
+
+void print_scan(const Scan& s) {
+  std::printf("poses checked        %llu in %.2f s on %d threads\n", static_cast<unsigned long long>(s.poses),
+              s.seconds, s.options.threads);
+  constexpr const char* kWhy[] = {"out of reach", "carriage travel", "leg angle",     "clearance",
+                                  "pose limit",   "conditioning",    "no convergence"};
+  for (std::size_t k = 0; k < std::size(kWhy); ++k)
+    if (s.refused[k] > 0)
+      std::printf("refused              %5.2f %% by %s\n",
+                  100.0 * static_cast<double>(s.refused[k]) / static_cast<double>(s.poses), kWhy[k]);
+  std::printf("volume at every tilt %.3f l\n\n", volume_mm3(s, -1) * 1e-6);
+  std::printf(
+      "  tilt   volume   largest upright cylinder\n   deg      l      diameter  height      z       "
+      "volume\n");
+  const auto row = [&](int tilt, const char* name) {
+    const Cylinder c = largest_cylinder(s, tilt);
+    std::printf("%6s %8.3f  %7.0f mm %6.0f mm  %4.0f..%-4.0f %7.3f l\n", name, volume_mm3(s, tilt) * 1e-6,
+                2 * c.radius_mm, c.z_max_mm - c.z_min_mm, c.z_min_mm, c.z_max_mm, c.volume_mm3() * 1e-6);
+  };
+  for (int tilt = 0; tilt < s.tilts; ++tilt) {
+    // Every fifth, and the level one.
+    if (tilt % 5 != 0 && tilt != s.tilts - 1) continue;
+    char name[16];
+    std::snprintf(name, sizeof name, "%.1f", s.tilt_rad(tilt) / kRadPerDeg);
+    row(tilt, name);
+  }
+  row(-1, "every");
+}
+
+/// Radius outwards, height upwards: tilts allowed all around, as a share.
+void print_dexterity(const Scan& s) {
+  std::printf(
+      "\ndexterity: tilts allowed on the worst ray, tenths of all (* = all), condition <= %g counted\n",
+      s.options.dexterous_condition);
+  const int rows = 10, columns = 15;
+  for (int i = rows - 1; i >= 0; --i) {
+    const int plane = (2 * i + 1) * s.planes / (2 * rows);
+    std::printf("%7.0f mm |", s.z_mm(plane));
+    for (int k = 0; k < columns; ++k) {
+      const int radius = (2 * k + 1) * s.radii / (2 * columns);
+      int least = 64;
+      for (int ray = 0; ray < s.rays; ++ray) {
+        const std::size_t cell = s.cell(plane, ray, radius);
+        const std::size_t looked = s.cell(plane - plane % 4, ray - ray % 4, radius - radius % 4);
+        const bool well = s.worst_condition[looked] <= static_cast<float>(s.options.dexterous_condition);
+        least = std::min(least, well ? std::popcount(s.allowed[cell]) : 0);
+      }
+      const int tenth = least == s.tilts ? 10 : 10 * least / s.tilts;
+      std::printf(" %c", tenth == 10 ? '*' : tenth == 0 ? '.' : static_cast<char>('0' + tenth));
+    }
+    std::printf("\n");
+  }
+  std::printf("           +");
+  for (int k = 0; k < columns; ++k) std::printf("--");
+  std::printf("  radius 0 .. %.0f mm\n", s.room.radius_mm);
+}
+
+void print_fitness(const char* name, const Fitness& f) {
+  std::printf(
+      "%-7s reached %5.1f %%  condition <= %.2f  leg angle <= %.1f deg  rails r = %.0f mm  travel %.0f .. "
+      "%.0f mm\n",
+      name, 100 * f.reached, f.worst_condition, f.worst_leg_angle_rad / kRadPerDeg, f.footprint_mm,
+      f.travel_mm.min, f.travel_mm.max);
+}
+
+int run(const Arguments& a) {
+  MachineDescription machine = read_machine(a.machine);
+  Room room = room_of(machine);
+  if (!a.wanted.empty())
+    room = {a.wanted[0], 0, a.wanted[1], a.wanted[2] * kRadPerDeg, a.wanted[3] * kRadPerDeg};
+  if (a.optimise) {
+    const auto* m1 = std::get_if<M1Geometry>(&machine.kinematics);
+    if (m1 == nullptr) throw std::runtime_error("--optimise is for machines of type m1");
+    const Optimised better = optimise(*m1, room);
+    std::printf(
+        "wanted: diameter %.0f mm, height %.0f .. %.0f mm, tilt %.0f .. %.0f deg; %d geometries tried\n",
+        2 * room.radius_mm, room.z_min_mm, room.z_max_mm, room.tilt_min_rad / kRadPerDeg,
+        room.tilt_max_rad / kRadPerDeg, better.tried);
+    print_fitness("before", better.before);
+    print_fitness("after", better.after);
+    std::printf("\n%s", geometry_toml(better.geometry).c_str());
+    machine.kinematics = better.geometry;
+  }
+  const auto kinematics = make_kinematics(machine);
+  if (!kinematics) throw std::runtime_error(kinematics.error().what);
+  ScanOptions options;
+  options.step_mm = options.ray_step_mm = a.step_mm;
+  options.tilt_step_rad = a.tilt_step_deg * kRadPerDeg;
+  options.threads = a.threads;
+  options.dexterous_condition = a.dexterous;
+  const Scan fine = scan(**kinematics, room, options);
+  std::printf("%s: radius %.0f mm, z %.0f .. %.0f mm, tilt %.0f .. %.0f deg; %g mm and %g deg\n",
+              machine.name.c_str(), room.radius_mm, room.z_min_mm, room.z_max_mm,
+              room.tilt_min_rad / kRadPerDeg, room.tilt_max_rad / kRadPerDeg, a.step_mm, a.tilt_step_deg);
+  print_scan(fine);
+  print_dexterity(fine);
+  if (!a.svg.empty()) {
+    ScanOptions wide = options;
+    wide.step_mm = std::max(a.step_mm, room.radius_mm / 36);
+    wide.ray_step_mm = 1.6 * wide.step_mm;
+    const Scan coarse = scan(**kinematics, room, wide);
+    char subtitle[256];
+    const Cylinder always = largest_cylinder(fine, -1);
+    std::snprintf(subtitle, sizeof subtitle,
+                  "%g mm and %g deg: %.1f million poses in %.1f s.  At every tilt: a cylinder of %.0f mm by "
+                  "%.0f mm (white).",
+                  a.step_mm, a.tilt_step_deg, static_cast<double>(fine.poses) * 1e-6, fine.seconds,
+                  2 * always.radius_mm, always.z_max_mm - always.z_min_mm);
+    write(a.svg, [&](std::ostream& out) {
+      out << draw_workspace(fine, coarse, {"Workspace of " + machine.name, subtitle});
+    });
+  }
+  if (!a.stl.empty() || !a.ply.empty()) {
+    const auto triangles = boundary(fine, -1);
+    write(a.stl, [&](std::ostream& out) { write_stl(out, triangles); });
+    write(a.ply, [&](std::ostream& out) { write_ply(out, triangles); });
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace kinebus::workspace
+
+int main(int argc, char** argv) {
+  try {
+    kinebus::workspace::Arguments a;
+    CLI::App app("What a machine can reach: volume, cylinders, dexterity, picture and mesh");
+    app.add_option("--machine", a.machine, "Machine file; without it the default machine M1")
+        ->check(CLI::ExistingFile);
+    app.add_option("--step", a.step_mm, "mm between places (default 2)")->check(CLI::Range(0.2, 50.0));
+    app.add_option("--tilt-step", a.tilt_step_deg, "deg between tilts (default 2)")
+        ->check(CLI::Range(0.5, 90.0));
+    app.add_option("--threads", a.threads, "Default 2")->check(CLI::Range(1, 64));
+    app.add_option("--dexterous", a.dexterous,
+                   "Condition number up to which the dexterity map counts (default 4)");
+    app.add_option("--svg", a.svg, "Picture");
+    app.add_option("--stl", a.stl, "Boundary as binary STL");
+    app.add_option("--ply", a.ply, "Boundary as PLY, coloured by the share of tilts");
+    app.add_option("--wanted", a.wanted, "Another room: RADIUS HEIGHT TILT-FROM TILT-TO, mm and deg")
+        ->expected(4);
+    app.add_flag("--optimise", a.optimise,
+                 "Search a geometry for that room, show before and after, scan the result");
+    CLI11_PARSE(app, argc, argv);
+    return kinebus::workspace::run(a);
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "kinebus-workspace: %s\n", e.what());
+    return 1;
+  }
+}

@@ -1,0 +1,127 @@
+#include "tools/workspace/scan.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+#include <thread>
+
+namespace kinebus::workspace {
+
+double Scan::angle_rad(int ray) const {
+  return 2 * std::numbers::pi * ray / rays;
+}
+
+double Scan::tilt_rad(int tilt) const {
+  if (tilts == 1) return room.tilt_min_rad;
+  return room.tilt_min_rad + (room.tilt_max_rad - room.tilt_min_rad) * tilt / (tilts - 1);
+}
+
+int Scan::stride(int radius) const {
+  int stride = 1;
+  while (stride < 8 && 2 * stride * angle_rad(1) * (radius_mm(radius) + options.step_mm / 2) <=
+                           options.ray_step_mm * (1 + 1e-9))
+    stride *= 2;
+  return stride;
+}
+
+double Scan::cell_volume_mm3(int radius) const {
+  return 2 * std::numbers::pi / rays * radius_mm(radius) * options.step_mm * options.step_mm;
+}
+
+namespace {
+
+constexpr int kConditionEvery = 4;
+
+/// One plane: each worker writes cells of its own planes only, and counts for itself.
+void scan_plane(const Kinematics& kinematics, Scan& s, int plane, std::array<std::uint64_t, 8>& refused,
+                std::uint64_t& poses) {
+  std::vector<int> stride(static_cast<std::size_t>(s.radii));
+  for (int radius = 0; radius < s.radii; ++radius)
+    stride[static_cast<std::size_t>(radius)] = s.stride(radius);
+  for (int ray = 0; ray < s.rays; ++ray) {
+    const double c = std::cos(s.angle_rad(ray)), sn = std::sin(s.angle_rad(ray));
+    for (int radius = 0; radius < s.radii; ++radius) {
+      const double r = s.radius_mm(radius);
+      const std::size_t cell = s.cell(plane, ray, radius);
+      if (const int shared = ray % stride[static_cast<std::size_t>(radius)]; shared != 0) {
+        s.allowed[cell] = s.allowed[s.cell(plane, ray - shared, radius)];
+        s.worst_condition[cell] = s.worst_condition[s.cell(plane, ray - shared, radius)];
+        continue;
+      }
+      poses += static_cast<std::uint64_t>(s.tilts);
+      std::uint64_t allowed = 0;
+      double worst = 0;
+      for (int tilt = 0; tilt < s.tilts; ++tilt) {
+        const PoseVector pose{r * c, r * sn, s.z_mm(plane), s.tilt_rad(tilt), 0, 0};
+        if (const auto ok = kinematics.check(Frame::kPart, pose); !ok)
+          ++refused[static_cast<std::size_t>(ok.error().kind)];
+        else
+          allowed |= std::uint64_t{1} << tilt;
+      }
+      // Conditioning is dear: at the middle and the outermost of the tilts that are allowed.
+      const bool looked_at =
+          plane % kConditionEvery == 0 && ray % kConditionEvery == 0 && radius % kConditionEvery == 0;
+      if (allowed != 0 && looked_at) {
+        int low = 0, high = s.tilts - 1;
+        while ((allowed >> low & 1) == 0) ++low;
+        while ((allowed >> high & 1) == 0) --high;
+        for (const int tilt : {low, (low + high) / 2, high})
+          worst = std::max(worst, kinematics.condition(
+                                      Frame::kPart, {r * c, r * sn, s.z_mm(plane), s.tilt_rad(tilt), 0, 0}));
+      }
+      s.allowed[cell] = allowed;
+      s.worst_condition[cell] = static_cast<float>(worst);
+    }
+  }
+}
+
+}  // namespace
+
+Scan scan(const Kinematics& kinematics, const Room& room, const ScanOptions& options) {
+  const auto began = std::chrono::steady_clock::now();
+  Scan s;
+  s.room = room;
+  s.options = options;
+  s.planes = std::max(1, static_cast<int>(std::lround((room.z_max_mm - room.z_min_mm) / options.step_mm)));
+  s.radii = std::max(1, static_cast<int>(std::lround(room.radius_mm / options.step_mm)));
+  s.rays =
+      std::max(12, static_cast<int>(std::ceil(2 * std::numbers::pi * room.radius_mm / options.ray_step_mm)));
+  const double tilt_range = room.tilt_max_rad - room.tilt_min_rad;
+  s.tilts = std::clamp(1 + static_cast<int>(std::ceil(tilt_range / options.tilt_step_rad - 1e-9)), 1, 64);
+  const std::size_t cells = static_cast<std::size_t>(s.planes) * static_cast<std::size_t>(s.rays) *
+                            static_cast<std::size_t>(s.radii);
+  s.allowed.assign(cells, 0);
+  s.worst_condition.assign(cells, 0);
+
+  std::atomic<int> next{0};
+  std::vector<std::array<std::uint64_t, 8>> refused(static_cast<std::size_t>(std::max(1, options.threads)));
+  std::vector<std::uint64_t> poses(refused.size(), 0);
+  std::vector<std::thread> workers;
+  for (std::size_t n = 0; n < refused.size(); ++n)
+    workers.emplace_back([&, n] {
+      for (int plane = next++; plane < s.planes; plane = next++)
+        scan_plane(kinematics, s, plane, refused[n], poses[n]);
+    });
+  for (std::thread& worker : workers) worker.join();
+  for (const std::uint64_t own : poses) s.poses += own;
+  for (const auto& own : refused)
+    for (std::size_t k = 0; k < own.size(); ++k) s.refused[k] += own[k];
+  s.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  return s;
+}
+
+double volume_mm3(const Scan& s, int tilt) {
+  double sum = 0;
+  const std::uint64_t all = s.tilts == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << s.tilts) - 1;
+  for (int plane = 0; plane < s.planes; ++plane)
+    for (int ray = 0; ray < s.rays; ++ray)
+      for (int radius = 0; radius < s.radii; ++radius) {
+        const std::uint64_t allowed = s.allowed[s.cell(plane, ray, radius)];
+        if (tilt < 0 ? allowed == all : (allowed >> tilt & 1) != 0) sum += s.cell_volume_mm3(radius);
+      }
+  return sum;
+}
+
+}  // namespace kinebus::workspace

@@ -1,0 +1,115 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+#include "tools/workspace/boundary.hpp"
+#include "tools/workspace/optimise.hpp"
+#include "tools/workspace/picture.hpp"
+
+namespace kinebus::workspace {
+namespace {
+
+Room small_room() {
+  return {150, 0, 250, -45 * kRadPerDeg, 45 * kRadPerDeg};
+}
+ScanOptions coarse(int threads) {
+  ScanOptions o;
+  o.step_mm = 10;
+  o.ray_step_mm = 15;
+  o.tilt_step_rad = 9 * kRadPerDeg;
+  o.threads = threads;
+  return o;
+}
+
+TEST(Scan, ThreadsChangeNothing) {
+  const auto m1 = *make_m1_kinematics({});
+  const Scan one = scan(*m1, small_room(), coarse(1)), three = scan(*m1, small_room(), coarse(3));
+  EXPECT_EQ(one.allowed, three.allowed);
+  EXPECT_EQ(one.worst_condition, three.worst_condition);
+  EXPECT_EQ(one.refused, three.refused);
+}
+
+TEST(Scan, EveryCellIsWhatTheMachineSays) {
+  const auto m1 = *make_m1_kinematics({});
+  const Scan s = scan(*m1, small_room(), coarse(2));
+  for (int plane = 0; plane < s.planes; plane += 5)
+    for (int ray = 0; ray < s.rays; ray += 7)
+      for (int radius = 0; radius < s.radii; ++radius)
+        for (int tilt = 0; tilt < s.tilts; ++tilt) {
+          // Near the axis several rays share one place.
+          const double a = s.angle_rad(ray - ray % s.stride(radius)), r = s.radius_mm(radius);
+          const PoseVector pose{r * std::cos(a), r * std::sin(a), s.z_mm(plane), s.tilt_rad(tilt), 0, 0};
+          EXPECT_EQ(s.is_allowed(s.cell(plane, ray, radius), tilt),
+                    m1->check(Frame::kPart, pose).has_value());
+        }
+}
+
+TEST(Scan, AMachineWithoutRulesFillsTheRoom) {
+  CartesianGeometry g;
+  g.x_mm = g.y_mm = g.z_mm = {-1000, 1000};
+  const auto cartesian = *make_cartesian_kinematics(g);
+  const Room room{100, 0, 50, 0, 0};
+  const Scan s = scan(*cartesian, room, coarse(2));
+  const double full = std::numbers::pi * 100 * 100 * 50;
+  EXPECT_NEAR(volume_mm3(s, 0), full, 1e-6 * full);
+  const Cylinder c = largest_cylinder(s, -1);
+  EXPECT_NEAR(c.volume_mm3(), full, 1e-6 * full);
+}
+
+TEST(Scan, TheDefaultMachineHoldsTheCylinderItIsMadeFor) {
+  // 200 mm diameter and 200 mm height, level.
+  const auto m1 = *make_m1_kinematics({});
+  const Room level{100, 0, 200, 0, 0};
+  const Cylinder c = largest_cylinder(scan(*m1, level, coarse(2)), 0);
+  EXPECT_GE(c.radius_mm, 100);
+  EXPECT_GE(c.z_max_mm - c.z_min_mm, 200);
+}
+
+TEST(Boundary, IsClosedAndHoldsTheVolume) {
+  const auto m1 = *make_m1_kinematics({});
+  const Scan s = scan(*m1, small_room(), coarse(2));
+  const auto triangles = boundary(s, 2);
+  // Divergence theorem; chords instead of arcs cost a little volume.
+  double volume = 0;
+  for (const Triangle& t : triangles) {
+    const auto &a = t.corner[0], &b = t.corner[1], &c = t.corner[2];
+    volume += (a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
+               a[2] * (b[0] * c[1] - b[1] * c[0])) /
+              6.0;
+  }
+  EXPECT_NEAR(volume, volume_mm3(s, 2), 0.01 * volume);
+  std::ostringstream stl, ply;
+  write_stl(stl, triangles);
+  write_ply(ply, triangles);
+  EXPECT_EQ(stl.str().size(), 84 + 50 * triangles.size());
+  EXPECT_EQ(ply.str().rfind("ply\n", 0), 0u);
+}
+
+TEST(Picture, IsAnSvgWithAllItsParts) {
+  const auto m1 = *make_m1_kinematics({});
+  const Scan s = scan(*m1, small_room(), coarse(2));
+  const std::string svg = draw_workspace(s, s, {"Workspace", "test"});
+  EXPECT_EQ(svg.rfind("<svg", 0), 0u);
+  EXPECT_NE(svg.find("Volume at each tilt"), std::string::npos);
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
+}
+
+TEST(Optimise, ABadGeometryBecomesOneThatReachesTheRoom) {
+  M1Geometry bad;
+  for (M1Leg& leg : bad.legs) leg.length_mm = 420;
+  const Room room{100, 0, 200, -30 * kRadPerDeg, 45 * kRadPerDeg};
+  const Optimised o = optimise(bad, room);
+  EXPECT_LT(o.before.reached, 0.9);
+  EXPECT_EQ(o.after.reached, 1);
+  EXPECT_LT(o.after.worst_condition, 4);
+  M1Geometry g = o.geometry;
+  const auto m1 = make_m1_kinematics(g);
+  ASSERT_TRUE(m1);
+  const Scan s = scan(**m1, room, coarse(2));
+  EXPECT_GT(volume_mm3(s, -1), 0.98 * std::numbers::pi * 100 * 100 * 200);
+}
+
+}  // namespace
+}  // namespace kinebus::workspace
