@@ -73,9 +73,19 @@ void straightness(Table& t, const std::string& folder) {
       }
   const GeometryFit fit = fit_geometry(GeometryModel({}, readings), {.switch_offsets_only = true});
   t.below("straightness after one fit of the switches", 0.002, fit.after_rms_mm, "mm");
-  for (const FittedParameter& p : fit.parameters)
-    if (p.name == "table tilt about x")
-      t.compare("the table's tilt that remains", 4e-4, p.value, 5e-5, "rad");
+  for (const FittedParameter& p : fit.parameters) {
+    char words[160];
+    if (p.held)
+      std::snprintf(words, sizeof words, "    %s: held, %s", p.name.c_str(), p.why.c_str());
+    else if (p.unit == "rad")
+      std::snprintf(words, sizeof words, "    %s: %.2f +- %.2f mrad", p.name.c_str(), 1e3 * p.value,
+                    1e3 * p.sigma);
+    else if (p.name.ends_with("switch offset"))
+      std::snprintf(words, sizeof words, "    %s: %+.3f +- %.3f mm", p.name.c_str(), p.value, p.sigma);
+    else
+      continue;
+    t.note(words);
+  }
   if (folder.empty()) return;
   ResidualPanel panel{"All traverses", "reading", {}, fit.before_mm, fit.after_mm};
   for (std::size_t k = 0; k < fit.before_mm.size(); ++k) panel.x.push_back(static_cast<double>(k + 1));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numbers>
 #include <ostream>
 
 namespace kinebus::workspace {
@@ -36,7 +37,8 @@ std::vector<Triangle> boundary(const Scan& s, int tilt, Sector cut) {
     if (plane < 0 || plane >= s.planes || radius >= s.radii) return false;
     if (radius < 0) return true;  // the axis has no face
     ray = (ray + s.rays) % s.rays;
-    if (s.angle_rad(ray) > cut.from_rad && s.angle_rad(ray) < cut.to_rad) return false;
+    const double off = s.angle_rad(ray) - (cut.from_rad + cut.to_rad) / 2;
+    if (std::abs(std::remainder(off, 2 * std::numbers::pi)) < (cut.to_rad - cut.from_rad) / 2) return false;
     const std::uint64_t allowed = s.allowed[s.cell(plane, ray, radius)];
     return tilt < 0 ? allowed != 0 : (allowed >> tilt & 1) != 0;
   };

@@ -115,7 +115,7 @@ struct Panel {
 
 /// Section through the axis: the share of tilts that each place allows.
 void section(std::string& out, const Scan& s, const Panel& p) {
-  label(out, p.x + p.w / 2, p.y - 26, "Section along X (A = 0 plane): share of tilts allowed", 15);
+  label(out, p.x + p.w / 2, p.y - 26, "Section in the XZ plane: share of tilts allowed", 15);
   const double scale = std::min(p.w / (2 * s.room.radius_mm), p.h / (s.room.z_max_mm - s.room.z_min_mm));
   const double cx = p.x + p.w / 2, bottom = p.y + p.h;
   out += "<g shape-rendering='crispEdges'>\n";
@@ -144,7 +144,7 @@ void section(std::string& out, const Scan& s, const Panel& p) {
           "<rect x='%.1f' y='%.1f' width='%.1f' height='%.1f' fill='none' stroke='white' stroke-width='2' "
           "%s/>\n",
           cx - scale * c.radius_mm, top, 2 * scale * c.radius_mm, scale * (c.z_max_mm - c.z_min_mm), dash);
-    label(out, cx, top + 18, words, 12, "middle", "style='fill:white'");
+    label(out, cx, top + 18, words, 12, "middle", "style='fill:#1d2733'");
   };
   char words[128];
   const Cylinder always = largest_cylinder(s, -1);
