@@ -4,6 +4,24 @@
 
 namespace kinebus {
 
+bool MotionPlanExchange::outdated(const Node& node, LocalTime now, PlanCounts counts) const {
+  constexpr std::int64_t kSame = std::int64_t{1} << 26;  // 1/64 count
+  const MotionPlan& plan = current();
+  const PlanCounts elapsed = counts - plan.start;
+  if (elapsed >= MotionPlan::kHorizon) return true;
+  const PlanCounts left = MotionPlan::kHorizon - elapsed;
+  NodePreview preview(node);
+  for (const PlanCounts ahead : {left / 2, left}) {
+    const LatchedPositions positions = preview.positions(now + kPlanCount * ahead);
+    for (int axis = 0; axis < kAxesPerNode; ++axis) {
+      const std::int64_t off =
+          positions[static_cast<std::size_t>(axis)] - plan.at(axis, counts + ahead).position;
+      if (off > kSame || off < -kSame) return true;
+    }
+  }
+  return false;
+}
+
 void MotionPlanExchange::renew(const Node& node, LocalTime now, PlanCounts counts) {
   const std::uint32_t next = 1 - current_.load(std::memory_order_relaxed);
   MotionPlan& plan = plans_[next];

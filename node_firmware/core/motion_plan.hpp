@@ -81,6 +81,9 @@ class MotionPlanExchange {
   const MotionPlan& current() const { return plans_[current_.load(std::memory_order_acquire)]; }
   /// A new plan from `now` on. `counts`: the same instant as the interrupt counts it.
   void renew(const Node& node, LocalTime now, PlanCounts counts);
+  /// The node would give another plan by now: looked at in the middle and at the end of what is left. Much
+  /// cheaper than a new plan after every frame that changes nothing.
+  bool outdated(const Node& node, LocalTime now, PlanCounts counts) const;
 
  private:
   std::array<MotionPlan, 2> plans_{};

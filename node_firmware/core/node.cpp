@@ -249,6 +249,13 @@ std::array<std::uint16_t, kRpdoCount> Node::rpdo_cob_ids() const {
   return ids;
 }
 
+std::array<std::uint8_t, 2> Node::watched_nodes() const {
+  std::array<std::uint8_t, 2> ids{};
+  for (std::size_t i = 0; i < ids.size(); ++i)
+    ids[i] = static_cast<std::uint8_t>((watched_entries_[i] >> 16) & 0x7F);
+  return ids;
+}
+
 bool Node::moving(LocalTime at) const {
   return axes_[0].moving(at) || axes_[1].moving(at);
 }

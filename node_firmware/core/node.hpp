@@ -118,6 +118,8 @@ class Node final : private ObjectOwner {
   DriveOutput drive(int axis) const;
   /// COB-IDs of the receive PDOs that are on, for a port that filters; 0: off.
   std::array<std::uint16_t, kRpdoCount> rpdo_cob_ids() const;
+  /// Nodes whose heartbeat is watched (1016h); 0: none.
+  std::array<std::uint8_t, 2> watched_nodes() const;
   /// A parameter of an axis, by its slot: currents, windows and what else the port's control needs.
   std::int64_t axis_parameter(AxisSlots slots, int axis) const {
     return objects_.value(slots[static_cast<std::size_t>(axis & 1)]);

@@ -123,15 +123,15 @@ void Node::serve_emergencies() {
 }
 
 void Node::serve_stream_status() {
-  const StreamStatus status = path_.status(now_);
+  const std::uint8_t flags = path_.status_flags(), sequence = path_.stream().next_sequence();
   const std::uint32_t consumed = path_.stream().consumed();
   const bool running = path_.rate_q32(now_) != 0 && !path_.stream().idle();
   // At rest the queue is filled: the gateway hears that all has arrived.
-  const bool news = running || status.next_sequence != told_sequence_;
-  if (status.flags != told_flags_ || consumed - told_consumed_ >= kStatusRecords ||
+  const bool news = running || sequence != told_sequence_;
+  if (flags != told_flags_ || consumed - told_consumed_ >= kStatusRecords ||
       (news && now_ - status_told_at_ >= kStatusPeriod)) {
-    told_flags_ = status.flags;
-    told_sequence_ = status.next_sequence;
+    told_flags_ = flags;
+    told_sequence_ = sequence;
     told_consumed_ = consumed;
     status_told_at_ = now_;
     pdo_.trigger(kStreamStatusPdo);

@@ -263,16 +263,20 @@ std::optional<LocalTime> PathMotion::stop_start() const {
   return clock_.to_local(*start);
 }
 
-StreamStatus PathMotion::status(LocalTime now) const {
-  StreamStatus status;
-  status.next_sequence = stream_.next_sequence();
-  status.free_records = static_cast<std::uint8_t>(stream_.free_records());
+std::uint8_t PathMotion::status_flags() const {
   unsigned flags = error_flags_;
   if (stream_.moving()) flags |= StreamStatus::kRunning;
   if (stream_.resting()) flags |= StreamStatus::kAtRest;
   if (path_.stop_latched()) flags |= StreamStatus::kStopped;
   if (clock_.synchronised() && !sync_lost_) flags |= StreamStatus::kSynchronised;
-  status.flags = static_cast<std::uint8_t>(flags);
+  return static_cast<std::uint8_t>(flags);
+}
+
+StreamStatus PathMotion::status(LocalTime now) const {
+  StreamStatus status;
+  status.next_sequence = stream_.next_sequence();
+  status.free_records = static_cast<std::uint8_t>(stream_.free_records());
+  status.flags = status_flags();
   const std::int64_t error_us = clock_.error_bound(now).count() / 1000;
   status.sync_error_us = static_cast<std::uint8_t>(std::clamp<std::int64_t>(error_us, 0, 255));
   status.path_units = static_cast<std::uint32_t>(tau(now).count() / kPathTicksPerUnit);

@@ -68,6 +68,8 @@ class PathMotion {
   /// Local time at which the latched stop starts or started.
   std::optional<LocalTime> stop_start() const;
   StreamStatus status(LocalTime now) const;
+  /// Its flags alone: cheap enough to look at after every input.
+  std::uint8_t status_flags() const;
 
   SegmentStream& stream() { return stream_; }
   const SegmentStream& stream() const { return stream_; }

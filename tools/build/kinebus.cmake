@@ -10,7 +10,7 @@ endif()
 
 # Asserts stay on in release: a program that is wrong must stop, not go on. (CMake's own defaults define NDEBUG.)
 if(KINEBUS_FIRMWARE)
-  set(CMAKE_CXX_FLAGS_RELEASE "-O2 -g1 -fstack-usage")
+  set(CMAKE_CXX_FLAGS_RELEASE "-O2 -g1 -fstack-usage -fcallgraph-info=su")
 else()
   set(CMAKE_CXX_FLAGS_RELEASE "-O2")
   set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O1 -g1")

@@ -112,6 +112,27 @@ TEST(MotionPlan, FollowsAStreamAndItsStopWithinATenthOfACount) {
   EXPECT_TRUE(bench.node().path().stop_latched());
 }
 
+TEST(MotionPlan, IsOutdatedWhenAMotionBeginsAndNotBefore) {
+  Bench bench(std::vector<NodeSetup>{{.id = 1}});
+  bench.enable(1, 0, 1);
+  MotionPlanExchange exchange;
+  exchange.renew(bench.node(), bench.local(), 1000);
+  const LocalTime start = bench.local();
+  const auto counts = [&] { return 1000 + static_cast<PlanCounts>((bench.local() - start).count() / 250); };
+  bench.send("701#05");
+  bench.run(500us);
+  EXPECT_FALSE(exchange.outdated(bench.node(), bench.local(), counts()));
+  bench.write(1, 0x607A, 0, 4, 100'000);
+  exchange.renew(bench.node(), bench.local(), counts());
+  bench.send("601#2B4060001F000000");
+  bench.run(200us);
+  EXPECT_TRUE(exchange.outdated(bench.node(), bench.local(), counts()));
+  exchange.renew(bench.node(), bench.local(), counts());
+  EXPECT_FALSE(exchange.outdated(bench.node(), bench.local(), counts()));
+  bench.run(5ms);
+  EXPECT_TRUE(exchange.outdated(bench.node(), bench.local(), counts())) << "its time is over";
+}
+
 TEST(MotionPlan, ALatePlanFadesToAStandstill) {
   MotionPlan plan;
   for (auto& pieces : plan.pieces)

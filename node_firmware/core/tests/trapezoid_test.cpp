@@ -61,6 +61,17 @@ ProfileTicks seconds(double s) {
   return static_cast<ProfileTicks>(s * 16e6);
 }
 
+TEST(FixedPoint, TicksAreExactWithoutADivision) {
+  std::mt19937_64 random(125);
+  for (int i = 0; i < 200'000; ++i) {
+    const auto ns =
+        static_cast<std::int64_t>(random() >> (3 + random() % 60)) * ((i & 1) != 0 ? 1 : -1) + i % 3 - 1;
+    if (ns > (std::int64_t{1} << 60) || ns < -(std::int64_t{1} << 60)) continue;
+    const std::int64_t down = (ns * 2 - (ns < 0 ? 124 : 0)) / 125;
+    ASSERT_EQ(to_ticks(LocalTime{ns}), down) << ns;
+  }
+}
+
 TEST(Trapezoid, FullSpeedMotionTakesTheTextbookTimeAndEndsExactly) {
   Trapezoid motion;
   motion.move(1000, {0, 0}, from_counts(256'000), {128'000, 1'280'000, 640'000});

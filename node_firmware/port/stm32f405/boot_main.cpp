@@ -68,9 +68,6 @@ void isr_can_receive() {
 void isr_can_state() {
   can_port.on_state();
 }
-void isr_can_transmit() {
-  can1().IER = can1().IER & ~Can::kOnMailboxEmpty;
-}
 }
 
 int main() {

@@ -30,11 +30,9 @@ bool CanPort::start() {
   if (!wait_until([&] { return (can.MSR & Can::kInitDone) != 0; })) return false;
   can.MCR = Can::kInitRequest | Can::kAutoBusOff;
   can.BTR = kCanTiming.register_value();
-  can.IER = Can::kOnMailboxEmpty | Can::kOnFifo0 | Can::kOnOverrun0 | Can::kOnPassive | Can::kOnBusOff |
-            Can::kOnError;
+  can.IER = Can::kOnFifo0 | Can::kOnOverrun0 | Can::kOnPassive | Can::kOnBusOff | Can::kOnError;
   can.MCR = Can::kAutoBusOff;
   enable_interrupt(Irq::kCan1Rx0, 0);
-  enable_interrupt(Irq::kCan1Tx, 12);
   enable_interrupt(Irq::kCan1Sce, 12);
   return wait_until([&] { return (can.MSR & Can::kInitDone) == 0; });
 }

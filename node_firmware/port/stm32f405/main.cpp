@@ -66,10 +66,6 @@ void isr_can_state() {
 void isr_switches() {
   switch_port.on_edges(local_counts());
 }
-void isr_can_transmit() {
-  // Wakes the main loop, which serves the mailboxes; until then no further interrupt.
-  can1().IER = can1().IER & ~Can::kOnMailboxEmpty;
-}
 }
 
 int main() {
@@ -91,16 +87,14 @@ int main() {
   dog.start();
   for (;;) {
     program->pass();
-    if (motors_good)
-      motors.serve(node, program->now());
-    else
-      program->refuse_power();
+    if (motors_good ? motors.serve(node, program->now()) : program->refuse_power()) program->touch();
     store(node);
     if (node.program_stop_requested() && can_port.queue().idle()) give_way(node);
     // So long without a reset: this program is good.
     if (program->now() > kProved) handover_ram.starts = 0;
-    dog.serve(node.healthy(program->now()), motors.ticks());
-    wait_for_interrupt();
+    // Without a power stage that measures there is no control interrupt: only the bus is served.
+    dog.serve(program->now(), node, motors_good ? motors.ticks() : local_counts());
+    if (motors_good) wait_for_interrupt();  // 50 us at most
   }
 }
 

@@ -8,6 +8,7 @@
 namespace kinebus::stm32 {
 namespace {
 
+constexpr LocalTime kServe = std::chrono::microseconds{250};
 constexpr LocalTime kSlowly = std::chrono::milliseconds{5};
 // What a fault has left in windings and comparators has gone by then.
 constexpr LocalTime kFaultRest = std::chrono::milliseconds{100};
@@ -121,17 +122,23 @@ void MotorPort::on_break(int axis) {
   stage_.after_break(axis);
 }
 
-void MotorPort::serve(Node& node, LocalTime now) {
+bool MotorPort::serve(Node& node, LocalTime now) {
+  const bool tripped = (control_[0].tripped() != motor::fault::kNone && !served_[0].fault_told) ||
+                       (control_[1].tripped() != motor::fault::kNone && !served_[1].fault_told);
+  if (now < due_ && !tripped) return false;
+  due_ = now + kServe;
   const bool slow = now >= slow_due_;
   if (slow) slow_due_ = now + kSlowly;
+  bool told = false;
   for (int axis = 0; axis < 2; ++axis) {
-    serve_power(node, now, axis);
-    serve_troubles(node, now, axis);
+    told = serve_power(node, now, axis) || told;
+    told = serve_troubles(node, now, axis) || told;
     if (slow) serve_slowly(node, axis);
   }
+  return told;
 }
 
-void MotorPort::serve_power(Node& node, LocalTime now, int axis) {
+bool MotorPort::serve_power(Node& node, LocalTime now, int axis) {
   motor::AxisControl& control = control_[static_cast<std::size_t>(axis)];
   Served& served = served_[static_cast<std::size_t>(axis)];
   const std::uint16_t code = control.tripped();
@@ -140,34 +147,38 @@ void MotorPort::serve_power(Node& node, LocalTime now, int axis) {
     served.fault_at = now;
     control.set_power(false);
     node.on_drive_fault(now, axis, code);
+    return true;
   }
+  const DriveOutput drive = node.drive(axis);
   if (served.fault_told) {
     const bool calm = now - served.fault_at >= kFaultRest &&
                       stage_.supply_v() < motor::Surroundings::kDeadlyV &&
                       stage_.temperature_c(axis) < motor::Surroundings::kDeadlyC;
-    if (!calm || node.drive(axis).power) return;
+    if (!calm || drive.power) return false;
     control.acknowledge();
     served.fault_told = false;
     node.on_drive_fault_gone(now, axis);
-    return;
+    return true;
   }
-  const DriveOutput drive = node.drive(axis);
   control.set_resting(drive.holding);
   control.set_power(drive.power);
+  return false;
 }
 
-void MotorPort::serve_troubles(Node& node, LocalTime now, int axis) {
+bool MotorPort::serve_troubles(Node& node, LocalTime now, int axis) {
   Served& served = served_[static_cast<std::size_t>(axis)];
-  const std::uint8_t other = control_[static_cast<std::size_t>(1 - axis)].troubles();
+  const std::uint8_t other = served_[static_cast<std::size_t>(1 - axis)].troubles;
   // Without power a low supply or a warm board is nobody's trouble.
   const std::uint8_t present =
       node.drive(axis).power ? control_[static_cast<std::size_t>(axis)].troubles() : std::uint8_t{0};
+  if (present == served.troubles) return false;
   for (const Trouble& trouble : kTroubles) {
     const bool is = (present & trouble.bit) != 0, was = (served.troubles & trouble.bit) != 0;
     if (is && !was) node.on_axis_trouble(now, axis, trouble.code);
     if (!is && was && (other & trouble.bit) == 0) node.on_axis_trouble_gone(trouble.code);
   }
   served.troubles = present;
+  return true;
 }
 
 void MotorPort::serve_slowly(Node& node, int axis) {

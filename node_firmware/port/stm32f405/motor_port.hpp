@@ -25,8 +25,8 @@ class MotorPort {
   /// it should be, or no conversions come. Interrupts must be on. Takes 4 ms.
   bool start();
 
-  /// Main loop, each pass.
-  void serve(Node& node, LocalTime now);
+  /// Main loop, each pass. True: the node was told something.
+  bool serve(Node& node, LocalTime now);
   /// Control interrupts so far; the watchdog wants to see it move.
   std::uint32_t ticks() const { return ticks_.load(std::memory_order_relaxed); }
   Cycles cycles() const { return cycles_; }
@@ -38,8 +38,8 @@ class MotorPort {
   void on_break(int axis);
 
  private:
-  void serve_power(Node& node, LocalTime now, int axis);
-  void serve_troubles(Node& node, LocalTime now, int axis);
+  bool serve_power(Node& node, LocalTime now, int axis);
+  bool serve_troubles(Node& node, LocalTime now, int axis);
   void serve_slowly(Node& node, int axis);
 
   const MotionPlanExchange& plan_;
@@ -56,7 +56,7 @@ class MotorPort {
     motor::AutoTune::State tune = motor::AutoTune::State::kIdle;
   };
   std::array<Served, 2> served_{};
-  LocalTime slow_due_{0};
+  LocalTime due_{0}, slow_due_{0};
 };
 
 }  // namespace kinebus::stm32

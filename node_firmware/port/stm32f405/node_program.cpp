@@ -1,6 +1,7 @@
 #include "node_firmware/port/stm32f405/node_program.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "node_firmware/port/stm32f405/registers.hpp"
 
@@ -24,20 +25,28 @@ NodeProgram::NodeProgram(const NodeOptions& options, std::span<const std::uint8_
 
 void NodeProgram::pass() {
   now_ = clock_.now();
-  bool changed = take_inputs();
+  const bool input = can_.front() != nullptr || switches_.front() != nullptr;
+  if (!input && !touched_ && now_ < due_) {
+    // Nothing to do for the node: most passes end here.
+    if (!can_.queue().idle()) send();
+    return;
+  }
+  bool changed = take_inputs() || std::exchange(touched_, false);
   if (now_ >= node_.next_deadline()) {
     node_.on_time(now_);
     changed = true;
   }
-  if (changed || now_ >= plan_due_) {
-    // The plan begins now, and never before what the node knows.
-    const std::uint32_t counts = local_counts();
-    plan_.renew(node_, clock_.at(counts), counts);
+  // The plan begins now, and never before what the node knows.
+  const std::uint32_t counts = local_counts();
+  const LocalTime from = clock_.at(counts);
+  if (now_ >= plan_due_ || (changed && plan_.outdated(node_, from, counts))) {
+    plan_.renew(node_, from, counts);
     plan_due_ = now_ + kPlanPeriod;
   }
   send();
   report_bus();
   if (now_ >= filter_due_) filter();
+  due_ = std::min({node_.next_deadline(), plan_due_, filter_due_});
 }
 
 // Frames and edges in the order in which they happened.
@@ -65,18 +74,23 @@ void NodeProgram::send() {
   can_.serve_mailboxes();
   while (can_.queue().has_room()) {
     const auto frame = node_.next_frame();
-    if (!frame) break;
+    if (!frame) return;
     can_.queue().push(*frame);
     can_.serve_mailboxes();
   }
 }
 
-void NodeProgram::refuse_power() {
-  for (int axis = 0; axis < 2; ++axis)
-    if (node_.drive(axis).power) node_.on_drive_fault(now_, axis, 0x5200);  // 5200h: device hardware, control
+bool NodeProgram::refuse_power() {
+  bool refused = false;
+  for (int axis = 0; axis < kAxesPerNode; ++axis) {
+    if (!node_.drive(axis).power) continue;
+    node_.on_drive_fault(now_, axis, 0x5200);  // device hardware, control
+    refused = true;
+  }
+  return refused;
 }
 
-// What this node has to hear: its own requests and PDOs, what all hear, and heartbeats.
+// What this node has to hear: its own requests and PDOs, what all hear, and the heartbeats that it watches.
 void NodeProgram::filter() {
   filter_due_ = now_ + kFilterPeriod;
   std::array<CanPort::Accept, CanPort::kFilters> wanted{};
@@ -89,7 +103,8 @@ void NodeProgram::filter() {
   add(0x7E5);         // LSS
   if (node_.node_id() != 0) {
     add(0x600u + node_.node_id());
-    add(0x700, 0x780);
+    for (const std::uint8_t id : node_.watched_nodes())
+      if (id != 0) add(0x700u + id);
     for (const std::uint16_t id : node_.rpdo_cob_ids())
       if (id != 0) add(id);
   }

@@ -19,8 +19,10 @@ class NodeProgram {
 
   /// Everything that has come since the last pass. Call at least every millisecond.
   void pass();
-  /// The power stage does not measure: an axis that is switched on has a fault.
-  void refuse_power();
+  /// The power stage does not measure: an axis that is switched on has a fault. True: so it was.
+  bool refuse_power();
+  /// Something was told to the node elsewhere: the next pass looks what follows from it.
+  void touch() { touched_ = true; }
   Node& node() { return node_; }
   LocalTime now() const { return now_; }
   PathTime path_time(std::uint32_t counts) const { return node_.path_time(clock_.at(counts)); }
@@ -37,7 +39,8 @@ class NodeProgram {
   LocalClock clock_;
   LocalTime now_;
   Node node_;
-  LocalTime plan_due_{0}, filter_due_{0};
+  LocalTime due_{0}, plan_due_{0}, filter_due_{0};
+  bool touched_ = true;
   std::array<CanPort::Accept, CanPort::kFilters> filters_{};
   CanPort::Events told_;
   bool was_off_ = false;

@@ -1,6 +1,7 @@
 #pragma once
 // The independent watchdog, on its own 32 kHz oscillator (17 to 47 kHz over all chips).
 
+#include "node_firmware/core/node.hpp"
 #include "node_firmware/port/stm32f405/registers.hpp"
 
 namespace kinebus::stm32 {
@@ -16,9 +17,12 @@ class WatchdogPort {
   void allow_erase() { set(6, 500); }  // 125 Hz
   void back_to_normal() { set(3, 100); }
 
-  /// `ticks`: control interrupts so far. Feeds only when both they and the main loop are well.
-  void serve(bool healthy, std::uint32_t ticks) {
-    if (!healthy || ticks == fed_at_) return;
+  /// `ticks`: control interrupts so far. Feeds, every 10 ms, only when they go on and the node's timed jobs
+  /// are served.
+  void serve(LocalTime now, const Node& node, std::uint32_t ticks) {
+    if (now < due_) return;
+    due_ = now + std::chrono::milliseconds{10};
+    if (!node.healthy(now) || ticks == fed_at_) return;
     fed_at_ = ticks;
     watchdog().KR = IndependentWatchdog::kFeed;
   }
@@ -33,6 +37,7 @@ class WatchdogPort {
     static_cast<void>(wait_until([] { return watchdog().SR == 0; }, 100'000));
     watchdog().KR = IndependentWatchdog::kFeed;
   }
+  LocalTime due_{0};
   std::uint32_t fed_at_ = 0;
 };
 

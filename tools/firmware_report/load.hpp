@@ -1,0 +1,112 @@
+#pragma once
+// A board under load: a master that speaks plain CANopen, both motors in profile position, and a stranger who
+// fills the bus.
+
+#include <stdexcept>
+
+#include "protocol/bytes.hpp"
+#include "protocol/canopen/nmt.hpp"
+#include "protocol/canopen/sdo_client.hpp"
+#include "vcan_tests/emulator/emulated_machine.hpp"
+
+namespace kinebus::emulator {
+
+class Load {
+ public:
+  explicit Load(const ElfImage& image)
+      : machine_(image, {EmulatedNodeOptions{.board = {.unique_id = {1, 2, 3}}, .node_id = 1}}, 3) {}
+
+  Board& board() { return machine_.board(0); }
+
+  void bring_up() {
+    machine_.send(now_, nmt_frame(NmtCommand::kStart, kAllNodes));
+    for (const std::uint16_t base : {std::uint16_t{0x6000}, std::uint16_t{0x6800}}) {
+      const auto at = [&](int index) { return static_cast<std::uint16_t>(base + index); };
+      write(at(0x7F), 0, 4, kFast);
+      write(at(0x81), 0, 4, kFast);
+      write(at(0x83), 0, 4, 6'400'000);
+      write(at(0x84), 0, 4, 6'400'000);
+      write(at(0x60), 0, 1, 1);
+      for (const int word : {0x06, 0x07, 0x0F}) write(at(0x40), 0, 2, word);
+    }
+    run(std::chrono::milliseconds{150});
+  }
+  void move_both() {
+    busy_ = true;
+    for (const std::uint16_t base : {std::uint16_t{0x6000}, std::uint16_t{0x6800}}) {
+      const auto at = [&](int index) { return static_cast<std::uint16_t>(base + index); };
+      write(at(0x7A), 0, 4, kWay);
+      write(at(0x40), 0, 2, 0x1F);
+    }
+    run(std::chrono::milliseconds{400});
+    busy_ = false;
+  }
+  /// 2120h:2.
+  std::uint32_t receive_overruns() {
+    std::array<std::uint8_t, 4> bytes{};
+    client_.upload(now_, 1, {0x2120, 2}, bytes);
+    finish();
+    return get_u32_le(bytes);
+  }
+  double worst_following_counts() const { return worst_; }
+  std::uint32_t stack_used() {
+    return board().image().symbol("stack_top").value_or(0) - board().cpu().lowest_stack();
+  }
+
+ private:
+  static constexpr std::int64_t kFast = 400'000;  // counts/s, 7.8 rev/s
+  static constexpr std::int64_t kWay = 100'000;
+
+  void run(BusTime span) {
+    const BusTime end = now_ + span;
+    while (now_ < end) {
+      now_ += std::chrono::microseconds{busy_ ? 200 : 500};
+      while (!machine_.advance(now_)) drain();
+      drain();
+      // What every node has to take: EMCYs of a stranger, which ask for nothing. No gap between them.
+      while (busy_ && machine_.can_send())
+        machine_.send(now_, CanFrame::make(0x0C1 + (++stranger_ % 8), {0, 0, 0, 0, 0, 0, 0, 0}));
+      for (int axis = 0; axis < 2; ++axis)
+        if (const auto wanted = machine_.commanded(0, axis))
+          worst_ = std::max(worst_, std::abs(static_cast<double>(*wanted) / 4294967296.0 - rotor(axis)));
+    }
+  }
+  void drain() {
+    while (const auto got = machine_.receive())
+      if (!got->own) client_.on_frame(now_, got->frame);
+  }
+  double rotor(int axis) { return board().true_counts(axis) - start_[static_cast<std::size_t>(axis)]; }
+  void write(std::uint16_t index, std::uint8_t sub, int size, std::int64_t value) {
+    std::array<std::uint8_t, 8> bytes{};
+    put_le(std::span(bytes), value);
+    client_.download(now_, 1, {index, sub}, std::span(bytes).first(static_cast<std::size_t>(size)));
+    finish();
+  }
+  void finish() {
+    while (client_.status() == SdoClient::Status::kBusy) {
+      while (const auto frame = client_.next_frame()) {
+        while (!machine_.can_send()) run_only();
+        machine_.send(now_, *frame);
+      }
+      run_only();
+      client_.on_time(now_);
+    }
+    if (client_.status() != SdoClient::Status::kDone)
+      throw std::runtime_error("the node does not answer as it should");
+  }
+  void run_only() {
+    now_ += std::chrono::microseconds{200};
+    while (!machine_.advance(now_)) drain();
+    drain();
+  }
+
+  EmulatedMachine machine_;
+  BusTime now_{0};
+  SdoClient client_;
+  bool busy_ = false;
+  std::uint32_t stranger_ = 0;
+  double worst_ = 0;
+  std::array<double, 2> start_{};
+};
+
+}  // namespace kinebus::emulator
