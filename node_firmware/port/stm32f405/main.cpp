@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "node_firmware/port/stm32f405/clock_tree.hpp"
+#include "node_firmware/port/stm32f405/console.hpp"
 #include "node_firmware/port/stm32f405/flash_port.hpp"
 #include "node_firmware/port/stm32f405/handlers.hpp"
 #include "node_firmware/port/stm32f405/handover_port.hpp"
@@ -24,6 +25,7 @@ constinit MotorPort motors{motion_plan};
 constinit ParameterFlash parameter_flash;
 constinit PageStore parameters{parameter_flash};
 constinit WatchdogPort dog;
+constinit Console console;
 constinit std::optional<NodeProgram> program;
 
 // An erase that a save needs is made now, while nothing moves.
@@ -84,11 +86,13 @@ int main() {
   switch_port.start(local_counts());
   enable_interrupts();
   const bool motors_good = motors.start();
+  console.start();
   dog.start();
   for (;;) {
     program->pass();
     if (motors_good ? motors.serve(node, program->now()) : program->refuse_power()) program->touch();
     store(node);
+    console.serve(node, motors, can_port);
     if (node.program_stop_requested() && can_port.queue().idle()) give_way(node);
     // So long without a reset: this program is good.
     if (program->now() > kProved) handover_ram.starts = 0;

@@ -1,0 +1,94 @@
+#include "node_firmware/port/stm32f405/console.hpp"
+
+#include <algorithm>
+
+#include "node_firmware/boot/image_header.hpp"
+#include "node_firmware/port/stm32f405/identity.hpp"
+
+namespace kinebus::stm32 {
+namespace {
+
+constexpr std::uint32_t kBaud = 115'200;
+
+}  // namespace
+
+void Console::start() {
+  rcc().APB2ENR = rcc().APB2ENR | Rcc::kUsart1;
+  usart1().BRR = (board::kApb2Hz + kBaud / 2) / kBaud;
+  usart1().CR1 = Usart::kEnable | Usart::kTransmitter | Usart::kReceiver;
+}
+
+Console& Console::put(std::string_view text) {
+  const std::size_t count = std::min(text.size(), text_.size() - length_);
+  std::copy_n(text.begin(), count, text_.begin() + static_cast<std::ptrdiff_t>(length_));
+  length_ += count;
+  return *this;
+}
+
+Console& Console::put(std::int64_t number) {
+  // What is shown fits 32 bits, which spares a division of 64.
+  const auto clipped =
+      static_cast<std::int32_t>(std::clamp<std::int64_t>(number, -2'147'483'647, 2'147'483'647));
+  auto rest = static_cast<std::uint32_t>(clipped < 0 ? -clipped : clipped);
+  std::array<char, 11> digits{};
+  std::size_t at = digits.size();
+  do {
+    digits[--at] = static_cast<char>('0' + rest % 10);
+    rest /= 10;
+  } while (rest != 0);
+  if (clipped < 0) digits[--at] = '-';
+  return put(std::string_view(digits.data() + at, digits.size() - at));
+}
+
+void Console::axis(int axis, const Node& node, const MotorPort& motors) {
+  const motor::AxisControl& control = motors.control(axis);
+  const DriveAxis& drive = node.axis(axis);
+  put(axis == 0 ? "A" : "B").put(": state ").put(static_cast<int>(drive.state()));
+  put(" mode ").put(drive.mode_display()).put(" error ").put(drive.error_code());
+  put(" current mA ").put(static_cast<std::int32_t>(control.amplitude_a() * 1e3F));
+  put(" off course ").put(control.following_error()).put(" troubles ").put(control.troubles());
+  put(" encoder errors ").put(control.encoder().errors());
+  put(" C ").put(static_cast<std::int32_t>(motors.stage().temperature_c(axis))).put("\r\n");
+}
+
+void Console::answer(char letter, const Node& node, const MotorPort& motors, const CanPort& can) {
+  switch (letter) {
+    case 's':
+      put("node ").put(node.node_id()).put(" NMT ").put(static_cast<int>(node.nmt_state()));
+      put(" supply mV ").put(static_cast<std::int32_t>(motors.stage().supply_v() * 1e3F)).put("\r\n");
+      axis(0, node, motors);
+      axis(1, node, motors);
+      break;
+    case 'c':
+      put("CAN overruns ").put(can.events().overruns).put(" bus-off ").put(can.events().bus_off);
+      put(" passive ").put(can.events().passive).put(can.bus_off() ? " OFF THE BUS" : "").put("\r\n");
+      break;
+    case 't':
+      put("control cycles last ").put(motors.cycles().last).put(" worst ").put(motors.cycles().worst);
+      put(" interrupts ").put(motors.ticks()).put("\r\n");
+      break;
+    case 'v':
+      put("Kinebus node, serial ")
+          .put(serial_number())
+          .put(" image bytes ")
+          .put(kImageHeader.length)
+          .put("\r\n");
+      break;
+    default:
+      put("s state, c CAN, t timing, v version\r\n");
+      break;
+  }
+}
+
+void Console::serve(const Node& node, const MotorPort& motors, const CanPort& can) {
+  const std::uint32_t status = usart1().SR;
+  if (sent_ < length_) {
+    if ((status & Usart::kSendEmpty) == 0) return;
+    usart1().DR = static_cast<std::uint8_t>(text_[sent_++]);
+    if (sent_ == length_) sent_ = length_ = 0;
+  } else if ((status & Usart::kReceived) != 0) {
+    answer(static_cast<char>(usart1().DR & 0x7F), node, motors, can);
+  }
+}
+
+}  // namespace kinebus::stm32
