@@ -8,8 +8,8 @@
 int main(int argc, char** argv) try {
   std::string first, second;
   std::size_t skip = 0;
-  // Records are fitted to half a count; where both runs were cut alike they differ by their rounding.
-  double same = 1;
+  // Records are fitted to half a count, and each run begins where the one before left half a count.
+  double same = 2;
   // A planned stop leaves the corners around it unrounded: within the blend tolerance of 5 um, 6.4 counts,
   // and the merge tolerance.
   double near = 10;
