@@ -1,5 +1,9 @@
 #include "gui/link/demo_gateway.hpp"
 
+#include <sys/prctl.h>
+
+#include <csignal>
+
 #include <QCoreApplication>
 #include <QDir>
 #include <QFileInfo>
@@ -51,6 +55,8 @@ void DemoGateway::start() {
     return;
   }
   QDir(folder_.path()).mkpath(QStringLiteral("jobs"));
+  // The demo never outlives the program, however that ends.
+  process_.setChildProcessModifier([] { ::prctl(PR_SET_PDEATHSIG, SIGTERM); });
   process_.setWorkingDirectory(folder_.path());
   process_.start(daemon, {QStringLiteral("--bus"), QStringLiteral("inproc"), QStringLiteral("--no-realtime"),
                           QStringLiteral("--socket"), socket_path(), QStringLiteral("--jobs"),

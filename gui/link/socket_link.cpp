@@ -18,6 +18,10 @@ SocketLink::SocketLink(QString path, QObject* parent) : Link(parent), path_(std:
   });
 }
 
+SocketLink::~SocketLink() {
+  socket_.disconnect(this);  // its own end is no news
+}
+
 void SocketLink::open() {
   socket_.connectToServer(path_);
 }

@@ -11,6 +11,7 @@ class SocketLink : public Link {
   Q_OBJECT
  public:
   explicit SocketLink(QString path, QObject* parent = nullptr);
+  ~SocketLink() override;
   void open() override;
   qint64 write(const char* data, qint64 size) override;
   QString description() const override;

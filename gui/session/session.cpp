@@ -44,7 +44,10 @@ Session::Session(QObject* parent) : QObject(parent), client_(make_client()), tim
   connect(&again_, &QTimer::timeout, this, &Session::open_link);
 }
 
-Session::~Session() = default;
+Session::~Session() {
+  // Nothing of a link that ends is news any more.
+  if (link_ != nullptr) link_->disconnect(this);
+}
 
 kinebus::LocalTime Session::now() const {
   return kinebus::LocalTime(clock_.nsecsElapsed());
@@ -138,6 +141,10 @@ void Session::set_link_state(LinkState state, const QString& words) {
 void Session::take(joblink::News& news) {
   if (auto* status = std::get_if<joblink::Status>(&news)) {
     status_.Swap(status);
+    if (home_wanted_ && status_.state() != joblink::STATE_OFF && status_.state() != joblink::STATE_BRING_UP) {
+      home_wanted_ = false;  // an alarm while waking ends the wish too
+      if (status_.state() == joblink::STATE_UNHOMED || status_.state() == joblink::STATE_READY) home();
+    }
     emit status_changed();
   } else if (auto* answer = std::get_if<joblink::Answer>(&news)) {
     const auto found = open_.find(answer->request);
@@ -240,6 +247,15 @@ void Session::bring_up() {
   command(plain([](auto& r) { r.mutable_bring_up(); }));
 }
 void Session::home() {
+  if (status_.state() == joblink::STATE_OFF) {
+    home_wanted_ = true;
+    command(plain([](auto& r) { r.mutable_bring_up(); }), [this](const joblink::Reply& reply) {
+      if (!reply.has_error()) return;
+      home_wanted_ = false;
+      emit refused(to_words(reply.error()));
+    });
+    return;
+  }
   command(plain([](auto& r) { r.mutable_home(); }));
 }
 void Session::go_to_reference() {

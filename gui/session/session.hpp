@@ -57,6 +57,7 @@ class Session : public QObject {
   void stop();
   void clear();
   void bring_up();
+  /// Wakes the nodes first when the machine is off.
   void home();
   void go_to_reference();
   void motors_off();
@@ -106,6 +107,7 @@ class Session : public QObject {
   QString title_, link_words_;
   LinkState link_state_ = LinkState::kNone;
   bool had_gateway_ = false;
+  bool home_wanted_ = false;  ///< as soon as the nodes are awake
   QElapsedTimer clock_;
   QTimer timer_, again_;
   struct Open {

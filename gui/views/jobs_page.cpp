@@ -272,7 +272,7 @@ void JobsPage::tell_store() {
   store_text_->setText(jobs.quota_bytes() > 0 ? tr("%1 of %2 used").arg(Format::isolated(Format::bytes(static_cast<double>(jobs.used_bytes()))),
                                                                      Format::isolated(Format::bytes(static_cast<double>(jobs.quota_bytes()))))
                                               : QString());
-  if (selected_job().isEmpty() && desk_.jobs.rowCount() > 0) table_->setCurrentIndex(desk_.jobs.index(0, 0));
+  if (table_ != nullptr && selected_job().isEmpty() && desk_.jobs.rowCount() > 0) table_->setCurrentIndex(desk_.jobs.index(0, 0));
 }
 
 void JobsPage::choose_file() {

@@ -45,7 +45,7 @@ class JobsPage : public SpeakingWidget {
   Desk& desk_;
   ProblemsModel problems_;
   QWidget* drop_zone_;
-  QTableView *table_, *problems_table_;
+  QTableView *table_ = nullptr, *problems_table_ = nullptr;
   LineView* lines_;
   QPushButton *start_, *check_, *show_, *delete_;
   QLabel *store_text_, *result_text_, *result_heading_;

@@ -1,0 +1,156 @@
+// kinebus-gui-screenshots DIR: every page of the program in every language, light and dark, against a real demo daemon
+// that prints. tools/screenshots runs it under Xvfb.
+
+#include <QApplication>
+#include <QDeadlineTimer>
+#include <QDir>
+#include <cstdio>
+#include <stdexcept>
+
+#include "gui/screenshots/demo_job.hpp"
+#include "gui/views/connect_page.hpp"
+#include "gui/views/console_page.hpp"
+#include "gui/views/jobs_page.hpp"
+#include "gui/views/machine_file_editor.hpp"
+#include "gui/views/machine_page.hpp"
+#include "gui/views/main_window.hpp"
+#include "gui/views/view_page.hpp"
+
+namespace kinebus::gui {
+namespace {
+
+constexpr int kPatience_ms = 300'000;
+
+void wait(const char* what, const std::function<bool()>& holds) {
+  std::printf("%s\n", what);
+  std::fflush(stdout);
+  const QDeadlineTimer deadline(kPatience_ms);
+  while (!holds()) {
+    if (deadline.hasExpired()) throw std::runtime_error(std::string("waited in vain: ") + what);
+    QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents | QEventLoop::AllEvents, 50);
+  }
+}
+
+QString write_file(const QString& folder, const QString& name, const QByteArray& text) {
+  QFile file(folder + QLatin1Char('/') + name);
+  if (!file.open(QIODevice::WriteOnly)) throw std::runtime_error("cannot write " + file.fileName().toStdString());
+  file.write(text);
+  return file.fileName();
+}
+
+class Photographer {
+ public:
+  Photographer(Desk& desk, MainWindow& window, QString folder) : desk_(desk), window_(window), folder_(std::move(folder)) {}
+
+  void all(MainWindow::Page page, const QString& name, const std::function<void()>& prepare = {}) {
+    for (const auto& choice : Language::choices())
+      for (const bool dark : {false, true}) {
+        window_.set_theme(dark);
+        window_.set_language(choice.code);
+        window_.show_page(page);
+        if (prepare) prepare();
+        take(QStringLiteral("%1-%2-%3").arg(name, choice.code, dark ? QStringLiteral("dark") : QStringLiteral("light")));
+      }
+  }
+
+ private:
+  /// When a few statuses have come in the new language.
+  void take(const QString& name) {
+    const double from = desk_.session.status().time_s();
+    const QDeadlineTimer deadline(4000);
+    while (!deadline.hasExpired()) {
+      QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents | QEventLoop::AllEvents, 20);
+      const bool fresh = !desk_.session.connected() || desk_.session.status().time_s() > from + 0.4;
+      if (fresh && !desk_.path.loading()) break;
+    }
+    const QString path = QStringLiteral("%1/%2.png").arg(folder_, name);
+    if (!window_.grab().save(path)) throw std::runtime_error("cannot write " + path.toStdString());
+    std::printf("  %s\n", qPrintable(path));
+  }
+
+  Desk& desk_;
+  MainWindow& window_;
+  QString folder_;
+};
+
+int run(int argc, char** argv) {
+  SceneView::choose_format();
+  QApplication app(argc, argv);
+  QApplication::setOrganizationName(QStringLiteral("kinebus"));
+  QApplication::setApplicationName(QStringLiteral("kinebus-gui-screenshots"));
+  const QString folder = argc > 1 ? QString::fromLocal8Bit(argv[1]) : QStringLiteral("screenshots");
+  QDir().mkpath(folder);
+  QTemporaryDir scratch;
+
+  Desk desk;
+  desk.theme.apply(false);
+  desk.language.apply(QStringLiteral("en"));
+  MainWindow window(desk);
+  window.show();
+  Photographer photographer(desk, window, folder);
+  photographer.all(MainWindow::kConnect, QStringLiteral("1-connect"));
+
+  QObject::connect(&desk.session, &Session::refused, &window, [](const QString& words) { std::fprintf(stderr, "refused: %s\n", qPrintable(words)); });
+  window.connect_page().start_demo();
+  const auto state = [&] { return desk.session.status().state(); };
+  wait("the demo machine answers", [&] { return desk.session.connected() && desk.session.machine().joints_size() > 0; });
+  window.jobs_page().upload({write_file(scratch.path(), QStringLiteral("vase.gcode"), vase_job(120)),
+                             write_file(scratch.path(), QStringLiteral("bracket-v2.gcode"), vase_job(24)),
+                             write_file(scratch.path(), QStringLiteral("too-wide.gcode"), wrong_job())});
+  wait("three jobs are stored", [&] { return desk.session.jobs().jobs_size() == 3; });
+  bool checked = false;
+  desk.session.check_job(QStringLiteral("bracket-v2.gcode"), [&](const auto&) { checked = true; });
+  wait("a job is checked", [&] { return checked; });
+  desk.session.home();
+  wait("the machine is homed", [&] { return state() == joblink::STATE_READY && desk.session.status().positions_known(); });
+  photographer.all(MainWindow::kJog, QStringLiteral("4-jog"));
+  for (const char* line : {"M115", "M114", "M105", "M119"}) {
+    window.console_page().send(QString::fromLatin1(line));
+    wait(line, [&, from = desk.session.status().time_s()] { return desk.session.status().time_s() > from + 0.3; });
+  }
+  photographer.all(MainWindow::kConsole, QStringLiteral("5-console"));
+  window.show_page(MainWindow::kJobs);
+  window.jobs_page().select(QStringLiteral("too-wide.gcode"));
+  window.jobs_page().check();
+  wait("the wrong job is checked", [&] {
+    const auto* job = desk.jobs.find(QStringLiteral("too-wide.gcode"));
+    return job != nullptr && job->has_preflight() && !desk.path.loading();
+  });
+  photographer.all(MainWindow::kJobs, QStringLiteral("3-jobs"));
+  window.machine_page().show_tab(2);
+  window.machine_page().editor().read_if_empty();
+  wait("the machine file is here", [&] { return !window.machine_page().editor().text().document()->isEmpty(); });
+  photographer.all(MainWindow::kMachine, QStringLiteral("9-machine-file"));
+
+  desk.session.start_job(QStringLiteral("vase.gcode"));
+  wait("a job prints", [&] { return state() == joblink::STATE_RUNNING && desk.session.status().progress() > 0.1; });
+  wait("its path is shown", [&] { return desk.path.scene() != nullptr && desk.path.name() == QStringLiteral("vase.gcode"); });
+  window.view_page().scene().look(SceneView::Look::kDiagonal);
+  photographer.all(MainWindow::kView, QStringLiteral("2-view"), [&] { window.view_page().scene().fit_machine(); });
+  photographer.all(MainWindow::kView, QStringLiteral("2-view-part"), [&] {
+    window.view_page().set_colouring(PathColouring::kLayer);
+    window.view_page().scene().fit_part();
+  });
+  window.machine_page().show_tab(0);
+  photographer.all(MainWindow::kMachine, QStringLiteral("7-machine"));
+  window.machine_page().show_tab(1);
+  photographer.all(MainWindow::kMachine, QStringLiteral("8-machine-bus"));
+  desk.session.stop();
+  wait("stopped", [&] { return state() == joblink::STATE_STOPPED || state() == joblink::STATE_ALARM; });
+  photographer.all(MainWindow::kAlarms, QStringLiteral("6-alarms"));
+  desk.session.disconnect_from_gateway();
+  desk.demo.reset();
+  return 0;
+}
+
+}  // namespace
+}  // namespace kinebus::gui
+
+int main(int argc, char** argv) {
+  try {
+    return kinebus::gui::run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "kinebus-gui-screenshots: %s\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,178 @@
+#include "gui/session/session.hpp"
+
+#include <gtest/gtest.h>
+
+#include <QApplication>
+#include <QDateTime>
+#include <QFile>
+
+#include "gui/link/socket_link.hpp"
+#include "gui/models/axes_model.hpp"
+#include "gui/models/events_model.hpp"
+#include "gui/models/jobs_model.hpp"
+#include "gui/models/nodes_model.hpp"
+#include "gui/models/path_source.hpp"
+#include "gui/session/job_upload.hpp"
+#include "gui/tests/fake_gateway.hpp"
+#include "gui/tests/wait.hpp"
+
+namespace kinebus::gui {
+namespace {
+
+class SessionTest : public testing::Test {
+ protected:
+  void connect() {
+    session.connect_to([path = gateway.socket_path()] { return std::make_unique<SocketLink>(path); }, QStringLiteral("fake"));
+    ASSERT_TRUE(wait_until([&] { return session.connected() && session.machine().joints_size() == 6 && session.status().time_s() > 0; }));
+  }
+  QString file(const QByteArray& text, const QString& name = QStringLiteral("part.gcode")) {
+    QFile f(folder.filePath(name));
+    EXPECT_TRUE(f.open(QIODevice::WriteOnly));
+    f.write(text);
+    return f.fileName();
+  }
+  QTemporaryDir folder;
+  FakeGateway gateway;
+  Session session;
+};
+
+TEST_F(SessionTest, ConnectingBringsMachineJobsAndStatus) {
+  gateway.jobs["a.gcode"] = "G1 X1\n";
+  connect();
+  ASSERT_TRUE(wait_until([&] { return session.jobs().jobs_size() == 1; }));
+  EXPECT_EQ(session.machine().name(), "M1");
+  EXPECT_EQ(session.status().state(), joblink::STATE_READY);
+}
+
+TEST_F(SessionTest, CommandsTakeControlWhenNobodyHasIt) {
+  connect();
+  session.home();
+  ASSERT_TRUE(wait_until([&] { return gateway.count(joblink::ClientMessage::kHome) == 1; }));
+  EXPECT_EQ(gateway.count(joblink::ClientMessage::kTakeControl), 1);
+  ASSERT_TRUE(wait_until([&] { return session.has_control(); }));
+  session.go_to_reference();
+  ASSERT_TRUE(wait_until([&] { return gateway.count(joblink::ClientMessage::kReference) == 1; }));
+  EXPECT_EQ(gateway.count(joblink::ClientMessage::kTakeControl), 1);
+}
+
+TEST_F(SessionTest, HomingASleepingMachineWakesItFirst) {
+  gateway.status.set_state(joblink::STATE_OFF);
+  connect();
+  session.home();
+  ASSERT_TRUE(wait_until([&] { return gateway.count(joblink::ClientMessage::kBringUp) == 1; }));
+  EXPECT_EQ(gateway.count(joblink::ClientMessage::kHome), 0);
+  gateway.status.set_state(joblink::STATE_UNHOMED);
+  EXPECT_TRUE(wait_until([&] { return gateway.count(joblink::ClientMessage::kHome) == 1; }));
+}
+
+TEST_F(SessionTest, StopNeedsNoControl) {
+  gateway.status.set_controller(3);  // another client
+  connect();
+  session.stop();
+  ASSERT_TRUE(wait_until([&] { return gateway.count(joblink::ClientMessage::kStop) == 1; }));
+  EXPECT_EQ(gateway.count(joblink::ClientMessage::kTakeControl), 0);
+  EXPECT_TRUE(session.others_have_control());
+}
+
+TEST_F(SessionTest, RefusalsAreToldInWords) {
+  connect();
+  QString told;
+  QObject::connect(&session, &Session::refused, &session, [&](const QString& words) { told = words; });
+  gateway.refuse = QStringLiteral("not while a job runs");
+  session.home();
+  ASSERT_TRUE(wait_until([&] { return !told.isEmpty(); }));
+  EXPECT_EQ(told, QStringLiteral("not while a job runs"));
+}
+
+TEST_F(SessionTest, BrokenLinkComesBackByItself) {
+  connect();
+  gateway.break_link();
+  ASSERT_TRUE(wait_until([&] { return session.link_state() == Session::LinkState::kLost; }));
+  ASSERT_TRUE(wait_until([&] { return session.connected(); }));
+  EXPECT_GE(gateway.connections, 2);
+}
+
+TEST_F(SessionTest, UploadArrivesWholeThroughABrokenLink) {
+  connect();
+  QByteArray text;
+  for (int i = 0; i < 200'000; ++i) text += "G1 X" + QByteArray::number(i % 997) + " E1\n";
+  JobUpload* upload = session.upload(file(text));
+  ASSERT_TRUE(wait_until([&] { return upload->sent_bytes() > text.size() / 10; }));
+  gateway.break_link();
+  ASSERT_TRUE(wait_until([&] { return upload->phase() == JobUpload::Phase::kStored; }));
+  EXPECT_TRUE(gateway.jobs["part.gcode"] == text.toStdString());
+  EXPECT_GE(gateway.connections, 2);
+}
+
+TEST_F(SessionTest, UploadOfAMissingFileFailsInWords) {
+  connect();
+  JobUpload* upload = session.upload(folder.filePath(QStringLiteral("absent.gcode")));
+  ASSERT_TRUE(wait_until([&] { return upload->ended(); }));
+  EXPECT_EQ(upload->phase(), JobUpload::Phase::kFailed);
+  EXPECT_FALSE(upload->error().isEmpty());
+}
+
+TEST_F(SessionTest, JobsModelShowsUploadsAboveJobs) {
+  gateway.jobs["old.gcode"] = "G1 X1\n";
+  JobsModel model(session);
+  connect();
+  ASSERT_TRUE(wait_until([&] { return model.rowCount() == 1; }));
+  JobUpload* upload = session.upload(file("G1 X5 E1\n", QStringLiteral("new.gcode")));
+  EXPECT_EQ(model.rowCount(), 2);
+  EXPECT_EQ(model.upload_at(0), upload);
+  ASSERT_TRUE(wait_until([&] { return model.find(QStringLiteral("new.gcode")) != nullptr && model.upload_at(0) == nullptr; }));
+  EXPECT_EQ(model.rowCount(), 2);
+}
+
+TEST_F(SessionTest, RunningJobsPathIsReadFromTheGatewayAndShown) {
+  gateway.jobs["print.gcode"] = "G0 X0 Y0 Z0.2\nG1 X10 E1\nG1 Y10 E2\n; seed " + std::to_string(QDateTime::currentMSecsSinceEpoch()) + "\n";
+  PathSource path(session);
+  connect();
+  ASSERT_TRUE(wait_until([&] { return session.jobs().jobs_size() == 1; }));
+  gateway.status.set_job("print.gcode");
+  ASSERT_TRUE(wait_until([&] { return path.scene() != nullptr; }));
+  EXPECT_EQ(path.name(), QStringLiteral("print.gcode"));
+  EXPECT_EQ(path.scene()->path.line_count, 4u);
+}
+
+TEST_F(SessionTest, AlarmsAreShownNewestFirstWithAdvice) {
+  EventsModel events(session);
+  connect();
+  joblink::Event event;
+  event.set_id(1);
+  event.set_kind(joblink::EVENT_ALARM);
+  event.set_code(0xFF85);
+  event.set_node(2);
+  event.set_words("node 2 has not been heard for 1.5 s");
+  gateway.status.set_state(joblink::STATE_ALARM);
+  gateway.say(event);
+  ASSERT_TRUE(wait_until([&] { return events.open_alarms() == 1; }));
+  EXPECT_FALSE(events.index(0).data(EventsModel::kAdvice).toString().isEmpty());
+  EXPECT_TRUE(events.index(0).data(EventsModel::kDetails).toString().contains(QStringLiteral("1.5 s")));
+  gateway.status.set_state(joblink::STATE_READY);
+  ASSERT_TRUE(wait_until([&] { return events.open_alarms() == 0; }));
+}
+
+TEST_F(SessionTest, AxesAndNodesFollowTheStatus) {
+  AxesModel axes(session);
+  NodesModel nodes(session);
+  for (int i = 0; i < 6; ++i) gateway.status.add_joints(i < 4 ? 780 : 0);
+  gateway.status.mutable_nodes(1)->set_inputs(1);
+  connect();
+  ASSERT_TRUE(wait_until([&] { return nodes.rowCount() == 3; }));
+  EXPECT_EQ(axes.rowCount(), 6);
+  EXPECT_DOUBLE_EQ(axes.index(0, AxesModel::kTravel).data(AxesModel::kShare).toDouble(), 0.5);
+  EXPECT_TRUE(axes.index(2, AxesModel::kSwitch).data(AxesModel::kSwitchOn).toBool());
+  EXPECT_FALSE(axes.index(0, AxesModel::kSwitch).data(AxesModel::kSwitchOn).toBool());
+}
+
+}  // namespace
+}  // namespace kinebus::gui
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  qputenv("QT_QPA_PLATFORM", "offscreen");
+  QCoreApplication::setApplicationName(QStringLiteral("kinebus-gui-test"));
+  QApplication app(argc, argv);
+  return RUN_ALL_TESTS();
+}

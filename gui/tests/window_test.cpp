@@ -1,0 +1,244 @@
+// The whole window under a real X server (xvfb-run) with software OpenGL, against a gateway made of paper.
+#include <gtest/gtest.h>
+#include <time.h>
+
+#include <QAbstractEventDispatcher>
+#include <QElapsedTimer>
+#include <QFile>
+#include <QSettings>
+#include <QTemporaryDir>
+#include <set>
+
+#include "gui/link/socket_link.hpp"
+#include "gui/screenshots/demo_job.hpp"
+#include "gui/tests/fake_gateway.hpp"
+#include "gui/tests/wait.hpp"
+#include "gui/views/jobs_page.hpp"
+#include "gui/views/machine_page.hpp"
+#include "gui/views/main_window.hpp"
+#include "gui/views/top_bar.hpp"
+#include "gui/views/view_page.hpp"
+
+namespace kinebus::gui {
+namespace {
+
+double thread_cpu_ms() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_nsec) * 1e-6;
+}
+
+double peak_memory_mb() {
+  QFile file(QStringLiteral("/proc/self/status"));
+  if (!file.open(QIODevice::ReadOnly)) return 0;
+  for (const QByteArray& line : file.readAll().split('\n'))
+    if (line.startsWith("VmHWM:")) return line.mid(6).trimmed().split(' ').first().toDouble() / 1024;
+  return 0;
+}
+
+/// How long the event loop was away at most between two rounds: by the clock, and by what this thread itself computed.
+/// The computer's other programs lengthen the first, never the second.
+class Watchdog : public QObject {
+ public:
+  Watchdog() {
+    timer_.setInterval(0);
+    connect(&timer_, &QTimer::timeout, this, [this] {
+      const double cpu = thread_cpu_ms(), wall = static_cast<double>(clock_.nsecsElapsed()) * 1e-6;
+      if (last_wall_ > 0) {
+        most_cpu_ms = std::max(most_cpu_ms, cpu - last_cpu_);
+        most_wall_ms = std::max(most_wall_ms, wall - last_wall_);
+      }
+      last_cpu_ = cpu;
+      last_wall_ = wall;
+    });
+    clock_.start();
+    timer_.start();
+  }
+  double most_cpu_ms = 0, most_wall_ms = 0;
+
+ private:
+  QTimer timer_;
+  QElapsedTimer clock_;
+  double last_cpu_ = 0, last_wall_ = 0;
+};
+
+class WindowTest : public testing::Test {
+ protected:
+  WindowTest() {
+    desk.theme.apply(false);
+    desk.language.apply(QStringLiteral("en"));
+  }
+  void show_connected() {
+    window = std::make_unique<MainWindow>(desk);
+    window->show();
+    desk.session.connect_to([path = gateway.socket_path()] { return std::make_unique<SocketLink>(path); }, QStringLiteral("fake"));
+    ASSERT_TRUE(wait_until([&] { return desk.session.connected() && desk.session.status().time_s() > 0; }));
+  }
+  FakeGateway gateway;
+  Desk desk;
+  std::unique_ptr<MainWindow> window;
+};
+
+int colours_in(const QImage& image) {
+  std::set<QRgb> colours;
+  for (int y = 0; y < image.height(); y += 3)
+    for (int x = 0; x < image.width(); x += 3) colours.insert(image.pixel(x, y));
+  return static_cast<int>(colours.size());
+}
+
+TEST_F(WindowTest, EveryPageIsDrawnInEveryLanguageAndTheme) {
+  show_connected();
+  for (const auto& language : Language::choices())
+    for (const bool dark : {false, true}) {
+      window->set_language(language.code);
+      window->set_theme(dark);
+      for (int page = 0; page < MainWindow::kPages; ++page) {
+        window->show_page(static_cast<MainWindow::Page>(page));
+        QCoreApplication::processEvents();
+        const QImage image = window->grab().toImage();
+        EXPECT_GT(colours_in(image), 30) << "page " << page << " in " << language.code.toStdString();
+        const int ground = image.pixelColor(120, image.height() - 4).lightness();
+        EXPECT_TRUE(dark ? ground < 90 : ground > 150) << "page " << page << " dark " << dark;
+      }
+    }
+}
+
+TEST_F(WindowTest, PersianRunsFromRightToLeftAndBack) {
+  show_connected();
+  window->set_language(QStringLiteral("fa"));
+  EXPECT_EQ(window->layoutDirection(), Qt::RightToLeft);
+  EXPECT_EQ(window->top_bar().stop_button().text(), QStringLiteral("ایست"));
+  window->set_language(QStringLiteral("tr"));
+  EXPECT_EQ(window->layoutDirection(), Qt::LeftToRight);
+  EXPECT_EQ(window->top_bar().stop_button().text(), QStringLiteral("DUR"));
+}
+
+TEST_F(WindowTest, StopIsOnEveryPageAndReachesTheGateway) {
+  show_connected();
+  for (int page = 0; page < MainWindow::kPages; ++page) {
+    window->show_page(static_cast<MainWindow::Page>(page));
+    EXPECT_TRUE(window->top_bar().stop_button().isVisible() && window->top_bar().stop_button().isEnabled());
+  }
+  window->top_bar().stop_button().click();
+  EXPECT_TRUE(wait_until([&] { return gateway.count(joblink::ClientMessage::kStop) == 1; }));
+}
+
+TEST_F(WindowTest, StateIsSaidInPlainWords) {
+  show_connected();
+  for (const auto& [state, words] : {std::pair{joblink::STATE_UNHOMED, "Not homed"}, {joblink::STATE_RUNNING, "Printing"}, {joblink::STATE_ALARM, "Alarm"}}) {
+    gateway.status.set_state(state);
+    EXPECT_TRUE(wait_until([&] { return window->top_bar().chip().words() == QLatin1String(words); })) << words;
+  }
+}
+
+TEST_F(WindowTest, FitsIntoASmallScreen) {
+  show_connected();
+  for (const auto& language : Language::choices()) {
+    window->set_language(language.code);
+    EXPECT_LE(window->minimumSizeHint().width(), 1280) << language.code.toStdString();
+    EXPECT_LE(window->minimumSizeHint().height(), 720) << language.code.toStdString();
+  }
+}
+
+TEST_F(WindowTest, LayoutIsRemembered) {
+  show_connected();
+  QTemporaryDir folder;
+  QSettings settings(folder.filePath(QStringLiteral("layout.ini")), QSettings::IniFormat);
+  window->view_page().set_colouring(PathColouring::kMargin);
+  window->resize(1180, 690);
+  window->save(settings);
+  window = std::make_unique<MainWindow>(desk);
+  window->restore(settings);
+  EXPECT_EQ(window->size(), QSize(1180, 690));
+  EXPECT_EQ(window->view_page().scene().content().colouring, PathColouring::kMargin);
+}
+
+TEST_F(WindowTest, FindingOfTheCheckLeadsToItsPlace) {
+  gateway.jobs["part.gcode"] = vase_job(3).toStdString();
+  auto& problem = *gateway.preflight.add_problems();
+  problem.set_error(true);
+  problem.set_line(120);
+  problem.set_words("out of reach");
+  gateway.preflight.mutable_summary()->set_errors(1);
+  show_connected();
+  ASSERT_TRUE(wait_until([&] { return desk.jobs.rowCount() == 1; }));
+  window->show_page(MainWindow::kJobs);
+  window->jobs_page().select(QStringLiteral("part.gcode"));
+  window->jobs_page().check();
+  ASSERT_TRUE(wait_until([&] { return window->view_page().scene().content().marked_vertex != UINT32_MAX; }));
+  const auto vertex = window->view_page().scene().content().marked_vertex;
+  EXPECT_EQ(desk.path.scene()->path.lines[vertex], 120u);
+}
+
+TEST_F(WindowTest, MillionLineJobIsShownWithoutBlockingTheWindow) {
+  show_connected();
+  window->show_page(MainWindow::kView);
+  QTemporaryDir folder;
+  QFile file(folder.filePath(QStringLiteral("long.gcode")));
+  ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+  file.write(long_job(1'000'000));
+  file.close();
+  SceneView& scene = window->view_page().scene();
+  ASSERT_TRUE(scene.error().isEmpty()) << scene.error().toStdString();
+  ASSERT_TRUE(wait_until([&] { return scene.frames() > 3; }));
+  Watchdog watchdog;
+  QElapsedTimer clock;
+  clock.start();
+  desk.path.show_file(file.fileName());
+  ASSERT_TRUE(wait_until([&] { return desk.path.scene() != nullptr; }, 60'000));
+  ASSERT_GE(desk.path.scene()->path.line_count, 1'000'000u);
+  ASSERT_TRUE(wait_until([&] { return !scene.renderer().copying() && scene.renderer().lines_drawn() > 0; }, 60'000));
+  const double first_picture_s = static_cast<double>(clock.nsecsElapsed()) * 1e-9;
+  scene.fit_part();
+  constexpr int kFrames = 60;
+  clock.restart();
+  const std::size_t from = scene.frames();
+  while (scene.frames() < from + kFrames) {
+    scene.content().camera.orbit(2, 0);
+    scene.redraw();
+    ASSERT_TRUE(wait_until([&, before = scene.frames()] { return scene.frames() > before; }));
+  }
+  const double frames_per_s = kFrames / (static_cast<double>(clock.nsecsElapsed()) * 1e-9);
+  EXPECT_LE(scene.renderer().lines_drawn(), SceneRenderer::Budget{}.quick_lines * 11 / 10);
+  ASSERT_TRUE(wait_until([&] { return scene.at_rest(); }, 120'000));
+  std::printf("1,000,000 lines: first picture after %.2f s, %.0f frames/s while turning (%zu lines each), peak memory %.0f MB,\n"
+              "longest work of the window's thread at once %.1f ms (by the clock, with all else that runs here, %.1f ms)\n",
+              first_picture_s, frames_per_s, scene.renderer().lines_drawn(), peak_memory_mb(), watchdog.most_cpu_ms, watchdog.most_wall_ms);
+  EXPECT_LE(watchdog.most_cpu_ms, 50);
+  EXPECT_LE(peak_memory_mb(), 600);
+}
+
+TEST(StartUp, RatioToAnEmptyWindowIsReported) {
+  const auto first_paint_ms = [](QWidget& shown) {
+    shown.show();
+    QElapsedTimer clock;
+    clock.start();
+    shown.grab();
+    return static_cast<double>(clock.nsecsElapsed()) * 1e-6;
+  };
+  QElapsedTimer clock;
+  clock.start();
+  QMainWindow empty;
+  first_paint_ms(empty);
+  const double empty_ms = static_cast<double>(clock.nsecsElapsed()) * 1e-6;
+  clock.restart();
+  Desk desk;
+  desk.theme.apply(false);
+  desk.language.apply(QStringLiteral("en"));
+  MainWindow window(desk);
+  first_paint_ms(window);
+  const double window_ms = static_cast<double>(clock.nsecsElapsed()) * 1e-6;
+  std::printf("window usable after %.0f ms, an empty Qt window after %.0f ms: ratio %.1f\n", window_ms, empty_ms, window_ms / empty_ms);
+  EXPECT_TRUE(window.isVisible());
+}
+
+}  // namespace
+}  // namespace kinebus::gui
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  kinebus::gui::SceneView::choose_format();
+  QCoreApplication::setApplicationName(QStringLiteral("kinebus-gui-test"));
+  QApplication app(argc, argv);
+  return RUN_ALL_TESTS();
+}
