@@ -107,10 +107,10 @@ TEST_F(WindowTest, PersianRunsFromRightToLeftAndBack) {
   show_connected();
   window->set_language(QStringLiteral("fa"));
   EXPECT_EQ(window->layoutDirection(), Qt::RightToLeft);
-  EXPECT_EQ(window->top_bar().stop_button().text(), QStringLiteral("ایست"));
+  EXPECT_TRUE(wait_until([&] { return window->top_bar().stop_button().text() == QStringLiteral("ایست"); }));
   window->set_language(QStringLiteral("tr"));
   EXPECT_EQ(window->layoutDirection(), Qt::LeftToRight);
-  EXPECT_EQ(window->top_bar().stop_button().text(), QStringLiteral("DUR"));
+  EXPECT_TRUE(wait_until([&] { return window->top_bar().stop_button().text() == QStringLiteral("DUR"); }));
 }
 
 TEST_F(WindowTest, StopIsOnEveryPageAndReachesTheGateway) {

@@ -27,6 +27,7 @@ SceneView::SceneView(QWidget* parent) : QOpenGLWidget(parent), settle_(this) {
 
 SceneView::~SceneView() {
   if (!ready_) return;
+  disconnect(context(), nullptr, this, nullptr);  // it ends after this object
   makeCurrent();
   renderer_.release();
   doneCurrent();
