@@ -20,6 +20,8 @@ constexpr std::uint32_t kCallReturn = 0xFFFFFF01;  // where a debugger's call re
 constexpr std::uint16_t kWfi = 0xBF30, kWfe = 0xBF20, kYield = 0xBF10;
 constexpr std::uint32_t kEntryCycles = 12, kReturnCycles = 10;
 constexpr std::uint32_t kControlFpca = 4, kControlSpsel = 2;
+constexpr std::uint32_t kXpsrException = 0x1FF, kXpsrAligned = 1u << 9, kXpsrThumb = 1u << 24,
+                        kXpsrFlags = 0xF80F0000u;
 constexpr std::uint32_t kBasicFrame = 32, kFloatFrame = 104;
 constexpr std::uint32_t kPeripherals = 0x40000000, kPeripheralsSize = 0x00080000;
 constexpr std::uint32_t kAhb2 = 0x50000000, kAhb2Size = 0x00061000;
@@ -70,14 +72,6 @@ std::array<int, 17> float_registers() {
   for (int i = 0; i < 16; ++i) ids[static_cast<std::size_t>(i)] = UC_ARM_REG_S0 + i;
   ids[16] = UC_ARM_REG_FPSCR;
   return ids;
-}
-
-// The 8 bits of IT state as xPSR keeps them, from the register's own order and back.
-std::uint32_t it_to_xpsr(std::uint32_t it) {
-  return (it & 3) << 25 | (it >> 2 & 0x3F) << 10;
-}
-std::uint32_t it_from_xpsr(std::uint32_t xpsr) {
-  return (xpsr >> 25 & 3) | (xpsr >> 10 & 0x3F) << 2;
 }
 
 }  // namespace
@@ -352,10 +346,10 @@ void CortexM4::end_count() {
 }
 
 void CortexM4::enter(int exception, std::uint32_t return_address) {
-  static std::array<int, 10> ids{UC_ARM_REG_R0,          UC_ARM_REG_R1,     UC_ARM_REG_R2, UC_ARM_REG_R3,
-                                 UC_ARM_REG_R12,         UC_ARM_REG_LR,     UC_ARM_REG_SP, UC_ARM_REG_CONTROL,
-                                 UC_ARM_REG_XPSR_NZCVQG, UC_ARM_REG_ITSTATE};
-  std::array<std::uint32_t, 10> values{};
+  static std::array<int, 9> ids{UC_ARM_REG_R0, UC_ARM_REG_R1,      UC_ARM_REG_R2,
+                                UC_ARM_REG_R3, UC_ARM_REG_R12,     UC_ARM_REG_LR,
+                                UC_ARM_REG_SP, UC_ARM_REG_CONTROL, UC_ARM_REG_XPSR};
+  std::array<std::uint32_t, 9> values{};
   read_registers(uc_, ids, values);
   const std::uint32_t control = values[7];
   if ((control & kControlSpsel) != 0) failure_ = "the process stack is not modelled";
@@ -363,7 +357,7 @@ void CortexM4::enter(int exception, std::uint32_t return_address) {
   if (with_float && !nvic_.fpu_enabled()) failure_ = "floating point used, but CPACR does not enable it";
 
   std::uint32_t sp = values[6];
-  const std::uint32_t aligned = (sp & 4) != 0 ? 1u << 9 : 0;
+  const std::uint32_t aligned = (sp & 4) != 0 ? kXpsrAligned : 0;
   sp = (sp - (with_float ? kFloatFrame : kBasicFrame)) & ~7u;
   lowest_stack_ = std::min(lowest_stack_, sp);
   std::uint8_t* frame = host(sp, with_float ? kFloatFrame : kBasicFrame);
@@ -371,7 +365,9 @@ void CortexM4::enter(int exception, std::uint32_t return_address) {
     failure_ = "stack pointer outside RAM at exception entry";
     return;
   }
-  const std::uint32_t xpsr = (values[8] & 0xF80F0000u) | it_to_xpsr(values[9]) | 1u << 24 | aligned |
+  // Flags and the state of an IT block in progress (blocks of the emulation end in the middle of one at page
+  // ends).
+  const std::uint32_t xpsr = (values[8] & ~(kXpsrException | kXpsrAligned)) | kXpsrThumb | aligned |
                              static_cast<std::uint32_t>(nvic_.active_exception());
   std::array<std::uint32_t, 8> words{values[0], values[1], values[2],      values[3],
                                      values[4], values[5], return_address, xpsr};
@@ -392,10 +388,11 @@ void CortexM4::enter(int exception, std::uint32_t return_address) {
   std::uint32_t handler = 0;
   if (vector != nullptr) std::memcpy(&handler, vector, 4);
   if ((handler & 1) == 0) failure_ = "no handler for exception " + std::to_string(exception);
-  static std::array<int, 6> to{UC_ARM_REG_ITSTATE, UC_ARM_REG_SP,   UC_ARM_REG_LR,
-                               UC_ARM_REG_CONTROL, UC_ARM_REG_IPSR, UC_ARM_REG_PC};
-  std::array<std::uint32_t, 6> set{
-      0, sp, exc_return, control & ~kControlFpca, static_cast<std::uint32_t>(exception), handler | 1};
+  static std::array<int, 5> to{UC_ARM_REG_SP, UC_ARM_REG_LR, UC_ARM_REG_CONTROL, UC_ARM_REG_XPSR,
+                               UC_ARM_REG_PC};
+  std::array<std::uint32_t, 5> set{
+      sp, exc_return, control & ~kControlFpca,
+      (values[8] & kXpsrFlags) | kXpsrThumb | static_cast<std::uint32_t>(exception), handler | 1};
   write_registers(uc_, to, set);
   pc_ = handler & ~1u;
   next_stop_ = 0;
@@ -429,19 +426,18 @@ void CortexM4::return_from_exception(std::uint32_t exc_return) {
   }
   const std::uint32_t xpsr = words[7];
   sp += size;
-  if ((xpsr & 1u << 9) != 0) sp |= 4;
+  if ((xpsr & kXpsrAligned) != 0) sp |= 4;
   std::uint32_t control = read_register(uc_, UC_ARM_REG_CONTROL);
   control = with_float ? control | kControlFpca : control & ~kControlFpca;
-  if ((xpsr & 0x1FF) != static_cast<std::uint32_t>(nvic_.active_exception()))
+  if ((xpsr & kXpsrException) != static_cast<std::uint32_t>(nvic_.active_exception()))
     failure_ = "exception return to a wrong frame";
 
-  static std::array<int, 12> ids{UC_ARM_REG_R0,          UC_ARM_REG_R1,      UC_ARM_REG_R2,
-                                 UC_ARM_REG_R3,          UC_ARM_REG_R12,     UC_ARM_REG_LR,
-                                 UC_ARM_REG_SP,          UC_ARM_REG_IPSR,    UC_ARM_REG_CONTROL,
-                                 UC_ARM_REG_XPSR_NZCVQG, UC_ARM_REG_ITSTATE, UC_ARM_REG_PC};
-  std::array<std::uint32_t, 12> set{
-      words[0], words[1],     words[2], words[3],           words[4],           words[5],
-      sp,       xpsr & 0x1FF, control,  xpsr & 0xF80F0000u, it_from_xpsr(xpsr), words[6] | 1};
+  static std::array<int, 10> ids{UC_ARM_REG_R0,   UC_ARM_REG_R1, UC_ARM_REG_R2, UC_ARM_REG_R3,
+                                 UC_ARM_REG_R12,  UC_ARM_REG_LR, UC_ARM_REG_SP, UC_ARM_REG_CONTROL,
+                                 UC_ARM_REG_XPSR, UC_ARM_REG_PC};
+  std::array<std::uint32_t, 10> set{
+      words[0],    words[1], words[2], words[3], words[4], words[5], sp, control, xpsr & ~kXpsrAligned,
+      words[6] | 1};
   write_registers(uc_, ids, set);
   pc_ = words[6] & ~1u;
   next_stop_ = 0;

@@ -40,7 +40,7 @@ extern "C" {
 
 struct Results {
   u32 done, nesting_ok, tail_chain_ok, basepri_ok, primask_ok, float_ok, it_ok, wfi_ok, svc_ok, pendsv_ok,
-      cyccnt_ok, ipsr_ok, alignment_ok, systick_count, ldm_ok;
+      cyccnt_ok, ipsr_ok, alignment_ok, split_it_ok, systick_count, ldm_ok;
 };
 Results results;
 u32 seed_value;
@@ -108,6 +108,35 @@ __attribute__((section(".vectors"), used)) void* const vectors[16 + 8] = {
     nullptr,
     nullptr};
 
+// An IT block that lies across a page's end, where the emulation cuts its blocks: the interrupt comes within.
+// Returns 0x0B for a < b, 0x30 else, and flags that live across a jump.
+u32 split_it(u32 a, u32 b);
+asm(R"(
+  .section .text.split, "ax"
+  .balign 4096
+  .space 4088
+  .thumb_func
+  .global split_it
+split_it:
+  mov r3, #0
+  cmp r0, r1
+  ittee lo
+  addlo r3, #1
+  addlo r3, #10
+  addhs r3, #0x10
+  addhs r3, #0x20
+  cmp r0, r1
+  b 1f
+  nop
+1: blo 2f
+  b 3f
+2: mov r0, r3
+  bx lr
+3: cmp r3, #0x30
+  mov r0, r3
+  bx lr
+  .text
+)");
 void guest_main() {
   for (u32 i = 0; i < sizeof(Results) / 4; ++i) reinterpret_cast<volatile u32*>(&results)[i] = 0;
   order_count = 0;
@@ -194,6 +223,12 @@ void guest_main() {
     }
     asm volatile("" : "+r"(a), "+r"(expected));
   }
+  bool split_good = true;
+  for (u32 i = 0; i < 20000; ++i) {
+    const u32 x = i & 3, y = i >> 2 & 3;
+    if (split_it(x, y) != (x < y ? 0x0Bu : 0x30u)) split_good = false;
+  }
+  results.split_it_ok = split_good;
   results.it_ok = it_good && a == expected;
   results.float_ok = float_good && float_sum > 0;
   reg(0xE000E010) = 0;
