@@ -13,6 +13,7 @@
 #include "gateway/inproc/inproc_bus.hpp"
 #include "gateway/io/bus_log.hpp"
 #include "gateway/io/daemon.hpp"
+#include "gateway/io/flight_recorder.hpp"
 #include "gateway/io/journal_file.hpp"
 #include "gateway/io/realtime.hpp"
 #include "gateway/io/socketcan_bus.hpp"
@@ -36,6 +37,7 @@ struct Arguments {
   std::string bus_log;
   kinebus::SerialPorts::Options serial;
   std::string journal;
+  std::string flight;
   std::string log_level = "info";
   int realtime_priority = 80;
   bool no_realtime = false;
@@ -114,7 +116,17 @@ int serve(const Arguments& arguments) {
                arguments.bus.empty() ? machine->bus.interface : arguments.bus,
                arguments.socket.empty() ? default_socket() : arguments.socket);
   kinebus::notify_systemd("READY=1");
-  kinebus::Daemon daemon(loop, **bus, gateway, server);
+  kinebus::FlightRecorder recorder(
+      {.folder = arguments.flight.empty() ? journal_path.parent_path() / "flight"
+                                          : std::filesystem::path(arguments.flight),
+       .machine = machine->name,
+       .interface = arguments.bus.empty() ? machine->bus.interface : arguments.bus},
+      gateway);
+  if (std::string missing = recorder.open(); !missing.empty())
+    spdlog::warn("no flight recorder: {}", missing);
+  kinebus::RecordedBus recorded(std::move(*bus), recorder);
+  kinebus::Daemon daemon(loop, recorded, gateway, server);
+  daemon.add(recorder);
   daemon.add(serial);
   daemon.add(journal);
   daemon.run(&quit);
@@ -146,6 +158,8 @@ int run(int argc, char** argv) {
       "Speak to print hosts on address:port; there is no password, use it in closed networks only");
   app.add_option("--bus-log", arguments.bus_log,
                  "Write all frames of the bus to this file, as candump -L does");
+  app.add_option("--flight", arguments.flight,
+                 "Folder of the flight recorder's reports (default: flight beside the jobs)");
   app.add_option(
       "--journal", arguments.journal,
       "File in which the place of the running job is noted (default: resume.journal beside the jobs)");

@@ -5,6 +5,7 @@
 #include <exception>
 
 #include "protocol/host/guarded_main.hpp"
+#include "tools/cli/explain_command.hpp"
 #include "tools/cli/machine_commands.hpp"
 #include "tools/cli/plan_command.hpp"
 #include "tools/cli/simulate_command.hpp"
@@ -19,6 +20,7 @@ int run(int argc, char** argv) {
   kinebus::add_machine_commands(app, std::make_shared<kinebus::MachineOptions>(), exit_code);
   kinebus::add_plan_command(app, exit_code);
   kinebus::add_simulate_command(app, exit_code);
+  kinebus::add_explain_command(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -1,0 +1,174 @@
+#include "gateway/io/flight_recorder.hpp"
+
+#include <fcntl.h>
+#include <spdlog/spdlog.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <fstream>
+#include <system_error>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "gateway/machine/gateway.hpp"
+#include "gateway/recorder/flight_report.hpp"
+#include "protocol/host/socketcan.hpp"
+
+namespace kinebus {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// What follows an alarm belongs to it: the ramp, the rest.
+constexpr LocalTime kAftermath = 2s;
+/// An alarm that comes again and again is one report.
+constexpr LocalTime kBetweenReports = 30s;
+constexpr std::size_t kReportsKept = 20;
+
+void write_report(const FlightRing& ring, const std::filesystem::path& folder, const std::string& interface,
+                  const std::string& cause) {
+  const auto unix_s =
+      std::chrono::duration_cast<std::chrono::seconds>(std::chrono::system_clock::now().time_since_epoch())
+          .count();
+  const std::string name = "flight-" + std::to_string(unix_s);
+  std::ofstream(folder / (name + ".log")) << flight_log(ring, interface);
+  std::ofstream(folder / (name + ".json")) << flight_json(ring, cause, name + ".log");
+  std::error_code error;
+  std::vector<std::filesystem::path> reports;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+    if (entry.path().extension() == ".json") reports.push_back(entry.path());
+  std::sort(reports.begin(), reports.end());
+  for (std::size_t i = 0; i + kReportsKept < reports.size(); ++i) {
+    std::filesystem::remove(reports[i], error);
+    std::filesystem::remove(reports[i].replace_extension(".log"), error);
+  }
+}
+
+}  // namespace
+
+struct FlightRecorder::Impl {
+  Impl(Options recorder_options, const Gateway& machine)
+      : options(std::move(recorder_options)), gateway(machine) {}
+
+  Options options;
+  const Gateway& gateway;
+  FlightRing* ring = nullptr;
+  std::thread writer;
+  std::atomic<bool> frozen{false};  ///< the writer copies the ring
+  LocalTime next_sample{0}, report_at = LocalTime::max(), last_report{-kBetweenReports};
+  std::string cause;
+
+  void report(std::string why) {
+    if (writer.joinable()) writer.join();
+    frozen = true;
+    writer = std::thread([this, why = std::move(why)] {
+      const auto copy = std::make_unique<FlightRing>(*ring);
+      frozen = false;
+      write_report(*copy, options.folder, options.interface, why);
+    });
+  }
+};
+
+FlightRecorder::FlightRecorder(Options options, const Gateway& gateway)
+    : impl_(std::make_unique<Impl>(std::move(options), gateway)) {}
+
+FlightRecorder::~FlightRecorder() {
+  if (impl_->writer.joinable()) impl_->writer.join();
+  if (impl_->ring == nullptr) return;
+  impl_->ring->running = 0;
+  ::munmap(impl_->ring, sizeof(FlightRing));
+}
+
+std::string FlightRecorder::open() {
+  std::error_code error;
+  std::filesystem::create_directories(impl_->options.folder, error);
+  const std::filesystem::path path = impl_->options.folder / "memory";
+  const auto failed = [&] { return path.string() + ": " + std::strerror(errno); };
+  const int fd = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0640);
+  if (fd < 0) return failed();
+  // Reserved, so that a full disk cannot end the process when a page is first written.
+  const bool sized = ::posix_fallocate(fd, 0, sizeof(FlightRing)) == 0;
+  void* memory =
+      sized ? ::mmap(nullptr, sizeof(FlightRing), PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0) : MAP_FAILED;
+  ::close(fd);
+  if (memory == MAP_FAILED) return sized ? failed() : path.string() + ": no room on the disk";
+  impl_->ring = static_cast<FlightRing*>(memory);
+  FlightRing& ring = *impl_->ring;
+  if (ring.magic == FlightRing::kMagic && ring.running != 0) {
+    const auto died = std::make_unique<FlightRing>(ring);
+    write_report(*died, impl_->options.folder, impl_->options.interface, "the gateway died");
+    spdlog::warn("the gateway before this one died: kinebus explain reads {}/flight-*.json",
+                 impl_->options.folder.string());
+  }
+  ring.frame_count = ring.sample_count = ring.event_count = 0;
+  ring.magic = FlightRing::kMagic;
+  ring.running = 1;
+  FlightRing::put(ring.machine, impl_->options.machine);
+  FlightRing::put(ring.job, "");
+  ring.unix_offset_ns =
+      std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count() -
+      monotonic_now().count();
+  return {};
+}
+
+void FlightRecorder::on_frame(LocalTime when, const CanFrame& frame, bool own) {
+  if (impl_->ring != nullptr && !impl_->frozen) impl_->ring->add_frame(when, frame, own);
+}
+
+void FlightRecorder::on_event(const MachineEvent& event) {
+  if (impl_->ring == nullptr) return;
+  if (!impl_->frozen) {
+    FlightRing::Event& row = impl_->ring->next_event();
+    row.when_ns = event.when.count();
+    row.kind = static_cast<std::uint8_t>(event.kind);
+    row.state = static_cast<std::uint8_t>(event.state);
+    row.code = event.code;
+    row.node = event.node;
+    row.line = event.line;
+    FlightRing::put(row.words, event.words);
+    FlightRing::put(row.advice, event.advice);
+  }
+  if (event.kind != MachineEvent::Kind::kAlarm || impl_->report_at != LocalTime::max()) return;
+  if (event.when - impl_->last_report < kBetweenReports) return;
+  impl_->report_at = event.when + kAftermath;
+  impl_->cause = event.words;
+}
+
+void FlightRecorder::on_time(LocalTime now) {
+  if (impl_->ring == nullptr) return;
+  if (now >= impl_->report_at) {
+    impl_->report_at = LocalTime::max();
+    impl_->last_report = now;
+    impl_->report(impl_->cause);
+  }
+  if (now < impl_->next_sample || impl_->frozen) return;
+  impl_->next_sample = now + FlightRing::kSamplePeriod;
+  const MachineStatus status = impl_->gateway.status();
+  FlightRing::put(impl_->ring->job, status.job);
+  FlightRing::Sample& row = impl_->ring->next_sample();
+  row.when_ns = now.count();
+  row.path_time_s = status.path_time_s;
+  row.rate = status.rate;
+  row.progress = status.progress;
+  row.line = status.line;
+  row.state = static_cast<std::uint8_t>(status.state);
+  row.positions_known = status.positions_known ? 1 : 0;
+  row.joint_count = static_cast<std::uint8_t>(std::min<int>(status.joint_count, FlightRing::kJoints));
+  for (std::size_t i = 0; i < row.joint_count; ++i) row.joints[i] = status.joints[i];
+  std::copy_n(status.machine_pose.begin(), row.pose.size(), row.pose.begin());
+  int sync_error_us = 0;
+  for (const NodeStatus& node : status.nodes) sync_error_us = std::max(sync_error_us, node.sync_error_us);
+  row.sync_error_us = static_cast<std::uint16_t>(sync_error_us);
+}
+
+LocalTime FlightRecorder::next_deadline() const {
+  return impl_->ring == nullptr ? LocalTime::max() : std::min(impl_->next_sample, impl_->report_at);
+}
+
+}  // namespace kinebus
