@@ -13,6 +13,8 @@ constexpr std::int64_t kQuarter = 256 * kCount;  // 90 degrees electrical: the m
 constexpr float kEnableAmperesPerPeriod = 20.0F * kControlPeriodS;
 constexpr float kBoostAmperesPerPeriod = 500.0F * kControlPeriodS;
 constexpr int kRestBeforeHold = periods(0.2F);
+// Of rest with power, after which the rotor is on its command: the ramp to 2 A, and a few swings.
+constexpr int kSettled = periods(0.15F);
 // What counts as accelerating: 2 mm/s in 1 ms on a carriage, 2000 mm/s^2.
 constexpr float kBoostChange = 2.56e6F * kControlPeriodS;
 // Faster than the timers' range of duty is a position that jumps.
@@ -53,7 +55,7 @@ void AxisControl::trip(std::uint16_t code) {
 }
 
 // The first angle is the one where the rotor stands: by the encoder, or else where it was left.
-void AxisControl::begin(const AxisInputs& in) {
+void AxisControl::begin() {
   on_ = true;
   amplitude_a_ = 0;
   trim_ = 0;
@@ -66,9 +68,8 @@ void AxisControl::begin(const AxisInputs& in) {
       const std::int64_t rotor = encoder_.absolute() - config_.encoder_offset * kCount;
       angle_shift_ = wrap(rotor - sign_position_);
     }
-    follow_origin_ = sign_position_ - encoder_.position();
   }
-  static_cast<void>(in);
+  referenced_ = false;
 }
 
 void AxisControl::serve_encoder(const AxisInputs& in) {
@@ -78,7 +79,10 @@ void AxisControl::serve_encoder(const AxisInputs& in) {
     const bool was_known = encoder_.known();
     static_cast<void>(encoder_.on_frame(in.encoder_frame));
     if (encoder_.lost() && encoder_.known()) encoder_.restart();
-    if (!was_known && encoder_.known()) follow_origin_ = sign_position_ - encoder_.position();
+    // Until the current holds the rotor on the command it may lie anywhere near.
+    if (rest_periods_ >= kSettled || sign_velocity_ != 0) referenced_ = referenced_ || encoder_.known();
+    if (!referenced_ || (!was_known && encoder_.known()))
+      follow_origin_ = sign_position_ - encoder_.position();
     if (encoder_.lost()) troubles |= Surroundings::kEncoder;
     if (encoder_.known() && on_) error = sign_position_ - encoder_.position() - follow_origin_;
     const std::int64_t whole = (error + kCount / 2) >> 32;
@@ -107,7 +111,9 @@ Angle AxisControl::commanded_angle(const AxisInputs& in) {
   if (config_.encoder == EncoderMode::kClosedLoop && encoder_.known()) {
     const std::int64_t error = sign_position_ - encoder_.position() - follow_origin_;
     // At rest or slow motion the average error goes to zero; a big one is none that trimming should chase.
-    if (std::fabs(in.velocity) < 20'000 && std::llabs(error) < kQuarter) {
+    // Within half a step of the encoder there is nothing to know, and hunting for it would be heard.
+    if (std::fabs(in.velocity) < 20'000 && std::llabs(error) < kQuarter &&
+        std::llabs(error) > kCountsPerEncoderStep / 2) {
       trim_ = std::clamp(trim_ + (error >> kTrimShift), -kMostTrim, kMostTrim);
     }
     // The current never leads the rotor by more than the angle of the most torque: no step is lost.
@@ -165,7 +171,7 @@ AxisOutputs AxisControl::step(const AxisInputs& in) {
     amplitude_a_ = 0;
     return {};
   }
-  if (!on_) begin(in);
+  if (!on_) begin();
   if (in.break_seen) return trip(fault::kShortCircuit), AxisOutputs{};
   if (in.supply_v > Surroundings::kDeadlyV) return trip(fault::kOverVoltage), AxisOutputs{};
   if (in.temperature_c > Surroundings::kDeadlyC) return trip(fault::kTemperature), AxisOutputs{};

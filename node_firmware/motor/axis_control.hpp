@@ -75,7 +75,7 @@ class AxisControl {
  private:
   void take_config();
   void trip(std::uint16_t code);
-  void begin(const AxisInputs& in);
+  void begin();
   void serve_encoder(const AxisInputs& in);
   void slew_current(const AxisInputs& in);
   Angle commanded_angle(const AxisInputs& in);
@@ -103,7 +103,8 @@ class AxisControl {
   std::int64_t sign_position_ = 0;  // command, with the sense of the motor
   float sign_velocity_ = 0, last_velocity_ = 0;
   std::int64_t angle_shift_ = 0;    // electrical: where the current began, less the command, counts << 32
-  std::int64_t follow_origin_ = 0;  // command less encoder when the power came
+  std::int64_t follow_origin_ = 0;  // command less encoder when the rotor had settled on it
+  bool referenced_ = false;         // it has
   std::int64_t trim_ = 0;           // closed loop: what keeps the rotor off the command at rest
   std::int32_t tuned_offset_ = -1;
 };
