@@ -5,21 +5,30 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <random>
 
 #include "gateway/inproc/inproc_bus.hpp"
 #include "gateway/io/bus_log.hpp"
 #include "gateway/io/daemon.hpp"
 #include "gateway/io/flight_recorder.hpp"
+#include "gateway/io/job_link_host.hpp"
 #include "gateway/io/journal_file.hpp"
+#include "gateway/io/machine_file_store.hpp"
 #include "gateway/io/realtime.hpp"
 #include "gateway/io/socketcan_bus.hpp"
+#include "gateway/io/store_files.hpp"
 #include "gateway/io/usb/serial_ports.hpp"
+#include "gateway/io/worker_thread.hpp"
+#include "gateway/jobs/store/job_store.hpp"
 #include "gateway/machine/description/machine_file.hpp"
+#include "gateway/sessions/job_link_server.hpp"
 #include "protocol/host/guarded_main.hpp"
+#include "protocol/joblink/sha256.hpp"
 
 namespace {
 
@@ -38,6 +47,9 @@ struct Arguments {
   kinebus::SerialPorts::Options serial;
   std::string journal;
   std::string flight;
+  std::string tcp;
+  std::string credentials;
+  double quota_gib = 16;
   std::string log_level = "info";
   int realtime_priority = 80;
   bool no_realtime = false;
@@ -65,6 +77,26 @@ kinebus::Result<std::unique_ptr<kinebus::BusPort>, std::string> open_bus(
   return std::move(*bus);
 }
 
+double unix_now() {
+  return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+}
+
+/// The machine's id of this installation, or the place of its jobs where the system has none.
+std::string gateway_id(const std::string& jobs_folder) {
+  std::string id = jobs_folder;
+  if (std::ifstream in("/etc/machine-id"); in) {
+    std::string line;
+    in >> line;
+    id += line;
+  }
+  return kinebus::joblink::to_hex(kinebus::joblink::sha256_of("kinebus gateway " + id)).substr(0, 16);
+}
+
+std::string machine_mark(kinebus::MachineFileStore& file) {
+  const auto text = file.read();
+  return text ? kinebus::joblink::to_hex(kinebus::joblink::sha256_of(text->text)) : std::string();
+}
+
 int fail(const std::string& words) {
   spdlog::critical("{}", words);
   return 1;
@@ -79,12 +111,15 @@ int serve(const Arguments& arguments) {
   if (!arguments.bus_log.empty()) bus = kinebus::LoggedBus::open(std::move(*bus), arguments.bus_log);
   if (!bus) return fail("bus log " + bus.error());
 
-  kinebus::JobFolder jobs(arguments.jobs.empty() ? machine->jobs_directory : arguments.jobs);
-  if (std::string error = jobs.prepare(); !error.empty()) return fail("job folder " + error);
+  const std::string jobs_folder = arguments.jobs.empty() ? machine->jobs_directory : arguments.jobs;
+  const auto store = kinebus::JobStore::open(
+      {.folder = jobs_folder, .quota_bytes = static_cast<std::uint64_t>(arguments.quota_gib * 1073741824.0)},
+      unix_now());
+  for (const std::string& note : store->notes()) spdlog::warn("{}", note);
 
   kinebus::EventLoop loop;
   const std::filesystem::path journal_path =
-      arguments.journal.empty() ? std::filesystem::absolute(jobs.path()).parent_path() / "resume.journal"
+      arguments.journal.empty() ? std::filesystem::absolute(jobs_folder).parent_path() / "resume.journal"
                                 : std::filesystem::absolute(arguments.journal);
   const kinebus::journal::State noted = kinebus::JournalFile::read(journal_path);
   // The epoch must differ from the one before: nodes then join the new clock without a step.
@@ -92,16 +127,34 @@ int serve(const Arguments& arguments) {
   kinebus::Gateway gateway(*machine, {.epoch = epoch, .journal = true});
   kinebus::JournalFile journal(journal_path, noted, gateway);
   if (noted.job) {
-    auto text = jobs.open(noted.job->name);
+    auto text = store->open_job(noted.job->name);
     if (const auto taken = gateway.recover(noted, text ? std::move(*text) : nullptr); !taken)
       spdlog::warn("{}", taken.error().words);
   }
-  kinebus::ControlServer server(
-      loop, gateway, jobs,
-      {.path = arguments.socket.empty() ? default_socket() : arguments.socket, .group = arguments.group});
-  if (std::string error = server.listen(); !error.empty()) return fail("local socket " + error);
+  kinebus::MachineFileStore machine_file(arguments.machine, kinebus::write_machine(*machine));
+  kinebus::WorkerThread worker(loop);
+  kinebus::Control control;
+  kinebus::JobLinkServer server(
+      gateway, *machine, *store, worker, machine_file, control,
+      {.version = KINEBUS_VERSION,
+       .gateway_id = gateway_id(jobs_folder),
+       .secret = kinebus::random_bytes(32),
+       .machine_mark = machine_mark(machine_file),
+       .unix_s_at_zero = unix_now() - kinebus::to_seconds(kinebus::monotonic_now())});
+  kinebus::StreamHub hub(loop);
+  kinebus::JobLinkHost host(loop, hub, server);
+  const std::string socket = arguments.socket.empty() ? default_socket() : arguments.socket;
+  if (std::string error = host.listen_local(socket, arguments.group); !error.empty())
+    return fail("local socket " + error);
+  if (!arguments.tcp.empty()) {
+    const std::string folder = arguments.credentials.empty() ? jobs_folder + "/.tls" : arguments.credentials;
+    if (std::string error = host.listen_tcp(arguments.tcp, folder); !error.empty())
+      return fail("TCP " + error);
+    spdlog::info("TCP port {}, fingerprint {}, token in {}/token", host.tcp_port(), host.tls_fingerprint(),
+                 folder);
+  }
 
-  kinebus::FolderFiles serial_files(jobs, gateway);
+  kinebus::StoreFiles serial_files(*store, worker, gateway, server);
   kinebus::SerialPorts serial(loop, gateway, serial_files, arguments.serial);
   if (std::string error = serial.open(); !error.empty()) return fail("serial port " + error);
 
@@ -113,8 +166,7 @@ int serve(const Arguments& arguments) {
   std::signal(SIGTERM, on_signal);
   std::signal(SIGPIPE, SIG_IGN);
   spdlog::info("{} on bus {}, listening at {}", machine->name,
-               arguments.bus.empty() ? machine->bus.interface : arguments.bus,
-               arguments.socket.empty() ? default_socket() : arguments.socket);
+               arguments.bus.empty() ? machine->bus.interface : arguments.bus, socket);
   kinebus::notify_systemd("READY=1");
   kinebus::FlightRecorder recorder(
       {.folder = arguments.flight.empty() ? journal_path.parent_path() / "flight"
@@ -125,8 +177,10 @@ int serve(const Arguments& arguments) {
   if (std::string missing = recorder.open(); !missing.empty())
     spdlog::warn("no flight recorder: {}", missing);
   kinebus::RecordedBus recorded(std::move(*bus), recorder);
-  kinebus::Daemon daemon(loop, recorded, gateway, server);
+  kinebus::Daemon daemon(loop, recorded, gateway);
   daemon.add(recorder);
+  daemon.add(host);
+  daemon.add(hub);
   daemon.add(serial);
   daemon.add(journal);
   daemon.run(&quit);
@@ -147,6 +201,11 @@ int run(int argc, char** argv) {
   app.add_option("--socket", arguments.socket,
                  "Local socket for 'kinebus' (default: /run/kinebus or the user's)");
   app.add_option("--group", arguments.group, "Group whose members may use the local socket");
+  app.add_option("--tcp", arguments.tcp, "Also serve the job link by TLS on ADDRESS:PORT (default: off)");
+  app.add_option("--credentials", arguments.credentials,
+                 "Folder of the TLS certificate and the token (default: .tls in the folder of jobs)");
+  app.add_option("--quota", arguments.quota_gib, "GiB that stored jobs may take")
+      ->check(CLI::Range(0.001, 1e6));
   app.add_option("--jobs", arguments.jobs, "Folder of stored jobs (default: the machine file's)");
   app.add_option("--serial-pty", arguments.serial.pty,
                  "Offer print hosts a serial port under this path (a link to a pty)");

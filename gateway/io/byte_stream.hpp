@@ -29,6 +29,8 @@ class ByteStream {
     return output_waits ? std::uint32_t{EPOLLIN | EPOLLOUT} : std::uint32_t{EPOLLIN};
   }
   virtual Moved read(std::span<std::uint8_t> buffer) = 0;
+  /// read() has something though the fd is not readable (decrypted already).
+  virtual bool buffered() const { return false; }
   virtual Moved write(std::span<const std::uint8_t> bytes) = 0;
   /// Why it closed, in words; empty: the other side ended it.
   virtual std::string closed_reason() const { return {}; }

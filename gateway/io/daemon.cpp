@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "gateway/io/control_text.hpp"
 #include "gateway/io/realtime.hpp"
+#include "gateway/sessions/messages.hpp"
 #include "protocol/host/socketcan.hpp"
 
 namespace kinebus {
@@ -39,8 +39,7 @@ void log_event(const MachineEvent& event) {
 }
 }  // namespace
 
-Daemon::Daemon(EventLoop& loop, BusPort& bus, Gateway& gateway, ControlServer& server)
-    : loop_(loop), bus_(bus), gateway_(gateway), server_(server) {
+Daemon::Daemon(EventLoop& loop, BusPort& bus, Gateway& gateway) : loop_(loop), bus_(bus), gateway_(gateway) {
   if (bus_.fd() >= 0) loop_.watch(bus_.fd(), EPOLLIN, [](std::uint32_t) {});
 }
 
@@ -73,13 +72,12 @@ void Daemon::exchange_frames() {
 void Daemon::report_events() {
   while (auto event = gateway_.next_event()) {
     log_event(*event);
-    server_.on_event(*event);
     for (DaemonPart* part : parts_) part->on_event(*event);
   }
 }
 
 LocalTime Daemon::next_deadline() const {
-  LocalTime next = std::min({gateway_.next_deadline(), bus_.next_deadline(), server_.next_deadline()});
+  LocalTime next = std::min(gateway_.next_deadline(), bus_.next_deadline());
   for (const DaemonPart* part : parts_) next = std::min(next, part->next_deadline());
   return next;
 }
@@ -91,7 +89,6 @@ void Daemon::run(const volatile std::sig_atomic_t* quit) {
     exchange_frames();
     report_events();
     const LocalTime now = monotonic_now();
-    server_.on_time(now);
     for (DaemonPart* part : parts_) part->on_time(now);
     if (now >= next_watchdog) {
       notify_systemd("WATCHDOG=1");

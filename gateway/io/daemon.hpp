@@ -1,11 +1,10 @@
 #pragma once
-// The daemon's loop: bus, gateway core and local socket on one thread. No logic of the machine is here.
+// The daemon's loop: bus, gateway core and clients on one thread. No logic of the machine is here.
 
 #include <csignal>
 #include <vector>
 
 #include "gateway/io/bus_port.hpp"
-#include "gateway/io/control_server.hpp"
 #include "gateway/io/daemon_part.hpp"
 #include "gateway/io/event_loop.hpp"
 #include "gateway/machine/gateway.hpp"
@@ -14,7 +13,7 @@ namespace kinebus {
 
 class Daemon {
  public:
-  Daemon(EventLoop& loop, BusPort& bus, Gateway& gateway, ControlServer& server);
+  Daemon(EventLoop& loop, BusPort& bus, Gateway& gateway);
 
   /// One more part that lives on the loop; must outlive run().
   void add(DaemonPart& part) { parts_.push_back(&part); }
@@ -31,7 +30,6 @@ class Daemon {
   EventLoop& loop_;
   BusPort& bus_;
   Gateway& gateway_;
-  ControlServer& server_;
   std::vector<DaemonPart*> parts_;
 };
 

@@ -89,14 +89,20 @@ void StreamHub::on_time(LocalTime now) {
     Pair& pair = *pairs_[i];
     if (pair.closed) continue;
     if (now >= pair.session->next_deadline()) pair.session->on_time(now);
-    send(pair);
+    if (pair.stream->buffered() && pair.session->wants_bytes())
+      on_ready(pair, EPOLLIN);
+    else
+      send(pair);
   }
   std::erase_if(pairs_, [](const auto& pair) { return pair->closed; });
 }
 
 LocalTime StreamHub::next_deadline() const {
   LocalTime next = LocalTime::max();
-  for (const auto& pair : pairs_) next = std::min(next, pair->session->next_deadline());
+  for (const auto& pair : pairs_) {
+    if (pair->stream->buffered() && pair->session->wants_bytes()) return LocalTime{0};
+    next = std::min(next, pair->session->next_deadline());
+  }
   return next;
 }
 

@@ -7,12 +7,13 @@
 #include <vector>
 
 #include "gateway/io/byte_stream.hpp"
+#include "gateway/io/daemon_part.hpp"
 #include "gateway/io/event_loop.hpp"
 #include "gateway/sessions/byte_session.hpp"
 
 namespace kinebus {
 
-class StreamHub {
+class StreamHub : public DaemonPart {
  public:
   struct Options {
     std::size_t max_streams = 64;
@@ -22,7 +23,7 @@ class StreamHub {
 
   explicit StreamHub(EventLoop& loop);
   StreamHub(EventLoop& loop, Options options);
-  ~StreamHub();
+  ~StreamHub() override;
   StreamHub(const StreamHub&) = delete;
   StreamHub& operator=(const StreamHub&) = delete;
 
@@ -31,8 +32,9 @@ class StreamHub {
 
   /// Lets every session see the time, sends what waits, and ends what is to end. Called once a turn of the
   /// loop.
-  void on_time(LocalTime now);
-  LocalTime next_deadline() const;
+  void on_event(const MachineEvent&) override {}
+  void on_time(LocalTime now) override;
+  LocalTime next_deadline() const override;
   std::size_t streams() const { return pairs_.size(); }
 
  private:

@@ -15,6 +15,8 @@ namespace {
 /// So often a running job is looked at for the history; its end is seen at once by its event.
 constexpr LocalTime kRecordPeriod = std::chrono::milliseconds{500};
 
+constexpr int kMaxStrangers = 8;
+
 joblink::MachineInfo info_of(const MachineDescription& machine) {
   const auto kinematics = make_kinematics(machine);
   return to_message(machine, kinematics ? (*kinematics)->bed_reference() : PoseVector{});
@@ -40,6 +42,11 @@ JobLinkServer::~JobLinkServer() = default;
 
 std::unique_ptr<ByteSession> JobLinkServer::open(LocalTime now, SessionInfo info) {
   if (sessions_.size() >= options_.max_sessions) return nullptr;
+  // Strangers that have not proved themselves never take the places of those who have.
+  const auto strangers = std::count_if(sessions_.begin(), sessions_.end(), [](const auto& entry) {
+    return entry.second->must_prove_itself() && entry.second->client() == 0;
+  });
+  if (!info.token.empty() && strangers >= kMaxStrangers) return nullptr;
   return std::make_unique<JobLinkSession>(*this, ++last_session_, std::move(info), now);
 }
 
@@ -112,18 +119,16 @@ void JobLinkServer::tell(LocalTime now, joblink::Event event) {
 
 void JobLinkServer::on_event(LocalTime now, const MachineEvent& event) {
   latest_ = now;
-  recorder_.on_event(event);
+  // An interrupted job that goes on is a run of its own.
+  if (event.kind == MachineEvent::Kind::kState && event.state == MachineState::kRunning &&
+      !recorder_.active())
+    job_started(gateway_.status().job);
+  if (const auto ended = recorder_.on_event(event)) record_end(now, *ended);
   tell(now, to_message(event));
-  // A job's end is looked at now: the next job may begin before the next period.
-  if (event.kind == MachineEvent::Kind::kState) record_run(now);
 }
 
-const std::string& JobLinkServer::status_message(LocalTime now) {
-  if (now == status_at_) return status_bytes_;
-  status_at_ = now;
-  joblink::ServerMessage message;
-  joblink::Status& status = *message.mutable_status();
-  status = to_message(gateway_.status(), machine_);
+joblink::Status JobLinkServer::status() const {
+  joblink::Status status = to_message(gateway_.status(), machine_);
   status.set_controller(control_.holder());
   for (const Control::Client& client : control_.clients()) {
     joblink::ClientInfo& info = *status.add_clients();
@@ -131,33 +136,40 @@ const std::string& JobLinkServer::status_message(LocalTime now) {
     info.set_name(client.name);
     info.set_transport(client.transport);
   }
+  return status;
+}
+
+const std::string& JobLinkServer::status_message(LocalTime now) {
+  if (now == status_at_) return status_bytes_;
+  status_at_ = now;
+  joblink::ServerMessage message;
+  *message.mutable_status() = status();
   status_bytes_ = message.SerializeAsString();
   return status_bytes_;
 }
 
-void JobLinkServer::run_begins(const std::string& name, const std::string& sha256) {
+void JobLinkServer::job_started(const std::string& name) {
   recorder_.begin(latest_);
   run_id_ = std::make_shared<std::int64_t>(0);
-  StoredRun run{.name = name, .sha256 = sha256, .begun_unix_s = unix_s(latest_)};
   worker_.post(
-      [&store = store_, id = run_id_, run = std::move(run)] {
+      [&store = store_, id = run_id_, name, unix_s = unix_s(latest_)] {
+        const auto job = store.find(name);
+        if (!job) return;
+        StoredRun run{.name = name, .begun_unix_s = unix_s};
+        run.sha256 = job->sha256;
         if (const auto begun = store.begin_run(run)) *id = *begun;
       },
       [] {});
 }
 
-void JobLinkServer::record_run(LocalTime now) {
-  if (!recorder_.active()) return;
-  next_record_ = now + kRecordPeriod;
-  const auto ended = recorder_.on_status(gateway_.status());
-  if (!ended) return;
+void JobLinkServer::record_end(LocalTime now, const RunRecorder::Ended& end) {
   static constexpr RunResult kResults[] = {RunResult::kComplete, RunResult::kCancelled, RunResult::kRefused,
                                            RunResult::kFailed};
   worker_.post(
-      [&store = store_, id = run_id_, ended = *ended] {
+      [&store = store_, id = run_id_, end] {
         if (*id != 0)
-          static_cast<void>(store.end_run(*id, kResults[static_cast<std::size_t>(ended.result)],
-                                          ended.duration_s, ended.estimate_s, ended.line, ended.first_error));
+          static_cast<void>(store.end_run(*id, kResults[static_cast<std::size_t>(end.result)], end.duration_s,
+                                          end.estimate_s, end.line, end.first_error));
       },
       [this, now] {
         joblink::Event event;
@@ -168,7 +180,10 @@ void JobLinkServer::record_run(LocalTime now) {
 
 void JobLinkServer::on_time(LocalTime now) {
   latest_ = now;
-  if (now >= next_record_) record_run(now);
+  if (recorder_.active() && now >= next_record_) {
+    next_record_ = now + kRecordPeriod;
+    recorder_.on_status(gateway_.status());
+  }
   if (control_.holder() == told_holder_) return;
   told_holder_ = control_.holder();
   joblink::Event event;

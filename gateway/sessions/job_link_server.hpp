@@ -46,7 +46,7 @@ class JobLinkServer {
     std::string machine_mark;   ///< names the machine file in use: pre-flights stored are valid for it alone
     double unix_s_at_zero = 0;  ///< wall time at time 0 of the monotonic clock
     LocalTime silence_limit =
-        std::chrono::seconds{4};  ///< a client that says nothing for so long has vanished
+        std::chrono::seconds{8};  ///< a client that says nothing for so long has vanished
     std::size_t max_sessions = 32;
   };
 
@@ -63,6 +63,8 @@ class JobLinkServer {
   void on_event(LocalTime now, const MachineEvent& event);
   void on_time(LocalTime now);
   LocalTime next_deadline() const;
+  /// Another kind of session has started a stored job: its run belongs to the history, too.
+  void job_started(const std::string& name);
 
  private:
   friend class JobLinkSession;
@@ -84,9 +86,9 @@ class JobLinkServer {
   void tell(LocalTime now, joblink::Event event);
   joblink::Problem no_control() const;
   double unix_s(LocalTime now) const;
-  void run_begins(const std::string& name, const std::string& sha256);
+  joblink::Status status() const;
   const std::string& status_message(LocalTime now);
-  void record_run(LocalTime now);
+  void record_end(LocalTime now, const RunRecorder::Ended& end);
 
   Gateway& gateway_;
   const MachineDescription& machine_;

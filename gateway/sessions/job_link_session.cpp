@@ -201,7 +201,7 @@ void JobLinkSession::on_time(LocalTime now) {
     resynchronise(now, "the client has said nothing for too long");
   if (client_ == 0 && now >= last_heard_ + kHelloWithin && !info_.token.empty()) ended_ = true;
   if (now < next_status_) return;
-  next_status_ = now + status_period_;
+  next_status_ = std::max(next_status_ + status_period_, now);
   // Who reads slowly gets the newest status later instead of all old ones.
   if (out_.size() - out_sent_ < kNewsBacklog) write(server_.status_message(now));
 }

@@ -29,6 +29,7 @@ class JobLinkSession : public ByteSession {
 
   std::uint64_t id() const { return id_; }
   ClientId client() const { return client_; }
+  bool must_prove_itself() const { return !info_.token.empty(); }
   const std::string& resume_key() const { return resume_key_; }
   const std::string& transport() const { return info_.transport; }
   void welcomed(ClientId client, std::string resume_key);

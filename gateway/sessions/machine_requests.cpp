@@ -48,6 +48,11 @@ bool MachineRequests::take_free(const Asker& asker, const ClientMessage& message
     return true;
   }
   Reply reply;
+  if (message.has_get_status()) {
+    *reply.mutable_status() = server_.status();
+    server_.answer(asker, std::move(reply));
+    return true;
+  }
   if (message.has_get_machine()) {
     *reply.mutable_machine() = server_.machine_info_;
     server_.answer(asker, std::move(reply));
@@ -148,23 +153,15 @@ Result<void, Refusal> MachineRequests::set_work_offset(const joblink::SetWorkOff
 }
 
 void MachineRequests::start(const Asker& asker, const std::string& name) {
-  struct Opened {
-    Result<std::unique_ptr<ByteSource>, StoreError> source;
-    std::string sha256;
-  };
-  server_.worker_.ask(
-      [&store = server_.store_, name] {
-        Opened opened{store.open_job(name), {}};
-        if (const auto job = store.find(name)) opened.sha256 = job->sha256;
-        return opened;
-      },
-      [&server = server_, asker, name](Opened opened) {
-        if (!opened.source) return server.refuse(asker, problem(opened.source.error()));
-        if (const auto begun = server.gateway_.run(std::move(*opened.source), name); !begun)
-          return server.refuse(asker, problem(begun.error()));
-        server.run_begins(name, opened.sha256);
-        server.answer(asker, {});
-      });
+  using Opened = Result<std::unique_ptr<ByteSource>, StoreError>;
+  server_.worker_.ask([&store = server_.store_, name] { return store.open_job(name); },
+                      [&server = server_, asker, name](Opened source) {
+                        if (!source) return server.refuse(asker, problem(source.error()));
+                        if (const auto begun = server.gateway_.run(std::move(*source), name); !begun)
+                          return server.refuse(asker, problem(begun.error()));
+                        server.job_started(name);
+                        server.answer(asker, {});
+                      });
 }
 
 void MachineRequests::console(const Asker& asker, const std::string& line) {

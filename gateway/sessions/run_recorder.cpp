@@ -10,11 +10,16 @@ void RunRecorder::begin(LocalTime now) {
   begun_ = now;
 }
 
-void RunRecorder::on_event(const MachineEvent& event) {
-  if (!active_) return;
+std::optional<RunRecorder::Ended> RunRecorder::on_event(const MachineEvent& event) {
+  if (!active_) return std::nullopt;
   switch (event.kind) {
     case MachineEvent::Kind::kState:
       ran_ = ran_ || event.state == MachineState::kRunning;
+      // News from before the job may still be on their way.
+      seen_ = seen_ || ran_ || event.state == MachineState::kChecking;
+      if (seen_ && (event.state == MachineState::kReady || event.state == MachineState::kUnhomed ||
+                    event.state == MachineState::kOff))
+        return end(event.when);
       break;
     case MachineEvent::Kind::kProblem:
       if (first_error_.empty() && event.words.starts_with("error"))
@@ -30,18 +35,19 @@ void RunRecorder::on_event(const MachineEvent& event) {
     case MachineEvent::Kind::kMessage:
       break;
   }
+  return std::nullopt;
 }
 
-std::optional<RunRecorder::Ended> RunRecorder::on_status(const MachineStatus& status) {
-  if (!active_) return std::nullopt;
+void RunRecorder::on_status(const MachineStatus& status) {
+  if (!active_) return;
   line_ = std::max(line_, status.line);
   if (estimate_s_ == 0 && status.state == MachineState::kRunning && status.remaining_s > 0)
     estimate_s_ = status.elapsed_s + status.remaining_s;
-  const bool over = status.state == MachineState::kReady || status.state == MachineState::kUnhomed ||
-                    status.state == MachineState::kOff;
-  if (!over) return std::nullopt;
+}
+
+RunRecorder::Ended RunRecorder::end(LocalTime now) {
   active_ = false;
-  Ended ended{Result::kCancelled, to_seconds(status.now - begun_), estimate_s_, line_, first_error_};
+  Ended ended{Result::kCancelled, to_seconds(now - begun_), estimate_s_, line_, first_error_};
   if (alarm_)
     ended.result = Result::kFailed;
   else if (finished_)

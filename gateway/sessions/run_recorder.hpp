@@ -24,12 +24,14 @@ class RunRecorder {
   /// A job was accepted at `now`.
   void begin(LocalTime now);
   bool active() const { return active_; }
-  void on_event(const MachineEvent& event);
-  /// Called now and then while active, and after every event.
-  std::optional<Ended> on_status(const MachineStatus& status);
+  /// Every event of the machine, in order. A value: this one ended the run.
+  std::optional<Ended> on_event(const MachineEvent& event);
+  /// Called now and then while active.
+  void on_status(const MachineStatus& status);
 
  private:
-  bool active_ = false, ran_ = false, finished_ = false;
+  Ended end(LocalTime now);
+  bool active_ = false, seen_ = false, ran_ = false, finished_ = false;
   LocalTime begun_{0};
   std::uint32_t line_ = 0;
   double estimate_s_ = 0;

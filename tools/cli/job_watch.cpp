@@ -7,13 +7,13 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
+#include <utility>
 
 namespace kinebus {
 namespace {
 
-using nlohmann::json;
+using joblink::Event;
+using joblink::Status;
 constexpr int kBarWidth = 32;
 
 /// One line that is written over on a terminal, and a line every ten per cent elsewhere.
@@ -43,52 +43,38 @@ class ProgressLine {
   int last_tenth_ = -1;
 };
 
-void print_event(const json& event) {
-  const std::string kind = event.value("kind", "");
-  const std::string words = event.value("words", "");
-  if (kind == "alarm")
-    fmt::print("ALARM {}\n      {}\n", words, event.value("advice", ""));
-  else if (kind == "problem")
-    fmt::print("line {}: {}\n", event.value("line", 0), words);
-  else if (kind == "message" || kind == "finished")
-    fmt::print("{}\n", words);
-}
-
-std::string read_file(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  if (!in) throw ClientError(path + ": cannot be read");
-  return std::move(text).str();
-}
-
-void upload(Client& client, const std::string& file, const std::string& name) {
-  const std::string text = read_file(file);
-  ProgressLine line;
-  const json reply = client.ask_with_bytes({{"do", "upload"}, {"name", name}}, text, [&](std::size_t sent) {
-    line.show(static_cast<double>(sent) / static_cast<double>(std::max<std::size_t>(text.size(), 1)),
-              "sending " + name);
-  });
-  line.end();
-  if (!reply.value("ok", false)) throw ClientError("upload: " + reply.value("error", "failed"));
+void print_event(const Event& event) {
+  switch (event.kind()) {
+    case joblink::EVENT_ALARM:
+      fmt::print("ALARM {}\n      {}\n", event.words(), event.advice());
+      break;
+    case joblink::EVENT_PROBLEM:
+      fmt::print("line {}: {}\n", event.line(), event.words());
+      break;
+    case joblink::EVENT_MESSAGE:
+    case joblink::EVENT_FINISHED:
+      fmt::print("{}\n", event.words());
+      break;
+    default:
+      break;
+  }
 }
 
 /// Follows statuses and events until `done(status)`; returns the last status.
 template <typename Done>
-json follow(Client& client, ProgressLine& line, Done done) {
+Status follow(Client& client, ProgressLine& line, Done done) {
   for (;;) {
-    const json message = client.next(10'000);
-    if (message.is_null()) throw ClientError("the daemon has gone silent");
-    if (message.contains("event")) {
+    const auto report = client.next(std::chrono::seconds{10});
+    if (!report) throw ClientError("the daemon has gone silent");
+    if (const auto* event = std::get_if<Event>(&*report)) {
       line.end();
-      print_event(message["event"]);
+      print_event(*event);
+      continue;
     }
-    if (!message.contains("status")) continue;
-    const json& status = message["status"];
-    if (!status.value("job", "").empty())
-      line.show(status.value("progress", 0.0),
-                fmt::format("line {}  {}  {} to go", status.value("line", 0), status.value("doing", ""),
-                            time_words(status.value("remaining_s", 0.0))));
+    const auto& status = std::get<Status>(*report);
+    if (!status.job().empty())
+      line.show(status.progress(), fmt::format("line {}  {}  {} to go", status.line(), status.doing(),
+                                               time_words(status.remaining_s())));
     if (done(status)) {
       line.end();
       return status;
@@ -105,32 +91,38 @@ std::string time_words(double seconds) {
   return fmt::format("{} s", whole);
 }
 
-int wait_until_rest(Client& client, const std::function<bool(const json&)>& good) {
+int wait_until_rest(Client& client, const std::function<bool(const Status&)>& good) {
   ProgressLine line;
-  const json status = follow(client, line, [](const json& s) { return s.value("at_rest", false); });
+  const Status status = follow(client, line, [](const Status& s) { return s.at_rest(); });
   return good(status) ? 0 : 1;
 }
 
 int watch_job(Client& client) {
   ProgressLine line;
-  const json status = follow(
-      client, line, [](const json& s) { return s.value("at_rest", false) && !s.value("held", false); });
-  return status.value("ready", false) ? 0 : 1;
+  const Status status =
+      follow(client, line, [](const Status& s) { return s.at_rest() && s.state() != joblink::STATE_HELD; });
+  return status.state() == joblink::STATE_READY ? 0 : 1;
+}
+
+std::string upload_job(Client& client, const std::string& file) {
+  const std::string name = std::filesystem::path(file).filename().string();
+  ProgressLine line;
+  client.upload(file, name, [&](std::uint64_t received, std::uint64_t all) {
+    line.show(static_cast<double>(received) / static_cast<double>(std::max<std::uint64_t>(all, 1)),
+              "sending " + name);
+  });
+  line.end();
+  return name;
 }
 
 int run_job(Client& client, const std::string& file, bool detach) {
-  std::string name = file;
-  if (std::filesystem::exists(file)) {
-    name = std::filesystem::path(file).filename().string();
-    upload(client, file, name);
-  }
-  client.ask({{"do", "watch"}, {"hz", 5}});
-  // Events that come before the reply (pre-flight problems) are kept for the reader.
-  client.on_news = [](const json& message) {
-    if (message.contains("event")) print_event(message["event"]);
-  };
-  const json reply = client.ask({{"do", "run"}, {"name", name}});
-  if (!reply.value("ok", false)) throw ClientError(reply.value("error", "the job was refused"));
+  std::error_code error;
+  const std::string name = std::filesystem::is_regular_file(file, error) ? upload_job(client, file) : file;
+  joblink::ClientMessage request;
+  request.mutable_start_job()->set_name(name);
+  client.ask(std::move(request));
+  // The job runs on the gateway: whoever wants to hold it may do so while this program only shows it.
+  client.release_control();
   if (detach) {
     fmt::print("{} has started; 'kinebus watch' shows it\n", name);
     return 0;

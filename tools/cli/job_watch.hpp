@@ -2,7 +2,6 @@
 // Sending a job and showing how it goes.
 
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "tools/cli/client.hpp"
@@ -14,10 +13,13 @@ std::string time_words(double seconds);
 
 /// Waits until the machine rests; events are printed. Returns the exit code: 0 when the status then is
 /// `good`. The client must be watching.
-int wait_until_rest(Client& client, const std::function<bool(const nlohmann::json&)>& good);
+int wait_until_rest(Client& client, const std::function<bool(const joblink::Status&)>& good);
 
 /// Shows a progress bar until the job ended. 0: complete; 1: not.
 int watch_job(Client& client);
+
+/// Sends a file to the gateway's store under its own name; returns that name.
+std::string upload_job(Client& client, const std::string& file);
 
 /// Uploads `file` (or takes the stored job of that name), runs it, and watches unless `detach`.
 int run_job(Client& client, const std::string& file, bool detach);

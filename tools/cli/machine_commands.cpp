@@ -2,121 +2,122 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
-#include "tools/cli/client.hpp"
 #include "tools/cli/job_watch.hpp"
+#include "tools/cli/requests.hpp"
+#include "tools/cli/status_json.hpp"
 
 namespace kinebus {
 namespace {
 
-using nlohmann::json;
+using joblink::ClientMessage;
+using joblink::Status;
 using Options = std::shared_ptr<MachineOptions>;
+constexpr double kRadians = 0.017453292519943295;
+constexpr double kStatusHz = 10;
 
-int refused(const json& reply) {
-  fmt::print(stderr, "kinebus: {}\n", reply.value("error", "refused without a reason"));
-  return 1;
+bool ready(const Status& status) {
+  return status.state() == joblink::STATE_READY;
+}
+bool brought_up(const Status& status) {
+  return status.state() != joblink::STATE_OFF && status.state() != joblink::STATE_STOPPED &&
+         status.state() != joblink::STATE_ALARM;
 }
 
-json status_of(Client& client) {
-  return client.ask({{"do", "status"}}).at("status");
+void take_control(Client& client, const MachineOptions& options) {
+  if (!options.force) return;
+  ClientMessage request;
+  request.mutable_take_control()->set_force(true);
+  client.ask(std::move(request));
 }
 
-bool ready(const json& status) {
-  return status.value("ready", false);
-}
-bool brought_up(const json& status) {
-  return !status.value("off", true) && !status.value("trouble", true);
-}
-
-std::string pose_words(const json& pose) {
+std::string pose_words(const joblink::Pose& pose) {
   // Rounded first: a coordinate of -1e-9 is shown as 0.000, not as -0.000.
-  const auto value = [&](const char* axis) {
-    return std::round(pose[axis].get<double>() * 1000) / 1000 + 0.0;
-  };
-  return fmt::format("X {:.3f}  Y {:.3f}  Z {:.3f} mm   A {:.3f}  C {:.3f} deg   E {:.3f} mm", value("x"),
-                     value("y"), value("z"), value("a"), value("c"), value("e"));
+  const auto tidy = [](double value) { return std::round(value * 1000) / 1000 + 0.0; };
+  return fmt::format("X {:.3f}  Y {:.3f}  Z {:.3f} mm   A {:.3f}  C {:.3f} deg   E {:.3f} mm",
+                     tidy(pose.x_mm()), tidy(pose.y_mm()), tidy(pose.z_mm()), tidy(pose.a_rad() / kRadians),
+                     tidy(pose.c_rad() / kRadians), tidy(pose.e_mm()));
 }
 
-void print_status(const json& s) {
-  fmt::print("{}: {}\n", s["state"].get<std::string>(), s["doing"].get<std::string>());
-  if (s["positions_known"].get<bool>())
-    fmt::print("tool      {}\n", pose_words(s["pose"]));
+void print_status(const Status& s) {
+  fmt::print("{}: {}\n", s.state_words(), s.doing());
+  if (s.positions_known())
+    fmt::print("tool      {}\n", pose_words(s.tool()));
   else
     fmt::print("tool      position unknown: home first\n");
-  if (!s["job"].get<std::string>().empty())
-    fmt::print("job       {}  line {}  {:.1f} %  {} to go\n", s["job"].get<std::string>(),
-               s["line"].get<int>(), 100 * s["progress"].get<double>(),
-               time_words(s["remaining_s"].get<double>()));
+  if (!s.job().empty())
+    fmt::print("job       {}  line {}  {:.1f} %  {} to go\n", s.job(), s.line(), 100 * s.progress(),
+               time_words(s.remaining_s()));
   fmt::print("hotend    {:.1f} / {:.0f} C   bed {:.1f} / {:.0f} C   fan {:.0f} %\n",
-             s["hotend"]["actual"].get<double>(), s["hotend"]["target"].get<double>(),
-             s["bed"]["actual"].get<double>(), s["bed"]["target"].get<double>(),
-             100 * s["fan"].get<double>());
-  fmt::print("path      rate {:.2f}   override {:.0f} %   bus {:.1f} % (peak {:.1f} %)\n",
-             s["rate"].get<double>(), 100 * s["feed_override"].get<double>(),
-             100 * s["bus_load"].get<double>(), 100 * s["bus_load_peak"].get<double>());
+             s.hotend().actual_celsius(), s.hotend().target_celsius(), s.bed().actual_celsius(),
+             s.bed().target_celsius(), 100 * s.fan());
+  fmt::print("path      rate {:.2f}   override {:.0f} %   bus {:.1f} % (peak {:.1f} %)\n", s.rate(),
+             100 * s.feed_override(), 100 * s.bus_load(), 100 * s.bus_load_peak());
 }
 
-void print_position(const json& s) {
-  fmt::print("part      {}\n", pose_words(s["pose"]));
-  fmt::print("machine   {}\n", pose_words(s["machine_pose"]));
+void print_position(const Status& s) {
+  fmt::print("part      {}\n", pose_words(s.tool()));
+  fmt::print("machine   {}\n", pose_words(s.machine()));
   fmt::print("joints   ");
-  for (const auto& joint : s["joints"]) fmt::print(" {:.4f}", joint.get<double>());
+  for (const double joint : s.joints()) fmt::print(" {:.4f}", joint);
   fmt::print("\n");
 }
 
-void print_nodes(const json& s) {
+void print_nodes(const Status& s) {
   fmt::print("node  present  nmt  statusword A/B  queue  sync error  records sent  EMCY\n");
-  for (const auto& n : s["nodes"])
-    fmt::print("{:4}  {:7}  {:3}     {:04X} / {:04X}  {:5}  {:7} us  {:12}  {:4}\n", n["id"].get<int>(),
-               n["present"].get<bool>() ? "yes" : "no", n["nmt"].get<int>(), n["statusword"][0].get<int>(),
-               n["statusword"][1].get<int>(), n["queue"].get<int>(), n["sync_error_us"].get<int>(),
-               n["records_sent"].get<std::uint64_t>(), n["emergencies"].get<int>());
+  for (const joblink::NodeStatus& n : s.nodes())
+    fmt::print("{:4}  {:7}  {:3}     {:04X} / {:04X}  {:5}  {:7.0f} us  {:12}  {:4}\n", n.id(),
+               n.present() ? "yes" : "no", n.nmt_state(), n.axes_size() > 0 ? n.axes(0).statusword() : 0,
+               n.axes_size() > 1 ? n.axes(1).statusword() : 0, n.queue_records(), n.sync_error_s() * 1e6,
+               n.records_sent(), n.emergencies());
 }
 
-void print_bus(const json& s) {
-  fmt::print("load {:.2f} % in the last second, peak {:.2f} %\n", 100 * s["bus_load"].get<double>(),
-             100 * s["bus_load_peak"].get<double>());
-  for (const auto& [name, value] : s["counters"].items())
+void print_bus(const Status& s) {
+  fmt::print("load {:.2f} % in the last second, peak {:.2f} %\n", 100 * s.bus_load(),
+             100 * s.bus_load_peak());
+  const nlohmann::json counters = to_json(s)["counters"];
+  for (const auto& [name, value] : counters.items())
     fmt::print("{:20} {}\n", name, value.get<std::uint64_t>());
+}
+
+void print_clients(const Status& s) {
+  for (const joblink::ClientInfo& client : s.clients())
+    fmt::print("{:4}  {}  {:20} {}\n", client.id(), client.id() == s.controller() ? "control" : "watches",
+               client.transport(), client.name());
 }
 
 /// A command without arguments that only changes the machine.
 void add_plain(CLI::App& app, const Options& options, int& exit_code, const std::string& name,
-               const std::string& word, const std::string& help, bool moves) {
+               const ClientMessage& request, const std::string& help, bool moves) {
   auto* command = app.add_subcommand(name, help);
   auto no_wait = std::make_shared<bool>(false);
   if (moves)
     command->add_flag("--no-wait", *no_wait, "Return at once instead of when the machine is at rest");
   command->callback([=, &exit_code] {
-    Client client(Client::find_socket(options->socket));
-    client.ask({{"do", "watch"}, {"hz", 10}});
-    if (word == "home" && status_of(client).value("off", false)) {
-      const json up = client.ask({{"do", "bring-up"}});
-      exit_code = up.value("ok", false) ? wait_until_rest(client, brought_up) : refused(up);
+    Client client(options->reach, moves ? kStatusHz : 0, moves);
+    take_control(client, *options);
+    if (request.has_home() && client.status().state() == joblink::STATE_OFF) {
+      client.ask(plain(&ClientMessage::mutable_bring_up));
+      exit_code = wait_until_rest(client, brought_up);
       if (exit_code != 0) return;
     }
-    const json reply = client.ask({{"do", word}});
-    if (!reply.value("ok", false)) {
-      exit_code = refused(reply);
-      return;
-    }
-    if (moves && !*no_wait) exit_code = wait_until_rest(client, word == "bring-up" ? brought_up : ready);
+    client.ask(request);
+    if (moves && !*no_wait) exit_code = wait_until_rest(client, request.has_bring_up() ? brought_up : ready);
   });
 }
 
 void add_view(CLI::App& app, const Options& options, const std::string& name, const std::string& help,
-              void (*print)(const json&)) {
+              void (*print)(const Status&)) {
   app.add_subcommand(name, help)->callback([=] {
-    Client client(Client::find_socket(options->socket));
-    const json status = status_of(client);
+    Client client(options->reach);
+    const Status status = client.status();
     if (options->json)
-      fmt::print("{}\n", status.dump(2));
+      fmt::print("{}\n", to_json(status).dump(2));
     else
       print(status);
   });
@@ -132,47 +133,21 @@ void add_jog(CLI::App& app, const Options& options, int& exit_code) {
   jog->add_option_function<double>(
       "--speed", [values](const double& v) { (*values)["speed"] = v; }, "mm/s (deg/s)");
   jog->callback([=, &exit_code] {
-    Client client(Client::find_socket(options->socket));
-    client.ask({{"do", "watch"}, {"hz", 10}});
-    json request{{"do", "jog"}};
-    for (const auto& [key, value] : *values) request[key] = value;
-    const json reply = client.ask(request);
-    exit_code = reply.value("ok", false) ? wait_until_rest(client, ready) : refused(reply);
-  });
-}
-
-void add_jobs(CLI::App& app, const Options& options, int& exit_code) {
-  app.add_subcommand("jobs", "List the jobs stored on the gateway")->callback([=] {
-    Client client(Client::find_socket(options->socket));
-    const json reply = client.ask({{"do", "jobs"}});
-    for (const auto& job : reply.at("jobs"))
-      fmt::print("{:>12}  {}\n", job["bytes"].get<std::uint64_t>(), job["name"].get<std::string>());
-  });
-  auto* remove = app.add_subcommand("delete", "Delete a stored job");
-  auto name = std::make_shared<std::string>();
-  remove->add_option("name", *name, "as 'kinebus jobs' lists it")->required();
-  remove->callback([=, &exit_code] {
-    Client client(Client::find_socket(options->socket));
-    const json reply = client.ask({{"do", "delete"}, {"name", *name}});
-    if (!reply.value("ok", false)) exit_code = refused(reply);
-  });
-}
-
-void add_run(CLI::App& app, const Options& options, int& exit_code) {
-  auto* run =
-      app.add_subcommand("run", "Send a G-code file to the gateway, check it, run it and show its progress");
-  auto file = std::make_shared<std::string>();
-  auto detach = std::make_shared<bool>(false);
-  run->add_option("file", *file, "G-code file, or the name of a stored job")->required();
-  run->add_flag("--detach", *detach, "Return when the job has started");
-  run->callback([=, &exit_code] {
-    Client client(Client::find_socket(options->socket));
-    exit_code = run_job(client, *file, *detach);
-  });
-  app.add_subcommand("watch", "Show the progress of the running job")->callback([=, &exit_code] {
-    Client client(Client::find_socket(options->socket));
-    client.ask({{"do", "watch"}, {"hz", 5}});
-    exit_code = watch_job(client);
+    auto& v = *values;
+    const bool turns_only = v["x"] == 0 && v["y"] == 0 && v["z"] == 0 && v["e"] == 0;
+    ClientMessage request;
+    joblink::Pose& delta = *request.mutable_jog()->mutable_delta();
+    delta.set_x_mm(v["x"]);
+    delta.set_y_mm(v["y"]);
+    delta.set_z_mm(v["z"]);
+    delta.set_a_rad(v["a"] * kRadians);
+    delta.set_c_rad(v["c"] * kRadians);
+    delta.set_e_mm(v["e"]);
+    request.mutable_jog()->set_speed_per_s(turns_only ? v["speed"] * kRadians : v["speed"]);
+    Client client(options->reach, kStatusHz, true);
+    take_control(client, *options);
+    client.ask(std::move(request));
+    exit_code = wait_until_rest(client, ready);
   });
 }
 
@@ -180,51 +155,88 @@ void add_values(CLI::App& app, const Options& options, int& exit_code) {
   auto* override_command = app.add_subcommand("override", "Set the feed override in per cent");
   auto percent = std::make_shared<double>(100);
   override_command->add_option("percent", *percent)->required()->check(CLI::Range(1.0, 500.0));
-  override_command->callback([=, &exit_code] {
-    Client client(Client::find_socket(options->socket));
-    const json reply = client.ask({{"do", "override"}, {"ratio", *percent / 100}});
-    if (!reply.value("ok", false)) exit_code = refused(reply);
+  override_command->callback([=] {
+    Client client(options->reach);
+    take_control(client, *options);
+    ClientMessage request;
+    request.mutable_set_override()->set_ratio(*percent / 100);
+    client.ask(std::move(request));
+  });
+
+  auto* offset =
+      app.add_subcommand("work-offset", "Set a work coordinate system: kinebus work-offset 1 --z 0.2");
+  auto system = std::make_shared<std::uint32_t>(1);
+  auto pose = std::make_shared<joblink::Pose>();
+  auto here = std::make_shared<bool>(false);
+  offset->add_option("system", *system, "1 for G54 ... 9 for G59.3")->required()->check(CLI::Range(1, 9));
+  offset->add_option_function<double>(
+      "--x", [pose](const double& v) { pose->set_x_mm(v); }, "mm");
+  offset->add_option_function<double>(
+      "--y", [pose](const double& v) { pose->set_y_mm(v); }, "mm");
+  offset->add_option_function<double>(
+      "--z", [pose](const double& v) { pose->set_z_mm(v); }, "mm");
+  offset->add_option_function<double>(
+      "--a", [pose](const double& v) { pose->set_a_rad(v * kRadians); }, "degrees");
+  offset->add_option_function<double>(
+      "--c", [pose](const double& v) { pose->set_c_rad(v * kRadians); }, "degrees");
+  offset->add_flag("--here", *here, "The tool's present position is to have these coordinates");
+  offset->callback([=] {
+    Client client(options->reach);
+    take_control(client, *options);
+    ClientMessage request;
+    request.mutable_set_work_offset()->set_system(*system);
+    *request.mutable_set_work_offset()->mutable_offset() = *pose;
+    request.mutable_set_work_offset()->set_here(*here);
+    client.ask(std::move(request));
   });
 
   auto* console = app.add_subcommand("console", "Send one G-code or M-code line and print the answer");
   auto words = std::make_shared<std::vector<std::string>>();
+  auto no_wait = std::make_shared<bool>(false);
   console->add_option("line", *words)->required();
+  console->add_flag("--no-wait", *no_wait, "Return at once instead of when the machine is at rest");
   console->callback([=, &exit_code] {
-    Client client(Client::find_socket(options->socket));
-    const json reply = client.ask({{"do", "console"}, {"line", fmt::format("{}", fmt::join(*words, " "))}});
-    if (reply.value("ok", false))
-      fmt::print("{}\n", reply.value("text", ""));
-    else
-      exit_code = refused(reply);
+    Client client(options->reach, kStatusHz, true);
+    take_control(client, *options);
+    ClientMessage request;
+    request.mutable_console()->set_line(fmt::format("{}", fmt::join(*words, " ")));
+    fmt::print("{}\n", client.ask(std::move(request)).console().text());
+    if (!*no_wait) exit_code = wait_until_rest(client, [](const Status&) { return true; });
   });
 }
 
 }  // namespace
 
 void add_machine_commands(CLI::App& app, const Options& options, int& exit_code) {
-  app.add_option("--socket", options->socket,
+  app.add_option("--socket", options->reach.socket,
                  "The daemon's local socket (default: $KINEBUS_SOCKET, else found)");
-  app.add_flag("--as-json", options->json, "Views print the daemon's JSON");
+  app.add_option("--tcp", options->reach.tcp, "HOST:PORT of a daemon that serves TCP");
+  app.add_option("--fingerprint", options->reach.fingerprint,
+                 "SHA-256 of the daemon's certificate (with --tcp)");
+  app.add_option("--token-file", options->reach.token_file, "File with the daemon's token (with --tcp)");
+  app.add_flag("--as-json", options->json, "Views print JSON");
+  app.add_flag("--force", options->force, "Take control from another client");
   add_view(app, options, "status", "What the machine does now", print_status);
   add_view(app, options, "position", "Tool and joint positions", print_position);
   add_view(app, options, "nodes", "The nodes on the bus", print_nodes);
   add_view(app, options, "bus", "Bus load and everything that was counted", print_bus);
-  add_plain(app, options, exit_code, "bring-up", "bring-up", "Find, check and enable the nodes", true);
-  add_plain(app, options, exit_code, "home", "home", "Home the machine (brings the nodes up first)", true);
-  add_plain(app, options, exit_code, "reference", "reference", "Go to the print-bed reference position",
-            true);
+  add_view(app, options, "clients", "Who is connected, and who has control", print_clients);
+  const auto add = [&](const char* name, const ClientMessage& request, const char* help, bool moves) {
+    add_plain(app, options, exit_code, name, request, help, moves);
+  };
+  using M = ClientMessage;
+  add("bring-up", plain(&M::mutable_bring_up), "Find, check and enable the nodes", true);
+  add("home", plain(&M::mutable_home), "Home the machine (brings the nodes up first)", true);
+  add("reference", plain(&M::mutable_reference), "Go to the print-bed reference position", true);
   add_jog(app, options, exit_code);
-  add_run(app, options, exit_code);
-  add_plain(app, options, exit_code, "hold", "hold", "Feed hold: come to rest on the path", false);
-  add_plain(app, options, exit_code, "resume", "resume", "Go on from a hold", false);
-  add_plain(app, options, exit_code, "cancel", "cancel", "Come to rest on the path and drop the job", true);
-  add_plain(app, options, exit_code, "stop", "stop",
-            "Stop now, all carriages together on the path, and stay so", false);
-  add_plain(app, options, exit_code, "clear", "clear", "Lift a stop or an alarm", false);
-  add_plain(app, options, exit_code, "motors-off", "motors-off",
-            "Switch the drives off (the platform must be supported)", false);
+  add("hold", plain(&M::mutable_hold), "Feed hold: come to rest on the path", false);
+  add("resume", plain(&M::mutable_resume), "Go on from a hold", false);
+  add("cancel", plain(&M::mutable_cancel), "Come to rest on the path and drop the job", true);
+  add("stop", plain(&M::mutable_stop), "Stop now, all carriages together on the path, and stay so", false);
+  add("clear", plain(&M::mutable_clear), "Lift a stop or an alarm", false);
+  add("motors-off", plain(&M::mutable_motors_off), "Switch the drives off (the platform must be supported)",
+      false);
   add_values(app, options, exit_code);
-  add_jobs(app, options, exit_code);
 }
 
 }  // namespace kinebus

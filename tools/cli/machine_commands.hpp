@@ -3,17 +3,19 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
-#include <string>
+
+#include "tools/cli/client.hpp"
 
 namespace kinebus {
 
 struct MachineOptions {
-  std::string socket;
-  bool json = false;  ///< print what the daemon said instead of words
+  Reach reach;
+  bool json = false;   ///< print JSON instead of words
+  bool force = false;  ///< take control from another client
 };
 
-/// Adds status, home, reference, jog, run, watch, hold, resume, cancel, stop, clear, override, motors-off,
-/// position, nodes, bus, jobs, console to `app`; each sets `exit_code` when it runs.
+/// Adds status, position, nodes, bus, bring-up, home, reference, jog, hold, resume, cancel, stop, clear,
+/// motors-off, override, console, clients to `app`; each sets `exit_code` when it runs.
 void add_machine_commands(CLI::App& app, const std::shared_ptr<MachineOptions>& options, int& exit_code);
 
 }  // namespace kinebus

@@ -6,6 +6,8 @@
 
 #include "protocol/host/guarded_main.hpp"
 #include "tools/cli/explain_command.hpp"
+#include "tools/cli/job_commands.hpp"
+#include "tools/cli/link_bench.hpp"
 #include "tools/cli/machine_commands.hpp"
 #include "tools/cli/plan_command.hpp"
 #include "tools/cli/simulate_command.hpp"
@@ -17,7 +19,10 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", KINEBUS_VERSION);
   int exit_code = 0;
-  kinebus::add_machine_commands(app, std::make_shared<kinebus::MachineOptions>(), exit_code);
+  const auto options = std::make_shared<kinebus::MachineOptions>();
+  kinebus::add_machine_commands(app, options, exit_code);
+  kinebus::add_job_commands(app, options, exit_code);
+  kinebus::add_link_bench(app, options);
   kinebus::add_plan_command(app, exit_code);
   kinebus::add_simulate_command(app, exit_code);
   kinebus::add_explain_command(app, exit_code);

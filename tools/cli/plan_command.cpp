@@ -6,8 +6,8 @@
 #include <memory>
 #include <stdexcept>
 
-#include "gateway/io/job_files.hpp"
 #include "gateway/jobs/job_plan.hpp"
+#include "gateway/jobs/store/file_source.hpp"
 #include "tools/cli/job_watch.hpp"
 #include "tools/cli/offline.hpp"
 

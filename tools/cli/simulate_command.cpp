@@ -8,7 +8,7 @@
 #include <memory>
 #include <stdexcept>
 
-#include "gateway/io/job_files.hpp"
+#include "gateway/jobs/store/file_source.hpp"
 #include "protocol/can/candump.hpp"
 #include "tools/cli/job_watch.hpp"
 #include "tools/cli/offline.hpp"

@@ -38,39 +38,6 @@ void make_raw(int fd) {
 
 }  // namespace
 
-// Jobs
-// ---------------------------------------------------------------------------------------------------------
-
-std::vector<SerialFiles::Entry> FolderFiles::list() {
-  std::vector<Entry> all;
-  for (const JobFolder::Entry& entry : folder_.list()) all.push_back({entry.name, entry.bytes});
-  return all;
-}
-
-Result<std::unique_ptr<ByteSource>, std::string> FolderFiles::open(std::string_view name) {
-  auto source = folder_.open(name);
-  if (!source) return Error<std::string>(source.error());
-  return std::unique_ptr<ByteSource>(std::move(*source));
-}
-
-std::string FolderFiles::run(std::string_view name) {
-  auto source = open(name);
-  if (!source) return source.error();
-  const auto begun = gateway_.run(std::move(*source), std::string(name));
-  return begun ? std::string() : begun.error().words;
-}
-
-std::string FolderFiles::remove(std::string_view name) {
-  return folder_.remove(name);
-}
-
-std::string FolderFiles::store(std::string_view name, std::string_view text) {
-  auto upload = JobUpload::begin(folder_, name, text.size());
-  if (!upload) return upload.error();
-  if (std::string error = upload->write(text); !error.empty()) return error;
-  return upload->finish();
-}
-
 // Ports
 // --------------------------------------------------------------------------------------------------------
 

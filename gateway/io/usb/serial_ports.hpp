@@ -7,27 +7,11 @@
 #include <vector>
 
 #include "gateway/io/daemon_part.hpp"
-#include "gateway/io/job_files.hpp"
 #include "gateway/io/stream_hub.hpp"
 #include "gateway/machine/gateway.hpp"
 #include "gateway/sessions/serial/marlin_session.hpp"
 
 namespace kinebus {
-
-/// The folder of stored jobs, for M20 to M32.
-class FolderFiles : public SerialFiles {
- public:
-  FolderFiles(JobFolder& folder, Gateway& gateway) : folder_(folder), gateway_(gateway) {}
-  std::vector<Entry> list() override;
-  Result<std::unique_ptr<ByteSource>, std::string> open(std::string_view name) override;
-  std::string run(std::string_view name) override;
-  std::string remove(std::string_view name) override;
-  std::string store(std::string_view name, std::string_view text) override;
-
- private:
-  JobFolder& folder_;
-  Gateway& gateway_;
-};
 
 class SerialPorts : public DaemonPart {
  public:

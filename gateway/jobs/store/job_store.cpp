@@ -310,4 +310,18 @@ Result<void, StoreError> JobStore::remove(std::string_view name) {
   return remove.bind(name).finish();
 }
 
+Result<void, StoreError> JobStore::adopt(std::string_view name, double now_unix_s) {
+  if (std::string broken = check_name(name); !broken.empty())
+    return Error<StoreError>({StoreError::Kind::kName, broken});
+  const fs::path path = options_.folder / name;
+  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+  if (fd < 0) return no_such_job(name);
+  ::fsync(fd);
+  ::close(fd);
+  sync_folder(options_.folder);
+  const auto sha256 = sha256_of_file(path);
+  if (!sha256) return Error<StoreError>(disk_error(path, errno));
+  return enter(name, *sha256, now_unix_s);
+}
+
 }  // namespace kinebus

@@ -6,6 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "protocol/bytes.hpp"
+#include "protocol/canopen/crc.hpp"
+
 namespace kinebus::joblink {
 namespace {
 
@@ -39,6 +42,17 @@ TEST(FrameCodec, FramesComeOutWholeHoweverTheStreamIsCut) {
     EXPECT_EQ(read_all(reader, stream, piece), sent) << "pieces of " << piece;
     EXPECT_EQ(reader.pending(), 0U);
     EXPECT_EQ(reader.counters().skipped_bytes, 0U);
+  }
+}
+
+TEST(FrameCodec, TheChecksumIsThatOfIeee8023AtAnyLength) {
+  for (std::size_t size = 0; size < 40; ++size) {
+    std::string message(size, '\0'), frame;
+    for (std::size_t i = 0; i < size; ++i) message[i] = static_cast<char>(i * 37 + 11);
+    append_frame(frame, 1, 2, message);
+    Crc32 crc;
+    crc.add(bytes_of(message));
+    EXPECT_EQ(get_u32_le(bytes_of(frame).subspan(16)), crc.value()) << size;
   }
 }
 

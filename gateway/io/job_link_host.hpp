@@ -1,0 +1,48 @@
+#pragma once
+// Puts the job link's server on the daemon's loop: listens, lets clients in, and gives every stream its
+// session.
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "gateway/io/daemon_part.hpp"
+#include "gateway/io/listener.hpp"
+#include "gateway/io/stream_hub.hpp"
+#include "gateway/io/tls_stream.hpp"
+#include "gateway/sessions/job_link_server.hpp"
+
+namespace kinebus {
+
+class JobLinkHost : public DaemonPart {
+ public:
+  JobLinkHost(EventLoop& loop, StreamHub& hub, JobLinkServer& server);
+
+  /// Empty: listening.
+  std::string listen_local(const std::string& path, const std::string& group);
+  /// TLS with the identity and the token kept in `credentials` (made when they are not there). Empty:
+  /// listening.
+  std::string listen_tcp(const std::string& address, const std::filesystem::path& credentials);
+  /// A stream that came another way (USB): the job link is spoken on it.
+  void add(std::unique_ptr<ByteStream> stream, SessionInfo info);
+
+  std::string tls_fingerprint() const { return tls_ ? tls_->fingerprint() : std::string(); }
+  int tcp_port() const { return tcp_.port(); }
+
+  void on_event(const MachineEvent& event) override;
+  void on_time(LocalTime now) override { server_.on_time(now); }
+  LocalTime next_deadline() const override { return server_.next_deadline(); }
+
+ private:
+  StreamHub& hub_;
+  JobLinkServer& server_;
+  std::optional<TlsContext> tls_;
+  std::string token_;
+  Listener local_, tcp_;
+};
+
+/// `size` random bytes of the system.
+std::string random_bytes(std::size_t size);
+
+}  // namespace kinebus

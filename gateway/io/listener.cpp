@@ -1,0 +1,119 @@
+#include "gateway/io/listener.hpp"
+
+#include <arpa/inet.h>
+#include <grp.h>
+#include <netdb.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <sys/epoll.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+
+namespace kinebus {
+namespace {
+
+std::string name_of(const sockaddr_storage& address) {
+  std::array<char, INET6_ADDRSTRLEN> text{};
+  if (address.ss_family == AF_INET)
+    ::inet_ntop(AF_INET, &reinterpret_cast<const sockaddr_in&>(address).sin_addr, text.data(), text.size());
+  else if (address.ss_family == AF_INET6)
+    ::inet_ntop(AF_INET6, &reinterpret_cast<const sockaddr_in6&>(address).sin6_addr, text.data(),
+                text.size());
+  else
+    return "local";
+  return std::string("tcp ") + text.data();
+}
+
+}  // namespace
+
+Listener::~Listener() {
+  if (fd_ < 0) return;
+  loop_.forget(fd_);
+  ::close(fd_);
+  if (!path_.empty()) ::unlink(path_.c_str());
+}
+
+std::string Listener::listen_local(const std::string& path, const std::string& group) {
+  const auto because = [&](const std::string& what) {
+    return path + ": " + what + ": " + std::strerror(errno);
+  };
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  if (path.size() >= sizeof address.sun_path) return path + ": longer than a socket's name may be";
+  std::memcpy(address.sun_path, path.c_str(), path.size());
+  const auto* generic = reinterpret_cast<const sockaddr*>(&address);
+
+  const int probe = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  const bool taken = ::connect(probe, generic, sizeof address) == 0;
+  ::close(probe);
+  if (taken) return path + ": another daemon listens here already";
+  ::unlink(path.c_str());
+
+  fd_ = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+  if (fd_ < 0) return because("cannot listen");
+  const mode_t old = ::umask(0177);
+  const bool bound = ::bind(fd_, generic, sizeof address) == 0;
+  ::umask(old);
+  if (!bound) return because("cannot listen");
+  path_ = path;
+  if (!group.empty()) {
+    const ::group* entry = ::getgrnam(group.c_str());
+    if (entry == nullptr) return "no group \"" + group + "\" on this system";
+    if (::chown(path.c_str(), static_cast<uid_t>(-1), entry->gr_gid) != 0 || ::chmod(path.c_str(), 0660) != 0)
+      return because("cannot give it to the group " + group);
+  }
+  if (::listen(fd_, 8) != 0) return because("cannot listen");
+  loop_.watch(fd_, EPOLLIN, [this](std::uint32_t) { accept_client(); });
+  return {};
+}
+
+std::string Listener::listen_tcp(const std::string& address) {
+  const std::size_t colon = address.rfind(':');
+  if (colon == std::string::npos) return address + ": expected ADDRESS:PORT";
+  std::string host = address.substr(0, colon);
+  if (host.size() > 1 && host.front() == '[' && host.back() == ']') host = host.substr(1, host.size() - 2);
+  addrinfo hints{};
+  hints.ai_socktype = SOCK_STREAM;
+  hints.ai_flags = AI_PASSIVE;
+  addrinfo* found = nullptr;
+  const std::string port = address.substr(colon + 1);
+  if (const int error = ::getaddrinfo(host.empty() ? nullptr : host.c_str(), port.c_str(), &hints, &found);
+      error != 0)
+    return address + ": " + ::gai_strerror(error);
+  const std::unique_ptr<addrinfo, void (*)(addrinfo*)> owner(found, &::freeaddrinfo);
+  fd_ = ::socket(found->ai_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+  const int on = 1;
+  if (fd_ >= 0) ::setsockopt(fd_, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+  if (fd_ < 0 || ::bind(fd_, found->ai_addr, found->ai_addrlen) != 0 || ::listen(fd_, 8) != 0)
+    return address + ": cannot listen: " + std::strerror(errno);
+  loop_.watch(fd_, EPOLLIN, [this](std::uint32_t) { accept_client(); });
+  return {};
+}
+
+int Listener::port() const {
+  sockaddr_storage address{};
+  socklen_t size = sizeof address;
+  ::getsockname(fd_, reinterpret_cast<sockaddr*>(&address), &size);
+  return address.ss_family == AF_INET6 ? ntohs(reinterpret_cast<const sockaddr_in6&>(address).sin6_port)
+                                       : ntohs(reinterpret_cast<const sockaddr_in&>(address).sin_port);
+}
+
+void Listener::accept_client() {
+  sockaddr_storage address{};
+  socklen_t size = sizeof address;
+  const int fd = ::accept4(fd_, reinterpret_cast<sockaddr*>(&address), &size, SOCK_CLOEXEC | SOCK_NONBLOCK);
+  if (fd < 0) return;
+  if (address.ss_family != AF_UNIX) {
+    const int on = 1;
+    ::setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+  }
+  on_client_(fd, name_of(address));
+}
+
+}  // namespace kinebus

@@ -1,0 +1,38 @@
+#pragma once
+// Where clients knock: the local socket, and a TCP port. Who is let in becomes a stream.
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "gateway/io/byte_stream.hpp"
+#include "gateway/io/event_loop.hpp"
+
+namespace kinebus {
+
+class Listener {
+ public:
+  /// A connected, non-blocking socket and who it is ("local", "tcp 10.0.0.7"): the handler owns the socket.
+  using OnClient = std::function<void(int fd, std::string who)>;
+
+  Listener(EventLoop& loop, OnClient on_client) : loop_(loop), on_client_(std::move(on_client)) {}
+  ~Listener();
+  Listener(const Listener&) = delete;
+  Listener& operator=(const Listener&) = delete;
+
+  /// Only the owner may connect, and the members of `group` unless it is empty. Empty: listening.
+  std::string listen_local(const std::string& path, const std::string& group);
+  /// `address`: "0.0.0.0:7411", "[::1]:7411", ":7411" for all. Empty: listening.
+  std::string listen_tcp(const std::string& address);
+  /// The port in use (TCP).
+  int port() const;
+
+ private:
+  void accept_client();
+  EventLoop& loop_;
+  OnClient on_client_;
+  int fd_ = -1;
+  std::string path_;
+};
+
+}  // namespace kinebus

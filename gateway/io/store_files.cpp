@@ -1,0 +1,89 @@
+#include "gateway/io/store_files.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <ctime>
+#include <system_error>
+
+#include "gateway/jobs/store/file_source.hpp"
+
+namespace kinebus {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_job(const fs::path& path) {
+  std::error_code error;
+  return JobStore::check_name(path.filename().string()).empty() &&
+         fs::is_regular_file(fs::symlink_status(path, error));
+}
+
+}  // namespace
+
+StoreFiles::StoreFiles(JobStore& store, Worker& worker, Gateway& gateway, JobLinkServer& server)
+    : store_(store), worker_(worker), gateway_(gateway), server_(server), folder_(store.folder()) {}
+
+std::vector<SerialFiles::Entry> StoreFiles::list() {
+  std::vector<Entry> entries;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder_, error))
+    if (is_job(entry.path())) entries.push_back({entry.path().filename().string(), entry.file_size(error)});
+  std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.name < b.name; });
+  return entries;
+}
+
+Result<std::unique_ptr<ByteSource>, std::string> StoreFiles::open(std::string_view name) {
+  if (std::string broken = JobStore::check_name(name); !broken.empty()) return Error<std::string>(broken);
+  if (!is_job(folder_ / name)) return Error<std::string>("no stored job has the name " + std::string(name));
+  auto source = FileSource::open(folder_ / name);
+  if (!source) return Error<std::string>(source.error());
+  return std::unique_ptr<ByteSource>(std::move(*source));
+}
+
+std::string StoreFiles::run(std::string_view name) {
+  auto source = open(name);
+  if (!source) return source.error();
+  const auto begun = gateway_.run(std::move(*source), std::string(name));
+  if (!begun) return begun.error().words;
+  server_.job_started(std::string(name));
+  return {};
+}
+
+std::string StoreFiles::remove(std::string_view name) {
+  if (const auto there = open(name); !there) return there.error();
+  worker_.post([&store = store_, name = std::string(name)] { static_cast<void>(store.remove(name)); }, [] {});
+  return {};
+}
+
+std::string StoreFiles::store(std::string_view name, std::string_view text) {
+  if (std::string broken = JobStore::check_name(name); !broken.empty()) return broken;
+  const fs::path fresh = folder_ / ".serial";
+  const int fd = ::open(fresh.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0644);
+  bool written = fd >= 0;
+  while (written && !text.empty()) {
+    const ssize_t count = ::write(fd, text.data(), text.size());
+    if (count < 0 && errno == EINTR) continue;
+    written = count > 0;
+    if (written) text.remove_prefix(static_cast<std::size_t>(count));
+  }
+  if (!written || ::rename(fresh.c_str(), (folder_ / name).c_str()) != 0) {
+    const std::string reason = std::strerror(errno);
+    if (fd >= 0) ::close(fd);
+    ::unlink(fresh.c_str());
+    return folder_.string() + ": " + reason;
+  }
+  ::close(fd);
+  // The store takes note of it, and makes it safe against a power cut, in its own time.
+  worker_.post(
+      [&store = store_, name = std::string(name), unix_s = static_cast<double>(std::time(nullptr))] {
+        static_cast<void>(store.adopt(name, unix_s));
+      },
+      [] {});
+  return {};
+}
+
+}  // namespace kinebus

@@ -1,0 +1,220 @@
+// Real sockets, TLS and the worker's thread, on one loop: no sleep, no clock but the loop's deadlines.
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <thread>
+
+#include "gateway/io/listener.hpp"
+#include "gateway/io/machine_file_store.hpp"
+#include "gateway/io/socket_stream.hpp"
+#include "gateway/io/stream_hub.hpp"
+#include "gateway/io/tls_stream.hpp"
+#include "gateway/io/worker_thread.hpp"
+#include "gateway/jobs/store/tests/temporary_folder.hpp"
+#include "protocol/host/socketcan.hpp"
+
+namespace kinebus {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Says back what it hears.
+class Echo : public ByteSession {
+ public:
+  explicit Echo(int* closed) : closed_(closed) {}
+  void on_bytes(LocalTime, std::span<const std::uint8_t> bytes) override {
+    out_.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    most_ = std::max(most_, out_.size());
+  }
+  void on_time(LocalTime) override {}
+  LocalTime next_deadline() const override { return LocalTime::max(); }
+  std::span<const std::uint8_t> next_bytes() override {
+    return {reinterpret_cast<const std::uint8_t*>(out_.data()), out_.size()};
+  }
+  void on_bytes_sent(std::size_t count) override { out_.erase(0, count); }
+  bool wants_bytes() const override { return out_.size() < 300'000; }
+  bool ended() const override { return false; }
+  void on_closed(LocalTime, std::string_view) override { ++*closed_; }
+
+ private:
+  int* closed_;
+  std::string out_;
+  std::size_t most_ = 0;
+};
+
+class StreamsTest : public ::testing::Test {
+ protected:
+  TemporaryFolder folder_;
+  EventLoop loop_;
+  StreamHub hub_{loop_};
+  int closed_ = 0;
+
+  /// Turns the loop until `done`, at most 20 s.
+  bool turn_until(const std::function<bool()>& done) {
+    const LocalTime limit = monotonic_now() + LocalTime{20s};
+    while (!done()) {
+      if (monotonic_now() > limit) return false;
+      hub_.on_time(monotonic_now());
+      loop_.wait(std::min({hub_.next_deadline(), limit, monotonic_now() + LocalTime{5ms}}));
+    }
+    return true;
+  }
+  /// Sends `text` and hears it back, both ways at once.
+  std::string through(ByteStream& stream, const std::string& text) {
+    std::string back;
+    std::size_t sent = 0;
+    bool closed = false;
+    EXPECT_TRUE(turn_until([&] {
+      const std::span<const std::uint8_t> all(reinterpret_cast<const std::uint8_t*>(text.data()),
+                                              text.size());
+      const auto written = stream.write(all.subspan(sent, std::min<std::size_t>(50'000, text.size() - sent)));
+      sent += written.count;
+      std::array<std::uint8_t, 40'000> buffer;
+      const auto read = stream.read(buffer);
+      back.append(reinterpret_cast<const char*>(buffer.data()), read.count);
+      closed = written.closed || read.closed;
+      return back.size() >= text.size() || closed;
+    })) << back.size();
+    return closed ? "closed: " + stream.closed_reason() : back;
+  }
+};
+
+std::string some_text(std::size_t size) {
+  std::string text(size, '\0');
+  for (std::size_t i = 0; i < size; ++i) text[i] = static_cast<char>(i * 131 % 251);
+  return text;
+}
+
+TEST_F(StreamsTest, ALocalSocketCarriesBytesBothWaysAndIsTheOwnersAlone) {
+  Listener listener(loop_, [&](int fd, const std::string& who) {
+    EXPECT_EQ(who, "local");
+    hub_.add(std::make_unique<SocketStream>(fd), std::make_unique<Echo>(&closed_));
+  });
+  const std::string path = folder_.path() / "socket";
+  ASSERT_EQ(listener.listen_local(path, ""), "");
+  struct stat found {};
+  ASSERT_EQ(::stat(path.c_str(), &found), 0);
+  EXPECT_EQ(found.st_mode & 0777, 0600U);
+  auto stream = connect_local(path);
+  ASSERT_TRUE(stream) << stream.error();
+  const std::string text = some_text(3'000'000);
+  EXPECT_EQ(through(**stream, text), text);
+  stream->reset();
+  EXPECT_TRUE(turn_until([&] { return closed_ == 1 && hub_.streams() == 0; }));
+}
+
+TEST_F(StreamsTest, ASecondDaemonDoesNotTakeTheSocketAway) {
+  Listener first(loop_, [](int fd, const std::string&) { ::close(fd); });
+  Listener second(loop_, [](int fd, const std::string&) { ::close(fd); });
+  ASSERT_EQ(first.listen_local(folder_.path() / "socket", ""), "");
+  EXPECT_NE(second.listen_local(folder_.path() / "socket", ""), "");
+  EXPECT_NE(second.listen_local(folder_.path() / "other", "no-such-group"), "");
+}
+
+TEST_F(StreamsTest, AClientThatReadsNothingIsNotReadFromEither) {
+  Listener listener(loop_, [&](int fd, const std::string&) {
+    hub_.add(std::make_unique<SocketStream>(fd), std::make_unique<Echo>(&closed_));
+  });
+  ASSERT_EQ(listener.listen_local(folder_.path() / "socket", ""), "");
+  auto flood = connect_local(folder_.path() / "socket");
+  auto good = connect_local(folder_.path() / "socket");
+  ASSERT_TRUE(flood && good);
+  const std::string text = some_text(100'000);
+  const std::span<const std::uint8_t> bytes(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
+  std::size_t taken = 0;
+  int stuck = 0;
+  ASSERT_TRUE(turn_until([&] {
+    const std::size_t count = (*flood)->write(bytes).count;
+    taken += count;
+    stuck = count == 0 ? stuck + 1 : 0;
+    return stuck > 20;
+  }));
+  // The session's own limit and the two sockets' buffers.
+  EXPECT_LT(taken, 3U << 20);
+  EXPECT_EQ(through(**good, text), text);
+}
+
+TEST_F(StreamsTest, TlsCarriesBytesToTheRightGatewayOnly) {
+  const auto server = TlsContext::server(folder_.path() / "tls");
+  ASSERT_TRUE(server) << server.error();
+  Listener listener(loop_, [&](int fd, const std::string& who) {
+    EXPECT_EQ(who, "tcp 127.0.0.1");
+    hub_.add(server->open(fd), std::make_unique<Echo>(&closed_));
+  });
+  ASSERT_EQ(listener.listen_tcp("127.0.0.1:0"), "");
+  const std::string port = std::to_string(listener.port());
+  const auto fd = connect_tcp("127.0.0.1", port);
+  ASSERT_TRUE(fd) << fd.error();
+  // The stream outlives the context that made it.
+  const auto stream = TlsContext::client(server->fingerprint())->open(*fd);
+  const std::string text = some_text(2'000'000);
+  EXPECT_EQ(through(*stream, text), text);
+
+  const auto stranger = TlsContext::client(std::string(64, 'a'));
+  ASSERT_TRUE(stranger);
+  const auto second = connect_tcp("127.0.0.1", port);
+  ASSERT_TRUE(second);
+  EXPECT_EQ(through(*stranger->open(*second), text).substr(0, 7), "closed:");
+  EXPECT_FALSE(TlsContext::client("not a fingerprint"));
+}
+
+TEST_F(StreamsTest, TlsMeetsPlainBytesWithoutHarm) {
+  const auto server = TlsContext::server(folder_.path() / "tls");
+  ASSERT_TRUE(server);
+  Listener listener(loop_, [&](int fd, const std::string&) {
+    hub_.add(server->open(fd), std::make_unique<Echo>(&closed_));
+  });
+  ASSERT_EQ(listener.listen_tcp("127.0.0.1:0"), "");
+  const auto fd = connect_tcp("127.0.0.1", std::to_string(listener.port()));
+  ASSERT_TRUE(fd);
+  SocketStream plain(*fd);
+  const std::string text = "GET / HTTP/1.0\r\n\r\n";
+  plain.write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  EXPECT_TRUE(turn_until([&] { return closed_ == 1; }));
+}
+
+TEST_F(StreamsTest, TheIdentityOutlivesTheProgramAndTheKeyIsSecret) {
+  const auto first = TlsContext::server(folder_.path() / "tls");
+  const auto second = TlsContext::server(folder_.path() / "tls");
+  ASSERT_TRUE(first && second);
+  EXPECT_EQ(first->fingerprint(), second->fingerprint());
+  struct stat found {};
+  ASSERT_EQ(::stat((folder_.path() / "tls" / "key.pem").c_str(), &found), 0);
+  EXPECT_EQ(found.st_mode & 0777, 0600U);
+}
+
+TEST_F(StreamsTest, WorkIsDoneBesideTheLoopInOrderAndToldWithinIt) {
+  WorkerThread worker(loop_);
+  const auto loop_thread = std::this_thread::get_id();
+  std::vector<int> order;
+  for (int i = 0; i < 100; ++i)
+    worker.ask([i, loop_thread] { return std::this_thread::get_id() == loop_thread ? -1 : i; },
+               [&order, loop_thread](int answer) {
+                 EXPECT_EQ(std::this_thread::get_id(), loop_thread);
+                 order.push_back(answer);
+               });
+  ASSERT_TRUE(turn_until([&] { return order.size() == 100; }));
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(order[static_cast<std::size_t>(i)], i);
+}
+
+TEST_F(StreamsTest, TheMachineFileIsReplacedWholeAndTheOldOneKept) {
+  const auto path = folder_.path() / "machine.toml";
+  MachineFileStore file(path, "built in");
+  EXPECT_FALSE(file.read());
+  ASSERT_TRUE(file.write("first"));
+  ASSERT_TRUE(file.write("second"));
+  EXPECT_EQ(file.read()->text, "second");
+  EXPECT_EQ(MachineFileStore(path.string() + ".before", "").read()->text, "first");
+  MachineFileStore built_in({}, "built in");
+  EXPECT_EQ(built_in.read()->text, "built in");
+  EXPECT_FALSE(built_in.write("x"));
+}
+
+}  // namespace
+}  // namespace kinebus

@@ -1,0 +1,94 @@
+#include "gateway/io/worker_thread.hpp"
+
+#include <sys/epoll.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <mutex>
+#include <system_error>
+#include <utility>
+
+namespace kinebus {
+
+InheritingMutex::InheritingMutex() {
+  pthread_mutexattr_t attributes;
+  pthread_mutexattr_init(&attributes);
+  pthread_mutexattr_setprotocol(&attributes, PTHREAD_PRIO_INHERIT);
+  const int error = pthread_mutex_init(&mutex_, &attributes);
+  pthread_mutexattr_destroy(&attributes);
+  if (error != 0) throw std::system_error(error, std::generic_category(), "mutex");
+}
+InheritingMutex::~InheritingMutex() {
+  pthread_mutex_destroy(&mutex_);
+}
+void InheritingMutex::lock() {
+  pthread_mutex_lock(&mutex_);
+}
+void InheritingMutex::unlock() {
+  pthread_mutex_unlock(&mutex_);
+}
+
+WorkerThread::WorkerThread(EventLoop& loop) : loop_(loop), event_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
+  if (event_ < 0) throw std::system_error(errno, std::generic_category(), "worker thread");
+  loop_.watch(event_, EPOLLIN, [this](std::uint32_t) { take_done(); });
+  // Signals are the main thread's.
+  sigset_t all, before;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &before);
+  thread_ = std::thread([this] { run(); });
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+}
+
+WorkerThread::~WorkerThread() {
+  {
+    const std::lock_guard lock(mutex_);
+    ends_ = true;
+  }
+  wake_.notify_one();
+  thread_.join();
+  loop_.forget(event_);
+  ::close(event_);
+}
+
+void WorkerThread::post(std::function<void()> work, std::function<void()> done) {
+  {
+    const std::lock_guard lock(mutex_);
+    waiting_.push_back({std::move(work), std::move(done)});
+  }
+  wake_.notify_one();
+}
+
+void WorkerThread::run() {
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    wake_.wait(lock, [this] { return ends_ || !waiting_.empty(); });
+    if (waiting_.empty()) return;
+    Piece piece = std::move(waiting_.front());
+    waiting_.pop_front();
+    lock.unlock();
+    piece.work();
+    // Destroyed here: what the work holds may be large, or a file.
+    piece.work = nullptr;
+    lock.lock();
+    done_.push_back(std::move(piece.done));
+    lock.unlock();
+    const std::uint64_t one = 1;
+    [[maybe_unused]] const ssize_t written = ::write(event_, &one, sizeof one);
+    lock.lock();
+  }
+}
+
+void WorkerThread::take_done() {
+  std::uint64_t count = 0;
+  [[maybe_unused]] const ssize_t size = ::read(event_, &count, sizeof count);
+  std::deque<std::function<void()>> done;
+  {
+    const std::lock_guard lock(mutex_);
+    done.swap(done_);
+  }
+  for (const auto& call : done) call();
+}
+
+}  // namespace kinebus

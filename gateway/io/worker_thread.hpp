@@ -1,0 +1,60 @@
+#pragma once
+// The one thread beside the control loop: a disk may keep it waiting for seconds, never the loop.
+
+#include <pthread.h>
+
+#include <atomic>
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <thread>
+
+#include "gateway/io/event_loop.hpp"
+#include "gateway/sessions/worker.hpp"
+
+namespace kinebus {
+
+/// A mutex whose holder runs at the priority of who waits for it: the loop, at real-time priority, never
+/// waits for a thread that has none while others run.
+class InheritingMutex {
+ public:
+  InheritingMutex();
+  ~InheritingMutex();
+  InheritingMutex(const InheritingMutex&) = delete;
+  InheritingMutex& operator=(const InheritingMutex&) = delete;
+  void lock();
+  void unlock();
+
+ private:
+  pthread_mutex_t mutex_;
+};
+
+class WorkerThread : public Worker {
+ public:
+  /// Made before the process asks for real-time priority: the thread does not inherit it.
+  explicit WorkerThread(EventLoop& loop);
+  /// Does what was posted before, then ends. What was done meanwhile is not told any more.
+  ~WorkerThread() override;
+  WorkerThread(const WorkerThread&) = delete;
+  WorkerThread& operator=(const WorkerThread&) = delete;
+
+  void post(std::function<void()> work, std::function<void()> done) override;
+
+ private:
+  struct Piece {
+    std::function<void()> work, done;
+  };
+  void run();
+  void take_done();
+
+  EventLoop& loop_;
+  int event_ = -1;
+  InheritingMutex mutex_;
+  std::condition_variable_any wake_;
+  std::deque<Piece> waiting_;               // by mutex_
+  std::deque<std::function<void()>> done_;  // by mutex_
+  bool ends_ = false;                       // by mutex_
+  std::thread thread_;
+};
+
+}  // namespace kinebus

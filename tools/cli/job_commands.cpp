@@ -1,0 +1,193 @@
+#include "tools/cli/job_commands.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <ctime>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "protocol/joblink/sha256.hpp"
+#include "tools/cli/job_watch.hpp"
+#include "tools/cli/requests.hpp"
+
+namespace kinebus {
+namespace {
+
+using joblink::ClientMessage;
+using Options = std::shared_ptr<MachineOptions>;
+
+std::string date_words(double unix_s) {
+  const auto seconds = static_cast<std::time_t>(unix_s);
+  std::tm local{};
+  ::localtime_r(&seconds, &local);
+  return fmt::format("{:%Y-%m-%d %H:%M}", local);
+}
+
+const char* result_words(joblink::JobResult result) {
+  switch (result) {
+    case joblink::JOB_RUNNING:
+      return "running";
+    case joblink::JOB_COMPLETE:
+      return "complete";
+    case joblink::JOB_CANCELLED:
+      return "cancelled";
+    case joblink::JOB_REFUSED:
+      return "refused";
+    case joblink::JOB_FAILED:
+      return "failed";
+    case joblink::JOB_INTERRUPTED:
+      return "interrupted";
+    default:
+      return "?";
+  }
+}
+
+std::shared_ptr<std::string> named(CLI::App* command, const std::string& what, const std::string& help) {
+  auto value = std::make_shared<std::string>();
+  command->add_option(what, *value, help)->required();
+  return value;
+}
+
+void print_jobs(const joblink::JobList& list) {
+  for (const joblink::Job& job : list.jobs()) {
+    std::string more;
+    if (job.has_preflight())
+      more += job.preflight().errors() > 0
+                  ? fmt::format("  {} errors", job.preflight().errors())
+                  : fmt::format("  {}", time_words(job.preflight().motion_s() + job.preflight().dwell_s()));
+    if (job.has_last_run()) more += fmt::format("  last run {}", result_words(job.last_run().result()));
+    fmt::print("{:>12}  {}{}\n", job.size_bytes(), job.name(), more);
+  }
+}
+
+int print_preflight(const joblink::PreflightResult& result) {
+  for (const joblink::JobProblem& p : result.problems())
+    fmt::print("{}line {}{}: {}\n", p.error() ? "error: " : "warning: ", p.line(),
+               p.column() > 0 ? fmt::format(", column {}", p.column()) : "", p.words());
+  const joblink::PreflightSummary& s = result.summary();
+  fmt::print("{} lines, {} moves, {} in motion: {} errors, {} warnings\n", s.lines(), result.moves(),
+             time_words(s.motion_s() + s.dwell_s()), s.errors(), s.warnings());
+  return s.errors() > 0 ? 1 : 0;
+}
+
+void print_history(const joblink::History& history) {
+  for (const joblink::JobRun& run : history.runs())
+    fmt::print("{}  {:11}  {:>12}  {}{}\n", date_words(run.begun_unix_s()), result_words(run.result()),
+               time_words(run.duration_s()), run.name(),
+               run.first_error().empty() ? "" : "  " + run.first_error());
+}
+
+void add_run(CLI::App& app, const Options& options, int& exit_code) {
+  auto* run =
+      app.add_subcommand("run", "Send a G-code file to the gateway, check it, run it and show its progress");
+  const auto file = named(run, "file", "G-code file, or the name of a stored job");
+  auto detach = std::make_shared<bool>(false);
+  run->add_flag("--detach", *detach, "Return when the job has started");
+  run->callback([=, &exit_code] {
+    Client client(options->reach, 5, true);
+    if (options->force) {
+      ClientMessage request;
+      request.mutable_take_control()->set_force(true);
+      client.ask(std::move(request));
+    }
+    exit_code = run_job(client, *file, *detach);
+  });
+  app.add_subcommand("watch", "Show the progress of the running job")->callback([=, &exit_code] {
+    Client client(options->reach, 5, true);
+    exit_code = watch_job(client);
+  });
+}
+
+void add_store(CLI::App& app, const Options& options, int& exit_code) {
+  auto* upload = app.add_subcommand("upload", "Send a G-code file to the gateway's store");
+  const auto file = named(upload, "file", "G-code file");
+  upload->callback([=] {
+    Client client(options->reach);
+    upload_job(client, *file);
+  });
+  app.add_subcommand("jobs", "List the jobs stored on the gateway")->callback([=] {
+    Client client(options->reach);
+    print_jobs(client.ask(plain(&ClientMessage::mutable_list_jobs)).jobs());
+  });
+  auto* remove = app.add_subcommand("delete", "Delete a stored job");
+  const auto name = named(remove, "name", "as 'kinebus jobs' lists it");
+  remove->callback([=] {
+    Client client(options->reach);
+    ClientMessage request;
+    request.mutable_delete_job()->set_name(*name);
+    client.ask(std::move(request));
+  });
+  auto* check = app.add_subcommand("check", "Check a stored job without moving anything");
+  const auto checked = named(check, "name", "as 'kinebus jobs' lists it");
+  check->callback([=, &exit_code] {
+    Client client(options->reach);
+    ClientMessage request;
+    request.mutable_check_job()->set_name(*checked);
+    exit_code = print_preflight(client.ask(std::move(request)).preflight());
+  });
+  app.add_subcommand("history", "What ran, and how it ended")->callback([=] {
+    Client client(options->reach);
+    print_history(client.ask(plain(&ClientMessage::mutable_get_history)).history());
+  });
+}
+
+void add_events(CLI::App& app, const Options& options) {
+  auto* events = app.add_subcommand("events", "What has happened since the gateway's start");
+  auto alarms = std::make_shared<bool>(false);
+  events->add_flag("--alarms", *alarms, "Only alarms");
+  events->callback([=] {
+    Client client(options->reach);
+    ClientMessage request;
+    request.mutable_get_events()->set_alarms_only(*alarms);
+    request.mutable_get_events()->set_max_events(1000);
+    const joblink::Reply reply = client.ask(std::move(request));
+    for (const joblink::Event& e : reply.events().events())
+      fmt::print("{}  {}{}\n", date_words(e.unix_s()), e.words(),
+                 e.advice().empty() ? "" : " - " + e.advice());
+  });
+}
+
+void add_machine_file(CLI::App& app, const Options& options, int& exit_code) {
+  auto* machine =
+      app.add_subcommand("machine-file", "Show the gateway's machine file, check another, or replace it");
+  auto check = std::make_shared<std::string>(), write = std::make_shared<std::string>();
+  machine->add_option("--check", *check, "Check this file")->check(CLI::ExistingFile);
+  machine->add_option("--write", *write, "Put this file in its place, if it is right")
+      ->check(CLI::ExistingFile);
+  machine->callback([=, &exit_code] {
+    Client client(options->reach);
+    if (check->empty() && write->empty()) {
+      const joblink::Reply reply = client.ask(plain(&ClientMessage::mutable_read_machine_file));
+      fmt::print("{}", reply.machine_file().text());
+      return;
+    }
+    std::ostringstream text;
+    text << std::ifstream(check->empty() ? *write : *check, std::ios::binary).rdbuf();
+    ClientMessage request;
+    if (check->empty())
+      request.mutable_write_machine_file()->set_text(text.str());
+    else
+      request.mutable_check_machine_file()->set_text(text.str());
+    const joblink::Reply reply = client.try_ask(std::move(request));
+    for (const joblink::Problem& p : reply.machine_file_check().problems())
+      fmt::print(stderr, "line {}: {}\n", p.line(), to_words(p));
+    if (reply.has_error() && reply.machine_file_check().problems_size() == 0)
+      throw ClientError(to_words(reply.error()));
+    exit_code = reply.machine_file_check().problems_size() > 0 ? 1 : 0;
+    if (exit_code == 0)
+      fmt::print("{}\n", check->empty() ? "stored: used from the gateway's next start" : "the file is right");
+  });
+}
+
+}  // namespace
+
+void add_job_commands(CLI::App& app, const Options& options, int& exit_code) {
+  add_run(app, options, exit_code);
+  add_store(app, options, exit_code);
+  add_events(app, options);
+  add_machine_file(app, options, exit_code);
+}
+
+}  // namespace kinebus
