@@ -34,21 +34,26 @@ int bulk_loop(std::size_t mib) {
   libusb_context* context = nullptr;
   if (libusb_init(&context) != 0) throw std::runtime_error("libusb does not start");
   libusb_device_handle* handle = nullptr;
+  unsigned char bulk_out = 0;
+  // The kernel takes a moment to configure a device that was just plugged in.
   for (int i = 0; i < 200 && handle == nullptr; ++i) {
     handle = libusb_open_device_with_vid_pid(context, usb_ids::kVendor, usb_ids::kProduct);
-    if (handle == nullptr) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    libusb_config_descriptor* config = nullptr;
+    if (handle != nullptr && libusb_claim_interface(handle, 0) == 0 &&
+        libusb_get_active_config_descriptor(libusb_get_device(handle), &config) == 0) {
+      // The controller numbers the endpoints as it likes.
+      const libusb_interface_descriptor& link = config->interface[0].altsetting[0];
+      for (int e = 0; e < link.bNumEndpoints; ++e)
+        if ((link.endpoint[e].bEndpointAddress & LIBUSB_ENDPOINT_IN) == 0)
+          bulk_out = link.endpoint[e].bEndpointAddress;
+      libusb_free_config_descriptor(config);
+      break;
+    }
+    if (handle != nullptr) libusb_close(handle);
+    handle = nullptr;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
-  if (handle == nullptr || libusb_claim_interface(handle, 0) != 0) throw std::runtime_error("no gadget");
-  // The controller numbers the endpoints as it likes.
-  unsigned char bulk_out = 0;
-  libusb_config_descriptor* config = nullptr;
-  if (libusb_get_active_config_descriptor(libusb_get_device(handle), &config) != 0)
-    throw std::runtime_error("no gadget");
-  const libusb_interface_descriptor& link = config->interface[0].altsetting[0];
-  for (int e = 0; e < link.bNumEndpoints; ++e)
-    if ((link.endpoint[e].bEndpointAddress & LIBUSB_ENDPOINT_IN) == 0)
-      bulk_out = link.endpoint[e].bEndpointAddress;
-  libusb_free_config_descriptor(config);
+  if (handle == nullptr) throw std::runtime_error("no gadget");
   const std::size_t bytes = mib << 20U;
   // Four transfers are always on their way, as many as the job link's host has.
   struct Loop {
