@@ -1,0 +1,72 @@
+#include "tools/compose/composer.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "tools/compose/support.hpp"
+
+namespace kinebus::compose {
+namespace {
+
+constexpr double kDeg = 180 / std::numbers::pi;
+constexpr double kFilamentMm2 = std::numbers::pi / 4 * 1.75 * 1.75;
+
+TriangleMesh placed(TriangleMesh mesh, bool keep_position) {
+  const Box box = bounds(mesh);
+  if (keep_position) {
+    if (box.low[2] < -0.01) throw std::runtime_error("the part reaches below the table (z < 0)");
+    return mesh;
+  }
+  const Vector shift(-(box.low[0] + box.high[0]) / 2, -(box.low[1] + box.high[1]) / 2, -box.low[2]);
+  for (Vector& p : mesh.points) p += shift;
+  return mesh;
+}
+
+SupportComparison with_support(const Slicer& slicer, const TriangleMesh& part, const ComposeOptions& options,
+                               const MachineDescription& machine) {
+  SupportComparison out;
+  const std::string plain = slicer.slice(part, "uncut"),
+                    supported = slicer.slice(part, "uncut-support", true);
+  JoinPiece whole{"uncut", {}, read_sliced(supported, "uncut-support.gcode"), bounds(part)};
+  out.support_filament_mm =
+      std::max(0.0, whole.gcode.filament_mm - read_sliced(plain, "uncut.gcode").filament_mm);
+  out.support_mm3 = out.support_filament_mm * kFilamentMm2;
+  ProblemList problems;
+  out.time_s = planned_time_s(join({whole}, options.join).text, machine, problems);
+  return out;
+}
+
+}  // namespace
+
+Composed compose(const TriangleMesh& given, const ComposeOptions& options,
+                 const MachineDescription& machine) {
+  Composed out;
+  const TriangleMesh part = placed(given, options.keep_position);
+  const Solid solid{part, {Vector(0, 0, 1), 0}};
+  const std::vector<Solid> pieces = options.planes.empty()
+                                        ? decompose(solid, options.decompose)
+                                        : decompose(solid, options.planes, options.decompose);
+  const Slicer slicer(options.slicer, options.work_folder);
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const Solid& piece = pieces[i];
+    const std::string name = fmt::format("piece-{}", i + 1);
+    JoinPiece joined{name, frame_of(piece), {}, bounds(piece.mesh)};
+    joined.gcode = read_sliced(slicer.slice(in_frame(piece.mesh, joined.frame), name), name + ".gcode");
+    const Vector n = joined.frame.normal();
+    out.pieces.push_back({name, joined.frame.j_deg, std::atan2(n[1], n[0]) * kDeg, volume_mm3(piece.mesh),
+                          overhang_mm2(piece, options.decompose.max_overhang_rad),
+                          unheld_mm2(piece, options.decompose.max_overhang_rad), joined.gcode.filament_mm,
+                          joined.gcode.layers});
+    out.joined.push_back(std::move(joined));
+    out.meshes.push_back(piece.mesh);
+  }
+  out.job = join(out.joined, options.join);
+  out.verification = verify(out.job, out.joined, out.meshes, machine, options.sweep);
+  if (options.compare_support) out.support = with_support(slicer, part, options, machine);
+  return out;
+}
+
+}  // namespace kinebus::compose
