@@ -54,8 +54,8 @@ class Sweep {
   void go(std::uint32_t line, const Pose& target, const canonical::Arc* arc) {
     const int piece = piece_at(line);
     const bool feeds = target[5] > here_[5] + 1e-9;
-    if (feeds) out_.filament_mm += target[5] - here_[5];
     const bool strand = feeds && (tip_of(target) - tip_of(here_)).norm() > 1e-6;
+    if (strand) out_.filament_mm += target[5] - here_[5];
     if (strand && piece >= 0 && piece < static_cast<int>(pieces_.size())) {
       const Vector n = pieces_[static_cast<std::size_t>(piece)].frame.normal();
       for (const Pose& end : {here_, target}) {

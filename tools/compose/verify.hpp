@@ -17,7 +17,7 @@ struct Verification {
   double worst_layer_tilt_deg = 0;  ///< between the tool and the piece's normal while filament is fed
   double worst_overlap_mm = 0;      ///< of the nozzle with printed pieces or table; <= 0: it never meets them
   int worst_overlap_line = 0;
-  double filament_mm = 0;
+  double filament_mm = 0;  ///< in strands; what is drawn back and given back is not counted
   bool good() const { return problems.errors() == 0 && worst_overlap_mm <= 0 && worst_layer_tilt_deg <= 1; }
 };
 

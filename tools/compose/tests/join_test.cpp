@@ -51,12 +51,11 @@ TEST(Join, TheJobFeedsWhatThePiecesFeedAndPrintsSquareToTheirNormals) {
   EXPECT_EQ(result.problems.errors(), 0u) << result.problems.all().front().words;
   EXPECT_LT(result.worst_layer_tilt_deg, 1e-3);
   EXPECT_LE(result.worst_overlap_mm, 0) << "line " << result.worst_overlap_line;
-  // Strands 2.4 mm a piece; every retraction (0.8) is given back but the last.
   double fed = 0;
   for (const SlicedItem& item : pieces[0].gcode.items)
     if (const auto* move = std::get_if<SlicedMove>(&item)) fed += move->to_mm[0] ? move->e_mm : 0;
   EXPECT_NEAR(fed, 2.4, 1e-9);
-  EXPECT_NEAR(result.filament_mm, 2 * (2.4 + 0.8), 1e-4);
+  EXPECT_NEAR(result.filament_mm, 2 * 2.4, 1e-4);
 }
 
 TEST(Join, ATableInTheWayIsFound) {

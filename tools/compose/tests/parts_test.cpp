@@ -36,7 +36,7 @@ TEST_P(Part, IsPrintedWithoutSupportOnTheSimulatedMachine) {
   EXPECT_EQ(problems.errors(), 0u) << problems.all().front().line << ": " << problems.all().front().words;
   EXPECT_LE(made.verification.worst_layer_tilt_deg, 1);
   EXPECT_LE(made.verification.worst_overlap_mm, 0) << "line " << made.verification.worst_overlap_line;
-  EXPECT_NEAR(made.verification.filament_mm, filament, 0.05 * filament) << "retractions aside";
+  EXPECT_NEAR(made.verification.filament_mm, filament, 0.01 * filament);
   ASSERT_TRUE(made.support);
   EXPECT_GT(made.support->support_filament_mm, 0)
       << "the slicer itself finds that the uncut part needs support";
