@@ -59,6 +59,7 @@ class Board final : public Devices {
 
   /// True carriage position at the last run(), counts (51200 a turn) from the joint's zero.
   double true_counts(int axis) const;
+  double start_counts(int axis) const { return options_.axes[static_cast<std::size_t>(axis)].start_counts; }
   /// TIM2's count at a time not long after now().
   std::uint32_t local_counts(Cycle at) { return tim2_.read(0x24, std::max(at, cpu_.now())); }
   /// The level on switch input 0..6 from outside; inputs that an axis drives follow it.

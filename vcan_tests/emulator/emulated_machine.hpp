@@ -47,6 +47,9 @@ class EmulatedMachine final : public NodeMachine {
   void set_input(int node, BusTime at, int input, bool level) override;
 
   Board& board(int node) { return *nodes_[static_cast<std::size_t>(node)]->board; }
+  BusTime now() const { return time_ - epoch_; }
+  /// Where a carriage stood at power-up, counts.
+  double start_counts(int node, int axis) { return board(node).start_counts(axis); }
   /// The processor is asleep: what the main loop keeps is consistent.
   bool idle(int node) { return board(node).cpu().asleep(); }
   /// What the program's motion asks of a motor now: counts with 32 fractional bits, 0 at power-up.

@@ -4,6 +4,12 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "protocol/bytes.hpp"
 #include "vcan_tests/emulator/emulated_machine.hpp"
 #include "vcan_tests/sim/simulate.hpp"
 
@@ -31,8 +37,7 @@ std::vector<VirtualNodeOptions> near_the_switches(std::vector<VirtualNodeOptions
   return nodes;
 }
 
-SimulationReport run(bool emulated, EmulatedMachine** machine = nullptr) {
-  SimulateOptions options;
+SimulationReport run(bool emulated, SimulateOptions options = {}, EmulatedMachine** machine = nullptr) {
   options.simulation.seed = 3;
   options.simulation.clocks.offset_max = 50ms;
   options.make_nodes = [&](const std::vector<VirtualNodeOptions>& nodes) -> std::unique_ptr<NodeMachine> {
@@ -61,6 +66,54 @@ TEST(Job, ThreeImagesPrintWithTheirRotorsOnThePath) {
   EXPECT_LE(rotors.max_node_time_skew_us, 2.0);
   EXPECT_EQ(rotors.underruns, 0u);
   EXPECT_EQ(rotors.records_out_of_sequence, 0u);
+}
+
+TEST(Job, AShortedMotorIsToldAndTheOthersStopTogetherOnThePath) {
+  EmulatedMachine* machine = nullptr;
+  bool shorted = false;
+  double skew_us = 0, others_counts = 0;
+  std::array<PathTime, 3> tau{}, before{};
+  std::array<std::optional<double>, 6> begin{};
+  std::vector<std::uint16_t> codes;
+  SimulateOptions options;
+  options.limit_s = 2;
+  options.on_frame = [&](BusTime, const CanFrame& frame) {
+    if (shorted && frame.id > 0x080 && frame.id < 0x100) codes.push_back(get_u16_le(frame.data));
+  };
+  options.operate = [&](Gateway&, double job_s) {
+    if (job_s > 0.6 && !shorted) {
+      shorted = true;
+      machine->board(1).motor(0).set_winding(0, StepperMotor::Winding::kShorted);
+    }
+    before = tau;
+    const BusTime now = machine->now();
+    for (int node = 0; node < 3; ++node) tau[static_cast<std::size_t>(node)] = machine->path_time(node, now);
+    const auto [low, high] = std::minmax_element(tau.begin(), tau.end());
+    skew_us = std::max(skew_us, static_cast<double>((*high - *low).count()) / 16);
+    for (int node = 0; node < 3; ++node)
+      for (int axis = 0; axis < 2; ++axis) {
+        if (node == 1 && axis == 0) continue;
+        const auto command = machine->commanded(node, axis);
+        ASSERT_TRUE(command.has_value());
+        // A rotor without encoder comes into step somewhere within an electrical turn of where it stood:
+        // homing makes that good. It counts from the job's begin on.
+        const double apart =
+            machine->board(node).true_counts(axis) - static_cast<double>(*command) / 4294967296.0;
+        auto& at_begin = begin[static_cast<std::size_t>(2 * node + axis)];
+        if (!at_begin) at_begin = apart;
+        others_counts = std::max(others_counts, std::abs(apart - *at_begin));
+      }
+  };
+  const SimulationReport report = run(true, options, &machine);
+  fmt::print("shorted motor of node 2: {}; EMCY", report.outcome);
+  for (const std::uint16_t code : codes) fmt::print(" {:04X}", code);
+  fmt::print("; path times within {:.2f} us, the other rotors within {:.1f} counts of their commands\n",
+             skew_us, others_counts);
+  EXPECT_NE(std::find(codes.begin(), codes.end(), 0x2320), codes.end());
+  EXPECT_FALSE(report.finished);
+  EXPECT_EQ(tau, before) << "path time stands still on all nodes";
+  EXPECT_LE(skew_us, 2.0);
+  EXPECT_LE(others_counts, 51.2) << "two tenths of a full step";
 }
 
 }  // namespace
