@@ -22,6 +22,7 @@
 #include "gateway/io/realtime.hpp"
 #include "gateway/io/socketcan_bus.hpp"
 #include "gateway/io/store_files.hpp"
+#include "gateway/io/usb/function_fs.hpp"
 #include "gateway/io/usb/serial_ports.hpp"
 #include "gateway/io/worker_thread.hpp"
 #include "gateway/jobs/store/job_store.hpp"
@@ -45,6 +46,7 @@ struct Arguments {
   std::string jobs;
   std::string bus_log;
   kinebus::SerialPorts::Options serial;
+  std::string usb;
   std::string journal;
   std::string flight;
   std::string tcp;
@@ -157,6 +159,9 @@ int serve(const Arguments& arguments) {
   kinebus::StoreFiles serial_files(*store, worker, gateway, server);
   kinebus::SerialPorts serial(loop, gateway, serial_files, arguments.serial);
   if (std::string error = serial.open(); !error.empty()) return fail("serial port " + error);
+  kinebus::FunctionFs usb(loop, hub, arguments.usb, [&server](kinebus::LocalTime now) {
+    return server.open(now, {.transport = "usb", .token = {}});
+  });
 
   if (!arguments.no_realtime)
     if (const std::string missing = kinebus::become_realtime(arguments.realtime_priority); !missing.empty())
@@ -182,6 +187,7 @@ int serve(const Arguments& arguments) {
   daemon.add(host);
   daemon.add(hub);
   daemon.add(serial);
+  if (!arguments.usb.empty()) daemon.add(usb);
   daemon.add(journal);
   daemon.run(&quit);
   spdlog::info("ended at rest");
@@ -207,6 +213,9 @@ int run(int argc, char** argv) {
   app.add_option("--quota", arguments.quota_gib, "GiB that stored jobs may take")
       ->check(CLI::Range(0.001, 1e6));
   app.add_option("--jobs", arguments.jobs, "Folder of stored jobs (default: the machine file's)");
+  app.add_option(
+      "--usb", arguments.usb,
+      "Serve the job link as a USB device, on the FunctionFS mounted here (see kinebus-usb-gadget)");
   app.add_option("--serial-pty", arguments.serial.pty,
                  "Offer print hosts a serial port under this path (a link to a pty)");
   app.add_option(
