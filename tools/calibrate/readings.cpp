@@ -13,8 +13,8 @@ Result<std::map<std::string, std::vector<RailSample>>, CsvError> rail_samples(
   for (std::size_t row = 0; row < csv.rows(); ++row) {
     const std::string name = csv.word(row, "joint");
     const JointDescription* joint = nullptr;
-    for (const JointDescription& j : machine.joints)
-      if (j.name == name) joint = &j;
+    for (std::size_t i = 0; i < machine.joints.size(); ++i)
+      if (machine.joints[i].name == name || std::to_string(i + 1) == name) joint = &machine.joints[i];
     if (joint == nullptr)
       return Error<CsvError>(
           {csv.line(row), "joint \"" + name.substr(0, 40) + "\" is none of the machine's"});
@@ -26,12 +26,12 @@ Result<std::map<std::string, std::vector<RailSample>>, CsvError> rail_samples(
       const auto direction = csv.plain(row, "direction");
       if (!direction) return Error<CsvError>(direction.error());
       s.direction = *direction < 0 ? -1 : 1;
-    } else if (const auto before = last.find(name); before != last.end()) {
+    } else if (const auto before = last.find(joint->name); before != last.end()) {
       s.direction = s.commanded < before->second ? -1 : 1;
     }
-    last[name] = s.commanded;
+    last[joint->name] = s.commanded;
     s.commanded = drive_from_home(*joint, s.commanded, s.direction) + anchor_of(*joint);
-    out[name].push_back(s);
+    out[joint->name].push_back(s);
   }
   return out;
 }
@@ -109,10 +109,23 @@ std::optional<BelievedMachine> believed(const MachineDescription& machine) {
   return b;
 }
 
+namespace {
+/// A nanometre, a nanoradian: what a person can still read in the file.
+double rounded(double v, double digit) {
+  return std::round(v / digit) * digit;
+}
+constexpr double kLength_mm = 1e-6, kRatio = 1e-9;
+}  // namespace
+
 void apply(const RailFit& fit, JointCalibration& calibration) {
   const double offset = calibration.offset;
   calibration = fit.calibration;
   calibration.offset = offset;
+  calibration.scale = rounded(calibration.scale, kRatio);
+  for (double* v : {&calibration.backlash, &calibration.periodic_sine, &calibration.periodic_cosine,
+                    &calibration.table_start, &calibration.table_step})
+    *v = rounded(*v, kLength_mm);
+  for (double& v : calibration.table) v = rounded(v, kLength_mm);
 }
 
 void apply(const MachineDeviation& d, MachineDescription& machine) {
@@ -121,13 +134,14 @@ void apply(const MachineDeviation& d, MachineDescription& machine) {
     M1LegCorrection& leg = machine.geometry_calibration->legs[i];
     const M1LegCorrection& found = d.geometry.legs[i];
     for (std::size_t k = 0; k < 3; ++k) {
-      leg.foot_mm[k] += found.foot_mm[k];
-      leg.rail[k] += found.rail[k];
-      leg.attachment_mm[k] += found.attachment_mm[k];
+      leg.foot_mm[k] = rounded(leg.foot_mm[k] + found.foot_mm[k], kLength_mm);
+      leg.rail[k] = rounded(leg.rail[k] + found.rail[k], kRatio);
+      leg.attachment_mm[k] = rounded(leg.attachment_mm[k] + found.attachment_mm[k], kLength_mm);
     }
-    leg.length_mm += found.length_mm;
-    machine.joints[i].calibration.offset += d.offset_mm[i];
-    machine.joints[i].calibration.scale = (1 + machine.joints[i].calibration.scale) * (1 + d.scale[i]) - 1;
+    leg.length_mm = rounded(leg.length_mm + found.length_mm, kLength_mm);
+    JointCalibration& c = machine.joints[i].calibration;
+    c.offset = rounded(c.offset + d.offset_mm[i], kLength_mm);
+    c.scale = rounded((1 + c.scale) * (1 + d.scale[i]) - 1, kRatio);
   }
 }
 

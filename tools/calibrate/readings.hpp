@@ -12,9 +12,9 @@
 
 namespace kinebus {
 
-/// Columns: joint, commanded_mm, measured_mm, and direction (1 or -1; left out: by the row before of the same
-/// joint). `machine`: with the calibration that was in force, which is taken out again, so that what comes of
-/// it is whole.
+/// Columns: joint (its name, or its number from 1), commanded_mm, measured_mm,
+/// and direction (1 or -1; left out: by the row before of the same joint). `machine`: with the calibration
+/// that was in force, which is taken out again, so that what comes of it is whole.
 Result<std::map<std::string, std::vector<RailSample>>, CsvError> rail_samples(
     const Csv& csv, const MachineDescription& machine);
 

@@ -18,7 +18,7 @@ namespace kinebus {
 namespace {
 
 struct Arguments {
-  std::string job, machine, json_path, plot_path, candump_path;
+  std::string job, machine, plant, json_path, plot_path, candump_path;
   std::uint64_t seed = 1;
   double limit_s = 0;
 };
@@ -31,10 +31,12 @@ std::unique_ptr<FileSource> open_job(const std::string& path) {
 
 int run(const Arguments& arguments) {
   const MachineDescription machine = read_machine(arguments.machine);
+  const MachineDescription plant = read_machine(arguments.plant);
   const auto checkers_text = open_job(arguments.job);
   PlotData plot;
   SimulateOptions options;
   options.simulation.seed = arguments.seed;
+  if (!arguments.plant.empty()) options.simulation.plant = &plant;
   options.limit_s = arguments.limit_s;
   if (!arguments.plot_path.empty()) options.plot = &plot;
   if (::isatty(STDERR_FILENO) != 0)
@@ -74,6 +76,10 @@ void add_simulate_command(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<Arguments>();
   command->add_option("job", arguments->job, "G-code file")->required()->check(CLI::ExistingFile);
   command->add_option("--machine", arguments->machine, "Machine file; without it the default machine M1")
+      ->check(CLI::ExistingFile);
+  command
+      ->add_option("--plant", arguments->plant,
+                   "Machine file of the machine as it really is (kinebus-calibrate spoil)")
       ->check(CLI::ExistingFile);
   command->add_option("--json", arguments->json_path, "Also write the report here");
   command->add_option("--plot", arguments->plot_path,
