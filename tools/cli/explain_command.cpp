@@ -35,6 +35,12 @@ void explain_cause(const json& report, bool died) {
         "its\n"
         "  SYNC after 175 ms and stop together on the path; they hold their places and remember path "
         "time.\n");
+  // What was long before a gateway's death has nothing to do with it.
+  constexpr double kLongBefore_s = -2;
+  if (died && first_node != nullptr && first_node->at("s") < kLongBefore_s) first_node = nullptr;
+  if (died && first_alarm != nullptr && first_alarm->at("s") < kLongBefore_s) first_alarm = nullptr;
+  if (first_node != nullptr && first_alarm != nullptr && first_alarm->at("s") < first_node->at("s"))
+    first_node = nullptr;
   if (first_node != nullptr)
     fmt::print("  {}: {}\n", when(first_node->at("s")), first_node->at("words").get<std::string>());
   if (first_alarm != nullptr && (first_node == nullptr || first_alarm->at("s") < first_node->at("s")))
