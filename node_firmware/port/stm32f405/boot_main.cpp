@@ -96,7 +96,7 @@ int main() {
     }
     if (heard != boot_loader->node_id()) hear(heard = boot_loader->node_id());
     if (boot_loader->start_requested() && can_port.queue().idle()) {
-      handover_ram = Handover{};
+      handover_ram = Handover{.node_id = boot_loader->node_id()};
       reset_processor();
     }
   }

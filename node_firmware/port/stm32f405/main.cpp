@@ -41,6 +41,14 @@ void store(Node& node) {
   if (erases) dog.back_to_normal();
 }
 
+// The id under which the boot loader answered, which may have come by LSS and be stored nowhere; 0: as
+// stored.
+std::uint8_t inherited_node_id() {
+  const std::uint32_t id = handover_ram.magic == Handover::kMagic ? handover_ram.node_id : 0;
+  handover_ram.node_id = 0;
+  return id <= 127 ? static_cast<std::uint8_t>(id) : std::uint8_t{0};
+}
+
 // Asked for by 1F51h; the answer is on the bus first. Motors have no power then (Node refuses otherwise).
 void give_way(const Node& node) {
   handover_ram = Handover{.stay = 1, .node_id = node.node_id()};
@@ -78,7 +86,9 @@ int main() {
   if (!can_port.start()) isr_fault();
   const auto stored = parameters.load();
   static_cast<void>(parameters.prepare(kLargestImage));
-  program.emplace(NodeOptions{.identity = {.serial = serial_number()}, .program_crc = kImageHeader.crc},
+  program.emplace(NodeOptions{.identity = {.serial = serial_number()},
+                              .node_id = inherited_node_id(),
+                              .program_crc = kImageHeader.crc},
                   stored, can_port, switch_port, motion_plan);
   Node& node = program->node();
   if (WatchdogPort::caused_reset()) node.count(NodeCounter::kWatchdogResets);
