@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "protocol/joblink/usb_ids.hpp"
 
@@ -34,6 +35,15 @@ UsbHost::~UsbHost() {
 }
 
 void UsbHost::connect() {
+  // libusb learns of new devices from udev, which the lab guest has not; a new context looks for itself.
+  // A transfer keeps the device that it was last used with, so it goes with its context.
+  for (auto* slots : {&in_, &out_})
+    for (Slot& slot : *slots) {
+      libusb_free_transfer(slot.transfer);
+      slot.transfer = libusb_alloc_transfer(0);
+    }
+  libusb_exit(std::exchange(context_, nullptr));
+  if (libusb_init(&context_) != 0) throw std::runtime_error("libusb does not start");
   libusb_device** list = nullptr;
   const ssize_t count = libusb_get_device_list(context_, &list);
   for (ssize_t i = 0; i < count && handle_ == nullptr; ++i) {
