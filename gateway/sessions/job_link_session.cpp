@@ -166,7 +166,7 @@ void JobLinkSession::request(LocalTime now, const ClientMessage& message) {
   }
   if (message.has_ping()) return server_.answer(asker, {});
   if (JobRequests(server_, *this, now).take(asker, message)) return;
-  if (MachineRequests(server_, *this, now).take(asker, message)) return;
+  if (MachineRequests(server_, *this).take(asker, message)) return;
   server_.refuse(asker, problem(joblink::ERROR_NOT_UNDERSTOOD, {}, "this gateway does not know the request"));
 }
 

@@ -7,8 +7,7 @@ namespace kinebus {
 
 class MachineRequests {
  public:
-  MachineRequests(JobLinkServer& server, JobLinkSession& session, LocalTime now)
-      : server_(server), session_(session), now_(now) {}
+  MachineRequests(JobLinkServer& server, JobLinkSession& session) : server_(server), session_(session) {}
   /// False: not one of these.
   bool take(const JobLinkServer::Asker& asker, const joblink::ClientMessage& message);
 
@@ -23,7 +22,6 @@ class MachineRequests {
 
   JobLinkServer& server_;
   JobLinkSession& session_;
-  LocalTime now_;
 };
 
 }  // namespace kinebus
