@@ -26,14 +26,21 @@ int run(int argc, char** argv) {
   QApplication::setDesktopFileName(QStringLiteral("kinebus-gui"));
 
   QCommandLineParser arguments;
-  arguments.setApplicationDescription(QStringLiteral("Kinebus: send a job to the gateway and watch the machine print."));
+  arguments.setApplicationDescription(
+      QStringLiteral("Kinebus: send a job to the gateway and watch the machine print."));
   arguments.addHelpOption();
   arguments.addVersionOption();
-  const QCommandLineOption demo(QStringLiteral("demo"), QStringLiteral("Start the simulated demo machine and connect to it."));
-  const QCommandLineOption socket(QStringLiteral("socket"), QStringLiteral("Connect to the gateway that listens at this local socket."), QStringLiteral("PATH"));
-  const QCommandLineOption language(QStringLiteral("language"), QStringLiteral("en, tr or fa."), QStringLiteral("CODE"));
+  const QCommandLineOption demo(QStringLiteral("demo"),
+                                QStringLiteral("Start the simulated demo machine and connect to it."));
+  const QCommandLineOption socket(QStringLiteral("socket"),
+                                  QStringLiteral("Connect to the gateway that listens at this local socket."),
+                                  QStringLiteral("PATH"));
+  const QCommandLineOption language(QStringLiteral("language"), QStringLiteral("en, tr or fa."),
+                                    QStringLiteral("CODE"));
   arguments.addOptions({demo, socket, language});
-  arguments.addPositionalArgument(QStringLiteral("files"), QStringLiteral("G-code files to upload once connected."), QStringLiteral("[FILE...]"));
+  arguments.addPositionalArgument(QStringLiteral("files"),
+                                  QStringLiteral("G-code files to upload once connected."),
+                                  QStringLiteral("[FILE...]"));
   arguments.process(app);
 
   QSettings settings;
@@ -41,7 +48,8 @@ int run(int argc, char** argv) {
   if (arguments.isSet(socket)) sockets << arguments.value(socket);
   kinebus::gui::Desk desk(sockets);
   desk.theme.apply(settings.value(QStringLiteral("theme/dark"), system_is_dark()).toBool());
-  const QString saved = settings.value(QStringLiteral("language"), kinebus::gui::Language::system_code()).toString();
+  const QString saved =
+      settings.value(QStringLiteral("language"), kinebus::gui::Language::system_code()).toString();
   desk.language.apply(arguments.isSet(language) ? arguments.value(language) : saved);
 
   kinebus::gui::MainWindow window(desk);

@@ -50,8 +50,9 @@ QString DemoGateway::socket_path() const {
 void DemoGateway::start() {
   const QString daemon = find_daemon();
   if (daemon.isEmpty() || !folder_.isValid()) {
-    emit failed(daemon.isEmpty() ? tr("the program kinebusd was not found: install the package kinebus-daemon")
-                                 : folder_.errorString());
+    emit failed(daemon.isEmpty()
+                    ? tr("the program kinebusd was not found: install the package kinebus-daemon")
+                    : folder_.errorString());
     return;
   }
   QDir(folder_.path()).mkpath(QStringLiteral("jobs"));
@@ -60,7 +61,8 @@ void DemoGateway::start() {
   process_.setWorkingDirectory(folder_.path());
   process_.start(daemon, {QStringLiteral("--bus"), QStringLiteral("inproc"), QStringLiteral("--no-realtime"),
                           QStringLiteral("--socket"), socket_path(), QStringLiteral("--jobs"),
-                          folder_.filePath(QStringLiteral("jobs")), QStringLiteral("--log-level"), QStringLiteral("warn")});
+                          folder_.filePath(QStringLiteral("jobs")), QStringLiteral("--log-level"),
+                          QStringLiteral("warn")});
   look_for_socket();
 }
 

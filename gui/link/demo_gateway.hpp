@@ -1,6 +1,6 @@
 #pragma once
-// A whole machine to try without hardware: kinebusd with simulated nodes, as a child with a folder of its own that goes
-// when it ends.
+// A whole machine to try without hardware: kinebusd with simulated nodes, as a child with a folder of its own
+// that goes when it ends.
 
 #include <QObject>
 #include <QProcess>

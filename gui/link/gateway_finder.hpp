@@ -15,9 +15,9 @@ class Link;
 
 struct FoundGateway {
   enum class Way { kUsb, kSocket } way{};
-  QString title;    ///< what the user reads
-  QString detail;   ///< serial number or path
-  QString key;      ///< the same when it is found again
+  QString title;   ///< what the user reads
+  QString detail;  ///< serial number or path
+  QString key;     ///< the same when it is found again
   UsbGateway usb;
   QString socket_path;
   friend bool operator==(const FoundGateway&, const FoundGateway&) = default;

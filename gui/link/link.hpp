@@ -1,5 +1,6 @@
 #pragma once
-// Bytes to a gateway and back, whatever carries them. A link is opened once; when it breaks it says so and is done.
+// Bytes to a gateway and back, whatever carries them. A link is opened once; when it breaks it says so and is
+// done.
 
 #include <QByteArray>
 #include <QObject>

@@ -6,7 +6,8 @@ namespace kinebus::gui {
 
 SocketLink::SocketLink(QString path, QObject* parent) : Link(parent), path_(std::move(path)), socket_(this) {
   connect(&socket_, &QLocalSocket::connected, this, &Link::opened);
-  connect(&socket_, &QLocalSocket::disconnected, this, [this] { emit closed(tr("the gateway closed the connection")); });
+  connect(&socket_, &QLocalSocket::disconnected, this,
+          [this] { emit closed(tr("the gateway closed the connection")); });
   connect(&socket_, &QLocalSocket::errorOccurred, this, [this](QLocalSocket::LocalSocketError error) {
     if (error != QLocalSocket::PeerClosedError) emit closed(socket_.errorString());
   });

@@ -17,7 +17,8 @@ class SocketLink : public Link {
   QString description() const override;
 
  private:
-  /// More than this waits in the socket's own buffer: the caller has to wait, so that urgent commands stay quick.
+  /// More than this waits in the socket's own buffer: the caller has to wait, so that urgent commands stay
+  /// quick.
   static constexpr qint64 kMaxWaiting_bytes = 512 * 1024;
   QString path_;
   QLocalSocket socket_;

@@ -1,5 +1,6 @@
 #pragma once
-// Alarms by their code: a title and what to do next, in the user's language. The gateway's own words say the details.
+// Alarms by their code: a title and what to do next, in the user's language. The gateway's own words say the
+// details.
 
 #include <QCoreApplication>
 #include <QString>

@@ -43,14 +43,22 @@ const joblink::AxisStatus* AxesModel::axis_of(const joblink::Joint& joint) const
 QVariant AxesModel::headerData(int section, Qt::Orientation orientation, int role) const {
   if (orientation != Qt::Horizontal || role != Qt::DisplayRole) return {};
   switch (section) {
-    case kJoint: return tr("Axis");
-    case kPosition: return tr("Position");
-    case kTravel: return tr("Travel");
-    case kCurrent: return tr("Current");
-    case kDrive: return tr("Drive");
-    case kSwitch: return tr("Switch");
-    case kPlace: return tr("Node");
-    default: return {};
+    case kJoint:
+      return tr("Axis");
+    case kPosition:
+      return tr("Position");
+    case kTravel:
+      return tr("Travel");
+    case kCurrent:
+      return tr("Current");
+    case kDrive:
+      return tr("Drive");
+    case kSwitch:
+      return tr("Switch");
+    case kPlace:
+      return tr("Node");
+    default:
+      return {};
   }
 }
 
@@ -64,27 +72,39 @@ QVariant AxesModel::data(const QModelIndex& index, int role) const {
   const double position = known ? status.joints(index.row()) : 0;
   const bool limited = joint.travel().min() < joint.travel().max();
   const bool has_switch = joint.home_switch() != 0;
-  const bool switch_on = has_switch && node != nullptr && ((node->inputs() >> (joint.home_switch() - 1)) & 1u) != 0;
+  const bool switch_on =
+      has_switch && node != nullptr && ((node->inputs() >> (joint.home_switch() - 1)) & 1u) != 0;
   if (role == kFault) return axis != nullptr && axis->fault();
   if (role == kSwitchOn) return switch_on;
   if (role == kShare)
-    return known && limited ? (position - joint.travel().min()) / (joint.travel().max() - joint.travel().min()) : -1.0;
+    return known && limited
+               ? (position - joint.travel().min()) / (joint.travel().max() - joint.travel().min())
+               : -1.0;
   if (role == Qt::TextAlignmentRole && (index.column() == kPosition || index.column() == kCurrent))
     return QVariant(Qt::AlignTrailing | Qt::AlignVCenter);
   if (role != Qt::DisplayRole) return {};
   switch (index.column()) {
-    case kJoint: return QString::fromStdString(joint.name());
+    case kJoint:
+      return QString::fromStdString(joint.name());
     case kPosition:
       if (!known) return QStringLiteral("–");
-      return joint.rotary() ? Format::isolated(Format::number(position * kDegPerRad, 2) + QStringLiteral(" °"))
-                            : Format::isolated(tr("%1 mm").arg(Format::number(position, 3)));
-    case kCurrent: return axis == nullptr ? QStringLiteral("–") : Format::isolated(tr("%1 A").arg(Format::number(axis->current_a(), 2)));
+      return joint.rotary()
+                 ? Format::isolated(Format::number(position * kDegPerRad, 2) + QStringLiteral(" °"))
+                 : Format::isolated(tr("%1 mm").arg(Format::number(position, 3)));
+    case kCurrent:
+      return axis == nullptr ? QStringLiteral("–")
+                             : Format::isolated(tr("%1 A").arg(Format::number(axis->current_a(), 2)));
     case kDrive:
       if (axis == nullptr) return QStringLiteral("–");
       return axis->fault() ? tr("Fault") : axis->enabled() ? tr("On") : tr("Off");
-    case kSwitch: return !has_switch ? QStringLiteral("–") : switch_on ? tr("Hit") : tr("Free");
-    case kPlace: return Format::isolated(QStringLiteral("%1 %2").arg(joint.node()).arg(joint.axis() == 0 ? QLatin1Char('A') : QLatin1Char('B')));
-    default: return {};
+    case kSwitch:
+      return !has_switch ? QStringLiteral("–") : switch_on ? tr("Hit") : tr("Free");
+    case kPlace:
+      return Format::isolated(QStringLiteral("%1 %2")
+                                  .arg(joint.node())
+                                  .arg(joint.axis() == 0 ? QLatin1Char('A') : QLatin1Char('B')));
+    default:
+      return {};
   }
 }
 

@@ -20,7 +20,9 @@ EventsModel::EventsModel(Session& session, QObject* parent) : QAbstractListModel
   });
   connect(&session, &Session::status_changed, this, [this, &session] {
     const auto state = session.status().state();
-    if (open_alarms_ == 0 || state == joblink::STATE_ALARM || state == joblink::STATE_STOPPED || state == joblink::STATE_STOPPING) return;
+    if (open_alarms_ == 0 || state == joblink::STATE_ALARM || state == joblink::STATE_STOPPED ||
+        state == joblink::STATE_STOPPING)
+      return;
     open_alarms_ = 0;
     emit open_alarms_changed();
   });
@@ -32,8 +34,10 @@ bool EventsModel::shown(const joblink::Event& event) {
     case joblink::EVENT_MESSAGE:
     case joblink::EVENT_PROBLEM:
     case joblink::EVENT_FINISHED:
-    case joblink::EVENT_CONTROL: return true;
-    default: return false;
+    case joblink::EVENT_CONTROL:
+      return true;
+    default:
+      return false;
   }
 }
 
@@ -73,17 +77,24 @@ QVariant EventsModel::data(const QModelIndex& index, int role) const {
   const bool alarm = e.kind() == joblink::EVENT_ALARM;
   const QString words = QString::fromStdString(e.words());
   switch (role) {
-    case kIsAlarm: return alarm;
-    case kCode: return e.code();
-    case kWhen: return Format::date_time(e.unix_s());
+    case kIsAlarm:
+      return alarm;
+    case kCode:
+      return e.code();
+    case kWhen:
+      return Format::date_time(e.unix_s());
     case Qt::DisplayRole:
     case kTitle:
       if (alarm) return AlarmWords::title(e.code());
       switch (e.kind()) {
-        case joblink::EVENT_FINISHED: return tr("Done");
-        case joblink::EVENT_PROBLEM: return tr("The check of the job found a problem");
-        case joblink::EVENT_CONTROL: return tr("Control has moved to another program");
-        default: return tr("Message");
+        case joblink::EVENT_FINISHED:
+          return tr("Done");
+        case joblink::EVENT_PROBLEM:
+          return tr("The check of the job found a problem");
+        case joblink::EVENT_CONTROL:
+          return tr("Control has moved to another program");
+        default:
+          return tr("Message");
       }
     case kDetails: {
       QStringList parts;
@@ -97,7 +108,8 @@ QVariant EventsModel::data(const QModelIndex& index, int role) const {
       const QString own = AlarmWords::advice(e.code());
       return own.isEmpty() ? QString::fromStdString(e.advice()) : own;
     }
-    default: return {};
+    default:
+      return {};
   }
 }
 

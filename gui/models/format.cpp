@@ -38,7 +38,8 @@ QString Format::percent(double share, int decimals) {
 QString Format::date_time(double unix_s) {
   const QDateTime when = QDateTime::fromMSecsSinceEpoch(static_cast<qint64>(unix_s * 1000));
   const bool today = when.date() == QDate::currentDate();
-  return today ? QLocale().toString(when.time(), QStringLiteral("HH:mm:ss")) : QLocale().toString(when, QLocale::ShortFormat);
+  return today ? QLocale().toString(when.time(), QStringLiteral("HH:mm:ss"))
+               : QLocale().toString(when, QLocale::ShortFormat);
 }
 
 QString Format::temperature(double celsius) {

@@ -71,13 +71,20 @@ const joblink::Job* JobsModel::find(const QString& job_name) const {
 QVariant JobsModel::headerData(int section, Qt::Orientation orientation, int role) const {
   if (orientation != Qt::Horizontal || role != Qt::DisplayRole) return {};
   switch (section) {
-    case kName: return tr("Job");
-    case kSize: return tr("Size");
-    case kStored: return tr("Uploaded");
-    case kCheck: return tr("Check");
-    case kEstimate: return tr("Time");
-    case kLastRun: return tr("Last run");
-    default: return {};
+    case kName:
+      return tr("Job");
+    case kSize:
+      return tr("Size");
+    case kStored:
+      return tr("Uploaded");
+    case kCheck:
+      return tr("Check");
+    case kEstimate:
+      return tr("Time");
+    case kLastRun:
+      return tr("Last run");
+    default:
+      return {};
   }
 }
 
@@ -85,13 +92,20 @@ QVariant JobsModel::data(const QModelIndex& index, int role) const {
   if (!index.isValid()) return {};
   if (const JobUpload* upload = upload_at(index.row())) {
     switch (role) {
-      case Qt::DisplayRole: return upload_text(*upload, index.column());
-      case Qt::ToolTipRole: return upload->error().isEmpty() ? upload->file_path() : upload->error();
-      case kIsUpload: return true;
-      case kUploadFailed: return upload->phase() == JobUpload::Phase::kFailed;
+      case Qt::DisplayRole:
+        return upload_text(*upload, index.column());
+      case Qt::ToolTipRole:
+        return upload->error().isEmpty() ? upload->file_path() : upload->error();
+      case kIsUpload:
+        return true;
+      case kUploadFailed:
+        return upload->phase() == JobUpload::Phase::kFailed;
       case kProgress:
-        return upload->size_bytes() > 0 ? static_cast<double>(upload->sent_bytes()) / static_cast<double>(upload->size_bytes()) : 0.0;
-      default: return {};
+        return upload->size_bytes() > 0
+                   ? static_cast<double>(upload->sent_bytes()) / static_cast<double>(upload->size_bytes())
+                   : 0.0;
+      default:
+        return {};
     }
   }
   const joblink::Job* job = job_at(index.row());
@@ -104,30 +118,46 @@ QVariant JobsModel::data(const QModelIndex& index, int role) const {
 
 QVariant JobsModel::upload_text(const JobUpload& upload, int column) const {
   switch (column) {
-    case kName: return upload.name();
-    case kSize: return Format::bytes(static_cast<double>(upload.size_bytes()));
-    case kStored: return Format::percent(upload.size_bytes() > 0 ? static_cast<double>(upload.sent_bytes()) / static_cast<double>(upload.size_bytes()) : 0);
+    case kName:
+      return upload.name();
+    case kSize:
+      return Format::bytes(static_cast<double>(upload.size_bytes()));
+    case kStored:
+      return Format::percent(upload.size_bytes() > 0 ? static_cast<double>(upload.sent_bytes()) /
+                                                           static_cast<double>(upload.size_bytes())
+                                                     : 0);
     case kCheck:
       switch (upload.phase()) {
-        case JobUpload::Phase::kReading: return tr("Reading");
-        case JobUpload::Phase::kSending: return Format::bytes_per_s(upload.bytes_per_s());
-        case JobUpload::Phase::kWaiting: return tr("Waiting for the gateway");
-        case JobUpload::Phase::kFailed: return tr("Failed");
-        default: return {};
+        case JobUpload::Phase::kReading:
+          return tr("Reading");
+        case JobUpload::Phase::kSending:
+          return Format::bytes_per_s(upload.bytes_per_s());
+        case JobUpload::Phase::kWaiting:
+          return tr("Waiting for the gateway");
+        case JobUpload::Phase::kFailed:
+          return tr("Failed");
+        default:
+          return {};
       }
-    default: return {};
+    default:
+      return {};
   }
 }
 
 QVariant JobsModel::job_text(const joblink::Job& job, int column) const {
   switch (column) {
-    case kName: return QString::fromStdString(job.name());
-    case kSize: return Format::bytes(static_cast<double>(job.size_bytes()));
-    case kStored: return Format::date_time(job.stored_unix_s());
+    case kName:
+      return QString::fromStdString(job.name());
+    case kSize:
+      return Format::bytes(static_cast<double>(job.size_bytes()));
+    case kStored:
+      return Format::date_time(job.stored_unix_s());
     case kCheck:
       if (!job.has_preflight()) return tr("Not checked");
-      if (job.preflight().errors() > 0) return tr("%n error(s)", nullptr, static_cast<int>(job.preflight().errors()));
-      if (job.preflight().warnings() > 0) return tr("%n warning(s)", nullptr, static_cast<int>(job.preflight().warnings()));
+      if (job.preflight().errors() > 0)
+        return tr("%n error(s)", nullptr, static_cast<int>(job.preflight().errors()));
+      if (job.preflight().warnings() > 0)
+        return tr("%n warning(s)", nullptr, static_cast<int>(job.preflight().warnings()));
       return tr("Fine");
     case kEstimate:
       if (!job.has_preflight() || !(job.preflight().motion_s() > 0)) return QStringLiteral("–");
@@ -135,15 +165,23 @@ QVariant JobsModel::job_text(const joblink::Job& job, int column) const {
     case kLastRun:
       if (!job.has_last_run()) return tr("Never");
       switch (job.last_run().result()) {
-        case joblink::JOB_RUNNING: return tr("Running");
-        case joblink::JOB_COMPLETE: return tr("Complete, %1").arg(Format::duration(job.last_run().duration_s()));
-        case joblink::JOB_CANCELLED: return tr("Cancelled");
-        case joblink::JOB_REFUSED: return tr("Refused by the check");
-        case joblink::JOB_FAILED: return tr("Stopped by an alarm");
-        case joblink::JOB_INTERRUPTED: return tr("Interrupted");
-        default: return {};
+        case joblink::JOB_RUNNING:
+          return tr("Running");
+        case joblink::JOB_COMPLETE:
+          return tr("Complete, %1").arg(Format::duration(job.last_run().duration_s()));
+        case joblink::JOB_CANCELLED:
+          return tr("Cancelled");
+        case joblink::JOB_REFUSED:
+          return tr("Refused by the check");
+        case joblink::JOB_FAILED:
+          return tr("Stopped by an alarm");
+        case joblink::JOB_INTERRUPTED:
+          return tr("Interrupted");
+        default:
+          return {};
       }
-    default: return {};
+    default:
+      return {};
   }
 }
 

@@ -28,14 +28,22 @@ int NodesModel::columnCount(const QModelIndex& parent) const {
 QVariant NodesModel::headerData(int section, Qt::Orientation orientation, int role) const {
   if (orientation != Qt::Horizontal || role != Qt::DisplayRole) return {};
   switch (section) {
-    case kNode: return tr("Node");
-    case kState: return tr("State");
-    case kSync: return tr("Clock error");
-    case kQueue: return tr("Queue");
-    case kInputs: return tr("Inputs");
-    case kSent: return tr("Segments sent");
-    case kEmergencies: return tr("Faults");
-    default: return {};
+    case kNode:
+      return tr("Node");
+    case kState:
+      return tr("State");
+    case kSync:
+      return tr("Clock error");
+    case kQueue:
+      return tr("Queue");
+    case kInputs:
+      return tr("Inputs");
+    case kSent:
+      return tr("Segments sent");
+    case kEmergencies:
+      return tr("Faults");
+    default:
+      return {};
   }
 }
 
@@ -43,11 +51,16 @@ QString NodesModel::state_of(const joblink::NodeStatus& node) const {
   if (!node.present()) return tr("Not there");
   if (node.stopped()) return tr("Stopped");
   switch (node.nmt_state()) {
-    case 0: return tr("Starting");
-    case 4: return tr("Idle");
-    case 5: return node.synchronised() ? tr("Operational") : tr("Operational, not in time");
-    case 127: return tr("Waiting");
-    default: return QString::number(node.nmt_state());
+    case 0:
+      return tr("Starting");
+    case 4:
+      return tr("Idle");
+    case 5:
+      return node.synchronised() ? tr("Operational") : tr("Operational, not in time");
+    case 127:
+      return tr("Waiting");
+    default:
+      return QString::number(node.nmt_state());
   }
 }
 
@@ -55,21 +68,30 @@ QVariant NodesModel::data(const QModelIndex& index, int role) const {
   if (!index.isValid() || index.row() >= session_.status().nodes_size()) return {};
   const joblink::NodeStatus& node = session_.status().nodes(index.row());
   if (role == kWell) return node.present() && !node.stopped() && node.nmt_state() == 5;
-  if (role == kShare) return node.queue_capacity() > 0 ? static_cast<double>(node.queue_records()) / node.queue_capacity() : -1.0;
+  if (role == kShare)
+    return node.queue_capacity() > 0 ? static_cast<double>(node.queue_records()) / node.queue_capacity()
+                                     : -1.0;
   if (role != Qt::DisplayRole) return {};
   switch (index.column()) {
-    case kNode: return QString::number(node.id());
-    case kState: return state_of(node);
-    case kSync: return Format::isolated(tr("%1 µs").arg(Format::number(node.sync_error_s() * 1e6, 1)));
-    case kQueue: return Format::isolated(QStringLiteral("%1 / %2").arg(node.queue_records()).arg(node.queue_capacity()));
+    case kNode:
+      return QString::number(node.id());
+    case kState:
+      return state_of(node);
+    case kSync:
+      return Format::isolated(tr("%1 µs").arg(Format::number(node.sync_error_s() * 1e6, 1)));
+    case kQueue:
+      return Format::isolated(QStringLiteral("%1 / %2").arg(node.queue_records()).arg(node.queue_capacity()));
     case kInputs: {
       QString dots;
       for (unsigned i = 0; i < 7; ++i) dots += (node.inputs() >> i & 1u) != 0 ? QChar(0x25CF) : QChar(0x25CB);
       return Format::isolated(dots);
     }
-    case kSent: return QLocale().toString(static_cast<qulonglong>(node.records_sent()));
-    case kEmergencies: return QLocale().toString(node.emergencies());
-    default: return {};
+    case kSent:
+      return QLocale().toString(static_cast<qulonglong>(node.records_sent()));
+    case kEmergencies:
+      return QLocale().toString(node.emergencies());
+    default:
+      return {};
   }
 }
 

@@ -17,8 +17,8 @@ struct Outcome {
   QString error;
 };
 
-Outcome load_file(const QString& path, const std::optional<MachineModel>& model, const std::atomic<bool>& cancelled,
-                  const std::function<void(double)>& progress) {
+Outcome load_file(const QString& path, const std::optional<MachineModel>& model,
+                  const std::atomic<bool>& cancelled, const std::function<void(double)>& progress) {
   QFile file(path);
   if (!file.open(QIODevice::ReadOnly)) return {nullptr, file.errorString()};
   GcodeScanner scanner;
@@ -29,7 +29,8 @@ Outcome load_file(const QString& path, const std::optional<MachineModel>& model,
     const QByteArray part = file.read(kPartBytes);
     if (part.isEmpty()) return {nullptr, file.errorString()};
     scanner.add({part.constData(), static_cast<std::size_t>(part.size())});
-    if (const double share = static_cast<double>(file.pos()) / total * 0.6; share > told + 0.05) progress(told = share);
+    if (const double share = static_cast<double>(file.pos()) / total * 0.6; share > told + 0.05)
+      progress(told = share);
   }
   auto scene = std::make_shared<ScenePath>();
   scene->path = scanner.finish();
@@ -58,23 +59,28 @@ void PathLoader::cancel() {
 void PathLoader::load(const QString& file_path, const std::optional<MachineModel>& model) {
   cancel();
   cancelled_ = std::make_shared<std::atomic<bool>>(false);
-  // The thread never touches this object: it posts to the application, which finds out whether it is still there.
-  QThreadPool::globalInstance()->start([self = QPointer<PathLoader>(this), cancelled = cancelled_, file_path, model] {
-    const auto post = [&](auto&& news) {
-      QMetaObject::invokeMethod(qApp, [self, cancelled, news = std::forward<decltype(news)>(news)] {
-        if (!*cancelled && !self.isNull()) news(*self);
-      }, Qt::QueuedConnection);
-    };
-    Outcome outcome = load_file(file_path, model, *cancelled, [&](double share) {
-      post([share](PathLoader& loader) { emit loader.progressed(share); });
-    });
-    post([outcome = std::move(outcome)](PathLoader& loader) {
-      if (outcome.scene != nullptr)
-        emit loader.loaded(outcome.scene);
-      else
-        emit loader.failed(outcome.error);
-    });
-  });
+  // The thread never touches this object: it posts to the application, which finds out whether it is still
+  // there.
+  QThreadPool::globalInstance()->start(
+      [self = QPointer<PathLoader>(this), cancelled = cancelled_, file_path, model] {
+        const auto post = [&](auto&& news) {
+          QMetaObject::invokeMethod(
+              qApp,
+              [self, cancelled, news = std::forward<decltype(news)>(news)] {
+                if (!*cancelled && !self.isNull()) news(*self);
+              },
+              Qt::QueuedConnection);
+        };
+        Outcome outcome = load_file(file_path, model, *cancelled, [&](double share) {
+          post([share](PathLoader& loader) { emit loader.progressed(share); });
+        });
+        post([outcome = std::move(outcome)](PathLoader& loader) {
+          if (outcome.scene != nullptr)
+            emit loader.loaded(outcome.scene);
+          else
+            emit loader.failed(outcome.error);
+        });
+      });
 }
 
 }  // namespace kinebus::gui

@@ -9,7 +9,8 @@
 
 namespace kinebus::gui {
 
-PathSource::PathSource(Session& session, QObject* parent) : QObject(parent), session_(session), loader_(this) {
+PathSource::PathSource(Session& session, QObject* parent)
+    : QObject(parent), session_(session), loader_(this) {
   connect(&loader_, &PathLoader::progressed, this, [this](double share) {
     progress_ = share;
     emit changed();
@@ -37,7 +38,8 @@ void PathSource::follow_status() {
   if (job == running_) return;
   // Wait until the list of jobs has it: the hash tells whether it is in the cache.
   const auto& jobs = session_.jobs().jobs();
-  const bool known = std::any_of(jobs.begin(), jobs.end(), [&](const auto& j) { return j.name() == session_.status().job(); });
+  const bool known = std::any_of(jobs.begin(), jobs.end(),
+                                 [&](const auto& j) { return j.name() == session_.status().job(); });
   if (!job.isEmpty() && !known) return;
   running_ = job;
   if (!job.isEmpty()) show_job(job);

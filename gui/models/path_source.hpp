@@ -1,6 +1,6 @@
 #pragma once
-// Which job's path is shown: the job that runs, or the one the user has chosen. Finds its text here (the file that was
-// just uploaded), in the cache, or on the gateway, and has it loaded.
+// Which job's path is shown: the job that runs, or the one the user has chosen. Finds its text here (the file
+// that was just uploaded), in the cache, or on the gateway, and has it loaded.
 
 #include <QHash>
 #include <QObject>

@@ -15,13 +15,15 @@ void ProblemsModel::set(QVector<ShownProblem> problems) {
 QVector<ShownProblem> ProblemsModel::of(const joblink::PreflightResult& result) {
   QVector<ShownProblem> list;
   for (const auto& p : result.problems())
-    list.push_back({p.error(), static_cast<int>(p.line()), static_cast<int>(p.column()), QString::fromStdString(p.words())});
+    list.push_back({p.error(), static_cast<int>(p.line()), static_cast<int>(p.column()),
+                    QString::fromStdString(p.words())});
   return list;
 }
 
 QVector<ShownProblem> ProblemsModel::of(const joblink::MachineFileCheck& check) {
   QVector<ShownProblem> list;
-  for (const auto& p : check.problems()) list.push_back({true, static_cast<int>(p.line()), static_cast<int>(p.column()), to_words(p)});
+  for (const auto& p : check.problems())
+    list.push_back({true, static_cast<int>(p.line()), static_cast<int>(p.column()), to_words(p)});
   return list;
 }
 
@@ -38,13 +40,18 @@ QVariant ProblemsModel::data(const QModelIndex& index, int role) const {
   const ShownProblem& p = problems_[index.row()];
   if (role == kIsError) return p.error;
   if (role == Qt::ToolTipRole) return p.words;
-  if (role == Qt::TextAlignmentRole && index.column() == kLine) return QVariant(Qt::AlignTrailing | Qt::AlignVCenter);
+  if (role == Qt::TextAlignmentRole && index.column() == kLine)
+    return QVariant(Qt::AlignTrailing | Qt::AlignVCenter);
   if (role != Qt::DisplayRole) return {};
   switch (index.column()) {
-    case kKind: return p.error ? tr("Error") : tr("Warning");
-    case kLine: return p.line > 0 ? QLocale().toString(p.line) : QString();
-    case kWords: return p.words;
-    default: return {};
+    case kKind:
+      return p.error ? tr("Error") : tr("Warning");
+    case kLine:
+      return p.line > 0 ? QLocale().toString(p.line) : QString();
+    case kWords:
+      return p.words;
+    default:
+      return {};
   }
 }
 

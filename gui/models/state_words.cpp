@@ -5,52 +5,79 @@ using namespace joblink;
 
 QString StateWords::title(State state) {
   switch (state) {
-    case STATE_OFF: return tr("Motors off");
-    case STATE_BRING_UP: return tr("Waking the nodes");
-    case STATE_UNHOMED: return tr("Not homed");
-    case STATE_HOMING: return tr("Homing");
-    case STATE_READY: return tr("Ready");
-    case STATE_MOVING: return tr("Moving");
-    case STATE_CHECKING: return tr("Checking the job");
-    case STATE_RUNNING: return tr("Printing");
-    case STATE_HOLDING: return tr("Pausing");
-    case STATE_HELD: return tr("Paused");
-    case STATE_CANCELLING: return tr("Cancelling");
-    case STATE_STOPPING: return tr("Stopping");
-    case STATE_STOPPED: return tr("Stopped");
-    case STATE_ALARM: return tr("Alarm");
-    default: return tr("Unknown");
+    case STATE_OFF:
+      return tr("Motors off");
+    case STATE_BRING_UP:
+      return tr("Waking the nodes");
+    case STATE_UNHOMED:
+      return tr("Not homed");
+    case STATE_HOMING:
+      return tr("Homing");
+    case STATE_READY:
+      return tr("Ready");
+    case STATE_MOVING:
+      return tr("Moving");
+    case STATE_CHECKING:
+      return tr("Checking the job");
+    case STATE_RUNNING:
+      return tr("Printing");
+    case STATE_HOLDING:
+      return tr("Pausing");
+    case STATE_HELD:
+      return tr("Paused");
+    case STATE_CANCELLING:
+      return tr("Cancelling");
+    case STATE_STOPPING:
+      return tr("Stopping");
+    case STATE_STOPPED:
+      return tr("Stopped");
+    case STATE_ALARM:
+      return tr("Alarm");
+    default:
+      return tr("Unknown");
   }
 }
 
 QString StateWords::next(State state) {
   switch (state) {
-    case STATE_OFF: return tr("Home the machine to wake the motors and find the carriages.");
-    case STATE_UNHOMED: return tr("Home the machine: positions are not known yet.");
-    case STATE_READY: return tr("Choose a job and start it, or jog the tool.");
-    case STATE_HELD: return tr("All carriages rest on the path. Resume or cancel.");
-    case STATE_STOPPED: return tr("Make sure that the machine is safe, then clear the stop.");
-    case STATE_ALARM: return tr("Read the alarm, remove its cause, then clear it.");
-    default: return {};
+    case STATE_OFF:
+      return tr("Home the machine to wake the motors and find the carriages.");
+    case STATE_UNHOMED:
+      return tr("Home the machine: positions are not known yet.");
+    case STATE_READY:
+      return tr("Choose a job and start it, or jog the tool.");
+    case STATE_HELD:
+      return tr("All carriages rest on the path. Resume or cancel.");
+    case STATE_STOPPED:
+      return tr("Make sure that the machine is safe, then clear the stop.");
+    case STATE_ALARM:
+      return tr("Read the alarm, remove its cause, then clear it.");
+    default:
+      return {};
   }
 }
 
 StateTone StateWords::tone(State state) {
   switch (state) {
-    case STATE_READY: return StateTone::kReady;
+    case STATE_READY:
+      return StateTone::kReady;
     case STATE_BRING_UP:
     case STATE_HOMING:
     case STATE_MOVING:
     case STATE_CHECKING:
-    case STATE_RUNNING: return StateTone::kBusy;
+    case STATE_RUNNING:
+      return StateTone::kBusy;
     case STATE_UNHOMED:
     case STATE_HOLDING:
     case STATE_HELD:
-    case STATE_CANCELLING: return StateTone::kWaiting;
+    case STATE_CANCELLING:
+      return StateTone::kWaiting;
     case STATE_STOPPING:
     case STATE_STOPPED:
-    case STATE_ALARM: return StateTone::kAlarm;
-    default: return StateTone::kNeutral;
+    case STATE_ALARM:
+      return StateTone::kAlarm;
+    default:
+      return StateTone::kNeutral;
   }
 }
 
@@ -63,7 +90,8 @@ Allowed allowed_in(State s) {
           .start = ready,
           .hold = s == STATE_MOVING || s == STATE_RUNNING,
           .resume = s == STATE_HELD,
-          .cancel = s == STATE_MOVING || s == STATE_RUNNING || s == STATE_HOLDING || s == STATE_HELD || s == STATE_CHECKING,
+          .cancel = s == STATE_MOVING || s == STATE_RUNNING || s == STATE_HOLDING || s == STATE_HELD ||
+                    s == STATE_CHECKING,
           .clear = s == STATE_STOPPED || s == STATE_ALARM,
           .motors_off = s == STATE_UNHOMED || ready || s == STATE_STOPPED || s == STATE_ALARM,
           .heat = s != STATE_ALARM};

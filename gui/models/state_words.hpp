@@ -20,7 +20,8 @@ class StateWords {
 
 /// What the gateway would accept in this state, so that only such buttons are lit.
 struct Allowed {
-  bool bring_up = false, home = false, reference = false, jog = false, start = false, hold = false, resume = false;
+  bool bring_up = false, home = false, reference = false, jog = false, start = false, hold = false,
+       resume = false;
   bool cancel = false, clear = false, motors_off = false, heat = false;
 };
 Allowed allowed_in(joblink::State state);

@@ -14,11 +14,14 @@ StatusHistory::StatusHistory(Session& session, QObject* parent) : QObject(parent
     double sync = 0, queue = 1;
     for (const auto& node : s.nodes()) {
       sync = std::max(sync, node.sync_error_s() * 1e6);
-      if (node.queue_capacity() > 0) queue = std::min(queue, static_cast<double>(node.queue_records()) / node.queue_capacity());
+      if (node.queue_capacity() > 0)
+        queue = std::min(queue, static_cast<double>(node.queue_records()) / node.queue_capacity());
     }
     if (s.nodes_size() == 0) queue = 0;
     const auto f = [](double v) { return static_cast<float>(v); };
-    samples_.push_back({s.time_s(), {f(s.bus_load()), f(sync), f(queue), f(s.rate()), f(s.hotend().actual_celsius()), f(s.bed().actual_celsius())}});
+    samples_.push_back({s.time_s(),
+                        {f(s.bus_load()), f(sync), f(queue), f(s.rate()), f(s.hotend().actual_celsius()),
+                         f(s.bed().actual_celsius())}});
     while (samples_.front().time_s < s.time_s() - kKept_s) samples_.pop_front();
     emit changed();
   });

@@ -26,7 +26,8 @@ class Writer {
   void work(double x, double y, double feed_mm_per_min) {
     e_ += std::hypot(x - x_, y - y_) * kFilamentPerMm;
     char text[120];
-    text_.append(text, std::snprintf(text, sizeof text, "G1 X%.3f Y%.3f E%.4f F%.0f\n", x, y, e_, feed_mm_per_min));
+    text_.append(text,
+                 std::snprintf(text, sizeof text, "G1 X%.3f Y%.3f E%.4f F%.0f\n", x, y, e_, feed_mm_per_min));
     x_ = x;
     y_ = y;
   }
@@ -56,7 +57,8 @@ void ring(Writer& w, double height, double z, double offset, int pieces, double 
 
 QByteArray vase_job(int layers) {
   Writer w;
-  for (const char* text : {"; vase", "G21", "G90", "M82", "M140 S40", "M109 S180", "G92 E0", "M106 S200"}) w.line(text);
+  for (const char* text : {"; vase", "G21", "G90", "M82", "M140 S40", "M109 S180", "G92 E0", "M106 S200"})
+    w.line(text);
   for (int layer = 0; layer < layers; ++layer) {
     const double z = 0.25 * (layer + 1), height = static_cast<double>(layer) / 120;
     for (int k = 0; k < 3; ++k) ring(w, height, z, 0.45 * (2 - k), 80, k == 2 ? 3600 : 6600);
@@ -74,9 +76,11 @@ QByteArray vase_job(int layers) {
 
 QByteArray wrong_job() {
   Writer w;
-  for (const char* text : {"; too wide for the machine", "G21", "G90", "M82", "M109 S180", "G92 E0"}) w.line(text);
+  for (const char* text : {"; too wide for the machine", "G21", "G90", "M82", "M109 S180", "G92 E0"})
+    w.line(text);
   for (int layer = 0; layer < 6; ++layer) ring(w, 0.1, 0.25 * (layer + 1), 0, 60, 4800);
-  for (const char* text : {"G1 X210 Y40 E200 F3000", "G1 X0 Y0 Z400", "G1 A80 F600", "G1 X0 Y0 Z20 A0"}) w.line(text);
+  for (const char* text : {"G1 X210 Y40 E200 F3000", "G1 X0 Y0 Z400", "G1 A80 F600", "G1 X0 Y0 Z20 A0"})
+    w.line(text);
   return w.take();
 }
 

@@ -12,23 +12,30 @@ constexpr std::uint32_t kPageBytes = 256 * 1024;
 }
 
 QString JobDownload::cache_path(const std::string& sha256) {
-  const QString folder = QStandardPaths::writableLocation(QStandardPaths::CacheLocation) + QStringLiteral("/jobs");
+  const QString folder =
+      QStandardPaths::writableLocation(QStandardPaths::CacheLocation) + QStringLiteral("/jobs");
   QDir().mkpath(folder);
-  return folder + QLatin1Char('/') + QString::fromLatin1(QByteArray::fromStdString(sha256).toHex()) + QStringLiteral(".gcode");
+  return folder + QLatin1Char('/') + QString::fromLatin1(QByteArray::fromStdString(sha256).toHex()) +
+         QStringLiteral(".gcode");
 }
 
 JobDownload::JobDownload(Session& session, const joblink::Job& job, QObject* parent)
-    : QObject(parent), session_(session), job_(job), file_(cache_path(job.sha256()) + QStringLiteral(".part")) {}
+    : QObject(parent),
+      session_(session),
+      job_(job),
+      file_(cache_path(job.sha256()) + QStringLiteral(".part")) {}
 
 void JobDownload::begin() {
   const QString done = cache_path(job_.sha256());
   if (QFileInfo(done).size() == static_cast<qint64>(job_.size_bytes()) && QFileInfo::exists(done)) {
-    QMetaObject::invokeMethod(this, [this, done] { emit finished(done); }, Qt::QueuedConnection);
+    QMetaObject::invokeMethod(
+        this, [this, done] { emit finished(done); }, Qt::QueuedConnection);
     return;
   }
   if (!file_.open(QIODevice::WriteOnly | QIODevice::Truncate)) {
     const QString why = file_.errorString();
-    QMetaObject::invokeMethod(this, [this, why] { emit failed(why); }, Qt::QueuedConnection);
+    QMetaObject::invokeMethod(
+        this, [this, why] { emit failed(why); }, Qt::QueuedConnection);
     return;
   }
   read_on();

@@ -1,6 +1,6 @@
 #pragma once
-// The text of a job that is on the gateway, read page by page into a file of the cache, where it is found again by its
-// hash.
+// The text of a job that is on the gateway, read page by page into a file of the cache, where it is found
+// again by its hash.
 
 #include <QFile>
 #include <QObject>

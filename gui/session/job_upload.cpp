@@ -19,7 +19,8 @@ class FileSource : public joblink::UploadSource {
   explicit FileSource(const QString& path) : file_(path) { opened_ = file_.open(QIODevice::ReadOnly); }
   std::size_t read(std::uint64_t offset_bytes, std::span<char> buffer) override {
     if (!opened_ || !file_.seek(static_cast<qint64>(offset_bytes))) return 0;
-    return static_cast<std::size_t>(std::max<qint64>(0, file_.read(buffer.data(), static_cast<qint64>(buffer.size()))));
+    return static_cast<std::size_t>(
+        std::max<qint64>(0, file_.read(buffer.data(), static_cast<qint64>(buffer.size()))));
   }
 
  private:
@@ -91,13 +92,18 @@ void JobUpload::on_news(const joblink::UploadNews& news) {
     clock_.start();
   }
   switch (news.phase) {
-    case joblink::UploadNews::Phase::kSending: phase_ = Phase::kSending; break;
-    case joblink::UploadNews::Phase::kWaiting: phase_ = Phase::kWaiting; break;
+    case joblink::UploadNews::Phase::kSending:
+      phase_ = Phase::kSending;
+      break;
+    case joblink::UploadNews::Phase::kWaiting:
+      phase_ = Phase::kWaiting;
+      break;
     case joblink::UploadNews::Phase::kStored:
       sent_bytes_ = size_bytes_;
       session_.list_jobs();
       return end(Phase::kStored, {});
-    case joblink::UploadNews::Phase::kFailed: return end(Phase::kFailed, to_words(news.error));
+    case joblink::UploadNews::Phase::kFailed:
+      return end(Phase::kFailed, to_words(news.error));
   }
   emit changed();
 }

@@ -1,5 +1,6 @@
 #pragma once
-// One file on its way to the gateway: hashed in a thread of the pool, then sent by the client. Survives broken links.
+// One file on its way to the gateway: hashed in a thread of the pool, then sent by the client. Survives
+// broken links.
 
 #include <QElapsedTimer>
 #include <QObject>
@@ -27,7 +28,9 @@ class JobUpload : public QObject {
   qint64 size_bytes() const { return size_bytes_; }
   double bytes_per_s() const;  ///< over the whole upload so far
   const QString& error() const { return error_; }
-  bool ended() const { return phase_ == Phase::kStored || phase_ == Phase::kFailed || phase_ == Phase::kStopped; }
+  bool ended() const {
+    return phase_ == Phase::kStored || phase_ == Phase::kFailed || phase_ == Phase::kStopped;
+  }
 
  signals:
   void changed();

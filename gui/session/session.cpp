@@ -27,7 +27,9 @@ std::unique_ptr<joblink::Client> make_client() {
 QString to_words(const joblink::Problem& problem) {
   QString words = QString::fromStdString(problem.rule());
   if (!problem.place().empty()) words.prepend(QString::fromStdString(problem.place()) + QStringLiteral(": "));
-  if (!problem.expected().empty()) words += QStringLiteral("; ") + Session::tr("expected %1").arg(QString::fromStdString(problem.expected()));
+  if (!problem.expected().empty())
+    words +=
+        QStringLiteral("; ") + Session::tr("expected %1").arg(QString::fromStdString(problem.expected()));
   return words;
 }
 
@@ -91,7 +93,8 @@ void Session::open_link() {
   });
   connect(link_.get(), &Link::closed, this, &Session::on_link_closed);
   connect(link_.get(), &Link::received, this, [this](const QByteArray& bytes) {
-    client_->on_bytes(now(), {reinterpret_cast<const std::uint8_t*>(bytes.constData()), static_cast<std::size_t>(bytes.size())});
+    client_->on_bytes(now(), {reinterpret_cast<const std::uint8_t*>(bytes.constData()),
+                              static_cast<std::size_t>(bytes.size())});
     pump();
   });
   connect(link_.get(), &Link::drained, this, &Session::pump);
@@ -113,7 +116,8 @@ void Session::pump() {
   while (link_ != nullptr) {
     const auto bytes = client_->next_bytes();
     if (bytes.empty()) break;
-    const qint64 taken = link_->write(reinterpret_cast<const char*>(bytes.data()), static_cast<qint64>(bytes.size()));
+    const qint64 taken =
+        link_->write(reinterpret_cast<const char*>(bytes.data()), static_cast<qint64>(bytes.size()));
     if (taken <= 0) break;
     client_->on_bytes_sent(static_cast<std::size_t>(taken));
   }
@@ -302,10 +306,11 @@ void Session::list_jobs() {
   });
 }
 void Session::delete_job(const QString& name) {
-  send(plain([&](auto& r) { r.mutable_delete_job()->set_name(name.toStdString()); }), [this](const joblink::Reply& reply) {
-    if (reply.has_error()) emit refused(to_words(reply.error()));
-    list_jobs();
-  });
+  send(plain([&](auto& r) { r.mutable_delete_job()->set_name(name.toStdString()); }),
+       [this](const joblink::Reply& reply) {
+         if (reply.has_error()) emit refused(to_words(reply.error()));
+         list_jobs();
+       });
 }
 void Session::check_job(const QString& name, AnswerHandler then) {
   send(plain([&](auto& r) { r.mutable_check_job()->set_name(name.toStdString()); }), std::move(then));

@@ -1,6 +1,6 @@
 #pragma once
-// The conversation with one gateway: commands as methods, news as signals. A link that breaks is opened again by
-// itself; the job link's client resumes where it was.
+// The conversation with one gateway: commands as methods, news as signals. A link that breaks is opened again
+// by itself; the job link's client resumes where it was.
 
 #include <QElapsedTimer>
 #include <QObject>
@@ -43,8 +43,8 @@ class Session : public QObject {
   bool others_have_control() const;
   double round_trip_ms() const { return round_trip_ms_; }  ///< of the newest answer
 
-  /// Sends what `request` holds; the answer comes to `then`, also when it is a refusal. Refusals nobody handles are told
-  /// by refused().
+  /// Sends what `request` holds; the answer comes to `then`, also when it is a refusal. Refusals nobody
+  /// handles are told by refused().
   void send(joblink::ClientMessage request, AnswerHandler then = {});
   /// As send(), for what needs control: takes it first when nobody has it.
   void command(joblink::ClientMessage request, AnswerHandler then = {});

@@ -22,10 +22,13 @@ TEST(DemoMachine, UploadsHomesAndPrintsAJobToItsEnd) {
   QObject::connect(&demo, &DemoGateway::failed, &session, [&](const QString& why) { trouble = why; });
   QObject::connect(&session, &Session::refused, &session, [&](const QString& why) { trouble = why; });
   QObject::connect(&demo, &DemoGateway::ready, &session, [&] {
-    session.connect_to([path = demo.socket_path()] { return std::make_unique<SocketLink>(path); }, QStringLiteral("demo"));
+    session.connect_to([path = demo.socket_path()] { return std::make_unique<SocketLink>(path); },
+                       QStringLiteral("demo"));
   });
   demo.start();
-  ASSERT_TRUE(wait_until([&] { return session.connected() && session.machine().joints_size() > 0; }, kPatience_ms)) << trouble.toStdString();
+  ASSERT_TRUE(
+      wait_until([&] { return session.connected() && session.machine().joints_size() > 0; }, kPatience_ms))
+      << trouble.toStdString();
   EXPECT_EQ(session.machine().kinematics(), "m1");
 
   QTemporaryDir folder;
@@ -42,7 +45,8 @@ TEST(DemoMachine, UploadsHomesAndPrintsAJobToItsEnd) {
   EXPECT_EQ(checked.preflight().summary().errors(), 0u) << checked.ShortDebugString();
 
   session.home();
-  ASSERT_TRUE(wait_until([&] { return session.status().state() == joblink::STATE_READY; }, kPatience_ms)) << trouble.toStdString();
+  ASSERT_TRUE(wait_until([&] { return session.status().state() == joblink::STATE_READY; }, kPatience_ms))
+      << trouble.toStdString();
   EXPECT_TRUE(session.has_control());
   session.start_job(QStringLiteral("square.ngc"));
   bool ran = false;

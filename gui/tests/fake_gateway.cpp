@@ -66,14 +66,16 @@ FakeGateway::FakeGateway() : machine(m1_info()), server_(this), statuses_(this) 
     reader_.clear();
     connect(socket_, &QLocalSocket::readyRead, this, [this, socket = socket_] {
       const QByteArray bytes = socket->readAll();
-      reader_.add({reinterpret_cast<const std::uint8_t*>(bytes.constData()), static_cast<std::size_t>(bytes.size())});
+      reader_.add(
+          {reinterpret_cast<const std::uint8_t*>(bytes.constData()), static_cast<std::size_t>(bytes.size())});
       while (const auto frame = reader_.next()) {
         if (frame->sequence == 0) {
           session_ = frame->session;
           sequence_ = 0;
         }
         joblink::ClientMessage message;
-        if (message.ParseFromArray(frame->message.data(), static_cast<int>(frame->message.size()))) take(message);
+        if (message.ParseFromArray(frame->message.data(), static_cast<int>(frame->message.size())))
+          take(message);
       }
     });
   });
@@ -82,7 +84,8 @@ FakeGateway::FakeGateway() : machine(m1_info()), server_(this), statuses_(this) 
 }
 
 int FakeGateway::count(joblink::ClientMessage::RequestCase request) const {
-  return static_cast<int>(std::count_if(heard.begin(), heard.end(), [&](const auto& m) { return m.request_case() == request; }));
+  return static_cast<int>(
+      std::count_if(heard.begin(), heard.end(), [&](const auto& m) { return m.request_case() == request; }));
 }
 
 void FakeGateway::break_link() {
@@ -121,7 +124,8 @@ void FakeGateway::take(const joblink::ClientMessage& message) {
   joblink::ServerMessage out;
   auto& reply = *out.mutable_reply();
   reply.set_request_id(message.request_id());
-  const bool session_matter = message.has_hello() || message.has_watch() || message.has_take_control() || message.has_ping();
+  const bool session_matter =
+      message.has_hello() || message.has_watch() || message.has_take_control() || message.has_ping();
   if (!refuse.isEmpty() && !session_matter) {
     reply.mutable_error()->set_rule(refuse.toStdString());
     refuse.clear();
@@ -142,9 +146,15 @@ void FakeGateway::answer(const joblink::ClientMessage& message, joblink::Reply& 
       hello.set_upload_window_bytes(1024 * 1024);
       break;
     }
-    case M::kWatch: statuses_.start(20); break;
-    case M::kTakeControl: status.set_controller(7); break;
-    case M::kGetMachine: *reply.mutable_machine() = machine; break;
+    case M::kWatch:
+      statuses_.start(20);
+      break;
+    case M::kTakeControl:
+      status.set_controller(7);
+      break;
+    case M::kGetMachine:
+      *reply.mutable_machine() = machine;
+      break;
     case M::kListJobs:
       for (const auto& [name, text] : jobs) {
         auto& job = *reply.mutable_jobs()->add_jobs();
@@ -154,13 +164,16 @@ void FakeGateway::answer(const joblink::ClientMessage& message, joblink::Reply& 
       }
       reply.mutable_jobs();
       break;
-    case M::kDeleteJob: jobs.erase(message.delete_job().name()); break;
+    case M::kDeleteJob:
+      jobs.erase(message.delete_job().name());
+      break;
     case M::kReadJob: {
       const std::string& text = jobs[message.read_job().name()];
       auto& page = *reply.mutable_job_text();
       page.set_size_bytes(text.size());
       page.set_offset_bytes(message.read_job().offset_bytes());
-      page.set_data(text.substr(std::min<std::size_t>(text.size(), message.read_job().offset_bytes()), message.read_job().max_bytes()));
+      page.set_data(text.substr(std::min<std::size_t>(text.size(), message.read_job().offset_bytes()),
+                                message.read_job().max_bytes()));
       break;
     }
     case M::kCheckJob:
@@ -175,7 +188,8 @@ void FakeGateway::answer(const joblink::ClientMessage& message, joblink::Reply& 
       reply.mutable_upload()->set_received_bytes(upload_text_.size());
       break;
     case M::kUploadChunk:
-      if (message.upload_chunk().offset_bytes() == upload_text_.size()) upload_text_ += message.upload_chunk().data();
+      if (message.upload_chunk().offset_bytes() == upload_text_.size())
+        upload_text_ += message.upload_chunk().data();
       reply.mutable_upload()->set_upload_id(1);
       reply.mutable_upload()->set_received_bytes(upload_text_.size());
       break;
@@ -185,7 +199,9 @@ void FakeGateway::answer(const joblink::ClientMessage& message, joblink::Reply& 
       reply.mutable_upload()->set_received_bytes(upload_text_.size());
       upload_text_.clear();
       break;
-    case M::kConsole: reply.mutable_console()->set_text("echo " + message.console().line()); break;
+    case M::kConsole:
+      reply.mutable_console()->set_text("echo " + message.console().line());
+      break;
     case M::kReadMachineFile:
       reply.mutable_machine_file()->set_text(machine_file);
       reply.mutable_machine_file()->set_writable(true);
@@ -205,7 +221,8 @@ void FakeGateway::answer(const joblink::ClientMessage& message, joblink::Reply& 
       reply.mutable_machine_file()->set_text(machine_file);
       reply.mutable_machine_file()->set_writable(true);
       break;
-    default: break;
+    default:
+      break;
   }
 }
 

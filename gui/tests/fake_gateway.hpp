@@ -1,7 +1,7 @@
 #pragma once
-// The gateway's end of the job link as far as the desktop program sees it, on a real local socket: answers, a store of
-// jobs in memory, and a machine whose status the test sets. For what a real gateway would not do on command: refusals,
-// broken links, alarms.
+// The gateway's end of the job link as far as the desktop program sees it, on a real local socket: answers, a
+// store of jobs in memory, and a machine whose status the test sets. For what a real gateway would not do on
+// command: refusals, broken links, alarms.
 
 #include <QLocalServer>
 #include <QLocalSocket>

@@ -22,8 +22,11 @@ namespace {
 class SessionTest : public testing::Test {
  protected:
   void connect() {
-    session.connect_to([path = gateway.socket_path()] { return std::make_unique<SocketLink>(path); }, QStringLiteral("fake"));
-    ASSERT_TRUE(wait_until([&] { return session.connected() && session.machine().joints_size() == 6 && session.status().time_s() > 0; }));
+    session.connect_to([path = gateway.socket_path()] { return std::make_unique<SocketLink>(path); },
+                       QStringLiteral("fake"));
+    ASSERT_TRUE(wait_until([&] {
+      return session.connected() && session.machine().joints_size() == 6 && session.status().time_s() > 0;
+    }));
   }
   QString file(const QByteArray& text, const QString& name = QStringLiteral("part.gcode")) {
     QFile f(folder.filePath(name));
@@ -120,12 +123,14 @@ TEST_F(SessionTest, JobsModelShowsUploadsAboveJobs) {
   JobUpload* upload = session.upload(file("G1 X5 E1\n", QStringLiteral("new.gcode")));
   EXPECT_EQ(model.rowCount(), 2);
   EXPECT_EQ(model.upload_at(0), upload);
-  ASSERT_TRUE(wait_until([&] { return model.find(QStringLiteral("new.gcode")) != nullptr && model.upload_at(0) == nullptr; }));
+  ASSERT_TRUE(wait_until(
+      [&] { return model.find(QStringLiteral("new.gcode")) != nullptr && model.upload_at(0) == nullptr; }));
   EXPECT_EQ(model.rowCount(), 2);
 }
 
 TEST_F(SessionTest, RunningJobsPathIsReadFromTheGatewayAndShown) {
-  gateway.jobs["print.gcode"] = "G0 X0 Y0 Z0.2\nG1 X10 E1\nG1 Y10 E2\n; seed " + std::to_string(QDateTime::currentMSecsSinceEpoch()) + "\n";
+  gateway.jobs["print.gcode"] = "G0 X0 Y0 Z0.2\nG1 X10 E1\nG1 Y10 E2\n; seed " +
+                                std::to_string(QDateTime::currentMSecsSinceEpoch()) + "\n";
   PathSource path(session);
   connect();
   ASSERT_TRUE(wait_until([&] { return session.jobs().jobs_size() == 1; }));

@@ -36,8 +36,8 @@ double peak_memory_mb() {
   return 0;
 }
 
-/// How long the event loop was away at most between two rounds: by the clock, and by what this thread itself computed.
-/// The computer's other programs lengthen the first, never the second.
+/// How long the event loop was away at most between two rounds: by the clock, and by what this thread itself
+/// computed. The computer's other programs lengthen the first, never the second.
 class Watchdog : public QObject {
  public:
   Watchdog() {
@@ -71,7 +71,8 @@ class WindowTest : public testing::Test {
   void show_connected() {
     window = std::make_unique<MainWindow>(desk);
     window->show();
-    desk.session.connect_to([path = gateway.socket_path()] { return std::make_unique<SocketLink>(path); }, QStringLiteral("fake"));
+    desk.session.connect_to([path = gateway.socket_path()] { return std::make_unique<SocketLink>(path); },
+                            QStringLiteral("fake"));
     ASSERT_TRUE(wait_until([&] { return desk.session.connected() && desk.session.status().time_s() > 0; }));
   }
   FakeGateway gateway;
@@ -125,9 +126,12 @@ TEST_F(WindowTest, StopIsOnEveryPageAndReachesTheGateway) {
 
 TEST_F(WindowTest, StateIsSaidInPlainWords) {
   show_connected();
-  for (const auto& [state, words] : {std::pair{joblink::STATE_UNHOMED, "Not homed"}, {joblink::STATE_RUNNING, "Printing"}, {joblink::STATE_ALARM, "Alarm"}}) {
+  for (const auto& [state, words] : {std::pair{joblink::STATE_UNHOMED, "Not homed"},
+                                     {joblink::STATE_RUNNING, "Printing"},
+                                     {joblink::STATE_ALARM, "Alarm"}}) {
     gateway.status.set_state(state);
-    EXPECT_TRUE(wait_until([&] { return window->top_bar().chip().words() == QLatin1String(words); })) << words;
+    EXPECT_TRUE(wait_until([&] { return window->top_bar().chip().words() == QLatin1String(words); }))
+        << words;
   }
 }
 
@@ -187,7 +191,8 @@ TEST_F(WindowTest, MillionLineJobIsShownWithoutBlockingTheWindow) {
   desk.path.show_file(file.fileName());
   ASSERT_TRUE(wait_until([&] { return desk.path.scene() != nullptr; }, 60'000));
   ASSERT_GE(desk.path.scene()->path.line_count, 1'000'000u);
-  ASSERT_TRUE(wait_until([&] { return !scene.renderer().copying() && scene.renderer().lines_drawn() > 0; }, 60'000));
+  ASSERT_TRUE(
+      wait_until([&] { return !scene.renderer().copying() && scene.renderer().lines_drawn() > 0; }, 60'000));
   const double first_picture_s = static_cast<double>(clock.nsecsElapsed()) * 1e-9;
   scene.fit_part();
   constexpr int kFrames = 60;
@@ -201,9 +206,13 @@ TEST_F(WindowTest, MillionLineJobIsShownWithoutBlockingTheWindow) {
   const double frames_per_s = kFrames / (static_cast<double>(clock.nsecsElapsed()) * 1e-9);
   EXPECT_LE(scene.renderer().lines_drawn(), SceneRenderer::Budget{}.quick_lines * 11 / 10);
   ASSERT_TRUE(wait_until([&] { return scene.at_rest(); }, 120'000));
-  std::printf("1,000,000 lines: first picture after %.2f s, %.0f frames/s while turning (%zu lines each), peak memory %.0f MB,\n"
-              "longest work of the window's thread at once %.1f ms (by the clock, with all else that runs here, %.1f ms)\n",
-              first_picture_s, frames_per_s, scene.renderer().lines_drawn(), peak_memory_mb(), watchdog.most_cpu_ms, watchdog.most_wall_ms);
+  std::printf(
+      "1,000,000 lines: first picture after %.2f s, %.0f frames/s while turning (%zu lines each), peak "
+      "memory %.0f MB,\n"
+      "longest work of the window's thread at once %.1f ms (by the clock, with all else that runs here, %.1f "
+      "ms)\n",
+      first_picture_s, frames_per_s, scene.renderer().lines_drawn(), peak_memory_mb(), watchdog.most_cpu_ms,
+      watchdog.most_wall_ms);
   EXPECT_LE(watchdog.most_cpu_ms, 50);
   EXPECT_LE(peak_memory_mb(), 600);
 }
@@ -228,7 +237,8 @@ TEST(StartUp, RatioToAnEmptyWindowIsReported) {
   MainWindow window(desk);
   first_paint_ms(window);
   const double window_ms = static_cast<double>(clock.nsecsElapsed()) * 1e-6;
-  std::printf("window usable after %.0f ms, an empty Qt window after %.0f ms: ratio %.1f\n", window_ms, empty_ms, window_ms / empty_ms);
+  std::printf("window usable after %.0f ms, an empty Qt window after %.0f ms: ratio %.1f\n", window_ms,
+              empty_ms, window_ms / empty_ms);
   EXPECT_TRUE(window.isVisible());
 }
 

@@ -19,7 +19,8 @@ class EventDelegate : public QStyledItemDelegate {
     painter->save();
     painter->setRenderHint(QPainter::Antialiasing);
     const ThemeColours& colours = theme_.colours();
-    const bool alarm = index.data(EventsModel::kIsAlarm).toBool(), mirrored = option.direction == Qt::RightToLeft;
+    const bool alarm = index.data(EventsModel::kIsAlarm).toBool(),
+               mirrored = option.direction == Qt::RightToLeft;
     if ((option.state & QStyle::State_Selected) != 0) painter->fillRect(option.rect, colours.selection);
     const QColor mark = alarm ? colours.danger : colours.muted;
     QRect room = option.rect.adjusted(14, 8, -14, -8);
@@ -29,7 +30,8 @@ class EventDelegate : public QStyledItemDelegate {
     painter->drawRoundedRect(bar, 2, 2);
     mirrored ? room.adjust(0, 0, -16, 0) : room.adjust(16, 0, 0, 0);
     const int height = option.fontMetrics.height();
-    const auto leading = mirrored ? Qt::AlignRight : Qt::AlignLeft, trailing = mirrored ? Qt::AlignLeft : Qt::AlignRight;
+    const auto leading = mirrored ? Qt::AlignRight : Qt::AlignLeft,
+               trailing = mirrored ? Qt::AlignLeft : Qt::AlignRight;
     const QString when = index.data(EventsModel::kWhen).toString();
     painter->setPen(colours.muted);
     painter->drawText(QRect(room.left(), room.top(), room.width(), height), static_cast<int>(trailing), when);
@@ -39,16 +41,20 @@ class EventDelegate : public QStyledItemDelegate {
     painter->setPen(alarm ? colours.danger : colours.text);
     const int taken = option.fontMetrics.horizontalAdvance(when) + 20;
     const QRect title(mirrored ? room.left() + taken : room.left(), room.top(), room.width() - taken, height);
-    painter->drawText(title, static_cast<int>(leading), QFontMetrics(bold).elidedText(index.data(EventsModel::kTitle).toString(), Qt::ElideRight, title.width()));
+    painter->drawText(title, static_cast<int>(leading),
+                      QFontMetrics(bold).elidedText(index.data(EventsModel::kTitle).toString(),
+                                                    Qt::ElideRight, title.width()));
     painter->setFont(option.font);
     int y = room.top() + height + 2;
     const auto line = [&](const QString& text, const QColor& colour) {
       painter->setPen(colour);
-      painter->drawText(QRect(room.left(), y, room.width(), height), static_cast<int>(leading), option.fontMetrics.elidedText(text, Qt::ElideRight, room.width()));
+      painter->drawText(QRect(room.left(), y, room.width(), height), static_cast<int>(leading),
+                        option.fontMetrics.elidedText(text, Qt::ElideRight, room.width()));
       y += height + 2;
     };
     line(index.data(EventsModel::kDetails).toString(), colours.muted);
-    if (const QString advice = index.data(EventsModel::kAdvice).toString(); !advice.isEmpty()) line(advice, colours.text);
+    if (const QString advice = index.data(EventsModel::kAdvice).toString(); !advice.isEmpty())
+      line(advice, colours.text);
     painter->restore();
   }
 

@@ -90,11 +90,14 @@ ConnectPage::ConnectPage(Desk& desk, QWidget* parent) : SpeakingWidget(parent), 
   connect(&desk_.session, &Session::link_changed, this, &ConnectPage::tell);
   says([this] {
     title_->setText(tr("Connect to a machine"));
-    subtitle_->setText(tr("A gateway appears here as soon as its USB cable is plugged in or its daemon runs on this computer."));
+    subtitle_->setText(
+        tr("A gateway appears here as soon as its USB cable is plugged in or its daemon runs on this "
+           "computer."));
     found_heading_->setText(tr("Gateways"));
     none_->setText(tr("None found yet."));
     demo_heading_->setText(tr("Demo machine"));
-    demo_words_->setText(tr("The whole machine, simulated on this computer: upload, home and print without hardware."));
+    demo_words_->setText(
+        tr("The whole machine, simulated on this computer: upload, home and print without hardware."));
     demo_->setText(tr("Try the demo"));
     leave_->setText(tr("Disconnect"));
     rebuild();
@@ -142,14 +145,21 @@ void ConnectPage::tell() {
   const Session& session = desk_.session;
   link_card_->setVisible(session.link_state() != Session::LinkState::kNone);
   switch (session.link_state()) {
-    case Session::LinkState::kNone: break;
-    case Session::LinkState::kConnecting:
-      link_words_->setText(session.link_words().isEmpty() ? tr("Connecting to %1…").arg(session.gateway_title())
-                                                          : tr("%1 does not answer: %2").arg(session.gateway_title(), session.link_words()));
+    case Session::LinkState::kNone:
       break;
-    case Session::LinkState::kConnected: link_words_->setText(tr("Connected to %1.").arg(session.gateway_title())); break;
+    case Session::LinkState::kConnecting:
+      link_words_->setText(
+          session.link_words().isEmpty()
+              ? tr("Connecting to %1…").arg(session.gateway_title())
+              : tr("%1 does not answer: %2").arg(session.gateway_title(), session.link_words()));
+      break;
+    case Session::LinkState::kConnected:
+      link_words_->setText(tr("Connected to %1.").arg(session.gateway_title()));
+      break;
     case Session::LinkState::kLost:
-      link_words_->setText(tr("The connection is lost: %1. It comes back by itself; a job on the machine goes on.").arg(session.link_words()));
+      link_words_->setText(
+          tr("The connection is lost: %1. It comes back by itself; a job on the machine goes on.")
+              .arg(session.link_words()));
       break;
   }
 }

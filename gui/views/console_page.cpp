@@ -3,6 +3,7 @@
 #include <QAbstractItemView>
 #include <QKeyEvent>
 #include <QStandardItemModel>
+#include <QTextBlock>
 
 namespace kinebus::gui {
 namespace {
@@ -72,7 +73,9 @@ ConsolePage::ConsolePage(Desk& desk, QWidget* parent) : SpeakingWidget(parent), 
   completer_->setCompletionRole(Qt::UserRole);
   completer_->setWidget(line_);
   connect(completer_, QOverload<const QModelIndex&>::of(&QCompleter::activated), this,
-          [this](const QModelIndex& index) { line_->setText(index.data(Qt::UserRole).toString() + QLatin1Char(' ')); });
+          [this](const QModelIndex& index) {
+            line_->setText(index.data(Qt::UserRole).toString() + QLatin1Char(' '));
+          });
   auto* row = new QHBoxLayout;
   row->setSpacing(8);
   row->addWidget(line_, 1);
@@ -89,9 +92,11 @@ ConsolePage::ConsolePage(Desk& desk, QWidget* parent) : SpeakingWidget(parent), 
   connect(send_, &QPushButton::clicked, this, send_line);
   connect(line_, &QLineEdit::textEdited, this, &ConsolePage::complete);
   connect(&desk_.session, &Session::event_arrived, this, [this](const joblink::Event& event) {
-    if (event.kind() == joblink::EVENT_MESSAGE) append(QString::fromStdString(event.words()), desk_.theme.colours().busy, false);
-    if (event.kind() == joblink::EVENT_ALARM) append(QString::fromStdString(event.words()), desk_.theme.colours().danger, false);
+    if (event.kind() == joblink::EVENT_MESSAGE)
+      append(QString::fromStdString(event.words()), Voice::kMessage);
+    if (event.kind() == joblink::EVENT_ALARM) append(QString::fromStdString(event.words()), Voice::kRefusal);
   });
+  connect(&desk_.theme, &Theme::changed, this, &ConsolePage::recolour);
   setFocusProxy(line_);
   says([this] {
     send_->setText(tr("Send"));
@@ -102,23 +107,55 @@ ConsolePage::ConsolePage(Desk& desk, QWidget* parent) : SpeakingWidget(parent), 
     auto* model = qobject_cast<QStandardItemModel*>(completer_->model());
     for (std::size_t i = 0; i < kHints.size(); ++i) {
       const QString code = QString::fromLatin1(kHints[i].code);
-      auto* item = new QStandardItem(QStringLiteral("%1   %2").arg(code, QCoreApplication::translate("ConsoleHints", kHints[i].words)));
+      auto* item = new QStandardItem(
+          QStringLiteral("%1   %2").arg(code, QCoreApplication::translate("ConsoleHints", kHints[i].words)));
       item->setData(code, Qt::UserRole);
       model->setItem(static_cast<int>(i), item);
     }
   });
 }
 
-void ConsolePage::append(const QString& text, const QColor& colour, bool bold) {
+QTextCharFormat ConsolePage::format_of(Voice voice) const {
+  const ThemeColours& colours = desk_.theme.colours();
+  QTextCharFormat format;
+  switch (voice) {
+    case Voice::kUser:
+      format.setForeground(colours.text);
+      format.setFontWeight(QFont::DemiBold);
+      break;
+    case Voice::kAnswer:
+      format.setForeground(colours.muted);
+      break;
+    case Voice::kRefusal:
+      format.setForeground(colours.danger);
+      break;
+    case Voice::kMessage:
+      format.setForeground(colours.busy);
+      break;
+  }
+  return format;
+}
+
+void ConsolePage::append(const QString& text, Voice voice) {
   QTextCursor cursor(text_->document());
   cursor.movePosition(QTextCursor::End);
-  QTextCharFormat format;
-  format.setForeground(colour);
-  format.setFontWeight(bold ? QFont::DemiBold : QFont::Normal);
-  if (!text_->document()->isEmpty()) cursor.insertBlock();
-  cursor.insertText(text, format);
-  text_->ensureCursorVisible();
+  for (const QString& line : text.split(QLatin1Char('\n'))) {
+    if (!text_->document()->isEmpty()) cursor.insertBlock();
+    cursor.block().setUserState(static_cast<int>(voice));
+    cursor.insertText(line, format_of(voice));
+  }
   text_->moveCursor(QTextCursor::End);
+  text_->ensureCursorVisible();
+}
+
+/// Lines keep their meaning in light and dark.
+void ConsolePage::recolour() {
+  for (QTextBlock block = text_->document()->begin(); block.isValid(); block = block.next()) {
+    if (block.userState() < 0) continue;
+    QTextCursor cursor(block);
+    cursor.select(QTextCursor::BlockUnderCursor);
+    cursor.setCharFormat(format_of(static_cast<Voice>(block.userState())));
+  }
 }
 
 void ConsolePage::send(const QString& line) {
@@ -126,14 +163,15 @@ void ConsolePage::send(const QString& line) {
   history_ << line;
   while (history_.size() > kHistory) history_.removeFirst();
   recalled_ = -1;
-  append(QStringLiteral("> ") + line, desk_.theme.colours().text, true);
+  append(QStringLiteral("> ") + line, Voice::kUser);
   desk_.session.console(line, [self = QPointer<ConsolePage>(this)](const joblink::Reply& reply) {
     if (self.isNull()) return;
-    const ThemeColours& colours = self->desk_.theme.colours();
     if (reply.has_error())
-      self->append(to_words(reply.error()), colours.danger, false);
+      self->append(to_words(reply.error()), Voice::kRefusal);
     else
-      self->append(reply.console().text().empty() ? QStringLiteral("ok") : QString::fromStdString(reply.console().text()), colours.muted, false);
+      self->append(reply.console().text().empty() ? QStringLiteral("ok")
+                                                  : QString::fromStdString(reply.console().text()),
+                   Voice::kAnswer);
   });
 }
 
@@ -151,7 +189,8 @@ void ConsolePage::complete() {
 }
 
 bool ConsolePage::eventFilter(QObject* watched, QEvent* event) {
-  if (watched != line_ || event->type() != QEvent::KeyPress || history_.isEmpty()) return SpeakingWidget::eventFilter(watched, event);
+  if (watched != line_ || event->type() != QEvent::KeyPress || history_.isEmpty())
+    return SpeakingWidget::eventFilter(watched, event);
   const int key = static_cast<QKeyEvent*>(event)->key();
   if (key != Qt::Key_Up && key != Qt::Key_Down) return SpeakingWidget::eventFilter(watched, event);
   const int newest = static_cast<int>(history_.size()) - 1;

@@ -22,7 +22,10 @@ class ConsolePage : public SpeakingWidget {
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
-  void append(const QString& text, const QColor& colour, bool bold);
+  enum class Voice { kUser, kAnswer, kRefusal, kMessage };
+  void append(const QString& text, Voice voice);
+  QTextCharFormat format_of(Voice voice) const;
+  void recolour();
   void complete();
 
   Desk& desk_;

@@ -9,10 +9,10 @@ namespace kinebus::gui {
 
 JobPanel::JobPanel(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(desk) {
   auto* outer = new QVBoxLayout(this);
-  outer->setContentsMargins(6, 2, 12, 10);
+  outer->setContentsMargins(6, 0, 12, 2);
   auto* card = new Card(this);
-  card->column()->setContentsMargins(16, 11, 16, 13);
-  card->column()->setSpacing(6);
+  card->column()->setContentsMargins(14, 9, 14, 10);
+  card->column()->setSpacing(5);
   outer->addWidget(card);
   outer->addStretch(1);
 
@@ -29,17 +29,19 @@ JobPanel::JobPanel(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(
 
   auto* facts = new QGridLayout;
   facts->setVerticalSpacing(2);
+  facts->setHorizontalSpacing(8);
   facts->setColumnStretch(1, 1);
+  facts->setColumnStretch(3, 1);
   const auto fact = [&](int row, QLabel*& value, auto words) {
     auto* name = make_label("muted", card);
     value = new QLabel(card);
     value->setAlignment(Qt::AlignTrailing);
-    facts->addWidget(name, row, 0);
-    facts->addWidget(value, row, 1);
+    facts->addWidget(name, row / 2, row % 2 * 2);
+    facts->addWidget(value, row / 2, row % 2 * 2 + 1);
     says([name, words] { name->setText(words()); });
   };
-  fact(0, percent_, [] { return tr("Progress"); });
-  fact(1, elapsed_, [] { return tr("Elapsed"); });
+  fact(1, percent_, [] { return tr("Progress"); });
+  fact(0, elapsed_, [] { return tr("Elapsed"); });
   fact(2, remaining_, [] { return tr("Remaining"); });
   fact(3, line_, [] { return tr("Line"); });
   card->column()->addLayout(facts);
@@ -51,13 +53,15 @@ JobPanel::JobPanel(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(
   override_->setPageStep(10);
   override_->setValue(100);
   override_text_ = new QLabel(card);
-  override_text_->setMinimumWidth(override_text_->fontMetrics().horizontalAdvance(QStringLiteral("200%")) + 6);
+  override_text_->setMinimumWidth(override_text_->fontMetrics().horizontalAdvance(QStringLiteral("200%")) +
+                                  6);
   override_text_->setAlignment(Qt::AlignTrailing);
   speed->addWidget(speed_name);
   speed->addWidget(override_, 1);
   speed->addWidget(override_text_);
   card->column()->addLayout(speed);
-  connect(override_, &QSlider::valueChanged, this, [this](int percent) { override_text_->setText(Format::percent(percent / 100.0)); });
+  connect(override_, &QSlider::valueChanged, this,
+          [this](int percent) { override_text_->setText(Format::percent(percent / 100.0)); });
   const auto send = [this] {
     if (desk_.session.connected()) desk_.session.set_override(override_->value() / 100.0);
   };
@@ -79,7 +83,8 @@ JobPanel::JobPanel(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(
   connect(pause_, &QPushButton::clicked, &desk_.session, &Session::hold);
   connect(resume_, &QPushButton::clicked, &desk_.session, &Session::resume);
   connect(cancel_, &QPushButton::clicked, this, [this] {
-    auto* question = new QMessageBox(QMessageBox::Question, tr("Cancel the job"), tr("Cancel the job? What is printed stays on the bed."),
+    auto* question = new QMessageBox(QMessageBox::Question, tr("Cancel the job"),
+                                     tr("Cancel the job? What is printed stays on the bed."),
                                      QMessageBox::NoButton, window());
     question->setAttribute(Qt::WA_DeleteOnClose);
     auto* yes = question->addButton(tr("Cancel the job"), QMessageBox::DestructiveRole);
@@ -105,7 +110,7 @@ void JobPanel::take_status() {
   const bool connected = desk_.session.connected(), job = connected && !s.job().empty();
   name_->set_text(job ? QString::fromStdString(s.job()) : tr("No job is running"));
   doing_->set_text(connected ? StateWords::next(s.state()) : QString());
-  doing_->setVisible(!doing_->text().isEmpty());
+  doing_->setVisible(!job && !doing_->text().isEmpty());
   progress_->setValue(job ? static_cast<int>(std::lround(s.progress() * 1000)) : 0);
   const QString none = QStringLiteral("—");
   percent_->setText(job ? Format::percent(s.progress(), 1) : none);

@@ -33,7 +33,8 @@ class JobDelegate : public QStyledItemDelegate {
       done.setLeft(groove.right() - groove.width() * share);
     else
       done.setWidth(groove.width() * share);
-    painter->setBrush(index.data(JobsModel::kUploadFailed).toBool() ? theme_.colours().danger : theme_.colours().accent);
+    painter->setBrush(index.data(JobsModel::kUploadFailed).toBool() ? theme_.colours().danger
+                                                                    : theme_.colours().accent);
     painter->drawRoundedRect(done, 1.5, 1.5);
   }
 
@@ -109,7 +110,8 @@ QWidget* JobsPage::make_table() {
   table_->setMinimumHeight(120);
   QHeaderView* header = table_->horizontalHeader();
   header->setSectionResizeMode(JobsModel::kName, QHeaderView::Stretch);
-  for (int c = 1; c < JobsModel::kColumns; ++c) header->setSectionResizeMode(c, QHeaderView::ResizeToContents);
+  for (int c = 1; c < JobsModel::kColumns; ++c)
+    header->setSectionResizeMode(c, QHeaderView::ResizeToContents);
   header->setMinimumSectionSize(70);
   column->addWidget(table_, 1);
 
@@ -145,8 +147,10 @@ QWidget* JobsPage::make_table() {
   connect(table_, &QTableView::doubleClicked, show_, &QPushButton::click);
   connect(table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this, &JobsPage::take_selection);
   // A new list keeps the selection by name.
-  connect(&desk_.jobs, &QAbstractItemModel::modelAboutToBeReset, this, [this] { setProperty("selected", selected_job()); });
-  connect(&desk_.jobs, &QAbstractItemModel::modelReset, this, [this] { select(property("selected").toString()); });
+  connect(&desk_.jobs, &QAbstractItemModel::modelAboutToBeReset, this,
+          [this] { setProperty("selected", selected_job()); });
+  connect(&desk_.jobs, &QAbstractItemModel::modelReset, this,
+          [this] { select(property("selected").toString()); });
   says([this] {
     start_->setText(tr("Start"));
     check_->setText(tr("Check"));
@@ -173,8 +177,10 @@ QWidget* JobsPage::make_result() {
   prepare(problems_table_);
   problems_table_->setModel(&problems_);
   problems_table_->horizontalHeader()->setSectionResizeMode(ProblemsModel::kWords, QHeaderView::Stretch);
-  problems_table_->horizontalHeader()->setSectionResizeMode(ProblemsModel::kKind, QHeaderView::ResizeToContents);
-  problems_table_->horizontalHeader()->setSectionResizeMode(ProblemsModel::kLine, QHeaderView::ResizeToContents);
+  problems_table_->horizontalHeader()->setSectionResizeMode(ProblemsModel::kKind,
+                                                            QHeaderView::ResizeToContents);
+  problems_table_->horizontalHeader()->setSectionResizeMode(ProblemsModel::kLine,
+                                                            QHeaderView::ResizeToContents);
   lines_ = new LineView(desk_.theme, parts);
   parts->addWidget(problems_table_);
   parts->addWidget(lines_);
@@ -186,8 +192,10 @@ QWidget* JobsPage::make_result() {
     if (!index.isValid()) return;
     const ShownProblem& problem = problems_.at(index.row());
     if (problem.line == 0) return;
-    if (desk_.path.name() != result_job_ || desk_.path.file_path().isEmpty()) desk_.path.show_job(result_job_);
-    if (!desk_.path.file_path().isEmpty()) lines_->show_line(desk_.path.file_path(), problem.line, problem.column);
+    if (desk_.path.name() != result_job_ || desk_.path.file_path().isEmpty())
+      desk_.path.show_job(result_job_);
+    if (!desk_.path.file_path().isEmpty())
+      lines_->show_line(desk_.path.file_path(), problem.line, problem.column);
     emit show_place(static_cast<std::uint32_t>(problem.line));
   };
   connect(problems_table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this, jump);
@@ -227,11 +235,15 @@ void JobsPage::take_selection() {
     result_text_->setText(tr("Checking %1…").arg(Format::isolated(result_job_)));
   } else if (has_result_) {
     const QString time = Format::duration(summary_.motion_s() + summary_.dwell_s());
-    result_text_->setText(summary_.errors() > 0
-                              ? tr("%1: %n error(s). It will not start.", nullptr, static_cast<int>(summary_.errors())).arg(Format::isolated(result_job_))
-                          : summary_.warnings() > 0
-                              ? tr("%1: it can be printed, with %n warning(s). It takes %2.", nullptr, static_cast<int>(summary_.warnings())).arg(Format::isolated(result_job_), time)
-                              : tr("%1: nothing is wrong. It takes %2.").arg(Format::isolated(result_job_), time));
+    result_text_->setText(
+        summary_.errors() > 0
+            ? tr("%1: %n error(s). It will not start.", nullptr, static_cast<int>(summary_.errors()))
+                  .arg(Format::isolated(result_job_))
+        : summary_.warnings() > 0
+            ? tr("%1: it can be printed, with %n warning(s). It takes %2.", nullptr,
+                 static_cast<int>(summary_.warnings()))
+                  .arg(Format::isolated(result_job_), time)
+            : tr("%1: nothing is wrong. It takes %2.").arg(Format::isolated(result_job_), time));
   } else {
     result_text_->setText(tr("The gateway checks a whole job against every limit before anything moves."));
   }
@@ -269,10 +281,14 @@ void JobsPage::take_result(const QString& name, const joblink::Reply& reply) {
 
 void JobsPage::tell_store() {
   const auto& jobs = desk_.session.jobs();
-  store_text_->setText(jobs.quota_bytes() > 0 ? tr("%1 of %2 used").arg(Format::isolated(Format::bytes(static_cast<double>(jobs.used_bytes()))),
-                                                                     Format::isolated(Format::bytes(static_cast<double>(jobs.quota_bytes()))))
-                                              : QString());
-  if (table_ != nullptr && selected_job().isEmpty() && desk_.jobs.rowCount() > 0) table_->setCurrentIndex(desk_.jobs.index(0, 0));
+  store_text_->setText(
+      jobs.quota_bytes() > 0
+          ? tr("%1 of %2 used")
+                .arg(Format::isolated(Format::bytes(static_cast<double>(jobs.used_bytes()))),
+                     Format::isolated(Format::bytes(static_cast<double>(jobs.quota_bytes()))))
+          : QString());
+  if (table_ != nullptr && selected_job().isEmpty() && desk_.jobs.rowCount() > 0)
+    table_->setCurrentIndex(desk_.jobs.index(0, 0));
 }
 
 void JobsPage::choose_file() {
@@ -291,7 +307,9 @@ void JobsPage::upload(const QStringList& paths) {
 void JobsPage::ask_to_delete() {
   const QString job = selected_job();
   if (job.isEmpty()) return;
-  auto* question = new QMessageBox(QMessageBox::Question, tr("Delete"), tr("Delete %1 from the gateway?").arg(Format::isolated(job)), QMessageBox::NoButton, window());
+  auto* question = new QMessageBox(QMessageBox::Question, tr("Delete"),
+                                   tr("Delete %1 from the gateway?").arg(Format::isolated(job)),
+                                   QMessageBox::NoButton, window());
   question->setAttribute(Qt::WA_DeleteOnClose);
   auto* yes = question->addButton(tr("Delete"), QMessageBox::DestructiveRole);
   question->addButton(tr("Keep"), QMessageBox::RejectRole);

@@ -1,6 +1,6 @@
 #pragma once
-// The jobs on the gateway: upload by dropping a file, check, start, and what the check has found, with the way to the
-// line and to the place.
+// The jobs on the gateway: upload by dropping a file, check, start, and what the check has found, with the
+// way to the line and to the place.
 
 #include <QTableView>
 
@@ -21,6 +21,7 @@ class JobsPage : public SpeakingWidget {
   void select(const QString& job_name);
   /// Checks the selected job and shows what was found.
   void check();
+  bool checking() const { return checking_; }
 
  signals:
   void show_place(std::uint32_t line);

@@ -11,7 +11,8 @@ namespace kinebus::gui {
 namespace {
 constexpr double kRadPerDeg = std::numbers::pi / 180;
 constexpr std::array<double, 5> kSteps{0.01, 0.1, 1, 10, 50};
-constexpr std::array<const char*, 9> kSystems{"G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3"};
+constexpr std::array<const char*, 9> kSystems{"G54", "G55",   "G56",   "G57",  "G58",
+                                              "G59", "G59.1", "G59.2", "G59.3"};
 }  // namespace
 
 JogPage::JogPage(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(desk) {
@@ -43,8 +44,9 @@ JogPage::JogPage(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(de
 QPushButton* JogPage::jog_button(Axis axis, int sign, const QString& icon) {
   auto* button = make_button(desk_.theme, icon, "jog", this);
   static constexpr std::array<const char*, 6> kNames{"X", "Y", "Z", "A", "C", "E"};
-  const QString name = QString::fromLatin1(kNames[static_cast<std::size_t>(axis)]) + (sign > 0 ? QLatin1Char('+') : QChar(0x2212));
-  button->setText(name);
+  const QString name = QString::fromLatin1(kNames[static_cast<std::size_t>(axis)]) +
+                       (sign > 0 ? QLatin1Char('+') : QChar(0x2212));
+  button->setText(Format::isolated(name));
   button->setLayoutDirection(Qt::LeftToRight);
   button->setAccessibleName(name);
   connect(button, &QPushButton::clicked, this, [this, axis, sign] { jog(axis, sign); });
@@ -103,8 +105,9 @@ QWidget* JogPage::make_pad() {
   card->column()->addStretch(1);
   says([this, heading] {
     heading->setText(tr("Jog"));
-    hint_->setText(tr("Keys: arrows move X and Y, Page Up and Page Down move Z, A and D tilt, Q and W turn the table, "
-                      "1 to 5 choose the step."));
+    hint_->setText(
+        tr("Keys: arrows move X and Y, Page Up and Page Down move Z, A and D tilt, Q and W turn the table, "
+           "1 to 5 choose the step."));
   });
   return card;
 }
@@ -134,7 +137,8 @@ QWidget* JogPage::make_steps() {
   speed_->setRange(1, 300);
   speed_->setDecimals(0);
   speed_->setValue(50);
-  speed_->setFixedWidth(130);
+  speed_->setFixedWidth(110);
+  speed_->setButtonSymbols(QAbstractSpinBox::NoButtons);
   grid->addWidget(step_name, 0, 0);
   grid->addLayout(row, 0, 1);
   grid->addWidget(speed_name, 1, 0);
@@ -236,8 +240,10 @@ QWidget* JogPage::make_offsets() {
     return p;
   };
   const auto system = [this] { return static_cast<std::uint32_t>(system_->currentIndex() + 1); };
-  connect(zero_here_, &QPushButton::clicked, this, [this, system] { desk_.session.set_work_offset(system(), {}, true); });
-  connect(set_offset_, &QPushButton::clicked, this, [this, pose, system] { desk_.session.set_work_offset(system(), pose(), false); });
+  connect(zero_here_, &QPushButton::clicked, this,
+          [this, system] { desk_.session.set_work_offset(system(), {}, true); });
+  connect(set_offset_, &QPushButton::clicked, this,
+          [this, pose, system] { desk_.session.set_work_offset(system(), pose(), false); });
   says([this, heading] {
     heading->setText(tr("Work offsets"));
     system_->setAccessibleName(tr("Coordinate system"));
@@ -274,8 +280,11 @@ void JogPage::take_status() {
   if (connected && system >= 1 && system <= kSystems.size()) {
     const joblink::Pose& o = s.work_offset();
     const auto mm = [](double v) { return QString::number(v, 'f', 3); };
-    active_offset_->setText(tr("Active: %1, zero at %2").arg(Format::isolated(QString::fromLatin1(kSystems[system - 1])),
-        Format::isolated(QStringLiteral("X %1  Y %2  Z %3").arg(mm(o.x_mm()), mm(o.y_mm()), mm(o.z_mm())))));
+    active_offset_->setText(
+        tr("Active: %1, zero at %2")
+            .arg(Format::isolated(QString::fromLatin1(kSystems[system - 1])),
+                 Format::isolated(
+                     QStringLiteral("X %1  Y %2  Z %3").arg(mm(o.x_mm()), mm(o.y_mm()), mm(o.z_mm())))));
   } else {
     active_offset_->setText(tr("Zeros of the work coordinates"));
   }
@@ -287,34 +296,72 @@ void JogPage::jog(Axis axis, int sign) {
   joblink::Pose delta;
   bool turn = false;
   switch (axis) {
-    case Axis::kX: delta.set_x_mm(step); break;
-    case Axis::kY: delta.set_y_mm(step); break;
-    case Axis::kZ: delta.set_z_mm(step); break;
-    case Axis::kA: delta.set_a_rad(step * kRadPerDeg); turn = true; break;
-    case Axis::kC: delta.set_c_rad(step * kRadPerDeg); turn = true; break;
-    case Axis::kE: delta.set_e_mm(step); break;
+    case Axis::kX:
+      delta.set_x_mm(step);
+      break;
+    case Axis::kY:
+      delta.set_y_mm(step);
+      break;
+    case Axis::kZ:
+      delta.set_z_mm(step);
+      break;
+    case Axis::kA:
+      delta.set_a_rad(step * kRadPerDeg);
+      turn = true;
+      break;
+    case Axis::kC:
+      delta.set_c_rad(step * kRadPerDeg);
+      turn = true;
+      break;
+    case Axis::kE:
+      delta.set_e_mm(step);
+      break;
   }
   desk_.session.jog(delta, turn ? speed_->value() * kRadPerDeg : speed_->value());
 }
 
 void JogPage::keyPressEvent(QKeyEvent* event) {
   switch (event->key()) {
-    case Qt::Key_Left: jog(Axis::kX, -1); break;
-    case Qt::Key_Right: jog(Axis::kX, 1); break;
-    case Qt::Key_Up: jog(Axis::kY, 1); break;
-    case Qt::Key_Down: jog(Axis::kY, -1); break;
-    case Qt::Key_PageUp: jog(Axis::kZ, 1); break;
-    case Qt::Key_PageDown: jog(Axis::kZ, -1); break;
-    case Qt::Key_A: jog(Axis::kA, 1); break;
-    case Qt::Key_D: jog(Axis::kA, -1); break;
-    case Qt::Key_Q: jog(Axis::kC, 1); break;
-    case Qt::Key_W: jog(Axis::kC, -1); break;
+    case Qt::Key_Left:
+      jog(Axis::kX, -1);
+      break;
+    case Qt::Key_Right:
+      jog(Axis::kX, 1);
+      break;
+    case Qt::Key_Up:
+      jog(Axis::kY, 1);
+      break;
+    case Qt::Key_Down:
+      jog(Axis::kY, -1);
+      break;
+    case Qt::Key_PageUp:
+      jog(Axis::kZ, 1);
+      break;
+    case Qt::Key_PageDown:
+      jog(Axis::kZ, -1);
+      break;
+    case Qt::Key_A:
+      jog(Axis::kA, 1);
+      break;
+    case Qt::Key_D:
+      jog(Axis::kA, -1);
+      break;
+    case Qt::Key_Q:
+      jog(Axis::kC, 1);
+      break;
+    case Qt::Key_W:
+      jog(Axis::kC, -1);
+      break;
     case Qt::Key_1:
     case Qt::Key_2:
     case Qt::Key_3:
     case Qt::Key_4:
-    case Qt::Key_5: steps_->button(event->key() - Qt::Key_1)->setChecked(true); break;
-    default: SpeakingWidget::keyPressEvent(event); return;
+    case Qt::Key_5:
+      steps_->button(event->key() - Qt::Key_1)->setChecked(true);
+      break;
+    default:
+      SpeakingWidget::keyPressEvent(event);
+      return;
   }
   event->accept();
 }

@@ -28,7 +28,8 @@ void Language::apply(const QString& code) {
   QApplication::removeTranslator(&program_);
   QApplication::removeTranslator(&qt_);
   // English has a file too: it holds the plurals.
-  if (program_.load(QStringLiteral(":/i18n/kinebus_%1.qm").arg(code))) QApplication::installTranslator(&program_);
+  if (program_.load(QStringLiteral(":/i18n/kinebus_%1.qm").arg(code)))
+    QApplication::installTranslator(&program_);
   if (qt_.load(QStringLiteral("qtbase_%1").arg(code), QLibraryInfo::path(QLibraryInfo::TranslationsPath)))
     QApplication::installTranslator(&qt_);
   QApplication::setLayoutDirection(locale.textDirection());

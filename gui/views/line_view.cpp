@@ -29,21 +29,25 @@ Excerpt read_excerpt(const QString& path, int line) {
   while (!file.atEnd() && number <= line + kAround) {
     const QByteArray part = rest + file.read(kPart);
     qsizetype from = 0;
-    for (qsizetype end = part.indexOf('\n', from); end >= 0 && number <= line + kAround; end = part.indexOf('\n', from)) {
-      if (number >= excerpt.first) lines << QString::fromUtf8(part.mid(from, end - from)).remove(QLatin1Char('\r'));
+    for (qsizetype end = part.indexOf('\n', from); end >= 0 && number <= line + kAround;
+         end = part.indexOf('\n', from)) {
+      if (number >= excerpt.first)
+        lines << QString::fromUtf8(part.mid(from, end - from)).remove(QLatin1Char('\r'));
       ++number;
       from = end + 1;
     }
     rest = part.mid(from);
   }
-  if (number >= excerpt.first && number <= line + kAround && !rest.isEmpty()) lines << QString::fromUtf8(rest);
+  if (number >= excerpt.first && number <= line + kAround && !rest.isEmpty())
+    lines << QString::fromUtf8(rest);
   excerpt.text = lines.join(QLatin1Char('\n'));
   return excerpt;
 }
 
 }  // namespace
 
-GcodeHighlighter::GcodeHighlighter(QTextDocument* document, const Theme& theme) : QSyntaxHighlighter(document), theme_(theme) {
+GcodeHighlighter::GcodeHighlighter(QTextDocument* document, const Theme& theme)
+    : QSyntaxHighlighter(document), theme_(theme) {
   connect(&theme, &Theme::changed, this, &QSyntaxHighlighter::rehighlight);
 }
 
@@ -64,7 +68,9 @@ void GcodeHighlighter::highlightBlock(const QString& text) {
     }
     if (!c.isLetter()) continue;
     int end = i + 1;
-    while (end < text.size() && !text[end].isLetter() && !text[end].isSpace() && text[end] != QLatin1Char(';')) ++end;
+    while (end < text.size() && !text[end].isLetter() && !text[end].isSpace() &&
+           text[end] != QLatin1Char(';'))
+      ++end;
     if (c == QLatin1Char('G') || c == QLatin1Char('M') || c == QLatin1Char('T')) {
       QTextCharFormat format;
       format.setForeground(colours.accent);
@@ -79,7 +85,8 @@ void GcodeHighlighter::highlightBlock(const QString& text) {
   }
 }
 
-NumberedText::NumberedText(const Theme& theme, QWidget* parent) : QPlainTextEdit(parent), theme_(theme), gutter_(new QWidget(this)) {
+NumberedText::NumberedText(const Theme& theme, QWidget* parent)
+    : QPlainTextEdit(parent), theme_(theme), gutter_(new QWidget(this)) {
   setProperty("mono", true);
   setLineWrapMode(QPlainTextEdit::NoWrap);
   setLayoutDirection(Qt::LeftToRight);
@@ -137,9 +144,11 @@ void NumberedText::paint_gutter() {
     const double height = blockBoundingRect(block).height();
     const int number = first_line_ + block.blockNumber();
     const bool wrong = marks_.contains(number);
-    painter.setPen(wrong ? theme_.colours().danger : number == current_ ? theme_.colours().accent : theme_.colours().muted);
-    painter.drawText(QRectF(0, top, gutter_->width() - 9, height), Qt::AlignRight | Qt::AlignVCenter | Qt::TextForceLeftToRight,
-                     QString::number(number));
+    painter.setPen(wrong                ? theme_.colours().danger
+                   : number == current_ ? theme_.colours().accent
+                                        : theme_.colours().muted);
+    painter.drawText(QRectF(0, top, gutter_->width() - 9, height),
+                     Qt::AlignRight | Qt::AlignVCenter | Qt::TextForceLeftToRight, QString::number(number));
     top += height;
     block = block.next();
   }
@@ -173,7 +182,9 @@ void NumberedText::go_to(int number, int column) {
   if (!block.isValid()) return;
   current_ = number;
   QTextCursor cursor(block);
-  if (column > 1) cursor.movePosition(QTextCursor::Right, QTextCursor::MoveAnchor, std::min(column - 1, block.length() - 1));
+  if (column > 1)
+    cursor.movePosition(QTextCursor::Right, QTextCursor::MoveAnchor,
+                        std::min(column - 1, block.length() - 1));
   setTextCursor(cursor);
   centerCursor();
   show_marks();

@@ -10,7 +10,8 @@ namespace {
 constexpr int kCheckAfter_ms = 400;
 }
 
-TomlHighlighter::TomlHighlighter(QTextDocument* document, const Theme& theme) : QSyntaxHighlighter(document), theme_(theme) {
+TomlHighlighter::TomlHighlighter(QTextDocument* document, const Theme& theme)
+    : QSyntaxHighlighter(document), theme_(theme) {
   connect(&theme, &Theme::changed, this, &QSyntaxHighlighter::rehighlight);
 }
 
@@ -25,8 +26,9 @@ void TomlHighlighter::highlightBlock(const QString& text) {
       break;
     }
   }
-  static const QRegularExpression table(QStringLiteral(R"(^\s*\[[^\]]*\])")), key(QStringLiteral(R"(^\s*([\w.-]+)\s*=)")),
-      text_value(QStringLiteral(R"("[^"]*")")), number(QStringLiteral(R"((?<![\w.])[-+]?\d[\d_.eE+-]*|\b(?:true|false)\b)"));
+  static const QRegularExpression table(QStringLiteral(R"(^\s*\[[^\]]*\])")),
+      key(QStringLiteral(R"(^\s*([\w.-]+)\s*=)")), text_value(QStringLiteral(R"("[^"]*")")),
+      number(QStringLiteral(R"((?<![\w.])[-+]?\d[\d_.eE+-]*|\b(?:true|false)\b)"));
   const auto apply = [&](const QRegularExpression& pattern, const QColor& colour, int group, bool bold) {
     auto matches = pattern.globalMatch(text);
     while (matches.hasNext()) {
@@ -35,7 +37,8 @@ void TomlHighlighter::highlightBlock(const QString& text) {
       QTextCharFormat format;
       format.setForeground(colour);
       if (bold) format.setFontWeight(QFont::DemiBold);
-      setFormat(static_cast<int>(match.capturedStart(group)), static_cast<int>(match.capturedLength(group)), format);
+      setFormat(static_cast<int>(match.capturedStart(group)), static_cast<int>(match.capturedLength(group)),
+                format);
     }
   };
   apply(number, colours.busy, 0, false);
@@ -45,7 +48,8 @@ void TomlHighlighter::highlightBlock(const QString& text) {
   if (comment < text.size()) setFormat(comment, static_cast<int>(text.size()) - comment, colours.muted);
 }
 
-MachineFileEditor::MachineFileEditor(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(desk), problems_(this), check_soon_(this) {
+MachineFileEditor::MachineFileEditor(Desk& desk, QWidget* parent)
+    : SpeakingWidget(parent), desk_(desk), problems_(this), check_soon_(this) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 10, 0, 0);
   column->setSpacing(8);
@@ -102,7 +106,8 @@ MachineFileEditor::MachineFileEditor(Desk& desk, QWidget* parent) : SpeakingWidg
     tell();
   });
   const auto go = [this](const QModelIndex& index) {
-    if (index.isValid() && problems_.at(index.row()).line > 0) text_->go_to(problems_.at(index.row()).line, problems_.at(index.row()).column);
+    if (index.isValid() && problems_.at(index.row()).line > 0)
+      text_->go_to(problems_.at(index.row()).line, problems_.at(index.row()).column);
   };
   connect(table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this, go);
   connect(table_, &QTableView::clicked, this, go);
@@ -134,19 +139,20 @@ void MachineFileEditor::read_if_empty() {
 void MachineFileEditor::read() {
   joblink::ClientMessage request;
   request.mutable_read_machine_file();
-  desk_.session.send(std::move(request), [self = QPointer<MachineFileEditor>(this)](const joblink::Reply& reply) {
-    if (self.isNull()) return;
-    if (!reply.has_machine_file()) {
-      self->save_words_ = to_words(reply.error());
-      self->tell();
-      return;
-    }
-    self->read_once_ = true;
-    self->file_ = reply.machine_file();
-    self->text_->setPlainText(QString::fromStdString(self->file_.text()));
-    self->text_->document()->setModified(false);
-    self->check();
-  });
+  desk_.session.send(std::move(request),
+                     [self = QPointer<MachineFileEditor>(this)](const joblink::Reply& reply) {
+                       if (self.isNull()) return;
+                       if (!reply.has_machine_file()) {
+                         self->save_words_ = to_words(reply.error());
+                         self->tell();
+                         return;
+                       }
+                       self->read_once_ = true;
+                       self->file_ = reply.machine_file();
+                       self->text_->setPlainText(QString::fromStdString(self->file_.text()));
+                       self->text_->document()->setModified(false);
+                       self->check();
+                     });
 }
 
 void MachineFileEditor::check() {
@@ -155,20 +161,22 @@ void MachineFileEditor::check() {
   const int revision = text_->document()->revision();
   joblink::ClientMessage request;
   request.mutable_check_machine_file()->set_text(text_->toPlainText().toStdString());
-  desk_.session.send(std::move(request), [self = QPointer<MachineFileEditor>(this), revision](const joblink::Reply& reply) {
-    if (self.isNull()) return;
-    self->checking_ = false;
-    self->checked_ = reply.has_machine_file_check();
-    self->checked_revision_ = revision;
-    if (self->checked_) {
-      self->problems_.set(ProblemsModel::of(reply.machine_file_check()));
-      QVector<int> lines;
-      for (int i = 0; i < self->problems_.rowCount(); ++i) lines << self->problems_.at(i).line;
-      self->text_->mark_lines(lines);
-    }
-    if (self->text_->document()->revision() != revision) self->check_soon_.start();
-    self->tell();
-  });
+  desk_.session.send(std::move(request),
+                     [self = QPointer<MachineFileEditor>(this), revision](const joblink::Reply& reply) {
+                       if (self.isNull()) return;
+                       self->checking_ = false;
+                       self->checked_ = reply.has_machine_file_check();
+                       self->checked_revision_ = revision;
+                       if (self->checked_) {
+                         self->problems_.set(ProblemsModel::of(reply.machine_file_check()));
+                         QVector<int> lines;
+                         for (int i = 0; i < self->problems_.rowCount(); ++i)
+                           lines << self->problems_.at(i).line;
+                         self->text_->mark_lines(lines);
+                       }
+                       if (self->text_->document()->revision() != revision) self->check_soon_.start();
+                       self->tell();
+                     });
   tell();
 }
 
@@ -176,17 +184,18 @@ void MachineFileEditor::save() {
   joblink::ClientMessage request;
   request.mutable_write_machine_file()->set_text(text_->toPlainText().toStdString());
   request.mutable_write_machine_file()->set_expected_sha256(file_.sha256());
-  desk_.session.command(std::move(request), [self = QPointer<MachineFileEditor>(this)](const joblink::Reply& reply) {
-    if (self.isNull()) return;
-    if (reply.has_error()) {
-      self->save_words_ = to_words(reply.error());
-    } else {
-      if (reply.has_machine_file()) self->file_ = reply.machine_file();
-      self->text_->document()->setModified(false);
-      self->save_words_ = tr("Saved. The gateway uses it from its next start.");
-    }
-    self->tell();
-  });
+  desk_.session.command(std::move(request),
+                        [self = QPointer<MachineFileEditor>(this)](const joblink::Reply& reply) {
+                          if (self.isNull()) return;
+                          if (reply.has_error()) {
+                            self->save_words_ = to_words(reply.error());
+                          } else {
+                            if (reply.has_machine_file()) self->file_ = reply.machine_file();
+                            self->text_->document()->setModified(false);
+                            self->save_words_ = tr("Saved. The gateway uses it from its next start.");
+                          }
+                          self->tell();
+                        });
 }
 
 void MachineFileEditor::tell() {
@@ -194,11 +203,13 @@ void MachineFileEditor::tell() {
   const bool fresh = checked_ && checked_revision_ == text_->document()->revision();
   read_->setEnabled(connected);
   undo_->setEnabled(text_->document()->isUndoAvailable());
-  save_->setEnabled(connected && read_once_ && file_.writable() && fresh && problems_.rowCount() == 0 && text_->document()->isModified());
+  save_->setEnabled(connected && read_once_ && file_.writable() && fresh && problems_.rowCount() == 0 &&
+                    text_->document()->isModified());
   QString place = QString::fromStdString(file_.path());
   if (place.isEmpty()) place = read_once_ ? tr("The built-in machine file") : tr("Not read yet");
   if (read_once_ && !file_.writable()) place += QStringLiteral(" · ") + tr("cannot be changed from here");
-  if (read_once_ && file_.restart_needed()) place += QStringLiteral(" · ") + tr("newer than what the gateway runs with");
+  if (read_once_ && file_.restart_needed())
+    place += QStringLiteral(" · ") + tr("newer than what the gateway runs with");
   place_->set_text(place);
   table_->setVisible(problems_.rowCount() > 0);
   if (!save_words_.isEmpty())

@@ -1,5 +1,6 @@
 #pragma once
-// The machine file: read from the gateway, edited, checked there while typing, and saved only when it is right.
+// The machine file: read from the gateway, edited, checked there while typing, and saved only when it is
+// right.
 
 #include <QListView>
 

@@ -16,22 +16,29 @@ namespace {
 /// A share of a whole behind the text: travel, queue.
 class ShareDelegate : public QStyledItemDelegate {
  public:
-  ShareDelegate(const Theme& theme, int role, QObject* parent) : QStyledItemDelegate(parent), theme_(theme), role_(role) {}
+  ShareDelegate(const Theme& theme, int role, QObject* parent)
+      : QStyledItemDelegate(parent), theme_(theme), role_(role) {}
   void paint(QPainter* painter, const QStyleOptionViewItem& option, const QModelIndex& index) const override {
     QStyledItemDelegate::paint(painter, option, index);
     const double share = index.data(role_).toDouble();
     if (share < 0) return;
     const bool text = !index.data(Qt::DisplayRole).toString().isEmpty();
-    const QRectF groove(option.rect.left() + 8, text ? option.rect.bottom() - 6 : option.rect.center().y() - 1.5, option.rect.width() - 16, 4);
+    const QRectF groove(option.rect.left() + 8,
+                        text ? option.rect.bottom() - 6 : option.rect.center().y() - 1.5,
+                        option.rect.width() - 16, 4);
     painter->setRenderHint(QPainter::Antialiasing);
     painter->setPen(Qt::NoPen);
     painter->setBrush(theme_.colours().border);
     painter->drawRoundedRect(groove, 2, 2);
     painter->setBrush(theme_.colours().accent);
     if (text)
-      painter->drawRoundedRect(QRectF(groove.left(), groove.top(), groove.width() * std::clamp(share, 0.0, 1.0), groove.height()), 2, 2);
+      painter->drawRoundedRect(
+          QRectF(groove.left(), groove.top(), groove.width() * std::clamp(share, 0.0, 1.0), groove.height()),
+          2, 2);
     else
-      painter->drawRoundedRect(QRectF(groove.left() + (groove.width() - 8) * std::clamp(share, 0.0, 1.0), groove.top() - 4, 8, 12), 3, 3);
+      painter->drawRoundedRect(
+          QRectF(groove.left() + (groove.width() - 8) * std::clamp(share, 0.0, 1.0), groove.top() - 4, 8, 12),
+          3, 3);
   }
 
  private:
@@ -54,7 +61,9 @@ class DotDelegate : public QStyledItemDelegate {
     painter->setRenderHint(QPainter::Antialiasing);
     painter->setPen(Qt::NoPen);
     painter->setBrush(colour);
-    painter->drawEllipse(QPointF(mirrored ? option.rect.right() - 14 : option.rect.left() + 14, option.rect.center().y() + 0.5), 4.5, 4.5);
+    painter->drawEllipse(QPointF(mirrored ? option.rect.right() - 14 : option.rect.left() + 14,
+                                 option.rect.center().y() + 0.5),
+                         4.5, 4.5);
   }
 
  private:
@@ -114,19 +123,33 @@ QWidget* MachinePage::make_live() {
   auto* axes = make_table(&desk_.axes, body, 6);
   axes->setItemDelegateForColumn(AxesModel::kTravel, new ShareDelegate(desk_.theme, AxesModel::kShare, axes));
   axes->setItemDelegateForColumn(AxesModel::kDrive, new DotDelegate(
-      [this](const QModelIndex& i) {
-        if (i.data(AxesModel::kFault).toBool()) return desk_.theme.colours().danger;
-        return i.data().toString() == QStringLiteral("–") ? QColor() : desk_.theme.colours().good;
-      }, axes));
+                                                        [this](const QModelIndex& i) {
+                                                          if (i.data(AxesModel::kFault).toBool())
+                                                            return desk_.theme.colours().danger;
+                                                          return i.data().toString() == QStringLiteral("–")
+                                                                     ? QColor()
+                                                                     : desk_.theme.colours().good;
+                                                        },
+                                                        axes));
   axes->setItemDelegateForColumn(AxesModel::kSwitch, new DotDelegate(
-      [this](const QModelIndex& i) {
-        if (i.data().toString() == QStringLiteral("–")) return QColor();
-        return i.data(AxesModel::kSwitchOn).toBool() ? desk_.theme.colours().waiting : desk_.theme.colours().border;
-      }, axes));
+                                                         [this](const QModelIndex& i) {
+                                                           if (i.data().toString() == QStringLiteral("–"))
+                                                             return QColor();
+                                                           return i.data(AxesModel::kSwitchOn).toBool()
+                                                                      ? desk_.theme.colours().waiting
+                                                                      : desk_.theme.colours().border;
+                                                         },
+                                                         axes));
   auto* nodes = make_table(&desk_.nodes, body, 3);
-  nodes->setItemDelegateForColumn(NodesModel::kQueue, new ShareDelegate(desk_.theme, NodesModel::kShare, nodes));
+  nodes->setItemDelegateForColumn(NodesModel::kQueue,
+                                  new ShareDelegate(desk_.theme, NodesModel::kShare, nodes));
   nodes->setItemDelegateForColumn(NodesModel::kState, new DotDelegate(
-      [this](const QModelIndex& i) { return i.data(NodesModel::kWell).toBool() ? desk_.theme.colours().good : desk_.theme.colours().waiting; }, nodes));
+                                                          [this](const QModelIndex& i) {
+                                                            return i.data(NodesModel::kWell).toBool()
+                                                                       ? desk_.theme.colours().good
+                                                                       : desk_.theme.colours().waiting;
+                                                          },
+                                                          nodes));
   nodes->horizontalHeader()->setSectionResizeMode(NodesModel::kNode, QHeaderView::ResizeToContents);
   column->addWidget(axes, 2);
   column->addWidget(nodes, 1);
@@ -144,14 +167,18 @@ QWidget* MachinePage::make_numbers() {
   auto* grid = new QGridLayout(body);
   grid->setContentsMargins(0, 12, 0, 0);
   grid->setSpacing(10);
-  const auto plot = [&](StatusHistory::Series series, double full, PlotWidget::Words words, int row, int column, auto title) {
+  const auto plot = [&](StatusHistory::Series series, double full, PlotWidget::Words words, int row,
+                        int column, auto title) {
     auto* widget = new PlotWidget(desk_.history, desk_.theme, series, full, std::move(words), body);
     grid->addWidget(widget, row, column);
     says([widget, title] { widget->set_title(title()); });
   };
   const auto percent = [](double v) { return Format::percent(v, 1); };
   plot(StatusHistory::kBusLoad, 0.5, percent, 0, 0, [] { return tr("Bus load"); });
-  plot(StatusHistory::kSyncError_us, 20, [](double v) { return Format::isolated(tr("%1 µs").arg(Format::number(v, 1))); }, 0, 1, [] { return tr("Largest clock error"); });
+  plot(
+      StatusHistory::kSyncError_us, 20,
+      [](double v) { return Format::isolated(tr("%1 µs").arg(Format::number(v, 1))); }, 0, 1,
+      [] { return tr("Largest clock error"); });
   plot(StatusHistory::kQueue, 1, percent, 1, 0, [] { return tr("Emptiest queue"); });
   plot(StatusHistory::kRate, 1, percent, 1, 1, [] { return tr("Path rate"); });
   const auto heat = [](double v) { return Format::isolated(Format::temperature(v)); };
@@ -169,7 +196,10 @@ QWidget* MachinePage::make_numbers() {
     counters->addWidget(name, i / 3, i % 3 * 2);
     counters->addWidget(number, i / 3, i % 3 * 2 + 1);
     counters->setColumnStretch(i % 3 * 2 + 1, 1);
-    numbers_.push_back({number, [value, this] { return QLocale().toString(static_cast<qulonglong>(value(desk_.session.status().counters()))); }});
+    numbers_.push_back({number, [value, this] {
+                          return QLocale().toString(
+                              static_cast<qulonglong>(value(desk_.session.status().counters())));
+                        }});
     says([name, title] { name->setText(title()); });
     ++i;
   };
@@ -195,8 +225,10 @@ void MachinePage::take_status() {
     summary_->setText(tr("Not connected."));
   } else {
     summary_->setText(tr("%1 · kinematics %2 · %3 axes on %4 nodes · bus %5")
-                          .arg(Format::isolated(QString::fromStdString(machine.name())), Format::isolated(QString::fromStdString(machine.kinematics())),
-                               Format::number(machine.joints_size(), 0), Format::number(machine.nodes_size(), 0),
+                          .arg(Format::isolated(QString::fromStdString(machine.name())),
+                               Format::isolated(QString::fromStdString(machine.kinematics())),
+                               Format::number(machine.joints_size(), 0),
+                               Format::number(machine.nodes_size(), 0),
                                Format::isolated(QString::fromStdString(machine.bus()))));
   }
   if (tabs_->currentIndex() == 1)

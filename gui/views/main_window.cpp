@@ -3,8 +3,8 @@
 #include <QButtonGroup>
 #include <QCloseEvent>
 #include <QDockWidget>
-#include <QSettings>
 #include <QScrollArea>
+#include <QSettings>
 #include <QShortcut>
 
 #include "gui/views/alarms_page.hpp"
@@ -22,7 +22,8 @@ namespace kinebus::gui {
 namespace {
 constexpr int kBanner_ms = 9000;
 constexpr int kLayoutVersion = 1;
-constexpr std::array<const char*, MainWindow::kPages> kIcons{"gateway", "view", "jobs", "jog", "console", "alarms", "machine"};
+constexpr std::array<const char*, MainWindow::kPages> kIcons{"gateway", "view",   "jobs",   "jog",
+                                                             "console", "alarms", "machine"};
 }  // namespace
 
 MainWindow::MainWindow(Desk& desk) : desk_(desk), banner_timer_(this) {
@@ -40,8 +41,10 @@ MainWindow::MainWindow(Desk& desk) : desk_(desk), banner_timer_(this) {
   console_ = new ConsolePage(desk_, pages_);
   alarms_ = new AlarmsPage(desk_, pages_);
   machine_ = new MachinePage(desk_, pages_);
-  for (QWidget* page : {static_cast<QWidget*>(connect_), static_cast<QWidget*>(view_), static_cast<QWidget*>(jobs_), static_cast<QWidget*>(jog_),
-                        static_cast<QWidget*>(console_), static_cast<QWidget*>(alarms_), static_cast<QWidget*>(machine_)})
+  for (QWidget* page :
+       {static_cast<QWidget*>(connect_), static_cast<QWidget*>(view_), static_cast<QWidget*>(jobs_),
+        static_cast<QWidget*>(jog_), static_cast<QWidget*>(console_), static_cast<QWidget*>(alarms_),
+        static_cast<QWidget*>(machine_)})
     pages_->addWidget(page);
 
   banner_ = new QWidget(this);
@@ -91,7 +94,8 @@ MainWindow::MainWindow(Desk& desk) : desk_(desk), banner_timer_(this) {
   connect(&desk_.session, &Session::refused, this, &MainWindow::take_refusal);
   connect(&desk_.events, &EventsModel::open_alarms_changed, this, &MainWindow::retranslate);
   connect(&desk_.events, &EventsModel::alarm_arrived, this, [this] {
-    take_refusal(desk_.events.index(0).data(EventsModel::kTitle).toString() + QStringLiteral(" — ") + desk_.events.index(0).data(EventsModel::kAdvice).toString());
+    take_refusal(desk_.events.index(0).data(EventsModel::kTitle).toString() + QStringLiteral(" — ") +
+                 desk_.events.index(0).data(EventsModel::kAdvice).toString());
   });
   for (int i = 0; i < kPages; ++i) {
     auto* shortcut = new QShortcut(QKeySequence(Qt::CTRL | static_cast<Qt::Key>(Qt::Key_1 + i)), this);
@@ -113,7 +117,8 @@ QWidget* MainWindow::make_navigation() {
   column->setSpacing(1);
   navigation_ = new QButtonGroup(bar);
   for (int i = 0; i < kPages; ++i) {
-    QToolButton* button = make_tool(desk_.theme, QString::fromLatin1(kIcons[static_cast<std::size_t>(i)]), true, bar);
+    QToolButton* button =
+        make_tool(desk_.theme, QString::fromLatin1(kIcons[static_cast<std::size_t>(i)]), true, bar);
     button->setToolButtonStyle(Qt::ToolButtonTextUnderIcon);
     button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
     button->setIconSize({23, 23});
@@ -121,7 +126,8 @@ QWidget* MainWindow::make_navigation() {
     column->addWidget(button);
   }
   column->addStretch(1);
-  connect(navigation_, &QButtonGroup::idClicked, this, [this](int page) { show_page(static_cast<Page>(page)); });
+  connect(navigation_, &QButtonGroup::idClicked, this,
+          [this](int page) { show_page(static_cast<Page>(page)); });
   return bar;
 }
 
@@ -136,16 +142,20 @@ QDockWidget* MainWindow::make_dock(const QString& name, QWidget* content) {
   scroll->setFocusPolicy(Qt::NoFocus);
   scroll->setWidget(content);
   scroll->setMinimumWidth(content->minimumWidth() + 26);
+  // The job is whole; what is left belongs to the position.
+  if (name == QLatin1String("job")) scroll->setMinimumHeight(content->sizeHint().height());
   dock->setWidget(scroll);
   return dock;
 }
 
 void MainWindow::retranslate() {
-  const std::array<QString, kPages> names{tr("Gateways"), tr("View"), tr("Jobs"), tr("Jog"), tr("Console"), tr("Alarms"), tr("Machine")};
+  const std::array<QString, kPages> names{tr("Gateways"), tr("View"),   tr("Jobs"),   tr("Jog"),
+                                          tr("Console"),  tr("Alarms"), tr("Machine")};
   for (int i = 0; i < kPages; ++i) {
     QAbstractButton* button = navigation_->button(i);
     QString name = names[static_cast<std::size_t>(i)];
-    if (i == kAlarms && desk_.events.open_alarms() > 0) name += QStringLiteral(" (%1)").arg(QLocale().toString(desk_.events.open_alarms()));
+    if (i == kAlarms && desk_.events.open_alarms() > 0)
+      name += QStringLiteral(" (%1)").arg(QLocale().toString(desk_.events.open_alarms()));
     button->setText(name);
     button->setToolTip(QStringLiteral("%1 (Ctrl+%2)").arg(names[static_cast<std::size_t>(i)]).arg(i + 1));
   }
@@ -200,7 +210,8 @@ void MainWindow::set_language(const QString& code) {
 
 void MainWindow::save(QSettings& settings) const {
   settings.setValue(QStringLiteral("window/geometry"), saveGeometry());
-  if (!position_dock_->isHidden()) settings.setValue(QStringLiteral("window/layout"), saveState(kLayoutVersion));
+  if (!position_dock_->isHidden())
+    settings.setValue(QStringLiteral("window/layout"), saveState(kLayoutVersion));
   settings.setValue(QStringLiteral("window/page"), static_cast<int>(page()));
   settings.setValue(QStringLiteral("theme/dark"), desk_.theme.dark());
   settings.setValue(QStringLiteral("language"), desk_.language.code());

@@ -6,9 +6,14 @@
 
 namespace kinebus::gui {
 
-PlotWidget::PlotWidget(const StatusHistory& history, const Theme& theme, StatusHistory::Series series, double full_scale, Words words,
-                       QWidget* parent)
-    : QWidget(parent), history_(history), theme_(theme), series_(series), full_scale_(full_scale), words_(std::move(words)) {
+PlotWidget::PlotWidget(const StatusHistory& history, const Theme& theme, StatusHistory::Series series,
+                       double full_scale, Words words, QWidget* parent)
+    : QWidget(parent),
+      history_(history),
+      theme_(theme),
+      series_(series),
+      full_scale_(full_scale),
+      words_(std::move(words)) {
   setMinimumHeight(104);
   connect(&history, &StatusHistory::changed, this, [this] { update(); });
 }
@@ -45,13 +50,15 @@ void PlotWidget::paintEvent(QPaintEvent*) {
   for (const auto& sample : samples) top = std::max(top, static_cast<double>(sample.values[s]) * 1.1);
   painter.setPen(colours.text);
   painter.setFont(bold);
-  painter.drawText(head, static_cast<int>(mirrored ? Qt::AlignLeft : Qt::AlignRight), words_(static_cast<double>(samples.back().values[s])));
+  painter.drawText(head, static_cast<int>(mirrored ? Qt::AlignLeft : Qt::AlignRight),
+                   words_(static_cast<double>(samples.back().values[s])));
   // Time goes to the right in every language, as on every instrument.
   const double now = samples.back().time_s;
   QPainterPath curve;
   for (const auto& sample : samples) {
-    const QPointF at(area.right() - (now - sample.time_s) / StatusHistory::kKept_s * area.width(),
-                     area.bottom() - std::clamp(static_cast<double>(sample.values[s]) / top, 0.0, 1.0) * area.height());
+    const QPointF at(
+        area.right() - (now - sample.time_s) / StatusHistory::kKept_s * area.width(),
+        area.bottom() - std::clamp(static_cast<double>(sample.values[s]) / top, 0.0, 1.0) * area.height());
     curve.elementCount() == 0 ? curve.moveTo(at) : curve.lineTo(at);
   }
   QPainterPath filled = curve;

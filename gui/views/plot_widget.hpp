@@ -13,8 +13,8 @@ class PlotWidget : public QWidget {
  public:
   using Words = std::function<QString(double)>;
   /// full_scale: of the vertical axis at least; it grows with the values. `words` says a value to the user.
-  PlotWidget(const StatusHistory& history, const Theme& theme, StatusHistory::Series series, double full_scale, Words words,
-             QWidget* parent = nullptr);
+  PlotWidget(const StatusHistory& history, const Theme& theme, StatusHistory::Series series,
+             double full_scale, Words words, QWidget* parent = nullptr);
   void set_title(const QString& title);
   QSize sizeHint() const override { return {260, 132}; }
 

@@ -13,7 +13,8 @@ constexpr double kDegPerRad = 180 / std::numbers::pi;
 
 QFont digits_font(const QFont& base, double points, bool bold) {
   QFont font = base;
-  font.setFamilies({QStringLiteral("DejaVu Sans Mono"), QStringLiteral("Noto Sans Mono"), QStringLiteral("monospace")});
+  font.setFamilies(
+      {QStringLiteral("DejaVu Sans Mono"), QStringLiteral("Noto Sans Mono"), QStringLiteral("monospace")});
   font.setPointSizeF(points);
   font.setBold(bold);
   return font;
@@ -85,16 +86,18 @@ QWidget* PositionPanel::make_axes() {
   card->column()->addWidget(frame_text_);
   auto* grid = new QGridLayout;
   grid->setHorizontalSpacing(9);
-  grid->setVerticalSpacing(1);
+  grid->setVerticalSpacing(0);
   grid->setColumnStretch(1, 1);
   static constexpr std::array<const char*, 6> kNames{"X", "Y", "Z", "A", "C", "E"};
   for (int i = 0; i < 6; ++i) {
     AxisRow row{make_label("heading", card), new QLabel(card), make_label("small", card)};
     row.name->setText(QString::fromLatin1(kNames[static_cast<std::size_t>(i)]));
-    row.value->setFont(digits_font(font(), i < 3 ? 17 : 13, i < 3));
-    row.value->setStyleSheet(QStringLiteral("font-family: 'DejaVu Sans Mono', 'Noto Sans Mono', monospace; font-size: %1pt; font-weight: %2;")
-                                 .arg(i < 3 ? 17 : 13)
-                                 .arg(i < 3 ? 600 : 400));
+    row.value->setFont(digits_font(font(), i < 3 ? 16 : 11, i < 3));
+    row.value->setStyleSheet(
+        QStringLiteral(
+            "font-family: 'DejaVu Sans Mono', 'Noto Sans Mono', monospace; font-size: %1pt; font-weight: %2;")
+            .arg(i < 3 ? 16 : 11)
+            .arg(i < 3 ? 600 : 400));
     row.value->setAlignment(Qt::AlignRight | Qt::AlignAbsolute | Qt::AlignVCenter);
     row.unit->setText(i == 3 || i == 4 ? QStringLiteral("°") : QStringLiteral("mm"));
     row.unit->setMinimumWidth(22);
@@ -151,21 +154,25 @@ QWidget* PositionPanel::make_heaters() {
 
 void PositionPanel::rebuild_joints() {
   for (const JointRow& row : joints_)
-    for (QWidget* w : {static_cast<QWidget*>(row.name), static_cast<QWidget*>(row.value), static_cast<QWidget*>(row.bar)}) w->deleteLater();
+    for (QWidget* w :
+         {static_cast<QWidget*>(row.name), static_cast<QWidget*>(row.value), static_cast<QWidget*>(row.bar)})
+      w->deleteLater();
   joints_.clear();
   const auto& machine = desk_.session.machine();
-  int i = 0;
+  int i = 0, number = -1;
   for (const auto& joint : machine.joints()) {
-    JointRow row{make_label("muted", joints_card_), new QLabel(joints_card_), new TravelBar(joints_card_)};
+    ++number;
+    if (!(joint.travel().min() < joint.travel().max())) continue;  // endless: already among the tool's axes
+    JointRow row{make_label("muted", joints_card_), new QLabel(joints_card_), new TravelBar(joints_card_), 0};
     row.name->setText(QString::fromStdString(joint.name()));
     row.value->setStyleSheet(QStringLiteral("font-family: 'DejaVu Sans Mono', 'Noto Sans Mono', monospace;"));
     row.value->setMinimumWidth(row.value->fontMetrics().horizontalAdvance(QStringLiteral("-00000.000")) + 8);
     row.value->setAlignment(Qt::AlignRight | Qt::AlignAbsolute | Qt::AlignVCenter);
     row.bar->setLayoutDirection(Qt::LeftToRight);
-    row.bar->setVisible(joint.travel().min() < joint.travel().max());
     joints_grid_->addWidget(row.name, i, 0);
     joints_grid_->addWidget(row.bar, i, 1);
     joints_grid_->addWidget(row.value, i, 2);
+    row.joint = number;
     joints_.push_back(row);
     ++i;
   }
@@ -179,26 +186,32 @@ void PositionPanel::take_status() {
   const joblink::Status& s = desk_.session.status();
   const bool known = desk_.session.connected() && s.positions_known();
   const joblink::Pose& t = s.tool();
-  const std::array<double, 6> values{t.x_mm(), t.y_mm(), t.z_mm(), t.a_rad() * kDegPerRad, t.c_rad() * kDegPerRad, t.e_mm()};
+  const std::array<double, 6> values{
+      t.x_mm(), t.y_mm(), t.z_mm(), t.a_rad() * kDegPerRad, t.c_rad() * kDegPerRad, t.e_mm()};
   for (int i = 0; i < 6; ++i) {
     const double v = values[static_cast<std::size_t>(i)];
     // Coordinates keep the digits of G-code in every language.
     const double shown = std::abs(v) < 5e-4 ? 0 : v;
-    axes_[i].value->setText(known ? QString::number(shown, 'f', i == 3 || i == 4 ? 2 : 3) : QStringLiteral("—"));
+    axes_[i].value->setText(known ? QString::number(shown, 'f', i == 3 || i == 4 ? 2 : 3)
+                                  : QStringLiteral("—"));
   }
   frame_text_->setText(known ? tr("Tool over the part") : tr("Position not known yet"));
   for (int i = 0; i < joints_.size(); ++i) {
-    const auto& joint = desk_.session.machine().joints(i);
-    const bool here = known && i < s.joints_size();
-    const double q = here ? s.joints(i) : 0;
-    joints_[i].value->setText(here ? QString::number(joint.rotary() ? q * kDegPerRad : q, 'f', joint.rotary() ? 2 : 3) : QStringLiteral("—"));
+    const int number = joints_[i].joint;
+    const auto& joint = desk_.session.machine().joints(number);
+    const bool here = known && number < s.joints_size();
+    const double q = here ? s.joints(number) : 0;
+    joints_[i].value->setText(
+        here ? QString::number(joint.rotary() ? q * kDegPerRad : q, 'f', joint.rotary() ? 2 : 3)
+             : QStringLiteral("—"));
     const double span = joint.travel().max() - joint.travel().min();
     const double share = here && span > 0 ? (q - joint.travel().min()) / span : -1;
     const bool near = share >= 0 && (share < 0.04 || share > 0.96);
     joints_[i].bar->set(share, near ? desk_.theme.colours().waiting : desk_.theme.colours().accent);
   }
   const auto heat = [&](QLabel* actual, QDoubleSpinBox* target, const joblink::Heater& heater) {
-    actual->setText(desk_.session.connected() ? Format::isolated(Format::temperature(heater.actual_celsius())) : QStringLiteral("—"));
+    actual->setText(desk_.session.connected() ? Format::isolated(Format::temperature(heater.actual_celsius()))
+                                              : QStringLiteral("—"));
     if (!target->hasFocus()) target->setValue(heater.target_celsius());
     target->setEnabled(desk_.session.connected());
   };

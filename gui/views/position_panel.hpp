@@ -1,5 +1,6 @@
 #pragma once
-// Where everything is: the tool's axes in large digits, the carriages as bars within their travel, the heaters.
+// Where everything is: the tool's axes in large digits, the carriages as bars within their travel, the
+// heaters.
 
 #include <QDoubleSpinBox>
 #include <QVector>
@@ -36,6 +37,7 @@ class PositionPanel : public SpeakingWidget {
   struct JointRow {
     QLabel *name, *value;
     TravelBar* bar;
+    int joint;
   };
   QWidget* make_axes();
   QWidget* make_heaters();

@@ -101,7 +101,8 @@ void SceneView::mousePressEvent(QMouseEvent* event) {
 void SceneView::mouseMoveEvent(QMouseEvent* event) {
   const QPointF moved = event->position() - last_mouse_;
   last_mouse_ = event->position();
-  const bool pan = (event->buttons() & (Qt::RightButton | Qt::MiddleButton)) != 0 || (event->modifiers() & Qt::ShiftModifier) != 0;
+  const bool pan = (event->buttons() & (Qt::RightButton | Qt::MiddleButton)) != 0 ||
+                   (event->modifiers() & Qt::ShiftModifier) != 0;
   if (pan)
     content_.camera.pan(moved, size());
   else if ((event->buttons() & Qt::LeftButton) != 0)
@@ -122,16 +123,34 @@ void SceneView::wheelEvent(QWheelEvent* event) {
 void SceneView::keyPressEvent(QKeyEvent* event) {
   constexpr float kTurn_deg = 5;
   switch (event->key()) {
-    case Qt::Key_Left: content_.camera.orbit(kTurn_deg, 0); break;
-    case Qt::Key_Right: content_.camera.orbit(-kTurn_deg, 0); break;
-    case Qt::Key_Up: content_.camera.orbit(0, kTurn_deg); break;
-    case Qt::Key_Down: content_.camera.orbit(0, -kTurn_deg); break;
+    case Qt::Key_Left:
+      content_.camera.orbit(kTurn_deg, 0);
+      break;
+    case Qt::Key_Right:
+      content_.camera.orbit(-kTurn_deg, 0);
+      break;
+    case Qt::Key_Up:
+      content_.camera.orbit(0, kTurn_deg);
+      break;
+    case Qt::Key_Down:
+      content_.camera.orbit(0, -kTurn_deg);
+      break;
     case Qt::Key_Plus:
-    case Qt::Key_Equal: content_.camera.zoom(0.88F); break;
-    case Qt::Key_Minus: content_.camera.zoom(1.14F); break;
-    case Qt::Key_F: fit_part(); return;
-    case Qt::Key_M: fit_machine(); return;
-    default: QOpenGLWidget::keyPressEvent(event); return;
+    case Qt::Key_Equal:
+      content_.camera.zoom(0.88F);
+      break;
+    case Qt::Key_Minus:
+      content_.camera.zoom(1.14F);
+      break;
+    case Qt::Key_F:
+      fit_part();
+      return;
+    case Qt::Key_M:
+      fit_machine();
+      return;
+    default:
+      QOpenGLWidget::keyPressEvent(event);
+      return;
   }
   redraw();
 }
@@ -139,10 +158,22 @@ void SceneView::keyPressEvent(QKeyEvent* event) {
 void SceneView::look(Look look) {
   Camera& camera = content_.camera;
   switch (look) {
-    case Look::kDiagonal: camera.azimuth_deg = -32; camera.elevation_deg = 24; break;
-    case Look::kTop: camera.azimuth_deg = 0; camera.elevation_deg = 89.5F; break;
-    case Look::kFront: camera.azimuth_deg = 0; camera.elevation_deg = 0; break;
-    case Look::kRight: camera.azimuth_deg = 90; camera.elevation_deg = 0; break;
+    case Look::kDiagonal:
+      camera.azimuth_deg = -32;
+      camera.elevation_deg = 24;
+      break;
+    case Look::kTop:
+      camera.azimuth_deg = 0;
+      camera.elevation_deg = 89.5F;
+      break;
+    case Look::kFront:
+      camera.azimuth_deg = 0;
+      camera.elevation_deg = 0;
+      break;
+    case Look::kRight:
+      camera.azimuth_deg = 90;
+      camera.elevation_deg = 0;
+      break;
   }
   redraw();
 }
@@ -151,8 +182,9 @@ Box SceneView::machine_box() const {
   Box box;
   for (const FigurePart& part : content_.figure.parts)
     for (int corner = 0; corner < 8; ++corner) {
-      const QVector3D p = part.place.map(QVector3D((corner & 1) != 0 ? 0.5F : -0.5F, (corner & 2) != 0 ? 0.5F : -0.5F,
-                                                   (corner & 4) != 0 ? 0.5F : -0.5F));
+      const QVector3D p =
+          part.place.map(QVector3D((corner & 1) != 0 ? 0.5F : -0.5F, (corner & 2) != 0 ? 0.5F : -0.5F,
+                                   (corner & 4) != 0 ? 0.5F : -0.5F));
       box.add(std::array<float, 3>{p.x(), p.y(), p.z()});
     }
   return box;
@@ -172,10 +204,11 @@ void SceneView::fit_part() {
   };
   if (!part.empty()) {
     for (int corner = 0; corner < 8; ++corner)
-      add((corner & 1) != 0 ? part.high_mm[0] : part.low_mm[0], (corner & 2) != 0 ? part.high_mm[1] : part.low_mm[1],
-          (corner & 4) != 0 ? part.high_mm[2] : 0);
+      add((corner & 1) != 0 ? part.high_mm[0] : part.low_mm[0],
+          (corner & 2) != 0 ? part.high_mm[1] : part.low_mm[1], (corner & 4) != 0 ? part.high_mm[2] : 0);
   } else if (content_.has_machine) {
-    const auto r = static_cast<float>(content_.model.round() ? content_.model.radius_mm : content_.model.x_mm.max);
+    const auto r =
+        static_cast<float>(content_.model.round() ? content_.model.radius_mm : content_.model.x_mm.max);
     for (const float side : {-r, r}) add(side, side, 0), add(side, -side, r * 0.4F);
   }
   content_.camera.fit(box, size());

@@ -1,6 +1,6 @@
 #pragma once
-// The 3D scene as a widget: turns what the models know into content for the renderer, and the mouse and keys into camera
-// moves.
+// The 3D scene as a widget: turns what the models know into content for the renderer, and the mouse and keys
+// into camera moves.
 
 #include <QElapsedTimer>
 #include <QOpenGLWidget>

@@ -1,5 +1,6 @@
 #pragma once
-// Light and dark: colours by what they are for, the palette and the style sheet made of them, and icons in them.
+// Light and dark: colours by what they are for, the palette and the style sheet made of them, and icons in
+// them.
 
 #include <QColor>
 #include <QIcon>

@@ -46,7 +46,8 @@ void StateChip::paintEvent(QPaintEvent*) {
   painter.setFont(chip_font());
   painter.setPen(colour_);
   const QRect words = mirrored ? rect().adjusted(14, 0, -32, 0) : rect().adjusted(32, 0, -14, 0);
-  painter.drawText(words, static_cast<int>(Qt::AlignVCenter | (mirrored ? Qt::AlignRight : Qt::AlignLeft)), words_);
+  painter.drawText(words, static_cast<int>(Qt::AlignVCenter | (mirrored ? Qt::AlignRight : Qt::AlignLeft)),
+                   words_);
 }
 
 TopBar::TopBar(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(desk) {
@@ -111,7 +112,8 @@ TopBar::TopBar(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(desk
     theme_->setToolTip(tr("Light or dark"));
     theme_->setAccessibleName(theme_->toolTip());
     control_->setText(tr("Take control"));
-    for (QAction* action : languages_->actions()) action->setChecked(action->data().toString() == desk_.language.code());
+    for (QAction* action : languages_->actions())
+      action->setChecked(action->data().toString() == desk_.language.code());
     take();
   });
 }
@@ -124,11 +126,16 @@ void TopBar::take() {
   control_->setVisible(session.others_have_control());
   if (session.others_have_control())
     for (const auto& client : s.clients())
-      if (client.id() == s.controller()) control_->setToolTip(tr("%1 has control").arg(QString::fromStdString(client.name())));
+      if (client.id() == s.controller())
+        control_->setToolTip(tr("%1 has control").arg(QString::fromStdString(client.name())));
   QString doing;
   switch (session.link_state()) {
-    case Session::LinkState::kNone: chip_->set(tr("Not connected"), desk_.theme.tone(StateTone::kNeutral)); break;
-    case Session::LinkState::kConnecting: chip_->set(tr("Connecting"), desk_.theme.tone(StateTone::kWaiting)); break;
+    case Session::LinkState::kNone:
+      chip_->set(tr("Not connected"), desk_.theme.tone(StateTone::kNeutral));
+      break;
+    case Session::LinkState::kConnecting:
+      chip_->set(tr("Connecting"), desk_.theme.tone(StateTone::kWaiting));
+      break;
     case Session::LinkState::kLost:
       chip_->set(tr("Connection lost"), desk_.theme.tone(StateTone::kWaiting));
       doing = tr("A job on the machine goes on.");
@@ -136,14 +143,20 @@ void TopBar::take() {
     case Session::LinkState::kConnected:
       chip_->set(StateWords::title(s.state()), desk_.theme.tone(StateWords::tone(s.state())));
       if (!s.job().empty())
-        doing = Format::isolated(QString::fromStdString(s.job())) + QStringLiteral(" · ") + Format::percent(s.progress(), 1);
+        doing = Format::isolated(QString::fromStdString(s.job())) + QStringLiteral(" · ") +
+                Format::percent(s.progress(), 1);
       else
         doing = StateWords::next(s.state());
       break;
   }
   doing_->set_text(doing);
-  connection_->setText(session.link_state() == Session::LinkState::kNone ? tr("Connect") : session.gateway_title());
-  connection_->setToolTip(session.connected() ? tr("%1 · %2").arg(QString::fromStdString(session.machine().name()), session.link_words()) : tr("Choose a gateway"));
+  connection_->setText(session.link_state() == Session::LinkState::kNone ? tr("Connect")
+                       : desk_.demo != nullptr ? QCoreApplication::translate("Desk", "Demo machine")
+                                               : session.gateway_title());
+  connection_->setToolTip(
+      session.connected()
+          ? tr("%1 · %2").arg(QString::fromStdString(session.machine().name()), session.link_words())
+          : tr("Choose a gateway"));
 }
 
 }  // namespace kinebus::gui

@@ -44,8 +44,10 @@ void RampLegend::paintEvent(QPaintEvent*) {
   painter.setBrush(gradient);
   painter.drawRoundedRect(bar, 4, 4);
   painter.setPen(palette().color(QPalette::PlaceholderText));
-  painter.drawText(QRect(0, 0, before, height()), Qt::AlignLeft | Qt::AlignVCenter | Qt::TextForceLeftToRight, first);
-  painter.drawText(QRect(width() - after, 0, after, height()), Qt::AlignRight | Qt::AlignVCenter | Qt::TextForceLeftToRight, last);
+  painter.drawText(QRect(0, 0, before, height()), Qt::AlignLeft | Qt::AlignVCenter | Qt::TextForceLeftToRight,
+                   first);
+  painter.drawText(QRect(width() - after, 0, after, height()),
+                   Qt::AlignRight | Qt::AlignVCenter | Qt::TextForceLeftToRight, last);
 }
 
 ViewPage::ViewPage(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(desk) {
@@ -81,7 +83,8 @@ ViewPage::ViewPage(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(
     broken_->show();
   });
   connect(layers_, &QSlider::valueChanged, this, [this](int value) {
-    scene_->content().last_layer = value >= layers_->maximum() ? UINT32_MAX : static_cast<std::uint32_t>(value);
+    scene_->content().last_layer =
+        value >= layers_->maximum() ? UINT32_MAX : static_cast<std::uint32_t>(value);
     tell_layer();
     scene_->redraw();
   });
@@ -203,8 +206,9 @@ void ViewPage::take_status() {
   SceneContent& content = scene_->content();
   const joblink::Status& status = desk_.session.status();
   if (content.has_machine) {
-    content.figure = pose_machine(content.model, pose_of(status), carriages_of(desk_.session.machine(), status),
-                                  status.hotend().actual_celsius() > 50);
+    content.figure =
+        pose_machine(content.model, pose_of(status), carriages_of(desk_.session.machine(), status),
+                     status.hotend().actual_celsius() > 50);
     if (!fitted_ && status.has_tool()) {
       fitted_ = true;
       content.camera = {};
@@ -212,9 +216,11 @@ void ViewPage::take_status() {
       scene_->fit_machine();
     }
   }
-  const bool runs = shown_ != nullptr && !status.job().empty() && desk_.path.name() == QString::fromStdString(status.job());
+  const bool runs =
+      shown_ != nullptr && !status.job().empty() && desk_.path.name() == QString::fromStdString(status.job());
   const std::uint32_t done =
-      runs ? static_cast<std::uint32_t>(shown_->path.vertex_at_line(std::max(1u, status.line()))) : UINT32_MAX;
+      runs ? static_cast<std::uint32_t>(shown_->path.vertex_at_line(std::max(1u, status.line())))
+           : UINT32_MAX;
   content.done_vertex = done;
   if (isVisible()) scene_->redraw();
 }
@@ -248,9 +254,12 @@ void ViewPage::tell_legend() {
                    tr("%1 mm/s").arg(Format::number(shown_->shades.feed_max_mm_per_min / 60.0, 0)));
       break;
     case PathColouring::kLayer:
-      legend_->set(colouring, Format::number(1, 0), Format::number(static_cast<double>(shown_->path.layers.size()), 0));
+      legend_->set(colouring, Format::number(1, 0),
+                   Format::number(static_cast<double>(shown_->path.layers.size()), 0));
       break;
-    case PathColouring::kMargin: legend_->set(colouring, tr("at a limit"), tr("free")); break;
+    case PathColouring::kMargin:
+      legend_->set(colouring, tr("at a limit"), tr("free"));
+      break;
   }
 }
 
@@ -266,7 +275,8 @@ void ViewPage::tell_job() {
                              Format::number(static_cast<double>(shown_->path.layers.size()), 0),
                              Format::number(shown_->path.work_length_mm / 1000, 1));
     if (shown_->path.unread_lines > 0)
-      words += QStringLiteral(" · ") + tr("%n line(s) with expressions are not drawn", nullptr, static_cast<int>(shown_->path.unread_lines));
+      words += QStringLiteral(" · ") + tr("%n line(s) with expressions are not drawn", nullptr,
+                                          static_cast<int>(shown_->path.unread_lines));
     job_text_->set_text(words);
   } else {
     job_text_->set_text(tr("No job is shown. Choose one on the Jobs page."));
@@ -281,7 +291,8 @@ void ViewPage::tell_layer() {
   const auto i = static_cast<std::size_t>(layers_->value());
   layer_text_->setText(QStringLiteral("%1\n%2").arg(
       Format::number(static_cast<double>(i + 1), 0),
-      Format::isolated(tr("%1 mm").arg(Format::number(static_cast<double>(shown_->path.layers[i].z_mm), 2)))));
+      Format::isolated(
+          tr("%1 mm").arg(Format::number(static_cast<double>(shown_->path.layers[i].z_mm), 2)))));
 }
 
 void ViewPage::show_line(std::uint32_t line) {

@@ -2,7 +2,8 @@
 
 #include <QEvent>
 #include <QPainter>
-#include <QStyle>
+#include <QStyleOptionButton>
+#include <QStylePainter>
 
 #include "gui/views/theme.hpp"
 
@@ -39,7 +40,7 @@ void set_role(QWidget* widget, const char* property, const QString& value) {
 }
 
 QPushButton* make_button(const Theme& theme, const QString& icon, const char* kind, QWidget* parent) {
-  auto* button = new QPushButton(parent);
+  auto* button = new IconButton(theme, parent);
   button->setProperty("kind", QString::fromLatin1(kind));
   button->setAutoDefault(false);
   const auto colour_icon = [button, icon, &theme, primary = QLatin1String(kind) == QLatin1String("primary"),
@@ -64,6 +65,35 @@ QToolButton* make_tool(const Theme& theme, const QString& icon, bool checkable, 
   colour_icon();
   QObject::connect(&theme, &Theme::changed, button, colour_icon);
   return button;
+}
+
+void IconButton::paintEvent(QPaintEvent*) {
+  QStyleOptionButton option;
+  initStyleOption(&option);
+  const QString words = option.text;
+  const QIcon picture = option.icon;
+  option.text.clear();
+  option.icon = {};
+  QStylePainter painter(this);
+  painter.drawControl(QStyle::CE_PushButton, option);
+  const QString kind = property("kind").toString();
+  const ThemeColours& colours = theme_.colours();
+  const QColor colour = !isEnabled()                       ? colours.muted
+                        : kind == QLatin1String("primary") ? colours.accent_text
+                        : kind == QLatin1String("danger")  ? colours.danger
+                                                           : colours.text;
+  const int icon_room = picture.isNull() ? 0 : iconSize().width() + (words.isEmpty() ? 0 : 7);
+  const int words_room = fontMetrics().horizontalAdvance(words);
+  const int left = (width() - icon_room - words_room) / 2;
+  const bool mirrored = layoutDirection() == Qt::RightToLeft;
+  if (!picture.isNull())
+    picture.paint(&painter,
+                  QRect(mirrored ? left + words_room + icon_room - iconSize().width() : left,
+                        (height() - iconSize().height()) / 2, iconSize().width(), iconSize().height()),
+                  Qt::AlignCenter, isEnabled() ? QIcon::Normal : QIcon::Disabled);
+  painter.setPen(colour);
+  painter.drawText(QRect(mirrored ? left : left + icon_room, 0, words_room + 2, height()),
+                   Qt::AlignVCenter | Qt::AlignLeft | Qt::AlignAbsolute, words);
 }
 
 void ElidedLabel::set_text(const QString& text) {

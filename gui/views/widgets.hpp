@@ -45,8 +45,22 @@ class Card : public QFrame {
 QLabel* make_label(const char* role, QWidget* parent = nullptr);
 void set_role(QWidget* widget, const char* property, const QString& value);
 
+/// Draws its icon and words together in the middle, in the order of the language.
+class IconButton : public QPushButton {
+  Q_OBJECT
+ public:
+  IconButton(const Theme& theme, QWidget* parent) : QPushButton(parent), theme_(theme) {}
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+
+ private:
+  const Theme& theme_;
+};
+
 /// A push button whose icon follows the theme.
-QPushButton* make_button(const Theme& theme, const QString& icon, const char* kind = "", QWidget* parent = nullptr);
+QPushButton* make_button(const Theme& theme, const QString& icon, const char* kind = "",
+                         QWidget* parent = nullptr);
 QToolButton* make_tool(const Theme& theme, const QString& icon, bool checkable, QWidget* parent = nullptr);
 
 /// A label whose text is cut with dots instead of widening its window.

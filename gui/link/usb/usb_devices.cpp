@@ -33,7 +33,8 @@ std::optional<UsbLinkInterface> job_link_of(const libusb_config_descriptor& conf
 
 QString string_of(libusb_device_handle* handle, std::uint8_t index) {
   std::array<unsigned char, 256> text{};
-  const int length = index == 0 ? 0 : libusb_get_string_descriptor_ascii(handle, index, text.data(), text.size());
+  const int length =
+      index == 0 ? 0 : libusb_get_string_descriptor_ascii(handle, index, text.data(), text.size());
   return length > 0 ? QString::fromLatin1(reinterpret_cast<const char*>(text.data()), length) : QString();
 }
 
@@ -63,13 +64,15 @@ UsbGateway describe_usb_gateway(libusb_device* device) {
   const int depth = libusb_get_port_numbers(device, ports.data(), static_cast<int>(ports.size()));
   gateway.place = QString::number(libusb_get_bus_number(device)) + QLatin1Char('-');
   for (int i = 0; i < depth; ++i)
-    gateway.place += (i > 0 ? QStringLiteral(".") : QString()) + QString::number(ports[static_cast<std::size_t>(i)]);
+    gateway.place +=
+        (i > 0 ? QStringLiteral(".") : QString()) + QString::number(ports[static_cast<std::size_t>(i)]);
   gateway.product = QString::fromLatin1(usb_ids::kProductName);
   libusb_device_descriptor descriptor{};
   libusb_device_handle* handle = nullptr;
   if (libusb_get_device_descriptor(device, &descriptor) == 0 && libusb_open(device, &handle) == 0) {
     gateway.serial = string_of(handle, descriptor.iSerialNumber);
-    if (const QString product = string_of(handle, descriptor.iProduct); !product.isEmpty()) gateway.product = product;
+    if (const QString product = string_of(handle, descriptor.iProduct); !product.isEmpty())
+      gateway.product = product;
     libusb_close(handle);
   }
   return gateway;

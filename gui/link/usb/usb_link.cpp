@@ -14,8 +14,8 @@
 
 namespace kinebus::gui {
 
-/// Two transfers each way are always on their way, so that the bus never waits for the program. A transfer that is
-/// submitted holds a reference to the pipe: it is freed when the last one has come back.
+/// Two transfers each way are always on their way, so that the bus never waits for the program. A transfer
+/// that is submitted holds a reference to the pipe: it is freed when the last one has come back.
 class UsbLink::Pipe : public std::enable_shared_from_this<Pipe> {
  public:
   Pipe(UsbContext& context, libusb_device_handle* handle, UsbLinkInterface link, UsbLink* owner)
@@ -78,7 +78,8 @@ class UsbLink::Pipe : public std::enable_shared_from_this<Pipe> {
 
   bool submit(Slot& slot, std::uint8_t endpoint, int size) {
     if (slot.transfer == nullptr) slot.transfer = libusb_alloc_transfer(0);
-    libusb_fill_bulk_transfer(slot.transfer, handle_, endpoint, slot.bytes.data(), size, &Pipe::completed, &slot, 0);
+    libusb_fill_bulk_transfer(slot.transfer, handle_, endpoint, slot.bytes.data(), size, &Pipe::completed,
+                              &slot, 0);
     slot.pipe = shared_from_this();
     slot.busy = true;
     if (libusb_submit_transfer(slot.transfer) == 0) return true;
@@ -98,9 +99,11 @@ class UsbLink::Pipe : public std::enable_shared_from_this<Pipe> {
   void complete(Slot& slot) {
     const libusb_transfer& transfer = *slot.transfer;
     const bool in = transfer.endpoint == link_.bulk_in;
-    const bool well = transfer.status == LIBUSB_TRANSFER_COMPLETED && (in || transfer.actual_length == transfer.length);
+    const bool well =
+        transfer.status == LIBUSB_TRANSFER_COMPLETED && (in || transfer.actual_length == transfer.length);
     QByteArray bytes;
-    if (in && well) bytes = QByteArray(reinterpret_cast<const char*>(slot.bytes.data()), transfer.actual_length);
+    if (in && well)
+      bytes = QByteArray(reinterpret_cast<const char*>(slot.bytes.data()), transfer.actual_length);
     bool drained = false;
     {
       const std::lock_guard lock(mutex_);
@@ -110,11 +113,15 @@ class UsbLink::Pipe : public std::enable_shared_from_this<Pipe> {
         UsbLink* owner = owner_;
         // The owner abandons the pipe before it goes, under the same lock: it is alive here.
         if (!well) {
-          QMetaObject::invokeMethod(owner, [owner] { owner->fail(UsbLink::tr("the USB cable was pulled")); }, Qt::QueuedConnection);
+          QMetaObject::invokeMethod(
+              owner, [owner] { owner->fail(UsbLink::tr("the USB cable was pulled")); }, Qt::QueuedConnection);
         } else if (in) {
-          QMetaObject::invokeMethod(owner, [owner, bytes] { emit owner->received(bytes); }, Qt::QueuedConnection);
+          QMetaObject::invokeMethod(
+              owner, [owner, bytes] { emit owner->received(bytes); }, Qt::QueuedConnection);
         }
-        if (well && drained) QMetaObject::invokeMethod(owner, [owner] { emit owner->drained(); }, Qt::QueuedConnection);
+        if (well && drained)
+          QMetaObject::invokeMethod(
+              owner, [owner] { emit owner->drained(); }, Qt::QueuedConnection);
       }
       if (owner_ == nullptr || !well) {
         libusb_free_transfer(std::exchange(slot.transfer, nullptr));
@@ -155,11 +162,13 @@ void UsbLink::open() {
   QString why = tr("the gateway is not plugged in");
   for_each_usb_gateway(context_->get(), [&](libusb_device* device, const UsbLinkInterface& link) {
     const UsbGateway here = describe_usb_gateway(device);
-    if (!gateway_.serial.isEmpty() ? here.serial != gateway_.serial : here.place != gateway_.place) return true;
+    if (!gateway_.serial.isEmpty() ? here.serial != gateway_.serial : here.place != gateway_.place)
+      return true;
     libusb_device_handle* handle = nullptr;
     if (const int error = libusb_open(device, &handle); error != 0) {
-      why = error == LIBUSB_ERROR_ACCESS ? tr("this user may not use the USB device: install the udev rule of the package")
-                                         : QString::fromUtf8(libusb_strerror(static_cast<libusb_error>(error)));
+      why = error == LIBUSB_ERROR_ACCESS
+                ? tr("this user may not use the USB device: install the udev rule of the package")
+                : QString::fromUtf8(libusb_strerror(static_cast<libusb_error>(error)));
       return false;
     }
     if (const int error = libusb_claim_interface(handle, link.number); error != 0) {
@@ -178,7 +187,8 @@ void UsbLink::open() {
   });
   // Never from within open(): the caller is not ready for news yet.
   const bool opens = pipe_ != nullptr;
-  QMetaObject::invokeMethod(this, [this, opens, why] { opens ? emit opened() : emit closed(why); }, Qt::QueuedConnection);
+  QMetaObject::invokeMethod(
+      this, [this, opens, why] { opens ? emit opened() : emit closed(why); }, Qt::QueuedConnection);
 }
 
 qint64 UsbLink::write(const char* data, qint64 size) {

@@ -1,6 +1,6 @@
 #pragma once
-// A gateway on the USB cable: bulk transfers to and from its job link interface. libusb's thread completes them and
-// hands the bytes over to this object's thread.
+// A gateway on the USB cable: bulk transfers to and from its job link interface. libusb's thread completes
+// them and hands the bytes over to this object's thread.
 
 #include <memory>
 

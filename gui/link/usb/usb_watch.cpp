@@ -37,7 +37,10 @@ int on_hotplug(libusb_context*, libusb_device*, libusb_hotplug_event, void* user
   auto* watch = static_cast<UsbWatch*>(user);
   // udev sets the permissions a moment after the device has appeared.
   QMetaObject::invokeMethod(
-      watch, [watch] { QTimer::singleShot(250, watch, [watch] { QMetaObject::invokeMethod(watch, "look_again"); }); },
+      watch,
+      [watch] {
+        QTimer::singleShot(250, watch, [watch] { QMetaObject::invokeMethod(watch, "look_again"); });
+      },
       Qt::QueuedConnection);
   return 0;
 }
@@ -46,9 +49,10 @@ int on_hotplug(libusb_context*, libusb_device*, libusb_hotplug_event, void* user
 
 UsbWatch::UsbWatch(QObject* parent) : QObject(parent), context_(std::make_shared<UsbContext>()) {
   if (context_->get() == nullptr) return;
-  libusb_hotplug_register_callback(
-      context_->get(), LIBUSB_HOTPLUG_EVENT_DEVICE_ARRIVED | LIBUSB_HOTPLUG_EVENT_DEVICE_LEFT, 0,
-      LIBUSB_HOTPLUG_MATCH_ANY, LIBUSB_HOTPLUG_MATCH_ANY, LIBUSB_HOTPLUG_MATCH_ANY, on_hotplug, this, &callback_);
+  libusb_hotplug_register_callback(context_->get(),
+                                   LIBUSB_HOTPLUG_EVENT_DEVICE_ARRIVED | LIBUSB_HOTPLUG_EVENT_DEVICE_LEFT, 0,
+                                   LIBUSB_HOTPLUG_MATCH_ANY, LIBUSB_HOTPLUG_MATCH_ANY,
+                                   LIBUSB_HOTPLUG_MATCH_ANY, on_hotplug, this, &callback_);
   look_again();
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// Which gateways are plugged in, by libusb's hot-plug news. libusb works in one thread of its own, which also carries the
-// transfers of all links.
+// Which gateways are plugged in, by libusb's hot-plug news. libusb works in one thread of its own, which also
+// carries the transfers of all links.
 
 #include <QObject>
 #include <QVector>
@@ -13,8 +13,8 @@ struct libusb_context;
 namespace kinebus::gui {
 
 struct UsbGateway {
-  QString serial;   ///< of the device; empty when it cannot be read
-  QString place;    ///< "1-2": bus and ports, stays the same while plugged in
+  QString serial;  ///< of the device; empty when it cannot be read
+  QString place;   ///< "1-2": bus and ports, stays the same while plugged in
   QString product;
   friend bool operator==(const UsbGateway&, const UsbGateway&) = default;
 };
