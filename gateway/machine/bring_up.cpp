@@ -16,6 +16,8 @@ constexpr BusTime kListenTime = 600ms;
 constexpr BusTime kOperationalTimeout = 2s;
 /// 24 SYNCs make a clock estimate; twice that, and as much again for lost ones.
 constexpr BusTime kSynchroniseTimeout = 10s;
+constexpr int kCloseClock_us = 2;
+constexpr BusTime kCloseClockTimeout = 4s;
 constexpr BusTime kEnableTimeout = 5s;
 constexpr BusTime kRepeat = 200ms;
 constexpr PathTime kPathTimeGap = 1s;
@@ -227,7 +229,10 @@ void BringUp::synchronise(BusTime now, NodeLink& link, Node& node) {
   while (const auto answer = result(link, AlarmCode::kSyncError)) {
     node.requested = false;
     const StreamStatus status = decode_stream_status(static_cast<std::uint64_t>(answer->value));
-    if ((status.flags & StreamStatus::kSynchronised) != 0) node.done = true;
+    // Two nodes within 2 us of each other. One with much interrupt latency may need longer, or come no
+    // closer.
+    const bool close = status.sync_error_us <= kCloseClock_us || now - entered_ > kCloseClockTimeout;
+    if ((status.flags & StreamStatus::kSynchronised) != 0 && close) node.done = true;
   }
   if (!node.done && now - entered_ > kSynchroniseTimeout)
     fail(AlarmCode::kSyncError, link.id(),

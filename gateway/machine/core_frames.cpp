@@ -56,6 +56,7 @@ void Gateway::Core::on_frame_sent(BusTime when, const CanFrame& frame) {
 std::optional<CanFrame> Gateway::Core::next_frame(BusTime now) {
   now_ = std::max(now_, now);
   if (const auto frame = rate_.next_frame()) return frame;
+  if (const auto frame = rate_.next_repeat(now)) return frame;
   if (speaking_) {
     if (const auto frame = sync_.next_frame(now)) return frame;
     if (const auto frame = heartbeat_.next_frame(now, NmtState::kOperational, kGatewayNodeId)) return frame;
@@ -91,10 +92,11 @@ BusTime Gateway::Core::next_deadline() const {
       if (standstill_.busy() || clearing_) wait = 10ms;
       break;
   }
-  BusTime due = now_ + wait;
+  // From when time was served, not from the last frame: no flood of frames puts it off.
+  BusTime due = std::max(served_ + wait, now_ + BusTime{1});
   if (!speaking_) return due;
   // What is due already waits for the bus, not for time: it is pulled when a frame can be sent.
-  for (const BusTime deadline : {sync_.next_deadline(), heartbeat_.next_deadline()})
+  for (const BusTime deadline : {sync_.next_deadline(), heartbeat_.next_deadline(), rate_.next_deadline()})
     if (deadline > now_) due = std::min(due, deadline);
   return due;
 }

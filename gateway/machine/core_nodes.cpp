@@ -1,5 +1,6 @@
 // What the nodes' news mean for the machine.
 
+#include <algorithm>
 #include <utility>
 
 #include "gateway/machine/core.hpp"
@@ -11,12 +12,20 @@ using namespace std::chrono_literals;
 
 /// A status frame is at most so old when it comes.
 constexpr BusTime kFrameDelay = 50ms;
+/// A node that executes records sends its status every 100 to 120 ms; one of two may be late or lost.
+constexpr BusTime kStatusTimeout = 250ms;
 
 }  // namespace
 
 // --------------------------------------------------------------------------------------------
 
 void Gateway::Core::watch_nodes() {
+  // Nodes that move tell how far they are: one that does not is dead, and its carriages stand while others go
+  // on.
+  const bool streaming = streams_flow() && runner_->active() && !runner_->suspended() && rate_.rate(now_) > 0;
+  if (!streaming) streaming_since_ = now_;
+  const bool judged = now_ - streaming_since_ > kStatusTimeout;
+  const BusTime timeout = judged ? kStatusTimeout : BusTime{machine_.bus.heartbeat_timeout};
   for (NodeLink& link : links_) {
     take_emergencies(link);
     const bool watched = state_ != MachineState::kOff && state_ != MachineState::kBringUp && !need_bring_up_;
@@ -27,7 +36,8 @@ void Gateway::Core::watch_nodes() {
       homed_ = false;
       alarm(AlarmCode::kNodeRestarted, name + " has restarted", link.id());
       stop_all(true);
-    } else if (now_ - link.last_heard() > machine_.bus.heartbeat_timeout) {
+    } else if (now_ - (judged ? std::max(link.last_heard(), streaming_since_) : link.last_heard()) >
+               timeout) {
       need_bring_up_ = true;
       alarm(AlarmCode::kHeartbeatLost, name + " is silent", link.id());
       stop_all(true);

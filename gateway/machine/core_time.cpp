@@ -17,6 +17,10 @@ constexpr BusTime kSettle = 150ms;
 constexpr BusTime kStopTimeout = 3s;
 constexpr BusTime kClearTimeout = 3s;
 constexpr BusTime kJournalPatience = 500ms;
+/// Until the clocks agree: a hundred SYNCs make an estimate that is good to 2 us.
+constexpr BusTime kQuickSync = 10ms;
+/// And the window of the estimate full of them.
+constexpr BusTime kQuickSyncTime = 6s;
 
 }  // namespace
 
@@ -76,13 +80,16 @@ void Gateway::Core::on_bus_failure(BusTime now, std::string_view what) {
 }
 
 void Gateway::Core::on_time(BusTime now) {
-  now_ = std::max(now_, now);
+  served_ = now_ = std::max(now_, now);
   load_.advance(now_);
   rate_.on_time(now_);
   thermal_.on_time(now_);
   for (NodeLink& link : links_) link.on_time(now_);
   watch_nodes();
   note_progress();
+  const BusTime sync_period =
+      bring_up_.busy() || now_ - spoke_ < kQuickSyncTime ? kQuickSync : BusTime{machine_.bus.sync_period};
+  if (sync_period != sync_.period()) sync_.set_period(sync_period, now_);
   switch (state_) {
     case MachineState::kBringUp:
       step_bring_up();
@@ -130,6 +137,7 @@ void Gateway::Core::step_bring_up() {
   const BringUp::Outcome outcome = bring_up_.on_time(now_);
   if (bring_up_.may_speak() && !speaking_) {
     speaking_ = true;
+    spoke_ = now_;
     sync_.start(now_);
     heartbeat_.set_period(machine_.bus.heartbeat_period, now_);
   }

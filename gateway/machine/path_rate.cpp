@@ -16,12 +16,26 @@ void PathRate::send(RateCommand command, BusTime now) {
   counter_ = (counter_ + 1) & 0xF;
   command.counter = counter_;
   // Whole microseconds travel; commands take effect in the order in which they were given.
-  const BusTime start = std::max(now + options_.lead, last_start_);
+  const BusTime start = std::max(now + options_.lead, last_start_ + BusTime{1});
   command.start = BusTime{(start.count() + 999) / 1000 * 1000};
   last_start_ = command.start;
   clock_.apply(command, now);
-  out_.push_back(encode(command));
+  put_out(command, now);
   ++counters_.commands;
+}
+
+void PathRate::put_out(const RateCommand& command, BusTime now) {
+  out_.push_back(encode(command));
+  for (int i = 1; i <= kRepeats; ++i) repeats_.push_back({now + i * kRepeatAfter, out_.back()});
+  std::stable_sort(repeats_.begin(), repeats_.end(),
+                   [](const Repeat& a, const Repeat& b) { return a.due < b.due; });
+}
+
+std::optional<CanFrame> PathRate::next_repeat(BusTime now) {
+  if (repeats_.empty() || repeats_.front().due > now) return std::nullopt;
+  const CanFrame frame = repeats_.front().frame;
+  repeats_.pop_front();
+  return frame;
 }
 
 void PathRate::request(double rate, std::chrono::milliseconds full_ramp, BusTime now) {
@@ -41,7 +55,15 @@ void PathRate::stop(BusTime now) {
 
 void PathRate::on_stop_request(const StopRequest& request, BusTime now) {
   target_q15_ = 0;
-  clock_.stop_at(request.start, ramp_2ms(options_.stop_ramp), now);
+  const auto outcome = clock_.stop_at(request.start, ramp_2ms(options_.stop_ramp), now);
+  if (outcome == PathClock::Outcome::kDuplicate) return;
+  // For a node that has not heard the request: the same stop, of the same instant.
+  counter_ = (counter_ + 1) & 0xF;
+  put_out({.kind = RateCommand::Kind::kStop,
+           .counter = counter_,
+           .full_ramp_2ms = ramp_2ms(options_.stop_ramp),
+           .start = request.start},
+          now);
 }
 
 void PathRate::clear(BusTime now) {

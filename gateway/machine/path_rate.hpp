@@ -50,20 +50,34 @@ class PathRate {
   void set_tau(PathTime tau, BusTime now) { clock_.set_tau(tau, now); }
 
   std::optional<CanFrame> next_frame();
+  /// Every command goes out again kRepeats times: a receiver that has lost one frame would be the one
+  /// carriage that runs while the others hold. Nodes take a doubled command as one.
+  std::optional<CanFrame> next_repeat(BusTime now);
+  BusTime next_deadline() const { return repeats_.empty() ? BusTime::max() : repeats_.front().due; }
   void on_frame_sent(BusTime when, const CanFrame& frame);
   /// Now and then, so that the clock forgets what is past.
   void on_time(BusTime now) { clock_.forget_before(now); }
   const Counters& counters() const { return counters_; }
 
  private:
+  static constexpr int kRepeats = 2;
+  static constexpr BusTime kRepeatAfter = std::chrono::microseconds{1500};
+  struct Repeat {
+    BusTime due{0};
+    CanFrame frame;
+  };
   void send(RateCommand command, BusTime now);
+  void put_out(const RateCommand& command, BusTime now);
 
   Options options_;
   Counters counters_;
-  PathClock clock_;
+  // No motor hangs on it: news of a stop that come late, after the bus was blocked, put it where the nodes
+  // are.
+  PathClock clock_{{.rewind = std::chrono::seconds{2}, .most_step = PathTime::max()}};
   std::uint16_t target_q15_ = 0;
   std::uint8_t counter_ = 0;
   std::deque<CanFrame> out_;
+  std::deque<Repeat> repeats_;  // by time
   BusTime last_start_{0};
 };
 

@@ -1,11 +1,18 @@
 #include "gateway/stream/sync_producer.hpp"
 
+#include <algorithm>
+
 namespace kinebus {
 
 void StampedSyncProducer::start(BusTime first) {
   due_ = first;
   awaiting_sent_ = false;
   stamp_.reset();
+}
+
+void StampedSyncProducer::set_period(BusTime period, BusTime now) {
+  options_.period = period;
+  if (due_ != BusTime::max()) due_ = std::min(due_, now + period);
 }
 
 void StampedSyncProducer::restart(std::uint8_t epoch, BusTime first) {

@@ -31,12 +31,14 @@ class StampedSyncProducer {
 
   /// SYNC first falls due at `first`.
   void start(BusTime first);
+  void set_period(BusTime period, BusTime now);
   /// A new time epoch: the gateway's clock began anew.
   void restart(std::uint8_t epoch, BusTime first);
   /// The stamp of the last SYNC, or a SYNC that is due; nullopt: nothing now.
   std::optional<CanFrame> next_frame(BusTime now);
   /// A frame really was on the bus; `when` is the end of the frame as the controller saw it.
   void on_frame_sent(BusTime when, const CanFrame& frame);
+  BusTime period() const { return options_.period; }
   BusTime next_deadline() const { return due_; }
   std::uint8_t counter() const { return counter_; }
   const Counters& counters() const { return counters_; }

@@ -206,6 +206,10 @@ void Node::set_motor(int axis, std::uint32_t resistance_mohm, std::uint32_t indu
 
 void Node::count(NodeCounter counter, std::uint32_t times) {
   counters_[std::min<std::size_t>(static_cast<std::size_t>(counter), counters_.size() - 1)] += times;
+  // A frame that nobody has read may have been a hold that all others obey.
+  if (counter == NodeCounter::kRxOverrun && times > 0 && !path_.stop_latched() &&
+      (!path_.at_rest(now_) || !path_.stream().idle()))
+    path_.request_stop(StopReason::kCommand, 0, emcy::kCanOverrun, now_);
 }
 
 void Node::on_time(LocalTime now) {

@@ -151,7 +151,7 @@ PathClock::Outcome PathClock::change(std::int64_t start, std::uint64_t target_q3
     const Change in_time = planned(start, target_q32, ramp);
     const Leg& then = now < in_time.after.start ? in_time.ramp : in_time.after;
     const std::int64_t step = then.tau_at(now) - leg_at(now).tau_at(now);
-    if ((step < 0 ? -step : step) <= kMostStep.count() << kTauBits) {
+    if ((step < 0 ? -step : step) >> kTauBits <= options_.most_step.count()) {
       put(in_time);
       return Outcome::kLateRewound;
     }
@@ -177,12 +177,15 @@ PathClock::Outcome PathClock::apply(const RateCommand& command, BusTime now) {
       if (!at_rest(std::max(now, command.start))) return Outcome::kNotAtRest;
       stop_.reset();
       cleared_ = command.start.count();
+      newest_ = kLongAgo;
       break;
     case RateCommand::Kind::kRate: {
       const bool in_time = command.start >= now - options_.rewind;
       const std::int64_t earliest = in_time ? command.start.count() : now.count();
       if (command.start.count() < cleared_ || (stop_ && earliest >= stop_->start)) return Outcome::kLatched;
+      if (command.start.count() < newest_) return Outcome::kDuplicate;
       if (count_ + 6 > kMaxLegs) return Outcome::kFull;  // the other three are a stop's: it is never refused
+      newest_ = command.start.count();
       std::int64_t effective = 0;
       outcome = change(command.start.count(), static_cast<std::uint64_t>(command.rate_q15) << 17,
                        command.full_ramp_2ms, now.count(), effective);
@@ -264,6 +267,7 @@ void PathClock::shift(BusTime by) {
   }
   if (stop_) stop_->start += by.count();
   cleared_ += by.count();
+  newest_ = kLongAgo;
   last_.reset();
 }
 

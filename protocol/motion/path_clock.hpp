@@ -21,20 +21,20 @@ class PathClock {
     BusTime rewind = std::chrono::milliseconds{12};
     /// No ramp is steeper than 0..1 in this: a command for a shorter one gets this one. 2 ms units.
     std::uint8_t least_full_ramp_2ms = 1;
+    /// tau may be corrected by so much at once when a command comes late: 5 us, which no motor feels. Where
+    /// no motor hangs on it (the gateway's copy) as much as it takes.
+    PathTime most_step{80};
   };
   enum class Outcome : std::uint8_t {
     kScheduled,
-    kLateRewound,   ///< start was just past: tau is as if it had come in time, a step of at most kMostStep
+    kLateRewound,   ///< start was just past: tau is as if it had come in time, a step of at most most_step
     kLateCaughtUp,  ///< a steeper ramp from `now` on, up to 4/3; after it, tau is as if it had come in time
     kLateStarted,   ///< start was long past: began `now`, so other nodes may be at another tau. An alarm.
-    kDuplicate,     ///< the last command again, or a stop no earlier than the one latched
+    kDuplicate,     ///< the last command again, one overtaken by a later one, or a stop after the one latched
     kLatched,       ///< refused: a stop is latched and comes first
     kNotAtRest,     ///< refused: kClear while moving
     kFull,          ///< refused: more changes ahead than kMaxLegs
   };
-
-  /// tau may be corrected by so much at once when a command comes late: 5 us. No motor feels it.
-  static constexpr PathTime kMostStep{80};
 
   PathClock() : PathClock(Options{}) {}
   explicit PathClock(Options options);
@@ -113,6 +113,7 @@ class PathClock {
   int count_ = 1;
   std::optional<Stop> stop_;
   std::optional<RateCommand> last_;
+  std::int64_t newest_ = 0;   // start of the newest rate command
   std::int64_t cleared_ = 0;  // rate commands for before the last kClear are void
 };
 

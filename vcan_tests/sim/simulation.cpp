@@ -41,16 +41,23 @@ void Simulation::kill_gateway() {
   alive_ = false;
 }
 
-void Simulation::start_gateway() {
-  gateways_.push_back(std::make_unique<Gateway>(description_, Gateway::Options{.epoch = next_epoch()}));
+bool Simulation::start_gateway(std::unique_ptr<ByteSource> job) {
+  gateways_.push_back(std::make_unique<Gateway>(
+      description_, Gateway::Options{.epoch = next_epoch(), .journal = options_.journal}));
   alive_ = true;
   asked_ = BusTime::max();
+  journal_records_ = 0;
+  gateway().on_time(now_);
+  return !job || static_cast<bool>(gateway().recover(journal_, std::move(job)));
 }
 
 std::optional<PlannedPose> Simulation::planned_pose(PathTime tau) const {
-  for (auto gateway = gateways_.rbegin(); gateway != gateways_.rend(); ++gateway)
-    if (const auto pose = (*gateway)->planned_pose(tau)) return pose;
-  return std::nullopt;
+  // A new gateway plans the rest of a job anew; until it moves, what the one before had planned counts.
+  const MachineState state = gateways_.back()->state();
+  const bool idle =
+      state == MachineState::kOff || state == MachineState::kBringUp || state == MachineState::kReady;
+  if (!idle || gateways_.size() == 1) return gateways_.back()->planned_pose(tau);
+  return gateways_[gateways_.size() - 2]->planned_pose(tau);
 }
 
 void Simulation::hash(BusTime when, const CanFrame& frame) {
@@ -82,6 +89,9 @@ void Simulation::serve_gateway(BusTime now) {
     if (!frame) break;
     nodes_->send(now, *frame);
   }
+  const std::uint64_t stored = journal_records_;
+  while (const auto record = gateway().next_journal_record()) journal_.take(*record), ++journal_records_;
+  if (journal_records_ != stored) gateway().on_journal_stored(journal_records_);
   while (auto event = gateway().next_event())
     if (on_event) on_event(*event);
 }
@@ -96,6 +106,7 @@ void Simulation::step(BusTime until) {
     now_ = std::max(now_, got->when);
     hash(got->when, got->frame);
     if (on_frame) on_frame(got->when, got->frame);
+    if (on_received) on_received(*got);
     if (!alive_) continue;
     if (got->own)
       gateway().on_frame_sent(got->when, got->frame);
@@ -111,6 +122,7 @@ void Simulation::step(BusTime until) {
     stirred = true;
   }
   if (stirred) serve_gateway(now_);
+  if (on_turn) on_turn(now_);
   if (done && now_ >= next_probe_) {
     const BusTime period = options_.sample_period;
     next_probe_ = period * (now_ / period + 1) +

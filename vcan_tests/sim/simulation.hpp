@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "gateway/inproc/virtual_nodes.hpp"
+#include "gateway/jobs/journal/journal_state.hpp"
 #include "gateway/machine/description/machine_description.hpp"
 #include "gateway/machine/gateway.hpp"
 #include "node_firmware/port/host/virtual_machine.hpp"
@@ -32,6 +33,7 @@ struct SimulationOptions {
   BusTime sample_period = std::chrono::milliseconds{1};
   /// How much later than that the gateway's task wakes up at this time (a slow or busy computer).
   std::function<BusTime(BusTime now)> gateway_delay;
+  bool journal = false;  ///< the gateway keeps one, for the next
 };
 
 class Simulation {
@@ -45,8 +47,9 @@ class Simulation {
   Gateway& gateway() { return *gateways_.back(); }
   /// The daemon is dead: nothing is served until start_gateway(). What it had planned can still be asked.
   void kill_gateway();
-  /// A new one, with nothing but its machine file.
-  void start_gateway();
+  /// A new one, with its machine file, the journal of the one before, and the text of the job that was under
+  /// way. False: the journal was not taken up.
+  bool start_gateway(std::unique_ptr<ByteSource> job = nullptr);
   bool gateway_alive() const { return alive_; }
   /// The planned pose at a path time by the gateway that runs, or ran last.
   std::optional<PlannedPose> planned_pose(PathTime tau) const;
@@ -64,6 +67,8 @@ class Simulation {
   std::function<void(const Sample&)> on_sample;
   std::function<void(const Probe&)> on_probe;  ///< at a random instant of every sample period
   std::function<void(BusTime, const CanFrame&)> on_frame;
+  std::function<void(const NodeMachine::Received&)> on_received;  ///< the same, with who sent it
+  std::function<void(BusTime)> on_turn;                           ///< after every event
   std::function<void(const MachineEvent&)> on_event;
   bool in_job = false;
 
@@ -81,6 +86,8 @@ class Simulation {
   SimulationOptions options_;
   std::vector<std::unique_ptr<Gateway>> gateways_;  // the last one is the one that runs
   bool alive_ = true;
+  journal::State journal_;
+  std::uint64_t journal_records_ = 0;
   std::unique_ptr<NodeMachine> nodes_;
   std::vector<int> node_of_joint_;
   std::vector<JointPlant> plants_;                ///< by joint

@@ -17,7 +17,8 @@ RateCommand sent(PathRate& rate, BusTime now) {
 
 TEST(PathRate, NodesThatHearTheCommandsHaveTheSamePathTime) {
   PathRate rate;
-  PathClock node;
+  PathClock node(
+      {.rewind = 2s, .most_step = PathTime::max()});  // remembers as long, to be compared afterwards
   const auto relay = [&](BusTime now) { node.apply(sent(rate, now), now); };
   rate.request(1, 100ms, 1s);
   relay(1s + 700us);

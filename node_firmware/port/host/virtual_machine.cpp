@@ -180,6 +180,23 @@ void VirtualMachine::set_stalled(int node, BusTime now, bool stalled) {
   if (!stalled) n.deadline = std::max(n.deadline, now);
 }
 
+void VirtualMachine::set_drive_fault(int node, BusTime now, int axis, bool present) {
+  VirtualNode& n = *nodes_[static_cast<std::size_t>(node)];
+  if (!n.core) return;
+  if (present)
+    n.core->on_drive_fault(n.to_local(now), axis, 0x2310);
+  else
+    n.core->on_drive_fault_gone(n.to_local(now), axis);
+  serve(n, now);
+}
+
+void VirtualMachine::count_overruns(int node, BusTime now, std::uint32_t times) {
+  VirtualNode& n = *nodes_[static_cast<std::size_t>(node)];
+  if (!n.core || times == 0) return;
+  n.core->count(NodeCounter::kRxOverrun, times);
+  serve(n, now);
+}
+
 void VirtualMachine::lose_steps(int node, int axis, double counts) {
   nodes_[static_cast<std::size_t>(node)]->options.axes[static_cast<std::size_t>(axis)].start_counts += counts;
 }
@@ -266,6 +283,18 @@ bool VirtualMachine::advance(BusTime now) {
 
 double VirtualMachine::true_counts(int node, int axis, BusTime at) {
   return nodes_[static_cast<std::size_t>(node)]->counts(axis, at);
+}
+
+std::optional<BusTime> VirtualMachine::stop_start(int node) const {
+  const VirtualNode& n = *nodes_[static_cast<std::size_t>(node)];
+  const auto start = n.core ? n.core->path().stop_start() : std::nullopt;
+  return start ? std::optional(n.to_true(*start)) : std::nullopt;
+}
+
+std::optional<double> VirtualMachine::believed_counts(int node, int axis, BusTime at) {
+  VirtualNode& n = *nodes_[static_cast<std::size_t>(node)];
+  if (!n.core || !n.core->axis(axis).position_known()) return std::nullopt;
+  return static_cast<double>(n.core->user_position(n.to_local(at), axis)) / 4294967296.0;
 }
 
 PathTime VirtualMachine::path_time(int node, BusTime at) {

@@ -70,6 +70,10 @@ class VirtualMachine final : public NodeMachine {
 
   /// True position, counts, of an axis now. `at` at or after the last advance().
   double true_counts(int node, int axis, BusTime at) override;
+  /// True time at which a node's latched stop begins or began; nullopt: none is latched.
+  std::optional<BusTime> stop_start(int node) const;
+  /// Where a node believes an axis is, counts from the joint's zero; nullopt: it does not claim to know.
+  std::optional<double> believed_counts(int node, int axis, BusTime at);
   /// The node's own idea of path time at true time `at`.
   PathTime path_time(int node, BusTime at) override;
   Node& node(int index);
@@ -89,6 +93,10 @@ class VirtualMachine final : public NodeMachine {
   bool powered(int node) const;
   /// Its main loop hangs, while interrupts go on: motors follow the plan, frames queue up to `kStallQueue`.
   void set_stalled(int node, BusTime now, bool stalled);
+  /// Over-current: the power stage of an axis is off until the cause has gone.
+  void set_drive_fault(int node, BusTime now, int axis, bool present);
+  /// Frames that a receiver has lost, as its controller tells.
+  void count_overruns(int node, BusTime now, std::uint32_t times);
   /// The motor does not follow: the carriage is `counts` from where it should be, from now on.
   void lose_steps(int node, int axis, double counts);
 

@@ -212,7 +212,7 @@ TEST(PathClock, IsMonotoneExactAndInvertibleUnderRandomCommands) {
       }
       const PathTime before = late.tau(heard);
       const Outcome outcome = late.apply(command, heard);
-      ASSERT_LE(std::abs((late.tau(heard) - before).count()), PathClock::kMostStep.count());
+      ASSERT_LE(std::abs((late.tau(heard) - before).count()), PathClock::Options{}.most_step.count());
       const BusTime same = outcome == Outcome::kLateCaughtUp ? start + milliseconds{510} : start;
       for (int i = 0; i < 20; ++i) {
         const BusTime u = same + BusTime{below(1'000'000'000)};

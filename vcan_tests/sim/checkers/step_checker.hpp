@@ -14,7 +14,8 @@ class StepChecker {
  public:
   explicit StepChecker(const MachineDescription& machine) : machine_(machine) {}
 
-  void on_sample(const Sample& sample);
+  /// A board without power leaves its motors where they are: bit n of `dead_nodes` excuses node n.
+  void on_sample(const Sample& sample, unsigned dead_nodes = 0);
 
   /// Largest change of velocity from one millisecond to the next, over what the joint's stated stop limit
   /// allows in that time.

@@ -1,0 +1,84 @@
+#pragma once
+// The faults that the simulation knows, and a run's share of them: all drawn from one seed.
+
+#include <array>
+#include <cstdint>
+#include <random>
+#include <string_view>
+#include <vector>
+
+#include "protocol/time.hpp"
+
+namespace kinebus {
+
+enum class FaultKind : std::uint8_t {
+  kNone,
+  kCrystals,          ///< +-100 ppm
+  kInterruptLatency,  ///< up to 300 us
+  kReceiveOverrun,    ///< one node misses all frames for a while, and knows it
+  kBitErrors,         ///< frames destroyed for all and sent again
+  kBusOff,            ///< one station's transmitter fails until it is bus-off
+  kFramesDropped,     ///< one receiver does not get some frames
+  kFramesDelayed,
+  kFramesDoubled,
+  kFramesReordered,
+  kFramesCorrupted,  ///< wrong data in spite of the CRC
+  kSwitchBounces,
+  kSwitchDead,
+  kSwitchStuck,
+  kSwitchesExchanged,  ///< of the two carriages of one node
+  kLostSteps,
+  kLateStatus,  ///< the gateway hears the nodes late
+  kSlowGateway,
+  kGatewayDies,    ///< kill -9, and a new one later
+  kNodeDies,       ///< power lost, back later
+  kNodeRestarts,   ///< a reset
+  kNodeStalls,     ///< its main loop hangs for a while
+  kEmergencyStop,  ///< the input of any node
+  kDriveFault,
+  kBabblerAbove,    ///< a device that never ends sending, with the highest identifier
+  kBabblerBelow,    ///< with the lowest
+  kForeignTraffic,  ///< another CANopen system on the same bus
+  kNodeIdCollision,
+  kWrongIdentity,
+  kSecondGateway,
+  kHold,  ///< no fault: the operator holds, resumes
+  kCancel,
+  kOperatorStop,
+  kCount,
+};
+inline constexpr int kFaultKinds = static_cast<int>(FaultKind::kCount);
+std::string_view to_string(FaultKind kind);
+/// By its name; kCount: none has it.
+FaultKind fault_kind_of(std::string_view name);
+
+/// When a fault comes.
+enum class FaultPhase : std::uint8_t { kFromPowerUp, kHoming, kJob };
+
+struct Fault {
+  FaultKind kind = FaultKind::kNone;
+  FaultPhase phase = FaultPhase::kJob;
+  BusTime after{0};   ///< from the phase's begin
+  BusTime length{0};  ///< how long its cause lasts
+  int node = 0;
+  int axis = 0;
+  double strength = 0;  ///< 0..1: how bad
+};
+
+struct FaultPlan {
+  std::uint64_t seed = 0;
+  std::vector<Fault> faults;  ///< the first one names the run
+};
+
+/// Node faults strike one of `nodes`. `only`: this kind, whatever the seed says; kCount: all in turn.
+FaultPlan draw_faults(std::uint64_t seed, int nodes, FaultKind only = FaultKind::kCount);
+
+/// 0 <= value < 1, the same on every platform.
+inline double unit(std::mt19937_64& random) {
+  return static_cast<double>(random() >> 11) * 0x1p-53;
+}
+inline BusTime between(std::mt19937_64& random, BusTime low, BusTime high) {
+  return low + BusTime{static_cast<std::int64_t>(unit(random) * static_cast<double>((high - low).count()))};
+}
+
+}  // namespace kinebus
