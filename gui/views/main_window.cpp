@@ -143,7 +143,7 @@ QDockWidget* MainWindow::make_dock(const QString& name, QWidget* content) {
   scroll->setWidget(content);
   scroll->setMinimumWidth(content->minimumWidth() + 26);
   // The job is whole; what is left belongs to the position.
-  if (name == QLatin1String("job")) scroll->setMinimumHeight(content->sizeHint().height());
+  if (name == QLatin1String("job")) scroll->setMinimumHeight(content->sizeHint().height() + 34);
   dock->setWidget(scroll);
   return dock;
 }
