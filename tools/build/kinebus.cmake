@@ -67,6 +67,9 @@ if(NOT CMAKE_CROSSCOMPILING AND NOT KINEBUS_FIRMWARE AND NOT KINEBUS_FUZZ)
   endif()
 endif()
 
+# All tests labelled core: what the sanitizers and arm64 build.
+add_custom_target(kinebus_core_tests)
+
 # kinebus_test(NAME SOURCES a_test.cpp ... LINK layer ... [LABELS core] [TIMEOUT s]): one GoogleTest program.
 # The label "core" marks the tests that also run on arm64 and under every sanitizer.
 function(kinebus_test name)
@@ -92,6 +95,9 @@ function(kinebus_test name)
     set(arg_LABELS core)
   endif()
   set_tests_properties(${name} PROPERTIES TIMEOUT ${arg_TIMEOUT} LABELS "${arg_LABELS}")
+  if("core" IN_LIST arg_LABELS)
+    add_dependencies(kinebus_core_tests ${name})
+  endif()
 endfunction()
 
 # kinebus_fuzz(NAME SOURCES x_fuzz.cpp LINK layer ...): a libFuzzer program, only in the fuzz preset. Its corpus is

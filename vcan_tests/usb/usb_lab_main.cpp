@@ -56,8 +56,7 @@ struct Cable {
 
 class Lab {
  public:
-  explicit Lab(std::uint32_t seed)
-      : random(seed), client_(options(seed)), host_(client_) {}
+  explicit Lab(std::uint32_t seed) : random(seed), client_(options(seed)), host_(client_) {}
 
   void turn(std::chrono::milliseconds longest = 5ms) {
     host_.turn(longest);

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "gateway/gcode/interpreter.hpp"
-#include "gateway/io/job_files.hpp"
 #include "gateway/jobs/job_pipeline.hpp"
 #include "gateway/jobs/machine_setup.hpp"
+#include "gateway/jobs/store/file_source.hpp"
 #include "gateway/machine/description/machine_description.hpp"
 #include "protocol/host/guarded_main.hpp"
 

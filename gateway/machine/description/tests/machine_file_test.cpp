@@ -100,7 +100,8 @@ TEST(MachineFile, AWrongKeyIsRefusedWithItsLineWhatWasFoundAndWhatIsAllowed) {
       {"inverted = false ", "inverted = 0 ", "joint.tower1.inverted: found 0; expected true or false"},
       {"name = \"M1\"", "name = 1", "name: found 1; expected a text"},
       {"type = \"m1\"", "type = \"hexapod\"",
-       "kinematics.type: found 'hexapod'; expected one of \"m1\" \"cartesian\" \"corexy\" \"linear_delta\" \"m4\" \"m5\""},
+       "kinematics.type: found 'hexapod'; expected one of \"m1\" \"cartesian\" \"corexy\" \"linear_delta\" "
+       "\"m4\" \"m5\""},
       {"budget = 0.6", "budget = 60", "bus.budget: found 60; expected a number in 0.05 .. 0.95"},
       {"bitrate = 1000000", "bitrate = 999999",
        "bus.bitrate: found 999999; expected a CiA 301 bit rate: 10000, 20000, 50000, 125000, 250000, 500000, "

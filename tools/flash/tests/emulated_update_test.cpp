@@ -1,0 +1,132 @@
+// Three emulated boards with boot loader and program get a new program over the modelled bus, while a fourth
+// device talks.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "node_firmware/boot/image_header.hpp"
+#include "node_firmware/port/stm32f405/board.hpp"
+#include "protocol/canopen/lss.hpp"
+#include "protocol/canopen/object_addresses.hpp"
+#include "tools/flash/program_update.hpp"
+#include "vcan_tests/emulator/emulated_machine.hpp"
+
+namespace kinebus::emulator {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Boot loader and program, as they lie in flash.
+ElfImage both() {
+  ElfImage program = load_elf(KINEBUS_FIRMWARE_IMAGE);
+  const std::string path = KINEBUS_FIRMWARE_IMAGE;
+  const ElfImage boot = load_elf(path.substr(0, path.rfind('/')) + "/kinebus-boot.elf");
+  program.pieces.insert(program.pieces.end(), boot.pieces.begin(), boot.pieces.end());
+  return program;
+}
+
+std::vector<std::uint8_t> program_in(Board& board) {
+  const auto room =
+      board.cpu().flash().subspan(board::kProgramAddress - board::kBootAddress, board::kProgramBytes);
+  const std::size_t length = decode_image_header(room).length;
+  return {room.begin(), room.begin() + static_cast<std::ptrdiff_t>(length)};
+}
+
+struct EmulatedUpdate : testing::Test {
+  ElfImage image = both();
+  EmulatedMachine machine{image, nodes(), 3};
+  BusTime now{0};
+  std::uint32_t spoken = 0;
+
+  static std::vector<EmulatedNodeOptions> nodes() {
+    std::vector<EmulatedNodeOptions> options;
+    for (std::uint8_t id = 1; id <= 3; ++id)
+      options.push_back({.board = {.unique_id = {id, 2, 3}}, .node_id = id});
+    return options;
+  }
+  template <typename OnFrame>
+  void pass(OnFrame on_frame) {
+    // The fourth device: 200 frames a second, urgent ones too.
+    if (now.count() / 5'000'000 > spoken && machine.can_send())
+      machine.send(now, CanFrame::make(0x0C0 + (++spoken % 2) * 0x300, {1, 2, 3, 0, 5, 6, 7, 8}));
+    now += 200us;
+    for (bool done = false; !done;) {
+      done = machine.advance(now);
+      while (const auto got = machine.receive())
+        if (!got->own) on_frame(got->frame);
+    }
+  }
+  /// False: it failed. `cut_at`: at so many percent the node's power goes.
+  bool update(std::uint8_t node, std::span<const std::uint8_t> bytes, int cut_at = 101) {
+    ProgramUpdate work(node, bytes, now, {.answer = 3s, .attempts = cut_at > 100 ? 3 : 1});
+    std::optional<CanFrame> unsent;
+    while (work.status() == ProgramUpdate::Status::kBusy) {
+      while (machine.can_send() && (unsent || (unsent = work.next_frame()))) {
+        machine.send(now, *unsent);
+        unsent.reset();
+      }
+      pass([&](const CanFrame& frame) { work.on_frame(now, frame); });
+      work.on_time(now);
+      if (work.percent() >= cut_at && work.percent() < 100) {
+        machine.board(node - 1).power_cycle();
+        cut_at = 101;
+      }
+    }
+    fmt::print("node {}: {} at {} s\n", node, work.message(), to_seconds(now));
+    return work.status() == ProgramUpdate::Status::kDone;
+  }
+  /// The node keeps its id through power-off.
+  void keep_id(std::uint8_t id) {
+    LssMaster master;
+    const auto finish = [&] {
+      while (master.status() == LssMaster::Status::kBusy) {
+        while (machine.can_send()) {
+          const auto frame = master.next_frame();
+          if (!frame) break;
+          machine.send(now, *frame);
+        }
+        pass([&](const CanFrame& frame) { master.on_frame(frame); });
+        master.on_time(now);
+      }
+      EXPECT_EQ(master.status(), LssMaster::Status::kDone);
+    };
+    master.select(now, {kVendorId, kProductCode, kRevisionNumber, serial(id)});
+    finish();
+    master.store(now);
+    finish();
+    master.switch_all(now, false);
+    finish();
+  }
+  static std::uint32_t serial(std::uint8_t id) {
+    Crc32 crc;
+    for (const std::uint32_t word : {std::uint32_t{id}, 2u, 3u}) {
+      std::array<std::uint8_t, 4> bytes{};
+      put_u32_le(bytes, word);
+      crc.add(bytes);
+    }
+    return crc.value();
+  }
+};
+
+TEST_F(EmulatedUpdate, AllNodesGetTheNewProgramAndACutIsRepairedByRunningItAgain) {
+  std::vector<std::uint8_t> next = program_in(machine.board(0));
+  ImageHeader header = decode_image_header(next);
+  header.reserved = 0x0000'0002;  // another image that does the same
+  encode_image_header(header, next);
+  header.crc = image_crc(next);
+  encode_image_header(header, next);
+
+  keep_id(2);
+  EXPECT_TRUE(update(1, next));
+  EXPECT_FALSE(update(2, next, 40)) << "its power went";
+  EXPECT_TRUE(update(2, next)) << "run again";
+  EXPECT_TRUE(update(3, next));
+  for (int node = 0; node < 3; ++node) {
+    EXPECT_EQ(program_in(machine.board(node)), next) << node + 1;
+    EXPECT_EQ(machine.board(node).watchdog_resets(), 0u);
+    EXPECT_TRUE(machine.board(node).strange_accesses().empty());
+  }
+}
+
+}  // namespace
+}  // namespace kinebus::emulator
