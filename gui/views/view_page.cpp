@@ -94,6 +94,7 @@ ViewPage::ViewPage(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(
     scene_->content().has_machine = model.has_value();
     if (model) scene_->content().model = *model;
     fitted_ = false;
+    seen_status_.clear();
     take_status();
   });
   connect(&desk_.path, &PathSource::changed, this, &ViewPage::take_path);
@@ -222,6 +223,12 @@ void ViewPage::take_status() {
       runs ? static_cast<std::uint32_t>(shown_->path.vertex_at_line(std::max(1u, status.line())))
            : UINT32_MAX;
   content.done_vertex = done;
+  // A status that changes nothing to be seen lets the picture come to rest.
+  std::string seen = status.tool().SerializeAsString() + std::to_string(done);
+  for (const double joint : status.joints()) seen += ' ' + std::to_string(joint);
+  seen += status.hotend().actual_celsius() > 50 ? 'h' : 'c';
+  if (seen == seen_status_) return;
+  seen_status_ = std::move(seen);
   if (isVisible()) scene_->redraw();
 }
 

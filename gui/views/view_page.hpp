@@ -4,6 +4,7 @@
 #include <QComboBox>
 #include <QProgressBar>
 #include <QSlider>
+#include <string>
 
 #include "gui/views/desk.hpp"
 #include "gui/views/scene_view.hpp"
@@ -59,6 +60,7 @@ class ViewPage : public SpeakingWidget {
   QLabel* broken_;
   QToolButton *machine_, *reach_, *travel_, *remaining_;
   std::shared_ptr<const ScenePath> shown_;
+  std::string seen_status_;  ///< what the newest picture was made of
   std::uint32_t wanted_line_ = 0;
   bool fitted_ = false;
 };
