@@ -190,6 +190,10 @@ void FakeGateway::answer(const joblink::ClientMessage& message, joblink::Reply& 
     case M::kUploadChunk:
       if (message.upload_chunk().offset_bytes() == upload_text_.size())
         upload_text_ += message.upload_chunk().data();
+      if (upload_text_.size() >= break_at_bytes) {
+        break_at_bytes = SIZE_MAX;
+        return break_link();
+      }
       reply.mutable_upload()->set_upload_id(1);
       reply.mutable_upload()->set_received_bytes(upload_text_.size());
       break;

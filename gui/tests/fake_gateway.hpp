@@ -28,6 +28,8 @@ class FakeGateway : public QObject {
   std::vector<joblink::ClientMessage> heard;
   QString refuse;  ///< the next command is refused so
   int connections = 0;
+  /// The link breaks, once, when so much of an upload has come.
+  std::size_t break_at_bytes = SIZE_MAX;
 
   int count(joblink::ClientMessage::RequestCase request) const;
   void say(const joblink::Event& event);
