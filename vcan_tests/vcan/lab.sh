@@ -1,8 +1,14 @@
 # Shared by the tests of this folder: a vcan interface of its own, the programs under test, and a capture that stays.
 # Source it with the folder of the programs as $1.
 set -euo pipefail
-bin=$1
 work=$(mktemp -d)
+# The programs and their libraries run from memory: a page that comes late from the host's disk would halt one node
+# for as long as the guest's virtual time likes.
+bin=$work/bin
+mkdir "$bin" "$work/lib"
+cp "$1"/{kinebusd,kinebus,kinebus-vnode} "$bin/"
+ldd "$bin"/* | awk '$2 == "=>" && $3 ~ "^/" { print $3 }' | sort -u | xargs -I{} cp {} "$work/lib/"
+export LD_LIBRARY_PATH=$work/lib
 keep=${LAB_KEEP:-$work}
 interface=kbv$(( $$ % 1000 ))
 export KINEBUS_SOCKET=$work/kinebus.sock
