@@ -89,7 +89,7 @@ class M4 final : public Kinematics {
 
   Result<void, PoseError> jacobian(Frame frame, const PoseVector& pose, JointVector& joints,
                                    std::span<double> matrix) const override {
-    assert(matrix.size() >= kJoints * kPoseAxes);
+    assert(matrix.size() >= std::size_t{kJoints} * kPoseAxes);
     Result<void, PoseError> reached;
     // Column by column: the path along one pose axis has the column as its q1.
     for (std::size_t axis = 0; axis < kPoseAxes; ++axis) {

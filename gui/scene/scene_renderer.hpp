@@ -41,7 +41,7 @@ class SceneRenderer {
  public:
   struct Budget {
     std::size_t quick_lines = 25'000;  ///< in a quick picture
-    std::size_t slice_lines = 8'000;  ///< in one slice of the picture at rest
+    std::size_t slice_lines = 8'000;   ///< in one slice of the picture at rest
     std::size_t rest_lines = 3'000'000;
     std::size_t copy_bytes = 4'000'000;  ///< to the graphics card for each frame
     int samples = 2;

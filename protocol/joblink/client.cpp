@@ -50,7 +50,7 @@ void Client::on_connected(LocalTime now) {
   begin_session(now);
 }
 
-void Client::on_disconnected(LocalTime now, std::string why) {
+void Client::on_disconnected(LocalTime now, const std::string& why) {
   now_ = now;
   if (phase_ == Phase::kClosed) return;
   end_session(now, why, false);

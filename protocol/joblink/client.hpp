@@ -93,7 +93,7 @@ class Client {
 
   // The stream and the time.
   void on_connected(LocalTime now);  ///< the stream is open: a new session begins
-  void on_disconnected(LocalTime now, std::string why);
+  void on_disconnected(LocalTime now, const std::string& why);
   void on_bytes(LocalTime now, std::span<const std::uint8_t> bytes);
   void on_time(LocalTime now);
   /// What to send now; empty: nothing. Valid until the next call of anything here.
