@@ -16,6 +16,8 @@ std::string to_json_text(const SimulationReport& r) {
                             {"speedup", r.speedup},
                             {"max_tracking_error_um", r.max_tracking_error_um},
                             {"max_path_error_um", r.max_path_error_um},
+                            {"rms_tracking_error_um", r.rms_tracking_error_um},
+                            {"rms_path_error_um", r.rms_path_error_um},
                             {"max_joint_error_counts", r.max_joint_error_counts},
                             {"max_joint_velocity_ratio", r.max_joint_velocity_ratio},
                             {"max_joint_acceleration_ratio", r.max_joint_acceleration_ratio},
@@ -57,9 +59,11 @@ std::string to_table(const SimulationReport& r) {
   row("job_time_s", fmt::format("{:.3f}", r.job_time_s), fmt::format("{} lines", r.lines));
   row("cpu_s", fmt::format("{:.2f}", r.cpu_s), fmt::format("{:.0f} x real time", r.speedup));
   row("max_tracking_error_um", fmt::format("{:.3f}", r.max_tracking_error_um),
-      fmt::format("tool to planned pose; line {}, {:.3f} s", r.worst_tracking_line, r.worst_tracking_s));
+      fmt::format("tool to planned pose; line {}, {:.3f} s; {:.3f} rms", r.worst_tracking_line,
+                  r.worst_tracking_s, r.rms_tracking_error_um));
   row("max_path_error_um", fmt::format("{:.3f}", r.max_path_error_um),
-      fmt::format("tool to programmed path; line {}, {:.3f} s", r.worst_path_line, r.worst_path_s));
+      fmt::format("tool to programmed path; line {}, {:.3f} s; {:.3f} rms", r.worst_path_line, r.worst_path_s,
+                  r.rms_path_error_um));
   row("max_joint_error_counts", fmt::format("{:.3f}", r.max_joint_error_counts),
       fmt::format("motor to q(tau), microsteps; {}, {:.3f} s", r.worst_joint, r.worst_joint_s));
   row("max_joint_velocity_ratio", fmt::format("{:.4f}", r.max_joint_velocity_ratio), "of the limit");

@@ -18,6 +18,7 @@ struct SimulationReport {
   double speedup = 0;  ///< machine time to CPU time
   double max_tracking_error_um = 0;
   double max_path_error_um = 0;
+  double rms_tracking_error_um = 0, rms_path_error_um = 0;
   double max_joint_error_counts = 0;
   double max_joint_velocity_ratio = 0;
   double max_joint_acceleration_ratio = 0;

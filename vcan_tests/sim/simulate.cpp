@@ -35,7 +35,9 @@ bool settled(MachineState s) {
 
 std::unique_ptr<NodeMachine> make_nodes(const MachineDescription& machine, const SimulateOptions& options) {
   const std::uint64_t seed = options.simulation.seed;
-  const auto nodes = virtual_nodes_of(machine, options.simulation.clocks, seed);
+  // Switches stand where the machine really has them, not where its description says.
+  const MachineDescription& real = options.simulation.plant ? *options.simulation.plant : machine;
+  const auto nodes = virtual_nodes_of(real, options.simulation.clocks, seed);
   if (options.make_nodes) return options.make_nodes(nodes);
   return std::make_unique<VirtualMachine>(nodes, seed);
 }
@@ -201,6 +203,7 @@ class Run {
   void fill() {
     const Checkers& c = *checkers_;
     report_.max_tracking_error_um = c.tracking.max_tool_um();
+    report_.rms_tracking_error_um = c.tracking.rms_tool_um();
     report_.worst_tracking_s = c.tracking.worst_time_s() - to_seconds(begin_);
     report_.worst_tracking_line = c.tracking.worst_line();
     report_.samples = c.tracking.samples();
@@ -209,6 +212,7 @@ class Run {
     if (c.tracking.worst_joint() >= 0)
       report_.worst_joint = machine_.joints[static_cast<std::size_t>(c.tracking.worst_joint())].name;
     report_.max_path_error_um = c.path.max_um();
+    report_.rms_path_error_um = c.path.rms_um();
     report_.worst_path_s = c.path.worst_time_s() - to_seconds(begin_);
     report_.worst_path_line = c.path.worst_line();
     report_.max_joint_velocity_ratio = c.joints.max_velocity_ratio();

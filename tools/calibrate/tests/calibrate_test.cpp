@@ -5,11 +5,11 @@
 #include <fstream>
 #include <sstream>
 
-#include "gateway/calibration/geometry_fit.hpp"
 #include "gateway/machine/description/machine_file.hpp"
 #include "tools/calibrate/hidden.hpp"
 #include "tools/calibrate/machine_edit.hpp"
 #include "tools/calibrate/readings.hpp"
+#include "tools/calibrate/rehearsal.hpp"
 
 namespace kinebus {
 namespace {
@@ -47,19 +47,9 @@ TEST(Csv, WhatIsWrongIsSaidWithItsLine) {
 /// The whole loop on files' texts: rails first, then the tool.
 MachineDescription calibrate(const MachineDescription& nominal, const MachineDescription& truth, double pitch,
                              std::uint64_t seed) {
-  MachineDescription machine = nominal;
-  const auto rails = rail_samples(*Csv::parse(measure_rails(machine, truth, 3, 0.01, seed)), machine);
-  EXPECT_TRUE(rails);
-  for (JointDescription& joint : machine.joints)
-    if (const auto own = rails->find(joint.name); own != rails->end())
-      apply(fit_rail(own->second, {.anchor = anchor_of(joint), .pitch = pitch}), joint.calibration);
-  const auto readings = geometry_readings(
-      *Csv::parse(measure_points(machine, truth, random_poses(machine, 120, seed), 0.01, seed)));
-  EXPECT_TRUE(readings);
-  const GeometryFit fit = fit_geometry(GeometryModel(*believed(machine), *readings), {});
-  EXPECT_TRUE(fit.solved) << fit.problem;
-  apply(fit.deviation, machine);
-  return machine;
+  const auto machine = calibrated(nominal, truth, {.pitch_mm = pitch, .seed = seed});
+  EXPECT_TRUE(machine) << machine.error();
+  return *machine;
 }
 
 TEST(CalibrationLoop, FromAMillimetreTo25Micrometres) {

@@ -62,6 +62,8 @@ void PathChecker::on_sample(const Sample& sample) {
       pose = *converted;
   // No farther than the line in motion: a later line that crosses here is not where the tool should be.
   last_um_ = 1000 * distance_.distance_mm(pose, sample.line);
+  squares_um2_ += last_um_ * last_um_;
+  ++samples_;
   if (last_um_ > max_um_) {
     max_um_ = last_um_;
     worst_time_s_ = to_seconds(sample.time);

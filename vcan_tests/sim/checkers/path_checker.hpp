@@ -1,6 +1,7 @@
 #pragma once
 // The tool against the programmed path, as an interpreter of the checker's own reads it from the job's text.
 
+#include <cmath>
 #include <deque>
 #include <memory>
 #include <utility>
@@ -25,6 +26,7 @@ class PathChecker {
 
   void on_sample(const Sample& sample);
   double max_um() const { return max_um_; }
+  double rms_um() const { return samples_ > 0 ? std::sqrt(squares_um2_ / static_cast<double>(samples_)) : 0; }
   double last_um() const { return last_um_; }
   std::uint32_t nearest_line() const { return distance_.nearest_line(); }
   double worst_time_s() const { return worst_time_s_; }
@@ -44,6 +46,8 @@ class PathChecker {
   std::vector<char> text_;
   std::size_t text_at_ = 0, text_end_ = 0;
   bool ended_ = false;
+  double squares_um2_ = 0;
+  std::uint64_t samples_ = 0;
   double max_um_ = 0, last_um_ = 0, worst_time_s_ = 0;
   std::uint32_t worst_line_ = 0;
 };

@@ -28,6 +28,8 @@ void TrackingChecker::check_tool(const Sample& sample) {
     square += d * d;
   }
   last_tool_um_ = 1000 * std::sqrt(square);
+  tool_squares_um2_ += last_tool_um_ * last_tool_um_;
+  ++tools_;
   if (last_tool_um_ > max_tool_um_) {
     max_tool_um_ = last_tool_um_;
     worst_time_s_ = to_seconds(sample.time);

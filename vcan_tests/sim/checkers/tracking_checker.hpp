@@ -2,6 +2,7 @@
 // The tool against the planned pose at equal path time, and every joint against q(tau) of its own node's path
 // time.
 
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <utility>
@@ -21,6 +22,9 @@ class TrackingChecker {
   void on_sample(const Sample& sample);
 
   double max_tool_um() const { return max_tool_um_; }
+  double rms_tool_um() const {
+    return tools_ > 0 ? std::sqrt(tool_squares_um2_ / static_cast<double>(tools_)) : 0;
+  }
   /// Largest distance of a motor from q(tau), in its own microsteps.
   double max_joint_counts() const { return max_joint_counts_; }
   int worst_joint() const { return worst_joint_; }
@@ -37,6 +41,8 @@ class TrackingChecker {
   const MachineDescription& machine_;
   const Kinematics& kinematics_;
   Planned planned_;
+  double tool_squares_um2_ = 0;
+  std::uint64_t tools_ = 0;
   double max_tool_um_ = 0, max_joint_counts_ = 0, last_tool_um_ = 0, worst_time_s_ = 0,
          worst_joint_time_s_ = 0;
   int worst_joint_ = -1;
