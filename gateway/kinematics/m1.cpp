@@ -166,19 +166,17 @@ class M1 final : public Kinematics {
     if (auto e = check_pose_limits(g_.limits, q, pose[kA], pose[kC])) return Error<PoseError>(*e);
     if (!std::isfinite(pose[kE])) return Error<PoseError>({Kind::kPoseLimit, kE, HUGE_VAL});
 
-    JointVector joints{};
-    double radicand[kLegs];
-    carriages(p, a, joints.data(), radicand);
-    if (auto r = reach(radicand); !r) return r;
+    const LegsAt legs(legs_, p, a);
+    if (auto r = reach(legs.radicand); !r) return r;
     for (int i = 0; i < kLegs; ++i) {
       const Interval& travel = g_.legs[static_cast<std::size_t>(i)].travel_mm;
-      if (auto e = outside_error(Kind::kJointLimit, i, travel, joints[static_cast<std::size_t>(i)], false))
+      if (auto e = outside_error(Kind::kJointLimit, i, travel, legs.w[i] - legs_.c[i], false))
         return Error<PoseError>(*e);
     }
-    if (auto e = check_leg_angles(a, p, radicand, joints)) return Error<PoseError>(*e);
+    if (auto e = check_leg_angles(a, p, legs)) return Error<PoseError>(*e);
 
     double matrix[16];
-    parallel_jacobian(p, a, matrix);
+    parallel_jacobian(legs, matrix);
     if (condition_bound_4(matrix) <= g_.max_condition) return {};
     const double cond = condition_number(matrix, 4);
     if (!(cond <= g_.max_condition)) return Error<PoseError>({Kind::kSingular, -1, cond});
@@ -188,16 +186,34 @@ class M1 final : public Kinematics {
   double condition(Frame frame, const PoseVector& pose) const override {
     const Turn a(pose[kA]);
     const Vector3 p = platform(frame, pose, a);
-    double joints[kLegs], radicand[kLegs], matrix[16];
-    carriages(p, a, joints, radicand);
-    if (!reach(radicand)) return std::numeric_limits<double>::infinity();
-    parallel_jacobian(p, a, matrix);
+    const LegsAt legs(legs_, p, a);
+    if (!reach(legs.radicand)) return std::numeric_limits<double>::infinity();
+    double matrix[16];
+    parallel_jacobian(legs, matrix);
     return condition_number(matrix, 4);
   }
 
   PoseVector bed_reference() const override { return {0, 0, g_.bed_reference_mm, 0, 0, 0}; }
 
  private:
+  /// All legs at one pose, side by side. s, R b and w = q + c as in the head of this file; along = -L . d^.
+  struct LegsAt {
+    LegsAt(const LegTable& t, const Vector3& p, const Turn& a) {
+      for (int i = 0; i < kLegs; ++i) {
+        by[i] = a.c * t.by[i] - a.s * t.bz[i];
+        bz[i] = a.s * t.by[i] + a.c * t.bz[i];
+        sx[i] = p[0] + t.bx_ax[i];
+        sy[i] = p[1] + by[i] - t.ay[i];
+        sz[i] = p[2] + bz[i] - t.az[i];
+        const double u = t.dx[i] * sx[i] + t.dy[i] * sy[i] + t.dz[i] * sz[i];
+        radicand[i] = t.ll[i] - (sx[i] * sx[i] + sy[i] * sy[i] + sz[i] * sz[i]) + u * u;
+        along[i] = t.branch[i] * std::sqrt(std::max(radicand[i], 0.0));
+        w[i] = u + along[i];
+      }
+    }
+    double by[kLegs], bz[kLegs], sx[kLegs], sy[kLegs], sz[kLegs], radicand[kLegs], along[kLegs], w[kLegs];
+  };
+
   /// p = n - m.
   Vector3 platform(Frame frame, const PoseVector& pose, const Turn& a) const {
     Vector3 m{pose[kX], pose[kY], pose[kZ]};
@@ -232,8 +248,8 @@ class M1 final : public Kinematics {
     return Error<PoseError>({Kind::kOutOfReach, worst, std::sqrt(ll - radicand[worst]) - std::sqrt(ll)});
   }
 
-  std::optional<PoseError> check_leg_angles(const Turn& a, const Vector3& p, const double* radicand,
-                                            const JointVector& joints) const {
+  std::optional<PoseError> check_leg_angles(const Turn& a, const Vector3& p, const LegsAt& legs) const {
+    const double* radicand = legs.radicand;
     for (int i = 0; i < kLegs; ++i) {
       const M1Leg& leg = g_.legs[static_cast<std::size_t>(i)];
       // The angle itself is needed only for the message.
@@ -251,7 +267,7 @@ class M1 final : public Kinematics {
           return PoseError{Kind::kClearance, i, g_.min_rail_clearance_rad - gamma, true};
       }
       if (g_.min_platform_clearance_rad > 0) {
-        const double w = joints[static_cast<std::size_t>(i)] + legs_.c[i];
+        const double w = legs.w[i];
         // From the attachment up the leg, along the platform's normal R z^ = (0, -sin A, cos A).
         const double up_y = legs_.ay[i] + w * legs_.dy[i] - p[1] - b[1];
         const double up_z = legs_.az[i] + w * legs_.dz[i] - p[2] - b[2];
@@ -264,23 +280,19 @@ class M1 final : public Kinematics {
     return std::nullopt;
   }
 
-  /// d q_towers / d(p, A * rotation_scale), 4 x 4 row-major. The legs must reach.
-  void parallel_jacobian(const Vector3& p, const Turn& a, double* matrix) const {
+  /// d q_towers / d(p, A * rotation_scale), 4 x 4, a leg in each column of the row-major matrix: transposed
+  /// or not, singular values are the same. The legs must reach.
+  void parallel_jacobian(const LegsAt& at, double* matrix) const {
     const double per_scale = 1 / g_.rotation_scale_mm;
-    double joints[kLegs], radicand[kLegs];
-    carriages(p, a, joints, radicand);
     const LegTable& t = legs_;
     for (int i = 0; i < kLegs; ++i) {
-      const double by = a.c * t.by[i] - a.s * t.bz[i], bz = a.s * t.by[i] + a.c * t.bz[i];
-      const double w = joints[i] + t.c[i];
-      const double lx = p[0] + t.bx_ax[i] - w * t.dx[i];
-      const double ly = p[1] + by - t.ay[i] - w * t.dy[i], lz = p[2] + bz - t.az[i] - w * t.dz[i];
-      const double inv = 1 / (lx * t.dx[i] + ly * t.dy[i] + lz * t.dz[i]);
-      double* row = matrix + std::ptrdiff_t{4} * i;
-      row[0] = lx * inv;
-      row[1] = ly * inv;
-      row[2] = lz * inv;
-      row[3] = (by * lz - bz * ly) * inv * per_scale;
+      const double lx = at.sx[i] - at.w[i] * t.dx[i], ly = at.sy[i] - at.w[i] * t.dy[i],
+                   lz = at.sz[i] - at.w[i] * t.dz[i];
+      const double inv = -1 / at.along[i];
+      matrix[i] = lx * inv;
+      matrix[4 + i] = ly * inv;
+      matrix[8 + i] = lz * inv;
+      matrix[12 + i] = (at.by[i] * lz - at.bz[i] * ly) * inv * per_scale;
     }
   }
 

@@ -34,7 +34,8 @@ inline std::optional<PoseError> check_pose_limits(const PoseLimits& limits, cons
   if (auto e = outside_error(Kind::kPoseLimit, kZ, limits.z_mm, q[2], false)) return e;
   if (auto e = outside_error(Kind::kPoseLimit, kA, limits.a_rad, a_rad, true)) return e;
   if (auto e = outside_error(Kind::kPoseLimit, kC, limits.c_rad, c_rad, true)) return e;
-  if (limits.radius_mm > 0) {
+  // The root is needed for the message only; not a number goes that way too.
+  if (limits.radius_mm > 0 && !(q[0] * q[0] + q[1] * q[1] <= limits.radius_mm * limits.radius_mm)) {
     const double radius = std::hypot(q[0], q[1]);
     const int axis = std::abs(q[0]) >= std::abs(q[1]) ? kX : kY;
     if (auto e = outside_error(Kind::kPoseLimit, axis, {0, limits.radius_mm}, radius, false)) return e;

@@ -94,14 +94,14 @@ std::string draw_residuals(const std::string& title, const std::string& subtitle
     points(out, wide, p.x, p.after_mm, kAfter);
     points(out, close, p.x, p.after_mm, kAfter);
     print(out,
-          "<text x='620' y='%.1f' text-anchor='end' font-size='13' fill='%s'>before: %.1f um rms</text>\n",
+          "<text x='620' y='%.1f' text-anchor='end' font-size='13' fill='%s'>before: %.1f µm rms</text>\n",
           top - 14, kBefore, 1000 * rms_of(p.before_mm));
     print(out,
-          "<text x='1240' y='%.1f' text-anchor='end' font-size='13' fill='%s'>after, enlarged: %.1f um "
+          "<text x='1240' y='%.1f' text-anchor='end' font-size='13' fill='%s'>after, enlarged: %.1f µm "
           "rms</text>\n",
           top - 14, kAfter, 1000 * rms_of(p.after_mm));
-    print(out, "<text x='46' y='%.1f' font-size='13' text-anchor='middle'>um</text>\n", top + 99);
-    print(out, "<text x='686' y='%.1f' font-size='13' text-anchor='middle'>um</text>\n", top + 99);
+    print(out, "<text x='46' y='%.1f' font-size='13' text-anchor='middle'>µm</text>\n", top + 99);
+    print(out, "<text x='686' y='%.1f' font-size='13' text-anchor='middle'>µm</text>\n", top + 99);
   }
   return out + "</svg>\n";
 }

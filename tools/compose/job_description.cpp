@@ -87,4 +87,18 @@ std::vector<DescribedPiece> read_job_description(const std::string& path) {
   return out;
 }
 
+std::string describe_job(const std::vector<DescribedPiece>& pieces) {
+  std::string out =
+      "# Pieces in the order of printing: slice them again as you like, then kinebus-compose join.\n";
+  for (const DescribedPiece& piece : pieces) {
+    const PieceFrame& f = piece.frame;
+    out += fmt::format(
+        "\n[[piece]]\ngcode = \"{}\"\norigin_mm = [{:.5f}, {:.5f}, {:.5f}]\neuler_deg = [{:.6f}, {:.6f}, "
+        "{:.6f}]\n",
+        piece.gcode_path, f.origin[0], f.origin[1], f.origin[2], f.i_deg, f.j_deg, f.k_deg);
+    if (!piece.mesh_path.empty()) out += fmt::format("mesh = \"{}\"\n", piece.mesh_path);
+  }
+  return out;
+}
+
 }  // namespace kinebus::compose

@@ -26,4 +26,7 @@ struct DescribedPiece {
 /// Throws std::runtime_error "FILE:line: ..." with the key, what was found and what is expected.
 std::vector<DescribedPiece> read_job_description(const std::string& path);
 
+/// The text of such a file; paths are written as they are.
+std::string describe_job(const std::vector<DescribedPiece>& pieces);
+
 }  // namespace kinebus::compose

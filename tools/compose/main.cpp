@@ -15,6 +15,7 @@
 #include "tools/compose/example_parts.hpp"
 #include "tools/compose/job_description.hpp"
 #include "tools/compose/picture.hpp"
+#include "tools/compose/print_picture.hpp"
 
 namespace kinebus::compose {
 namespace {
@@ -24,7 +25,8 @@ using nlohmann::json;
 constexpr double kRad = std::numbers::pi / 180;
 
 struct Arguments {
-  std::string input, output, machine, config, program = "prusa-slicer", report, picture, work, nozzle;
+  std::string input, output, machine, config, program = "prusa-slicer", report, picture, printing, work,
+                                              nozzle;
   std::vector<std::string> planes;
   double max_overhang_deg = 45, max_tilt_deg = 45, layer_mm = 0.2, clearance_mm = 20, table_radius_mm = 100;
   bool keep_position = false, no_support_comparison = false;
@@ -187,6 +189,17 @@ json to_json(const Composed& c) {
   return out;
 }
 
+/// Beside the pieces' meshes and G-code: how they go together.
+void describe_pieces(const std::string& folder, const Composed& made) {
+  std::vector<DescribedPiece> pieces;
+  for (std::size_t i = 0; i < made.joined.size(); ++i) {
+    const std::string& name = made.joined[i].name;
+    write_stl(made.meshes[i], (fs::path(folder) / (name + "-in-part.stl")).string());
+    pieces.push_back({name + ".gcode", name + "-in-part.stl", made.joined[i].frame});
+  }
+  write_text((fs::path(folder) / "pieces.toml").string(), describe_job(pieces));
+}
+
 int compose_part(const Arguments& arguments) {
   const WorkFolder work(arguments.work);
   ComposeOptions options = options_of(arguments);
@@ -214,13 +227,22 @@ int compose_part(const Arguments& arguments) {
         "support saved     {:.0f} mm of filament ({:.0f} mm3); the uncut part with support takes {:.0f} s\n",
         result.support->support_filament_mm, result.support->support_mm3, result.support->time_s);
   if (!arguments.report.empty()) write_text(arguments.report, to_json(result).dump(2) + "\n");
+  const std::string name = "Part " + fs::path(arguments.input).stem().string();
   if (!arguments.picture.empty()) {
     std::vector<DrawnPiece> drawn;
     for (std::size_t i = 0; i < result.meshes.size(); ++i)
       drawn.push_back(
           {result.meshes[i], result.joined[i].frame,
            i == 0 ? std::string("upright") : fmt::format("tilt {:.0f}°", result.pieces[i].tilt_deg)});
-    write_text(arguments.picture, picture(fs::path(arguments.input).filename().string(), drawn));
+    write_text(arguments.picture, picture(name, drawn));
+  }
+  if (!arguments.work.empty()) describe_pieces(arguments.work, result);
+  if (!arguments.printing.empty()) {
+    PrintPictureOptions look;
+    look.nozzle = options.sweep.nozzle;
+    look.table_radius_mm = options.sweep.table_radius_mm;
+    write_text(arguments.printing,
+               print_picture(name + ", being printed", result.job, machine_of(arguments), look));
   }
   fmt::print("job               {}\n", arguments.output);
   if (hangs)
@@ -293,7 +315,9 @@ int run(int argc, char** argv) {
       ->check(CLI::ExistingFile);
   part->add_option("--report", arguments.report, "Also write the report as JSON");
   part->add_option("--picture", arguments.picture, "Also draw the pieces (SVG)");
-  part->add_option("--work", arguments.work, "Keep the pieces' meshes and G-code in this folder");
+  part->add_option("--printing", arguments.printing, "Also draw it being printed (SVG)");
+  part->add_option("--work", arguments.work,
+                   "Keep the pieces' meshes, G-code and description (pieces.toml) in this folder");
   part->add_flag("--keep-position", arguments.keep_position, "Leave the part where its coordinates put it");
   part->add_flag("--no-support-comparison", arguments.no_support_comparison, "Do not slice the uncut part");
   part->callback([&] { exit_code = compose_part(arguments); });

@@ -31,12 +31,13 @@ struct Face {
 };
 
 struct Scene {
+  double longest_edge_mm = 1e300;
   std::vector<Face> faces;
   double left = 1e300, right = -1e300, low = 1e300, high = -1e300;
   std::vector<std::array<double, 2>> middles;  // of each piece
 
   void add(const DrawnPiece& piece, std::size_t colour, const Vector& shift) {
-    const auto& base = kColours[colour % kColours.size()];
+    const auto base = piece_colour(colour);
     Vector middle(0, 0, 0);
     for (const Vector& p : piece.mesh.points)
       middle += (p + shift) / static_cast<double>(piece.mesh.points.size());
@@ -46,20 +47,38 @@ struct Scene {
                    &c = piece.mesh.points[triangle[2]];
       const Vector n = (b - a).cross(c - a).normalized();
       if (n.dot(kToEye) <= 0) continue;
-      Face face;
-      face.depth = kToEye.dot((a + b + c) / 3 + shift);
-      const std::array<Vector, 3> corners{a, b, c};
-      for (std::size_t i = 0; i < 3; ++i) {
-        const Vector p = corners[i] + shift;
-        face.corners[i] = {kRight.dot(p), kUp.dot(p)};
-        left = std::min(left, face.corners[i][0]), right = std::max(right, face.corners[i][0]);
-        low = std::min(low, face.corners[i][1]), high = std::max(high, face.corners[i][1]);
-      }
       const double light = 0.42 + 0.58 * std::max(0.0, n.dot(kLight));
+      std::array<int, 3> rgb{};
       for (std::size_t i = 0; i < 3; ++i)
-        face.rgb[i] = static_cast<int>(std::lround(255 * std::min(1.0, base[i] * light * 1.15)));
-      faces.push_back(face);
+        rgb[i] = static_cast<int>(std::lround(255 * std::min(1.0, base[i] * light * 1.15)));
+      add_face({a + shift, b + shift, c + shift}, rgb);
     }
+  }
+
+  /// Halved until it is small: sorted by their middles, large faces would hide what is before them.
+  void add_face(const std::array<Vector, 3>& corners, const std::array<int, 3>& rgb) {
+    std::size_t longest = 0;
+    const auto edge = [&](std::size_t i) { return (corners[(i + 1) % 3] - corners[i]).norm(); };
+    for (const std::size_t i : {1, 2})
+      if (edge(i) > edge(longest)) longest = i;
+    if (edge(longest) > longest_edge_mm) {
+      const Vector middle = (corners[longest] + corners[(longest + 1) % 3]) / 2;
+      std::array<Vector, 3> one = corners, other = corners;
+      one[(longest + 1) % 3] = middle;
+      other[longest] = middle;
+      add_face(one, rgb);
+      add_face(other, rgb);
+      return;
+    }
+    Face face;
+    face.depth = kToEye.dot(corners[0] + corners[1] + corners[2]) / 3;
+    face.rgb = rgb;
+    for (std::size_t i = 0; i < 3; ++i) {
+      face.corners[i] = {kRight.dot(corners[i]), kUp.dot(corners[i])};
+      left = std::min(left, face.corners[i][0]), right = std::max(right, face.corners[i][0]);
+      low = std::min(low, face.corners[i][1]), high = std::max(high, face.corners[i][1]);
+    }
+    faces.push_back(face);
   }
 
   /// Into a frame of the drawing, in pixels.
@@ -67,7 +86,7 @@ struct Scene {
     std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return a.depth < b.depth; });
     const double cx = x + width / 2 - scale * (left + right) / 2,
                  cy = y + height / 2 + scale * (low + high) / 2;
-    std::string out = "<g stroke-width='0.6' stroke-linejoin='round'>\n";
+    std::string out = "<g stroke-width='1.1' stroke-linejoin='round'>\n";
     for (const Face& face : faces) {
       const std::string rgb = fmt::format("#{:02x}{:02x}{:02x}", face.rgb[0], face.rgb[1], face.rgb[2]);
       out += "<path d='";
@@ -91,6 +110,10 @@ struct Scene {
 
 }  // namespace
 
+std::array<double, 3> piece_colour(std::size_t piece) {
+  return kColours[piece % kColours.size()];
+}
+
 std::string picture(const std::string& title, const std::vector<DrawnPiece>& pieces) {
   Scene together, apart;
   double size = 0;
@@ -98,6 +121,7 @@ std::string picture(const std::string& title, const std::vector<DrawnPiece>& pie
     const Box box = bounds(piece.mesh);
     size = std::max(size, (box.high - box.low).norm());
   }
+  together.longest_edge_mm = apart.longest_edge_mm = size / 24;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     together.add(pieces[i], i, Vector(0, 0, 0));
     apart.add(pieces[i], i, i == 0 ? Vector(0, 0, 0) : Vector(0.42 * size * pieces[i].frame.normal()));
@@ -115,7 +139,7 @@ std::string picture(const std::string& title, const std::vector<DrawnPiece>& pie
   out += together.draw(40, 95, 540, 450, scale) + apart.draw(620, 95, 540, 450, scale);
   double x = 40;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
-    const auto& c = kColours[i % kColours.size()];
+    const auto c = piece_colour(i);
     out += fmt::format(
         "<rect x='{:.0f}' y='577' width='14' height='14' rx='3' fill='#{:02x}{:02x}{:02x}'/>\n", x,
         static_cast<int>(255 * c[0]), static_cast<int>(255 * c[1]), static_cast<int>(255 * c[2]));

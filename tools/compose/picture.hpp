@@ -1,6 +1,7 @@
 #pragma once
 // The pieces as a person sees them: together, and taken apart along their print directions.
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,9 @@ struct DrawnPiece {
   PieceFrame frame;
   std::string caption;
 };
+
+/// Red, green, blue, 0..1: the same in all pictures of a part.
+std::array<double, 3> piece_colour(std::size_t piece);
 
 /// An SVG, 1200 x 640.
 std::string picture(const std::string& title, const std::vector<DrawnPiece>& pieces);

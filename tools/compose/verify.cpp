@@ -13,6 +13,7 @@
 #include "gateway/jobs/machine_setup.hpp"
 #include "gateway/kinematics/kinematics.hpp"
 #include "gateway/machine/description/machine_description.hpp"
+#include "tools/compose/tool_path.hpp"
 
 namespace kinebus::compose {
 namespace {
@@ -22,9 +23,6 @@ using canonical::Pose;
 /// Where the tool points away from the part, in part coordinates.
 Vector tool_up(double a_rad, double c_rad) {
   return {std::sin(c_rad) * std::sin(a_rad), std::cos(c_rad) * std::sin(a_rad), std::cos(a_rad)};
-}
-Vector tip_of(const Pose& pose) {
-  return {pose[0], pose[1], pose[2]};
 }
 
 /// Follows the canonical commands of a job and looks at the tool's places on the way.
@@ -69,28 +67,16 @@ class Sweep {
   }
 
   void look_along(std::uint32_t line, int piece, const Pose& target, const canonical::Arc* arc) {
-    const double length = arc != nullptr ? arc->sweep_rad * (tip_of(here_) - centre(*arc)).norm()
-                                         : (tip_of(target) - tip_of(here_)).norm();
+    const Vector from = tip_of(here_), to = tip_of(target);
+    const double length = length_of(from, to, arc);
     const double turn = std::max(std::abs(target[3] - here_[3]), std::abs(target[4] - here_[4]));
     const int steps = std::max({1, static_cast<int>(std::ceil(length / options_.step_mm)),
                                 static_cast<int>(std::ceil(turn / options_.step_rad))});
     for (int i = 1; i <= steps; ++i) {
       const double share = static_cast<double>(i) / steps;
-      Vector tip = tip_of(here_) + share * (tip_of(target) - tip_of(here_));
-      if (arc != nullptr) tip = on_arc(*arc, target, share);
-      look(line, piece, tip, here_[3] + share * (target[3] - here_[3]),
+      look(line, piece, tip_between(from, to, arc, share), here_[3] + share * (target[3] - here_[3]),
            here_[4] + share * (target[4] - here_[4]));
     }
-  }
-
-  static Vector centre(const canonical::Arc& arc) {
-    return {arc.centre_mm[0], arc.centre_mm[1], arc.centre_mm[2]};
-  }
-  Vector on_arc(const canonical::Arc& arc, const Pose& target, double share) const {
-    const Vector axis(arc.normal[0], arc.normal[1], arc.normal[2]);
-    const Vector spoke = tip_of(here_) - centre(arc);
-    const Vector turned = Eigen::AngleAxisd(share * arc.sweep_rad, axis) * spoke;
-    return centre(arc) + turned + share * axis * axis.dot(tip_of(target) - tip_of(here_));
   }
 
   void look(std::uint32_t line, int piece, const Vector& tip, double a, double c) {

@@ -52,8 +52,8 @@ void write(const std::string& path, const auto& what) {
 }
 
 void print_scan(const Scan& s) {
-  std::printf("poses checked        %llu in %.2f s on %d threads\n", static_cast<unsigned long long>(s.poses),
-              s.seconds, s.options.threads);
+  std::printf("poses checked        %llu in %.2f s on %d threads, %.2f s of computing\n",
+              static_cast<unsigned long long>(s.poses), s.seconds, s.options.threads, s.cpu_seconds);
   constexpr const char* kWhy[] = {"out of reach", "carriage travel", "leg angle",     "clearance",
                                   "pose limit",   "conditioning",    "no convergence"};
   for (std::size_t k = 0; k < std::size(kWhy); ++k)
@@ -153,11 +153,12 @@ int run(const Arguments& a) {
     const Scan coarse = scan(**kinematics, room, wide);
     char subtitle[256];
     const Cylinder always = largest_cylinder(fine, -1);
-    std::snprintf(subtitle, sizeof subtitle,
-                  "%g mm and %g deg: %.1f million poses in %.1f s.  At every tilt: a cylinder of %.0f mm by "
-                  "%.0f mm (white).",
-                  a.step_mm, a.tilt_step_deg, static_cast<double>(fine.poses) * 1e-6, fine.seconds,
-                  2 * always.radius_mm, always.z_max_mm - always.z_min_mm);
+    std::snprintf(
+        subtitle, sizeof subtitle,
+        "%g mm and %g deg: %.1f million poses. Colour: share of the tilts allowed. Allowed at every "
+        "tilt: a cylinder of %.0f mm by %.0f mm (white).",
+        a.step_mm, a.tilt_step_deg, static_cast<double>(fine.poses) * 1e-6, 2 * always.radius_mm,
+        always.z_max_mm - always.z_min_mm);
     write(a.svg, [&](std::ostream& out) {
       out << draw_workspace(fine, coarse, {"Workspace of " + machine.name, subtitle});
     });

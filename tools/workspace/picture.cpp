@@ -208,8 +208,9 @@ void curves(std::string& out, const Scan& s, const Panel& p) {
   };
   curve(reached, "#29788e");
   curve(inscribed, "#e07b39");
-  label(out, p.x + p.w - 4, p.y + 14, "reached", 13, "end", "style='fill:#29788e'");
-  label(out, p.x + p.w - 4, p.y + 31, "largest upright cylinder in it", 13, "end", "style='fill:#e07b39'");
+  // Below both curves, which start well above the axis.
+  label(out, p.x + 10, p.y + p.h - 28, "reached", 13, "start", "style='fill:#29788e'");
+  label(out, p.x + 10, p.y + p.h - 10, "largest upright cylinder in it", 13, "start", "style='fill:#e07b39'");
 }
 
 void colour_bar(std::string& out, double x, double y, int tilts) {

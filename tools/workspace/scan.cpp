@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <numbers>
 #include <thread>
 
@@ -81,6 +82,7 @@ void scan_plane(const Kinematics& kinematics, Scan& s, int plane, std::array<std
 
 Scan scan(const Kinematics& kinematics, const Room& room, const ScanOptions& options) {
   const auto began = std::chrono::steady_clock::now();
+  const std::clock_t cpu_began = std::clock();
   Scan s;
   s.room = room;
   s.options = options;
@@ -109,6 +111,7 @@ Scan scan(const Kinematics& kinematics, const Room& room, const ScanOptions& opt
   for (const auto& own : refused)
     for (std::size_t k = 0; k < own.size(); ++k) s.refused[k] += own[k];
   s.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  s.cpu_seconds = static_cast<double>(std::clock() - cpu_began) / CLOCKS_PER_SEC;
   return s;
 }
 

@@ -36,7 +36,8 @@ struct Scan {
   std::vector<float> worst_condition;
   std::array<std::uint64_t, 8> refused{};  ///< poses by PoseError::Kind
   std::uint64_t poses = 0;
-  double seconds = 0;
+  double seconds = 0;      ///< of the clock on the wall
+  double cpu_seconds = 0;  ///< of all threads
 
   std::size_t cell(int plane, int ray, int radius) const {
     return (static_cast<std::size_t>(plane) * static_cast<std::size_t>(rays) +

@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "gateway/kinematics/m4.hpp"
-#include "tools/papers/numbers.hpp"
+#include "tools/paper_numbers/numbers.hpp"
 
 namespace kinebus::papers {
 namespace {

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "tools/papers/numbers.hpp"
+#include "tools/paper_numbers/numbers.hpp"
 
 namespace kinebus::papers {
 
@@ -59,10 +59,6 @@ int run(const std::string& paper, const std::string& folder) {
   int wrong = 0;
   const bool all = paper == "all";
   if (all || paper == "m1") wrong += m1(folder);
-  if (all || paper == "m2" || paper == "m3")
-    std::printf(
-        "\nM2, M3: M1's mechanism; machine files m2.toml and m3.toml, kinematics as M1. Their part chain is "
-        "kinebus-compose.\n");
   if (all || paper == "m4") wrong += m4(folder);
   if (all || paper == "m5") wrong += m5(folder);
   std::printf("\n%s\n", wrong == 0 ? "all numbers agree" : "SOME NUMBERS DIFFER");
@@ -76,8 +72,8 @@ int main(int argc, char** argv) {
   try {
     std::string paper = "all", folder;
     CLI::App app("The papers' numbers beside ours");
-    app.add_option("paper", paper, "m1, m2, m3, m4, m5 or all (default)")
-        ->check(CLI::IsMember({"m1", "m2", "m3", "m4", "m5", "all"}));
+    app.add_option("paper", paper, "m1, m4, m5 or all (default); M2 and M3: tools/papers")
+        ->check(CLI::IsMember({"m1", "m4", "m5", "all"}));
     app.add_option("--pictures", folder, "Write pictures (SVG) into this folder");
     CLI11_PARSE(app, argc, argv);
     return kinebus::papers::run(paper, folder);

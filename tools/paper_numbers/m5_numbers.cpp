@@ -13,7 +13,7 @@
 #include "tools/calibrate/readings.hpp"
 #include "tools/calibrate/rehearsal.hpp"
 #include "tools/calibrate/residual_plot.hpp"
-#include "tools/papers/numbers.hpp"
+#include "tools/paper_numbers/numbers.hpp"
 #include "vcan_tests/sim/job_generator.hpp"
 #include "vcan_tests/sim/simulate.hpp"
 
@@ -49,8 +49,8 @@ void rails(Table& t, const std::string& folder) {
     write_picture(
         folder, "m5-rails.svg",
         draw_residuals("Rail errors of M5, forth and back",
-                       "Measured less commanded, synthesised with the paper's factors, 30 um of backlash and "
-                       "10 um of noise; and what one fit leaves.",
+                       "Measured less commanded, synthesised with the paper's factors, 30 µm of backlash and "
+                       "10 µm of noise; and what one fit leaves.",
                        panels));
 }
 
@@ -98,14 +98,27 @@ void straightness(Table& t, const std::string& folder) {
     t.note(words);
   }
   if (folder.empty()) return;
-  ResidualPanel panel{"All traverses", "reading", {}, fit.before_mm, fit.after_mm};
-  for (std::size_t k = 0; k < fit.before_mm.size(); ++k) panel.x.push_back(static_cast<double>(k + 1));
+  std::vector<ResidualPanel> panels;
+  for (const std::size_t axis : {std::size_t{0}, std::size_t{1}})
+    for (const std::size_t along : {std::size_t{2}, 1 - axis}) {
+      const std::string name = axis == 0 ? "X" : "Y";
+      ResidualPanel panel{
+          (along == 2 ? "Height along " : "Sideways along ") + name, name + ", mm", {}, {}, {}};
+      for (std::size_t k = 0; k < readings.size(); ++k) {
+        if ((readings[k].series - 1) / 2 % 2 != static_cast<int>(axis) || readings[k].direction[along] == 0)
+          continue;
+        panel.x.push_back(readings[k].commanded[axis]);
+        panel.before_mm.push_back(fit.before_mm[k]);
+        panel.after_mm.push_back(fit.after_mm[k]);
+      }
+      panels.push_back(std::move(panel));
+    }
   write_picture(folder, "m5-straightness.svg",
                 draw_residuals(
                     "Straightness of M5's X and Y motion",
-                    "Dial gauge readings (1 um) along X and Y at three tilts; switch offsets and the table's "
+                    "Dial gauge readings (1 µm) along X and Y at three tilts; switch offsets and the table's "
                     "tilt in one fit.",
-                    {panel}));
+                    panels));
 }
 
 /// Where the true tool is while a job is printed on the whole simulated machine.
