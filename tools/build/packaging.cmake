@@ -1,4 +1,5 @@
-# Debian packages by `cpack -G DEB`: kinebus-daemon and kinebus-cli. Components are named where targets are installed.
+# Debian packages by `cpack -G DEB`: kinebus-daemon and kinebus-cli (with workspace and calibration), and, where their
+# libraries are installed, kinebus-gui and kinebus-compose. Components are named where targets are installed.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME kinebus)
 set(CPACK_PACKAGE_CONTACT "The Kinebus developers <kinebus@localhost>")
@@ -11,6 +12,15 @@ if(TARGET kinebus-gui)
   set(CPACK_COMPONENT_GUI_DESCRIPTION
     "Kinebus desktop program\n Sends jobs to a Kinebus gateway over USB or a local socket and shows the machine as it prints.")
   set(CPACK_DEBIAN_GUI_PACKAGE_RECOMMENDS "kinebus-daemon, fonts-noto-core | fonts-dejavu-core")
+endif()
+if(TARGET kinebus-compose)
+  # A package of its own: what it links of CGAL is GPL-3, so this program as a whole is; Kinebus itself is MIT.
+  list(APPEND CPACK_COMPONENTS_ALL compose)
+  set(CPACK_DEBIAN_COMPOSE_PACKAGE_NAME kinebus-compose)
+  set(CPACK_COMPONENT_COMPOSE_DESCRIPTION
+    "Kinebus part composer\n Cuts a part so that every piece prints without support, slices the pieces with PrusaSlicer and joins them into one five-axis job. Contains parts of CGAL: distributed under the GPL, version 3.")
+  set(CPACK_DEBIAN_COMPOSE_PACKAGE_RECOMMENDS prusa-slicer)
+  install(FILES ${PROJECT_SOURCE_DIR}/tools/compose/copyright DESTINATION share/doc/kinebus-compose COMPONENT compose)
 endif()
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION misc)
@@ -29,5 +39,5 @@ set(CPACK_DEBIAN_DAEMON_PACKAGE_CONTROL_EXTRA
   "${PROJECT_SOURCE_DIR}/gateway/io/package/postinst;${PROJECT_SOURCE_DIR}/gateway/io/package/prerm;${PROJECT_SOURCE_DIR}/gateway/io/package/conffiles")
 set(CPACK_DEBIAN_CLI_PACKAGE_NAME kinebus-cli)
 set(CPACK_COMPONENT_CLI_DESCRIPTION
-  "Kinebus command line\n Commands the gateway daemon, plans and simulates jobs, and offers virtual nodes.")
+  "Kinebus command line\n Commands the gateway daemon, plans and simulates jobs, offers virtual nodes, scans workspaces and calibrates machines.")
 include(CPack)

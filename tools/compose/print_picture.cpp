@@ -25,7 +25,7 @@ const Vector kLight = Vector(0.35, -0.75, 0.85).normalized();
 constexpr double kPanelHeight = 470, kTop = 108, kMargin = 36, kGap = 20, kWidth = 1200;
 constexpr double kChunk_mm = 2.5;  // strands are sorted by depth in pieces of this length
 // The nozzle's cone is drawn solid; what is above it as a shadow of itself, for it would hide the tip.
-constexpr double kSolidNozzle_mm = 12, kDrawnNozzle_mm = 34;
+constexpr int kSolidNozzle_mm = 12, kDrawnNozzle_mm = 34;
 constexpr int kLayersInside = 3;  // of the open top: there one sees into the piece
 constexpr double kTableThickness_mm = 5;
 
@@ -98,7 +98,7 @@ void draw_table(std::string& out, const Panel& panel, const Moment& now, double 
   for (int k = 8; k >= 1; --k)
     path(out, panel, now, radius, -kTableThickness_mm * k / 8, true, "fill='#aeb7c0' stroke='#aeb7c0'");
   path(out, panel, now, radius, 0, true, "fill='#eceff2' stroke='#96a1ab' stroke-width='1.2'");
-  for (double r = 10; r < radius - 1; r += 10)
+  for (int r = 10; r < radius - 1; r += 10)
     path(out, panel, now, r, 0, false, "fill='none' stroke='#d3d9de' stroke-width='0.8'");
   const auto middle = panel.at(now.machine({0, 0, 0})), x = panel.at(now.machine({radius, 0, 0})),
              y = panel.at(now.machine({0, radius, 0}));
@@ -117,11 +117,11 @@ void draw_nozzle(std::string& out, const Panel& panel, const Nozzle& nozzle) {
                        r * flat, style);
   };
   out += "<g fill='url(#metal)'>\n";
-  for (double h = 0; h <= kSolidNozzle_mm; h += 0.25) ring(h, "");
+  for (int quarter = 0; quarter <= 4 * kSolidNozzle_mm; ++quarter) ring(quarter / 4.0, "");
   out += "</g>\n";
   ring(kSolidNozzle_mm, "fill='#a98450'");
   out += "<g fill='#8c97a3' opacity='0.16'>\n";
-  for (double h = kSolidNozzle_mm; h <= kDrawnNozzle_mm; h += 0.5) ring(h, "");
+  for (int half = 2 * kSolidNozzle_mm; half <= 2 * kDrawnNozzle_mm; ++half) ring(half / 2.0, "");
   out += "</g>\n";
   ring(kDrawnNozzle_mm, "fill='none' stroke='#8c97a3' stroke-width='1' stroke-opacity='0.7'");
 }
