@@ -59,10 +59,10 @@ void DemoGateway::start() {
   // The demo never outlives the program, however that ends.
   process_.setChildProcessModifier([] { ::prctl(PR_SET_PDEATHSIG, SIGTERM); });
   process_.setWorkingDirectory(folder_.path());
-  process_.start(daemon, {QStringLiteral("--bus"), QStringLiteral("inproc"), QStringLiteral("--no-realtime"),
-                          QStringLiteral("--socket"), socket_path(), QStringLiteral("--jobs"),
-                          folder_.filePath(QStringLiteral("jobs")), QStringLiteral("--log-level"),
-                          QStringLiteral("warn")});
+  // In real time where the user may: on a busy computer the machine would be held up for want of SYNC.
+  process_.start(daemon, {QStringLiteral("--bus"), QStringLiteral("inproc"), QStringLiteral("--socket"),
+                          socket_path(), QStringLiteral("--jobs"), folder_.filePath(QStringLiteral("jobs")),
+                          QStringLiteral("--log-level"), QStringLiteral("warn")});
   look_for_socket();
 }
 

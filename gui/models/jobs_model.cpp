@@ -155,9 +155,9 @@ QVariant JobsModel::job_text(const joblink::Job& job, int column) const {
     case kCheck:
       if (!job.has_preflight()) return tr("Not checked");
       if (job.preflight().errors() > 0)
-        return tr("%n error(s)", nullptr, static_cast<int>(job.preflight().errors()));
+        return tr("%Ln error(s)", nullptr, static_cast<int>(job.preflight().errors()));
       if (job.preflight().warnings() > 0)
-        return tr("%n warning(s)", nullptr, static_cast<int>(job.preflight().warnings()));
+        return tr("%Ln warning(s)", nullptr, static_cast<int>(job.preflight().warnings()));
       return tr("Fine");
     case kEstimate:
       if (!job.has_preflight() || !(job.preflight().motion_s() > 0)) return QStringLiteral("–");

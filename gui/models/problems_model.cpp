@@ -2,6 +2,7 @@
 
 #include <QLocale>
 
+#include "gui/models/problem_words.hpp"
 #include "gui/session/session.hpp"
 
 namespace kinebus::gui {
@@ -16,7 +17,7 @@ QVector<ShownProblem> ProblemsModel::of(const joblink::PreflightResult& result) 
   QVector<ShownProblem> list;
   for (const auto& p : result.problems())
     list.push_back({p.error(), static_cast<int>(p.line()), static_cast<int>(p.column()),
-                    QString::fromStdString(p.words())});
+                    ProblemWords::translated(QString::fromStdString(p.words()))});
   return list;
 }
 

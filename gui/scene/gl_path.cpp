@@ -27,7 +27,10 @@ void GlPath::set(QOpenGLExtraFunctions& gl, std::shared_ptr<const ScenePath> sce
     buffer.allocate(static_cast<int>(bytes));
     if (bytes > 0) tasks_.push_back({&buffer, static_cast<const char*>(data), bytes, 0});
   };
-  indices_.assign(kPathLevels + scene_->levels.travel.size(), QOpenGLBuffer(QOpenGLBuffer::IndexBuffer));
+  // Each made by itself: copies of a QOpenGLBuffer are the same buffer.
+  indices_.reserve(kPathLevels + scene_->levels.travel.size());
+  while (indices_.size() < kPathLevels + scene_->levels.travel.size())
+    indices_.emplace_back(QOpenGLBuffer::IndexBuffer);
   const auto& points = scene_->shades.vertices;
   add(vertices_, points.data(), points.size() * sizeof(PathVertex));
   gl.glEnableVertexAttribArray(0);

@@ -139,9 +139,13 @@ void pose_m1(const MachineModel& m, const PartPose& pose, const std::vector<doub
   for (const auto& leg : m.legs) {
     QMatrix4x4 arm = platform;
     const Vec3& b = leg.attachment_mm;
-    arm.translate(0, static_cast<float>(b[1]), static_cast<float>(b[2]) - 1);
+    arm.translate(0, static_cast<float>(b[1]), static_cast<float>(b[2]) - 17);
     arm.scale(static_cast<float>(2 * std::abs(b[0]) + 46), 20, 14);
     build.add(Body::kBox, Finish::kPlatform, arm);
+    QMatrix4x4 post = platform;
+    post.translate(static_cast<float>(b[0]), static_cast<float>(b[1]), static_cast<float>(b[2]) - 6);
+    post.scale(46, 14, 12);
+    build.add(Body::kBox, Finish::kPlatform, post);
   }
   QMatrix4x4 plate = platform;
   plate.translate(0, 0, -14);

@@ -270,7 +270,8 @@ void SceneRenderer::draw_reach() {
   const QMatrix4x4 clip = world_clip_ * content_.figure.part_frame;
   const QVector4D colour(content_.colours.reach, 0.55F);
   gl_.glEnable(GL_BLEND);
-  gl_.glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  // The picture stays opaque.
+  gl_.glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   const auto low = static_cast<float>(std::max(0.0, m.z_mm.min)), high = static_cast<float>(m.z_mm.max);
   std::vector<QVector3D> uprights;
   if (m.round()) {

@@ -55,14 +55,15 @@ void ring(Writer& w, double height, double z, double offset, int pieces, double 
 
 }  // namespace
 
-QByteArray vase_job(int layers) {
+QByteArray vase_job(int layers, int walls, double layer_mm) {
   Writer w;
   for (const char* text : {"; vase", "G21", "G90", "M82", "M140 S40", "M109 S180", "G92 E0", "M106 S200"})
     w.line(text);
   for (int layer = 0; layer < layers; ++layer) {
-    const double z = 0.25 * (layer + 1), height = static_cast<double>(layer) / 120;
-    for (int k = 0; k < 3; ++k) ring(w, height, z, 0.45 * (2 - k), 80, k == 2 ? 3600 : 6600);
-    if (layer >= 4) continue;
+    const double z = layer_mm * (layer + 1), height = z / 30;
+    for (int k = 1; k <= walls; ++k)
+      ring(w, height, z, 0.45 * (walls - k), 80, k == walls && walls > 1 ? 3600 : 6600);
+    if (z > 1) continue;
     int row = 0;
     for (double y = -30; y <= 30; y += 1.2) {
       const double x = std::sqrt(std::max(0.0, 31.0 * 31 - y * y)) * (++row % 2 == 0 ? 1 : -1);

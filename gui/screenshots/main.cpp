@@ -47,6 +47,8 @@ class Photographer {
   void all(MainWindow::Page page, const QString& name, const std::function<void()>& prepare = {}) {
     for (const auto& choice : Language::choices())
       for (const bool dark : {false, true}) {
+        // The dark theme does not depend on the language: one that reads from the left, one from the right.
+        if (dark && choice.code == QLatin1String("tr")) continue;
         window_.set_theme(dark);
         window_.set_language(choice.code);
         window_.show_page(page);
@@ -100,9 +102,10 @@ int run(int argc, char** argv) {
   const auto state = [&] { return desk.session.status().state(); };
   wait("the demo machine answers",
        [&] { return desk.session.connected() && desk.session.machine().joints_size() > 0; });
-  window.jobs_page().upload({write_file(scratch.path(), QStringLiteral("vase.gcode"), vase_job(120)),
-                             write_file(scratch.path(), QStringLiteral("bracket-v2.gcode"), vase_job(24)),
-                             write_file(scratch.path(), QStringLiteral("too-wide.gcode"), wrong_job())});
+  window.jobs_page().upload(
+      {write_file(scratch.path(), QStringLiteral("vase.gcode"), vase_job(44, 1, 0.7)),
+       write_file(scratch.path(), QStringLiteral("bracket-v2.gcode"), vase_job(24, 3, 0.25)),
+       write_file(scratch.path(), QStringLiteral("too-wide.gcode"), wrong_job())});
   wait("three jobs are stored", [&] { return desk.session.jobs().jobs_size() == 3; });
   bool checked = false;
   desk.session.check_job(QStringLiteral("bracket-v2.gcode"), [&](const auto&) { checked = true; });
@@ -131,8 +134,17 @@ int run(int argc, char** argv) {
 
   wait("still connected", [&] { return desk.session.connected(); });
   desk.session.start_job(QStringLiteral("vase.gcode"));
-  wait("a job prints",
-       [&] { return state() == joblink::STATE_RUNNING && desk.session.status().progress() > 0.1; });
+  // A computer that is too busy for the demo holds it up: the job goes on from its place.
+  QDeadlineTimer again(0);
+  const auto goes_on = [&] {
+    if (again.hasExpired()) {
+      if (state() == joblink::STATE_STOPPED) desk.session.clear();
+      if (state() == joblink::STATE_HELD) desk.session.resume();
+      again.setRemainingTime(1000);
+    }
+    return state() == joblink::STATE_RUNNING;
+  };
+  wait("a job prints", [&] { return goes_on() && desk.session.status().progress() > 0.3; });
   wait("its path is shown",
        [&] { return desk.path.scene() != nullptr && desk.path.name() == QStringLiteral("vase.gcode"); });
   window.view_page().scene().look(SceneView::Look::kDiagonal);

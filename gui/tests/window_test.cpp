@@ -108,10 +108,12 @@ TEST_F(WindowTest, PersianRunsFromRightToLeftAndBack) {
   show_connected();
   window->set_language(QStringLiteral("fa"));
   EXPECT_EQ(window->layoutDirection(), Qt::RightToLeft);
-  EXPECT_TRUE(wait_until([&] { return window->top_bar().stop_button().text() == QStringLiteral("ایست"); }));
+  EXPECT_TRUE(
+      wait_until([&] { return window->top_bar().stop_button().text().trimmed() == QStringLiteral("ایست"); }));
   window->set_language(QStringLiteral("tr"));
   EXPECT_EQ(window->layoutDirection(), Qt::LeftToRight);
-  EXPECT_TRUE(wait_until([&] { return window->top_bar().stop_button().text() == QStringLiteral("DUR"); }));
+  EXPECT_TRUE(
+      wait_until([&] { return window->top_bar().stop_button().text().trimmed() == QStringLiteral("DUR"); }));
 }
 
 TEST_F(WindowTest, StopIsOnEveryPageAndReachesTheGateway) {
@@ -158,7 +160,7 @@ TEST_F(WindowTest, LayoutIsRemembered) {
 }
 
 TEST_F(WindowTest, FindingOfTheCheckLeadsToItsPlace) {
-  gateway.jobs["part.gcode"] = vase_job(3).toStdString();
+  gateway.jobs["part.gcode"] = vase_job(3, 3, 0.25).toStdString();
   auto& problem = *gateway.preflight.add_problems();
   problem.set_error(true);
   problem.set_line(120);
@@ -172,6 +174,48 @@ TEST_F(WindowTest, FindingOfTheCheckLeadsToItsPlace) {
   ASSERT_TRUE(wait_until([&] { return window->view_page().scene().content().marked_vertex != UINT32_MAX; }));
   const auto vertex = window->view_page().scene().content().marked_vertex;
   EXPECT_EQ(desk.path.scene()->path.lines[vertex], 120u);
+}
+
+TEST_F(WindowTest, TheJobsLinesAreSeen) {
+  show_connected();
+  window->show_page(MainWindow::kView);
+  QTemporaryDir folder;
+  QFile file(folder.filePath(QStringLiteral("floor.gcode")));
+  ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+  file.write(vase_job(1, 1, 0.25));
+  file.close();
+  SceneView& scene = window->view_page().scene();
+  ASSERT_TRUE(wait_until([&] { return scene.frames() > 0; }));
+  scene.content().show_machine = scene.content().show_reach = false;
+  desk.path.show_file(file.fileName());
+  ASSERT_TRUE(wait_until([&] { return desk.path.scene() != nullptr && !scene.renderer().copying(); }));
+  scene.look(SceneView::Look::kTop);
+  scene.fit_part();
+  const auto picture = [&](std::uint32_t done) {
+    scene.content().done_vertex = done;
+    scene.redraw();
+    EXPECT_TRUE(wait_until([&] { return scene.at_rest(); }));
+    return scene.grabFramebuffer();
+  };
+  scene.content().show_remaining = false;
+  const QImage with = picture(UINT32_MAX), without = picture(0);
+  int seen = 0;
+  for (int y = 0; y < with.height(); ++y)
+    for (int x = 0; x < with.width(); ++x) seen += with.pixel(x, y) != without.pixel(x, y) ? 1 : 0;
+  // The floor is a disc of radius 31 mm, a third of it beads of 0.42 mm, in a picture of about 90 mm by 130
+  // mm.
+  EXPECT_GT(seen, with.width() * with.height() / 25);
+}
+
+TEST_F(WindowTest, LeavingTheGatewayEmptiesEveryPage) {
+  show_connected();
+  ASSERT_TRUE(wait_until([&] { return desk.session.machine().joints_size() > 0; }));
+  desk.session.disconnect_from_gateway();
+  EXPECT_EQ(window->page(), MainWindow::kConnect);
+  for (int page = 0; page < MainWindow::kPages; ++page) {
+    window->show_page(static_cast<MainWindow::Page>(page));
+    EXPECT_FALSE(window->grab().isNull());
+  }
 }
 
 TEST_F(WindowTest, MillionLineJobIsShownWithoutBlockingTheWindow) {

@@ -4,54 +4,54 @@
     <context>
         <name>kinebus::gui::JobsModel</name>
         <message numerus="yes">
-            <source>%n error(s)</source>
+            <source>%Ln error(s)</source>
             <translation>
-                <numerusform>%n error</numerusform>
-                <numerusform>%n errors</numerusform>
+                <numerusform>%Ln error</numerusform>
+                <numerusform>%Ln errors</numerusform>
             </translation>
         </message>
         <message numerus="yes">
-            <source>%n warning(s)</source>
+            <source>%Ln warning(s)</source>
             <translation>
-                <numerusform>%n warning</numerusform>
-                <numerusform>%n warnings</numerusform>
+                <numerusform>%Ln warning</numerusform>
+                <numerusform>%Ln warnings</numerusform>
             </translation>
         </message>
     </context>
     <context>
         <name>kinebus::gui::JobsPage</name>
         <message numerus="yes">
-            <source>%1: %n error(s). It will not start.</source>
+            <source>%1: %Ln error(s). It will not start.</source>
             <translation>
-                <numerusform>%1: %n error. It will not start.</numerusform>
-                <numerusform>%1: %n errors. It will not start.</numerusform>
+                <numerusform>%1: %Ln error. It will not start.</numerusform>
+                <numerusform>%1: %Ln errors. It will not start.</numerusform>
             </translation>
         </message>
         <message numerus="yes">
-            <source>%1: it can be printed, with %n warning(s). It takes %2.</source>
+            <source>%1: it can be printed, with %Ln warning(s). It takes %2.</source>
             <translation>
-                <numerusform>%1: it can be printed, with %n warning. It takes %2.</numerusform>
-                <numerusform>%1: it can be printed, with %n warnings. It takes %2.</numerusform>
+                <numerusform>%1: it can be printed, with %Ln warning. It takes %2.</numerusform>
+                <numerusform>%1: it can be printed, with %Ln warnings. It takes %2.</numerusform>
             </translation>
         </message>
     </context>
     <context>
         <name>kinebus::gui::MachineFileEditor</name>
         <message numerus="yes">
-            <source>%n mistake(s): it cannot be saved.</source>
+            <source>%Ln mistake(s): it cannot be saved.</source>
             <translation>
-                <numerusform>%n mistake: it cannot be saved.</numerusform>
-                <numerusform>%n mistakes: it cannot be saved.</numerusform>
+                <numerusform>%Ln mistake: it cannot be saved.</numerusform>
+                <numerusform>%Ln mistakes: it cannot be saved.</numerusform>
             </translation>
         </message>
     </context>
     <context>
         <name>kinebus::gui::ViewPage</name>
         <message numerus="yes">
-            <source>%n line(s) with expressions are not drawn</source>
+            <source>%Ln line(s) with expressions are not drawn</source>
             <translation>
-                <numerusform>%n line with expressions is not drawn</numerusform>
-                <numerusform>%n lines with expressions are not drawn</numerusform>
+                <numerusform>%Ln line with expressions is not drawn</numerusform>
+                <numerusform>%Ln lines with expressions are not drawn</numerusform>
             </translation>
         </message>
     </context>

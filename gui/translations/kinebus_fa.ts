@@ -734,15 +734,15 @@
             <translation>بررسی نشده</translation>
         </message>
         <message numerus="yes">
-            <source>%n error(s)</source>
+            <source>%Ln error(s)</source>
             <translation>
-                <numerusform>%n خطا</numerusform>
+                <numerusform>%Ln خطا</numerusform>
             </translation>
         </message>
         <message numerus="yes">
-            <source>%n warning(s)</source>
+            <source>%Ln warning(s)</source>
             <translation>
-                <numerusform>%n اخطار</numerusform>
+                <numerusform>%Ln اخطار</numerusform>
             </translation>
         </message>
         <message>
@@ -825,15 +825,15 @@
             <translation>در حال بررسی %1…</translation>
         </message>
         <message numerus="yes">
-            <source>%1: %n error(s). It will not start.</source>
+            <source>%1: %Ln error(s). It will not start.</source>
             <translation>
-                <numerusform>%1: %n خطا. آغاز نخواهد شد.</numerusform>
+                <numerusform>%1: %Ln خطا. آغاز نخواهد شد.</numerusform>
             </translation>
         </message>
         <message numerus="yes">
-            <source>%1: it can be printed, with %n warning(s). It takes %2.</source>
+            <source>%1: it can be printed, with %Ln warning(s). It takes %2.</source>
             <translation>
-                <numerusform>%1: با %n اخطار چاپ‌شدنی است. زمان: %2.</numerusform>
+                <numerusform>%1: با %Ln اخطار چاپ‌شدنی است. زمان: %2.</numerusform>
             </translation>
         </message>
         <message>
@@ -1015,9 +1015,9 @@
             <translation>پرونده درست است.</translation>
         </message>
         <message numerus="yes">
-            <source>%n mistake(s): it cannot be saved.</source>
+            <source>%Ln mistake(s): it cannot be saved.</source>
             <translation>
-                <numerusform>%n اشتباه: ذخیره نمی‌شود.</numerusform>
+                <numerusform>%Ln اشتباه: ذخیره نمی‌شود.</numerusform>
             </translation>
         </message>
     </context>
@@ -1479,9 +1479,9 @@
             <translation>%1 · %2 خط · %3 لایه · %4 متر مسیر</translation>
         </message>
         <message numerus="yes">
-            <source>%n line(s) with expressions are not drawn</source>
+            <source>%Ln line(s) with expressions are not drawn</source>
             <translation>
-                <numerusform>%n خط دارای عبارت رسم نشد</numerusform>
+                <numerusform>%Ln خط دارای عبارت رسم نشد</numerusform>
             </translation>
         </message>
         <message>
@@ -1493,4 +1493,67 @@
             <translation>%1 mm</translation>
         </message>
     </context>
+<context>
+    <name>ProblemWords</name>
+    <message>
+        <source>%1 is %2 outside the workspace</source>
+        <translation>%1 به اندازهٔ %2 بیرون از فضای کاری است</translation>
+    </message>
+    <message>
+        <source>%1: out of reach, the leg is %2 too short</source>
+        <translation>%1: دور از دسترس، پایه %2 کوتاه است</translation>
+    </message>
+    <message>
+        <source>%1: would be %2 beyond its travel</source>
+        <translation>%1: %2 فراتر از بازهٔ حرکتش می‌رود</translation>
+    </message>
+    <message>
+        <source>%1: the leg leans %2 too far from its rail</source>
+        <translation>%1: پایه %2 بیش از اندازه از ریل کج می‌شود</translation>
+    </message>
+    <message>
+        <source>%1: leg, rail and platform come %2 too near to each other</source>
+        <translation>%1: پایه، ریل و سکو %2 بیش از اندازه به هم نزدیک می‌شوند</translation>
+    </message>
+    <message>
+        <source>too near to a singular pose: condition number %1</source>
+        <translation>بیش از اندازه نزدیک به حالت تکین: عدد شرطی %1</translation>
+    </message>
+    <message>
+        <source>filament is fed before the job has set a hotend temperature (M104)</source>
+        <translation>پیش از تعیین دمای نازل (M104) فیلامنت رانده می‌شود</translation>
+    </message>
+    <message>
+        <source>filament is fed with the hotend at %1 °C; at least %2 °C is needed</source>
+        <translation>فیلامنت با نازل %1 °C رانده می‌شود؛ دست‌کم %2 °C لازم است</translation>
+    </message>
+    <message>
+        <source>M112 stops the machine here</source>
+        <translation>M112 ماشین را اینجا می‌ایستاند</translation>
+    </message>
+    <message>
+        <source>settings are kept in the machine file: M500 to M503 do nothing in a job</source>
+        <translation>تنظیم‌ها در پروندهٔ ماشین هستند: M500 تا M503 در کار بی‌اثرند</translation>
+    </message>
+    <message>
+        <source>this machine has no heater for the hotend</source>
+        <translation>این ماشین گرم‌کن نازل ندارد</translation>
+    </message>
+    <message>
+        <source>this machine has no heater for the bed</source>
+        <translation>این ماشین گرم‌کن بستر ندارد</translation>
+    </message>
+    <message>
+        <source>hotend temperature %1 °C; allowed are 0 to %2 °C</source>
+        <translation>دمای نازل %1 °C؛ مجاز 0 تا %2 °C</translation>
+    </message>
+    <message>
+        <source>bed temperature %1 °C; allowed are 0 to %2 °C</source>
+        <translation>دمای بستر %1 °C؛ مجاز 0 تا %2 °C</translation>
+    </message>
+    <message>
+        <source>a job cannot manage stored jobs: M20 to M32 belong to a session</source>
+        <translation>کار نمی‌تواند کارهای ذخیره‌شده را مدیریت کند: M20 تا M32 از آنِ نشست است</translation>
+    </message>
+</context>
 </TS>

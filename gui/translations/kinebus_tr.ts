@@ -734,15 +734,15 @@
             <translation>Denetlenmedi</translation>
         </message>
         <message numerus="yes">
-            <source>%n error(s)</source>
+            <source>%Ln error(s)</source>
             <translation>
-                <numerusform>%n hata</numerusform>
+                <numerusform>%Ln hata</numerusform>
             </translation>
         </message>
         <message numerus="yes">
-            <source>%n warning(s)</source>
+            <source>%Ln warning(s)</source>
             <translation>
-                <numerusform>%n uyarı</numerusform>
+                <numerusform>%Ln uyarı</numerusform>
             </translation>
         </message>
         <message>
@@ -825,15 +825,15 @@
             <translation>%1 denetleniyor…</translation>
         </message>
         <message numerus="yes">
-            <source>%1: %n error(s). It will not start.</source>
+            <source>%1: %Ln error(s). It will not start.</source>
             <translation>
-                <numerusform>%1: %n hata. Başlamayacak.</numerusform>
+                <numerusform>%1: %Ln hata. Başlamayacak.</numerusform>
             </translation>
         </message>
         <message numerus="yes">
-            <source>%1: it can be printed, with %n warning(s). It takes %2.</source>
+            <source>%1: it can be printed, with %Ln warning(s). It takes %2.</source>
             <translation>
-                <numerusform>%1: %n uyarıyla basılabilir. Süresi %2.</numerusform>
+                <numerusform>%1: %Ln uyarıyla basılabilir. Süresi %2.</numerusform>
             </translation>
         </message>
         <message>
@@ -1015,9 +1015,9 @@
             <translation>Dosya doğru.</translation>
         </message>
         <message numerus="yes">
-            <source>%n mistake(s): it cannot be saved.</source>
+            <source>%Ln mistake(s): it cannot be saved.</source>
             <translation>
-                <numerusform>%n yanlış: kaydedilemez.</numerusform>
+                <numerusform>%Ln yanlış: kaydedilemez.</numerusform>
             </translation>
         </message>
     </context>
@@ -1479,9 +1479,9 @@
             <translation>%1 · %2 satır · %3 katman · %4 m yol</translation>
         </message>
         <message numerus="yes">
-            <source>%n line(s) with expressions are not drawn</source>
+            <source>%Ln line(s) with expressions are not drawn</source>
             <translation>
-                <numerusform>ifadeli %n satır çizilmedi</numerusform>
+                <numerusform>ifadeli %Ln satır çizilmedi</numerusform>
             </translation>
         </message>
         <message>
@@ -1493,4 +1493,67 @@
             <translation>%1 mm</translation>
         </message>
     </context>
+<context>
+    <name>ProblemWords</name>
+    <message>
+        <source>%1 is %2 outside the workspace</source>
+        <translation>%1 çalışma alanının %2 dışında</translation>
+    </message>
+    <message>
+        <source>%1: out of reach, the leg is %2 too short</source>
+        <translation>%1: erişilemez, bacak %2 kısa kalıyor</translation>
+    </message>
+    <message>
+        <source>%1: would be %2 beyond its travel</source>
+        <translation>%1: hareket sınırını %2 aşar</translation>
+    </message>
+    <message>
+        <source>%1: the leg leans %2 too far from its rail</source>
+        <translation>%1: bacak rayından %2 fazla eğiliyor</translation>
+    </message>
+    <message>
+        <source>%1: leg, rail and platform come %2 too near to each other</source>
+        <translation>%1: bacak, ray ve platform birbirine %2 fazla yaklaşıyor</translation>
+    </message>
+    <message>
+        <source>too near to a singular pose: condition number %1</source>
+        <translation>tekil duruşa çok yakın: koşul sayısı %1</translation>
+    </message>
+    <message>
+        <source>filament is fed before the job has set a hotend temperature (M104)</source>
+        <translation>iş bir nozul sıcaklığı (M104) vermeden filament sürülüyor</translation>
+    </message>
+    <message>
+        <source>filament is fed with the hotend at %1 °C; at least %2 °C is needed</source>
+        <translation>nozul %1 °C iken filament sürülüyor; en az %2 °C gerekir</translation>
+    </message>
+    <message>
+        <source>M112 stops the machine here</source>
+        <translation>M112 makineyi burada durdurur</translation>
+    </message>
+    <message>
+        <source>settings are kept in the machine file: M500 to M503 do nothing in a job</source>
+        <translation>ayarlar makine dosyasında durur: M500–M503 bir işte etkisizdir</translation>
+    </message>
+    <message>
+        <source>this machine has no heater for the hotend</source>
+        <translation>bu makinenin nozul ısıtıcısı yok</translation>
+    </message>
+    <message>
+        <source>this machine has no heater for the bed</source>
+        <translation>bu makinenin tabla ısıtıcısı yok</translation>
+    </message>
+    <message>
+        <source>hotend temperature %1 °C; allowed are 0 to %2 °C</source>
+        <translation>nozul sıcaklığı %1 °C; izin verilen 0–%2 °C</translation>
+    </message>
+    <message>
+        <source>bed temperature %1 °C; allowed are 0 to %2 °C</source>
+        <translation>tabla sıcaklığı %1 °C; izin verilen 0–%2 °C</translation>
+    </message>
+    <message>
+        <source>a job cannot manage stored jobs: M20 to M32 belong to a session</source>
+        <translation>bir iş depolanan işleri yönetemez: M20–M32 oturuma aittir</translation>
+    </message>
+</context>
 </TS>

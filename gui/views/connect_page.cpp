@@ -17,6 +17,7 @@ ConnectPage::ConnectPage(Desk& desk, QWidget* parent) : SpeakingWidget(parent), 
   centred->addWidget(frame, 8);
   centred->addStretch(1);
 
+  column->addStretch(1);
   auto* head = new QHBoxLayout;
   auto* picture = new QLabel(frame);
   picture->setPixmap(QIcon(QStringLiteral(":/icons/kinebus.svg")).pixmap(64, 64));
@@ -71,7 +72,7 @@ ConnectPage::ConnectPage(Desk& desk, QWidget* parent) : SpeakingWidget(parent), 
   problem_->setWordWrap(true);
   problem_->hide();
   column->addWidget(problem_);
-  column->addStretch(1);
+  column->addStretch(2);
 
   auto* scroll = new QScrollArea(this);
   scroll->setWidgetResizable(true);

@@ -237,10 +237,10 @@ void JobsPage::take_selection() {
     const QString time = Format::duration(summary_.motion_s() + summary_.dwell_s());
     result_text_->setText(
         summary_.errors() > 0
-            ? tr("%1: %n error(s). It will not start.", nullptr, static_cast<int>(summary_.errors()))
+            ? tr("%1: %Ln error(s). It will not start.", nullptr, static_cast<int>(summary_.errors()))
                   .arg(Format::isolated(result_job_))
         : summary_.warnings() > 0
-            ? tr("%1: it can be printed, with %n warning(s). It takes %2.", nullptr,
+            ? tr("%1: it can be printed, with %Ln warning(s). It takes %2.", nullptr,
                  static_cast<int>(summary_.warnings()))
                   .arg(Format::isolated(result_job_), time)
             : tr("%1: nothing is wrong. It takes %2.").arg(Format::isolated(result_job_), time));

@@ -64,7 +64,7 @@ QWidget* JogPage::make_pad() {
   pad->setLayoutDirection(Qt::LeftToRight);
   auto* grid = new QGridLayout(pad);
   grid->setContentsMargins(0, 6, 0, 6);
-  grid->setSpacing(8);
+  grid->setSpacing(6);
   const auto key = [](const char* name) { return QString::fromLatin1(name); };
   grid->addWidget(jog_button(Axis::kY, 1, key("up")), 0, 1);
   grid->addWidget(jog_button(Axis::kX, -1, key("left")), 1, 0);

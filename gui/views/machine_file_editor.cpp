@@ -221,7 +221,7 @@ void MachineFileEditor::tell() {
   else if (problems_.rowCount() == 0)
     verdict_->setText(tr("The file is right."));
   else
-    verdict_->setText(tr("%n mistake(s): it cannot be saved.", nullptr, problems_.rowCount()));
+    verdict_->setText(tr("%Ln mistake(s): it cannot be saved.", nullptr, problems_.rowCount()));
 }
 
 }  // namespace kinebus::gui

@@ -101,6 +101,7 @@ MainWindow::MainWindow(Desk& desk) : desk_(desk), banner_timer_(this) {
     auto* shortcut = new QShortcut(QKeySequence(Qt::CTRL | static_cast<Qt::Key>(Qt::Key_1 + i)), this);
     connect(shortcut, &QShortcut::activated, this, [this, i] { show_page(static_cast<Page>(i)); });
   }
+  mirror_docks();
   retranslate();
   take_link();
   show_page(kConnect);
@@ -163,8 +164,23 @@ void MainWindow::retranslate() {
   job_dock_->setWindowTitle(tr("Job"));
 }
 
+void MainWindow::mirror_docks() {
+  const bool mirrored = layoutDirection() == Qt::RightToLeft;
+  if (mirrored == docks_mirrored_) return;
+  docks_mirrored_ = mirrored;
+  for (QDockWidget* dock : {job_dock_, position_dock_}) {
+    if (dock->isFloating()) continue;
+    const bool hidden = dock->isHidden();
+    addDockWidget(
+        dockWidgetArea(dock) == Qt::LeftDockWidgetArea ? Qt::RightDockWidgetArea : Qt::LeftDockWidgetArea,
+        dock);
+    dock->setVisible(!hidden);
+  }
+}
+
 void MainWindow::changeEvent(QEvent* event) {
   if (event->type() == QEvent::LanguageChange) retranslate();
+  if (event->type() == QEvent::LayoutDirectionChange) mirror_docks();
   QMainWindow::changeEvent(event);
 }
 
@@ -212,6 +228,7 @@ void MainWindow::save(QSettings& settings) const {
   settings.setValue(QStringLiteral("window/geometry"), saveGeometry());
   if (!position_dock_->isHidden())
     settings.setValue(QStringLiteral("window/layout"), saveState(kLayoutVersion));
+  settings.setValue(QStringLiteral("window/mirrored"), docks_mirrored_);
   settings.setValue(QStringLiteral("window/page"), static_cast<int>(page()));
   settings.setValue(QStringLiteral("theme/dark"), desk_.theme.dark());
   settings.setValue(QStringLiteral("language"), desk_.language.code());
@@ -225,6 +242,10 @@ void MainWindow::restore(QSettings& settings) {
   restoreState(settings.value(QStringLiteral("window/layout")).toByteArray(), kLayoutVersion);
   position_dock_->setVisible(shown);
   job_dock_->setVisible(shown);
+  // The layout may be one of another language.
+  if (settings.contains(QStringLiteral("window/layout")))
+    docks_mirrored_ = settings.value(QStringLiteral("window/mirrored")).toBool();
+  mirror_docks();
   console_->set_history(settings.value(QStringLiteral("console/history")).toStringList());
   view_->restore(settings);
 }

@@ -48,6 +48,8 @@ class MainWindow : public QMainWindow {
   QWidget* make_navigation();
   QDockWidget* make_dock(const QString& name, QWidget* content);
   void retranslate();
+  /// The panels stand where a line of text ends: right, or left when one reads from right to left.
+  void mirror_docks();
   void take_link();
   void take_refusal(const QString& words);
 
@@ -67,6 +69,7 @@ class MainWindow : public QMainWindow {
   QLabel* banner_text_;
   QTimer banner_timer_;
   bool was_connected_ = false;
+  bool docks_mirrored_ = false;
 };
 
 }  // namespace kinebus::gui

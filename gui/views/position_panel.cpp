@@ -198,6 +198,7 @@ void PositionPanel::take_status() {
   frame_text_->setText(known ? tr("Tool over the part") : tr("Position not known yet"));
   for (int i = 0; i < joints_.size(); ++i) {
     const int number = joints_[i].joint;
+    if (number >= desk_.session.machine().joints_size()) break;  // the gateway was left
     const auto& joint = desk_.session.machine().joints(number);
     const bool here = known && number < s.joints_size();
     const double q = here ? s.joints(number) : 0;

@@ -104,7 +104,7 @@ TopBar::TopBar(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(desk
   connect(&desk_.session, &Session::link_changed, this, &TopBar::take);
   connect(&desk_.theme, &Theme::changed, this, &TopBar::take);
   says([this] {
-    stop_->setText(tr("STOP"));
+    stop_->setText(QStringLiteral(u"\u2002") + tr("STOP"));  // the sign stands apart from the word
     stop_->setToolTip(tr("Stops all motion at once, on the path (Ctrl+.)"));
     stop_->setShortcut(Qt::CTRL | Qt::Key_Period);  // a new text has taken it away
     language_->setToolTip(tr("Language"));

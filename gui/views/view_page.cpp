@@ -282,7 +282,7 @@ void ViewPage::tell_job() {
                              Format::number(static_cast<double>(shown_->path.layers.size()), 0),
                              Format::number(shown_->path.work_length_mm / 1000, 1));
     if (shown_->path.unread_lines > 0)
-      words += QStringLiteral(" · ") + tr("%n line(s) with expressions are not drawn", nullptr,
+      words += QStringLiteral(" · ") + tr("%Ln line(s) with expressions are not drawn", nullptr,
                                           static_cast<int>(shown_->path.unread_lines));
     job_text_->set_text(words);
   } else {

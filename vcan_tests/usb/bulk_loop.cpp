@@ -35,8 +35,12 @@ int bulk_loop(std::size_t mib) {
   if (libusb_init(&context) != 0) throw std::runtime_error("libusb does not start");
   libusb_device_handle* handle = nullptr;
   unsigned char bulk_out = 0;
-  // The kernel takes a moment to configure a device that was just plugged in.
-  for (int i = 0; i < 200 && handle == nullptr; ++i) {
+  // The kernel takes a moment to configure a device that was just plugged in; libusb learns of new devices
+  // from udev, which the lab guest has not: a new context looks for itself.
+  const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+  while (handle == nullptr && std::chrono::steady_clock::now() < patience) {
+    libusb_exit(context);
+    if (libusb_init(&context) != 0) throw std::runtime_error("libusb does not start");
     handle = libusb_open_device_with_vid_pid(context, usb_ids::kVendor, usb_ids::kProduct);
     libusb_config_descriptor* config = nullptr;
     if (handle != nullptr && libusb_claim_interface(handle, 0) == 0 &&
