@@ -1,9 +1,11 @@
-// Time for one call of each kinematics function, over poses that change from call to call.
+// Time for one call of each kinematics function, over poses that change from call to call. Kinds: 0 M1 (and
+// M2, M3, M5), 1 Cartesian with a table, 2 CoreXY, 3 linear delta, 4 M4.
 
 #include <benchmark/benchmark.h>
 
 #include <vector>
 
+#include "gateway/kinematics/m4.hpp"
 #include "gateway/kinematics/tests/random_pose.hpp"
 
 namespace kinebus {
@@ -15,6 +17,7 @@ std::unique_ptr<Kinematics> machine(int kind) {
   if (kind == 0) return *make_m1_kinematics({});
   if (kind == 1) return *make_cartesian_kinematics({.has_table = true});
   if (kind == 2) return *make_corexy_kinematics({});
+  if (kind == 4) return *make_m4_kinematics({});
   return *make_linear_delta_kinematics({});
 }
 
@@ -23,7 +26,9 @@ std::vector<PosePoint> paths(bool tilted) {
   testing::RandomPose random(11);
   std::vector<PosePoint> list;
   for (std::size_t n = 0; n < kPoses; ++n) {
-    PosePoint p = random.path_through(random.in_m1_cylinder());
+    PoseVector x = random.in_m1_cylinder();
+    x[kA] *= 0.5;  // what the mill (kind 4) reaches too
+    PosePoint p = random.path_through(x);
     if (!tilted) p.x[kA] = p.x[kC] = p.x1[kA] = p.x1[kC] = p.x2[kA] = p.x2[kC] = 0;
     list.push_back(p);
   }
@@ -93,11 +98,22 @@ void check(benchmark::State& state) {
     benchmark::DoNotOptimize(kinematics->check(Frame::kPart, list[n++ % kPoses].x).has_value());
 }
 
-BENCHMARK(inverse)->ArgNames({"kind", "five_axes"})->ArgsProduct({{0, 1, 2, 3}, {0, 1}});
-BENCHMARK(inverse_and_jacobian)->ArgNames({"kind", "five_axes"})->ArgsProduct({{0, 1, 2, 3}, {0, 1}});
-BENCHMARK(inverse_along)->ArgNames({"kind", "five_axes"})->ArgsProduct({{0, 1, 2, 3}, {0, 1}});
-BENCHMARK(forward)->ArgNames({"kind", "warm"})->ArgsProduct({{0, 3}, {0, 1}});
-BENCHMARK(check)->ArgNames({"kind", "five_axes"})->ArgsProduct({{0, 3}, {0, 1}});
+/// All assemblies of the mill for one set of inputs, by elimination.
+void eliminate(benchmark::State& state) {
+  const M4Geometry geometry;
+  double shift = 0;
+  for (auto _ : state) {
+    shift = shift > 20 ? 0 : shift + 0.37;
+    benchmark::DoNotOptimize(m4_assemblies(geometry, {932.6 + shift, 1029.4, 283.4 - shift}));
+  }
+}
+
+BENCHMARK(eliminate);
+BENCHMARK(inverse)->ArgNames({"kind", "five_axes"})->ArgsProduct({{0, 1, 2, 3, 4}, {0, 1}});
+BENCHMARK(inverse_and_jacobian)->ArgNames({"kind", "five_axes"})->ArgsProduct({{0, 1, 2, 3, 4}, {0, 1}});
+BENCHMARK(inverse_along)->ArgNames({"kind", "five_axes"})->ArgsProduct({{0, 1, 2, 3, 4}, {0, 1}});
+BENCHMARK(forward)->ArgNames({"kind", "warm"})->ArgsProduct({{0, 3, 4}, {0, 1}});
+BENCHMARK(check)->ArgNames({"kind", "five_axes"})->ArgsProduct({{0, 3, 4}, {0, 1}});
 
 }  // namespace
 }  // namespace kinebus
