@@ -178,7 +178,11 @@ void Node::on_drive_fault(LocalTime at, int axis, std::uint16_t emcy_code) {
   count(NodeCounter::kDriveFaults);
   DriveAxis& faulty = axes_[static_cast<std::size_t>(axis & 1)];
   faulty.set_fault_present(true);
+  // The reason is told before what follows from it: a stream that one axis cannot go on with.
+  if (faulty.state() != cia402::State::kFault)
+    path_.request_stop(StopReason::kAxisFault, axis & 1, emcy_code, now_);
   faulty.on_fault(now_, emcy_code, true);
+  static_cast<void>(faulty.take_emergency());
   serve();
 }
 

@@ -8,7 +8,9 @@ namespace {
 
 constexpr std::int64_t kCount = std::int64_t{1} << 32;
 constexpr std::int64_t kElectricalTurn = 1024 * kCount;
-constexpr std::int64_t kQuarter = 256 * kCount;  // 90 degrees electrical: the most torque
+constexpr std::int32_t kQuarter = 256 * kAnglePerCount;  // 90 degrees electrical: the most torque
+// An error as an angle is clamped here, where the lead is at its limit whatever the trim.
+constexpr std::int64_t kFar = 384 * kCount;
 // Current comes and goes evenly: from nothing to 1 A in 50 ms, so that the rotor is drawn and not struck.
 constexpr float kEnableAmperesPerPeriod = 20.0F * kControlPeriodS;
 constexpr float kBoostAmperesPerPeriod = 500.0F * kControlPeriodS;
@@ -19,14 +21,24 @@ constexpr int kSettled = periods(0.15F);
 constexpr float kBoostChange = 2.56e6F * kControlPeriodS;
 // Faster than the timers' range of duty is a position that jumps.
 constexpr float kMostCountsPerSecond = 16.8e6F;
-// Closed loop: the rest of an error decays within 25 ms; the trim is at most half a full step.
+// Closed loop: the rest of an error decays within 25 ms; the trim is at most about half a full step.
 constexpr int kTrimShift = 9;
-constexpr std::int64_t kMostTrim = 128 * kCount;
+constexpr std::int32_t kMostTrim = 120 * kAnglePerCount;
+constexpr int kErrorToAngle = 10;
+constexpr std::int32_t kHalfEncoderStep =
+    static_cast<std::int32_t>(kCountsPerEncoderStep >> (kErrorToAngle + 1));
 
 std::int64_t wrap(std::int64_t counts) {  // to +-half an electrical turn
   return static_cast<std::int64_t>(static_cast<std::uint64_t>(counts) << 22) >> 22;
 }
 static_assert(kElectricalTurn == std::int64_t{1} << 42);
+
+// A wish of the main loop; this is its only taker, so that no exchange is needed.
+bool taken(std::atomic<bool>& wish) {
+  if (!wish.load(std::memory_order_relaxed)) return false;
+  wish.store(false, std::memory_order_relaxed);
+  return true;
+}
 
 }  // namespace
 
@@ -45,6 +57,7 @@ void AxisControl::take_config() {
   config_waits_.store(false, std::memory_order_release);
   loop_.configure(config_.motor, CurrentGains::of(config_.motor, config_.bandwidth_hz));
   encoder_.set_reversed(config_.encoder_reversed);
+  trip_a_ = std::min(1.5F * std::max({config_.run_a, config_.hold_a, config_.boost_a}) + 0.75F, 6.5F);
 }
 
 void AxisControl::trip(std::uint16_t code) {
@@ -69,26 +82,25 @@ void AxisControl::begin() {
       angle_shift_ = wrap(rotor - sign_position_);
     }
   }
-  referenced_ = false;
+  referenced_ = origin_fine_ = steady_ = false;
 }
 
 void AxisControl::serve_encoder(const AxisInputs& in) {
-  std::uint8_t troubles = surroundings_.look(in.supply_v, in.temperature_c);
-  std::int64_t error = 0;
+  if (++looks_ % kLookEvery == 0) surroundings_.look(in.supply_v, in.temperature_c);
+  std::uint8_t troubles = surroundings_.present();
   if (config_.encoder != EncoderMode::kNone) {
     const bool was_known = encoder_.known();
     static_cast<void>(encoder_.on_frame(in.encoder_frame));
     if (encoder_.lost() && encoder_.known()) encoder_.restart();
     // Until the current holds the rotor on the command it may lie anywhere near.
     if (rest_periods_ >= kSettled || sign_velocity_ != 0) referenced_ = referenced_ || encoder_.known();
-    if (!referenced_ || (!was_known && encoder_.known()))
-      follow_origin_ = sign_position_ - encoder_.position();
+    const std::int64_t apart = sign_position_ - encoder_.position();
+    if (!referenced_ || (!was_known && encoder_.known())) follow_origin_ = apart;
     if (encoder_.lost()) troubles |= Surroundings::kEncoder;
-    if (encoder_.known() && on_) error = sign_position_ - encoder_.position() - follow_origin_;
-    const std::int64_t whole = (error + kCount / 2) >> 32;
-    if (off_course_.look(std::llabs(whole) > config_.following_window)) troubles |= Surroundings::kFollowing;
-    const auto shown = static_cast<std::int32_t>(std::clamp<std::int64_t>(whole, -(1 << 30), 1 << 30));
-    following_.store(config_.inverted ? -shown : shown, std::memory_order_relaxed);
+    error_ = encoder_.known() && on_ ? apart - follow_origin_ : 0;
+    const auto whole = static_cast<std::int32_t>((error_ + kCount / 2) >> 32);
+    if (off_course_.look(std::abs(whole) > config_.following_window)) troubles |= Surroundings::kFollowing;
+    following_.store(config_.inverted ? -whole : whole, std::memory_order_relaxed);
   }
   troubles_.store(troubles, std::memory_order_relaxed);
 }
@@ -104,23 +116,39 @@ void AxisControl::slew_current(const AxisInputs& in) {
                          ? kBoostAmperesPerPeriod
                          : kEnableAmperesPerPeriod;
   amplitude_a_ += std::clamp(wanted - amplitude_a_, -kEnableAmperesPerPeriod, rate);
+  steady_ = rest_periods_ >= kRestBeforeHold && amplitude_a_ == wanted;
+}
+
+// What the angle swings by at rest; trims, or sets the origin when the rotor has not moved since power came.
+std::int32_t AxisControl::rest_angle(std::int32_t error) {
+  const RestTrim::Step step = rest_trim_.step(error);
+  if (origin_fine_)
+    trim_ = std::clamp(trim_ + step.change, -kMostTrim, kMostTrim);
+  else
+    follow_origin_ += static_cast<std::int64_t>(step.change) << kErrorToAngle;
+  origin_fine_ = origin_fine_ || step.measured;
+  return step.swing;
 }
 
 Angle AxisControl::commanded_angle(const AxisInputs& in) {
-  std::int64_t electrical = sign_position_ + angle_shift_;
-  if (config_.encoder == EncoderMode::kClosedLoop && encoder_.known()) {
-    const std::int64_t error = sign_position_ - encoder_.position() - follow_origin_;
-    // At rest or slow motion the average error goes to zero; a big one is none that trimming should chase.
-    // Within half a step of the encoder there is nothing to know, and hunting for it would be heard.
-    if (std::fabs(in.velocity) < 20'000 && std::llabs(error) < kQuarter &&
-        std::llabs(error) > kCountsPerEncoderStep / 2) {
-      trim_ = std::clamp(trim_ + (error >> kTrimShift), -kMostTrim, kMostTrim);
-    }
-    // The current never leads the rotor by more than the angle of the most torque: no step is lost.
-    const std::int64_t lead = std::clamp(error + trim_, -kQuarter, kQuarter);
-    electrical += lead - error;
+  const Angle angle = angle_of(sign_position_ + angle_shift_);
+  if (config_.encoder != EncoderMode::kClosedLoop || !encoder_.known()) {
+    // An encoder that is lost leaves what held the rotor on its command; trim is 0 without one.
+    return angle + static_cast<Angle>(trim_ + rest_trim_.leave());
   }
-  return angle_of(electrical);
+  const auto error = static_cast<std::int32_t>(std::clamp(error_, -kFar, kFar) >> kErrorToAngle);
+  const bool settles = steady_ && referenced_ && std::abs(error) < kQuarter;
+  const std::int32_t swing = settles ? rest_angle(error) : rest_trim_.leave();
+  origin_fine_ = origin_fine_ || (referenced_ && in.velocity != 0);
+  // At rest or slow motion the average error goes to zero; a big one is none that trimming should chase.
+  // Within half a step of the encoder a single reading knows nothing, and before the origin is known none
+  // does.
+  if (!settles && origin_fine_ && std::fabs(in.velocity) < 20'000 && std::abs(error) < kQuarter &&
+      std::abs(error) > kHalfEncoderStep)
+    trim_ = std::clamp(trim_ + (error >> kTrimShift), -kMostTrim, kMostTrim);
+  // The current never leads the rotor by more than the angle of the most torque: no step is lost.
+  const std::int32_t lead = std::clamp(error + trim_, -kQuarter, kQuarter);
+  return angle - angle_of(error_) + static_cast<Angle>(lead) + static_cast<Angle>(swing);
 }
 
 AxisOutputs AxisControl::apply(const Vector& volts, const Vector& wanted, float supply_v) const {
@@ -141,7 +169,7 @@ AxisOutputs AxisControl::tune(const AxisInputs& in, Angle angle) {
   if (wish.open)
     volts = turn({wish.added_v, 0}, at);
   else
-    volts = loop_.step(in.current_a, {wish.current_a, angle, 0}, in.supply_v);
+    volts = loop_.step(in.current_a, {wish.current_a, angle, 0}, at, in.supply_v);
   amplitude_a_ = wish.current_a;
   if (tune_.state() != AutoTune::State::kRuns) {
     loop_.reset();
@@ -164,7 +192,7 @@ AxisOutputs AxisControl::step(const AxisInputs& in) {
   serve_encoder(in);
 
   const bool wanted = wanted_power_.load(std::memory_order_relaxed);
-  if (acknowledged_.exchange(false, std::memory_order_relaxed)) tripped_.store(fault::kNone);
+  if (taken(acknowledged_)) tripped_.store(fault::kNone);
   if (tripped_.load(std::memory_order_relaxed) != fault::kNone) return {};
   if (!wanted) {
     on_ = false;
@@ -173,30 +201,33 @@ AxisOutputs AxisControl::step(const AxisInputs& in) {
   }
   if (!on_) begin();
   if (in.break_seen) return trip(fault::kShortCircuit), AxisOutputs{};
-  if (in.supply_v > Surroundings::kDeadlyV) return trip(fault::kOverVoltage), AxisOutputs{};
-  if (in.temperature_c > Surroundings::kDeadlyC) return trip(fault::kTemperature), AxisOutputs{};
+  if (surroundings_.deadly() != fault::kNone) return trip(surroundings_.deadly()), AxisOutputs{};
   if (std::llabs(sign_position_ - last) >
       static_cast<std::int64_t>(kMostCountsPerSecond * kControlPeriodS) * kCount)
     return trip(fault::kSoftware), AxisOutputs{};
 
   const Angle angle = commanded_angle(in);
   const float omega = sign_velocity_ * kRadiansPerCount;
-  const float largest = std::max({config_.run_a, config_.hold_a, config_.boost_a});
-  const float trip_a = std::min(1.5F * largest + 0.75F, 6.5F);
-  const Vector reference = turn({amplitude_a_, 0}, sine_cosine(angle));
-  const std::uint16_t code =
-      power_faults_.look(in.current_a, reference, amplitude_a_, loop_.direct_v(),
-                         config_.motor_measured ? config_.motor.resistance_ohm : 0, omega, trip_a);
-  if (code != fault::kNone) return trip(code), AxisOutputs{};
+  const SineCosine at = sine_cosine(angle);
+  const Vector reference = turn({amplitude_a_, 0}, at);
+  if (power_faults_.over_current(in.current_a, trip_a_)) return trip(fault::kOverCurrent), AxisOutputs{};
+  // Not in the same period as the look at the surroundings.
+  if (looks_ % kLookEvery == kLookEvery / 2) {
+    const std::uint16_t code =
+        power_faults_.look(in.current_a, reference, amplitude_a_, loop_.direct_v(),
+                           config_.motor_measured ? config_.motor.resistance_ohm : 0, omega);
+    if (code != fault::kNone) return trip(code), AxisOutputs{};
+  }
 
-  if (wanted_tune_.exchange(false, std::memory_order_relaxed) && sign_velocity_ == 0) {
+  if (taken(wanted_tune_) && sign_velocity_ == 0) {
     tune_.start(config_.run_a);
     tune_state_.store(AutoTune::State::kRuns, std::memory_order_release);
   }
   if (tune_.state() == AutoTune::State::kRuns) return tune(in, angle);
 
   slew_current(in);
-  const Vector volts = loop_.step(in.current_a, {amplitude_a_, angle, omega}, in.supply_v);
+  const float current_a = loop_.reachable(amplitude_a_, omega, in.supply_v);
+  const Vector volts = loop_.step(in.current_a, {current_a, angle, omega}, at, in.supply_v);
   return apply(volts, reference, in.supply_v);
 }
 

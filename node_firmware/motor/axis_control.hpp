@@ -10,6 +10,7 @@
 #include "node_firmware/motor/auto_tune.hpp"
 #include "node_firmware/motor/current_loop.hpp"
 #include "node_firmware/motor/encoder.hpp"
+#include "node_firmware/motor/rest_trim.hpp"
 #include "node_firmware/motor/supervision.hpp"
 
 namespace kinebus::motor {
@@ -49,6 +50,8 @@ struct AxisOutputs {
 
 class AxisControl {
  public:
+  /// `turn`: 0 or 1, so that two axes do not make their longer looks in the same period.
+  explicit constexpr AxisControl(unsigned turn = 0) : looks_(turn) {}
   // Main loop; all of these are words.
   void set_power(bool on) { wanted_power_.store(on, std::memory_order_relaxed); }
   void set_resting(bool resting) { resting_.store(resting, std::memory_order_relaxed); }
@@ -79,6 +82,7 @@ class AxisControl {
   void serve_encoder(const AxisInputs& in);
   void slew_current(const AxisInputs& in);
   Angle commanded_angle(const AxisInputs& in);
+  std::int32_t rest_angle(std::int32_t error);
   AxisOutputs tune(const AxisInputs& in, Angle angle);
   AxisOutputs apply(const Vector& volts, const Vector& wanted, float supply_v) const;
 
@@ -98,14 +102,19 @@ class AxisControl {
   Persistence off_course_{200};
 
   bool on_ = false;
-  float amplitude_a_ = 0;
+  float amplitude_a_ = 0, trip_a_ = 0;
   int rest_periods_ = 0;
   std::int64_t sign_position_ = 0;  // command, with the sense of the motor
   float sign_velocity_ = 0, last_velocity_ = 0;
   std::int64_t angle_shift_ = 0;    // electrical: where the current began, less the command, counts << 32
   std::int64_t follow_origin_ = 0;  // command less encoder when the rotor had settled on it
   bool referenced_ = false;         // it has
-  std::int64_t trim_ = 0;           // closed loop: what keeps the rotor off the command at rest
+  bool origin_fine_ = false;        // and to less than a step of the encoder, or it has moved since
+  std::int64_t error_ = 0;          // command less encoder less origin; 0 while not known
+  std::int32_t trim_ = 0;           // closed loop: angle that keeps the rotor on the command at rest
+  RestTrim rest_trim_;
+  unsigned looks_;
+  bool steady_ = false;  // at rest, and the current has come to what it holds
   std::int32_t tuned_offset_ = -1;
 };
 

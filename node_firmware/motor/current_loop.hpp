@@ -63,7 +63,11 @@ class CurrentLoop {
   /// Phase voltages for `measured` phase currents. Cost: about 90 floating-point operations, one square root
   /// and one division when the voltage is limited.
   Vector step(const Vector& measured, const Command& command, float supply_v) {
-    const Vector current = turn_back(measured, sine_cosine(command.angle));
+    return step(measured, command, sine_cosine(command.angle), supply_v);
+  }
+  /// `at`: of the command's angle.
+  Vector step(const Vector& measured, const Command& command, const SineCosine& at, float supply_v) {
+    const Vector current = turn_back(measured, at);
     const Vector error{command.current_a - current.x, -current.y};
     integral_.x += gains_.integral_v_per_a * error.x;
     integral_.y += gains_.integral_v_per_a * error.y;
@@ -85,6 +89,18 @@ class CurrentLoop {
     direct_v_ = voltage.x;
     measured_ = current;
     return turn(voltage, sine_cosine(command.angle + angle_from(omega * kOutputDelayS)));
+  }
+
+  /// Of `current_a`, what the supply can drive at that speed against inductance and back-EMF, with what
+  /// control and a load's angle need besides; at least a fifth of it. More would only be cut off, and turn
+  /// the current away from its angle.
+  float reachable(float current_a, float omega_rad_per_s, float supply_v) const {
+    constexpr float kUsable = 0.92F * kLargestDuty, kLeastShare = 0.2F;
+    const float omega = std::fabs(omega_rad_per_s);
+    const float left_v = kUsable * supply_v - omega * motor_.flux_vs;
+    const float ohm = omega * motor_.inductance_h;
+    if (ohm * current_a <= left_v) return current_a;
+    return std::max(left_v / ohm, kLeastShare * current_a);
   }
 
   bool limited() const { return limited_; }

@@ -8,6 +8,7 @@ namespace kinebus::motor {
 
 /// A full electrical turn (four full steps, 1024 counts) is 2^32.
 using Angle = std::uint32_t;
+inline constexpr std::int32_t kAnglePerCount = 1 << 22;
 
 struct SineCosine {
   float sine = 0, cosine = 1;

@@ -1,7 +1,8 @@
 #pragma once
-// A board under load: a master that speaks plain CANopen, both motors in profile position, and a stranger who
-// fills the bus.
+// A board under load: a master that speaks plain CANopen, both motors in profile position and closed loop on
+// their encoders, and a stranger who fills the bus.
 
+#include <cmath>
 #include <stdexcept>
 
 #include "protocol/bytes.hpp"
@@ -26,6 +27,12 @@ class Load {
       write(at(0x81), 0, 4, kFast);
       write(at(0x83), 0, 4, 6'400'000);
       write(at(0x84), 0, 4, 6'400'000);
+      const StepperParameters& motor = board().motor(base == 0x6000 ? 0 : 1).parameters();
+      const auto own = static_cast<std::uint16_t>(base - 0x6000 + 0x2150);
+      write(own, 2, 2, std::lround(motor.resistance_ohm * 1e3));
+      write(own, 3, 2, std::lround(motor.inductance_h * 1e6));
+      write(own, 4, 2, std::lround(motor.torque_nm_per_a / motor.pole_pairs * 1e6));
+      write(own, 6, 1, 2);
       write(at(0x60), 0, 1, 1);
       for (const int word : {0x06, 0x07, 0x0F}) write(at(0x40), 0, 2, word);
     }

@@ -117,9 +117,40 @@ TEST(AxisControl, SupplyAndHeatAreTroublesWithAWayBack) {
   bench.temperature = 95;
   bench.run(0.2);
   EXPECT_EQ(bench.control.troubles(), Surroundings::kHot);
-  bench.temperature = 112;
-  bench.run(0.01);
-  EXPECT_EQ(bench.control.tripped(), fault::kTemperature);
+}
+
+TEST(AxisControl, PowerGoesOnlyAfterAStopHasHadItsTime) {
+  Bench hot;
+  hot.control.set_power(true);
+  hot.run(0.1);
+  hot.temperature = 112;
+  hot.run(1.9);
+  EXPECT_EQ(hot.control.troubles(), Surroundings::kHot);
+  EXPECT_TRUE(hot.out.power) << "all stop on the path, and hold";
+  hot.run(0.2);
+  EXPECT_EQ(hot.control.tripped(), fault::kTemperature);
+  EXPECT_FALSE(hot.out.power);
+
+  Bench high;
+  high.control.set_power(true);
+  high.run(0.1);
+  high.supply = 35;
+  high.run(0.008);
+  EXPECT_EQ(high.control.troubles(), Surroundings::kOver);
+  EXPECT_TRUE(high.out.power);
+  high.run(0.004);
+  EXPECT_EQ(high.control.tripped(), fault::kOverVoltage);
+}
+
+TEST(AxisControl, ABrokenTemperatureSensorIsToldAndDropsNothing) {
+  for (const double reading : {-79.0, 374.0}) {
+    Bench bench;
+    bench.control.set_power(true);
+    bench.temperature = reading;
+    bench.run(3);
+    EXPECT_EQ(bench.control.troubles(), Surroundings::kHot) << reading;
+    EXPECT_TRUE(bench.out.power) << reading;
+  }
 }
 
 TEST(AxisControl, BlockedMotorIsAFollowingError) {

@@ -107,7 +107,8 @@ void MotorPort::on_control() {
     constexpr float kPerSecond = 1.0F / (4096.0F * 512e-6F);
     in.velocity = static_cast<float>(static_cast<std::int32_t>(point.velocity >> 20)) * kPerSecond;
     in.encoder_frame = frames[i];
-    in.break_seen = broken_[i].exchange(false, std::memory_order_relaxed);
+    in.break_seen = broken_[i].load(std::memory_order_relaxed);
+    if (in.break_seen) broken_[i].store(false, std::memory_order_relaxed);
     stage_.apply(axis, control_[i].step(in));
   }
   PowerStage::begin_encoder(0);
@@ -153,7 +154,7 @@ bool MotorPort::serve_power(Node& node, LocalTime now, int axis) {
   if (served.fault_told) {
     const bool calm = now - served.fault_at >= kFaultRest &&
                       stage_.supply_v() < motor::Surroundings::kDeadlyV &&
-                      stage_.temperature_c(axis) < motor::Surroundings::kDeadlyC;
+                      !motor::Surroundings::deadly_heat(stage_.temperature_c(axis));
     if (!calm || drive.power) return false;
     control.acknowledge();
     served.fault_told = false;

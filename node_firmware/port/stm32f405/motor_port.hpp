@@ -44,7 +44,7 @@ class MotorPort {
 
   const MotionPlanExchange& plan_;
   PowerStage stage_;
-  std::array<motor::AxisControl, 2> control_;
+  std::array<motor::AxisControl, 2> control_{motor::AxisControl(0), motor::AxisControl(1)};
   std::atomic<std::uint32_t> ticks_{0};
   std::array<std::atomic<bool>, 2> broken_{};
   Cycles cycles_;

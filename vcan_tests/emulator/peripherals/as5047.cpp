@@ -23,7 +23,7 @@ std::uint16_t As5047::read(std::uint16_t address, Cycle now) {
   switch (address) {
     case kAngle:
     case kAngleRaw: {
-      const double t = turns ? turns(now) : 0;
+      const double t = (turns ? turns(now) : 0) + noise();
       return static_cast<std::uint16_t>(static_cast<std::int64_t>(std::floor((t - std::floor(t)) * 16384)) &
                                         kData);
     }

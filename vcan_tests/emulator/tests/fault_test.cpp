@@ -76,6 +76,48 @@ TEST_F(Fault, AHotPowerStageIsTold) {
   expect(0x4310, 5.0);
 }
 
+TEST_F(Fault, AnExceptionOfTheProcessorLetsGoOfTheMotorsAndStartsTheProgramAnew) {
+  // The node id came by LSS: kept from now on.
+  for (const CanFrame& lss :
+       {CanFrame::make(0x7E5, {4, 1, 0, 0, 0, 0, 0, 0}), CanFrame::make(0x7E5, {23, 0, 0, 0, 0, 0, 0, 0}),
+        CanFrame::make(0x7E5, {4, 0, 0, 0, 0, 0, 0, 0})}) {
+    node.bench.send(lss);
+    node.bench.run(50ms);
+  }
+  Board& board = node.board;
+  for (const bool hard_fault : {true, false}) {
+    const std::uint64_t resets = board.resets();
+    node.bench.enable(OneBoard::kId, 0, 1);
+    node.bench.run(200ms);
+    EXPECT_GT(std::abs(board.motor(0).current_a(0)) + std::abs(board.motor(0).current_a(1)), 1.0);
+    const std::size_t from = node.bench.seen.size();
+    if (hard_fault) {
+      board.cpu().nvic().pend(kHardFault);
+    } else {
+      // An interrupt for which the program has no handler.
+      constexpr int kTim2 = 28;
+      board.cpu().nvic().write(0xE100, 1u << kTim2, board.now());
+      board.cpu().nvic().pend(kFirstInterrupt + kTim2);
+    }
+    node.bench.run(5ms);
+    EXPECT_EQ(board.resets(), resets + 1);
+    for (int axis = 0; axis < 2; ++axis) {
+      EXPECT_FALSE(board.pwm(axis).sweep().main_output);
+      EXPECT_NEAR(board.motor(axis).current_a(0), 0, 0.01);
+      EXPECT_NEAR(board.motor(axis).current_a(1), 0, 0.01);
+    }
+    node.bench.run(100ms);
+    const auto boot_up =
+        std::find_if(node.bench.seen.begin() + static_cast<std::ptrdiff_t>(from), node.bench.seen.end(),
+                     [](const GatewayBench::Seen& s) { return s.frame == CanFrame::make(0x705, {0}); });
+    ASSERT_NE(boot_up, node.bench.seen.end()) << "the gateway learns of it";
+    EXPECT_EQ(node.bench.statusword(OneBoard::kId, 0) & 0x4F, 0x40) << "switched off";
+    EXPECT_EQ(board.watchdog_resets(), 0u);
+    node.bench.send(nmt_frame(NmtCommand::kStart, OneBoard::kId));
+    node.bench.run(20ms);
+  }
+}
+
 TEST_F(Fault, BusOffIsToldWhenTheBusIsBack) {
   node.machine.disturb(0, 32);
   node.bench.write(OneBoard::kId, 0x1017, 0, 2, 10);
