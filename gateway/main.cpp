@@ -19,9 +19,9 @@
 #include "gateway/io/job_link_host.hpp"
 #include "gateway/io/journal_file.hpp"
 #include "gateway/io/machine_file_store.hpp"
-#include "gateway/io/realtime.hpp"
 #include "gateway/io/socketcan_bus.hpp"
 #include "gateway/io/store_files.hpp"
+#include "gateway/io/systemd_notify.hpp"
 #include "gateway/io/usb/function_fs.hpp"
 #include "gateway/io/usb/serial_ports.hpp"
 #include "gateway/io/worker_thread.hpp"
@@ -29,6 +29,7 @@
 #include "gateway/machine/description/machine_file.hpp"
 #include "gateway/sessions/job_link_server.hpp"
 #include "protocol/host/guarded_main.hpp"
+#include "protocol/host/realtime.hpp"
 #include "protocol/joblink/sha256.hpp"
 
 namespace {
@@ -163,10 +164,6 @@ int serve(const Arguments& arguments) {
     return server.open(now, {.transport = "usb", .token = {}});
   });
 
-  if (!arguments.no_realtime)
-    if (const std::string missing = kinebus::become_realtime(arguments.realtime_priority); !missing.empty())
-      spdlog::warn("running without {}: expect more jitter", missing);
-
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
   std::signal(SIGPIPE, SIG_IGN);
@@ -189,6 +186,9 @@ int serve(const Arguments& arguments) {
   daemon.add(serial);
   if (!arguments.usb.empty()) daemon.add(usb);
   daemon.add(journal);
+  if (!arguments.no_realtime)
+    if (const std::string missing = kinebus::become_realtime(arguments.realtime_priority); !missing.empty())
+      spdlog::warn("running without {}: expect more jitter", missing);
   daemon.run(&quit);
   spdlog::info("ended at rest");
   return 0;

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "gateway/io/realtime.hpp"
+#include "gateway/io/systemd_notify.hpp"
 #include "gateway/sessions/messages.hpp"
 #include "protocol/host/socketcan.hpp"
 
@@ -25,7 +25,7 @@ bool may_leave(MachineState state) {
 void log_event(const MachineEvent& event) {
   switch (event.kind) {
     case MachineEvent::Kind::kAlarm:
-      spdlog::error("alarm 0x{:04X} node {}: {} {}", event.code, event.node, event.words, event.advice);
+      spdlog::error("alarm 0x{:04X}: {}: {}", event.code, event.words, event.advice);
       break;
     case MachineEvent::Kind::kProblem:
       spdlog::warn("line {}: {}", event.line, event.words);

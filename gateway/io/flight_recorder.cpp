@@ -30,6 +30,7 @@ constexpr LocalTime kAftermath = 2s;
 /// An alarm that comes again and again is one report.
 constexpr LocalTime kBetweenReports = 30s;
 constexpr std::size_t kReportsKept = 20;
+constexpr LocalTime kLookForWriter = 100ms;
 
 void write_report(const FlightRing& ring, const std::filesystem::path& folder, const std::string& interface,
                   const std::string& cause) {
@@ -38,8 +39,11 @@ void write_report(const FlightRing& ring, const std::filesystem::path& folder, c
           .count();
   const std::string name = "flight-" + std::to_string(unix_s);
   std::ofstream(folder / (name + ".log")) << flight_log(ring, interface);
-  std::ofstream(folder / (name + ".json")) << flight_json(ring, cause, name + ".log");
+  // Who waits for a report finds a whole one.
+  const std::filesystem::path part = folder / (name + ".part");
+  std::ofstream(part) << flight_json(ring, cause, name + ".log");
   std::error_code error;
+  std::filesystem::rename(part, folder / (name + ".json"), error);
   std::vector<std::filesystem::path> reports;
   for (const auto& entry : std::filesystem::directory_iterator(folder, error))
     if (entry.path().extension() == ".json") reports.push_back(entry.path());
@@ -60,14 +64,29 @@ struct FlightRecorder::Impl {
   const Gateway& gateway;
   FlightRing* ring = nullptr;
   std::thread writer;
-  std::atomic<bool> frozen{false};  ///< the writer copies the ring
+  std::atomic<bool> writing{false};  ///< the writer is at work
+  std::atomic<bool> frozen{false};   ///< it copies the ring
   LocalTime next_sample{0}, report_at = LocalTime::max(), last_report{-kBetweenReports};
   std::string cause;
 
-  void report(std::string why) {
+  /// On a thread of its own: a slow disk holds nothing up.
+  template <typename Work>
+  void write(Work work) {
     if (writer.joinable()) writer.join();
+    writing = true;
+    writer = std::thread([this, work = std::move(work)] {
+      work();
+      writing = false;
+    });
+  }
+  void report_death(std::unique_ptr<FlightRing> died) {
+    write([this, died = std::move(died)] {
+      write_report(*died, options.folder, options.interface, "the gateway died");
+    });
+  }
+  void report(std::string why) {
     frozen = true;
-    writer = std::thread([this, why = std::move(why)] {
+    write([this, why = std::move(why)] {
       const auto copy = std::make_unique<FlightRing>(*ring);
       frozen = false;
       write_report(*copy, options.folder, options.interface, why);
@@ -101,8 +120,7 @@ std::string FlightRecorder::open() {
   impl_->ring = static_cast<FlightRing*>(memory);
   FlightRing& ring = *impl_->ring;
   if (ring.magic == FlightRing::kMagic && ring.running != 0) {
-    const auto died = std::make_unique<FlightRing>(ring);
-    write_report(*died, impl_->options.folder, impl_->options.interface, "the gateway died");
+    impl_->report_death(std::make_unique<FlightRing>(ring));
     spdlog::warn("the gateway before this one died: kinebus explain reads {}/flight-*.json",
                  impl_->options.folder.string());
   }
@@ -142,13 +160,16 @@ void FlightRecorder::on_event(const MachineEvent& event) {
 
 void FlightRecorder::on_time(LocalTime now) {
   if (impl_->ring == nullptr) return;
-  if (now >= impl_->report_at) {
+  if (now >= impl_->report_at && impl_->writing) {
+    impl_->report_at = now + kLookForWriter;
+  } else if (now >= impl_->report_at) {
     impl_->report_at = LocalTime::max();
     impl_->last_report = now;
     impl_->report(impl_->cause);
   }
-  if (now < impl_->next_sample || impl_->frozen) return;
+  if (now < impl_->next_sample) return;
   impl_->next_sample = now + FlightRing::kSamplePeriod;
+  if (impl_->frozen) return;
   const MachineStatus status = impl_->gateway.status();
   FlightRing::put(impl_->ring->job, status.job);
   FlightRing::Sample& row = impl_->ring->next_sample();

@@ -2,14 +2,19 @@
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <ctime>
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace kinebus {
 namespace {
@@ -18,6 +23,55 @@ using nlohmann::json;
 
 std::string when(double s) {
   return fmt::format("{:7.3f} s before the end", -s);
+}
+
+struct Told {
+  double s = 0;
+  std::set<int> nodes;
+  std::string text;
+  std::string words;  ///< the text without "node N", where it is about a node
+  bool alarm = false;
+  int times = 0;
+};
+
+/// What several nodes say at one time, or one says again and again, is one line.
+std::vector<Told> in_order(const json& events) {
+  constexpr double kAtOneTime_s = 1;
+  std::vector<Told> told;
+  for (const json& e : events) {
+    Told row;
+    row.s = e.at("s");
+    row.text = row.words = e.at("words");
+    row.alarm = e.at("kind") == "alarm";
+    row.times = 1;
+    const int node = e.value("node", 0);
+    const std::string name = fmt::format("node {}", node);
+    if (node != 0 && row.words.starts_with(name)) {
+      row.nodes.insert(node);
+      row.words.erase(0, name.size() + (row.words.substr(name.size()).starts_with(": ") ? 2 : 1));
+    }
+    const auto same = std::find_if(told.rbegin(), told.rend(), [&](const Told& before) {
+      return before.words == row.words && before.alarm == row.alarm && row.s - before.s < kAtOneTime_s;
+    });
+    if (same == told.rend()) {
+      told.push_back(std::move(row));
+    } else {
+      same->nodes.merge(row.nodes);
+      ++same->times;
+    }
+  }
+  return told;
+}
+
+void explain_order(const json& report) {
+  fmt::print("\nIn order\n");
+  for (const Told& row : in_order(report.at("events"))) {
+    const std::string text =
+        row.nodes.size() > 1 ? fmt::format("nodes {}: {}", fmt::join(row.nodes, ", "), row.words) : row.text;
+    const auto repeated = row.times - static_cast<int>(std::max<std::size_t>(row.nodes.size(), 1));
+    fmt::print("  {}: {}{}{}\n", when(row.s), row.alarm ? "ALARM " : "", text,
+               row.alarm && repeated > 0 ? " (several times)" : "");
+  }
 }
 
 /// Who asked first for a stop: a node on the bus, or the gateway.
@@ -91,11 +145,13 @@ void explain_next(const json& report, bool died) {
     fmt::print(
         "  Start the gateway again (systemd does), then: kinebus resume. The job goes on from its exact "
         "place.\n");
-  std::string last;
+  std::set<std::string> given;
   for (const json& e : report.at("events")) {
     const std::string advice = e.value("advice", "");
-    if (e.at("kind") != "alarm" || advice.empty() || advice == last) continue;
-    fmt::print("  {}\n", last = advice);
+    // What came before a gateway's death was answered by then.
+    if (died || e.at("kind") != "alarm" || advice.empty() || !given.insert(advice).second) continue;
+    fmt::print("  {}{}.\n", static_cast<char>(std::toupper(static_cast<unsigned char>(advice[0]))),
+               advice.substr(1));
   }
   if (!died)
     fmt::print("  Then: kinebus clear, and kinebus resume to go on with the job{}.\n",
@@ -115,10 +171,7 @@ int explain(const std::string& path) {
              report.at("cause").get<std::string>());
   explain_cause(report, died);
   explain_motion(report, died);
-  fmt::print("\nIn order\n");
-  for (const json& e : report.at("events"))
-    fmt::print("  {}: {}{}\n", when(e.at("s")), e.at("kind") == "alarm" ? "ALARM " : "",
-               e.at("words").get<std::string>());
+  explain_order(report);
   explain_next(report, died);
   return 0;
 }

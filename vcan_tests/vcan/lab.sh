@@ -9,6 +9,10 @@ mkdir "$bin" "$work/lib"
 cp "$1"/{kinebusd,kinebus,kinebus-vnode} "$bin/"
 ldd "$bin"/* | awk '$2 == "=>" && $3 ~ "^/" { print $3 }' | sort -u | xargs -I{} cp {} "$work/lib/"
 export LD_LIBRARY_PATH=$work/lib
+# What the scripts call, read once before anything moves, for the same reason.
+for tool in bash cangen cansend cat cp dd grep ip ls mkdir mount mv rm tail umount wc; do
+  path=$(type -P "$tool") && cat "$path" > /dev/null
+done
 keep=${LAB_KEEP:-$work}
 interface=kbv$(( $$ % 1000 ))
 export KINEBUS_SOCKET=$work/kinebus.sock
@@ -43,7 +47,7 @@ until_true() {
 
 start_bus() {
   ip link add dev "$interface" type vcan && ip link set "$interface" up
-  candump -L "$interface" > "$work/bus.log" & pids+=($!)
+  chrt -f 85 candump -L "$interface" > "$work/bus.log" & pids+=($!)
 }
 start_nodes() {
   local node
@@ -53,7 +57,7 @@ start_nodes() {
 }
 start_node() {
   local node=$1; shift
-  "$bin/kinebus-vnode" --interface "$interface" --node "$node" --trace "$work/node$node.trace" "$@" \
+  "$bin/kinebus-vnode" --interface "$interface" --node "$node" --priority 90 --trace "$work/node$node.trace" "$@" \
     >> "$work/node$node.log" 2>&1 & pids+=($!); nodes[node - 1]=$!
 }
 start_daemon() {

@@ -5,6 +5,7 @@
 
 #include "node_firmware/port/host/virtual_node.hpp"
 #include "protocol/host/guarded_main.hpp"
+#include "protocol/host/realtime.hpp"
 
 namespace {
 
@@ -20,9 +21,12 @@ void set_default_plant(kinebus::VirtualNodeProcessOptions& options) {
         .switch_counts = 1030 * kCountsPerMm};
 }
 
-int serve(const kinebus::VirtualNodeProcessOptions& options) {
+int serve(const kinebus::VirtualNodeProcessOptions& options, int priority) {
   kinebus::VirtualNodeProcess process(options);
   std::string error = process.open();
+  if (priority > 0)
+    if (const std::string missing = kinebus::become_realtime(priority); !missing.empty())
+      error += (error.empty() ? "" : "; ") + std::string("cannot have ") + missing;
   if (error.empty()) {
     std::fprintf(stderr, "kinebus-vnode: node %d on %s\n", options.node.node_id, options.interface.c_str());
     error = process.run();
@@ -33,7 +37,7 @@ int serve(const kinebus::VirtualNodeProcessOptions& options) {
 
 int run(int argc, char** argv) {
   kinebus::VirtualNodeProcessOptions options;
-  int node = 1;
+  int node = 1, priority = 0;
   std::array<std::optional<std::int64_t>, 2> start, edge;
   CLI::App app{
       "One Kinebus node on a CAN interface, with simulated motors and switches.\n"
@@ -50,6 +54,11 @@ int run(int argc, char** argv) {
   app.add_option("--start-b", start[1], "Carriage B at power-up, counts");
   app.add_option("--switch-a", edge[0], "Edge of switch A (input 1), counts; active above");
   app.add_option("--switch-b", edge[1], "Edge of switch B (input 2), counts; active above");
+  app.add_option(
+         "--priority", priority,
+         "SCHED_FIFO priority and locked memory: above the daemon's (80) where both share a processor, "
+         "as a real node has its own")
+      ->check(CLI::Range(1, 99));
   CLI11_PARSE(app, argc, argv);
 
   options.node.node_id = static_cast<std::uint8_t>(node);
@@ -61,7 +70,7 @@ int run(int argc, char** argv) {
     options.plant[axis].switch_counts = *edge[axis];
     options.plant[axis].switch_input = static_cast<int>(axis) + 1;
   }
-  return serve(options);
+  return serve(options, priority);
 }
 
 }  // namespace

@@ -1,28 +1,14 @@
-#include "gateway/io/realtime.hpp"
+#include "gateway/io/systemd_notify.hpp"
 
-#include <sched.h>
-#include <sys/mman.h>
 #include <sys/socket.h>
 #include <sys/un.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <cstddef>
 #include <cstdlib>
 #include <cstring>
 
 namespace kinebus {
-
-std::string become_realtime(int priority) {
-  std::string missing;
-  sched_param parameters{};
-  parameters.sched_priority = priority;
-  if (::sched_setscheduler(0, SCHED_FIFO, &parameters) != 0)
-    missing += std::string("SCHED_FIFO (") + std::strerror(errno) + ")";
-  if (::mlockall(MCL_CURRENT | MCL_FUTURE) != 0)
-    missing += std::string(missing.empty() ? "" : ", ") + "locked memory (" + std::strerror(errno) + ")";
-  return missing;
-}
 
 void notify_systemd(std::string_view state) {
   const char* path = std::getenv("NOTIFY_SOCKET");
