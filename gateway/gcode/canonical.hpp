@@ -69,6 +69,10 @@ struct Thermal {  ///< M104/M109 (hotend), M140/M190 (bed), M106/M107 (fan): han
   bool wait_cooling = false;  ///< R form: also waits for it to fall
   int index = 0;
 };
+/// M3 > 0 (clockwise seen from the spindle), M4 < 0, M5 0. Motion waits at rest until the speed is reached.
+struct Spindle {
+  double rpm = 0;
+};
 struct Home {             ///< G28
   std::uint8_t axes = 0;  ///< bit per axis in the order of Pose (X bit 0 ... C bit 4); 0: all
   Pose afterwards{};  ///< where the machine has to stand when homing is done (axes not named: as before; E:
@@ -119,9 +123,9 @@ struct Settings {
 };              ///< M500..M503
 struct End {};  ///< M2 / M30, or the end of the text
 
-using Command =
-    std::variant<Traverse, Feed, Arc, Dwell, PathMode, SetPosition, Limits, Thermal, Home, Pause, MotorsOff,
-                 MotorsOn, WaitIdle, Override, Message, Query, EmergencyStop, StoredJob, Settings, End>;
+using Command = std::variant<Traverse, Feed, Arc, Dwell, PathMode, SetPosition, Limits, Thermal, Spindle,
+                             Home, Pause, MotorsOff, MotorsOn, WaitIdle, Override, Message, Query,
+                             EmergencyStop, StoredJob, Settings, End>;
 
 /// One command with the line of the job that it came from (1-based).
 struct Line {

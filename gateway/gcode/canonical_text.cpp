@@ -92,6 +92,7 @@ struct Writer {
     if (c.wait) text += c.wait_cooling ? " wait_both" : " wait";
     return text;
   }
+  std::string operator()(const Spindle& c) const { return "spindle " + number(c.rpm); }
   std::string operator()(const Home& c) const {
     return "home " + axes_text(c.axes) + " to " + pose_text(c.afterwards, c.frame);
   }

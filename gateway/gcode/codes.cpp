@@ -74,7 +74,10 @@ MGroup m_group(int number) {
     case 502:
     case 503:
       return MGroup::kSettings;
+    case 3:
+    case 4:
     case 5:
+      return MGroup::kSpindle;
     case 9:
     case 110:
     case 112:

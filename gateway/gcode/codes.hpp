@@ -96,6 +96,7 @@ enum class MGroup : std::uint8_t {
   kHotend,     ///< M104 M109
   kBed,        ///< M140 M190
   kFan,        ///< M106 M107
+  kSpindle,    ///< M3 M4 M5
   kJobs,       ///< M20 .. M32
   kSettings,   ///< M500 .. M503
   kQuery,      ///< M105 M114 M115 M119

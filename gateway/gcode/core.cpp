@@ -105,6 +105,7 @@ bool Core::run_block() {
   }
   if (!run_modes()) return false;
   if (block_.has(GGroup::kNonmodal) && !run_nonmodal(block_.code(GGroup::kNonmodal))) return false;
+  if (!spindle_speed()) return false;
   if (!run_motion()) return false;
   if (!check_leftovers()) return false;
   // Last of what can be refused, so that a refused line assigns nothing.
@@ -219,6 +220,7 @@ void Core::begin_program() {
   m.g92_active = false;
   m.tool_centre_point = m.tilted = false;
   m.tool_length_mm = 0;
+  m.spindle_turns = 0;
   m.feed_known = options_.default_feed_mm_per_s > 0;
   m.feed_mm_per_s = options_.default_feed_mm_per_s;
   m.feed_rad_per_s = options_.default_feed_mm_per_s * std::numbers::pi / 180;

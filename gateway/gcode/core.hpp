@@ -106,6 +106,9 @@ class Core {
 
   // machine_codes.cpp
   bool run_machine_code(Code code);
+  bool spindle(Code code);
+  /// An S that no code of the line owns: the spindle's speed.
+  bool spindle_speed();
   bool thermal(Code code);
   bool fan(Code code);
   bool motors(Code code);

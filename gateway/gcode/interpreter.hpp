@@ -34,9 +34,10 @@ struct Options {
   /// How far the start and end radius of an arc may differ. Arcs within it are corrected to go through both
   /// ends.
   double arc_radius_tolerance_mm = 0.005;
-  double a_min_rad = -0.7853981633974483, a_max_rad = 0.7853981633974483;    ///< what G53.1 may choose from
-  int tools = 1;                                                             ///< T0 .. T(tools - 1)
-  std::vector<double> tool_length_mm;                                        ///< G43 H1 is the first entry
+  double a_min_rad = -0.7853981633974483, a_max_rad = 0.7853981633974483;  ///< what G53.1 may choose from
+  bool spindle = false;                                                    ///< there is one: M3, M4, M5 and S
+  int tools = 1;                                                           ///< T0 .. T(tools - 1)
+  std::vector<double> tool_length_mm;                                      ///< G43 H1 is the first entry
   double retract_length_mm = 1, retract_mm_per_s = 40, retract_lift_mm = 0;  ///< until M207
   double recover_extra_mm = 0, recover_mm_per_s = 40;                        ///< until M208
 };

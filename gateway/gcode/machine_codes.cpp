@@ -35,11 +35,14 @@ bool Core::run_machine_code(Code code) {
   using canonical::Query;
   using canonical::Settings;
   switch (code.number) {
+    case 3:
+    case 4:
     case 5:
+      return spindle(code);
     case 9:
     case 82:
     case 83:
-      return true;  // no spindle, no coolant; the E modes are set in run_modes()
+      return true;  // no coolant; the E modes are set in run_modes()
     case 17:
     case 18:
     case 84:
@@ -109,6 +112,31 @@ bool Core::run_machine_code(Code code) {
   }
   if (m_group(code.number) == MGroup::kJobs) return stored_job(code);
   note(code.number, m_name(code.number) + " has no effect on this machine");
+  return true;
+}
+
+bool Core::spindle(Code code) {
+  if (!options_.spindle) return code.number == 5 || fail(code.column, unknown_m(code.number));
+  ModalState& m = state_.modal;
+  if (code.number == 5) {
+    m.spindle_turns = 0;
+    emit(canonical::Spindle{0});
+    return true;
+  }
+  m.spindle_turns = code.number == 3 ? 1 : -1;
+  if (has('S')) return spindle_speed();
+  if (!(m.spindle_rpm > 0)) return fail(code.column, m_name(code.number) + " needs a speed S");
+  emit(canonical::Spindle{m.spindle_turns * m.spindle_rpm});
+  return true;
+}
+
+bool Core::spindle_speed() {
+  if (!options_.spindle || !has('S') || (used_ & Block::bit('S')) != 0) return true;
+  double rpm = 0;
+  if (!take('S', rpm)) return false;
+  if (!(rpm >= 0)) return fail(block_.column_of('S'), "the spindle's speed S cannot be below 0");
+  state_.modal.spindle_rpm = rpm;
+  if (state_.modal.spindle_turns != 0) emit(canonical::Spindle{state_.modal.spindle_turns * rpm});
   return true;
 }
 

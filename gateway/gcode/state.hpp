@@ -45,6 +45,8 @@ struct ModalState {
   bool retracted = false;     ///< G10
   bool ended = false;         ///< M2, M30 or the closing % was read
   bool content_seen = false;  ///< a block came before: a % now is the closing one
+  int spindle_turns = 0;      ///< M3 1, M4 -1, M5 0
+  double spindle_rpm = 0;     ///< the last S
   int tool = 0;
   int coordinate_system = 0;  ///< 0: G54
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "gateway/jobs/machine_setup.hpp"
+
 namespace kinebus {
 namespace {
 
@@ -70,6 +72,9 @@ void JobCheck::check_extrusion(const Phase& phase) {
 void JobCheck::command(const canonical::Line& line) {
   if (const auto* thermal = std::get_if<canonical::Thermal>(&line.command))
     check_thermal(*thermal, line.line);
+  if (const auto* spindle = std::get_if<canonical::Spindle>(&line.command))
+    if (auto wrong = wrong_spindle_speed(machine_.spindle, spindle->rpm))
+      add(Problem::Severity::kError, line.line, std::move(*wrong));
   if (std::holds_alternative<canonical::EmergencyStop>(line.command))
     add(Problem::Severity::kWarning, line.line, "M112 stops the machine here");
   if (std::holds_alternative<canonical::Settings>(line.command))

@@ -115,6 +115,8 @@ Refused LiveLines::check(const canonical::Command& command) {
     return std::nullopt;
   }
   if (const auto* thermal = std::get_if<canonical::Thermal>(&command)) return check_thermal(*thermal);
+  if (const auto* spindle = std::get_if<canonical::Spindle>(&command))
+    return wrong_spindle_speed(machine_.spindle, spindle->rpm);
   if (std::holds_alternative<canonical::StoredJob>(command))
     return "stored jobs are managed by the session: M20 to M32 stand alone in a line";
   const auto* feed = std::get_if<canonical::Feed>(&command);

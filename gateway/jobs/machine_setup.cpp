@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 namespace kinebus {
 
@@ -34,6 +35,7 @@ gcode::Options interpreter_options(const MachineDescription& machine, const Pose
   options.default_feed_mm_per_s = machine.gcode.initial_feed_mm_per_min / 60;
   options.block_delete = machine.gcode.block_delete;
   options.arc_radius_tolerance_mm = machine.gcode.arc_radius_tolerance_mm;
+  options.spindle = machine.spindle.present;
   options.retract_length_mm = machine.gcode.retract_mm;
   options.retract_mm_per_s = options.recover_mm_per_s = machine.gcode.retract_mm_per_s;
   options.retract_lift_mm = machine.gcode.retract_lift_mm;
@@ -91,6 +93,18 @@ StreamGroup::Options stream_options(const MachineDescription& machine) {
   StreamGroup::Options options;
   options.budget.share = machine.bus.budget;
   return options;
+}
+
+std::optional<std::string> wrong_spindle_speed(const SpindleDescription& spindle, double rpm) {
+  if (rpm == 0) return std::nullopt;
+  if (!spindle.present) return "this machine has no spindle";
+  if (rpm < 0 && !spindle.reversible) return "the spindle turns one way only: use M3";
+  const double speed = std::abs(rpm);
+  if (speed >= spindle.min_rpm && speed <= spindle.max_rpm) return std::nullopt;
+  char text[120];
+  std::snprintf(text, sizeof text, "spindle speed %.6g rpm; allowed are %.6g to %.6g rpm", speed,
+                spindle.min_rpm, spindle.max_rpm);
+  return text;
 }
 
 Result<PoseVector, PoseError> convert_pose(const Kinematics& kinematics, Frame from, const PoseVector& pose,

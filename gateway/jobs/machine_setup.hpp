@@ -1,6 +1,8 @@
 #pragma once
 // What the machine description means for each core that a job passes through.
 
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "gateway/gcode/interpreter.hpp"
@@ -22,6 +24,9 @@ gcode::Options interpreter_options(const MachineDescription& machine, const Pose
 std::vector<NodeAxes> node_axes(const MachineDescription& machine);
 
 StreamGroup::Options stream_options(const MachineDescription& machine);
+
+/// Why this machine's spindle cannot turn so fast (`rpm` < 0: the other way round); none: it can.
+std::optional<std::string> wrong_spindle_speed(const SpindleDescription& spindle, double rpm);
 
 /// The same place in the other frame, by way of the joints.
 Result<PoseVector, PoseError> convert_pose(const Kinematics& kinematics, Frame from, const PoseVector& pose,

@@ -102,6 +102,7 @@ class Gateway::Core {
   void step_checking();
   void step_running();
   void step_hold();
+  void step_held();
   void step_cancel();
   void step_stop();
   void step_clear();
@@ -221,7 +222,8 @@ class Gateway::Core {
   bool filament_lost_ = false;  ///< nobody knows where it stands
   PathTime tau_before_{0};      ///< of the gateway itself, before a bring-up
   std::optional<journal::Thermal>
-      heat_wanted_;  ///< what the interrupted job wants, when heaters were switched off
+      heat_wanted_;             ///< what the interrupted job wants, when heaters were switched off
+  bool spindle_first_ = false;  ///< held, and goes on as soon as the spindle turns as it did
   journal::Thermal heat_noted_;
   BusTime progress_due_{0};
   std::optional<BusTime> found_noted_;

@@ -171,6 +171,11 @@ Done Gateway::Core::resume() {
   if (auto ok = check(MachineCommand::kResume); !ok) return ok;
   by_itself_ = false;
   if (state_ != MachineState::kHeld || print_.suspended()) return go_on();
+  if (heat_wanted_ && heat_wanted_->spindle_rpm != 0) {
+    thermal_.set_spindle(heat_wanted_->spindle_rpm);
+    spindle_first_ = true;
+    return {};
+  }
   runner_->resume(now_);
   enter(held_from_);
   return {};

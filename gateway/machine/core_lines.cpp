@@ -51,6 +51,9 @@ Result<void, Refusal> Gateway::Core::take_line(std::string_view line, std::uint3
         thermal_.set_target(
             thermal->what == canonical::Thermal::What::kHotend ? Heater::kHotend : Heater::kBed,
             thermal->value);
+    } else if (const auto* spindle = std::get_if<canonical::Spindle>(&command.command)) {
+      if (auto ok = check(MachineCommand::kThermal); !ok) return ok;
+      thermal_.set_spindle(spindle->rpm);
     } else if (const auto* message = std::get_if<canonical::Message>(&command.command)) {
       events_.message(now_, message->text, number);
     }

@@ -62,6 +62,7 @@ void Gateway::Core::begin_job(const PoseVector& start) {
 void Gateway::Core::give_up_job() {
   if (print_.active() || recovery_) journal_.push(journal::JobEnd{});
   recovery_.reset();
+  if (print_.active()) thermal_.set_spindle(0);
   print_.drop();
   heat_wanted_.reset();
   job_name_.clear();
@@ -76,7 +77,8 @@ void Gateway::Core::interrupt(PathTime tau) {
 void Gateway::Core::note_progress() {
   if (!print_.active() || heat_wanted_) return;
   const journal::Thermal now{thermal_.heater(Heater::kHotend).target_celsius,
-                             thermal_.heater(Heater::kBed).target_celsius, thermal_.fan()};
+                             thermal_.heater(Heater::kBed).target_celsius, thermal_.fan(),
+                             thermal_.spindle().target_rpm};
   if (!(now == heat_noted_)) journal_.push(heat_noted_ = now);
   if (now_ < progress_due_ || print_.suspended() || print_.between_runs() || rate_.rate(now_) == 0) return;
   progress_due_ = now_ + kProgressPeriod;
@@ -221,6 +223,8 @@ std::vector<canonical::Line> Gateway::Core::heating() const {
   const journal::Thermal wanted = heat_wanted_.value_or(heat_noted_);
   add(Thermal::What::kBed, Heater::kBed, machine_.thermal.bed, wanted.bed_celsius);
   add(Thermal::What::kHotend, Heater::kHotend, machine_.thermal.hotend, wanted.hotend_celsius);
+  if (wanted.spindle_rpm != 0 && wanted.spindle_rpm != thermal_.spindle().actual_rpm)
+    commands.push_back({0, canonical::Spindle{wanted.spindle_rpm}});
   return commands;
 }
 

@@ -68,6 +68,7 @@ MachineStatus Gateway::Core::status() const {
   s.hotend = thermal_.heater(Heater::kHotend);
   s.bed = thermal_.heater(Heater::kBed);
   s.fan = thermal_.fan();
+  s.spindle = thermal_.spindle();
   s.bus_load = load_.last_second();
   s.bus_load_peak = load_.peak_second();
   s.counters = counters_;

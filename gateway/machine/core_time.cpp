@@ -30,6 +30,7 @@ void Gateway::Core::enter(MachineState state) {
   // themselves.
   if (!may_follow(state_, state)) std::abort();
   state_ = state;
+  spindle_first_ = false;
   entered_ = now_;
   events_.push({.kind = MachineEvent::Kind::kState,
                 .when = now_,
@@ -62,8 +63,11 @@ void Gateway::Core::stop_all(bool fault) {
   clearing_ = false;
   if (state_ == MachineState::kRunning || state_ == MachineState::kMoving) held_from_ = state_;
   if (speaking_ && !rate_.stop_latched()) rate_.stop(now_);
+  // Whatever stopped the machine stops the cutter; a job that goes on gets it back first.
+  const bool cutting = thermal_.spindle().target_rpm != 0;
+  if (print_.active() && !heat_wanted_ && (fault_ || cutting)) heat_wanted_ = heat_noted_;
+  thermal_.set_spindle(0);
   if (fault_) {
-    if (print_.active() && !heat_wanted_) heat_wanted_ = heat_noted_;
     thermal_.set_target(Heater::kHotend, 0);
     thermal_.set_target(Heater::kBed, 0);
   }
@@ -120,9 +124,11 @@ void Gateway::Core::on_time(BusTime now) {
     case MachineState::kOff:
       try_by_itself();
       break;
+    case MachineState::kHeld:
+      step_held();
+      break;
     case MachineState::kUnhomed:
     case MachineState::kReady:
-    case MachineState::kHeld:
       break;
   }
 }
@@ -293,6 +299,7 @@ void Gateway::Core::finish_motion() {
     return;
   }
   const bool job = state_ == MachineState::kRunning;
+  if (job) thermal_.set_spindle(0);  // the end of a program stops it (RS274/NGC 3.6.1)
   events_.push({.kind = MachineEvent::Kind::kFinished,
                 .when = now_,
                 .words = !job   ? "move done"
@@ -307,6 +314,13 @@ void Gateway::Core::step_hold() {
   // A wait between runs stands still at once; planning ahead goes on.
   static_cast<void>(runner_->on_time(now_, options_.planning_budget));
   if (standing()) enter(MachineState::kHeld);
+}
+
+void Gateway::Core::step_held() {
+  if (!spindle_first_ || !thermal_.spindle().at_speed()) return;
+  heat_wanted_.reset();
+  runner_->resume(now_);
+  enter(held_from_);
 }
 
 void Gateway::Core::step_cancel() {

@@ -323,6 +323,9 @@ bool Runner::wait_is_over(BusTime now) {
       if (now - *in_window_since_ < heater.settle) return false;
       break;
     }
+    case Wait::kSpindle:
+      if (held_ || !thermal_.spindle().at_speed()) return false;
+      break;
     case Wait::kPause:
       return false;
   }
@@ -331,7 +334,8 @@ bool Runner::wait_is_over(BusTime now) {
 }
 
 void Runner::end_wait() {
-  const bool of_job = wait_ == Wait::kDwell || wait_ == Wait::kHeating || wait_ == Wait::kPause;
+  const bool of_job =
+      wait_ == Wait::kDwell || wait_ == Wait::kHeating || wait_ == Wait::kSpindle || wait_ == Wait::kPause;
   wait_ = Wait::kNone;
   doing_ = "moving";
   if (!of_job) return;
@@ -355,6 +359,8 @@ void Runner::execute(BusTime now, const canonical::Line& line) {
       thermal_.set_fan(thermal->value);
     else
       thermal_.set_target(thermal->what == What::kHotend ? Heater::kHotend : Heater::kBed, thermal->value);
+  } else if (const auto* spindle = std::get_if<canonical::Spindle>(&line.command)) {
+    thermal_.set_spindle(spindle->rpm);
   } else if (const auto* message = std::get_if<canonical::Message>(&line.command)) {
     events_out_.message(now, message->text, line.line);
   } else if (std::holds_alternative<canonical::EmergencyStop>(line.command)) {
@@ -395,6 +401,7 @@ Runner::Outcome Runner::take(BusTime now, JobPipeline::Step step) {
 bool Runner::waits(const canonical::Line& line) {
   if (const auto* thermal = std::get_if<canonical::Thermal>(&line.command))
     return thermal->value > 0 || thermal->wait_cooling;
+  if (const auto* spindle = std::get_if<canonical::Spindle>(&line.command)) return spindle->rpm != 0;
   return std::holds_alternative<canonical::Dwell>(line.command) ||
          std::holds_alternative<canonical::Pause>(line.command);
 }
@@ -409,6 +416,12 @@ Runner::Outcome Runner::barrier(BusTime now) {
   } else if (const auto* thermal = std::get_if<canonical::Thermal>(&line.command)) {
     execute(now, line);
     begin_heating(*thermal);
+  } else if (const auto* spindle = std::get_if<canonical::Spindle>(&line.command)) {
+    execute(now, line);
+    if (spindle->rpm != 0) {
+      wait_ = Wait::kSpindle;
+      doing_ = "waiting for the spindle";
+    }
   } else if (std::holds_alternative<canonical::Pause>(line.command)) {
     wait_ = Wait::kPause;
     doing_ = "paused by the job";

@@ -100,7 +100,7 @@ class Runner {
   const Counters& counters() const { return counters_; }
 
  private:
-  enum class Wait : std::uint8_t { kNone, kRunDone, kRest, kDwell, kHeating, kPause };
+  enum class Wait : std::uint8_t { kNone, kRunDone, kRest, kDwell, kHeating, kSpindle, kPause };
   struct Event {
     std::uint64_t phase;  ///< due when so many phases of the job are done
     canonical::Line line;

@@ -2,6 +2,7 @@
 // A snapshot of the whole machine, for displays and for answers to queries. Plain values, made on demand.
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -30,6 +31,14 @@ struct NodeStatus {
 struct HeaterStatus {
   double actual_celsius = 0;
   double target_celsius = 0;  ///< 0: off
+};
+struct SpindleStatus {
+  double actual_rpm = 0, target_rpm = 0;  ///< > 0 clockwise
+  /// Under load it is a little slow.
+  bool at_speed() const {
+    constexpr double kWindow = 0.02;
+    return std::abs(actual_rpm - target_rpm) <= kWindow * std::abs(target_rpm);
+  }
 };
 
 struct MachineCounters {
@@ -64,6 +73,7 @@ struct MachineStatus {
 
   HeaterStatus hotend, bed;
   double fan = 0;  ///< 0..1
+  SpindleStatus spindle;
 
   double bus_load = 0;  ///< fraction of 1 Mbit/s over the last second
   double bus_load_peak = 0;

@@ -8,7 +8,8 @@ namespace kinebus {
 SimulatedThermal::SimulatedThermal(Options options)
     : ambient_(options.ambient_celsius),
       heaters_{State{options.hotend, options.ambient_celsius, 0},
-               State{options.bed, options.ambient_celsius, 0}} {}
+               State{options.bed, options.ambient_celsius, 0}},
+      spindle_rpm_per_s_(options.spindle_rpm_per_s) {}
 
 void SimulatedThermal::set_target(Heater heater, double celsius) {
   heaters_[static_cast<std::size_t>(heater)].target = celsius;
@@ -23,6 +24,8 @@ void SimulatedThermal::on_time(BusTime now) {
   if (last_ && now > *last_) {
     const double seconds = to_seconds(now - *last_);
     for (State& state : heaters_) advance(state, seconds);
+    const double most = spindle_rpm_per_s_ * seconds;
+    spindle_.actual_rpm += std::clamp(spindle_.target_rpm - spindle_.actual_rpm, -most, most);
   }
   if (!last_ || now > *last_) last_ = now;
 }

@@ -1,6 +1,6 @@
 #pragma once
-// Heaters and fan behind one interface, and their simulation: a first-order model with a thermostat, so that
-// a wait for a temperature (M109) takes time on the virtual machine too.
+// Heaters, fan and spindle behind one interface, and their simulation: heat is a first-order model with a
+// thermostat, the spindle gains speed evenly, so that waits (M109, M3) take time on the virtual machine too.
 
 #include <array>
 #include <chrono>
@@ -15,7 +15,7 @@ namespace kinebus {
 
 enum class Heater : std::uint8_t { kHotend, kBed };
 
-/// What the gateway asks of the heaters, real or simulated. Temperatures in deg C.
+/// What the gateway asks of heaters and spindle, real or simulated. Temperatures in deg C.
 class ThermalDevice {
  public:
   virtual ~ThermalDevice() = default;
@@ -23,6 +23,8 @@ class ThermalDevice {
   virtual void set_fan(double ratio) = 0;                      ///< 0..1
   virtual HeaterStatus heater(Heater heater) const = 0;
   virtual double fan() const = 0;
+  virtual void set_spindle(double rpm) = 0;  ///< > 0 clockwise, < 0 the other way, 0: off
+  virtual SpindleStatus spindle() const = 0;
   virtual void on_time(BusTime now) = 0;
   /// Plain words when a heater is out of control (sensor broken, no rise); then all heaters are off already.
   virtual std::optional<std::string> fault() const = 0;
@@ -42,6 +44,7 @@ class SimulatedThermal : public ThermalDevice {
     double ambient_celsius = 22;
     Model hotend{};
     Model bed{110, 240, 2};
+    double spindle_rpm_per_s = 6000;
   };
   SimulatedThermal() : SimulatedThermal(Options{}) {}
   explicit SimulatedThermal(Options options);
@@ -50,6 +53,8 @@ class SimulatedThermal : public ThermalDevice {
   void set_fan(double ratio) override { fan_ = ratio; }
   HeaterStatus heater(Heater heater) const override;
   double fan() const override { return fan_; }
+  void set_spindle(double rpm) override { spindle_.target_rpm = rpm; }
+  SpindleStatus spindle() const override { return spindle_; }
   void on_time(BusTime now) override;
   std::optional<std::string> fault() const override { return std::nullopt; }
 
@@ -64,6 +69,8 @@ class SimulatedThermal : public ThermalDevice {
   double ambient_;
   std::array<State, 2> heaters_;
   double fan_ = 0;
+  double spindle_rpm_per_s_;
+  SpindleStatus spindle_;
   std::optional<BusTime> last_;
 };
 

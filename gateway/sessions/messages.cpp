@@ -224,6 +224,8 @@ joblink::Status to_message(const MachineStatus& s, const MachineDescription& mac
   set_heater(*m.mutable_hotend(), s.hotend);
   set_heater(*m.mutable_bed(), s.bed);
   m.set_fan(s.fan);
+  m.set_spindle_rpm(s.spindle.actual_rpm);
+  m.set_spindle_target_rpm(s.spindle.target_rpm);
   m.set_bus_load(s.bus_load);
   m.set_bus_load_peak(s.bus_load_peak);
   for (const NodeStatus& node : s.nodes) set_node(*m.add_nodes(), node, machine, s.rate > 0);

@@ -56,6 +56,8 @@ void print_status(const Status& s) {
   fmt::print("hotend    {:.1f} / {:.0f} C   bed {:.1f} / {:.0f} C   fan {:.0f} %\n",
              s.hotend().actual_celsius(), s.hotend().target_celsius(), s.bed().actual_celsius(),
              s.bed().target_celsius(), 100 * s.fan());
+  if (s.spindle_rpm() != 0 || s.spindle_target_rpm() != 0)
+    fmt::print("spindle   {:.0f} / {:.0f} rpm\n", s.spindle_rpm(), s.spindle_target_rpm());
   fmt::print("path      rate {:.2f}   override {:.0f} %   bus {:.1f} % (peak {:.1f} %)\n", s.rate(),
              100 * s.feed_override(), 100 * s.bus_load(), 100 * s.bus_load_peak());
 }

@@ -83,6 +83,8 @@ json to_json(const joblink::Status& s) {
           {"hotend", heater_json(s.hotend())},
           {"bed", heater_json(s.bed())},
           {"fan", s.fan()},
+          {"spindle_rpm", s.spindle_rpm()},
+          {"spindle_target_rpm", s.spindle_target_rpm()},
           {"bus_load", s.bus_load()},
           {"bus_load_peak", s.bus_load_peak()},
           {"nodes", nodes},

@@ -43,6 +43,21 @@ TEST(Interpreter, ARefusedLineChangesNothing) {
   EXPECT_EQ(session.texts().back(), "13 feed machine x2 y0 z0 a0 c0 e0 f10");
 }
 
+TEST(Interpreter, ASpindleTurnsAsItsLastSSays) {
+  Options options;
+  options.spindle = true;
+  Session session(options);
+  EXPECT_NE(session.run("M3"), "") << "no speed was ever stated";
+  session.must("S8000\nM3\nG1 X1 F600 S9000\nM4\nM5\nS5000\nG4 S1\nM3 S12000\nM2\nG1 X2 F600\n");
+  std::vector<std::string> spindle;
+  for (const std::string& text : session.texts())
+    if (text.find(" spindle ") != std::string::npos || text.find(" feed ") != std::string::npos)
+      spindle.push_back(text.substr(text.find(' ') + 1, 13));
+  const std::vector<std::string> expected{"spindle 8000", "spindle 9000",  "feed machine ", "spindle -9000",
+                                          "spindle 0",    "spindle 12000", "feed machine "};
+  EXPECT_EQ(spindle, expected);
+}
+
 TEST(Interpreter, ASavedStateGoesOnExactlyWhereItWas) {
   const std::string first =
       "G10 L2 P2 X5 Y6\nG55 M83 G1 F1200 X1 Y1 E1\nM220 S80\nM221 S95\nG92 X3\n#7=2.5\nG43.4\nG10\n";

@@ -73,6 +73,7 @@ void fields(Io& io, Thermal& r) {
   io.f64(r.hotend_celsius);
   io.f64(r.bed_celsius);
   io.f64(r.fan);
+  io.f64(r.spindle_rpm);
 }
 template <class Io>
 void fields(Io& io, Progress& r) {

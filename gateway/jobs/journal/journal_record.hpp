@@ -48,9 +48,9 @@ struct Override {
   double ratio = 1;
   friend bool operator==(const Override&, const Override&) = default;
 };
-/// Targets, deg C (0: off), and the fan, 0..1.
+/// Targets, deg C (0: off), the fan, 0..1, and the spindle.
 struct Thermal {
-  double hotend_celsius = 0, bed_celsius = 0, fan = 0;
+  double hotend_celsius = 0, bed_celsius = 0, fan = 0, spindle_rpm = 0;
   friend bool operator==(const Thermal&, const Thermal&) = default;
 };
 /// Now and then in motion: the place that counts when the nodes have lost theirs.

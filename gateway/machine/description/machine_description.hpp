@@ -205,6 +205,15 @@ struct ThermalDescription {
   friend bool operator==(const ThermalDescription&, const ThermalDescription&) = default;
 };
 
+/// What a mill cuts with. `sim_`: of the simulated one.
+struct SpindleDescription {
+  bool present = false;
+  double min_rpm = 1000, max_rpm = 24000;
+  bool reversible = false;  ///< M4
+  double sim_rpm_per_s = 6000;
+  friend bool operator==(const SpindleDescription&, const SpindleDescription&) = default;
+};
+
 struct GcodeDescription {
   double initial_feed_mm_per_min = 1500;  ///< until the job states its first F
   double traverse_mm_per_s = 300;         ///< tool speed of G0
@@ -230,6 +239,7 @@ struct MachineDescription {
   BusDescription bus;
   HomingRun homing;
   ThermalDescription thermal;
+  SpindleDescription spindle;
   GcodeDescription gcode;
   /// M1 and M5: how the machine's geometry was measured to differ from the one above it in the file.
   std::optional<M1Correction> geometry_calibration;

@@ -158,6 +158,8 @@ class Rules {
     require(d_.gcode.traverse_mm_per_s <= d_.path.tool_speed_mm_per_s,
             {"gcode.traverse_mm_per_s", "path.tool_speed_mm_per_s"}, number(d_.gcode.traverse_mm_per_s),
             "at most the tool's speed, " + number(d_.path.tool_speed_mm_per_s));
+    require(d_.spindle.min_rpm <= d_.spindle.max_rpm, {"spindle.min_rpm", "spindle.max_rpm"},
+            number(d_.spindle.min_rpm), "at most the largest speed, " + number(d_.spindle.max_rpm));
     require(!d_.name.empty(), {"name"}, "an empty name", "a name");
     require(!d_.jobs_directory.empty(), {"jobs_directory"}, "an empty path", "a directory");
   }

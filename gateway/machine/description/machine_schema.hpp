@@ -306,6 +306,13 @@ void visit_machine(V& v, MachineDescription& d) {
     visit_heater(v, "hotend", d.thermal.hotend);
     visit_heater(v, "bed", d.thermal.bed);
   });
+  v.table("spindle", Need::kOptional, [&] {
+    v.flag("present", d.spindle.present, Need::kOptional);
+    v.number("min_rpm", d.spindle.min_rpm, {0, 100000}, Need::kOptional);
+    v.number("max_rpm", d.spindle.max_rpm, {1, 200000}, Need::kOptional);
+    v.flag("reversible", d.spindle.reversible, Need::kOptional);
+    v.number("sim_rpm_per_s", d.spindle.sim_rpm_per_s, {10, 1000000}, Need::kOptional);
+  });
   visit_gcode(v, d.gcode);
   if (!known_kind || d.kinematics.index() == 0 || d.kinematics.index() == 5)
     visit_correction(v, d.geometry_calibration);
