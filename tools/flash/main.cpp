@@ -6,6 +6,8 @@
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <set>
@@ -25,7 +27,12 @@ struct Arguments {
   std::string image, interface = "can0";
   std::vector<int> nodes;
   bool all = false, force = false, dfu = false, swd = false;
+  double answer_s = 6;
 };
+
+LocalTime answer_time(const Arguments& arguments) {
+  return LocalTime{std::llround(arguments.answer_s * 1e9)};
+}
 
 /// Frames until `end`, or until `done` says so.
 template <typename OnFrame, typename Done>
@@ -40,14 +47,14 @@ void receive_until(SocketCan& can, LocalTime end, OnFrame on_frame, Done done) {
 }
 
 /// Whoever sends a heartbeat, or answers to a question for its program.
-std::set<std::uint8_t> find_nodes(SocketCan& can) {
+std::set<std::uint8_t> find_nodes(SocketCan& can, LocalTime within) {
   std::set<std::uint8_t> found;
   for (std::uint8_t id = 1; id < 127; ++id) {
     const CanFrame question = sdo::frame_of(cob_id::kSdoRequest + id, 0x40, {0x1F51, 1});
     while (can.send(question) == SocketCan::Sent::kFull) ::usleep(200);
   }
   receive_until(
-      can, monotonic_now() + 300ms,
+      can, monotonic_now() + within,
       [&](LocalTime, const CanFrame& frame) {
         const std::uint32_t id = frame.id - cob_id::kSdoReply;
         if (id >= 1 && id < 127 && frame.length == 8 && sdo::specifier(frame) == sdo::kReplyInitiateUpload)
@@ -57,10 +64,13 @@ std::set<std::uint8_t> find_nodes(SocketCan& can) {
   return found;
 }
 
-bool update(SocketCan& can, std::uint8_t node, const std::vector<std::uint8_t>& image, bool force) {
+bool update(SocketCan& can, std::uint8_t node, const std::vector<std::uint8_t>& image,
+            const Arguments& arguments) {
   const LocalTime began = monotonic_now();
   ProgramUpdate::Options options;
-  options.even_if_same = force;
+  options.even_if_same = arguments.force;
+  options.answer = answer_time(arguments);
+  options.boot = std::max(options.boot, options.answer / 2);
   ProgramUpdate work(node, image, began, options);
   std::string shown;
   while (work.status() == ProgramUpdate::Status::kBusy) {
@@ -118,11 +128,11 @@ int flash(const Arguments& arguments) {
   if (const std::string error = can.open(arguments.interface, false); !error.empty())
     return fmt::print(stderr, "{}\n", error), 1;
   std::set<std::uint8_t> nodes(arguments.nodes.begin(), arguments.nodes.end());
-  if (arguments.all) nodes = find_nodes(can);
+  if (arguments.all) nodes = find_nodes(can, answer_time(arguments) / 12);
   if (nodes.empty()) return fmt::print(stderr, "no node answers on {}\n", arguments.interface), 1;
   int failed = 0;
   // One after another: a bus has room for one download, and the others stay what they are meanwhile.
-  for (const std::uint8_t node : nodes) failed += update(can, node, image, arguments.force) ? 0 : 1;
+  for (const std::uint8_t node : nodes) failed += update(can, node, image, arguments) ? 0 : 1;
   if (failed != 0) fmt::print(stderr, "{} of {} nodes not updated: run it again\n", failed, nodes.size());
   return failed == 0 ? 0 : 1;
 }
@@ -136,6 +146,10 @@ int run(int argc, char** argv) {
       app.add_option("-n,--node", arguments.nodes, "Node id; may be given again")->check(CLI::Range(1, 126));
   auto* all = app.add_flag("-a,--all", arguments.all, "Every node that answers")->excludes(node);
   app.add_flag("-f,--force", arguments.force, "Also when the node runs this program already");
+  app.add_option("--answer", arguments.answer_s,
+                 "Seconds to wait for an answer: an erase takes up to 2, emulated boards may be slow")
+      ->check(CLI::Range(0.5, 600.0))
+      ->capture_default_str();
   auto* dfu =
       app.add_flag("--dfu", arguments.dfu, "By USB: the chip's own boot loader (BOOT0), with dfu-util");
   auto* swd = app.add_flag("--swd", arguments.swd, "By a debug probe, with openocd");

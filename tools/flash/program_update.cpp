@@ -143,7 +143,9 @@ void ProgramUpdate::on_failed_transfer(LocalTime now) {
   const AbortCode code = client_.abort_code();
   const std::string reason(text(code));
   const bool written = step_ == Step::kClear || step_ == Step::kDownload || step_ == Step::kReadStatus;
-  if (written && attempts_left_ > 1) {
+  // After a timeout an answer may come late, to a question that was asked since.
+  const bool asked_again = step_ == Step::kReadControl && attempts_left_ < options_.attempts;
+  if ((written || asked_again) && attempts_left_ > 1) {
     --attempts_left_;
     return go(now, Step::kReadControl);
   }

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <utility>
 
 #include "protocol/bytes.hpp"
 #include "protocol/canopen/nmt.hpp"
@@ -90,16 +91,19 @@ int run(int argc, char** argv) {
   CLI::App app{
       "Runs the firmware's image on emulated boards.\n"
       "Without an interface: turns both motors of one board and prints what its interrupts cost."};
-  std::string file, interface;
+  std::string file, boot, interface;
   std::vector<int> nodes;
   double speed = 15, seconds = 0.5;
   app.add_option("image", file, "kinebus-node.elf")->required();
+  app.add_option("--boot", boot, "kinebus-boot.elf: the boot loader in front of it, as on a board");
   app.add_option("-i,--interface", interface, "SocketCAN interface, such as vcan0: runs live until stopped");
   app.add_option("-n,--node", nodes, "Node id, given by LSS; once for each board")->check(CLI::Range(1, 126));
   app.add_option("--speed", speed, "Report: turns a second")->capture_default_str();
   app.add_option("--seconds", seconds, "Report: measured so long")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
-  const ElfImage image = load_elf(file);
+  ElfImage image = load_elf(file);
+  if (!boot.empty())
+    for (ElfImage::Piece& piece : load_elf(boot).pieces) image.pieces.push_back(std::move(piece));
   if (interface.empty()) {
     report(image, speed, seconds);
     return 0;
