@@ -32,6 +32,12 @@ class LiveLines {
   /// Carries out one line (without its end). Refused: why, and nothing has changed.
   Result<void, Problem> take(std::string_view line, std::uint32_t number, gcode::CommandBuffer& out);
 
+  /// Work coordinates in force: 0 is G54.
+  int work_system() const { return interpreter_.state().modal.coordinate_system; }
+  const PoseVector& work_offset() const {
+    return interpreter_.state().modal.coordinate_offsets[static_cast<std::size_t>(work_system())];
+  }
+
   /// What was accepted without effect since the last call, in words.
   std::vector<std::string> take_notes();
 

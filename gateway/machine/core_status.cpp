@@ -65,6 +65,8 @@ MachineStatus Gateway::Core::status() const {
       s.remaining_s = std::max(0.0, all - done) / override_;
     }
   }
+  s.work_system = static_cast<std::uint32_t>(live_lines_.work_system() + 1);
+  s.work_offset = live_lines_.work_offset();
   s.hotend = thermal_.heater(Heater::kHotend);
   s.bed = thermal_.heater(Heater::kBed);
   s.fan = thermal_.fan();

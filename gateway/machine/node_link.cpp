@@ -97,7 +97,7 @@ NodeStatus NodeLink::status(BusTime now, BusTime heartbeat_timeout) const {
   if (stream_) {
     status.synchronised = (stream_->flags & StreamStatus::kSynchronised) != 0;
     status.sync_error_us = stream_->sync_error_us;
-    status.queue_records = std::max(0, 120 - static_cast<int>(stream_->free_records));
+    status.queue_records = std::max(0, status.queue_capacity - static_cast<int>(stream_->free_records));
     status.stopped = (stream_->flags & StreamStatus::kStopped) != 0;
   }
   return status;

@@ -21,9 +21,10 @@ struct NodeStatus {
   std::array<std::uint16_t, 2> statusword{};  ///< CiA 402, axis A and B
   std::uint32_t inputs = 0;                   ///< 60FDh
   bool synchronised = false;
-  int sync_error_us = 0;  ///< bound of its clock estimate's error
-  int queue_records = 0;  ///< records in its queue
-  bool stopped = false;   ///< its stop latch
+  int sync_error_us = 0;     ///< bound of its clock estimate's error
+  int queue_records = 0;     ///< records in its queue
+  int queue_capacity = 120;  ///< room for records when it is empty
+  bool stopped = false;      ///< its stop latch
   std::uint64_t records_sent = 0;
   std::uint32_t emergencies = 0;  ///< EMCY frames heard from it
 };
@@ -70,6 +71,9 @@ struct MachineStatus {
   double progress = 0;       ///< 0..1, by path time
   double elapsed_s = 0;
   double remaining_s = 0;  ///< estimate at the present override
+
+  std::uint32_t work_system = 1;  ///< of lines from outside: 1 (G54) .. 9 (G59.3)
+  PoseVector work_offset{};       ///< of it: work zero in table coordinates, mm and rad
 
   HeaterStatus hotend, bed;
   double fan = 0;  ///< 0..1

@@ -78,6 +78,7 @@ void set_node(joblink::NodeStatus& message, const NodeStatus& node, const Machin
   message.set_synchronised(node.synchronised);
   message.set_sync_error_s(node.sync_error_us * 1e-6);
   message.set_queue_records(static_cast<std::uint32_t>(std::max(node.queue_records, 0)));
+  message.set_queue_capacity(static_cast<std::uint32_t>(node.queue_capacity));
   message.set_stopped(node.stopped);
   message.set_records_sent(node.records_sent);
   message.set_emergencies(node.emergencies);
@@ -217,10 +218,13 @@ joblink::Status to_message(const MachineStatus& s, const MachineDescription& mac
   m.set_rate(s.rate);
   m.set_feed_override(s.feed_override);
   m.set_job(clean(s.job));
+  m.set_interrupted(s.interrupted);
   m.set_line(s.line);
   m.set_progress(s.progress);
   m.set_elapsed_s(s.elapsed_s);
   m.set_remaining_s(s.remaining_s);
+  m.set_work_system(s.work_system);
+  set_pose(*m.mutable_work_offset(), s.work_offset);
   set_heater(*m.mutable_hotend(), s.hotend);
   set_heater(*m.mutable_bed(), s.bed);
   m.set_fan(s.fan);

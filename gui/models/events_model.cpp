@@ -2,6 +2,7 @@
 
 #include "gui/models/alarm_words.hpp"
 #include "gui/models/format.hpp"
+#include "gui/models/gateway_words.hpp"
 #include "gui/models/state_words.hpp"
 #include "gui/session/session.hpp"
 
@@ -75,7 +76,7 @@ QVariant EventsModel::data(const QModelIndex& index, int role) const {
   if (!index.isValid()) return {};
   const joblink::Event& e = events_[static_cast<std::size_t>(index.row())];
   const bool alarm = e.kind() == joblink::EVENT_ALARM;
-  const QString words = QString::fromStdString(e.words());
+  const QString words = GatewayWords::translated(QString::fromStdString(e.words()));
   switch (role) {
     case kIsAlarm:
       return alarm;

@@ -2,7 +2,7 @@
 
 #include <QLocale>
 
-#include "gui/models/problem_words.hpp"
+#include "gui/models/gateway_words.hpp"
 #include "gui/session/session.hpp"
 
 namespace kinebus::gui {
@@ -17,7 +17,7 @@ QVector<ShownProblem> ProblemsModel::of(const joblink::PreflightResult& result) 
   QVector<ShownProblem> list;
   for (const auto& p : result.problems())
     list.push_back({p.error(), static_cast<int>(p.line()), static_cast<int>(p.column()),
-                    ProblemWords::translated(QString::fromStdString(p.words()))});
+                    GatewayWords::translated(QString::fromStdString(p.words()))});
   return list;
 }
 

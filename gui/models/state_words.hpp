@@ -24,6 +24,6 @@ struct Allowed {
        resume = false;
   bool cancel = false, clear = false, motors_off = false, heat = false;
 };
-Allowed allowed_in(joblink::State state);
+Allowed allowed_in(joblink::State state, bool interrupted = false);  ///< interrupted: a job waits to go on
 
 }  // namespace kinebus::gui

@@ -5,10 +5,12 @@
 #include <QApplication>
 #include <QDateTime>
 #include <QFile>
+#include <QTranslator>
 
 #include "gui/link/socket_link.hpp"
 #include "gui/models/axes_model.hpp"
 #include "gui/models/events_model.hpp"
+#include "gui/models/gateway_words.hpp"
 #include "gui/models/jobs_model.hpp"
 #include "gui/models/nodes_model.hpp"
 #include "gui/models/path_source.hpp"
@@ -155,6 +157,23 @@ TEST_F(SessionTest, AlarmsAreShownNewestFirstWithAdvice) {
   EXPECT_TRUE(events.index(0).data(EventsModel::kDetails).toString().contains(QStringLiteral("1.5 s")));
   gateway.status.set_state(joblink::STATE_READY);
   ASSERT_TRUE(wait_until([&] { return events.open_alarms() == 0; }));
+}
+
+TEST_F(SessionTest, WhatTheGatewaySaysIsToldInTheUsersLanguage) {
+  QTranslator turkish;
+  ASSERT_TRUE(turkish.load(QStringLiteral(":/i18n/kinebus_tr.qm")));
+  const auto told = [](const char* words) { return GatewayWords::translated(QString::fromLatin1(words)); };
+  EXPECT_EQ(told("job done: vase.gcode").remove(QChar(0x2066)).remove(QChar(0x2069)),
+            QStringLiteral("job done: vase.gcode"));
+  QCoreApplication::installTranslator(&turkish);
+  for (const char* words :
+       {"X is 0.720 mm outside the workspace", "tower1: would be 3.5 mm beyond its travel",
+        "filament is fed before the job has set a hotend temperature (M104)", "stop by command", "homed",
+        "job done: vase.gcode", "bed temperature 300 C; allowed are 0 to 120 C"})
+    EXPECT_NE(told(words), QString::fromLatin1(words)) << words;
+  EXPECT_TRUE(told("X is 0.720 mm outside the workspace").contains(QStringLiteral("0.720 mm")));
+  EXPECT_EQ(told("G5 is not known"), QStringLiteral("G5 is not known")) << "others stay as they are";
+  QCoreApplication::removeTranslator(&turkish);
 }
 
 TEST_F(SessionTest, AxesAndNodesFollowTheStatus) {

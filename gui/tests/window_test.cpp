@@ -22,9 +22,9 @@
 namespace kinebus::gui {
 namespace {
 
-double thread_cpu_ms() {
+double cpu_ms(clockid_t whose) {
   timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  clock_gettime(whose, &t);
   return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_nsec) * 1e-6;
 }
 
@@ -43,7 +43,8 @@ class Watchdog : public QObject {
   Watchdog() {
     timer_.setInterval(0);
     connect(&timer_, &QTimer::timeout, this, [this] {
-      const double cpu = thread_cpu_ms(), wall = static_cast<double>(clock_.nsecsElapsed()) * 1e-6;
+      const double cpu = cpu_ms(CLOCK_THREAD_CPUTIME_ID),
+                   wall = static_cast<double>(clock_.nsecsElapsed()) * 1e-6;
       if (last_wall_ > 0) {
         most_cpu_ms = std::max(most_cpu_ms, cpu - last_cpu_);
         most_wall_ms = std::max(most_wall_ms, wall - last_wall_);
@@ -54,6 +55,12 @@ class Watchdog : public QObject {
     clock_.start();
     timer_.start();
   }
+  /// Its looks cost time themselves: not while that of something else is measured.
+  void rest() {
+    timer_.stop();
+    last_wall_ = 0;
+  }
+  void go_on() { timer_.start(); }
   double most_cpu_ms = 0, most_wall_ms = 0;
 
  private:
@@ -176,6 +183,25 @@ TEST_F(WindowTest, FindingOfTheCheckLeadsToItsPlace) {
   EXPECT_EQ(desk.path.scene()->path.lines[vertex], 120u);
 }
 
+TEST_F(WindowTest, AnInterruptedJobOffersToGoOnOrToBeCancelled) {
+  show_connected();
+  const auto enabled = [&](const QString& text) {
+    for (const auto* button : window->findChildren<QPushButton*>())
+      if (button->text() == text && !button->isHidden() && button->isEnabled()) return true;
+    return false;
+  };
+  gateway.status.set_state(joblink::STATE_UNHOMED);
+  gateway.send_status();
+  ASSERT_TRUE(wait_until([&] { return desk.session.status().state() == joblink::STATE_UNHOMED; }));
+  EXPECT_FALSE(enabled(QStringLiteral("Resume")));
+  gateway.status.set_job("part.gcode");
+  gateway.status.set_interrupted(true);
+  gateway.send_status();
+  ASSERT_TRUE(wait_until([&] { return desk.session.status().interrupted(); }));
+  EXPECT_TRUE(enabled(QStringLiteral("Resume")));
+  EXPECT_TRUE(enabled(QStringLiteral("Cancel")));
+}
+
 TEST_F(WindowTest, TheJobsLinesAreSeen) {
   show_connected();
   window->show_page(MainWindow::kView);
@@ -239,24 +265,38 @@ TEST_F(WindowTest, MillionLineJobIsShownWithoutBlockingTheWindow) {
       wait_until([&] { return !scene.renderer().copying() && scene.renderer().lines_drawn() > 0; }, 60'000));
   const double first_picture_s = static_cast<double>(clock.nsecsElapsed()) * 1e-9;
   scene.fit_part();
+  const auto turn = [&](std::size_t frames) {
+    const std::size_t from = scene.frames();
+    while (scene.frames() < from + frames) {
+      scene.content().camera.orbit(2, 0);
+      scene.redraw();
+      if (!wait_until([&, before = scene.frames()] { return scene.frames() > before; })) return false;
+    }
+    return true;
+  };
   constexpr int kFrames = 60;
+  ASSERT_TRUE(turn(kFrames));
+  watchdog.rest();
+  const double thread_from = cpu_ms(CLOCK_THREAD_CPUTIME_ID), all_from = cpu_ms(CLOCK_PROCESS_CPUTIME_ID);
   clock.restart();
-  const std::size_t from = scene.frames();
-  while (scene.frames() < from + kFrames) {
-    scene.content().camera.orbit(2, 0);
-    scene.redraw();
-    ASSERT_TRUE(wait_until([&, before = scene.frames()] { return scene.frames() > before; }));
-  }
+  ASSERT_TRUE(turn(kFrames));
   const double frames_per_s = kFrames / (static_cast<double>(clock.nsecsElapsed()) * 1e-9);
+  const double thread_ms = (cpu_ms(CLOCK_THREAD_CPUTIME_ID) - thread_from) / kFrames;
+  const double process_ms = (cpu_ms(CLOCK_PROCESS_CPUTIME_ID) - all_from) / kFrames;
+  watchdog.go_on();
   EXPECT_LE(scene.renderer().lines_drawn(), SceneRenderer::Budget{}.quick_lines * 11 / 10);
   ASSERT_TRUE(wait_until([&] { return scene.at_rest(); }, 120'000));
   std::printf(
-      "1,000,000 lines: first picture after %.2f s, %.0f frames/s while turning (%zu lines each), peak "
-      "memory %.0f MB,\n"
+      "1,000,000 lines: first picture after %.2f s, peak memory %.0f MB\n"
+      "while turning %.0f frames/s by the clock; a frame takes %.1f ms of the window's thread, %.1f ms of "
+      "all "
+      "threads; %zu lines at rest\n"
       "longest work of the window's thread at once %.1f ms (by the clock, with all else that runs here, %.1f "
       "ms)\n",
-      first_picture_s, frames_per_s, scene.renderer().lines_drawn(), peak_memory_mb(), watchdog.most_cpu_ms,
-      watchdog.most_wall_ms);
+      first_picture_s, peak_memory_mb(), frames_per_s, thread_ms, process_ms, scene.renderer().lines_drawn(),
+      watchdog.most_cpu_ms, watchdog.most_wall_ms);
+  // 30 frames/s.
+  EXPECT_LE(thread_ms, 33);
   EXPECT_LE(watchdog.most_cpu_ms, 50);
   EXPECT_LE(peak_memory_mb(), 600);
 }

@@ -632,6 +632,10 @@
     <context>
         <name>kinebus::gui::JobPanel</name>
         <message>
+            <source>Interrupted: resume goes on from its place.</source>
+            <translation>نیمه‌کاره: ادامه، از همان جا پی می‌گیرد.</translation>
+        </message>
+        <message>
             <source>Progress</source>
             <translation>پیشرفت</translation>
         </message>
@@ -1494,7 +1498,59 @@
         </message>
     </context>
 <context>
-    <name>ProblemWords</name>
+    <name>GatewayWords</name>
+    <message>
+        <source>move done</source>
+        <translation>حرکت انجام شد</translation>
+    </message>
+    <message>
+        <source>job done: %1</source>
+        <translation>کار تمام شد: %1</translation>
+    </message>
+    <message>
+        <source>all lines done: %1</source>
+        <translation>همهٔ خط‌ها انجام شد: %1</translation>
+    </message>
+    <message>
+        <source>the job was not begun: it has %1 errors</source>
+        <translation>کار آغاز نشد: %1 خطا دارد</translation>
+    </message>
+    <message>
+        <source>stop by command</source>
+        <translation>ایست به فرمان</translation>
+    </message>
+    <message>
+        <source>homed</source>
+        <translation>خانه‌یابی شد</translation>
+    </message>
+    <message>
+        <source>%1 has control</source>
+        <translation>کنترل در دست %1 است</translation>
+    </message>
+    <message>
+        <source>nobody has control</source>
+        <translation>کنترل در دست کسی نیست</translation>
+    </message>
+    <message>
+        <source>the job %1 was interrupted: resume to go on with it, or cancel</source>
+        <translation>کار %1 نیمه‌کاره ماند: ادامه دهید یا لغو کنید</translation>
+    </message>
+    <message>
+        <source>the job %1 goes on</source>
+        <translation>کار %1 ادامه یافت</translation>
+    </message>
+    <message>
+        <source>cancelled: positions are known</source>
+        <translation>لغو شد: موقعیت‌ها معلوم‌اند</translation>
+    </message>
+    <message>
+        <source>cleared: bring the machine up again</source>
+        <translation>رفع شد: ماشین را دوباره بیدار کنید</translation>
+    </message>
+    <message>
+        <source>cleared: resume brings the machine up again and goes on with the job</source>
+        <translation>رفع شد: ادامه، ماشین را بیدار می‌کند و کار را پی می‌گیرد</translation>
+    </message>
     <message>
         <source>%1 is %2 outside the workspace</source>
         <translation>%1 به اندازهٔ %2 بیرون از فضای کاری است</translation>

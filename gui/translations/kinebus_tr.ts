@@ -632,6 +632,10 @@
     <context>
         <name>kinebus::gui::JobPanel</name>
         <message>
+            <source>Interrupted: resume goes on from its place.</source>
+            <translation>Yarıda kaldı: Sürdür, kaldığı yerden devam eder.</translation>
+        </message>
+        <message>
             <source>Progress</source>
             <translation>İlerleme</translation>
         </message>
@@ -1494,7 +1498,59 @@
         </message>
     </context>
 <context>
-    <name>ProblemWords</name>
+    <name>GatewayWords</name>
+    <message>
+        <source>move done</source>
+        <translation>hareket bitti</translation>
+    </message>
+    <message>
+        <source>job done: %1</source>
+        <translation>iş bitti: %1</translation>
+    </message>
+    <message>
+        <source>all lines done: %1</source>
+        <translation>bütün satırlar bitti: %1</translation>
+    </message>
+    <message>
+        <source>the job was not begun: it has %1 errors</source>
+        <translation>iş başlatılmadı: %1 hata var</translation>
+    </message>
+    <message>
+        <source>stop by command</source>
+        <translation>komutla durduruldu</translation>
+    </message>
+    <message>
+        <source>homed</source>
+        <translation>eve gönderildi, konumlar biliniyor</translation>
+    </message>
+    <message>
+        <source>%1 has control</source>
+        <translation>denetim %1 programında</translation>
+    </message>
+    <message>
+        <source>nobody has control</source>
+        <translation>denetim kimsede değil</translation>
+    </message>
+    <message>
+        <source>the job %1 was interrupted: resume to go on with it, or cancel</source>
+        <translation>%1 işi yarıda kaldı: sürdürün ya da iptal edin</translation>
+    </message>
+    <message>
+        <source>the job %1 goes on</source>
+        <translation>%1 işi sürüyor</translation>
+    </message>
+    <message>
+        <source>cancelled: positions are known</source>
+        <translation>iptal edildi: konumlar biliniyor</translation>
+    </message>
+    <message>
+        <source>cleared: bring the machine up again</source>
+        <translation>temizlendi: makineyi yeniden uyandırın</translation>
+    </message>
+    <message>
+        <source>cleared: resume brings the machine up again and goes on with the job</source>
+        <translation>temizlendi: sürdürünce makine uyanır ve iş devam eder</translation>
+    </message>
     <message>
         <source>%1 is %2 outside the workspace</source>
         <translation>%1 çalışma alanının %2 dışında</translation>

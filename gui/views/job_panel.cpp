@@ -109,8 +109,11 @@ void JobPanel::take_status() {
   const joblink::Status& s = desk_.session.status();
   const bool connected = desk_.session.connected(), job = connected && !s.job().empty();
   name_->set_text(job ? QString::fromStdString(s.job()) : tr("No job is running"));
-  doing_->set_text(connected ? StateWords::next(s.state()) : QString());
-  doing_->setVisible(!job && !doing_->text().isEmpty());
+  const bool interrupted = job && s.interrupted() && s.state() != joblink::STATE_HELD;
+  doing_->set_text(interrupted ? tr("Interrupted: resume goes on from its place.")
+                   : connected ? StateWords::next(s.state())
+                               : QString());
+  doing_->setVisible((!job || interrupted) && !doing_->text().isEmpty());
   progress_->setValue(job ? static_cast<int>(std::lround(s.progress() * 1000)) : 0);
   const QString none = QStringLiteral("—");
   percent_->setText(job ? Format::percent(s.progress(), 1) : none);
@@ -122,7 +125,7 @@ void JobPanel::take_status() {
     override_->setValue(static_cast<int>(std::lround(s.feed_override() * 100)));
     override_text_->setText(Format::percent(override_->value() / 100.0));
   }
-  const Allowed allowed = connected ? allowed_in(s.state()) : Allowed{};
+  const Allowed allowed = connected ? allowed_in(s.state(), s.interrupted()) : Allowed{};
   pause_->setVisible(!allowed.resume);
   pause_->setEnabled(allowed.hold);
   resume_->setVisible(allowed.resume);

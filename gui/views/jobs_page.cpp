@@ -227,7 +227,9 @@ void JobsPage::take_selection() {
   const QString job = selected_job();
   const bool upload = desk_.jobs.upload_at(table_->currentIndex().row()) != nullptr;
   const bool chosen = connected && !job.isEmpty();
-  start_->setEnabled(chosen && allowed_in(desk_.session.status().state()).start);
+  const joblink::Status& status = desk_.session.status();
+  // An interrupted job is resumed or cancelled first: starting another one would drop it.
+  start_->setEnabled(chosen && allowed_in(status.state(), status.interrupted()).start);
   check_->setEnabled(chosen && !checking_);
   show_->setEnabled(chosen);
   delete_->setEnabled((chosen && desk_.session.status().job() != job.toStdString()) || upload);

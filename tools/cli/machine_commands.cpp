@@ -53,6 +53,8 @@ void print_status(const Status& s) {
   if (!s.job().empty())
     fmt::print("job       {}  line {}  {:.1f} %  {} to go\n", s.job(), s.line(), 100 * s.progress(),
                time_words(s.remaining_s()));
+  if (s.interrupted())
+    fmt::print("          interrupted: 'kinebus resume' goes on from its place, 'kinebus cancel' drops it\n");
   fmt::print("hotend    {:.1f} / {:.0f} C   bed {:.1f} / {:.0f} C   fan {:.0f} %\n",
              s.hotend().actual_celsius(), s.hotend().target_celsius(), s.bed().actual_celsius(),
              s.bed().target_celsius(), 100 * s.fan());

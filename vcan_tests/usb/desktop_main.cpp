@@ -202,14 +202,14 @@ int run(int argc, char** argv) {
   cli.add_option("--seed", options.seed);
   cli.add_option("--upload-pulls", options.upload_pulls);
   cli.add_option("--print-pulls", options.print_pulls);
-  cli.add_option("--laps", options.laps, "Of about 1.5 s each");
+  cli.add_option("--laps", options.laps, "Of about 1.5 s each; 0: nothing is printed");
   CLI11_PARSE(cli, argc, argv);
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
   QCoreApplication app(argc, argv);
   Desktop desktop(options);
   desktop.connect();
   desktop.uploads();
-  desktop.print();
+  if (options.laps > 0) desktop.print();
   return 0;
 }
 

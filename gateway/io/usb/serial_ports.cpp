@@ -56,10 +56,12 @@ class SerialPorts::Session : public MarlinSession {
   SerialPorts& ports_;
 };
 
-SerialPorts::SerialPorts(EventLoop& loop, Gateway& gateway, SerialFiles& files, Options options)
+SerialPorts::SerialPorts(EventLoop& loop, Gateway& gateway, SerialFiles& files, Control& control,
+                         Options options)
     : loop_(loop),
       gateway_(gateway),
       files_(files),
+      control_(control),
       options_(std::move(options)),
       hub_(std::make_unique<StreamHub>(loop)) {}
 
@@ -78,6 +80,7 @@ SerialPorts::~SerialPorts() {
 std::unique_ptr<MarlinSession> SerialPorts::new_session(const char* name) {
   MarlinSession::Options options;
   options.name = name;
+  options.control = &control_;
   return std::make_unique<Session>(*this, std::move(options));
 }
 

@@ -20,7 +20,7 @@ class SerialPorts : public DaemonPart {
     std::string device;  ///< a tty such as /dev/ttyGS0, opened whenever it is there; empty: none
     std::string tcp;     ///< "address:port"; there is no password: only for closed networks. Empty: none
   };
-  SerialPorts(EventLoop& loop, Gateway& gateway, SerialFiles& files, Options options);
+  SerialPorts(EventLoop& loop, Gateway& gateway, SerialFiles& files, Control& control, Options options);
   ~SerialPorts() override;
   SerialPorts(const SerialPorts&) = delete;
   SerialPorts& operator=(const SerialPorts&) = delete;
@@ -41,6 +41,7 @@ class SerialPorts : public DaemonPart {
   EventLoop& loop_;
   Gateway& gateway_;
   SerialFiles& files_;
+  Control& control_;
   Options options_;
   std::vector<MarlinSession*> sessions_;
   int pty_slave_ = -1, listener_ = -1;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "gateway/gcode/codes.hpp"
+#include "gateway/sessions/serial/line_control.hpp"
 
 namespace kinebus {
 namespace {
@@ -21,8 +22,6 @@ constexpr std::size_t kMostOutput = 256U << 10U;
 /// How often a waiting line is asked again.
 constexpr LocalTime kPoll = std::chrono::milliseconds{4};
 constexpr LocalTime kHeatReport = std::chrono::seconds{1};
-/// Half of the window that the machine's own wait uses: hosts see the heater arrive.
-constexpr double kHeaterWindow_c = 2;
 
 bool halted_state(MachineState state) {
   return state == MachineState::kStopping || state == MachineState::kStopped || state == MachineState::kAlarm;
@@ -62,7 +61,9 @@ MarlinSession::MarlinSession(Gateway& gateway, SerialFiles& files, Options optio
   say("echo:Kinebus gateway on a serial line, Marlin's dialect");
 }
 
-MarlinSession::~MarlinSession() = default;
+MarlinSession::~MarlinSession() {
+  leave();
+}
 
 // Output
 // -------------------------------------------------------------------------------------------------------
@@ -132,7 +133,7 @@ void MarlinSession::see_urgent(LocalTime now, Urgent what) {
       return;
     case Urgent::kGoOn:
       if (wait_ == Wait::kHeater) stop_waiting();
-      if (gateway_.state() == MachineState::kHeld) static_cast<void>(gateway_.resume());
+      if (gateway_.state() == MachineState::kHeld && may_command()) static_cast<void>(gateway_.resume());
       next_busy_ = now + options_.keep_alive;
       return;
   }
@@ -156,6 +157,9 @@ LocalTime MarlinSession::next_deadline() const {
   if (mine_ || file_runs_) due = std::min(due, now_ + std::chrono::milliseconds{50});
   if (temperature_period_ > LocalTime{0} || heats_) due = std::min(due, next_temperature_);
   if (progress_period_ > LocalTime{0}) due = std::min(due, next_progress_);
+  if (client_ != 0 && idle())
+    due = std::min(
+        {due, last_line_ + options_.gone_after, has_control() ? last_command_ + options_.close_after : due});
   return due;
 }
 
@@ -164,6 +168,7 @@ void MarlinSession::work(LocalTime now) {
   while (auto line = reader_.next()) {
     ++counters_.lines;
     last_line_ = now;
+    heard();
     if (lines_.empty()) next_busy_ = now + options_.keep_alive;
     const Urgent what = line->error.empty() && !line->repeated && writing_.empty()
                             ? serial::urgent(line->text)
@@ -175,6 +180,7 @@ void MarlinSession::work(LocalTime now) {
     const Done done = wait_ != Wait::kNone ? wait_over() : carry_out(lines_.front());
     if (done == Done::kWaiting) break;
     if (done == Done::kYes) say_ok(lines_.front());
+    if (serial::changes_machine(serial::code_of(lines_.front().text))) last_command_ = now;
     lines_.pop_front();
     last_line_ = now;
     next_busy_ = now + options_.keep_alive;
@@ -183,10 +189,11 @@ void MarlinSession::work(LocalTime now) {
     next_busy_ = now + options_.keep_alive;
     say(gateway_.state() == MachineState::kHeld ? "echo:busy: paused for user" : "echo:busy: processing");
   }
-  if (mine_ && lines_.empty() && now - last_line_ >= options_.close_after && gateway_.lines_idle()) {
+  if (mine_ && lines_.empty() && now - last_command_ >= options_.close_after && gateway_.lines_idle()) {
     gateway_.close_lines();
     mine_ = false;
   }
+  come_and_go();
 }
 
 /// Others hold, cancel or stop what this session's lines move; its host is told.
@@ -229,6 +236,7 @@ void MarlinSession::on_closed(LocalTime now, std::string_view) {
   // What was taken is still moved; then the machine rests, at a place of the path.
   if (mine_) gateway_.close_lines();
   mine_ = false;
+  leave();
 }
 
 void MarlinSession::on_event(const MachineEvent& event) {
@@ -282,6 +290,7 @@ MarlinSession::Done MarlinSession::carry_out(const Line& line) {
       return refuse("Printer halted. M999 lifts the stop");
     }
   }
+  if (serial::changes_machine(code) && !may_command()) return refuse(no_control());
   if (code.letter == 'M' && code.number >= 0) return carry_out_m(line, code.number);
   return to_machine(line);
 }
@@ -415,89 +424,6 @@ MarlinSession::Done MarlinSession::feed(const Line& line) {
   heats_ = code.is('M', 109) || code.is('M', 190);
   if (heats_) next_temperature_ = now_ + kHeatReport;
   return Done::kWaiting;
-}
-
-/// G28 while positions are not known: everything that leads there.
-MarlinSession::Done MarlinSession::home(const Line&) {
-  const MachineState state = gateway_.state();
-  if (state == MachineState::kOff) {
-    if (const auto begun = gateway_.bring_up(); !begun) return refuse(begun.error().words);
-    wait_ = Wait::kBringUp;
-    homing_ = true;
-    return Done::kWaiting;
-  }
-  if (state == MachineState::kUnhomed) {
-    if (const auto begun = gateway_.home(); !begun) return refuse(begun.error().words);
-    wait_ = Wait::kHoming;
-    homing_ = true;
-    return Done::kWaiting;
-  }
-  if (state == MachineState::kMoving || state == MachineState::kHoming || state == MachineState::kBringUp)
-    return Done::kWaiting;
-  return refuse("cannot home while the machine is " + std::string(to_string(state)));
-}
-
-MarlinSession::Done MarlinSession::heat_and_wait(const Line& line, bool bed) {
-  if (const auto taken = gateway_.take_line(line.text, ++count_); !taken) return refuse(taken.error().words);
-  waits_for_bed_ = bed;
-  waits_cooling_ = serial::word(line.text, 'R').has_value();
-  wait_ = Wait::kHeater;
-  heats_ = true;
-  next_temperature_ = now_ + kHeatReport;
-  return Done::kWaiting;
-}
-
-/// The line at the front is under way: is it over?
-MarlinSession::Done MarlinSession::wait_over() {
-  const MachineState state = gateway_.state();
-  const auto over = [this] {
-    stop_waiting();
-    return Done::kYes;
-  };
-  const auto failed = [&](std::string_view what) {
-    stop_waiting();
-    return refuse(std::string(what) + ": the machine is " + std::string(to_string(state)));
-  };
-  switch (wait_) {
-    case Wait::kNone:
-      return Done::kYes;
-    case Wait::kIdle:
-      if (!mine_) return over();
-      return gateway_.lines_idle() ? over() : Done::kWaiting;
-    case Wait::kHeater: {
-      const MachineStatus s = gateway_.status();
-      const HeaterStatus& heater = waits_for_bed_ ? s.bed : s.hotend;
-      const bool warm = heater.actual_celsius >= heater.target_celsius - kHeaterWindow_c;
-      const bool cool = !waits_cooling_ || heater.actual_celsius <= heater.target_celsius + kHeaterWindow_c;
-      return (warm && cool) || (heater.target_celsius <= 0 && !waits_cooling_) ? over() : Done::kWaiting;
-    }
-    case Wait::kBringUp:
-      if (state == MachineState::kBringUp) return Done::kWaiting;
-      if (state != MachineState::kUnhomed && state != MachineState::kReady) return failed("bring-up failed");
-      if (!homing_) return over();
-      stop_waiting();
-      return carry_out(lines_.front());
-    case Wait::kHoming:
-      if (state == MachineState::kHoming) return Done::kWaiting;
-      if (state != MachineState::kReady) return failed("homing failed");
-      stop_waiting();
-      return carry_out(lines_.front());
-    case Wait::kClear:
-      if (state == MachineState::kStopping) return Done::kWaiting;
-      if (state == MachineState::kStopped || state == MachineState::kAlarm) {
-        if (const auto again = gateway_.clear(); !again) return refuse(again.error().words);
-        return Done::kWaiting;
-      }
-      // What was under way when it was stopped is not gone on with: the host has forgotten it.
-      if (state == MachineState::kHeld) {
-        static_cast<void>(gateway_.cancel());
-        return Done::kWaiting;
-      }
-      if (state == MachineState::kCancelling) return Done::kWaiting;
-      halted_ = dropped_ = false;
-      return over();
-  }
-  return Done::kYes;
 }
 
 }  // namespace kinebus

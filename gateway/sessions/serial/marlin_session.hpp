@@ -7,6 +7,9 @@
 // G-code goes to the gateway line by line (Gateway::take_line): it is checked, planned with look-ahead and
 // moved like a job's. "ok" comes when a line is taken, so it waits while the planner is full; of G28, G4,
 // M109, M190 and M400 when they are carried out. M112, M410 and M108 are seen at once, whatever waits.
+//
+// The host is a client like all others: it has control from its first command that changes the machine until
+// it is silent or its lines are done; while another client has control it may only ask and stop.
 
 #include <deque>
 #include <functional>
@@ -15,6 +18,7 @@
 
 #include "gateway/machine/gateway.hpp"
 #include "gateway/sessions/byte_session.hpp"
+#include "gateway/sessions/control.hpp"
 #include "gateway/sessions/serial/line_reader.hpp"
 #include "gateway/sessions/serial/serial_files.hpp"
 
@@ -25,9 +29,12 @@ class MarlinSession : public ByteSession {
   struct Options {
     std::string name = "serial";            ///< shown as the job's name while lines move the machine
     std::size_t line_buffer = 16;           ///< what "ok" tells as room (B)
-    LocalTime close_after{2'000'000'000};   ///< without lines the machine is given back to others
+    LocalTime close_after{2'000'000'000};   ///< without commands the machine is given back to others
     LocalTime keep_alive{2'000'000'000};    ///< between two "busy" (M113 S)
     std::size_t longest_file = 64U << 20U;  ///< M28, bytes
+    Control* control = nullptr;             ///< shared with all who may command; null: nobody else does
+    std::string transport = "serial";       ///< shown to the other clients
+    LocalTime gone_after{15'000'000'000};   ///< a host that says nothing for so long has gone
   };
   struct Counters {
     std::uint64_t lines = 0, resends = 0, refused = 0;
@@ -82,6 +89,15 @@ class MarlinSession : public ByteSession {
   Done query(const serial::Line& line);
   std::string temperatures() const;
 
+  // line_control.cpp: who may command
+  void heard();
+  void leave();
+  void come_and_go();
+  bool idle() const { return !mine_ && !file_runs_ && lines_.empty(); }
+  bool has_control() const { return options_.control != nullptr && options_.control->holder() == client_; }
+  bool may_command();
+  std::string no_control() const;
+
   // file_codes.cpp: M20 to M32, M524
   Done file_code(const serial::Line& line, int number);
   Done start_file();
@@ -98,6 +114,7 @@ class MarlinSession : public ByteSession {
   Counters counters_;
   LocalTime now_{0};
 
+  ClientId client_ = 0;   ///< 0: no host is there
   bool mine_ = false;     ///< the gateway's lines were opened by this session
   bool homing_ = false;   ///< the G28 at the front found the machine without positions
   bool halted_ = false;   ///< after M112 nothing is taken until M999
@@ -107,7 +124,7 @@ class MarlinSession : public ByteSession {
   Wait wait_ = Wait::kNone;
   bool heats_ = false;  ///< the line at the front waits for a heater: temperatures are told meanwhile
   bool waits_for_bed_ = false, waits_cooling_ = false;
-  LocalTime last_line_{0}, next_busy_{0};
+  LocalTime last_line_{0}, last_command_{0}, next_busy_{0};
 
   LocalTime temperature_period_{0}, next_temperature_{0};  ///< M155
   LocalTime progress_period_{0}, next_progress_{0};        ///< M27 S

@@ -149,6 +149,12 @@ TEST_F(LinkMachineTest, AWorkOffsetShiftsWhatTheConsoleSays) {
   ASSERT_FALSE(rig_.ask(*anna_, move).has_error());
   ASSERT_TRUE(rig_.run_until([&] { return ready(); }, 20s));
   EXPECT_NEAR(rig_.machine.gateway->status().pose[kX], 9, 0.01);
+  const auto status = rig_.ask(*anna_, plain(&ClientMessage::mutable_get_status)).status();
+  EXPECT_EQ(status.work_system(), 1u);
+  EXPECT_NEAR(status.work_offset().x_mm(), 7, 1e-9);
+  move.mutable_console()->set_line("G56");
+  ASSERT_FALSE(rig_.ask(*anna_, move).has_error());
+  EXPECT_EQ(rig_.ask(*anna_, plain(&ClientMessage::mutable_get_status)).status().work_system(), 3u);
 }
 
 TEST_F(LinkMachineTest, AWatcherMayAskButNotMoveByTheConsole) {

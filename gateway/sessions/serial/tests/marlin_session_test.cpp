@@ -184,5 +184,50 @@ TEST(MarlinSession, SlowHostsMotionStopsAndGoesOnOnThePathWithoutStarvingTheNode
   EXPECT_FALSE(rig.machine.told(MachineEvent::Kind::kAlarm)) << rig.log();
 }
 
+TEST(MarlinSession, AHostHasControlWhileItsLinesMoveAndGivesItBackWhenItOnlyAsks) {
+  SerialRig rig;
+  ASSERT_TRUE(rig.machine.make_ready());
+  EXPECT_TRUE(rig.control.clients().empty());
+  rig.ask("M105");
+  ASSERT_EQ(rig.control.clients().size(), 1u);
+  EXPECT_EQ(rig.control.clients()[0].name, "print host on serial");
+  EXPECT_EQ(rig.control.holder(), 0u) << "who only asks has no control";
+  rig.ask("G1 X5 F3000");
+  EXPECT_EQ(rig.control.holder(), rig.control.clients()[0].id);
+  rig.ask("M400");
+  BusTime next_poll = rig.machine.now;
+  ASSERT_TRUE(rig.until(
+      [&] {
+        if (rig.machine.now >= next_poll) rig.write("M105\n");
+        if (rig.machine.now >= next_poll) next_poll += 1s;
+        return rig.control.holder() == 0;
+      },
+      20s))
+      << "its temperature polls keep no control";
+  EXPECT_EQ(rig.control.clients().size(), 1u);
+  ASSERT_TRUE(rig.until([&] { return rig.control.clients().empty(); }, 30s)) << "a silent host has gone";
+}
+
+TEST(MarlinSession, WhileAnotherClientHasControlAHostMayAskAndStopButNotMove) {
+  SerialRig rig;
+  ASSERT_TRUE(rig.machine.make_ready());
+  const ClientId desk = rig.control.attach("desktop", "usb");
+  ASSERT_TRUE(rig.control.take(desk, false));
+  for (const char* line : {"G1 X5 F3000", "M104 S200", "G28", "M24", "M17"})
+    EXPECT_EQ(rig.ask(line), "Error:desktop has control of the machine\n") << line;
+  EXPECT_NE(rig.ask("M105").find("ok T:"), std::string::npos);
+  EXPECT_NEAR(rig.machine.gateway->status().machine_pose[kX], 0, 1e-3);
+  rig.control.release(desk);
+  EXPECT_EQ(rig.ask("G1 X5 F3000"), "");
+  // Taken by force in the middle: what was taken is moved, nothing more is.
+  ASSERT_TRUE(rig.control.take(desk, true));
+  EXPECT_EQ(rig.ask("G1 X9"), "Error:desktop has control of the machine\n");
+  ASSERT_TRUE(rig.until([&] { return rig.machine.gateway->state() == MachineState::kReady; }, 20s))
+      << rig.log();
+  EXPECT_NEAR(rig.machine.gateway->status().machine_pose[kX], 5, 2e-3);
+  rig.write("M112\n");
+  ASSERT_TRUE(rig.until([&] { return rig.machine.gateway->state() == MachineState::kStopped; }, 5s));
+}
+
 }  // namespace
 }  // namespace kinebus

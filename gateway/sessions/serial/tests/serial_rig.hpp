@@ -49,7 +49,10 @@ class SerialRig {
  public:
   using Clock = std::chrono::nanoseconds;
   explicit SerialRig(double noise_per_line = 0, std::uint64_t seed = 1)
-      : files(*machine.gateway), session(*machine.gateway, files), noise_(noise_per_line), random_(seed) {
+      : files(*machine.gateway),
+        session(*machine.gateway, files, {.control = &control}),
+        noise_(noise_per_line),
+        random_(seed) {
     turn();
   }
 
@@ -115,6 +118,7 @@ class SerialRig {
 
   MachineRig machine;
   MemoryFiles files;
+  Control control;
   MarlinSession session;
   std::vector<std::string> answers;
   std::uint64_t damaged = 0;

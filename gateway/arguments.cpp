@@ -1,0 +1,49 @@
+#include "gateway/arguments.hpp"
+
+#include <CLI/CLI.hpp>
+
+namespace kinebus {
+
+void add_options(CLI::App& app, Arguments& arguments) {
+  app.add_option("--machine", arguments.machine,
+                 "Machine file (TOML); without it the built-in default machine M1")
+      ->check(CLI::ExistingFile);
+  app.add_option(
+      "--bus", arguments.bus,
+      "SocketCAN interface such as can0, or \"inproc\": simulated nodes inside this process (default: the "
+      "machine file's)");
+  app.add_option("--socket", arguments.socket,
+                 "Local socket for 'kinebus' (default: /run/kinebus or the user's)");
+  app.add_option("--group", arguments.group, "Group whose members may use the local socket");
+  app.add_option("--tcp", arguments.tcp, "Also serve the job link by TLS on ADDRESS:PORT (default: off)");
+  app.add_option("--credentials", arguments.credentials,
+                 "Folder of the TLS certificate and the token (default: .tls in the folder of jobs)");
+  app.add_option("--quota", arguments.quota_gib, "GiB that stored jobs may take")
+      ->check(CLI::Range(0.001, 1e6));
+  app.add_option("--jobs", arguments.jobs, "Folder of stored jobs (default: the machine file's)");
+  app.add_option(
+      "--usb", arguments.usb,
+      "Serve the job link as a USB device, on the FunctionFS mounted here (see kinebus-usb-gadget)");
+  app.add_option("--serial-pty", arguments.serial.pty,
+                 "Offer print hosts a serial port under this path (a link to a pty)");
+  app.add_option(
+      "--serial-device", arguments.serial.device,
+      "Speak to print hosts on this serial device, whenever it is there (USB gadget: /dev/ttyGS0)");
+  app.add_option(
+      "--serial-tcp", arguments.serial.tcp,
+      "Speak to print hosts on address:port; there is no password, use it in closed networks only");
+  app.add_option("--bus-log", arguments.bus_log,
+                 "Write all frames of the bus to this file, as candump -L does");
+  app.add_option("--flight", arguments.flight,
+                 "Folder of the flight recorder's reports (default: flight beside the jobs)");
+  app.add_option(
+      "--journal", arguments.journal,
+      "File in which the place of the running job is noted (default: resume.journal beside the jobs)");
+  app.add_option("--log-level", arguments.log_level, "trace debug info warn error")
+      ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error"}));
+  app.add_option("--priority", arguments.realtime_priority, "SCHED_FIFO priority")->check(CLI::Range(1, 99));
+  app.add_flag("--no-realtime", arguments.no_realtime, "Do not ask for SCHED_FIFO and locked memory");
+  app.set_version_flag("--version", KINEBUS_VERSION);
+}
+
+}  // namespace kinebus

@@ -1,0 +1,36 @@
+#pragma once
+// What kinebusd is told on its command line.
+
+#include <string>
+
+#include "gateway/io/usb/serial_ports.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace kinebus {
+
+struct Arguments {
+  std::string machine;
+  std::string bus;
+  std::string socket;
+  std::string group;
+  std::string jobs;
+  std::string bus_log;
+  SerialPorts::Options serial;
+  std::string usb;
+  std::string journal;
+  std::string flight;
+  std::string tcp;
+  std::string credentials;
+  double quota_gib = 16;
+  std::string log_level = "info";
+  int realtime_priority = 80;
+  bool no_realtime = false;
+};
+
+/// The options of the command line; they are read into `arguments`, which must outlive the parsing.
+void add_options(CLI::App& app, Arguments& arguments);
+
+}  // namespace kinebus

@@ -1,0 +1,175 @@
+#include "gateway/service.hpp"
+
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <random>
+#include <stdexcept>
+#include <utility>
+
+#include "gateway/inproc/inproc_bus.hpp"
+#include "gateway/io/bus_log.hpp"
+#include "gateway/io/daemon.hpp"
+#include "gateway/io/socketcan_bus.hpp"
+#include "gateway/io/systemd_notify.hpp"
+#include "gateway/machine/description/machine_file.hpp"
+#include "protocol/host/realtime.hpp"
+#include "protocol/host/socketcan.hpp"
+#include "protocol/joblink/sha256.hpp"
+
+namespace kinebus {
+namespace {
+
+constexpr double kBytesPerGib = 1073741824;
+
+template <typename T>
+T must(Result<T, std::string> result, const std::string& what = {}) {
+  if (!result) throw std::runtime_error(what + result.error());
+  return std::move(*result);
+}
+
+void must_be_empty(const std::string& error, const char* what) {
+  if (!error.empty()) throw std::runtime_error(std::string(what) + " " + error);
+}
+
+MachineDescription read_machine(const std::string& path) {
+  if (path.empty()) return default_m1();
+  auto machine = load_machine(path);
+  if (!machine) throw std::runtime_error(to_string(machine.error()));
+  return *machine;
+}
+
+std::unique_ptr<BusPort> open_bus(const std::string& name, const MachineDescription& machine,
+                                  const std::string& log) {
+  std::unique_ptr<BusPort> bus;
+  if (name == "inproc")
+    bus = std::make_unique<InprocBus>(machine, monotonic_now());
+  else
+    bus = must(SocketCanBus::open(name));
+  return log.empty() ? std::move(bus) : must(LoggedBus::open(std::move(bus), log), "bus log ");
+}
+
+std::string default_socket() {
+  if (const char* named = std::getenv("KINEBUS_SOCKET")) return named;
+  if (::geteuid() == 0 || std::getenv("RUNTIME_DIRECTORY") != nullptr) return "/run/kinebus/kinebus.sock";
+  const char* runtime = std::getenv("XDG_RUNTIME_DIR");
+  return runtime != nullptr ? std::string(runtime) + "/kinebus.sock" : "/tmp/kinebus.sock";
+}
+
+double unix_now() {
+  return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+}
+
+std::filesystem::path beside(const std::string& jobs_folder, const char* name) {
+  return std::filesystem::absolute(jobs_folder).parent_path() / name;
+}
+
+/// The machine's id of this installation, or the place of its jobs where the system has none.
+std::string gateway_id(const std::string& jobs_folder) {
+  std::string id = jobs_folder;
+  if (std::ifstream in("/etc/machine-id"); in) {
+    std::string line;
+    in >> line;
+    id += line;
+  }
+  return joblink::to_hex(joblink::sha256_of("kinebus gateway " + id)).substr(0, 16);
+}
+
+std::string machine_mark(MachineFileStore& file) {
+  const auto text = file.read();
+  return text ? joblink::to_hex(joblink::sha256_of(text->text)) : std::string();
+}
+
+/// The epoch differs from the one before: nodes then join the new clock without a step.
+Gateway::Options gateway_options(const journal::State& noted) {
+  return {.epoch = static_cast<std::uint8_t>(noted.epoch ? *noted.epoch + 1 : std::random_device{}()),
+          .journal = true};
+}
+
+JobLinkServer::Options server_options(const std::string& jobs_folder, MachineFileStore& machine_file) {
+  return {.version = KINEBUS_VERSION,
+          .gateway_id = gateway_id(jobs_folder),
+          .secret = random_bytes(32),
+          .machine_mark = machine_mark(machine_file),
+          .unix_s_at_zero = unix_now() - to_seconds(monotonic_now())};
+}
+
+}  // namespace
+
+Service::Service(const Arguments& arguments)
+    : arguments_(arguments),
+      machine_(read_machine(arguments.machine)),
+      bus_name_(arguments.bus.empty() ? machine_.bus.interface : arguments.bus),
+      jobs_folder_(arguments.jobs.empty() ? machine_.jobs_directory : arguments.jobs),
+      journal_path_(arguments.journal.empty() ? beside(jobs_folder_, "resume.journal")
+                                              : std::filesystem::absolute(arguments.journal)),
+      bus_(open_bus(bus_name_, machine_, arguments.bus_log)),
+      store_(JobStore::open({.folder = jobs_folder_,
+                             .quota_bytes = static_cast<std::uint64_t>(arguments.quota_gib * kBytesPerGib)},
+                            unix_now())),
+      noted_(JournalFile::read(journal_path_)),
+      gateway_(machine_, gateway_options(noted_)),
+      journal_(journal_path_, noted_, gateway_),
+      machine_file_(arguments.machine, write_machine(machine_)),
+      worker_(loop_),
+      server_(gateway_, machine_, *store_, worker_, machine_file_, control_,
+              server_options(jobs_folder_, machine_file_)),
+      hub_(loop_),
+      host_(loop_, hub_, server_),
+      serial_files_(*store_, worker_, gateway_, server_),
+      serial_(loop_, gateway_, serial_files_, control_, arguments.serial),
+      usb_(loop_, hub_, arguments.usb,
+           [this](LocalTime now) { return server_.open(now, {.transport = "usb", .token = {}}); }),
+      recorder_({.folder = arguments.flight.empty() ? journal_path_.parent_path() / "flight"
+                                                    : std::filesystem::path(arguments.flight),
+                 .machine = machine_.name,
+                 .interface = bus_name_},
+                gateway_) {
+  for (const std::string& note : store_->notes()) spdlog::warn("{}", note);
+  go_on_with_the_interrupted_job();
+  listen();
+}
+
+void Service::go_on_with_the_interrupted_job() {
+  if (!noted_.job) return;
+  auto text = store_->open_job(noted_.job->name);
+  if (const auto taken = gateway_.recover(noted_, text ? std::move(*text) : nullptr); !taken)
+    spdlog::warn("{}", taken.error().words);
+}
+
+void Service::listen() {
+  const std::string socket = arguments_.socket.empty() ? default_socket() : arguments_.socket;
+  must_be_empty(host_.listen_local(socket, arguments_.group), "local socket");
+  if (!arguments_.tcp.empty()) {
+    const std::string folder =
+        arguments_.credentials.empty() ? jobs_folder_ + "/.tls" : arguments_.credentials;
+    must_be_empty(host_.listen_tcp(arguments_.tcp, folder), "TCP");
+    spdlog::info("TCP port {}, fingerprint {}, token in {}/token", host_.tcp_port(), host_.tls_fingerprint(),
+                 folder);
+  }
+  must_be_empty(serial_.open(), "serial port");
+  if (const std::string missing = recorder_.open(); !missing.empty())
+    spdlog::warn("no flight recorder: {}", missing);
+  spdlog::info("{} on bus {}, listening at {}", machine_.name, bus_name_, socket);
+}
+
+void Service::run(const volatile std::sig_atomic_t* quit) {
+  notify_systemd("READY=1");
+  RecordedBus recorded(std::move(bus_), recorder_);
+  Daemon daemon(loop_, recorded, gateway_);
+  daemon.add(recorder_);
+  daemon.add(host_);
+  daemon.add(hub_);
+  daemon.add(serial_);
+  if (!arguments_.usb.empty()) daemon.add(usb_);
+  daemon.add(journal_);
+  if (!arguments_.no_realtime)
+    if (const std::string missing = become_realtime(arguments_.realtime_priority); !missing.empty())
+      spdlog::warn("running without {}: expect more jitter", missing);
+  daemon.run(quit);
+}
+
+}  // namespace kinebus

@@ -1,0 +1,62 @@
+#pragma once
+// kinebusd's parts, built in the order in which they need each other, and their loop.
+
+#include <csignal>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "gateway/arguments.hpp"
+#include "gateway/io/bus_port.hpp"
+#include "gateway/io/event_loop.hpp"
+#include "gateway/io/flight_recorder.hpp"
+#include "gateway/io/job_link_host.hpp"
+#include "gateway/io/journal_file.hpp"
+#include "gateway/io/machine_file_store.hpp"
+#include "gateway/io/store_files.hpp"
+#include "gateway/io/stream_hub.hpp"
+#include "gateway/io/usb/function_fs.hpp"
+#include "gateway/io/usb/serial_ports.hpp"
+#include "gateway/io/worker_thread.hpp"
+#include "gateway/jobs/store/job_store.hpp"
+#include "gateway/machine/description/machine_description.hpp"
+#include "gateway/machine/gateway.hpp"
+#include "gateway/sessions/control.hpp"
+#include "gateway/sessions/job_link_server.hpp"
+
+namespace kinebus {
+
+class Service {
+ public:
+  /// What cannot be opened is thrown as words for the user (std::runtime_error).
+  explicit Service(const Arguments& arguments);
+  /// Until *quit, then until the machine rests.
+  void run(const volatile std::sig_atomic_t* quit);
+
+ private:
+  void go_on_with_the_interrupted_job();
+  void listen();
+
+  const Arguments& arguments_;
+  MachineDescription machine_;
+  std::string bus_name_, jobs_folder_;
+  std::filesystem::path journal_path_;
+  std::unique_ptr<BusPort> bus_;
+  std::unique_ptr<JobStore> store_;
+  EventLoop loop_;
+  journal::State noted_;
+  Gateway gateway_;
+  JournalFile journal_;
+  MachineFileStore machine_file_;
+  WorkerThread worker_;
+  Control control_;
+  JobLinkServer server_;
+  StreamHub hub_;
+  JobLinkHost host_;
+  StoreFiles serial_files_;
+  SerialPorts serial_;
+  FunctionFs usb_;
+  FlightRecorder recorder_;
+};
+
+}  // namespace kinebus
