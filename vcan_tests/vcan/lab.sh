@@ -1,16 +1,16 @@
 # Shared by the tests of this folder: a vcan interface of its own, the programs under test, and a capture that stays.
-# Source it with the folder of the programs as $1.
+# Source it with the folder of the programs as $1; $programs names others than daemon, CLI and virtual node.
 set -euo pipefail
 work=$(mktemp -d)
 # The programs and their libraries run from memory: a page that comes late from the host's disk would halt one node
 # for as long as the guest's virtual time likes.
 bin=$work/bin
 mkdir "$bin" "$work/lib"
-cp "$1"/{kinebusd,kinebus,kinebus-vnode} "$bin/"
+for program in ${programs:-kinebusd kinebus kinebus-vnode}; do cp "$1/$program" "$bin/"; done
 ldd "$bin"/* | awk '$2 == "=>" && $3 ~ "^/" { print $3 }' | sort -u | xargs -I{} cp {} "$work/lib/"
 export LD_LIBRARY_PATH=$work/lib
 # What the scripts call, read once before anything moves, for the same reason.
-for tool in bash cangen cansend cat cp dd grep ip ls mkdir mount mv rm tail umount wc; do
+for tool in bash cangen cangw cansend cat cp dd grep ip ls mkdir mount mv rm tail umount wc; do
   path=$(type -P "$tool") && cat "$path" > /dev/null
 done
 keep=${LAB_KEEP:-$work}
@@ -24,6 +24,7 @@ finish() {
   for pid in "${pids[@]}"; do kill "$pid" 2>/dev/null || true; done
   wait 2>/dev/null || true
   ip link del "$interface" 2>/dev/null || true
+  [[ -z ${gateway_interface:-} ]] || ip link del "$gateway_interface" 2>/dev/null || true
   sync_traces
   cp "$work"/*.log "$work"/*.trace "$keep"/ 2>/dev/null || true
   [[ $status == 0 ]] || { echo "--- daemon's log"; tail -n 40 "$work/kinebusd.log"; echo "--- last frames"; tail -n 30 "$work/bus.log"; } 2>/dev/null
@@ -49,6 +50,13 @@ start_bus() {
   ip link add dev "$interface" type vcan && ip link set "$interface" up
   chrt -f 85 candump -L "$interface" > "$work/bus.log" & pids+=($!)
 }
+# The gateway on an interface of its own, joined to the nodes' by rules that a test may change.
+split_bus() {
+  gateway_interface=${interface}g
+  ip link add dev "$gateway_interface" type vcan && ip link set "$gateway_interface" up
+  cangw -A -s "$interface" -d "$gateway_interface" -e
+  cangw -A -s "$gateway_interface" -d "$interface" -e
+}
 start_nodes() {
   local node
   for node in 1 2 3; do
@@ -61,6 +69,6 @@ start_node() {
     >> "$work/node$node.log" 2>&1 & pids+=($!); nodes[node - 1]=$!
 }
 start_daemon() {
-  "$bin/kinebusd" --bus "$interface" --jobs "$work/jobs" "$@" > "$work/kinebusd.log" 2>&1 & pids+=($!); daemon=$!
+  "$bin/kinebusd" --bus "${gateway_interface:-$interface}" --jobs "$work/jobs" "$@" > "$work/kinebusd.log" 2>&1 & pids+=($!); daemon=$!
   until_true 20 "daemon" test -S "$KINEBUS_SOCKET"
 }
