@@ -17,6 +17,10 @@ constexpr float kBoostAmperesPerPeriod = 500.0F * kControlPeriodS;
 constexpr int kRestBeforeHold = periods(0.2F);
 // Of rest with power, after which the rotor is on its command: the ramp to 2 A, and a few swings.
 constexpr int kSettled = periods(0.15F);
+// Still is a rotor whose readings keep within this, the encoder's noise included, for 26 ms.
+constexpr int kWindowBits = 9;
+constexpr std::int32_t kStillCounts = 80;
+constexpr std::int64_t kOneStepLost = 640 * kCount;  // steps are lost by electrical turns, 1024 counts
 // What counts as accelerating: 2 mm/s in 1 ms on a carriage, 2000 mm/s^2.
 constexpr float kBoostChange = 2.56e6F * kControlPeriodS;
 // Faster than the timers' range of duty is a position that jumps.
@@ -82,7 +86,8 @@ void AxisControl::begin() {
       angle_shift_ = wrap(rotor - sign_position_);
     }
   }
-  referenced_ = origin_fine_ = steady_ = false;
+  referenced_ = origin_fine_ = steady_ = seen_quiet_ = seen_still_ = false;
+  window_ = 0;
 }
 
 void AxisControl::serve_encoder(const AxisInputs& in) {
@@ -94,15 +99,40 @@ void AxisControl::serve_encoder(const AxisInputs& in) {
     if (encoder_.lost() && encoder_.known()) encoder_.restart();
     // Until the current holds the rotor on the command it may lie anywhere near.
     if (rest_periods_ >= kSettled || sign_velocity_ != 0) referenced_ = referenced_ || encoder_.known();
-    const std::int64_t apart = sign_position_ - encoder_.position();
-    if (!referenced_ || (!was_known && encoder_.known())) follow_origin_ = apart;
+    if (!referenced_ || (!was_known && encoder_.known()))
+      follow_origin_ = sign_position_ - encoder_.position();
+    if (!seen_still_ && on_ && encoder_.known()) look_for_rest();
     if (encoder_.lost()) troubles |= Surroundings::kEncoder;
-    error_ = encoder_.known() && on_ ? apart - follow_origin_ : 0;
+    error_ = encoder_.known() && on_ ? sign_position_ - encoder_.position() - follow_origin_ : 0;
     const auto whole = static_cast<std::int32_t>((error_ + kCount / 2) >> 32);
     if (off_course_.look(std::abs(whole) > config_.following_window)) troubles |= Surroundings::kFollowing;
     following_.store(config_.inverted ? -whole : whole, std::memory_order_relaxed);
   }
   troubles_.store(troubles, std::memory_order_relaxed);
+}
+
+// A rotor that was drawn to its first angle from far away swings for a while: its place counts once it is
+// still, by the mean of a window of several swings. In motion that is done once, so that a rotor that stays
+// behind is seen; at rest for good. Steps that are lost are not covered up.
+void AxisControl::look_for_rest() {
+  const auto apart = static_cast<std::int32_t>((sign_position_ - encoder_.position()) >> 32);
+  if (window_ == 0) {
+    window_sum_ = 0;
+    lowest_ = highest_ = apart;
+    window_ = 1 << kWindowBits;
+    return;
+  }
+  lowest_ = std::min(lowest_, apart);
+  highest_ = std::max(highest_, apart);
+  window_sum_ += apart;
+  if (--window_ > 0) return;
+  const bool rests = rest_periods_ >= kSettled;
+  const std::int64_t origin = window_sum_ << (32 - kWindowBits);
+  if (highest_ - lowest_ > kStillCounts || std::llabs(origin - follow_origin_) > kOneStepLost) return;
+  if (!rests && (seen_quiet_ || sign_velocity_ == 0)) return;
+  follow_origin_ = origin;
+  referenced_ = seen_quiet_ = true;
+  seen_still_ = rests;
 }
 
 // Run, hold or boost, and the way from one to the other.

@@ -80,6 +80,7 @@ class AxisControl {
   void trip(std::uint16_t code);
   void begin();
   void serve_encoder(const AxisInputs& in);
+  void look_for_rest();
   void slew_current(const AxisInputs& in);
   Angle commanded_angle(const AxisInputs& in);
   std::int32_t rest_angle(std::int32_t error);
@@ -109,9 +110,14 @@ class AxisControl {
   std::int64_t angle_shift_ = 0;    // electrical: where the current began, less the command, counts << 32
   std::int64_t follow_origin_ = 0;  // command less encoder when the rotor had settled on it
   bool referenced_ = false;         // it has
-  bool origin_fine_ = false;        // and to less than a step of the encoder, or it has moved since
-  std::int64_t error_ = 0;          // command less encoder less origin; 0 while not known
-  std::int32_t trim_ = 0;           // closed loop: angle that keeps the rotor on the command at rest
+  bool seen_quiet_ = false;         // it has, and did not swing any more
+  bool seen_still_ = false;         // and that at rest
+  int window_ = 0;                  // control periods left in which it is watched for that
+  std::int32_t lowest_ = 0, highest_ = 0;
+  std::int64_t window_sum_ = 0;
+  bool origin_fine_ = false;  // and to less than a step of the encoder, or it has moved since
+  std::int64_t error_ = 0;    // command less encoder less origin; 0 while not known
+  std::int32_t trim_ = 0;     // closed loop: angle that keeps the rotor on the command at rest
   RestTrim rest_trim_;
   unsigned looks_;
   bool steady_ = false;  // at rest, and the current has come to what it holds

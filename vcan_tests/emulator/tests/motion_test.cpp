@@ -132,6 +132,23 @@ TEST(Motion, RestsWithinATwoHundredFiftySixthOfAStepWithEncoder) {
   }
 }
 
+TEST(Motion, ARotorDrawnFromHalfAnElectricalTurnAwayIsReferencedWhereItComesToRest) {
+  BoardOptions options;
+  options.axes[0].start_counts = 470;
+  options.axes[1].start_counts = -300;
+  OneBoard node(options);
+  node.configure(2500, 1);
+  node.enable(1);
+  for (int axis = 0; axis < 2; ++axis)
+    node.bench.move(OneBoard::kId, axis, axis == 0 ? 5'000 : -5'000, 50'000, 1'000'000);
+  node.bench.run(800ms);
+  for (int axis = 0; axis < 2; ++axis) {
+    const auto told = node.bench.read(OneBoard::kId, static_cast<std::uint16_t>(0x60F4 + 0x800 * axis), 0);
+    EXPECT_LT(std::abs(node.error(axis)), 8) << "in step";
+    EXPECT_LE(std::abs(told), 8);
+  }
+}
+
 TEST(Motion, AFullBusLosesNoFrameAndStampsSyncInTime) {
   OneBoard node({}, 3);
   node.configure(2500, 0);
