@@ -101,8 +101,8 @@ void SdoClient::on_frame(LocalTime now, const CanFrame& frame) {
   const bool same_object = sdo::address_in(frame) == address_;
   switch (state_) {
     case State::kInitiateDownload:
-      if (reply != sdo::kReplyInitiateDownload) break;
-      if (!same_object) return;
+      // Answers to a transfer before this one, of which a request came twice, are nobody's.
+      if (reply != sdo::kReplyInitiateDownload || !same_object) return;
       if (at_ == out_.size()) return done();
       return send_download_segment();
     case State::kDownloadSegment:
@@ -113,8 +113,7 @@ void SdoClient::on_frame(LocalTime now, const CanFrame& frame) {
       if (at_ == out_.size()) return done();
       return send_download_segment();
     case State::kInitiateUpload:
-      if (reply != sdo::kReplyInitiateUpload) break;
-      if (!same_object) return;
+      if (reply != sdo::kReplyInitiateUpload || !same_object) return;
       return on_initiate_upload(frame);
     case State::kUploadSegment:
       if (reply != sdo::kReplyUploadSegment) break;

@@ -18,6 +18,20 @@ inline constexpr std::uint8_t kGatewayNodeId = 127;
 inline constexpr std::uint32_t kRateCobId = 0x180 + kGatewayNodeId;  // TPDO1 of the gateway: above all PDOs
 inline constexpr std::uint32_t kSyncStampCobId = 0x280 + kGatewayNodeId;  // TPDO2 of the gateway
 
+/// Check bits of the broadcasts, beside the bus's own CRC: what goes wrong between a controller's buffer and
+/// the program would else move one carriage otherwise than the others. The remainder by x^width +
+/// `polynomial` finds every wrong bit, and every burst of up to `width` bits. `payload`: its check bits are
+/// 0.
+constexpr std::uint8_t check_bits(std::uint64_t payload, int width, unsigned polynomial) {
+  const unsigned top = 1u << (width - 1), mask = (1u << width) - 1;
+  unsigned rest = mask;  // so that a frame of zeros is no good one
+  for (int bit = 63; bit >= 0; --bit) {
+    const bool out = ((rest & top) != 0) != ((payload >> bit & 1u) != 0);
+    rest = ((rest << 1) ^ (out ? polynomial : 0u)) & mask;
+  }
+  return static_cast<std::uint8_t>(rest);
+}
+
 /// Two-step SYNC: when the SYNC with this counter really was on the bus, on the gateway's clock.
 struct SyncStamp {
   std::uint8_t counter = 0;  ///< the counter byte of the SYNC that this stamps, 1..240
@@ -27,6 +41,7 @@ struct SyncStamp {
   friend constexpr bool operator==(const SyncStamp&, const SyncStamp&) = default;
 };
 
+/// Bytes 2, 3: nanoseconds in 10 bits, 6 check bits above them.
 constexpr CanFrame encode(const SyncStamp& stamp) {
   CanFrame frame{.id = kSyncStampCobId, .length = 8};
   const std::int64_t us = stamp.time.count() / 1000;
@@ -34,6 +49,8 @@ constexpr CanFrame encode(const SyncStamp& stamp) {
   frame.data[1] = stamp.epoch;
   put_u16_le(std::span(frame.data).subspan(2), static_cast<std::uint16_t>(stamp.time.count() % 1000));
   put_u32_le(std::span(frame.data).subspan(4), static_cast<std::uint32_t>(us));
+  const std::uint8_t check = check_bits(get_u64_le(frame.data), 6, 0x03);
+  frame.data[3] = static_cast<std::uint8_t>(frame.data[3] | (check << 2));
   return frame;
 }
 
@@ -44,10 +61,20 @@ constexpr BusTime unwrap_us(std::uint32_t low_us, BusTime reference) {
   return BusTime{(ref_us + delta) * 1000};
 }
 
+/// As unwrap_us() with 24 bits: within 8 s of `reference`.
+constexpr BusTime unwrap_us24(std::uint32_t low_us, BusTime reference) {
+  const std::int64_t ref_us = reference.count() / 1000;
+  const auto delta = static_cast<std::int32_t>((low_us - static_cast<std::uint32_t>(ref_us)) << 8) >> 8;
+  return BusTime{(ref_us + delta) * 1000};
+}
+
 /// `reference`: any time within half an hour of the stamp. nullopt: malformed.
 constexpr std::optional<SyncStamp> decode_sync_stamp(const CanFrame& frame, BusTime reference) {
   if (frame.length != 8) return std::nullopt;
-  const std::uint16_t ns = get_u16_le(std::span(frame.data).subspan(2));
+  const std::uint64_t raw = get_u64_le(frame.data);
+  constexpr std::uint64_t kCheck = std::uint64_t{0x3F} << 26;
+  if (check_bits(raw & ~kCheck, 6, 0x03) != (raw & kCheck) >> 26) return std::nullopt;
+  const auto ns = static_cast<std::uint16_t>(raw >> 16 & 0x3FF);
   if (ns > 999 || frame.data[0] == 0 || frame.data[0] > 240) return std::nullopt;
   return SyncStamp{frame.data[0], frame.data[1],
                    unwrap_us(get_u32_le(std::span(frame.data).subspan(4)), reference) + BusTime{ns}};
@@ -72,28 +99,35 @@ struct RateCommand {
 };
 inline constexpr std::uint16_t kFullRateQ15 = 32768;
 
+/// Byte 0: counter and kind; 1, 2: rate; 3: ramp; 4 to 6: start in us, low 24 bits; 7: check bits.
 constexpr CanFrame encode(const RateCommand& c) {
   CanFrame frame{.id = kRateCobId, .length = 8};
   frame.data[0] = static_cast<std::uint8_t>((static_cast<unsigned>(c.kind) << 4) | (c.counter & 0xFu));
   put_u16_le(std::span(frame.data).subspan(1), c.rate_q15);
   frame.data[3] = c.full_ramp_2ms;
-  put_u32_le(std::span(frame.data).subspan(4), static_cast<std::uint32_t>(c.start.count() / 1000));
+  put_u32_le(std::span(frame.data).subspan(4),
+             static_cast<std::uint32_t>(c.start.count() / 1000) & 0xFF'FFFFu);
+  frame.data[7] = check_bits(get_u64_le(frame.data), 8, 0x2F);
   return frame;
 }
 
+/// `reference`: any time within 8 s of the start. nullopt: malformed.
 constexpr std::optional<RateCommand> decode_rate_command(const CanFrame& frame, BusTime reference) {
   if (frame.length != 8) return std::nullopt;
+  if (check_bits(get_u64_le(frame.data) & ~(std::uint64_t{0xFF} << 56), 8, 0x2F) != frame.data[7])
+    return std::nullopt;
   const unsigned kind = frame.data[0] >> 4;
   const std::uint16_t rate = get_u16_le(std::span(frame.data).subspan(1));
   if (kind < 1 || kind > 3 || rate > kFullRateQ15 || frame.data[3] == 0) return std::nullopt;
   return RateCommand{static_cast<RateCommand::Kind>(kind), static_cast<std::uint8_t>(frame.data[0] & 0xF),
-                     rate, frame.data[3], unwrap_us(get_u32_le(std::span(frame.data).subspan(4)), reference)};
+                     rate, frame.data[3],
+                     unwrap_us24(get_u32_le(std::span(frame.data).subspan(4)) & 0xFF'FFFFu, reference)};
 }
 
-/// Stop requests of nodes travel in EMCY's five vendor bytes: byte 3 the reason and axis, bytes 4..7 the bus
-/// time in microseconds (low 32 bits) at which every node, sender included, starts the stop ramp. The sender
-/// names a time `kStopMargin` ahead, so that the frame reaches all nodes before it; the earliest stop named
-/// wins.
+/// Stop requests of nodes travel in EMCY's five vendor bytes: byte 3 the reason and axis, bytes 4..6 the bus
+/// time in microseconds (low 24 bits) at which every node, sender included, starts the stop ramp, byte 7
+/// check bits: the EMCY of a foreign device stops nobody by chance. The sender names a time `kStopMargin`
+/// ahead, so that the frame reaches all nodes before it; the earliest stop named wins.
 inline constexpr BusTime kStopMargin = std::chrono::microseconds{1500};
 
 /// Why a node asks all nodes to stop: the low 7 bits of EMCY's byte 3; bit 7 is the axis that is the cause.
@@ -124,7 +158,10 @@ struct StopRequest {
 constexpr std::array<std::uint8_t, 5> encode(const StopRequest& s) {
   std::array<std::uint8_t, 5> bytes{};
   bytes[0] = static_cast<std::uint8_t>((static_cast<unsigned>(s.reason) & 0x7Fu) | ((s.axis & 1u) << 7));
-  put_u32_le(std::span(bytes).subspan(1), static_cast<std::uint32_t>(s.start.count() / 1000));
+  if (s.reason == StopReason::kNone) return bytes;
+  const std::uint32_t us = static_cast<std::uint32_t>(s.start.count() / 1000) & 0xFF'FFFFu;
+  put_u32_le(std::span(bytes).subspan(1), us);
+  bytes[4] = check_bits(bytes[0] | std::uint64_t{us} << 8, 8, 0x2F);
   return bytes;
 }
 /// nullopt: not an EMCY that asks for a stop. `frame`: any frame.
@@ -132,9 +169,10 @@ constexpr std::optional<StopRequest> decode_stop_request(const CanFrame& frame, 
   if (frame.extended || frame.remote || frame.length != 8 || frame.id <= 0x080 || frame.id > 0x0FF)
     return std::nullopt;
   if ((frame.data[3] & 0x7F) == 0) return std::nullopt;
+  const std::uint32_t us = get_u32_le(std::span(frame.data).subspan(4)) & 0xFF'FFFFu;
+  if (check_bits(frame.data[3] | std::uint64_t{us} << 8, 8, 0x2F) != frame.data[7]) return std::nullopt;
   return StopRequest{static_cast<StopReason>(frame.data[3] & 0x7F),
-                     static_cast<std::uint8_t>(frame.data[3] >> 7),
-                     unwrap_us(get_u32_le(std::span(frame.data).subspan(4)), reference)};
+                     static_cast<std::uint8_t>(frame.data[3] >> 7), unwrap_us24(us, reference)};
 }
 
 /// TPDO2 of a node: everything that a stream needs to go on.

@@ -8,11 +8,14 @@ namespace {
 
 constexpr std::int64_t kHorizonNs = 16'000'000'000;
 // A sample further than this from the fit is a mistake (a wrong pairing, a clock that jumped), not latency.
-constexpr std::int64_t kMistakeNs = 8'000'000;
+// Half of the shortest period of SYNC.
+constexpr std::int64_t kMistakeNs = 2'500'000;
 constexpr std::int64_t kLongestGapNs = 30'000'000'000;
 // So many mistakes one after another mean that the fit is the mistake.
 constexpr int kMaxStrangers = 3;
 constexpr std::int64_t kMaxSlopePpm = 300;
+// While SYNCs come every 5 ms, every eighth one brings a new fit; every one when they come as usual.
+constexpr LocalTime kFitPeriod{40'000'000};
 constexpr std::int64_t kSettleNs = 100'000'000;  // two periods of SYNC
 // Crystals wander: a held estimate degrades by about this, even with a perfect fit.
 constexpr std::int64_t kWanderPpb = 100;
@@ -100,6 +103,9 @@ ClockEstimate::Update ClockEstimate::on_stamp(const SyncStamp& stamp, LocalTime 
   last_bus_ = stamp.time;
   ++counters_.stamps_used;
   update.used = true;
+  // A fit is the dearest thing that a node does, and one sample more in a full window changes little.
+  if (count_ > kMinimumSamples && !joining_ && now - fitted_ < kFitPeriod) return update;
+  fitted_ = now;
   fit();
 
   const std::int64_t here = now.count();

@@ -111,7 +111,7 @@ class ClockEstimate {
   bool started_ = false, synchronised_ = false, joining_ = false;
   Line steered_{}, settled_{};
   std::int64_t settled_local_ = 0, correction_ = 0;
-  LocalTime last_local_{0};
+  LocalTime last_local_{0}, fitted_{0};
   BusTime last_bus_{0};
   Counters counters_{};
 };

@@ -9,6 +9,8 @@
 //   duration 1..8191 units of 16 us (up to 131 ms); duration 0: a control record (see SegmentControl).
 //   acceleration: signed, unit 2^(shift+1) * 2^-32 counts/unit^2; with the default shift of 2 that is
 //   7.28 counts/s^2, range +-15.3e6 counts/s^2 (11.9 m/s^2 at 0.78125 um a count).
+// A wrong bit in a segment shows at the next checkpoint. A wrong start shows in no position: control records
+// carry 3 check bits above everything else.
 
 #include <array>
 #include <cstdint>
@@ -62,10 +64,20 @@ struct Segment {
   std::uint16_t duration = 0;  ///< units of 16 us; 0: control record
   std::array<std::int32_t, kAxesPerNode> acceleration{};
   SegmentControl control = SegmentControl::kNone;
-  std::int64_t start_units = 0;  ///< kStart only; 0 .. 2^42-1 (2.2 years)
+  std::int64_t start_units = 0;  ///< kStart only; 0 .. 2^39-1 (101 days of motion)
 
   friend constexpr bool operator==(const Segment&, const Segment&) = default;
 };
+
+/// Of a control record: remainder of its low 61 bits by x^3 + x + 1, inverted.
+constexpr std::uint64_t control_check(std::uint64_t raw) {
+  unsigned rest = 0;
+  for (int bit = 60; bit >= 0; --bit) {
+    rest = (rest << 1) | static_cast<unsigned>(raw >> bit & 1u);
+    if ((rest & 8u) != 0) rest ^= 0b1011u;
+  }
+  return rest ^ 7u;
+}
 
 constexpr std::uint64_t encode(const Segment& s) {
   constexpr std::uint64_t mask22 = (1u << 22) - 1;
@@ -74,11 +86,13 @@ constexpr std::uint64_t encode(const Segment& s) {
     raw |= ((static_cast<std::uint64_t>(s.acceleration[0]) & mask22) << 20) |
            ((static_cast<std::uint64_t>(s.acceleration[1]) & mask22) << 42);
   else
-    raw |= (static_cast<std::uint64_t>(s.control) << 20) | (static_cast<std::uint64_t>(s.start_units) << 22);
+    raw |= (static_cast<std::uint64_t>(s.control) << 20) |
+           ((static_cast<std::uint64_t>(s.start_units) & ((std::uint64_t{1} << 39) - 1)) << 22);
+  if (s.duration == 0) raw |= control_check(raw) << 61;
   return raw;
 }
 
-/// nullopt: a control record of an unknown kind.
+/// nullopt: a control record of an unknown kind, or one with wrong check bits.
 constexpr std::optional<Segment> decode_segment(std::uint64_t raw) {
   Segment s;
   s.sequence = static_cast<std::uint8_t>(raw & 0x7F);
@@ -90,8 +104,9 @@ constexpr std::optional<Segment> decode_segment(std::uint64_t raw) {
   }
   const auto control = (raw >> 20) & 0x3;
   if (control != 1 && control != 2) return std::nullopt;
+  if (control_check(raw & ~(std::uint64_t{7} << 61)) != raw >> 61) return std::nullopt;
   s.control = static_cast<SegmentControl>(control);
-  s.start_units = static_cast<std::int64_t>(raw >> 22);
+  s.start_units = static_cast<std::int64_t>(raw >> 22 & ((std::uint64_t{1} << 39) - 1));
   return s;
 }
 

@@ -66,11 +66,13 @@ std::vector<Signal> fields_of(ObjectAddress address) {
               {"Kind", 4, 4, false, "1", "", "1 \"rate\" 2 \"stop\" 3 \"clear\"", ""},
               {"Rate", 8, 16, false, "3.0517578125e-05", "", "", ""},
               {"FullRamp", 24, 8, false, "2", "ms", "", "for a change of the rate by 1.0"},
-              {"Start", 32, 32, false, "1", "us", "", "bus time, low 32 bits"}};
+              {"Start", 32, 24, false, "1", "us", "", "bus time, low 24 bits"},
+              {"Check", 56, 8, false, "1", "", "", "check_bits() in protocol/motion/broadcast.hpp"}};
     case object::kSyncStamp.key():
       return {{"Counter", 0, 8, false, "1", "", "", "of the SYNC that is stamped"},
               {"Epoch", 8, 8, false, "1", "", "", ""},
-              {"Nanoseconds", 16, 16, false, "1", "ns", "", ""},
+              {"Nanoseconds", 16, 10, false, "1", "ns", "", ""},
+              {"Check", 26, 6, false, "1", "", "", "check_bits() in protocol/motion/broadcast.hpp"},
               {"Microseconds", 32, 32, false, "1", "us", "", "bus time, low 32 bits"}};
     default:
       return {};
@@ -133,7 +135,8 @@ void add_node(std::vector<Message>& messages, std::uint8_t id) {
                        {"ErrorRegister", 16, 8, false, "1", "", "", ""},
                        {"StopReason", 24, 7, false, "1", "", "", "0: no stop asked for"},
                        {"StopAxis", 31, 1, false, "1", "", "0 \"A\" 1 \"B\"", ""},
-                       {"StopStart", 32, 32, false, "1", "us", "", "bus time, low 32 bits"}}});
+                       {"StopStart", 32, 24, false, "1", "us", "", "bus time, low 24 bits"},
+                       {"StopCheck", 56, 8, false, "1", "", "", "of the stop asked for"}}});
   for (const auto& pdo : kTpdoDefaults)
     if ((pdo.cob_id & object_table::kPdoOff) == 0)
       messages.push_back(

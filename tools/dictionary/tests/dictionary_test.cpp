@@ -236,7 +236,7 @@ TEST(Dbc, PackedRecordsDecodeAsTheCodecPacks) {
   EXPECT_EQ(decode(messages.at(rate.id), "Kind", rate), 2);
   EXPECT_EQ(decode(messages.at(rate.id), "Rate", rate), 0.5);
   EXPECT_EQ(decode(messages.at(rate.id), "FullRamp", rate), 100);
-  EXPECT_EQ(decode(messages.at(rate.id), "Start", rate), 123456);
+  EXPECT_EQ(decode(messages.at(rate.id), "Start", rate), 123'456'000 / 1000 % 0x1000000);
 
   const CanFrame stamp = encode(SyncStamp{240, 3, BusTime{5'000'789}});
   EXPECT_EQ(decode(messages.at(stamp.id), "Counter", stamp), 240);
