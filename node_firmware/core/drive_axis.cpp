@@ -10,6 +10,9 @@ namespace {
 
 namespace control = cia402::control;
 
+/// An axis that waits for its turn in homing looks so often whether the other one is through.
+constexpr LocalTime kTurn = std::chrono::milliseconds{1};
+
 constexpr auto kTarget = slot_of_axes(object::kTargetPosition);
 constexpr auto kSlowDown = slot_of_axes(object::kProfileDeceleration);
 constexpr auto kQuickStop = slot_of_axes(object::kQuickStopDeceleration);
@@ -218,7 +221,9 @@ bool DriveAxis::moving(LocalTime at) const {
 LocalTime DriveAxis::next_deadline() const {
   const bool ends = source_ == Source::kProfile || source_ == Source::kLine;
   const ProfileTicks end = source_ == Source::kLine ? line_.end() : profile_.end();
-  return ends && end > served_until_ ? to_local(end) : LocalTime::max();
+  LocalTime deadline = ends && end > served_until_ ? to_local(end) : LocalTime::max();
+  if (homing_.waiting()) deadline = std::min(deadline, to_local(served_until_) + kTurn);
+  return deadline;
 }
 
 cia402::StopOptions DriveAxis::stop_options() const {

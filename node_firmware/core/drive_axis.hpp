@@ -56,6 +56,8 @@ class DriveAxis {
   /// Position at the last home edge, in the coordinates of before, or at the last probe edge.
   std::int64_t home_latch() const { return home_latch_; }
   void set_probe(std::int64_t latched) { home_latch_ = latched; }
+  /// The other axis of the node, with which this one takes turns in homing.
+  void set_neighbour(const DriveAxis& other) { neighbour_ = &other; }
   HomingError homing_error() const { return homing_.error(); }
   std::uint32_t homing_errors() const { return homing_errors_; }
   /// A homing that runs uses this switch: it is no limit then.
@@ -105,7 +107,10 @@ class DriveAxis {
   Trapezoid profile_;
   LinearInterpolator line_;
   ProfilePosition profile_position_;
+  bool homing_turn() const { return neighbour_ == nullptr || !neighbour_->homing_.leaving(); }
+
   Homing homing_;
+  const DriveAxis* neighbour_ = nullptr;
   std::uint16_t word_ = 0;
   cia402::Stop serving_ = cia402::Stop::kNone;
   bool was_powered_ = false;

@@ -164,6 +164,7 @@ void DriveAxis::start_or_end_homing(LocalTime now, bool start) {
   if (start) {
     if (source_ != Source::kProfile) to_profile(t);  // a motion that still brakes goes over into the new one
     const SwitchFunction function = homing_function();
+    homing_.set_turn(homing_turn());
     homing_.start(t, homing_config(), function != SwitchFunction::kNone && inputs_.active(function),
                   profile_);
     serve_homing(now);
@@ -180,12 +181,14 @@ bool DriveAxis::homes_with(SwitchFunction function) const {
 void DriveAxis::on_switch(LocalTime now, const SwitchEvent& event) {
   on_time(now);
   if (!homes_with(event.function)) return;
+  homing_.set_turn(homing_turn());
   homing_.on_switch(to_ticks(now), event.active, event.latched[index_], profile_);
   serve_homing(now);
   on_time(now);
 }
 
 void DriveAxis::serve_homing(LocalTime now) {
+  homing_.set_turn(homing_turn());
   homing_.on_time(to_ticks(now), profile_);
   std::int64_t by = 0;
   if (homing_.take_shift(by)) {

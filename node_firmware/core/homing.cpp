@@ -46,6 +46,7 @@ void Homing::on_switch(ProfileTicks now, bool active, std::int64_t latched, Trap
       latched_ = latched;
       return stop_into(Phase::kStopLatched, now, motion);
     case Phase::kStopOn:
+    case Phase::kWait:
     case Phase::kStopOff:
     case Phase::kStopLatched:
     case Phase::kSettle:
@@ -64,6 +65,7 @@ void Homing::on_time(ProfileTicks now, Trapezoid& motion) {
     case Phase::kLeave:
       return fail(now, motion, HomingError::kStuck);
     case Phase::kStopOn:
+    case Phase::kWait:
       return leave(now, motion);
     case Phase::kStopOff:
       return go(Phase::kEnter, now, motion, direction_, config_.slow, config_.back_off);
@@ -101,6 +103,10 @@ void Homing::go(Phase phase, ProfileTicks now, Trapezoid& motion, int direction,
 // Leaving takes the edge of methods 17, 18, 19 and 21: slowly. For 20 and 22 it only makes way for the
 // run-up.
 void Homing::leave(ProfileTicks now, Trapezoid& motion) {
+  if (!my_turn_) {
+    phase_ = Phase::kWait;
+    return;
+  }
   go(Phase::kLeave, now, motion, -direction_, entering_ ? config_.fast : config_.slow, config_.back_off);
 }
 

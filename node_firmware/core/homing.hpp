@@ -44,6 +44,16 @@ class Homing {
   enum class Switch : std::uint8_t { kNone, kHome, kNegativeLimit, kPositiveLimit };
   static Switch switch_of(int method);
 
+  /// Two carriages of a node leave their switches one after the other: if their wires are exchanged, the one
+  /// that leaves does not see its switch go off, and no position is taken from the other's. `mine`: no other
+  /// one leaves its switch now. To be called before the calls below.
+  void set_turn(bool mine) { my_turn_ = mine; }
+  bool leaving() const {
+    return phase_ == Phase::kLeave || phase_ == Phase::kStopOff || phase_ == Phase::kEnter ||
+           phase_ == Phase::kStopLatched;
+  }
+  bool waiting() const { return phase_ == Phase::kWait; }
+
   void start(ProfileTicks now, const HomingConfig& config, bool switch_active, Trapezoid& motion);
   /// The switch of this method changed (debounced) at a moment when the axis was at `latched`.
   void on_switch(ProfileTicks now, bool active, std::int64_t latched, Trapezoid& motion);
@@ -60,7 +70,17 @@ class Homing {
   bool take_shift(std::int64_t& by);
 
  private:
-  enum class Phase : std::uint8_t { kIdle, kSeek, kStopOn, kLeave, kStopOff, kEnter, kStopLatched, kSettle };
+  enum class Phase : std::uint8_t {
+    kIdle,
+    kSeek,
+    kStopOn,
+    kWait,
+    kLeave,
+    kStopOff,
+    kEnter,
+    kStopLatched,
+    kSettle
+  };
   void go(Phase phase, ProfileTicks now, Trapezoid& motion, int direction, std::uint32_t speed,
           std::uint32_t travel);
   void stop_into(Phase phase, ProfileTicks now, Trapezoid& motion);
@@ -72,6 +92,7 @@ class Homing {
   Phase phase_ = Phase::kIdle;
   int direction_ = 1;      // towards the switch
   bool entering_ = false;  // the edge is taken on the way in
+  bool my_turn_ = true;
   bool attained_ = false;
   bool has_shift_ = false;
   HomingError error_ = HomingError::kNone;

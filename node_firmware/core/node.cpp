@@ -30,6 +30,8 @@ Node::Node(const NodeOptions& options, LocalTime now, std::span<const std::uint8
       sdo_(objects_),
       pdo_(objects_),
       lss_(lss_identity(options.identity), kUnconfiguredNodeId) {
+  axes_[0].set_neighbour(axes_[1]);
+  axes_[1].set_neighbour(axes_[0]);
   const bool damaged = image_.adopt(stored_image) == ParameterImage::Load::kDamaged;
   node_id_ = usable_id(options.node_id, image_.node_id());
   lss_ = LssSlave(lss_identity(options.identity), node_id_ == 0 ? kUnconfiguredNodeId : node_id_);
@@ -210,10 +212,17 @@ void Node::set_motor(int axis, std::uint32_t resistance_mohm, std::uint32_t indu
 
 void Node::count(NodeCounter counter, std::uint32_t times) {
   counters_[std::min<std::size_t>(static_cast<std::size_t>(counter), counters_.size() - 1)] += times;
-  // A frame that nobody has read may have been a hold that all others obey.
-  if (counter == NodeCounter::kRxOverrun && times > 0 && !path_.stop_latched() &&
-      (!path_.at_rest(now_) || !path_.stream().idle()))
+}
+
+void Node::on_receive_overrun(LocalTime at, std::uint32_t frames) {
+  if (frames == 0) return;
+  // The stop that is named must lie ahead of the present, not of the last frame that was heard.
+  now_ = std::max(now_, at);
+  serve();
+  count(NodeCounter::kRxOverrun, frames);
+  if (!path_.stop_latched() && (!path_.at_rest(now_) || !path_.stream().idle()))
     path_.request_stop(StopReason::kCommand, 0, emcy::kCanOverrun, now_);
+  serve();
 }
 
 void Node::on_time(LocalTime now) {

@@ -98,7 +98,10 @@ class Node final : private ObjectOwner {
   void set_feedback(int axis, const DriveFeedback& feedback) {
     feedback_[static_cast<std::size_t>(axis & 1)] = feedback;
   }
-  /// Something that only the port sees: receive overrun, transmit queue full, bus-off, watchdog reset.
+  /// Frames were lost in the receiver. One of them may have been a hold or a start that all others obey: when
+  /// motion is queued or under way, all nodes stop together. As soon as the port knows.
+  void on_receive_overrun(LocalTime at, std::uint32_t frames);
+  /// Something that only the port sees: transmit queue full, bus-off, watchdog reset.
   void count(NodeCounter counter, std::uint32_t times = 1);
   /// Needed at next_deadline(); allowed at any time.
   void on_time(LocalTime now);

@@ -11,6 +11,7 @@ namespace {
 
 /// TPDO2: so often at least while the stream runs, or when so many records were executed since.
 constexpr LocalTime kStatusPeriod = std::chrono::milliseconds{100};
+constexpr LocalTime kStatusRepeat = std::chrono::milliseconds{500};
 constexpr std::uint32_t kStatusRecords = 32;
 /// 32 records of the shortest segments that a bus at its budget can bring (1 ms) are looked for in time.
 constexpr LocalTime kStatusLook = std::chrono::milliseconds{20};
@@ -28,7 +29,7 @@ constexpr std::array<Limit, 4> kLimits{{{SwitchFunction::kPositiveLimitA, 0},
 }  // namespace
 
 void Node::serve() {
-  path_.on_time(now_);
+  path_.on_time(now_, path_.sync_overdue(now_) && moving(now_));
   serve_switches();
   if (parameters_changed_) apply_parameters();
   watch_levels();
@@ -126,17 +127,20 @@ void Node::serve_stream_status() {
   const std::uint8_t flags = path_.status_flags(), sequence = path_.stream().next_sequence();
   const std::uint32_t consumed = path_.stream().consumed();
   const bool running = path_.rate_q32(now_) != 0 && !path_.stream().idle();
-  // At rest the queue is filled: the gateway hears that all has arrived.
-  const bool news = running || sequence != told_sequence_;
+  // At rest the queue is filled: the gateway hears that all has arrived. What is said once may be lost, and
+  // motion that waits would wait for ever: said again, more seldom.
+  const bool fresh = running || sequence != told_sequence_;
+  const bool news = fresh || !path_.stream().idle();
+  const LocalTime period = fresh ? kStatusPeriod : kStatusRepeat;
   if (flags != told_flags_ || consumed - told_consumed_ >= kStatusRecords ||
-      (news && now_ - status_told_at_ >= kStatusPeriod)) {
+      (news && now_ - status_told_at_ >= period)) {
     told_flags_ = flags;
     told_sequence_ = sequence;
     told_consumed_ = consumed;
     status_told_at_ = now_;
     pdo_.trigger(kStreamStatusPdo);
   }
-  status_look_ = running ? now_ + kStatusLook : news ? status_told_at_ + kStatusPeriod : LocalTime::max();
+  status_look_ = running ? now_ + kStatusLook : news ? status_told_at_ + period : LocalTime::max();
 }
 
 }  // namespace kinebus

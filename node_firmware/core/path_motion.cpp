@@ -216,20 +216,20 @@ void PathMotion::plan_starvation_check(LocalTime now) {
   starvation_check_ = now + std::max(kLook, LocalTime{slack * 62});
 }
 
-void PathMotion::watch_sync(LocalTime now) {
-  if (!clock_.synchronised() || sync_lost_ || now - clock_.last_sync_local() < options_.sync_timeout) return;
+void PathMotion::watch_sync(LocalTime now, bool moves) {
+  if (!sync_overdue(now)) return;
   sync_lost_ = true;
   ++counters_.sync_lost;
-  if (at_rest(now)) return;
+  if (at_rest(now) && !moves) return;
   // The same instant on every node that heard the same SYNCs.
   const BusTime start = clock_.last_sync_bus() + options_.sync_timeout;
   raise(StopReason::kSyncLost, 0, emcy::kSyncController, BusTime{start.count() / 1000 * 1000}, now);
 }
 
-void PathMotion::on_time(LocalTime now) {
+void PathMotion::on_time(LocalTime now, bool moves) {
   advance_to(now);
   served_ = now;
-  watch_sync(now);
+  watch_sync(now, moves);
   if (now < starvation_check_) return;
   if (!path_.stop_latched() && starved(now)) {
     ++counters_.underruns;

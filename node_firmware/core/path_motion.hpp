@@ -53,8 +53,12 @@ class PathMotion {
   /// An axis does not follow any more what is queued: the queue is worthless until cleared.
   void give_up_stream(LocalTime now);
 
-  /// SYNC loss and starvation.
-  void on_time(LocalTime now);
+  /// SYNC loss and starvation. `moves`: an axis moves by itself, off the path; without SYNC that ends, too.
+  void on_time(LocalTime now, bool moves = false);
+  /// The next on_time() finds that SYNC is missing.
+  bool sync_overdue(LocalTime now) const {
+    return clock_.synchronised() && !sync_lost_ && now - clock_.last_sync_local() >= options_.sync_timeout;
+  }
   LocalTime next_deadline() const;
   std::optional<PathAlarm> next_alarm();
 
@@ -85,7 +89,7 @@ class PathMotion {
   std::int64_t ticks_to_stop(std::uint64_t rate_q32) const;
   bool starved(LocalTime now) const;
   void plan_starvation_check(LocalTime now);
-  void watch_sync(LocalTime now);
+  void watch_sync(LocalTime now, bool moves);
 
   Options options_;
   ClockEstimate clock_;

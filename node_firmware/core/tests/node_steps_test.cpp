@@ -32,11 +32,8 @@ struct StepsTest : testing::Test {
   }
   /// Another node asks all to stop.
   void peer_stop() {
-    CanFrame frame = CanFrame::make(0x082, {0x00, 0x10, 0x01, 0x0A});
-    frame.length = 8;
-    put_u32_le(std::span(frame.data).subspan(4),
-               static_cast<std::uint32_t>((bench.now + 1500us).count() / 1000));
-    bench.send(frame);
+    const StopRequest stop{.reason = StopReason::kCommand, .start = Bench::whole_us(bench.now + 1500us)};
+    bench.send(encode(Emergency{2, 0x1000, 0x01, encode(stop)}));
   }
   Bench bench;
 };
@@ -134,6 +131,20 @@ TEST_F(StepsTest, AnAxisOnTheStreamStaysOnItWhenTheLineModeIsAskedForInMotion) {
   // The waves come back to their start, on the stream alone.
   bench.run(700ms);
   EXPECT_EQ(counts(), 0);
+}
+
+TEST_F(StepsTest, WithoutSyncAnAxisThatMovesByItselfStopsToo) {
+  bench.bring_up();
+  bench.enable(kId, 0, 1);
+  bench.write(kId, 0x607A, 0, 4, 300'000);
+  control(0x0F);
+  control(0x1F);
+  bench.run(50ms);
+  ASSERT_TRUE(bench.node().moving(bench.local()));
+  bench.stop_sync();
+  bench.run(400ms);
+  EXPECT_TRUE(bench.node().path().stop_latched());
+  EXPECT_FALSE(bench.node().moving(bench.local()));
 }
 
 TEST_F(StepsTest, ARateCommandThatComesLateCatchesUpWithoutAStep) {

@@ -420,6 +420,29 @@ TEST_F(StreamTest, AnewGatewayEpochIsJoinedWithoutAStep) {
   expect_at_feeds_end();
 }
 
+TEST_F(StreamTest, AnOverrunIsToldAtOnceAndNamesAStopThatLiesAhead) {
+  start_all(1000);
+  wave(8);
+  end_all();
+  bench.run(50ms);
+  bench.rate(1.0, 5ms, 1);
+  watch(50ms);
+  // From here on node 2 hears nothing, and its next deadline is far.
+  bench.lose = [](std::size_t node, const CanFrame&) { return node == 1; };
+  bench.run(8ms);
+  const std::size_t before = bench.seen.size();
+  bench.node(1).on_receive_overrun(bench.local(1), 3);
+  const auto start = bench.node(1).path().stop_start();
+  ASSERT_TRUE(start);
+  EXPECT_GT(*start, bench.local(1) + 1ms);
+  bench.run(10us);
+  bench.run(1ms);
+  EXPECT_TRUE(bench.was_seen(0x082, before));
+  bench.lose = {};
+  watch(200ms);
+  EXPECT_TRUE(all_rest());
+}
+
 TEST_F(StreamTest, ANodeThatIsNotSynchronisedKeepsTheOthersFromRunning) {
   Bench fresh(three());
   fresh.send(nmt_frame(NmtCommand::kStart, kAllNodes));

@@ -5,6 +5,9 @@
 #include <optional>
 #include <utility>
 
+#include "protocol/bytes.hpp"
+#include "protocol/canopen/cob_id.hpp"
+
 namespace kinebus {
 namespace {
 
@@ -46,6 +49,7 @@ struct VirtualMachine::VirtualNode {
   int index;
   std::optional<Node> core;  // none: without power
   bool stalled = false;
+  std::uint32_t lost_while_stalled = 0;  // frames that its full queue refused: it finds out when it goes on
   std::vector<Pending> pending;
   struct RawEdge {
     BusTime at{0};
@@ -119,23 +123,25 @@ void VirtualMachine::deliver(const BusModel::Delivery& delivery) {
         continue;
       }
       // Delayed on purpose: others may overtake it.
-      const auto place = std::upper_bound(node->pending.begin(), node->pending.end(), arrival,
-                                          [](const Arrival& a, const Arrival& b) { return a.at < b.at; });
-      node->pending.insert(place, arrival);
+      put(node->pending, arrival);
     }
   }
 }
 
 void VirtualMachine::take_in(VirtualNode& node, Arrival arrival) {
   if (node.stalled && node.pending.size() >= kStallQueue) {
-    node.core->count(NodeCounter::kRxOverrun);
+    ++node.lost_while_stalled;
     return;
   }
   // Interrupts are served in order: a later frame never overtakes an earlier one.
   if (!node.pending.empty() && !arrival_hook_) arrival.at = std::max(arrival.at, node.pending.back().at);
-  const auto place = std::upper_bound(node.pending.begin(), node.pending.end(), arrival,
-                                      [](const Arrival& a, const Arrival& b) { return a.at < b.at; });
-  node.pending.insert(place, arrival);
+  put(node.pending, arrival);
+}
+
+void VirtualMachine::put(std::vector<Pending>& pending, const Arrival& arrival) {
+  const auto place = std::upper_bound(pending.begin(), pending.end(), arrival.at,
+                                      [](BusTime at, const Pending& p) { return at < p.at; });
+  pending.insert(place, {arrival.at, arrival.frame, arrival.at});
 }
 
 void VirtualMachine::take_in_at_gateway(const Arrival& arrival) {
@@ -158,6 +164,7 @@ void VirtualMachine::set_power(int node, BusTime now, bool on) {
   n.pending.clear();
   n.edges.clear();
   n.stalled = false;
+  n.lost_while_stalled = 0;
   if (!on) {
     for (int axis = 0; axis < 2; ++axis)
       n.options.axes[static_cast<std::size_t>(axis)].start_counts = n.counts(axis, now);
@@ -176,8 +183,14 @@ void VirtualMachine::set_stalled(int node, BusTime now, bool stalled) {
   VirtualNode& n = *nodes_[static_cast<std::size_t>(node)];
   if (!n.core || n.stalled == stalled) return;
   n.stalled = stalled;
-  for (Pending& p : n.pending) p.at = std::max(p.at, stalled ? p.at : now);
-  if (!stalled) n.deadline = std::max(n.deadline, now);
+  // Its receive interrupts went on: the time stamps are right.
+  if (!stalled) {
+    for (Pending& p : n.pending) p.at = std::max(p.at, now);
+    n.core->on_time(n.to_local(now));
+  }
+  if (stalled) return;
+  n.deadline = std::max(n.deadline, now);
+  count_overruns(node, now, std::exchange(n.lost_while_stalled, 0u));
 }
 
 void VirtualMachine::set_drive_fault(int node, BusTime now, int axis, bool present) {
@@ -193,8 +206,23 @@ void VirtualMachine::set_drive_fault(int node, BusTime now, int axis, bool prese
 void VirtualMachine::count_overruns(int node, BusTime now, std::uint32_t times) {
   VirtualNode& n = *nodes_[static_cast<std::size_t>(node)];
   if (!n.core || times == 0) return;
-  n.core->count(NodeCounter::kRxOverrun, times);
+  n.core->on_receive_overrun(n.to_local(now), times);
   serve(n, now);
+}
+
+void VirtualMachine::write_parameter(int node, BusTime now, ObjectAddress address, int size,
+                                     std::uint32_t value) {
+  VirtualNode& n = *nodes_[static_cast<std::size_t>(node)];
+  if (!n.core) return;
+  CanFrame request{.id = cob_id::kSdoRequest + n.core->node_id(), .length = 8};
+  request.data[0] = static_cast<std::uint8_t>(0x23 | ((4 - size) << 2));
+  put_u16_le(std::span(request.data).subspan(1), address.index);
+  request.data[3] = address.subindex;
+  put_u32_le(std::span(request.data).subspan(4), value);
+  n.core->on_frame(n.to_local(now), request);
+  // Its answer was for another gateway.
+  while (n.core->next_frame()) {
+  }
 }
 
 void VirtualMachine::lose_steps(int node, int axis, double counts) {
@@ -270,9 +298,9 @@ bool VirtualMachine::advance(BusTime now) {
       due->core->on_switch(due->to_local(next), edge.input - 1, edge.level);
     }
     if (!due->pending.empty() && due->pending.front().at <= next) {
-      const CanFrame frame = due->pending.front().frame;
+      const Pending pending = due->pending.front();
       due->pending.erase(due->pending.begin());
-      due->core->on_frame(due->to_local(next), frame);
+      due->core->on_frame(due->to_local(pending.stamp), pending.frame);
     }
     if (due->deadline <= next) due->core->on_time(due->to_local(next));
     serve(*due, next);
@@ -300,6 +328,11 @@ std::optional<double> VirtualMachine::believed_counts(int node, int axis, BusTim
 PathTime VirtualMachine::path_time(int node, BusTime at) {
   VirtualNode& n = *nodes_[static_cast<std::size_t>(node)];
   return n.core ? n.core->path_time(n.to_local(at)) : PathTime{0};
+}
+
+bool VirtualMachine::path_time_counts(int node, BusTime at) const {
+  const VirtualNode& n = *nodes_[static_cast<std::size_t>(node)];
+  return n.core && (!n.core->path().stream().idle() || !n.core->path().at_rest(n.to_local(at)));
 }
 
 Node& VirtualMachine::node(int index) {

@@ -76,6 +76,8 @@ class VirtualMachine final : public NodeMachine {
   std::optional<double> believed_counts(int node, int axis, BusTime at);
   /// The node's own idea of path time at true time `at`.
   PathTime path_time(int node, BusTime at) override;
+  /// Motion is queued, or path time runs or is about to.
+  bool path_time_counts(int node, BusTime at) const;
   Node& node(int index);
   int node_count() const override { return static_cast<int>(nodes_.size()); }
   const BusModel& bus() const override { return bus_; }
@@ -97,6 +99,8 @@ class VirtualMachine final : public NodeMachine {
   void set_drive_fault(int node, BusTime now, int axis, bool present);
   /// Frames that a receiver has lost, as its controller tells.
   void count_overruns(int node, BusTime now, std::uint32_t times);
+  /// A parameter that the node has from another machine. `size`: 1, 2 or 4 bytes.
+  void write_parameter(int node, BusTime now, ObjectAddress address, int size, std::uint32_t value);
   /// The motor does not follow: the carriage is `counts` from where it should be, from now on.
   void lose_steps(int node, int axis, double counts);
 
@@ -105,7 +109,11 @@ class VirtualMachine final : public NodeMachine {
 
  private:
   struct VirtualNode;
-  using Pending = Arrival;  // a delivered frame on its way through interrupt latency
+  struct Pending {  // a delivered frame on its way through interrupt latency
+    BusTime at{0};
+    CanFrame frame;
+    BusTime stamp{0};  // of the receive interrupt
+  };
   void deliver(const BusModel::Delivery& delivery);
   void serve(VirtualNode& node, BusTime now);
   void check_switches(VirtualNode& node, BusTime now);
@@ -113,6 +121,7 @@ class VirtualMachine final : public NodeMachine {
   static constexpr std::size_t kStallQueue = 64;
 
   void take_in(VirtualNode& node, Arrival arrival);
+  static void put(std::vector<Pending>& pending, const Arrival& arrival);
   void take_in_at_gateway(const Arrival& arrival);
 
   BusModel bus_;

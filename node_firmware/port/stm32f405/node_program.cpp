@@ -116,7 +116,7 @@ void NodeProgram::filter() {
 void NodeProgram::report_bus() {
   const CanPort::Events events = can_.events();
   if (events.overruns != told_.overruns) {
-    node_.count(NodeCounter::kRxOverrun, events.overruns - told_.overruns);
+    node_.on_receive_overrun(now_, events.overruns - told_.overruns);
     node_.report(emcy::kCanOverrun);
   }
   if (events.passive != told_.passive) node_.report(emcy::kErrorPassive);
