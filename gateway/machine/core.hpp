@@ -189,7 +189,7 @@ class Gateway::Core {
   MachineState held_from_ = MachineState::kRunning;  ///< what resume() goes back to
   After after_ = After::kBringUp;
   BusTime served_{0};           ///< the last on_time()
-  BusTime spoke_{0};            ///< when SYNC began
+  BusTime spoke_{0};            ///< when SYNC began, or the last bring-up ended
   BusTime streaming_since_{0};  ///< path time runs; the present, when it does not
   BusTime entered_{0}, rest_since_{0}, clearing_since_{0}, next_repeat_{0};
   std::vector<std::array<AxisState, kAxesPerNode>> positions_;  ///< where the nodes rest, by node

@@ -55,7 +55,7 @@ void Gateway::Core::on_frame_sent(BusTime when, const CanFrame& frame) {
 
 std::optional<CanFrame> Gateway::Core::next_frame(BusTime now) {
   now_ = std::max(now_, now);
-  if (const auto frame = rate_.next_frame()) return frame;
+  if (const auto frame = rate_.next_frame(now)) return frame;
   if (const auto frame = rate_.next_repeat(now)) return frame;
   if (speaking_) {
     if (const auto frame = sync_.next_frame(now)) return frame;

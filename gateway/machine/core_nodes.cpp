@@ -25,8 +25,12 @@ void Gateway::Core::watch_nodes() {
   const bool streaming = streams_flow() && runner_->active() && !runner_->suspended() && rate_.rate(now_) > 0;
   if (!streaming) streaming_since_ = now_;
   const bool judged = now_ - streaming_since_ > kStatusTimeout;
-  const BusTime timeout = judged ? kStatusTimeout : BusTime{machine_.bus.heartbeat_timeout};
-  for (NodeLink& link : links_) {
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    NodeLink& link = links_[i];
+    // So do those whose carriages home: with one that is dead the others must not go on.
+    const bool tells =
+        judged || (state_ == MachineState::kHoming && homing_.reports(i, now_ - kStatusTimeout));
+    const BusTime timeout = tells ? kStatusTimeout : BusTime{machine_.bus.heartbeat_timeout};
     take_emergencies(link);
     const bool watched = state_ != MachineState::kOff && state_ != MachineState::kBringUp && !need_bring_up_;
     if (!watched) continue;
@@ -86,8 +90,13 @@ bool Gateway::Core::check_clock(const NodeLink& link, const StreamStatus& status
 
 void Gateway::Core::take_stream_status(NodeLink& link) {
   const auto status = link.take_stream();
-  if (!status || !streams_flow() || !runner_->active() || runner_->suspended() || !check_clock(link, *status))
+  if (!status || !runner_->active() || runner_->suspended() || stream_lost_) return;
+  if (state_ == MachineState::kStopping || state_ == MachineState::kStopped) {
+    // What the nodes have taken before they stopped is told but once, and counts when the run goes on.
+    stream_lost_ = !group_.on_status(now_, link.id(), *status, rate_.tau(now_));
     return;
+  }
+  if (!streams_flow() || !check_clock(link, *status)) return;
   const auto taken = group_.on_status(now_, link.id(), *status, rate_.tau(now_));
   if (taken) return;
   using Kind = StreamError::Kind;

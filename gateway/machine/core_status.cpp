@@ -37,7 +37,8 @@ MachineStatus Gateway::Core::status() const {
   MachineStatus s;
   s.state = state_;
   s.now = now_;
-  s.positions_known = homed_;
+  // With a stream that went wrong the nodes stand where they say, not where the gateway has sent them.
+  s.positions_known = homed_ && !stream_lost_;
   s.doing = bring_up_.busy()     ? bring_up_.doing()
             : runner_->active()  ? runner_->doing()
             : standstill_.busy() ? "reading where the nodes stand"

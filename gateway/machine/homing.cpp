@@ -87,6 +87,12 @@ void MachineHoming::set_report_period(std::int64_t ms) {
   for (const std::size_t node : group_nodes()) links_[node].sdo().write({{0x1802, 5}, 2, ms});
 }
 
+bool MachineHoming::reports(std::size_t node, BusTime from) const {
+  return stage_ == Stage::kMove && entered_ < from &&
+         std::any_of(axes_.begin(), axes_.end(),
+                     [&](const Axis& axis) { return axis.node == node && axis.order == order_; });
+}
+
 bool MachineHoming::requests_done() {
   bool done = true;
   for (NodeLink& link : links_) {

@@ -33,6 +33,8 @@ class MachineHoming {
   Outcome on_time(BusTime now);
   /// Stops all carriages and ends homing: an outside reason (stop command, fault).
   void abort();
+  /// The carriages of this node move, and have told where they are since `from`.
+  bool reports(std::size_t node, BusTime from) const;
   bool busy() const { return stage_ != Stage::kIdle; }
   const StepFailure& failure() const { return failure_; }
 

@@ -21,6 +21,9 @@ class PathRate {
     /// the controller's mailboxes (3 of 135 us) and the scheduling of the sending thread. A hold answers
     /// within it.
     BusTime lead = std::chrono::milliseconds{5};
+    /// Nobody waits for the start of a motion from rest, or for path time to stand behind the end of one: so
+    /// far ahead also a node is in time whose program hangs as long as its watchdog allows (50 ms).
+    BusTime start_lead = std::chrono::milliseconds{50};
   };
   struct Counters {
     std::uint32_t commands = 0;
@@ -39,7 +42,8 @@ class PathRate {
 
   /// Goes to `rate` (0..1) with a slope of 1 in `full_ramp` (2..510 ms). Nothing happens when that is the
   /// target already, or while a stop is latched.
-  void request(double rate, std::chrono::milliseconds full_ramp, BusTime now);
+  /// `hurry`: false where no joint moves, and so nobody minds a start that is farther ahead.
+  void request(double rate, std::chrono::milliseconds full_ramp, BusTime now, bool hurry = true);
   /// Stop of all nodes, latched.
   void stop(BusTime now);
   /// A node's stop request was heard on the bus.
@@ -47,9 +51,14 @@ class PathRate {
   /// Lifts the latch; only at rest.
   void clear(BusTime now);
   /// Path time of the nodes, taken over at rest.
-  void set_tau(PathTime tau, BusTime now) { clock_.set_tau(tau, now); }
+  void set_tau(PathTime tau, BusTime now) {
+    clock_.set_tau(tau, now);
+    unsent_.clear();
+  }
 
-  std::optional<CanFrame> next_frame();
+  /// A stop that is sent so long after the start that it names that nodes could not catch up gets a new one:
+  /// else every node would begin when it happens to hear of it.
+  std::optional<CanFrame> next_frame(BusTime now);
   /// Every command goes out again kRepeats times: a receiver that has lost one frame would be the one
   /// carriage that runs while the others hold. Nodes take a doubled command as one.
   std::optional<CanFrame> next_repeat(BusTime now);
@@ -57,16 +66,21 @@ class PathRate {
   void on_frame_sent(BusTime when, const CanFrame& frame);
   /// Now and then, so that the clock forgets what is past.
   void on_time(BusTime now) { clock_.forget_before(now); }
+  /// Every command was on the bus: what the nodes do is what this clock does.
+  bool all_sent() const { return unsent_.empty(); }
   const Counters& counters() const { return counters_; }
 
  private:
-  static constexpr int kRepeats = 2;
-  static constexpr BusTime kRepeatAfter = std::chrono::microseconds{1500};
+  /// All of them before the start that is named. A receiver that loses one frame in five, none of which it
+  /// notices, misses all eight copies twice in a million commands.
+  static constexpr int kRepeats = 7;
+  static constexpr BusTime kRepeatAfter = std::chrono::microseconds{600};
   struct Repeat {
     BusTime due{0};
     CanFrame frame;
   };
-  void send(RateCommand command, BusTime now);
+  void send(RateCommand command, BusTime now) { send(command, options_.lead, now); }
+  void send(RateCommand command, BusTime lead, BusTime now);
   void put_out(const RateCommand& command, BusTime now);
 
   Options options_;
@@ -77,7 +91,8 @@ class PathRate {
   std::uint16_t target_q15_ = 0;
   std::uint8_t counter_ = 0;
   std::deque<CanFrame> out_;
-  std::deque<Repeat> repeats_;  // by time
+  std::deque<CanFrame> unsent_;  // commands that were given, of which no copy was on the bus yet
+  std::deque<Repeat> repeats_;   // by time
   BusTime last_start_{0};
 };
 

@@ -302,11 +302,12 @@ bool Runner::wait_is_over(BusTime now) {
       if (!group_.run_done(rate_.tau(now))) return false;
       feed_.end_run();
       execute_due(now);
-      rate_.request(0, kRampAtRest, now);
+      rate_.request(0, kRampAtRest, now, false);
       wait_ = Wait::kRest;
       return wait_is_over(now);
     case Wait::kRest:
-      if (!rate_.at_rest(now)) return false;
+      // A bus that is blocked keeps the command from the nodes: their path time goes on.
+      if (!rate_.at_rest(now) || !rate_.all_sent()) return false;
       break;
     case Wait::kDwell:
       if (dwell_left_ > BusTime{0}) return false;

@@ -9,6 +9,14 @@
 
 namespace kinebus {
 
+namespace {
+/// The transfer itself went wrong, by a frame that was lost, doubled or came late: again, it will be good.
+bool disturbed(AbortCode code) {
+  return code == AbortCode::kToggleBit || code == AbortCode::kCommandSpecifier ||
+         code == AbortCode::kSequenceNumber || code == AbortCode::kCrc;
+}
+}  // namespace
+
 std::string to_string(std::uint8_t node, const SdoResult& result) {
   char words[160];
   const std::string_view reason = result.abort == AbortCode::kTimeout ? "no answer" : text(result.abort);
@@ -64,6 +72,9 @@ void SdoChannel::settle() {
     if (result.abort == AbortCode::kTimeout) {
       ++counters_.timeouts;
       if (attempts_ < kAttempts) return;  // next_frame() begins again
+    } else if (disturbed(result.abort)) {
+      ++counters_.aborts;
+      if (attempts_ < kAttempts) return;
     } else {
       ++counters_.aborts;
     }

@@ -1,5 +1,8 @@
 #include "gateway/machine/standstill.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include "protocol/canopen/node_objects.hpp"
 
 namespace kinebus {
@@ -7,8 +10,10 @@ namespace kinebus {
 Standstill::Standstill(const MachineDescription& machine, std::deque<NodeLink>& links)
     : machine_(machine), links_(links), nodes_(links.size()) {}
 
-void Standstill::start() {
+void Standstill::start(PathTime tau) {
   busy_ = true;
+  equal_ = false;
+  tau_ = tau;
   for (NodeLink& link : links_) {
     SdoChannel& sdo = link.sdo();
     sdo.abandon();
@@ -17,6 +22,7 @@ void Standstill::start() {
       for (const ObjectAddress base : {object::kPositionKnown, object::kStreamPosition})
         sdo.read({static_cast<std::uint16_t>(base.index + axis * kAxisOffset), base.subindex});
     sdo.read(object::kStreamStatus);
+    sdo.read(object::kPathTime);
   }
 }
 
@@ -39,6 +45,10 @@ Standstill::Outcome Standstill::on_time() {
         return Outcome::kFailed;
       }
       if (!answer->read) continue;
+      if (answer->address == object::kPathTime) {
+        nodes_[i].found = PathTime{answer->value};
+        continue;
+      }
       if (answer->address == object::kStreamStatus) {
         nodes_[i].stream = decode_stream_status(static_cast<std::uint64_t>(answer->value));
         continue;
@@ -52,8 +62,22 @@ Standstill::Outcome Standstill::on_time() {
     idle = idle && sdo.idle();
   }
   if (!idle) return Outcome::kBusy;
+  if (!std::exchange(equal_, true)) {
+    // A node that was not told of a change of rate, or all of them, rest elsewhere than the gateway believes.
+    const auto same = [this](const Node& node) { return node.found == tau_; };
+    if (!std::all_of(nodes_.begin(), nodes_.end(), same)) {
+      for (NodeLink& link : links_) link.sdo().write({object::kPathTime, 8, tau_.count()});
+      return Outcome::kBusy;
+    }
+  }
   busy_ = false;
   return Outcome::kDone;
+}
+
+PathTime Standstill::path_time() const {
+  PathTime least = PathTime::max();
+  for (const Node& node : nodes_) least = std::min(least, node.found);
+  return least;
 }
 
 bool Standstill::positions_known() const {

@@ -21,11 +21,13 @@ class Standstill {
     std::array<AxisState, kAxesPerNode> position{};
     std::array<bool, kAxesPerNode> known{};
     StreamStatus stream;
+    PathTime found{0};
   };
 
   Standstill(const MachineDescription& machine, std::deque<NodeLink>& links);
 
-  void start();
+  /// `tau`: path time of the gateway. Nodes that rest at another one take it when their queues are empty.
+  void start(PathTime tau);
   Outcome on_time();
   void abort();
   bool busy() const { return busy_; }
@@ -33,6 +35,8 @@ class Standstill {
 
   // After kDone.
   const Node& node(std::size_t i) const { return nodes_[i]; }
+  /// The path time that all nodes had reached when they were found.
+  PathTime path_time() const;
   /// Every joint that homes knows its position.
   bool positions_known() const;
 
@@ -40,7 +44,8 @@ class Standstill {
   const MachineDescription& machine_;
   std::deque<NodeLink>& links_;
   std::vector<Node> nodes_;
-  bool busy_ = false;
+  PathTime tau_{0};
+  bool busy_ = false, equal_ = false;
   StepFailure failure_;
 };
 
