@@ -32,6 +32,10 @@ class QueueChecker {
       on_status(nodes_[node], decode_stream_status(get_u64_le(frame.data)));
   }
   const Findings& findings() const { return findings_; }
+  /// Another gateway: its streams begin with the numbers that the nodes tell it.
+  void on_new_gateway() {
+    for (Node& node : nodes_) node.next = -1;
+  }
 
  private:
   static constexpr std::uint32_t kRecords = 0x400, kStatus = 0x280;

@@ -4,6 +4,7 @@
 
 #include "protocol/bytes.hpp"
 #include "protocol/canopen/cob_id.hpp"
+#include "protocol/canopen/node_objects.hpp"
 
 namespace kinebus {
 namespace {
@@ -20,7 +21,7 @@ double share_of(const Fault& fault) {
 
 bool ReceiverFaults::concerns(FaultKind kind) {
   return kind == kReceiveOverrun || (kind >= kFramesDropped && kind <= kFramesCorrupted) ||
-         kind == kLateStatus;
+         kind == kLateStatus || kind == kWrongParameters;
 }
 
 void ReceiverFaults::on_arrival(int station, std::vector<VirtualMachine::Arrival>& arrivals) {
@@ -29,6 +30,14 @@ void ReceiverFaults::on_arrival(int station, std::vector<VirtualMachine::Arrival
     // All of them later by the same, in their order: a receive thread that is held up.
     for (auto& arrival : arrivals)
       arrival.at += 2ms + BusTime{static_cast<std::int64_t>(80e6 * fault_.strength)};
+    return;
+  }
+  if (fault_.kind == kWrongParameters) {
+    CanFrame& frame = arrivals[0].frame;
+    const bool fingerprint = cob_id::node_of(frame.id, cob_id::kSdoReply) == fault_.node + 1 &&
+                             get_u16_le(std::span(frame.data).subspan(1)) == object::kFingerprint.index;
+    if (station == VirtualMachine::kGatewayStation && fingerprint && !keeps_parameters(fault_))
+      frame.data[4] ^= 0x40;
     return;
   }
   if (station != fault_.node) return;

@@ -44,6 +44,7 @@ constexpr std::array<Row, kFaultKinds> kRows{{
     {kForeignTraffic, "foreign-traffic", FaultPhase::kFromPowerUp, 0s, 0s},
     {kNodeIdCollision, "node-id-collision", FaultPhase::kFromPowerUp, 0s, 0s},
     {kWrongIdentity, "wrong-identity", FaultPhase::kFromPowerUp, 0s, 0s},
+    {kWrongParameters, "wrong-parameters", FaultPhase::kFromPowerUp, 0s, 0s},
     {kSecondGateway, "second-gateway", FaultPhase::kJob, 500ms, 2s},
     {kHold, "hold", FaultPhase::kJob, 10ms, 600ms},
     {kCancel, "cancel", FaultPhase::kJob, 0s, 0s},

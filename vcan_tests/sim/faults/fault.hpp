@@ -41,6 +41,7 @@ enum class FaultKind : std::uint8_t {
   kForeignTraffic,  ///< another CANopen system on the same bus
   kNodeIdCollision,
   kWrongIdentity,
+  kWrongParameters,  ///< of another machine, or a dictionary that does not keep what is written
   kSecondGateway,
   kHold,  ///< no fault: the operator holds, resumes
   kCancel,
@@ -64,6 +65,11 @@ struct Fault {
   int axis = 0;
   double strength = 0;  ///< 0..1: how bad
 };
+
+/// Of kWrongParameters: the node has others, and takes those that it is told.
+constexpr bool keeps_parameters(const Fault& fault) {
+  return fault.strength < 0.5;
+}
 
 struct FaultPlan {
   std::uint64_t seed = 0;

@@ -17,18 +17,14 @@ constexpr unsigned kFinished = bit(FaultOutcome::kFinished), kContinued = bit(Fa
                    kReady = bit(FaultOutcome::kReady), kHomedAgain = bit(FaultOutcome::kHomedAgain),
                    kBegunAgain = bit(FaultOutcome::kBegunAgain), kRefused = bit(FaultOutcome::kRefused);
 
-/// Without the gateway's SYNC: 175 ms from the last one, and the ramp of 100 ms. A silent node: 250 ms for
-/// the gateway to see it.
+/// Without the gateway's SYNC: 175 ms from the last one, and the ramp of 100 ms. A silent node: the gateway
+/// waits 250 ms for a status, from 250 ms after the motion's begin on; then the ramp.
 constexpr double kSyncLoss_ms = 175 + 105, kNodeSilence_ms = 2 * 250 + 20 + 110;
 
 FaultBounds bounds_of(const Fault& fault) {
   FaultBounds b;
   switch (fault.kind) {
     case kCrystals:
-      // 200 ppm apart the window's slope is worth less in the first seconds.
-      b.outcomes = kFinished;
-      b.skew_us = 3;
-      break;
     case kNone:
     case kForeignTraffic:
     case kFramesDoubled:
@@ -37,9 +33,10 @@ FaultBounds bounds_of(const Fault& fault) {
       b.outcomes = kFinished;
       break;
     case kInterruptLatency:
-      // Six times the latency by the SYNCs in the window (clock_estimate.hpp).
+      // Six times the latency by the SYNCs in the window (clock_estimate.hpp): 60 us, and 150 in the first
+      // second.
       b.outcomes = kFinished;
-      b.skew_us = 4;
+      b.skew_us = 2.4;
       break;
     case kHold:
       b.outcomes = kContinued | kFinished | kBegunAgain;
@@ -76,19 +73,27 @@ FaultBounds bounds_of(const Fault& fault) {
     case kLateStatus:
     case kSlowGateway:
     case kNodeStalls:
-    case kBabblerAbove:
     case kSecondGateway:
       b.outcomes = kFinished | kContinued | kHomedAgain | kBegunAgain;
       break;
-    case kFramesCorrupted:
-      // A rate command whose data are wrong in spite of the CRC has no second check: found at the next rest.
+    case kBabblerAbove:
+      // A stop that the babbler held back for up to 12 ms is caught up by each node from when it hears of it.
+      // Steeper ramps that begin 20 us of interrupt latency apart, and end at one tau, are up to a quarter of
+      // that apart on the way.
       b.outcomes = kFinished | kContinued | kHomedAgain | kBegunAgain;
-      b.path_um = b.skew_us = kAny;
+      b.skew_us = 2 + 20 / 4;
+      break;
+    case kFramesCorrupted:
+      // Rates, stops and stamps carry check bits; a record is 64 bits full. One that is wrong in spite of the
+      // bus's CRC (below 5e-11 of all wrong ones) moves its axis until the next checkpoint, 64 to 128 records
+      // later, finds it and stops all.
+      b.outcomes = kFinished | kContinued | kHomedAgain | kBegunAgain;
+      b.path_um = b.step_ratio = kAny;
       break;
     case kBusOff:
       b.outcomes = kFinished | kContinued | kHomedAgain | kBegunAgain;
-      b.rest_ms = 900;  // destroyed frames hold up the stop requests of the others too
-      b.skew_us = 16;   // SYNCs that the failing transmitter mangled are missing in the estimate
+      // Nobody can hear of a failing transmitter: a silent node or missing SYNCs tell.
+      b.rest_ms = kNodeSilence_ms;
       break;
     case kLostSteps:
       // What no node can see before it homes again; the path is wrong from there on.
@@ -96,12 +101,20 @@ FaultBounds bounds_of(const Fault& fault) {
       b.path_um = kAny;
       b.step_ratio = kAny;
       break;
+    case kWrongParameters:
+      // Those of another machine are written anew; a node that does not keep them is no part of this machine.
+      b.outcomes = keeps_parameters(fault) ? kFinished : kRefused;
+      break;
     case kSwitchDead:
     case kSwitchStuck:
     case kSwitchesExchanged:
     case kWrongIdentity:
-    case kNodeIdCollision:
       b.outcomes = kRefused | kFinished;
+      break;
+    case kNodeIdCollision:
+      // A boot-up message of the other node while the gateway waits for this one's is refused; the next
+      // bring-up may then be good.
+      b.outcomes = kRefused | kFinished | kContinued;
       break;
     case kCount:
       break;

@@ -101,9 +101,11 @@ class FaultRun {
     simulation_.on_sample = [this](const Sample& sample) { take(sample); };
     simulation_.on_probe = [this](const Probe& probe) {
       mask_dead();
-      if (measuring_) together_.on_probe(probe, lives_);
+      if (measuring_ && path_time_counts()) together_.on_probe(probe, lives_);
     };
     simulation_.on_frame = [this](BusTime, const CanFrame& frame) {
+      if (speaks_ != &simulation_.gateway()) queues_.on_new_gateway();
+      speaks_ = &simulation_.gateway();
       if (bounds_.clean_bus) queues_.on_frame(frame);
     };
     simulation_.on_event = [this](const MachineEvent& event) {
@@ -163,6 +165,14 @@ class FaultRun {
                alarms_ > 0 && gave_up;
   }
 
+  /// Path time means something: on one node at least it runs, or motion waits for it. Else it is a number
+  /// that is set anew before the next motion.
+  bool path_time_counts() {
+    for (int node = 0; node < injector_.machine().node_count(); ++node)
+      if (injector_.machine().path_time_counts(node, simulation_.now())) return true;
+    return false;
+  }
+
   void mask_dead() {
     for (std::size_t n = 0; n < lives_.size(); ++n)
       if (static_cast<int>(n) < injector_.machine().node_count() &&
@@ -192,6 +202,9 @@ class FaultRun {
     result_.step_ratio = steps_.max_ratio();
     result_.known_counts = std::max(known_.worst_counts(), known_.worst_shown_counts());
     result_.ramp_ms = injector_.ramp_ms();
+    // A station that was bus-off for a moment may have stopped nobody: what came to rest then was the job.
+    const bool stopped = operator_.lifted() + operator_.resumed() + operator_.begun_again() > 0;
+    if (!stopped && plan_.faults[0].kind == FaultKind::kBusOff) result_.rest_ms = 0;
     if (refused_)
       result_.outcome = FaultOutcome::kRefused;
     else if (!operator_.job_finished())
@@ -250,6 +263,7 @@ class FaultRun {
   KnownChecker known_;
   PatienceChecker patience_;
   QueueChecker queues_;
+  const Gateway* speaks_ = nullptr;
   TogetherChecker::Lives lives_{};
   JointVector last_joints_{};
   std::array<BusTime, std::tuple_size_v<JointVector>> still_since_{};

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "gateway/inproc/virtual_nodes.hpp"
+#include "protocol/canopen/node_objects.hpp"
 
 namespace kinebus {
 namespace {
@@ -182,6 +183,9 @@ void Injector::turn_on(Active& active, BusTime now) {
       excused_counts_ = std::abs(counts);
       break;
     }
+    case kWrongParameters:
+      if (keeps_parameters(fault)) nodes_->write_parameter(fault.node, now, object::kStopRamp, 2, 20);
+      break;
     case kSecondGateway:
       active.second = std::make_unique<SecondGateway>(description_, *nodes_);
       active.second->start(now);
