@@ -181,7 +181,8 @@ void FlightRecorder::on_time(LocalTime now) {
   row.state = static_cast<std::uint8_t>(status.state);
   row.positions_known = status.positions_known ? 1 : 0;
   row.joint_count = static_cast<std::uint8_t>(std::min<int>(status.joint_count, FlightRing::kJoints));
-  for (std::size_t i = 0; i < row.joint_count; ++i) row.joints[i] = status.joints[i];
+  for (std::size_t i = 0; i < row.joint_count; ++i) row.joints[i] = row.measured[i] = status.joints[i];
+  for (std::size_t i = 0; i < row.joint_count; ++i) row.measured[i] -= status.off_course[i].value_or(0);
   std::copy_n(status.machine_pose.begin(), row.pose.size(), row.pose.begin());
   int sync_error_us = 0;
   for (const NodeStatus& node : status.nodes) sync_error_us = std::max(sync_error_us, node.sync_error_us);

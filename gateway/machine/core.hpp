@@ -151,6 +151,7 @@ class Gateway::Core {
   /// Records of a run may go to the nodes.
   bool streams_flow() const;
   JointVector joints_now() const;
+  void set_off_course(MachineStatus& status, std::size_t link) const;
   Result<PoseVector, Refusal> machine_pose() const;
   void start_move(canonical::Command move, const PoseVector& from);
 

@@ -33,6 +33,19 @@ JointVector Gateway::Core::joints_now() const {
   return joints;
 }
 
+void Gateway::Core::set_off_course(MachineStatus& status, std::size_t link) const {
+  NodeStatus& node = status.nodes[link];
+  const auto& counts = links_[link].following_error();
+  if (!counts || !node.present) return;
+  for (std::size_t axis = 0; axis < kAxesPerNode; ++axis) {
+    const AxisScaling& scaling = axes_[link].axes[axis];
+    if (scaling.joint < 0) continue;
+    const auto joint = static_cast<std::size_t>(scaling.joint);
+    if (!machine_.joints[joint].has_encoder()) continue;
+    node.off_course[axis] = status.off_course[joint] = (*counts)[axis] / scaling.slope();
+  }
+}
+
 MachineStatus Gateway::Core::status() const {
   MachineStatus s;
   s.state = state_;
@@ -80,6 +93,7 @@ MachineStatus Gateway::Core::status() const {
   for (std::size_t i = 0; i < links_.size(); ++i) {
     s.nodes.push_back(links_[i].status(now_, machine_.bus.heartbeat_timeout));
     s.nodes.back().records_sent = group_.stream(i).counters().records;
+    set_off_course(s, i);
     s.counters.sdo_aborts += links_[i].sdo().counters().aborts;
     s.counters.sdo_timeouts += links_[i].sdo().counters().timeouts;
   }

@@ -18,8 +18,8 @@ struct ParameterWrite {
 
 struct NodeConfiguration {
   std::uint32_t fingerprint = 0;
-  /// Every parameter outside the PDO and COB-ID objects, which keep their defaults; in the order of
-  /// addresses.
+  /// Every parameter outside the PDO and COB-ID objects, which keep their defaults, but for TPDO4: it tells
+  /// the following errors of a node that has an encoder. In the order of addresses.
   std::vector<ParameterWrite> writes;
 };
 

@@ -18,7 +18,10 @@ bool NodeLink::on_frame(BusTime now, const CanFrame& frame) {
   if (const auto heartbeat = decode_heartbeat(frame)) {
     if (heartbeat->node != id_) return false;
     nmt_state_ = heartbeat->state;
-    if (nmt_state_ == NmtState::kInitialising) booted_ = true;
+    if (nmt_state_ == NmtState::kInitialising) {
+      booted_ = true;
+      following_error_.reset();
+    }
   } else if (const auto emergency = decode_emcy(frame)) {
     if (emergency->node != id_) return false;
     ++emergency_count_;
@@ -30,6 +33,8 @@ bool NodeLink::on_frame(BusTime now, const CanFrame& frame) {
   } else if (frame.id == cob_id::tpdo(3, id_) && frame.length == 8) {
     position_ = {get_i32_le(data), get_i32_le(data.subspan(4))};
     ++position_frames_;
+  } else if (frame.id == cob_id::tpdo(4, id_) && frame.length == 8) {
+    following_error_ = {get_i32_le(data), get_i32_le(data.subspan(4))};
   } else if (frame.id == cob_id::kSdoReply + id_ && frame.length == 8) {
     sdo_.on_frame(now, frame);
   } else {
@@ -82,6 +87,7 @@ void NodeLink::forget() {
   mode_ = wanted_mode_ = {};
   stream_.reset();
   new_stream_.reset();
+  following_error_.reset();
   emergencies_.clear();
   sdo_.abandon();
 }

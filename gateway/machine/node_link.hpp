@@ -43,6 +43,8 @@ class NodeLink {
   std::uint32_t inputs() const { return inputs_; }
   const std::optional<StreamStatus>& stream() const { return stream_; }
   std::int32_t position_counts(std::size_t axis) const { return position_[axis]; }
+  /// Commanded less measured, counts; empty: not told.
+  const std::optional<std::array<std::int32_t, 2>>& following_error() const { return following_error_; }
   /// Position frames so far: a new one is there when it has changed.
   std::uint32_t position_frames() const { return position_frames_; }
   std::uint32_t emergencies() const { return emergency_count_; }
@@ -78,6 +80,7 @@ class NodeLink {
   std::array<std::int8_t, 2> mode_{}, wanted_mode_{};
   std::uint32_t inputs_ = 0;
   std::array<std::int32_t, 2> position_{};
+  std::optional<std::array<std::int32_t, 2>> following_error_;
   std::uint32_t position_frames_ = 0, emergency_count_ = 0;
   std::optional<StreamStatus> stream_, new_stream_;
   std::deque<Emergency> emergencies_;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,8 @@ struct NodeStatus {
       0;  ///< as in the heartbeat: 0 boot-up, 4 stopped, 5 operational, 127 pre-operational
   std::array<std::uint16_t, 2> statusword{};  ///< CiA 402, axis A and B
   std::uint32_t inputs = 0;                   ///< 60FDh
+  /// Commanded less measured by the axis' encoder, mm or rad; empty without one.
+  std::array<std::optional<double>, 2> off_course{};
   bool synchronised = false;
   int sync_error_us = 0;     ///< bound of its clock estimate's error
   int queue_records = 0;     ///< records in its queue
@@ -60,6 +63,8 @@ struct MachineStatus {
   PoseVector pose{};          ///< tool relative to the part (Frame::kPart), mm and rad
   PoseVector machine_pose{};  ///< Frame::kMachine
   JointVector joints{};       ///< mm or rad
+  /// Commanded less measured by the joint's encoder, mm or rad; empty without one.
+  std::array<std::optional<double>, kMaxJoints> off_course{};
   int joint_count = 0;
   double path_time_s = 0;  ///< tau
   double rate = 0;         ///< d tau / dt now

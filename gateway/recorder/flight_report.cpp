@@ -109,6 +109,7 @@ void add_sample(std::string& out, bool first, const FlightRing::Sample& row, dou
   object.number("sync_error_us", row.sync_error_us);
   object.number("positions_known", row.positions_known);
   object.list("joints", row.joints, std::min<std::size_t>(row.joint_count, FlightRing::kJoints));
+  object.list("measured", row.measured, std::min<std::size_t>(row.joint_count, FlightRing::kJoints));
   object.list("pose", row.pose, row.pose.size());
 }
 

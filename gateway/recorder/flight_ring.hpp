@@ -18,7 +18,7 @@ namespace kinebus {
 /// All members are plain values; a zeroed one is empty. Writing costs no allocation and no call of the
 /// system.
 struct FlightRing {
-  static constexpr std::uint64_t kMagic = 0x31'66'6C'69'67'68'74'4B;  ///< changes with the layout
+  static constexpr std::uint64_t kMagic = 0x32'66'6C'69'67'68'74'4B;  ///< changes with the layout
   static constexpr std::size_t kFrames = 1 << 18;                     ///< 60 s of 4300 frames/s
   static constexpr std::size_t kSamples = 1 << 10;                    ///< 100 s, 10 a second
   static constexpr std::size_t kEvents = 1 << 8;
@@ -36,7 +36,9 @@ struct FlightRing {
     std::int64_t when_ns;
     double path_time_s, rate, progress;
     std::array<double, kJoints> joints;  ///< mm or rad
-    std::array<double, 6> pose;          ///< tool, machine frame
+    /// Measured by encoders; a joint without one: as commanded.
+    std::array<double, kJoints> measured;
+    std::array<double, 6> pose;  ///< tool, machine frame
     std::uint32_t line;
     std::uint16_t sync_error_us;  ///< the worst node's bound
     std::uint8_t state, joint_count, positions_known;

@@ -135,13 +135,13 @@ inline constexpr std::array<PdoDefault, kTpdoCount> kTpdoDefaults{{
      100,
      0,
      {mapped(object::kPositionActual, 32), mapped(object::kPositionActual, 32, 1)}},
-    {"Velocities",
+    {"FollowingErrors",
      0x480 | kNoRtr | kPdoOff,
      true,
      254,
      100,
      0,
-     {mapped(object::kVelocityActual, 32), mapped(object::kVelocityActual, 32, 1)}},
+     {mapped(object::kFollowingError, 32), mapped(object::kFollowingError, 32, 1)}},
 }};
 
 inline constexpr std::array<std::string_view, kRpdoCount> kRpdoNames[2] = {

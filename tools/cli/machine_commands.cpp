@@ -70,6 +70,12 @@ void print_position(const Status& s) {
   fmt::print("joints   ");
   for (const double joint : s.joints()) fmt::print(" {:.4f}", joint);
   fmt::print("\n");
+  // What the encoders say, axis by axis.
+  for (const joblink::NodeStatus& node : s.nodes())
+    for (int axis = 0; axis < node.axes_size(); ++axis)
+      if (node.axes(axis).has_off_course())
+        fmt::print("node {} {}  measured {:+.4f} from its command\n", node.id(), axis == 0 ? "A" : "B",
+                   -node.axes(axis).off_course());
 }
 
 void print_nodes(const Status& s) {

@@ -22,16 +22,18 @@ json heater_json(const joblink::Heater& heater) {
 }
 
 json node_json(const joblink::NodeStatus& node) {
-  json statusword = json::array(), current = json::array();
+  json statusword = json::array(), current = json::array(), off_course = json::array();
   for (const joblink::AxisStatus& axis : node.axes()) {
     statusword.push_back(axis.statusword());
     current.push_back(axis.current_a());
+    off_course.push_back(axis.has_off_course() ? json(axis.off_course()) : json(nullptr));
   }
   return {{"id", node.id()},
           {"present", node.present()},
           {"nmt", node.nmt_state()},
           {"statusword", statusword},
           {"current_a", current},
+          {"off_course", off_course},
           {"inputs", node.inputs()},
           {"synchronised", node.synchronised()},
           {"sync_error_us", node.sync_error_s() * 1e6},

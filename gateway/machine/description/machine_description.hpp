@@ -77,6 +77,18 @@ struct HomingDescription {
   friend bool operator==(const HomingDescription&, const HomingDescription&) = default;
 };
 
+/// What the node's control has to know of the motor, from its data sheet or measured (2150h).
+struct MotorDescription {
+  enum class Encoder : std::uint8_t { kNone, kWatch, kClosedLoop };  ///< as 2150h:6 counts them
+  double resistance_ohm = 0;  ///< of a phase; 0, or without inductance: the node's cautious guess
+  double inductance_mh = 0;
+  double torque_nm_per_a = 0;  ///< holding torque / rated current / sqrt 2; 0: no back-EMF is fed forward
+  Encoder encoder = Encoder::kNone;
+  bool encoder_reversed = false;
+  std::int32_t encoder_offset_counts = -1;  ///< where the motor's angle is 0, found by auto-tune; -1: unknown
+  friend bool operator==(const MotorDescription&, const MotorDescription&) = default;
+};
+
 struct JointDescription {
   std::string name;          ///< as Kinematics::joint_info names it: "tower1", "C", "E"
   bool rotary = false;       ///< units are rad instead of mm
@@ -89,8 +101,11 @@ struct JointDescription {
   double stop_accel_per_s2 = 10000;  ///< path deceleration and stop ramp together stay below it
   std::uint16_t run_current_ma = 2000;
   std::uint16_t hold_current_ma = 1500;
+  std::optional<MotorDescription> motor;    ///< none: the node's cautious guess, no encoder
   std::optional<HomingDescription> homing;  ///< none: the position at power-up is zero (E, endless C)
   JointCalibration calibration;
+  /// Its position is measured.
+  bool has_encoder() const { return motor && motor->encoder != MotorDescription::Encoder::kNone; }
   friend bool operator==(const JointDescription&, const JointDescription&) = default;
 };
 

@@ -32,6 +32,10 @@ inline constexpr Choice kAxes[] = {{"A", 0}, {"B", 1}};
 inline constexpr Choice kCarriage[] = {{"below", 0}, {"above", 1}};
 inline constexpr Choice kResumeThen[] = {{"ask", static_cast<int>(ResumeDescription::Then::kAsk)},
                                          {"go_on", static_cast<int>(ResumeDescription::Then::kGoOn)}};
+inline constexpr Choice kEncoders[] = {
+    {"none", static_cast<int>(MotorDescription::Encoder::kNone)},
+    {"watch", static_cast<int>(MotorDescription::Encoder::kWatch)},
+    {"closed_loop", static_cast<int>(MotorDescription::Encoder::kClosedLoop)}};
 inline constexpr Choice kInputFunctions[] = {
     {"none", static_cast<int>(InputFunction::kNone)},
     {"home", static_cast<int>(InputFunction::kHome)},
@@ -140,6 +144,14 @@ void visit_joint(V& v, JointDescription& j, bool own_travel) {
   v.number("stop_accel_" + u + "_per_s2", j.stop_accel_per_s2, {0.1, 1e7}, Need::kRequired, unit);
   v.integer("run_current_ma", j.run_current_ma, 50, 5000, Need::kRequired);
   v.integer("hold_current_ma", j.hold_current_ma, 0, 5000, Need::kRequired);
+  v.optional_table("motor", j.motor, [&](MotorDescription& m) {
+    v.number("resistance_ohm", m.resistance_ohm, {0, 60}, Need::kOptional);
+    v.number("inductance_mh", m.inductance_mh, {0, 60}, Need::kOptional);
+    v.number("torque_nm_per_a", m.torque_nm_per_a, {0, 3}, Need::kOptional);
+    v.choice("encoder", m.encoder, kEncoders, Need::kOptional);
+    v.flag("encoder_reversed", m.encoder_reversed, Need::kOptional);
+    v.integer("encoder_offset_counts", m.encoder_offset_counts, -1, 1023, Need::kOptional);
+  });
   v.optional_table("homing", j.homing, [&](HomingDescription& h) {
     v.integer("method", h.method, 17, 37, Need::kRequired);
     v.integer("switch_input", h.switch_input, 1, 7, Need::kOptional);

@@ -42,6 +42,31 @@ TEST(NodeConfiguration, FingerprintTellsEveryChange) {
   EXPECT_EQ(configure_node(m1, 2).fingerprint, configure_node(other, 2).fingerprint);
 }
 
+TEST(NodeConfiguration, AMotorsDataAndItsEncoderReachTheNode) {
+  constexpr ObjectAddress kTpdo4{0x1803, 1}, kTpdo4Timer{0x1803, 5};
+  MachineDescription m1 = default_m1();
+  const NodeConfiguration plain = configure_node(m1, 1);
+  EXPECT_EQ(written(plain, object::kPhaseResistance), 0);
+  EXPECT_EQ(written(plain, object::kEncoderMode), 0);
+  EXPECT_EQ(written(plain, kTpdo4), 0xC000'0481) << "not sent";
+  m1.joints[1].motor = MotorDescription{.resistance_ohm = 1.2,
+                                        .inductance_mh = 2.5,
+                                        .torque_nm_per_a = 0.127,
+                                        .encoder = MotorDescription::Encoder::kClosedLoop,
+                                        .encoder_reversed = true,
+                                        .encoder_offset_counts = 300};
+  const NodeConfiguration c = configure_node(m1, 1);
+  EXPECT_EQ(written(c, second(object::kPhaseResistance)), 1200);
+  EXPECT_EQ(written(c, second(object::kPhaseInductance)), 2500);
+  EXPECT_EQ(written(c, second(object::kFluxLinkage)), 2540) << "uVs: 0.127 / 50 pole pairs";
+  EXPECT_EQ(written(c, second(object::kEncoderMode)), 6);
+  EXPECT_EQ(written(c, second(object::kEncoderOffset)), 300);
+  EXPECT_EQ(written(c, object::kEncoderMode), 0);
+  EXPECT_EQ(written(c, kTpdo4), 0x4000'0481);
+  EXPECT_EQ(written(c, kTpdo4Timer), 60);
+  EXPECT_NE(c.fingerprint, plain.fingerprint);
+}
+
 TEST(NodeConfiguration, InvertedDriveHomesTheMirroredWay) {
   MachineDescription m1 = default_m1();
   m1.joints[0].drive.inverted = true;

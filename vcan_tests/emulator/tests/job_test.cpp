@@ -37,6 +37,18 @@ std::vector<VirtualNodeOptions> near_the_switches(std::vector<VirtualNodeOptions
   return nodes;
 }
 
+// The emulated motors' data sheet, and an encoder on each tower's motor.
+MachineDescription with_encoders(MachineDescription machine) {
+  const StepperParameters p;
+  for (JointDescription& joint : machine.joints)
+    if (joint.homing)
+      joint.motor = MotorDescription{.resistance_ohm = p.resistance_ohm,
+                                     .inductance_mh = p.inductance_h * 1e3,
+                                     .torque_nm_per_a = p.torque_nm_per_a,
+                                     .encoder = MotorDescription::Encoder::kWatch};
+  return machine;
+}
+
 SimulationReport run(bool emulated, SimulateOptions options = {}, EmulatedMachine** machine = nullptr) {
   options.simulation.seed = 3;
   options.simulation.clocks.offset_max = 50ms;
@@ -47,12 +59,24 @@ SimulationReport run(bool emulated, SimulateOptions options = {}, EmulatedMachin
     return boards;
   };
   StringSource same(kJob);
-  return simulate(default_m1(), std::make_unique<StringSource>(kJob), same, options);
+  return simulate(with_encoders(default_m1()), std::make_unique<StringSource>(kJob), same, options);
 }
 
 TEST(Job, ThreeImagesPrintWithTheirRotorsOnThePath) {
   const SimulationReport ideal = run(false);
-  const SimulationReport rotors = run(true);
+  SimulateOptions options;
+  double off_course_mm = 0;
+  int readings = 0, without_encoder = 0;
+  options.operate = [&](Gateway& gateway, double) {
+    const MachineStatus status = gateway.status();
+    if (status.state != MachineState::kRunning) return;
+    for (int joint = 0; joint < status.joint_count; ++joint) {
+      const auto& off = status.off_course[static_cast<std::size_t>(joint)];
+      if (off) ++readings, off_course_mm = std::max(off_course_mm, std::abs(*off));
+      if (!off) ++without_encoder;
+    }
+  };
+  const SimulationReport rotors = run(true, options);
   fmt::print(
       "tool against planned pose: virtual nodes {:.2f} um, rotors of three images {:.2f} um\n"
       "joints: {:.2f} and {:.2f} microsteps; path {:.2f} and {:.2f} um; skew {:.2f} and {:.2f} us\n"
@@ -66,6 +90,12 @@ TEST(Job, ThreeImagesPrintWithTheirRotorsOnThePath) {
   EXPECT_LE(rotors.max_node_time_skew_us, 2.0);
   EXPECT_EQ(rotors.underruns, 0u);
   EXPECT_EQ(rotors.records_out_of_sequence, 0u);
+  fmt::print("four encoders, by the gateway's status: at most {:.1f} um off course in {} readings\n",
+             off_course_mm * 1e3, readings);
+  EXPECT_GT(readings, 0);
+  EXPECT_EQ(readings, 2 * without_encoder) << "four towers have one, C and E have none";
+  EXPECT_GT(off_course_mm, 0) << "measured";
+  EXPECT_LT(off_course_mm * 1280, 51.2) << "two tenths of a full step";
 }
 
 TEST(Job, AShortedMotorIsToldAndTheOthersStopTogetherOnThePath) {
