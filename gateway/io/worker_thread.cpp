@@ -36,6 +36,7 @@ WorkerThread::WorkerThread(EventLoop& loop) : loop_(loop), event_(::eventfd(0, E
   // Signals are the main thread's.
   sigset_t all, before;
   sigfillset(&all);
+  for (const int own_fault : {SIGSEGV, SIGBUS, SIGFPE, SIGILL}) sigdelset(&all, own_fault);
   pthread_sigmask(SIG_SETMASK, &all, &before);
   thread_ = std::thread([this] { run(); });
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
