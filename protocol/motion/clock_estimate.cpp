@@ -157,13 +157,14 @@ std::int64_t ClockEstimate::residual(const Sample& s) const {
   return s.delta - offset_ - ((slope_ * s.bus) >> kRateBits);
 }
 
-/// Lower (or upper) convex hull of the samples, as their places; of the upper one, only samples within the
+/// Lower (or upper) convex hull of the samples, as their places; with `residuals`, only of samples within the
 /// limit.
-int ClockEstimate::hull(Hull& out, bool lower, std::int64_t residual_limit) const {
+int ClockEstimate::hull(Hull& out, bool lower, const Residuals* residuals,
+                        std::int32_t residual_limit) const {
   int size = 0;
   for (int i = 0; i < count_; ++i) {
+    if (residuals != nullptr && (*residuals)[static_cast<std::size_t>(i)] > residual_limit) continue;
     const Sample& c = at(i);
-    if (!lower && residual(c) > residual_limit) continue;
     while (size >= 2) {
       const Sample& a = corner(out, size - 2);
       const Sample& b = corner(out, size - 1);
@@ -176,66 +177,94 @@ int ClockEstimate::hull(Hull& out, bool lower, std::int64_t residual_limit) cons
   return size;
 }
 
-void ClockEstimate::fit() {
+/// The least (lower hull) or greatest (upper hull) of delta - slope * bus. Along a hull it falls to one
+/// corner and rises from there: the way goes on from `near`, where the last slope had it, and leaves it there
+/// for the next.
+std::int64_t ClockEstimate::support(const Hull& hull, int size, bool lower, std::int64_t slope,
+                                    int& near) const {
+  const auto value = [&](int i) {
+    const Sample& s = corner(hull, i);
+    return s.delta - ((slope * s.bus) >> kRateBits);
+  };
+  const auto better = [&](std::int64_t a, std::int64_t b) { return lower ? a <= b : a >= b; };
+  near = std::clamp(near, 0, size - 1);
+  std::int64_t best = value(near);
+  const int start = near;
+  for (int i = start + 1; i < size; ++i) {
+    const std::int64_t next = value(i);
+    if (!better(next, best)) break;
+    best = next, near = i;
+  }
+  if (near != start) return best;
+  for (int i = start - 1; i >= 0; --i) {
+    const std::int64_t next = value(i);
+    if (!better(next, best)) break;
+    best = next, near = i;
+  }
+  return best;
+}
+
+std::int64_t ClockEstimate::slope_between(const Sample& a, const Sample& b) const {
   constexpr std::int64_t max_slope = (kMaxSlopePpm << kRateBits) / 1'000'000;
+  const std::int64_t rise = std::clamp<std::int64_t>(b.delta - a.delta, -(1 << 23), 1 << 23);
+  return std::clamp((rise << kRateBits) / (b.bus - a.bus), -max_slope, max_slope);
+}
+
+/// The mean latency of all but the far outliers; 2.5 times it holds any latency spread evenly over an
+/// interval.
+std::int32_t ClockEstimate::latency_limit(const Residuals& residuals) const {
+  std::int64_t limit = std::numeric_limits<std::int32_t>::max();
+  for (int round = 0; round < 4; ++round) {
+    std::int64_t sum = 0;
+    std::int32_t used = 0;
+    const auto within = static_cast<std::int32_t>(limit);
+    for (int i = 0; i < count_; ++i)
+      if (const std::int32_t r = residuals[static_cast<std::size_t>(i)]; r <= within) sum += r, ++used;
+    const std::int64_t mean = sum / std::max<std::int32_t>(used, 1);
+    limit = (round < 3 ? 3 * mean : count_ < 96 ? 5 * mean / 2 : 11 * mean / 5) + 100;
+    limit = std::min<std::int64_t>(limit, std::numeric_limits<std::int32_t>::max());
+  }
+  return static_cast<std::int32_t>(limit);
+}
+
+void ClockEstimate::fit() {
   if (count_ < 2) {
     offset_ = 0;  // the one sample is the origin; the slope stays what it was, for a new epoch
     spread_ = 0;
     return;
   }
   Hull low, high;
-  const int low_size = hull(low, true, 0);
+  const int low_size = hull(low, true, nullptr, 0);
 
   // First the line that bears the cloud at its middle, to tell outliers by.
   const std::int64_t middle = (at(0).bus + at(count_ - 1).bus) / 2;
   int edge = 0;
   while (edge + 2 < low_size && corner(low, edge + 1).bus < middle) ++edge;
-  const auto slope_between = [&](const Sample& a, const Sample& b) {
-    const std::int64_t rise = std::clamp<std::int64_t>(b.delta - a.delta, -(1 << 23), 1 << 23);
-    return std::clamp((rise << kRateBits) / (b.bus - a.bus), -max_slope, max_slope);
-  };
-  const auto lowest = [&](std::int64_t slope) {
-    std::int64_t value = std::numeric_limits<std::int64_t>::max();
-    for (int i = 0; i < low_size; ++i) {
-      const Sample& s = corner(low, i);
-      value = std::min(value, s.delta - ((slope * s.bus) >> kRateBits));
-    }
-    return value;
-  };
   slope_ = slope_between(corner(low, edge), corner(low, edge + 1));
-  offset_ = lowest(slope_);
-
-  // The mean latency of all but the far outliers; 2.5 times it holds any latency spread evenly over an
-  // interval.
-  std::int64_t limit = std::numeric_limits<std::int64_t>::max();
-  for (int round = 0; round < 4; ++round) {
-    std::int64_t sum = 0, used = 0;
-    for (int i = 0; i < count_; ++i)
-      if (const std::int64_t r = residual(at(i)); r <= limit) sum += r, ++used;
-    const std::int64_t mean = sum / std::max<std::int64_t>(used, 1);
-    limit = (round < 3 ? 3 * mean : count_ < 96 ? 5 * mean / 2 : 11 * mean / 5) + 100;
-  }
+  int low_near = edge, high_near = 0;
+  offset_ = support(low, low_size, true, slope_, low_near);
+  // Deltas are below 2^24, slopes below 300 ppm of 2^35: what is larger than 32 bits is the least of them
+  // all.
+  Residuals residuals;
+  for (int i = 0; i < count_; ++i)
+    residuals[static_cast<std::size_t>(i)] = static_cast<std::int32_t>(
+        std::min<std::int64_t>(residual(at(i)), std::numeric_limits<std::int32_t>::max()));
 
   // Then the thinnest strip: one of its edges lies on an edge of a hull.
-  const int high_size = hull(high, false, limit);
+  const int high_size = hull(high, false, &residuals, latency_limit(residuals));
+  if (high_size < 2) return;
   std::int64_t best_slope = slope_;
   std::int64_t best_width = std::numeric_limits<std::int64_t>::max();
   const auto consider = [&](std::int64_t slope) {
-    std::int64_t top = std::numeric_limits<std::int64_t>::min();
-    for (int i = 0; i < high_size; ++i) {
-      const Sample& s = corner(high, i);
-      top = std::max(top, s.delta - ((slope * s.bus) >> kRateBits));
-    }
-    const std::int64_t width = top - lowest(slope);
+    const std::int64_t width =
+        support(high, high_size, false, slope, high_near) - support(low, low_size, true, slope, low_near);
     if (width < best_width) best_width = width, best_slope = slope;
   };
   for (int i = 0; i + 1 < low_size; ++i) consider(slope_between(corner(low, i), corner(low, i + 1)));
-  for (int i = 0; i + 1 < high_size; ++i) consider(slope_between(corner(high, i), corner(high, i + 1)));
-  if (high_size >= 2) {
-    slope_ = best_slope;
-    offset_ = lowest(slope_);
-    spread_ = std::max<std::int64_t>(best_width, 0);
-  }
+  for (int i = high_size - 2; i >= 0; --i) consider(slope_between(corner(high, i), corner(high, i + 1)));
+  slope_ = best_slope;
+  offset_ = support(low, low_size, true, slope_, low_near);
+  spread_ = std::max<std::int64_t>(best_width, 0);
 }
 
 void ClockEstimate::steer(std::int64_t now) {

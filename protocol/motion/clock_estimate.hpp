@@ -84,6 +84,7 @@ class ClockEstimate {
     std::int64_t to_bus(std::int64_t local) const;
   };
   using Hull = std::array<std::uint16_t, kWindow>;
+  using Residuals = std::array<std::int32_t, kWindow>;  // ns above the line
 
   void add(const Sample& sample);
   void drop_old();
@@ -91,7 +92,10 @@ class ClockEstimate {
   const Sample& corner(const Hull& hull, int i) const { return at(hull[static_cast<std::size_t>(i)]); }
   void rebase();
   void fit();
-  int hull(Hull& out, bool lower, std::int64_t residual_limit) const;
+  int hull(Hull& out, bool lower, const Residuals* residuals, std::int32_t residual_limit) const;
+  std::int64_t support(const Hull& hull, int size, bool lower, std::int64_t slope, int& near) const;
+  std::int64_t slope_between(const Sample& a, const Sample& b) const;
+  std::int32_t latency_limit(const Residuals& residuals) const;
   std::int64_t residual(const Sample& s) const;
   void steer(std::int64_t now);
 

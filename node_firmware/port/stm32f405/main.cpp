@@ -100,7 +100,11 @@ int main() {
   dog.start();
   for (;;) {
     program->pass();
-    if (motors_good ? motors.serve(node, program->now()) : program->refuse_power()) program->touch();
+    // A stop for a drive's sake is named from this very moment, and told before anything else is done.
+    if (motors_good ? motors.serve(node, program->read_time()) : program->refuse_power()) {
+      program->send();
+      program->touch();
+    }
     store(node);
     console.serve(node, motors, can_port);
     if (node.program_stop_requested() && can_port.queue().idle()) give_way(node);

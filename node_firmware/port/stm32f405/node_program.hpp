@@ -25,11 +25,14 @@ class NodeProgram {
   void touch() { touched_ = true; }
   Node& node() { return node_; }
   LocalTime now() const { return now_; }
+  /// now(), read afresh: a pass may have taken a while.
+  LocalTime read_time() { return now_ = clock_.now(); }
+  /// Hands what the node has to say to the bus, as far as there is room.
+  void send();
   PathTime path_time(std::uint32_t counts) const { return node_.path_time(clock_.at(counts)); }
 
  private:
   bool take_inputs();
-  void send();
   void filter();
   void report_bus();
 
