@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 
 namespace kinebus::serial {
 namespace {
@@ -33,6 +34,14 @@ std::optional<long> take_number(std::string_view& text) {
   std::from_chars(digits.data(), digits.data() + count, value);
   text = digits.substr(count);
   return negative ? -value : value;
+}
+
+/// A terminal that a host has just opened sends back what it hears until the host has switched that off.
+bool own_words_come_back(std::string_view text) {
+  constexpr std::string_view kAnswers[] = {"ok ", "echo:", "Error:", "Resend:", "T:", "Cap:", "//"};
+  return text == "ok" || text == "start" ||
+         std::any_of(std::begin(kAnswers), std::end(kAnswers),
+                     [text](std::string_view answer) { return text.substr(0, answer.size()) == answer; });
 }
 
 std::uint64_t hash_of(std::string_view text) {
@@ -150,7 +159,7 @@ void LineReader::finish(std::string_view raw) {
   Line line;
   std::string_view text = trimmed(raw);
   const auto keep = [&] { lines_.push_back(std::move(line)); };
-  if (text.empty() && !too_long_) return;
+  if ((text.empty() || own_words_come_back(text)) && !too_long_) return;
   if (too_long_ || text.find('\0') != std::string_view::npos) {
     damaged(line, too_long_ ? "Line too long" : "Unreadable line");
     return keep();

@@ -39,6 +39,13 @@ TEST_F(Reader, LinesEndWithLfOrCrAndEmptyOnesAreNothing) {
   EXPECT_EQ(next(), "M114");
 }
 
+TEST_F(Reader, WhatATerminalSendsBackOfTheAnswersIsNoCommand) {
+  give("start\nok\nok T:20.0 /0.0\necho:busy: processing\nError:x\nResend: 3\nT:21.0 /0.0\nT0\nO100\n");
+  EXPECT_EQ(next(), "T0");
+  EXPECT_EQ(next(), "O100");
+  EXPECT_EQ(next(), "-");
+}
+
 TEST_F(Reader, NumbersFollowEachOtherAndM110SetsThem) {
   give("N-1 M110*15\n");
   EXPECT_EQ(next(), "M110");
