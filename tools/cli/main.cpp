@@ -9,6 +9,7 @@
 #include "tools/cli/job_commands.hpp"
 #include "tools/cli/link_bench.hpp"
 #include "tools/cli/machine_commands.hpp"
+#include "tools/cli/measure_command.hpp"
 #include "tools/cli/plan_command.hpp"
 #include "tools/cli/simulate_command.hpp"
 
@@ -21,6 +22,7 @@ int run(int argc, char** argv) {
   int exit_code = 0;
   const auto options = std::make_shared<kinebus::MachineOptions>();
   kinebus::add_machine_commands(app, options, exit_code);
+  kinebus::add_measure_command(app, options);
   kinebus::add_job_commands(app, options, exit_code);
   kinebus::add_link_bench(app, options);
   kinebus::add_plan_command(app, exit_code);
