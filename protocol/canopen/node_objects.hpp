@@ -76,7 +76,7 @@ constexpr void add_mapping_objects(T& t, const PdoDefault& pdo, std::string_view
   std::uint8_t used = 0;
   while (used < 8 && pdo.map[used] != 0) ++used;
   t.head(index, object, ObjectCode::kRecord, 8);
-  ObjectEntry& count = t.rows[t.count - 1];
+  ObjectRow& count = t.rows[t.count - 1];
   count.name = "Number of mapped objects";
   count.access = kReadWrite;
   count.binding = kParameter;
@@ -257,15 +257,18 @@ constexpr auto build() {
 }
 
 inline constexpr auto kBuilt = build();
-constexpr auto shrink() {
-  std::array<ObjectEntry, kBuilt.count> rows;
-  for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = kBuilt.rows[i];
-  return rows;
+template <typename Part>
+constexpr auto part_of_rows() {
+  std::array<Part, kBuilt.count> parts;
+  for (std::size_t i = 0; i < parts.size(); ++i) parts[i] = kBuilt.rows[i];
+  return parts;
 }
 
 }  // namespace object_table
 
-inline constexpr auto kNodeObjects = object_table::shrink();
+inline constexpr auto kNodeObjects = object_table::part_of_rows<ObjectEntry>();
+/// The same places, for programs that speak to people: an image that does not name it does not contain it.
+inline constexpr auto kNodeObjectNames = object_table::part_of_rows<ObjectNames>();
 inline constexpr std::size_t kNodeObjectCount = kNodeObjects.size();
 
 namespace object_table {
@@ -277,6 +280,11 @@ constexpr bool is_sorted() {
 void no_such_object_in_the_table();  // not constexpr: its name is the compiler's message
 static_assert(is_sorted(), "rows of the object table must be in the order of their addresses, each once");
 }  // namespace object_table
+
+/// Of an entry of kNodeObjects.
+constexpr const ObjectNames& names_of(const ObjectEntry& entry) {
+  return kNodeObjectNames[static_cast<std::size_t>(&entry - kNodeObjects.data())];
+}
 
 /// Place of an object in kNodeObjects, and of its value in the dictionary. Binary search; -1: no such object.
 constexpr int find_slot(ObjectAddress address) {

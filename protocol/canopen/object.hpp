@@ -1,6 +1,6 @@
 #pragma once
-// What is known of one entry of an object dictionary before any node exists: address, name, type, access,
-// limits.
+// What is known of one entry of an object dictionary before any node exists: address, type, access, limits;
+// and what it is called.
 
 #include <cstdint>
 #include <limits>
@@ -89,11 +89,9 @@ enum class Binding : std::uint8_t {
 
 enum class ObjectCode : std::uint8_t { kVar = 7, kArray = 8, kRecord = 9 };
 
-/// One row of the table: one (index, subindex).
+/// One (index, subindex).
 struct ObjectEntry {
   ObjectAddress address{};
-  std::string_view object{};  ///< name of the whole object; the same in all rows of an index
-  std::string_view name{};    ///< name of this entry; equals `object` for a plain variable
   ObjectCode code = ObjectCode::kVar;
   DataType type = DataType::kU32;
   Access access = Access::kReadOnly;
@@ -104,7 +102,6 @@ struct ObjectEntry {
   bool limited = false;           ///< low and high are narrower than the type
   std::int64_t initial = 0;
   std::int64_t low = 0, high = 0;
-  std::string_view unit{};  ///< for people and DBC files: "counts", "ms", ...
   std::string_view text{};  ///< strings only
 
   /// The address with the second axis' offset taken off: what code for either axis switches on.
@@ -120,26 +117,13 @@ struct ObjectEntry {
   constexpr std::uint8_t size() const {
     return type == DataType::kString ? static_cast<std::uint8_t>(text.size()) : size_of(type);
   }
+};
 
-  // For the table only: a row reads as one sentence.
-  constexpr ObjectEntry& between(std::int64_t lowest, std::int64_t highest) {
-    limited = true;
-    low = lowest;
-    high = highest;
-    return *this;
-  }
-  constexpr ObjectEntry& in(std::string_view unit_text) {
-    unit = unit_text;
-    return *this;
-  }
-  constexpr ObjectEntry& maps(Mapping kind) {
-    mapping = kind;
-    return *this;
-  }
-  constexpr ObjectEntry& plus_node_id() {
-    node_id_relative = true;
-    return *this;
-  }
+/// What people and their files (EDS, DBC) are told of an entry; a node carries none of it.
+struct ObjectNames {
+  std::string_view object{};  ///< name of the whole object; the same in all rows of an index
+  std::string_view name{};    ///< name of this entry; equals `object` for a plain variable
+  std::string_view unit{};    ///< "counts", "ms", ...
 };
 
 }  // namespace kinebus

@@ -14,51 +14,67 @@ namespace kinebus {
 
 namespace object_table {
 
+/// One row of the table; reads as one sentence.
+struct ObjectRow : ObjectEntry, ObjectNames {
+  constexpr ObjectRow& between(std::int64_t lowest, std::int64_t highest) {
+    limited = true;
+    low = lowest;
+    high = highest;
+    return *this;
+  }
+  constexpr ObjectRow& in(std::string_view unit_text) {
+    unit = unit_text;
+    return *this;
+  }
+  constexpr ObjectRow& maps(Mapping kind) {
+    mapping = kind;
+    return *this;
+  }
+  constexpr ObjectRow& plus_node_id() {
+    node_id_relative = true;
+    return *this;
+  }
+};
+
 template <std::size_t kCapacity>
 struct Rows {
-  std::array<ObjectEntry, kCapacity> rows{};
+  std::array<ObjectRow, kCapacity> rows{};
   std::size_t count = 0;
 
-  constexpr ObjectEntry& var(std::uint16_t index, std::string_view name, DataType type, Access access,
-                             Binding binding, std::int64_t initial = 0) {
-    return add({.address = {index, 0},
-                .object = name,
-                .name = name,
-                .type = type,
-                .access = access,
-                .binding = binding,
-                .initial = initial});
+  constexpr ObjectRow& var(std::uint16_t index, std::string_view name, DataType type, Access access,
+                           Binding binding, std::int64_t initial = 0) {
+    return add(
+        {{.address = {index, 0}, .type = type, .access = access, .binding = binding, .initial = initial},
+         {.object = name, .name = name}});
   }
   /// Subindex 0 of an array or record: the number of its highest subindex.
-  constexpr ObjectEntry& head(std::uint16_t index, std::string_view object, ObjectCode code,
-                              std::uint8_t highest) {
-    return add({.address = {index, 0},
-                .object = object,
-                .name = "Highest sub-index supported",
-                .code = code,
-                .type = DataType::kU8,
-                .access = Access::kConst,
-                .initial = highest});
+  constexpr ObjectRow& head(std::uint16_t index, std::string_view object, ObjectCode code,
+                            std::uint8_t highest) {
+    return add({{.address = {index, 0},
+                 .code = code,
+                 .type = DataType::kU8,
+                 .access = Access::kConst,
+                 .initial = highest},
+                {.object = object, .name = "Highest sub-index supported"}});
   }
   /// A further subindex of the object whose head came last.
-  constexpr ObjectEntry& sub(std::uint8_t subindex, std::string_view name, DataType type, Access access,
-                             Binding binding, std::int64_t initial = 0) {
-    const ObjectEntry& last = rows[count - 1];
-    return add({.address = {last.address.index, subindex},
-                .object = last.object,
-                .name = name,
-                .code = last.code,
-                .type = type,
-                .access = access,
-                .binding = binding,
-                .initial = initial});
+  constexpr ObjectRow& sub(std::uint8_t subindex, std::string_view name, DataType type, Access access,
+                           Binding binding, std::int64_t initial = 0) {
+    const ObjectRow& last = rows[count - 1];
+    return add({{.address = {last.address.index, subindex},
+                 .code = last.code,
+                 .type = type,
+                 .access = access,
+                 .binding = binding,
+                 .initial = initial},
+                {.object = last.object, .name = name}});
   }
-  constexpr ObjectEntry& string(std::uint16_t index, std::string_view name, std::string_view text) {
-    ObjectEntry& entry = var(index, name, DataType::kString, Access::kConst, Binding::kConstant);
+  constexpr ObjectRow& string(std::uint16_t index, std::string_view name, std::string_view text) {
+    ObjectRow& entry = var(index, name, DataType::kString, Access::kConst, Binding::kConstant);
     entry.text = text;
     return entry;
   }
-  constexpr ObjectEntry& add(const ObjectEntry& entry) {
+  constexpr ObjectRow& add(const ObjectRow& entry) {
     rows[count] = entry;
     return rows[count++];
   }
@@ -67,7 +83,7 @@ struct Rows {
     const std::size_t end = count;
     for (std::size_t i = from; i < end; ++i) rows[i].axis = 0;
     for (std::size_t i = from; i < end; ++i) {
-      ObjectEntry entry = rows[i];
+      ObjectRow entry = rows[i];
       entry.address.index = static_cast<std::uint16_t>(entry.address.index + kAxisOffset);
       entry.axis = 1;
       add(entry);

@@ -113,8 +113,8 @@ Message pdo_message(const object_table::PdoDefault& pdo, std::uint32_t id, std::
     } else {
       const std::string axis = entry.axis < 0 ? "" : entry.axis == 0 ? "_A" : "_B";
       const bool mode = entry.base() == object::kModeOfOperation || entry.base() == object::kModeDisplay;
-      message.signals.push_back({identifier(entry.name) + axis, at, bits, is_signed(entry.type), "1",
-                                 std::string(entry.unit), mode ? kModes : "", ""});
+      message.signals.push_back({identifier(names_of(entry).name) + axis, at, bits, is_signed(entry.type),
+                                 "1", std::string(names_of(entry).unit), mode ? kModes : "", ""});
     }
     at += bits;
   }

@@ -129,7 +129,7 @@ std::string eds_text() {
     const std::string section = hex(entry.address.index, 4, "");
     if (entry.code == ObjectCode::kVar) {
       ini.section(section);
-      ini.set("ParameterName", entry.object);
+      ini.set("ParameterName", names_of(entry).object);
       ini.set("ObjectType", "0x7");
       add_value(ini, entry);
       continue;
@@ -140,12 +140,12 @@ std::string eds_text() {
            ++k)
         ++entries;
       ini.section(section);
-      ini.set("ParameterName", entry.object);
+      ini.set("ParameterName", names_of(entry).object);
       ini.set("ObjectType", entry.code == ObjectCode::kArray ? "0x8" : "0x9");
       ini.set("SubNumber", entries);
     }
     ini.section(section + "sub" + hex(entry.address.subindex, 1, ""));
-    ini.set("ParameterName", entry.name);
+    ini.set("ParameterName", names_of(entry).name);
     ini.set("ObjectType", "0x7");
     add_value(ini, entry);
   }

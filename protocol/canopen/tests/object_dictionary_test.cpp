@@ -34,10 +34,11 @@ AbortCode read(ObjectDictionary& objects, ObjectAddress address, std::uint64_t& 
 
 TEST(ObjectTable, IsConsistent) {
   for (const ObjectEntry& e : kNodeObjects) {
-    const auto where = std::string(e.object) + " / " + std::string(e.name);
-    EXPECT_FALSE(e.name.empty()) << where;
+    const auto where = std::string(names_of(e).object) + " / " + std::string(names_of(e).name);
+    EXPECT_FALSE(names_of(e).name.empty()) << where;
     EXPECT_GE(find_slot({e.address.index, 0}), 0) << where;
-    EXPECT_EQ(e.object, kNodeObjects[static_cast<std::size_t>(find_slot({e.address.index, 0}))].object)
+    EXPECT_EQ(names_of(e).object,
+              kNodeObjectNames[static_cast<std::size_t>(find_slot({e.address.index, 0}))].object)
         << where;
     if (e.limited) {
       EXPECT_LE(e.low, e.high) << where;
@@ -67,7 +68,7 @@ TEST(ObjectTable, HighestSubindexIsTrue) {
     int highest = 0;
     for (const ObjectEntry& e : kNodeObjects)
       if (e.address.index == head.address.index) highest = e.address.subindex;
-    EXPECT_EQ(head.initial, highest) << head.object;
+    EXPECT_EQ(head.initial, highest) << names_of(head).object;
   }
 }
 
@@ -78,8 +79,8 @@ TEST(ObjectTable, DefaultPdosMapWhatMayBeMapped) {
         find_slot({static_cast<std::uint16_t>(mapping >> 16), static_cast<std::uint8_t>(mapping >> 8)});
     ASSERT_GE(slot, 0) << std::hex << mapping;
     const ObjectEntry& entry = kNodeObjects[static_cast<std::size_t>(slot)];
-    EXPECT_TRUE(entry.maps_to(kind)) << entry.name;
-    EXPECT_EQ(entry.size() * 8u, mapping & 0xFF) << entry.name;
+    EXPECT_TRUE(entry.maps_to(kind)) << names_of(entry).name;
+    EXPECT_EQ(entry.size() * 8u, mapping & 0xFF) << names_of(entry).name;
   };
   for (const auto& pdo : kRpdoDefaults)
     for (const auto m : pdo.map)

@@ -62,7 +62,7 @@ TEST(Eds, SaysOfEveryObjectWhatTheTableSays) {
     ASSERT_EQ(sections.count(name), 1u) << name;
     Section& s = sections[name];
     ++values;
-    EXPECT_EQ(s["ParameterName"], entry.name) << name;
+    EXPECT_EQ(s["ParameterName"], names_of(entry).name) << name;
     EXPECT_EQ(number(s["ObjectType"]), 7) << name;
     EXPECT_EQ(number(s["DataType"]), static_cast<std::int64_t>(entry.type)) << name;
     const std::map<std::string, Access> accesses{{"const", Access::kConst},
@@ -87,7 +87,7 @@ TEST(Eds, SaysOfEveryObjectWhatTheTableSays) {
     }
     if (!var && entry.address.subindex == 0) {
       Section& whole = sections[section_name(entry.address, false)];
-      EXPECT_EQ(whole["ParameterName"], entry.object);
+      EXPECT_EQ(whole["ParameterName"], names_of(entry).object);
       EXPECT_EQ(number(whole["ObjectType"]), static_cast<std::int64_t>(entry.code));
       std::int64_t entries = 0;
       for (const ObjectEntry& other : kNodeObjects)
