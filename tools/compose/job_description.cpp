@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <toml++/toml.h>
 #include <cmath>
 #include <filesystem>
 #include <set>
 #include <stdexcept>
+#include "gateway/toml.hpp"
 
 namespace kinebus::compose {
 namespace {

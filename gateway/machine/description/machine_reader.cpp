@@ -1,10 +1,10 @@
-// TOML to MachineDescription. toml++ is included here and nowhere else.
+// TOML to MachineDescription.
 
 #define TOML_EXCEPTIONS 0
 #define TOML_HEADER_ONLY 1
 // The library asserts on texts that it then refuses well: bad input must not end the program.
 #define TOML_ASSERT(expression) static_cast<void>(0)
-#include <toml++/toml.h>
+#include "gateway/toml.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -17,7 +17,6 @@
 #include "gateway/machine/description/machine_file.hpp"
 #include "gateway/machine/description/machine_rules.hpp"
 #include "gateway/machine/description/machine_schema.hpp"
-#include "gateway/machine/description/toml_characters.hpp"
 
 namespace kinebus {
 namespace {
@@ -347,9 +346,6 @@ class Reader {
 }  // namespace
 
 Result<MachineDescription, MachineFileErrors> parse_machine(std::string_view text, std::string_view name) {
-  if (const auto line = misplaced_character(text))
-    return Error<MachineFileErrors>({{std::string(name), *line, "", "a character beyond ASCII",
-                                      "such characters in comments and strings only"}});
   const auto control = std::find_if(text.begin(), text.end(), [](char c) {
     return (static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != '\n' && c != '\r') || c == 0x7F;
   });
@@ -360,8 +356,8 @@ Result<MachineDescription, MachineFileErrors> parse_machine(std::string_view tex
   const toml::parse_result parsed = toml::parse(text, name);
   if (!parsed) {
     const toml::parse_error& e = parsed.error();
-    return Error<MachineFileErrors>(
-        {{std::string(name), e.source().begin.line, "", "no valid TOML", std::string(e.description())}});
+    return Error<MachineFileErrors>({{std::string(name), e.source().begin.line, "",
+                                      "no valid TOML: " + std::string(e.description()), "TOML 1.0"}});
   }
   MachineDescription description;
   Reader reader(parsed.table(), name);
