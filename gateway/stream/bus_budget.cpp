@@ -1,6 +1,7 @@
 #include "gateway/stream/bus_budget.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace kinebus {
 
@@ -38,14 +39,15 @@ double BusBudget::allowed_rate(std::span<const NodeStream* const> nodes, PathTim
   if (rate >= before && all <= static_cast<std::uint64_t>(options_.node_records)) return rate;
   rate = before;
 
+  std::array<std::uint64_t, kMostNodes> known{};
   for (int k = 1; k <= kSteps; ++k) {
     const std::int64_t until = std::min(now + k * kStepUnits, made);
     std::uint64_t records = 0;
     std::int64_t first = INT64_MAX;
-    for (const NodeStream* node : nodes) {
-      const std::uint64_t waiting = node->unsent_until(until);
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const std::uint64_t waiting = known[i] = nodes[i]->unsent_until(until, known[i]);
       records += waiting;
-      if (waiting > 0) first = std::min(first, node->unsent_begins_units(waiting - 1));
+      if (waiting > 0) first = std::min(first, nodes[i]->unsent_begins_units(waiting - 1));
     }
     if (records > 0) limit(first, static_cast<double>(records));
     if (until == made) break;

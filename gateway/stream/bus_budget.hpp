@@ -1,6 +1,7 @@
 #pragma once
 // How fast path time may run, so that every record is in its node in time and the bus keeps its share free.
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -8,6 +9,8 @@
 #include "protocol/time.hpp"
 
 namespace kinebus {
+
+inline constexpr std::size_t kMostNodes = 127;  ///< node-ids that CANopen has
 
 /// Deadline test over the records that wait: all bits due before tau + x must fit the budget while path time
 /// covers x. Queued path time is slack, so a short burst does not slow the path and a long dense stretch

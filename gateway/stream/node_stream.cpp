@@ -152,8 +152,16 @@ void NodeStream::forget_before(std::int64_t units) {
   while (begin_ < accepted_ && begins_units(begin_ + 1) <= units) ++begin_;
 }
 
-std::uint64_t NodeStream::unsent_until(std::int64_t units) const {
-  std::uint64_t low = sent_, high = end_;
+std::uint64_t NodeStream::unsent_until(std::int64_t units, std::uint64_t known) const {
+  std::uint64_t low = std::min(sent_ + known, end_), high = end_;
+  // The answer is near what is known: ever longer steps find a record beyond it.
+  for (std::uint64_t step = 1; low + step < end_; step *= 2) {
+    if (at(low + step - 1).start_units > units) {
+      high = low + step - 1;
+      break;
+    }
+    low += step;
+  }
   while (low < high) {
     const std::uint64_t middle = low + (high - low) / 2;
     if (at(middle).start_units <= units)

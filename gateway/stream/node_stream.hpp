@@ -72,8 +72,9 @@ class NodeStream {
   /// The n-th record that is not sent begins here (path time, units); n may go beyond the last.
   std::int64_t unsent_begins_units(std::uint64_t n) const { return begins_units(sent_ + n); }
   std::uint64_t unsent() const { return end_ - sent_; }
-  /// How many of those begin at or before `units`. Cost: ten comparisons.
-  std::uint64_t unsent_until(std::int64_t units) const;
+  /// How many of those begin at or before `units`; `known`: so many do, as was found for an earlier time.
+  /// Cost: logarithmic in what there is beyond the known ones.
+  std::uint64_t unsent_until(std::int64_t units, std::uint64_t known = 0) const;
 
   /// Exact state of both axes at path time tau, by the records kept. nullopt: tau lies before the records
   /// kept.

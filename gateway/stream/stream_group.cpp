@@ -198,7 +198,7 @@ PathTime StreamGroup::confirmed(PathTime tau) const {
 
 double StreamGroup::allowed_rate(PathTime tau) const {
   if (state_ != State::kRunning || nodes_.empty()) return 1;
-  std::array<const NodeStream*, 127> streams{};
+  std::array<const NodeStream*, kMostNodes> streams{};
   for (std::size_t i = 0; i < nodes_.size(); ++i) streams[i] = &nodes_[i].stream;
   return budget_.allowed_rate({streams.data(), nodes_.size()}, tau, complete());
 }
