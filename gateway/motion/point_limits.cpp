@@ -1,0 +1,191 @@
+#include "gateway/motion/point_limits.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace kinebus {
+namespace {
+
+// Plan joints to this share of their limits. The rest is for what comes after planning: terms that vary
+// within a piece (held to some 1 %), and segments whose accelerations are rounded to the wire's units.
+constexpr double kJointShare = 0.98;
+// The bounds of a cubic's slope are taken at five points; between them it is greater by less than this.
+constexpr double kBetweenSamples = 1 + 1e-4;
+double inverse_of(double limit) {
+  return std::isfinite(limit) ? 1 / limit : 0;
+}
+
+/// Lowers `up` and `down` to the a that |second x + first a| <= limit allows.
+void bound_accel(double first, double second, double limit, double x, double& up, double& down) {
+  const double size = std::abs(first);
+  if (size * kNoAccel < limit) return;
+  const double bend = first > 0 ? second * x : -second * x;
+  up = std::min(up, std::max(limit - bend, 0.0) / size);
+  down = std::min(down, std::max(limit + bend, 0.0) / size);
+}
+
+/// Speed of the tip relative to the part per unit of s, for a path in the machine frame while A and C turn:
+/// |m' - omega x m| with omega = A' x^ + C' R_X(A) z^.
+double tip_rate(const PosePoint& p) {
+  const double wx = p.x1[kA];
+  const double wy = -std::sin(p.x[kA]) * p.x1[kC], wz = std::cos(p.x[kA]) * p.x1[kC];
+  const double dx = p.x1[kX] - (wy * p.x[kZ] - wz * p.x[kY]);
+  const double dy = p.x1[kY] - (wz * p.x[kX] - wx * p.x[kZ]);
+  const double dz = p.x1[kZ] - (wx * p.x[kY] - wy * p.x[kX]);
+  return std::sqrt(dx * dx + dy * dy + dz * dz);
+}
+
+}  // namespace
+
+PointLimits::PointLimits(std::size_t joints, const MotionLimits& limits) : joints_(joints) {
+  set_limits(limits);
+}
+
+void PointLimits::set_limits(const MotionLimits& limits) {
+  limits_ = limits;
+  for (std::size_t j = 0; j < kMaxJoints; ++j) {
+    inverse_speed_[j] = inverse_of(limits.joint_speed_per_s[j] * kJointShare);
+    inverse_accel_[j] = inverse_of(limits.joint_accel_per_s2[j] * kJointShare);
+    accel_[j] = limits.joint_accel_per_s2[j] * kJointShare;
+  }
+  limited_xyz_ = false;
+  for (std::size_t i = 0; i < kPoseAxes; ++i) {
+    inverse_axis_speed_[i] = inverse_of(limits.axis_speed_per_s[i]);
+    inverse_axis_accel_[i] = inverse_of(limits.axis_accel_per_s2[i]);
+    if (i < 3 && (inverse_axis_speed_[i] > 0 || inverse_axis_accel_[i] > 0)) limited_xyz_ = true;
+  }
+}
+
+void PointLimits::set_cap(const PieceDemand& demand, double tool_rate, PlanPiece& piece) const {
+  const double tool_speed = tool_rate > 0 ? limits_.tool_speed_mm_per_s / tool_rate : kNoAccel;
+  // The feed is along X Y Z where s is, and a curve may be a little longer than its parameter.
+  const double feed = demand.tip_feed ? kNoAccel : demand.speed;
+  const double speed = std::min({feed, tool_speed, kNoAccel});
+  piece.cap = speed * speed;
+}
+
+void PointLimits::axis_caps(const PosePoint& pose, PlanPiece& piece) const {
+  double speed = 0, accel = 0;
+  for (std::size_t i = limited_xyz_ ? 0 : 3; i < kPoseAxes; ++i) {
+    speed = std::max(speed, std::abs(pose.x1[i]) * inverse_axis_speed_[i]);
+    accel = std::max(accel, std::abs(pose.x2[i]) * inverse_axis_accel_[i]);
+  }
+  const double inverse_cap = std::max(speed * speed, accel);
+  if (inverse_cap * piece.cap > 1) piece.cap = 1 / inverse_cap;
+}
+
+void PointLimits::tip_cap(const PieceDemand& demand, const PosePoint& pose, PlanPiece& piece) const {
+  if (!demand.tip_feed || !std::isfinite(demand.speed)) return;
+  const double rate = tip_rate(pose);
+  if (rate * rate * piece.cap > demand.speed * demand.speed)
+    piece.cap = demand.speed * demand.speed / (rate * rate);
+}
+
+double PointLimits::joint_ratio(const JointPoint& joints, const PlanPiece& piece) const {
+  const double speed = std::sqrt(piece.cap);
+  const double accel = std::min({piece.curved ? piece.accel / std::sqrt(piece.w2) : piece.accel, kNoAccel});
+  double ratio = 0;
+  for (std::size_t j = 0; j < joints_; ++j) {
+    const double first = std::abs(joints.q1[j]), second = std::abs(joints.q2[j]);
+    ratio = std::max(
+        {ratio, first * speed * inverse_speed_[j], (second * piece.cap + first * accel) * inverse_accel_[j]});
+  }
+  return ratio;
+}
+
+void PointLimits::joint_caps(const JointPoint& joints, PlanPiece& piece) const {
+  double speed = 0, accel = 0;
+  for (std::size_t j = 0; j < joints_; ++j) {
+    speed = std::max(speed, std::abs(joints.q1[j]) * inverse_speed_[j]);
+    accel = std::max(accel, std::abs(joints.q2[j]) * inverse_accel_[j]);
+  }
+  const double inverse_cap = std::max(speed * speed, accel);
+  if (inverse_cap * piece.cap > 1) piece.cap = 1 / inverse_cap;
+}
+
+void PointLimits::joint_accels(const JointPoint& joints, PlanPiece& piece) const {
+  for (std::size_t j = 0; j < joints_; ++j) {
+    if (inverse_accel_[j] == 0) continue;
+    bound_accel(joints.q1[j], joints.q2[j], accel_[j], 0, piece.up0, piece.down0);
+    bound_accel(joints.q1[j], joints.q2[j], accel_[j], piece.cap, piece.up1, piece.down1);
+  }
+}
+
+void PointLimits::limit_straight_accel(const PosePoint& direction, PlanPiece& piece) const {
+  for (std::size_t i = limited_xyz_ ? 0 : 3; i < kPoseAxes; ++i) {
+    const double rate = std::abs(direction.x1[i]) * inverse_axis_accel_[i];
+    if (rate * piece.accel > 1) piece.accel = 1 / rate;
+  }
+}
+
+void PointLimits::axis_accels(const PosePoint& pose, PlanPiece& piece) const {
+  for (std::size_t i = limited_xyz_ ? 0 : 3; i < kPoseAxes; ++i) {
+    if (inverse_axis_accel_[i] == 0) continue;
+    bound_accel(pose.x1[i], pose.x2[i], limits_.axis_accel_per_s2[i], 0, piece.up0, piece.down0);
+    bound_accel(pose.x1[i], pose.x2[i], limits_.axis_accel_per_s2[i], piece.cap, piece.up1, piece.down1);
+  }
+}
+
+void PointLimits::bound_curve(const PieceDemand& demand, const PathPiece& geometry, PlanPiece& piece) const {
+  constexpr int kPoints = 5;
+  std::array<PosePoint, kPoints> points;
+  double w2 = 0, k2 = 0, c = 0;
+  for (int i = 0; i < kPoints; ++i) {
+    PosePoint& p = points[static_cast<std::size_t>(i)];
+    p = geometry.evaluate(piece.s0 + piece.length * i / (kPoints - 1));
+    w2 = std::max(w2, dot3(p.x1, p.x1));
+    k2 = std::max(k2, dot3(p.x2, p.x2));
+    c = std::max(c, std::abs(dot3(p.x1, p.x2)));
+  }
+  set_cap(demand, std::sqrt(w2) * kBetweenSamples, piece);
+  piece.curved = true;
+  piece.accel = demand.accel_mm_per_s2;
+  piece.k2 = k2 * kBetweenSamples * kBetweenSamples;
+  piece.c = c;
+  piece.w2 = std::max(w2 * kBetweenSamples * kBetweenSamples, 1e-12);
+  if (piece.k2 * piece.cap * piece.cap > piece.accel * piece.accel) {
+    piece.cap = piece.accel / std::sqrt(piece.k2);
+  }
+  for (const PosePoint& point : points) {
+    axis_caps(point, piece);
+    tip_cap(demand, point, piece);
+  }
+  for (std::size_t i = 3; i < kPoseAxes && !geometry.arc; ++i) {
+    // Where an axis is fastest within the cubic.
+    const auto& cubic = geometry.coefficients[i];
+    const double s = cubic[3] != 0 ? -cubic[2] / (3 * cubic[3]) : -1;
+    const double rate = (cubic[1] + cubic[2] * s) * inverse_axis_speed_[i];
+    if (s > piece.s0 && s < piece.s0 + piece.length && rate * rate * piece.cap > 1) {
+      piece.cap = 1 / (rate * rate);
+    }
+  }
+  double ratio = 0;
+  for (const PosePoint& point : points) {
+    for (std::size_t i = limited_xyz_ ? 0 : 3; i < kPoseAxes; ++i) {
+      const double most = std::abs(point.x2[i]) * piece.cap + std::abs(point.x1[i]) * piece.accel;
+      ratio = std::max(ratio, most * inverse_axis_accel_[i]);
+    }
+  }
+  if (ratio <= kNear) return;
+  allow_any_acceleration(piece);
+  for (const PosePoint& point : points) axis_accels(point, piece);
+}
+
+void PointLimits::add_joints(const JointPoint& before, const JointPoint& after, PlanPiece& piece) const {
+  const double cap = piece.cap;
+  joint_caps(before, piece);
+  joint_caps(after, piece);
+  if (piece.linear) {
+    // The axes' share was for the cap before: a lower cap only leaves more, up to the value at rest.
+    const double down = piece.cap / cap;
+    piece.up1 = piece.up0 + (piece.up1 - piece.up0) * down;
+    piece.down1 = piece.down0 + (piece.down1 - piece.down0) * down;
+  } else {
+    allow_any_acceleration(piece);
+  }
+  joint_accels(before, piece);
+  joint_accels(after, piece);
+}
+
+}  // namespace kinebus

@@ -1,0 +1,72 @@
+#pragma once
+// What a piece of path may do by its limits, once its terms are known at points: speed, and acceleration at a
+// given speed, from the feed, the tool (as a vector), each pose axis and each joint (both terms of q'').
+
+#include <cstddef>
+#include <cstdint>
+
+#include "gateway/kinematics/kinematics.hpp"
+#include "gateway/motion/lookahead.hpp"
+#include "gateway/motion/motion_limits.hpp"
+
+namespace kinebus {
+
+/// What the moves say about a piece, besides its shape.
+struct PieceDemand {
+  double speed = 0;            ///< feed as ds/dt; infinite: none
+  double accel_mm_per_s2 = 0;  ///< tool acceleration
+  std::uint32_t line = 0;
+  bool tip_feed = false;  ///< the feed is the tip's speed relative to a part that turns under it (kMachine)
+};
+
+// Below this share of a limit a joint is not looked at any closer: on M1 the terms vary by less than the rest
+// within an undivided piece.
+inline constexpr double kNear = 0.8;
+// Used where nothing limits: 1 km/s2 and 1 km/s. Finite, so that 0 x limit stays 0.
+inline constexpr double kNoAccel = 1e6;
+
+inline double dot3(const PoseVector& a, const PoseVector& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/// Makes the piece's accelerations bounds of their own at rest and at its cap, which start without any.
+inline void allow_any_acceleration(PlanPiece& piece) {
+  piece.linear = true;
+  piece.up0 = piece.up1 = piece.down0 = piece.down1 = kNoAccel;
+}
+
+/// Each call lowers what `piece` has by the terms at a point.
+class PointLimits {
+ public:
+  PointLimits(std::size_t joints, const MotionLimits& limits);
+
+  void set_limits(const MotionLimits& limits);
+  bool limits_xyz() const { return limited_xyz_; }
+
+  /// First cap, by feed and tool. tool_rate: tool travel per unit of s.
+  void set_cap(const PieceDemand& demand, double tool_rate, PlanPiece& piece) const;
+  /// Speed caps of the single axes, at a point where x1 and x2 are known.
+  void axis_caps(const PosePoint& pose, PlanPiece& piece) const;
+  /// Feed of the tip over a part that turns under it.
+  void tip_cap(const PieceDemand& demand, const PosePoint& pose, PlanPiece& piece) const;
+  void joint_caps(const JointPoint& joints, PlanPiece& piece) const;
+  /// How near the joints come to their limits at the piece's cap and acceleration; 1: at one.
+  double joint_ratio(const JointPoint& joints, const PlanPiece& piece) const;
+  /// Along a straight, where the axes' share of acceleration is the same everywhere.
+  void limit_straight_accel(const PosePoint& direction, PlanPiece& piece) const;
+  void axis_accels(const PosePoint& pose, PlanPiece& piece) const;
+  void joint_accels(const JointPoint& joints, PlanPiece& piece) const;
+  /// The joints' terms at both ends of a piece: cap and accelerations.
+  void add_joints(const JointPoint& before, const JointPoint& after, PlanPiece& piece) const;
+  /// Speed cap and acceleration bounds of geometry's stretch from piece.s0 over piece.length, joints aside.
+  void bound_curve(const PieceDemand& demand, const PathPiece& geometry, PlanPiece& piece) const;
+
+ private:
+  MotionLimits limits_{};
+  std::size_t joints_;
+  JointVector inverse_speed_{}, inverse_accel_{}, accel_{};
+  PoseVector inverse_axis_speed_{}, inverse_axis_accel_{};
+  bool limited_xyz_ = false;  ///< X, Y or Z have limits of their own
+};
+
+}  // namespace kinebus
