@@ -138,7 +138,8 @@ void DriveAxis::serve_stop(LocalTime now) {
     } else {
       homing_.abort();
       if (!halted_) profile_position_.reset(word_);
-      const bool slow = asked == cia402::Stop::kSlowDown;
+      // A halt does not soften the stop of all that is under way.
+      const bool slow = asked == cia402::Stop::kSlowDown && !blocked();
       if (source_ != Source::kStream)
         brake(t, unsigned_parameter(slow ? kSlowDown : kQuickStop));
       else if (!path_.at_rest(now) && !path_.stream().idle())

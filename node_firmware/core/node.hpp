@@ -207,7 +207,6 @@ class Node final : private ObjectOwner {
   bool reset_requested_ = false;
   bool program_stop_requested_ = false;
   bool stop_served_ = false;
-  bool was_latched_ = false;
   bool emergency_stop_ = false;
   std::array<bool, 4> limit_active_{};
   std::uint8_t told_flags_ = 0, told_sequence_ = 0;

@@ -36,6 +36,7 @@ void Node::serve() {
   serve_stops();
   for (DriveAxis& axis : axes_) axis.on_time(now_);
   serve_emergencies();
+  serve_stops();
   sdo_.on_time(now_);
   serve_stream_status();
   pdo_.on_time(now_);
@@ -71,16 +72,16 @@ bool Node::clear_allowed() const {
   return !inputs_.active(SwitchFunction::kEmergencyStop);
 }
 
-// The stream follows the stop by path time itself; motions by local time brake from the same instant.
+// The stream follows the stop by path time itself, from the instant that was named. A motion by local time,
+// such as homing, shares no path with others: it brakes as soon as the stop is known, here at once, on other
+// nodes a frame later.
 void Node::serve_stops() {
   const auto start = path_.stop_start();
-  if (start && now_ >= *start && !stop_served_) {
+  if (start && !stop_served_) {
     stop_served_ = true;
     for (DriveAxis& axis : axes_) axis.on_path_stop(now_);
   }
   if (!start && std::exchange(stop_served_, false)) end_stop();
-  if (!start && was_latched_) end_stop();
-  was_latched_ = start.has_value();
 }
 
 void Node::end_stop() {
