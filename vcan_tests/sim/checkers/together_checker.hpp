@@ -18,6 +18,8 @@ class TogetherChecker {
   using Planned = std::function<std::optional<PlannedPose>(PathTime)>;
   /// Which nodes count: those with power, that have not been restarted since the job began.
   using Lives = std::array<bool, kMaxNodes>;
+  /// Joints whose node says that it knows where they are. One whose motor was let go is nowhere.
+  using Known = std::array<bool, std::tuple_size_v<JointVector>>;
 
   TogetherChecker(const MachineDescription& machine, const Kinematics& kinematics, Planned planned)
       : machine_(machine), kinematics_(kinematics), planned_(std::move(planned)) {}
@@ -34,8 +36,9 @@ class TogetherChecker {
     if (us > skew_us_) skew_us_ = us, skew_time_s_ = to_seconds(probe.time);
   }
 
-  /// All live: distance of the tool from the plan. Else: of the worst carriage that lives.
-  void on_sample(const Sample& sample, const Lives& lives) {
+  /// All live and known: distance of the tool from the plan. Else: of the worst carriage that is. `astray`: a
+  /// motor has lost steps, which no node can see; counted by itself.
+  void on_sample(const Sample& sample, const Lives& lives, const Known& known, bool astray) {
     std::int64_t sum = 0;
     int count = 0;
     for (std::size_t n = 0; n < static_cast<std::size_t>(sample.node_count); ++n)
@@ -45,22 +48,26 @@ class TogetherChecker {
     JointVector q{};
     if (!planned || !kinematics_.inverse(planned->frame, planned->pose, q)) return;
     double worst = 0;
-    if (count == sample.node_count) {
+    bool whole = count == sample.node_count;
+    for (std::size_t j = 0; j < machine_.joints.size(); ++j) whole = whole && known[j];
+    if (whole) {
       PoseVector pose = sample.pose;
       if (!kinematics_.forward(Frame::kPart, q, pose)) return;
       for (const PoseAxis axis : {kX, kY, kZ}) worst += std::pow(sample.pose[axis] - pose[axis], 2);
       worst = std::sqrt(worst);
     } else {
       for (std::size_t j = 0; j < machine_.joints.size(); ++j)
-        if (!machine_.joints[j].rotary && lives[node_of(j)])
+        if (!machine_.joints[j].rotary && known[j] && lives[node_of(j)])
           worst = std::max(worst, std::abs(sample.joints[j] - q[j]));
     }
-    if (1000 * worst > path_um_) path_um_ = 1000 * worst, path_time_s_ = to_seconds(sample.time);
+    if (astray) astray_um_ = std::max(astray_um_, 1000 * worst);
+    if (!astray && 1000 * worst > path_um_) path_um_ = 1000 * worst, path_time_s_ = to_seconds(sample.time);
   }
 
   double skew_us() const { return skew_us_; }
   double skew_time_s() const { return skew_time_s_; }
   double path_um() const { return path_um_; }
+  double astray_um() const { return astray_um_; }
   double path_time_s() const { return path_time_s_; }
 
  private:
@@ -73,7 +80,7 @@ class TogetherChecker {
   const MachineDescription& machine_;
   const Kinematics& kinematics_;
   Planned planned_;
-  double skew_us_ = 0, skew_time_s_ = 0, path_um_ = 0, path_time_s_ = 0;
+  double skew_us_ = 0, skew_time_s_ = 0, path_um_ = 0, path_time_s_ = 0, astray_um_ = 0;
 };
 
 }  // namespace kinebus

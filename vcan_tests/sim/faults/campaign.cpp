@@ -19,6 +19,7 @@ void add(CampaignSummary& summary, const FaultResult& result) {
   ++row.outcomes[static_cast<std::size_t>(result.outcome)];
   if (!result.violations.empty()) ++row.violations;
   if (result.path_um > row.path_um) row.path_um = result.path_um, row.path_seed = result.seed;
+  row.astray_um = std::max(row.astray_um, result.astray_um);
   row.skew_us = std::max(row.skew_us, result.skew_us);
   row.rest_ms = std::max(row.rest_ms, result.rest_ms);
   row.ramp_ms = std::max(row.ramp_ms, result.ramp_ms);
@@ -80,17 +81,24 @@ std::string to_table(const CampaignSummary& summary) {
   std::string text = fmt::format("{:<20}{:>6}", "fault", "runs");
   for (int i = 0; i < kFaultOutcomes; ++i)
     text += fmt::format("{:>12}", to_string(static_cast<FaultOutcome>(i)));
-  text += fmt::format("{:>8}{:>10}{:>9}{:>9}{:>9}{:>7}{:>8}\n", "failed", "path um", "skew us", "rest ms",
-                      "ramp ms", "step", "counts");
+  text += fmt::format("{:>8}{:>9}{:>10}{:>9}{:>9}{:>9}{:>7}{:>8}\n", "failed", "path um", "astray um",
+                      "skew us", "rest ms", "ramp ms", "step", "counts");
   for (int kind = 0; kind < kFaultKinds; ++kind) {
     const auto& row = summary.rows[static_cast<std::size_t>(kind)];
     if (row.runs == 0) continue;
     text += fmt::format("{:<20}{:>6}", to_string(static_cast<FaultKind>(kind)), row.runs);
     for (const std::uint64_t count : row.outcomes)
       text += count == 0 ? fmt::format("{:>12}", ".") : fmt::format("{:>12}", count);
-    text += fmt::format("{:>8}{:>10.2f}{:>9.2f}{:>9.1f}{:>9.3f}{:>7.2f}{:>8.2f}\n", row.violations,
-                        row.path_um, row.skew_us, row.rest_ms, row.ramp_ms, row.step_ratio, row.known_counts);
+    text += fmt::format("{:>8}{:>9.2f}{:>10}{:>9.2f}{:>9.1f}{:>9.3f}{:>7.2f}{:>8.2f}\n", row.violations,
+                        row.path_um, row.astray_um > 0 ? fmt::format("{:.0f}", row.astray_um) : ".",
+                        row.skew_us, row.rest_ms, row.ramp_ms, row.step_ratio, row.known_counts);
   }
+  text +=
+      "path: tool from plan while positions are known; astray: after lost steps, unseen until homing; skew: "
+      "path "
+      "time\nbetween nodes; rest: cause to all at rest; ramp: E-stop input to all ramping; step: change of "
+      "velocity, "
+      "of the stop limit;\ncounts: a position said to be known, from the truth\n";
   text += fmt::format(
       "{} runs, {} of them twice with the same trace, {:.0f} s of machine time at {:.0f} x real time a "
       "core\n",

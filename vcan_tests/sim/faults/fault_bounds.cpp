@@ -55,7 +55,6 @@ FaultBounds bounds_of(const Fault& fault) {
       // Its motor is let go at once; where it stands nobody knows then.
       b.outcomes = kFinished | kContinued | kHomedAgain | kBegunAgain;
       b.step_ratio = kAny;
-      b.path_um = kAny;
       break;
     case kGatewayDies:
       b.outcomes = kContinued | kHomedAgain | kFinished | kBegunAgain;
@@ -96,9 +95,8 @@ FaultBounds bounds_of(const Fault& fault) {
       b.rest_ms = kNodeSilence_ms;
       break;
     case kLostSteps:
-      // What no node can see before it homes again; the path is wrong from there on.
+      // What no node can see before it homes again: the tool is astray from there on.
       b.outcomes = kFinished;
-      b.path_um = kAny;
       b.step_ratio = kAny;
       break;
     case kWrongParameters:

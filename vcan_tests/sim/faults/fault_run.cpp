@@ -143,7 +143,7 @@ class FaultRun {
     measuring_ = job_seen_ && (!alive || state == MachineState::kRunning || state == MachineState::kHolding ||
                                state == MachineState::kHeld || state == MachineState::kStopping ||
                                state == MachineState::kStopped || state == MachineState::kCancelling);
-    if (measuring_) together_.on_sample(sample, lives_);
+    if (measuring_) together_.on_sample(sample, lives_, known_joints(now), injector_.excused_counts() > 0);
     known_.on_nodes(nodes, now, injector_.excused_counts());
     const bool rests =
         state == MachineState::kReady || state == MachineState::kHeld || state == MachineState::kStopped;
@@ -173,6 +173,17 @@ class FaultRun {
     return false;
   }
 
+  TogetherChecker::Known known_joints(BusTime now) {
+    TogetherChecker::Known known{};
+    for (std::size_t j = 0; j < machine_.joints.size(); ++j)
+      for (std::size_t n = 0; n < machine_.nodes.size(); ++n)
+        if (machine_.nodes[n].id == machine_.joints[j].node_id)
+          known[j] = injector_.machine()
+                         .believed_counts(static_cast<int>(n), machine_.joints[j].axis, now)
+                         .has_value();
+    return known;
+  }
+
   void mask_dead() {
     for (std::size_t n = 0; n < lives_.size(); ++n)
       if (static_cast<int>(n) < injector_.machine().node_count() &&
@@ -198,6 +209,7 @@ class FaultRun {
 
   void judge() {
     result_.path_um = together_.path_um();
+    result_.astray_um = together_.astray_um();
     result_.skew_us = together_.skew_us();
     result_.step_ratio = steps_.max_ratio();
     result_.known_counts = std::max(known_.worst_counts(), known_.worst_shown_counts());
