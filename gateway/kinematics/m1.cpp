@@ -11,10 +11,11 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <cstdio>
 #include <limits>
+#include <numbers>
 
 #include "gateway/kinematics/m1_forward.hpp"
+#include "gateway/kinematics/m1_geometry.hpp"
 #include "gateway/kinematics/pose_limits.hpp"
 #include "gateway/kinematics/table_rotation.hpp"
 
@@ -301,87 +302,7 @@ class M1 final : public Kinematics {
   double least_cosine_;  ///< of a leg's angle against its rail
 };
 
-/// Rules that do not need a pose.
-std::optional<std::string> wrong_numbers(const M1Geometry& g) {
-  for (std::size_t i = 0; i < kLegs; ++i) {
-    const M1Leg& leg = g.legs[i];
-    const std::string name = "leg " + std::to_string(i + 1);
-    for (const Vector3& v : {leg.foot_mm, leg.rail, leg.attachment_mm})
-      for (const double x : v)
-        if (!std::isfinite(x)) return name + ": a coordinate is not a number";
-    if (!(leg.length_mm > 0) || !std::isfinite(leg.length_mm))
-      return name + ": its length must be above 0 mm";
-    if (!(std::hypot(leg.rail[0], leg.rail[1], leg.rail[2]) > 0)) return name + ": its rail has no direction";
-    if (!std::isfinite(leg.connector_mm)) return name + ": its connector offset is not a number";
-    if (!(leg.travel_mm.min <= leg.travel_mm.max))
-      return name + ": its travel's minimum is above the maximum";
-  }
-  for (const Interval& i : {g.limits.x_mm, g.limits.y_mm, g.limits.z_mm, g.limits.a_rad, g.limits.c_rad})
-    if (!(i.min <= i.max)) return "a pose limit's minimum is above its maximum";
-  if (!(g.rotation_scale_mm > 0)) return "rotation_scale_mm must be above 0";
-  if (!(g.max_condition >= 1)) return "max_condition must be 1 or more";
-  return std::nullopt;
-}
-
-/// Looks over the workspace for one pose that can be controlled.
-std::optional<std::string> wrong_everywhere(const M1& m1, const M1Geometry& g) {
-  const auto sample = [](const Interval& limits, double otherwise, int k, int n) {
-    const Interval i = limits.limited() ? limits : Interval{-otherwise, otherwise};
-    return i.min + (i.max - i.min) * k / n;
-  };
-  const double radius = g.limits.radius_mm > 0 ? g.limits.radius_mm : 100;
-  int reached = 0;
-  double best = std::numeric_limits<double>::infinity();
-  for (int z = 0; z <= 4; ++z)
-    for (int a = 0; a <= 4; ++a)
-      for (int k = 0; k <= 12; ++k) {
-        // Poses off every plane of symmetry, so that a mirror's own plane does not stand for the whole
-        // workspace.
-        const double angle = 0.3 + k * (2 * std::numbers::pi / 12.7),
-                     r = k == 0 ? 0 : radius * (0.2 + 0.04 * k);
-        const PoseVector pose{r * std::cos(angle),
-                              r * std::sin(angle),
-                              sample(g.limits.z_mm, 100, z, 4),
-                              sample(g.limits.a_rad, 0.5, a, 4) * 0.97,
-                              0,
-                              0};
-        JointVector joints{};
-        if (!m1.inverse(Frame::kPart, pose, joints)) continue;
-        ++reached;
-        best = std::min(best, m1.condition(Frame::kPart, pose));
-      }
-  if (reached == 0)
-    return "no pose of the workspace can be reached: the legs are too short or the rails too far away";
-  if (best <= g.max_condition) return std::nullopt;
-  char text[320];
-  std::snprintf(
-      text, sizeof text,
-      "the mechanism is singular or nearly so at every pose: the best condition number in the workspace is "
-      "%.3g, the limit is %.3g; rails and attachments leave one motion of the platform without control (for "
-      "instance attachments mirrored about the YZ plane)",
-      best, g.max_condition);
-  return text;
-}
-
 }  // namespace
-
-M1Geometry corrected(const M1Geometry& nominal, const M1Correction& correction) {
-  M1Geometry g = nominal;
-  for (std::size_t i = 0; i < kLegs; ++i) {
-    M1Leg& leg = g.legs[i];
-    const M1LegCorrection& c = correction.legs[i];
-    const double norm = std::hypot(leg.rail[0], leg.rail[1], leg.rail[2]);
-    for (std::size_t k = 0; k < 3; ++k) {
-      leg.foot_mm[k] += c.foot_mm[k];
-      leg.rail[k] = leg.rail[k] / norm + c.rail[k];
-      leg.attachment_mm[k] += c.attachment_mm[k];
-    }
-    const double again = std::hypot(leg.rail[0], leg.rail[1], leg.rail[2]);
-    for (double& v : leg.rail) v /= again;
-    leg.length_mm += c.length_mm;
-  }
-  return g;
-}
 
 LegTable::LegTable(const M1Geometry& g) {
   for (std::size_t i = 0; i < kLegs; ++i) {
@@ -402,9 +323,9 @@ LegTable::LegTable(const M1Geometry& g) {
 }
 
 Result<std::unique_ptr<Kinematics>, GeometryError> make_m1_kinematics(const M1Geometry& geometry) {
-  if (auto wrong = wrong_numbers(geometry)) return Error<GeometryError>({*wrong});
+  if (auto wrong = m1_geometry::wrong_numbers(geometry)) return Error<GeometryError>({*wrong});
   auto m1 = std::make_unique<M1>(geometry);
-  if (auto wrong = wrong_everywhere(*m1, geometry)) return Error<GeometryError>({*wrong});
+  if (auto wrong = m1_geometry::wrong_everywhere(*m1, geometry)) return Error<GeometryError>({*wrong});
   return m1;
 }
 

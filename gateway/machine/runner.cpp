@@ -1,15 +1,12 @@
 #include "gateway/machine/runner.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <iterator>
 #include <utility>
 
 namespace kinebus {
 namespace {
 
-/// At rest no joint feels a ramp: path time is let go and caught at once.
-constexpr std::chrono::milliseconds kRampAtRest{2};
 /// The rate is raised at most so often, and lowered when it has to be: the bus is not filled with rate
 /// commands.
 constexpr BusTime kRaisePeriod = std::chrono::milliseconds{250};
@@ -21,22 +18,14 @@ constexpr double kRateStep = 0.02;
 constexpr double kLiveReserve_s = 0.6;
 constexpr double kLiveLast_s = 0.35;
 constexpr BusTime kLiveQuiet = std::chrono::milliseconds{30};
-/// A run begins when so much of it is known, or when no line came for a while, or after the longest wait: a
-/// stream of short moves then begins as one.
-constexpr double kLiveStart_s = 1.0;
+/// A run begins when no line came for a while, unless enough of it is known before: a stream of short moves
+/// then begins as one.
 constexpr BusTime kLiveGather = std::chrono::milliseconds{100};
-constexpr BusTime kLiveLongestWait = std::chrono::milliseconds{500};
 
 /// planned_pose() knows so much of the past.
 constexpr PathTime kPlannedMemory = std::chrono::seconds{1};
 /// A run waits at most so long for the journal to have its beginning on the disk.
 constexpr BusTime kJournalPatience = std::chrono::milliseconds{500};
-
-std::string celsius_words(const char* what, double celsius) {
-  char text[64];
-  std::snprintf(text, sizeof text, "waiting for %s at %.0f C", what, celsius);
-  return text;
-}
 
 }  // namespace
 
@@ -111,12 +100,6 @@ void Runner::settle_when_late(BusTime now) {
 /// Motion known and not yet carried out.
 double Runner::live_left_s(BusTime now) const {
   return group_.sampler().end_s() - std::max(0.0, to_seconds(rate_.tau(now) - group_.run_start()));
-}
-
-/// A live run waits a little for more of it.
-bool Runner::live_waits(BusTime now) const {
-  return live_ && !finished_ && live_left_s(now) < kLiveStart_s && now - last_added_ < kLiveGather &&
-         now - run_begun_ < kLiveLongestWait;
 }
 
 void Runner::set_override(double ratio) {
@@ -294,81 +277,6 @@ Runner::Outcome Runner::replay(int budget) {
   return Outcome::kDone;
 }
 
-bool Runner::wait_is_over(BusTime now) {
-  switch (wait_) {
-    case Wait::kNone:
-      return true;
-    case Wait::kRunDone:
-      if (!group_.run_done(rate_.tau(now))) return false;
-      feed_.end_run();
-      execute_due(now);
-      rate_.request(0, kRampAtRest, now, false);
-      wait_ = Wait::kRest;
-      return wait_is_over(now);
-    case Wait::kRest:
-      // A bus that is blocked keeps the command from the nodes: their path time goes on.
-      if (!rate_.at_rest(now) || !rate_.all_sent()) return false;
-      break;
-    case Wait::kDwell:
-      if (dwell_left_ > BusTime{0}) return false;
-      break;
-    case Wait::kHeating: {
-      if (held_) return false;
-      if (!heating_.over(thermal_)) {
-        in_window_since_.reset();
-        return false;
-      }
-      if (!in_window_since_) in_window_since_ = now;
-      const auto& heater =
-          heating_.heater == Heater::kHotend ? machine_.thermal.hotend : machine_.thermal.bed;
-      if (now - *in_window_since_ < heater.settle) return false;
-      break;
-    }
-    case Wait::kSpindle:
-      if (held_ || !thermal_.spindle().at_speed()) return false;
-      break;
-    case Wait::kPause:
-      return false;
-  }
-  end_wait();
-  return true;
-}
-
-void Runner::end_wait() {
-  const bool of_job =
-      wait_ == Wait::kDwell || wait_ == Wait::kHeating || wait_ == Wait::kSpindle || wait_ == Wait::kPause;
-  wait_ = Wait::kNone;
-  doing_ = "moving";
-  if (!of_job) return;
-  ++waits_done_;
-  if (noted_) journal_.push(journal::WaitsDone{waits_done_});
-}
-
-void Runner::execute_due(BusTime now) {
-  if (events_.empty()) return;
-  const std::uint64_t done = feed_.place(rate_.tau(now)).phase;
-  while (!events_.empty() && (!feed_.streaming() || events_.front().phase <= done)) {
-    execute(now, events_.front().line);
-    events_.pop_front();
-  }
-}
-
-void Runner::execute(BusTime now, const canonical::Line& line) {
-  using What = canonical::Thermal::What;
-  if (const auto* thermal = std::get_if<canonical::Thermal>(&line.command)) {
-    if (thermal->what == What::kFan)
-      thermal_.set_fan(thermal->value);
-    else
-      thermal_.set_target(thermal->what == What::kHotend ? Heater::kHotend : Heater::kBed, thermal->value);
-  } else if (const auto* spindle = std::get_if<canonical::Spindle>(&line.command)) {
-    thermal_.set_spindle(spindle->rpm);
-  } else if (const auto* message = std::get_if<canonical::Message>(&line.command)) {
-    events_out_.message(now, message->text, line.line);
-  } else if (std::holds_alternative<canonical::EmergencyStop>(line.command)) {
-    stop_asked_ = true;
-  }
-}
-
 Runner::Outcome Runner::take(BusTime now, JobPipeline::Step step) {
   using Step = JobPipeline::Step;
   switch (step) {
@@ -396,53 +304,6 @@ Runner::Outcome Runner::take(BusTime now, JobPipeline::Step step) {
       break;
   }
   return Outcome::kBusy;
-}
-
-/// Whether the machine waits there; the same for every reading of the job.
-bool Runner::waits(const canonical::Line& line) {
-  if (const auto* thermal = std::get_if<canonical::Thermal>(&line.command))
-    return thermal->value > 0 || thermal->wait_cooling;
-  if (const auto* spindle = std::get_if<canonical::Spindle>(&line.command)) return spindle->rpm != 0;
-  return std::holds_alternative<canonical::Dwell>(line.command) ||
-         std::holds_alternative<canonical::Pause>(line.command);
-}
-
-Runner::Outcome Runner::barrier(BusTime now) {
-  const canonical::Line& line = pipeline_.command();
-  last_line_ = line.line;
-  if (const auto* dwell = std::get_if<canonical::Dwell>(&line.command)) {
-    dwell_left_ = BusTime{static_cast<std::int64_t>(dwell->seconds * 1e9)};
-    wait_ = Wait::kDwell;
-    doing_ = "dwelling";
-  } else if (const auto* thermal = std::get_if<canonical::Thermal>(&line.command)) {
-    execute(now, line);
-    begin_heating(*thermal);
-  } else if (const auto* spindle = std::get_if<canonical::Spindle>(&line.command)) {
-    execute(now, line);
-    if (spindle->rpm != 0) {
-      wait_ = Wait::kSpindle;
-      doing_ = "waiting for the spindle";
-    }
-  } else if (std::holds_alternative<canonical::Pause>(line.command)) {
-    wait_ = Wait::kPause;
-    doing_ = "paused by the job";
-    events_out_.message(now, "the job pauses here: resume to go on", line.line);
-  } else if (std::holds_alternative<canonical::MotorsOff>(line.command)) {
-    // A platform on vertical rails falls when its drives let go: drives hold, with hold current, until the
-    // operator switches them off.
-    events_out_.message(now, "M18/M84 in a job: the motors go on holding", line.line);
-  }
-  return Outcome::kBusy;
-}
-
-void Runner::begin_heating(const canonical::Thermal& thermal) {
-  const bool hotend = thermal.what == canonical::Thermal::What::kHotend;
-  const HeaterDescription& heater = hotend ? machine_.thermal.hotend : machine_.thermal.bed;
-  if (thermal.value <= 0 && !thermal.wait_cooling) return;
-  heating_ = {hotend ? Heater::kHotend : Heater::kBed, thermal.value, heater.window_c, thermal.wait_cooling};
-  in_window_since_.reset();
-  wait_ = Wait::kHeating;
-  doing_ = celsius_words(hotend ? "the hotend" : "the bed", thermal.value);
 }
 
 /// Path time runs while a run's records are in the nodes in time, and no faster than bus and override allow.

@@ -2,6 +2,7 @@
 // Carries a job or a single move out: takes the pipeline's steps, streams motion, executes what stands
 // between runs, and says at which rate path time may run.
 
+#include <chrono>
 #include <cstdint>
 #include <deque>
 #include <memory>
@@ -100,6 +101,8 @@ class Runner {
   const Counters& counters() const { return counters_; }
 
  private:
+  /// At rest no joint feels a ramp: path time is let go and caught at once.
+  static constexpr std::chrono::milliseconds kRampAtRest{2};
   enum class Wait : std::uint8_t { kNone, kRunDone, kRest, kDwell, kHeating, kSpindle, kPause };
   struct Event {
     std::uint64_t phase;  ///< due when so many phases of the job are done
@@ -113,7 +116,6 @@ class Runner {
   void control_rate(BusTime now);
   void settle_when_late(BusTime now);
   double live_left_s(BusTime now) const;
-  bool live_waits(BusTime now) const;
   bool wait_is_over(BusTime now);
   void execute_due(BusTime now);
   void execute(BusTime now, const canonical::Line& line);
@@ -145,7 +147,7 @@ class Runner {
   std::deque<Event> events_;
   TemperatureWait heating_;
   std::optional<BusTime> in_window_since_;
-  BusTime last_time_{0}, dwell_left_{0}, last_rate_change_{0}, run_noted_{0}, last_added_{0}, run_begun_{0};
+  BusTime last_time_{0}, dwell_left_{0}, last_rate_change_{0}, run_noted_{0}, last_added_{0};
   double override_ = 1;
   std::uint32_t last_line_ = 0;
   std::string doing_;
