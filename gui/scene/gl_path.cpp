@@ -24,7 +24,6 @@ void GlPath::set(QOpenGLExtraFunctions& gl, std::shared_ptr<const ScenePath> sce
     buffer.create();
     buffer.bind();
     buffer.setUsagePattern(QOpenGLBuffer::StaticDraw);
-    buffer.allocate(static_cast<int>(bytes));
     if (bytes > 0) tasks_.push_back({&buffer, static_cast<const char*>(data), bytes, 0});
   };
   // Each made by itself: copies of a QOpenGLBuffer are the same buffer.
@@ -55,6 +54,8 @@ bool GlPath::copy_some(QOpenGLExtraFunctions&, std::size_t bytes) {
     Task& task = tasks_[next_];
     const std::size_t part = std::min(bytes, task.bytes - task.done);
     task.buffer->bind();
+    // Drivers clear it: one at a time.
+    if (task.done == 0) task.buffer->allocate(static_cast<int>(task.bytes));
     task.buffer->write(static_cast<int>(task.done), task.data + task.done, static_cast<int>(part));
     task.done += part;
     bytes -= part;

@@ -115,7 +115,11 @@ PathLevels make_path_levels(const ToolPath& path, const std::function<bool()>& c
     for (std::uint32_t first = l.first; first < l.last; first += kChunkVertices)
       maker.chunk(static_cast<std::uint32_t>(layer), first, std::min(l.last, first + kChunkVertices));
   }
-  return maker.take();
+  PathLevels levels = maker.take();
+  if (path.layers.size() > 1)
+    levels.layer_mm = std::abs(path.layers.back().z_mm - path.layers.front().z_mm) /
+                      static_cast<float>(path.layers.size() - 1);
+  return levels;
 }
 
 }  // namespace kinebus::gui

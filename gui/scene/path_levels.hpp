@@ -34,6 +34,7 @@ struct PathLevels {
   std::vector<PathChunk> chunks;                             ///< in the path's order
   std::array<std::vector<std::uint32_t>, kPathLevels> work;  ///< two indices a line
   std::array<std::vector<std::uint32_t>, 2> travel;
+  float layer_mm = 0;  ///< mean rise from layer to layer; 0: one layer
 };
 
 /// Every vertex of level k is nearer than kLevelTolerance_mm[k] to the polyline that the level draws.

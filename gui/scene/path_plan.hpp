@@ -26,10 +26,11 @@ enum class PathStyle : std::uint8_t { kWork, kTravel, kRemaining };
 struct DrawRange {
   PathStyle style{};
   std::uint8_t level = 0;
+  std::uint16_t layers = 1;  ///< that these lines stand for: as wide as so many layers are high
   IndexRange lines;
   friend bool operator==(const DrawRange& a, const DrawRange& b) {
-    return a.style == b.style && a.level == b.level && a.lines.first == b.lines.first &&
-           a.lines.last == b.lines.last;
+    return a.style == b.style && a.level == b.level && a.layers == b.layers &&
+           a.lines.first == b.lines.first && a.lines.last == b.lines.last;
   }
 };
 
@@ -39,7 +40,9 @@ struct DrawPlan {
   bool thinned = false;  ///< chunks or detail were left out to keep within max_lines
 };
 
-/// A level leaves out at most about a pixel where it is drawn.
+/// A level leaves out at most about a pixel where it is drawn. When that is more than `max_lines`, lines
+/// become coarser or one stands for several layers, whichever is seen less; the topmost chunks and the one
+/// that is being made stay whole.
 DrawPlan plan_drawing(const PathLevels& levels, const PathView& view);
 
 }  // namespace kinebus::gui

@@ -7,6 +7,9 @@
 namespace kinebus::gui {
 namespace {
 
+/// Stacks of layers overlap by so much, for walls that lean.
+constexpr float kStackOverlap = 1.35F;
+
 struct Look {
   QVector3D light, dark;
   float gloss = 0.1F;
@@ -53,8 +56,25 @@ std::vector<QVector3D> circle(float radius_mm, float z_mm) {
 
 }  // namespace
 
+SceneRenderer::Budget SceneRenderer::budget_for(std::string_view name) {
+  Budget budget;
+  for (const std::string_view software :
+       {"llvmpipe", "softpipe", "swrast", "SWR", "Software", "Basic Render"})
+    if (name.find(software) != std::string_view::npos) {
+      // Two cores draw 30 pictures/s: a bead is 1 us of processor time; smooth edges treble that of a
+      // picture.
+      budget.quick_lines = 9'000;
+      budget.slice_lines = 8'000;
+      budget.samples = 2;
+      budget.quick_samples = false;
+    }
+  return budget;
+}
+
 QString SceneRenderer::initialise() {
   gl_.initializeOpenGLFunctions();
+  if (const auto* name = reinterpret_cast<const char*>(gl_.glGetString(GL_RENDERER)); name != nullptr)
+    budget_ = budget_for(name);
   if (QString wrong = programs_.build(); !wrong.isEmpty()) return wrong;
   bodies_.build(gl_);
   empty_.create();
@@ -76,8 +96,9 @@ void SceneRenderer::release() {
   plain_array_.destroy();
   empty_.destroy();
   programs_ = {};
-  quick_.reset();
-  rest_.reset();
+  shown_ = nullptr;
+  quick_ = {};
+  rest_ = {};
   begun_ = refined_ = false;
 }
 
@@ -86,15 +107,17 @@ void SceneRenderer::set_path(std::shared_ptr<const ScenePath> scene) {
   begun_ = refined_ = false;
 }
 
-void SceneRenderer::prepare(std::unique_ptr<QOpenGLFramebufferObject>& picture, QSize pixels) {
-  if (picture == nullptr || picture->size() != pixels) {
+void SceneRenderer::prepare(Picture& picture, int samples) {
+  if (picture.buffer == nullptr || picture.buffer->size() != pixels_ || picture.samples != samples) {
     QOpenGLFramebufferObjectFormat format;
-    format.setSamples(budget_.samples);
+    format.setSamples(samples);
     format.setAttachment(QOpenGLFramebufferObject::CombinedDepthStencil);
-    picture = std::make_unique<QOpenGLFramebufferObject>(pixels, format);
+    if (shown_ == picture.buffer.get()) shown_ = nullptr;
+    picture.buffer = std::make_unique<QOpenGLFramebufferObject>(pixels_, format);
+    picture.samples = samples;
   }
-  picture->bind();
-  gl_.glViewport(0, 0, pixels.width(), pixels.height());
+  picture.buffer->bind();
+  gl_.glViewport(0, 0, pixels_.width(), pixels_.height());
 }
 
 void SceneRenderer::draw_quick(const SceneContent& content, QSize pixels) {
@@ -103,31 +126,28 @@ void SceneRenderer::draw_quick(const SceneContent& content, QSize pixels) {
   begun_ = refined_ = false;
   world_clip_ = content.camera.projection(pixels) * content.camera.view();
   path_.copy_some(gl_, budget_.copy_bytes);
-  prepare(quick_, pixels);
+  DrawPlan plan;
+  if (path_.ready()) plan = plan_drawing(path_.scene()->levels, path_view(budget_.quick_lines));
+  // A path that is small enough has all its beads at once: nothing changes when it comes to rest.
+  const bool whole = !plan.thinned && !copying();
+  prepare(quick_, whole || budget_.quick_samples ? budget_.samples : 0);
+  shown_ = quick_.buffer.get();
   draw_surroundings();
-  lines_drawn_ = 0;
-  if (path_.ready()) {
-    const DrawPlan plan = plan_drawing(path_.scene()->levels, path_view(budget_.quick_lines));
-    // A path that is small enough has its beads at once: nothing changes when it comes to rest.
-    const bool ribbons = !plan.thinned && plan.lines <= budget_.slice_lines;
-    for (const DrawRange& range : plan.ranges) {
-      use(range.style, ribbons);
-      path_.draw(gl_, range, 0, range.lines.count());
-    }
-    lines_drawn_ = plan.lines;
-    if (ribbons) refined_ = true;
-  } else if (path_.scene() == nullptr) {
-    refined_ = true;
+  for (const DrawRange& range : plan.ranges) {
+    use(range);
+    path_.draw(gl_, range, 0, range.lines.count());
   }
+  lines_drawn_ = plan.lines;
+  refined_ = whole;
   draw_reach();
   draw_mark();
-  quick_->release();
+  quick_.buffer->release();
 }
 
 bool SceneRenderer::refine() {
-  if (refined_ || quick_ == nullptr) return true;
+  if (refined_ || quick_.buffer == nullptr) return true;
   if (!path_.ready()) return false;
-  prepare(rest_, pixels_);
+  prepare(rest_, budget_.samples);
   if (!begun_) {
     begun_ = true;
     draw_surroundings();
@@ -142,7 +162,7 @@ bool SceneRenderer::refine() {
     const DrawRange& range = rest_plan_.ranges[rest_range_];
     const auto count =
         static_cast<std::uint32_t>(std::min<std::size_t>(left, range.lines.count() - rest_skip_));
-    use(range.style, true);
+    use(range);
     path_.draw(gl_, range, rest_skip_, count);
     left -= count;
     rest_skip_ += count;
@@ -156,7 +176,7 @@ bool SceneRenderer::refine() {
     draw_mark();
     lines_drawn_ = rest_plan_.lines;
     refined_ = true;
-    std::swap(quick_, rest_);
+    shown_ = rest_.buffer.get();
   }
   gl_.glFlush();
   QOpenGLFramebufferObject::bindDefault();
@@ -164,10 +184,10 @@ bool SceneRenderer::refine() {
 }
 
 void SceneRenderer::present(GLuint target) {
-  if (quick_ == nullptr) return;
-  gl_.glBindFramebuffer(GL_READ_FRAMEBUFFER, quick_->handle());
+  if (shown_ == nullptr) return;
+  gl_.glBindFramebuffer(GL_READ_FRAMEBUFFER, shown_->handle());
   gl_.glBindFramebuffer(GL_DRAW_FRAMEBUFFER, target);
-  gl_.glBlitFramebuffer(0, 0, quick_->width(), quick_->height(), 0, 0, quick_->width(), quick_->height(),
+  gl_.glBlitFramebuffer(0, 0, shown_->width(), shown_->height(), 0, 0, shown_->width(), shown_->height(),
                         GL_COLOR_BUFFER_BIT, GL_NEAREST);
   gl_.glBindFramebuffer(GL_FRAMEBUFFER, target);
 }
@@ -186,17 +206,23 @@ PathView SceneRenderer::path_view(std::size_t max_lines) const {
   return view;
 }
 
-void SceneRenderer::use(PathStyle style, bool ribbons) {
+void SceneRenderer::use(const DrawRange& range) {
   // Travel is never a bead: nothing is deposited there.
-  bind_path_program(ribbons && style != PathStyle::kTravel ? *programs_.ribbons : *programs_.lines, style);
+  bind_path_program(range.style == PathStyle::kTravel ? *programs_.lines : *programs_.ribbons, range);
 }
 
-void SceneRenderer::bind_path_program(QOpenGLShaderProgram& program, PathStyle style) {
+void SceneRenderer::bind_path_program(QOpenGLShaderProgram& program, const DrawRange& range) {
+  const PathStyle style = range.style;
+  const float stack_mm =
+      range.layers > 1 ? kStackOverlap * static_cast<float>(range.layers) * path_.scene()->levels.layer_mm
+                       : 0;
   program.bind();
   const PathView view = path_view(0);
   program.setUniformValue("clip", view.clip);
   program.setUniformValue("eye", view.eye_mm);
-  program.setUniformValue("half_width", style == PathStyle::kRemaining ? 0.0F : content_.bead_mm / 2);
+  program.setUniformValue(
+      "half_width", (style == PathStyle::kRemaining ? stack_mm : std::max(content_.bead_mm, stack_mm)) / 2);
+  program.setUniformValue("stack", stack_mm > 0);
   program.setUniformValue("pixel_at_1mm", view.mm_per_pixel_at_1mm);
   const QVector3D key =
       content_.figure.part_frame.inverted().mapVector(QVector3D(0.35F, -0.55F, 0.75F)).normalized();

@@ -1,10 +1,12 @@
 #pragma once
 // Draws the scene into pictures of its own. While something moves, every frame is a quick picture of bounded
-// cost (fewer lines, a pixel wide). At rest the same view is drawn once more with all lines as beads, in
-// slices of bounded cost, and replaces the quick picture when it is whole. So the caller never waits long.
+// cost: a big path has fewer beads, each standing for several layers. At rest the same view is drawn once
+// more with all lines and smooth edges, in slices of bounded cost, and replaces the quick picture when it is
+// whole. So the caller never waits long.
 
 #include <QOpenGLFramebufferObject>
 #include <memory>
+#include <string_view>
 
 #include "gui/scene/camera.hpp"
 #include "gui/scene/gl_bodies.hpp"
@@ -40,14 +42,17 @@ struct SceneContent {
 class SceneRenderer {
  public:
   struct Budget {
-    std::size_t quick_lines = 25'000;  ///< in a quick picture
-    std::size_t slice_lines = 8'000;   ///< in one slice of the picture at rest
+    std::size_t quick_lines = 200'000;  ///< in a quick picture
+    std::size_t slice_lines = 200'000;  ///< in one slice of the picture at rest
     std::size_t rest_lines = 3'000'000;
     std::size_t copy_bytes = 4'000'000;  ///< to the graphics card for each frame
-    int samples = 2;
+    int samples = 4;                     ///< of each pixel
+    bool quick_samples = true;           ///< in quick pictures of a path that has to be thinned, too
   };
+  /// What the driver that calls itself `name` (GL_RENDERER) can be asked for.
+  static Budget budget_for(std::string_view name);
 
-  /// With a current context. Empty: ready; else why not.
+  /// With a current context; the budget is the driver's then. Empty: ready; else why not.
   QString initialise();
   void release();
   void set_budget(const Budget& budget) { budget_ = budget; }
@@ -67,7 +72,11 @@ class SceneRenderer {
   std::size_t lines_drawn() const { return lines_drawn_; }  ///< in the newest picture
 
  private:
-  void prepare(std::unique_ptr<QOpenGLFramebufferObject>& picture, QSize pixels);
+  struct Picture {
+    std::unique_ptr<QOpenGLFramebufferObject> buffer;
+    int samples = 0;  ///< asked for
+  };
+  void prepare(Picture& picture, int samples);
   void draw_surroundings();
   void draw_figure();
   void draw_reach();
@@ -75,8 +84,8 @@ class SceneRenderer {
   void draw_plain(const std::vector<QVector3D>& points, GLenum mode, const QMatrix4x4& clip,
                   QVector4D colour);
   PathView path_view(std::size_t max_lines) const;
-  void bind_path_program(QOpenGLShaderProgram& program, PathStyle style);
-  void use(PathStyle style, bool ribbons);
+  void bind_path_program(QOpenGLShaderProgram& program, const DrawRange& range);
+  void use(const DrawRange& range);
 
   QOpenGLExtraFunctions gl_;
   GlPrograms programs_;
@@ -85,7 +94,8 @@ class SceneRenderer {
   QOpenGLVertexArrayObject empty_;
   QOpenGLVertexArrayObject plain_array_;
   QOpenGLBuffer plain_buffer_{QOpenGLBuffer::VertexBuffer};
-  std::unique_ptr<QOpenGLFramebufferObject> quick_, rest_;
+  Picture quick_, rest_;
+  const QOpenGLFramebufferObject* shown_ = nullptr;  ///< of one of the two
   Budget budget_;
   SceneContent content_;
   QSize pixels_;

@@ -254,7 +254,8 @@ TEST_F(WindowTest, MillionLineJobIsShownWithoutBlockingTheWindow) {
   file.close();
   SceneView& scene = window->view_page().scene();
   ASSERT_TRUE(scene.error().isEmpty()) << scene.error().toStdString();
-  ASSERT_TRUE(wait_until([&] { return scene.frames() > 3; }));
+  // The machine is there, and the first look at it.
+  ASSERT_TRUE(wait_until([&] { return scene.frames() > 3 && scene.content().camera != Camera{}; }));
   Watchdog watchdog;
   QElapsedTimer clock;
   clock.start();
@@ -284,7 +285,7 @@ TEST_F(WindowTest, MillionLineJobIsShownWithoutBlockingTheWindow) {
   const double thread_ms = (cpu_ms(CLOCK_THREAD_CPUTIME_ID) - thread_from) / kFrames;
   const double process_ms = (cpu_ms(CLOCK_PROCESS_CPUTIME_ID) - all_from) / kFrames;
   watchdog.go_on();
-  EXPECT_LE(scene.renderer().lines_drawn(), SceneRenderer::Budget{}.quick_lines * 11 / 10);
+  EXPECT_LE(scene.renderer().lines_drawn(), SceneRenderer::budget_for("llvmpipe").quick_lines);
   ASSERT_TRUE(wait_until([&] { return scene.at_rest(); }, 120'000));
   std::printf(
       "1,000,000 lines: first picture after %.2f s, peak memory %.0f MB\n"
@@ -295,8 +296,9 @@ TEST_F(WindowTest, MillionLineJobIsShownWithoutBlockingTheWindow) {
       "ms)\n",
       first_picture_s, peak_memory_mb(), frames_per_s, thread_ms, process_ms, scene.renderer().lines_drawn(),
       watchdog.most_cpu_ms, watchdog.most_wall_ms);
-  // 30 frames/s.
+  // 30 frames/s on two cores.
   EXPECT_LE(thread_ms, 33);
+  EXPECT_LE(process_ms, 66);
   EXPECT_LE(watchdog.most_cpu_ms, 50);
   EXPECT_LE(peak_memory_mb(), 600);
 }

@@ -213,7 +213,9 @@ void PositionPanel::take_status() {
   const auto heat = [&](QLabel* actual, QDoubleSpinBox* target, const joblink::Heater& heater) {
     actual->setText(desk_.session.connected() ? Format::isolated(Format::temperature(heater.actual_celsius()))
                                               : QStringLiteral("—"));
-    if (!target->hasFocus()) target->setValue(heater.target_celsius());
+    // Set only when it is another: a spin box paints itself, and with it the whole window, even for the same.
+    if (!target->hasFocus() && target->value() != heater.target_celsius())
+      target->setValue(heater.target_celsius());
     target->setEnabled(desk_.session.connected());
   };
   heat(hotend_, hotend_target_, s.hotend());

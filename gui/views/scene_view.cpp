@@ -6,8 +6,8 @@
 
 namespace kinebus::gui {
 namespace {
-/// Nothing has moved for so long: the picture at rest begins.
-constexpr int kSettle_ms = 140;
+/// Nothing has moved for so long, and for as long as three pictures take: the picture at rest begins.
+constexpr qint64 kSettle_ms = 140, kSettleLongest_ms = 1500;
 }  // namespace
 
 void SceneView::choose_format() {
@@ -70,12 +70,16 @@ void SceneView::paintGL() {
   }
   if (dirty_) {
     dirty_ = false;
+    // After a pause the time since the last picture tells nothing.
+    const qint64 since_ms = since_quick_.isValid() ? since_quick_.elapsed() : kSettleLongest_ms;
+    const qint64 picture_ms = since_ms < kSettleLongest_ms ? since_ms : 0;
+    since_quick_.start();
     renderer_.draw_quick(content_, device_pixels());
     if (renderer_.copying()) {
       dirty_ = true;
       update();
     } else if (!renderer_.refined()) {
-      settle_.start(kSettle_ms);
+      settle_.start(static_cast<int>(std::clamp(3 * picture_ms, kSettle_ms, kSettleLongest_ms)));
     }
   }
   renderer_.present(defaultFramebufferObject());

@@ -57,6 +57,7 @@ class SceneView : public QOpenGLWidget {
   bool path_changed_ = false;
   bool dirty_ = true, ready_ = false;
   QTimer settle_;
+  QElapsedTimer since_quick_;  ///< newest quick picture
   QPointF last_mouse_;
   QString error_;
   std::size_t frames_ = 0;

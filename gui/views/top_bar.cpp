@@ -102,7 +102,11 @@ TopBar::TopBar(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(desk
   connect(control_, &QPushButton::clicked, this, [this] { desk_.session.take_control(true); });
   connect(&desk_.session, &Session::status_changed, this, &TopBar::take);
   connect(&desk_.session, &Session::link_changed, this, &TopBar::take);
-  connect(&desk_.theme, &Theme::changed, this, &TopBar::take);
+  connect(&desk_.theme, &Theme::changed, this, [this] {
+    colour_stop();
+    take();
+  });
+  colour_stop();
   says([this] {
     stop_->setText(QStringLiteral(u"\u2002") + tr("STOP"));  // the sign stands apart from the word
     stop_->setToolTip(tr("Stops all motion at once, on the path (Ctrl+.)"));
@@ -118,10 +122,13 @@ TopBar::TopBar(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(desk
   });
 }
 
+void TopBar::colour_stop() {
+  stop_->setIcon(desk_.theme.icon(QStringLiteral("stop"), desk_.theme.colours().danger_text));
+}
+
 void TopBar::take() {
   const Session& session = desk_.session;
   const joblink::Status& s = session.status();
-  stop_->setIcon(desk_.theme.icon(QStringLiteral("stop"), desk_.theme.colours().danger_text));
   stop_->setEnabled(session.connected());
   control_->setVisible(session.others_have_control());
   if (session.others_have_control())

@@ -41,6 +41,7 @@ class TopBar : public SpeakingWidget {
 
  private:
   void take();
+  void colour_stop();
 
   Desk& desk_;
   StateChip* chip_;
