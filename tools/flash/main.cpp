@@ -51,7 +51,8 @@ std::set<std::uint8_t> find_nodes(SocketCan& can, LocalTime within) {
   std::set<std::uint8_t> found;
   for (std::uint8_t id = 1; id < 127; ++id) {
     const CanFrame question = sdo::frame_of(cob_id::kSdoRequest + id, 0x40, {0x1F51, 1});
-    while (can.send(question) == SocketCan::Sent::kFull) ::usleep(200);
+    for (const CanFrame& frame : {end_of_transfer(id), question})
+      while (can.send(frame) == SocketCan::Sent::kFull) ::usleep(200);
   }
   receive_until(
       can, monotonic_now() + within,
@@ -101,6 +102,7 @@ bool update(SocketCan& can, std::uint8_t node, const std::vector<std::uint8_t>& 
 /// Hands over to a standard tool, which must be installed.
 int hand_over(const std::vector<std::string>& command) {
   std::vector<char*> arguments;
+  arguments.reserve(command.size() + 1);
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   fmt::print("{}\n", fmt::join(command, " "));

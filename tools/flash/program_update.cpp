@@ -31,6 +31,10 @@ std::string what_is_wrong(ImageCheck check) {
 
 }  // namespace
 
+CanFrame end_of_transfer(std::uint8_t node) {
+  return sdo::abort_frame(cob_id::kSdoRequest + node, kProgramData, AbortCode::kGeneral);
+}
+
 ProgramUpdate::ProgramUpdate(std::uint8_t node, std::span<const std::uint8_t> image, LocalTime now,
                              const Options& options)
     : options_(options),
@@ -70,6 +74,7 @@ void ProgramUpdate::go(LocalTime now, Step step) {
   switch (step) {
     case Step::kReadControl:
       message_ = "asking";
+      before_ = end_of_transfer(node_);
       return upload(now, kProgramControl);
     case Step::kReadIdentity:
       return upload(now, kProduct);
@@ -77,7 +82,7 @@ void ProgramUpdate::go(LocalTime now, Step step) {
       return upload(now, kProgramId);
     case Step::kStop:
       message_ = "stopping the program";
-      nmt_ = nmt_frame(NmtCommand::kEnterPreOperational, node_);
+      before_ = nmt_frame(NmtCommand::kEnterPreOperational, node_);
       return control(program_control::kStop);
     case Step::kAwaitBootLoader:
     case Step::kAwaitProgram:
@@ -186,7 +191,7 @@ void ProgramUpdate::on_time(LocalTime now) {
 
 std::optional<CanFrame> ProgramUpdate::next_frame() {
   if (status_ != Status::kBusy) return std::nullopt;
-  if (nmt_) return std::exchange(nmt_, std::nullopt);
+  if (before_) return std::exchange(before_, std::nullopt);
   return client_.next_frame();
 }
 

@@ -13,6 +13,10 @@
 
 namespace kinebus {
 
+/// Ends a transfer that an update left open when it was cut off: within a block, a node takes any question
+/// for a piece of it.
+CanFrame end_of_transfer(std::uint8_t node);
+
 class ProgramUpdate {
  public:
   enum class Status : std::uint8_t { kBusy, kDone, kFailed };
@@ -72,7 +76,7 @@ class ProgramUpdate {
   std::string message_;
   std::array<std::uint8_t, 8> value_{};
   std::array<std::uint8_t, 1> command_{};
-  std::optional<CanFrame> nmt_;
+  std::optional<CanFrame> before_;  ///< goes ahead of the transfer that was begun
   LocalTime boot_due_ = LocalTime::max();
   bool in_boot_loader_ = false;
   int attempts_left_;

@@ -102,12 +102,25 @@ void EmulatedMachine::commission(const std::vector<EmulatedNodeOptions>& options
     finish("select", o.node_id);
     master.configure_node_id(time_, o.node_id);
     finish("node id", o.node_id);
+    if (o.keeps_node_id) {
+      master.store(time_);
+      finish("store", o.node_id);
+    }
     master.switch_all(time_, false);
     finish("wait", o.node_id);
     // Its receive filters follow the new id within 10 ms.
     for (const BusTime ready = time_ + 20ms; !advance_to(ready);) {
     }
   }
+}
+
+void EmulatedMachine::power_cycle(int node) {
+  Node& off = *nodes_[static_cast<std::size_t>(node)];
+  off.board->can().take_requests();
+  for (std::size_t i = 0; i < off.waiting.size(); ++i)
+    if (off.waiting[i]) bus_.withdraw(off.port, off.in_mailbox[i]);
+  off.waiting = {};
+  off.board->power_cycle();
 }
 
 std::optional<NodeMachine::Received> EmulatedMachine::receive() {

@@ -18,8 +18,9 @@ namespace kinebus::emulator {
 
 struct EmulatedNodeOptions {
   BoardOptions board;
-  std::uint8_t node_id = 1;   ///< given by LSS before time zero, as a commissioning tool does
-  BusTime powered_before{0};  ///< how long before the others' commissioning it was switched on
+  std::uint8_t node_id = 1;    ///< given by LSS before time zero, as a commissioning tool does
+  bool keeps_node_id = false;  ///< it has stored that id and has it again after a loss of power
+  BusTime powered_before{0};   ///< how long before the others' commissioning it was switched on
   double clock_drift_ppm = 0;
 };
 
@@ -55,6 +56,8 @@ class EmulatedMachine final : public NodeMachine {
   /// What the program's motion asks of a motor now: counts with 32 fractional bits, 0 at power-up.
   std::optional<std::int64_t> commanded(int node, int axis);
 
+  /// Power off and on again: what waits for the bus is gone, flash is kept.
+  void power_cycle(int node);
   /// The next frames of this node are destroyed on the wire: error frames, counters, repeats.
   void disturb(int node, int frames) { nodes_[static_cast<std::size_t>(node)]->disturbed = frames; }
 

@@ -25,6 +25,7 @@ EmulatedNodeOptions board_of(int node) {
   constexpr double kCountsPerMm = 1280;
   EmulatedNodeOptions options;
   options.node_id = static_cast<std::uint8_t>(node);
+  options.keeps_node_id = true;
   options.board.unique_id = {0x00330045, 0x31365108, 0x36373800u + static_cast<std::uint32_t>(node)};
   if (node > 2) return options;
   for (int axis = 0; axis < 2; ++axis) {
@@ -93,11 +94,17 @@ int run(int argc, char** argv) {
       "Without an interface: turns both motors of one board and prints what its interrupts cost."};
   std::string file, boot, interface;
   std::vector<int> nodes;
-  double speed = 15, seconds = 0.5;
+  double speed = 15, seconds = 0.5, late_ms = 50;
   app.add_option("image", file, "kinebus-node.elf")->required();
   app.add_option("--boot", boot, "kinebus-boot.elf: the boot loader in front of it, as on a board");
   app.add_option("-i,--interface", interface, "SocketCAN interface, such as vcan0: runs live until stopped");
   app.add_option("-n,--node", nodes, "Node id, given by LSS; once for each board")->check(CLI::Range(1, 126));
+  app.add_option(
+         "--late", late_ms,
+         "Live: ms that the boards may be late before their time slips; 0 where the computer is slow and "
+         "only order counts")
+      ->check(CLI::Range(0.0, 10'000.0))
+      ->capture_default_str();
   app.add_option("--speed", speed, "Report: turns a second")->capture_default_str();
   app.add_option("--seconds", seconds, "Report: measured so long")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
@@ -111,7 +118,7 @@ int run(int argc, char** argv) {
   if (nodes.empty()) nodes = {1};
   std::vector<EmulatedNodeOptions> boards;
   for (const int node : nodes) boards.push_back(board_of(node));
-  const std::string error = run_live(image, boards, interface);
+  const std::string error = run_live(image, boards, interface, BusTime{std::llround(late_ms * 1e6)});
   if (!error.empty()) std::fprintf(stderr, "kinebus-emulate: %s\n", error.c_str());
   return error.empty() ? 0 : 1;
 }

@@ -59,9 +59,24 @@ void hear(std::uint8_t id) {
   can_port.accept(std::span(filters).first(id == 0 ? 2 : 3));
 }
 
+// What is due by time is looked at every millisecond.
+void start_tick() {
+  sys_tick().LOAD = board::kCoreHz / 1000 - 1;
+  sys_tick().VAL = 0;
+  sys_tick().CTRL = SysTick::kEnable | SysTick::kInterrupt | SysTick::kCoreClock;
+}
+
+// Until an interrupt; one that comes after the last look is pending, and ends the wait at once.
+void rest() {
+  disable_interrupts();
+  if (can_port.front() == nullptr && can_port.queue().idle()) wait_for_interrupt();
+  enable_interrupts();
+}
+
 }  // namespace
 
 extern "C" {
+void isr_tick() {}
 void isr_can_receive() {
   can_port.on_receive(local_counts());
 }
@@ -76,6 +91,7 @@ int main() {
   if (!start_clocks()) isr_fault();
   start_local_time();
   if (!can_port.start()) isr_fault();
+  start_tick();
   LocalClock clock;
   const LssIdentity identity{kVendorId, kProductCode, kRevisionNumber, serial_number()};
   boot_loader.emplace(identity, node_id(), program_sector, clock.now());
@@ -99,5 +115,6 @@ int main() {
       handover_ram = Handover{.node_id = boot_loader->node_id()};
       reset_processor();
     }
+    rest();
   }
 }

@@ -7,6 +7,7 @@ extern "C" {
 [[noreturn]] void isr_fault();
 [[noreturn]] void isr_unexpected();
 
+void isr_tick();          ///< SysTick
 void isr_switches();      ///< EXTI: time-stamps an edge
 void isr_control();       ///< ADC: end of the injected conversions, 20 kHz
 void isr_can_receive();   ///< time-stamps and queues

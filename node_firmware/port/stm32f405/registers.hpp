@@ -220,6 +220,13 @@ static_assert(offsetof(SystemControl, CPACR) == 0x88);
 inline SystemControl& system_control() {
   return peripheral<SystemControl>(0xE000'ED00);
 }
+struct SysTick {
+  Reg CTRL, LOAD, VAL;
+  static constexpr std::uint32_t kEnable = bit(0), kInterrupt = bit(1), kCoreClock = bit(2);
+};
+inline SysTick& sys_tick() {
+  return peripheral<SysTick>(0xE000'E010);
+}
 /// Cycle counter, for measuring: DEMCR.TRCENA, then DWT.CTRL.CYCCNTENA.
 struct Dwt {
   Reg CTRL, CYCCNT;

@@ -43,6 +43,7 @@ constexpr VectorTable make_vectors() {
   for (Handler& handler : table.core) handler = isr_fault;
   for (Handler& handler : table.interrupts) handler = isr_unexpected;
   table.core[0] = reset_handler;
+  table.core[14] = isr_tick;
   const auto at = [&](Irq irq) -> Handler& { return table.interrupts[static_cast<int>(irq)]; };
   at(Irq::kExti0) = isr_switches;
   at(Irq::kExti1) = isr_switches;
@@ -67,6 +68,9 @@ constexpr VectorTable make_vectors() {
 
 // What a program does not use falls back to these.
 extern "C" {
+[[gnu::weak]] void isr_tick() {
+  isr_unexpected();
+}
 [[gnu::weak]] void isr_switches() {
   isr_unexpected();
 }

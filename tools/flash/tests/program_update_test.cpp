@@ -120,6 +120,24 @@ TEST(ProgramUpdate, LostFramesAreRepeated) {
   EXPECT_EQ(board.update(make_image(12'000, 1), &message, lose), Status::kDone) << message;
 }
 
+TEST(ProgramUpdate, ATransferThatAToolLeftOpenIsEndedFirst) {
+  Board board;
+  board.reset();
+  const auto image = make_image(12'000, 1);
+  ProgramUpdate dies(3, image, board.now, {.answer = std::chrono::seconds{1}});
+  while (dies.percent() < 50) {
+    board.now += std::chrono::microseconds{130};
+    if (const auto frame = dies.next_frame()) board.on_frame(*frame);
+    if (const auto frame = board.next_frame()) dies.on_frame(board.now, *frame);
+    dies.on_time(board.now);
+    ASSERT_EQ(dies.status(), Status::kBusy);
+  }
+  const LocalTime began = board.now;
+  std::string message;
+  EXPECT_EQ(board.update(image, &message), Status::kDone) << message;
+  EXPECT_LT(board.now - began, std::chrono::seconds{1}) << "without waiting for anybody's timeout";
+}
+
 TEST(ProgramUpdate, ACutIsRepairedByRunningItAgain) {
   std::mt19937 random(77);
   Board board;

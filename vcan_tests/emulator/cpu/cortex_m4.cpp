@@ -97,7 +97,7 @@ struct CortexM4::Hooks {
     auto& cpu = *static_cast<CortexM4*>(self);
     const auto at = static_cast<std::uint32_t>(address);
     if (at < kFlash || at >= kFlash + kFlashSize) return false;
-    if (cpu.devices_.write_flash(at, static_cast<std::uint32_t>(value), size, cpu.now_))
+    if (cpu.devices_.write_flash(at, static_cast<std::uint32_t>(value), size, cpu.now_) && cpu.has_run(at))
       cpu.flash_changed_ = true;
     cpu.next_stop_ = 0;
     return true;
@@ -253,6 +253,12 @@ std::uint32_t CortexM4::code_cost(std::uint32_t address, std::uint32_t size) {
   return cost.instructions << 16 | cost.cycles;
 }
 
+void CortexM4::note_code(std::uint32_t address, std::uint32_t size) {
+  for (std::uint32_t page = (address - kFlash) / kCodePage; page <= (address - kFlash + size - 1) / kCodePage;
+       ++page)
+    if (page < code_pages_.size()) code_pages_.set(page);
+}
+
 void CortexM4::count(std::uint32_t instructions, std::uint32_t cycles) {
   instructions_ += instructions;
   now_ += cycles;
@@ -264,6 +270,7 @@ void CortexM4::count(std::uint32_t instructions, std::uint32_t cycles) {
 
 void CortexM4::on_block(std::uint32_t address, std::uint32_t size) {
   if (call_ != Call::kNone) {
+    note_code(address, size);
     if (++call_blocks_ > 1'000'000) uc_emu_stop(engine(uc_));
     return;
   }
@@ -274,7 +281,10 @@ void CortexM4::on_block(std::uint32_t address, std::uint32_t size) {
     const std::uint32_t index = (address - kFlash) / 2;
     if (index < block_costs_.size()) {
       cost = block_costs_[index];
-      if (cost == 0) cost = block_costs_[index] = code_cost(address, size);
+      if (cost == 0) {
+        cost = block_costs_[index] = code_cost(address, size);
+        note_code(address, size);
+      }
     } else {
       cost = code_cost(address, size);  // in RAM: may change, and is rare
     }
@@ -492,6 +502,7 @@ void CortexM4::run(Cycle limit) {
     if (flash_changed_) {
       flash_changed_ = false;
       std::fill(block_costs_.begin(), block_costs_.end(), 0u);
+      code_pages_.reset();
       uc_ctl_remove_cache(engine(uc_), kFlash, kFlash + kFlashSize);
     }
     stopped_ = false;

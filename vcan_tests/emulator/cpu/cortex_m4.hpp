@@ -7,6 +7,7 @@
 // interrupts are taken between blocks.
 
 #include <array>
+#include <bitset>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -115,6 +116,10 @@ class CortexM4 {
   void on_intr(std::uint32_t number);
   std::uint32_t mmio_read(std::uint32_t address, int size);
   void mmio_write(std::uint32_t address, std::uint32_t value, int size);
+  void note_code(std::uint32_t address, std::uint32_t size);
+  /// Whether anything near this place in flash was ever executed: else what is written there needs no new
+  /// translation.
+  bool has_run(std::uint32_t address) const { return code_pages_.test((address - kFlash) / kCodePage); }
   std::uint32_t code_cost(std::uint32_t address, std::uint32_t size);
   void serve_time();
   bool take_exception(std::uint32_t return_address);
@@ -134,6 +139,9 @@ class CortexM4 {
   std::uint8_t *sram_ = nullptr, *ccm_ = nullptr, *system_memory_ = nullptr;
   std::vector<std::uint32_t>
       block_costs_;  // by flash half-word: instructions << 16 | cycles, 0: not yet known
+
+  static constexpr std::uint32_t kCodePage = 1024;
+  std::bitset<kFlashSize / kCodePage> code_pages_;  // in which a block began or ran on
 
   Cycle now_ = 0, limit_ = 0, next_stop_ = 0, idle_ = 0;
   std::uint64_t instructions_ = 0;
