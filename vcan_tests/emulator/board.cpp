@@ -36,6 +36,7 @@ Board::Board(const ElfImage& image, const BoardOptions& options)
       spi3_(cpu_.nvic(), 51, kApb1Divider, encoders_[1]),
       can_(cpu_.nvic()),
       usart_(cpu_.nvic(), 37, kApb2Divider),
+      usb_(cpu_.nvic()),
       motors_{StepperMotor(options.motors[0]), StepperMotor(options.motors[1])},
       temperature_c_{options.temperature_c, options.temperature_c} {
   map(0x40000000, 0x400, tim2_);
@@ -230,6 +231,25 @@ void Board::look_at_switches(Cycle) {
     switch_level_[a] = level;
     drive_input(axis.switch_input - 1, level == 1);
   }
+}
+
+void Board::set_usb_cable(bool plugged) {
+  ports_[static_cast<std::size_t>(board::kUsbVbus.port)].drive(board::kUsbVbus.number, plugged);
+}
+
+bool Board::usb_device_seen() {
+  constexpr std::uint32_t kAhb1Enable = 0x30, kAhb1EnableInSleep = 0x50;
+  constexpr int kUsb = 29, kExternalPhy = 30, kUsbFunction = 12;
+  const GpioPort& b = ports_[1];
+  const bool pins = b.mode(14) == GpioPort::Mode::kAlternate && b.alternate(14) == kUsbFunction &&
+                    b.mode(15) == GpioPort::Mode::kAlternate && b.alternate(15) == kUsbFunction;
+  const bool clocks = rcc_.clock_enabled(kAhb1Enable, kUsb) && rcc_.clock_enabled(kAhb1EnableInSleep, kUsb) &&
+                      !rcc_.clock_enabled(kAhb1EnableInSleep, kExternalPhy) && rcc_.usb_hz() == 48'000'000u;
+  return pins && clocks && b.level(board::kUsbVbus.number) && usb_.pulled_up(cpu_.now());
+}
+
+bool Board::system_boot_selected() const {
+  return ports_[static_cast<std::size_t>(board::kSystemBoot.port)].output_high(board::kSystemBoot.number);
 }
 
 void Board::set_supply(double volts) {

@@ -75,6 +75,13 @@ class Board final : public Devices {
   Timer& pwm(int axis) { return axis == 0 ? tim1_ : tim8_; }
   PowerStage& stage(int axis) { return *stages_[static_cast<std::size_t>(axis)]; }
   Usart& console() { return usart_; }
+  OtgHs& usb() { return usb_; }
+  /// A cable with a host at its other end: VBUS comes or goes.
+  void set_usb_cable(bool plugged);
+  /// A host finds a full-speed device at the cable: pins, clocks and the core are as they must be for that.
+  bool usb_device_seen();
+  /// As an output drives it: the chip's own boot loader is given USB, and the gate drivers are held off.
+  bool system_boot_selected() const;
   Rcc& rcc() { return rcc_; }
   FlashController& flash() { return flash_; }
   const ElfImage& image() const { return image_; }

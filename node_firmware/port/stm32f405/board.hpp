@@ -79,8 +79,10 @@ inline constexpr std::array kPins = {
   Pin{B,  9, kAlternate, kNone,  9, false, "CAN1_TX"},
   Pin{B,  6, kAlternate, kNone,  7, false, "USART1_TX console, 115200 8N1"},
   Pin{B,  7, kAlternate, kUp,    7, false, "USART1_RX console"},
+  Pin{B, 13, kInput,     kDown,  0, false, "VBUS of the USB connector, divided"},
   Pin{B, 14, kAlternate, kNone, 12, false, "OTG_HS_DM USB, full speed"},
   Pin{B, 15, kAlternate, kNone, 12, false, "OTG_HS_DP USB, full speed"},
+  Pin{C, 14, kOutput,    kNone,  0, false, "system boot, ORed with BOOT0: USB to PA11, PA12 and no gate driver enabled"},
   Pin{C, 13, kOutput,    kNone,  0, true,  "status LED, active low"},
 };
 // clang-format on
@@ -99,6 +101,13 @@ struct OutputPin {
 inline constexpr std::array<OutputPin, 2> kDriverEnable{{{A, 4}, {A, 5}}};
 inline constexpr std::array<OutputPin, 2> kEncoderSelect{{{A, 15}, {D, 2}}};
 inline constexpr OutputPin kStatusLed{C, 13};
+inline constexpr OutputPin kSystemBoot{C, 14};
+
+struct InputPin {
+  Port port;
+  std::uint8_t number;
+};
+inline constexpr InputPin kUsbVbus{B, 13};
 
 // Analogue: 12 bits at 3.3 V.
 inline constexpr float kReferenceV = 3.3F;
@@ -145,5 +154,7 @@ inline constexpr std::array<std::uint8_t, 2> kParameterSectors{2, 3};
 inline constexpr std::uint32_t kParameterPageBytes = 0x4000;
 inline constexpr std::uint32_t kProgramAddress = 0x0802'0000, kProgramBytes = 0x2'0000;
 inline constexpr std::uint8_t kProgramSector = 5;
+/// The chip's own boot loader (DFU over PA11, PA12, and others): its vectors.
+inline constexpr std::uint32_t kSystemBootAddress = 0x1FFF'0000;
 
 }  // namespace kinebus::board

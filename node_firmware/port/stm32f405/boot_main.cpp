@@ -37,14 +37,30 @@ constinit PageStore parameters{parameter_flash};
 constinit ParameterImage parameter_image;
 constinit std::optional<BootLoader> boot_loader;
 
+[[noreturn]] void jump(std::uint32_t vectors) {
+  barrier();
+  const std::uint32_t stack = peripheral<Reg>(vectors);
+  const std::uint32_t entry = peripheral<Reg>(vectors + 4);
+  asm volatile("msr msp, %0\n bx %1" ::"r"(stack), "r"(entry) : "memory");
+  __builtin_unreachable();
+}
+
 // Nothing has been touched since reset: the program finds the processor as after one.
 [[noreturn]] void jump_to_program() {
   system_control().VTOR = board::kProgramAddress;
-  barrier();
-  const std::uint32_t stack = peripheral<Reg>(board::kProgramAddress);
-  const std::uint32_t entry = peripheral<Reg>(board::kProgramAddress + 4);
-  asm volatile("msr msp, %0\n bx %1" ::"r"(stack), "r"(entry) : "memory");
-  __builtin_unreachable();
+  jump(board::kProgramAddress);
+}
+
+// As BOOT0 would: its flash at address 0, the connector led to its USB pins, no gate driver enabled.
+[[noreturn]] void jump_to_system_boot() {
+  rcc().AHB1ENR = rcc().AHB1ENR | Rcc::kGpioC;
+  rcc().APB2ENR = rcc().APB2ENR | Rcc::kSysConfig;
+  static_assert(board::kSystemBoot.port == board::Port::C);
+  Gpio& g = gpio(static_cast<unsigned>(board::kSystemBoot.port));
+  write(board::kSystemBoot, true);
+  g.MODER = g.MODER | std::uint32_t{1} << (2 * board::kSystemBoot.number);
+  sysconfig().MEMRMP = SysConfig::kSystemFlashAtZero;
+  jump(board::kSystemBootAddress);
 }
 
 std::uint8_t node_id() {
@@ -86,6 +102,7 @@ void isr_can_state() {
 }
 
 int main() {
+  if (start_system_boot(handover_ram)) jump_to_system_boot();
   if (start_program(handover_ram, check_image(program_sector.bytes()))) jump_to_program();
   configure_pins();
   if (!start_clocks()) isr_fault();

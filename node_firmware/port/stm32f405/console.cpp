@@ -8,15 +8,10 @@
 namespace kinebus::stm32 {
 namespace {
 
-constexpr std::uint32_t kBaud = 115'200;
+// In full, so that nothing that is typed or sent by mistake is it.
+constexpr std::string_view kSystemBoot = "DFU";
 
 }  // namespace
-
-void Console::start() {
-  rcc().APB2ENR = rcc().APB2ENR | Rcc::kUsart1;
-  usart1().BRR = (board::kApb2Hz + kBaud / 2) / kBaud;
-  usart1().CR1 = Usart::kEnable | Usart::kTransmitter | Usart::kReceiver;
-}
 
 Console& Console::put(std::string_view text) {
   const std::size_t count = std::min(text.size(), text_.size() - length_);
@@ -40,24 +35,25 @@ Console& Console::put(std::int64_t number) {
   return put(std::string_view(digits.data() + at, digits.size() - at));
 }
 
-void Console::axis(int axis, const Node& node, const MotorPort& motors) {
-  const motor::AxisControl& control = motors.control(axis);
-  const DriveAxis& drive = node.axis(axis);
+void Console::axis(int axis, const Subject& subject) {
+  const motor::AxisControl& control = subject.motors.control(axis);
+  const DriveAxis& drive = subject.node.axis(axis);
   put(axis == 0 ? "A" : "B").put(": state ").put(static_cast<int>(drive.state()));
   put(" mode ").put(drive.mode_display()).put(" error ").put(drive.error_code());
   put(" current mA ").put(static_cast<std::int32_t>(control.amplitude_a() * 1e3F));
   put(" off course ").put(control.following_error()).put(" troubles ").put(control.troubles());
   put(" encoder errors ").put(control.encoder().errors());
-  put(" C ").put(static_cast<std::int32_t>(motors.stage().temperature_c(axis))).put("\r\n");
+  put(" C ").put(static_cast<std::int32_t>(subject.motors.stage().temperature_c(axis))).put("\r\n");
 }
 
-void Console::answer(char letter, const Node& node, const MotorPort& motors, const CanPort& can) {
+void Console::answer(char letter, const Subject& subject) {
+  const auto& [node, motors, can] = subject;
   switch (letter) {
     case 's':
       put("node ").put(node.node_id()).put(" NMT ").put(static_cast<int>(node.nmt_state()));
       put(" supply mV ").put(static_cast<std::int32_t>(motors.stage().supply_v() * 1e3F)).put("\r\n");
-      axis(0, node, motors);
-      axis(1, node, motors);
+      axis(0, subject);
+      axis(1, subject);
       break;
     case 'c':
       put("CAN overruns ").put(can.events().overruns).put(" bus-off ").put(can.events().bus_off);
@@ -75,20 +71,35 @@ void Console::answer(char letter, const Node& node, const MotorPort& motors, con
           .put("\r\n");
       break;
     default:
-      put("s state, c CAN, t timing, v version\r\n");
+      put("s state, c CAN, t timing, v version, DFU: USB boot loader\r\n");
       break;
   }
 }
 
-void Console::serve(const Node& node, const MotorPort& motors, const CanPort& can) {
-  const std::uint32_t status = usart1().SR;
-  if (sent_ < length_) {
-    if ((status & Usart::kSendEmpty) == 0) return;
-    usart1().DR = static_cast<std::uint8_t>(text_[sent_++]);
-    if (sent_ == length_) sent_ = length_ = 0;
-  } else if ((status & Usart::kReceived) != 0) {
-    answer(static_cast<char>(usart1().DR & 0x7F), node, motors, can);
+void Console::hear(char letter, const Subject& subject) {
+  if (letter != kSystemBoot[matched_]) matched_ = 0;
+  if (letter != kSystemBoot[matched_]) return answer(letter, subject);
+  if (++matched_ < kSystemBoot.size()) return;
+  matched_ = 0;
+  request_system_boot(subject.node);
+}
+
+void Console::request_system_boot(const Node& node) {
+  // A platform on vertical rails would fall without power; the boot loader has none to give.
+  if (node.axis(0).powered() || node.axis(1).powered()) {
+    put("refused: an axis has power\r\n");
+    return;
   }
+  system_boot_requested_ = true;
+}
+
+void Console::sent(std::size_t count) {
+  sent_ += count;
+  if (sent_ >= length_) forget();
+}
+
+void Console::forget() {
+  sent_ = length_ = 0;
 }
 
 }  // namespace kinebus::stm32

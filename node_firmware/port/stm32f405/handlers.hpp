@@ -16,5 +16,4 @@ void isr_can_state();     ///< error passive, bus-off
 void isr_break_a();       ///< TIM1: over-current comparator
 void isr_break_b();       ///< TIM8
 void isr_console();
-void isr_usb();
 }

@@ -3,7 +3,6 @@
 #include <optional>
 
 #include "node_firmware/port/stm32f405/clock_tree.hpp"
-#include "node_firmware/port/stm32f405/console.hpp"
 #include "node_firmware/port/stm32f405/flash_port.hpp"
 #include "node_firmware/port/stm32f405/handlers.hpp"
 #include "node_firmware/port/stm32f405/handover_port.hpp"
@@ -11,6 +10,8 @@
 #include "node_firmware/port/stm32f405/motor_port.hpp"
 #include "node_firmware/port/stm32f405/node_program.hpp"
 #include "node_firmware/port/stm32f405/pins.hpp"
+#include "node_firmware/port/stm32f405/usart_port.hpp"
+#include "node_firmware/port/stm32f405/usb_port.hpp"
 #include "node_firmware/port/stm32f405/watchdog_port.hpp"
 
 namespace {
@@ -25,7 +26,8 @@ constinit MotorPort motors{motion_plan};
 constinit ParameterFlash parameter_flash;
 constinit PageStore parameters{parameter_flash};
 constinit WatchdogPort dog;
-constinit Console console;
+constinit UsartPort usart;
+constinit UsbPort usb;
 constinit std::optional<NodeProgram> program;
 
 // An erase that a save needs is made now, while nothing moves.
@@ -49,9 +51,10 @@ std::uint8_t inherited_node_id() {
   return id <= 127 ? static_cast<std::uint8_t>(id) : std::uint8_t{0};
 }
 
-// Asked for by 1F51h; the answer is on the bus first. Motors have no power then (Node refuses otherwise).
-void give_way(const Node& node) {
-  handover_ram = Handover{.stay = 1, .node_id = node.node_id()};
+// Asked for by 1F51h, when the answer is on the bus, or by a console. Motors have no power then (Node and
+// Console refuse otherwise).
+void give_way(const Node& node, std::uint32_t to) {
+  handover_ram = Handover{.stay = to, .node_id = node.node_id()};
   reset_processor();
 }
 
@@ -96,7 +99,8 @@ int main() {
   switch_port.start(local_counts());
   enable_interrupts();
   const bool motors_good = motors.start();
-  console.start();
+  usart.start();
+  usb.start();
   dog.start();
   for (;;) {
     program->pass();
@@ -106,8 +110,12 @@ int main() {
       program->touch();
     }
     store(node);
-    console.serve(node, motors, can_port);
-    if (node.program_stop_requested() && can_port.queue().idle()) give_way(node);
+    const Console::Subject subject{node, motors, can_port};
+    usart.serve(subject);
+    usb.serve(subject);
+    if (node.program_stop_requested() && can_port.queue().idle()) give_way(node, Handover::kBootLoader);
+    if (usart.console().system_boot_requested() || usb.console().system_boot_requested())
+      give_way(node, Handover::kSystemBoot);
     // So long without a reset: this program is good.
     if (program->now() > kProved) handover_ram.starts = 0;
     // Without a power stage that measures there is no control interrupt: only the bus is served.

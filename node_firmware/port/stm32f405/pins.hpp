@@ -12,6 +12,9 @@ inline void write(board::Port port, unsigned number, bool high) {
 inline void write(board::OutputPin pin, bool high) {
   write(pin.port, pin.number, high);
 }
+inline bool read(board::InputPin pin) {
+  return (gpio(static_cast<unsigned>(pin.port)).IDR >> pin.number & 1) != 0;
+}
 inline bool read(board::SwitchPin pin) {
   return (gpio(static_cast<unsigned>(pin.port)).IDR >> pin.line & 1) != 0;
 }

@@ -33,6 +33,7 @@ struct Rcc {
   // AHB1ENR
   static constexpr std::uint32_t kGpioA = bit(0), kGpioB = bit(1), kGpioC = bit(2), kGpioD = bit(3),
                                  kGpioH = bit(7), kUsbHs = bit(29);
+  static constexpr std::uint32_t kUsbUlpi = bit(30);  // AHB1LPENR: clock of an external PHY, in sleep
   // APB1ENR
   static constexpr std::uint32_t kTim2 = bit(0), kSpi3 = bit(15), kCan1 = bit(25), kPower = bit(28);
   // APB2ENR
@@ -76,6 +77,7 @@ inline Gpio& gpio(unsigned port) {
 
 struct SysConfig {
   Reg MEMRMP, PMC, EXTICR[4];
+  static constexpr std::uint32_t kSystemFlashAtZero = 1;  // MEMRMP
 };
 inline SysConfig& sysconfig() {
   return peripheral<SysConfig>(0x4001'3800);
@@ -188,6 +190,42 @@ inline Can& can1() {
   return peripheral<Can>(0x4000'6400);
 }
 
+/// OTG_HS as a full-speed device with its own transceiver.
+struct Otg {
+  Reg GOTGCTL, GOTGINT, GAHBCFG, GUSBCFG, GRSTCTL, GINTSTS, GINTMSK, GRXSTSR, GRXSTSP, GRXFSIZ, DIEPTXF0,
+      reserved0[3], GCCFG, CID, reserved1[49], DIEPTXF[7], reserved2[440];
+  Reg DCFG, DCTL, DSTS, reserved3, DIEPMSK, DOEPMSK, DAINT, DAINTMSK, reserved4[56];
+  struct Endpoint {
+    Reg CTL, reserved0, INT, reserved1, TSIZ, DMA, FSTS, reserved2;
+  } in[8], reserved5[8], out[8], reserved6[16];
+  Reg PCGCCTL, reserved7[127];
+  struct Fifo {
+    Reg word[1024];
+  } fifo[6];
+  static constexpr std::uint32_t kInternalPhy = bit(6), kForceDevice = bit(30);        // GUSBCFG
+  static constexpr std::uint32_t turnaround(unsigned clocks) { return clocks << 10; }  // GUSBCFG
+  static constexpr std::uint32_t kCoreReset = bit(0), kFlushReceive = bit(4), kFlushSend = bit(5),
+                                 kBusIdle = bit(31);                                // GRSTCTL
+  static constexpr std::uint32_t fifo_number(unsigned n) { return n << 6; }         // GRSTCTL, 16: all
+  static constexpr std::uint32_t kReceived = bit(4), kReset = bit(12);              // GINTSTS
+  static constexpr std::uint32_t kTransceiver = bit(16), kNoVbusSensing = bit(21);  // GCCFG
+  static constexpr std::uint32_t kFullSpeed = 3, kAddressMask = 0x7Fu << 4;         // DCFG
+  static constexpr std::uint32_t address(unsigned a) { return a << 4; }             // DCFG
+  static constexpr std::uint32_t kDetach = bit(1);                                  // DCTL
+  static constexpr std::uint32_t kActive = bit(15), kStall = bit(21), kClearNak = bit(26), kSetNak = bit(27),
+                                 kDataZero = bit(28), kDisable = bit(30), kEnable = bit(31);  // CTL
+  static constexpr std::uint32_t kBulk = 2u << 18, kInterrupt = 3u << 18;                     // CTL
+  static constexpr std::uint32_t fifo_of(unsigned n) { return n << 22; }                      // CTL
+  static constexpr std::uint32_t kDisabled = bit(1), kNakInForce = bit(6);                    // INT
+  static constexpr std::uint32_t kOnePacket = bit(19), kThreeSetups = 3u << 29;               // TSIZ
+};
+static_assert(offsetof(Otg, GCCFG) == 0x38 && offsetof(Otg, DIEPTXF) == 0x104 &&
+              offsetof(Otg, DCFG) == 0x800 && offsetof(Otg, in) == 0x900 && offsetof(Otg, out) == 0xB00 &&
+              offsetof(Otg, PCGCCTL) == 0xE00 && offsetof(Otg, fifo) == 0x1000);
+inline Otg& otg() {
+  return peripheral<Otg>(0x4004'0000);
+}
+
 struct IndependentWatchdog {
   Reg KR, PR, RLR, SR;
   static constexpr std::uint32_t kFeed = 0xAAAA, kUnlock = 0x5555, kStart = 0xCCCC;
@@ -253,7 +291,6 @@ enum class Irq : int {
   kUsart1 = 37,
   kExti15To10 = 40,
   kTim8Break = 43,
-  kUsbHs = 77,
 };
 inline constexpr int kInterruptCount = 82;
 

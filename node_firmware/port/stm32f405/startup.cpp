@@ -58,7 +58,6 @@ constexpr VectorTable make_vectors() {
   at(Irq::kTim1Break) = isr_break_a;
   at(Irq::kTim8Break) = isr_break_b;
   at(Irq::kUsart1) = isr_console;
-  at(Irq::kUsbHs) = isr_usb;
   return table;
 }
 
@@ -93,9 +92,6 @@ extern "C" {
   isr_unexpected();
 }
 [[gnu::weak]] void isr_console() {
-  isr_unexpected();
-}
-[[gnu::weak]] void isr_usb() {
   isr_unexpected();
 }
 }

@@ -145,9 +145,15 @@ CortexM4::CortexM4(Devices& devices)
   sram_ = page_aligned(kSramSize);
   ccm_ = page_aligned(kCcmSize);
   system_memory_ = page_aligned(kSystemMemorySize);
+  system_boot_ = page_aligned(kSystemBootSize);
+  constexpr std::array<std::uint32_t, 3> kLoop{kSram + 0x2000, kSystemBoot + 9,
+                                               0xE7FEE7FE};  // stack, entry, b .
+  std::memcpy(system_boot_, kLoop.data(), sizeof kLoop);
   check(uc_mem_map_ptr(uc, kSram, kSramSize, UC_PROT_ALL, sram_), "SRAM");
   check(uc_mem_map_ptr(uc, kCcm, kCcmSize, UC_PROT_READ | UC_PROT_WRITE, ccm_), "CCM");
   check(uc_mem_map_ptr(uc, kSystemMemory, kSystemMemorySize, UC_PROT_READ, system_memory_), "system memory");
+  check(uc_mem_map_ptr(uc, kSystemBoot, kSystemBootSize, UC_PROT_READ | UC_PROT_EXEC, system_boot_),
+        "system boot loader");
   check(uc_mem_map_ptr(uc, kFlash, kFlashSize, UC_PROT_READ | UC_PROT_EXEC, flash_.data()), "flash");
   check(uc_mmio_map(uc, kPeripherals, kPeripheralsSize, &Hooks::read_low, this, &Hooks::write_low, this),
         "APB, AHB1");
@@ -169,6 +175,7 @@ CortexM4::~CortexM4() {
   std::free(sram_);
   std::free(ccm_);
   std::free(system_memory_);
+  std::free(system_boot_);
 }
 
 void CortexM4::load(const ElfImage& image) {

@@ -47,6 +47,8 @@ class CortexM4 {
   static constexpr std::uint32_t kSram = 0x20000000, kSramSize = 128 * 1024;
   static constexpr std::uint32_t kCcm = 0x10000000, kCcmSize = 64 * 1024;
   static constexpr std::uint32_t kSystemMemory = 0x1FFF7800, kSystemMemorySize = 1024;
+  /// Where the chip's own boot loader begins. Not its code: an endless loop, to see who arrives there.
+  static constexpr std::uint32_t kSystemBoot = 0x1FFF0000, kSystemBootSize = 1024;
 
   explicit CortexM4(Devices& devices);
   ~CortexM4();
@@ -98,6 +100,8 @@ class CortexM4 {
   std::span<std::uint8_t> flash() { return flash_; }
   std::span<std::uint8_t> sram() { return {sram_, kSramSize}; }
   std::span<std::uint8_t> system_memory() { return {system_memory_, kSystemMemorySize}; }
+  /// Where the program is, when it is not running.
+  std::uint32_t pc() const { return pc_; }
   /// As a debugger sees memory: flash, SRAM and CCM. Throws std::out_of_range.
   std::uint32_t peek(std::uint32_t address);
   void poke(std::uint32_t address, std::uint32_t value);
@@ -136,7 +140,7 @@ class CortexM4 {
   Devices& devices_;
   Nvic nvic_;
   std::vector<std::uint8_t> flash_;
-  std::uint8_t *sram_ = nullptr, *ccm_ = nullptr, *system_memory_ = nullptr;
+  std::uint8_t *sram_ = nullptr, *ccm_ = nullptr, *system_memory_ = nullptr, *system_boot_ = nullptr;
   std::vector<std::uint32_t>
       block_costs_;  // by flash half-word: instructions << 16 | cycles, 0: not yet known
 

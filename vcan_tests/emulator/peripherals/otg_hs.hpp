@@ -1,8 +1,11 @@
 #pragma once
-// OTG_HS as a full-speed device with no cable in it: the core's registers answer as after power-up, nothing
-// ever comes.
+// OTG_HS in device mode with its own full-speed transceiver, as RM0090 tells it: registers on one side, a
+// host's transactions on the other. It is strict: what the manual forbids, or the errata, is noted.
 
-#include <map>
+#include <array>
+#include <deque>
+#include <string>
+#include <vector>
 
 #include "vcan_tests/emulator/peripherals/peripheral.hpp"
 
@@ -10,22 +13,75 @@ namespace kinebus::emulator {
 
 class OtgHs final : public Peripheral {
  public:
-  std::uint32_t read(std::uint32_t offset, Cycle) override {
-    if (offset == kReset) return words_[offset] | kAhbIdle;
-    if (offset == kInterruptStatus) return 0x04000020;
-    const auto found = words_.find(offset);
-    return found == words_.end() ? 0 : found->second;
-  }
-  void write(std::uint32_t offset, std::uint32_t value, Cycle) override {
-    if (offset >= kFifos) return;
-    // Resets and flushes are done at once.
-    words_[offset] = offset == kReset ? value & ~0x3Fu : value;
-  }
-  void reset() { words_.clear(); }
+  static constexpr int kIrq = 77;
+  using Bytes = std::vector<std::uint8_t>;
+  enum class Answer : std::uint8_t { kNothing, kAck, kNak, kStall };
+  struct Received {
+    Answer answer = Answer::kNothing;
+    Bytes bytes;
+    int toggle = 0;
+  };
+
+  explicit OtgHs(InterruptLines& lines) : lines_(lines) { reset(); }
+
+  std::uint32_t read(std::uint32_t offset, Cycle now) override;
+  void write(std::uint32_t offset, std::uint32_t value, Cycle now) override;
+  void reset();
+
+  // What a host sees on the cable. Where VBUS goes is the board's matter: the core is told not to sense it.
+  /// D+ is pulled up: a full-speed device is there.
+  bool pulled_up(Cycle now) const;
+  void bus_reset();
+  void start_of_frame();
+  /// Nothing on the bus for 3 ms.
+  void suspend();
+  Answer setup(int address, const std::array<std::uint8_t, 8>& bytes);
+  Answer out(int address, int endpoint, const Bytes& bytes, int toggle);
+  Received in(int address, int endpoint);
+
+  /// What the program did against the rules.
+  const std::vector<std::string>& violations() const { return violations_; }
+  /// Packets in the receive FIFO that the program has not taken.
+  std::size_t untaken() const { return receive_.size(); }
 
  private:
-  static constexpr std::uint32_t kReset = 0x10, kInterruptStatus = 0x14, kAhbIdle = 1u << 31, kFifos = 0x1000;
-  std::map<std::uint32_t, std::uint32_t> words_;
+  static constexpr int kEndpoints = 6;
+  struct Endpoint {
+    std::uint32_t ctl = 0, interrupt = 0, tsiz = 0, written = 0;
+    int toggle = 0;
+    bool nak = true;
+    std::deque<std::uint32_t> fifo;
+  };
+  struct Entry {
+    std::uint32_t status = 0;
+    std::deque<std::uint32_t> words;
+  };
+  std::uint32_t status() const;
+  std::uint32_t endpoint_read(std::uint32_t offset);
+  void endpoint_write(std::uint32_t offset, std::uint32_t value);
+  void write_control(Endpoint& e, bool is_in, int number, std::uint32_t value);
+  void write_fifo(int number, std::uint32_t value);
+  void write_reset(std::uint32_t value);
+  std::uint32_t pop_status();
+  std::uint32_t pop_word();
+  void push(int endpoint, std::uint32_t what, const Bytes& bytes, int toggle);
+  bool room_for(std::size_t bytes) const;
+  std::uint32_t send_words(int number) const;
+  bool addressed(int address) const { return address == static_cast<int>(address_); }
+  std::uint32_t programmed_address() const;
+  void violation(const std::string& what);
+  void update_line();
+
+  InterruptLines& lines_;
+  std::array<std::uint32_t, 0x1000 / 4> plain_{};
+  std::array<Endpoint, kEndpoints> in_, out_;
+  std::deque<Entry> receive_;
+  std::deque<std::uint32_t> reading_;  // words of the packet whose status was taken
+  std::uint32_t flags_ = 0;            // GINTSTS bits that stay until cleared
+  std::uint32_t address_ = 0;          // in force: a new one once the status stage has gone out
+  int writing_ = -1;                   // the FIFO into which a packet is not yet wholly written
+  Cycle forced_at_ = kNever;
+  std::vector<std::string> violations_;
 };
 
 }  // namespace kinebus::emulator

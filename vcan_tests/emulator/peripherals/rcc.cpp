@@ -2,7 +2,7 @@
 
 namespace kinebus::emulator {
 namespace {
-constexpr std::uint32_t kCr = 0x00, kPllCfgr = 0x04, kCfgr = 0x08, kCsr = 0x74;
+constexpr std::uint32_t kCr = 0x00, kPllCfgr = 0x04, kCfgr = 0x08, kAhb1LpEnr = 0x50, kCsr = 0x74;
 constexpr std::uint32_t kCrystalHz = 8'000'000, kInternalHz = 16'000'000;
 constexpr std::uint32_t kPowerOnReset = 1u << 27, kPinReset = 1u << 26, kSoftwareReset = 1u << 28,
                         kWatchdogReset = 1u << 29;
@@ -16,6 +16,7 @@ void Rcc::reset(ResetCause cause) {
   for (std::uint32_t offset = 0; offset < 0x90; offset += 4) word(offset) = 0;
   word(kCr) = 0x83;
   word(kPllCfgr) = 0x24003010;
+  word(kAhb1LpEnr) = 0x7E6791FF;
   switch (cause) {
     case ResetCause::kPowerOn:
       causes_ |= kPowerOnReset | kPinReset;
@@ -56,6 +57,14 @@ std::optional<std::uint32_t> Rcc::system_hz() {
   if (compare < 950'000 || compare > 2'100'000 || vco < 100'000'000 || vco > 432'000'000) return std::nullopt;
   const auto hz = static_cast<std::uint32_t>(vco / p);
   return hz <= 168'000'000 ? std::optional(hz) : std::nullopt;
+}
+
+std::optional<std::uint32_t> Rcc::usb_hz() {
+  const std::uint32_t pll = word(kPllCfgr);
+  const auto system = system_hz();
+  const std::uint32_t p = 2 * ((pll >> 16 & 3) + 1), q = pll >> 24 & 0xF;
+  if (!system || (word(kCfgr) & 3) != 2 || q < 2 || *system * p % q != 0) return std::nullopt;
+  return *system * p / q;
 }
 
 std::optional<std::uint32_t> Rcc::apb1_hz() {

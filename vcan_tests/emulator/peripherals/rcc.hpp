@@ -20,6 +20,8 @@ class Rcc final : public PlainRegisters {
   std::optional<std::uint32_t> system_hz();
   std::optional<std::uint32_t> apb1_hz();
   std::optional<std::uint32_t> apb2_hz();
+  /// The PLL's output for USB, which must be 48 MHz.
+  std::optional<std::uint32_t> usb_hz();
   bool clock_enabled(std::uint32_t enable_register, int bit) {
     return (word(enable_register) >> bit & 1) != 0;
   }

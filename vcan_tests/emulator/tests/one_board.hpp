@@ -18,8 +18,9 @@ inline const ElfImage& firmware_image() {
 struct OneBoard {
   static constexpr std::uint8_t kId = 5;
 
-  explicit OneBoard(const BoardOptions& options = {}, int gateway_mailboxes = 1)
-      : machine(firmware_image(), {EmulatedNodeOptions{.board = options, .node_id = kId}}, gateway_mailboxes),
+  explicit OneBoard(const BoardOptions& options = {}, int gateway_mailboxes = 1,
+                    const ElfImage& image = firmware_image())
+      : machine(image, {EmulatedNodeOptions{.board = options, .node_id = kId}}, gateway_mailboxes),
         bench(machine),
         board(machine.board(0)) {
     bench.send(nmt_frame(NmtCommand::kStart, kId));
