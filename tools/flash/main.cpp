@@ -16,6 +16,7 @@
 #include "node_firmware/boot/image_header.hpp"
 #include "protocol/host/guarded_main.hpp"
 #include "protocol/host/socketcan.hpp"
+#include "tools/flash/console_request.hpp"
 #include "tools/flash/program_update.hpp"
 
 namespace {
@@ -24,7 +25,7 @@ using namespace kinebus;
 using namespace std::chrono_literals;
 
 struct Arguments {
-  std::string image, interface = "can0";
+  std::string image, interface = "can0", console;
   std::vector<int> nodes;
   bool all = false, force = false, dfu = false, swd = false;
   double answer_s = 6;
@@ -113,9 +114,13 @@ int hand_over(const std::vector<std::string>& command) {
 }
 
 int flash(const Arguments& arguments) {
-  if (arguments.dfu)
+  if (arguments.dfu) {
+    if (!arguments.console.empty())
+      if (const std::string error = request_system_boot(arguments.console); !error.empty())
+        return fmt::print(stderr, "{}\n", error), 1;
     return hand_over(
-        {"dfu-util", "-a", "0", "-d", "0483:df11", "-s", "0x08020000:leave", "-D", arguments.image});
+        {"dfu-util", "-w", "-a", "0", "-d", "0483:df11", "-s", "0x08020000:leave", "-D", arguments.image});
+  }
   if (arguments.swd)
     return hand_over({"openocd", "-f", "interface/stlink.cfg", "-f", "target/stm32f4x.cfg", "-c",
                       fmt::format("program {} 0x08020000 verify reset exit", arguments.image)});
@@ -152,8 +157,11 @@ int run(int argc, char** argv) {
                  "Seconds to wait for an answer: an erase takes up to 2, emulated boards may be slow")
       ->check(CLI::Range(0.5, 600.0))
       ->capture_default_str();
-  auto* dfu =
-      app.add_flag("--dfu", arguments.dfu, "By USB: the chip's own boot loader (BOOT0), with dfu-util");
+  auto* dfu = app.add_flag("--dfu", arguments.dfu,
+                           "By USB: the chip's own boot loader (BOOT0 or --console), with dfu-util");
+  app.add_option("--console", arguments.console,
+                 "The node's console, /dev/ttyACM0: asks it for its USB boot loader")
+      ->needs(dfu);
   auto* swd = app.add_flag("--swd", arguments.swd, "By a debug probe, with openocd");
   CLI11_PARSE(app, argc, argv);
   if (*dfu || *swd || *node || *all) return flash(arguments);
