@@ -40,6 +40,13 @@ const joblink::AxisStatus* AxesModel::axis_of(const joblink::Joint& joint) const
   return node != nullptr && axis < node->axes_size() ? &node->axes(axis) : nullptr;
 }
 
+bool AxesModel::measured() const {
+  for (const auto& node : session_.status().nodes())
+    for (const auto& axis : node.axes())
+      if (axis.has_off_course()) return true;
+  return false;
+}
+
 QVariant AxesModel::headerData(int section, Qt::Orientation orientation, int role) const {
   if (orientation != Qt::Horizontal || role != Qt::DisplayRole) return {};
   switch (section) {
@@ -47,6 +54,10 @@ QVariant AxesModel::headerData(int section, Qt::Orientation orientation, int rol
       return tr("Axis");
     case kPosition:
       return tr("Position");
+    case kMeasured:
+      return tr("Measured");
+    case kError:
+      return tr("Error");
     case kTravel:
       return tr("Travel");
     case kCurrent:
@@ -60,6 +71,11 @@ QVariant AxesModel::headerData(int section, Qt::Orientation orientation, int rol
     default:
       return {};
   }
+}
+
+QString AxesModel::place_words(const joblink::Joint& joint, double position) {
+  return joint.rotary() ? Format::isolated(Format::number(position * kDegPerRad, 2) + QStringLiteral(" °"))
+                        : Format::isolated(tr("%1 mm").arg(Format::number(position, 3)));
 }
 
 QVariant AxesModel::data(const QModelIndex& index, int role) const {
@@ -80,17 +96,25 @@ QVariant AxesModel::data(const QModelIndex& index, int role) const {
     return known && limited
                ? (position - joint.travel().min()) / (joint.travel().max() - joint.travel().min())
                : -1.0;
-  if (role == Qt::TextAlignmentRole && (index.column() == kPosition || index.column() == kCurrent))
+  if (role == Qt::TextAlignmentRole && (index.column() == kPosition || index.column() == kMeasured ||
+                                        index.column() == kError || index.column() == kCurrent))
     return QVariant(Qt::AlignTrailing | Qt::AlignVCenter);
   if (role != Qt::DisplayRole) return {};
   switch (index.column()) {
     case kJoint:
       return QString::fromStdString(joint.name());
     case kPosition:
-      if (!known) return QStringLiteral("–");
+      return known ? place_words(joint, position) : QStringLiteral("–");
+    case kMeasured:
+      return known && axis != nullptr && axis->has_off_course()
+                 ? place_words(joint, position - axis->off_course())
+                 : QStringLiteral("–");
+    case kError:
+      if (axis == nullptr || !axis->has_off_course()) return QStringLiteral("–");
       return joint.rotary()
-                 ? Format::isolated(Format::number(position * kDegPerRad, 2) + QStringLiteral(" °"))
-                 : Format::isolated(tr("%1 mm").arg(Format::number(position, 3)));
+                 ? Format::isolated(Format::number(-axis->off_course() * kDegPerRad, 3) +
+                                    QStringLiteral(" °"))
+                 : Format::isolated(tr("%1 µm").arg(Format::number(-axis->off_course() * 1000, 0)));
     case kCurrent:
       return axis == nullptr ? QStringLiteral("–")
                              : Format::isolated(tr("%1 A").arg(Format::number(axis->current_a(), 2)));

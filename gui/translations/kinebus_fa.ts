@@ -446,6 +446,18 @@
             <translation>موقعیت</translation>
         </message>
         <message>
+            <source>Measured</source>
+            <translation>اندازه‌گیری</translation>
+        </message>
+        <message>
+            <source>Error</source>
+            <translation>خطا</translation>
+        </message>
+        <message>
+            <source>%1 µm</source>
+            <translation>%1 µm</translation>
+        </message>
+        <message>
             <source>Travel</source>
             <translation>کورس</translation>
         </message>

@@ -446,6 +446,18 @@
             <translation>Konum</translation>
         </message>
         <message>
+            <source>Measured</source>
+            <translation>Ölçülen</translation>
+        </message>
+        <message>
+            <source>Error</source>
+            <translation>Hata</translation>
+        </message>
+        <message>
+            <source>%1 µm</source>
+            <translation>%1 µm</translation>
+        </message>
+        <message>
             <source>Travel</source>
             <translation>Strok</translation>
         </message>

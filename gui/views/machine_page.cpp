@@ -151,6 +151,7 @@ QWidget* MachinePage::make_live() {
                                                           },
                                                           nodes));
   nodes->horizontalHeader()->setSectionResizeMode(NodesModel::kNode, QHeaderView::ResizeToContents);
+  axes_ = axes;
   column->addWidget(axes, 2);
   column->addWidget(nodes, 1);
   says([this, axes, nodes] {
@@ -231,6 +232,8 @@ void MachinePage::take_status() {
                                Format::number(machine.nodes_size(), 0),
                                Format::isolated(QString::fromStdString(machine.bus()))));
   }
+  for (const int column : {AxesModel::kMeasured, AxesModel::kError})
+    axes_->setColumnHidden(column, !desk_.axes.measured());
   if (tabs_->currentIndex() == 1)
     for (const auto& [label, value] : numbers_) label->setText(value());
 }

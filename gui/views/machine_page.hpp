@@ -23,6 +23,7 @@ class MachinePage : public SpeakingWidget {
   void take_status();
 
   Desk& desk_;
+  QTableView* axes_ = nullptr;
   QTabWidget* tabs_;
   MachineFileEditor* editor_;
   QLabel* summary_;
