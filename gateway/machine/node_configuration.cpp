@@ -25,6 +25,8 @@ struct NoDevice : ObjectOwner {
 constexpr double kSpeedMargin = 1.02;
 constexpr double kAccelerationMargin = 1.05;
 constexpr double kTravelMargin = 2;  // mm or rad
+// A node brakes by its own crystal, which may be 100 ppm fast: its deceleration counts twice that more.
+constexpr double kCrystalShare = 0.9995;
 
 class Writer {
  public:
@@ -127,7 +129,7 @@ void set_joint(Writer& writer, const JointDescription& joint) {
   writer.set_axis(axis, kMaxProfileVelocity, kSpeedMargin * joint.speed_per_s * counts);
   writer.set_axis(axis, kMaxAcceleration, kAccelerationMargin * joint.accel_per_s2 * counts);
   writer.set_axis(axis, kMaxDeceleration, kAccelerationMargin * joint.accel_per_s2 * counts);
-  writer.set_axis(axis, kQuickStopDeceleration, joint.stop_accel_per_s2 * counts);
+  writer.set_axis(axis, kQuickStopDeceleration, kCrystalShare * joint.stop_accel_per_s2 * counts);
   writer.set_axis(axis, kProfileVelocity, joint.speed_per_s * counts / 4);
   writer.set_axis(axis, kProfileAcceleration, joint.accel_per_s2 * counts / 4);
   writer.set_axis(axis, kProfileDeceleration, joint.accel_per_s2 * counts / 4);

@@ -66,6 +66,13 @@ struct Fault {
   double strength = 0;  ///< 0..1: how bad
 };
 
+/// How late a node may hear of a frame by kInterruptLatency: from what every node has to bear to three times
+/// that.
+constexpr std::chrono::nanoseconds kUsualLatency = std::chrono::microseconds{20};
+constexpr std::chrono::nanoseconds latency_of(const Fault& fault) {
+  return kUsualLatency + std::chrono::nanoseconds{static_cast<std::int64_t>(40e3 * fault.strength)};
+}
+
 /// Of kWrongParameters: the node has others, and takes those that it is told.
 constexpr bool keeps_parameters(const Fault& fault) {
   return fault.strength < 0.5;

@@ -33,10 +33,10 @@ FaultBounds bounds_of(const Fault& fault) {
       b.outcomes = kFinished;
       break;
     case kInterruptLatency:
-      // Six times the latency by the SYNCs in the window (clock_estimate.hpp): 60 us, and 150 in the first
-      // second.
+      // What a node makes of SYNCs that come late errs in proportion to how late: 2 us for 20 us.
       b.outcomes = kFinished;
-      b.skew_us = 2.4;
+      b.skew_us *=
+          static_cast<double>(latency_of(fault).count()) / static_cast<double>(kUsualLatency.count());
       break;
     case kHold:
       b.outcomes = kContinued | kFinished | kBegunAgain;

@@ -244,7 +244,7 @@ class FaultRun {
       violate(fmt::format("path times {:.2f} us apart > {} us at {:.4f} s", result_.skew_us, bounds_.skew_us,
                           together_.skew_time_s()));
     if (result_.step_ratio > bounds_.step_ratio)
-      violate(fmt::format("velocity step {:.2f} of the stop limit at {:.4f} s on {}", result_.step_ratio,
+      violate(fmt::format("velocity step {:.5f} of the stop limit at {:.4f} s on {}", result_.step_ratio,
                           steps_.worst_time_s(), steps_.worst_joint()));
     if (known_.worst_counts() > bounds_.known_counts)
       violate(fmt::format("{} believes a wrong position: {:.2f} counts at {:.4f} s", known_.worst(),

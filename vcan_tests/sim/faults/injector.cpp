@@ -44,8 +44,7 @@ std::unique_ptr<NodeMachine> Injector::make_nodes() {
     if (fault.kind == kCrystals)
       for (VirtualNodeOptions& each : nodes) each.clock_drift_ppm = 200 * unit(random_) - 100;
     if (fault.kind == kInterruptLatency)
-      for (VirtualNodeOptions& each : nodes)
-        each.latency_max = 20us + BusTime{static_cast<std::int64_t>(40e3 * fault.strength)};
+      for (VirtualNodeOptions& each : nodes) each.latency_max = latency_of(fault);
     if (fault.kind == kWrongIdentity) node.node.identity.product_code ^= 0x0101;
     if (fault.kind == kSwitchesExchanged) std::swap(node.axes[0].switch_input, node.axes[1].switch_input);
   }
