@@ -19,7 +19,10 @@ constexpr unsigned kFinished = bit(FaultOutcome::kFinished), kContinued = bit(Fa
 
 /// Without the gateway's SYNC: 175 ms from the last one, and the ramp of 100 ms. A silent node: the gateway
 /// waits 250 ms for a status, from 250 ms after the motion's begin on; then the ramp.
-constexpr double kSyncLoss_ms = 175 + 105, kNodeSilence_ms = 2 * 250 + 20 + 110;
+constexpr double kSyncLoss_ms = 175 + 105, kNodeSilence_ms = 2 * 250 + 20 + 110,
+                 kHeartbeatLoss_ms = 1500 + 20 + 110;
+/// The node of M1 that has the table and the extruder.
+constexpr int kTableNode = 2;
 
 FaultBounds bounds_of(const Fault& fault) {
   FaultBounds b;
@@ -48,7 +51,6 @@ FaultBounds bounds_of(const Fault& fault) {
       break;
     case kOperatorStop:
     case kEmergencyStop:
-    case kReceiveOverrun:
       b.outcomes = kFinished | kContinued | kBegunAgain;
       break;
     case kDriveFault:
@@ -63,9 +65,12 @@ FaultBounds bounds_of(const Fault& fault) {
     case kNodeDies:
     case kNodeRestarts:
       b.outcomes = kHomedAgain | kContinued | kFinished | kBegunAgain;
-      b.rest_ms = kNodeSilence_ms;
+      // While carriages home, a node that has none is missed by its heartbeat alone: nothing of it moves.
+      b.rest_ms = fault.phase == FaultPhase::kHoming && fault.node == kTableNode ? kHeartbeatLoss_ms
+                                                                                 : kNodeSilence_ms;
       break;
     case kBitErrors:
+    case kReceiveOverrun:
     case kFramesDropped:
     case kFramesDelayed:
     case kFramesReordered:
