@@ -80,6 +80,12 @@ int campaign(int argc, char** argv) {
     for (std::uint64_t seed = options.first_seed; seed < options.first_seed + options.seeds; ++seed)
       tell(kinebus::draw_faults(seed, static_cast<int>(kinebus::campaign_machine().nodes.size()),
                                 options.only));
+  // As they are found: a campaign of thousands takes an hour.
+  options.on_result = [&](const kinebus::FaultResult& result) {
+    if (result.violations.empty()) return;
+    fmt::print(stderr, "seed {}: {}\n    again: {}\n", result.seed, fmt::join(result.violations, "; "),
+               kinebus::replay_command(result.seed, options.only));
+  };
   const kinebus::CampaignSummary summary = run_campaign(options);
   fmt::print("{}", to_table(summary));
   for (const kinebus::FaultResult& result : summary.failed) {

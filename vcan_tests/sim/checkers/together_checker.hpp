@@ -60,6 +60,7 @@ class TogetherChecker {
         if (!machine_.joints[j].rotary && known[j] && lives[node_of(j)])
           worst = std::max(worst, std::abs(sample.joints[j] - q[j]));
     }
+    if (1000 * worst > kFar_um) ++far_samples_;
     if (astray) astray_um_ = std::max(astray_um_, 1000 * worst);
     if (!astray && 1000 * worst > path_um_) path_um_ = 1000 * worst, path_time_s_ = to_seconds(sample.time);
   }
@@ -67,6 +68,9 @@ class TogetherChecker {
   double skew_us() const { return skew_us_; }
   double skew_time_s() const { return skew_time_s_; }
   double path_um() const { return path_um_; }
+  /// Samples in which the tool was farther off than kFar_um.
+  int far_samples() const { return far_samples_; }
+  static constexpr double kFar_um = 5;
   double astray_um() const { return astray_um_; }
   double path_time_s() const { return path_time_s_; }
 
@@ -81,6 +85,7 @@ class TogetherChecker {
   const Kinematics& kinematics_;
   Planned planned_;
   double skew_us_ = 0, skew_time_s_ = 0, path_um_ = 0, path_time_s_ = 0, astray_um_ = 0;
+  int far_samples_ = 0;
 };
 
 }  // namespace kinebus

@@ -111,8 +111,11 @@ FaultBounds bounds_of(const Fault& fault) {
     case kSwitchDead:
     case kSwitchStuck:
     case kSwitchesExchanged:
+      // The third node has no switches.
+      b.outcomes = fault.node < 2 ? kRefused : kFinished;
+      break;
     case kWrongIdentity:
-      b.outcomes = kRefused | kFinished;
+      b.outcomes = kRefused;
       break;
     case kNodeIdCollision:
       // A boot-up message of the other node while the gateway waits for this one's is refused; the next

@@ -209,6 +209,7 @@ class FaultRun {
 
   void judge() {
     result_.path_um = together_.path_um();
+    result_.far_ms = together_.far_samples();
     result_.astray_um = together_.astray_um();
     result_.skew_us = together_.skew_us();
     result_.step_ratio = steps_.max_ratio();

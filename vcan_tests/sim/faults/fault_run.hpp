@@ -31,6 +31,7 @@ struct FaultResult {
   /// Worst distance from the planned path, of the tool; of a carriage while another one is dead or unknown.
   double path_um = 0;
   double astray_um = 0;     ///< the same after motors have lost steps, which nobody can know before homing
+  double far_ms = 0;        ///< for so long, in all, it was farther off than 5 um
   double skew_us = 0;       ///< worst difference of path time between live nodes
   double rest_ms = 0;       ///< from the cause to all carriages at rest; 0: nothing stopped
   double ramp_ms = 0;       ///< E-stop input to all live nodes ramping

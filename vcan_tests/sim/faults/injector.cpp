@@ -80,32 +80,18 @@ void Injector::attach(Simulation& simulation) {
       for (Active& active : active_) gone = (active.on && active.wire && active.wire->destroys(from)) || gone;
       return gone;
     };
-  for (Active& active : active_) {
-    const Fault fault = active.fault;
-    if (fault.kind != kSwitchBounces && fault.kind != kSwitchDead && fault.kind != kSwitchStuck) continue;
-    nodes_->set_switch_hook([this, fault](int node, int input, std::vector<VirtualMachine::Edge>& edges) {
-      const auto& inputs = description_.nodes[static_cast<std::size_t>(node)].inputs;
-      const bool active_level = !inputs[static_cast<std::size_t>(input - 1)].active_low;
-      const VirtualMachine::Edge edge = edges[0];
-      if (fault.kind == kSwitchBounces) {
-        // Contacts chatter for up to 150 us: less than the debounce time.
-        BusTime at = edge.at;
-        for (int i = 0; i < 2 + static_cast<int>(random_() % 4); ++i) {
-          at += between(random_, 2us, 20us);
-          edges.push_back({at, !edge.level});
-          at += between(random_, 2us, 15us);
-          edges.push_back({at, edge.level});
-        }
-      } else if (node == fault.node &&
-                 input ==
-                     description_
-                         .joints[static_cast<std::size_t>(2 * node + fault.axis) % description_.joints.size()]
-                         .homing.value_or(HomingDescription{})
-                         .switch_input) {
-        edges = {{edge.at, fault.kind == kSwitchStuck ? active_level : !active_level}};
-      }
-    });
+  // Bounces first: what a switch that is dead or stuck shows is neither.
+  std::vector<Fault> of_switches;
+  for (const Active& active : active_) {
+    if (active.fault.kind == kSwitchBounces) of_switches.insert(of_switches.begin(), active.fault);
+    if (active.fault.kind == kSwitchDead || active.fault.kind == kSwitchStuck)
+      of_switches.push_back(active.fault);
   }
+  if (!of_switches.empty())
+    nodes_->set_switch_hook(
+        [this, of_switches](int node, int input, std::vector<VirtualMachine::Edge>& edges) {
+          for (const Fault& fault : of_switches) disturb_switch(fault, node, input, edges);
+        });
   simulation.on_turn = [this](BusTime now) { on_time(now); };
   simulation.on_received = [this](const NodeMachine::Received& received) {
     for (Active& active : active_) {
@@ -114,6 +100,29 @@ void Injector::attach(Simulation& simulation) {
     }
   };
   begin(FaultPhase::kFromPowerUp, BusTime{0});
+}
+
+void Injector::disturb_switch(const Fault& fault, int node, int input,
+                              std::vector<VirtualMachine::Edge>& edges) {
+  const auto& inputs = description_.nodes[static_cast<std::size_t>(node)].inputs;
+  const bool active_level = !inputs[static_cast<std::size_t>(input - 1)].active_low;
+  const VirtualMachine::Edge edge = edges[0];
+  if (fault.kind == kSwitchBounces) {
+    // Contacts chatter for up to 150 us: less than the debounce time.
+    BusTime at = edge.at;
+    for (int i = 0; i < 2 + static_cast<int>(random_() % 4); ++i) {
+      at += between(random_, 2us, 20us);
+      edges.push_back({at, !edge.level});
+      at += between(random_, 2us, 15us);
+      edges.push_back({at, edge.level});
+    }
+    return;
+  }
+  const std::size_t joint =
+      static_cast<std::size_t>(2 * fault.node + fault.axis) % description_.joints.size();
+  const auto& homing = description_.joints[joint].homing;
+  if (node == fault.node && homing && input == homing->switch_input)
+    edges = {{edge.at, fault.kind == kSwitchStuck ? active_level : !active_level}};
 }
 
 void Injector::begin(FaultPhase phase, BusTime now) {

@@ -100,6 +100,29 @@ TEST(Campaign, AStopAtAnyMomentAroundTheEndOfAMoveGoesOn) {
   }
 }
 
+TEST(Campaign, ANewGatewayGoesOnThroughTheBacklashOfTheCarriages) {
+  MachineDescription machine = campaign_machine();
+  for (JointDescription& joint : machine.joints)
+    if (joint.homing && !joint.rotary) joint.calibration.backlash = 0.08;
+  const auto kinematics = make_kinematics(machine);
+  const auto run = [&](const Fault& fault) {
+    return run_faults(machine, **kinematics, {.seed = 5, .faults = {fault}});
+  };
+  // Undisturbed, the tool is off the plan while a carriage that turns round crosses the gap, by the gap.
+  const FaultResult clean = run({});
+  EXPECT_GT(clean.path_um, 40);
+  for (BusTime after = 1200ms; after < 3200ms; after += 190ms) {
+    const FaultResult result = run({.kind = FaultKind::kGatewayDies, .after = after, .length = 400ms});
+    EXPECT_EQ(result.outcome, FaultOutcome::kContinued) << after / 1ms << " ms";
+    // Nothing jumps, and the gap is not lost: a carriage on its wrong side would be off by it all the way. A
+    // stop in the middle of the gap makes the crossing longer.
+    EXPECT_LE(result.path_um, clean.path_um + 1) << after / 1ms << " ms";
+    EXPECT_LE(result.far_ms, clean.far_ms + 250) << after / 1ms << " ms";
+    EXPECT_LE(result.step_ratio, clean.step_ratio * 1.01) << after / 1ms << " ms";
+    EXPECT_LE(result.known_counts, 1) << after / 1ms << " ms";
+  }
+}
+
 TEST(Campaign, ASeedIsOnePlanWhateverTheOrder) {
   for (std::uint64_t seed = 1; seed < 100; ++seed) {
     const FaultPlan a = draw_faults(seed, 3), b = draw_faults(seed, 3);
