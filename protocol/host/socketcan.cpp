@@ -8,6 +8,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -91,6 +92,15 @@ std::string SocketCan::open(const std::string& interface, bool own_frames) {
   if (::bind(fd_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
     return because("is it up? (ip link set up)");
   return {};
+}
+
+void SocketCan::accept(std::span<const Accept> filters) {
+  std::array<can_filter, 32> kernel{};
+  std::size_t count = 0;
+  for (const Accept& filter : filters.first(std::min(filters.size(), kernel.size())))
+    kernel[count++] = {filter.value, filter.mask | CAN_EFF_FLAG | CAN_RTR_FLAG};
+  ::setsockopt(fd_, SOL_CAN_RAW, CAN_RAW_FILTER, kernel.data(),
+               static_cast<socklen_t>(count * sizeof kernel[0]));
 }
 
 SocketCan::Sent SocketCan::send(const CanFrame& frame) {

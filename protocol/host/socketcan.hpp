@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "protocol/can/frame.hpp"
@@ -43,6 +44,14 @@ class SocketCan {
 
   /// Empty string: open. Otherwise what is wrong and what to do. `own_frames`: report own frames when sent.
   std::string open(const std::string& interface, bool own_frames);
+
+  /// Standard data frames whose identifier is `value` where `mask` has ones.
+  struct Accept {
+    std::uint16_t value = 0, mask = 0x7FF;
+    friend constexpr bool operator==(const Accept&, const Accept&) = default;
+  };
+  /// From now on the kernel passes on these alone, as a controller's filters do.
+  void accept(std::span<const Accept> filters);
 
   int fd() const { return fd_; }
   Sent send(const CanFrame& frame);

@@ -48,7 +48,7 @@ until_true() {
 
 start_bus() {
   ip link add dev "$interface" type vcan && ip link set "$interface" up
-  chrt -f 85 candump -L "$interface" > "$work/bus.log" & pids+=($!)
+  chrt -f 85 candump -L "$interface${capture_only:-}" > "$work/bus.log" & pids+=($!)
 }
 # The gateway on an interface of its own, joined to the nodes' by rules that a test may change.
 split_bus() {

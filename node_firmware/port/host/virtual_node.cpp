@@ -48,6 +48,7 @@ std::string VirtualNodeProcess::open() {
   if (!trace_.open(options_.trace_path)) return "trace " + options_.trace_path + ": " + std::strerror(errno);
   const std::vector<std::uint8_t> stored = image_.read();
   node_.emplace(options_.node, monotonic_now(), stored);
+  filter();
   return {};
 }
 
@@ -79,12 +80,38 @@ std::string VirtualNodeProcess::run() {
 void VirtualNodeProcess::receive() {
   while (const auto got = can_.receive()) {
     trace_.sample(*node_, got->when);
-    if (got->kind == SocketCan::Kind::kFrame) node_->on_frame(got->when, got->frame);
+    if (got->kind == SocketCan::Kind::kFrame) {
+      node_->on_frame(got->when, got->frame);
+      if (got->frame.id == cob_id::kNmt || got->frame.id >= cob_id::kSdoReply) filter();
+    }
     if (got->kind == SocketCan::Kind::kDown) {
       bus_down_ = true;
       return;
     }
   }
+}
+
+// What the board's controller passes on, too: requests and PDOs of this node, what all hear, and the
+// heartbeats that it watches. NMT, SDO and LSS may change it.
+void VirtualNodeProcess::filter() {
+  std::array<SocketCan::Accept, 16> wanted{};
+  std::size_t count = 0;
+  const auto add = [&](std::uint32_t value, std::uint16_t mask = 0x7FF) {
+    if (count < wanted.size()) wanted[count++] = {static_cast<std::uint16_t>(value), mask};
+  };
+  add(cob_id::kNmt);
+  add(cob_id::kSync, 0x780);  // and the EMCYs of others: stop requests
+  add(cob_id::kLssRequest);
+  if (node_->node_id() != 0) {
+    add(cob_id::kSdoRequest + node_->node_id());
+    for (const std::uint8_t id : node_->watched_nodes())
+      if (id != 0) add(cob_id::kHeartbeat + id);
+    for (const std::uint16_t id : node_->rpdo_cob_ids())
+      if (id != 0) add(id);
+  }
+  if (wanted == filters_) return;
+  filters_ = wanted;
+  can_.accept(std::span(wanted).first(count));
 }
 
 void VirtualNodeProcess::send() {

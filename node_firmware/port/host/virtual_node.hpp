@@ -36,6 +36,7 @@ class VirtualNodeProcess {
 
  private:
   void receive();
+  void filter();
   void send();
   void look_at_switches(LocalTime now);
   void store();
@@ -48,6 +49,7 @@ class VirtualNodeProcess {
   ImageFile image_;
   std::optional<Node> node_;
   std::array<AxisPlant, 2> plant_;
+  std::array<SocketCan::Accept, 16> filters_{};
   std::optional<CanFrame> unsent_;
   PositionTrace trace_;
   LocalTime next_look_{0};
