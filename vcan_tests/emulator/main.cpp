@@ -12,6 +12,7 @@
 #include "protocol/canopen/nmt.hpp"
 #include "vcan_tests/emulator/cost_report.hpp"
 #include "vcan_tests/emulator/live_boards.hpp"
+#include "vcan_tests/emulator/live_usb.hpp"
 
 namespace {
 
@@ -105,12 +106,20 @@ int run(int argc, char** argv) {
          "only order counts")
       ->check(CLI::Range(0.0, 10'000.0))
       ->capture_default_str();
+  bool usb = false;
+  app.add_flag("--usb", usb,
+               "The board's USB connector at this computer's vhci_hcd: runs live until stopped");
   app.add_option("--speed", speed, "Report: turns a second")->capture_default_str();
   app.add_option("--seconds", seconds, "Report: measured so long")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   ElfImage image = load_elf(file);
   if (!boot.empty())
     for (ElfImage::Piece& piece : load_elf(boot).pieces) image.pieces.push_back(std::move(piece));
+  if (usb) {
+    const std::string error = run_usb(image, board_of(nodes.empty() ? 1 : nodes.front()));
+    if (!error.empty()) std::fprintf(stderr, "kinebus-emulate: %s\n", error.c_str());
+    return error.empty() ? 0 : 1;
+  }
   if (interface.empty()) {
     report(image, speed, seconds);
     return 0;

@@ -22,16 +22,15 @@ Console& Console::put(std::string_view text) {
 
 Console& Console::put(std::int64_t number) {
   // What is shown fits 32 bits, which spares a division of 64.
-  const auto clipped =
-      static_cast<std::int32_t>(std::clamp<std::int64_t>(number, -2'147'483'647, 2'147'483'647));
-  auto rest = static_cast<std::uint32_t>(clipped < 0 ? -clipped : clipped);
+  constexpr std::int64_t kMost = 0xFFFF'FFFF;
+  auto rest = static_cast<std::uint32_t>(std::min(number < 0 ? -number : number, kMost));
   std::array<char, 11> digits{};
   std::size_t at = digits.size();
   do {
     digits[--at] = static_cast<char>('0' + rest % 10);
     rest /= 10;
   } while (rest != 0);
-  if (clipped < 0) digits[--at] = '-';
+  if (number < 0) digits[--at] = '-';
   return put(std::string_view(digits.data() + at, digits.size() - at));
 }
 

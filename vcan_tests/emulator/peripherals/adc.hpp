@@ -40,7 +40,7 @@ class AdcBlock final : public Peripheral {
     Cycle injected_ready = kNever, regular_ready = kNever;
   };
 
-  Cycle clock() const { return kApb2Divider * (2 * ((ccr_ >> 16 & 3) + 1)); }
+  Cycle clock() const { return kApb2Divider * 2 * (Cycle{ccr_ >> 16 & 3} + 1); }
   Cycle sampling(const Converter& c, int channel) const;
   static int injected_count(const Converter& c) { return static_cast<int>(c.jsqr >> 20 & 3) + 1; }
   static int injected_channel(const Converter& c, int rank);

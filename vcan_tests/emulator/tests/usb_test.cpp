@@ -68,7 +68,8 @@ TEST_F(Usb, EnumeratesAndAnswersTheConsoleAsUsartDoes) {
   EXPECT_EQ(host.text(3), "00123456789ABCDEF0000001");
   EXPECT_EQ(host.notification(), (UsbHost::Bytes{0xA1, 0x20, 0, 0, 0, 0, 2, 0, 3, 0}));
   const std::string version = host.ask("v");
-  EXPECT_EQ(version.find("Kinebus node, serial "), 0u) << version;
+  const auto serial = static_cast<std::uint32_t>(node.bench.read(OneBoard::kId, 0x1018, 4));
+  EXPECT_EQ(version.find(fmt::format("Kinebus node, serial {} image bytes ", serial)), 0u) << version;
   node.board.console().receive("v");
   pass(20ms);
   EXPECT_EQ(node.board.console().take_sent(), version);
