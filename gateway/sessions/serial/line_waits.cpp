@@ -8,7 +8,6 @@ namespace {
 
 using serial::Line;
 
-constexpr LocalTime kHeatReport = std::chrono::seconds{1};
 /// Half of the window that the machine's own wait uses: hosts see the heater arrive.
 constexpr double kHeaterWindow_c = 2;
 

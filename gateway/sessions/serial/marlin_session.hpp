@@ -78,16 +78,21 @@ class MarlinSession : public ByteSession {
   void watch_others();
   void stop_waiting();
 
+  // line_codes.cpp: what a line means
+  bool machine_stopped() const;  ///< by a stop or an alarm, or about to
   Done carry_out(const serial::Line& line);
   Done carry_out_m(const serial::Line& line, int number);
   Done to_machine(const serial::Line& line);
   Done feed(const serial::Line& line);
-  Done home(const serial::Line& line);
-  Done heat_and_wait(const serial::Line& line, bool bed);
-  Done wait_over();
   Done refuse(std::string_view words);
   Done query(const serial::Line& line);
   std::string temperatures() const;
+
+  // line_waits.cpp: lines that are answered when they are carried out
+  static constexpr LocalTime kHeatReport = std::chrono::seconds{1};
+  Done home(const serial::Line& line);
+  Done heat_and_wait(const serial::Line& line, bool bed);
+  Done wait_over();
 
   // line_control.cpp: who may command
   void heard();
