@@ -29,6 +29,7 @@ Core::Core(Options options) : options_(std::move(options)) {
   m.retract_lift_mm = options_.retract_lift_mm;
   m.recover_extra_mm = options_.recover_extra_mm;
   m.recover_mm_per_s = options_.recover_mm_per_s;
+  m.coordinate_offsets = options_.work_offsets;
   m.e_canonical_base_mm = m.position[kAxisE];
   refresh();
 }

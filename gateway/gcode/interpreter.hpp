@@ -24,8 +24,9 @@ enum class DwellUnit : std::uint8_t { kMilliseconds, kSeconds };
 
 /// What the machine file says about the dialect.
 struct Options {
-  Pose start{};  ///< where the machine stands when the job begins, machine frame (mm, rad)
-  Pose home{};   ///< where it stands after G28, machine frame; E unused
+  Pose start{};                ///< where the machine stands when the job begins, machine frame (mm, rad)
+  Pose home{};                 ///< where it stands after G28, machine frame; E unused
+  WorkOffsets work_offsets{};  ///< in force when the program begins
   /// G4 P counts milliseconds in printer firmware and seconds in RS274/NGC. G4 S is always seconds.
   DwellUnit dwell_p_unit = DwellUnit::kMilliseconds;
   double default_feed_mm_per_s = 0;  ///< until the first F; 0: a feed move without F is refused

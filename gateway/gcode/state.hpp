@@ -18,6 +18,8 @@ using canonical::Pose;
 enum Axis : std::uint8_t { kAxisX, kAxisY, kAxisZ, kAxisA, kAxisC, kAxisE };
 inline constexpr int kAxes = 6;
 inline constexpr int kCoordinateSystems = 9;  ///< G54 .. G59, G59.1 .. G59.3
+/// Work zeros of G54 .. G59.3 in the machine's coordinates: X Y Z A C; E unused.
+using WorkOffsets = std::array<Pose, kCoordinateSystems>;
 
 enum class Motion : std::uint8_t { kNone, kTraverse, kFeed, kArcClockwise, kArcCounterclockwise };
 enum class Plane : std::uint8_t { kXy, kZx, kYz };
@@ -59,8 +61,8 @@ struct ModalState {
   double feed_ratio = 1;      ///< M220
   double flow_ratio = 1;      ///< M221
 
-  std::array<Pose, kCoordinateSystems> coordinate_offsets{};  ///< X Y Z A C; E unused
-  Pose g92_offset{};                                          ///< X Y Z A C; E unused
+  WorkOffsets coordinate_offsets{};
+  Pose g92_offset{};  ///< X Y Z A C; E unused
 
   std::array<double, 3> tilt_origin_mm{};
   Matrix3 tilt = kIdentity;  ///< columns: the plane's X, Y, Z in work coordinates

@@ -67,10 +67,12 @@ void JobPipeline::begin(const PoseVector& start) {
   scales_.clear();
 }
 
-void JobPipeline::start_job(ByteSource& source, const PoseVector& start) {
+void JobPipeline::start_job(ByteSource& source, const PoseVector& start, const gcode::WorkOffsets& offsets) {
   begin(start);
   const PoseVector home = kinematics_.bed_reference();
-  interpreter_ = std::make_unique<gcode::Interpreter>(interpreter_options(machine_, start, home));
+  gcode::Options options = interpreter_options(machine_, start, home);
+  options.work_offsets = offsets;
+  interpreter_ = std::make_unique<gcode::Interpreter>(std::move(options));
   reader_ = std::make_unique<gcode::JobReader>(*interpreter_);
   source_ = &source;
   text_done_ = false;

@@ -38,8 +38,8 @@ class JobPipeline {
   JobPipeline(const MachineDescription& machine, const Kinematics& kinematics);
 
   /// A job's text. The machine stands at `start` (Frame::kMachine). `source` must outlive the job and be at
-  /// its beginning.
-  void start_job(ByteSource& source, const PoseVector& start);
+  /// its beginning. `offsets`: of G54 .. G59.3, as the machine has them.
+  void start_job(ByteSource& source, const PoseVector& start, const gcode::WorkOffsets& offsets = {});
   /// Motion put in by hand (jog, reference): the commands, then the end.
   void start_commands(std::vector<canonical::Line> commands, const PoseVector& start);
 

@@ -53,7 +53,9 @@ LiveLines::LiveLines(const MachineDescription& machine, const Kinematics& kinema
 
 void LiveLines::forget() {
   const PoseVector home = kinematics_.bed_reference();
-  interpreter_ = gcode::Interpreter(interpreter_options(machine_, home, home));
+  gcode::Options options = interpreter_options(machine_, home, home);
+  options.work_offsets = work_offsets();
+  interpreter_ = gcode::Interpreter(std::move(options));
   limits_ = {};
   path_mode_.reset();
   may_move_ = cold_noted_ = false;

@@ -21,7 +21,7 @@ class LiveLines {
   /// Both must outlive this.
   LiveLines(const MachineDescription& machine, const Kinematics& kinematics);
 
-  /// Modal state, offsets and limits are forgotten, as after switching on.
+  /// Modal state and limits are forgotten, as after switching on. Work offsets stay: they are the machine's.
   void forget();
   /// The machine stands at `pose` (Frame::kMachine) and may move from here on. Modal state is kept, also the
   /// program's E. `hotend_celsius`: its target, if it has one. Appends what is in force to `out`.
@@ -34,9 +34,8 @@ class LiveLines {
 
   /// Work coordinates in force: 0 is G54.
   int work_system() const { return interpreter_.state().modal.coordinate_system; }
-  const PoseVector& work_offset() const {
-    return interpreter_.state().modal.coordinate_offsets[static_cast<std::size_t>(work_system())];
-  }
+  const PoseVector& work_offset() const { return work_offsets()[static_cast<std::size_t>(work_system())]; }
+  const gcode::WorkOffsets& work_offsets() const { return interpreter_.state().modal.coordinate_offsets; }
 
   /// What was accepted without effect since the last call, in words.
   std::vector<std::string> take_notes();

@@ -14,9 +14,9 @@ Preflight::Preflight(const MachineDescription& machine, const Kinematics& kinema
     : Preflight(machine, kinematics, source, start, JobCheck::Options{}) {}
 
 Preflight::Preflight(const MachineDescription& machine, const Kinematics& kinematics, ByteSource& source,
-                     const PoseVector& start, JobCheck::Options options)
+                     const PoseVector& start, JobCheck::Options options, const gcode::WorkOffsets& offsets)
     : pipeline_(machine, kinematics), check_(machine, kinematics, options) {
-  pipeline_.start_job(source, start);
+  pipeline_.start_job(source, start, offsets);
 }
 
 bool Preflight::step(int lines) {

@@ -26,9 +26,10 @@ void count_command(const canonical::Command& command, JobReport& report);
 
 class Preflight {
  public:
-  /// `source` at its beginning; must outlive this. The job starts at `start`, Frame::kMachine.
+  /// `source` at its beginning; must outlive this. The job starts at `start`, Frame::kMachine, with the
+  /// machine's work offsets.
   Preflight(const MachineDescription& machine, const Kinematics& kinematics, ByteSource& source,
-            const PoseVector& start, JobCheck::Options options);
+            const PoseVector& start, JobCheck::Options options, const gcode::WorkOffsets& offsets = {});
   Preflight(const MachineDescription& machine, const Kinematics& kinematics, ByteSource& source,
             const PoseVector& start);
 

@@ -65,6 +65,7 @@ class Gateway::Core {
   bool lines_idle() const;
   void close_lines();
   void forget_line_modes();
+  const gcode::WorkOffsets& work_offsets() const { return live_lines_.work_offsets(); }
 
   // core_resume.cpp
   Result<void, Refusal> recover(journal::State state, std::unique_ptr<ByteSource> job);
@@ -201,6 +202,7 @@ class Gateway::Core {
   std::unique_ptr<Preflight> preflight_;
   std::size_t problems_reported_ = 0;
   JobReport job_report_;
+  gcode::WorkOffsets job_offsets_{};  ///< of the job that is checked or begins
   LiveLines live_lines_;
   gcode::CommandBuffer live_commands_;  ///< of the line at work
   bool lines_closing_ = false;

@@ -153,8 +153,9 @@ Done Gateway::Core::run(std::unique_ptr<ByteSource> job, std::string name) {
   JobCheck::Options check_options;
   if (const double target = thermal_.heater(Heater::kHotend).target_celsius; target > 0)
     check_options.hotend_celsius = target;
-  preflight_ =
-      std::make_unique<Preflight>(machine_, *kinematics_, *job_, kinematics_->bed_reference(), check_options);
+  job_offsets_ = live_lines_.work_offsets();
+  preflight_ = std::make_unique<Preflight>(machine_, *kinematics_, *job_, kinematics_->bed_reference(),
+                                           check_options, job_offsets_);
   enter(MachineState::kChecking);
   return {};
 }

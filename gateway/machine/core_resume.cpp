@@ -50,11 +50,11 @@ Done Gateway::Core::recover(journal::State state, std::unique_ptr<ByteSource> jo
 
 void Gateway::Core::begin_job(const PoseVector& start) {
   runner_ = &print_;
-  journal_.push(journal::JobBegin{job_name_, job_bytes_, job_hash_, start});
+  journal_.push(journal::JobBegin{job_name_, job_bytes_, job_hash_, start, job_offsets_});
   heat_wanted_.reset();
   heat_noted_ = {};
   filament_lost_ = false;
-  print_.start_job(std::move(job_), start);
+  print_.start_job(std::move(job_), start, job_offsets_);
   print_.set_override(override_);
   journal_.push(journal::Override{override_});
 }
@@ -267,7 +267,7 @@ Done Gateway::Core::begin_return() {
       check_options.hotend_celsius = heat_wanted_->hotend_celsius;
     problems_reported_ = 0;
     preflight_ = std::make_unique<Preflight>(machine_, *kinematics_, *job_, kinematics_->bed_reference(),
-                                             check_options);
+                                             check_options, recovery_->state.job->offsets);
     enter(MachineState::kChecking);
     return {};
   }

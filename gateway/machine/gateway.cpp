@@ -134,6 +134,9 @@ bool Gateway::lines_idle() const {
 void Gateway::close_lines() {
   core_->close_lines();
 }
+const gcode::WorkOffsets& Gateway::work_offsets() const {
+  return core_->work_offsets();
+}
 void Gateway::forget_line_modes() {
   core_->forget_line_modes();
 }

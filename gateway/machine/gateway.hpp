@@ -105,7 +105,9 @@ class Gateway {
   bool lines_open() const;
   bool lines_idle() const;  ///< every line taken is carried out, and nothing moves
   void close_lines();
-  void forget_line_modes();  ///< G-code modes, offsets and limits of lines are as after switching on
+  void forget_line_modes();  ///< G-code modes and limits of lines are as after switching on
+  /// Of G54 .. G59.3: lines set them, jobs begin with them.
+  const gcode::WorkOffsets& work_offsets() const;
   static constexpr std::size_t kLineRoom = 32;
   /// One line of a text session (M105, M114, M115, M119, G28, M112, M24, M25 ...): the reply, without "ok".
   Result<std::string, Refusal> text_line(std::string_view line);

@@ -51,9 +51,10 @@ void Runner::begin() {
   doing_ = "moving";
 }
 
-void Runner::start_job(std::unique_ptr<ByteSource> source, const PoseVector& start) {
+void Runner::start_job(std::unique_ptr<ByteSource> source, const PoseVector& start,
+                       const gcode::WorkOffsets& offsets) {
   source_ = std::move(source);
-  pipeline_.start_job(*source_, start);
+  pipeline_.start_job(*source_, start, offsets);
   start_ = start;
   noted_ = true;
   begin();
@@ -226,7 +227,7 @@ void Runner::shift_extruder(double by_mm) {
 }
 
 void Runner::start_replay(std::unique_ptr<ByteSource> source, const journal::State& state, PathTime tau) {
-  start_job(std::move(source), state.job->start);
+  start_job(std::move(source), state.job->start, state.job->offsets);
   pipeline_.replay_feed_scales(state.scales);
   waits_replayed_ = state.waits_done;
   doing_ = "reading the job up to where it was";

@@ -39,7 +39,8 @@ class Runner {
          ThermalDevice& thermal, EventQueue& events, journal::Queue& journal);
 
   /// A job's text from its beginning, the machine standing at `start` (Frame::kMachine).
-  void start_job(std::unique_ptr<ByteSource> source, const PoseVector& start);
+  void start_job(std::unique_ptr<ByteSource> source, const PoseVector& start,
+                 const gcode::WorkOffsets& offsets);
   /// Motion by hand.
   void start_commands(std::vector<canonical::Line> commands, const PoseVector& start);
   /// Commands that come over time, by add(). When they come too slowly motion ends in a planned stop and goes

@@ -12,8 +12,12 @@ constexpr int kLinesPerSlice = 2000;
 }  // namespace
 
 JobCheckTask::JobCheckTask(JobStore& store, const MachineDescription& machine, std::string machine_mark,
-                           std::string name)
-    : store_(store), machine_(machine), machine_mark_(std::move(machine_mark)), name_(std::move(name)) {}
+                           std::string name, const gcode::WorkOffsets& offsets)
+    : store_(store),
+      machine_(machine),
+      machine_mark_(std::move(machine_mark)),
+      name_(std::move(name)),
+      offsets_(offsets) {}
 
 void JobCheckTask::run(Worker& worker, std::function<void(double)> progress,
                        std::function<void(const Found&)> done) {
@@ -51,7 +55,7 @@ void JobCheckTask::slice() {
     source_ = std::move(*source);
     kinematics_ = std::move(*kinematics);
     preflight_ = std::make_unique<Preflight>(machine_, *kinematics_, *source_, kinematics_->bed_reference(),
-                                             JobCheck::Options());
+                                             JobCheck::Options(), offsets_);
   }
   const bool done = preflight_->step(kLinesPerSlice);
   if (const auto size = source_->size(); size && *size > 0)
@@ -62,12 +66,13 @@ void JobCheckTask::slice() {
   joblink::PreflightResult result = to_message(report, problems);
   result.set_name(name_);
   result.set_sha256(sha256_);
-  static_cast<void>(store_.save_preflight(sha256_, machine_mark_,
-                                          {.errors = result.summary().errors(),
-                                           .warnings = result.summary().warnings(),
-                                           .lines = report.lines,
-                                           .motion_s = report.motion_s,
-                                           .dwell_s = report.dwell_s}));
+  if (offsets_ == gcode::WorkOffsets{})
+    static_cast<void>(store_.save_preflight(sha256_, machine_mark_,
+                                            {.errors = result.summary().errors(),
+                                             .warnings = result.summary().warnings(),
+                                             .lines = report.lines,
+                                             .motion_s = report.motion_s,
+                                             .dwell_s = report.dwell_s}));
   found_ = std::move(result);
 }
 

@@ -15,8 +15,9 @@ namespace kinebus {
 class JobCheckTask : public std::enable_shared_from_this<JobCheckTask> {
  public:
   using Found = Result<joblink::PreflightResult, StoreError>;
-  JobCheckTask(JobStore& store, const MachineDescription& machine, std::string machine_mark,
-               std::string name);
+  /// `offsets`: the machine's as they are now. Only what was found with all of them 0 is kept in the store.
+  JobCheckTask(JobStore& store, const MachineDescription& machine, std::string machine_mark, std::string name,
+               const gcode::WorkOffsets& offsets);
   /// `progress` (0..1, some times a second of work) and `done` are called within the loop.
   void run(Worker& worker, std::function<void(double)> progress, std::function<void(const Found&)> done);
 
@@ -27,6 +28,7 @@ class JobCheckTask : public std::enable_shared_from_this<JobCheckTask> {
   JobStore& store_;
   const MachineDescription& machine_;
   std::string machine_mark_, name_, sha256_;
+  gcode::WorkOffsets offsets_;
   std::function<void(double)> progress_;
   std::function<void(const Found&)> done_;
 

@@ -42,6 +42,9 @@ void fields(Io& io, JobBegin& r) {
   io.u64(r.hash);
   for (double& value : r.start) io.f64(value);
   io.text(r.name);
+  if (io.at_end()) return;  // written before jobs had offsets: all 0
+  for (auto& system : r.offsets)
+    for (double& value : system) io.f64(value);
 }
 template <class Io>
 void fields(Io& io, JobPlace& r) {
@@ -103,6 +106,7 @@ struct Writer {
   void u64(std::uint64_t value) { bits(value, 8); }
   void f64(double value) { bits(std::bit_cast<std::uint64_t>(value), 8); }
   void time(PathTime value) { bits(static_cast<std::uint64_t>(value.count()), 8); }
+  bool at_end() const { return false; }
   void text(const std::string& value) {
     const std::string_view kept = std::string_view(value).substr(0, kMaxName);
     bits(kept.size(), 2);
@@ -130,6 +134,7 @@ struct Reader {
     value = std::bit_cast<double>(bits(8));
     good = good && std::isfinite(value);
   }
+  bool at_end() const { return in.empty(); }
   void time(PathTime& value) { value = PathTime{static_cast<std::int64_t>(bits(8))}; }
   void text(std::string& value) {
     const std::size_t length = static_cast<std::size_t>(bits(2));

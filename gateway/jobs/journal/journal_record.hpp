@@ -7,6 +7,7 @@
 #include <string>
 #include <variant>
 
+#include "gateway/gcode/state.hpp"
 #include "gateway/jobs/job_place.hpp"
 #include "gateway/kinematics/kinematics.hpp"
 #include "protocol/time.hpp"
@@ -21,9 +22,10 @@ struct Epoch {
 /// A job begins; whatever was noted before is void.
 struct JobBegin {
   std::string name;
-  std::uint64_t bytes = 0;  ///< read of its text
-  std::uint64_t hash = 0;   ///< of them: fnv1a64()
-  PoseVector start{};       ///< Frame::kMachine
+  std::uint64_t bytes = 0;       ///< read of its text
+  std::uint64_t hash = 0;        ///< of them: fnv1a64()
+  PoseVector start{};            ///< Frame::kMachine
+  gcode::WorkOffsets offsets{};  ///< the machine's, when the job began
   friend bool operator==(const JobBegin&, const JobBegin&) = default;
 };
 /// A run of motion begins at a path time.

@@ -250,6 +250,24 @@ TEST(Resume, AnotherGatewayTakesUpTheJobFromTheJournal) {
   }
 }
 
+TEST(Resume, AnotherGatewayGoesOnWithTheWorkOffsetsOfTheJob) {
+  ResumeRig rig;
+  ASSERT_TRUE(rig.gateway->take_line("G10 L2 P1 X4 Y-3 Z2", 1));
+  ASSERT_TRUE(rig.begin(1.3)) << rig.story();
+  std::vector<PoseVector> track;
+  rig.track_ = &track;
+  rig.run(300ms);
+  rig.store();
+  rig.lose_from_gateway = rig.lose_to_gateway = [](const CanFrame&) { return true; };
+  rig.run_for(1200ms);
+  rig.lose_from_gateway = rig.lose_to_gateway = {};
+  rig.replace_gateway();
+  ASSERT_TRUE(rig.gateway->resume());
+  ASSERT_TRUE(rig.finish()) << rig.story();
+  for (PoseVector& pose : track) pose = {pose[kX] - 4, pose[kY] + 3, pose[kZ] - 2, 0, 0, pose[kE]};
+  expect_same_part(rig, track);
+}
+
 TEST(Resume, GatewayAfterGatewayTakesUpTheSameJob) {
   ResumeRig rig;
   ASSERT_TRUE(rig.begin(0.1)) << rig.story();
@@ -280,7 +298,7 @@ TEST(Resume, AnotherJobUnderTheSameNameIsNotTakenUp) {
   ASSERT_TRUE(rig.begin(0.5));
   rig.store();
   journal::State state;
-  state.take(journal::JobBegin{"part", 5, 1234, {}});
+  state.take(journal::JobBegin{"part", 5, 1234, {}, {}});
   rig.lose_from_gateway = [](const CanFrame&) { return true; };
   rig.run_for(1s);
   rig.lose_from_gateway = {};
@@ -339,18 +357,19 @@ TEST(Journal, ACutAtAnyByteLeavesAnEarlierState) {
   std::vector<std::uint8_t> bytes;
   std::vector<std::size_t> ends{0};
   std::vector<journal::State> states{state};
-  const std::vector<journal::Record> records{journal::Epoch{7},
-                                             journal::JobBegin{"a part", 100, 42, {1, 2, 3, 0, 0, 5}},
-                                             journal::Override{1.5},
-                                             journal::Scale{{0, 1.5}},
-                                             journal::RunBegin{PathTime{1000}, {0, 0}, 0, 0},
-                                             journal::Progress{PathTime{5000}, 7, {1, 2, 3}},
-                                             journal::WaitsDone{1},
-                                             journal::Thermal{200, 60, 0.5},
-                                             journal::RunBegin{PathTime{9000}, {12, 0.25}, 0.2, 0.1},
-                                             journal::Found{PathTime{9500}},
-                                             journal::Interrupted{{14, 0.125}, 0.1},
-                                             journal::JobEnd{}};
+  const std::vector<journal::Record> records{
+      journal::Epoch{7},
+      journal::JobBegin{"a part", 100, 42, {1, 2, 3, 0, 0, 5}, {{{4, 5, 6}}}},
+      journal::Override{1.5},
+      journal::Scale{{0, 1.5}},
+      journal::RunBegin{PathTime{1000}, {0, 0}, 0, 0},
+      journal::Progress{PathTime{5000}, 7, {1, 2, 3}},
+      journal::WaitsDone{1},
+      journal::Thermal{200, 60, 0.5},
+      journal::RunBegin{PathTime{9000}, {12, 0.25}, 0.2, 0.1},
+      journal::Found{PathTime{9500}},
+      journal::Interrupted{{14, 0.125}, 0.1},
+      journal::JobEnd{}};
   for (const journal::Record& record : records) {
     journal::encode(record, static_cast<std::uint32_t>(ends.size() - 1), bytes);
     state.take(record);

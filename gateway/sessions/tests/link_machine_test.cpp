@@ -157,6 +157,39 @@ TEST_F(LinkMachineTest, AWorkOffsetShiftsWhatTheConsoleSays) {
   EXPECT_EQ(rig_.ask(*anna_, plain(&ClientMessage::mutable_get_status)).status().work_system(), 3u);
 }
 
+TEST_F(LinkMachineTest, AStoredJobIsCheckedAndRunWithTheMachinesWorkOffsets) {
+  const auto offset_x = [&](double x_mm) {
+    ClientMessage offset;
+    offset.mutable_set_work_offset()->set_system(1);
+    offset.mutable_set_work_offset()->mutable_offset()->set_x_mm(x_mm);
+    ASSERT_FALSE(rig_.ask(*anna_, offset).has_error());
+  };
+  rig_.upload(*anna_, "shifted.gcode", "G90\nG1 X10 Y0 F6000\nG4 P300\nG10 L2 P2 X1\nG55\nG1 X5\n");
+  rig_.pump();
+  ClientMessage check;
+  check.mutable_check_job()->set_name("shifted.gcode");
+  offset_x(7);
+  EXPECT_EQ(rig_.ask(*anna_, check).preflight().summary().errors(), 0u);
+  ASSERT_FALSE(rig_.ask(*anna_, start_job("shifted.gcode")).has_error());
+  ASSERT_TRUE(rig_.run_until([&] { return rig_.machine.gateway->state() == MachineState::kRunning; }, 20s));
+  double farthest_mm = 0;
+  ASSERT_TRUE(rig_.run_until(
+      [&] {
+        farthest_mm = std::max(farthest_mm, rig_.machine.gateway->status().pose[kX]);
+        return ready();
+      },
+      40s));
+  EXPECT_NEAR(farthest_mm, 17, 0.05) << "X10 in G54";
+  EXPECT_NEAR(rig_.machine.gateway->status().pose[kX], 6, 0.01) << "X5 in the G55 that the job has set";
+  EXPECT_EQ(rig_.machine.gateway->work_offsets()[1][kX], 0) << "what a job sets is its own";
+  // Out of reach with this offset only: nothing moves.
+  offset_x(5000);
+  EXPECT_GT(rig_.ask(*anna_, check).preflight().summary().errors(), 0u);
+  ASSERT_FALSE(rig_.ask(*anna_, start_job("shifted.gcode")).has_error());
+  ASSERT_TRUE(rig_.run_until([&] { return ready(); }, 20s));
+  EXPECT_NEAR(rig_.machine.gateway->status().pose[kX], 6, 0.01);
+}
+
 TEST_F(LinkMachineTest, AWatcherMayAskButNotMoveByTheConsole) {
   LinkedClient& bert = rig_.connect("bert");
   ClientMessage take;
