@@ -19,6 +19,9 @@ constexpr int kRestBeforeHold = periods(0.2F);
 constexpr int kSettled = periods(0.15F);
 // Still is a rotor whose readings keep within this, the encoder's noise included, for 26 ms.
 constexpr int kWindowBits = 9;
+// Without power the rotor's place is the mean of about so many readings, 2^n: 0.8 ms, in which a hand moves
+// it little.
+constexpr int kStandingShift = 4;
 constexpr std::int32_t kStillCounts = 80;
 constexpr std::int64_t kOneStepLost = 640 * kCount;  // steps are lost by electrical turns, 1024 counts
 // What counts as accelerating: 2 mm/s in 1 ms on a carriage, 2000 mm/s^2.
@@ -82,7 +85,8 @@ void AxisControl::begin() {
   off_course_.reset();
   if (config_.encoder != EncoderMode::kNone && encoder_.known()) {
     if (config_.encoder_offset >= 0) {
-      const std::int64_t rotor = encoder_.absolute() - config_.encoder_offset * kCount;
+      const std::int64_t mean = encoder_.absolute() + standing_ - encoder_.position();
+      const std::int64_t rotor = mean - config_.encoder_offset * kCount;
       angle_shift_ = wrap(rotor - sign_position_);
     }
   }
@@ -97,6 +101,9 @@ void AxisControl::serve_encoder(const AxisInputs& in) {
     const bool was_known = encoder_.known();
     static_cast<void>(encoder_.on_frame(in.encoder_frame));
     if (encoder_.lost() && encoder_.known()) encoder_.restart();
+    if (!on_ && encoder_.known())
+      standing_ +=
+          was_known ? (encoder_.position() - standing_) >> kStandingShift : encoder_.position() - standing_;
     // Until the current holds the rotor on the command it may lie anywhere near.
     if (rest_periods_ >= kSettled || sign_velocity_ != 0) referenced_ = referenced_ || encoder_.known();
     if (!referenced_ || (!was_known && encoder_.known()))

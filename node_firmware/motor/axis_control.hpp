@@ -108,6 +108,7 @@ class AxisControl {
   std::int64_t sign_position_ = 0;  // command, with the sense of the motor
   float sign_velocity_ = 0, last_velocity_ = 0;
   std::int64_t angle_shift_ = 0;    // electrical: where the current began, less the command, counts << 32
+  std::int64_t standing_ = 0;       // the encoder's position without power, as a mean: one reading is noisy
   std::int64_t follow_origin_ = 0;  // command less encoder when the rotor had settled on it
   bool referenced_ = false;         // it has
   bool seen_quiet_ = false;         // it has, and did not swing any more

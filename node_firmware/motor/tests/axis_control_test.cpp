@@ -41,6 +41,23 @@ TEST(AxisControl, EncoderTellsTheFirstAngle) {
   EXPECT_LE(std::abs(bench.control.following_error()), 4);
 }
 
+TEST(AxisControl, OneNoisyReadingIsNotTheFirstAngle) {
+  AxisConfig config = Bench::standard();
+  config.encoder = EncoderMode::kWatch;
+  config.encoder_offset = 0;
+  for (const unsigned seed : {1u, 2u, 3u, 4u, 5u, 6u, 7u, 8u}) {
+    Bench bench(config);
+    bench.encoder_present = true;
+    bench.encoder_noise_steps = 3.1;  // 10 counts, as bad as the data sheet allows
+    bench.random.seed(seed);
+    bench.motor.theta = 400.0 / 512 * std::numbers::pi / 50;
+    bench.run(0.005);
+    bench.control.set_power(true);
+    bench.run(0.3);
+    EXPECT_NEAR(bench.motor.counts(), 400, 7) << "seed " << seed;
+  }
+}
+
 TEST(AxisControl, HoldCurrentComesAfterARest) {
   Bench bench;
   bench.control.set_power(true);

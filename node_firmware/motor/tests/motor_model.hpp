@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <random>
 
 #include "node_firmware/motor/axis_control.hpp"
 
@@ -47,7 +48,9 @@ struct Bench {
   double position = 0, velocity = 0;  // command: counts, counts/s
   AxisOutputs out;
   bool encoder_present = false;
-  double encoder_zero = 0;  // rad
+  double encoder_zero = 0;         // rad
+  double encoder_noise_steps = 0;  // rms
+  std::mt19937 random{1};
 
   explicit Bench(AxisConfig config = standard()) { static_cast<void>(control.configure(config)); }
 
@@ -57,10 +60,12 @@ struct Bench {
     config.motor_measured = true;
     return config;
   }
-  std::uint16_t encoder_frame() const {
+  std::uint16_t encoder_frame() {
     if (!encoder_present) return 0xFFFF;
     const double turns = (motor.theta + encoder_zero) / (2 * std::numbers::pi);
-    auto raw = static_cast<std::uint16_t>(static_cast<std::int64_t>(std::floor(turns * 16384)) & 0x3FFF);
+    const double noise = encoder_noise_steps * std::normal_distribution<>()(random);
+    auto raw =
+        static_cast<std::uint16_t>(static_cast<std::int64_t>(std::floor(turns * 16384 + noise)) & 0x3FFF);
     if ((std::popcount(raw) & 1) != 0) raw |= 0x8000;
     return raw;
   }
