@@ -260,8 +260,34 @@ void ClockEstimate::fit() {
         support(high, high_size, false, slope, high_near) - support(low, low_size, true, slope, low_near);
     if (width < best_width) best_width = width, best_slope = slope;
   };
-  for (int i = 0; i + 1 < low_size; ++i) consider(slope_between(corner(low, i), corner(low, i + 1)));
-  for (int i = high_size - 2; i >= 0; --i) consider(slope_between(corner(high, i), corner(high, i + 1)));
+  // The width is a convex function of the slope: it falls for as long as the lower edge rests left of where
+  // the upper one does. On either hull the edge where that turns is found by halving, and it or the one
+  // before is the best.
+  const auto low_slope = [&](int i) { return slope_between(corner(low, i), corner(low, i + 1)); };
+  const auto high_slope = [&](int i) {  // from the last edge on: ascending, too
+    return slope_between(corner(high, high_size - 2 - i), corner(high, high_size - 1 - i));
+  };
+  const auto first_rise = [](int edges, const auto& rises) {
+    int from = 0, to = edges - 1;
+    while (from < to) {
+      const int half = (from + to) / 2;
+      if (rises(half))
+        to = half;
+      else
+        from = half + 1;
+    }
+    return from;
+  };
+  const int low_turn = first_rise(low_size - 1, [&](int i) {
+    support(high, high_size, false, low_slope(i), high_near);
+    return corner(low, i + 1).bus >= corner(high, high_near).bus;
+  });
+  const int high_turn = first_rise(high_size - 1, [&](int i) {
+    support(low, low_size, true, high_slope(i), low_near);
+    return corner(low, low_near).bus >= corner(high, high_size - 2 - i).bus;
+  });
+  for (int i = std::max(low_turn - 1, 0); i <= low_turn; ++i) consider(low_slope(i));
+  for (int i = std::max(high_turn - 1, 0); i <= high_turn; ++i) consider(high_slope(i));
   slope_ = best_slope;
   offset_ = support(low, low_size, true, slope_, low_near);
   spread_ = std::max<std::int64_t>(best_width, 0);

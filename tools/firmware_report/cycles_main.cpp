@@ -24,6 +24,10 @@ int run(int argc, char** argv) {
   Load load(image);
   load.bring_up();
   Board& board = load.board();
+  const auto fit = image.symbol("_ZN7kinebus13ClockEstimate3fitEv");
+  if (!fit) return fmt::print(stderr, "the image has no ClockEstimate::fit\n"), 1;
+  board.cpu().watch(*fit);
+  load.synchronise();
   board.cpu().clear_costs();
   const Cycle began = board.now(), idle = board.cpu().idle();
   load.move_both();
@@ -50,6 +54,15 @@ int run(int argc, char** argv) {
   }
   fmt::print("processor asleep {:.1f} % of {:.2f} s; stack used {} bytes\n", 100 * asleep, seconds,
              load.stack_used());
+  const CallCost& fits = board.cpu().watched();
+  const auto us = [](Cycle cycles) { return static_cast<double>(cycles) / 168; };
+  fmt::print(
+      "clock fit, window full: {} calls, {} cycles at most, {:.0f} us with the interrupts that came in "
+      "between\n",
+      fits.calls, fits.worst_own, us(fits.worst));
+  fmt::print("main loop: {:.0f} us at most from one sleep to the next (a stop is named {:.0f} us ahead)\n",
+             us(board.cpu().longest_pass()), static_cast<double>(kStopMargin.count()) / 1e3);
+  good = good && fits.calls > 0;
   const std::uint32_t overruns = load.receive_overruns();
   fmt::print("bus full of frames that the node takes: {} receive overruns\n", overruns);
   fmt::print("following error at most {:.1f} counts, of {} a turn\n", load.worst_following_counts(), 51'200);

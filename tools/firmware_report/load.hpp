@@ -1,13 +1,15 @@
 #pragma once
-// A board under load: a master that speaks plain CANopen, both motors in profile position and closed loop on
-// their encoders, and a stranger who fills the bus.
+// A board under load: a master that speaks plain CANopen and stamps its SYNC, both motors in profile position
+// and closed loop on their encoders, and a stranger who fills the bus.
 
 #include <cmath>
+#include <deque>
 #include <stdexcept>
 
 #include "protocol/bytes.hpp"
 #include "protocol/canopen/nmt.hpp"
 #include "protocol/canopen/sdo_client.hpp"
+#include "protocol/motion/broadcast.hpp"
 #include "vcan_tests/emulator/emulated_machine.hpp"
 
 namespace kinebus::emulator {
@@ -38,6 +40,11 @@ class Load {
     }
     run(std::chrono::milliseconds{150});
   }
+  /// Until the node's window of SYNCs is full, so that a fit of its clock takes the longest.
+  void synchronise() {
+    next_sync_ = now_;
+    run(kSyncPeriod * 520);
+  }
   void move_both() {
     busy_ = true;
     for (const std::uint16_t base : {std::uint16_t{0x6000}, std::uint16_t{0x6800}}) {
@@ -63,15 +70,22 @@ class Load {
  private:
   static constexpr std::int64_t kFast = 400'000;  // counts/s, 7.8 rev/s
   static constexpr std::int64_t kWay = 100'000;
+  static constexpr BusTime kSyncPeriod = std::chrono::milliseconds{5};  // the shortest
 
   void run(BusTime span) {
     const BusTime end = now_ + span;
     while (now_ < end) {
       now_ += std::chrono::microseconds{busy_ ? 200 : 500};
+      if (now_ >= next_sync_) {
+        next_sync_ += kSyncPeriod;
+        counter_ = static_cast<std::uint8_t>(counter_ % 240 + 1);
+        ahead_.push_back(CanFrame::make(cob_id::kSync, {counter_}));
+      }
       while (!machine_.advance(now_)) drain();
       drain();
+      for (; !ahead_.empty() && machine_.can_send(); ahead_.pop_front()) machine_.send(now_, ahead_.front());
       // What every node has to take: EMCYs of a stranger, which ask for nothing. No gap between them.
-      while (busy_ && machine_.can_send())
+      while (busy_ && ahead_.empty() && !stamping_ && machine_.can_send())
         machine_.send(now_, CanFrame::make(0x0C1 + (++stranger_ % 8), {0, 0, 0, 0, 0, 0, 0, 0}));
       for (int axis = 0; axis < 2; ++axis)
         if (const auto wanted = machine_.commanded(0, axis))
@@ -79,8 +93,17 @@ class Load {
     }
   }
   void drain() {
-    while (const auto got = machine_.receive())
+    while (const auto got = machine_.receive()) {
       if (!got->own) client_.on_frame(now_, got->frame);
+      if (got->own && got->frame.id == kSyncStampCobId) stamping_ = false;
+      if (!got->own || got->frame.id != cob_id::kSync) continue;
+      // A clock that grows warm, by half a ppm a second, and stamps that are up to 20 us early.
+      const double s = to_seconds(got->when);
+      const BusTime warm{std::llround(250.0 * s * s) - static_cast<std::int64_t>(counter_ * 7919u % 20011u)};
+      stamping_ = true;
+      ahead_.push_back(
+          encode(SyncStamp{.counter = got->frame.data[0], .epoch = 1, .time = got->when + warm}));
+    }
   }
   double rotor(int axis) { return board().true_counts(axis) - start_[static_cast<std::size_t>(axis)]; }
   void write(std::uint16_t index, std::uint8_t sub, int size, std::int64_t value) {
@@ -112,6 +135,10 @@ class Load {
   SdoClient client_;
   bool busy_ = false;
   std::uint32_t stranger_ = 0;
+  BusTime next_sync_ = BusTime::max();
+  std::uint8_t counter_ = 0;
+  bool stamping_ = false;       // a stamp is on its way, and the stranger's frames are more urgent
+  std::deque<CanFrame> ahead_;  // SYNCs and stamps that wait for the bus
   double worst_ = 0;
   std::array<double, 2> start_{};
 };

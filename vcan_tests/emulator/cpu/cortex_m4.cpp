@@ -1,7 +1,5 @@
 #include "vcan_tests/emulator/cpu/cortex_m4.hpp"
 
-#include <unicorn/unicorn.h>
-
 #include <algorithm>
 #include <bit>
 #include <cassert>
@@ -11,67 +9,22 @@
 #include <stdexcept>
 
 #include "vcan_tests/emulator/cpu/cycle_estimate.hpp"
+#include "vcan_tests/emulator/cpu/unicorn_registers.hpp"
 
 namespace kinebus::emulator {
 namespace {
 
-constexpr std::uint32_t kExcReturn = 0xFFFFFF00;
-constexpr std::uint32_t kCallReturn = 0xFFFFFF01;  // where a debugger's call returns to
 constexpr std::uint16_t kWfi = 0xBF30, kWfe = 0xBF20, kYield = 0xBF10;
-constexpr std::uint32_t kEntryCycles = 12, kReturnCycles = 10;
-constexpr std::uint32_t kControlFpca = 4, kControlSpsel = 2;
-constexpr std::uint32_t kXpsrException = 0x1FF, kXpsrAligned = 1u << 9, kXpsrThumb = 1u << 24,
-                        kXpsrFlags = 0xF80F0000u;
-constexpr std::uint32_t kBasicFrame = 32, kFloatFrame = 104;
 constexpr std::uint32_t kPeripherals = 0x40000000, kPeripheralsSize = 0x00080000;
 constexpr std::uint32_t kAhb2 = 0x50000000, kAhb2Size = 0x00061000;
 constexpr std::uint32_t kPrivate = 0xE0000000, kPrivateSize = 0x00100000;
 constexpr std::size_t kPage = 4096;
-
-uc_engine* engine(void* uc) {
-  return static_cast<uc_engine*>(uc);
-}
 
 std::uint8_t* page_aligned(std::size_t size) {
   void* memory = std::aligned_alloc(kPage, std::max(size, kPage));
   if (memory == nullptr) throw std::bad_alloc();
   std::memset(memory, 0, size);
   return static_cast<std::uint8_t*>(memory);
-}
-
-void check(uc_err error, const char* what) {
-  if (error != UC_ERR_OK) throw std::runtime_error(std::string(what) + ": " + uc_strerror(error));
-}
-
-std::uint32_t read_register(void* uc, int id) {
-  std::uint32_t value = 0;
-  uc_reg_read(engine(uc), id, &value);
-  return value;
-}
-
-void write_register(void* uc, int id, std::uint32_t value) {
-  uc_reg_write(engine(uc), id, &value);
-}
-
-template <std::size_t N>
-void read_registers(void* uc, std::array<int, N>& ids, std::array<std::uint32_t, N>& values) {
-  std::array<void*, N> pointers{};
-  for (std::size_t i = 0; i < N; ++i) pointers[i] = &values[i];
-  uc_reg_read_batch(engine(uc), ids.data(), pointers.data(), static_cast<int>(N));
-}
-
-template <std::size_t N>
-void write_registers(void* uc, std::array<int, N>& ids, std::array<std::uint32_t, N>& values) {
-  std::array<void*, N> pointers{};
-  for (std::size_t i = 0; i < N; ++i) pointers[i] = &values[i];
-  uc_reg_write_batch(engine(uc), ids.data(), pointers.data(), static_cast<int>(N));
-}
-
-std::array<int, 17> float_registers() {
-  std::array<int, 17> ids{};
-  for (int i = 0; i < 16; ++i) ids[static_cast<std::size_t>(i)] = UC_ARM_REG_S0 + i;
-  ids[16] = UC_ARM_REG_FPSCR;
-  return ids;
 }
 
 }  // namespace
@@ -191,6 +144,7 @@ void CortexM4::reset(std::uint32_t vectors) {
   nvic_.reset(vectors);
   uc_ctl_remove_cache(engine(uc_), kSram, kSram + kSramSize);
   running_.clear();
+  watch_at_ = watched_function_;
   asleep_ = stop_asked_ = false;
   stalled_until_ = 0;
   pending_since_ = kNever;
@@ -205,17 +159,6 @@ void CortexM4::reset(std::uint32_t vectors) {
   pc_ = peek(vectors + 4) & ~1u;
 }
 
-void CortexM4::start_profile() {
-  profile_.assign(kFlashSize / 2, 0);
-}
-
-std::uint64_t CortexM4::profiled_cycles(std::uint32_t begin, std::uint32_t end) const {
-  std::uint64_t sum = 0;
-  for (std::uint32_t at = begin; at < end && (at - kFlash) / 2 < profile_.size(); at += 2)
-    sum += profile_[(at - kFlash) / 2];
-  return sum;
-}
-
 std::uint8_t* CortexM4::host(std::uint32_t address, std::uint32_t size) {
   const auto within = [&](std::uint32_t base, std::uint32_t length) {
     return address >= base && size <= length && address - base <= length - size;
@@ -225,20 +168,6 @@ std::uint8_t* CortexM4::host(std::uint32_t address, std::uint32_t size) {
   if (within(kFlash, kFlashSize)) return flash_.data() + (address - kFlash);
   if (within(kSystemMemory, kSystemMemorySize)) return system_memory_ + (address - kSystemMemory);
   return nullptr;
-}
-
-std::uint32_t CortexM4::peek(std::uint32_t address) {
-  const std::uint8_t* at = host(address, 4);
-  if (at == nullptr) throw std::out_of_range("no memory there");
-  std::uint32_t value = 0;
-  std::memcpy(&value, at, 4);
-  return value;
-}
-
-void CortexM4::poke(std::uint32_t address, std::uint32_t value) {
-  std::uint8_t* at = host(address, 4);
-  if (at == nullptr) throw std::out_of_range("no memory there");
-  std::memcpy(at, &value, 4);
 }
 
 std::uint32_t CortexM4::mmio_read(std::uint32_t address, int size) {
@@ -272,6 +201,8 @@ void CortexM4::count(std::uint32_t instructions, std::uint32_t cycles) {
   if (!running_.empty()) {
     running_.back().instructions += instructions;
     running_.back().cycles += cycles;
+  } else {
+    own_cycles_ += cycles;
   }
 }
 
@@ -297,6 +228,7 @@ void CortexM4::on_block(std::uint32_t address, std::uint32_t size) {
     }
     count(cost >> 16, cost & 0xFFFF);
     if (!profile_.empty() && index < profile_.size()) profile_[index] += cost & 0xFFFF;
+    if (address == watch_at_) on_watched();
   }
   if (now_ < next_stop_) return;
 
@@ -334,160 +266,6 @@ void CortexM4::serve_time() {
   }
 }
 
-bool CortexM4::take_exception(std::uint32_t return_address) {
-  if (nvic_.next_exception({}) == kThread) return false;
-  static std::array<int, 3> ids{UC_ARM_REG_PRIMASK, UC_ARM_REG_BASEPRI, UC_ARM_REG_FAULTMASK};
-  std::array<std::uint32_t, 3> masks{};
-  read_registers(uc_, ids, masks);
-  const int exception = nvic_.next_exception({masks[0], masks[1], masks[2]});
-  if (exception == kThread) return false;
-  enter(exception, return_address);
-  return true;
-}
-
-void CortexM4::begin_count(int exception) {
-  running_.push_back({exception, 0, kEntryCycles});
-  ExceptionCost& cost = costs_[static_cast<std::size_t>(exception)];
-  if (pending_since_ != kNever) cost.worst_latency = std::max(cost.worst_latency, now_ - pending_since_);
-}
-
-void CortexM4::end_count() {
-  const Running done = running_.back();
-  running_.pop_back();
-  ExceptionCost& cost = costs_[static_cast<std::size_t>(done.exception)];
-  cost.calls += 1;
-  cost.instructions += done.instructions;
-  cost.cycles += done.cycles;
-  cost.worst_instructions = std::max(cost.worst_instructions, static_cast<std::uint32_t>(done.instructions));
-  cost.worst_cycles = std::max(cost.worst_cycles, static_cast<std::uint32_t>(done.cycles));
-}
-
-void CortexM4::enter(int exception, std::uint32_t return_address) {
-  static std::array<int, 9> ids{UC_ARM_REG_R0, UC_ARM_REG_R1,      UC_ARM_REG_R2,
-                                UC_ARM_REG_R3, UC_ARM_REG_R12,     UC_ARM_REG_LR,
-                                UC_ARM_REG_SP, UC_ARM_REG_CONTROL, UC_ARM_REG_XPSR};
-  std::array<std::uint32_t, 9> values{};
-  read_registers(uc_, ids, values);
-  const std::uint32_t control = values[7];
-  if ((control & kControlSpsel) != 0) failure_ = "the process stack is not modelled";
-  const bool with_float = (control & kControlFpca) != 0;
-  if (with_float && !nvic_.fpu_enabled()) failure_ = "floating point used, but CPACR does not enable it";
-
-  std::uint32_t sp = values[6];
-  const std::uint32_t aligned = (sp & 4) != 0 ? kXpsrAligned : 0;
-  sp = (sp - (with_float ? kFloatFrame : kBasicFrame)) & ~7u;
-  lowest_stack_ = std::min(lowest_stack_, sp);
-  std::uint8_t* frame = host(sp, with_float ? kFloatFrame : kBasicFrame);
-  if (frame == nullptr) {
-    failure_ = "stack pointer outside RAM at exception entry";
-    return;
-  }
-  // Flags and the state of an IT block in progress (blocks of the emulation end in the middle of one at page
-  // ends).
-  const std::uint32_t xpsr = (values[8] & ~(kXpsrException | kXpsrAligned)) | kXpsrThumb | aligned |
-                             static_cast<std::uint32_t>(nvic_.active_exception());
-  std::array<std::uint32_t, 8> words{values[0], values[1], values[2],      values[3],
-                                     values[4], values[5], return_address, xpsr};
-  std::memcpy(frame, words.data(), kBasicFrame);
-  if (with_float) {
-    static std::array<int, 17> float_ids = float_registers();
-    std::array<std::uint32_t, 17> floats{};
-    read_registers(uc_, float_ids, floats);
-    std::memcpy(frame + kBasicFrame, floats.data(), sizeof floats);
-  }
-  const std::uint32_t exc_return = 0xFFFFFFE1u | (with_float ? 0 : 0x10u) | (nvic_.depth() == 0 ? 0x8u : 0);
-  begin_count(exception);
-  nvic_.enter(exception);
-  pending_since_ = nvic_.any_pending() ? now_ : kNever;
-  now_ += kEntryCycles;
-
-  const std::uint8_t* vector = host(nvic_.vector_table() + 4 * static_cast<std::uint32_t>(exception), 4);
-  std::uint32_t handler = 0;
-  if (vector != nullptr) std::memcpy(&handler, vector, 4);
-  if ((handler & 1) == 0) failure_ = "no handler for exception " + std::to_string(exception);
-  static std::array<int, 5> to{UC_ARM_REG_SP, UC_ARM_REG_LR, UC_ARM_REG_CONTROL, UC_ARM_REG_XPSR,
-                               UC_ARM_REG_PC};
-  std::array<std::uint32_t, 5> set{
-      sp, exc_return, control & ~kControlFpca,
-      (values[8] & kXpsrFlags) | kXpsrThumb | static_cast<std::uint32_t>(exception), handler | 1};
-  write_registers(uc_, to, set);
-  pc_ = handler & ~1u;
-  next_stop_ = 0;
-}
-
-void CortexM4::return_from_exception(std::uint32_t exc_return) {
-  if (nvic_.depth() == 0) {
-    failure_ = "exception return outside an exception";
-    return;
-  }
-  const int exception = nvic_.active_exception();
-  nvic_.leave(exception);
-  count(0, kReturnCycles);
-  end_count();
-
-  const bool with_float = (exc_return & 0x10) == 0;
-  std::uint32_t sp = read_register(uc_, UC_ARM_REG_SP);
-  const std::uint32_t size = with_float ? kFloatFrame : kBasicFrame;
-  const std::uint8_t* frame = host(sp, size);
-  if (frame == nullptr) {
-    failure_ = "stack pointer outside RAM at exception return";
-    return;
-  }
-  std::array<std::uint32_t, 8> words{};
-  std::memcpy(words.data(), frame, kBasicFrame);
-  if (with_float) {
-    static std::array<int, 17> float_ids = float_registers();
-    std::array<std::uint32_t, 17> floats{};
-    std::memcpy(floats.data(), frame + kBasicFrame, sizeof floats);
-    write_registers(uc_, float_ids, floats);
-  }
-  const std::uint32_t xpsr = words[7];
-  sp += size;
-  if ((xpsr & kXpsrAligned) != 0) sp |= 4;
-  std::uint32_t control = read_register(uc_, UC_ARM_REG_CONTROL);
-  control = with_float ? control | kControlFpca : control & ~kControlFpca;
-  if ((xpsr & kXpsrException) != static_cast<std::uint32_t>(nvic_.active_exception()))
-    failure_ = "exception return to a wrong frame";
-
-  static std::array<int, 10> ids{UC_ARM_REG_R0,   UC_ARM_REG_R1, UC_ARM_REG_R2, UC_ARM_REG_R3,
-                                 UC_ARM_REG_R12,  UC_ARM_REG_LR, UC_ARM_REG_SP, UC_ARM_REG_CONTROL,
-                                 UC_ARM_REG_XPSR, UC_ARM_REG_PC};
-  std::array<std::uint32_t, 10> set{
-      words[0],    words[1], words[2], words[3], words[4], words[5], sp, control, xpsr & ~kXpsrAligned,
-      words[6] | 1};
-  write_registers(uc_, ids, set);
-  pc_ = words[6] & ~1u;
-  next_stop_ = 0;
-}
-
-void CortexM4::on_intr(std::uint32_t number) {
-  const std::uint32_t pc = read_register(uc_, UC_ARM_REG_PC);
-  if (call_ != Call::kNone) {
-    if ((number == 3 || number == 8) && (pc | 1) == kCallReturn) call_ = Call::kDone;
-    uc_emu_stop(engine(uc_));
-    return;
-  }
-  if ((number == 3 || number == 8) && (pc | 1) >= kExcReturn) {
-    return_from_exception(pc | 1);
-    return;
-  }
-  if (number == 2) {
-    nvic_.pend(kSvCall);
-    next_stop_ = 0;
-    return;
-  }
-  failure_ =
-      number == 7 ? "breakpoint instruction" : "exception " + std::to_string(number) + " of the processor";
-  pc_ = pc & ~1u;
-  stopped_ = true;
-  uc_emu_stop(engine(uc_));
-}
-
-bool CortexM4::wakes() const {
-  // WFI goes on for whatever would preempt if PRIMASK were clear.
-  return nvic_.next_exception({0, read_register(uc_, UC_ARM_REG_BASEPRI), 0}) != kThread;
-}
-
 void CortexM4::run(Cycle limit) {
   limit_ = limit;
   while (now_ < limit_ && !stop_asked_) {
@@ -503,6 +281,7 @@ void CortexM4::run(Cycle limit) {
         if (stop_asked_ || !wakes()) continue;
       }
       asleep_ = false;
+      pass_began_ = now_;
       pending_since_ = now_;
       take_exception(pc_);
     }
@@ -527,32 +306,9 @@ void CortexM4::run(Cycle limit) {
     if (code == nullptr || static_cast<std::uint16_t>(code[0] | code[1] << 8) != kWfi)
       fail("unexplained stop");
     asleep_ = true;
+    longest_pass_ = std::max(longest_pass_, now_ - pass_began_);
   }
   stop_asked_ = false;
-}
-
-std::optional<std::uint64_t> CortexM4::call(std::uint32_t function, std::uint64_t argument) {
-  uc_context* saved = nullptr;
-  check(uc_context_alloc(engine(uc_), &saved), "context");
-  check(uc_context_save(engine(uc_), saved), "context");
-  // Below a frame that the interrupted code may use under its stack pointer.
-  const std::uint32_t sp = (read_register(uc_, UC_ARM_REG_SP) - 256) & ~7u;
-  write_register(uc_, UC_ARM_REG_SP, sp);
-  write_register(uc_, UC_ARM_REG_R0, static_cast<std::uint32_t>(argument));
-  write_register(uc_, UC_ARM_REG_R1, static_cast<std::uint32_t>(argument >> 32));
-  write_register(uc_, UC_ARM_REG_LR, kCallReturn);
-  write_register(uc_, UC_ARM_REG_ITSTATE, 0);
-  call_ = Call::kRunning;
-  call_blocks_ = 0;
-  uc_emu_start(engine(uc_), function | 1, 0, 0, 0);
-  const bool good = call_ == Call::kDone;
-  call_ = Call::kNone;
-  const std::uint64_t result =
-      std::uint64_t{read_register(uc_, UC_ARM_REG_R1)} << 32 | read_register(uc_, UC_ARM_REG_R0);
-  check(uc_context_restore(engine(uc_), saved), "context");
-  uc_context_free(saved);
-  if (!good) return std::nullopt;
-  return result;
 }
 
 void CortexM4::fail(const std::string& what) {

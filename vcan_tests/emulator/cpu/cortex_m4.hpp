@@ -41,6 +41,13 @@ struct ExceptionCost {
   Cycle worst_latency = 0;  ///< from pending (as the processor saw it) to the first instruction
 };
 
+/// What calls of a function cost outside interrupts.
+struct CallCost {
+  std::uint64_t calls = 0;
+  Cycle worst = 0;      ///< from call to return, with the interrupts that came in between
+  Cycle worst_own = 0;  ///< without them
+};
+
 class CortexM4 {
  public:
   static constexpr std::uint32_t kFlash = 0x08000000, kFlashSize = 1024 * 1024;
@@ -87,7 +94,16 @@ class CortexM4 {
   Cycle now() const { return now_; }
   std::uint64_t instructions() const { return instructions_; }
   const ExceptionCost& cost(int exception) const { return costs_[static_cast<std::size_t>(exception)]; }
-  void clear_costs() { costs_ = {}; }
+  void clear_costs() {
+    costs_ = {};
+    watched_ = {};
+    longest_pass_ = 0;
+  }
+  /// From now on the calls of the function at this address are measured.
+  void watch(std::uint32_t function) { watched_function_ = watch_at_ = function & ~1u; }
+  const CallCost& watched() const { return watched_; }
+  /// The longest time from the end of one WFI to the next one, interrupts included.
+  Cycle longest_pass() const { return longest_pass_; }
   /// From now on cycles are also counted by address.
   void start_profile();
   /// Estimated cycles spent in blocks that begin at begin .. end, in flash.
@@ -132,9 +148,12 @@ class CortexM4 {
   void begin_count(int exception);
   void end_count();
   void count(std::uint32_t instructions, std::uint32_t cycles);
+  void on_watched();
   bool wakes() const;
   std::uint8_t* host(std::uint32_t address, std::uint32_t size);
   [[noreturn]] void fail(const std::string& what);
+
+  static constexpr std::uint32_t kCallReturn = 0xFFFFFF01;  // where a debugger's call returns to
 
   void* uc_ = nullptr;
   Devices& devices_;
@@ -165,6 +184,12 @@ class CortexM4 {
   std::vector<std::uint64_t> profile_;
   std::vector<Running> running_;
   Cycle pending_since_ = kNever;
+
+  std::uint32_t watched_function_ = 1, watch_at_ = 1;  // an entry, or where the call returns to
+  CallCost watched_;
+  Cycle own_cycles_ = 0;  // outside exceptions
+  Cycle watch_began_ = 0, watch_began_own_ = 0;
+  Cycle pass_began_ = 0, longest_pass_ = 0;
 };
 
 }  // namespace kinebus::emulator
