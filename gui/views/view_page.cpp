@@ -223,8 +223,13 @@ void ViewPage::take_status() {
       runs ? static_cast<std::uint32_t>(shown_->path.vertex_at_line(std::max(1u, status.line())))
            : UINT32_MAX;
   content.done_vertex = done;
+  // Jobs begin in G54.
+  const joblink::Pose& zero = status.work_offset();
+  if (status.work_system() == 1)
+    content.path_zero_mm = {static_cast<float>(zero.x_mm()), static_cast<float>(zero.y_mm()),
+                            static_cast<float>(zero.z_mm())};
   // A status that changes nothing to be seen lets the picture come to rest.
-  std::string seen = status.tool().SerializeAsString() + std::to_string(done);
+  std::string seen = status.tool().SerializeAsString() + zero.SerializeAsString() + std::to_string(done);
   for (const double joint : status.joints()) seen += ' ' + std::to_string(joint);
   seen += status.hotend().actual_celsius() > 50 ? 'h' : 'c';
   if (seen == seen_status_) return;
