@@ -58,7 +58,10 @@ std::optional<std::uint64_t> CortexM4::call(std::uint32_t function, std::uint64_
   write_register(uc_, UC_ARM_REG_R0, static_cast<std::uint32_t>(argument));
   write_register(uc_, UC_ARM_REG_R1, static_cast<std::uint32_t>(argument >> 32));
   write_register(uc_, UC_ARM_REG_LR, kCallReturn);
-  write_register(uc_, UC_ARM_REG_ITSTATE, 0);
+  // Flags and exception number stay; an IT block in progress, whose conditions would hold for the function's
+  // first instructions, comes back with the context.
+  constexpr std::uint32_t kItState = 0x0600FC00;
+  write_register(uc_, UC_ARM_REG_XPSR, read_register(uc_, UC_ARM_REG_XPSR) & ~kItState);
   call_ = Call::kRunning;
   call_blocks_ = 0;
   uc_emu_start(engine(uc_), function | 1, 0, 0, 0);
