@@ -17,7 +17,7 @@ QVector<ShownProblem> ProblemsModel::of(const joblink::PreflightResult& result) 
   QVector<ShownProblem> list;
   for (const auto& p : result.problems())
     list.push_back({p.error(), static_cast<int>(p.line()), static_cast<int>(p.column()),
-                    GatewayWords::translated(QString::fromStdString(p.words()))});
+                    QString::fromStdString(p.words())});
   return list;
 }
 
@@ -40,7 +40,8 @@ QVariant ProblemsModel::data(const QModelIndex& index, int role) const {
   if (!index.isValid()) return {};
   const ShownProblem& p = problems_[index.row()];
   if (role == kIsError) return p.error;
-  if (role == Qt::ToolTipRole) return p.words;
+  // Translated when it is shown: the language may have changed since.
+  if (role == Qt::ToolTipRole) return GatewayWords::translated(p.words);
   if (role == Qt::TextAlignmentRole && index.column() == kLine)
     return QVariant(Qt::AlignTrailing | Qt::AlignVCenter);
   if (role != Qt::DisplayRole) return {};
@@ -50,7 +51,7 @@ QVariant ProblemsModel::data(const QModelIndex& index, int role) const {
     case kLine:
       return p.line > 0 ? QLocale().toString(p.line) : QString();
     case kWords:
-      return p.words;
+      return GatewayWords::translated(p.words);
     default:
       return {};
   }
