@@ -6,12 +6,7 @@ namespace kinebus::testing_bench {
 namespace {
 
 TEST_F(StreamTest, LostSyncStopsAllFromTheSameInstant) {
-  start_all(1000);
-  wave(8);
-  end_all();
-  bench.run(50ms);
-  bench.rate(1.0);
-  watch(150ms);
+  move_through_wave(8, 150ms);
   bench.stop_sync();
   watch(600ms);
   expect_stopped_together();
@@ -19,12 +14,7 @@ TEST_F(StreamTest, LostSyncStopsAllFromTheSameInstant) {
 }
 
 TEST_F(StreamTest, OneNodeThatAloneHearsNoSyncStopsTheOthersToo) {
-  start_all(1000);
-  wave(8);
-  end_all();
-  bench.run(50ms);
-  bench.rate(1.0);
-  watch(100ms);
+  move_through_wave(8, 100ms);
   bench.lose = [](std::size_t node, const CanFrame& frame) { return node == 2 && frame.id == 0x080; };
   watch(450ms);
   expect_stopped_together();
@@ -32,12 +22,7 @@ TEST_F(StreamTest, OneNodeThatAloneHearsNoSyncStopsTheOthersToo) {
 
 TEST_F(StreamTest, AnEmergencyStopInputStopsAllAndCannotBeClearedWhilePressed) {
   bench.write(2, 0x2130, 7, 1, 7);
-  start_all(1000);
-  wave(6);
-  end_all();
-  bench.run(50ms);
-  bench.rate(1.0);
-  watch(200ms);
+  move_through_wave(6, 200ms);
   bench.node(1).on_switch(bench.local(1), 6, true);
   watch(150ms);
   expect_stopped_together();
@@ -58,24 +43,14 @@ TEST_F(StreamTest, AnEmergencyStopInputStopsAllAndCannotBeClearedWhilePressed) {
 TEST_F(StreamTest, AGatewayWithoutHeartbeatIsAnsweredByAStopOfAll) {
   for (std::uint8_t id = 1; id <= kNodes; ++id) bench.write(id, 0x1016, 1, 4, 0x7F0000 | (300 + id));
   bench.send("77F#05");
-  start_all(1000);
-  wave(8);
-  end_all();
-  bench.run(50ms);
-  bench.rate(1.0);
-  watch(600ms);
+  move_through_wave(8, 600ms);
   expect_stopped_together();
   EXPECT_TRUE(bench.was_seen(0x081));
   EXPECT_EQ(get_u16_le(bench.last(0x081)->data), 0x8130);
 }
 
 TEST_F(StreamTest, AFaultOfOneAxisStopsAllOthersOnThePath) {
-  start_all(1000);
-  wave(6);
-  end_all();
-  bench.run(50ms);
-  bench.rate(1.0);
-  watch(200ms);
+  move_through_wave(6, 200ms);
   bench.node(0).on_drive_fault(bench.local(0), 1, 0x2310);
   watch(150ms);
   EXPECT_TRUE(all_rest());
@@ -92,12 +67,7 @@ TEST_F(StreamTest, AFaultOfOneAxisStopsAllOthersOnThePath) {
 }
 
 TEST_F(StreamTest, QuickStopOfOneAxisIsAStopOfAll) {
-  start_all(1000);
-  wave(6);
-  end_all();
-  bench.run(50ms);
-  bench.rate(1.0);
-  watch(200ms);
+  move_through_wave(6, 200ms);
   CanFrame quick{.id = 0x201, .length = 6};
   quick.data = {0x0B, 0x00, 0x0F, 0x00, 7, 7};
   bench.send(quick);
@@ -108,12 +78,7 @@ TEST_F(StreamTest, QuickStopOfOneAxisIsAStopOfAll) {
 }
 
 TEST_F(StreamTest, AStopByTheGatewayIsCleanAndTheQueueCanBeDropped) {
-  start_all(1000);
-  wave(6);
-  end_all();
-  bench.run(50ms);
-  bench.rate(1.0);
-  watch(200ms);
+  move_through_wave(6, 200ms);
   bench.command(RateCommand::Kind::kStop);
   watch(150ms);
   expect_stopped_together();

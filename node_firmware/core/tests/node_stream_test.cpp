@@ -136,12 +136,7 @@ TEST_F(StreamTest, AStartThatComesTooLateMovesNothing) {
 }
 
 TEST_F(StreamTest, AnewGatewayEpochIsJoinedWithoutAStep) {
-  start_all(1000);
-  wave(8);
-  end_all();
-  bench.run(50ms);
-  bench.rate(1.0);
-  watch(200ms);
+  move_through_wave(8, 200ms);
   bench.rate(0);
   watch(200ms);
   const std::int64_t tau = bench.node(0).path_time(bench.local(0)).count();

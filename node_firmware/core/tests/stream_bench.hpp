@@ -79,6 +79,15 @@ struct StreamTest : testing::Test {
   void end_all() {
     for (Feed& feed : feeds) bench.send(feed.end());
   }
+  /// All of a wave is in the queues, and path time has run for `so_far` of it.
+  void move_through_wave(int blocks, BusTime so_far) {
+    start_all(1000);
+    wave(blocks);
+    end_all();
+    bench.run(50ms);
+    bench.rate(1.0);
+    watch(so_far);
+  }
   StreamStatus status(int i) {
     const CanFrame* frame = bench.last(0x281u + static_cast<unsigned>(i));
     return frame == nullptr ? StreamStatus{} : decode_stream_status(get_u64_le(frame->data));
