@@ -129,14 +129,15 @@ Service::Service(const Arguments& arguments)
                  .interface = bus_name_},
                 gateway_) {
   for (const std::string& note : store_->notes()) spdlog::warn("{}", note);
-  go_on_with_the_interrupted_job();
+  take_up_what_was_noted();
   listen();
 }
 
-void Service::go_on_with_the_interrupted_job() {
-  if (!noted_.job) return;
-  auto text = store_->open_job(noted_.job->name);
-  if (const auto taken = gateway_.recover(noted_, text ? std::move(*text) : nullptr); !taken)
+void Service::take_up_what_was_noted() {
+  std::unique_ptr<ByteSource> job;
+  if (noted_.job)
+    if (auto text = store_->open_job(noted_.job->name)) job = std::move(*text);
+  if (const auto taken = gateway_.recover(noted_, std::move(job)); !taken)
     spdlog::warn("{}", taken.error().words);
 }
 

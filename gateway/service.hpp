@@ -34,7 +34,7 @@ class Service {
   void run(const volatile std::sig_atomic_t* quit);
 
  private:
-  void go_on_with_the_interrupted_job();
+  void take_up_what_was_noted();
   void listen();
 
   const Arguments& arguments_;

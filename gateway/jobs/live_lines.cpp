@@ -48,13 +48,13 @@ void merge_limits(canonical::Limits& all, const canonical::Limits& more) {
 
 LiveLines::LiveLines(const MachineDescription& machine, const Kinematics& kinematics)
     : machine_(machine), kinematics_(kinematics) {
-  forget();
+  restart({});
 }
 
-void LiveLines::forget() {
+void LiveLines::restart(const gcode::WorkOffsets& offsets) {
   const PoseVector home = kinematics_.bed_reference();
   gcode::Options options = interpreter_options(machine_, home, home);
-  options.work_offsets = work_offsets();
+  options.work_offsets = offsets;
   interpreter_ = gcode::Interpreter(std::move(options));
   limits_ = {};
   path_mode_.reset();

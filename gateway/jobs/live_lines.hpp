@@ -22,7 +22,9 @@ class LiveLines {
   LiveLines(const MachineDescription& machine, const Kinematics& kinematics);
 
   /// Modal state and limits are forgotten, as after switching on. Work offsets stay: they are the machine's.
-  void forget();
+  void forget() { restart(gcode::WorkOffsets(work_offsets())); }
+  /// The same, with the offsets that were kept since another time.
+  void restart(const gcode::WorkOffsets& offsets);
   /// The machine stands at `pose` (Frame::kMachine) and may move from here on. Modal state is kept, also the
   /// program's E. `hotend_celsius`: its target, if it has one. Appends what is in force to `out`.
   void begin(const PoseVector& pose, std::optional<double> hotend_celsius, gcode::CommandBuffer& out);

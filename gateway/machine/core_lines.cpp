@@ -37,8 +37,11 @@ Result<void, Refusal> Gateway::Core::take_line(std::string_view line, std::uint3
   const bool open = lines_open();
   if (!open) live_lines_.end();
   live_commands_.clear();
+  const gcode::WorkOffsets offsets = live_lines_.work_offsets();
   if (const auto taken = live_lines_.take(line, number, live_commands_); !taken)
     return Error<Refusal>(Refusal{taken.error().words});
+  if (live_lines_.work_offsets() != offsets)
+    journal_.push(journal::Offsets{identity(machine_), live_lines_.work_offsets()});
   for (std::string& note : live_lines_.take_notes()) events_.message(now_, std::move(note), number);
   for (const canonical::Line& command : live_commands_) {
     if (open) {

@@ -35,9 +35,10 @@ Error<Refusal> refuse(std::string words) {
 }  // namespace
 
 Done Gateway::Core::recover(journal::State state, std::unique_ptr<ByteSource> job) {
-  if (!state.job) return {};
   if (state_ != MachineState::kOff || print_.active())
     return refuse("too late: the machine is in use already");
+  live_lines_.restart(state.offsets_of(identity(machine_)));
+  if (!state.job) return {};
   if (!job) return refuse("the interrupted job " + state.job->name + " is not there any more");
   job_name_ = state.job->name;
   if (state.override_ratio) override_ = std::clamp(*state.override_ratio, 0.01, 5.0);

@@ -106,7 +106,7 @@ class Gateway {
   bool lines_idle() const;  ///< every line taken is carried out, and nothing moves
   void close_lines();
   void forget_line_modes();  ///< G-code modes and limits of lines are as after switching on
-  /// Of G54 .. G59.3: lines set them, jobs begin with them.
+  /// Of G54 .. G59.3: lines set them, jobs begin with them, the journal keeps them.
   const gcode::WorkOffsets& work_offsets() const;
   static constexpr std::size_t kLineRoom = 32;
   /// One line of a text session (M105, M114, M115, M119, G28, M112, M24, M25 ...): the reply, without "ok".
@@ -116,7 +116,8 @@ class Gateway {
   std::optional<journal::Record> next_journal_record();
   /// The first `count` records are stored, or never will be.
   void on_journal_stored(std::uint64_t count);
-  /// Right after the start: what the gateway before has noted, and the text of its job. resume() takes it up.
+  /// Right after the start: what the gateway before has noted, and the text of its job, if there was one.
+  /// resume() takes that up; the machine's work offsets count again at once.
   Result<void, Refusal> recover(journal::State state, std::unique_ptr<ByteSource> job);
 
   MachineState state() const;

@@ -95,6 +95,12 @@ void fields(Io& io, Found& r) {
 }
 template <class Io>
 void fields(Io&, JobEnd&) {}
+template <class Io>
+void fields(Io& io, Offsets& r) {
+  io.text(r.machine);
+  for (auto& system : r.offsets)
+    for (double& value : system) io.f64(value);
+}
 
 struct Writer {
   std::vector<std::uint8_t>& out;

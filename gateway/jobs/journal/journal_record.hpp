@@ -77,8 +77,14 @@ struct Found {
 struct JobEnd {
   friend bool operator==(const JobEnd&, const JobEnd&) = default;
 };
+/// The machine's own work offsets from now on; jobs come and go. `machine`: identity() of its description.
+struct Offsets {
+  std::string machine;
+  gcode::WorkOffsets offsets{};
+  friend bool operator==(const Offsets&, const Offsets&) = default;
+};
 
 using Record = std::variant<Epoch, JobBegin, RunBegin, WaitsDone, Scale, Override, Thermal, Progress,
-                            Interrupted, Found, JobEnd>;
+                            Interrupted, Found, JobEnd, Offsets>;
 
 }  // namespace kinebus::journal

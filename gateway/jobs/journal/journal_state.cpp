@@ -1,5 +1,7 @@
 #include "gateway/jobs/journal/journal_state.hpp"
 
+#include <utility>
+
 namespace kinebus::journal {
 namespace {
 
@@ -7,9 +9,7 @@ struct Taker {
   State& s;
   void operator()(const Epoch& r) const { s.epoch = r.epoch; }
   void operator()(const JobBegin& r) const {
-    const auto epoch = s.epoch;
-    s = State{};
-    s.epoch = epoch;
+    forget_job();
     s.job = r;
   }
   void operator()(const RunBegin& r) const {
@@ -28,10 +28,18 @@ struct Taker {
     s.run.reset();
   }
   void operator()(const Found& r) const { s.found = r.tau; }
-  void operator()(const JobEnd&) const {
-    const auto epoch = s.epoch;
-    s = State{};
-    s.epoch = epoch;
+  void operator()(const JobEnd&) const { forget_job(); }
+  void operator()(const Offsets& r) const {
+    std::erase_if(s.offsets, [&](const Offsets& old) { return old.machine == r.machine; });
+    if (s.offsets.size() == State::kMachines) s.offsets.erase(s.offsets.begin());
+    s.offsets.push_back(r);
+  }
+
+  void forget_job() const {
+    State kept;
+    kept.epoch = s.epoch;
+    kept.offsets = std::move(s.offsets);
+    s = std::move(kept);
   }
 };
 
@@ -39,13 +47,21 @@ struct Taker {
 
 void State::take(const Record& record) {
   // Without a job's beginning the rest means nothing.
-  const bool always = std::holds_alternative<Epoch>(record) || std::holds_alternative<JobBegin>(record);
+  const bool always = std::holds_alternative<Epoch>(record) || std::holds_alternative<JobBegin>(record) ||
+                      std::holds_alternative<Offsets>(record);
   if (always || job) std::visit(Taker{*this}, record);
+}
+
+gcode::WorkOffsets State::offsets_of(const std::string& machine) const {
+  for (const Offsets& known : offsets)
+    if (known.machine == machine) return known.offsets;
+  return {};
 }
 
 std::vector<Record> State::records() const {
   std::vector<Record> all;
   if (epoch) all.emplace_back(Epoch{*epoch});
+  for (const Offsets& machine : offsets) all.emplace_back(machine);
   if (!job) return all;
   all.emplace_back(*job);
   for (const FeedScale& scale : scales) all.emplace_back(Scale{scale});

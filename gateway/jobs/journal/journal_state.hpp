@@ -1,7 +1,9 @@
 #pragma once
 // All records of a journal together: what is known of the job that was under way.
 
+#include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "gateway/jobs/journal/journal_record.hpp"
@@ -10,8 +12,9 @@ namespace kinebus::journal {
 
 struct State {
   std::optional<std::uint8_t> epoch;
-  std::optional<JobBegin> job;  ///< none: nothing to take up
-  std::optional<RunBegin> run;  ///< none: the job stands at `interrupted`, or has not moved
+  std::vector<Offsets> offsets;  ///< of the machines that had this gateway, the one set last at the end
+  std::optional<JobBegin> job;   ///< none: nothing to take up
+  std::optional<RunBegin> run;   ///< none: the job stands at `interrupted`, or has not moved
   std::optional<Interrupted> interrupted;
   std::optional<PathTime> found;  ///< counts for `run`
   std::uint64_t waits_done = 0;
@@ -21,7 +24,11 @@ struct State {
   std::optional<Progress> progress;
   friend bool operator==(const State&, const State&) = default;
 
+  static constexpr std::size_t kMachines = 16;  ///< whose offsets are kept
+
   void take(const Record& record);
+  /// All 0 for a machine that never had any.
+  gcode::WorkOffsets offsets_of(const std::string& machine) const;
   /// The fewest records that lead to this state.
   std::vector<Record> records() const;
 };

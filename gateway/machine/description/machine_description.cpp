@@ -72,6 +72,12 @@ MachineDescription default_m1() {
   return d;
 }
 
+std::string identity(const MachineDescription& description) {
+  std::string text = description.name;
+  for (const JointDescription& joint : description.joints) text += " " + joint.name;
+  return text;
+}
+
 std::vector<JointName> joint_names(const KinematicsGeometry& geometry) {
   if (std::holds_alternative<M1Geometry>(geometry))
     return {{"tower1"}, {"tower2"}, {"tower3"}, {"tower4"}, {"C", true}, {"E"}};

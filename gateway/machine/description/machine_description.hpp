@@ -272,6 +272,10 @@ struct MachineDescription {
 /// machines/m1.toml.
 MachineDescription default_m1();
 
+/// What is kept for a machine over restarts is found by this: its name and its joints' names. A file whose
+/// limits or currents were changed is still the same machine.
+std::string identity(const MachineDescription& description);
+
 /// The names of the joints that this kind of kinematics has, in their order, and which of them turn.
 struct JointName {
   std::string name;
