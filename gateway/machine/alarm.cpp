@@ -135,6 +135,8 @@ std::string_view advice_for(AlarmCode code) {
       return "clear when the machine is safe";
     case AlarmCode::kStopTimeout:
       return "switch the machine off and on, home again";
+    case AlarmCode::kIdTaken:
+      return "give one of them another id (LSS) or take it off the bus, then clear and bring up again";
   }
   return "clear";
 }

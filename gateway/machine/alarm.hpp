@@ -29,6 +29,7 @@ enum class AlarmCode : std::uint16_t {
   kJobError = 0xFF8F,       ///< a job went wrong in the midst of running
   kEmergencyStop = 0xFF90,  ///< M112 or the operator's stop
   kStopTimeout = 0xFF91,    ///< the nodes did not come to rest as they should
+  kIdTaken = 0xFF92,        ///< two nodes answer to one id
 };
 
 struct AlarmText {

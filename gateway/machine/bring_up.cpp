@@ -110,6 +110,14 @@ BringUp::Outcome BringUp::on_time(BusTime now) {
   if (foreign_)
     fail(AlarmCode::kSecondGateway, 0,
          "another gateway speaks on this bus (SYNC, stamps or heartbeat of node 127)");
+  for (const NodeLink& link : links_) {
+    if (link.serial_numbers().size() < 2) continue;
+    char words[96];
+    std::snprintf(words, sizeof words, "two nodes use the id %u: those with the serial numbers %u and %u",
+                  static_cast<unsigned>(link.id()), static_cast<unsigned>(link.serial_numbers()[0]),
+                  static_cast<unsigned>(link.serial_numbers()[1]));
+    fail(AlarmCode::kIdTaken, link.id(), words);
+  }
   if (stage_ == Stage::kListen) {
     if (!failed_ && now - entered_ >= kListenTime) enter(Stage::kIdentify, now);
   } else {

@@ -4,6 +4,8 @@
 
 #include "protocol/bytes.hpp"
 #include "protocol/canopen/cob_id.hpp"
+#include "protocol/canopen/node_objects.hpp"
+#include "protocol/canopen/sdo.hpp"
 
 namespace kinebus {
 namespace {
@@ -36,6 +38,7 @@ bool NodeLink::on_frame(BusTime now, const CanFrame& frame) {
   } else if (frame.id == cob_id::tpdo(4, id_) && frame.length == 8) {
     following_error_ = {get_i32_le(data), get_i32_le(data.subspan(4))};
   } else if (frame.id == cob_id::kSdoReply + id_ && frame.length == 8) {
+    note_serial_number(frame);
     sdo_.on_frame(now, frame);
   } else {
     return false;
@@ -51,6 +54,17 @@ void NodeLink::on_status_words(const CanFrame& frame) {
   mode_ = {static_cast<std::int8_t>(data[4]), static_cast<std::int8_t>(data[5])};
   inputs_ = data[6];
   drive_heard_ = true;
+}
+
+/// From every answer, also one that comes when the transfer has ended with that of the other node.
+void NodeLink::note_serial_number(const CanFrame& reply) {
+  constexpr std::uint8_t kFourBytes = 0x43, kSerialNumber = 4;
+  const ObjectAddress serial{object::kVendorIdentity.index, kSerialNumber};
+  if (reply.data[0] != kFourBytes || sdo::address_in(reply) != serial) return;
+  const std::uint32_t number = get_u32_le(reply.bytes().subspan(4));
+  const auto& known = serial_numbers_;
+  if (known.size() < 2 && std::find(known.begin(), known.end(), number) == known.end())
+    serial_numbers_.push_back(number);
 }
 
 std::optional<Emergency> NodeLink::next_emergency() {
@@ -89,6 +103,7 @@ void NodeLink::forget() {
   new_stream_.reset();
   following_error_.reset();
   emergencies_.clear();
+  serial_numbers_.clear();
   sdo_.abandon();
 }
 

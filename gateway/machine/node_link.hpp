@@ -6,6 +6,7 @@
 #include <deque>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "gateway/machine/sdo_channel.hpp"
 #include "gateway/machine/status.hpp"
@@ -51,6 +52,8 @@ class NodeLink {
 
   /// Boot-ups since the last call: each means that the node has lost its position.
   bool take_boot_up() { return std::exchange(booted_, false); }
+  /// Serial numbers that were told since forget(): a second one is another node's with the same id.
+  const std::vector<std::uint32_t>& serial_numbers() const { return serial_numbers_; }
   std::optional<Emergency> next_emergency();
   /// The status frame that came last, once.
   std::optional<StreamStatus> take_stream() { return std::exchange(new_stream_, std::nullopt); }
@@ -70,6 +73,7 @@ class NodeLink {
 
  private:
   void on_status_words(const CanFrame& frame);
+  void note_serial_number(const CanFrame& reply);
 
   std::uint8_t id_;
   SdoChannel sdo_;
@@ -84,6 +88,7 @@ class NodeLink {
   std::uint32_t position_frames_ = 0, emergency_count_ = 0;
   std::optional<StreamStatus> stream_, new_stream_;
   std::deque<Emergency> emergencies_;
+  std::vector<std::uint32_t> serial_numbers_;
 };
 
 }  // namespace kinebus

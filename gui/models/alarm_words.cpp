@@ -41,6 +41,8 @@ QString AlarmWords::title(unsigned code) {
       return tr("Stopped by the operator");
     case 0xFF91:
       return tr("The machine did not come to rest");
+    case 0xFF92:
+      return tr("Two nodes use the same id");
     default:
       break;
   }
@@ -99,6 +101,8 @@ QString AlarmWords::advice(unsigned code) {
       return tr("Clear when the machine is safe.");
     case 0xFF91:
       return tr("Switch the machine off and on, then home again.");
+    case 0xFF92:
+      return tr("Give one of them another id or take it off the bus, then home again.");
     default:
       return {};
   }

@@ -76,6 +76,10 @@
             <translation>ماشین از حرکت نایستاد</translation>
         </message>
         <message>
+            <source>Two nodes use the same id</source>
+            <translation>دو گره یک شناسهٔ یکسان دارند</translation>
+        </message>
+        <message>
             <source>Too much current in a motor</source>
             <translation>جریان یک موتور بیش از حد است</translation>
         </message>
@@ -174,6 +178,10 @@
         <message>
             <source>Switch the machine off and on, then home again.</source>
             <translation>ماشین را خاموش و روشن کنید، سپس دوباره خانه‌یابی کنید.</translation>
+        </message>
+        <message>
+            <source>Give one of them another id or take it off the bus, then home again.</source>
+            <translation>به یکی از آن‌ها شناسهٔ دیگری بدهید یا آن را از گذرگاه جدا کنید، سپس دوباره خانه‌یابی کنید.</translation>
         </message>
     </context>
     <context>

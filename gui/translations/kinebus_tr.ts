@@ -76,6 +76,10 @@
             <translation>Makine durmadı</translation>
         </message>
         <message>
+            <source>Two nodes use the same id</source>
+            <translation>İki düğüm aynı kimliği kullanıyor</translation>
+        </message>
+        <message>
             <source>Too much current in a motor</source>
             <translation>Bir motorda aşırı akım</translation>
         </message>
@@ -174,6 +178,10 @@
         <message>
             <source>Switch the machine off and on, then home again.</source>
             <translation>Makineyi kapatıp açın, sonra yeniden eve gönderin.</translation>
+        </message>
+        <message>
+            <source>Give one of them another id or take it off the bus, then home again.</source>
+            <translation>Birine başka bir kimlik verin ya da onu veri yolundan çıkarın, sonra yeniden eve gönderin.</translation>
         </message>
     </context>
     <context>

@@ -14,6 +14,7 @@ for tool in bash cangen cangw cansend cat cp dd grep ip ls mkdir mount mv rm tai
   path=$(type -P "$tool") && cat "$path" > /dev/null
 done
 keep=${LAB_KEEP:-$work}
+log=$work/kinebusd.log
 interface=kbv$(( $$ % 1000 ))
 export KINEBUS_SOCKET=$work/kinebus.sock
 pids=()
@@ -45,6 +46,14 @@ until_true() {
     read -rt 0.05 <> <(:) || true
   done
 }
+
+say() { echo "--- $*"; }
+ask() { "$bin/kinebus" "$@" > "$work/ask.log" 2>&1 || fail "kinebus $*: $(tail -n 1 "$work/ask.log")"; }
+# logged COUNT WORDS: the daemon's log has them so often.
+count_of() { grep -c -- "$1" "$log" || true; }
+logged() { (( $(count_of "$2") >= $1 )); }
+# expect SECONDS WORDS BEFORE: the words come once more than BEFORE times.
+expect() { until_true "$1" "\"$2\" in the daemon's log" logged $(( $3 + 1 )) "$2"; }
 
 start_bus() {
   ip link add dev "$interface" type vcan && ip link set "$interface" up

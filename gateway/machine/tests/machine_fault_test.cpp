@@ -45,6 +45,25 @@ TEST(MachineFaults, WrongProductIsRefused) {
   EXPECT_TRUE(rig.told(AlarmCode::kWrongIdentity)) << rig.story();
 }
 
+TEST(MachineFaults, TwoNodesWithOneIdAreRefusedByTheirSerialNumbers) {
+  MachineRig rig;
+  // What another node 2 answers, a moment after the machine's own.
+  rig.on_frame = [&](BusTime when, const CanFrame& frame) {
+    if (frame.id != cob_id::kSdoReply + 2 || frame.data[0] != 0x43 || frame.data[3] != 4) return;
+    CanFrame other = frame;
+    other.data[4] ^= 0x40;
+    rig.gateway->on_frame(when, other);
+  };
+  ASSERT_TRUE(rig.gateway->bring_up());
+  ASSERT_TRUE(rig.reach(MachineState::kAlarm, 30s)) << rig.story();
+  EXPECT_TRUE(rig.told(AlarmCode::kIdTaken)) << rig.story();
+  EXPECT_NE(rig.story().find("two nodes use the id 2"), std::string::npos) << rig.story();
+  rig.on_frame = {};
+  ASSERT_TRUE(rig.gateway->clear());
+  ASSERT_TRUE(rig.gateway->bring_up());
+  EXPECT_TRUE(rig.reach(MachineState::kUnhomed, 30s)) << rig.story();
+}
+
 TEST(MachineFaults, AnotherGatewayOnTheBusIsNotJoined) {
   MachineRig rig;
   ASSERT_TRUE(rig.gateway->bring_up());
