@@ -55,13 +55,12 @@ bool PathMotion::on_rate_command(const CanFrame& frame, LocalTime now, bool clea
   count_late(outcome, command->kind == Kind::kStop ? counters_.late_stops : counters_.late_rates);
   const bool taken = outcome == Outcome::kScheduled || outcome == Outcome::kLateRewound ||
                      outcome == Outcome::kLateCaughtUp || outcome == Outcome::kLateStarted;
+  const bool refused = outcome == Outcome::kTooLate || (outcome == Outcome::kLatched && starts);
   if (taken && command->kind == Kind::kStop) ++counters_.stops;
   if (taken && command->kind == Kind::kClear) error_flags_ = 0;
   // Too late for the others' path time, or held back by a stop that the others may not have heard of: either
   // way this node's carriages are not where theirs are.
-  if (outcome == Outcome::kLateStarted && command->kind == Kind::kRate)
-    request_stop(StopReason::kCommand, 0, node_emcy::kCommand, now);
-  if (outcome == Outcome::kLatched && starts) request_stop(StopReason::kCommand, 0, node_emcy::kCommand, now);
+  if (refused) request_stop(StopReason::kCommand, 0, node_emcy::kCommand, now);
   if (taken && starts && (given_up_ || stream_.underrun()))
     request_stop(StopReason::kStreamError, 0, node_emcy::kStream, now);
   plan_starvation_check(now);
@@ -79,7 +78,7 @@ bool PathMotion::clear_stop(LocalTime now) {
 void PathMotion::count_late(PathClock::Outcome outcome, std::uint32_t& counter) {
   using Outcome = PathClock::Outcome;
   if (outcome == Outcome::kLateRewound || outcome == Outcome::kLateCaughtUp ||
-      outcome == Outcome::kLateStarted)
+      outcome == Outcome::kLateStarted || outcome == Outcome::kTooLate)
     ++counter;
 }
 

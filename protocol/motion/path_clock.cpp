@@ -139,30 +139,25 @@ void PathClock::put(const Change& change) {
   leg(count_++) = change.after;
 }
 
-PathClock::Outcome PathClock::change(std::int64_t start, std::uint64_t target_q32, std::uint8_t full_ramp_2ms,
-                                     std::int64_t now, std::int64_t& effective) {
+std::optional<PathClock::Outcome> PathClock::change(std::int64_t start, std::uint64_t target_q32,
+                                                    std::uint8_t full_ramp_2ms, std::int64_t now) {
   const std::uint64_t ramp = full_ramp_ns(std::max(full_ramp_2ms, options_.least_full_ramp_2ms));
-  effective = start;
+  const Change in_time = planned(start, target_q32, ramp);
   if (start >= now) {
-    put(planned(start, target_q32, ramp));
+    put(in_time);
     return Outcome::kScheduled;
   }
-  if (now - start <= options_.rewind.count() && start >= legs_[0].start) {
-    const Change in_time = planned(start, target_q32, ramp);
-    const Leg& then = now < in_time.after.start ? in_time.ramp : in_time.after;
-    const std::int64_t step = then.tau_at(now) - leg_at(now).tau_at(now);
-    if ((step < 0 ? -step : step) >> kTauBits <= options_.most_step.count()) {
-      put(in_time);
-      return Outcome::kLateRewound;
-    }
-    if (const auto catching = caught_up(in_time, now, ramp)) {
-      put(*catching);
-      return Outcome::kLateCaughtUp;
-    }
+  if (now - start > options_.rewind.count() || start < legs_[0].start) return std::nullopt;
+  const Leg& then = now < in_time.after.start ? in_time.ramp : in_time.after;
+  const std::int64_t step = then.tau_at(now) - leg_at(now).tau_at(now);
+  if ((step < 0 ? -step : step) >> kTauBits <= options_.most_step.count()) {
+    put(in_time);
+    return Outcome::kLateRewound;
   }
-  effective = now;
-  put(planned(now, target_q32, ramp));
-  return Outcome::kLateStarted;
+  const auto catching = caught_up(in_time, now, ramp);
+  if (!catching) return std::nullopt;
+  put(*catching);
+  return Outcome::kLateCaughtUp;
 }
 
 PathClock::Outcome PathClock::apply(const RateCommand& command, BusTime now) {
@@ -186,10 +181,10 @@ PathClock::Outcome PathClock::apply(const RateCommand& command, BusTime now) {
       if (command.start.count() < newest_) return Outcome::kDuplicate;
       if (count_ + 6 > kMaxLegs) return Outcome::kFull;  // the other three are a stop's: it is never refused
       newest_ = command.start.count();
-      std::int64_t effective = 0;
-      outcome = change(command.start.count(), static_cast<std::uint64_t>(command.rate_q15) << 17,
-                       command.full_ramp_2ms, now.count(), effective);
-      if (stop_) static_cast<void>(change(stop_->start, 0, stop_->full_ramp_2ms, now.count(), effective));
+      const auto changed = change(command.start.count(), static_cast<std::uint64_t>(command.rate_q15) << 17,
+                                  command.full_ramp_2ms, now.count());
+      outcome = changed.value_or(Outcome::kTooLate);
+      if (changed && stop_) begin_stop(now.count());
       break;
     }
   }
@@ -200,10 +195,16 @@ PathClock::Outcome PathClock::apply(const RateCommand& command, BusTime now) {
 PathClock::Outcome PathClock::stop_at(BusTime start, std::uint8_t full_ramp_2ms, BusTime now) {
   const bool in_time = start >= now - options_.rewind;
   if (stop_ && (in_time ? start : now).count() >= stop_->start) return Outcome::kDuplicate;
-  std::int64_t effective = 0;
-  const Outcome outcome = change(start.count(), 0, full_ramp_2ms, now.count(), effective);
-  stop_ = Stop{effective, full_ramp_2ms};
-  return outcome;
+  stop_ = Stop{start.count(), full_ramp_2ms};
+  return begin_stop(now.count());
+}
+
+/// A stop is never refused: too late for the common ramp, it begins now.
+PathClock::Outcome PathClock::begin_stop(std::int64_t now) {
+  if (const auto changed = change(stop_->start, 0, stop_->full_ramp_2ms, now)) return *changed;
+  stop_->start = now;
+  static_cast<void>(change(now, 0, stop_->full_ramp_2ms, now));
+  return Outcome::kLateStarted;
 }
 
 std::optional<BusTime> PathClock::when(PathTime path) const {

@@ -17,7 +17,8 @@ class PathClock {
  public:
   struct Options {
     /// A command that arrives this long after its start still ends at the tau that it would have ended at,
-    /// however it gets there: see kLateRewound and kLateCaughtUp. A later one starts at once.
+    /// however it gets there: see kLateRewound and kLateCaughtUp. A later stop starts at once; a later rate
+    /// is void: nodes that hear it at slightly different times would each go its own way.
     BusTime rewind = std::chrono::milliseconds{12};
     /// No ramp is steeper than 0..1 in this: a command for a shorter one gets this one. 2 ms units.
     std::uint8_t least_full_ramp_2ms = 1;
@@ -29,7 +30,8 @@ class PathClock {
     kScheduled,
     kLateRewound,   ///< start was just past: tau is as if it had come in time, a step of at most most_step
     kLateCaughtUp,  ///< a steeper ramp from `now` on, up to 4/3; after it, tau is as if it had come in time
-    kLateStarted,   ///< start was long past: began `now`, so other nodes may be at another tau. An alarm.
+    kLateStarted,   ///< a stop long past: began `now`, so other nodes may be at another tau. An alarm.
+    kTooLate,       ///< refused: a rate whose start was long past. Others may have taken it: an alarm.
     kDuplicate,     ///< the last command again, one overtaken by a later one, or a stop after the one latched
     kLatched,       ///< refused: a stop is latched and comes first
     kNotAtRest,     ///< refused: kClear while moving
@@ -102,8 +104,11 @@ class PathClock {
 
   Change planned(std::int64_t start, std::uint64_t target_q32, std::uint64_t full_ramp_ns) const;
   std::optional<Change> caught_up(const Change& in_time, std::int64_t now, std::uint64_t full_ramp_ns) const;
-  Outcome change(std::int64_t start, std::uint64_t target_q32, std::uint8_t full_ramp_2ms, std::int64_t now,
-                 std::int64_t& effective);
+  /// The change as it would have been in time, as far as that can still be had; nullopt: too late, nothing
+  /// done.
+  std::optional<Outcome> change(std::int64_t start, std::uint64_t target_q32, std::uint8_t full_ramp_2ms,
+                                std::int64_t now);
+  Outcome begin_stop(std::int64_t now);
   void put(const Change& change);
   static Leg make_leg(std::int64_t start, std::int64_t tau0, std::uint64_t rate_q32,
                       std::uint64_t full_ramp_ns, bool rising);

@@ -42,7 +42,6 @@ void fields(Io& io, JobBegin& r) {
   io.u64(r.hash);
   for (double& value : r.start) io.f64(value);
   io.text(r.name);
-  if (io.at_end()) return;  // written before jobs had offsets: all 0
   for (auto& system : r.offsets)
     for (double& value : system) io.f64(value);
 }
@@ -112,7 +111,6 @@ struct Writer {
   void u64(std::uint64_t value) { bits(value, 8); }
   void f64(double value) { bits(std::bit_cast<std::uint64_t>(value), 8); }
   void time(PathTime value) { bits(static_cast<std::uint64_t>(value.count()), 8); }
-  bool at_end() const { return false; }
   void text(const std::string& value) {
     const std::string_view kept = std::string_view(value).substr(0, kMaxName);
     bits(kept.size(), 2);
@@ -140,7 +138,6 @@ struct Reader {
     value = std::bit_cast<double>(bits(8));
     good = good && std::isfinite(value);
   }
-  bool at_end() const { return in.empty(); }
   void time(PathTime& value) { value = PathTime{static_cast<std::int64_t>(bits(8))}; }
   void text(std::string& value) {
     const std::size_t length = static_cast<std::size_t>(bits(2));

@@ -139,7 +139,17 @@ TEST(PathClock, ALateCommandCatchesUpWithoutAStep) {
   }
 }
 
-TEST(PathClock, AVeryLateCommandStartsNowAndSaysSo) {
+TEST(PathClock, AVeryLateRateIsVoid) {
+  PathClock clock;
+  clock.apply(rate(1.0, seconds{1}), seconds{0});
+  const BusTime heard = seconds{2} + milliseconds{30};
+  EXPECT_EQ(clock.apply(rate(0.25, seconds{2}), heard), Outcome::kTooLate);
+  EXPECT_EQ(clock.apply(rate(0.25, seconds{2}), heard + milliseconds{1}), Outcome::kDuplicate);
+  EXPECT_EQ(clock.rate_q32(seconds{3}), std::uint64_t{1} << 32);
+  EXPECT_EQ(clock.apply(rate(0.25, seconds{4}), seconds{3}), Outcome::kScheduled);
+}
+
+TEST(PathClock, AVeryLateStopStartsNowAndSaysSo) {
   PathClock clock;
   clock.apply(rate(1.0, seconds{1}), seconds{0});
   EXPECT_EQ(clock.stop_at(seconds{2}, 50, seconds{2} + milliseconds{30}), Outcome::kLateStarted);
