@@ -114,6 +114,23 @@ TEST(Homing, TheSwitchThatNeverGoesOffIsAnErrorAfterTheBackOffTravel) {
   EXPECT_EQ(rail.homing.error(), HomingError::kStuck);
 }
 
+TEST(Homing, ACarriageOnItsSwitchStandsUntilItIsItsTurnToLeave) {
+  for (const int method : {17, 18, 20, 22}) {
+    SCOPED_TRACE(method);
+    Rail rail;
+    rail.config.method = method;
+    rail.homing.set_turn(false);
+    rail.homing.start(0, rail.config, true, rail.motion);
+    const ProfileTicks later = 10 * kTicksPerSecond;
+    rail.homing.on_time(later, rail.motion);
+    EXPECT_TRUE(rail.homing.running());
+    EXPECT_EQ(rail.motion.at(later).position, 0);
+    rail.homing.set_turn(true);
+    rail.homing.on_time(later, rail.motion);
+    EXPECT_NE(rail.motion.at(later + kTicksPerSecond).position, 0);
+  }
+}
+
 TEST(Homing, AnUnknownMethodIsRefusedAtRest) {
   Rail rail;
   rail.run(1);

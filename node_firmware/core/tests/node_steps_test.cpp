@@ -161,6 +161,21 @@ TEST_F(StepsTest, ARateCommandThatComesLateCatchesUpWithoutAStep) {
   watch(200ms, kStreamChange);
 }
 
+TEST_F(StepsTest, ARateCommandThatComesTooLateIsVoidAndStopsAll) {
+  bench.bring_up();
+  for (int axis = 0; axis < 2; ++axis) bench.enable(kId, axis, 7);
+  send_stream(bench, bench.node().path_time(bench.local()).count() / kPathTicksPerUnit + 100);
+  bench.run(20ms);
+  bench.rate(1.0);
+  bench.run(250ms);
+  const std::size_t before = bench.seen.size();
+  bench.rate(0.5, -30ms, 25);
+  watch(3ms, kStreamChange);
+  EXPECT_TRUE(bench.was_seen(0x081, before));
+  watch(200ms, kStreamChange);
+  EXPECT_EQ(bench.node().path_rate_q32(bench.local()), 0u);
+}
+
 TEST_F(StepsTest, ARateCommandThatAStopHoldsBackIsAnsweredByAStopOfAll) {
   bench.bring_up();
   for (int axis = 0; axis < 2; ++axis) bench.enable(kId, axis, 7);
