@@ -78,6 +78,6 @@ start_node() {
     >> "$work/node$node.log" 2>&1 & pids+=($!); nodes[node - 1]=$!
 }
 start_daemon() {
-  "$bin/kinebusd" --bus "${gateway_interface:-$interface}" --jobs "$work/jobs" "$@" > "$work/kinebusd.log" 2>&1 & pids+=($!); daemon=$!
+  "$bin/kinebusd" --bus "${gateway_interface:-$interface}" --jobs "${jobs:-$work/jobs}" "$@" > "$work/kinebusd.log" 2>&1 & pids+=($!); daemon=$!
   until_true 20 "daemon" test -S "$KINEBUS_SOCKET"
 }

@@ -1,6 +1,8 @@
 // Compares what the motors of the default machine really did, by the traces of its kinebus-vnode processes,
 // with what the job plans: the tool's distance from the planned path, and the filament at every place of it.
-//   kinebus-track-check JOB TRACE1 TRACE2 TRACE3 [--path-um 5] [--filament-mm 0.01]
+//   kinebus-track-check JOB TRACE1 TRACE2 TRACE3 [--path-um 5] [--filament-mm 0.01] [--cut-at X Y Z]
+// With --cut-at the traces begin after a power cut that came shortly after the tool was there: it must come
+// back from above, not far behind that place, and go on to the path's end.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -26,6 +28,8 @@ struct Arguments {
   std::string job;
   std::vector<std::string> traces;
   double path_um = 5, filament_mm = 0.01;
+  std::vector<double> cut_at;
+  double repeat_mm = 60, ahead_mm = 20, lift_mm = 5;
 };
 
 /// The planned path as a polyline, dense enough that chords are as good as arcs.
@@ -42,9 +46,9 @@ std::vector<PoseVector> planned(const MachineDescription& machine, const Kinemat
     if (step != JobPipeline::Step::kPhase) continue;
     const Phase& phase = pipeline.phase();
     const double length = phase.s(phase.duration_s) - phase.s0;
-    const double pieces = std::ceil(std::max(2.0, length / 0.05));
-    for (double i = 1; i <= pieces; ++i) {
-      const double share = i / pieces;
+    const int pieces = static_cast<int>(std::ceil(std::max(2.0, length / 0.05)));
+    for (int i = 1; i <= pieces; ++i) {
+      const double share = static_cast<double>(i) / pieces;
       PoseVector pose = phase.piece.evaluate(phase.s0 + share * length).x;
       if (const auto machine_pose = convert_pose(kinematics, phase.piece.frame, pose, Frame::kMachine))
         pose = *machine_pose;
@@ -135,6 +139,61 @@ Nearest nearest(const std::vector<PoseVector>& path, std::size_t from, std::size
   return best;
 }
 
+double length_mm(const std::vector<PoseVector>& path, std::size_t from, std::size_t to) {
+  double sum = 0;
+  for (std::size_t i = from; i < to; ++i)
+    sum += std::hypot(path[i + 1][kX] - path[i][kX], path[i + 1][kY] - path[i][kY],
+                      path[i + 1][kZ] - path[i][kZ]);
+  return sum;
+}
+
+/// After a power cut: backwards from the end as long as the tool is on the path, then what it came by.
+int check_resumed(const Arguments& arguments, const std::vector<PoseVector>& path,
+                  const std::vector<PoseVector>& track) {
+  std::vector<Nearest> places(track.size());
+  std::size_t first = track.size(), at = path.size() - 1;
+  while (first > 0) {
+    const std::size_t from = at > 200 ? at - 200 : 0;
+    const Nearest near = nearest(path, from, at - from + 20, track[first - 1]);
+    if (near.distance_mm > 1e-3 * arguments.path_um || std::abs(near.filament_mm) > arguments.filament_mm)
+      break;
+    at = near.at;
+    places[--first] = near;
+  }
+  if (first == track.size() || first == 0) return std::printf("the tool never came back to the path\n"), 1;
+  // Still coming down.
+  while (first + 1 < track.size() && track[first + 1][kZ] < track[first][kZ]) ++first;
+  double worst_mm = 0, worst_filament_mm = 0;
+  for (std::size_t i = first; i < track.size(); ++i) {
+    worst_mm = std::max(worst_mm, places[i].distance_mm);
+    worst_filament_mm = std::max(worst_filament_mm, std::abs(places[i].filament_mm));
+  }
+  // Down to the place: the higher the earlier, beside it by no more than a microstep makes.
+  const PoseVector& place = track[first];
+  double lift_mm = 0;
+  for (std::size_t i = first; i > 0; --i) {
+    const PoseVector& p = track[i - 1];
+    if (std::hypot(p[kX] - place[kX], p[kY] - place[kY]) > 0.01 || p[kZ] - place[kZ] < lift_mm - 0.004) break;
+    lift_mm = std::max(lift_mm, p[kZ] - place[kZ]);
+  }
+  PoseVector cut{};
+  std::copy(arguments.cut_at.begin(), arguments.cut_at.end(), cut.begin());
+  double best_mm = 1e9;
+  std::size_t cut_near = 0;
+  for (std::size_t i = 0; i < path.size(); ++i)
+    if (const double off = std::hypot(path[i][kX] - cut[kX], path[i][kY] - cut[kY], path[i][kZ] - cut[kZ]);
+        off < best_mm)
+      best_mm = off, cut_near = i;
+  const double repeated_mm = cut_near >= at ? length_mm(path, at, cut_near) : -length_mm(path, cut_near, at);
+  std::printf(
+      "%zu samples after the power cut: down from %.2f mm above, %.1f mm of path before where the tool was\n"
+      "seen last, path within %.2f um, filament within %.4f mm, to its end\n",
+      track.size() - first, lift_mm, repeated_mm, worst_mm * 1e3, worst_filament_mm);
+  const bool good = lift_mm > arguments.lift_mm - 0.1 && repeated_mm < arguments.repeat_mm &&
+                    repeated_mm > -arguments.ahead_mm && best_mm < 0.5 && at + 20 < path.size();
+  return good ? 0 : 1;
+}
+
 int check(const Arguments& arguments) {
   const MachineDescription machine = default_m1();
   const auto kinematics = make_kinematics(machine);
@@ -145,6 +204,8 @@ int check(const Arguments& arguments) {
   for (std::size_t i = 0; i < traces.size(); ++i) traces[i] = read_trace(arguments.traces[i]);
   const std::vector<PoseVector> track = tool_track(machine, **kinematics, traces, path.back());
   if (track.empty()) return std::printf("no samples of all three nodes\n"), 2;
+
+  if (!arguments.cut_at.empty()) return check_resumed(arguments, path, track);
 
   // From the last time that the tool stood where the job begins.
   std::size_t begin = track.size();
@@ -181,6 +242,10 @@ int main(int argc, char** argv) {
     app.add_option("traces", arguments.traces)->required()->expected(3);
     app.add_option("--path-um", arguments.path_um)->capture_default_str();
     app.add_option("--filament-mm", arguments.filament_mm)->capture_default_str();
+    app.add_option("--cut-at", arguments.cut_at, "Where the tool was when the power was cut, mm")
+        ->expected(3);
+    app.add_option("--repeat-mm", arguments.repeat_mm, "So much of the path is done again at most")
+        ->capture_default_str();
     CLI11_PARSE(app, argc, argv);
     return check(arguments);
   });
