@@ -55,6 +55,13 @@ logged() { (( $(count_of "$2") >= $1 )); }
 # expect SECONDS WORDS BEFORE: the words come once more than BEFORE times.
 expect() { until_true "$1" "\"$2\" in the daemon's log" logged $(( $3 + 1 )) "$2"; }
 
+# What the guest needs for its disk (tools/vm/run --disk), /dev/vda.
+insert_disk() {
+  local module
+  for module in crypto/crc32c_generic fs/jbd2/jbd2 fs/mbcache lib/crc16 fs/ext4/ext4 drivers/block/virtio_blk; do
+    insmod "$LAB_MODULES/$module.ko"
+  done
+}
 start_bus() {
   ip link add dev "$interface" type vcan && ip link set "$interface" up
   chrt -f 85 candump -L "$interface${capture_only:-}" > "$work/bus.log" & pids+=($!)
@@ -79,5 +86,5 @@ start_node() {
 }
 start_daemon() {
   "$bin/kinebusd" --bus "${gateway_interface:-$interface}" --jobs "${jobs:-$work/jobs}" "$@" > "$work/kinebusd.log" 2>&1 & pids+=($!); daemon=$!
-  until_true 20 "daemon" test -S "$KINEBUS_SOCKET"
+  until_true 60 "daemon" test -S "$KINEBUS_SOCKET"
 }
