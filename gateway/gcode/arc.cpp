@@ -41,16 +41,16 @@ std::string millimetres(double value) {
 
 }  // namespace
 
-Result<ArcGeometry, std::string> arc_by_centre(Point2 start, Point2 end, Point2 centre, bool clockwise,
-                                               int turns, double tolerance_mm) {
+Result<ArcGeometry, Sentence> arc_by_centre(Point2 start, Point2 end, Point2 centre, bool clockwise,
+                                            int turns, double tolerance_mm) {
   const double start_radius = length(minus(start, centre));
   const double end_radius = length(minus(end, centre));
   const double more_turns = kTurn * (turns - 1);
-  if (start_radius < kSamePoint_mm) return Error<std::string>("the centre of the arc is its start");
+  if (start_radius < kSamePoint_mm) return Error<Sentence>(say("the centre of the arc is its start"));
   if (std::abs(start_radius - end_radius) > tolerance_mm)
-    return Error<std::string>("the arc's end is " + millimetres(end_radius) + " from the centre, its start " +
-                              millimetres(start_radius) + " (they may differ by " +
-                              millimetres(tolerance_mm) + ")");
+    return Error<Sentence>(say("the arc's end is %1 from the centre, its start %2 (they may differ by %3)",
+                               millimetres(end_radius), millimetres(start_radius),
+                               millimetres(tolerance_mm)));
   const Point2 chord = minus(end, start);
   const double chord_length = length(chord);
   if (chord_length < kSamePoint_mm) return ArcGeometry{centre, start, kTurn + more_turns};
@@ -61,7 +61,7 @@ Result<ArcGeometry, std::string> arc_by_centre(Point2 start, Point2 end, Point2 
   if (std::abs(shift) * chord_length <= kLargestShift * tolerance_mm) {
     const Point2 moved = {centre[0] + shift * chord[0], centre[1] + shift * chord[1]};
     if (length(minus(start, moved)) < kSamePoint_mm)
-      return Error<std::string>("the centre of the arc is its start");
+      return Error<Sentence>(say("the centre of the arc is its start"));
     return ArcGeometry{moved, end, swept(minus(start, moved), minus(end, moved), clockwise) + more_turns};
   }
   const double scale = start_radius / end_radius;
@@ -71,18 +71,18 @@ Result<ArcGeometry, std::string> arc_by_centre(Point2 start, Point2 end, Point2 
                      swept(minus(start, centre), minus(on_circle, centre), clockwise) + more_turns};
 }
 
-Result<ArcGeometry, std::string> arc_by_radius(Point2 start, Point2 end, double radius_mm, bool clockwise,
-                                               int turns, double tolerance_mm) {
+Result<ArcGeometry, Sentence> arc_by_radius(Point2 start, Point2 end, double radius_mm, bool clockwise,
+                                            int turns, double tolerance_mm) {
   const Point2 chord = minus(end, start);
   const double half = length(chord) / 2;
   const double radius = std::abs(radius_mm);
   if (half < kSamePoint_mm / 2)
-    return Error<std::string>(
-        "an arc with R needs an end other than its start; a full circle needs I, J or K");
-  if (radius == 0) return Error<std::string>("R must not be 0");
+    return Error<Sentence>(
+        say("an arc with R needs an end other than its start; a full circle needs I, J or K"));
+  if (radius == 0) return Error<Sentence>(say("R must not be 0"));
   if (half > radius && 2 * half - 2 * radius > tolerance_mm)
-    return Error<std::string>("the arc's ends are " + millimetres(2 * half) + " apart, more than twice R (" +
-                              millimetres(radius) + ")");
+    return Error<Sentence>(say("the arc's ends are %1 apart, more than twice R (%2)", millimetres(2 * half),
+                               millimetres(radius)));
   const double height = half < radius ? std::sqrt((radius - half) * (radius + half)) : 0;
   // The centre lies left of the chord for a short counterclockwise arc.
   const double side = (radius_mm > 0) == clockwise ? -1 : 1;

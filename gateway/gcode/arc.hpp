@@ -6,6 +6,7 @@
 #include <string>
 
 #include "gateway/result.hpp"
+#include "gateway/sentence.hpp"
 
 namespace kinebus::gcode {
 
@@ -21,12 +22,12 @@ struct ArcGeometry {
 /// no more than `tolerance_mm` are made equal: by moving the centre along the chord, or, when the chord is so
 /// short that this would move it by more than ten tolerances, by ending on the start's circle. start == end:
 /// a full circle. `turns` >= 1.
-Result<ArcGeometry, std::string> arc_by_centre(Point2 start, Point2 end, Point2 centre, bool clockwise,
-                                               int turns, double tolerance_mm);
+Result<ArcGeometry, Sentence> arc_by_centre(Point2 start, Point2 end, Point2 centre, bool clockwise,
+                                            int turns, double tolerance_mm);
 
 /// Radius form (R): the arc of no more than half a turn, or with a negative radius the other one. A chord
 /// longer than the diameter by no more than `tolerance_mm` is taken for half a turn.
-Result<ArcGeometry, std::string> arc_by_radius(Point2 start, Point2 end, double radius_mm, bool clockwise,
-                                               int turns, double tolerance_mm);
+Result<ArcGeometry, Sentence> arc_by_radius(Point2 start, Point2 end, double radius_mm, bool clockwise,
+                                            int turns, double tolerance_mm);
 
 }  // namespace kinebus::gcode

@@ -64,12 +64,12 @@ class BlockReader {
   }
 
  private:
-  bool fail(std::uint32_t column, std::string message) {
+  bool fail(std::uint32_t column, Sentence message) {
     error_.column = column;
     error_.message = std::move(message);
     return false;
   }
-  bool fail_here(std::string message) { return fail(cursor_.column(), std::move(message)); }
+  bool fail_here(Sentence message) { return fail(cursor_.column(), std::move(message)); }
 
   bool read_percent() {
     block_.percent = true;
@@ -77,7 +77,7 @@ class BlockReader {
     ++cursor_.p;
     cursor_.skip_blanks();
     if (cursor_.at_end() || *cursor_.p == ';') return true;
-    return fail_here("% stands alone in its line");
+    return fail_here(say("% stands alone in its line"));
   }
 
   bool read_line_number() {
@@ -87,7 +87,7 @@ class BlockReader {
     double number = 0;
     const char* const after = parse_decimal(cursor_.p, cursor_.end, number);
     if (after == nullptr || number < 0 || number > 4294967295.0 || number != std::floor(number))
-      return fail(column, "N needs a whole number from 0 to 4294967295");
+      return fail(column, say("N needs a whole number from 0 to 4294967295"));
     cursor_.p = after;
     block_.has_line_number = true;
     block_.line_number = static_cast<std::int64_t>(number);
@@ -99,21 +99,21 @@ class BlockReader {
     if (c == '(') return read_comment();
     if (c == '#') return read_assignment();
     if (c == '*') return read_checksum();
-    if (c == '/') return fail_here("/ (block delete) must be the first character of the line");
-    if (c == '%') return fail_here("% stands alone in its line");
+    if (c == '/') return fail_here(say("/ (block delete) must be the first character of the line"));
+    if (c == '%') return fail_here(say("% stands alone in its line"));
     if (static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) >= 0x7F)
-      return fail_here("byte " + std::to_string(static_cast<unsigned char>(c)) + " is not G-code");
-    return fail_here(std::string("expected a letter before '") + c + "'");
+      return fail_here(say("byte %1 is not G-code", static_cast<unsigned char>(c)));
+    return fail_here(say("expected a letter before '%1'", c));
   }
 
   bool read_comment() {
     const std::uint32_t column = cursor_.column();
     const char* const start = ++cursor_.p;
     while (!cursor_.at_end() && *cursor_.p != ')') {
-      if (*cursor_.p == '(') return fail_here("comments in ( ) cannot hold another (");
+      if (*cursor_.p == '(') return fail_here(say("comments in ( ) cannot hold another ("));
       ++cursor_.p;
     }
-    if (cursor_.at_end()) return fail(column, "the comment needs a closing )");
+    if (cursor_.at_end()) return fail(column, say("the comment needs a closing )"));
     const std::string_view text = trim({start, static_cast<std::size_t>(cursor_.p - start)});
     ++cursor_.p;
     if (text.size() > 3 && upper(text[0]) == 'M' && upper(text[1]) == 'S' && upper(text[2]) == 'G') {
@@ -129,10 +129,10 @@ class BlockReader {
     ++cursor_.p;
     ValueReader values(state_, cursor_, error_);
     if (!values.read_parameter_ref(assignment.target)) return false;
-    if (!cursor_.accept('=')) return fail_here("expected = after the parameter");
+    if (!cursor_.accept('=')) return fail_here(say("expected = after the parameter"));
     if (!values.read_value(assignment.value)) return false;
     if (block_.assignments.size() >= Block::kMaxAssignments)
-      return fail(assignment.column, "too many assignments in one line (32 at most)");
+      return fail(assignment.column, say("too many assignments in one line (32 at most)"));
     block_.assignments.push_back(std::move(assignment));
     return true;
   }
@@ -142,19 +142,19 @@ class BlockReader {
     const char* const star = cursor_.p;
     const std::uint32_t column = cursor_.column();
     if (!block_.has_line_number)
-      return fail(column, "a checksum needs a line number (N) at the line's beginning");
+      return fail(column, say("a checksum needs a line number (N) at the line's beginning"));
     ++cursor_.p;
     int wanted = 0;
     const char* const digits = cursor_.p;
     while (!cursor_.at_end() && is_digit(*cursor_.p) && cursor_.p - digits < 4)
       wanted = wanted * 10 + (*cursor_.p++ - '0');
-    if (cursor_.p == digits || wanted > 255) return fail(column, "a checksum is a number from 0 to 255");
+    if (cursor_.p == digits || wanted > 255) return fail(column, say("a checksum is a number from 0 to 255"));
     cursor_.skip_blanks();
-    if (!cursor_.at_end() && *cursor_.p != ';') return fail_here("nothing can follow the checksum");
+    if (!cursor_.at_end() && *cursor_.p != ';') return fail_here(say("nothing can follow the checksum"));
     unsigned sum = 0;
     for (const char* p = first_; p != star; ++p) sum ^= static_cast<unsigned char>(*p);
     if (sum != static_cast<unsigned>(wanted))
-      return fail(column, "the checksum is " + std::to_string(sum) + ", not " + std::to_string(wanted));
+      return fail(column, say("the checksum is %1, not %2", sum, wanted));
     block_.has_checksum = true;
     return true;
   }
@@ -171,15 +171,16 @@ class BlockReader {
       has_value = values.starts_value();
       if (has_value && !values.read_value(value)) return false;
     }
-    if (letter == 'G') return has_value ? add_g(value, column) : fail(column, "G needs a number");
-    if (letter == 'M') return has_value ? add_m(value, column) : fail(column, "M needs a number");
-    if (letter == 'O') return fail(column, "O words (subroutines, loops, program numbers) are not supported");
+    if (letter == 'G') return has_value ? add_g(value, column) : fail(column, say("G needs a number"));
+    if (letter == 'M') return has_value ? add_m(value, column) : fail(column, say("M needs a number"));
+    if (letter == 'O')
+      return fail(column, say("O words (subroutines, loops, program numbers) are not supported"));
     if (!(std::abs(value) <= kLargestWord))
-      return fail(column, std::string(1, letter) + " is too large (10^9 at most)");
+      return fail(column, say("%1 is too large (10^9 at most)", std::string(1, letter)));
     const std::uint32_t bit = Block::bit(letter);
     if ((block_.present & bit) != 0)
-      return fail(column, std::string(1, letter) + " stands twice in the line (first at column " +
-                              std::to_string(block_.column_of(letter)) + ")");
+      return fail(column, say("%1 stands twice in the line (first at column %2)", std::string(1, letter),
+                              block_.column_of(letter)));
     block_.present |= bit;
     block_.value[Block::index(letter)] = value;
     block_.column[Block::index(letter)] = column;
@@ -193,7 +194,7 @@ class BlockReader {
   bool add_g(double value, std::uint32_t column) {
     const double tenths = std::round(value * 10);
     if (!(tenths >= 0 && tenths < 10000) || std::abs(value * 10 - tenths) > kWholeTolerance)
-      return fail(column, "G codes are 0 to 999.9 with one decimal place at most");
+      return fail(column, say("G codes are 0 to 999.9 with one decimal place at most"));
     const int number = static_cast<int>(tenths);
     const GGroup group = g_group(number);
     if (group == GGroup::kUnknown) {
@@ -203,9 +204,8 @@ class BlockReader {
     }
     if (block_.has(group)) {
       const Code other = block_.code(group);
-      return fail(column, g_name(number) + " and " + g_name(other.number) + " (column " +
-                              std::to_string(other.column) +
-                              ") are of one modal group: only one can stand in a line");
+      return fail(column, say("%1 and %2 (column %3) are of one modal group: only one can stand in a line",
+                              g_name(number), g_name(other.number), other.column));
     }
     if (group != GGroup::kMotion) block_.plain = false;
     block_.groups |= 1U << static_cast<unsigned>(group);
@@ -219,18 +219,18 @@ class BlockReader {
     // M862.3 and its like are harmless with all their decimals.
     if (std::floor(value + kWholeTolerance) == 862) number = 862;
     if (!(number >= 0 && number < 10000) || (std::abs(value - number) > kWholeTolerance && number != 862))
-      return fail(column, "M codes are whole numbers");
+      return fail(column, say("M codes are whole numbers"));
     const Code code{static_cast<int>(number), column};
     const MGroup group = m_group(code.number);
     if (group == MGroup::kUnknown) return fail(column, unknown_m(code.number));
     for (int i = 0; i < block_.m_count; ++i) {
       const Code other = block_.m[static_cast<std::size_t>(i)];
       if (other.number == code.number || (group != MGroup::kOther && m_group(other.number) == group))
-        return fail(column, m_name(code.number) + " and M" + std::to_string(other.number) + " (column " +
-                                std::to_string(other.column) +
-                                ") exclude one another: only one can stand in a line");
+        return fail(column, say("%1 and M%2 (column %3) exclude one another: only one can stand in a line",
+                                m_name(code.number), other.number, other.column));
     }
-    if (block_.m_count == Block::kMaxMCodes) return fail(column, "too many M codes in one line (8 at most)");
+    if (block_.m_count == Block::kMaxMCodes)
+      return fail(column, say("too many M codes in one line (8 at most)"));
     block_.m[static_cast<std::size_t>(block_.m_count++)] = code;
     return takes_text(code.number) ? take_text() : true;
   }

@@ -16,27 +16,28 @@ constexpr std::array kHarmlessG = {290};
 
 struct Reason {
   int code;
-  std::string_view text;
+  const char* text;
 };
 constexpr std::array<Reason, 10> kGReasons = {{
-    {50, "splines (G5) are not supported: use G1, G2 or G3"},
-    {300, "G30 means a probe to printers and a stored position to mills: use G53 G0 with coordinates"},
-    {301, "G30.1 is not supported: use G10 L2 or parameters"},
-    {410, "cutter compensation (G41) is not supported: offset the path in CAM"},
-    {420, "cutter compensation (G42) is not supported: offset the path in CAM"},
-    {380, "probing (G38) is not supported"},
-    {382, "probing (G38.2) is not supported"},
-    {680, "G68 is not supported: use G68.2 for a tilted plane"},
-    {683, "G68.3 is not supported: use G68.2 with I J K"},
-    {950, "feed for each turn (G95) needs a spindle, which this machine does not have"},
+    {50, phrase("splines (G5) are not supported: use G1, G2 or G3")},
+    {300,
+     phrase("G30 means a probe to printers and a stored position to mills: use G53 G0 with coordinates")},
+    {301, phrase("G30.1 is not supported: use G10 L2 or parameters")},
+    {410, phrase("cutter compensation (G41) is not supported: offset the path in CAM")},
+    {420, phrase("cutter compensation (G42) is not supported: offset the path in CAM")},
+    {380, phrase("probing (G38) is not supported")},
+    {382, phrase("probing (G38.2) is not supported")},
+    {680, phrase("G68 is not supported: use G68.2 for a tilted plane")},
+    {683, phrase("G68.3 is not supported: use G68.2 with I J K")},
+    {950, phrase("feed for each turn (G95) needs a spindle, which this machine does not have")},
 }};
 constexpr std::array<Reason, 6> kMReasons = {{
-    {3, "M3 turns a spindle, which this machine does not have"},
-    {4, "M4 turns a spindle, which this machine does not have"},
-    {6, "M6 changes tools, which this machine cannot"},
-    {7, "M7 switches coolant, which this machine does not have"},
-    {8, "M8 switches coolant, which this machine does not have"},
-    {92, "M92 changes steps for each mm: they belong to the machine file"},
+    {3, phrase("M3 turns a spindle, which this machine does not have")},
+    {4, phrase("M4 turns a spindle, which this machine does not have")},
+    {6, phrase("M6 changes tools, which this machine cannot")},
+    {7, phrase("M7 switches coolant, which this machine does not have")},
+    {8, phrase("M8 switches coolant, which this machine does not have")},
+    {92, phrase("M92 changes steps for each mm: they belong to the machine file")},
 }};
 
 }  // namespace
@@ -133,18 +134,18 @@ std::string m_name(int number) {
   return name;
 }
 
-std::string unknown_g(int tenths) {
+Sentence unknown_g(int tenths) {
   for (const Reason& reason : kGReasons)
-    if (reason.code == tenths) return std::string(reason.text);
+    if (reason.code == tenths) return say(reason.text);
   if (tenths >= 810 && tenths <= 890)
-    return "canned cycles (" + g_name(tenths) + ") are not supported: use G0 and G1";
-  return g_name(tenths) + " is unknown";
+    return say("canned cycles (%1) are not supported: use G0 and G1", g_name(tenths));
+  return say("%1 is unknown", g_name(tenths));
 }
 
-std::string unknown_m(int number) {
+Sentence unknown_m(int number) {
   for (const Reason& reason : kMReasons)
-    if (reason.code == number) return std::string(reason.text);
-  return m_name(number) + " is unknown";
+    if (reason.code == number) return say(reason.text);
+  return say("%1 is unknown", m_name(number));
 }
 
 }  // namespace kinebus::gcode

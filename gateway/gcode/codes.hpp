@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <string>
 
+#include "gateway/sentence.hpp"
+
 namespace kinebus::gcode {
 
 /// G codes of one group exclude one another in a line.
@@ -115,7 +117,7 @@ bool harmless_g(int tenths);
 std::string g_name(int tenths);
 std::string m_name(int number);
 /// Why an unknown code is refused.
-std::string unknown_g(int tenths);
-std::string unknown_m(int number);
+Sentence unknown_g(int tenths);
+Sentence unknown_m(int number);
 
 }  // namespace kinebus::gcode

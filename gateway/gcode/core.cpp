@@ -34,7 +34,7 @@ Core::Core(Options options) : options_(std::move(options)) {
   refresh();
 }
 
-bool Core::fail(std::uint32_t column, std::string message) {
+bool Core::fail(std::uint32_t column, Sentence message) {
   error_.line = line_;
   error_.column = column;
   error_.message = std::move(message);
@@ -62,7 +62,7 @@ bool Core::execute(std::string_view line, std::uint32_t line_number, CommandBuff
     }
   }
   if (line.size() > kMaxLine && !block_.is_plain())
-    return fail(kMaxLine + 1, "the line is longer than 4096 bytes");
+    return fail(kMaxLine + 1, say("the line is longer than 4096 bytes"));
   return run_careful();
 }
 
@@ -95,7 +95,7 @@ bool Core::run_block() {
   if (has_content) state_.modal.content_seen = true;
   for (const std::string_view text : block_.messages) emit(canonical::Message{std::string(text)});
   if (block_.harmless_g >= 0)
-    note(kNoteForG + block_.harmless_g, g_name(block_.harmless_g) + " has no effect on this machine");
+    note(kNoteForG + block_.harmless_g, say("%1 has no effect on this machine", g_name(block_.harmless_g)));
 
   // Units first: they hold for every length of the line. Then codes that own words (M207 F) before those
   // words' usual owners, modes, actions without motion, motion, and last what stops the program.
@@ -118,8 +118,8 @@ bool Core::run_nonmodal(Code code) {
   const bool uses_axes = code.number == 280 || code.number == 920 || (code.number == 100 && has('L'));
   const Code motion = block_.code(GGroup::kMotion);
   if (uses_axes && block_.has(GGroup::kMotion))
-    return fail(code.column, g_name(code.number) + " and " + g_name(motion.number) +
-                                 " would both use the line's axis words: write them in two lines");
+    return fail(code.column, say("%1 and %2 would both use the line's axis words: write them in two lines",
+                                 g_name(code.number), g_name(motion.number)));
   switch (code.number) {
     case 40:
       return dwell();
@@ -160,17 +160,17 @@ bool Core::assign_parameters() {
     const int index = assignment.target.index;
     if (index == 0) continue;
     if (parameter_use(index) != ParameterUse::kReadWrite)
-      return fail(assignment.column, std::string("#").append(std::to_string(index)) + " can only be read");
+      return fail(assignment.column, say("%1 can only be read", "#" + std::to_string(index)));
     if (is_offset_parameter(index) && state_.modal.tilted)
-      return fail(assignment.column, "offsets cannot change in a tilted plane: end it with G69 first");
+      return fail(assignment.column, say("offsets cannot change in a tilted plane: end it with G69 first"));
     if (!(std::abs(assignment.value) <= 1e9) && is_offset_parameter(index))
-      return fail(assignment.column, "the offset is too large (10^9 at most)");
+      return fail(assignment.column, say("the offset is too large (10^9 at most)"));
   }
   std::size_t new_names = 0;
   for (const Assignment& assignment : block_.assignments)
     if (assignment.target.index == 0 && !read_named(state_.parameters, assignment.target.name)) ++new_names;
   if (state_.parameters.named.size() + new_names > ParameterState::kMaxNamed)
-    return fail(block_.assignments.front().column, "too many named parameters (1000 at most)");
+    return fail(block_.assignments.front().column, say("too many named parameters (1000 at most)"));
   for (const Assignment& assignment : block_.assignments) {
     if (assignment.target.index != 0)
       write_parameter(state_, assignment.target.index, assignment.value);
@@ -192,12 +192,12 @@ bool Core::check_leftovers() {
   const std::string name(1, letter);
   if (letter == 'U' || letter == 'V' || letter == 'W' || letter == 'B')
     return fail(block_.column_of(letter),
-                "the machine has no axis " + name + "; its axes are X Y Z A C and E");
+                say("the machine has no axis %1; its axes are X Y Z A C and E", name));
   for (const char axis : kAxisLetters)
     if (axis == letter)
       return fail(block_.column_of(letter),
-                  name + " has no use in this line: no motion code is given or active");
-  return fail(block_.column_of(letter), name + " has no use in this line");
+                  say("%1 has no use in this line: no motion code is given or active", name));
+  return fail(block_.column_of(letter), say("%1 has no use in this line", name));
 }
 
 void Core::finish(std::uint32_t line_number, CommandBuffer& out) {
@@ -256,7 +256,7 @@ canonical::Command& Core::emit(canonical::Command command) {
   return out_->emplace_back(canonical::Line{line_, std::move(command)}).command;
 }
 
-void Core::note(int key, std::string text) {
+void Core::note(int key, Sentence text) {
   if (std::find(noted_.begin(), noted_.end(), key) != noted_.end()) return;
   noted_.push_back(key);
   notes_.push_back({line_, std::move(text)});
@@ -267,8 +267,8 @@ bool Core::take(char letter, double& value) {
   const std::string name(1, letter);
   if ((used_ & bit) != 0)
     return fail(block_.column_of(letter),
-                "two codes of this line would both use " + name + ": write them in two lines");
-  if (block_.is_bare(letter)) return fail(block_.column_of(letter), name + " needs a number");
+                say("two codes of this line would both use %1: write them in two lines", name));
+  if (block_.is_bare(letter)) return fail(block_.column_of(letter), say("%1 needs a number", name));
   used_ |= bit;
   value = block_[letter];
   return true;
@@ -283,8 +283,8 @@ bool Core::take_integer(char letter, int lowest, int highest, int& value) {
   double number = 0;
   if (!take(letter, number)) return false;
   if (number < lowest || number > highest || std::abs(number - std::round(number)) > 1e-4)
-    return fail(block_.column_of(letter), std::string(1, letter) + " must be a whole number from " +
-                                              std::to_string(lowest) + " to " + std::to_string(highest));
+    return fail(block_.column_of(letter),
+                say("%1 must be a whole number from %2 to %3", std::string(1, letter), lowest, highest));
   value = static_cast<int>(std::lround(number));
   return true;
 }

@@ -40,7 +40,7 @@ class Core {
   };
 
   // core.cpp
-  bool fail(std::uint32_t column, std::string message);
+  bool fail(std::uint32_t column, Sentence message);
   bool run_careful();  ///< any block; state and output are put back on an error
   bool run_block();
   bool run_nonmodal(Code code);
@@ -50,7 +50,7 @@ class Core {
   void begin_program();
   void announce();
   canonical::Command& emit(canonical::Command command);
-  void note(int key, std::string text);
+  void note(int key, Sentence text);
 
   // Words. take(): the word belongs to the code at work; refused when it has no number or another code took
   // it.

@@ -4,13 +4,15 @@
 #include <cstdint>
 #include <string>
 
+#include "gateway/sentence.hpp"
+
 namespace kinebus::gcode {
 
 /// A line that is refused: nothing of it was carried out.
 struct ParseError {
   std::uint32_t line = 0;    ///< 1-based, as given by the caller
   std::uint32_t column = 0;  ///< 1-based byte of the line
-  std::string message;       ///< the rule and what was expected: "G2 needs I and J, or R"
+  Sentence message;          ///< the rule and what was expected: "G2 needs I and J, or R"
 };
 /// "12:7: G2 needs I and J, or R"
 inline std::string to_string(const ParseError& error) {
@@ -20,7 +22,7 @@ inline std::string to_string(const ParseError& error) {
 /// Something accepted that has no effect here; told once for each code.
 struct Note {
   std::uint32_t line = 0;
-  std::string text;
+  Sentence text;
 };
 
 }  // namespace kinebus::gcode

@@ -189,7 +189,7 @@ double call(Function function, double x) {
 
 }  // namespace
 
-bool ValueReader::fail(const char* at, std::string message) {
+bool ValueReader::fail(const char* at, Sentence message) {
   error_.column = cursor_.column_of(at);
   error_.message = std::move(message);
   return false;
@@ -216,7 +216,7 @@ bool ValueReader::read_value(double& value) {
     cursor_.skip_blanks();
   }
   const char* const start = cursor_.p;
-  if (depth_ >= kMaxDepth) return fail(start, "the expression is nested too deep (40 levels at most)");
+  if (depth_ >= kMaxDepth) return fail(start, say("the expression is nested too deep (40 levels at most)"));
   ++depth_;
   bool good = true;
   if (const char* after = parse_decimal(cursor_.p, cursor_.end, value)) {
@@ -228,7 +228,7 @@ bool ValueReader::read_value(double& value) {
   } else if (function_at(cursor_) != nullptr) {
     good = read_function(value);
   } else {
-    good = fail(start, "expected a number, #parameter, [expression] or function");
+    good = fail(start, say("expected a number, #parameter, [expression] or function"));
   }
   --depth_;
   if (negative) value = -value;
@@ -238,8 +238,8 @@ bool ValueReader::read_value(double& value) {
 bool ValueReader::read_bracket(double& value) {
   const char* const start = cursor_.p;
   if (!read_expression(1, value)) return false;
-  if (!cursor_.accept(']')) return fail(cursor_.p, "expected an operator or ]");
-  if (!std::isfinite(value)) return fail(start, "the expression has no finite value");
+  if (!cursor_.accept(']')) return fail(cursor_.p, say("expected an operator or ]"));
+  if (!std::isfinite(value)) return fail(start, say("the expression has no finite value"));
   return true;
 }
 
@@ -254,9 +254,9 @@ bool ValueReader::read_expression(int lowest_level, double& value) {
     double right = 0;
     if (!read_expression(entry->level + 1, right)) return false;
     if ((entry->op == Operator::kDivide || entry->op == Operator::kModulo) && right == 0)
-      return fail(at, "division by zero");
+      return fail(at, say("division by zero"));
     value = apply(entry->op, value, right);
-    if (!std::isfinite(value)) return fail(at, "the operation has no finite result");
+    if (!std::isfinite(value)) return fail(at, say("the operation has no finite result"));
   }
 }
 
@@ -269,24 +269,25 @@ bool ValueReader::read_function(double& value) {
   if (!read_bracket(value)) return false;
   if (entry->function == Function::kAtan) return read_arc_tangent(start, value);
   value = call(entry->function, value);
-  if (!std::isfinite(value)) return fail(start, std::string(entry->text) + " is not defined for this value");
+  if (!std::isfinite(value))
+    return fail(start, say("%1 is not defined for this value", std::string(entry->text)));
   return true;
 }
 
 bool ValueReader::read_arc_tangent(const char* start, double& value) {
   double other = 0;
-  if (!cursor_.accept('/') || !cursor_.accept('[')) return fail(start, "atan is written atan[y]/[x]");
+  if (!cursor_.accept('/') || !cursor_.accept('[')) return fail(start, say("atan is written atan[y]/[x]"));
   if (!read_bracket(other)) return false;
-  if (value == 0 && other == 0) return fail(start, "atan[0]/[0] is not defined");
+  if (value == 0 && other == 0) return fail(start, say("atan[0]/[0] is not defined"));
   value = std::atan2(value, other) * kDegrees;
   return true;
 }
 
 bool ValueReader::read_exists(double& value) {
   ParameterRef ref;
-  if (!cursor_.accept('#')) return fail(cursor_.p, "exists is written exists[#<name>]");
+  if (!cursor_.accept('#')) return fail(cursor_.p, say("exists is written exists[#<name>]"));
   if (!read_parameter_ref(ref)) return false;
-  if (!cursor_.accept(']')) return fail(cursor_.p, "expected ]");
+  if (!cursor_.accept(']')) return fail(cursor_.p, say("expected ]"));
   value = ref.index != 0 || read_named(state_.parameters, ref.name).has_value() ? 1 : 0;
   return true;
 }
@@ -299,22 +300,22 @@ bool ValueReader::read_parameter_ref(ParameterRef& ref) {
       const char c = lower(*cursor_.p++);
       if (c == ' ' || c == '\t') continue;
       if (!((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-'))
-        return fail(cursor_.p - 1, "a parameter's name is made of letters, digits, _ and -");
+        return fail(cursor_.p - 1, say("a parameter's name is made of letters, digits, _ and -"));
       if (ref.name.size() >= ParameterState::kMaxNameLength)
-        return fail(start, "the parameter's name is too long (64 letters at most)");
+        return fail(start, say("the parameter's name is too long (64 letters at most)"));
       ref.name.push_back(c);
     }
-    if (!cursor_.accept('>')) return fail(start, "the parameter's name needs a closing >");
-    if (ref.name.empty()) return fail(start, "the parameter's name is empty");
+    if (!cursor_.accept('>')) return fail(start, say("the parameter's name needs a closing >"));
+    if (ref.name.empty()) return fail(start, say("the parameter's name is empty"));
     return true;
   }
   double number = 0;
   if (!read_value(number)) return false;
   if (std::abs(number) > 1e6 || std::abs(number - std::round(number)) > kEqualTolerance)
-    return fail(start, "a parameter's number must be a whole number from 1 to 5400");
+    return fail(start, say("a parameter's number must be a whole number from 1 to 5400"));
   ref.index = static_cast<int>(std::lround(number));
   if (parameter_use(ref.index) == ParameterUse::kNone)
-    return fail(start, "there is no parameter #" + std::to_string(ref.index) + "; they are #1 to #5400");
+    return fail(start, say("there is no parameter #%1; they are #1 to #5400", ref.index));
   return true;
 }
 
@@ -327,7 +328,7 @@ bool ValueReader::read_parameter(double& value) {
     return true;
   }
   const auto named = read_named(state_.parameters, ref.name);
-  if (!named) return fail(start, "#<" + ref.name + "> has no value yet");
+  if (!named) return fail(start, say("#<%1> has no value yet", ref.name));
   value = *named;
   return true;
 }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "gateway/gcode/state.hpp"
+#include "gateway/sentence.hpp"
 
 namespace kinebus::gcode {
 
@@ -31,7 +32,7 @@ struct Cursor {
 
 struct SyntaxError {
   std::uint32_t column = 0;
-  std::string message;
+  Sentence message;
 };
 
 /// #12 or #<name>.
@@ -59,7 +60,7 @@ class ValueReader {
  private:
   static constexpr int kMaxDepth = 40;
 
-  bool fail(const char* at, std::string message);
+  bool fail(const char* at, Sentence message);
   bool read_bracket(double& value);
   bool read_expression(int lowest_level, double& value);
   bool read_function(double& value);

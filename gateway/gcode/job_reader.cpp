@@ -17,12 +17,12 @@ Result<void, ParseError> JobReader::line(std::string_view text, CommandBuffer& o
   if (interpreter_.ended()) return {};
   if (const void* nul = std::memchr(text.data(), 0, text.size())) {
     const auto column = static_cast<std::uint32_t>(static_cast<const char*>(nul) - text.data()) + 1;
-    return failed_ =
-               Error<ParseError>({line_, column, "the text holds a NUL byte: this is not a G-code file"});
+    return failed_ = Error<ParseError>(
+               {line_, column, say("the text holds a NUL byte: this is not a G-code file")});
   }
   if (text.size() > kMaxLine && !is_comment(text))
     return failed_ = Error<ParseError>(
-               {line_, static_cast<std::uint32_t>(kMaxLine) + 1, "the line is longer than 4096 bytes"});
+               {line_, static_cast<std::uint32_t>(kMaxLine) + 1, say("the line is longer than 4096 bytes")});
   if (!text.empty() && text.back() == '\r') text.remove_suffix(1);
   auto result = interpreter_.execute(text, line_, out);
   if (!result) failed_ = result;

@@ -111,7 +111,7 @@ bool Core::run_machine_code(Code code) {
       break;
   }
   if (m_group(code.number) == MGroup::kJobs) return stored_job(code);
-  note(code.number, m_name(code.number) + " has no effect on this machine");
+  note(code.number, say("%1 has no effect on this machine", m_name(code.number)));
   return true;
 }
 
@@ -125,7 +125,7 @@ bool Core::spindle(Code code) {
   }
   m.spindle_turns = code.number == 3 ? 1 : -1;
   if (has('S')) return spindle_speed();
-  if (!(m.spindle_rpm > 0)) return fail(code.column, m_name(code.number) + " needs a speed S");
+  if (!(m.spindle_rpm > 0)) return fail(code.column, say("%1 needs a speed S", m_name(code.number)));
   emit(canonical::Spindle{m.spindle_turns * m.spindle_rpm});
   return true;
 }
@@ -134,7 +134,7 @@ bool Core::spindle_speed() {
   if (!options_.spindle || !has('S') || (used_ & Block::bit('S')) != 0) return true;
   double rpm = 0;
   if (!take('S', rpm)) return false;
-  if (!(rpm >= 0)) return fail(block_.column_of('S'), "the spindle's speed S cannot be below 0");
+  if (!(rpm >= 0)) return fail(block_.column_of('S'), say("the spindle's speed S cannot be below 0"));
   state_.modal.spindle_rpm = rpm;
   if (state_.modal.spindle_turns != 0) emit(canonical::Spindle{state_.modal.spindle_turns * rpm});
   return true;
@@ -144,8 +144,7 @@ bool Core::motors(Code code) {
   if (code.number != 17 && has('S')) {
     // M84 S120 sets an idle time in printer firmware and switches nothing off at once.
     pass_over('S');
-    note(code.number,
-         "the idle time of M" + std::to_string(code.number) + " S has no effect on this machine");
+    note(code.number, say("the idle time of M%1 S has no effect on this machine", code.number));
     return true;
   }
   unsigned axes = 0;
@@ -168,14 +167,14 @@ bool Core::thermal(Code code) {
   command.what = code.number < 140 ? What::kHotend : What::kBed;
   command.wait = code.number == 109 || code.number == 190;
   const bool rising = has('S'), both = command.wait && has('R');
-  if (rising && both) return fail(block_.column_of('R'), name + " takes S or R, not both");
+  if (rising && both) return fail(block_.column_of('R'), say("%1 takes S or R, not both", name));
   if (!rising && !both)
-    return fail(code.column,
-                name + (command.wait ? " needs a temperature S or R" : " needs a temperature S"));
+    return fail(code.column, command.wait ? say("%1 needs a temperature S or R", name)
+                                          : say("%1 needs a temperature S", name));
   const char letter = rising ? 'S' : 'R';
   if (!take(letter, command.value)) return false;
   if (command.value < 0)
-    return fail(block_.column_of(letter), "a target temperature cannot be below 0 deg C");
+    return fail(block_.column_of(letter), say("a target temperature cannot be below 0 deg C"));
   command.wait_cooling = both;
   if (command.what == What::kHotend) {
     command.index = state_.modal.tool;
@@ -192,7 +191,7 @@ bool Core::fan(Code code) {
   if (code.number == 106) {
     double speed = 255;
     if (!take_if_given('S', speed)) return false;
-    if (speed < 0 || speed > 255) return fail(block_.column_of('S'), "the fan's speed S is 0 to 255");
+    if (speed < 0 || speed > 255) return fail(block_.column_of('S'), say("the fan's speed S is 0 to 255"));
     command.value = speed / 255;
   }
   emit(command);
@@ -208,11 +207,11 @@ bool Core::axis_limits(Code code) {
     double value = 0;
     if (!has(letter)) continue;
     if (!take(letter, value)) return false;
-    if (!(value > 0)) return fail(block_.column_of(letter), "a limit must be greater than 0");
+    if (!(value > 0)) return fail(block_.column_of(letter), say("a limit must be greater than 0"));
     values[static_cast<std::size_t>(axis)] = axis_value(axis, value);
     any = true;
   }
-  if (!any) return fail(code.column, m_name(code.number) + " needs at least one axis word");
+  if (!any) return fail(code.column, say("%1 needs at least one axis word", m_name(code.number)));
   emit(command);
   return true;
 }
@@ -224,7 +223,7 @@ bool Core::acceleration_limits() {
     if (!has(letter)) return true;
     if (!take(letter, value)) return false;
     value = length(value);
-    return value > 0 || fail(block_.column_of(letter), "an acceleration must be greater than 0");
+    return value > 0 || fail(block_.column_of(letter), say("an acceleration must be greater than 0"));
   };
   // S is the older form: printing and travel.
   if (!read('S', both)) return false;
@@ -238,8 +237,8 @@ bool Core::acceleration_limits() {
 
 bool Core::jerk() {
   for (const char letter : {'X', 'Y', 'Z', 'A', 'C', 'E', 'J', 'S', 'T', 'B'}) pass_over(letter);
-  note(205,
-       "M205 (jerk, junction deviation) has no effect: corners are blended within the tolerance of G64 P");
+  note(205, say("M205 (jerk, junction deviation) has no effect: corners are blended within the tolerance of "
+                "G64 P"));
   return true;
 }
 
@@ -252,17 +251,18 @@ bool Core::retract_settings(Code code) {
   if (has('S')) {
     if (!take('S', s)) return false;
     s = length(s);
-    if (is_retract && s < 0) return fail(block_.column_of('S'), "the retraction's length cannot be negative");
+    if (is_retract && s < 0)
+      return fail(block_.column_of('S'), say("the retraction's length cannot be negative"));
   }
   if (has('F')) {
     if (!take('F', f)) return false;
     f = length(f) / 60;
-    if (!(f > 0)) return fail(block_.column_of('F'), "F must be greater than 0");
+    if (!(f > 0)) return fail(block_.column_of('F'), say("F must be greater than 0"));
   }
   if (is_retract && has('Z')) {
     if (!take('Z', z)) return false;
     z = length(z);
-    if (z < 0) return fail(block_.column_of('Z'), "the retraction's lift cannot be negative");
+    if (z < 0) return fail(block_.column_of('Z'), say("the retraction's lift cannot be negative"));
   }
   (is_retract ? m.retract_length_mm : m.recover_extra_mm) = s;
   (is_retract ? m.retract_mm_per_s : m.recover_mm_per_s) = f;
@@ -274,11 +274,11 @@ bool Core::override_ratio(Code code) {
   ModalState& m = state_.modal;
   const std::string name = m_name(code.number);
   double percent = 0;
-  if (!has('S')) return fail(code.column, name + " needs a percentage S");
+  if (!has('S')) return fail(code.column, say("%1 needs a percentage S", name));
   if (!take('S', percent)) return false;
   const double ratio = percent / 100;
   if (!(ratio > 0 && ratio <= kLargestRatio))
-    return fail(block_.column_of('S'), "the percentage of " + name + " is above 0 and at most 1000");
+    return fail(block_.column_of('S'), say("the percentage of %1 is above 0 and at most 1000", name));
   if (code.number == 220) {
     m.feed_ratio = ratio;
     emit(canonical::Override{ratio, 0});
@@ -298,11 +298,11 @@ bool Core::stored_job(Code code) {
     if (entry.needs_name) {
       command.name = block_.text;
       if (command.name.empty())
-        return fail(code.column, m_name(code.number) + " needs the name of a stored job");
+        return fail(code.column, say("%1 needs the name of a stored job", m_name(code.number)));
     }
     if (entry.what == StoredWhat::kSetPosition) {
       int position = 0;
-      if (!has('S')) return fail(code.column, "M26 needs a byte position S");
+      if (!has('S')) return fail(code.column, say("M26 needs a byte position S"));
       if (!take_integer('S', 0, 1'000'000'000, position)) return false;
       command.position = static_cast<std::uint64_t>(position);
     }

@@ -19,7 +19,7 @@ bool Core::run_modes() {
   if (has('T')) {
     if (!block_.is_bare('T') && block_['T'] >= options_.tools)
       return fail(block_.column_of('T'),
-                  "the machine has no such tool: the last is T" + std::to_string(options_.tools - 1));
+                  say("the machine has no such tool: the last is T%1", options_.tools - 1));
     if (!take_integer('T', 0, options_.tools - 1, m.tool)) return false;
   }
   if (block_.has(GGroup::kPlane)) {
@@ -43,7 +43,7 @@ bool Core::run_modes() {
 }
 
 bool Core::feed_from(double value, FeedRate& feed) {
-  if (!(value > 0)) return fail(block_.column_of('F'), "F must be greater than 0");
+  if (!(value > 0)) return fail(block_.column_of('F'), say("F must be greater than 0"));
   feed.known = true;
   feed.mm_per_s = length(value) / 60;
   feed.rad_per_s = value * (std::numbers::pi / 180 / 60);
@@ -63,10 +63,11 @@ bool Core::run_feed_word() {
 bool Core::dwell() {
   double p = 0, s = 0;
   const bool has_p = block_.has('P'), has_s = block_.has('S');
-  if (has_p && has_s) return fail(block_.column_of('S'), "G4 takes P or S, not both");
+  if (has_p && has_s) return fail(block_.column_of('S'), say("G4 takes P or S, not both"));
   if (!take_if_given('P', p) || !take_if_given('S', s)) return false;
   const double seconds = has_s ? s : options_.dwell_p_unit == DwellUnit::kSeconds ? p : p / 1000;
-  if (seconds < 0) return fail(block_.column_of(has_s ? 'S' : 'P'), "G4 cannot wait for a negative time");
+  if (seconds < 0)
+    return fail(block_.column_of(has_s ? 'S' : 'P'), say("G4 cannot wait for a negative time"));
   emit(canonical::Dwell{seconds});
   return true;
 }
@@ -76,8 +77,8 @@ bool Core::set_path_mode(Code code) {
   double tolerance = 0, merge = 0;
   if (code.number == 640) {
     if (!take_if_given('P', tolerance) || !take_if_given('Q', merge)) return false;
-    if (tolerance < 0) return fail(block_.column_of('P'), "the tolerance P of G64 cannot be negative");
-    if (merge < 0) return fail(block_.column_of('Q'), "the tolerance Q of G64 cannot be negative");
+    if (tolerance < 0) return fail(block_.column_of('P'), say("the tolerance P of G64 cannot be negative"));
+    if (merge < 0) return fail(block_.column_of('Q'), say("the tolerance Q of G64 cannot be negative"));
   }
   m.exact_path = code.number != 640;
   m.path_tolerance_mm = length(tolerance);

@@ -67,7 +67,7 @@ bool Core::run_motion() {
   if (is_arc || m.motion == Motion::kNone || (words & kAllAxes) == 0) return true;
   for (const char letter : kAxisLetters)
     if ((words & block_.bare & Block::bit(letter)) != 0)
-      return fail(block_.column_of(letter), std::string(1, letter) + " needs a number");
+      return fail(block_.column_of(letter), say("%1 needs a number", letter));
   return run_straight(m.motion == Motion::kTraverse);
 }
 
@@ -94,7 +94,7 @@ bool Core::check_turning() {
   const ModalState& m = state_.modal;
   if (!m.tilted || m.tool_centre_point || (block_.present & ~used_ & kTurning) == 0) return true;
   const char letter = block_.has('A') ? 'A' : 'C';
-  return fail(block_.column_of(letter), "in a tilted plane A and C turn only under G43.4, or by G53.1");
+  return fail(block_.column_of(letter), say("in a tilted plane A and C turn only under G43.4, or by G53.1"));
 }
 
 bool Core::run_straight(bool traverse) {
@@ -152,15 +152,15 @@ bool Core::move_to(const Pose& program, const Pose& target, bool traverse) {
 bool Core::speed_for(bool turns_alone, const FeedRate& feed, double& feed_per_s, double& inverse_time_s) {
   const ModalState& m = state_.modal;
   if (m.inverse_time) {
-    if (!has('F')) return fail(1, "in inverse time mode (G93) every G1, G2 and G3 needs F");
+    if (!has('F')) return fail(1, say("in inverse time mode (G93) every G1, G2 and G3 needs F"));
     double f = block_['F'];
-    if (!(f > 0)) return fail(block_.column_of('F'), "F must be greater than 0");
+    if (!(f > 0)) return fail(block_.column_of('F'), say("F must be greater than 0"));
     inverse_time_s = 60 / (f * m.feed_ratio);
     return true;
   }
   if (!feed.known) {
     const std::uint32_t column = block_.has(GGroup::kMotion) ? block_.code(GGroup::kMotion).column : 1;
-    return fail(column, "no feed rate is set: this move needs F");
+    return fail(column, say("no feed rate is set: this move needs F"));
   }
   feed_per_s = (turns_alone ? feed.rad_per_s : feed.mm_per_s) * m.feed_ratio;
   return true;
@@ -176,12 +176,13 @@ bool Core::arc_words(const Pose& start, bool& by_radius, double& radius_mm, std:
              third = kCentreLetters[plane.w];
   by_radius = has('R');
   const bool by_centre = has(first) || has(second);
-  const std::string expected = std::string(1, first) + " and " + second + ", or R";
+  const auto expected = [&] { return say("%1 and %2, or R", first, second); };
   if (has(third))
-    return fail(block_.column_of(third), std::string(1, third) + " does not belong to the arc's plane: " +
-                                             name + " needs " + expected);
-  if (by_radius && by_centre) return fail(block_.column_of('R'), name + " needs " + expected + ", not both");
-  if (!by_radius && !by_centre) return fail(code.column, name + " needs " + expected);
+    return fail(block_.column_of(third),
+                say("%1 does not belong to the arc's plane: %2 needs %3", third, name, expected()));
+  if (by_radius && by_centre)
+    return fail(block_.column_of('R'), say("%1 needs %2, not both", name, expected()));
+  if (!by_radius && !by_centre) return fail(code.column, say("%1 needs %2", name, expected()));
   if (!take_integer('P', 1, 1000, turns)) return false;
   if (by_radius) {
     if (!take('R', radius_mm)) return false;
@@ -189,7 +190,7 @@ bool Core::arc_words(const Pose& start, bool& by_radius, double& radius_mm, std:
     return true;
   }
   if (m.absolute_centre && !(has(first) && has(second)))
-    return fail(code.column, std::string("with G90.1 an arc needs both ") + first + " and " + second);
+    return fail(code.column, say("with G90.1 an arc needs both %1 and %2", first, second));
   double u = 0, v = 0;
   if (!take_if_given(first, u) || !take_if_given(second, v)) return false;
   centre = {length(u), length(v)};
@@ -203,7 +204,7 @@ bool Core::run_arc(bool clockwise) {
   const std::uint32_t column = block_.has(GGroup::kMotion) ? block_.code(GGroup::kMotion).column : 1;
   for (const char letter : kAxisLetters)
     if ((block_.present & ~used_ & block_.bare & Block::bit(letter)) != 0)
-      return fail(block_.column_of(letter), std::string(1, letter) + " needs a number");
+      return fail(block_.column_of(letter), say("%1 needs a number", letter));
   if (!check_turning()) return false;
 
   const Pose start = m.program;
@@ -257,10 +258,10 @@ bool Core::run_machine_coordinates() {
   const ModalState& m = state_.modal;
   const Code code = block_.code(GGroup::kNonmodal);
   if (m.motion != Motion::kTraverse && m.motion != Motion::kFeed)
-    return fail(code.column, "G53 needs G0 or G1, in this line or active");
+    return fail(code.column, say("G53 needs G0 or G1, in this line or active"));
   if (m.frame != Frame::kMachine)
-    return fail(code.column, "G53 needs G49 and G69: machine coordinates do not turn with the part");
-  if (m.incremental) return fail(code.column, "G53 needs absolute distances (G90)");
+    return fail(code.column, say("G53 needs G49 and G69: machine coordinates do not turn with the part"));
+  if (m.incremental) return fail(code.column, say("G53 needs absolute distances (G90)"));
   Pose target = m.position;
   Pose program = m.program;
   program_target(program);

@@ -93,7 +93,7 @@ void Core::change_frame() {
 bool Core::refuse_in_tilt(Code code) {
   if (!state_.modal.tilted) return true;
   return fail(code.column,
-              g_name(code.number) + " cannot change offsets in a tilted plane: end it with G69 first");
+              say("%1 cannot change offsets in a tilted plane: end it with G69 first", g_name(code.number)));
 }
 
 bool Core::select_coordinate_system(Code code) {
@@ -110,8 +110,9 @@ bool Core::set_coordinate_system() {
   if (!refuse_in_tilt(code)) return false;
   double l = 0;
   if (!take('L', l)) return false;
-  if (l != 2 && l != 20) return fail(block_.column_of('L'), "G10 needs L2 or L20 (or no L: retract)");
-  if (!has('P')) return fail(code.column, "G10 needs P: 1 for G54 ... 9 for G59.3, 0 for the active one");
+  if (l != 2 && l != 20) return fail(block_.column_of('L'), say("G10 needs L2 or L20 (or no L: retract)"));
+  if (!has('P'))
+    return fail(code.column, say("G10 needs P: 1 for G54 ... 9 for G59.3, 0 for the active one"));
   int p = 0;
   if (!take_integer('P', 0, kCoordinateSystems, p)) return false;
   Pose& offsets = m.coordinate_offsets[static_cast<std::size_t>(p == 0 ? m.coordinate_system : p - 1)];
@@ -166,7 +167,7 @@ bool Core::set_g92(Code code) {
     base_e_here(length(value));
     any = true;
   }
-  return any || fail(code.column, "G92 needs at least one axis word");
+  return any || fail(code.column, say("G92 needs at least one axis word"));
 }
 
 bool Core::set_tool_length(Code code) {
@@ -177,8 +178,9 @@ bool Core::set_tool_length(Code code) {
   const double tool_length =
       code.number == 490 || h == 0 ? 0 : options_.tool_length_mm[static_cast<std::size_t>(h - 1)];
   if (tool_length != 0 && (code.number == 434 || m.tilted))
-    return fail(code.column,
-                "G43.4 and G68.2 need a tool of length 0: the machine file says where the tool's tip is");
+    return fail(
+        code.column,
+        say("G43.4 and G68.2 need a tool of length 0: the machine file says where the tool's tip is"));
   m.tool_length_mm = tool_length;
   m.tool_centre_point = code.number == 434;
   change_frame();
@@ -192,13 +194,14 @@ bool Core::set_tilt(Code code) {
     change_frame();
     return true;
   }
-  if (m.tilted) return fail(code.column, "a tilted plane is active already: end it with G69 first");
+  if (m.tilted) return fail(code.column, say("a tilted plane is active already: end it with G69 first"));
   if (m.tool_length_mm != 0)
-    return fail(code.column,
-                "G43.4 and G68.2 need a tool of length 0: the machine file says where the tool's tip is");
+    return fail(
+        code.column,
+        say("G43.4 and G68.2 need a tool of length 0: the machine file says where the tool's tip is"));
   double x = 0, y = 0, z = 0, i = 0, j = 0, k = 0;
   if (block_.has(GGroup::kMotion))
-    return fail(code.column, "G68.2 uses the line's axis words: write the motion in another line");
+    return fail(code.column, say("G68.2 uses the line's axis words: write the motion in another line"));
   if (!take_if_given('X', x) || !take_if_given('Y', y) || !take_if_given('Z', z) || !take_if_given('I', i) ||
       !take_if_given('J', j) || !take_if_given('K', k))
     return false;
@@ -212,7 +215,7 @@ bool Core::set_tilt(Code code) {
 bool Core::orient_tool() {
   ModalState& m = state_.modal;
   const Code code = block_.code(GGroup::kNonmodal);
-  if (!m.tilted) return fail(code.column, "G53.1 needs a tilted plane (G68.2)");
+  if (!m.tilted) return fail(code.column, say("G53.1 needs a tilted plane (G68.2)"));
   int choice = 0;
   if (!take_integer('P', 0, 2, choice)) return false;
   // R_X(A) R_Z(C) turns the plane's normal (in the part) to the machine's +Z, where the tool comes from.
@@ -235,7 +238,8 @@ bool Core::orient_tool() {
     if (!found || turn < std::abs(best[kAxisC] - m.position[kAxisC]) - kRounding) best = pose;
     found = true;
   }
-  if (!found) return fail(code.column, "no A within the machine's range makes the tool normal to the plane");
+  if (!found)
+    return fail(code.column, say("no A within the machine's range makes the tool normal to the plane"));
 
   if (std::abs(best[kAxisA] - m.position[kAxisA]) <= kRounding &&
       std::abs(best[kAxisC] - m.position[kAxisC]) <= kRounding)
@@ -265,7 +269,7 @@ bool Core::home() {
     if (!has(letter)) continue;
     // G28 X0 is common; an intermediate point as in RS274/NGC has no meaning when home is a switch.
     if (!block_.is_bare(letter) && block_[letter] != 0)
-      return fail(block_.column_of(letter), "G28 finds the home switches: name axes without a number");
+      return fail(block_.column_of(letter), say("G28 finds the home switches: name axes without a number"));
     pass_over(letter);
     axes |= 1U << axis;
   }

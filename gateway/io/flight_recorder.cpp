@@ -155,7 +155,7 @@ void FlightRecorder::on_event(const MachineEvent& event) {
   if (event.kind != MachineEvent::Kind::kAlarm || impl_->report_at != LocalTime::max()) return;
   if (event.when - impl_->last_report < kBetweenReports) return;
   impl_->report_at = event.when + kAftermath;
-  impl_->cause = event.words;
+  impl_->cause = event.words.english();
 }
 
 void FlightRecorder::on_time(LocalTime now) {

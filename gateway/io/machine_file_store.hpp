@@ -12,8 +12,8 @@ class MachineFileStore : public MachineFilePort {
   /// Empty path: the built-in machine, told as `built_in` and never written.
   MachineFileStore(std::filesystem::path path, std::string built_in)
       : path_(std::move(path)), built_in_(std::move(built_in)) {}
-  Result<Text, std::string> read() override;
-  Result<void, std::string> write(std::string_view text) override;
+  Result<Text, Sentence> read() override;
+  Result<void, Sentence> write(std::string_view text) override;
 
  private:
   std::filesystem::path path_;

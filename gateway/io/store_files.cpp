@@ -37,7 +37,8 @@ std::vector<SerialFiles::Entry> StoreFiles::list() {
 }
 
 Result<std::unique_ptr<ByteSource>, std::string> StoreFiles::open(std::string_view name) {
-  if (std::string broken = JobStore::check_name(name); !broken.empty()) return Error<std::string>(broken);
+  if (const Sentence broken = JobStore::check_name(name); !broken.empty())
+    return Error<std::string>(broken.english());
   if (!is_job(folder_ / name)) return Error<std::string>("no stored job has the name " + std::string(name));
   auto source = FileSource::open(folder_ / name);
   if (!source) return Error<std::string>(source.error());
@@ -48,7 +49,7 @@ std::string StoreFiles::run(std::string_view name) {
   auto source = open(name);
   if (!source) return source.error();
   const auto begun = gateway_.run(std::move(*source), std::string(name));
-  if (!begun) return begun.error().words;
+  if (!begun) return begun.error().words.english();
   server_.job_started(std::string(name));
   return {};
 }
@@ -60,7 +61,7 @@ std::string StoreFiles::remove(std::string_view name) {
 }
 
 std::string StoreFiles::store(std::string_view name, std::string_view text) {
-  if (std::string broken = JobStore::check_name(name); !broken.empty()) return broken;
+  if (const Sentence broken = JobStore::check_name(name); !broken.empty()) return broken.english();
   const fs::path fresh = folder_ / ".serial";
   const int fd = ::open(fresh.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0644);
   bool written = fd >= 0;

@@ -2,17 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "gateway/jobs/machine_setup.hpp"
 
 namespace kinebus {
 namespace {
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
+std::string celsius(double value) {
+  return printed("%.6g C", value);
 }
 
 }  // namespace
@@ -25,7 +22,7 @@ JobCheck::JobCheck(const MachineDescription& machine, const Kinematics& kinemati
       options_(options),
       hotend_celsius_(options.hotend_celsius) {}
 
-void JobCheck::add(Problem::Severity severity, std::uint32_t line, std::string words) {
+void JobCheck::add(Problem::Severity severity, std::uint32_t line, Sentence words) {
   problems_.add({severity, line, 0, std::move(words)});
 }
 
@@ -60,12 +57,12 @@ void JobCheck::check_extrusion(const Phase& phase) {
   if (!hotend_celsius_) {
     cold_reported_ = true;
     add(Problem::Severity::kWarning, phase.line,
-        "filament is fed before the job has set a hotend temperature (M104)");
+        say("filament is fed before the job has set a hotend temperature (M104)"));
   } else if (*hotend_celsius_ < machine_.thermal.min_extrude_c) {
     cold_reported_ = true;
     add(Problem::Severity::kError, phase.line,
-        "filament is fed with the hotend at " + number(*hotend_celsius_) + " C; at least " +
-            number(machine_.thermal.min_extrude_c) + " C is needed");
+        say("filament is fed with the hotend at %1; at least %2 is needed", celsius(*hotend_celsius_),
+            celsius(machine_.thermal.min_extrude_c)));
   }
 }
 
@@ -76,10 +73,10 @@ void JobCheck::command(const canonical::Line& line) {
     if (auto wrong = wrong_spindle_speed(machine_.spindle, spindle->rpm))
       add(Problem::Severity::kError, line.line, std::move(*wrong));
   if (std::holds_alternative<canonical::EmergencyStop>(line.command))
-    add(Problem::Severity::kWarning, line.line, "M112 stops the machine here");
+    add(Problem::Severity::kWarning, line.line, say("M112 stops the machine here"));
   if (std::holds_alternative<canonical::Settings>(line.command))
     add(Problem::Severity::kWarning, line.line,
-        "settings are kept in the machine file: M500 to M503 do nothing in a job");
+        say("settings are kept in the machine file: M500 to M503 do nothing in a job"));
 }
 
 void JobCheck::check_thermal(const canonical::Thermal& thermal, std::uint32_t line) {
@@ -87,18 +84,17 @@ void JobCheck::check_thermal(const canonical::Thermal& thermal, std::uint32_t li
   if (thermal.what == What::kFan) return;
   const bool hotend = thermal.what == What::kHotend;
   const HeaterDescription& heater = hotend ? machine_.thermal.hotend : machine_.thermal.bed;
-  const char* const name = hotend ? "hotend" : "bed";
+  const Sentence name = hotend ? say("hotend") : say("bed");
   if (!heater.present && thermal.value > 0)
-    add(Problem::Severity::kError, line, std::string("this machine has no ") + name + " heater");
+    add(Problem::Severity::kError, line, say("this machine has no %1 heater", name));
   else if (thermal.value < 0 || thermal.value > heater.max_c)
     add(Problem::Severity::kError, line,
-        std::string(name) + " temperature " + number(thermal.value) + " C; allowed are 0 to " +
-            number(heater.max_c) + " C");
+        say("%1 temperature %2; allowed are 0 to %3", name, celsius(thermal.value), celsius(heater.max_c)));
   else if (thermal.wait && thermal.wait_cooling && thermal.value < machine_.thermal.ambient_c &&
            thermal.value > 0)
     add(Problem::Severity::kError, line,
-        std::string(name) + " would wait forever: " + number(thermal.value) + " C is below the room's " +
-            number(machine_.thermal.ambient_c) + " C");
+        say("%1 would wait forever: %2 is below the room's %3", name, celsius(thermal.value),
+            celsius(machine_.thermal.ambient_c)));
   if (hotend && thermal.index == 0) hotend_celsius_ = thermal.value;
 }
 

@@ -36,7 +36,7 @@ class JobCheck {
   void check_pose(const Phase& phase, double s);
   void check_extrusion(const Phase& phase);
   void check_thermal(const canonical::Thermal& thermal, std::uint32_t line);
-  void add(Problem::Severity severity, std::uint32_t line, std::string words);
+  void add(Problem::Severity severity, std::uint32_t line, Sentence words);
 
   const MachineDescription& machine_;
   const Kinematics& kinematics_;

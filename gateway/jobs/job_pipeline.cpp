@@ -109,7 +109,7 @@ void JobPipeline::settle_live() {
   if (stage_ == Stage::kFeeding && waiting() == 0 && !live_idle()) drain(std::nullopt);
 }
 
-void JobPipeline::refuse(std::uint32_t line, std::uint32_t column, std::string words) {
+void JobPipeline::refuse(std::uint32_t line, std::uint32_t column, Sentence words) {
   refused_ = Problem{Problem::Severity::kError, line, column, std::move(words)};
 }
 
@@ -235,7 +235,7 @@ void JobPipeline::take(const canonical::Line& line) {
     return drain(std::nullopt);
   }
   if (std::holds_alternative<StoredJob>(command))
-    return refuse(line.line, 0, "a job cannot manage stored jobs: M20 to M32 belong to a session");
+    return refuse(line.line, 0, say("a job cannot manage stored jobs: M20 to M32 belong to a session"));
   if (is_barrier(command, machine_.gcode.optional_stop)) return drain(line);
   if (std::holds_alternative<Pause>(command)) return;
   events_.push_back(line);
@@ -284,7 +284,7 @@ void JobPipeline::home(const Home& home, std::uint32_t line) {
   const kinebus::Frame frame = frame_of(home.frame);
   if (planner_.end_frame() != frame) {
     const auto pose = convert_pose(kinematics_, planner_.end_frame(), planner_.end_pose(), frame);
-    if (!pose) return refuse(line, 0, "G28: " + to_string(pose.error()));
+    if (!pose) return refuse(line, 0, say("G28: %1", to_string(pose.error())));
     first_.push_back({line, SetPosition{*pose, home.frame}});
   }
   Pose target = home.afterwards;

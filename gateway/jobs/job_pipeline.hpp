@@ -85,7 +85,7 @@ class JobPipeline {
   };
 
   void begin(const PoseVector& start);
-  void refuse(std::uint32_t line, std::uint32_t column, std::string words);
+  void refuse(std::uint32_t line, std::uint32_t column, Sentence words);
   std::optional<Step> take_phase();
   std::optional<Step> settle();
   void read_text(int& budget);

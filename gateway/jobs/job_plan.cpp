@@ -33,7 +33,7 @@ JobPlan::JobPlan(const MachineDescription& machine, const Kinematics& kinematics
   pipeline_.start_job(source, start);
   JointVector joints{};
   if (const auto reached = kinematics.inverse(Frame::kMachine, start, joints); !reached) {
-    check_.problem({Problem::Severity::kError, 0, 0, "bed reference: " + to_string(reached.error())});
+    check_.problem({Problem::Severity::kError, 0, 0, say("bed reference: %1", to_string(reached.error()))});
     streaming_ = false;
   }
   for (const NodeAxes& node : node_axes(machine)) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "gateway/jobs/machine_setup.hpp"
@@ -11,7 +10,7 @@
 namespace kinebus {
 namespace {
 
-using Refused = std::optional<std::string>;
+using Refused = std::optional<Sentence>;
 
 // As in a job's check: the workspace's borders are smooth, between good poses 1 mm apart the path leaves it
 // by less than 2 um.
@@ -26,9 +25,7 @@ kinebus::Frame frame_of(canonical::Frame frame) {
 }
 
 std::string celsius(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g C", value);
-  return text;
+  return printed("%.6g C", value);
 }
 
 }  // namespace
@@ -78,7 +75,7 @@ void LiveLines::begin(const PoseVector& pose, std::optional<double> hotend_celsi
 
 Result<void, Problem> LiveLines::take(std::string_view line, std::uint32_t number,
                                       gcode::CommandBuffer& out) {
-  const auto refuse = [&](std::uint32_t column, std::string words) {
+  const auto refuse = [&](std::uint32_t column, Sentence words) {
     return Error<Problem>({Problem::Severity::kError, number, column, std::move(words)});
   };
   const gcode::State before = interpreter_.state();
@@ -107,7 +104,7 @@ Result<void, Problem> LiveLines::take(std::string_view line, std::uint32_t numbe
   return {};
 }
 
-std::vector<std::string> LiveLines::take_notes() {
+std::vector<Sentence> LiveLines::take_notes() {
   return std::exchange(notes_, {});
 }
 
@@ -120,13 +117,13 @@ Refused LiveLines::check(const canonical::Command& command) {
   if (const auto* spindle = std::get_if<canonical::Spindle>(&command))
     return wrong_spindle_speed(machine_.spindle, spindle->rpm);
   if (std::holds_alternative<canonical::StoredJob>(command))
-    return "stored jobs are managed by the session: M20 to M32 stand alone in a line";
+    return say("stored jobs are managed by the session: M20 to M32 stand alone in a line");
   const auto* feed = std::get_if<canonical::Feed>(&command);
   const auto* traverse = std::get_if<canonical::Traverse>(&command);
   const auto* arc = std::get_if<canonical::Arc>(&command);
   const auto* home = std::get_if<canonical::Home>(&command);
   if (!feed && !traverse && !arc && !home) return std::nullopt;
-  if (!may_move_) return "the machine is not ready to move: home it first (G28)";
+  if (!may_move_) return say("the machine is not ready to move: home it first (G28)");
   if (home) return check_home(*home);
   if (arc) return check_arc(*arc);
   return feed ? check_straight(feed->target, feed->frame) : check_straight(traverse->target, traverse->frame);
@@ -137,7 +134,7 @@ Refused LiveLines::check_straight(const PoseVector& target, canonical::Frame fra
   const PoseVector from = place_.pose;
   double mm = 0, rad = 0;
   for (std::size_t axis = 0; axis < kPoseAxes; ++axis) {
-    if (!std::isfinite(target[axis])) return "a move needs numbers";
+    if (!std::isfinite(target[axis])) return say("a move needs numbers");
     const double way = std::abs(target[axis] - from[axis]);
     if (axis == kA || axis == kC)
       rad = std::max(rad, way);
@@ -147,7 +144,7 @@ Refused LiveLines::check_straight(const PoseVector& target, canonical::Frame fra
   const auto end = kinematics_.check(frame_of(frame), target);
   if (!end) return to_string(end.error());
   // The end lies within the workspace: only turns may be long.
-  if (mm > kLongestMove_mm || rad > kLongestTurn_rad) return "the move is too long to be checked";
+  if (mm > kLongestMove_mm || rad > kLongestTurn_rad) return say("the move is too long to be checked");
   const double steps = std::ceil(std::max(mm / kCheckStep_mm, rad / kCheckStep_rad));
   for (double i = 1; i < steps; ++i) {
     PoseVector pose = from;
@@ -165,11 +162,11 @@ Refused LiveLines::check_arc(const canonical::Arc& arc) {
   move.from = place_.pose;
   move.to = arc.target;
   move.frame = frame_of(arc.frame);
-  if (!shape_arc(arc, place_.pose, move)) return "centre, plane and target do not make an arc";
-  if (!(move.length <= kLongestMove_mm)) return "the arc is too long to be checked";
+  if (!shape_arc(arc, place_.pose, move)) return say("centre, plane and target do not make an arc");
+  if (!(move.length <= kLongestMove_mm)) return say("the arc is too long to be checked");
   const double turning =
       std::max(std::abs(arc.target[kA] - place_.pose[kA]), std::abs(arc.target[kC] - place_.pose[kC]));
-  if (!(turning <= kLongestTurn_rad)) return "the arc turns too far to be checked";
+  if (!(turning <= kLongestTurn_rad)) return say("the arc turns too far to be checked");
   const double steps = std::ceil(std::max(move.length / kCheckStep_mm, turning / kCheckStep_rad));
   for (double i = 1; i <= steps; ++i)
     if (const auto fits = kinematics_.check(move.frame, point_on(move, move.length * i / steps).x); !fits)
@@ -182,7 +179,7 @@ Refused LiveLines::check_arc(const canonical::Arc& arc) {
 /// which lie outside the workspace, this is the way in: then only its end is checked.
 Refused LiveLines::check_home(const canonical::Home& home) {
   const auto from = convert_pose(kinematics_, frame_of(place_.frame), place_.pose, frame_of(home.frame));
-  if (!from) return "G28: " + to_string(from.error());
+  if (!from) return say("G28: %1", to_string(from.error()));
   PoseVector target = home.afterwards;
   target[kE] = place_.pose[kE];
   place_ = {*from, home.frame};
@@ -196,12 +193,12 @@ Refused LiveLines::check_extrusion(const PoseVector& target) {
     return std::nullopt;
   if (!hotend_celsius_) {
     if (!std::exchange(cold_noted_, true))
-      notes_.emplace_back("filament is fed before a hotend temperature is set");
+      notes_.push_back(say("filament is fed before a hotend temperature is set"));
     return std::nullopt;
   }
   if (*hotend_celsius_ >= machine_.thermal.min_extrude_c) return std::nullopt;
-  return "filament would be fed with the hotend at " + celsius(*hotend_celsius_) + "; at least " +
-         celsius(machine_.thermal.min_extrude_c) + " is needed";
+  return say("filament would be fed with the hotend at %1; at least %2 is needed", celsius(*hotend_celsius_),
+             celsius(machine_.thermal.min_extrude_c));
 }
 
 Refused LiveLines::check_thermal(const canonical::Thermal& thermal) {
@@ -209,13 +206,13 @@ Refused LiveLines::check_thermal(const canonical::Thermal& thermal) {
   if (thermal.what == What::kFan) return std::nullopt;
   const bool hotend = thermal.what == What::kHotend;
   const HeaterDescription& heater = hotend ? machine_.thermal.hotend : machine_.thermal.bed;
-  const std::string name = hotend ? "hotend" : "bed";
-  if (!heater.present && thermal.value > 0) return "this machine has no " + name + " heater";
+  const Sentence name = hotend ? say("hotend") : say("bed");
+  if (!heater.present && thermal.value > 0) return say("this machine has no %1 heater", name);
   if (!(thermal.value >= 0 && thermal.value <= heater.max_c))
-    return name + " temperature " + celsius(thermal.value) + "; allowed are 0 to " + celsius(heater.max_c);
+    return say("%1 temperature %2; allowed are 0 to %3", name, celsius(thermal.value), celsius(heater.max_c));
   if (thermal.wait && thermal.wait_cooling && thermal.value > 0 && thermal.value < machine_.thermal.ambient_c)
-    return name + " would wait forever: " + celsius(thermal.value) + " is below the room's " +
-           celsius(machine_.thermal.ambient_c);
+    return say("%1 would wait forever: %2 is below the room's %3", name, celsius(thermal.value),
+               celsius(machine_.thermal.ambient_c));
   // A cold end after a print is no news: only lines that feed filament afterwards are refused.
   if (hotend && thermal.index == 0) hotend_celsius_ = thermal.value;
   return std::nullopt;

@@ -40,19 +40,19 @@ class LiveLines {
   const gcode::WorkOffsets& work_offsets() const { return interpreter_.state().modal.coordinate_offsets; }
 
   /// What was accepted without effect since the last call, in words.
-  std::vector<std::string> take_notes();
+  std::vector<Sentence> take_notes();
 
  private:
   struct Place {
     PoseVector pose{};
     canonical::Frame frame = canonical::Frame::kMachine;
   };
-  std::optional<std::string> check(const canonical::Command& command);
-  std::optional<std::string> check_straight(const PoseVector& target, canonical::Frame frame);
-  std::optional<std::string> check_arc(const canonical::Arc& arc);
-  std::optional<std::string> check_home(const canonical::Home& home);
-  std::optional<std::string> check_thermal(const canonical::Thermal& thermal);
-  std::optional<std::string> check_extrusion(const PoseVector& target);
+  std::optional<Sentence> check(const canonical::Command& command);
+  std::optional<Sentence> check_straight(const PoseVector& target, canonical::Frame frame);
+  std::optional<Sentence> check_arc(const canonical::Arc& arc);
+  std::optional<Sentence> check_home(const canonical::Home& home);
+  std::optional<Sentence> check_thermal(const canonical::Thermal& thermal);
+  std::optional<Sentence> check_extrusion(const PoseVector& target);
 
   const MachineDescription& machine_;
   const Kinematics& kinematics_;
@@ -63,7 +63,7 @@ class LiveLines {
   bool cold_noted_ = false;
   canonical::Limits limits_{};  ///< in force
   std::optional<canonical::PathMode> path_mode_;
-  std::vector<std::string> notes_;
+  std::vector<Sentence> notes_;
 };
 
 /// Values that are stated (not 0) take the place of the ones before.

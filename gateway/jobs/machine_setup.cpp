@@ -95,16 +95,14 @@ StreamGroup::Options stream_options(const MachineDescription& machine) {
   return options;
 }
 
-std::optional<std::string> wrong_spindle_speed(const SpindleDescription& spindle, double rpm) {
+std::optional<Sentence> wrong_spindle_speed(const SpindleDescription& spindle, double rpm) {
   if (rpm == 0) return std::nullopt;
-  if (!spindle.present) return "this machine has no spindle";
-  if (rpm < 0 && !spindle.reversible) return "the spindle turns one way only: use M3";
+  if (!spindle.present) return say("this machine has no spindle");
+  if (rpm < 0 && !spindle.reversible) return say("the spindle turns one way only: use M3");
   const double speed = std::abs(rpm);
   if (speed >= spindle.min_rpm && speed <= spindle.max_rpm) return std::nullopt;
-  char text[120];
-  std::snprintf(text, sizeof text, "spindle speed %.6g rpm; allowed are %.6g to %.6g rpm", speed,
-                spindle.min_rpm, spindle.max_rpm);
-  return text;
+  return say("spindle speed %1 rpm; allowed are %2 to %3 rpm", printed("%.6g", speed),
+             printed("%.6g", spindle.min_rpm), printed("%.6g", spindle.max_rpm));
 }
 
 Result<PoseVector, PoseError> convert_pose(const Kinematics& kinematics, Frame from, const PoseVector& pose,

@@ -8,6 +8,7 @@
 #include "gateway/gcode/interpreter.hpp"
 #include "gateway/machine/description/machine_description.hpp"
 #include "gateway/motion/motion_limits.hpp"
+#include "gateway/sentence.hpp"
 #include "gateway/stream/axis_scaling.hpp"
 #include "gateway/stream/stream_group.hpp"
 
@@ -26,7 +27,7 @@ std::vector<NodeAxes> node_axes(const MachineDescription& machine);
 StreamGroup::Options stream_options(const MachineDescription& machine);
 
 /// Why this machine's spindle cannot turn so fast (`rpm` < 0: the other way round); none: it can.
-std::optional<std::string> wrong_spindle_speed(const SpindleDescription& spindle, double rpm);
+std::optional<Sentence> wrong_spindle_speed(const SpindleDescription& spindle, double rpm);
 
 /// The same place in the other frame, by way of the joints.
 Result<PoseVector, PoseError> convert_pose(const Kinematics& kinematics, Frame from, const PoseVector& pose,

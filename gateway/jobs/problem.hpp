@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "gateway/sentence.hpp"
+
 namespace kinebus {
 
 struct Problem {
@@ -12,7 +14,7 @@ struct Problem {
   Severity severity = Severity::kError;
   std::uint32_t line = 0;    ///< of the job, from 1; 0: the job as a whole
   std::uint32_t column = 0;  ///< from 1; 0: the whole line
-  std::string words;         ///< the rule that is violated, what was found, what is allowed
+  Sentence words;            ///< the rule that is violated, what was found, what is allowed
 };
 
 /// Problems in the order of the job, at most `capacity` kept; the rest is only counted.

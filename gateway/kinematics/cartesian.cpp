@@ -137,9 +137,9 @@ Result<std::unique_ptr<Kinematics>, GeometryError> make_cartesian_kinematics(
     const CartesianGeometry& geometry) {
   for (const Interval& i :
        {geometry.x_mm, geometry.y_mm, geometry.z_mm, geometry.table.a_rad, geometry.table.c_rad})
-    if (!(i.min <= i.max)) return Error<GeometryError>({"a travel's minimum is above its maximum"});
+    if (!(i.min <= i.max)) return Error<GeometryError>({say("a travel's minimum is above its maximum")});
   for (const double v : geometry.table.pivot_mm)
-    if (!std::isfinite(v)) return Error<GeometryError>({"the table's pivot is not a number"});
+    if (!std::isfinite(v)) return Error<GeometryError>({say("the table's pivot is not a number")});
   return std::make_unique<Cartesian>(geometry);
 }
 

@@ -87,7 +87,7 @@ class CoreXy final : public Kinematics {
 
 Result<std::unique_ptr<Kinematics>, GeometryError> make_corexy_kinematics(const CoreXyGeometry& geometry) {
   for (const Interval& i : {geometry.x_mm, geometry.y_mm, geometry.z_mm})
-    if (!(i.min <= i.max)) return Error<GeometryError>({"a travel's minimum is above its maximum"});
+    if (!(i.min <= i.max)) return Error<GeometryError>({say("a travel's minimum is above its maximum")});
   return std::make_unique<CoreXy>(geometry);
 }
 

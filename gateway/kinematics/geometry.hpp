@@ -9,6 +9,7 @@
 
 #include "gateway/kinematics/kinematics.hpp"
 #include "gateway/result.hpp"
+#include "gateway/sentence.hpp"
 
 namespace kinebus {
 
@@ -151,7 +152,7 @@ struct M5Geometry : M1Geometry {
 
 /// A geometry no machine can have, or none can be controlled with: the reason, in words.
 struct GeometryError {
-  std::string what;
+  Sentence what;
 };
 
 /// Errors: a leg without length or rail direction, limits that exclude each other, no reachable pose, or a

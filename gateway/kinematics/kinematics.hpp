@@ -14,6 +14,7 @@
 #include <string>
 
 #include "gateway/result.hpp"
+#include "gateway/sentence.hpp"
 
 namespace kinebus {
 
@@ -100,7 +101,7 @@ class Kinematics {
 
 /// In plain words with units: "tower3: the carriage would be 4.210 mm beyond its travel". Without the
 /// kinematics, joints are named by their number from 1.
-std::string to_string(const PoseError& error);
-std::string to_string(const PoseError& error, const Kinematics& kinematics);
+Sentence to_string(const PoseError& error);
+Sentence to_string(const PoseError& error, const Kinematics& kinematics);
 
 }  // namespace kinebus

@@ -167,19 +167,20 @@ class LinearDelta final : public Kinematics {
 
 Result<std::unique_ptr<Kinematics>, GeometryError> make_linear_delta_kinematics(
     const LinearDeltaGeometry& geometry) {
-  if (!(geometry.radius_mm > 0)) return Error<GeometryError>({"radius_mm must be above 0"});
+  if (!(geometry.radius_mm > 0)) return Error<GeometryError>({say("radius_mm must be above 0")});
   if (!(geometry.arm_length_mm > geometry.radius_mm))
-    return Error<GeometryError>({"the arms must be longer than the delta radius"});
+    return Error<GeometryError>({say("the arms must be longer than the delta radius")});
   for (const Interval& i : geometry.travel_mm)
-    if (!(i.min <= i.max)) return Error<GeometryError>({"a tower travel's minimum is above its maximum"});
+    if (!(i.min <= i.max))
+      return Error<GeometryError>({say("a tower travel's minimum is above its maximum")});
   for (const Interval& i : {geometry.limits.x_mm, geometry.limits.y_mm, geometry.limits.z_mm})
-    if (!(i.min <= i.max)) return Error<GeometryError>({"a pose limit's minimum is above its maximum"});
+    if (!(i.min <= i.max)) return Error<GeometryError>({say("a pose limit's minimum is above its maximum")});
   auto delta = std::make_unique<LinearDelta>(geometry);
   // Towers in one plane (two at one angle) leave the effector free: singular at the centre, and so
   // everywhere.
   constexpr double kSingular = 1e6;
   if (!(delta->condition(Frame::kPart, {}) < kSingular))
-    return Error<GeometryError>({"the towers stand so that the delta is singular: two at one angle"});
+    return Error<GeometryError>({say("the towers stand so that the delta is singular: two at one angle")});
   return delta;
 }
 

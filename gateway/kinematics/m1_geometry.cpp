@@ -2,35 +2,35 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <numbers>
 
 namespace kinebus {
 namespace m1_geometry {
 
-std::optional<std::string> wrong_numbers(const M1Geometry& g) {
+std::optional<Sentence> wrong_numbers(const M1Geometry& g) {
   for (std::size_t i = 0; i < g.legs.size(); ++i) {
     const M1Leg& leg = g.legs[i];
-    const std::string name = "leg " + std::to_string(i + 1);
+    const Sentence name = say("leg %1", i + 1);
     for (const Vector3& v : {leg.foot_mm, leg.rail, leg.attachment_mm})
       for (const double x : v)
-        if (!std::isfinite(x)) return name + ": a coordinate is not a number";
+        if (!std::isfinite(x)) return say("%1: a coordinate is not a number", name);
     if (!(leg.length_mm > 0) || !std::isfinite(leg.length_mm))
-      return name + ": its length must be above 0 mm";
-    if (!(std::hypot(leg.rail[0], leg.rail[1], leg.rail[2]) > 0)) return name + ": its rail has no direction";
-    if (!std::isfinite(leg.connector_mm)) return name + ": its connector offset is not a number";
+      return say("%1: its length must be above 0 mm", name);
+    if (!(std::hypot(leg.rail[0], leg.rail[1], leg.rail[2]) > 0))
+      return say("%1: its rail has no direction", name);
+    if (!std::isfinite(leg.connector_mm)) return say("%1: its connector offset is not a number", name);
     if (!(leg.travel_mm.min <= leg.travel_mm.max))
-      return name + ": its travel's minimum is above the maximum";
+      return say("%1: its travel's minimum is above the maximum", name);
   }
   for (const Interval& i : {g.limits.x_mm, g.limits.y_mm, g.limits.z_mm, g.limits.a_rad, g.limits.c_rad})
-    if (!(i.min <= i.max)) return "a pose limit's minimum is above its maximum";
-  if (!(g.rotation_scale_mm > 0)) return "rotation_scale_mm must be above 0";
-  if (!(g.max_condition >= 1)) return "max_condition must be 1 or more";
+    if (!(i.min <= i.max)) return say("a pose limit's minimum is above its maximum");
+  if (!(g.rotation_scale_mm > 0)) return say("rotation_scale_mm must be above 0");
+  if (!(g.max_condition >= 1)) return say("max_condition must be 1 or more");
   return std::nullopt;
 }
 
-std::optional<std::string> wrong_everywhere(const Kinematics& m1, const M1Geometry& g) {
+std::optional<Sentence> wrong_everywhere(const Kinematics& m1, const M1Geometry& g) {
   const auto sample = [](const Interval& limits, double otherwise, int k, int n) {
     const Interval i = limits.limited() ? limits : Interval{-otherwise, otherwise};
     return i.min + (i.max - i.min) * k / n;
@@ -57,16 +57,13 @@ std::optional<std::string> wrong_everywhere(const Kinematics& m1, const M1Geomet
         best = std::min(best, m1.condition(Frame::kPart, pose));
       }
   if (reached == 0)
-    return "no pose of the workspace can be reached: the legs are too short or the rails too far away";
+    return say("no pose of the workspace can be reached: the legs are too short or the rails too far away");
   if (best <= g.max_condition) return std::nullopt;
-  char text[320];
-  std::snprintf(
-      text, sizeof text,
+  return say(
       "the mechanism is singular or nearly so at every pose: the best condition number in the workspace is "
-      "%.3g, the limit is %.3g; rails and attachments leave one motion of the platform without control (for "
+      "%1, the limit is %2; rails and attachments leave one motion of the platform without control (for "
       "instance attachments mirrored about the YZ plane)",
-      best, g.max_condition);
-  return text;
+      printed("%.3g", best), printed("%.3g", g.max_condition));
 }
 
 }  // namespace m1_geometry

@@ -10,9 +10,9 @@
 namespace kinebus::m1_geometry {
 
 /// Rules that do not need a pose; the reason when one is broken.
-std::optional<std::string> wrong_numbers(const M1Geometry& geometry);
+std::optional<Sentence> wrong_numbers(const M1Geometry& geometry);
 
 /// Looks over the workspace for one pose that can be controlled; the reason when there is none.
-std::optional<std::string> wrong_everywhere(const Kinematics& m1, const M1Geometry& geometry);
+std::optional<Sentence> wrong_everywhere(const Kinematics& m1, const M1Geometry& geometry);
 
 }  // namespace kinebus::m1_geometry

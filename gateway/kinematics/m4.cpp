@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "gateway/kinematics/pose_limits.hpp"
@@ -246,21 +245,21 @@ class M4 final : public Kinematics {
   double side_ = 0;  ///< the Jacobian's determinant at the bed reference
 };
 
-std::optional<std::string> wrong_numbers(const M4Geometry& g) {
+std::optional<Sentence> wrong_numbers(const M4Geometry& g) {
   for (const double v : {g.rod_mm, g.triangle_mm, g.rails_mm, g.rotation_scale_mm})
     if (!(v > 0) || !std::isfinite(v))
-      return "rods, triangle, rails and rotation_scale_mm must be above 0 mm";
+      return say("rods, triangle, rails and rotation_scale_mm must be above 0 mm");
   for (const double v : {g.spindle_rad, g.tool_mm, g.table_y_mm, g.table_z_mm})
-    if (!std::isfinite(v)) return "tool or table position is not a number";
+    if (!std::isfinite(v)) return say("tool or table position is not a number");
   for (const Interval& i : {g.travel_mm[0], g.travel_mm[1], g.travel_mm[2], g.table_travel_mm, g.limits.x_mm,
                             g.limits.y_mm, g.limits.z_mm, g.limits.a_rad, g.limits.c_rad})
-    if (!(i.min <= i.max)) return "a travel's or limit's minimum is above its maximum";
-  if (!(g.max_condition >= 1)) return "max_condition must be 1 or more";
+    if (!(i.min <= i.max)) return say("a travel's or limit's minimum is above its maximum");
+  if (!(g.max_condition >= 1)) return say("max_condition must be 1 or more");
   return std::nullopt;
 }
 
 /// Looks over the workspace for one pose that can be controlled.
-std::optional<std::string> wrong_everywhere(const M4& m4, const M4Geometry& g) {
+std::optional<Sentence> wrong_everywhere(const M4& m4, const M4Geometry& g) {
   const auto sample = [](const Interval& limits, double otherwise, int k) {
     const Interval i = limits.limited() ? limits : Interval{-otherwise, otherwise};
     return i.min + (i.max - i.min) * (0.03 + 0.94 * k / 6);
@@ -279,15 +278,12 @@ std::optional<std::string> wrong_everywhere(const M4& m4, const M4Geometry& g) {
         best = std::min(best, m4.condition(Frame::kPart, pose));
       }
   if (!reached)
-    return "no pose of the workspace can be reached: the rods are too short for the rails' distance";
+    return say("no pose of the workspace can be reached: the rods are too short for the rails' distance");
   if (best <= g.max_condition) return std::nullopt;
-  char text[256];
-  std::snprintf(
-      text, sizeof text,
+  return say(
       "the mechanism is singular or nearly so at every pose: the best condition number in the workspace is "
-      "%.3g, the limit is %.3g; rods and triangle leave one motion of the spindle without control",
-      best, g.max_condition);
-  return text;
+      "%1, the limit is %2; rods and triangle leave one motion of the spindle without control",
+      printed("%.3g", best), printed("%.3g", g.max_condition));
 }
 
 }  // namespace

@@ -1,57 +1,49 @@
 // PoseError in words.
 
-#include <cstdio>
-
 #include "gateway/kinematics/geometry.hpp"
 
 namespace kinebus {
 namespace {
 
 std::string amount_text(double amount, bool angular) {
-  char text[48];
-  if (angular)
-    std::snprintf(text, sizeof text, "%.3f deg", amount / kRadPerDeg);
-  else
-    std::snprintf(text, sizeof text, "%.3f mm", amount);
-  return text;
+  return angular ? printed("%.3f deg", amount / kRadPerDeg) : printed("%.3f mm", amount);
 }
 
-std::string describe(const PoseError& error, const std::string& joint) {
+Sentence describe(const PoseError& error, const Sentence& joint) {
   constexpr const char* kAxisNames[kPoseAxes] = {"X", "Y", "Z", "A", "C", "E"};
   switch (error.kind) {
     case PoseError::Kind::kOutOfReach:
-      return joint + ": out of reach, the leg is " + amount_text(error.amount, false) + " too short";
+      return say("%1: out of reach, the leg is %2 too short", joint, amount_text(error.amount, false));
     case PoseError::Kind::kJointLimit:
-      return joint + ": would be " + amount_text(error.amount, error.angular) + " beyond its travel";
+      return say("%1: would be %2 beyond its travel", joint, amount_text(error.amount, error.angular));
     case PoseError::Kind::kLegAngle:
-      return joint + ": the leg leans " + amount_text(error.amount, true) + " too far from its rail";
+      return say("%1: the leg leans %2 too far from its rail", joint, amount_text(error.amount, true));
     case PoseError::Kind::kClearance:
-      return joint + ": leg, rail and platform come " + amount_text(error.amount, true) +
-             " too near to each other";
+      return say("%1: leg, rail and platform come %2 too near to each other", joint,
+                 amount_text(error.amount, true));
     case PoseError::Kind::kPoseLimit: {
       const std::string axis = error.joint >= 0 && error.joint < kPoseAxes ? kAxisNames[error.joint] : "?";
-      return axis + " is " + amount_text(error.amount, error.angular) + " outside the workspace";
+      return say("%1 is %2 outside the workspace", axis, amount_text(error.amount, error.angular));
     }
     case PoseError::Kind::kSingular: {
-      char text[96];
-      std::snprintf(text, sizeof text, "too near to a singular pose: condition number %.3g", error.amount);
-      return text;
+      return say("too near to a singular pose: condition number %1", printed("%.3g", error.amount));
     }
     case PoseError::Kind::kNoConvergence:
-      return "no pose fits these joint positions (" + amount_text(error.amount, false) + " remain)";
+      return say("no pose fits these joint positions (%1 remain)", amount_text(error.amount, false));
   }
-  return "unknown pose error";
+  return say("unknown pose error");
 }
 
 }  // namespace
 
-std::string to_string(const PoseError& error) {
-  return describe(error, error.joint < 0 ? "machine" : "joint " + std::to_string(error.joint + 1));
+Sentence to_string(const PoseError& error) {
+  return describe(error, error.joint < 0 ? say("machine") : say("joint %1", error.joint + 1));
 }
 
-std::string to_string(const PoseError& error, const Kinematics& kinematics) {
+Sentence to_string(const PoseError& error, const Kinematics& kinematics) {
   const bool named = error.joint >= 0 && error.joint < kinematics.joint_count();
-  return describe(error, named ? kinematics.joint_info(error.joint).name : "machine");
+  return describe(error,
+                  named ? Sentence::verbatim(kinematics.joint_info(error.joint).name) : say("machine"));
 }
 
 }  // namespace kinebus

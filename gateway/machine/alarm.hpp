@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "gateway/sentence.hpp"
+
 #include "protocol/canopen/emcy.hpp"
 
 namespace kinebus {
@@ -33,13 +35,13 @@ enum class AlarmCode : std::uint16_t {
 };
 
 struct AlarmText {
-  std::string words;
-  std::string advice;
+  Sentence words;
+  Sentence advice;
 };
 
 /// Words for what a node reports; why it asks all to stop (StopReason) is part of them.
 AlarmText describe_emergency(const Emergency& emergency);
 /// Advice for the gateway's own alarms.
-std::string_view advice_for(AlarmCode code);
+Sentence advice_for(AlarmCode code);
 
 }  // namespace kinebus

@@ -61,7 +61,7 @@ bool BringUp::all_done() const {
   return std::all_of(nodes_.begin(), nodes_.end(), [](const Node& n) { return n.done; });
 }
 
-void BringUp::fail(AlarmCode code, std::uint8_t node, std::string words) {
+void BringUp::fail(AlarmCode code, std::uint8_t node, Sentence words) {
   if (failed_) return;
   failed_ = true;
   failure_ = {code, node, std::move(words)};
@@ -74,29 +74,29 @@ std::optional<CanFrame> BringUp::next_frame() {
   return frame;
 }
 
-std::string BringUp::doing() const {
+Sentence BringUp::doing() const {
   switch (stage_) {
     case Stage::kIdle:
-      return "";
+      return {};
     case Stage::kListen:
-      return "listening for another gateway";
+      return say("listening for another gateway");
     case Stage::kIdentify:
-      return "looking for the nodes";
+      return say("looking for the nodes");
     case Stage::kConfigure:
-      return "checking the nodes' parameters";
+      return say("checking the nodes' parameters");
     case Stage::kOperational:
-      return "starting the nodes";
+      return say("starting the nodes");
     case Stage::kSynchronise:
-      return "synchronising the clocks";
+      return say("synchronising the clocks");
     case Stage::kPathTime:
     case Stage::kLatch:
-      return "equalising path time";
+      return say("equalising path time");
     case Stage::kEnable:
-      return "enabling the drives";
+      return say("enabling the drives");
     case Stage::kEnd:
-      return "";
+      return {};
   }
-  return "";
+  return {};
 }
 
 void BringUp::abort() {
@@ -109,14 +109,12 @@ BringUp::Outcome BringUp::on_time(BusTime now) {
   if (stage_ == Stage::kIdle) return Outcome::kDone;
   if (foreign_)
     fail(AlarmCode::kSecondGateway, 0,
-         "another gateway speaks on this bus (SYNC, stamps or heartbeat of node 127)");
+         say("another gateway speaks on this bus (SYNC, stamps or heartbeat of node 127)"));
   for (const NodeLink& link : links_) {
     if (link.serial_numbers().size() < 2) continue;
-    char words[96];
-    std::snprintf(words, sizeof words, "two nodes use the id %u: those with the serial numbers %u and %u",
-                  static_cast<unsigned>(link.id()), static_cast<unsigned>(link.serial_numbers()[0]),
-                  static_cast<unsigned>(link.serial_numbers()[1]));
-    fail(AlarmCode::kIdTaken, link.id(), words);
+    fail(AlarmCode::kIdTaken, link.id(),
+         say("two nodes use the id %1: those with the serial numbers %2 and %3", link.id(),
+             link.serial_numbers()[0], link.serial_numbers()[1]));
   }
   if (stage_ == Stage::kListen) {
     if (!failed_ && now - entered_ >= kListenTime) enter(Stage::kIdentify, now);
@@ -201,14 +199,14 @@ void BringUp::identify(NodeLink& link, Node& node) {
     const std::array<std::optional<std::uint32_t>, 4> rules{
         wanted ? wanted->vendor : std::nullopt, wanted ? wanted->product : std::nullopt, std::nullopt,
         wanted ? wanted->serial : std::nullopt};
-    constexpr std::array kNames{"vendor", "product", "revision", "serial number"};
+    constexpr std::array kNames{phrase("vendor"), phrase("product"), phrase("revision"),
+                                phrase("serial number")};
     for (std::size_t k = 0; k < 4; ++k) {
       if (!rules[k] || *rules[k] == node.identity[k]) continue;
-      char words[96];
-      std::snprintf(words, sizeof words, "node %u: %s is %08Xh, the machine file wants %08Xh",
-                    static_cast<unsigned>(link.id()), kNames[k], static_cast<unsigned>(node.identity[k]),
-                    static_cast<unsigned>(*rules[k]));
-      return fail(AlarmCode::kWrongIdentity, link.id(), words);
+      return fail(AlarmCode::kWrongIdentity, link.id(),
+                  say("node %1: %2 is %3, the machine file wants %4", link.id(), say(kNames[k]),
+                      printed("%08Xh", static_cast<unsigned>(node.identity[k])),
+                      printed("%08Xh", static_cast<unsigned>(*rules[k]))));
     }
     node.done = true;
   }
@@ -223,8 +221,7 @@ void BringUp::operational(BusTime now, NodeLink& link, Node& node) {
     node.done = true;
     static_cast<void>(link.take_boot_up());
   } else if (now - entered_ > kOperationalTimeout + machine_.bus.heartbeat_timeout) {
-    fail(AlarmCode::kNodeMissing, link.id(),
-         "node " + std::to_string(link.id()) + " does not become operational");
+    fail(AlarmCode::kNodeMissing, link.id(), say("node %1 does not become operational", link.id()));
   }
 }
 
@@ -243,8 +240,7 @@ void BringUp::synchronise(BusTime now, NodeLink& link, Node& node) {
     if ((status.flags & StreamStatus::kSynchronised) != 0 && close) node.done = true;
   }
   if (!node.done && now - entered_ > kSynchroniseTimeout)
-    fail(AlarmCode::kSyncError, link.id(),
-         "node " + std::to_string(link.id()) + " does not synchronise its clock");
+    fail(AlarmCode::kSyncError, link.id(), say("node %1 does not synchronise its clock", link.id()));
 }
 
 void BringUp::path_time(NodeLink& link, Node& node) {
@@ -279,8 +275,7 @@ void BringUp::latch(BusTime now, NodeLink& link, Node& node) {
   }
   if (!node.done && now - entered_ > kEnableTimeout)
     fail(AlarmCode::kStopTimeout, link.id(),
-         "node " + std::to_string(link.id()) +
-             " keeps its stop latched: an emergency stop or limit switch is active");
+         say("node %1 keeps its stop latched: an emergency stop or limit switch is active", link.id()));
 }
 
 void BringUp::enable(BusTime now, NodeLink& link, Node& node) {
@@ -309,11 +304,10 @@ void BringUp::enable(BusTime now, NodeLink& link, Node& node) {
     link.repeat_control();
   }
   if (now - entered_ <= kEnableTimeout) return;
-  char words[128];
-  std::snprintf(words, sizeof words, "node %u: its drives do not enable (statuswords %04Xh and %04Xh)",
-                static_cast<unsigned>(link.id()), static_cast<unsigned>(link.statusword(0)),
-                static_cast<unsigned>(link.statusword(1)));
-  fail(AlarmCode::kEnableFailed, link.id(), words);
+  fail(AlarmCode::kEnableFailed, link.id(),
+       say("node %1: its drives do not enable (statuswords %2 and %3)", link.id(),
+           printed("%04Xh", static_cast<unsigned>(link.statusword(0))),
+           printed("%04Xh", static_cast<unsigned>(link.statusword(1)))));
 }
 
 }  // namespace kinebus

@@ -14,6 +14,7 @@
 #include "gateway/machine/node_configuration.hpp"
 #include "gateway/machine/node_link.hpp"
 #include "gateway/machine/path_rate.hpp"
+#include "gateway/sentence.hpp"
 #include "protocol/motion/segment.hpp"
 
 namespace kinebus {
@@ -22,7 +23,7 @@ namespace kinebus {
 struct StepFailure {
   AlarmCode code{};
   std::uint8_t node = 0;
-  std::string words;
+  Sentence words;
 };
 
 class BringUp {
@@ -44,7 +45,7 @@ class BringUp {
   /// From the listening pause on, SYNC and heartbeat may be sent.
   bool may_speak() const { return stage_ != Stage::kListen; }
   const StepFailure& failure() const { return failure_; }
-  std::string doing() const;
+  Sentence doing() const;
   /// Where the nodes' path time stood, before it was made equal; empty: not read yet.
   const std::vector<PathTime>& found_path_times() const { return found_; }
   bool busy() const { return stage_ != Stage::kIdle; }
@@ -87,7 +88,7 @@ class BringUp {
 
   void enter(Stage stage, BusTime now);
   bool all_done() const;
-  void fail(AlarmCode code, std::uint8_t node, std::string words);
+  void fail(AlarmCode code, std::uint8_t node, Sentence words);
   void step(BusTime now, std::size_t i);
   void identify(NodeLink& link, Node& node);
   void configure(BusTime now, NodeLink& link, Node& node);

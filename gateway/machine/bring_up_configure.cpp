@@ -27,8 +27,7 @@ void BringUp::configure(BusTime now, NodeLink& link, Node& node) {
       node.requested = false;
     } else if (now - node.asked > kRestartTimeout) {
       fail(AlarmCode::kNodeMissing, link.id(),
-           "node " + std::to_string(link.id()) +
-               " did not come back after the return to its default parameters");
+           say("node %1 did not come back after the return to its default parameters", link.id()));
     }
     return;
   }
@@ -109,14 +108,11 @@ void BringUp::check_fingerprint(NodeLink& link, Node& node, std::uint32_t finger
   } else if (!std::exchange(node.rewritten, true)) {
     node.config = Config::kRestoring;
   } else {
-    char words[128];
-    std::snprintf(
-        words, sizeof words,
-        "node %u: its parameters have the fingerprint %08Xh, the machine file's have %08Xh, after all were "
-        "written",
-        static_cast<unsigned>(link.id()), static_cast<unsigned>(fingerprint),
-        static_cast<unsigned>(node.configuration.fingerprint));
-    fail(AlarmCode::kConfiguration, link.id(), words);
+    fail(AlarmCode::kConfiguration, link.id(),
+         say("node %1: its parameters have the fingerprint %2, the machine file's have %3, after all were "
+             "written",
+             link.id(), printed("%08Xh", static_cast<unsigned>(fingerprint)),
+             printed("%08Xh", static_cast<unsigned>(node.configuration.fingerprint))));
   }
 }
 

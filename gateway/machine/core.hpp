@@ -51,7 +51,7 @@ class Gateway::Core {
   Result<void, Refusal> hold();
   Result<void, Refusal> resume();
   Result<void, Refusal> cancel();
-  Result<void, Refusal> stop(std::string why);
+  Result<void, Refusal> stop(Sentence why);
   Result<void, Refusal> clear();
   Result<void, Refusal> set_feed_override(double ratio);
   Result<void, Refusal> motors_off();
@@ -91,7 +91,7 @@ class Gateway::Core {
   void enter(MachineState state);
   Result<void, Refusal> begin_bring_up();
   void begin_homing();
-  void alarm(AlarmCode code, std::string words, std::uint8_t node = 0, std::uint32_t line = 0);
+  void alarm(AlarmCode code, Sentence words, std::uint8_t node = 0, std::uint32_t line = 0);
   /// Stops everything on the path; with `fault` the machine ends in kAlarm.
   void stop_all(bool fault);
 
@@ -158,7 +158,7 @@ class Gateway::Core {
 
   MachineDescription machine_;
   Options options_;
-  std::string defect_;  ///< why the description has no kinematics: every command is refused with it
+  Sentence defect_;  ///< why the description has no kinematics: every command is refused with it
   std::unique_ptr<Kinematics> kinematics_;
 
   std::vector<NodeAxes> axes_;

@@ -11,7 +11,7 @@ namespace {
 
 using Done = Result<void, Refusal>;
 
-Error<Refusal> refuse(std::string words) {
+Error<Refusal> refuse(Sentence words) {
   return Error<Refusal>(Refusal{std::move(words)});
 }
 
@@ -34,25 +34,20 @@ Done Gateway::Core::check(MachineCommand command) const {
   const bool for_interrupted = (command == MachineCommand::kResume && state_ != MachineState::kHeld) ||
                                (command == MachineCommand::kCancel && idle(state_));
   if (allowed(command, state_) && for_interrupted && !interrupted())
-    return refuse("there is no interrupted job to " + std::string(to_string(command)));
+    return refuse(say("there is no interrupted job to %1", sentence(command)));
   if (allowed(command, state_)) return {};
-  std::string words =
-      "cannot " + std::string(to_string(command)) + " while the machine is " + std::string(to_string(state_));
+  const Sentence words = say("cannot %1 while the machine is %2", sentence(command), sentence(state_));
   switch (state_) {
     case MachineState::kOff:
-      words += ": bring it up first";
-      break;
+      return refuse(say("%1: bring it up first", words));
     case MachineState::kUnhomed:
-      words += ": home it first";
-      break;
+      return refuse(say("%1: home it first", words));
     case MachineState::kStopped:
     case MachineState::kAlarm:
-      words += ": clear first";
-      break;
+      return refuse(say("%1: clear first", words));
     default:
-      break;
+      return refuse(words);
   }
-  return refuse(words);
 }
 
 Done Gateway::Core::bring_up() {
@@ -86,7 +81,7 @@ void Gateway::Core::begin_homing() {
 Result<PoseVector, Refusal> Gateway::Core::machine_pose() const {
   PoseVector pose = kinematics_->bed_reference();
   if (const auto found = kinematics_->forward(Frame::kMachine, joints_now(), pose); !found)
-    return refuse("no pose fits the joints' positions: " + to_string(found.error()));
+    return refuse(say("no pose fits the joints' positions: %1", to_string(found.error())));
   return pose;
 }
 
@@ -116,17 +111,17 @@ Done Gateway::Core::jog(const JogRequest& request) {
   if (!from) return Error<Refusal>(from.error());
   const PoseVector& d = request.delta;
   for (const double value : d)
-    if (!std::isfinite(value)) return refuse("a jog needs numbers");
+    if (!std::isfinite(value)) return refuse(say("a jog needs numbers"));
   if (!std::isfinite(request.speed_per_s) || request.speed_per_s < 0)
-    return refuse("a jog's speed is 0 or more");
+    return refuse(say("a jog's speed is 0 or more"));
   const double mm = std::sqrt(d[kX] * d[kX] + d[kY] * d[kY] + d[kZ] * d[kZ]);
   const double rad = std::max(std::abs(d[kA]), std::abs(d[kC]));
-  if (mm == 0 && rad == 0 && d[kE] == 0) return refuse("a jog needs a distance");
+  if (mm == 0 && rad == 0 && d[kE] == 0) return refuse(say("a jog needs a distance"));
   const HeaterDescription& hotend = machine_.thermal.hotend;
   if (d[kE] > 0 && hotend.present &&
       thermal_.heater(Heater::kHotend).actual_celsius < machine_.thermal.min_extrude_c)
-    return refuse("the hotend is too cold to feed filament: " +
-                  std::to_string(std::lround(thermal_.heater(Heater::kHotend).actual_celsius)) + " C");
+    return refuse(say("the hotend is too cold to feed filament: %1 C",
+                      std::lround(thermal_.heater(Heater::kHotend).actual_celsius)));
   const double steps = std::clamp(std::ceil(std::max(mm / kCheckStep, rad / kCheckStepRad)), 1.0, 2000.0);
   for (double i = 1; i <= steps && (mm > 0 || rad > 0); ++i) {
     PoseVector pose = *from;
@@ -145,7 +140,8 @@ Done Gateway::Core::jog(const JogRequest& request) {
 
 Done Gateway::Core::run(std::unique_ptr<ByteSource> job, std::string name) {
   if (auto ok = check(MachineCommand::kRun); !ok) return ok;
-  if (!job || !job->rewind()) return refuse("the job cannot be read twice: it is checked before it runs");
+  if (!job || !job->rewind())
+    return refuse(say("the job cannot be read twice: it is checked before it runs"));
   give_up_job();
   job_ = std::make_unique<HashedSource>(std::move(job));
   job_name_ = std::move(name);
@@ -202,7 +198,7 @@ Done Gateway::Core::cancel() {
   return {};
 }
 
-Done Gateway::Core::stop(std::string why) {
+Done Gateway::Core::stop(Sentence why) {
   if (state_ == MachineState::kStopping || state_ == MachineState::kStopped || state_ == MachineState::kAlarm)
     return {};
   events_.message(now_, std::move(why));
@@ -217,8 +213,8 @@ Done Gateway::Core::clear() {
     hand_.drop();
     if (!print_.active()) job_name_.clear();
     events_.message(now_, print_.active()
-                              ? "cleared: resume brings the machine up again and goes on with the job"
-                              : "cleared: bring the machine up again");
+                              ? say("cleared: resume brings the machine up again and goes on with the job")
+                              : say("cleared: bring the machine up again"));
     enter(MachineState::kOff);
     return {};
   }
@@ -231,7 +227,7 @@ Done Gateway::Core::clear() {
 }
 
 Done Gateway::Core::set_feed_override(double ratio) {
-  if (!(ratio >= 0.01 && ratio <= 5)) return refuse("a feed override is 0.01 to 5");
+  if (!(ratio >= 0.01 && ratio <= 5)) return refuse(say("a feed override is 0.01 to 5"));
   if (auto ok = check(MachineCommand::kFeedOverride); !ok) return ok;
   override_ = ratio;
   runner_->set_override(ratio);
@@ -256,9 +252,9 @@ Done Gateway::Core::motors_off() {
 Done Gateway::Core::set_temperature(bool bed, double celsius) {
   if (auto ok = check(MachineCommand::kThermal); !ok) return ok;
   const HeaterDescription& heater = bed ? machine_.thermal.bed : machine_.thermal.hotend;
-  if (!heater.present) return refuse(std::string("this machine has no heated ") + (bed ? "bed" : "hotend"));
+  if (!heater.present) return refuse(say("this machine has no %1 heater", bed ? say("bed") : say("hotend")));
   if (!(celsius >= 0 && celsius <= heater.max_c))
-    return refuse("the temperature must be 0 to " + std::to_string(std::lround(heater.max_c)) + " C");
+    return refuse(say("the temperature must be 0 to %1 C", std::lround(heater.max_c)));
   thermal_.set_target(bed ? Heater::kBed : Heater::kHotend, celsius);
   if (heat_wanted_) (bed ? heat_wanted_->bed_celsius : heat_wanted_->hotend_celsius) = celsius;
   return {};

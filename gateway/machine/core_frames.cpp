@@ -24,7 +24,7 @@ void Gateway::Core::on_frame(BusTime when, const CanFrame& frame) {
     if (bring_up_.busy()) {
       bring_up_.on_foreign_gateway();
     } else if (state_ != MachineState::kOff && state_ != MachineState::kAlarm && !fault_) {
-      alarm(AlarmCode::kSecondGateway, "another gateway has begun to speak on this bus");
+      alarm(AlarmCode::kSecondGateway, say("another gateway has begun to speak on this bus"));
       stop_all(true);
     }
     return;

@@ -42,7 +42,7 @@ Result<void, Refusal> Gateway::Core::take_line(std::string_view line, std::uint3
     return Error<Refusal>(Refusal{taken.error().words});
   if (live_lines_.work_offsets() != offsets)
     journal_.push(journal::Offsets{identity(machine_), live_lines_.work_offsets()});
-  for (std::string& note : live_lines_.take_notes()) events_.message(now_, std::move(note), number);
+  for (Sentence& note : live_lines_.take_notes()) events_.message(now_, std::move(note), number);
   for (const canonical::Line& command : live_commands_) {
     if (open) {
       print_.add(now_, command);
@@ -58,7 +58,7 @@ Result<void, Refusal> Gateway::Core::take_line(std::string_view line, std::uint3
       if (auto ok = check(MachineCommand::kThermal); !ok) return ok;
       thermal_.set_spindle(spindle->rpm);
     } else if (const auto* message = std::get_if<canonical::Message>(&command.command)) {
-      events_.message(now_, message->text, number);
+      events_.message(now_, Sentence::verbatim(message->text), number);
     }
   }
   return {};

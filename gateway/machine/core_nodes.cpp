@@ -34,16 +34,16 @@ void Gateway::Core::watch_nodes() {
     take_emergencies(link);
     const bool watched = state_ != MachineState::kOff && state_ != MachineState::kBringUp && !need_bring_up_;
     if (!watched) continue;
-    const std::string name = "node " + std::to_string(link.id());
+    const auto name = [&] { return say("node %1", link.id()); };
     if (link.take_boot_up()) {
       need_bring_up_ = true;
       homed_ = false;
-      alarm(AlarmCode::kNodeRestarted, name + " has restarted", link.id());
+      alarm(AlarmCode::kNodeRestarted, say("%1 has restarted", name()), link.id());
       stop_all(true);
     } else if (now_ - (judged ? std::max(link.last_heard(), streaming_since_) : link.last_heard()) >
                timeout) {
       need_bring_up_ = true;
-      alarm(AlarmCode::kHeartbeatLost, name + " is silent", link.id());
+      alarm(AlarmCode::kHeartbeatLost, say("%1 is silent", name()), link.id());
       stop_all(true);
     }
   }
@@ -70,9 +70,9 @@ void Gateway::Core::take_emergencies(NodeLink& link) {
 
 /// Path time at rest is the same number everywhere, and clocks stay synchronised as long as anything moves.
 bool Gateway::Core::check_clock(const NodeLink& link, const StreamStatus& status) {
-  const std::string name = "node " + std::to_string(link.id());
+  const auto name = [&] { return say("node %1", link.id()); };
   if ((status.flags & StreamStatus::kSynchronised) == 0) {
-    alarm(AlarmCode::kSyncError, name + " has lost the synchronisation of its clock", link.id());
+    alarm(AlarmCode::kSyncError, say("%1 has lost the synchronisation of its clock", name()), link.id());
     stop_all(false);
     return false;
   }
@@ -80,8 +80,8 @@ bool Gateway::Core::check_clock(const NodeLink& link, const StreamStatus& status
   const auto units = static_cast<std::uint32_t>(rate_.tau(now_).count() / kPathTicksPerUnit);
   if (!rested || status.path_units == units) return true;
   alarm(AlarmCode::kPathTimeDiffers,
-        name + " rests at another path time than the gateway: " +
-            std::to_string(static_cast<std::int32_t>(status.path_units - units) * 16) + " us apart",
+        say("%1 rests at another path time than the gateway: %2 us apart", name(),
+            std::int64_t{static_cast<std::int32_t>(status.path_units - units)} * 16),
         link.id());
   need_bring_up_ = true;
   stop_all(true);

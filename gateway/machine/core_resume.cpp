@@ -28,7 +28,7 @@ constexpr BusTime kProgressPeriod = 250ms;
 /// Path time stands there before a run is let go.
 constexpr PathTime kBeforeStart = 3ms;
 
-Error<Refusal> refuse(std::string words) {
+Error<Refusal> refuse(Sentence words) {
   return Error<Refusal>(Refusal{std::move(words)});
 }
 
@@ -36,16 +36,16 @@ Error<Refusal> refuse(std::string words) {
 
 Done Gateway::Core::recover(journal::State state, std::unique_ptr<ByteSource> job) {
   if (state_ != MachineState::kOff || print_.active())
-    return refuse("too late: the machine is in use already");
+    return refuse(say("too late: the machine is in use already"));
   live_lines_.restart(state.offsets_of(identity(machine_)));
   if (!state.job) return {};
-  if (!job) return refuse("the interrupted job " + state.job->name + " is not there any more");
+  if (!job) return refuse(say("the interrupted job %1 is not there any more", state.job->name));
   job_name_ = state.job->name;
   if (state.override_ratio) override_ = std::clamp(*state.override_ratio, 0.01, 5.0);
   heat_wanted_ = state.thermal;
   if (state.thermal) heat_noted_ = *state.thermal;
   recovery_ = Recovery{std::move(state), std::move(job)};
-  events_.message(now_, "the job " + job_name_ + " was interrupted: resume to go on with it, or cancel");
+  events_.message(now_, say("the job %1 was interrupted: resume to go on with it, or cancel", job_name_));
   return {};
 }
 
@@ -134,7 +134,8 @@ void Gateway::Core::finish_recovery() {
   const bool ask = by_itself_ && machine_.resume.after_power_loss == ResumeDescription::Then::kAsk;
   if (!homed_ && ask) {
     going_on_ = false;
-    return events_.message(now_, "the nodes have lost their positions: resume homes the machine and goes on");
+    return events_.message(now_,
+                           say("the nodes have lost their positions: resume homes the machine and goes on"));
   }
   if (!homed_) return begin_homing();
   const Done begun = begin_return();
@@ -142,8 +143,8 @@ void Gateway::Core::finish_recovery() {
   going_on_ = false;
   events_.push({.kind = MachineEvent::Kind::kFinished,
                 .when = now_,
-                .words = "the job does not go on: " + begun.error().words,
-                .advice = "put right what is said, then resume"});
+                .words = say("the job does not go on: %1", begun.error().words),
+                .advice = say("put right what is said, then resume")});
 }
 
 /// The job is checked once more, then read up to its place.
@@ -176,8 +177,8 @@ void Gateway::Core::step_recovery() {
     events_.push(
         {.kind = MachineEvent::Kind::kFinished,
          .when = now_,
-         .words = "the job " + job_name_ + " is not the text that was interrupted: it does not go on",
-         .advice = "run it from its beginning"});
+         .words = say("the job %1 is not the text that was interrupted: it does not go on", job_name_),
+         .advice = say("run it from its beginning")});
     job_.reset();
     give_up_job();
     going_on_ = false;
@@ -261,7 +262,7 @@ void Gateway::Core::add_approach(std::vector<canonical::Line>& commands, const P
 
 Done Gateway::Core::begin_return() {
   if (recovery_) {
-    if (!recovery_->job->rewind()) return refuse("the interrupted job cannot be read");
+    if (!recovery_->job->rewind()) return refuse(say("the interrupted job cannot be read"));
     job_ = std::make_unique<HashedSource>(std::move(recovery_->job));
     JobCheck::Options check_options;
     if (heat_wanted_ && heat_wanted_->hotend_celsius > 0)
@@ -275,11 +276,12 @@ Done Gateway::Core::begin_return() {
   const PlannedPose place = print_.rest_pose();
   JointVector wanted{};
   if (const auto found = kinematics_->inverse(place.frame, place.pose, wanted); !found)
-    return refuse("the job's place cannot be reached: " + to_string(found.error()));
+    return refuse(say("the job's place cannot be reached: %1", to_string(found.error())));
   const auto from = machine_pose();
   if (!from) return Error<Refusal>(from.error());
   const auto machine_place = convert_pose(*kinematics_, place.frame, place.pose, Frame::kMachine);
-  if (!machine_place) return refuse("the job's place cannot be reached: " + to_string(machine_place.error()));
+  if (!machine_place)
+    return refuse(say("the job's place cannot be reached: %1", to_string(machine_place.error())));
 
   PoseVector target = *machine_place;
   const Distance distance = distance_from(wanted, place);
@@ -288,8 +290,8 @@ Done Gateway::Core::begin_return() {
   const double away_mm =
       std::hypot(target[kX] - (*from)[kX], target[kY] - (*from)[kY], target[kZ] - (*from)[kZ]);
   if (by_itself_ && homed_ && away_mm > kByItself_mm && !filament_lost_)
-    return refuse("the tool was found " + std::to_string(away_mm) +
-                  " mm from its place: resume brings it back");
+    return refuse(
+        say("the tool was found %1 mm from its place: resume brings it back", printed("%.3f", away_mm)));
 
   std::vector<canonical::Line> commands = heating();
   const bool exact =
@@ -330,7 +332,7 @@ void Gateway::Core::finish_return() {
   runner_ = &print_;
   print_.set_override(override_);
   print_.go_on(now_);
-  events_.message(now_, "the job " + job_name_ + " goes on", place.line);
+  events_.message(now_, say("the job %1 goes on", job_name_), place.line);
   enter(MachineState::kRunning);
 }
 

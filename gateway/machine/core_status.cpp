@@ -54,8 +54,8 @@ MachineStatus Gateway::Core::status() const {
   s.positions_known = homed_ && !stream_lost_;
   s.doing = bring_up_.busy()     ? bring_up_.doing()
             : runner_->active()  ? runner_->doing()
-            : standstill_.busy() ? "reading where the nodes stand"
-                                 : std::string(to_string(state_));
+            : standstill_.busy() ? say("reading where the nodes stand")
+                                 : sentence(state_);
   s.joint_count = static_cast<int>(machine_.joints.size());
   s.joints = joints_now();
   if (homed_) {

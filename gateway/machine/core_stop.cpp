@@ -63,7 +63,7 @@ void Gateway::Core::step_stop() {
   if (rest && now_ - rest_since_ >= kSettle && now_ - entered_ >= kSettle)
     return enter(fault_ ? MachineState::kAlarm : MachineState::kStopped);
   if (now_ - entered_ < kStopTimeout) return;
-  alarm(AlarmCode::kStopTimeout, "path time did not come to rest");
+  alarm(AlarmCode::kStopTimeout, say("path time did not come to rest"));
   fault_ = need_bring_up_ = true;
   enter(MachineState::kAlarm);
 }
@@ -112,8 +112,8 @@ void Gateway::Core::step_clear() {
   if (now_ - clearing_since_ < kClearTimeout) return;
   clearing_ = false;
   alarm(enabled ? AlarmCode::kStopTimeout : AlarmCode::kEnableFailed,
-        enabled ? "a node keeps its stop latched: is an emergency stop or a limit switch still active?"
-                : "a drive does not enable again: its fault is still there");
+        enabled ? say("a node keeps its stop latched: is an emergency stop or a limit switch still active?")
+                : say("a drive does not enable again: its fault is still there"));
 }
 
 void Gateway::Core::step_cancel() {
@@ -150,7 +150,7 @@ void Gateway::Core::finish_standstill() {
   hand_.drop();
   for (std::size_t i = 0; i < links_.size(); ++i) positions_[i] = standstill_.node(i).position;
   if (after_ == After::kHoming && !homed_) {
-    alarm(AlarmCode::kHomingFailed, "a node does not know its position after homing");
+    alarm(AlarmCode::kHomingFailed, say("a node does not know its position after homing"));
     return stop_all(true);
   }
   if (cancelled || job_failed)
@@ -161,8 +161,8 @@ void Gateway::Core::finish_standstill() {
   if (!interrupted()) job_name_.clear();
   filament_lost_ = filament_lost_ || (interrupted() && !homed_);
   if (after_ == After::kHoming)
-    events_.push({.kind = MachineEvent::Kind::kFinished, .when = now_, .words = "homed", .advice = {}});
-  if (after_ == After::kCancel) events_.message(now_, "cancelled: positions are known");
+    events_.push({.kind = MachineEvent::Kind::kFinished, .when = now_, .words = say("homed"), .advice = {}});
+  if (after_ == After::kCancel) events_.message(now_, say("cancelled: positions are known"));
   // What was interrupted by a stop alone is held; elsewhere the machine may be moved first.
   if (after_ == After::kClear && homed_ && print_.active()) return enter(MachineState::kHeld);
   enter(homed_ ? MachineState::kReady : MachineState::kUnhomed);

@@ -40,11 +40,11 @@ void Gateway::Core::enter(MachineState state) {
   events_.push({.kind = MachineEvent::Kind::kState,
                 .when = now_,
                 .state = state,
-                .words = std::string(to_string(state)),
+                .words = sentence(state),
                 .advice = {}});
 }
 
-void Gateway::Core::alarm(AlarmCode code, std::string words, std::uint8_t node, std::uint32_t line) {
+void Gateway::Core::alarm(AlarmCode code, Sentence words, std::uint8_t node, std::uint32_t line) {
   events_.alarm(now_, code, std::move(words), node, line);
 }
 
@@ -53,7 +53,7 @@ void Gateway::Core::on_bus_failure(BusTime now, std::string_view what) {
   if (need_bring_up_ && state_ == MachineState::kAlarm) return;
   need_bring_up_ = true;
   if (state_ == MachineState::kOff) return;
-  alarm(AlarmCode::kBusFailure, "the bus failed: " + std::string(what));
+  alarm(AlarmCode::kBusFailure, say("the bus failed: %1", what));
   stop_all(true);
 }
 
@@ -154,7 +154,7 @@ void Gateway::Core::report_problems() {
     events_.push({.kind = MachineEvent::Kind::kProblem,
                   .when = now_,
                   .line = problem.line,
-                  .words = (error ? "error: " : "warning: ") + problem.words,
+                  .words = error ? say("error: %1", problem.words) : say("warning: %1", problem.words),
                   .advice = {}});
   }
 }
@@ -172,8 +172,8 @@ void Gateway::Core::step_checking() {
   if (errors > 0 || !job_->rewind()) {
     events_.push({.kind = MachineEvent::Kind::kFinished,
                   .when = now_,
-                  .words = "the job was not begun: it has " + std::to_string(errors) + " errors",
-                  .advice = "correct the lines named, then run it again"});
+                  .words = say("the job was not begun: it has %1 errors", errors),
+                  .advice = say("correct the lines named, then run it again")});
     job_.reset();
     job_name_.clear();
     return enter(MachineState::kReady);
@@ -204,7 +204,7 @@ void Gateway::Core::step_running() {
     case Runner::Outcome::kDone:
       return finish_motion();
     case Runner::Outcome::kEmergencyStop:
-      alarm(AlarmCode::kEmergencyStop, "M112 in the job", 0, runner_->line(now_));
+      alarm(AlarmCode::kEmergencyStop, say("M112 in the job"), 0, runner_->line(now_));
       return stop_all(false);
     case Runner::Outcome::kFailed: {
       const Runner::Failure& failure = runner_->failure();
@@ -232,9 +232,9 @@ void Gateway::Core::finish_motion() {
   if (job) thermal_.set_spindle(0);  // the end of a program stops it (RS274/NGC 3.6.1)
   events_.push({.kind = MachineEvent::Kind::kFinished,
                 .when = now_,
-                .words = !job   ? "move done"
-                         : live ? "all lines done: " + job_name_
-                                : "job done: " + job_name_,
+                .words = !job   ? say("move done")
+                         : live ? say("all lines done: %1", job_name_)
+                                : say("job done: %1", job_name_),
                 .advice = {}});
   if (job) job_name_.clear();
   enter(MachineState::kReady);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "gateway/machine/state.hpp"
+#include "gateway/sentence.hpp"
 #include "protocol/time.hpp"
 
 namespace kinebus {
@@ -23,8 +24,8 @@ struct MachineEvent {
   std::uint16_t code = 0;  ///< EMCY error code, or 0xFFxx of the gateway's own (alarm.hpp)
   std::uint8_t node = 0;   ///< 0: none
   std::uint32_t line = 0;
-  std::string words;
-  std::string advice;
+  Sentence words;
+  Sentence advice;
 };
 
 }  // namespace kinebus

@@ -19,21 +19,21 @@ class EventQueue {
     if (events_.size() >= kCapacity) events_.pop_front();
     events_.push_back(std::move(event));
   }
-  void message(BusTime when, std::string words, std::uint32_t line = 0) {
+  void message(BusTime when, Sentence words, std::uint32_t line = 0) {
     push({.kind = MachineEvent::Kind::kMessage,
           .when = when,
           .line = line,
           .words = std::move(words),
           .advice = {}});
   }
-  void alarm(BusTime when, AlarmCode code, std::string words, std::uint8_t node = 0, std::uint32_t line = 0) {
+  void alarm(BusTime when, AlarmCode code, Sentence words, std::uint8_t node = 0, std::uint32_t line = 0) {
     push({.kind = MachineEvent::Kind::kAlarm,
           .when = when,
           .code = static_cast<std::uint16_t>(code),
           .node = node,
           .line = line,
           .words = std::move(words),
-          .advice = std::string(advice_for(code))});
+          .advice = advice_for(code)});
   }
   std::optional<MachineEvent> pop() {
     if (events_.empty()) return std::nullopt;

@@ -13,10 +13,10 @@ std::deque<NodeLink> make_links(const std::vector<NodeAxes>& axes) {
 }
 
 /// A description whose geometry no machine can have leaves the default machine's kinematics, for show only.
-std::unique_ptr<Kinematics> machine_kinematics(const MachineDescription& machine, std::string& defect) {
+std::unique_ptr<Kinematics> machine_kinematics(const MachineDescription& machine, Sentence& defect) {
   auto made = make_kinematics(machine);
   if (made) return std::move(*made);
-  defect = "the machine file's geometry cannot work: " + made.error().what;
+  defect = say("the machine file's geometry cannot work: %1", made.error().what);
   return std::move(*make_m1_kinematics(M1Geometry{}));
 }
 
@@ -102,7 +102,7 @@ Result<void, Refusal> Gateway::cancel() {
   return core_->cancel();
 }
 Result<void, Refusal> Gateway::stop() {
-  return core_->stop("stop by command");
+  return core_->stop(say("stop by command"));
 }
 Result<void, Refusal> Gateway::clear() {
   return core_->clear();

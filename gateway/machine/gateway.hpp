@@ -26,6 +26,7 @@
 #include "gateway/machine/state.hpp"
 #include "gateway/machine/status.hpp"
 #include "gateway/result.hpp"
+#include "gateway/sentence.hpp"
 #include "protocol/can/frame.hpp"
 #include "protocol/time.hpp"
 
@@ -35,7 +36,7 @@ struct MachineDescription;  // gateway/machine/description
 
 /// Why a command was not carried out. Nothing has changed then.
 struct Refusal {
-  std::string words;
+  Sentence words;
 };
 
 /// A relative move of the tool in the machine frame.

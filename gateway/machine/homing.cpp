@@ -104,7 +104,7 @@ bool MachineHoming::requests_done() {
   return done;
 }
 
-void MachineHoming::fail(AlarmCode code, std::uint8_t node, std::string words) {
+void MachineHoming::fail(AlarmCode code, std::uint8_t node, Sentence words) {
   if (failed_) return;
   failed_ = true;
   failure_ = {code, node, std::move(words)};
@@ -156,7 +156,7 @@ MachineHoming::Outcome MachineHoming::on_time(BusTime now) {
       if (group_in_mode(stage_ == Stage::kMode ? kHomingMode : kStreamMode))
         enter(stage_ == Stage::kMode ? Stage::kMove : Stage::kQuiet, now);
       else if (now - entered_ > kModeTimeout)
-        fail(AlarmCode::kHomingFailed, 0, "the drives do not change their mode of operation");
+        fail(AlarmCode::kHomingFailed, 0, say("the drives do not change their mode of operation"));
       break;
     case Stage::kMove:
       watch(now);
@@ -183,14 +183,14 @@ void MachineHoming::watch(BusTime now) {
     const NodeLink& link = links_[axis->node];
     const std::uint16_t status = link.statusword(axis->axis);
     if (link.drive_state(axis->axis) != cia402::State::kOperationEnabled)
-      return fail(AlarmCode::kHomingFailed, link.id(), axis->name + ": its drive is no longer enabled");
+      return fail(AlarmCode::kHomingFailed, link.id(), say("%1: its drive is no longer enabled", axis->name));
     if (now - entered_ < kSettle) {
       all = false;
       continue;
     }
     if ((status & cia402::status::kHomingError) != 0)
       return fail(AlarmCode::kHomingFailed, link.id(),
-                  axis->name + " did not find its home switch, or the switch did not release");
+                  say("%1 did not find its home switch, or the switch did not release", axis->name));
     axis->attained =
         (status & cia402::status::kHomingAttained) != 0 && (status & cia402::status::kTargetReached) != 0;
     all = all && axis->attained;
@@ -200,7 +200,7 @@ void MachineHoming::watch(BusTime now) {
   std::string names;
   for (const Axis* axis : group())
     if (!axis->attained) names += (names.empty() ? "" : ", ") + axis->name;
-  fail(AlarmCode::kHomingTimeout, 0, "homing took too long; not at home: " + names);
+  fail(AlarmCode::kHomingTimeout, 0, say("homing took too long; not at home: %1", names));
 }
 
 /// Travels since the start, put together from the reports: at its edge a carriage gets a new zero, which is
@@ -230,10 +230,9 @@ void MachineHoming::watch_spread() {
     most = std::max(most, travel_mm);
   }
   if (!farthest || most - least <= machine_.homing.max_spread_mm) return;
-  char words[160];
-  std::snprintf(words, sizeof words, "%s has gone %.1f mm farther than another carriage; allowed are %.1f mm",
-                farthest->name.c_str(), most - least, machine_.homing.max_spread_mm);
-  fail(AlarmCode::kHomingSpread, links_[farthest->node].id(), words);
+  fail(AlarmCode::kHomingSpread, links_[farthest->node].id(),
+       say("%1 has gone %2 mm farther than another carriage; allowed are %3 mm", farthest->name,
+           printed("%.1f", most - least), printed("%.1f", machine_.homing.max_spread_mm)));
 }
 
 }  // namespace kinebus

@@ -20,6 +20,7 @@
 #include "gateway/machine/bring_up.hpp"
 #include "gateway/machine/description/machine_description.hpp"
 #include "gateway/machine/node_link.hpp"
+#include "gateway/sentence.hpp"
 
 namespace kinebus {
 
@@ -64,7 +65,7 @@ class MachineHoming {
   bool requests_done();
   void watch(BusTime now);
   void watch_spread();
-  void fail(AlarmCode code, std::uint8_t node, std::string words);
+  void fail(AlarmCode code, std::uint8_t node, Sentence words);
 
   const MachineDescription& machine_;
   std::deque<NodeLink>& links_;

@@ -48,7 +48,7 @@ void Runner::begin() {
   events_.clear();
   feed_.reset();
   last_line_ = 0;
-  doing_ = "moving";
+  doing_ = say("moving");
 }
 
 void Runner::start_job(std::unique_ptr<ByteSource> source, const PoseVector& start,
@@ -73,7 +73,7 @@ void Runner::start_live(const PoseVector& start) {
   noted_ = false;
   begin();
   live_ = true;
-  doing_ = "waiting for lines";
+  doing_ = say("waiting for lines");
 }
 
 void Runner::add(BusTime now, const canonical::Line& line) {
@@ -84,7 +84,7 @@ void Runner::add(BusTime now, const canonical::Line& line) {
 /// The pipeline has nothing more to give out before the next live command comes.
 void Runner::settle_when_late(BusTime now) {
   if (!feed_.streaming()) {
-    if (pipeline_.live_idle()) doing_ = "waiting for lines";
+    if (pipeline_.live_idle()) doing_ = say("waiting for lines");
     if (now - last_added_ >= kLiveGather) pipeline_.settle_live();
     return;
   }
@@ -127,7 +127,7 @@ void Runner::drop() {
   feed_.reset();
   events_.clear();
   source_.reset();
-  doing_.clear();
+  doing_ = {};
 }
 
 double Runner::done_s(BusTime now) const {
@@ -147,7 +147,7 @@ std::uint32_t Runner::line(BusTime now) const {
   return line != 0 ? line : last_line_;
 }
 
-Runner::Outcome Runner::fail(std::uint32_t line, std::string words, bool stream) {
+Runner::Outcome Runner::fail(std::uint32_t line, Sentence words, bool stream) {
   failure_ = {line, std::move(words), stream};
   return Outcome::kFailed;
 }
@@ -230,7 +230,7 @@ void Runner::start_replay(std::unique_ptr<ByteSource> source, const journal::Sta
   start_job(std::move(source), state.job->start, state.job->offsets);
   pipeline_.replay_feed_scales(state.scales);
   waits_replayed_ = state.waits_done;
-  doing_ = "reading the job up to where it was";
+  doing_ = say("reading the job up to where it was");
   if (state.run) {
     const journal::RunBegin& run = *state.run;
     feed_.replay_to(RunFeed::Run{run.start, run.from, run.ramp_s}, tau);
@@ -274,7 +274,7 @@ Runner::Outcome Runner::replay(int budget) {
     }
   }
   suspended_ = true;
-  doing_ = "interrupted";
+  doing_ = say("interrupted");
   return Outcome::kDone;
 }
 

@@ -18,6 +18,7 @@
 #include "gateway/machine/path_rate.hpp"
 #include "gateway/machine/run_feed.hpp"
 #include "gateway/machine/thermal.hpp"
+#include "gateway/sentence.hpp"
 #include "gateway/stream/stream_group.hpp"
 
 namespace kinebus {
@@ -27,7 +28,7 @@ class Runner {
   enum class Outcome : std::uint8_t { kBusy, kPaused, kDone, kFailed, kEmergencyStop };
   struct Failure {
     std::uint32_t line = 0;
-    std::string words;
+    Sentence words;
     bool stream = false;  ///< between gateway and nodes, not in the job
   };
   struct Counters {
@@ -98,7 +99,7 @@ class Runner {
   std::uint64_t bytes() const { return pipeline_.bytes(); }
   /// The exact planned pose at path time `tau`, by the phases of the last second and all that are queued.
   std::optional<PlannedPose> planned_pose(PathTime tau) const;
-  const std::string& doing() const { return doing_; }
+  const Sentence& doing() const { return doing_; }
   const Counters& counters() const { return counters_; }
 
  private:
@@ -122,7 +123,7 @@ class Runner {
   void execute(BusTime now, const canonical::Line& line);
   Outcome take(BusTime now, JobPipeline::Step step);
   Outcome barrier(BusTime now);
-  Outcome fail(std::uint32_t line, std::string words, bool stream);
+  Outcome fail(std::uint32_t line, Sentence words, bool stream);
   void begin_heating(const canonical::Thermal& thermal);
 
   const MachineDescription& machine_;
@@ -151,7 +152,7 @@ class Runner {
   BusTime last_time_{0}, dwell_left_{0}, last_rate_change_{0}, run_noted_{0}, last_added_{0};
   double override_ = 1;
   std::uint32_t last_line_ = 0;
-  std::string doing_;
+  Sentence doing_;
   Failure failure_;
   Counters counters_;
 };

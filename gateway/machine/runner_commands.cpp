@@ -1,21 +1,9 @@
 // What a job commands besides motion: heaters, spindle, messages, and the waits for them, for time and for
 // the operator. Commands take effect when path time has passed the phase before them.
 
-#include <cstdio>
-
 #include "gateway/machine/runner.hpp"
 
 namespace kinebus {
-namespace {
-
-std::string celsius_words(const char* what, double celsius) {
-  char text[64];
-  std::snprintf(text, sizeof text, "waiting for %s at %.0f C", what, celsius);
-  return text;
-}
-
-}  // namespace
-
 bool Runner::wait_is_over(BusTime now) {
   switch (wait_) {
     case Wait::kNone:
@@ -60,7 +48,7 @@ void Runner::end_wait() {
   const bool of_job =
       wait_ == Wait::kDwell || wait_ == Wait::kHeating || wait_ == Wait::kSpindle || wait_ == Wait::kPause;
   wait_ = Wait::kNone;
-  doing_ = "moving";
+  doing_ = say("moving");
   if (!of_job) return;
   ++waits_done_;
   if (noted_) journal_.push(journal::WaitsDone{waits_done_});
@@ -85,7 +73,7 @@ void Runner::execute(BusTime now, const canonical::Line& line) {
   } else if (const auto* spindle = std::get_if<canonical::Spindle>(&line.command)) {
     thermal_.set_spindle(spindle->rpm);
   } else if (const auto* message = std::get_if<canonical::Message>(&line.command)) {
-    events_out_.message(now, message->text, line.line);
+    events_out_.message(now, Sentence::verbatim(message->text), line.line);
   } else if (std::holds_alternative<canonical::EmergencyStop>(line.command)) {
     stop_asked_ = true;
   }
@@ -106,7 +94,7 @@ Runner::Outcome Runner::barrier(BusTime now) {
   if (const auto* dwell = std::get_if<canonical::Dwell>(&line.command)) {
     dwell_left_ = BusTime{static_cast<std::int64_t>(dwell->seconds * 1e9)};
     wait_ = Wait::kDwell;
-    doing_ = "dwelling";
+    doing_ = say("dwelling");
   } else if (const auto* thermal = std::get_if<canonical::Thermal>(&line.command)) {
     execute(now, line);
     begin_heating(*thermal);
@@ -114,16 +102,16 @@ Runner::Outcome Runner::barrier(BusTime now) {
     execute(now, line);
     if (spindle->rpm != 0) {
       wait_ = Wait::kSpindle;
-      doing_ = "waiting for the spindle";
+      doing_ = say("waiting for the spindle");
     }
   } else if (std::holds_alternative<canonical::Pause>(line.command)) {
     wait_ = Wait::kPause;
-    doing_ = "paused by the job";
-    events_out_.message(now, "the job pauses here: resume to go on", line.line);
+    doing_ = say("paused by the job");
+    events_out_.message(now, say("the job pauses here: resume to go on"), line.line);
   } else if (std::holds_alternative<canonical::MotorsOff>(line.command)) {
     // A platform on vertical rails falls when its drives let go: drives hold, with hold current, until the
     // operator switches them off.
-    events_out_.message(now, "M18/M84 in a job: the motors go on holding", line.line);
+    events_out_.message(now, say("M18/M84 in a job: the motors go on holding"), line.line);
   }
   return Outcome::kBusy;
 }
@@ -135,7 +123,8 @@ void Runner::begin_heating(const canonical::Thermal& thermal) {
   heating_ = {hotend ? Heater::kHotend : Heater::kBed, thermal.value, heater.window_c, thermal.wait_cooling};
   in_window_since_.reset();
   wait_ = Wait::kHeating;
-  doing_ = celsius_words(hotend ? "the hotend" : "the bed", thermal.value);
+  const std::string celsius = printed("%.0f C", thermal.value);
+  doing_ = hotend ? say("waiting for the hotend at %1", celsius) : say("waiting for the bed at %1", celsius);
 }
 
 }  // namespace kinebus

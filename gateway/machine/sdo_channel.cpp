@@ -1,7 +1,5 @@
 #include "gateway/machine/sdo_channel.hpp"
 
-#include <cstdio>
-
 #include <algorithm>
 
 #include "protocol/bytes.hpp"
@@ -17,13 +15,12 @@ bool disturbed(AbortCode code) {
 }
 }  // namespace
 
-std::string to_string(std::uint8_t node, const SdoResult& result) {
-  char words[160];
-  const std::string_view reason = result.abort == AbortCode::kTimeout ? "no answer" : text(result.abort);
-  std::snprintf(words, sizeof words, "node %u, object %04Xh:%u: %.*s", static_cast<unsigned>(node),
-                static_cast<unsigned>(result.address.index), static_cast<unsigned>(result.address.subindex),
-                static_cast<int>(reason.size()), reason.data());
-  return words;
+Sentence to_string(std::uint8_t node, const SdoResult& result) {
+  const std::string object = printed("%04Xh:%u", static_cast<unsigned>(result.address.index),
+                                     static_cast<unsigned>(result.address.subindex));
+  return result.abort == AbortCode::kTimeout
+             ? say("node %1, object %2: no answer", node, object)
+             : say("node %1, object %2: %3", node, object, text(result.abort));
 }
 
 SdoChannel::SdoChannel(std::uint8_t node_id) : node_id_(node_id) {}

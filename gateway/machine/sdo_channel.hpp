@@ -9,6 +9,7 @@
 #include <string>
 
 #include "gateway/machine/node_configuration.hpp"
+#include "gateway/sentence.hpp"
 #include "protocol/can/frame.hpp"
 #include "protocol/canopen/abort_code.hpp"
 #include "protocol/canopen/sdo_client.hpp"
@@ -23,7 +24,7 @@ struct SdoResult {
   std::int64_t value = 0;              ///< what was read
 };
 /// "node 2, object 6098h:0: value too high"
-std::string to_string(std::uint8_t node, const SdoResult& result);
+Sentence to_string(std::uint8_t node, const SdoResult& result);
 
 class SdoChannel {
  public:

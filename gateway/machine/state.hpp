@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "gateway/sentence.hpp"
+
 namespace kinebus {
 
 enum class MachineState : std::uint8_t {
@@ -25,6 +27,7 @@ enum class MachineState : std::uint8_t {
 };
 inline constexpr int kMachineStates = 14;
 std::string_view to_string(MachineState state);
+Sentence sentence(MachineState state);
 
 enum class MachineCommand : std::uint8_t {
   kBringUp,
@@ -43,6 +46,7 @@ enum class MachineCommand : std::uint8_t {
 };
 inline constexpr int kMachineCommands = 13;
 std::string_view to_string(MachineCommand command);
+Sentence sentence(MachineCommand command);
 
 /// Whether `command` may be given in `state`; the table is in state.cpp.
 bool allowed(MachineCommand command, MachineState state);

@@ -10,6 +10,7 @@
 
 #include "gateway/kinematics/kinematics.hpp"
 #include "gateway/machine/state.hpp"
+#include "gateway/sentence.hpp"
 #include "protocol/time.hpp"
 
 namespace kinebus {
@@ -57,7 +58,7 @@ struct MachineCounters {
 
 struct MachineStatus {
   MachineState state = MachineState::kOff;
-  std::string doing;  ///< plain words: what the machine does now
+  Sentence doing;  ///< plain words: what the machine does now
   BusTime now{0};
   bool positions_known = false;
   PoseVector pose{};          ///< tool relative to the part (Frame::kPart), mm and rad

@@ -96,7 +96,7 @@ Result<std::string, Refusal> Gateway::Core::text_line(std::string_view line) {
   const Words words(line);
   const auto temperature = [&](bool bed) -> Result<std::string, Refusal> {
     const auto celsius = words.word('S');
-    if (!celsius) return Error<Refusal>(Refusal{"a temperature needs S"});
+    if (!celsius) return Error<Refusal>(Refusal{say("a temperature needs S")});
     return reply(set_temperature(bed, *celsius));
   };
   if (words.letter == 0 || words.letter == ';') return std::string();
@@ -132,7 +132,7 @@ Result<std::string, Refusal> Gateway::Core::text_line(std::string_view line) {
         return std::string();
       case 112:
       case 410:
-        return reply(stop("stop by the session"));
+        return reply(stop(say("stop by the session")));
       case 114:
         return position(status());
       case 115:
@@ -151,7 +151,7 @@ Result<std::string, Refusal> Gateway::Core::text_line(std::string_view line) {
     }
   }
   return Error<Refusal>(
-      Refusal{"not a command of a session: " + std::string(line.substr(0, 60)) + "; send motion as a job"});
+      Refusal{say("not a command of a session: %1; send motion as a job", line.substr(0, 60))});
 }
 
 }  // namespace kinebus

@@ -9,6 +9,7 @@
 
 #include "gateway/machine/status.hpp"
 #include "gateway/result.hpp"
+#include "gateway/sentence.hpp"
 #include "protocol/time.hpp"
 
 namespace kinebus {
@@ -27,7 +28,7 @@ class ThermalDevice {
   virtual SpindleStatus spindle() const = 0;
   virtual void on_time(BusTime now) = 0;
   /// Plain words when a heater is out of control (sensor broken, no rise); then all heaters are off already.
-  virtual std::optional<std::string> fault() const = 0;
+  virtual std::optional<Sentence> fault() const = 0;
 };
 
 /// T' = (ambient + rise * power - T) / time_constant, solved exactly for any step; the thermostat is a
@@ -56,7 +57,7 @@ class SimulatedThermal : public ThermalDevice {
   void set_spindle(double rpm) override { spindle_.target_rpm = rpm; }
   SpindleStatus spindle() const override { return spindle_; }
   void on_time(BusTime now) override;
-  std::optional<std::string> fault() const override { return std::nullopt; }
+  std::optional<Sentence> fault() const override { return std::nullopt; }
 
  private:
   struct State {

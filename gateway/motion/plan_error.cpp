@@ -1,24 +1,22 @@
-#include <string>
-
 #include "gateway/motion/planner.hpp"
 
 namespace kinebus {
 
-std::string to_string(const PlanError& error) {
-  const std::string place = "line " + std::to_string(error.line) + ": ";
+Sentence to_string(const PlanError& error) {
   switch (error.kind) {
     case PlanError::Kind::kPose:
-      return place + "the path leaves the machine's reach: " + to_string(error.pose);
+      return say("line %1: the path leaves the machine's reach: %2", error.line, to_string(error.pose));
     case PlanError::Kind::kFrame:
-      return place +
-             "the move's frame differs from the path's; the frame may only change by a position given at "
-             "rest";
+      return say(
+          "line %1: the move's frame differs from the path's; the frame may only change by a position given "
+          "at rest",
+          error.line);
     case PlanError::Kind::kBadNumber:
-      return place + "a coordinate is not a number, or the feed is not greater than 0";
+      return say("line %1: a coordinate is not a number, or the feed is not greater than 0", error.line);
     case PlanError::Kind::kArc:
-      return place + "centre, normal, sweep and target do not make an arc";
+      return say("line %1: centre, normal, sweep and target do not make an arc", error.line);
   }
-  return place + "unknown error";
+  return say("line %1: unknown error", error.line);
 }
 
 }  // namespace kinebus

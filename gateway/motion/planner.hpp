@@ -17,6 +17,7 @@
 #include "gateway/motion/motion_limits.hpp"
 #include "gateway/motion/trajectory.hpp"
 #include "gateway/result.hpp"
+#include "gateway/sentence.hpp"
 
 namespace kinebus {
 
@@ -32,7 +33,7 @@ struct PlanError {
   std::uint32_t line = 0;
   PoseError pose{};
 };
-std::string to_string(const PlanError& error);
+Sentence to_string(const PlanError& error);
 
 class Planner {
  public:

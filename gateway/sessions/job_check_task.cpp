@@ -42,7 +42,7 @@ void JobCheckTask::slice() {
     const auto job = store_.find(name_);
     if (!source || !job) {
       found_ = Error<StoreError>(
-          source ? StoreError{StoreError::Kind::kNoSuchJob, "no stored job has the name " + name_}
+          source ? StoreError{StoreError::Kind::kNoSuchJob, say("no stored job has the name %1", name_)}
                  : source.error());
       return;
     }

@@ -73,8 +73,8 @@ void JobLinkServer::refuse(const Asker& asker, joblink::Problem error) {
 
 joblink::Problem JobLinkServer::no_control() const {
   return problem(joblink::ERROR_NO_CONTROL, {},
-                 control_.name_of(control_.holder()) + " has control of the machine",
-                 "ask for it to be handed over, or take control by force");
+                 say("%1 has control of the machine", control_.name_of(control_.holder())),
+                 say("ask for it to be handed over, or take control by force"));
 }
 
 void JobLinkServer::welcome(LocalTime now, JobLinkSession& session, const joblink::Hello& hello,
@@ -166,10 +166,11 @@ void JobLinkServer::record_end(LocalTime now, const RunRecorder::Ended& end) {
   static constexpr RunResult kResults[] = {RunResult::kComplete, RunResult::kCancelled, RunResult::kRefused,
                                            RunResult::kFailed};
   worker_.post(
-      [&store = store_, id = run_id_, end] {
+      [&store = store_, id = run_id_, end,
+       said = end.first_error.empty() ? std::string() : to_message(end.first_error).SerializeAsString()] {
         if (*id != 0)
           static_cast<void>(store.end_run(*id, kResults[static_cast<std::size_t>(end.result)], end.duration_s,
-                                          end.estimate_s, end.line, end.first_error));
+                                          end.estimate_s, end.line, end.first_error, said));
       },
       [this, now] {
         joblink::Event event;
@@ -189,7 +190,10 @@ void JobLinkServer::on_time(LocalTime now) {
   joblink::Event event;
   event.set_kind(joblink::EVENT_CONTROL);
   event.set_client(told_holder_);
-  event.set_words(told_holder_ != 0 ? control_.name_of(told_holder_) + " has control" : "nobody has control");
+  const Sentence words =
+      told_holder_ != 0 ? say("%1 has control", control_.name_of(told_holder_)) : say("nobody has control");
+  event.set_words(words);
+  *event.mutable_said() = to_message(words);
   tell(now, std::move(event));
 }
 

@@ -138,12 +138,13 @@ void JobLinkSession::hello(LocalTime now, const ClientMessage& message) {
   joblink::Reply& reply = *out.mutable_reply();
   reply.set_request_id(message.request_id());
   if (hello.version_major() != joblink::kVersionMajor) {
-    *reply.mutable_error() = problem(joblink::ERROR_VERSION, "version",
-                                     "the gateway and the client speak different versions of the job link",
-                                     "version " + std::to_string(joblink::kVersionMajor));
+    *reply.mutable_error() =
+        problem(joblink::ERROR_VERSION, "version",
+                say("the gateway and the client speak different versions of the job link"),
+                say("version %1", joblink::kVersionMajor));
   } else if (!info_.token.empty() && !same_secret(hello.token(), info_.token)) {
-    *reply.mutable_error() = problem(joblink::ERROR_NOT_ALLOWED, "token", "the token is wrong",
-                                     "the token that is set on the gateway");
+    *reply.mutable_error() = problem(joblink::ERROR_NOT_ALLOWED, "token", say("the token is wrong"),
+                                     say("the token that is set on the gateway"));
     ended_ = true;
   } else {
     server_.welcome(now, *this, hello, *reply.mutable_hello());
@@ -154,7 +155,8 @@ void JobLinkSession::hello(LocalTime now, const ClientMessage& message) {
 void JobLinkSession::request(LocalTime now, const ClientMessage& message) {
   const JobLinkServer::Asker asker{id_, message.request_id()};
   ++open_requests_;
-  if (client_ == 0) return server_.refuse(asker, problem(joblink::ERROR_NOT_ALLOWED, {}, "say hello first"));
+  if (client_ == 0)
+    return server_.refuse(asker, problem(joblink::ERROR_NOT_ALLOWED, {}, say("say hello first")));
   if (message.has_watch()) {
     const double hz = message.watch().status_hz();
     status_period_ =
@@ -167,7 +169,8 @@ void JobLinkSession::request(LocalTime now, const ClientMessage& message) {
   if (message.has_ping()) return server_.answer(asker, {});
   if (JobRequests(server_, *this, now).take(asker, message)) return;
   if (MachineRequests(server_, *this).take(asker, message)) return;
-  server_.refuse(asker, problem(joblink::ERROR_NOT_UNDERSTOOD, {}, "this gateway does not know the request"));
+  server_.refuse(asker,
+                 problem(joblink::ERROR_NOT_UNDERSTOOD, {}, say("this gateway does not know the request")));
 }
 
 void JobLinkSession::welcomed(ClientId client, std::string resume_key) {

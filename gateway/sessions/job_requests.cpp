@@ -142,7 +142,7 @@ void JobRequests::list(const Asker& asker) {
 
 void JobRequests::remove(const Asker& asker, const std::string& name) {
   if (server_.gateway_.status().job == name)
-    return server_.refuse(asker, problem(joblink::ERROR_JOB_IN_USE, name, "this job is running"));
+    return server_.refuse(asker, problem(joblink::ERROR_JOB_IN_USE, name, say("this job is running")));
   server_.worker_.ask([&store = server_.store_, name] { return store.remove(name); },
                       [&server = server_, asker, name, now = now_](const Result<void, StoreError>& removed) {
                         server.answer(asker, removed ? Reply() : error_reply(removed));
@@ -175,7 +175,7 @@ void JobRequests::read(const Asker& asker, const joblink::ReadJob& request) {
 void JobRequests::check(const Asker& asker, const std::string& name) {
   if (server_.checks_.size() >= kMaxChecks)
     return server_.refuse(
-        asker, problem(joblink::ERROR_BUSY, name, "too many jobs are being checked: ask again later"));
+        asker, problem(joblink::ERROR_BUSY, name, say("too many jobs are being checked: ask again later")));
   auto task = std::make_shared<JobCheckTask>(server_.store_, server_.machine_, server_.options_.machine_mark,
                                              name, server_.gateway_.work_offsets());
   server_.checks_.push_back(task);
@@ -218,7 +218,7 @@ void JobRequests::history(const Asker& asker, const joblink::GetHistory& request
 void JobRequests::read_machine_file(const Asker& asker) {
   server_.worker_.ask(
       [&file = server_.machine_file_] { return file.read(); },
-      [&server = server_, asker](const Result<MachineFilePort::Text, std::string>& text) {
+      [&server = server_, asker](const Result<MachineFilePort::Text, Sentence>& text) {
         if (!text) return server.refuse(asker, problem(joblink::ERROR_STORAGE, "machine file", text.error()));
         Reply reply;
         joblink::MachineFile& file = *reply.mutable_machine_file();
@@ -234,8 +234,8 @@ void JobRequests::read_machine_file(const Asker& asker) {
 
 void JobRequests::check_machine_file(const Asker& asker, const std::string& text) {
   if (text.size() > kMaxMachineFile)
-    return server_.refuse(asker,
-                          problem(joblink::ERROR_BAD_VALUE, "text", "a machine file has at most 512 KiB"));
+    return server_.refuse(
+        asker, problem(joblink::ERROR_BAD_VALUE, "text", say("a machine file has at most 512 KiB")));
   server_.worker_.ask(
       [text] {
         const auto parsed = parse_machine(text, "machine file");
@@ -251,11 +251,11 @@ void JobRequests::check_machine_file(const Asker& asker, const std::string& text
 void JobRequests::write_machine_file(const Asker& asker, const joblink::WriteMachineFile& request) {
   if (!server_.control_.may_command(session_.client())) return server_.refuse(asker, server_.no_control());
   if (request.text().size() > kMaxMachineFile)
-    return server_.refuse(asker,
-                          problem(joblink::ERROR_BAD_VALUE, "text", "a machine file has at most 512 KiB"));
+    return server_.refuse(
+        asker, problem(joblink::ERROR_BAD_VALUE, "text", say("a machine file has at most 512 KiB")));
   struct Written {
     MachineFileErrors errors;
-    std::string failure;
+    Sentence failure;
     bool conflict = false;
   };
   server_.worker_.ask(
@@ -274,16 +274,12 @@ void JobRequests::write_machine_file(const Asker& asker, const joblink::WriteMac
       [&server = server_, asker](const Written& written) {
         if (written.conflict)
           return server.refuse(asker, problem(joblink::ERROR_CONFLICT, "machine file",
-                                              "the file was changed by somebody else: read it again"));
+                                              say("the file was changed by somebody else: read it again")));
         if (!written.failure.empty())
           return server.refuse(asker, problem(joblink::ERROR_STORAGE, "machine file", written.failure));
         Reply reply;
         *reply.mutable_machine_file_check() = to_message(written.errors);
-        if (!written.errors.empty())
-          *reply.mutable_error() =
-              problem(joblink::ERROR_BAD_VALUE, written.errors.front().key, to_string(written.errors.front()),
-                      written.errors.front().expected);
-        if (!written.errors.empty()) reply.mutable_error()->set_line(written.errors.front().line);
+        if (!written.errors.empty()) *reply.mutable_error() = reply.machine_file_check().problems(0);
         server.answer(asker, std::move(reply));
       });
 }

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "gateway/result.hpp"
+#include "gateway/sentence.hpp"
 
 namespace kinebus {
 
@@ -17,9 +18,9 @@ class MachineFilePort {
     bool writable = false;
   };
   virtual ~MachineFilePort() = default;
-  virtual Result<Text, std::string> read() = 0;
+  virtual Result<Text, Sentence> read() = 0;
   /// Stored whole or not at all; the file before is kept beside it.
-  virtual Result<void, std::string> write(std::string_view text) = 0;
+  virtual Result<void, Sentence> write(std::string_view text) = 0;
 };
 
 }  // namespace kinebus

@@ -88,9 +88,9 @@ bool MachineRequests::take_control_request(const Asker& asker, const ClientMessa
     if (control.hand_over(session_.client(), message.hand_over().client_id()))
       server_.answer(asker, {});
     else
-      server_.refuse(asker,
-                     problem(joblink::ERROR_BAD_VALUE, "client_id",
-                             "control is handed over by the client that has it, to a client that is here"));
+      server_.refuse(
+          asker, problem(joblink::ERROR_BAD_VALUE, "client_id",
+                         say("control is handed over by the client that has it, to a client that is here")));
     return true;
   }
   return false;
@@ -121,7 +121,7 @@ Result<void, Refusal> MachineRequests::carry_out(const ClientMessage& message) {
       return gateway.set_temperature(message.set_temperature().bed(), message.set_temperature().celsius());
     case ClientMessage::kSetFan: {
       const double ratio = message.set_fan().ratio();
-      if (!(ratio >= 0 && ratio <= 1)) return Error<Refusal>(Refusal{"a fan's ratio is 0 to 1"});
+      if (!(ratio >= 0 && ratio <= 1)) return Error<Refusal>(Refusal{say("a fan's ratio is 0 to 1")});
       char line[32];
       std::snprintf(line, sizeof line, "M106 S%.2f", ratio * 255);
       const auto done = gateway.text_line(line);
@@ -133,18 +133,18 @@ Result<void, Refusal> MachineRequests::carry_out(const ClientMessage& message) {
     case ClientMessage::kSetWorkOffset:
       return set_work_offset(message.set_work_offset());
     default:
-      return Error<Refusal>(Refusal{"this gateway does not know the request"});
+      return Error<Refusal>(Refusal{say("this gateway does not know the request")});
   }
 }
 
 /// As a line of the console: one place knows what a work offset is.
 Result<void, Refusal> MachineRequests::set_work_offset(const joblink::SetWorkOffset& request) {
   if (request.system() < 1 || request.system() > 9)
-    return Error<Refusal>(Refusal{"a work coordinate system is 1 (G54) to 9 (G59.3)"});
+    return Error<Refusal>(Refusal{say("a work coordinate system is 1 (G54) to 9 (G59.3)")});
   const PoseVector offset = pose_of(request.offset());
   if (!std::all_of(offset.begin(), offset.end(),
                    [](double v) { return std::isfinite(v) && std::abs(v) < 1e6; }))
-    return Error<Refusal>(Refusal{"a work offset needs numbers below 1000 m"});
+    return Error<Refusal>(Refusal{say("a work offset needs numbers below 1000 m")});
   char line[256];
   std::snprintf(line, sizeof line, "G10 L%d P%u X%.6f Y%.6f Z%.6f A%.6f C%.6f", request.here() ? 20 : 2,
                 request.system(), offset[kX], offset[kY], offset[kZ], offset[kA] * kDegrees,

@@ -6,39 +6,6 @@
 namespace kinebus {
 namespace {
 
-/// Text from a job may hold bytes that are no UTF-8, which a message cannot carry: they are shown as '?'.
-std::string clean(std::string_view text) {
-  std::string out;
-  out.reserve(text.size());
-  for (std::size_t i = 0; i < text.size();) {
-    const auto lead = static_cast<unsigned char>(text[i]);
-    const std::size_t length = lead < 0x80                   ? 1
-                               : lead >= 0xC2 && lead < 0xE0 ? 2
-                               : lead >= 0xE0 && lead < 0xF0 ? 3
-                               : lead >= 0xF0 && lead < 0xF5 ? 4
-                                                             : 0;
-    bool whole = length > 0 && i + length <= text.size();
-    for (std::size_t k = 1; whole && k < length; ++k)
-      whole = (static_cast<unsigned char>(text[i + k]) & 0xC0) == 0x80;
-    if (whole && length == 3) {
-      const auto second = static_cast<unsigned char>(text[i + 1]);
-      whole = !(lead == 0xE0 && second < 0xA0) && !(lead == 0xED && second > 0x9F);
-    }
-    if (whole && length == 4) {
-      const auto second = static_cast<unsigned char>(text[i + 1]);
-      whole = !(lead == 0xF0 && second < 0x90) && !(lead == 0xF4 && second > 0x8F);
-    }
-    if (whole) {
-      out.append(text.substr(i, length));
-      i += length;
-    } else {
-      out += '?';
-      ++i;
-    }
-  }
-  return out;
-}
-
 void set_range(joblink::Range& message, const Interval& interval) {
   message.set_min(interval.min);
   message.set_max(interval.max);
@@ -210,6 +177,7 @@ joblink::Status to_message(const MachineStatus& s, const MachineDescription& mac
   m.set_state(static_cast<joblink::State>(s.state));
   m.set_state_words(std::string(to_string(s.state)));
   m.set_doing(clean(s.doing));
+  if (!s.doing.empty()) *m.mutable_doing_said() = to_message(s.doing);
   m.set_at_rest(at_rest(s.state));
   m.set_positions_known(s.positions_known);
   set_pose(*m.mutable_tool(), s.pose);
@@ -260,6 +228,8 @@ joblink::Event to_message(const MachineEvent& event) {
   m.set_line(event.line);
   m.set_words(clean(event.words));
   m.set_advice(clean(event.advice));
+  *m.mutable_said() = to_message(event.words);
+  if (!event.advice.empty()) *m.mutable_advice_said() = to_message(event.advice);
   return m;
 }
 
@@ -328,6 +298,9 @@ joblink::JobRun to_message(const StoredRun& run) {
   m.set_result(static_cast<joblink::JobResult>(run.result));
   m.set_line(run.line);
   m.set_first_error(clean(run.first_error));
+  if (!run.said.empty()) m.mutable_first_error_said()->ParseFromString(run.said);
+  if (!m.has_first_error_said() && run.result == RunResult::kInterrupted)
+    *m.mutable_first_error_said() = to_message(say("the gateway ended while the job ran"));
   return m;
 }
 
@@ -348,6 +321,7 @@ joblink::PreflightResult to_message(const JobReport& report, const ProblemList& 
     out.set_line(p.line);
     out.set_column(p.column);
     out.set_words(clean(p.words));
+    *out.mutable_said() = to_message(p.words);
   }
   return m;
 }
@@ -356,38 +330,11 @@ joblink::MachineFileCheck to_message(const MachineFileErrors& errors) {
   joblink::MachineFileCheck m;
   for (const MachineFileError& error : errors) {
     joblink::Problem& p = *m.add_problems();
-    p = problem(joblink::ERROR_BAD_VALUE, error.key, error.found.empty() ? "missing" : "found " + error.found,
-                error.expected);
+    p = problem(joblink::ERROR_BAD_VALUE, error.key,
+                error.found.empty() ? say("missing") : say("found %1", error.found), error.expected);
     p.set_line(error.line);
   }
   return m;
-}
-
-joblink::Problem problem(joblink::ErrorCode code, std::string place, std::string rule, std::string expected) {
-  joblink::Problem p;
-  p.set_code(code);
-  p.set_place(clean(place));
-  p.set_rule(clean(rule));
-  p.set_expected(clean(expected));
-  return p;
-}
-
-joblink::Problem problem(const Refusal& refusal) {
-  return problem(joblink::ERROR_MACHINE_STATE, {}, refusal.words);
-}
-
-joblink::Problem problem(const StoreError& error) {
-  using Kind = StoreError::Kind;
-  static constexpr std::pair<Kind, joblink::ErrorCode> kCodes[] = {
-      {Kind::kName, joblink::ERROR_NAME},        {Kind::kNoSuchJob, joblink::ERROR_NO_SUCH_JOB},
-      {Kind::kQuota, joblink::ERROR_QUOTA},      {Kind::kDiskFull, joblink::ERROR_QUOTA},
-      {Kind::kReadOnly, joblink::ERROR_STORAGE}, {Kind::kChecksum, joblink::ERROR_CHECKSUM},
-      {Kind::kOrder, joblink::ERROR_BAD_VALUE},  {Kind::kDisk, joblink::ERROR_STORAGE},
-  };
-  joblink::ErrorCode code = joblink::ERROR_STORAGE;
-  for (const auto& [kind, number] : kCodes)
-    if (kind == error.kind) code = number;
-  return problem(code, {}, error.words);
 }
 
 }  // namespace kinebus

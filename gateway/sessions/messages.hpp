@@ -1,6 +1,9 @@
 #pragma once
 // The gateway's values as messages of the job link. Values only: no state, no time.
 
+#include <string>
+#include <string_view>
+
 #include "gateway/jobs/preflight.hpp"
 #include "gateway/jobs/store/job_store.hpp"
 #include "gateway/machine/description/machine_description.hpp"
@@ -8,6 +11,7 @@
 #include "gateway/machine/event.hpp"
 #include "gateway/machine/gateway.hpp"
 #include "gateway/machine/status.hpp"
+#include "gateway/sentence.hpp"
 #include "protocol/joblink/kinebus.pb.h"
 
 namespace kinebus {
@@ -27,8 +31,11 @@ joblink::MachineFileCheck to_message(const MachineFileErrors& errors);
 void set_pose(joblink::Pose& message, const PoseVector& pose);
 PoseVector pose_of(const joblink::Pose& message);
 
-joblink::Problem problem(joblink::ErrorCode code, std::string place, std::string rule,
-                         std::string expected = {});
+/// Text from a job may hold bytes that are no UTF-8, which a message cannot carry: they are shown as '?'.
+std::string clean(std::string_view text);
+joblink::Sentence to_message(const Sentence& sentence);
+joblink::Problem problem(joblink::ErrorCode code, const std::string& place, const Sentence& rule,
+                         const Sentence& expected = {});
 joblink::Problem problem(const Refusal& refusal);
 joblink::Problem problem(const StoreError& error);
 

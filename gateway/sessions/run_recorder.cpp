@@ -23,7 +23,7 @@ std::optional<RunRecorder::Ended> RunRecorder::on_event(const MachineEvent& even
       break;
     case MachineEvent::Kind::kProblem:
       if (first_error_.empty() && event.words.starts_with("error"))
-        first_error_ = "line " + std::to_string(event.line) + ": " + event.words;
+        first_error_ = say("line %1: %2", event.line, event.words);
       break;
     case MachineEvent::Kind::kAlarm:
       if (!alarm_) first_error_ = event.words;

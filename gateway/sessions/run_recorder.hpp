@@ -7,6 +7,7 @@
 
 #include "gateway/machine/event.hpp"
 #include "gateway/machine/status.hpp"
+#include "gateway/sentence.hpp"
 
 namespace kinebus {
 
@@ -18,7 +19,7 @@ class RunRecorder {
     double duration_s = 0;
     double estimate_s = 0;  ///< when it began to move
     std::uint32_t line = 0;
-    std::string first_error;
+    Sentence first_error;
   };
 
   /// A job was accepted at `now`.
@@ -35,7 +36,7 @@ class RunRecorder {
   LocalTime begun_{0};
   std::uint32_t line_ = 0;
   double estimate_s_ = 0;
-  std::string first_error_;
+  Sentence first_error_;
   bool alarm_ = false;
 };
 

@@ -1,7 +1,5 @@
 #include "gateway/stream/stream_error.hpp"
 
-#include <cstdio>
-
 namespace kinebus {
 
 namespace {
@@ -9,45 +7,35 @@ const char* rule(StreamError::Kind kind) {
   using Kind = StreamError::Kind;
   switch (kind) {
     case Kind::kPose:
-      return "the path leaves the machine's reach";
+      return phrase("the path leaves the machine's reach");
     case Kind::kPhaseOrder:
-      return "a phase came when none was asked for";
+      return phrase("a phase came when none was asked for");
     case Kind::kStartMismatch:
-      return "the run does not start where the axis stands (counts apart)";
+      return phrase("the run does not start where the axis stands (counts apart)");
     case Kind::kNotAtRest:
-      return "the run must begin and end at rest (counts/s)";
+      return phrase("the run must begin and end at rest (counts/s)");
     case Kind::kSequence:
-      return "the node lost a record (waits for record)";
+      return phrase("the node lost a record (waits for record)");
     case Kind::kCheckpoint:
-      return "the node's state differs from the gateway's";
+      return phrase("the node's state differs from the gateway's");
     case Kind::kUnderrun:
-      return "the node ran out of records";
+      return phrase("the node ran out of records");
     case Kind::kUnknownRecord:
-      return "the node expects a record that was never sent (record)";
+      return phrase("the node expects a record that was never sent (record)");
     case Kind::kSilent:
-      return "records were sent but not accepted (ms)";
+      return phrase("records were sent but not accepted (ms)");
   }
-  return "unknown";
+  return phrase("unknown");
 }
 }  // namespace
 
-std::string to_string(const StreamError& error) {
-  std::string text = rule(error.kind);
-  char buffer[96];
-  if (error.amount != 0) {
-    std::snprintf(buffer, sizeof buffer, ": %.6g", error.amount);
-    text += buffer;
-  }
-  if (error.kind == StreamError::Kind::kPose) text += ": " + to_string(error.pose);
-  if (error.node_id != 0) {
-    std::snprintf(buffer, sizeof buffer, ", node %u", static_cast<unsigned>(error.node_id));
-    text += buffer;
-  }
-  if (error.axis >= 0) text += error.axis == 0 ? " axis A" : " axis B";
-  if (error.line != 0) {
-    std::snprintf(buffer, sizeof buffer, ", line %u", error.line);
-    text += buffer;
-  }
+Sentence to_string(const StreamError& error) {
+  Sentence text = say(rule(error.kind));
+  if (error.amount != 0) text = say("%1: %2", text, printed("%.6g", error.amount));
+  if (error.kind == StreamError::Kind::kPose) text = say("%1: %2", text, to_string(error.pose));
+  if (error.node_id != 0) text = say("%1, node %2", text, error.node_id);
+  if (error.axis >= 0) text = say("%1 axis %2", text, error.axis == 0 ? 'A' : 'B');
+  if (error.line != 0) text = say("%1, line %2", text, error.line);
   return text;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "gateway/kinematics/kinematics.hpp"
+#include "gateway/sentence.hpp"
 
 namespace kinebus {
 
@@ -27,6 +28,6 @@ struct StreamError {
   double amount = 0;
   PoseError pose{};
 };
-std::string to_string(const StreamError& error);
+Sentence to_string(const StreamError& error);
 
 }  // namespace kinebus

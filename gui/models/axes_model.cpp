@@ -8,8 +8,15 @@
 
 namespace kinebus::gui {
 namespace {
+
 constexpr double kDegPerRad = 180 / std::numbers::pi;
+
+bool is_number(int column) {
+  return column == AxesModel::kPosition || column == AxesModel::kMeasured || column == AxesModel::kError ||
+         column == AxesModel::kCurrent;
 }
+
+}  // namespace
 
 AxesModel::AxesModel(Session& session, QObject* parent) : QAbstractTableModel(parent), session_(session) {
   connect(&session, &Session::machine_changed, this, [this] {
@@ -48,7 +55,10 @@ bool AxesModel::measured() const {
 }
 
 QVariant AxesModel::headerData(int section, Qt::Orientation orientation, int role) const {
-  if (orientation != Qt::Horizontal || role != Qt::DisplayRole) return {};
+  if (orientation != Qt::Horizontal) return {};
+  if (role == Qt::TextAlignmentRole && is_number(section))
+    return QVariant(Qt::AlignTrailing | Qt::AlignVCenter);
+  if (role != Qt::DisplayRole) return {};
   switch (section) {
     case kJoint:
       return tr("Axis");
@@ -96,8 +106,7 @@ QVariant AxesModel::data(const QModelIndex& index, int role) const {
     return known && limited
                ? (position - joint.travel().min()) / (joint.travel().max() - joint.travel().min())
                : -1.0;
-  if (role == Qt::TextAlignmentRole && (index.column() == kPosition || index.column() == kMeasured ||
-                                        index.column() == kError || index.column() == kCurrent))
+  if (role == Qt::TextAlignmentRole && is_number(index.column()))
     return QVariant(Qt::AlignTrailing | Qt::AlignVCenter);
   if (role != Qt::DisplayRole) return {};
   switch (index.column()) {

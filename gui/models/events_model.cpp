@@ -2,8 +2,8 @@
 
 #include "gui/models/alarm_words.hpp"
 #include "gui/models/format.hpp"
-#include "gui/models/gateway_words.hpp"
 #include "gui/models/state_words.hpp"
+#include "gui/session/gateway_words.hpp"
 #include "gui/session/session.hpp"
 
 namespace kinebus::gui {
@@ -76,7 +76,7 @@ QVariant EventsModel::data(const QModelIndex& index, int role) const {
   if (!index.isValid()) return {};
   const joblink::Event& e = events_[static_cast<std::size_t>(index.row())];
   const bool alarm = e.kind() == joblink::EVENT_ALARM;
-  const QString words = GatewayWords::translated(QString::fromStdString(e.words()));
+  const QString words = GatewayWords::said(e.said(), e.words());
   switch (role) {
     case kIsAlarm:
       return alarm;
@@ -93,7 +93,7 @@ QVariant EventsModel::data(const QModelIndex& index, int role) const {
         case joblink::EVENT_PROBLEM:
           return tr("The check of the job found a problem");
         case joblink::EVENT_CONTROL:
-          return tr("Control has moved to another program");
+          return tr("Control of the machine");
         default:
           return tr("Message");
       }
@@ -107,7 +107,7 @@ QVariant EventsModel::data(const QModelIndex& index, int role) const {
     case kAdvice: {
       if (!alarm) return QString();
       const QString own = AlarmWords::advice(e.code());
-      return own.isEmpty() ? QString::fromStdString(e.advice()) : own;
+      return own.isEmpty() ? GatewayWords::said(e.advice_said(), e.advice()) : own;
     }
     default:
       return {};

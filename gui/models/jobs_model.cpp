@@ -1,6 +1,7 @@
 #include "gui/models/jobs_model.hpp"
 
 #include "gui/models/format.hpp"
+#include "gui/session/gateway_words.hpp"
 #include "gui/session/job_upload.hpp"
 #include "gui/session/session.hpp"
 
@@ -112,7 +113,7 @@ QVariant JobsModel::data(const QModelIndex& index, int role) const {
   if (job == nullptr) return {};
   if (role == Qt::DisplayRole) return job_text(*job, index.column());
   if (role == Qt::ToolTipRole && index.column() == kLastRun && job->has_last_run())
-    return QString::fromStdString(job->last_run().first_error());
+    return GatewayWords::said(job->last_run().first_error_said(), job->last_run().first_error());
   return {};
 }
 
@@ -121,7 +122,7 @@ QVariant JobsModel::upload_text(const JobUpload& upload, int column) const {
     case kName:
       return upload.name();
     case kSize:
-      return Format::bytes(static_cast<double>(upload.size_bytes()));
+      return Format::isolated(Format::bytes(static_cast<double>(upload.size_bytes())));
     case kStored:
       return Format::percent(upload.size_bytes() > 0 ? static_cast<double>(upload.sent_bytes()) /
                                                            static_cast<double>(upload.size_bytes())
@@ -149,7 +150,7 @@ QVariant JobsModel::job_text(const joblink::Job& job, int column) const {
     case kName:
       return QString::fromStdString(job.name());
     case kSize:
-      return Format::bytes(static_cast<double>(job.size_bytes()));
+      return Format::isolated(Format::bytes(static_cast<double>(job.size_bytes())));
     case kStored:
       return Format::date_time(job.stored_unix_s());
     case kCheck:

@@ -4,6 +4,13 @@
 #include "gui/session/session.hpp"
 
 namespace kinebus::gui {
+namespace {
+
+bool is_number(int column) {
+  return column == NodesModel::kSync || column == NodesModel::kSent || column == NodesModel::kEmergencies;
+}
+
+}  // namespace
 
 NodesModel::NodesModel(Session& session, QObject* parent) : QAbstractTableModel(parent), session_(session) {
   connect(&session, &Session::status_changed, this, [this] {
@@ -26,7 +33,10 @@ int NodesModel::columnCount(const QModelIndex& parent) const {
 }
 
 QVariant NodesModel::headerData(int section, Qt::Orientation orientation, int role) const {
-  if (orientation != Qt::Horizontal || role != Qt::DisplayRole) return {};
+  if (orientation != Qt::Horizontal) return {};
+  if (role == Qt::TextAlignmentRole && is_number(section))
+    return QVariant(Qt::AlignTrailing | Qt::AlignVCenter);
+  if (role != Qt::DisplayRole) return {};
   switch (section) {
     case kNode:
       return tr("Node");
@@ -71,6 +81,8 @@ QVariant NodesModel::data(const QModelIndex& index, int role) const {
   if (role == kShare)
     return node.queue_capacity() > 0 ? static_cast<double>(node.queue_records()) / node.queue_capacity()
                                      : -1.0;
+  if (role == Qt::TextAlignmentRole && is_number(index.column()))
+    return QVariant(Qt::AlignTrailing | Qt::AlignVCenter);
   if (role != Qt::DisplayRole) return {};
   switch (index.column()) {
     case kNode:

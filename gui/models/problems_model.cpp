@@ -2,8 +2,7 @@
 
 #include <QLocale>
 
-#include "gui/models/gateway_words.hpp"
-#include "gui/session/session.hpp"
+#include "gui/session/gateway_words.hpp"
 
 namespace kinebus::gui {
 
@@ -15,16 +14,19 @@ void ProblemsModel::set(QVector<ShownProblem> problems) {
 
 QVector<ShownProblem> ProblemsModel::of(const joblink::PreflightResult& result) {
   QVector<ShownProblem> list;
-  for (const auto& p : result.problems())
-    list.push_back({p.error(), static_cast<int>(p.line()), static_cast<int>(p.column()),
-                    QString::fromStdString(p.words())});
+  for (const auto& p : result.problems()) {
+    joblink::Problem problem;
+    problem.set_rule(p.words());
+    *problem.mutable_rule_said() = p.said();
+    list.push_back({p.error(), static_cast<int>(p.line()), static_cast<int>(p.column()), std::move(problem)});
+  }
   return list;
 }
 
 QVector<ShownProblem> ProblemsModel::of(const joblink::MachineFileCheck& check) {
   QVector<ShownProblem> list;
   for (const auto& p : check.problems())
-    list.push_back({true, static_cast<int>(p.line()), static_cast<int>(p.column()), to_words(p)});
+    list.push_back({true, static_cast<int>(p.line()), static_cast<int>(p.column()), p});
   return list;
 }
 
@@ -41,7 +43,7 @@ QVariant ProblemsModel::data(const QModelIndex& index, int role) const {
   const ShownProblem& p = problems_[index.row()];
   if (role == kIsError) return p.error;
   // Translated when it is shown: the language may have changed since.
-  if (role == Qt::ToolTipRole) return GatewayWords::translated(p.words);
+  if (role == Qt::ToolTipRole) return GatewayWords::said(p.problem);
   if (role == Qt::TextAlignmentRole && index.column() == kLine)
     return QVariant(Qt::AlignTrailing | Qt::AlignVCenter);
   if (role != Qt::DisplayRole) return {};
@@ -51,7 +53,7 @@ QVariant ProblemsModel::data(const QModelIndex& index, int role) const {
     case kLine:
       return p.line > 0 ? QLocale().toString(p.line) : QString();
     case kWords:
-      return GatewayWords::translated(p.words);
+      return GatewayWords::said(p.problem);
     default:
       return {};
   }

@@ -12,7 +12,7 @@ struct ShownProblem {
   bool error = true;
   int line = 0;  ///< from 1; 0: the whole
   int column = 0;
-  QString words;
+  joblink::Problem problem{};  ///< said when it is shown: the language may change
 };
 
 class ProblemsModel : public QAbstractTableModel {

@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "gui/link/link.hpp"
+#include "gui/session/gateway_words.hpp"
 #include "gui/session/job_upload.hpp"
 
 namespace kinebus::gui {
@@ -25,12 +26,7 @@ std::unique_ptr<joblink::Client> make_client() {
 }  // namespace
 
 QString to_words(const joblink::Problem& problem) {
-  QString words = QString::fromStdString(problem.rule());
-  if (!problem.place().empty()) words.prepend(QString::fromStdString(problem.place()) + QStringLiteral(": "));
-  if (!problem.expected().empty())
-    words +=
-        QStringLiteral("; ") + Session::tr("expected %1").arg(QString::fromStdString(problem.expected()));
-  return words;
+  return GatewayWords::said(problem);
 }
 
 Session::Session(QObject* parent) : QObject(parent), client_(make_client()), timer_(this), again_(this) {

@@ -10,10 +10,10 @@
 #include "gui/link/socket_link.hpp"
 #include "gui/models/axes_model.hpp"
 #include "gui/models/events_model.hpp"
-#include "gui/models/gateway_words.hpp"
 #include "gui/models/jobs_model.hpp"
 #include "gui/models/nodes_model.hpp"
 #include "gui/models/path_source.hpp"
+#include "gui/session/gateway_words.hpp"
 #include "gui/session/job_upload.hpp"
 #include "gui/tests/fake_gateway.hpp"
 #include "gui/tests/wait.hpp"
@@ -162,17 +162,35 @@ TEST_F(SessionTest, AlarmsAreShownNewestFirstWithAdvice) {
 TEST_F(SessionTest, WhatTheGatewaySaysIsToldInTheUsersLanguage) {
   QTranslator turkish;
   ASSERT_TRUE(turkish.load(QStringLiteral(":/i18n/kinebus_tr.qm")));
-  const auto told = [](const char* words) { return GatewayWords::translated(QString::fromLatin1(words)); };
-  EXPECT_EQ(told("job done: vase.gcode").remove(QChar(0x2066)).remove(QChar(0x2069)),
-            QStringLiteral("job done: vase.gcode"));
+  const auto verbatim = [](joblink::Sentence& part, const char* text) {
+    part.set_text(text);
+    part.set_verbatim(true);
+  };
+  joblink::Problem problem;
+  problem.set_place("line 4");
+  problem.set_rule("the job does not go on: X is 0.720 mm outside the workspace");
+  problem.mutable_rule_said()->set_text("the job does not go on: %1");
+  joblink::Sentence& why = *problem.mutable_rule_said()->add_parts();
+  why.set_text("%1 is %2 outside the workspace");
+  verbatim(*why.add_parts(), "X");
+  verbatim(*why.add_parts(), "%1 mm");
+  const auto told = [&] { return GatewayWords::said(problem).remove(QChar(0x2066)).remove(QChar(0x2069)); };
+  EXPECT_EQ(told(), QStringLiteral("line 4: the job does not go on: X is %1 mm outside the workspace"));
   QCoreApplication::installTranslator(&turkish);
-  for (const char* words :
-       {"X is 0.720 mm outside the workspace", "tower1: would be 3.5 mm beyond its travel",
-        "filament is fed before the job has set a hotend temperature (M104)", "stop by command", "homed",
-        "job done: vase.gcode", "bed temperature 300 C; allowed are 0 to 120 C"})
-    EXPECT_NE(told(words), QString::fromLatin1(words)) << words;
-  EXPECT_TRUE(told("X is 0.720 mm outside the workspace").contains(QStringLiteral("0.720 mm")));
-  EXPECT_EQ(told("G5 is not known"), QStringLiteral("G5 is not known")) << "others stay as they are";
+  EXPECT_EQ(told(), QStringLiteral("line 4: iş sürmüyor: X çalışma alanının %1 mm dışında"));
+  why.set_text("%1 is %2 something that only a newer gateway says");
+  EXPECT_EQ(told(),
+            QStringLiteral("line 4: iş sürmüyor: X is %1 mm something that only a newer gateway says"));
+  problem.clear_rule_said();
+  EXPECT_EQ(told(), QStringLiteral("line 4: the job does not go on: X is 0.720 mm outside the workspace"))
+      << "an older gateway says it in English alone";
+  // A sentence within itself, over and over, from somebody who means no good.
+  joblink::Sentence* deep = problem.mutable_rule_said();
+  for (int i = 0; i < 60; ++i) {
+    deep->set_text("the job does not go on: %1");
+    deep = deep->add_parts();
+  }
+  EXPECT_LT(told().size(), 1000);
   QCoreApplication::removeTranslator(&turkish);
 }
 

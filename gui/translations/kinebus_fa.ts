@@ -1,1547 +1,2231 @@
 <?xml version="1.0" encoding="utf-8"?>
 <!DOCTYPE TS>
 <TS version="2.1" language="fa" sourcelanguage="en">
-    <context>
-        <name>AlarmWords</name>
-        <message>
-            <source>A node does not answer</source>
-            <translation>یک گره پاسخ نمی‌دهد</translation>
-        </message>
-        <message>
-            <source>The wrong node is connected</source>
-            <translation>گرهٔ نادرست وصل است</translation>
-        </message>
-        <message>
-            <source>A node refuses its settings</source>
-            <translation>یک گره تنظیماتش را نمی‌پذیرد</translation>
-        </message>
-        <message>
-            <source>A drive does not switch on</source>
-            <translation>یک درایو روشن نمی‌شود</translation>
-        </message>
-        <message>
-            <source>There is a second gateway on the bus</source>
-            <translation>درگاه دومی روی گذرگاه است</translation>
-        </message>
-        <message>
-            <source>A node has gone silent</source>
-            <translation>یک گره ساکت شده است</translation>
-        </message>
-        <message>
-            <source>A node has restarted</source>
-            <translation>یک گره دوباره راه افتاده است</translation>
-        </message>
-        <message>
-            <source>The clocks have drifted apart</source>
-            <translation>ساعت‌ها از هم دور شده‌اند</translation>
-        </message>
-        <message>
-            <source>Homing has failed</source>
-            <translation>خانه‌یابی ناموفق بود</translation>
-        </message>
-        <message>
-            <source>The carriages are too far apart</source>
-            <translation>حامل‌ها بیش از حد از هم دورند</translation>
-        </message>
-        <message>
-            <source>Homing took too long</source>
-            <translation>خانه‌یابی بیش از حد طول کشید</translation>
-        </message>
-        <message>
-            <source>Motion was interrupted</source>
-            <translation>حرکت قطع شد</translation>
-        </message>
-        <message>
-            <source>The nodes disagree about the path</source>
-            <translation>گره‌ها دربارهٔ مسیر هم‌نظر نیستند</translation>
-        </message>
-        <message>
-            <source>The bus has failed</source>
-            <translation>گذرگاه از کار افتاده است</translation>
-        </message>
-        <message>
-            <source>A heater is not as it should be</source>
-            <translation>وضعیت یک گرم‌کن درست نیست</translation>
-        </message>
-        <message>
-            <source>The job went wrong</source>
-            <translation>کار با خطا روبه‌رو شد</translation>
-        </message>
-        <message>
-            <source>Stopped by the operator</source>
-            <translation>به دست کاربر متوقف شد</translation>
-        </message>
-        <message>
-            <source>The machine did not come to rest</source>
-            <translation>ماشین از حرکت نایستاد</translation>
-        </message>
-        <message>
-            <source>Two nodes use the same id</source>
-            <translation>دو گره یک شناسهٔ یکسان دارند</translation>
-        </message>
-        <message>
-            <source>Too much current in a motor</source>
-            <translation>جریان یک موتور بیش از حد است</translation>
-        </message>
-        <message>
-            <source>The supply voltage is wrong</source>
-            <translation>ولتاژ تغذیه نادرست است</translation>
-        </message>
-        <message>
-            <source>A drive is too hot</source>
-            <translation>یک درایو بیش از حد داغ است</translation>
-        </message>
-        <message>
-            <source>Communication trouble on the bus</source>
-            <translation>اشکال ارتباط روی گذرگاه</translation>
-        </message>
-        <message>
-            <source>A carriage is not where it should be</source>
-            <translation>یک حامل در جای خود نیست</translation>
-        </message>
-        <message>
-            <source>Message</source>
-            <translation>پیام</translation>
-        </message>
-        <message>
-            <source>A node reports a fault</source>
-            <translation>یک گره خطا گزارش می‌کند</translation>
-        </message>
-        <message>
-            <source>Check the node's power and the bus cable, then home again.</source>
-            <translation>برق گره و کابل گذرگاه را بررسی کنید، سپس دوباره خانه‌یابی کنید.</translation>
-        </message>
-        <message>
-            <source>Connect the right node or update its firmware.</source>
-            <translation>گرهٔ درست را وصل کنید یا میان‌افزارش را به‌روز کنید.</translation>
-        </message>
-        <message>
-            <source>Check the machine file against the node's limits.</source>
-            <translation>پروندهٔ ماشین را با محدوده‌های گره مقایسه کنید.</translation>
-        </message>
-        <message>
-            <source>Look at the drive's fault, clear the alarm, then home again.</source>
-            <translation>خطای درایو را ببینید، هشدار را پاک کنید، سپس دوباره خانه‌یابی کنید.</translation>
-        </message>
-        <message>
-            <source>Switch one of the gateways off.</source>
-            <translation>یکی از درگاه‌ها را خاموش کنید.</translation>
-        </message>
-        <message>
-            <source>Check the node's power and the bus cable, then clear and home again.</source>
-            <translation>برق گره و کابل گذرگاه را بررسی کنید، سپس پاک کنید و دوباره خانه‌یابی کنید.</translation>
-        </message>
-        <message>
-            <source>Check the node's power, then clear and home again.</source>
-            <translation>برق گره را بررسی کنید، سپس پاک کنید و دوباره خانه‌یابی کنید.</translation>
-        </message>
-        <message>
-            <source>Check the bus for errors, then clear.</source>
-            <translation>خطاهای گذرگاه را بررسی کنید، سپس پاک کنید.</translation>
-        </message>
-        <message>
-            <source>Check the switch and its wiring, then clear and home again.</source>
-            <translation>کلید و سیم‌کشی آن را بررسی کنید، سپس پاک کنید و دوباره خانه‌یابی کنید.</translation>
-        </message>
-        <message>
-            <source>Check the switches of the carriages that went on, then clear and home again.</source>
-            <translation>کلیدهای حامل‌هایی را که پیش رفتند بررسی کنید، سپس پاک کنید و دوباره خانه‌یابی کنید.</translation>
-        </message>
-        <message>
-            <source>Check the switches and the homing speeds, then clear and home again.</source>
-            <translation>کلیدها و سرعت‌های خانه‌یابی را بررسی کنید، سپس پاک کنید و دوباره خانه‌یابی کنید.</translation>
-        </message>
-        <message>
-            <source>Clear: positions are known, the job can be run again.</source>
-            <translation>پاک کنید: موقعیت‌ها معلوم است و کار را می‌توان دوباره اجرا کرد.</translation>
-        </message>
-        <message>
-            <source>Clear. If it comes again, check the bus for lost frames.</source>
-            <translation>پاک کنید. اگر تکرار شد، قاب‌های گم‌شدهٔ گذرگاه را بررسی کنید.</translation>
-        </message>
-        <message>
-            <source>Check cable and termination of the bus, then clear and home again.</source>
-            <translation>کابل و پایانهٔ گذرگاه را بررسی کنید، سپس پاک کنید و دوباره خانه‌یابی کنید.</translation>
-        </message>
-        <message>
-            <source>Check the heater and its sensor, then clear.</source>
-            <translation>گرم‌کن و حسگرش را بررسی کنید، سپس پاک کنید.</translation>
-        </message>
-        <message>
-            <source>Correct the job, then clear.</source>
-            <translation>کار را اصلاح کنید، سپس پاک کنید.</translation>
-        </message>
-        <message>
-            <source>Clear when the machine is safe.</source>
-            <translation>وقتی ماشین امن است پاک کنید.</translation>
-        </message>
-        <message>
-            <source>Switch the machine off and on, then home again.</source>
-            <translation>ماشین را خاموش و روشن کنید، سپس دوباره خانه‌یابی کنید.</translation>
-        </message>
-        <message>
-            <source>Give one of them another id or take it off the bus, then home again.</source>
-            <translation>به یکی از آن‌ها شناسهٔ دیگری بدهید یا آن را از گذرگاه جدا کنید، سپس دوباره خانه‌یابی کنید.</translation>
-        </message>
-    </context>
-    <context>
-        <name>ConsoleHints</name>
-        <message>
-            <source>traverse</source>
-            <translation>جابه‌جایی سریع</translation>
-        </message>
-        <message>
-            <source>straight line at feed</source>
-            <translation>خط راست با سرعت پیشروی</translation>
-        </message>
-        <message>
-            <source>arc, clockwise</source>
-            <translation>کمان، ساعت‌گرد</translation>
-        </message>
-        <message>
-            <source>arc, counter-clockwise</source>
-            <translation>کمان، پادساعت‌گرد</translation>
-        </message>
-        <message>
-            <source>home, or go to the bed reference</source>
-            <translation>خانه‌یابی یا رفتن به مرجع بستر</translation>
-        </message>
-        <message>
-            <source>first work coordinate system</source>
-            <translation>دستگاه مختصات کاری نخست</translation>
-        </message>
-        <message>
-            <source>second work coordinate system</source>
-            <translation>دستگاه مختصات کاری دوم</translation>
-        </message>
-        <message>
-            <source>absolute positions</source>
-            <translation>موقعیت‌های مطلق</translation>
-        </message>
-        <message>
-            <source>relative positions</source>
-            <translation>موقعیت‌های نسبی</translation>
-        </message>
-        <message>
-            <source>call this position so</source>
-            <translation>نام‌گذاری موقعیت کنونی</translation>
-        </message>
-        <message>
-            <source>motors on</source>
-            <translation>موتورها روشن</translation>
-        </message>
-        <message>
-            <source>motors off</source>
-            <translation>موتورها خاموش</translation>
-        </message>
-        <message>
-            <source>list the jobs</source>
-            <translation>فهرست کارها</translation>
-        </message>
-        <message>
-            <source>choose a job</source>
-            <translation>انتخاب کار</translation>
-        </message>
-        <message>
-            <source>start or resume</source>
-            <translation>آغاز یا ادامه</translation>
-        </message>
-        <message>
-            <source>pause</source>
-            <translation>مکث</translation>
-        </message>
-        <message>
-            <source>progress of the job</source>
-            <translation>پیشرفت کار</translation>
-        </message>
-        <message>
-            <source>time of the job</source>
-            <translation>زمان کار</translation>
-        </message>
-        <message>
-            <source>extruder absolute</source>
-            <translation>اکسترودر مطلق</translation>
-        </message>
-        <message>
-            <source>extruder relative</source>
-            <translation>اکسترودر نسبی</translation>
-        </message>
-        <message>
-            <source>heat the nozzle</source>
-            <translation>گرم کردن نازل</translation>
-        </message>
-        <message>
-            <source>temperatures</source>
-            <translation>دماها</translation>
-        </message>
-        <message>
-            <source>fan on</source>
-            <translation>فن روشن</translation>
-        </message>
-        <message>
-            <source>fan off</source>
-            <translation>فن خاموش</translation>
-        </message>
-        <message>
-            <source>heat the nozzle and wait</source>
-            <translation>گرم کردن نازل و انتظار</translation>
-        </message>
-        <message>
-            <source>emergency stop</source>
-            <translation>توقف اضطراری</translation>
-        </message>
-        <message>
-            <source>position</source>
-            <translation>موقعیت</translation>
-        </message>
-        <message>
-            <source>name and capabilities</source>
-            <translation>نام و توانایی‌ها</translation>
-        </message>
-        <message>
-            <source>switches</source>
-            <translation>کلیدها</translation>
-        </message>
-        <message>
-            <source>heat the bed</source>
-            <translation>گرم کردن بستر</translation>
-        </message>
-    </context>
-    <context>
-        <name>Desk</name>
-        <message>
-            <source>Demo machine</source>
-            <translation>ماشین نمایشی</translation>
-        </message>
-    </context>
-    <context>
-        <name>Format</name>
-        <message>
-            <source>%1 B</source>
-            <translation>%1 B</translation>
-        </message>
-        <message>
-            <source>%1 kB</source>
-            <translation>%1 kB</translation>
-        </message>
-        <message>
-            <source>%1 MB</source>
-            <translation>%1 MB</translation>
-        </message>
-        <message>
-            <source>%1 GB</source>
-            <translation>%1 GB</translation>
-        </message>
-        <message>
-            <source>%1/s</source>
-            <translation>%1/s</translation>
-        </message>
-        <message>
-            <source>%1 °C</source>
-            <translation>%1 °C</translation>
-        </message>
-    </context>
-    <context>
-        <name>StateWords</name>
-        <message>
-            <source>Motors off</source>
-            <translation>موتورها خاموش</translation>
-        </message>
-        <message>
-            <source>Waking the nodes</source>
-            <translation>بیدار کردن گره‌ها</translation>
-        </message>
-        <message>
-            <source>Not homed</source>
-            <translation>خانه‌یابی نشده</translation>
-        </message>
-        <message>
-            <source>Homing</source>
-            <translation>خانه‌یابی</translation>
-        </message>
-        <message>
-            <source>Ready</source>
-            <translation>آماده</translation>
-        </message>
-        <message>
-            <source>Moving</source>
-            <translation>در حرکت</translation>
-        </message>
-        <message>
-            <source>Checking the job</source>
-            <translation>بررسی کار</translation>
-        </message>
-        <message>
-            <source>Printing</source>
-            <translation>در حال چاپ</translation>
-        </message>
-        <message>
-            <source>Pausing</source>
-            <translation>در حال مکث</translation>
-        </message>
-        <message>
-            <source>Paused</source>
-            <translation>مکث</translation>
-        </message>
-        <message>
-            <source>Cancelling</source>
-            <translation>در حال لغو</translation>
-        </message>
-        <message>
-            <source>Stopping</source>
-            <translation>در حال توقف</translation>
-        </message>
-        <message>
-            <source>Stopped</source>
-            <translation>متوقف</translation>
-        </message>
-        <message>
-            <source>Alarm</source>
-            <translation>هشدار</translation>
-        </message>
-        <message>
-            <source>Unknown</source>
-            <translation>نامعلوم</translation>
-        </message>
-        <message>
-            <source>Home the machine to wake the motors and find the carriages.</source>
-            <translation>برای بیدار کردن موتورها و یافتن حامل‌ها، ماشین را خانه‌یابی کنید.</translation>
-        </message>
-        <message>
-            <source>Home the machine: positions are not known yet.</source>
-            <translation>ماشین را خانه‌یابی کنید: موقعیت‌ها هنوز معلوم نیستند.</translation>
-        </message>
-        <message>
-            <source>Choose a job and start it, or jog the tool.</source>
-            <translation>کاری را برگزینید و آغاز کنید، یا ابزار را دستی حرکت دهید.</translation>
-        </message>
-        <message>
-            <source>All carriages rest on the path. Resume or cancel.</source>
-            <translation>همهٔ حامل‌ها روی مسیر ایستاده‌اند. ادامه دهید یا لغو کنید.</translation>
-        </message>
-        <message>
-            <source>Make sure that the machine is safe, then clear the stop.</source>
-            <translation>از امن بودن ماشین مطمئن شوید، سپس توقف را رفع کنید.</translation>
-        </message>
-        <message>
-            <source>Read the alarm, remove its cause, then clear it.</source>
-            <translation>هشدار را بخوانید، علت را برطرف کنید، سپس پاکش کنید.</translation>
-        </message>
-    </context>
-    <context>
-        <name>kinebus::gui::AlarmsPage</name>
-        <message>
-            <source>Clear</source>
-            <translation>پاک کردن</translation>
-        </message>
-        <message>
-            <source>No alarm is open.</source>
-            <translation>هیچ هشدار بازی نیست.</translation>
-        </message>
-        <message>
-            <source>What has happened, newest first</source>
-            <translation>رویدادها، تازه‌ترین در آغاز</translation>
-        </message>
-    </context>
-    <context>
-        <name>kinebus::gui::AxesModel</name>
-        <message>
-            <source>Axis</source>
-            <translation>محور</translation>
-        </message>
-        <message>
-            <source>Position</source>
-            <translation>موقعیت</translation>
-        </message>
-        <message>
-            <source>Measured</source>
-            <translation>اندازه‌گیری</translation>
-        </message>
-        <message>
-            <source>Error</source>
-            <translation>خطا</translation>
-        </message>
-        <message>
-            <source>%1 µm</source>
-            <translation>%1 µm</translation>
-        </message>
-        <message>
-            <source>Travel</source>
-            <translation>کورس</translation>
-        </message>
-        <message>
-            <source>Current</source>
-            <translation>جریان</translation>
-        </message>
-        <message>
-            <source>Drive</source>
-            <translation>درایو</translation>
-        </message>
-        <message>
-            <source>Switch</source>
-            <translation>کلید</translation>
-        </message>
-        <message>
-            <source>Node</source>
-            <translation>گره</translation>
-        </message>
-        <message>
-            <source>%1 mm</source>
-            <translation>%1 mm</translation>
-        </message>
-        <message>
-            <source>%1 A</source>
-            <translation>%1 A</translation>
-        </message>
-        <message>
-            <source>Fault</source>
-            <translation>خطا</translation>
-        </message>
-        <message>
-            <source>On</source>
-            <translation>روشن</translation>
-        </message>
-        <message>
-            <source>Off</source>
-            <translation>خاموش</translation>
-        </message>
-        <message>
-            <source>Hit</source>
-            <translation>فعال</translation>
-        </message>
-        <message>
-            <source>Free</source>
-            <translation>آزاد</translation>
-        </message>
-    </context>
-    <context>
-        <name>kinebus::gui::ConnectPage</name>
-        <message>
-            <source>Connect to a machine</source>
-            <translation>به یک ماشین وصل شوید</translation>
-        </message>
-        <message>
-            <source>A gateway appears here as soon as its USB cable is plugged in or its daemon runs on this computer.</source>
-            <translation>همین که کابل USB درگاه وصل شود یا سرویس آن روی این رایانه اجرا شود، درگاه اینجا دیده می‌شود.</translation>
-        </message>
-        <message>
-            <source>Gateways</source>
-            <translation>درگاه‌ها</translation>
-        </message>
-        <message>
-            <source>None found yet.</source>
-            <translation>هنوز چیزی پیدا نشده است.</translation>
-        </message>
-        <message>
-            <source>Demo machine</source>
-            <translation>ماشین نمایشی</translation>
-        </message>
-        <message>
-            <source>The whole machine, simulated on this computer: upload, home and print without hardware.</source>
-            <translation>کل ماشین، شبیه‌سازی‌شده روی این رایانه: بدون سخت‌افزار بفرستید، خانه‌یابی و چاپ کنید.</translation>
-        </message>
-        <message>
-            <source>Try the demo</source>
-            <translation>اجرای نمایشی</translation>
-        </message>
-        <message>
-            <source>Disconnect</source>
-            <translation>قطع اتصال</translation>
-        </message>
-        <message>
-            <source>The demo machine does not run: %1</source>
-            <translation>ماشین نمایشی اجرا نمی‌شود: %1</translation>
-        </message>
-        <message>
-            <source>Connect</source>
-            <translation>اتصال</translation>
-        </message>
-        <message>
-            <source>Connect to %1</source>
-            <translation>اتصال به %1</translation>
-        </message>
-        <message>
-            <source>Connecting to %1…</source>
-            <translation>در حال اتصال به %1…</translation>
-        </message>
-        <message>
-            <source>%1 does not answer: %2</source>
-            <translation>%1 پاسخ نمی‌دهد: %2</translation>
-        </message>
-        <message>
-            <source>Connected to %1.</source>
-            <translation>به %1 وصل است.</translation>
-        </message>
-        <message>
-            <source>The connection is lost: %1. It comes back by itself; a job on the machine goes on.</source>
-            <translation>اتصال قطع شد: %1. خودش برمی‌گردد و کار روی ماشین ادامه دارد.</translation>
-        </message>
-    </context>
-    <context>
-        <name>kinebus::gui::ConsolePage</name>
-        <message>
-            <source>Send</source>
-            <translation>فرستادن</translation>
-        </message>
-        <message>
-            <source>Answers of the gateway</source>
-            <translation>پاسخ‌های درگاه</translation>
-        </message>
-        <message>
-            <source>Lines you send and the gateway's answers appear here.</source>
-            <translation>خط‌هایی که می‌فرستید و پاسخ‌های درگاه اینجا دیده می‌شوند.</translation>
-        </message>
-        <message>
-            <source>G-code or M-code, for example M114</source>
-            <translation>G-code یا M-code، برای نمونه M114</translation>
-        </message>
-    </context>
-    <context>
-        <name>kinebus::gui::DemoGateway</name>
-        <message>
-            <source>the demo machine has ended</source>
-            <translation>ماشین نمایشی پایان یافت</translation>
-        </message>
-        <message>
-            <source>the program kinebusd was not found: install the package kinebus-daemon</source>
-            <translation>برنامهٔ kinebusd پیدا نشد: بستهٔ kinebus-daemon را نصب کنید</translation>
-        </message>
-        <message>
-            <source>the demo machine does not answer</source>
-            <translation>ماشین نمایشی پاسخ نمی‌دهد</translation>
-        </message>
-    </context>
-    <context>
-        <name>kinebus::gui::EventsModel</name>
-        <message>
-            <source>Done</source>
-            <translation>انجام شد</translation>
-        </message>
-        <message>
-            <source>The check of the job found a problem</source>
-            <translation>بررسی کار اشکالی یافت</translation>
-        </message>
-        <message>
-            <source>Control has moved to another program</source>
-            <translation>کنترل به برنامهٔ دیگری رفت</translation>
-        </message>
-        <message>
-            <source>Message</source>
-            <translation>پیام</translation>
-        </message>
-        <message>
-            <source>node %1</source>
-            <translation>گره %1</translation>
-        </message>
-        <message>
-            <source>line %1</source>
-            <translation>خط %1</translation>
-        </message>
-    </context>
-    <context>
-        <name>kinebus::gui::GatewayFinder</name>
-        <message>
-            <source>USB %1 · serial number %2</source>
-            <translation>USB %1 · شمارهٔ سریال %2</translation>
-        </message>
-        <message>
-            <source>Gateway on this computer</source>
-            <translation>درگاه روی این رایانه</translation>
-        </message>
-    </context>
-    <context>
-        <name>kinebus::gui::JobPanel</name>
-        <message>
-            <source>Interrupted: resume goes on from its place.</source>
-            <translation>نیمه‌کاره: ادامه، از همان جا پی می‌گیرد.</translation>
-        </message>
-        <message>
-            <source>Progress</source>
-            <translation>پیشرفت</translation>
-        </message>
-        <message>
-            <source>Elapsed</source>
-            <translation>گذشته</translation>
-        </message>
-        <message>
-            <source>Remaining</source>
-            <translation>مانده</translation>
-        </message>
-        <message>
-            <source>Line</source>
-            <translation>خط</translation>
-        </message>
-        <message>
-            <source>Cancel the job</source>
-            <translation>لغو کار</translation>
-        </message>
-        <message>
-            <source>Cancel the job? What is printed stays on the bed.</source>
-            <translation>کار لغو شود؟ آنچه چاپ شده روی بستر می‌ماند.</translation>
-        </message>
-        <message>
-            <source>Go on</source>
-            <translation>ادامه</translation>
-        </message>
-        <message>
-            <source>Speed</source>
-            <translation>سرعت</translation>
-        </message>
-        <message>
-            <source>Feed override in percent</source>
-            <translation>ضریب سرعت به درصد</translation>
-        </message>
-        <message>
-            <source>Pause</source>
-            <translation>مکث</translation>
-        </message>
-        <message>
-            <source>Resume</source>
-            <translation>ادامه</translation>
-        </message>
-        <message>
-            <source>Cancel</source>
-            <translation>لغو</translation>
-        </message>
-        <message>
-            <source>No job is running</source>
-            <translation>کاری در حال اجرا نیست</translation>
-        </message>
-    </context>
-    <context>
-        <name>kinebus::gui::JobUpload</name>
-        <message>
-            <source>%1 cannot be read</source>
-            <translation>%1 خوانده نمی‌شود</translation>
-        </message>
-    </context>
-    <context>
-        <name>kinebus::gui::JobsModel</name>
-        <message>
-            <source>Job</source>
-            <translation>کار</translation>
-        </message>
-        <message>
-            <source>Size</source>
-            <translation>اندازه</translation>
-        </message>
-        <message>
-            <source>Uploaded</source>
-            <translation>زمان ارسال</translation>
-        </message>
-        <message>
-            <source>Check</source>
-            <translation>بررسی</translation>
-        </message>
-        <message>
-            <source>Time</source>
-            <translation>زمان</translation>
-        </message>
-        <message>
-            <source>Last run</source>
-            <translation>آخرین اجرا</translation>
-        </message>
-        <message>
-            <source>Reading</source>
-            <translation>در حال خواندن</translation>
-        </message>
-        <message>
-            <source>Waiting for the gateway</source>
-            <translation>در انتظار درگاه</translation>
-        </message>
-        <message>
-            <source>Failed</source>
-            <translation>ناموفق</translation>
-        </message>
-        <message>
-            <source>Not checked</source>
-            <translation>بررسی نشده</translation>
-        </message>
-        <message numerus="yes">
-            <source>%Ln error(s)</source>
-            <translation>
-                <numerusform>%Ln خطا</numerusform>
-            </translation>
-        </message>
-        <message numerus="yes">
-            <source>%Ln warning(s)</source>
-            <translation>
-                <numerusform>%Ln اخطار</numerusform>
-            </translation>
-        </message>
-        <message>
-            <source>Fine</source>
-            <translation>بی‌اشکال</translation>
-        </message>
-        <message>
-            <source>Never</source>
-            <translation>هرگز</translation>
-        </message>
-        <message>
-            <source>Running</source>
-            <translation>در حال اجرا</translation>
-        </message>
-        <message>
-            <source>Complete, %1</source>
-            <translation>کامل، %1</translation>
-        </message>
-        <message>
-            <source>Cancelled</source>
-            <translation>لغو شد</translation>
-        </message>
-        <message>
-            <source>Refused by the check</source>
-            <translation>در بررسی رد شد</translation>
-        </message>
-        <message>
-            <source>Stopped by an alarm</source>
-            <translation>با هشدار ایستاد</translation>
-        </message>
-        <message>
-            <source>Interrupted</source>
-            <translation>نیمه‌کاره</translation>
-        </message>
-    </context>
-    <context>
-        <name>kinebus::gui::JobsPage</name>
-        <message>
-            <source>Drop G-code files here to send them to the gateway</source>
-            <translation>پرونده‌های G-code را برای فرستادن به درگاه اینجا رها کنید</translation>
-        </message>
-        <message>
-            <source>Choose a file…</source>
-            <translation>انتخاب پرونده…</translation>
-        </message>
-        <message>
-            <source>Start</source>
-            <translation>آغاز</translation>
-        </message>
-        <message>
-            <source>Check</source>
-            <translation>بررسی</translation>
-        </message>
-        <message>
-            <source>Show</source>
-            <translation>نمایش</translation>
-        </message>
-        <message>
-            <source>Delete</source>
-            <translation>حذف</translation>
-        </message>
-        <message>
-            <source>Jobs on the gateway</source>
-            <translation>کارهای روی درگاه</translation>
-        </message>
-        <message>
-            <source>What the check has found</source>
-            <translation>یافته‌های بررسی</translation>
-        </message>
-        <message>
-            <source>Lines of the job</source>
-            <translation>خط‌های کار</translation>
-        </message>
-        <message>
-            <source>Choose a finding: its line is shown here, its place in the scene.</source>
-            <translation>یک یافته را برگزینید: خطش اینجا و جایش در صحنه نشان داده می‌شود.</translation>
-        </message>
-        <message>
-            <source>Checking %1…</source>
-            <translation>در حال بررسی %1…</translation>
-        </message>
-        <message numerus="yes">
-            <source>%1: %Ln error(s). It will not start.</source>
-            <translation>
-                <numerusform>%1: %Ln خطا. آغاز نخواهد شد.</numerusform>
-            </translation>
-        </message>
-        <message numerus="yes">
-            <source>%1: it can be printed, with %Ln warning(s). It takes %2.</source>
-            <translation>
-                <numerusform>%1: با %Ln اخطار چاپ‌شدنی است. زمان: %2.</numerusform>
-            </translation>
-        </message>
-        <message>
-            <source>%1: nothing is wrong. It takes %2.</source>
-            <translation>%1: اشکالی ندارد. زمان: %2.</translation>
-        </message>
-        <message>
-            <source>The gateway checks a whole job against every limit before anything moves.</source>
-            <translation>درگاه پیش از هر حرکت، کل کار را با همهٔ محدوده‌ها می‌سنجد.</translation>
-        </message>
-        <message>
-            <source>%1 of %2 used</source>
-            <translation>%1 از %2 پر است</translation>
-        </message>
-        <message>
-            <source>Send G-code to the gateway</source>
-            <translation>فرستادن G-code به درگاه</translation>
-        </message>
-        <message>
-            <source>G-code (*.gcode *.ngc *.nc *.g *.gco)</source>
-            <translation>G-code (*.gcode *.ngc *.nc *.g *.gco)</translation>
-        </message>
-        <message>
-            <source>All files (*)</source>
-            <translation>همهٔ پرونده‌ها (*)</translation>
-        </message>
-        <message>
-            <source>Delete %1 from the gateway?</source>
-            <translation>%1 از درگاه حذف شود؟</translation>
-        </message>
-        <message>
-            <source>Keep</source>
-            <translation>نگه داشتن</translation>
-        </message>
-    </context>
-    <context>
-        <name>kinebus::gui::JogPage</name>
-        <message>
-            <source>Jog</source>
-            <translation>حرکت دستی</translation>
-        </message>
-        <message>
-            <source>Keys: arrows move X and Y, Page Up and Page Down move Z, A and D tilt, Q and W turn the table, 1 to 5 choose the step.</source>
-            <translation>کلیدها: پیکان‌ها X و Y را، Page Up و Page Down محور Z را حرکت می‌دهند؛ A و D کج می‌کنند، Q و W میز را می‌چرخانند و 1 تا 5 گام را برمی‌گزینند.</translation>
-        </message>
-        <message>
-            <source>Step, mm or °</source>
-            <translation>گام، mm یا °</translation>
-        </message>
-        <message>
-            <source>Speed</source>
-            <translation>سرعت</translation>
-        </message>
-        <message>
-            <source>mm/s</source>
-            <translation>mm/s</translation>
-        </message>
-        <message>
-            <source>Machine</source>
-            <translation>ماشین</translation>
-        </message>
-        <message>
-            <source>Home</source>
-            <translation>خانه‌یابی</translation>
-        </message>
-        <message>
-            <source>Wakes the nodes and brings all carriages to their switches</source>
-            <translation>گره‌ها را بیدار می‌کند و همهٔ حامل‌ها را به کلیدهایشان می‌رساند</translation>
-        </message>
-        <message>
-            <source>Bed reference</source>
-            <translation>مرجع بستر</translation>
-        </message>
-        <message>
-            <source>Goes to where every job begins</source>
-            <translation>به جایی می‌رود که هر کار از آن آغاز می‌شود</translation>
-        </message>
-        <message>
-            <source>Pause</source>
-            <translation>مکث</translation>
-        </message>
-        <message>
-            <source>Clear stop</source>
-            <translation>رفع توقف</translation>
-        </message>
-        <message>
-            <source>Motors off</source>
-            <translation>خاموش کردن موتورها</translation>
-        </message>
-        <message>
-            <source>Positions are lost: the machine must be homed again</source>
-            <translation>موقعیت‌ها از دست می‌روند: ماشین باید دوباره خانه‌یابی شود</translation>
-        </message>
-        <message>
-            <source>Work offsets</source>
-            <translation>مبدأهای کاری</translation>
-        </message>
-        <message>
-            <source>Coordinate system</source>
-            <translation>دستگاه مختصات</translation>
-        </message>
-        <message>
-            <source>Zero here</source>
-            <translation>اینجا صفر</translation>
-        </message>
-        <message>
-            <source>The tool's position becomes the zero of this system</source>
-            <translation>موقعیت ابزار صفر این دستگاه می‌شود</translation>
-        </message>
-        <message>
-            <source>Set</source>
-            <translation>تنظیم</translation>
-        </message>
-        <message>
-            <source>The values above become the zero of this system</source>
-            <translation>مقدارهای بالا صفر این دستگاه می‌شوند</translation>
-        </message>
-        <message>
-            <source>Active: %1, zero at %2</source>
-            <translation>فعال: %1، صفر در %2</translation>
-        </message>
-        <message>
-            <source>Zeros of the work coordinates</source>
-            <translation>صفرهای مختصات کاری</translation>
-        </message>
-    </context>
-    <context>
-        <name>kinebus::gui::MachineFileEditor</name>
-        <message>
-            <source>Read again</source>
-            <translation>خواندن دوباره</translation>
-        </message>
-        <message>
-            <source>Undo</source>
-            <translation>واگرد</translation>
-        </message>
-        <message>
-            <source>Save on the gateway</source>
-            <translation>ذخیره روی درگاه</translation>
-        </message>
-        <message>
-            <source>Machine file</source>
-            <translation>پروندهٔ ماشین</translation>
-        </message>
-        <message>
-            <source>What is wrong in the machine file</source>
-            <translation>اشکال‌های پروندهٔ ماشین</translation>
-        </message>
-        <message>
-            <source>Saved. The gateway uses it from its next start.</source>
-            <translation>ذخیره شد. درگاه از راه‌اندازی بعدی آن را به کار می‌برد.</translation>
-        </message>
-        <message>
-            <source>The built-in machine file</source>
-            <translation>پروندهٔ ماشین درون‌ساخت</translation>
-        </message>
-        <message>
-            <source>Not read yet</source>
-            <translation>هنوز خوانده نشده</translation>
-        </message>
-        <message>
-            <source>cannot be changed from here</source>
-            <translation>از اینجا تغییرپذیر نیست</translation>
-        </message>
-        <message>
-            <source>newer than what the gateway runs with</source>
-            <translation>تازه‌تر از آنچه درگاه به کار می‌برد</translation>
-        </message>
-        <message>
-            <source>The machine file says what the machine is: kinematics, axes, limits, nodes.</source>
-            <translation>پروندهٔ ماشین می‌گوید ماشین چیست: سینماتیک، محورها، محدوده‌ها، گره‌ها.</translation>
-        </message>
-        <message>
-            <source>Checking…</source>
-            <translation>در حال بررسی…</translation>
-        </message>
-        <message>
-            <source>The file is right.</source>
-            <translation>پرونده درست است.</translation>
-        </message>
-        <message numerus="yes">
-            <source>%Ln mistake(s): it cannot be saved.</source>
-            <translation>
-                <numerusform>%Ln اشتباه: ذخیره نمی‌شود.</numerusform>
-            </translation>
-        </message>
-    </context>
-    <context>
-        <name>kinebus::gui::MachinePage</name>
-        <message>
-            <source>Axes and nodes</source>
-            <translation>محورها و گره‌ها</translation>
-        </message>
-        <message>
-            <source>Bus and time</source>
-            <translation>گذرگاه و زمان</translation>
-        </message>
-        <message>
-            <source>Machine file</source>
-            <translation>پروندهٔ ماشین</translation>
-        </message>
-        <message>
-            <source>Axes</source>
-            <translation>محورها</translation>
-        </message>
-        <message>
-            <source>Nodes</source>
-            <translation>گره‌ها</translation>
-        </message>
-        <message>
-            <source>Bus load</source>
-            <translation>بار گذرگاه</translation>
-        </message>
-        <message>
-            <source>%1 µs</source>
-            <translation>%1 µs</translation>
-        </message>
-        <message>
-            <source>Largest clock error</source>
-            <translation>بیشترین خطای ساعت</translation>
-        </message>
-        <message>
-            <source>Emptiest queue</source>
-            <translation>خالی‌ترین صف</translation>
-        </message>
-        <message>
-            <source>Path rate</source>
-            <translation>نرخ مسیر</translation>
-        </message>
-        <message>
-            <source>Nozzle temperature</source>
-            <translation>دمای نازل</translation>
-        </message>
-        <message>
-            <source>Bed temperature</source>
-            <translation>دمای بستر</translation>
-        </message>
-        <message>
-            <source>Frames sent</source>
-            <translation>قاب‌های فرستاده</translation>
-        </message>
-        <message>
-            <source>Frames received</source>
-            <translation>قاب‌های دریافتی</translation>
-        </message>
-        <message>
-            <source>Segments sent</source>
-            <translation>قطعه‌های فرستاده</translation>
-        </message>
-        <message>
-            <source>Sequence errors</source>
-            <translation>خطاهای ترتیب</translation>
-        </message>
-        <message>
-            <source>Underruns</source>
-            <translation>خالی شدن صف</translation>
-        </message>
-        <message>
-            <source>Unreadable frames</source>
-            <translation>قاب‌های ناخوانا</translation>
-        </message>
-        <message>
-            <source>Frames of strangers</source>
-            <translation>قاب‌های بیگانه</translation>
-        </message>
-        <message>
-            <source>Slowed for the bus</source>
-            <translation>کندشده برای گذرگاه</translation>
-        </message>
-        <message>
-            <source>Held for planning</source>
-            <translation>نگه‌داشته برای برنامه‌ریزی</translation>
-        </message>
-        <message>
-            <source>Not connected.</source>
-            <translation>وصل نیست.</translation>
-        </message>
-        <message>
-            <source>%1 · kinematics %2 · %3 axes on %4 nodes · bus %5</source>
-            <translation>%1 · سینماتیک %2 · %3 محور روی %4 گره · گذرگاه %5</translation>
-        </message>
-    </context>
-    <context>
-        <name>kinebus::gui::MainWindow</name>
-        <message>
-            <source>Gateways</source>
-            <translation>درگاه‌ها</translation>
-        </message>
-        <message>
-            <source>View</source>
-            <translation>نما</translation>
-        </message>
-        <message>
-            <source>Jobs</source>
-            <translation>کارها</translation>
-        </message>
-        <message>
-            <source>Jog</source>
-            <translation>حرکت دستی</translation>
-        </message>
-        <message>
-            <source>Console</source>
-            <translation>پایانه</translation>
-        </message>
-        <message>
-            <source>Alarms</source>
-            <translation>هشدارها</translation>
-        </message>
-        <message>
-            <source>Machine</source>
-            <translation>ماشین</translation>
-        </message>
-        <message>
-            <source>Position</source>
-            <translation>موقعیت</translation>
-        </message>
-        <message>
-            <source>Job</source>
-            <translation>کار</translation>
-        </message>
-    </context>
-    <context>
-        <name>kinebus::gui::NodesModel</name>
-        <message>
-            <source>Node</source>
-            <translation>گره</translation>
-        </message>
-        <message>
-            <source>State</source>
-            <translation>وضعیت</translation>
-        </message>
-        <message>
-            <source>Clock error</source>
-            <translation>خطای ساعت</translation>
-        </message>
-        <message>
-            <source>Queue</source>
-            <translation>صف</translation>
-        </message>
-        <message>
-            <source>Inputs</source>
-            <translation>ورودی‌ها</translation>
-        </message>
-        <message>
-            <source>Segments sent</source>
-            <translation>قطعه‌های فرستاده</translation>
-        </message>
-        <message>
-            <source>Faults</source>
-            <translation>خطاها</translation>
-        </message>
-        <message>
-            <source>Not there</source>
-            <translation>حاضر نیست</translation>
-        </message>
-        <message>
-            <source>Stopped</source>
-            <translation>متوقف</translation>
-        </message>
-        <message>
-            <source>Starting</source>
-            <translation>در حال راه‌اندازی</translation>
-        </message>
-        <message>
-            <source>Idle</source>
-            <translation>بیکار</translation>
-        </message>
-        <message>
-            <source>Operational</source>
-            <translation>آمادهٔ کار</translation>
-        </message>
-        <message>
-            <source>Operational, not in time</source>
-            <translation>آمادهٔ کار، ناهم‌زمان</translation>
-        </message>
-        <message>
-            <source>Waiting</source>
-            <translation>در انتظار</translation>
-        </message>
-        <message>
-            <source>%1 µs</source>
-            <translation>%1 µs</translation>
-        </message>
-    </context>
-    <context>
-        <name>kinebus::gui::PositionPanel</name>
-        <message>
-            <source>Carriages and axes</source>
-            <translation>حامل‌ها و محورها</translation>
-        </message>
-        <message>
-            <source>Heat</source>
-            <translation>گرما</translation>
-        </message>
-        <message>
-            <source>Target temperature of the nozzle</source>
-            <translation>دمای هدف نازل</translation>
-        </message>
-        <message>
-            <source>Target temperature of the bed</source>
-            <translation>دمای هدف بستر</translation>
-        </message>
-        <message>
-            <source>off</source>
-            <translation>خاموش</translation>
-        </message>
-        <message>
-            <source>Bed</source>
-            <translation>بستر</translation>
-        </message>
-        <message>
-            <source>Nozzle</source>
-            <translation>نازل</translation>
-        </message>
-        <message>
-            <source>Fan</source>
-            <translation>فن</translation>
-        </message>
-        <message>
-            <source>Tool over the part</source>
-            <translation>ابزار نسبت به قطعه</translation>
-        </message>
-        <message>
-            <source>Position not known yet</source>
-            <translation>موقعیت هنوز معلوم نیست</translation>
-        </message>
-    </context>
-    <context>
-        <name>kinebus::gui::ProblemsModel</name>
-        <message>
-            <source>Error</source>
-            <translation>خطا</translation>
-        </message>
-        <message>
-            <source>Warning</source>
-            <translation>اخطار</translation>
-        </message>
-        <message>
-            <source>Kind</source>
-            <translation>نوع</translation>
-        </message>
-        <message>
-            <source>Line</source>
-            <translation>خط</translation>
-        </message>
-        <message>
-            <source>What is wrong</source>
-            <translation>اشکال</translation>
-        </message>
-    </context>
-    <context>
-        <name>kinebus::gui::Session</name>
-        <message>
-            <source>expected %1</source>
-            <translation>مقدار مجاز: %1</translation>
-        </message>
-    </context>
-    <context>
-        <name>kinebus::gui::SocketLink</name>
-        <message>
-            <source>the gateway closed the connection</source>
-            <translation>درگاه اتصال را بست</translation>
-        </message>
-        <message>
-            <source>on this computer</source>
-            <translation>روی این رایانه</translation>
-        </message>
-    </context>
-    <context>
-        <name>kinebus::gui::TopBar</name>
-        <message>
-            <source>STOP</source>
-            <translation>ایست</translation>
-        </message>
-        <message>
-            <source>Stops all motion at once, on the path (Ctrl+.)</source>
-            <translation>همهٔ حرکت‌ها را بی‌درنگ روی مسیر می‌ایستاند (Ctrl+.)</translation>
-        </message>
-        <message>
-            <source>Language</source>
-            <translation>زبان</translation>
-        </message>
-        <message>
-            <source>Light or dark</source>
-            <translation>روشن یا تیره</translation>
-        </message>
-        <message>
-            <source>Take control</source>
-            <translation>گرفتن کنترل</translation>
-        </message>
-        <message>
-            <source>%1 has control</source>
-            <translation>کنترل در دست %1 است</translation>
-        </message>
-        <message>
-            <source>Not connected</source>
-            <translation>وصل نیست</translation>
-        </message>
-        <message>
-            <source>Connecting</source>
-            <translation>در حال اتصال</translation>
-        </message>
-        <message>
-            <source>Connection lost</source>
-            <translation>اتصال قطع شد</translation>
-        </message>
-        <message>
-            <source>A job on the machine goes on.</source>
-            <translation>کار روی ماشین ادامه دارد.</translation>
-        </message>
-        <message>
-            <source>Connect</source>
-            <translation>اتصال</translation>
-        </message>
-        <message>
-            <source>%1 · %2</source>
-            <translation>%1 · %2</translation>
-        </message>
-        <message>
-            <source>Choose a gateway</source>
-            <translation>یک درگاه برگزینید</translation>
-        </message>
-    </context>
-    <context>
-        <name>kinebus::gui::UsbLink</name>
-        <message>
-            <source>the USB cable was pulled</source>
-            <translation>کابل USB کشیده شد</translation>
-        </message>
-        <message>
-            <source>the gateway is not plugged in</source>
-            <translation>درگاه وصل نیست</translation>
-        </message>
-        <message>
-            <source>this user may not use the USB device: install the udev rule of the package</source>
-            <translation>این کاربر اجازهٔ دستگاه USB را ندارد: قاعدهٔ udev بسته را نصب کنید</translation>
-        </message>
-        <message>
-            <source>another program uses the gateway's USB link</source>
-            <translation>برنامهٔ دیگری پیوند USB درگاه را به کار می‌برد</translation>
-        </message>
-        <message>
-            <source>the USB link does not start</source>
-            <translation>پیوند USB آغاز نمی‌شود</translation>
-        </message>
-        <message>
-            <source>USB %1</source>
-            <translation>USB %1</translation>
-        </message>
-    </context>
-    <context>
-        <name>kinebus::gui::ViewPage</name>
-        <message>
-            <source>The 3D scene cannot be shown: %1</source>
-            <translation>صحنهٔ سه‌بعدی نشان‌دادنی نیست: %1</translation>
-        </message>
-        <message>
-            <source>Scene: machine and tool path</source>
-            <translation>صحنه: ماشین و مسیر ابزار</translation>
-        </message>
-        <message>
-            <source>Show the layers up to here</source>
-            <translation>نمایش لایه‌ها تا اینجا</translation>
-        </message>
-        <message>
-            <source>Colour by</source>
-            <translation>رنگ بر پایهٔ</translation>
-        </message>
-        <message>
-            <source>Feed</source>
-            <translation>سرعت پیشروی</translation>
-        </message>
-        <message>
-            <source>Layer</source>
-            <translation>لایه</translation>
-        </message>
-        <message>
-            <source>Limit margin</source>
-            <translation>فاصله تا محدوده</translation>
-        </message>
-        <message>
-            <source>Colour of the tool path</source>
-            <translation>رنگ مسیر ابزار</translation>
-        </message>
-        <message>
-            <source>Machine</source>
-            <translation>ماشین</translation>
-        </message>
-        <message>
-            <source>Reach of the tool</source>
-            <translation>دسترس ابزار</translation>
-        </message>
-        <message>
-            <source>Moves without extrusion</source>
-            <translation>حرکت‌های بدون اکستروژن</translation>
-        </message>
-        <message>
-            <source>What is not printed yet</source>
-            <translation>آنچه هنوز چاپ نشده</translation>
-        </message>
-        <message>
-            <source>From a corner</source>
-            <translation>از گوشه</translation>
-        </message>
-        <message>
-            <source>From above</source>
-            <translation>از بالا</translation>
-        </message>
-        <message>
-            <source>From the front</source>
-            <translation>از روبه‌رو</translation>
-        </message>
-        <message>
-            <source>Whole machine (M)</source>
-            <translation>کل ماشین (M)</translation>
-        </message>
-        <message>
-            <source>The part alone (F)</source>
-            <translation>تنها قطعه (F)</translation>
-        </message>
-        <message>
-            <source>%1 mm/s</source>
-            <translation>%1 mm/s</translation>
-        </message>
-        <message>
-            <source>at a limit</source>
-            <translation>در مرز</translation>
-        </message>
-        <message>
-            <source>free</source>
-            <translation>آزاد</translation>
-        </message>
-        <message>
-            <source>%1 cannot be shown: %2</source>
-            <translation>%1 نشان‌دادنی نیست: %2</translation>
-        </message>
-        <message>
-            <source>Reading %1</source>
-            <translation>خواندن %1</translation>
-        </message>
-        <message>
-            <source>%1 · %2 lines · %3 layers · %4 m of path</source>
-            <translation>%1 · %2 خط · %3 لایه · %4 متر مسیر</translation>
-        </message>
-        <message numerus="yes">
-            <source>%Ln line(s) with expressions are not drawn</source>
-            <translation>
-                <numerusform>%Ln خط دارای عبارت رسم نشد</numerusform>
-            </translation>
-        </message>
-        <message>
-            <source>No job is shown. Choose one on the Jobs page.</source>
-            <translation>کاری نشان داده نمی‌شود. از صفحهٔ «کارها» یکی را برگزینید.</translation>
-        </message>
-        <message>
-            <source>%1 mm</source>
-            <translation>%1 mm</translation>
-        </message>
-    </context>
 <context>
-    <name>GatewayWords</name>
+    <name>AlarmWords</name>
     <message>
-        <source>move done</source>
-        <translation>حرکت انجام شد</translation>
+        <source>A node does not answer</source>
+        <translation>یک گره پاسخ نمی‌دهد</translation>
     </message>
     <message>
-        <source>job done: %1</source>
-        <translation>کار تمام شد: %1</translation>
+        <source>The wrong node is connected</source>
+        <translation>گرهٔ نادرست وصل است</translation>
     </message>
     <message>
-        <source>all lines done: %1</source>
-        <translation>همهٔ خط‌ها انجام شد: %1</translation>
+        <source>A node refuses its settings</source>
+        <translation>یک گره تنظیماتش را نمی‌پذیرد</translation>
+    </message>
+    <message>
+        <source>A drive does not switch on</source>
+        <translation>یک درایو روشن نمی‌شود</translation>
+    </message>
+    <message>
+        <source>There is a second gateway on the bus</source>
+        <translation>درگاه دومی روی گذرگاه است</translation>
+    </message>
+    <message>
+        <source>A node has gone silent</source>
+        <translation>یک گره ساکت شده است</translation>
+    </message>
+    <message>
+        <source>A node has restarted</source>
+        <translation>یک گره دوباره راه افتاده است</translation>
+    </message>
+    <message>
+        <source>The clocks have drifted apart</source>
+        <translation>ساعت‌ها از هم دور شده‌اند</translation>
+    </message>
+    <message>
+        <source>Homing has failed</source>
+        <translation>خانه‌یابی ناموفق بود</translation>
+    </message>
+    <message>
+        <source>The carriages are too far apart</source>
+        <translation>حامل‌ها بیش از حد از هم دورند</translation>
+    </message>
+    <message>
+        <source>Homing took too long</source>
+        <translation>خانه‌یابی بیش از حد طول کشید</translation>
+    </message>
+    <message>
+        <source>Motion was interrupted</source>
+        <translation>حرکت قطع شد</translation>
+    </message>
+    <message>
+        <source>The nodes disagree about the path</source>
+        <translation>گره‌ها دربارهٔ مسیر هم‌نظر نیستند</translation>
+    </message>
+    <message>
+        <source>The bus has failed</source>
+        <translation>گذرگاه از کار افتاده است</translation>
+    </message>
+    <message>
+        <source>A heater is not as it should be</source>
+        <translation>وضعیت یک گرم‌کن درست نیست</translation>
+    </message>
+    <message>
+        <source>The job went wrong</source>
+        <translation>کار با خطا روبه‌رو شد</translation>
+    </message>
+    <message>
+        <source>Stopped by the operator</source>
+        <translation>به دست کاربر متوقف شد</translation>
+    </message>
+    <message>
+        <source>The machine did not come to rest</source>
+        <translation>ماشین از حرکت نایستاد</translation>
+    </message>
+    <message>
+        <source>Too much current in a motor</source>
+        <translation>جریان یک موتور بیش از حد است</translation>
+    </message>
+    <message>
+        <source>The supply voltage is wrong</source>
+        <translation>ولتاژ تغذیه نادرست است</translation>
+    </message>
+    <message>
+        <source>A drive is too hot</source>
+        <translation>یک درایو بیش از حد داغ است</translation>
+    </message>
+    <message>
+        <source>Communication trouble on the bus</source>
+        <translation>اشکال ارتباط روی گذرگاه</translation>
+    </message>
+    <message>
+        <source>A carriage is not where it should be</source>
+        <translation>یک حامل در جای خود نیست</translation>
+    </message>
+    <message>
+        <source>Message</source>
+        <translation>پیام</translation>
+    </message>
+    <message>
+        <source>A node reports a fault</source>
+        <translation>یک گره خطا گزارش می‌کند</translation>
+    </message>
+    <message>
+        <source>Check the node&apos;s power and the bus cable, then home again.</source>
+        <translation>برق گره و کابل گذرگاه را بررسی کنید، سپس دوباره خانه‌یابی کنید.</translation>
+    </message>
+    <message>
+        <source>Connect the right node or update its firmware.</source>
+        <translation>گرهٔ درست را وصل کنید یا میان‌افزارش را به‌روز کنید.</translation>
+    </message>
+    <message>
+        <source>Check the machine file against the node&apos;s limits.</source>
+        <translation>پروندهٔ ماشین را با محدوده‌های گره مقایسه کنید.</translation>
+    </message>
+    <message>
+        <source>Look at the drive&apos;s fault, clear the alarm, then home again.</source>
+        <translation>خطای درایو را ببینید، هشدار را پاک کنید، سپس دوباره خانه‌یابی کنید.</translation>
+    </message>
+    <message>
+        <source>Switch one of the gateways off.</source>
+        <translation>یکی از درگاه‌ها را خاموش کنید.</translation>
+    </message>
+    <message>
+        <source>Check the node&apos;s power and the bus cable, then clear and home again.</source>
+        <translation>برق گره و کابل گذرگاه را بررسی کنید، سپس پاک کنید و دوباره خانه‌یابی کنید.</translation>
+    </message>
+    <message>
+        <source>Check the node&apos;s power, then clear and home again.</source>
+        <translation>برق گره را بررسی کنید، سپس پاک کنید و دوباره خانه‌یابی کنید.</translation>
+    </message>
+    <message>
+        <source>Check the bus for errors, then clear.</source>
+        <translation>خطاهای گذرگاه را بررسی کنید، سپس پاک کنید.</translation>
+    </message>
+    <message>
+        <source>Check the switch and its wiring, then clear and home again.</source>
+        <translation>کلید و سیم‌کشی آن را بررسی کنید، سپس پاک کنید و دوباره خانه‌یابی کنید.</translation>
+    </message>
+    <message>
+        <source>Check the switches of the carriages that went on, then clear and home again.</source>
+        <translation>کلیدهای حامل‌هایی را که پیش رفتند بررسی کنید، سپس پاک کنید و دوباره خانه‌یابی کنید.</translation>
+    </message>
+    <message>
+        <source>Check the switches and the homing speeds, then clear and home again.</source>
+        <translation>کلیدها و سرعت‌های خانه‌یابی را بررسی کنید، سپس پاک کنید و دوباره خانه‌یابی کنید.</translation>
+    </message>
+    <message>
+        <source>Clear: positions are known, the job can be run again.</source>
+        <translation>پاک کنید: موقعیت‌ها معلوم است و کار را می‌توان دوباره اجرا کرد.</translation>
+    </message>
+    <message>
+        <source>Clear. If it comes again, check the bus for lost frames.</source>
+        <translation>پاک کنید. اگر تکرار شد، قاب‌های گم‌شدهٔ گذرگاه را بررسی کنید.</translation>
+    </message>
+    <message>
+        <source>Check cable and termination of the bus, then clear and home again.</source>
+        <translation>کابل و پایانهٔ گذرگاه را بررسی کنید، سپس پاک کنید و دوباره خانه‌یابی کنید.</translation>
+    </message>
+    <message>
+        <source>Check the heater and its sensor, then clear.</source>
+        <translation>گرم‌کن و حسگرش را بررسی کنید، سپس پاک کنید.</translation>
+    </message>
+    <message>
+        <source>Correct the job, then clear.</source>
+        <translation>کار را اصلاح کنید، سپس پاک کنید.</translation>
+    </message>
+    <message>
+        <source>Clear when the machine is safe.</source>
+        <translation>وقتی ماشین امن است پاک کنید.</translation>
+    </message>
+    <message>
+        <source>Switch the machine off and on, then home again.</source>
+        <translation>ماشین را خاموش و روشن کنید، سپس دوباره خانه‌یابی کنید.</translation>
+    </message>
+    <message>
+        <source>Two nodes use the same id</source>
+        <translation>دو گره یک شناسهٔ یکسان دارند</translation>
+    </message>
+    <message>
+        <source>Give one of them another id or take it off the bus, then home again.</source>
+        <translation>به یکی از آن‌ها شناسهٔ دیگری بدهید یا آن را از گذرگاه جدا کنید، سپس دوباره خانه‌یابی کنید.</translation>
+    </message>
+</context>
+<context>
+    <name>ConsoleHints</name>
+    <message>
+        <source>traverse</source>
+        <translation>جابه‌جایی سریع</translation>
+    </message>
+    <message>
+        <source>straight line at feed</source>
+        <translation>خط راست با سرعت پیشروی</translation>
+    </message>
+    <message>
+        <source>arc, clockwise</source>
+        <translation>کمان، ساعت‌گرد</translation>
+    </message>
+    <message>
+        <source>arc, counter-clockwise</source>
+        <translation>کمان، پادساعت‌گرد</translation>
+    </message>
+    <message>
+        <source>home, or go to the bed reference</source>
+        <translation>خانه‌یابی یا رفتن به مرجع بستر</translation>
+    </message>
+    <message>
+        <source>first work coordinate system</source>
+        <translation>دستگاه مختصات کاری نخست</translation>
+    </message>
+    <message>
+        <source>second work coordinate system</source>
+        <translation>دستگاه مختصات کاری دوم</translation>
+    </message>
+    <message>
+        <source>absolute positions</source>
+        <translation>موقعیت‌های مطلق</translation>
+    </message>
+    <message>
+        <source>relative positions</source>
+        <translation>موقعیت‌های نسبی</translation>
+    </message>
+    <message>
+        <source>call this position so</source>
+        <translation>نام‌گذاری موقعیت کنونی</translation>
+    </message>
+    <message>
+        <source>motors on</source>
+        <translation>موتورها روشن</translation>
+    </message>
+    <message>
+        <source>motors off</source>
+        <translation>موتورها خاموش</translation>
+    </message>
+    <message>
+        <source>list the jobs</source>
+        <translation>فهرست کارها</translation>
+    </message>
+    <message>
+        <source>choose a job</source>
+        <translation>انتخاب کار</translation>
+    </message>
+    <message>
+        <source>start or resume</source>
+        <translation>آغاز یا ادامه</translation>
+    </message>
+    <message>
+        <source>pause</source>
+        <translation>مکث</translation>
+    </message>
+    <message>
+        <source>progress of the job</source>
+        <translation>پیشرفت کار</translation>
+    </message>
+    <message>
+        <source>time of the job</source>
+        <translation>زمان کار</translation>
+    </message>
+    <message>
+        <source>extruder absolute</source>
+        <translation>اکسترودر مطلق</translation>
+    </message>
+    <message>
+        <source>extruder relative</source>
+        <translation>اکسترودر نسبی</translation>
+    </message>
+    <message>
+        <source>heat the nozzle</source>
+        <translation>گرم کردن نازل</translation>
+    </message>
+    <message>
+        <source>temperatures</source>
+        <translation>دماها</translation>
+    </message>
+    <message>
+        <source>fan on</source>
+        <translation>فن روشن</translation>
+    </message>
+    <message>
+        <source>fan off</source>
+        <translation>فن خاموش</translation>
+    </message>
+    <message>
+        <source>heat the nozzle and wait</source>
+        <translation>گرم کردن نازل و انتظار</translation>
+    </message>
+    <message>
+        <source>emergency stop</source>
+        <translation>توقف اضطراری</translation>
+    </message>
+    <message>
+        <source>position</source>
+        <translation>موقعیت</translation>
+    </message>
+    <message>
+        <source>name and capabilities</source>
+        <translation>نام و توانایی‌ها</translation>
+    </message>
+    <message>
+        <source>switches</source>
+        <translation>کلیدها</translation>
+    </message>
+    <message>
+        <source>heat the bed</source>
+        <translation>گرم کردن بستر</translation>
+    </message>
+</context>
+<context>
+    <name>Desk</name>
+    <message>
+        <source>Demo machine</source>
+        <translation>ماشین نمایشی</translation>
+    </message>
+</context>
+<context>
+    <name>Format</name>
+    <message>
+        <source>%1 B</source>
+        <translation>%1 B</translation>
+    </message>
+    <message>
+        <source>%1 kB</source>
+        <translation>%1 kB</translation>
+    </message>
+    <message>
+        <source>%1 MB</source>
+        <translation>%1 MB</translation>
+    </message>
+    <message>
+        <source>%1 GB</source>
+        <translation>%1 GB</translation>
+    </message>
+    <message>
+        <source>%1/s</source>
+        <translation>%1/s</translation>
+    </message>
+    <message>
+        <source>%1 °C</source>
+        <translation>%1 °C</translation>
+    </message>
+</context>
+<context>
+    <name>Gateway</name>
+    <message>
+        <source>the centre of the arc is its start</source>
+        <translation>مرکز کمان همان نقطهٔ آغاز آن است</translation>
+    </message>
+    <message>
+        <source>the arc&apos;s end is %1 from the centre, its start %2 (they may differ by %3)</source>
+        <translation>پایان کمان %1 از مرکز دور است و آغاز آن %2 (اختلاف مجاز %3 است)</translation>
+    </message>
+    <message>
+        <source>an arc with R needs an end other than its start; a full circle needs I, J or K</source>
+        <translation>کمان با R باید پایانی جدا از آغاز داشته باشد؛ دایرهٔ کامل I یا J یا K می‌خواهد</translation>
+    </message>
+    <message>
+        <source>R must not be 0</source>
+        <translation>R نمی‌تواند 0 باشد</translation>
+    </message>
+    <message>
+        <source>the arc&apos;s ends are %1 apart, more than twice R (%2)</source>
+        <translation>دو سر کمان %1 از هم دورند، بیش از دو برابر R (%2)</translation>
+    </message>
+    <message>
+        <source>% stands alone in its line</source>
+        <translation>% در خط خود تنها می‌ایستد</translation>
+    </message>
+    <message>
+        <source>N needs a whole number from 0 to 4294967295</source>
+        <translation>N عددی درست از 0 تا 4294967295 می‌خواهد</translation>
+    </message>
+    <message>
+        <source>/ (block delete) must be the first character of the line</source>
+        <translation>/ (حذف بلوک) باید نخستین نویسهٔ خط باشد</translation>
+    </message>
+    <message>
+        <source>byte %1 is not G-code</source>
+        <translation>بایت %1 در G-code جایی ندارد</translation>
+    </message>
+    <message>
+        <source>expected a letter before &apos;%1&apos;</source>
+        <translation>پیش از &apos;%1&apos; حرفی انتظار می‌رفت</translation>
+    </message>
+    <message>
+        <source>comments in ( ) cannot hold another (</source>
+        <translation>توضیح درون ( ) نمی‌تواند ( دیگری داشته باشد</translation>
+    </message>
+    <message>
+        <source>the comment needs a closing )</source>
+        <translation>توضیح به ) پایانی نیاز دارد</translation>
+    </message>
+    <message>
+        <source>expected = after the parameter</source>
+        <translation>پس از پارامتر = انتظار می‌رفت</translation>
+    </message>
+    <message>
+        <source>too many assignments in one line (32 at most)</source>
+        <translation>مقداردهی در یک خط زیاد است (حداکثر 32)</translation>
+    </message>
+    <message>
+        <source>a checksum needs a line number (N) at the line&apos;s beginning</source>
+        <translation>جمع کنترلی به شمارهٔ خط (N) در آغاز خط نیاز دارد</translation>
+    </message>
+    <message>
+        <source>a checksum is a number from 0 to 255</source>
+        <translation>جمع کنترلی عددی از 0 تا 255 است</translation>
+    </message>
+    <message>
+        <source>nothing can follow the checksum</source>
+        <translation>پس از جمع کنترلی چیزی نمی‌آید</translation>
+    </message>
+    <message>
+        <source>the checksum is %1, not %2</source>
+        <translation>جمع کنترلی %1 است، نه %2</translation>
+    </message>
+    <message>
+        <source>G needs a number</source>
+        <translation>G عدد می‌خواهد</translation>
+    </message>
+    <message>
+        <source>M needs a number</source>
+        <translation>M عدد می‌خواهد</translation>
+    </message>
+    <message>
+        <source>O words (subroutines, loops, program numbers) are not supported</source>
+        <translation>واژه‌های O (زیربرنامه، حلقه، شمارهٔ برنامه) پشتیبانی نمی‌شوند</translation>
+    </message>
+    <message>
+        <source>%1 is too large (10^9 at most)</source>
+        <translation>%1 بسیار بزرگ است (حداکثر 10^9)</translation>
+    </message>
+    <message>
+        <source>%1 stands twice in the line (first at column %2)</source>
+        <translation>%1 در خط دو بار آمده است (بار نخست در ستون %2)</translation>
+    </message>
+    <message>
+        <source>G codes are 0 to 999.9 with one decimal place at most</source>
+        <translation>کدهای G از 0 تا 999.9 و حداکثر یک رقم اعشار دارند</translation>
+    </message>
+    <message>
+        <source>%1 and %2 (column %3) are of one modal group: only one can stand in a line</source>
+        <translation>%1 و %2 (ستون %3) از یک گروه حالت‌اند: در هر خط تنها یکی می‌آید</translation>
+    </message>
+    <message>
+        <source>M codes are whole numbers</source>
+        <translation>کدهای M عدد درست‌اند</translation>
+    </message>
+    <message>
+        <source>%1 and M%2 (column %3) exclude one another: only one can stand in a line</source>
+        <translation>%1 و M%2 (ستون %3) با هم نمی‌آیند: در هر خط تنها یکی</translation>
+    </message>
+    <message>
+        <source>too many M codes in one line (8 at most)</source>
+        <translation>کد M در یک خط زیاد است (حداکثر 8)</translation>
+    </message>
+    <message>
+        <source>splines (G5) are not supported: use G1, G2 or G3</source>
+        <translation>اسپلاین (G5) پشتیبانی نمی‌شود: G1 یا G2 یا G3 به کار ببرید</translation>
+    </message>
+    <message>
+        <source>G30 means a probe to printers and a stored position to mills: use G53 G0 with coordinates</source>
+        <translation>G30 در چاپگرها پروب و در فرزها موقعیت ذخیره‌شده است: G53 G0 با مختصات به کار ببرید</translation>
+    </message>
+    <message>
+        <source>G30.1 is not supported: use G10 L2 or parameters</source>
+        <translation>G30.1 پشتیبانی نمی‌شود: G10 L2 یا پارامتر به کار ببرید</translation>
+    </message>
+    <message>
+        <source>cutter compensation (G41) is not supported: offset the path in CAM</source>
+        <translation>جبران شعاع ابزار (G41) پشتیبانی نمی‌شود: مسیر را در CAM جابه‌جا کنید</translation>
+    </message>
+    <message>
+        <source>cutter compensation (G42) is not supported: offset the path in CAM</source>
+        <translation>جبران شعاع ابزار (G42) پشتیبانی نمی‌شود: مسیر را در CAM جابه‌جا کنید</translation>
+    </message>
+    <message>
+        <source>probing (G38) is not supported</source>
+        <translation>پروب (G38) پشتیبانی نمی‌شود</translation>
+    </message>
+    <message>
+        <source>probing (G38.2) is not supported</source>
+        <translation>پروب (G38.2) پشتیبانی نمی‌شود</translation>
+    </message>
+    <message>
+        <source>G68 is not supported: use G68.2 for a tilted plane</source>
+        <translation>G68 پشتیبانی نمی‌شود: برای صفحهٔ شیب‌دار G68.2 به کار ببرید</translation>
+    </message>
+    <message>
+        <source>G68.3 is not supported: use G68.2 with I J K</source>
+        <translation>G68.3 پشتیبانی نمی‌شود: G68.2 با I J K به کار ببرید</translation>
+    </message>
+    <message>
+        <source>feed for each turn (G95) needs a spindle, which this machine does not have</source>
+        <translation>پیشروی در هر دور (G95) اسپیندل می‌خواهد که این ماشین ندارد</translation>
+    </message>
+    <message>
+        <source>M3 turns a spindle, which this machine does not have</source>
+        <translation>M3 اسپیندل را می‌چرخاند که این ماشین ندارد</translation>
+    </message>
+    <message>
+        <source>M4 turns a spindle, which this machine does not have</source>
+        <translation>M4 اسپیندل را می‌چرخاند که این ماشین ندارد</translation>
+    </message>
+    <message>
+        <source>M6 changes tools, which this machine cannot</source>
+        <translation>M6 ابزار عوض می‌کند که این ماشین نمی‌تواند</translation>
+    </message>
+    <message>
+        <source>M7 switches coolant, which this machine does not have</source>
+        <translation>M7 خنک‌کننده را روشن می‌کند که این ماشین ندارد</translation>
+    </message>
+    <message>
+        <source>M8 switches coolant, which this machine does not have</source>
+        <translation>M8 خنک‌کننده را روشن می‌کند که این ماشین ندارد</translation>
+    </message>
+    <message>
+        <source>M92 changes steps for each mm: they belong to the machine file</source>
+        <translation>M92 گام در هر میلی‌متر را عوض می‌کند: جای آن پروندهٔ ماشین است</translation>
+    </message>
+    <message>
+        <source>canned cycles (%1) are not supported: use G0 and G1</source>
+        <translation>چرخه‌های آماده (%1) پشتیبانی نمی‌شوند: G0 و G1 به کار ببرید</translation>
+    </message>
+    <message>
+        <source>%1 is unknown</source>
+        <translation>%1 ناشناخته است</translation>
+    </message>
+    <message>
+        <source>the line is longer than 4096 bytes</source>
+        <translation>خط از 4096 بایت درازتر است</translation>
+    </message>
+    <message>
+        <source>%1 has no effect on this machine</source>
+        <translation>%1 در این ماشین اثری ندارد</translation>
+    </message>
+    <message>
+        <source>%1 and %2 would both use the line&apos;s axis words: write them in two lines</source>
+        <translation>%1 و %2 هر دو واژه‌های محور این خط را به کار می‌برند: در دو خط بنویسید</translation>
+    </message>
+    <message>
+        <source>%1 can only be read</source>
+        <translation>%1 تنها خواندنی است</translation>
+    </message>
+    <message>
+        <source>offsets cannot change in a tilted plane: end it with G69 first</source>
+        <translation>در صفحهٔ شیب‌دار مبدأ عوض نمی‌شود: نخست با G69 پایانش دهید</translation>
+    </message>
+    <message>
+        <source>the offset is too large (10^9 at most)</source>
+        <translation>جابه‌جایی مبدأ بسیار بزرگ است (حداکثر 10^9)</translation>
+    </message>
+    <message>
+        <source>too many named parameters (1000 at most)</source>
+        <translation>پارامترهای نام‌دار زیادند (حداکثر 1000)</translation>
+    </message>
+    <message>
+        <source>the machine has no axis %1; its axes are X Y Z A C and E</source>
+        <translation>ماشین محور %1 ندارد؛ محورهایش X Y Z A C و E هستند</translation>
+    </message>
+    <message>
+        <source>%1 has no use in this line: no motion code is given or active</source>
+        <translation>%1 در این خط کاری ندارد: کد حرکت نه داده شده و نه فعال است</translation>
+    </message>
+    <message>
+        <source>%1 has no use in this line</source>
+        <translation>%1 در این خط کاری ندارد</translation>
+    </message>
+    <message>
+        <source>two codes of this line would both use %1: write them in two lines</source>
+        <translation>دو کد این خط هر دو %1 را به کار می‌برند: در دو خط بنویسید</translation>
+    </message>
+    <message>
+        <source>%1 needs a number</source>
+        <translation>%1 عدد می‌خواهد</translation>
+    </message>
+    <message>
+        <source>%1 must be a whole number from %2 to %3</source>
+        <translation>%1 باید عددی درست از %2 تا %3 باشد</translation>
+    </message>
+    <message>
+        <source>the expression is nested too deep (40 levels at most)</source>
+        <translation>عبارت بیش از اندازه تودرتو است (حداکثر 40 لایه)</translation>
+    </message>
+    <message>
+        <source>expected a number, #parameter, [expression] or function</source>
+        <translation>عدد، #پارامتر، [عبارت] یا تابع انتظار می‌رفت</translation>
+    </message>
+    <message>
+        <source>expected an operator or ]</source>
+        <translation>عملگر یا ] انتظار می‌رفت</translation>
+    </message>
+    <message>
+        <source>the expression has no finite value</source>
+        <translation>عبارت مقدار متناهی ندارد</translation>
+    </message>
+    <message>
+        <source>division by zero</source>
+        <translation>تقسیم بر صفر</translation>
+    </message>
+    <message>
+        <source>the operation has no finite result</source>
+        <translation>نتیجهٔ عمل متناهی نیست</translation>
+    </message>
+    <message>
+        <source>%1 is not defined for this value</source>
+        <translation>%1 برای این مقدار تعریف نشده است</translation>
+    </message>
+    <message>
+        <source>atan is written atan[y]/[x]</source>
+        <translation>atan چنین نوشته می‌شود: atan[y]/[x]</translation>
+    </message>
+    <message>
+        <source>atan[0]/[0] is not defined</source>
+        <translation>atan[0]/[0] تعریف نشده است</translation>
+    </message>
+    <message>
+        <source>exists is written exists[#&lt;name&gt;]</source>
+        <translation>exists چنین نوشته می‌شود: exists[#&lt;name&gt;]</translation>
+    </message>
+    <message>
+        <source>expected ]</source>
+        <translation>] انتظار می‌رفت</translation>
+    </message>
+    <message>
+        <source>a parameter&apos;s name is made of letters, digits, _ and -</source>
+        <translation>نام پارامتر از حرف، رقم، _ و - ساخته می‌شود</translation>
+    </message>
+    <message>
+        <source>the parameter&apos;s name is too long (64 letters at most)</source>
+        <translation>نام پارامتر بسیار دراز است (حداکثر 64 حرف)</translation>
+    </message>
+    <message>
+        <source>the parameter&apos;s name needs a closing &gt;</source>
+        <translation>نام پارامتر به &gt; پایانی نیاز دارد</translation>
+    </message>
+    <message>
+        <source>the parameter&apos;s name is empty</source>
+        <translation>نام پارامتر تهی است</translation>
+    </message>
+    <message>
+        <source>a parameter&apos;s number must be a whole number from 1 to 5400</source>
+        <translation>شمارهٔ پارامتر باید عددی درست از 1 تا 5400 باشد</translation>
+    </message>
+    <message>
+        <source>there is no parameter #%1; they are #1 to #5400</source>
+        <translation>پارامتر #%1 وجود ندارد؛ از #1 تا #5400 هستند</translation>
+    </message>
+    <message>
+        <source>#&lt;%1&gt; has no value yet</source>
+        <translation>#&lt;%1&gt; هنوز مقداری ندارد</translation>
+    </message>
+    <message>
+        <source>the text holds a NUL byte: this is not a G-code file</source>
+        <translation>متن بایت NUL دارد: این پروندهٔ G-code نیست</translation>
+    </message>
+    <message>
+        <source>%1 needs a speed S</source>
+        <translation>%1 سرعت S می‌خواهد</translation>
+    </message>
+    <message>
+        <source>the spindle&apos;s speed S cannot be below 0</source>
+        <translation>سرعت اسپیندل S نمی‌تواند کمتر از 0 باشد</translation>
+    </message>
+    <message>
+        <source>the idle time of M%1 S has no effect on this machine</source>
+        <translation>زمان بیکاری M%1 S در این ماشین اثری ندارد</translation>
+    </message>
+    <message>
+        <source>%1 takes S or R, not both</source>
+        <translation>%1 یا S می‌گیرد یا R، نه هر دو</translation>
+    </message>
+    <message>
+        <source>%1 needs a temperature S or R</source>
+        <translation>%1 دمای S یا R می‌خواهد</translation>
+    </message>
+    <message>
+        <source>%1 needs a temperature S</source>
+        <translation>%1 دمای S می‌خواهد</translation>
+    </message>
+    <message>
+        <source>a target temperature cannot be below 0 deg C</source>
+        <translation>دمای هدف نمی‌تواند زیر 0 °C باشد</translation>
+    </message>
+    <message>
+        <source>the fan&apos;s speed S is 0 to 255</source>
+        <translation>سرعت فن S از 0 تا 255 است</translation>
+    </message>
+    <message>
+        <source>a limit must be greater than 0</source>
+        <translation>حد باید بزرگ‌تر از 0 باشد</translation>
+    </message>
+    <message>
+        <source>%1 needs at least one axis word</source>
+        <translation>%1 دست‌کم یک واژهٔ محور می‌خواهد</translation>
+    </message>
+    <message>
+        <source>an acceleration must be greater than 0</source>
+        <translation>شتاب باید بزرگ‌تر از 0 باشد</translation>
+    </message>
+    <message>
+        <source>M205 (jerk, junction deviation) has no effect: corners are blended within the tolerance of G64 P</source>
+        <translation>M205 (جرک، انحراف گوشه) اثری ندارد: گوشه‌ها در رواداری G64 P گرد می‌شوند</translation>
+    </message>
+    <message>
+        <source>the retraction&apos;s length cannot be negative</source>
+        <translation>درازای عقب‌کشی نمی‌تواند منفی باشد</translation>
+    </message>
+    <message>
+        <source>F must be greater than 0</source>
+        <translation>F باید بزرگ‌تر از 0 باشد</translation>
+    </message>
+    <message>
+        <source>the retraction&apos;s lift cannot be negative</source>
+        <translation>بالابری عقب‌کشی نمی‌تواند منفی باشد</translation>
+    </message>
+    <message>
+        <source>%1 needs a percentage S</source>
+        <translation>%1 درصد S می‌خواهد</translation>
+    </message>
+    <message>
+        <source>the percentage of %1 is above 0 and at most 1000</source>
+        <translation>درصد %1 بیش از 0 و حداکثر 1000 است</translation>
+    </message>
+    <message>
+        <source>%1 needs the name of a stored job</source>
+        <translation>%1 نام یک کار ذخیره‌شده را می‌خواهد</translation>
+    </message>
+    <message>
+        <source>M26 needs a byte position S</source>
+        <translation>M26 جای بایت S را می‌خواهد</translation>
+    </message>
+    <message>
+        <source>the machine has no such tool: the last is T%1</source>
+        <translation>ماشین چنین ابزاری ندارد: آخری T%1 است</translation>
+    </message>
+    <message>
+        <source>G4 takes P or S, not both</source>
+        <translation>G4 یا P می‌گیرد یا S، نه هر دو</translation>
+    </message>
+    <message>
+        <source>G4 cannot wait for a negative time</source>
+        <translation>G4 نمی‌تواند زمان منفی صبر کند</translation>
+    </message>
+    <message>
+        <source>the tolerance P of G64 cannot be negative</source>
+        <translation>رواداری P در G64 نمی‌تواند منفی باشد</translation>
+    </message>
+    <message>
+        <source>the tolerance Q of G64 cannot be negative</source>
+        <translation>رواداری Q در G64 نمی‌تواند منفی باشد</translation>
+    </message>
+    <message>
+        <source>in a tilted plane A and C turn only under G43.4, or by G53.1</source>
+        <translation>در صفحهٔ شیب‌دار A و C تنها زیر G43.4 یا با G53.1 می‌چرخند</translation>
+    </message>
+    <message>
+        <source>in inverse time mode (G93) every G1, G2 and G3 needs F</source>
+        <translation>در حالت زمان وارون (G93) هر G1 و G2 و G3 به F نیاز دارد</translation>
+    </message>
+    <message>
+        <source>no feed rate is set: this move needs F</source>
+        <translation>سرعت پیشروی داده نشده است: این حرکت F می‌خواهد</translation>
+    </message>
+    <message>
+        <source>%1 and %2, or R</source>
+        <translation>%1 و %2، یا R</translation>
+    </message>
+    <message>
+        <source>%1 does not belong to the arc&apos;s plane: %2 needs %3</source>
+        <translation>%1 از صفحهٔ کمان نیست: %2 به %3 نیاز دارد</translation>
+    </message>
+    <message>
+        <source>%1 needs %2, not both</source>
+        <translation>%1 به %2 نیاز دارد، نه هر دو</translation>
+    </message>
+    <message>
+        <source>%1 needs %2</source>
+        <translation>%1 به %2 نیاز دارد</translation>
+    </message>
+    <message>
+        <source>with G90.1 an arc needs both %1 and %2</source>
+        <translation>با G90.1 کمان هم %1 و هم %2 می‌خواهد</translation>
+    </message>
+    <message>
+        <source>G53 needs G0 or G1, in this line or active</source>
+        <translation>G53 به G0 یا G1 نیاز دارد، در همین خط یا فعال</translation>
+    </message>
+    <message>
+        <source>G53 needs G49 and G69: machine coordinates do not turn with the part</source>
+        <translation>G53 به G49 و G69 نیاز دارد: مختصات ماشین با قطعه نمی‌چرخد</translation>
+    </message>
+    <message>
+        <source>G53 needs absolute distances (G90)</source>
+        <translation>G53 فاصلهٔ مطلق (G90) می‌خواهد</translation>
+    </message>
+    <message>
+        <source>%1 cannot change offsets in a tilted plane: end it with G69 first</source>
+        <translation>%1 در صفحهٔ شیب‌دار مبدأ را عوض نمی‌کند: نخست با G69 پایانش دهید</translation>
+    </message>
+    <message>
+        <source>G10 needs L2 or L20 (or no L: retract)</source>
+        <translation>G10 به L2 یا L20 نیاز دارد (بدون L: عقب‌کشی)</translation>
+    </message>
+    <message>
+        <source>G10 needs P: 1 for G54 ... 9 for G59.3, 0 for the active one</source>
+        <translation>G10 به P نیاز دارد: 1 برای G54 ... 9 برای G59.3، 0 برای فعال</translation>
+    </message>
+    <message>
+        <source>G92 needs at least one axis word</source>
+        <translation>G92 دست‌کم یک واژهٔ محور می‌خواهد</translation>
+    </message>
+    <message>
+        <source>G43.4 and G68.2 need a tool of length 0: the machine file says where the tool&apos;s tip is</source>
+        <translation>G43.4 و G68.2 ابزاری با درازای 0 می‌خواهند: جای نوک ابزار در پروندهٔ ماشین است</translation>
+    </message>
+    <message>
+        <source>a tilted plane is active already: end it with G69 first</source>
+        <translation>صفحهٔ شیب‌دار فعال است: نخست با G69 پایانش دهید</translation>
+    </message>
+    <message>
+        <source>G68.2 uses the line&apos;s axis words: write the motion in another line</source>
+        <translation>G68.2 واژه‌های محور خط را به کار می‌برد: حرکت را در خط دیگری بنویسید</translation>
+    </message>
+    <message>
+        <source>G53.1 needs a tilted plane (G68.2)</source>
+        <translation>G53.1 صفحهٔ شیب‌دار (G68.2) می‌خواهد</translation>
+    </message>
+    <message>
+        <source>no A within the machine&apos;s range makes the tool normal to the plane</source>
+        <translation>در بازهٔ ماشین هیچ A ابزار را بر صفحه عمود نمی‌کند</translation>
+    </message>
+    <message>
+        <source>G28 finds the home switches: name axes without a number</source>
+        <translation>G28 کلیدهای خانه را می‌یابد: محورها را بی‌عدد نام ببرید</translation>
+    </message>
+    <message>
+        <source>this gateway runs with its built-in machine: start it with --machine FILE</source>
+        <translation>این درگاه با ماشین درون‌ساخت کار می‌کند: با --machine FILE آغازش کنید</translation>
+    </message>
+    <message>
+        <source>filament is fed before the job has set a hotend temperature (M104)</source>
+        <translation>پیش از آنکه کار دمای نازل را بدهد (M104) فیلامنت رانده می‌شود</translation>
+    </message>
+    <message>
+        <source>filament is fed with the hotend at %1; at least %2 is needed</source>
+        <translation>فیلامنت با نازل %1 رانده می‌شود؛ دست‌کم %2 لازم است</translation>
+    </message>
+    <message>
+        <source>M112 stops the machine here</source>
+        <translation>M112 ماشین را اینجا متوقف می‌کند</translation>
+    </message>
+    <message>
+        <source>settings are kept in the machine file: M500 to M503 do nothing in a job</source>
+        <translation>تنظیم‌ها در پروندهٔ ماشین‌اند: M500 تا M503 در کار اثری ندارند</translation>
+    </message>
+    <message>
+        <source>hotend</source>
+        <translation>نازل</translation>
+    </message>
+    <message>
+        <source>bed</source>
+        <translation>بستر</translation>
+    </message>
+    <message>
+        <source>this machine has no %1 heater</source>
+        <translation>این ماشین گرم‌کنِ %1 ندارد</translation>
+    </message>
+    <message>
+        <source>%1 temperature %2; allowed are 0 to %3</source>
+        <translation>دمای %1: %2؛ مجاز از 0 تا %3 است</translation>
+    </message>
+    <message>
+        <source>%1 would wait forever: %2 is below the room&apos;s %3</source>
+        <translation>%1 تا ابد صبر می‌کند: %2 زیر دمای اتاق %3 است</translation>
+    </message>
+    <message>
+        <source>a job cannot manage stored jobs: M20 to M32 belong to a session</source>
+        <translation>کار نمی‌تواند کارهای ذخیره‌شده را بگرداند: M20 تا M32 از آنِ نشست‌اند</translation>
+    </message>
+    <message>
+        <source>G28: %1</source>
+        <translation>G28: %1</translation>
+    </message>
+    <message>
+        <source>bed reference: %1</source>
+        <translation>مرجع بستر: %1</translation>
+    </message>
+    <message>
+        <source>stored jobs are managed by the session: M20 to M32 stand alone in a line</source>
+        <translation>کارهای ذخیره‌شده را نشست می‌گرداند: M20 تا M32 در خط تنها می‌آیند</translation>
+    </message>
+    <message>
+        <source>the machine is not ready to move: home it first (G28)</source>
+        <translation>ماشین آمادهٔ حرکت نیست: نخست خانه‌یابی کنید (G28)</translation>
+    </message>
+    <message>
+        <source>a move needs numbers</source>
+        <translation>حرکت عدد می‌خواهد</translation>
+    </message>
+    <message>
+        <source>the move is too long to be checked</source>
+        <translation>حرکت درازتر از آن است که بررسی شود</translation>
+    </message>
+    <message>
+        <source>centre, plane and target do not make an arc</source>
+        <translation>مرکز، صفحه و هدف کمانی نمی‌سازند</translation>
+    </message>
+    <message>
+        <source>the arc is too long to be checked</source>
+        <translation>کمان درازتر از آن است که بررسی شود</translation>
+    </message>
+    <message>
+        <source>the arc turns too far to be checked</source>
+        <translation>کمان بیش از آن می‌چرخد که بررسی شود</translation>
+    </message>
+    <message>
+        <source>filament is fed before a hotend temperature is set</source>
+        <translation>پیش از تعیین دمای نازل فیلامنت رانده می‌شود</translation>
+    </message>
+    <message>
+        <source>filament would be fed with the hotend at %1; at least %2 is needed</source>
+        <translation>فیلامنت با نازل %1 رانده می‌شد؛ دست‌کم %2 لازم است</translation>
+    </message>
+    <message>
+        <source>this machine has no spindle</source>
+        <translation>این ماشین اسپیندل ندارد</translation>
+    </message>
+    <message>
+        <source>the spindle turns one way only: use M3</source>
+        <translation>اسپیندل تنها یک سو می‌چرخد: M3 به کار ببرید</translation>
+    </message>
+    <message>
+        <source>spindle speed %1 rpm; allowed are %2 to %3 rpm</source>
+        <translation>سرعت اسپیندل %1 دور بر دقیقه؛ مجاز از %2 تا %3 است</translation>
+    </message>
+    <message>
+        <source>no stored job has the name %1</source>
+        <translation>کار ذخیره‌شده‌ای به نام %1 نیست</translation>
+    </message>
+    <message>
+        <source>the disk is full</source>
+        <translation>دیسک پر است</translation>
+    </message>
+    <message>
+        <source>%1 cannot be written: %2</source>
+        <translation>%1 نوشته نمی‌شود: %2</translation>
+    </message>
+    <message>
+        <source>a job&apos;s name has 1 to 200 bytes</source>
+        <translation>نام کار 1 تا 200 بایت است</translation>
+    </message>
+    <message>
+        <source>a job&apos;s name does not begin with a dot</source>
+        <translation>نام کار با نقطه آغاز نمی‌شود</translation>
+    </message>
+    <message>
+        <source>a job&apos;s name has no slashes and no control characters</source>
+        <translation>نام کار خط کج و نویسهٔ کنترلی ندارد</translation>
+    </message>
+    <message>
+        <source>%1 cannot be written</source>
+        <translation>%1 نوشته نمی‌شود</translation>
+    </message>
+    <message>
+        <source>the job store&apos;s database: %1</source>
+        <translation>پایگاه دادهٔ انبار کارها: %1</translation>
+    </message>
+    <message>
+        <source>the job store&apos;s database cannot be opened</source>
+        <translation>پایگاه دادهٔ انبار کارها باز نمی‌شود</translation>
+    </message>
+    <message>
+        <source>this upload is not open: begin it again, it goes on where it was</source>
+        <translation>این بارگذاری باز نیست: دوباره آغازش کنید، از همان جا ادامه می‌یابد</translation>
+    </message>
+    <message>
+        <source>a job has at most %1 MiB</source>
+        <translation>هر کار حداکثر %1 MiB است</translation>
+    </message>
+    <message>
+        <source>the store&apos;s quota of %1 MiB has no room for this job: delete others first</source>
+        <translation>سهمیهٔ %1 MiB انبار برای این کار جا ندارد: نخست کارهای دیگر را پاک کنید</translation>
+    </message>
+    <message>
+        <source>the disk has no room for this job: delete others first</source>
+        <translation>دیسک برای این کار جا ندارد: نخست کارهای دیگر را پاک کنید</translation>
+    </message>
+    <message>
+        <source>an upload names the SHA-256 of its job: 32 bytes</source>
+        <translation>بارگذاری SHA-256 کار را می‌گوید: 32 بایت</translation>
+    </message>
+    <message>
+        <source>another job has the name %1 already</source>
+        <translation>کار دیگری به نام %1 هست</translation>
+    </message>
+    <message>
+        <source>the next byte of this upload is %1, not %2</source>
+        <translation>بایت بعدی این بارگذاری %1 است، نه %2</translation>
+    </message>
+    <message>
+        <source>more bytes than were announced</source>
+        <translation>بایت‌ها بیش از اعلام‌شده‌اند</translation>
+    </message>
+    <message>
+        <source>%1 bytes of the job have not come yet</source>
+        <translation>%1 بایت از کار هنوز نیامده است</translation>
+    </message>
+    <message>
+        <source>the bytes that came are not those that were announced (SHA-256 differs): send the job again</source>
+        <translation>بایت‌های رسیده همان اعلام‌شده‌ها نیستند (SHA-256 فرق دارد): کار را دوباره بفرستید</translation>
+    </message>
+    <message>
+        <source>a travel&apos;s minimum is above its maximum</source>
+        <translation>کمینهٔ کورس از بیشینهٔ آن بالاتر است</translation>
+    </message>
+    <message>
+        <source>the table&apos;s pivot is not a number</source>
+        <translation>لولای میز عدد نیست</translation>
+    </message>
+    <message>
+        <source>radius_mm must be above 0</source>
+        <translation>radius_mm باید بالای 0 باشد</translation>
+    </message>
+    <message>
+        <source>the arms must be longer than the delta radius</source>
+        <translation>بازوها باید از شعاع دلتا درازتر باشند</translation>
+    </message>
+    <message>
+        <source>a tower travel&apos;s minimum is above its maximum</source>
+        <translation>کمینهٔ کورس برج از بیشینهٔ آن بالاتر است</translation>
+    </message>
+    <message>
+        <source>a pose limit&apos;s minimum is above its maximum</source>
+        <translation>کمینهٔ حد وضعیت از بیشینهٔ آن بالاتر است</translation>
+    </message>
+    <message>
+        <source>the towers stand so that the delta is singular: two at one angle</source>
+        <translation>برج‌ها چنان‌اند که دلتا تکین است: دو تا در یک زاویه</translation>
+    </message>
+    <message>
+        <source>leg %1</source>
+        <translation>پای %1</translation>
+    </message>
+    <message>
+        <source>%1: a coordinate is not a number</source>
+        <translation>%1: یک مختصه عدد نیست</translation>
+    </message>
+    <message>
+        <source>%1: its length must be above 0 mm</source>
+        <translation>%1: درازایش باید بالای 0 mm باشد</translation>
+    </message>
+    <message>
+        <source>%1: its rail has no direction</source>
+        <translation>%1: ریل آن جهت ندارد</translation>
+    </message>
+    <message>
+        <source>%1: its connector offset is not a number</source>
+        <translation>%1: جابه‌جایی اتصال آن عدد نیست</translation>
+    </message>
+    <message>
+        <source>%1: its travel&apos;s minimum is above the maximum</source>
+        <translation>%1: کمینهٔ کورس آن از بیشینه بالاتر است</translation>
+    </message>
+    <message>
+        <source>rotation_scale_mm must be above 0</source>
+        <translation>rotation_scale_mm باید بالای 0 باشد</translation>
+    </message>
+    <message>
+        <source>max_condition must be 1 or more</source>
+        <translation>max_condition باید 1 یا بیشتر باشد</translation>
+    </message>
+    <message>
+        <source>no pose of the workspace can be reached: the legs are too short or the rails too far away</source>
+        <translation>به هیچ وضعیتی از فضای کار نمی‌رسد: پاها کوتاه یا ریل‌ها دورند</translation>
+    </message>
+    <message>
+        <source>the mechanism is singular or nearly so at every pose: the best condition number in the workspace is %1, the limit is %2; rails and attachments leave one motion of the platform without control (for instance attachments mirrored about the YZ plane)</source>
+        <translation>سازوکار در هر وضعیت تکین یا نزدیک به آن است: بهترین عدد حالت در فضای کار %1 و حد %2 است؛ ریل‌ها و اتصال‌ها یک حرکت سکو را بی‌کنترل می‌گذارند (مانند اتصال‌های قرینه نسبت به صفحهٔ YZ)</translation>
+    </message>
+    <message>
+        <source>rods, triangle, rails and rotation_scale_mm must be above 0 mm</source>
+        <translation>میله‌ها، مثلث، ریل‌ها و rotation_scale_mm باید بالای 0 mm باشند</translation>
+    </message>
+    <message>
+        <source>tool or table position is not a number</source>
+        <translation>موقعیت ابزار یا میز عدد نیست</translation>
+    </message>
+    <message>
+        <source>a travel&apos;s or limit&apos;s minimum is above its maximum</source>
+        <translation>کمینهٔ یک کورس یا حد از بیشینهٔ آن بالاتر است</translation>
+    </message>
+    <message>
+        <source>no pose of the workspace can be reached: the rods are too short for the rails&apos; distance</source>
+        <translation>به هیچ وضعیتی از فضای کار نمی‌رسد: میله‌ها برای فاصلهٔ ریل‌ها کوتاه‌اند</translation>
+    </message>
+    <message>
+        <source>the mechanism is singular or nearly so at every pose: the best condition number in the workspace is %1, the limit is %2; rods and triangle leave one motion of the spindle without control</source>
+        <translation>سازوکار در هر وضعیت تکین یا نزدیک به آن است: بهترین عدد حالت در فضای کار %1 و حد %2 است؛ میله‌ها و مثلث یک حرکت اسپیندل را بی‌کنترل می‌گذارند</translation>
+    </message>
+    <message>
+        <source>%1: out of reach, the leg is %2 too short</source>
+        <translation>%1: دست‌نیافتنی، پا %2 کوتاه است</translation>
+    </message>
+    <message>
+        <source>%1: would be %2 beyond its travel</source>
+        <translation>%1: %2 از کورس خود بیرون می‌رود</translation>
+    </message>
+    <message>
+        <source>%1: the leg leans %2 too far from its rail</source>
+        <translation>%1: پا %2 بیش از اندازه از ریل کج می‌شود</translation>
+    </message>
+    <message>
+        <source>%1: leg, rail and platform come %2 too near to each other</source>
+        <translation>%1: پا و ریل و سکو %2 بیش از اندازه به هم نزدیک می‌شوند</translation>
+    </message>
+    <message>
+        <source>%1 is %2 outside the workspace</source>
+        <translation>%1 به اندازهٔ %2 بیرون از فضای کار است</translation>
+    </message>
+    <message>
+        <source>too near to a singular pose: condition number %1</source>
+        <translation>بسیار نزدیک به وضعیت تکین: عدد حالت %1</translation>
+    </message>
+    <message>
+        <source>no pose fits these joint positions (%1 remain)</source>
+        <translation>هیچ وضعیتی با این موقعیت مفصل‌ها جور نیست (%1 می‌ماند)</translation>
+    </message>
+    <message>
+        <source>unknown pose error</source>
+        <translation>خطای ناشناختهٔ وضعیت</translation>
+    </message>
+    <message>
+        <source>machine</source>
+        <translation>ماشین</translation>
+    </message>
+    <message>
+        <source>joint %1</source>
+        <translation>مفصل %1</translation>
+    </message>
+    <message>
+        <source>over-current in a motor phase</source>
+        <translation>جریان بیش از حد در یک فاز موتور</translation>
+    </message>
+    <message>
+        <source>check the motor and its cable for a short, then clear</source>
+        <translation>موتور و کابلش را برای اتصال کوتاه وارسی کنید، سپس رفع کنید</translation>
+    </message>
+    <message>
+        <source>a motor phase is shorted</source>
+        <translation>یک فاز موتور اتصال کوتاه است</translation>
+    </message>
+    <message>
+        <source>switch off, check the motor and its cable</source>
+        <translation>خاموش کنید، موتور و کابلش را وارسی کنید</translation>
+    </message>
+    <message>
+        <source>supply voltage too high</source>
+        <translation>ولتاژ تغذیه بسیار بالاست</translation>
+    </message>
+    <message>
+        <source>check the power supply</source>
+        <translation>منبع تغذیه را وارسی کنید</translation>
+    </message>
+    <message>
+        <source>supply voltage too low</source>
+        <translation>ولتاژ تغذیه بسیار پایین است</translation>
+    </message>
+    <message>
+        <source>check the power supply and its wiring</source>
+        <translation>منبع تغذیه و سیم‌کشی آن را وارسی کنید</translation>
+    </message>
+    <message>
+        <source>the node is too hot</source>
+        <translation>گره بسیار داغ است</translation>
+    </message>
+    <message>
+        <source>let it cool, check the fan</source>
+        <translation>بگذارید خنک شود، فن را وارسی کنید</translation>
+    </message>
+    <message>
+        <source>a motor driver is too hot</source>
+        <translation>یک راه‌انداز موتور بسیار داغ است</translation>
+    </message>
+    <message>
+        <source>let it cool, lower the current, check the fan</source>
+        <translation>بگذارید خنک شود، جریان را کم کنید، فن را وارسی کنید</translation>
+    </message>
+    <message>
+        <source>stored parameters are damaged</source>
+        <translation>پارامترهای ذخیره‌شده خراب‌اند</translation>
+    </message>
+    <message>
+        <source>bring up again: the gateway writes them anew</source>
+        <translation>دوباره راه‌اندازی کنید: درگاه آن‌ها را از نو می‌نویسد</translation>
+    </message>
+    <message>
+        <source>internal software fault</source>
+        <translation>خطای درونی نرم‌افزار</translation>
+    </message>
+    <message>
+        <source>switch the node off and on, report it</source>
+        <translation>گره را خاموش و روشن کنید و گزارش دهید</translation>
+    </message>
+    <message>
+        <source>user software fault</source>
+        <translation>خطای نرم‌افزار کاربر</translation>
+    </message>
+    <message>
+        <source>encoder fault</source>
+        <translation>نقص انکودر</translation>
+    </message>
+    <message>
+        <source>check the encoder&apos;s cable</source>
+        <translation>کابل انکودر را وارسی کنید</translation>
+    </message>
+    <message>
+        <source>CAN frames were lost (overrun)</source>
+        <translation>قاب‌های CAN گم شدند (سرریز)</translation>
+    </message>
+    <message>
+        <source>check the load of the bus</source>
+        <translation>بار گذرگاه را وارسی کنید</translation>
+    </message>
+    <message>
+        <source>many CAN errors</source>
+        <translation>خطاهای فراوان CAN</translation>
+    </message>
+    <message>
+        <source>check cable and termination of the bus</source>
+        <translation>کابل و پایان‌دهی گذرگاه را وارسی کنید</translation>
+    </message>
+    <message>
+        <source>the gateway&apos;s heartbeat or SYNC was missed</source>
+        <translation>ضربان درگاه یا SYNC نرسید</translation>
+    </message>
+    <message>
+        <source>check the gateway and the bus, then clear</source>
+        <translation>درگاه و گذرگاه را وارسی کنید، سپس رفع کنید</translation>
+    </message>
+    <message>
+        <source>recovered from bus-off</source>
+        <translation>از bus-off بازگشت</translation>
+    </message>
+    <message>
+        <source>two nodes use the same id</source>
+        <translation>دو گره یک شناسه دارند</translation>
+    </message>
+    <message>
+        <source>give one of them another id (LSS)</source>
+        <translation>به یکی شناسهٔ دیگری بدهید (LSS)</translation>
+    </message>
+    <message>
+        <source>an expected PDO did not arrive</source>
+        <translation>یک PDO مورد انتظار نرسید</translation>
+    </message>
+    <message>
+        <source>following error: the motor did not follow</source>
+        <translation>خطای پیروی: موتور پیروی نکرد</translation>
+    </message>
+    <message>
+        <source>look for an obstacle, home again</source>
+        <translation>به دنبال مانع بگردید، دوباره خانه‌یابی کنید</translation>
+    </message>
+    <message>
+        <source>a position limit was reached</source>
+        <translation>به حد موقعیت رسید</translation>
+    </message>
+    <message>
+        <source>check the machine file&apos;s limits, home again</source>
+        <translation>حدهای پروندهٔ ماشین را وارسی کنید، دوباره خانه‌یابی کنید</translation>
+    </message>
+    <message>
+        <source>clock synchronisation was lost</source>
+        <translation>همزمانی ساعت از دست رفت</translation>
+    </message>
+    <message>
+        <source>check the bus, then clear</source>
+        <translation>گذرگاه را وارسی کنید، سپس رفع کنید</translation>
+    </message>
+    <message>
+        <source>general fault</source>
+        <translation>نقص کلی</translation>
+    </message>
+    <message>
+        <source>look at the node&apos;s state, then clear</source>
+        <translation>وضعیت گره را ببینید، سپس رفع کنید</translation>
+    </message>
+    <message>
+        <source>current fault</source>
+        <translation>نقص جریان</translation>
+    </message>
+    <message>
+        <source>check motor and cable</source>
+        <translation>موتور و کابل را وارسی کنید</translation>
+    </message>
+    <message>
+        <source>voltage fault</source>
+        <translation>نقص ولتاژ</translation>
+    </message>
+    <message>
+        <source>temperature fault</source>
+        <translation>نقص دما</translation>
+    </message>
+    <message>
+        <source>let it cool</source>
+        <translation>بگذارید خنک شود</translation>
+    </message>
+    <message>
+        <source>hardware fault</source>
+        <translation>نقص سخت‌افزار</translation>
+    </message>
+    <message>
+        <source>switch the node off and on</source>
+        <translation>گره را خاموش و روشن کنید</translation>
+    </message>
+    <message>
+        <source>software fault</source>
+        <translation>نقص نرم‌افزار</translation>
+    </message>
+    <message>
+        <source>fault of an additional module</source>
+        <translation>نقص پودمان افزوده</translation>
+    </message>
+    <message>
+        <source>monitoring fault</source>
+        <translation>نقص پایش</translation>
+    </message>
+    <message>
+        <source>additional function fault</source>
+        <translation>نقص کارکرد افزوده</translation>
+    </message>
+    <message>
+        <source>its queue ran low</source>
+        <translation>صف آن ته کشید</translation>
+    </message>
+    <message>
+        <source>clear and resume; when it comes again, check the load of gateway and bus</source>
+        <translation>رفع کنید و ادامه دهید؛ اگر باز پیش آمد بار درگاه و گذرگاه را وارسی کنید</translation>
+    </message>
+    <message>
+        <source>a record was lost</source>
+        <translation>یک رکورد گم شد</translation>
+    </message>
+    <message>
+        <source>clear; when it comes again, check the bus for errors</source>
+        <translation>رفع کنید؛ اگر باز پیش آمد گذرگاه را برای خطا وارسی کنید</translation>
+    </message>
+    <message>
+        <source>its position is not the gateway&apos;s</source>
+        <translation>موقعیتش با درگاه یکی نیست</translation>
+    </message>
+    <message>
+        <source>clear and home again</source>
+        <translation>رفع کنید و دوباره خانه‌یابی کنید</translation>
+    </message>
+    <message>
+        <source>a record broke its limits</source>
+        <translation>یک رکورد از حدهایش گذشت</translation>
+    </message>
+    <message>
+        <source>clear; check the machine file against the node&apos;s limits</source>
+        <translation>رفع کنید؛ پروندهٔ ماشین را با حدهای گره بسنجید</translation>
+    </message>
+    <message>
+        <source>the emergency stop input</source>
+        <translation>ورودی توقف اضطراری</translation>
+    </message>
+    <message>
+        <source>release the emergency stop when it is safe, then clear</source>
+        <translation>هنگامی که امن است توقف اضطراری را رها کنید، سپس رفع کنید</translation>
+    </message>
+    <message>
+        <source>a limit switch</source>
+        <translation>یک کلید حد</translation>
+    </message>
+    <message>
+        <source>move the carriage off the switch, then clear and home again</source>
+        <translation>حامل را از کلید دور کنید، سپس رفع کنید و دوباره خانه‌یابی کنید</translation>
+    </message>
+    <message>
+        <source>the gateway&apos;s heartbeat is missing</source>
+        <translation>ضربان درگاه نیست</translation>
+    </message>
+    <message>
+        <source>SYNC is missing</source>
+        <translation>SYNC نیست</translation>
+    </message>
+    <message>
+        <source>fault of a drive</source>
+        <translation>نقص یک درایو</translation>
+    </message>
+    <message>
+        <source>look at the drive&apos;s fault, then clear</source>
+        <translation>نقص درایو را ببینید، سپس رفع کنید</translation>
+    </message>
+    <message>
+        <source>its drives were switched off in motion</source>
+        <translation>درایوهایش در حرکت خاموش شدند</translation>
+    </message>
+    <message>
+        <source>clear and enable again</source>
+        <translation>رفع کنید و دوباره روشن کنید</translation>
+    </message>
+    <message>
+        <source>another node asked for it</source>
+        <translation>گرهٔ دیگری خواسته است</translation>
+    </message>
+    <message>
+        <source>look at the other node&apos;s message</source>
+        <translation>پیام گرهٔ دیگر را ببینید</translation>
+    </message>
+    <message>
+        <source>unknown fault</source>
+        <translation>نقص ناشناخته</translation>
+    </message>
+    <message>
+        <source>%1, axis B</source>
+        <translation>%1، محور B</translation>
+    </message>
+    <message>
+        <source>node %1: %2 (EMCY %3)</source>
+        <translation>گره %1: %2 (EMCY %3)</translation>
+    </message>
+    <message>
+        <source>check the node&apos;s power and the bus cable, then bring up again</source>
+        <translation>برق گره و کابل گذرگاه را وارسی کنید، سپس دوباره راه‌اندازی کنید</translation>
+    </message>
+    <message>
+        <source>connect the right node or update its firmware</source>
+        <translation>گرهٔ درست را وصل کنید یا سفت‌افزارش را نو کنید</translation>
+    </message>
+    <message>
+        <source>check the machine file against the node&apos;s limits</source>
+        <translation>پروندهٔ ماشین را با حدهای گره بسنجید</translation>
+    </message>
+    <message>
+        <source>look at the drive&apos;s fault, clear, then bring up again</source>
+        <translation>نقص درایو را ببینید، رفع کنید، سپس دوباره راه‌اندازی کنید</translation>
+    </message>
+    <message>
+        <source>switch one of the gateways off</source>
+        <translation>یکی از درگاه‌ها را خاموش کنید</translation>
+    </message>
+    <message>
+        <source>check the node&apos;s power and the bus cable, then clear and bring up again</source>
+        <translation>برق گره و کابل گذرگاه را وارسی کنید، سپس رفع کنید و دوباره راه‌اندازی کنید</translation>
+    </message>
+    <message>
+        <source>check the node&apos;s power, then clear, bring up and home again</source>
+        <translation>برق گره را وارسی کنید، سپس رفع کنید، راه‌اندازی و خانه‌یابی کنید</translation>
+    </message>
+    <message>
+        <source>check the bus for errors, then clear</source>
+        <translation>گذرگاه را برای خطا وارسی کنید، سپس رفع کنید</translation>
+    </message>
+    <message>
+        <source>check switch and wiring, then clear and home again</source>
+        <translation>کلید و سیم‌کشی را وارسی کنید، سپس رفع کنید و دوباره خانه‌یابی کنید</translation>
+    </message>
+    <message>
+        <source>check the switches of the carriages that went on, then clear and home again</source>
+        <translation>کلید حامل‌هایی را که رفتند وارسی کنید، سپس رفع کنید و دوباره خانه‌یابی کنید</translation>
+    </message>
+    <message>
+        <source>check switches and home speeds, then clear and home again</source>
+        <translation>کلیدها و سرعت خانه‌یابی را وارسی کنید، سپس رفع کنید و دوباره خانه‌یابی کنید</translation>
+    </message>
+    <message>
+        <source>clear: positions are known, the job can be run again</source>
+        <translation>رفع کنید: موقعیت‌ها دانسته‌اند، کار را می‌توان دوباره اجرا کرد</translation>
+    </message>
+    <message>
+        <source>clear; when it comes again, check the bus for lost frames</source>
+        <translation>رفع کنید؛ اگر باز پیش آمد گذرگاه را برای قاب‌های گم‌شده وارسی کنید</translation>
+    </message>
+    <message>
+        <source>check cable and termination of the bus, then clear and bring up again</source>
+        <translation>کابل و پایان‌دهی گذرگاه را وارسی کنید، سپس رفع کنید و دوباره راه‌اندازی کنید</translation>
+    </message>
+    <message>
+        <source>check heater and sensor, then clear</source>
+        <translation>گرم‌کن و حسگر را وارسی کنید، سپس رفع کنید</translation>
+    </message>
+    <message>
+        <source>correct the job, then clear</source>
+        <translation>کار را درست کنید، سپس رفع کنید</translation>
+    </message>
+    <message>
+        <source>clear when the machine is safe</source>
+        <translation>هنگامی که ماشین امن است رفع کنید</translation>
+    </message>
+    <message>
+        <source>switch the machine off and on, home again</source>
+        <translation>ماشین را خاموش و روشن کنید، دوباره خانه‌یابی کنید</translation>
+    </message>
+    <message>
+        <source>clear</source>
+        <translation>رفع توقف</translation>
+    </message>
+    <message>
+        <source>listening for another gateway</source>
+        <translation>گوش به درگاه دیگر</translation>
+    </message>
+    <message>
+        <source>looking for the nodes</source>
+        <translation>جست‌وجوی گره‌ها</translation>
+    </message>
+    <message>
+        <source>checking the nodes&apos; parameters</source>
+        <translation>بررسی پارامترهای گره‌ها</translation>
+    </message>
+    <message>
+        <source>starting the nodes</source>
+        <translation>آغاز گره‌ها</translation>
+    </message>
+    <message>
+        <source>synchronising the clocks</source>
+        <translation>همزمانی ساعت‌ها</translation>
+    </message>
+    <message>
+        <source>equalising path time</source>
+        <translation>برابر کردن زمان مسیر</translation>
+    </message>
+    <message>
+        <source>enabling the drives</source>
+        <translation>روشن کردن درایوها</translation>
+    </message>
+    <message>
+        <source>another gateway speaks on this bus (SYNC, stamps or heartbeat of node 127)</source>
+        <translation>درگاه دیگری روی این گذرگاه سخن می‌گوید (SYNC، مُهر زمان یا ضربان گره 127)</translation>
+    </message>
+    <message>
+        <source>vendor</source>
+        <translation>سازنده</translation>
+    </message>
+    <message>
+        <source>product</source>
+        <translation>محصول</translation>
+    </message>
+    <message>
+        <source>revision</source>
+        <translation>ویرایش</translation>
+    </message>
+    <message>
+        <source>serial number</source>
+        <translation>شمارهٔ سریال</translation>
+    </message>
+    <message>
+        <source>node %1: %2 is %3, the machine file wants %4</source>
+        <translation>گره %1: %2 برابر %3 است، پروندهٔ ماشین %4 می‌خواهد</translation>
+    </message>
+    <message>
+        <source>node %1 does not become operational</source>
+        <translation>گره %1 آمادهٔ کار نمی‌شود</translation>
+    </message>
+    <message>
+        <source>node %1 does not synchronise its clock</source>
+        <translation>گره %1 ساعتش را همزمان نمی‌کند</translation>
+    </message>
+    <message>
+        <source>node %1 keeps its stop latched: an emergency stop or limit switch is active</source>
+        <translation>گره %1 توقف را نگه می‌دارد: توقف اضطراری یا کلید حد فعال است</translation>
+    </message>
+    <message>
+        <source>node %1: its drives do not enable (statuswords %2 and %3)</source>
+        <translation>گره %1: درایوهایش روشن نمی‌شوند (واژه‌های وضعیت %2 و %3)</translation>
+    </message>
+    <message>
+        <source>node %1 did not come back after the return to its default parameters</source>
+        <translation>گره %1 پس از بازگشت به پارامترهای پیش‌فرض برنگشت</translation>
+    </message>
+    <message>
+        <source>node %1: its parameters have the fingerprint %2, the machine file&apos;s have %3, after all were written</source>
+        <translation>گره %1: اثرانگشت پارامترهایش %2 و از آنِ پروندهٔ ماشین %3 است، با آنکه همه نوشته شدند</translation>
+    </message>
+    <message>
+        <source>there is no interrupted job to %1</source>
+        <translation>کار قطع‌شده‌ای برای این نیست: %1</translation>
+    </message>
+    <message>
+        <source>cannot %1 while the machine is %2</source>
+        <translation>در وضعیت «%2» شدنی نیست: %1</translation>
+    </message>
+    <message>
+        <source>%1: bring it up first</source>
+        <translation>%1. نخست راه‌اندازی کنید</translation>
+    </message>
+    <message>
+        <source>%1: home it first</source>
+        <translation>%1. نخست خانه‌یابی کنید</translation>
+    </message>
+    <message>
+        <source>%1: clear first</source>
+        <translation>%1. نخست توقف را رفع کنید</translation>
+    </message>
+    <message>
+        <source>no pose fits the joints&apos; positions: %1</source>
+        <translation>هیچ وضعیتی با موقعیت مفصل‌ها جور نیست: %1</translation>
+    </message>
+    <message>
+        <source>a jog needs numbers</source>
+        <translation>حرکت دستی عدد می‌خواهد</translation>
+    </message>
+    <message>
+        <source>a jog&apos;s speed is 0 or more</source>
+        <translation>سرعت حرکت دستی 0 یا بیشتر است</translation>
+    </message>
+    <message>
+        <source>a jog needs a distance</source>
+        <translation>حرکت دستی فاصله می‌خواهد</translation>
+    </message>
+    <message>
+        <source>the hotend is too cold to feed filament: %1 C</source>
+        <translation>نازل برای راندن فیلامنت بسیار سرد است: %1 °C</translation>
+    </message>
+    <message>
+        <source>the job cannot be read twice: it is checked before it runs</source>
+        <translation>کار را نمی‌توان دو بار خواند: پیش از اجرا بررسی می‌شود</translation>
+    </message>
+    <message>
+        <source>cleared: resume brings the machine up again and goes on with the job</source>
+        <translation>رفع شد: ادامه ماشین را دوباره راه می‌اندازد و کار را پی می‌گیرد</translation>
+    </message>
+    <message>
+        <source>cleared: bring the machine up again</source>
+        <translation>رفع شد: ماشین را دوباره راه‌اندازی کنید</translation>
+    </message>
+    <message>
+        <source>a feed override is 0.01 to 5</source>
+        <translation>ضریب سرعت از 0.01 تا 5 است</translation>
+    </message>
+    <message>
+        <source>the temperature must be 0 to %1 C</source>
+        <translation>دما باید از 0 تا %1 °C باشد</translation>
+    </message>
+    <message>
+        <source>another gateway has begun to speak on this bus</source>
+        <translation>درگاه دیگری روی این گذرگاه به سخن آمده است</translation>
+    </message>
+    <message>
+        <source>node %1</source>
+        <translation>گره %1</translation>
+    </message>
+    <message>
+        <source>%1 has restarted</source>
+        <translation>%1 از نو آغاز شد</translation>
+    </message>
+    <message>
+        <source>%1 is silent</source>
+        <translation>%1 خاموش است</translation>
+    </message>
+    <message>
+        <source>%1 has lost the synchronisation of its clock</source>
+        <translation>%1 همزمانی ساعتش را از دست داد</translation>
+    </message>
+    <message>
+        <source>%1 rests at another path time than the gateway: %2 us apart</source>
+        <translation>%1 در زمان مسیری جز درگاه ایستاده است: %2 µs اختلاف</translation>
+    </message>
+    <message>
+        <source>too late: the machine is in use already</source>
+        <translation>دیر شده: ماشین در کار است</translation>
+    </message>
+    <message>
+        <source>the interrupted job %1 is not there any more</source>
+        <translation>کار قطع‌شدهٔ %1 دیگر نیست</translation>
+    </message>
+    <message>
+        <source>the job %1 was interrupted: resume to go on with it, or cancel</source>
+        <translation>کار %1 قطع شد: ادامه دهید یا لغو کنید</translation>
+    </message>
+    <message>
+        <source>the nodes have lost their positions: resume homes the machine and goes on</source>
+        <translation>گره‌ها موقعیتشان را از دست دادند: ادامه ماشین را خانه‌یابی می‌کند و پی می‌گیرد</translation>
+    </message>
+    <message>
+        <source>the job does not go on: %1</source>
+        <translation>کار پی گرفته نمی‌شود: %1</translation>
+    </message>
+    <message>
+        <source>put right what is said, then resume</source>
+        <translation>آنچه گفته شد درست کنید، سپس ادامه دهید</translation>
+    </message>
+    <message>
+        <source>the job %1 is not the text that was interrupted: it does not go on</source>
+        <translation>کار %1 همان متن قطع‌شده نیست: پی گرفته نمی‌شود</translation>
+    </message>
+    <message>
+        <source>run it from its beginning</source>
+        <translation>از آغاز اجرایش کنید</translation>
+    </message>
+    <message>
+        <source>the interrupted job cannot be read</source>
+        <translation>کار قطع‌شده خوانده نمی‌شود</translation>
+    </message>
+    <message>
+        <source>the job&apos;s place cannot be reached: %1</source>
+        <translation>به جای کار نمی‌توان رسید: %1</translation>
+    </message>
+    <message>
+        <source>the tool was found %1 mm from its place: resume brings it back</source>
+        <translation>ابزار %1 mm دور از جایش پیدا شد: ادامه آن را بازمی‌گرداند</translation>
+    </message>
+    <message>
+        <source>the job %1 goes on</source>
+        <translation>کار %1 ادامه می‌یابد</translation>
+    </message>
+    <message>
+        <source>reading where the nodes stand</source>
+        <translation>خواندن جای گره‌ها</translation>
+    </message>
+    <message>
+        <source>path time did not come to rest</source>
+        <translation>زمان مسیر نایستاد</translation>
+    </message>
+    <message>
+        <source>a node keeps its stop latched: is an emergency stop or a limit switch still active?</source>
+        <translation>گره‌ای توقف را نگه می‌دارد: آیا توقف اضطراری یا کلید حد هنوز فعال است؟</translation>
+    </message>
+    <message>
+        <source>a drive does not enable again: its fault is still there</source>
+        <translation>درایوی دوباره روشن نمی‌شود: نقصش هنوز هست</translation>
+    </message>
+    <message>
+        <source>a node does not know its position after homing</source>
+        <translation>گره‌ای پس از خانه‌یابی موقعیتش را نمی‌داند</translation>
+    </message>
+    <message>
+        <source>homed</source>
+        <translation>خانه‌یابی شد</translation>
+    </message>
+    <message>
+        <source>cancelled: positions are known</source>
+        <translation>لغو شد: موقعیت‌ها دانسته‌اند</translation>
+    </message>
+    <message>
+        <source>the bus failed: %1</source>
+        <translation>گذرگاه از کار افتاد: %1</translation>
+    </message>
+    <message>
+        <source>error: %1</source>
+        <translation>خطا: %1</translation>
+    </message>
+    <message>
+        <source>warning: %1</source>
+        <translation>هشدار: %1</translation>
     </message>
     <message>
         <source>the job was not begun: it has %1 errors</source>
         <translation>کار آغاز نشد: %1 خطا دارد</translation>
     </message>
     <message>
+        <source>correct the lines named, then run it again</source>
+        <translation>خط‌های گفته‌شده را درست کنید، سپس دوباره اجرا کنید</translation>
+    </message>
+    <message>
+        <source>M112 in the job</source>
+        <translation>M112 در کار</translation>
+    </message>
+    <message>
+        <source>move done</source>
+        <translation>حرکت انجام شد</translation>
+    </message>
+    <message>
+        <source>all lines done: %1</source>
+        <translation>همهٔ خط‌ها انجام شد: %1</translation>
+    </message>
+    <message>
+        <source>job done: %1</source>
+        <translation>کار تمام شد: %1</translation>
+    </message>
+    <message>
+        <source>no file there</source>
+        <translation>آنجا پرونده‌ای نیست</translation>
+    </message>
+    <message>
+        <source>a readable TOML file</source>
+        <translation>پروندهٔ TOML خواندنی</translation>
+    </message>
+    <message>
+        <source>more than 1 MiB</source>
+        <translation>بیش از 1 MiB</translation>
+    </message>
+    <message>
+        <source>a machine file, which is a few KiB long</source>
+        <translation>پروندهٔ ماشین که چند KiB است</translation>
+    </message>
+    <message>
+        <source>a file that cannot be read</source>
+        <translation>پرونده‌ای که خوانده نمی‌شود</translation>
+    </message>
+    <message>
+        <source>a table</source>
+        <translation>یک جدول</translation>
+    </message>
+    <message>
+        <source>an array of %1</source>
+        <translation>آرایه‌ای با %1 عضو</translation>
+    </message>
+    <message>
+        <source>a text</source>
+        <translation>یک متن</translation>
+    </message>
+    <message>
+        <source>true or false</source>
+        <translation>true یا false</translation>
+    </message>
+    <message>
+        <source>a number in %1</source>
+        <translation>عددی در %1</translation>
+    </message>
+    <message>
+        <source>at most %1 numbers, each in %2</source>
+        <translation>حداکثر %1 عدد، هر یک در %2</translation>
+    </message>
+    <message>
+        <source>a whole number in %1 .. %2</source>
+        <translation>عددی درست در %1 .. %2</translation>
+    </message>
+    <message>
+        <source>one of %1</source>
+        <translation>یکی از %1</translation>
+    </message>
+    <message>
+        <source>three numbers, each in %1</source>
+        <translation>سه عدد، هر یک در %1</translation>
+    </message>
+    <message>
+        <source>[least, most], least below most, in %1</source>
+        <translation>[کمینه، بیشینه]، کمینه زیر بیشینه، در %1</translation>
+    </message>
+    <message>
+        <source>a table, [%1]</source>
+        <translation>یک جدول، [%1]</translation>
+    </message>
+    <message>
+        <source>a node id in 1 .. 126</source>
+        <translation>شناسهٔ گره در 1 .. 126</translation>
+    </message>
+    <message>
+        <source>perhaps %1</source>
+        <translation>شاید %1</translation>
+    </message>
+    <message>
+        <source>a key that does not exist</source>
+        <translation>کلیدی که وجود ندارد</translation>
+    </message>
+    <message>
+        <source>a control character</source>
+        <translation>نویسهٔ کنترلی</translation>
+    </message>
+    <message>
+        <source>printable text, tabs and line ends</source>
+        <translation>متن چاپ‌شدنی، جهش و پایان خط</translation>
+    </message>
+    <message>
+        <source>no valid TOML: %1</source>
+        <translation>TOML نادرست: %1</translation>
+    </message>
+    <message>
+        <source>a machine that cannot work</source>
+        <translation>ماشینی که کار نمی‌کند</translation>
+    </message>
+    <message>
+        <source>a power of two</source>
+        <translation>توانی از دو</translation>
+    </message>
+    <message>
+        <source>at most run_current_ma, %1</source>
+        <translation>حداکثر run_current_ma، %1</translation>
+    </message>
+    <message>
+        <source>node %1 axis %2</source>
+        <translation>گره %1 محور %2</translation>
+    </message>
+    <message>
+        <source>a node&apos;s axis that no other joint has</source>
+        <translation>محوری از گره که مفصل دیگری ندارد</translation>
+    </message>
+    <message>
+        <source>at least acceleration + speed / stop ramp = %1, or a longer stop.ramp_ms</source>
+        <translation>دست‌کم شتاب + سرعت / شیب توقف = %1، یا stop.ramp_ms درازتر</translation>
+    </message>
+    <message>
+        <source>no table</source>
+        <translation>جدولی نیست</translation>
+    </message>
+    <message>
+        <source>[%1homing]: a joint with limited travel must find its position</source>
+        <translation>[%1homing]: مفصل با کورس محدود باید موقعیتش را بیابد</translation>
+    </message>
+    <message>
+        <source>no pitch</source>
+        <translation>گام (pitch) نیست</translation>
+    </message>
+    <message>
+        <source>the pitch that the periodic error repeats with</source>
+        <translation>گامی که خطای دوره‌ای با آن تکرار می‌شود</translation>
+    </message>
+    <message>
+        <source>one number</source>
+        <translation>یک عدد</translation>
+    </message>
+    <message>
+        <source>two or more</source>
+        <translation>دو یا بیشتر</translation>
+    </message>
+    <message>
+        <source>the distance of the table&apos;s places, above 0</source>
+        <translation>فاصلهٔ جاهای جدول، بالای 0</translation>
+    </message>
+    <message>
+        <source>an error with a slope of %1</source>
+        <translation>خطایی با شیب %1</translation>
+    </message>
+    <message>
+        <source>at most %1</source>
+        <translation>حداکثر %1</translation>
+    </message>
+    <message>
+        <source>a correction that needs nearly all of the joint&apos;s speed or acceleration</source>
+        <translation>تصحیحی که نزدیک به همهٔ سرعت یا شتاب مفصل را می‌خواهد</translation>
+    </message>
+    <message>
+        <source>smaller errors, or higher limits of the joint</source>
+        <translation>خطاهای کوچک‌تر یا حدهای بالاتر مفصل</translation>
+    </message>
+    <message>
+        <source>17..22 or 37</source>
+        <translation>17..22 یا 37</translation>
+    </message>
+    <message>
+        <source>at most the fast speed, %1</source>
+        <translation>حداکثر سرعت تند، %1</translation>
+    </message>
+    <message>
+        <source>at most the joint&apos;s speed, %1</source>
+        <translation>حداکثر سرعت مفصل، %1</translation>
+    </message>
+    <message>
+        <source>at most the joint&apos;s acceleration, %1</source>
+        <translation>حداکثر شتاب مفصل، %1</translation>
+    </message>
+    <message>
+        <source>within the joint&apos;s travel, %1 .. %2</source>
+        <translation>در کورس مفصل، %1 .. %2</translation>
+    </message>
+    <message>
+        <source>an input of node %1 that has the home function for axis %2</source>
+        <translation>ورودی‌ای از گره %1 با کارکرد خانه برای محور %2</translation>
+    </message>
+    <message>
+        <source>an input of node %1 that has the limit function for axis %2</source>
+        <translation>ورودی‌ای از گره %1 با کارکرد حد برای محور %2</translation>
+    </message>
+    <message>
+        <source>a node that has its table, [node.%1]</source>
+        <translation>گره‌ای که جدولش هست، [node.%1]</translation>
+    </message>
+    <message>
+        <source>an even number: ramps travel in 2 ms</source>
+        <translation>عدد زوج: شیب‌ها با 2 ms می‌روند</translation>
+    </message>
+    <message>
+        <source>at least stop.ramp_ms, %1</source>
+        <translation>دست‌کم stop.ramp_ms، %1</translation>
+    </message>
+    <message>
+        <source>at least two SYNC periods, %1</source>
+        <translation>دست‌کم دو دورهٔ SYNC، %1</translation>
+    </message>
+    <message>
+        <source>at least two heartbeats, %1</source>
+        <translation>دست‌کم دو ضربان، %1</translation>
+    </message>
+    <message>
+        <source>a CiA 301 bit rate: 10000, 20000, 50000, 125000, 250000, 500000, 800000 or 1000000</source>
+        <translation>یک نرخ بیت CiA 301: 10000، 20000، 50000، 125000، 250000، 500000، 800000 یا 1000000</translation>
+    </message>
+    <message>
+        <source>a network interface&apos;s name of 1 .. 15 characters</source>
+        <translation>نام واسط شبکه با 1 .. 15 نویسه</translation>
+    </message>
+    <message>
+        <source>at most the tool&apos;s speed, %1</source>
+        <translation>حداکثر سرعت ابزار، %1</translation>
+    </message>
+    <message>
+        <source>at most the largest speed, %1</source>
+        <translation>حداکثر بزرگ‌ترین سرعت، %1</translation>
+    </message>
+    <message>
+        <source>an empty name</source>
+        <translation>نام تهی</translation>
+    </message>
+    <message>
+        <source>a name</source>
+        <translation>یک نام</translation>
+    </message>
+    <message>
+        <source>an empty path</source>
+        <translation>مسیر تهی</translation>
+    </message>
+    <message>
+        <source>a directory</source>
+        <translation>یک پوشه</translation>
+    </message>
+    <message>
+        <source>the machine file&apos;s geometry cannot work: %1</source>
+        <translation>هندسهٔ پروندهٔ ماشین کار نمی‌کند: %1</translation>
+    </message>
+    <message>
         <source>stop by command</source>
         <translation>ایست به فرمان</translation>
     </message>
     <message>
-        <source>homed</source>
-        <translation>خانه‌یابی شد</translation>
+        <source>the drives do not change their mode of operation</source>
+        <translation>درایوها حالت کارشان را عوض نمی‌کنند</translation>
+    </message>
+    <message>
+        <source>%1: its drive is no longer enabled</source>
+        <translation>%1: درایو آن دیگر روشن نیست</translation>
+    </message>
+    <message>
+        <source>%1 did not find its home switch, or the switch did not release</source>
+        <translation>%1 کلید خانه را نیافت یا کلید رها نشد</translation>
+    </message>
+    <message>
+        <source>homing took too long; not at home: %1</source>
+        <translation>خانه‌یابی بیش از اندازه کشید؛ نرسیده‌ها: %1</translation>
+    </message>
+    <message>
+        <source>%1 has gone %2 mm farther than another carriage; allowed are %3 mm</source>
+        <translation>%1 به اندازهٔ %2 mm از حامل دیگر جلوتر رفت؛ مجاز %3 mm است</translation>
+    </message>
+    <message>
+        <source>moving</source>
+        <translation>در حرکت</translation>
+    </message>
+    <message>
+        <source>waiting for lines</source>
+        <translation>چشم به راه خط‌ها</translation>
+    </message>
+    <message>
+        <source>reading the job up to where it was</source>
+        <translation>خواندن کار تا جای پیشین</translation>
+    </message>
+    <message>
+        <source>interrupted</source>
+        <translation>قطع شد</translation>
+    </message>
+    <message>
+        <source>dwelling</source>
+        <translation>درنگ</translation>
+    </message>
+    <message>
+        <source>waiting for the spindle</source>
+        <translation>چشم به راه اسپیندل</translation>
+    </message>
+    <message>
+        <source>paused by the job</source>
+        <translation>کار مکث کرده است</translation>
+    </message>
+    <message>
+        <source>the job pauses here: resume to go on</source>
+        <translation>کار اینجا مکث می‌کند: برای پی گرفتن ادامه دهید</translation>
+    </message>
+    <message>
+        <source>M18/M84 in a job: the motors go on holding</source>
+        <translation>M18/M84 در کار: موتورها همچنان نگه می‌دارند</translation>
+    </message>
+    <message>
+        <source>waiting for the hotend at %1</source>
+        <translation>چشم به راه نازل در %1</translation>
+    </message>
+    <message>
+        <source>waiting for the bed at %1</source>
+        <translation>چشم به راه بستر در %1</translation>
+    </message>
+    <message>
+        <source>node %1, object %2: no answer</source>
+        <translation>گره %1، شیء %2: پاسخی نیست</translation>
+    </message>
+    <message>
+        <source>node %1, object %2: %3</source>
+        <translation>گره %1، شیء %2: %3</translation>
+    </message>
+    <message>
+        <source>bring up</source>
+        <translation>راه‌اندازی</translation>
+    </message>
+    <message>
+        <source>home</source>
+        <translation>خانه‌یابی</translation>
+    </message>
+    <message>
+        <source>go to the bed reference</source>
+        <translation>رفتن به مرجع بستر</translation>
+    </message>
+    <message>
+        <source>jog</source>
+        <translation>حرکت دستی</translation>
+    </message>
+    <message>
+        <source>run a job</source>
+        <translation>اجرای کار</translation>
+    </message>
+    <message>
+        <source>hold</source>
+        <translation>مکث</translation>
+    </message>
+    <message>
+        <source>resume</source>
+        <translation>ادامه</translation>
+    </message>
+    <message>
+        <source>cancel</source>
+        <translation>لغو</translation>
+    </message>
+    <message>
+        <source>stop</source>
+        <translation>ایست</translation>
+    </message>
+    <message>
+        <source>set the feed override</source>
+        <translation>تنظیم ضریب سرعت</translation>
+    </message>
+    <message>
+        <source>switch the motors off</source>
+        <translation>خاموش کردن موتورها</translation>
+    </message>
+    <message>
+        <source>set a temperature</source>
+        <translation>تنظیم دما</translation>
+    </message>
+    <message>
+        <source>off</source>
+        <translation>خاموش</translation>
+    </message>
+    <message>
+        <source>bring-up</source>
+        <translation>راه‌اندازی</translation>
+    </message>
+    <message>
+        <source>not homed</source>
+        <translation>خانه‌یابی نشده</translation>
+    </message>
+    <message>
+        <source>homing</source>
+        <translation>در حال خانه‌یابی</translation>
+    </message>
+    <message>
+        <source>ready</source>
+        <translation>آماده</translation>
+    </message>
+    <message>
+        <source>checking the job</source>
+        <translation>بررسی کار</translation>
+    </message>
+    <message>
+        <source>running</source>
+        <translation>در حال کار</translation>
+    </message>
+    <message>
+        <source>holding</source>
+        <translation>در حال مکث</translation>
+    </message>
+    <message>
+        <source>held</source>
+        <translation>مکث</translation>
+    </message>
+    <message>
+        <source>cancelling</source>
+        <translation>در حال لغو</translation>
+    </message>
+    <message>
+        <source>stopping</source>
+        <translation>در حال ایست</translation>
+    </message>
+    <message>
+        <source>stopped</source>
+        <translation>متوقف</translation>
+    </message>
+    <message>
+        <source>alarm</source>
+        <translation>هشدار</translation>
+    </message>
+    <message>
+        <source>a temperature needs S</source>
+        <translation>دما به S نیاز دارد</translation>
+    </message>
+    <message>
+        <source>stop by the session</source>
+        <translation>ایست از نشست</translation>
+    </message>
+    <message>
+        <source>not a command of a session: %1; send motion as a job</source>
+        <translation>فرمان نشست نیست: %1؛ حرکت را در یک کار بفرستید</translation>
+    </message>
+    <message>
+        <source>line %1: the path leaves the machine&apos;s reach: %2</source>
+        <translation>خط %1: مسیر از دسترس ماشین بیرون می‌رود: %2</translation>
+    </message>
+    <message>
+        <source>line %1: the move&apos;s frame differs from the path&apos;s; the frame may only change by a position given at rest</source>
+        <translation>خط %1: دستگاه حرکت با مسیر فرق دارد؛ تنها با موقعیتی که در سکون داده شود عوض می‌شود</translation>
+    </message>
+    <message>
+        <source>line %1: a coordinate is not a number, or the feed is not greater than 0</source>
+        <translation>خط %1: یک مختصه عدد نیست یا پیشروی بزرگ‌تر از 0 نیست</translation>
+    </message>
+    <message>
+        <source>line %1: centre, normal, sweep and target do not make an arc</source>
+        <translation>خط %1: مرکز، بردار عمود، زاویه و هدف کمانی نمی‌سازند</translation>
+    </message>
+    <message>
+        <source>line %1: unknown error</source>
+        <translation>خط %1: خطای ناشناخته</translation>
+    </message>
+    <message>
+        <source>%1 has control of the machine</source>
+        <translation>کنترل ماشین در دست %1 است</translation>
+    </message>
+    <message>
+        <source>ask for it to be handed over, or take control by force</source>
+        <translation>بخواهید واگذار شود، یا کنترل را به زور بگیرید</translation>
     </message>
     <message>
         <source>%1 has control</source>
@@ -1552,84 +2236,1323 @@
         <translation>کنترل در دست کسی نیست</translation>
     </message>
     <message>
-        <source>the job %1 was interrupted: resume to go on with it, or cancel</source>
-        <translation>کار %1 نیمه‌کاره ماند: ادامه دهید یا لغو کنید</translation>
+        <source>the gateway and the client speak different versions of the job link</source>
+        <translation>درگاه و برنامه دو نسخهٔ جدا از پیوند کار را به کار می‌برند</translation>
     </message>
     <message>
-        <source>the job %1 goes on</source>
-        <translation>کار %1 ادامه یافت</translation>
+        <source>version %1</source>
+        <translation>نسخهٔ %1</translation>
     </message>
     <message>
-        <source>cancelled: positions are known</source>
-        <translation>لغو شد: موقعیت‌ها معلوم‌اند</translation>
+        <source>the token is wrong</source>
+        <translation>رمز نادرست است</translation>
     </message>
     <message>
-        <source>cleared: bring the machine up again</source>
-        <translation>رفع شد: ماشین را دوباره بیدار کنید</translation>
+        <source>the token that is set on the gateway</source>
+        <translation>رمزی که روی درگاه تنظیم شده است</translation>
     </message>
     <message>
-        <source>cleared: resume brings the machine up again and goes on with the job</source>
-        <translation>رفع شد: ادامه، ماشین را بیدار می‌کند و کار را پی می‌گیرد</translation>
+        <source>say hello first</source>
+        <translation>نخست سلام (hello) بگویید</translation>
     </message>
     <message>
-        <source>%1 is %2 outside the workspace</source>
-        <translation>%1 به اندازهٔ %2 بیرون از فضای کاری است</translation>
+        <source>this gateway does not know the request</source>
+        <translation>این درگاه این درخواست را نمی‌شناسد</translation>
     </message>
     <message>
-        <source>%1: out of reach, the leg is %2 too short</source>
-        <translation>%1: دور از دسترس، پایه %2 کوتاه است</translation>
+        <source>this job is running</source>
+        <translation>این کار در حال اجراست</translation>
     </message>
     <message>
-        <source>%1: would be %2 beyond its travel</source>
-        <translation>%1: %2 فراتر از بازهٔ حرکتش می‌رود</translation>
+        <source>too many jobs are being checked: ask again later</source>
+        <translation>کارهای زیادی بررسی می‌شوند: بعدتر دوباره بخواهید</translation>
     </message>
     <message>
-        <source>%1: the leg leans %2 too far from its rail</source>
-        <translation>%1: پایه %2 بیش از اندازه از ریل کج می‌شود</translation>
+        <source>a machine file has at most 512 KiB</source>
+        <translation>پروندهٔ ماشین حداکثر 512 KiB است</translation>
     </message>
     <message>
-        <source>%1: leg, rail and platform come %2 too near to each other</source>
-        <translation>%1: پایه، ریل و سکو %2 بیش از اندازه به هم نزدیک می‌شوند</translation>
+        <source>the file was changed by somebody else: read it again</source>
+        <translation>دیگری پرونده را عوض کرده است: دوباره بخوانید</translation>
     </message>
     <message>
-        <source>too near to a singular pose: condition number %1</source>
-        <translation>بیش از اندازه نزدیک به حالت تکین: عدد شرطی %1</translation>
+        <source>control is handed over by the client that has it, to a client that is here</source>
+        <translation>کنترل را کسی واگذار می‌کند که آن را دارد، به کسی که اینجاست</translation>
     </message>
     <message>
-        <source>filament is fed before the job has set a hotend temperature (M104)</source>
-        <translation>پیش از تعیین دمای نازل (M104) فیلامنت رانده می‌شود</translation>
+        <source>a fan&apos;s ratio is 0 to 1</source>
+        <translation>نسبت فن از 0 تا 1 است</translation>
     </message>
     <message>
-        <source>filament is fed with the hotend at %1 °C; at least %2 °C is needed</source>
-        <translation>فیلامنت با نازل %1 °C رانده می‌شود؛ دست‌کم %2 °C لازم است</translation>
+        <source>a work coordinate system is 1 (G54) to 9 (G59.3)</source>
+        <translation>دستگاه مختصات کاری از 1 (G54) تا 9 (G59.3) است</translation>
     </message>
     <message>
-        <source>M112 stops the machine here</source>
-        <translation>M112 ماشین را اینجا می‌ایستاند</translation>
+        <source>a work offset needs numbers below 1000 m</source>
+        <translation>مبدأ کاری عددهای کمتر از 1000 m می‌خواهد</translation>
     </message>
     <message>
-        <source>settings are kept in the machine file: M500 to M503 do nothing in a job</source>
-        <translation>تنظیم‌ها در پروندهٔ ماشین هستند: M500 تا M503 در کار بی‌اثرند</translation>
+        <source>the gateway ended while the job ran</source>
+        <translation>درگاه هنگام اجرای کار پایان یافت</translation>
     </message>
     <message>
-        <source>this machine has no heater for the hotend</source>
-        <translation>این ماشین گرم‌کن نازل ندارد</translation>
+        <source>missing</source>
+        <translation>نیست</translation>
     </message>
     <message>
-        <source>this machine has no heater for the bed</source>
-        <translation>این ماشین گرم‌کن بستر ندارد</translation>
+        <source>found %1</source>
+        <translation>یافته شد: %1</translation>
     </message>
     <message>
-        <source>hotend temperature %1 °C; allowed are 0 to %2 °C</source>
-        <translation>دمای نازل %1 °C؛ مجاز 0 تا %2 °C</translation>
+        <source>line %1: %2</source>
+        <translation>خط %1: %2</translation>
     </message>
     <message>
-        <source>bed temperature %1 °C; allowed are 0 to %2 °C</source>
-        <translation>دمای بستر %1 °C؛ مجاز 0 تا %2 °C</translation>
+        <source>the path leaves the machine&apos;s reach</source>
+        <translation>مسیر از دسترس ماشین بیرون می‌رود</translation>
     </message>
     <message>
-        <source>a job cannot manage stored jobs: M20 to M32 belong to a session</source>
-        <translation>کار نمی‌تواند کارهای ذخیره‌شده را مدیریت کند: M20 تا M32 از آنِ نشست است</translation>
+        <source>a phase came when none was asked for</source>
+        <translation>مرحله‌ای بی‌درخواست رسید</translation>
+    </message>
+    <message>
+        <source>the run does not start where the axis stands (counts apart)</source>
+        <translation>حرکت از جای محور آغاز نمی‌شود (اختلاف شمارش)</translation>
+    </message>
+    <message>
+        <source>the run must begin and end at rest (counts/s)</source>
+        <translation>حرکت باید در سکون آغاز و پایان یابد (شمارش بر ثانیه)</translation>
+    </message>
+    <message>
+        <source>the node lost a record (waits for record)</source>
+        <translation>گره رکوردی را گم کرد (چشم به راه رکورد)</translation>
+    </message>
+    <message>
+        <source>the node&apos;s state differs from the gateway&apos;s</source>
+        <translation>وضعیت گره با درگاه یکی نیست</translation>
+    </message>
+    <message>
+        <source>the node ran out of records</source>
+        <translation>رکوردهای گره تمام شد</translation>
+    </message>
+    <message>
+        <source>the node expects a record that was never sent (record)</source>
+        <translation>گره رکوردی را می‌خواهد که هرگز فرستاده نشد (رکورد)</translation>
+    </message>
+    <message>
+        <source>records were sent but not accepted (ms)</source>
+        <translation>رکوردها فرستاده شدند اما پذیرفته نشدند (ms)</translation>
+    </message>
+    <message>
+        <source>unknown</source>
+        <translation>ناشناخته</translation>
+    </message>
+    <message>
+        <source>%1, node %2</source>
+        <translation>%1، گره %2</translation>
+    </message>
+    <message>
+        <source>%1 axis %2</source>
+        <translation>%1 محور %2</translation>
+    </message>
+    <message>
+        <source>%1, line %2</source>
+        <translation>%1، خط %2</translation>
+    </message>
+    <message>
+        <source>give one of them another id (LSS) or take it off the bus, then clear and bring up again</source>
+        <translation>به یکی شناسهٔ دیگری بدهید (LSS) یا آن را از گذرگاه جدا کنید، سپس رفع کنید و دوباره راه‌اندازی کنید</translation>
+    </message>
+    <message>
+        <source>two nodes use the id %1: those with the serial numbers %2 and %3</source>
+        <translation>دو گره شناسهٔ %1 را به کار می‌برند: با شماره‌های سریال %2 و %3</translation>
+    </message>
+</context>
+<context>
+    <name>GatewayWords</name>
+    <message>
+        <source>expected %1</source>
+        <translation>مورد انتظار: %1</translation>
+    </message>
+</context>
+<context>
+    <name>StateWords</name>
+    <message>
+        <source>Motors off</source>
+        <translation>موتورها خاموش</translation>
+    </message>
+    <message>
+        <source>Waking the nodes</source>
+        <translation>بیدار کردن گره‌ها</translation>
+    </message>
+    <message>
+        <source>Not homed</source>
+        <translation>خانه‌یابی نشده</translation>
+    </message>
+    <message>
+        <source>Homing</source>
+        <translation>خانه‌یابی</translation>
+    </message>
+    <message>
+        <source>Ready</source>
+        <translation>آماده</translation>
+    </message>
+    <message>
+        <source>Moving</source>
+        <translation>در حرکت</translation>
+    </message>
+    <message>
+        <source>Checking the job</source>
+        <translation>بررسی کار</translation>
+    </message>
+    <message>
+        <source>Printing</source>
+        <translation>در حال چاپ</translation>
+    </message>
+    <message>
+        <source>Pausing</source>
+        <translation>در حال مکث</translation>
+    </message>
+    <message>
+        <source>Paused</source>
+        <translation>مکث</translation>
+    </message>
+    <message>
+        <source>Cancelling</source>
+        <translation>در حال لغو</translation>
+    </message>
+    <message>
+        <source>Stopping</source>
+        <translation>در حال توقف</translation>
+    </message>
+    <message>
+        <source>Stopped</source>
+        <translation>متوقف</translation>
+    </message>
+    <message>
+        <source>Alarm</source>
+        <translation>هشدار</translation>
+    </message>
+    <message>
+        <source>Unknown</source>
+        <translation>نامعلوم</translation>
+    </message>
+    <message>
+        <source>Home the machine to wake the motors and find the carriages.</source>
+        <translation>برای بیدار کردن موتورها و یافتن حامل‌ها، ماشین را خانه‌یابی کنید.</translation>
+    </message>
+    <message>
+        <source>Home the machine: positions are not known yet.</source>
+        <translation>ماشین را خانه‌یابی کنید: موقعیت‌ها هنوز معلوم نیستند.</translation>
+    </message>
+    <message>
+        <source>Choose a job and start it, or jog the tool.</source>
+        <translation>کاری را برگزینید و آغاز کنید، یا ابزار را دستی حرکت دهید.</translation>
+    </message>
+    <message>
+        <source>All carriages rest on the path. Resume or cancel.</source>
+        <translation>همهٔ حامل‌ها روی مسیر ایستاده‌اند. ادامه دهید یا لغو کنید.</translation>
+    </message>
+    <message>
+        <source>Make sure that the machine is safe, then clear the stop.</source>
+        <translation>از امن بودن ماشین مطمئن شوید، سپس توقف را رفع کنید.</translation>
+    </message>
+    <message>
+        <source>Read the alarm, remove its cause, then clear it.</source>
+        <translation>هشدار را بخوانید، علت را برطرف کنید، سپس پاکش کنید.</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::AlarmsPage</name>
+    <message>
+        <source>Clear</source>
+        <translation>پاک کردن</translation>
+    </message>
+    <message>
+        <source>No alarm is open.</source>
+        <translation>هیچ هشدار بازی نیست.</translation>
+    </message>
+    <message>
+        <source>What has happened, newest first</source>
+        <translation>رویدادها، تازه‌ترین در آغاز</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::AxesModel</name>
+    <message>
+        <source>Axis</source>
+        <translation>محور</translation>
+    </message>
+    <message>
+        <source>Position</source>
+        <translation>موقعیت</translation>
+    </message>
+    <message>
+        <source>Measured</source>
+        <translation>اندازه‌گیری</translation>
+    </message>
+    <message>
+        <source>Error</source>
+        <translation>خطا</translation>
+    </message>
+    <message>
+        <source>%1 µm</source>
+        <translation>%1 µm</translation>
+    </message>
+    <message>
+        <source>Travel</source>
+        <translation>کورس</translation>
+    </message>
+    <message>
+        <source>Current</source>
+        <translation>جریان</translation>
+    </message>
+    <message>
+        <source>Drive</source>
+        <translation>درایو</translation>
+    </message>
+    <message>
+        <source>Switch</source>
+        <translation>کلید</translation>
+    </message>
+    <message>
+        <source>Node</source>
+        <translation>گره</translation>
+    </message>
+    <message>
+        <source>%1 mm</source>
+        <translation>%1 mm</translation>
+    </message>
+    <message>
+        <source>%1 A</source>
+        <translation>%1 A</translation>
+    </message>
+    <message>
+        <source>Fault</source>
+        <translation>خطا</translation>
+    </message>
+    <message>
+        <source>On</source>
+        <translation>روشن</translation>
+    </message>
+    <message>
+        <source>Off</source>
+        <translation>خاموش</translation>
+    </message>
+    <message>
+        <source>Hit</source>
+        <translation>فعال</translation>
+    </message>
+    <message>
+        <source>Free</source>
+        <translation>آزاد</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::ConnectPage</name>
+    <message>
+        <source>Connect to a machine</source>
+        <translation>به یک ماشین وصل شوید</translation>
+    </message>
+    <message>
+        <source>A gateway appears here as soon as its USB cable is plugged in or its daemon runs on this computer.</source>
+        <translation>همین که کابل USB درگاه وصل شود یا سرویس آن روی این رایانه اجرا شود، درگاه اینجا دیده می‌شود.</translation>
+    </message>
+    <message>
+        <source>Gateways</source>
+        <translation>درگاه‌ها</translation>
+    </message>
+    <message>
+        <source>None found yet.</source>
+        <translation>هنوز چیزی پیدا نشده است.</translation>
+    </message>
+    <message>
+        <source>Demo machine</source>
+        <translation>ماشین نمایشی</translation>
+    </message>
+    <message>
+        <source>The whole machine, simulated on this computer: upload, home and print without hardware.</source>
+        <translation>کل ماشین، شبیه‌سازی‌شده روی این رایانه: بدون سخت‌افزار بفرستید، خانه‌یابی و چاپ کنید.</translation>
+    </message>
+    <message>
+        <source>Try the demo</source>
+        <translation>اجرای نمایشی</translation>
+    </message>
+    <message>
+        <source>Disconnect</source>
+        <translation>قطع اتصال</translation>
+    </message>
+    <message>
+        <source>The demo machine does not run: %1</source>
+        <translation>ماشین نمایشی اجرا نمی‌شود: %1</translation>
+    </message>
+    <message>
+        <source>Connect</source>
+        <translation>اتصال</translation>
+    </message>
+    <message>
+        <source>Connect to %1</source>
+        <translation>اتصال به %1</translation>
+    </message>
+    <message>
+        <source>Connecting to %1…</source>
+        <translation>در حال اتصال به %1…</translation>
+    </message>
+    <message>
+        <source>%1 does not answer: %2</source>
+        <translation>%1 پاسخ نمی‌دهد: %2</translation>
+    </message>
+    <message>
+        <source>Connected to %1.</source>
+        <translation>به %1 وصل است.</translation>
+    </message>
+    <message>
+        <source>The connection is lost: %1. It comes back by itself; a job on the machine goes on.</source>
+        <translation>اتصال قطع شد: %1. خودش برمی‌گردد و کار روی ماشین ادامه دارد.</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::ConsolePage</name>
+    <message>
+        <source>Send</source>
+        <translation>فرستادن</translation>
+    </message>
+    <message>
+        <source>Answers of the gateway</source>
+        <translation>پاسخ‌های درگاه</translation>
+    </message>
+    <message>
+        <source>Lines you send and the gateway&apos;s answers appear here.</source>
+        <translation>خط‌هایی که می‌فرستید و پاسخ‌های درگاه اینجا دیده می‌شوند.</translation>
+    </message>
+    <message>
+        <source>G-code or M-code, for example M114</source>
+        <translation>G-code یا M-code، برای نمونه M114</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::DemoGateway</name>
+    <message>
+        <source>the demo machine has ended</source>
+        <translation>ماشین نمایشی پایان یافت</translation>
+    </message>
+    <message>
+        <source>the program kinebusd was not found: install the package kinebus-daemon</source>
+        <translation>برنامهٔ kinebusd پیدا نشد: بستهٔ kinebus-daemon را نصب کنید</translation>
+    </message>
+    <message>
+        <source>the demo machine does not answer</source>
+        <translation>ماشین نمایشی پاسخ نمی‌دهد</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::EventsModel</name>
+    <message>
+        <source>Done</source>
+        <translation>انجام شد</translation>
+    </message>
+    <message>
+        <source>The check of the job found a problem</source>
+        <translation>بررسی کار اشکالی یافت</translation>
+    </message>
+    <message>
+        <source>Message</source>
+        <translation>پیام</translation>
+    </message>
+    <message>
+        <source>node %1</source>
+        <translation>گره %1</translation>
+    </message>
+    <message>
+        <source>line %1</source>
+        <translation>خط %1</translation>
+    </message>
+    <message>
+        <source>Control of the machine</source>
+        <translation>کنترل ماشین</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::GatewayFinder</name>
+    <message>
+        <source>USB %1 · serial number %2</source>
+        <translation>USB %1 · شمارهٔ سریال %2</translation>
+    </message>
+    <message>
+        <source>Gateway on this computer</source>
+        <translation>درگاه روی این رایانه</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::JobPanel</name>
+    <message>
+        <source>Interrupted: resume goes on from its place.</source>
+        <translation>نیمه‌کاره: ادامه، از همان جا پی می‌گیرد.</translation>
+    </message>
+    <message>
+        <source>Progress</source>
+        <translation>پیشرفت</translation>
+    </message>
+    <message>
+        <source>Elapsed</source>
+        <translation>گذشته</translation>
+    </message>
+    <message>
+        <source>Remaining</source>
+        <translation>مانده</translation>
+    </message>
+    <message>
+        <source>Line</source>
+        <translation>خط</translation>
+    </message>
+    <message>
+        <source>Cancel the job</source>
+        <translation>لغو کار</translation>
+    </message>
+    <message>
+        <source>Cancel the job? What is printed stays on the bed.</source>
+        <translation>کار لغو شود؟ آنچه چاپ شده روی بستر می‌ماند.</translation>
+    </message>
+    <message>
+        <source>Go on</source>
+        <translation>ادامه</translation>
+    </message>
+    <message>
+        <source>Speed</source>
+        <translation>سرعت</translation>
+    </message>
+    <message>
+        <source>Feed override in percent</source>
+        <translation>ضریب سرعت به درصد</translation>
+    </message>
+    <message>
+        <source>Pause</source>
+        <translation>مکث</translation>
+    </message>
+    <message>
+        <source>Resume</source>
+        <translation>ادامه</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>لغو</translation>
+    </message>
+    <message>
+        <source>No job is running</source>
+        <translation>کاری در حال اجرا نیست</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::JobUpload</name>
+    <message>
+        <source>%1 cannot be read</source>
+        <translation>%1 خوانده نمی‌شود</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::JobsModel</name>
+    <message>
+        <source>Job</source>
+        <translation>کار</translation>
+    </message>
+    <message>
+        <source>Size</source>
+        <translation>اندازه</translation>
+    </message>
+    <message>
+        <source>Uploaded</source>
+        <translation>زمان ارسال</translation>
+    </message>
+    <message>
+        <source>Check</source>
+        <translation>بررسی</translation>
+    </message>
+    <message>
+        <source>Time</source>
+        <translation>زمان</translation>
+    </message>
+    <message>
+        <source>Last run</source>
+        <translation>آخرین اجرا</translation>
+    </message>
+    <message>
+        <source>Reading</source>
+        <translation>در حال خواندن</translation>
+    </message>
+    <message>
+        <source>Waiting for the gateway</source>
+        <translation>در انتظار درگاه</translation>
+    </message>
+    <message>
+        <source>Failed</source>
+        <translation>ناموفق</translation>
+    </message>
+    <message>
+        <source>Not checked</source>
+        <translation>بررسی نشده</translation>
+    </message>
+    <message numerus="yes">
+        <source>%Ln error(s)</source>
+        <translation>
+            <numerusform>%Ln خطا</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%Ln warning(s)</source>
+        <translation>
+            <numerusform>%Ln اخطار</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Fine</source>
+        <translation>بی‌اشکال</translation>
+    </message>
+    <message>
+        <source>Never</source>
+        <translation>هرگز</translation>
+    </message>
+    <message>
+        <source>Running</source>
+        <translation>در حال اجرا</translation>
+    </message>
+    <message>
+        <source>Complete, %1</source>
+        <translation>کامل، %1</translation>
+    </message>
+    <message>
+        <source>Cancelled</source>
+        <translation>لغو شد</translation>
+    </message>
+    <message>
+        <source>Refused by the check</source>
+        <translation>در بررسی رد شد</translation>
+    </message>
+    <message>
+        <source>Stopped by an alarm</source>
+        <translation>با هشدار ایستاد</translation>
+    </message>
+    <message>
+        <source>Interrupted</source>
+        <translation>نیمه‌کاره</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::JobsPage</name>
+    <message>
+        <source>Drop G-code files here to send them to the gateway</source>
+        <translation>پرونده‌های G-code را برای فرستادن به درگاه اینجا رها کنید</translation>
+    </message>
+    <message>
+        <source>Choose a file…</source>
+        <translation>انتخاب پرونده…</translation>
+    </message>
+    <message>
+        <source>Start</source>
+        <translation>آغاز</translation>
+    </message>
+    <message>
+        <source>Check</source>
+        <translation>بررسی</translation>
+    </message>
+    <message>
+        <source>Show</source>
+        <translation>نمایش</translation>
+    </message>
+    <message>
+        <source>Delete</source>
+        <translation>حذف</translation>
+    </message>
+    <message>
+        <source>Jobs on the gateway</source>
+        <translation>کارهای روی درگاه</translation>
+    </message>
+    <message>
+        <source>What the check has found</source>
+        <translation>یافته‌های بررسی</translation>
+    </message>
+    <message>
+        <source>Lines of the job</source>
+        <translation>خط‌های کار</translation>
+    </message>
+    <message>
+        <source>Choose a finding: its line is shown here, its place in the scene.</source>
+        <translation>یک یافته را برگزینید: خطش اینجا و جایش در صحنه نشان داده می‌شود.</translation>
+    </message>
+    <message>
+        <source>Checking %1…</source>
+        <translation>در حال بررسی %1…</translation>
+    </message>
+    <message numerus="yes">
+        <source>%1: %Ln error(s). It will not start.</source>
+        <translation>
+            <numerusform>%1: %Ln خطا. آغاز نخواهد شد.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%1: it can be printed, with %Ln warning(s). It takes %2.</source>
+        <translation>
+            <numerusform>%1: با %Ln اخطار چاپ‌شدنی است. زمان: %2.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>%1: nothing is wrong. It takes %2.</source>
+        <translation>%1: اشکالی ندارد. زمان: %2.</translation>
+    </message>
+    <message>
+        <source>The gateway checks a whole job against every limit before anything moves.</source>
+        <translation>درگاه پیش از هر حرکت، کل کار را با همهٔ محدوده‌ها می‌سنجد.</translation>
+    </message>
+    <message>
+        <source>%1 of %2 used</source>
+        <translation>%1 از %2 پر است</translation>
+    </message>
+    <message>
+        <source>Send G-code to the gateway</source>
+        <translation>فرستادن G-code به درگاه</translation>
+    </message>
+    <message>
+        <source>G-code (*.gcode *.ngc *.nc *.g *.gco)</source>
+        <translation>G-code (*.gcode *.ngc *.nc *.g *.gco)</translation>
+    </message>
+    <message>
+        <source>All files (*)</source>
+        <translation>همهٔ پرونده‌ها (*)</translation>
+    </message>
+    <message>
+        <source>Delete %1 from the gateway?</source>
+        <translation>%1 از درگاه حذف شود؟</translation>
+    </message>
+    <message>
+        <source>Keep</source>
+        <translation>نگه داشتن</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::JogPage</name>
+    <message>
+        <source>Jog</source>
+        <translation>حرکت دستی</translation>
+    </message>
+    <message>
+        <source>Keys: arrows move X and Y, Page Up and Page Down move Z, A and D tilt, Q and W turn the table, 1 to 5 choose the step.</source>
+        <translation>کلیدها: پیکان‌ها X و Y را، Page Up و Page Down محور Z را حرکت می‌دهند؛ A و D کج می‌کنند، Q و W میز را می‌چرخانند و 1 تا 5 گام را برمی‌گزینند.</translation>
+    </message>
+    <message>
+        <source>Step, mm or °</source>
+        <translation>گام، mm یا °</translation>
+    </message>
+    <message>
+        <source>Speed</source>
+        <translation>سرعت</translation>
+    </message>
+    <message>
+        <source>mm/s</source>
+        <translation>mm/s</translation>
+    </message>
+    <message>
+        <source>Machine</source>
+        <translation>ماشین</translation>
+    </message>
+    <message>
+        <source>Home</source>
+        <translation>خانه‌یابی</translation>
+    </message>
+    <message>
+        <source>Wakes the nodes and brings all carriages to their switches</source>
+        <translation>گره‌ها را بیدار می‌کند و همهٔ حامل‌ها را به کلیدهایشان می‌رساند</translation>
+    </message>
+    <message>
+        <source>Bed reference</source>
+        <translation>مرجع بستر</translation>
+    </message>
+    <message>
+        <source>Goes to where every job begins</source>
+        <translation>به جایی می‌رود که هر کار از آن آغاز می‌شود</translation>
+    </message>
+    <message>
+        <source>Pause</source>
+        <translation>مکث</translation>
+    </message>
+    <message>
+        <source>Clear stop</source>
+        <translation>رفع توقف</translation>
+    </message>
+    <message>
+        <source>Motors off</source>
+        <translation>خاموش کردن موتورها</translation>
+    </message>
+    <message>
+        <source>Positions are lost: the machine must be homed again</source>
+        <translation>موقعیت‌ها از دست می‌روند: ماشین باید دوباره خانه‌یابی شود</translation>
+    </message>
+    <message>
+        <source>Work offsets</source>
+        <translation>مبدأهای کاری</translation>
+    </message>
+    <message>
+        <source>Coordinate system</source>
+        <translation>دستگاه مختصات</translation>
+    </message>
+    <message>
+        <source>Zero here</source>
+        <translation>اینجا صفر</translation>
+    </message>
+    <message>
+        <source>The tool&apos;s position becomes the zero of this system</source>
+        <translation>موقعیت ابزار صفر این دستگاه می‌شود</translation>
+    </message>
+    <message>
+        <source>Set</source>
+        <translation>تنظیم</translation>
+    </message>
+    <message>
+        <source>The values above become the zero of this system</source>
+        <translation>مقدارهای بالا صفر این دستگاه می‌شوند</translation>
+    </message>
+    <message>
+        <source>Active: %1, zero at %2</source>
+        <translation>فعال: %1، صفر در %2</translation>
+    </message>
+    <message>
+        <source>Zeros of the work coordinates</source>
+        <translation>صفرهای مختصات کاری</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::MachineFileEditor</name>
+    <message>
+        <source>Read again</source>
+        <translation>خواندن دوباره</translation>
+    </message>
+    <message>
+        <source>Undo</source>
+        <translation>واگرد</translation>
+    </message>
+    <message>
+        <source>Save on the gateway</source>
+        <translation>ذخیره روی درگاه</translation>
+    </message>
+    <message>
+        <source>Machine file</source>
+        <translation>پروندهٔ ماشین</translation>
+    </message>
+    <message>
+        <source>What is wrong in the machine file</source>
+        <translation>اشکال‌های پروندهٔ ماشین</translation>
+    </message>
+    <message>
+        <source>Saved. The gateway uses it from its next start.</source>
+        <translation>ذخیره شد. درگاه از راه‌اندازی بعدی آن را به کار می‌برد.</translation>
+    </message>
+    <message>
+        <source>The built-in machine file</source>
+        <translation>پروندهٔ ماشین درون‌ساخت</translation>
+    </message>
+    <message>
+        <source>Not read yet</source>
+        <translation>هنوز خوانده نشده</translation>
+    </message>
+    <message>
+        <source>cannot be changed from here</source>
+        <translation>از اینجا تغییرپذیر نیست</translation>
+    </message>
+    <message>
+        <source>newer than what the gateway runs with</source>
+        <translation>تازه‌تر از آنچه درگاه به کار می‌برد</translation>
+    </message>
+    <message>
+        <source>The machine file says what the machine is: kinematics, axes, limits, nodes.</source>
+        <translation>پروندهٔ ماشین می‌گوید ماشین چیست: سینماتیک، محورها، محدوده‌ها، گره‌ها.</translation>
+    </message>
+    <message>
+        <source>Checking…</source>
+        <translation>در حال بررسی…</translation>
+    </message>
+    <message>
+        <source>The file is right.</source>
+        <translation>پرونده درست است.</translation>
+    </message>
+    <message numerus="yes">
+        <source>%Ln mistake(s): it cannot be saved.</source>
+        <translation>
+            <numerusform>%Ln اشتباه: ذخیره نمی‌شود.</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::MachinePage</name>
+    <message>
+        <source>Axes and nodes</source>
+        <translation>محورها و گره‌ها</translation>
+    </message>
+    <message>
+        <source>Bus and time</source>
+        <translation>گذرگاه و زمان</translation>
+    </message>
+    <message>
+        <source>Machine file</source>
+        <translation>پروندهٔ ماشین</translation>
+    </message>
+    <message>
+        <source>Axes</source>
+        <translation>محورها</translation>
+    </message>
+    <message>
+        <source>Nodes</source>
+        <translation>گره‌ها</translation>
+    </message>
+    <message>
+        <source>Bus load</source>
+        <translation>بار گذرگاه</translation>
+    </message>
+    <message>
+        <source>%1 µs</source>
+        <translation>%1 µs</translation>
+    </message>
+    <message>
+        <source>Largest clock error</source>
+        <translation>بیشترین خطای ساعت</translation>
+    </message>
+    <message>
+        <source>Emptiest queue</source>
+        <translation>خالی‌ترین صف</translation>
+    </message>
+    <message>
+        <source>Path rate</source>
+        <translation>نرخ مسیر</translation>
+    </message>
+    <message>
+        <source>Nozzle temperature</source>
+        <translation>دمای نازل</translation>
+    </message>
+    <message>
+        <source>Bed temperature</source>
+        <translation>دمای بستر</translation>
+    </message>
+    <message>
+        <source>Frames sent</source>
+        <translation>قاب‌های فرستاده</translation>
+    </message>
+    <message>
+        <source>Frames received</source>
+        <translation>قاب‌های دریافتی</translation>
+    </message>
+    <message>
+        <source>Segments sent</source>
+        <translation>قطعه‌های فرستاده</translation>
+    </message>
+    <message>
+        <source>Sequence errors</source>
+        <translation>خطاهای ترتیب</translation>
+    </message>
+    <message>
+        <source>Underruns</source>
+        <translation>خالی شدن صف</translation>
+    </message>
+    <message>
+        <source>Unreadable frames</source>
+        <translation>قاب‌های ناخوانا</translation>
+    </message>
+    <message>
+        <source>Frames of strangers</source>
+        <translation>قاب‌های بیگانه</translation>
+    </message>
+    <message>
+        <source>Slowed for the bus</source>
+        <translation>کندشده برای گذرگاه</translation>
+    </message>
+    <message>
+        <source>Held for planning</source>
+        <translation>نگه‌داشته برای برنامه‌ریزی</translation>
+    </message>
+    <message>
+        <source>Not connected.</source>
+        <translation>وصل نیست.</translation>
+    </message>
+    <message>
+        <source>%1 · kinematics %2 · %3 axes on %4 nodes · bus %5</source>
+        <translation>%1 · سینماتیک %2 · %3 محور روی %4 گره · گذرگاه %5</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::MainWindow</name>
+    <message>
+        <source>Gateways</source>
+        <translation>درگاه‌ها</translation>
+    </message>
+    <message>
+        <source>View</source>
+        <translation>نما</translation>
+    </message>
+    <message>
+        <source>Jobs</source>
+        <translation>کارها</translation>
+    </message>
+    <message>
+        <source>Jog</source>
+        <translation>حرکت دستی</translation>
+    </message>
+    <message>
+        <source>Console</source>
+        <translation>پایانه</translation>
+    </message>
+    <message>
+        <source>Alarms</source>
+        <translation>هشدارها</translation>
+    </message>
+    <message>
+        <source>Machine</source>
+        <translation>ماشین</translation>
+    </message>
+    <message>
+        <source>Position</source>
+        <translation>موقعیت</translation>
+    </message>
+    <message>
+        <source>Job</source>
+        <translation>کار</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::NodesModel</name>
+    <message>
+        <source>Node</source>
+        <translation>گره</translation>
+    </message>
+    <message>
+        <source>State</source>
+        <translation>وضعیت</translation>
+    </message>
+    <message>
+        <source>Clock error</source>
+        <translation>خطای ساعت</translation>
+    </message>
+    <message>
+        <source>Queue</source>
+        <translation>صف</translation>
+    </message>
+    <message>
+        <source>Inputs</source>
+        <translation>ورودی‌ها</translation>
+    </message>
+    <message>
+        <source>Segments sent</source>
+        <translation>قطعه‌های فرستاده</translation>
+    </message>
+    <message>
+        <source>Faults</source>
+        <translation>خطاها</translation>
+    </message>
+    <message>
+        <source>Not there</source>
+        <translation>حاضر نیست</translation>
+    </message>
+    <message>
+        <source>Stopped</source>
+        <translation>متوقف</translation>
+    </message>
+    <message>
+        <source>Starting</source>
+        <translation>در حال راه‌اندازی</translation>
+    </message>
+    <message>
+        <source>Idle</source>
+        <translation>بیکار</translation>
+    </message>
+    <message>
+        <source>Operational</source>
+        <translation>آمادهٔ کار</translation>
+    </message>
+    <message>
+        <source>Operational, not in time</source>
+        <translation>آمادهٔ کار، ناهم‌زمان</translation>
+    </message>
+    <message>
+        <source>Waiting</source>
+        <translation>در انتظار</translation>
+    </message>
+    <message>
+        <source>%1 µs</source>
+        <translation>%1 µs</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::PlotWidget</name>
+    <message>
+        <source>%1 s ago</source>
+        <translation>%1 ثانیه پیش</translation>
+    </message>
+    <message>
+        <source>now</source>
+        <translation>اکنون</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::PositionPanel</name>
+    <message>
+        <source>Carriages and axes</source>
+        <translation>حامل‌ها و محورها</translation>
+    </message>
+    <message>
+        <source>Heat</source>
+        <translation>گرما</translation>
+    </message>
+    <message>
+        <source>Target temperature of the nozzle</source>
+        <translation>دمای هدف نازل</translation>
+    </message>
+    <message>
+        <source>Target temperature of the bed</source>
+        <translation>دمای هدف بستر</translation>
+    </message>
+    <message>
+        <source>off</source>
+        <translation>خاموش</translation>
+    </message>
+    <message>
+        <source>Bed</source>
+        <translation>بستر</translation>
+    </message>
+    <message>
+        <source>Nozzle</source>
+        <translation>نازل</translation>
+    </message>
+    <message>
+        <source>Fan</source>
+        <translation>فن</translation>
+    </message>
+    <message>
+        <source>Tool over the part</source>
+        <translation>ابزار نسبت به قطعه</translation>
+    </message>
+    <message>
+        <source>Position not known yet</source>
+        <translation>موقعیت هنوز معلوم نیست</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::ProblemsModel</name>
+    <message>
+        <source>Error</source>
+        <translation>خطا</translation>
+    </message>
+    <message>
+        <source>Warning</source>
+        <translation>اخطار</translation>
+    </message>
+    <message>
+        <source>Kind</source>
+        <translation>نوع</translation>
+    </message>
+    <message>
+        <source>Line</source>
+        <translation>خط</translation>
+    </message>
+    <message>
+        <source>What is wrong</source>
+        <translation>اشکال</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::SocketLink</name>
+    <message>
+        <source>the gateway closed the connection</source>
+        <translation>درگاه اتصال را بست</translation>
+    </message>
+    <message>
+        <source>on this computer</source>
+        <translation>روی این رایانه</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::TopBar</name>
+    <message>
+        <source>STOP</source>
+        <translation>ایست</translation>
+    </message>
+    <message>
+        <source>Stops all motion at once, on the path (Ctrl+.)</source>
+        <translation>همهٔ حرکت‌ها را بی‌درنگ روی مسیر می‌ایستاند (Ctrl+.)</translation>
+    </message>
+    <message>
+        <source>Language</source>
+        <translation>زبان</translation>
+    </message>
+    <message>
+        <source>Light or dark</source>
+        <translation>روشن یا تیره</translation>
+    </message>
+    <message>
+        <source>Take control</source>
+        <translation>گرفتن کنترل</translation>
+    </message>
+    <message>
+        <source>%1 has control</source>
+        <translation>کنترل در دست %1 است</translation>
+    </message>
+    <message>
+        <source>Not connected</source>
+        <translation>وصل نیست</translation>
+    </message>
+    <message>
+        <source>Connecting</source>
+        <translation>در حال اتصال</translation>
+    </message>
+    <message>
+        <source>Connection lost</source>
+        <translation>اتصال قطع شد</translation>
+    </message>
+    <message>
+        <source>A job on the machine goes on.</source>
+        <translation>کار روی ماشین ادامه دارد.</translation>
+    </message>
+    <message>
+        <source>Connect</source>
+        <translation>اتصال</translation>
+    </message>
+    <message>
+        <source>%1 · %2</source>
+        <translation>%1 · %2</translation>
+    </message>
+    <message>
+        <source>Choose a gateway</source>
+        <translation>یک درگاه برگزینید</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::UsbLink</name>
+    <message>
+        <source>the USB cable was pulled</source>
+        <translation>کابل USB کشیده شد</translation>
+    </message>
+    <message>
+        <source>the gateway is not plugged in</source>
+        <translation>درگاه وصل نیست</translation>
+    </message>
+    <message>
+        <source>this user may not use the USB device: install the udev rule of the package</source>
+        <translation>این کاربر اجازهٔ دستگاه USB را ندارد: قاعدهٔ udev بسته را نصب کنید</translation>
+    </message>
+    <message>
+        <source>another program uses the gateway&apos;s USB link</source>
+        <translation>برنامهٔ دیگری پیوند USB درگاه را به کار می‌برد</translation>
+    </message>
+    <message>
+        <source>the USB link does not start</source>
+        <translation>پیوند USB آغاز نمی‌شود</translation>
+    </message>
+    <message>
+        <source>USB %1</source>
+        <translation>USB %1</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::ViewPage</name>
+    <message>
+        <source>The 3D scene cannot be shown: %1</source>
+        <translation>صحنهٔ سه‌بعدی نشان‌دادنی نیست: %1</translation>
+    </message>
+    <message>
+        <source>Scene: machine and tool path</source>
+        <translation>صحنه: ماشین و مسیر ابزار</translation>
+    </message>
+    <message>
+        <source>Show the layers up to here</source>
+        <translation>نمایش لایه‌ها تا اینجا</translation>
+    </message>
+    <message>
+        <source>Colour by</source>
+        <translation>رنگ بر پایهٔ</translation>
+    </message>
+    <message>
+        <source>Feed</source>
+        <translation>سرعت پیشروی</translation>
+    </message>
+    <message>
+        <source>Layer</source>
+        <translation>لایه</translation>
+    </message>
+    <message>
+        <source>Limit margin</source>
+        <translation>فاصله تا محدوده</translation>
+    </message>
+    <message>
+        <source>Colour of the tool path</source>
+        <translation>رنگ مسیر ابزار</translation>
+    </message>
+    <message>
+        <source>Machine</source>
+        <translation>ماشین</translation>
+    </message>
+    <message>
+        <source>Reach of the tool</source>
+        <translation>دسترس ابزار</translation>
+    </message>
+    <message>
+        <source>Moves without extrusion</source>
+        <translation>حرکت‌های بدون اکستروژن</translation>
+    </message>
+    <message>
+        <source>What is not printed yet</source>
+        <translation>آنچه هنوز چاپ نشده</translation>
+    </message>
+    <message>
+        <source>From a corner</source>
+        <translation>از گوشه</translation>
+    </message>
+    <message>
+        <source>From above</source>
+        <translation>از بالا</translation>
+    </message>
+    <message>
+        <source>From the front</source>
+        <translation>از روبه‌رو</translation>
+    </message>
+    <message>
+        <source>Whole machine (M)</source>
+        <translation>کل ماشین (M)</translation>
+    </message>
+    <message>
+        <source>The part alone (F)</source>
+        <translation>تنها قطعه (F)</translation>
+    </message>
+    <message>
+        <source>%1 mm/s</source>
+        <translation>%1 mm/s</translation>
+    </message>
+    <message>
+        <source>at a limit</source>
+        <translation>در مرز</translation>
+    </message>
+    <message>
+        <source>free</source>
+        <translation>آزاد</translation>
+    </message>
+    <message>
+        <source>%1 cannot be shown: %2</source>
+        <translation>%1 نشان‌دادنی نیست: %2</translation>
+    </message>
+    <message>
+        <source>Reading %1</source>
+        <translation>خواندن %1</translation>
+    </message>
+    <message>
+        <source>%1 · %2 lines · %3 layers · %4 m of path</source>
+        <translation>%1 · %2 خط · %3 لایه · %4 متر مسیر</translation>
+    </message>
+    <message numerus="yes">
+        <source>%Ln line(s) with expressions are not drawn</source>
+        <translation>
+            <numerusform>%Ln خط دارای عبارت رسم نشد</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>No job is shown. Choose one on the Jobs page.</source>
+        <translation>کاری نشان داده نمی‌شود. از صفحهٔ «کارها» یکی را برگزینید.</translation>
+    </message>
+    <message>
+        <source>%1 mm</source>
+        <translation>%1 mm</translation>
     </message>
 </context>
 </TS>

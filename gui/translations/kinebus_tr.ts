@@ -1,1587 +1,1111 @@
 <?xml version="1.0" encoding="utf-8"?>
 <!DOCTYPE TS>
 <TS version="2.1" language="tr" sourcelanguage="en">
-    <context>
-        <name>AlarmWords</name>
-        <message>
-            <source>A node does not answer</source>
-            <translation>Bir düğüm yanıt vermiyor</translation>
-        </message>
-        <message>
-            <source>The wrong node is connected</source>
-            <translation>Yanlış düğüm bağlı</translation>
-        </message>
-        <message>
-            <source>A node refuses its settings</source>
-            <translation>Bir düğüm ayarlarını kabul etmiyor</translation>
-        </message>
-        <message>
-            <source>A drive does not switch on</source>
-            <translation>Bir sürücü açılmıyor</translation>
-        </message>
-        <message>
-            <source>There is a second gateway on the bus</source>
-            <translation>Veri yolunda ikinci bir ağ geçidi var</translation>
-        </message>
-        <message>
-            <source>A node has gone silent</source>
-            <translation>Bir düğüm sustu</translation>
-        </message>
-        <message>
-            <source>A node has restarted</source>
-            <translation>Bir düğüm yeniden başladı</translation>
-        </message>
-        <message>
-            <source>The clocks have drifted apart</source>
-            <translation>Saatler birbirinden ayrıldı</translation>
-        </message>
-        <message>
-            <source>Homing has failed</source>
-            <translation>Eve dönüş başarısız oldu</translation>
-        </message>
-        <message>
-            <source>The carriages are too far apart</source>
-            <translation>Arabalar birbirinden çok uzak</translation>
-        </message>
-        <message>
-            <source>Homing took too long</source>
-            <translation>Eve dönüş çok uzun sürdü</translation>
-        </message>
-        <message>
-            <source>Motion was interrupted</source>
-            <translation>Hareket kesildi</translation>
-        </message>
-        <message>
-            <source>The nodes disagree about the path</source>
-            <translation>Düğümler yol üzerinde anlaşamıyor</translation>
-        </message>
-        <message>
-            <source>The bus has failed</source>
-            <translation>Veri yolu arızalandı</translation>
-        </message>
-        <message>
-            <source>A heater is not as it should be</source>
-            <translation>Bir ısıtıcı olması gerektiği gibi değil</translation>
-        </message>
-        <message>
-            <source>The job went wrong</source>
-            <translation>İş ters gitti</translation>
-        </message>
-        <message>
-            <source>Stopped by the operator</source>
-            <translation>Operatör tarafından durduruldu</translation>
-        </message>
-        <message>
-            <source>The machine did not come to rest</source>
-            <translation>Makine durmadı</translation>
-        </message>
-        <message>
-            <source>Two nodes use the same id</source>
-            <translation>İki düğüm aynı kimliği kullanıyor</translation>
-        </message>
-        <message>
-            <source>Too much current in a motor</source>
-            <translation>Bir motorda aşırı akım</translation>
-        </message>
-        <message>
-            <source>The supply voltage is wrong</source>
-            <translation>Besleme gerilimi hatalı</translation>
-        </message>
-        <message>
-            <source>A drive is too hot</source>
-            <translation>Bir sürücü çok sıcak</translation>
-        </message>
-        <message>
-            <source>Communication trouble on the bus</source>
-            <translation>Veri yolunda iletişim sorunu</translation>
-        </message>
-        <message>
-            <source>A carriage is not where it should be</source>
-            <translation>Bir araba olması gereken yerde değil</translation>
-        </message>
-        <message>
-            <source>Message</source>
-            <translation>İleti</translation>
-        </message>
-        <message>
-            <source>A node reports a fault</source>
-            <translation>Bir düğüm arıza bildiriyor</translation>
-        </message>
-        <message>
-            <source>Check the node's power and the bus cable, then home again.</source>
-            <translation>Düğümün beslemesini ve veri yolu kablosunu denetleyin, sonra yeniden eve gönderin.</translation>
-        </message>
-        <message>
-            <source>Connect the right node or update its firmware.</source>
-            <translation>Doğru düğümü bağlayın ya da yazılımını güncelleyin.</translation>
-        </message>
-        <message>
-            <source>Check the machine file against the node's limits.</source>
-            <translation>Makine dosyasını düğümün sınırlarıyla karşılaştırın.</translation>
-        </message>
-        <message>
-            <source>Look at the drive's fault, clear the alarm, then home again.</source>
-            <translation>Sürücünün arızasına bakın, alarmı temizleyin, sonra yeniden eve gönderin.</translation>
-        </message>
-        <message>
-            <source>Switch one of the gateways off.</source>
-            <translation>Ağ geçitlerinden birini kapatın.</translation>
-        </message>
-        <message>
-            <source>Check the node's power and the bus cable, then clear and home again.</source>
-            <translation>Düğümün beslemesini ve veri yolu kablosunu denetleyin, sonra temizleyip yeniden eve gönderin.</translation>
-        </message>
-        <message>
-            <source>Check the node's power, then clear and home again.</source>
-            <translation>Düğümün beslemesini denetleyin, sonra temizleyip yeniden eve gönderin.</translation>
-        </message>
-        <message>
-            <source>Check the bus for errors, then clear.</source>
-            <translation>Veri yolunda hata arayın, sonra temizleyin.</translation>
-        </message>
-        <message>
-            <source>Check the switch and its wiring, then clear and home again.</source>
-            <translation>Anahtarı ve kablosunu denetleyin, sonra temizleyip yeniden eve gönderin.</translation>
-        </message>
-        <message>
-            <source>Check the switches of the carriages that went on, then clear and home again.</source>
-            <translation>İlerleyen arabaların anahtarlarını denetleyin, sonra temizleyip yeniden eve gönderin.</translation>
-        </message>
-        <message>
-            <source>Check the switches and the homing speeds, then clear and home again.</source>
-            <translation>Anahtarları ve eve dönüş hızlarını denetleyin, sonra temizleyip yeniden eve gönderin.</translation>
-        </message>
-        <message>
-            <source>Clear: positions are known, the job can be run again.</source>
-            <translation>Temizleyin: konumlar biliniyor, iş yeniden çalıştırılabilir.</translation>
-        </message>
-        <message>
-            <source>Clear. If it comes again, check the bus for lost frames.</source>
-            <translation>Temizleyin. Yinelenirse veri yolunda kayıp çerçeve arayın.</translation>
-        </message>
-        <message>
-            <source>Check cable and termination of the bus, then clear and home again.</source>
-            <translation>Veri yolunun kablosunu ve sonlandırmasını denetleyin, sonra temizleyip yeniden eve gönderin.</translation>
-        </message>
-        <message>
-            <source>Check the heater and its sensor, then clear.</source>
-            <translation>Isıtıcıyı ve algılayıcısını denetleyin, sonra temizleyin.</translation>
-        </message>
-        <message>
-            <source>Correct the job, then clear.</source>
-            <translation>İşi düzeltin, sonra temizleyin.</translation>
-        </message>
-        <message>
-            <source>Clear when the machine is safe.</source>
-            <translation>Makine güvenli olduğunda temizleyin.</translation>
-        </message>
-        <message>
-            <source>Switch the machine off and on, then home again.</source>
-            <translation>Makineyi kapatıp açın, sonra yeniden eve gönderin.</translation>
-        </message>
-        <message>
-            <source>Give one of them another id or take it off the bus, then home again.</source>
-            <translation>Birine başka bir kimlik verin ya da onu veri yolundan çıkarın, sonra yeniden eve gönderin.</translation>
-        </message>
-    </context>
-    <context>
-        <name>ConsoleHints</name>
-        <message>
-            <source>traverse</source>
-            <translation>hızlı konumlama</translation>
-        </message>
-        <message>
-            <source>straight line at feed</source>
-            <translation>ilerlemeyle doğru çizgi</translation>
-        </message>
-        <message>
-            <source>arc, clockwise</source>
-            <translation>yay, saat yönünde</translation>
-        </message>
-        <message>
-            <source>arc, counter-clockwise</source>
-            <translation>yay, saat yönünün tersine</translation>
-        </message>
-        <message>
-            <source>home, or go to the bed reference</source>
-            <translation>eve dön ya da tabla referansına git</translation>
-        </message>
-        <message>
-            <source>first work coordinate system</source>
-            <translation>birinci iş koordinat sistemi</translation>
-        </message>
-        <message>
-            <source>second work coordinate system</source>
-            <translation>ikinci iş koordinat sistemi</translation>
-        </message>
-        <message>
-            <source>absolute positions</source>
-            <translation>mutlak konumlar</translation>
-        </message>
-        <message>
-            <source>relative positions</source>
-            <translation>göreli konumlar</translation>
-        </message>
-        <message>
-            <source>call this position so</source>
-            <translation>bu konumu böyle adlandır</translation>
-        </message>
-        <message>
-            <source>motors on</source>
-            <translation>motorlar açık</translation>
-        </message>
-        <message>
-            <source>motors off</source>
-            <translation>motorlar kapalı</translation>
-        </message>
-        <message>
-            <source>list the jobs</source>
-            <translation>işleri listele</translation>
-        </message>
-        <message>
-            <source>choose a job</source>
-            <translation>iş seç</translation>
-        </message>
-        <message>
-            <source>start or resume</source>
-            <translation>başlat ya da sürdür</translation>
-        </message>
-        <message>
-            <source>pause</source>
-            <translation>duraklat</translation>
-        </message>
-        <message>
-            <source>progress of the job</source>
-            <translation>işin ilerlemesi</translation>
-        </message>
-        <message>
-            <source>time of the job</source>
-            <translation>işin süresi</translation>
-        </message>
-        <message>
-            <source>extruder absolute</source>
-            <translation>ekstruder mutlak</translation>
-        </message>
-        <message>
-            <source>extruder relative</source>
-            <translation>ekstruder göreli</translation>
-        </message>
-        <message>
-            <source>heat the nozzle</source>
-            <translation>nozulu ısıt</translation>
-        </message>
-        <message>
-            <source>temperatures</source>
-            <translation>sıcaklıklar</translation>
-        </message>
-        <message>
-            <source>fan on</source>
-            <translation>fan açık</translation>
-        </message>
-        <message>
-            <source>fan off</source>
-            <translation>fan kapalı</translation>
-        </message>
-        <message>
-            <source>heat the nozzle and wait</source>
-            <translation>nozulu ısıt ve bekle</translation>
-        </message>
-        <message>
-            <source>emergency stop</source>
-            <translation>acil durdurma</translation>
-        </message>
-        <message>
-            <source>position</source>
-            <translation>konum</translation>
-        </message>
-        <message>
-            <source>name and capabilities</source>
-            <translation>ad ve yetenekler</translation>
-        </message>
-        <message>
-            <source>switches</source>
-            <translation>anahtarlar</translation>
-        </message>
-        <message>
-            <source>heat the bed</source>
-            <translation>tablayı ısıt</translation>
-        </message>
-    </context>
-    <context>
-        <name>Desk</name>
-        <message>
-            <source>Demo machine</source>
-            <translation>Deneme makinesi</translation>
-        </message>
-    </context>
-    <context>
-        <name>Format</name>
-        <message>
-            <source>%1 B</source>
-            <translation>%1 B</translation>
-        </message>
-        <message>
-            <source>%1 kB</source>
-            <translation>%1 kB</translation>
-        </message>
-        <message>
-            <source>%1 MB</source>
-            <translation>%1 MB</translation>
-        </message>
-        <message>
-            <source>%1 GB</source>
-            <translation>%1 GB</translation>
-        </message>
-        <message>
-            <source>%1/s</source>
-            <translation>%1/sn</translation>
-        </message>
-        <message>
-            <source>%1 °C</source>
-            <translation>%1 °C</translation>
-        </message>
-    </context>
-    <context>
-        <name>StateWords</name>
-        <message>
-            <source>Motors off</source>
-            <translation>Motorlar kapalı</translation>
-        </message>
-        <message>
-            <source>Waking the nodes</source>
-            <translation>Düğümler uyandırılıyor</translation>
-        </message>
-        <message>
-            <source>Not homed</source>
-            <translation>Ev konumu bilinmiyor</translation>
-        </message>
-        <message>
-            <source>Homing</source>
-            <translation>Eve dönüyor</translation>
-        </message>
-        <message>
-            <source>Ready</source>
-            <translation>Hazır</translation>
-        </message>
-        <message>
-            <source>Moving</source>
-            <translation>Hareket ediyor</translation>
-        </message>
-        <message>
-            <source>Checking the job</source>
-            <translation>İş denetleniyor</translation>
-        </message>
-        <message>
-            <source>Printing</source>
-            <translation>Basıyor</translation>
-        </message>
-        <message>
-            <source>Pausing</source>
-            <translation>Duraklıyor</translation>
-        </message>
-        <message>
-            <source>Paused</source>
-            <translation>Duraklatıldı</translation>
-        </message>
-        <message>
-            <source>Cancelling</source>
-            <translation>İptal ediliyor</translation>
-        </message>
-        <message>
-            <source>Stopping</source>
-            <translation>Duruyor</translation>
-        </message>
-        <message>
-            <source>Stopped</source>
-            <translation>Durdu</translation>
-        </message>
-        <message>
-            <source>Alarm</source>
-            <translation>Alarm</translation>
-        </message>
-        <message>
-            <source>Unknown</source>
-            <translation>Bilinmiyor</translation>
-        </message>
-        <message>
-            <source>Home the machine to wake the motors and find the carriages.</source>
-            <translation>Motorları uyandırmak ve arabaları bulmak için makineyi eve gönderin.</translation>
-        </message>
-        <message>
-            <source>Home the machine: positions are not known yet.</source>
-            <translation>Makineyi eve gönderin: konumlar henüz bilinmiyor.</translation>
-        </message>
-        <message>
-            <source>Choose a job and start it, or jog the tool.</source>
-            <translation>Bir iş seçip başlatın ya da takımı elle sürün.</translation>
-        </message>
-        <message>
-            <source>All carriages rest on the path. Resume or cancel.</source>
-            <translation>Bütün arabalar yol üzerinde duruyor. Sürdürün ya da iptal edin.</translation>
-        </message>
-        <message>
-            <source>Make sure that the machine is safe, then clear the stop.</source>
-            <translation>Makinenin güvenli olduğundan emin olun, sonra durdurmayı temizleyin.</translation>
-        </message>
-        <message>
-            <source>Read the alarm, remove its cause, then clear it.</source>
-            <translation>Alarmı okuyun, nedenini giderin, sonra temizleyin.</translation>
-        </message>
-    </context>
-    <context>
-        <name>kinebus::gui::AlarmsPage</name>
-        <message>
-            <source>Clear</source>
-            <translation>Temizle</translation>
-        </message>
-        <message>
-            <source>No alarm is open.</source>
-            <translation>Açık alarm yok.</translation>
-        </message>
-        <message>
-            <source>What has happened, newest first</source>
-            <translation>Olanlar, en yenisi önce</translation>
-        </message>
-    </context>
-    <context>
-        <name>kinebus::gui::AxesModel</name>
-        <message>
-            <source>Axis</source>
-            <translation>Eksen</translation>
-        </message>
-        <message>
-            <source>Position</source>
-            <translation>Konum</translation>
-        </message>
-        <message>
-            <source>Measured</source>
-            <translation>Ölçülen</translation>
-        </message>
-        <message>
-            <source>Error</source>
-            <translation>Hata</translation>
-        </message>
-        <message>
-            <source>%1 µm</source>
-            <translation>%1 µm</translation>
-        </message>
-        <message>
-            <source>Travel</source>
-            <translation>Strok</translation>
-        </message>
-        <message>
-            <source>Current</source>
-            <translation>Akım</translation>
-        </message>
-        <message>
-            <source>Drive</source>
-            <translation>Sürücü</translation>
-        </message>
-        <message>
-            <source>Switch</source>
-            <translation>Anahtar</translation>
-        </message>
-        <message>
-            <source>Node</source>
-            <translation>Düğüm</translation>
-        </message>
-        <message>
-            <source>%1 mm</source>
-            <translation>%1 mm</translation>
-        </message>
-        <message>
-            <source>%1 A</source>
-            <translation>%1 A</translation>
-        </message>
-        <message>
-            <source>Fault</source>
-            <translation>Arıza</translation>
-        </message>
-        <message>
-            <source>On</source>
-            <translation>Açık</translation>
-        </message>
-        <message>
-            <source>Off</source>
-            <translation>Kapalı</translation>
-        </message>
-        <message>
-            <source>Hit</source>
-            <translation>Basılı</translation>
-        </message>
-        <message>
-            <source>Free</source>
-            <translation>Serbest</translation>
-        </message>
-    </context>
-    <context>
-        <name>kinebus::gui::ConnectPage</name>
-        <message>
-            <source>Connect to a machine</source>
-            <translation>Bir makineye bağlanın</translation>
-        </message>
-        <message>
-            <source>A gateway appears here as soon as its USB cable is plugged in or its daemon runs on this computer.</source>
-            <translation>Bir ağ geçidi, USB kablosu takılır takılmaz ya da arka plan programı bu bilgisayarda çalışır çalışmaz burada görünür.</translation>
-        </message>
-        <message>
-            <source>Gateways</source>
-            <translation>Ağ geçitleri</translation>
-        </message>
-        <message>
-            <source>None found yet.</source>
-            <translation>Henüz bulunamadı.</translation>
-        </message>
-        <message>
-            <source>Demo machine</source>
-            <translation>Deneme makinesi</translation>
-        </message>
-        <message>
-            <source>The whole machine, simulated on this computer: upload, home and print without hardware.</source>
-            <translation>Bütün makine bu bilgisayarda benzetimle: donanım olmadan yükleyin, eve gönderin ve basın.</translation>
-        </message>
-        <message>
-            <source>Try the demo</source>
-            <translation>Denemeyi başlat</translation>
-        </message>
-        <message>
-            <source>Disconnect</source>
-            <translation>Bağlantıyı kes</translation>
-        </message>
-        <message>
-            <source>The demo machine does not run: %1</source>
-            <translation>Deneme makinesi çalışmıyor: %1</translation>
-        </message>
-        <message>
-            <source>Connect</source>
-            <translation>Bağlan</translation>
-        </message>
-        <message>
-            <source>Connect to %1</source>
-            <translation>%1 ile bağlan</translation>
-        </message>
-        <message>
-            <source>Connecting to %1…</source>
-            <translation>%1 ile bağlanılıyor…</translation>
-        </message>
-        <message>
-            <source>%1 does not answer: %2</source>
-            <translation>%1 yanıt vermiyor: %2</translation>
-        </message>
-        <message>
-            <source>Connected to %1.</source>
-            <translation>%1 ile bağlantı kuruldu.</translation>
-        </message>
-        <message>
-            <source>The connection is lost: %1. It comes back by itself; a job on the machine goes on.</source>
-            <translation>Bağlantı koptu: %1. Kendiliğinden geri gelir; makinedeki iş sürer.</translation>
-        </message>
-    </context>
-    <context>
-        <name>kinebus::gui::ConsolePage</name>
-        <message>
-            <source>Send</source>
-            <translation>Gönder</translation>
-        </message>
-        <message>
-            <source>Answers of the gateway</source>
-            <translation>Ağ geçidinin yanıtları</translation>
-        </message>
-        <message>
-            <source>Lines you send and the gateway's answers appear here.</source>
-            <translation>Gönderdiğiniz satırlar ve ağ geçidinin yanıtları burada görünür.</translation>
-        </message>
-        <message>
-            <source>G-code or M-code, for example M114</source>
-            <translation>G kodu ya da M kodu, örneğin M114</translation>
-        </message>
-    </context>
-    <context>
-        <name>kinebus::gui::DemoGateway</name>
-        <message>
-            <source>the demo machine has ended</source>
-            <translation>deneme makinesi sonlandı</translation>
-        </message>
-        <message>
-            <source>the program kinebusd was not found: install the package kinebus-daemon</source>
-            <translation>kinebusd programı bulunamadı: kinebus-daemon paketini kurun</translation>
-        </message>
-        <message>
-            <source>the demo machine does not answer</source>
-            <translation>deneme makinesi yanıt vermiyor</translation>
-        </message>
-    </context>
-    <context>
-        <name>kinebus::gui::EventsModel</name>
-        <message>
-            <source>Done</source>
-            <translation>Bitti</translation>
-        </message>
-        <message>
-            <source>The check of the job found a problem</source>
-            <translation>İşin denetimi bir sorun buldu</translation>
-        </message>
-        <message>
-            <source>Control has moved to another program</source>
-            <translation>Denetim başka bir programa geçti</translation>
-        </message>
-        <message>
-            <source>Message</source>
-            <translation>İleti</translation>
-        </message>
-        <message>
-            <source>node %1</source>
-            <translation>düğüm %1</translation>
-        </message>
-        <message>
-            <source>line %1</source>
-            <translation>satır %1</translation>
-        </message>
-    </context>
-    <context>
-        <name>kinebus::gui::GatewayFinder</name>
-        <message>
-            <source>USB %1 · serial number %2</source>
-            <translation>USB %1 · seri numarası %2</translation>
-        </message>
-        <message>
-            <source>Gateway on this computer</source>
-            <translation>Bu bilgisayardaki ağ geçidi</translation>
-        </message>
-    </context>
-    <context>
-        <name>kinebus::gui::JobPanel</name>
-        <message>
-            <source>Interrupted: resume goes on from its place.</source>
-            <translation>Yarıda kaldı: Sürdür, kaldığı yerden devam eder.</translation>
-        </message>
-        <message>
-            <source>Progress</source>
-            <translation>İlerleme</translation>
-        </message>
-        <message>
-            <source>Elapsed</source>
-            <translation>Geçen süre</translation>
-        </message>
-        <message>
-            <source>Remaining</source>
-            <translation>Kalan süre</translation>
-        </message>
-        <message>
-            <source>Line</source>
-            <translation>Satır</translation>
-        </message>
-        <message>
-            <source>Cancel the job</source>
-            <translation>İşi iptal et</translation>
-        </message>
-        <message>
-            <source>Cancel the job? What is printed stays on the bed.</source>
-            <translation>İş iptal edilsin mi? Basılan kısım tablada kalır.</translation>
-        </message>
-        <message>
-            <source>Go on</source>
-            <translation>Sürdür</translation>
-        </message>
-        <message>
-            <source>Speed</source>
-            <translation>Hız</translation>
-        </message>
-        <message>
-            <source>Feed override in percent</source>
-            <translation>Yüzde olarak ilerleme çarpanı</translation>
-        </message>
-        <message>
-            <source>Pause</source>
-            <translation>Duraklat</translation>
-        </message>
-        <message>
-            <source>Resume</source>
-            <translation>Sürdür</translation>
-        </message>
-        <message>
-            <source>Cancel</source>
-            <translation>İptal</translation>
-        </message>
-        <message>
-            <source>No job is running</source>
-            <translation>Çalışan iş yok</translation>
-        </message>
-    </context>
-    <context>
-        <name>kinebus::gui::JobUpload</name>
-        <message>
-            <source>%1 cannot be read</source>
-            <translation>%1 okunamıyor</translation>
-        </message>
-    </context>
-    <context>
-        <name>kinebus::gui::JobsModel</name>
-        <message>
-            <source>Job</source>
-            <translation>İş</translation>
-        </message>
-        <message>
-            <source>Size</source>
-            <translation>Boyut</translation>
-        </message>
-        <message>
-            <source>Uploaded</source>
-            <translation>Yüklendi</translation>
-        </message>
-        <message>
-            <source>Check</source>
-            <translation>Denetle</translation>
-        </message>
-        <message>
-            <source>Time</source>
-            <translation>Süre</translation>
-        </message>
-        <message>
-            <source>Last run</source>
-            <translation>Son çalışma</translation>
-        </message>
-        <message>
-            <source>Reading</source>
-            <translation>Okunuyor</translation>
-        </message>
-        <message>
-            <source>Waiting for the gateway</source>
-            <translation>Ağ geçidi bekleniyor</translation>
-        </message>
-        <message>
-            <source>Failed</source>
-            <translation>Başarısız</translation>
-        </message>
-        <message>
-            <source>Not checked</source>
-            <translation>Denetlenmedi</translation>
-        </message>
-        <message numerus="yes">
-            <source>%Ln error(s)</source>
-            <translation>
-                <numerusform>%Ln hata</numerusform>
-            </translation>
-        </message>
-        <message numerus="yes">
-            <source>%Ln warning(s)</source>
-            <translation>
-                <numerusform>%Ln uyarı</numerusform>
-            </translation>
-        </message>
-        <message>
-            <source>Fine</source>
-            <translation>Sorunsuz</translation>
-        </message>
-        <message>
-            <source>Never</source>
-            <translation>Hiç</translation>
-        </message>
-        <message>
-            <source>Running</source>
-            <translation>Çalışıyor</translation>
-        </message>
-        <message>
-            <source>Complete, %1</source>
-            <translation>Tamamlandı, %1</translation>
-        </message>
-        <message>
-            <source>Cancelled</source>
-            <translation>İptal edildi</translation>
-        </message>
-        <message>
-            <source>Refused by the check</source>
-            <translation>Denetimde reddedildi</translation>
-        </message>
-        <message>
-            <source>Stopped by an alarm</source>
-            <translation>Alarmla durdu</translation>
-        </message>
-        <message>
-            <source>Interrupted</source>
-            <translation>Kesildi</translation>
-        </message>
-    </context>
-    <context>
-        <name>kinebus::gui::JobsPage</name>
-        <message>
-            <source>Drop G-code files here to send them to the gateway</source>
-            <translation>Ağ geçidine göndermek için G kodu dosyalarını buraya bırakın</translation>
-        </message>
-        <message>
-            <source>Choose a file…</source>
-            <translation>Dosya seç…</translation>
-        </message>
-        <message>
-            <source>Start</source>
-            <translation>Başlat</translation>
-        </message>
-        <message>
-            <source>Check</source>
-            <translation>Denetle</translation>
-        </message>
-        <message>
-            <source>Show</source>
-            <translation>Göster</translation>
-        </message>
-        <message>
-            <source>Delete</source>
-            <translation>Sil</translation>
-        </message>
-        <message>
-            <source>Jobs on the gateway</source>
-            <translation>Ağ geçidindeki işler</translation>
-        </message>
-        <message>
-            <source>What the check has found</source>
-            <translation>Denetimin buldukları</translation>
-        </message>
-        <message>
-            <source>Lines of the job</source>
-            <translation>İşin satırları</translation>
-        </message>
-        <message>
-            <source>Choose a finding: its line is shown here, its place in the scene.</source>
-            <translation>Bir bulgu seçin: satırı burada, yeri sahnede gösterilir.</translation>
-        </message>
-        <message>
-            <source>Checking %1…</source>
-            <translation>%1 denetleniyor…</translation>
-        </message>
-        <message numerus="yes">
-            <source>%1: %Ln error(s). It will not start.</source>
-            <translation>
-                <numerusform>%1: %Ln hata. Başlamayacak.</numerusform>
-            </translation>
-        </message>
-        <message numerus="yes">
-            <source>%1: it can be printed, with %Ln warning(s). It takes %2.</source>
-            <translation>
-                <numerusform>%1: %Ln uyarıyla basılabilir. Süresi %2.</numerusform>
-            </translation>
-        </message>
-        <message>
-            <source>%1: nothing is wrong. It takes %2.</source>
-            <translation>%1: hiçbir sorun yok. Süresi %2.</translation>
-        </message>
-        <message>
-            <source>The gateway checks a whole job against every limit before anything moves.</source>
-            <translation>Ağ geçidi, bir şey kımıldamadan önce işin tümünü her sınıra karşı denetler.</translation>
-        </message>
-        <message>
-            <source>%1 of %2 used</source>
-            <translation>%2 içinden %1 dolu</translation>
-        </message>
-        <message>
-            <source>Send G-code to the gateway</source>
-            <translation>Ağ geçidine G kodu gönder</translation>
-        </message>
-        <message>
-            <source>G-code (*.gcode *.ngc *.nc *.g *.gco)</source>
-            <translation>G kodu (*.gcode *.ngc *.nc *.g *.gco)</translation>
-        </message>
-        <message>
-            <source>All files (*)</source>
-            <translation>Tüm dosyalar (*)</translation>
-        </message>
-        <message>
-            <source>Delete %1 from the gateway?</source>
-            <translation>%1 ağ geçidinden silinsin mi?</translation>
-        </message>
-        <message>
-            <source>Keep</source>
-            <translation>Tut</translation>
-        </message>
-    </context>
-    <context>
-        <name>kinebus::gui::JogPage</name>
-        <message>
-            <source>Jog</source>
-            <translation>Elle sürme</translation>
-        </message>
-        <message>
-            <source>Keys: arrows move X and Y, Page Up and Page Down move Z, A and D tilt, Q and W turn the table, 1 to 5 choose the step.</source>
-            <translation>Tuşlar: oklar X ve Y'yi, Page Up ve Page Down Z'yi sürer; A ve D eğer, Q ve W tablayı döndürür, 1–5 adımı seçer.</translation>
-        </message>
-        <message>
-            <source>Step, mm or °</source>
-            <translation>Adım, mm ya da °</translation>
-        </message>
-        <message>
-            <source>Speed</source>
-            <translation>Hız</translation>
-        </message>
-        <message>
-            <source>mm/s</source>
-            <translation>mm/sn</translation>
-        </message>
-        <message>
-            <source>Machine</source>
-            <translation>Makine</translation>
-        </message>
-        <message>
-            <source>Home</source>
-            <translation>Eve gönder</translation>
-        </message>
-        <message>
-            <source>Wakes the nodes and brings all carriages to their switches</source>
-            <translation>Düğümleri uyandırır ve bütün arabaları anahtarlarına götürür</translation>
-        </message>
-        <message>
-            <source>Bed reference</source>
-            <translation>Tabla referansı</translation>
-        </message>
-        <message>
-            <source>Goes to where every job begins</source>
-            <translation>Her işin başladığı yere gider</translation>
-        </message>
-        <message>
-            <source>Pause</source>
-            <translation>Duraklat</translation>
-        </message>
-        <message>
-            <source>Clear stop</source>
-            <translation>Durdurmayı temizle</translation>
-        </message>
-        <message>
-            <source>Motors off</source>
-            <translation>Motorları kapat</translation>
-        </message>
-        <message>
-            <source>Positions are lost: the machine must be homed again</source>
-            <translation>Konumlar yitirilir: makine yeniden eve gönderilmelidir</translation>
-        </message>
-        <message>
-            <source>Work offsets</source>
-            <translation>İş ofsetleri</translation>
-        </message>
-        <message>
-            <source>Coordinate system</source>
-            <translation>Koordinat sistemi</translation>
-        </message>
-        <message>
-            <source>Zero here</source>
-            <translation>Burası sıfır</translation>
-        </message>
-        <message>
-            <source>The tool's position becomes the zero of this system</source>
-            <translation>Takımın konumu bu sistemin sıfırı olur</translation>
-        </message>
-        <message>
-            <source>Set</source>
-            <translation>Ayarla</translation>
-        </message>
-        <message>
-            <source>The values above become the zero of this system</source>
-            <translation>Yukarıdaki değerler bu sistemin sıfırı olur</translation>
-        </message>
-        <message>
-            <source>Active: %1, zero at %2</source>
-            <translation>Etkin: %1, sıfırı %2</translation>
-        </message>
-        <message>
-            <source>Zeros of the work coordinates</source>
-            <translation>İş koordinatlarının sıfırları</translation>
-        </message>
-    </context>
-    <context>
-        <name>kinebus::gui::MachineFileEditor</name>
-        <message>
-            <source>Read again</source>
-            <translation>Yeniden oku</translation>
-        </message>
-        <message>
-            <source>Undo</source>
-            <translation>Geri al</translation>
-        </message>
-        <message>
-            <source>Save on the gateway</source>
-            <translation>Ağ geçidine kaydet</translation>
-        </message>
-        <message>
-            <source>Machine file</source>
-            <translation>Makine dosyası</translation>
-        </message>
-        <message>
-            <source>What is wrong in the machine file</source>
-            <translation>Makine dosyasındaki yanlışlar</translation>
-        </message>
-        <message>
-            <source>Saved. The gateway uses it from its next start.</source>
-            <translation>Kaydedildi. Ağ geçidi bir sonraki açılıştan sonra kullanır.</translation>
-        </message>
-        <message>
-            <source>The built-in machine file</source>
-            <translation>Yerleşik makine dosyası</translation>
-        </message>
-        <message>
-            <source>Not read yet</source>
-            <translation>Henüz okunmadı</translation>
-        </message>
-        <message>
-            <source>cannot be changed from here</source>
-            <translation>buradan değiştirilemez</translation>
-        </message>
-        <message>
-            <source>newer than what the gateway runs with</source>
-            <translation>ağ geçidinin kullandığından yeni</translation>
-        </message>
-        <message>
-            <source>The machine file says what the machine is: kinematics, axes, limits, nodes.</source>
-            <translation>Makine dosyası makinenin ne olduğunu söyler: kinematik, eksenler, sınırlar, düğümler.</translation>
-        </message>
-        <message>
-            <source>Checking…</source>
-            <translation>Denetleniyor…</translation>
-        </message>
-        <message>
-            <source>The file is right.</source>
-            <translation>Dosya doğru.</translation>
-        </message>
-        <message numerus="yes">
-            <source>%Ln mistake(s): it cannot be saved.</source>
-            <translation>
-                <numerusform>%Ln yanlış: kaydedilemez.</numerusform>
-            </translation>
-        </message>
-    </context>
-    <context>
-        <name>kinebus::gui::MachinePage</name>
-        <message>
-            <source>Axes and nodes</source>
-            <translation>Eksenler ve düğümler</translation>
-        </message>
-        <message>
-            <source>Bus and time</source>
-            <translation>Veri yolu ve zaman</translation>
-        </message>
-        <message>
-            <source>Machine file</source>
-            <translation>Makine dosyası</translation>
-        </message>
-        <message>
-            <source>Axes</source>
-            <translation>Eksenler</translation>
-        </message>
-        <message>
-            <source>Nodes</source>
-            <translation>Düğümler</translation>
-        </message>
-        <message>
-            <source>Bus load</source>
-            <translation>Veri yolu yükü</translation>
-        </message>
-        <message>
-            <source>%1 µs</source>
-            <translation>%1 µs</translation>
-        </message>
-        <message>
-            <source>Largest clock error</source>
-            <translation>En büyük saat hatası</translation>
-        </message>
-        <message>
-            <source>Emptiest queue</source>
-            <translation>En boş kuyruk</translation>
-        </message>
-        <message>
-            <source>Path rate</source>
-            <translation>Yol hızı oranı</translation>
-        </message>
-        <message>
-            <source>Nozzle temperature</source>
-            <translation>Nozul sıcaklığı</translation>
-        </message>
-        <message>
-            <source>Bed temperature</source>
-            <translation>Tabla sıcaklığı</translation>
-        </message>
-        <message>
-            <source>Frames sent</source>
-            <translation>Gönderilen çerçeve</translation>
-        </message>
-        <message>
-            <source>Frames received</source>
-            <translation>Alınan çerçeve</translation>
-        </message>
-        <message>
-            <source>Segments sent</source>
-            <translation>Gönderilen parça</translation>
-        </message>
-        <message>
-            <source>Sequence errors</source>
-            <translation>Sıra hatası</translation>
-        </message>
-        <message>
-            <source>Underruns</source>
-            <translation>Kuyruk boşalması</translation>
-        </message>
-        <message>
-            <source>Unreadable frames</source>
-            <translation>Okunamayan çerçeve</translation>
-        </message>
-        <message>
-            <source>Frames of strangers</source>
-            <translation>Yabancı çerçeve</translation>
-        </message>
-        <message>
-            <source>Slowed for the bus</source>
-            <translation>Veri yolu için yavaşlama</translation>
-        </message>
-        <message>
-            <source>Held for planning</source>
-            <translation>Planlama için bekleme</translation>
-        </message>
-        <message>
-            <source>Not connected.</source>
-            <translation>Bağlı değil.</translation>
-        </message>
-        <message>
-            <source>%1 · kinematics %2 · %3 axes on %4 nodes · bus %5</source>
-            <translation>%1 · kinematik %2 · %4 düğümde %3 eksen · veri yolu %5</translation>
-        </message>
-    </context>
-    <context>
-        <name>kinebus::gui::MainWindow</name>
-        <message>
-            <source>Gateways</source>
-            <translation>Ağ geçitleri</translation>
-        </message>
-        <message>
-            <source>View</source>
-            <translation>Görünüm</translation>
-        </message>
-        <message>
-            <source>Jobs</source>
-            <translation>İşler</translation>
-        </message>
-        <message>
-            <source>Jog</source>
-            <translation>Elle sürme</translation>
-        </message>
-        <message>
-            <source>Console</source>
-            <translation>Konsol</translation>
-        </message>
-        <message>
-            <source>Alarms</source>
-            <translation>Alarmlar</translation>
-        </message>
-        <message>
-            <source>Machine</source>
-            <translation>Makine</translation>
-        </message>
-        <message>
-            <source>Position</source>
-            <translation>Konum</translation>
-        </message>
-        <message>
-            <source>Job</source>
-            <translation>İş</translation>
-        </message>
-    </context>
-    <context>
-        <name>kinebus::gui::NodesModel</name>
-        <message>
-            <source>Node</source>
-            <translation>Düğüm</translation>
-        </message>
-        <message>
-            <source>State</source>
-            <translation>Durum</translation>
-        </message>
-        <message>
-            <source>Clock error</source>
-            <translation>Saat hatası</translation>
-        </message>
-        <message>
-            <source>Queue</source>
-            <translation>Kuyruk</translation>
-        </message>
-        <message>
-            <source>Inputs</source>
-            <translation>Girişler</translation>
-        </message>
-        <message>
-            <source>Segments sent</source>
-            <translation>Gönderilen parça</translation>
-        </message>
-        <message>
-            <source>Faults</source>
-            <translation>Arızalar</translation>
-        </message>
-        <message>
-            <source>Not there</source>
-            <translation>Yok</translation>
-        </message>
-        <message>
-            <source>Stopped</source>
-            <translation>Durdu</translation>
-        </message>
-        <message>
-            <source>Starting</source>
-            <translation>Başlıyor</translation>
-        </message>
-        <message>
-            <source>Idle</source>
-            <translation>Boşta</translation>
-        </message>
-        <message>
-            <source>Operational</source>
-            <translation>Çalışır durumda</translation>
-        </message>
-        <message>
-            <source>Operational, not in time</source>
-            <translation>Çalışır, eşzamanlı değil</translation>
-        </message>
-        <message>
-            <source>Waiting</source>
-            <translation>Bekliyor</translation>
-        </message>
-        <message>
-            <source>%1 µs</source>
-            <translation>%1 µs</translation>
-        </message>
-    </context>
-    <context>
-        <name>kinebus::gui::PositionPanel</name>
-        <message>
-            <source>Carriages and axes</source>
-            <translation>Arabalar ve eksenler</translation>
-        </message>
-        <message>
-            <source>Heat</source>
-            <translation>Isı</translation>
-        </message>
-        <message>
-            <source>Target temperature of the nozzle</source>
-            <translation>Nozulun hedef sıcaklığı</translation>
-        </message>
-        <message>
-            <source>Target temperature of the bed</source>
-            <translation>Tablanın hedef sıcaklığı</translation>
-        </message>
-        <message>
-            <source>off</source>
-            <translation>kapalı</translation>
-        </message>
-        <message>
-            <source>Bed</source>
-            <translation>Tabla</translation>
-        </message>
-        <message>
-            <source>Nozzle</source>
-            <translation>Nozul</translation>
-        </message>
-        <message>
-            <source>Fan</source>
-            <translation>Fan</translation>
-        </message>
-        <message>
-            <source>Tool over the part</source>
-            <translation>Parçaya göre takım</translation>
-        </message>
-        <message>
-            <source>Position not known yet</source>
-            <translation>Konum henüz bilinmiyor</translation>
-        </message>
-    </context>
-    <context>
-        <name>kinebus::gui::ProblemsModel</name>
-        <message>
-            <source>Error</source>
-            <translation>Hata</translation>
-        </message>
-        <message>
-            <source>Warning</source>
-            <translation>Uyarı</translation>
-        </message>
-        <message>
-            <source>Kind</source>
-            <translation>Tür</translation>
-        </message>
-        <message>
-            <source>Line</source>
-            <translation>Satır</translation>
-        </message>
-        <message>
-            <source>What is wrong</source>
-            <translation>Sorun</translation>
-        </message>
-    </context>
-    <context>
-        <name>kinebus::gui::Session</name>
-        <message>
-            <source>expected %1</source>
-            <translation>beklenen: %1</translation>
-        </message>
-    </context>
-    <context>
-        <name>kinebus::gui::SocketLink</name>
-        <message>
-            <source>the gateway closed the connection</source>
-            <translation>ağ geçidi bağlantıyı kapattı</translation>
-        </message>
-        <message>
-            <source>on this computer</source>
-            <translation>bu bilgisayarda</translation>
-        </message>
-    </context>
-    <context>
-        <name>kinebus::gui::TopBar</name>
-        <message>
-            <source>STOP</source>
-            <translation>DUR</translation>
-        </message>
-        <message>
-            <source>Stops all motion at once, on the path (Ctrl+.)</source>
-            <translation>Bütün hareketi hemen, yol üzerinde durdurur (Ctrl+.)</translation>
-        </message>
-        <message>
-            <source>Language</source>
-            <translation>Dil</translation>
-        </message>
-        <message>
-            <source>Light or dark</source>
-            <translation>Açık ya da koyu</translation>
-        </message>
-        <message>
-            <source>Take control</source>
-            <translation>Denetimi al</translation>
-        </message>
-        <message>
-            <source>%1 has control</source>
-            <translation>Denetim %1 programında</translation>
-        </message>
-        <message>
-            <source>Not connected</source>
-            <translation>Bağlı değil</translation>
-        </message>
-        <message>
-            <source>Connecting</source>
-            <translation>Bağlanıyor</translation>
-        </message>
-        <message>
-            <source>Connection lost</source>
-            <translation>Bağlantı koptu</translation>
-        </message>
-        <message>
-            <source>A job on the machine goes on.</source>
-            <translation>Makinedeki iş sürer.</translation>
-        </message>
-        <message>
-            <source>Connect</source>
-            <translation>Bağlan</translation>
-        </message>
-        <message>
-            <source>%1 · %2</source>
-            <translation>%1 · %2</translation>
-        </message>
-        <message>
-            <source>Choose a gateway</source>
-            <translation>Bir ağ geçidi seçin</translation>
-        </message>
-    </context>
-    <context>
-        <name>kinebus::gui::UsbLink</name>
-        <message>
-            <source>the USB cable was pulled</source>
-            <translation>USB kablosu çekildi</translation>
-        </message>
-        <message>
-            <source>the gateway is not plugged in</source>
-            <translation>ağ geçidi takılı değil</translation>
-        </message>
-        <message>
-            <source>this user may not use the USB device: install the udev rule of the package</source>
-            <translation>bu kullanıcı USB aygıtını kullanamıyor: paketin udev kuralını kurun</translation>
-        </message>
-        <message>
-            <source>another program uses the gateway's USB link</source>
-            <translation>ağ geçidinin USB bağlantısını başka bir program kullanıyor</translation>
-        </message>
-        <message>
-            <source>the USB link does not start</source>
-            <translation>USB bağlantısı başlamıyor</translation>
-        </message>
-        <message>
-            <source>USB %1</source>
-            <translation>USB %1</translation>
-        </message>
-    </context>
-    <context>
-        <name>kinebus::gui::ViewPage</name>
-        <message>
-            <source>The 3D scene cannot be shown: %1</source>
-            <translation>3B sahne gösterilemiyor: %1</translation>
-        </message>
-        <message>
-            <source>Scene: machine and tool path</source>
-            <translation>Sahne: makine ve takım yolu</translation>
-        </message>
-        <message>
-            <source>Show the layers up to here</source>
-            <translation>Katmanları buraya kadar göster</translation>
-        </message>
-        <message>
-            <source>Colour by</source>
-            <translation>Renk</translation>
-        </message>
-        <message>
-            <source>Feed</source>
-            <translation>İlerleme hızı</translation>
-        </message>
-        <message>
-            <source>Layer</source>
-            <translation>Katman</translation>
-        </message>
-        <message>
-            <source>Limit margin</source>
-            <translation>Sınıra uzaklık</translation>
-        </message>
-        <message>
-            <source>Colour of the tool path</source>
-            <translation>Takım yolunun rengi</translation>
-        </message>
-        <message>
-            <source>Machine</source>
-            <translation>Makine</translation>
-        </message>
-        <message>
-            <source>Reach of the tool</source>
-            <translation>Takımın erişimi</translation>
-        </message>
-        <message>
-            <source>Moves without extrusion</source>
-            <translation>Ekstrüzyonsuz hareketler</translation>
-        </message>
-        <message>
-            <source>What is not printed yet</source>
-            <translation>Henüz basılmayan</translation>
-        </message>
-        <message>
-            <source>From a corner</source>
-            <translation>Köşeden</translation>
-        </message>
-        <message>
-            <source>From above</source>
-            <translation>Üstten</translation>
-        </message>
-        <message>
-            <source>From the front</source>
-            <translation>Önden</translation>
-        </message>
-        <message>
-            <source>Whole machine (M)</source>
-            <translation>Bütün makine (M)</translation>
-        </message>
-        <message>
-            <source>The part alone (F)</source>
-            <translation>Yalnız parça (F)</translation>
-        </message>
-        <message>
-            <source>%1 mm/s</source>
-            <translation>%1 mm/sn</translation>
-        </message>
-        <message>
-            <source>at a limit</source>
-            <translation>sınırda</translation>
-        </message>
-        <message>
-            <source>free</source>
-            <translation>serbest</translation>
-        </message>
-        <message>
-            <source>%1 cannot be shown: %2</source>
-            <translation>%1 gösterilemiyor: %2</translation>
-        </message>
-        <message>
-            <source>Reading %1</source>
-            <translation>%1 okunuyor</translation>
-        </message>
-        <message>
-            <source>%1 · %2 lines · %3 layers · %4 m of path</source>
-            <translation>%1 · %2 satır · %3 katman · %4 m yol</translation>
-        </message>
-        <message numerus="yes">
-            <source>%Ln line(s) with expressions are not drawn</source>
-            <translation>
-                <numerusform>ifadeli %Ln satır çizilmedi</numerusform>
-            </translation>
-        </message>
-        <message>
-            <source>No job is shown. Choose one on the Jobs page.</source>
-            <translation>Gösterilen iş yok. İşler sayfasından seçin.</translation>
-        </message>
-        <message>
-            <source>%1 mm</source>
-            <translation>%1 mm</translation>
-        </message>
-    </context>
 <context>
-    <name>GatewayWords</name>
+    <name>AlarmWords</name>
     <message>
-        <source>move done</source>
-        <translation>hareket bitti</translation>
+        <source>A node does not answer</source>
+        <translation>Bir düğüm yanıt vermiyor</translation>
     </message>
     <message>
-        <source>job done: %1</source>
-        <translation>iş bitti: %1</translation>
+        <source>The wrong node is connected</source>
+        <translation>Yanlış düğüm bağlı</translation>
     </message>
     <message>
-        <source>all lines done: %1</source>
-        <translation>bütün satırlar bitti: %1</translation>
+        <source>A node refuses its settings</source>
+        <translation>Bir düğüm ayarlarını kabul etmiyor</translation>
     </message>
     <message>
-        <source>the job was not begun: it has %1 errors</source>
-        <translation>iş başlatılmadı: %1 hata var</translation>
+        <source>A drive does not switch on</source>
+        <translation>Bir sürücü açılmıyor</translation>
     </message>
     <message>
-        <source>stop by command</source>
-        <translation>komutla durduruldu</translation>
+        <source>There is a second gateway on the bus</source>
+        <translation>Veri yolunda ikinci bir ağ geçidi var</translation>
     </message>
     <message>
-        <source>homed</source>
-        <translation>eve gönderildi, konumlar biliniyor</translation>
+        <source>A node has gone silent</source>
+        <translation>Bir düğüm sustu</translation>
     </message>
     <message>
-        <source>%1 has control</source>
-        <translation>denetim %1 programında</translation>
+        <source>A node has restarted</source>
+        <translation>Bir düğüm yeniden başladı</translation>
     </message>
     <message>
-        <source>nobody has control</source>
-        <translation>denetim kimsede değil</translation>
+        <source>The clocks have drifted apart</source>
+        <translation>Saatler birbirinden ayrıldı</translation>
     </message>
     <message>
-        <source>the job %1 was interrupted: resume to go on with it, or cancel</source>
-        <translation>%1 işi yarıda kaldı: sürdürün ya da iptal edin</translation>
+        <source>Homing has failed</source>
+        <translation>Eve dönüş başarısız oldu</translation>
     </message>
     <message>
-        <source>the job %1 goes on</source>
-        <translation>%1 işi sürüyor</translation>
+        <source>The carriages are too far apart</source>
+        <translation>Arabalar birbirinden çok uzak</translation>
     </message>
     <message>
-        <source>cancelled: positions are known</source>
-        <translation>iptal edildi: konumlar biliniyor</translation>
+        <source>Homing took too long</source>
+        <translation>Eve dönüş çok uzun sürdü</translation>
     </message>
     <message>
-        <source>cleared: bring the machine up again</source>
-        <translation>temizlendi: makineyi yeniden uyandırın</translation>
+        <source>Motion was interrupted</source>
+        <translation>Hareket kesildi</translation>
     </message>
     <message>
-        <source>cleared: resume brings the machine up again and goes on with the job</source>
-        <translation>temizlendi: sürdürünce makine uyanır ve iş devam eder</translation>
+        <source>The nodes disagree about the path</source>
+        <translation>Düğümler yol üzerinde anlaşamıyor</translation>
     </message>
     <message>
-        <source>%1 is %2 outside the workspace</source>
-        <translation>%1 çalışma alanının %2 dışında</translation>
+        <source>The bus has failed</source>
+        <translation>Veri yolu arızalandı</translation>
+    </message>
+    <message>
+        <source>A heater is not as it should be</source>
+        <translation>Bir ısıtıcı olması gerektiği gibi değil</translation>
+    </message>
+    <message>
+        <source>The job went wrong</source>
+        <translation>İş ters gitti</translation>
+    </message>
+    <message>
+        <source>Stopped by the operator</source>
+        <translation>Operatör tarafından durduruldu</translation>
+    </message>
+    <message>
+        <source>The machine did not come to rest</source>
+        <translation>Makine durmadı</translation>
+    </message>
+    <message>
+        <source>Too much current in a motor</source>
+        <translation>Bir motorda aşırı akım</translation>
+    </message>
+    <message>
+        <source>The supply voltage is wrong</source>
+        <translation>Besleme gerilimi hatalı</translation>
+    </message>
+    <message>
+        <source>A drive is too hot</source>
+        <translation>Bir sürücü çok sıcak</translation>
+    </message>
+    <message>
+        <source>Communication trouble on the bus</source>
+        <translation>Veri yolunda iletişim sorunu</translation>
+    </message>
+    <message>
+        <source>A carriage is not where it should be</source>
+        <translation>Bir araba olması gereken yerde değil</translation>
+    </message>
+    <message>
+        <source>Message</source>
+        <translation>İleti</translation>
+    </message>
+    <message>
+        <source>A node reports a fault</source>
+        <translation>Bir düğüm arıza bildiriyor</translation>
+    </message>
+    <message>
+        <source>Check the node&apos;s power and the bus cable, then home again.</source>
+        <translation>Düğümün beslemesini ve veri yolu kablosunu denetleyin, sonra yeniden eve gönderin.</translation>
+    </message>
+    <message>
+        <source>Connect the right node or update its firmware.</source>
+        <translation>Doğru düğümü bağlayın ya da yazılımını güncelleyin.</translation>
+    </message>
+    <message>
+        <source>Check the machine file against the node&apos;s limits.</source>
+        <translation>Makine dosyasını düğümün sınırlarıyla karşılaştırın.</translation>
+    </message>
+    <message>
+        <source>Look at the drive&apos;s fault, clear the alarm, then home again.</source>
+        <translation>Sürücünün arızasına bakın, alarmı temizleyin, sonra yeniden eve gönderin.</translation>
+    </message>
+    <message>
+        <source>Switch one of the gateways off.</source>
+        <translation>Ağ geçitlerinden birini kapatın.</translation>
+    </message>
+    <message>
+        <source>Check the node&apos;s power and the bus cable, then clear and home again.</source>
+        <translation>Düğümün beslemesini ve veri yolu kablosunu denetleyin, sonra temizleyip yeniden eve gönderin.</translation>
+    </message>
+    <message>
+        <source>Check the node&apos;s power, then clear and home again.</source>
+        <translation>Düğümün beslemesini denetleyin, sonra temizleyip yeniden eve gönderin.</translation>
+    </message>
+    <message>
+        <source>Check the bus for errors, then clear.</source>
+        <translation>Veri yolunda hata arayın, sonra temizleyin.</translation>
+    </message>
+    <message>
+        <source>Check the switch and its wiring, then clear and home again.</source>
+        <translation>Anahtarı ve kablosunu denetleyin, sonra temizleyip yeniden eve gönderin.</translation>
+    </message>
+    <message>
+        <source>Check the switches of the carriages that went on, then clear and home again.</source>
+        <translation>İlerleyen arabaların anahtarlarını denetleyin, sonra temizleyip yeniden eve gönderin.</translation>
+    </message>
+    <message>
+        <source>Check the switches and the homing speeds, then clear and home again.</source>
+        <translation>Anahtarları ve eve dönüş hızlarını denetleyin, sonra temizleyip yeniden eve gönderin.</translation>
+    </message>
+    <message>
+        <source>Clear: positions are known, the job can be run again.</source>
+        <translation>Temizleyin: konumlar biliniyor, iş yeniden çalıştırılabilir.</translation>
+    </message>
+    <message>
+        <source>Clear. If it comes again, check the bus for lost frames.</source>
+        <translation>Temizleyin. Yinelenirse veri yolunda kayıp çerçeve arayın.</translation>
+    </message>
+    <message>
+        <source>Check cable and termination of the bus, then clear and home again.</source>
+        <translation>Veri yolunun kablosunu ve sonlandırmasını denetleyin, sonra temizleyip yeniden eve gönderin.</translation>
+    </message>
+    <message>
+        <source>Check the heater and its sensor, then clear.</source>
+        <translation>Isıtıcıyı ve algılayıcısını denetleyin, sonra temizleyin.</translation>
+    </message>
+    <message>
+        <source>Correct the job, then clear.</source>
+        <translation>İşi düzeltin, sonra temizleyin.</translation>
+    </message>
+    <message>
+        <source>Clear when the machine is safe.</source>
+        <translation>Makine güvenli olduğunda temizleyin.</translation>
+    </message>
+    <message>
+        <source>Switch the machine off and on, then home again.</source>
+        <translation>Makineyi kapatıp açın, sonra yeniden eve gönderin.</translation>
+    </message>
+    <message>
+        <source>Two nodes use the same id</source>
+        <translation>İki düğüm aynı kimliği kullanıyor</translation>
+    </message>
+    <message>
+        <source>Give one of them another id or take it off the bus, then home again.</source>
+        <translation>Birine başka bir kimlik verin ya da onu veri yolundan çıkarın, sonra yeniden eve gönderin.</translation>
+    </message>
+</context>
+<context>
+    <name>ConsoleHints</name>
+    <message>
+        <source>traverse</source>
+        <translation>hızlı konumlama</translation>
+    </message>
+    <message>
+        <source>straight line at feed</source>
+        <translation>ilerlemeyle doğru çizgi</translation>
+    </message>
+    <message>
+        <source>arc, clockwise</source>
+        <translation>yay, saat yönünde</translation>
+    </message>
+    <message>
+        <source>arc, counter-clockwise</source>
+        <translation>yay, saat yönünün tersine</translation>
+    </message>
+    <message>
+        <source>home, or go to the bed reference</source>
+        <translation>eve dön ya da tabla referansına git</translation>
+    </message>
+    <message>
+        <source>first work coordinate system</source>
+        <translation>birinci iş koordinat sistemi</translation>
+    </message>
+    <message>
+        <source>second work coordinate system</source>
+        <translation>ikinci iş koordinat sistemi</translation>
+    </message>
+    <message>
+        <source>absolute positions</source>
+        <translation>mutlak konumlar</translation>
+    </message>
+    <message>
+        <source>relative positions</source>
+        <translation>göreli konumlar</translation>
+    </message>
+    <message>
+        <source>call this position so</source>
+        <translation>bu konumu böyle adlandır</translation>
+    </message>
+    <message>
+        <source>motors on</source>
+        <translation>motorlar açık</translation>
+    </message>
+    <message>
+        <source>motors off</source>
+        <translation>motorlar kapalı</translation>
+    </message>
+    <message>
+        <source>list the jobs</source>
+        <translation>işleri listele</translation>
+    </message>
+    <message>
+        <source>choose a job</source>
+        <translation>iş seç</translation>
+    </message>
+    <message>
+        <source>start or resume</source>
+        <translation>başlat ya da sürdür</translation>
+    </message>
+    <message>
+        <source>pause</source>
+        <translation>duraklat</translation>
+    </message>
+    <message>
+        <source>progress of the job</source>
+        <translation>işin ilerlemesi</translation>
+    </message>
+    <message>
+        <source>time of the job</source>
+        <translation>işin süresi</translation>
+    </message>
+    <message>
+        <source>extruder absolute</source>
+        <translation>ekstruder mutlak</translation>
+    </message>
+    <message>
+        <source>extruder relative</source>
+        <translation>ekstruder göreli</translation>
+    </message>
+    <message>
+        <source>heat the nozzle</source>
+        <translation>nozulu ısıt</translation>
+    </message>
+    <message>
+        <source>temperatures</source>
+        <translation>sıcaklıklar</translation>
+    </message>
+    <message>
+        <source>fan on</source>
+        <translation>fan açık</translation>
+    </message>
+    <message>
+        <source>fan off</source>
+        <translation>fan kapalı</translation>
+    </message>
+    <message>
+        <source>heat the nozzle and wait</source>
+        <translation>nozulu ısıt ve bekle</translation>
+    </message>
+    <message>
+        <source>emergency stop</source>
+        <translation>acil durdurma</translation>
+    </message>
+    <message>
+        <source>position</source>
+        <translation>konum</translation>
+    </message>
+    <message>
+        <source>name and capabilities</source>
+        <translation>ad ve yetenekler</translation>
+    </message>
+    <message>
+        <source>switches</source>
+        <translation>anahtarlar</translation>
+    </message>
+    <message>
+        <source>heat the bed</source>
+        <translation>tablayı ısıt</translation>
+    </message>
+</context>
+<context>
+    <name>Desk</name>
+    <message>
+        <source>Demo machine</source>
+        <translation>Deneme makinesi</translation>
+    </message>
+</context>
+<context>
+    <name>Format</name>
+    <message>
+        <source>%1 B</source>
+        <translation>%1 B</translation>
+    </message>
+    <message>
+        <source>%1 kB</source>
+        <translation>%1 kB</translation>
+    </message>
+    <message>
+        <source>%1 MB</source>
+        <translation>%1 MB</translation>
+    </message>
+    <message>
+        <source>%1 GB</source>
+        <translation>%1 GB</translation>
+    </message>
+    <message>
+        <source>%1/s</source>
+        <translation>%1/sn</translation>
+    </message>
+    <message>
+        <source>%1 °C</source>
+        <translation>%1 °C</translation>
+    </message>
+</context>
+<context>
+    <name>Gateway</name>
+    <message>
+        <source>the centre of the arc is its start</source>
+        <translation>yayın merkezi başlangıç noktası</translation>
+    </message>
+    <message>
+        <source>the arc&apos;s end is %1 from the centre, its start %2 (they may differ by %3)</source>
+        <translation>yayın sonu merkezden %1, başı %2 uzakta (en çok %3 fark olabilir)</translation>
+    </message>
+    <message>
+        <source>an arc with R needs an end other than its start; a full circle needs I, J or K</source>
+        <translation>R ile verilen yayın sonu başından ayrı olmalı; tam daire için I, J ya da K gerekir</translation>
+    </message>
+    <message>
+        <source>R must not be 0</source>
+        <translation>R 0 olamaz</translation>
+    </message>
+    <message>
+        <source>the arc&apos;s ends are %1 apart, more than twice R (%2)</source>
+        <translation>yayın uçları arası %1, R&apos;nin iki katından fazla (%2)</translation>
+    </message>
+    <message>
+        <source>% stands alone in its line</source>
+        <translation>% satırında tek başına durur</translation>
+    </message>
+    <message>
+        <source>N needs a whole number from 0 to 4294967295</source>
+        <translation>N, 0 ile 4294967295 arasında bir tam sayı ister</translation>
+    </message>
+    <message>
+        <source>/ (block delete) must be the first character of the line</source>
+        <translation>/ (blok atlama) satırın ilk karakteri olmalı</translation>
+    </message>
+    <message>
+        <source>byte %1 is not G-code</source>
+        <translation>%1 baytı G kodu değil</translation>
+    </message>
+    <message>
+        <source>expected a letter before &apos;%1&apos;</source>
+        <translation>&apos;%1&apos; karakterinden önce bir harf bekleniyordu</translation>
+    </message>
+    <message>
+        <source>comments in ( ) cannot hold another (</source>
+        <translation>( ) içindeki açıklamada başka ( olamaz</translation>
+    </message>
+    <message>
+        <source>the comment needs a closing )</source>
+        <translation>açıklamanın kapanan ) işareti eksik</translation>
+    </message>
+    <message>
+        <source>expected = after the parameter</source>
+        <translation>parametreden sonra = bekleniyordu</translation>
+    </message>
+    <message>
+        <source>too many assignments in one line (32 at most)</source>
+        <translation>bir satırda çok fazla atama var (en çok 32)</translation>
+    </message>
+    <message>
+        <source>a checksum needs a line number (N) at the line&apos;s beginning</source>
+        <translation>sağlama toplamı için satır başında satır numarası (N) gerekir</translation>
+    </message>
+    <message>
+        <source>a checksum is a number from 0 to 255</source>
+        <translation>sağlama toplamı 0 ile 255 arasında bir sayıdır</translation>
+    </message>
+    <message>
+        <source>nothing can follow the checksum</source>
+        <translation>sağlama toplamından sonra bir şey gelemez</translation>
+    </message>
+    <message>
+        <source>the checksum is %1, not %2</source>
+        <translation>sağlama toplamı %1, %2 değil</translation>
+    </message>
+    <message>
+        <source>G needs a number</source>
+        <translation>G bir sayı ister</translation>
+    </message>
+    <message>
+        <source>M needs a number</source>
+        <translation>M bir sayı ister</translation>
+    </message>
+    <message>
+        <source>O words (subroutines, loops, program numbers) are not supported</source>
+        <translation>O sözcükleri (altprogram, döngü, program numarası) desteklenmiyor</translation>
+    </message>
+    <message>
+        <source>%1 is too large (10^9 at most)</source>
+        <translation>%1 çok büyük (en çok 10^9)</translation>
+    </message>
+    <message>
+        <source>%1 stands twice in the line (first at column %2)</source>
+        <translation>%1 satırda iki kez geçiyor (ilki %2. sütunda)</translation>
+    </message>
+    <message>
+        <source>G codes are 0 to 999.9 with one decimal place at most</source>
+        <translation>G kodları 0 ile 999.9 arasında, en çok bir ondalıklıdır</translation>
+    </message>
+    <message>
+        <source>%1 and %2 (column %3) are of one modal group: only one can stand in a line</source>
+        <translation>%1 ile %2 (sütun %3) aynı kip grubundan: satırda yalnız biri olabilir</translation>
+    </message>
+    <message>
+        <source>M codes are whole numbers</source>
+        <translation>M kodları tam sayıdır</translation>
+    </message>
+    <message>
+        <source>%1 and M%2 (column %3) exclude one another: only one can stand in a line</source>
+        <translation>%1 ile M%2 (sütun %3) birlikte olamaz: satırda yalnız biri olabilir</translation>
+    </message>
+    <message>
+        <source>too many M codes in one line (8 at most)</source>
+        <translation>bir satırda çok fazla M kodu var (en çok 8)</translation>
+    </message>
+    <message>
+        <source>splines (G5) are not supported: use G1, G2 or G3</source>
+        <translation>eğriler (G5) desteklenmiyor: G1, G2 ya da G3 kullanın</translation>
+    </message>
+    <message>
+        <source>G30 means a probe to printers and a stored position to mills: use G53 G0 with coordinates</source>
+        <translation>G30 yazıcılarda prob, frezelerde kayıtlı konum demektir: koordinatlarla G53 G0 kullanın</translation>
+    </message>
+    <message>
+        <source>G30.1 is not supported: use G10 L2 or parameters</source>
+        <translation>G30.1 desteklenmiyor: G10 L2 ya da parametre kullanın</translation>
+    </message>
+    <message>
+        <source>cutter compensation (G41) is not supported: offset the path in CAM</source>
+        <translation>kesici telafisi (G41) desteklenmiyor: yolu CAM&apos;de öteleyin</translation>
+    </message>
+    <message>
+        <source>cutter compensation (G42) is not supported: offset the path in CAM</source>
+        <translation>kesici telafisi (G42) desteklenmiyor: yolu CAM&apos;de öteleyin</translation>
+    </message>
+    <message>
+        <source>probing (G38) is not supported</source>
+        <translation>problama (G38) desteklenmiyor</translation>
+    </message>
+    <message>
+        <source>probing (G38.2) is not supported</source>
+        <translation>problama (G38.2) desteklenmiyor</translation>
+    </message>
+    <message>
+        <source>G68 is not supported: use G68.2 for a tilted plane</source>
+        <translation>G68 desteklenmiyor: eğik düzlem için G68.2 kullanın</translation>
+    </message>
+    <message>
+        <source>G68.3 is not supported: use G68.2 with I J K</source>
+        <translation>G68.3 desteklenmiyor: I J K ile G68.2 kullanın</translation>
+    </message>
+    <message>
+        <source>feed for each turn (G95) needs a spindle, which this machine does not have</source>
+        <translation>devir başına ilerleme (G95) iş mili ister, bu makinede yok</translation>
+    </message>
+    <message>
+        <source>M3 turns a spindle, which this machine does not have</source>
+        <translation>M3 iş milini döndürür, bu makinede yok</translation>
+    </message>
+    <message>
+        <source>M4 turns a spindle, which this machine does not have</source>
+        <translation>M4 iş milini döndürür, bu makinede yok</translation>
+    </message>
+    <message>
+        <source>M6 changes tools, which this machine cannot</source>
+        <translation>M6 takım değiştirir, bu makine değiştiremez</translation>
+    </message>
+    <message>
+        <source>M7 switches coolant, which this machine does not have</source>
+        <translation>M7 soğutmayı açar, bu makinede yok</translation>
+    </message>
+    <message>
+        <source>M8 switches coolant, which this machine does not have</source>
+        <translation>M8 soğutmayı açar, bu makinede yok</translation>
+    </message>
+    <message>
+        <source>M92 changes steps for each mm: they belong to the machine file</source>
+        <translation>M92 mm başına adımı değiştirir: adımlar makine dosyasında durur</translation>
+    </message>
+    <message>
+        <source>canned cycles (%1) are not supported: use G0 and G1</source>
+        <translation>hazır çevrimler (%1) desteklenmiyor: G0 ve G1 kullanın</translation>
+    </message>
+    <message>
+        <source>%1 is unknown</source>
+        <translation>%1 bilinmiyor</translation>
+    </message>
+    <message>
+        <source>the line is longer than 4096 bytes</source>
+        <translation>satır 4096 bayttan uzun</translation>
+    </message>
+    <message>
+        <source>%1 has no effect on this machine</source>
+        <translation>%1 bu makinede etkisiz</translation>
+    </message>
+    <message>
+        <source>%1 and %2 would both use the line&apos;s axis words: write them in two lines</source>
+        <translation>%1 ile %2 satırın eksen sözcüklerini birlikte kullanır: iki satıra yazın</translation>
+    </message>
+    <message>
+        <source>%1 can only be read</source>
+        <translation>%1 yalnızca okunabilir</translation>
+    </message>
+    <message>
+        <source>offsets cannot change in a tilted plane: end it with G69 first</source>
+        <translation>eğik düzlemde ofset değiştirilemez: önce G69 ile bitirin</translation>
+    </message>
+    <message>
+        <source>the offset is too large (10^9 at most)</source>
+        <translation>ofset çok büyük (en çok 10^9)</translation>
+    </message>
+    <message>
+        <source>too many named parameters (1000 at most)</source>
+        <translation>çok fazla adlı parametre var (en çok 1000)</translation>
+    </message>
+    <message>
+        <source>the machine has no axis %1; its axes are X Y Z A C and E</source>
+        <translation>makinede %1 ekseni yok; eksenleri X Y Z A C ve E</translation>
+    </message>
+    <message>
+        <source>%1 has no use in this line: no motion code is given or active</source>
+        <translation>%1 bu satırda işe yaramaz: hareket kodu verilmemiş, etkin de değil</translation>
+    </message>
+    <message>
+        <source>%1 has no use in this line</source>
+        <translation>%1 bu satırda işe yaramaz</translation>
+    </message>
+    <message>
+        <source>two codes of this line would both use %1: write them in two lines</source>
+        <translation>bu satırın iki kodu da %1 kullanır: iki satıra yazın</translation>
+    </message>
+    <message>
+        <source>%1 needs a number</source>
+        <translation>%1 bir sayı ister</translation>
+    </message>
+    <message>
+        <source>%1 must be a whole number from %2 to %3</source>
+        <translation>%1, %2 ile %3 arasında bir tam sayı olmalı</translation>
+    </message>
+    <message>
+        <source>the expression is nested too deep (40 levels at most)</source>
+        <translation>ifade çok derin (en çok 40 düzey)</translation>
+    </message>
+    <message>
+        <source>expected a number, #parameter, [expression] or function</source>
+        <translation>sayı, #parametre, [ifade] ya da işlev bekleniyordu</translation>
+    </message>
+    <message>
+        <source>expected an operator or ]</source>
+        <translation>işleç ya da ] bekleniyordu</translation>
+    </message>
+    <message>
+        <source>the expression has no finite value</source>
+        <translation>ifadenin sonlu bir değeri yok</translation>
+    </message>
+    <message>
+        <source>division by zero</source>
+        <translation>sıfıra bölme</translation>
+    </message>
+    <message>
+        <source>the operation has no finite result</source>
+        <translation>işlemin sonlu bir sonucu yok</translation>
+    </message>
+    <message>
+        <source>%1 is not defined for this value</source>
+        <translation>%1 bu değer için tanımsız</translation>
+    </message>
+    <message>
+        <source>atan is written atan[y]/[x]</source>
+        <translation>atan şöyle yazılır: atan[y]/[x]</translation>
+    </message>
+    <message>
+        <source>atan[0]/[0] is not defined</source>
+        <translation>atan[0]/[0] tanımsız</translation>
+    </message>
+    <message>
+        <source>exists is written exists[#&lt;name&gt;]</source>
+        <translation>exists şöyle yazılır: exists[#&lt;ad&gt;]</translation>
+    </message>
+    <message>
+        <source>expected ]</source>
+        <translation>] bekleniyordu</translation>
+    </message>
+    <message>
+        <source>a parameter&apos;s name is made of letters, digits, _ and -</source>
+        <translation>parametre adı harf, rakam, _ ve - içerir</translation>
+    </message>
+    <message>
+        <source>the parameter&apos;s name is too long (64 letters at most)</source>
+        <translation>parametre adı çok uzun (en çok 64 harf)</translation>
+    </message>
+    <message>
+        <source>the parameter&apos;s name needs a closing &gt;</source>
+        <translation>parametre adının kapanan &gt; işareti eksik</translation>
+    </message>
+    <message>
+        <source>the parameter&apos;s name is empty</source>
+        <translation>parametre adı boş</translation>
+    </message>
+    <message>
+        <source>a parameter&apos;s number must be a whole number from 1 to 5400</source>
+        <translation>parametre numarası 1 ile 5400 arasında bir tam sayı olmalı</translation>
+    </message>
+    <message>
+        <source>there is no parameter #%1; they are #1 to #5400</source>
+        <translation>#%1 parametresi yok; #1 ile #5400 arasındadır</translation>
+    </message>
+    <message>
+        <source>#&lt;%1&gt; has no value yet</source>
+        <translation>#&lt;%1&gt; henüz değer almadı</translation>
+    </message>
+    <message>
+        <source>the text holds a NUL byte: this is not a G-code file</source>
+        <translation>metinde NUL baytı var: bu bir G kodu dosyası değil</translation>
+    </message>
+    <message>
+        <source>%1 needs a speed S</source>
+        <translation>%1 bir S hızı ister</translation>
+    </message>
+    <message>
+        <source>the spindle&apos;s speed S cannot be below 0</source>
+        <translation>iş milinin hızı S 0&apos;dan küçük olamaz</translation>
+    </message>
+    <message>
+        <source>the idle time of M%1 S has no effect on this machine</source>
+        <translation>M%1 S bekleme süresi bu makinede etkisiz</translation>
+    </message>
+    <message>
+        <source>%1 takes S or R, not both</source>
+        <translation>%1 S ya da R alır, ikisini birden değil</translation>
+    </message>
+    <message>
+        <source>%1 needs a temperature S or R</source>
+        <translation>%1 bir S ya da R sıcaklığı ister</translation>
+    </message>
+    <message>
+        <source>%1 needs a temperature S</source>
+        <translation>%1 bir S sıcaklığı ister</translation>
+    </message>
+    <message>
+        <source>a target temperature cannot be below 0 deg C</source>
+        <translation>hedef sıcaklık 0 °C altında olamaz</translation>
+    </message>
+    <message>
+        <source>the fan&apos;s speed S is 0 to 255</source>
+        <translation>fanın hızı S 0 ile 255 arasındadır</translation>
+    </message>
+    <message>
+        <source>a limit must be greater than 0</source>
+        <translation>sınır 0&apos;dan büyük olmalı</translation>
+    </message>
+    <message>
+        <source>%1 needs at least one axis word</source>
+        <translation>%1 en az bir eksen sözcüğü ister</translation>
+    </message>
+    <message>
+        <source>an acceleration must be greater than 0</source>
+        <translation>ivme 0&apos;dan büyük olmalı</translation>
+    </message>
+    <message>
+        <source>M205 (jerk, junction deviation) has no effect: corners are blended within the tolerance of G64 P</source>
+        <translation>M205 (silkinme, kavşak sapması) etkisiz: köşeler G64 P toleransı içinde yuvarlanır</translation>
+    </message>
+    <message>
+        <source>the retraction&apos;s length cannot be negative</source>
+        <translation>geri çekme uzunluğu eksi olamaz</translation>
+    </message>
+    <message>
+        <source>F must be greater than 0</source>
+        <translation>F 0&apos;dan büyük olmalı</translation>
+    </message>
+    <message>
+        <source>the retraction&apos;s lift cannot be negative</source>
+        <translation>geri çekmedeki kaldırma eksi olamaz</translation>
+    </message>
+    <message>
+        <source>%1 needs a percentage S</source>
+        <translation>%1 bir S yüzdesi ister</translation>
+    </message>
+    <message>
+        <source>the percentage of %1 is above 0 and at most 1000</source>
+        <translation>%1 yüzdesi 0&apos;dan büyük, en çok 1000 olur</translation>
+    </message>
+    <message>
+        <source>%1 needs the name of a stored job</source>
+        <translation>%1 kayıtlı bir işin adını ister</translation>
+    </message>
+    <message>
+        <source>M26 needs a byte position S</source>
+        <translation>M26 bir S bayt konumu ister</translation>
+    </message>
+    <message>
+        <source>the machine has no such tool: the last is T%1</source>
+        <translation>makinede böyle bir takım yok: sonuncusu T%1</translation>
+    </message>
+    <message>
+        <source>G4 takes P or S, not both</source>
+        <translation>G4 P ya da S alır, ikisini birden değil</translation>
+    </message>
+    <message>
+        <source>G4 cannot wait for a negative time</source>
+        <translation>G4 eksi süre bekleyemez</translation>
+    </message>
+    <message>
+        <source>the tolerance P of G64 cannot be negative</source>
+        <translation>G64&apos;ün P toleransı eksi olamaz</translation>
+    </message>
+    <message>
+        <source>the tolerance Q of G64 cannot be negative</source>
+        <translation>G64&apos;ün Q toleransı eksi olamaz</translation>
+    </message>
+    <message>
+        <source>in a tilted plane A and C turn only under G43.4, or by G53.1</source>
+        <translation>eğik düzlemde A ve C yalnızca G43.4 altında ya da G53.1 ile döner</translation>
+    </message>
+    <message>
+        <source>in inverse time mode (G93) every G1, G2 and G3 needs F</source>
+        <translation>ters zaman kipinde (G93) her G1, G2 ve G3 F ister</translation>
+    </message>
+    <message>
+        <source>no feed rate is set: this move needs F</source>
+        <translation>ilerleme hızı verilmedi: bu hareket F ister</translation>
+    </message>
+    <message>
+        <source>%1 and %2, or R</source>
+        <translation>%1 ve %2 ya da R</translation>
+    </message>
+    <message>
+        <source>%1 does not belong to the arc&apos;s plane: %2 needs %3</source>
+        <translation>%1 yayın düzleminde değil: %2 %3 ister</translation>
+    </message>
+    <message>
+        <source>%1 needs %2, not both</source>
+        <translation>%1 %2 ister, ikisini birden değil</translation>
+    </message>
+    <message>
+        <source>%1 needs %2</source>
+        <translation>%1 %2 ister</translation>
+    </message>
+    <message>
+        <source>with G90.1 an arc needs both %1 and %2</source>
+        <translation>G90.1 ile yay hem %1 hem %2 ister</translation>
+    </message>
+    <message>
+        <source>G53 needs G0 or G1, in this line or active</source>
+        <translation>G53, bu satırda ya da etkin olarak G0 ya da G1 ister</translation>
+    </message>
+    <message>
+        <source>G53 needs G49 and G69: machine coordinates do not turn with the part</source>
+        <translation>G53, G49 ve G69 ister: makine koordinatları parçayla dönmez</translation>
+    </message>
+    <message>
+        <source>G53 needs absolute distances (G90)</source>
+        <translation>G53 mutlak uzaklık (G90) ister</translation>
+    </message>
+    <message>
+        <source>%1 cannot change offsets in a tilted plane: end it with G69 first</source>
+        <translation>%1 eğik düzlemde ofset değiştiremez: önce G69 ile bitirin</translation>
+    </message>
+    <message>
+        <source>G10 needs L2 or L20 (or no L: retract)</source>
+        <translation>G10 L2 ya da L20 ister (L&apos;siz: geri çekme)</translation>
+    </message>
+    <message>
+        <source>G10 needs P: 1 for G54 ... 9 for G59.3, 0 for the active one</source>
+        <translation>G10 P ister: G54 için 1 ... G59.3 için 9, etkin olan için 0</translation>
+    </message>
+    <message>
+        <source>G92 needs at least one axis word</source>
+        <translation>G92 en az bir eksen sözcüğü ister</translation>
+    </message>
+    <message>
+        <source>G43.4 and G68.2 need a tool of length 0: the machine file says where the tool&apos;s tip is</source>
+        <translation>G43.4 ve G68.2 boyu 0 olan takım ister: takım ucunun yeri makine dosyasında</translation>
+    </message>
+    <message>
+        <source>a tilted plane is active already: end it with G69 first</source>
+        <translation>eğik düzlem zaten etkin: önce G69 ile bitirin</translation>
+    </message>
+    <message>
+        <source>G68.2 uses the line&apos;s axis words: write the motion in another line</source>
+        <translation>G68.2 satırın eksen sözcüklerini kullanır: hareketi başka satıra yazın</translation>
+    </message>
+    <message>
+        <source>G53.1 needs a tilted plane (G68.2)</source>
+        <translation>G53.1 eğik düzlem (G68.2) ister</translation>
+    </message>
+    <message>
+        <source>no A within the machine&apos;s range makes the tool normal to the plane</source>
+        <translation>makinenin aralığında takımı düzleme dik yapan A yok</translation>
+    </message>
+    <message>
+        <source>G28 finds the home switches: name axes without a number</source>
+        <translation>G28 ev anahtarlarını bulur: eksenleri sayısız yazın</translation>
+    </message>
+    <message>
+        <source>this gateway runs with its built-in machine: start it with --machine FILE</source>
+        <translation>bu ağ geçidi yerleşik makinesiyle çalışıyor: --machine DOSYA ile başlatın</translation>
+    </message>
+    <message>
+        <source>filament is fed before the job has set a hotend temperature (M104)</source>
+        <translation>iş nozul sıcaklığını vermeden (M104) filament sürüyor</translation>
+    </message>
+    <message>
+        <source>filament is fed with the hotend at %1; at least %2 is needed</source>
+        <translation>nozul %1 iken filament sürülüyor; en az %2 gerekir</translation>
+    </message>
+    <message>
+        <source>M112 stops the machine here</source>
+        <translation>M112 makineyi burada durdurur</translation>
+    </message>
+    <message>
+        <source>settings are kept in the machine file: M500 to M503 do nothing in a job</source>
+        <translation>ayarlar makine dosyasında durur: M500 - M503 iş içinde bir şey yapmaz</translation>
+    </message>
+    <message>
+        <source>hotend</source>
+        <translation>nozul</translation>
+    </message>
+    <message>
+        <source>bed</source>
+        <translation>tabla</translation>
+    </message>
+    <message>
+        <source>this machine has no %1 heater</source>
+        <translation>bu makinede %1 ısıtıcısı yok</translation>
+    </message>
+    <message>
+        <source>%1 temperature %2; allowed are 0 to %3</source>
+        <translation>%1 sıcaklığı %2; izin verilen 0 - %3</translation>
+    </message>
+    <message>
+        <source>%1 would wait forever: %2 is below the room&apos;s %3</source>
+        <translation>%1 sonsuza dek beklerdi: %2, odanın %3 sıcaklığının altında</translation>
+    </message>
+    <message>
+        <source>a job cannot manage stored jobs: M20 to M32 belong to a session</source>
+        <translation>iş, kayıtlı işleri yönetemez: M20 - M32 oturumundur</translation>
+    </message>
+    <message>
+        <source>G28: %1</source>
+        <translation>G28: %1</translation>
+    </message>
+    <message>
+        <source>bed reference: %1</source>
+        <translation>tabla referansı: %1</translation>
+    </message>
+    <message>
+        <source>stored jobs are managed by the session: M20 to M32 stand alone in a line</source>
+        <translation>kayıtlı işleri oturum yönetir: M20 - M32 satırda tek başına durur</translation>
+    </message>
+    <message>
+        <source>the machine is not ready to move: home it first (G28)</source>
+        <translation>makine harekete hazır değil: önce eve gönderin (G28)</translation>
+    </message>
+    <message>
+        <source>a move needs numbers</source>
+        <translation>hareket sayı ister</translation>
+    </message>
+    <message>
+        <source>the move is too long to be checked</source>
+        <translation>hareket denetlenemeyecek kadar uzun</translation>
+    </message>
+    <message>
+        <source>centre, plane and target do not make an arc</source>
+        <translation>merkez, düzlem ve hedef bir yay oluşturmuyor</translation>
+    </message>
+    <message>
+        <source>the arc is too long to be checked</source>
+        <translation>yay denetlenemeyecek kadar uzun</translation>
+    </message>
+    <message>
+        <source>the arc turns too far to be checked</source>
+        <translation>yay denetlenemeyecek kadar çok dönüyor</translation>
+    </message>
+    <message>
+        <source>filament is fed before a hotend temperature is set</source>
+        <translation>nozul sıcaklığı verilmeden filament sürülüyor</translation>
+    </message>
+    <message>
+        <source>filament would be fed with the hotend at %1; at least %2 is needed</source>
+        <translation>nozul %1 iken filament sürülürdü; en az %2 gerekir</translation>
+    </message>
+    <message>
+        <source>this machine has no spindle</source>
+        <translation>bu makinede iş mili yok</translation>
+    </message>
+    <message>
+        <source>the spindle turns one way only: use M3</source>
+        <translation>iş mili yalnız bir yöne döner: M3 kullanın</translation>
+    </message>
+    <message>
+        <source>spindle speed %1 rpm; allowed are %2 to %3 rpm</source>
+        <translation>iş mili hızı %1 dev/dk; izin verilen %2 - %3 dev/dk</translation>
+    </message>
+    <message>
+        <source>no stored job has the name %1</source>
+        <translation>%1 adında kayıtlı iş yok</translation>
+    </message>
+    <message>
+        <source>the disk is full</source>
+        <translation>disk dolu</translation>
+    </message>
+    <message>
+        <source>%1 cannot be written: %2</source>
+        <translation>%1 yazılamıyor: %2</translation>
+    </message>
+    <message>
+        <source>a job&apos;s name has 1 to 200 bytes</source>
+        <translation>iş adı 1 - 200 bayttır</translation>
+    </message>
+    <message>
+        <source>a job&apos;s name does not begin with a dot</source>
+        <translation>iş adı noktayla başlamaz</translation>
+    </message>
+    <message>
+        <source>a job&apos;s name has no slashes and no control characters</source>
+        <translation>iş adında bölü işareti ve denetim karakteri olmaz</translation>
+    </message>
+    <message>
+        <source>%1 cannot be written</source>
+        <translation>%1 yazılamıyor</translation>
+    </message>
+    <message>
+        <source>the job store&apos;s database: %1</source>
+        <translation>iş deposunun veritabanı: %1</translation>
+    </message>
+    <message>
+        <source>the job store&apos;s database cannot be opened</source>
+        <translation>iş deposunun veritabanı açılamıyor</translation>
+    </message>
+    <message>
+        <source>this upload is not open: begin it again, it goes on where it was</source>
+        <translation>bu yükleme açık değil: yeniden başlatın, kaldığı yerden sürer</translation>
+    </message>
+    <message>
+        <source>a job has at most %1 MiB</source>
+        <translation>bir iş en çok %1 MiB olur</translation>
+    </message>
+    <message>
+        <source>the store&apos;s quota of %1 MiB has no room for this job: delete others first</source>
+        <translation>deponun %1 MiB kotasında bu işe yer yok: önce başkalarını silin</translation>
+    </message>
+    <message>
+        <source>the disk has no room for this job: delete others first</source>
+        <translation>diskte bu işe yer yok: önce başkalarını silin</translation>
+    </message>
+    <message>
+        <source>an upload names the SHA-256 of its job: 32 bytes</source>
+        <translation>yükleme, işin SHA-256 özetini bildirir: 32 bayt</translation>
+    </message>
+    <message>
+        <source>another job has the name %1 already</source>
+        <translation>%1 adında başka bir iş var</translation>
+    </message>
+    <message>
+        <source>the next byte of this upload is %1, not %2</source>
+        <translation>bu yüklemenin sıradaki baytı %1, %2 değil</translation>
+    </message>
+    <message>
+        <source>more bytes than were announced</source>
+        <translation>bildirilenden çok bayt geldi</translation>
+    </message>
+    <message>
+        <source>%1 bytes of the job have not come yet</source>
+        <translation>işin %1 baytı henüz gelmedi</translation>
+    </message>
+    <message>
+        <source>the bytes that came are not those that were announced (SHA-256 differs): send the job again</source>
+        <translation>gelen baytlar bildirilenler değil (SHA-256 farklı): işi yeniden gönderin</translation>
+    </message>
+    <message>
+        <source>a travel&apos;s minimum is above its maximum</source>
+        <translation>bir strokun alt sınırı üst sınırının üstünde</translation>
+    </message>
+    <message>
+        <source>the table&apos;s pivot is not a number</source>
+        <translation>tablanın dönme noktası sayı değil</translation>
+    </message>
+    <message>
+        <source>radius_mm must be above 0</source>
+        <translation>radius_mm 0&apos;dan büyük olmalı</translation>
+    </message>
+    <message>
+        <source>the arms must be longer than the delta radius</source>
+        <translation>kollar delta yarıçapından uzun olmalı</translation>
+    </message>
+    <message>
+        <source>a tower travel&apos;s minimum is above its maximum</source>
+        <translation>bir kule strokunun alt sınırı üst sınırının üstünde</translation>
+    </message>
+    <message>
+        <source>a pose limit&apos;s minimum is above its maximum</source>
+        <translation>bir duruş sınırının altı üstünden büyük</translation>
+    </message>
+    <message>
+        <source>the towers stand so that the delta is singular: two at one angle</source>
+        <translation>kuleler deltayı tekil kılacak biçimde duruyor: ikisi aynı açıda</translation>
+    </message>
+    <message>
+        <source>leg %1</source>
+        <translation>bacak %1</translation>
+    </message>
+    <message>
+        <source>%1: a coordinate is not a number</source>
+        <translation>%1: bir koordinat sayı değil</translation>
+    </message>
+    <message>
+        <source>%1: its length must be above 0 mm</source>
+        <translation>%1: boyu 0 mm&apos;den büyük olmalı</translation>
+    </message>
+    <message>
+        <source>%1: its rail has no direction</source>
+        <translation>%1: rayının yönü yok</translation>
+    </message>
+    <message>
+        <source>%1: its connector offset is not a number</source>
+        <translation>%1: bağlantı ofseti sayı değil</translation>
+    </message>
+    <message>
+        <source>%1: its travel&apos;s minimum is above the maximum</source>
+        <translation>%1: strokunun alt sınırı üst sınırının üstünde</translation>
+    </message>
+    <message>
+        <source>rotation_scale_mm must be above 0</source>
+        <translation>rotation_scale_mm 0&apos;dan büyük olmalı</translation>
+    </message>
+    <message>
+        <source>max_condition must be 1 or more</source>
+        <translation>max_condition 1 ya da daha büyük olmalı</translation>
+    </message>
+    <message>
+        <source>no pose of the workspace can be reached: the legs are too short or the rails too far away</source>
+        <translation>çalışma alanının hiçbir duruşuna erişilemiyor: bacaklar kısa ya da raylar uzak</translation>
+    </message>
+    <message>
+        <source>the mechanism is singular or nearly so at every pose: the best condition number in the workspace is %1, the limit is %2; rails and attachments leave one motion of the platform without control (for instance attachments mirrored about the YZ plane)</source>
+        <translation>mekanizma her duruşta tekil ya da neredeyse tekil: çalışma alanındaki en iyi koşul sayısı %1, sınır %2; raylar ve bağlantılar platformun bir hareketini denetimsiz bırakıyor (örneğin YZ düzlemine göre yansımış bağlantılar)</translation>
+    </message>
+    <message>
+        <source>rods, triangle, rails and rotation_scale_mm must be above 0 mm</source>
+        <translation>çubuklar, üçgen, raylar ve rotation_scale_mm 0 mm&apos;den büyük olmalı</translation>
+    </message>
+    <message>
+        <source>tool or table position is not a number</source>
+        <translation>takım ya da tabla konumu sayı değil</translation>
+    </message>
+    <message>
+        <source>a travel&apos;s or limit&apos;s minimum is above its maximum</source>
+        <translation>bir strok ya da sınırın altı üstünden büyük</translation>
+    </message>
+    <message>
+        <source>no pose of the workspace can be reached: the rods are too short for the rails&apos; distance</source>
+        <translation>çalışma alanının hiçbir duruşuna erişilemiyor: çubuklar raylar arası uzaklığa göre kısa</translation>
+    </message>
+    <message>
+        <source>the mechanism is singular or nearly so at every pose: the best condition number in the workspace is %1, the limit is %2; rods and triangle leave one motion of the spindle without control</source>
+        <translation>mekanizma her duruşta tekil ya da neredeyse tekil: çalışma alanındaki en iyi koşul sayısı %1, sınır %2; çubuklar ve üçgen iş milinin bir hareketini denetimsiz bırakıyor</translation>
     </message>
     <message>
         <source>%1: out of reach, the leg is %2 too short</source>
-        <translation>%1: erişilemez, bacak %2 kısa kalıyor</translation>
+        <translation>%1: erişilemiyor, bacak %2 kısa</translation>
     </message>
     <message>
         <source>%1: would be %2 beyond its travel</source>
-        <translation>%1: hareket sınırını %2 aşar</translation>
+        <translation>%1: strokunun %2 dışında kalırdı</translation>
     </message>
     <message>
         <source>%1: the leg leans %2 too far from its rail</source>
@@ -1592,44 +1116,2443 @@
         <translation>%1: bacak, ray ve platform birbirine %2 fazla yaklaşıyor</translation>
     </message>
     <message>
+        <source>%1 is %2 outside the workspace</source>
+        <translation>%1 çalışma alanının %2 dışında</translation>
+    </message>
+    <message>
         <source>too near to a singular pose: condition number %1</source>
         <translation>tekil duruşa çok yakın: koşul sayısı %1</translation>
     </message>
     <message>
-        <source>filament is fed before the job has set a hotend temperature (M104)</source>
-        <translation>iş bir nozul sıcaklığı (M104) vermeden filament sürülüyor</translation>
+        <source>no pose fits these joint positions (%1 remain)</source>
+        <translation>bu eklem konumlarına uyan duruş yok (%1 kalıyor)</translation>
     </message>
     <message>
-        <source>filament is fed with the hotend at %1 °C; at least %2 °C is needed</source>
-        <translation>nozul %1 °C iken filament sürülüyor; en az %2 °C gerekir</translation>
+        <source>unknown pose error</source>
+        <translation>bilinmeyen duruş hatası</translation>
     </message>
     <message>
-        <source>M112 stops the machine here</source>
-        <translation>M112 makineyi burada durdurur</translation>
+        <source>machine</source>
+        <translation>makine</translation>
     </message>
     <message>
-        <source>settings are kept in the machine file: M500 to M503 do nothing in a job</source>
-        <translation>ayarlar makine dosyasında durur: M500–M503 bir işte etkisizdir</translation>
+        <source>joint %1</source>
+        <translation>eklem %1</translation>
     </message>
     <message>
-        <source>this machine has no heater for the hotend</source>
-        <translation>bu makinenin nozul ısıtıcısı yok</translation>
+        <source>over-current in a motor phase</source>
+        <translation>bir motor fazında aşırı akım</translation>
     </message>
     <message>
-        <source>this machine has no heater for the bed</source>
-        <translation>bu makinenin tabla ısıtıcısı yok</translation>
+        <source>check the motor and its cable for a short, then clear</source>
+        <translation>motorda ve kablosunda kısa devre arayın, sonra temizleyin</translation>
     </message>
     <message>
-        <source>hotend temperature %1 °C; allowed are 0 to %2 °C</source>
-        <translation>nozul sıcaklığı %1 °C; izin verilen 0–%2 °C</translation>
+        <source>a motor phase is shorted</source>
+        <translation>bir motor fazı kısa devre</translation>
     </message>
     <message>
-        <source>bed temperature %1 °C; allowed are 0 to %2 °C</source>
-        <translation>tabla sıcaklığı %1 °C; izin verilen 0–%2 °C</translation>
+        <source>switch off, check the motor and its cable</source>
+        <translation>kapatın, motoru ve kablosunu denetleyin</translation>
     </message>
     <message>
-        <source>a job cannot manage stored jobs: M20 to M32 belong to a session</source>
-        <translation>bir iş depolanan işleri yönetemez: M20–M32 oturuma aittir</translation>
+        <source>supply voltage too high</source>
+        <translation>besleme gerilimi çok yüksek</translation>
+    </message>
+    <message>
+        <source>check the power supply</source>
+        <translation>güç kaynağını denetleyin</translation>
+    </message>
+    <message>
+        <source>supply voltage too low</source>
+        <translation>besleme gerilimi çok düşük</translation>
+    </message>
+    <message>
+        <source>check the power supply and its wiring</source>
+        <translation>güç kaynağını ve kablolarını denetleyin</translation>
+    </message>
+    <message>
+        <source>the node is too hot</source>
+        <translation>düğüm çok sıcak</translation>
+    </message>
+    <message>
+        <source>let it cool, check the fan</source>
+        <translation>soğumasını bekleyin, fanı denetleyin</translation>
+    </message>
+    <message>
+        <source>a motor driver is too hot</source>
+        <translation>bir motor sürücüsü çok sıcak</translation>
+    </message>
+    <message>
+        <source>let it cool, lower the current, check the fan</source>
+        <translation>soğumasını bekleyin, akımı düşürün, fanı denetleyin</translation>
+    </message>
+    <message>
+        <source>stored parameters are damaged</source>
+        <translation>kayıtlı parametreler bozuk</translation>
+    </message>
+    <message>
+        <source>bring up again: the gateway writes them anew</source>
+        <translation>yeniden devreye alın: ağ geçidi onları yeniden yazar</translation>
+    </message>
+    <message>
+        <source>internal software fault</source>
+        <translation>iç yazılım hatası</translation>
+    </message>
+    <message>
+        <source>switch the node off and on, report it</source>
+        <translation>düğümü kapatıp açın, bildirin</translation>
+    </message>
+    <message>
+        <source>user software fault</source>
+        <translation>kullanıcı yazılımı hatası</translation>
+    </message>
+    <message>
+        <source>encoder fault</source>
+        <translation>kodlayıcı arızası</translation>
+    </message>
+    <message>
+        <source>check the encoder&apos;s cable</source>
+        <translation>kodlayıcının kablosunu denetleyin</translation>
+    </message>
+    <message>
+        <source>CAN frames were lost (overrun)</source>
+        <translation>CAN çerçeveleri kayboldu (taşma)</translation>
+    </message>
+    <message>
+        <source>check the load of the bus</source>
+        <translation>veri yolunun yükünü denetleyin</translation>
+    </message>
+    <message>
+        <source>many CAN errors</source>
+        <translation>çok sayıda CAN hatası</translation>
+    </message>
+    <message>
+        <source>check cable and termination of the bus</source>
+        <translation>veri yolunun kablosunu ve sonlandırmasını denetleyin</translation>
+    </message>
+    <message>
+        <source>the gateway&apos;s heartbeat or SYNC was missed</source>
+        <translation>ağ geçidinin kalp atışı ya da SYNC iletisi gelmedi</translation>
+    </message>
+    <message>
+        <source>check the gateway and the bus, then clear</source>
+        <translation>ağ geçidini ve veri yolunu denetleyin, sonra temizleyin</translation>
+    </message>
+    <message>
+        <source>recovered from bus-off</source>
+        <translation>bus-off durumundan döndü</translation>
+    </message>
+    <message>
+        <source>two nodes use the same id</source>
+        <translation>iki düğüm aynı kimliği kullanıyor</translation>
+    </message>
+    <message>
+        <source>give one of them another id (LSS)</source>
+        <translation>birine başka kimlik verin (LSS)</translation>
+    </message>
+    <message>
+        <source>an expected PDO did not arrive</source>
+        <translation>beklenen bir PDO gelmedi</translation>
+    </message>
+    <message>
+        <source>following error: the motor did not follow</source>
+        <translation>izleme hatası: motor geri kaldı</translation>
+    </message>
+    <message>
+        <source>look for an obstacle, home again</source>
+        <translation>engel arayın, yeniden eve gönderin</translation>
+    </message>
+    <message>
+        <source>a position limit was reached</source>
+        <translation>konum sınırına gelindi</translation>
+    </message>
+    <message>
+        <source>check the machine file&apos;s limits, home again</source>
+        <translation>makine dosyasının sınırlarını denetleyin, yeniden eve gönderin</translation>
+    </message>
+    <message>
+        <source>clock synchronisation was lost</source>
+        <translation>saat eşlemesi kayboldu</translation>
+    </message>
+    <message>
+        <source>check the bus, then clear</source>
+        <translation>veri yolunu denetleyin, sonra temizleyin</translation>
+    </message>
+    <message>
+        <source>general fault</source>
+        <translation>genel arıza</translation>
+    </message>
+    <message>
+        <source>look at the node&apos;s state, then clear</source>
+        <translation>düğümün durumuna bakın, sonra temizleyin</translation>
+    </message>
+    <message>
+        <source>current fault</source>
+        <translation>akım arızası</translation>
+    </message>
+    <message>
+        <source>check motor and cable</source>
+        <translation>motoru ve kabloyu denetleyin</translation>
+    </message>
+    <message>
+        <source>voltage fault</source>
+        <translation>gerilim arızası</translation>
+    </message>
+    <message>
+        <source>temperature fault</source>
+        <translation>sıcaklık arızası</translation>
+    </message>
+    <message>
+        <source>let it cool</source>
+        <translation>soğumasını bekleyin</translation>
+    </message>
+    <message>
+        <source>hardware fault</source>
+        <translation>donanım arızası</translation>
+    </message>
+    <message>
+        <source>switch the node off and on</source>
+        <translation>düğümü kapatıp açın</translation>
+    </message>
+    <message>
+        <source>software fault</source>
+        <translation>yazılım arızası</translation>
+    </message>
+    <message>
+        <source>fault of an additional module</source>
+        <translation>ek modül arızası</translation>
+    </message>
+    <message>
+        <source>monitoring fault</source>
+        <translation>izleme arızası</translation>
+    </message>
+    <message>
+        <source>additional function fault</source>
+        <translation>ek işlev arızası</translation>
+    </message>
+    <message>
+        <source>its queue ran low</source>
+        <translation>kuyruğu boşaldı</translation>
+    </message>
+    <message>
+        <source>clear and resume; when it comes again, check the load of gateway and bus</source>
+        <translation>temizleyip sürdürün; yinelenirse ağ geçidi ve veri yolu yükünü denetleyin</translation>
+    </message>
+    <message>
+        <source>a record was lost</source>
+        <translation>bir kayıt kayboldu</translation>
+    </message>
+    <message>
+        <source>clear; when it comes again, check the bus for errors</source>
+        <translation>temizleyin; yinelenirse veri yolunda hata arayın</translation>
+    </message>
+    <message>
+        <source>its position is not the gateway&apos;s</source>
+        <translation>konumu ağ geçidininkinden farklı</translation>
+    </message>
+    <message>
+        <source>clear and home again</source>
+        <translation>temizleyip yeniden eve gönderin</translation>
+    </message>
+    <message>
+        <source>a record broke its limits</source>
+        <translation>bir kayıt sınırlarını aştı</translation>
+    </message>
+    <message>
+        <source>clear; check the machine file against the node&apos;s limits</source>
+        <translation>temizleyin; makine dosyasını düğümün sınırlarıyla karşılaştırın</translation>
+    </message>
+    <message>
+        <source>the emergency stop input</source>
+        <translation>acil durdurma girişi</translation>
+    </message>
+    <message>
+        <source>release the emergency stop when it is safe, then clear</source>
+        <translation>güvenli olunca acil durdurmayı bırakın, sonra temizleyin</translation>
+    </message>
+    <message>
+        <source>a limit switch</source>
+        <translation>bir sınır anahtarı</translation>
+    </message>
+    <message>
+        <source>move the carriage off the switch, then clear and home again</source>
+        <translation>arabayı anahtardan çekin, sonra temizleyip yeniden eve gönderin</translation>
+    </message>
+    <message>
+        <source>the gateway&apos;s heartbeat is missing</source>
+        <translation>ağ geçidinin kalp atışı yok</translation>
+    </message>
+    <message>
+        <source>SYNC is missing</source>
+        <translation>SYNC yok</translation>
+    </message>
+    <message>
+        <source>fault of a drive</source>
+        <translation>bir sürücünün arızası</translation>
+    </message>
+    <message>
+        <source>look at the drive&apos;s fault, then clear</source>
+        <translation>sürücünün arızasına bakın, sonra temizleyin</translation>
+    </message>
+    <message>
+        <source>its drives were switched off in motion</source>
+        <translation>sürücüleri hareket hâlinde kapatıldı</translation>
+    </message>
+    <message>
+        <source>clear and enable again</source>
+        <translation>temizleyip yeniden açın</translation>
+    </message>
+    <message>
+        <source>another node asked for it</source>
+        <translation>başka bir düğüm istedi</translation>
+    </message>
+    <message>
+        <source>look at the other node&apos;s message</source>
+        <translation>öbür düğümün iletisine bakın</translation>
+    </message>
+    <message>
+        <source>unknown fault</source>
+        <translation>bilinmeyen arıza</translation>
+    </message>
+    <message>
+        <source>%1, axis B</source>
+        <translation>%1, B ekseni</translation>
+    </message>
+    <message>
+        <source>node %1: %2 (EMCY %3)</source>
+        <translation>düğüm %1: %2 (EMCY %3)</translation>
+    </message>
+    <message>
+        <source>check the node&apos;s power and the bus cable, then bring up again</source>
+        <translation>düğümün beslemesini ve veri yolu kablosunu denetleyin, sonra yeniden devreye alın</translation>
+    </message>
+    <message>
+        <source>connect the right node or update its firmware</source>
+        <translation>doğru düğümü bağlayın ya da yazılımını güncelleyin</translation>
+    </message>
+    <message>
+        <source>check the machine file against the node&apos;s limits</source>
+        <translation>makine dosyasını düğümün sınırlarıyla karşılaştırın</translation>
+    </message>
+    <message>
+        <source>look at the drive&apos;s fault, clear, then bring up again</source>
+        <translation>sürücünün arızasına bakın, temizleyin, sonra yeniden devreye alın</translation>
+    </message>
+    <message>
+        <source>switch one of the gateways off</source>
+        <translation>ağ geçitlerinden birini kapatın</translation>
+    </message>
+    <message>
+        <source>check the node&apos;s power and the bus cable, then clear and bring up again</source>
+        <translation>düğümün beslemesini ve veri yolu kablosunu denetleyin, sonra temizleyip yeniden devreye alın</translation>
+    </message>
+    <message>
+        <source>check the node&apos;s power, then clear, bring up and home again</source>
+        <translation>düğümün beslemesini denetleyin, sonra temizleyin, devreye alın ve yeniden eve gönderin</translation>
+    </message>
+    <message>
+        <source>check the bus for errors, then clear</source>
+        <translation>veri yolunda hata arayın, sonra temizleyin</translation>
+    </message>
+    <message>
+        <source>check switch and wiring, then clear and home again</source>
+        <translation>anahtarı ve kablosunu denetleyin, sonra temizleyip yeniden eve gönderin</translation>
+    </message>
+    <message>
+        <source>check the switches of the carriages that went on, then clear and home again</source>
+        <translation>ilerleyen arabaların anahtarlarını denetleyin, sonra temizleyip yeniden eve gönderin</translation>
+    </message>
+    <message>
+        <source>check switches and home speeds, then clear and home again</source>
+        <translation>anahtarları ve eve gitme hızlarını denetleyin, sonra temizleyip yeniden eve gönderin</translation>
+    </message>
+    <message>
+        <source>clear: positions are known, the job can be run again</source>
+        <translation>temizleyin: konumlar biliniyor, iş yeniden çalıştırılabilir</translation>
+    </message>
+    <message>
+        <source>clear; when it comes again, check the bus for lost frames</source>
+        <translation>temizleyin; yinelenirse veri yolunda kayıp çerçeve arayın</translation>
+    </message>
+    <message>
+        <source>check cable and termination of the bus, then clear and bring up again</source>
+        <translation>veri yolunun kablosunu ve sonlandırmasını denetleyin, sonra temizleyip yeniden devreye alın</translation>
+    </message>
+    <message>
+        <source>check heater and sensor, then clear</source>
+        <translation>ısıtıcıyı ve algılayıcıyı denetleyin, sonra temizleyin</translation>
+    </message>
+    <message>
+        <source>correct the job, then clear</source>
+        <translation>işi düzeltin, sonra temizleyin</translation>
+    </message>
+    <message>
+        <source>clear when the machine is safe</source>
+        <translation>makine güvenli olunca temizleyin</translation>
+    </message>
+    <message>
+        <source>switch the machine off and on, home again</source>
+        <translation>makineyi kapatıp açın, yeniden eve gönderin</translation>
+    </message>
+    <message>
+        <source>clear</source>
+        <translation>temizleme</translation>
+    </message>
+    <message>
+        <source>listening for another gateway</source>
+        <translation>başka ağ geçidi var mı dinleniyor</translation>
+    </message>
+    <message>
+        <source>looking for the nodes</source>
+        <translation>düğümler aranıyor</translation>
+    </message>
+    <message>
+        <source>checking the nodes&apos; parameters</source>
+        <translation>düğümlerin parametreleri denetleniyor</translation>
+    </message>
+    <message>
+        <source>starting the nodes</source>
+        <translation>düğümler başlatılıyor</translation>
+    </message>
+    <message>
+        <source>synchronising the clocks</source>
+        <translation>saatler eşleniyor</translation>
+    </message>
+    <message>
+        <source>equalising path time</source>
+        <translation>yol zamanı eşitleniyor</translation>
+    </message>
+    <message>
+        <source>enabling the drives</source>
+        <translation>sürücüler açılıyor</translation>
+    </message>
+    <message>
+        <source>another gateway speaks on this bus (SYNC, stamps or heartbeat of node 127)</source>
+        <translation>bu veri yolunda başka bir ağ geçidi konuşuyor (SYNC, damga ya da düğüm 127&apos;nin kalp atışı)</translation>
+    </message>
+    <message>
+        <source>vendor</source>
+        <translation>üretici</translation>
+    </message>
+    <message>
+        <source>product</source>
+        <translation>ürün</translation>
+    </message>
+    <message>
+        <source>revision</source>
+        <translation>sürüm</translation>
+    </message>
+    <message>
+        <source>serial number</source>
+        <translation>seri numarası</translation>
+    </message>
+    <message>
+        <source>node %1: %2 is %3, the machine file wants %4</source>
+        <translation>düğüm %1: %2 %3, makine dosyası %4 istiyor</translation>
+    </message>
+    <message>
+        <source>node %1 does not become operational</source>
+        <translation>düğüm %1 çalışır duruma geçmiyor</translation>
+    </message>
+    <message>
+        <source>node %1 does not synchronise its clock</source>
+        <translation>düğüm %1 saatini eşlemiyor</translation>
+    </message>
+    <message>
+        <source>node %1 keeps its stop latched: an emergency stop or limit switch is active</source>
+        <translation>düğüm %1 durdurmayı bırakmıyor: acil durdurma ya da sınır anahtarı etkin</translation>
+    </message>
+    <message>
+        <source>node %1: its drives do not enable (statuswords %2 and %3)</source>
+        <translation>düğüm %1: sürücüleri açılmıyor (durum sözcükleri %2 ve %3)</translation>
+    </message>
+    <message>
+        <source>node %1 did not come back after the return to its default parameters</source>
+        <translation>düğüm %1 varsayılan parametrelere döndükten sonra geri gelmedi</translation>
+    </message>
+    <message>
+        <source>node %1: its parameters have the fingerprint %2, the machine file&apos;s have %3, after all were written</source>
+        <translation>düğüm %1: parametrelerinin özeti %2, makine dosyasınınki %3, hepsi yazıldığı hâlde</translation>
+    </message>
+    <message>
+        <source>there is no interrupted job to %1</source>
+        <translation>bunun için kesilmiş bir iş yok: %1</translation>
+    </message>
+    <message>
+        <source>cannot %1 while the machine is %2</source>
+        <translation>makine &quot;%2&quot; durumundayken yapılamaz: %1</translation>
+    </message>
+    <message>
+        <source>%1: bring it up first</source>
+        <translation>%1. Önce devreye alın</translation>
+    </message>
+    <message>
+        <source>%1: home it first</source>
+        <translation>%1. Önce eve gönderin</translation>
+    </message>
+    <message>
+        <source>%1: clear first</source>
+        <translation>%1. Önce temizleyin</translation>
+    </message>
+    <message>
+        <source>no pose fits the joints&apos; positions: %1</source>
+        <translation>eklem konumlarına uyan duruş yok: %1</translation>
+    </message>
+    <message>
+        <source>a jog needs numbers</source>
+        <translation>elle sürme sayı ister</translation>
+    </message>
+    <message>
+        <source>a jog&apos;s speed is 0 or more</source>
+        <translation>elle sürme hızı 0 ya da büyüktür</translation>
+    </message>
+    <message>
+        <source>a jog needs a distance</source>
+        <translation>elle sürme bir uzaklık ister</translation>
+    </message>
+    <message>
+        <source>the hotend is too cold to feed filament: %1 C</source>
+        <translation>nozul filament sürmek için çok soğuk: %1 °C</translation>
+    </message>
+    <message>
+        <source>the job cannot be read twice: it is checked before it runs</source>
+        <translation>iş iki kez okunamıyor: çalışmadan önce denetlenir</translation>
+    </message>
+    <message>
+        <source>cleared: resume brings the machine up again and goes on with the job</source>
+        <translation>temizlendi: sürdürme makineyi yeniden devreye alır ve işe devam eder</translation>
+    </message>
+    <message>
+        <source>cleared: bring the machine up again</source>
+        <translation>temizlendi: makineyi yeniden devreye alın</translation>
+    </message>
+    <message>
+        <source>a feed override is 0.01 to 5</source>
+        <translation>hız ayarı 0.01 ile 5 arasındadır</translation>
+    </message>
+    <message>
+        <source>the temperature must be 0 to %1 C</source>
+        <translation>sıcaklık 0 ile %1 °C arasında olmalı</translation>
+    </message>
+    <message>
+        <source>another gateway has begun to speak on this bus</source>
+        <translation>bu veri yolunda başka bir ağ geçidi konuşmaya başladı</translation>
+    </message>
+    <message>
+        <source>node %1</source>
+        <translation>düğüm %1</translation>
+    </message>
+    <message>
+        <source>%1 has restarted</source>
+        <translation>%1 yeniden başladı</translation>
+    </message>
+    <message>
+        <source>%1 is silent</source>
+        <translation>%1 sessiz</translation>
+    </message>
+    <message>
+        <source>%1 has lost the synchronisation of its clock</source>
+        <translation>%1 saat eşlemesini yitirdi</translation>
+    </message>
+    <message>
+        <source>%1 rests at another path time than the gateway: %2 us apart</source>
+        <translation>%1 ağ geçidinden başka yol zamanında duruyor: %2 µs fark</translation>
+    </message>
+    <message>
+        <source>too late: the machine is in use already</source>
+        <translation>çok geç: makine zaten kullanılıyor</translation>
+    </message>
+    <message>
+        <source>the interrupted job %1 is not there any more</source>
+        <translation>kesilen iş %1 artık yok</translation>
+    </message>
+    <message>
+        <source>the job %1 was interrupted: resume to go on with it, or cancel</source>
+        <translation>%1 işi kesildi: sürdürün ya da iptal edin</translation>
+    </message>
+    <message>
+        <source>the nodes have lost their positions: resume homes the machine and goes on</source>
+        <translation>düğümler konumlarını yitirdi: sürdürme makineyi eve gönderir ve devam eder</translation>
+    </message>
+    <message>
+        <source>the job does not go on: %1</source>
+        <translation>iş sürmüyor: %1</translation>
+    </message>
+    <message>
+        <source>put right what is said, then resume</source>
+        <translation>söyleneni düzeltin, sonra sürdürün</translation>
+    </message>
+    <message>
+        <source>the job %1 is not the text that was interrupted: it does not go on</source>
+        <translation>%1 kesilen metin değil: sürmüyor</translation>
+    </message>
+    <message>
+        <source>run it from its beginning</source>
+        <translation>baştan çalıştırın</translation>
+    </message>
+    <message>
+        <source>the interrupted job cannot be read</source>
+        <translation>kesilen iş okunamıyor</translation>
+    </message>
+    <message>
+        <source>the job&apos;s place cannot be reached: %1</source>
+        <translation>işin kaldığı yere erişilemiyor: %1</translation>
+    </message>
+    <message>
+        <source>the tool was found %1 mm from its place: resume brings it back</source>
+        <translation>takım yerinden %1 mm uzakta bulundu: sürdürme geri getirir</translation>
+    </message>
+    <message>
+        <source>the job %1 goes on</source>
+        <translation>%1 işi sürüyor</translation>
+    </message>
+    <message>
+        <source>reading where the nodes stand</source>
+        <translation>düğümlerin durduğu yer okunuyor</translation>
+    </message>
+    <message>
+        <source>path time did not come to rest</source>
+        <translation>yol zamanı durmadı</translation>
+    </message>
+    <message>
+        <source>a node keeps its stop latched: is an emergency stop or a limit switch still active?</source>
+        <translation>bir düğüm durdurmayı bırakmıyor: acil durdurma ya da sınır anahtarı hâlâ etkin mi?</translation>
+    </message>
+    <message>
+        <source>a drive does not enable again: its fault is still there</source>
+        <translation>bir sürücü yeniden açılmıyor: arızası sürüyor</translation>
+    </message>
+    <message>
+        <source>a node does not know its position after homing</source>
+        <translation>bir düğüm eve gittikten sonra konumunu bilmiyor</translation>
+    </message>
+    <message>
+        <source>homed</source>
+        <translation>eve gönderildi</translation>
+    </message>
+    <message>
+        <source>cancelled: positions are known</source>
+        <translation>iptal edildi: konumlar biliniyor</translation>
+    </message>
+    <message>
+        <source>the bus failed: %1</source>
+        <translation>veri yolu çöktü: %1</translation>
+    </message>
+    <message>
+        <source>error: %1</source>
+        <translation>hata: %1</translation>
+    </message>
+    <message>
+        <source>warning: %1</source>
+        <translation>uyarı: %1</translation>
+    </message>
+    <message>
+        <source>the job was not begun: it has %1 errors</source>
+        <translation>iş başlatılmadı: %1 hatası var</translation>
+    </message>
+    <message>
+        <source>correct the lines named, then run it again</source>
+        <translation>belirtilen satırları düzeltin, sonra yeniden çalıştırın</translation>
+    </message>
+    <message>
+        <source>M112 in the job</source>
+        <translation>işte M112</translation>
+    </message>
+    <message>
+        <source>move done</source>
+        <translation>hareket bitti</translation>
+    </message>
+    <message>
+        <source>all lines done: %1</source>
+        <translation>bütün satırlar bitti: %1</translation>
+    </message>
+    <message>
+        <source>job done: %1</source>
+        <translation>iş bitti: %1</translation>
+    </message>
+    <message>
+        <source>no file there</source>
+        <translation>orada dosya yok</translation>
+    </message>
+    <message>
+        <source>a readable TOML file</source>
+        <translation>okunabilir bir TOML dosyası</translation>
+    </message>
+    <message>
+        <source>more than 1 MiB</source>
+        <translation>1 MiB&apos;tan fazla</translation>
+    </message>
+    <message>
+        <source>a machine file, which is a few KiB long</source>
+        <translation>birkaç KiB&apos;lık bir makine dosyası</translation>
+    </message>
+    <message>
+        <source>a file that cannot be read</source>
+        <translation>okunamayan bir dosya</translation>
+    </message>
+    <message>
+        <source>a table</source>
+        <translation>bir tablo</translation>
+    </message>
+    <message>
+        <source>an array of %1</source>
+        <translation>%1 öğeli dizi</translation>
+    </message>
+    <message>
+        <source>a text</source>
+        <translation>bir metin</translation>
+    </message>
+    <message>
+        <source>true or false</source>
+        <translation>true ya da false</translation>
+    </message>
+    <message>
+        <source>a number in %1</source>
+        <translation>%1 arasında bir sayı</translation>
+    </message>
+    <message>
+        <source>at most %1 numbers, each in %2</source>
+        <translation>en çok %1 sayı, her biri %2 arasında</translation>
+    </message>
+    <message>
+        <source>a whole number in %1 .. %2</source>
+        <translation>%1 .. %2 arasında bir tam sayı</translation>
+    </message>
+    <message>
+        <source>one of %1</source>
+        <translation>şunlardan biri: %1</translation>
+    </message>
+    <message>
+        <source>three numbers, each in %1</source>
+        <translation>üç sayı, her biri %1 arasında</translation>
+    </message>
+    <message>
+        <source>[least, most], least below most, in %1</source>
+        <translation>[en az, en çok], en az en çoktan küçük, %1 arasında</translation>
+    </message>
+    <message>
+        <source>a table, [%1]</source>
+        <translation>bir tablo, [%1]</translation>
+    </message>
+    <message>
+        <source>a node id in 1 .. 126</source>
+        <translation>1 .. 126 arasında düğüm kimliği</translation>
+    </message>
+    <message>
+        <source>perhaps %1</source>
+        <translation>belki %1</translation>
+    </message>
+    <message>
+        <source>a key that does not exist</source>
+        <translation>olmayan bir anahtar</translation>
+    </message>
+    <message>
+        <source>a control character</source>
+        <translation>bir denetim karakteri</translation>
+    </message>
+    <message>
+        <source>printable text, tabs and line ends</source>
+        <translation>yazılabilir metin, sekmeler ve satır sonları</translation>
+    </message>
+    <message>
+        <source>no valid TOML: %1</source>
+        <translation>geçersiz TOML: %1</translation>
+    </message>
+    <message>
+        <source>a machine that cannot work</source>
+        <translation>çalışamayacak bir makine</translation>
+    </message>
+    <message>
+        <source>a power of two</source>
+        <translation>ikinin bir kuvveti</translation>
+    </message>
+    <message>
+        <source>at most run_current_ma, %1</source>
+        <translation>en çok run_current_ma, %1</translation>
+    </message>
+    <message>
+        <source>node %1 axis %2</source>
+        <translation>düğüm %1 ekseni %2</translation>
+    </message>
+    <message>
+        <source>a node&apos;s axis that no other joint has</source>
+        <translation>başka eklemin kullanmadığı bir düğüm ekseni</translation>
+    </message>
+    <message>
+        <source>at least acceleration + speed / stop ramp = %1, or a longer stop.ramp_ms</source>
+        <translation>en az ivme + hız / durma rampası = %1, ya da daha uzun stop.ramp_ms</translation>
+    </message>
+    <message>
+        <source>no table</source>
+        <translation>tablo yok</translation>
+    </message>
+    <message>
+        <source>[%1homing]: a joint with limited travel must find its position</source>
+        <translation>[%1homing]: strok sınırı olan eklem konumunu bulmalı</translation>
+    </message>
+    <message>
+        <source>no pitch</source>
+        <translation>adım (pitch) yok</translation>
+    </message>
+    <message>
+        <source>the pitch that the periodic error repeats with</source>
+        <translation>periyodik hatanın yinelendiği adım</translation>
+    </message>
+    <message>
+        <source>one number</source>
+        <translation>tek sayı</translation>
+    </message>
+    <message>
+        <source>two or more</source>
+        <translation>iki ya da daha çok</translation>
+    </message>
+    <message>
+        <source>the distance of the table&apos;s places, above 0</source>
+        <translation>tablo yerleri arasındaki uzaklık, 0&apos;dan büyük</translation>
+    </message>
+    <message>
+        <source>an error with a slope of %1</source>
+        <translation>eğimi %1 olan hata</translation>
+    </message>
+    <message>
+        <source>at most %1</source>
+        <translation>en çok %1</translation>
+    </message>
+    <message>
+        <source>a correction that needs nearly all of the joint&apos;s speed or acceleration</source>
+        <translation>eklemin hız ya da ivmesinin neredeyse tümünü isteyen düzeltme</translation>
+    </message>
+    <message>
+        <source>smaller errors, or higher limits of the joint</source>
+        <translation>daha küçük hatalar ya da eklemde daha yüksek sınırlar</translation>
+    </message>
+    <message>
+        <source>17..22 or 37</source>
+        <translation>17..22 ya da 37</translation>
+    </message>
+    <message>
+        <source>at most the fast speed, %1</source>
+        <translation>en çok hızlı hız, %1</translation>
+    </message>
+    <message>
+        <source>at most the joint&apos;s speed, %1</source>
+        <translation>en çok eklemin hızı, %1</translation>
+    </message>
+    <message>
+        <source>at most the joint&apos;s acceleration, %1</source>
+        <translation>en çok eklemin ivmesi, %1</translation>
+    </message>
+    <message>
+        <source>within the joint&apos;s travel, %1 .. %2</source>
+        <translation>eklemin stroku içinde, %1 .. %2</translation>
+    </message>
+    <message>
+        <source>an input of node %1 that has the home function for axis %2</source>
+        <translation>düğüm %1 üzerinde %2 ekseninin ev işlevli girişi</translation>
+    </message>
+    <message>
+        <source>an input of node %1 that has the limit function for axis %2</source>
+        <translation>düğüm %1 üzerinde %2 ekseninin sınır işlevli girişi</translation>
+    </message>
+    <message>
+        <source>a node that has its table, [node.%1]</source>
+        <translation>tablosu olan bir düğüm, [node.%1]</translation>
+    </message>
+    <message>
+        <source>an even number: ramps travel in 2 ms</source>
+        <translation>çift sayı: rampalar 2 ms&apos;lik adımlarla gider</translation>
+    </message>
+    <message>
+        <source>at least stop.ramp_ms, %1</source>
+        <translation>en az stop.ramp_ms, %1</translation>
+    </message>
+    <message>
+        <source>at least two SYNC periods, %1</source>
+        <translation>en az iki SYNC süresi, %1</translation>
+    </message>
+    <message>
+        <source>at least two heartbeats, %1</source>
+        <translation>en az iki kalp atışı, %1</translation>
+    </message>
+    <message>
+        <source>a CiA 301 bit rate: 10000, 20000, 50000, 125000, 250000, 500000, 800000 or 1000000</source>
+        <translation>bir CiA 301 bit hızı: 10000, 20000, 50000, 125000, 250000, 500000, 800000 ya da 1000000</translation>
+    </message>
+    <message>
+        <source>a network interface&apos;s name of 1 .. 15 characters</source>
+        <translation>1 .. 15 karakterlik bir ağ arayüzü adı</translation>
+    </message>
+    <message>
+        <source>at most the tool&apos;s speed, %1</source>
+        <translation>en çok takımın hızı, %1</translation>
+    </message>
+    <message>
+        <source>at most the largest speed, %1</source>
+        <translation>en çok en yüksek hız, %1</translation>
+    </message>
+    <message>
+        <source>an empty name</source>
+        <translation>boş ad</translation>
+    </message>
+    <message>
+        <source>a name</source>
+        <translation>bir ad</translation>
+    </message>
+    <message>
+        <source>an empty path</source>
+        <translation>boş yol</translation>
+    </message>
+    <message>
+        <source>a directory</source>
+        <translation>bir klasör</translation>
+    </message>
+    <message>
+        <source>the machine file&apos;s geometry cannot work: %1</source>
+        <translation>makine dosyasındaki geometri çalışamaz: %1</translation>
+    </message>
+    <message>
+        <source>stop by command</source>
+        <translation>komutla durduruldu</translation>
+    </message>
+    <message>
+        <source>the drives do not change their mode of operation</source>
+        <translation>sürücüler çalışma kipini değiştirmiyor</translation>
+    </message>
+    <message>
+        <source>%1: its drive is no longer enabled</source>
+        <translation>%1: sürücüsü artık açık değil</translation>
+    </message>
+    <message>
+        <source>%1 did not find its home switch, or the switch did not release</source>
+        <translation>%1 ev anahtarını bulamadı ya da anahtar bırakmadı</translation>
+    </message>
+    <message>
+        <source>homing took too long; not at home: %1</source>
+        <translation>eve gitme çok uzun sürdü; evde olmayanlar: %1</translation>
+    </message>
+    <message>
+        <source>%1 has gone %2 mm farther than another carriage; allowed are %3 mm</source>
+        <translation>%1 başka bir arabadan %2 mm ileri gitti; izin verilen %3 mm</translation>
+    </message>
+    <message>
+        <source>moving</source>
+        <translation>hareket ediyor</translation>
+    </message>
+    <message>
+        <source>waiting for lines</source>
+        <translation>satır bekliyor</translation>
+    </message>
+    <message>
+        <source>reading the job up to where it was</source>
+        <translation>iş kaldığı yere kadar okunuyor</translation>
+    </message>
+    <message>
+        <source>interrupted</source>
+        <translation>kesildi</translation>
+    </message>
+    <message>
+        <source>dwelling</source>
+        <translation>bekliyor</translation>
+    </message>
+    <message>
+        <source>waiting for the spindle</source>
+        <translation>iş mili bekleniyor</translation>
+    </message>
+    <message>
+        <source>paused by the job</source>
+        <translation>iş duraklattı</translation>
+    </message>
+    <message>
+        <source>the job pauses here: resume to go on</source>
+        <translation>iş burada duraklıyor: devam için sürdürün</translation>
+    </message>
+    <message>
+        <source>M18/M84 in a job: the motors go on holding</source>
+        <translation>işte M18/M84: motorlar tutmayı sürdürüyor</translation>
+    </message>
+    <message>
+        <source>waiting for the hotend at %1</source>
+        <translation>nozul %1 olsun diye bekleniyor</translation>
+    </message>
+    <message>
+        <source>waiting for the bed at %1</source>
+        <translation>tabla %1 olsun diye bekleniyor</translation>
+    </message>
+    <message>
+        <source>node %1, object %2: no answer</source>
+        <translation>düğüm %1, nesne %2: yanıt yok</translation>
+    </message>
+    <message>
+        <source>node %1, object %2: %3</source>
+        <translation>düğüm %1, nesne %2: %3</translation>
+    </message>
+    <message>
+        <source>bring up</source>
+        <translation>devreye alma</translation>
+    </message>
+    <message>
+        <source>home</source>
+        <translation>eve gönderme</translation>
+    </message>
+    <message>
+        <source>go to the bed reference</source>
+        <translation>tabla referansına gitme</translation>
+    </message>
+    <message>
+        <source>jog</source>
+        <translation>elle sürme</translation>
+    </message>
+    <message>
+        <source>run a job</source>
+        <translation>iş çalıştırma</translation>
+    </message>
+    <message>
+        <source>hold</source>
+        <translation>duraklatma</translation>
+    </message>
+    <message>
+        <source>resume</source>
+        <translation>sürdürme</translation>
+    </message>
+    <message>
+        <source>cancel</source>
+        <translation>iptal</translation>
+    </message>
+    <message>
+        <source>stop</source>
+        <translation>durdurma</translation>
+    </message>
+    <message>
+        <source>set the feed override</source>
+        <translation>hız ayarı</translation>
+    </message>
+    <message>
+        <source>switch the motors off</source>
+        <translation>motorları kapatma</translation>
+    </message>
+    <message>
+        <source>set a temperature</source>
+        <translation>sıcaklık ayarı</translation>
+    </message>
+    <message>
+        <source>off</source>
+        <translation>kapalı</translation>
+    </message>
+    <message>
+        <source>bring-up</source>
+        <translation>devreye alınıyor</translation>
+    </message>
+    <message>
+        <source>not homed</source>
+        <translation>eve gönderilmedi</translation>
+    </message>
+    <message>
+        <source>homing</source>
+        <translation>eve gidiyor</translation>
+    </message>
+    <message>
+        <source>ready</source>
+        <translation>hazır</translation>
+    </message>
+    <message>
+        <source>checking the job</source>
+        <translation>iş denetleniyor</translation>
+    </message>
+    <message>
+        <source>running</source>
+        <translation>çalışıyor</translation>
+    </message>
+    <message>
+        <source>holding</source>
+        <translation>duraklıyor</translation>
+    </message>
+    <message>
+        <source>held</source>
+        <translation>duraklatıldı</translation>
+    </message>
+    <message>
+        <source>cancelling</source>
+        <translation>iptal ediliyor</translation>
+    </message>
+    <message>
+        <source>stopping</source>
+        <translation>duruyor</translation>
+    </message>
+    <message>
+        <source>stopped</source>
+        <translation>durdu</translation>
+    </message>
+    <message>
+        <source>alarm</source>
+        <translation>alarm</translation>
+    </message>
+    <message>
+        <source>a temperature needs S</source>
+        <translation>sıcaklık S ister</translation>
+    </message>
+    <message>
+        <source>stop by the session</source>
+        <translation>oturum durdurdu</translation>
+    </message>
+    <message>
+        <source>not a command of a session: %1; send motion as a job</source>
+        <translation>oturum komutu değil: %1; hareketi iş olarak gönderin</translation>
+    </message>
+    <message>
+        <source>line %1: the path leaves the machine&apos;s reach: %2</source>
+        <translation>satır %1: yol makinenin erişiminden çıkıyor: %2</translation>
+    </message>
+    <message>
+        <source>line %1: the move&apos;s frame differs from the path&apos;s; the frame may only change by a position given at rest</source>
+        <translation>satır %1: hareketin çerçevesi yolunkinden farklı; çerçeve yalnız dururken verilen konumla değişebilir</translation>
+    </message>
+    <message>
+        <source>line %1: a coordinate is not a number, or the feed is not greater than 0</source>
+        <translation>satır %1: bir koordinat sayı değil ya da ilerleme 0&apos;dan büyük değil</translation>
+    </message>
+    <message>
+        <source>line %1: centre, normal, sweep and target do not make an arc</source>
+        <translation>satır %1: merkez, normal, açı ve hedef bir yay oluşturmuyor</translation>
+    </message>
+    <message>
+        <source>line %1: unknown error</source>
+        <translation>satır %1: bilinmeyen hata</translation>
+    </message>
+    <message>
+        <source>%1 has control of the machine</source>
+        <translation>makinenin denetimi %1 programında</translation>
+    </message>
+    <message>
+        <source>ask for it to be handed over, or take control by force</source>
+        <translation>devredilmesini isteyin ya da denetimi zorla alın</translation>
+    </message>
+    <message>
+        <source>%1 has control</source>
+        <translation>denetim %1 programında</translation>
+    </message>
+    <message>
+        <source>nobody has control</source>
+        <translation>denetim kimsede değil</translation>
+    </message>
+    <message>
+        <source>the gateway and the client speak different versions of the job link</source>
+        <translation>ağ geçidi ile istemci iş bağlantısının farklı sürümlerini konuşuyor</translation>
+    </message>
+    <message>
+        <source>version %1</source>
+        <translation>sürüm %1</translation>
+    </message>
+    <message>
+        <source>the token is wrong</source>
+        <translation>belirteç yanlış</translation>
+    </message>
+    <message>
+        <source>the token that is set on the gateway</source>
+        <translation>ağ geçidinde ayarlı belirteç</translation>
+    </message>
+    <message>
+        <source>say hello first</source>
+        <translation>önce selam (hello) gönderin</translation>
+    </message>
+    <message>
+        <source>this gateway does not know the request</source>
+        <translation>bu ağ geçidi bu isteği tanımıyor</translation>
+    </message>
+    <message>
+        <source>this job is running</source>
+        <translation>bu iş çalışıyor</translation>
+    </message>
+    <message>
+        <source>too many jobs are being checked: ask again later</source>
+        <translation>çok fazla iş denetleniyor: sonra yeniden isteyin</translation>
+    </message>
+    <message>
+        <source>a machine file has at most 512 KiB</source>
+        <translation>makine dosyası en çok 512 KiB olur</translation>
+    </message>
+    <message>
+        <source>the file was changed by somebody else: read it again</source>
+        <translation>dosyayı başkası değiştirdi: yeniden okuyun</translation>
+    </message>
+    <message>
+        <source>control is handed over by the client that has it, to a client that is here</source>
+        <translation>denetimi elinde tutan, burada olan birine devredebilir</translation>
+    </message>
+    <message>
+        <source>a fan&apos;s ratio is 0 to 1</source>
+        <translation>fan oranı 0 ile 1 arasındadır</translation>
+    </message>
+    <message>
+        <source>a work coordinate system is 1 (G54) to 9 (G59.3)</source>
+        <translation>iş koordinat sistemi 1 (G54) ile 9 (G59.3) arasındadır</translation>
+    </message>
+    <message>
+        <source>a work offset needs numbers below 1000 m</source>
+        <translation>iş ofseti 1000 m&apos;den küçük sayılar ister</translation>
+    </message>
+    <message>
+        <source>the gateway ended while the job ran</source>
+        <translation>iş çalışırken ağ geçidi kapandı</translation>
+    </message>
+    <message>
+        <source>missing</source>
+        <translation>eksik</translation>
+    </message>
+    <message>
+        <source>found %1</source>
+        <translation>bulunan: %1</translation>
+    </message>
+    <message>
+        <source>line %1: %2</source>
+        <translation>satır %1: %2</translation>
+    </message>
+    <message>
+        <source>the path leaves the machine&apos;s reach</source>
+        <translation>yol makinenin erişiminden çıkıyor</translation>
+    </message>
+    <message>
+        <source>a phase came when none was asked for</source>
+        <translation>istenmeden bir evre geldi</translation>
+    </message>
+    <message>
+        <source>the run does not start where the axis stands (counts apart)</source>
+        <translation>hareket eksenin durduğu yerden başlamıyor (sayım farkı)</translation>
+    </message>
+    <message>
+        <source>the run must begin and end at rest (counts/s)</source>
+        <translation>hareket dururken başlayıp bitmeli (sayım/s)</translation>
+    </message>
+    <message>
+        <source>the node lost a record (waits for record)</source>
+        <translation>düğüm bir kayıt yitirdi (beklediği kayıt)</translation>
+    </message>
+    <message>
+        <source>the node&apos;s state differs from the gateway&apos;s</source>
+        <translation>düğümün durumu ağ geçidininkinden farklı</translation>
+    </message>
+    <message>
+        <source>the node ran out of records</source>
+        <translation>düğümün kayıtları bitti</translation>
+    </message>
+    <message>
+        <source>the node expects a record that was never sent (record)</source>
+        <translation>düğüm hiç gönderilmemiş bir kayıt bekliyor (kayıt)</translation>
+    </message>
+    <message>
+        <source>records were sent but not accepted (ms)</source>
+        <translation>kayıtlar gönderildi ama alınmadı (ms)</translation>
+    </message>
+    <message>
+        <source>unknown</source>
+        <translation>bilinmiyor</translation>
+    </message>
+    <message>
+        <source>%1, node %2</source>
+        <translation>%1, düğüm %2</translation>
+    </message>
+    <message>
+        <source>%1 axis %2</source>
+        <translation>%1 ekseni %2</translation>
+    </message>
+    <message>
+        <source>%1, line %2</source>
+        <translation>%1, satır %2</translation>
+    </message>
+    <message>
+        <source>give one of them another id (LSS) or take it off the bus, then clear and bring up again</source>
+        <translation>birine başka kimlik verin (LSS) ya da onu veri yolundan çıkarın, sonra temizleyip yeniden devreye alın</translation>
+    </message>
+    <message>
+        <source>two nodes use the id %1: those with the serial numbers %2 and %3</source>
+        <translation>iki düğüm %1 kimliğini kullanıyor: seri numaraları %2 ve %3</translation>
+    </message>
+</context>
+<context>
+    <name>GatewayWords</name>
+    <message>
+        <source>expected %1</source>
+        <translation>beklenen: %1</translation>
+    </message>
+</context>
+<context>
+    <name>StateWords</name>
+    <message>
+        <source>Motors off</source>
+        <translation>Motorlar kapalı</translation>
+    </message>
+    <message>
+        <source>Waking the nodes</source>
+        <translation>Düğümler uyandırılıyor</translation>
+    </message>
+    <message>
+        <source>Not homed</source>
+        <translation>Ev konumu bilinmiyor</translation>
+    </message>
+    <message>
+        <source>Homing</source>
+        <translation>Eve dönüyor</translation>
+    </message>
+    <message>
+        <source>Ready</source>
+        <translation>Hazır</translation>
+    </message>
+    <message>
+        <source>Moving</source>
+        <translation>Hareket ediyor</translation>
+    </message>
+    <message>
+        <source>Checking the job</source>
+        <translation>İş denetleniyor</translation>
+    </message>
+    <message>
+        <source>Printing</source>
+        <translation>Basıyor</translation>
+    </message>
+    <message>
+        <source>Pausing</source>
+        <translation>Duraklıyor</translation>
+    </message>
+    <message>
+        <source>Paused</source>
+        <translation>Duraklatıldı</translation>
+    </message>
+    <message>
+        <source>Cancelling</source>
+        <translation>İptal ediliyor</translation>
+    </message>
+    <message>
+        <source>Stopping</source>
+        <translation>Duruyor</translation>
+    </message>
+    <message>
+        <source>Stopped</source>
+        <translation>Durdu</translation>
+    </message>
+    <message>
+        <source>Alarm</source>
+        <translation>Alarm</translation>
+    </message>
+    <message>
+        <source>Unknown</source>
+        <translation>Bilinmiyor</translation>
+    </message>
+    <message>
+        <source>Home the machine to wake the motors and find the carriages.</source>
+        <translation>Motorları uyandırmak ve arabaları bulmak için makineyi eve gönderin.</translation>
+    </message>
+    <message>
+        <source>Home the machine: positions are not known yet.</source>
+        <translation>Makineyi eve gönderin: konumlar henüz bilinmiyor.</translation>
+    </message>
+    <message>
+        <source>Choose a job and start it, or jog the tool.</source>
+        <translation>Bir iş seçip başlatın ya da takımı elle sürün.</translation>
+    </message>
+    <message>
+        <source>All carriages rest on the path. Resume or cancel.</source>
+        <translation>Bütün arabalar yol üzerinde duruyor. Sürdürün ya da iptal edin.</translation>
+    </message>
+    <message>
+        <source>Make sure that the machine is safe, then clear the stop.</source>
+        <translation>Makinenin güvenli olduğundan emin olun, sonra durdurmayı temizleyin.</translation>
+    </message>
+    <message>
+        <source>Read the alarm, remove its cause, then clear it.</source>
+        <translation>Alarmı okuyun, nedenini giderin, sonra temizleyin.</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::AlarmsPage</name>
+    <message>
+        <source>Clear</source>
+        <translation>Temizle</translation>
+    </message>
+    <message>
+        <source>No alarm is open.</source>
+        <translation>Açık alarm yok.</translation>
+    </message>
+    <message>
+        <source>What has happened, newest first</source>
+        <translation>Olanlar, en yenisi önce</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::AxesModel</name>
+    <message>
+        <source>Axis</source>
+        <translation>Eksen</translation>
+    </message>
+    <message>
+        <source>Position</source>
+        <translation>Konum</translation>
+    </message>
+    <message>
+        <source>Measured</source>
+        <translation>Ölçülen</translation>
+    </message>
+    <message>
+        <source>Error</source>
+        <translation>Hata</translation>
+    </message>
+    <message>
+        <source>%1 µm</source>
+        <translation>%1 µm</translation>
+    </message>
+    <message>
+        <source>Travel</source>
+        <translation>Strok</translation>
+    </message>
+    <message>
+        <source>Current</source>
+        <translation>Akım</translation>
+    </message>
+    <message>
+        <source>Drive</source>
+        <translation>Sürücü</translation>
+    </message>
+    <message>
+        <source>Switch</source>
+        <translation>Anahtar</translation>
+    </message>
+    <message>
+        <source>Node</source>
+        <translation>Düğüm</translation>
+    </message>
+    <message>
+        <source>%1 mm</source>
+        <translation>%1 mm</translation>
+    </message>
+    <message>
+        <source>%1 A</source>
+        <translation>%1 A</translation>
+    </message>
+    <message>
+        <source>Fault</source>
+        <translation>Arıza</translation>
+    </message>
+    <message>
+        <source>On</source>
+        <translation>Açık</translation>
+    </message>
+    <message>
+        <source>Off</source>
+        <translation>Kapalı</translation>
+    </message>
+    <message>
+        <source>Hit</source>
+        <translation>Basılı</translation>
+    </message>
+    <message>
+        <source>Free</source>
+        <translation>Serbest</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::ConnectPage</name>
+    <message>
+        <source>Connect to a machine</source>
+        <translation>Bir makineye bağlanın</translation>
+    </message>
+    <message>
+        <source>A gateway appears here as soon as its USB cable is plugged in or its daemon runs on this computer.</source>
+        <translation>Bir ağ geçidi, USB kablosu takılır takılmaz ya da arka plan programı bu bilgisayarda çalışır çalışmaz burada görünür.</translation>
+    </message>
+    <message>
+        <source>Gateways</source>
+        <translation>Ağ geçitleri</translation>
+    </message>
+    <message>
+        <source>None found yet.</source>
+        <translation>Henüz bulunamadı.</translation>
+    </message>
+    <message>
+        <source>Demo machine</source>
+        <translation>Deneme makinesi</translation>
+    </message>
+    <message>
+        <source>The whole machine, simulated on this computer: upload, home and print without hardware.</source>
+        <translation>Bütün makine bu bilgisayarda benzetimle: donanım olmadan yükleyin, eve gönderin ve basın.</translation>
+    </message>
+    <message>
+        <source>Try the demo</source>
+        <translation>Denemeyi başlat</translation>
+    </message>
+    <message>
+        <source>Disconnect</source>
+        <translation>Bağlantıyı kes</translation>
+    </message>
+    <message>
+        <source>The demo machine does not run: %1</source>
+        <translation>Deneme makinesi çalışmıyor: %1</translation>
+    </message>
+    <message>
+        <source>Connect</source>
+        <translation>Bağlan</translation>
+    </message>
+    <message>
+        <source>Connect to %1</source>
+        <translation>%1 ile bağlan</translation>
+    </message>
+    <message>
+        <source>Connecting to %1…</source>
+        <translation>%1 ile bağlanılıyor…</translation>
+    </message>
+    <message>
+        <source>%1 does not answer: %2</source>
+        <translation>%1 yanıt vermiyor: %2</translation>
+    </message>
+    <message>
+        <source>Connected to %1.</source>
+        <translation>%1 ile bağlantı kuruldu.</translation>
+    </message>
+    <message>
+        <source>The connection is lost: %1. It comes back by itself; a job on the machine goes on.</source>
+        <translation>Bağlantı koptu: %1. Kendiliğinden geri gelir; makinedeki iş sürer.</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::ConsolePage</name>
+    <message>
+        <source>Send</source>
+        <translation>Gönder</translation>
+    </message>
+    <message>
+        <source>Answers of the gateway</source>
+        <translation>Ağ geçidinin yanıtları</translation>
+    </message>
+    <message>
+        <source>Lines you send and the gateway&apos;s answers appear here.</source>
+        <translation>Gönderdiğiniz satırlar ve ağ geçidinin yanıtları burada görünür.</translation>
+    </message>
+    <message>
+        <source>G-code or M-code, for example M114</source>
+        <translation>G kodu ya da M kodu, örneğin M114</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::DemoGateway</name>
+    <message>
+        <source>the demo machine has ended</source>
+        <translation>deneme makinesi sonlandı</translation>
+    </message>
+    <message>
+        <source>the program kinebusd was not found: install the package kinebus-daemon</source>
+        <translation>kinebusd programı bulunamadı: kinebus-daemon paketini kurun</translation>
+    </message>
+    <message>
+        <source>the demo machine does not answer</source>
+        <translation>deneme makinesi yanıt vermiyor</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::EventsModel</name>
+    <message>
+        <source>Done</source>
+        <translation>Bitti</translation>
+    </message>
+    <message>
+        <source>The check of the job found a problem</source>
+        <translation>İşin denetimi bir sorun buldu</translation>
+    </message>
+    <message>
+        <source>Message</source>
+        <translation>İleti</translation>
+    </message>
+    <message>
+        <source>node %1</source>
+        <translation>düğüm %1</translation>
+    </message>
+    <message>
+        <source>line %1</source>
+        <translation>satır %1</translation>
+    </message>
+    <message>
+        <source>Control of the machine</source>
+        <translation>Makinenin denetimi</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::GatewayFinder</name>
+    <message>
+        <source>USB %1 · serial number %2</source>
+        <translation>USB %1 · seri numarası %2</translation>
+    </message>
+    <message>
+        <source>Gateway on this computer</source>
+        <translation>Bu bilgisayardaki ağ geçidi</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::JobPanel</name>
+    <message>
+        <source>Interrupted: resume goes on from its place.</source>
+        <translation>Yarıda kaldı: Sürdür, kaldığı yerden devam eder.</translation>
+    </message>
+    <message>
+        <source>Progress</source>
+        <translation>İlerleme</translation>
+    </message>
+    <message>
+        <source>Elapsed</source>
+        <translation>Geçen süre</translation>
+    </message>
+    <message>
+        <source>Remaining</source>
+        <translation>Kalan süre</translation>
+    </message>
+    <message>
+        <source>Line</source>
+        <translation>Satır</translation>
+    </message>
+    <message>
+        <source>Cancel the job</source>
+        <translation>İşi iptal et</translation>
+    </message>
+    <message>
+        <source>Cancel the job? What is printed stays on the bed.</source>
+        <translation>İş iptal edilsin mi? Basılan kısım tablada kalır.</translation>
+    </message>
+    <message>
+        <source>Go on</source>
+        <translation>Sürdür</translation>
+    </message>
+    <message>
+        <source>Speed</source>
+        <translation>Hız</translation>
+    </message>
+    <message>
+        <source>Feed override in percent</source>
+        <translation>Yüzde olarak ilerleme çarpanı</translation>
+    </message>
+    <message>
+        <source>Pause</source>
+        <translation>Duraklat</translation>
+    </message>
+    <message>
+        <source>Resume</source>
+        <translation>Sürdür</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>İptal</translation>
+    </message>
+    <message>
+        <source>No job is running</source>
+        <translation>Çalışan iş yok</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::JobUpload</name>
+    <message>
+        <source>%1 cannot be read</source>
+        <translation>%1 okunamıyor</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::JobsModel</name>
+    <message>
+        <source>Job</source>
+        <translation>İş</translation>
+    </message>
+    <message>
+        <source>Size</source>
+        <translation>Boyut</translation>
+    </message>
+    <message>
+        <source>Uploaded</source>
+        <translation>Yüklendi</translation>
+    </message>
+    <message>
+        <source>Check</source>
+        <translation>Denetle</translation>
+    </message>
+    <message>
+        <source>Time</source>
+        <translation>Süre</translation>
+    </message>
+    <message>
+        <source>Last run</source>
+        <translation>Son çalışma</translation>
+    </message>
+    <message>
+        <source>Reading</source>
+        <translation>Okunuyor</translation>
+    </message>
+    <message>
+        <source>Waiting for the gateway</source>
+        <translation>Ağ geçidi bekleniyor</translation>
+    </message>
+    <message>
+        <source>Failed</source>
+        <translation>Başarısız</translation>
+    </message>
+    <message>
+        <source>Not checked</source>
+        <translation>Denetlenmedi</translation>
+    </message>
+    <message numerus="yes">
+        <source>%Ln error(s)</source>
+        <translation>
+            <numerusform>%Ln hata</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%Ln warning(s)</source>
+        <translation>
+            <numerusform>%Ln uyarı</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Fine</source>
+        <translation>Sorunsuz</translation>
+    </message>
+    <message>
+        <source>Never</source>
+        <translation>Hiç</translation>
+    </message>
+    <message>
+        <source>Running</source>
+        <translation>Çalışıyor</translation>
+    </message>
+    <message>
+        <source>Complete, %1</source>
+        <translation>Tamamlandı, %1</translation>
+    </message>
+    <message>
+        <source>Cancelled</source>
+        <translation>İptal edildi</translation>
+    </message>
+    <message>
+        <source>Refused by the check</source>
+        <translation>Denetimde reddedildi</translation>
+    </message>
+    <message>
+        <source>Stopped by an alarm</source>
+        <translation>Alarmla durdu</translation>
+    </message>
+    <message>
+        <source>Interrupted</source>
+        <translation>Kesildi</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::JobsPage</name>
+    <message>
+        <source>Drop G-code files here to send them to the gateway</source>
+        <translation>Ağ geçidine göndermek için G kodu dosyalarını buraya bırakın</translation>
+    </message>
+    <message>
+        <source>Choose a file…</source>
+        <translation>Dosya seç…</translation>
+    </message>
+    <message>
+        <source>Start</source>
+        <translation>Başlat</translation>
+    </message>
+    <message>
+        <source>Check</source>
+        <translation>Denetle</translation>
+    </message>
+    <message>
+        <source>Show</source>
+        <translation>Göster</translation>
+    </message>
+    <message>
+        <source>Delete</source>
+        <translation>Sil</translation>
+    </message>
+    <message>
+        <source>Jobs on the gateway</source>
+        <translation>Ağ geçidindeki işler</translation>
+    </message>
+    <message>
+        <source>What the check has found</source>
+        <translation>Denetimin buldukları</translation>
+    </message>
+    <message>
+        <source>Lines of the job</source>
+        <translation>İşin satırları</translation>
+    </message>
+    <message>
+        <source>Choose a finding: its line is shown here, its place in the scene.</source>
+        <translation>Bir bulgu seçin: satırı burada, yeri sahnede gösterilir.</translation>
+    </message>
+    <message>
+        <source>Checking %1…</source>
+        <translation>%1 denetleniyor…</translation>
+    </message>
+    <message numerus="yes">
+        <source>%1: %Ln error(s). It will not start.</source>
+        <translation>
+            <numerusform>%1: %Ln hata. Başlamayacak.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%1: it can be printed, with %Ln warning(s). It takes %2.</source>
+        <translation>
+            <numerusform>%1: %Ln uyarıyla basılabilir. Süresi %2.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>%1: nothing is wrong. It takes %2.</source>
+        <translation>%1: hiçbir sorun yok. Süresi %2.</translation>
+    </message>
+    <message>
+        <source>The gateway checks a whole job against every limit before anything moves.</source>
+        <translation>Ağ geçidi, bir şey kımıldamadan önce işin tümünü her sınıra karşı denetler.</translation>
+    </message>
+    <message>
+        <source>%1 of %2 used</source>
+        <translation>%2 içinden %1 dolu</translation>
+    </message>
+    <message>
+        <source>Send G-code to the gateway</source>
+        <translation>Ağ geçidine G kodu gönder</translation>
+    </message>
+    <message>
+        <source>G-code (*.gcode *.ngc *.nc *.g *.gco)</source>
+        <translation>G kodu (*.gcode *.ngc *.nc *.g *.gco)</translation>
+    </message>
+    <message>
+        <source>All files (*)</source>
+        <translation>Tüm dosyalar (*)</translation>
+    </message>
+    <message>
+        <source>Delete %1 from the gateway?</source>
+        <translation>%1 ağ geçidinden silinsin mi?</translation>
+    </message>
+    <message>
+        <source>Keep</source>
+        <translation>Tut</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::JogPage</name>
+    <message>
+        <source>Jog</source>
+        <translation>Elle sürme</translation>
+    </message>
+    <message>
+        <source>Keys: arrows move X and Y, Page Up and Page Down move Z, A and D tilt, Q and W turn the table, 1 to 5 choose the step.</source>
+        <translation>Tuşlar: oklar X ve Y&apos;yi, Page Up ve Page Down Z&apos;yi sürer; A ve D eğer, Q ve W tablayı döndürür, 1–5 adımı seçer.</translation>
+    </message>
+    <message>
+        <source>Step, mm or °</source>
+        <translation>Adım, mm ya da °</translation>
+    </message>
+    <message>
+        <source>Speed</source>
+        <translation>Hız</translation>
+    </message>
+    <message>
+        <source>mm/s</source>
+        <translation>mm/sn</translation>
+    </message>
+    <message>
+        <source>Machine</source>
+        <translation>Makine</translation>
+    </message>
+    <message>
+        <source>Home</source>
+        <translation>Eve gönder</translation>
+    </message>
+    <message>
+        <source>Wakes the nodes and brings all carriages to their switches</source>
+        <translation>Düğümleri uyandırır ve bütün arabaları anahtarlarına götürür</translation>
+    </message>
+    <message>
+        <source>Bed reference</source>
+        <translation>Tabla referansı</translation>
+    </message>
+    <message>
+        <source>Goes to where every job begins</source>
+        <translation>Her işin başladığı yere gider</translation>
+    </message>
+    <message>
+        <source>Pause</source>
+        <translation>Duraklat</translation>
+    </message>
+    <message>
+        <source>Clear stop</source>
+        <translation>Durdurmayı temizle</translation>
+    </message>
+    <message>
+        <source>Motors off</source>
+        <translation>Motorları kapat</translation>
+    </message>
+    <message>
+        <source>Positions are lost: the machine must be homed again</source>
+        <translation>Konumlar yitirilir: makine yeniden eve gönderilmelidir</translation>
+    </message>
+    <message>
+        <source>Work offsets</source>
+        <translation>İş ofsetleri</translation>
+    </message>
+    <message>
+        <source>Coordinate system</source>
+        <translation>Koordinat sistemi</translation>
+    </message>
+    <message>
+        <source>Zero here</source>
+        <translation>Burası sıfır</translation>
+    </message>
+    <message>
+        <source>The tool&apos;s position becomes the zero of this system</source>
+        <translation>Takımın konumu bu sistemin sıfırı olur</translation>
+    </message>
+    <message>
+        <source>Set</source>
+        <translation>Ayarla</translation>
+    </message>
+    <message>
+        <source>The values above become the zero of this system</source>
+        <translation>Yukarıdaki değerler bu sistemin sıfırı olur</translation>
+    </message>
+    <message>
+        <source>Active: %1, zero at %2</source>
+        <translation>Etkin: %1, sıfırı %2</translation>
+    </message>
+    <message>
+        <source>Zeros of the work coordinates</source>
+        <translation>İş koordinatlarının sıfırları</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::MachineFileEditor</name>
+    <message>
+        <source>Read again</source>
+        <translation>Yeniden oku</translation>
+    </message>
+    <message>
+        <source>Undo</source>
+        <translation>Geri al</translation>
+    </message>
+    <message>
+        <source>Save on the gateway</source>
+        <translation>Ağ geçidine kaydet</translation>
+    </message>
+    <message>
+        <source>Machine file</source>
+        <translation>Makine dosyası</translation>
+    </message>
+    <message>
+        <source>What is wrong in the machine file</source>
+        <translation>Makine dosyasındaki yanlışlar</translation>
+    </message>
+    <message>
+        <source>Saved. The gateway uses it from its next start.</source>
+        <translation>Kaydedildi. Ağ geçidi bir sonraki açılıştan sonra kullanır.</translation>
+    </message>
+    <message>
+        <source>The built-in machine file</source>
+        <translation>Yerleşik makine dosyası</translation>
+    </message>
+    <message>
+        <source>Not read yet</source>
+        <translation>Henüz okunmadı</translation>
+    </message>
+    <message>
+        <source>cannot be changed from here</source>
+        <translation>buradan değiştirilemez</translation>
+    </message>
+    <message>
+        <source>newer than what the gateway runs with</source>
+        <translation>ağ geçidinin kullandığından yeni</translation>
+    </message>
+    <message>
+        <source>The machine file says what the machine is: kinematics, axes, limits, nodes.</source>
+        <translation>Makine dosyası makinenin ne olduğunu söyler: kinematik, eksenler, sınırlar, düğümler.</translation>
+    </message>
+    <message>
+        <source>Checking…</source>
+        <translation>Denetleniyor…</translation>
+    </message>
+    <message>
+        <source>The file is right.</source>
+        <translation>Dosya doğru.</translation>
+    </message>
+    <message numerus="yes">
+        <source>%Ln mistake(s): it cannot be saved.</source>
+        <translation>
+            <numerusform>%Ln yanlış: kaydedilemez.</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::MachinePage</name>
+    <message>
+        <source>Axes and nodes</source>
+        <translation>Eksenler ve düğümler</translation>
+    </message>
+    <message>
+        <source>Bus and time</source>
+        <translation>Veri yolu ve zaman</translation>
+    </message>
+    <message>
+        <source>Machine file</source>
+        <translation>Makine dosyası</translation>
+    </message>
+    <message>
+        <source>Axes</source>
+        <translation>Eksenler</translation>
+    </message>
+    <message>
+        <source>Nodes</source>
+        <translation>Düğümler</translation>
+    </message>
+    <message>
+        <source>Bus load</source>
+        <translation>Veri yolu yükü</translation>
+    </message>
+    <message>
+        <source>%1 µs</source>
+        <translation>%1 µs</translation>
+    </message>
+    <message>
+        <source>Largest clock error</source>
+        <translation>En büyük saat hatası</translation>
+    </message>
+    <message>
+        <source>Emptiest queue</source>
+        <translation>En boş kuyruk</translation>
+    </message>
+    <message>
+        <source>Path rate</source>
+        <translation>Yol hızı oranı</translation>
+    </message>
+    <message>
+        <source>Nozzle temperature</source>
+        <translation>Nozul sıcaklığı</translation>
+    </message>
+    <message>
+        <source>Bed temperature</source>
+        <translation>Tabla sıcaklığı</translation>
+    </message>
+    <message>
+        <source>Frames sent</source>
+        <translation>Gönderilen çerçeve</translation>
+    </message>
+    <message>
+        <source>Frames received</source>
+        <translation>Alınan çerçeve</translation>
+    </message>
+    <message>
+        <source>Segments sent</source>
+        <translation>Gönderilen parça</translation>
+    </message>
+    <message>
+        <source>Sequence errors</source>
+        <translation>Sıra hatası</translation>
+    </message>
+    <message>
+        <source>Underruns</source>
+        <translation>Kuyruk boşalması</translation>
+    </message>
+    <message>
+        <source>Unreadable frames</source>
+        <translation>Okunamayan çerçeve</translation>
+    </message>
+    <message>
+        <source>Frames of strangers</source>
+        <translation>Yabancı çerçeve</translation>
+    </message>
+    <message>
+        <source>Slowed for the bus</source>
+        <translation>Veri yolu için yavaşlama</translation>
+    </message>
+    <message>
+        <source>Held for planning</source>
+        <translation>Planlama için bekleme</translation>
+    </message>
+    <message>
+        <source>Not connected.</source>
+        <translation>Bağlı değil.</translation>
+    </message>
+    <message>
+        <source>%1 · kinematics %2 · %3 axes on %4 nodes · bus %5</source>
+        <translation>%1 · kinematik %2 · %4 düğümde %3 eksen · veri yolu %5</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::MainWindow</name>
+    <message>
+        <source>Gateways</source>
+        <translation>Ağ geçitleri</translation>
+    </message>
+    <message>
+        <source>View</source>
+        <translation>Görünüm</translation>
+    </message>
+    <message>
+        <source>Jobs</source>
+        <translation>İşler</translation>
+    </message>
+    <message>
+        <source>Jog</source>
+        <translation>Elle sürme</translation>
+    </message>
+    <message>
+        <source>Console</source>
+        <translation>Konsol</translation>
+    </message>
+    <message>
+        <source>Alarms</source>
+        <translation>Alarmlar</translation>
+    </message>
+    <message>
+        <source>Machine</source>
+        <translation>Makine</translation>
+    </message>
+    <message>
+        <source>Position</source>
+        <translation>Konum</translation>
+    </message>
+    <message>
+        <source>Job</source>
+        <translation>İş</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::NodesModel</name>
+    <message>
+        <source>Node</source>
+        <translation>Düğüm</translation>
+    </message>
+    <message>
+        <source>State</source>
+        <translation>Durum</translation>
+    </message>
+    <message>
+        <source>Clock error</source>
+        <translation>Saat hatası</translation>
+    </message>
+    <message>
+        <source>Queue</source>
+        <translation>Kuyruk</translation>
+    </message>
+    <message>
+        <source>Inputs</source>
+        <translation>Girişler</translation>
+    </message>
+    <message>
+        <source>Segments sent</source>
+        <translation>Gönderilen parça</translation>
+    </message>
+    <message>
+        <source>Faults</source>
+        <translation>Arızalar</translation>
+    </message>
+    <message>
+        <source>Not there</source>
+        <translation>Yok</translation>
+    </message>
+    <message>
+        <source>Stopped</source>
+        <translation>Durdu</translation>
+    </message>
+    <message>
+        <source>Starting</source>
+        <translation>Başlıyor</translation>
+    </message>
+    <message>
+        <source>Idle</source>
+        <translation>Boşta</translation>
+    </message>
+    <message>
+        <source>Operational</source>
+        <translation>Çalışır durumda</translation>
+    </message>
+    <message>
+        <source>Operational, not in time</source>
+        <translation>Çalışır, eşzamanlı değil</translation>
+    </message>
+    <message>
+        <source>Waiting</source>
+        <translation>Bekliyor</translation>
+    </message>
+    <message>
+        <source>%1 µs</source>
+        <translation>%1 µs</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::PlotWidget</name>
+    <message>
+        <source>%1 s ago</source>
+        <translation>%1 sn önce</translation>
+    </message>
+    <message>
+        <source>now</source>
+        <translation>şimdi</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::PositionPanel</name>
+    <message>
+        <source>Carriages and axes</source>
+        <translation>Arabalar ve eksenler</translation>
+    </message>
+    <message>
+        <source>Heat</source>
+        <translation>Isı</translation>
+    </message>
+    <message>
+        <source>Target temperature of the nozzle</source>
+        <translation>Nozulun hedef sıcaklığı</translation>
+    </message>
+    <message>
+        <source>Target temperature of the bed</source>
+        <translation>Tablanın hedef sıcaklığı</translation>
+    </message>
+    <message>
+        <source>off</source>
+        <translation>kapalı</translation>
+    </message>
+    <message>
+        <source>Bed</source>
+        <translation>Tabla</translation>
+    </message>
+    <message>
+        <source>Nozzle</source>
+        <translation>Nozul</translation>
+    </message>
+    <message>
+        <source>Fan</source>
+        <translation>Fan</translation>
+    </message>
+    <message>
+        <source>Tool over the part</source>
+        <translation>Parçaya göre takım</translation>
+    </message>
+    <message>
+        <source>Position not known yet</source>
+        <translation>Konum henüz bilinmiyor</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::ProblemsModel</name>
+    <message>
+        <source>Error</source>
+        <translation>Hata</translation>
+    </message>
+    <message>
+        <source>Warning</source>
+        <translation>Uyarı</translation>
+    </message>
+    <message>
+        <source>Kind</source>
+        <translation>Tür</translation>
+    </message>
+    <message>
+        <source>Line</source>
+        <translation>Satır</translation>
+    </message>
+    <message>
+        <source>What is wrong</source>
+        <translation>Sorun</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::SocketLink</name>
+    <message>
+        <source>the gateway closed the connection</source>
+        <translation>ağ geçidi bağlantıyı kapattı</translation>
+    </message>
+    <message>
+        <source>on this computer</source>
+        <translation>bu bilgisayarda</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::TopBar</name>
+    <message>
+        <source>STOP</source>
+        <translation>DUR</translation>
+    </message>
+    <message>
+        <source>Stops all motion at once, on the path (Ctrl+.)</source>
+        <translation>Bütün hareketi hemen, yol üzerinde durdurur (Ctrl+.)</translation>
+    </message>
+    <message>
+        <source>Language</source>
+        <translation>Dil</translation>
+    </message>
+    <message>
+        <source>Light or dark</source>
+        <translation>Açık ya da koyu</translation>
+    </message>
+    <message>
+        <source>Take control</source>
+        <translation>Denetimi al</translation>
+    </message>
+    <message>
+        <source>%1 has control</source>
+        <translation>Denetim %1 programında</translation>
+    </message>
+    <message>
+        <source>Not connected</source>
+        <translation>Bağlı değil</translation>
+    </message>
+    <message>
+        <source>Connecting</source>
+        <translation>Bağlanıyor</translation>
+    </message>
+    <message>
+        <source>Connection lost</source>
+        <translation>Bağlantı koptu</translation>
+    </message>
+    <message>
+        <source>A job on the machine goes on.</source>
+        <translation>Makinedeki iş sürer.</translation>
+    </message>
+    <message>
+        <source>Connect</source>
+        <translation>Bağlan</translation>
+    </message>
+    <message>
+        <source>%1 · %2</source>
+        <translation>%1 · %2</translation>
+    </message>
+    <message>
+        <source>Choose a gateway</source>
+        <translation>Bir ağ geçidi seçin</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::UsbLink</name>
+    <message>
+        <source>the USB cable was pulled</source>
+        <translation>USB kablosu çekildi</translation>
+    </message>
+    <message>
+        <source>the gateway is not plugged in</source>
+        <translation>ağ geçidi takılı değil</translation>
+    </message>
+    <message>
+        <source>this user may not use the USB device: install the udev rule of the package</source>
+        <translation>bu kullanıcı USB aygıtını kullanamıyor: paketin udev kuralını kurun</translation>
+    </message>
+    <message>
+        <source>another program uses the gateway&apos;s USB link</source>
+        <translation>ağ geçidinin USB bağlantısını başka bir program kullanıyor</translation>
+    </message>
+    <message>
+        <source>the USB link does not start</source>
+        <translation>USB bağlantısı başlamıyor</translation>
+    </message>
+    <message>
+        <source>USB %1</source>
+        <translation>USB %1</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::ViewPage</name>
+    <message>
+        <source>The 3D scene cannot be shown: %1</source>
+        <translation>3B sahne gösterilemiyor: %1</translation>
+    </message>
+    <message>
+        <source>Scene: machine and tool path</source>
+        <translation>Sahne: makine ve takım yolu</translation>
+    </message>
+    <message>
+        <source>Show the layers up to here</source>
+        <translation>Katmanları buraya kadar göster</translation>
+    </message>
+    <message>
+        <source>Colour by</source>
+        <translation>Renk</translation>
+    </message>
+    <message>
+        <source>Feed</source>
+        <translation>İlerleme hızı</translation>
+    </message>
+    <message>
+        <source>Layer</source>
+        <translation>Katman</translation>
+    </message>
+    <message>
+        <source>Limit margin</source>
+        <translation>Sınıra uzaklık</translation>
+    </message>
+    <message>
+        <source>Colour of the tool path</source>
+        <translation>Takım yolunun rengi</translation>
+    </message>
+    <message>
+        <source>Machine</source>
+        <translation>Makine</translation>
+    </message>
+    <message>
+        <source>Reach of the tool</source>
+        <translation>Takımın erişimi</translation>
+    </message>
+    <message>
+        <source>Moves without extrusion</source>
+        <translation>Ekstrüzyonsuz hareketler</translation>
+    </message>
+    <message>
+        <source>What is not printed yet</source>
+        <translation>Henüz basılmayan</translation>
+    </message>
+    <message>
+        <source>From a corner</source>
+        <translation>Köşeden</translation>
+    </message>
+    <message>
+        <source>From above</source>
+        <translation>Üstten</translation>
+    </message>
+    <message>
+        <source>From the front</source>
+        <translation>Önden</translation>
+    </message>
+    <message>
+        <source>Whole machine (M)</source>
+        <translation>Bütün makine (M)</translation>
+    </message>
+    <message>
+        <source>The part alone (F)</source>
+        <translation>Yalnız parça (F)</translation>
+    </message>
+    <message>
+        <source>%1 mm/s</source>
+        <translation>%1 mm/sn</translation>
+    </message>
+    <message>
+        <source>at a limit</source>
+        <translation>sınırda</translation>
+    </message>
+    <message>
+        <source>free</source>
+        <translation>serbest</translation>
+    </message>
+    <message>
+        <source>%1 cannot be shown: %2</source>
+        <translation>%1 gösterilemiyor: %2</translation>
+    </message>
+    <message>
+        <source>Reading %1</source>
+        <translation>%1 okunuyor</translation>
+    </message>
+    <message>
+        <source>%1 · %2 lines · %3 layers · %4 m of path</source>
+        <translation>%1 · %2 satır · %3 katman · %4 m yol</translation>
+    </message>
+    <message numerus="yes">
+        <source>%Ln line(s) with expressions are not drawn</source>
+        <translation>
+            <numerusform>ifadeli %Ln satır çizilmedi</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>No job is shown. Choose one on the Jobs page.</source>
+        <translation>Gösterilen iş yok. İşler sayfasından seçin.</translation>
+    </message>
+    <message>
+        <source>%1 mm</source>
+        <translation>%1 mm</translation>
     </message>
 </context>
 </TS>

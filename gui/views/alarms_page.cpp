@@ -30,8 +30,9 @@ class EventDelegate : public QStyledItemDelegate {
     painter->drawRoundedRect(bar, 2, 2);
     mirrored ? room.adjust(0, 0, -16, 0) : room.adjust(16, 0, 0, 0);
     const int height = option.fontMetrics.height();
-    const auto leading = mirrored ? Qt::AlignRight : Qt::AlignLeft,
-               trailing = mirrored ? Qt::AlignLeft : Qt::AlignRight;
+    // The painter would turn left and right round once more.
+    const auto leading = Qt::AlignAbsolute | (mirrored ? Qt::AlignRight : Qt::AlignLeft),
+               trailing = Qt::AlignAbsolute | (mirrored ? Qt::AlignLeft : Qt::AlignRight);
     const QString when = index.data(EventsModel::kWhen).toString();
     painter->setPen(colours.muted);
     painter->drawText(QRect(room.left(), room.top(), room.width(), height), static_cast<int>(trailing), when);

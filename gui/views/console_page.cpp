@@ -5,6 +5,8 @@
 #include <QStandardItemModel>
 #include <QTextBlock>
 
+#include "gui/session/gateway_words.hpp"
+
 namespace kinebus::gui {
 namespace {
 
@@ -93,8 +95,9 @@ ConsolePage::ConsolePage(Desk& desk, QWidget* parent) : SpeakingWidget(parent), 
   connect(line_, &QLineEdit::textEdited, this, &ConsolePage::complete);
   connect(&desk_.session, &Session::event_arrived, this, [this](const joblink::Event& event) {
     if (event.kind() == joblink::EVENT_MESSAGE)
-      append(QString::fromStdString(event.words()), Voice::kMessage);
-    if (event.kind() == joblink::EVENT_ALARM) append(QString::fromStdString(event.words()), Voice::kRefusal);
+      append(GatewayWords::said(event.said(), event.words()), Voice::kMessage);
+    if (event.kind() == joblink::EVENT_ALARM)
+      append(GatewayWords::said(event.said(), event.words()), Voice::kRefusal);
   });
   connect(&desk_.theme, &Theme::changed, this, &ConsolePage::recolour);
   setFocusProxy(line_);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gui/models/format.hpp"
+#include "gui/session/gateway_words.hpp"
 
 namespace kinebus::gui {
 
@@ -14,12 +15,12 @@ JobPanel::JobPanel(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(
   card->column()->setContentsMargins(14, 9, 14, 10);
   card->column()->setSpacing(5);
   outer->addWidget(card);
-  outer->addStretch(1);
+  setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Maximum);  // the rest of the side is the position's
 
   name_ = new ElidedLabel(card);
   name_->setProperty("role", "heading");
-  doing_ = new ElidedLabel(card);
-  doing_->setProperty("role", "small");
+  doing_ = make_label("small", card);
+  doing_->setWordWrap(true);
   progress_ = new QProgressBar(card);
   progress_->setRange(0, 1000);
   progress_->setTextVisible(false);
@@ -110,10 +111,13 @@ void JobPanel::take_status() {
   const bool connected = desk_.session.connected(), job = connected && !s.job().empty();
   name_->set_text(job ? QString::fromStdString(s.job()) : tr("No job is running"));
   const bool interrupted = job && s.interrupted() && s.state() != joblink::STATE_HELD;
-  doing_->set_text(interrupted ? tr("Interrupted: resume goes on from its place.")
-                   : connected ? StateWords::next(s.state())
-                               : QString());
-  doing_->setVisible((!job || interrupted) && !doing_->text().isEmpty());
+  // What a job waits for, while nothing moves, is the gateway's to say.
+  const bool busy = job && (s.state() == joblink::STATE_RUNNING || s.state() == joblink::STATE_CHECKING);
+  doing_->setText(interrupted ? tr("Interrupted: resume goes on from its place.")
+                  : busy      ? GatewayWords::said(s.doing_said(), s.doing())
+                  : connected ? StateWords::next(s.state())
+                              : QString());
+  doing_->setVisible((!job || busy || interrupted) && !doing_->text().isEmpty());
   progress_->setValue(job ? static_cast<int>(std::lround(s.progress() * 1000)) : 0);
   const QString none = QStringLiteral("—");
   percent_->setText(job ? Format::percent(s.progress(), 1) : none);

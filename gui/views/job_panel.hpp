@@ -18,7 +18,8 @@ class JobPanel : public SpeakingWidget {
   void take_status();
 
   Desk& desk_;
-  ElidedLabel *name_, *doing_;
+  ElidedLabel* name_;
+  QLabel* doing_;
   QProgressBar* progress_;
   QLabel *percent_, *elapsed_, *remaining_, *line_, *override_text_;
   QSlider* override_;

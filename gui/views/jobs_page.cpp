@@ -276,7 +276,7 @@ void JobsPage::take_result(const QString& name, const joblink::Reply& reply) {
     if (problems_.rowCount() > 0 && problems_.at(0).line > 0)
       QTimer::singleShot(0, this, [this] { problems_table_->setCurrentIndex(problems_.index(0, 0)); });
   } else {
-    problems_.set({{true, static_cast<int>(reply.error().line()), 0, to_words(reply.error())}});
+    problems_.set({{true, static_cast<int>(reply.error().line()), 0, reply.error()}});
   }
   take_selection();
 }

@@ -9,6 +9,7 @@
 #include "gui/models/format.hpp"
 #include "gui/views/machine_file_editor.hpp"
 #include "gui/views/plot_widget.hpp"
+#include "gui/views/table_columns.hpp"
 
 namespace kinebus::gui {
 namespace {
@@ -18,6 +19,10 @@ class ShareDelegate : public QStyledItemDelegate {
  public:
   ShareDelegate(const Theme& theme, int role, QObject* parent)
       : QStyledItemDelegate(parent), theme_(theme), role_(role) {}
+  QSize sizeHint(const QStyleOptionViewItem& option, const QModelIndex& index) const override {
+    constexpr int kGroove = 80;
+    return QStyledItemDelegate::sizeHint(option, index).expandedTo({kGroove, 0});
+  }
   void paint(QPainter* painter, const QStyleOptionViewItem& option, const QModelIndex& index) const override {
     QStyledItemDelegate::paint(painter, option, index);
     const double share = index.data(role_).toDouble();
@@ -51,11 +56,15 @@ class DotDelegate : public QStyledItemDelegate {
  public:
   using Colour = std::function<QColor(const QModelIndex&)>;
   DotDelegate(Colour colour, QObject* parent) : QStyledItemDelegate(parent), colour_(std::move(colour)) {}
+  QSize sizeHint(const QStyleOptionViewItem& option, const QModelIndex& index) const override {
+    return QStyledItemDelegate::sizeHint(option, index) + QSize(kDotRoom, 0);
+  }
   void paint(QPainter* painter, const QStyleOptionViewItem& option, const QModelIndex& index) const override {
     const QColor colour = colour_(index);
     QStyleOptionViewItem shifted = option;
     const bool mirrored = option.direction == Qt::RightToLeft;
-    if (colour.isValid()) mirrored ? shifted.rect.adjust(0, 0, -16, 0) : shifted.rect.adjust(16, 0, 0, 0);
+    if (colour.isValid())
+      mirrored ? shifted.rect.adjust(0, 0, -kDotRoom, 0) : shifted.rect.adjust(kDotRoom, 0, 0, 0);
     QStyledItemDelegate::paint(painter, shifted, index);
     if (!colour.isValid()) return;
     painter->setRenderHint(QPainter::Antialiasing);
@@ -67,6 +76,7 @@ class DotDelegate : public QStyledItemDelegate {
   }
 
  private:
+  static constexpr int kDotRoom = 16;
   Colour colour_;
 };
 
@@ -80,11 +90,11 @@ QTableView* make_table(QAbstractItemModel* model, QWidget* parent, int rows) {
   table->setAlternatingRowColors(true);
   table->verticalHeader()->hide();
   table->verticalHeader()->setDefaultSectionSize(32);
-  table->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
   table->horizontalHeader()->setHighlightSections(false);
   table->horizontalHeader()->setDefaultAlignment(Qt::AlignLeading | Qt::AlignVCenter);
   table->setMinimumHeight(38 + 32 * rows);
   table->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  new TableColumns(table);
   return table;
 }
 
@@ -150,7 +160,6 @@ QWidget* MachinePage::make_live() {
                                                                        : desk_.theme.colours().waiting;
                                                           },
                                                           nodes));
-  nodes->horizontalHeader()->setSectionResizeMode(NodesModel::kNode, QHeaderView::ResizeToContents);
   axes_ = axes;
   column->addWidget(axes, 2);
   column->addWidget(nodes, 1);

@@ -1,5 +1,6 @@
 #include "gui/views/plot_widget.hpp"
 
+#include <QLocale>
 #include <QPainter>
 #include <QPainterPath>
 #include <algorithm>
@@ -37,22 +38,39 @@ void PlotWidget::paintEvent(QPaintEvent*) {
   QFont bold = font();
   bold.setWeight(QFont::DemiBold);
   painter.setPen(colours.muted);
-  painter.drawText(head, static_cast<int>(mirrored ? Qt::AlignRight : Qt::AlignLeft), title_);
-  const QRectF area(14, head.bottom() + 8, width() - 28, height() - head.bottom() - 20);
+  // The painter would turn left and right round once more.
+  constexpr int kLeft = Qt::AlignAbsolute | Qt::AlignLeft, kRight = Qt::AlignAbsolute | Qt::AlignRight;
+  painter.drawText(head, mirrored ? kRight : kLeft, title_);
+  const auto s = static_cast<std::size_t>(series_);
+  double top = full_scale_;
+  for (const auto& sample : samples)
+    if (const double value = sample.values[s]; value > full_scale_) top = std::max(top, value * 1.1);
+  // The scale stands on the left in every language: time goes to the right, as on every instrument.
+  QFont small = font();
+  small.setPointSizeF(small.pointSizeF() * 0.8);
+  const QFontMetricsF metrics(small);
+  double scale_width = 0;
+  for (const double share : {0.0, 0.5, 1.0})
+    scale_width = std::max(scale_width, metrics.horizontalAdvance(words_(top * share)));
+  const double line = metrics.height();
+  const QRectF area(14 + scale_width + 8, head.bottom() + 8, width() - 28 - scale_width - 8,
+                    height() - head.bottom() - 16 - line);
+  painter.setFont(small);
+  for (int i = 0; i <= 2; ++i)
+    painter.drawText(QRectF(14, area.top() + area.height() * i / 2 - line / 2, scale_width, line), kRight,
+                     words_(top * (2 - i) / 2));
+  const QRectF times(area.left(), area.bottom() + 3, area.width(), line);
+  painter.drawText(times, kLeft, tr("%1 s ago").arg(QLocale().toString(StatusHistory::kKept_s, 'f', 0)));
+  painter.drawText(times, kRight, tr("now"));
   painter.setPen(QPen(colours.border, 1));
   for (int i = 0; i <= 2; ++i) {
     const double y = area.top() + area.height() * i / 2;
     painter.drawLine(QPointF(area.left(), y), QPointF(area.right(), y));
   }
   if (samples.empty()) return;
-  const auto s = static_cast<std::size_t>(series_);
-  double top = full_scale_;
-  for (const auto& sample : samples) top = std::max(top, static_cast<double>(sample.values[s]) * 1.1);
   painter.setPen(colours.text);
   painter.setFont(bold);
-  painter.drawText(head, static_cast<int>(mirrored ? Qt::AlignLeft : Qt::AlignRight),
-                   words_(static_cast<double>(samples.back().values[s])));
-  // Time goes to the right in every language, as on every instrument.
+  painter.drawText(head, mirrored ? kLeft : kRight, words_(static_cast<double>(samples.back().values[s])));
   const double now = samples.back().time_s;
   QPainterPath curve;
   for (const auto& sample : samples) {

@@ -151,7 +151,7 @@ Verification verify(const JoinedJob& job, const std::vector<JoinPiece>& pieces,
   if (good) good = reader.finish(commands).has_value();
   for (const canonical::Line& line : commands) sweep.take(line);
   if (!good && out.problems.errors() == 0)
-    out.problems.add({Problem::Severity::kError, reader.lines(), 0, "refused"});
+    out.problems.add({Problem::Severity::kError, reader.lines(), 0, say("refused")});
   return out;
 }
 

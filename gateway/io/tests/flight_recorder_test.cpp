@@ -34,7 +34,7 @@ TEST(FlightRecorder, AsksForNoPastTimeWhileAReportIsWritten) {
   MachineEvent alarm;
   alarm.kind = MachineEvent::Kind::kAlarm;
   alarm.when = now;
-  alarm.words = "node 1 is silent";
+  alarm.words = Sentence::verbatim("node 1 is silent");
   recorder.on_event(alarm);
   int turns = 0;
   for (; turns < 100'000'000 && !has_report(folder.path() / "flight"); ++turns) {

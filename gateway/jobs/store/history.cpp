@@ -7,7 +7,8 @@
 namespace kinebus {
 namespace {
 
-constexpr const char* kRunColumns = "id, name, sha256, begun, duration, estimate, result, line, first_error";
+constexpr const char* kRunColumns =
+    "id, name, sha256, begun, duration, estimate, result, line, first_error, said";
 /// Runs kept; the oldest go.
 constexpr std::int64_t kMaxRuns = 10'000;
 
@@ -22,6 +23,7 @@ StoredRun run_of(const Database::Statement& row) {
   run.result = static_cast<RunResult>(std::clamp<std::int64_t>(row.integer(6), 0, 5));
   run.line = static_cast<std::uint32_t>(row.integer(7));
   run.first_error = row.text(8);
+  run.said = row.text(9);
   return run;
 }
 
@@ -59,15 +61,16 @@ Result<std::int64_t, StoreError> JobStore::begin_run(const StoredRun& run) {
 
 Result<void, StoreError> JobStore::end_run(std::int64_t id, RunResult result, double duration_s,
                                            double estimate_s, std::uint32_t line,
-                                           std::string_view first_error) {
-  Database::Statement update(
-      *database_,
-      "UPDATE runs SET result = ?, duration = ?, estimate = ?, line = ?, first_error = ? WHERE id = ?");
+                                           std::string_view first_error, std::string_view said) {
+  Database::Statement update(*database_,
+                             "UPDATE runs SET result = ?, duration = ?, estimate = ?, line = ?, first_error "
+                             "= ?, said = ? WHERE id = ?");
   return update.bind(static_cast<std::int64_t>(result))
       .bind(duration_s)
       .bind(estimate_s)
       .bind(std::int64_t{line})
       .bind(first_error)
+      .bind_blob(said)
       .bind(id)
       .finish();
 }

@@ -50,7 +50,7 @@ std::optional<std::string> sha256_of_file(const fs::path& path) {
 }
 
 Error<StoreError> no_such_job(std::string_view name) {
-  return Error<StoreError>({StoreError::Kind::kNoSuchJob, "no stored job has the name " + std::string(name)});
+  return Error<StoreError>({StoreError::Kind::kNoSuchJob, say("no stored job has the name %1", name)});
 }
 
 }  // namespace
@@ -60,13 +60,14 @@ StoreError disk_error(const fs::path& path, int error) {
     case ENOSPC:
     case EDQUOT:
     case EFBIG:
-      return {StoreError::Kind::kDiskFull, "the disk is full"};
+      return {StoreError::Kind::kDiskFull, say("the disk is full")};
     case EROFS:
     case EACCES:
     case EPERM:
-      return {StoreError::Kind::kReadOnly, path.string() + " cannot be written: " + std::strerror(error)};
+      return {StoreError::Kind::kReadOnly,
+              say("%1 cannot be written: %2", path.string(), std::strerror(error))};
     default:
-      return {StoreError::Kind::kDisk, path.string() + ": " + std::strerror(error)};
+      return {StoreError::Kind::kDisk, say("%1: %2", path.string(), std::strerror(error))};
   }
 }
 
@@ -77,14 +78,14 @@ void sync_folder(const fs::path& folder) {
   ::close(fd);
 }
 
-std::string JobStore::check_name(std::string_view name) {
+Sentence JobStore::check_name(std::string_view name) {
   const auto bad = [](char c) {
     return static_cast<unsigned char>(c) < 0x20 || c == '/' || c == '\\' || c == 0x7F;
   };
-  if (name.empty() || name.size() > 200) return "a job's name has 1 to 200 bytes";
-  if (name.front() == '.') return "a job's name does not begin with a dot";
+  if (name.empty() || name.size() > 200) return say("a job's name has 1 to 200 bytes");
+  if (name.front() == '.') return say("a job's name does not begin with a dot");
   if (std::any_of(name.begin(), name.end(), bad))
-    return "a job's name has no slashes and no control characters";
+    return say("a job's name has no slashes and no control characters");
   return {};
 }
 
@@ -141,6 +142,8 @@ void JobStore::open_database() {
 }
 
 Result<void, StoreError> JobStore::make_tables() {
+  // A database of an older gateway has runs without it; refused where it is there, or where no table is yet.
+  static_cast<void>(database_->run("ALTER TABLE runs ADD COLUMN said BLOB"));
   auto made = database_->run(
       "BEGIN IMMEDIATE;"
       "CREATE TABLE IF NOT EXISTS jobs(name TEXT PRIMARY KEY, sha256 BLOB NOT NULL, size INTEGER NOT NULL,"
@@ -153,7 +156,7 @@ Result<void, StoreError> JobStore::make_tables() {
       "CREATE TABLE IF NOT EXISTS runs(id INTEGER PRIMARY KEY AUTOINCREMENT, name TEXT NOT NULL, sha256 BLOB "
       "NOT NULL,"
       " begun REAL NOT NULL, duration REAL NOT NULL, estimate REAL NOT NULL, result INTEGER NOT NULL,"
-      " line INTEGER NOT NULL, first_error TEXT NOT NULL);"
+      " line INTEGER NOT NULL, first_error TEXT NOT NULL, said BLOB);"
       "CREATE INDEX IF NOT EXISTS runs_by_name ON runs(name, id);"
       // Who was running when the gateway ended was interrupted.
       "UPDATE runs SET result = 5, first_error = CASE first_error WHEN '' THEN 'the gateway ended while the "
@@ -222,7 +225,8 @@ std::uint64_t JobStore::used_bytes() const {
 
 Result<void, StoreError> JobStore::writable_or_error() const {
   if (writable_) return {};
-  return Error<StoreError>({StoreError::Kind::kReadOnly, options_.folder.string() + " cannot be written"});
+  return Error<StoreError>(
+      {StoreError::Kind::kReadOnly, say("%1 cannot be written", options_.folder.string())});
 }
 
 Result<JobListing, StoreError> JobStore::list() {
@@ -274,17 +278,17 @@ std::optional<StoredJob> JobStore::find(std::string_view name) {
 }
 
 Result<std::unique_ptr<ByteSource>, StoreError> JobStore::open_job(std::string_view name) {
-  if (std::string broken = check_name(name); !broken.empty())
+  if (Sentence broken = check_name(name); !broken.empty())
     return Error<StoreError>({StoreError::Kind::kName, broken});
   if (!mark_of(options_.folder / name)) return no_such_job(name);
   auto source = FileSource::open(options_.folder / name);
-  if (!source) return Error<StoreError>({StoreError::Kind::kDisk, source.error()});
+  if (!source) return Error<StoreError>({StoreError::Kind::kDisk, Sentence::verbatim(source.error())});
   return std::move(*source);
 }
 
 Result<std::string, StoreError> JobStore::read(std::string_view name, std::uint64_t offset_bytes,
                                                std::size_t max_bytes) {
-  if (std::string broken = check_name(name); !broken.empty())
+  if (Sentence broken = check_name(name); !broken.empty())
     return Error<StoreError>({StoreError::Kind::kName, broken});
   const auto mark = mark_of(options_.folder / name);
   if (!mark) return no_such_job(name);
@@ -299,7 +303,7 @@ Result<std::string, StoreError> JobStore::read(std::string_view name, std::uint6
 }
 
 Result<void, StoreError> JobStore::remove(std::string_view name) {
-  if (std::string broken = check_name(name); !broken.empty())
+  if (Sentence broken = check_name(name); !broken.empty())
     return Error<StoreError>({StoreError::Kind::kName, broken});
   if (auto ok = writable_or_error(); !ok) return ok;
   if (!mark_of(options_.folder / name)) return no_such_job(name);
@@ -311,7 +315,7 @@ Result<void, StoreError> JobStore::remove(std::string_view name) {
 }
 
 Result<void, StoreError> JobStore::adopt(std::string_view name, double now_unix_s) {
-  if (std::string broken = check_name(name); !broken.empty())
+  if (Sentence broken = check_name(name); !broken.empty())
     return Error<StoreError>({StoreError::Kind::kName, broken});
   const fs::path path = options_.folder / name;
   const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);

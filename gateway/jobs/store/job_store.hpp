@@ -25,6 +25,7 @@
 #include "gateway/jobs/store/sqlite.hpp"
 #include "gateway/jobs/store/store_error.hpp"
 #include "gateway/result.hpp"
+#include "gateway/sentence.hpp"
 
 namespace kinebus {
 
@@ -54,6 +55,7 @@ struct StoredRun {
   RunResult result = RunResult::kRunning;
   std::uint32_t line = 0;  ///< reached
   std::string first_error{};
+  std::string said{};  ///< the same as its owner writes it, to be said in another language
 };
 
 struct StoredJob {
@@ -94,7 +96,7 @@ class JobStore {
 
   /// Empty: fine. Otherwise the rule that the name breaks. Nothing outside the folder can be reached by a
   /// name.
-  static std::string check_name(std::string_view name);
+  static Sentence check_name(std::string_view name);
 
   // upload.cpp
   Result<UploadProgress, StoreError> begin_upload(const UploadIdentity& identity, bool replace,
@@ -121,7 +123,8 @@ class JobStore {
   void set_machine(std::string machine) { machine_ = std::move(machine); }
   Result<std::int64_t, StoreError> begin_run(const StoredRun& run);
   Result<void, StoreError> end_run(std::int64_t id, RunResult result, double duration_s, double estimate_s,
-                                   std::uint32_t line, std::string_view first_error);
+                                   std::uint32_t line, std::string_view first_error,
+                                   std::string_view said = {});
   /// Newest first, with ids below `before` (0: all).
   Result<std::vector<StoredRun>, StoreError> history(std::int64_t before, std::size_t max);
 

@@ -7,11 +7,12 @@ namespace {
 
 StoreError error_of(sqlite3* db) {
   const int code = db != nullptr ? sqlite3_errcode(db) : SQLITE_CANTOPEN;
-  StoreError error{StoreError::Kind::kDisk, std::string("the job store's database: ") +
-                                                (db != nullptr ? sqlite3_errmsg(db) : "cannot be opened")};
+  StoreError error{StoreError::Kind::kDisk, db != nullptr
+                                                ? say("the job store's database: %1", sqlite3_errmsg(db))
+                                                : say("the job store's database cannot be opened")};
   switch (code & 0xFF) {
     case SQLITE_FULL:
-      error = {StoreError::Kind::kDiskFull, "the disk is full"};
+      error = {StoreError::Kind::kDiskFull, say("the disk is full")};
       break;
     case SQLITE_READONLY:
     case SQLITE_CANTOPEN:

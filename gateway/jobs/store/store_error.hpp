@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <string>
 
+#include "gateway/sentence.hpp"
+
 namespace kinebus {
 
 struct StoreError {
@@ -18,7 +20,7 @@ struct StoreError {
     kDisk,      ///< anything else that the system reports
   };
   Kind kind{};
-  std::string words;
+  Sentence words;
 };
 
 }  // namespace kinebus

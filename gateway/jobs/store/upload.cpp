@@ -22,12 +22,13 @@ constexpr std::uint64_t kSecureEvery = 16ULL << 20;
 constexpr std::size_t kMaxOpen = 8;
 constexpr std::size_t kPiece = 1U << 20;
 
-Error<StoreError> fail(StoreError::Kind kind, std::string words) {
+Error<StoreError> fail(StoreError::Kind kind, Sentence words) {
   return Error<StoreError>({kind, std::move(words)});
 }
 
 Error<StoreError> not_open() {
-  return fail(StoreError::Kind::kOrder, "this upload is not open: begin it again, it goes on where it was");
+  return fail(StoreError::Kind::kOrder,
+              say("this upload is not open: begin it again, it goes on where it was"));
 }
 
 bool same(const UploadIdentity& a, const UploadIdentity& b) {
@@ -77,16 +78,15 @@ Result<void, StoreError> JobStore::check_room(const UploadIdentity& identity, st
   std::uint64_t used = used_bytes() - on_disk_bytes;
   if (const auto present = find(identity.name)) used -= std::min(used, present->size_bytes);
   if (identity.size_bytes > options_.max_job_bytes)
-    return fail(StoreError::Kind::kQuota,
-                "a job has at most " + std::to_string(options_.max_job_bytes >> 20) + " MiB");
+    return fail(StoreError::Kind::kQuota, say("a job has at most %1 MiB", options_.max_job_bytes >> 20));
   if (used + identity.size_bytes > options_.quota_bytes)
-    return fail(StoreError::Kind::kQuota, "the store's quota of " +
-                                              std::to_string(options_.quota_bytes >> 20) +
-                                              " MiB has no room for this job: delete others first");
+    return fail(StoreError::Kind::kQuota,
+                say("the store's quota of %1 MiB has no room for this job: delete others first",
+                    options_.quota_bytes >> 20));
   std::error_code error;
   const auto space = fs::space(options_.folder, error);
   if (!error && space.available + on_disk_bytes < identity.size_bytes + options_.margin_bytes)
-    return fail(StoreError::Kind::kDiskFull, "the disk has no room for this job: delete others first");
+    return fail(StoreError::Kind::kDiskFull, say("the disk has no room for this job: delete others first"));
   return {};
 }
 
@@ -119,16 +119,16 @@ Result<std::unique_ptr<JobStore::Upload>, StoreError> JobStore::reopen(const Upl
 
 Result<UploadProgress, StoreError> JobStore::begin_upload(const UploadIdentity& identity, bool replace,
                                                           double now_unix_s) {
-  if (std::string broken = check_name(identity.name); !broken.empty())
+  if (Sentence broken = check_name(identity.name); !broken.empty())
     return fail(StoreError::Kind::kName, broken);
   if (identity.sha256.size() != joblink::kSha256Bytes)
-    return fail(StoreError::Kind::kChecksum, "an upload names the SHA-256 of its job: 32 bytes");
+    return fail(StoreError::Kind::kChecksum, say("an upload names the SHA-256 of its job: 32 bytes"));
   if (auto ok = writable_or_error(); !ok) return Error<StoreError>(ok.error());
   if (const auto present = find(identity.name)) {
     if (present->sha256 == identity.sha256 && present->size_bytes == identity.size_bytes)
       return UploadProgress{0, identity.size_bytes, true};
     if (!replace)
-      return fail(StoreError::Kind::kName, "another job has the name " + identity.name + " already");
+      return fail(StoreError::Kind::kName, say("another job has the name %1 already", identity.name));
   }
   const auto open = std::find_if(uploads_.begin(), uploads_.end(),
                                  [&](const auto& u) { return same(u->identity, identity); });
@@ -183,11 +183,10 @@ Result<UploadProgress, StoreError> JobStore::append(std::uint32_t id, std::uint6
   if (found == uploads_.end()) return not_open();
   Upload& upload = **found;
   if (offset_bytes != upload.received_bytes)
-    return fail(StoreError::Kind::kOrder, "the next byte of this upload is " +
-                                              std::to_string(upload.received_bytes) + ", not " +
-                                              std::to_string(offset_bytes));
+    return fail(StoreError::Kind::kOrder,
+                say("the next byte of this upload is %1, not %2", upload.received_bytes, offset_bytes));
   if (bytes.size() > upload.identity.size_bytes - upload.received_bytes)
-    return fail(StoreError::Kind::kOrder, "more bytes than were announced");
+    return fail(StoreError::Kind::kOrder, say("more bytes than were announced"));
   std::string_view rest = bytes;
   while (!rest.empty()) {
     const ssize_t count = ::write(upload.fd, rest.data(), rest.size());
@@ -216,16 +215,16 @@ Result<UploadProgress, StoreError> JobStore::commit(std::uint32_t id, double now
   Upload& upload = **found;
   const UploadIdentity identity = upload.identity;
   if (upload.received_bytes != identity.size_bytes)
-    return fail(StoreError::Kind::kOrder, std::to_string(identity.size_bytes - upload.received_bytes) +
-                                              " bytes of the job have not come yet");
+    return fail(StoreError::Kind::kOrder,
+                say("%1 bytes of the job have not come yet", identity.size_bytes - upload.received_bytes));
   if (!upload.replace && find(identity.name))
-    return fail(StoreError::Kind::kName, "another job has the name " + identity.name + " already");
+    return fail(StoreError::Kind::kName, say("another job has the name %1 already", identity.name));
   if (upload.sum.finish() != identity.sha256) {
     uploads_.erase(found);
     forget_partial(identity);
     return fail(
         StoreError::Kind::kChecksum,
-        "the bytes that came are not those that were announced (SHA-256 differs): send the job again");
+        say("the bytes that came are not those that were announced (SHA-256 differs): send the job again"));
   }
   const fs::path partial = partial_of(identity);
   const bool stored =

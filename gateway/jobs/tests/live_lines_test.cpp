@@ -143,7 +143,7 @@ class Lines : public ::testing::Test {
   }
   std::string refused(const std::string& line) {
     const auto taken = lines.take(line, ++number, out);
-    return taken ? std::string() : taken.error().words;
+    return taken ? std::string() : std::string(taken.error().words);
   }
   LiveLines lines{machine(), kinematics()};
   gcode::CommandBuffer out;

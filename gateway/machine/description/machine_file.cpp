@@ -6,19 +6,19 @@
 namespace kinebus {
 
 Result<MachineDescription, MachineFileErrors> load_machine(const std::filesystem::path& path) {
-  const auto unreadable = [&](const char* found, const char* expected) {
-    return Error<MachineFileErrors>({{path.string(), 0, "", found, expected}});
+  const auto unreadable = [&](Sentence found, Sentence expected) {
+    return Error<MachineFileErrors>({{path.string(), 0, "", std::move(found), std::move(expected)}});
   };
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored))
-    return unreadable("no file there", "a readable TOML file");
+    return unreadable(say("no file there"), say("a readable TOML file"));
   constexpr std::uintmax_t kLargest = 1 << 20;
   if (std::filesystem::file_size(path, ignored) > kLargest)
-    return unreadable("more than 1 MiB", "a machine file, which is a few KiB long");
+    return unreadable(say("more than 1 MiB"), say("a machine file, which is a few KiB long"));
   std::ifstream in(path, std::ios::binary);
   std::ostringstream text;
   text << in.rdbuf();
-  if (!in) return unreadable("a file that cannot be read", "a readable TOML file");
+  if (!in) return unreadable(say("a file that cannot be read"), say("a readable TOML file"));
   return parse_machine(text.view(), path.string());
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gateway/machine/description/machine_description.hpp"
+#include "gateway/sentence.hpp"
 
 namespace kinebus {
 
@@ -16,8 +17,8 @@ struct MachineFileError {
   std::string file;
   std::uint32_t line = 0;  ///< 1-based; 0: the file as a whole (it cannot be read)
   std::string key;         ///< dotted: "joint.tower1.speed_mm_per_s"
-  std::string found;       ///< what is there; empty: nothing
-  std::string expected;    ///< type and range, or the rule
+  Sentence found;          ///< what is there; empty: nothing
+  Sentence expected;       ///< type and range, or the rule
 };
 /// "m1.toml:12: joint.tower1.speed_mm_per_s: found -3; expected a number in 0.001 .. 100000"
 std::string to_string(const MachineFileError& error);

@@ -30,22 +30,19 @@ std::string short_number(double value) {
 }
 
 /// What stands there, cut to one readable line.
-std::string shown(const toml::node& node) {
+Sentence shown(const toml::node& node) {
+  if (node.is_table()) return say("a table");
+  if (const auto* array = node.as_array()) return say("an array of %1", array->size());
   std::ostringstream out;
   node.visit([&](const auto& n) {
     using T = std::decay_t<decltype(n)>;
-    if constexpr (std::is_same_v<T, toml::table>)
-      out << "a table";
-    else if constexpr (std::is_same_v<T, toml::array>)
-      out << "an array of " << n.size();
-    else
-      out << n;
+    if constexpr (!std::is_same_v<T, toml::table> && !std::is_same_v<T, toml::array>) out << n;
   });
   std::string text = std::move(out).str();
   std::replace(text.begin(), text.end(), '\n', ' ');
   constexpr std::size_t kLongest = 80;
   if (text.size() > kLongest) text = text.substr(0, kLongest) + "...";
-  return text;
+  return Sentence::verbatim(std::move(text));
 }
 
 /// Levenshtein distance, for "did you mean".
@@ -74,7 +71,7 @@ class Reader {
   MachineFileErrors take() { return std::move(errors_); }
 
   void text(std::string_view key, std::string& value, Need need) {
-    const std::string expected = "a text";
+    const Sentence expected = say("a text");
     const toml::node* node = find(key, need, expected);
     if (node == nullptr) return;
     if (const auto* s = node->as_string())
@@ -84,7 +81,7 @@ class Reader {
   }
 
   void flag(std::string_view key, bool& value, Need need) {
-    const std::string expected = "true or false";
+    const Sentence expected = say("true or false");
     const toml::node* node = find(key, need, expected);
     if (node == nullptr) return;
     if (const auto* b = node->as_boolean())
@@ -94,7 +91,7 @@ class Reader {
   }
 
   void number(std::string_view key, double& value, Range range, Need need, double unit = 1) {
-    const std::string expected = "a number in " + interval_text(range);
+    const Sentence expected = say("a number in %1", interval_text(range));
     if (const toml::node* node = find(key, need, expected))
       if (!take_number(*node, range, unit, value)) wrong(key, *node, expected);
   }
@@ -105,8 +102,7 @@ class Reader {
 
   void numbers(std::string_view key, std::vector<double>& values, Range range, std::size_t most,
                double unit) {
-    const std::string expected =
-        "at most " + std::to_string(most) + " numbers, each in " + interval_text(range);
+    const Sentence expected = say("at most %1 numbers, each in %2", most, interval_text(range));
     const toml::node* node = find(key, Need::kOptional, expected);
     if (node == nullptr) return;
     const auto* array = node->as_array();
@@ -119,7 +115,7 @@ class Reader {
 
   template <typename T>
   void integer(std::string_view key, T& value, std::int64_t low, std::int64_t high, Need need) {
-    const std::string expected = "a whole number in " + std::to_string(low) + " .. " + std::to_string(high);
+    const Sentence expected = say("a whole number in %1 .. %2", low, high);
     const toml::node* node = find(key, need, expected);
     if (node == nullptr) return;
     const auto* i = node->as_integer();
@@ -148,8 +144,9 @@ class Reader {
 
   template <typename T>
   bool choice(std::string_view key, T& value, std::span<const Choice> choices, Need need) {
-    std::string expected = "one of";
-    for (const Choice& c : choices) expected += std::string(" \"") + std::string(c.word) + "\"";
+    std::string words;
+    for (const Choice& c : choices) words += (words.empty() ? "\"" : " \"") + std::string(c.word) + "\"";
+    const Sentence expected = say("one of %1", words);
     const toml::node* node = find(key, need, expected);
     if (node == nullptr) return need == Need::kOptional;
     if (const auto* s = node->as_string())
@@ -163,13 +160,13 @@ class Reader {
   }
 
   void vector3(std::string_view key, Vector3& value, Range range, Need need, double unit = 1) {
-    const std::string expected = "three numbers, each in " + interval_text(range);
+    const Sentence expected = say("three numbers, each in %1", interval_text(range));
     if (const toml::node* node = find(key, need, expected))
       if (!take_numbers(*node, range, unit, value)) wrong(key, *node, expected);
   }
 
   void interval(std::string_view key, Interval& value, Range range, Need need, double unit = 1) {
-    const std::string expected = "[least, most], least below most, in " + interval_text(range);
+    const Sentence expected = say("[least, most], least below most, in %1", interval_text(range));
     const toml::node* node = find(key, need, expected);
     if (node == nullptr) return;
     std::array<double, 2> ends{};
@@ -181,7 +178,7 @@ class Reader {
 
   template <typename F>
   void table(std::string_view key, Need need, F&& content) {
-    const std::string expected = "a table, [" + path(key) + "]";
+    const Sentence expected = say("a table, [%1]", path(key));
     const toml::node* node = find(key, need, expected);
     if (node == nullptr) return;
     if (const auto* t = node->as_table()) {
@@ -214,7 +211,7 @@ class Reader {
 
   void node_ids(std::vector<NodeDescription>& nodes) {
     nodes.clear();
-    level().others = "a node id in 1 .. 126";
+    level().others = say("a node id in 1 .. 126");
     for (const auto& [key, node] : *level().table) {
       const std::string_view text = key.str();
       unsigned id = 0;
@@ -246,7 +243,7 @@ class Reader {
     std::string path;
     std::set<std::string> known;
     bool judged;
-    std::string others{};  // what keys the table takes besides the known ones
+    Sentence others{};  // what keys the table takes besides the known ones
   };
 
   Level& level() { return levels_.back(); }
@@ -255,7 +252,7 @@ class Reader {
   }
   static std::string interval_text(Range r) { return short_number(r.min) + " .. " + short_number(r.max); }
 
-  const toml::node* find(std::string_view key, Need need, const std::string& expected) {
+  const toml::node* find(std::string_view key, Need need, const Sentence& expected) {
     level().known.insert(std::string(key));
     const std::string full = path(key);
     const toml::node* node = level().table->get(key);
@@ -263,12 +260,12 @@ class Reader {
       lines_[full] = node->source().begin.line;
     } else if (need == Need::kRequired) {
       failed_.insert(full);
-      errors_.push_back({file_, line_of(full), full, "", expected});
+      errors_.push_back({file_, line_of(full), full, {}, expected});
     }
     return node;
   }
 
-  void wrong(std::string_view key, const toml::node& node, const std::string& expected) {
+  void wrong(std::string_view key, const toml::node& node, const Sentence& expected) {
     failed_.insert(path(key));
     errors_.push_back({file_, node.source().begin.line, path(key), shown(node), expected});
   }
@@ -329,9 +326,10 @@ class Reader {
       }
     }
     const std::string full = l.path.empty() ? std::string(name) : l.path + "." + std::string(name);
-    std::string expected = l.others;
-    if (expected.empty()) expected = nearest != nullptr ? "perhaps " + *nearest : "one of " + all;
-    errors_.push_back({file_, key.source().begin.line, full, "a key that does not exist", expected});
+    Sentence expected = l.others;
+    if (expected.empty()) expected = nearest != nullptr ? say("perhaps %1", *nearest) : say("one of %1", all);
+    errors_.push_back(
+        {file_, key.source().begin.line, full, say("a key that does not exist"), std::move(expected)});
   }
 
   std::string file_;
@@ -350,12 +348,13 @@ Result<MachineDescription, MachineFileErrors> parse_machine(std::string_view tex
   if (control != text.end())
     return Error<MachineFileErrors>(
         {{std::string(name), static_cast<std::uint32_t>(1 + std::count(text.begin(), control, '\n')), "",
-          "a control character", "printable text, tabs and line ends"}});
+          say("a control character"), say("printable text, tabs and line ends")}});
   const toml::parse_result parsed = toml::parse(text, name);
   if (!parsed) {
     const toml::parse_error& e = parsed.error();
-    return Error<MachineFileErrors>({{std::string(name), e.source().begin.line, "",
-                                      "no valid TOML: " + std::string(e.description()), "TOML 1.0"}});
+    return Error<MachineFileErrors>(
+        {{std::string(name), e.source().begin.line, "",
+          say("no valid TOML: %1", std::string(e.description())), Sentence::verbatim("TOML 1.0")}});
   }
   MachineDescription description;
   Reader reader(parsed.table(), name);

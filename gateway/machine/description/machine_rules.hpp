@@ -5,14 +5,15 @@
 #include <vector>
 
 #include "gateway/machine/description/machine_description.hpp"
+#include "gateway/sentence.hpp"
 
 namespace kinebus {
 
 struct BrokenRule {
   std::vector<std::string>
       keys;  ///< the keys that the rule compares; the first is where the mistake is reported
-  std::string found;
-  std::string expected;
+  Sentence found;
+  Sentence expected;
 };
 
 /// Every broken rule, the kinematics' own (GeometryError) included.

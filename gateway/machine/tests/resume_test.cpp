@@ -4,9 +4,7 @@
 
 #include <cmath>
 
-#include "gateway/jobs/journal/journal_codec.hpp"
-#include "gateway/jobs/machine_setup.hpp"
-#include "gateway/machine/tests/machine_rig.hpp"
+#include "gateway/machine/tests/resume_rig.hpp"
 #include "protocol/canopen/cob_id.hpp"
 #include "protocol/canopen/nmt.hpp"
 
@@ -14,116 +12,6 @@ namespace kinebus {
 namespace {
 
 using namespace std::chrono_literals;
-
-/// A rounded zigzag with extrusion: corners, an arc, a retraction, a wait.
-const std::string kJob =
-    "G21 G90 M83\n"
-    "G1 Z10 F6000\n"
-    "G1 X20 E1 F2400\n"
-    "G1 Y15 E0.7\n"
-    "G2 X-5 Y15 I-12.5 J0 E2\n"
-    "G1 E-0.8 F2000\n"
-    "G4 P0.2\n"
-    "G1 E0.8\n"
-    "G1 X-20 Y-10 E1.5 F3000\n"
-    "G1 X30 Y-12 E2\n"
-    "M106 S128\n"
-    "G1 X0 Y0 Z12 E1\n";
-
-/// Watches the motors: the tool's distance from the programmed path, and the filament.
-class ResumeRig : public MachineRig {
- public:
-  explicit ResumeRig(MachineDescription description = default_m1(), std::uint64_t seed = 1)
-      : MachineRig(std::move(description), {}, seed) {
-    machine.thermal.min_extrude_c = 0;
-    gateway = std::make_unique<Gateway>(machine, Gateway::Options{.journal = true});
-    kinematics_ = std::move(*make_kinematics(machine));
-  }
-
-  bool begin(double at_s) {
-    if (!make_ready()) return false;
-    gateway->set_temperature(false, 0);
-    if (!gateway->run(std::make_unique<StringSource>(kJob), "part")) return false;
-    if (!reach(MachineState::kRunning, 5s)) return false;
-    if (!run_until([&] { return gateway->status().line >= 2; }, 30s)) return false;
-    run_for(BusTime{static_cast<std::int64_t>(at_s * 1e9)});
-    return gateway->state() == MachineState::kRunning;
-  }
-  /// Lets the job go on to its end, measuring.
-  bool finish(BusTime limit = 120s) {
-    return run_until(
-        [&] {
-          watch();
-          return gateway->state() == MachineState::kReady && !gateway->status().interrupted;
-        },
-        limit);
-  }
-  /// A new gateway in place of the old one, with what its journal has in the file.
-  void replace_gateway(std::size_t cut = 0) {
-    store();
-    file_.resize(file_.size() - std::min(cut, file_.size()));
-    const auto decoded = journal::decode(file_);
-    epoch_ = static_cast<std::uint8_t>(epoch_ + 1);
-    gateway = std::make_unique<Gateway>(machine, Gateway::Options{.epoch = epoch_, .journal = true});
-    file_.clear();
-    number_ = 0;
-    for (const journal::Record& record : decoded.state.records()) journal::encode(record, number_++, file_);
-    job_noted = decoded.state.job.has_value();
-    const auto recovered = gateway->recover(decoded.state, std::make_unique<StringSource>(kJob));
-    ASSERT_TRUE(recovered) << recovered.error().words;
-    run_for(10ms);
-  }
-  /// As the daemon does.
-  void store() {
-    while (auto record = gateway->next_journal_record()) {
-      journal::encode(*record, number_++, file_);
-      ++stored_;
-    }
-    gateway->on_journal_stored(stored_);
-  }
-  void run(BusTime duration) {
-    const BusTime until = now + duration;
-    run_until(
-        [&] {
-          watch();
-          return now >= until;
-        },
-        duration);
-  }
-  void watch() {
-    store();
-    const JointVector j = joints();
-    PoseVector pose = kinematics_->bed_reference();
-    if (!kinematics_->forward(Frame::kMachine, j, pose)) return;
-    filament_mm = pose[kE];
-    lowest_mm = std::min(lowest_mm, pose[kZ]);
-    if (last_) {
-      for (std::size_t i = 0; i < machine.joints.size(); ++i) {
-        const double speed = std::abs(j[i] - (*last_)[i]);
-        worst_step = std::max(worst_step, speed);
-      }
-    }
-    if (track_) track_->push_back(pose);
-  }
-
-  PoseVector pose() {
-    PoseVector pose = kinematics_->bed_reference();
-    EXPECT_TRUE(kinematics_->forward(Frame::kMachine, joints(), pose));
-    return pose;
-  }
-
-  double filament_mm = 0, worst_step = 0, lowest_mm = 1e9;
-  bool job_noted = false;
-  std::vector<PoseVector>* track_ = nullptr;
-
- private:
-  std::unique_ptr<Kinematics> kinematics_;
-  std::vector<std::uint8_t> file_;
-  std::uint32_t number_ = 0;
-  std::uint64_t stored_ = 0;
-  std::uint8_t epoch_ = 1;
-  std::optional<JointVector> last_;
-};
 
 /// Distance of `p` from the polyline of `track`, mm.
 double distance_from(const std::vector<PoseVector>& track, const PoseVector& p) {
@@ -274,48 +162,6 @@ TEST(Resume, AnotherGatewayGoesOnWithTheWorkOffsetsOfTheJob) {
   expect_same_part(rig, track);
 }
 
-TEST(Resume, WorkOffsetsOutliveGatewaysAndJobsWhereverTheJournalIsCut) {
-  ResumeRig rig;
-  ASSERT_TRUE(rig.gateway->take_line("G10 L2 P1 X4 Y-3 Z2", 1));
-  rig.replace_gateway();
-  const gcode::WorkOffsets first = rig.gateway->work_offsets();
-  EXPECT_EQ(first[0][kX], 4);
-  EXPECT_EQ(first[0][kZ], 2);
-  ASSERT_TRUE(rig.gateway->take_line("G10 L2 P9 Y8", 2));
-  // The last record torn: what was in force before it.
-  rig.replace_gateway(5);
-  EXPECT_EQ(rig.gateway->work_offsets(), first);
-  ASSERT_TRUE(rig.gateway->take_line("G10 L2 P9 Y8", 3));
-  // A job with offsets of its own comes, ends, and changes nothing; its own path has the machine's.
-  ASSERT_TRUE(rig.make_ready()) << rig.story();
-  ASSERT_TRUE(rig.gateway->run(std::make_unique<StringSource>("G10 L2 P2 X50\nG1 X0 Y0 Z10 F6000\n"), "own"));
-  ASSERT_TRUE(rig.reach(MachineState::kRunning, 5s)) << rig.story();
-  ASSERT_TRUE(rig.finish()) << rig.story();
-  EXPECT_NEAR(rig.pose()[kX], 4, 0.02) << "the job itself began in G54";
-  rig.replace_gateway();
-  EXPECT_EQ(rig.gateway->work_offsets()[0], first[0]);
-  EXPECT_EQ(rig.gateway->work_offsets()[8][kY], 8);
-  EXPECT_EQ(rig.gateway->work_offsets()[1][kX], 0);
-  EXPECT_EQ(rig.gateway->state(), MachineState::kOff) << "nothing else is taken up";
-}
-
-TEST(Resume, WorkOffsetsAreThoseOfTheirMachine) {
-  journal::State state;
-  MachineDescription other = default_m1();
-  other.name = "another";
-  gcode::WorkOffsets offsets{};
-  offsets[0][kZ] = 11;
-  state.take(journal::Offsets{identity(other), offsets});
-  for (int i = 0; i < 40; ++i) state.take(journal::Offsets{identity(default_m1()), {}});
-  Gateway here(default_m1()), there(other);
-  ASSERT_TRUE(here.recover(state, nullptr));
-  ASSERT_TRUE(there.recover(state, nullptr));
-  EXPECT_EQ(here.work_offsets()[0][kZ], 0);
-  EXPECT_EQ(there.work_offsets()[0][kZ], 11);
-  for (int i = 0; i < 40; ++i) state.take(journal::Offsets{"machine " + std::to_string(i), offsets});
-  EXPECT_EQ(state.offsets.size(), journal::State::kMachines) << "bounded";
-}
-
 TEST(Resume, GatewayAfterGatewayTakesUpTheSameJob) {
   ResumeRig rig;
   ASSERT_TRUE(rig.begin(0.1)) << rig.story();
@@ -351,7 +197,7 @@ TEST(Resume, AnotherJobUnderTheSameNameIsNotTakenUp) {
   rig.run_for(1s);
   rig.lose_from_gateway = {};
   rig.gateway = std::make_unique<Gateway>(rig.machine, Gateway::Options{.epoch = 9});
-  ASSERT_TRUE(rig.gateway->recover(state, std::make_unique<StringSource>(kJob)));
+  ASSERT_TRUE(rig.gateway->recover(state, std::make_unique<StringSource>(kResumeJob)));
   ASSERT_TRUE(rig.gateway->resume());
   ASSERT_TRUE(rig.reach(MachineState::kReady, 30s)) << rig.story();
   rig.run_for(2s);

@@ -17,8 +17,8 @@ class DroppingWorker : public kinebus::Worker {
 };
 class NoMachineFile : public kinebus::MachineFilePort {
  public:
-  kinebus::Result<Text, std::string> read() override { return Text{}; }
-  kinebus::Result<void, std::string> write(std::string_view) override { return {}; }
+  kinebus::Result<Text, kinebus::Sentence> read() override { return Text{}; }
+  kinebus::Result<void, kinebus::Sentence> write(std::string_view) override { return {}; }
 };
 
 }  // namespace

@@ -48,8 +48,8 @@ class LaterWorker : public Worker {
 class MemoryMachineFile : public MachineFilePort {
  public:
   std::string text = "name = \"old\"\n";
-  Result<Text, std::string> read() override { return Text{text, "machine.toml", true}; }
-  Result<void, std::string> write(std::string_view fresh) override {
+  Result<Text, Sentence> read() override { return Text{text, "machine.toml", true}; }
+  Result<void, Sentence> write(std::string_view fresh) override {
     text = fresh;
     return {};
   }

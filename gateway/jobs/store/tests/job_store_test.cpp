@@ -50,7 +50,7 @@ class JobStoreTest : public ::testing::Test {
                                      std::string_view(text).substr(begun->received_bytes));
     if (!sent) return sent.error().words;
     const auto done = store_->commit(begun->id, 1234);
-    return done ? std::string() : done.error().words;
+    return done ? Sentence() : done.error().words;
   }
 };
 

@@ -30,7 +30,7 @@ class MemoryFiles : public SerialFiles {
     auto source = open(name);
     if (!source) return source.error();
     const auto begun = gateway_.run(std::move(*source), std::string(name));
-    return begun ? "" : begun.error().words;
+    return begun ? std::string() : std::string(begun.error().words);
   }
   std::string remove(std::string_view name) override {
     return texts.erase(std::string(name)) > 0 ? "" : "no such job";
