@@ -14,6 +14,7 @@ using namespace std::chrono_literals;
 
 constexpr auto kHomingMode = static_cast<std::int8_t>(cia402::Mode::kHoming);
 constexpr auto kStreamMode = static_cast<std::int8_t>(cia402::Mode::kInterpolatedPosition);
+constexpr std::uint16_t kHome = cia402::control::kOperation | cia402::control::kHomingStart;
 constexpr std::uint16_t kFollow = cia402::control::kOperation | cia402::control::kInterpolationEnable;
 /// Positions are reported so often while carriages home: at 40 mm/s that is 0.8 mm of travel.
 constexpr std::int64_t kReportMs = 20;
@@ -45,7 +46,7 @@ MachineHoming::MachineHoming(const MachineDescription& machine, std::deque<NodeL
 }
 
 void MachineHoming::start(BusTime now) {
-  for (Axis& axis : axes_) axis.attained = axis.started = false;
+  for (Axis& axis : axes_) axis.attained = axis.waits = axis.started = false;
   failed_ = false;
   order_ = 0;
   next_order();
@@ -132,7 +133,7 @@ void MachineHoming::enter(Stage stage, BusTime now) {
     case Stage::kMove:
       for (std::size_t node = 0; node < links_.size(); ++node)
         reports_[node] = links_[node].position_frames();
-      set_group(cia402::control::kOperation | cia402::control::kHomingStart, kHomingMode);
+      set_group(kHome | cia402::control::kHomingStay, kHomingMode);
       break;
     case Stage::kBack:
       set_group(kFollow, kStreamMode);
@@ -190,17 +191,31 @@ void MachineHoming::watch(BusTime now) {
     }
     if ((status & cia402::status::kHomingError) != 0)
       return fail(AlarmCode::kHomingFailed, link.id(),
-                  say("%1 did not find its home switch, or the switch did not release", axis->name));
+                  say("%1 did not find its home switch, or the switch did not release: is it wired to "
+                      "another carriage?",
+                      axis->name));
     axis->attained =
         (status & cia402::status::kHomingAttained) != 0 && (status & cia402::status::kTargetReached) != 0;
+    axis->waits = (status & cia402::status::kHomingWaits) != 0;
     all = all && axis->attained;
   }
   if (all) return enter(Stage::kBack, now);
+  if (now - entered_ >= kSettle) let_leave();
   if (now - entered_ <= machine_.homing.timeout) return;
   std::string names;
   for (const Axis* axis : group())
     if (!axis->attained) names += (names.empty() ? "" : ", ") + axis->name;
   fail(AlarmCode::kHomingTimeout, 0, say("homing took too long; not at home: %1", names));
+}
+
+/// All stand on their switches, or have left them: the next node's may go.
+void MachineHoming::let_leave() {
+  const std::vector<Axis*> members = group();
+  if (!std::all_of(members.begin(), members.end(), [](const Axis* a) { return a->waits || a->attained; }))
+    return;
+  const auto next = std::find_if(members.begin(), members.end(), [](const Axis* a) { return !a->attained; });
+  for (const Axis* axis : members)
+    if (axis->node == (*next)->node) links_[axis->node].set_control(axis->axis, kHome, kHomingMode);
 }
 
 /// Travels since the start, put together from the reports: at its edge a carriage gets a new zero, which is

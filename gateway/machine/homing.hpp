@@ -9,7 +9,10 @@
 // makes it safe is watched here: the carriages' travels since the start may differ by
 // HomingRun::max_spread_mm at most, every carriage must come to its switch within its search travel (the
 // node) and within the time (here), and whatever goes wrong with one stops them all at once: halt in the
-// controlwords of all nodes, two frames one behind the other.
+// controlwords of all nodes, two frames one behind the other. A carriage that has come to its switch stands
+// there until all have; then the nodes let theirs leave, one node after the other. So a switch whose wire
+// goes to another carriage is found out: it does not go off when the carriage leaves, or goes off when
+// another one does.
 
 #include <array>
 #include <cstdint>
@@ -50,6 +53,7 @@ class MachineHoming {
     double jump_counts = 0;  ///< a greater step between two reports is a new zero, not a motion
     std::uint8_t order = 1;
     bool attained = false;
+    bool waits = false;  ///< stands on its switch
     double travel_counts = 0;
     std::int32_t last_counts = 0;
     bool started = false;
@@ -66,6 +70,7 @@ class MachineHoming {
   void watch(BusTime now);
   void watch_spread();
   void fail(AlarmCode code, std::uint8_t node, Sentence words);
+  void let_leave();
 
   const MachineDescription& machine_;
   std::deque<NodeLink>& links_;

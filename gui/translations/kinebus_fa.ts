@@ -2024,8 +2024,8 @@
         <translation>%1: درایو آن دیگر روشن نیست</translation>
     </message>
     <message>
-        <source>%1 did not find its home switch, or the switch did not release</source>
-        <translation>%1 کلید خانه را نیافت یا کلید رها نشد</translation>
+        <source>%1 did not find its home switch, or the switch did not release: is it wired to another carriage?</source>
+        <translation>%1 کلید خانه را نیافت یا کلید رها نشد: آیا سیم آن به حامل دیگری می‌رود؟</translation>
     </message>
     <message>
         <source>homing took too long; not at home: %1</source>

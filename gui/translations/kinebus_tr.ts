@@ -2024,8 +2024,8 @@
         <translation>%1: sürücüsü artık açık değil</translation>
     </message>
     <message>
-        <source>%1 did not find its home switch, or the switch did not release</source>
-        <translation>%1 ev anahtarını bulamadı ya da anahtar bırakmadı</translation>
+        <source>%1 did not find its home switch, or the switch did not release: is it wired to another carriage?</source>
+        <translation>%1 ev anahtarını bulamadı ya da anahtar bırakmadı: kablosu başka bir arabaya mı gidiyor?</translation>
     </message>
     <message>
         <source>homing took too long; not at home: %1</source>

@@ -107,7 +107,10 @@ class DriveAxis {
   Trapezoid profile_;
   LinearInterpolator line_;
   ProfilePosition profile_position_;
-  bool homing_turn() const { return neighbour_ == nullptr || !neighbour_->homing_.leaving(); }
+  bool homing_turn() const {
+    return (word_ & cia402::control::kHomingStay) == 0 &&
+           (neighbour_ == nullptr || !neighbour_->homing_.leaving());
+  }
 
   Homing homing_;
   const DriveAxis* neighbour_ = nullptr;

@@ -216,6 +216,7 @@ std::uint16_t DriveAxis::statusword(LocalTime now) const {
       break;
     case Mode::kHoming:
       if (rests && !homing_.running()) word |= status::kTargetReached;
+      if (homing_.waiting()) word |= status::kHomingWaits;
       if (homing_.attained()) word |= status::kHomingAttained;
       if (homing_.error() != HomingError::kNone) word |= status::kHomingError;
       break;

@@ -44,9 +44,10 @@ class Homing {
   enum class Switch : std::uint8_t { kNone, kHome, kNegativeLimit, kPositiveLimit };
   static Switch switch_of(int method);
 
-  /// Two carriages of a node leave their switches one after the other: if their wires are exchanged, the one
-  /// that leaves does not see its switch go off, and no position is taken from the other's. `mine`: no other
-  /// one leaves its switch now. To be called before the calls below.
+  /// Carriages leave their switches one after the other (those of a node by themselves, those of several
+  /// nodes by the gateway's word): if their wires are exchanged, the one that leaves does not see its switch
+  /// go off, and no position is taken from the other's. `mine`: no other one leaves its switch now. To be
+  /// called before the calls below.
   void set_turn(bool mine) { my_turn_ = mine; }
   bool leaving() const {
     return phase_ == Phase::kLeave || phase_ == Phase::kStopOff || phase_ == Phase::kEnter ||

@@ -31,15 +31,18 @@ inline constexpr std::uint16_t kSwitchOn = 1 << 0, kEnableVoltage = 1 << 1, kQui
                                kEnableOperation = 1 << 3, kFaultReset = 1 << 7, kHalt = 1 << 8;
 inline constexpr std::uint16_t kNewSetPoint = 1 << 4, kChangeAtOnce = 1 << 5, kRelative = 1 << 6;  // mode 1
 inline constexpr std::uint16_t kHomingStart = 1 << 4;                                              // mode 6
-inline constexpr std::uint16_t kInterpolationEnable = 1 << 4;                                      // mode 7
+/// Mode 6, of this manufacturer: a carriage that has come to its switch stands there until the bit falls.
+inline constexpr std::uint16_t kHomingStay = 1 << 11;
+inline constexpr std::uint16_t kInterpolationEnable = 1 << 4;                            // mode 7
 inline constexpr std::uint16_t kShutdown = 0x06, kSwitchedOn = 0x07, kOperation = 0x0F;  // the usual commands
 }  // namespace control
 
 namespace status {
 inline constexpr std::uint16_t kWarning = 1 << 7, kRemote = 1 << 9, kTargetReached = 1 << 10,
                                kInternalLimit = 1 << 11;
-inline constexpr std::uint16_t kSetPointAcknowledged = 1 << 12;                       // mode 1
-inline constexpr std::uint16_t kHomingAttained = 1 << 12, kHomingError = 1 << 13;     // mode 6
+inline constexpr std::uint16_t kSetPointAcknowledged = 1 << 12;                    // mode 1
+inline constexpr std::uint16_t kHomingAttained = 1 << 12, kHomingError = 1 << 13;  // mode 6
+inline constexpr std::uint16_t kHomingWaits = 1 << 14;  // mode 6, of this manufacturer: stands on its switch
 inline constexpr std::uint16_t kInterpolationActive = 1 << 12;                        // mode 7
 inline constexpr std::uint16_t kFollowsCommand = 1 << 12, kFollowingError = 1 << 13;  // modes 8, 1
 inline constexpr std::uint16_t kStateMask = 0x6F;

@@ -256,11 +256,12 @@ void VirtualMachine::check_switches(VirtualNode& node, BusTime now) {
       node.switch_level[static_cast<std::size_t>(axis)] = level;
       std::vector<Edge> edges{{now, level == 1}};
       if (switch_hook_) switch_hook_(node.index, a.switch_input, edges);
+      VirtualNode& wired = a.switch_node < 0 ? node : *nodes_[static_cast<std::size_t>(a.switch_node)];
       for (const Edge& edge : edges)
-        if (edge.at <= now)
+        if (edge.at <= now && &wired == &node)
           node.core->on_switch(node.to_local(now), a.switch_input - 1, edge.level);
         else
-          node.edges.push_back({edge.at, a.switch_input, edge.level});
+          wired.edges.push_back({edge.at, a.switch_input, edge.level});
     }
     const BusTime nearest{static_cast<std::int64_t>(1e9 * std::abs(above) / a.max_counts_per_s)};
     next = std::min(next, now + std::max(nearest, kFinestCheck));

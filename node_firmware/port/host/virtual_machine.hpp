@@ -20,11 +20,12 @@ namespace kinebus {
 
 /// What stands behind one axis: a motor that follows its node exactly, and perhaps a switch on its way.
 struct VirtualAxis {
-  double start_counts = 0;        ///< where the carriage stands at power-up, counts from the joint's zero
-  int switch_input = 0;           ///< 1..7 on this node; 0: none
-  double switch_counts = 0;       ///< where the switch's edge is
-  bool active_above = true;       ///< the switch is active at and above its edge (else at and below)
-  bool active_low = false;        ///< electrically
+  double start_counts = 0;   ///< where the carriage stands at power-up, counts from the joint's zero
+  int switch_input = 0;      ///< 1..7 on this node; 0: none
+  int switch_node = -1;      ///< the switch is wired (wrongly) to this node, by its place; -1: to its own
+  double switch_counts = 0;  ///< where the switch's edge is
+  bool active_above = true;  ///< the switch is active at and above its edge (else at and below)
+  bool active_low = false;   ///< electrically
   double max_counts_per_s = 1e6;  ///< bound used to find the edge without fine ticks
 };
 

@@ -26,7 +26,7 @@ enum class FaultKind : std::uint8_t {
   kSwitchBounces,
   kSwitchDead,
   kSwitchStuck,
-  kSwitchesExchanged,  ///< of the two carriages of one node
+  kSwitchesExchanged,  ///< of the two carriages of one node, or of two nodes
   kLostSteps,
   kLateStatus,  ///< the gateway hears the nodes late
   kSlowGateway,
@@ -73,6 +73,10 @@ constexpr std::chrono::nanoseconds latency_of(const Fault& fault) {
   return kUsualLatency + std::chrono::nanoseconds{static_cast<std::int64_t>(40e3 * fault.strength)};
 }
 
+/// Of kSwitchesExchanged: the wires go to each other's node.
+constexpr bool between_nodes(const Fault& fault) {
+  return fault.axis == 1;
+}
 /// Of kWrongParameters: the node has others, and takes those that it is told.
 constexpr bool keeps_parameters(const Fault& fault) {
   return fault.strength < 0.5;

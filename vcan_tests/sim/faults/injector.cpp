@@ -46,11 +46,25 @@ std::unique_ptr<NodeMachine> Injector::make_nodes() {
     if (fault.kind == kInterruptLatency)
       for (VirtualNodeOptions& each : nodes) each.latency_max = latency_of(fault);
     if (fault.kind == kWrongIdentity) node.node.identity.product_code ^= 0x0101;
-    if (fault.kind == kSwitchesExchanged) std::swap(node.axes[0].switch_input, node.axes[1].switch_input);
+    if (fault.kind == kSwitchesExchanged) exchange_switches(fault, nodes);
   }
   auto machine = std::make_unique<VirtualMachine>(nodes, plan_.seed);
   nodes_ = machine.get();
   return machine;
+}
+
+// The carriages of two nodes often stand at the same distance from their switches, as after an earlier
+// homing: then each comes to its own one just when the other's is seen.
+void Injector::exchange_switches(const Fault& fault, std::vector<VirtualNodeOptions>& nodes) const {
+  VirtualAxis& one = nodes[static_cast<std::size_t>(fault.node)].axes[0];
+  const bool carriages = fault.node < 2;
+  if (!carriages || !between_nodes(fault))
+    return std::swap(one.switch_input, nodes[static_cast<std::size_t>(fault.node)].axes[1].switch_input);
+  VirtualAxis& other = nodes[static_cast<std::size_t>(1 - fault.node)].axes[0];
+  std::swap(one.switch_input, other.switch_input);
+  one.switch_node = 1 - fault.node;
+  other.switch_node = fault.node;
+  if (fault.strength < 0.7) other.start_counts = other.switch_counts + one.start_counts - one.switch_counts;
 }
 
 void Injector::attach(Simulation& simulation) {

@@ -55,6 +55,7 @@ class Injector {
   void turn_off(Active& active, BusTime now);
   void serve(Active& active, BusTime now);
   void measure_ramp(BusTime now);
+  void exchange_switches(const Fault& fault, std::vector<VirtualNodeOptions>& nodes) const;
   void disturb_switch(const Fault& fault, int node, int input, std::vector<VirtualMachine::Edge>& edges);
   std::uint64_t next_seed() { return random_(); }
 

@@ -72,14 +72,18 @@ TEST(Campaign, SeedsThatOnceFailedAreGood) {
 }
 
 TEST(Campaign, ExchangedSwitchesAreNeverTakenForHome) {
-  // Nodes 1 and 2 carry the carriages; the wires of both their switches are exchanged.
-  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
-    const FaultResult result = run_one(seed, {.kind = FaultKind::kSwitchesExchanged,
-                                              .phase = FaultPhase::kFromPowerUp,
-                                              .node = static_cast<int>(seed & 1)});
-    EXPECT_TRUE(result.violations.empty()) << seed << ": " << words_of(result);
-    EXPECT_EQ(result.outcome, FaultOutcome::kRefused) << seed;
-  }
+  // Nodes 1 and 2 carry the carriages; the wires of both switches of one are exchanged, or of one of each.
+  for (std::uint64_t seed = 1; seed <= 6; ++seed)
+    for (const int axis : {0, 1}) {
+      const Fault fault{.kind = FaultKind::kSwitchesExchanged,
+                        .phase = FaultPhase::kFromPowerUp,
+                        .node = static_cast<int>(seed & 1),
+                        .axis = axis};
+      const FaultResult result = run_one(seed, fault);
+      EXPECT_TRUE(result.violations.empty()) << seed << ": " << words_of(result);
+      EXPECT_EQ(result.outcome, FaultOutcome::kRefused)
+          << seed << (between_nodes(fault) ? ", two nodes" : "");
+    }
 }
 
 TEST(Campaign, AnEmergencyStopRampsAllNodesWithinTwoMillisecondsAndAFrame) {
