@@ -1,6 +1,11 @@
 #include "gateway/arguments.hpp"
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+#include "gateway/machine/description/machine_file.hpp"
 
 namespace kinebus {
 
@@ -8,6 +13,9 @@ void add_options(CLI::App& app, Arguments& arguments) {
   app.add_option("--machine", arguments.machine,
                  "Machine file (TOML); without it the built-in default machine M1")
       ->check(CLI::ExistingFile);
+  app.add_option("--new-machine", arguments.new_machine,
+                 "Like --machine; where the file is not there, the default machine is written to it first")
+      ->excludes("--machine");
   app.add_option(
       "--bus", arguments.bus,
       "SocketCAN interface such as can0, or \"inproc\": simulated nodes inside this process (default: the "
@@ -44,6 +52,15 @@ void add_options(CLI::App& app, Arguments& arguments) {
   app.add_option("--priority", arguments.realtime_priority, "SCHED_FIFO priority")->check(CLI::Range(1, 99));
   app.add_flag("--no-realtime", arguments.no_realtime, "Do not ask for SCHED_FIFO and locked memory");
   app.set_version_flag("--version", KINEBUS_VERSION);
+}
+
+void make_machine_file(Arguments& arguments) {
+  if (arguments.new_machine.empty()) return;
+  arguments.machine = arguments.new_machine;
+  if (std::filesystem::exists(arguments.machine)) return;
+  std::ofstream out(arguments.machine);
+  out << write_machine(default_m1()) << std::flush;
+  if (!out) throw std::runtime_error(arguments.machine + " cannot be written");
 }
 
 }  // namespace kinebus

@@ -13,6 +13,7 @@ namespace kinebus {
 
 struct Arguments {
   std::string machine;
+  std::string new_machine;
   std::string bus;
   std::string socket;
   std::string group;
@@ -32,5 +33,9 @@ struct Arguments {
 
 /// The options of the command line; they are read into `arguments`, which must outlive the parsing.
 void add_options(CLI::App& app, Arguments& arguments);
+
+/// After the parsing: the file of --new-machine is the machine file, with the default machine where it is not
+/// there. What cannot be written is thrown as words for the user (std::runtime_error).
+void make_machine_file(Arguments& arguments);
 
 }  // namespace kinebus

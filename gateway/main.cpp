@@ -25,6 +25,7 @@ int run(int argc, char** argv) {
   spdlog::set_level(spdlog::level::from_str(arguments.log_level));
   std::signal(SIGPIPE, SIG_IGN);
   try {
+    kinebus::make_machine_file(arguments);
     kinebus::Service service(arguments);
     std::signal(SIGINT, on_signal);
     std::signal(SIGTERM, on_signal);

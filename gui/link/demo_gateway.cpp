@@ -62,6 +62,7 @@ void DemoGateway::start() {
   // In real time where the user may: on a busy computer the machine would be held up for want of SYNC.
   process_.start(daemon, {QStringLiteral("--bus"), QStringLiteral("inproc"), QStringLiteral("--socket"),
                           socket_path(), QStringLiteral("--jobs"), folder_.filePath(QStringLiteral("jobs")),
+                          QStringLiteral("--new-machine"), folder_.filePath(QStringLiteral("machine.toml")),
                           QStringLiteral("--log-level"), QStringLiteral("warn")});
   look_for_socket();
 }

@@ -5,7 +5,10 @@
 #include <QAbstractEventDispatcher>
 #include <QElapsedTimer>
 #include <QFile>
+#include <QKeyEvent>
+#include <QPushButton>
 #include <QSettings>
+#include <QTableView>
 #include <QTemporaryDir>
 #include <set>
 
@@ -109,6 +112,43 @@ TEST_F(WindowTest, EveryPageIsDrawnInEveryLanguageAndTheme) {
         EXPECT_TRUE(dark ? ground < 90 : ground > 150) << "page " << page << " dark " << dark;
       }
     }
+}
+
+TEST_F(WindowTest, NoCellOfTheMachinePageIsCutInAnyLanguage) {
+  show_connected();
+  window->resize(1280, 720);
+  window->show_page(MainWindow::kMachine);
+  for (const auto& language : Language::choices()) {
+    window->set_language(language.code);
+    QCoreApplication::processEvents();
+    for (const QTableView* table : window->findChildren<QTableView*>()) {
+      if (!table->isVisible()) continue;
+      const QAbstractItemModel& model = *table->model();
+      for (int column = 0; column < model.columnCount(); ++column) {
+        if (table->isColumnHidden(column)) continue;
+        QStringList texts{model.headerData(column, Qt::Horizontal).toString()};
+        for (int row = 0; row < model.rowCount(); ++row) texts << model.index(row, column).data().toString();
+        for (const QString& text : texts)
+          EXPECT_LE(table->fontMetrics().horizontalAdvance(text) + 4, table->columnWidth(column))
+              << language.code.toStdString() << ": " << text.toStdString();
+      }
+    }
+  }
+}
+
+TEST_F(WindowTest, ArrowsJogAlsoAfterAButtonWasClicked) {
+  gateway.status.set_state(joblink::STATE_READY);
+  show_connected();
+  window->set_language(QStringLiteral("en"));
+  window->show_page(MainWindow::kJog);
+  QPushButton* home = nullptr;
+  for (QPushButton* button : window->findChildren<QPushButton*>())
+    if (button->isVisible() && button->text() == QStringLiteral("Home")) home = button;
+  ASSERT_NE(home, nullptr);
+  home->setFocus();
+  QKeyEvent press(QEvent::KeyPress, Qt::Key_Right, Qt::NoModifier);
+  QApplication::sendEvent(home, &press);
+  EXPECT_TRUE(wait_until([&] { return gateway.count(joblink::ClientMessage::kJog) == 1; }));
 }
 
 TEST_F(WindowTest, PersianRunsFromRightToLeftAndBack) {

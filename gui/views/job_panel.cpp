@@ -115,9 +115,8 @@ void JobPanel::take_status() {
   const bool busy = job && (s.state() == joblink::STATE_RUNNING || s.state() == joblink::STATE_CHECKING);
   doing_->setText(interrupted ? tr("Interrupted: resume goes on from its place.")
                   : busy      ? GatewayWords::said(s.doing_said(), s.doing())
-                  : connected ? StateWords::next(s.state())
                               : QString());
-  doing_->setVisible((!job || busy || interrupted) && !doing_->text().isEmpty());
+  doing_->setVisible(!doing_->text().isEmpty());
   progress_->setValue(job ? static_cast<int>(std::lround(s.progress() * 1000)) : 0);
   const QString none = QStringLiteral("—");
   percent_->setText(job ? Format::percent(s.progress(), 1) : none);

@@ -37,8 +37,20 @@ JogPage::JogPage(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(de
   connect(&desk_.session, &Session::status_changed, this, &JogPage::take_status);
   connect(&desk_.session, &Session::link_changed, this, &JogPage::take_status);
   connect(&desk_.session, &Session::machine_changed, this, &JogPage::take_machine);
+  for (QAbstractButton* button : findChildren<QAbstractButton*>()) button->installEventFilter(this);
   take_machine();
   take_status();
+}
+
+/// A button that was clicked has the focus, and would take arrows for a way to the next button: they jog.
+bool JogPage::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() != QEvent::KeyPress) return SpeakingWidget::eventFilter(watched, event);
+  auto* press = static_cast<QKeyEvent*>(event);
+  const bool arrow = press->key() == Qt::Key_Left || press->key() == Qt::Key_Right ||
+                     press->key() == Qt::Key_Up || press->key() == Qt::Key_Down;
+  if (!arrow || press->modifiers() != Qt::NoModifier) return SpeakingWidget::eventFilter(watched, event);
+  keyPressEvent(press);
+  return true;
 }
 
 QPushButton* JogPage::jog_button(Axis axis, int sign, const QString& icon) {

@@ -17,6 +17,7 @@ class JogPage : public SpeakingWidget {
 
  protected:
   void keyPressEvent(QKeyEvent* event) override;
+  bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
   enum class Axis { kX, kY, kZ, kA, kC, kE };
