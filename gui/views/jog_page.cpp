@@ -37,12 +37,15 @@ JogPage::JogPage(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(de
   connect(&desk_.session, &Session::status_changed, this, &JogPage::take_status);
   connect(&desk_.session, &Session::link_changed, this, &JogPage::take_status);
   connect(&desk_.session, &Session::machine_changed, this, &JogPage::take_machine);
-  for (QAbstractButton* button : findChildren<QAbstractButton*>()) button->installEventFilter(this);
+  for (QAbstractButton* button : findChildren<QAbstractButton*>()) {
+    button->installEventFilter(this);
+    button->setFocusPolicy(Qt::TabFocus);  // the page keeps the keys when a button is clicked
+  }
   take_machine();
   take_status();
 }
 
-/// A button that was clicked has the focus, and would take arrows for a way to the next button: they jog.
+/// A button that has the focus would take arrows for a way to the next button: they jog.
 bool JogPage::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() != QEvent::KeyPress) return SpeakingWidget::eventFilter(watched, event);
   auto* press = static_cast<QKeyEvent*>(event);
@@ -280,13 +283,18 @@ void JogPage::take_status() {
   const bool connected = desk_.session.connected();
   const joblink::Status& s = desk_.session.status();
   const Allowed allowed = connected ? allowed_in(s.state()) : Allowed{};
-  for (QPushButton* button : jog_buttons_) button->setEnabled(allowed.jog);
-  home_->setEnabled(allowed.home);
-  reference_->setEnabled(allowed.reference);
-  hold_->setEnabled(allowed.hold);
-  clear_->setEnabled(allowed.clear);
-  motors_off_->setEnabled(allowed.motors_off);
-  zero_here_->setEnabled(allowed.jog);
+  // The focus of a button that can do nothing now (home, while the machine homes) is the page's: arrows jog.
+  const auto enable = [this](QPushButton* button, bool can) {
+    if (!can && button->hasFocus()) setFocus();
+    button->setEnabled(can);
+  };
+  for (QPushButton* button : jog_buttons_) enable(button, allowed.jog);
+  enable(home_, allowed.home);
+  enable(reference_, allowed.reference);
+  enable(hold_, allowed.hold);
+  enable(clear_, allowed.clear);
+  enable(motors_off_, allowed.motors_off);
+  enable(zero_here_, allowed.jog);
   set_offset_->setEnabled(connected);
   const auto system = static_cast<std::size_t>(s.work_system());
   if (connected && system >= 1 && system <= kSystems.size()) {
