@@ -127,7 +127,9 @@ Done Gateway::Core::jog(const JogRequest& request) {
     PoseVector pose = *from;
     for (std::size_t axis = 0; axis < kPoseAxes; ++axis) pose[axis] += d[axis] * i / steps;
     if (const auto fits = kinematics_->check(Frame::kMachine, pose); !fits)
-      return refuse(to_string(fits.error()));
+      return refuse(kinematics_->check(Frame::kMachine, *from)
+                        ? to_string(fits.error())
+                        : say("%1: go to the bed reference first", to_string(fits.error())));
   }
   PoseVector target = *from;
   for (std::size_t axis = 0; axis < kPoseAxes; ++axis) target[axis] += d[axis];

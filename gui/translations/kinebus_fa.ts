@@ -2367,6 +2367,10 @@
         <source>two nodes use the id %1: those with the serial numbers %2 and %3</source>
         <translation>دو گره شناسهٔ %1 را به کار می‌برند: با شماره‌های سریال %2 و %3</translation>
     </message>
+    <message>
+        <source>%1: go to the bed reference first</source>
+        <translation>%1. نخست به مرجع بستر بروید</translation>
+    </message>
 </context>
 <context>
     <name>GatewayWords</name>

@@ -2367,6 +2367,10 @@
         <source>two nodes use the id %1: those with the serial numbers %2 and %3</source>
         <translation>iki düğüm %1 kimliğini kullanıyor: seri numaraları %2 ve %3</translation>
     </message>
+    <message>
+        <source>%1: go to the bed reference first</source>
+        <translation>%1. Önce tabla referansına gidin</translation>
+    </message>
 </context>
 <context>
     <name>GatewayWords</name>
