@@ -2,6 +2,11 @@
 // The job store as print hosts on a serial line know it (M20 to M32): answered at once, from the files alone;
 // what has to wait for the disk follows beside the loop.
 
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+
 #include "gateway/jobs/store/job_store.hpp"
 #include "gateway/sessions/job_link_server.hpp"
 #include "gateway/sessions/serial/serial_files.hpp"
@@ -20,11 +25,17 @@ class StoreFiles : public SerialFiles {
   std::string store(std::string_view name, std::string_view text) override;
 
  private:
+  /// Where the job's text is.
+  std::filesystem::path path_of(const std::string& name) const;
+
   JobStore& store_;
   Worker& worker_;
   Gateway& gateway_;
   JobLinkServer& server_;
   std::filesystem::path folder_;
+  /// Files on their way to the disk, by the name that they will have.
+  std::map<std::string, std::filesystem::path> written_;
+  std::uint64_t next_written_ = 1;
 };
 
 }  // namespace kinebus

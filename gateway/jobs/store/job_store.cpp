@@ -314,14 +314,19 @@ Result<void, StoreError> JobStore::remove(std::string_view name) {
   return remove.bind(name).finish();
 }
 
-Result<void, StoreError> JobStore::adopt(std::string_view name, double now_unix_s) {
+Result<void, StoreError> JobStore::adopt(const fs::path& written, std::string_view name, double now_unix_s) {
   if (Sentence broken = check_name(name); !broken.empty())
     return Error<StoreError>({StoreError::Kind::kName, broken});
   const fs::path path = options_.folder / name;
-  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+  const int fd = ::open(written.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
   if (fd < 0) return no_such_job(name);
-  ::fsync(fd);
+  const bool safe = ::fsync(fd) == 0;
   ::close(fd);
+  if (!safe || ::rename(written.c_str(), path.c_str()) != 0) {
+    const StoreError failed = disk_error(path, errno);
+    ::unlink(written.c_str());
+    return Error<StoreError>(failed);
+  }
   sync_folder(options_.folder);
   const auto sha256 = sha256_of_file(path);
   if (!sha256) return Error<StoreError>(disk_error(path, errno));

@@ -113,8 +113,10 @@ class JobStore {
   Result<std::string, StoreError> read(std::string_view name, std::uint64_t offset_bytes,
                                        std::size_t max_bytes);
   Result<void, StoreError> remove(std::string_view name);
-  /// A file that was put into the folder by another way: made safe on the disk, and known from now on.
-  Result<void, StoreError> adopt(std::string_view name, double now_unix_s);
+  /// A file of the folder, written under another name (beginning with a dot): gets its own one when it is
+  /// safe on the disk, and is known from now on.
+  Result<void, StoreError> adopt(const std::filesystem::path& written, std::string_view name,
+                                 double now_unix_s);
 
   // history.cpp
   Result<void, StoreError> save_preflight(std::string_view sha256, std::string_view machine,
