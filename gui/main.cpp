@@ -5,6 +5,7 @@
 #include <QSettings>
 #include <QStyleHints>
 #include <cstdio>
+#include <stdexcept>
 
 #include "gui/views/connect_page.hpp"
 #include "gui/views/jobs_page.hpp"
@@ -15,6 +16,14 @@ namespace {
 
 bool system_is_dark() {
   return QGuiApplication::palette().color(QPalette::Window).lightness() < 128;
+}
+
+// Platforms of Qt without widgets that draw by OpenGL: Qt itself would crash at the first picture. X11 and
+// Wayland have them: where they lack a driver, the scene's place says so.
+bool draws_without_opengl() {
+  static const QStringList names{QStringLiteral("offscreen"), QStringLiteral("minimal"),
+                                 QStringLiteral("vnc"), QStringLiteral("linuxfb")};
+  return names.contains(QGuiApplication::platformName());
 }
 
 int run(int argc, char** argv) {
@@ -42,6 +51,9 @@ int run(int argc, char** argv) {
                                   QStringLiteral("G-code files to upload once connected."),
                                   QStringLiteral("[FILE...]"));
   arguments.process(app);
+  if (draws_without_opengl())
+    throw std::runtime_error("Qt's platform \"" + QGuiApplication::platformName().toStdString() +
+                             "\" has no OpenGL, which the 3D view needs; use X11 (xcb) or Wayland");
 
   QSettings settings;
   QStringList sockets;
