@@ -1,6 +1,7 @@
 #include "gateway/io/store_files.hpp"
 
 #include <fcntl.h>
+#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -95,14 +96,15 @@ std::string StoreFiles::store(std::string_view name, std::string_view text) {
   ::close(fd);
   // The store makes it safe against a power cut, gives it its name and takes note of it, in its own time.
   written_[std::string(name)] = fresh;
-  worker_.post(
-      [&store = store_, fresh, name = std::string(name), unix_s = static_cast<double>(std::time(nullptr))] {
-        static_cast<void>(store.adopt(fresh, name, unix_s));
-      },
-      [this, fresh, name = std::string(name)] {
-        if (const auto there = written_.find(name); there != written_.end() && there->second == fresh)
-          written_.erase(there);
-      });
+  worker_.ask([&store = store_, fresh, name = std::string(name),
+               unix_s = static_cast<double>(std::time(nullptr))] { return store.adopt(fresh, name, unix_s); },
+              [this, fresh, name = std::string(name)](const Result<void, StoreError>& kept) {
+                if (!kept)
+                  spdlog::error("{} of a print host could not be stored: {}", name,
+                                kept.error().words.english());
+                if (const auto there = written_.find(name); there != written_.end() && there->second == fresh)
+                  written_.erase(there);
+              });
   return {};
 }
 

@@ -103,6 +103,15 @@ void send_stream(Bench& bench, std::int64_t start_units) {
   send({.sequence = sequence++, .control = SegmentControl::kEnd});
 }
 
+/// Both axes follow it at full rate from here on.
+void run_stream(Bench& bench) {
+  bench.bring_up();
+  for (int axis = 0; axis < 2; ++axis) bench.enable(kId, axis, 7);
+  send_stream(bench, bench.node().path_time(bench.local()).count() / kPathTicksPerUnit + 100);
+  bench.run(20ms);
+  bench.rate(1.0);
+}
+
 TEST_F(StepsTest, WithoutBusTimeNoStreamMoves) {
   bench.send(nmt_frame(NmtCommand::kStart, kAllNodes));
   for (int axis = 0; axis < 2; ++axis) bench.enable(kId, axis, 7);
@@ -119,11 +128,7 @@ TEST_F(StepsTest, WithoutBusTimeNoStreamMoves) {
 }
 
 TEST_F(StepsTest, AnAxisOnTheStreamStaysOnItWhenTheLineModeIsAskedForInMotion) {
-  bench.bring_up();
-  for (int axis = 0; axis < 2; ++axis) bench.enable(kId, axis, 7);
-  send_stream(bench, bench.node().path_time(bench.local()).count() / kPathTicksPerUnit + 100);
-  bench.run(20ms);
-  bench.rate(1.0);
+  run_stream(bench);
   bench.run(200ms);
   bench.write(kId, 0x60C0, 0, 2, 0);
   control(0x1F);
@@ -148,11 +153,7 @@ TEST_F(StepsTest, WithoutSyncAnAxisThatMovesByItselfStopsToo) {
 }
 
 TEST_F(StepsTest, ARateCommandThatComesLateCatchesUpWithoutAStep) {
-  bench.bring_up();
-  for (int axis = 0; axis < 2; ++axis) bench.enable(kId, axis, 7);
-  send_stream(bench, bench.node().path_time(bench.local()).count() / kPathTicksPerUnit + 100);
-  bench.run(20ms);
-  bench.rate(1.0);
+  run_stream(bench);
   bench.run(250ms);
   const double before = counts();
   bench.rate(0.0, -4500us, 25);
@@ -162,11 +163,7 @@ TEST_F(StepsTest, ARateCommandThatComesLateCatchesUpWithoutAStep) {
 }
 
 TEST_F(StepsTest, ARateCommandThatComesTooLateIsVoidAndStopsAll) {
-  bench.bring_up();
-  for (int axis = 0; axis < 2; ++axis) bench.enable(kId, axis, 7);
-  send_stream(bench, bench.node().path_time(bench.local()).count() / kPathTicksPerUnit + 100);
-  bench.run(20ms);
-  bench.rate(1.0);
+  run_stream(bench);
   bench.run(250ms);
   const std::size_t before = bench.seen.size();
   bench.rate(0.5, -30ms, 25);

@@ -216,6 +216,19 @@ TEST_F(JobStoreTest, FilesPutInOrTakenOutByHandAreSeenAtTheNextStart) {
   EXPECT_EQ(jobs[1].sha256, sha256_of("G0 X1"));
 }
 
+TEST_F(JobStoreTest, AFileOfAPrintHostIsNoJobUntilItIsTakenOver) {
+  const fs::path written = options_.folder / ".serial-1";
+  std::ofstream(written) << "G28\n";
+  reopen();
+  EXPECT_FALSE(store_->find("host.gcode"));
+  ASSERT_TRUE(store_->adopt(written, "host.gcode", 1500));
+  EXPECT_FALSE(fs::exists(written));
+  EXPECT_EQ(file_text(options_.folder / "host.gcode"), "G28\n");
+  EXPECT_TRUE(store_->find("host.gcode"));
+  EXPECT_FALSE(store_->adopt(written, "again.gcode", 1500));
+  EXPECT_FALSE(store_->find("again.gcode"));
+}
+
 TEST_F(JobStoreTest, HistoryTellsHowEachRunEnded) {
   EXPECT_EQ(put("a", "1"), "");
   const auto first = store_->begin_run({.name = "a", .sha256 = sha256_of("1"), .begun_unix_s = 10});
