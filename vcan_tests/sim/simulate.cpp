@@ -254,7 +254,7 @@ SimulationReport simulate(const MachineDescription& machine, std::unique_ptr<Byt
   const auto kinematics = make_kinematics(machine);
   if (!kinematics) {
     SimulationReport report;
-    report.outcome = kinematics.error().what;
+    report.outcome = kinematics.error().what.english();
     return report;
   }
   return Run(machine, **kinematics, options).go(std::move(job), same_job);
