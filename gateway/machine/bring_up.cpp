@@ -16,8 +16,9 @@ constexpr BusTime kListenTime = 600ms;
 constexpr BusTime kOperationalTimeout = 2s;
 /// 24 SYNCs make a clock estimate; twice that, and as much again for lost ones.
 constexpr BusTime kSynchroniseTimeout = 10s;
-constexpr int kCloseClock_us = 2;
-constexpr BusTime kCloseClockTimeout = 4s;
+constexpr int kCloseClock_us = 1;
+/// By then a window is full of SYNCs: waiting longer brings a clock no closer.
+constexpr BusTime kCloseClockTimeout = 2500ms;
 constexpr BusTime kEnableTimeout = 5s;
 constexpr BusTime kRepeat = 200ms;
 constexpr PathTime kPathTimeGap = 1s;
@@ -234,9 +235,9 @@ void BringUp::synchronise(BusTime now, NodeLink& link, Node& node) {
   while (const auto answer = result(link, AlarmCode::kSyncError)) {
     node.requested = false;
     const StreamStatus status = decode_stream_status(static_cast<std::uint64_t>(answer->value));
-    // Two nodes within 2 us of each other. One with much interrupt latency may need longer, or come no
-    // closer.
-    const bool close = status.sync_error_us <= kCloseClock_us || now - entered_ > kCloseClockTimeout;
+    // Two nodes within 2 us of each other, from the first motion on. One with much interrupt latency may need
+    // longer, or come no closer.
+    const bool close = status.sync_error_us < kCloseClock_us || now - entered_ > kCloseClockTimeout;
     if ((status.flags & StreamStatus::kSynchronised) != 0 && close) node.done = true;
   }
   if (!node.done && now - entered_ > kSynchroniseTimeout)

@@ -160,12 +160,13 @@ class Run {
     fill();
   }
 
-  void take(const Sample& sample) {
+  void take(Sample sample) {
     steps_.on_sample(sample);
     if (!checkers_) return;
     checkers_->joints.on_sample(sample);
     checkers_->bus.on_sample(sample, simulation_.machine().bus().statistics());
     if (!sample.in_job) return;
+    simulation_.locate(sample);
     checkers_->tracking.on_sample(sample);
     checkers_->path.on_sample(sample);
     if (options_.on_sample)

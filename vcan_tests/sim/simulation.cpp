@@ -176,16 +176,20 @@ Sample Simulation::sample() {
     const JointDescription& joint = description_.joints[j];
     s.joints[j] = plants_[j].at(nodes_->true_counts(node_of_joint_[j], joint.axis, now_));
   }
-  // Begins where the pose goes on to: one step of Newton's method then is enough.
-  for (std::size_t axis = 0; axis < s.pose.size(); ++axis) s.pose[axis] = 2 * warm_[0][axis] - warm_[1][axis];
-  const Kinematics& real = plant_kinematics_ ? *plant_kinematics_ : kinematics_;
-  if (real.forward(Frame::kPart, s.joints, s.pose)) warm_ = {s.pose, warm_[0]};
   if (in_job) {
     s.planned = planned_pose(s.tau);
     s.line = s.planned ? s.planned->line : last_.line;
   }
   last_ = s;
   return s;
+}
+
+void Simulation::locate(Sample& sample) {
+  // Begins where the pose goes on to: one step of Newton's method then is enough.
+  for (std::size_t axis = 0; axis < sample.pose.size(); ++axis)
+    sample.pose[axis] = 2 * warm_[0][axis] - warm_[1][axis];
+  const Kinematics& real = plant_kinematics_ ? *plant_kinematics_ : kinematics_;
+  if (real.forward(Frame::kPart, sample.joints, sample.pose)) warm_ = {sample.pose, warm_[0]};
 }
 
 }  // namespace kinebus

@@ -63,6 +63,8 @@ class Simulation {
 
   Sample sample();
   Probe probe();
+  /// Finds the pose of a sample. Dear where there is none, as before homing: for those who look at the tool.
+  void locate(Sample& sample);
 
   std::function<void(const Sample&)> on_sample;
   std::function<void(const Probe&)> on_probe;  ///< at a random instant of every sample period

@@ -120,7 +120,7 @@ class FaultRun {
     if (tell_) result_.story.push_back(fmt::format("{:9.4f} s  {}", to_seconds(simulation_.now()), words));
   }
 
-  void take(const Sample& sample) {
+  void take(Sample sample) {
     const BusTime now = sample.time;
     VirtualMachine& nodes = injector_.machine();
     Gateway& gateway = simulation_.gateway();
@@ -143,7 +143,10 @@ class FaultRun {
     measuring_ = job_seen_ && (!alive || state == MachineState::kRunning || state == MachineState::kHolding ||
                                state == MachineState::kHeld || state == MachineState::kStopping ||
                                state == MachineState::kStopped || state == MachineState::kCancelling);
-    if (measuring_) together_.on_sample(sample, lives_, known_joints(now), injector_.excused_counts() > 0);
+    if (measuring_) {
+      simulation_.locate(sample);
+      together_.on_sample(sample, lives_, known_joints(now), injector_.excused_counts() > 0);
+    }
     known_.on_nodes(nodes, now, injector_.excused_counts());
     const bool rests =
         state == MachineState::kReady || state == MachineState::kHeld || state == MachineState::kStopped;
