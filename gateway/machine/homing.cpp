@@ -21,6 +21,8 @@ constexpr std::int64_t kReportMs = 20;
 constexpr BusTime kModeTimeout = 3s;
 /// After the start command a statusword of before may still be on its way.
 constexpr BusTime kSettle = 50ms;
+/// A controlword that was lost comes again: a carriage that waits for it would wait for ever.
+constexpr BusTime kRepeat = 200ms;
 
 }  // namespace
 
@@ -84,6 +86,12 @@ bool MachineHoming::group_in_mode(std::int8_t mode) {
   return true;
 }
 
+void MachineHoming::repeat_control(BusTime now) {
+  if (now - repeated_ < kRepeat) return;
+  repeated_ = now;
+  for (const std::size_t node : group_nodes()) links_[node].repeat_control();
+}
+
 void MachineHoming::set_report_period(std::int64_t ms) {
   for (const std::size_t node : group_nodes()) links_[node].sdo().write({{0x1802, 5}, 2, ms});
 }
@@ -122,7 +130,7 @@ void MachineHoming::abort() {
 
 void MachineHoming::enter(Stage stage, BusTime now) {
   stage_ = stage;
-  entered_ = now;
+  entered_ = repeated_ = now;
   switch (stage) {
     case Stage::kReports:
       set_report_period(kReportMs);
@@ -158,9 +166,11 @@ MachineHoming::Outcome MachineHoming::on_time(BusTime now) {
         enter(stage_ == Stage::kMode ? Stage::kMove : Stage::kQuiet, now);
       else if (now - entered_ > kModeTimeout)
         fail(AlarmCode::kHomingFailed, 0, say("the drives do not change their mode of operation"));
+      repeat_control(now);
       break;
     case Stage::kMove:
       watch(now);
+      repeat_control(now);
       break;
     case Stage::kQuiet:
       if (!requests_done()) break;

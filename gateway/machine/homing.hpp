@@ -65,6 +65,7 @@ class MachineHoming {
   std::vector<std::size_t> group_nodes();
   void set_group(std::uint16_t controlword, std::int8_t mode);
   bool group_in_mode(std::int8_t mode);
+  void repeat_control(BusTime now);
   void set_report_period(std::int64_t ms);
   bool requests_done();
   void watch(BusTime now);
@@ -78,7 +79,7 @@ class MachineHoming {
   std::vector<std::uint32_t> reports_;  ///< position frames seen, by node
   Stage stage_ = Stage::kIdle;
   std::uint8_t order_ = 0;
-  BusTime entered_{0};
+  BusTime entered_{0}, repeated_{0};
   bool failed_ = false;
   StepFailure failure_;
 };
