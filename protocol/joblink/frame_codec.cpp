@@ -1,5 +1,7 @@
 #include "protocol/joblink/frame_codec.hpp"
 
+#include <zlib.h>
+
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -11,33 +13,9 @@ namespace {
 
 constexpr std::array<std::uint8_t, 4> kMagic{'K', 'B', 'J', '1'};
 
-/// CRC-32 of IEEE 802.3, eight bytes a step: table k is the effect of a byte k places further ahead.
-constexpr std::size_t kStep = 8;
-constexpr std::array<std::array<std::uint32_t, 256>, kStep> kTables = [] {
-  std::array<std::array<std::uint32_t, 256>, kStep> tables{};
-  for (std::uint32_t i = 0; i < 256; ++i) {
-    std::uint32_t crc = i;
-    for (int bit = 0; bit < 8; ++bit) crc = (crc & 1U) != 0 ? (crc >> 1) ^ 0xEDB8'8320U : crc >> 1;
-    tables[0][i] = crc;
-  }
-  for (std::size_t k = 1; k < kStep; ++k)
-    for (std::size_t i = 0; i < 256; ++i)
-      tables[k][i] = (tables[k - 1][i] >> 8) ^ tables[0][tables[k - 1][i] & 0xFF];
-  return tables;
-}();
-
+/// CRC-32 of IEEE 802.3.
 std::uint32_t crc_of(std::span<const std::uint8_t> bytes) {
-  std::uint32_t crc = 0xFFFF'FFFFU;
-  for (; bytes.size() >= kStep; bytes = bytes.subspan(kStep)) {
-    const std::uint32_t low = crc ^ get_u32_le(bytes), high = get_u32_le(bytes.subspan(4));
-    crc = 0;
-    for (std::size_t i = 0; i < 4; ++i) {
-      crc ^= kTables[kStep - 1 - i][(low >> (8 * i)) & 0xFF];
-      crc ^= kTables[3 - i][(high >> (8 * i)) & 0xFF];
-    }
-  }
-  for (const std::uint8_t byte : bytes) crc = (crc >> 8) ^ kTables[0][(crc ^ byte) & 0xFF];
-  return ~crc;
+  return static_cast<std::uint32_t>(::crc32_z(0, bytes.data(), bytes.size()));
 }
 
 /// The length that a right header states; nullopt: no header begins here.

@@ -1,7 +1,8 @@
 #include "gateway/jobs/journal/journal_codec.hpp"
 
+#include <zlib.h>
+
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <optional>
@@ -14,21 +15,8 @@ namespace {
 constexpr std::uint8_t kMagic = 0x4B;
 constexpr std::size_t kHeader = 8, kTrailer = 4, kMaxName = 1000;
 
-constexpr std::array<std::uint32_t, 256> crc_table() {
-  std::array<std::uint32_t, 256> table{};
-  for (std::uint32_t i = 0; i < 256; ++i) {
-    std::uint32_t c = i;
-    for (int bit = 0; bit < 8; ++bit) c = (c & 1) != 0 ? 0xEDB8'8320u ^ (c >> 1) : c >> 1;
-    table[i] = c;
-  }
-  return table;
-}
-constexpr auto kCrcTable = crc_table();
-
-std::uint32_t crc32(std::span<const std::uint8_t> bytes) {
-  std::uint32_t crc = 0xFFFF'FFFFu;
-  for (const std::uint8_t byte : bytes) crc = kCrcTable[(crc ^ byte) & 0xFF] ^ (crc >> 8);
-  return ~crc;
+std::uint32_t crc_of(std::span<const std::uint8_t> bytes) {
+  return static_cast<std::uint32_t>(::crc32_z(0, bytes.data(), bytes.size()));
 }
 
 /// One list of fields for both directions, so that they cannot differ.
@@ -177,7 +165,7 @@ void encode(const Record& record, std::uint32_t number, std::vector<std::uint8_t
   const std::size_t length = out.size() - begin - kHeader;
   out[begin + 2] = static_cast<std::uint8_t>(length);
   out[begin + 3] = static_cast<std::uint8_t>(length >> 8);
-  writer.u32(crc32(std::span(out).subspan(begin)));
+  writer.u32(crc_of(std::span(out).subspan(begin)));
 }
 
 Decoded decode(std::span<const std::uint8_t> bytes) {
@@ -188,7 +176,7 @@ Decoded decode(std::span<const std::uint8_t> bytes) {
     const std::size_t length = rest[2] | (std::size_t{rest[3]} << 8), whole = kHeader + length + kTrailer;
     if (whole > kMaxRecordBytes || rest.size() < whole) return result;
     Reader head{rest.subspan(4, 4)}, trailer{rest.subspan(kHeader + length, kTrailer)};
-    if (trailer.bits(4) != crc32(rest.first(kHeader + length)) || head.bits(4) != result.records)
+    if (trailer.bits(4) != crc_of(rest.first(kHeader + length)) || head.bits(4) != result.records)
       return result;
     Reader payload{rest.subspan(kHeader, length)};
     const auto record = read_kind(rest[1], payload, std::make_index_sequence<std::variant_size_v<Record>>{});
