@@ -38,10 +38,8 @@ class PatienceChecker {
         return 30s;
       case MachineState::kRunning:
       case MachineState::kMoving:
-        return 4s;
       case MachineState::kHolding:
       case MachineState::kCancelling:
-        return 4s;
       case MachineState::kStopping:
         return 4s;
       default:
