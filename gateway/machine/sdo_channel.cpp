@@ -71,7 +71,7 @@ void SdoChannel::settle() {
       if (attempts_ < kAttempts) return;  // next_frame() begins again
     } else if (disturbed(result.abort)) {
       ++counters_.aborts;
-      if (attempts_ < kAttempts) return;
+      if (attempts_ < kDisturbedAttempts) return;
     } else {
       ++counters_.aborts;
     }

@@ -53,6 +53,8 @@ class SdoChannel {
   /// Three attempts of half a second: a node that stores parameters answers late, one that restarts not at
   /// all.
   static constexpr int kAttempts = 3;
+  /// Disturbed ones cost no time; on a bus that doubles nearly every frame three are too few.
+  static constexpr int kDisturbedAttempts = 10;
   struct Request {
     ObjectAddress address;
     bool read = false;
