@@ -144,9 +144,10 @@ Refused LiveLines::check_straight(const PoseVector& target, canonical::Frame fra
   const auto end = kinematics_.check(frame_of(frame), target);
   if (!end) return to_string(end.error());
   // The end lies within the workspace: only turns may be long.
-  if (mm > kLongestMove_mm || rad > kLongestTurn_rad) return say("the move is too long to be checked");
-  const double steps = std::ceil(std::max(mm / kCheckStep_mm, rad / kCheckStep_rad));
-  for (double i = 1; i < steps; ++i) {
+  if (!(mm <= kLongestMove_mm && rad <= kLongestTurn_rad)) return say("the move is too long to be checked");
+  // At most some hundred thousand, by the two limits above.
+  const auto steps = static_cast<int>(std::ceil(std::max(mm / kCheckStep_mm, rad / kCheckStep_rad)));
+  for (int i = 1; i < steps; ++i) {
     PoseVector pose = from;
     for (std::size_t axis = 0; axis < kPoseAxes; ++axis)
       pose[axis] += (target[axis] - from[axis]) * i / steps;
@@ -167,8 +168,9 @@ Refused LiveLines::check_arc(const canonical::Arc& arc) {
   const double turning =
       std::max(std::abs(arc.target[kA] - place_.pose[kA]), std::abs(arc.target[kC] - place_.pose[kC]));
   if (!(turning <= kLongestTurn_rad)) return say("the arc turns too far to be checked");
-  const double steps = std::ceil(std::max(move.length / kCheckStep_mm, turning / kCheckStep_rad));
-  for (double i = 1; i <= steps; ++i)
+  const auto steps =
+      static_cast<int>(std::ceil(std::max(move.length / kCheckStep_mm, turning / kCheckStep_rad)));
+  for (int i = 1; i <= steps; ++i)
     if (const auto fits = kinematics_.check(move.frame, point_on(move, move.length * i / steps).x); !fits)
       return to_string(fits.error());
   place_ = {arc.target, arc.frame};

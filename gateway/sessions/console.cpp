@@ -55,10 +55,10 @@ Result<std::string, Refusal> console_line(Gateway& gateway, std::string_view lin
 
 Result<void, Refusal> run_line(Gateway& gateway, std::string_view line) {
   // What does not move is taken in any state, and leaves the machine's state as it is.
-  const auto at_rest = gateway.take_line(line, 1);
+  auto at_rest = gateway.take_line(line, 1);
   if (at_rest || gateway.state() != MachineState::kReady) return at_rest;
   if (auto opened = gateway.open_lines("console"); !opened) return opened;
-  const auto moved = gateway.take_line(line, 1);
+  auto moved = gateway.take_line(line, 1);
   gateway.close_lines();
   return moved;
 }

@@ -68,6 +68,7 @@ void UsbPipe::collect() {
     if (count <= 0) return;
     for (long i = 0; i < count; ++i) {
       const io_event& event = events[static_cast<std::size_t>(i)];
+      // The kernel hands back what it was given with the transfer. NOLINTNEXTLINE(performance-no-int-to-ptr)
       auto& transfer = *reinterpret_cast<Transfer*>(static_cast<std::uintptr_t>(event.data));
       transfer.busy = false;
       if (event.res < 0)
