@@ -116,6 +116,19 @@ SocketCan::Sent SocketCan::send(const CanFrame& frame) {
   return Sent::kDown;
 }
 
+std::string SocketCan::send_patiently(const CanFrame& frame, LocalTime patience) {
+  const LocalTime end = monotonic_now() + patience;
+  for (Sent sent = send(frame); sent != Sent::kYes; sent = send(frame)) {
+    if (sent == Sent::kDown) return "the CAN interface went down";
+    if (monotonic_now() > end)
+      return "nobody on the bus takes what is sent: are the nodes powered, the bus connected and terminated, "
+             "all at "
+             "the same bit rate?";
+    ::usleep(200);
+  }
+  return {};
+}
+
 std::optional<SocketCan::Received> SocketCan::receive() {
   can_frame raw{};
   iovec data{&raw, sizeof raw};

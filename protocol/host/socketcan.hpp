@@ -55,6 +55,9 @@ class SocketCan {
 
   int fd() const { return fd_; }
   Sent send(const CanFrame& frame);
+  /// For tools, which have nothing else to do: waits for room. Empty: sent; otherwise what is wrong and what
+  /// to do.
+  std::string send_patiently(const CanFrame& frame, LocalTime patience = std::chrono::seconds{1});
   std::optional<Received> receive();
   const Counters& counters() const { return counters_; }
 

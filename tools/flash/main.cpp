@@ -11,6 +11,7 @@
 #include <fstream>
 #include <iterator>
 #include <set>
+#include <stdexcept>
 #include <vector>
 
 #include "node_firmware/boot/image_header.hpp"
@@ -53,7 +54,8 @@ std::set<std::uint8_t> find_nodes(SocketCan& can, LocalTime within) {
   for (std::uint8_t id = 1; id < 127; ++id) {
     const CanFrame question = sdo::frame_of(cob_id::kSdoRequest + id, 0x40, {0x1F51, 1});
     for (const CanFrame& frame : {end_of_transfer(id), question})
-      while (can.send(frame) == SocketCan::Sent::kFull) ::usleep(200);
+      if (const std::string error = can.send_patiently(frame); !error.empty())
+        throw std::runtime_error(error);
   }
   receive_until(
       can, monotonic_now() + within,
@@ -77,10 +79,8 @@ bool update(SocketCan& can, std::uint8_t node, const std::vector<std::uint8_t>& 
   std::string shown;
   while (work.status() == ProgramUpdate::Status::kBusy) {
     while (const auto frame = work.next_frame())
-      for (auto sent = can.send(*frame); sent != SocketCan::Sent::kYes; sent = can.send(*frame)) {
-        if (sent == SocketCan::Sent::kDown) return fmt::print(stderr, "the CAN interface went down\n"), false;
-        ::usleep(200);
-      }
+      if (const std::string error = can.send_patiently(*frame); !error.empty())
+        return fmt::print(stderr, "{}\n", error), false;
     bool heard = false;
     receive_until(
         can, std::min(work.next_deadline(), monotonic_now() + 200ms),

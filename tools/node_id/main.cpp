@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <poll.h>
-#include <unistd.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -42,10 +41,7 @@ std::optional<CanFrame> receive(SocketCan& can, LocalTime until) {
 }
 
 void send(SocketCan& can, const CanFrame& frame) {
-  for (auto sent = can.send(frame); sent != SocketCan::Sent::kYes; sent = can.send(frame)) {
-    if (sent == SocketCan::Sent::kDown) throw std::runtime_error("the CAN interface went down");
-    ::usleep(200);
-  }
+  if (const std::string error = can.send_patiently(frame); !error.empty()) throw std::runtime_error(error);
 }
 
 std::string name_of(const Board& board) {
