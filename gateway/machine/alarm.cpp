@@ -31,7 +31,8 @@ constexpr std::array kEmergencies{
     EmergencyRow{0x8130, phrase("the gateway's heartbeat or SYNC was missed"),
                  phrase("check the gateway and the bus, then clear")},
     EmergencyRow{0x8140, phrase("recovered from bus-off"), phrase("check cable and termination of the bus")},
-    EmergencyRow{0x8150, phrase("two nodes use the same id"), phrase("give one of them another id (LSS)")},
+    EmergencyRow{0x8150, phrase("two nodes use the same id"),
+                 phrase("give one of them another id (kinebus-node-id)")},
     EmergencyRow{0x8250, phrase("an expected PDO did not arrive"), phrase("check the load of the bus")},
     EmergencyRow{0x8611, phrase("following error: the motor did not follow"),
                  phrase("look for an obstacle, home again")},
@@ -104,7 +105,7 @@ AlarmText describe_emergency(const Emergency& emergency) {
 Sentence advice_for(AlarmCode code) {
   switch (code) {
     case AlarmCode::kNodeMissing:
-      return say("check the node's power and the bus cable, then bring up again");
+      return say("check the node's power, its id (kinebus-node-id) and the bus cable, then bring up again");
     case AlarmCode::kWrongIdentity:
       return say("connect the right node or update its firmware");
     case AlarmCode::kConfiguration:
@@ -140,7 +141,9 @@ Sentence advice_for(AlarmCode code) {
     case AlarmCode::kStopTimeout:
       return say("switch the machine off and on, home again");
     case AlarmCode::kIdTaken:
-      return say("give one of them another id (LSS) or take it off the bus, then clear and bring up again");
+      return say(
+          "give one of them another id (kinebus-node-id) or take it off the bus, then clear and bring up "
+          "again");
   }
   return say("clear");
 }

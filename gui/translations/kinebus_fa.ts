@@ -1248,8 +1248,8 @@
         <translation>دو گره یک شناسه دارند</translation>
     </message>
     <message>
-        <source>give one of them another id (LSS)</source>
-        <translation>به یکی شناسهٔ دیگری بدهید (LSS)</translation>
+        <source>give one of them another id (kinebus-node-id)</source>
+        <translation>به یکی شناسهٔ دیگری بدهید (kinebus-node-id)</translation>
     </message>
     <message>
         <source>an expected PDO did not arrive</source>
@@ -1424,8 +1424,8 @@
         <translation>گره %1: %2 (EMCY %3)</translation>
     </message>
     <message>
-        <source>check the node&apos;s power and the bus cable, then bring up again</source>
-        <translation>برق گره و کابل گذرگاه را وارسی کنید، سپس دوباره راه‌اندازی کنید</translation>
+        <source>check the node&apos;s power, its id (kinebus-node-id) and the bus cable, then bring up again</source>
+        <translation>برق گره، شناسهٔ آن (kinebus-node-id) و کابل گذرگاه را وارسی کنید، سپس دوباره راه‌اندازی کنید</translation>
     </message>
     <message>
         <source>connect the right node or update its firmware</source>
@@ -2360,8 +2360,8 @@
         <translation>%1، خط %2</translation>
     </message>
     <message>
-        <source>give one of them another id (LSS) or take it off the bus, then clear and bring up again</source>
-        <translation>به یکی شناسهٔ دیگری بدهید (LSS) یا آن را از گذرگاه جدا کنید، سپس رفع کنید و دوباره راه‌اندازی کنید</translation>
+        <source>give one of them another id (kinebus-node-id) or take it off the bus, then clear and bring up again</source>
+        <translation>به یکی شناسهٔ دیگری بدهید (kinebus-node-id) یا آن را از گذرگاه جدا کنید، سپس رفع کنید و دوباره راه‌اندازی کنید</translation>
     </message>
     <message>
         <source>two nodes use the id %1: those with the serial numbers %2 and %3</source>

@@ -1248,8 +1248,8 @@
         <translation>iki düğüm aynı kimliği kullanıyor</translation>
     </message>
     <message>
-        <source>give one of them another id (LSS)</source>
-        <translation>birine başka kimlik verin (LSS)</translation>
+        <source>give one of them another id (kinebus-node-id)</source>
+        <translation>birine başka kimlik verin (kinebus-node-id)</translation>
     </message>
     <message>
         <source>an expected PDO did not arrive</source>
@@ -1424,8 +1424,8 @@
         <translation>düğüm %1: %2 (EMCY %3)</translation>
     </message>
     <message>
-        <source>check the node&apos;s power and the bus cable, then bring up again</source>
-        <translation>düğümün beslemesini ve veri yolu kablosunu denetleyin, sonra yeniden devreye alın</translation>
+        <source>check the node&apos;s power, its id (kinebus-node-id) and the bus cable, then bring up again</source>
+        <translation>düğümün beslemesini, kimliğini (kinebus-node-id) ve veri yolu kablosunu denetleyin, sonra yeniden devreye alın</translation>
     </message>
     <message>
         <source>connect the right node or update its firmware</source>
@@ -2360,8 +2360,8 @@
         <translation>%1, satır %2</translation>
     </message>
     <message>
-        <source>give one of them another id (LSS) or take it off the bus, then clear and bring up again</source>
-        <translation>birine başka kimlik verin (LSS) ya da onu veri yolundan çıkarın, sonra temizleyip yeniden devreye alın</translation>
+        <source>give one of them another id (kinebus-node-id) or take it off the bus, then clear and bring up again</source>
+        <translation>birine başka kimlik verin (kinebus-node-id) ya da onu veri yolundan çıkarın, sonra temizleyip yeniden devreye alın</translation>
     </message>
     <message>
         <source>two nodes use the id %1: those with the serial numbers %2 and %3</source>
