@@ -176,7 +176,7 @@ struct SwitchInput {
   InputFunction function = InputFunction::kNone;
   std::uint8_t axis = 0;  ///< 0 or 1: whose home or limit switch it is
   bool active_low = false;
-  std::chrono::microseconds debounce{200};
+  std::chrono::microseconds debounce{160};
   friend bool operator==(const SwitchInput&, const SwitchInput&) = default;
 };
 inline constexpr std::size_t kNodeInputs = 7;

@@ -122,7 +122,7 @@ void Injector::disturb_switch(const Fault& fault, int node, int input,
   const bool active_level = !inputs[static_cast<std::size_t>(input - 1)].active_low;
   const VirtualMachine::Edge edge = edges[0];
   if (fault.kind == kSwitchBounces) {
-    // Contacts chatter for up to 150 us: less than the debounce time.
+    // Contacts chatter for up to 150 us: less than the debounce time of 160.
     BusTime at = edge.at;
     for (int i = 0; i < 2 + static_cast<int>(random_() % 4); ++i) {
       at += between(random_, 2us, 20us);

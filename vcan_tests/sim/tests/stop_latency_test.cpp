@@ -119,8 +119,8 @@ TEST(StopLatency, AnInputOfOneNodeBrakesCarriagesThatHomeOnAllNodesWithinHalfAMi
   }
   RecordProperty("own_us", static_cast<int>(own_us));
   RecordProperty("other_us", static_cast<int>(other_us));
-  // Debounce (200 us) and interrupt latency; for others a frame on its way, the EMCY, and latency.
-  EXPECT_LE(own_us, 200 + 50);
+  // Debounce (160 us) and interrupt latency; for others a frame on its way, the EMCY, and latency.
+  EXPECT_LE(own_us, 160 + 50);
   EXPECT_LE(other_us, 500);
 }
 
