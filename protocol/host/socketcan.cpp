@@ -122,8 +122,7 @@ std::string SocketCan::send_patiently(const CanFrame& frame, LocalTime patience)
     if (sent == Sent::kDown) return "the CAN interface went down";
     if (monotonic_now() > end)
       return "nobody on the bus takes what is sent: are the nodes powered, the bus connected and terminated, "
-             "all at "
-             "the same bit rate?";
+             "all at the same bit rate?";
     ::usleep(200);
   }
   return {};
