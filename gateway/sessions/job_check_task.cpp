@@ -51,7 +51,7 @@ void JobCheckTask::slice() {
       found_ = Error<StoreError>({StoreError::Kind::kDisk, kinematics.error().what});
       return;
     }
-    sha256_ = job->sha256;
+    hash_ = job->hash;
     source_ = std::move(*source);
     kinematics_ = std::move(*kinematics);
     preflight_ = std::make_unique<Preflight>(machine_, *kinematics_, *source_, kinematics_->bed_reference(),
@@ -65,9 +65,9 @@ void JobCheckTask::slice() {
   const JobReport& report = preflight_->report();
   joblink::PreflightResult result = to_message(report, problems);
   result.set_name(name_);
-  result.set_sha256(sha256_);
+  result.set_hash(hash_);
   if (offsets_ == gcode::WorkOffsets{})
-    static_cast<void>(store_.save_preflight(sha256_, machine_mark_,
+    static_cast<void>(store_.save_preflight(hash_, machine_mark_,
                                             {.errors = result.summary().errors(),
                                              .warnings = result.summary().warnings(),
                                              .lines = report.lines,

@@ -27,7 +27,7 @@ class JobCheckTask : public std::enable_shared_from_this<JobCheckTask> {
 
   JobStore& store_;
   const MachineDescription& machine_;
-  std::string machine_mark_, name_, sha256_;
+  std::string machine_mark_, name_, hash_;
   gcode::WorkOffsets offsets_;
   std::function<void(double)> progress_;
   std::function<void(const Found&)> done_;

@@ -156,7 +156,7 @@ void JobLinkServer::job_started(const std::string& name) {
         const auto job = store.find(name);
         if (!job) return;
         StoredRun run{.name = name, .begun_unix_s = unix_s};
-        run.sha256 = job->sha256;
+        run.hash = job->hash;
         if (const auto begun = store.begin_run(run)) *id = *begun;
       },
       [] {});

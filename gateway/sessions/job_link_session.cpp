@@ -6,6 +6,7 @@
 #include "gateway/sessions/job_requests.hpp"
 #include "gateway/sessions/machine_requests.hpp"
 #include "gateway/sessions/messages.hpp"
+#include "protocol/joblink/upload_chunk.hpp"
 #include "protocol/joblink/version.hpp"
 
 namespace kinebus {
@@ -69,8 +70,7 @@ void JobLinkSession::superseded(LocalTime now) {
 }
 
 bool JobLinkSession::full() const {
-  return out_.size() - out_sent_ > kMaxBacklog || open_requests_ >= kMaxOpenRequests ||
-         owed_bytes_ > 2 * kUploadWindow;
+  return out_.size() > kMaxBacklog || open_requests_ >= kMaxOpenRequests || owed_bytes_ > 2 * kUploadWindow;
 }
 
 bool JobLinkSession::wants_bytes() const {
@@ -102,6 +102,11 @@ void JobLinkSession::take(LocalTime now, const joblink::FrameView& frame) {
       return resynchronise(now, "a message was lost on the way");
     case SessionSequence::Verdict::kNext:
       break;
+  }
+  if (const auto chunk = joblink::read_chunk(frame.message)) {
+    const JobLinkServer::Asker asker{id_, chunk->head.request_id};
+    if (greeted(asker)) JobRequests(server_, *this, now).chunk(asker, *chunk);
+    return;
   }
   ClientMessage message;
   if (!message.ParseFromArray(frame.message.data(), static_cast<int>(frame.message.size())))
@@ -152,11 +157,16 @@ void JobLinkSession::hello(LocalTime now, const ClientMessage& message) {
   send(out);
 }
 
+/// Counts the request, which must not be a session's first.
+bool JobLinkSession::greeted(const JobLinkServer::Asker& asker) {
+  ++open_requests_;
+  if (client_ == 0) server_.refuse(asker, problem(joblink::ERROR_NOT_ALLOWED, {}, say("say hello first")));
+  return client_ != 0;
+}
+
 void JobLinkSession::request(LocalTime now, const ClientMessage& message) {
   const JobLinkServer::Asker asker{id_, message.request_id()};
-  ++open_requests_;
-  if (client_ == 0)
-    return server_.refuse(asker, problem(joblink::ERROR_NOT_ALLOWED, {}, say("say hello first")));
+  if (!greeted(asker)) return;
   if (message.has_watch()) {
     const double hz = message.watch().status_hz();
     status_period_ =
@@ -183,16 +193,23 @@ void JobLinkSession::paid(std::size_t bytes) {
   process(now_);
 }
 
+std::string JobLinkSession::spare_buffer() {
+  if (spare_buffers_.empty()) return {};
+  std::string buffer = std::move(spare_buffers_.back());
+  spare_buffers_.pop_back();
+  return buffer;
+}
+
+void JobLinkSession::keep_buffer(std::string&& buffer) {
+  if (spare_buffers_.size() < kUploadWindow / kMaxChunk) spare_buffers_.push_back(std::move(buffer));
+}
+
 void JobLinkSession::send(const joblink::ServerMessage& message) {
   write(message.SerializeAsString());
 }
 
 void JobLinkSession::write(std::string_view message) {
-  if (out_sent_ > kNewsBacklog) {
-    out_.erase(0, out_sent_);
-    out_sent_ = 0;
-  }
-  joblink::append_frame(out_, session_, sequence_, message);
+  out_.append(session_, sequence_, message);
   sequence_ = SessionSequence::after(sequence_);
 }
 
@@ -206,7 +223,7 @@ void JobLinkSession::on_time(LocalTime now) {
   if (now < next_status_) return;
   next_status_ = std::max(next_status_ + status_period_, now);
   // Who reads slowly gets the newest status later instead of all old ones.
-  if (out_.size() - out_sent_ < kNewsBacklog) write(server_.status_message(now));
+  if (out_.size() < kNewsBacklog) write(server_.status_message(now));
 }
 
 LocalTime JobLinkSession::next_deadline() const {
@@ -220,7 +237,7 @@ LocalTime JobLinkSession::next_deadline() const {
 }
 
 std::span<const std::uint8_t> JobLinkSession::next_bytes() {
-  while (watches_events_ && out_.size() - out_sent_ < kNewsBacklog) {
+  while (watches_events_ && out_.size() < kNewsBacklog) {
     const joblink::Event* event = server_.events_.after(told_event_);
     if (event == nullptr) break;
     told_event_ = event->id();
@@ -228,16 +245,12 @@ std::span<const std::uint8_t> JobLinkSession::next_bytes() {
     *message.mutable_event() = *event;
     send(message);
   }
-  return {reinterpret_cast<const std::uint8_t*>(out_.data()) + out_sent_, out_.size() - out_sent_};
+  return out_.bytes();
 }
 
 void JobLinkSession::on_bytes_sent(std::size_t count) {
   const bool was_full = full();
-  out_sent_ += count;
-  if (out_sent_ >= out_.size()) {
-    out_.clear();
-    out_sent_ = 0;
-  }
+  out_.sent(count);
   if (was_full && !full()) process(now_);
 }
 

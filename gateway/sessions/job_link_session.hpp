@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "gateway/sessions/job_link_server.hpp"
 #include "protocol/joblink/frame_codec.hpp"
@@ -12,7 +13,8 @@ namespace kinebus {
 
 class JobLinkSession : public ByteSession {
  public:
-  static constexpr std::size_t kMaxChunk = 128U << 10;
+  /// With its frame just two transfers of USB.
+  static constexpr std::size_t kMaxChunk = (128U << 10) - 128;
   static constexpr std::size_t kUploadWindow = 1U << 20;
 
   JobLinkSession(JobLinkServer& server, std::uint64_t id, SessionInfo info, LocalTime now);
@@ -37,6 +39,9 @@ class JobLinkSession : public ByteSession {
   /// Bytes of an upload are with the worker.
   void owe(std::size_t bytes) { owed_bytes_ += bytes; }
   void paid(std::size_t bytes);
+  /// A text to be filled, with the memory of one that was kept: chunks come by the hundred a second.
+  std::string spare_buffer();
+  void keep_buffer(std::string&& buffer);
   std::uint32_t upload() const { return upload_; }
   void set_upload(std::uint32_t upload) { upload_ = upload; }
   /// A reply that comes later counts until it is sent.
@@ -50,6 +55,7 @@ class JobLinkSession : public ByteSession {
   void begin(LocalTime now, const joblink::FrameView& frame);
   void hello(LocalTime now, const joblink::ClientMessage& message);
   void request(LocalTime now, const joblink::ClientMessage& message);
+  bool greeted(const JobLinkServer::Asker& asker);
   void leave(LocalTime now);
   void resynchronise(LocalTime now, const char* why);
   void write(std::string_view message);
@@ -61,8 +67,7 @@ class JobLinkSession : public ByteSession {
   joblink::FrameReader reader_;
   joblink::SessionSequence incoming_;
   std::uint32_t session_ = 0, sequence_ = 0;
-  std::string out_;
-  std::size_t out_sent_ = 0;
+  joblink::FrameQueue out_;
 
   ClientId client_ = 0;  ///< 0: no hello yet
   std::string resume_key_;
@@ -70,6 +75,7 @@ class JobLinkSession : public ByteSession {
   bool watches_events_ = false, ended_ = false;
   std::uint64_t told_event_ = 0;
   std::size_t owed_bytes_ = 0;
+  std::vector<std::string> spare_buffers_;
   int open_requests_ = 0;
   std::uint32_t upload_ = 0;
 };

@@ -49,7 +49,10 @@ bool JobRequests::take(const Asker& asker, const ClientMessage& message) {
       begin_upload(asker, message.upload_begin());
       return true;
     case ClientMessage::kUploadChunk:
-      chunk(asker, message.upload_chunk());
+      chunk(asker, {.head = {.request_id = message.request_id(),
+                             .upload_id = message.upload_chunk().upload_id(),
+                             .offset_bytes = message.upload_chunk().offset_bytes()},
+                    .data = message.upload_chunk().data()});
       return true;
     case ClientMessage::kUploadCommit:
       commit(asker, message.upload_commit());
@@ -87,7 +90,7 @@ bool JobRequests::take(const Asker& asker, const ClientMessage& message) {
 }
 
 void JobRequests::begin_upload(const Asker& asker, const joblink::UploadBegin& request) {
-  UploadIdentity identity{request.name(), request.size_bytes(), request.sha256()};
+  UploadIdentity identity{request.name(), request.size_bytes(), request.hash()};
   server_.worker_.ask(
       [&store = server_.store_, identity = std::move(identity), replace = request.replace(),
        unix_s = server_.unix_s(now_)] { return store.begin_upload(identity, replace, unix_s); },
@@ -98,15 +101,22 @@ void JobRequests::begin_upload(const Asker& asker, const joblink::UploadBegin& r
       });
 }
 
-void JobRequests::chunk(const Asker& asker, const joblink::UploadChunk& request) {
-  const std::size_t size = request.data().size();
+void JobRequests::chunk(const Asker& asker, const joblink::ChunkView& chunk) {
+  const std::size_t size = chunk.data.size();
   session_.owe(size);
-  server_.worker_.ask([&store = server_.store_, id = request.upload_id(), offset = request.offset_bytes(),
-                       data = request.data()] { return store.append(id, offset, data); },
-                      [&server = server_, asker, size](const Result<UploadProgress, StoreError>& taken) {
-                        server.answer(asker, taken ? upload_reply(*taken) : error_reply(taken));
-                        if (JobLinkSession* session = server.find(asker.session)) session->paid(size);
-                      });
+  auto data = std::make_shared<std::string>(session_.spare_buffer());
+  data->assign(chunk.data);
+  server_.worker_.ask(
+      [&store = server_.store_, head = chunk.head, data] {
+        return store.append(head.upload_id, head.offset_bytes, *data);
+      },
+      [&server = server_, asker, size, data](const Result<UploadProgress, StoreError>& taken) {
+        server.answer(asker, taken ? upload_reply(*taken) : error_reply(taken));
+        JobLinkSession* session = server.find(asker.session);
+        if (session == nullptr) return;
+        session->keep_buffer(std::move(*data));
+        session->paid(size);
+      });
 }
 
 void JobRequests::commit(const Asker& asker, const joblink::UploadCommit& request) {

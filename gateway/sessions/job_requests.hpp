@@ -2,6 +2,7 @@
 // Requests about jobs, their store and the machine file: everything that goes through the worker.
 
 #include "gateway/sessions/job_link_server.hpp"
+#include "protocol/joblink/upload_chunk.hpp"
 
 namespace kinebus {
 
@@ -11,11 +12,11 @@ class JobRequests {
       : server_(server), session_(session), now_(now) {}
   /// False: not one of these.
   bool take(const JobLinkServer::Asker& asker, const joblink::ClientMessage& message);
+  void chunk(const JobLinkServer::Asker& asker, const joblink::ChunkView& chunk);
 
  private:
   using Asker = JobLinkServer::Asker;
   void begin_upload(const Asker& asker, const joblink::UploadBegin& request);
-  void chunk(const Asker& asker, const joblink::UploadChunk& request);
   void commit(const Asker& asker, const joblink::UploadCommit& request);
   void abort(const Asker& asker, const joblink::UploadAbort& request);
   void list(const Asker& asker);

@@ -278,7 +278,7 @@ joblink::PreflightSummary to_message(const StoredPreflight& found) {
 joblink::Job to_message(const StoredJob& job) {
   joblink::Job m;
   m.set_name(clean(job.name));
-  m.set_sha256(job.sha256);
+  m.set_hash(job.hash);
   m.set_size_bytes(job.size_bytes);
   m.set_stored_unix_s(job.stored_unix_s);
   if (job.preflight) *m.mutable_preflight() = to_message(*job.preflight);
@@ -291,7 +291,7 @@ joblink::JobRun to_message(const StoredRun& run) {
   joblink::JobRun m;
   m.set_id(static_cast<std::uint64_t>(run.id));
   m.set_name(clean(run.name));
-  m.set_sha256(run.sha256);
+  m.set_hash(run.hash);
   m.set_begun_unix_s(run.begun_unix_s);
   m.set_duration_s(run.duration_s);
   m.set_estimate_s(run.estimate_s);

@@ -11,11 +11,11 @@ namespace {
 constexpr std::uint32_t kPageBytes = 256 * 1024;
 }
 
-QString JobDownload::cache_path(const std::string& sha256) {
+QString JobDownload::cache_path(const std::string& hash) {
   const QString folder =
       QStandardPaths::writableLocation(QStandardPaths::CacheLocation) + QStringLiteral("/jobs");
   QDir().mkpath(folder);
-  return folder + QLatin1Char('/') + QString::fromLatin1(QByteArray::fromStdString(sha256).toHex()) +
+  return folder + QLatin1Char('/') + QString::fromLatin1(QByteArray::fromStdString(hash).toHex()) +
          QStringLiteral(".gcode");
 }
 
@@ -23,10 +23,10 @@ JobDownload::JobDownload(Session& session, const joblink::Job& job, QObject* par
     : QObject(parent),
       session_(session),
       job_(job),
-      file_(cache_path(job.sha256()) + QStringLiteral(".part")) {}
+      file_(cache_path(job.hash()) + QStringLiteral(".part")) {}
 
 void JobDownload::begin() {
-  const QString done = cache_path(job_.sha256());
+  const QString done = cache_path(job_.hash());
   if (QFileInfo(done).size() == static_cast<qint64>(job_.size_bytes()) && QFileInfo::exists(done)) {
     QMetaObject::invokeMethod(
         this, [this, done] { emit finished(done); }, Qt::QueuedConnection);
@@ -63,7 +63,7 @@ void JobDownload::read_on() {
       return;
     }
     self->file_.close();
-    const QString done = cache_path(self->job_.sha256());
+    const QString done = cache_path(self->job_.hash());
     QFile::remove(done);
     self->file_.rename(done);
     emit self->finished(done);

@@ -19,7 +19,7 @@ class JobDownload : public QObject {
   /// finished() or failed() follows.
   void begin();
   /// Where the text of a job with this hash is kept, whether it is there or not.
-  static QString cache_path(const std::string& sha256);
+  static QString cache_path(const std::string& hash);
 
  signals:
   void progressed(double share);

@@ -7,7 +7,7 @@
 #include <QThreadPool>
 
 #include "gui/session/session.hpp"
-#include "protocol/joblink/sha256.hpp"
+#include "protocol/joblink/job_hash.hpp"
 
 namespace kinebus::gui {
 namespace {
@@ -32,13 +32,13 @@ class FileSource : public joblink::UploadSource {
 QByteArray hash_file(const QString& path) {
   QFile file(path);
   if (!file.open(QIODevice::ReadOnly)) return {};
-  joblink::Sha256 sha256;
+  joblink::JobHash hash;
   while (!file.atEnd()) {
     const QByteArray part = file.read(kReadBytes);
     if (part.isEmpty()) return {};
-    sha256.add({part.constData(), static_cast<std::size_t>(part.size())});
+    hash.add({part.constData(), static_cast<std::size_t>(part.size())});
   }
-  return QByteArray::fromStdString(sha256.finish());
+  return QByteArray::fromStdString(hash.finish());
 }
 
 }  // namespace
@@ -62,14 +62,14 @@ void JobUpload::begin() {
   });
 }
 
-void JobUpload::send(const QByteArray& sha256) {
+void JobUpload::send(const QByteArray& hash) {
   if (ended()) return;
-  if (sha256.isEmpty()) return end(Phase::kFailed, tr("%1 cannot be read").arg(file_path_));
+  if (hash.isEmpty()) return end(Phase::kFailed, tr("%1 cannot be read").arg(file_path_));
   phase_ = Phase::kSending;
   clock_.start();
   joblink::UploadRequest request{.name = name_.toStdString(),
                                  .size_bytes = static_cast<std::uint64_t>(size_bytes_),
-                                 .sha256 = sha256.toStdString()};
+                                 .hash = hash.toStdString()};
   id_ = session_.client().upload(std::move(request), std::make_unique<FileSource>(file_path_));
   emit changed();
   session_.pump();

@@ -36,7 +36,7 @@ class JobUpload : public QObject {
   void changed();
 
  private:
-  void send(const QByteArray& sha256);
+  void send(const QByteArray& hash);
   void on_news(const joblink::UploadNews& news);
   void end(Phase phase, const QString& error);
 

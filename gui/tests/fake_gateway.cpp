@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "protocol/joblink/sha256.hpp"
+#include "protocol/joblink/job_hash.hpp"
 
 namespace kinebus::gui {
 
@@ -160,7 +160,7 @@ void FakeGateway::answer(const joblink::ClientMessage& message, joblink::Reply& 
         auto& job = *reply.mutable_jobs()->add_jobs();
         job.set_name(name);
         job.set_size_bytes(text.size());
-        job.set_sha256(joblink::sha256_of(text));
+        job.set_hash(joblink::job_hash_of(text));
       }
       reply.mutable_jobs();
       break;

@@ -988,8 +988,8 @@
         <translation>دیسک برای این کار جا ندارد: نخست کارهای دیگر را پاک کنید</translation>
     </message>
     <message>
-        <source>an upload names the SHA-256 of its job: 32 bytes</source>
-        <translation>بارگذاری SHA-256 کار را می‌گوید: 32 بایت</translation>
+        <source>an upload names the XXH3 of its job: 16 bytes</source>
+        <translation>بارگذاری XXH3 کار را می‌گوید: 16 بایت</translation>
     </message>
     <message>
         <source>another job has the name %1 already</source>
@@ -1008,8 +1008,8 @@
         <translation>%1 بایت از کار هنوز نیامده است</translation>
     </message>
     <message>
-        <source>the bytes that came are not those that were announced (SHA-256 differs): send the job again</source>
-        <translation>بایت‌های رسیده همان اعلام‌شده‌ها نیستند (SHA-256 فرق دارد): کار را دوباره بفرستید</translation>
+        <source>the bytes that came are not those that were announced (XXH3 differs): send the job again</source>
+        <translation>بایت‌های رسیده همان اعلام‌شده‌ها نیستند (XXH3 فرق دارد): کار را دوباره بفرستید</translation>
     </message>
     <message>
         <source>a travel&apos;s minimum is above its maximum</source>

@@ -988,8 +988,8 @@
         <translation>diskte bu işe yer yok: önce başkalarını silin</translation>
     </message>
     <message>
-        <source>an upload names the SHA-256 of its job: 32 bytes</source>
-        <translation>yükleme, işin SHA-256 özetini bildirir: 32 bayt</translation>
+        <source>an upload names the XXH3 of its job: 16 bytes</source>
+        <translation>yükleme, işin XXH3 özetini bildirir: 16 bayt</translation>
     </message>
     <message>
         <source>another job has the name %1 already</source>
@@ -1008,8 +1008,8 @@
         <translation>işin %1 baytı henüz gelmedi</translation>
     </message>
     <message>
-        <source>the bytes that came are not those that were announced (SHA-256 differs): send the job again</source>
-        <translation>gelen baytlar bildirilenler değil (SHA-256 farklı): işi yeniden gönderin</translation>
+        <source>the bytes that came are not those that were announced (XXH3 differs): send the job again</source>
+        <translation>gelen baytlar bildirilenler değil (XXH3 farklı): işi yeniden gönderin</translation>
     </message>
     <message>
         <source>a travel&apos;s minimum is above its maximum</source>

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <utility>
 
+#include "protocol/joblink/upload_chunk.hpp"
+
 namespace kinebus::joblink {
 namespace {
 
 constexpr LocalTime kHelloAgain = std::chrono::seconds{1};
 /// Chunks are made when less than this waits to be sent, so that a hold never queues behind a whole job.
-constexpr std::size_t kOutputWanted = 128U << 10;
+constexpr std::size_t kOutputWanted = 64U << 10;
 /// News that nobody pulls: the oldest status goes first.
 constexpr std::size_t kMaxNews = 4096;
 
@@ -46,7 +48,6 @@ void Client::on_connected(LocalTime now) {
   if (phase_ != Phase::kClosed) end_session(now, "the stream was opened anew", false);
   reader_.clear();
   out_.clear();
-  out_sent_ = 0;
   begin_session(now);
 }
 
@@ -56,7 +57,6 @@ void Client::on_disconnected(LocalTime now, const std::string& why) {
   end_session(now, why, false);
   phase_ = Phase::kClosed;
   out_.clear();
-  out_sent_ = 0;
 }
 
 void Client::begin_session(LocalTime now) {
@@ -101,19 +101,18 @@ void Client::end_session(LocalTime now, const std::string& why, bool retry) {
   if (was_open) news_.emplace_back(Disconnected{why});
 }
 
-void Client::write(const ClientMessage& message) {
-  if (out_sent_ > 0) {
-    out_.erase(0, out_sent_);
-    out_sent_ = 0;
-  }
-  append_frame(out_, session_, sequence_, message.SerializeAsString());
+/// The frame that was just finished is the session's latest.
+void Client::written() {
   sequence_ = SessionSequence::after(sequence_);
   last_written_ = now_;
 }
 
 RequestId Client::write_request(ClientMessage& message) {
   message.set_request_id(++last_request_);
-  write(message);
+  const auto room = out_.begin(message.ByteSizeLong());
+  message.SerializeWithCachedSizesToArray(room.data());
+  out_.finish(session_, sequence_);
+  written();
   return last_request_;
 }
 
@@ -169,7 +168,7 @@ void Client::begin_upload() {
   UploadBegin& begin = *message.mutable_upload_begin();
   begin.set_name(upload.request.name);
   begin.set_size_bytes(upload.request.size_bytes);
-  begin.set_sha256(upload.request.sha256);
+  begin.set_hash(upload.request.hash);
   begin.set_replace(upload.request.replace);
   upload.open[write_request(message)] = true;
   upload.step = Upload::Step::kBegun;
@@ -194,23 +193,16 @@ void Client::feed_upload() {
   const std::size_t chunk_bytes =
       std::clamp<std::size_t>(hello_.max_chunk_bytes(), 1024, kMaxMessageBytes - 1024);
   const std::uint64_t window = std::max<std::uint64_t>(hello_.upload_window_bytes(), chunk_bytes);
-  while (out_.size() - out_sent_ < kOutputWanted && upload.sent_bytes < upload.request.size_bytes &&
+  while (out_.size() < kOutputWanted && upload.sent_bytes < upload.request.size_bytes &&
          upload.sent_bytes - upload.received_bytes + chunk_bytes <= window) {
     const auto size = static_cast<std::size_t>(
         std::min<std::uint64_t>(chunk_bytes, upload.request.size_bytes - upload.sent_bytes));
-    ClientMessage message;
-    UploadChunk& chunk = *message.mutable_upload_chunk();
-    chunk.set_upload_id(upload.gateway_id);
-    chunk.set_offset_bytes(upload.sent_bytes);
-    chunk.mutable_data()->resize(size);
-    if (upload.source->read(upload.sent_bytes, {chunk.mutable_data()->data(), size}) != size) {
+    if (!send_chunk(upload, size)) {
       Problem problem;
       problem.set_place(upload.request.name);
       problem.set_rule("the file cannot be read any more, or has become shorter");
       return finish_upload(UploadNews::Phase::kFailed, problem);
     }
-    upload.open[write_request(message)] = true;
-    upload.sent_bytes += size;
   }
   if (upload.received_bytes == upload.request.size_bytes) {
     ClientMessage message;
@@ -220,17 +212,26 @@ void Client::feed_upload() {
   }
 }
 
+/// The bytes go from their source into the frame, and nowhere else on the way.
+bool Client::send_chunk(Upload& upload, std::size_t size) {
+  const ChunkHead head{last_request_ + 1, upload.gateway_id, upload.sent_bytes};
+  const auto data = write_chunk(head, size, out_.begin(chunk_message_bytes(head, size)));
+  if (upload.source->read(upload.sent_bytes, {reinterpret_cast<char*>(data.data()), size}) != size)
+    return false;
+  out_.finish(session_, sequence_);
+  written();
+  upload.open[++last_request_] = true;
+  upload.sent_bytes += size;
+  return true;
+}
+
 std::span<const std::uint8_t> Client::next_bytes() {
   feed_upload();
-  return {reinterpret_cast<const std::uint8_t*>(out_.data()) + out_sent_, out_.size() - out_sent_};
+  return out_.bytes();
 }
 
 void Client::on_bytes_sent(std::size_t count) {
-  out_sent_ += count;
-  if (out_sent_ >= out_.size()) {
-    out_.clear();
-    out_sent_ = 0;
-  }
+  out_.sent(count);
 }
 
 void Client::on_bytes(LocalTime now, std::span<const std::uint8_t> bytes) {
@@ -344,7 +345,7 @@ void Client::on_time(LocalTime now) {
     end_session(now, "the gateway has gone silent", true);
     return;
   }
-  if (now >= last_written_ + options_.ping_period && out_.size() == out_sent_) {
+  if (now >= last_written_ + options_.ping_period && out_.empty()) {
     ClientMessage ping;
     ping.mutable_ping();
     open_[write_request(ping)] = false;
@@ -363,7 +364,7 @@ LocalTime Client::next_deadline() const {
   }
   const LocalTime silence = last_heard_ + options_.silence_limit;
   // With output waiting the stream is slow: a ping behind it would tell nothing.
-  return out_.size() == out_sent_ ? std::min(silence, last_written_ + options_.ping_period) : silence;
+  return out_.empty() ? std::min(silence, last_written_ + options_.ping_period) : silence;
 }
 
 std::optional<News> Client::next_news() {

@@ -39,7 +39,7 @@ class UploadSource {
 struct UploadRequest {
   std::string name;
   std::uint64_t size_bytes = 0;
-  std::string sha256;  ///< 32 bytes (sha256.hpp)
+  std::string hash;  ///< 32 bytes (hash.hpp)
   bool replace = true;
 };
 using UploadId = std::uint32_t;
@@ -121,12 +121,13 @@ class Client {
 
   void begin_session(LocalTime now);
   void end_session(LocalTime now, const std::string& why, bool retry);
-  void write(const ClientMessage& message);
+  void written();
   RequestId write_request(ClientMessage& message);
   void take(LocalTime now, const ServerMessage& message);
   void take_reply(Reply reply);
   void take_upload_reply(const Reply& reply);
   void feed_upload();
+  bool send_chunk(Upload& upload, std::size_t size);
   void begin_upload();
   void finish_upload(UploadNews::Phase phase, const Problem& error);
   void tell_upload(UploadNews::Phase phase);
@@ -137,8 +138,7 @@ class Client {
   SessionSequence incoming_;
   std::uint32_t session_ = 0;
   std::uint32_t sequence_ = 0;
-  std::string out_;
-  std::size_t out_sent_ = 0;
+  FrameQueue out_;
   RequestId last_request_ = 0;
   std::unordered_map<RequestId, bool> open_;  ///< requests without an answer; true: the owner's
   HelloReply hello_;

@@ -20,7 +20,8 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
+
+#include "protocol/joblink/byte_queue.hpp"
 
 namespace kinebus::joblink {
 
@@ -36,7 +37,27 @@ struct FrameView {
 /// Appends one frame to `out`. message.size() <= kMaxMessageBytes.
 void append_frame(std::string& out, std::uint32_t session, std::uint32_t sequence, std::string_view message);
 
-/// Bytes in, frames out. Memory is bounded by one longest frame and one add().
+/// Frames that wait to be sent, in the order in which they were made.
+class FrameQueue {
+ public:
+  /// Room for the next frame's message, `size` <= kMaxMessageBytes; it is a frame after finish(), and nothing
+  /// when anything else is called before.
+  std::span<std::uint8_t> begin(std::size_t size);
+  void finish(std::uint32_t session, std::uint32_t sequence);
+  void append(std::uint32_t session, std::uint32_t sequence, std::string_view message);
+
+  std::span<const std::uint8_t> bytes() const { return queue_.bytes(); }
+  std::size_t size() const { return queue_.size(); }
+  bool empty() const { return queue_.empty(); }
+  void sent(std::size_t count) { queue_.drop(count); }
+  void clear() { queue_.clear(); }
+
+ private:
+  ByteQueue queue_;
+  std::span<std::uint8_t> frame_;  ///< between begin() and finish()
+};
+
+/// Bytes in, frames out. Memory is bounded by twice the longest frame and one add().
 class FrameReader {
  public:
   struct Counters {
@@ -45,7 +66,7 @@ class FrameReader {
     std::uint32_t garbled_frames = 0;  ///< header right, message not
   };
 
-  /// Frames of all that was added before must have been taken by next().
+  /// Views of frames are void.
   void add(std::span<const std::uint8_t> bytes);
   /// The next whole frame; its view is valid until the next call of add() or next().
   std::optional<FrameView> next();
@@ -55,12 +76,13 @@ class FrameReader {
   void give_up();
 
   /// Bytes that wait for the rest of their frame.
-  std::size_t pending() const { return buffer_.size() - taken_; }
+  std::size_t pending() const { return buffer_.size(); }
   const Counters& counters() const { return counters_; }
 
  private:
-  std::vector<std::uint8_t> buffer_;
-  std::size_t taken_ = 0;
+  void skip(std::size_t count);
+
+  ByteQueue buffer_;
   Counters counters_;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// SHA-256 of a text in pieces: the identity of a job.
+// SHA-256 of a text in pieces.
 
 #include <memory>
 #include <span>

@@ -4,6 +4,6 @@
 #include <cstdint>
 
 namespace kinebus::joblink {
-inline constexpr std::uint32_t kVersionMajor = 1;
+inline constexpr std::uint32_t kVersionMajor = 2;
 inline constexpr std::uint32_t kVersionMinor = 0;
 }  // namespace kinebus::joblink

@@ -28,7 +28,9 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 if(CMAKE_CROSSCOMPILING)
   set(CPACK_DEBIAN_PACKAGE_ARCHITECTURE arm64)
   set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS OFF)
-  set(CPACK_DEBIAN_PACKAGE_DEPENDS "libc6, libstdc++6")
+  # What dpkg-shlibdeps cannot find out of a foreign build: the libraries that the programs name (readelf -d).
+  set(CPACK_DEBIAN_PACKAGE_DEPENDS
+    "libc6, libdeflate0, libgcc-s1, libprotobuf32, libsqlite3-0, libssl3, libstdc++6, libxxhash0")
 endif()
 set(CPACK_DEBIAN_DAEMON_PACKAGE_NAME kinebus-daemon)
 set(CPACK_COMPONENT_DAEMON_DESCRIPTION

@@ -15,7 +15,7 @@
 #include "gateway/io/socket_stream.hpp"
 #include "gateway/io/tls_stream.hpp"
 #include "protocol/host/socketcan.hpp"
-#include "protocol/joblink/sha256.hpp"
+#include "protocol/joblink/job_hash.hpp"
 
 namespace kinebus {
 namespace {
@@ -78,8 +78,8 @@ class FileBytes : public joblink::UploadSource {
 joblink::UploadRequest describe(const std::string& file, const std::string& name,
                                 const std::function<void()>& breathe) {
   std::ifstream in(file, std::ios::binary);
-  joblink::Sha256 sum;
-  joblink::UploadRequest request{.name = name, .size_bytes = 0, .sha256 = {}};
+  joblink::JobHash sum;
+  joblink::UploadRequest request{.name = name, .size_bytes = 0, .hash = {}};
   std::string piece(1U << 20, '\0');
   while (in.read(piece.data(), static_cast<std::streamsize>(piece.size())) || in.gcount() > 0) {
     sum.add(std::string_view(piece).substr(0, static_cast<std::size_t>(in.gcount())));
@@ -87,7 +87,7 @@ joblink::UploadRequest describe(const std::string& file, const std::string& name
     breathe();
   }
   if (!in.eof()) throw ClientError(file + ": cannot be read");
-  request.sha256 = sum.finish();
+  request.hash = sum.finish();
   return request;
 }
 

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <string>
 
-#include "protocol/joblink/sha256.hpp"
+#include "protocol/joblink/job_hash.hpp"
 #include "tools/cli/job_watch.hpp"
 #include "tools/cli/requests.hpp"
 

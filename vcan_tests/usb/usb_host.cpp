@@ -18,30 +18,15 @@ LocalTime UsbHost::now() {
 
 UsbHost::UsbHost(joblink::Client& client) : client_(client) {
   if (libusb_init(&context_) != 0) throw std::runtime_error("libusb does not start");
-  for (auto* slots : {&in_, &out_})
-    for (Slot& slot : *slots) {
-      slot.bytes.resize(usb_ids::kTransferBytes);
-      slot.transfer = libusb_alloc_transfer(0);
-      slot.host = this;
-      slot.in = slots == &in_;
-    }
 }
 
 UsbHost::~UsbHost() {
   disconnect("the test ends");
-  for (auto* slots : {&in_, &out_})
-    for (Slot& slot : *slots) libusb_free_transfer(slot.transfer);
   libusb_exit(context_);
 }
 
 void UsbHost::connect() {
   // libusb learns of new devices from udev, which the lab guest has not; a new context looks for itself.
-  // A transfer keeps the device that it was last used with, so it goes with its context.
-  for (auto* slots : {&in_, &out_})
-    for (Slot& slot : *slots) {
-      libusb_free_transfer(slot.transfer);
-      slot.transfer = libusb_alloc_transfer(0);
-    }
   libusb_exit(std::exchange(context_, nullptr));
   if (libusb_init(&context_) != 0) throw std::runtime_error("libusb does not start");
   libusb_device** list = nullptr;
@@ -70,8 +55,21 @@ void UsbHost::connect() {
   if (handle_ == nullptr) return;
   broken_ = false;
   ++connections_;
-  for (Slot& slot : in_) broken_ = !submit(slot, static_cast<int>(slot.bytes.size())) || broken_;
+  in_ = make_slots(3, true);
+  out_ = make_slots(gui::transfers_under_way(handle_), false);
+  for (Slot& slot : in_) broken_ = !submit(slot, static_cast<int>(slot.memory.size())) || broken_;
   client_.on_connected(now());
+}
+
+std::vector<UsbHost::Slot> UsbHost::make_slots(std::size_t count, bool in) {
+  std::vector<Slot> slots(count);
+  for (Slot& slot : slots) {
+    slot.memory = gui::TransferMemory(handle_, usb_ids::kTransferBytes);
+    slot.transfer = libusb_alloc_transfer(0);
+    slot.host = this;
+    slot.in = in;
+  }
+  return slots;
 }
 
 void UsbHost::disconnect(const char* why) {
@@ -87,13 +85,17 @@ void UsbHost::disconnect(const char* why) {
     timeval wait{0, 10'000};
     libusb_handle_events_timeout_completed(context_, &wait, nullptr);
   }
+  for (auto* slots : {&in_, &out_}) {
+    for (Slot& slot : *slots) libusb_free_transfer(slot.transfer);
+    slots->clear();
+  }
   libusb_close(handle_);
   handle_ = nullptr;
   client_.on_disconnected(now(), why);
 }
 
 bool UsbHost::submit(Slot& slot, int size) {
-  libusb_fill_bulk_transfer(slot.transfer, handle_, slot.in ? bulk_in_ : bulk_out_, slot.bytes.data(), size,
+  libusb_fill_bulk_transfer(slot.transfer, handle_, slot.in ? bulk_in_ : bulk_out_, slot.memory.data(), size,
                             &UsbHost::completed, &slot, 0);
   slot.busy = libusb_submit_transfer(slot.transfer) == 0;
   return slot.busy;
@@ -105,8 +107,8 @@ void LIBUSB_CALL UsbHost::completed(libusb_transfer* transfer) {
   slot.busy = false;
   if (transfer->status != LIBUSB_TRANSFER_COMPLETED) host.broken_ = true;
   if (host.broken_ || !slot.in) return;
-  host.client_.on_bytes(now(), {slot.bytes.data(), static_cast<std::size_t>(transfer->actual_length)});
-  if (!host.submit(slot, static_cast<int>(slot.bytes.size()))) host.broken_ = true;
+  host.client_.on_bytes(now(), {slot.memory.data(), static_cast<std::size_t>(transfer->actual_length)});
+  if (!host.submit(slot, static_cast<int>(slot.memory.size()))) host.broken_ = true;
 }
 
 void UsbHost::send() {
@@ -115,7 +117,7 @@ void UsbHost::send() {
     const auto bytes = client_.next_bytes();
     if (bytes.empty()) return;
     const std::size_t part = usb_ids::transfer_bytes(bytes.size());
-    std::copy_n(bytes.data(), part, slot.bytes.data());
+    std::copy_n(bytes.data(), part, slot.memory.data());
     if (!submit(slot, static_cast<int>(part))) {
       broken_ = true;
       return;

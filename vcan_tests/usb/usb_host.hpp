@@ -3,11 +3,11 @@
 
 #include <libusb.h>
 
-#include <array>
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "gui/link/usb/transfer_memory.hpp"
 #include "protocol/joblink/client.hpp"
 
 namespace kinebus {
@@ -27,13 +27,14 @@ class UsbHost {
 
  private:
   struct Slot {
-    std::vector<unsigned char> bytes;
+    gui::TransferMemory memory;
     libusb_transfer* transfer = nullptr;
     UsbHost* host = nullptr;
     bool busy = false, in = false;
   };
   void connect();
   void disconnect(const char* why);
+  std::vector<Slot> make_slots(std::size_t count, bool in);
   bool submit(Slot& slot, int size);
   void send();
   static void LIBUSB_CALL completed(libusb_transfer* transfer);
@@ -42,7 +43,7 @@ class UsbHost {
   libusb_context* context_ = nullptr;
   libusb_device_handle* handle_ = nullptr;
   unsigned char bulk_in_ = 0, bulk_out_ = 0;
-  std::array<Slot, 3> in_{}, out_{};
+  std::vector<Slot> in_, out_;
   bool broken_ = false;
   LocalTime next_try_{0};
   std::uint32_t connections_ = 0;

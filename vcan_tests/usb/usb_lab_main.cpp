@@ -15,7 +15,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "protocol/joblink/sha256.hpp"
+#include "protocol/joblink/job_hash.hpp"
 #include "vcan_tests/usb/bulk_loop.hpp"
 #include "vcan_tests/usb/usb_host.hpp"
 
@@ -95,10 +95,11 @@ class Lab {
     const LocalTime end = UsbHost::now() + duration;
     while (UsbHost::now() < end) turn(1ms);
   }
-  void upload(const std::string& name, const std::string& text) {
+  void upload(const std::string& name, std::string text) {
     stored_ = failed_ = false;
-    client_.upload({.name = name, .size_bytes = text.size(), .sha256 = sha256_of(text), .replace = true},
-                   std::make_unique<TextSource>(text));
+    UploadRequest request{
+        .name = name, .size_bytes = text.size(), .hash = job_hash_of(text), .replace = true};
+    client_.upload(std::move(request), std::make_unique<TextSource>(std::move(text)));
   }
   bool stored() const {
     if (failed_) throw std::runtime_error("upload failed: " + last_words_);
@@ -167,6 +168,7 @@ std::string random_text(std::mt19937_64& random, std::size_t size) {
 }
 
 void speed(Lab& lab, std::size_t mib) {
+  std::string text = random_text(lab.random, mib << 20U);
   lab.connect();
   std::vector<double> trips;
   for (int i = 0; i < 200; ++i) {
@@ -179,12 +181,11 @@ void speed(Lab& lab, std::size_t mib) {
   std::sort(trips.begin(), trips.end());
   std::printf("round trip: median %.2f ms, 95 %% %.2f ms, worst %.2f ms of %zu\n", trips[trips.size() / 2],
               trips[trips.size() * 95 / 100], trips.back(), trips.size());
-  const std::string text = random_text(lab.random, mib << 20U);
   const LocalTime begin = UsbHost::now();
-  lab.upload("speed.gcode", text);
+  lab.upload("speed.gcode", std::move(text));
   lab.until("stored upload", 200s, [&] { return lab.stored(); });
   std::printf("upload: %.2f MB/s, %zu MiB stored and checked\n",
-              static_cast<double>(text.size()) / 1e6 / seconds_since(begin), mib);
+              static_cast<double>(mib << 20U) / 1e6 / seconds_since(begin), mib);
   if (trips[trips.size() / 2] > 5) throw std::runtime_error("a round trip takes more than 5 ms");
 }
 

@@ -65,7 +65,6 @@ void UsbPipe::collect() {
   timespec at_once{};
   for (;;) {
     const long count = ::syscall(SYS_io_getevents, context_, 0, events.size(), events.data(), &at_once);
-    if (count <= 0) return;
     for (long i = 0; i < count; ++i) {
       const io_event& event = events[static_cast<std::size_t>(i)];
       // The kernel hands back what it was given with the transfer. NOLINTNEXTLINE(performance-no-int-to-ptr)
@@ -76,6 +75,7 @@ void UsbPipe::collect() {
       else
         transfer.size = static_cast<std::size_t>(event.res);
     }
+    if (count < static_cast<long>(events.size())) return;
   }
 }
 

@@ -44,8 +44,9 @@ class UsbPipe {
   int signal_ = -1;
   aio_context_t context_ = 0;
   bool closed_ = false;
-  // Two each way keep the bus busy while the program works; four reads bridge a slow turn of the loop.
-  std::array<Transfer, 4> reads_, writes_;
+  // The host has up to eight transfers under way: as many are taken in one turn of the loop.
+  std::array<Transfer, 8> reads_;
+  std::array<Transfer, 4> writes_;
   std::deque<Transfer*> order_;  ///< reads, oldest first: bytes are taken in this order
 };
 

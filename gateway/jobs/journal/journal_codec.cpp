@@ -1,6 +1,6 @@
 #include "gateway/jobs/journal/journal_codec.hpp"
 
-#include <zlib.h>
+#include <libdeflate.h>
 
 #include <algorithm>
 #include <bit>
@@ -16,7 +16,7 @@ constexpr std::uint8_t kMagic = 0x4B;
 constexpr std::size_t kHeader = 8, kTrailer = 4, kMaxName = 1000;
 
 std::uint32_t crc_of(std::span<const std::uint8_t> bytes) {
-  return static_cast<std::uint32_t>(::crc32_z(0, bytes.data(), bytes.size()));
+  return ::libdeflate_crc32(0, bytes.data(), bytes.size());
 }
 
 /// One list of fields for both directions, so that they cannot differ.

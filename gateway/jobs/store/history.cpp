@@ -8,7 +8,7 @@ namespace kinebus {
 namespace {
 
 constexpr const char* kRunColumns =
-    "id, name, sha256, begun, duration, estimate, result, line, first_error, said";
+    "id, name, hash, begun, duration, estimate, result, line, first_error, said";
 /// Runs kept; the oldest go.
 constexpr std::int64_t kMaxRuns = 10'000;
 
@@ -16,7 +16,7 @@ StoredRun run_of(const Database::Statement& row) {
   StoredRun run;
   run.id = row.integer(0);
   run.name = row.text(1);
-  run.sha256 = row.text(2);
+  run.hash = row.text(2);
   run.begun_unix_s = row.real(3);
   run.duration_s = row.real(4);
   run.estimate_s = row.real(5);
@@ -29,13 +29,13 @@ StoredRun run_of(const Database::Statement& row) {
 
 }  // namespace
 
-Result<void, StoreError> JobStore::save_preflight(std::string_view sha256, std::string_view machine,
+Result<void, StoreError> JobStore::save_preflight(std::string_view hash, std::string_view machine,
                                                   const StoredPreflight& found) {
   Database::Statement insert(
       *database_,
-      "INSERT OR REPLACE INTO preflights(sha256, machine, errors, warnings, lines, motion_s, dwell_s)"
+      "INSERT OR REPLACE INTO preflights(hash, machine, errors, warnings, lines, motion_s, dwell_s)"
       " VALUES(?, ?, ?, ?, ?, ?, ?)");
-  return insert.bind_blob(sha256)
+  return insert.bind_blob(hash)
       .bind(machine)
       .bind(std::int64_t{found.errors})
       .bind(std::int64_t{found.warnings})
@@ -48,10 +48,10 @@ Result<void, StoreError> JobStore::save_preflight(std::string_view sha256, std::
 Result<std::int64_t, StoreError> JobStore::begin_run(const StoredRun& run) {
   Database::Statement insert(
       *database_,
-      "INSERT INTO runs(name, sha256, begun, duration, estimate, result, line, first_error)"
+      "INSERT INTO runs(name, hash, begun, duration, estimate, result, line, first_error)"
       " VALUES(?, ?, ?, 0, ?, 0, 0, '')");
   const auto begun =
-      insert.bind(run.name).bind_blob(run.sha256).bind(run.begun_unix_s).bind(run.estimate_s).finish();
+      insert.bind(run.name).bind_blob(run.hash).bind(run.begun_unix_s).bind(run.estimate_s).finish();
   if (!begun) return Error<StoreError>(begun.error());
   const std::int64_t id = database_->last_id();
   Database::Statement forget(*database_, "DELETE FROM runs WHERE id <= ?");

@@ -14,7 +14,7 @@
 
 #include "gateway/jobs/store/file_source.hpp"
 #include "gateway/jobs/store/upload_file.hpp"
-#include "protocol/joblink/sha256.hpp"
+#include "protocol/joblink/job_hash.hpp"
 
 namespace kinebus {
 namespace {
@@ -37,9 +37,9 @@ std::optional<FileMark> mark_of(const fs::path& path) {
   return FileMark{static_cast<std::uint64_t>(found.st_size), ns, static_cast<double>(ns) * 1e-9};
 }
 
-std::optional<std::string> sha256_of_file(const fs::path& path) {
+std::optional<std::string> hash_of_file(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
-  joblink::Sha256 sum;
+  joblink::JobHash sum;
   std::string piece(kPiece, '\0');
   while (in) {
     in.read(piece.data(), static_cast<std::streamsize>(piece.size()));
@@ -144,16 +144,23 @@ void JobStore::open_database() {
 Result<void, StoreError> JobStore::make_tables() {
   // A database of an older gateway has runs without it; refused where it is there, or where no table is yet.
   static_cast<void>(database_->run("ALTER TABLE runs ADD COLUMN said BLOB"));
+  // One older still has another hash: the texts are hashed anew, the pre-flights are forgotten.
+  if (!database_->run("BEGIN IMMEDIATE;"
+                      "ALTER TABLE runs RENAME COLUMN sha256 TO hash;"
+                      "ALTER TABLE jobs RENAME COLUMN sha256 TO hash; DELETE FROM jobs;"
+                      "ALTER TABLE preflights RENAME COLUMN sha256 TO hash; DELETE FROM preflights;"
+                      "COMMIT;"))
+    static_cast<void>(database_->run("ROLLBACK"));
   auto made = database_->run(
       "BEGIN IMMEDIATE;"
-      "CREATE TABLE IF NOT EXISTS jobs(name TEXT PRIMARY KEY, sha256 BLOB NOT NULL, size INTEGER NOT NULL,"
+      "CREATE TABLE IF NOT EXISTS jobs(name TEXT PRIMARY KEY, hash BLOB NOT NULL, size INTEGER NOT NULL,"
       " changed_ns INTEGER NOT NULL, stored REAL NOT NULL);"
-      "CREATE TABLE IF NOT EXISTS preflights(sha256 BLOB NOT NULL, machine TEXT NOT NULL, errors INTEGER,"
-      " warnings INTEGER, lines INTEGER, motion_s REAL, dwell_s REAL, PRIMARY KEY(sha256, machine));"
+      "CREATE TABLE IF NOT EXISTS preflights(hash BLOB NOT NULL, machine TEXT NOT NULL, errors INTEGER,"
+      " warnings INTEGER, lines INTEGER, motion_s REAL, dwell_s REAL, PRIMARY KEY(hash, machine));"
       "CREATE TABLE IF NOT EXISTS uploads(partial TEXT PRIMARY KEY, size INTEGER NOT NULL, secured INTEGER "
       "NOT NULL,"
       " begun REAL NOT NULL);"
-      "CREATE TABLE IF NOT EXISTS runs(id INTEGER PRIMARY KEY AUTOINCREMENT, name TEXT NOT NULL, sha256 BLOB "
+      "CREATE TABLE IF NOT EXISTS runs(id INTEGER PRIMARY KEY AUTOINCREMENT, name TEXT NOT NULL, hash BLOB "
       "NOT NULL,"
       " begun REAL NOT NULL, duration REAL NOT NULL, estimate REAL NOT NULL, result INTEGER NOT NULL,"
       " line INTEGER NOT NULL, first_error TEXT NOT NULL, said BLOB);"
@@ -166,15 +173,14 @@ Result<void, StoreError> JobStore::make_tables() {
   return made;
 }
 
-Result<void, StoreError> JobStore::enter(std::string_view name, std::string_view sha256,
-                                         double stored_unix_s) {
+Result<void, StoreError> JobStore::enter(std::string_view name, std::string_view hash, double stored_unix_s) {
   const auto mark = mark_of(options_.folder / name);
   if (!mark) return no_such_job(name);
   Database::Statement insert(*database_,
-                             "INSERT OR REPLACE INTO jobs(name, sha256, size, changed_ns, stored)"
+                             "INSERT OR REPLACE INTO jobs(name, hash, size, changed_ns, stored)"
                              " VALUES(?, ?, ?, ?, ?)");
   return insert.bind(name)
-      .bind_blob(sha256)
+      .bind_blob(hash)
       .bind(static_cast<std::int64_t>(mark->size_bytes))
       .bind(mark->changed_ns)
       .bind(stored_unix_s)
@@ -208,8 +214,8 @@ void JobStore::agree_with_files() {
     static_cast<void>(remove.bind(name).finish());
   }
   for (const auto& [name, mark] : files)
-    if (const auto sha256 = sha256_of_file(options_.folder / name))
-      static_cast<void>(enter(name, *sha256, mark.changed_unix_s));
+    if (const auto hash = hash_of_file(options_.folder / name))
+      static_cast<void>(enter(name, *hash, mark.changed_unix_s));
 }
 
 std::uint64_t JobStore::used_bytes() const {
@@ -233,14 +239,14 @@ Result<JobListing, StoreError> JobStore::list() {
   JobListing listing;
   Database::Statement rows(
       *database_,
-      "SELECT j.name, j.sha256, j.size, j.stored, p.errors, p.warnings, p.lines, p.motion_s, p.dwell_s,"
+      "SELECT j.name, j.hash, j.size, j.stored, p.errors, p.warnings, p.lines, p.motion_s, p.dwell_s,"
       " (SELECT COUNT(*) FROM runs r WHERE r.name = j.name)"
-      " FROM jobs j LEFT JOIN preflights p ON p.sha256 = j.sha256 AND p.machine = ? ORDER BY j.name");
+      " FROM jobs j LEFT JOIN preflights p ON p.hash = j.hash AND p.machine = ? ORDER BY j.name");
   rows.bind(machine_);
   while (rows.step()) {
     StoredJob job;
     job.name = rows.text(0);
-    job.sha256 = rows.text(1);
+    job.hash = rows.text(1);
     job.size_bytes = static_cast<std::uint64_t>(rows.integer(2));
     job.stored_unix_s = rows.real(3);
     if (!rows.null(4))
@@ -262,7 +268,7 @@ Result<JobListing, StoreError> JobStore::list() {
 }
 
 std::optional<StoredJob> JobStore::find(std::string_view name) {
-  Database::Statement row(*database_, "SELECT sha256, size, changed_ns, stored FROM jobs WHERE name = ?");
+  Database::Statement row(*database_, "SELECT hash, size, changed_ns, stored FROM jobs WHERE name = ?");
   row.bind(name);
   if (!check_name(name).empty() || !row.step()) return std::nullopt;
   const auto mark = mark_of(options_.folder / name);
@@ -271,7 +277,7 @@ std::optional<StoredJob> JobStore::find(std::string_view name) {
     return std::nullopt;
   StoredJob job;
   job.name = name;
-  job.sha256 = row.text(0);
+  job.hash = row.text(0);
   job.size_bytes = mark->size_bytes;
   job.stored_unix_s = row.real(3);
   return job;
@@ -328,9 +334,9 @@ Result<void, StoreError> JobStore::adopt(const fs::path& written, std::string_vi
     return Error<StoreError>(failed);
   }
   sync_folder(options_.folder);
-  const auto sha256 = sha256_of_file(path);
-  if (!sha256) return Error<StoreError>(disk_error(path, errno));
-  return enter(name, *sha256, now_unix_s);
+  const auto hash = hash_of_file(path);
+  if (!hash) return Error<StoreError>(disk_error(path, errno));
+  return enter(name, *hash, now_unix_s);
 }
 
 }  // namespace kinebus

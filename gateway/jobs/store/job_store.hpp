@@ -32,7 +32,7 @@ namespace kinebus {
 struct UploadIdentity {
   std::string name{};
   std::uint64_t size_bytes = 0;
-  std::string sha256{};  ///< 32 bytes
+  std::string hash{};  ///< of its text (job_hash.hpp)
 };
 struct UploadProgress {
   std::uint32_t id = 0;
@@ -50,7 +50,7 @@ enum class RunResult : std::uint8_t { kRunning, kComplete, kCancelled, kRefused,
 struct StoredRun {
   std::int64_t id = 0;
   std::string name{};
-  std::string sha256{};
+  std::string hash{};
   double begun_unix_s = 0, duration_s = 0, estimate_s = 0;
   RunResult result = RunResult::kRunning;
   std::uint32_t line = 0;  ///< reached
@@ -60,7 +60,7 @@ struct StoredRun {
 
 struct StoredJob {
   std::string name;
-  std::string sha256;
+  std::string hash;
   std::uint64_t size_bytes = 0;
   double stored_unix_s = 0;
   std::optional<StoredPreflight> preflight;
@@ -119,7 +119,7 @@ class JobStore {
                                  double now_unix_s);
 
   // history.cpp
-  Result<void, StoreError> save_preflight(std::string_view sha256, std::string_view machine,
+  Result<void, StoreError> save_preflight(std::string_view hash, std::string_view machine,
                                           const StoredPreflight& found);
   /// Pre-flights in lists are those of this machine file (any text that names it).
   void set_machine(std::string machine) { machine_ = std::move(machine); }
@@ -138,7 +138,7 @@ class JobStore {
   Result<void, StoreError> make_tables();
   void agree_with_files();
   void forget_old_uploads(double now_unix_s);
-  Result<void, StoreError> enter(std::string_view name, std::string_view sha256, double stored_unix_s);
+  Result<void, StoreError> enter(std::string_view name, std::string_view hash, double stored_unix_s);
   Result<void, StoreError> check_room(const UploadIdentity& identity, std::uint64_t on_disk_bytes);
   std::uint64_t used_bytes() const;
   std::optional<StoredRun> last_run(std::string_view name);

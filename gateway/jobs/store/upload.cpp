@@ -11,6 +11,7 @@
 
 #include "gateway/jobs/store/job_store.hpp"
 #include "gateway/jobs/store/upload_file.hpp"
+#include "protocol/joblink/sha256.hpp"
 
 namespace kinebus {
 namespace {
@@ -32,7 +33,7 @@ Error<StoreError> not_open() {
 }
 
 bool same(const UploadIdentity& a, const UploadIdentity& b) {
-  return a.name == b.name && a.size_bytes == b.size_bytes && a.sha256 == b.sha256;
+  return a.name == b.name && a.size_bytes == b.size_bytes && a.hash == b.hash;
 }
 
 }  // namespace
@@ -43,7 +44,7 @@ JobStore::Upload::~Upload() {
 
 fs::path JobStore::partial_of(const UploadIdentity& identity) const {
   joblink::Sha256 sum;
-  sum.add(identity.sha256);
+  sum.add(identity.hash);
   sum.add(std::to_string(identity.size_bytes) + "/");
   sum.add(identity.name);
   return options_.folder / (std::string(kPartialPrefix) + joblink::to_hex(sum.finish()).substr(0, 32));
@@ -121,11 +122,11 @@ Result<UploadProgress, StoreError> JobStore::begin_upload(const UploadIdentity& 
                                                           double now_unix_s) {
   if (Sentence broken = check_name(identity.name); !broken.empty())
     return fail(StoreError::Kind::kName, broken);
-  if (identity.sha256.size() != joblink::kSha256Bytes)
-    return fail(StoreError::Kind::kChecksum, say("an upload names the SHA-256 of its job: 32 bytes"));
+  if (identity.hash.size() != joblink::kJobHashBytes)
+    return fail(StoreError::Kind::kChecksum, say("an upload names the XXH3 of its job: 16 bytes"));
   if (auto ok = writable_or_error(); !ok) return Error<StoreError>(ok.error());
   if (const auto present = find(identity.name)) {
-    if (present->sha256 == identity.sha256 && present->size_bytes == identity.size_bytes)
+    if (present->hash == identity.hash && present->size_bytes == identity.size_bytes)
       return UploadProgress{0, identity.size_bytes, true};
     if (!replace)
       return fail(StoreError::Kind::kName, say("another job has the name %1 already", identity.name));
@@ -219,12 +220,12 @@ Result<UploadProgress, StoreError> JobStore::commit(std::uint32_t id, double now
                 say("%1 bytes of the job have not come yet", identity.size_bytes - upload.received_bytes));
   if (!upload.replace && find(identity.name))
     return fail(StoreError::Kind::kName, say("another job has the name %1 already", identity.name));
-  if (upload.sum.finish() != identity.sha256) {
+  if (upload.sum.finish() != identity.hash) {
     uploads_.erase(found);
     forget_partial(identity);
     return fail(
         StoreError::Kind::kChecksum,
-        say("the bytes that came are not those that were announced (SHA-256 differs): send the job again"));
+        say("the bytes that came are not those that were announced (XXH3 differs): send the job again"));
   }
   const fs::path partial = partial_of(identity);
   const bool stored =
@@ -234,7 +235,7 @@ Result<UploadProgress, StoreError> JobStore::commit(std::uint32_t id, double now
   if (!stored) return Error<StoreError>(disk_error(partial, error));
   sync_folder(options_.folder);
   if (auto ok = database_->run("BEGIN IMMEDIATE"); !ok) return Error<StoreError>(ok.error());
-  auto entered = enter(identity.name, identity.sha256, now_unix_s);
+  auto entered = enter(identity.name, identity.hash, now_unix_s);
   Database::Statement remove(*database_, "DELETE FROM uploads WHERE partial = ?");
   if (entered) entered = remove.bind(partial.filename().string()).finish();
   if (entered) entered = database_->run("COMMIT");

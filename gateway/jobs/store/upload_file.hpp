@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "gateway/jobs/store/job_store.hpp"
-#include "protocol/joblink/sha256.hpp"
+#include "protocol/joblink/job_hash.hpp"
 
 namespace kinebus {
 
@@ -18,7 +18,7 @@ struct JobStore::Upload {
   int fd = -1;
   std::uint64_t received_bytes = 0;
   std::uint64_t secured_bytes = 0;  ///< known to be on the disk, whatever happens
-  joblink::Sha256 sum;
+  joblink::JobHash sum;
 
   Upload() = default;
   ~Upload();

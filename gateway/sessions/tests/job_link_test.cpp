@@ -7,6 +7,7 @@
 #include "gateway/machine/description/machine_file.hpp"
 #include "gateway/sessions/tests/link_rig.hpp"
 #include "protocol/joblink/frame_codec.hpp"
+#include "protocol/joblink/sha256.hpp"
 
 namespace kinebus {
 namespace {
@@ -36,7 +37,7 @@ TEST(JobLink, HelloTellsVersionMachineAndCapabilities) {
   LinkRig rig;
   LinkedClient& client = rig.connect("a");
   ASSERT_TRUE(client.link.connected());
-  EXPECT_EQ(client.link.hello().version_major(), 1U);
+  EXPECT_EQ(client.link.hello().version_major(), joblink::kVersionMajor);
   EXPECT_EQ(client.link.hello().machine_name(), rig.machine.machine.name);
   EXPECT_EQ(client.link.client_id(), 1U);
   EXPECT_GT(client.link.hello().capabilities_size(), 0);
@@ -168,16 +169,16 @@ TEST(JobLink, BadNamesQuotaAndWrongSumsAreRefusedWithTheRule) {
   LinkedClient& anna = rig.connect("anna");
   const auto error_of = [&](const std::string& name, const std::string& text, const std::string& sum) {
     anna.news.clear();
-    anna.link.upload({.name = name, .size_bytes = text.size(), .sha256 = sum},
+    anna.link.upload({.name = name, .size_bytes = text.size(), .hash = sum},
                      std::make_unique<TextSource>(text));
     rig.pump();
     return anna.all<joblink::UploadNews>().back().error.code();
   };
   const std::string text = gcode_of(1000);
-  EXPECT_EQ(error_of("../a", text, joblink::sha256_of(text)), joblink::ERROR_NAME);
-  EXPECT_EQ(error_of("/a", text, joblink::sha256_of(text)), joblink::ERROR_NAME);
-  EXPECT_EQ(error_of("a", gcode_of(6000), joblink::sha256_of(gcode_of(6000))), joblink::ERROR_QUOTA);
-  EXPECT_EQ(error_of("a", text, joblink::sha256_of("other")), joblink::ERROR_CHECKSUM);
+  EXPECT_EQ(error_of("../a", text, joblink::job_hash_of(text)), joblink::ERROR_NAME);
+  EXPECT_EQ(error_of("/a", text, joblink::job_hash_of(text)), joblink::ERROR_NAME);
+  EXPECT_EQ(error_of("a", gcode_of(6000), joblink::job_hash_of(gcode_of(6000))), joblink::ERROR_QUOTA);
+  EXPECT_EQ(error_of("a", text, joblink::job_hash_of("other")), joblink::ERROR_CHECKSUM);
   EXPECT_EQ(error_of("a", text, "short"), joblink::ERROR_CHECKSUM);
   EXPECT_EQ(rig.ask(anna, plain(&ClientMessage::mutable_list_jobs)).jobs().jobs_size(), 0);
 }

@@ -15,7 +15,7 @@
 #include "gateway/machine/tests/machine_rig.hpp"
 #include "gateway/sessions/job_link_server.hpp"
 #include "protocol/joblink/client.hpp"
-#include "protocol/joblink/sha256.hpp"
+#include "protocol/joblink/job_hash.hpp"
 
 namespace kinebus {
 
@@ -173,7 +173,7 @@ class LinkRig {
     return none;
   }
   joblink::UploadId upload(LinkedClient& client, const std::string& name, const std::string& text) {
-    return client.link.upload({.name = name, .size_bytes = text.size(), .sha256 = joblink::sha256_of(text)},
+    return client.link.upload({.name = name, .size_bytes = text.size(), .hash = joblink::job_hash_of(text)},
                               std::make_unique<TextSource>(text));
   }
 

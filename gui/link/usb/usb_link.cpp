@@ -3,26 +3,35 @@
 #include <libusb.h>
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <mutex>
 #include <utility>
 #include <vector>
 
+#include "gui/link/usb/transfer_memory.hpp"
 #include "gui/link/usb/usb_devices.hpp"
 #include "protocol/joblink/usb_ids.hpp"
 
 namespace kinebus::gui {
 
-/// Two transfers each way are always on their way, so that the bus never waits for the program. A transfer
+/// Several transfers are always on their way, so that the bus never waits for the program. A transfer
 /// that is submitted holds a reference to the pipe: it is freed when the last one has come back.
 class UsbLink::Pipe : public std::enable_shared_from_this<Pipe> {
  public:
   Pipe(UsbContext& context, libusb_device_handle* handle, UsbLinkInterface link, UsbLink* owner)
-      : context_(context), handle_(handle), link_(link), owner_(owner) {
+      : context_(context),
+        handle_(handle),
+        link_(link),
+        owner_(owner),
+        in_(kReads),
+        out_(transfers_under_way(handle)) {
+    for (auto* all : {&in_, &out_})
+      for (Slot& slot : *all) slot.memory = TransferMemory(handle, kBytes);
     ++context_.open_pipes;
   }
   ~Pipe() {
+    in_.clear();
+    out_.clear();
     libusb_release_interface(handle_, link_.number);
     libusb_close(handle_);
     --context_.open_pipes;
@@ -51,7 +60,7 @@ class UsbLink::Pipe : public std::enable_shared_from_this<Pipe> {
         free->busy = true;
       }
       const auto part = static_cast<int>(usb_ids::transfer_bytes(static_cast<std::size_t>(size - taken)));
-      std::memcpy(free->bytes.data(), data + taken, static_cast<std::size_t>(part));
+      std::memcpy(free->memory.data(), data + taken, static_cast<std::size_t>(part));
       if (!submit(*free, link_.bulk_out, part)) break;
       taken += part;
     }
@@ -69,8 +78,9 @@ class UsbLink::Pipe : public std::enable_shared_from_this<Pipe> {
 
  private:
   static constexpr int kBytes = static_cast<int>(usb_ids::kTransferBytes);
+  static constexpr std::size_t kReads = 2;
   struct Slot {
-    std::vector<unsigned char> bytes = std::vector<unsigned char>(usb_ids::kTransferBytes);
+    TransferMemory memory;
     libusb_transfer* transfer = nullptr;
     std::shared_ptr<Pipe> pipe;  ///< while submitted
     bool busy = false;
@@ -78,7 +88,7 @@ class UsbLink::Pipe : public std::enable_shared_from_this<Pipe> {
 
   bool submit(Slot& slot, std::uint8_t endpoint, int size) {
     if (slot.transfer == nullptr) slot.transfer = libusb_alloc_transfer(0);
-    libusb_fill_bulk_transfer(slot.transfer, handle_, endpoint, slot.bytes.data(), size, &Pipe::completed,
+    libusb_fill_bulk_transfer(slot.transfer, handle_, endpoint, slot.memory.data(), size, &Pipe::completed,
                               &slot, 0);
     slot.pipe = shared_from_this();
     slot.busy = true;
@@ -103,7 +113,7 @@ class UsbLink::Pipe : public std::enable_shared_from_this<Pipe> {
         transfer.status == LIBUSB_TRANSFER_COMPLETED && (in || transfer.actual_length == transfer.length);
     QByteArray bytes;
     if (in && well)
-      bytes = QByteArray(reinterpret_cast<const char*>(slot.bytes.data()), transfer.actual_length);
+      bytes = QByteArray(reinterpret_cast<const char*>(slot.memory.data()), transfer.actual_length);
     bool drained = false;
     {
       const std::lock_guard lock(mutex_);
@@ -140,7 +150,7 @@ class UsbLink::Pipe : public std::enable_shared_from_this<Pipe> {
   UsbLinkInterface link_;
   std::mutex mutex_;
   UsbLink* owner_;
-  std::array<Slot, 2> in_, out_;
+  std::vector<Slot> in_, out_;  ///< never moved
   bool full_ = false;
 };
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "protocol/joblink/sha256.hpp"
+#include "protocol/joblink/job_hash.hpp"
 
 namespace kinebus::joblink {
 namespace {
@@ -188,7 +188,7 @@ TEST_F(ClientTest, UploadResumesAtAnyByteWhereTheLinkBreaks) {
     news_.clear();
     client_.on_disconnected(now_, "between two cases");
     connect();
-    client_.upload({.name = "a.gcode", .size_bytes = text.size(), .sha256 = sha256_of(text)},
+    client_.upload({.name = "a.gcode", .size_bytes = text.size(), .hash = job_hash_of(text)},
                    std::make_unique<Text>(text));
     pump(333, cut);
     client_.on_disconnected(now_, "unplugged");

@@ -21,7 +21,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace kinebus::joblink;
   Client client({.name = "fuzz", .version = {}, .token = {}, .session_seed = 1});
   client.on_connected(kinebus::LocalTime{0});
-  client.upload({.name = "a", .size_bytes = 100'000, .sha256 = std::string(32, 'x')},
+  client.upload({.name = "a", .size_bytes = 100'000, .hash = std::string(32, 'x')},
                 std::make_unique<Zeros>());
   kinebus::LocalTime now{0};
   std::span<const std::uint8_t> rest(data, size);

@@ -8,13 +8,13 @@
 #include <sstream>
 
 #include "gateway/jobs/store/tests/temporary_folder.hpp"
-#include "protocol/joblink/sha256.hpp"
+#include "protocol/joblink/job_hash.hpp"
 
 namespace kinebus {
 namespace {
 
 namespace fs = std::filesystem;
-using joblink::sha256_of;
+using joblink::job_hash_of;
 
 std::string text_of(std::size_t size, unsigned seed = 1) {
   std::string text(size, '\0');
@@ -28,7 +28,7 @@ std::string file_text(const fs::path& path) {
   return std::move(text).str();
 }
 UploadIdentity identity_of(const std::string& name, const std::string& text) {
-  return {name, text.size(), sha256_of(text)};
+  return {name, text.size(), job_hash_of(text)};
 }
 
 class JobStoreTest : public ::testing::Test {
@@ -66,7 +66,7 @@ TEST_F(JobStoreTest, AnUploadIsInvisibleUntilItIsWhole) {
   const auto jobs = store_->list()->jobs;
   ASSERT_EQ(jobs.size(), 1U);
   EXPECT_EQ(jobs[0].name, "a.gcode");
-  EXPECT_EQ(jobs[0].sha256, sha256_of(text));
+  EXPECT_EQ(jobs[0].hash, job_hash_of(text));
   EXPECT_EQ(jobs[0].stored_unix_s, 1234);
   EXPECT_EQ(file_text(options_.folder / "a.gcode"), text);
 }
@@ -101,7 +101,7 @@ TEST_F(JobStoreTest, ASecondBeginTakesTheUploadOver) {
 
 TEST_F(JobStoreTest, BytesThatAreNotThoseAnnouncedAreNotStored) {
   const std::string text = text_of(100);
-  const auto begun = store_->begin_upload({"a", 100, sha256_of("another text")}, false, 1000);
+  const auto begun = store_->begin_upload({"a", 100, job_hash_of("another text")}, false, 1000);
   ASSERT_TRUE(store_->append(begun->id, 0, text));
   EXPECT_EQ(store_->commit(begun->id, 1).error().kind, StoreError::Kind::kChecksum);
   EXPECT_TRUE(store_->list()->jobs.empty());
@@ -212,8 +212,32 @@ TEST_F(JobStoreTest, FilesPutInOrTakenOutByHandAreSeenAtTheNextStart) {
   const auto jobs = store_->list()->jobs;
   ASSERT_EQ(jobs.size(), 2U);
   EXPECT_EQ(jobs[0].name, "changed");
-  EXPECT_EQ(jobs[0].sha256, sha256_of("changed by hand"));
-  EXPECT_EQ(jobs[1].sha256, sha256_of("G0 X1"));
+  EXPECT_EQ(jobs[0].hash, job_hash_of("changed by hand"));
+  EXPECT_EQ(jobs[1].hash, job_hash_of("G0 X1"));
+}
+
+TEST_F(JobStoreTest, AStoreOfAnOlderGatewayKeepsItsJobsAndHistory) {
+  EXPECT_EQ(put("a", "G0 X1"), "");
+  const auto run = store_->begin_run({.name = "a", .hash = "an old one", .begun_unix_s = 10});
+  ASSERT_TRUE(run);
+  ASSERT_TRUE(store_->end_run(*run, RunResult::kComplete, 5, 5, 1, ""));
+  store_.reset();
+  {
+    auto older = Database::open(options_.folder / ".jobs.sqlite");
+    ASSERT_TRUE(older);
+    ASSERT_TRUE(
+        older->run("ALTER TABLE runs RENAME COLUMN hash TO sha256;"
+                   "ALTER TABLE jobs RENAME COLUMN hash TO sha256; UPDATE jobs SET sha256 = x'00112233';"
+                   "ALTER TABLE preflights RENAME COLUMN hash TO sha256;"));
+  }
+  for (int start = 0; start < 2; ++start) {
+    reopen();
+    const auto jobs = store_->list()->jobs;
+    ASSERT_EQ(jobs.size(), 1U);
+    EXPECT_EQ(jobs[0].hash, job_hash_of("G0 X1"));
+    EXPECT_EQ(jobs[0].times_run, 1U);
+    ASSERT_EQ(store_->history(0, 9)->size(), 1U);
+  }
 }
 
 TEST_F(JobStoreTest, AFileOfAPrintHostIsNoJobUntilItIsTakenOver) {
@@ -231,10 +255,10 @@ TEST_F(JobStoreTest, AFileOfAPrintHostIsNoJobUntilItIsTakenOver) {
 
 TEST_F(JobStoreTest, HistoryTellsHowEachRunEnded) {
   EXPECT_EQ(put("a", "1"), "");
-  const auto first = store_->begin_run({.name = "a", .sha256 = sha256_of("1"), .begun_unix_s = 10});
+  const auto first = store_->begin_run({.name = "a", .hash = job_hash_of("1"), .begun_unix_s = 10});
   ASSERT_TRUE(first);
   EXPECT_TRUE(store_->end_run(*first, RunResult::kComplete, 61.5, 60, 900, ""));
-  const auto second = store_->begin_run({.name = "a", .sha256 = sha256_of("1"), .begun_unix_s = 100});
+  const auto second = store_->begin_run({.name = "a", .hash = job_hash_of("1"), .begun_unix_s = 100});
   ASSERT_TRUE(second);
   reopen();
   const auto runs = *store_->history(0, 10);
@@ -252,7 +276,7 @@ TEST_F(JobStoreTest, HistoryTellsHowEachRunEnded) {
 TEST_F(JobStoreTest, APreflightIsThatOfItsMachineAndText) {
   EXPECT_EQ(put("a", "1"), "");
   store_->set_machine("m1");
-  EXPECT_TRUE(store_->save_preflight(sha256_of("1"), "m1", {.errors = 2, .lines = 7, .motion_s = 1.5}));
+  EXPECT_TRUE(store_->save_preflight(job_hash_of("1"), "m1", {.errors = 2, .lines = 7, .motion_s = 1.5}));
   ASSERT_TRUE(store_->list()->jobs[0].preflight);
   EXPECT_EQ(store_->list()->jobs[0].preflight->errors, 2U);
   store_->set_machine("m2");

@@ -12,13 +12,13 @@
 
 #include "gateway/jobs/store/job_store.hpp"
 #include "gateway/jobs/store/tests/temporary_folder.hpp"
-#include "protocol/joblink/sha256.hpp"
+#include "protocol/joblink/job_hash.hpp"
 
 namespace kinebus {
 namespace {
 
 namespace fs = std::filesystem;
-using joblink::sha256_of;
+using joblink::job_hash_of;
 
 std::string text_of(int version) {
   return std::string(static_cast<std::size_t>(200 + version * 37 % 5000),
@@ -31,8 +31,8 @@ std::string text_of(int version) {
   auto store = JobStore::open({.folder = folder, .margin_bytes = 0}, 1000);
   for (int version = first;; ++version) {
     const std::string text = text_of(version), name = "job" + std::to_string(version % 4);
-    const auto run = store->begin_run({.name = name, .sha256 = sha256_of(text)});
-    const auto begun = store->begin_upload({name, text.size(), sha256_of(text)}, true, 1000);
+    const auto run = store->begin_run({.name = name, .hash = job_hash_of(text)});
+    const auto begun = store->begin_upload({name, text.size(), job_hash_of(text)}, true, 1000);
     if (!run || !begun) ::_exit(1);
     // Stored by the process before, which was killed before it could say so.
     if (!begun->stored && (!store->append(begun->id, 0, text) || !store->commit(begun->id, version)))
@@ -76,14 +76,14 @@ TEST(PowerCut, WhatWasAcknowledgedIsThereAfterAKillAtAnyMoment) {
     for (const StoredJob& job : listing->jobs) {
       std::ostringstream text;
       text << std::ifstream(folder.path() / job.name).rdbuf();
-      EXPECT_EQ(job.sha256, sha256_of(text.str())) << job.name;
+      EXPECT_EQ(job.hash, job_hash_of(text.str())) << job.name;
     }
     // The last four acknowledged versions, or one that was stored but not acknowledged yet.
     for (int v = std::max(0, version - 4); v < version; ++v) {
       const auto job = store->find("job" + std::to_string(v % 4));
       ASSERT_TRUE(job);
-      EXPECT_TRUE(job->sha256 == sha256_of(text_of(v)) ||
-                  (v == version - 4 && job->sha256 == sha256_of(text_of(version))));
+      EXPECT_TRUE(job->hash == job_hash_of(text_of(v)) ||
+                  (v == version - 4 && job->hash == job_hash_of(text_of(version))));
     }
     std::size_t complete = 0;
     const auto history = store->history(0, 1000);
@@ -98,7 +98,7 @@ TEST(PowerCut, WhatWasAcknowledgedIsThereAfterAKillAtAnyMoment) {
 TEST(PowerCut, BytesThatNeverReachedTheDiskAreSentAgain) {
   TemporaryFolder folder;
   const std::string text(40U << 20, 'g');
-  const UploadIdentity identity{"big", text.size(), sha256_of(text)};
+  const UploadIdentity identity{"big", text.size(), job_hash_of(text)};
   for (const std::size_t left : {0UL, 5UL << 20, 20UL << 20, 34UL << 20}) {
     {
       auto store = JobStore::open({.folder = folder.path(), .margin_bytes = 0}, 1000);
@@ -136,7 +136,7 @@ TEST(PowerCut, ADatabaseCutAnywhereIsMadeAnewFromTheJobs) {
     for (int v = 0; v < 4; ++v) {
       const std::string text = text_of(v);
       const auto begun =
-          store->begin_upload({"job" + std::to_string(v), text.size(), sha256_of(text)}, true, 1000);
+          store->begin_upload({"job" + std::to_string(v), text.size(), job_hash_of(text)}, true, 1000);
       ASSERT_TRUE(begun && store->append(begun->id, 0, text) && store->commit(begun->id, 1));
     }
   }
@@ -149,7 +149,7 @@ TEST(PowerCut, ADatabaseCutAnywhereIsMadeAnewFromTheJobs) {
     const auto listing = store->list();
     ASSERT_TRUE(listing) << "cut to " << size;
     ASSERT_EQ(listing->jobs.size(), 4U) << "cut to " << size;
-    EXPECT_EQ(listing->jobs[3].sha256, sha256_of(text_of(3)));
+    EXPECT_EQ(listing->jobs[3].hash, job_hash_of(text_of(3)));
     EXPECT_TRUE(store->begin_run({.name = "job0"})) << "cut to " << size;
   }
 }
