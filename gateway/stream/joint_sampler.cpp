@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace kinebus {
 
@@ -17,7 +18,7 @@ constexpr double kCheckedShare = 0.85;
 
 JointSampler::JointSampler(const Kinematics& kinematics, Options options)
     : kinematics_(&kinematics),
-      options_(options),
+      options_(std::move(options)),
       joints_(static_cast<std::size_t>(kinematics.joint_count())) {
   for (std::size_t j = 0; j < joints_; ++j) {
     const bool rotary = kinematics.joint_info(static_cast<int>(j)).rotary;

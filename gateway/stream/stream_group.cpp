@@ -28,7 +28,8 @@ BacklashTakeUp::Joints gaps_of(const std::vector<NodeAxes>& nodes) {
 
 }  // namespace
 
-StreamGroup::StreamGroup(const Kinematics& kinematics, const std::vector<NodeAxes>& nodes, Options options)
+StreamGroup::StreamGroup(const Kinematics& kinematics, const std::vector<NodeAxes>& nodes,
+                         const Options& options)
     : options_(options),
       sampler_(kinematics, with_maps(options.sampler, nodes)),
       take_up_(gaps_of(nodes)),

@@ -49,7 +49,7 @@ class StreamGroup {
 
   StreamGroup(const Kinematics& kinematics, const std::vector<NodeAxes>& nodes)
       : StreamGroup(kinematics, nodes, Options{}) {}
-  StreamGroup(const Kinematics& kinematics, const std::vector<NodeAxes>& nodes, Options options);
+  StreamGroup(const Kinematics& kinematics, const std::vector<NodeAxes>& nodes, const Options& options);
 
   std::size_t node_count() const { return nodes_.size(); }
   /// Where the axes of a node stand (their velocity counts as 0), and the stream status it last reported.

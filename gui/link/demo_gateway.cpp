@@ -38,7 +38,7 @@ DemoGateway::~DemoGateway() {
 }
 
 QString DemoGateway::find_daemon() {
-  const QString beside = QCoreApplication::applicationDirPath() + QStringLiteral("/kinebusd");
+  QString beside = QCoreApplication::applicationDirPath() + QStringLiteral("/kinebusd");
   if (QFileInfo(beside).isExecutable()) return beside;
   return QStandardPaths::findExecutable(QStringLiteral("kinebusd"));
 }

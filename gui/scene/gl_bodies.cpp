@@ -4,6 +4,8 @@
 #include <numbers>
 #include <vector>
 
+#include "gui/scene/gl_offset.hpp"
+
 namespace kinebus::gui {
 namespace {
 
@@ -87,8 +89,7 @@ void GlBodies::build(QOpenGLExtraFunctions& gl) {
   gl.glEnableVertexAttribArray(0);
   gl.glEnableVertexAttribArray(1);
   gl.glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(Corner), nullptr);
-  gl.glVertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, sizeof(Corner),
-                           reinterpret_cast<const void*>(sizeof(QVector3D)));
+  gl.glVertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, sizeof(Corner), buffer_offset(sizeof(QVector3D)));
   array_.release();
 }
 

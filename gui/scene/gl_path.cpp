@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "gui/scene/gl_offset.hpp"
+
 namespace kinebus::gui {
 
 void GlPath::release() {
@@ -36,7 +38,7 @@ void GlPath::set(QOpenGLExtraFunctions& gl, std::shared_ptr<const ScenePath> sce
   gl.glEnableVertexAttribArray(1);
   gl.glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(PathVertex), nullptr);
   gl.glVertexAttribPointer(1, 4, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(PathVertex),
-                           reinterpret_cast<const void*>(offsetof(PathVertex, shade)));
+                           buffer_offset(offsetof(PathVertex, shade)));
   // Coarse levels first: they are what the first picture shows.
   const auto add_list = [&](std::size_t slot, const std::vector<std::uint32_t>& list) {
     add(indices_[slot], list.data(), list.size() * sizeof(std::uint32_t));
@@ -74,8 +76,7 @@ void GlPath::draw(QOpenGLExtraFunctions& gl, const DrawRange& range, std::uint32
   array_.bind();
   indices(range).bind();
   const std::size_t offset = (std::size_t{range.lines.first} + skip) * 2 * sizeof(std::uint32_t);
-  gl.glDrawElements(GL_LINES, static_cast<GLsizei>(2 * count), GL_UNSIGNED_INT,
-                    reinterpret_cast<const void*>(offset));
+  gl.glDrawElements(GL_LINES, static_cast<GLsizei>(2 * count), GL_UNSIGNED_INT, buffer_offset(offset));
   array_.release();
 }
 

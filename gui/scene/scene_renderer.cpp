@@ -283,11 +283,15 @@ void SceneRenderer::draw_figure() {
     grid.emplace_back(static_cast<float>(x0), static_cast<float>(y0), 0.1F);
     grid.emplace_back(static_cast<float>(x1), static_cast<float>(y1), 0.1F);
   };
-  for (double x = std::ceil(low_x / 50) * 50; x <= half_x; x += 50) {
+  constexpr int kGrid_mm = 50;
+  const auto first = [](double low_mm) { return static_cast<int>(std::ceil(low_mm / kGrid_mm)); };
+  for (int i = first(low_x); i * kGrid_mm <= half_x; ++i) {
+    const double x = i * kGrid_mm;
     const double y = m.round() ? std::sqrt(std::max(0.0, half_y * half_y - x * x)) : half_y;
     line(x, m.round() ? -y : low_y, x, y);
   }
-  for (double y = std::ceil(low_y / 50) * 50; y <= half_y; y += 50) {
+  for (int i = first(low_y); i * kGrid_mm <= half_y; ++i) {
+    const double y = i * kGrid_mm;
     const double x = m.round() ? std::sqrt(std::max(0.0, half_x * half_x - y * y)) : half_x;
     line(m.round() ? -x : low_x, y, x, y);
   }

@@ -64,9 +64,9 @@ QByteArray vase_job(int layers, int walls, double layer_mm) {
     for (int k = 1; k <= walls; ++k)
       ring(w, height, z, 0.45 * (walls - k), 80, k == walls && walls > 1 ? 3600 : 6600);
     if (z > 1) continue;
-    int row = 0;
-    for (double y = -30; y <= 30; y += 1.2) {
-      const double x = std::sqrt(std::max(0.0, 31.0 * 31 - y * y)) * (++row % 2 == 0 ? 1 : -1);
+    for (int row = 0; row <= 50; ++row) {
+      const double y = -30 + 1.2 * row;
+      const double x = std::sqrt(std::max(0.0, 31.0 * 31 - y * y)) * (row % 2 == 0 ? -1 : 1);
       w.travel(-x, y, z);
       w.work(x, y, 9000);
     }

@@ -14,7 +14,7 @@ const QVector<Language::Choice>& Language::choices() {
 }
 
 QString Language::system_code() {
-  const QString code = QLocale::system().name().left(2);
+  QString code = QLocale::system().name().left(2);
   for (const Choice& choice : choices())
     if (choice.code == code) return code;
   return QStringLiteral("en");
