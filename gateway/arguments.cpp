@@ -5,7 +5,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "gateway/machine/description/machine_file.hpp"
+#include "gateway/description/machine_file.hpp"
 
 namespace kinebus {
 

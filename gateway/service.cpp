@@ -10,15 +10,15 @@
 #include <stdexcept>
 #include <utility>
 
-#include "gateway/inproc/inproc_bus.hpp"
+#include "gateway/description/machine_file.hpp"
 #include "gateway/io/bus_log.hpp"
 #include "gateway/io/daemon.hpp"
 #include "gateway/io/socketcan_bus.hpp"
 #include "gateway/io/systemd_notify.hpp"
-#include "gateway/machine/description/machine_file.hpp"
 #include "protocol/host/realtime.hpp"
 #include "protocol/host/socketcan.hpp"
 #include "protocol/joblink/sha256.hpp"
+#include "tools/simulation/bus/inproc_bus.hpp"
 
 namespace kinebus {
 namespace {

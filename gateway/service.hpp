@@ -7,6 +7,7 @@
 #include <string>
 
 #include "gateway/arguments.hpp"
+#include "gateway/description/machine_description.hpp"
 #include "gateway/io/bus_port.hpp"
 #include "gateway/io/event_loop.hpp"
 #include "gateway/io/flight_recorder.hpp"
@@ -19,7 +20,6 @@
 #include "gateway/io/usb/serial_ports.hpp"
 #include "gateway/io/worker_thread.hpp"
 #include "gateway/jobs/store/job_store.hpp"
-#include "gateway/machine/description/machine_description.hpp"
 #include "gateway/machine/gateway.hpp"
 #include "gateway/sessions/control.hpp"
 #include "gateway/sessions/job_link_server.hpp"

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <optional>
 
+#include "gateway/description/machine_description.hpp"
 #include "gateway/gcode/canonical.hpp"
 #include "gateway/jobs/problem.hpp"
-#include "gateway/machine/description/machine_description.hpp"
 #include "gateway/motion/trajectory.hpp"
 
 namespace kinebus {

@@ -12,12 +12,12 @@
 #include <optional>
 #include <vector>
 
+#include "gateway/description/machine_description.hpp"
 #include "gateway/gcode/interpreter.hpp"
 #include "gateway/gcode/job_reader.hpp"
 #include "gateway/jobs/byte_source.hpp"
 #include "gateway/jobs/job_place.hpp"
 #include "gateway/jobs/problem.hpp"
-#include "gateway/machine/description/machine_description.hpp"
 #include "gateway/motion/planner.hpp"
 
 namespace kinebus {

@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
+#include "gateway/description/machine_description.hpp"
 #include "gateway/gcode/interpreter.hpp"
 #include "gateway/jobs/problem.hpp"
-#include "gateway/machine/description/machine_description.hpp"
 #include "gateway/result.hpp"
 
 namespace kinebus {

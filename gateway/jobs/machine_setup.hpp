@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "gateway/description/machine_description.hpp"
 #include "gateway/gcode/interpreter.hpp"
-#include "gateway/machine/description/machine_description.hpp"
 #include "gateway/motion/motion_limits.hpp"
 #include "gateway/sentence.hpp"
 #include "gateway/stream/axis_scaling.hpp"

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "gateway/description/machine_description.hpp"
 #include "gateway/machine/alarm.hpp"
-#include "gateway/machine/description/machine_description.hpp"
 #include "gateway/machine/node_configuration.hpp"
 #include "gateway/machine/node_link.hpp"
 #include "gateway/machine/path_rate.hpp"

@@ -32,7 +32,7 @@
 
 namespace kinebus {
 
-struct MachineDescription;  // gateway/machine/description
+struct MachineDescription;  // gateway/description
 
 /// Why a command was not carried out. Nothing has changed then.
 struct Refusal {

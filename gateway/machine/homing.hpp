@@ -20,8 +20,8 @@
 #include <string>
 #include <vector>
 
+#include "gateway/description/machine_description.hpp"
 #include "gateway/machine/bring_up.hpp"
-#include "gateway/machine/description/machine_description.hpp"
 #include "gateway/machine/node_link.hpp"
 #include "gateway/sentence.hpp"
 

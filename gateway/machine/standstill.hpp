@@ -7,8 +7,8 @@
 #include <deque>
 #include <vector>
 
+#include "gateway/description/machine_description.hpp"
 #include "gateway/machine/bring_up.hpp"
-#include "gateway/machine/description/machine_description.hpp"
 #include "gateway/machine/node_link.hpp"
 #include "protocol/motion/segment.hpp"
 

@@ -4,10 +4,10 @@
 #include <string>
 #include <string_view>
 
+#include "gateway/description/machine_description.hpp"
+#include "gateway/description/machine_file.hpp"
 #include "gateway/jobs/preflight.hpp"
 #include "gateway/jobs/store/job_store.hpp"
-#include "gateway/machine/description/machine_description.hpp"
-#include "gateway/machine/description/machine_file.hpp"
 #include "gateway/machine/event.hpp"
 #include "gateway/machine/gateway.hpp"
 #include "gateway/machine/status.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "gateway/calibration/geometry_model.hpp"
-#include "gateway/machine/description/machine_description.hpp"
+#include "gateway/description/machine_description.hpp"
 
 namespace kinebus {
 

@@ -4,7 +4,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "gateway/machine/description/machine_file.hpp"
+#include "gateway/description/machine_file.hpp"
 
 namespace kinebus {
 namespace {

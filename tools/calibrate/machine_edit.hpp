@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "gateway/machine/description/machine_description.hpp"
+#include "gateway/description/machine_description.hpp"
 
 namespace kinebus {
 

@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "gateway/calibration/geometry_fit.hpp"
-#include "gateway/machine/description/machine_file.hpp"
+#include "gateway/description/machine_file.hpp"
 #include "tools/calibrate/hidden.hpp"
 #include "tools/calibrate/machine_edit.hpp"
 #include "tools/calibrate/readings.hpp"

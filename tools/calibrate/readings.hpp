@@ -7,7 +7,7 @@
 
 #include "gateway/calibration/geometry_model.hpp"
 #include "gateway/calibration/rail_fit.hpp"
-#include "gateway/machine/description/machine_description.hpp"
+#include "gateway/description/machine_description.hpp"
 #include "tools/calibrate/csv.hpp"
 
 namespace kinebus {

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "gateway/machine/description/machine_description.hpp"
+#include "gateway/description/machine_description.hpp"
 #include "gateway/result.hpp"
 
 namespace kinebus {

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "gateway/machine/description/machine_file.hpp"
+#include "gateway/description/machine_file.hpp"
 
 namespace kinebus {
 

@@ -12,7 +12,7 @@
 #include "protocol/can/candump.hpp"
 #include "tools/cli/job_watch.hpp"
 #include "tools/cli/offline.hpp"
-#include "vcan_tests/sim/simulate.hpp"
+#include "tools/simulation/simulate.hpp"
 
 namespace kinebus {
 namespace {

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "gateway/machine/description/machine_file.hpp"
+#include "gateway/description/machine_file.hpp"
 #include "protocol/host/guarded_main.hpp"
 #include "tools/compose/composer.hpp"
 #include "tools/compose/example_parts.hpp"

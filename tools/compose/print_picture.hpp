@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "gateway/machine/description/machine_description.hpp"
+#include "gateway/description/machine_description.hpp"
 #include "tools/compose/joiner.hpp"
 #include "tools/compose/nozzle.hpp"
 

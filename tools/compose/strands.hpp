@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "gateway/machine/description/machine_description.hpp"
+#include "gateway/description/machine_description.hpp"
 #include "tools/compose/joiner.hpp"
 #include "tools/compose/mesh.hpp"
 

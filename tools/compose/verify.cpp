@@ -8,11 +8,11 @@
 #include <stdexcept>
 #include <variant>
 
+#include "gateway/description/machine_description.hpp"
 #include "gateway/gcode/job_reader.hpp"
 #include "gateway/jobs/job_plan.hpp"
 #include "gateway/jobs/machine_setup.hpp"
 #include "gateway/kinematics/kinematics.hpp"
-#include "gateway/machine/description/machine_description.hpp"
 #include "tools/compose/tool_path.hpp"
 
 namespace kinebus::compose {

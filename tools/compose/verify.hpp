@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "gateway/description/machine_description.hpp"
 #include "gateway/jobs/problem.hpp"
-#include "gateway/machine/description/machine_description.hpp"
 #include "tools/compose/joiner.hpp"
 #include "tools/compose/nozzle.hpp"
 

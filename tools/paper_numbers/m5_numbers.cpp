@@ -14,8 +14,8 @@
 #include "tools/calibrate/rehearsal.hpp"
 #include "tools/calibrate/residual_plot.hpp"
 #include "tools/paper_numbers/numbers.hpp"
-#include "vcan_tests/sim/job_generator.hpp"
-#include "vcan_tests/sim/simulate.hpp"
+#include "tools/simulation/job_generator.hpp"
+#include "tools/simulation/simulate.hpp"
 
 namespace kinebus::papers {
 namespace {

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "gateway/machine/description/machine_file.hpp"
+#include "gateway/description/machine_file.hpp"
 #include "tools/workspace/boundary.hpp"
 #include "tools/workspace/optimise.hpp"
 #include "tools/workspace/picture.hpp"

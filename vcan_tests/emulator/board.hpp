@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "node_firmware/port/host/virtual_machine.hpp"
+#include "tools/simulation/bus/virtual_machine.hpp"
 #include "vcan_tests/emulator/cpu/cortex_m4.hpp"
 #include "vcan_tests/emulator/peripherals/adc.hpp"
 #include "vcan_tests/emulator/peripherals/as5047.hpp"

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "node_firmware/port/host/node_machine.hpp"
 #include "protocol/canopen/lss.hpp"
+#include "tools/simulation/bus/node_machine.hpp"
 #include "vcan_tests/emulator/board.hpp"
 
 namespace kinebus::emulator {

@@ -13,11 +13,11 @@
 #include <string>
 #include <vector>
 
+#include "gateway/description/machine_description.hpp"
 #include "gateway/gcode/interpreter.hpp"
 #include "gateway/jobs/job_pipeline.hpp"
 #include "gateway/jobs/machine_setup.hpp"
 #include "gateway/jobs/store/file_source.hpp"
-#include "gateway/machine/description/machine_description.hpp"
 #include "protocol/host/guarded_main.hpp"
 
 namespace {

@@ -7,8 +7,8 @@
 #include <chrono>
 #include <filesystem>
 
+#include "gateway/description/machine_description.hpp"
 #include "gateway/jobs/store/tests/temporary_folder.hpp"
-#include "gateway/machine/description/machine_description.hpp"
 #include "gateway/machine/gateway.hpp"
 
 namespace kinebus {

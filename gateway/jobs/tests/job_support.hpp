@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "gateway/machine/description/machine_description.hpp"
+#include "gateway/description/machine_description.hpp"
 
 namespace kinebus::job_test {
 

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "gateway/inproc/virtual_nodes.hpp"
 #include "gateway/machine/alarm.hpp"
 #include "gateway/machine/gateway.hpp"
-#include "node_firmware/port/host/virtual_machine.hpp"
+#include "tools/simulation/bus/virtual_machine.hpp"
+#include "tools/simulation/bus/virtual_nodes.hpp"
 
 namespace kinebus {
 

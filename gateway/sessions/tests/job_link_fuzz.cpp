@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <span>
 
-#include "gateway/machine/description/machine_description.hpp"
+#include "gateway/description/machine_description.hpp"
 #include "gateway/sessions/job_link_server.hpp"
 #include "protocol/joblink/frame_codec.hpp"
 

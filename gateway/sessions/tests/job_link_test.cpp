@@ -4,7 +4,7 @@
 #include <random>
 #include <sstream>
 
-#include "gateway/machine/description/machine_file.hpp"
+#include "gateway/description/machine_file.hpp"
 #include "gateway/sessions/tests/link_rig.hpp"
 #include "protocol/joblink/frame_codec.hpp"
 #include "protocol/joblink/sha256.hpp"

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "gateway/machine/description/machine_file.hpp"
+#include "gateway/description/machine_file.hpp"
 #include "tools/calibrate/hidden.hpp"
 #include "tools/calibrate/machine_edit.hpp"
 #include "tools/calibrate/readings.hpp"

@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "gateway/machine/description/machine_file.hpp"
+#include "gateway/description/machine_file.hpp"
 #include "tools/calibrate/readings.hpp"
 
 namespace kinebus {

@@ -5,7 +5,7 @@
 
 #include "tools/calibrate/hidden.hpp"
 #include "tools/calibrate/rehearsal.hpp"
-#include "vcan_tests/sim/tests/simulated_job.hpp"
+#include "tools/simulation/tests/simulated_job.hpp"
 
 namespace kinebus {
 namespace {

@@ -10,7 +10,7 @@
 #include "gateway/jobs/byte_source.hpp"
 #include "tools/compose/composer.hpp"
 #include "tools/compose/example_parts.hpp"
-#include "vcan_tests/sim/simulate.hpp"
+#include "tools/simulation/simulate.hpp"
 
 namespace kinebus::compose {
 namespace {

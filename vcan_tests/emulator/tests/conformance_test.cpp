@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "node_firmware/port/host/virtual_machine.hpp"
+#include "tools/simulation/bus/virtual_machine.hpp"
 #include "vcan_tests/emulator/emulated_machine.hpp"
 #include "vcan_tests/emulator/tests/gateway_bench.hpp"
 

@@ -10,13 +10,13 @@
 #include <string>
 #include <vector>
 
-#include "node_firmware/port/host/node_machine.hpp"
 #include "protocol/bytes.hpp"
 #include "protocol/can/candump.hpp"
 #include "protocol/canopen/nmt.hpp"
 #include "protocol/canopen/node_objects.hpp"
 #include "protocol/motion/broadcast.hpp"
 #include "protocol/motion/segment.hpp"
+#include "tools/simulation/bus/node_machine.hpp"
 
 namespace kinebus::emulator {
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "protocol/bytes.hpp"
+#include "tools/simulation/simulate.hpp"
 #include "vcan_tests/emulator/emulated_machine.hpp"
-#include "vcan_tests/sim/simulate.hpp"
 
 namespace kinebus::emulator {
 namespace {

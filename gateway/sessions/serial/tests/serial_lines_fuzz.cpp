@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "gateway/description/machine_description.hpp"
 #include "gateway/jobs/live_lines.hpp"
-#include "gateway/machine/description/machine_description.hpp"
 #include "gateway/sessions/serial/marlin_session.hpp"
 
 namespace kinebus {

@@ -1,0 +1,208 @@
+#include "gateway/description/machine_description.hpp"
+
+#include "gateway/description/machine_schema.hpp"
+
+namespace kinebus {
+namespace {
+
+HomingDescription tower_homing(std::uint8_t input) {
+  return {.method = 20,
+          .switch_input = input,
+          .fast_per_s = 40,
+          .slow_per_s = 4,
+          .accel_per_s2 = 500,
+          .back_off = 5,
+          .switch_position = 1030,
+          .max_search = 600,
+          .order = 1};
+}
+
+JointDescription tower(int number) {
+  JointDescription j;
+  j.name = "tower" + std::to_string(number);
+  j.node_id = static_cast<std::uint8_t>((number + 1) / 2);
+  j.axis = static_cast<std::uint8_t>((number - 1) % 2);
+  j.drive.travel_per_turn = 40;
+  j.travel = {530, 1030};
+  j.speed_per_s = 450;
+  j.accel_per_s2 = 5000;
+  j.stop_accel_per_s2 = 10000;
+  j.run_current_ma = 2000;
+  j.hold_current_ma = 1500;
+  j.homing = tower_homing(static_cast<std::uint8_t>(j.axis + 1));
+  return j;
+}
+
+}  // namespace
+
+MachineDescription default_m1() {
+  MachineDescription d;
+  d.name = "M1";
+  d.kinematics = M1Geometry{};
+  for (int number = 1; number <= 4; ++number) d.joints.push_back(tower(number));
+  JointDescription c;
+  c.name = "C";
+  c.rotary = true;
+  c.node_id = 3;
+  c.axis = 0;
+  c.drive.travel_per_turn = 120 * kRadPerDeg;
+  c.speed_per_s = 360 * kRadPerDeg;
+  c.accel_per_s2 = 3600 * kRadPerDeg;
+  c.stop_accel_per_s2 = 7200 * kRadPerDeg;
+  c.run_current_ma = 1200;
+  c.hold_current_ma = 800;
+  d.joints.push_back(c);
+  JointDescription e;
+  e.name = "E";
+  e.node_id = 3;
+  e.axis = 1;
+  e.drive.travel_per_turn = 23.2;
+  e.speed_per_s = 60;
+  e.accel_per_s2 = 3000;
+  e.stop_accel_per_s2 = 4000;
+  e.run_current_ma = 900;
+  e.hold_current_ma = 400;
+  d.joints.push_back(e);
+  for (std::uint8_t id = 1; id <= 3; ++id) {
+    NodeDescription node{.id = id, .vendor = {}, .product = {}, .serial = {}};
+    if (id <= 2)
+      for (std::uint8_t axis = 0; axis < 2; ++axis) node.inputs[axis] = {InputFunction::kHome, axis};
+    d.nodes.push_back(node);
+  }
+  return d;
+}
+
+std::string identity(const MachineDescription& description) {
+  std::string text = description.name;
+  for (const JointDescription& joint : description.joints) text += " " + joint.name;
+  return text;
+}
+
+std::vector<JointName> joint_names(const KinematicsGeometry& geometry) {
+  if (std::holds_alternative<M1Geometry>(geometry))
+    return {{"tower1"}, {"tower2"}, {"tower3"}, {"tower4"}, {"C", true}, {"E"}};
+  if (const auto* cartesian = std::get_if<CartesianGeometry>(&geometry)) {
+    if (cartesian->has_table) return {{"X"}, {"Y"}, {"Z"}, {"A", true}, {"C", true}, {"E"}};
+    return {{"X"}, {"Y"}, {"Z"}, {"E"}};
+  }
+  if (std::holds_alternative<CoreXyGeometry>(geometry)) return {{"beltA"}, {"beltB"}, {"Z"}, {"E"}};
+  if (std::holds_alternative<M4Geometry>(geometry))
+    return {{"rail1"}, {"rail2"}, {"rail3"}, {"X"}, {"C", true}};
+  if (std::holds_alternative<M5Geometry>(geometry)) return {{"rail1"}, {"rail2"}, {"rail3"}, {"rail4"}};
+  return {{"tower1"}, {"tower2"}, {"tower3"}, {"E"}};
+}
+
+const PoseLimits* pose_limits(const KinematicsGeometry& geometry) {
+  return std::visit(
+      [](const auto& g) -> const PoseLimits* {
+        if constexpr (requires { g.limits; })
+          return &g.limits;
+        else
+          return nullptr;
+      },
+      geometry);
+}
+
+Result<std::unique_ptr<Kinematics>, GeometryError> make_kinematics(const MachineDescription& description) {
+  struct Make {
+    const std::optional<M1Correction>& correction;
+    auto operator()(const M1Geometry& g) const {
+      return make_m1_kinematics(correction ? corrected(g, *correction) : g);
+    }
+    auto operator()(const CartesianGeometry& g) const { return make_cartesian_kinematics(g); }
+    auto operator()(const CoreXyGeometry& g) const { return make_corexy_kinematics(g); }
+    auto operator()(const LinearDeltaGeometry& g) const { return make_linear_delta_kinematics(g); }
+    auto operator()(const M4Geometry& g) const { return make_m4_kinematics(g); }
+    auto operator()(const M5Geometry& g) const {
+      return make_m5_kinematics(correction ? M5Geometry{corrected(g, *correction)} : g);
+    }
+  };
+  return std::visit(Make{description.geometry_calibration}, description.kinematics);
+}
+
+namespace machine_schema {
+
+void prepare_kinematics(MachineDescription& d, int kind) {
+  if (!d.joints.empty() && static_cast<int>(d.kinematics.index()) == kind) return;
+  switch (kind) {
+    case 0: {
+      M1Geometry g;
+      g.limits = {};
+      d.kinematics = g;
+      break;
+    }
+    case 1:
+      d.kinematics = CartesianGeometry{};
+      break;
+    case 2:
+      d.kinematics = CoreXyGeometry{};
+      break;
+    case 3: {
+      LinearDeltaGeometry g;
+      g.limits = {};
+      d.kinematics = g;
+      break;
+    }
+    case 4: {
+      M4Geometry g;
+      g.limits = {};
+      d.kinematics = g;
+      break;
+    }
+    default: {
+      M5Geometry g;
+      g.limits = {};
+      d.kinematics = g;
+      break;
+    }
+  }
+  d.joints.clear();
+}
+
+void prepare_joints(MachineDescription& d) {
+  const std::vector<JointName> names = joint_names(d.kinematics);
+  d.joints.resize(names.size());
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (d.joints[i].name == names[i].name) continue;
+    d.joints[i] = {};
+    d.joints[i].name = names[i].name;
+    d.joints[i].rotary = names[i].rotary;
+  }
+}
+
+bool has_own_travel(const MachineDescription& d, std::size_t joint) {
+  return !(std::holds_alternative<CoreXyGeometry>(d.kinematics) && joint < 2);
+}
+
+void connect_travel(MachineDescription& d) {
+  auto& j = d.joints;
+  if (auto* m1 = std::get_if<M1Geometry>(&d.kinematics)) {
+    for (std::size_t i = 0; i < 4; ++i) m1->legs[i].travel_mm = j[i].travel;
+    m1->limits.c_rad = j[4].travel;
+  } else if (auto* cartesian = std::get_if<CartesianGeometry>(&d.kinematics)) {
+    cartesian->x_mm = j[0].travel;
+    cartesian->y_mm = j[1].travel;
+    cartesian->z_mm = j[2].travel;
+    if (cartesian->has_table) {
+      cartesian->table.a_rad = j[3].travel;
+      cartesian->table.c_rad = j[4].travel;
+    } else {
+      cartesian->table = {};
+    }
+  } else if (auto* corexy = std::get_if<CoreXyGeometry>(&d.kinematics)) {
+    corexy->z_mm = j[2].travel;
+    j[0].travel = {corexy->x_mm.min + corexy->y_mm.min, corexy->x_mm.max + corexy->y_mm.max};
+    j[1].travel = {corexy->x_mm.min - corexy->y_mm.max, corexy->x_mm.max - corexy->y_mm.min};
+  } else if (auto* m4 = std::get_if<M4Geometry>(&d.kinematics)) {
+    for (std::size_t i = 0; i < 3; ++i) m4->travel_mm[i] = j[i].travel;
+    m4->table_travel_mm = j[3].travel;
+    m4->limits.c_rad = j[4].travel;
+  } else if (auto* m5 = std::get_if<M5Geometry>(&d.kinematics)) {
+    for (std::size_t i = 0; i < 4; ++i) m5->legs[i].travel_mm = j[i].travel;
+  } else if (auto* delta = std::get_if<LinearDeltaGeometry>(&d.kinematics)) {
+    for (std::size_t i = 0; i < 3; ++i) delta->travel_mm[i] = j[i].travel;
+  }
+}
+
+}  // namespace machine_schema
+}  // namespace kinebus

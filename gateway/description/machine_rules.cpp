@@ -1,0 +1,196 @@
+#include "gateway/description/machine_rules.hpp"
+
+#include <bit>
+#include <cmath>
+#include <cstdio>
+#include <set>
+
+#include "gateway/calibration/joint_map.hpp"
+
+namespace kinebus {
+namespace {
+
+class Rules {
+ public:
+  explicit Rules(const MachineDescription& description) : d_(description) {}
+
+  std::vector<BrokenRule> take() {
+    for (std::size_t i = 0; i < d_.joints.size(); ++i) joint(d_.joints[i]);
+    nodes();
+    times();
+    speeds();
+    if (const auto kinematics = make_kinematics(d_); !kinematics)
+      broken_.push_back({geometry_keys(), say("a machine that cannot work"), kinematics.error().what});
+    return std::move(broken_);
+  }
+
+ private:
+  void require(bool holds, std::vector<std::string> keys, Sentence found, Sentence expected) {
+    if (!holds) broken_.push_back({std::move(keys), std::move(found), std::move(expected)});
+  }
+
+  static std::string number(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.6g", value);
+    return text;
+  }
+
+  void joint(const JointDescription& j) {
+    const std::string key = "joint." + j.name + ".";
+    const std::string u = j.rotary ? "deg" : "mm";
+    const double unit = j.rotary ? kRadPerDeg : 1;
+    const auto shown = [&](double value) { return number(value / unit); };
+    require(std::has_single_bit(j.drive.microsteps), {key + "microsteps"},
+            Sentence::verbatim(std::to_string(j.drive.microsteps)), say("a power of two"));
+    require(j.hold_current_ma <= j.run_current_ma, {key + "hold_current_ma", key + "run_current_ma"},
+            Sentence::verbatim(std::to_string(j.hold_current_ma)),
+            say("at most run_current_ma, %1", j.run_current_ma));
+    const auto address = std::pair{j.node_id, j.axis};
+    require(addresses_.insert(address).second, {key + "axis", key + "node"},
+            say("node %1 axis %2", j.node_id, j.axis == 0 ? 'A' : 'B'),
+            say("a node's axis that no other joint has"));
+    // While the rate ramps down the path's own deceleration goes on: both together must stay below the stated
+    // stop.
+    const double ramp_s = static_cast<double>(d_.stop.ramp.count()) * 1e-3;
+    const double needed = j.accel_per_s2 + j.speed_per_s / ramp_s;
+    constexpr double kRounding = 1 + 1e-9;
+    require(needed <= j.stop_accel_per_s2 * kRounding,
+            {key + "stop_accel_" + u + "_per_s2", key + "accel_" + u + "_per_s2",
+             key + "speed_" + u + "_per_s", "stop.ramp_ms"},
+            Sentence::verbatim(shown(j.stop_accel_per_s2)),
+            say("at least acceleration + speed / stop ramp = %1, or a longer stop.ramp_ms", shown(needed)));
+    // Joint travel of a belt pair follows from X and Y and is no end stop to be found.
+    const bool belt = std::holds_alternative<CoreXyGeometry>(d_.kinematics) && j.name.starts_with("belt");
+    require(j.homing.has_value() || !j.travel.limited() || belt, {key + "homing", key + "travel_" + u},
+            say("no table"), say("[%1homing]: a joint with limited travel must find its position", key));
+    if (j.homing) homing(j, *j.homing, key + "homing.");
+    calibration(j, key + "calibration.");
+  }
+
+  void calibration(const JointDescription& j, const std::string& key) {
+    const JointCalibration& c = j.calibration;
+    const std::string u = j.rotary ? "deg" : "mm";
+    require(c.pitch > 0 || (c.periodic_sine == 0 && c.periodic_cosine == 0),
+            {key + "pitch_" + u, key + "periodic_sine_" + u, key + "periodic_cosine_" + u}, say("no pitch"),
+            say("the pitch that the periodic error repeats with"));
+    require(c.table.empty() || c.table.size() >= 2, {key + "table_" + u}, say("one number"),
+            say("two or more"));
+    require(c.table.empty() || c.table_step > 0, {key + "table_step_" + u, key + "table_" + u},
+            Sentence::verbatim(number(c.table_step)), say("the distance of the table's places, above 0"));
+    // A steeper error would be a joint that goes backwards, or nearly: no measurement of a machine says that.
+    constexpr double kSteepest = 0.05;
+    const double slope = JointMap(c).largest_slope();
+    require(slope <= kSteepest, {key + "table_" + u, key + "table_step_" + u, key + "pitch_" + u},
+            say("an error with a slope of %1", number(slope)), say("at most %1", number(kSteepest)));
+    const JointReserve reserve = reserve_for(c, j.speed_per_s, j.accel_per_s2);
+    require(reserve.accel_per_s2 > 0.1 * j.accel_per_s2 && reserve.speed_per_s > 0.1 * j.speed_per_s,
+            {key + "table_" + u, key + "pitch_" + u, key + "backlash_" + u},
+            say("a correction that needs nearly all of the joint's speed or acceleration"),
+            say("smaller errors, or higher limits of the joint"));
+  }
+
+  void homing(const JointDescription& j, const HomingDescription& h, const std::string& key) {
+    const std::string u = j.rotary ? "deg" : "mm";
+    const double unit = j.rotary ? kRadPerDeg : 1;
+    const auto shown = [&](double value) { return number(value / unit); };
+    require((h.method >= 17 && h.method <= 22) || h.method == 37, {key + "method"},
+            Sentence::verbatim(std::to_string(h.method)), say("17..22 or 37"));
+    require(h.slow_per_s <= h.fast_per_s, {key + "slow_" + u + "_per_s", key + "fast_" + u + "_per_s"},
+            Sentence::verbatim(shown(h.slow_per_s)), say("at most the fast speed, %1", shown(h.fast_per_s)));
+    require(h.fast_per_s <= j.speed_per_s,
+            {key + "fast_" + u + "_per_s", "joint." + j.name + ".speed_" + u + "_per_s"},
+            Sentence::verbatim(shown(h.fast_per_s)),
+            say("at most the joint's speed, %1", shown(j.speed_per_s)));
+    require(h.accel_per_s2 <= j.accel_per_s2,
+            {key + "accel_" + u + "_per_s2", "joint." + j.name + ".accel_" + u + "_per_s2"},
+            Sentence::verbatim(shown(h.accel_per_s2)),
+            say("at most the joint's acceleration, %1", shown(j.accel_per_s2)));
+    require(!j.travel.limited() || (h.switch_position >= j.travel.min && h.switch_position <= j.travel.max),
+            {key + "switch_position_" + u, "joint." + j.name + ".travel_" + u},
+            Sentence::verbatim(shown(h.switch_position)),
+            say("within the joint's travel, %1 .. %2", shown(j.travel.min), shown(j.travel.max)));
+    if (h.method == 37) return;
+    const NodeDescription* node = d_.node(j.node_id);
+    if (node == nullptr) return;
+    const InputFunction wanted = h.method == 17   ? InputFunction::kNegativeLimit
+                                 : h.method == 18 ? InputFunction::kPositiveLimit
+                                                  : InputFunction::kHome;
+    const SwitchInput& input = node->inputs[h.switch_input - 1u];
+    const char axis = j.axis == 0 ? 'A' : 'B';
+    const std::string input_key =
+        "node." + std::to_string(j.node_id) + ".input" + std::to_string(h.switch_input);
+    require(input.function == wanted && input.axis == j.axis,
+            {key + "switch_input", input_key + ".function", input_key + ".axis"},
+            Sentence::verbatim(std::to_string(h.switch_input)),
+            wanted == InputFunction::kHome
+                ? say("an input of node %1 that has the home function for axis %2", j.node_id, axis)
+                : say("an input of node %1 that has the limit function for axis %2", j.node_id, axis));
+  }
+
+  void nodes() {
+    for (const JointDescription& j : d_.joints)
+      require(d_.node(j.node_id) != nullptr, {"joint." + j.name + ".node"},
+              Sentence::verbatim(std::to_string(j.node_id)),
+              say("a node that has its table, [node.%1]", j.node_id));
+  }
+
+  void times() {
+    const auto even = [&](const char* key, std::chrono::milliseconds ramp) {
+      require(ramp.count() % 2 == 0, {key}, Sentence::verbatim(std::to_string(ramp.count())),
+              say("an even number: ramps travel in 2 ms"));
+    };
+    even("stop.ramp_ms", d_.stop.ramp);
+    even("stop.hold_ramp_ms", d_.stop.hold_ramp);
+    require(d_.stop.hold_ramp >= d_.stop.ramp, {"stop.hold_ramp_ms", "stop.ramp_ms"},
+            Sentence::verbatim(std::to_string(d_.stop.hold_ramp.count())),
+            say("at least stop.ramp_ms, %1", d_.stop.ramp.count()));
+    const BusDescription& b = d_.bus;
+    require(b.sync_timeout >= 2 * b.sync_period, {"bus.sync_timeout_ms", "bus.sync_period_ms"},
+            Sentence::verbatim(std::to_string(b.sync_timeout.count())),
+            say("at least two SYNC periods, %1", 2 * b.sync_period.count()));
+    require(b.heartbeat_timeout >= 2 * b.heartbeat_period,
+            {"bus.heartbeat_timeout_ms", "bus.heartbeat_period_ms"},
+            Sentence::verbatim(std::to_string(b.heartbeat_timeout.count())),
+            say("at least two heartbeats, %1", 2 * b.heartbeat_period.count()));
+    constexpr std::uint32_t kBitrates[] = {10000, 20000, 50000, 125000, 250000, 500000, 800000, 1000000};
+    bool standard = false;
+    for (const std::uint32_t rate : kBitrates) standard = standard || rate == b.bitrate;
+    require(standard, {"bus.bitrate"}, Sentence::verbatim(std::to_string(b.bitrate)),
+            say("a CiA 301 bit rate: 10000, 20000, 50000, 125000, 250000, 500000, 800000 or 1000000"));
+    require(!b.interface.empty() && b.interface.size() < 16, {"bus.interface"},
+            Sentence::verbatim(b.interface), say("a network interface's name of 1 .. 15 characters"));
+  }
+
+  void speeds() {
+    require(d_.gcode.traverse_mm_per_s <= d_.path.tool_speed_mm_per_s,
+            {"gcode.traverse_mm_per_s", "path.tool_speed_mm_per_s"},
+            Sentence::verbatim(number(d_.gcode.traverse_mm_per_s)),
+            say("at most the tool's speed, %1", number(d_.path.tool_speed_mm_per_s)));
+    require(d_.spindle.min_rpm <= d_.spindle.max_rpm, {"spindle.min_rpm", "spindle.max_rpm"},
+            Sentence::verbatim(number(d_.spindle.min_rpm)),
+            say("at most the largest speed, %1", number(d_.spindle.max_rpm)));
+    require(!d_.name.empty(), {"name"}, say("an empty name"), say("a name"));
+    require(!d_.jobs_directory.empty(), {"jobs_directory"}, say("an empty path"), say("a directory"));
+  }
+
+  /// A geometry may fail through any of its keys or the joints' travel: only judged when all of them could be
+  /// read.
+  std::vector<std::string> geometry_keys() const {
+    std::vector<std::string> keys{"kinematics"};
+    for (const JointDescription& j : d_.joints)
+      keys.push_back("joint." + j.name + ".travel_" + (j.rotary ? "deg" : "mm"));
+    return keys;
+  }
+
+  const MachineDescription& d_;
+  std::vector<BrokenRule> broken_;
+  std::set<std::pair<std::uint8_t, std::uint8_t>> addresses_;
+};
+
+}  // namespace
+
+std::vector<BrokenRule> broken_rules(const MachineDescription& description) {
+  return Rules(description).take();
+}
+
+}  // namespace kinebus

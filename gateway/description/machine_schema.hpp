@@ -1,0 +1,333 @@
+#pragma once
+// The keys of a machine file, each listed once with its unit, range and whether it may be left out. Reader
+// and writer are visitors that walk this one list.
+//
+// `unit` turns the file's number into the inside one (degrees into radians). A table's own keys come before
+// the tables in it.
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "gateway/description/machine_description.hpp"
+
+namespace kinebus::machine_schema {
+
+enum class Need : std::uint8_t { kRequired, kOptional };
+struct Range {
+  double min = 0, max = 0;
+};
+
+inline constexpr Range kAnywhere_mm{-10000, 10000};
+inline constexpr Range kAngle_deg{-360, 360};
+inline constexpr Range kAngleLimit_deg{0, 90};
+
+struct Choice {
+  std::string_view word;
+  int value;
+};
+inline constexpr Choice kKinds[] = {{"m1", 0},           {"cartesian", 1}, {"corexy", 2},
+                                    {"linear_delta", 3}, {"m4", 4},        {"m5", 5}};
+inline constexpr Choice kAxes[] = {{"A", 0}, {"B", 1}};
+inline constexpr Choice kCarriage[] = {{"below", 0}, {"above", 1}};
+inline constexpr Choice kResumeThen[] = {{"ask", static_cast<int>(ResumeDescription::Then::kAsk)},
+                                         {"go_on", static_cast<int>(ResumeDescription::Then::kGoOn)}};
+inline constexpr Choice kEncoders[] = {
+    {"none", static_cast<int>(MotorDescription::Encoder::kNone)},
+    {"watch", static_cast<int>(MotorDescription::Encoder::kWatch)},
+    {"closed_loop", static_cast<int>(MotorDescription::Encoder::kClosedLoop)}};
+inline constexpr Choice kInputFunctions[] = {
+    {"none", static_cast<int>(InputFunction::kNone)},
+    {"home", static_cast<int>(InputFunction::kHome)},
+    {"positive_limit", static_cast<int>(InputFunction::kPositiveLimit)},
+    {"negative_limit", static_cast<int>(InputFunction::kNegativeLimit)},
+    {"emergency_stop", static_cast<int>(InputFunction::kEmergencyStop)},
+    {"probe", static_cast<int>(InputFunction::kProbe)}};
+
+/// Empties the geometry of everything that a file may leave out, so that left out means "no limit", and sets
+/// up the joints that this kinematics has. Does nothing when the description already is of this kind.
+void prepare_kinematics(MachineDescription& d, int kind);
+/// Gives the joints the names of the kinematics; keeps what already fits.
+void prepare_joints(MachineDescription& d);
+/// CoreXY's belts have no travel of their own: X and Y have.
+bool has_own_travel(const MachineDescription& d, std::size_t joint);
+/// Copies the joints' travel into the geometry, or, for belts, the geometry's into the joints.
+void connect_travel(MachineDescription& d);
+
+template <class V>
+void visit_workspace(V& v, PoseLimits& limits, bool tilts) {
+  v.table("workspace", Need::kRequired, [&] {
+    v.interval("x_mm", limits.x_mm, kAnywhere_mm, Need::kOptional);
+    v.interval("y_mm", limits.y_mm, kAnywhere_mm, Need::kOptional);
+    v.interval("z_mm", limits.z_mm, kAnywhere_mm, Need::kRequired);
+    v.number("radius_mm", limits.radius_mm, {0, 10000}, Need::kOptional);
+    if (tilts) v.interval("a_deg", limits.a_rad, {-90, 90}, Need::kRequired, kRadPerDeg);
+  });
+}
+
+template <class V>
+void visit_geometry(V& v, M1Geometry& g) {
+  v.vector3("nozzle_mm", g.nozzle_mm, kAnywhere_mm, Need::kRequired);
+  v.number("bed_reference_mm", g.bed_reference_mm, kAnywhere_mm, Need::kOptional);
+  v.number("max_leg_angle_deg", g.max_leg_angle_rad, {1, 90}, Need::kRequired, kRadPerDeg);
+  v.number("min_rail_clearance_deg", g.min_rail_clearance_rad, kAngleLimit_deg, Need::kOptional, kRadPerDeg);
+  v.number("min_platform_clearance_deg", g.min_platform_clearance_rad, kAngleLimit_deg, Need::kOptional,
+           kRadPerDeg);
+  v.number("max_condition", g.max_condition, {1, 1000}, Need::kOptional);
+  v.number("rotation_scale_mm", g.rotation_scale_mm, {1, 10000}, Need::kOptional);
+  for (std::size_t i = 0; i < g.legs.size(); ++i)
+    v.table("leg" + std::to_string(i + 1), Need::kRequired, [&] {
+      M1Leg& leg = g.legs[i];
+      v.vector3("foot_mm", leg.foot_mm, kAnywhere_mm, Need::kRequired);
+      v.vector3("rail", leg.rail, {-10, 10}, Need::kOptional);
+      v.vector3("attachment_mm", leg.attachment_mm, kAnywhere_mm, Need::kRequired);
+      v.number("length_mm", leg.length_mm, {1, 10000}, Need::kRequired);
+      v.number("connector_mm", leg.connector_mm, {-1000, 1000}, Need::kOptional);
+      v.choice("carriage", leg.carriage_above, kCarriage, Need::kOptional);
+    });
+  visit_workspace(v, g.limits, true);
+}
+
+template <class V>
+void visit_geometry(V& v, CartesianGeometry& g) {
+  v.number("bed_reference_mm", g.bed_reference_mm, kAnywhere_mm, Need::kOptional);
+  v.present("rotary_table", g.has_table,
+            [&] { v.vector3("pivot_mm", g.table.pivot_mm, kAnywhere_mm, Need::kRequired); });
+}
+
+template <class V>
+void visit_geometry(V& v, CoreXyGeometry& g) {
+  v.interval("x_mm", g.x_mm, kAnywhere_mm, Need::kRequired);
+  v.interval("y_mm", g.y_mm, kAnywhere_mm, Need::kRequired);
+  v.number("bed_reference_mm", g.bed_reference_mm, kAnywhere_mm, Need::kOptional);
+}
+
+template <class V>
+void visit_geometry(V& v, LinearDeltaGeometry& g) {
+  v.number("radius_mm", g.radius_mm, {1, 10000}, Need::kRequired);
+  v.number("arm_length_mm", g.arm_length_mm, {1, 10000}, Need::kRequired);
+  v.vector3("tower_angles_deg", g.tower_angle_rad, kAngle_deg, Need::kOptional, kRadPerDeg);
+  v.number("max_arm_angle_deg", g.max_arm_angle_rad, {1, 90}, Need::kRequired, kRadPerDeg);
+  v.number("bed_reference_mm", g.bed_reference_mm, kAnywhere_mm, Need::kOptional);
+  visit_workspace(v, g.limits, false);
+}
+
+template <class V>
+void visit_geometry(V& v, M4Geometry& g) {
+  v.number("rod_mm", g.rod_mm, {1, 10000}, Need::kRequired);
+  v.number("triangle_mm", g.triangle_mm, {1, 10000}, Need::kRequired);
+  v.number("rails_mm", g.rails_mm, {1, 10000}, Need::kRequired);
+  v.number("spindle_deg", g.spindle_rad, kAngle_deg, Need::kRequired, kRadPerDeg);
+  v.number("tool_mm", g.tool_mm, {0, 1000}, Need::kRequired);
+  v.number("table_y_mm", g.table_y_mm, kAnywhere_mm, Need::kOptional);
+  v.number("table_z_mm", g.table_z_mm, kAnywhere_mm, Need::kRequired);
+  v.number("bed_reference_mm", g.bed_reference_mm, kAnywhere_mm, Need::kOptional);
+  v.number("max_leg_angle_deg", g.max_leg_angle_rad, {1, 90}, Need::kRequired, kRadPerDeg);
+  v.number("max_condition", g.max_condition, {1, 1000}, Need::kOptional);
+  v.number("rotation_scale_mm", g.rotation_scale_mm, {1, 10000}, Need::kOptional);
+  visit_workspace(v, g.limits, true);
+}
+
+template <class V>
+void visit_joint(V& v, JointDescription& j, bool own_travel) {
+  const std::string u = j.rotary ? "deg" : "mm";
+  const double unit = j.rotary ? kRadPerDeg : 1;
+  v.integer("node", j.node_id, 1, 126, Need::kRequired);
+  v.choice("axis", j.axis, kAxes, Need::kRequired);
+  v.integer("full_steps_per_turn", j.drive.full_steps_per_turn, 4, 10000, Need::kOptional);
+  v.integer("microsteps", j.drive.microsteps, 1, 256, Need::kOptional);
+  v.number(u + "_per_turn", j.drive.travel_per_turn, {0.001, 100000}, Need::kRequired, unit);
+  v.flag("inverted", j.drive.inverted, Need::kOptional);
+  if (own_travel) v.interval("travel_" + u, j.travel, {-100000, 100000}, Need::kOptional, unit);
+  v.number("speed_" + u + "_per_s", j.speed_per_s, {0.001, 100000}, Need::kRequired, unit);
+  v.number("accel_" + u + "_per_s2", j.accel_per_s2, {0.1, 1e6}, Need::kRequired, unit);
+  v.number("stop_accel_" + u + "_per_s2", j.stop_accel_per_s2, {0.1, 1e7}, Need::kRequired, unit);
+  v.integer("run_current_ma", j.run_current_ma, 50, 5000, Need::kRequired);
+  v.integer("hold_current_ma", j.hold_current_ma, 0, 5000, Need::kRequired);
+  v.optional_table("motor", j.motor, [&](MotorDescription& m) {
+    v.number("resistance_ohm", m.resistance_ohm, {0, 60}, Need::kOptional);
+    v.number("inductance_mh", m.inductance_mh, {0, 60}, Need::kOptional);
+    v.number("torque_nm_per_a", m.torque_nm_per_a, {0, 3}, Need::kOptional);
+    v.choice("encoder", m.encoder, kEncoders, Need::kOptional);
+    v.flag("encoder_reversed", m.encoder_reversed, Need::kOptional);
+    v.integer("encoder_offset_counts", m.encoder_offset_counts, -1, 1023, Need::kOptional);
+  });
+  v.optional_table("homing", j.homing, [&](HomingDescription& h) {
+    v.integer("method", h.method, 17, 37, Need::kRequired);
+    v.integer("switch_input", h.switch_input, 1, 7, Need::kOptional);
+    v.number("fast_" + u + "_per_s", h.fast_per_s, {0.01, 10000}, Need::kRequired, unit);
+    v.number("slow_" + u + "_per_s", h.slow_per_s, {0.001, 1000}, Need::kRequired, unit);
+    v.number("accel_" + u + "_per_s2", h.accel_per_s2, {0.1, 1e6}, Need::kRequired, unit);
+    v.number("back_off_" + u, h.back_off, {0, 1000}, Need::kRequired, unit);
+    v.number("switch_position_" + u, h.switch_position, {-100000, 100000}, Need::kRequired, unit);
+    v.number("max_search_" + u, h.max_search, {0.1, 100000}, Need::kRequired, unit);
+    v.integer("order", h.order, 1, 8, Need::kOptional);
+  });
+  v.table("calibration", Need::kOptional, [&] {
+    v.number("scale", j.calibration.scale, {-0.05, 0.05}, Need::kOptional);
+    v.number("offset_" + u, j.calibration.offset, {-50, 50}, Need::kOptional, unit);
+    // What most machines never measure stays out of their files.
+    v.unless_zero("backlash_" + u, j.calibration.backlash, {0, 5}, unit);
+    v.unless_zero("pitch_" + u, j.calibration.pitch, {0, 1000}, unit);
+    v.unless_zero("periodic_sine_" + u, j.calibration.periodic_sine, {-5, 5}, unit);
+    v.unless_zero("periodic_cosine_" + u, j.calibration.periodic_cosine, {-5, 5}, unit);
+    v.unless_zero("table_start_" + u, j.calibration.table_start, {-100000, 100000}, unit);
+    v.unless_zero("table_step_" + u, j.calibration.table_step, {0, 10000}, unit);
+    v.numbers("table_" + u, j.calibration.table, {-5, 5}, 1000, unit);
+  });
+}
+
+template <class V>
+void visit_node(V& v, NodeDescription& n) {
+  v.optional_integer("vendor", n.vendor);
+  v.optional_integer("product", n.product);
+  v.optional_integer("serial", n.serial);
+  for (std::size_t i = 0; i < kNodeInputs; ++i)
+    v.table_unless_default("input" + std::to_string(i + 1), n.inputs[i], [&](SwitchInput& s) {
+      v.choice("function", s.function, kInputFunctions, Need::kRequired);
+      v.choice("axis", s.axis, kAxes, Need::kOptional);
+      v.flag("active_low", s.active_low, Need::kOptional);
+      v.duration("debounce_us", s.debounce, 0, 100000, Need::kOptional);
+    });
+}
+
+template <class V>
+void visit_heater(V& v, std::string_view key, HeaterDescription& h) {
+  v.table(key, Need::kOptional, [&] {
+    v.flag("present", h.present, Need::kOptional);
+    v.number("max_c", h.max_c, {20, 600}, Need::kOptional);
+    v.number("window_c", h.window_c, {0.1, 50}, Need::kOptional);
+    v.duration("settle_s", h.settle, 0, 600, Need::kOptional);
+    v.number("sim_power_w", h.sim_power_w, {0.1, 10000}, Need::kOptional);
+    v.number("sim_heat_capacity_j_per_k", h.sim_heat_capacity_j_per_k, {0.1, 100000}, Need::kOptional);
+    v.number("sim_loss_w_per_k", h.sim_loss_w_per_k, {0.0001, 1000}, Need::kOptional);
+  });
+}
+
+template <class V>
+void visit_path(V& v, MachineDescription& d) {
+  v.table("path", Need::kRequired, [&] {
+    v.number("tool_speed_mm_per_s", d.path.tool_speed_mm_per_s, {0.1, 10000}, Need::kRequired);
+    v.number("tool_accel_mm_per_s2", d.path.tool_accel_mm_per_s2, {1, 1e6}, Need::kRequired);
+    struct Keys {
+      const char *speed, *accel;
+      double unit;
+    };
+    constexpr Keys kKeys[kPoseAxes] = {{"x_speed_mm_per_s", "x_accel_mm_per_s2", 1},
+                                       {"y_speed_mm_per_s", "y_accel_mm_per_s2", 1},
+                                       {"z_speed_mm_per_s", "z_accel_mm_per_s2", 1},
+                                       {"a_speed_deg_per_s", "a_accel_deg_per_s2", kRadPerDeg},
+                                       {"c_speed_deg_per_s", "c_accel_deg_per_s2", kRadPerDeg},
+                                       {"e_speed_mm_per_s", "e_accel_mm_per_s2", 1}};
+    for (std::size_t k = 0; k < kPoseAxes; ++k) {
+      v.number(kKeys[k].speed, d.path.axis_speed_per_s[k], {0, 100000}, Need::kOptional, kKeys[k].unit);
+      v.number(kKeys[k].accel, d.path.axis_accel_per_s2[k], {0, 1e6}, Need::kOptional, kKeys[k].unit);
+    }
+  });
+  v.table("tolerance", Need::kOptional, [&] {
+    v.number("blend_mm", d.tolerances.blend_mm, {0, 1}, Need::kOptional);
+    v.number("merge_mm", d.tolerances.merge_mm, {0, 1}, Need::kOptional);
+    v.number("segment_counts", d.tolerances.segment_counts, {0.05, 100}, Need::kOptional);
+  });
+  v.table("stop", Need::kOptional, [&] {
+    v.duration("ramp_ms", d.stop.ramp, 2, 510, Need::kOptional);
+    v.duration("hold_ramp_ms", d.stop.hold_ramp, 2, 510, Need::kOptional);
+  });
+  v.table("resume", Need::kOptional, [&] {
+    v.choice("after_restart", d.resume.after_restart, kResumeThen, Need::kOptional);
+    v.choice("after_power_loss", d.resume.after_power_loss, kResumeThen, Need::kOptional);
+    v.number("lift_mm", d.resume.lift_mm, {0, 200}, Need::kOptional);
+    v.number("approach_mm_per_s", d.resume.approach_mm_per_s, {0.1, 1000}, Need::kOptional);
+    v.number("prime_mm", d.resume.prime_mm, {0, 100}, Need::kOptional);
+  });
+}
+
+template <class V>
+void visit_bus(V& v, BusDescription& b) {
+  v.table("bus", Need::kOptional, [&] {
+    v.text("interface", b.interface, Need::kOptional);
+    v.integer("bitrate", b.bitrate, 10000, 1000000, Need::kOptional);
+    v.number("budget", b.budget, {0.05, 0.95}, Need::kOptional);
+    v.duration("sync_period_ms", b.sync_period, 5, 1000, Need::kOptional);
+    v.duration("sync_timeout_ms", b.sync_timeout, 10, 10000, Need::kOptional);
+    v.duration("heartbeat_period_ms", b.heartbeat_period, 10, 10000, Need::kOptional);
+    v.duration("heartbeat_timeout_ms", b.heartbeat_timeout, 20, 60000, Need::kOptional);
+  });
+}
+
+template <class V>
+void visit_gcode(V& v, GcodeDescription& g) {
+  v.table("gcode", Need::kOptional, [&] {
+    v.number("initial_feed_mm_per_min", g.initial_feed_mm_per_min, {1, 100000}, Need::kOptional);
+    v.number("traverse_mm_per_s", g.traverse_mm_per_s, {0.1, 10000}, Need::kOptional);
+    v.number("filament_diameter_mm", g.filament_diameter_mm, {0.1, 10}, Need::kOptional);
+    v.number("arc_radius_tolerance_mm", g.arc_radius_tolerance_mm, {0, 1}, Need::kOptional);
+    v.number("retract_mm", g.retract_mm, {0, 100}, Need::kOptional);
+    v.number("retract_mm_per_s", g.retract_mm_per_s, {0.1, 1000}, Need::kOptional);
+    v.number("retract_lift_mm", g.retract_lift_mm, {0, 50}, Need::kOptional);
+    v.flag("optional_stop", g.optional_stop, Need::kOptional);
+    v.flag("block_delete", g.block_delete, Need::kOptional);
+  });
+}
+
+template <class V>
+void visit_correction(V& v, std::optional<M1Correction>& correction) {
+  v.optional_table("calibration", correction, [&](M1Correction& c) {
+    for (std::size_t i = 0; i < c.legs.size(); ++i)
+      v.table_unless_default("leg" + std::to_string(i + 1), c.legs[i], [&](M1LegCorrection& leg) {
+        v.vector3("foot_mm", leg.foot_mm, {-50, 50}, Need::kOptional);
+        v.vector3("rail", leg.rail, {-0.2, 0.2}, Need::kOptional);
+        v.vector3("attachment_mm", leg.attachment_mm, {-50, 50}, Need::kOptional);
+        v.number("length_mm", leg.length_mm, {-50, 50}, Need::kOptional);
+      });
+  });
+}
+
+template <class V>
+void visit_machine(V& v, MachineDescription& d) {
+  v.text("name", d.name, Need::kRequired);
+  v.text("jobs_directory", d.jobs_directory, Need::kOptional);
+  bool known_kind = false;
+  v.table("kinematics", Need::kRequired, [&] {
+    auto kind = static_cast<int>(d.kinematics.index());
+    known_kind = v.choice("type", kind, kKinds, Need::kRequired);
+    if (!known_kind) return v.leave_unjudged();
+    prepare_kinematics(d, kind);
+    std::visit([&](auto& geometry) { visit_geometry(v, geometry); }, d.kinematics);
+    prepare_joints(d);
+  });
+  visit_path(v, d);
+  visit_bus(v, d.bus);
+  v.table("homing", Need::kOptional, [&] {
+    v.number("max_spread_mm", d.homing.max_spread_mm, {0.01, 1000}, Need::kOptional);
+    v.duration("timeout_s", d.homing.timeout, 1, 3600, Need::kOptional);
+  });
+  v.table("joint", Need::kRequired, [&] {
+    if (!known_kind) return v.leave_unjudged();
+    for (std::size_t i = 0; i < d.joints.size(); ++i)
+      v.table(d.joints[i].name, Need::kRequired, [&] { visit_joint(v, d.joints[i], has_own_travel(d, i)); });
+  });
+  v.table("node", Need::kRequired, [&] {
+    v.node_ids(d.nodes);
+    for (NodeDescription& n : d.nodes)
+      v.table(std::to_string(n.id), Need::kRequired, [&] { visit_node(v, n); });
+  });
+  v.table("thermal", Need::kOptional, [&] {
+    v.number("ambient_c", d.thermal.ambient_c, {-20, 60}, Need::kOptional);
+    v.number("min_extrude_c", d.thermal.min_extrude_c, {0, 500}, Need::kOptional);
+    visit_heater(v, "hotend", d.thermal.hotend);
+    visit_heater(v, "bed", d.thermal.bed);
+  });
+  v.table("spindle", Need::kOptional, [&] {
+    v.flag("present", d.spindle.present, Need::kOptional);
+    v.number("min_rpm", d.spindle.min_rpm, {0, 100000}, Need::kOptional);
+    v.number("max_rpm", d.spindle.max_rpm, {1, 200000}, Need::kOptional);
+    v.flag("reversible", d.spindle.reversible, Need::kOptional);
+    v.number("sim_rpm_per_s", d.spindle.sim_rpm_per_s, {10, 1000000}, Need::kOptional);
+  });
+  visit_gcode(v, d.gcode);
+  if (!known_kind || d.kinematics.index() == 0 || d.kinematics.index() == 5)
+    visit_correction(v, d.geometry_calibration);
+}
+
+}  // namespace kinebus::machine_schema

@@ -1,0 +1,350 @@
+#include "tools/simulation/bus/virtual_machine.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "protocol/bytes.hpp"
+#include "protocol/canopen/cob_id.hpp"
+
+namespace kinebus {
+namespace {
+
+// The edge of a switch is found within this time: at 4 mm/s of a slow approach 4 nm.
+constexpr BusTime kFinestCheck{1'000};
+// Far from any switch, or at rest, it is still looked at so often.
+constexpr BusTime kCoarsestCheck{50'000'000};
+constexpr BusTime kStalledCheck{1'000'000};
+constexpr int kMailboxes = 3;
+
+}  // namespace
+
+struct VirtualMachine::VirtualNode {
+  VirtualNode(const VirtualNodeOptions& o, BusModel::Port p, int i)
+      : options(o), port(p), index(i), core(std::in_place, o.node, to_local(BusTime{0})) {}
+
+  LocalTime to_local(BusTime t) const {
+    return t + options.clock_offset +
+           LocalTime{std::llround(static_cast<double>(t.count()) * options.clock_drift_ppm * 1e-6)};
+  }
+  BusTime to_true(LocalTime t) const {
+    if (t == LocalTime::max()) return BusTime::max();
+    const double since = static_cast<double>((t - options.clock_offset).count());
+    // Rounded up, so that a deadline is never served a nanosecond early.
+    return BusTime{static_cast<std::int64_t>(std::ceil(since / (1 + options.clock_drift_ppm * 1e-6))) + 1};
+  }
+  double counts(int axis, BusTime at) {
+    const double start = options.axes[static_cast<std::size_t>(axis)].start_counts;
+    return core ? start + static_cast<double>(core->position(to_local(at), axis)) / 4294967296.0 : start;
+  }
+  BusTime next_due() const {
+    if (!core || stalled) return next_check;
+    return std::min({deadline, next_check, pending.empty() ? BusTime::max() : pending.front().at,
+                     edges.empty() ? BusTime::max() : edges.front().at});
+  }
+
+  VirtualNodeOptions options;
+  BusModel::Port port;
+  int index;
+  std::optional<Node> core;  // none: without power
+  bool stalled = false;
+  std::uint32_t lost_while_stalled = 0;  // frames that its full queue refused: it finds out when it goes on
+  std::vector<Pending> pending;
+  struct RawEdge {
+    BusTime at{0};
+    int input = 0;
+    bool level = false;
+  };
+  std::vector<RawEdge> edges;  // raw levels to come, by time
+  BusTime deadline{0};
+  BusTime next_check{0};
+  std::array<int, 2> switch_level{-1, -1};
+};
+
+VirtualMachine::VirtualMachine(const std::vector<VirtualNodeOptions>& nodes, std::uint64_t seed,
+                               int gateway_mailboxes)
+    : gateway_(bus_.add_port(gateway_mailboxes)), random_(seed) {
+  for (const VirtualNodeOptions& options : nodes)
+    nodes_.push_back(
+        std::make_unique<VirtualNode>(options, bus_.add_port(kMailboxes), static_cast<int>(nodes_.size())));
+}
+
+VirtualMachine::~VirtualMachine() = default;
+
+std::optional<VirtualMachine::Received> VirtualMachine::receive() {
+  if (next_received_ == received_.size()) {
+    received_.clear();
+    next_received_ = 0;
+    return std::nullopt;
+  }
+  return received_[next_received_++];
+}
+
+BusTime VirtualMachine::next_event() const {
+  BusTime next = bus_.next_event();
+  for (const auto& node : nodes_) next = std::min(next, node->next_due());
+  if (!gateway_pending_.empty()) next = std::min(next, gateway_pending_.front().at);
+  return next;
+}
+
+void VirtualMachine::deliver(const BusModel::Delivery& delivery) {
+  std::vector<Arrival> arrivals;
+  const auto disturbed = [&](int station, BusTime at) -> std::vector<Arrival>& {
+    arrivals.assign(1, {at, delivery.frame});
+    arrival_hook_(station, arrivals);
+    return arrivals;
+  };
+  if (delivery.from == gateway_ || !arrival_hook_)
+    received_.push_back({delivery.end, delivery.from == gateway_, delivery.frame, delivery.from});
+  else
+    for (const Arrival& arrival : disturbed(kGatewayStation, delivery.end))
+      if (arrival.at <= delivery.end)
+        received_.push_back({delivery.end, false, arrival.frame, delivery.from});
+      else
+        take_in_at_gateway(arrival);
+  for (const auto& node : nodes_) {
+    if (!node->core) continue;
+    if (node->port == delivery.from) {
+      serve(*node, delivery.end);  // its mailbox is free again
+      continue;
+    }
+    BusTime at = delivery.end;
+    if (node->options.latency_max > BusTime{0})
+      at += BusTime{static_cast<std::int64_t>(
+          random_() % static_cast<std::uint64_t>(node->options.latency_max.count() + 1))};
+    if (!arrival_hook_) {
+      take_in(*node, {at, delivery.frame});
+      continue;
+    }
+    for (const Arrival& arrival : disturbed(node->index, at)) {
+      if (arrival.at == at) {
+        take_in(*node, arrival);
+        continue;
+      }
+      // Delayed on purpose: others may overtake it.
+      put(node->pending, arrival);
+    }
+  }
+}
+
+void VirtualMachine::take_in(VirtualNode& node, Arrival arrival) {
+  if (node.stalled && node.pending.size() >= kStallQueue) {
+    ++node.lost_while_stalled;
+    return;
+  }
+  // Interrupts are served in order: a later frame never overtakes an earlier one.
+  if (!node.pending.empty() && !arrival_hook_) arrival.at = std::max(arrival.at, node.pending.back().at);
+  put(node.pending, arrival);
+}
+
+void VirtualMachine::put(std::vector<Pending>& pending, const Arrival& arrival) {
+  const auto place = std::upper_bound(pending.begin(), pending.end(), arrival.at,
+                                      [](BusTime at, const Pending& p) { return at < p.at; });
+  pending.insert(place, {arrival.at, arrival.frame, arrival.at});
+}
+
+void VirtualMachine::take_in_at_gateway(const Arrival& arrival) {
+  const auto place = std::upper_bound(gateway_pending_.begin(), gateway_pending_.end(), arrival,
+                                      [](const Arrival& a, const Arrival& b) { return a.at < b.at; });
+  gateway_pending_.insert(place, arrival);
+}
+
+BusModel::Port VirtualMachine::node_port(int node) const {
+  return nodes_[static_cast<std::size_t>(node)]->port;
+}
+
+bool VirtualMachine::powered(int node) const {
+  return nodes_[static_cast<std::size_t>(node)]->core.has_value();
+}
+
+void VirtualMachine::set_power(int node, BusTime now, bool on) {
+  VirtualNode& n = *nodes_[static_cast<std::size_t>(node)];
+  if (on == n.core.has_value()) return;
+  n.pending.clear();
+  n.edges.clear();
+  n.stalled = false;
+  n.lost_while_stalled = 0;
+  if (!on) {
+    for (int axis = 0; axis < 2; ++axis)
+      n.options.axes[static_cast<std::size_t>(axis)].start_counts = n.counts(axis, now);
+    n.core.reset();
+    bus_.clear(n.port);
+    n.next_check = BusTime::max();
+    return;
+  }
+  n.core.emplace(n.options.node, n.to_local(now));
+  n.switch_level = {-1, -1};
+  n.next_check = now;
+  serve(n, now);
+}
+
+void VirtualMachine::set_stalled(int node, BusTime now, bool stalled) {
+  VirtualNode& n = *nodes_[static_cast<std::size_t>(node)];
+  if (!n.core || n.stalled == stalled) return;
+  n.stalled = stalled;
+  // Its receive interrupts went on: the time stamps are right.
+  if (!stalled) {
+    for (Pending& p : n.pending) p.at = std::max(p.at, now);
+    n.core->on_time(n.to_local(now));
+  }
+  if (stalled) return;
+  n.deadline = std::max(n.deadline, now);
+  count_overruns(node, now, std::exchange(n.lost_while_stalled, 0u));
+}
+
+void VirtualMachine::set_drive_fault(int node, BusTime now, int axis, bool present) {
+  VirtualNode& n = *nodes_[static_cast<std::size_t>(node)];
+  if (!n.core) return;
+  if (present)
+    n.core->on_drive_fault(n.to_local(now), axis, 0x2310);
+  else
+    n.core->on_drive_fault_gone(n.to_local(now), axis);
+  serve(n, now);
+}
+
+void VirtualMachine::count_overruns(int node, BusTime now, std::uint32_t times) {
+  VirtualNode& n = *nodes_[static_cast<std::size_t>(node)];
+  if (!n.core || times == 0) return;
+  n.core->on_receive_overrun(n.to_local(now), times);
+  serve(n, now);
+}
+
+void VirtualMachine::write_parameter(int node, BusTime now, ObjectAddress address, int size,
+                                     std::uint32_t value) {
+  VirtualNode& n = *nodes_[static_cast<std::size_t>(node)];
+  if (!n.core) return;
+  CanFrame request{.id = cob_id::kSdoRequest + n.core->node_id(), .length = 8};
+  request.data[0] = static_cast<std::uint8_t>(0x23 | ((4 - size) << 2));
+  put_u16_le(std::span(request.data).subspan(1), address.index);
+  request.data[3] = address.subindex;
+  put_u32_le(std::span(request.data).subspan(4), value);
+  n.core->on_frame(n.to_local(now), request);
+  // Its answer was for another gateway.
+  while (n.core->next_frame()) {
+  }
+}
+
+void VirtualMachine::lose_steps(int node, int axis, double counts) {
+  nodes_[static_cast<std::size_t>(node)]->options.axes[static_cast<std::size_t>(axis)].start_counts += counts;
+}
+
+void VirtualMachine::serve(VirtualNode& node, BusTime now) {
+  // Parameters are stored at once; a virtual node powers up with its defaults all the same.
+  if (!node.core->image_to_store().empty()) node.core->on_image_stored(true);
+  while (bus_.has_room(node.port)) {
+    const auto frame = node.core->next_frame();
+    if (!frame) break;
+    bus_.send(node.port, now, *frame);
+  }
+  node.deadline = node.to_true(node.core->next_deadline());
+}
+
+void VirtualMachine::check_switches(VirtualNode& node, BusTime now) {
+  BusTime next = now + kCoarsestCheck;
+  if (node.stalled) {
+    node.next_check = now + kStalledCheck;
+    return;
+  }
+  for (int axis = 0; axis < 2; ++axis) {
+    const VirtualAxis& a = node.options.axes[static_cast<std::size_t>(axis)];
+    if (a.switch_input == 0) continue;
+    const double above = node.counts(axis, now) - a.switch_counts;
+    const bool active = a.active_above ? above >= 0 : above <= 0;
+    const int level = active != a.active_low ? 1 : 0;
+    if (level != node.switch_level[static_cast<std::size_t>(axis)]) {
+      node.switch_level[static_cast<std::size_t>(axis)] = level;
+      std::vector<Edge> edges{{now, level == 1}};
+      if (switch_hook_) switch_hook_(node.index, a.switch_input, edges);
+      VirtualNode& wired = a.switch_node < 0 ? node : *nodes_[static_cast<std::size_t>(a.switch_node)];
+      for (const Edge& edge : edges)
+        if (edge.at <= now && &wired == &node)
+          node.core->on_switch(node.to_local(now), a.switch_input - 1, edge.level);
+        else
+          wired.edges.push_back({edge.at, a.switch_input, edge.level});
+    }
+    const BusTime nearest{static_cast<std::int64_t>(1e9 * std::abs(above) / a.max_counts_per_s)};
+    next = std::min(next, now + std::max(nearest, kFinestCheck));
+  }
+  node.next_check = next;
+}
+
+bool VirtualMachine::advance(BusTime now) {
+  for (;;) {
+    VirtualNode* due = nullptr;
+    BusTime next = bus_.next_event();
+    for (const auto& node : nodes_)
+      if (node->next_due() < next) {
+        next = node->next_due();
+        due = node.get();
+      }
+    if (!gateway_pending_.empty() && gateway_pending_.front().at <= std::min(next, now)) {
+      received_.push_back({gateway_pending_.front().at, false, gateway_pending_.front().frame, -1});
+      gateway_pending_.erase(gateway_pending_.begin());
+      return false;
+    }
+    if (next > now) return true;
+    if (due == nullptr) {
+      if (const auto delivery = bus_.advance(next)) {
+        deliver(*delivery);
+        return false;
+      }
+      continue;
+    }
+    if (due->next_check <= next) check_switches(*due, next);
+    if (due->stalled) continue;
+    if (!due->edges.empty() && due->edges.front().at <= next) {
+      const VirtualNode::RawEdge edge = due->edges.front();
+      due->edges.erase(due->edges.begin());
+      due->core->on_switch(due->to_local(next), edge.input - 1, edge.level);
+    }
+    if (!due->pending.empty() && due->pending.front().at <= next) {
+      const Pending pending = due->pending.front();
+      due->pending.erase(due->pending.begin());
+      due->core->on_frame(due->to_local(pending.stamp), pending.frame);
+    }
+    if (due->deadline <= next) due->core->on_time(due->to_local(next));
+    serve(*due, next);
+    // A deadline that stays in the past would stop time: the next turn is a microsecond later.
+    due->deadline = std::max(due->deadline, next + BusTime{1'000});
+  }
+}
+
+double VirtualMachine::true_counts(int node, int axis, BusTime at) {
+  return nodes_[static_cast<std::size_t>(node)]->counts(axis, at);
+}
+
+std::optional<BusTime> VirtualMachine::stop_start(int node) const {
+  const VirtualNode& n = *nodes_[static_cast<std::size_t>(node)];
+  const auto start = n.core ? n.core->path().stop_start() : std::nullopt;
+  return start ? std::optional(n.to_true(*start)) : std::nullopt;
+}
+
+std::optional<double> VirtualMachine::believed_counts(int node, int axis, BusTime at) {
+  VirtualNode& n = *nodes_[static_cast<std::size_t>(node)];
+  if (!n.core || !n.core->axis(axis).position_known()) return std::nullopt;
+  return static_cast<double>(n.core->user_position(n.to_local(at), axis)) / 4294967296.0;
+}
+
+PathTime VirtualMachine::path_time(int node, BusTime at) {
+  VirtualNode& n = *nodes_[static_cast<std::size_t>(node)];
+  return n.core ? n.core->path_time(n.to_local(at)) : PathTime{0};
+}
+
+bool VirtualMachine::path_time_counts(int node, BusTime at) const {
+  const VirtualNode& n = *nodes_[static_cast<std::size_t>(node)];
+  return n.core && (!n.core->path().stream().idle() || !n.core->path().at_rest(n.to_local(at)));
+}
+
+Node& VirtualMachine::node(int index) {
+  return *nodes_[static_cast<std::size_t>(index)]->core;
+}
+
+void VirtualMachine::set_input(int node, BusTime at, int input, bool level) {
+  VirtualNode& n = *nodes_[static_cast<std::size_t>(node)];
+  if (!n.core) return;
+  n.core->on_switch(n.to_local(at), input - 1, level);
+  serve(n, at);
+}
+
+}  // namespace kinebus

@@ -1,0 +1,84 @@
+#include "tools/simulation/bus/virtual_nodes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "gateway/calibration/joint_map.hpp"
+
+namespace kinebus {
+namespace {
+
+// Vendor id 0 is not assigned by CiA: fine for simulated boards unless the machine file asks for another.
+NodeIdentity identity_of(const NodeDescription& node) {
+  NodeIdentity identity;
+  identity.vendor_id = node.vendor.value_or(0);
+  identity.product_code = node.product.value_or(0x4B42);
+  identity.revision = 1;
+  identity.serial = node.serial.value_or(1000u + node.id);
+  return identity;
+}
+
+VirtualAxis axis_of(const JointDescription& joint, const NodeDescription& node, double start) {
+  const double counts_per_unit = joint.drive.counts_per_unit();
+  VirtualAxis axis;
+  axis.start_counts = start * counts_per_unit;
+  axis.max_counts_per_s = 2 * std::abs(joint.speed_per_s * counts_per_unit);
+  if (joint.homing && joint.homing->switch_input != 0) {
+    const HomingDescription& homing = *joint.homing;
+    axis.switch_input = homing.switch_input;
+    // The edge is met by the joint; the motor then stands where the joint's true errors put it.
+    const JointCalibration& truth = joint.calibration;
+    const double drive = JointMap(truth).to_drive(homing.switch_position + truth.offset) +
+                         homing.edge_direction() * truth.backlash / 2;
+    axis.switch_counts = drive / (1 + truth.scale) * counts_per_unit;
+    axis.active_above = homing.towards_positive() != joint.drive.inverted;
+    axis.active_low = node.inputs[static_cast<std::size_t>(homing.switch_input - 1)].active_low;
+  }
+  return axis;
+}
+
+}  // namespace
+
+std::vector<VirtualNodeOptions> virtual_nodes_of(const MachineDescription& machine,
+                                                 const VirtualClocks& clocks, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> unit(0, 1);
+  std::vector<VirtualNodeOptions> nodes;
+  const auto count = machine.nodes.size();
+  for (std::size_t n = 0; n < count; ++n) {
+    const NodeDescription& node = machine.nodes[n];
+    VirtualNodeOptions options;
+    options.node = {identity_of(node), node.id};
+    options.clock_drift_ppm =
+        count > 1 ? clocks.drift_ppm * (2.0 * static_cast<double>(n) / static_cast<double>(count - 1) - 1)
+                  : 0;
+    options.clock_offset =
+        BusTime{static_cast<std::int64_t>(unit(random) * static_cast<double>(clocks.offset_max.count()))};
+    options.latency_max = clocks.latency_max;
+    for (const JointDescription& joint : machine.joints) {
+      if (joint.node_id != node.id) continue;
+      double start = 0;
+      if (joint.travel.min < joint.travel.max)
+        start = joint.travel.min + 0.4 * (joint.travel.max - joint.travel.min) +
+                (joint.rotary ? 0 : 6 * unit(random) - 3);
+      options.axes[joint.axis] = axis_of(joint, node, start);
+    }
+    nodes.push_back(options);
+  }
+  return nodes;
+}
+
+double JointPlant::at(double counts) {
+  const double drive = counts / drive_.counts_per_unit() * (1 + truth_.scale);
+  const double half = truth_.backlash / 2;
+  contact_ = std::clamp(met_ ? contact_ : drive, drive - half, drive + half);
+  met_ = true;
+  return map_.to_joint(contact_);
+}
+
+double joint_from_counts(const JointDescription& joint, double counts) {
+  return counts / joint.drive.counts_per_unit();
+}
+
+}  // namespace kinebus

@@ -1,0 +1,94 @@
+// What the picture is made of, thinned while it comes.
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/simulation/plot.hpp"
+
+namespace kinebus {
+namespace {
+
+// A point of the path is kept when leaving it out would move the line by more than this, or hide a speed.
+constexpr float kPathDetail_mm = 0.1f, kPathStep_mm = 30, kPathSpeedStep = 15;
+// A stretch ends with its layer, if that is not very short or very long.
+constexpr std::size_t kShortStretch = 150, kLongStretch = 6'000;
+constexpr float kLayer_mm = 0.03f;
+
+float distance(const std::array<float, 3>& a, const std::array<float, 3>& b) {
+  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
+/// How far `p` is from the straight way from a to b (by the detour it makes, which is enough here).
+float detour_height(const std::array<float, 3>& a, const std::array<float, 3>& p,
+                    const std::array<float, 3>& b) {
+  const float ap = distance(a, p), pb = distance(p, b), ab = distance(a, b);
+  const float s = (ap + pb + ab) / 2;
+  const float area2 = s * (s - ap) * (s - pb) * (s - ab);
+  return ab > 1e-4f ? 2 * std::sqrt(std::max(area2, 0.0f)) / ab : ap;
+}
+
+}  // namespace
+
+void PlotData::begin_stretch(const PathPoint& point) {
+  keeping_ = stretches_++ % keep_ == 0;
+  in_stretch_ = 0;
+  layer_known_ = false;
+  if (keeping_) path_.emplace_back();
+  store(point);
+}
+
+void PlotData::store(const PathPoint& point) {
+  kept_ = point;
+  ++in_stretch_;
+  if (!keeping_) return;
+  path_.back().push_back(point);
+  if (++path_points_ < kPathCapacity) return;
+  // Every second stretch goes.
+  keep_ *= 2;
+  for (std::size_t i = 0; i < path_.size() / 2 + path_.size() % 2; ++i) path_[i] = std::move(path_[2 * i]);
+  keeping_ = path_.size() % 2 == 1;  // the stretch at hand was one of those that stay
+  path_.resize((path_.size() + 1) / 2);
+  path_points_ = 0;
+  for (const Stretch& stretch : path_) path_points_ += stretch.size();
+}
+
+void PlotData::add_to_path(const PathPoint& point) {
+  if (stretches_ == 0) begin_stretch(point);
+  const bool corner = detour_height(kept_.mm, last_.mm, point.mm) > kPathDetail_mm ||
+                      distance(kept_.mm, point.mm) > kPathStep_mm ||
+                      std::abs(point.speed_mm_per_s - kept_.speed_mm_per_s) > kPathSpeedStep ||
+                      point.prints != last_.prints;
+  if (corner) {
+    const bool next_layer = layer_known_ && point.prints && std::abs(point.mm[2] - layer_mm_) > kLayer_mm;
+    if ((in_stretch_ >= kShortStretch && next_layer) || in_stretch_ >= kLongStretch) {
+      store(last_);
+      begin_stretch(last_);
+    } else {
+      store(last_);
+    }
+  }
+  if (point.prints && !layer_known_) {
+    layer_known_ = true;
+    layer_mm_ = point.mm[2];
+  }
+  last_ = point;
+}
+
+void PlotData::add(const Point& point) {
+  add_to_path({point.tool_mm, point.speed_mm_per_s, point.e_mm > last_e_ + 1e-6f});
+  last_e_ = point.e_mm;
+  largest_error_ = std::max(largest_error_, point.error_um);
+  if (seen_++ % every_ != 0) return;
+  points_.push_back(point);
+  points_.back().error_um = largest_error_;
+  largest_error_ = 0;
+  if (points_.size() < kCapacity) return;
+  for (std::size_t i = 0; i < kCapacity / 2; ++i) {
+    points_[i] = points_[2 * i];
+    points_[i].error_um = std::max(points_[2 * i].error_um, points_[2 * i + 1].error_um);
+  }
+  points_.resize(kCapacity / 2);
+  every_ *= 2;
+}
+
+}  // namespace kinebus

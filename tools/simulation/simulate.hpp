@@ -1,0 +1,37 @@
+#pragma once
+// One job on the whole simulated machine, with all checkers: the engine of `kinebus simulate`.
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gateway/description/machine_description.hpp"
+#include "gateway/jobs/byte_source.hpp"
+#include "tools/simulation/plot.hpp"
+#include "tools/simulation/report.hpp"
+#include "tools/simulation/simulation.hpp"
+
+namespace kinebus {
+
+struct SimulateOptions {
+  SimulationOptions simulation;
+  /// Nodes of another make in the place of these virtual ones (firmware images on emulated boards).
+  std::function<std::unique_ptr<NodeMachine>(const std::vector<VirtualNodeOptions>&)> make_nodes;
+  double limit_s = 0;        ///< stop measuring after so much job time; 0: the whole job
+  PlotData* plot = nullptr;  ///< filled along the way
+  std::function<void(double progress, double job_s)> on_progress;
+  /// Every sample of the job, with the distance from the programmed path and its line there.
+  std::function<void(const Sample&, double path_um, std::uint32_t line)> on_sample;
+  /// Called every millisecond of the job: may hold, resume, override, stop. A held job then is not the end.
+  std::function<void(Gateway&, double job_s)> operate;
+  std::function<void(BusTime, const CanFrame&)> on_frame;  ///< every frame on the bus, from power-up on
+};
+
+/// Brings the machine up, homes it, goes to the bed reference, runs the job and measures. `job` and
+/// `same_job` are two readers of the same text: one for the machine, one for the checker.
+SimulationReport simulate(const MachineDescription& machine, std::unique_ptr<ByteSource> job,
+                          ByteSource& same_job, const SimulateOptions& options);
+
+}  // namespace kinebus

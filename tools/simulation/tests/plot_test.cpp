@@ -1,0 +1,50 @@
+#include <cmath>
+
+#include "tools/simulation/plot.hpp"
+#include "tools/simulation/tests/simulated_job.hpp"
+
+namespace kinebus {
+namespace {
+
+PlotData spiral(int points) {
+  PlotData data;
+  data.joint_count = 4;
+  for (int i = 0; i < points; ++i) {
+    const auto t = static_cast<float>(i) * 1e-3f;
+    data.add({.time_s = t,
+              .speed_mm_per_s = 100,
+              .error_um = i == points / 2 ? 1.25f : 0.5f,
+              .tool_mm = {30 * std::cos(t), 30 * std::sin(t), t / 50},
+              .e_mm = t,
+              .joints = {800 + t, 810, 820, 830}});
+  }
+  return data;
+}
+
+TEST(Plot, KeepsItsSizeWhateverTheJobsLength) {
+  const PlotData data = spiral(1'000'000);
+  EXPECT_LE(data.points().size(), PlotData::kCapacity);
+  const std::string svg = draw_plot(data, default_m1(), "spiral", "");
+  EXPECT_LT(svg.size(), 2'000'000u);
+}
+
+TEST(Plot, ThinningKeepsPeaks) {
+  const PlotData data = spiral(1'000'000);
+  float peak = 0;
+  for (const auto& point : data.points()) peak = std::max(peak, point.error_um);
+  EXPECT_EQ(peak, 1.25f);
+}
+
+TEST(Plot, NamesWhatItShowsAndEscapesTheTitle) {
+  const std::string svg = draw_plot(spiral(5000), default_m1(), "a<b&c.gcode", "12 lines");
+  for (const char* words : {"a&lt;b&amp;c.gcode", "12 lines", "X mm", "Y mm", "Z mm", "tower1", "tower4",
+                            "Tool speed", "Tool error", "Bus load", "</svg>"})
+    EXPECT_NE(svg.find(words), std::string::npos) << words;
+}
+
+TEST(Plot, WithoutMotionSaysSo) {
+  EXPECT_NE(draw_plot({}, default_m1(), "x", "").find("No motion"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace kinebus
