@@ -1,8 +1,12 @@
 // kinebus-gui: builds the parts, connects them, and loops.
 
 #include <QApplication>
+#include <QCommandLineOption>
 #include <QCommandLineParser>
+#include <QGuiApplication>
+#include <QPalette>
 #include <QSettings>
+#include <QStringList>
 #include <QStyleHints>
 #include <cstdio>
 #include <stdexcept>

@@ -8,7 +8,7 @@
 namespace kinebus::canonical {
 namespace {
 
-constexpr double kDegrees = 180 / std::numbers::pi;
+constexpr double kDegreesPerRad = 180 / std::numbers::pi;
 constexpr std::array<char, 6> kAxisLetters = {'x', 'y', 'z', 'a', 'c', 'e'};
 
 std::string number(double value) {
@@ -28,7 +28,7 @@ std::string pose_text(const Pose& pose, Frame frame) {
   for (std::size_t axis = 0; axis < pose.size(); ++axis) {
     text += ' ';
     text += kAxisLetters[axis];
-    text += number(axis == 3 || axis == 4 ? pose[axis] * kDegrees : pose[axis]);
+    text += number(axis == 3 || axis == 4 ? pose[axis] * kDegreesPerRad : pose[axis]);
   }
   return text;
 }
@@ -56,7 +56,7 @@ void append_limits(std::string& text, std::string_view name, const std::array<do
     text += name;
     text += '_';
     text += kAxisLetters[axis];
-    text += number(axis == 3 || axis == 4 ? values[axis] * kDegrees : values[axis]);
+    text += number(axis == 3 || axis == 4 ? values[axis] * kDegreesPerRad : values[axis]);
   }
 }
 
@@ -67,7 +67,7 @@ struct Writer {
   }
   std::string operator()(const Arc& c) const {
     return "arc " + pose_text(c.target, c.frame) + " centre" + vector_text(c.centre_mm) + " normal" +
-           vector_text(c.normal) + " sweep" + number(c.sweep_rad * kDegrees) +
+           vector_text(c.normal) + " sweep" + number(c.sweep_rad * kDegreesPerRad) +
            feed_text(c.feed_per_s, c.inverse_time_s);
   }
   std::string operator()(const Dwell& c) const { return "dwell " + number(c.seconds); }

@@ -20,11 +20,11 @@ constexpr double kLongestMove_mm = 1e5;
 constexpr double kLongestTurn_rad = 1000;
 constexpr double kNoExtrusion_mm = 1e-9;
 
-kinebus::Frame frame_of(canonical::Frame frame) {
+kinebus::Frame checked_frame(canonical::Frame frame) {
   return frame == canonical::Frame::kPart ? kinebus::Frame::kPart : kinebus::Frame::kMachine;
 }
 
-std::string celsius(double value) {
+std::string rounded_celsius(double value) {
   return printed("%.6g C", value);
 }
 
@@ -141,7 +141,7 @@ Refused LiveLines::check_straight(const PoseVector& target, canonical::Frame fra
     else if (axis != kE)
       mm = std::hypot(mm, way);
   }
-  const auto end = kinematics_.check(frame_of(frame), target);
+  const auto end = kinematics_.check(checked_frame(frame), target);
   if (!end) return to_string(end.error());
   // The end lies within the workspace: only turns may be long.
   if (!(mm <= kLongestMove_mm && rad <= kLongestTurn_rad)) return say("the move is too long to be checked");
@@ -151,7 +151,8 @@ Refused LiveLines::check_straight(const PoseVector& target, canonical::Frame fra
     PoseVector pose = from;
     for (std::size_t axis = 0; axis < kPoseAxes; ++axis)
       pose[axis] += (target[axis] - from[axis]) * i / steps;
-    if (const auto fits = kinematics_.check(frame_of(frame), pose); !fits) return to_string(fits.error());
+    if (const auto fits = kinematics_.check(checked_frame(frame), pose); !fits)
+      return to_string(fits.error());
   }
   place_ = {target, frame};
   return std::nullopt;
@@ -162,7 +163,7 @@ Refused LiveLines::check_arc(const canonical::Arc& arc) {
   Move move;
   move.from = place_.pose;
   move.to = arc.target;
-  move.frame = frame_of(arc.frame);
+  move.frame = checked_frame(arc.frame);
   if (!shape_arc(arc, place_.pose, move)) return say("centre, plane and target do not make an arc");
   if (!(move.length <= kLongestMove_mm)) return say("the arc is too long to be checked");
   const double turning =
@@ -180,13 +181,14 @@ Refused LiveLines::check_arc(const canonical::Arc& arc) {
 /// The machine will go where homing leaves it, in a straight line of the homing frame. From the switches,
 /// which lie outside the workspace, this is the way in: then only its end is checked.
 Refused LiveLines::check_home(const canonical::Home& home) {
-  const auto from = convert_pose(kinematics_, frame_of(place_.frame), place_.pose, frame_of(home.frame));
+  const auto from =
+      convert_pose(kinematics_, checked_frame(place_.frame), place_.pose, checked_frame(home.frame));
   if (!from) return say("G28: %1", to_string(from.error()));
   PoseVector target = home.afterwards;
   target[kE] = place_.pose[kE];
   place_ = {*from, home.frame};
   place_.pose[kE] = target[kE];
-  if (!kinematics_.check(frame_of(home.frame), place_.pose)) place_.pose = target;
+  if (!kinematics_.check(checked_frame(home.frame), place_.pose)) place_.pose = target;
   return check_straight(target, home.frame);
 }
 
@@ -199,8 +201,8 @@ Refused LiveLines::check_extrusion(const PoseVector& target) {
     return std::nullopt;
   }
   if (*hotend_celsius_ >= machine_.thermal.min_extrude_c) return std::nullopt;
-  return say("filament would be fed with the hotend at %1; at least %2 is needed", celsius(*hotend_celsius_),
-             celsius(machine_.thermal.min_extrude_c));
+  return say("filament would be fed with the hotend at %1; at least %2 is needed",
+             rounded_celsius(*hotend_celsius_), rounded_celsius(machine_.thermal.min_extrude_c));
 }
 
 Refused LiveLines::check_thermal(const canonical::Thermal& thermal) {
@@ -211,10 +213,11 @@ Refused LiveLines::check_thermal(const canonical::Thermal& thermal) {
   const Sentence name = hotend ? say("hotend") : say("bed");
   if (!heater.present && thermal.value > 0) return say("this machine has no %1 heater", name);
   if (!(thermal.value >= 0 && thermal.value <= heater.max_c))
-    return say("%1 temperature %2; allowed are 0 to %3", name, celsius(thermal.value), celsius(heater.max_c));
+    return say("%1 temperature %2; allowed are 0 to %3", name, rounded_celsius(thermal.value),
+               rounded_celsius(heater.max_c));
   if (thermal.wait && thermal.wait_cooling && thermal.value > 0 && thermal.value < machine_.thermal.ambient_c)
-    return say("%1 would wait forever: %2 is below the room's %3", name, celsius(thermal.value),
-               celsius(machine_.thermal.ambient_c));
+    return say("%1 would wait forever: %2 is below the room's %3", name, rounded_celsius(thermal.value),
+               rounded_celsius(machine_.thermal.ambient_c));
   // A cold end after a print is no news: only lines that feed filament afterwards are refused.
   if (hotend && thermal.index == 0) hotend_celsius_ = thermal.value;
   return std::nullopt;

@@ -7,6 +7,7 @@
 #include <QCoreApplication>
 #include <QDir>
 #include <QFileInfo>
+#include <QLatin1Char>
 #include <QStandardPaths>
 #include <QTimer>
 

@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 
 #include <QFileInfo>
+#include <QStringList>
 
 #include "gui/link/socket_link.hpp"
 #include "gui/link/usb/usb_link.hpp"

@@ -1,5 +1,8 @@
 #include "gui/link/socket_link.hpp"
 
+#include <QObject>
+#include <QString>
+
 #include <algorithm>
 
 namespace kinebus::gui {

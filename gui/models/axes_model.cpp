@@ -1,5 +1,11 @@
 #include "gui/models/axes_model.hpp"
 
+#include <QLatin1Char>
+#include <QModelIndex>
+#include <QObject>
+#include <QString>
+#include <QVariant>
+
 #include <cmath>
 #include <numbers>
 

@@ -2,6 +2,8 @@
 // The joints of the machine: where each is, what its motor gets, its switch.
 
 #include <QAbstractTableModel>
+#include <QModelIndex>
+#include <QVariant>
 
 #include "protocol/joblink/kinebus.pb.h"
 

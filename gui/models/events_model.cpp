@@ -1,5 +1,11 @@
 #include "gui/models/events_model.hpp"
 
+#include <QModelIndex>
+#include <QObject>
+#include <QString>
+#include <QStringList>
+#include <QVariant>
+
 #include "gui/models/alarm_words.hpp"
 #include "gui/models/format.hpp"
 #include "gui/models/state_words.hpp"

@@ -2,6 +2,8 @@
 // What has happened, newest first: alarms and messages.
 
 #include <QAbstractListModel>
+#include <QModelIndex>
+#include <QVariant>
 #include <deque>
 
 #include "protocol/joblink/kinebus.pb.h"

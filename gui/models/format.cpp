@@ -1,5 +1,7 @@
 #include "gui/models/format.hpp"
 
+#include <QChar>
+#include <QDate>
 #include <QDateTime>
 #include <QLocale>
 #include <cmath>

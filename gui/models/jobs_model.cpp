@@ -1,5 +1,10 @@
 #include "gui/models/jobs_model.hpp"
 
+#include <QModelIndex>
+#include <QObject>
+#include <QString>
+#include <QVariant>
+
 #include "gui/models/format.hpp"
 #include "gui/session/gateway_words.hpp"
 #include "gui/session/job_upload.hpp"

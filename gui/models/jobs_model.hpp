@@ -2,7 +2,9 @@
 // The jobs: those on the gateway, and above them those on their way to it.
 
 #include <QAbstractTableModel>
+#include <QModelIndex>
 #include <QPointer>
+#include <QVariant>
 #include <QVector>
 
 #include "protocol/joblink/kinebus.pb.h"

@@ -1,12 +1,19 @@
 #include "gui/models/nodes_model.hpp"
 
+#include <QChar>
+#include <QLocale>
+#include <QModelIndex>
+#include <QObject>
+#include <QString>
+#include <QVariant>
+
 #include "gui/models/format.hpp"
 #include "gui/session/session.hpp"
 
 namespace kinebus::gui {
 namespace {
 
-bool is_number(int column) {
+bool is_figure(int column) {
   return column == NodesModel::kSync || column == NodesModel::kSent || column == NodesModel::kEmergencies;
 }
 
@@ -34,7 +41,7 @@ int NodesModel::columnCount(const QModelIndex& parent) const {
 
 QVariant NodesModel::headerData(int section, Qt::Orientation orientation, int role) const {
   if (orientation != Qt::Horizontal) return {};
-  if (role == Qt::TextAlignmentRole && is_number(section))
+  if (role == Qt::TextAlignmentRole && is_figure(section))
     return QVariant(Qt::AlignTrailing | Qt::AlignVCenter);
   if (role != Qt::DisplayRole) return {};
   switch (section) {
@@ -81,7 +88,7 @@ QVariant NodesModel::data(const QModelIndex& index, int role) const {
   if (role == kShare)
     return node.queue_capacity() > 0 ? static_cast<double>(node.queue_records()) / node.queue_capacity()
                                      : -1.0;
-  if (role == Qt::TextAlignmentRole && is_number(index.column()))
+  if (role == Qt::TextAlignmentRole && is_figure(index.column()))
     return QVariant(Qt::AlignTrailing | Qt::AlignVCenter);
   if (role != Qt::DisplayRole) return {};
   switch (index.column()) {

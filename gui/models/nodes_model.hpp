@@ -2,6 +2,8 @@
 // The nodes on the bus: alive, in time, and with how much motion in their queues.
 
 #include <QAbstractTableModel>
+#include <QModelIndex>
+#include <QVariant>
 
 #include "protocol/joblink/kinebus.pb.h"
 

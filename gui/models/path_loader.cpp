@@ -1,7 +1,10 @@
 #include "gui/models/path_loader.hpp"
 
+#include <QByteArray>
 #include <QCoreApplication>
 #include <QFile>
+#include <QIODevice>
+#include <QMetaObject>
 #include <QPointer>
 #include <QThreadPool>
 

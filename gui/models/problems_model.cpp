@@ -1,6 +1,8 @@
 #include "gui/models/problems_model.hpp"
 
 #include <QLocale>
+#include <QModelIndex>
+#include <QVariant>
 
 #include "gui/session/gateway_words.hpp"
 

@@ -2,6 +2,8 @@
 // What the pre-flight of a job, or the check of a machine file, has found.
 
 #include <QAbstractTableModel>
+#include <QModelIndex>
+#include <QVariant>
 #include <QVector>
 
 #include "protocol/joblink/kinebus.pb.h"

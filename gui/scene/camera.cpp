@@ -1,5 +1,8 @@
 #include "gui/scene/camera.hpp"
 
+#include <QPointF>
+#include <QVector3D>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -2,7 +2,9 @@
 // A camera that goes round a point.
 
 #include <QMatrix4x4>
+#include <QPointF>
 #include <QSize>
+#include <QVector3D>
 
 #include "gui/scene/tool_path.hpp"
 

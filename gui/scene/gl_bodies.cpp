@@ -1,5 +1,7 @@
 #include "gui/scene/gl_bodies.hpp"
 
+#include <QVector3D>
+
 #include <cmath>
 #include <numbers>
 #include <vector>

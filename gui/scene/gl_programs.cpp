@@ -1,5 +1,9 @@
 #include "gui/scene/gl_programs.hpp"
 
+#include <QByteArray>
+#include <QOpenGLShader>
+#include <QString>
+
 namespace kinebus::gui {
 namespace {
 

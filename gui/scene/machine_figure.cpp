@@ -1,5 +1,8 @@
 #include "gui/scene/machine_figure.hpp"
 
+#include <QQuaternion>
+#include <QVector3D>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>

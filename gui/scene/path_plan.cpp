@@ -1,5 +1,8 @@
 #include "gui/scene/path_plan.hpp"
 
+#include <QVector3D>
+#include <QVector4D>
+
 #include <algorithm>
 #include <cmath>
 

@@ -3,6 +3,7 @@
 // is, and by how many lines the picture may cost. Pure: tested without a graphics context.
 
 #include <QMatrix4x4>
+#include <QVector3D>
 #include <vector>
 
 #include "gui/scene/path_levels.hpp"

@@ -1,5 +1,14 @@
 #include "gui/scene/scene_renderer.hpp"
 
+#include <QMatrix4x4>
+#include <QOpenGLBuffer>
+#include <QOpenGLFramebufferObjectFormat>
+#include <QOpenGLShaderProgram>
+#include <QSize>
+#include <QString>
+#include <QVector3D>
+#include <QVector4D>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -4,7 +4,15 @@
 // more with all lines and smooth edges, in slices of bounded cost, and replaces the quick picture when it is
 // whole. So the caller never waits long.
 
+#include <QMatrix4x4>
+#include <QOpenGLBuffer>
+#include <QOpenGLExtraFunctions>
 #include <QOpenGLFramebufferObject>
+#include <QOpenGLShaderProgram>
+#include <QOpenGLVertexArrayObject>
+#include <QSize>
+#include <QVector3D>
+#include <QVector4D>
 #include <memory>
 #include <string_view>
 

@@ -2,8 +2,16 @@
 // demo daemon that prints. tools/screenshots runs it under Xvfb.
 
 #include <QApplication>
+#include <QByteArray>
+#include <QCoreApplication>
 #include <QDeadlineTimer>
 #include <QDir>
+#include <QEventLoop>
+#include <QFile>
+#include <QIODevice>
+#include <QLatin1Char>
+#include <QLatin1String>
+#include <QTemporaryDir>
 #include <cstdio>
 #include <stdexcept>
 

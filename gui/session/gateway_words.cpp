@@ -1,5 +1,6 @@
 #include "gui/session/gateway_words.hpp"
 
+#include <QChar>
 #include <QCoreApplication>
 
 namespace kinebus::gui {

@@ -1,7 +1,11 @@
 #include "gui/session/job_download.hpp"
 
+#include <QByteArray>
 #include <QDir>
 #include <QFileInfo>
+#include <QIODevice>
+#include <QLatin1Char>
+#include <QMetaObject>
 #include <QStandardPaths>
 
 #include "gui/session/session.hpp"

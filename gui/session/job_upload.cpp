@@ -1,8 +1,11 @@
 #include "gui/session/job_upload.hpp"
 
+#include <QByteArray>
 #include <QCoreApplication>
 #include <QFile>
 #include <QFileInfo>
+#include <QIODevice>
+#include <QMetaObject>
 #include <QPointer>
 #include <QThreadPool>
 

@@ -2,6 +2,7 @@
 // One file on its way to the gateway: hashed in a thread of the pool, then sent by the client. Survives
 // broken links.
 
+#include <QByteArray>
 #include <QElapsedTimer>
 #include <QObject>
 

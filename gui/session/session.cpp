@@ -1,5 +1,6 @@
 #include "gui/session/session.hpp"
 
+#include <QByteArray>
 #include <QRandomGenerator>
 #include <QSysInfo>
 #include <chrono>

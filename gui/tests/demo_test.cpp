@@ -1,7 +1,9 @@
 // Against the real daemon with its simulated machine: connect, home, upload, check, print to the end.
 #include <gtest/gtest.h>
 
+#include <QCoreApplication>
 #include <QFile>
+#include <QIODevice>
 #include <QTemporaryDir>
 
 #include "gui/link/demo_gateway.hpp"

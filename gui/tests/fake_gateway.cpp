@@ -1,5 +1,7 @@
 #include "gui/tests/fake_gateway.hpp"
 
+#include <QByteArray>
+
 #include <algorithm>
 
 #include "protocol/joblink/job_hash.hpp"

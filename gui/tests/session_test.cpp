@@ -3,8 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <QApplication>
+#include <QByteArray>
+#include <QChar>
+#include <QCoreApplication>
 #include <QDateTime>
 #include <QFile>
+#include <QIODevice>
+#include <QTemporaryDir>
 #include <QTranslator>
 
 #include "gui/link/socket_link.hpp"

@@ -3,13 +3,27 @@
 #include <time.h>
 
 #include <QAbstractEventDispatcher>
+#include <QAbstractItemModel>
+#include <QApplication>
+#include <QByteArray>
+#include <QCoreApplication>
 #include <QElapsedTimer>
+#include <QEvent>
 #include <QFile>
+#include <QIODevice>
+#include <QImage>
 #include <QKeyEvent>
+#include <QLatin1String>
+#include <QMainWindow>
 #include <QPushButton>
+#include <QRgb>
 #include <QSettings>
+#include <QSize>
+#include <QStringList>
 #include <QTableView>
 #include <QTemporaryDir>
+#include <QTimer>
+#include <QWidget>
 #include <set>
 
 #include "gui/link/socket_link.hpp"

@@ -1,7 +1,22 @@
 #include "gui/views/alarms_page.hpp"
 
+#include <QAbstractItemModel>
+#include <QAbstractItemView>
+#include <QColor>
+#include <QFont>
+#include <QFontMetrics>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QModelIndex>
 #include <QPainter>
+#include <QPushButton>
+#include <QRect>
+#include <QSize>
+#include <QStyle>
+#include <QStyleOptionViewItem>
 #include <QStyledItemDelegate>
+#include <QVBoxLayout>
+#include <QWidget>
 
 namespace kinebus::gui {
 namespace {

@@ -1,7 +1,10 @@
 #pragma once
 // What has happened and what to do next. The newest open alarm stands on top, large.
 
+#include <QLabel>
 #include <QListView>
+#include <QPushButton>
+#include <QWidget>
 
 #include "gui/views/desk.hpp"
 #include "gui/views/widgets.hpp"

@@ -1,6 +1,13 @@
 #include "gui/views/connect_page.hpp"
 
+#include <QHBoxLayout>
+#include <QIcon>
+#include <QLabel>
+#include <QPointer>
+#include <QPushButton>
 #include <QScrollArea>
+#include <QVBoxLayout>
+#include <QWidget>
 
 namespace kinebus::gui {
 

@@ -1,6 +1,12 @@
 #pragma once
 // The first page: gateways that are there now, and the demo machine.
 
+#include <QLabel>
+#include <QPushButton>
+#include <QVBoxLayout>
+#include <QVector>
+#include <QWidget>
+
 #include "gui/views/desk.hpp"
 #include "gui/views/widgets.hpp"
 

@@ -1,9 +1,22 @@
 #include "gui/views/console_page.hpp"
 
 #include <QAbstractItemView>
+#include <QCoreApplication>
+#include <QEvent>
+#include <QFont>
+#include <QHBoxLayout>
 #include <QKeyEvent>
+#include <QLatin1Char>
+#include <QModelIndex>
+#include <QPointer>
+#include <QPushButton>
+#include <QStandardItem>
 #include <QStandardItemModel>
 #include <QTextBlock>
+#include <QTextCharFormat>
+#include <QTextCursor>
+#include <QVBoxLayout>
+#include <QWidget>
 
 #include "gui/session/gateway_words.hpp"
 

@@ -2,8 +2,13 @@
 // Lines to the gateway and its answers, with history (arrow keys) and completion.
 
 #include <QCompleter>
+#include <QEvent>
 #include <QLineEdit>
 #include <QPlainTextEdit>
+#include <QPushButton>
+#include <QStringList>
+#include <QTextCharFormat>
+#include <QWidget>
 
 #include "gui/views/desk.hpp"
 #include "gui/views/widgets.hpp"

@@ -1,5 +1,9 @@
 #include "gui/views/desk.hpp"
 
+#include <QCoreApplication>
+#include <QObject>
+#include <QString>
+
 #include "gui/link/socket_link.hpp"
 
 namespace kinebus::gui {

@@ -1,6 +1,9 @@
 #pragma once
 // What all views share: the conversation, the models made of it, theme and language. Owned by main.
 
+#include <QString>
+#include <QStringList>
+
 #include "gui/link/demo_gateway.hpp"
 #include "gui/link/gateway_finder.hpp"
 #include "gui/models/axes_model.hpp"

@@ -1,6 +1,17 @@
 #include "gui/views/job_panel.hpp"
 
+#include <QAbstractButton>
+#include <QAbstractSlider>
+#include <QGridLayout>
+#include <QHBoxLayout>
+#include <QLabel>
 #include <QMessageBox>
+#include <QPushButton>
+#include <QSignalBlocker>
+#include <QSizePolicy>
+#include <QTimer>
+#include <QVBoxLayout>
+#include <QWidget>
 #include <cmath>
 
 #include "gui/models/format.hpp"

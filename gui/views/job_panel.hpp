@@ -1,8 +1,11 @@
 #pragma once
 // The job at work: how far, how long, and the buttons for it. Visible on every page.
 
+#include <QLabel>
 #include <QProgressBar>
+#include <QPushButton>
 #include <QSlider>
+#include <QWidget>
 
 #include "gui/views/desk.hpp"
 #include "gui/views/widgets.hpp"

@@ -1,13 +1,30 @@
 #include "gui/views/jobs_page.hpp"
 
+#include <QAbstractButton>
+#include <QAbstractItemModel>
+#include <QAbstractItemView>
 #include <QDragEnterEvent>
+#include <QDragLeaveEvent>
+#include <QDropEvent>
 #include <QFileDialog>
+#include <QHBoxLayout>
 #include <QHeaderView>
+#include <QItemSelectionModel>
 #include <QMessageBox>
 #include <QMimeData>
+#include <QModelIndex>
 #include <QPainter>
+#include <QPointer>
+#include <QPushButton>
+#include <QRectF>
 #include <QSplitter>
+#include <QStringList>
+#include <QStyleOptionViewItem>
 #include <QStyledItemDelegate>
+#include <QTimer>
+#include <QUrl>
+#include <QVBoxLayout>
+#include <QWidget>
 
 #include "gui/models/format.hpp"
 #include "gui/session/job_upload.hpp"

@@ -2,7 +2,14 @@
 // The jobs on the gateway: upload by dropping a file, check, start, and what the check has found, with the
 // way to the line and to the place.
 
+#include <QDragEnterEvent>
+#include <QDragLeaveEvent>
+#include <QDropEvent>
+#include <QLabel>
+#include <QPushButton>
+#include <QStringList>
 #include <QTableView>
+#include <QWidget>
 
 #include "gui/models/problems_model.hpp"
 #include "gui/views/desk.hpp"

@@ -1,7 +1,20 @@
 #include "gui/views/jog_page.hpp"
 
+#include <QAbstractButton>
+#include <QAbstractSpinBox>
+#include <QChar>
+#include <QEvent>
+#include <QGridLayout>
+#include <QHBoxLayout>
 #include <QKeyEvent>
+#include <QLabel>
+#include <QLatin1Char>
+#include <QLocale>
+#include <QPushButton>
 #include <QScrollArea>
+#include <QVBoxLayout>
+#include <QVector>
+#include <QWidget>
 #include <array>
 #include <numbers>
 

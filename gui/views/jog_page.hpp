@@ -4,6 +4,12 @@
 #include <QButtonGroup>
 #include <QComboBox>
 #include <QDoubleSpinBox>
+#include <QEvent>
+#include <QKeyEvent>
+#include <QLabel>
+#include <QPushButton>
+#include <QVector>
+#include <QWidget>
 
 #include "gui/views/desk.hpp"
 #include "gui/views/widgets.hpp"

@@ -1,11 +1,32 @@
 #include "gui/views/line_view.hpp"
 
+#include <QByteArray>
+#include <QChar>
+#include <QColor>
 #include <QCoreApplication>
+#include <QEvent>
 #include <QFile>
+#include <QFont>
+#include <QIODevice>
+#include <QLatin1Char>
+#include <QList>
+#include <QMetaObject>
 #include <QPainter>
 #include <QPointer>
+#include <QRect>
+#include <QRectF>
+#include <QResizeEvent>
+#include <QStringList>
 #include <QTextBlock>
+#include <QTextCharFormat>
+#include <QTextCursor>
+#include <QTextDocument>
+#include <QTextEdit>
+#include <QTextFormat>
+#include <QTextOption>
 #include <QThreadPool>
+#include <QVector>
+#include <QWidget>
 
 namespace kinebus::gui {
 namespace {

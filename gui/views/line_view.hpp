@@ -1,8 +1,13 @@
 #pragma once
 // A few hundred lines of a job around one of them, read in a thread: a job of a million lines opens at once.
 
+#include <QEvent>
 #include <QPlainTextEdit>
+#include <QResizeEvent>
 #include <QSyntaxHighlighter>
+#include <QTextDocument>
+#include <QVector>
+#include <QWidget>
 
 #include "gui/views/theme.hpp"
 

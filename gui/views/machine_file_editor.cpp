@@ -1,9 +1,28 @@
 #include "gui/views/machine_file_editor.hpp"
 
+#include <QAbstractItemView>
+#include <QColor>
+#include <QFont>
+#include <QHBoxLayout>
 #include <QHeaderView>
+#include <QItemSelectionModel>
+#include <QLabel>
+#include <QLatin1Char>
+#include <QModelIndex>
+#include <QPlainTextEdit>
+#include <QPointer>
+#include <QPushButton>
 #include <QRegularExpression>
+#include <QSizePolicy>
 #include <QSplitter>
+#include <QSyntaxHighlighter>
 #include <QTableView>
+#include <QTextCharFormat>
+#include <QTextDocument>
+#include <QTimer>
+#include <QVBoxLayout>
+#include <QVector>
+#include <QWidget>
 
 namespace kinebus::gui {
 namespace {

@@ -2,7 +2,13 @@
 // The machine file: read from the gateway, edited, checked there while typing, and saved only when it is
 // right.
 
+#include <QLabel>
 #include <QListView>
+#include <QPushButton>
+#include <QSyntaxHighlighter>
+#include <QTextDocument>
+#include <QTimer>
+#include <QWidget>
 
 #include "gui/models/problems_model.hpp"
 #include "gui/views/desk.hpp"

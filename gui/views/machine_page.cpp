@@ -1,10 +1,23 @@
 #include "gui/views/machine_page.hpp"
 
+#include <QAbstractItemModel>
+#include <QAbstractItemView>
+#include <QColor>
+#include <QGridLayout>
 #include <QHeaderView>
+#include <QLabel>
+#include <QLocale>
+#include <QModelIndex>
 #include <QPainter>
+#include <QPointF>
+#include <QRectF>
 #include <QScrollArea>
+#include <QSize>
+#include <QStyleOptionViewItem>
 #include <QStyledItemDelegate>
 #include <QTableView>
+#include <QVBoxLayout>
+#include <QWidget>
 
 #include "gui/models/format.hpp"
 #include "gui/views/machine_file_editor.hpp"

@@ -1,7 +1,11 @@
 #pragma once
 // The machine from inside: axes and nodes as they are now, plots, and the machine file.
 
+#include <QLabel>
 #include <QTabWidget>
+#include <QTableView>
+#include <QVector>
+#include <QWidget>
 
 #include "gui/views/desk.hpp"
 #include "gui/views/widgets.hpp"

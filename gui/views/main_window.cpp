@@ -1,11 +1,24 @@
 #include "gui/views/main_window.hpp"
 
+#include <QAbstractButton>
 #include <QButtonGroup>
 #include <QCloseEvent>
 #include <QDockWidget>
+#include <QEvent>
+#include <QHBoxLayout>
+#include <QIcon>
+#include <QKeySequence>
+#include <QLabel>
+#include <QLatin1String>
+#include <QLocale>
 #include <QScrollArea>
 #include <QSettings>
 #include <QShortcut>
+#include <QSizePolicy>
+#include <QTimer>
+#include <QToolButton>
+#include <QVBoxLayout>
+#include <QWidget>
 
 #include "gui/views/alarms_page.hpp"
 #include "gui/views/connect_page.hpp"

@@ -1,8 +1,14 @@
 #pragma once
 // Puts the pages together: bar on top, pages at the side, position and job in docks that can be moved.
 
+#include <QCloseEvent>
+#include <QDockWidget>
+#include <QEvent>
+#include <QLabel>
 #include <QMainWindow>
 #include <QStackedWidget>
+#include <QTimer>
+#include <QWidget>
 
 #include "gui/views/desk.hpp"
 

@@ -1,8 +1,15 @@
 #include "gui/views/plot_widget.hpp"
 
+#include <QColor>
+#include <QFont>
+#include <QFontMetricsF>
 #include <QLocale>
+#include <QPaintEvent>
 #include <QPainter>
 #include <QPainterPath>
+#include <QPen>
+#include <QPointF>
+#include <QRectF>
 #include <algorithm>
 
 namespace kinebus::gui {

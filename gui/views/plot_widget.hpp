@@ -1,6 +1,8 @@
 #pragma once
 // One curve of the last two minutes.
 
+#include <QPaintEvent>
+#include <QSize>
 #include <QWidget>
 
 #include "gui/models/status_history.hpp"

@@ -1,6 +1,16 @@
 #include "gui/views/position_panel.hpp"
 
+#include <QAbstractSpinBox>
+#include <QColor>
+#include <QFont>
+#include <QGridLayout>
+#include <QLabel>
+#include <QPaintEvent>
 #include <QPainter>
+#include <QPalette>
+#include <QRectF>
+#include <QVBoxLayout>
+#include <QWidget>
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -2,8 +2,13 @@
 // Where everything is: the tool's axes in large digits, the carriages as bars within their travel, the
 // heaters.
 
+#include <QColor>
 #include <QDoubleSpinBox>
+#include <QGridLayout>
+#include <QLabel>
+#include <QPaintEvent>
 #include <QVector>
+#include <QWidget>
 
 #include "gui/views/desk.hpp"
 #include "gui/views/widgets.hpp"

@@ -1,8 +1,16 @@
 #include "gui/views/scene_view.hpp"
 
 #include <QKeyEvent>
+#include <QMatrix4x4>
 #include <QMouseEvent>
 #include <QOpenGLContext>
+#include <QPointF>
+#include <QSize>
+#include <QSizeF>
+#include <QSurfaceFormat>
+#include <QVector3D>
+#include <QWheelEvent>
+#include <QWidget>
 
 namespace kinebus::gui {
 namespace {

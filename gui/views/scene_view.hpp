@@ -3,8 +3,14 @@
 // into camera moves.
 
 #include <QElapsedTimer>
+#include <QKeyEvent>
+#include <QMouseEvent>
 #include <QOpenGLWidget>
+#include <QPointF>
+#include <QSize>
 #include <QTimer>
+#include <QWheelEvent>
+#include <QWidget>
 
 #include "gui/scene/scene_renderer.hpp"
 

@@ -1,5 +1,6 @@
 #include "gui/views/table_columns.hpp"
 
+#include <QAbstractItemModel>
 #include <QEvent>
 #include <QHeaderView>
 #include <algorithm>

@@ -3,6 +3,7 @@
 // in the language at work, and what room is left shared out. Values that change never make columns jump to
 // and fro.
 
+#include <QEvent>
 #include <QObject>
 #include <QTableView>
 #include <QVector>

@@ -1,10 +1,17 @@
 #include "gui/views/theme.hpp"
 
 #include <QApplication>
+#include <QByteArray>
 #include <QFile>
+#include <QIODevice>
+#include <QLatin1String>
 #include <QPainter>
+#include <QPalette>
+#include <QStyle>
+#include <QPixmap>
 #include <QStyleFactory>
 #include <QSvgRenderer>
+#include <QVector3D>
 
 namespace kinebus::gui {
 namespace {

@@ -1,7 +1,25 @@
 #include "gui/views/top_bar.hpp"
 
+#include <QAction>
 #include <QActionGroup>
+#include <QColor>
+#include <QCoreApplication>
+#include <QFont>
+#include <QFontMetrics>
+#include <QHBoxLayout>
+#include <QIcon>
+#include <QLabel>
+#include <QPaintEvent>
 #include <QPainter>
+#include <QPen>
+#include <QPointF>
+#include <QPushButton>
+#include <QRect>
+#include <QRectF>
+#include <QSize>
+#include <QSizePolicy>
+#include <QToolButton>
+#include <QWidget>
 
 #include "gui/models/format.hpp"
 

@@ -1,7 +1,14 @@
 #pragma once
 // Always visible: the machine's state in plain words and colour, the connection, and Stop.
 
+#include <QColor>
+#include <QFont>
 #include <QMenu>
+#include <QPaintEvent>
+#include <QPushButton>
+#include <QSize>
+#include <QToolButton>
+#include <QWidget>
 
 #include "gui/views/desk.hpp"
 #include "gui/views/widgets.hpp"

@@ -1,8 +1,21 @@
 #include "gui/views/view_page.hpp"
 
+#include <QColor>
+#include <QFontMetrics>
+#include <QHBoxLayout>
+#include <QLinearGradient>
+#include <QPaintEvent>
 #include <QPainter>
 #include <QPainterPath>
+#include <QPalette>
+#include <QRect>
+#include <QRectF>
 #include <QSettings>
+#include <QSize>
+#include <QSizePolicy>
+#include <QToolButton>
+#include <QVBoxLayout>
+#include <QWidget>
 
 #include "gui/models/format.hpp"
 #include "gui/models/machine_picture.hpp"

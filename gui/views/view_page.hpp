@@ -2,8 +2,14 @@
 // The main view: the scene with its tools, the layer slider, and what the colours mean.
 
 #include <QComboBox>
+#include <QLabel>
+#include <QPaintEvent>
 #include <QProgressBar>
+#include <QSettings>
+#include <QSize>
 #include <QSlider>
+#include <QToolButton>
+#include <QWidget>
 #include <string>
 
 #include "gui/views/desk.hpp"

@@ -1,9 +1,18 @@
 #include "gui/views/widgets.hpp"
 
+#include <QColor>
 #include <QEvent>
+#include <QIcon>
+#include <QLatin1String>
+#include <QPaintEvent>
 #include <QPainter>
+#include <QRect>
+#include <QSize>
+#include <QStyle>
 #include <QStyleOptionButton>
 #include <QStylePainter>
+#include <QVBoxLayout>
+#include <QWidget>
 
 #include "gui/views/theme.hpp"
 

@@ -3,11 +3,16 @@
 
 #include <QBoxLayout>
 #include <QComboBox>
+#include <QEvent>
 #include <QFrame>
 #include <QGridLayout>
 #include <QLabel>
+#include <QPaintEvent>
 #include <QPushButton>
+#include <QSize>
 #include <QToolButton>
+#include <QVBoxLayout>
+#include <QWidget>
 #include <functional>
 #include <vector>
 

@@ -18,10 +18,10 @@ namespace {
 
 // Machine frame: X to the right and towards the eye, so that both ways of tilting (about X) show the table's
 // face.
-const Vector kToEye = Vector(0.86, -0.30, 0.50).normalized();
-const Vector kRight = Vector(0, 0, 1).cross(kToEye).normalized();
-const Vector kUp = kToEye.cross(kRight);
-const Vector kLight = Vector(0.35, -0.75, 0.85).normalized();
+const Vector kTowardsEye = Vector(0.86, -0.30, 0.50).normalized();
+const Vector kEyeRight = Vector(0, 0, 1).cross(kTowardsEye).normalized();
+const Vector kEyeUp = kTowardsEye.cross(kEyeRight);
+const Vector kLamp = Vector(0.35, -0.75, 0.85).normalized();
 constexpr double kPanelHeight = 470, kTop = 108, kMargin = 36, kGap = 20, kWidth = 1200;
 constexpr double kChunk_mm = 2.5;  // strands are sorted by depth in pieces of this length
 // The nozzle's cone is drawn solid; what is above it as a shadow of itself, for it would hide the tip.
@@ -32,7 +32,7 @@ constexpr double kTableThickness_mm = 5;
 struct Panel {
   double x = 0, width = 0, scale = 1, tip_x = 0, tip_y = 0;
   std::array<double, 2> at(const Vector& m) const {
-    return {tip_x + scale * kRight.dot(m), tip_y - scale * kUp.dot(m)};
+    return {tip_x + scale * kEyeRight.dot(m), tip_y - scale * kEyeUp.dot(m)};
   }
 };
 
@@ -109,7 +109,7 @@ void draw_table(std::string& out, const Panel& panel, const Moment& now, double 
 }
 
 void draw_nozzle(std::string& out, const Panel& panel, const Nozzle& nozzle) {
-  const double flat = std::abs(kToEye.z());
+  const double flat = std::abs(kTowardsEye.z());
   const auto ring = [&](double height, const char* style) {
     const auto p = panel.at({0, 0, height});
     const double r = panel.scale * nozzle.radius_at(height);
@@ -135,7 +135,7 @@ void draw_strands(std::string& out, const Panel& panel, const Moment& now, const
     std::string colour;
   };
   std::vector<Chunk> chunks;
-  const Vector level = Vector(kToEye.x(), kToEye.y(), 0).normalized();
+  const Vector level = Vector(kTowardsEye.x(), kTowardsEye.y(), 0).normalized();
   std::array<int, 64> last_layer{};
   for (std::size_t i = 0; i < now.count; ++i)
     last_layer[static_cast<std::size_t>(strands[i].piece) % last_layer.size()] = strands[i].layer;
@@ -145,13 +145,13 @@ void draw_strands(std::string& out, const Panel& panel, const Moment& now, const
     if (!s.outside && s.layer < top - kLayersInside && s.layer > 0) continue;
     const Vector from = now.machine(s.from), to = now.machine(s.to), along = (to - from).normalized();
     // A strand is round: the light on the side that is turned to the eye.
-    const Vector face = (kToEye - kToEye.dot(along) * along).normalized();
-    const double light = 0.50 + 0.55 * std::max(0.0, face.dot(kLight)) + (s.layer % 2 == 0 ? 0.05 : -0.05);
+    const Vector face = (kTowardsEye - kTowardsEye.dot(along) * along).normalized();
+    const double light = 0.50 + 0.55 * std::max(0.0, face.dot(kLamp)) + (s.layer % 2 == 0 ? 0.05 : -0.05);
     const std::string colour = rgb(piece_colour(static_cast<std::size_t>(s.piece)), light);
     const int parts = std::max(1, static_cast<int>(std::ceil((to - from).norm() / kChunk_mm)));
     for (int k = 0; k < parts; ++k) {
       const Vector p = from + (to - from) * k / parts, q = from + (to - from) * (k + 1) / parts;
-      chunks.push_back({level.dot(p + q), kToEye.dot(p + q), panel.at(p), panel.at(q), colour});
+      chunks.push_back({level.dot(p + q), kTowardsEye.dot(p + q), panel.at(p), panel.at(q), colour});
     }
   }
   std::stable_sort(chunks.begin(), chunks.end(), [](const Chunk& a, const Chunk& b) {
@@ -187,8 +187,8 @@ void fit(std::vector<Panel>& panels, const std::vector<Moment>& moments, const s
     Extent& e = extents[n];
     for (std::size_t i = 0; i < moments[n].count; ++i) {
       const Vector m = moments[n].machine(strands[i].to);
-      e.left = std::min(e.left, kRight.dot(m)), e.right = std::max(e.right, kRight.dot(m));
-      e.low = std::min(e.low, kUp.dot(m)), e.high = std::max(e.high, kUp.dot(m));
+      e.left = std::min(e.left, kEyeRight.dot(m)), e.right = std::max(e.right, kEyeRight.dot(m));
+      e.low = std::min(e.low, kEyeUp.dot(m)), e.high = std::max(e.high, kEyeUp.dot(m));
     }
     scale = std::min(
         {scale, 0.80 * panels[n].width / (e.right - e.left), 0.80 * kPanelHeight / (e.high - e.low)});

@@ -67,11 +67,11 @@ struct UnaryFunction {
   const char* text;
   double (*apply)(double);
 };
-constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kRadPerDegree = std::numbers::pi / 180;
 constexpr std::array<UnaryFunction, 8> kUnary = {{
     {"abs", [](double x) { return std::abs(x); }},
-    {"SIN", [](double x) { return std::sin(x * kDegree); }},
-    {"cos ", [](double x) { return std::cos(x * kDegree); }},
+    {"SIN", [](double x) { return std::sin(x * kRadPerDegree); }},
+    {"cos ", [](double x) { return std::cos(x * kRadPerDegree); }},
     {"fix", [](double x) { return std::floor(x); }},
     {"FUP", [](double x) { return std::ceil(x); }},
     {"round", [](double x) { return std::round(x); }},

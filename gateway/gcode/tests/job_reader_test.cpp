@@ -5,17 +5,17 @@
 namespace kinebus::gcode {
 namespace {
 
-struct Outcome {
+struct Reading {
   std::vector<std::string> texts;
   std::string error;
   std::uint32_t lines = 0;
 };
 
-Outcome read_in_chunks(std::string_view text, std::size_t chunk) {
+Reading read_in_chunks(std::string_view text, std::size_t chunk) {
   Interpreter interpreter;
   JobReader reader(interpreter);
   CommandBuffer out;
-  Outcome outcome;
+  Reading outcome;
   Result<void, ParseError> result;
   for (std::size_t at = 0; at < text.size() && result; at += chunk)
     result = reader.read(text.substr(at, chunk), out);
@@ -30,12 +30,12 @@ TEST(JobReader, ChunksDoNotChangeTheOutcome) {
   const std::string text =
       "G21\r\nG1 X1.25 F600 ; out\r\n\r\n;TYPE:Perimeter\nG1 X-1 Y2 E.5\nM117 hello\nG2 X1 Y4 I2\nG4 P100";
   const std::string wrong = text + "\nG1 X1 Y\nG1 X5\n";
-  const Outcome whole = read_in_chunks(text, text.size());
+  const Reading whole = read_in_chunks(text, text.size());
   EXPECT_EQ(whole.error, "");
   EXPECT_EQ(whole.texts.size(), 7U);
-  const Outcome whole_wrong = read_in_chunks(wrong, wrong.size());
+  const Reading whole_wrong = read_in_chunks(wrong, wrong.size());
   for (std::size_t chunk = 1; chunk < wrong.size(); ++chunk) {
-    const Outcome parts = read_in_chunks(text, chunk), parts_wrong = read_in_chunks(wrong, chunk);
+    const Reading parts = read_in_chunks(text, chunk), parts_wrong = read_in_chunks(wrong, chunk);
     EXPECT_EQ(parts.texts, whole.texts);
     EXPECT_EQ(parts.error, whole.error);
     EXPECT_EQ(parts_wrong.texts, whole_wrong.texts);
@@ -44,7 +44,7 @@ TEST(JobReader, ChunksDoNotChangeTheOutcome) {
 }
 
 TEST(JobReader, TheLastLineMayLackItsEnd) {
-  const Outcome outcome = read_in_chunks("G0 X1\nG0 X2", 4);
+  const Reading outcome = read_in_chunks("G0 X1\nG0 X2", 4);
   EXPECT_EQ(outcome.lines, 2U);
   EXPECT_EQ(outcome.texts.back(), "2 end");
   EXPECT_EQ(outcome.texts[2], "2 traverse machine x2 y0 z0 a0 c0 e0");
@@ -66,7 +66,7 @@ TEST(JobReader, NulBytesAreRefusedAnywhere) {
 }
 
 TEST(JobReader, WhatFollowsTheProgramIsNotRead) {
-  const Outcome outcome = read_in_chunks("G0 X1\nM2\nthis is no G-code\n", 7);
+  const Reading outcome = read_in_chunks("G0 X1\nM2\nthis is no G-code\n", 7);
   EXPECT_EQ(outcome.error, "");
   EXPECT_EQ(outcome.texts.back(), "2 end");
 }

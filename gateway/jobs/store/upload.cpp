@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t kSecureEvery = 16ULL << 20;
 /// Uploads that are open at once; the one that began first goes back to the disk alone.
 constexpr std::size_t kMaxOpen = 8;
-constexpr std::size_t kPiece = 1U << 20;
+constexpr std::size_t kReadPiece = 1U << 20;
 
 Error<StoreError> fail(StoreError::Kind kind, Sentence words) {
   return Error<StoreError>({kind, std::move(words)});
@@ -101,10 +101,10 @@ Result<std::unique_ptr<JobStore::Upload>, StoreError> JobStore::reopen(const Upl
   Database::Statement row(*database_, "SELECT secured FROM uploads WHERE partial = ?");
   row.bind(partial.filename().string());
   const std::uint64_t secured = row.step() ? static_cast<std::uint64_t>(row.integer(0)) : 0;
-  std::string piece(kPiece, '\0');
+  std::string piece(kReadPiece, '\0');
   while (upload->received_bytes < secured) {
     const auto wanted =
-        static_cast<std::size_t>(std::min<std::uint64_t>(kPiece, secured - upload->received_bytes));
+        static_cast<std::size_t>(std::min<std::uint64_t>(kReadPiece, secured - upload->received_bytes));
     const ssize_t count = ::read(upload->fd, piece.data(), wanted);
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) break;

@@ -16,7 +16,7 @@ namespace {
 
 using job_test::kinematics;
 using job_test::machine;
-using Step = JobPipeline::Step;
+using LineStep = JobPipeline::Step;
 
 /// The motion of a job, at any of its seconds.
 struct Motion {
@@ -40,12 +40,12 @@ struct Motion {
 bool take(JobPipeline& pipeline, Motion& motion) {
   int budget = 1000;
   for (;;) {
-    const Step step = pipeline.next(budget);
-    if (step == Step::kPhase) motion.add(pipeline.phase());
-    if (step == Step::kRunEnd) ++motion.runs;
-    EXPECT_NE(step, Step::kProblem) << pipeline.problem().words;
-    if (step == Step::kProblem || step == Step::kEnd) return false;
-    if (step == Step::kStarved || step == Step::kMore) return true;
+    const LineStep step = pipeline.next(budget);
+    if (step == LineStep::kPhase) motion.add(pipeline.phase());
+    if (step == LineStep::kRunEnd) ++motion.runs;
+    EXPECT_NE(step, LineStep::kProblem) << pipeline.problem().words;
+    if (step == LineStep::kProblem || step == LineStep::kEnd) return false;
+    if (step == LineStep::kStarved || step == LineStep::kMore) return true;
   }
 }
 

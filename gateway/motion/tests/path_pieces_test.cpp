@@ -13,8 +13,8 @@
 namespace kinebus {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-const MotionLimits kLimits;
+constexpr double kHalfTurn = std::numbers::pi;
+const MotionLimits kPieceLimits;
 
 Move line(const PoseVector& from, const PoseVector& to) {
   Move move;
@@ -24,7 +24,7 @@ Move line(const PoseVector& from, const PoseVector& to) {
   move.length = norm_xyz(move.u);
   for (double& u : move.u) u /= move.length;
   move.u_end = move.u;
-  move.tolerance_mm = kLimits.blend_tolerance_mm;
+  move.tolerance_mm = kPieceLimits.blend_tolerance_mm;
   move.speed = 100;
   move.accel_mm_per_s2 = 3000;
   move.tool_motion = true;
@@ -49,7 +49,7 @@ void expect_derivatives(const PathPiece& piece) {
 TEST(CornerBlend, ContinuesBothLinesAndPassesTheCornerAtTheTolerance) {
   const Move a = line({0, 0, 0, 0, 0, 0}, {10, 0, 0, 0.01, 0, 0.4}),
              b = line(a.to, {10, 8, 0, 0.01, 0.02, 0.8});
-  const double half = blend_half_length(a, b, kLimits);
+  const double half = blend_half_length(a, b, kPieceLimits);
   PathPiece piece;
   blend_piece(a, b, half, piece);
   const PosePoint start = piece.evaluate(0), middle = piece.evaluate(half), end = piece.evaluate(2 * half);
@@ -57,37 +57,37 @@ TEST(CornerBlend, ContinuesBothLinesAndPassesTheCornerAtTheTolerance) {
   expect_near(start.x1, a.u, 1e-12);
   expect_near(end.x, point_on(b, half).x, 1e-12);
   expect_near(end.x1, b.u, 1e-12);
-  EXPECT_NEAR(std::hypot(middle.x[0] - 10, middle.x[1]), kLimits.blend_tolerance_mm, 1e-12);
+  EXPECT_NEAR(std::hypot(middle.x[0] - 10, middle.x[1]), kPieceLimits.blend_tolerance_mm, 1e-12);
   expect_derivatives(piece);
 }
 
 TEST(CornerBlend, TakesNoMoreThanHalfOfAMove) {
   const Move a = line({0, 0, 0, 0, 0, 0}, {0.01, 0, 0, 0, 0, 0}), b = line(a.to, {5, 0.2, 0, 0, 0, 0});
-  EXPECT_DOUBLE_EQ(blend_half_length(a, b, kLimits), 0.005);
+  EXPECT_DOUBLE_EQ(blend_half_length(a, b, kPieceLimits), 0.005);
 }
 
 TEST(CornerBlend, StraightOnNeedsNone) {
   const Move a = line({0, 0, 0, 0, 0, 0}, {10, 0, 0, 0, 0, 0}), b = line(a.to, {15, 0, 0, 0, 0, 0});
-  EXPECT_EQ(blend_half_length(a, b, kLimits), 0);
+  EXPECT_EQ(blend_half_length(a, b, kPieceLimits), 0);
 }
 
 TEST(CornerBlend, RotationsKeepTheirTolerance) {
   const Move a = line({0, 0, 0, 0, 0, 0}, {10, 0, 0, 0, 0, 0}), b = line(a.to, {20, 0, 0, 0, 1, 0});
-  const double half = blend_half_length(a, b, kLimits);
-  EXPECT_NEAR(0.1 * half / 4, kLimits.blend_tolerance_rad, 1e-12);
+  const double half = blend_half_length(a, b, kPieceLimits);
+  EXPECT_NEAR(0.1 * half / 4, kPieceLimits.blend_tolerance_rad, 1e-12);
 }
 
 TEST(ArcPiece, HelixHitsItsTargetAndHasUnitSpeed) {
   canonical::Arc arc;
   arc.target = {0, 10, 3, 0.1, 0.2, 5};
   arc.normal = {0, 0, 1};
-  arc.sweep_rad = 2.5 * kPi;
+  arc.sweep_rad = 2.5 * kHalfTurn;
   Move move;
   const PoseVector from{10, 0, 0, 0, 0, 0};
   move.from = from;
   move.to = arc.target;
   ASSERT_TRUE(shape_arc(arc, from, move));
-  EXPECT_NEAR(move.length, std::hypot(25 * kPi, 3), 1e-9);
+  EXPECT_NEAR(move.length, std::hypot(25 * kHalfTurn, 3), 1e-9);
   expect_near(point_on(move, 0).x, from, 1e-9);
   expect_near(point_on(move, move.length).x, arc.target, 1e-9);
   PathPiece piece;
@@ -102,7 +102,7 @@ TEST(ArcPiece, TiltedPlaneTurnsRightHanded) {
   canonical::Arc arc;
   arc.target = {0, 0, 5, 0, 0, 0};
   arc.normal = {0, -1, 0};  // X towards Z
-  arc.sweep_rad = kPi / 2;
+  arc.sweep_rad = kHalfTurn / 2;
   Move move;
   move.to = arc.target;
   ASSERT_TRUE(shape_arc(arc, {5, 0, 0, 0, 0, 0}, move));
@@ -127,8 +127,8 @@ GrowingRing<Move> polygon(int lines, double radius, double step) {
 
 TEST(LineMerger, RunOfRoundedLinesBecomesFewSmoothCubics) {
   const GrowingRing<Move> moves = polygon(100, 20, 0.2);
-  for (std::uint64_t i = 1; i < 100; ++i) EXPECT_TRUE(may_merge(moves[i - 1], moves[i], kLimits));
-  LineMerger merger(kLimits);
+  for (std::uint64_t i = 1; i < 100; ++i) EXPECT_TRUE(may_merge(moves[i - 1], moves[i], kPieceLimits));
+  LineMerger merger(kPieceLimits);
   merger.begin(moves, 0);
   PathPiece piece, before;
   int pieces = 0;
@@ -151,17 +151,18 @@ TEST(LineMerger, RunOfRoundedLinesBecomesFewSmoothCubics) {
 
 TEST(LineMerger, CornersAndChangesOfExtrusionAreNoCurve) {
   const Move a = line({0, 0, 0, 0, 0, 0}, {1, 0, 0, 0, 0, 0.04});
-  EXPECT_TRUE(may_merge(a, line(a.to, {2, 0.01, 0, 0, 0, 0.08}), kLimits));
-  EXPECT_FALSE(may_merge(a, line(a.to, {2, 0.4, 0, 0, 0, 0.08}), kLimits)) << "turns too much";
-  EXPECT_FALSE(may_merge(a, line(a.to, {2, 0.05, 0, 0, 0, 0.08}), kLimits)) << "would leave the tolerance";
-  EXPECT_FALSE(may_merge(a, line(a.to, {2, 0.01, 0, 0, 0, 0.04}), kLimits)) << "no filament any more";
-  EXPECT_FALSE(may_merge(a, line(a.to, {9, 0.01, 0, 0, 0, 0.32}), kLimits)) << "too long";
+  EXPECT_TRUE(may_merge(a, line(a.to, {2, 0.01, 0, 0, 0, 0.08}), kPieceLimits));
+  EXPECT_FALSE(may_merge(a, line(a.to, {2, 0.4, 0, 0, 0, 0.08}), kPieceLimits)) << "turns too much";
+  EXPECT_FALSE(may_merge(a, line(a.to, {2, 0.05, 0, 0, 0, 0.08}), kPieceLimits))
+      << "would leave the tolerance";
+  EXPECT_FALSE(may_merge(a, line(a.to, {2, 0.01, 0, 0, 0, 0.04}), kPieceLimits)) << "no filament any more";
+  EXPECT_FALSE(may_merge(a, line(a.to, {9, 0.01, 0, 0, 0, 0.32}), kPieceLimits)) << "too long";
   Move exact = line(a.to, {2, 0.01, 0, 0, 0, 0.08});
   exact.exact = true;
-  EXPECT_FALSE(may_merge(a, exact, kLimits)) << "exact path";
+  EXPECT_FALSE(may_merge(a, exact, kPieceLimits)) << "exact path";
   Move slow = line(a.to, {2, 0.01, 0, 0, 0, 0.08});
   slow.speed = 50;
-  EXPECT_FALSE(may_merge(a, slow, kLimits)) << "another feed";
+  EXPECT_FALSE(may_merge(a, slow, kPieceLimits)) << "another feed";
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 namespace kinebus::probe {
 namespace {
 
-const MotionLimits kLimits;
+const MotionLimits kProbeLimits;
 constexpr double kFastest = 1e5;  // a feed that is no limit
 
 Lines at_feed(Lines lines, double feed) {
@@ -23,14 +23,14 @@ Lines at_feed(Lines lines, double feed) {
 
 /// Planned time over the time-optimal profile's, on the path that was planned.
 double over_optimal(const Lines& lines, double feed, double grid_mm = 0.05) {
-  const Measured m = measure(m1(), kLimits, at_feed(lines, feed), 4, true);
-  expect_within_limits(m, kLimits, 0.005);
-  return m.duration_s / time_optimal_s(m1(), kLimits, m.all, feed, grid_mm);
+  const Measured m = measure(m1(), kProbeLimits, at_feed(lines, feed), 4, true);
+  expect_within_limits(m, kProbeLimits, 0.005);
+  return m.duration_s / time_optimal_s(m1(), kProbeLimits, m.all, feed, grid_mm);
 }
 
 TEST(TimeOptimal, ReferenceFindsTheTrapezoid) {
-  const Measured m = measure(m1(), kLimits, Job().feed(100).to({50, 0, 0, 0, 0, 0}).lines(), 8, true);
-  EXPECT_NEAR(time_optimal_s(m1(), kLimits, m.all, 100, 0.01), 50.0 / 100 + 100.0 / 3000, 1e-4);
+  const Measured m = measure(m1(), kProbeLimits, Job().feed(100).to({50, 0, 0, 0, 0, 0}).lines(), 8, true);
+  EXPECT_NEAR(time_optimal_s(m1(), kProbeLimits, m.all, 100, 0.01), 50.0 / 100 + 100.0 / 3000, 1e-4);
 }
 
 TEST(TimeOptimal, PrintIsWithinThreePercent) {

@@ -28,7 +28,7 @@ void push_run(NodeStream& stream, int count, std::int32_t units) {
   stream.push_end();
 }
 
-PathTime units(std::int64_t n) {
+PathTime path_units(std::int64_t n) {
   return PathTime{n * kPathTicksPerUnit};
 }
 
@@ -40,15 +40,15 @@ TEST(NodeStream, SendsStartThenACheckpointOfEachAxisThenMotion) {
   NodeStream stream(2);
   stream.reset({AxisState{to_fixed(1234.5), 0}, AxisState{to_fixed(-7), 0}}, 120, 120);
   push_run(stream, 4, 100);
-  EXPECT_FALSE(stream.next_frame({}, units(0))) << "before release";
+  EXPECT_FALSE(stream.next_frame({}, path_units(0))) << "before release";
   stream.release(5000);
-  const auto start = stream.next_frame({}, units(0));
+  const auto start = stream.next_frame({}, path_units(0));
   ASSERT_TRUE(start);
   EXPECT_EQ(start->id, 0x402u);
   EXPECT_EQ(decode_segment(get_u64_le(start->data)),
             (Segment{.sequence = 120, .control = SegmentControl::kStart, .start_units = 5000}));
   for (std::uint8_t axis = 0; axis < 2; ++axis) {
-    const auto frame = stream.next_frame({}, units(0));
+    const auto frame = stream.next_frame({}, path_units(0));
     ASSERT_TRUE(frame);
     EXPECT_EQ(frame->id, 0x502u);
     const Checkpoint c = decode_checkpoint(get_u64_le(frame->data));
@@ -56,7 +56,7 @@ TEST(NodeStream, SendsStartThenACheckpointOfEachAxisThenMotion) {
     EXPECT_EQ(c.axis, axis);
     EXPECT_EQ(c.position, axis == 0 ? to_fixed(1234.5) : to_fixed(-7));
   }
-  const auto segment = decode_segment(get_u64_le(stream.next_frame({}, units(0))->data));
+  const auto segment = decode_segment(get_u64_le(stream.next_frame({}, path_units(0))->data));
   EXPECT_EQ(segment->sequence, 121);
   EXPECT_EQ(segment->duration, 100);
 }
@@ -66,10 +66,10 @@ TEST(NodeStream, KeepsTheHorizon) {
   stream.reset({}, 0, 120);
   push_run(stream, 60, 1000);
   stream.release(10'000);
-  while (stream.next_frame({}, units(0))) {
+  while (stream.next_frame({}, path_units(0))) {
   }
   EXPECT_EQ(stream.sent_until_units(), 26'000);  // the first record that begins beyond 25,000
-  while (stream.next_frame({}, units(3'000))) {
+  while (stream.next_frame({}, path_units(3'000))) {
   }
   EXPECT_EQ(stream.sent_until_units(), 29'000);
 }
@@ -92,12 +92,12 @@ TEST(NodeStream, NeverSendsMoreThanANodeWithAMindOfItsOwnHasRoomFor) {
         ++runs;
       }
       for (auto k = random() % 40; k > 0; --k)
-        if (const auto frame = stream.next_frame({}, units(now))) node.on_frame(*frame);
+        if (const auto frame = stream.next_frame({}, path_units(now))) node.on_frame(*frame);
       // The node executes what it has, but never past it, and reports now and then.
       now = std::max(now, std::min(now + static_cast<std::int64_t>(random() % 600), node.until_units()));
-      node.advance_to(units(now));
+      node.advance_to(path_units(now));
       if (random() % 3 == 0) {
-        ASSERT_TRUE(stream.on_status({}, node.status(), units(now))) << "seed " << seed;
+        ASSERT_TRUE(stream.on_status({}, node.status(), path_units(now))) << "seed " << seed;
       }
     }
     EXPECT_EQ(node.complaint, "") << "seed " << seed;
@@ -114,9 +114,9 @@ TEST(NodeStream, CheckpointsComeRoundOnBothAxes) {
   push_run(stream, 300, 50);
   stream.release(0);
   for (std::int64_t now = 0; now < 16'000; now += 500) {
-    node.advance_to(units(now));
-    ASSERT_TRUE(stream.on_status({}, node.status(), units(now)));
-    while (const auto frame = stream.next_frame({}, units(now))) node.on_frame(*frame);
+    node.advance_to(path_units(now));
+    ASSERT_TRUE(stream.on_status({}, node.status(), path_units(now)));
+    while (const auto frame = stream.next_frame({}, path_units(now))) node.on_frame(*frame);
   }
   EXPECT_EQ(node.records(), 302u);
   EXPECT_EQ(node.complaint, "");
@@ -126,7 +126,7 @@ TEST(NodeStream, CheckpointsComeRoundOnBothAxes) {
 TEST(NodeStream, ReportsARecordThatTheNodeCannotKnow) {
   NodeStream stream(3);
   stream.reset({}, 0, 120);
-  const auto ok = stream.on_status({}, status(5, 120), units(0));
+  const auto ok = stream.on_status({}, status(5, 120), path_units(0));
   ASSERT_FALSE(ok);
   EXPECT_EQ(ok.error().kind, StreamError::Kind::kUnknownRecord);
   EXPECT_EQ(ok.error().node_id, 3);
@@ -137,11 +137,11 @@ TEST(NodeStream, ReportsRecordsThatWereSentAndNeverAccepted) {
   stream.reset({}, 0, 120);
   push_run(stream, 10, 100);
   stream.release(0);
-  while (stream.next_frame(milliseconds{100}, units(0))) {
+  while (stream.next_frame(milliseconds{100}, path_units(0))) {
   }
-  EXPECT_TRUE(stream.on_status(milliseconds{200}, status(3, 117), units(0)));
-  EXPECT_TRUE(stream.on_status(milliseconds{400}, status(3, 117), units(0)));
-  const auto ok = stream.on_status(milliseconds{600}, status(3, 117), units(0));
+  EXPECT_TRUE(stream.on_status(milliseconds{200}, status(3, 117), path_units(0)));
+  EXPECT_TRUE(stream.on_status(milliseconds{400}, status(3, 117), path_units(0)));
+  const auto ok = stream.on_status(milliseconds{600}, status(3, 117), path_units(0));
   ASSERT_FALSE(ok);
   EXPECT_EQ(ok.error().kind, StreamError::Kind::kSilent);
 }
@@ -151,11 +151,11 @@ TEST(NodeStream, PassesOnWhatTheNodeFound) {
   stream.reset({}, 0, 120);
   StreamStatus s = status(0, 120);
   s.flags = StreamStatus::kSequenceError;
-  EXPECT_EQ(stream.on_status({}, s, units(0)).error().kind, StreamError::Kind::kSequence);
+  EXPECT_EQ(stream.on_status({}, s, path_units(0)).error().kind, StreamError::Kind::kSequence);
   s.flags = StreamStatus::kCheckpointError;
-  EXPECT_EQ(stream.on_status({}, s, units(0)).error().kind, StreamError::Kind::kCheckpoint);
+  EXPECT_EQ(stream.on_status({}, s, path_units(0)).error().kind, StreamError::Kind::kCheckpoint);
   s.flags = StreamStatus::kUnderrun;
-  EXPECT_EQ(stream.on_status({}, s, units(0)).error().kind, StreamError::Kind::kUnderrun);
+  EXPECT_EQ(stream.on_status({}, s, path_units(0)).error().kind, StreamError::Kind::kUnderrun);
 }
 
 TEST(NodeStream, KnowsTheExactStateAndLineAtAnyPathTimeNotYetPassed) {
@@ -164,19 +164,19 @@ TEST(NodeStream, KnowsTheExactStateAndLineAtAnyPathTimeNotYetPassed) {
   stream.reset({}, 0, 120);
   push_run(stream, 40, 300);
   stream.release(1000);
-  while (const auto frame = stream.next_frame({}, units(0))) node.on_frame(*frame);
+  while (const auto frame = stream.next_frame({}, path_units(0))) node.on_frame(*frame);
   for (std::int64_t tau = 0; tau < 13'500 * kPathTicksPerUnit; tau += 77'777) {
     const auto states = stream.state_at(PathTime{tau});
     ASSERT_TRUE(states) << tau;
     for (std::size_t axis = 0; axis < 2; ++axis)
       EXPECT_EQ((*states)[axis].position, node.position(PathTime{tau}, axis)) << tau;
   }
-  EXPECT_EQ(stream.line_at(units(1000)), 1u);
-  EXPECT_EQ(stream.line_at(units(1300)), 2u);
-  node.advance_to(units(4'100));
-  ASSERT_TRUE(stream.on_status({}, node.status(), units(4'100)));
-  EXPECT_FALSE(stream.state_at(units(3'000))) << "passed by both";
-  EXPECT_TRUE(stream.state_at(units(4'100)));
+  EXPECT_EQ(stream.line_at(path_units(1000)), 1u);
+  EXPECT_EQ(stream.line_at(path_units(1300)), 2u);
+  node.advance_to(path_units(4'100));
+  ASSERT_TRUE(stream.on_status({}, node.status(), path_units(4'100)));
+  EXPECT_FALSE(stream.state_at(path_units(3'000))) << "passed by both";
+  EXPECT_TRUE(stream.state_at(path_units(4'100)));
   EXPECT_EQ(stream.accepted_state(), stream.final_state());
 }
 

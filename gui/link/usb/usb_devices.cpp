@@ -1,5 +1,8 @@
 #include "gui/link/usb/usb_devices.hpp"
 
+#include <QLatin1Char>
+#include <QString>
+
 #include <libusb.h>
 
 #include <array>

@@ -1,5 +1,10 @@
 #include "gui/link/usb/usb_link.hpp"
 
+#include <QByteArray>
+#include <QMetaObject>
+#include <QObject>
+#include <QString>
+
 #include <libusb.h>
 
 #include <algorithm>

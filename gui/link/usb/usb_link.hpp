@@ -2,6 +2,9 @@
 // A gateway on the USB cable: bulk transfers to and from its job link interface. libusb's thread completes
 // them and hands the bytes over to this object's thread.
 
+#include <QObject>
+#include <QString>
+
 #include <memory>
 
 #include "gui/link/link.hpp"

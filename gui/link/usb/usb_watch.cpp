@@ -2,6 +2,7 @@
 
 #include <libusb.h>
 
+#include <QMetaObject>
 #include <QTimer>
 #include <array>
 

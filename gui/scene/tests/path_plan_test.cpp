@@ -1,5 +1,7 @@
 #include "gui/scene/path_plan.hpp"
 
+#include <QSize>
+
 #include <gtest/gtest.h>
 
 #include <string>

@@ -5,14 +5,16 @@
 namespace kinebus::testing_bench {
 namespace {
 
-constexpr std::uint8_t kId = 1;
+constexpr std::uint8_t kNodeId = 1;
 
 struct StepsTest : testing::Test {
   StepsTest()
-      : bench({{.id = kId, .plant = {AxisPlantOptions{.switch_input = 1, .switch_counts = 100'000}, {}}}}) {}
+      : bench(
+            {{.id = kNodeId, .plant = {AxisPlantOptions{.switch_input = 1, .switch_counts = 100'000}, {}}}}) {
+  }
 
   double counts(int axis = 0) { return std::ldexp(static_cast<double>(bench.position(0, axis)), -32); }
-  void control(int word) { bench.write(kId, 0x6040, 0, 2, word); }
+  void control(int word) { bench.write(kNodeId, 0x6040, 0, 2, word); }
   /// Lets time pass in half milliseconds. No step of position, and of velocity no more than 1000 counts/s
   /// beyond what 1280000 counts/s^2 give in that time.
   void watch(BusTime span, double most_change = 1640) {
@@ -39,9 +41,9 @@ struct StepsTest : testing::Test {
 };
 
 TEST_F(StepsTest, ASetPointThatWaitsBehindAHaltIsDroppedByAStopOfAll) {
-  bench.enable(kId, 0, 1);
+  bench.enable(kNodeId, 0, 1);
   for (const int to : {60'000, 90'000}) {
-    bench.write(kId, 0x607A, 0, 4, to);
+    bench.write(kNodeId, 0x607A, 0, 4, to);
     control(0x0F);
     control(0x1F);
   }
@@ -59,22 +61,22 @@ TEST_F(StepsTest, ASetPointThatWaitsBehindAHaltIsDroppedByAStopOfAll) {
 }
 
 TEST_F(StepsTest, AWaitingSetPointIsDroppedByAChangeOfMode) {
-  bench.enable(kId, 0, 1);
+  bench.enable(kNodeId, 0, 1);
   for (const int to : {60'000, 90'000}) {
-    bench.write(kId, 0x607A, 0, 4, to);
+    bench.write(kNodeId, 0x607A, 0, 4, to);
     control(0x0F);
     control(0x1F);
   }
   bench.run(200ms);
-  bench.write(kId, 0x6060, 0, 1, 6);
+  bench.write(kNodeId, 0x6060, 0, 1, 6);
   watch(1s);
-  EXPECT_EQ(bench.read(kId, 0x6061, 0), 6);
+  EXPECT_EQ(bench.read(kNodeId, 0x6061, 0), 6);
   EXPECT_LT(counts(), 59'000);
 }
 
 TEST_F(StepsTest, HomingThatBeginsAgainWhileItStillBrakesGoesOnFromItsSpeed) {
-  bench.write(kId, 0x6098, 0, 1, 20);
-  bench.enable(kId, 0, 6);
+  bench.write(kNodeId, 0x6098, 0, 1, 20);
+  bench.enable(kNodeId, 0, 6);
   control(0x1F);
   watch(400ms);
   control(0x0F);
@@ -82,7 +84,7 @@ TEST_F(StepsTest, HomingThatBeginsAgainWhileItStillBrakesGoesOnFromItsSpeed) {
   control(0x1F);
   watch(3s);
   bench.run(10s);
-  EXPECT_EQ(bench.statusword(kId, 0) & 0x3400, 0x1400);
+  EXPECT_EQ(bench.statusword(kNodeId, 0) & 0x3400, 0x1400);
 }
 
 /// Of velocity in half a millisecond, along send_stream(): 5.6e6 counts/s^2.
@@ -106,7 +108,7 @@ void send_stream(Bench& bench, std::int64_t start_units) {
 /// Both axes follow it at full rate from here on.
 void run_stream(Bench& bench) {
   bench.bring_up();
-  for (int axis = 0; axis < 2; ++axis) bench.enable(kId, axis, 7);
+  for (int axis = 0; axis < 2; ++axis) bench.enable(kNodeId, axis, 7);
   send_stream(bench, bench.node().path_time(bench.local()).count() / kPathTicksPerUnit + 100);
   bench.run(20ms);
   bench.rate(1.0);
@@ -114,7 +116,7 @@ void run_stream(Bench& bench) {
 
 TEST_F(StepsTest, WithoutBusTimeNoStreamMoves) {
   bench.send(nmt_frame(NmtCommand::kStart, kAllNodes));
-  for (int axis = 0; axis < 2; ++axis) bench.enable(kId, axis, 7);
+  for (int axis = 0; axis < 2; ++axis) bench.enable(kNodeId, axis, 7);
   const std::size_t before = bench.seen.size();
   send_stream(bench, 100);
   bench.rate(1.0);
@@ -130,7 +132,7 @@ TEST_F(StepsTest, WithoutBusTimeNoStreamMoves) {
 TEST_F(StepsTest, AnAxisOnTheStreamStaysOnItWhenTheLineModeIsAskedForInMotion) {
   run_stream(bench);
   bench.run(200ms);
-  bench.write(kId, 0x60C0, 0, 2, 0);
+  bench.write(kNodeId, 0x60C0, 0, 2, 0);
   control(0x1F);
   watch(300ms, kStreamChange);
   // The waves come back to their start, on the stream alone.
@@ -140,8 +142,8 @@ TEST_F(StepsTest, AnAxisOnTheStreamStaysOnItWhenTheLineModeIsAskedForInMotion) {
 
 TEST_F(StepsTest, WithoutSyncAnAxisThatMovesByItselfStopsToo) {
   bench.bring_up();
-  bench.enable(kId, 0, 1);
-  bench.write(kId, 0x607A, 0, 4, 300'000);
+  bench.enable(kNodeId, 0, 1);
+  bench.write(kNodeId, 0x607A, 0, 4, 300'000);
   control(0x0F);
   control(0x1F);
   bench.run(50ms);
@@ -175,7 +177,7 @@ TEST_F(StepsTest, ARateCommandThatComesTooLateIsVoidAndStopsAll) {
 
 TEST_F(StepsTest, ARateCommandThatAStopHoldsBackIsAnsweredByAStopOfAll) {
   bench.bring_up();
-  for (int axis = 0; axis < 2; ++axis) bench.enable(kId, axis, 7);
+  for (int axis = 0; axis < 2; ++axis) bench.enable(kNodeId, axis, 7);
   peer_stop();
   bench.run(200ms);
   const std::size_t before = bench.seen.size();

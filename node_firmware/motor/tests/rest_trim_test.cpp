@@ -7,7 +7,7 @@
 namespace kinebus::motor {
 namespace {
 
-constexpr double kCount = kAnglePerCount;
+constexpr double kAngleOfCount = kAnglePerCount;
 
 /// A rotor that friction holds within a band about where the current pulls it, seen by a coarse encoder.
 struct StickingRotor {
@@ -31,10 +31,10 @@ struct Settling {
 
   void run(int periods) {
     for (int i = 0; i < periods; ++i) {
-      const auto error = static_cast<std::int32_t>((-origin - rotor.encoder()) * kCount);
+      const auto error = static_cast<std::int32_t>((-origin - rotor.encoder()) * kAngleOfCount);
       const RestTrim::Step step = rest.step(error);
-      trim += static_cast<double>(step.change) / kCount;
-      turn_to(trim + static_cast<double>(step.swing) / kCount);
+      trim += static_cast<double>(step.change) / kAngleOfCount;
+      turn_to(trim + static_cast<double>(step.swing) / kAngleOfCount);
     }
   }
   void turn_to(double angle) {
@@ -76,7 +76,7 @@ TEST(RestTrim, FadesWhenMotionBeginsInTheMiddleOfASwing) {
   EXPECT_GT(s.last_angle, RestTrim::kSwingCounts - 1);
   s.largest_jump = 0;
   for (int i = 0; i < RestTrim::kSwingPeriods; ++i)
-    s.turn_to(s.trim + static_cast<double>(s.rest.leave()) / kCount);
+    s.turn_to(s.trim + static_cast<double>(s.rest.leave()) / kAngleOfCount);
   EXPECT_EQ(s.last_angle, s.trim);
   EXPECT_LT(s.largest_jump, 0.05) << "counts in a control period";
 }

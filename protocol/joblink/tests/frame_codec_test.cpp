@@ -12,7 +12,7 @@
 namespace kinebus::joblink {
 namespace {
 
-std::span<const std::uint8_t> bytes_of(const std::string& text) {
+std::span<const std::uint8_t> text_bytes(const std::string& text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
@@ -24,7 +24,7 @@ std::vector<std::string> read_all(FrameReader& reader, const std::string& stream
   std::vector<std::string> messages;
   for (std::size_t i = 0; i < stream.size(); i += piece) {
     const std::string part = stream.substr(i, piece);
-    reader.add(bytes_of(part));
+    reader.add(text_bytes(part));
     while (const auto frame = reader.next()) messages.push_back(text_of(*frame));
   }
   return messages;
@@ -51,8 +51,8 @@ TEST(FrameCodec, TheChecksumIsThatOfIeee8023AtAnyLength) {
     for (std::size_t i = 0; i < size; ++i) message[i] = static_cast<char>(i * 37 + 11);
     append_frame(frame, 1, 2, message);
     Crc32 crc;
-    crc.add(bytes_of(message));
-    EXPECT_EQ(get_u32_le(bytes_of(frame).subspan(16)), crc.value()) << size;
+    crc.add(text_bytes(message));
+    EXPECT_EQ(get_u32_le(text_bytes(frame).subspan(16)), crc.value()) << size;
   }
 }
 
@@ -94,7 +94,7 @@ TEST(FrameCodec, GarbageIsSkippedInBoundedMemory) {
   for (int round = 0; round < 200; ++round) {
     std::string garbage(1000, '\0');
     for (char& c : garbage) c = "KBJ1x"[random() % 5];
-    reader.add(bytes_of(garbage));
+    reader.add(text_bytes(garbage));
     while (reader.next()) {
     }
     EXPECT_LT(reader.pending(), kFrameHeaderBytes + 3);

@@ -12,7 +12,7 @@
 namespace kinebus::joblink {
 namespace {
 
-std::span<const std::uint8_t> bytes_of(const std::string& text) {
+std::span<const std::uint8_t> message_bytes(const std::string& text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
@@ -42,7 +42,7 @@ TEST(UploadChunk, IsTheMessageThatTheLibraryReadsAndWrites) {
     const std::string expected = message_of(head, data).SerializeAsString();
     ASSERT_EQ(std::string(written.begin(), written.end()), expected)
         << "seed " << seed << ", round " << round;
-    const auto read = read_chunk(bytes_of(expected));
+    const auto read = read_chunk(message_bytes(expected));
     ASSERT_TRUE(read);
     EXPECT_EQ(read->head.request_id, head.request_id);
     EXPECT_EQ(read->head.upload_id, head.upload_id);
@@ -52,7 +52,7 @@ TEST(UploadChunk, IsTheMessageThatTheLibraryReadsAndWrites) {
 }
 
 TEST(UploadChunk, FieldsThatAreNotThereAreZeroAndEmpty) {
-  const auto read = read_chunk(bytes_of(message_of({}, {}).SerializeAsString()));
+  const auto read = read_chunk(message_bytes(message_of({}, {}).SerializeAsString()));
   ASSERT_TRUE(read);
   EXPECT_EQ(read->head.request_id, 0U);
   EXPECT_EQ(read->head.offset_bytes, 0U);
@@ -63,11 +63,11 @@ TEST(UploadChunk, OtherMessagesAndHalfOnesAreNone) {
   ClientMessage ping;
   ping.set_request_id(3);
   ping.mutable_ping();
-  EXPECT_FALSE(read_chunk(bytes_of(ping.SerializeAsString())));
+  EXPECT_FALSE(read_chunk(message_bytes(ping.SerializeAsString())));
   EXPECT_FALSE(read_chunk({}));
   const std::string whole = message_of({7, 8, 9'000}, "G1 X1\n").SerializeAsString();
   for (std::size_t size = 0; size < whole.size(); ++size)
-    EXPECT_FALSE(read_chunk(bytes_of(whole.substr(0, size)))) << size << " bytes of " << whole.size();
+    EXPECT_FALSE(read_chunk(message_bytes(whole.substr(0, size)))) << size << " bytes of " << whole.size();
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ struct Crystal {
 };
 
 /// One gateway and two nodes for `length`; `latency_ns(random)` for each reception; SYNC every `period(t)`.
-struct Bench {
+struct ClockBench {
   std::function<double(std::mt19937_64&)> latency_ns = [](std::mt19937_64& r) {
     return std::uniform_real_distribution<>(0, 20e3)(r);
   };
@@ -63,7 +63,7 @@ struct Bench {
 };
 
 /// Differences of the two nodes' estimates of one instant, in us, from `from` on, over seeds.
-std::vector<double> skews(Bench bench, BusTime from, BusTime length, unsigned seeds) {
+std::vector<double> skews(ClockBench bench, BusTime from, BusTime length, unsigned seeds) {
   std::vector<double> all;
   const BusTime begin = seconds{5000};
   bench.look = [&](BusTime u, const ClockEstimate& a, const ClockEstimate& b, const Crystal& ca,
@@ -96,7 +96,7 @@ TEST(ClockEstimate, NodesAgreeWithinTwoMicrosecondsSixSecondsAfterPowerUp) {
 // Uniform latency of 20 us leaves 20 us / n to be known after n SYNCs, whatever the estimator: after 3 s at
 // 20 Hz that is too little, so a gateway begins with SYNC at 100 Hz.
 TEST(ClockEstimate, ThreeSecondsOfFastSyncAreEnough) {
-  Bench bench;
+  ClockBench bench;
   bench.period = [](BusTime t) {
     return t < seconds{3} ? BusTime{milliseconds{10}} : BusTime{milliseconds{50}};
   };
@@ -106,7 +106,7 @@ TEST(ClockEstimate, ThreeSecondsOfFastSyncAreEnough) {
 }
 
 TEST(ClockEstimate, RareOutliersDoNotPull) {
-  Bench bench;
+  ClockBench bench;
   bench.latency_ns = [](std::mt19937_64& r) {
     const bool outlier = std::uniform_real_distribution<>(0, 1)(r) < 0.01;
     return std::uniform_real_distribution<>(0, outlier ? 1e6 : 20e3)(r);
@@ -117,7 +117,7 @@ TEST(ClockEstimate, RareOutliersDoNotPull) {
 }
 
 TEST(ClockEstimate, LostAndDoubledFramesOnlyThinTheWindow) {
-  Bench bench;
+  ClockBench bench;
   bench.loss = 0.1;
   bench.doubling = 0.1;
   const auto all = skews(bench, seconds{16}, seconds{24}, 20);
@@ -127,7 +127,7 @@ TEST(ClockEstimate, LostAndDoubledFramesOnlyThinTheWindow) {
 TEST(ClockEstimate, ErrorBoundHoldsAndIsUseful) {
   long outside = 0, total = 0;
   double largest = 0;
-  Bench bench;
+  ClockBench bench;
   bench.look = [&](BusTime u, const ClockEstimate& a, const ClockEstimate&, const Crystal& ca,
                    const Crystal&) {
     if (u < seconds{3}) return;

@@ -14,7 +14,8 @@ constexpr std::uint32_t kReceiveLevel = 1u << 4, kStartOfFrame = 1u << 3, kSuspe
                         kReset = 1u << 12, kEnumerated = 1u << 13, kInEndpoint = 1u << 18,
                         kOutEndpoint = 1u << 19;
 constexpr std::uint32_t kActive = 1u << 15, kNakStatus = 1u << 17, kStall = 1u << 21, kClearNak = 1u << 26,
-                        kSetNak = 1u << 27, kDataZero = 1u << 28, kDisable = 1u << 30, kEnable = 1u << 31;
+                        kSetNak = 1u << 27, kDataZero = 1u << 28, kDisable = 1u << 30,
+                        kEndpointEnable = 1u << 31;
 constexpr std::uint32_t kComplete = 1u << 0, kDisabled = 1u << 1, kSetupPhase = 1u << 3,
                         kNakInForce = 1u << 6;
 constexpr std::uint32_t kOutData = 2, kOutDone = 3, kSetupDone = 4, kSetupData = 6;
@@ -120,7 +121,8 @@ void OtgHs::write_reset(std::uint32_t value) {
     const std::uint32_t which = value >> 6 & 0x1F;
     for (std::size_t n = 0; n < in_.size(); ++n) {
       if (which != n && which != 16) continue;
-      if ((in_[n].ctl & kEnable) != 0 && !in_[n].nak) violation("FIFO flushed while its endpoint may send");
+      if ((in_[n].ctl & kEndpointEnable) != 0 && !in_[n].nak)
+        violation("FIFO flushed while its endpoint may send");
       in_[n].fifo.clear();
       in_[n].written = 0;
       if (writing_ == static_cast<int>(n)) writing_ = -1;
@@ -140,7 +142,7 @@ std::uint32_t OtgHs::pop_status() {
   Endpoint& e = out_[entry.status & 0xF];
   const std::uint32_t what = entry.status >> 17 & 0xF;
   if (what == kOutDone || what == kSetupDone) {
-    e.ctl &= ~kEnable;
+    e.ctl &= ~kEndpointEnable;
     e.interrupt |= what == kOutDone ? kComplete : kSetupPhase;
   }
   update_line();
@@ -165,7 +167,7 @@ void OtgHs::write_fifo(int number, std::uint32_t value) {
   if (number < 0 || number >= kEndpoints) return violation("no such FIFO");
   Endpoint& e = in_[static_cast<std::size_t>(number)];
   const std::uint32_t bytes = e.tsiz & 0x7FFFF;
-  if ((e.ctl & kEnable) == 0) return violation("FIFO written while its endpoint is not enabled");
+  if ((e.ctl & kEndpointEnable) == 0) return violation("FIFO written while its endpoint is not enabled");
   if (e.written >= words(bytes)) return violation("FIFO written beyond the transfer's size");
   if (e.fifo.size() >= send_words(number)) return violation("FIFO overflows");
   e.fifo.push_back(value);
@@ -207,7 +209,8 @@ void OtgHs::endpoint_write(std::uint32_t offset, std::uint32_t value) {
       e.interrupt &= ~value;
       break;
     case 0x10:
-      if (is_in && (e.ctl & kEnable) != 0) violation("size of a transfer changed while it is under way");
+      if (is_in && (e.ctl & kEndpointEnable) != 0)
+        violation("size of a transfer changed while it is under way");
       e.tsiz = value;
       e.written = 0;
       break;
@@ -217,10 +220,10 @@ void OtgHs::endpoint_write(std::uint32_t offset, std::uint32_t value) {
 }
 
 void OtgHs::write_control(Endpoint& e, bool is_in, int number, std::uint32_t value) {
-  constexpr std::uint32_t kOrders = kClearNak | kSetNak | kDataZero | 1u << 29 | kDisable | kEnable;
-  const bool was_enabled = (e.ctl & kEnable) != 0;
+  constexpr std::uint32_t kOrders = kClearNak | kSetNak | kDataZero | 1u << 29 | kDisable | kEndpointEnable;
+  const bool was_enabled = (e.ctl & kEndpointEnable) != 0;
   const bool stalled = number == 0 && (e.ctl & kStall) != 0;  // taken back by the core only
-  e.ctl = (value & ~kOrders & ~kNakStatus) | (was_enabled ? kEnable : 0) | (stalled ? kStall : 0) |
+  e.ctl = (value & ~kOrders & ~kNakStatus) | (was_enabled ? kEndpointEnable : 0) | (stalled ? kStall : 0) |
           (number == 0 ? kActive : 0);
   if ((value & kDataZero) != 0 && number != 0) e.toggle = 0;
   if ((value & kSetNak) != 0) {
@@ -233,15 +236,15 @@ void OtgHs::write_control(Endpoint& e, bool is_in, int number, std::uint32_t val
   }
   if ((value & kDisable) != 0 && was_enabled) {
     if (!e.nak) violation("endpoint disabled without NAK");
-    e.ctl &= ~kEnable;
+    e.ctl &= ~kEndpointEnable;
     e.interrupt |= kDisabled;
     return;
   }
-  if ((value & kEnable) == 0 || was_enabled) return;
+  if ((value & kEndpointEnable) == 0 || was_enabled) return;
   if ((e.ctl & kActive) == 0) violation("endpoint enabled that is not active");
   if (packets(e.tsiz) == 0) violation("endpoint enabled for no packet");
   if (is_in && static_cast<int>(value >> 22 & 0xF) != number) violation("endpoint with another's FIFO");
-  e.ctl |= kEnable;
+  e.ctl |= kEndpointEnable;
 }
 
 bool OtgHs::pulled_up(Cycle now) const {
@@ -318,7 +321,7 @@ OtgHs::Answer OtgHs::out(int address, int endpoint, const Bytes& bytes, int togg
   Endpoint& e = out_[static_cast<std::size_t>(endpoint)];
   if (!addressed(address) || (e.ctl & kActive) == 0) return Answer::kNothing;
   if ((e.ctl & kStall) != 0) return Answer::kStall;
-  if (e.nak || (e.ctl & kEnable) == 0 || !room_for(bytes.size())) return Answer::kNak;
+  if (e.nak || (e.ctl & kEndpointEnable) == 0 || !room_for(bytes.size())) return Answer::kNak;
   if (toggle != e.toggle) return Answer::kAck;  // had it already
   if (bytes.size() > (e.tsiz & 0x7FFFF)) violation("more came than the transfer has room for");
   e.toggle ^= 1;
@@ -333,7 +336,7 @@ OtgHs::Received OtgHs::in(int address, int endpoint) {
   if (!addressed(address) || (e.ctl & kActive) == 0) return {};
   if ((e.ctl & kStall) != 0) return {.answer = Answer::kStall, .bytes = {}};
   const std::uint32_t bytes = e.tsiz & 0x7FFFF;
-  if (e.nak || (e.ctl & kEnable) == 0 || e.fifo.size() < words(bytes))
+  if (e.nak || (e.ctl & kEndpointEnable) == 0 || e.fifo.size() < words(bytes))
     return {.answer = Answer::kNak, .bytes = {}};
   Received got{.answer = Answer::kAck, .bytes = {}, .toggle = e.toggle};
   for (std::uint32_t i = 0; i < bytes; ++i) {
@@ -342,7 +345,7 @@ OtgHs::Received OtgHs::in(int address, int endpoint) {
   }
   e.toggle ^= 1;
   e.tsiz = 0;
-  e.ctl &= ~kEnable;
+  e.ctl &= ~kEndpointEnable;
   e.interrupt |= kComplete;
   if (endpoint == 0) address_ = programmed_address();
   update_line();

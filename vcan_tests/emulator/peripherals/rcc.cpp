@@ -4,7 +4,7 @@ namespace kinebus::emulator {
 namespace {
 constexpr std::uint32_t kCr = 0x00, kPllCfgr = 0x04, kCfgr = 0x08, kAhb1LpEnr = 0x50, kCsr = 0x74;
 constexpr std::uint32_t kCrystalHz = 8'000'000, kInternalHz = 16'000'000;
-constexpr std::uint32_t kPowerOnReset = 1u << 27, kPinReset = 1u << 26, kSoftwareReset = 1u << 28,
+constexpr std::uint32_t kPowerOnReset = 1u << 27, kPinReset = 1u << 26, kSoftwareResetFlag = 1u << 28,
                         kWatchdogReset = 1u << 29;
 
 std::uint32_t apb_divider(std::uint32_t code) {
@@ -22,7 +22,7 @@ void Rcc::reset(ResetCause cause) {
       causes_ |= kPowerOnReset | kPinReset;
       break;
     case ResetCause::kSoftware:
-      causes_ |= kSoftwareReset | kPinReset;
+      causes_ |= kSoftwareResetFlag | kPinReset;
       break;
     case ResetCause::kWatchdog:
       causes_ |= kWatchdogReset | kPinReset;

@@ -2,7 +2,7 @@
 
 namespace kinebus::emulator {
 namespace {
-constexpr std::uint32_t kMaster = 4, kEnable = 0x40, kFrame16 = 0x800;
+constexpr std::uint32_t kMaster = 4, kSpiEnable = 0x40, kFrame16 = 0x800;
 }
 
 void Spi::reset() {
@@ -62,7 +62,7 @@ void Spi::write(std::uint32_t offset, std::uint32_t value, Cycle now) {
   advance(now);
   if (offset == 0x00) cr1_ = value;
   if (offset == 0x04) cr2_ = value;
-  if (offset == 0x0C && (cr1_ & (kMaster | kEnable)) == (kMaster | kEnable)) {
+  if (offset == 0x0C && (cr1_ & (kMaster | kSpiEnable)) == (kMaster | kSpiEnable)) {
     if (done_ == kNever)
       begin(static_cast<std::uint16_t>(value), now);
     else
