@@ -7,8 +7,8 @@
 #include <QLatin1String>
 #include <QPainter>
 #include <QPalette>
-#include <QStyle>
 #include <QPixmap>
+#include <QStyle>
 #include <QStyleFactory>
 #include <QSvgRenderer>
 #include <QVector3D>
