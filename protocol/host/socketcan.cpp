@@ -15,6 +15,8 @@
 #include <ctime>
 #include <utility>
 
+#include "protocol/host/kernel_frame.hpp"
+
 namespace kinebus {
 namespace {
 
@@ -32,16 +34,6 @@ LocalTime to_monotonic(const timespec& wall) {
   const LocalTime now = clock_now(CLOCK_MONOTONIC);
   constexpr LocalTime kOldest = std::chrono::seconds{1};
   return age < LocalTime{0} || age > kOldest ? now : now - age;
-}
-
-CanFrame from_kernel(const can_frame& raw) {
-  CanFrame frame;
-  frame.extended = (raw.can_id & CAN_EFF_FLAG) != 0;
-  frame.remote = (raw.can_id & CAN_RTR_FLAG) != 0;
-  frame.id = raw.can_id & (frame.extended ? CAN_EFF_MASK : CAN_SFF_MASK);
-  frame.length = raw.can_dlc > 8 ? std::uint8_t{8} : raw.can_dlc;
-  std::memcpy(frame.data.data(), raw.data, frame.length);
-  return frame;
 }
 
 }  // namespace
@@ -104,10 +96,7 @@ void SocketCan::accept(std::span<const Accept> filters) {
 }
 
 SocketCan::Sent SocketCan::send(const CanFrame& frame) {
-  can_frame raw{};
-  raw.can_id = frame.id | (frame.extended ? CAN_EFF_FLAG : 0u) | (frame.remote ? CAN_RTR_FLAG : 0u);
-  raw.can_dlc = frame.length;
-  std::memcpy(raw.data, frame.data.data(), frame.length);
+  const can_frame raw = to_kernel(frame);
   if (::write(fd_, &raw, sizeof raw) == sizeof raw) return Sent::kYes;
   if (errno == ENOBUFS || errno == EAGAIN || errno == EINTR) {
     ++counters_.tx_full;

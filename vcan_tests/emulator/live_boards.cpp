@@ -1,13 +1,12 @@
 #include "vcan_tests/emulator/live_boards.hpp"
 
 #include <poll.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <deque>
-
-#include "protocol/host/socketcan.hpp"
 
 namespace kinebus::emulator {
 namespace {
@@ -18,30 +17,40 @@ constexpr BusTime kBehind = 1ms;
 constexpr BusTime kPiece = 1ms;  // of the boards' time, between looks at the interface
 constexpr int kMailboxes = 4;    // other participants of the bus may have several frames waiting
 
-std::atomic<bool> ended{false}, power_lost{false};
+std::atomic<bool> ended{false};
 void on_end(int) {
   ended = true;
-}
-void on_power_loss(int) {
-  power_lost = true;
 }
 
 }  // namespace
 
-std::string run_live(const ElfImage& image, const std::vector<EmulatedNodeOptions>& nodes,
-                     const std::string& interface, BusTime most_behind) {
-  SocketCan can;
-  if (std::string error = can.open(interface, false); !error.empty()) return error;
+std::string run_live(const ElfImage& image, const std::vector<EmulatedNodeOptions>& nodes, CanPort& bus,
+                     const LiveOptions& options) {
   std::signal(SIGINT, on_end);
   std::signal(SIGTERM, on_end);
-  std::signal(SIGUSR1, on_power_loss);
   EmulatedMachine machine(image, nodes, kMailboxes);
-  std::fprintf(stderr, "kinebus-emulate: %zu boards on %s\n", nodes.size(), interface.c_str());
-
-  const LocalTime began = monotonic_now();
+  LocalTime began = monotonic_now();
   BusTime slipped{0}, now{0}, goal{0};
   std::deque<std::pair<BusTime, CanFrame>> incoming;
   std::deque<CanFrame> outgoing;
+  const auto goes_on = [&] { return !ended && !bus.closed(); };
+  const auto has_power = [&] {
+    return options.power_file.empty() || ::access(options.power_file.c_str(), F_OK) == 0;
+  };
+  // Without power nothing is heard, and the boards' time stands.
+  const auto wait_for_power = [&] {
+    std::fprintf(stderr, "kinebus-emulate: power off\n");
+    incoming.clear();
+    outgoing.clear();
+    const LocalTime since = monotonic_now();
+    while (goes_on() && !has_power()) {
+      pollfd wait = bus.waits_for(true);
+      poll(&wait, 1, 1);
+      while (bus.receive()) {
+      }
+    }
+    began += monotonic_now() - since;
+  };
   const auto run_to = [&](BusTime end) {
     while (now < end) {
       while (!incoming.empty() && incoming.front().first <= now && machine.can_send()) {
@@ -59,28 +68,27 @@ std::string run_live(const ElfImage& image, const std::vector<EmulatedNodeOption
       if (done) now = next;
     }
   };
-  while (!ended) {
-    if (power_lost.exchange(false)) {
+  if (!has_power()) wait_for_power();
+  std::fprintf(stderr, "kinebus-emulate: power on; %zu boards\n", nodes.size());
+  while (goes_on()) {
+    if (!has_power()) {
+      wait_for_power();
       for (int node = 0; node < machine.node_count(); ++node) machine.power_cycle(node);
-      outgoing.clear();
-      std::fprintf(stderr, "kinebus-emulate: power off and on again\n");
+      std::fprintf(stderr, "kinebus-emulate: power on\n");
     }
-    pollfd wait{can.fd(), POLLIN, 0};
+    pollfd wait = bus.waits_for(true);
     poll(&wait, 1, now < goal ? 0 : 1);
     const BusTime behind = monotonic_now() - began - slipped - kBehind - now;
-    if (behind > most_behind + kPiece) slipped += behind - kPiece;
-    while (const auto got = can.receive()) {
-      if (got->kind == SocketCan::Kind::kDown) return interface + " went down";
-      if (got->kind == SocketCan::Kind::kFrame)
-        incoming.emplace_back(got->when - began - slipped, got->frame);
-    }
+    if (behind > options.most_behind + kPiece) slipped += behind - kPiece;
+    while (const auto got = bus.receive()) incoming.emplace_back(got->when - began - slipped, got->frame);
     goal = monotonic_now() - began - slipped - kBehind;
     run_to(std::min(goal, now + kPiece));
-    while (!outgoing.empty() && can.send(outgoing.front()) == SocketCan::Sent::kYes) outgoing.pop_front();
+    while (!outgoing.empty() && bus.send(outgoing.front())) outgoing.pop_front();
+    bus.flush();
   }
   std::fprintf(stderr, "kinebus-emulate: %.1f s of board time, slipped %.3f s behind the wall clock\n",
                to_seconds(now), to_seconds(slipped));
-  return "";
+  return bus.trouble();
 }
 
 }  // namespace kinebus::emulator

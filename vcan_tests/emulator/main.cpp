@@ -93,12 +93,20 @@ int run(int argc, char** argv) {
   CLI::App app{
       "Runs the firmware's image on emulated boards.\n"
       "Without an interface: turns both motors of one board and prints what its interrupts cost."};
-  std::string file, boot, interface;
+  std::string file, boot, interface, socket;
   std::vector<int> nodes;
   double speed = 15, seconds = 0.5, late_ms = 50;
   app.add_option("image", file, "kinebus-node.elf")->required();
   app.add_option("--boot", boot, "kinebus-boot.elf: the boot loader in front of it, as on a board");
-  app.add_option("-i,--interface", interface, "SocketCAN interface, such as vcan0: runs live until stopped");
+  auto* on_interface = app.add_option("-i,--interface", interface,
+                                      "SocketCAN interface, such as vcan0: runs live until stopped");
+  app.add_option(
+         "--socket", socket,
+         "Instead of an interface: a Unix socket, made here, of whose one guest the struct can_frames are "
+         "the bus (kinebus-can-port)")
+      ->excludes(on_interface);
+  LiveOptions live;
+  app.add_option("--power", live.power_file, "Live: the boards have power while this file exists");
   app.add_option("-n,--node", nodes, "Node id, given by LSS; once for each board")->check(CLI::Range(1, 126));
   app.add_option(
          "--late", late_ms,
@@ -120,14 +128,19 @@ int run(int argc, char** argv) {
     if (!error.empty()) std::fprintf(stderr, "kinebus-emulate: %s\n", error.c_str());
     return error.empty() ? 0 : 1;
   }
-  if (interface.empty()) {
+  if (interface.empty() && socket.empty()) {
     report(image, speed, seconds);
     return 0;
   }
   if (nodes.empty()) nodes = {1};
   std::vector<EmulatedNodeOptions> boards;
   for (const int node : nodes) boards.push_back(board_of(node));
-  const std::string error = run_live(image, boards, interface, BusTime{std::llround(late_ms * 1e6)});
+  live.most_behind = BusTime{std::llround(late_ms * 1e6)};
+  InterfacePort can;
+  StreamPort stream;
+  std::string error = socket.empty() ? can.open(interface) : stream.wait_at(socket);
+  if (error.empty())
+    error = run_live(image, boards, socket.empty() ? static_cast<CanPort&>(can) : stream, live);
   if (!error.empty()) std::fprintf(stderr, "kinebus-emulate: %s\n", error.c_str());
   return error.empty() ? 0 : 1;
 }
