@@ -65,8 +65,8 @@ class InterfacePort final : public CanPort {
   SocketCan can_;
 };
 
-/// Frames as struct can_frame (16 bytes, this computer's byte order) on a byte stream, either way: a Unix socket
-/// or, in a guest, a virtio-serial port. Received frames have the time at which they were read.
+/// Frames as struct can_frame (16 bytes, this computer's byte order) on a byte stream, either way: a Unix
+/// socket or, in a guest, a virtio-serial port. Received frames have the time at which they were read.
 class StreamPort final : public CanPort {
  public:
   StreamPort() = default;
