@@ -10,7 +10,7 @@
 
 namespace kinebus::gui {
 
-inline bool wait_until(const std::function<bool()>& holds, int deadline_ms = 20'000) {
+inline bool wait_until(const std::function<bool()>& holds, int deadline_ms = 120'000) {
   QDeadlineTimer deadline(deadline_ms);
   while (!holds()) {
     if (deadline.hasExpired()) return false;

@@ -298,62 +298,111 @@ TEST_F(WindowTest, LeavingTheGatewayEmptiesEveryPage) {
   }
 }
 
+/// A job in the window's view of the machine, and what its thread takes for it.
+class ShownJob {
+ public:
+  ShownJob(Desk& desk, SceneView& scene, int lines, const QString& path)
+      : desk_(desk), scene_(scene), lines_(lines), path_(path) {
+    QFile file(path);
+    if (file.open(QIODevice::WriteOnly)) file.write(long_job(lines));
+  }
+
+  /// From the file to the first whole picture. False: it does not come.
+  bool show() {
+    clock_.start();
+    const double others_from = others_ms();
+    const auto before = desk_.path.scene();
+    desk_.path.show_file(path_);
+    const auto is_there = [&] { return desk_.path.scene() != nullptr && desk_.path.scene() != before; };
+    if (!wait_until(is_there, kPatience_ms)) return false;
+    reading_ms = others_ms() - others_from;
+    const bool shown = wait_until(
+        [&] { return !scene_.renderer().copying() && scene_.renderer().lines_drawn() > 0; }, kPatience_ms);
+    first_picture_s = static_cast<double>(clock_.nsecsElapsed()) * 1e-9;
+    scene_.fit_part();
+    return shown && desk_.path.scene()->path.line_count >= static_cast<std::uint32_t>(lines_);
+  }
+
+  /// The view turns, picture by picture: what one takes is measured.
+  bool turn() {
+    const double thread_from = cpu_ms(CLOCK_THREAD_CPUTIME_ID), all_from = cpu_ms(CLOCK_PROCESS_CPUTIME_ID);
+    const std::size_t from = scene_.frames();
+    clock_.restart();
+    while (scene_.frames() < from + kFrames) {
+      scene_.content().camera.orbit(2, 0);
+      scene_.redraw();
+      if (!wait_until([&, before = scene_.frames()] { return scene_.frames() > before; }, kPatience_ms))
+        return false;
+    }
+    thread_ms = (cpu_ms(CLOCK_THREAD_CPUTIME_ID) - thread_from) / kFrames;
+    process_ms = (cpu_ms(CLOCK_PROCESS_CPUTIME_ID) - all_from) / kFrames;
+    frames_per_s = kFrames / (static_cast<double>(clock_.nsecsElapsed()) * 1e-9);
+    quick_lines = scene_.renderer().lines_drawn();
+    return true;
+  }
+
+  bool rest() {
+    return wait_until([&] { return scene_.at_rest(); }, kPatience_ms);
+  }
+
+  int lines() const { return lines_; }
+
+  static constexpr int kPatience_ms = 120'000, kFrames = 60;
+  double first_picture_s = 0;  ///< by the clock
+  double reading_ms = 0;       ///< processor time of the other threads until all is read
+  double frames_per_s = 0, thread_ms = 0, process_ms = 0;
+  std::size_t quick_lines = 0;
+
+ private:
+  static double others_ms() { return cpu_ms(CLOCK_PROCESS_CPUTIME_ID) - cpu_ms(CLOCK_THREAD_CPUTIME_ID); }
+
+  Desk& desk_;
+  SceneView& scene_;
+  int lines_;
+  QString path_;
+  QElapsedTimer clock_;
+};
+
 TEST_F(WindowTest, MillionLineJobIsShownWithoutBlockingTheWindow) {
   show_connected();
   window->show_page(MainWindow::kView);
   QTemporaryDir folder;
-  QFile file(folder.filePath(QStringLiteral("long.gcode")));
-  ASSERT_TRUE(file.open(QIODevice::WriteOnly));
-  file.write(long_job(1'000'000));
-  file.close();
   SceneView& scene = window->view_page().scene();
   ASSERT_TRUE(scene.error().isEmpty()) << scene.error().toStdString();
   // The machine is there, and the first look at it.
   ASSERT_TRUE(wait_until([&] { return scene.frames() > 3 && scene.content().camera != Camera{}; }));
+  ShownJob small(desk, scene, 6'000, folder.filePath(QStringLiteral("short.gcode")));
+  ShownJob big(desk, scene, 1'000'000, folder.filePath(QStringLiteral("long.gcode")));
+  ASSERT_TRUE(small.show());
+  ASSERT_TRUE(small.turn());
+  ASSERT_TRUE(small.rest());
   Watchdog watchdog;
-  QElapsedTimer clock;
-  clock.start();
-  desk.path.show_file(file.fileName());
-  ASSERT_TRUE(wait_until([&] { return desk.path.scene() != nullptr; }, 60'000));
-  ASSERT_GE(desk.path.scene()->path.line_count, 1'000'000u);
-  ASSERT_TRUE(
-      wait_until([&] { return !scene.renderer().copying() && scene.renderer().lines_drawn() > 0; }, 60'000));
-  const double first_picture_s = static_cast<double>(clock.nsecsElapsed()) * 1e-9;
-  scene.fit_part();
-  const auto turn = [&](std::size_t frames) {
-    const std::size_t from = scene.frames();
-    while (scene.frames() < from + frames) {
-      scene.content().camera.orbit(2, 0);
-      scene.redraw();
-      if (!wait_until([&, before = scene.frames()] { return scene.frames() > before; })) return false;
-    }
-    return true;
-  };
-  constexpr int kFrames = 60;
-  ASSERT_TRUE(turn(kFrames));
+  ASSERT_TRUE(big.show());
+  ASSERT_TRUE(big.turn());
   watchdog.rest();
-  const double thread_from = cpu_ms(CLOCK_THREAD_CPUTIME_ID), all_from = cpu_ms(CLOCK_PROCESS_CPUTIME_ID);
-  clock.restart();
-  ASSERT_TRUE(turn(kFrames));
-  const double frames_per_s = kFrames / (static_cast<double>(clock.nsecsElapsed()) * 1e-9);
-  const double thread_ms = (cpu_ms(CLOCK_THREAD_CPUTIME_ID) - thread_from) / kFrames;
-  const double process_ms = (cpu_ms(CLOCK_PROCESS_CPUTIME_ID) - all_from) / kFrames;
+  ASSERT_TRUE(big.turn());
   watchdog.go_on();
-  EXPECT_LE(scene.renderer().lines_drawn(), SceneRenderer::budget_for("llvmpipe").quick_lines);
-  ASSERT_TRUE(wait_until([&] { return scene.at_rest(); }, 120'000));
+  ASSERT_TRUE(big.rest());
+  for (const ShownJob* job : {&small, &big})
+    std::printf(
+        "%d lines: %.0f ms of processor time to read, first picture after %.2f s by the clock\n"
+        "while turning %.0f frames/s by the clock; a frame of %zu lines takes %.1f ms of the window's "
+        "thread, "
+        "%.1f ms of all threads\n",
+        job->lines(), job->reading_ms, job->first_picture_s, job->frames_per_s, job->quick_lines,
+        job->thread_ms, job->process_ms);
   std::printf(
-      "1,000,000 lines: first picture after %.2f s, peak memory %.0f MB\n"
-      "while turning %.0f frames/s by the clock; a frame takes %.1f ms of the window's thread, %.1f ms of "
-      "all "
-      "threads; %zu lines at rest\n"
-      "longest work of the window's thread at once %.1f ms (by the clock, with all else that runs here, %.1f "
-      "ms)\n",
-      first_picture_s, peak_memory_mb(), frames_per_s, thread_ms, process_ms, scene.renderer().lines_drawn(),
-      watchdog.most_cpu_ms, watchdog.most_wall_ms);
-  // 30 frames/s as far as the window's thread goes; what the rasteriser's threads take is the host's matter,
-  // and told above (up to 66 ms are 30 frames/s on two cores).
-  EXPECT_LE(thread_ms, 33);
-  EXPECT_LE(watchdog.most_cpu_ms, 50);
+      "%zu lines at rest, peak memory %.0f MB; longest work of the window's thread at once %.1f ms (by the "
+      "clock, with all else that runs here, %.1f ms)\n",
+      scene.renderer().lines_drawn(), peak_memory_mb(), watchdog.most_cpu_ms, watchdog.most_wall_ms);
+  // Whatever the computer: a picture costs what its lines cost, of which there are never more, however long
+  // the job (1.0 measured). How many pictures a second that makes is told above.
+  EXPECT_LE(big.quick_lines, SceneRenderer::budget_for("llvmpipe").quick_lines);
+  EXPECT_LE(big.thread_ms / static_cast<double>(big.quick_lines),
+            2 * small.thread_ms / static_cast<double>(small.quick_lines));
+  // The job is read elsewhere and drawn in slices: the window is never away for more than a share of what the
+  // job takes (0.03 to 0.06 measured).
+  EXPECT_LE(watchdog.most_cpu_ms, big.reading_ms / 10);
   EXPECT_LE(peak_memory_mb(), 600);
 }
 

@@ -47,7 +47,7 @@ def print_file(port, path, seconds):
     core = printcore(port, 115200)
     heard = []
     core.recvcb = heard.append
-    until(40, "greeting of the gateway (printcore online)", lambda: core.online)
+    until(200, "greeting of the gateway (printcore online)", lambda: core.online)
     with open(path) as file:
         code = gcoder.LightGCode([line.rstrip("\n") for line in file])
     began = time.monotonic()

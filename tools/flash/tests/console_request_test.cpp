@@ -43,7 +43,7 @@ TEST(ConsoleRequest, IsGrantedWhenThePortGoes) {
     heard = line.hear();
     ::close(line.fd);
   });
-  EXPECT_EQ(request_system_boot(line.port, 20s), "");
+  EXPECT_EQ(request_system_boot(line.port, 120s), "");
   node.join();
   ::close(line.held);
   EXPECT_EQ(heard, "DFU");
@@ -56,7 +56,7 @@ TEST(ConsoleRequest, TellsWhyItIsRefused) {
     const std::string answer = "refused: an axis has power\r\n";
     EXPECT_EQ(::write(line.fd, answer.data(), answer.size()), static_cast<ssize_t>(answer.size()));
   });
-  EXPECT_EQ(request_system_boot(line.port, 20s), "the node refused: an axis has power");
+  EXPECT_EQ(request_system_boot(line.port, 120s), "the node refused: an axis has power");
   node.join();
   ::close(line.held);
   ::close(line.fd);
