@@ -69,10 +69,11 @@ std::string run_live(const ElfImage& image, const std::vector<EmulatedNodeOption
     }
   };
   if (!has_power()) wait_for_power();
-  std::fprintf(stderr, "kinebus-emulate: power on; %zu boards\n", nodes.size());
+  if (goes_on()) std::fprintf(stderr, "kinebus-emulate: power on; %zu boards\n", nodes.size());
   while (goes_on()) {
     if (!has_power()) {
       wait_for_power();
+      if (!goes_on()) break;
       for (int node = 0; node < machine.node_count(); ++node) machine.power_cycle(node);
       std::fprintf(stderr, "kinebus-emulate: power on\n");
     }
