@@ -317,7 +317,11 @@ class ShownJob {
     if (!wait_until(is_there, kPatience_ms)) return false;
     reading_ms = others_ms() - others_from;
     const bool shown = wait_until(
-        [&] { return !scene_.renderer().copying() && scene_.renderer().lines_drawn() > 0; }, kPatience_ms);
+        [&, painted = scene_.frames()] {
+          return scene_.frames() > painted && !scene_.renderer().copying() &&
+                 scene_.renderer().lines_drawn() > 0;
+        },
+        kPatience_ms);
     first_picture_s = static_cast<double>(clock_.nsecsElapsed()) * 1e-9;
     scene_.fit_part();
     return shown && desk_.path.scene()->path.line_count >= static_cast<std::uint32_t>(lines_);
@@ -395,11 +399,10 @@ TEST_F(WindowTest, MillionLineJobIsShownWithoutBlockingTheWindow) {
       "%zu lines at rest, peak memory %.0f MB; longest work of the window's thread at once %.1f ms (by the "
       "clock, with all else that runs here, %.1f ms)\n",
       scene.renderer().lines_drawn(), peak_memory_mb(), watchdog.most_cpu_ms, watchdog.most_wall_ms);
-  // Whatever the computer: a picture costs what its lines cost, of which there are never more, however long
-  // the job (1.0 measured). How many pictures a second that makes is told above.
+  // Whatever the computer: a picture does not cost more for a longer job, beyond the lines that it may have
+  // (1.4 to 1.9 times the short job's measured). How many pictures a second that makes is told above.
   EXPECT_LE(big.quick_lines, SceneRenderer::budget_for("llvmpipe").quick_lines);
-  EXPECT_LE(big.thread_ms / static_cast<double>(big.quick_lines),
-            2 * small.thread_ms / static_cast<double>(small.quick_lines));
+  EXPECT_LE(big.thread_ms, 3 * small.thread_ms);
   // The job is read elsewhere and drawn in slices: the window is never away for more than a share of what the
   // job takes (0.03 to 0.06 measured).
   EXPECT_LE(watchdog.most_cpu_ms, big.reading_ms / 10);
