@@ -204,8 +204,8 @@ Refused LiveLines::check_extrusion(const Pose& target) {
     return std::nullopt;
   }
   if (*hotend_celsius_ >= machine_.thermal.min_extrude_c) return std::nullopt;
-  return say("filament would be fed with the hotend at %1; at least %2 is needed", rounded_celsius(*hotend_celsius_),
-             rounded_celsius(machine_.thermal.min_extrude_c));
+  return say("filament would be fed with the hotend at %1; at least %2 is needed",
+             rounded_celsius(*hotend_celsius_), rounded_celsius(machine_.thermal.min_extrude_c));
 }
 
 Refused LiveLines::check_thermal(const canonical::Thermal& thermal) {
@@ -216,7 +216,8 @@ Refused LiveLines::check_thermal(const canonical::Thermal& thermal) {
   const Sentence name = hotend ? say("hotend") : say("bed");
   if (!heater.present && thermal.value > 0) return say("this machine has no %1 heater", name);
   if (!(thermal.value >= 0 && thermal.value <= heater.max_c))
-    return say("%1 temperature %2; allowed are 0 to %3", name, rounded_celsius(thermal.value), rounded_celsius(heater.max_c));
+    return say("%1 temperature %2; allowed are 0 to %3", name, rounded_celsius(thermal.value),
+               rounded_celsius(heater.max_c));
   if (thermal.wait && thermal.wait_cooling && thermal.value > 0 && thermal.value < machine_.thermal.ambient_c)
     return say("%1 would wait forever: %2 is below the room's %3", name, rounded_celsius(thermal.value),
                rounded_celsius(machine_.thermal.ambient_c));
