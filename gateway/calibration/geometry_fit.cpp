@@ -232,10 +232,9 @@ GeometryFit fit_geometry(const GeometryModel& model, const GeometryFitOptions& o
   return fit;
 }
 
-std::vector<PoseVector> suggest_poses(const BelievedMachine& machine,
-                                      const std::vector<GeometryReading>& present,
-                                      const std::vector<PoseVector>& candidates, std::size_t count,
-                                      double sigma_mm, const GeometryFitOptions& options) {
+std::vector<Pose> suggest_poses(const BelievedMachine& machine, const std::vector<GeometryReading>& present,
+                                const std::vector<Pose>& candidates, std::size_t count, double sigma_mm,
+                                const GeometryFitOptions& options) {
   const auto information = [&](const std::vector<GeometryReading>& readings) {
     const GeometryModel model(machine, readings);
     const auto jacobian = model.jacobian(model.start());
@@ -249,14 +248,14 @@ std::vector<PoseVector> suggest_poses(const BelievedMachine& machine,
   for (const GeometryReading& r : present)
     if (r.kind == GeometryReading::Kind::kPoint) points.push_back(r);
   std::vector<GeometryReading> possible;
-  for (const PoseVector& pose : candidates) {
+  for (const Pose& pose : candidates) {
     GeometryReading r;
     r.commanded = pose;
     r.sigma_mm = sigma_mm;
     possible.push_back(r);
   }
   const Eigen::MatrixXd rows = information(possible);
-  std::vector<PoseVector> out;
+  std::vector<Pose> out;
   if (rows.rows() == 0) return out;
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Identity(rows.cols(), rows.cols());
   const auto take = [&](const Eigen::MatrixXd& block) {

@@ -39,9 +39,8 @@ GeometryFit fit_geometry(const GeometryModel& model, const GeometryFitOptions& o
 /// The `count` of `candidates` that would tell most, in their order of use: each is the one that raises the
 /// determinant of the information most, given the readings that are there and those chosen before. Touch
 /// probe readings of X, Y and Z with `sigma_mm` are assumed.
-std::vector<PoseVector> suggest_poses(const BelievedMachine& machine,
-                                      const std::vector<GeometryReading>& present,
-                                      const std::vector<PoseVector>& candidates, std::size_t count,
-                                      double sigma_mm, const GeometryFitOptions& options);
+std::vector<Pose> suggest_poses(const BelievedMachine& machine, const std::vector<GeometryReading>& present,
+                                const std::vector<Pose>& candidates, std::size_t count, double sigma_mm,
+                                const GeometryFitOptions& options);
 
 }  // namespace kinebus

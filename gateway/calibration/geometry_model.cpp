@@ -104,7 +104,7 @@ MachineDeviation GeometryModel::deviation(const std::vector<double>& x) {
 
 std::optional<std::array<double, 4>> GeometryModel::tool_at(const DeviatedMachine& machine,
                                                             const JointVector& joints,
-                                                            const PoseVector& near) const {
+                                                            const Pose& near) const {
   JointVector true_joints{};
   for (std::size_t i = 0; i < kLegs; ++i)
     true_joints[i] = joints[i] + machine.deviation.offset_mm[i] +
@@ -120,7 +120,7 @@ std::optional<std::array<double, 4>> GeometryModel::tool_at(const DeviatedMachin
 }
 
 std::optional<std::array<double, 4>> GeometryModel::tool(const MachineDeviation& deviation,
-                                                         const PoseVector& commanded) const {
+                                                         const Pose& commanded) const {
   JointVector joints{};
   if (!believed_->inverse(Frame::kPart, commanded, joints)) return std::nullopt;
   return tool_at(DeviatedMachine(machine_, deviation), joints, commanded);

@@ -32,7 +32,7 @@ struct GeometryReading {
     kBallBar,  ///< distance from a ball on the table whose place is not known, the same within a series
   };
   Kind kind = Kind::kPoint;
-  PoseVector commanded{};
+  Pose commanded{};
   Vector3 value_mm{};  ///< kGauge, kBallBar: value_mm[0]
   std::array<bool, 3> has{true, true, true};
   Vector3 direction{0, 0, 1};
@@ -66,8 +66,7 @@ class GeometryModel {
 
   /// Where the tool of a machine with these deviations is, commanded to go to a pose. Table coordinates, A
   /// last.
-  std::optional<std::array<double, 4>> tool(const MachineDeviation& deviation,
-                                            const PoseVector& commanded) const;
+  std::optional<std::array<double, 4>> tool(const MachineDeviation& deviation, const Pose& commanded) const;
   static MachineDeviation deviation(const std::vector<double>& x);
 
  private:
@@ -76,7 +75,7 @@ class GeometryModel {
     bool reached = false;
   };
   std::optional<std::array<double, 4>> tool_at(const struct DeviatedMachine& machine,
-                                               const JointVector& joints, const PoseVector& near) const;
+                                               const JointVector& joints, const Pose& near) const;
 
   BelievedMachine machine_;
   std::unique_ptr<Kinematics> believed_;

@@ -114,8 +114,8 @@ struct PathLimits {
   double tool_speed_mm_per_s = 300;
   double tool_accel_mm_per_s2 = 3000;
   /// Of pose axes, by PoseAxis: mm or rad. 0: no limit of its own (the tool's, and the joints', still hold).
-  PoseVector axis_speed_per_s{0, 0, 0, 90 * kRadPerDeg, 360 * kRadPerDeg, 60};
-  PoseVector axis_accel_per_s2{0, 0, 0, 900 * kRadPerDeg, 3600 * kRadPerDeg, 3000};
+  Pose axis_speed_per_s{0, 0, 0, 90 * kRadPerDeg, 360 * kRadPerDeg, 60};
+  Pose axis_accel_per_s2{0, 0, 0, 900 * kRadPerDeg, 3600 * kRadPerDeg, 3000};
   friend bool operator==(const PathLimits&, const PathLimits&) = default;
 };
 

@@ -1,19 +1,17 @@
 #pragma once
 // The canonical commands: what a G-code job means, free of dialect, offsets, units and modal state.
 // The seam between interpreter and planner, and what golden tests compare. All lengths mm, angles rad, speeds
-// mm/s or rad/s, absolute poses. Poses are given in `frame` (see kinematics.hpp for kPart and kMachine,
-// repeated here as an own type, because gcode includes nothing of the layers behind it).
+// mm/s or rad/s, absolute poses in `frame`. E of a pose is absolute over the whole job, G92 and retraction
+// resolved.
 
 #include <array>
 #include <cstdint>
 #include <string>
 #include <variant>
 
-namespace kinebus::canonical {
+#include "gateway/pose.hpp"
 
-/// X Y Z (mm), A C (rad), E (mm of filament; absolute over the whole job, G92 and retraction resolved).
-using Pose = std::array<double, 6>;
-enum class Frame : std::uint8_t { kPart, kMachine };
+namespace kinebus::canonical {
 
 struct Traverse {  ///< G0: as fast as the machine allows
   Pose target{};

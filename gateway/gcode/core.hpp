@@ -29,6 +29,8 @@ class Core {
   void restore(const State& state);
   void set_position(const Pose& pose, Frame frame);
 
+  bool set_work_offset(int system, const Pose& offset, bool here);
+
   const State& state() const { return state_; }
   const ParseError& error() const { return error_; }
   std::vector<Note>& notes() { return notes_; }
@@ -88,6 +90,7 @@ class Core {
   // offsets.cpp
   bool select_coordinate_system(Code code);
   bool set_coordinate_system();
+  void set_offset(std::size_t system, std::size_t axis, double value, bool here);
   bool set_g92(Code code);
   bool set_tool_length(Code code);
   bool set_tilt(Code code);

@@ -32,6 +32,11 @@ void Interpreter::set_position(const Pose& pose, Frame frame) {
   core_->set_position(pose, frame);
 }
 
+Result<void, Sentence> Interpreter::set_work_offset(int system, const Pose& offset, bool here) {
+  if (core_->set_work_offset(system, offset, here)) return {};
+  return Error<Sentence>(core_->error().message);
+}
+
 std::span<const Note> Interpreter::notes() const {
   return core_->notes();
 }

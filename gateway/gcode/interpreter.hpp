@@ -72,6 +72,10 @@ class Interpreter {
   /// appends SetPosition first.
   void set_position(const Pose& pose, Frame frame);
 
+  /// Sets a work zero (X Y Z A C; `system` 0 is G54) as G10 L2 does; with `here` as G10 L20: the current
+  /// point gets these coordinates. Refused in a tilted plane.
+  Result<void, Sentence> set_work_offset(int system, const Pose& offset, bool here);
+
   /// The current point as the job would write it: mm and degrees.
   Pose program_position() const;
   /// "G1 G17 G21 G90 G91.1 G94 G54 G49 G64 G69 M82": for status displays.

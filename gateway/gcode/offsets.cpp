@@ -115,22 +115,31 @@ bool Core::set_coordinate_system() {
     return fail(code.column, say("G10 needs P: 1 for G54 ... 9 for G59.3, 0 for the active one"));
   int p = 0;
   if (!take_integer('P', 0, kCoordinateSystems, p)) return false;
-  Pose& offsets = m.coordinate_offsets[static_cast<std::size_t>(p == 0 ? m.coordinate_system : p - 1)];
+  const auto system = static_cast<std::size_t>(p == 0 ? m.coordinate_system : p - 1);
   for (int axis = kAxisX; axis <= kAxisC; ++axis) {
     const char letter = kAxisLetters[static_cast<std::size_t>(axis)];
     double value = 0;
     if (!has(letter)) continue;
     if (!take(letter, value)) return false;
-    const auto at = static_cast<std::size_t>(axis);
-    offsets[at] = axis_value(axis, value);
-    if (l != 20) continue;
-    // L20: the current point gets these coordinates, were this the active system.
-    const double without =
-        m.position[at] -
-        (shift_[at] - m.coordinate_offsets[static_cast<std::size_t>(m.coordinate_system)][at]);
-    offsets[at] = without - axis_value(axis, value);
-    refresh_shift();
+    set_offset(system, static_cast<std::size_t>(axis), axis_value(axis, value), l == 20);
   }
+  refresh();
+  return true;
+}
+
+/// `here`: the current point gets this coordinate, were this the active system.
+void Core::set_offset(std::size_t system, std::size_t axis, double value, bool here) {
+  ModalState& m = state_.modal;
+  const double active = m.coordinate_offsets[static_cast<std::size_t>(m.coordinate_system)][axis];
+  const double without = m.position[axis] - (shift_[axis] - active);
+  m.coordinate_offsets[system][axis] = here ? without - value : value;
+  refresh_shift();
+}
+
+bool Core::set_work_offset(int system, const Pose& offset, bool here) {
+  if (!refuse_in_tilt(Code{.number = 100})) return false;
+  for (std::size_t axis = kAxisX; axis <= kAxisC; ++axis)
+    set_offset(static_cast<std::size_t>(system), axis, offset[axis], here);
   refresh();
   return true;
 }

@@ -12,9 +12,6 @@
 
 namespace kinebus::gcode {
 
-using canonical::Frame;
-using canonical::Pose;
-
 enum Axis : std::uint8_t { kAxisX, kAxisY, kAxisZ, kAxisA, kAxisC, kAxisE };
 inline constexpr int kAxes = 6;
 inline constexpr int kCoordinateSystems = 9;  ///< G54 .. G59, G59.1 .. G59.3

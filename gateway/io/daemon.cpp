@@ -99,7 +99,8 @@ void Daemon::run(const volatile std::sig_atomic_t* quit) {
       notify_systemd("STOPPING=1");
       quit_at = now + kQuitWithin;
       if (!may_leave(gateway_.state()))
-        if (const auto held = gateway_.hold(); !held) static_cast<void>(gateway_.stop());
+        if (const auto held = gateway_.carry_out(command::Hold{}); !held)
+          static_cast<void>(gateway_.carry_out(command::Stop{}));
     }
     if (*quit != 0 && (may_leave(gateway_.state()) || now >= quit_at)) return;
     loop_.wait(

@@ -2,7 +2,7 @@
 // A part of the daemon that lives on its loop beside bus and core: hears the machine's news and sees the
 // time.
 
-#include "gateway/machine/event.hpp"
+#include "gateway/status/event.hpp"
 #include "protocol/time.hpp"
 
 namespace kinebus {

@@ -64,7 +64,7 @@ Result<std::unique_ptr<ByteSource>, std::string> StoreFiles::open(std::string_vi
 std::string StoreFiles::run(std::string_view name) {
   auto source = open(name);
   if (!source) return source.error();
-  const auto begun = gateway_.run(std::move(*source), std::string(name));
+  const auto begun = gateway_.carry_out(command::Run{std::move(*source), std::string(name)});
   if (!begun) return begun.error().words.english();
   server_.job_started(std::string(name));
   return {};

@@ -34,10 +34,6 @@ std::optional<SetPosition> target_of(const Command& command) {
   return std::nullopt;
 }
 
-kinebus::Frame frame_of(canonical::Frame frame) {
-  return frame == canonical::Frame::kPart ? kinebus::Frame::kPart : kinebus::Frame::kMachine;
-}
-
 }  // namespace
 
 JobPipeline::JobPipeline(const MachineDescription& machine, const Kinematics& kinematics)
@@ -46,8 +42,8 @@ JobPipeline::JobPipeline(const MachineDescription& machine, const Kinematics& ki
       planner_(kinematics, motion_limits(machine)),
       text_(kTextBytes) {}
 
-void JobPipeline::begin(const PoseVector& start) {
-  planner_.reset(start, kinebus::Frame::kMachine);
+void JobPipeline::begin(const Pose& start) {
+  planner_.reset(start, Frame::kMachine);
   commands_.clear();
   next_command_ = 0;
   first_.clear();
@@ -67,9 +63,9 @@ void JobPipeline::begin(const PoseVector& start) {
   scales_.clear();
 }
 
-void JobPipeline::start_job(ByteSource& source, const PoseVector& start, const gcode::WorkOffsets& offsets) {
+void JobPipeline::start_job(ByteSource& source, const Pose& start, const gcode::WorkOffsets& offsets) {
   begin(start);
-  const PoseVector home = kinematics_.bed_reference();
+  const Pose home = kinematics_.bed_reference();
   gcode::Options options = interpreter_options(machine_, start, home);
   options.work_offsets = offsets;
   interpreter_ = std::make_unique<gcode::Interpreter>(std::move(options));
@@ -78,14 +74,14 @@ void JobPipeline::start_job(ByteSource& source, const PoseVector& start, const g
   text_done_ = false;
 }
 
-void JobPipeline::start_commands(std::vector<canonical::Line> commands, const PoseVector& start) {
+void JobPipeline::start_commands(std::vector<canonical::Line> commands, const Pose& start) {
   begin(start);
   commands_ = std::move(commands);
   source_ = nullptr;
   text_done_ = true;
 }
 
-void JobPipeline::start_live(const PoseVector& start) {
+void JobPipeline::start_live(const Pose& start) {
   begin(start);
   source_ = nullptr;
   text_done_ = false;
@@ -265,7 +261,7 @@ void JobPipeline::add_to_planner(const canonical::Line& line) {
   // The planner refuses everything now. It goes on behind the refused move, so that later problems are seen
   // too.
   if (const auto target = target_of(line.command))
-    planner_.reset(target->pose, frame_of(target->frame));
+    planner_.reset(target->pose, target->frame);
   else
     planner_.reset(planner_.end_pose(), planner_.end_frame());
   if (path_mode_) static_cast<void>(planner_.add({line.line, *path_mode_}));
@@ -281,7 +277,7 @@ void JobPipeline::drain(std::optional<canonical::Line> barrier) {
 
 /// G28 while positions are known: the machine goes where homing would leave it.
 void JobPipeline::home(const Home& home, std::uint32_t line) {
-  const kinebus::Frame frame = frame_of(home.frame);
+  const Frame frame = home.frame;
   if (planner_.end_frame() != frame) {
     const auto pose = convert_pose(kinematics_, planner_.end_frame(), planner_.end_pose(), frame);
     if (!pose) return refuse(line, 0, say("G28: %1", to_string(pose.error())));

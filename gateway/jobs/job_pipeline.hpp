@@ -39,13 +39,13 @@ class JobPipeline {
 
   /// A job's text. The machine stands at `start` (Frame::kMachine). `source` must outlive the job and be at
   /// its beginning. `offsets`: of G54 .. G59.3, as the machine has them.
-  void start_job(ByteSource& source, const PoseVector& start, const gcode::WorkOffsets& offsets = {});
+  void start_job(ByteSource& source, const Pose& start, const gcode::WorkOffsets& offsets = {});
   /// Motion put in by hand (jog, reference): the commands, then the end.
-  void start_commands(std::vector<canonical::Line> commands, const PoseVector& start);
+  void start_commands(std::vector<canonical::Line> commands, const Pose& start);
 
   /// Commands that come over time, by add(), until end_live(). What was added is given out as far as it can
   /// be planned without knowing what follows; settle_live() gives out the rest, to a stop.
-  void start_live(const PoseVector& start);
+  void start_live(const Pose& start);
   void add(const canonical::Line& line);
   void settle_live();
   void end_live() { text_done_ = true; }
@@ -84,7 +84,7 @@ class JobPipeline {
     kEnded,
   };
 
-  void begin(const PoseVector& start);
+  void begin(const Pose& start);
   void refuse(std::uint32_t line, std::uint32_t column, Sentence words);
   std::optional<Step> take_phase();
   std::optional<Step> settle();

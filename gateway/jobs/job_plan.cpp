@@ -29,7 +29,7 @@ JobPlan::JobPlan(const MachineDescription& machine, const Kinematics& kinematics
     : pipeline_(machine, kinematics),
       check_(machine, kinematics),
       group_(kinematics, node_axes(machine), stream_options(machine)) {
-  const PoseVector start = kinematics.bed_reference();
+  const Pose start = kinematics.bed_reference();
   pipeline_.start_job(source, start);
   JointVector joints{};
   if (const auto reached = kinematics.inverse(Frame::kMachine, start, joints); !reached) {

@@ -20,10 +20,6 @@ constexpr double kLongestMove_mm = 1e5;
 constexpr double kLongestTurn_rad = 1000;
 constexpr double kNoExtrusion_mm = 1e-9;
 
-kinebus::Frame checked_frame(canonical::Frame frame) {
-  return frame == canonical::Frame::kPart ? kinebus::Frame::kPart : kinebus::Frame::kMachine;
-}
-
 std::string rounded_celsius(double value) {
   return printed("%.6g C", value);
 }
@@ -49,7 +45,7 @@ LiveLines::LiveLines(const MachineDescription& machine, const Kinematics& kinema
 }
 
 void LiveLines::restart(const gcode::WorkOffsets& offsets) {
-  const PoseVector home = kinematics_.bed_reference();
+  const Pose home = kinematics_.bed_reference();
   gcode::Options options = interpreter_options(machine_, home, home);
   options.work_offsets = offsets;
   interpreter_ = gcode::Interpreter(std::move(options));
@@ -58,15 +54,24 @@ void LiveLines::restart(const gcode::WorkOffsets& offsets) {
   may_move_ = cold_noted_ = false;
 }
 
-void LiveLines::begin(const PoseVector& pose, std::optional<double> hotend_celsius,
-                      gcode::CommandBuffer& out) {
+void LiveLines::stand_at(const Pose& pose) {
   // The program's E stays; what it stands for on the machine is where the machine's E is.
   gcode::State state = interpreter_.state();
   state.modal.e_canonical_base_mm += pose[kE] - state.modal.position[kE];
   state.modal.position[kE] = pose[kE];
   interpreter_.restore(state);
-  interpreter_.set_position(pose, canonical::Frame::kMachine);
-  place_ = {pose, canonical::Frame::kMachine};
+  interpreter_.set_position(pose, Frame::kMachine);
+}
+
+Result<void, Sentence> LiveLines::set_work_offset(int system, const Pose& offset, bool here,
+                                                  const std::optional<Pose>& where) {
+  if (where) stand_at(*where);
+  return interpreter_.set_work_offset(system, offset, here);
+}
+
+void LiveLines::begin(const Pose& pose, std::optional<double> hotend_celsius, gcode::CommandBuffer& out) {
+  stand_at(pose);
+  place_ = {pose, Frame::kMachine};
   hotend_celsius_ = hotend_celsius;
   may_move_ = true;
   if (path_mode_) out.push_back({0, *path_mode_});
@@ -129,9 +134,9 @@ Refused LiveLines::check(const canonical::Command& command) {
   return feed ? check_straight(feed->target, feed->frame) : check_straight(traverse->target, traverse->frame);
 }
 
-Refused LiveLines::check_straight(const PoseVector& target, canonical::Frame frame) {
+Refused LiveLines::check_straight(const Pose& target, Frame frame) {
   if (auto cold = check_extrusion(target)) return cold;
-  const PoseVector from = place_.pose;
+  const Pose from = place_.pose;
   double mm = 0, rad = 0;
   for (std::size_t axis = 0; axis < kPoseAxes; ++axis) {
     if (!std::isfinite(target[axis])) return say("a move needs numbers");
@@ -141,18 +146,17 @@ Refused LiveLines::check_straight(const PoseVector& target, canonical::Frame fra
     else if (axis != kE)
       mm = std::hypot(mm, way);
   }
-  const auto end = kinematics_.check(checked_frame(frame), target);
+  const auto end = kinematics_.check(frame, target);
   if (!end) return to_string(end.error());
   // The end lies within the workspace: only turns may be long.
   if (!(mm <= kLongestMove_mm && rad <= kLongestTurn_rad)) return say("the move is too long to be checked");
   // At most some hundred thousand, by the two limits above.
   const auto steps = static_cast<int>(std::ceil(std::max(mm / kCheckStep_mm, rad / kCheckStep_rad)));
   for (int i = 1; i < steps; ++i) {
-    PoseVector pose = from;
+    Pose pose = from;
     for (std::size_t axis = 0; axis < kPoseAxes; ++axis)
       pose[axis] += (target[axis] - from[axis]) * i / steps;
-    if (const auto fits = kinematics_.check(checked_frame(frame), pose); !fits)
-      return to_string(fits.error());
+    if (const auto fits = kinematics_.check(frame, pose); !fits) return to_string(fits.error());
   }
   place_ = {target, frame};
   return std::nullopt;
@@ -163,7 +167,7 @@ Refused LiveLines::check_arc(const canonical::Arc& arc) {
   Move move;
   move.from = place_.pose;
   move.to = arc.target;
-  move.frame = checked_frame(arc.frame);
+  move.frame = arc.frame;
   if (!shape_arc(arc, place_.pose, move)) return say("centre, plane and target do not make an arc");
   if (!(move.length <= kLongestMove_mm)) return say("the arc is too long to be checked");
   const double turning =
@@ -181,18 +185,17 @@ Refused LiveLines::check_arc(const canonical::Arc& arc) {
 /// The machine will go where homing leaves it, in a straight line of the homing frame. From the switches,
 /// which lie outside the workspace, this is the way in: then only its end is checked.
 Refused LiveLines::check_home(const canonical::Home& home) {
-  const auto from =
-      convert_pose(kinematics_, checked_frame(place_.frame), place_.pose, checked_frame(home.frame));
+  const auto from = convert_pose(kinematics_, place_.frame, place_.pose, home.frame);
   if (!from) return say("G28: %1", to_string(from.error()));
-  PoseVector target = home.afterwards;
+  Pose target = home.afterwards;
   target[kE] = place_.pose[kE];
   place_ = {*from, home.frame};
   place_.pose[kE] = target[kE];
-  if (!kinematics_.check(checked_frame(home.frame), place_.pose)) place_.pose = target;
+  if (!kinematics_.check(home.frame, place_.pose)) place_.pose = target;
   return check_straight(target, home.frame);
 }
 
-Refused LiveLines::check_extrusion(const PoseVector& target) {
+Refused LiveLines::check_extrusion(const Pose& target) {
   if (!machine_.thermal.hotend.present || target[kE] - place_.pose[kE] <= kNoExtrusion_mm)
     return std::nullopt;
   if (!hotend_celsius_) {

@@ -27,16 +27,20 @@ class LiveLines {
   void restart(const gcode::WorkOffsets& offsets);
   /// The machine stands at `pose` (Frame::kMachine) and may move from here on. Modal state is kept, also the
   /// program's E. `hotend_celsius`: its target, if it has one. Appends what is in force to `out`.
-  void begin(const PoseVector& pose, std::optional<double> hotend_celsius, gcode::CommandBuffer& out);
+  void begin(const Pose& pose, std::optional<double> hotend_celsius, gcode::CommandBuffer& out);
   /// Lines that move are refused from here on, until begin().
   void end() { may_move_ = false; }
 
   /// Carries out one line (without its end). Refused: why, and nothing has changed.
   Result<void, Problem> take(std::string_view line, std::uint32_t number, gcode::CommandBuffer& out);
 
+  /// Sets a work zero as G10 L2 does, or with `here` as L20: `system` 0 is G54. `where`: the machine has been
+  /// moved to there (Frame::kMachine) since the last line.
+  Result<void, Sentence> set_work_offset(int system, const Pose& offset, bool here,
+                                         const std::optional<Pose>& where);
   /// Work coordinates in force: 0 is G54.
   int work_system() const { return interpreter_.state().modal.coordinate_system; }
-  const PoseVector& work_offset() const { return work_offsets()[static_cast<std::size_t>(work_system())]; }
+  const Pose& work_offset() const { return work_offsets()[static_cast<std::size_t>(work_system())]; }
   const gcode::WorkOffsets& work_offsets() const { return interpreter_.state().modal.coordinate_offsets; }
 
   /// What was accepted without effect since the last call, in words.
@@ -44,15 +48,16 @@ class LiveLines {
 
  private:
   struct Place {
-    PoseVector pose{};
-    canonical::Frame frame = canonical::Frame::kMachine;
+    Pose pose{};
+    Frame frame = Frame::kMachine;
   };
+  void stand_at(const Pose& pose);
   std::optional<Sentence> check(const canonical::Command& command);
-  std::optional<Sentence> check_straight(const PoseVector& target, canonical::Frame frame);
+  std::optional<Sentence> check_straight(const Pose& target, Frame frame);
   std::optional<Sentence> check_arc(const canonical::Arc& arc);
   std::optional<Sentence> check_home(const canonical::Home& home);
   std::optional<Sentence> check_thermal(const canonical::Thermal& thermal);
-  std::optional<Sentence> check_extrusion(const PoseVector& target);
+  std::optional<Sentence> check_extrusion(const Pose& target);
 
   const MachineDescription& machine_;
   const Kinematics& kinematics_;

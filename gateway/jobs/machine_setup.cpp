@@ -27,8 +27,7 @@ MotionLimits motion_limits(const MachineDescription& machine) {
   return limits;
 }
 
-gcode::Options interpreter_options(const MachineDescription& machine, const PoseVector& start,
-                                   const PoseVector& home) {
+gcode::Options interpreter_options(const MachineDescription& machine, const Pose& start, const Pose& home) {
   gcode::Options options;
   options.start = start;
   options.home = home;
@@ -105,13 +104,12 @@ std::optional<Sentence> wrong_spindle_speed(const SpindleDescription& spindle, d
              printed("%.6g", spindle.min_rpm), printed("%.6g", spindle.max_rpm));
 }
 
-Result<PoseVector, PoseError> convert_pose(const Kinematics& kinematics, Frame from, const PoseVector& pose,
-                                           Frame to) {
+Result<Pose, PoseError> convert_pose(const Kinematics& kinematics, Frame from, const Pose& pose, Frame to) {
   if (from == to) return pose;
   JointVector joints{};
   if (const auto reached = kinematics.inverse(from, pose, joints); !reached)
     return Error<PoseError>(reached.error());
-  PoseVector converted = pose;
+  Pose converted = pose;
   if (const auto found = kinematics.forward(to, joints, converted); !found)
     return Error<PoseError>(found.error());
   return converted;

@@ -17,8 +17,7 @@ namespace kinebus {
 MotionLimits motion_limits(const MachineDescription& machine);
 
 /// `start`: where the machine stands when the job begins, `home`: after G28; both Frame::kMachine.
-gcode::Options interpreter_options(const MachineDescription& machine, const PoseVector& start,
-                                   const PoseVector& home);
+gcode::Options interpreter_options(const MachineDescription& machine, const Pose& start, const Pose& home);
 
 /// Nodes in ascending order of their ids; an axis that no joint names has joint -1. Counts are 0 where the
 /// joint value is 0.
@@ -30,7 +29,6 @@ StreamGroup::Options stream_options(const MachineDescription& machine);
 std::optional<Sentence> wrong_spindle_speed(const SpindleDescription& spindle, double rpm);
 
 /// The same place in the other frame, by way of the joints.
-Result<PoseVector, PoseError> convert_pose(const Kinematics& kinematics, Frame from, const PoseVector& pose,
-                                           Frame to);
+Result<Pose, PoseError> convert_pose(const Kinematics& kinematics, Frame from, const Pose& pose, Frame to);
 
 }  // namespace kinebus

@@ -10,11 +10,11 @@ void count_command(const canonical::Command& command, JobReport& report) {
 }
 
 Preflight::Preflight(const MachineDescription& machine, const Kinematics& kinematics, ByteSource& source,
-                     const PoseVector& start)
+                     const Pose& start)
     : Preflight(machine, kinematics, source, start, JobCheck::Options{}) {}
 
 Preflight::Preflight(const MachineDescription& machine, const Kinematics& kinematics, ByteSource& source,
-                     const PoseVector& start, JobCheck::Options options, const gcode::WorkOffsets& offsets)
+                     const Pose& start, JobCheck::Options options, const gcode::WorkOffsets& offsets)
     : pipeline_(machine, kinematics), check_(machine, kinematics, options) {
   pipeline_.start_job(source, start, offsets);
 }

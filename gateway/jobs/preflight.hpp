@@ -29,9 +29,9 @@ class Preflight {
   /// `source` at its beginning; must outlive this. The job starts at `start`, Frame::kMachine, with the
   /// machine's work offsets.
   Preflight(const MachineDescription& machine, const Kinematics& kinematics, ByteSource& source,
-            const PoseVector& start, JobCheck::Options options, const gcode::WorkOffsets& offsets = {});
+            const Pose& start, JobCheck::Options options, const gcode::WorkOffsets& offsets = {});
   Preflight(const MachineDescription& machine, const Kinematics& kinematics, ByteSource& source,
-            const PoseVector& start);
+            const Pose& start);
 
   /// Works on about `lines` lines. True: done.
   bool step(int lines);

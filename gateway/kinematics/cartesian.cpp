@@ -26,7 +26,7 @@ class Cartesian final : public Kinematics {
     return {"C", true, g_.table.c_rad.min, g_.table.c_rad.max};
   }
 
-  Result<void, PoseError> inverse(Frame frame, const PoseVector& pose, JointVector& joints) const override {
+  Result<void, PoseError> inverse(Frame frame, const Pose& pose, JointVector& joints) const override {
     const Vector3 m = machine_point(frame, pose);
     set(joints, {m[0], m[1], m[2], pose[kA], pose[kC], pose[kE]});
     return {};
@@ -49,7 +49,7 @@ class Cartesian final : public Kinematics {
     return {};
   }
 
-  Result<void, PoseError> jacobian(Frame frame, const PoseVector& pose, JointVector& joints,
+  Result<void, PoseError> jacobian(Frame frame, const Pose& pose, JointVector& joints,
                                    std::span<double> matrix) const override {
     assert(matrix.size() >= static_cast<std::size_t>(joint_count() * kPoseAxes));
     // Column by column: the path along one pose axis has the column as its q1.
@@ -65,7 +65,7 @@ class Cartesian final : public Kinematics {
     return {};
   }
 
-  Result<void, PoseError> forward(Frame frame, const JointVector& joints, PoseVector& pose) const override {
+  Result<void, PoseError> forward(Frame frame, const JointVector& joints, Pose& pose) const override {
     pose = {joints[0], joints[1], joints[2], 0, 0, joints[static_cast<std::size_t>(joint_e())]};
     if (g_.has_table) {
       pose[kA] = joints[3];
@@ -76,7 +76,7 @@ class Cartesian final : public Kinematics {
     return {};
   }
 
-  Result<void, PoseError> check(Frame frame, const PoseVector& pose) const override {
+  Result<void, PoseError> check(Frame frame, const Pose& pose) const override {
     if (!g_.has_table)
       if (auto e = check_no_rotation(pose)) return Error<PoseError>(*e);
     if (!std::isfinite(pose[kE])) return Error<PoseError>({PoseError::Kind::kPoseLimit, kE, HUGE_VAL});
@@ -91,15 +91,15 @@ class Cartesian final : public Kinematics {
     return {};
   }
 
-  double condition(Frame, const PoseVector&) const override { return 1; }
+  double condition(Frame, const Pose&) const override { return 1; }
 
-  PoseVector bed_reference() const override { return {0, 0, g_.bed_reference_mm, 0, 0, 0}; }
+  Pose bed_reference() const override { return {0, 0, g_.bed_reference_mm, 0, 0, 0}; }
 
  private:
   int joint_e() const { return g_.has_table ? 5 : 3; }
   bool turns(Frame frame) const { return g_.has_table && frame == Frame::kPart; }
 
-  void set(JointVector& joints, const PoseVector& v) const {
+  void set(JointVector& joints, const Pose& v) const {
     for (std::size_t k = 0; k < 3; ++k) joints[k] = v[k];
     if (g_.has_table) {
       joints[3] = v[kA];
@@ -108,7 +108,7 @@ class Cartesian final : public Kinematics {
     joints[static_cast<std::size_t>(joint_e())] = v[kE];
   }
 
-  Vector3 machine_point(Frame frame, const PoseVector& pose) const {
+  Vector3 machine_point(Frame frame, const Pose& pose) const {
     Vector3 m{pose[kX], pose[kY], pose[kZ]};
     if (!turns(frame)) return m;
     const Vector3& pivot = g_.table.pivot_mm;
@@ -118,7 +118,7 @@ class Cartesian final : public Kinematics {
     return m;
   }
 
-  Vector3 table_point(const PoseVector& machine_pose) const {
+  Vector3 table_point(const Pose& machine_pose) const {
     Vector3 q{machine_pose[kX], machine_pose[kY], machine_pose[kZ]};
     if (!g_.has_table) return q;
     const Vector3& pivot = g_.table.pivot_mm;

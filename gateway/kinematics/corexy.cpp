@@ -31,7 +31,7 @@ class CoreXy final : public Kinematics {
     }
   }
 
-  Result<void, PoseError> inverse(Frame, const PoseVector& pose, JointVector& joints) const override {
+  Result<void, PoseError> inverse(Frame, const Pose& pose, JointVector& joints) const override {
     set(joints, pose);
     return {};
   }
@@ -43,7 +43,7 @@ class CoreXy final : public Kinematics {
     return {};
   }
 
-  Result<void, PoseError> jacobian(Frame, const PoseVector& pose, JointVector& joints,
+  Result<void, PoseError> jacobian(Frame, const Pose& pose, JointVector& joints,
                                    std::span<double> matrix) const override {
     assert(matrix.size() >= std::size_t{4} * kPoseAxes);
     constexpr double kMatrix[4][kPoseAxes] = {
@@ -54,12 +54,12 @@ class CoreXy final : public Kinematics {
     return {};
   }
 
-  Result<void, PoseError> forward(Frame, const JointVector& joints, PoseVector& pose) const override {
+  Result<void, PoseError> forward(Frame, const JointVector& joints, Pose& pose) const override {
     pose = {0.5 * (joints[0] + joints[1]), 0.5 * (joints[0] - joints[1]), joints[2], 0, 0, joints[3]};
     return {};
   }
 
-  Result<void, PoseError> check(Frame, const PoseVector& pose) const override {
+  Result<void, PoseError> check(Frame, const Pose& pose) const override {
     if (auto e = check_no_rotation(pose)) return Error<PoseError>(*e);
     if (!std::isfinite(pose[kE])) return Error<PoseError>({PoseError::Kind::kPoseLimit, kE, HUGE_VAL});
     const PoseLimits limits{.x_mm = g_.x_mm, .y_mm = g_.y_mm, .z_mm = g_.z_mm};
@@ -68,12 +68,12 @@ class CoreXy final : public Kinematics {
   }
 
   /// Both belts together pull with sqrt(2) along X and Y, Z with 1.
-  double condition(Frame, const PoseVector&) const override { return std::numbers::sqrt2; }
+  double condition(Frame, const Pose&) const override { return std::numbers::sqrt2; }
 
-  PoseVector bed_reference() const override { return {0, 0, g_.bed_reference_mm, 0, 0, 0}; }
+  Pose bed_reference() const override { return {0, 0, g_.bed_reference_mm, 0, 0, 0}; }
 
  private:
-  static void set(JointVector& joints, const PoseVector& v) {
+  static void set(JointVector& joints, const Pose& v) {
     joints[0] = v[kX] + v[kY];
     joints[1] = v[kX] - v[kY];
     joints[2] = v[kZ];

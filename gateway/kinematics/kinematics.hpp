@@ -1,11 +1,8 @@
 #pragma once
 // What every machine's kinematics offers. Pure functions of a pose; no state, no heap, no I/O.
 //
-// Pose: where the tool tip is relative to the part, and the rotations. Two frames for X Y Z:
-//   Frame::kPart    q, in table coordinates: they turn with the table (tool-centre-point control, G43.4)
-//   Frame::kMachine m, along the axes of the machine frame {O}: XYZ do not follow A and C (G49)
-// Both have their zero at the table's centre (M1: platform point with the nozzle on it; the bed reference
-// position), and are the same at A = C = 0. M1: p = n - m = n - R_X(A) R_Z(C) q.
+// Pose: where the tool tip is relative to the part, and the rotations, in one of two frames
+// (gateway/pose.hpp).
 
 #include <array>
 #include <cstdint>
@@ -13,25 +10,21 @@
 #include <span>
 #include <string>
 
+#include "gateway/pose.hpp"
 #include "gateway/result.hpp"
 #include "gateway/sentence.hpp"
 
 namespace kinebus {
 
-enum PoseAxis : std::uint8_t { kX, kY, kZ, kA, kC, kE };  ///< mm, mm, mm, rad, rad, mm of filament
-inline constexpr int kPoseAxes = 6;
 inline constexpr int kMaxJoints = 8;
-using PoseVector = std::array<double, kPoseAxes>;
 using JointVector =
     std::array<double, kMaxJoints>;  ///< mm for linear, rad for rotary joints; unused entries 0
 
-enum class Frame : std::uint8_t { kPart, kMachine };
-
 /// A pose and its first two derivatives by any one parameter s (path length, time): x(s), dx/ds, d2x/ds2.
 struct PosePoint {
-  PoseVector x{};
-  PoseVector x1{};
-  PoseVector x2{};
+  Pose x{};
+  Pose x1{};
+  Pose x2{};
 };
 /// Joints and their first two derivatives by the same parameter.
 struct JointPoint {
@@ -73,7 +66,7 @@ class Kinematics {
   virtual JointInfo joint_info(int joint) const = 0;
 
   /// Joints for a pose. Only geometry is checked (kOutOfReach), not limits. Cost M1: <= 60 ns.
-  virtual Result<void, PoseError> inverse(Frame frame, const PoseVector& pose, JointVector& joints) const = 0;
+  virtual Result<void, PoseError> inverse(Frame frame, const Pose& pose, JointVector& joints) const = 0;
 
   /// Joints and their first and second derivatives along a path: q1 = J x1, q2 = J x2 + J' x1 (both terms).
   /// Cost M1: <= 200 ns.
@@ -81,22 +74,22 @@ class Kinematics {
                                                 JointPoint& joints) const = 0;
 
   /// Jacobian dq/dx, row-major joint_count() x kPoseAxes. Cost M1 together with inverse: <= 150 ns.
-  virtual Result<void, PoseError> jacobian(Frame frame, const PoseVector& pose, JointVector& joints,
+  virtual Result<void, PoseError> jacobian(Frame frame, const Pose& pose, JointVector& joints,
                                            std::span<double> matrix) const = 0;
 
   /// Pose for joints, by damped Newton from `pose` (any pose of the workspace will do; a near one is faster).
-  virtual Result<void, PoseError> forward(Frame frame, const JointVector& joints, PoseVector& pose) const = 0;
+  virtual Result<void, PoseError> forward(Frame frame, const JointVector& joints, Pose& pose) const = 0;
 
   /// All that must hold for the machine to stand at this pose: reach, joint travel, pose limits, leg angles,
   /// conditioning. The first violated rule is reported.
-  virtual Result<void, PoseError> check(Frame frame, const PoseVector& pose) const = 0;
+  virtual Result<void, PoseError> check(Frame frame, const Pose& pose) const = 0;
 
   /// Condition number of the Jacobian of the machine's parallel part, rotations scaled as the machine states.
-  virtual double condition(Frame frame, const PoseVector& pose) const = 0;
+  virtual double condition(Frame frame, const Pose& pose) const = 0;
 
   /// The joints' home switch positions' pose aside, where the machine waits before a job (M1: table centre
   /// under the nozzle at the configured height).
-  virtual PoseVector bed_reference() const = 0;
+  virtual Pose bed_reference() const = 0;
 };
 
 /// In plain words with units: "tower3: the carriage would be 4.210 mm beyond its travel". Without the

@@ -34,7 +34,7 @@ class LinearDelta final : public Kinematics {
     return {"tower" + std::to_string(joint + 1), false, travel.min, travel.max};
   }
 
-  Result<void, PoseError> inverse(Frame, const PoseVector& pose, JointVector& joints) const override {
+  Result<void, PoseError> inverse(Frame, const Pose& pose, JointVector& joints) const override {
     double radicand[kArms];
     for (int i = 0; i < kArms; ++i) {
       const double hx = pose[kX] - tx_[i], hy = pose[kY] - ty_[i];
@@ -65,7 +65,7 @@ class LinearDelta final : public Kinematics {
     return reach(radicand);
   }
 
-  Result<void, PoseError> jacobian(Frame, const PoseVector& pose, JointVector& joints,
+  Result<void, PoseError> jacobian(Frame, const Pose& pose, JointVector& joints,
                                    std::span<double> matrix) const override {
     assert(matrix.size() >= std::size_t{kJoints} * kPoseAxes);
     for (double& v : matrix.first(std::size_t{kJoints} * kPoseAxes)) v = 0;
@@ -86,7 +86,7 @@ class LinearDelta final : public Kinematics {
   }
 
   /// Closed form: the lower of the two points that are an arm's length from all three carriages.
-  Result<void, PoseError> forward(Frame, const JointVector& joints, PoseVector& pose) const override {
+  Result<void, PoseError> forward(Frame, const JointVector& joints, Pose& pose) const override {
     // Differences of the closure equations are linear: x and y = start + z * slope.
     const double q0 = joints[0];
     double a[2][2], constant[2], slope[2];
@@ -119,7 +119,7 @@ class LinearDelta final : public Kinematics {
     return {};
   }
 
-  Result<void, PoseError> check(Frame frame, const PoseVector& pose) const override {
+  Result<void, PoseError> check(Frame frame, const Pose& pose) const override {
     if (auto e = check_no_rotation(pose)) return Error<PoseError>(*e);
     if (auto e = check_pose_limits(g_.limits, {pose[kX], pose[kY], pose[kZ]}, 0, 0))
       return Error<PoseError>(*e);
@@ -137,7 +137,7 @@ class LinearDelta final : public Kinematics {
     return {};
   }
 
-  double condition(Frame frame, const PoseVector& pose) const override {
+  double condition(Frame frame, const Pose& pose) const override {
     JointVector joints{};
     double full[kJoints * kPoseAxes], parallel[9];
     if (!jacobian(frame, pose, joints, full)) return std::numeric_limits<double>::infinity();
@@ -146,7 +146,7 @@ class LinearDelta final : public Kinematics {
     return condition_number(parallel, 3);
   }
 
-  PoseVector bed_reference() const override { return {0, 0, g_.bed_reference_mm, 0, 0, 0}; }
+  Pose bed_reference() const override { return {0, 0, g_.bed_reference_mm, 0, 0, 0}; }
 
  private:
   Result<void, PoseError> reach(const double* radicand) const {

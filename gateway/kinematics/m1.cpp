@@ -44,7 +44,7 @@ class M1 final : public Kinematics {
     return {"tower" + std::to_string(joint + 1), false, travel.min, travel.max};
   }
 
-  Result<void, PoseError> inverse(Frame frame, const PoseVector& pose, JointVector& joints) const override {
+  Result<void, PoseError> inverse(Frame frame, const Pose& pose, JointVector& joints) const override {
     const Turn a(pose[kA]);
     const Vector3 p = platform(frame, pose, a);
     double radicand[kLegs];
@@ -99,7 +99,7 @@ class M1 final : public Kinematics {
     return reach(radicand);
   }
 
-  Result<void, PoseError> jacobian(Frame frame, const PoseVector& pose, JointVector& joints,
+  Result<void, PoseError> jacobian(Frame frame, const Pose& pose, JointVector& joints,
                                    std::span<double> matrix) const override {
     assert(matrix.size() >= std::size_t{kJoints} * kPoseAxes);
     const Turn a(pose[kA]), c(frame == Frame::kPart ? pose[kC] : 0);
@@ -145,7 +145,7 @@ class M1 final : public Kinematics {
     return reach(radicand);
   }
 
-  Result<void, PoseError> forward(Frame frame, const JointVector& joints, PoseVector& pose) const override {
+  Result<void, PoseError> forward(Frame frame, const JointVector& joints, Pose& pose) const override {
     const Turn a0(pose[kA]);
     PlatformPose platform_pose{platform(frame, pose, a0), pose[kA]};
     const double residual_mm = solve_platform(legs_, g_, joints, platform_pose);
@@ -159,7 +159,7 @@ class M1 final : public Kinematics {
     return {};
   }
 
-  Result<void, PoseError> check(Frame frame, const PoseVector& pose) const override {
+  Result<void, PoseError> check(Frame frame, const Pose& pose) const override {
     const Turn a(pose[kA]);
     const Vector3 p = platform(frame, pose, a);
     Vector3 q{pose[kX], pose[kY], pose[kZ]};
@@ -184,7 +184,7 @@ class M1 final : public Kinematics {
     return {};
   }
 
-  double condition(Frame frame, const PoseVector& pose) const override {
+  double condition(Frame frame, const Pose& pose) const override {
     const Turn a(pose[kA]);
     const Vector3 p = platform(frame, pose, a);
     const LegsAt legs(legs_, p, a);
@@ -194,7 +194,7 @@ class M1 final : public Kinematics {
     return condition_number(matrix, 4);
   }
 
-  PoseVector bed_reference() const override { return {0, 0, g_.bed_reference_mm, 0, 0, 0}; }
+  Pose bed_reference() const override { return {0, 0, g_.bed_reference_mm, 0, 0, 0}; }
 
  private:
   /// All legs at one pose, side by side. s, R b and w = q + c as in the head of this file; along = -L . d^.
@@ -216,7 +216,7 @@ class M1 final : public Kinematics {
   };
 
   /// p = n - m.
-  Vector3 platform(Frame frame, const PoseVector& pose, const Turn& a) const {
+  Vector3 platform(Frame frame, const Pose& pose, const Turn& a) const {
     Vector3 m{pose[kX], pose[kY], pose[kZ]};
     if (frame == Frame::kPart) {
       if (pose[kC] != 0) m = turn_z(Turn(pose[kC]), m);

@@ -45,12 +45,12 @@ std::optional<Sentence> wrong_everywhere(const Kinematics& m1, const M1Geometry&
         // workspace.
         const double angle = 0.3 + k * (2 * std::numbers::pi / 12.7),
                      r = k == 0 ? 0 : radius * (0.2 + 0.04 * k);
-        const PoseVector pose{r * std::cos(angle),
-                              r * std::sin(angle),
-                              sample(g.limits.z_mm, 100, z, 4),
-                              sample(g.limits.a_rad, 0.5, a, 4) * 0.97,
-                              0,
-                              0};
+        const Pose pose{r * std::cos(angle),
+                        r * std::sin(angle),
+                        sample(g.limits.z_mm, 100, z, 4),
+                        sample(g.limits.a_rad, 0.5, a, 4) * 0.97,
+                        0,
+                        0};
         JointVector joints{};
         if (!m1.inverse(Frame::kPart, pose, joints)) continue;
         ++reached;

@@ -43,7 +43,7 @@ class M4 final : public Kinematics {
     return {"rail" + std::to_string(joint + 1), false, travel.min, travel.max};
   }
 
-  Result<void, PoseError> inverse(Frame frame, const PoseVector& pose, JointVector& joints) const override {
+  Result<void, PoseError> inverse(Frame frame, const Pose& pose, JointVector& joints) const override {
     JointPoint point;
     const auto reached = inverse_along(frame, {.x = pose, .x1 = {}, .x2 = {}}, point);
     joints = point.q;
@@ -86,7 +86,7 @@ class M4 final : public Kinematics {
     return reach(radicand);
   }
 
-  Result<void, PoseError> jacobian(Frame frame, const PoseVector& pose, JointVector& joints,
+  Result<void, PoseError> jacobian(Frame frame, const Pose& pose, JointVector& joints,
                                    std::span<double> matrix) const override {
     assert(matrix.size() >= std::size_t{kJoints} * kPoseAxes);
     Result<void, PoseError> reached;
@@ -102,7 +102,7 @@ class M4 final : public Kinematics {
     return reached;
   }
 
-  Result<void, PoseError> forward(Frame frame, const JointVector& joints, PoseVector& pose) const override {
+  Result<void, PoseError> forward(Frame frame, const JointVector& joints, Pose& pose) const override {
     const Vector3 inputs{joints[0], joints[1], joints[2]};
     PlanarPose planar = planar_of(frame, pose);
     double residual = m4_newton(g_, inputs, planar);
@@ -130,7 +130,7 @@ class M4 final : public Kinematics {
     return {};
   }
 
-  Result<void, PoseError> check(Frame frame, const PoseVector& pose) const override {
+  Result<void, PoseError> check(Frame frame, const Pose& pose) const override {
     const PointPath v = tip(frame, {.x = pose, .x1 = {}, .x2 = {}});
     if (auto e = check_pose_limits(g_.limits, turn_back_z(Turn(pose[kC]), v.x), pose[kA], pose[kC]))
       return Error<PoseError>(*e);
@@ -155,13 +155,13 @@ class M4 final : public Kinematics {
   }
 
   /// Of d(y1, y2, y3) / d(Y, Z, phi about P): independent of where the tip is measured from.
-  double condition(Frame frame, const PoseVector& pose) const override {
+  double condition(Frame frame, const Pose& pose) const override {
     double matrix[9];
     if (!planar_jacobian(planar_of(frame, pose), matrix)) return std::numeric_limits<double>::infinity();
     return condition_number(matrix, 3);
   }
 
-  PoseVector bed_reference() const override { return {0, 0, g_.bed_reference_mm, 0, 0, 0}; }
+  Pose bed_reference() const override { return {0, 0, g_.bed_reference_mm, 0, 0, 0}; }
 
  private:
   /// d(y1, y2, y3) / d(x, y, phi * rotation_scale) about P, 3 x 3 row-major. false: out of reach.
@@ -202,7 +202,7 @@ class M4 final : public Kinematics {
     return v;
   }
 
-  PlanarPose planar_of(Frame frame, const PoseVector& pose) const {
+  PlanarPose planar_of(Frame frame, const Pose& pose) const {
     const Vector3 v = tip(frame, {.x = pose, .x1 = {}, .x2 = {}}).x;
     const double s = std::sin(-pose[kA]), c = std::cos(-pose[kA]);
     return {g_.table_y_mm + v[1] - g_.tool_mm * s, g_.table_z_mm + v[2] + g_.tool_mm * c,
@@ -270,7 +270,7 @@ std::optional<Sentence> wrong_everywhere(const M4& m4, const M4Geometry& g) {
   for (int y = 0; y <= 6; ++y)
     for (int z = 0; z <= 6; ++z)
       for (int a = 0; a <= 6; ++a) {
-        const PoseVector pose{
+        const Pose pose{
             0, radius * (y - 3.1) / 3.2, sample(g.limits.z_mm, 100, z), sample(g.limits.a_rad, 0.5, a), 0, 0};
         JointVector joints{};
         if (!m4.inverse(Frame::kPart, pose, joints)) continue;

@@ -25,7 +25,7 @@ class M5 final : public Kinematics {
     return info;
   }
 
-  Result<void, PoseError> inverse(Frame frame, const PoseVector& pose, JointVector& joints) const override {
+  Result<void, PoseError> inverse(Frame frame, const Pose& pose, JointVector& joints) const override {
     const auto reached = mechanism_->inverse(frame, still(pose), joints);
     joints[4] = joints[5] = 0;
     return reached;
@@ -39,7 +39,7 @@ class M5 final : public Kinematics {
     return reached;
   }
 
-  Result<void, PoseError> jacobian(Frame frame, const PoseVector& pose, JointVector& joints,
+  Result<void, PoseError> jacobian(Frame frame, const Pose& pose, JointVector& joints,
                                    std::span<double> matrix) const override {
     assert(matrix.size() >= kRails * kPoseAxes);
     std::array<double, std::size_t{6} * kPoseAxes> full{};
@@ -51,26 +51,26 @@ class M5 final : public Kinematics {
     return reached;
   }
 
-  Result<void, PoseError> forward(Frame frame, const JointVector& joints, PoseVector& pose) const override {
+  Result<void, PoseError> forward(Frame frame, const JointVector& joints, Pose& pose) const override {
     JointVector rails = joints;
     rails[4] = rails[5] = 0;
     return mechanism_->forward(frame, rails, pose);
   }
 
-  Result<void, PoseError> check(Frame frame, const PoseVector& pose) const override {
+  Result<void, PoseError> check(Frame frame, const Pose& pose) const override {
     if (pose[kC] != 0) return Error<PoseError>({Kind::kPoseLimit, kC, std::abs(pose[kC]), true});
     if (pose[kE] != 0) return Error<PoseError>({Kind::kPoseLimit, kE, std::abs(pose[kE])});
     return mechanism_->check(frame, pose);
   }
 
-  double condition(Frame frame, const PoseVector& pose) const override {
+  double condition(Frame frame, const Pose& pose) const override {
     return mechanism_->condition(frame, still(pose));
   }
 
-  PoseVector bed_reference() const override { return mechanism_->bed_reference(); }
+  Pose bed_reference() const override { return mechanism_->bed_reference(); }
 
  private:
-  static PoseVector still(PoseVector pose) {
+  static Pose still(Pose pose) {
     pose[kC] = pose[kE] = 0;
     return pose;
   }

@@ -44,7 +44,7 @@ inline std::optional<PoseError> check_pose_limits(const PoseLimits& limits, cons
 }
 
 /// A machine without a table stands at A = C = 0 only.
-inline std::optional<PoseError> check_no_rotation(const PoseVector& pose) {
+inline std::optional<PoseError> check_no_rotation(const Pose& pose) {
   for (const PoseAxis axis : {kA, kC})
     if (pose[axis] != 0) return PoseError{PoseError::Kind::kPoseLimit, axis, std::abs(pose[axis]), true};
   return std::nullopt;

@@ -22,35 +22,20 @@
 #include "gateway/jobs/byte_source.hpp"
 #include "gateway/jobs/journal/journal_state.hpp"
 #include "gateway/kinematics/kinematics.hpp"
-#include "gateway/machine/event.hpp"
-#include "gateway/machine/state.hpp"
-#include "gateway/machine/status.hpp"
+#include "gateway/machine/commands.hpp"
 #include "gateway/result.hpp"
+#include "gateway/run/planned_pose.hpp"
 #include "gateway/sentence.hpp"
+#include "gateway/status/event.hpp"
+#include "gateway/status/refusal.hpp"
+#include "gateway/status/state.hpp"
+#include "gateway/status/status.hpp"
 #include "protocol/can/frame.hpp"
 #include "protocol/time.hpp"
 
 namespace kinebus {
 
 struct MachineDescription;  // gateway/description
-
-/// Why a command was not carried out. Nothing has changed then.
-struct Refusal {
-  Sentence words;
-};
-
-/// A relative move of the tool in the machine frame.
-struct JogRequest {
-  PoseVector delta{};      ///< mm, mm, mm, rad, rad, mm
-  double speed_per_s = 0;  ///< of the tool tip, mm/s, or of the turning axis, rad/s; 0: the machine's default
-};
-
-/// The exact planned pose, before any sampling.
-struct PlannedPose {
-  PoseVector pose{};
-  Frame frame = Frame::kPart;
-  std::uint32_t line = 0;
-};
 
 class Gateway {
  public:
@@ -78,28 +63,16 @@ class Gateway {
   /// The bus controller reported bus-off or lost its carrier: motion cannot be commanded any more.
   void on_bus_failure(BusTime now, std::string_view what);
 
-  // Commands. Each is refused with a reason when the machine's state does not allow it.
-  Result<void, Refusal> bring_up();
-  Result<void, Refusal> home();
-  Result<void, Refusal> go_to_reference();
-  Result<void, Refusal> jog(const JogRequest& request);
-  /// Checks the whole job (kChecking), then runs it. Problems come as kProblem events; with errors nothing
-  /// moves.
-  Result<void, Refusal> run(std::unique_ptr<ByteSource> job, std::string name);
-  Result<void, Refusal> hold();
-  /// From a hold; or an interrupted job, from wherever the machine is: brings up, homes and heats as needed.
-  Result<void, Refusal> resume();
-  Result<void, Refusal> cancel();
-  Result<void, Refusal> stop();                           ///< latched, in every state
-  Result<void, Refusal> clear();                          ///< lifts a stop or an alarm
-  Result<void, Refusal> set_feed_override(double ratio);  ///< 0.01 .. 5
-  Result<void, Refusal> motors_off();
-  Result<void, Refusal> set_temperature(bool bed, double celsius);
-  // Lines as they come from a print host or a console, instead of a whole job. From kReady; the state is
-  // kRunning until close_lines() and the last motion's end (or cancel()). Every line is checked before it is
-  // taken. The host may be slow: motion then ends in a planned stop and goes on with the next line.
-  Result<void, Refusal> open_lines(std::string name);
-  /// One line. Refused: why, and nothing has changed. Outside open_lines() lines that do not move are taken,
+  /// Carries a command out, or begins to. Refused: why, and nothing has changed.
+  Result<void, Refusal> carry_out(Command command);
+  /// Whether such a command may be given now (command::kind<command::Jog>), and if not, why. What it asks for
+  /// in particular may be refused all the same.
+  Result<void, Refusal> may(CommandKind command) const;
+
+  // Lines as they come from a print host or a console: open from command::OpenLines on; the state is kRunning
+  // until close_lines() and the last motion's end (or a cancel). Every line is checked before it is taken.
+  // The host may be slow: motion then ends in a planned stop and goes on with the next line.
+  /// One line. Refused: why, and nothing has changed. When not open lines that do not move are taken,
   /// too: modes and limits count from then on, heaters are set at once. Give no more than line_room().
   Result<void, Refusal> take_line(std::string_view line, std::uint32_t number);
   std::size_t line_room() const;  ///< lines that can be taken now, of kLineRoom; 0 also while closing
@@ -118,7 +91,7 @@ class Gateway {
   /// The first `count` records are stored, or never will be.
   void on_journal_stored(std::uint64_t count);
   /// Right after the start: what the gateway before has noted, and the text of its job, if there was one.
-  /// resume() takes that up; the machine's work offsets count again at once.
+  /// command::Resume takes that up; the machine's work offsets count again at once.
   Result<void, Refusal> recover(journal::State state, std::unique_ptr<ByteSource> job);
 
   MachineState state() const;

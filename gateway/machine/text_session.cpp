@@ -1,5 +1,6 @@
 // Lines of a text session (serial terminal, print host): queries and commands that need no job, Marlin's way.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -97,22 +98,23 @@ Result<std::string, Refusal> Gateway::Core::text_line(std::string_view line) {
   const auto temperature = [&](bool bed) -> Result<std::string, Refusal> {
     const auto celsius = words.word('S');
     if (!celsius) return Error<Refusal>(Refusal{say("a temperature needs S")});
-    return reply(set_temperature(bed, *celsius));
+    return reply(carry_out(command::SetTemperature{bed, *celsius}));
   };
   if (words.letter == 0 || words.letter == ';') return std::string();
   if (words.letter == 'G' && words.number == 28)
-    return reply(state_ == MachineState::kReady ? go_to_reference() : home());
+    return reply(state_.is(MachineState::kReady) ? carry_out(command::GoToReference{})
+                                                 : carry_out(command::Home{}));
   if (words.letter == 'M') {
     switch (words.number) {
       case 17:
-        return reply(bring_up());
+        return reply(carry_out(command::BringUp{}));
       case 18:
       case 84:
-        return reply(motors_off());
+        return reply(carry_out(command::MotorsOff{}));
       case 24:
-        return reply(resume());
+        return reply(carry_out(command::Resume{}));
       case 25:
-        return reply(hold());
+        return reply(carry_out(command::Hold{}));
       case 27: {
         const MachineStatus s = status();
         if (s.job.empty()) return std::string("Not SD printing");
@@ -125,14 +127,12 @@ Result<std::string, Refusal> Gateway::Core::text_line(std::string_view line) {
       case 105:
         return temperatures(status());
       case 106:
-        thermal_.set_fan(std::clamp(words.word('S').value_or(255) / 255, 0.0, 1.0));
-        return std::string();
+        return reply(carry_out(command::SetFan{std::clamp(words.word('S').value_or(255) / 255, 0.0, 1.0)}));
       case 107:
-        thermal_.set_fan(0);
-        return std::string();
+        return reply(carry_out(command::SetFan{0}));
       case 112:
       case 410:
-        return reply(stop(say("stop by the session")));
+        return reply(carry_out(command::Stop{say("stop by the session")}));
       case 114:
         return position(status());
       case 115:
@@ -141,11 +141,11 @@ Result<std::string, Refusal> Gateway::Core::text_line(std::string_view line) {
       case 119:
         return switches(status(), machine_);
       case 220:
-        return reply(set_feed_override(words.word('S').value_or(100) / 100));
+        return reply(carry_out(command::SetFeedOverride{words.word('S').value_or(100) / 100}));
       case 524:
-        return reply(cancel());
+        return reply(carry_out(command::Cancel{}));
       case 999:
-        return reply(clear());
+        return reply(carry_out(command::Clear{}));
       default:
         break;
     }

@@ -16,7 +16,7 @@ Vector3 cross(const Vector3& a, const Vector3& b) {
 
 }  // namespace
 
-bool shape_arc(const canonical::Arc& arc, const PoseVector& from, Move& move) {
+bool shape_arc(const canonical::Arc& arc, const Pose& from, Move& move) {
   const double normal_length = std::sqrt(dot(arc.normal, arc.normal));
   if (!(normal_length > 0.5) || !(arc.sweep_rad > 0)) return false;
   Vector3 n, radial, radial_end;

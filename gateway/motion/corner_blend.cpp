@@ -19,7 +19,7 @@ constexpr double kBendShare = 0.2;
 
 }  // namespace
 
-double rotation_tolerance_rad(Frame frame, const PoseVector& pose, double tolerance_mm,
+double rotation_tolerance_rad(Frame frame, const Pose& pose, double tolerance_mm,
                               const MotionLimits& limits) {
   if (frame == Frame::kPart) return limits.blend_tolerance_rad;
   // Two rotations add up to sqrt(2) of one at most when they are perpendicular.
@@ -28,7 +28,7 @@ double rotation_tolerance_rad(Frame frame, const PoseVector& pose, double tolera
 
 double blend_half_length(const Move& before, const Move& after, const MotionLimits& limits) {
   const double tolerance = std::min(before.tolerance_mm, after.tolerance_mm);
-  PoseVector du;
+  Pose du;
   for (std::size_t i = 0; i < kPoseAxes; ++i) du[i] = after.u[i] - before.u_end[i];
   const double bend = norm_xyz(du);
   const double rotation = std::max(std::abs(du[kA]), std::abs(du[kC]));
@@ -49,8 +49,8 @@ double blend_half_length(const Move& before, const Move& after, const MotionLimi
   return half;
 }
 
-void hermite_piece(const PoseVector& x0, const PoseVector& u0, const PoseVector& x1, const PoseVector& u1,
-                   double length, PathPiece& piece) {
+void hermite_piece(const Pose& x0, const Pose& u0, const Pose& x1, const Pose& u1, double length,
+                   PathPiece& piece) {
   const double inverse = 1 / length;
   for (std::size_t i = 0; i < kPoseAxes; ++i) {
     const double slope = (x1[i] - x0[i]) * inverse;

@@ -18,12 +18,11 @@ double blend_half_length(const Move& before, const Move& after, const MotionLimi
 void blend_piece(const Move& before, const Move& after, double half_length, PathPiece& piece);
 
 /// The cubic over `length` with these ends (pose and dx/ds).
-void hermite_piece(const PoseVector& x0, const PoseVector& u0, const PoseVector& x1, const PoseVector& u1,
-                   double length, PathPiece& piece);
+void hermite_piece(const Pose& x0, const Pose& u0, const Pose& x1, const Pose& u1, double length,
+                   PathPiece& piece);
 
 /// How far the rotations may deviate at `pose`: under tool-centre-point control what the limits say; in the
 /// machine frame what moves the tip by `tolerance_mm`.
-double rotation_tolerance_rad(Frame frame, const PoseVector& pose, double tolerance_mm,
-                              const MotionLimits& limits);
+double rotation_tolerance_rad(Frame frame, const Pose& pose, double tolerance_mm, const MotionLimits& limits);
 
 }  // namespace kinebus

@@ -57,8 +57,7 @@ void LineMerger::begin(const GrowingRing<Move>& moves, std::uint64_t first) {
   direction_ = moves[first].u;
 }
 
-PoseVector LineMerger::direction(const GrowingRing<Move>& moves, std::uint64_t line,
-                                 std::uint64_t run_end) const {
+Pose LineMerger::direction(const GrowingRing<Move>& moves, std::uint64_t line, std::uint64_t run_end) const {
   const Move& move = moves[line];
   const std::uint64_t room =
       std::min({kDirectionLines, line - std::max(run_first_, moves.begin()), run_end - line});
@@ -70,9 +69,9 @@ PoseVector LineMerger::direction(const GrowingRing<Move>& moves, std::uint64_t l
     after += moves[line + reach].length;
   }
   if (reach == 0) return move.u;
-  const PoseVector& first = moves[line - reach].from;
-  const PoseVector& last = moves[line + reach].to;
-  PoseVector t;
+  const Pose& first = moves[line - reach].from;
+  const Pose& last = moves[line + reach].to;
+  Pose t;
   for (std::size_t i = 0; i < kPoseAxes; ++i) {
     // Exact for a parabola, also when the lines differ in length.
     const double middle = 0.5 * (move.from[i] + move.to[i]);
@@ -94,9 +93,9 @@ PoseVector LineMerger::direction(const GrowingRing<Move>& moves, std::uint64_t l
 }
 
 void LineMerger::span(const GrowingRing<Move>& moves, std::uint64_t end, std::uint64_t run_end,
-                      PathPiece& piece, PoseVector& end_direction) const {
+                      PathPiece& piece, Pose& end_direction) const {
   end_direction = direction(moves, end, run_end);
-  PoseVector x0, x1;
+  Pose x0, x1;
   const Move &first = moves[knot_], &last = moves[end];
   double length = 0.5 * (first.length + last.length);
   for (std::uint64_t i = knot_ + 1; i < end; ++i) length += moves[i].length;
@@ -117,8 +116,8 @@ bool LineMerger::fits(const GrowingRing<Move>& moves, std::uint64_t end, const P
   const auto& c = piece.coefficients;
   double s = 0.5 * first.length;
   for (std::uint64_t k = knot_; k < end; ++k) {
-    const PoseVector& vertex = moves[k].to;
-    PoseVector off;
+    const Pose& vertex = moves[k].to;
+    Pose off;
     for (std::size_t i = 0; i < kPoseAxes; ++i) {
       off[i] = c[i][0] + s * (c[i][1] + s * (c[i][2] + s * c[i][3])) - vertex[i];
     }
@@ -135,7 +134,7 @@ std::uint64_t LineMerger::extend(const GrowingRing<Move>& moves, std::uint64_t l
                                  PathPiece& piece) {
   const std::uint64_t most = std::min(last - knot_, kLongestSpan);
   piece.frame = moves[knot_].frame;
-  PoseVector end_direction{};
+  Pose end_direction{};
   // Galloping from the last cubic's span: `good` fits, `bad` does not.
   std::uint64_t good = 0, bad = most + 1, tried = std::clamp<std::uint64_t>(last_span_, 1, most);
   PathPiece candidate;

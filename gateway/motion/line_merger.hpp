@@ -42,14 +42,14 @@ class LineMerger {
 
  private:
   bool fits(const GrowingRing<Move>& moves, std::uint64_t end, const PathPiece& piece) const;
-  PoseVector direction(const GrowingRing<Move>& moves, std::uint64_t line, std::uint64_t run_end) const;
+  Pose direction(const GrowingRing<Move>& moves, std::uint64_t line, std::uint64_t run_end) const;
   void span(const GrowingRing<Move>& moves, std::uint64_t end, std::uint64_t run_end, PathPiece& piece,
-            PoseVector& end_direction) const;
+            Pose& end_direction) const;
 
   const MotionLimits* limits_;
   std::uint64_t run_first_ = 0;
   std::uint64_t knot_ = 0;
-  PoseVector direction_{}, direction_next_{};
+  Pose direction_{}, direction_next_{};
   std::uint64_t last_span_ = 8;
 };
 

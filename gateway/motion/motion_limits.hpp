@@ -17,9 +17,8 @@ struct MotionLimits {
   double tool_speed_mm_per_s = 300;
   double tool_accel_mm_per_s2 = 3000;
   /// Each pose axis by itself, X Y Z A C E. X Y Z are usually limited by the tool and the joints alone.
-  PoseVector axis_speed_per_s{kUnlimited, kUnlimited, kUnlimited, 1.5707963267948966, 6.283185307179586, 60};
-  PoseVector axis_accel_per_s2{kUnlimited,        kUnlimited,        kUnlimited,
-                               31.41592653589793, 62.83185307179586, 3000};
+  Pose axis_speed_per_s{kUnlimited, kUnlimited, kUnlimited, 1.5707963267948966, 6.283185307179586, 60};
+  Pose axis_accel_per_s2{kUnlimited, kUnlimited, kUnlimited, 31.41592653589793, 62.83185307179586, 3000};
   /// Each joint, in the kinematics' order; both terms of q'' count.
   JointVector joint_speed_per_s{450, 450, 450, 450, 6.283185307179586, 60, kUnlimited, kUnlimited};
   JointVector joint_accel_per_s2{5000, 5000, 5000, 5000, 62.83185307179586, 3000, kUnlimited, kUnlimited};

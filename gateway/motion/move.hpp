@@ -20,9 +20,9 @@ struct ArcShape {
 };
 
 struct Move {
-  PoseVector from{}, to{};
-  PoseVector u{};      ///< dx/ds at the start (lines: all along)
-  PoseVector u_end{};  ///< dx/ds at the end
+  Pose from{}, to{};
+  Pose u{};      ///< dx/ds at the start (lines: all along)
+  Pose u_end{};  ///< dx/ds at the end
   double length = 0;
   double speed = 0;            ///< ds/dt that the feed asks for; infinite for a traverse
   double accel_mm_per_s2 = 0;  ///< tool acceleration for this kind of move
@@ -36,10 +36,10 @@ struct Move {
   ArcShape shape{};  ///< arcs only
 };
 
-inline double dot_xyz(const PoseVector& a, const PoseVector& b) {
+inline double dot_xyz(const Pose& a, const Pose& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
-inline double norm_xyz(const PoseVector& a) {
+inline double norm_xyz(const Pose& a) {
   return std::sqrt(dot_xyz(a, a));
 }
 

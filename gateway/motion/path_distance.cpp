@@ -38,8 +38,8 @@ constexpr std::size_t kLookBack = 2;
 }  // namespace
 
 void PathDistance::add(const canonical::Line& line) {
-  const auto xyz = [](const canonical::Pose& p) { return Vector3{p[0], p[1], p[2]}; };
-  const canonical::Pose* target = nullptr;
+  const auto xyz = [](const Pose& p) { return Vector3{p[0], p[1], p[2]}; };
+  const Pose* target = nullptr;
   Move move;
   if (const auto* feed = std::get_if<canonical::Feed>(&line.command)) target = &feed->target;
   if (const auto* traverse = std::get_if<canonical::Traverse>(&line.command)) target = &traverse->target;
@@ -93,7 +93,7 @@ double PathDistance::distance2_to(const Move& move, const Vector3& point) {
   return best;
 }
 
-double PathDistance::distance_mm(const PoseVector& pose, std::uint32_t line) {
+double PathDistance::distance_mm(const Pose& pose, std::uint32_t line) {
   if (moves_.empty()) return 0;
   const Vector3 point{pose[0], pose[1], pose[2]};
   while (nearest_ > kLookBack) {

@@ -19,7 +19,7 @@ class PathDistance {
   /// Distance in X Y Z (mm) from `pose` to the nearest point of the programmed moves around the place of the
   /// last query, looking ahead as far as `line`. Queries go along the path. Cost: < 0.5 us for queries of a
   /// millisecond.
-  double distance_mm(const PoseVector& pose, std::uint32_t line);
+  double distance_mm(const Pose& pose, std::uint32_t line);
 
   /// Job line of the move that the last query found nearest.
   std::uint32_t nearest_line() const { return nearest_line_; }
@@ -37,7 +37,7 @@ class PathDistance {
   std::deque<Move> moves_;
   std::size_t nearest_ = 0;
   std::uint32_t nearest_line_ = 0;
-  PoseVector end_{};
+  Pose end_{};
 };
 
 }  // namespace kinebus

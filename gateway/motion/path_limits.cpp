@@ -138,7 +138,7 @@ Result<void, PoseError> PathLimits::add_parabola(const PieceDemand& demand) {
   const PosePoint start = geometry.evaluate(0);
   Sample end;
   end.pose = geometry.evaluate(geometry.length);
-  const PoseVector bend = end.pose.x2;
+  const Pose bend = end.pose.x2;
   end.pose.x2 = {};
   if (auto ok = evaluate(geometry.frame, end); !ok) return ok;
 

@@ -19,12 +19,8 @@ constexpr double kShortestMove = 1e-6;
 // share of their dynamically equal length. For table C at 3600 deg/s2 this begins at 2 rad a millimetre.
 constexpr double kDwarfs = 0.01;
 
-bool finite(const PoseVector& pose) {
+bool finite(const Pose& pose) {
   return std::all_of(pose.begin(), pose.end(), [](double x) { return std::isfinite(x); });
-}
-
-Frame frame_of(canonical::Frame frame) {
-  return frame == canonical::Frame::kPart ? Frame::kPart : Frame::kMachine;
 }
 
 double lower(double machine, double asked) {
@@ -69,8 +65,8 @@ struct Planner::Impl {
     return ok;
   }
 
-  Result<void, PlanError> add_straight(const PoseVector& target, canonical::Frame in, double feed,
-                                       double duration, bool traverse, std::uint32_t line);
+  Result<void, PlanError> add_straight(const Pose& target, Frame in, double feed, double duration,
+                                       bool traverse, std::uint32_t line);
   Result<void, PlanError> add_arc(const canonical::Arc& arc, std::uint32_t line);
   Result<void, PlanError> complete(Move& move, double feed, double duration, double feed_length);
   Result<void, PlanError> set_position(const canonical::SetPosition& set);
@@ -82,7 +78,7 @@ struct Planner::Impl {
   PathLimits path_limits;
   PathBuilder builder;
   PhaseEmitter emitter;
-  PoseVector end{};
+  Pose end{};
   Frame frame = Frame::kMachine;
   bool exact = false;
   double tolerance_mm = 0, feed_ratio = 1;
@@ -93,12 +89,11 @@ struct Planner::Impl {
   Counters counters;
 };
 
-Result<void, PlanError> Planner::Impl::add_straight(const PoseVector& target, canonical::Frame in,
-                                                    double feed, double duration, bool traverse,
-                                                    std::uint32_t line) {
+Result<void, PlanError> Planner::Impl::add_straight(const Pose& target, Frame in, double feed,
+                                                    double duration, bool traverse, std::uint32_t line) {
   if (!finite(target)) return fail(PlanError::Kind::kBadNumber, line);
-  if (frame_of(in) != frame) return fail(PlanError::Kind::kFrame, line);
-  PoseVector delta;
+  if (in != frame) return fail(PlanError::Kind::kFrame, line);
+  Pose delta;
   for (std::size_t i = 0; i < kPoseAxes; ++i) delta[i] = target[i] - end[i];
   const double tool = norm_xyz(delta);
   std::size_t dominant = kA;
@@ -133,7 +128,7 @@ Result<void, PlanError> Planner::Impl::add_straight(const PoseVector& target, ca
 
 Result<void, PlanError> Planner::Impl::add_arc(const canonical::Arc& arc, std::uint32_t line) {
   if (!finite(arc.target)) return fail(PlanError::Kind::kBadNumber, line);
-  if (frame_of(arc.frame) != frame) return fail(PlanError::Kind::kFrame, line);
+  if (arc.frame != frame) return fail(PlanError::Kind::kFrame, line);
   Move& move = builder.new_move();
   if (!shape_arc(arc, end, move)) {
     builder.discard_move();
@@ -170,10 +165,10 @@ Result<void, PlanError> Planner::Impl::complete(Move& move, double feed, double 
 }
 
 Result<void, PlanError> Planner::Impl::set_position(const canonical::SetPosition& set) {
-  if (set.pose == end && frame_of(set.frame) == frame) return {};
+  if (set.pose == end && set.frame == frame) return {};
   auto ok = come_to_rest();
   end = set.pose;
-  frame = frame_of(set.frame);
+  frame = set.frame;
   return ok;
 }
 
@@ -271,14 +266,14 @@ bool Planner::next(Phase& phase) {
 bool Planner::idle() const {
   return impl_->lookahead.empty() && impl_->emitter.empty() && impl_->builder.empty();
 }
-const PoseVector& Planner::end_pose() const {
+const Pose& Planner::end_pose() const {
   return impl_->end;
 }
 Frame Planner::end_frame() const {
   return impl_->frame;
 }
 
-void Planner::reset(const PoseVector& pose, Frame frame) {
+void Planner::reset(const Pose& pose, Frame frame) {
   impl_->lookahead.clear();
   impl_->builder.clear();
   impl_->emitter.clear();

@@ -81,12 +81,12 @@ class Planner {
   bool idle() const;
 
   /// Where the programmed path ends now, and in which frame.
-  const PoseVector& end_pose() const;
+  const Pose& end_pose() const;
   Frame end_frame() const;
 
   /// Forgets all planned motion (cancel, alarm); the path starts at `pose`. Limits and modes return to their
   /// defaults.
-  void reset(const PoseVector& pose, Frame frame);
+  void reset(const Pose& pose, Frame frame);
 
   const Counters& counters() const;
 

@@ -25,7 +25,7 @@ inline constexpr double kNear = 0.8;
 // Used where nothing limits: 1 km/s2 and 1 km/s. Finite, so that 0 x limit stays 0.
 inline constexpr double kNoAccel = 1e6;
 
-inline double dot3(const PoseVector& a, const PoseVector& b) {
+inline double dot3(const Pose& a, const Pose& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
@@ -65,7 +65,7 @@ class PointLimits {
   MotionLimits limits_{};
   std::size_t joints_;
   JointVector inverse_speed_{}, inverse_accel_{}, accel_{};
-  PoseVector inverse_axis_speed_{}, inverse_axis_accel_{};
+  Pose inverse_axis_speed_{}, inverse_axis_accel_{};
   bool limited_xyz_ = false;  ///< X, Y or Z have limits of their own
 };
 

@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <limits>
 
-#include "gateway/machine/alarm.hpp"
-#include "gateway/machine/event.hpp"
+#include "gateway/status/alarm.hpp"
+#include "gateway/status/event.hpp"
 #include "protocol/can/candump.hpp"
 #include "protocol/canopen/emcy.hpp"
 

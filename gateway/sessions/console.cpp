@@ -57,7 +57,7 @@ Result<void, Refusal> run_line(Gateway& gateway, std::string_view line) {
   // What does not move is taken in any state, and leaves the machine's state as it is.
   auto at_rest = gateway.take_line(line, 1);
   if (at_rest || gateway.state() != MachineState::kReady) return at_rest;
-  if (auto opened = gateway.open_lines("console"); !opened) return opened;
+  if (auto opened = gateway.carry_out(command::OpenLines{"console"}); !opened) return opened;
   auto moved = gateway.take_line(line, 1);
   gateway.close_lines();
   return moved;

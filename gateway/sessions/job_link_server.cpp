@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "gateway/sessions/command_requests.hpp"
 #include "gateway/sessions/job_check_task.hpp"
 #include "gateway/sessions/job_link_session.hpp"
 #include "gateway/sessions/messages.hpp"
@@ -19,7 +20,7 @@ constexpr int kMaxStrangers = 8;
 
 joblink::MachineInfo info_of(const MachineDescription& machine) {
   const auto kinematics = make_kinematics(machine);
-  return to_message(machine, kinematics ? (*kinematics)->bed_reference() : PoseVector{});
+  return to_message(machine, kinematics ? (*kinematics)->bed_reference() : Pose{});
 }
 
 }  // namespace
@@ -129,6 +130,7 @@ void JobLinkServer::on_event(LocalTime now, const MachineEvent& event) {
 
 joblink::Status JobLinkServer::status() const {
   joblink::Status status = to_message(gateway_.status(), machine_);
+  add_commands(status, gateway_);
   status.set_controller(control_.holder());
   for (const Control::Client& client : control_.clients()) {
     joblink::ClientInfo& info = *status.add_clients();

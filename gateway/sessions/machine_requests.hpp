@@ -15,8 +15,7 @@ class MachineRequests {
   using Asker = JobLinkServer::Asker;
   bool take_free(const Asker& asker, const joblink::ClientMessage& message);
   bool take_control_request(const Asker& asker, const joblink::ClientMessage& message);
-  Result<void, Refusal> carry_out(const joblink::ClientMessage& message);
-  Result<void, Refusal> set_work_offset(const joblink::SetWorkOffset& request);
+  void carry_out(const Asker& asker, const joblink::ClientMessage& message);
   void start(const Asker& asker, const std::string& name);
   void console(const Asker& asker, const std::string& line);
 

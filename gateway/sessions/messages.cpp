@@ -158,7 +158,7 @@ bool at_rest(MachineState state) {
   }
 }
 
-void set_pose(joblink::Pose& message, const PoseVector& pose) {
+void set_pose(joblink::Pose& message, const Pose& pose) {
   message.set_x_mm(pose[kX]);
   message.set_y_mm(pose[kY]);
   message.set_z_mm(pose[kZ]);
@@ -167,7 +167,7 @@ void set_pose(joblink::Pose& message, const PoseVector& pose) {
   message.set_e_mm(pose[kE]);
 }
 
-PoseVector pose_of(const joblink::Pose& message) {
+Pose pose_of(const joblink::Pose& message) {
   return {message.x_mm(), message.y_mm(), message.z_mm(), message.a_rad(), message.c_rad(), message.e_mm()};
 }
 
@@ -233,7 +233,7 @@ joblink::Event to_message(const MachineEvent& event) {
   return m;
 }
 
-joblink::MachineInfo to_message(const MachineDescription& machine, const PoseVector& bed_reference) {
+joblink::MachineInfo to_message(const MachineDescription& machine, const Pose& bed_reference) {
   joblink::MachineInfo m;
   m.set_name(clean(machine.name));
   for (const JointDescription& joint : machine.joints) {

@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "gateway/machine/event.hpp"
-#include "gateway/machine/status.hpp"
 #include "gateway/sentence.hpp"
+#include "gateway/status/event.hpp"
+#include "gateway/status/status.hpp"
 
 namespace kinebus {
 

@@ -81,22 +81,4 @@ StateTone StateWords::tone(State state) {
   }
 }
 
-Allowed allowed_in(State s, bool interrupted) {
-  const bool ready = s == STATE_READY;
-  // From wherever the machine is at rest: it wakes, homes and heats by itself.
-  const bool waits = interrupted && (s == STATE_OFF || s == STATE_UNHOMED || ready);
-  return {.bring_up = s == STATE_OFF,
-          .home = s == STATE_OFF || s == STATE_UNHOMED || ready,
-          .reference = ready,
-          .jog = ready,
-          .start = ready && !interrupted,
-          .hold = s == STATE_MOVING || s == STATE_RUNNING,
-          .resume = s == STATE_HELD || waits,
-          .cancel = s == STATE_MOVING || s == STATE_RUNNING || s == STATE_HOLDING || s == STATE_HELD ||
-                    s == STATE_CHECKING || waits,
-          .clear = s == STATE_STOPPED || s == STATE_ALARM,
-          .motors_off = s == STATE_UNHOMED || ready || s == STATE_STOPPED || s == STATE_ALARM,
-          .heat = s != STATE_ALARM};
-}
-
 }  // namespace kinebus::gui

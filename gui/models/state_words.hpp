@@ -1,5 +1,5 @@
 #pragma once
-// The machine's state in plain words, what to do next, and which commands make sense now.
+// The machine's state in plain words, and what to do next.
 
 #include <QCoreApplication>
 #include <QString>
@@ -17,13 +17,5 @@ class StateWords {
   static QString next(joblink::State state);  ///< what the user can do; may be empty
   static StateTone tone(joblink::State state);
 };
-
-/// What the gateway would accept in this state, so that only such buttons are lit.
-struct Allowed {
-  bool bring_up = false, home = false, reference = false, jog = false, start = false, hold = false,
-       resume = false;
-  bool cancel = false, clear = false, motors_off = false, heat = false;
-};
-Allowed allowed_in(joblink::State state, bool interrupted = false);  ///< interrupted: a job waits to go on
 
 }  // namespace kinebus::gui

@@ -202,6 +202,22 @@ bool Session::others_have_control() const {
   return connected() && status_.controller() != 0 && status_.controller() != client_->client_id();
 }
 
+const joblink::CommandStatus* Session::find(joblink::Command command) const {
+  for (const joblink::CommandStatus& status : status_.commands())
+    if (status.command() == command) return &status;
+  return nullptr;
+}
+
+bool Session::allowed(joblink::Command command) const {
+  const joblink::CommandStatus* status = find(command);
+  return connected() && (status == nullptr || status->allowed());
+}
+
+QString Session::why_not(joblink::Command command) const {
+  const joblink::CommandStatus* status = find(command);
+  return status != nullptr ? GatewayWords::said(status->why_not(), {}) : QString();
+}
+
 void Session::command(joblink::ClientMessage request, AnswerHandler then) {
   if (status_.controller() == 0) take_control(false);
   send(std::move(request), std::move(then));

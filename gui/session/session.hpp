@@ -42,6 +42,10 @@ class Session : public QObject {
   bool has_control() const;
   bool others_have_control() const;
   double round_trip_ms() const { return round_trip_ms_; }  ///< of the newest answer
+  /// Whether the machine takes the command now, as the gateway says; one that does not say refuses by itself.
+  bool allowed(joblink::Command command) const;
+  /// What the gateway says why not, in the user's language; empty: it is allowed.
+  QString why_not(joblink::Command command) const;
 
   /// Sends what `request` holds; the answer comes to `then`, also when it is a refusal. Refusals nobody
   /// handles are told by refused().
@@ -98,6 +102,7 @@ class Session : public QObject {
   void on_connected();
   void take(joblink::News& news);
   void set_link_state(LinkState state, const QString& words);
+  const joblink::CommandStatus* find(joblink::Command command) const;
   kinebus::LocalTime now() const;
   void arm();
 

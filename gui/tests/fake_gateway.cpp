@@ -49,7 +49,10 @@ joblink::MachineInfo m1_info() {
 }
 
 FakeGateway::FakeGateway() : machine(m1_info()), server_(this), statuses_(this) {
-  status.set_state(joblink::STATE_READY);
+  using namespace joblink;
+  status.set_state(STATE_READY);
+  allow({COMMAND_START_JOB, COMMAND_STOP, COMMAND_HOME, COMMAND_REFERENCE, COMMAND_JOG, COMMAND_SET_OVERRIDE,
+         COMMAND_SET_TEMPERATURE, COMMAND_SET_FAN, COMMAND_MOTORS_OFF, COMMAND_SET_WORK_OFFSET});
   status.set_positions_known(true);
   status.mutable_tool()->set_z_mm(20);
   status.set_feed_override(1);
@@ -83,6 +86,17 @@ FakeGateway::FakeGateway() : machine(m1_info()), server_(this), statuses_(this) 
   });
   connect(&statuses_, &QTimer::timeout, this, &FakeGateway::send_status);
   server_.listen(socket_path());
+}
+
+void FakeGateway::allow(std::initializer_list<joblink::Command> commands) {
+  status.clear_commands();
+  const auto& all = *joblink::Command_descriptor();
+  for (int i = 1; i < all.value_count(); ++i) {
+    auto& command = *status.add_commands();
+    command.set_command(static_cast<joblink::Command>(all.value(i)->number()));
+    command.set_allowed(std::find(commands.begin(), commands.end(), command.command()) != commands.end());
+    if (!command.allowed()) command.mutable_why_not()->set_text("home it first");
+  }
 }
 
 int FakeGateway::count(joblink::ClientMessage::RequestCase request) const {

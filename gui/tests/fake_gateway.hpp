@@ -7,6 +7,7 @@
 #include <QLocalSocket>
 #include <QTemporaryDir>
 #include <QTimer>
+#include <initializer_list>
 #include <map>
 #include <memory>
 
@@ -31,6 +32,8 @@ class FakeGateway : public QObject {
   /// The link breaks, once, when so much of an upload has come.
   std::size_t break_at_bytes = SIZE_MAX;
 
+  /// The status says that these commands, and no others, may be given.
+  void allow(std::initializer_list<joblink::Command> commands);
   int count(joblink::ClientMessage::RequestCase request) const;
   void say(const joblink::Event& event);
   void send_status();

@@ -245,15 +245,36 @@ TEST_F(WindowTest, AnInterruptedJobOffersToGoOnOrToBeCancelled) {
     return false;
   };
   gateway.status.set_state(joblink::STATE_UNHOMED);
+  gateway.allow({joblink::COMMAND_HOME});
   gateway.send_status();
   ASSERT_TRUE(wait_until([&] { return desk.session.status().state() == joblink::STATE_UNHOMED; }));
   EXPECT_FALSE(enabled(QStringLiteral("Resume")));
+  gateway.allow({joblink::COMMAND_HOME, joblink::COMMAND_RESUME, joblink::COMMAND_CANCEL});
   gateway.status.set_job("part.gcode");
   gateway.status.set_interrupted(true);
   gateway.send_status();
   ASSERT_TRUE(wait_until([&] { return desk.session.status().interrupted(); }));
   EXPECT_TRUE(enabled(QStringLiteral("Resume")));
   EXPECT_TRUE(enabled(QStringLiteral("Cancel")));
+}
+
+TEST_F(WindowTest, AButtonThatCanDoNothingTellsWhyInTheGatewaysWords) {
+  show_connected();
+  const auto button = [&](const QString& text) -> QPushButton* {
+    for (auto* found : window->findChildren<QPushButton*>())
+      if (found->text() == text) return found;
+    return nullptr;
+  };
+  QPushButton* reference = button(QStringLiteral("Bed reference"));
+  ASSERT_NE(reference, nullptr);
+  ASSERT_TRUE(wait_until([&] { return reference->isEnabled(); }));
+  const QString does = reference->toolTip();
+  gateway.allow({joblink::COMMAND_HOME});
+  ASSERT_TRUE(wait_until([&] { return !reference->isEnabled(); }));
+  EXPECT_EQ(reference->toolTip(), QStringLiteral("home it first"));
+  gateway.allow({joblink::COMMAND_REFERENCE});
+  ASSERT_TRUE(wait_until([&] { return reference->isEnabled(); }));
+  EXPECT_EQ(reference->toolTip(), does);
 }
 
 TEST_F(WindowTest, TheJobsLinesAreSeen) {

@@ -2136,6 +2136,18 @@
         <translation>تنظیم دما</translation>
     </message>
     <message>
+        <source>set the fan</source>
+        <translation>تنظیم فن</translation>
+    </message>
+    <message>
+        <source>turn the spindle</source>
+        <translation>چرخاندن اسپیندل</translation>
+    </message>
+    <message>
+        <source>set a work offset</source>
+        <translation>تنظیم مبدأ کاری</translation>
+    </message>
+    <message>
         <source>off</source>
         <translation>خاموش</translation>
     </message>

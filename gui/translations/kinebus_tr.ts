@@ -2136,6 +2136,18 @@
         <translation>sıcaklık ayarı</translation>
     </message>
     <message>
+        <source>set the fan</source>
+        <translation>fan ayarı</translation>
+    </message>
+    <message>
+        <source>turn the spindle</source>
+        <translation>iş milini döndürme</translation>
+    </message>
+    <message>
+        <source>set a work offset</source>
+        <translation>iş ofseti ayarı</translation>
+    </message>
+    <message>
         <source>off</source>
         <translation>kapalı</translation>
     </message>

@@ -123,7 +123,7 @@ AlarmsPage::AlarmsPage(Desk& desk, QWidget* parent) : SpeakingWidget(parent), de
 
 void AlarmsPage::take() {
   const auto state = desk_.session.status().state();
-  const bool stopped = desk_.session.connected() && allowed_in(state).clear;
+  const bool stopped = desk_.session.allowed(joblink::COMMAND_CLEAR);
   open_->setVisible(stopped);
   fine_->setVisible(!stopped);
   if (!stopped) return;

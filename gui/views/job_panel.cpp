@@ -139,11 +139,13 @@ void JobPanel::take_status() {
     override_->setValue(static_cast<int>(std::lround(s.feed_override() * 100)));
     override_text_->setText(Format::percent(override_->value() / 100.0));
   }
-  const Allowed allowed = connected ? allowed_in(s.state(), s.interrupted()) : Allowed{};
-  pause_->setVisible(!allowed.resume);
-  pause_->setEnabled(allowed.hold);
-  resume_->setVisible(allowed.resume);
-  cancel_->setEnabled(allowed.cancel);
+  const bool resume = desk_.session.allowed(joblink::COMMAND_RESUME);
+  pause_->setVisible(!resume);
+  set_usable(*pause_, desk_.session.allowed(joblink::COMMAND_HOLD),
+             desk_.session.why_not(joblink::COMMAND_HOLD));
+  resume_->setVisible(resume);
+  set_usable(*cancel_, desk_.session.allowed(joblink::COMMAND_CANCEL),
+             desk_.session.why_not(joblink::COMMAND_CANCEL));
   override_->setEnabled(connected);
 }
 

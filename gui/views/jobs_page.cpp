@@ -246,7 +246,8 @@ void JobsPage::take_selection() {
   const bool chosen = connected && !job.isEmpty();
   const joblink::Status& status = desk_.session.status();
   // An interrupted job is resumed or cancelled first: starting another one would drop it.
-  start_->setEnabled(chosen && allowed_in(status.state(), status.interrupted()).start);
+  set_usable(*start_, chosen && desk_.session.allowed(joblink::COMMAND_START_JOB) && !status.interrupted(),
+             desk_.session.why_not(joblink::COMMAND_START_JOB));
   check_->setEnabled(chosen && !checking_);
   show_->setEnabled(chosen);
   delete_->setEnabled((chosen && desk_.session.status().job() != job.toStdString()) || upload);

@@ -295,20 +295,22 @@ void JogPage::take_status() {
   if (offset_boxes_.size() < 5 || zero_here_ == nullptr) return;
   const bool connected = desk_.session.connected();
   const joblink::Status& s = desk_.session.status();
-  const Allowed allowed = connected ? allowed_in(s.state()) : Allowed{};
   // The focus of a button that can do nothing now (home, while the machine homes) is the page's: arrows jog.
-  const auto enable = [this](QPushButton* button, bool can) {
+  const auto enable = [this](QPushButton* button, joblink::Command command, bool otherwise = false) {
+    const bool can = otherwise || desk_.session.allowed(command);
     if (!can && button->hasFocus()) setFocus();
-    button->setEnabled(can);
+    set_usable(*button, can, desk_.session.why_not(command));
   };
-  for (QPushButton* button : jog_buttons_) enable(button, allowed.jog);
-  enable(home_, allowed.home);
-  enable(reference_, allowed.reference);
-  enable(hold_, allowed.hold);
-  enable(clear_, allowed.clear);
-  enable(motors_off_, allowed.motors_off);
-  enable(zero_here_, allowed.jog);
-  set_offset_->setEnabled(connected);
+  for (QPushButton* button : jog_buttons_) enable(button, joblink::COMMAND_JOG);
+  // Homing a machine that is off wakes it first.
+  const bool wakes = s.state() == joblink::STATE_OFF && desk_.session.allowed(joblink::COMMAND_BRING_UP);
+  enable(home_, joblink::COMMAND_HOME, wakes);
+  enable(reference_, joblink::COMMAND_REFERENCE);
+  enable(hold_, joblink::COMMAND_HOLD);
+  enable(clear_, joblink::COMMAND_CLEAR);
+  enable(motors_off_, joblink::COMMAND_MOTORS_OFF);
+  enable(zero_here_, joblink::COMMAND_JOG);
+  enable(set_offset_, joblink::COMMAND_SET_WORK_OFFSET);
   const auto system = static_cast<std::size_t>(s.work_system());
   if (connected && system >= 1 && system <= kSystems.size()) {
     const joblink::Pose& o = s.work_offset();
@@ -324,7 +326,7 @@ void JogPage::take_status() {
 }
 
 void JogPage::jog(Axis axis, int sign) {
-  if (!desk_.session.connected() || !allowed_in(desk_.session.status().state()).jog) return;
+  if (!desk_.session.allowed(joblink::COMMAND_JOG)) return;
   const double step = kSteps[static_cast<std::size_t>(steps_->checkedId())] * sign;
   joblink::Pose delta;
   bool turn = false;

@@ -105,6 +105,19 @@ void IconButton::paintEvent(QPaintEvent*) {
                    Qt::AlignVCenter | Qt::AlignLeft | Qt::AlignAbsolute, words);
 }
 
+void set_usable(QAbstractButton& button, bool can, const QString& why_not) {
+  constexpr const char* kOwn = "own_tip";
+  constexpr const char* kWhy = "why_not";
+  // What it does, unless the tip is a reason of before: it may have been said anew in another language.
+  const QString shown = button.property(kWhy).toString();
+  if (shown.isEmpty() || button.toolTip() != shown) button.setProperty(kOwn, button.toolTip());
+  const QString why = can ? QString() : why_not;
+  if (why != shown) button.setProperty(kWhy, why);
+  const QString tip = why.isEmpty() ? button.property(kOwn).toString() : why;
+  if (tip != button.toolTip()) button.setToolTip(tip);
+  button.setEnabled(can);
+}
+
 void ElidedLabel::set_text(const QString& text) {
   if (text == this->text()) return;
   setText(text);

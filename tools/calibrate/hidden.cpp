@@ -102,12 +102,12 @@ struct TrueMachine {
         believed_kinematics(std::move(*make_kinematics(b))),
         true_kinematics(std::move(*make_kinematics(t))) {}
 
-  std::optional<PoseVector> tool(const PoseVector& pose, const std::array<int, 4>& directions) const {
+  std::optional<Pose> tool(const Pose& pose, const std::array<int, 4>& directions) const {
     JointVector joints{};
     if (!believed_kinematics->inverse(Frame::kPart, pose, joints)) return std::nullopt;
     for (std::size_t i = 0; i < 4; ++i)
       joints[i] = true_position(believed.joints[i], truth.joints[i], joints[i], directions[i]);
-    PoseVector found = pose;
+    Pose found = pose;
     if (!true_kinematics->forward(Frame::kPart, joints, found)) return std::nullopt;
     return found;
   }
@@ -119,12 +119,12 @@ struct TrueMachine {
 }  // namespace
 
 std::string measure_points(const MachineDescription& believed, const MachineDescription& truth,
-                           const std::vector<PoseVector>& poses, double noise_mm, std::uint64_t seed) {
+                           const std::vector<Pose>& poses, double noise_mm, std::uint64_t seed) {
   std::mt19937_64 engine(seed);
   std::normal_distribution<double> noise(0, noise_mm);
   const TrueMachine machine(believed, truth);
   std::string out = "x_mm,y_mm,z_mm,a_deg,measured_x_mm,measured_y_mm,measured_z_mm,noise_um\n";
-  for (const PoseVector& pose : poses) {
+  for (const Pose& pose : poses) {
     const auto tool = machine.tool(pose, {1, 1, 1, 1});
     if (!tool) continue;
     print(out, "%.4f,%.4f,%.4f,%.5f,%.5f,%.5f,%.5f,%g\n", pose[kX], pose[kY], pose[kZ], pose[kA] / kRadPerDeg,
@@ -134,13 +134,13 @@ std::string measure_points(const MachineDescription& believed, const MachineDesc
   return out;
 }
 
-std::vector<PoseVector> random_poses(const MachineDescription& machine, int count, std::uint64_t seed) {
+std::vector<Pose> random_poses(const MachineDescription& machine, int count, std::uint64_t seed) {
   std::mt19937_64 engine(seed);
   const auto uniform = [&](double a, double b) {
     return std::uniform_real_distribution<double>(a, b)(engine);
   };
   const auto kinematics = make_kinematics(machine);
-  std::vector<PoseVector> out;
+  std::vector<Pose> out;
   if (!kinematics) return out;
   const PoseLimits limits = pose_limits(machine.kinematics) ? *pose_limits(machine.kinematics) : PoseLimits{};
   const double radius = limits.radius_mm > 0 ? limits.radius_mm : 100;
@@ -149,12 +149,12 @@ std::vector<PoseVector> random_poses(const MachineDescription& machine, int coun
     const double r = radius * std::sqrt(uniform(0, 1)), f = uniform(-std::numbers::pi, std::numbers::pi);
     // Four digits, as a file of measurements states a pose.
     const auto digits = [](double v) { return std::round(v * 1e4) / 1e4; };
-    const PoseVector pose{digits(r * std::cos(f)),
-                          digits(r * std::sin(f)),
-                          digits(uniform(z.min, z.max)),
-                          digits(uniform(limits.a_rad.min, limits.a_rad.max) / kRadPerDeg) * kRadPerDeg,
-                          0,
-                          0};
+    const Pose pose{digits(r * std::cos(f)),
+                    digits(r * std::sin(f)),
+                    digits(uniform(z.min, z.max)),
+                    digits(uniform(limits.a_rad.min, limits.a_rad.max) / kRadPerDeg) * kRadPerDeg,
+                    0,
+                    0};
     if ((*kinematics)->check(Frame::kPart, pose)) out.push_back(pose);
   }
   return out;
@@ -166,7 +166,7 @@ Accuracy accuracy(const MachineDescription& believed, const MachineDescription& 
   std::mt19937_64 engine(seed ^ 0x51ED270B9ULL);
   Accuracy a;
   double squares = 0;
-  for (const PoseVector& pose : random_poses(believed, poses, seed)) {
+  for (const Pose& pose : random_poses(believed, poses, seed)) {
     std::array<int, 4> directions{};
     for (int& d : directions) d = (engine() & 1) != 0 ? 1 : -1;
     const auto tool = machine.tool(pose, directions);

@@ -33,7 +33,7 @@ std::string measure_rails(const MachineDescription& believed, const MachineDescr
 /// CSV of touch probe points at `poses`, each come to with the joints moving upwards (the gap closed the same
 /// way).
 std::string measure_points(const MachineDescription& believed, const MachineDescription& truth,
-                           const std::vector<PoseVector>& poses, double noise_mm, std::uint64_t seed);
+                           const std::vector<Pose>& poses, double noise_mm, std::uint64_t seed);
 
 struct Accuracy {
   double rms_mm = 0, worst_mm = 0;
@@ -44,6 +44,6 @@ Accuracy accuracy(const MachineDescription& believed, const MachineDescription& 
                   std::uint64_t seed);
 
 /// Random poses of the machine's workspace with C = 0 that the machine's rules allow.
-std::vector<PoseVector> random_poses(const MachineDescription& machine, int count, std::uint64_t seed);
+std::vector<Pose> random_poses(const MachineDescription& machine, int count, std::uint64_t seed);
 
 }  // namespace kinebus

@@ -159,7 +159,7 @@ int suggest(const Arguments& a) {
                     a.noise_um * 1e-3, {.rail_lean = !a.no_lean, .scale = a.scale});
   std::string out = "x_mm,y_mm,z_mm,a_deg,measured_x_mm,measured_y_mm,measured_z_mm\n";
   char text[128];
-  for (const PoseVector& p : poses) {
+  for (const Pose& p : poses) {
     std::snprintf(text, sizeof text, "%.4f,%.4f,%.4f,%.4f,,,\n", p[kX], p[kY], p[kZ], p[kA] / kRadPerDeg);
     out += text;
   }

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -90,9 +89,14 @@ void print_nodes(const Status& s) {
 void print_bus(const Status& s) {
   fmt::print("load {:.2f} % in the last second, peak {:.2f} %\n", 100 * s.bus_load(),
              100 * s.bus_load_peak());
-  const nlohmann::json counters = to_json(s)["counters"];
-  for (const auto& [name, value] : counters.items())
-    fmt::print("{:20} {}\n", name, value.get<std::uint64_t>());
+  const joblink::Counters& counters = s.counters();
+  const auto& values = *counters.GetReflection();
+  for (int i = 0; i < counters.GetDescriptor()->field_count(); ++i) {
+    const auto& field = *counters.GetDescriptor()->field(i);
+    const bool wide = field.cpp_type() == google::protobuf::FieldDescriptor::CPPTYPE_UINT64;
+    fmt::print("{:20} {}\n", field.name(),
+               wide ? values.GetUInt64(counters, &field) : values.GetUInt32(counters, &field));
+  }
 }
 
 void print_clients(const Status& s) {
@@ -127,7 +131,7 @@ void add_view(CLI::App& app, const Options& options, const std::string& name, co
     Client client(options->reach);
     const Status status = client.status();
     if (options->json)
-      fmt::print("{}\n", to_json(status).dump(2));
+      fmt::print("{}", to_json_text(status));
     else
       print(status);
   });

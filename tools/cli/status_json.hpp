@@ -1,10 +1,11 @@
 #pragma once
-// A status as JSON for scripts: lengths in mm, angles in degrees, times in seconds.
+// A status as JSON for scripts: protobuf's own JSON of kinebus.proto's Status, with its names, values of 0
+// too.
 
-#include <nlohmann/json_fwd.hpp>
+#include <string>
 
 #include "protocol/joblink/kinebus.pb.h"
 
 namespace kinebus {
-nlohmann::json to_json(const joblink::Status& status);
+std::string to_json_text(const joblink::Status& status);
 }  // namespace kinebus

@@ -49,7 +49,7 @@ class Collector {
   std::vector<Strand> strands;
 
  private:
-  void go(std::uint32_t line, const canonical::Pose& target, const canonical::Arc* arc) {
+  void go(std::uint32_t line, const Pose& target, const canonical::Arc* arc) {
     const Vector from = tip_of(here_), to = tip_of(target);
     const bool feeds = target[5] > here_[5] + 1e-9;
     here_ = target;
@@ -76,7 +76,7 @@ class Collector {
 
   const JoinedJob& job_;
   std::vector<bool> outside_;
-  canonical::Pose here_{};
+  Pose here_{};
   std::size_t piece_ = 0;
   int layer_ = -1;
   double height_ = 0;
@@ -87,7 +87,7 @@ class Collector {
 std::vector<Strand> strands_of(const JoinedJob& job, const MachineDescription& machine) {
   const auto kinematics = make_kinematics(machine);
   if (!kinematics) throw std::runtime_error(kinematics.error().what);
-  const PoseVector start = (*kinematics)->bed_reference();
+  const Pose start = (*kinematics)->bed_reference();
   gcode::Interpreter interpreter(interpreter_options(machine, start, start));
   gcode::JobReader reader(interpreter);
   gcode::CommandBuffer commands;

@@ -8,7 +8,7 @@
 
 namespace kinebus::compose {
 
-inline Vector tip_of(const canonical::Pose& pose) {
+inline Vector tip_of(const Pose& pose) {
   return {pose[0], pose[1], pose[2]};
 }
 

@@ -18,8 +18,6 @@
 namespace kinebus::compose {
 namespace {
 
-using canonical::Pose;
-
 /// Where the tool points away from the part, in part coordinates.
 Vector tool_up(double a_rad, double c_rad) {
   return {std::sin(c_rad) * std::sin(a_rad), std::cos(c_rad) * std::sin(a_rad), std::cos(a_rad)};
@@ -142,7 +140,7 @@ Verification verify(const JoinedJob& job, const std::vector<JoinPiece>& pieces,
   out.job_time_s = planned_time_s(job.text, machine, out.problems);
   out.worst_overlap_mm = -options.nozzle.widest();
   const auto kinematics = kinematics_of(machine);
-  const PoseVector start = kinematics->bed_reference();
+  const Pose start = kinematics->bed_reference();
   gcode::Interpreter interpreter(interpreter_options(machine, start, start));
   gcode::JobReader reader(interpreter);
   gcode::CommandBuffer commands;

@@ -18,7 +18,7 @@ namespace {
 struct Random {
   std::mt19937_64 engine{1};
   double uniform(double a, double b) { return std::uniform_real_distribution<double>(a, b)(engine); }
-  PoseVector pose(double tilt_min_deg, double tilt_max_deg) {
+  Pose pose(double tilt_min_deg, double tilt_max_deg) {
     const double r = 100 * std::sqrt(uniform(0, 1)), f = uniform(-3.2, 3.2);
     return {r * std::cos(f),
             r * std::sin(f),
@@ -30,7 +30,7 @@ struct Random {
 };
 
 /// Leg length error when platform and carriages are put together by the drawing (eq. 1), mm.
-double closure(const M1Geometry& g, const PoseVector& pose, const JointVector& q) {
+double closure(const M1Geometry& g, const Pose& pose, const JointVector& q) {
   double worst = 0;
   const double c = std::cos(pose[kA]), s = std::sin(pose[kA]);
   const Vector3 p{g.nozzle_mm[0] - pose[0], g.nozzle_mm[1] - (c * pose[1] - s * pose[2]),
@@ -71,7 +71,7 @@ int m1(const std::string& folder) {
     constexpr double h = 0.7;
     JointVector q1{}, q2{};
     for (int k = -4; k <= 4; ++k) {
-      PoseVector x = path.x;
+      Pose x = path.x;
       for (std::size_t axis = 0; axis < 4; ++axis)
         x[axis] += k * h * (path.x1[axis] + 0.5 * k * h * path.x2[axis]);
       JointVector q{};
@@ -91,7 +91,7 @@ int m1(const std::string& folder) {
       velocity = std::max(velocity, std::abs(q1[j] - exact.q1[j]) / scale1);
       acceleration = std::max(acceleration, std::abs(q2[j] - exact.q2[j]) / scale2);
     }
-    PoseVector pose = random.pose(-45, 45);
+    Pose pose = random.pose(-45, 45);
     if (m1.forward(Frame::kPart, exact.q, pose))
       for (std::size_t k = 0; k < 4; ++k) found = std::max(found, std::abs(pose[k] - path.x[k]));
     else
@@ -114,7 +114,7 @@ int m1(const std::string& folder) {
         for (int tilt = 0; tilt <= 30; ++tilt) {
           const double a = tilt_from_deg + (tilt_to_deg - tilt_from_deg) * tilt / 30;
           JointVector q{};
-          const PoseVector pose{
+          const Pose pose{
               100 * std::cos(ray * kRadPerDeg), 100 * std::sin(ray * kRadPerDeg), z, a * kRadPerDeg, 0, 0};
           if (!m1.inverse(Frame::kPart, pose, q)) continue;
           for (std::size_t j = 0; j < 4; ++j) used = {std::min(used.min, q[j]), std::max(used.max, q[j])};

@@ -27,7 +27,7 @@ struct Sample {
   std::array<PathTime, kMaxNodes> node_tau{};  ///< each node's own path time at this instant
   PathTime tau{0};                             ///< their mean
   JointVector joints{};                        ///< true, mm or rad
-  PoseVector pose{};  ///< Frame::kPart, by forward kinematics of the true joints: Simulation::locate()
+  Pose pose{};  ///< Frame::kPart, by forward kinematics of the true joints: Simulation::locate()
   std::optional<PlannedPose> planned;  ///< at tau; none: no motion is planned there
   std::uint32_t line = 0;              ///< the job's line in motion, by the plan
   double rate = 0;                     ///< d tau / dt

@@ -45,7 +45,7 @@ std::unique_ptr<NodeMachine> make_nodes(const MachineDescription& machine, const
 /// All checkers together, fed by one simulation.
 struct Checkers {
   Checkers(const MachineDescription& machine, const Kinematics& kinematics, Simulation& simulation,
-           ByteSource& text, const PoseVector& start)
+           ByteSource& text, const Pose& start)
       : tracking(machine, kinematics, [&simulation](PathTime tau) { return simulation.planned_pose(tau); }),
         path(machine, kinematics, text, start),
         joints(machine) {}
@@ -114,9 +114,10 @@ class Run {
   bool prepare() {
     Gateway& gateway = simulation_.gateway();
     simulation_.run_until(kPowerUp);
-    return finish("bring-up", gateway.bring_up(), MachineState::kUnhomed) &&
-           finish("homing", gateway.home(), MachineState::kReady) &&
-           finish("the move to the bed reference", gateway.go_to_reference(), MachineState::kReady);
+    return finish("bring-up", gateway.carry_out(command::BringUp{}), MachineState::kUnhomed) &&
+           finish("homing", gateway.carry_out(command::Home{}), MachineState::kReady) &&
+           finish("the move to the bed reference", gateway.carry_out(command::GoToReference{}),
+                  MachineState::kReady);
   }
 
   /// Waits until a command that was accepted has been carried out.
@@ -131,7 +132,7 @@ class Run {
     Gateway& gateway = simulation_.gateway();
     checkers_ = std::make_unique<Checkers>(machine_, kinematics_, simulation_, same_job,
                                            gateway.status().machine_pose);
-    if (const auto run = gateway.run(std::move(job), "job"); !run) {
+    if (const auto run = gateway.carry_out(command::Run{std::move(job), "job"}); !run) {
       fail("the job was refused: " + run.error().words);
       return;
     }
@@ -244,7 +245,7 @@ class Run {
   std::unique_ptr<Checkers> checkers_;
   SimulationReport report_;
   BusTime begin_{0}, last_time_{0};
-  PoseVector last_pose_{};
+  Pose last_pose_{};
   int since_progress_ = 0;
 };
 

@@ -100,7 +100,7 @@ class Simulation {
   BusTime asked_{BusTime::max()}, woken_{0};  // the gateway's deadline, and when Linux lets it run
   BusTime served_{-1'000'000};                // when it ran last
   Sample last_{};
-  std::array<PoseVector, 2> warm_{};  // the last two poses found
+  std::array<Pose, 2> warm_{};  // the last two poses found
   std::uint64_t hash_ = 1469598103934665603ULL;
 };
 

@@ -58,12 +58,12 @@ Fitness fitness(const M1Geometry& geometry, const Room& room) {
       for (int ray = 0; ray < 12; ++ray)
         for (int radius = ray == 0 ? 0 : 1; radius <= 2; ++radius) {
           const double r = room.radius_mm * radius / 2, a = 2 * std::numbers::pi * ray / 12;
-          const PoseVector pose{r * std::cos(a),
-                                r * std::sin(a),
-                                room.z_min_mm + (room.z_max_mm - room.z_min_mm) * z / 3,
-                                room.tilt_min_rad + (room.tilt_max_rad - room.tilt_min_rad) * tilt / 4,
-                                0,
-                                0};
+          const Pose pose{r * std::cos(a),
+                          r * std::sin(a),
+                          room.z_min_mm + (room.z_max_mm - room.z_min_mm) * z / 3,
+                          room.tilt_min_rad + (room.tilt_max_rad - room.tilt_min_rad) * tilt / 4,
+                          0,
+                          0};
           ++poses;
           JointVector q{};
           if (const auto ok = kinematics.inverse(Frame::kPart, pose, q); !ok) {

@@ -55,7 +55,7 @@ void scan_plane(const Kinematics& kinematics, Scan& s, int plane, std::array<std
       std::uint64_t allowed = 0;
       double worst = 0;
       for (int tilt = 0; tilt < s.tilts; ++tilt) {
-        const PoseVector pose{r * c, r * sn, s.z_mm(plane), s.tilt_rad(tilt), 0, 0};
+        const Pose pose{r * c, r * sn, s.z_mm(plane), s.tilt_rad(tilt), 0, 0};
         if (const auto ok = kinematics.check(Frame::kPart, pose); !ok)
           ++refused[static_cast<std::size_t>(ok.error().kind)];
         else

@@ -141,7 +141,7 @@ void Stranger::on_time(BusTime now) {
 
 void SecondGateway::start(BusTime now) {
   gateway_.on_time(now);
-  static_cast<void>(gateway_.bring_up());
+  static_cast<void>(gateway_.carry_out(command::BringUp{}));
   serve(now);
 }
 

@@ -213,13 +213,13 @@ void Injector::turn_on(Active& active, BusTime now) {
       active.second->start(now);
       break;
     case kHold:
-      if (gateway.hold()) stop_cause_ = now;
+      if (gateway.carry_out(command::Hold{})) stop_cause_ = now;
       break;
     case kCancel:
-      if (gateway.cancel()) stop_cause_ = now;
+      if (gateway.carry_out(command::Cancel{})) stop_cause_ = now;
       break;
     case kOperatorStop:
-      static_cast<void>(gateway.stop());
+      static_cast<void>(gateway.carry_out(command::Stop{}));
       stop_cause_ = now;
       break;
     default:

@@ -17,7 +17,7 @@ void Operator::on_time(BusTime now, Gateway& gateway, bool cause_over) {
 
 /// Takes up the interrupted job, wherever the machine is.
 bool Operator::go_on(Gateway& gateway) {
-  if (!gateway.status().interrupted || !gateway.resume()) return false;
+  if (!gateway.status().interrupted || !gateway.carry_out(command::Resume{})) return false;
   ++resumed_;
   return true;
 }
@@ -27,12 +27,12 @@ void Operator::act(BusTime now, Gateway& gateway, bool cause_over) {
     case MachineState::kOff:
       if (!cause_over && ever_ready_) return;
       next_ = now + 100ms;
-      if (!go_on(gateway)) static_cast<void>(gateway.bring_up());
+      if (!go_on(gateway)) static_cast<void>(gateway.carry_out(command::BringUp{}));
       return;
     case MachineState::kUnhomed:
       if (!cause_over && ever_ready_) return;
       next_ = now + 100ms;
-      if (!go_on(gateway)) static_cast<void>(gateway.home());
+      if (!go_on(gateway)) static_cast<void>(gateway.carry_out(command::Home{}));
       return;
     case MachineState::kReady:
       ever_ready_ = true;
@@ -42,27 +42,27 @@ void Operator::act(BusTime now, Gateway& gateway, bool cause_over) {
       } else if (job_begun_) {
         if (cause_over && go_on(gateway)) return;
         if (cause_over && begins_again_ && begun_again_ < 3 &&
-            gateway.run(std::make_unique<StringSource>(job_), "job")) {
+            gateway.carry_out(command::Run{std::make_unique<StringSource>(job_), "job"})) {
           ++begun_again_;
           return;
         }
         job_lost_ = content_ = cause_over;
-      } else if (gateway.run(std::make_unique<StringSource>(job_), "job")) {
+      } else if (gateway.carry_out(command::Run{std::make_unique<StringSource>(job_), "job"})) {
         job_begun_ = true;
       }
       return;
     case MachineState::kHeld:
       if (!cause_over) return;
-      if (gateway.resume()) ++resumed_;
+      if (gateway.carry_out(command::Resume{})) ++resumed_;
       return;
     case MachineState::kStopped:
     case MachineState::kAlarm:
       if (!cause_over) return;
       next_ = now + 4s;  // lifting a stop takes up to 3 s
       ++lifted_;
-      if (lift_attempts_++ < 2 && gateway.clear()) return;
+      if (lift_attempts_++ < 2 && gateway.carry_out(command::Clear{})) return;
       lift_attempts_ = 0;
-      static_cast<void>(gateway.motors_off());
+      static_cast<void>(gateway.carry_out(command::MotorsOff{}));
       return;
     case MachineState::kHoming:
       homed_again_ = homed_again_ || job_begun_;

@@ -33,9 +33,8 @@ struct Arguments {
 };
 
 /// The planned path as a polyline, dense enough that chords are as good as arcs.
-std::vector<PoseVector> planned(const MachineDescription& machine, const Kinematics& kinematics,
-                                ByteSource& job) {
-  std::vector<PoseVector> points;
+std::vector<Pose> planned(const MachineDescription& machine, const Kinematics& kinematics, ByteSource& job) {
+  std::vector<Pose> points;
   JobPipeline pipeline(machine, kinematics);
   pipeline.start_job(job, kinematics.bed_reference());
   points.push_back(kinematics.bed_reference());
@@ -49,7 +48,7 @@ std::vector<PoseVector> planned(const MachineDescription& machine, const Kinemat
     const int pieces = static_cast<int>(std::ceil(std::max(2.0, length / 0.05)));
     for (int i = 1; i <= pieces; ++i) {
       const double share = static_cast<double>(i) / pieces;
-      PoseVector pose = phase.piece.evaluate(phase.s0 + share * length).x;
+      Pose pose = phase.piece.evaluate(phase.s0 + share * length).x;
       if (const auto machine_pose = convert_pose(kinematics, phase.piece.frame, pose, Frame::kMachine))
         pose = *machine_pose;
       points.push_back(pose);
@@ -71,11 +70,11 @@ Samples read_trace(const std::string& path) {
 
 /// Poses of the tool, machine frame, in the order of time. The traces count from power-up: homing has put the
 /// joints' zero elsewhere, which the last positions tell, because the job's end is known.
-std::vector<PoseVector> tool_track(const MachineDescription& machine, const Kinematics& kinematics,
-                                   const std::array<Samples, 3>& traces, const PoseVector& end) {
+std::vector<Pose> tool_track(const MachineDescription& machine, const Kinematics& kinematics,
+                             const std::array<Samples, 3>& traces, const Pose& end) {
   const std::vector<NodeAxes> nodes = node_axes(machine);
   JointVector end_joints{};
-  std::vector<PoseVector> track;
+  std::vector<Pose> track;
   if (!kinematics.inverse(Frame::kMachine, end, end_joints)) return track;
   std::vector<JointVector> joints;
   for (const auto& [time, first] : traces[0]) {
@@ -94,7 +93,7 @@ std::vector<PoseVector> tool_track(const MachineDescription& machine, const Kine
   }
   if (joints.empty()) return track;
   const JointVector last = joints.back();
-  PoseVector pose = kinematics.bed_reference();
+  Pose pose = kinematics.bed_reference();
   for (JointVector values : joints) {
     for (std::size_t j = 0; j < machine.joints.size(); ++j) {
       // Whole counts: the zero is where a whole count is.
@@ -112,12 +111,11 @@ struct Nearest {
 
 /// The nearest place of the path from `from` on, at most `ahead` points farther. Where the tool stands and
 /// only filament moves, the filament decides.
-Nearest nearest(const std::vector<PoseVector>& path, std::size_t from, std::size_t ahead,
-                const PoseVector& p) {
+Nearest nearest(const std::vector<Pose>& path, std::size_t from, std::size_t ahead, const Pose& p) {
   Nearest best;
   double best_score = 1e9;
   for (std::size_t i = from; i + 1 < path.size() && i < from + ahead; ++i) {
-    const PoseVector &a = path[i], &b = path[i + 1];
+    const Pose &a = path[i], &b = path[i + 1];
     double way = 0, along = 0;
     for (const std::size_t k : {0, 1, 2, 5}) {
       const double weight = k == 5 ? 0.2 : 1;
@@ -139,7 +137,7 @@ Nearest nearest(const std::vector<PoseVector>& path, std::size_t from, std::size
   return best;
 }
 
-double length_mm(const std::vector<PoseVector>& path, std::size_t from, std::size_t to) {
+double length_mm(const std::vector<Pose>& path, std::size_t from, std::size_t to) {
   double sum = 0;
   for (std::size_t i = from; i < to; ++i)
     sum += std::hypot(path[i + 1][kX] - path[i][kX], path[i + 1][kY] - path[i][kY],
@@ -148,8 +146,7 @@ double length_mm(const std::vector<PoseVector>& path, std::size_t from, std::siz
 }
 
 /// After a power cut: backwards from the end as long as the tool is on the path, then what it came by.
-int check_resumed(const Arguments& arguments, const std::vector<PoseVector>& path,
-                  const std::vector<PoseVector>& track) {
+int check_resumed(const Arguments& arguments, const std::vector<Pose>& path, const std::vector<Pose>& track) {
   std::vector<Nearest> places(track.size());
   std::size_t first = track.size(), at = path.size() - 1;
   while (first > 0) {
@@ -169,14 +166,14 @@ int check_resumed(const Arguments& arguments, const std::vector<PoseVector>& pat
     worst_filament_mm = std::max(worst_filament_mm, std::abs(places[i].filament_mm));
   }
   // Down to the place: the higher the earlier, beside it by no more than a microstep makes.
-  const PoseVector& place = track[first];
+  const Pose& place = track[first];
   double lift_mm = 0;
   for (std::size_t i = first; i > 0; --i) {
-    const PoseVector& p = track[i - 1];
+    const Pose& p = track[i - 1];
     if (std::hypot(p[kX] - place[kX], p[kY] - place[kY]) > 0.01 || p[kZ] - place[kZ] < lift_mm - 0.004) break;
     lift_mm = std::max(lift_mm, p[kZ] - place[kZ]);
   }
-  PoseVector cut{};
+  Pose cut{};
   std::copy(arguments.cut_at.begin(), arguments.cut_at.end(), cut.begin());
   double best_mm = 1e9;
   std::size_t cut_near = 0;
@@ -199,18 +196,18 @@ int check(const Arguments& arguments) {
   const auto kinematics = make_kinematics(machine);
   auto job = FileSource::open(arguments.job);
   if (!kinematics || !job) return std::printf("cannot read %s\n", arguments.job.c_str()), 2;
-  const std::vector<PoseVector> path = planned(machine, **kinematics, **job);
+  const std::vector<Pose> path = planned(machine, **kinematics, **job);
   std::array<Samples, 3> traces;
   for (std::size_t i = 0; i < traces.size(); ++i) traces[i] = read_trace(arguments.traces[i]);
-  const std::vector<PoseVector> track = tool_track(machine, **kinematics, traces, path.back());
+  const std::vector<Pose> track = tool_track(machine, **kinematics, traces, path.back());
   if (track.empty()) return std::printf("no samples of all three nodes\n"), 2;
 
   if (!arguments.cut_at.empty()) return check_resumed(arguments, path, track);
 
   // From the last time that the tool stood where the job begins.
   std::size_t begin = track.size();
-  const PoseVector& start = path.front();
-  const auto stands_at_start = [&](const PoseVector& p) {
+  const Pose& start = path.front();
+  const auto stands_at_start = [&](const Pose& p) {
     return std::hypot(p[kX] - start[kX], p[kY] - start[kY], p[kZ] - start[kZ]) < 0.004;
   };
   while (begin > 0 && !stands_at_start(track[begin - 1])) --begin;

@@ -14,7 +14,7 @@ struct Random {
     return std::uniform_real_distribution<double>(low, high)(engine);
   }
   double normal(double sigma) { return std::normal_distribution<double>(0, sigma)(engine); }
-  PoseVector pose() {
+  Pose pose() {
     const double r = 100 * std::sqrt(uniform(0, 1)), f = uniform(-3.2, 3.2);
     return {r * std::cos(f), r * std::sin(f), uniform(5, 200), uniform(-35, 35) * kRadPerDeg, 0, 0};
   }
@@ -44,7 +44,7 @@ double error_rms(const GeometryModel& truth_model, const MachineDeviation& truth
   double sum = 0;
   int count = 0;
   for (int n = 0; n < 400; ++n) {
-    const PoseVector pose = random.pose();
+    const Pose pose = random.pose();
     const auto a = truth_model.tool(truth, pose), b = truth_model.tool(believed, pose);
     if (!a || !b) continue;
     for (std::size_t k = 0; k < 3; ++k) sum += std::pow((*a)[k] - (*b)[k], 2);
@@ -53,11 +53,11 @@ double error_rms(const GeometryModel& truth_model, const MachineDeviation& truth
   return std::sqrt(sum / count);
 }
 
-std::vector<GeometryReading> measure(const MachineDeviation& truth, const std::vector<PoseVector>& poses,
+std::vector<GeometryReading> measure(const MachineDeviation& truth, const std::vector<Pose>& poses,
                                      double noise, Random& random) {
   const GeometryModel model({}, {});
   std::vector<GeometryReading> out;
-  for (const PoseVector& pose : poses) {
+  for (const Pose& pose : poses) {
     const auto t = model.tool(truth, pose);
     if (!t) continue;
     GeometryReading r;
@@ -72,7 +72,7 @@ TEST(GeometryFit, HiddenErrorsOfHalfAMillimetreComeDownTo25Micrometres) {
   for (const unsigned seed : {1u, 2u, 3u}) {
     Random random(seed);
     const MachineDeviation truth = hidden(random);
-    std::vector<PoseVector> poses;
+    std::vector<Pose> poses;
     for (int n = 0; n < 100; ++n) poses.push_back(random.pose());
     const GeometryModel model({}, measure(truth, poses, 0.01, random));
     const GeometryFit fit = fit_geometry(model, {});
@@ -87,7 +87,7 @@ TEST(GeometryFit, HiddenErrorsOfHalfAMillimetreComeDownTo25Micrometres) {
 TEST(GeometryFit, WhatCannotBeToldIsSaidAndHeld) {
   Random random(5);
   const MachineDeviation truth = hidden(random);
-  std::vector<PoseVector> poses;
+  std::vector<Pose> poses;
   for (int n = 0; n < 60; ++n) poses.push_back(random.pose());
   const GeometryFit fit = fit_geometry(GeometryModel({}, measure(truth, poses, 0.01, random)), {});
   ASSERT_TRUE(fit.solved);
@@ -191,11 +191,11 @@ TEST(GeometryFit, BallBarReadingsDetermineLengths) {
 
 TEST(PoseSuggestion, ChosenPosesTellMoreThanRandomOnes) {
   Random random(9);
-  std::vector<PoseVector> candidates;
+  std::vector<Pose> candidates;
   for (int n = 0; n < 150; ++n) candidates.push_back(random.pose());
   const auto poses = suggest_poses({}, {}, candidates, 20, 0.01, {});
   ASSERT_EQ(poses.size(), 20u);
-  const auto quality = [&](const std::vector<PoseVector>& chosen) {
+  const auto quality = [&](const std::vector<Pose>& chosen) {
     double sum = 0;
     for (unsigned seed = 20; seed < 24; ++seed) {
       Random other(seed);

@@ -215,7 +215,7 @@ TEST(MachineFile, CalibrationBendsTheGeometryAndNotTheStatedOne) {
   ASSERT_TRUE(machine) << to_string(machine.error());
   EXPECT_EQ(std::get<M1Geometry>(machine->kinematics).legs[1].length_mm, 640);
   JointVector nominal{}, measured{};
-  const PoseVector pose{10, 20, 30, 0.1, 0, 0};
+  const Pose pose{10, 20, 30, 0.1, 0, 0};
   ASSERT_TRUE((*make_kinematics(default_m1()))->inverse(Frame::kPart, pose, nominal));
   ASSERT_TRUE((*make_kinematics(*machine))->inverse(Frame::kPart, pose, measured));
   EXPECT_EQ(nominal[0], measured[0]);

@@ -24,7 +24,7 @@ struct JobBegin {
   std::string name;
   std::uint64_t bytes = 0;       ///< read of its text
   std::uint64_t hash = 0;        ///< of them: fnv1a64()
-  PoseVector start{};            ///< Frame::kMachine
+  Pose start{};                  ///< Frame::kMachine
   gcode::WorkOffsets offsets{};  ///< the machine's, when the job began
   friend bool operator==(const JobBegin&, const JobBegin&) = default;
 };

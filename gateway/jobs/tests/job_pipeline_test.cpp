@@ -22,12 +22,12 @@ struct Trace {
   std::vector<double> event_s;
   std::vector<Problem> problems;
   double motion_s = 0;
-  PoseVector end{};
+  Pose end{};
   Frame frame{};
   std::uint32_t lines = 0;
 };
 
-Trace trace(const std::string& job, PoseVector start = kinematics().bed_reference(), int budget = 1'000'000) {
+Trace trace(const std::string& job, Pose start = kinematics().bed_reference(), int budget = 1'000'000) {
   StringSource source(job);
   JobPipeline pipeline(machine(), kinematics());
   pipeline.start_job(source, start);
@@ -107,7 +107,7 @@ TEST(JobPipeline, EventsBeforeAnyMoveComeFirst) {
 TEST(JobPipeline, HomingInAJobGoesToTheBedReferenceAndRests) {
   const Trace t = trace("G1 X10 F3000\nG28\n");
   EXPECT_EQ(t.steps, "prprb");
-  const PoseVector reference = kinematics().bed_reference();
+  const Pose reference = kinematics().bed_reference();
   for (const int axis : {kX, kY, kZ}) EXPECT_NEAR(t.end[axis], reference[axis], 1e-6) << axis;
 }
 

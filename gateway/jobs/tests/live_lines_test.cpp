@@ -30,7 +30,7 @@ struct Motion {
     phases.push_back(phase);
     all_s += phase.duration_s;
   }
-  PoseVector at(double t) const {
+  Pose at(double t) const {
     const auto after = std::upper_bound(begins_s.begin(), begins_s.end(), t);
     const auto i = static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - begins_s.begin() - 1, 0));
     return phases[i].at(std::min(t - begins_s[i], phases[i].duration_s)).x;
@@ -106,7 +106,7 @@ TEST(LiveLines, MotionIsThatOfTheSameTextAsAJobWhateverTheLinesTiming) {
     ASSERT_NEAR(live.all_s, whole.all_s, 1e-9) << "seed " << seed;
     EXPECT_EQ(live.runs, whole.runs);
     for (double t = 0; t < whole.all_s; t += 0.0037) {
-      const PoseVector a = live.at(t), b = whole.at(t);
+      const Pose a = live.at(t), b = whole.at(t);
       for (std::size_t axis = 0; axis < kPoseAxes; ++axis)
         ASSERT_NEAR(a[axis], b[axis], 1e-9) << "seed " << seed << ", " << t << " s, axis " << axis;
     }
@@ -120,7 +120,7 @@ TEST(LiveLines, LateLinesEndInStopsOnThePathAndMotionGoesOnFromThere) {
     for (std::size_t i = 1; i < live.phases.size(); ++i) {
       const Phase& before = live.phases[i - 1];
       const Phase& after = live.phases[i];
-      const PoseVector a = before.at(before.duration_s).x, b = after.at(0).x;
+      const Pose a = before.at(before.duration_s).x, b = after.at(0).x;
       const auto place = ::testing::Message() << "seed " << seed << ", line " << after.line;
       for (std::size_t axis = 0; axis < kPoseAxes && before.piece.frame == after.piece.frame; ++axis) {
         ASSERT_NEAR(a[axis], b[axis], 1e-6) << place;
@@ -130,7 +130,7 @@ TEST(LiveLines, LateLinesEndInStopsOnThePathAndMotionGoesOnFromThere) {
       ASSERT_NEAR(before.speed(before.duration_s), 0, 1e-6) << place;
     }
     const Motion whole = motion_of_job(job());
-    const PoseVector a = live.at(live.all_s), b = whole.at(whole.all_s);
+    const Pose a = live.at(live.all_s), b = whole.at(whole.all_s);
     for (std::size_t axis = 0; axis < kPoseAxes; ++axis) EXPECT_NEAR(a[axis], b[axis], 1e-9);
   }
 }
@@ -195,7 +195,7 @@ TEST_F(Lines, BeforeTheMachineMayMoveOnlyModesAreTaken) {
 TEST_F(Lines, ProgramKeepsItsEWhenTheMachineWasMovedInBetween) {
   EXPECT_EQ(refused("M82"), "");
   EXPECT_EQ(refused("G92 E100"), "");
-  PoseVector elsewhere = kinematics().bed_reference();
+  Pose elsewhere = kinematics().bed_reference();
   elsewhere[kE] = 7;
   elsewhere[kX] = 12;
   lines.begin(elsewhere, std::nullopt, out);

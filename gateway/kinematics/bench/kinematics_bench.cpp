@@ -26,7 +26,7 @@ std::vector<PosePoint> paths(bool tilted) {
   testing::RandomPose random(11);
   std::vector<PosePoint> list;
   for (std::size_t n = 0; n < kPoses; ++n) {
-    PoseVector x = random.in_m1_cylinder();
+    Pose x = random.in_m1_cylinder();
     x[kA] *= 0.5;  // what the mill (kind 4) reaches too
     PosePoint p = random.path_through(x);
     if (!tilted) p.x[kA] = p.x[kC] = p.x1[kA] = p.x1[kC] = p.x2[kA] = p.x2[kC] = 0;
@@ -79,7 +79,7 @@ void forward(benchmark::State& state) {
   std::size_t n = 0;
   for (auto _ : state) {
     const std::size_t k = n % kPoses;
-    PoseVector pose = warm ? list[k].x : list[(n * 7 + 3) % kPoses].x;
+    Pose pose = warm ? list[k].x : list[(n * 7 + 3) % kPoses].x;
     if (warm) {
       pose[kX] += 0.1;
       pose[kA] += 1e-3;

@@ -14,7 +14,7 @@ double in(double low, double high) {
   return low + (high - low) * static_cast<double>(*rc::gen::inRange<std::uint64_t>(0, 1ull << 53)) * 0x1p-53;
 }
 
-PoseVector pose_in_cylinder(double radius, double height, double tilt_deg) {
+Pose pose_in_cylinder(double radius, double height, double tilt_deg) {
   const double r = radius * std::sqrt(in(0, 1)), f = in(-3.2, 3.2);
   return {r * std::cos(f),
           r * std::sin(f),
@@ -24,11 +24,11 @@ PoseVector pose_in_cylinder(double radius, double height, double tilt_deg) {
           in(-100, 100)};
 }
 
-void expect_inverse_of_forward(const Kinematics& kinematics, const PoseVector& pose, PoseVector start) {
+void expect_inverse_of_forward(const Kinematics& kinematics, const Pose& pose, Pose start) {
   for (const Frame frame : {Frame::kPart, Frame::kMachine}) {
     JointVector q{};
     RC_ASSERT(kinematics.inverse(frame, pose, q).has_value());
-    PoseVector found = start;
+    Pose found = start;
     RC_ASSERT(kinematics.forward(frame, q, found).has_value());
     for (std::size_t k = 0; k < kPoseAxes; ++k) RC_ASSERT(std::abs(found[k] - pose[k]) < 1e-9);
   }
@@ -73,7 +73,7 @@ TEST(KinematicsProperty, ForwardOfInverseIsThePoseOnTheOthers) {
 TEST(KinematicsProperty, AnyNumbersAreAnsweredAndNeverAcceptedOutside) {
   EXPECT_TRUE(rc::check([] {
     const auto kinematics = *make_m1_kinematics({});
-    PoseVector pose{};
+    Pose pose{};
     for (double& v : pose) v = *rc::gen::arbitrary<double>() * std::pow(10.0, *rc::gen::inRange(-3, 12));
     const auto ok = kinematics->check(Frame::kPart, pose);
     if (!ok) RC_ASSERT(!to_string(ok.error(), *kinematics).empty());

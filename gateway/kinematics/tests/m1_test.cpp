@@ -38,7 +38,7 @@ TEST(M1, LegsCloseBetweenCarriageAndPlatform) {
     const auto kinematics = m1(g);
     RandomPose random(1);
     for (int n = 0; n < 5000; ++n) {
-      const PoseVector pose = random.in_m1_cylinder();
+      const Pose pose = random.in_m1_cylinder();
       JointVector q{};
       ASSERT_TRUE(kinematics->inverse(Frame::kPart, pose, q));
       const Eigen::Matrix3d tilt = Eigen::AngleAxisd(pose[kA], Eigen::Vector3d::UnitX()).toRotationMatrix();
@@ -64,11 +64,11 @@ TEST(M1, MachineAndPartFrameAgreeThroughTheTablesRotation) {
   const auto kinematics = m1();
   RandomPose random(2);
   for (int n = 0; n < 2000; ++n) {
-    const PoseVector part = random.in_m1_cylinder();
+    const Pose part = random.in_m1_cylinder();
     const Eigen::Vector3d m = Eigen::AngleAxisd(part[kA], Eigen::Vector3d::UnitX()) *
                               Eigen::AngleAxisd(part[kC], Eigen::Vector3d::UnitZ()) *
                               Eigen::Vector3d(part.data());
-    const PoseVector machine{m.x(), m.y(), m.z(), part[kA], part[kC], part[kE]};
+    const Pose machine{m.x(), m.y(), m.z(), part[kA], part[kC], part[kE]};
     JointVector a{}, b{};
     ASSERT_TRUE(kinematics->inverse(Frame::kPart, part, a));
     ASSERT_TRUE(kinematics->inverse(Frame::kMachine, machine, b));
@@ -111,11 +111,11 @@ TEST(M1, ForwardFromAnyPoseOfTheWorkspaceFindsThePose) {
   const auto kinematics = m1();
   RandomPose random(5);
   for (int n = 0; n < 5000; ++n) {
-    const PoseVector pose = random.in_m1_cylinder();
+    const Pose pose = random.in_m1_cylinder();
     for (const Frame frame : {Frame::kPart, Frame::kMachine}) {
       JointVector q{};
       ASSERT_TRUE(kinematics->inverse(frame, pose, q));
-      PoseVector found = random.in_m1_cylinder();
+      Pose found = random.in_m1_cylinder();
       const auto result = kinematics->forward(frame, q, found);
       ASSERT_TRUE(result) << to_string(result.error());
       for (std::size_t k = 0; k < kPoseAxes; ++k)
@@ -128,10 +128,10 @@ TEST(M1, ForwardOfLeaningRailsFindsThePose) {
   const auto kinematics = m1(leaning());
   RandomPose random(6);
   for (int n = 0; n < 2000; ++n) {
-    const PoseVector pose = random.in_m1_cylinder();
+    const Pose pose = random.in_m1_cylinder();
     JointVector q{};
     ASSERT_TRUE(kinematics->inverse(Frame::kPart, pose, q));
-    PoseVector found{};
+    Pose found{};
     ASSERT_TRUE(kinematics->forward(Frame::kPart, q, found));
     for (std::size_t k = 0; k < kPoseAxes; ++k)
       EXPECT_NEAR(found[k], pose[k], 1e-9) << "sample " << n << " axis " << k;
@@ -140,7 +140,7 @@ TEST(M1, ForwardOfLeaningRailsFindsThePose) {
 
 TEST(M1, ForwardFindsTheHomePose) {
   const auto kinematics = m1();
-  PoseVector pose{};
+  Pose pose{};
   const JointVector home{1030, 1030, 1030, 1030, 0, 0};
   ASSERT_TRUE(kinematics->forward(Frame::kMachine, home, pose));
   JointVector again{};
@@ -150,8 +150,8 @@ TEST(M1, ForwardFindsTheHomePose) {
 
 TEST(M1, ForwardSaysWhenNoPlatformFits) {
   const auto kinematics = m1();
-  PoseVector pose{1, 2, 3, 0, 0, 0};
-  const PoseVector before = pose;
+  Pose pose{1, 2, 3, 0, 0, 0};
+  const Pose before = pose;
   const auto result = kinematics->forward(Frame::kPart, {530, 1030, 530, 1030, 0, 0}, pose);
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().kind, PoseError::Kind::kNoConvergence);
@@ -178,7 +178,7 @@ TEST(M1, TheDefaultCylinderIsWellConditioned) {
   g.max_leg_angle_rad = 44.3 * kRadPerDeg;
   const auto level = m1(g);
   for (int n = 0; n < 20000; ++n) {
-    PoseVector pose = random.in_m1_cylinder();
+    Pose pose = random.in_m1_cylinder();
     pose[kA] = 0;
     ASSERT_TRUE(level->check(Frame::kPart, pose));
   }
@@ -188,7 +188,7 @@ TEST(M1, CheckAcceptsTheWorkspaceThatTheDefaultMachineIsFor) {
   const auto kinematics = m1();
   RandomPose random(8);
   for (int n = 0; n < 20000; ++n) {
-    PoseVector pose = random.in_m1_cylinder();
+    Pose pose = random.in_m1_cylinder();
     pose[kA] = random.uniform(0, 30) * kRadPerDeg;
     const auto ok = kinematics->check(Frame::kPart, pose);
     ASSERT_TRUE(ok) << to_string(ok.error());
@@ -198,7 +198,7 @@ TEST(M1, CheckAcceptsTheWorkspaceThatTheDefaultMachineIsFor) {
 
 struct Refused {
   const char* why;
-  PoseVector pose;
+  Pose pose;
   PoseError::Kind kind;
   int joint;
 };
@@ -232,7 +232,7 @@ TEST(M1, OutOfReachSaysWhichLegAndByHowMuch) {
   JointVector q{};
   // Far towards +x: leg 3 (foot -310, -210, attachment -75, 45) is the one most stretched when y is -100.
   const double beside_x = 600 - 75 + 310, beside_y = 100 + 45 + 210;
-  const PoseVector pose{-600, -100, 0, 0, 0, 0};
+  const Pose pose{-600, -100, 0, 0, 0, 0};
   const auto result = kinematics->inverse(Frame::kMachine, pose, q);
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().kind, PoseError::Kind::kOutOfReach);

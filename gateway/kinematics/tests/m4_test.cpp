@@ -17,7 +17,7 @@ std::unique_ptr<Kinematics> m4(const M4Geometry& geometry = {}) {
   return made ? std::move(*made) : nullptr;
 }
 
-PoseVector random_pose(RandomPose& random) {
+Pose random_pose(RandomPose& random) {
   const double r = 150 * std::sqrt(random.uniform(0, 1)), f = random.uniform(-3, 3);
   return {r * std::cos(f),        r * std::sin(f),
           random.uniform(0, 200), random.uniform(-25, 25) * kRadPerDeg,
@@ -117,11 +117,11 @@ TEST(M4, ForwardOfInverseOverTheWorkspaceFromAnyStart) {
   const auto kinematics = m4();
   RandomPose random(22);
   for (int n = 0; n < 5000; ++n) {
-    const PoseVector pose = random_pose(random);
+    const Pose pose = random_pose(random);
     for (const Frame frame : {Frame::kPart, Frame::kMachine}) {
       JointVector q{};
       ASSERT_TRUE(kinematics->inverse(frame, pose, q));
-      PoseVector found = random_pose(random);
+      Pose found = random_pose(random);
       ASSERT_TRUE(kinematics->forward(frame, q, found)) << "sample " << n;
       for (std::size_t k = 0; k < kPoseAxes; ++k) EXPECT_NEAR(found[k], pose[k], 1e-9) << "sample " << n;
     }
@@ -144,14 +144,13 @@ TEST(M4, TheTurningTableBringsThePartToTheTool) {
   const auto kinematics = m4();
   const double c = 0.7, a = 0.3;
   JointVector q{};
-  const PoseVector pose{30, 40, 50, a, c, 0};
+  const Pose pose{30, 40, 50, a, c, 0};
   ASSERT_TRUE(kinematics->inverse(Frame::kPart, pose, q));
   EXPECT_NEAR(q[3], 30 * std::cos(c) - 40 * std::sin(c), 1e-12);
   EXPECT_EQ(q[4], c);
   // G49 sees the same place as R_X(A) R_Z(C) q.
   const double y = 30 * std::sin(c) + 40 * std::cos(c);
-  const PoseVector machine{q[3], std::cos(a) * y - std::sin(a) * 50, std::sin(a) * y + std::cos(a) * 50, a, c,
-                           0};
+  const Pose machine{q[3], std::cos(a) * y - std::sin(a) * 50, std::sin(a) * y + std::cos(a) * 50, a, c, 0};
   JointVector again{};
   ASSERT_TRUE(kinematics->inverse(Frame::kMachine, machine, again));
   for (std::size_t j = 0; j < 5; ++j) EXPECT_NEAR(again[j], q[j], 1e-10);

@@ -14,13 +14,13 @@ TEST(M5, IsM1sMechanismWithoutTableAndExtruder) {
   EXPECT_EQ(m5->joint_info(2).name, "rail3");
   RandomPose random(31);
   for (int n = 0; n < 2000; ++n) {
-    PoseVector pose = random.in_m1_cylinder();
+    Pose pose = random.in_m1_cylinder();
     pose[kC] = pose[kE] = 0;
     JointVector q1{}, q5{};
     ASSERT_TRUE(m1->inverse(Frame::kPart, pose, q1));
     ASSERT_TRUE(m5->inverse(Frame::kPart, pose, q5));
     EXPECT_EQ(q1, q5);
-    PoseVector found = random.in_m1_cylinder();
+    Pose found = random.in_m1_cylinder();
     ASSERT_TRUE(m5->forward(Frame::kPart, q5, found));
     for (std::size_t k = 0; k < kPoseAxes; ++k) EXPECT_NEAR(found[k], pose[k], 1e-9);
   }

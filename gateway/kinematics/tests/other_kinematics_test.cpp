@@ -33,7 +33,7 @@ TEST(Cartesian, TheToolFollowsTheTurningPart) {
   const Eigen::Vector3d pivot(g.table.pivot_mm.data());
   RandomPose random(21);
   for (int n = 0; n < 1000; ++n) {
-    const PoseVector pose = random.in_m1_cylinder();
+    const Pose pose = random.in_m1_cylinder();
     JointVector q{};
     ASSERT_TRUE(kinematics->inverse(Frame::kPart, pose, q));
     // The table carries the part: the tool has to be where the table's rotation takes the point.
@@ -45,7 +45,7 @@ TEST(Cartesian, TheToolFollowsTheTurningPart) {
     EXPECT_EQ(q[4], pose[kC]);
     EXPECT_EQ(q[5], pose[kE]);
     for (const Frame frame : {Frame::kPart, Frame::kMachine}) {
-      PoseVector found{};
+      Pose found{};
       ASSERT_TRUE(kinematics->inverse(frame, pose, q));
       ASSERT_TRUE(kinematics->forward(frame, q, found));
       for (std::size_t k = 0; k < kPoseAxes; ++k) EXPECT_NEAR(found[k], pose[k], 1e-9);
@@ -81,9 +81,9 @@ TEST(CoreXy, BeltsAddAndSubtract) {
   JointVector q{};
   ASSERT_TRUE(kinematics->inverse(Frame::kPart, {10, 3, 5, 0, 0, 7}, q));
   EXPECT_EQ(q, (JointVector{13, 7, 5, 7}));
-  PoseVector pose{};
+  Pose pose{};
   ASSERT_TRUE(kinematics->forward(Frame::kPart, q, pose));
-  EXPECT_EQ(pose, (PoseVector{10, 3, 5, 0, 0, 7}));
+  EXPECT_EQ(pose, (Pose{10, 3, 5, 0, 0, 7}));
   RandomPose random(23);
   for (int n = 0; n < 50; ++n)
     testing::expect_derivatives(*kinematics, Frame::kPart, random.path_through(random.in_m1_cylinder()), 0.5,
@@ -94,7 +94,7 @@ TEST(CoreXy, BeltsAddAndSubtract) {
   EXPECT_EQ(to_string(result.error(), *kinematics), "X is 1.000 mm outside the workspace");
 }
 
-PoseVector in_delta(RandomPose& random) {
+Pose in_delta(RandomPose& random) {
   const double r = 140 * std::sqrt(random.uniform(0, 1)), f = random.uniform(-3.2, 3.2);
   return {r * std::cos(f), r * std::sin(f), random.uniform(0, 290), 0, 0, random.uniform(-50, 50)};
 }
@@ -104,7 +104,7 @@ TEST(LinearDelta, ArmsClose) {
   const auto kinematics = *make_linear_delta_kinematics(g);
   RandomPose random(24);
   for (int n = 0; n < 2000; ++n) {
-    const PoseVector pose = in_delta(random);
+    const Pose pose = in_delta(random);
     JointVector q{};
     ASSERT_TRUE(kinematics->inverse(Frame::kPart, pose, q));
     for (std::size_t i = 0; i < 3; ++i) {
@@ -121,10 +121,10 @@ TEST(LinearDelta, ForwardFindsThePose) {
   const auto kinematics = *make_linear_delta_kinematics({});
   RandomPose random(25);
   for (int n = 0; n < 5000; ++n) {
-    const PoseVector pose = in_delta(random);
+    const Pose pose = in_delta(random);
     JointVector q{};
     ASSERT_TRUE(kinematics->inverse(Frame::kPart, pose, q));
-    PoseVector found{};
+    Pose found{};
     const auto result = kinematics->forward(Frame::kPart, q, found);
     ASSERT_TRUE(result) << to_string(result.error());
     for (std::size_t k = 0; k < kPoseAxes; ++k) EXPECT_NEAR(found[k], pose[k], 1e-9);
@@ -148,7 +148,7 @@ TEST(LinearDelta, SaysWhatIsWrong) {
   EXPECT_EQ(reach.error().kind, PoseError::Kind::kOutOfReach);
   EXPECT_EQ(reach.error().joint, 2);
   EXPECT_NEAR(reach.error().amount, 400 + 174.75 - 333, 1e-9);
-  PoseVector pose{};
+  Pose pose{};
   const auto closed = kinematics->forward(Frame::kPart, {0, 0, 1000, 0}, pose);
   ASSERT_FALSE(closed);
   EXPECT_EQ(closed.error().kind, PoseError::Kind::kNoConvergence);

@@ -17,14 +17,14 @@ class RandomPose {
   }
 
   /// In the cylinder that the default M1 is made for: radius 100 mm, height 200 mm, |A| <= 45 deg.
-  PoseVector in_m1_cylinder() {
+  Pose in_m1_cylinder() {
     const double r = 100 * std::sqrt(uniform(0, 1)), f = uniform(-3.2, 3.2);
     return {r * std::cos(f), r * std::sin(f),   uniform(0, 200), uniform(-45, 45) * kRadPerDeg,
             uniform(-7, 7),  uniform(-50, 5000)};
   }
 
   /// A smooth path through a pose: every axis moves, turns and bends.
-  PosePoint path_through(const PoseVector& x) {
+  PosePoint path_through(const Pose& x) {
     PosePoint p{.x = x, .x1 = {}, .x2 = {}};
     constexpr double kSpeed[kPoseAxes] = {1, 1, 1, 0.02, 0.05, 0.3};
     for (std::size_t k = 0; k < kPoseAxes; ++k) {
@@ -39,8 +39,8 @@ class RandomPose {
 };
 
 /// x(s) of the parabola with these derivatives at s = 0.
-inline PoseVector at(const PosePoint& p, double s) {
-  PoseVector x{};
+inline Pose at(const PosePoint& p, double s) {
+  Pose x{};
   for (std::size_t k = 0; k < kPoseAxes; ++k) x[k] = p.x[k] + s * (p.x1[k] + 0.5 * s * p.x2[k]);
   return x;
 }

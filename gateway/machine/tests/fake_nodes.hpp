@@ -7,8 +7,8 @@
 #include <memory>
 #include <vector>
 
+#include "gateway/bus_nodes/node_configuration.hpp"
 #include "gateway/jobs/ideal_nodes.hpp"
-#include "gateway/machine/node_configuration.hpp"
 #include "protocol/canopen/cia402.hpp"
 #include "protocol/canopen/nmt.hpp"
 #include "protocol/canopen/node_objects.hpp"

@@ -44,46 +44,49 @@ void command(Gateway& gateway, Script& script) {
                                           "G4 P100\nM0\nG28\n", "G2 X10 Y0 I5 F1200\nM104 S0\n"};
   switch (script.byte() % 14) {
     case 0:
-      static_cast<void>(gateway.bring_up());
+      static_cast<void>(gateway.carry_out(command::BringUp{}));
       break;
     case 1:
-      static_cast<void>(gateway.home());
+      static_cast<void>(gateway.carry_out(command::Home{}));
       break;
     case 2:
-      static_cast<void>(gateway.go_to_reference());
+      static_cast<void>(gateway.carry_out(command::GoToReference{}));
       break;
     case 3:
-      static_cast<void>(gateway.jog({.delta = {1.0 * (script.byte() - 128), 0, 0, 0, 0, 0}}));
+      static_cast<void>(
+          gateway.carry_out(command::Jog{.delta = {1.0 * (script.byte() - 128), 0, 0, 0, 0, 0}}));
       break;
     case 4:
-      static_cast<void>(gateway.run(std::make_unique<StringSource>(kJobs[script.byte() % 5]), "fuzz"));
+      static_cast<void>(
+          gateway.carry_out(command::Run{std::make_unique<StringSource>(kJobs[script.byte() % 5]), "fuzz"}));
       break;
     case 5:
-      static_cast<void>(gateway.hold());
+      static_cast<void>(gateway.carry_out(command::Hold{}));
       break;
     case 6:
-      static_cast<void>(gateway.resume());
+      static_cast<void>(gateway.carry_out(command::Resume{}));
       break;
     case 7:
-      static_cast<void>(gateway.cancel());
+      static_cast<void>(gateway.carry_out(command::Cancel{}));
       break;
     case 8:
-      static_cast<void>(gateway.stop());
+      static_cast<void>(gateway.carry_out(command::Stop{}));
       break;
     case 9:
-      static_cast<void>(gateway.clear());
+      static_cast<void>(gateway.carry_out(command::Clear{}));
       break;
     case 10:
-      static_cast<void>(gateway.set_feed_override(script.byte() / 50.0));
+      static_cast<void>(gateway.carry_out(command::SetFeedOverride{script.byte() / 50.0}));
       break;
     case 11:
-      static_cast<void>(gateway.motors_off());
+      static_cast<void>(gateway.carry_out(command::MotorsOff{}));
       break;
     case 12:
       static_cast<void>(gateway.text_line(std::string{'M', static_cast<char>(script.byte()), '1'}));
       break;
     case 13:
-      static_cast<void>(gateway.set_temperature((script.byte() & 1) != 0, script.byte()));
+      static_cast<void>(
+          gateway.carry_out(command::SetTemperature{(script.byte() & 1) != 0, 1.0 * script.byte()}));
       break;
   }
 }
@@ -138,7 +141,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Script script(data, std::min<std::size_t>(size, 600));
   Bench bench;
   if ((script.byte() & 1) == 0) {
-    static_cast<void>(bench.gateway.bring_up());
+    static_cast<void>(bench.gateway.carry_out(command::BringUp{}));
     bench.run_for(1500ms);
   }
   for (const BusTime end = bench.now + 20s; !script.over() && bench.now < end;) {

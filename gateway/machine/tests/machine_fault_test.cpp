@@ -15,7 +15,8 @@ using namespace std::chrono_literals;
 struct Midway : MachineRig {
   bool begin() {
     if (!make_ready()) return false;
-    if (!gateway->run(std::make_unique<StringSource>("G1 X60 F1200\nG1 X0\n"), "line")) return false;
+    if (!gateway->carry_out(command::Run{std::make_unique<StringSource>("G1 X60 F1200\nG1 X0\n"), "line"}))
+      return false;
     return run_until([&] { return gateway->status().machine_pose[kX] > 20; }, 30s);
   }
   bool rests() {
@@ -28,11 +29,11 @@ struct Midway : MachineRig {
 
 TEST(MachineFaults, MissingNodeEndsBringUpInAnAlarmThatNamesIt) {
   MachineRig rig(default_m1(), [](auto& nodes) { nodes.pop_back(); });
-  ASSERT_TRUE(rig.gateway->bring_up());
+  ASSERT_TRUE(rig.gateway->carry_out(command::BringUp{}));
   ASSERT_TRUE(rig.reach(MachineState::kAlarm, 30s));
   EXPECT_TRUE(rig.told(AlarmCode::kNodeMissing)) << rig.story();
   EXPECT_NE(rig.story().find("node 3"), std::string::npos) << rig.story();
-  ASSERT_TRUE(rig.gateway->clear());
+  ASSERT_TRUE(rig.gateway->carry_out(command::Clear{}));
   EXPECT_EQ(rig.gateway->state(), MachineState::kOff);
 }
 
@@ -40,7 +41,7 @@ TEST(MachineFaults, WrongProductIsRefused) {
   MachineDescription description = default_m1();
   description.nodes[1].product = 0x1234;
   MachineRig rig(description, [](auto& nodes) { nodes[1].node.identity.product_code = 0x5678; });
-  ASSERT_TRUE(rig.gateway->bring_up());
+  ASSERT_TRUE(rig.gateway->carry_out(command::BringUp{}));
   ASSERT_TRUE(rig.reach(MachineState::kAlarm, 30s));
   EXPECT_TRUE(rig.told(AlarmCode::kWrongIdentity)) << rig.story();
 }
@@ -54,19 +55,19 @@ TEST(MachineFaults, TwoNodesWithOneIdAreRefusedByTheirSerialNumbers) {
     other.data[4] ^= 0x40;
     rig.gateway->on_frame(when, other);
   };
-  ASSERT_TRUE(rig.gateway->bring_up());
+  ASSERT_TRUE(rig.gateway->carry_out(command::BringUp{}));
   ASSERT_TRUE(rig.reach(MachineState::kAlarm, 30s)) << rig.story();
   EXPECT_TRUE(rig.told(AlarmCode::kIdTaken)) << rig.story();
   EXPECT_NE(rig.story().find("two nodes use the id 2"), std::string::npos) << rig.story();
   rig.on_frame = {};
-  ASSERT_TRUE(rig.gateway->clear());
-  ASSERT_TRUE(rig.gateway->bring_up());
+  ASSERT_TRUE(rig.gateway->carry_out(command::Clear{}));
+  ASSERT_TRUE(rig.gateway->carry_out(command::BringUp{}));
   EXPECT_TRUE(rig.reach(MachineState::kUnhomed, 30s)) << rig.story();
 }
 
 TEST(MachineFaults, AnotherGatewayOnTheBusIsNotJoined) {
   MachineRig rig;
-  ASSERT_TRUE(rig.gateway->bring_up());
+  ASSERT_TRUE(rig.gateway->carry_out(command::BringUp{}));
   rig.run_for(100ms);
   rig.gateway->on_frame(rig.now, CanFrame::make(cob_id::kHeartbeat + kGatewayNodeId, {5}));
   ASSERT_TRUE(rig.reach(MachineState::kAlarm, 1s));
@@ -75,9 +76,9 @@ TEST(MachineFaults, AnotherGatewayOnTheBusIsNotJoined) {
 
 TEST(MachineFaults, CarriageWithoutSwitchStopsAllCarriages) {
   MachineRig rig(default_m1(), [](auto& nodes) { nodes[1].axes[0].switch_input = 0; });
-  ASSERT_TRUE(rig.gateway->bring_up());
+  ASSERT_TRUE(rig.gateway->carry_out(command::BringUp{}));
   ASSERT_TRUE(rig.reach(MachineState::kUnhomed, 30s)) << rig.story();
-  ASSERT_TRUE(rig.gateway->home());
+  ASSERT_TRUE(rig.gateway->carry_out(command::Home{}));
   ASSERT_TRUE(rig.reach(MachineState::kAlarm, 120s)) << rig.story();
   EXPECT_TRUE(rig.told(AlarmCode::kHomingSpread) || rig.told(AlarmCode::kHomingFailed)) << rig.story();
   rig.run_for(1s);
@@ -93,28 +94,28 @@ TEST(MachineFaults, SpreadBeyondTheLimitEndsHomingAtOnce) {
   MachineDescription description = default_m1();
   description.homing.max_spread_mm = 30;
   MachineRig rig(description, [](auto& nodes) { nodes[0].axes[1].switch_input = 0; });
-  ASSERT_TRUE(rig.gateway->bring_up());
+  ASSERT_TRUE(rig.gateway->carry_out(command::BringUp{}));
   ASSERT_TRUE(rig.reach(MachineState::kUnhomed, 30s)) << rig.story();
-  ASSERT_TRUE(rig.gateway->home());
+  ASSERT_TRUE(rig.gateway->carry_out(command::Home{}));
   ASSERT_TRUE(rig.reach(MachineState::kAlarm, 120s)) << rig.story();
   EXPECT_TRUE(rig.told(AlarmCode::kHomingSpread)) << rig.story();
 }
 
 TEST(MachineFaults, StopDuringHomingStopsAllCarriagesAndHomingCanBeginAgain) {
   MachineRig rig;
-  ASSERT_TRUE(rig.gateway->bring_up());
+  ASSERT_TRUE(rig.gateway->carry_out(command::BringUp{}));
   ASSERT_TRUE(rig.reach(MachineState::kUnhomed, 30s)) << rig.story();
-  ASSERT_TRUE(rig.gateway->home());
+  ASSERT_TRUE(rig.gateway->carry_out(command::Home{}));
   rig.run_for(1s);
-  ASSERT_TRUE(rig.gateway->stop());
+  ASSERT_TRUE(rig.gateway->carry_out(command::Stop{}));
   ASSERT_TRUE(rig.reach(MachineState::kStopped, 3s)) << rig.story();
   rig.run_for(500ms);
   const JointVector still = rig.joints();
   rig.run_for(1s);
   EXPECT_EQ(rig.joints(), still);
-  ASSERT_TRUE(rig.gateway->clear());
+  ASSERT_TRUE(rig.gateway->carry_out(command::Clear{}));
   ASSERT_TRUE(rig.reach(MachineState::kUnhomed, 5s)) << rig.story();
-  ASSERT_TRUE(rig.gateway->home());
+  ASSERT_TRUE(rig.gateway->carry_out(command::Home{}));
   ASSERT_TRUE(rig.reach(MachineState::kReady, 120s)) << rig.story();
 }
 
@@ -127,12 +128,12 @@ TEST(MachineFaults, LostRecordStopsOnThePathAndPositionsStayKnown) {
   };
   ASSERT_TRUE(rig.reach(MachineState::kStopped, 10s)) << rig.story();
   EXPECT_TRUE(rig.rests());
-  ASSERT_TRUE(rig.gateway->clear());
+  ASSERT_TRUE(rig.gateway->carry_out(command::Clear{}));
   ASSERT_TRUE(rig.run_until([&] { return rig.gateway->state() != MachineState::kStopped; }, 5s))
       << rig.story();
   EXPECT_TRUE(rig.gateway->status().positions_known);
   if (rig.gateway->state() == MachineState::kHeld) {
-    ASSERT_TRUE(rig.gateway->cancel());
+    ASSERT_TRUE(rig.gateway->carry_out(command::Cancel{}));
     ASSERT_TRUE(rig.reach(MachineState::kReady, 5s)) << rig.story();
   }
   ASSERT_EQ(rig.gateway->state(), MachineState::kReady) << rig.story();
@@ -151,9 +152,9 @@ TEST(MachineFaults, SilentNodeStopsTheMachineAndAsksForBringUp) {
   EXPECT_TRUE(rig.told(AlarmCode::kHeartbeatLost)) << rig.story();
   EXPECT_TRUE(rig.rests());
   rig.lose_to_gateway = {};
-  ASSERT_TRUE(rig.gateway->clear());
+  ASSERT_TRUE(rig.gateway->carry_out(command::Clear{}));
   ASSERT_EQ(rig.gateway->state(), MachineState::kOff);
-  ASSERT_TRUE(rig.gateway->bring_up());
+  ASSERT_TRUE(rig.gateway->carry_out(command::BringUp{}));
   // The nodes have kept their positions: no homing is needed.
   ASSERT_TRUE(rig.reach(MachineState::kReady, 30s)) << rig.story() << rig.gateway->status().doing;
   ASSERT_TRUE(rig.run_job("G1 X10 F3000\n")) << rig.story();
@@ -174,20 +175,21 @@ TEST(MachineFaults, EmergencyStopInputStopsAllOnThePath) {
   description.nodes[2].inputs[6] = {InputFunction::kEmergencyStop, 0};
   MachineRig rig(description);
   ASSERT_TRUE(rig.make_ready()) << rig.story();
-  ASSERT_TRUE(rig.gateway->run(std::make_unique<StringSource>("G1 X60 F1200\nG1 X0\n"), "line"));
+  ASSERT_TRUE(
+      rig.gateway->carry_out(command::Run{std::make_unique<StringSource>("G1 X60 F1200\nG1 X0\n"), "line"}));
   ASSERT_TRUE(rig.run_until([&] { return rig.gateway->status().machine_pose[kX] > 20; }, 30s)) << rig.story();
   rig.nodes.set_input(2, rig.now, 7, true);
   ASSERT_TRUE(rig.reach(MachineState::kStopped, 5s)) << rig.story();
   EXPECT_NE(rig.story().find("emergency stop"), std::string::npos) << rig.story();
   // While the button is pressed the latch cannot be lifted.
-  ASSERT_TRUE(rig.gateway->clear());
+  ASSERT_TRUE(rig.gateway->carry_out(command::Clear{}));
   rig.run_for(5s);
   EXPECT_EQ(rig.gateway->state(), MachineState::kStopped) << rig.story();
   rig.nodes.set_input(2, rig.now, 7, false);
   rig.run_for(100ms);
-  ASSERT_TRUE(rig.gateway->clear());
+  ASSERT_TRUE(rig.gateway->carry_out(command::Clear{}));
   ASSERT_TRUE(rig.reach(MachineState::kHeld, 5s)) << rig.story();
-  ASSERT_TRUE(rig.gateway->resume());
+  ASSERT_TRUE(rig.gateway->carry_out(command::Resume{}));
   ASSERT_TRUE(rig.reach(MachineState::kReady, 60s)) << rig.story();
 }
 
@@ -209,7 +211,7 @@ TEST(MachineFaults, NodeThatLosesSynchronisationStopsTheMachine) {
 TEST(MachineFaults, NodeThatRestsAtAnotherPathTimeIsAnAlarm) {
   Midway rig;
   ASSERT_TRUE(rig.begin()) << rig.story();
-  ASSERT_TRUE(rig.gateway->hold());
+  ASSERT_TRUE(rig.gateway->carry_out(command::Hold{}));
   ASSERT_TRUE(rig.reach(MachineState::kHeld, 1s));
   rig.run_for(200ms);
   const auto units = static_cast<std::uint32_t>(rig.gateway->path_time(rig.now).count() / 256);
@@ -225,8 +227,8 @@ TEST(MachineFaults, BusFailureIsAnAlarmAndTheMachineComesBack) {
   rig.gateway->on_bus_failure(rig.now, "bus-off");
   ASSERT_TRUE(rig.reach(MachineState::kAlarm, 5s)) << rig.story();
   EXPECT_TRUE(rig.told(AlarmCode::kBusFailure));
-  ASSERT_TRUE(rig.gateway->clear());
-  ASSERT_TRUE(rig.gateway->bring_up());
+  ASSERT_TRUE(rig.gateway->carry_out(command::Clear{}));
+  ASSERT_TRUE(rig.gateway->carry_out(command::BringUp{}));
   ASSERT_TRUE(rig.reach(MachineState::kReady, 30s)) << rig.story();
 }
 
@@ -241,7 +243,7 @@ TEST(MachineFaults, GatewayThatDiesLeavesTheNodesAtRestAndANewOneTakesOver) {
   rig.lose_from_gateway = {};
   rig.gateway = std::make_unique<Gateway>(rig.machine, Gateway::Options{.epoch = 2});
   rig.run_for(10ms);
-  ASSERT_TRUE(rig.gateway->bring_up());
+  ASSERT_TRUE(rig.gateway->carry_out(command::BringUp{}));
   ASSERT_TRUE(rig.reach(MachineState::kReady, 30s)) << rig.story() << rig.gateway->status().doing;
   // A node that is freed of a stream comes to rest on a whole count.
   for (std::size_t tower = 0; tower < 4; ++tower) EXPECT_NEAR(rig.joints()[tower], still[tower], 0.0008);
@@ -252,13 +254,13 @@ TEST(MachineFaults, GatewayThatDiesLeavesTheNodesAtRestAndANewOneTakesOver) {
 
 TEST(MachineFaults, CommandsAreRefusedWithAReasonWhereTheyMakeNoSense) {
   MachineRig rig;
-  const auto home = rig.gateway->home();
+  const auto home = rig.gateway->carry_out(command::Home{});
   ASSERT_FALSE(home);
   EXPECT_NE(home.error().words.find("bring it up first"), std::string::npos) << home.error().words;
-  EXPECT_FALSE(rig.gateway->resume());
-  EXPECT_FALSE(rig.gateway->cancel());
-  EXPECT_FALSE(rig.gateway->set_feed_override(0));
-  EXPECT_FALSE(rig.gateway->set_temperature(false, 1000));
+  EXPECT_FALSE(rig.gateway->carry_out(command::Resume{}));
+  EXPECT_FALSE(rig.gateway->carry_out(command::Cancel{}));
+  EXPECT_FALSE(rig.gateway->carry_out(command::SetFeedOverride{0}));
+  EXPECT_FALSE(rig.gateway->carry_out(command::SetTemperature{false, 1000}));
 }
 
 }  // namespace

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "gateway/machine/alarm.hpp"
 #include "gateway/machine/gateway.hpp"
+#include "gateway/status/alarm.hpp"
 #include "tools/simulation/bus/virtual_machine.hpp"
 #include "tools/simulation/bus/virtual_nodes.hpp"
 
@@ -50,12 +50,12 @@ class MachineRig {
   /// Brings up, homes and goes to the bed reference.
   bool make_ready() {
     using namespace std::chrono_literals;
-    if (!gateway->bring_up() || !reach(MachineState::kUnhomed, 30s)) return false;
-    if (!gateway->home() || !reach(MachineState::kReady, 120s)) return false;
-    return gateway->go_to_reference() && reach(MachineState::kReady, 60s);
+    if (!gateway->carry_out(command::BringUp{}) || !reach(MachineState::kUnhomed, 30s)) return false;
+    if (!gateway->carry_out(command::Home{}) || !reach(MachineState::kReady, 120s)) return false;
+    return gateway->carry_out(command::GoToReference{}) && reach(MachineState::kReady, 60s);
   }
   bool run_job(std::string text, BusTime limit = std::chrono::seconds{120}) {
-    return gateway->run(std::make_unique<StringSource>(std::move(text)), "test") &&
+    return gateway->carry_out(command::Run{std::make_unique<StringSource>(std::move(text)), "test"}) &&
            reach(MachineState::kReady, limit);
   }
 

@@ -13,7 +13,7 @@ using namespace std::chrono_literals;
 
 TEST(Machine, BringUpEndsUnhomedWithDrivesEnabledAndClocksSynchronised) {
   MachineRig rig;
-  ASSERT_TRUE(rig.gateway->bring_up());
+  ASSERT_TRUE(rig.gateway->carry_out(command::BringUp{}));
   ASSERT_TRUE(rig.reach(MachineState::kUnhomed, 30s)) << rig.story() << rig.gateway->status().doing;
   const MachineStatus status = rig.gateway->status();
   ASSERT_EQ(status.nodes.size(), 3u);
@@ -27,9 +27,9 @@ TEST(Machine, BringUpEndsUnhomedWithDrivesEnabledAndClocksSynchronised) {
 
 TEST(Machine, HomingTakesAllCarriagesToTheirSwitches) {
   MachineRig rig;
-  ASSERT_TRUE(rig.gateway->bring_up());
+  ASSERT_TRUE(rig.gateway->carry_out(command::BringUp{}));
   ASSERT_TRUE(rig.reach(MachineState::kUnhomed, 30s)) << rig.story();
-  ASSERT_TRUE(rig.gateway->home());
+  ASSERT_TRUE(rig.gateway->carry_out(command::Home{}));
   ASSERT_TRUE(rig.reach(MachineState::kReady, 120s)) << rig.story() << rig.gateway->status().doing;
   const JointVector joints = rig.joints();
   const JointVector told = rig.gateway->status().joints;
@@ -76,15 +76,16 @@ TEST(Machine, JobWithAnErrorMovesNothing) {
 TEST(Machine, HoldStandsStillAndResumeFinishesTheJob) {
   MachineRig rig;
   ASSERT_TRUE(rig.make_ready()) << rig.story();
-  ASSERT_TRUE(rig.gateway->run(std::make_unique<StringSource>("G1 X60 F1200\nG1 X0\n"), "line"));
+  ASSERT_TRUE(
+      rig.gateway->carry_out(command::Run{std::make_unique<StringSource>("G1 X60 F1200\nG1 X0\n"), "line"}));
   ASSERT_TRUE(rig.run_until([&] { return rig.gateway->status().machine_pose[kX] > 20; }, 30s)) << rig.story();
-  ASSERT_TRUE(rig.gateway->hold());
+  ASSERT_TRUE(rig.gateway->carry_out(command::Hold{}));
   ASSERT_TRUE(rig.reach(MachineState::kHeld, 1s)) << rig.story();
   rig.run_for(200ms);
   const JointVector still = rig.joints();
   rig.run_for(2s);
   EXPECT_EQ(rig.joints(), still);
-  ASSERT_TRUE(rig.gateway->resume());
+  ASSERT_TRUE(rig.gateway->carry_out(command::Resume{}));
   ASSERT_TRUE(rig.reach(MachineState::kReady, 60s)) << rig.story();
   EXPECT_NEAR(rig.gateway->status().machine_pose[kX], 0, 2e-3);
   EXPECT_FALSE(rig.told(MachineEvent::Kind::kAlarm)) << rig.story();
@@ -93,9 +94,10 @@ TEST(Machine, HoldStandsStillAndResumeFinishesTheJob) {
 TEST(Machine, CancelDropsTheJobAndTheNextOneStartsFromThere) {
   MachineRig rig;
   ASSERT_TRUE(rig.make_ready()) << rig.story();
-  ASSERT_TRUE(rig.gateway->run(std::make_unique<StringSource>("G1 X60 F1200\nG1 X0\n"), "line"));
+  ASSERT_TRUE(
+      rig.gateway->carry_out(command::Run{std::make_unique<StringSource>("G1 X60 F1200\nG1 X0\n"), "line"}));
   ASSERT_TRUE(rig.run_until([&] { return rig.gateway->status().machine_pose[kX] > 20; }, 30s)) << rig.story();
-  ASSERT_TRUE(rig.gateway->cancel());
+  ASSERT_TRUE(rig.gateway->carry_out(command::Cancel{}));
   ASSERT_TRUE(rig.reach(MachineState::kReady, 5s)) << rig.story();
   const MachineStatus status = rig.gateway->status();
   EXPECT_GT(status.machine_pose[kX], 20);
@@ -110,17 +112,18 @@ TEST(Machine, CancelDropsTheJobAndTheNextOneStartsFromThere) {
 TEST(Machine, StopIsLatchedAndAfterClearTheJobGoesOn) {
   MachineRig rig;
   ASSERT_TRUE(rig.make_ready()) << rig.story();
-  ASSERT_TRUE(rig.gateway->run(std::make_unique<StringSource>("G1 X60 F1200\nG1 X0\n"), "line"));
+  ASSERT_TRUE(
+      rig.gateway->carry_out(command::Run{std::make_unique<StringSource>("G1 X60 F1200\nG1 X0\n"), "line"}));
   ASSERT_TRUE(rig.run_until([&] { return rig.gateway->status().machine_pose[kX] > 20; }, 30s)) << rig.story();
-  ASSERT_TRUE(rig.gateway->stop());
+  ASSERT_TRUE(rig.gateway->carry_out(command::Stop{}));
   ASSERT_TRUE(rig.reach(MachineState::kStopped, 2s)) << rig.story();
-  EXPECT_FALSE(rig.gateway->resume());
+  EXPECT_FALSE(rig.gateway->carry_out(command::Resume{}));
   const JointVector still = rig.joints();
   rig.run_for(1s);
   EXPECT_EQ(rig.joints(), still);
-  ASSERT_TRUE(rig.gateway->clear());
+  ASSERT_TRUE(rig.gateway->carry_out(command::Clear{}));
   ASSERT_TRUE(rig.reach(MachineState::kHeld, 5s)) << rig.story();
-  ASSERT_TRUE(rig.gateway->resume());
+  ASSERT_TRUE(rig.gateway->carry_out(command::Resume{}));
   ASSERT_TRUE(rig.reach(MachineState::kReady, 60s)) << rig.story();
   EXPECT_NEAR(rig.gateway->status().machine_pose[kX], 0, 2e-3);
 }
@@ -137,11 +140,12 @@ TEST(Machine, WaitForTemperatureTakesVirtualTime) {
 TEST(Machine, PauseInTheJobWaitsForResume) {
   MachineRig rig;
   ASSERT_TRUE(rig.make_ready()) << rig.story();
-  ASSERT_TRUE(rig.gateway->run(std::make_unique<StringSource>("G1 X5 F3000\nM0\nG1 X10\n"), "pause"));
+  ASSERT_TRUE(rig.gateway->carry_out(
+      command::Run{std::make_unique<StringSource>("G1 X5 F3000\nM0\nG1 X10\n"), "pause"}));
   ASSERT_TRUE(rig.reach(MachineState::kHeld, 30s)) << rig.story();
   rig.run_for(1s);
   EXPECT_NEAR(rig.gateway->status().machine_pose[kX], 5, 2e-3);
-  ASSERT_TRUE(rig.gateway->resume());
+  ASSERT_TRUE(rig.gateway->carry_out(command::Resume{}));
   ASSERT_TRUE(rig.reach(MachineState::kReady, 30s)) << rig.story();
   EXPECT_NEAR(rig.gateway->status().machine_pose[kX], 10, 2e-3);
 }
@@ -149,7 +153,7 @@ TEST(Machine, PauseInTheJobWaitsForResume) {
 TEST(Machine, FeedOverrideSlowsTheJobDown) {
   MachineRig rig;
   ASSERT_TRUE(rig.make_ready()) << rig.story();
-  ASSERT_TRUE(rig.gateway->set_feed_override(0.5));
+  ASSERT_TRUE(rig.gateway->carry_out(command::SetFeedOverride{0.5}));
   const BusTime begin = rig.now;
   ASSERT_TRUE(rig.run_job("G1 X60 F1200\n")) << rig.story();
   EXPECT_GT(to_seconds(rig.now - begin), 5.9);
@@ -159,12 +163,12 @@ TEST(Machine, FeedOverrideSlowsTheJobDown) {
 TEST(Machine, JogMovesRelativeAndIsRefusedBeyondTheWorkspace) {
   MachineRig rig;
   ASSERT_TRUE(rig.make_ready()) << rig.story();
-  ASSERT_TRUE(rig.gateway->jog({.delta = {5, -3, 0, 0, 0, 0}, .speed_per_s = 20}));
+  ASSERT_TRUE(rig.gateway->carry_out(command::Jog{.delta = {5, -3, 0, 0, 0, 0}, .speed_per_s = 20}));
   ASSERT_TRUE(rig.reach(MachineState::kReady, 10s));
   EXPECT_NEAR(rig.gateway->status().machine_pose[kX], 5, 2e-3);
   EXPECT_NEAR(rig.gateway->status().machine_pose[kY], -3, 2e-3);
-  EXPECT_FALSE(rig.gateway->jog({.delta = {500, 0, 0, 0, 0, 0}}));
-  EXPECT_FALSE(rig.gateway->jog({.delta = {0, 0, 0, 0, 0, 5}})) << "cold extrusion";
+  EXPECT_FALSE(rig.gateway->carry_out(command::Jog{.delta = {500, 0, 0, 0, 0, 0}}));
+  EXPECT_FALSE(rig.gateway->carry_out(command::Jog{.delta = {0, 0, 0, 0, 0, 5}})) << "cold extrusion";
 }
 
 TEST(Machine, TextSessionAnswersItsQueries) {
@@ -186,14 +190,15 @@ TEST(Machine, TextSessionAnswersItsQueries) {
 TEST(Machine, PlannedPoseIsWhereTheToolIs) {
   MachineRig rig;
   ASSERT_TRUE(rig.make_ready()) << rig.story();
-  ASSERT_TRUE(rig.gateway->run(std::make_unique<StringSource>("G1 X40 Y20 F3000\nG1 X0\n"), "line"));
+  ASSERT_TRUE(rig.gateway->carry_out(
+      command::Run{std::make_unique<StringSource>("G1 X40 Y20 F3000\nG1 X0\n"), "line"}));
   ASSERT_TRUE(rig.run_until([&] { return rig.gateway->status().machine_pose[kX] > 5; }, 30s));
   for (int i = 0; i < 20; ++i) {
     rig.run_for(37ms);
     const auto planned = rig.gateway->planned_pose(rig.gateway->path_time(rig.now));
     ASSERT_TRUE(planned);
     const JointVector joints = rig.joints();
-    PoseVector pose = planned->pose;
+    Pose pose = planned->pose;
     const auto kinematics = make_kinematics(rig.machine);
     ASSERT_TRUE((*kinematics)->forward(planned->frame, joints, pose));
     for (const int axis : {kX, kY, kZ}) EXPECT_NEAR(pose[axis], planned->pose[axis], 1.5e-3) << axis;
@@ -203,9 +208,9 @@ TEST(Machine, PlannedPoseIsWhereTheToolIs) {
 TEST(Machine, MotorsOffLosesPositions) {
   MachineRig rig;
   ASSERT_TRUE(rig.make_ready()) << rig.story();
-  ASSERT_TRUE(rig.gateway->motors_off());
+  ASSERT_TRUE(rig.gateway->carry_out(command::MotorsOff{}));
   EXPECT_EQ(rig.gateway->state(), MachineState::kOff);
-  EXPECT_FALSE(rig.gateway->run(std::make_unique<StringSource>("G1 X1 F600\n"), "x"));
+  EXPECT_FALSE(rig.gateway->carry_out(command::Run{std::make_unique<StringSource>("G1 X1 F600\n"), "x"}));
 }
 
 TEST(Calibration, HomesAndRunsWithEveryCorrectionInThePath) {
@@ -223,15 +228,16 @@ TEST(Calibration, HomesAndRunsWithEveryCorrectionInThePath) {
   }
   MachineRig rig(description, [](auto&) {});
   ASSERT_TRUE(rig.make_ready()) << rig.story();
-  ASSERT_TRUE(rig.gateway->run(
+  ASSERT_TRUE(rig.gateway->carry_out(command::Run{
       std::make_unique<StringSource>("G1 X40 Y20 Z30 F3000\nG1 X-40 Z60\nG1 Y-30\nG1 X0 Y0 Z30\n"),
-      "back and forth"));
+      "back and forth"}));
   ASSERT_TRUE(rig.reach(MachineState::kReady, 60s)) << rig.story();
   EXPECT_NEAR(rig.gateway->status().pose[kZ], 30, 2e-3);
   EXPECT_NEAR(rig.gateway->status().pose[kX], 0, 2e-3);
   // And once more from where it stands: no mismatch at the start, whatever side of the gaps the motors are
   // on.
-  ASSERT_TRUE(rig.gateway->run(std::make_unique<StringSource>("G1 X10 Y10 F3000\nG1 X0\n"), "again"));
+  ASSERT_TRUE(rig.gateway->carry_out(
+      command::Run{std::make_unique<StringSource>("G1 X10 Y10 F3000\nG1 X0\n"), "again"}));
   ASSERT_TRUE(rig.reach(MachineState::kReady, 60s)) << rig.story();
   EXPECT_EQ(rig.gateway->status().counters.underruns, 0u);
 }

@@ -45,8 +45,8 @@ class ResumeRig : public MachineRig {
 
   bool begin(double at_s) {
     if (!make_ready()) return false;
-    gateway->set_temperature(false, 0);
-    if (!gateway->run(std::make_unique<StringSource>(kResumeJob), "part")) return false;
+    gateway->carry_out(command::SetTemperature{false, 0});
+    if (!gateway->carry_out(command::Run{std::make_unique<StringSource>(kResumeJob), "part"})) return false;
     if (!reach(MachineState::kRunning, 5s)) return false;
     if (!run_until([&] { return gateway->status().line >= 2; }, 30s)) return false;
     run_for(BusTime{static_cast<std::int64_t>(at_s * 1e9)});
@@ -96,7 +96,7 @@ class ResumeRig : public MachineRig {
   void watch() {
     store();
     const JointVector j = joints();
-    PoseVector pose = kinematics_->bed_reference();
+    Pose pose = kinematics_->bed_reference();
     if (!kinematics_->forward(Frame::kMachine, j, pose)) return;
     filament_mm = pose[kE];
     lowest_mm = std::min(lowest_mm, pose[kZ]);
@@ -109,15 +109,15 @@ class ResumeRig : public MachineRig {
     if (track_) track_->push_back(pose);
   }
 
-  PoseVector pose() {
-    PoseVector pose = kinematics_->bed_reference();
+  Pose pose() {
+    Pose pose = kinematics_->bed_reference();
     EXPECT_TRUE(kinematics_->forward(Frame::kMachine, joints(), pose));
     return pose;
   }
 
   double filament_mm = 0, worst_step = 0, lowest_mm = 1e9;
   bool job_noted = false;
-  std::vector<PoseVector>* track_ = nullptr;
+  std::vector<Pose>* track_ = nullptr;
 
  private:
   std::unique_ptr<Kinematics> kinematics_;

@@ -14,10 +14,10 @@ namespace {
 using namespace std::chrono_literals;
 
 /// Distance of `p` from the polyline of `track`, mm.
-double distance_from(const std::vector<PoseVector>& track, const PoseVector& p) {
+double distance_from(const std::vector<Pose>& track, const Pose& p) {
   double best = 1e9;
   for (std::size_t i = 0; i + 1 < track.size(); ++i) {
-    const PoseVector &a = track[i], &b = track[i + 1];
+    const Pose &a = track[i], &b = track[i + 1];
     double ab = 0, ap = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       ab += (b[k] - a[k]) * (b[k] - a[k]);
@@ -35,7 +35,7 @@ double distance_from(const std::vector<PoseVector>& track, const PoseVector& p) 
 }
 
 struct Undisturbed {
-  std::vector<PoseVector> track;
+  std::vector<Pose> track;
   double filament_mm = 0;
 };
 const Undisturbed& undisturbed() {
@@ -44,7 +44,7 @@ const Undisturbed& undisturbed() {
     ResumeRig rig;
     EXPECT_TRUE(rig.begin(0)) << rig.story();
     // Slowly, so that corners are seen in all their roundness.
-    EXPECT_TRUE(rig.gateway->set_feed_override(0.1));
+    EXPECT_TRUE(rig.gateway->carry_out(command::SetFeedOverride{0.1}));
     rig.track_ = &made.track;
     EXPECT_TRUE(rig.finish()) << rig.story();
     made.filament_mm = rig.filament_mm;
@@ -53,7 +53,7 @@ const Undisturbed& undisturbed() {
   return result;
 }
 
-void expect_same_part(const ResumeRig& rig, const std::vector<PoseVector>& track, double path_um = 5) {
+void expect_same_part(const ResumeRig& rig, const std::vector<Pose>& track, double path_um = 5) {
   const Undisturbed& clean = undisturbed();
   double worst = 0;
   for (std::size_t i = 0; i < track.size(); i += 3)
@@ -65,17 +65,17 @@ void expect_same_part(const ResumeRig& rig, const std::vector<PoseVector>& track
 TEST(Resume, LostRecordGoesOnFromTheExactPlace) {
   ResumeRig rig;
   ASSERT_TRUE(rig.begin(0.6)) << rig.story();
-  std::vector<PoseVector> track;
+  std::vector<Pose> track;
   rig.track_ = &track;
   bool lost = false;
   rig.lose_from_gateway = [&](const CanFrame& frame) {
     return frame.id == cob_id::rpdo(3, 2) && !std::exchange(lost, true);
   };
   ASSERT_TRUE(rig.reach(MachineState::kStopped, 10s)) << rig.story();
-  ASSERT_TRUE(rig.gateway->clear());
+  ASSERT_TRUE(rig.gateway->carry_out(command::Clear{}));
   ASSERT_TRUE(rig.reach(MachineState::kHeld, 5s)) << rig.story();
   EXPECT_TRUE(rig.gateway->status().interrupted);
-  ASSERT_TRUE(rig.gateway->resume());
+  ASSERT_TRUE(rig.gateway->carry_out(command::Resume{}));
   ASSERT_TRUE(rig.finish()) << rig.story();
   expect_same_part(rig, track);
 }
@@ -83,13 +83,13 @@ TEST(Resume, LostRecordGoesOnFromTheExactPlace) {
 TEST(Resume, StopByCommandGoesOnFromTheExactPlace) {
   ResumeRig rig;
   ASSERT_TRUE(rig.begin(1.1)) << rig.story();
-  std::vector<PoseVector> track;
+  std::vector<Pose> track;
   rig.track_ = &track;
-  ASSERT_TRUE(rig.gateway->stop());
+  ASSERT_TRUE(rig.gateway->carry_out(command::Stop{}));
   ASSERT_TRUE(rig.reach(MachineState::kStopped, 5s));
-  ASSERT_TRUE(rig.gateway->clear());
+  ASSERT_TRUE(rig.gateway->carry_out(command::Clear{}));
   ASSERT_TRUE(rig.reach(MachineState::kHeld, 5s)) << rig.story();
-  ASSERT_TRUE(rig.gateway->resume());
+  ASSERT_TRUE(rig.gateway->carry_out(command::Resume{}));
   ASSERT_TRUE(rig.finish()) << rig.story();
   expect_same_part(rig, track);
 }
@@ -97,13 +97,13 @@ TEST(Resume, StopByCommandGoesOnFromTheExactPlace) {
 TEST(Resume, SilentNodeGoesOnAfterBringUpWithoutHoming) {
   ResumeRig rig;
   ASSERT_TRUE(rig.begin(0.9)) << rig.story();
-  std::vector<PoseVector> track;
+  std::vector<Pose> track;
   rig.track_ = &track;
   rig.lose_to_gateway = [](const CanFrame& frame) { return (frame.id & 0x7F) == 2; };
   ASSERT_TRUE(rig.reach(MachineState::kAlarm, 10s)) << rig.story();
   rig.lose_to_gateway = {};
-  ASSERT_TRUE(rig.gateway->clear());
-  ASSERT_TRUE(rig.gateway->resume());
+  ASSERT_TRUE(rig.gateway->carry_out(command::Clear{}));
+  ASSERT_TRUE(rig.gateway->carry_out(command::Resume{}));
   ASSERT_TRUE(rig.finish()) << rig.story();
   EXPECT_EQ(rig.story().find("homing"), rig.story().rfind("homing")) << "homed again\n" << rig.story();
   expect_same_part(rig, track);
@@ -112,14 +112,14 @@ TEST(Resume, SilentNodeGoesOnAfterBringUpWithoutHoming) {
 TEST(Resume, CutBusGoesOnThoughTheNodesStoppedElsewhereThanTheGateway) {
   ResumeRig rig;
   ASSERT_TRUE(rig.begin(0.9)) << rig.story();
-  std::vector<PoseVector> track;
+  std::vector<Pose> track;
   rig.track_ = &track;
   rig.lose_to_gateway = rig.lose_from_gateway = [](const CanFrame&) { return true; };
   ASSERT_TRUE(rig.reach(MachineState::kAlarm, 10s)) << rig.story();
   rig.lose_to_gateway = rig.lose_from_gateway = {};
   rig.run(1s);
-  ASSERT_TRUE(rig.gateway->clear());
-  ASSERT_TRUE(rig.gateway->resume());
+  ASSERT_TRUE(rig.gateway->carry_out(command::Clear{}));
+  ASSERT_TRUE(rig.gateway->carry_out(command::Resume{}));
   ASSERT_TRUE(rig.finish()) << rig.story();
   expect_same_part(rig, track);
 }
@@ -129,7 +129,7 @@ TEST(Resume, AnotherGatewayTakesUpTheJobFromTheJournal) {
     SCOPED_TRACE("killed " + std::to_string(at_s) + " s into the job");
     ResumeRig rig;
     ASSERT_TRUE(rig.begin(at_s)) << rig.story();
-    std::vector<PoseVector> track;
+    std::vector<Pose> track;
     rig.track_ = &track;
     rig.store();
     // The gateway is gone: its frames stop, and nobody hears the nodes.
@@ -138,7 +138,7 @@ TEST(Resume, AnotherGatewayTakesUpTheJobFromTheJournal) {
     rig.lose_from_gateway = rig.lose_to_gateway = {};
     rig.replace_gateway();
     ASSERT_TRUE(rig.job_noted);
-    ASSERT_TRUE(rig.gateway->resume());
+    ASSERT_TRUE(rig.gateway->carry_out(command::Resume{}));
     ASSERT_TRUE(rig.finish()) << rig.story();
     expect_same_part(rig, track);
   }
@@ -148,7 +148,7 @@ TEST(Resume, AnotherGatewayGoesOnWithTheWorkOffsetsOfTheJob) {
   ResumeRig rig;
   ASSERT_TRUE(rig.gateway->take_line("G10 L2 P1 X4 Y-3 Z2", 1));
   ASSERT_TRUE(rig.begin(1.3)) << rig.story();
-  std::vector<PoseVector> track;
+  std::vector<Pose> track;
   rig.track_ = &track;
   rig.run(300ms);
   rig.store();
@@ -156,16 +156,16 @@ TEST(Resume, AnotherGatewayGoesOnWithTheWorkOffsetsOfTheJob) {
   rig.run_for(1200ms);
   rig.lose_from_gateway = rig.lose_to_gateway = {};
   rig.replace_gateway();
-  ASSERT_TRUE(rig.gateway->resume());
+  ASSERT_TRUE(rig.gateway->carry_out(command::Resume{}));
   ASSERT_TRUE(rig.finish()) << rig.story();
-  for (PoseVector& pose : track) pose = {pose[kX] - 4, pose[kY] + 3, pose[kZ] - 2, 0, 0, pose[kE]};
+  for (Pose& pose : track) pose = {pose[kX] - 4, pose[kY] + 3, pose[kZ] - 2, 0, 0, pose[kE]};
   expect_same_part(rig, track);
 }
 
 TEST(Resume, GatewayAfterGatewayTakesUpTheSameJob) {
   ResumeRig rig;
   ASSERT_TRUE(rig.begin(0.1)) << rig.story();
-  std::vector<PoseVector> track;
+  std::vector<Pose> track;
   rig.track_ = &track;
   for (const auto after : {300ms, 150ms, 700ms, 20ms}) {
     rig.run(after);
@@ -174,7 +174,7 @@ TEST(Resume, GatewayAfterGatewayTakesUpTheSameJob) {
     rig.run_for(500ms);
     rig.lose_from_gateway = rig.lose_to_gateway = {};
     rig.replace_gateway();
-    ASSERT_TRUE(rig.gateway->resume());
+    ASSERT_TRUE(rig.gateway->carry_out(command::Resume{}));
     ASSERT_TRUE(rig.run_until(
         [&] {
           rig.watch();
@@ -198,7 +198,7 @@ TEST(Resume, AnotherJobUnderTheSameNameIsNotTakenUp) {
   rig.lose_from_gateway = {};
   rig.gateway = std::make_unique<Gateway>(rig.machine, Gateway::Options{.epoch = 9});
   ASSERT_TRUE(rig.gateway->recover(state, std::make_unique<StringSource>(kResumeJob)));
-  ASSERT_TRUE(rig.gateway->resume());
+  ASSERT_TRUE(rig.gateway->carry_out(command::Resume{}));
   ASSERT_TRUE(rig.reach(MachineState::kReady, 30s)) << rig.story();
   rig.run_for(2s);
   EXPECT_EQ(rig.gateway->state(), MachineState::kReady);
@@ -215,9 +215,9 @@ TEST(Resume, CancelGivesTheInterruptedJobUp) {
   rig.lose_from_gateway = {};
   rig.replace_gateway();
   EXPECT_TRUE(rig.gateway->status().interrupted);
-  EXPECT_TRUE(rig.gateway->cancel());
+  EXPECT_TRUE(rig.gateway->carry_out(command::Cancel{}));
   EXPECT_FALSE(rig.gateway->status().interrupted);
-  EXPECT_FALSE(rig.gateway->resume());
+  EXPECT_FALSE(rig.gateway->carry_out(command::Resume{}));
   rig.replace_gateway();
   EXPECT_FALSE(rig.job_noted);
 }
@@ -233,15 +233,15 @@ TEST(Resume, PowerLossHomesAndGoesBackFromAbove) {
   rig.run_for(100ms);
   rig.lose_from_gateway = rig.lose_to_gateway = {};
   rig.replace_gateway();
-  ASSERT_TRUE(rig.gateway->resume());
+  ASSERT_TRUE(rig.gateway->carry_out(command::Resume{}));
   ASSERT_TRUE(rig.reach(MachineState::kHoming, 30s)) << rig.story();
-  std::vector<PoseVector> track;
+  std::vector<Pose> track;
   ASSERT_TRUE(rig.run_until([&] { return rig.story().find("goes on") != std::string::npos; }, 120s))
       << rig.story();
   rig.track_ = &track;
   ASSERT_TRUE(rig.finish()) << rig.story();
   double worst = 0;
-  for (const PoseVector& pose : track) worst = std::max(worst, distance_from(undisturbed().track, pose));
+  for (const Pose& pose : track) worst = std::max(worst, distance_from(undisturbed().track, pose));
   // Homing finds its zero again within its repeatability.
   EXPECT_LE(worst, 0.02) << rig.story();
 }

@@ -19,7 +19,7 @@ MachineDescription mill() {
 }
 
 bool run(MachineRig& rig, const std::string& text) {
-  return rig.gateway->run(std::make_unique<StringSource>(text), "part").has_value();
+  return rig.gateway->carry_out(command::Run{std::make_unique<StringSource>(text), "part"}).has_value();
 }
 
 TEST(Spindle, TheToolFeedsOnlyWhenItTurnsAndItStopsWithTheJob) {
@@ -38,15 +38,15 @@ TEST(Spindle, AStopStopsItAndTheJobGoesOnOnlyWhenItTurnsAgain) {
   ASSERT_TRUE(rig.make_ready()) << rig.story();
   ASSERT_TRUE(run(rig, "M3 S9000\nG1 X40 F600\nG1 X-40\n"));
   ASSERT_TRUE(rig.run_until([&] { return rig.gateway->status().pose[kX] > 20; }, 30s)) << rig.story();
-  ASSERT_TRUE(rig.gateway->stop());
+  ASSERT_TRUE(rig.gateway->carry_out(command::Stop{}));
   EXPECT_EQ(rig.gateway->status().spindle.target_rpm, 0);
   ASSERT_TRUE(rig.reach(MachineState::kStopped)) << rig.story();
   rig.run_for(3s);
   EXPECT_EQ(rig.gateway->status().spindle.actual_rpm, 0);
-  ASSERT_TRUE(rig.gateway->clear());
+  ASSERT_TRUE(rig.gateway->carry_out(command::Clear{}));
   ASSERT_TRUE(rig.reach(MachineState::kHeld)) << rig.story();
   const double x = rig.gateway->status().pose[kX];
-  ASSERT_TRUE(rig.gateway->resume());
+  ASSERT_TRUE(rig.gateway->carry_out(command::Resume{}));
   ASSERT_TRUE(rig.run_until([&] { return std::abs(rig.gateway->status().pose[kX] - x) > 0.05; }, 60s))
       << rig.story();
   EXPECT_NEAR(rig.gateway->status().spindle.actual_rpm, 9000, 180);
@@ -59,10 +59,10 @@ TEST(Spindle, AFeedHoldLeavesItTurning) {
   ASSERT_TRUE(rig.make_ready()) << rig.story();
   ASSERT_TRUE(run(rig, "M3 S9000\nG1 X40 F600\n"));
   ASSERT_TRUE(rig.run_until([&] { return rig.gateway->status().pose[kX] > 10; }, 30s)) << rig.story();
-  ASSERT_TRUE(rig.gateway->hold());
+  ASSERT_TRUE(rig.gateway->carry_out(command::Hold{}));
   ASSERT_TRUE(rig.reach(MachineState::kHeld)) << rig.story();
   EXPECT_NEAR(rig.gateway->status().spindle.actual_rpm, 9000, 180);
-  ASSERT_TRUE(rig.gateway->cancel());
+  ASSERT_TRUE(rig.gateway->carry_out(command::Cancel{}));
   ASSERT_TRUE(rig.reach(MachineState::kReady)) << rig.story();
   EXPECT_EQ(rig.gateway->status().spindle.target_rpm, 0) << "a job that is given up needs no cutter";
 }

@@ -21,7 +21,8 @@ TEST(WorkOffsets, OutliveGatewaysAndJobsWhereverTheJournalIsCut) {
   ASSERT_TRUE(rig.gateway->take_line("G10 L2 P9 Y8", 3));
   // A job with offsets of its own comes, ends, and changes nothing; its own path has the machine's.
   ASSERT_TRUE(rig.make_ready()) << rig.story();
-  ASSERT_TRUE(rig.gateway->run(std::make_unique<StringSource>("G10 L2 P2 X50\nG1 X0 Y0 Z10 F6000\n"), "own"));
+  ASSERT_TRUE(rig.gateway->carry_out(
+      command::Run{std::make_unique<StringSource>("G10 L2 P2 X50\nG1 X0 Y0 Z10 F6000\n"), "own"}));
   ASSERT_TRUE(rig.reach(MachineState::kRunning, 5s)) << rig.story();
   ASSERT_TRUE(rig.finish()) << rig.story();
   EXPECT_NEAR(rig.pose()[kX], 4, 0.02) << "the job itself began in G54";
@@ -30,6 +31,22 @@ TEST(WorkOffsets, OutliveGatewaysAndJobsWhereverTheJournalIsCut) {
   EXPECT_EQ(rig.gateway->work_offsets()[8][kY], 8);
   EXPECT_EQ(rig.gateway->work_offsets()[1][kX], 0);
   EXPECT_EQ(rig.gateway->state(), MachineState::kOff) << "nothing else is taken up";
+}
+
+TEST(WorkOffsets, ZeroHereIsWhereTheToolStandsHoweverItCameThere) {
+  MachineRig rig;
+  ASSERT_TRUE(rig.make_ready()) << rig.story();
+  ASSERT_TRUE(rig.gateway->carry_out(command::Jog{.delta = {12, -5, 3, 0, 0, 0}}));
+  ASSERT_TRUE(rig.reach(MachineState::kMoving)) << rig.story();
+  ASSERT_TRUE(rig.reach(MachineState::kReady)) << rig.story();
+  const Pose stands = rig.gateway->status().machine_pose;
+  ASSERT_TRUE(rig.gateway->carry_out(command::SetWorkOffset{.system = 1, .here = true}));
+  EXPECT_NEAR(rig.gateway->work_offsets()[0][kX], stands[kX], 1e-9);
+  EXPECT_NEAR(rig.gateway->work_offsets()[0][kZ], stands[kZ], 1e-9);
+  // Once more, with another name for the place: what was in force before plays no part.
+  ASSERT_TRUE(rig.gateway->carry_out(command::SetWorkOffset{.system = 1, .offset = {5}, .here = true}));
+  EXPECT_NEAR(rig.gateway->work_offsets()[0][kX], stands[kX] - 5, 1e-9);
+  EXPECT_NEAR(rig.gateway->work_offsets()[0][kY], stands[kY], 1e-9);
 }
 
 TEST(WorkOffsets, AreThoseOfTheirMachine) {

@@ -105,7 +105,7 @@ void BM_PathDistance(benchmark::State& state) {
       at = 1;
       state.ResumeTiming();
     }
-    PoseVector pose = std::get<canonical::Feed>(lines[at].command).target;
+    Pose pose = std::get<canonical::Feed>(lines[at].command).target;
     pose[kX] += 0.002;
     benchmark::DoNotOptimize(path.distance_mm(pose, lines[at].line + 30));
   }

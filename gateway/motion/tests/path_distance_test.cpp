@@ -37,7 +37,7 @@ TEST(PathDistance, FollowsADenseCurveAndForgetsWhatLiesBehind) {
   std::size_t fed = 0;
   for (std::size_t i = 1; i < lines.size(); ++i) {
     for (; fed < lines.size() && fed < i + 100; ++fed) path.add(lines[fed]);
-    PoseVector pose = std::get<canonical::Feed>(lines[i].command).target;
+    Pose pose = std::get<canonical::Feed>(lines[i].command).target;
     pose[kZ] += 0.003;
     const double distance = path.distance_mm(pose, lines[i].line + 20);
     EXPECT_LE(distance, 0.003 + 1e-9);

@@ -16,7 +16,7 @@ namespace {
 constexpr double kHalfTurn = std::numbers::pi;
 const MotionLimits kPieceLimits;
 
-Move line(const PoseVector& from, const PoseVector& to) {
+Move line(const Pose& from, const Pose& to) {
   Move move;
   move.from = from;
   move.to = to;
@@ -31,7 +31,7 @@ Move line(const PoseVector& from, const PoseVector& to) {
   return move;
 }
 
-void expect_near(const PoseVector& a, const PoseVector& b, double tolerance) {
+void expect_near(const Pose& a, const Pose& b, double tolerance) {
   for (std::size_t i = 0; i < kPoseAxes; ++i) EXPECT_NEAR(a[i], b[i], tolerance) << "axis " << i;
 }
 
@@ -83,7 +83,7 @@ TEST(ArcPiece, HelixHitsItsTargetAndHasUnitSpeed) {
   arc.normal = {0, 0, 1};
   arc.sweep_rad = 2.5 * kHalfTurn;
   Move move;
-  const PoseVector from{10, 0, 0, 0, 0, 0};
+  const Pose from{10, 0, 0, 0, 0, 0};
   move.from = from;
   move.to = arc.target;
   ASSERT_TRUE(shape_arc(arc, from, move));
@@ -114,12 +114,12 @@ GrowingRing<Move> polygon(int lines, double radius, double step) {
   GrowingRing<Move> moves(256);
   const auto at = [&](int i) {
     const double angle = i * step / radius;
-    return PoseVector{std::round(1e3 * radius * std::cos(angle)) * 1e-3,
-                      std::round(1e3 * radius * std::sin(angle)) * 1e-3,
-                      0,
-                      0,
-                      0,
-                      0.033 * step * i};
+    return Pose{std::round(1e3 * radius * std::cos(angle)) * 1e-3,
+                std::round(1e3 * radius * std::sin(angle)) * 1e-3,
+                0,
+                0,
+                0,
+                0.033 * step * i};
   };
   for (int i = 0; i < lines; ++i) moves.push() = line(at(i), at(i + 1));
   return moves;

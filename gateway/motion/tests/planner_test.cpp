@@ -150,7 +150,7 @@ TEST(Planner, KinkBetweenArcsIsBlendedWithinTolerance) {
   Job job({0, 0, 0, 0, 0, 0});
   job.feed(100);
   for (int i = 0; i < 4; ++i) {  // half circles of 0.5 and 8 mm, with kinks of 90 and 180 degrees
-    const PoseVector at = job.at();
+    const Pose at = job.at();
     job.arc({at[0] + 16, at[1], 0, 0, 0, 0}, {at[0] + 8, at[1], 0}, {0, 0, 1}, kPi);
     job.arc({at[0] + 15, at[1], 0, 0, 0, 0}, {at[0] + 15.5, at[1], 0}, {0, 0, 1}, kPi);
     job.by({0, 3, 0, 0, 0, 0});
@@ -172,8 +172,8 @@ TEST(Planner, FilamentNeverSteps) {
 
 TEST(Planner, InverseTimeMoveTakesItsTime) {
   Job job;
-  const PoseVector target{10, 0, 0, 0.1, 0.3, 0};
-  job.add(canonical::Feed{target, canonical::Frame::kPart, 0, 4.0});
+  const Pose target{10, 0, 0, 0.1, 0.3, 0};
+  job.add(canonical::Feed{target, Frame::kPart, 0, 4.0});
   EXPECT_NEAR(measure(m1(), kLimits, job.lines()).duration_s, 4.0, 0.01);
 }
 
@@ -244,8 +244,8 @@ TEST(Planner, FeedOverrideScalesTheFeed) {
 TEST(Planner, FrameChangesAtRest) {
   Job job;
   job.feed(100).by({10, 0, 0, 0, 0, 0});
-  job.add(canonical::SetPosition{{10, 0, 0, 0, 0, 0}, canonical::Frame::kMachine});
-  job.add(canonical::Feed{{20, 0, 0, 0, 0, 0}, canonical::Frame::kMachine, 100, 0});
+  job.add(canonical::SetPosition{{10, 0, 0, 0, 0, 0}, Frame::kMachine});
+  job.add(canonical::Feed{{20, 0, 0, 0, 0, 0}, Frame::kMachine, 100, 0});
   const Measured m = measure(m1(), kLimits, job.lines(), 8, true);
   expect_within_limits(m, kLimits, 1e-9);
   EXPECT_NEAR(m.duration_s, 2 * (10.0 / 100 + 100.0 / 3000), 1e-9);
@@ -253,7 +253,7 @@ TEST(Planner, FrameChangesAtRest) {
 
 TEST(Planner, MoveInAnotherFrameIsRefused) {
   Planner planner(m1(), kLimits);
-  const auto refused = planner.add({7, canonical::Feed{{1, 0, 0, 0, 0, 0}, canonical::Frame::kPart, 10, 0}});
+  const auto refused = planner.add({7, canonical::Feed{{1, 0, 0, 0, 0, 0}, Frame::kPart, 10, 0}});
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().kind, PlanError::Kind::kFrame);
   EXPECT_EQ(refused.error().line, 7u);
@@ -263,7 +263,7 @@ TEST(Planner, MoveInAnotherFrameIsRefused) {
 TEST(Planner, UnreachableMoveIsRefusedWithItsLineUntilReset) {
   Planner planner(m1(), kLimits);
   planner.reset({}, Frame::kPart);
-  const canonical::Frame part = canonical::Frame::kPart;
+  const Frame part = Frame::kPart;
   ASSERT_TRUE(planner.add({1, canonical::Feed{{10, 0, 0, 0, 0, 0}, part, 100, 0}}));
   auto result = planner.add({2, canonical::Feed{{2000, 0, 0, 0, 0, 0}, part, 100, 0}});
   if (result) result = planner.finish();
@@ -278,7 +278,7 @@ TEST(Planner, UnreachableMoveIsRefusedWithItsLineUntilReset) {
 
 TEST(Planner, NonsenseIsRefused) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const canonical::Frame machine = canonical::Frame::kMachine;
+  const Frame machine = Frame::kMachine;
   const auto kind = [&](const canonical::Command& command) {
     Planner planner(m1(), kLimits);
     const auto result = planner.add({1, command});
@@ -307,8 +307,7 @@ TEST(Planner, GoesOnFromRestAfterFinish) {
   Planner planner(m1(), kLimits);
   Phase phase;
   for (int i = 1; i <= 3; ++i) {
-    ASSERT_TRUE(
-        planner.add({1, canonical::Feed{{10.0 * i, 0, 0, 0, 0, 0}, canonical::Frame::kMachine, 50, 0}}));
+    ASSERT_TRUE(planner.add({1, canonical::Feed{{10.0 * i, 0, 0, 0, 0, 0}, Frame::kMachine, 50, 0}}));
     ASSERT_TRUE(planner.finish());
     double time = 0;
     bool last = false;
@@ -335,7 +334,7 @@ TEST(Planner, PhasesComeWhileTheJobIsStillFed) {
   const Lines lines = random_print(9, 3000);
   std::size_t out = 0, moves = 0;
   double path = 0;
-  PoseVector at{};
+  Pose at{};
   for (std::size_t i = 1; i < lines.size(); ++i) {
     const auto& feed = std::get<canonical::Feed>(lines[i].command);
     path += std::hypot(feed.target[kX] - at[kX], feed.target[kY] - at[kY], feed.target[kZ] - at[kZ]);

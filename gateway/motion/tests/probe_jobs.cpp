@@ -26,7 +26,7 @@ struct PipeCloser {
 
 Lines dense_curve(int count, double size_mm, double feed_mm_per_s, double tilt_rad, double turn_rad) {
   const auto at = [&](double angle) {
-    PoseVector p{};
+    Pose p{};
     const double radius = size_mm * (1 + 0.25 * std::sin(3 * angle));
     p[kX] = radius * std::cos(angle);
     p[kY] = radius * std::sin(angle);
@@ -39,11 +39,11 @@ Lines dense_curve(int count, double size_mm, double feed_mm_per_s, double tilt_r
   Job job(at(0));
   job.feed(feed_mm_per_s);
   for (int i = 0; i < count; ++i) {
-    const PoseVector here = at(angle), ahead = at(angle + 1e-4);
+    const Pose here = at(angle), ahead = at(angle + 1e-4);
     const double rate = std::hypot(ahead[0] - here[0], ahead[1] - here[1], ahead[2] - here[2]) / 1e-4;
     angle += 0.2 / rate;
     filament += 0.2 * 0.033;
-    PoseVector p = at(angle);
+    Pose p = at(angle);
     for (const auto axis : {kX, kY, kZ}) p[axis] = rounded(p[axis], 1e-3);
     for (const auto axis : {kA, kC}) p[axis] = rounded(p[axis], 1e-4 * std::numbers::pi / 180);
     p[kE] = rounded(filament, 1e-5);
@@ -57,7 +57,7 @@ Lines random_print(std::uint64_t seed, int moves) {
   const auto pick = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
   };
-  PoseVector p{};
+  Pose p{};
   p[kZ] = 0.2;
   Job job(p);
   const auto print_to = [&](double x, double y) {
@@ -102,7 +102,7 @@ Lines random_five_axis(std::uint64_t seed, int moves, Frame frame) {
   const auto pick = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
   };
-  PoseVector p{0, 0, 40, 0, 0, 0};
+  Pose p{0, 0, 40, 0, 0, 0};
   Job job(p, frame);
   while (static_cast<int>(job.lines().size()) < moves) {
     job.feed(std::exp(pick(std::log(2.0), std::log(400.0))));
@@ -163,8 +163,8 @@ Lines sliced_file(const std::string& path) {
   const std::unique_ptr<std::FILE, PipeCloser> file(popen(command.c_str(), "r"));
   Lines lines;
   if (!file) return lines;
-  lines.push_back({0, canonical::SetPosition{{}, canonical::Frame::kPart}});
-  PoseVector at{};
+  lines.push_back({0, canonical::SetPosition{{}, Frame::kPart}});
+  Pose at{};
   double feed = 100, offset = 0;
   std::uint32_t number = 0;
   char text[512];
@@ -173,7 +173,7 @@ Lines sliced_file(const std::string& path) {
     const bool move = std::strncmp(text, "G1 ", 3) == 0 || std::strncmp(text, "G0 ", 3) == 0;
     const bool set = std::strncmp(text, "G92 ", 4) == 0;
     if (!move && !set) continue;
-    PoseVector target = at;
+    Pose target = at;
     for (char* word = std::strchr(text, ' '); word != nullptr; word = std::strchr(word, ' ')) {
       ++word;
       if (*word == ';') break;
@@ -189,7 +189,7 @@ Lines sliced_file(const std::string& path) {
     }
     if (set || target == at) continue;
     at = target;
-    lines.push_back({number, canonical::Feed{target, canonical::Frame::kPart, feed, 0}});
+    lines.push_back({number, canonical::Feed{target, Frame::kPart, feed, 0}});
   }
   return lines;
 }

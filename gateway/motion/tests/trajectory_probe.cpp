@@ -9,13 +9,13 @@
 namespace kinebus::probe {
 namespace {
 
-double greatest(const PoseVector& a, const PoseVector& b) {
+double greatest(const Pose& a, const Pose& b) {
   double most = 0;
   for (std::size_t i = 0; i < kPoseAxes; ++i) most = std::max(most, std::abs(a[i] - b[i]));
   return most;
 }
 
-double length3(const PoseVector& v) {
+double length3(const Pose& v) {
   return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
@@ -42,7 +42,7 @@ class Prober {
     ++m.phases;
   }
 
-  void finish(Measured& m, const PoseVector& programmed_end) const {
+  void finish(Measured& m, const Pose& programmed_end) const {
     if (m.phases == 0) return;
     m.speed_at_ends = std::max(m.speed_at_ends, std::abs(last_speed_));
     m.end_error = greatest(last_.x, programmed_end);
@@ -117,8 +117,7 @@ Measured measure(const Kinematics& kinematics, const MotionLimits& limits, const
   return m;
 }
 
-Job::Job(const PoseVector& start, Frame frame)
-    : at_(start), frame_(frame == Frame::kPart ? canonical::Frame::kPart : canonical::Frame::kMachine) {
+Job::Job(const Pose& start, Frame frame) : at_(start), frame_(frame) {
   add(canonical::SetPosition{start, frame_});
 }
 
@@ -126,21 +125,21 @@ Job& Job::add(const canonical::Command& command) {
   lines_.push_back({static_cast<std::uint32_t>(lines_.size() + 1), command});
   return *this;
 }
-Job& Job::to(const PoseVector& target) {
+Job& Job::to(const Pose& target) {
   at_ = target;
   return add(canonical::Feed{target, frame_, feed_, 0});
 }
-Job& Job::by(const PoseVector& delta) {
-  PoseVector target = at_;
+Job& Job::by(const Pose& delta) {
+  Pose target = at_;
   for (std::size_t i = 0; i < kPoseAxes; ++i) target[i] += delta[i];
   return to(target);
 }
-Job& Job::rapid(const PoseVector& target) {
+Job& Job::rapid(const Pose& target) {
   at_ = target;
   return add(canonical::Traverse{target, frame_});
 }
-Job& Job::arc(const PoseVector& target, const std::array<double, 3>& centre,
-              const std::array<double, 3>& normal, double sweep_rad) {
+Job& Job::arc(const Pose& target, const std::array<double, 3>& centre, const std::array<double, 3>& normal,
+              double sweep_rad) {
   at_ = target;
   return add(canonical::Arc{target, frame_, centre, normal, sweep_rad, feed_, 0});
 }

@@ -43,23 +43,23 @@ Measured measure(const Kinematics& kinematics, const MotionLimits& limits, const
 /// A programmed job, written short.
 class Job {
  public:
-  explicit Job(const PoseVector& start = {}, Frame frame = Frame::kPart);
+  explicit Job(const Pose& start = {}, Frame frame = Frame::kPart);
   Job& feed(double mm_per_s) {
     feed_ = mm_per_s;
     return *this;
   }
-  Job& to(const PoseVector& target);     ///< Feed
-  Job& by(const PoseVector& delta);      ///< Feed, relative
-  Job& rapid(const PoseVector& target);  ///< Traverse
-  Job& arc(const PoseVector& target, const std::array<double, 3>& centre, const std::array<double, 3>& normal,
+  Job& to(const Pose& target);     ///< Feed
+  Job& by(const Pose& delta);      ///< Feed, relative
+  Job& rapid(const Pose& target);  ///< Traverse
+  Job& arc(const Pose& target, const std::array<double, 3>& centre, const std::array<double, 3>& normal,
            double sweep_rad);
   Job& add(const canonical::Command& command);
   const Lines& lines() const { return lines_; }
-  const PoseVector& at() const { return at_; }
+  const Pose& at() const { return at_; }
 
  private:
-  PoseVector at_{};
-  canonical::Frame frame_{};
+  Pose at_{};
+  Frame frame_{};
   double feed_ = 100;
   Lines lines_;
 };

@@ -48,12 +48,13 @@ MarlinSession::Done MarlinSession::file_code(const serial::Line& line, int numbe
     }
     case 24:
       if (gateway_.state() == MachineState::kHeld) {
-        if (const auto resumed = gateway_.resume(); !resumed) return refuse(resumed.error().words);
+        if (const auto resumed = gateway_.carry_out(command::Resume{}); !resumed)
+          return refuse(resumed.error().words);
         return Done::kYes;
       }
       return start_file();
     case 25:
-      if (const auto held = gateway_.hold(); !held) return refuse(held.error().words);
+      if (const auto held = gateway_.carry_out(command::Hold{}); !held) return refuse(held.error().words);
       return Done::kYes;
     case 26:
       if (serial::word(line.text, 'S').value_or(0) != 0)
@@ -96,7 +97,8 @@ MarlinSession::Done MarlinSession::file_code(const serial::Line& line, int numbe
       return Done::kYes;
     }
     case 524:
-      if (const auto cancelled = gateway_.cancel(); !cancelled) return refuse(cancelled.error().words);
+      if (const auto cancelled = gateway_.carry_out(command::Cancel{}); !cancelled)
+        return refuse(cancelled.error().words);
       return Done::kYes;
     default:
       return Done::kYes;

@@ -150,7 +150,8 @@ MarlinSession::Done MarlinSession::carry_out_m(const Line& line, int number) {
       return Done::kYes;
     case 17:
       if (gateway_.state() != MachineState::kOff) return Done::kYes;
-      if (const auto begun = gateway_.bring_up(); !begun) return refuse(begun.error().words);
+      if (const auto begun = gateway_.carry_out(command::BringUp{}); !begun)
+        return refuse(begun.error().words);
       wait_ = Wait::kBringUp;
       return Done::kWaiting;
     case 18:
@@ -166,7 +167,8 @@ MarlinSession::Done MarlinSession::carry_out_m(const Line& line, int number) {
         halted_ = false;
         return Done::kYes;
       }
-      if (const auto cleared = gateway_.clear(); !cleared && gateway_.state() != MachineState::kStopping)
+      if (const auto cleared = gateway_.carry_out(command::Clear{});
+          !cleared && gateway_.state() != MachineState::kStopping)
         return refuse(cleared.error().words);
       wait_ = Wait::kClear;
       return Done::kWaiting;
@@ -196,7 +198,8 @@ MarlinSession::Done MarlinSession::to_machine(const Line& line) {
     if (state == MachineState::kMoving || (state == MachineState::kRunning && !file_runs_ &&
                                            !gateway_.lines_open() && gateway_.status().job == options_.name))
       return Done::kWaiting;
-    if (const auto opened = gateway_.open_lines(options_.name); !opened) return refuse(opened.error().words);
+    if (const auto opened = gateway_.carry_out(command::OpenLines{options_.name}); !opened)
+      return refuse(opened.error().words);
     mine_ = true;
   }
   return feed(line);

@@ -17,13 +17,13 @@ constexpr double kHeaterWindow_c = 2;
 MarlinSession::Done MarlinSession::home(const Line&) {
   const MachineState state = gateway_.state();
   if (state == MachineState::kOff) {
-    if (const auto begun = gateway_.bring_up(); !begun) return refuse(begun.error().words);
+    if (const auto begun = gateway_.carry_out(command::BringUp{}); !begun) return refuse(begun.error().words);
     wait_ = Wait::kBringUp;
     homing_ = true;
     return Done::kWaiting;
   }
   if (state == MachineState::kUnhomed) {
-    if (const auto begun = gateway_.home(); !begun) return refuse(begun.error().words);
+    if (const auto begun = gateway_.carry_out(command::Home{}); !begun) return refuse(begun.error().words);
     wait_ = Wait::kHoming;
     homing_ = true;
     return Done::kWaiting;
@@ -81,12 +81,13 @@ MarlinSession::Done MarlinSession::wait_over() {
     case Wait::kClear:
       if (state == MachineState::kStopping) return Done::kWaiting;
       if (state == MachineState::kStopped || state == MachineState::kAlarm) {
-        if (const auto again = gateway_.clear(); !again) return refuse(again.error().words);
+        if (const auto again = gateway_.carry_out(command::Clear{}); !again)
+          return refuse(again.error().words);
         return Done::kWaiting;
       }
       // What was under way when it was stopped is not gone on with: the host has forgotten it.
       if (state == MachineState::kHeld) {
-        static_cast<void>(gateway_.cancel());
+        static_cast<void>(gateway_.carry_out(command::Cancel{}));
         return Done::kWaiting;
       }
       if (state == MachineState::kCancelling) return Done::kWaiting;

@@ -86,18 +86,19 @@ void MarlinSession::see_urgent(LocalTime now, Urgent what) {
       lines_.clear();
       stop_waiting();
       halted_ = true;
-      static_cast<void>(gateway_.stop());
+      static_cast<void>(gateway_.carry_out(command::Stop{}));
       say("Error:Printer halted. kill() called!");
       return;
     case Urgent::kQuickStop:
       lines_.clear();
       stop_waiting();
-      if (mine_) static_cast<void>(gateway_.cancel());
+      if (mine_) static_cast<void>(gateway_.carry_out(command::Cancel{}));
       mine_ = false;
       return;
     case Urgent::kGoOn:
       if (wait_ == Wait::kHeater) stop_waiting();
-      if (gateway_.state() == MachineState::kHeld && may_command()) static_cast<void>(gateway_.resume());
+      if (gateway_.state() == MachineState::kHeld && may_command())
+        static_cast<void>(gateway_.carry_out(command::Resume{}));
       next_busy_ = now + options_.keep_alive;
       return;
   }

@@ -157,6 +157,36 @@ TEST_F(LinkMachineTest, AWorkOffsetShiftsWhatTheConsoleSays) {
   EXPECT_EQ(rig_.ask(*anna_, plain(&ClientMessage::mutable_get_status)).status().work_system(), 3u);
 }
 
+TEST_F(LinkMachineTest, TheStatusTellsWhichCommandsMayBeGivenAndWhyNotTheOthers) {
+  const auto of = [&](joblink::Command wanted) {
+    const auto status = rig_.ask(*anna_, plain(&ClientMessage::mutable_get_status)).status();
+    for (const joblink::CommandStatus& command : status.commands())
+      if (command.command() == wanted) return command;
+    ADD_FAILURE() << joblink::Command_Name(wanted);
+    return joblink::CommandStatus{};
+  };
+  // All of them, and none but requests.
+  const auto& values = *joblink::Command_descriptor();
+  for (int i = 1; i < values.value_count(); ++i) {
+    const auto* field = ClientMessage::descriptor()->FindFieldByNumber(values.value(i)->number());
+    ASSERT_NE(field, nullptr) << values.value(i)->name();
+    std::string name = "COMMAND_" + field->name();
+    for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    EXPECT_EQ(values.value(i)->name(), name);
+    of(static_cast<joblink::Command>(values.value(i)->number()));
+  }
+  EXPECT_TRUE(of(joblink::COMMAND_JOG).allowed());
+  EXPECT_FALSE(of(joblink::COMMAND_JOG).has_why_not());
+  EXPECT_FALSE(of(joblink::COMMAND_HOLD).allowed());
+  ASSERT_FALSE(rig_.ask(*anna_, start_job("square.gcode")).has_error());
+  ASSERT_TRUE(rig_.run_until([&] { return rig_.machine.gateway->status().line > 2; }, 30s));
+  EXPECT_TRUE(of(joblink::COMMAND_HOLD).allowed());
+  const joblink::CommandStatus jog = of(joblink::COMMAND_JOG);
+  EXPECT_FALSE(jog.allowed());
+  EXPECT_EQ(jog.why_not().text(), "cannot %1 while the machine is %2");
+  EXPECT_EQ(jog.why_not().parts(1).text(), "running");
+}
+
 TEST_F(LinkMachineTest, AStoredJobIsCheckedAndRunWithTheMachinesWorkOffsets) {
   const auto offset_x = [&](double x_mm) {
     ClientMessage offset;

@@ -129,7 +129,7 @@ TEST(StreamGroup, ASecondRunContinuesFromTheExactStates) {
   bench.run(first);
   // Back along the same way: the last phase's end is the first pose of the second run.
   std::vector<Phase> second(1);
-  PoseVector end = first.back().at(first.back().duration_s).x;
+  Pose end = first.back().at(first.back().duration_s).x;
   for (std::size_t k = 0; k < kPoseAxes; ++k) second[0].piece.coefficients[k] = {end[k], 0, 0, 0};
   second[0].piece.coefficients[kX][1] = end[kX] > 0 ? -1 : 1;
   second[0].piece.length = 20;

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "gateway/description/machine_description.hpp"
-#include "gateway/machine/status.hpp"
+#include "gateway/status/status.hpp"
 #include "tools/simulation/bus/virtual_machine.hpp"
 #include "tools/simulation/sample.hpp"
 

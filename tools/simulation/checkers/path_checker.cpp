@@ -8,9 +8,9 @@
 
 namespace kinebus {
 PathChecker::PathChecker(const MachineDescription& machine, const Kinematics& kinematics, ByteSource& source,
-                         const PoseVector& start)
+                         const Pose& start)
     : kinematics_(kinematics), source_(source), text_(std::size_t{64} * 1024) {
-  const PoseVector home = kinematics.bed_reference();
+  const Pose home = kinematics.bed_reference();
   interpreter_ = std::make_unique<gcode::Interpreter>(interpreter_options(machine, start, home));
   reader_ = std::make_unique<gcode::JobReader>(*interpreter_);
 }
@@ -18,7 +18,7 @@ PathChecker::PathChecker(const MachineDescription& machine, const Kinematics& ki
 PathChecker::~PathChecker() = default;
 
 void PathChecker::take(const canonical::Line& line) {
-  canonical::Frame frame = frames_.empty() ? canonical::Frame::kMachine : frames_.back().second;
+  Frame frame = frames_.empty() ? Frame::kMachine : frames_.back().second;
   if (const auto* home = std::get_if<canonical::Home>(&line.command)) {
     distance_.add({line.line, canonical::Traverse{home->afterwards, home->frame}});
     frame = home->frame;
@@ -55,9 +55,8 @@ void PathChecker::on_sample(const Sample& sample) {
   if (!sample.planned || sample.line == 0) return;
   read_ahead(sample.line);
   while (frames_.size() > 1 && frames_[1].first <= sample.line) frames_.pop_front();
-  PoseVector pose = sample.pose;
-  if (!frames_.empty() && frames_.front().second == canonical::Frame::kMachine &&
-      (pose[kA] != 0 || pose[kC] != 0))
+  Pose pose = sample.pose;
+  if (!frames_.empty() && frames_.front().second == Frame::kMachine && (pose[kA] != 0 || pose[kC] != 0))
     if (const auto converted = convert_pose(kinematics_, Frame::kPart, pose, Frame::kMachine))
       pose = *converted;
   // No farther than the line in motion: a later line that crosses here is not where the tool should be.

@@ -21,7 +21,7 @@ class PathChecker {
   /// `source`: the job's text from its beginning; must outlive this. The job starts at `start`
   /// (Frame::kMachine).
   PathChecker(const MachineDescription& machine, const Kinematics& kinematics, ByteSource& source,
-              const PoseVector& start);
+              const Pose& start);
   ~PathChecker();
 
   void on_sample(const Sample& sample);
@@ -42,7 +42,7 @@ class PathChecker {
   std::unique_ptr<gcode::JobReader> reader_;
   gcode::CommandBuffer commands_;
   PathDistance distance_;
-  std::deque<std::pair<std::uint32_t, canonical::Frame>> frames_;  ///< from which line on XYZ mean what
+  std::deque<std::pair<std::uint32_t, Frame>> frames_;  ///< from which line on XYZ mean what
   std::vector<char> text_;
   std::size_t text_at_ = 0, text_end_ = 0;
   bool ended_ = false;

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "gateway/machine/state.hpp"
+#include "gateway/status/state.hpp"
 #include "protocol/time.hpp"
 
 namespace kinebus {

@@ -51,7 +51,7 @@ class TogetherChecker {
     bool whole = count == sample.node_count;
     for (std::size_t j = 0; j < machine_.joints.size(); ++j) whole = whole && known[j];
     if (whole) {
-      PoseVector pose = sample.pose;
+      Pose pose = sample.pose;
       if (!kinematics_.forward(Frame::kPart, q, pose)) return;
       for (const PoseAxis axis : {kX, kY, kZ}) worst += std::pow(sample.pose[axis] - pose[axis], 2);
       worst = std::sqrt(worst);

@@ -14,7 +14,7 @@ void TrackingChecker::on_sample(const Sample& sample) {
 
 /// In part coordinates, so that an error of the table's rotations counts where the tip is.
 void TrackingChecker::check_tool(const Sample& sample) {
-  PoseVector planned = sample.planned->pose;
+  Pose planned = sample.planned->pose;
   // Both frames are the same where the table has not turned.
   if (sample.planned->frame != Frame::kPart && (planned[kA] != 0 || planned[kC] != 0)) {
     JointVector q{};

@@ -109,7 +109,7 @@ TEST(BusChecker, FindsTheBusiestSecondWhereverItBegins) {
 
 class PathCheckerOf : public testing::Test {
  protected:
-  double distance_um(PoseVector pose, std::uint32_t line) {
+  double distance_um(Pose pose, std::uint32_t line) {
     StringSource text("G21 G90 F6000\nG1 X10 Y0\nG1 X10 Y10\nG2 X0 Y0 I-10 J0\nG0 X10 Y5\n");
     PathChecker checker(machine_, *kinematics_, text, {});
     Sample sample;

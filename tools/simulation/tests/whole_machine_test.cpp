@@ -116,9 +116,10 @@ TEST(WholeMachine, HoldsAndResumesOnThePathWithoutAStep) {
   int holds = 0;
   options.operate = [&](Gateway& gateway, double job_s) {
     const MachineState state = gateway.state();
-    if (state == MachineState::kRunning && job_s > 1 + 0.7 * holds && gateway.hold()) ++holds;
+    if (state == MachineState::kRunning && job_s > 1 + 0.7 * holds && gateway.carry_out(command::Hold{}))
+      ++holds;
     if (state == MachineState::kHeld) {
-      EXPECT_TRUE(gateway.resume());
+      EXPECT_TRUE(gateway.carry_out(command::Resume{}));
     }
   };
   expect_within_bounds(simulate_text(generated_job("print", 400), 3, options));
@@ -128,7 +129,9 @@ TEST(WholeMachine, HoldsAndResumesOnThePathWithoutAStep) {
 TEST(WholeMachine, OverridesChangeTheTimeAndNothingElse) {
   const std::string job = generated_job("print", 400);
   SimulateOptions options;
-  options.operate = [](Gateway& gateway, double) { EXPECT_TRUE(gateway.set_feed_override(0.4)); };
+  options.operate = [](Gateway& gateway, double) {
+    EXPECT_TRUE(gateway.carry_out(command::SetFeedOverride{0.4}));
+  };
   const SimulationReport plain = simulate_text(job, 3), slow = simulate_text(job, 3, options);
   expect_within_bounds(plain);
   expect_within_bounds(slow);
@@ -139,7 +142,7 @@ TEST(WholeMachine, StopsOnThePathFromFullSpeed) {
   SimulateOptions options;
   options.operate = [&](Gateway& gateway, double job_s) {
     if (job_s > 0.9 && gateway.state() == MachineState::kRunning) {
-      EXPECT_TRUE(gateway.stop());
+      EXPECT_TRUE(gateway.carry_out(command::Stop{}));
     }
   };
   const SimulationReport r = simulate_text(std::string("G21 G90\n") + kCorners, 5, options);

@@ -40,7 +40,7 @@ TEST(Scan, EveryCellIsWhatTheMachineSays) {
         for (int tilt = 0; tilt < s.tilts; ++tilt) {
           // Near the axis several rays share one place.
           const double a = s.angle_rad(ray - ray % s.stride(radius)), r = s.radius_mm(radius);
-          const PoseVector pose{r * std::cos(a), r * std::sin(a), s.z_mm(plane), s.tilt_rad(tilt), 0, 0};
+          const Pose pose{r * std::cos(a), r * std::sin(a), s.z_mm(plane), s.tilt_rad(tilt), 0, 0};
           EXPECT_EQ(s.is_allowed(s.cell(plane, ray, radius), tilt),
                     m1->check(Frame::kPart, pose).has_value());
         }

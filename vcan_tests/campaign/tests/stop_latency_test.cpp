@@ -37,8 +37,9 @@ class HomingOnAFullBus {
       return simulation_->run_until_state([&](MachineState state) { return state == wanted; },
                                           simulation_->now() + 10s);
     };
-    if (!simulation_->gateway().bring_up() || !reached(MachineState::kUnhomed)) return false;
-    if (!simulation_->gateway().home() || !reached(MachineState::kHoming)) return false;
+    if (!simulation_->gateway().carry_out(command::BringUp{}) || !reached(MachineState::kUnhomed))
+      return false;
+    if (!simulation_->gateway().carry_out(command::Home{}) || !reached(MachineState::kHoming)) return false;
     simulation_->on_turn = [this](BusTime now) {
       while (nodes_->bus().has_room(port_)) nodes_->bus_for_faults().send(port_, now, filler_);
     };

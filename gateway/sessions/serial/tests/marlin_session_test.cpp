@@ -112,7 +112,7 @@ TEST(MarlinSession, CancelByAnotherClientEndsThePrintUntilANewOneBegins) {
   for (int i = 0; i < 20; ++i) text += i % 2 ? "G1 X20 F1200\n" : "G1 X-20 F1200\n";
   rig.write(text);
   ASSERT_TRUE(rig.until([&] { return rig.machine.gateway->status().rate > 0.9; }, 10s)) << rig.log();
-  ASSERT_TRUE(rig.machine.gateway->cancel());
+  ASSERT_TRUE(rig.machine.gateway->carry_out(command::Cancel{}));
   ASSERT_TRUE(rig.until([&] { return rig.machine.gateway->state() == MachineState::kReady; }, 10s))
       << rig.log();
   EXPECT_TRUE(rig.said("//action:cancel"));
@@ -127,11 +127,11 @@ TEST(MarlinSession, HoldByAnotherClientIsToldAndResumeGoesOn) {
   rig.ask("G91");
   rig.write("G1 X30 F600\nM400\n");
   ASSERT_TRUE(rig.until([&] { return rig.machine.gateway->status().machine_pose[kX] > 5; }, 10s));
-  ASSERT_TRUE(rig.machine.gateway->hold());
+  ASSERT_TRUE(rig.machine.gateway->carry_out(command::Hold{}));
   rig.until([] { return false; }, 5s);
   EXPECT_TRUE(rig.said("//action:paused"));
   EXPECT_TRUE(rig.said("echo:busy: paused for user"));
-  ASSERT_TRUE(rig.machine.gateway->resume());
+  ASSERT_TRUE(rig.machine.gateway->carry_out(command::Resume{}));
   ASSERT_TRUE(rig.until([&] { return rig.machine.gateway->state() == MachineState::kReady; }, 20s));
   EXPECT_TRUE(rig.said("//action:resumed"));
   EXPECT_NEAR(rig.machine.gateway->status().machine_pose[kX], 30, 2e-3);

@@ -29,7 +29,7 @@ class MemoryFiles : public SerialFiles {
   std::string run(std::string_view name) override {
     auto source = open(name);
     if (!source) return source.error();
-    const auto begun = gateway_.run(std::move(*source), std::string(name));
+    const auto begun = gateway_.carry_out(command::Run{std::move(*source), std::string(name)});
     return begun ? std::string() : std::string(begun.error().words);
   }
   std::string remove(std::string_view name) override {

@@ -1,0 +1,314 @@
+#include "gateway/bus_nodes/bring_up.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <utility>
+
+#include "protocol/canopen/node_objects.hpp"
+
+namespace kinebus {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Another gateway shows itself by SYNC (50 ms) and heartbeat (500 ms) in this time.
+constexpr BusTime kListenTime = 600ms;
+constexpr BusTime kOperationalTimeout = 2s;
+/// 24 SYNCs make a clock estimate; twice that, and as much again for lost ones.
+constexpr BusTime kSynchroniseTimeout = 10s;
+constexpr int kCloseClock_us = 1;
+/// By then a window is full of SYNCs: waiting longer brings a clock no closer.
+constexpr BusTime kCloseClockTimeout = 2500ms;
+constexpr BusTime kEnableTimeout = 5s;
+constexpr BusTime kAskAgain = 200ms;
+constexpr PathTime kPathTimeGap = 1s;
+
+}  // namespace
+
+BringUp::BringUp(const MachineDescription& machine, std::deque<NodeLink>& links, PathRate& rate)
+    : machine_(machine), links_(links), rate_(rate) {
+  for (const NodeLink& link : links) {
+    Node node;
+    node.configuration = configure_node(machine, link.id());
+    for (const JointDescription& joint : machine.joints)
+      if (joint.node_id == link.id()) node.used[joint.axis & 1u] = true;
+    nodes_.push_back(std::move(node));
+  }
+}
+
+void BringUp::start(BusTime now, bool alone) {
+  for (NodeLink& link : links_) link.forget();
+  for (Node& node : nodes_) {
+    node.config = Config::kCheck;
+    node.rewritten = false;
+  }
+  foreign_ = failed_ = equalising_ = false;
+  out_.clear();
+  found_.clear();
+  enter(alone ? Stage::kIdentify : Stage::kListen, now);
+}
+
+void BringUp::enter(Stage stage, BusTime now) {
+  stage_ = stage;
+  entered_ = now;
+  for (Node& node : nodes_) {
+    node.done = node.requested = false;
+    node.attempts = 0;
+    node.asked = now - kAskAgain;
+  }
+}
+
+bool BringUp::all_done() const {
+  return std::all_of(nodes_.begin(), nodes_.end(), [](const Node& n) { return n.done; });
+}
+
+void BringUp::fail(AlarmCode code, std::uint8_t node, Sentence words) {
+  if (failed_) return;
+  failed_ = true;
+  failure_ = {code, node, std::move(words)};
+}
+
+std::optional<CanFrame> BringUp::next_frame() {
+  if (out_.empty()) return std::nullopt;
+  const CanFrame frame = out_.front();
+  out_.pop_front();
+  return frame;
+}
+
+Sentence BringUp::doing() const {
+  switch (stage_) {
+    case Stage::kIdle:
+      return {};
+    case Stage::kListen:
+      return say("listening for another gateway");
+    case Stage::kIdentify:
+      return say("looking for the nodes");
+    case Stage::kConfigure:
+      return say("checking the nodes' parameters");
+    case Stage::kOperational:
+      return say("starting the nodes");
+    case Stage::kSynchronise:
+      return say("synchronising the clocks");
+    case Stage::kPathTime:
+    case Stage::kLatch:
+      return say("equalising path time");
+    case Stage::kEnable:
+      return say("enabling the drives");
+    case Stage::kEnd:
+      return {};
+  }
+  return {};
+}
+
+void BringUp::abort() {
+  if (stage_ == Stage::kIdle) return;
+  stage_ = Stage::kIdle;
+  for (NodeLink& link : links_) link.sdo().abandon();
+}
+
+BringUp::Outcome BringUp::on_time(BusTime now) {
+  if (stage_ == Stage::kIdle) return Outcome::kDone;
+  if (foreign_)
+    fail(AlarmCode::kSecondGateway, 0,
+         say("another gateway speaks on this bus (SYNC, stamps or heartbeat of node 127)"));
+  for (const NodeLink& link : links_) {
+    if (link.serial_numbers().size() < 2) continue;
+    fail(AlarmCode::kIdTaken, link.id(),
+         say("two nodes use the id %1: those with the serial numbers %2 and %3", link.id(),
+             link.serial_numbers()[0], link.serial_numbers()[1]));
+  }
+  if (stage_ == Stage::kListen) {
+    if (!failed_ && now - entered_ >= kListenTime) enter(Stage::kIdentify, now);
+  } else {
+    for (std::size_t i = 0; i < nodes_.size() && !failed_; ++i)
+      if (!nodes_[i].done) step(now, i);
+  }
+  if (failed_) {
+    abort();
+    return Outcome::kFailed;
+  }
+  if (stage_ == Stage::kListen || !all_done()) return Outcome::kBusy;
+  if (stage_ == Stage::kPathTime) {
+    if (found_.empty())
+      for (const Node& node : nodes_) found_.emplace_back(node.path_ticks);
+    std::int64_t most = 0;
+    bool equal = true;
+    for (const Node& node : nodes_) {
+      most = std::max(most, node.path_ticks);
+      equal = equal && node.path_ticks == nodes_.front().path_ticks;
+    }
+    if (!std::exchange(equalising_, true)) {
+      // Nodes that were switched on at different times: all take a time that none of them has seen. Equal
+      // ones take it again without the fractions of a tick that SDO does not tell.
+      if (!equal) most = (most / kPathTicksPerUnit) * kPathTicksPerUnit + kPathTimeGap.count();
+      for (Node& node : nodes_) node.path_ticks = most;
+      enter(Stage::kPathTime, now);
+      return Outcome::kBusy;
+    }
+    rate_.set_tau(PathTime{most}, now);
+    rate_.clear(now);
+  }
+  enter(static_cast<Stage>(static_cast<int>(stage_) + 1), now);
+  if (stage_ != Stage::kEnd) return Outcome::kBusy;
+  stage_ = Stage::kIdle;
+  return Outcome::kDone;
+}
+
+void BringUp::step(BusTime now, std::size_t i) {
+  NodeLink& link = links_[i];
+  Node& node = nodes_[i];
+  switch (stage_) {
+    case Stage::kIdentify:
+      return identify(link, node);
+    case Stage::kConfigure:
+      return configure(now, link, node);
+    case Stage::kOperational:
+      return operational(now, link, node);
+    case Stage::kSynchronise:
+      return synchronise(now, link, node);
+    case Stage::kPathTime:
+      return path_time(link, node);
+    case Stage::kLatch:
+      return latch(now, link, node);
+    case Stage::kEnable:
+      return enable(now, link, node);
+    case Stage::kEnd:
+    case Stage::kIdle:
+    case Stage::kListen:
+      return;
+  }
+}
+
+std::optional<SdoResult> BringUp::result(NodeLink& link, AlarmCode code) {
+  const auto answer = link.sdo().next_result();
+  if (!answer || answer->abort == AbortCode::kNone) return answer;
+  if (answer->abort == AbortCode::kTimeout) code = AlarmCode::kNodeMissing;
+  fail(code, link.id(), to_string(link.id(), *answer));
+  return std::nullopt;
+}
+
+void BringUp::identify(NodeLink& link, Node& node) {
+  if (!node.requested) {
+    node.requested = true;
+    for (std::uint8_t sub = 1; sub <= 4; ++sub) link.sdo().read({object::kVendorIdentity.index, sub});
+    return;
+  }
+  while (const auto answer = result(link, AlarmCode::kWrongIdentity)) {
+    node.identity[answer->address.subindex - 1u] = static_cast<std::uint32_t>(answer->value);
+    if (answer->address.subindex < 4) continue;
+    const NodeDescription* wanted = machine_.node(link.id());
+    const std::array<std::optional<std::uint32_t>, 4> rules{
+        wanted ? wanted->vendor : std::nullopt, wanted ? wanted->product : std::nullopt, std::nullopt,
+        wanted ? wanted->serial : std::nullopt};
+    constexpr std::array kNames{phrase("vendor"), phrase("product"), phrase("revision"),
+                                phrase("serial number")};
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (!rules[k] || *rules[k] == node.identity[k]) continue;
+      return fail(AlarmCode::kWrongIdentity, link.id(),
+                  say("node %1: %2 is %3, the machine file wants %4", link.id(), say(kNames[k]),
+                      printed("%08Xh", static_cast<unsigned>(node.identity[k])),
+                      printed("%08Xh", static_cast<unsigned>(*rules[k]))));
+    }
+    node.done = true;
+  }
+}
+
+void BringUp::operational(BusTime now, NodeLink& link, Node& node) {
+  if (now - node.asked >= kAskAgain) {
+    out_.push_back(nmt_frame(NmtCommand::kStart, link.id()));
+    node.asked = now;
+  }
+  if (link.nmt_state() == NmtState::kOperational) {
+    node.done = true;
+    static_cast<void>(link.take_boot_up());
+  } else if (now - entered_ > kOperationalTimeout + machine_.bus.heartbeat_timeout) {
+    fail(AlarmCode::kNodeMissing, link.id(), say("node %1 does not become operational", link.id()));
+  }
+}
+
+void BringUp::synchronise(BusTime now, NodeLink& link, Node& node) {
+  if (!node.requested && now - node.asked >= kAskAgain) {
+    node.requested = true;
+    node.asked = now;
+    link.sdo().read(object::kStreamStatus);
+  }
+  while (const auto answer = result(link, AlarmCode::kSyncError)) {
+    node.requested = false;
+    const StreamStatus status = decode_stream_status(static_cast<std::uint64_t>(answer->value));
+    // Two nodes within 2 us of each other, from the first motion on. One with much interrupt latency may need
+    // longer, or come no closer.
+    const bool close = status.sync_error_us < kCloseClock_us || now - entered_ > kCloseClockTimeout;
+    if ((status.flags & StreamStatus::kSynchronised) != 0 && close) node.done = true;
+  }
+  if (!node.done && now - entered_ > kSynchroniseTimeout)
+    fail(AlarmCode::kSyncError, link.id(), say("node %1 does not synchronise its clock", link.id()));
+}
+
+void BringUp::path_time(NodeLink& link, Node& node) {
+  if (!node.requested) {
+    node.requested = true;
+    if (equalising_) {
+      // With motion queued another path time would be another position.
+      link.sdo().write({object::kBufferClear, 1, 0});
+      link.sdo().write({object::kPathTime, 8, node.path_ticks});
+    } else {
+      link.sdo().read(object::kPathTime);
+    }
+    return;
+  }
+  while (const auto answer = result(link, AlarmCode::kPathTimeDiffers)) {
+    if (answer->read) node.path_ticks = answer->value;
+    node.done = link.sdo().idle();
+  }
+}
+
+/// A stop that was latched before is lifted by the rate broadcast; the status says when it is.
+void BringUp::latch(BusTime now, NodeLink& link, Node& node) {
+  if (!node.requested && now - node.asked >= kAskAgain / 4 && now - entered_ >= kAskAgain / 4) {
+    node.requested = true;
+    node.asked = now;
+    link.sdo().read(object::kStreamStatus);
+  }
+  while (const auto answer = result(link, AlarmCode::kStopTimeout)) {
+    node.requested = false;
+    const StreamStatus status = decode_stream_status(static_cast<std::uint64_t>(answer->value));
+    if ((status.flags & StreamStatus::kStopped) == 0) node.done = true;
+  }
+  if (!node.done && now - entered_ > kEnableTimeout)
+    fail(AlarmCode::kStopTimeout, link.id(),
+         say("node %1 keeps its stop latched: an emergency stop or limit switch is active", link.id()));
+}
+
+void BringUp::enable(BusTime now, NodeLink& link, Node& node) {
+  constexpr auto kMode = static_cast<std::int8_t>(cia402::Mode::kInterpolatedPosition);
+  bool enabled = link.drive_known();
+  for (std::size_t axis = 0; axis < kAxesPerNode; ++axis) {
+    if (!node.used[axis] || !link.drive_known()) continue;
+    const cia402::State state = link.drive_state(axis);
+    if (state == cia402::State::kOperationEnabled) {
+      link.set_control(axis, cia402::control::kOperation | cia402::control::kInterpolationEnable, kMode);
+      continue;
+    }
+    enabled = false;
+    const std::uint16_t next = cia402::next_controlword(state);
+    // Fault reset works on its edge: the bit goes down between two attempts.
+    const bool low = state == cia402::State::kFault && (node.attempts & 1) != 0;
+    link.set_control(axis, low ? 0 : next, kMode);
+  }
+  if (enabled) {
+    node.done = true;
+    return;
+  }
+  if (now - node.asked >= kAskAgain) {
+    node.asked = now;
+    ++node.attempts;
+    link.repeat_control();
+  }
+  if (now - entered_ <= kEnableTimeout) return;
+  fail(AlarmCode::kEnableFailed, link.id(),
+       say("node %1: its drives do not enable (statuswords %2 and %3)", link.id(),
+           printed("%04Xh", static_cast<unsigned>(link.statusword(0))),
+           printed("%04Xh", static_cast<unsigned>(link.statusword(1)))));
+}
+
+}  // namespace kinebus

@@ -1,0 +1,87 @@
+#pragma once
+// Homing of all joints that have a switch, those of one order together.
+//
+// The method: every node homes its own axes (CiA 402 mode 6: fast to the switch, off it, slowly over the
+// edge), all started within one frame time of each other and with equal speeds, so that the platform of a
+// parallel machine first moves as one towards the switches; each carriage stops at its own. A coordinated
+// approach in streamed mode would not be safer: positions are unknown, so nothing about the mechanism's pose
+// could be computed, and each carriage has to go its own last way to its own switch in either case. What
+// makes it safe is watched here: the carriages' travels since the start may differ by
+// HomingRun::max_spread_mm at most, every carriage must come to its switch within its search travel (the
+// node) and within the time (here), and whatever goes wrong with one stops them all at once: halt in the
+// controlwords of all nodes, two frames one behind the other. A carriage that has come to its switch stands
+// there until all have; then the nodes let theirs leave, one node after the other. So a switch whose wire
+// goes to another carriage is found out: it does not go off when the carriage leaves, or goes off when
+// another one does.
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "gateway/bus_nodes/bring_up.hpp"
+#include "gateway/bus_nodes/node_link.hpp"
+#include "gateway/description/machine_description.hpp"
+#include "gateway/sentence.hpp"
+
+namespace kinebus {
+
+class MachineHoming {
+ public:
+  enum class Outcome : std::uint8_t { kBusy, kDone, kFailed };
+
+  MachineHoming(const MachineDescription& machine, std::deque<NodeLink>& links);
+
+  void start(BusTime now);
+  Outcome on_time(BusTime now);
+  /// Stops all carriages and ends homing: an outside reason (stop command, fault).
+  void abort();
+  /// The carriages of this node move, and have told where they are since `from`.
+  bool reports(std::size_t node, BusTime from) const;
+  bool busy() const { return stage_ != Stage::kIdle; }
+  const StepFailure& failure() const { return failure_; }
+
+ private:
+  enum class Stage : std::uint8_t { kIdle, kReports, kMode, kMove, kBack, kQuiet };
+  struct Axis {
+    std::size_t node = 0;  ///< place in the list of links
+    std::size_t axis = 0;
+    std::string name;
+    bool linear = true;
+    double counts_per_unit = 1;
+    double jump_counts = 0;  ///< a greater step between two reports is a new zero, not a motion
+    std::uint8_t order = 1;
+    bool attained = false;
+    bool waits = false;  ///< stands on its switch
+    double travel_counts = 0;
+    std::int32_t last_counts = 0;
+    bool started = false;
+  };
+
+  void enter(Stage stage, BusTime now);
+  void next_order();
+  std::vector<Axis*> group();
+  std::vector<std::size_t> group_nodes();
+  void set_group(std::uint16_t controlword, std::int8_t mode);
+  bool group_in_mode(std::int8_t mode);
+  void repeat_control(BusTime now);
+  void set_report_period(std::int64_t ms);
+  bool requests_done();
+  void watch(BusTime now);
+  void watch_spread();
+  void fail(AlarmCode code, std::uint8_t node, Sentence words);
+  void let_leave();
+
+  const MachineDescription& machine_;
+  std::deque<NodeLink>& links_;
+  std::vector<Axis> axes_;
+  std::vector<std::uint32_t> reports_;  ///< position frames seen, by node
+  Stage stage_ = Stage::kIdle;
+  std::uint8_t order_ = 0;
+  BusTime entered_{0}, repeated_{0};
+  bool failed_ = false;
+  StepFailure failure_;
+};
+
+}  // namespace kinebus

@@ -1,0 +1,182 @@
+#include "gateway/bus_nodes/node_configuration.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "gateway/calibration/joint_map.hpp"
+#include "gateway/jobs/machine_setup.hpp"
+#include "protocol/canopen/object_dictionary.hpp"
+
+namespace kinebus {
+namespace {
+
+/// A dictionary without a device behind it.
+struct NoDevice : ObjectOwner {
+  AbortCode read(const ObjectEntry&, std::int64_t& value) override {
+    value = 0;
+    return AbortCode::kNone;
+  }
+  AbortCode write(const ObjectEntry&, std::int64_t) override { return AbortCode::kNone; }
+};
+
+// The node guards what it is told with these; the gateway keeps to the exact limits. The margins are for
+// rounding to counts and for the carriage's run-out behind its switch.
+constexpr double kSpeedMargin = 1.02;
+constexpr double kAccelerationMargin = 1.05;
+constexpr double kTravelMargin = 2;  // mm or rad
+// A node brakes by its own crystal, which may be 100 ppm fast: its deceleration counts twice that more.
+constexpr double kCrystalShare = 0.9995;
+
+class Writer {
+ public:
+  explicit Writer(std::uint8_t node_id) : dictionary_(device_, node_id) {}
+  void set(ObjectAddress address, double value) {
+    const int slot = find_slot(address);
+    if (slot < 0) return;
+    const ObjectEntry& entry = kNodeObjects[static_cast<std::size_t>(slot)];
+    double low = is_signed(entry.type) ? -std::ldexp(1.0, 8 * entry.size() - 1) : 0;
+    double high = std::ldexp(1.0, 8 * entry.size() - (is_signed(entry.type) ? 1 : 0)) - 1;
+    if (entry.limited) {
+      low = static_cast<double>(entry.low);
+      high = static_cast<double>(entry.high);
+    }
+    dictionary_.set_value({static_cast<std::uint16_t>(slot)}, std::llround(std::clamp(value, low, high)));
+  }
+  void set_axis(int axis, ObjectAddress base, double value) {
+    set({static_cast<std::uint16_t>(base.index + axis * kAxisOffset), base.subindex}, value);
+  }
+  void set_element(ObjectAddress first, std::size_t n, double value) {
+    set({first.index, static_cast<std::uint8_t>(first.subindex + n)}, value);
+  }
+  const ObjectDictionary& dictionary() const { return dictionary_; }
+
+ private:
+  NoDevice device_;
+  ObjectDictionary dictionary_;
+};
+
+double milliseconds(std::chrono::milliseconds time) {
+  return static_cast<double>(time.count());
+}
+
+SwitchFunction function_of(const SwitchInput& input) {
+  switch (input.function) {
+    case InputFunction::kNone:
+      return SwitchFunction::kNone;
+    case InputFunction::kHome:
+      return input.axis == 0 ? SwitchFunction::kHomeA : SwitchFunction::kHomeB;
+    case InputFunction::kPositiveLimit:
+      return input.axis == 0 ? SwitchFunction::kPositiveLimitA : SwitchFunction::kPositiveLimitB;
+    case InputFunction::kNegativeLimit:
+      return input.axis == 0 ? SwitchFunction::kNegativeLimitA : SwitchFunction::kNegativeLimitB;
+    case InputFunction::kEmergencyStop:
+      return SwitchFunction::kEmergencyStop;
+    case InputFunction::kProbe:
+      return SwitchFunction::kProbe;
+  }
+  return SwitchFunction::kNone;
+}
+
+void set_node(Writer& writer, const MachineDescription& machine, const NodeDescription& node) {
+  using namespace object;
+  writer.set(kSyncPeriod, 1000 * milliseconds(machine.bus.sync_period));
+  writer.set(kConsumerHeartbeat, kGatewayNodeId * 65536.0 + milliseconds(machine.bus.heartbeat_timeout));
+  writer.set(kProducerHeartbeat, milliseconds(machine.bus.heartbeat_period));
+  writer.set(kStopRamp, milliseconds(machine.stop.ramp));
+  writer.set(kSyncLossTimeout, milliseconds(machine.bus.sync_timeout));
+  for (std::size_t i = 0; i < node.inputs.size(); ++i) {
+    writer.set_element(kSwitchFunction, i, static_cast<double>(function_of(node.inputs[i])));
+    writer.set_element(kSwitchPolarity, i, node.inputs[i].active_low ? 1 : 0);
+    writer.set_element(kSwitchDebounce, i, static_cast<double>(node.inputs[i].debounce.count()));
+  }
+}
+
+// Following errors come so often from a node that has an encoder: 16 frames/s of a bus of 7400.
+constexpr double kFollowingPeriod_ms = 60;
+constexpr ObjectAddress kFollowingPdo{0x1803, 1}, kFollowingPdoTimer{0x1803, 5};
+
+void set_motor(Writer& writer, int axis, const MotorDescription& motor, const DriveTrain& drive) {
+  using namespace object;
+  writer.set_axis(axis, kPhaseResistance, 1e3 * motor.resistance_ohm);
+  writer.set_axis(axis, kPhaseInductance, 1e3 * motor.inductance_mh);
+  // Vs of flux linkage: a full step is a quarter of an electrical turn.
+  const double pole_pairs = drive.full_steps_per_turn / 4.0;
+  writer.set_axis(axis, kFluxLinkage, 1e6 * motor.torque_nm_per_a / pole_pairs);
+  writer.set_axis(axis, kEncoderMode, static_cast<int>(motor.encoder) + (motor.encoder_reversed ? 4 : 0));
+  writer.set_axis(axis, kEncoderOffset, motor.encoder_offset_counts);
+}
+
+void set_joint(Writer& writer, const JointDescription& joint) {
+  using namespace object;
+  const int axis = joint.axis & 1;
+  const double counts = std::abs(joint.drive.counts_per_unit());
+  const double slope = joint.drive.counts_per_unit() / (1 + joint.calibration.scale);
+  writer.set_axis(axis, kRunCurrent, joint.run_current_ma);
+  writer.set_axis(axis, kHoldCurrent, joint.hold_current_ma);
+  writer.set_axis(axis, kCountsPerUnit, 1000 * counts);
+  if (joint.motor) set_motor(writer, axis, *joint.motor, joint.drive);
+  if (joint.has_encoder()) {
+    writer.set(kFollowingPdo, 0x4000'0480u + joint.node_id);
+    writer.set(kFollowingPdoTimer, kFollowingPeriod_ms);
+  }
+  if (joint.travel.limited()) {
+    const double a = (joint.travel.min - kTravelMargin) * slope;
+    const double b = (joint.travel.max + kTravelMargin) * slope;
+    writer.set_axis(axis, kMinPositionLimit, std::min(a, b));
+    writer.set_axis(axis, kMaxPositionLimit, std::max(a, b));
+  }
+  writer.set_axis(axis, kMaxProfileVelocity, kSpeedMargin * joint.speed_per_s * counts);
+  writer.set_axis(axis, kMaxAcceleration, kAccelerationMargin * joint.accel_per_s2 * counts);
+  writer.set_axis(axis, kMaxDeceleration, kAccelerationMargin * joint.accel_per_s2 * counts);
+  writer.set_axis(axis, kQuickStopDeceleration, kCrystalShare * joint.stop_accel_per_s2 * counts);
+  writer.set_axis(axis, kProfileVelocity, joint.speed_per_s * counts / 4);
+  writer.set_axis(axis, kProfileAcceleration, joint.accel_per_s2 * counts / 4);
+  writer.set_axis(axis, kProfileDeceleration, joint.accel_per_s2 * counts / 4);
+  writer.set_axis(axis, kHomeOffset, home_counts(joint));
+  if (!joint.homing) {
+    writer.set_axis(axis, kHomingMethod, 37);
+    return;
+  }
+  const HomingDescription& homing = *joint.homing;
+  writer.set_axis(axis, kHomingMethod, homing.node_method(joint.drive));
+  writer.set_axis(axis, kHomingFastSpeed, homing.fast_per_s * counts);
+  writer.set_axis(axis, kHomingSlowSpeed, homing.slow_per_s * counts);
+  writer.set_axis(axis, kHomingAcceleration, homing.accel_per_s2 * counts);
+  writer.set_axis(axis, kHomingTravel, homing.max_search * counts);
+  // The carriage leaves the switch within a few times the distance that it backs off.
+  writer.set_axis(axis, kHomingBackOff, 10 * homing.back_off * counts);
+}
+
+}  // namespace
+
+std::int32_t home_counts(const JointDescription& joint) {
+  if (!joint.homing) return 0;
+  const JointCalibration& c = joint.calibration;
+  const double slope = joint.drive.counts_per_unit() / (1 + c.scale);
+  const double drive = JointMap(c).to_drive(joint.homing->switch_position + c.offset);
+  return static_cast<std::int32_t>(
+      std::lround(slope * (drive + joint.homing->edge_direction() * c.backlash / 2)));
+}
+
+NodeConfiguration configure_node(const MachineDescription& machine, std::uint8_t node_id) {
+  Writer writer(node_id);
+  if (const NodeDescription* node = machine.node(node_id)) set_node(writer, machine, *node);
+  for (const JointDescription& joint : machine.joints)
+    if (joint.node_id == node_id) set_joint(writer, joint);
+
+  NodeConfiguration configuration;
+  configuration.fingerprint = writer.dictionary().fingerprint();
+  for (std::size_t i = 0; i < kNodeObjectCount; ++i) {
+    const ObjectEntry& entry = kNodeObjects[i];
+    const bool following = entry.address == kFollowingPdo || entry.address == kFollowingPdoTimer;
+    const bool pdo = entry.address.index >= 0x1400 && entry.address.index < 0x1C00 && !following;
+    const bool cob_id = entry.address == object::kSyncCobId || entry.address == object::kEmcyCobId;
+    if (entry.binding != Binding::kParameter || !entry.writable() || pdo || cob_id) continue;
+    configuration.writes.push_back(
+        {entry.address, entry.size(), writer.dictionary().value({static_cast<std::uint16_t>(i)})});
+  }
+  return configuration;
+}
+
+}  // namespace kinebus

@@ -1,0 +1,127 @@
+#include "gateway/bus_nodes/node_link.hpp"
+
+#include <algorithm>
+
+#include "protocol/bytes.hpp"
+#include "protocol/canopen/cob_id.hpp"
+#include "protocol/canopen/node_objects.hpp"
+#include "protocol/canopen/sdo.hpp"
+
+namespace kinebus {
+namespace {
+
+constexpr std::size_t kMaxEmergencies = 32;
+
+}  // namespace
+
+bool NodeLink::on_frame(BusTime now, const CanFrame& frame) {
+  if (frame.extended || frame.remote) return false;
+  const auto data = frame.bytes();
+  if (const auto heartbeat = decode_heartbeat(frame)) {
+    if (heartbeat->node != id_) return false;
+    nmt_state_ = heartbeat->state;
+    if (nmt_state_ == NmtState::kInitialising) {
+      booted_ = true;
+      following_error_.reset();
+    }
+  } else if (const auto emergency = decode_emcy(frame)) {
+    if (emergency->node != id_) return false;
+    ++emergency_count_;
+    if (emergencies_.size() < kMaxEmergencies) emergencies_.push_back(*emergency);
+  } else if (frame.id == cob_id::tpdo(1, id_) && frame.length >= 7) {
+    on_status_words(frame);
+  } else if (frame.id == cob_id::tpdo(2, id_) && frame.length == 8) {
+    stream_ = new_stream_ = decode_stream_status(get_u64_le(data));
+  } else if (frame.id == cob_id::tpdo(3, id_) && frame.length == 8) {
+    position_ = {get_i32_le(data), get_i32_le(data.subspan(4))};
+    ++position_frames_;
+  } else if (frame.id == cob_id::tpdo(4, id_) && frame.length == 8) {
+    following_error_ = {get_i32_le(data), get_i32_le(data.subspan(4))};
+  } else if (frame.id == cob_id::kSdoReply + id_ && frame.length == 8) {
+    note_serial_number(frame);
+    sdo_.on_frame(now, frame);
+  } else {
+    return false;
+  }
+  heard_ = true;
+  last_heard_ = now;
+  return true;
+}
+
+void NodeLink::on_status_words(const CanFrame& frame) {
+  const auto data = frame.bytes();
+  statusword_ = {get_u16_le(data), get_u16_le(data.subspan(2))};
+  mode_ = {static_cast<std::int8_t>(data[4]), static_cast<std::int8_t>(data[5])};
+  inputs_ = data[6];
+  drive_heard_ = true;
+}
+
+/// From every answer, also one that comes when the transfer has ended with that of the other node.
+void NodeLink::note_serial_number(const CanFrame& reply) {
+  constexpr std::uint8_t kFourBytes = 0x43, kSerialNumber = 4;
+  const ObjectAddress serial{object::kVendorIdentity.index, kSerialNumber};
+  if (reply.data[0] != kFourBytes || sdo::address_in(reply) != serial) return;
+  const std::uint32_t number = get_u32_le(reply.bytes().subspan(4));
+  const auto& known = serial_numbers_;
+  if (known.size() < 2 && std::find(known.begin(), known.end(), number) == known.end())
+    serial_numbers_.push_back(number);
+}
+
+std::optional<Emergency> NodeLink::next_emergency() {
+  if (emergencies_.empty()) return std::nullopt;
+  const Emergency emergency = emergencies_.front();
+  emergencies_.pop_front();
+  return emergency;
+}
+
+void NodeLink::set_control(std::size_t axis, std::uint16_t controlword, std::int8_t mode) {
+  if (control_[axis] == controlword && wanted_mode_[axis] == mode) return;
+  control_[axis] = controlword;
+  wanted_mode_[axis] = mode;
+  control_due_ = true;
+}
+
+std::optional<CanFrame> NodeLink::next_frame(BusTime now) {
+  if (control_due_) {
+    control_due_ = false;
+    CanFrame frame{.id = cob_id::rpdo(1, id_), .length = 6};
+    put_u16_le(frame.data, control_[0]);
+    put_u16_le(std::span(frame.data).subspan(2), control_[1]);
+    frame.data[4] = static_cast<std::uint8_t>(wanted_mode_[0]);
+    frame.data[5] = static_cast<std::uint8_t>(wanted_mode_[1]);
+    return frame;
+  }
+  return sdo_.next_frame(now);
+}
+
+void NodeLink::forget() {
+  heard_ = booted_ = drive_heard_ = control_due_ = false;
+  nmt_state_ = NmtState::kInitialising;
+  statusword_ = control_ = {};
+  mode_ = wanted_mode_ = {};
+  stream_.reset();
+  new_stream_.reset();
+  following_error_.reset();
+  emergencies_.clear();
+  serial_numbers_.clear();
+  sdo_.abandon();
+}
+
+NodeStatus NodeLink::status(BusTime now, BusTime heartbeat_timeout) const {
+  NodeStatus status;
+  status.id = id_;
+  status.present = heard_ && now - last_heard_ < heartbeat_timeout;
+  status.nmt_state = static_cast<std::uint8_t>(nmt_state_);
+  status.statusword = statusword_;
+  status.inputs = inputs_;
+  status.emergencies = emergency_count_;
+  if (stream_) {
+    status.synchronised = (stream_->flags & StreamStatus::kSynchronised) != 0;
+    status.sync_error_us = stream_->sync_error_us;
+    status.queue_records = std::max(0, status.queue_capacity - static_cast<int>(stream_->free_records));
+    status.stopped = (stream_->flags & StreamStatus::kStopped) != 0;
+  }
+  return status;
+}
+
+}  // namespace kinebus

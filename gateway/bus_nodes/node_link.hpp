@@ -1,0 +1,94 @@
+#pragma once
+// What the gateway knows of one node, and what it tells it outside of streams: drive states, modes, SDO.
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "gateway/bus_nodes/sdo_channel.hpp"
+#include "gateway/status/status.hpp"
+#include "protocol/can/frame.hpp"
+#include "protocol/canopen/cia402.hpp"
+#include "protocol/canopen/emcy.hpp"
+#include "protocol/canopen/nmt.hpp"
+#include "protocol/motion/broadcast.hpp"
+#include "protocol/time.hpp"
+
+namespace kinebus {
+
+class NodeLink {
+ public:
+  explicit NodeLink(std::uint8_t id) : id_(id), sdo_(id) {}
+
+  /// Takes a frame of this node; false: it is not one, or none that is understood.
+  bool on_frame(BusTime now, const CanFrame& frame);
+  void on_time(BusTime now) { sdo_.on_time(now); }
+  /// Controlwords first, then SDO.
+  std::optional<CanFrame> next_frame(BusTime now);
+
+  std::uint8_t id() const { return id_; }
+  SdoChannel& sdo() { return sdo_; }
+  const SdoChannel& sdo() const { return sdo_; }
+
+  // What it said.
+  bool heard() const { return heard_; }
+  BusTime last_heard() const { return last_heard_; }
+  NmtState nmt_state() const { return nmt_state_; }
+  std::uint16_t statusword(std::size_t axis) const { return statusword_[axis]; }
+  cia402::State drive_state(std::size_t axis) const { return cia402::state_of(statusword_[axis]); }
+  bool drive_known() const { return drive_heard_; }
+  std::int8_t mode(std::size_t axis) const { return mode_[axis]; }
+  std::uint32_t inputs() const { return inputs_; }
+  const std::optional<StreamStatus>& stream() const { return stream_; }
+  std::int32_t position_counts(std::size_t axis) const { return position_[axis]; }
+  /// Commanded less measured, counts; empty: not told.
+  const std::optional<std::array<std::int32_t, 2>>& following_error() const { return following_error_; }
+  /// Position frames so far: a new one is there when it has changed.
+  std::uint32_t position_frames() const { return position_frames_; }
+  std::uint32_t emergencies() const { return emergency_count_; }
+
+  /// Boot-ups since the last call: each means that the node has lost its position.
+  bool take_boot_up() { return std::exchange(booted_, false); }
+  /// Serial numbers that were told since forget(): a second one is another node's with the same id.
+  const std::vector<std::uint32_t>& serial_numbers() const { return serial_numbers_; }
+  std::optional<Emergency> next_emergency();
+  /// The status frame that came last, once.
+  std::optional<StreamStatus> take_stream() { return std::exchange(new_stream_, std::nullopt); }
+
+  // What it is told (RPDO1). Sent when it changes.
+  void set_control(std::size_t axis, std::uint16_t controlword, std::int8_t mode);
+  void set_control(std::size_t axis, std::uint16_t controlword) {
+    set_control(axis, controlword, wanted_mode_[axis]);
+  }
+  std::uint16_t control(std::size_t axis) const { return control_[axis]; }
+  /// Sends controlwords and modes again, changed or not.
+  void repeat_control() { control_due_ = true; }
+
+  /// Forgets all that was heard (before a bring-up).
+  void forget();
+  NodeStatus status(BusTime now, BusTime heartbeat_timeout) const;
+
+ private:
+  void on_status_words(const CanFrame& frame);
+  void note_serial_number(const CanFrame& reply);
+
+  std::uint8_t id_;
+  SdoChannel sdo_;
+  bool heard_ = false, booted_ = false, drive_heard_ = false, control_due_ = false;
+  BusTime last_heard_{0};
+  NmtState nmt_state_ = NmtState::kInitialising;
+  std::array<std::uint16_t, 2> statusword_{}, control_{};
+  std::array<std::int8_t, 2> mode_{}, wanted_mode_{};
+  std::uint32_t inputs_ = 0;
+  std::array<std::int32_t, 2> position_{};
+  std::optional<std::array<std::int32_t, 2>> following_error_;
+  std::uint32_t position_frames_ = 0, emergency_count_ = 0;
+  std::optional<StreamStatus> stream_, new_stream_;
+  std::deque<Emergency> emergencies_;
+  std::vector<std::uint32_t> serial_numbers_;
+};
+
+}  // namespace kinebus

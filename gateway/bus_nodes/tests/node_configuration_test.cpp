@@ -1,0 +1,96 @@
+#include "gateway/bus_nodes/node_configuration.hpp"
+
+#include <gtest/gtest.h>
+
+#include "gateway/status/alarm.hpp"
+#include "protocol/canopen/node_objects.hpp"
+
+namespace kinebus {
+namespace {
+
+std::optional<std::int64_t> written(const NodeConfiguration& configuration, ObjectAddress address) {
+  for (const ParameterWrite& write : configuration.writes)
+    if (write.address == address) return write.value;
+  return std::nullopt;
+}
+ObjectAddress second(ObjectAddress base) {
+  return {static_cast<std::uint16_t>(base.index + kAxisOffset), base.subindex};
+}
+
+TEST(NodeConfiguration, TowersHaveTheirHomeSwitchAndItsPositionInCounts) {
+  const NodeConfiguration c = configure_node(default_m1(), 1);
+  EXPECT_EQ(written(c, object::kHomingMethod), 20);
+  EXPECT_EQ(written(c, object::kHomeOffset), 1030 * 1280);
+  EXPECT_EQ(written(c, object::kHomingFastSpeed), 40 * 1280);
+  EXPECT_EQ(written(c, object::kSwitchFunction), static_cast<int>(SwitchFunction::kHomeA));
+  EXPECT_EQ(written(c, {object::kSwitchFunction.index, 2}), static_cast<int>(SwitchFunction::kHomeB));
+  EXPECT_EQ(written(c, object::kConsumerHeartbeat), (127 << 16) + 1500);
+}
+
+TEST(NodeConfiguration, JointsWithoutSwitchTakeThePresentPosition) {
+  const NodeConfiguration c = configure_node(default_m1(), 3);
+  EXPECT_EQ(written(c, object::kHomingMethod), 37);
+  EXPECT_EQ(written(c, second(object::kHomingMethod)), 37);
+}
+
+TEST(NodeConfiguration, FingerprintTellsEveryChange) {
+  const MachineDescription m1 = default_m1();
+  MachineDescription other = m1;
+  other.joints[1].run_current_ma += 1;
+  EXPECT_EQ(configure_node(m1, 1).fingerprint, configure_node(m1, 1).fingerprint);
+  EXPECT_NE(configure_node(m1, 1).fingerprint, configure_node(other, 1).fingerprint);
+  EXPECT_EQ(configure_node(m1, 2).fingerprint, configure_node(other, 2).fingerprint);
+}
+
+TEST(NodeConfiguration, AMotorsDataAndItsEncoderReachTheNode) {
+  constexpr ObjectAddress kTpdo4{0x1803, 1}, kTpdo4Timer{0x1803, 5};
+  MachineDescription m1 = default_m1();
+  const NodeConfiguration plain = configure_node(m1, 1);
+  EXPECT_EQ(written(plain, object::kPhaseResistance), 0);
+  EXPECT_EQ(written(plain, object::kEncoderMode), 0);
+  EXPECT_EQ(written(plain, kTpdo4), 0xC000'0481) << "not sent";
+  m1.joints[1].motor = MotorDescription{.resistance_ohm = 1.2,
+                                        .inductance_mh = 2.5,
+                                        .torque_nm_per_a = 0.127,
+                                        .encoder = MotorDescription::Encoder::kClosedLoop,
+                                        .encoder_reversed = true,
+                                        .encoder_offset_counts = 300};
+  const NodeConfiguration c = configure_node(m1, 1);
+  EXPECT_EQ(written(c, second(object::kPhaseResistance)), 1200);
+  EXPECT_EQ(written(c, second(object::kPhaseInductance)), 2500);
+  EXPECT_EQ(written(c, second(object::kFluxLinkage)), 2540) << "uVs: 0.127 / 50 pole pairs";
+  EXPECT_EQ(written(c, second(object::kEncoderMode)), 6);
+  EXPECT_EQ(written(c, second(object::kEncoderOffset)), 300);
+  EXPECT_EQ(written(c, object::kEncoderMode), 0);
+  EXPECT_EQ(written(c, kTpdo4), 0x4000'0481);
+  EXPECT_EQ(written(c, kTpdo4Timer), 60);
+  EXPECT_NE(c.fingerprint, plain.fingerprint);
+}
+
+TEST(NodeConfiguration, InvertedDriveHomesTheMirroredWay) {
+  MachineDescription m1 = default_m1();
+  m1.joints[0].drive.inverted = true;
+  const NodeConfiguration c = configure_node(m1, 1);
+  EXPECT_EQ(written(c, object::kHomingMethod), 22);
+  EXPECT_EQ(written(c, object::kHomeOffset), -1030 * 1280);
+  EXPECT_LT(*written(c, object::kMinPositionLimit), *written(c, object::kMaxPositionLimit));
+}
+
+TEST(NodeConfiguration, ValuesBeyondAnObjectsRangeAreHeldAtItsBorder) {
+  MachineDescription m1 = default_m1();
+  m1.stop.ramp = std::chrono::milliseconds{100'000};
+  EXPECT_EQ(written(configure_node(m1, 1), object::kStopRamp), 510);
+}
+
+TEST(Alarms, EmergenciesAreToldInWords) {
+  const AlarmText current = describe_emergency({2, 0x2310, 3, {9, 0, 0, 0, 0}});
+  EXPECT_EQ(current.words, "node 2: over-current in a motor phase; fault of a drive (EMCY 2310h)");
+  EXPECT_FALSE(current.advice.empty());
+  const AlarmText starved = describe_emergency({1, 0xFF00, 0x81, {1, 0, 0, 0, 0}});
+  EXPECT_EQ(starved.words, "node 1: its queue ran low (EMCY FF00h)");
+  const AlarmText unknown = describe_emergency({1, 0x5999, 1, {0x7F, 0, 0, 0, 0}});
+  EXPECT_EQ(unknown.words, "node 1: hardware fault (EMCY 5999h)");
+}
+
+}  // namespace
+}  // namespace kinebus

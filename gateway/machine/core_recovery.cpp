@@ -1,0 +1,175 @@
+// Interrupted jobs: what is kept of them, and how they go on from exactly their place.
+
+#include <algorithm>
+#include <utility>
+
+#include "gateway/machine/core.hpp"
+
+namespace kinebus {
+namespace {
+using Done = Result<void, Refusal>;
+}  // namespace
+
+bool Gateway::Core::interrupted() const {
+  const Runner& job = print_.runner();
+  const bool nodes_lost = state_.is_one_of(MachineState::kOff, MachineState::kBringUp);
+  return recovery_.left() || (job.active() && (job.suspended() || nodes_lost));
+}
+
+void Gateway::Core::interrupt(PathTime tau) {
+  hand_.forget_then();
+  print_.runner().suspend(tau);
+}
+
+Done Gateway::Core::recover(journal::State state, std::unique_ptr<ByteSource> job) {
+  if (!state_.is(MachineState::kOff) || print_.runner().active())
+    return refused(say("too late: the machine is in use already"));
+  lines_.restart(state.offsets_of(identity(machine_)));
+  if (!state.job) return {};
+  if (!job) return refused(say("the interrupted job %1 is not there any more", state.job->name));
+  print_.rename(state.job->name);
+  if (state.override_ratio) override_ = std::clamp(*state.override_ratio, 0.01, 5.0);
+  heat_.take_up(state.thermal);
+  recovery_.take_up(std::move(state), std::move(job));
+  events_.message(now_, say("the job %1 was interrupted: resume to go on with it, or cancel", print_.name()));
+  return {};
+}
+
+void Gateway::Core::begin_job(const Pose& start) {
+  runner_ = &print_.runner();
+  journal_.push(print_.record(start));
+  heat_.begin_job();
+  recovery_.job_begins();
+  print_.start(start);
+  runner_->set_override(override_);
+  journal_.push(journal::Override{override_});
+}
+
+void Gateway::Core::give_up_job() {
+  Runner& job = print_.runner();
+  if (job.active() || recovery_.left()) journal_.push(journal::JobEnd{});
+  recovery_.left().reset();
+  if (job.active()) heat_.stop_spindle();
+  job.drop();
+  heat_.forget_kept();
+  print_.forget_name();
+}
+
+/// Targets, and now and then the place, as the job goes on.
+void Gateway::Core::note_progress() {
+  if (!print_.runner().active() || heat_.kept()) return;
+  heat_.note(journal_);
+  if (!print_.progress_is_due(now_, rate_.rate(now_) != 0)) return;
+  journal_.push(
+      journal::Progress{group_.confirmed(rate_.tau(now_)), print_.runner().line(now_), joints_now()});
+}
+
+// Going on
+// ---------------------------------------------------------------------------------------------------------
+
+Done Gateway::Core::go_on() {
+  if (!defect_.empty()) return refused(defect_);
+  recovery_.go_on();
+  Done done;
+  if (state_.is(MachineState::kOff))
+    begin_bring_up();
+  else if (state_.is(MachineState::kUnhomed))
+    begin_homing();
+  else
+    done = begin_return();
+  if (!done) recovery_.do_not_go_on();
+  return done;
+}
+
+/// After bring-up or homing, on the way to the job's place.
+void Gateway::Core::finish_recovery() {
+  if (!position_.homed() && recovery_.must_ask_to_home()) {
+    recovery_.do_not_go_on();
+    return events_.message(now_,
+                           say("the nodes have lost their positions: resume homes the machine and goes on"));
+  }
+  if (!position_.homed()) return begin_homing();
+  const Done begun = begin_return();
+  if (begun) return;
+  recovery_.do_not_go_on();
+  events_.push({.kind = MachineEvent::Kind::kFinished,
+                .when = now_,
+                .words = say("the job does not go on: %1", begun.error().words),
+                .advice = say("put right what is said, then resume")});
+}
+
+Done Gateway::Core::begin_return() {
+  if (auto& left = recovery_.left()) {
+    // Checked once more, then read up to its place.
+    if (!left->job->rewind()) return refused(say("the interrupted job cannot be read"));
+    print_.begin_check(std::move(left->job), heat_.kept_hotend(), left->state.job->offsets);
+    enter(MachineState::kChecking);
+    return {};
+  }
+  const auto from = machine_pose();
+  if (!from) return Error<Refusal>(from.error());
+  auto commands = recovery_.way_back(print_.runner().rest_pose(), *from, position_, heat_);
+  if (!commands) return Error<Refusal>(commands.error());
+  if (commands->empty()) {
+    finish_return();
+    return {};
+  }
+  runner_ = &hand_.runner();
+  hand_.start(std::move(*commands), *from, 1, ManualMotion::Then::kReturn);
+  enter(MachineState::kRunning);
+  return {};
+}
+
+void Gateway::Core::step_recovery() {
+  auto& left = recovery_.left();
+  Runner& job = print_.runner();
+  if (left->replaying) {
+    switch (job.replay(options_.planning_budget)) {
+      case Runner::Outcome::kBusy:
+        return;
+      case Runner::Outcome::kFailed:
+        events_.alarm(now_, AlarmCode::kJobError, job.failure().words, 0, job.failure().line);
+        give_up_job();
+        return stop_all(false);
+      default:
+        break;
+    }
+    left.reset();
+    job.set_override(override_);
+    journal_.push(journal::Interrupted{job.place({}), job.extruder_shift_mm()});
+    enter(MachineState::kReady);
+    return finish_recovery();
+  }
+  if (!print_.check(now_, options_.planning_budget)) return;
+  if (print_.errors() > 0 || !print_.is_the_text_of(*left->state.job) || !print_.rewind()) {
+    events_.push(
+        {.kind = MachineEvent::Kind::kFinished,
+         .when = now_,
+         .words = say("the job %1 is not the text that was interrupted: it does not go on", print_.name()),
+         .advice = say("run it from its beginning")});
+    print_.drop_source();
+    give_up_job();
+    recovery_.do_not_go_on();
+    return enter(MachineState::kReady);
+  }
+  left->replaying = true;
+  job.start_replay(print_.take_source(), left->state, recovery_.left_tau());
+}
+
+/// The tool stands where the job goes on.
+void Gateway::Core::finish_return() {
+  Runner& job = print_.runner();
+  const PlannedPose place = job.rest_pose();
+  const auto here = machine_pose();
+  if (const double by_mm = recovery_.finish_return(place, here ? std::optional(*here) : std::nullopt);
+      by_mm != 0)
+    job.shift_extruder(by_mm);
+  heat_.finish_return();
+  runner_ = &job;
+  job.set_override(override_);
+  job.go_on(now_);
+  events_.message(now_, say("the job %1 goes on", print_.name()), place.line);
+  enter(MachineState::kRunning);
+}
+
+}  // namespace kinebus

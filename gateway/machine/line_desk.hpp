@@ -1,0 +1,55 @@
+#pragma once
+// Lines as they come from a print host or a console, each checked before it is taken; and the machine's work
+// offsets, which they set.
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "gateway/description/machine_description.hpp"
+#include "gateway/jobs/journal/journal_queue.hpp"
+#include "gateway/jobs/live_lines.hpp"
+#include "gateway/result.hpp"
+#include "gateway/status/refusal.hpp"
+
+namespace kinebus {
+
+class LineDesk {
+ public:
+  LineDesk(const MachineDescription& machine, const Kinematics& kinematics, journal::Queue& journal);
+
+  /// As the gateway before has left them.
+  void restart(const gcode::WorkOffsets& offsets) { lines_.restart(offsets); }
+  /// Lines may move from here on; what is in force goes before them.
+  const gcode::CommandBuffer& open(const Pose& pose, std::optional<double> hotend_celsius);
+  /// No more lines are taken: those that were are carried out.
+  void close() { closing_ = true; }
+  bool closing() const { return closing_; }
+
+  /// What one line means, valid until the next one. `open`: it may move.
+  Result<std::span<const canonical::Line>, Refusal> take(bool open, std::string_view line,
+                                                         std::uint32_t number);
+  std::vector<Sentence> take_notes() { return lines_.take_notes(); }
+  void forget_modes() { lines_.forget(); }
+
+  /// `where`: the tool's pose, Frame::kMachine, when it is not where the lines have led it.
+  Result<void, Refusal> set_work_offset(std::uint32_t system, const Pose& offset, bool here,
+                                        const std::optional<Pose>& where);
+  const gcode::WorkOffsets& work_offsets() const { return lines_.work_offsets(); }
+  /// 1 (G54) .. 9 (G59.3)
+  int work_system() const { return lines_.work_system() + 1; }
+  const Pose& work_offset() const { return lines_.work_offset(); }
+
+ private:
+  void note_offsets(const gcode::WorkOffsets& before);
+
+  const MachineDescription& machine_;
+  journal::Queue& journal_;
+  LiveLines lines_;
+  gcode::CommandBuffer commands_;  ///< of the line at work
+  bool closing_ = false;
+};
+
+}  // namespace kinebus

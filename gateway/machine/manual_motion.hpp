@@ -1,0 +1,51 @@
+#pragma once
+// Moves by hand, jog and bed reference, and the machine's own ways: to where a job begins, and back to an
+// interrupted job's place.
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "gateway/description/machine_description.hpp"
+#include "gateway/gcode/canonical.hpp"
+#include "gateway/kinematics/kinematics.hpp"
+#include "gateway/machine/commands.hpp"
+#include "gateway/result.hpp"
+#include "gateway/run/heat.hpp"
+#include "gateway/run/runner.hpp"
+#include "gateway/status/refusal.hpp"
+
+namespace kinebus {
+
+class ManualMotion {
+ public:
+  /// What comes when the move is done.
+  enum class Then : std::uint8_t { kNothing, kJob, kReturn };
+
+  ManualMotion(const MachineDescription& machine, const Kinematics& kinematics, StreamGroup& group,
+               PathRate& rate, Heat& heat, EventQueue& events, journal::Queue& journal)
+      : kinematics_(kinematics), runner_(machine, kinematics, group, rate, heat, events, journal) {}
+
+  Runner& runner() { return runner_; }
+  const Runner& runner() const { return runner_; }
+
+  /// The move that is asked for, whose whole way lies within the workspace; `from`: Frame::kMachine.
+  Result<canonical::Command, Refusal> jog(const command::Jog& asked, const Pose& from,
+                                          const Heat& heat) const;
+  /// To the bed reference, the filament as it is.
+  canonical::Command reference(const Pose& from) const;
+
+  void start(std::vector<canonical::Line> commands, const Pose& from, double override_ratio, Then then);
+  /// Of the move that is done, once.
+  Then take_then() { return std::exchange(then_, Then::kNothing); }
+  bool leads_to(Then then) const { return then_ == then; }
+  /// The move may be gone on with, but leads nowhere any more.
+  void forget_then() { then_ = Then::kNothing; }
+
+ private:
+  const Kinematics& kinematics_;
+  Runner runner_;
+  Then then_ = Then::kNothing;
+};
+
+}  // namespace kinebus

@@ -1,0 +1,112 @@
+#include "gateway/machine/node_watch.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace kinebus {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// A status frame is at most so old when it comes.
+constexpr BusTime kFrameDelay = 50ms;
+
+Sentence name_of(const NodeLink& link) {
+  return say("node %1", link.id());
+}
+
+}  // namespace
+
+void NodeWatch::on_time(BusTime now, bool streaming) {
+  if (!streaming) streaming_since_ = now;
+}
+
+NodeWatch::Verdict NodeWatch::look(BusTime now, std::size_t node, const Situation& situation) {
+  // Nodes that move tell how far they are: one that does not is dead, and its carriages stand while others go
+  // on.
+  const bool judged = now - streaming_since_ > kStatusTimeout;
+  NodeLink& link = links_[node];
+  // So do those whose carriages home: with one that is dead the others must not go on.
+  const BusTime timeout =
+      judged || situation.homes ? kStatusTimeout : BusTime{machine_.bus.heartbeat_timeout};
+  Verdict verdict;
+  take_emergencies(now, link, situation, verdict);
+  const bool watched =
+      situation.state != MachineState::kOff && situation.state != MachineState::kBringUp && !needs_bring_up_;
+  if (!watched) return verdict;
+  if (link.take_boot_up()) {
+    needs_bring_up_ = true;
+    verdict.positions_lost = verdict.stop = verdict.fault = true;
+    events_.alarm(now, AlarmCode::kNodeRestarted, say("%1 has restarted", name_of(link)), link.id());
+  } else if (now - (judged ? std::max(link.last_heard(), streaming_since_) : link.last_heard()) > timeout) {
+    needs_bring_up_ = true;
+    verdict.stop = verdict.fault = true;
+    events_.alarm(now, AlarmCode::kHeartbeatLost, say("%1 is silent", name_of(link)), link.id());
+  }
+  return verdict;
+}
+
+void NodeWatch::take_emergencies(BusTime now, NodeLink& link, const Situation& situation, Verdict& verdict) {
+  while (const auto emergency = link.next_emergency()) {
+    if (emergency->code == emcy::kNoError) continue;
+    const AlarmText text = describe_emergency(*emergency);
+    events_.push({.kind = MachineEvent::Kind::kAlarm,
+                  .when = now,
+                  .code = emergency->code,
+                  .node = emergency->node,
+                  .words = text.words,
+                  .advice = text.advice});
+    const auto reason = static_cast<StopReason>(emergency->vendor[0] & 0x7F);
+    if (reason == StopReason::kNone || situation.bringing_up || situation.state == MachineState::kOff)
+      continue;
+    verdict.stream_lost = verdict.stream_lost || reason == StopReason::kStarved ||
+                          reason == StopReason::kSequenceError || reason == StopReason::kCheckpointError ||
+                          reason == StopReason::kStreamError;
+    verdict.stop = true;
+    verdict.fault = verdict.fault || reason == StopReason::kAxisFault;
+  }
+}
+
+/// Path time at rest is the same number everywhere, and clocks stay synchronised as long as anything moves.
+bool NodeWatch::check_clock(BusTime now, const NodeLink& link, const StreamStatus& status, Verdict& verdict) {
+  if ((status.flags & StreamStatus::kSynchronised) == 0) {
+    events_.alarm(now, AlarmCode::kSyncError,
+                  say("%1 has lost the synchronisation of its clock", name_of(link)), link.id());
+    verdict.stop = true;
+    return false;
+  }
+  const bool rested = rate_.at_rest(now) && rate_.rate(now - kFrameDelay) == 0;
+  const auto units = static_cast<std::uint32_t>(rate_.tau(now).count() / kPathTicksPerUnit);
+  if (!rested || status.path_units == units) return true;
+  events_.alarm(now, AlarmCode::kPathTimeDiffers,
+                say("%1 rests at another path time than the gateway: %2 us apart", name_of(link),
+                    std::int64_t{static_cast<std::int32_t>(status.path_units - units)} * 16),
+                link.id());
+  needs_bring_up_ = true;
+  verdict.stop = verdict.fault = true;
+  return false;
+}
+
+NodeWatch::Verdict NodeWatch::take_stream(BusTime now, NodeLink& link, const StreamStatus& status,
+                                          bool stopping) {
+  Verdict verdict;
+  const PathTime tau = rate_.tau(now);
+  if (stopping) {
+    // What the nodes have taken before they stopped is told but once, and counts when the run goes on.
+    verdict.stream_lost = !group_.on_status(now, link.id(), status, tau);
+    return verdict;
+  }
+  if (!check_clock(now, link, status, verdict)) return verdict;
+  const auto taken = group_.on_status(now, link.id(), status, tau);
+  if (taken) return verdict;
+  using Kind = StreamError::Kind;
+  const Kind kind = taken.error().kind;
+  counters_.sequence_errors += kind == Kind::kSequence || kind == Kind::kSilent ? 1 : 0;
+  counters_.checkpoint_errors += kind == Kind::kCheckpoint ? 1 : 0;
+  counters_.underruns += kind == Kind::kUnderrun ? 1 : 0;
+  events_.alarm(now, AlarmCode::kStreamLost, to_string(taken.error()), link.id(), taken.error().line);
+  verdict.stream_lost = verdict.stop = true;
+  return verdict;
+}
+
+}  // namespace kinebus

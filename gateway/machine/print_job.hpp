@@ -1,0 +1,79 @@
+#pragma once
+// The job as a whole: its name and text, its check before anything moves, and the runner that carries it out.
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "gateway/description/machine_description.hpp"
+#include "gateway/jobs/hashed_source.hpp"
+#include "gateway/jobs/journal/journal_state.hpp"
+#include "gateway/jobs/preflight.hpp"
+#include "gateway/kinematics/kinematics.hpp"
+#include "gateway/run/runner.hpp"
+#include "gateway/status/event_queue.hpp"
+
+namespace kinebus {
+
+class PrintJob {
+ public:
+  PrintJob(const MachineDescription& machine, const Kinematics& kinematics, StreamGroup& group,
+           PathRate& rate, Heat& heat, EventQueue& events, journal::Queue& journal)
+      : machine_(machine),
+        kinematics_(kinematics),
+        events_(events),
+        runner_(machine, kinematics, group, rate, heat, events, journal) {}
+
+  Runner& runner() { return runner_; }
+  const Runner& runner() const { return runner_; }
+  /// Empty: none.
+  const std::string& name() const { return name_; }
+  void rename(std::string name) { name_ = std::move(name); }
+  void forget_name() { name_.clear(); }
+
+  // The check.
+  /// Of a text at its beginning, which begins in `offsets`. `hotend_celsius`: its target, if it has one.
+  void begin_check(std::unique_ptr<ByteSource> source, std::optional<double> hotend_celsius,
+                   const gcode::WorkOffsets& offsets);
+  /// Worth about `budget` lines; what is found is told. True: done, errors() counts.
+  bool check(BusTime now, int budget);
+  void abort_check() { preflight_.reset(); }
+  std::uint64_t errors() const { return errors_; }
+  /// The text, for another reading of it.
+  bool rewind() { return source_->rewind(); }
+  bool is_the_text_of(const journal::JobBegin& begun) const;
+  /// Gives the text back; nullptr: none is there.
+  std::unique_ptr<ByteSource> take_source() { return std::move(source_); }
+  void drop_source() { source_.reset(); }
+  /// As the check found it; empty of lines that come from outside.
+  const JobReport& report() const { return report_; }
+  void forget_report() { report_ = {}; }
+
+  // The run.
+  /// What the journal has to know when it begins at `start`, Frame::kMachine.
+  journal::JobBegin record(const Pose& start) const;
+  void start(const Pose& start) { runner_.start_job(std::move(source_), start, offsets_); }
+  /// Now and then in motion (`moving`: path time runs) its place is noted.
+  bool progress_is_due(BusTime now, bool moving);
+
+ private:
+  void tell_problems(BusTime now);
+
+  const MachineDescription& machine_;
+  const Kinematics& kinematics_;
+  EventQueue& events_;
+  Runner runner_;
+  std::string name_;
+  std::unique_ptr<HashedSource> source_;
+  std::unique_ptr<Preflight> preflight_;
+  std::size_t told_ = 0;      ///< problems
+  std::uint64_t errors_ = 0;  ///< of the last check
+  JobReport report_;
+  gcode::WorkOffsets offsets_{};
+  std::uint64_t bytes_ = 0, hash_ = 0;  ///< of the text that was checked
+  BusTime progress_due_{0};
+};
+
+}  // namespace kinebus

@@ -1,0 +1,60 @@
+#include "gateway/machine/commands.hpp"
+
+#include <gtest/gtest.h>
+
+#include "gateway/description/machine_description.hpp"
+#include "gateway/machine/gateway.hpp"
+
+namespace kinebus {
+namespace {
+
+using S = MachineState;
+
+TEST(Commands, StopIsAllowedEverywhere) {
+  for (int i = 0; i < kMachineStates; ++i)
+    EXPECT_TRUE(allowed(command::kind<command::Stop>, static_cast<S>(i))) << to_string(static_cast<S>(i));
+}
+
+TEST(Commands, MotionBeginsOnlyWhenReady) {
+  for (int i = 0; i < kMachineStates; ++i)
+    for (const CommandKind command :
+         {command::kind<command::Jog>, command::kind<command::Run>, command::kind<command::OpenLines>,
+          command::kind<command::GoToReference>})
+      EXPECT_EQ(allowed(command, static_cast<S>(i)), static_cast<S>(i) == S::kReady);
+}
+
+TEST(Commands, WhatMayNotBeGivenIsRefusedInTheWordsThatWereToldBefore) {
+  Gateway gateway(default_m1());
+  const auto told = gateway.may(command::kind<command::Jog>);
+  ASSERT_FALSE(told);
+  EXPECT_EQ(told.error().words, "cannot jog while the machine is off: bring it up first");
+  const auto refused = gateway.carry_out(command::Jog{.delta = {1, 0, 0, 0, 0, 0}});
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().words, told.error().words);
+  EXPECT_EQ(gateway.may(command::kind<command::Resume>).error().words,
+            "there is no interrupted job to resume");
+  ASSERT_TRUE(gateway.may(command::kind<command::BringUp>));
+  EXPECT_TRUE(gateway.carry_out(command::BringUp{}));
+}
+
+TEST(Commands, ValuesThatTheMachineCannotHaveAreRefused) {
+  Gateway gateway(default_m1());
+  EXPECT_FALSE(gateway.carry_out(command::SetFan{1.5}));
+  EXPECT_FALSE(gateway.carry_out(command::SetSpindle{9000}));
+  EXPECT_FALSE(gateway.carry_out(command::SetWorkOffset{.system = 10}));
+  EXPECT_FALSE(gateway.carry_out(command::SetWorkOffset{.offset = {1e9, 0, 0, 0, 0, 0}}));
+  EXPECT_FALSE(gateway.carry_out(command::SetWorkOffset{.here = true})) << "nobody knows where the tool is";
+  ASSERT_TRUE(gateway.carry_out(command::SetFan{0.4}));
+  EXPECT_EQ(gateway.status().fan, 0.4);
+}
+
+TEST(Commands, AWorkOffsetIsInMillimetresWhateverTheLinesCount) {
+  Gateway gateway(default_m1());
+  ASSERT_TRUE(gateway.take_line("G20 G55", 1));
+  ASSERT_TRUE(gateway.carry_out(command::SetWorkOffset{.system = 2, .offset = {10, 0, -4, 0, 0, 0}}));
+  EXPECT_EQ(gateway.work_offsets()[1][kX], 10);
+  EXPECT_EQ(gateway.status().work_offset[kZ], -4);
+}
+
+}  // namespace
+}  // namespace kinebus

@@ -1,0 +1,343 @@
+#include "gateway/run/runner.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace kinebus {
+namespace {
+
+/// The rate is raised at most so often, and lowered when it has to be: the bus is not filled with rate
+/// commands.
+constexpr BusTime kRaisePeriod = std::chrono::milliseconds{250};
+constexpr double kRateStep = 0.02;
+
+/// Live commands: a run under way is brought to a planned stop when less than this is left to move and no
+/// line came for a while, or when less than the second is left: the stop is in the nodes long before their
+/// reserve (120 ms) begins.
+constexpr double kLiveReserve_s = 0.6;
+constexpr double kLiveLast_s = 0.35;
+constexpr BusTime kLiveQuiet = std::chrono::milliseconds{30};
+/// A run begins when no line came for a while, unless enough of it is known before: a stream of short moves
+/// then begins as one.
+constexpr BusTime kLiveGather = std::chrono::milliseconds{100};
+
+/// planned_pose() knows so much of the past.
+constexpr PathTime kPlannedMemory = std::chrono::seconds{1};
+/// A run waits at most so long for the journal to have its beginning on the disk.
+constexpr BusTime kJournalPatience = std::chrono::milliseconds{500};
+
+}  // namespace
+
+Runner::Runner(const MachineDescription& machine, const Kinematics& kinematics, StreamGroup& group,
+               PathRate& rate, Heat& heat, EventQueue& events, journal::Queue& journal)
+    : machine_(machine),
+      group_(group),
+      rate_(rate),
+      heat_(heat),
+      events_out_(events),
+      journal_(journal),
+      pipeline_(machine, kinematics),
+      feed_(group) {}
+
+void Runner::begin() {
+  active_ = true;
+  held_ = suspended_ = started_ = finished_ = stop_asked_ = barrier_waits_ = live_ = false;
+  wait_ = Wait::kNone;
+  waits_done_ = waits_replayed_ = 0;
+  events_.clear();
+  feed_.reset();
+  last_line_ = 0;
+  doing_ = say("moving");
+}
+
+void Runner::start_job(std::unique_ptr<ByteSource> source, const Pose& start,
+                       const gcode::WorkOffsets& offsets) {
+  source_ = std::move(source);
+  pipeline_.start_job(*source_, start, offsets);
+  start_ = start;
+  noted_ = true;
+  begin();
+}
+
+void Runner::start_commands(std::vector<canonical::Line> commands, const Pose& start) {
+  pipeline_.start_commands(std::move(commands), start);
+  start_ = start;
+  noted_ = false;
+  begin();
+}
+
+void Runner::start_live(const Pose& start) {
+  pipeline_.start_live(start);
+  start_ = start;
+  noted_ = false;
+  begin();
+  live_ = true;
+  doing_ = say("waiting for lines");
+}
+
+void Runner::add(BusTime now, const canonical::Line& line) {
+  pipeline_.add(line);
+  last_added_ = now;
+}
+
+/// The pipeline has nothing more to give out before the next live command comes.
+void Runner::settle_when_late(BusTime now) {
+  if (!feed_.streaming()) {
+    if (pipeline_.live_idle()) doing_ = say("waiting for lines");
+    if (now - last_added_ >= kLiveGather) pipeline_.settle_live();
+    return;
+  }
+  if (finished_ || !started_) {
+    if (!finished_ && now - last_added_ >= kLiveGather) pipeline_.settle_live();
+    return;
+  }
+  const double left = live_left_s(now);
+  if (left >= kLiveReserve_s || (left >= kLiveLast_s && now - last_added_ < kLiveQuiet)) return;
+  pipeline_.settle_live();
+  ++counters_.live_stops;
+}
+
+/// Motion known and not yet carried out.
+double Runner::live_left_s(BusTime now) const {
+  return group_.sampler().end_s() - std::max(0.0, to_seconds(rate_.tau(now) - group_.run_start()));
+}
+
+void Runner::set_override(double ratio) {
+  override_ = ratio;
+  const double scale = std::max(1.0, ratio);
+  if (scale == pipeline_.feed_scale()) return;
+  pipeline_.set_feed_scale(scale);
+  if (noted_ && active_) journal_.push(journal::Scale{{pipeline_.moves_taken(), scale}});
+}
+
+void Runner::hold(BusTime now) {
+  held_ = true;
+  rate_.request(0, feed_.streaming() ? machine_.stop.hold_ramp : kRampAtRest, now);
+}
+
+void Runner::resume(BusTime now) {
+  held_ = false;
+  if (wait_ == Wait::kPause) end_wait();
+  last_rate_change_ = now - kRaisePeriod;
+}
+
+void Runner::drop() {
+  active_ = suspended_ = false;
+  feed_.reset();
+  events_.clear();
+  source_.reset();
+  doing_ = {};
+}
+
+double Runner::done_s(BusTime now) const {
+  return feed_.done_s(rate_.tau(now));
+}
+
+std::optional<PlannedPose> Runner::planned_pose(PathTime tau) const {
+  PlannedPose planned;
+  const auto point = feed_.pose(tau, planned.frame, planned.line);
+  if (!point) return std::nullopt;
+  planned.pose = point->x;
+  return planned;
+}
+
+std::uint32_t Runner::line(BusTime now) const {
+  const std::uint32_t line = feed_.streaming() ? group_.line_at(rate_.tau(now)) : 0;
+  return line != 0 ? line : last_line_;
+}
+
+Runner::Outcome Runner::fail(std::uint32_t line, Sentence words, bool stream) {
+  failure_ = {line, std::move(words), stream};
+  return Outcome::kFailed;
+}
+
+Runner::Outcome Runner::on_time(BusTime now, int budget) {
+  if (!active_) return Outcome::kDone;
+  const BusTime elapsed = std::max(BusTime{0}, now - last_time_);
+  last_time_ = now;
+  if (suspended_) return Outcome::kBusy;
+  if (wait_ == Wait::kDwell && !held_) dwell_left_ -= std::min(dwell_left_, elapsed);
+  execute_due(now);
+  if (stop_asked_) return Outcome::kEmergencyStop;
+  feed_.forget_before(group_.confirmed(rate_.tau(now)) - kPlannedMemory);
+  Outcome outcome = Outcome::kBusy;
+  if (std::exchange(barrier_waits_, false)) outcome = barrier(now);
+  if (outcome == Outcome::kBusy) outcome = stream(now);
+  while (outcome == Outcome::kBusy && budget > 0) {
+    if (feed_.pending()) break;
+    if (wait_ != Wait::kNone && !wait_is_over(now)) break;
+    if (stop_asked_) return Outcome::kEmergencyStop;
+    if (!finished_ && !feed_.wants_phase(rate_.tau(now))) break;
+    const JobPipeline::Step step = pipeline_.next(budget);
+    if (step == JobPipeline::Step::kMore) break;
+    if (step == JobPipeline::Step::kStarved) {
+      settle_when_late(now);
+      break;
+    }
+    outcome = take(now, step);
+  }
+  if (outcome == Outcome::kBusy) control_rate(now);
+  if (outcome == Outcome::kBusy && wait_ == Wait::kPause) return Outcome::kPaused;
+  return outcome;
+}
+
+/// What was planned goes into the group as far as it wants.
+Runner::Outcome Runner::stream(BusTime now) {
+  const auto pumped = feed_.pump(rate_.tau(now));
+  if (const auto run = feed_.take_begun()) {
+    started_ = false;
+    run_noted_ = now;
+    if (noted_)
+      journal_.push(journal::RunBegin{run->start, run->from, run->ramp_s, feed_.extruder_shift_mm()});
+  }
+  return pumped ? Outcome::kBusy : fail(pumped.error().line, to_string(pumped.error()), true);
+}
+
+// Interruption
+// -------------------------------------------------------------------------------------------------
+
+void Runner::suspend(PathTime tau) {
+  if (!active_ || suspended_) return;
+  suspended_ = true;
+  feed_.suspend(tau);
+  // The run was over but for the waiting.
+  const bool over = wait_ == Wait::kRunDone || wait_ == Wait::kRest;
+  if (over && !feed_.pending()) wait_ = Wait::kNone;
+  if (noted_) journal_.push(journal::Interrupted{feed_.place(tau), feed_.extruder_shift_mm()});
+}
+
+void Runner::go_on(BusTime now) {
+  suspended_ = held_ = false;
+  if (wait_ == Wait::kPause) end_wait();
+  feed_.go_on(to_seconds(BusTime{machine_.stop.hold_ramp}));
+  heating_.restart();
+  last_time_ = now;
+}
+
+PlannedPose Runner::rest_pose() const {
+  PlannedPose rest{start_, Frame::kMachine, 0};
+  static_cast<void>(feed_.rest_pose(rest.pose, rest.frame, rest.line));
+  return rest;
+}
+
+void Runner::shift_extruder(double by_mm) {
+  feed_.shift_extruder(by_mm);
+  start_[kE] += by_mm;
+}
+
+void Runner::start_replay(std::unique_ptr<ByteSource> source, const journal::State& state, PathTime tau) {
+  start_job(std::move(source), state.job->start, state.job->offsets);
+  pipeline_.replay_feed_scales(state.scales);
+  waits_replayed_ = state.waits_done;
+  doing_ = say("reading the job up to where it was");
+  if (state.run) {
+    const journal::RunBegin& run = *state.run;
+    feed_.replay_to(RunFeed::Run{run.start, run.from, run.ramp_s}, tau);
+    feed_.shift_extruder(run.extruder_shift_mm);
+  } else {
+    feed_.replay_to(state.interrupted ? state.interrupted->place : JobPlace{});
+    feed_.shift_extruder(state.interrupted ? state.interrupted->extruder_shift_mm : 0);
+  }
+}
+
+Runner::Outcome Runner::replay(int budget) {
+  using Step = JobPipeline::Step;
+  while (feed_.replaying()) {
+    switch (pipeline_.next(budget)) {
+      case Step::kMore:
+        return Outcome::kBusy;
+      case Step::kPhase:
+        finished_ = pipeline_.phase().last;
+        last_line_ = pipeline_.phase().line;
+        feed_.add(pipeline_.phase());
+        break;
+      case Step::kBarrier:
+        last_line_ = pipeline_.command().line;
+        if (!waits(pipeline_.command())) break;
+        if (waits_done_ < waits_replayed_) {
+          ++waits_done_;
+          break;
+        }
+        barrier_waits_ = true;
+        feed_.end_replay();
+        break;
+      case Step::kEnd:
+        feed_.end_replay();
+        break;
+      case Step::kProblem:
+        return fail(pipeline_.problem().line, pipeline_.problem().words, false);
+      case Step::kEvent:  // what it set is in the journal
+      case Step::kRunEnd:
+      case Step::kStarved:
+        break;
+    }
+  }
+  suspended_ = true;
+  doing_ = say("interrupted");
+  return Outcome::kDone;
+}
+
+Runner::Outcome Runner::take(BusTime now, JobPipeline::Step step) {
+  using Step = JobPipeline::Step;
+  switch (step) {
+    case Step::kPhase:
+      finished_ = pipeline_.phase().last;
+      last_line_ = pipeline_.phase().line;
+      feed_.add(pipeline_.phase());
+      return stream(now);
+    case Step::kEvent:
+      events_.push_back({feed_.added(), pipeline_.command()});
+      execute_due(now);
+      return stop_asked_ ? Outcome::kEmergencyStop : Outcome::kBusy;
+    case Step::kRunEnd:
+      finished_ = false;
+      if (feed_.streaming()) wait_ = Wait::kRunDone;
+      return Outcome::kBusy;
+    case Step::kBarrier:
+      return barrier(now);
+    case Step::kEnd:
+      return Outcome::kDone;
+    case Step::kProblem:
+      return fail(pipeline_.problem().line, pipeline_.problem().words, false);
+    case Step::kMore:
+    case Step::kStarved:
+      break;
+  }
+  return Outcome::kBusy;
+}
+
+/// Path time runs while a run's records are in the nodes in time, and no faster than bus and override allow.
+void Runner::control_rate(BusTime now) {
+  if (!feed_.streaming() || held_ || rate_.stop_latched()) return;
+  const PathTime tau = rate_.tau(now);
+  if (!started_) {
+    if (!group_.primed(tau)) return;
+    // Another gateway must find in the journal what path time means from here on.
+    if (noted_ && !journal_.all_stored() && now - run_noted_ < kJournalPatience) return;
+    started_ = true;
+    last_rate_change_ = now;
+    const double allowed = group_.allowed_rate(tau);
+    if (allowed < std::min(override_, 1.0)) ++counters_.bus_slowdowns;
+    rate_.request(std::min(override_, allowed), kRampAtRest, now);
+    return;
+  }
+  const double allowed = group_.allowed_rate(tau);
+  const double wanted = std::min({override_, allowed, 1.0});
+  const double present = rate_.target();
+  const bool lower = wanted < present - kRateStep || (wanted <= 0 && present > 0);
+  const bool raise = wanted > present && now - last_rate_change_ >= kRaisePeriod;
+  if (!lower && !raise) return;
+  if (lower && allowed < override_) {
+    if (allowed > 0)
+      ++counters_.bus_slowdowns;
+    else
+      ++counters_.starvation_holds;
+  }
+  // After starvation the queues fill up first.
+  if (raise && present <= 0 && !group_.primed(tau)) return;
+  last_rate_change_ = now;
+  rate_.request(wanted, machine_.stop.hold_ramp, now);
+}
+
+}  // namespace kinebus

@@ -1,0 +1,158 @@
+#pragma once
+// Carries a job or a single move out: takes the pipeline's steps, streams motion, executes what stands
+// between runs, and says at which rate path time may run.
+
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gateway/jobs/job_pipeline.hpp"
+#include "gateway/jobs/journal/journal_queue.hpp"
+#include "gateway/jobs/journal/journal_state.hpp"
+#include "gateway/run/heat.hpp"
+#include "gateway/run/planned_pose.hpp"
+#include "gateway/run/run_feed.hpp"
+#include "gateway/sentence.hpp"
+#include "gateway/status/event_queue.hpp"
+#include "gateway/stream/path_rate.hpp"
+#include "gateway/stream/stream_group.hpp"
+
+namespace kinebus {
+
+class Runner {
+ public:
+  enum class Outcome : std::uint8_t { kBusy, kPaused, kDone, kFailed, kEmergencyStop };
+  struct Failure {
+    std::uint32_t line = 0;
+    Sentence words;
+    bool stream = false;  ///< between gateway and nodes, not in the job
+  };
+  struct Counters {
+    std::uint32_t bus_slowdowns = 0, starvation_holds = 0;
+    std::uint32_t live_stops = 0;  ///< planned stops in motion, because the next line had not come yet
+  };
+
+  Runner(const MachineDescription& machine, const Kinematics& kinematics, StreamGroup& group, PathRate& rate,
+         Heat& heat, EventQueue& events, journal::Queue& journal);
+
+  /// A job's text from its beginning, the machine standing at `start` (Frame::kMachine).
+  void start_job(std::unique_ptr<ByteSource> source, const Pose& start, const gcode::WorkOffsets& offsets);
+  /// Motion by hand.
+  void start_commands(std::vector<canonical::Line> commands, const Pose& start);
+  /// Commands that come over time, by add(). When they come too slowly motion ends in a planned stop and goes
+  /// on with the next ones. Over after end_live(), when all are carried out.
+  void start_live(const Pose& start);
+  void add(BusTime now, const canonical::Line& line);
+  void end_live() { pipeline_.end_live(); }
+  bool live() const { return active_ && live_; }
+  std::size_t live_waiting() const { return pipeline_.waiting(); }  ///< commands not yet planned
+  /// All that was added is carried out, at rest.
+  bool live_idle() const {
+    return live() && !feed_.streaming() && !feed_.pending() && wait_ == Wait::kNone && pipeline_.live_idle();
+  }
+  bool active() const { return active_; }
+
+  // Interruption: the stream is lost, the job is not.
+  /// What the job has left from path time `tau` on is kept; nothing happens until go_on().
+  void suspend(PathTime tau);
+  bool suspended() const { return suspended_; }
+  /// From rest, with the tool at rest_pose().
+  void go_on(BusTime now);
+  /// Where the tool has to stand for go_on(), and the line of the job there.
+  PlannedPose rest_pose() const;
+  /// The filament stands this much further than planned, mm, and is right so.
+  void shift_extruder(double by_mm);
+  double extruder_shift_mm() const { return feed_.extruder_shift_mm(); }
+  PathTime run_start() const { return feed_.run_start(); }
+  std::unique_ptr<ByteSource> take_source() { return std::move(source_); }
+  JobPlace place(PathTime tau) const { return feed_.place(tau); }
+
+  /// Reads a job again, up to where `state` says that it was, and suspends it there. `tau`: where the nodes'
+  /// path time stands, when `state` knows a run. Then replay() until it is no longer busy.
+  void start_replay(std::unique_ptr<ByteSource> source, const journal::State& state, PathTime tau);
+  /// Worth at most about `budget` lines. kDone: suspended(); kFailed: failure().
+  Outcome replay(int budget);
+
+  /// Plans at most about `budget` lines ahead, executes what is due.
+  Outcome on_time(BusTime now, int budget);
+  const Failure& failure() const { return failure_; }
+
+  /// Feed hold: the rate goes to 0 and the waits between runs stand still.
+  void hold(BusTime now);
+  /// Goes on after hold() and after a pause of the job.
+  void resume(BusTime now);
+  /// Above 1: what is planned from now on is planned faster; at most 1: the rate of path time.
+  void set_override(double ratio);
+  /// The job is over (done, cancelled, lost); what is queued is the caller's to clear.
+  void drop();
+
+  /// No motion is queued or under way: a hold or a cancel needs no ramp.
+  bool between_runs() const { return !feed_.streaming(); }
+  /// Path time of motion carried out and in all, s: what progress is measured by.
+  double done_s(BusTime now) const;
+  std::uint32_t line(BusTime now) const;
+  std::uint64_t bytes() const { return pipeline_.bytes(); }
+  /// The exact planned pose at path time `tau`, by the phases of the last second and all that are queued.
+  std::optional<PlannedPose> planned_pose(PathTime tau) const;
+  const Sentence& doing() const { return doing_; }
+  const Counters& counters() const { return counters_; }
+
+ private:
+  /// At rest no joint feels a ramp: path time is let go and caught at once.
+  static constexpr std::chrono::milliseconds kRampAtRest{2};
+  enum class Wait : std::uint8_t { kNone, kRunDone, kRest, kDwell, kHeating, kSpindle, kPause };
+  struct Event {
+    std::uint64_t phase;  ///< due when so many phases of the job are done
+    canonical::Line line;
+  };
+
+  void begin();
+  Outcome stream(BusTime now);
+  static bool waits(const canonical::Line& line);
+  void end_wait();
+  void control_rate(BusTime now);
+  void settle_when_late(BusTime now);
+  double live_left_s(BusTime now) const;
+  bool wait_is_over(BusTime now);
+  void execute_due(BusTime now);
+  void execute(BusTime now, const canonical::Line& line);
+  Outcome take(BusTime now, JobPipeline::Step step);
+  Outcome barrier(BusTime now);
+  Outcome fail(std::uint32_t line, Sentence words, bool stream);
+  void begin_heating(const canonical::Thermal& thermal);
+
+  const MachineDescription& machine_;
+  StreamGroup& group_;
+  PathRate& rate_;
+  Heat& heat_;
+  EventQueue& events_out_;
+  journal::Queue& journal_;
+  JobPipeline pipeline_;
+  RunFeed feed_;
+  std::unique_ptr<ByteSource> source_;
+  Pose start_{};
+
+  bool active_ = false, held_ = false, suspended_ = false;
+  bool live_ = false;           ///< commands come over time
+  bool noted_ = false;          ///< in the journal: a job, not a motion by hand
+  bool started_ = false;        ///< path time was let go for this run
+  bool finished_ = false;       ///< the run's last phase came from the pipeline
+  bool barrier_waits_ = false;  ///< the pipeline's command is to be carried out first
+  std::uint64_t waits_done_ = 0, waits_replayed_ = 0;
+  bool stop_asked_ = false;
+  Wait wait_ = Wait::kNone;
+  std::deque<Event> events_;
+  HeatWait heating_;
+  BusTime last_time_{0}, dwell_left_{0}, last_rate_change_{0}, run_noted_{0}, last_added_{0};
+  double override_ = 1;
+  std::uint32_t last_line_ = 0;
+  Sentence doing_;
+  Failure failure_;
+  Counters counters_;
+};
+
+}  // namespace kinebus

@@ -1,0 +1,115 @@
+// What a job commands besides motion: heaters, spindle, messages, and the waits for them, for time and for
+// the operator. Commands take effect when path time has passed the phase before them.
+
+#include "gateway/run/runner.hpp"
+
+namespace kinebus {
+bool Runner::wait_is_over(BusTime now) {
+  switch (wait_) {
+    case Wait::kNone:
+      return true;
+    case Wait::kRunDone:
+      if (!group_.run_done(rate_.tau(now))) return false;
+      feed_.end_run();
+      execute_due(now);
+      rate_.request(0, kRampAtRest, now, false);
+      wait_ = Wait::kRest;
+      return wait_is_over(now);
+    case Wait::kRest:
+      // A bus that is blocked keeps the command from the nodes: their path time goes on.
+      if (!rate_.at_rest(now) || !rate_.all_sent()) return false;
+      break;
+    case Wait::kDwell:
+      if (dwell_left_ > BusTime{0}) return false;
+      break;
+    case Wait::kHeating:
+      if (held_ || !heating_.over(heat_, now)) return false;
+      break;
+    case Wait::kSpindle:
+      if (held_ || !heat_.spindle_at_speed()) return false;
+      break;
+    case Wait::kPause:
+      return false;
+  }
+  end_wait();
+  return true;
+}
+
+void Runner::end_wait() {
+  const bool of_job =
+      wait_ == Wait::kDwell || wait_ == Wait::kHeating || wait_ == Wait::kSpindle || wait_ == Wait::kPause;
+  wait_ = Wait::kNone;
+  doing_ = say("moving");
+  if (!of_job) return;
+  ++waits_done_;
+  if (noted_) journal_.push(journal::WaitsDone{waits_done_});
+}
+
+void Runner::execute_due(BusTime now) {
+  if (events_.empty()) return;
+  const std::uint64_t done = feed_.place(rate_.tau(now)).phase;
+  while (!events_.empty() && (!feed_.streaming() || events_.front().phase <= done)) {
+    execute(now, events_.front().line);
+    events_.pop_front();
+  }
+}
+
+void Runner::execute(BusTime now, const canonical::Line& line) {
+  if (const auto* thermal = std::get_if<canonical::Thermal>(&line.command)) {
+    heat_.execute(*thermal);
+  } else if (const auto* spindle = std::get_if<canonical::Spindle>(&line.command)) {
+    heat_.execute(*spindle);
+  } else if (const auto* message = std::get_if<canonical::Message>(&line.command)) {
+    events_out_.message(now, Sentence::verbatim(message->text), line.line);
+  } else if (std::holds_alternative<canonical::EmergencyStop>(line.command)) {
+    stop_asked_ = true;
+  }
+}
+
+/// Whether the machine waits there; the same for every reading of the job.
+bool Runner::waits(const canonical::Line& line) {
+  if (const auto* thermal = std::get_if<canonical::Thermal>(&line.command))
+    return thermal->value > 0 || thermal->wait_cooling;
+  if (const auto* spindle = std::get_if<canonical::Spindle>(&line.command)) return spindle->rpm != 0;
+  return std::holds_alternative<canonical::Dwell>(line.command) ||
+         std::holds_alternative<canonical::Pause>(line.command);
+}
+
+Runner::Outcome Runner::barrier(BusTime now) {
+  const canonical::Line& line = pipeline_.command();
+  last_line_ = line.line;
+  if (const auto* dwell = std::get_if<canonical::Dwell>(&line.command)) {
+    dwell_left_ = BusTime{static_cast<std::int64_t>(dwell->seconds * 1e9)};
+    wait_ = Wait::kDwell;
+    doing_ = say("dwelling");
+  } else if (const auto* thermal = std::get_if<canonical::Thermal>(&line.command)) {
+    execute(now, line);
+    begin_heating(*thermal);
+  } else if (const auto* spindle = std::get_if<canonical::Spindle>(&line.command)) {
+    execute(now, line);
+    if (spindle->rpm != 0) {
+      wait_ = Wait::kSpindle;
+      doing_ = say("waiting for the spindle");
+    }
+  } else if (std::holds_alternative<canonical::Pause>(line.command)) {
+    wait_ = Wait::kPause;
+    doing_ = say("paused by the job");
+    events_out_.message(now, say("the job pauses here: resume to go on"), line.line);
+  } else if (std::holds_alternative<canonical::MotorsOff>(line.command)) {
+    // A platform on vertical rails falls when its drives let go: drives hold, with hold current, until the
+    // operator switches them off.
+    events_out_.message(now, say("M18/M84 in a job: the motors go on holding"), line.line);
+  }
+  return Outcome::kBusy;
+}
+
+void Runner::begin_heating(const canonical::Thermal& thermal) {
+  const bool hotend = thermal.what == canonical::Thermal::What::kHotend;
+  if (thermal.value <= 0 && !thermal.wait_cooling) return;
+  heating_.begin(thermal, hotend ? machine_.thermal.hotend : machine_.thermal.bed);
+  wait_ = Wait::kHeating;
+  const std::string celsius = printed("%.0f C", thermal.value);
+  doing_ = hotend ? say("waiting for the hotend at %1", celsius) : say("waiting for the bed at %1", celsius);
+}
+
+}  // namespace kinebus

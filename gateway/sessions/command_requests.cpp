@@ -1,0 +1,70 @@
+#include "gateway/sessions/command_requests.hpp"
+
+#include "gateway/sessions/messages.hpp"
+
+namespace kinebus {
+namespace {
+
+using joblink::ClientMessage;
+
+struct Row {
+  joblink::Command request;  ///< the request's number in ClientMessage
+  CommandKind kind;
+  Command (*made)(const ClientMessage& request);  ///< nullptr: it has to wait for something first
+};
+
+template <typename C>
+constexpr Row plain(joblink::Command request) {
+  return {request, command::kind<C>, [](const ClientMessage&) -> Command { return C{}; }};
+}
+
+const Row kTable[] = {
+    {joblink::COMMAND_START_JOB, command::kind<command::Run>, nullptr},
+    plain<command::Hold>(joblink::COMMAND_HOLD),
+    plain<command::Resume>(joblink::COMMAND_RESUME),
+    plain<command::Cancel>(joblink::COMMAND_CANCEL),
+    plain<command::Stop>(joblink::COMMAND_STOP),
+    plain<command::Clear>(joblink::COMMAND_CLEAR),
+    plain<command::BringUp>(joblink::COMMAND_BRING_UP),
+    plain<command::Home>(joblink::COMMAND_HOME),
+    plain<command::GoToReference>(joblink::COMMAND_REFERENCE),
+    {joblink::COMMAND_JOG, command::kind<command::Jog>,
+     [](const ClientMessage& m) -> Command {
+       return command::Jog{pose_of(m.jog().delta()), m.jog().speed_per_s()};
+     }},
+    {joblink::COMMAND_SET_OVERRIDE, command::kind<command::SetFeedOverride>,
+     [](const ClientMessage& m) -> Command { return command::SetFeedOverride{m.set_override().ratio()}; }},
+    {joblink::COMMAND_SET_TEMPERATURE, command::kind<command::SetTemperature>,
+     [](const ClientMessage& m) -> Command {
+       return command::SetTemperature{m.set_temperature().bed(), m.set_temperature().celsius()};
+     }},
+    {joblink::COMMAND_SET_FAN, command::kind<command::SetFan>,
+     [](const ClientMessage& m) -> Command { return command::SetFan{m.set_fan().ratio()}; }},
+    plain<command::MotorsOff>(joblink::COMMAND_MOTORS_OFF),
+    {joblink::COMMAND_SET_WORK_OFFSET, command::kind<command::SetWorkOffset>,
+     [](const ClientMessage& m) -> Command {
+       const joblink::SetWorkOffset& set = m.set_work_offset();
+       return command::SetWorkOffset{set.system(), pose_of(set.offset()), set.here()};
+     }},
+};
+
+}  // namespace
+
+std::optional<Command> command_of(const ClientMessage& request) {
+  for (const Row& row : kTable)
+    if (static_cast<int>(row.request) == static_cast<int>(request.request_case()) && row.made != nullptr)
+      return row.made(request);
+  return std::nullopt;
+}
+
+void add_commands(joblink::Status& status, const Gateway& gateway) {
+  for (const Row& row : kTable) {
+    joblink::CommandStatus& command = *status.add_commands();
+    command.set_command(row.request);
+    const auto may = gateway.may(row.kind);
+    command.set_allowed(may.has_value());
+    if (!may) *command.mutable_why_not() = to_message(may.error().words);
+  }
+}
+
+}  // namespace kinebus

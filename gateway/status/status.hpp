@@ -1,0 +1,94 @@
+#pragma once
+// A snapshot of the whole machine, for displays and for answers to queries. Plain values, made on demand.
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gateway/kinematics/kinematics.hpp"
+#include "gateway/sentence.hpp"
+#include "gateway/status/state.hpp"
+#include "protocol/time.hpp"
+
+namespace kinebus {
+
+struct NodeStatus {
+  std::uint8_t id = 0;
+  bool present = false;  ///< heard within the heartbeat time
+  std::uint8_t nmt_state =
+      0;  ///< as in the heartbeat: 0 boot-up, 4 stopped, 5 operational, 127 pre-operational
+  std::array<std::uint16_t, 2> statusword{};  ///< CiA 402, axis A and B
+  std::uint32_t inputs = 0;                   ///< 60FDh
+  /// Commanded less measured by the axis' encoder, mm or rad; empty without one.
+  std::array<std::optional<double>, 2> off_course{};
+  bool synchronised = false;
+  int sync_error_us = 0;     ///< bound of its clock estimate's error
+  int queue_records = 0;     ///< records in its queue
+  int queue_capacity = 120;  ///< room for records when it is empty
+  bool stopped = false;      ///< its stop latch
+  std::uint64_t records_sent = 0;
+  std::uint32_t emergencies = 0;  ///< EMCY frames heard from it
+};
+
+struct HeaterStatus {
+  double actual_celsius = 0;
+  double target_celsius = 0;  ///< 0: off
+};
+struct SpindleStatus {
+  double actual_rpm = 0, target_rpm = 0;  ///< > 0 clockwise
+  /// Under load it is a little slow.
+  bool at_speed() const {
+    constexpr double kWindow = 0.02;
+    return std::abs(actual_rpm - target_rpm) <= kWindow * std::abs(target_rpm);
+  }
+};
+
+struct MachineCounters {
+  std::uint64_t frames_sent = 0, frames_received = 0, segments_sent = 0;
+  std::uint32_t malformed_frames = 0;  ///< frames that no part could read
+  std::uint32_t foreign_frames = 0;    ///< from a second gateway or an unknown node
+  std::uint32_t sequence_errors = 0, underruns = 0, checkpoint_errors = 0;
+  std::uint32_t sdo_aborts = 0, sdo_timeouts = 0;
+  std::uint32_t bus_slowdowns = 0;     ///< times the path was slowed to keep within the bus budget
+  std::uint32_t starvation_holds = 0;  ///< times planning did not keep up and the path was held
+};
+
+struct MachineStatus {
+  MachineState state = MachineState::kOff;
+  Sentence doing;  ///< plain words: what the machine does now
+  BusTime now{0};
+  bool positions_known = false;
+  Pose pose{};           ///< tool relative to the part (Frame::kPart), mm and rad
+  Pose machine_pose{};   ///< Frame::kMachine
+  JointVector joints{};  ///< mm or rad
+  /// Commanded less measured by the joint's encoder, mm or rad; empty without one.
+  std::array<std::optional<double>, kMaxJoints> off_course{};
+  int joint_count = 0;
+  double path_time_s = 0;  ///< tau
+  double rate = 0;         ///< d tau / dt now
+  double feed_override = 1;
+
+  std::string job;           ///< name; empty: none
+  bool interrupted = false;  ///< `job` waits for resume or cancel, wherever the machine is
+  std::uint32_t line = 0;    ///< in motion now
+  double progress = 0;       ///< 0..1, by path time
+  double elapsed_s = 0;
+  double remaining_s = 0;  ///< estimate at the present override
+
+  std::uint32_t work_system = 1;  ///< of lines from outside: 1 (G54) .. 9 (G59.3)
+  Pose work_offset{};             ///< of it: work zero in table coordinates, mm and rad
+
+  HeaterStatus hotend, bed;
+  double fan = 0;  ///< 0..1
+  SpindleStatus spindle;
+
+  double bus_load = 0;  ///< fraction of 1 Mbit/s over the last second
+  double bus_load_peak = 0;
+  std::vector<NodeStatus> nodes;
+  MachineCounters counters;
+};
+
+}  // namespace kinebus

@@ -1,0 +1,143 @@
+#include "gateway/stream/path_rate.hpp"
+
+#include <gtest/gtest.h>
+
+namespace kinebus {
+namespace {
+
+using namespace std::chrono_literals;
+
+RateCommand sent(PathRate& rate, BusTime now) {
+  const auto frame = rate.next_frame(now);
+  EXPECT_TRUE(frame);
+  const auto command = decode_rate_command(frame.value_or(CanFrame{}), now);
+  EXPECT_TRUE(command);
+  return command.value_or(RateCommand{});
+}
+
+TEST(PathRate, NodesThatHearTheCommandsHaveTheSamePathTime) {
+  PathRate rate;
+  PathClock node(
+      {.rewind = 2s, .most_step = PathTime::max()});  // remembers as long, to be compared afterwards
+  const auto relay = [&](BusTime now) { node.apply(sent(rate, now), now); };
+  rate.request(1, 100ms, 1s);
+  relay(1s + 700us);
+  rate.request(0.3, 200ms, 3s);
+  relay(3s + 100us);
+  rate.stop(4s);
+  relay(4s + 300us);
+  for (BusTime t = 1s; t < 6s; t += 7ms) ASSERT_EQ(rate.tau(t), node.tau(t));
+  EXPECT_TRUE(rate.at_rest(5s));
+  EXPECT_TRUE(rate.stop_latched());
+}
+
+TEST(PathRate, AskingForTheSameRateSendsNothing) {
+  PathRate rate;
+  rate.request(0, 100ms, 1s);
+  EXPECT_FALSE(rate.next_frame(1s));
+  rate.request(1, 100ms, 1s);
+  EXPECT_TRUE(rate.next_frame(1s));
+  rate.request(1, 100ms, 2s);
+  EXPECT_FALSE(rate.next_frame(1s));
+}
+
+TEST(PathRate, LatchedStopIgnoresRatesUntilCleared) {
+  PathRate rate;
+  rate.request(1, 2ms, 1s);
+  rate.stop(2s);
+  rate.next_frame(1s);
+  rate.next_frame(1s);
+  rate.request(1, 2ms, 3s);
+  EXPECT_FALSE(rate.next_frame(1s));
+  rate.clear(3s);
+  EXPECT_EQ(sent(rate, 3s).kind, RateCommand::Kind::kClear);
+  rate.on_time(3s + 10ms);
+  rate.request(1, 2ms, 3s + 10ms);
+  EXPECT_TRUE(rate.next_frame(1s));
+  EXPECT_FALSE(rate.at_rest(4s));
+}
+
+TEST(PathRate, StopOvertakesARateThatIsStillAhead) {
+  PathRate rate;
+  rate.request(1, 2ms, 1s);
+  const BusTime first = sent(rate, 1s).start;
+  rate.stop(1s + 1ms);
+  const RateCommand stop = sent(rate, 1s + 1ms);
+  EXPECT_EQ(stop.kind, RateCommand::Kind::kStop);
+  EXPECT_GE(stop.start, BusTime{1s + 1ms});
+  EXPECT_LE(stop.start, first + 5ms);
+}
+
+TEST(PathRate, NodesStopRequestStopsTheGatewaysClockToo) {
+  PathRate rate;
+  rate.request(1, 2ms, 1s);
+  rate.on_stop_request({StopReason::kStarved, 0, 2s}, 2s);
+  EXPECT_TRUE(rate.at_rest(2s + 150ms));
+  EXPECT_TRUE(rate.stop_latched());
+}
+
+TEST(PathRate, EveryCommandGoesOutEightTimesBeforeItsStart) {
+  PathRate rate;
+  rate.request(1, 2ms, 1s);
+  rate.next_frame(1s);
+  while (rate.next_repeat(1500ms)) {
+  }
+  rate.request(0, 200ms, 2s);
+  const RateCommand hold = sent(rate, 2s);
+  int copies = 1;
+  for (BusTime now = 2s; now < hold.start; now += 100us)
+    if (const auto frame = rate.next_repeat(now)) {
+      EXPECT_EQ(decode_rate_command(*frame, now), hold);
+      ++copies;
+    }
+  EXPECT_EQ(copies, 8);
+  EXPECT_FALSE(rate.next_repeat(3s));
+}
+
+TEST(PathRate, AMotionFromRestIsNamedFartherAheadThanAHold) {
+  PathRate rate;
+  rate.request(1, 2ms, 1s);
+  EXPECT_EQ(sent(rate, 1s).start, 1s + 50ms);
+  rate.request(0, 200ms, 2s);
+  EXPECT_EQ(sent(rate, 2s).start, 2s + 5ms);
+}
+
+TEST(PathRate, ACommandIsSentWhenItWasOnTheBus) {
+  PathRate rate;
+  EXPECT_TRUE(rate.all_sent());
+  rate.request(1, 2ms, 1s);
+  const auto frame = rate.next_frame(1s);
+  ASSERT_TRUE(frame);
+  EXPECT_FALSE(rate.all_sent()) << "the bus may be blocked";
+  rate.on_frame_sent(1s + 1ms, *frame);
+  EXPECT_TRUE(rate.all_sent());
+}
+
+TEST(PathRate, AStopThatWaitedForTheBusNamesAStartThatLiesAhead) {
+  PathRate rate;
+  rate.request(1, 2ms, 1s);
+  rate.next_frame(1s);
+  rate.stop(2s);
+  const RateCommand stop = sent(rate, 2s + 90ms);
+  EXPECT_EQ(stop.kind, RateCommand::Kind::kStop);
+  EXPECT_EQ(stop.start, 2s + 95ms);
+  while (const auto frame = rate.next_repeat(2s + 95ms)) {
+    const auto copy = decode_rate_command(*frame, 2s);
+    ASSERT_TRUE(copy);
+    EXPECT_NE(copy->start, 2s + 5ms);
+  }
+}
+
+TEST(PathRate, FramesThatGoOutTooLateAreCounted) {
+  PathRate rate;
+  rate.request(1, 2ms, 1s);
+  const auto frame = rate.next_frame(1s);
+  ASSERT_TRUE(frame);
+  rate.on_frame_sent(1s + 1ms, *frame);
+  EXPECT_EQ(rate.counters().late, 0u);
+  rate.on_frame_sent(1s + 60ms, *frame);
+  EXPECT_EQ(rate.counters().late, 1u);
+}
+
+}  // namespace
+}  // namespace kinebus
