@@ -1,7 +1,7 @@
 #pragma once
 // The dual-stepper board: which pin of the STM32F405RG (LQFP64) goes where, and what the analogue parts make
 // of volts and amperes. This header is the contract for whoever lays out or wires a board, and for the
-// emulator. The README of node_firmware describes the parts around it.
+// emulator. The README beside it describes the parts around it.
 
 #include <array>
 #include <cstdint>
