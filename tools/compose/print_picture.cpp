@@ -6,15 +6,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <numbers>
 #include <set>
+#include <vector>
 
 #include "tools/compose/picture.hpp"
 #include "tools/compose/strands.hpp"
+#include "tools/drawing/document.hpp"
 
 namespace kinebus::compose {
 namespace {
+
+using drawing::Document;
+using drawing::Point;
 
 // Machine frame: X to the right and towards the eye, so that both ways of tilting (about X) show the table's
 // face.
@@ -31,7 +35,7 @@ constexpr double kTableThickness_mm = 5;
 
 struct Panel {
   double x = 0, width = 0, scale = 1, tip_x = 0, tip_y = 0;
-  std::array<double, 2> at(const Vector& m) const {
+  Point at(const Vector& m) const {
     return {tip_x + scale * kEyeRight.dot(m), tip_y - scale * kEyeUp.dot(m)};
   }
 };
@@ -71,67 +75,57 @@ Moment moment_in(const std::vector<Strand>& strands, int piece, double share) {
   return m;
 }
 
-std::string rgb(const std::array<double, 3>& colour, double light) {
-  std::array<int, 3> c{};
-  for (std::size_t i = 0; i < 3; ++i)
-    c[i] = static_cast<int>(std::lround(255 * std::clamp(colour[i] * light, 0.0, 1.0)));
-  return fmt::format("#{:02x}{:02x}{:02x}", c[0], c[1], c[2]);
-}
-
 /// Rounded to what is printed; never "-0.0".
 double positive_zero(double deg) {
   return std::round(deg * 10) / 10 + 0.0;
 }
 
-void path(std::string& out, const Panel& panel, const Moment& now, double radius, double z, bool closed,
-          const char* style) {
-  out += "<path d='";
+std::vector<Point> circle(const Panel& panel, const Moment& now, double radius, double z) {
+  std::vector<Point> points;
   for (int k = 0; k <= 96; ++k) {
     const double f = 2 * std::numbers::pi * k / 96;
-    const auto p = panel.at(now.machine({radius * std::cos(f), radius * std::sin(f), z}));
-    fmt::format_to(std::back_inserter(out), "{}{:.1f} {:.1f}", k == 0 ? "M" : "L", p[0], p[1]);
+    points.push_back(panel.at(now.machine({radius * std::cos(f), radius * std::sin(f), z})));
   }
-  fmt::format_to(std::back_inserter(out), "{}' {}/>\n", closed ? "Z" : "", style);
+  return points;
 }
 
-void draw_table(std::string& out, const Panel& panel, const Moment& now, double radius) {
+void draw_table(Document& document, const Panel& panel, const Moment& now, double radius) {
   for (int k = 8; k >= 1; --k)
-    path(out, panel, now, radius, -kTableThickness_mm * k / 8, true, "fill='#aeb7c0' stroke='#aeb7c0'");
-  path(out, panel, now, radius, 0, true, "fill='#eceff2' stroke='#96a1ab' stroke-width='1.2'");
+    document.polygon(circle(panel, now, radius, -kTableThickness_mm * k / 8),
+                     {.fill = "#aeb7c0", .stroke = "#aeb7c0"});
+  document.polygon(circle(panel, now, radius, 0), {.fill = "#eceff2", .stroke = "#96a1ab", .width = 1.2});
   for (int r = 10; r < radius - 1; r += 10)
-    path(out, panel, now, r, 0, false, "fill='none' stroke='#d3d9de' stroke-width='0.8'");
-  const auto middle = panel.at(now.machine({0, 0, 0})), x = panel.at(now.machine({radius, 0, 0})),
-             y = panel.at(now.machine({0, radius, 0}));
-  for (const auto& [to, colour] : {std::pair{x, "#c2554d"}, std::pair{y, "#4f8a5b"}})
-    out += fmt::format(
-        "<line x1='{:.1f}' y1='{:.1f}' x2='{:.1f}' y2='{:.1f}' stroke='{}' stroke-width='1.6'/>\n", middle[0],
-        middle[1], to[0], to[1], colour);
+    document.polyline(circle(panel, now, r, 0), {.stroke = "#d3d9de", .width = 0.8});
+  const Point middle = panel.at(now.machine({0, 0, 0}));
+  document.line(middle, panel.at(now.machine({radius, 0, 0})), {.stroke = "#c2554d", .width = 1.6});
+  document.line(middle, panel.at(now.machine({0, radius, 0})), {.stroke = "#4f8a5b", .width = 1.6});
 }
 
-void draw_nozzle(std::string& out, const Panel& panel, const Nozzle& nozzle) {
+void draw_nozzle(Document& document, const Panel& panel, const Nozzle& nozzle, const std::string& metal) {
   const double flat = std::abs(kTowardsEye.z());
-  const auto ring = [&](double height, const char* style) {
-    const auto p = panel.at({0, 0, height});
+  const auto ring = [&](double height, const drawing::Style& style) {
     const double r = panel.scale * nozzle.radius_at(height);
-    out += fmt::format("<ellipse cx='{:.1f}' cy='{:.1f}' rx='{:.2f}' ry='{:.2f}' {}/>\n", p[0], p[1], r,
-                       r * flat, style);
+    document.ellipse(panel.at({0, 0, height}), r, r * flat, style);
   };
-  out += "<g fill='url(#metal)'>\n";
-  for (int quarter = 0; quarter <= 4 * kSolidNozzle_mm; ++quarter) ring(quarter / 4.0, "");
-  out += "</g>\n";
-  ring(kSolidNozzle_mm, "fill='#a98450'");
-  out += "<g fill='#8c97a3' opacity='0.16'>\n";
-  for (int half = 2 * kSolidNozzle_mm; half <= 2 * kDrawnNozzle_mm; ++half) ring(half / 2.0, "");
-  out += "</g>\n";
-  ring(kDrawnNozzle_mm, "fill='none' stroke='#8c97a3' stroke-width='1' stroke-opacity='0.7'");
+  {
+    const auto solid = document.group({.fill = metal});
+    for (int quarter = 0; quarter <= 4 * kSolidNozzle_mm; ++quarter) ring(quarter / 4.0, {});
+  }
+  ring(kSolidNozzle_mm, {.fill = "#a98450"});
+  {
+    const auto shadow = document.group({.fill = "#8c97a3", .fill_opacity = 0.16});
+    for (int half = 2 * kSolidNozzle_mm; half <= 2 * kDrawnNozzle_mm; ++half) ring(half / 2.0, {});
+  }
+  ring(kDrawnNozzle_mm, {.fill = "none", .stroke = "#8c97a3", .width = 1, .stroke_opacity = 0.7});
 }
 
-void draw_strands(std::string& out, const Panel& panel, const Moment& now, const std::vector<Strand>& strands,
-                  const PrintPictureOptions& options) {
+void draw_strands(Document& document, const Panel& panel, const Moment& now,
+                  const std::vector<Strand>& strands, const PrintPictureOptions& options,
+                  const std::string& metal) {
   struct Chunk {
     double nearness = 0;  // horizontally: nothing behind the nozzle's plane hides what is before it
     double depth = 0;
-    std::array<double, 2> a{}, b{};
+    std::array<Point, 2> ends;
     std::string colour;
   };
   std::vector<Chunk> chunks;
@@ -147,33 +141,26 @@ void draw_strands(std::string& out, const Panel& panel, const Moment& now, const
     // A strand is round: the light on the side that is turned to the eye.
     const Vector face = (kTowardsEye - kTowardsEye.dot(along) * along).normalized();
     const double light = 0.50 + 0.55 * std::max(0.0, face.dot(kLamp)) + (s.layer % 2 == 0 ? 0.05 : -0.05);
-    const std::string colour = rgb(piece_colour(static_cast<std::size_t>(s.piece)), light);
+    const std::string colour = piece_rgb(static_cast<std::size_t>(s.piece), light);
     const int parts = std::max(1, static_cast<int>(std::ceil((to - from).norm() / kChunk_mm)));
     for (int k = 0; k < parts; ++k) {
       const Vector p = from + (to - from) * k / parts, q = from + (to - from) * (k + 1) / parts;
-      chunks.push_back({level.dot(p + q), kTowardsEye.dot(p + q), panel.at(p), panel.at(q), colour});
+      chunks.push_back({level.dot(p + q), kTowardsEye.dot(p + q), {panel.at(p), panel.at(q)}, colour});
     }
   }
   std::stable_sort(chunks.begin(), chunks.end(), [](const Chunk& a, const Chunk& b) {
     if ((a.nearness > 0) != (b.nearness > 0)) return b.nearness > 0;
     return a.depth < b.depth;
   });
-  const std::string group = fmt::format("<g stroke-linecap='round' fill='none' stroke-width='{:.2f}'>\n",
-                                        panel.scale * options.strand_mm);
-  out += group;
-  bool before = false;
-  for (const Chunk& c : chunks) {
-    if (c.nearness > 0 && !before) {
-      before = true;
-      out += "</g>\n";
-      draw_nozzle(out, panel, options.nozzle);
-      out += group;
-    }
-    fmt::format_to(std::back_inserter(out), "<path d='M{:.1f} {:.1f}L{:.1f} {:.1f}' stroke='{}'/>\n", c.a[0],
-                   c.a[1], c.b[0], c.b[1], c.colour);
-  }
-  out += "</g>\n";
-  if (!before) draw_nozzle(out, panel, options.nozzle);
+  const auto before =
+      std::find_if(chunks.begin(), chunks.end(), [](const Chunk& c) { return c.nearness > 0; });
+  const auto draw = [&](auto from, auto to) {
+    const auto group = document.group({.width = panel.scale * options.strand_mm, .round = true});
+    for (auto c = from; c != to; ++c) document.polyline(c->ends, {.stroke = c->colour});
+  };
+  draw(chunks.begin(), before);
+  draw_nozzle(document, panel, options.nozzle, metal);
+  draw(before, chunks.end());
 }
 
 /// The same scale in all panels: whatever is printed and the nozzle fit into each.
@@ -216,39 +203,34 @@ std::string print_picture(const std::string& title, const JoinedJob& job, const 
     panels.push_back({.x = kMargin + n * (width + kGap), .width = width});
   }
   fit(panels, moments, strands);
-  const double height = kTop + kPanelHeight + 84;
-  std::string out = fmt::format(
-      "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {0:.0f} {1:.0f}' width='{0:.0f}' "
-      "height='{1:.0f}' font-family='DejaVu Sans, Helvetica, Arial, sans-serif'>\n"
-      "<defs><linearGradient id='metal' x1='0' x2='1' y1='0' y2='0'><stop offset='0' stop-color='#7d5c2e'/>"
-      "<stop offset='0.35' stop-color='#e9cf9c'/><stop offset='0.6' stop-color='#c09a5c'/>"
-      "<stop offset='1' stop-color='#6d4f26'/></linearGradient></defs>\n"
-      "<rect width='100%' height='100%' fill='white'/>\n"
-      "<text x='{2:.0f}' y='46' font-size='24' font-weight='bold' fill='#1d2733'>{3}</text>\n"
-      "<text x='{2:.0f}' y='74' font-size='14' fill='#5a6672'>The nozzle stands still; the table tilts (A) "
-      "and turns (C) so that every layer lies level. No support. Rings on the table: 10 mm; its X red, its Y "
-      "green.</text>\n",
-      kWidth, height, kMargin, title);
+  Document document(kWidth, kTop + kPanelHeight + 84);
+  document.heading(
+      kMargin, title,
+      "The nozzle stands still; the table tilts (A) and turns (C) so that every layer lies level. "
+      "No support. Rings on the table: 10 mm; its X red, its Y green.");
+  constexpr drawing::GradientStop kBrass[] = {
+      {0, "#7d5c2e"}, {0.35, "#e9cf9c"}, {0.6, "#c09a5c"}, {1, "#6d4f26"}};
+  const std::string metal = document.gradient(kBrass);
   for (std::size_t n = 0; n < panels.size(); ++n) {
     const Panel& panel = panels[n];
     const Moment& now = moments[n];
-    out += fmt::format(
-        "<clipPath id='panel{0}'><rect x='{1:.1f}' y='{2:.1f}' width='{3:.1f}' height='{4:.1f}' "
-        "rx='8'/></clipPath>\n<rect x='{1:.1f}' y='{2:.1f}' width='{3:.1f}' height='{4:.1f}' rx='8' "
-        "fill='#fafbfc' stroke='#d8dee4'/>\n<g clip-path='url(#panel{0})'>\n",
-        n, panel.x, kTop, panel.width, kPanelHeight);
-    draw_table(out, panel, now, options.table_radius_mm);
-    draw_strands(out, panel, now, strands, options);
-    const auto colour = piece_colour(static_cast<std::size_t>(now.piece));
-    out += fmt::format(
-        "</g>\n<rect x='{:.1f}' y='{:.1f}' width='14' height='14' rx='3' fill='{}'/>\n<text x='{:.1f}' "
-        "y='{:.1f}' font-size='15' font-weight='bold' fill='#1d2733'>piece {} of {}</text>\n<text x='{:.1f}' "
-        "y='{:.1f}' font-size='13' fill='#5a6672'>layer {} of {}, A = {:.1f}°, C = {:.1f}°</text>\n",
-        panel.x + 2, kTop + kPanelHeight + 18, rgb(colour, 1), panel.x + 24, kTop + kPanelHeight + 30,
-        now.piece + 1, pieces, panel.x + 24, kTop + kPanelHeight + 52, now.layer, now.layers,
-        positive_zero(now.a_deg), positive_zero(now.c_deg));
+    const drawing::Box box{panel.x, kTop, panel.width, kPanelHeight};
+    document.rectangle(box, {.fill = "#fafbfc", .stroke = "#d8dee4"}, 8);
+    {
+      const auto inside = document.clipped(box, 8);
+      draw_table(document, panel, now, options.table_radius_mm);
+      draw_strands(document, panel, now, strands, options, metal);
+    }
+    document.rectangle({box.x + 2, box.bottom() + 18, 14, 14},
+                       {.fill = piece_rgb(static_cast<std::size_t>(now.piece), 1)}, 3);
+    document.text({box.x + 24, box.bottom() + 30}, fmt::format("piece {} of {}", now.piece + 1, pieces),
+                  {.size = 15, .bold = true});
+    document.text({box.x + 24, box.bottom() + 52},
+                  fmt::format("layer {} of {}, A = {:.1f}°, C = {:.1f}°", now.layer, now.layers,
+                              positive_zero(now.a_deg), positive_zero(now.c_deg)),
+                  {.fill = drawing::kMuted});
   }
-  return out + "</svg>\n";
+  return document.svg();
 }
 
 }  // namespace kinebus::compose

@@ -8,37 +8,22 @@
 #include <limits>
 #include <numbers>
 
+#include "tools/drawing/chart.hpp"
+#include "tools/drawing/colour.hpp"
+
 namespace kinebus {
 
 namespace {
 
-constexpr double kWidth = 1200, kMargin = 70, kSceneHeight = 620, kChartHeight = 170, kGap = 62, kTop = 96;
+using drawing::Anchor;
+using drawing::Document;
+using drawing::Point;
+using drawing::round_step;
+
+constexpr double kWidth = 1200, kMargin = 70, kSceneHeight = 620, kChartHeight = 170, kGap = 66, kTop = 96;
+constexpr const char* kTravelColour = "#c3cad1";
 // Points drawn: enough for any detail that a picture of this size can show.
 constexpr std::size_t kDrawnChart = 1'500;
-
-/// Blue over green to yellow (dark to light, also for readers who do not see colours well).
-std::string colour(double fraction) {
-  struct Stop {
-    double r, g, b;
-  };
-  static constexpr std::array<Stop, 5> kStops{
-      {{68, 1, 84}, {59, 82, 139}, {33, 145, 140}, {94, 201, 98}, {240, 200, 30}}};
-  const double x = std::clamp(fraction, 0.0, 0.9999) * 4;
-  const auto i = static_cast<std::size_t>(x);
-  const double f = x - static_cast<double>(i);
-  const auto mix = [&](double a, double b) { return static_cast<int>(std::lround(a + f * (b - a))); };
-  return fmt::format("#{:02x}{:02x}{:02x}", mix(kStops[i].r, kStops[i + 1].r),
-                     mix(kStops[i].g, kStops[i + 1].g), mix(kStops[i].b, kStops[i + 1].b));
-}
-
-/// A round step that divides `range` into about `parts`.
-double round_step(double range, int parts) {
-  const double raw = std::max(range, 1e-9) / parts;
-  const double magnitude = std::pow(10, std::floor(std::log10(raw)));
-  for (const double step : {1.0, 2.0, 5.0})
-    if (raw <= step * magnitude) return step * magnitude;
-  return 10 * magnitude;
-}
 
 struct Range {
   double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
@@ -60,7 +45,7 @@ struct View {
     const double deep = -x * std::sin(kTurn) + y * std::cos(kTurn);
     return {right, -(z * std::cos(kTilt) + deep * std::sin(kTilt))};
   }
-  std::pair<double, double> at(double x, double y, double z) const {
+  Point at(double x, double y, double z) const {
     const auto [u, v] = project(x, y, z);
     return {x0 + scale * u, y0 + scale * v};
   }
@@ -79,31 +64,9 @@ struct View {
   }
 };
 
-void text(std::string& svg, double x, double y, const std::string& words, const char* style) {
-  std::string safe;
-  for (const char c : words) {
-    if (c == '<')
-      safe += "&lt;";
-    else if (c == '>')
-      safe += "&gt;";
-    else if (c == '&')
-      safe += "&amp;";
-    else
-      safe += c;
-  }
-  svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" {}>{}</text>\n", x, y, style, safe);
-}
-
-void line(std::string& svg, std::pair<double, double> a, std::pair<double, double> b, const char* style) {
-  svg += fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" {}/>\n", a.first,
-                     a.second, b.first, b.second, style);
-}
-
-constexpr const char* kTitle = "font-size=\"24\" font-weight=\"600\" fill=\"#1b1f24\"";
-constexpr const char* kHeading = "font-size=\"15\" font-weight=\"600\" fill=\"#1b1f24\"";
-constexpr const char* kLabel = "font-size=\"12\" fill=\"#57606a\"";
-constexpr const char* kRightLabel = "font-size=\"12\" fill=\"#57606a\" text-anchor=\"end\"";
-constexpr const char* kMiddleLabel = "font-size=\"12\" fill=\"#57606a\" text-anchor=\"middle\"";
+const drawing::TextStyle kLabel{.size = 12, .fill = drawing::kMuted},
+    kRightLabel{.size = 12, .anchor = Anchor::kEnd, .fill = drawing::kMuted},
+    kMiddleLabel{.size = 12, .anchor = Anchor::kMiddle, .fill = drawing::kMuted};
 
 View make_view(const PlotData& data) {
   View view;
@@ -119,37 +82,34 @@ View make_view(const PlotData& data) {
   return view;
 }
 
-void draw_bed(std::string& svg, const View& view) {
+void draw_bed(Document& document, const View& view) {
   const Range x = view.box[0], y = view.box[1], z = view.box[2];
-  const auto corner = [&](double a, double b) {
-    const auto [u, v] = view.at(a, b, z.low);
-    return fmt::format("{:.1f},{:.1f} ", u, v);
-  };
-  svg += "<polygon points=\"" + corner(x.low, y.low) + corner(x.high, y.low) + corner(x.high, y.high) +
-         corner(x.low, y.high) + "\" fill=\"#f6f8fa\" stroke=\"#afb8c1\"/>\n";
+  const auto at = [&](double a, double b) { return view.at(a, b, z.low); };
+  const std::array<Point, 4> corners{at(x.low, y.low), at(x.high, y.low), at(x.high, y.high),
+                                     at(x.low, y.high)};
+  document.polygon(corners, {.fill = "#f6f8fa", .stroke = "#afb8c1"});
   const double sx = round_step(x.span(), 6), sy = round_step(y.span(), 6), sz = round_step(z.span(), 5);
-  constexpr const char* kGrid = "stroke=\"#d8dee4\" stroke-width=\"1\"";
-  for (double v = x.low; v <= x.high + 1e-6; v += sx) {
-    line(svg, view.at(v, y.low, z.low), view.at(v, y.high, z.low), kGrid);
-    const auto [u, w] = view.at(v, y.low, z.low);
-    text(svg, u - 6, w + 18, fmt::format("{:g}", v), kMiddleLabel);
+  const drawing::Style grid{.stroke = "#d8dee4", .width = 1};
+  for (const double v : drawing::ticks(x.low, x.high, sx)) {
+    const Point p = at(v, y.low);
+    document.line(p, at(v, y.high), grid);
+    document.text({p.x - 6, p.y + 18}, drawing::tick_words(v, sx), kMiddleLabel);
   }
-  for (double v = y.low; v <= y.high + 1e-6; v += sy) {
-    line(svg, view.at(x.low, v, z.low), view.at(x.high, v, z.low), kGrid);
-    const auto [u, w] = view.at(x.high, v, z.low);
-    text(svg, u + 22, w + 8, fmt::format("{:g}", v), kMiddleLabel);
+  for (const double v : drawing::ticks(y.low, y.high, sy)) {
+    const Point p = at(x.high, v);
+    document.line(at(x.low, v), p, grid);
+    document.text({p.x + 22, p.y + 8}, drawing::tick_words(v, sy), kMiddleLabel);
   }
-  line(svg, view.at(x.low, y.high, z.low), view.at(x.low, y.high, z.high), "stroke=\"#afb8c1\"");
-  for (double v = z.low; v <= z.high + 1e-6; v += sz) {
-    const auto [u, w] = view.at(x.low, y.high, v);
-    text(svg, u - 8, w + 4, fmt::format("{:g}", v), kRightLabel);
+  document.line(at(x.low, y.high), view.at(x.low, y.high, z.high), {.stroke = "#afb8c1"});
+  for (const double v : drawing::ticks(z.low, z.high, sz)) {
+    const Point p = view.at(x.low, y.high, v);
+    document.text({p.x - 8, p.y + 4}, drawing::tick_words(v, sz), kRightLabel);
   }
-  const auto [xu, xv] = view.at((x.low + x.high) / 2, y.low, z.low);
-  text(svg, xu, xv + 38, "X mm", kMiddleLabel);
-  const auto [yu, yv] = view.at(x.high, (y.low + y.high) / 2, z.low);
-  text(svg, yu + 58, yv + 24, "Y mm", kMiddleLabel);
-  const auto [zu, zv] = view.at(x.low, y.high, z.high);
-  text(svg, zu - 8, zv - 12, "Z mm", kRightLabel);
+  const Point below = at((x.low + x.high) / 2, y.low), beside = at(x.high, (y.low + y.high) / 2),
+              above = view.at(x.low, y.high, z.high);
+  document.text({below.x, below.y + 38}, "X mm", kMiddleLabel);
+  document.text({beside.x + 58, beside.y + 24}, "Y mm", kMiddleLabel);
+  document.text({above.x - 8, above.y - 12}, "Z mm", kRightLabel);
 }
 
 /// What the path's colour shows: speed, or height where the speed hardly changes.
@@ -181,16 +141,19 @@ Scale make_scale(const PlotData& data) {
   return {false, 0, fastest};
 }
 
-void draw_path(std::string& svg, const View& view, const PlotData& data, const Scale& scale) {
+void draw_path(Document& document, const View& view, const PlotData& data, const Scale& scale) {
   constexpr int kBands = 24, kTravel = kBands;
-  svg += "<style>path.p{fill:none;stroke-width:1.3;stroke-linejoin:round}";
-  for (int i = 0; i < kBands; ++i) svg += fmt::format(".c{}{{stroke:{}}}", i, colour((i + 0.5) / kBands));
-  svg += fmt::format("path.c{}{{stroke:#c3cad1;stroke-width:0.6}}</style>\n", kTravel);
-
-  std::string run;
+  std::array<std::string, kBands> colours;
+  for (int i = 0; i < kBands; ++i)
+    colours[static_cast<std::size_t>(i)] = drawing::scale_rgb((i + 0.5) / kBands);
+  const auto group = document.group({.width = 1.3, .round = true});
+  std::vector<Point> run;
   int band = -1;
   const auto flush = [&] {
-    if (!run.empty()) svg += fmt::format("<path class=\"p c{}\" d=\"{}\"/>\n", band, run);
+    if (band == kTravel)
+      document.polyline(run, {.stroke = kTravelColour, .width = 0.6});
+    else if (band >= 0)
+      document.polyline(run, {.stroke = colours[static_cast<std::size_t>(band)]});
     run.clear();
   };
   for (const PlotData::Stretch& stretch : data.path()) {
@@ -203,87 +166,64 @@ void draw_path(std::string& svg, const View& view, const PlotData& data, const S
         flush();
         band = now;
       }
-      if (run.empty()) {
-        const auto [u, v] = view.at(a[0], a[1], a[2]);
-        run = fmt::format("M{:.1f} {:.1f}", u, v);
-      }
-      const auto [u, v] = view.at(b.mm[0], b.mm[1], b.mm[2]);
-      run += fmt::format("L{:.1f} {:.1f}", u, v);
+      if (run.empty()) run.push_back(view.at(a[0], a[1], a[2]));
+      run.push_back(view.at(b.mm[0], b.mm[1], b.mm[2]));
     }
     flush();
   }
 }
 
-void draw_scale(std::string& svg, const Scale& scale) {
+void draw_scale(Document& document, const Scale& scale) {
   const double x = kWidth - 50, top = kTop + 60, height = 260;
-  constexpr int kSteps = 40;
-  for (int i = 0; i < kSteps; ++i)
-    svg += fmt::format("<rect x=\"{}\" y=\"{:.1f}\" width=\"16\" height=\"{:.1f}\" fill=\"{}\"/>\n", x - 16,
-                       top + height * (1 - (i + 1.0) / kSteps), height / kSteps + 0.5,
-                       colour((i + 0.5) / kSteps));
+  drawing::colour_bar(document, {x - 16, top, 16, height});
   for (int i = 0; i <= 4; ++i)
-    text(svg, x - 22, top + height * (1 - i / 4.0) + 4,
-         fmt::format("{:.0f}", scale.low + (scale.high - scale.low) * i / 4), kRightLabel);
-  text(svg, x + 2, top - 26, scale.height ? "height" : "tool speed", kRightLabel);
-  text(svg, x + 2, top - 10, scale.height ? "mm" : "mm/s", kRightLabel);
-  line(svg, {x - 16, top + height + 22}, {x, top + height + 22}, "stroke=\"#c3cad1\" stroke-width=\"1.5\"");
-  text(svg, x - 22, top + height + 26, "travel", kRightLabel);
+    document.text({x - 22, top + height * (1 - i / 4.0) + 4},
+                  fmt::format("{:.0f}", scale.low + (scale.high - scale.low) * i / 4), kRightLabel);
+  document.text({x + 2, top - 26}, scale.height ? "height" : "tool speed", kRightLabel);
+  document.text({x + 2, top - 10}, scale.height ? "mm" : "mm/s", kRightLabel);
+  document.line({x - 16, top + height + 22}, {x, top + height + 22}, {.stroke = kTravelColour, .width = 1.5});
+  document.text({x - 22, top + height + 26}, "travel", kRightLabel);
 }
 
 struct Series {
-  std::string name, colour;
+  std::string name;
+  const char* colour;
   std::function<double(const PlotData::Point&)> value;
   bool peak = false;  ///< draw the largest of the points that share a pixel
 };
 
-void draw_chart(std::string& svg, double top, const PlotData& data, const std::string& title,
-                const std::vector<Series>& series, bool from_zero) {
+void draw_series(Document& document, double top, const PlotData& data, const std::string& title,
+                 const std::vector<Series>& series, bool from_zero) {
   const auto& points = data.points();
-  const double left = kMargin, width = kWidth - 2 * kMargin, height = kChartHeight;
   Range range;
   if (from_zero) range.include(0);
   for (const auto& p : points)
     for (const auto& s : series) range.include(s.value(p));
   const double step = round_step(range.span() * 1.05, 4);
-  range.low = step * std::floor(range.low / step);
-  range.high = step * std::ceil(range.high / step + 1e-9);
-  if (range.high <= range.low) range.high = range.low + step;
-  const double end = std::max<double>(points.back().time_s, 1e-3);
-  const auto px = [&](double t) { return left + width * t / end; };
-  const auto py = [&](double v) { return top + height * (1 - (v - range.low) / (range.high - range.low)); };
-
-  text(svg, left, top - 12, title, kHeading);
-  for (double v = range.low; v <= range.high + step / 2; v += step) {
-    line(svg, {left, py(v)}, {left + width, py(v)}, "stroke=\"#e4e8ec\"");
-    text(svg, left - 8, py(v) + 4, fmt::format("{:g}", std::abs(v) < step * 1e-6 ? 0 : v), kRightLabel);
+  drawing::Chart chart{.area = {kMargin, top, kWidth - 2 * kMargin, kChartHeight},
+                       .x_high = std::max<double>(points.back().time_s, 1e-3),
+                       .y_low = step * std::floor(range.low / step),
+                       .y_high = step * std::ceil(range.high / step + 1e-9)};
+  if (chart.y_high <= chart.y_low) chart.y_high = chart.y_low + step;
+  drawing::draw_frame(
+      document, chart,
+      {.x_step = round_step(chart.x_high, 10), .y_step = step, .title = title, .x_name = "time, s"});
+  if (series.size() > 1) {
+    std::vector<drawing::LegendEntry> legend;
+    for (const Series& s : series) legend.push_back({s.name, s.colour});
+    drawing::draw_legend(document, {chart.area.right(), top - 12}, legend);
   }
-  const double ts = round_step(end, 10);
-  for (double t = 0; t <= end + 1e-9; t += ts) {
-    line(svg, {px(t), top + height}, {px(t), top + height + 4}, "stroke=\"#afb8c1\"");
-    text(svg, px(t), top + height + 18, fmt::format("{:g}", t), kMiddleLabel);
-  }
-  text(svg, left + width + 12, top + height + 18, "s", kLabel);
-
   const std::size_t bucket = std::max<std::size_t>(1, points.size() / kDrawnChart);
-  double legend = left + width;
-  for (auto it = series.rbegin(); it != series.rend(); ++it) {
-    if (series.size() < 2) break;
-    text(svg, legend, top - 12, it->name, "font-size=\"12\" fill=\"#1b1f24\" text-anchor=\"end\"");
-    legend -= 8.0 * static_cast<double>(it->name.size()) + 8;
-    line(svg, {legend - 18, top - 16}, {legend, top - 16},
-         fmt::format("stroke=\"{}\" stroke-width=\"3\"", it->colour).c_str());
-    legend -= 34;
-  }
-  for (const auto& s : series) {
-    std::string d;
+  for (const Series& s : series) {
+    std::vector<Point> values;
     for (std::size_t i = 0; i < points.size(); i += bucket) {
       double v = s.value(points[i]);
       if (s.peak)
         for (std::size_t k = i; k < std::min(points.size(), i + bucket); ++k)
           v = std::max(v, s.value(points[k]));
-      d += fmt::format("{}{:.1f} {:.1f}", d.empty() ? "M" : "L", px(points[i].time_s), py(v));
+      values.push_back({points[i].time_s, v});
     }
-    svg += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.3\"/>\n", d, s.colour);
+    drawing::draw_curve(document, chart, values, s.colour, 1.3);
   }
 }
 
@@ -294,28 +234,23 @@ std::string draw_plot(const PlotData& data, const MachineDescription& machine, c
   const int linear = static_cast<int>(
       std::count_if(machine.joints.begin(), machine.joints.end(),
                     [](const JointDescription& j) { return !j.rotary && j.travel.min < j.travel.max; }));
-  const double total = kTop + kSceneHeight + 4 * (kChartHeight + kGap) + 10;
-  std::string svg = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1:.0f}\" viewBox=\"0 0 {0} "
-      "{1:.0f}\" "
-      "font-family=\"DejaVu Sans, Helvetica, Arial, sans-serif\">\n<rect width=\"100%\" height=\"100%\" "
-      "fill=\"white\"/>\n",
-      kWidth, total);
-  text(svg, kMargin, 42, title, kTitle);
-  text(svg, kMargin, 68, summary, "font-size=\"14\" fill=\"#57606a\"");
+  Document document(kWidth, kTop + kSceneHeight + 4 * (kChartHeight + kGap) + 10);
+  document.heading(kMargin, title, summary);
+  const drawing::TextStyle heading{.size = 15, .bold = true};
   if (data.points().size() < 2) {
-    text(svg, kMargin, 120, "No motion was measured.", kHeading);
-    return svg + "</svg>\n";
+    document.text({kMargin, 120}, "No motion was measured.", heading);
+    return document.svg();
   }
 
   const Scale scale = make_scale(data);
   const View view = make_view(data);
-  text(svg, kMargin, kTop + 4, "Tool path of the simulated machine", kHeading);
+  document.text({kMargin, kTop + 4}, "Tool path of the simulated machine", heading);
   if (data.drawn_stretch() > 1)
-    text(svg, kMargin, kTop + 24, fmt::format("one layer in {} is drawn", data.drawn_stretch()), kLabel);
-  draw_bed(svg, view);
-  draw_path(svg, view, data, scale);
-  draw_scale(svg, scale);
+    document.text({kMargin, kTop + 24}, fmt::format("one layer in {} is drawn", data.drawn_stretch()),
+                  kLabel);
+  draw_bed(document, view);
+  draw_path(document, view, data, scale);
+  draw_scale(document, scale);
 
   static constexpr std::array<const char*, 4> kColours{"#0969da", "#bf3989", "#1a7f37", "#bc4c00"};
   std::vector<Series> carriages;
@@ -327,20 +262,20 @@ std::string draw_plot(const PlotData& data, const MachineDescription& machine, c
   }
   double top = kTop + kSceneHeight + 20;
   const double pitch = kChartHeight + kGap;
-  draw_chart(svg, top, data, "Carriages, mm along their rails", carriages, false);
-  draw_chart(svg, top + pitch, data, "Tool speed, mm/s",
-             {{"speed", "#57606a",
-               [](const PlotData::Point& p) { return static_cast<double>(p.speed_mm_per_s); }, true}},
-             true);
-  draw_chart(
-      svg, top + 2 * pitch, data, "Tool error against the planned pose at equal path time, um",
+  draw_series(document, top, data, "Carriages, mm along their rails", carriages, false);
+  draw_series(document, top + pitch, data, "Tool speed, mm/s",
+              {{"speed", "#57606a",
+                [](const PlotData::Point& p) { return static_cast<double>(p.speed_mm_per_s); }, true}},
+              true);
+  draw_series(
+      document, top + 2 * pitch, data, "Tool error against the planned pose at equal path time, um",
       {{"error", "#cf222e", [](const PlotData::Point& p) { return static_cast<double>(p.error_um); }, true}},
       true);
-  draw_chart(svg, top + 3 * pitch, data, "Bus load, % of 1 Mbit/s",
-             {{"load", "#8250df",
-               [](const PlotData::Point& p) { return 100.0 * static_cast<double>(p.bus_load); }, true}},
-             true);
-  return svg + "</svg>\n";
+  draw_series(document, top + 3 * pitch, data, "Bus load, % of 1 Mbit/s",
+              {{"load", "#8250df",
+                [](const PlotData::Point& p) { return 100.0 * static_cast<double>(p.bus_load); }, true}},
+              true);
+  return document.svg();
 }
 
 }  // namespace kinebus

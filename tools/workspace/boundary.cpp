@@ -6,6 +6,8 @@
 #include <numbers>
 #include <ostream>
 
+#include "tools/drawing/colour.hpp"
+
 namespace kinebus::workspace {
 namespace {
 
@@ -67,18 +69,6 @@ std::vector<Triangle> boundary(const Scan& s, int tilt, Sector cut) {
   return out;
 }
 
-std::array<int, 3> colour(double value) {
-  constexpr int kKnots = 6;
-  constexpr double kMap[kKnots][3] = {{68, 1, 84},    {64, 67, 135},  {41, 120, 142},
-                                      {34, 167, 132}, {121, 209, 81}, {253, 231, 37}};
-  const double x = std::clamp(value, 0.0, 1.0) * (kKnots - 1);
-  const int i = std::min(kKnots - 2, static_cast<int>(x));
-  std::array<int, 3> c{};
-  for (std::size_t k = 0; k < 3; ++k)
-    c[k] = static_cast<int>(std::lround(kMap[i][k] + (x - i) * (kMap[i + 1][k] - kMap[i][k])));
-  return c;
-}
-
 void write_stl(std::ostream& out, const std::vector<Triangle>& triangles) {
   const char header[80] = "Kinebus workspace, mm";
   out.write(header, sizeof header);
@@ -107,7 +97,7 @@ void write_ply(std::ostream& out, const std::vector<Triangle>& triangles) {
          "property uchar blue\nelement face "
       << triangles.size() << "\nproperty list uchar int vertex_indices\nend_header\n";
   for (const Triangle& t : triangles) {
-    const auto c = colour(t.shade);
+    const auto c = drawing::scale_colour(t.shade);
     for (const Point& p : t.corner)
       out << p[0] << ' ' << p[1] << ' ' << p[2] << ' ' << c[0] << ' ' << c[1] << ' ' << c[2] << '\n';
   }

@@ -25,7 +25,4 @@ std::vector<Triangle> boundary(const Scan& scan, int tilt, Sector cut = {});
 void write_stl(std::ostream& out, const std::vector<Triangle>& triangles);  ///< binary STL
 void write_ply(std::ostream& out, const std::vector<Triangle>& triangles);  ///< text PLY with colours
 
-/// A colour of the map that all pictures use, 0..1: dark violet over green to yellow (like viridis).
-std::array<int, 3> colour(double value);
-
 }  // namespace kinebus::workspace
