@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <nlopt.hpp>
 #include <numbers>
+#include <vector>
 
 namespace kinebus::workspace {
 namespace {
@@ -103,30 +105,52 @@ Fitness fitness(const M1Geometry& geometry, const Room& room) {
   return f;
 }
 
+namespace {
+
+struct Trials {
+  const M1Geometry& start;
+  const Room& room;
+  int* tried;
+};
+
+double cost_of(unsigned count, const double* x, double*, void* trials) {
+  const auto& t = *static_cast<const Trials*>(trials);
+  ++*t.tried;
+  Unknowns u{};
+  std::copy_n(x, count, u.begin());
+  return fitness(with(t.start, u), t.room).cost;
+}
+
+}  // namespace
+
 Optimised optimise(const M1Geometry& start, const Room& room) {
   Optimised result;
   Unknowns best = unknowns_of(start);
   result.before = result.after = fitness(start, room);
   // The four legs share six numbers here: the start itself is one of the candidates.
   Fitness value = fitness(with(start, best), room);
-  Unknowns step{40, 40, 15, 15, 15, 60};
-  for (int round = 0; round < 60; ++round) {
-    bool better = false;
-    for (std::size_t k = 0; k < kUnknowns; ++k)
-      for (const double way : {1.0, -1.0}) {
-        Unknowns trial = best;
-        trial[k] = std::max(10.0, trial[k] + way * step[k]);
-        const Fitness f = fitness(with(start, trial), room);
-        ++result.tried;
-        if (f.cost < value.cost - 1e-9) {
-          value = f;
-          best = trial;
-          better = true;
-        }
-      }
-    if (better) continue;
-    for (double& s : step) s /= 2;
-    if (step[0] < 0.5) break;
+  // Subplex: simplices in a few unknowns at a time, which neither needs derivatives nor minds the kinks that
+  // the worst pose makes.
+  nlopt::opt search(nlopt::LN_SBPLX, kUnknowns);
+  Trials trials{start, room, &result.tried};
+  search.set_min_objective(cost_of, &trials);
+  search.set_lower_bounds(10);
+  search.set_initial_step({40, 40, 15, 15, 15, 60});
+  search.set_xtol_abs(0.25);
+  search.set_maxeval(4000);
+  std::vector<double> x(best.begin(), best.end());
+  for (double& v : x) v = std::max(v, 10.0);
+  double cost = 0;
+  try {
+    search.optimize(x, cost);
+  } catch (const nlopt::roundoff_limited&) {
+    // x is the best found until the steps drowned in rounding.
+  }
+  Unknowns found = best;
+  std::copy(x.begin(), x.end(), found.begin());
+  if (const Fitness f = fitness(with(start, found), room); f.cost < value.cost) {
+    value = f;
+    best = found;
   }
   if (value.cost > result.before.cost) {
     result.geometry = start;

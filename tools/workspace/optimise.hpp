@@ -26,7 +26,7 @@ struct Optimised {
   int tried = 0;
 };
 
-/// Pattern search from `start`: rails keep their directions, legs their order and sides.
+/// From `start`: rails keep their directions, legs their order and sides.
 Optimised optimise(const M1Geometry& start, const Room& room);
 
 /// The [kinematics] tables of a machine file.
