@@ -1,5 +1,5 @@
-# Debian packages by `cpack -G DEB`: kinebus-daemon and kinebus-cli (with workspace and calibration), and, where their
-# libraries are installed, kinebus-gui and kinebus-compose. Components are named where targets are installed.
+# Debian packages by `cpack -G DEB`: kinebus-daemon and kinebus-cli (with workspace), and, where their libraries are
+# installed, kinebus-gui, kinebus-calibrate and kinebus-compose. Components are named where targets are installed.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME kinebus)
 set(CPACK_PACKAGE_CONTACT "The Kinebus developers <kinebus@localhost>")
@@ -22,6 +22,14 @@ if(TARGET kinebus-compose)
   set(CPACK_DEBIAN_COMPOSE_PACKAGE_RECOMMENDS prusa-slicer)
   install(FILES ${PROJECT_SOURCE_DIR}/tools/compose/copyright DESTINATION share/doc/kinebus-compose COMPONENT compose)
 endif()
+if(TARGET kinebus-calibrate)
+  # A package of its own, too: Debian's Ceres is linked with parts of SuiteSparse that are GPL-2 or later.
+  list(APPEND CPACK_COMPONENTS_ALL calibrate)
+  set(CPACK_DEBIAN_CALIBRATE_PACKAGE_NAME kinebus-calibrate)
+  set(CPACK_COMPONENT_CALIBRATE_DESCRIPTION
+    "Kinebus calibration\n Rails and geometry of a machine from measurements, residuals as pictures, poses to measure next. Linked with Ceres and SuiteSparse: distributed under the GPL, version 2 or later.")
+  install(FILES ${PROJECT_SOURCE_DIR}/tools/calibrate/copyright DESTINATION share/doc/kinebus-calibrate COMPONENT calibrate)
+endif()
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION misc)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
@@ -41,5 +49,5 @@ set(CPACK_DEBIAN_DAEMON_PACKAGE_CONTROL_EXTRA
   "${PROJECT_SOURCE_DIR}/gateway/io/package/postinst;${PROJECT_SOURCE_DIR}/gateway/io/package/prerm;${PROJECT_SOURCE_DIR}/gateway/io/package/conffiles")
 set(CPACK_DEBIAN_CLI_PACKAGE_NAME kinebus-cli)
 set(CPACK_COMPONENT_CLI_DESCRIPTION
-  "Kinebus command line\n Commands the gateway daemon, plans and simulates jobs, offers virtual nodes, scans workspaces and calibrates machines.")
+  "Kinebus command line\n Commands the gateway daemon, plans and simulates jobs, offers virtual nodes and scans workspaces.")
 include(CPack)

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <string>
 
-#include "gateway/calibration/geometry_model.hpp"
 #include "gateway/description/machine_description.hpp"
+#include "tools/calibrate/fit/geometry_model.hpp"
 
 namespace kinebus {
 

@@ -8,8 +8,8 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "gateway/calibration/geometry_fit.hpp"
 #include "gateway/description/machine_file.hpp"
+#include "tools/calibrate/fit/geometry_fit.hpp"
 #include "tools/calibrate/hidden.hpp"
 #include "tools/calibrate/machine_edit.hpp"
 #include "tools/calibrate/readings.hpp"

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "gateway/calibration/geometry_model.hpp"
-#include "gateway/calibration/rail_fit.hpp"
 #include "gateway/description/machine_description.hpp"
 #include "tools/calibrate/csv.hpp"
+#include "tools/calibrate/fit/geometry_model.hpp"
+#include "tools/calibrate/fit/rail_fit.hpp"
 
 namespace kinebus {
 

@@ -1,6 +1,6 @@
 #include "tools/calibrate/rehearsal.hpp"
 
-#include "gateway/calibration/geometry_fit.hpp"
+#include "tools/calibrate/fit/geometry_fit.hpp"
 #include "tools/calibrate/hidden.hpp"
 #include "tools/calibrate/readings.hpp"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "gateway/calibration/robust.hpp"
+#include "tools/calibrate/fit/robust.hpp"
 #include "tools/drawing/chart.hpp"
 
 namespace kinebus {

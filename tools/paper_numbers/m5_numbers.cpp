@@ -6,9 +6,9 @@
 #include <random>
 #include <stdexcept>
 
-#include "gateway/calibration/geometry_fit.hpp"
-#include "gateway/calibration/rail_fit.hpp"
-#include "gateway/calibration/robust.hpp"
+#include "tools/calibrate/fit/geometry_fit.hpp"
+#include "tools/calibrate/fit/rail_fit.hpp"
+#include "tools/calibrate/fit/robust.hpp"
 #include "tools/calibrate/hidden.hpp"
 #include "tools/calibrate/readings.hpp"
 #include "tools/calibrate/rehearsal.hpp"

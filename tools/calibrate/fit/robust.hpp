@@ -16,9 +16,12 @@ inline double robust_sigma(std::vector<double> residuals) {
   return 1.4826 * *middle;
 }
 
-/// Weight of a residual: 1 within 2 sigma, then falling as 1 / |r|.
+/// Within so many sigma a residual counts in full.
+inline constexpr double kHuberBound = 2;
+
+/// Weight of a residual: 1 within the bound, then falling as 1 / |r|.
 inline double huber_weight(double residual, double sigma) {
-  const double bound = 2 * sigma, r = std::abs(residual);
+  const double bound = kHuberBound * sigma, r = std::abs(residual);
   return r <= bound || !(r > 0) ? 1 : bound / r;
 }
 

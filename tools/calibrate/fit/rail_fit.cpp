@@ -1,11 +1,11 @@
-#include "gateway/calibration/rail_fit.hpp"
+#include "tools/calibrate/fit/rail_fit.hpp"
 
 #include <Eigen/Dense>
 #include <cmath>
 #include <numbers>
 
 #include "gateway/calibration/joint_map.hpp"
-#include "gateway/calibration/robust.hpp"
+#include "tools/calibrate/fit/robust.hpp"
 
 namespace kinebus {
 namespace {

@@ -36,6 +36,8 @@ struct RailFit {
 /// Robust (Huber) linear least squares of measured = q + zero, q = anchor +
 /// (commanded - anchor) (1 + scale) + e(q) - side backlash / 2.
 /// Fewer than three samples, or samples at one place only: all zero, `after` = `before`.
+/// By Eigen, not Ceres: the model is linear, and Eigen shares a value between columns that cannot be told
+/// apart.
 RailFit fit_rail(std::span<const RailSample> samples, const RailFitOptions& options);
 
 }  // namespace kinebus

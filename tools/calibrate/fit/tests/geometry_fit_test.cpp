@@ -1,4 +1,4 @@
-#include "gateway/calibration/geometry_fit.hpp"
+#include "tools/calibrate/fit/geometry_fit.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "gateway/calibration/geometry_model.hpp"
+#include "tools/calibrate/fit/geometry_model.hpp"
 
 namespace kinebus {
 

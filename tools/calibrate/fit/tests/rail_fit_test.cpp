@@ -1,4 +1,4 @@
-#include "gateway/calibration/rail_fit.hpp"
+#include "tools/calibrate/fit/rail_fit.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,14 @@
-#include "gateway/calibration/geometry_fit.hpp"
+#include "tools/calibrate/fit/geometry_fit.hpp"
+
+#include <ceres/ceres.h>
+#include <ceres/normal_prior.h>
 
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
-#include "gateway/calibration/robust.hpp"
+#include "tools/calibrate/fit/robust.hpp"
 
 namespace kinebus {
 namespace {
@@ -90,6 +94,64 @@ Identifiable identify(const GeometryModel& model, const Eigen::MatrixXd& a,
   return out;
 }
 
+/// All readings and their derivatives at one point, worked out once and then asked for row by row.
+class Readings final : public ceres::EvaluationCallback {
+ public:
+  /// `x`: all parameters; the free ones are replaced by `scaled` times their prior, which Ceres moves.
+  Readings(const GeometryModel& model, const std::vector<std::size_t>& free, std::vector<double> x)
+      : model_(model), free_(free), x_(std::move(x)), scaled_(free.size()) {
+    for (std::size_t k = 0; k < free_.size(); ++k)
+      scaled_[k] = x_[free_[k]] / model_.parameters()[free_[k]].prior;
+  }
+  void PrepareForEvaluation(bool jacobians, bool) override {
+    const std::vector<double> at = x();
+    residuals_ = model_.residuals(at);
+    if (!jacobians || !residuals_) return;
+    const auto all = model_.jacobian(at);
+    if (all) jacobian_ = scaled_columns(model_, *all, free_);
+    if (!all) residuals_.reset();
+  }
+  std::vector<double> x() const {
+    std::vector<double> out = x_;
+    for (std::size_t k = 0; k < free_.size(); ++k)
+      out[free_[k]] = scaled_[k] * model_.parameters()[free_[k]].prior;
+    return out;
+  }
+  double* scaled() { return scaled_.data(); }
+  int size() const { return static_cast<int>(free_.size()); }
+  /// nullopt: out of the machine's reach.
+  const std::optional<std::vector<double>>& residuals() const { return residuals_; }
+  const RowMajor& jacobian() const { return jacobian_; }
+
+ private:
+  const GeometryModel& model_;
+  const std::vector<std::size_t>& free_;
+  std::vector<double> x_, scaled_;
+  std::optional<std::vector<double>> residuals_;
+  RowMajor jacobian_;
+};
+
+/// One row: a cost of its own, so that Huber's loss sees it alone.
+class ReadingCost final : public ceres::CostFunction {
+ public:
+  ReadingCost(const Readings& readings, std::size_t row) : readings_(readings), row_(row) {
+    set_num_residuals(1);
+    mutable_parameter_block_sizes()->push_back(readings.size());
+  }
+  bool Evaluate(double const* const*, double* residuals, double** jacobians) const override {
+    if (!readings_.residuals()) return false;
+    residuals[0] = (*readings_.residuals())[row_];
+    if (jacobians != nullptr && jacobians[0] != nullptr)
+      std::copy_n(readings_.jacobian().data() + row_ * static_cast<std::size_t>(readings_.size()),
+                  readings_.size(), jacobians[0]);
+    return true;
+  }
+
+ private:
+  const Readings& readings_;
+  std::size_t row_;
+};
+
 struct Solved {
   bool ok = false;
   Eigen::MatrixXd covariance;  // of the free parameters, scaled
@@ -97,69 +159,52 @@ struct Solved {
   int steps = 0;
 };
 
-/// Levenberg-Marquardt on the free parameters with Huber's weights, `x` moves. A weak prior keeps what is
-/// known badly near 0.
+/// Least squares on the free parameters with Huber's loss, `x` moves. A weak prior keeps what is known badly
+/// near 0. The scale of the noise comes from the readings, so the loss is set anew until it stays.
 Solved descend(const GeometryModel& model, const std::vector<std::size_t>& free, std::vector<double>& x) {
-  constexpr int kMostSteps = 40;
+  constexpr int kRounds = 20;
+  constexpr double kSettled = 1e-4;  // of the scale
   Solved s;
-  const auto n = static_cast<Eigen::Index>(free.size());
-  const auto prior_of = [&](Eigen::Index k) {
-    return model.parameters()[free[static_cast<std::size_t>(k)]].prior;
-  };
-  auto residuals = model.residuals(x);
-  if (!residuals) return s;
-  double damping = 1e-6;
-  const auto cost_of = [&](const std::vector<double>& r, const std::vector<double>& at, double sigma) {
-    double cost = 0;
-    for (const double v : r) {
-      const double bound = 2 * sigma, u = std::abs(v);
-      cost += u <= bound ? v * v : 2 * bound * u - bound * bound;
-    }
-    for (Eigen::Index k = 0; k < n; ++k) {
-      const double p = at[free[static_cast<std::size_t>(k)]] / prior_of(k);
-      cost += p * p;
-    }
-    return cost;
-  };
-  for (; s.steps < kMostSteps; ++s.steps) {
-    const auto jacobian = model.jacobian(x);
-    if (!jacobian) return s;
-    const Eigen::MatrixXd a = scaled_columns(model, *jacobian, free);
-    const double sigma = std::max(1.0, robust_sigma(*residuals));
-    Eigen::VectorXd weight(a.rows()), r(a.rows());
-    s.outliers = 0;
-    for (Eigen::Index i = 0; i < a.rows(); ++i) {
-      r(i) = (*residuals)[static_cast<std::size_t>(i)];
-      weight(i) = huber_weight(r(i), sigma);
-      s.outliers += weight(i) < 0.5 ? 1 : 0;
-    }
-    Eigen::MatrixXd normal = a.transpose() * weight.asDiagonal() * a + Eigen::MatrixXd::Identity(n, n);
-    Eigen::VectorXd right = -(a.transpose() * weight.cwiseProduct(r));
-    for (Eigen::Index k = 0; k < n; ++k) right(k) -= x[free[static_cast<std::size_t>(k)]] / prior_of(k);
-    s.covariance = normal.ldlt().solve(Eigen::MatrixXd::Identity(n, n)) * sigma * sigma;
-    const double cost = cost_of(*residuals, x, sigma);
-    bool moved = false;
-    for (int tries = 0; tries < 12 && !moved; ++tries, damping *= 10) {
-      Eigen::MatrixXd damped = normal;
-      damped.diagonal() *= 1 + damping;
-      const Eigen::VectorXd step = damped.ldlt().solve(right);
-      std::vector<double> y = x;
-      for (Eigen::Index k = 0; k < n; ++k) y[free[static_cast<std::size_t>(k)]] += step(k) * prior_of(k);
-      auto trial = model.residuals(y);
-      if (!trial) continue;
-      const double better = cost_of(*trial, y, sigma);
-      if (!(better <= cost)) continue;
-      moved = true;
-      x = std::move(y);
-      residuals = std::move(trial);
-      damping = std::max(1e-9, damping * 0.02);
-      if (cost - better < 1e-9 * (1 + cost)) {
-        s.ok = true;
-        return s;
-      }
-    }
-    if (!moved) break;
+  Readings readings(model, free, x);
+  readings.PrepareForEvaluation(false, true);
+  if (!readings.residuals()) return s;
+  const int n = readings.size();
+  ceres::LossFunctionWrapper loss(nullptr, ceres::TAKE_OWNERSHIP);
+  ceres::Problem::Options sharing;
+  sharing.evaluation_callback = &readings;
+  sharing.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ceres::Problem problem(sharing);
+  for (std::size_t row = 0; row < model.residual_count(); ++row)
+    problem.AddResidualBlock(new ReadingCost(readings, row), &loss, readings.scaled());
+  problem.AddResidualBlock(new ceres::NormalPrior(Eigen::MatrixXd::Identity(n, n), Eigen::VectorXd::Zero(n)),
+                           nullptr, readings.scaled());
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.logging_type = ceres::SILENT;
+  options.function_tolerance = 1e-9;
+  options.max_num_iterations = 40;
+  double sigma = 0;
+  for (int round = 0; round < kRounds; ++round) {
+    const double now = std::max(1.0, robust_sigma(*readings.residuals()));
+    if (std::abs(now - sigma) <= kSettled * sigma) break;
+    sigma = now;
+    loss.Reset(new ceres::HuberLoss(kHuberBound * sigma), ceres::TAKE_OWNERSHIP);
+    ceres::Solver::Summary summary;
+    ceres::Solve(options, &problem, &summary);
+    if (!summary.IsSolutionUsable()) return s;
+    s.steps += static_cast<int>(summary.iterations.size()) - 1;
+    readings.PrepareForEvaluation(false, true);
+    if (!readings.residuals()) return s;
   }
+  for (const double r : *readings.residuals()) s.outliers += huber_weight(r, sigma) < 0.5 ? 1 : 0;
+  ceres::Covariance::Options dense;
+  dense.algorithm_type = ceres::DENSE_SVD;
+  ceres::Covariance covariance(dense);
+  const std::vector<const double*> block{readings.scaled()};
+  RowMajor matrix(n, n);
+  if (!covariance.Compute(block, &problem) || !covariance.GetCovarianceMatrix(block, matrix.data())) return s;
+  s.covariance = sigma * sigma * matrix;
+  x = readings.x();
   s.ok = true;
   return s;
 }

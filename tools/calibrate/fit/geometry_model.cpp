@@ -1,4 +1,4 @@
-#include "gateway/calibration/geometry_model.hpp"
+#include "tools/calibrate/fit/geometry_model.hpp"
 
 #include <cassert>
 #include <cmath>
