@@ -1,6 +1,7 @@
 #include "gateway/service.hpp"
 
 #include <spdlog/spdlog.h>
+#include <systemd/sd-daemon.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -14,7 +15,6 @@
 #include "gateway/io/bus_log.hpp"
 #include "gateway/io/daemon.hpp"
 #include "gateway/io/socketcan_bus.hpp"
-#include "gateway/io/systemd_notify.hpp"
 #include "protocol/host/realtime.hpp"
 #include "protocol/host/socketcan.hpp"
 #include "protocol/joblink/sha256.hpp"
@@ -158,7 +158,7 @@ void Service::listen() {
 }
 
 void Service::run(const volatile std::sig_atomic_t* quit) {
-  notify_systemd("READY=1");
+  sd_notify(0, "READY=1");
   RecordedBus recorded(std::move(bus_), recorder_);
   Daemon daemon(loop_, recorded, gateway_);
   daemon.add(recorder_);

@@ -2,10 +2,10 @@
 
 #include <spdlog/spdlog.h>
 #include <sys/epoll.h>
+#include <systemd/sd-daemon.h>
 
 #include <algorithm>
 
-#include "gateway/io/systemd_notify.hpp"
 #include "gateway/sessions/messages.hpp"
 #include "protocol/host/socketcan.hpp"
 
@@ -91,12 +91,12 @@ void Daemon::run(const volatile std::sig_atomic_t* quit) {
     const LocalTime now = monotonic_now();
     for (DaemonPart* part : parts_) part->on_time(now);
     if (now >= next_watchdog) {
-      notify_systemd("WATCHDOG=1");
+      sd_notify(0, "WATCHDOG=1");
       next_watchdog = now + kWatchdogPeriod;
     }
     if (*quit != 0 && quit_at == LocalTime::max()) {
       spdlog::info("asked to end: bringing the machine to rest on its path");
-      notify_systemd("STOPPING=1");
+      sd_notify(0, "STOPPING=1");
       quit_at = now + kQuitWithin;
       if (!may_leave(gateway_.state()))
         if (const auto held = gateway_.carry_out(command::Hold{}); !held)
