@@ -1,46 +1,83 @@
 #include "vcan_tests/emulator/cpu/elf_image.hpp"
 
-#include <fstream>
-#include <iterator>
+#include <fcntl.h>
+#include <libelf.h>
+#include <unistd.h>
+
+#include <memory>
 #include <stdexcept>
 
 namespace kinebus::emulator {
 namespace {
 
-class Reader {
+class ElfFile {
  public:
-  Reader(const std::filesystem::path& file, std::vector<std::uint8_t> bytes)
-      : file_(file), bytes_(std::move(bytes)) {}
-
+  explicit ElfFile(const std::filesystem::path& file) : file_(file), opened_(file) {
+    if (opened_.descriptor < 0)
+      fail("cannot be read (build it: cmake --preset firmware && cmake --build --preset firmware)");
+    elf_version(EV_CURRENT);
+    elf_.reset(elf_begin(opened_.descriptor, ELF_C_READ, nullptr));
+    const Elf32_Ehdr* header = elf_ ? elf32_getehdr(elf_.get()) : nullptr;
+    if (header == nullptr || header->e_ident[EI_DATA] != ELFDATA2LSB || header->e_machine != EM_ARM)
+      fail("expected a little-endian 32-bit ARM ELF file");
+  }
   [[noreturn]] void fail(const std::string& what) const {
     throw std::runtime_error(file_.string() + ": " + what);
   }
-  std::uint32_t number(std::size_t at, std::size_t size) const {
-    need(at, size);
-    std::uint32_t value = 0;
-    for (std::size_t i = 0; i < size; ++i) value |= static_cast<std::uint32_t>(bytes_[at + i]) << (8 * i);
-    return value;
+  /// What libelf gave, or the end: only a truncated file lacks what its header names.
+  template <typename T>
+  T* need(T* found) const {
+    if (found == nullptr) fail("truncated");
+    return found;
   }
-  std::vector<std::uint8_t> piece(std::size_t at, std::size_t size) const {
-    need(at, size);
-    const auto begin = bytes_.begin() + static_cast<std::ptrdiff_t>(at);
-    return {begin, begin + static_cast<std::ptrdiff_t>(size)};
-  }
-  std::string text(std::size_t at) const {
-    std::string out;
-    for (; at < bytes_.size() && bytes_[at] != 0; ++at) out += static_cast<char>(bytes_[at]);
-    return out;
-  }
+  Elf* get() const { return elf_.get(); }
 
  private:
-  void need(std::size_t at, std::size_t size) const {
-    if (at > bytes_.size() || bytes_.size() - at < size) fail("truncated");
-  }
+  struct Opened {
+    explicit Opened(const std::filesystem::path& file)
+        : descriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC)) {}
+    Opened(const Opened&) = delete;
+    Opened& operator=(const Opened&) = delete;
+    ~Opened() {
+      if (descriptor >= 0) ::close(descriptor);
+    }
+    int descriptor;
+  };
+  struct End {
+    void operator()(Elf* elf) const { elf_end(elf); }
+  };
   std::filesystem::path file_;
-  std::vector<std::uint8_t> bytes_;
+  Opened opened_;
+  std::unique_ptr<Elf, End> elf_;
 };
 
-constexpr std::uint32_t kElfMagic = 0x464C457F, kArm = 40, kLoad = 1, kSymbolTable = 2;
+void load_pieces(const ElfFile& file, ElfImage& image) {
+  std::size_t count = 0;
+  if (elf_getphdrnum(file.get(), &count) != 0) file.fail("truncated");
+  const Elf32_Phdr* segments = count > 0 ? file.need(elf32_getphdr(file.get())) : nullptr;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Elf32_Phdr& segment = segments[i];
+    if (segment.p_type != PT_LOAD || segment.p_filesz == 0) continue;
+    const Elf_Data* data =
+        file.need(elf_getdata_rawchunk(file.get(), segment.p_offset, segment.p_filesz, ELF_T_BYTE));
+    const auto* bytes = static_cast<const std::uint8_t*>(data->d_buf);
+    image.pieces.push_back({segment.p_paddr, {bytes, bytes + data->d_size}});
+  }
+  if (image.pieces.empty()) file.fail("nothing in it to load");
+}
+
+void load_symbols(const ElfFile& file, ElfImage& image) {
+  for (Elf_Scn* section = nullptr; (section = elf_nextscn(file.get(), section)) != nullptr;) {
+    const Elf32_Shdr& header = *file.need(elf32_getshdr(section));
+    if (header.sh_type != SHT_SYMTAB) continue;
+    const Elf_Data* data = file.need(elf_getdata(section, nullptr));
+    const auto* symbols = static_cast<const Elf32_Sym*>(data->d_buf);
+    for (std::size_t i = 0; i < data->d_size / sizeof(Elf32_Sym); ++i) {
+      const char* name = file.need(elf_strptr(file.get(), header.sh_link, symbols[i].st_name));
+      if (*name != 0) image.symbols[name] = symbols[i].st_value;
+    }
+  }
+}
 
 }  // namespace
 
@@ -51,38 +88,10 @@ std::optional<std::uint32_t> ElfImage::symbol(const std::string& name) const {
 }
 
 ElfImage load_elf(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in)
-    throw std::runtime_error(
-        file.string() +
-        ": cannot be read (build it: cmake --preset firmware && cmake --build --preset firmware)");
-  const Reader elf(file, {std::istreambuf_iterator<char>(in), {}});
-  if (elf.number(0, 4) != kElfMagic || elf.number(4, 1) != 1 || elf.number(5, 1) != 1 ||
-      elf.number(18, 2) != kArm)
-    elf.fail("expected a little-endian 32-bit ARM ELF file");
-
+  const ElfFile elf(file);
   ElfImage image;
-  const std::size_t segments = elf.number(28, 4), segment_size = elf.number(42, 2),
-                    segment_count = elf.number(44, 2);
-  for (std::size_t i = 0; i < segment_count; ++i) {
-    const std::size_t at = segments + i * segment_size;
-    const std::uint32_t size = elf.number(at + 16, 4);
-    if (elf.number(at, 4) != kLoad || size == 0) continue;
-    image.pieces.push_back({elf.number(at + 12, 4), elf.piece(elf.number(at + 4, 4), size)});
-  }
-  if (image.pieces.empty()) elf.fail("nothing in it to load");
-
-  const std::size_t sections = elf.number(32, 4), section_size = elf.number(46, 2),
-                    section_count = elf.number(48, 2);
-  for (std::size_t i = 0; i < section_count; ++i) {
-    const std::size_t at = sections + i * section_size;
-    if (elf.number(at + 4, 4) != kSymbolTable) continue;
-    const std::size_t table = elf.number(at + 16, 4), size = elf.number(at + 20, 4);
-    const std::size_t names = elf.number(sections + elf.number(at + 24, 4) * section_size + 16, 4);
-    for (std::size_t s = table; s + 16 <= table + size; s += 16)
-      if (const std::string name = elf.text(names + elf.number(s, 4)); !name.empty())
-        image.symbols[name] = elf.number(s + 4, 4);
-  }
+  load_pieces(elf, image);
+  load_symbols(elf, image);
   return image;
 }
 
