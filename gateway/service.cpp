@@ -67,6 +67,13 @@ std::filesystem::path beside(const std::string& jobs_folder, const char* name) {
   return std::filesystem::absolute(jobs_folder).parent_path() / name;
 }
 
+/// In systemd's folder for this service, which is memory and stays when the daemon is started again by
+/// itself.
+std::filesystem::path flight_memory() {
+  const char* runtime = std::getenv("RUNTIME_DIRECTORY");
+  return runtime != nullptr ? std::filesystem::path(runtime) / "flight-memory" : std::filesystem::path();
+}
+
 /// The machine's id of this installation, or the place of its jobs where the system has none.
 std::string gateway_id(const std::string& jobs_folder) {
   std::string id = jobs_folder;
@@ -128,6 +135,7 @@ Service::Service(const Arguments& arguments)
            }),
       recorder_({.folder = arguments.flight.empty() ? journal_path_.parent_path() / "flight"
                                                     : std::filesystem::path(arguments.flight),
+                 .memory = flight_memory(),
                  .machine = machine_.name,
                  .interface = bus_name_},
                 gateway_) {

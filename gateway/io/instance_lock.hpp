@@ -1,6 +1,6 @@
 #pragma once
-// One daemon for one set of files: taken before anything of them is opened, held until the process ends however
-// it ends.
+// One daemon for one set of files: taken before anything of them is opened, held until the process ends
+// however it ends.
 
 #include <filesystem>
 #include <string>

@@ -1,6 +1,6 @@
 #pragma once
-// The log's way out, beside the loop: whoever reads stderr (a pipe, the journal) may stand still for ever, the loop never
-// waits for it. What finds no room is dropped, counted, and told when there is room again.
+// The log's way out, beside the loop: whoever reads stderr (a pipe, the journal) may stand still for ever,
+// the loop never waits for it. What finds no room is dropped, counted, and told when there is room again.
 
 #include <spdlog/sinks/base_sink.h>
 

@@ -1,6 +1,6 @@
 #pragma once
-// Text of others (names, M117, words of a job or a file) made fit to be sent and shown: valid UTF-8, of bounded
-// length, cut between characters, and without what a terminal or a display would obey.
+// Text of others (names, M117, words of a job or a file) made fit to be sent and shown: valid UTF-8, of
+// bounded length, cut between characters, and without what a terminal or a display would obey.
 
 #include <cstddef>
 #include <string>
@@ -15,9 +15,9 @@ inline constexpr std::size_t kMaxNameBytes = 100;
 /// The longest front of `text` that has at most `max_bytes` and ends with a whole character.
 std::string_view cut_text(std::string_view text, std::size_t max_bytes);
 
-/// At most `max_bytes` of `text`. '?' stands for bytes that are no UTF-8, for control characters (C0, DEL, C1), marks
-/// of direction, separators of lines and paragraphs and invisible tags; a tab is a space. So nothing in it moves
-/// a cursor, changes a colour or turns the order of what stands beside it.
+/// At most `max_bytes` of `text`. '?' stands for bytes that are no UTF-8, for control characters (C0, DEL,
+/// C1), marks of direction, separators of lines and paragraphs and invisible tags; a tab is a space. So
+/// nothing in it moves a cursor, changes a colour or turns the order of what stands beside it.
 std::string shown(std::string_view text, std::size_t max_bytes = kMaxWordsBytes);
 /// The same, of text in lines: '\n' stays.
 std::string shown_lines(std::string_view text, std::size_t max_bytes);

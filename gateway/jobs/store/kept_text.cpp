@@ -1,5 +1,6 @@
-// The text of the job that runs, or that was interrupted and may go on: kept under a name of its own, whoever deletes
-// or replaces the job meanwhile. A second name of the same file, so it costs nothing while the job is there.
+// The text of the job that runs, or that was interrupted and may go on: kept under a name of its own, whoever
+// deletes or replaces the job meanwhile. A second name of the same file, so it costs nothing while the job is
+// there.
 
 #include <unistd.h>
 

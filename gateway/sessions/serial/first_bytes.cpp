@@ -7,10 +7,11 @@
 namespace kinebus::serial {
 namespace {
 
-constexpr std::array<std::string_view, 10> kMethods{"GET ",     "POST ",  "PUT ",     "HEAD ",  "OPTIONS ",
+constexpr std::array<std::string_view, 10> kMethods{"GET ",    "POST ",  "PUT ",     "HEAD ",  "OPTIONS ",
                                                     "DELETE ", "PATCH ", "CONNECT ", "TRACE ", "PRI "};
 
-/// A method of the page's own choice may be a code of the machine's; the version at the line's end is not its choice.
+/// A method of the page's own choice may be a code of the machine's; the version at the line's end is not its
+/// choice.
 bool looks_like_http(std::string_view line) {
   return line.find("HTTP/") != std::string_view::npos ||
          std::any_of(kMethods.begin(), kMethods.end(),

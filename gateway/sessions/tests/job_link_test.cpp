@@ -64,6 +64,21 @@ TEST(JobLink, NothingIsAnsweredBeforeHello) {
   EXPECT_EQ(rig.machine.gateway->state(), MachineState::kOff);
 }
 
+TEST(JobLink, BeforeHelloOnlySmallFramesAreTaken) {
+  LinkRig rig;
+  for (const std::size_t size : {std::size_t{100}, std::size_t{8000}}) {
+    const auto session = rig.server->open(rig.machine.now, {});
+    ClientMessage hello;
+    hello.mutable_hello()->set_version_major(joblink::kVersionMajor);
+    hello.mutable_hello()->set_client_version(std::string(size, 'v'));
+    std::string bytes;
+    joblink::append_frame(bytes, 7, 0, hello.SerializeAsString());
+    session->on_bytes(rig.machine.now, {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+    session->on_time(rig.machine.now);
+    EXPECT_EQ(session->next_bytes().empty(), size > 4096) << size;
+  }
+}
+
 TEST(JobLink, OneHasControlTheOthersWatchAndAnyoneMayStop) {
   LinkRig rig;
   LinkedClient& anna = rig.connect("anna");
@@ -256,6 +271,19 @@ TEST(JobLink, MachineFileIsReadCheckedAndWritten) {
   write.mutable_write_machine_file()->set_expected_sha256(file.sha256());
   EXPECT_FALSE(rig.ask(anna, write).has_error());
   EXPECT_EQ(rig.machine_file.text, write_machine(default_m1()));
+}
+
+TEST(JobLink, TheMachineFileIsWrittenByWhoHasControlAlone) {
+  LinkRig rig;
+  LinkedClient& anna = rig.connect("anna");
+  LinkedClient& bert = rig.connect("bert");
+  rig.ask(anna, take_control());
+  const std::string before = rig.machine_file.text;
+  ClientMessage write;
+  write.mutable_write_machine_file()->set_text(write_machine(default_m1()));
+  EXPECT_EQ(rig.ask(bert, write).error().code(), joblink::ERROR_NO_CONTROL);
+  EXPECT_EQ(rig.machine_file.text, before);
+  EXPECT_FALSE(rig.ask(anna, write).has_error());
 }
 
 // What a client can make long: every reply fits into a message.

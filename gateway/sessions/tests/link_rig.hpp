@@ -148,7 +148,8 @@ class LinkRig {
         stirred = to_client(*client) || waits || stirred;
       }
       stirred = worker.run_one() || stirred;
-      while (told < machine.events.size()) server->on_event(machine.now, machine.events[told++]);
+      for (; told < machine.events.size(); stirred = true)
+        server->on_event(machine.now, machine.events[told++]);
       server->on_time(machine.now);
     }
     collect();

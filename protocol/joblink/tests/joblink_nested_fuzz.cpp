@@ -60,7 +60,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto take = [&] {
     while (const auto frame = reader.next()) last = frame->session == 2 && frame->sequence == 7;
   };
-  const std::span<const std::uint8_t> all(reinterpret_cast<const std::uint8_t*>(stream.data()), stream.size());
+  const std::span<const std::uint8_t> all(reinterpret_cast<const std::uint8_t*>(stream.data()),
+                                          stream.size());
   for (std::size_t i = 0; i < all.size(); i += 65'536) {
     reader.add(all.subspan(i, std::min<std::size_t>(65'536, all.size() - i)));
     take();

@@ -21,8 +21,12 @@ TEST(ShownText, HoldsNothingThatADisplayObeys) {
   EXPECT_EQ(shown("\x1B[2J\x07red\x7F"), "?[2J?red?");
   EXPECT_EQ(shown("a\tb\r\nc"), "a b??c");
   EXPECT_EQ(shown(std::string("a\0b", 3)), "a?b");
-  EXPECT_EQ(shown("\xC2\x9B" "31m"), "?31m");                           // CSI, U+009B
-  EXPECT_EQ(shown("part\xE2\x80\xAE" "edocg"), "part?edocg");           // right-to-left override
+  EXPECT_EQ(shown("\xC2\x9B"
+                  "31m"),
+            "?31m");  // CSI, U+009B
+  EXPECT_EQ(shown("part\xE2\x80\xAE"
+                  "edocg"),
+            "part?edocg");  // right-to-left override
   EXPECT_EQ(shown("\xE2\x81\xA6\xE2\x80\x8F\xD8\x9C\xEF\xBB\xBF"), "????");
   EXPECT_EQ(shown_lines("ok\nT:20\x1B\n", 100), "ok\nT:20?\n");
   EXPECT_FALSE(is_plain("a\x1B"));
@@ -38,9 +42,9 @@ TEST(ShownText, LeavesEveryLanguageAsItIs) {
 
 TEST(ShownText, BytesThatAreNoUtf8AreQuestionMarks) {
   EXPECT_EQ(shown("a\xFF\xC3"), "a??");
-  EXPECT_EQ(shown("\xC0\xAF"), "??");              // a slash in two bytes
-  EXPECT_EQ(shown("\xED\xA0\x80"), "???");         // a surrogate
-  EXPECT_EQ(shown("\xF4\x90\x80\x80"), "????");    // above U+10FFFF
+  EXPECT_EQ(shown("\xC0\xAF"), "??");            // a slash in two bytes
+  EXPECT_EQ(shown("\xED\xA0\x80"), "???");       // a surrogate
+  EXPECT_EQ(shown("\xF4\x90\x80\x80"), "????");  // above U+10FFFF
   EXPECT_FALSE(is_utf8("\xE2\x82"));
 }
 

@@ -47,9 +47,11 @@ TEST(FirstLine, WhateverABrowserSendsIsForeignBeforeALineIsTaken) {
 }
 
 TEST(FirstLine, APrintHostIsHeardFromItsFirstByte) {
-  for (const std::string& line : {std::string("N0 M110 N0*125\n"), std::string("M105\r\n"), std::string("\n")})
+  for (const std::string& line :
+       {std::string("N0 M110 N0*125\n"), std::string("M105\r\n"), std::string("\n")})
     for (const std::size_t piece : {std::size_t{1}, line.size()})
-      EXPECT_EQ(taken(line, piece), line.substr(0, piece == 1 ? line.find_first_of("\r\n") + 1 : line.size()));
+      EXPECT_EQ(taken(line, piece),
+                line.substr(0, piece == 1 ? line.find_first_of("\r\n") + 1 : line.size()));
 }
 
 }  // namespace

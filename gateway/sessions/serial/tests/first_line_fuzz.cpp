@@ -1,5 +1,5 @@
-// Any bytes, cut anywhere, as the beginning of a stream: the verdict does not depend on the cuts, and what a browser
-// sends is never taken.
+// Any bytes, cut anywhere, as the beginning of a stream: the verdict does not depend on the cuts, and what a
+// browser sends is never taken.
 
 #include <algorithm>
 #include <cstdint>
@@ -14,7 +14,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size < 1) return 0;
   std::string stream = data[0] % 2 == 0 ? std::string() : std::string("POST /x HTTP/1.1\r\n");
   stream.append(reinterpret_cast<const char*>(data) + 1, size - 1);
-  const std::span<const std::uint8_t> bytes(reinterpret_cast<const std::uint8_t*>(stream.data()), stream.size());
+  const std::span<const std::uint8_t> bytes(reinterpret_cast<const std::uint8_t*>(stream.data()),
+                                            stream.size());
   const auto verdict = [&](std::size_t piece) {
     FirstLine first;
     auto found = FirstLine::Verdict::kNotYet;
