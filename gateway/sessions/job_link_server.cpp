@@ -119,7 +119,9 @@ void JobLinkServer::welcome(LocalTime now, JobLinkSession& session, const joblin
       other->end(now, "this client has come back on another connection");
       break;
     }
-  const bool visits = !has_place_for(session);
+  // Who had control when its link broke is no visitor.
+  const bool returns = !vanished_key_.empty() && vanished_key_ == hello.resume_key();
+  const bool visits = !returns && !has_place_for(session);
   if (visits) make_room(now, &JobLinkSession::visitor, options_.places.visitors);
   const ClientId client =
       control_.attach(shown(hello.client_name(), kMaxNameBytes), session.info().transport);
