@@ -87,21 +87,22 @@ void StoreFiles::size(const Asked& answer, std::string_view name) {
 
 void StoreFiles::run(const Asked& asker, std::string_view name) {
   using Opened = Result<std::unique_ptr<ByteSource>, StoreError>;
-  worker_.ask([&store = store_, name = std::string(name)] { return store.open_to_run(name); },
-              [this, asked = std::weak_ptr(asker), name = std::string(name)](Opened source) {
-                // Nobody waits for it any more: M410, M112, a pulled cable.
-                const Asked answer = asked.lock();
-                if (!answer) return;
-                answer->done = true;
-                if (!source) {
-                  answer->refused = source.error().words.english();
-                } else if (const auto begun = gateway_.carry_out(command::Run{std::move(*source), name}); !begun) {
-                  answer->refused = begun.error().words.english();
-                } else {
-                  worker_.post([&store = store_, name] { store.keep_what_runs(name); }, [] {});
-                  server_.job_started(name);
-                }
-              });
+  worker_.ask(
+      [&store = store_, name = std::string(name)] { return store.open_to_run(name); },
+      [this, asked = std::weak_ptr(asker), name = std::string(name)](Opened source) {
+        // Nobody waits for it any more: M410, M112, a pulled cable.
+        const Asked answer = asked.lock();
+        if (!answer) return;
+        answer->done = true;
+        if (!source) {
+          answer->refused = source.error().words.english();
+        } else if (const auto begun = gateway_.carry_out(command::Run{std::move(*source), name}); !begun) {
+          answer->refused = begun.error().words.english();
+        } else {
+          worker_.post([&store = store_, name] { store.keep_what_runs(name); }, [] {});
+          server_.job_started(name);
+        }
+      });
 }
 
 void StoreFiles::remove(const Asked& answer, std::string_view name) {

@@ -29,8 +29,8 @@ class MemoryFiles : public SerialFiles {
   void run(const Asked& answer, std::string_view name) override {
     const auto found = texts.find(std::string(name));
     if (found == texts.end()) return finish(answer, "no such job");
-    const auto begun = gateway_.carry_out(
-        command::Run{std::make_unique<StringSource>(found->second), std::string(name)});
+    const auto begun =
+        gateway_.carry_out(command::Run{std::make_unique<StringSource>(found->second), std::string(name)});
     finish(answer, begun ? std::string() : std::string(begun.error().words));
   }
   void remove(const Asked& answer, std::string_view name) override {
