@@ -37,9 +37,9 @@ void add_options(CLI::App& app, Arguments& arguments) {
   app.add_option(
       "--serial-device", arguments.serial.device,
       "Speak to print hosts on this serial device, whenever it is there (USB gadget: /dev/ttyGS0)");
-  app.add_option(
-      "--serial-tcp", arguments.serial.tcp,
-      "Speak to print hosts on address:port; there is no password, use it in closed networks only");
+  app.add_option("--serial-tcp", arguments.serial.tcp,
+                 "Speak to print hosts on address:port of this computer alone (127.0.0.1:2323), as there is "
+                 "no password");
   app.add_option("--bus-log", arguments.bus_log,
                  "Write all frames of the bus to this file, as candump -L does");
   app.add_option("--flight", arguments.flight,

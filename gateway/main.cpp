@@ -1,11 +1,13 @@
 // kinebusd: reads the command line, builds the service, and loops until it is asked to end.
 
-#include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <csignal>
+#include <memory>
 
+#include "gateway/io/log_queue.hpp"
 #include "gateway/service.hpp"
 #include "protocol/host/guarded_main.hpp"
 
@@ -21,7 +23,8 @@ int run(int argc, char** argv) {
   CLI::App app("kinebusd: the Kinebus gateway. Plans G-code and moves the machine's CAN nodes.");
   kinebus::add_options(app, arguments);
   CLI11_PARSE(app, argc, argv);
-  spdlog::set_default_logger(spdlog::stderr_logger_st("kinebusd"));
+  const auto log = std::make_shared<kinebus::LogQueue>(STDERR_FILENO);
+  spdlog::set_default_logger(std::make_shared<spdlog::logger>("kinebusd", log));
   spdlog::set_level(spdlog::level::from_str(arguments.log_level));
   std::signal(SIGPIPE, SIG_IGN);
   try {

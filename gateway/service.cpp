@@ -60,11 +60,18 @@ std::string default_socket() {
 }
 
 double unix_now() {
-  return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+  return unix_s_at_zero() + to_seconds(monotonic_now());
 }
 
 std::filesystem::path beside(const std::string& jobs_folder, const char* name) {
   return std::filesystem::absolute(jobs_folder).parent_path() / name;
+}
+
+/// In systemd's folder for this service, which is memory and stays when the daemon is started again by
+/// itself.
+std::filesystem::path flight_memory() {
+  const char* runtime = std::getenv("RUNTIME_DIRECTORY");
+  return runtime != nullptr ? std::filesystem::path(runtime) / "flight-memory" : std::filesystem::path();
 }
 
 /// The machine's id of this installation, or the place of its jobs where the system has none.
@@ -94,7 +101,7 @@ JobLinkServer::Options server_options(const std::string& jobs_folder, MachineFil
           .gateway_id = gateway_id(jobs_folder),
           .secret = random_bytes(32),
           .machine_mark = machine_mark(machine_file),
-          .unix_s_at_zero = unix_now() - to_seconds(monotonic_now())};
+          .unix_s_at_zero = unix_s_at_zero()};
 }
 
 }  // namespace
@@ -104,9 +111,10 @@ Service::Service(const Arguments& arguments)
       machine_(read_machine(arguments.machine)),
       bus_name_(arguments.bus.empty() ? machine_.bus.interface : arguments.bus),
       jobs_folder_(arguments.jobs.empty() ? machine_.jobs_directory : arguments.jobs),
+      socket_(arguments.socket.empty() ? default_socket() : arguments.socket),
       journal_path_(arguments.journal.empty() ? beside(jobs_folder_, "resume.journal")
                                               : std::filesystem::absolute(arguments.journal)),
-      bus_(open_bus(bus_name_, machine_, arguments.bus_log)),
+      bus_((lock(), open_bus(bus_name_, machine_, arguments.bus_log))),
       store_(JobStore::open({.folder = jobs_folder_,
                              .quota_bytes = static_cast<std::uint64_t>(arguments.quota_gib * kBytesPerGib)},
                             unix_now())),
@@ -122,9 +130,12 @@ Service::Service(const Arguments& arguments)
       serial_files_(*store_, worker_, gateway_, server_),
       serial_(loop_, gateway_, serial_files_, control_, arguments.serial),
       usb_(loop_, hub_, arguments.usb,
-           [this](LocalTime now) { return server_.open(now, {.transport = "usb", .token = {}}); }),
+           [this](LocalTime now) {
+             return server_.open(now, {.transport = "usb", .token = {}, .lasting = true});
+           }),
       recorder_({.folder = arguments.flight.empty() ? journal_path_.parent_path() / "flight"
                                                     : std::filesystem::path(arguments.flight),
+                 .memory = flight_memory(),
                  .machine = machine_.name,
                  .interface = bus_name_},
                 gateway_) {
@@ -133,17 +144,25 @@ Service::Service(const Arguments& arguments)
   listen();
 }
 
+/// A daemon that is started twice by mistake must not open, read or write anything of the first one's.
+void Service::lock() {
+  for (const std::string& taken :
+       {lock_.take_file(socket_), lock_.take_folder(jobs_folder_), lock_.take_file(journal_path_)})
+    if (!taken.empty()) throw std::runtime_error(taken);
+}
+
 void Service::take_up_what_was_noted() {
   std::unique_ptr<ByteSource> job;
-  if (noted_.job)
-    if (auto text = store_->open_job(noted_.job->name)) job = std::move(*text);
+  if (!noted_.job)
+    store_->forget_kept();
+  else if (auto text = store_->open_kept(noted_.job->name); text)
+    job = std::move(*text);
   if (const auto taken = gateway_.recover(noted_, std::move(job)); !taken)
     spdlog::warn("{}", taken.error().words);
 }
 
 void Service::listen() {
-  const std::string socket = arguments_.socket.empty() ? default_socket() : arguments_.socket;
-  must_be_empty(host_.listen_local(socket, arguments_.group), "local socket");
+  must_be_empty(host_.listen_local(socket_, arguments_.group), "local socket");
   if (!arguments_.tcp.empty()) {
     const std::string folder =
         arguments_.credentials.empty() ? jobs_folder_ + "/.tls" : arguments_.credentials;
@@ -154,7 +173,7 @@ void Service::listen() {
   must_be_empty(serial_.open(), "serial port");
   if (const std::string missing = recorder_.open(); !missing.empty())
     spdlog::warn("no flight recorder: {}", missing);
-  spdlog::info("{} on bus {}, listening at {}", machine_.name, bus_name_, socket);
+  spdlog::info("{} on bus {}, listening at {}", machine_.name, bus_name_, socket_);
 }
 
 void Service::run(const volatile std::sig_atomic_t* quit) {

@@ -11,6 +11,7 @@
 #include "gateway/io/bus_port.hpp"
 #include "gateway/io/event_loop.hpp"
 #include "gateway/io/flight_recorder.hpp"
+#include "gateway/io/instance_lock.hpp"
 #include "gateway/io/job_link_host.hpp"
 #include "gateway/io/journal_file.hpp"
 #include "gateway/io/machine_file_store.hpp"
@@ -34,13 +35,15 @@ class Service {
   void run(const volatile std::sig_atomic_t* quit);
 
  private:
+  void lock();
   void take_up_what_was_noted();
   void listen();
 
   const Arguments& arguments_;
   MachineDescription machine_;
-  std::string bus_name_, jobs_folder_;
+  std::string bus_name_, jobs_folder_, socket_;
   std::filesystem::path journal_path_;
+  InstanceLock lock_;
   std::unique_ptr<BusPort> bus_;
   std::unique_ptr<JobStore> store_;
   EventLoop loop_;

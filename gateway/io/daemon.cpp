@@ -8,6 +8,7 @@
 
 #include "gateway/sessions/messages.hpp"
 #include "protocol/host/socketcan.hpp"
+#include "protocol/joblink/shown_text.hpp"
 
 namespace kinebus {
 namespace {
@@ -23,18 +24,19 @@ bool may_leave(MachineState state) {
 }
 
 void log_event(const MachineEvent& event) {
+  const std::string words = shown(event.words);
   switch (event.kind) {
     case MachineEvent::Kind::kAlarm:
-      spdlog::error("alarm 0x{:04X}: {}: {}", event.code, event.words, event.advice);
+      spdlog::error("alarm 0x{:04X}: {}: {}", event.code, words, shown(event.advice));
       break;
     case MachineEvent::Kind::kProblem:
-      spdlog::warn("line {}: {}", event.line, event.words);
+      spdlog::warn("line {}: {}", event.line, words);
       break;
     case MachineEvent::Kind::kState:
-      spdlog::info("state {}: {}", to_string(event.state), event.words);
+      spdlog::info("state {}: {}", to_string(event.state), words);
       break;
     default:
-      spdlog::info("{}", event.words);
+      spdlog::info("{}", words);
   }
 }
 }  // namespace

@@ -107,7 +107,8 @@ FlightRecorder::~FlightRecorder() {
 std::string FlightRecorder::open() {
   std::error_code error;
   std::filesystem::create_directories(impl_->options.folder, error);
-  const std::filesystem::path path = impl_->options.folder / "memory";
+  const std::filesystem::path path =
+      impl_->options.memory.empty() ? impl_->options.folder / "memory" : impl_->options.memory;
   const auto failed = [&] { return path.string() + ": " + std::strerror(errno); };
   const int fd = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0640);
   if (fd < 0) return failed();

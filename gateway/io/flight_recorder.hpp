@@ -17,7 +17,10 @@ class Gateway;
 class FlightRecorder final : public DaemonPart {
  public:
   struct Options {
-    std::filesystem::path folder;  ///< of the reports, and of the memory
+    std::filesystem::path folder;  ///< of the reports
+    /// The mapped file. On a file system of memory (/run) no page of it is ever written back, so the loop's
+    /// writes never wait for a disk, and it outlives the process all the same. Empty: in `folder`.
+    std::filesystem::path memory{};
     std::string machine;
     std::string interface;
   };

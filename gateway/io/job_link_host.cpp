@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <fstream>
 #include <stdexcept>
@@ -19,10 +20,33 @@ namespace {
 
 constexpr std::size_t kTokenBytes = 24;
 
-/// The token of the folder; a new one where there is none. Only the owner may read it.
+/// What a person chose may be shorter than what is made here, but must not be guessed.
+constexpr std::size_t kShortestToken = 16;
+
+}  // namespace
+
+double unix_s_at_zero() {
+  return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count() -
+         to_seconds(monotonic_now());
+}
+
+std::string random_bytes(std::size_t size) {
+  std::string bytes(size, '\0');
+  if (::getrandom(bytes.data(), size, 0) != static_cast<ssize_t>(size))
+    throw std::runtime_error("the system gives no random numbers");
+  return bytes;
+}
+
 Result<std::string, std::string> token_of(const std::filesystem::path& path) {
   std::string token;
-  if (std::ifstream in(path); in >> token) return token;
+  if (std::ifstream in(path); in >> token) {
+    if (std::string loose = loose_secret(path); !loose.empty()) return Error<std::string>(std::move(loose));
+    if (token.size() < kShortestToken)
+      return Error<std::string>(path.string() +
+                                ": expected a token of at least 16 characters; without the file a new one "
+                                "is made");
+    return token;
+  }
   token = joblink::to_hex(random_bytes(kTokenBytes));
   const int fd = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
   const std::string line = token + "\n";
@@ -33,24 +57,19 @@ Result<std::string, std::string> token_of(const std::filesystem::path& path) {
   return token;
 }
 
-}  // namespace
-
-std::string random_bytes(std::size_t size) {
-  std::string bytes(size, '\0');
-  if (::getrandom(bytes.data(), size, 0) != static_cast<ssize_t>(size))
-    throw std::runtime_error("the system gives no random numbers");
-  return bytes;
-}
-
 JobLinkHost::JobLinkHost(EventLoop& loop, StreamHub& hub, JobLinkServer& server)
     : hub_(hub),
       server_(server),
       local_(loop,
              [this](int fd, std::string who) {
-               add(std::make_unique<SocketStream>(fd), {.transport = std::move(who), .token = {}});
+               std::string peer = peer_of(fd);
+               add(std::make_unique<SocketStream>(fd),
+                   {.transport = std::move(who), .token = {}, .peer = std::move(peer)});
              }),
       tcp_(loop, [this](int fd, std::string who) {
-        add(tls_->open(fd), {.transport = std::move(who), .token = token_});
+        std::string peer = peer_of(fd);
+        add(tls_->open(fd),
+            {.transport = std::move(who), .token = token_, .peer = std::move(peer), .remote = true});
       }) {}
 
 std::string JobLinkHost::listen_local(const std::string& path, const std::string& group) {
@@ -67,13 +86,17 @@ std::string JobLinkHost::listen_tcp(const std::string& address, const std::files
   return tcp_.listen_tcp(address);
 }
 
+void JobLinkHost::on_time(LocalTime now) {
+  server_.wall_clock(unix_s_at_zero());
+  server_.on_time(now);
+}
+
 void JobLinkHost::on_event(const MachineEvent& event) {
   server_.on_event(monotonic_now(), event);
 }
 
 void JobLinkHost::add(std::unique_ptr<ByteStream> stream, SessionInfo info) {
-  if (auto session = server_.open(monotonic_now(), std::move(info)))
-    hub_.add(std::move(stream), std::move(session));
+  hub_.add(std::move(stream), server_.open(monotonic_now(), std::move(info)));
 }
 
 }  // namespace kinebus

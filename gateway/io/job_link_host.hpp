@@ -31,7 +31,7 @@ class JobLinkHost : public DaemonPart {
   int tcp_port() const { return tcp_.port(); }
 
   void on_event(const MachineEvent& event) override;
-  void on_time(LocalTime now) override { server_.on_time(now); }
+  void on_time(LocalTime now) override;
   LocalTime next_deadline() const override { return server_.next_deadline(); }
 
  private:
@@ -41,6 +41,12 @@ class JobLinkHost : public DaemonPart {
   std::string token_;
   Listener local_, tcp_;
 };
+
+/// The token in the file; a new one where there is none. Only the owner may read it. Error: in words.
+Result<std::string, std::string> token_of(const std::filesystem::path& path);
+
+/// Seconds since 1970 at time 0 of the monotonic clock, by the wall clock as it is now.
+double unix_s_at_zero();
 
 /// `size` random bytes of the system.
 std::string random_bytes(std::size_t size);

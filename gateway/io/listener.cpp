@@ -30,7 +30,30 @@ std::string name_of(const sockaddr_storage& address) {
   return std::string("tcp ") + text.data();
 }
 
+/// So many knock before they are let in; a local client that finds no room here would wait for ever.
+constexpr int kBacklog = 128;
+
 }  // namespace
+
+std::string peer_of(int fd) {
+  sockaddr_storage address{};
+  socklen_t size = sizeof address;
+  ::getpeername(fd, reinterpret_cast<sockaddr*>(&address), &size);
+  if (address.ss_family == AF_UNIX) {
+    ucred who{};
+    size = sizeof who;
+    ::getsockopt(fd, SOL_SOCKET, SO_PEERCRED, &who, &size);
+    return "local uid " + std::to_string(who.uid);
+  }
+  if (address.ss_family == AF_INET6) {
+    in6_addr& net = reinterpret_cast<sockaddr_in6&>(address).sin6_addr;
+    if (!IN6_IS_ADDR_V4MAPPED(&net)) {
+      std::memset(net.s6_addr + 8, 0, 8);
+      return name_of(address) + "/64";
+    }
+  }
+  return name_of(address);
+}
 
 Listener::~Listener() {
   if (fd_ < 0) return;
@@ -53,7 +76,12 @@ std::string Listener::listen_local(const std::string& path, const std::string& g
   const bool taken = ::connect(probe, generic, sizeof address) == 0;
   ::close(probe);
   if (taken) return path + ": another daemon listens here already";
-  ::unlink(path.c_str());
+  // A socket that a dead daemon left goes; a file under this name is somebody's, and stays.
+  if (struct stat there{}; ::lstat(path.c_str(), &there) == 0) {
+    if (!S_ISSOCK(there.st_mode))
+      return path + ": a file that is no socket has this name: it is left as it is";
+    ::unlink(path.c_str());
+  }
 
   fd_ = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   if (fd_ < 0) return because("cannot listen");
@@ -68,7 +96,7 @@ std::string Listener::listen_local(const std::string& path, const std::string& g
     if (::chown(path.c_str(), static_cast<uid_t>(-1), entry->gr_gid) != 0 || ::chmod(path.c_str(), 0660) != 0)
       return because("cannot give it to the group " + group);
   }
-  if (::listen(fd_, 8) != 0) return because("cannot listen");
+  if (::listen(fd_, kBacklog) != 0) return because("cannot listen");
   loop_.watch(fd_, EPOLLIN, [this](std::uint32_t) { accept_client(); });
   return {};
 }
@@ -90,7 +118,7 @@ std::string Listener::listen_tcp(const std::string& address) {
   fd_ = ::socket(found->ai_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   const int on = 1;
   if (fd_ >= 0) ::setsockopt(fd_, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
-  if (fd_ < 0 || ::bind(fd_, found->ai_addr, found->ai_addrlen) != 0 || ::listen(fd_, 8) != 0)
+  if (fd_ < 0 || ::bind(fd_, found->ai_addr, found->ai_addrlen) != 0 || ::listen(fd_, kBacklog) != 0)
     return address + ": cannot listen: " + std::strerror(errno);
   loop_.watch(fd_, EPOLLIN, [this](std::uint32_t) { accept_client(); });
   return {};

@@ -35,4 +35,8 @@ class Listener {
   std::string path_;
 };
 
+/// Whose places a connection takes: "local uid 1000", "tcp 10.0.0.7", "tcp 2001:db8::/64" (one computer has
+/// as many addresses of such a net as it likes).
+std::string peer_of(int fd);
+
 }  // namespace kinebus

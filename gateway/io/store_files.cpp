@@ -4,114 +4,123 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <ctime>
 #include <system_error>
+#include <utility>
 
-#include "gateway/jobs/store/file_source.hpp"
+#include "gateway/jobs/store/upload_file.hpp"
 
 namespace kinebus {
 namespace {
 
 namespace fs = std::filesystem;
 
-// Files on their way to the disk begin so: no job's name does.
-constexpr std::string_view kWritten = ".serial-";
+// The one file on its way to the disk: no job's name begins so.
+constexpr const char* kWritten = ".serial";
 
-bool is_job(const fs::path& path) {
-  std::error_code error;
-  return JobStore::check_name(path.filename().string()).empty() &&
-         fs::is_regular_file(fs::symlink_status(path, error));
+Result<void, StoreError> write_file(const fs::path& path, std::string_view text) {
+  const int fd = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0644);
+  if (fd < 0) return Error<StoreError>(disk_error(path, errno));
+  while (!text.empty()) {
+    const ssize_t count = ::write(fd, text.data(), text.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) {
+      const StoreError error = disk_error(path, errno);
+      ::close(fd);
+      ::unlink(path.c_str());
+      return Error<StoreError>(error);
+    }
+    text.remove_prefix(static_cast<std::size_t>(count));
+  }
+  ::close(fd);
+  return {};
+}
+
+void finish(const SerialFiles::Asked& answer, const Result<void, StoreError>& done) {
+  if (!done) answer->refused = done.error().words.english();
+  answer->done = true;
 }
 
 }  // namespace
 
 StoreFiles::StoreFiles(JobStore& store, Worker& worker, Gateway& gateway, JobLinkServer& server)
-    : store_(store), worker_(worker), gateway_(gateway), server_(server), folder_(store.folder()) {
+    : store_(store), worker_(worker), gateway_(gateway), server_(server) {
   // What a power cut left half written.
   std::error_code error;
-  std::vector<fs::path> left;
-  for (const auto& entry : fs::directory_iterator(folder_, error))
-    if (entry.path().filename().string().starts_with(kWritten)) left.push_back(entry.path());
-  for (const fs::path& path : left) fs::remove(path, error);
+  fs::remove(store_.folder() / kWritten, error);
 }
 
-std::vector<SerialFiles::Entry> StoreFiles::list() {
-  std::vector<Entry> entries;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder_, error))
-    if (is_job(entry.path()) && !written_.contains(entry.path().filename().string()))
-      entries.push_back({entry.path().filename().string(), entry.file_size(error)});
-  for (const auto& [name, path] : written_) entries.push_back({name, fs::file_size(path_of(name), error)});
-  std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.name < b.name; });
-  return entries;
+void StoreFiles::list(const Asked& answer) {
+  worker_.ask(
+      [&store = store_] {
+        Answer found;
+        std::string after;
+        for (bool more = true; more;) {
+          const auto part = store.list(after);
+          if (!part) {
+            found.refused = part.error().words.english();
+            break;
+          }
+          for (const StoredJob& job : part->jobs) found.entries.push_back({job.name, job.size_bytes});
+          more = part->more && !part->jobs.empty();
+          if (more) after = part->jobs.back().name;
+        }
+        return found;
+      },
+      [answer](Answer found) {
+        *answer = std::move(found);
+        answer->done = true;
+      });
 }
 
-Result<std::unique_ptr<ByteSource>, std::string> StoreFiles::open(std::string_view name) {
-  if (const Sentence broken = JobStore::check_name(name); !broken.empty())
-    return Error<std::string>(broken.english());
-  const fs::path path = path_of(std::string(name));
-  std::error_code error;
-  if (!fs::is_regular_file(fs::symlink_status(path, error)))
-    return Error<std::string>("no stored job has the name " + std::string(name));
-  auto source = FileSource::open(path);
-  if (!source) return Error<std::string>(source.error());
-  return std::unique_ptr<ByteSource>(std::move(*source));
-}
-
-std::string StoreFiles::run(std::string_view name) {
-  auto source = open(name);
-  if (!source) return source.error();
-  const auto begun = gateway_.carry_out(command::Run{std::move(*source), std::string(name)});
-  if (!begun) return begun.error().words.english();
-  server_.job_started(std::string(name));
-  return {};
-}
-
-std::string StoreFiles::remove(std::string_view name) {
-  if (const auto there = open(name); !there) return there.error();
-  worker_.post([&store = store_, name = std::string(name)] { static_cast<void>(store.remove(name)); }, [] {});
-  return {};
-}
-
-std::string StoreFiles::store(std::string_view name, std::string_view text) {
-  if (const Sentence broken = JobStore::check_name(name); !broken.empty()) return broken.english();
-  const fs::path fresh = folder_ / (std::string(kWritten) + std::to_string(next_written_++));
-  const int fd = ::open(fresh.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0644);
-  bool written = fd >= 0;
-  while (written && !text.empty()) {
-    const ssize_t count = ::write(fd, text.data(), text.size());
-    if (count < 0 && errno == EINTR) continue;
-    written = count > 0;
-    if (written) text.remove_prefix(static_cast<std::size_t>(count));
-  }
-  if (!written) {
-    const std::string reason = std::strerror(errno);
-    if (fd >= 0) ::close(fd);
-    ::unlink(fresh.c_str());
-    return folder_.string() + ": " + reason;
-  }
-  ::close(fd);
-  // The store makes it safe against a power cut, gives it its name and takes note of it, in its own time.
-  written_[std::string(name)] = fresh;
-  worker_.ask([&store = store_, fresh, name = std::string(name),
-               unix_s = static_cast<double>(std::time(nullptr))] { return store.adopt(fresh, name, unix_s); },
-              [this, fresh, name = std::string(name)](const Result<void, StoreError>& kept) {
-                if (!kept)
-                  spdlog::error("{} of a print host could not be stored: {}", name,
-                                kept.error().words.english());
-                if (const auto there = written_.find(name); there != written_.end() && there->second == fresh)
-                  written_.erase(there);
+void StoreFiles::size(const Asked& answer, std::string_view name) {
+  worker_.ask([&store = store_, name = std::string(name)] { return store.open_job(name); },
+              [answer, name = std::string(name)](const Result<std::unique_ptr<ByteSource>, StoreError>& job) {
+                if (!job)
+                  answer->refused = job.error().words.english();
+                else
+                  answer->entries.push_back({name, (*job)->size().value_or(0)});
+                answer->done = true;
               });
-  return {};
 }
 
-fs::path StoreFiles::path_of(const std::string& name) const {
-  const auto fresh = written_.find(name);
-  std::error_code error;
-  return fresh != written_.end() && fs::exists(fresh->second, error) ? fresh->second : folder_ / name;
+void StoreFiles::run(const Asked& asker, std::string_view name) {
+  using Opened = Result<std::unique_ptr<ByteSource>, StoreError>;
+  worker_.ask(
+      [&store = store_, name = std::string(name)] { return store.open_to_run(name); },
+      [this, asked = std::weak_ptr(asker), name = std::string(name)](Opened source) {
+        // Nobody waits for it any more: M410, M112, a pulled cable.
+        const Asked answer = asked.lock();
+        if (!answer) return;
+        answer->done = true;
+        if (!source) {
+          answer->refused = source.error().words.english();
+        } else if (const auto begun = gateway_.carry_out(command::Run{std::move(*source), name}); !begun) {
+          answer->refused = begun.error().words.english();
+        } else {
+          worker_.post([&store = store_, name] { store.keep_what_runs(name); }, [] {});
+          server_.job_started(name);
+        }
+      });
+}
+
+void StoreFiles::remove(const Asked& answer, std::string_view name) {
+  worker_.ask([&store = store_, name = std::string(name)] { return store.remove(name); },
+              [answer](const Result<void, StoreError>& removed) { finish(answer, removed); });
+}
+
+void StoreFiles::store(const Asked& answer, std::string_view name, std::string text) {
+  worker_.ask(
+      [&store = store_, name = std::string(name), text = std::move(text),
+       unix_s = static_cast<double>(std::time(nullptr))]() -> Result<void, StoreError> {
+        if (Sentence broken = JobStore::check_name(name); !broken.empty())
+          return Error<StoreError>({StoreError::Kind::kName, broken});
+        const fs::path written = store.folder() / kWritten;
+        if (const auto there = write_file(written, text); !there) return there;
+        return store.adopt(written, name, unix_s);
+      },
+      [answer](const Result<void, StoreError>& stored) { finish(answer, stored); });
 }
 
 }  // namespace kinebus

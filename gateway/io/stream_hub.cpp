@@ -14,6 +14,7 @@ struct StreamHub::Pair {
   std::unique_ptr<ByteSession> session;
   std::uint32_t interest = 0;
   bool closed = false;
+  LocalTime close_at = LocalTime::max();  ///< its session has ended
 };
 
 StreamHub::StreamHub(EventLoop& loop) : StreamHub(loop, Options()) {}
@@ -46,17 +47,30 @@ void StreamHub::close(Pair& pair, const char* why) {
   pair.session->on_closed(monotonic_now(), reason.empty() ? why : reason);
 }
 
+/// The turn's time for streams begins with the first of them that needs any.
+bool StreamHub::time_left() {
+  const LocalTime now = monotonic_now();
+  if (work_until_ == LocalTime::max()) work_until_ = now + options_.work_per_turn;
+  return now < work_until_;
+}
+
 void StreamHub::on_ready(Pair& pair, std::uint32_t events) {
   if (pair.closed) return;
   // A stream that is not read now would report its end again and again.
   if ((events & (EPOLLHUP | EPOLLERR)) != 0 && !pair.session->wants_bytes())
     return close(pair, "the other side ended the connection");
+  // It is still ready in the next turn, and then among the first.
+  if (!time_left()) return;
   std::array<std::uint8_t, 65'536> buffer;
   std::size_t taken = 0;
   while (taken < options_.bytes_per_turn && pair.session->wants_bytes()) {
     const ByteStream::Moved moved = pair.stream->read(buffer);
     if (moved.count > 0) pair.session->on_bytes(monotonic_now(), std::span(buffer).first(moved.count));
-    if (moved.closed) return close(pair, "the other side ended the connection");
+    if (moved.closed) {
+      // What came with the end is still carried out.
+      pair.session->on_time(monotonic_now());
+      return close(pair, "the other side ended the connection");
+    }
     if (moved.count == 0) break;
     taken += moved.count;
   }
@@ -85,23 +99,37 @@ void StreamHub::send(Pair& pair) {
 
 void StreamHub::on_time(LocalTime now) {
   // Sessions may make new streams' sessions speak, and close each other: the list is walked by index.
-  for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    Pair& pair = *pairs_[i];
+  const std::size_t count = pairs_.size();
+  std::size_t served = 0;
+  for (; served < count; ++served) {
+    Pair& pair = *pairs_[(first_ + served) % count];
     if (pair.closed) continue;
-    if (now >= pair.session->next_deadline()) pair.session->on_time(now);
-    if (pair.stream->buffered() && pair.session->wants_bytes())
-      on_ready(pair, EPOLLIN);
-    else
-      send(pair);
+    if (served > 0 && !time_left()) break;
+    serve(pair, now);
   }
+  first_ = count > 0 ? (first_ + served) % count : 0;
+  work_until_ = LocalTime::max();
   std::erase_if(pairs_, [](const auto& pair) { return pair->closed; });
+}
+
+void StreamHub::serve(Pair& pair, LocalTime now) {
+  if (now >= pair.session->next_deadline()) pair.session->on_time(now);
+  if (pair.session->ended() && pair.close_at == LocalTime::max()) pair.close_at = now + options_.farewell;
+  if (now >= pair.close_at) return close(pair, "the session has ended");
+  if (pair.stream->buffered() && pair.session->wants_bytes())
+    on_ready(pair, EPOLLIN);
+  else
+    send(pair);
 }
 
 LocalTime StreamHub::next_deadline() const {
   LocalTime next = LocalTime::max();
   for (const auto& pair : pairs_) {
     if (pair->stream->buffered() && pair->session->wants_bytes()) return LocalTime{0};
-    next = std::min(next, pair->session->next_deadline());
+    if (pair->session->ended())
+      next = std::min(next, pair->close_at == LocalTime::max() ? LocalTime{0} : pair->close_at);
+    else
+      next = std::min(next, pair->session->next_deadline());
   }
   return next;
 }

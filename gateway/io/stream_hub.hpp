@@ -16,9 +16,13 @@ namespace kinebus {
 class StreamHub : public DaemonPart {
  public:
   struct Options {
-    std::size_t max_streams = 64;
+    std::size_t max_streams = 96;
+    /// A session that has ended has so long to send the rest.
+    LocalTime farewell = std::chrono::seconds{2};
     /// Of one stream in one turn of the loop.
-    std::size_t bytes_per_turn = 256U << 10;
+    std::size_t bytes_per_turn = 64U << 10;
+    /// Of all streams in one turn: then bus and machine come first, and whoever had no part of it after that.
+    LocalTime work_per_turn = std::chrono::microseconds{500};
   };
 
   explicit StreamHub(EventLoop& loop);
@@ -40,12 +44,16 @@ class StreamHub : public DaemonPart {
  private:
   struct Pair;
   void on_ready(Pair& pair, std::uint32_t events);
+  void serve(Pair& pair, LocalTime now);
+  bool time_left();
   void send(Pair& pair);
   void close(Pair& pair, const char* why);
 
   EventLoop& loop_;
   Options options_;
   std::vector<std::unique_ptr<Pair>> pairs_;
+  std::size_t first_ = 0;                    ///< who is served first in the next turn
+  LocalTime work_until_ = LocalTime::max();  ///< of this turn; max: it has not begun
 };
 
 }  // namespace kinebus

@@ -151,12 +151,20 @@ std::shared_ptr<SSL_CTX> make_context(const SSL_METHOD* method) {
 
 }  // namespace
 
+std::string loose_secret(const fs::path& path) {
+  struct stat found {};
+  if (::stat(path.c_str(), &found) != 0 || (found.st_mode & 077) == 0) return {};
+  return path.string() + ": others than its owner may read or write this secret; expected: chmod 600 " +
+         path.string();
+}
+
 Result<TlsContext, std::string> TlsContext::server(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   const fs::path certificate = folder / "certificate.pem", key = folder / "key.pem";
   if (!fs::exists(certificate, error) || !fs::exists(key, error))
     if (std::string words = make_identity(certificate, key); !words.empty()) return Error<std::string>(words);
+  if (std::string loose = loose_secret(key); !loose.empty()) return Error<std::string>(std::move(loose));
   TlsContext tls;
   tls.is_server_ = true;
   tls.context_ = make_context(TLS_server_method());

@@ -13,6 +13,9 @@ struct ssl_ctx_st;
 
 namespace kinebus {
 
+/// Words for the user when others than its owner may read or write the file; empty: it is the owner's alone.
+std::string loose_secret(const std::filesystem::path& path);
+
 class TlsContext {
  public:
   /// For the gateway: certificate and key are made in `folder` when they are not there. Error: in words.

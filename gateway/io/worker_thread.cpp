@@ -12,24 +12,6 @@
 
 namespace kinebus {
 
-InheritingMutex::InheritingMutex() {
-  pthread_mutexattr_t attributes;
-  pthread_mutexattr_init(&attributes);
-  pthread_mutexattr_setprotocol(&attributes, PTHREAD_PRIO_INHERIT);
-  const int error = pthread_mutex_init(&mutex_, &attributes);
-  pthread_mutexattr_destroy(&attributes);
-  if (error != 0) throw std::system_error(error, std::generic_category(), "mutex");
-}
-InheritingMutex::~InheritingMutex() {
-  pthread_mutex_destroy(&mutex_);
-}
-void InheritingMutex::lock() {
-  pthread_mutex_lock(&mutex_);
-}
-void InheritingMutex::unlock() {
-  pthread_mutex_unlock(&mutex_);
-}
-
 WorkerThread::WorkerThread(EventLoop& loop) : loop_(loop), event_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
   if (event_ < 0) throw std::system_error(errno, std::generic_category(), "worker thread");
   loop_.watch(event_, EPOLLIN, [this](std::uint32_t) { take_done(); });

@@ -1,33 +1,16 @@
 #pragma once
 // The one thread beside the control loop: a disk may keep it waiting for seconds, never the loop.
 
-#include <pthread.h>
-
-#include <atomic>
 #include <condition_variable>
 #include <deque>
 #include <functional>
 #include <thread>
 
 #include "gateway/io/event_loop.hpp"
+#include "gateway/io/inheriting_mutex.hpp"
 #include "gateway/sessions/worker.hpp"
 
 namespace kinebus {
-
-/// A mutex whose holder runs at the priority of who waits for it: the loop, at real-time priority, never
-/// waits for a thread that has none while others run.
-class InheritingMutex {
- public:
-  InheritingMutex();
-  ~InheritingMutex();
-  InheritingMutex(const InheritingMutex&) = delete;
-  InheritingMutex& operator=(const InheritingMutex&) = delete;
-  void lock();
-  void unlock();
-
- private:
-  pthread_mutex_t mutex_;
-};
 
 class WorkerThread : public Worker {
  public:

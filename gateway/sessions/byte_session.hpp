@@ -15,6 +15,7 @@ class ByteSession {
  public:
   virtual ~ByteSession() = default;
 
+  /// Takes what came; what it asks for may be left to on_time(), a bounded part at a time.
   virtual void on_bytes(LocalTime now, std::span<const std::uint8_t> bytes) = 0;
   virtual void on_time(LocalTime now) = 0;
   virtual LocalTime next_deadline() const = 0;

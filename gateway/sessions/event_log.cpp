@@ -21,11 +21,4 @@ const joblink::Event* EventLog::after(std::uint64_t id) const {
   return found != events_.end() ? &*found : nullptr;
 }
 
-std::vector<joblink::Event> EventLog::list(std::uint64_t after_id, std::size_t max, bool alarms_only) const {
-  std::vector<joblink::Event> found;
-  for (const joblink::Event& event : alarms_only ? alarms_ : events_)
-    if (event.id() > after_id && found.size() < max) found.push_back(event);
-  return found;
-}
-
 }  // namespace kinebus

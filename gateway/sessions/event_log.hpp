@@ -20,8 +20,12 @@ class EventLog {
   std::uint64_t newest() const { return newest_; }
   /// The first kept event after `id`; nullptr: none.
   const joblink::Event* after(std::uint64_t id) const;
-  /// Oldest first.
-  std::vector<joblink::Event> list(std::uint64_t after_id, std::size_t max, bool alarms_only) const;
+  /// Gives `take` what came after `after_id`, oldest first, until it answers false.
+  template <typename Take>
+  void each(std::uint64_t after_id, bool alarms_only, const Take& take) const {
+    for (const joblink::Event& event : alarms_only ? alarms_ : events_)
+      if (event.id() > after_id && !take(event)) return;
+  }
 
  private:
   std::deque<joblink::Event> events_, alarms_;

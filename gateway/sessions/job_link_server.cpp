@@ -1,6 +1,7 @@
 #include "gateway/sessions/job_link_server.hpp"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "gateway/sessions/command_requests.hpp"
@@ -8,6 +9,7 @@
 #include "gateway/sessions/job_link_session.hpp"
 #include "gateway/sessions/messages.hpp"
 #include "protocol/joblink/sha256.hpp"
+#include "protocol/joblink/shown_text.hpp"
 #include "protocol/joblink/version.hpp"
 
 namespace kinebus {
@@ -15,8 +17,6 @@ namespace {
 
 /// So often a running job is looked at for the history; its end is seen at once by its event.
 constexpr LocalTime kRecordPeriod = std::chrono::milliseconds{500};
-
-constexpr int kMaxStrangers = 8;
 
 joblink::MachineInfo info_of(const MachineDescription& machine) {
   const auto kinematics = make_kinematics(machine);
@@ -42,13 +42,43 @@ JobLinkServer::JobLinkServer(Gateway& gateway, const MachineDescription& machine
 JobLinkServer::~JobLinkServer() = default;
 
 std::unique_ptr<ByteSession> JobLinkServer::open(LocalTime now, SessionInfo info) {
-  if (sessions_.size() >= options_.max_sessions) return nullptr;
-  // Strangers that have not proved themselves never take the places of those who have.
-  const auto strangers = std::count_if(sessions_.begin(), sessions_.end(), [](const auto& entry) {
-    return entry.second->must_prove_itself() && entry.second->client() == 0;
-  });
-  if (!info.token.empty() && strangers >= kMaxStrangers) return nullptr;
+  if (info.peer.empty()) info.peer = info.transport;
+  if (!info.lasting) make_room(now, &JobLinkSession::stranger, options_.places.strangers);
   return std::make_unique<JobLinkSession>(*this, ++last_session_, std::move(info), now);
+}
+
+void JobLinkServer::make_room(LocalTime now, bool (JobLinkSession::*counts)() const, std::size_t most) {
+  std::map<std::string, std::pair<std::size_t, JobLinkSession*>> peers;  // how many, and the oldest
+  std::size_t all = 0;
+  for (const auto& [id, session] : sessions_) {
+    if (!(session->*counts)()) continue;
+    ++all;
+    auto& [count, oldest] = peers[session->info().peer];
+    ++count;
+    if (oldest == nullptr || session->id() < oldest->id()) oldest = session;
+  }
+  if (all < most) return;
+  const auto greediest = std::max_element(peers.begin(), peers.end(), [](const auto& a, const auto& b) {
+    // Of two peers that have as many, the one whose session waits longest.
+    return std::pair(a.second.first, b.second.second->id()) <
+           std::pair(b.second.first, a.second.second->id());
+  });
+  greediest->second.second->end(now, "others wait for this place");
+}
+
+bool JobLinkServer::has_place_for(const JobLinkSession& session) const {
+  const SessionInfo& info = session.info();
+  if (info.lasting) return true;
+  std::size_t clients = 0, of_side = 0, of_peer = 0;
+  for (const auto& [id, other] : sessions_) {
+    if (other == &session || !other->takes_place()) continue;
+    ++clients;
+    if (other->info().remote == info.remote) ++of_side;
+    if (other->info().peer == info.peer) ++of_peer;
+  }
+  const Places& places = options_.places;
+  return clients < places.clients && of_side < places.of_a_side &&
+         (!info.remote || of_peer < places.of_a_remote_peer);
 }
 
 JobLinkSession* JobLinkServer::find(std::uint64_t session) {
@@ -81,19 +111,26 @@ joblink::Problem JobLinkServer::no_control() const {
 void JobLinkServer::welcome(LocalTime now, JobLinkSession& session, const joblink::Hello& hello,
                             joblink::HelloReply& reply) {
   latest_ = now;
+  forget_status();
   // The same client may be back before its old stream is known to be dead.
   for (const auto& [id, other] : sessions_)
     if (other != &session && !hello.resume_key().empty() && other->resume_key() == hello.resume_key() &&
         other->client() != 0) {
-      other->superseded(now);
+      other->end(now, "this client has come back on another connection");
       break;
     }
-  const ClientId client = control_.attach(hello.client_name().substr(0, 100), session.transport());
-  if (!vanished_key_.empty() && vanished_key_ == hello.resume_key() && control_.take(client, false))
+  // Who had control when its link broke is no visitor.
+  const bool returns = !vanished_key_.empty() && vanished_key_ == hello.resume_key();
+  const bool visits = !returns && !has_place_for(session);
+  if (visits) make_room(now, &JobLinkSession::visitor, options_.places.visitors);
+  const ClientId client =
+      control_.attach(shown(hello.client_name(), kMaxNameBytes), session.info().transport);
+  if (!visits && !vanished_key_.empty() && vanished_key_ == hello.resume_key() &&
+      control_.take(client, false))
     vanished_key_.clear();
   const std::string key =
       joblink::sha256_of(options_.secret + "/" + std::to_string(++keys_made_)).substr(0, 16);
-  session.welcomed(client, key);
+  session.welcomed(now, client, key, visits);
   reply.set_version_major(joblink::kVersionMajor);
   reply.set_version_minor(joblink::kVersionMinor);
   reply.set_gateway_version(options_.version);
@@ -115,11 +152,13 @@ double JobLinkServer::unix_s(LocalTime now) const {
 void JobLinkServer::tell(LocalTime now, joblink::Event event) {
   if (event.time_s() == 0) event.set_time_s(to_seconds(now));
   event.set_unix_s(options_.unix_s_at_zero + event.time_s());
+  event.set_job(shown(event.job()));
   events_.add(std::move(event));
 }
 
 void JobLinkServer::on_event(LocalTime now, const MachineEvent& event) {
   latest_ = now;
+  forget_status();
   // An interrupted job that goes on is a run of its own.
   if (event.kind == MachineEvent::Kind::kState && event.state == MachineState::kRunning &&
       !recorder_.active())
@@ -128,24 +167,26 @@ void JobLinkServer::on_event(LocalTime now, const MachineEvent& event) {
   tell(now, to_message(event));
 }
 
-joblink::Status JobLinkServer::status() const {
-  joblink::Status status = to_message(gateway_.status(), machine_);
-  add_commands(status, gateway_);
-  status.set_controller(control_.holder());
+const joblink::Status& JobLinkServer::status() {
+  if (status_) return *status_;
+  status_bytes_.clear();
+  status_ = to_message(gateway_.status(), machine_);
+  add_commands(*status_, gateway_);
+  status_->set_controller(control_.holder());
   for (const Control::Client& client : control_.clients()) {
-    joblink::ClientInfo& info = *status.add_clients();
+    joblink::ClientInfo& info = *status_->add_clients();
     info.set_id(client.id);
     info.set_name(client.name);
     info.set_transport(client.transport);
   }
-  return status;
+  return *status_;
 }
 
-const std::string& JobLinkServer::status_message(LocalTime now) {
-  if (now == status_at_) return status_bytes_;
-  status_at_ = now;
+const std::string& JobLinkServer::status_message() {
+  const joblink::Status& present = status();
+  if (!status_bytes_.empty()) return status_bytes_;
   joblink::ServerMessage message;
-  *message.mutable_status() = status();
+  *message.mutable_status() = present;
   status_bytes_ = message.SerializeAsString();
   return status_bytes_;
 }
@@ -168,8 +209,9 @@ void JobLinkServer::record_end(LocalTime now, const RunRecorder::Ended& end) {
   static constexpr RunResult kResults[] = {RunResult::kComplete, RunResult::kCancelled, RunResult::kRefused,
                                            RunResult::kFailed};
   worker_.post(
-      [&store = store_, id = run_id_, end,
+      [&store = store_, id = run_id_, end, goes_on = gateway_.status().interrupted,
        said = end.first_error.empty() ? std::string() : to_message(end.first_error).SerializeAsString()] {
+        if (!goes_on) store.forget_kept();
         if (*id != 0)
           static_cast<void>(store.end_run(*id, kResults[static_cast<std::size_t>(end.result)], end.duration_s,
                                           end.estimate_s, end.line, end.first_error, said));
@@ -183,6 +225,7 @@ void JobLinkServer::record_end(LocalTime now, const RunRecorder::Ended& end) {
 
 void JobLinkServer::on_time(LocalTime now) {
   latest_ = now;
+  forget_status();
   if (recorder_.active() && now >= next_record_) {
     next_record_ = now + kRecordPeriod;
     recorder_.on_status(gateway_.status());

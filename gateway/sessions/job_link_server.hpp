@@ -35,10 +35,22 @@ class JobCheckTask;
 struct SessionInfo {
   std::string transport = "local";  ///< shown to clients: "local", "usb", "tcp 10.0.0.7"
   std::string token;                ///< must be said in the hello; empty: none is needed
+  /// Who shares places with it: "local uid 1000", "tcp 10.0.0.7". Empty: the transport.
+  std::string peer{};
+  bool remote = false;   ///< comes over a network
+  bool lasting = false;  ///< the stream is there without a client, too (a USB cable), and is the only one
 };
 
 class JobLinkServer {
  public:
+  /// Nobody can lock others out. Who has not said hello yet has a place of its own kind for some seconds;
+  /// when these are taken, the oldest of the peer that holds most of them goes. Who is let in when its peer,
+  /// its side (the network, this computer) or the gateway has as many clients as may be is a visitor: it may
+  /// stop the machine and ask for its state, and leaves soon. A lasting stream (USB) has its place always.
+  struct Places {
+    std::size_t clients = 32, of_a_side = 24, of_a_remote_peer = 8;
+    std::size_t strangers = 16, visitors = 4;
+  };
   struct Options {
     std::string version;        ///< of the gateway
     std::string gateway_id;     ///< the same over restarts
@@ -47,7 +59,9 @@ class JobLinkServer {
     double unix_s_at_zero = 0;  ///< wall time at time 0 of the monotonic clock
     LocalTime silence_limit =
         std::chrono::seconds{8};  ///< a client that says nothing for so long has vanished
-    std::size_t max_sessions = 32;
+    LocalTime hello_within = std::chrono::seconds{
+        10};  ///< of the stream's begin, or of the last client's end; and a visit's length
+    Places places{};
   };
 
   /// All of them must outlive the server and its sessions. `store` is touched by `worker` alone.
@@ -57,12 +71,13 @@ class JobLinkServer {
   JobLinkServer(const JobLinkServer&) = delete;
   JobLinkServer& operator=(const JobLinkServer&) = delete;
 
-  /// nullptr: too many sessions.
   std::unique_ptr<ByteSession> open(LocalTime now, SessionInfo info);
 
   void on_event(LocalTime now, const MachineEvent& event);
   void on_time(LocalTime now);
   LocalTime next_deadline() const;
+  /// The wall clock may be set while the gateway runs, and often is long after its start.
+  void wall_clock(double unix_s_at_zero) { options_.unix_s_at_zero = unix_s_at_zero; }
   /// Another kind of session has started a stored job: its run belongs to the history, too.
   void job_started(const std::string& name);
 
@@ -77,6 +92,9 @@ class JobLinkServer {
     std::uint32_t request = 0;
   };
   JobLinkSession* find(std::uint64_t session);
+  bool has_place_for(const JobLinkSession& session) const;
+  /// The oldest of the peer that has most of the sessions that `counts` ends, where there are `most` of them.
+  void make_room(LocalTime now, bool (JobLinkSession::*counts)() const, std::size_t most);
   /// Gives the client its number, and its control back if it lost it by vanishing.
   void welcome(LocalTime now, JobLinkSession& session, const joblink::Hello& hello,
                joblink::HelloReply& reply);
@@ -86,8 +104,10 @@ class JobLinkServer {
   void tell(LocalTime now, joblink::Event event);
   joblink::Problem no_control() const;
   double unix_s(LocalTime now) const;
-  joblink::Status status() const;
-  const std::string& status_message(LocalTime now);
+  /// Made once a turn of the loop, however many ask; and anew after a command.
+  const joblink::Status& status();
+  const std::string& status_message();
+  void forget_status() { status_.reset(); }
   void record_end(LocalTime now, const RunRecorder::Ended& end);
 
   Gateway& gateway_;
@@ -110,8 +130,8 @@ class JobLinkServer {
   LocalTime next_record_{0}, latest_{0};
 
   std::vector<std::shared_ptr<JobCheckTask>> checks_;
-  std::string status_bytes_;  ///< the last status made, for all sessions of one instant
-  LocalTime status_at_ = LocalTime::min();
+  std::optional<joblink::Status> status_;
+  std::string status_bytes_;  ///< of it, as a message; empty: not made yet
 };
 
 }  // namespace kinebus

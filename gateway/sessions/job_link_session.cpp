@@ -23,7 +23,17 @@ constexpr int kMaxOpenRequests = 64;
 /// Statuses and events are made when less than this waits to be sent: who reads slowly gets the newest.
 constexpr std::size_t kNewsBacklog = 64U << 10;
 constexpr LocalTime kHalfFrame = std::chrono::milliseconds{800};
-constexpr LocalTime kHelloWithin = std::chrono::seconds{10};
+
+/// Carried out in one turn of the loop, so that others have theirs.
+constexpr int kFramesPerTurn = 4;
+constexpr std::size_t kEnoughUnread = 64U << 10;
+/// A stop as it is written: at most a number of six bytes, then field 44, empty.
+constexpr std::string_view kStopEnd("\xE2\x02\x00", 3);
+constexpr std::size_t kStopBytes = 9;
+/// Open at once, of one client; it sends one after the other.
+constexpr std::size_t kMaxUploads = 2;
+/// What may come before a client has been let in: a hello.
+constexpr std::size_t kMaxHello = 4096;
 
 /// Takes as long for a wrong token as for the right one.
 bool same_secret(std::string_view a, std::string_view b) {
@@ -33,7 +43,8 @@ bool same_secret(std::string_view a, std::string_view b) {
 }  // namespace
 
 JobLinkSession::JobLinkSession(JobLinkServer& server, std::uint64_t id, SessionInfo info, LocalTime now)
-    : server_(server), id_(id), info_(std::move(info)), last_heard_(now), now_(now) {
+    : server_(server), id_(id), info_(std::move(info)), last_heard_(now), now_(now), since_(now) {
+  reader_.limit(kMaxHello);
   server_.sessions_[id_] = this;
 }
 
@@ -43,16 +54,27 @@ JobLinkSession::~JobLinkSession() {
 }
 
 void JobLinkSession::leave(LocalTime now) {
-  if (upload_ != 0)
-    server_.worker_.post([&store = server_.store_, upload = upload_] { store.abort(upload, false); }, [] {});
-  upload_ = 0;
+  while (!uploads_.empty()) set_aside(uploads_.front());
   if (client_ == 0) return;
   if (server_.control_.holder() == client_) server_.vanished_key_ = resume_key_;
   server_.control_.detach(client_);
   client_ = 0;
+  visitor_ = false;
+  since_ = now;
   next_status_ = LocalTime::max();
   watches_events_ = false;
   now_ = now;
+}
+
+/// It goes on when somebody begins it again.
+void JobLinkSession::set_aside(std::uint32_t upload) {
+  server_.worker_.post([&store = server_.store_, upload] { store.abort(upload, false); }, [] {});
+  end_upload(upload);
+}
+
+void JobLinkSession::begin_upload(std::uint32_t upload) {
+  if (uploads_.size() >= kMaxUploads) set_aside(uploads_.front());
+  uploads_.push_back(upload);
 }
 
 void JobLinkSession::on_closed(LocalTime now, std::string_view) {
@@ -60,10 +82,12 @@ void JobLinkSession::on_closed(LocalTime now, std::string_view) {
   ended_ = true;
 }
 
-void JobLinkSession::superseded(LocalTime now) {
-  joblink::ServerMessage message;
-  message.mutable_session_end()->set_reason("this client has come back on another connection");
-  send(message);
+void JobLinkSession::end(LocalTime now, const char* why) {
+  if (client_ != 0) {
+    joblink::ServerMessage message;
+    message.mutable_session_end()->set_reason(why);
+    send(message);
+  }
   leave(now);
   ended_ = true;
 }
@@ -73,21 +97,35 @@ bool JobLinkSession::full() const {
 }
 
 bool JobLinkSession::wants_bytes() const {
-  return !full() && !ended_;
+  // What is here is worked off before more is read.
+  return !full() && !ended_ && !(unread_ && reader_.pending() > kEnoughUnread);
 }
 
 void JobLinkSession::on_bytes(LocalTime now, std::span<const std::uint8_t> bytes) {
   now_ = now;
   last_heard_ = now;
   reader_.add(bytes);
-  process(now);
+  unread_ = true;
+  see_stop();
 }
 
-void JobLinkSession::process(LocalTime now) {
-  while (!full() && !ended_) {
+/// A stop does not wait behind what came before it. It is answered in its turn, and does no harm twice.
+void JobLinkSession::see_stop() {
+  if (client_ == 0) return;
+  reader_.look_ahead([&](const joblink::FrameView& frame) {
+    const std::string_view text(reinterpret_cast<const char*>(frame.message.data()), frame.message.size());
+    if (frame.session != session_ || text.size() > kStopBytes || !text.ends_with(kStopEnd)) return;
+    ClientMessage message;
+    if (message.ParseFromArray(text.data(), static_cast<int>(text.size())) && message.has_stop())
+      static_cast<void>(server_.gateway_.carry_out(command::Stop{}));
+  });
+}
+
+void JobLinkSession::work(LocalTime now) {
+  for (int i = 0; i < kFramesPerTurn && work_waits(); ++i) {
     const auto frame = reader_.next();
-    if (!frame) return;
-    take(now, *frame);
+    unread_ = frame.has_value();
+    if (frame) take(now, *frame);
   }
 }
 
@@ -104,8 +142,9 @@ void JobLinkSession::take(LocalTime now, const joblink::FrameView& frame) {
   }
   if (const auto chunk = joblink::read_chunk(frame.message)) {
     const JobLinkServer::Asker asker{id_, chunk->head.request_id};
-    if (greeted(asker)) JobRequests(server_, *this, now).chunk(asker, *chunk);
-    return;
+    if (!greeted(asker)) return;
+    if (visitor_) return refuse_visitor(asker);
+    return JobRequests(server_, *this, now).chunk(asker, *chunk);
   }
   ClientMessage message;
   if (!message.ParseFromArray(frame.message.data(), static_cast<int>(frame.message.size())))
@@ -163,9 +202,19 @@ bool JobLinkSession::greeted(const JobLinkServer::Asker& asker) {
   return client_ != 0;
 }
 
+void JobLinkSession::refuse_visitor(const JobLinkServer::Asker& asker) {
+  server_.refuse(
+      asker,
+      problem(joblink::ERROR_BUSY, {},
+              say("all places for clients are taken: only stop and questions about the state are answered")));
+}
+
 void JobLinkSession::request(LocalTime now, const ClientMessage& message) {
   const JobLinkServer::Asker asker{id_, message.request_id()};
   if (!greeted(asker)) return;
+  const bool for_visitors =
+      message.has_stop() || message.has_get_status() || message.has_watch() || message.has_ping();
+  if (visitor_ && !for_visitors) return refuse_visitor(asker);
   if (message.has_watch()) {
     const double hz = message.watch().status_hz();
     status_period_ =
@@ -176,20 +225,24 @@ void JobLinkSession::request(LocalTime now, const ClientMessage& message) {
     return server_.answer(asker, {});
   }
   if (message.has_ping()) return server_.answer(asker, {});
+  // What is told afterwards is the state after it.
+  if (!message.has_get_status()) server_.forget_status();
   if (JobRequests(server_, *this, now).take(asker, message)) return;
   if (MachineRequests(server_, *this).take(asker, message)) return;
   server_.refuse(asker,
                  problem(joblink::ERROR_NOT_UNDERSTOOD, {}, say("this gateway does not know the request")));
 }
 
-void JobLinkSession::welcomed(ClientId client, std::string resume_key) {
+void JobLinkSession::welcomed(LocalTime now, ClientId client, std::string resume_key, bool visitor) {
   client_ = client;
+  visitor_ = visitor;
+  since_ = now;
   resume_key_ = std::move(resume_key);
+  reader_.limit(joblink::kMaxMessageBytes);
 }
 
 void JobLinkSession::paid(std::size_t bytes) {
   owed_bytes_ -= bytes;
-  process(now_);
 }
 
 std::string JobLinkSession::spare_buffer() {
@@ -204,33 +257,44 @@ void JobLinkSession::keep_buffer(std::string&& buffer) {
 }
 
 void JobLinkSession::send(const joblink::ServerMessage& message) {
-  write(message.SerializeAsString());
+  if (write(message.SerializeAsString()) || !message.has_reply()) return;
+  // Lists are bounded where they are made. What still does not fit is an answer all the same.
+  joblink::ServerMessage instead;
+  instead.mutable_reply()->set_request_id(message.reply().request_id());
+  *instead.mutable_reply()->mutable_error() =
+      problem(joblink::ERROR_BAD_VALUE, {}, say("the answer is longer than one message may be"));
+  write(instead.SerializeAsString());
 }
 
-void JobLinkSession::write(std::string_view message) {
-  out_.append(session_, sequence_, message);
+/// False: no frame can carry it; nothing is written.
+bool JobLinkSession::write(std::string_view message) {
+  if (!out_.append(session_, sequence_, message)) return false;
   sequence_ = SessionSequence::after(sequence_);
+  return true;
 }
 
 void JobLinkSession::on_time(LocalTime now) {
   now_ = now;
-  if (reader_.pending() > 0 && now >= last_heard_ + kHalfFrame && !full()) reader_.give_up();
-  process(now);
+  if (reader_.pending() > 0 && !unread_ && now >= last_heard_ + kHalfFrame && !full()) {
+    reader_.give_up();
+    unread_ = true;
+  }
+  work(now);
   if (client_ != 0 && now >= last_heard_ + server_.options_.silence_limit)
     resynchronise(now, "the client has said nothing for too long");
-  if (client_ == 0 && now >= last_heard_ + kHelloWithin && !info_.token.empty()) ended_ = true;
+  if ((stranger() || visitor()) && now >= since_ + server_.options_.hello_within)
+    end(now, "the visit is over: all places for clients were taken");
   if (now < next_status_) return;
   next_status_ = std::max(next_status_ + status_period_, now);
   // Who reads slowly gets the newest status later instead of all old ones.
-  if (out_.size() < kNewsBacklog) write(server_.status_message(now));
+  if (out_.size() < kNewsBacklog) write(server_.status_message());
 }
 
 LocalTime JobLinkSession::next_deadline() const {
+  if (work_waits()) return LocalTime{0};
   LocalTime next = next_status_;
-  if (client_ != 0)
-    next = std::min(next, last_heard_ + server_.options_.silence_limit);
-  else if (!info_.token.empty() && !ended_)
-    next = std::min(next, last_heard_ + kHelloWithin);
+  if (client_ != 0) next = std::min(next, last_heard_ + server_.options_.silence_limit);
+  if (stranger() || visitor()) next = std::min(next, since_ + server_.options_.hello_within);
   if (reader_.pending() > 0 && !full()) next = std::min(next, std::max(last_heard_, now_) + kHalfFrame);
   return next;
 }
@@ -248,9 +312,7 @@ std::span<const std::uint8_t> JobLinkSession::next_bytes() {
 }
 
 void JobLinkSession::on_bytes_sent(std::size_t count) {
-  const bool was_full = full();
   out_.sent(count);
-  if (was_full && !full()) process(now_);
 }
 
 }  // namespace kinebus

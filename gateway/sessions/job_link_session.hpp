@@ -2,6 +2,7 @@
 // One client's conversation on one stream: frames, hello, what it is told without asking, and how much of it
 // is taken at once.
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -31,10 +32,13 @@ class JobLinkSession : public ByteSession {
 
   std::uint64_t id() const { return id_; }
   ClientId client() const { return client_; }
-  bool must_prove_itself() const { return !info_.token.empty(); }
   const std::string& resume_key() const { return resume_key_; }
-  const std::string& transport() const { return info_.transport; }
-  void welcomed(ClientId client, std::string resume_key);
+  const SessionInfo& info() const { return info_; }
+  bool stranger() const { return client_ == 0 && !ended_ && !info_.lasting; }
+  bool visitor() const { return visitor_ && client_ != 0 && !ended_; }
+  bool takes_place() const { return client_ != 0 && !visitor_ && !ended_ && !info_.lasting; }
+  /// `visitor`: all places are taken; it may stop the machine and ask, and leaves soon.
+  void welcomed(LocalTime now, ClientId client, std::string resume_key, bool visitor);
   void send(const joblink::ServerMessage& message);
   /// Bytes of an upload are with the worker.
   void owe(std::size_t bytes) { owed_bytes_ += bytes; }
@@ -42,23 +46,32 @@ class JobLinkSession : public ByteSession {
   /// A text to be filled, with the memory of one that was kept: chunks come by the hundred a second.
   std::string spare_buffer();
   void keep_buffer(std::string&& buffer);
-  std::uint32_t upload() const { return upload_; }
-  void set_upload(std::uint32_t upload) { upload_ = upload; }
+  /// Uploads are those of who began them. The one that began first goes back to the disk when there are too
+  /// many.
+  void begin_upload(std::uint32_t upload);
+  void end_upload(std::uint32_t upload) { std::erase(uploads_, upload); }
+  bool owns_upload(std::uint32_t upload) const {
+    return std::find(uploads_.begin(), uploads_.end(), upload) != uploads_.end();
+  }
   /// A reply that comes later counts until it is sent.
   void answered() { --open_requests_; }
-  /// The same client speaks on another stream now.
-  void superseded(LocalTime now);
+  /// The stream is to be closed, when `why` is told to a client.
+  void end(LocalTime now, const char* why);
 
  private:
-  void process(LocalTime now);
+  void work(LocalTime now);
+  void see_stop();
+  bool work_waits() const { return unread_ && !full() && !ended_; }
   void take(LocalTime now, const joblink::FrameView& frame);
   void begin(LocalTime now, const joblink::FrameView& frame);
   void hello(LocalTime now, const joblink::ClientMessage& message);
   void request(LocalTime now, const joblink::ClientMessage& message);
+  void refuse_visitor(const JobLinkServer::Asker& asker);
   bool greeted(const JobLinkServer::Asker& asker);
   void leave(LocalTime now);
+  void set_aside(std::uint32_t upload);
   void resynchronise(LocalTime now, const char* why);
-  void write(std::string_view message);
+  bool write(std::string_view message);
   bool full() const;
 
   JobLinkServer& server_;
@@ -72,12 +85,15 @@ class JobLinkSession : public ByteSession {
   ClientId client_ = 0;  ///< 0: no hello yet
   std::string resume_key_;
   LocalTime last_heard_{0}, status_period_{0}, next_status_ = LocalTime::max(), now_{0};
-  bool watches_events_ = false, ended_ = false;
+  /// A stranger since, or a visitor.
+  LocalTime since_{0};
+  bool unread_ = false;  ///< whole frames may wait in the reader
+  bool visitor_ = false, watches_events_ = false, ended_ = false;
   std::uint64_t told_event_ = 0;
   std::size_t owed_bytes_ = 0;
   std::vector<std::string> spare_buffers_;
   int open_requests_ = 0;
-  std::uint32_t upload_ = 0;
+  std::vector<std::uint32_t> uploads_;
 };
 
 }  // namespace kinebus

@@ -8,6 +8,7 @@
 #include "gateway/sessions/messages.hpp"
 #include "protocol/joblink/frame_codec.hpp"
 #include "protocol/joblink/sha256.hpp"
+#include "protocol/joblink/shown_text.hpp"
 
 namespace kinebus {
 namespace {
@@ -60,8 +61,11 @@ bool JobRequests::take(const Asker& asker, const ClientMessage& message) {
     case ClientMessage::kUploadAbort:
       abort(asker, message.upload_abort());
       return true;
+    case ClientMessage::kDiscardUpload:
+      discard(asker, message.discard_upload());
+      return true;
     case ClientMessage::kListJobs:
-      list(asker);
+      list(asker, message.list_jobs().after_name());
       return true;
     case ClientMessage::kDeleteJob:
       remove(asker, message.delete_job().name());
@@ -96,12 +100,19 @@ void JobRequests::begin_upload(const Asker& asker, const joblink::UploadBegin& r
        unix_s = server_.unix_s(now_)] { return store.begin_upload(identity, replace, unix_s); },
       [&server = server_, asker](const Result<UploadProgress, StoreError>& begun) {
         JobLinkSession* session = server.find(asker.session);
-        if (session != nullptr && begun) session->set_upload(begun->id);
+        if (begun && begun->id != 0) {
+          // Who has gone meanwhile leaves nothing open.
+          if (session != nullptr && session->client() != 0)
+            session->begin_upload(begun->id);
+          else
+            server.worker_.post([&store = server.store_, id = begun->id] { store.abort(id, false); }, [] {});
+        }
         server.answer(asker, begun ? upload_reply(*begun) : error_reply(begun));
       });
 }
 
 void JobRequests::chunk(const Asker& asker, const joblink::ChunkView& chunk) {
+  if (!session_.owns_upload(chunk.head.upload_id)) return refuse_upload(asker);
   const std::size_t size = chunk.data.size();
   session_.owe(size);
   auto data = std::make_shared<std::string>(session_.spare_buffer());
@@ -120,34 +131,56 @@ void JobRequests::chunk(const Asker& asker, const joblink::ChunkView& chunk) {
 }
 
 void JobRequests::commit(const Asker& asker, const joblink::UploadCommit& request) {
+  if (!session_.owns_upload(request.upload_id())) return refuse_upload(asker);
   server_.worker_.ask([&store = server_.store_, id = request.upload_id(),
                        unix_s = server_.unix_s(now_)] { return store.commit(id, unix_s); },
-                      [&server = server_, asker, now = now_](const Result<UploadProgress, StoreError>& done) {
-                        if (JobLinkSession* session = server.find(asker.session)) session->set_upload(0);
+                      [&server = server_, asker, id = request.upload_id(),
+                       now = now_](const Result<UploadProgress, StoreError>& done) {
+                        JobLinkSession* session = server.find(asker.session);
+                        // What came too early is still open.
+                        if (session != nullptr && (done || done.error().kind != StoreError::Kind::kOrder))
+                          session->end_upload(id);
                         server.answer(asker, done ? upload_reply(*done) : error_reply(done));
                         if (done) server.tell(now, jobs_changed({}));
                       });
 }
 
 void JobRequests::abort(const Asker& asker, const joblink::UploadAbort& request) {
-  if (session_.upload() == request.upload_id()) session_.set_upload(0);
+  if (!session_.owns_upload(request.upload_id())) return refuse_upload(asker);
+  session_.end_upload(request.upload_id());
   server_.worker_.post([&store = server_.store_, id = request.upload_id(),
                         discard = request.discard()] { store.abort(id, discard); },
                        [&server = server_, asker] { server.answer(asker, {}); });
 }
 
-void JobRequests::list(const Asker& asker) {
-  server_.worker_.ask([&store = server_.store_] { return store.list(); },
-                      [&server = server_, asker](const Result<JobListing, StoreError>& listing) {
-                        if (!listing) return server.answer(asker, error_reply(listing));
-                        Reply reply;
-                        joblink::JobList& list = *reply.mutable_jobs();
-                        for (const StoredJob& job : listing->jobs) *list.add_jobs() = to_message(job);
-                        list.set_used_bytes(listing->used_bytes);
-                        list.set_quota_bytes(listing->quota_bytes);
-                        list.set_free_bytes(listing->free_bytes);
-                        server.answer(asker, std::move(reply));
-                      });
+/// Of another session, or none.
+void JobRequests::refuse_upload(const Asker& asker) {
+  server_.refuse(asker, problem(joblink::ERROR_BAD_VALUE, {},
+                                say("this upload is not open: begin it again, it goes on where it was")));
+}
+
+void JobRequests::discard(const Asker& asker, const joblink::DiscardUpload& request) {
+  UploadIdentity identity{request.name(), request.size_bytes(), request.hash()};
+  server_.worker_.ask(
+      [&store = server_.store_, identity = std::move(identity)] { return store.discard(identity); },
+      [&server = server_, asker, now = now_](const Result<void, StoreError>& discarded) {
+        server.answer(asker, discarded ? Reply() : error_reply(discarded));
+        if (discarded) server.tell(now, jobs_changed({}));
+      });
+}
+
+void JobRequests::list(const Asker& asker, const std::string& after) {
+  // Made into a message beside the loop, too.
+  server_.worker_.ask(
+      [&store = server_.store_, after] {
+        Reply reply;
+        if (const auto listing = store.list(after); !listing)
+          reply = error_reply(listing);
+        else
+          *reply.mutable_jobs() = to_message(*listing);
+        return reply;
+      },
+      [&server = server_, asker](Reply reply) { server.answer(asker, std::move(reply)); });
 }
 
 void JobRequests::remove(const Asker& asker, const std::string& name) {
@@ -214,15 +247,20 @@ void JobRequests::history(const Asker& asker, const joblink::GetHistory& request
   const std::size_t max = request.max_runs() == 0 ? 100 : request.max_runs();
   server_.worker_.ask(
       [&store = server_.store_, before = static_cast<std::int64_t>(request.before_id() & INT64_MAX), max] {
-        return store.history(before, max);
-      },
-      [&server = server_, asker](const Result<std::vector<StoredRun>, StoreError>& runs) {
-        if (!runs) return server.answer(asker, error_reply(runs));
         Reply reply;
-        reply.mutable_history();
-        for (const StoredRun& run : *runs) *reply.mutable_history()->add_runs() = to_message(run);
-        server.answer(asker, std::move(reply));
-      });
+        const auto runs = store.history(before, max);
+        if (!runs) return error_reply(runs);
+        joblink::History& history = *reply.mutable_history();
+        ListRoom room;
+        for (const StoredRun& stored : *runs) {
+          auto run = to_message(stored);
+          history.set_more(!room.take(run));
+          if (history.more()) break;
+          history.mutable_runs()->Add(std::move(run));
+        }
+        return reply;
+      },
+      [&server = server_, asker](Reply reply) { server.answer(asker, std::move(reply)); });
 }
 
 void JobRequests::read_machine_file(const Asker& asker) {
@@ -230,10 +268,13 @@ void JobRequests::read_machine_file(const Asker& asker) {
       [&file = server_.machine_file_] { return file.read(); },
       [&server = server_, asker](const Result<MachineFilePort::Text, Sentence>& text) {
         if (!text) return server.refuse(asker, problem(joblink::ERROR_STORAGE, "machine file", text.error()));
+        if (!is_utf8(text->text))
+          return server.refuse(asker, problem(joblink::ERROR_BAD_VALUE, "machine file",
+                                              say("the machine file is no text in UTF-8")));
         Reply reply;
         joblink::MachineFile& file = *reply.mutable_machine_file();
         file.set_text(text->text);
-        file.set_path(text->path);
+        file.set_path(shown(text->path));
         file.set_sha256(joblink::sha256_of(text->text));
         file.set_writable(text->writable);
         file.set_restart_needed(!text->path.empty() &&
@@ -248,14 +289,12 @@ void JobRequests::check_machine_file(const Asker& asker, const std::string& text
         asker, problem(joblink::ERROR_BAD_VALUE, "text", say("a machine file has at most 512 KiB")));
   server_.worker_.ask(
       [text] {
-        const auto parsed = parse_machine(text, "machine file");
-        return parsed ? MachineFileErrors() : parsed.error();
-      },
-      [&server = server_, asker](const MachineFileErrors& errors) {
         Reply reply;
-        *reply.mutable_machine_file_check() = to_message(errors);
-        server.answer(asker, std::move(reply));
-      });
+        const auto parsed = parse_machine(text, "machine file");
+        *reply.mutable_machine_file_check() = to_message(parsed ? MachineFileErrors() : parsed.error());
+        return reply;
+      },
+      [&server = server_, asker](Reply reply) { server.answer(asker, std::move(reply)); });
 }
 
 void JobRequests::write_machine_file(const Asker& asker, const joblink::WriteMachineFile& request) {
@@ -264,7 +303,7 @@ void JobRequests::write_machine_file(const Asker& asker, const joblink::WriteMac
     return server_.refuse(
         asker, problem(joblink::ERROR_BAD_VALUE, "text", say("a machine file has at most 512 KiB")));
   struct Written {
-    MachineFileErrors errors;
+    joblink::MachineFileCheck errors;
     Sentence failure;
     bool conflict = false;
   };
@@ -272,7 +311,7 @@ void JobRequests::write_machine_file(const Asker& asker, const joblink::WriteMac
       [&file = server_.machine_file_, text = request.text(), expected = request.expected_sha256()] {
         Written written;
         if (const auto parsed = parse_machine(text, "machine file"); !parsed) {
-          written.errors = parsed.error();
+          written.errors = to_message(parsed.error());
           return written;
         }
         if (const auto present = file.read(); !expected.empty() && present)
@@ -288,8 +327,9 @@ void JobRequests::write_machine_file(const Asker& asker, const joblink::WriteMac
         if (!written.failure.empty())
           return server.refuse(asker, problem(joblink::ERROR_STORAGE, "machine file", written.failure));
         Reply reply;
-        *reply.mutable_machine_file_check() = to_message(written.errors);
-        if (!written.errors.empty()) *reply.mutable_error() = reply.machine_file_check().problems(0);
+        *reply.mutable_machine_file_check() = written.errors;
+        if (written.errors.problems_size() > 0)
+          *reply.mutable_error() = reply.machine_file_check().problems(0);
         server.answer(asker, std::move(reply));
       });
 }

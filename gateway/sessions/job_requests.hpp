@@ -19,7 +19,9 @@ class JobRequests {
   void begin_upload(const Asker& asker, const joblink::UploadBegin& request);
   void commit(const Asker& asker, const joblink::UploadCommit& request);
   void abort(const Asker& asker, const joblink::UploadAbort& request);
-  void list(const Asker& asker);
+  void discard(const Asker& asker, const joblink::DiscardUpload& request);
+  void refuse_upload(const Asker& asker);
+  void list(const Asker& asker, const std::string& after);
   void remove(const Asker& asker, const std::string& name);
   void read(const Asker& asker, const joblink::ReadJob& request);
   void check(const Asker& asker, const std::string& name);

@@ -6,6 +6,7 @@
 #include "gateway/sessions/console.hpp"
 #include "gateway/sessions/job_link_session.hpp"
 #include "gateway/sessions/messages.hpp"
+#include "protocol/joblink/shown_text.hpp"
 
 namespace kinebus {
 namespace {
@@ -55,9 +56,14 @@ bool MachineRequests::take_free(const Asker& asker, const ClientMessage& message
   if (message.has_get_events()) {
     const joblink::GetEvents& request = message.get_events();
     const std::size_t max = request.max_events() == 0 ? 200 : request.max_events();
-    reply.mutable_events();
-    for (const joblink::Event& event : server_.events_.list(request.after_id(), max, request.alarms_only()))
-      *reply.mutable_events()->add_events() = event;
+    joblink::EventList& list = *reply.mutable_events();
+    ListRoom room;
+    server_.events_.each(request.after_id(), request.alarms_only(), [&](const joblink::Event& event) {
+      if (static_cast<std::size_t>(list.events_size()) >= max) return false;
+      list.set_more(!room.take(event));
+      if (!list.more()) *list.add_events() = event;
+      return !list.more();
+    });
     server_.answer(asker, std::move(reply));
     return true;
   }
@@ -103,11 +109,12 @@ void MachineRequests::carry_out(const Asker& asker, const ClientMessage& message
 void MachineRequests::start(const Asker& asker, const std::string& name) {
   using Opened = Result<std::unique_ptr<ByteSource>, StoreError>;
   server_.worker_.ask(
-      [&store = server_.store_, name] { return store.open_job(name); },
+      [&store = server_.store_, name] { return store.open_to_run(name); },
       [&server = server_, asker, name](Opened source) {
         if (!source) return server.refuse(asker, problem(source.error()));
         if (const auto begun = server.gateway_.carry_out(command::Run{std::move(*source), name}); !begun)
           return server.refuse(asker, problem(begun.error()));
+        server.worker_.post([&store = server.store_, name] { store.keep_what_runs(name); }, [] {});
         server.job_started(name);
         server.answer(asker, {});
       });
@@ -117,7 +124,7 @@ void MachineRequests::console(const Asker& asker, const std::string& line) {
   const auto text = console_line(server_.gateway_, line);
   if (!text) return server_.refuse(asker, problem(text.error()));
   Reply reply;
-  reply.mutable_console()->set_text(*text);
+  reply.mutable_console()->set_text(shown_lines(*text, ListRoom::kBytes));
   server_.answer(asker, std::move(reply));
 }
 

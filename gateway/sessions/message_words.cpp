@@ -3,46 +3,15 @@
 #include <utility>
 
 #include "gateway/sessions/messages.hpp"
+#include "protocol/joblink/shown_text.hpp"
 
 namespace kinebus {
-
-std::string clean(std::string_view text) {
-  std::string out;
-  out.reserve(text.size());
-  for (std::size_t i = 0; i < text.size();) {
-    const auto lead = static_cast<unsigned char>(text[i]);
-    const std::size_t length = lead < 0x80                   ? 1
-                               : lead >= 0xC2 && lead < 0xE0 ? 2
-                               : lead >= 0xE0 && lead < 0xF0 ? 3
-                               : lead >= 0xF0 && lead < 0xF5 ? 4
-                                                             : 0;
-    bool whole = length > 0 && i + length <= text.size();
-    for (std::size_t k = 1; whole && k < length; ++k)
-      whole = (static_cast<unsigned char>(text[i + k]) & 0xC0) == 0x80;
-    if (whole && length == 3) {
-      const auto second = static_cast<unsigned char>(text[i + 1]);
-      whole = !(lead == 0xE0 && second < 0xA0) && !(lead == 0xED && second > 0x9F);
-    }
-    if (whole && length == 4) {
-      const auto second = static_cast<unsigned char>(text[i + 1]);
-      whole = !(lead == 0xF0 && second < 0x90) && !(lead == 0xF4 && second > 0x8F);
-    }
-    if (whole) {
-      out.append(text.substr(i, length));
-      i += length;
-    } else {
-      out += '?';
-      ++i;
-    }
-  }
-  return out;
-}
 
 joblink::Sentence to_message(const Sentence& sentence) {
   joblink::Sentence m;
   const bool verbatim = sentence.pattern() == nullptr;
   m.set_verbatim(verbatim);
-  m.set_text(verbatim ? clean(sentence) : std::string(sentence.pattern()));
+  m.set_text(verbatim ? shown(sentence) : std::string(sentence.pattern()));
   for (const Sentence& part : sentence.parts()) *m.add_parts() = to_message(part);
   return m;
 }
@@ -51,9 +20,9 @@ joblink::Problem problem(joblink::ErrorCode code, const std::string& place, cons
                          const Sentence& expected) {
   joblink::Problem p;
   p.set_code(code);
-  p.set_place(clean(place));
-  p.set_rule(clean(rule));
-  p.set_expected(clean(expected));
+  p.set_place(shown(place));
+  p.set_rule(shown(rule));
+  p.set_expected(shown(expected));
   *p.mutable_rule_said() = to_message(rule);
   if (!expected.empty()) *p.mutable_expected_said() = to_message(expected);
   return p;
@@ -70,6 +39,7 @@ joblink::Problem problem(const StoreError& error) {
       {Kind::kQuota, joblink::ERROR_QUOTA},      {Kind::kDiskFull, joblink::ERROR_QUOTA},
       {Kind::kReadOnly, joblink::ERROR_STORAGE}, {Kind::kChecksum, joblink::ERROR_CHECKSUM},
       {Kind::kOrder, joblink::ERROR_BAD_VALUE},  {Kind::kDisk, joblink::ERROR_STORAGE},
+      {Kind::kBusy, joblink::ERROR_BUSY},
   };
   joblink::ErrorCode code = joblink::ERROR_STORAGE;
   for (const auto& [kind, number] : kCodes)

@@ -3,8 +3,15 @@
 #include <algorithm>
 #include <utility>
 
+#include "protocol/joblink/shown_text.hpp"
+
 namespace kinebus {
 namespace {
+
+/// Of a machine file; nobody reads more of them at once.
+constexpr int kMaxFileProblems = 300;
+/// More are seldom half done; the oldest are shown, and the next when these are gone.
+constexpr int kMaxPartials = 200;
 
 void set_range(joblink::Range& message, const Interval& interval) {
   message.set_min(interval.min);
@@ -176,7 +183,7 @@ joblink::Status to_message(const MachineStatus& s, const MachineDescription& mac
   m.set_time_s(to_seconds(s.now));
   m.set_state(static_cast<joblink::State>(s.state));
   m.set_state_words(std::string(to_string(s.state)));
-  m.set_doing(clean(s.doing));
+  m.set_doing(shown(s.doing));
   if (!s.doing.empty()) *m.mutable_doing_said() = to_message(s.doing);
   m.set_at_rest(at_rest(s.state));
   m.set_positions_known(s.positions_known);
@@ -186,7 +193,7 @@ joblink::Status to_message(const MachineStatus& s, const MachineDescription& mac
   m.set_path_time_s(s.path_time_s);
   m.set_rate(s.rate);
   m.set_feed_override(s.feed_override);
-  m.set_job(clean(s.job));
+  m.set_job(shown(s.job));
   m.set_interrupted(s.interrupted);
   m.set_line(s.line);
   m.set_progress(s.progress);
@@ -226,8 +233,8 @@ joblink::Event to_message(const MachineEvent& event) {
   m.set_code(event.code);
   m.set_node(event.node);
   m.set_line(event.line);
-  m.set_words(clean(event.words));
-  m.set_advice(clean(event.advice));
+  m.set_words(shown(event.words));
+  m.set_advice(shown(event.advice));
   *m.mutable_said() = to_message(event.words);
   if (!event.advice.empty()) *m.mutable_advice_said() = to_message(event.advice);
   return m;
@@ -235,10 +242,10 @@ joblink::Event to_message(const MachineEvent& event) {
 
 joblink::MachineInfo to_message(const MachineDescription& machine, const Pose& bed_reference) {
   joblink::MachineInfo m;
-  m.set_name(clean(machine.name));
+  m.set_name(shown(machine.name));
   for (const JointDescription& joint : machine.joints) {
     joblink::Joint& j = *m.add_joints();
-    j.set_name(clean(joint.name));
+    j.set_name(shown(joint.name));
     j.set_rotary(joint.rotary);
     j.set_node(joint.node_id);
     j.set_axis(joint.axis);
@@ -261,7 +268,7 @@ joblink::MachineInfo to_message(const MachineDescription& machine, const Pose& b
   m.set_hotend_max_celsius(machine.thermal.hotend.present ? machine.thermal.hotend.max_c : 0);
   m.set_bed_max_celsius(machine.thermal.bed.present ? machine.thermal.bed.max_c : 0);
   m.set_filament_diameter_mm(machine.gcode.filament_diameter_mm);
-  m.set_bus(clean(machine.bus.interface));
+  m.set_bus(shown(machine.bus.interface));
   return m;
 }
 
@@ -277,7 +284,7 @@ joblink::PreflightSummary to_message(const StoredPreflight& found) {
 
 joblink::Job to_message(const StoredJob& job) {
   joblink::Job m;
-  m.set_name(clean(job.name));
+  m.set_name(shown(job.name));
   m.set_hash(job.hash);
   m.set_size_bytes(job.size_bytes);
   m.set_stored_unix_s(job.stored_unix_s);
@@ -287,18 +294,48 @@ joblink::Job to_message(const StoredJob& job) {
   return m;
 }
 
+joblink::JobList to_message(const JobListing& listing) {
+  joblink::JobList m;
+  ListRoom room;
+  for (const PartialUpload& partial : listing.partials) {
+    joblink::PartialUpload p;
+    p.set_name(shown(partial.identity.name));
+    p.set_hash(partial.identity.hash);
+    p.set_size_bytes(partial.identity.size_bytes);
+    p.set_received_bytes(partial.received_bytes);
+    p.set_begun_unix_s(partial.begun_unix_s);
+    p.set_open(partial.open);
+    if (m.partial_uploads_size() >= kMaxPartials || !room.take(p)) break;
+    m.mutable_partial_uploads()->Add(std::move(p));
+  }
+  m.set_more(listing.more);
+  for (const StoredJob& stored : listing.jobs) {
+    auto job = to_message(stored);
+    if (!room.take(job)) {
+      m.set_more(true);
+      break;
+    }
+    m.mutable_jobs()->Add(std::move(job));
+  }
+  m.set_used_bytes(listing.used_bytes);
+  m.set_quota_bytes(listing.quota_bytes);
+  m.set_free_bytes(listing.free_bytes);
+  return m;
+}
+
 joblink::JobRun to_message(const StoredRun& run) {
   joblink::JobRun m;
   m.set_id(static_cast<std::uint64_t>(run.id));
-  m.set_name(clean(run.name));
+  m.set_name(shown(run.name));
   m.set_hash(run.hash);
   m.set_begun_unix_s(run.begun_unix_s);
   m.set_duration_s(run.duration_s);
   m.set_estimate_s(run.estimate_s);
   m.set_result(static_cast<joblink::JobResult>(run.result));
   m.set_line(run.line);
-  m.set_first_error(clean(run.first_error));
-  if (!run.said.empty()) m.mutable_first_error_said()->ParseFromString(run.said);
+  m.set_first_error(shown(run.first_error));
+  if (!run.said.empty() && run.said.size() <= 8 * kMaxWordsBytes)
+    m.mutable_first_error_said()->ParseFromString(run.said);
   if (!m.has_first_error_said() && run.result == RunResult::kInterrupted)
     *m.mutable_first_error_said() = to_message(say("the gateway ended while the job ran"));
   return m;
@@ -315,24 +352,32 @@ joblink::PreflightResult to_message(const JobReport& report, const ProblemList& 
   m.set_moves(report.moves);
   m.set_pauses(report.pauses);
   m.set_heat_waits(report.heat_waits);
+  ListRoom room;
   for (const Problem& p : problems.all()) {
-    joblink::JobProblem& out = *m.add_problems();
+    joblink::JobProblem out;
     out.set_error(p.severity == Problem::Severity::kError);
     out.set_line(p.line);
     out.set_column(p.column);
-    out.set_words(clean(p.words));
+    out.set_words(shown(p.words));
     *out.mutable_said() = to_message(p.words);
+    if (!room.take(out)) break;
+    m.mutable_problems()->Add(std::move(out));
   }
   return m;
 }
 
 joblink::MachineFileCheck to_message(const MachineFileErrors& errors) {
   joblink::MachineFileCheck m;
+  ListRoom room;
   for (const MachineFileError& error : errors) {
-    joblink::Problem& p = *m.add_problems();
-    p = problem(joblink::ERROR_BAD_VALUE, error.key,
-                error.found.empty() ? say("missing") : say("found %1", error.found), error.expected);
+    auto p = problem(joblink::ERROR_BAD_VALUE, error.key,
+                     error.found.empty() ? say("missing") : say("found %1", error.found), error.expected);
     p.set_line(error.line);
+    if (m.problems_size() >= kMaxFileProblems || !room.take(p)) {
+      m.set_more(static_cast<std::uint32_t>(errors.size()) - static_cast<std::uint32_t>(m.problems_size()));
+      break;
+    }
+    m.mutable_problems()->Add(std::move(p));
   }
   return m;
 }

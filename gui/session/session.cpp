@@ -312,11 +312,20 @@ void Session::console(const QString& line, AnswerHandler then) {
 }
 
 void Session::list_jobs() {
-  send(plain([](auto& r) { r.mutable_list_jobs(); }), [this](const joblink::Reply& reply) {
-    if (!reply.has_jobs()) return;
-    jobs_ = reply.jobs();
-    emit jobs_changed();
-  });
+  list_jobs_after({});
+}
+/// A long list comes in parts; views see it when it is whole.
+void Session::list_jobs_after(joblink::JobList so_far) {
+  const std::string last =
+      so_far.jobs_size() > 0 ? so_far.jobs(so_far.jobs_size() - 1).name() : std::string();
+  send(plain([&](auto& r) { r.mutable_list_jobs()->set_after_name(last); }),
+       [this, so_far = std::move(so_far)](const joblink::Reply& reply) mutable {
+         if (!reply.has_jobs()) return;
+         so_far.MergeFrom(reply.jobs());
+         if (reply.jobs().more() && reply.jobs().jobs_size() > 0) return list_jobs_after(std::move(so_far));
+         jobs_ = std::move(so_far);
+         emit jobs_changed();
+       });
 }
 void Session::delete_job(const QString& name) {
   send(plain([&](auto& r) { r.mutable_delete_job()->set_name(name.toStdString()); }),

@@ -97,6 +97,7 @@ class Session : public QObject {
   void refused(const QString& words);
 
  private:
+  void list_jobs_after(joblink::JobList so_far);
   void open_link();
   void on_link_closed(const QString& why);
   void on_connected();

@@ -2272,6 +2272,30 @@
         <translation>این درگاه این درخواست را نمی‌شناسد</translation>
     </message>
     <message>
+        <source>the answer is longer than one message may be</source>
+        <translation>پاسخ بلندتر از اندازهٔ مجاز یک پیام است</translation>
+    </message>
+    <message>
+        <source>all places for clients are taken: only stop and questions about the state are answered</source>
+        <translation>همهٔ جاهای کارخواه‌ها پر است: تنها به توقف و پرسش دربارهٔ وضعیت پاسخ داده می‌شود</translation>
+    </message>
+    <message>
+        <source>the machine file is no text in UTF-8</source>
+        <translation>فایل ماشین متنی به UTF-8 نیست</translation>
+    </message>
+    <message>
+        <source>a job&apos;s name is text in UTF-8, without control characters and marks of direction</source>
+        <translation>نام کار متنی به UTF-8 است، بی نویسه‌های کنترلی و نشانه‌های جهت</translation>
+    </message>
+    <message>
+        <source>a client is sending this upload</source>
+        <translation>کارخواهی در حال فرستادن این بارگذاری است</translation>
+    </message>
+    <message>
+        <source>no upload of this name is half done</source>
+        <translation>بارگذاری نیمه‌کاره‌ای به این نام نیست</translation>
+    </message>
+    <message>
         <source>this job is running</source>
         <translation>این کار در حال اجراست</translation>
     </message>

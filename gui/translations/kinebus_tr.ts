@@ -2272,6 +2272,30 @@
         <translation>bu ağ geçidi bu isteği tanımıyor</translation>
     </message>
     <message>
+        <source>the answer is longer than one message may be</source>
+        <translation>yanıt, bir iletinin olabileceğinden daha uzun</translation>
+    </message>
+    <message>
+        <source>all places for clients are taken: only stop and questions about the state are answered</source>
+        <translation>istemci yerlerinin tümü dolu: yalnızca durdurma ve durum soruları yanıtlanır</translation>
+    </message>
+    <message>
+        <source>the machine file is no text in UTF-8</source>
+        <translation>makine dosyası UTF-8 metni değil</translation>
+    </message>
+    <message>
+        <source>a job&apos;s name is text in UTF-8, without control characters and marks of direction</source>
+        <translation>bir işin adı UTF-8 metnidir; denetim karakteri ve yön işareti içermez</translation>
+    </message>
+    <message>
+        <source>a client is sending this upload</source>
+        <translation>bir istemci bu yüklemeyi gönderiyor</translation>
+    </message>
+    <message>
+        <source>no upload of this name is half done</source>
+        <translation>bu adla yarım kalmış yükleme yok</translation>
+    </message>
+    <message>
         <source>this job is running</source>
         <translation>bu iş çalışıyor</translation>
     </message>

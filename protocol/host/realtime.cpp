@@ -1,16 +1,35 @@
 #include "protocol/host/realtime.hpp"
 
+#include <linux/capability.h>
 #include <sched.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
 
 namespace kinebus {
 
+namespace {
+
+/// With a limit, memory that is asked for later would one day be refused instead of locked: the process would
+/// end.
+bool may_lock_without_limit() {
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur == RLIM_INFINITY) return true;
+  __user_cap_header_struct header{_LINUX_CAPABILITY_VERSION_3, 0};
+  __user_cap_data_struct data[_LINUX_CAPABILITY_U32S_3]{};
+  return ::syscall(SYS_capget, &header, data) == 0 && (data[0].effective & (1U << CAP_IPC_LOCK)) != 0;
+}
+
+}  // namespace
+
 std::string become_realtime(int priority) {
   // Memory first: to fetch all of it takes long, and must not keep others from the processor.
-  const int locked = ::mlockall(MCL_CURRENT | MCL_FUTURE) == 0 ? 0 : errno;
+  int locked = EPERM;
+  if (may_lock_without_limit()) locked = ::mlockall(MCL_CURRENT | MCL_FUTURE) == 0 ? 0 : errno;
   sched_param parameters{};
   parameters.sched_priority = priority;
   std::string missing;

@@ -21,6 +21,13 @@ Problem lost(const std::string& why) {
   return problem;
 }
 
+Problem too_long() {
+  Problem problem;
+  problem.set_rule("the request is longer than the 1 MiB that one message may have");
+  problem.set_code(ERROR_BAD_VALUE);
+  return problem;
+}
+
 std::uint32_t next_session(std::uint32_t session) {
   // A step that visits every number: sessions of one client never repeat in practice; 0 is no session.
   session = session * 747'796'405U + 2'891'336'453U;
@@ -74,7 +81,12 @@ void Client::begin_session(LocalTime now) {
   hello.set_client_version(options_.version);
   hello.set_token(options_.token);
   hello.set_resume_key(resume_key_);
-  open_[write_request(message)] = false;
+  if (write_request(message)) {
+    open_[last_request_] = false;
+    return;
+  }
+  end_session(now, {}, false);
+  news_.emplace_back(Disconnected{too_long().rule()});
 }
 
 void Client::end_session(LocalTime now, const std::string& why, bool retry) {
@@ -86,12 +98,7 @@ void Client::end_session(LocalTime now, const std::string& why, bool retry) {
     if (own) unanswered.push_back(id);
   std::sort(unanswered.begin(), unanswered.end());
   open_.clear();
-  for (const RequestId id : unanswered) {
-    Reply reply;
-    reply.set_request_id(id);
-    *reply.mutable_error() = lost(why);
-    news_.emplace_back(Answer{id, std::move(reply)});
-  }
+  for (const RequestId id : unanswered) fail_request(id, lost(why));
   if (!uploads_.empty()) {
     Upload& upload = *uploads_.front();
     upload.open.clear();
@@ -107,25 +114,31 @@ void Client::written() {
   last_written_ = now_;
 }
 
-RequestId Client::write_request(ClientMessage& message) {
+/// False: no frame can carry it.
+bool Client::write_request(ClientMessage& message) {
   message.set_request_id(++last_request_);
   const auto room = out_.begin(message.ByteSizeLong());
-  message.SerializeWithCachedSizesToArray(room.data());
+  if (!room) return false;
+  message.SerializeWithCachedSizesToArray(room->data());
   out_.finish(session_, sequence_);
   written();
-  return last_request_;
+  return true;
+}
+
+void Client::fail_request(RequestId request, const Problem& error) {
+  Reply reply;
+  reply.set_request_id(request);
+  *reply.mutable_error() = error;
+  news_.emplace_back(Answer{request, std::move(reply)});
 }
 
 RequestId Client::send(ClientMessage request) {
-  if (phase_ == Phase::kOpen) {
-    const RequestId id = write_request(request);
-    open_[id] = true;
-    return id;
-  }
-  Reply reply;
-  reply.set_request_id(++last_request_);
-  *reply.mutable_error() = lost("not connected");
-  news_.emplace_back(Answer{last_request_, std::move(reply)});
+  if (phase_ != Phase::kOpen)
+    fail_request(++last_request_, lost("not connected"));
+  else if (write_request(request))
+    open_[last_request_] = true;
+  else
+    fail_request(last_request_, too_long());
   return last_request_;
 }
 
@@ -155,7 +168,7 @@ void Client::abort_upload(UploadId upload, bool discard) {
     ClientMessage message;
     message.mutable_upload_abort()->set_upload_id((*found)->gateway_id);
     message.mutable_upload_abort()->set_discard(discard);
-    open_[write_request(message)] = false;
+    if (write_request(message)) open_[last_request_] = false;
   }
   finish_upload(UploadNews::Phase::kFailed, aborted);
 }
@@ -170,7 +183,8 @@ void Client::begin_upload() {
   begin.set_size_bytes(upload.request.size_bytes);
   begin.set_hash(upload.request.hash);
   begin.set_replace(upload.request.replace);
-  upload.open[write_request(message)] = true;
+  if (!write_request(message)) return finish_upload(UploadNews::Phase::kFailed, too_long());
+  upload.open[last_request_] = true;
   upload.step = Upload::Step::kBegun;
 }
 
@@ -207,7 +221,7 @@ void Client::feed_upload() {
   if (upload.received_bytes == upload.request.size_bytes) {
     ClientMessage message;
     message.mutable_upload_commit()->set_upload_id(upload.gateway_id);
-    upload.open[write_request(message)] = true;
+    if (write_request(message)) upload.open[last_request_] = true;
     upload.step = Upload::Step::kCommitted;
   }
 }
@@ -215,7 +229,9 @@ void Client::feed_upload() {
 /// The bytes go from their source into the frame, and nowhere else on the way.
 bool Client::send_chunk(Upload& upload, std::size_t size) {
   const ChunkHead head{last_request_ + 1, upload.gateway_id, upload.sent_bytes};
-  const auto data = write_chunk(head, size, out_.begin(chunk_message_bytes(head, size)));
+  const auto room = out_.begin(chunk_message_bytes(head, size));
+  if (!room) return false;
+  const auto data = write_chunk(head, size, *room);
   if (upload.source->read(upload.sent_bytes, {reinterpret_cast<char*>(data.data()), size}) != size)
     return false;
   out_.finish(session_, sequence_);
@@ -310,7 +326,7 @@ void Client::take_reply(Reply reply) {
   ClientMessage watch;
   watch.mutable_watch()->set_status_hz(options_.status_hz);
   watch.mutable_watch()->set_events(options_.events);
-  open_[write_request(watch)] = false;
+  if (write_request(watch)) open_[last_request_] = false;
   news_.emplace_back(Connected{hello_});
   begin_upload();
 }
@@ -348,7 +364,7 @@ void Client::on_time(LocalTime now) {
   if (now >= last_written_ + options_.ping_period && out_.empty()) {
     ClientMessage ping;
     ping.mutable_ping();
-    open_[write_request(ping)] = false;
+    if (write_request(ping)) open_[last_request_] = false;
   }
 }
 

@@ -122,7 +122,8 @@ class Client {
   void begin_session(LocalTime now);
   void end_session(LocalTime now, const std::string& why, bool retry);
   void written();
-  RequestId write_request(ClientMessage& message);
+  bool write_request(ClientMessage& message);
+  void fail_request(RequestId request, const Problem& error);
   void take(LocalTime now, const ServerMessage& message);
   void take_reply(Reply reply);
   void take_upload_reply(const Reply& reply);

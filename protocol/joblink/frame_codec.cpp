@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 
 #include "protocol/bytes.hpp"
 
@@ -19,23 +18,23 @@ std::uint32_t crc_of(std::span<const std::uint8_t> bytes) {
 }
 
 /// The length that a right header states; nullopt: no header begins here.
-std::optional<std::size_t> stated_length(std::span<const std::uint8_t> header) {
-  if (get_u32_le(header.subspan(20)) != crc_of(header.first(20))) return std::nullopt;
+std::optional<std::size_t> stated_length(std::span<const std::uint8_t> header, std::size_t limit) {
   const std::uint32_t length = get_u32_le(header.subspan(4));
-  if (length > kMaxMessageBytes) return std::nullopt;
+  if (length > limit || get_u32_le(header.subspan(20)) != crc_of(header.first(20))) return std::nullopt;
   return length;
 }
 
 }  // namespace
 
-void append_frame(std::string& out, std::uint32_t session, std::uint32_t sequence, std::string_view message) {
+bool append_frame(std::string& out, std::uint32_t session, std::uint32_t sequence, std::string_view message) {
   FrameQueue frame;
-  frame.append(session, sequence, message);
+  if (!frame.append(session, sequence, message)) return false;
   out.append(reinterpret_cast<const char*>(frame.bytes().data()), frame.size());
+  return true;
 }
 
-std::span<std::uint8_t> FrameQueue::begin(std::size_t size) {
-  assert(size <= kMaxMessageBytes);
+std::optional<std::span<std::uint8_t>> FrameQueue::begin(std::size_t size) {
+  if (size > kMaxMessageBytes) return std::nullopt;
   frame_ = queue_.room(kFrameHeaderBytes + size);
   return frame_.subspan(kFrameHeaderBytes);
 }
@@ -51,9 +50,12 @@ void FrameQueue::finish(std::uint32_t session, std::uint32_t sequence) {
   queue_.added(frame_.size());
 }
 
-void FrameQueue::append(std::uint32_t session, std::uint32_t sequence, std::string_view message) {
-  std::copy(message.begin(), message.end(), begin(message.size()).begin());
+bool FrameQueue::append(std::uint32_t session, std::uint32_t sequence, std::string_view message) {
+  const auto room = begin(message.size());
+  if (!room) return false;
+  std::copy(message.begin(), message.end(), room->begin());
   finish(session, sequence);
+  return true;
 }
 
 void FrameReader::add(std::span<const std::uint8_t> bytes) {
@@ -63,15 +65,28 @@ void FrameReader::add(std::span<const std::uint8_t> bytes) {
 
 void FrameReader::clear() {
   buffer_.clear();
+  given_up_ = debt_ = 0;
+}
+
+/// At the front of `bytes`; its message may be wrong.
+std::optional<FrameView> FrameReader::whole_frame(std::span<const std::uint8_t> bytes) const {
+  if (bytes.size() < kFrameHeaderBytes || !std::equal(kMagic.begin(), kMagic.end(), bytes.begin()))
+    return std::nullopt;
+  const auto length = stated_length(bytes, limit_);
+  if (!length || bytes.size() < kFrameHeaderBytes + *length) return std::nullopt;
+  return FrameView{get_u32_le(bytes.subspan(8)), get_u32_le(bytes.subspan(12)),
+                   bytes.subspan(kFrameHeaderBytes, *length)};
+}
+
+void FrameReader::taken(std::size_t count) {
+  buffer_.drop(count);
+  given_up_ -= std::min(given_up_, count);
 }
 
 void FrameReader::skip(std::size_t count) {
   counters_.skipped_bytes += count;
-  buffer_.drop(count);
-}
-
-void FrameReader::give_up() {
-  if (pending() > 0) skip(1);
+  debt_ -= std::min(debt_, count);
+  taken(count);
 }
 
 std::optional<FrameView> FrameReader::next() {
@@ -83,22 +98,36 @@ std::optional<FrameView> FrameReader::next() {
         found != here.end() ? found : here.end() - std::min<std::ptrdiff_t>(3, here.end() - here.begin());
     skip(static_cast<std::size_t>(in_no_frame - here.begin()));
     const auto rest = buffer_.bytes();
-    if (found == here.end() || rest.size() < kFrameHeaderBytes) return std::nullopt;
-    const auto length = stated_length(rest);
+    if (found == here.end()) return std::nullopt;
+    const bool whole_header = rest.size() >= kFrameHeaderBytes;
+    if (!whole_header && given_up_ == 0) return std::nullopt;
+    const auto length = whole_header ? stated_length(rest, limit_) : std::nullopt;
     if (!length) {
       skip(1);
       continue;
     }
-    if (rest.size() < kFrameHeaderBytes + *length) return std::nullopt;
+    if (rest.size() < kFrameHeaderBytes + *length) {
+      if (given_up_ == 0) return std::nullopt;
+      skip(1);
+      continue;
+    }
+    // Headers within each other would cost a whole message each.
+    const bool short_one = *length <= FrameReader::kAlwaysChecked;
+    if (!short_one && debt_ + *length > kMaxDebt) {
+      skip(1);
+      continue;
+    }
     const auto message = rest.subspan(kFrameHeaderBytes, *length);
+    counters_.checked_bytes += *length;
     if (get_u32_le(rest.subspan(16)) != crc_of(message)) {
       // Bytes were lost or changed in the message: a whole frame may begin within what seemed to be it.
       ++counters_.garbled_frames;
+      if (!short_one) debt_ += *length;
       skip(1);
       continue;
     }
     const FrameView frame{get_u32_le(rest.subspan(8)), get_u32_le(rest.subspan(12)), message};
-    buffer_.drop(kFrameHeaderBytes + *length);
+    taken(kFrameHeaderBytes + *length);
     ++counters_.frames;
     return frame;
   }

@@ -148,10 +148,13 @@ void Client::turn(milliseconds timeout) {
     const ByteStream::Moved moved = stream_->read(buffer);
     if (moved.count > 0) link_.on_bytes(monotonic_now(), std::span(buffer).first(moved.count));
     closed_ = moved.closed;
-    if (moved.closed)
-      link_.on_disconnected(monotonic_now(), stream_->closed_reason().empty()
-                                                 ? "the daemon closed the connection"
-                                                 : stream_->closed_reason());
+    if (moved.closed) {
+      const std::string why =
+          stream_->closed_reason().empty() ? "the daemon closed the connection" : stream_->closed_reason();
+      link_.on_disconnected(monotonic_now(), why);
+      // Before the hello was answered nobody else tells it; a stream that has ended is readable for ever.
+      failure_ = why;
+    }
   }
   link_.on_time(monotonic_now());
   take_news();

@@ -60,6 +60,11 @@ void print_jobs(const joblink::JobList& list) {
     if (job.has_last_run()) more += fmt::format("  last run {}", result_words(job.last_run().result()));
     fmt::print("{:>12}  {}{}\n", job.size_bytes(), job.name(), more);
   }
+  for (const joblink::PartialUpload& partial : list.partial_uploads())
+    fmt::print("{:>12}  {}  half uploaded: {:.0f} %{}\n", partial.size_bytes(), partial.name(),
+               100.0 * static_cast<double>(partial.received_bytes()) /
+                   static_cast<double>(std::max<std::uint64_t>(partial.size_bytes(), 1)),
+               partial.open() ? ", on its way" : "");
 }
 
 int print_preflight(const joblink::PreflightResult& result) {
@@ -109,7 +114,16 @@ void add_store(CLI::App& app, const Options& options, int& exit_code) {
   });
   app.add_subcommand("jobs", "List the jobs stored on the gateway")->callback([=] {
     Client client(options->reach);
-    print_jobs(client.ask(plain(&ClientMessage::mutable_list_jobs)).jobs());
+    joblink::JobList all;
+    for (bool more = true; more;) {
+      ClientMessage request;
+      auto& after = *request.mutable_list_jobs();
+      if (all.jobs_size() > 0) after.set_after_name(all.jobs(all.jobs_size() - 1).name());
+      const joblink::Reply reply = client.ask(std::move(request));
+      more = reply.jobs().more() && reply.jobs().jobs_size() > 0;
+      all.MergeFrom(reply.jobs());
+    }
+    print_jobs(all);
   });
   auto* remove = app.add_subcommand("delete", "Delete a stored job");
   const auto name = named(remove, "name", "as 'kinebus jobs' lists it");
@@ -118,6 +132,21 @@ void add_store(CLI::App& app, const Options& options, int& exit_code) {
     ClientMessage request;
     request.mutable_delete_job()->set_name(*name);
     client.ask(std::move(request));
+  });
+  auto* discard =
+      app.add_subcommand("discard", "Forget half uploads of this name, which 'kinebus jobs' lists");
+  const auto half = named(discard, "name", "as 'kinebus jobs' lists it");
+  discard->callback([=] {
+    Client client(options->reach);
+    const joblink::Reply reply = client.ask(plain(&ClientMessage::mutable_list_jobs));
+    for (const joblink::PartialUpload& partial : reply.jobs().partial_uploads()) {
+      if (partial.name() != *half) continue;
+      ClientMessage request;
+      request.mutable_discard_upload()->set_name(partial.name());
+      request.mutable_discard_upload()->set_hash(partial.hash());
+      request.mutable_discard_upload()->set_size_bytes(partial.size_bytes());
+      client.ask(std::move(request));
+    }
   });
   auto* check = app.add_subcommand("check", "Check a stored job without moving anything");
   const auto checked = named(check, "name", "as 'kinebus jobs' lists it");
@@ -139,13 +168,20 @@ void add_events(CLI::App& app, const Options& options) {
   events->add_flag("--alarms", *alarms, "Only alarms");
   events->callback([=] {
     Client client(options->reach);
-    ClientMessage request;
-    request.mutable_get_events()->set_alarms_only(*alarms);
-    request.mutable_get_events()->set_max_events(1000);
-    const joblink::Reply reply = client.ask(std::move(request));
-    for (const joblink::Event& e : reply.events().events())
-      fmt::print("{}  {}{}\n", date_words(e.unix_s()), e.words(),
-                 e.advice().empty() ? "" : " - " + e.advice());
+    std::uint64_t last = 0;
+    for (bool more = true; more;) {
+      ClientMessage request;
+      request.mutable_get_events()->set_alarms_only(*alarms);
+      request.mutable_get_events()->set_max_events(1000);
+      request.mutable_get_events()->set_after_id(last);
+      const joblink::Reply reply = client.ask(std::move(request));
+      for (const joblink::Event& e : reply.events().events()) {
+        fmt::print("{}  {}{}\n", date_words(e.unix_s()), e.words(),
+                   e.advice().empty() ? "" : " - " + e.advice());
+        last = e.id();
+      }
+      more = reply.events().more();
+    }
   });
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <csignal>
 #include <exception>
 
 #include "protocol/host/guarded_main.hpp"
@@ -42,5 +43,8 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // A daemon that closes the connection, or a pager that ends, is an error with words, not the end without
+  // any.
+  std::signal(SIGPIPE, SIG_IGN);
   return kinebus::guarded_main("kinebus", [&] { return run(argc, argv); });
 }

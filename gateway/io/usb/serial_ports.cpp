@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
+#include <spdlog/spdlog.h>
 #include <sys/epoll.h>
 #include <sys/socket.h>
 #include <termios.h>
@@ -17,6 +18,7 @@
 #include <cstring>
 
 #include "gateway/io/usb/fd_stream.hpp"
+#include "gateway/sessions/serial/first_bytes.hpp"
 
 namespace kinebus {
 namespace {
@@ -56,6 +58,29 @@ class SerialPorts::Session : public MarlinSession {
   SerialPorts& ports_;
 };
 
+/// Of a TCP port: whatever a browser sends there ends it before a line is taken.
+class SerialPorts::TcpSession : public Session {
+ public:
+  using Session::Session;
+  void on_bytes(LocalTime now, std::span<const std::uint8_t> bytes) override {
+    using Verdict = serial::FirstLine::Verdict;
+    if (let_in_) return Session::on_bytes(now, bytes);
+    const Verdict verdict = first_line_.take(bytes);
+    if (verdict == Verdict::kForeign && !ended_)
+      spdlog::warn(
+          "serial TCP: something that is no print host (a web page?) has spoken to it and was cut off");
+    ended_ = verdict == Verdict::kForeign;
+    let_in_ = verdict == Verdict::kHost;
+    if (let_in_) Session::on_bytes(now, first_line_.bytes());
+  }
+  bool wants_bytes() const override { return !ended_ && Session::wants_bytes(); }
+  bool ended() const override { return ended_; }
+
+ private:
+  serial::FirstLine first_line_;
+  bool let_in_ = false, ended_ = false;
+};
+
 SerialPorts::SerialPorts(EventLoop& loop, Gateway& gateway, SerialFiles& files, Control& control,
                          Options options)
     : loop_(loop),
@@ -77,11 +102,12 @@ SerialPorts::~SerialPorts() {
   }
 }
 
-std::unique_ptr<MarlinSession> SerialPorts::new_session(const char* name) {
+template <typename Kind>
+std::unique_ptr<ByteSession> SerialPorts::new_session(const char* name) {
   MarlinSession::Options options;
   options.name = name;
   options.control = &control_;
-  return std::make_unique<Session>(*this, std::move(options));
+  return std::make_unique<Kind>(*this, std::move(options));
 }
 
 std::string SerialPorts::open() {
@@ -110,7 +136,7 @@ std::string SerialPorts::open_pty() {
   ::unlink(fresh.c_str());
   if (::symlink(name.data(), fresh.c_str()) != 0 || ::rename(fresh.c_str(), options_.pty.c_str()) != 0)
     error = because(options_.pty);
-  hub_->add(std::make_unique<FdStream>(master), new_session("serial pty"));
+  hub_->add(std::make_unique<FdStream>(master), new_session<Session>("serial pty"));
   return error;
 }
 
@@ -126,6 +152,12 @@ std::string SerialPorts::listen_tcp() {
       ::inet_pton(AF_INET, options_.tcp.substr(0, colon).c_str(), &address.sin_addr) != 1)
     return options_.tcp + ": expected address:port, such as 127.0.0.1:2323";
   address.sin_port = htons(port);
+  // The dialect knows no password: whoever reaches the port moves and heats the machine.
+  if ((ntohl(address.sin_addr.s_addr) >> 24) != IN_LOOPBACKNET)
+    return options_.tcp +
+           ": expected an address of this computer alone, such as 127.0.0.1:2323: a print host on another "
+           "computer "
+           "comes through a tunnel (ssh -L), since the serial line has no password";
   listener_ = ::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
   const int on = 1;
   ::setsockopt(listener_, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
@@ -135,6 +167,9 @@ std::string SerialPorts::listen_tcp() {
     ::close(std::exchange(listener_, -1));
     return error;
   }
+  spdlog::warn(
+      "serial TCP on {}: every program of this computer may move and heat the machine, without a password",
+      options_.tcp);
   loop_.watch(listener_, EPOLLIN, [this](std::uint32_t) { accept_tcp(); });
   return {};
 }
@@ -144,7 +179,7 @@ void SerialPorts::accept_tcp() {
   if (fd < 0) return;
   const int on = 1;
   ::setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
-  hub_->add(std::make_unique<FdStream>(fd), new_session("serial TCP"));
+  hub_->add(std::make_unique<FdStream>(fd), new_session<TcpSession>("serial TCP"));
 }
 
 /// The gadget's tty comes and goes with the gadget, and hangs up when the cable is pulled.
@@ -153,7 +188,8 @@ void SerialPorts::try_device() {
   if (fd < 0) return;
   make_raw(fd);
   device_open_ = true;
-  hub_->add(std::make_unique<FdStream>(fd, [this] { device_open_ = false; }), new_session("serial USB"));
+  hub_->add(std::make_unique<FdStream>(fd, [this] { device_open_ = false; }),
+            new_session<Session>("serial USB"));
 }
 
 void SerialPorts::on_event(const MachineEvent& event) {

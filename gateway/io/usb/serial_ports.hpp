@@ -18,7 +18,7 @@ class SerialPorts : public DaemonPart {
   struct Options {
     std::string pty;     ///< path of the link to the pty; empty: none
     std::string device;  ///< a tty such as /dev/ttyGS0, opened whenever it is there; empty: none
-    std::string tcp;     ///< "address:port"; there is no password: only for closed networks. Empty: none
+    std::string tcp;     ///< "address:port" of this computer alone, as there is no password. Empty: none
   };
   SerialPorts(EventLoop& loop, Gateway& gateway, SerialFiles& files, Control& control, Options options);
   ~SerialPorts() override;
@@ -32,7 +32,9 @@ class SerialPorts : public DaemonPart {
 
  private:
   class Session;
-  std::unique_ptr<MarlinSession> new_session(const char* name);
+  class TcpSession;
+  template <typename Kind>
+  std::unique_ptr<ByteSession> new_session(const char* name);
   std::string open_pty();
   std::string listen_tcp();
   void accept_tcp();

@@ -15,6 +15,7 @@
 #include "gateway/jobs/store/file_source.hpp"
 #include "gateway/jobs/store/upload_file.hpp"
 #include "protocol/joblink/job_hash.hpp"
+#include "protocol/joblink/shown_text.hpp"
 
 namespace kinebus {
 namespace {
@@ -22,6 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 constexpr const char* kDatabaseName = ".jobs.sqlite";
 constexpr std::size_t kPiece = 1U << 20;
+/// Room for a database of its own, before one is tried.
+constexpr std::size_t kProbe = 256U << 10;
 
 /// What tells a file from the one that was entered: size and time of the last change.
 struct FileMark {
@@ -86,6 +89,8 @@ Sentence JobStore::check_name(std::string_view name) {
   if (name.front() == '.') return say("a job's name does not begin with a dot");
   if (std::any_of(name.begin(), name.end(), bad))
     return say("a job's name has no slashes and no control characters");
+  if (!is_plain(name))
+    return say("a job's name is text in UTF-8, without control characters and marks of direction");
   return {};
 }
 
@@ -144,6 +149,9 @@ void JobStore::open_database() {
 Result<void, StoreError> JobStore::make_tables() {
   // A database of an older gateway has runs without it; refused where it is there, or where no table is yet.
   static_cast<void>(database_->run("ALTER TABLE runs ADD COLUMN said BLOB"));
+  // The same of half uploads: those of an older gateway are not listed, and expire.
+  static_cast<void>(database_->run("ALTER TABLE uploads ADD COLUMN name TEXT"));
+  static_cast<void>(database_->run("ALTER TABLE uploads ADD COLUMN hash BLOB"));
   // One older still has another hash: the texts are hashed anew, the pre-flights are forgotten.
   if (!database_->run("BEGIN IMMEDIATE;"
                       "ALTER TABLE runs RENAME COLUMN sha256 TO hash;"
@@ -159,7 +167,7 @@ Result<void, StoreError> JobStore::make_tables() {
       " warnings INTEGER, lines INTEGER, motion_s REAL, dwell_s REAL, PRIMARY KEY(hash, machine));"
       "CREATE TABLE IF NOT EXISTS uploads(partial TEXT PRIMARY KEY, size INTEGER NOT NULL, secured INTEGER "
       "NOT NULL,"
-      " begun REAL NOT NULL);"
+      " begun REAL NOT NULL, name TEXT, hash BLOB);"
       "CREATE TABLE IF NOT EXISTS runs(id INTEGER PRIMARY KEY AUTOINCREMENT, name TEXT NOT NULL, hash BLOB "
       "NOT NULL,"
       " begun REAL NOT NULL, duration REAL NOT NULL, estimate REAL NOT NULL, result INTEGER NOT NULL,"
@@ -196,6 +204,8 @@ void JobStore::agree_with_files() {
     if (!check_name(name).empty()) continue;
     if (const auto mark = mark_of(entry.path())) files[name] = *mark;
   }
+  // One step for the disk, however many files there are.
+  static_cast<void>(database_->run("BEGIN IMMEDIATE"));
   std::vector<std::string> gone;
   {
     Database::Statement rows(*database_, "SELECT name, size, changed_ns FROM jobs");
@@ -216,6 +226,7 @@ void JobStore::agree_with_files() {
   for (const auto& [name, mark] : files)
     if (const auto hash = hash_of_file(options_.folder / name))
       static_cast<void>(enter(name, *hash, mark.changed_unix_s));
+  static_cast<void>(database_->run("COMMIT"));
 }
 
 std::uint64_t JobStore::used_bytes() const {
@@ -223,27 +234,51 @@ std::uint64_t JobStore::used_bytes() const {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(options_.folder, error)) {
     const std::string name = entry.path().filename().string();
-    if (name.starts_with('.') && !name.starts_with(kPartialPrefix)) continue;
+    const bool kept = name.starts_with(kKeptPrefix);
+    if (name.starts_with('.') && !name.starts_with(kPartialPrefix) && !kept) continue;
+    // What is kept is the job itself under a second name, while that is there.
+    if (kept && fs::hard_link_count(entry.path(), error) > 1) continue;
     if (const auto mark = mark_of(entry.path())) used += mark->size_bytes;
   }
   return used;
 }
 
-Result<void, StoreError> JobStore::writable_or_error() const {
+/// The disk may have room again, the folder may be there now.
+void JobStore::heal() {
+  std::error_code error;
+  fs::create_directories(options_.folder, error);
+  const fs::path probe = options_.folder / ".probe";
+  std::ofstream out(probe, std::ios::binary);
+  out << std::string(kProbe, ' ') << std::flush;
+  const bool room = out.good();
+  out.close();
+  fs::remove(probe, error);
+  if (!room) return;
+  database_.reset();
+  writable_ = true;
+  open_database();
+  agree_with_files();
+}
+
+Result<void, StoreError> JobStore::writable_or_error() {
+  if (!writable_) heal();
   if (writable_) return {};
   return Error<StoreError>(
       {StoreError::Kind::kReadOnly, say("%1 cannot be written", options_.folder.string())});
 }
 
-Result<JobListing, StoreError> JobStore::list() {
+Result<JobListing, StoreError> JobStore::list(std::string_view after, std::size_t max) {
   JobListing listing;
   Database::Statement rows(
       *database_,
       "SELECT j.name, j.hash, j.size, j.stored, p.errors, p.warnings, p.lines, p.motion_s, p.dwell_s,"
       " (SELECT COUNT(*) FROM runs r WHERE r.name = j.name)"
-      " FROM jobs j LEFT JOIN preflights p ON p.hash = j.hash AND p.machine = ? ORDER BY j.name");
-  rows.bind(machine_);
+      " FROM jobs j LEFT JOIN preflights p ON p.hash = j.hash AND p.machine = ? WHERE j.name > ?"
+      " ORDER BY j.name LIMIT ?");
+  rows.bind(machine_).bind(after).bind(static_cast<std::int64_t>(max) + 1);
   while (rows.step()) {
+    listing.more = listing.jobs.size() == max;
+    if (listing.more) continue;
     StoredJob job;
     job.name = rows.text(0);
     job.hash = rows.text(1);
@@ -259,6 +294,7 @@ Result<JobListing, StoreError> JobStore::list() {
   if (const auto ok = rows.error(); !ok) return Error<StoreError>(ok.error());
   for (StoredJob& job : listing.jobs)
     if (job.times_run > 0) job.last_run = last_run(job.name);
+  if (after.empty()) listing.partials = partials();
   listing.used_bytes = used_bytes();
   listing.quota_bytes = options_.quota_bytes;
   std::error_code error;
@@ -311,11 +347,12 @@ Result<std::string, StoreError> JobStore::read(std::string_view name, std::uint6
 Result<void, StoreError> JobStore::remove(std::string_view name) {
   if (Sentence broken = check_name(name); !broken.empty())
     return Error<StoreError>({StoreError::Kind::kName, broken});
-  if (auto ok = writable_or_error(); !ok) return ok;
   if (!mark_of(options_.folder / name)) return no_such_job(name);
+  // Before anything else is written: on a full disk this is what makes room.
   if (::unlink((options_.folder / name).c_str()) != 0)
     return Error<StoreError>(disk_error(options_.folder / name, errno));
   sync_folder(options_.folder);
+  if (!writable_) heal();
   Database::Statement remove(*database_, "DELETE FROM jobs WHERE name = ?");
   return remove.bind(name).finish();
 }
@@ -324,6 +361,13 @@ Result<void, StoreError> JobStore::adopt(const fs::path& written, std::string_vi
   if (Sentence broken = check_name(name); !broken.empty())
     return Error<StoreError>({StoreError::Kind::kName, broken});
   const fs::path path = options_.folder / name;
+  if (const auto mark = mark_of(written)) {
+    const auto room = check_room({std::string(name), mark->size_bytes, {}}, 0);
+    if (!room && room.error().kind == StoreError::Kind::kQuota) {
+      ::unlink(written.c_str());
+      return room;
+    }
+  }
   const int fd = ::open(written.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
   if (fd < 0) return no_such_job(name);
   const bool safe = ::fsync(fd) == 0;

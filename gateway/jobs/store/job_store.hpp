@@ -4,7 +4,7 @@
 //
 //   upload: begin -> append ... -> commit     a hidden file that takes the job's name only when all of it is
 //   on the disk run:    begin_run -> end_run              history; what was under way when the gateway died
-//   is "interrupted"
+//   is "interrupted"; open_to_run -> keep_what_runs: its text stays, whoever deletes or replaces the job
 //
 // Power may go at any moment: a job is there whole, or as it was before. The files are the truth of what is
 // stored; open() makes the database agree with them. An upload that was broken off goes on at the last byte
@@ -67,8 +67,17 @@ struct StoredJob {
   std::uint32_t times_run = 0;
   std::optional<StoredRun> last_run;
 };
+/// An upload that is not finished.
+struct PartialUpload {
+  UploadIdentity identity{};
+  std::uint64_t received_bytes = 0;
+  double begun_unix_s = 0;
+  bool open = false;  ///< somebody is sending it
+};
 struct JobListing {
   std::vector<StoredJob> jobs;  ///< by name
+  bool more = false;            ///< others follow
+  std::vector<PartialUpload> partials;
   std::uint64_t used_bytes = 0, quota_bytes = 0, free_bytes = 0;
 };
 
@@ -84,7 +93,8 @@ class JobStore {
   };
 
   /// Never fails for what the disk holds: a damaged database is set aside and made anew from the files, a
-  /// folder that cannot be written gives a store that reads only. notes() tells of both.
+  /// folder that cannot be written (or a full disk) gives a store that reads only, and that tries again
+  /// whenever something is to be written. notes() tells of both.
   static std::unique_ptr<JobStore> open(Options options, double now_unix_s);
   ~JobStore();
   JobStore(const JobStore&) = delete;
@@ -105,9 +115,12 @@ class JobStore {
                                             std::string_view bytes);
   Result<UploadProgress, StoreError> commit(std::uint32_t upload, double now_unix_s);
   void abort(std::uint32_t upload, bool discard);
+  /// Forgets a half upload that nobody is sending.
+  Result<void, StoreError> discard(const UploadIdentity& identity);
 
   // job_store.cpp
-  Result<JobListing, StoreError> list();
+  /// At most `max` jobs, those whose names follow `after`; half uploads with the first ones.
+  Result<JobListing, StoreError> list(std::string_view after = {}, std::size_t max = 2000);
   std::optional<StoredJob> find(std::string_view name);
   Result<std::unique_ptr<ByteSource>, StoreError> open_job(std::string_view name);
   Result<std::string, StoreError> read(std::string_view name, std::uint64_t offset_bytes,
@@ -117,6 +130,14 @@ class JobStore {
   /// safe on the disk, and is known from now on.
   Result<void, StoreError> adopt(const std::filesystem::path& written, std::string_view name,
                                  double now_unix_s);
+
+  // kept_text.cpp
+  /// As open_job(); when the job has really begun, keep_what_runs() keeps just this text.
+  Result<std::unique_ptr<ByteSource>, StoreError> open_to_run(std::string_view name);
+  void keep_what_runs(std::string_view name);
+  /// The text that was kept for an interrupted job of this name, else the job's.
+  Result<std::unique_ptr<ByteSource>, StoreError> open_kept(std::string_view name);
+  void forget_kept();
 
   // history.cpp
   Result<void, StoreError> save_preflight(std::string_view hash, std::string_view machine,
@@ -141,12 +162,17 @@ class JobStore {
   Result<void, StoreError> enter(std::string_view name, std::string_view hash, double stored_unix_s);
   Result<void, StoreError> check_room(const UploadIdentity& identity, std::uint64_t on_disk_bytes);
   std::uint64_t used_bytes() const;
+  std::uint64_t promised_bytes(const UploadIdentity& but) const;
+  std::vector<PartialUpload> partials();
+  std::uint32_t new_upload_id() const;
+  std::filesystem::path kept_of(std::string_view name) const;
+  void heal();
   std::optional<StoredRun> last_run(std::string_view name);
   std::filesystem::path partial_of(const UploadIdentity& identity) const;
   Result<std::unique_ptr<Upload>, StoreError> reopen(const UploadIdentity& identity);
   Result<void, StoreError> secure(Upload& upload);
   void forget_partial(const UploadIdentity& identity);
-  Result<void, StoreError> writable_or_error() const;
+  Result<void, StoreError> writable_or_error();
 
   Options options_;
   std::optional<Database> database_;
@@ -154,7 +180,6 @@ class JobStore {
   std::string machine_;
   bool writable_ = true;
   std::vector<std::unique_ptr<Upload>> uploads_;  ///< open, the oldest first
-  std::uint32_t last_upload_ = 0;
 };
 
 }  // namespace kinebus

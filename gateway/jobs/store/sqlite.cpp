@@ -66,7 +66,9 @@ Database::Statement::~Statement() {
 }
 
 Database::Statement& Database::Statement::bind(std::string_view text) {
-  sqlite3_bind_text(statement_, next_++, text.data(), static_cast<int>(text.size()), SQLITE_TRANSIENT);
+  // No text at all would be NULL, which equals nothing.
+  sqlite3_bind_text(statement_, next_++, text.empty() ? "" : text.data(), static_cast<int>(text.size()),
+                    SQLITE_TRANSIENT);
   return *this;
 }
 Database::Statement& Database::Statement::bind_blob(std::string_view bytes) {

@@ -17,6 +17,7 @@ struct StoreError {
     kReadOnly,
     kChecksum,  ///< the bytes are not those that were announced
     kOrder,     ///< an upload that is not open, or a piece that does not follow
+    kBusy,      ///< somebody else is at it
     kDisk,      ///< anything else that the system reports
   };
   Kind kind{};

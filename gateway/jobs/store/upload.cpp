@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <random>
 #include <system_error>
 #include <utility>
 
@@ -19,8 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 /// After so many bytes they are made safe: what a power cut costs at most.
 constexpr std::uint64_t kSecureEvery = 16ULL << 20;
-/// Uploads that are open at once; the one that began first goes back to the disk alone.
-constexpr std::size_t kMaxOpen = 8;
+/// Uploads that are open at once, of all clients; the one that began first goes back to the disk alone.
+constexpr std::size_t kMaxOpen = 64;
 constexpr std::size_t kReadPiece = 1U << 20;
 
 Error<StoreError> fail(StoreError::Kind kind, Sentence words) {
@@ -65,6 +66,10 @@ void JobStore::forget_old_uploads(double now_unix_s) {
     if (!name.starts_with(kPartialPrefix)) continue;
     Database::Statement row(*database_, "SELECT begun FROM uploads WHERE partial = ?");
     row.bind(name);
+    const bool open = std::any_of(uploads_.begin(), uploads_.end(), [&](const auto& upload) {
+      return partial_of(upload->identity).filename() == name;
+    });
+    if (open) continue;
     if (!row.step() || row.real(0) < now_unix_s - options_.forget_uploads_after_s)
       old.push_back(entry.path());
   }
@@ -75,9 +80,23 @@ void JobStore::forget_old_uploads(double now_unix_s) {
   }
 }
 
+/// What open uploads have been promised and have not brought yet.
+std::uint64_t JobStore::promised_bytes(const UploadIdentity& but) const {
+  std::uint64_t promised = 0;
+  for (const auto& upload : uploads_)
+    if (!same(upload->identity, but)) promised += upload->identity.size_bytes - upload->received_bytes;
+  return promised;
+}
+
 Result<void, StoreError> JobStore::check_room(const UploadIdentity& identity, std::uint64_t on_disk_bytes) {
-  std::uint64_t used = used_bytes() - on_disk_bytes;
-  if (const auto present = find(identity.name)) used -= std::min(used, present->size_bytes);
+  const std::uint64_t promised = promised_bytes(identity);
+  std::uint64_t used = used_bytes() - on_disk_bytes + promised;
+  // The job that is replaced makes room, once.
+  const bool replaced_by_another = std::any_of(uploads_.begin(), uploads_.end(), [&](const auto& upload) {
+    return upload->identity.name == identity.name && !same(upload->identity, identity);
+  });
+  if (const auto present = find(identity.name); present && !replaced_by_another)
+    used -= std::min(used, present->size_bytes);
   if (identity.size_bytes > options_.max_job_bytes)
     return fail(StoreError::Kind::kQuota, say("a job has at most %1 MiB", options_.max_job_bytes >> 20));
   if (used + identity.size_bytes > options_.quota_bytes)
@@ -86,8 +105,46 @@ Result<void, StoreError> JobStore::check_room(const UploadIdentity& identity, st
                     options_.quota_bytes >> 20));
   std::error_code error;
   const auto space = fs::space(options_.folder, error);
-  if (!error && space.available + on_disk_bytes < identity.size_bytes + options_.margin_bytes)
+  if (!error && space.available + on_disk_bytes < promised + identity.size_bytes + options_.margin_bytes)
     return fail(StoreError::Kind::kDiskFull, say("the disk has no room for this job: delete others first"));
+  return {};
+}
+
+/// No client can name another's by counting.
+std::uint32_t JobStore::new_upload_id() const {
+  std::random_device random;
+  for (;;) {
+    const std::uint32_t id = random();
+    if (id != 0 && std::none_of(uploads_.begin(), uploads_.end(), [&](const auto& u) { return u->id == id; }))
+      return id;
+  }
+}
+
+std::vector<PartialUpload> JobStore::partials() {
+  std::vector<PartialUpload> found;
+  Database::Statement rows(
+      *database_, "SELECT name, hash, size, begun FROM uploads WHERE name IS NOT NULL ORDER BY begun");
+  while (rows.step()) {
+    PartialUpload partial{{rows.text(0), static_cast<std::uint64_t>(rows.integer(2)), rows.text(1)}};
+    partial.begun_unix_s = rows.real(3);
+    std::error_code error;
+    const auto size = fs::file_size(partial_of(partial.identity), error);
+    partial.received_bytes = error ? 0 : size;
+    partial.open = std::any_of(uploads_.begin(), uploads_.end(),
+                               [&](const auto& upload) { return same(upload->identity, partial.identity); });
+    found.push_back(std::move(partial));
+  }
+  return found;
+}
+
+Result<void, StoreError> JobStore::discard(const UploadIdentity& identity) {
+  if (auto ok = writable_or_error(); !ok) return ok;
+  if (std::any_of(uploads_.begin(), uploads_.end(),
+                  [&](const auto& u) { return same(u->identity, identity); }))
+    return fail(StoreError::Kind::kBusy, say("a client is sending this upload"));
+  if (std::error_code error; !fs::exists(partial_of(identity), error))
+    return fail(StoreError::Kind::kNoSuchJob, say("no upload of this name is half done"));
+  forget_partial(identity);
   return {};
 }
 
@@ -125,6 +182,7 @@ Result<UploadProgress, StoreError> JobStore::begin_upload(const UploadIdentity& 
   if (identity.hash.size() != joblink::kJobHashBytes)
     return fail(StoreError::Kind::kChecksum, say("an upload names the XXH3 of its job: 16 bytes"));
   if (auto ok = writable_or_error(); !ok) return Error<StoreError>(ok.error());
+  forget_old_uploads(now_unix_s);
   if (const auto present = find(identity.name)) {
     if (present->hash == identity.hash && present->size_bytes == identity.size_bytes)
       return UploadProgress{0, identity.size_bytes, true};
@@ -137,7 +195,7 @@ Result<UploadProgress, StoreError> JobStore::begin_upload(const UploadIdentity& 
     // The same client after a broken link, or a second one with the same file: the older conversation's id is
     // void.
     Upload& upload = **open;
-    upload.id = ++last_upload_;
+    upload.id = new_upload_id();
     upload.replace = replace;
     return UploadProgress{upload.id, upload.received_bytes, false};
   }
@@ -148,11 +206,14 @@ Result<UploadProgress, StoreError> JobStore::begin_upload(const UploadIdentity& 
   auto upload = reopen(identity);
   if (!upload) return Error<StoreError>(upload.error());
   Database::Statement insert(
-      *database_, "INSERT OR REPLACE INTO uploads(partial, size, secured, begun) VALUES(?, ?, ?, ?)");
+      *database_,
+      "INSERT OR REPLACE INTO uploads(partial, size, secured, begun, name, hash) VALUES(?, ?, ?, ?, ?, ?)");
   if (auto ok = insert.bind(partial_of(identity).filename().string())
                     .bind(static_cast<std::int64_t>(identity.size_bytes))
                     .bind(static_cast<std::int64_t>((*upload)->secured_bytes))
                     .bind(now_unix_s)
+                    .bind(identity.name)
+                    .bind_blob(identity.hash)
                     .finish();
       !ok)
     return Error<StoreError>(ok.error());
@@ -160,7 +221,7 @@ Result<UploadProgress, StoreError> JobStore::begin_upload(const UploadIdentity& 
     static_cast<void>(secure(*uploads_.front()));
     uploads_.erase(uploads_.begin());
   }
-  (*upload)->id = ++last_upload_;
+  (*upload)->id = new_upload_id();
   (*upload)->replace = replace;
   const UploadProgress progress{(*upload)->id, (*upload)->received_bytes, false};
   uploads_.push_back(std::move(*upload));

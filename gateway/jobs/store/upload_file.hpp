@@ -10,6 +10,7 @@
 namespace kinebus {
 
 inline constexpr std::string_view kPartialPrefix = ".upload-";
+inline constexpr std::string_view kKeptPrefix = ".kept-";
 
 struct JobStore::Upload {
   std::uint32_t id = 0;

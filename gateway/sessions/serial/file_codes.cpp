@@ -21,31 +21,23 @@ std::string file_name(std::string_view argument) {
 MarlinSession::Done MarlinSession::file_code(const serial::Line& line, int number) {
   const std::string_view argument = serial::argument(line.text);
   switch (number) {
-    case 20:
+    case 20: {
+      const auto found = asked([&](const auto& answer) { files_.list(answer); });
+      if (!found) return Done::kWaiting;
       say("Begin file list");
-      for (const SerialFiles::Entry& entry : files_.list())
+      for (const SerialFiles::Entry& entry : found->entries)
         say(entry.name + " " + std::to_string(entry.bytes));
       say("End file list");
       return Done::kYes;
+    }
     case 21:
       say("SD card ok");
       return Done::kYes;
     case 22:
       return Done::kYes;
     case 23:
-    case 32: {
-      const std::string name = file_name(argument);
-      const auto opened = files_.open(name);
-      if (!opened) {
-        say("open failed, File: " + name + ". " + opened.error());
-        return Done::kYes;
-      }
-      selected_ = name;
-      selected_bytes_ = (*opened)->size().value_or(0);
-      say("File opened: " + name + " Size: " + std::to_string(selected_bytes_));
-      say("File selected");
-      return number == 32 ? start_file() : Done::kYes;
-    }
+    case 32:
+      return select_file(file_name(argument), number == 32);
     case 24:
       if (gateway_.state() == MachineState::kHeld) {
         if (const auto resumed = gateway_.carry_out(command::Resume{}); !resumed)
@@ -76,19 +68,26 @@ MarlinSession::Done MarlinSession::file_code(const serial::Line& line, int numbe
       return Done::kYes;
     case 29: {
       if (writing_.empty()) return Done::kYes;
-      const std::string error =
-          written_.size() > options_.longest_file ? "the file is too long" : files_.store(writing_, written_);
+      const bool too_long = written_.size() > options_.longest_file;
+      const auto stored =
+          too_long ? std::make_shared<SerialFiles::Answer>(SerialFiles::Answer{true, "the file is too long"})
+                   : asked([&](const auto& answer) {
+                       files_.store(answer, writing_, std::exchange(written_, std::string()));
+                     });
+      if (!stored) return Done::kWaiting;
       writing_.clear();
       written_ = std::string();
-      if (!error.empty()) return refuse("Error writing to file: " + error);
+      if (!stored->refused.empty()) return refuse("Error writing to file: " + stored->refused);
       say("Done saving file.");
       return Done::kYes;
     }
     case 30: {
       const std::string name = file_name(argument);
       if (name.empty()) return to_machine(line);  // M30 alone ends a program
-      const std::string error = files_.remove(name);
-      say(error.empty() ? "File deleted:" + name : "Deletion failed, File: " + name + ". " + error);
+      const auto removed = asked([&](const auto& answer) { files_.remove(answer, name); });
+      if (!removed) return Done::kWaiting;
+      const std::string& why = removed->refused;
+      say(why.empty() ? "File deleted:" + name : "Deletion failed, File: " + name + ". " + why);
       return Done::kYes;
     }
     case 31: {
@@ -105,6 +104,31 @@ MarlinSession::Done MarlinSession::file_code(const serial::Line& line, int numbe
   }
 }
 
+template <typename Ask>
+SerialFiles::Asked MarlinSession::asked(const Ask& ask) {
+  if (!asked_) {
+    asked_ = std::make_shared<SerialFiles::Answer>();
+    ask(asked_);
+  }
+  return asked_->done ? std::exchange(asked_, nullptr) : nullptr;
+}
+
+MarlinSession::Done MarlinSession::select_file(const std::string& name, bool start) {
+  if (starts_) return start_file();
+  const auto found = asked([&](const auto& answer) { files_.size(answer, name); });
+  if (!found) return Done::kWaiting;
+  if (!found->refused.empty() || found->entries.empty()) {
+    say("open failed, File: " + name + ". " + found->refused);
+    return Done::kYes;
+  }
+  selected_ = name;
+  selected_bytes_ = found->entries.front().bytes;
+  say("File opened: " + name + " Size: " + std::to_string(selected_bytes_));
+  say("File selected");
+  starts_ = start;
+  return start ? start_file() : Done::kYes;
+}
+
 MarlinSession::Done MarlinSession::start_file() {
   if (selected_.empty()) return refuse("no file selected: M23 name");
   if (mine_) {
@@ -113,7 +137,10 @@ MarlinSession::Done MarlinSession::start_file() {
   }
   if (gateway_.state() == MachineState::kRunning && !file_runs_ && gateway_.status().job == options_.name)
     return Done::kWaiting;  // the lines before it are still being moved
-  if (const std::string error = files_.run(selected_); !error.empty()) return refuse(error);
+  const auto begun = asked([&](const auto& answer) { files_.run(answer, selected_); });
+  if (!begun) return Done::kWaiting;
+  starts_ = false;
+  if (!begun->refused.empty()) return refuse(begun->refused);
   file_runs_ = true;
   return Done::kYes;
 }

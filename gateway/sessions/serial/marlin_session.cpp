@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "gateway/sessions/serial/line_control.hpp"
+#include "protocol/joblink/shown_text.hpp"
 
 namespace kinebus {
 namespace {
@@ -14,6 +15,8 @@ using serial::Urgent;
 /// Lines kept; a host that waits for "ok" never has so many under way.
 constexpr std::size_t kMostLines = 256;
 constexpr std::size_t kMostOutput = 256U << 10U;
+/// Longer ones are cut: hosts read lines into buffers of their own.
+constexpr std::size_t kMostLine = 4096;
 /// How often a waiting line is asked again.
 constexpr LocalTime kPoll = std::chrono::milliseconds{4};
 
@@ -39,7 +42,7 @@ void MarlinSession::say(std::string_view line) {
     out_sent_ = 0;
     temperature_period_ = progress_period_ = LocalTime{0};
   }
-  for (const char c : line) out_ += c == '\0' ? ' ' : c;
+  out_ += shown_lines(line, kMostLine);
   out_ += '\n';
 }
 
@@ -106,7 +109,8 @@ void MarlinSession::see_urgent(LocalTime now, Urgent what) {
 
 void MarlinSession::stop_waiting() {
   wait_ = Wait::kNone;
-  homing_ = heats_ = false;
+  homing_ = heats_ = starts_ = false;
+  asked_.reset();
 }
 
 void MarlinSession::on_time(LocalTime now) {

@@ -105,6 +105,10 @@ class MarlinSession : public ByteSession {
 
   // file_codes.cpp: M20 to M32, M524
   Done file_code(const serial::Line& line, int number);
+  /// nullptr: the disk has not answered yet, the line waits.
+  template <typename Ask>
+  SerialFiles::Asked asked(const Ask& ask);
+  Done select_file(const std::string& name, bool start);
   Done start_file();
   void write_line(const serial::Line& line);
   std::string file_progress() const;
@@ -135,6 +139,8 @@ class MarlinSession : public ByteSession {
   LocalTime progress_period_{0}, next_progress_{0};        ///< M27 S
   std::string selected_;                                   ///< M23
   std::uint64_t selected_bytes_ = 0;
+  SerialFiles::Asked asked_;  ///< by the line at the front
+  bool starts_ = false;       ///< M32: the file is selected, its start is asked for
   bool file_runs_ = false;
   std::string writing_, written_;  ///< M28
 };

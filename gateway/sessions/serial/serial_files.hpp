@@ -7,9 +7,6 @@
 #include <string_view>
 #include <vector>
 
-#include "gateway/jobs/byte_source.hpp"
-#include "gateway/result.hpp"
-
 namespace kinebus {
 
 class SerialFiles {
@@ -18,14 +15,23 @@ class SerialFiles {
     std::string name;
     std::uint64_t bytes = 0;
   };
+  /// What was asked for, when `done`: the disk is asked beside the loop, and whoever asked looks again. The
+  /// asker may forget it at any time: a job that has not begun by then does not begin.
+  struct Answer {
+    bool done = false;
+    std::string refused{};         ///< why; empty: done as asked
+    std::vector<Entry> entries{};  ///< list(): by name; size(): one
+  };
+  using Asked = std::shared_ptr<Answer>;
+
   virtual ~SerialFiles() = default;
-  virtual std::vector<Entry> list() = 0;
-  virtual Result<std::unique_ptr<ByteSource>, std::string> open(std::string_view name) = 0;
-  /// Starts a stored job the way every client does. Refused: why.
-  virtual std::string run(std::string_view name) = 0;
-  virtual std::string remove(std::string_view name) = 0;  ///< empty: done
-  /// Stores a whole text under `name`, atomically. Empty: done.
-  virtual std::string store(std::string_view name, std::string_view text) = 0;
+  virtual void list(const Asked& answer) = 0;
+  virtual void size(const Asked& answer, std::string_view name) = 0;
+  /// Starts a stored job the way every client does.
+  virtual void run(const Asked& answer, std::string_view name) = 0;
+  virtual void remove(const Asked& answer, std::string_view name) = 0;
+  /// Stores a whole text under `name`, atomically.
+  virtual void store(const Asked& answer, std::string_view name, std::string text) = 0;
 };
 
 }  // namespace kinebus

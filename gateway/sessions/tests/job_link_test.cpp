@@ -59,8 +59,24 @@ TEST(JobLink, NothingIsAnsweredBeforeHello) {
   joblink::append_frame(bytes, 7, 0, plain(&ClientMessage::mutable_home).SerializeAsString());
   joblink::append_frame(bytes, 7, 1, plain(&ClientMessage::mutable_home).SerializeAsString());
   session->on_bytes(rig.machine.now, {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+  session->on_time(rig.machine.now);
   EXPECT_TRUE(session->next_bytes().empty());
   EXPECT_EQ(rig.machine.gateway->state(), MachineState::kOff);
+}
+
+TEST(JobLink, BeforeHelloOnlySmallFramesAreTaken) {
+  LinkRig rig;
+  for (const std::size_t size : {std::size_t{100}, std::size_t{8000}}) {
+    const auto session = rig.server->open(rig.machine.now, {});
+    ClientMessage hello;
+    hello.mutable_hello()->set_version_major(joblink::kVersionMajor);
+    hello.mutable_hello()->set_client_version(std::string(size, 'v'));
+    std::string bytes;
+    joblink::append_frame(bytes, 7, 0, hello.SerializeAsString());
+    session->on_bytes(rig.machine.now, {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+    session->on_time(rig.machine.now);
+    EXPECT_EQ(session->next_bytes().empty(), size > 4096) << size;
+  }
 }
 
 TEST(JobLink, OneHasControlTheOthersWatchAndAnyoneMayStop) {
@@ -229,6 +245,7 @@ TEST(JobLink, WhoDoesNotReadIsNotListenedToAndCostsBoundedMemory) {
     const std::vector<std::uint8_t> copy(bytes.begin(), bytes.end());
     anna.link.on_bytes_sent(copy.size());
     anna.session->on_bytes(rig.machine.now, copy);
+    anna.session->on_time(rig.machine.now);
     ++taken;
   }
   EXPECT_FALSE(anna.session->wants_bytes());
@@ -254,6 +271,249 @@ TEST(JobLink, MachineFileIsReadCheckedAndWritten) {
   write.mutable_write_machine_file()->set_expected_sha256(file.sha256());
   EXPECT_FALSE(rig.ask(anna, write).has_error());
   EXPECT_EQ(rig.machine_file.text, write_machine(default_m1()));
+}
+
+TEST(JobLink, TheMachineFileIsWrittenByWhoHasControlAlone) {
+  LinkRig rig;
+  LinkedClient& anna = rig.connect("anna");
+  LinkedClient& bert = rig.connect("bert");
+  rig.ask(anna, take_control());
+  const std::string before = rig.machine_file.text;
+  ClientMessage write;
+  write.mutable_write_machine_file()->set_text(write_machine(default_m1()));
+  EXPECT_EQ(rig.ask(bert, write).error().code(), joblink::ERROR_NO_CONTROL);
+  EXPECT_EQ(rig.machine_file.text, before);
+  EXPECT_FALSE(rig.ask(anna, write).has_error());
+}
+
+// What a client can make long: every reply fits into a message.
+
+TEST(JobLink, AMachineFileFullOfErrorsIsAnsweredWithTheFirstOfThem) {
+  LinkRig rig;
+  LinkedClient& anna = rig.connect("anna");
+  std::string text;
+  for (int i = 0; i < 20'000; ++i) text += "no_such_key_" + std::to_string(i) + " = 1\n";
+  ClientMessage check;
+  check.mutable_check_machine_file()->set_text(text);
+  const auto found = rig.ask(anna, check).machine_file_check();
+  EXPECT_GT(found.problems_size(), 100);
+  EXPECT_GT(found.more(), 10'000U);
+}
+
+TEST(JobLink, AListOfThousandsOfJobsComesInParts) {
+  std::vector<std::string> names;
+  for (int i = 0; i < 6000; ++i) names.push_back(std::to_string(100'000 + i) + std::string(190, 'n'));
+  LinkRig rig({}, names);
+  LinkedClient& anna = rig.connect("anna");
+  std::vector<std::string> listed;
+  for (bool more = true; more;) {
+    ClientMessage request;
+    request.mutable_list_jobs()->set_after_name(listed.empty() ? "" : listed.back());
+    const auto reply = rig.ask(anna, request);
+    ASSERT_GT(reply.jobs().jobs_size(), 0) << reply.error().rule();
+    for (const auto& job : reply.jobs().jobs()) listed.push_back(job.name());
+    more = reply.jobs().more();
+  }
+  EXPECT_EQ(listed, names);
+}
+
+TEST(JobLink, ManyLongMessagesOfAJobComeInParts) {
+  LinkRig rig;
+  LinkedClient& anna = rig.connect("anna");
+  rig.unplug(anna);
+  for (int i = 0; i < 300; ++i) {
+    MachineEvent event;
+    event.kind = MachineEvent::Kind::kMessage;
+    event.words = Sentence::verbatim(std::string(9000, static_cast<char>('a' + i % 26)));
+    rig.server->on_event(rig.machine.now, event);
+  }
+  rig.plug(anna);
+  std::size_t heard = 0;
+  std::uint64_t last = 0;
+  for (bool more = true; more;) {
+    ClientMessage request;
+    request.mutable_get_events()->set_max_events(1000);
+    request.mutable_get_events()->set_after_id(last);
+    const auto reply = rig.ask(anna, request);
+    ASSERT_GT(reply.events().events_size(), 0) << reply.error().rule();
+    for (const auto& event : reply.events().events()) {
+      last = event.id();
+      if (event.kind() == joblink::EVENT_MESSAGE) ++heard;
+    }
+    more = reply.events().more();
+  }
+  EXPECT_EQ(heard, 300U);
+}
+
+TEST(JobLink, AnAnswerThatFitsIntoNoMessageIsAnError) {
+  LinkRig rig;
+  LinkedClient& anna = rig.connect("anna");
+  rig.machine_file.text = std::string(joblink::kMaxMessageBytes + 1, '#');
+  EXPECT_EQ(rig.ask(anna, plain(&ClientMessage::mutable_read_machine_file)).error().code(),
+            joblink::ERROR_BAD_VALUE);
+  EXPECT_FALSE(rig.ask(anna, plain(&ClientMessage::mutable_ping)).has_error());
+  // Nor does the client's own end send what no message can carry.
+  ClientMessage check;
+  check.mutable_check_machine_file()->set_text(std::string(joblink::kMaxMessageBytes, '#'));
+  EXPECT_EQ(rig.ask(anna, check).error().code(), joblink::ERROR_BAD_VALUE);
+  EXPECT_TRUE(anna.link.connected());
+}
+
+// Words of others.
+
+TEST(JobLink, ANameCutWithinACharacterHarmsNobodysStatus) {
+  LinkRig rig;
+  LinkedClient& anna = rig.connect("anna");
+  rig.connect(std::string(99, 'x') + "\xC3\xA4");
+  const auto status = rig.ask(anna, plain(&ClientMessage::mutable_get_status)).status();
+  ASSERT_EQ(status.clients_size(), 2);
+  EXPECT_EQ(status.clients(1).name(), std::string(99, 'x'));
+}
+
+TEST(JobLink, NamesAndMessagesAreShownWithoutWhatATerminalObeys) {
+  LinkRig rig;
+  LinkedClient& anna = rig.connect("anna\x1B[2J\xE2\x80\xAE");
+  MachineEvent event;
+  event.kind = MachineEvent::Kind::kMessage;
+  event.words = Sentence::verbatim(
+      "\x1B]0;title\x07\xC2\x9B"
+      "31m");
+  rig.server->on_event(rig.machine.now, event);
+  rig.pump();
+  EXPECT_EQ(rig.control.clients()[0].name, "anna?[2J?");
+  const auto events = anna.all<joblink::Event>();
+  ASSERT_FALSE(events.empty());
+  EXPECT_EQ(events.back().words(), "?]0;title??31m");
+  EXPECT_EQ(events.back().said().text(), "?]0;title??31m");
+}
+
+TEST(JobLink, AFloodOfRequestsIsWorkedOffInBoundedPartsAndAStopIsNotBehindIt) {
+  LinkRig rig;
+  LinkedClient& anna = rig.connect("anna");
+  ASSERT_FALSE(rig.ask(anna, plain(&ClientMessage::mutable_bring_up)).has_error());
+  for (int i = 0; i < 500; ++i) anna.link.send(plain(&ClientMessage::mutable_get_status));
+  anna.link.send(plain(&ClientMessage::mutable_stop));
+  const auto bytes = anna.link.next_bytes();
+  const std::vector<std::uint8_t> copy(bytes.begin(), bytes.end());
+  anna.link.on_bytes_sent(copy.size());
+  anna.session->on_bytes(rig.machine.now, copy);
+  EXPECT_TRUE(anna.session->next_bytes().empty());
+  EXPECT_NE(rig.machine.gateway->state(), MachineState::kBringUp);
+  EXPECT_LE(anna.session->next_deadline(), rig.machine.now);
+  std::size_t longest = 0;
+  for (int turn = 0; turn < 20; ++turn) {
+    const std::size_t before = anna.session->next_bytes().size();
+    anna.session->on_time(rig.machine.now);
+    longest = std::max(longest, anna.session->next_bytes().size() - before);
+  }
+  // A status of some hundred bytes, four times.
+  EXPECT_LT(longest, 16'000U);
+  rig.pump();
+  EXPECT_EQ(anna.all<joblink::Answer>().size(), 502U);
+}
+
+// Places.
+
+TEST(JobLink, WhoSaysNoHelloIsCutOffOnEveryTransport) {
+  LinkRig rig;
+  for (const std::string token : {"", "secret"}) {
+    const auto silent = rig.server->open(rig.machine.now, {.transport = "x", .token = token});
+    const LocalTime begun = rig.machine.now;
+    // A byte now and then does not help.
+    while (rig.machine.now < begun + 9s) {
+      rig.machine.run_for(500ms);
+      silent->on_bytes(rig.machine.now, std::vector<std::uint8_t>{'K'});
+      silent->on_time(rig.machine.now);
+      EXPECT_FALSE(silent->ended());
+    }
+    EXPECT_LE(silent->next_deadline(), begun + 10s);
+    rig.machine.run_for(1s);
+    silent->on_time(rig.machine.now);
+    EXPECT_TRUE(silent->ended());
+  }
+  const auto cable = rig.server->open(rig.machine.now, {.transport = "usb", .token = {}, .lasting = true});
+  rig.machine.run_for(20s);
+  cable->on_time(rig.machine.now);
+  EXPECT_FALSE(cable->ended());
+}
+
+TEST(JobLink, StrangersLockNobodyOut) {
+  LinkRig rig;
+  std::vector<std::unique_ptr<ByteSession>> greedy;
+  const auto other = rig.server->open(rig.machine.now, {.transport = "tcp b", .token = "t", .peer = "b"});
+  for (int i = 0; i < 100; ++i)
+    greedy.push_back(rig.server->open(rig.machine.now, {.transport = "tcp a", .token = "t", .peer = "a"}));
+  EXPECT_FALSE(other->ended());
+  EXPECT_LE(std::count_if(greedy.begin(), greedy.end(), [](const auto& s) { return !s->ended(); }), 16);
+  EXPECT_TRUE(rig.connect("operator").link.connected());
+}
+
+TEST(JobLink, WhenAllPlacesAreTakenEveryoneMayStillStopTheMachine) {
+  LinkRig rig;
+  for (int i = 0; i < 100; ++i)
+    rig.connect("crowd", 0, {.transport = "tcp a", .token = {}, .peer = "a", .remote = true});
+  // The network's share is not all there is, and one peer's share is not the network's.
+  EXPECT_FALSE(rig.ask(rig.connect("b", 0, {.transport = "tcp b", .token = {}, .peer = "b", .remote = true}),
+                       take_control())
+                   .has_error());
+  EXPECT_FALSE(rig.ask(rig.connect("here"), take_control(true)).has_error());
+  for (int i = 0; i < 100; ++i) rig.connect("crowd");
+  EXPECT_FALSE(rig.ask(*rig.clients[0], plain(&ClientMessage::mutable_ping)).has_error());
+  LinkedClient& late = rig.connect("late");
+  ASSERT_TRUE(late.link.connected());
+  EXPECT_EQ(rig.ask(late, take_control(true)).error().code(), joblink::ERROR_BUSY);
+  EXPECT_FALSE(rig.ask(late, plain(&ClientMessage::mutable_get_status)).has_error());
+  EXPECT_FALSE(rig.ask(late, plain(&ClientMessage::mutable_stop)).has_error());
+  EXPECT_LE(rig.control.clients().size(), 36U);
+  rig.run_until([&] { return late.session->ended(); }, 11s);
+  EXPECT_TRUE(late.session->ended());
+}
+
+TEST(JobLink, AnUploadIsThatOfWhoBeganIt) {
+  LinkRig rig;
+  LinkedClient& anna = rig.connect("anna");
+  LinkedClient& bert = rig.connect("bert");
+  const std::string text = gcode_of(1000);
+  ClientMessage begin;
+  begin.mutable_upload_begin()->set_name("a");
+  begin.mutable_upload_begin()->set_size_bytes(text.size());
+  begin.mutable_upload_begin()->set_hash(joblink::job_hash_of(text));
+  const std::uint32_t id = rig.ask(anna, begin).upload().upload_id();
+  ASSERT_NE(id, 0U);
+  ClientMessage chunk, commit, abort;
+  chunk.mutable_upload_chunk()->set_upload_id(id);
+  chunk.mutable_upload_chunk()->set_data(text);
+  commit.mutable_upload_commit()->set_upload_id(id);
+  abort.mutable_upload_abort()->set_upload_id(id);
+  abort.mutable_upload_abort()->set_discard(true);
+  for (const ClientMessage& foreign : {chunk, commit, abort})
+    EXPECT_EQ(rig.ask(bert, foreign).error().code(), joblink::ERROR_BAD_VALUE);
+  EXPECT_FALSE(rig.ask(anna, chunk).has_error());
+  EXPECT_TRUE(rig.ask(anna, commit).upload().stored());
+}
+
+TEST(JobLink, AHalfUploadIsListedAndCanBeDiscarded) {
+  LinkRig rig;
+  LinkedClient& anna = rig.connect("anna");
+  const std::string text = gcode_of(1000);
+  ClientMessage begin;
+  begin.mutable_upload_begin()->set_name("a");
+  begin.mutable_upload_begin()->set_size_bytes(text.size());
+  begin.mutable_upload_begin()->set_hash(joblink::job_hash_of(text));
+  const std::uint32_t id = rig.ask(anna, begin).upload().upload_id();
+  ClientMessage discard, abort;
+  discard.mutable_discard_upload()->set_name("a");
+  discard.mutable_discard_upload()->set_size_bytes(text.size());
+  discard.mutable_discard_upload()->set_hash(joblink::job_hash_of(text));
+  EXPECT_EQ(rig.ask(anna, discard).error().code(), joblink::ERROR_BUSY);
+  abort.mutable_upload_abort()->set_upload_id(id);
+  rig.ask(anna, abort);
+  const auto list = rig.ask(anna, plain(&ClientMessage::mutable_list_jobs)).jobs();
+  ASSERT_EQ(list.partial_uploads_size(), 1);
+  EXPECT_EQ(list.partial_uploads(0).name(), "a");
+  EXPECT_FALSE(list.partial_uploads(0).open());
+  EXPECT_FALSE(rig.ask(anna, discard).has_error());
+  EXPECT_EQ(rig.ask(anna, plain(&ClientMessage::mutable_list_jobs)).jobs().partial_uploads_size(), 0);
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cstring>
 #include <deque>
+#include <filesystem>
+#include <fstream>
 #include <memory>
 #include <string>
 #include <vector>
@@ -92,8 +94,11 @@ struct LinkedClient {
 
 class LinkRig {
  public:
-  explicit LinkRig(JobStore::Options options = {}) {
+  /// `stored`: names of jobs that are there already.
+  explicit LinkRig(JobStore::Options options = {}, const std::vector<std::string>& stored = {}) {
     options.folder = folder.path() / "jobs";
+    std::filesystem::create_directories(options.folder);
+    for (const std::string& name : stored) std::ofstream(options.folder / name) << "G1 X1\n";
     options.margin_bytes = 0;
     store = JobStore::open(options, 1000);
     server = std::make_unique<JobLinkServer>(
@@ -137,10 +142,14 @@ class LinkRig {
       for (const auto& client : clients) {
         if (!client->session) continue;
         stirred = to_gateway(*client, client.get() == limited ? &budget : nullptr) || stirred;
-        stirred = to_client(*client) || stirred;
+        // Its share of a turn, as the hub gives it.
+        const bool waits = client->session->next_deadline() <= LocalTime{0};
+        if (waits) client->session->on_time(machine.now);
+        stirred = to_client(*client) || waits || stirred;
       }
       stirred = worker.run_one() || stirred;
-      while (told < machine.events.size()) server->on_event(machine.now, machine.events[told++]);
+      for (; told < machine.events.size(); stirred = true)
+        server->on_event(machine.now, machine.events[told++]);
       server->on_time(machine.now);
     }
     collect();

@@ -117,6 +117,81 @@ TEST(FrameCodec, AHalfFrameWhoseRestNeverComesIsGivenUp) {
   EXPECT_EQ(text_of(*frame), "hello again");
 }
 
+/// A right header whose message is wrong.
+std::string false_header(std::uint32_t length) {
+  std::string header;
+  append_frame(header, 1, 1, {});
+  std::vector<std::uint8_t> bytes(header.begin(), header.end());
+  put_u32_le(std::span(bytes).subspan(4), length);
+  put_u32_le(std::span(bytes).subspan(16), 0x12345678);
+  Crc32 crc;
+  crc.add(std::span<const std::uint8_t>(bytes).first(20));
+  put_u32_le(std::span(bytes).subspan(20), crc.value());
+  return {bytes.begin(), bytes.end()};
+}
+
+TEST(FrameCodec, HeadersWithinEachOtherCostNoMoreThanTheirBytes) {
+  std::string stream;
+  while (stream.size() < 4 * kMaxMessageBytes) stream += false_header(kMaxMessageBytes);
+  append_frame(stream, 5, 1, "good");
+  FrameReader reader;
+  EXPECT_TRUE(read_all(reader, stream, 65'536).empty());
+  reader.give_up();
+  const auto frame = reader.next();
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(text_of(*frame), "good");
+  EXPECT_LE(reader.counters().checked_bytes, FrameReader::kMaxDebt + stream.size());
+}
+
+TEST(FrameCodec, TwoLongFramesLostInARowDoNotCostTheThird) {
+  std::string stream;
+  for (const char* name : {"a", "b"}) {
+    append_frame(stream, 5, 1, std::string(kMaxMessageBytes, *name));
+    stream.pop_back();
+  }
+  append_frame(stream, 5, 3, std::string(kMaxMessageBytes, 'c'));
+  FrameReader reader;
+  EXPECT_EQ(read_all(reader, stream, 65'536), std::vector<std::string>{std::string(kMaxMessageBytes, 'c')});
+}
+
+TEST(FrameCodec, AHeaderThatStatesMoreThanTheLimitIsNone) {
+  std::string stream = false_header(5000);
+  append_frame(stream, 5, 0, "small");
+  append_frame(stream, 5, 1, std::string(5000, 'x'));
+  FrameReader reader;
+  reader.limit(4096);
+  EXPECT_EQ(read_all(reader, stream, 100), std::vector<std::string>{"small"});
+  EXPECT_EQ(reader.counters().checked_bytes, 5U);
+  reader.limit(kMaxMessageBytes);
+  std::string large;
+  append_frame(large, 5, 2, std::string(5000, 'y'));
+  EXPECT_EQ(read_all(reader, large, 100), std::vector<std::string>{std::string(5000, 'y')});
+}
+
+TEST(FrameCodec, HalfFramesAreGivenUpAllAtOnce) {
+  std::string stream;
+  for (int i = 0; i < 1000; ++i) stream += false_header(kMaxMessageBytes);
+  append_frame(stream, 6, 0, "hello again");
+  FrameReader reader;
+  EXPECT_TRUE(read_all(reader, stream, 512).empty());
+  reader.give_up();
+  const auto frame = reader.next();
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(text_of(*frame), "hello again");
+  // What comes from now on is waited for as before.
+  std::string later;
+  append_frame(later, 6, 1, std::string(3000, 'z'));
+  EXPECT_EQ(read_all(reader, later, 7), std::vector<std::string>{std::string(3000, 'z')});
+}
+
+TEST(FrameCodec, AMessageThatNoFrameCarriesIsRefused) {
+  FrameQueue queue;
+  EXPECT_FALSE(queue.begin(kMaxMessageBytes + 1));
+  EXPECT_FALSE(queue.append(5, 1, std::string(kMaxMessageBytes + 1, 'x')));
+  EXPECT_TRUE(queue.empty());
+  EXPECT_TRUE(queue.append(5, 1, std::string(kMaxMessageBytes, 'x')));
+}
+
 TEST(SessionSequence, WhatAnEarlierSessionLeftIsDropped) {
   SessionSequence sequence;
   sequence.begin(5, 1);

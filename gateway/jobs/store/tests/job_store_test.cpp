@@ -304,5 +304,92 @@ TEST_F(JobStoreTest, AJobThatIsReplacedGoesOnToBeReadByWhoHasItOpen) {
   EXPECT_EQ(text, "old text");
 }
 
+TEST_F(JobStoreTest, UploadsThatAreUnderWayHaveTheirPlaceInTheQuota) {
+  options_.quota_bytes = 1000;
+  reopen();
+  const std::string text = text_of(900);
+  const auto first = store_->begin_upload(identity_of("a", text), false, 1);
+  ASSERT_TRUE(first);
+  for (const std::string name : {"b", "c"})
+    EXPECT_EQ(store_->begin_upload(identity_of(name, text_of(900, 7)), false, 1).error().kind,
+              StoreError::Kind::kQuota);
+  store_->abort(first->id, true);
+  EXPECT_EQ(put("b", text_of(900, 7)), "");
+  // What is replaced makes room once, not for everybody.
+  ASSERT_TRUE(store_->begin_upload(identity_of("b", text_of(950, 8)), true, 1));
+  EXPECT_EQ(store_->begin_upload(identity_of("b", text_of(950, 9)), true, 1).error().kind,
+            StoreError::Kind::kQuota);
+}
+
+TEST_F(JobStoreTest, HalfUploadsAreListedAndCanBeDiscarded) {
+  const std::string text = text_of(100);
+  const auto begun = store_->begin_upload(identity_of("a", text), false, 1000);
+  ASSERT_TRUE(store_->append(begun->id, 0, std::string_view(text).substr(0, 60)));
+  auto partials = store_->list()->partials;
+  ASSERT_EQ(partials.size(), 1U);
+  EXPECT_EQ(partials[0].identity.name, "a");
+  EXPECT_EQ(partials[0].received_bytes, 60U);
+  EXPECT_TRUE(partials[0].open);
+  EXPECT_EQ(store_->discard(identity_of("a", text)).error().kind, StoreError::Kind::kBusy);
+  store_->abort(begun->id, false);
+  EXPECT_FALSE(store_->list()->partials[0].open);
+  EXPECT_TRUE(store_->discard(identity_of("a", text)));
+  EXPECT_TRUE(store_->list()->partials.empty());
+  EXPECT_EQ(store_->list()->used_bytes, 0U);
+  EXPECT_EQ(store_->discard(identity_of("a", text)).error().kind, StoreError::Kind::kNoSuchJob);
+}
+
+TEST_F(JobStoreTest, OldHalfUploadsAreForgottenWithoutARestart) {
+  const std::string text = text_of(100);
+  store_->abort(store_->begin_upload(identity_of("a", text), false, 1000)->id, false);
+  const double later = 1000 + options_.forget_uploads_after_s + 1;
+  ASSERT_TRUE(store_->begin_upload(identity_of("b", text), false, later));
+  ASSERT_EQ(store_->list()->partials.size(), 1U);
+  EXPECT_EQ(store_->list()->partials[0].identity.name, "b");
+}
+
+TEST_F(JobStoreTest, TheRunningJobsTextStaysWhoeverDeletesOrReplacesIt) {
+  const std::string text = text_of(500);
+  const auto read = [&](std::unique_ptr<ByteSource> source) {
+    std::string all(1000, '\0');
+    all.resize(source->read(all));
+    return all;
+  };
+  ASSERT_EQ(put("a", text), "");
+  ASSERT_TRUE(store_->open_to_run("a"));
+  store_->keep_what_runs("a");
+  EXPECT_EQ(store_->list()->used_bytes, 500U);
+  ASSERT_EQ(put("a", text_of(400, 9)), "");
+  EXPECT_EQ(store_->list()->used_bytes, 900U);
+  // A start that is refused changes nothing.
+  ASSERT_TRUE(store_->open_to_run("a"));
+  reopen();
+  EXPECT_EQ(read(std::move(*store_->open_kept("a"))), text);
+  ASSERT_TRUE(store_->remove("a"));
+  EXPECT_EQ(read(std::move(*store_->open_kept("a"))), text);
+  store_->forget_kept();
+  EXPECT_FALSE(store_->open_kept("a"));
+}
+
+TEST_F(JobStoreTest, AStoreThatCouldNotBeWrittenAtTheStartCanBeWhenTheDiskCan) {
+  std::ofstream(folder_.path() / "blocked") << "x";
+  options_.folder = folder_.path() / "blocked" / "jobs";
+  reopen();
+  EXPECT_EQ(put("a", "x"), store_->folder().string() + " cannot be written");
+  fs::remove(folder_.path() / "blocked");
+  EXPECT_EQ(put("a", "x"), "");
+  EXPECT_TRUE(store_->writable());
+  EXPECT_EQ(store_->list()->jobs.size(), 1U);
+}
+
+TEST_F(JobStoreTest, AFileOfAPrintHostKeepsToTheQuota) {
+  options_.quota_bytes = 1000;
+  reopen();
+  const fs::path written = options_.folder / ".serial-1";
+  std::ofstream(written) << text_of(1001);
+  EXPECT_EQ(store_->adopt(written, "a", 1).error().kind, StoreError::Kind::kQuota);
+  EXPECT_FALSE(fs::exists(written));
+}
+
 }  // namespace
 }  // namespace kinebus

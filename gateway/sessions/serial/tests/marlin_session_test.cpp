@@ -229,5 +229,23 @@ TEST(MarlinSession, WhileAnotherClientHasControlAHostMayAskAndStopButNotMove) {
   ASSERT_TRUE(rig.until([&] { return rig.machine.gateway->state() == MachineState::kStopped; }, 5s));
 }
 
+TEST(MarlinSession, ASlowDiskKeepsALineWaitingAndNothingElse) {
+  SerialRig rig;
+  rig.files.texts["part.gco"] = "G1 X1 F600\n";
+  rig.files.slow = true;
+  const std::size_t before = rig.answers.size();
+  rig.write("M20\n");
+  rig.until([] { return false; }, std::chrono::milliseconds{100});
+  EXPECT_EQ(rig.answers.size(), before);
+  rig.files.answer_late();
+  ASSERT_TRUE(rig.until([&] { return rig.answers.size() > before && rig.answers.back().rfind("ok", 0) == 0; },
+                        std::chrono::seconds{1}));
+  EXPECT_EQ(rig.answers[before], "Begin file list");
+  // An emergency stop is not behind it.
+  rig.write("M20\nM112\n");
+  rig.turn();
+  EXPECT_EQ(rig.answers[rig.answers.size() - 2], "Error:Printer halted. kill() called!");
+}
+
 }  // namespace
 }  // namespace kinebus

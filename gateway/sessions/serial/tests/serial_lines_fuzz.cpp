@@ -14,14 +14,23 @@ namespace {
 
 class NoFiles : public SerialFiles {
  public:
-  std::vector<Entry> list() override { return {{"part.gcode", 12}}; }
-  Result<std::unique_ptr<ByteSource>, std::string> open(std::string_view name) override {
-    if (name != "part.gcode") return Error<std::string>("no such job");
-    return std::make_unique<StringSource>("G1 X1 F600\n");
+  void list(const Asked& answer) override {
+    answer->entries = {{"part.gcode", 12}};
+    answer->done = true;
   }
-  std::string run(std::string_view) override { return "not ready"; }
-  std::string remove(std::string_view) override { return {}; }
-  std::string store(std::string_view, std::string_view) override { return {}; }
+  void size(const Asked& answer, std::string_view name) override {
+    if (name == "part.gcode")
+      answer->entries = {{"part.gcode", 12}};
+    else
+      answer->refused = "no such job";
+    answer->done = true;
+  }
+  void run(const Asked& answer, std::string_view) override {
+    answer->refused = "not ready";
+    answer->done = true;
+  }
+  void remove(const Asked& answer, std::string_view) override { answer->done = true; }
+  void store(const Asked& answer, std::string_view, std::string) override { answer->done = true; }
 };
 
 void check(bool holds) {

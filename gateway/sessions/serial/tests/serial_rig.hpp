@@ -16,32 +16,45 @@ namespace kinebus {
 class MemoryFiles : public SerialFiles {
  public:
   explicit MemoryFiles(Gateway& gateway) : gateway_(gateway) {}
-  std::vector<Entry> list() override {
-    std::vector<Entry> all;
-    for (const auto& [name, text] : texts) all.push_back({name, text.size()});
-    return all;
+  void list(const Asked& answer) override {
+    for (const auto& [name, text] : texts) answer->entries.push_back({name, text.size()});
+    finish(answer, {});
   }
-  Result<std::unique_ptr<ByteSource>, std::string> open(std::string_view name) override {
+  void size(const Asked& answer, std::string_view name) override {
     const auto found = texts.find(std::string(name));
-    if (found == texts.end()) return Error<std::string>("no such job");
-    return std::make_unique<StringSource>(found->second);
+    if (found == texts.end()) return finish(answer, "no such job");
+    answer->entries.push_back({found->first, found->second.size()});
+    finish(answer, {});
   }
-  std::string run(std::string_view name) override {
-    auto source = open(name);
-    if (!source) return source.error();
-    const auto begun = gateway_.carry_out(command::Run{std::move(*source), std::string(name)});
-    return begun ? std::string() : std::string(begun.error().words);
+  void run(const Asked& answer, std::string_view name) override {
+    const auto found = texts.find(std::string(name));
+    if (found == texts.end()) return finish(answer, "no such job");
+    const auto begun =
+        gateway_.carry_out(command::Run{std::make_unique<StringSource>(found->second), std::string(name)});
+    finish(answer, begun ? std::string() : std::string(begun.error().words));
   }
-  std::string remove(std::string_view name) override {
-    return texts.erase(std::string(name)) > 0 ? "" : "no such job";
+  void remove(const Asked& answer, std::string_view name) override {
+    finish(answer, texts.erase(std::string(name)) > 0 ? "" : "no such job");
   }
-  std::string store(std::string_view name, std::string_view text) override {
-    texts[std::string(name)] = text;
-    return {};
+  void store(const Asked& answer, std::string_view name, std::string text) override {
+    texts[std::string(name)] = std::move(text);
+    finish(answer, {});
   }
+  /// While the disk is `slow`, what was asked is answered here.
+  void answer_late() {
+    for (const Asked& answer : late_) answer->done = true;
+    late_.clear();
+  }
+  bool slow = false;
   std::map<std::string, std::string> texts;
 
  private:
+  void finish(const Asked& answer, std::string refused) {
+    answer->refused = std::move(refused);
+    answer->done = !slow;
+    if (slow) late_.push_back(answer);
+  }
+  std::vector<Asked> late_;
   Gateway& gateway_;
 };
 
