@@ -32,7 +32,7 @@ class Writer {
  public:
   explicit Writer(std::uint8_t node_id) : dictionary_(device_, node_id) {}
   void set(ObjectAddress address, double value) {
-    const int slot = find_slot(address);
+    const int slot = find_object(address);
     if (slot < 0) return;
     const ObjectEntry& entry = kNodeObjects[static_cast<std::size_t>(slot)];
     double low = is_signed(entry.type) ? -std::ldexp(1.0, 8 * entry.size() - 1) : 0;
@@ -41,7 +41,7 @@ class Writer {
       low = static_cast<double>(entry.low);
       high = static_cast<double>(entry.high);
     }
-    dictionary_.set_value({static_cast<std::uint16_t>(slot)}, std::llround(std::clamp(value, low, high)));
+    dictionary_.set_value(entry.value_slot(), std::llround(std::clamp(value, low, high)));
   }
   void set_axis(int axis, ObjectAddress base, double value) {
     set({static_cast<std::uint16_t>(base.index + axis * kAxisOffset), base.subindex}, value);
@@ -53,7 +53,7 @@ class Writer {
 
  private:
   NoDevice device_;
-  ObjectDictionary dictionary_;
+  NodeDictionary dictionary_;
 };
 
 double milliseconds(std::chrono::milliseconds time) {
@@ -167,14 +167,13 @@ NodeConfiguration configure_node(const MachineDescription& machine, std::uint8_t
 
   NodeConfiguration configuration;
   configuration.fingerprint = writer.dictionary().fingerprint();
-  for (std::size_t i = 0; i < kNodeObjectCount; ++i) {
-    const ObjectEntry& entry = kNodeObjects[i];
+  for (const ObjectEntry& entry : kNodeObjects) {
     const bool following = entry.address == kFollowingPdo || entry.address == kFollowingPdoTimer;
     const bool pdo = entry.address.index >= 0x1400 && entry.address.index < 0x1C00 && !following;
     const bool cob_id = entry.address == object::kSyncCobId || entry.address == object::kEmcyCobId;
     if (entry.binding != Binding::kParameter || !entry.writable() || pdo || cob_id) continue;
     configuration.writes.push_back(
-        {entry.address, entry.size(), writer.dictionary().value({static_cast<std::uint16_t>(i)})});
+        {entry.address, entry.size(), writer.dictionary().value(entry.value_slot())});
   }
   return configuration;
 }

@@ -76,7 +76,7 @@ void SdoChannel::settle() {
       ++counters_.aborts;
     }
   } else if (request.read) {
-    const int slot = find_slot(request.address);
+    const int slot = find_object(request.address);
     const std::uint64_t raw = get_le(buffer_, std::min<std::size_t>(client_.received(), buffer_.size()));
     result.value = slot < 0 ? static_cast<std::int64_t>(raw)
                             : value_of(kNodeObjects[static_cast<std::size_t>(slot)].type, raw);

@@ -25,7 +25,7 @@ std::uint8_t usable_id(std::uint8_t wanted, std::uint8_t stored) {
 Node::Node(const NodeOptions& options, LocalTime now, std::span<const std::uint8_t> stored_image)
     : options_(options),
       now_(now),
-      objects_(*this),
+      objects_(*this, 0, *options.table),
       axes_{DriveAxis(0, objects_, path_, inputs_), DriveAxis(1, objects_, path_, inputs_)},
       sdo_(objects_),
       pdo_(objects_),
@@ -50,9 +50,9 @@ void Node::boot() {
 }
 
 void Node::reset_communication() {
-  for (std::size_t i = 0; i < kNodeObjectCount && kNodeObjects[i].address.index < 0x2000; ++i)
-    objects_.set_value({static_cast<std::uint16_t>(i)},
-                       kNodeObjects[i].initial + (kNodeObjects[i].node_id_relative ? node_id_ : 0));
+  for (const ObjectEntry& entry : objects_.table().entries)
+    if (entry.address.index < 0x2000)
+      objects_.set_value(entry.value_slot(), entry.initial + (entry.node_id_relative ? node_id_ : 0));
   image_.apply(objects_, node_id_, 0x2000);
   apply_node_id();
 }
@@ -259,8 +259,8 @@ LatchedPositions NodePreview::positions(LocalTime at) {
 std::array<std::uint16_t, kRpdoCount> Node::rpdo_cob_ids() const {
   std::array<std::uint16_t, kRpdoCount> ids{};
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    const int slot = find_slot({static_cast<std::uint16_t>(0x1400 + i), 1});
-    const std::int64_t cob_id = objects_.value({static_cast<std::uint16_t>(slot)});
+    const int place = objects_.place_of({static_cast<std::uint16_t>(0x1400 + i), 1});
+    const std::int64_t cob_id = objects_.value(objects_.table()[place].value_slot());
     if (pdo_.rpdo_valid(static_cast<int>(i) + 1)) ids[i] = static_cast<std::uint16_t>(cob_id & 0x7FF);
   }
   return ids;

@@ -43,6 +43,8 @@ struct NodeOptions {
   NodeIdentity identity{};
   std::uint8_t node_id = 0;       ///< 1..127; 0: as stored, and without that the node waits for LSS
   std::uint32_t program_crc = 0;  ///< 1F56h; 0: a program that no boot loader has started
+  /// The board's objects: those of kNodeTable, which this core serves, at the same places, and perhaps more.
+  const ObjectTable* table = &kNodeTable;
 };
 
 /// What the power stage of one axis is to do. The currents are objects of the parameter set.
@@ -182,7 +184,7 @@ class Node final : private ObjectOwner {
   LocalTime now_;
   std::uint8_t node_id_ = 0;
   ParameterImage image_;
-  ObjectDictionary objects_;
+  NodeDictionary objects_;
 
   PathMotion path_;
   SwitchInputs inputs_;

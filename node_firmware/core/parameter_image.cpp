@@ -46,10 +46,9 @@ void ParameterImage::clear(std::uint8_t node_id) {
 void ParameterImage::save(const ObjectDictionary& objects, std::uint8_t node_id, std::uint8_t kept_node_id) {
   begin(kept_node_id);
   std::size_t entries = 0;
-  for (std::size_t i = 0; i < kNodeObjectCount; ++i) {
-    const ObjectEntry& entry = kNodeObjects[i];
+  for (const ObjectEntry& entry : objects.table().entries) {
     if (entry.binding != Binding::kParameter) continue;
-    const std::int64_t value = objects.value({static_cast<std::uint16_t>(i)}) - relative_part(entry, node_id);
+    const std::int64_t value = objects.value(entry.value_slot()) - relative_part(entry, node_id);
     if (value == entry.initial) continue;
     const auto place = std::span(bytes_).subspan(kHeader + entries * kEntry);
     put_u32_le(place, entry.address.key());
@@ -62,15 +61,16 @@ void ParameterImage::save(const ObjectDictionary& objects, std::uint8_t node_id,
 void ParameterImage::apply(ObjectDictionary& objects, std::uint8_t node_id, std::uint32_t end_index) const {
   const std::size_t entries = get_u16_le(std::span(bytes_).subspan(6));
   for (std::size_t i = 0; i < entries; ++i) {
-    const auto place = std::span(bytes_).subspan(kHeader + i * kEntry);
-    const std::uint32_t key = get_u32_le(place);
-    const auto value = static_cast<std::int64_t>(get_u64_le(place.subspan(4)));
-    const int slot = find_slot({static_cast<std::uint16_t>(key >> 8), static_cast<std::uint8_t>(key & 0xFF)});
-    if (slot < 0 || key >> 8 >= end_index) continue;
-    const ObjectEntry& entry = kNodeObjects[static_cast<std::size_t>(slot)];
+    const auto bytes = std::span(bytes_).subspan(kHeader + i * kEntry);
+    const std::uint32_t key = get_u32_le(bytes);
+    const auto value = static_cast<std::int64_t>(get_u64_le(bytes.subspan(4)));
+    const int place =
+        objects.place_of({static_cast<std::uint16_t>(key >> 8), static_cast<std::uint8_t>(key & 0xFF)});
+    if (place < 0 || key >> 8 >= end_index) continue;
+    const ObjectEntry& entry = objects.table()[place];
     const bool allowed = !entry.limited || (value >= entry.low && value <= entry.high);
     if (entry.binding == Binding::kParameter && allowed)
-      objects.set_value({static_cast<std::uint16_t>(slot)}, value + relative_part(entry, node_id));
+      objects.set_value(entry.value_slot(), value + relative_part(entry, node_id));
   }
 }
 

@@ -2,8 +2,10 @@
 // What is known of one entry of an object dictionary before any node exists: address, type, access, limits;
 // and what it is called.
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <string_view>
 
 namespace kinebus {
@@ -89,6 +91,11 @@ enum class Binding : std::uint8_t {
 
 enum class ObjectCode : std::uint8_t { kVar = 7, kArray = 8, kRecord = 9 };
 
+/// Where the value of an object is in its dictionary.
+struct ObjectSlot {
+  std::uint16_t value = 0;
+};
+
 /// One (index, subindex).
 struct ObjectEntry {
   ObjectAddress address{};
@@ -100,6 +107,7 @@ struct ObjectEntry {
   std::int8_t axis = -1;          ///< 0, 1; -1: belongs to the node as a whole
   bool node_id_relative = false;  ///< the value at reset is `initial` + node id
   bool limited = false;           ///< low and high are narrower than the type
+  std::uint16_t slot = 0;         ///< of its value: the objects' order in the board's units
   std::int64_t initial = 0;
   std::int64_t low = 0, high = 0;
   std::string_view text{};  ///< strings only
@@ -109,6 +117,7 @@ struct ObjectEntry {
     return {static_cast<std::uint16_t>(axis == 1 ? address.index - kAxisOffset : address.index),
             address.subindex};
   }
+  constexpr ObjectSlot value_slot() const { return {slot}; }
   constexpr bool readable() const { return access != Access::kWriteOnly; }
   constexpr bool writable() const { return access == Access::kReadWrite || access == Access::kWriteOnly; }
   constexpr bool maps_to(Mapping kind) const {
@@ -116,6 +125,27 @@ struct ObjectEntry {
   }
   constexpr std::uint8_t size() const {
     return type == DataType::kString ? static_cast<std::uint8_t>(text.size()) : size_of(type);
+  }
+};
+
+/// The objects of one kind of node, in the order of their addresses, each once.
+struct ObjectTable {
+  std::span<const ObjectEntry> entries;
+
+  /// Place in `entries`. Binary search; -1: no such object.
+  constexpr int find(ObjectAddress address) const {
+    std::size_t low = 0, high = entries.size();
+    while (low < high) {
+      const std::size_t middle = (low + high) / 2;
+      if (entries[middle].address < address)
+        low = middle + 1;
+      else
+        high = middle;
+    }
+    return low < entries.size() && entries[low].address == address ? static_cast<int>(low) : -1;
+  }
+  constexpr const ObjectEntry& operator[](int place) const {
+    return entries[static_cast<std::size_t>(place)];
   }
 };
 

@@ -1,43 +1,46 @@
 #include "protocol/canopen/object_dictionary.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "protocol/bytes.hpp"
 #include "protocol/canopen/crc.hpp"
 
 namespace kinebus {
 
-ObjectDictionary::ObjectDictionary(ObjectOwner& owner, std::uint8_t node_id) : owner_(owner) {
+ObjectDictionary::ObjectDictionary(ObjectOwner& owner, const ObjectTable& table,
+                                   std::span<std::int64_t> values, std::uint8_t node_id)
+    : owner_(owner), table_(table), values_(values.data()) {
+  if (values.size() < table.entries.size()) std::abort();
   restore(node_id);
 }
 
 void ObjectDictionary::restore(std::uint8_t node_id) {
   node_id_ = node_id;
-  for (std::size_t i = 0; i < kNodeObjectCount; ++i)
-    values_[i] = kNodeObjects[i].initial + (kNodeObjects[i].node_id_relative ? node_id : 0);
+  for (const ObjectEntry& entry : table_.entries)
+    values_[entry.slot] = entry.initial + (entry.node_id_relative ? node_id : 0);
 }
 
-AbortCode ObjectDictionary::read_value(int slot, std::int64_t& value) {
-  const ObjectEntry& entry = kNodeObjects[static_cast<std::size_t>(slot)];
+AbortCode ObjectDictionary::read_value(int place, std::int64_t& value) {
+  const ObjectEntry& entry = table_[place];
   if (entry.binding == Binding::kLive) return owner_.read(entry, value);
-  value = values_[static_cast<std::size_t>(slot)];
+  value = values_[entry.slot];
   return AbortCode::kNone;
 }
 
-AbortCode ObjectDictionary::write_value(int slot, std::int64_t value) {
-  const ObjectEntry& entry = kNodeObjects[static_cast<std::size_t>(slot)];
+AbortCode ObjectDictionary::write_value(int place, std::int64_t value) {
+  const ObjectEntry& entry = table_[place];
   if (entry.limited && value > entry.high) return AbortCode::kTooHigh;
   if (entry.limited && value < entry.low) return AbortCode::kTooLow;
   const AbortCode refused = owner_.write(entry, value);
-  if (refused == AbortCode::kNone && entry.binding != Binding::kLive)
-    values_[static_cast<std::size_t>(slot)] = value;
+  if (refused == AbortCode::kNone && entry.binding != Binding::kLive) values_[entry.slot] = value;
   return refused;
 }
 
 AbortCode ObjectDictionary::read(ObjectAddress address, std::span<std::uint8_t> bytes, std::size_t& length) {
-  int slot = 0;
-  if (const AbortCode missing = locate(address, slot); missing != AbortCode::kNone) return missing;
-  const ObjectEntry& entry = kNodeObjects[static_cast<std::size_t>(slot)];
+  int place = 0;
+  if (const AbortCode missing = locate(address, place); missing != AbortCode::kNone) return missing;
+  const ObjectEntry& entry = table_[place];
   if (!entry.readable()) return AbortCode::kWriteOnly;
   length = entry.size();
   if (length > bytes.size()) return AbortCode::kOutOfMemory;
@@ -46,19 +49,19 @@ AbortCode ObjectDictionary::read(ObjectAddress address, std::span<std::uint8_t> 
     return AbortCode::kNone;
   }
   std::int64_t value = 0;
-  const AbortCode refused = read_value(slot, value);
+  const AbortCode refused = read_value(place, value);
   if (refused == AbortCode::kNone) put_le(bytes, static_cast<std::uint64_t>(value), length);
   return refused;
 }
 
 AbortCode ObjectDictionary::write(ObjectAddress address, std::span<const std::uint8_t> bytes) {
-  int slot = 0;
-  if (const AbortCode missing = locate(address, slot); missing != AbortCode::kNone) return missing;
-  const ObjectEntry& entry = kNodeObjects[static_cast<std::size_t>(slot)];
+  int place = 0;
+  if (const AbortCode missing = locate(address, place); missing != AbortCode::kNone) return missing;
+  const ObjectEntry& entry = table_[place];
   if (!entry.writable()) return AbortCode::kReadOnly;
   if (bytes.size() > entry.size()) return AbortCode::kTooLong;
   if (bytes.size() < entry.size()) return AbortCode::kTooShort;
-  return write_value(slot, value_of(entry.type, get_le(bytes, bytes.size())));
+  return write_value(place, value_of(entry.type, get_le(bytes, bytes.size())));
 }
 
 AbortCode ObjectDictionary::sdo_read(ObjectAddress address, std::uint32_t offset, std::span<std::uint8_t> out,
@@ -79,23 +82,27 @@ AbortCode ObjectDictionary::sdo_write(ObjectAddress address, std::uint32_t offse
 
 std::uint32_t ObjectDictionary::fingerprint() const {
   Crc32 crc;
-  for (std::size_t i = 0; i < kNodeObjectCount; ++i) {
-    const ObjectEntry& entry = kNodeObjects[i];
+  for (const ObjectEntry& entry : table_.entries) {
     if (entry.binding != Binding::kParameter) continue;
     std::array<std::uint8_t, 12> bytes{};
     put_u32_le(bytes, entry.address.key());
-    const std::int64_t value = values_[i] - (entry.node_id_relative ? node_id_ : 0);
+    const std::int64_t value = values_[entry.slot] - (entry.node_id_relative ? node_id_ : 0);
     put_u64_le(std::span(bytes).subspan(4), static_cast<std::uint64_t>(value));
     crc.add(bytes);
   }
   return crc.value();
 }
 
-AbortCode locate(ObjectAddress address, int& slot) {
-  slot = find_slot(address);
-  if (slot >= 0) return AbortCode::kNone;
+// One copy of the search: an image has no room for one at every call.
+[[gnu::noinline]] int ObjectDictionary::place_of(ObjectAddress address) const {
+  return table_.find(address);
+}
+
+AbortCode ObjectDictionary::locate(ObjectAddress address, int& place) const {
+  place = place_of(address);
+  if (place >= 0) return AbortCode::kNone;
   // Every object has a subindex 0.
-  return find_slot({address.index, 0}) >= 0 ? AbortCode::kNoSubindex : AbortCode::kNoObject;
+  return place_of({address.index, 0}) >= 0 ? AbortCode::kNoSubindex : AbortCode::kNoObject;
 }
 
 }  // namespace kinebus

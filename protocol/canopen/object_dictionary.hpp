@@ -1,7 +1,7 @@
 #pragma once
-// The node's object dictionary at run time: the values of kNodeObjects, with CiA 301's rules for access.
+// A node's object dictionary at run time: the values of its table's objects, with CiA 301's rules for access.
 //
-//   class Node : ObjectOwner { ObjectDictionary objects_{*this}; ... };
+//   class Node : ObjectOwner { NodeDictionary objects_{*this}; ... };
 //   objects_.value(slot_of(object::kStopRamp))                    what the node itself uses: no checks, no
 //   search objects_.value(slot_of_axes(object::kTargetPosition)[axis]) objects_.read(address, bytes, length)
 //   /  objects_.write(address, bytes)      what the bus uses: all checks
@@ -29,10 +29,9 @@ class ObjectOwner {
   ~ObjectOwner() = default;
 };
 
-class ObjectDictionary final : public SdoObjects {
+class ObjectDictionary : public SdoObjects {
  public:
-  /// All values at their defaults, those relative to the node id with `node_id` added.
-  explicit ObjectDictionary(ObjectOwner& owner, std::uint8_t node_id = 0);
+  const ObjectTable& table() const { return table_; }
 
   /// All values back to their defaults. The owner is not asked.
   void restore(std::uint8_t node_id);
@@ -40,9 +39,13 @@ class ObjectDictionary final : public SdoObjects {
   std::int64_t value(ObjectSlot slot) const { return values_[slot.value]; }
   void set_value(ObjectSlot slot, std::int64_t value) { values_[slot.value] = value; }
 
-  // By slot (from find_slot), for PDOs: access rights are those of the mapping, checked when it was made.
-  AbortCode read_value(int slot, std::int64_t& value);
-  AbortCode write_value(int slot, std::int64_t value);
+  /// Place of an object in the table; -1: no such object.
+  int place_of(ObjectAddress address) const;
+  /// The same, telling a missing object from a missing subindex.
+  AbortCode locate(ObjectAddress address, int& place) const;
+  // By place, for PDOs: access rights are those of the mapping, checked when it was made.
+  AbortCode read_value(int place, std::int64_t& value);
+  AbortCode write_value(int place, std::int64_t value);
 
   /// By address, for SDO. Numbers are little endian. `bytes` must have room for 8 bytes, or for the longest
   /// string.
@@ -51,21 +54,46 @@ class ObjectDictionary final : public SdoObjects {
 
   /// The same for an SdoServer. Every object here fits one piece.
   AbortCode sdo_read(ObjectAddress address, std::uint32_t offset, std::span<std::uint8_t> out,
-                     std::uint32_t& total) override;
+                     std::uint32_t& total) final;
   AbortCode sdo_write(ObjectAddress address, std::uint32_t offset, std::span<const std::uint8_t> bytes,
-                      bool last) override;
+                      bool last) final;
 
   /// CRC-32 (IEEE) over address and value of every parameter: equal configurations have equal fingerprints.
   /// The node id does not count: values relative to it are taken without it.
   std::uint32_t fingerprint() const;
 
+ protected:
+  /// `values`: room for one a row of the table. All at their defaults, those relative to the node id with
+  /// `node_id` added.
+  ObjectDictionary(ObjectOwner& owner, const ObjectTable& table, std::span<std::int64_t> values,
+                   std::uint8_t node_id);
+  ~ObjectDictionary() = default;
+
  private:
   ObjectOwner& owner_;
+  const ObjectTable& table_;
+  std::int64_t* values_;
   std::uint8_t node_id_ = 0;
-  std::array<std::int64_t, kNodeObjectCount> values_{};
 };
 
-/// Finds `address`, telling a missing object from a missing subindex.
-AbortCode locate(ObjectAddress address, int& slot);
+namespace object_table {
+template <std::size_t kCapacity>
+struct Values {
+  std::array<std::int64_t, kCapacity> values{};
+};
+}  // namespace object_table
+
+/// With room for the values of `kCapacity` objects.
+template <std::size_t kCapacity>
+class SizedDictionary final : private object_table::Values<kCapacity>, public ObjectDictionary {
+ public:
+  explicit SizedDictionary(ObjectOwner& owner, std::uint8_t node_id = 0,
+                           const ObjectTable& table = kNodeTable)
+      : ObjectDictionary(owner, table, this->values, node_id) {}
+  SizedDictionary(const SizedDictionary&) = delete;
+  SizedDictionary& operator=(const SizedDictionary&) = delete;
+};
+/// That of a node with an axis pair, on any board.
+using NodeDictionary = SizedDictionary<kMostNodeObjects>;
 
 }  // namespace kinebus

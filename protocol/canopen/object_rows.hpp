@@ -1,14 +1,14 @@
 #pragma once
-// How rows of the object table are written, the PDOs of a node as it comes, and lists of names. Only
-// node_objects.hpp and printers of the table need this.
+// How an object table is written: rows, added unit by unit, and put in order by the compiler. Only units,
+// boards and printers of a table need this.
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string_view>
 
-#include "protocol/canopen/object_addresses.hpp"
-#include "protocol/motion/broadcast.hpp"
+#include "protocol/canopen/object.hpp"
 
 namespace kinebus {
 
@@ -36,8 +36,8 @@ struct ObjectRow : ObjectEntry, ObjectNames {
   }
 };
 
-template <std::size_t kCapacity>
 struct Rows {
+  static constexpr std::size_t kCapacity = 512;
   std::array<ObjectRow, kCapacity> rows{};
   std::size_t count = 0;
 
@@ -76,6 +76,7 @@ struct Rows {
   }
   constexpr ObjectRow& add(const ObjectRow& entry) {
     rows[count] = entry;
+    rows[count].slot = static_cast<std::uint16_t>(count);
     return rows[count++];
   }
   /// Gives the rows added since `from` to the first axis, and adds them again for the second.
@@ -88,6 +89,16 @@ struct Rows {
       entry.axis = 1;
       add(entry);
     }
+  }
+  /// Places of the rows in the order of their addresses. Units come nearly in order: few of them move.
+  constexpr std::array<std::uint16_t, kCapacity> order() const {
+    std::array<std::uint16_t, kCapacity> places{};
+    for (std::uint16_t i = 0; i < count; ++i) {
+      std::size_t at = i;
+      for (; at > 0 && rows[i].address < rows[places[at - 1]].address; --at) places[at] = places[at - 1];
+      places[at] = i;
+    }
+    return places;
   }
 };
 
@@ -109,100 +120,11 @@ struct PdoDefault {
   std::uint16_t event_ms;
   std::array<std::uint32_t, 8> map;  ///< up to the first 0
 };
+/// A node's PDOs as it comes, 1400h and 1800h on.
+struct PdoSet {
+  std::span<const PdoDefault> rpdos, tpdos;
+};
 inline constexpr std::uint32_t kPdoOff = 0x8000'0000, kNoRtr = 0x4000'0000;
-
-inline constexpr std::array<PdoDefault, kRpdoCount> kRpdoDefaults{{
-    {"Control",
-     0x200,
-     true,
-     255,
-     0,
-     0,
-     {mapped(object::kControlword, 16), mapped(object::kControlword, 16, 1),
-      mapped(object::kModeOfOperation, 8), mapped(object::kModeOfOperation, 8, 1)}},
-    {"Targets",
-     0x300,
-     true,
-     1,
-     0,
-     0,
-     {mapped(object::kTargetPosition, 32), mapped(object::kTargetPosition, 32, 1)}},
-    {"Segment", 0x400, true, 255, 0, 0, {mapped(object::kSegmentRecord, 64)}},
-    {"Checkpoint", 0x500, true, 255, 0, 0, {mapped(object::kCheckpoint, 64)}},
-    {"Rate", kRateCobId, false, 255, 0, 0, {mapped(object::kRateCommand, 64)}},
-    {"SyncStamp", kSyncStampCobId, false, 255, 0, 0, {mapped(object::kSyncStamp, 64)}},
-}};
-// TPDO1 and TPDO3 go by the device profile's event (a mapped value changed) or timer; TPDO2 when the stream
-// says so.
-inline constexpr std::array<PdoDefault, kTpdoCount> kTpdoDefaults{{
-    {"Status",
-     0x180 | kNoRtr,
-     true,
-     255,
-     100,
-     1000,
-     {mapped(object::kStatusword, 16), mapped(object::kStatusword, 16, 1), mapped(object::kModeDisplay, 8),
-      mapped(object::kModeDisplay, 8, 1), mapped(object::kSwitchLevels, 8)}},
-    {"Stream", 0x280 | kNoRtr, true, 254, 20, 0, {mapped(object::kStreamStatus, 64)}},
-    {"Positions",
-     0x380 | kNoRtr,
-     true,
-     254,
-     100,
-     0,
-     {mapped(object::kPositionActual, 32), mapped(object::kPositionActual, 32, 1)}},
-    {"FollowingErrors",
-     0x480 | kNoRtr | kPdoOff,
-     true,
-     254,
-     100,
-     0,
-     {mapped(object::kFollowingError, 32), mapped(object::kFollowingError, 32, 1)}},
-}};
-
-inline constexpr std::array<std::string_view, kRpdoCount> kRpdoNames[2] = {
-    {"RPDO1 communication parameter", "RPDO2 communication parameter", "RPDO3 communication parameter",
-     "RPDO4 communication parameter", "RPDO5 communication parameter", "RPDO6 communication parameter"},
-    {"RPDO1 mapping parameter", "RPDO2 mapping parameter", "RPDO3 mapping parameter",
-     "RPDO4 mapping parameter", "RPDO5 mapping parameter", "RPDO6 mapping parameter"}};
-inline constexpr std::array<std::string_view, kTpdoCount> kTpdoNames[2] = {
-    {"TPDO1 communication parameter", "TPDO2 communication parameter", "TPDO3 communication parameter",
-     "TPDO4 communication parameter"},
-    {"TPDO1 mapping parameter", "TPDO2 mapping parameter", "TPDO3 mapping parameter",
-     "TPDO4 mapping parameter"}};
-inline constexpr std::array<std::string_view, 8> kMappedNames = {
-    "Mapped object 1", "Mapped object 2", "Mapped object 3", "Mapped object 4",
-    "Mapped object 5", "Mapped object 6", "Mapped object 7", "Mapped object 8"};
-inline constexpr std::array<std::string_view, kSwitchInputs> kInputNames = {
-    "Input 1", "Input 2", "Input 3", "Input 4", "Input 5", "Input 6", "Input 7"};
-inline constexpr std::array<std::string_view, kErrorHistoryLength> kErrorFieldNames = {
-    "Standard error field 1", "Standard error field 2", "Standard error field 3", "Standard error field 4",
-    "Standard error field 5", "Standard error field 6", "Standard error field 7", "Standard error field 8"};
-/// In the order of NodeCounter.
-inline constexpr std::array<std::string_view, static_cast<std::size_t>(NodeCounter::kLast)> kCounterNames = {
-    "Malformed frames received",
-    "Receive overruns",
-    "Transmit queue full",
-    "Bus off",
-    "SYNC lost",
-    "SYNC stamp lost",
-    "Clock out of bound",
-    "Stream sequence errors",
-    "Stream queue overflows",
-    "Stream underruns",
-    "Checkpoint errors",
-    "Late rate commands",
-    "Duplicate frames",
-    "PDO length errors",
-    "SDO aborts",
-    "Switch glitches rejected",
-    "Emergencies",
-    "Storage CRC failures",
-    "Watchdog resets",
-    "Stops on the path",
-    "Stops heard too late",
-    "Homing errors",
-    "Drive faults"};
 
 }  // namespace object_table
 }  // namespace kinebus

@@ -10,6 +10,8 @@ namespace kinebus {
 namespace {
 
 constexpr std::uint32_t kOff = 0x8000'0000, kExtended = 0x2000'0000, kIdBits = 0x7FF;
+// Of a PDO that this node's table does not have: a COB-ID that is off, and a type that is none.
+constexpr std::int64_t kNoSuchPdo = -1;
 constexpr std::uint32_t kUnusedIdBits = 0x1FFF'F800;
 
 bool valid_type(std::int64_t type) {
@@ -28,7 +30,8 @@ LocalTime milliseconds_of(std::int64_t value) {
 }  // namespace
 
 std::int64_t PdoEngine::parameter(std::uint16_t index, std::uint8_t subindex) const {
-  return objects_.value(ObjectSlot{static_cast<std::uint16_t>(find_slot({index, subindex}))});
+  const int place = objects_.place_of({index, subindex});
+  return place < 0 ? kNoSuchPdo : objects_.value(objects_.table()[place].value_slot());
 }
 
 PdoEngine::Pdo* PdoEngine::pdo_of(ObjectAddress address) {
@@ -71,12 +74,12 @@ AbortCode PdoEngine::resolve(std::uint32_t mapping, bool tpdo, MappedObject& obj
     object = {-1, bytes};
     return AbortCode::kNone;
   }
-  int slot = 0;
-  if (const AbortCode missing = locate(address, slot); missing != AbortCode::kNone) return missing;
-  const ObjectEntry& entry = kNodeObjects[static_cast<std::size_t>(slot)];
+  int place = 0;
+  if (const AbortCode missing = objects_.locate(address, place); missing != AbortCode::kNone) return missing;
+  const ObjectEntry& entry = objects_.table()[place];
   if (!entry.maps_to(tpdo ? Mapping::kTpdo : Mapping::kRpdo) || bits != entry.size() * 8u)
     return AbortCode::kNotMappable;
-  object = {static_cast<std::int16_t>(slot), entry.size()};
+  object = {static_cast<std::int16_t>(place), entry.size()};
   return AbortCode::kNone;
 }
 
@@ -215,10 +218,10 @@ PdoEngine::Reception PdoEngine::write(Pdo& pdo, const CanFrame& frame) {
   std::size_t at = 0;
   for (std::size_t i = 0; i < pdo.map.count; ++i) {
     const MappedObject& object = pdo.map.objects[i];
-    if (object.slot >= 0) {
+    if (object.place >= 0) {
       const std::uint64_t raw = get_le(std::span(frame.data).subspan(at), object.bytes);
-      const DataType type = kNodeObjects[static_cast<std::size_t>(object.slot)].type;
-      if (objects_.write_value(object.slot, value_of(type, raw)) != AbortCode::kNone)
+      const DataType type = objects_.table()[object.place].type;
+      if (objects_.write_value(object.place, value_of(type, raw)) != AbortCode::kNone)
         result = Reception::kRefused;
     }
     at += object.bytes;
@@ -283,7 +286,7 @@ bool PdoEngine::pack(Pdo& pdo, CanFrame& frame) {
   for (std::size_t i = 0; i < pdo.map.count; ++i) {
     const MappedObject& object = pdo.map.objects[i];
     std::int64_t value = 0;
-    if (objects_.read_value(object.slot, value) != AbortCode::kNone) return false;
+    if (objects_.read_value(object.place, value) != AbortCode::kNone) return false;
     put_le(std::span(frame.data).subspan(at), static_cast<std::uint64_t>(value), object.bytes);
     at += object.bytes;
   }

@@ -54,7 +54,7 @@ class PdoEngine {
 
  private:
   struct MappedObject {
-    std::int16_t slot = -1;  // -1: dummy, bytes without meaning
+    std::int16_t place = -1;  // in the table; -1: dummy, bytes without meaning
     std::uint8_t bytes = 0;
   };
   struct Mapping8 {

@@ -24,7 +24,7 @@ class DictionaryNode : public ObjectOwner {
     return PdoEngine::owns(entry.address) ? pdos.accept(entry, value) : AbortCode::kNone;
   }
 
-  ObjectDictionary objects{*this, 1};
+  NodeDictionary objects{*this, 1};
   PdoEngine pdos{objects};
   SdoServer server{objects};
 };

@@ -18,9 +18,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const std::uint16_t index =
             static_cast<std::uint16_t>(0x1400 + ((frame.data[0] & 3) << 9) + (frame.data[1] & 7));
         const ObjectAddress address{index, static_cast<std::uint8_t>(frame.data[2] & 0xF)};
-        if (const int slot = find_slot(address); slot >= 0)
-          node.objects.write(
-              address, std::span(frame.data).subspan(4, kNodeObjects[static_cast<std::size_t>(slot)].size()));
+        if (const int place = find_object(address); place >= 0)
+          node.objects.write(address, std::span(frame.data).subspan(4, kNodeTable[place].size()));
         break;
       }
       case 1:

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "protocol/canopen/cob_id.hpp"
-#include "protocol/canopen/node_objects.hpp"
+#include "protocol/canopen/object_addresses.hpp"
 
 namespace kinebus {
 namespace {
@@ -95,15 +95,17 @@ std::string identifier(std::string_view name) {
   return result;
 }
 
-Message pdo_message(const object_table::PdoDefault& pdo, std::uint32_t id, std::string name,
-                    std::string sender, std::string receiver) {
+Message pdo_message(const BoardDescription& board, const object_table::PdoDefault& pdo, std::uint32_t id,
+                    std::string name, std::string sender, std::string receiver) {
   Message message{id, std::move(name), 0, std::move(sender), std::move(receiver), {}};
   int at = 0;
   for (const std::uint32_t mapping : pdo.map) {
     if (mapping == 0) break;
     const ObjectAddress address{static_cast<std::uint16_t>(mapping >> 16),
                                 static_cast<std::uint8_t>(mapping >> 8)};
-    const ObjectEntry& entry = kNodeObjects[static_cast<std::size_t>(find_slot(address))];
+    const auto place = static_cast<std::size_t>(board.objects.find(address));
+    const ObjectEntry& entry = board.objects.entries[place];
+    const ObjectNames& names = board.names[place];
     const int bits = static_cast<int>(mapping & 0xFF);
     if (auto fields = fields_of(address); !fields.empty()) {
       for (Signal& field : fields) {
@@ -113,8 +115,8 @@ Message pdo_message(const object_table::PdoDefault& pdo, std::uint32_t id, std::
     } else {
       const std::string axis = entry.axis < 0 ? "" : entry.axis == 0 ? "_A" : "_B";
       const bool mode = entry.base() == object::kModeOfOperation || entry.base() == object::kModeDisplay;
-      message.signals.push_back({identifier(names_of(entry).name) + axis, at, bits, is_signed(entry.type),
-                                 "1", std::string(names_of(entry).unit), mode ? kModes : "", ""});
+      message.signals.push_back({identifier(names.name) + axis, at, bits, is_signed(entry.type), "1",
+                                 std::string(names.unit), mode ? kModes : "", ""});
     }
     at += bits;
   }
@@ -122,9 +124,7 @@ Message pdo_message(const object_table::PdoDefault& pdo, std::uint32_t id, std::
   return message;
 }
 
-void add_node(std::vector<Message>& messages, std::uint8_t id) {
-  using object_table::kRpdoDefaults;
-  using object_table::kTpdoDefaults;
+void add_node(std::vector<Message>& messages, const BoardDescription& board, std::uint8_t id) {
   const std::string node = "NODE" + std::to_string(id);
   messages.push_back({cob_id::kEmcy + id,
                       node + "_EMCY",
@@ -137,13 +137,13 @@ void add_node(std::vector<Message>& messages, std::uint8_t id) {
                        {"StopAxis", 31, 1, false, "1", "", "0 \"A\" 1 \"B\"", ""},
                        {"StopStart", 32, 24, false, "1", "us", "", "bus time, low 24 bits"},
                        {"StopCheck", 56, 8, false, "1", "", "", "of the stop asked for"}}});
-  for (const auto& pdo : kTpdoDefaults)
+  for (const auto& pdo : board.pdos.tpdos)
     if ((pdo.cob_id & object_table::kPdoOff) == 0)
-      messages.push_back(
-          pdo_message(pdo, (pdo.cob_id & 0x7FF) + id, node + "_" + std::string(pdo.name), node, "GATEWAY"));
-  for (const auto& pdo : kRpdoDefaults)
+      messages.push_back(pdo_message(board, pdo, (pdo.cob_id & 0x7FF) + id,
+                                     node + "_" + std::string(pdo.name), node, "GATEWAY"));
+  for (const auto& pdo : board.pdos.rpdos)
     if (pdo.plus_node_id)
-      messages.push_back(pdo_message(pdo, (pdo.cob_id & 0x7FF) + id,
+      messages.push_back(pdo_message(board, pdo, (pdo.cob_id & 0x7FF) + id,
                                      "GATEWAY_" + std::string(pdo.name) + std::to_string(id), "GATEWAY",
                                      node));
   const std::vector<Signal> sdo = {{"Command", 0, 8, false, "1", "", "", ""},
@@ -175,7 +175,7 @@ void print(std::string& text, const Message& message) {
 
 }  // namespace
 
-std::string dbc_text() {
+std::string dbc_text(const BoardDescription& board) {
   std::string all_nodes;
   std::vector<Message> messages;
   for (std::uint8_t id = 1; id <= kDbcNodes; ++id)
@@ -196,11 +196,11 @@ std::string dbc_text() {
                       "GATEWAY",
                       all_nodes,
                       {{"SyncCounter", 0, 8, false, "1", "", "", ""}}});
-  for (const auto& pdo : object_table::kRpdoDefaults)
+  for (const auto& pdo : board.pdos.rpdos)
     if (!pdo.plus_node_id)
-      messages.push_back(
-          pdo_message(pdo, pdo.cob_id & 0x7FF, "GATEWAY_" + std::string(pdo.name), "GATEWAY", all_nodes));
-  for (std::uint8_t id = 1; id <= kDbcNodes; ++id) add_node(messages, id);
+      messages.push_back(pdo_message(board, pdo, pdo.cob_id & 0x7FF, "GATEWAY_" + std::string(pdo.name),
+                                     "GATEWAY", all_nodes));
+  for (std::uint8_t id = 1; id <= kDbcNodes; ++id) add_node(messages, board, id);
   messages.push_back({cob_id::kHeartbeat + kGatewayNodeId,
                       "GATEWAY_Heartbeat",
                       1,

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "protocol/canopen/node_objects.hpp"
+#include "protocol/canopen/object_addresses.hpp"
 
 namespace kinebus {
 namespace {
@@ -66,13 +66,14 @@ void add_list(Ini& ini, const std::string& name, const std::vector<std::uint16_t
   for (std::size_t i = 0; i < indices.size(); ++i) ini.set(std::to_string(i + 1), hex(indices[i], 4));
 }
 
-void add_device(Ini& ini) {
+void add_device(Ini& ini, const BoardDescription& board) {
+  const BoardFacts& facts = board.facts;
   ini.section("FileInfo");
-  ini.set("FileName", "kinebus-node.eds");
+  ini.set("FileName", std::string(facts.order_code) + ".eds");
   ini.set("FileVersion", "1");
   ini.set("FileRevision", "0");
   ini.set("EDSVersion", "4.0");
-  ini.set("Description", "Kinebus two-axis CAN node");
+  ini.set("Description", facts.description);
   ini.set("CreationTime", "12:00PM");
   ini.set("CreationDate", "01-01-2026");
   ini.set("CreatedBy", "kinebus-dictionary");
@@ -83,10 +84,10 @@ void add_device(Ini& ini) {
   ini.section("DeviceInfo");
   ini.set("VendorName", "Kinebus");
   ini.set("VendorNumber", hex(kVendorId, 8));
-  ini.set("ProductName", "Kinebus two-axis node");
-  ini.set("ProductNumber", hex(kProductCode, 8));
-  ini.set("RevisionNumber", hex(kRevisionNumber, 8));
-  ini.set("OrderCode", "kinebus-node");
+  ini.set("ProductName", facts.device_name);
+  ini.set("ProductNumber", hex(facts.product_code, 8));
+  ini.set("RevisionNumber", hex(facts.revision, 8));
+  ini.set("OrderCode", facts.order_code);
   for (const int rate : {10, 20, 50, 125, 250, 500, 800, 1000})
     ini.set("BaudRate_" + std::to_string(rate), rate == 1000 ? 1 : 0);
   ini.set("SimpleBootUpMaster", "0");
@@ -94,8 +95,8 @@ void add_device(Ini& ini) {
   ini.set("Granularity", "8");
   ini.set("DynamicChannelsSupported", "0");
   ini.set("GroupMessaging", "0");
-  ini.set("NrOfRXPDO", kRpdoCount);
-  ini.set("NrOfTXPDO", kTpdoCount);
+  ini.set("NrOfRXPDO", static_cast<long long>(board.pdos.rpdos.size()));
+  ini.set("NrOfTXPDO", static_cast<long long>(board.pdos.tpdos.size()));
   ini.set("LSS_Supported", "1");
 
   ini.section("DummyUsage");
@@ -109,12 +110,13 @@ void add_device(Ini& ini) {
 
 }  // namespace
 
-std::string eds_text() {
+std::string eds_text(const BoardDescription& board) {
   Ini ini;
-  add_device(ini);
+  add_device(ini, board);
+  const std::span<const ObjectEntry> objects = board.objects.entries;
 
   std::vector<std::uint16_t> mandatory, optional, manufacturer;
-  for (const ObjectEntry& entry : kNodeObjects) {
+  for (const ObjectEntry& entry : objects) {
     if (entry.address.subindex != 0) continue;
     const std::uint16_t index = entry.address.index;
     const bool is_mandatory = index == 0x1000 || index == 0x1001 || index == 0x1018;
@@ -124,28 +126,28 @@ std::string eds_text() {
   add_list(ini, "OptionalObjects", optional);
   add_list(ini, "ManufacturerObjects", manufacturer);
 
-  for (std::size_t i = 0; i < kNodeObjects.size(); ++i) {
-    const ObjectEntry& entry = kNodeObjects[i];
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const ObjectEntry& entry = objects[i];
+    const ObjectNames& names = board.names[i];
     const std::string section = hex(entry.address.index, 4, "");
     if (entry.code == ObjectCode::kVar) {
       ini.section(section);
-      ini.set("ParameterName", names_of(entry).object);
+      ini.set("ParameterName", names.object);
       ini.set("ObjectType", "0x7");
       add_value(ini, entry);
       continue;
     }
     if (entry.address.subindex == 0) {
       long long entries = 0;
-      for (std::size_t k = i; k < kNodeObjects.size() && kNodeObjects[k].address.index == entry.address.index;
-           ++k)
+      for (std::size_t k = i; k < objects.size() && objects[k].address.index == entry.address.index; ++k)
         ++entries;
       ini.section(section);
-      ini.set("ParameterName", names_of(entry).object);
+      ini.set("ParameterName", names.object);
       ini.set("ObjectType", entry.code == ObjectCode::kArray ? "0x8" : "0x9");
       ini.set("SubNumber", entries);
     }
     ini.section(section + "sub" + hex(entry.address.subindex, 1, ""));
-    ini.set("ParameterName", names_of(entry).name);
+    ini.set("ParameterName", names.name);
     ini.set("ObjectType", "0x7");
     add_value(ini, entry);
   }

@@ -92,7 +92,7 @@ class FakeNode final : private SdoObjects {
   }
   AbortCode sdo_read(ObjectAddress address, std::uint32_t offset, std::span<std::uint8_t> out,
                      std::uint32_t& total) override {
-    const int slot = find_slot(address);
+    const int slot = find_object(address);
     if (slot < 0) return AbortCode::kNoObject;
     std::int64_t value = kNodeObjects[static_cast<std::size_t>(slot)].initial;
     const std::uint32_t base =

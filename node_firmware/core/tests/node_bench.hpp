@@ -144,7 +144,7 @@ class Bench {
     request.data[3] = sub;
     const CanFrame reply = transfer(request);
     EXPECT_EQ(reply.data[0] & 0xE0, 0x40) << text_of(reply);
-    const int slot = find_slot({index, sub});
+    const int slot = find_object({index, sub});
     return slot < 0 ? 0
                     : value_of(kNodeObjects[static_cast<std::size_t>(slot)].type,
                                get_u32_le(std::span(reply.data).subspan(4)));

@@ -36,9 +36,9 @@ TEST(ObjectTable, IsConsistent) {
   for (const ObjectEntry& e : kNodeObjects) {
     const auto where = std::string(names_of(e).object) + " / " + std::string(names_of(e).name);
     EXPECT_FALSE(names_of(e).name.empty()) << where;
-    EXPECT_GE(find_slot({e.address.index, 0}), 0) << where;
+    EXPECT_GE(find_object({e.address.index, 0}), 0) << where;
     EXPECT_EQ(names_of(e).object,
-              kNodeObjectNames[static_cast<std::size_t>(find_slot({e.address.index, 0}))].object)
+              kNodeObjectNames[static_cast<std::size_t>(find_object({e.address.index, 0}))].object)
         << where;
     if (e.limited) {
       EXPECT_LE(e.low, e.high) << where;
@@ -54,12 +54,59 @@ TEST(ObjectTable, IsConsistent) {
         << where;
     if (e.axis == 0) {
       const int twin =
-          find_slot({static_cast<std::uint16_t>(e.address.index + kAxisOffset), e.address.subindex});
+          find_object({static_cast<std::uint16_t>(e.address.index + kAxisOffset), e.address.subindex});
       ASSERT_GE(twin, 0) << where;
       EXPECT_EQ(kNodeObjects[static_cast<std::size_t>(twin)].base(), e.address);
       EXPECT_EQ(kNodeObjects[static_cast<std::size_t>(twin)].axis, 1);
     }
   }
+}
+
+// The axis pair's units, and one more of its own in between by address.
+struct WiderBoard {
+  static constexpr BoardFacts kFacts{.name = "wider", .device_name = "Wider", .product_code = 7};
+  static constexpr void compose(object_table::Rows& t) {
+    Stm32f405Board::compose(t);
+    t.head(0x2300, "Lamps", ObjectCode::kArray, 1);
+    t.sub(1, "Lamp 1", DataType::kU8, Access::kReadWrite, Binding::kParameter, 3).between(0, 5);
+  }
+};
+// No axis, no PDO.
+struct BareBoard {
+  static constexpr BoardFacts kFacts{.name = "bare", .device_name = "Bare", .product_code = 8};
+  static constexpr void compose(object_table::Rows& t) {
+    t.var(0x2300, "Lamp", DataType::kU8, Access::kReadWrite, Binding::kParameter, 1);
+    object_table::communication(t, kFacts);
+  }
+};
+
+TEST(ObjectTable, IsComposedOfUnitsByBoard) {
+  constexpr const ObjectTable& wider = BoardObjects<WiderBoard>::kTable;
+  constexpr const ObjectTable& bare = BoardObjects<BareBoard>::kTable;
+  EXPECT_EQ(wider.entries.size(), kNodeObjectCount + 2);
+  static_assert(shares_slots(kNodeTable, wider), "the axis pair's core serves it");
+  static_assert(!shares_slots(kNodeTable, bare));
+  EXPECT_EQ(wider[wider.find({0x2300, 1})].high, 5);
+  EXPECT_EQ(BoardObjects<WiderBoard>::kNames[static_cast<std::size_t>(wider.find({0x2300, 1}))].name,
+            "Lamp 1");
+  EXPECT_LT(wider.find({0x2300, 1}), wider.find({0x6040, 0})) << "by address";
+  EXPECT_GE(bare.find({0x1018, 2}), 0);
+  EXPECT_LT(bare.find({0x6040, 0}), 0);
+}
+
+TEST(ObjectDictionary, ServesTheTableOfAnyBoard) {
+  Owner owner;
+  SizedDictionary<kNodeObjectCount + 2> wider(owner, 4, BoardObjects<WiderBoard>::kTable);
+  EXPECT_EQ(wider.value(slot_of(object::kStopRamp)), 100) << "where the axis pair's core looks";
+  std::uint64_t value = 0;
+  EXPECT_EQ(read(wider, {0x2300, 1}, value), AbortCode::kNone);
+  EXPECT_EQ(value, 3u);
+  SizedDictionary<64> bare(owner, 4, BoardObjects<BareBoard>::kTable);
+  EXPECT_EQ(read(bare, {0x2300, 0}, value), AbortCode::kNone);
+  EXPECT_EQ(value, 1u);
+  EXPECT_EQ(read(bare, {0x1200, 1}, value), AbortCode::kNone);
+  EXPECT_EQ(value, 0x604u);
+  EXPECT_EQ(read(bare, {0x6040, 0}, value), AbortCode::kNoObject);
 }
 
 TEST(ObjectTable, HighestSubindexIsTrue) {
@@ -76,16 +123,16 @@ TEST(ObjectTable, DefaultPdosMapWhatMayBeMapped) {
   using namespace object_table;
   const auto check = [](std::uint32_t mapping, Mapping kind) {
     const int slot =
-        find_slot({static_cast<std::uint16_t>(mapping >> 16), static_cast<std::uint8_t>(mapping >> 8)});
+        find_object({static_cast<std::uint16_t>(mapping >> 16), static_cast<std::uint8_t>(mapping >> 8)});
     ASSERT_GE(slot, 0) << std::hex << mapping;
     const ObjectEntry& entry = kNodeObjects[static_cast<std::size_t>(slot)];
     EXPECT_TRUE(entry.maps_to(kind)) << names_of(entry).name;
     EXPECT_EQ(entry.size() * 8u, mapping & 0xFF) << names_of(entry).name;
   };
-  for (const auto& pdo : kRpdoDefaults)
+  for (const auto& pdo : kAxisPairRpdos)
     for (const auto m : pdo.map)
       if (m != 0) check(m, Mapping::kRpdo);
-  for (const auto& pdo : kTpdoDefaults)
+  for (const auto& pdo : kAxisPairTpdos)
     for (const auto m : pdo.map)
       if (m != 0) check(m, Mapping::kTpdo);
 }
@@ -93,7 +140,7 @@ TEST(ObjectTable, DefaultPdosMapWhatMayBeMapped) {
 TEST(ObjectDictionary, ReadsConstantsStringsParametersAndLiveValues) {
   Owner owner;
   owner.live[object::kErrorRegister.key()] = 0x11;
-  ObjectDictionary objects(owner, 3);
+  NodeDictionary objects(owner, 3);
   std::uint64_t value = 0;
   EXPECT_EQ(read(objects, object::kDeviceType, value), AbortCode::kNone);
   EXPECT_EQ(value, 0xFFFF0192u);
@@ -110,7 +157,7 @@ TEST(ObjectDictionary, ReadsConstantsStringsParametersAndLiveValues) {
 
 TEST(ObjectDictionary, RefusesAsCiaSays) {
   Owner owner;
-  ObjectDictionary objects(owner, 1);
+  NodeDictionary objects(owner, 1);
   std::uint64_t value = 0;
   const std::array<std::uint8_t, 8> eight{};
   const auto zeros = [&](std::size_t n) { return std::span(eight).first(n); };
@@ -134,7 +181,7 @@ TEST(ObjectDictionary, RefusesAsCiaSays) {
 
 TEST(ObjectDictionary, SignedValuesKeepTheirSign) {
   Owner owner;
-  ObjectDictionary objects(owner, 1);
+  NodeDictionary objects(owner, 1);
   const std::array<std::uint8_t, 4> minus_five{0xFB, 0xFF, 0xFF, 0xFF};
   EXPECT_EQ(objects.write({0x687A, 0}, minus_five), AbortCode::kNone);
   EXPECT_EQ(objects.value(slot_of_axes(object::kTargetPosition)[1]), -5);
@@ -143,7 +190,7 @@ TEST(ObjectDictionary, SignedValuesKeepTheirSign) {
 
 TEST(ObjectDictionary, FingerprintTellsParametersNotNodesOrVariables) {
   Owner owner;
-  ObjectDictionary one(owner, 1), two(owner, 2);
+  NodeDictionary one(owner, 1), two(owner, 2);
   EXPECT_EQ(one.fingerprint(), two.fingerprint());
   two.set_value(slot_of_axes(object::kTargetPosition)[0], 12345);
   EXPECT_EQ(one.fingerprint(), two.fingerprint());

@@ -17,7 +17,7 @@ using std::chrono::milliseconds;
 
 /// A node of nothing but dictionary, SDO server and PDOs.
 struct Bench : ObjectOwner {
-  ObjectDictionary objects{*this, 1};
+  NodeDictionary objects{*this, 1};
   PdoEngine pdos{objects};
   SdoServer server{objects};
   std::map<std::uint32_t, std::int64_t> live;
@@ -55,7 +55,7 @@ struct Bench : ObjectOwner {
     sent();
   }
   std::int64_t value(ObjectAddress address) {
-    return objects.value(ObjectSlot{static_cast<std::uint16_t>(find_slot(address))});
+    return objects.value(kNodeTable[find_object(address)].value_slot());
   }
 };
 using Frames = std::vector<std::string>;

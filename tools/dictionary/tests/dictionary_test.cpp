@@ -20,6 +20,8 @@
 namespace kinebus {
 namespace {
 
+constexpr const BoardDescription& kBoard = kBoards[0];  // the one that kNodeObjects is of
+
 using Section = std::map<std::string, std::string>;
 
 std::map<std::string, Section> read_ini(const std::string& text) {
@@ -54,7 +56,7 @@ std::int64_t number(const std::string& text) {
 }
 
 TEST(Eds, SaysOfEveryObjectWhatTheTableSays) {
-  auto sections = read_ini(eds_text());
+  auto sections = read_ini(eds_text(kBoard));
   std::size_t values = 0;
   for (const ObjectEntry& entry : kNodeObjects) {
     const bool var = entry.code == ObjectCode::kVar;
@@ -98,8 +100,20 @@ TEST(Eds, SaysOfEveryObjectWhatTheTableSays) {
   EXPECT_EQ(values, kNodeObjectCount);
 }
 
+TEST(Eds, IsOfTheBoardThatIsNamed) {
+  EXPECT_EQ(find_board("stm32f405"), &kBoards[0]);
+  EXPECT_EQ(find_board("stm32"), nullptr);
+  for (const BoardDescription& board : kBoards) {
+    auto sections = read_ini(eds_text(board));
+    EXPECT_EQ(sections["DeviceInfo"]["ProductName"], board.facts.device_name);
+    EXPECT_EQ(number(sections["DeviceInfo"]["ProductNumber"]), board.facts.product_code);
+    EXPECT_EQ(sections["FileInfo"]["FileName"], std::string(board.facts.order_code) + ".eds");
+    EXPECT_EQ(sections["1009"]["DefaultValue"], board.facts.hardware_version);
+  }
+}
+
 TEST(Eds, ListsEveryObjectOnceInItsPart) {
-  auto sections = read_ini(eds_text());
+  auto sections = read_ini(eds_text(kBoard));
   std::set<std::int64_t> listed;
   for (const auto& [part, low, high] :
        {std::tuple{"MandatoryObjects", 0x1000, 0x1018}, std::tuple{"OptionalObjects", 0x1000, 0x9FFF},
@@ -178,7 +192,7 @@ CanFrame frame_of(std::uint64_t record) {
 
 TEST(Dbc, PdosAreThoseOfTheTable) {
   using namespace object_table;
-  const auto messages = read_dbc(dbc_text());
+  const auto messages = read_dbc(dbc_text(kBoard));
   const auto check = [&](const PdoDefault& pdo, unsigned id) {
     ASSERT_EQ(messages.count(id), 1u) << pdo.name;
     const Message& m = messages.at(id);
@@ -195,9 +209,9 @@ TEST(Dbc, PdosAreThoseOfTheTable) {
     EXPECT_EQ(got, expected) << pdo.name;
   };
   for (unsigned node = 1; node <= kDbcNodes; ++node) {
-    for (const auto& pdo : kTpdoDefaults)
+    for (const auto& pdo : kAxisPairTpdos)
       if ((pdo.cob_id & kPdoOff) == 0) check(pdo, (pdo.cob_id & 0x7FF) + node);
-    for (const auto& pdo : kRpdoDefaults) check(pdo, (pdo.cob_id & 0x7FF) + (pdo.plus_node_id ? node : 0));
+    for (const auto& pdo : kAxisPairRpdos) check(pdo, (pdo.cob_id & 0x7FF) + (pdo.plus_node_id ? node : 0));
   }
   const Message& status = messages.at(0x181);
   EXPECT_EQ(status.sender, "NODE1");
@@ -206,7 +220,7 @@ TEST(Dbc, PdosAreThoseOfTheTable) {
 }
 
 TEST(Dbc, PackedRecordsDecodeAsTheCodecPacks) {
-  const auto messages = read_dbc(dbc_text());
+  const auto messages = read_dbc(dbc_text(kBoard));
   const CanFrame segment =
       frame_of(encode(Segment{.sequence = 101, .duration = 5000, .acceleration = {-2000000, 77}}));
   const Message& m = messages.at(0x402);
@@ -253,7 +267,7 @@ TEST(Dbc, PackedRecordsDecodeAsTheCodecPacks) {
 }
 
 TEST(Dbc, EverySignalOfAMessageHasItsOwnBits) {
-  for (const auto& [id, message] : read_dbc(dbc_text())) {
+  for (const auto& [id, message] : read_dbc(dbc_text(kBoard))) {
     std::uint64_t used = 0;
     for (const auto& [name, s] : message.signals) {
       const std::uint64_t mask = (s.bits == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << s.bits) - 1)

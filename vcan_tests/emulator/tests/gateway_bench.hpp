@@ -109,7 +109,7 @@ class GatewayBench {
   std::int64_t read(std::uint8_t id, std::uint16_t index, std::uint8_t sub) {
     const CanFrame reply = upload(id, index, sub);
     EXPECT_EQ(reply.data[0] & 0xE0, 0x40) << std::hex << index << ":" << int{sub};
-    const int slot = find_slot({index, sub});
+    const int slot = find_object({index, sub});
     return slot < 0 ? 0
                     : value_of(kNodeObjects[static_cast<std::size_t>(slot)].type,
                                get_u32_le(std::span(reply.data).subspan(4)));
