@@ -17,8 +17,10 @@ bool is_blank(std::span<const std::uint8_t> bytes) {
 
 }  // namespace
 
-BootLoader::BootLoader(const LssIdentity& identity, std::uint8_t node_id, ProgramFlash& flash, LocalTime now)
-    : identity_(identity),
+BootLoader::BootLoader(const ImageTarget& board, const LssIdentity& identity, std::uint8_t node_id,
+                       ProgramFlash& flash, LocalTime now)
+    : board_(board),
+      identity_(identity),
       flash_(flash),
       sdo_(*this, kSlowFlash),
       lss_(identity, node_id == 0 ? kUnconfiguredNodeId : node_id),
@@ -28,8 +30,8 @@ BootLoader::BootLoader(const LssIdentity& identity, std::uint8_t node_id, Progra
 }
 
 void BootLoader::look() {
-  status_ =
-      check_image(flash_.bytes()) == ImageCheck::kGood ? ProgramStatus::kGood : ProgramStatus::kNoProgram;
+  status_ = check_image(flash_.bytes(), board_) == ImageCheck::kGood ? ProgramStatus::kGood
+                                                                     : ProgramStatus::kNoProgram;
 }
 
 void BootLoader::set_node_id(std::uint8_t node_id, LocalTime now) {
@@ -178,7 +180,7 @@ AbortCode BootLoader::write_program(std::uint32_t offset, std::span<const std::u
   const std::size_t room = flash_.bytes().size();
   if (offset == 0) {
     // Looked at before anything is erased: an image for something else leaves the old program as it is.
-    switch (check_header(bytes, room)) {
+    switch (check_header(bytes, room, board_)) {
       case ImageCheck::kGood:
         break;
       case ImageCheck::kLength:

@@ -46,8 +46,9 @@ inline constexpr std::uint8_t kStop = 0, kStart = 1, kReset = 2, kClear = 3;
 
 class BootLoader final : private SdoObjects {
  public:
-  /// `node_id` 0: waits for LSS.
-  BootLoader(const LssIdentity& identity, std::uint8_t node_id, ProgramFlash& flash, LocalTime now);
+  /// `node_id` 0: waits for LSS. Takes programs for `board` only.
+  BootLoader(const ImageTarget& board, const LssIdentity& identity, std::uint8_t node_id, ProgramFlash& flash,
+             LocalTime now);
   BootLoader(const BootLoader&) = delete;
   BootLoader& operator=(const BootLoader&) = delete;
 
@@ -72,6 +73,7 @@ class BootLoader final : private SdoObjects {
   void set_node_id(std::uint8_t node_id, LocalTime now);
   void look();
 
+  ImageTarget board_;
   LssIdentity identity_;
   ProgramFlash& flash_;
   SdoServer sdo_;

@@ -7,10 +7,18 @@
 #include <span>
 
 #include "protocol/bytes.hpp"
+#include "protocol/canopen/board_facts.hpp"
 #include "protocol/canopen/crc.hpp"
-#include "protocol/canopen/object_addresses.hpp"
 
 namespace kinebus {
+
+/// For what an image is.
+struct ImageTarget {
+  std::uint32_t product_code = 0, hardware = 0, revision = 0;
+};
+constexpr ImageTarget image_target(const BoardFacts& board) {
+  return {board.product_code, board.hardware, board.revision};
+}
 
 /// As words in the image, little endian.
 struct ImageHeader {
@@ -18,20 +26,23 @@ struct ImageHeader {
   static constexpr std::size_t kBytes = 32;
   static constexpr std::uint32_t kMagic = 0x5746'424B;  // "KBFW"
   static constexpr std::uint32_t kFormat = 1;
-  /// STM32F405 dual-stepper board, pin map of board.hpp.
-  static constexpr std::uint32_t kHardware = 0x0405'0001;
 
   std::uint32_t magic = kMagic;
   std::uint32_t format = kFormat;
-  std::uint32_t product_code = kProductCode;
-  std::uint32_t hardware = kHardware;
-  std::uint32_t revision = kRevisionNumber;
+  std::uint32_t product_code = 0;  ///< these three as ImageTarget has them
+  std::uint32_t hardware = 0;
+  std::uint32_t revision = 0;
   std::uint32_t length = 0;  ///< bytes from the first vector on, a multiple of 4
   std::uint32_t crc = 0;
   std::uint32_t reserved = 0xFFFF'FFFF;
 };
 static_assert(sizeof(ImageHeader) == ImageHeader::kBytes);
 inline constexpr std::size_t kCrcOffset = ImageHeader::kOffset + 24;
+
+/// Of a program that is not sealed yet.
+constexpr ImageHeader image_header_for(const ImageTarget& target) {
+  return {.product_code = target.product_code, .hardware = target.hardware, .revision = target.revision};
+}
 
 /// That of the program that runs; sealed after linking.
 extern const ImageHeader kImageHeader;
@@ -62,23 +73,8 @@ enum class ImageCheck : std::uint8_t {
 };
 
 /// The header alone: may this image be written at all? `image`: its first bytes; `room`: of the flash.
-constexpr ImageCheck check_header(std::span<const std::uint8_t> image, std::size_t room) {
-  if (image.size() < ImageHeader::kOffset + ImageHeader::kBytes) return ImageCheck::kNone;
-  const ImageHeader h = decode_image_header(image);
-  if (h.magic != ImageHeader::kMagic) return ImageCheck::kNone;
-  if (h.format != ImageHeader::kFormat || h.product_code != kProductCode ||
-      h.hardware != ImageHeader::kHardware)
-    return ImageCheck::kOtherDevice;
-  if (h.length < ImageHeader::kOffset + ImageHeader::kBytes || h.length > room || h.length % 4 != 0)
-    return ImageCheck::kLength;
-  return ImageCheck::kGood;
-}
+ImageCheck check_header(std::span<const std::uint8_t> image, std::size_t room, const ImageTarget& board);
 /// `flash`: the program's whole room.
-constexpr ImageCheck check_image(std::span<const std::uint8_t> flash) {
-  const ImageCheck header = check_header(flash, flash.size());
-  if (header != ImageCheck::kGood) return header;
-  const ImageHeader h = decode_image_header(flash);
-  return image_crc(flash.first(h.length)) == h.crc ? ImageCheck::kGood : ImageCheck::kCrc;
-}
+ImageCheck check_image(std::span<const std::uint8_t> flash, const ImageTarget& board);
 
 }  // namespace kinebus

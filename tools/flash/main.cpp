@@ -127,7 +127,7 @@ int flash(const Arguments& arguments) {
   std::ifstream file(arguments.image, std::ios::binary);
   const std::vector<std::uint8_t> image{std::istreambuf_iterator<char>(file), {}};
   if (!file && image.empty()) return fmt::print(stderr, "cannot read {}\n", arguments.image), 1;
-  if (const ImageCheck check = check_image(image); check != ImageCheck::kGood) {
+  if (const ImageCheck check = check_any_image(image); check != ImageCheck::kGood) {
     ProgramUpdate refused(1, image, LocalTime{0}, {});
     return fmt::print(stderr, "{}: {}\n", arguments.image, refused.message()), 1;
   }

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "node_firmware/boot/boot_loader.hpp"
+#include "protocol/canopen/boards/all.hpp"
 #include "protocol/canopen/heartbeat.hpp"
 #include "protocol/canopen/nmt.hpp"
 
@@ -35,6 +36,15 @@ CanFrame end_of_transfer(std::uint8_t node) {
   return sdo::abort_frame(cob_id::kSdoRequest + node, kProgramData, AbortCode::kGeneral);
 }
 
+ImageCheck check_any_image(std::span<const std::uint8_t> image) {
+  ImageCheck best = ImageCheck::kNone;
+  for (const BoardDescription& board : kBoards) {
+    best = check_image(image, image_target(board.facts));
+    if (best != ImageCheck::kOtherDevice) break;
+  }
+  return best;
+}
+
 ProgramUpdate::ProgramUpdate(std::uint8_t node, std::span<const std::uint8_t> image, LocalTime now,
                              const Options& options)
     : options_(options),
@@ -42,7 +52,7 @@ ProgramUpdate::ProgramUpdate(std::uint8_t node, std::span<const std::uint8_t> im
       image_(image),
       client_(SdoClient::Options{.timeout = options.answer}),
       attempts_left_(options.attempts) {
-  if (const ImageCheck check = check_image(image); check != ImageCheck::kGood) {
+  if (const ImageCheck check = check_any_image(image); check != ImageCheck::kGood) {
     fail(what_is_wrong(check));
     return;
   }
@@ -112,8 +122,8 @@ void ProgramUpdate::on_transfer(LocalTime now) {
       in_boot_loader_ = value_[0] == program_control::kStop;
       return go(now, Step::kReadIdentity);
     case Step::kReadIdentity:
-      if (get_u32_le(value_) != kProductCode)
-        return fail("is no Kinebus node: product code differs (1018h:2)");
+      if (get_u32_le(value_) != decode_image_header(image_).product_code)
+        return fail("is not the node that this image is for: product code differs (1018h:2)");
       return go(now, in_boot_loader_ ? Step::kClear : Step::kReadProgram);
     case Step::kReadProgram:
       if (get_u32_le(value_) == crc_ && !options_.even_if_same) {

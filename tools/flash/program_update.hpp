@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 
+#include "node_firmware/boot/image_header.hpp"
 #include "protocol/can/frame.hpp"
 #include "protocol/canopen/sdo_client.hpp"
 
@@ -16,6 +17,9 @@ namespace kinebus {
 /// Ends a transfer that an update left open when it was cut off: within a block, a node takes any question
 /// for a piece of it.
 CanFrame end_of_transfer(std::uint8_t node);
+
+/// Whether it is a whole image, for one of the boards that there are.
+ImageCheck check_any_image(std::span<const std::uint8_t> image);
 
 class ProgramUpdate {
  public:
@@ -28,7 +32,7 @@ class ProgramUpdate {
     bool even_if_same = false;
   };
 
-  /// `image`: as kinebus-node.bin; must stay. Failed at once when it is no image for this board.
+  /// `image`: as kinebus-node.bin; must stay. Failed at once when it is no image for a board.
   ProgramUpdate(std::uint8_t node, std::span<const std::uint8_t> image, LocalTime now,
                 const Options& options);
 

@@ -7,13 +7,15 @@
 #include "node_firmware/boot/boot_loader.hpp"
 #include "node_firmware/boot/handover.hpp"
 #include "node_firmware/core/tests/flash_model.hpp"
+#include "protocol/canopen/boards/stm32f405.hpp"
 
 namespace kinebus {
 
 inline constexpr LssIdentity kBootIdentity{kVendorId, kProductCode, kRevisionNumber, 0x1234};
+inline constexpr ImageTarget kBootBoard = image_target(Stm32f405Board::kFacts);
 
 inline std::vector<std::uint8_t> make_image(std::size_t bytes, std::uint8_t seed,
-                                            const ImageHeader& like = {}) {
+                                            const ImageHeader& like = image_header_for(kBootBoard)) {
   std::vector<std::uint8_t> image(bytes);
   for (std::size_t i = 0; i < bytes; ++i) image[i] = static_cast<std::uint8_t>(seed + i * i / 7);
   ImageHeader header = like;

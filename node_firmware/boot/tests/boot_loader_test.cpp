@@ -19,8 +19,8 @@ struct BootTest : testing::Test {
 
   bool reset() {
     boot.reset();
-    if (start_program(handover, check_image(flash.bytes()))) return true;
-    boot = std::make_unique<BootLoader>(kBootIdentity, 7, flash, now);
+    if (start_program(handover, check_image(flash.bytes(), kBootBoard))) return true;
+    boot = std::make_unique<BootLoader>(kBootBoard, kBootIdentity, 7, flash, now);
     return false;
   }
   AbortCode transfer(const auto& begin) {
@@ -75,11 +75,11 @@ TEST_F(BootTest, AnImageForSomethingElseLeavesTheProgramAlone) {
   ASSERT_FALSE(reset());
   ASSERT_EQ(download(make_image(5000, 1)), AbortCode::kNone);
   const int erasures = flash.erasures;
-  ImageHeader other;
+  ImageHeader other = image_header_for(kBootBoard);
   other.product_code = kProductCode + 1;
   EXPECT_EQ(download(make_image(4000, 2, other)), AbortCode::kCannotStore);
   EXPECT_EQ(read(0x1F57, 1), static_cast<std::uint32_t>(ProgramStatus::kFormatError) << 1);
-  other = {};
+  other = image_header_for(kBootBoard);
   other.hardware = 1;
   EXPECT_EQ(download(make_image(4000, 2, other)), AbortCode::kCannotStore);
   EXPECT_EQ(download(std::vector<std::uint8_t>(2000, 0x55)), AbortCode::kCannotStore);
@@ -119,7 +119,7 @@ TEST_F(BootTest, AProgramThatNeverProvesItselfIsNotStartedForEver) {
 }
 
 TEST_F(BootTest, ANodeWithoutIdGetsOneByLss) {
-  boot = std::make_unique<BootLoader>(kBootIdentity, 0, flash, now);
+  boot = std::make_unique<BootLoader>(kBootBoard, kBootIdentity, 0, flash, now);
   EXPECT_FALSE(boot->next_frame().has_value());
   LssMaster master;
   const auto finish = [&] {

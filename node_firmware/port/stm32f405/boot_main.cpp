@@ -3,16 +3,16 @@
 
 #include <optional>
 
-#include "node_firmware/boot/boot_loader.hpp"
-#include "node_firmware/core/parameter_image.hpp"
+#include "node_firmware/board/boot_program.hpp"
+#include "node_firmware/board/identity.hpp"
 #include "node_firmware/port/stm32f405/can_port.hpp"
 #include "node_firmware/port/stm32f405/clock_tree.hpp"
 #include "node_firmware/port/stm32f405/flash_port.hpp"
 #include "node_firmware/port/stm32f405/handlers.hpp"
 #include "node_firmware/port/stm32f405/handover_port.hpp"
-#include "node_firmware/port/stm32f405/identity.hpp"
 #include "node_firmware/port/stm32f405/local_time.hpp"
 #include "node_firmware/port/stm32f405/pins.hpp"
+#include "protocol/canopen/boards/stm32f405.hpp"
 
 namespace {
 
@@ -35,7 +35,9 @@ constinit CanPort can_port;
 constinit ParameterFlash parameter_flash;
 constinit PageStore parameters{parameter_flash};
 constinit ParameterImage parameter_image;
-constinit std::optional<BootLoader> boot_loader;
+constinit std::optional<BootProgram<CanPort, LocalTimer>> boot;
+
+constexpr ImageTarget kBoard = image_target(Stm32f405Board::kFacts);
 
 [[noreturn]] void jump(std::uint32_t vectors) {
   barrier();
@@ -61,18 +63,6 @@ constinit std::optional<BootLoader> boot_loader;
   g.MODER = g.MODER | std::uint32_t{1} << (2 * board::kSystemBoot.number);
   sysconfig().MEMRMP = SysConfig::kSystemFlashAtZero;
   jump(board::kSystemBootAddress);
-}
-
-std::uint8_t node_id() {
-  if (handover_ram.node_id >= 1 && handover_ram.node_id <= 127)
-    return static_cast<std::uint8_t>(handover_ram.node_id);
-  return parameter_image.adopt(parameters.load()) == ParameterImage::Load::kGood ? parameter_image.node_id()
-                                                                                 : std::uint8_t{0};
-}
-
-void hear(std::uint8_t id) {
-  std::array<CanPort::Accept, 3> filters{{{0x000}, {0x7E5}, {static_cast<std::uint16_t>(0x600 + id)}}};
-  can_port.accept(std::span(filters).first(id == 0 ? 2 : 3));
 }
 
 // What is due by time is looked at every millisecond.
@@ -103,33 +93,18 @@ void isr_can_state() {
 
 int main() {
   if (start_system_boot(handover_ram)) jump_to_system_boot();
-  if (start_program(handover_ram, check_image(program_sector.bytes()))) jump_to_program();
+  if (start_program(handover_ram, check_image(program_sector.bytes(), kBoard))) jump_to_program();
   configure_pins();
   if (!start_clocks()) isr_fault();
   start_local_time();
   if (!can_port.start()) isr_fault();
   start_tick();
-  LocalClock clock;
-  const LssIdentity identity{kVendorId, kProductCode, kRevisionNumber, serial_number()};
-  boot_loader.emplace(identity, node_id(), program_sector, clock.now());
-  std::uint8_t heard = boot_loader->node_id();
-  hear(heard);
+  const LssIdentity identity{kVendorId, kBoard.product_code, kBoard.revision, serial_number(unique_id())};
+  boot.emplace(kBoard, identity, boot_node_id(handover_ram, parameter_image, parameters.load()),
+               program_sector, can_port);
   for (;;) {
-    boot_loader->on_time(clock.now());
-    while (const CanPort::Received* received = can_port.front()) {
-      boot_loader->on_frame(clock.now(), received->frame());
-      can_port.drop();
-    }
-    can_port.serve_mailboxes();
-    while (can_port.queue().has_room()) {
-      const auto frame = boot_loader->next_frame();
-      if (!frame) break;
-      can_port.queue().push(*frame);
-      can_port.serve_mailboxes();
-    }
-    if (heard != boot_loader->node_id()) hear(heard = boot_loader->node_id());
-    if (boot_loader->start_requested() && can_port.queue().idle()) {
-      handover_ram = Handover{.node_id = boot_loader->node_id()};
+    if (boot->pass()) {
+      handover_ram = Handover{.node_id = boot->node_id()};
       reset_processor();
     }
     rest();

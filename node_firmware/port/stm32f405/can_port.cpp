@@ -9,6 +9,8 @@ namespace {
 constexpr std::uint32_t identifier(std::uint32_t id) {
   return id << 21;
 }
+constexpr std::uint32_t kBitTiming = (kCanTiming.jump - 1) << 24 | (kCanTiming.segment2 - 1) << 20 |
+                                     (kCanTiming.segment1 - 1) << 16 | (kCanTiming.prescaler - 1);
 
 }  // namespace
 
@@ -29,7 +31,7 @@ bool CanPort::start() {
   can.MCR = Can::kInitRequest;
   if (!wait_until([&] { return (can.MSR & Can::kInitDone) != 0; })) return false;
   can.MCR = Can::kInitRequest | Can::kAutoBusOff;
-  can.BTR = kCanTiming.register_value();
+  can.BTR = kBitTiming;
   can.IER = Can::kOnFifo0 | Can::kOnOverrun0 | Can::kOnPassive | Can::kOnBusOff | Can::kOnError;
   can.MCR = Can::kAutoBusOff;
   enable_interrupt(Irq::kCan1Rx0, 0);
@@ -37,7 +39,7 @@ bool CanPort::start() {
   return wait_until([&] { return (can.MSR & Can::kInitDone) == 0; });
 }
 
-void CanPort::accept(std::span<const Accept> filters) {
+void CanPort::accept(std::span<const CanAccept> filters) {
   Can& can = can1();
   can.FMR = can.FMR | Can::kFilterInit;
   can.FA1R = 0;
@@ -45,7 +47,7 @@ void CanPort::accept(std::span<const Accept> filters) {
   can.FS1R = 0x3FFF;  // 32 bits
   can.FFA1R = 0;      // all to FIFO 0: one order of arrival
   std::uint32_t active = 0;
-  for (std::size_t i = 0; i < filters.size() && i < kFilters; ++i) {
+  for (std::size_t i = 0; i < filters.size() && i < kCanFilters; ++i) {
     can.filter[i].R1 = identifier(filters[i].value);
     can.filter[i].R2 = identifier(filters[i].mask) | Can::kExtended | Can::kRemote;
     active |= bit(static_cast<int>(i));

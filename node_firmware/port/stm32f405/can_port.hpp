@@ -6,10 +6,11 @@
 #include <cstdint>
 #include <span>
 
+#include "node_firmware/board/can_timing.hpp"
+#include "node_firmware/board/drivers.hpp"
+#include "node_firmware/board/ring.hpp"
 #include "node_firmware/core/transmit_queue.hpp"
 #include "node_firmware/port/stm32f405/board.hpp"
-#include "node_firmware/port/stm32f405/can_timing.hpp"
-#include "node_firmware/port/stm32f405/ring.hpp"
 #include "protocol/can/frame.hpp"
 
 namespace kinebus::stm32 {
@@ -27,19 +28,10 @@ class CanPort {
     std::uint32_t counts = 0;  ///< local time at interrupt entry
     CanFrame frame() const;
   };
-  struct Events {
-    std::uint32_t overruns = 0, bus_off = 0, passive = 0;
-  };
-  /// Standard data frames with (id & mask) == value reach the processor.
-  struct Accept {
-    std::uint16_t value = 0, mask = 0x7FF;
-    friend constexpr bool operator==(const Accept&, const Accept&) = default;
-  };
-  static constexpr std::size_t kFilters = 14;
 
   /// False: the controller does not leave its initialisation: no bus with recessive level.
   bool start();
-  void accept(std::span<const Accept> filters);
+  void accept(std::span<const CanAccept> filters);
 
   /// Main loop.
   const Received* front() const { return received_.front(); }
@@ -47,8 +39,7 @@ class CanPort {
   TransmitQueue& queue() { return queue_; }
   /// Moves frames into the mailboxes, and finds those that were sent.
   void serve_mailboxes();
-  /// Since power-up.
-  Events events() const { return events_; }
+  const CanEvents& events() const { return events_; }
   bool bus_off() const;
 
   // Interrupts.
@@ -58,8 +49,9 @@ class CanPort {
  private:
   TransmitQueue queue_;
   Ring<Received, 64> received_;
-  Events events_;  // written by interrupts, words read singly
+  CanEvents events_;
   bool was_off_ = false, was_passive_ = false;
 };
+static_assert(CanDriver<CanPort>);
 
 }  // namespace kinebus::stm32

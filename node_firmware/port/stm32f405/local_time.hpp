@@ -1,10 +1,9 @@
 #pragma once
-// Local time: TIM2 counts at 4 MHz. Interrupts note its 32 bits; the main loop, which alone keeps the 64-bit
-// time, makes times of them.
+// Local time: TIM2 counts at 4 MHz.
 
+#include "node_firmware/board/local_clock.hpp"
 #include "node_firmware/port/stm32f405/board.hpp"
 #include "node_firmware/port/stm32f405/registers.hpp"
-#include "protocol/time.hpp"
 
 namespace kinebus::stm32 {
 
@@ -19,22 +18,9 @@ inline void start_local_time() {
 inline std::uint32_t local_counts() {
   return tim2().CNT;
 }
-
-class LocalClock {
- public:
-  /// Main loop only; at least every 17 minutes.
-  LocalTime now() {
-    counts_ += static_cast<std::uint32_t>(local_counts() - static_cast<std::uint32_t>(counts_));
-    return LocalTime{counts_ * board::kLocalNs};
-  }
-  /// Of a count that an interrupt noted a short while ago.
-  LocalTime at(std::uint32_t counts) const {
-    const auto difference = static_cast<std::int32_t>(counts - static_cast<std::uint32_t>(counts_));
-    return LocalTime{(counts_ + difference) * board::kLocalNs};
-  }
-
- private:
-  std::int64_t counts_ = 0;
+struct LocalTimer {
+  static PlanCounts counts() { return local_counts(); }
 };
+static_assert(board::kLocalNs == kPlanCount.count());
 
 }  // namespace kinebus::stm32

@@ -2,14 +2,19 @@
 
 #include <optional>
 
+#include "node_firmware/board/identity.hpp"
+#include "node_firmware/board/node_program.hpp"
+#include "node_firmware/board/upkeep.hpp"
+#include "node_firmware/boot/image_header.hpp"
+#include "node_firmware/port/stm32f405/can_port.hpp"
 #include "node_firmware/port/stm32f405/clock_tree.hpp"
 #include "node_firmware/port/stm32f405/flash_port.hpp"
 #include "node_firmware/port/stm32f405/handlers.hpp"
 #include "node_firmware/port/stm32f405/handover_port.hpp"
-#include "node_firmware/port/stm32f405/identity.hpp"
-#include "node_firmware/port/stm32f405/motor_port.hpp"
-#include "node_firmware/port/stm32f405/node_program.hpp"
+#include "node_firmware/port/stm32f405/local_time.hpp"
 #include "node_firmware/port/stm32f405/pins.hpp"
+#include "node_firmware/port/stm32f405/power_stage.hpp"
+#include "node_firmware/port/stm32f405/switch_port.hpp"
 #include "node_firmware/port/stm32f405/usart_port.hpp"
 #include "node_firmware/port/stm32f405/usb_port.hpp"
 #include "node_firmware/port/stm32f405/watchdog_port.hpp"
@@ -22,34 +27,14 @@ using namespace kinebus::stm32;
 constinit CanPort can_port;
 constinit SwitchPort switch_port;
 constinit MotionPlanExchange motion_plan;
-constinit MotorPort motors{motion_plan};
+constinit BridgeMotors<PowerStage> motors{motion_plan};
 constinit ParameterFlash parameter_flash;
 constinit PageStore parameters{parameter_flash};
 constinit WatchdogPort dog;
+constinit WatchdogKeeper keeper;
 constinit UsartPort usart;
 constinit UsbPort usb;
-constinit std::optional<NodeProgram> program;
-
-// An erase that a save needs is made now, while nothing moves.
-constexpr std::size_t kLargestImage = 5000;
-constexpr LocalTime kProved = std::chrono::seconds{5};
-
-void store(Node& node) {
-  const auto image = node.image_to_store();
-  if (image.empty()) return;
-  const bool erases = parameters.save_erases(image.size());
-  if (erases) dog.allow_erase();
-  node.on_image_stored(parameters.save(image));
-  if (erases) dog.back_to_normal();
-}
-
-// The id under which the boot loader answered, which may have come by LSS and be stored nowhere; 0: as
-// stored.
-std::uint8_t inherited_node_id() {
-  const std::uint32_t id = handover_ram.magic == Handover::kMagic ? handover_ram.node_id : 0;
-  handover_ram.node_id = 0;
-  return id <= 127 ? static_cast<std::uint8_t>(id) : std::uint8_t{0};
-}
+constinit std::optional<NodeProgram<CanPort, SwitchPort, LocalTimer>> program;
 
 // Asked for by 1F51h, when the answer is on the bus, or by a console. Motors have no power then (Node and
 // Console refuse otherwise).
@@ -88,9 +73,10 @@ int main() {
   start_local_time();
   if (!can_port.start()) isr_fault();
   const auto stored = parameters.load();
-  static_cast<void>(parameters.prepare(kLargestImage));
-  program.emplace(NodeOptions{.identity = {.serial = serial_number()},
-                              .node_id = inherited_node_id(),
+  static_cast<void>(parameters.prepare(kLargestParameterImage));
+  const std::uint32_t serial = serial_number(unique_id());
+  program.emplace(NodeOptions{.identity = {.serial = serial},
+                              .node_id = take_inherited_node_id(handover_ram),
                               .program_crc = kImageHeader.crc},
                   stored, can_port, switch_port, motion_plan);
   Node& node = program->node();
@@ -109,17 +95,24 @@ int main() {
       program->send();
       program->touch();
     }
-    store(node);
-    const Console::Subject subject{node, motors, can_port};
+    store_parameters(node, parameters, dog);
+    const Console::Subject subject{.node = node,
+                                   .motors = motors.supervision(),
+                                   .cycles = motors.cycles(),
+                                   .control_interrupts = motors.ticks(),
+                                   .can = can_port.events(),
+                                   .off_the_bus = can_port.bus_off(),
+                                   .serial = serial,
+                                   .image_bytes = kImageHeader.length};
     usart.serve(subject);
     usb.serve(subject);
     if (node.program_stop_requested() && can_port.queue().idle()) give_way(node, Handover::kBootLoader);
     if (usart.console().system_boot_requested() || usb.console().system_boot_requested())
       give_way(node, Handover::kSystemBoot);
     // So long without a reset: this program is good.
-    if (program->now() > kProved) handover_ram.starts = 0;
+    if (program->now() > kProgramProved) handover_ram.starts = 0;
     // Without a power stage that measures there is no control interrupt: only the bus is served.
-    dog.serve(program->now(), node, motors_good ? motors.ticks() : local_counts());
+    keeper.serve(dog, program->now(), node, motors_good ? motors.ticks() : local_counts());
     if (motors_good) wait_for_interrupt();  // 50 us at most
   }
 }

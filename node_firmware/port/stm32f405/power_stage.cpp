@@ -1,7 +1,7 @@
 #include "node_firmware/port/stm32f405/power_stage.hpp"
 
+#include "node_firmware/board/thermistor.hpp"
 #include "node_firmware/port/stm32f405/pins.hpp"
-#include "node_firmware/port/stm32f405/thermistor.hpp"
 
 namespace kinebus::stm32 {
 namespace {
@@ -12,6 +12,8 @@ Timer& timer(int axis) {
 Spi& spi(int axis) {
   return axis == 0 ? spi1() : spi3();
 }
+
+constexpr Thermistor kThermistor{static_cast<double>(board::kNtcBeta)};
 
 // BKE, active low; the outputs float when the break comes (OSSI 0), by hardware alone.
 constexpr std::uint32_t kBreakSetting = Timer::kBreakEnable;
@@ -59,6 +61,8 @@ void start_encoders() {
 }  // namespace
 
 void PowerStage::start() {
+  debug_control() = debug_control() | bit(24);
+  dwt().CTRL = dwt().CTRL | bit(0);
   rcc().APB2ENR = rcc().APB2ENR | Rcc::kTim1 | Rcc::kTim8 | Rcc::kAdc1 | Rcc::kAdc2 | Rcc::kAdc3 | Rcc::kSpi1;
   rcc().APB1ENR = rcc().APB1ENR | Rcc::kSpi3;
   start_converters();
@@ -130,9 +134,9 @@ void PowerStage::serve_slow() {
   if ((adc(3).SR & Adc::kEndOfConversion) == 0) return;
   const std::uint32_t steps = adc(3).DR;
   if (slow_ == 0)
-    supply_v_ = static_cast<float>(steps) * board::kSupplyVoltsPerStep;
+    readings_.supply_v = static_cast<float>(steps) * board::kSupplyVoltsPerStep;
   else
-    temperature_c_[slow_ - 1] = thermistor_celsius(steps);
+    readings_.temperature_c[slow_ - 1] = kThermistor.celsius(steps);
   // The supply is what a dip shows in: every other conversion is of it.
   static constexpr std::array<std::size_t, 4> kOrder{0, 1, 0, 2};
   turn_ = (turn_ + 1) % kOrder.size();

@@ -6,18 +6,29 @@
 #include <array>
 #include <cstdint>
 
-#include "node_firmware/motor/axis_control.hpp"
+#include "node_firmware/board/bridge_motors.hpp"
 #include "node_firmware/port/stm32f405/board.hpp"
+#include "node_firmware/port/stm32f405/local_time.hpp"
 #include "node_firmware/port/stm32f405/registers.hpp"
 
 namespace kinebus::stm32 {
 
 class PowerStage {
  public:
+  static constexpr BridgeFacts kBridges{2 * board::kDeadTimeS * static_cast<float>(board::kPwmHz),
+                                        static_cast<int>(board::kControlHz)};
+  static constexpr float kCurrentZero = board::kCurrentZero;
+  static constexpr float kMostZeroError = 100;  // 0.4 A
+
   /// Starts timers and converters; outputs stay off, and the control interrupt begins.
   void start();
 
+  void wait_for_control() const {}
+  static std::uint32_t cycles() { return dwt().CYCCNT; }
+  static PlanCounts counts() { return local_counts(); }
+
   // Control interrupt.
+  static void acknowledge_control() { adc(1).SR = ~Adc::kInjectedEnd; }
   /// Phase currents of the sampling that has just ended, in amperes.
   motor::Vector currents(int axis) const;
   /// The hardware has switched the outputs off: the drivers are disabled too, and the flag cleared.
@@ -26,8 +37,7 @@ class PowerStage {
   void apply(int axis, const motor::AxisOutputs& outputs);
   /// Collects one slow conversion and begins the next.
   void serve_slow();
-  float supply_v() const { return supply_v_; }
-  float temperature_c(int axis) const { return temperature_c_[static_cast<std::size_t>(axis)]; }
+  const BridgeReadings& readings() const { return readings_; }
   /// The encoder's last answer; 0xFFFF, which is none, when there is none. Ends that frame.
   static std::uint16_t take_encoder(int axis);
   /// The next reading; at least 350 ns after take_encoder(), ready 3 us later.
@@ -43,9 +53,9 @@ class PowerStage {
   std::array<motor::Vector, 2> zero_{motor::Vector{board::kCurrentZero, board::kCurrentZero},
                                      motor::Vector{board::kCurrentZero, board::kCurrentZero}};
   std::array<bool, 2> on_{};
-  float supply_v_ = 0;
-  std::array<float, 2> temperature_c_{25, 25};
+  BridgeReadings readings_{.supply_v = 0, .temperature_c = {25, 25}};
   std::size_t slow_ = 0, turn_ = 0;  // place in board::kSlowChannels, and in the order of conversions
 };
+static_assert(BridgeStage<PowerStage>);
 
 }  // namespace kinebus::stm32

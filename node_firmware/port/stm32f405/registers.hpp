@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace kinebus::stm32 {
 
@@ -235,8 +236,8 @@ inline IndependentWatchdog& watchdog() {
 }
 
 /// 96 bits that no other chip has.
-inline const volatile std::uint32_t* unique_id() {
-  return &peripheral<Reg>(0x1FFF'7A10);
+inline std::span<const volatile std::uint32_t, 3> unique_id() {
+  return std::span<const volatile std::uint32_t, 3>(&peripheral<Reg>(0x1FFF'7A10), 3);
 }
 
 // Core.

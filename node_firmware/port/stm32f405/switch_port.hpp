@@ -1,19 +1,14 @@
 #pragma once
 // The seven switch inputs: edges by EXTI, with the local time of the interrupt.
 
+#include "node_firmware/board/drivers.hpp"
+#include "node_firmware/board/ring.hpp"
 #include "node_firmware/port/stm32f405/pins.hpp"
-#include "node_firmware/port/stm32f405/ring.hpp"
 
 namespace kinebus::stm32 {
 
 class SwitchPort {
  public:
-  struct Edge {
-    std::uint32_t counts = 0;
-    std::uint8_t input = 0;
-    bool level = false;
-  };
-
   /// After this the level of every input waits as if it had just come.
   void start(std::uint32_t counts) {
     rcc().APB2ENR = rcc().APB2ENR | Rcc::kSysConfig;
@@ -35,7 +30,7 @@ class SwitchPort {
   }
 
   static bool read_level(std::size_t input) { return read(board::kSwitchPins[input]); }
-  const Edge* front() const { return edges_.front(); }
+  const SwitchEdge* front() const { return edges_.front(); }
   void drop() { edges_.drop(); }
 
   /// Interrupt. A switch that chatters faster than 64 edges in a pass of the main loop loses some: their last
@@ -49,7 +44,8 @@ class SwitchPort {
   }
 
  private:
-  Ring<Edge, 64> edges_;
+  Ring<SwitchEdge, 64> edges_;
 };
+static_assert(SwitchDriver<SwitchPort>);
 
 }  // namespace kinebus::stm32

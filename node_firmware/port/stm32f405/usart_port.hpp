@@ -1,8 +1,8 @@
 #pragma once
 // USART1 as a line to the console: a byte a pass, and never a wait.
 
+#include "node_firmware/board/console.hpp"
 #include "node_firmware/port/stm32f405/board.hpp"
-#include "node_firmware/port/stm32f405/console.hpp"
 #include "node_firmware/port/stm32f405/registers.hpp"
 
 namespace kinebus::stm32 {

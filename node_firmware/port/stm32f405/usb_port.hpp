@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <span>
 
-#include "node_firmware/port/stm32f405/console.hpp"
+#include "node_firmware/board/console.hpp"
 #include "node_firmware/usb/cdc_device.hpp"
 
 namespace kinebus::stm32 {

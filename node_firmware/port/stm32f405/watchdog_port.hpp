@@ -1,7 +1,7 @@
 #pragma once
 // The independent watchdog, on its own 32 kHz oscillator (17 to 47 kHz over all chips).
 
-#include "node_firmware/core/node.hpp"
+#include "node_firmware/board/drivers.hpp"
 #include "node_firmware/port/stm32f405/registers.hpp"
 
 namespace kinebus::stm32 {
@@ -16,16 +16,7 @@ class WatchdogPort {
   /// Before flash is erased: 4 s.
   void allow_erase() { set(6, 500); }  // 125 Hz
   void back_to_normal() { set(3, 100); }
-
-  /// `ticks`: control interrupts so far. Feeds, every 10 ms, only when they go on and the node's timed jobs
-  /// are served.
-  void serve(LocalTime now, const Node& node, std::uint32_t ticks) {
-    if (now < due_) return;
-    due_ = now + std::chrono::milliseconds{10};
-    if (!node.healthy(now) || ticks == fed_at_) return;
-    fed_at_ = ticks;
-    watchdog().KR = IndependentWatchdog::kFeed;
-  }
+  void feed() { watchdog().KR = IndependentWatchdog::kFeed; }
   static bool caused_reset() { return (rcc().CSR & Rcc::kWatchdogReset) != 0; }
 
  private:
@@ -37,8 +28,7 @@ class WatchdogPort {
     static_cast<void>(wait_until([] { return watchdog().SR == 0; }, 100'000));
     watchdog().KR = IndependentWatchdog::kFeed;
   }
-  LocalTime due_{0};
-  std::uint32_t fed_at_ = 0;
 };
+static_assert(WatchdogDriver<WatchdogPort>);
 
 }  // namespace kinebus::stm32

@@ -25,12 +25,12 @@ struct Board {
   void reset() {
     boot.reset();
     node.reset();
-    if (start_program(handover, check_image(flash.bytes()))) {
+    if (start_program(handover, check_image(flash.bytes(), kBootBoard))) {
       const NodeOptions options{
           .identity = {.serial = 9}, .node_id = 3, .program_crc = decode_image_header(flash.bytes()).crc};
       node = std::make_unique<Node>(options, now);
     } else {
-      boot = std::make_unique<BootLoader>(kBootIdentity, 3, flash, now);
+      boot = std::make_unique<BootLoader>(kBootBoard, kBootIdentity, 3, flash, now);
     }
   }
   void power_cycle() {

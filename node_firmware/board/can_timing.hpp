@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace kinebus::stm32 {
+namespace kinebus {
 
 /// In the controller's units: prescaler, and segments in time quanta.
 struct CanTiming {
@@ -11,9 +11,6 @@ struct CanTiming {
 
   constexpr std::uint32_t quanta() const { return 1 + segment1 + segment2; }
   constexpr std::uint32_t sample_permille() const { return 1000 * (1 + segment1) / quanta(); }
-  constexpr std::uint32_t register_value() const {
-    return (jump - 1) << 24 | (segment2 - 1) << 20 | (segment1 - 1) << 16 | (prescaler - 1);
-  }
 };
 
 /// The setting with the most quanta whose sample point is nearest to `permille`; quanta() 1: none exists.
@@ -38,4 +35,4 @@ constexpr CanTiming can_timing(std::uint32_t clock_hz, std::uint32_t bit_rate, s
   return best;
 }
 
-}  // namespace kinebus::stm32
+}  // namespace kinebus

@@ -1,15 +1,13 @@
-#include "node_firmware/port/stm32f405/console.hpp"
+#include "node_firmware/board/console.hpp"
 
 #include <algorithm>
 
-#include "node_firmware/boot/image_header.hpp"
-#include "node_firmware/port/stm32f405/identity.hpp"
-
-namespace kinebus::stm32 {
+namespace kinebus {
 namespace {
 
 // In full, so that nothing that is typed or sent by mistake is it.
 constexpr std::string_view kSystemBoot = "DFU";
+constexpr std::string_view kOffTheBus = " OFF THE BUS";
 
 }  // namespace
 
@@ -37,36 +35,43 @@ Console& Console::put(std::int64_t number) {
 void Console::axis(int axis, const Subject& subject) {
   const motor::AxisControl& control = subject.motors.control(axis);
   const DriveAxis& drive = subject.node.axis(axis);
-  put(axis == 0 ? "A" : "B").put(": state ").put(static_cast<int>(drive.state()));
+  put(std::string_view(axis == 0 ? "A" : "B", 1)).put(": state ").put(static_cast<int>(drive.state()));
   put(" mode ").put(drive.mode_display()).put(" error ").put(drive.error_code());
   put(" current mA ").put(static_cast<std::int32_t>(control.amplitude_a() * 1e3F));
   put(" off course ").put(control.following_error()).put(" troubles ").put(control.troubles());
   put(" encoder errors ").put(control.encoder().errors());
-  put(" C ").put(static_cast<std::int32_t>(subject.motors.stage().temperature_c(axis))).put("\r\n");
+  put(" C ")
+      .put(static_cast<std::int32_t>(subject.motors.readings().temperature_c[static_cast<std::size_t>(axis)]))
+      .put("\r\n");
 }
 
 void Console::answer(char letter, const Subject& subject) {
-  const auto& [node, motors, can] = subject;
+  const Node& node = subject.node;
   switch (letter) {
     case 's':
       put("node ").put(node.node_id()).put(" NMT ").put(static_cast<int>(node.nmt_state()));
-      put(" supply mV ").put(static_cast<std::int32_t>(motors.stage().supply_v() * 1e3F)).put("\r\n");
+      put(" supply mV ")
+          .put(static_cast<std::int32_t>(subject.motors.readings().supply_v * 1e3F))
+          .put("\r\n");
       axis(0, subject);
       axis(1, subject);
       break;
     case 'c':
-      put("CAN overruns ").put(can.events().overruns).put(" bus-off ").put(can.events().bus_off);
-      put(" passive ").put(can.events().passive).put(can.bus_off() ? " OFF THE BUS" : "").put("\r\n");
+      put("CAN overruns ").put(subject.can.overruns).put(" bus-off ").put(subject.can.bus_off);
+      put(" passive ")
+          .put(subject.can.passive)
+          .put(subject.off_the_bus ? kOffTheBus : std::string_view())
+          .put("\r\n");
       break;
     case 't':
-      put("control cycles last ").put(motors.cycles().last).put(" worst ").put(motors.cycles().worst);
-      put(" interrupts ").put(motors.ticks()).put("\r\n");
+      put("control cycles last ").put(subject.cycles.last).put(" worst ").put(subject.cycles.worst);
+      put(" interrupts ").put(subject.control_interrupts).put("\r\n");
       break;
     case 'v':
       put("Kinebus node, serial ")
-          .put(serial_number())
+          .put(subject.serial)
           .put(" image bytes ")
-          .put(kImageHeader.length)
+          .put(subject.image_bytes)
           .put("\r\n");
       break;
     default:
@@ -101,4 +106,4 @@ void Console::forget() {
   sent_ = length_ = 0;
 }
 
-}  // namespace kinebus::stm32
+}  // namespace kinebus

@@ -1,24 +1,28 @@
 #pragma once
 // The console: one letter asks, a few lines answer. For diagnosis without a bus. One interpreter for every
-// line that leads to it; USART1 and USB have one each.
+// line that leads to it: a serial port and USB have one each.
 
 #include <array>
 #include <cstddef>
 #include <span>
 #include <string_view>
 
-#include "node_firmware/port/stm32f405/can_port.hpp"
-#include "node_firmware/port/stm32f405/motor_port.hpp"
+#include "node_firmware/board/bridge_motors.hpp"
+#include "node_firmware/board/drivers.hpp"
 
-namespace kinebus::stm32 {
+namespace kinebus {
 
 class Console {
  public:
   /// What it tells of.
   struct Subject {
     const Node& node;
-    const MotorPort& motors;
-    const CanPort& can;
+    const MotorSupervision& motors;
+    ControlCycles cycles;
+    std::uint32_t control_interrupts = 0;
+    const CanEvents& can;
+    bool off_the_bus = false;
+    std::uint32_t serial = 0, image_bytes = 0;
   };
   /// Only when nothing is waiting: who does not read is not heard.
   void hear(char letter, const Subject& subject);
@@ -31,6 +35,10 @@ class Console {
 
  private:
   Console& put(std::string_view text);
+  template <std::size_t kSize>
+  Console& put(const char (&text)[kSize]) {
+    return put(std::string_view(text, kSize - 1));
+  }
   Console& put(std::int64_t number);
   void answer(char letter, const Subject& subject);
   void axis(int axis, const Subject& subject);
@@ -41,4 +49,4 @@ class Console {
   bool system_boot_requested_ = false;
 };
 
-}  // namespace kinebus::stm32
+}  // namespace kinebus

@@ -2,31 +2,11 @@
 
 #include <cstddef>
 
-#include "node_firmware/port/stm32f405/handlers.hpp"
-#include "node_firmware/port/stm32f405/pins.hpp"
+#include "node_firmware/board/runtime.hpp"
 
-namespace {
-
-[[noreturn]] void power_off_and_reset() {
-  using namespace kinebus;
-  stm32::disable_interrupts();
-  for (const board::OutputPin enable : board::kDriverEnable) stm32::write(enable, false);
-  stm32::tim1().BDTR = 0;
-  stm32::tim8().BDTR = 0;
-  stm32::barrier();
-  stm32::system_control().AIRCR = stm32::SystemControl::kResetRequest;
-  for (;;) stm32::wait_for_interrupt();
-}
-
-}  // namespace
+using kinebus::power_off_and_reset;
 
 extern "C" {
-void isr_fault() {
-  power_off_and_reset();
-}
-void isr_unexpected() {
-  power_off_and_reset();
-}
 [[noreturn]] void __assert_func(const char*, int, const char*, const char*) {
   power_off_and_reset();
 }

@@ -5,7 +5,7 @@
 #include <atomic>
 #include <cstdint>
 
-namespace kinebus::stm32 {
+namespace kinebus {
 
 template <typename T, std::uint32_t kSize>
 class Ring {
@@ -32,4 +32,4 @@ class Ring {
   std::atomic<std::uint32_t> begin_{0}, end_{0};
 };
 
-}  // namespace kinebus::stm32
+}  // namespace kinebus

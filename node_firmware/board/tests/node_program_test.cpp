@@ -1,0 +1,114 @@
+// The program of a node between its drivers and its core.
+
+#include "node_firmware/board/node_program.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "node_firmware/board/tests/fake_drivers.hpp"
+
+namespace kinebus {
+namespace {
+
+using namespace std::chrono_literals;
+
+struct Program : testing::Test {
+  Program() { run(20ms); }
+  void run(LocalTime time) {
+    for (LocalTime t{0}; t < time; t += 500us) {
+      fake::pass_time(500us);
+      program.pass();
+    }
+  }
+  fake::Can can;
+  fake::Switches switches;
+  MotionPlanExchange plan;
+  NodeProgram<fake::Can, fake::Switches, fake::Counter> program{
+      NodeOptions{.node_id = 5}, {}, can, switches, plan};
+};
+
+TEST_F(Program, SaysThatItHasStartedAndAnswers) {
+  ASSERT_FALSE(can.sent.empty());
+  EXPECT_EQ(can.sent.front(), CanFrame::make(0x705, {0}));
+  can.sent.clear();
+  can.arrive(CanFrame::make(0x605, {0x40, 0x00, 0x10, 0, 0, 0, 0, 0}));
+  program.pass();
+  ASSERT_EQ(can.sent.size(), 1u);
+  EXPECT_EQ(can.sent[0].id, 0x585u);
+}
+
+TEST_F(Program, HearsWhatIsItsOwnAndWhatAllHear) {
+  for (const int id : {0x000, 0x080, 0x081, 0x0FF, 0x7E5, 0x605, 0x205, 0x305, 0x405, 0x505})
+    EXPECT_TRUE(can.heard(id)) << std::hex << id;
+  for (const int id : {0x606, 0x206, 0x181, 0x701, 0x585}) EXPECT_FALSE(can.heard(id)) << std::hex << id;
+  // 1016h:1: node 1, 100 ms.
+  can.arrive(CanFrame::make(0x605, {0x23, 0x16, 0x10, 1, 100, 0, 1, 0}));
+  run(20ms);
+  EXPECT_TRUE(can.heard(0x701)) << "a heartbeat that is watched";
+}
+
+TEST_F(Program, TakesFramesAndEdgesInTheOrderInWhichTheyHappened) {
+  // Input 1 without debouncing; 2133h tells of the edges that came before the question.
+  can.arrive(CanFrame::make(0x605, {0x2B, 0x32, 0x21, 1, 0, 0, 0, 0}));
+  run(5ms);
+  const auto ask = [&](std::uint32_t question_after, std::uint32_t edge_after, bool level) {
+    can.sent.clear();
+    can.arrive(CanFrame::make(0x605, {0x40, 0x33, 0x21, 0, 0, 0, 0, 0}), fake::Counter::now + question_after);
+    switches.in.push_back({fake::Counter::now + edge_after, 0, level});
+    fake::pass_time(500us);
+    program.pass();
+    for (const CanFrame& frame : can.sent)
+      if (frame.id == 0x585) return static_cast<int>(frame.data[4]);
+    return -1;
+  };
+  EXPECT_EQ(ask(100, 200, true), 0);
+  EXPECT_EQ(ask(100, 200, false), 1);
+  EXPECT_EQ(ask(200, 100, true), 1);
+  EXPECT_EQ(ask(200, 100, false), 0);
+}
+
+TEST_F(Program, TakesEightInputsAPassSoThatWhatIsDueIsServed) {
+  can.sent.clear();
+  for (int i = 0; i < 12; ++i) can.arrive(CanFrame::make(0x000, {1, 6}));
+  program.pass();
+  EXPECT_EQ(can.in.size(), 4u);
+  program.pass();
+  EXPECT_TRUE(can.in.empty());
+}
+
+TEST_F(Program, TellsOfTheBusWhatTheControllerSaw) {
+  can.sent.clear();
+  can.seen.overruns = 1;
+  can.seen.passive = 1;
+  program.touch();
+  program.pass();
+  run(5ms);
+  EXPECT_TRUE(can.told(0x8110));
+  EXPECT_TRUE(can.told(0x8120));
+  can.seen.bus_off = 1;
+  can.off = true;
+  program.touch();
+  program.pass();
+  EXPECT_FALSE(can.told(0x8140)) << "nobody would hear it";
+  can.off = false;
+  program.touch();
+  program.pass();
+  run(5ms);
+  EXPECT_TRUE(can.told(0x8140));
+}
+
+TEST_F(Program, APowerStageThatDoesNotMeasureGetsNoPower) {
+  EXPECT_FALSE(program.refuse_power());
+  LocalTime now = program.read_time();
+  fake::enable(program.node(), now, 1);
+  ASSERT_TRUE(program.node().drive(1).power);
+  EXPECT_TRUE(program.refuse_power());
+  EXPECT_FALSE(program.node().drive(1).power);
+  program.touch();
+  run(5ms);
+  EXPECT_TRUE(can.told(0x5200));
+}
+
+}  // namespace
+}  // namespace kinebus
