@@ -12,6 +12,8 @@ namespace kinebus::emulator {
 namespace {
 
 constexpr std::uint32_t kPeripherals = 0x40000000;
+// ADC1, ADC2, ADC3 and what they share, 100h each: clocks in this order.
+constexpr std::uint32_t kAdcs = 0x40012000, kAdcBytes = 0x100;
 constexpr double kCountsPerTurn = 51200;
 constexpr std::uint32_t kUniqueIdOffset = 0x7A10 - 0x7800;
 
@@ -39,23 +41,26 @@ Board::Board(const ElfImage& image, const BoardOptions& options)
       usb_(cpu_.nvic()),
       motors_{StepperMotor(options.motors[0]), StepperMotor(options.motors[1])},
       temperature_c_{options.temperature_c, options.temperature_c} {
-  map(0x40000000, 0x400, tim2_);
+  const auto ahb1 = [](int bit) { return Rcc::Clock{0x30, bit}; };
+  const auto apb1 = [](int bit) { return Rcc::Clock{0x40, bit}; };
+  const auto apb2 = [](int bit) { return Rcc::Clock{0x44, bit}; };
+  map(0x40000000, 0x400, tim2_, apb1(0));
   map(0x40003000, 0x400, watchdog_);
-  map(0x40003C00, 0x400, spi3_);
-  map(0x40006400, 0x400, can_);
-  map(0x40007000, 0x400, power_control_);
-  map(0x40010000, 0x400, tim1_);
-  map(0x40010400, 0x400, tim8_);
-  map(0x40011000, 0x400, usart_);
-  map(0x40012000, 0x400, adc_);
-  map(0x40013000, 0x400, spi1_);
-  map(0x40013800, 0x400, sysconfig_);
+  map(0x40003C00, 0x400, spi3_, apb1(15));
+  map(0x40006400, 0x400, can_, apb1(25));
+  map(0x40007000, 0x400, power_control_, apb1(28));
+  map(0x40010000, 0x400, tim1_, apb2(0));
+  map(0x40010400, 0x400, tim8_, apb2(1));
+  map(0x40011000, 0x400, usart_, apb2(4));
+  map(kAdcs, 0x400, adc_, apb2(8));
+  map(0x40013000, 0x400, spi1_, apb2(12));
+  map(0x40013800, 0x400, sysconfig_, apb2(14));
   map(0x40013C00, 0x400, exti_);
   for (std::uint32_t port = 0; port < ports_.size(); ++port)
-    map(0x40020000 + 0x400 * port, 0x400, ports_[port]);
+    map(0x40020000 + 0x400 * port, 0x400, ports_[port], ahb1(static_cast<int>(port)));
   map(0x40023800, 0x400, rcc_);
   map(0x40023C00, 0x400, flash_);
-  map(0x40040000, 0x40000, usb_);
+  map(0x40040000, 0x40000, usb_, ahb1(29));
 
   for (int axis = 0; axis < 2; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
@@ -86,9 +91,22 @@ Board::Board(const ElfImage& image, const BoardOptions& options)
 
 Board::~Board() = default;
 
-void Board::map(std::uint32_t base, std::uint32_t size, Peripheral& peripheral) {
+void Board::map(std::uint32_t base, std::uint32_t size, Peripheral& peripheral,
+                std::optional<Rcc::Clock> clock) {
   for (std::uint32_t at = base; at < base + size; at += 0x400)
-    places_[(at - kPeripherals) / 0x400] = {&peripheral, base};
+    places_[(at - kPeripherals) / 0x400] = {&peripheral, base, clock};
+}
+
+// As on the chip: without its clock a peripheral takes nothing and says 0.
+bool Board::reached(const Place& place, std::uint32_t address, Cycle now) {
+  if (place.peripheral == nullptr) return false;
+  if (!place.clock) return true;
+  Rcc::Clock clock = *place.clock;
+  if (place.base == kAdcs && address < kAdcs + 3 * kAdcBytes)
+    clock.bit += static_cast<int>((address - kAdcs) / kAdcBytes);
+  if (rcc_.live(clock, now)) return true;
+  if (lost_.size() < 100) lost_.push_back(address);
+  return false;
 }
 
 void Board::power_cycle() {
@@ -171,14 +189,14 @@ Board::Place Board::find(std::uint32_t address) {
 
 std::uint32_t Board::read(std::uint32_t address, int size, Cycle now) {
   const Place place = find(address);
-  if (place.peripheral == nullptr) return 0;
+  if (!reached(place, address, now)) return 0;
   const std::uint32_t word = place.peripheral->read((address - place.base) & ~3u, now) >> (8 * (address & 3));
   return size == 4 ? word : word & ((1u << (8 * size)) - 1);
 }
 
 void Board::write(std::uint32_t address, std::uint32_t value, int size, Cycle now) {
   const Place place = find(address);
-  if (place.peripheral == nullptr) return;
+  if (!reached(place, address, now)) return;
   const std::uint32_t kept = size == 4 ? value : value & ((1u << (8 * size)) - 1);
   place.peripheral->write((address - place.base) & ~3u, kept << (8 * (address & 3)), now);
   if (place.peripheral == &flash_ && flash_.take_erased()) {

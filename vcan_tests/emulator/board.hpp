@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -89,6 +90,9 @@ class Board final : public Devices {
   std::uint64_t watchdog_resets() const { return watchdog_resets_; }
   /// Accesses to addresses where the board has nothing: a mistake of the program, or of this emulation.
   const std::vector<std::uint32_t>& strange_accesses() const { return strange_; }
+  /// Accesses to peripherals whose clock was off, or had been on for too short a time: what was written there
+  /// is lost, and what was read is 0.
+  const std::vector<std::uint32_t>& lost_accesses() const { return lost_; }
 
   // Devices.
   std::uint32_t read(std::uint32_t address, int size, Cycle now) override;
@@ -106,8 +110,11 @@ class Board final : public Devices {
   struct Place {
     Peripheral* peripheral = nullptr;
     std::uint32_t base = 0;
+    std::optional<Rcc::Clock> clock;
   };
-  void map(std::uint32_t base, std::uint32_t size, Peripheral& peripheral);
+  void map(std::uint32_t base, std::uint32_t size, Peripheral& peripheral,
+           std::optional<Rcc::Clock> clock = std::nullopt);
+  bool reached(const Place& place, std::uint32_t address, Cycle now);
   Place find(std::uint32_t address);
   void reset(Rcc::ResetCause cause);
   void schedule();
@@ -143,7 +150,7 @@ class Board final : public Devices {
   Cycle next_event_ = 0;
   std::uint32_t boot_ = 0;
   std::uint64_t resets_ = 0, watchdog_resets_ = 0;
-  std::vector<std::uint32_t> strange_;
+  std::vector<std::uint32_t> strange_, lost_;
 };
 
 }  // namespace kinebus::emulator

@@ -55,8 +55,8 @@ constexpr ImageTarget kBoard = image_target(Stm32f405Board::kFacts);
 
 // As BOOT0 would: its flash at address 0, the connector led to its USB pins, no gate driver enabled.
 [[noreturn]] void jump_to_system_boot() {
-  rcc().AHB1ENR = rcc().AHB1ENR | Rcc::kGpioC;
-  rcc().APB2ENR = rcc().APB2ENR | Rcc::kSysConfig;
+  enable_clock(rcc().AHB1ENR, Rcc::kGpioC);
+  enable_clock(rcc().APB2ENR, Rcc::kSysConfig);
   static_assert(board::kSystemBoot.port == board::Port::C);
   Gpio& g = gpio(static_cast<unsigned>(board::kSystemBoot.port));
   write(board::kSystemBoot, true);

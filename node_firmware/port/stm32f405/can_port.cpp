@@ -26,7 +26,7 @@ CanFrame CanPort::Received::frame() const {
 }
 
 bool CanPort::start() {
-  rcc().APB1ENR = rcc().APB1ENR | Rcc::kCan1;
+  enable_clock(rcc().APB1ENR, Rcc::kCan1);
   Can& can = can1();
   can.MCR = Can::kInitRequest;
   if (!wait_until([&] { return (can.MSR & Can::kInitDone) != 0; })) return false;

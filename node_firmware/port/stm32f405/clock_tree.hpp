@@ -17,7 +17,7 @@ static_assert(board::kCrystalHz / kPll.m * kPll.n / kPll.q == 48'000'000);
 /// False: the crystal or the PLL does not start; the core stays on its 16 MHz oscillator.
 inline bool start_clocks() {
   Rcc& r = rcc();
-  r.APB1ENR = r.APB1ENR | Rcc::kPower;
+  enable_clock(r.APB1ENR, Rcc::kPower);
   pwr().CR = pwr().CR | Pwr::kScale1;
   r.CR = r.CR | Rcc::kHseOn;
   if (!wait_until([&] { return (r.CR & Rcc::kHseReady) != 0; })) return false;

@@ -8,7 +8,7 @@
 namespace kinebus::stm32 {
 
 inline void start_local_time() {
-  rcc().APB1ENR = rcc().APB1ENR | Rcc::kTim2;
+  enable_clock(rcc().APB1ENR, Rcc::kTim2);
   tim2().PSC = 2 * board::kApb1Hz / board::kLocalHz - 1;
   tim2().ARR = 0xFFFF'FFFF;
   tim2().EGR = Timer::kGenerateUpdate;  // the prescaler takes effect

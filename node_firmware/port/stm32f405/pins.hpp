@@ -21,7 +21,7 @@ inline bool read(board::SwitchPin pin) {
 
 /// Pins that are not in the table stay as reset leaves them: inputs, and the debug port.
 inline void configure_pins() {
-  rcc().AHB1ENR = rcc().AHB1ENR | Rcc::kGpioA | Rcc::kGpioB | Rcc::kGpioC | Rcc::kGpioD | Rcc::kGpioH;
+  enable_clock(rcc().AHB1ENR, Rcc::kGpioA | Rcc::kGpioB | Rcc::kGpioC | Rcc::kGpioD | Rcc::kGpioH);
   for (const board::Pin& pin : board::kPins) {
     Gpio& g = gpio(static_cast<unsigned>(pin.port));
     const auto set = [&](Reg& reg, unsigned bits, std::uint32_t value) {

@@ -63,8 +63,9 @@ void start_encoders() {
 void PowerStage::start() {
   debug_control() = debug_control() | bit(24);
   dwt().CTRL = dwt().CTRL | bit(0);
-  rcc().APB2ENR = rcc().APB2ENR | Rcc::kTim1 | Rcc::kTim8 | Rcc::kAdc1 | Rcc::kAdc2 | Rcc::kAdc3 | Rcc::kSpi1;
-  rcc().APB1ENR = rcc().APB1ENR | Rcc::kSpi3;
+  enable_clock(rcc().APB2ENR,
+               Rcc::kTim1 | Rcc::kTim8 | Rcc::kAdc1 | Rcc::kAdc2 | Rcc::kAdc3 | Rcc::kSpi1);
+  enable_clock(rcc().APB1ENR, Rcc::kSpi3);
   start_converters();
   start_encoders();
   start_timer(tim1());

@@ -315,6 +315,15 @@ inline void barrier() {
   asm volatile("dsb\n isb" ::: "memory");
 }
 
+/// Clocks of peripherals on. ES0182, "delay after an RCC peripheral clock enabling": what is written to a
+/// peripheral in the bus cycles after that may be lost. The read back takes longer, and the barrier waits for
+/// it.
+inline void enable_clock(Reg& enable, std::uint32_t peripherals) {
+  enable = enable | peripherals;
+  [[maybe_unused]] const std::uint32_t seen = enable;
+  barrier();
+}
+
 /// Waits for a register bit, so many looks at most. False: it never came.
 template <typename Condition>
 bool wait_until(Condition condition, std::uint32_t looks = 2'000'000) {

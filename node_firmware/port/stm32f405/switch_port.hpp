@@ -11,7 +11,7 @@ class SwitchPort {
  public:
   /// After this the level of every input waits as if it had just come.
   void start(std::uint32_t counts) {
-    rcc().APB2ENR = rcc().APB2ENR | Rcc::kSysConfig;
+    enable_clock(rcc().APB2ENR, Rcc::kSysConfig);
     std::uint32_t lines = 0;
     for (const board::SwitchPin& pin : board::kSwitchPins) {
       Reg& select = sysconfig().EXTICR[pin.line / 4];

@@ -12,7 +12,7 @@ class UsartPort {
   /// 115200 8N1.
   void start() {
     constexpr std::uint32_t kBaud = 115'200;
-    rcc().APB2ENR = rcc().APB2ENR | Rcc::kUsart1;
+    enable_clock(rcc().APB2ENR, Rcc::kUsart1);
     usart1().BRR = (board::kApb2Hz + kBaud / 2) / kBaud;
     usart1().CR1 = Usart::kEnable | Usart::kTransmitter | Usart::kReceiver;
   }

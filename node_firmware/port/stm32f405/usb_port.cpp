@@ -39,7 +39,7 @@ void UsbPort::start() {
   Otg& u = otg();
   // The core would wait for an external PHY's clock whenever the processor sleeps.
   rcc().AHB1LPENR = rcc().AHB1LPENR & ~Rcc::kUsbUlpi;
-  rcc().AHB1ENR = rcc().AHB1ENR | Rcc::kUsbHs;
+  enable_clock(rcc().AHB1ENR, Rcc::kUsbHs);
   u.GUSBCFG = Otg::kInternalPhy;
   if (!wait_until([&] { return (u.GRSTCTL & Otg::kBusIdle) != 0; }, kFewLooks)) return;
   u.GRSTCTL = Otg::kCoreReset;

@@ -3,9 +3,14 @@
 namespace kinebus::emulator {
 namespace {
 constexpr std::uint32_t kCr = 0x00, kPllCfgr = 0x04, kCfgr = 0x08, kAhb1LpEnr = 0x50, kCsr = 0x74;
+constexpr std::uint32_t kAhb1Enr = 0x30, kAhb2Enr = 0x34, kApb1Enr = 0x40, kApb2Enr = 0x44;
 constexpr std::uint32_t kCrystalHz = 8'000'000, kInternalHz = 16'000'000;
 constexpr std::uint32_t kPowerOnReset = 1u << 27, kPinReset = 1u << 26, kSoftwareResetFlag = 1u << 28,
                         kWatchdogReset = 1u << 29;
+
+bool enables_clocks(std::uint32_t offset) {
+  return offset == kAhb1Enr || offset == kAhb2Enr || offset == kApb1Enr || offset == kApb2Enr;
+}
 
 std::uint32_t apb_divider(std::uint32_t code) {
   return code < 4 ? 1 : 2u << (code - 4);
@@ -14,6 +19,7 @@ std::uint32_t apb_divider(std::uint32_t code) {
 
 void Rcc::reset(ResetCause cause) {
   for (std::uint32_t offset = 0; offset < 0x90; offset += 4) word(offset) = 0;
+  fresh_ = {};
   word(kCr) = 0x83;
   word(kPllCfgr) = 0x24003010;
   word(kAhb1LpEnr) = 0x7E6791FF;
@@ -32,15 +38,28 @@ void Rcc::reset(ResetCause cause) {
 
 std::uint32_t Rcc::read(std::uint32_t offset, Cycle) {
   std::uint32_t value = word(offset);
+  if (enables_clocks(offset)) fresh(offset).clocks = 0;
   if (offset == kCr) value |= (value & 0x01010001u) << 1;  // what is switched on is ready
   if (offset == kCfgr) value = (value & ~0xCu) | (value & 3) << 2;
   if (offset == kCsr) value = (value & 1) | (value & 1) << 1 | causes_;
   return value;
 }
 
-void Rcc::write(std::uint32_t offset, std::uint32_t value, Cycle) {
+void Rcc::write(std::uint32_t offset, std::uint32_t value, Cycle now) {
+  if (enables_clocks(offset)) {
+    Fresh& f = fresh(offset);
+    if (now >= f.since + kEnableDelay) f.clocks = 0;
+    f.clocks = (f.clocks | ~word(offset)) & value;
+    f.since = now;
+  }
   if (offset == kCsr && (value & 1u << 24) != 0) causes_ = 0;
   word(offset) = value;
+}
+
+bool Rcc::live(Clock clock, Cycle now) {
+  if (!clock_enabled(clock.enable_register, clock.bit)) return false;
+  const Fresh& f = fresh(clock.enable_register);
+  return (f.clocks >> clock.bit & 1) == 0 || now >= f.since + kEnableDelay;
 }
 
 std::optional<std::uint32_t> Rcc::system_hz() {

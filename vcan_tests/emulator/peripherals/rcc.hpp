@@ -1,6 +1,7 @@
 #pragma once
 // RCC: oscillators and PLL that become ready, the clock tree's arithmetic, reset causes.
 
+#include <array>
 #include <optional>
 
 #include "vcan_tests/emulator/peripherals/plain_registers.hpp"
@@ -22,12 +23,29 @@ class Rcc final : public PlainRegisters {
   std::optional<std::uint32_t> apb2_hz();
   /// The PLL's output for USB, which must be 48 MHz.
   std::optional<std::uint32_t> usb_hz();
+  /// A peripheral's bit in AHB1ENR, APB1ENR or APB2ENR.
+  struct Clock {
+    std::uint32_t enable_register = 0;
+    int bit = 0;
+  };
+  /// The peripheral can be read and written: its clock is on, and since that was written either the register
+  /// was read back or kEnableDelay has gone by (ES0182, delay after an RCC peripheral clock enabling).
+  bool live(Clock clock, Cycle now);
   bool clock_enabled(std::uint32_t enable_register, int bit) {
     return (word(enable_register) >> bit & 1) != 0;
   }
 
  private:
+  /// The erratum says up to 1 + 4 cycles; a strict chip wants more.
+  static constexpr Cycle kEnableDelay = 16;
+  struct Fresh {
+    std::uint32_t clocks = 0;  // switched on, and not read back since
+    Cycle since = 0;
+  };
+  Fresh& fresh(std::uint32_t enable_register) { return fresh_[enable_register / 4 % fresh_.size()]; }
+
   std::uint32_t causes_ = 0;
+  std::array<Fresh, 8> fresh_{};
 };
 
 }  // namespace kinebus::emulator

@@ -50,6 +50,13 @@ TEST(Image, SetsTheClockTreeAndTheBitTimingThatTheBoardNeeds) {
   EXPECT_TRUE(board.strange_accesses().empty()) << std::hex << board.strange_accesses().front();
 }
 
+TEST(Image, EveryPeripheralHasItsClockBeforeItIsTouched) {
+  OneNode node;
+  node.run(20ms);
+  const auto& lost = node.machine.board(0).lost_accesses();
+  EXPECT_TRUE(lost.empty()) << std::hex << lost.front() << ", and " << lost.size() - 1 << " more";
+}
+
 TEST(Image, AnswersSdoAndSendsItsHeartbeat) {
   OneNode node;
   const auto answer = node.ask(CanFrame::make(0x605, {0x40, 0x00, 0x10, 0, 0, 0, 0, 0}));

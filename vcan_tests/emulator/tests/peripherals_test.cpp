@@ -343,5 +343,22 @@ TEST(Watchdog, OnlyTheKeyHoldsItOff) {
   EXPECT_TRUE(dog.expired(kCoreHz / 10 + kCoreHz / 20));
 }
 
+TEST(RccClock, IsLiveAfterAReadBackOrAfterTheErratumsDelayAndNotBefore) {
+  Rcc rcc;
+  constexpr std::uint32_t kApb1Enable = 0x40;
+  constexpr Rcc::Clock kCan{kApb1Enable, 25}, kTim2{kApb1Enable, 0};
+  EXPECT_FALSE(rcc.live(kCan, 1000));
+  rcc.write(kApb1Enable, 1u << 25, 1000);
+  EXPECT_FALSE(rcc.live(kCan, 1003)) << "the next instruction but one";
+  EXPECT_TRUE(rcc.live(kCan, 1100));
+  rcc.write(kApb1Enable, 1u << 25 | 1, 2000);
+  EXPECT_TRUE(rcc.live(kCan, 2003)) << "has been on for long";
+  EXPECT_FALSE(rcc.live(kTim2, 2003));
+  rcc.read(kApb1Enable, 2004);
+  EXPECT_TRUE(rcc.live(kTim2, 2005)) << "the read back took the time";
+  rcc.write(kApb1Enable, 0, 3000);
+  EXPECT_FALSE(rcc.live(kCan, 4000));
+}
+
 }  // namespace
 }  // namespace kinebus::emulator
