@@ -32,7 +32,9 @@ concept BridgeStage = requires(T& stage, const T& seen, int axis, const motor::A
   { T::take_encoder(axis) } -> std::same_as<std::uint16_t>;
   T::begin_encoder(axis);
   stage.apply(axis, outputs);
-  stage.after_break(axis);
+  stage.on_break(axis);
+  // Once for a break. From the break until then apply() gives no power, whatever it is told.
+  { stage.take_break(axis) } -> std::same_as<bool>;
 };
 
 /// The processor's cycles in a control interrupt.
@@ -58,7 +60,7 @@ class BridgeMotors {
 
   // Interrupts.
   void on_control();
-  void on_break(int axis);
+  void on_break(int axis) { stage_.on_break(axis); }
 
  private:
   static constexpr int kZeroSamples = 64;
@@ -68,7 +70,6 @@ class BridgeMotors {
   Stage stage_;
   MotorSupervision supervision_{Stage::kBridges};
   std::atomic<std::uint32_t> ticks_{0};
-  std::array<std::atomic<bool>, 2> broken_{};
   ControlCycles cycles_;
 };
 
@@ -120,8 +121,7 @@ void BridgeMotors<Stage>::on_control() {
     constexpr float kPerSecond = 1.0F / (4096.0F * 512e-6F);
     in.velocity = static_cast<float>(static_cast<std::int32_t>(point.velocity >> 20)) * kPerSecond;
     in.encoder_frame = frames[i];
-    in.break_seen = broken_[i].load(std::memory_order_relaxed);
-    if (in.break_seen) broken_[i].store(false, std::memory_order_relaxed);
+    in.break_seen = stage_.take_break(axis);
     stage_.apply(axis, supervision_.control(axis).step(in));
   }
   Stage::begin_encoder(0);
@@ -129,12 +129,6 @@ void BridgeMotors<Stage>::on_control() {
   ticks_.store(ticks_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
   cycles_.last = Stage::cycles() - began;
   if (cycles_.last > cycles_.worst) cycles_.worst = cycles_.last;
-}
-
-template <BridgeStage Stage>
-void BridgeMotors<Stage>::on_break(int axis) {
-  broken_[static_cast<std::size_t>(axis)].store(true, std::memory_order_relaxed);
-  stage_.after_break(axis);
 }
 
 }  // namespace kinebus

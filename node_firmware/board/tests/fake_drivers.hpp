@@ -2,6 +2,7 @@
 // Drivers without a chip behind them, for the tests of this folder.
 
 #include <deque>
+#include <utility>
 #include <vector>
 
 #include "node_firmware/board/bridge_motors.hpp"
@@ -118,7 +119,12 @@ struct Stage {
   void apply(int axis, const motor::AxisOutputs& outputs) {
     applied[static_cast<std::size_t>(axis)] = outputs;
   }
-  void after_break(int) { ++breaks; }
+  void on_break(int axis) {
+    ++breaks;
+    broken[static_cast<std::size_t>(axis)] = true;
+  }
+  bool take_break(int axis) { return std::exchange(broken[static_cast<std::size_t>(axis)], false); }
+  std::array<bool, 2> broken{};
 };
 
 /// Operation enabled by SDO, as a master would.

@@ -95,23 +95,24 @@ motor::Vector PowerStage::currents(int axis) const {
           (static_cast<float>(b) - zero.y) * board::kAmperesPerStep};
 }
 
-void PowerStage::after_break(int axis) {
+void PowerStage::on_break(int axis) {
   write(board::kDriverEnable[static_cast<std::size_t>(axis)], false);
   // The flag stays set, and the interrupt pending, as long as the input is active: the next power-on asks
   // again.
   timer(axis).DIER = 0;
   timer(axis).SR = ~Timer::kBreakFlag;
   on_[static_cast<std::size_t>(axis)] = false;
+  broken_[static_cast<std::size_t>(axis)].store(true, std::memory_order_relaxed);
 }
 
 void PowerStage::apply(int axis, const motor::AxisOutputs& outputs) {
+  const auto i = static_cast<std::size_t>(axis);
   Timer& t = timer(axis);
-  bool& on = on_[static_cast<std::size_t>(axis)];
   if (!outputs.power) {
-    if (on) {
+    if (on_[i]) {
       t.BDTR = kBreakSetting;
-      write(board::kDriverEnable[static_cast<std::size_t>(axis)], false);
-      on = false;
+      write(board::kDriverEnable[i], false);
+      on_[i] = false;
     }
     return;
   }
@@ -121,14 +122,18 @@ void PowerStage::apply(int axis, const motor::AxisOutputs& outputs) {
   t.CCR[1] = static_cast<std::uint32_t>(kHalf - a + 0.5F);
   t.CCR[2] = static_cast<std::uint32_t>(kHalf + b + 0.5F);
   t.CCR[3] = static_cast<std::uint32_t>(kHalf - b + 0.5F);
-  if (!on) {
+  if (on_[i]) return;
+  // A break interrupt comes before this or after: one that came since take_break() is not undone here.
+  disable_interrupts();
+  if (!broken_[i].load(std::memory_order_relaxed)) {
     // A break of before is over when the input says so; MOE cannot be set while it is active.
     t.SR = ~Timer::kBreakFlag;
     t.DIER = Timer::kBreakInterrupt;
     t.BDTR = kBreakSetting | Timer::kMainOutput;
-    write(board::kDriverEnable[static_cast<std::size_t>(axis)], true);
-    on = true;
+    write(board::kDriverEnable[i], true);
+    on_[i] = true;
   }
+  enable_interrupts();
 }
 
 void PowerStage::serve_slow() {

@@ -4,6 +4,7 @@
 // interrupt reads and writes words.
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 
 #include "node_firmware/board/bridge_motors.hpp"
@@ -31,8 +32,13 @@ class PowerStage {
   static void acknowledge_control() { adc(1).SR = ~Adc::kInjectedEnd; }
   /// Phase currents of the sampling that has just ended, in amperes.
   motor::Vector currents(int axis) const;
-  /// The hardware has switched the outputs off: the drivers are disabled too, and the flag cleared.
-  void after_break(int axis);
+  /// Once for a break; from the break until then apply() gives no power.
+  bool take_break(int axis) {
+    std::atomic<bool>& broken = broken_[static_cast<std::size_t>(axis)];
+    if (!broken.load(std::memory_order_relaxed)) return false;
+    broken.store(false, std::memory_order_relaxed);  // a second break in between is told by the first
+    return true;
+  }
   /// Duty -1..1 of the supply for phases A and B; power on or off at once.
   void apply(int axis, const motor::AxisOutputs& outputs);
   /// Collects one slow conversion and begins the next.
@@ -42,6 +48,9 @@ class PowerStage {
   static std::uint16_t take_encoder(int axis);
   /// The next reading; at least 350 ns after take_encoder(), ready 3 us later.
   static void begin_encoder(int axis);
+
+  /// Break interrupt: the hardware has switched the outputs off; the drivers are disabled too.
+  void on_break(int axis);
 
   /// Main loop: the shunt amplifiers' zero, averaged while nothing flows. `steps`: sums of a conversion each.
   void set_zero(int axis, float phase_a_steps, float phase_b_steps) {
@@ -53,6 +62,7 @@ class PowerStage {
   std::array<motor::Vector, 2> zero_{motor::Vector{board::kCurrentZero, board::kCurrentZero},
                                      motor::Vector{board::kCurrentZero, board::kCurrentZero}};
   std::array<bool, 2> on_{};
+  std::array<std::atomic<bool>, 2> broken_{};
   BridgeReadings readings_{.supply_v = 0, .temperature_c = {25, 25}};
   std::size_t slow_ = 0, turn_ = 0;  // place in board::kSlowChannels, and in the order of conversions
 };

@@ -42,6 +42,37 @@ TEST_F(Fault, AShortedPhaseIsCutOffBelowEightAmperes) {
   EXPECT_TRUE(node.board.pwm(1).sweep().main_output) << "the other motor holds";
 }
 
+// The comparator speaks for 1 us, at every place of the control interrupt where an interrupt can come: the
+// outputs stay off from then on.
+TEST_F(Fault, ABreakIsNotUndoneWhereverInTheControlInterruptItComes) {
+  Board& board = node.board;
+  constexpr int kControl = kFirstInterrupt + 18;
+  const auto to_control = [&] {
+    while (board.cpu().nvic().active_exception() == kControl) board.run(board.now() + 1);
+    while (board.cpu().nvic().active_exception() != kControl) board.run(board.now() + 1);
+  };
+  int breaks = 0;
+  for (Cycle into = 0;; into += 12) {
+    to_control();
+    const Cycle at = board.now() + into;
+    while (board.now() < at && board.cpu().nvic().active_exception() == kControl) board.run(board.now() + 1);
+    if (board.now() < at) break;  // the interrupt has ended before
+    ASSERT_TRUE(board.pwm(0).sweep().main_output);
+    board.pwm(0).set_break_level(false, board.now());
+    board.run(board.now() + 168);
+    board.pwm(0).set_break_level(true, board.now());
+    ++breaks;
+    for (const Cycle end = board.now() + 3 * 8400; board.now() < end; board.run(board.now() + 20))
+      ASSERT_FALSE(board.pwm(0).sweep().main_output) << into << " cycles into the interrupt";
+    node.bench.run(120ms);  // what a fault has left is gone
+    node.write(0, 0x6040, 0, 2, 0x80);
+    node.bench.enable(OneBoard::kId, 0, 1);
+  }
+  fmt::print("{} breaks\n", breaks);
+  EXPECT_GT(breaks, 100);
+  EXPECT_TRUE(node.told(0x2320, before));
+}
+
 TEST_F(Fault, AMissingPhaseIsFound) {
   node.board.motor(1).set_winding(1, StepperMotor::Winding::kOpen);
   node.bench.run(300ms);
