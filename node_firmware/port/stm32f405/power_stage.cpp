@@ -18,11 +18,16 @@ constexpr Thermistor kThermistor{static_cast<double>(board::kNtcBeta)};
 // BKE, active low; the outputs float when the break comes (OSSI 0), by hardware alone.
 constexpr std::uint32_t kBreakSetting = Timer::kBreakEnable;
 
+// No voltage across a winding. In force from the next update on.
+void rest_at_half(Timer& t) {
+  for (Reg& compare : t.CCR) compare = board::kPwmTop / 2;
+}
+
 void start_timer(Timer& t) {
   t.PSC = 0;
   t.ARR = board::kPwmTop;
   t.RCR = board::kPwmRepetition;
-  for (Reg& compare : t.CCR) compare = board::kPwmTop / 2;
+  rest_at_half(t);
   t.CCMR1 = Timer::kPwm1Preload;
   t.CCMR2 = Timer::kPwm1Preload;
   t.CCER = Timer::kAllOutputs;
@@ -63,8 +68,7 @@ void start_encoders() {
 void PowerStage::start() {
   debug_control() = debug_control() | bit(24);
   dwt().CTRL = dwt().CTRL | bit(0);
-  enable_clock(rcc().APB2ENR,
-               Rcc::kTim1 | Rcc::kTim8 | Rcc::kAdc1 | Rcc::kAdc2 | Rcc::kAdc3 | Rcc::kSpi1);
+  enable_clock(rcc().APB2ENR, Rcc::kTim1 | Rcc::kTim8 | Rcc::kAdc1 | Rcc::kAdc2 | Rcc::kAdc3 | Rcc::kSpi1);
   enable_clock(rcc().APB1ENR, Rcc::kSpi3);
   start_converters();
   start_encoders();
@@ -109,6 +113,8 @@ void PowerStage::apply(int axis, const motor::AxisOutputs& outputs) {
   const auto i = static_cast<std::size_t>(axis);
   Timer& t = timer(axis);
   if (!outputs.power) {
+    // The period in which power comes begins with these, not with the duty of before.
+    rest_at_half(t);
     if (on_[i]) {
       t.BDTR = kBreakSetting;
       write(board::kDriverEnable[i], false);

@@ -73,6 +73,35 @@ TEST_F(Fault, ABreakIsNotUndoneWhereverInTheControlInterruptItComes) {
   EXPECT_TRUE(node.told(0x2320, before));
 }
 
+TEST_F(Fault, PowerComesBackWithoutAVoltageThatWasOfBefore) {
+  Board& board = node.board;
+  const auto voltage = [&](int phase) {  // of the two half-bridges, in counts of the timer
+    const auto& compare = board.pwm(0).sweep().compare;
+    const auto first = static_cast<std::size_t>(2 * phase);
+    return std::abs(static_cast<int>(compare[first]) - static_cast<int>(compare[first + 1]));
+  };
+  for (int i = 0; i < 1000 && voltage(0) + voltage(1) < 400; ++i) node.bench.run(1ms);
+  ASSERT_GE(voltage(0) + voltage(1), 400) << "turning";
+  board.pwm(0).set_break_level(false, board.now());
+  board.run(board.now() + 168);
+  board.pwm(0).set_break_level(true, board.now());
+  node.bench.run(200ms);
+  ASSERT_FALSE(board.pwm(0).sweep().main_output);
+  for (const int word : {0x80, 0x06}) node.write(0, 0x6040, 0, 2, word);
+  // By hand from here, to see the first cycle with power.
+  constexpr std::array<std::uint8_t, 2> kWords{0x07, 0x0F};
+  for (const std::uint8_t word : kWords)
+    node.bench.send(CanFrame::make(0x600 + OneBoard::kId, {0x2B, 0x40, 0x60, 0, word, 0, 0, 0}));
+  bool on = false;
+  for (int i = 0; i < 2'000 && !on; ++i) {
+    node.bench.run(20us);
+    on = board.pwm(0).sweep().main_output;
+  }
+  ASSERT_TRUE(on);
+  EXPECT_LE(voltage(0), 2);
+  EXPECT_LE(voltage(1), 2);
+}
+
 TEST_F(Fault, AMissingPhaseIsFound) {
   node.board.motor(1).set_winding(1, StepperMotor::Winding::kOpen);
   node.bench.run(300ms);
