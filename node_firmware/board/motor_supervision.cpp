@@ -86,7 +86,8 @@ bool MotorSupervision::serve_power(Node& node, LocalTime now, int axis) {
   const DriveOutput drive = node.drive(axis);
   if (served.fault_told) {
     const bool calm =
-        now - served.fault_at >= kFaultRest && readings_.supply_v < motor::Surroundings::kDeadlyV &&
+        now - served.fault_at >= kFaultRest && motor::Surroundings::is_supply(readings_.supply_v) &&
+        readings_.supply_v < motor::Surroundings::kDeadlyV &&
         !motor::Surroundings::deadly_heat(readings_.temperature_c[static_cast<std::size_t>(axis)]);
     if (!calm || drive.power) return false;
     control.acknowledge();

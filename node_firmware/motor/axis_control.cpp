@@ -188,9 +188,9 @@ Angle AxisControl::commanded_angle(const AxisInputs& in) {
   return angle - angle_of(error_) + static_cast<Angle>(lead) + static_cast<Angle>(swing);
 }
 
-AxisOutputs AxisControl::apply(const Vector& volts, const Vector& wanted, float supply_v) const {
-  const float lost = supply_v * config_.dead_time_share;
-  const float scale = 1.0F / supply_v;
+AxisOutputs AxisControl::apply(const Vector& volts, const Vector& wanted) const {
+  const float lost = supply_v_ * config_.dead_time_share;
+  const float scale = 1.0F / supply_v_;
   const auto duty = [&](float v, float a) {
     return std::clamp((v + dead_time_volts(a, lost)) * scale, -kLargestDuty, kLargestDuty);
   };
@@ -200,13 +200,13 @@ AxisOutputs AxisControl::apply(const Vector& volts, const Vector& wanted, float 
 AxisOutputs AxisControl::tune(const AxisInputs& in, Angle angle) {
   const SineCosine at = sine_cosine(angle);
   const float direct_a = turn_back(in.current_a, at).x;
-  const AutoTune::Wish wish = tune_.step(loop_.direct_v(), direct_a, in.supply_v);
+  const AutoTune::Wish wish = tune_.step(loop_.direct_v(), direct_a, supply_v_);
   const Vector wanted = turn({wish.current_a, 0}, at);
   Vector volts;
   if (wish.open)
     volts = turn({wish.added_v, 0}, at);
   else
-    volts = loop_.step(in.current_a, {wish.current_a, angle, 0}, at, in.supply_v);
+    volts = loop_.step(in.current_a, {wish.current_a, angle, 0}, at, supply_v_);
   amplitude_a_ = wish.current_a;
   if (tune_.state() != AutoTune::State::kRuns) {
     loop_.reset();
@@ -217,7 +217,7 @@ AxisOutputs AxisControl::tune(const AxisInputs& in, Angle angle) {
     tune_state_.store(tune_.state(), std::memory_order_release);
   }
   // No dead-time compensation in the wave: its sign is that of the mean current, which does not change.
-  return apply(volts, wanted, in.supply_v);
+  return apply(volts, wanted);
 }
 
 AxisOutputs AxisControl::step(const AxisInputs& in) {
@@ -227,6 +227,7 @@ AxisOutputs AxisControl::step(const AxisInputs& in) {
   last_velocity_ = sign_velocity_;
   sign_velocity_ = config_.inverted ? -in.velocity : in.velocity;
   serve_encoder(in);
+  if (Surroundings::is_supply(in.supply_v)) supply_v_ = in.supply_v;
 
   const bool wanted = wanted_power_.load(std::memory_order_relaxed);
   if (taken(acknowledged_)) tripped_.store(fault::kNone);
@@ -263,9 +264,9 @@ AxisOutputs AxisControl::step(const AxisInputs& in) {
   if (tune_.state() == AutoTune::State::kRuns) return tune(in, angle);
 
   slew_current(in);
-  const float current_a = loop_.reachable(amplitude_a_, omega, in.supply_v);
-  const Vector volts = loop_.step(in.current_a, {current_a, angle, omega}, at, in.supply_v);
-  return apply(volts, reference, in.supply_v);
+  const float current_a = loop_.reachable(amplitude_a_, omega, supply_v_);
+  const Vector volts = loop_.step(in.current_a, {current_a, angle, omega}, at, supply_v_);
+  return apply(volts, reference);
 }
 
 }  // namespace kinebus::motor

@@ -85,7 +85,7 @@ class AxisControl {
   Angle commanded_angle(const AxisInputs& in);
   std::int32_t rest_angle(std::int32_t error);
   AxisOutputs tune(const AxisInputs& in, Angle angle);
-  AxisOutputs apply(const Vector& volts, const Vector& wanted, float supply_v) const;
+  AxisOutputs apply(const Vector& volts, const Vector& wanted) const;
 
   AxisConfig config_, next_config_;
   std::atomic<bool> config_waits_{false}, wanted_power_{false}, resting_{true}, wanted_tune_{false},
@@ -104,6 +104,7 @@ class AxisControl {
 
   bool on_ = false;
   float amplitude_a_ = 0, trip_a_ = 0;
+  float supply_v_ = 24;  ///< the last that can be one: it is divided by
   int rest_periods_ = 0;
   std::int64_t sign_position_ = 0;  // command, with the sense of the motor
   float sign_velocity_ = 0, last_velocity_ = 0;

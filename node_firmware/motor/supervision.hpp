@@ -89,6 +89,9 @@ class Surroundings {
   };
   /// Beyond these nothing may stay on: the MOSFETs are for 40 V, and a second later for 150 C inside.
   static constexpr float kDeadlyV = 34.0F, kDeadlyC = 110.0F;
+  /// No supply on which a board would run at all: what measures it is broken.
+  static constexpr float kNoSupplyV = 5.0F;
+  static bool is_supply(float supply_v) { return supply_v >= kNoSupplyV; }
   /// No temperature, but a sensor that is open or shorted: told as heat, and no reason to let go.
   static constexpr float kOpenC = -50.0F, kShortedC = 180.0F;
   static bool deadly_heat(float temperature_c) {
@@ -114,6 +117,7 @@ class Surroundings {
     deadly_ = fault::kNone;
     if (burns_.look(deadly_heat(temperature_c))) deadly_ = fault::kTemperature;
     if (breaks_.look(supply_v > kDeadlyV)) deadly_ = fault::kOverVoltage;
+    if (gone_.look(!is_supply(supply_v))) deadly_ = fault::kUnderVoltage;
   }
   std::uint8_t present() const { return bits_; }
   /// The fault for which the power has to go, or kNone.
@@ -124,6 +128,7 @@ class Surroundings {
   Persistence under_{looks(1e-3F)}, over_{looks(1e-3F)}, hot_{looks(100e-3F)};
   // Longer than any stop on the path takes; and than a stop's own energy lifts the supply.
   Persistence burns_{looks(2)}, breaks_{looks(10e-3F)};
+  Persistence gone_{looks(2e-3F)};  // of the last that was measured, the control lives so long
   std::uint16_t deadly_ = fault::kNone;
   std::uint8_t bits_ = 0;
 };

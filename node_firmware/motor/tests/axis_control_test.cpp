@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 #include "node_firmware/motor/tests/motor_model.hpp"
 
 namespace kinebus::motor {
@@ -157,6 +160,38 @@ TEST(AxisControl, PowerGoesOnlyAfterAStopHasHadItsTime) {
   EXPECT_TRUE(high.out.power);
   high.run(0.004);
   EXPECT_EQ(high.control.tripped(), fault::kOverVoltage);
+}
+
+TEST(AxisControl, ABrokenSupplyDividerTakesThePowerAndIsNeverDividedBy) {
+  for (const double reading : {0.0, -0.1, std::numeric_limits<double>::quiet_NaN()}) {
+    Bench bench;
+    bench.control.set_power(true);
+    bench.run(0.3);
+    ASSERT_TRUE(bench.out.power);
+    const double before = std::hypot(bench.motor.ia, bench.motor.ib);
+    EXPECT_GT(before, 0.5);
+    bench.measured_supply = reading;
+    int periods = 0;
+    for (; periods < 100 && bench.control.tripped() == fault::kNone; ++periods) {
+      bench.period();
+      EXPECT_TRUE(std::isfinite(bench.out.duty.x) && std::isfinite(bench.out.duty.y));
+      if (bench.out.power) {
+        EXPECT_NEAR(std::hypot(bench.motor.ia, bench.motor.ib), before, 0.1 * before);
+      }
+    }
+    EXPECT_LT(periods, 60) << "3 ms";
+    EXPECT_EQ(bench.control.tripped(), fault::kUnderVoltage);
+    EXPECT_FALSE(bench.out.power);
+    // Nor does it get power again before there is a supply.
+    bench.control.acknowledge();
+    bench.run(0.01);
+    EXPECT_FALSE(bench.out.power);
+    bench.measured_supply.reset();
+    bench.run(0.01);
+    bench.control.acknowledge();
+    bench.run(0.01);
+    EXPECT_TRUE(bench.out.power);
+  }
 }
 
 TEST(AxisControl, ABrokenTemperatureSensorIsToldAndDropsNothing) {

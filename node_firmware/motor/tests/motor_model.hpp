@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <optional>
 #include <random>
 
 #include "node_firmware/motor/axis_control.hpp"
@@ -45,7 +46,8 @@ struct Bench {
   TestMotor motor;
   AxisControl control;
   double supply = 24, temperature = 25;
-  double position = 0, velocity = 0;  // command: counts, counts/s
+  std::optional<double> measured_supply;  // by a divider that is broken
+  double position = 0, velocity = 0;      // command: counts, counts/s
   AxisOutputs out;
   bool encoder_present = false;
   double encoder_zero = 0;         // rad
@@ -74,7 +76,7 @@ struct Bench {
   void period() {
     AxisInputs in;
     in.current_a = {static_cast<float>(quantised(motor.ia)), static_cast<float>(quantised(motor.ib))};
-    in.supply_v = static_cast<float>(supply);
+    in.supply_v = static_cast<float>(measured_supply.value_or(supply));
     in.temperature_c = static_cast<float>(temperature);
     in.position = static_cast<std::int64_t>(position * 4294967296.0);
     in.velocity = static_cast<float>(velocity);
