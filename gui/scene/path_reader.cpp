@@ -1,62 +1,77 @@
-#include "gui/scene/gcode_scanner.hpp"
+#include "gui/scene/path_reader.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <numbers>
+#include <utility>
+
+#include "gateway/gcode/rotation.hpp"
 
 namespace kinebus::gui {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
-constexpr int kMaxArcPieces = 720;
+using canonical::Frame;
+using gcode::kAxisA;
+using gcode::kAxisC;
+using gcode::kAxisE;
+using gcode::kAxisZ;
 
-bool is_space(char c) {
-  return c == ' ' || c == '\t' || c == '\r';
+constexpr int kMaxPieces = 720;
+// A move that turns the table while the tool stands in the machine's frame is a curve on the part: within 2
+// degrees it leaves its chord by 0.015 mm at 100 mm from the axis.
+constexpr double kTurnStep_rad = 2 * std::numbers::pi / 180;
+constexpr double kNoExtrusion_mm = 1e-9;
+constexpr double kMinutes = 60;
+
+bool turned(const canonical::Pose& pose) {
+  return pose[kAxisA] != 0 || pose[kAxisC] != 0;
 }
 
-constexpr unsigned bit(char letter) {
-  return 1u << static_cast<unsigned>(letter - 'A');
+canonical::Pose between(const canonical::Pose& from, const canonical::Pose& to, double share) {
+  canonical::Pose pose = from;
+  for (std::size_t i = 0; i < pose.size(); ++i) pose[i] += (to[i] - from[i]) * share;
+  return pose;
 }
 
 }  // namespace
 
-struct GcodeScanner::Words {
-  std::array<double, 26> value{};
-  unsigned seen = 0;       ///< a bit a letter
-  std::array<int, 8> g{};  ///< tenths: G91.1 is 911
-  int g_count = 0;
-  int m = -1;
-  bool has(char letter) const { return (seen & bit(letter)) != 0; }
-  double operator[](char letter) const { return value[static_cast<std::size_t>(letter - 'A')]; }
-};
-
-GcodeScanner::GcodeScanner(Options options) : options_(options) {
-  for (std::size_t i = 0; i < 3; ++i) at_mm_[i] = options_.start_mm[i];
+gcode::Options PathReader::any_machine() {
+  gcode::Options options;
+  options.start = options.home = {0, 0, 20, 0, 0, 0};
+  options.default_feed_mm_per_s = 25;
+  options.arc_radius_tolerance_mm = 0.01;
+  options.a_min_rad = -std::numbers::pi / 2;
+  options.a_max_rad = std::numbers::pi / 2;
+  options.spindle = true;
+  options.retract_length_mm = 0.8;
+  options.retract_mm_per_s = options.recover_mm_per_s = 35;
+  return options;
 }
 
-void GcodeScanner::add(std::string_view text) {
+PathReader::PathReader(Options options)
+    : options_(std::move(options)), interpreter_(options_.machine), reader_(interpreter_) {
+  at_ = options_.machine.start;
+}
+
+void PathReader::add(std::string_view text) {
   while (!text.empty()) {
-    const std::size_t end = text.find('\n');
-    if (end == std::string_view::npos) {
-      carry_.append(text);
-      return;
-    }
-    if (carry_.empty()) {
-      scan_line(text.substr(0, end));
-    } else {
-      carry_.append(text.substr(0, end));
-      scan_line(carry_);
-      carry_.clear();
-    }
-    text.remove_prefix(end + 1);
+    // Line by line, so that the interpreter's state is that of the commands. What ends the first is not known
+    // yet.
+    const std::size_t end = reader_.lines() == 0 ? text.find_first_of("\r\n") : text.find(reader_.line_end());
+    const std::string_view line = text.substr(0, end == std::string_view::npos ? end : end + 1);
+    const bool good = reader_.read(line, commands_).has_value();
+    text.remove_prefix(reader_.taken());
+    if (!good) reader_.skip_refused();
+    drain();
   }
 }
 
-ToolPath GcodeScanner::finish() {
-  if (!carry_.empty()) scan_line(carry_);
-  carry_.clear();
-  path_.line_count = line_;
+ToolPath PathReader::finish() {
+  // A last line without an end may be refused; what follows it is the end alone.
+  while (!reader_.finish(commands_)) reader_.skip_refused();
+  drain();
+  path_.line_count = reader_.lines();
+  path_.refused_lines = reader_.refused();
   // A job that extrudes nothing is a cut: its feed moves are the work.
   if (!extrudes_)
     for (std::size_t i = 0; i < path_.size(); ++i)
@@ -68,242 +83,163 @@ ToolPath GcodeScanner::finish() {
     path_.bounds_mm.add(b);
     path_.work_length_mm += std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
   }
-  close_layers();
-  ToolPath done = std::move(path_);
-  path_ = {};
-  return done;
+  path_.layers = layers();
+  return std::move(path_);
 }
 
-bool GcodeScanner::read_words(std::string_view line, Words& words) {
-  const char* at = line.data();
-  const char* const end = at + line.size();
-  bool whole = true;
-  while (at < end) {
-    char c = *at;
-    if (c == ';' || c == '*' || c == '%') break;
-    if (c == '(') {
-      while (at < end && *at != ')') ++at;
-      if (at < end) ++at;
-      continue;
-    }
-    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-    ++at;
-    if (c < 'A' || c > 'Z') {
-      if (c == '#' || c == '[') return false;  // a parameter is set: the rest of the line is an expression
-      continue;
-    }
-    if (c == 'O') return false;
-    while (at < end && is_space(*at)) ++at;
-    if (at < end && *at == '+') ++at;
-    double value = 0;
-    const auto [next, error] = std::from_chars(at, end, value);
-    if (error != std::errc{}) {
-      // A flag such as "G28 X", or an expression.
-      if (at < end && (*at == '[' || *at == '#' || *at == '-')) {
-        whole = false;
-        while (at < end && !is_space(*at)) ++at;
-        continue;
-      }
-    }
-    at = next;
-    if (c == 'G') {
-      if (words.g_count < static_cast<int>(words.g.size()))
-        words.g[static_cast<std::size_t>(words.g_count++)] = static_cast<int>(std::lround(value * 10));
-    } else if (c == 'M') {
-      words.m = static_cast<int>(value);
-      if (words.m == 117 || words.m == 118 || words.m == 23 || words.m == 28) break;  // the rest is text
-    } else {
-      words.value[static_cast<std::size_t>(c - 'A')] = value;
-      words.seen |= bit(c);
-    }
+void PathReader::drain() {
+  if (interpreter_.state().modal.tilted != tilted_) follow_plane();
+  for (const canonical::Line& line : commands_) take(line);
+  commands_.clear();
+}
+
+void PathReader::follow_plane() {
+  const gcode::ModalState& m = interpreter_.state().modal;
+  if (heights_mm_.empty())
+    for (const auto& point : path_.points_mm) heights_mm_.push_back(point[2]);
+  planes_.push_back(static_cast<std::uint32_t>(path_.size()));
+  tilted_ = m.tilted;
+  up_ = {0, 0, 1};
+  zero_mm_ = 0;
+  if (!tilted_) return;
+  up_ = {m.tilt[0][2], m.tilt[1][2], m.tilt[2][2]};
+  // In a tilted plane positions are the part's.
+  zero_mm_ = up_[0] * m.position[0] + up_[1] * m.position[1] + up_[2] * m.position[2] - m.program[kAxisZ];
+}
+
+void PathReader::take(const canonical::Line& line) {
+  line_ = line.line;
+  if (const auto* feed = std::get_if<canonical::Feed>(&line.command)) {
+    straight(feed->target, feed_of(*feed));
+  } else if (const auto* traverse = std::get_if<canonical::Traverse>(&line.command)) {
+    straight(traverse->target, 0);
+  } else if (const auto* arc = std::get_if<canonical::Arc>(&line.command)) {
+    turn(*arc);
+  } else if (const auto* set = std::get_if<canonical::SetPosition>(&line.command)) {
+    at_ = set->pose;
+    frame_ = set->frame;
+  } else if (const auto* home = std::get_if<canonical::Home>(&line.command)) {
+    Pose target = gcode::in_frame(home->afterwards, home->frame, frame_);
+    target[kAxisE] = at_[kAxisE];
+    // Homing that begins a job: the path begins where it ends.
+    if (path_.size() == 0)
+      at_ = target;
+    else
+      straight(target, 0);
   }
-  return whole;
 }
 
-void GcodeScanner::scan_line(std::string_view line) {
-  ++line_;
-  while (!line.empty() && is_space(line.front())) line.remove_prefix(1);
-  if (line.empty() || line.front() == ';' || line.front() == '/') return;
-  Words words;
-  if (!read_words(line, words)) ++path_.unread_lines;
-  codes(words);
+/// mm/min; a move of A and C alone: deg/min, as the job wrote it.
+double PathReader::feed_of(const canonical::Feed& feed) const {
+  const Pose& to = feed.target;
+  if (feed.inverse_time_s > 0)
+    return std::hypot(to[0] - at_[0], to[1] - at_[1], to[2] - at_[2]) / feed.inverse_time_s * kMinutes;
+  const bool turns_alone = to[0] == at_[0] && to[1] == at_[1] && to[2] == at_[2] &&
+                           (to[kAxisA] != at_[kAxisA] || to[kAxisC] != at_[kAxisC]);
+  return feed.feed_per_s * kMinutes * (turns_alone ? 180 / std::numbers::pi : 1);
 }
 
-void GcodeScanner::codes(const Words& words) {
-  if (words.m == 82) absolute_e_ = true;
-  if (words.m == 83) absolute_e_ = false;
-  bool moves = true;
-  for (int i = 0; i < words.g_count; ++i) {
-    switch (const int g = words.g[static_cast<std::size_t>(i)]; g) {
-      case 0:
-      case 10:
-      case 20:
-      case 30:
-        motion_ = g / 10;
-        break;
-      case 170:
-      case 180:
-      case 190:
-        plane_ = g / 10;
-        break;
-      case 200:
-        scale_mm_ = 25.4;
-        break;
-      case 210:
-        scale_mm_ = 1;
-        break;
-      case 900:
-        absolute_ = absolute_e_ = true;
-        break;
-      case 910:
-        absolute_ = absolute_e_ = false;
-        break;
-      case 901:
-        absolute_centre_ = true;
-        break;
-      case 911:
-        absolute_centre_ = false;
-        break;
-      case 920: {
-        moves = false;
-        for (std::size_t axis = 0; axis < 3; ++axis)
-          if (const char letter = static_cast<char>('X' + axis); words.has(letter))
-            offset_mm_[axis] = at_mm_[axis] - words[letter] * scale_mm_;
-        if (words.has('E')) e_mm_ = words['E'] * scale_mm_;
-        break;
-      }
-      case 921:
-      case 922:
-        offset_mm_ = {};
-        moves = false;
-        break;
-      case 40:
-      case 100:
-      case 110:
-      case 280:
-      case 290:
-      case 300:
-      case 430:
-        moves = false;
-        break;
-      default:
-        break;
-    }
-  }
-  if (words.has('F') && words['F'] > 0) feed_mm_per_min_ = words['F'] * scale_mm_;
-  constexpr unsigned kAxes =
-      bit('X') | bit('Y') | bit('Z') | bit('A') | bit('C') | bit('E') | bit('I') | bit('J');
-  if (moves && (words.seen & kAxes) != 0) move(words);
-}
-
-void GcodeScanner::move(const Words& words) {
-  std::array<double, 3> target = at_mm_;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const char letter = static_cast<char>('X' + axis);
-    if (!words.has(letter)) continue;
-    const double value = words[letter] * scale_mm_;
-    target[axis] = absolute_ ? value + offset_mm_[axis] : at_mm_[axis] + value;
-  }
-  from_a_rad_ = a_rad_;
-  from_c_rad_ = c_rad_;
-  if (words.has('A')) a_rad_ = words['A'] * kRadPerDeg + (absolute_ ? 0 : a_rad_);
-  if (words.has('C')) c_rad_ = words['C'] * kRadPerDeg + (absolute_ ? 0 : c_rad_);
-  const double e_before = e_mm_;
-  if (words.has('E')) e_mm_ = words['E'] * scale_mm_ + (absolute_e_ ? 0 : e_mm_);
-  const bool turns = a_rad_ != from_a_rad_ || c_rad_ != from_c_rad_;
-  const bool is_arc = motion_ == 2 || motion_ == 3;
-  if (target == at_mm_ && !turns && !is_arc) return;  // a retraction or a feed alone
-  kind_ = e_mm_ > e_before ? PathKind::kWork : PathKind::kTravel;
-  extrudes_ = extrudes_ || kind_ == PathKind::kWork;
-  if (turns && path_.tilts_rad.empty())
-    path_.tilts_rad.assign(path_.size(), {static_cast<float>(from_a_rad_), static_cast<float>(from_c_rad_)});
+/// False: nothing to be seen, a retraction for instance.
+bool PathReader::begin_move(const Pose& target, bool is_arc) {
+  const bool turns = target[kAxisA] != at_[kAxisA] || target[kAxisC] != at_[kAxisC];
+  const bool moves = target[0] != at_[0] || target[1] != at_[1] || target[2] != at_[2];
+  if (!moves && !turns && !is_arc) return false;
   // The first vertex is where the job begins.
   if (path_.size() == 0) {
-    const PathKind kind = kind_;
     kind_ = PathKind::kTravel;
-    put(at_mm_, 0);
-    kind_ = kind;
+    put(at_, 0);
   }
-  if (is_arc)
-    arc(words, target);
-  else
-    put(target, 1);
-  at_mm_ = target;
+  kind_ = target[kAxisE] > at_[kAxisE] + kNoExtrusion_mm ? PathKind::kWork : PathKind::kTravel;
+  extrudes_ = extrudes_ || kind_ == PathKind::kWork;
+  return true;
 }
 
-void GcodeScanner::arc(const Words& words, const std::array<double, 3>& target_mm) {
-  // The plane's two axes and the one along the helix; counter-clockwise as seen from that axis' positive end.
-  const std::size_t u = plane_ == 18 ? 2 : plane_ == 19 ? 1 : 0;
-  const std::size_t v = plane_ == 18 ? 0 : plane_ == 19 ? 2 : 1;
-  const bool clockwise = motion_ == 2;
-  const double du = target_mm[u] - at_mm_[u], dv = target_mm[v] - at_mm_[v];
-  double cu = 0, cv = 0;  // centre
-  if (words.has('R')) {
-    const double r = words['R'] * scale_mm_, chord = std::hypot(du, dv);
-    if (!(chord > 0)) return put(target_mm, 1);
-    const double height = std::sqrt(std::max(0.0, r * r - chord * chord / 4));
-    const double side = (clockwise ? -1.0 : 1.0) * (r < 0 ? -1.0 : 1.0);
-    cu = at_mm_[u] + du / 2 - side * height * dv / chord;
-    cv = at_mm_[v] + dv / 2 + side * height * du / chord;
-  } else {
-    const auto offset = [&](std::size_t axis) {
-      const double value = words[static_cast<char>('I' + axis)] * scale_mm_;
-      return absolute_centre_ ? value + offset_mm_[axis] : at_mm_[axis] + value;
-    };
-    cu = offset(u);
-    cv = offset(v);
+void PathReader::straight(const Pose& target, double feed_mm_per_min) {
+  if (begin_move(target, false)) {
+    const double turning =
+        std::max(std::abs(target[kAxisA] - at_[kAxisA]), std::abs(target[kAxisC] - at_[kAxisC]));
+    if (frame_ == Frame::kMachine && turning > kTurnStep_rad) {
+      const int pieces = std::clamp(static_cast<int>(std::ceil(turning / kTurnStep_rad)), 1, kMaxPieces);
+      for (int i = 1; i < pieces; ++i)
+        put(between(at_, target, static_cast<double>(i) / pieces), feed_mm_per_min);
+    }
+    put(target, feed_mm_per_min);
   }
-  const double radius = std::hypot(at_mm_[u] - cu, at_mm_[v] - cv);
-  const double start = std::atan2(at_mm_[v] - cv, at_mm_[u] - cu);
-  double sweep = std::atan2(target_mm[v] - cv, target_mm[u] - cu) - start;
-  constexpr double kTurn = 2 * std::numbers::pi;
-  if (clockwise && sweep > -1e-9) sweep -= kTurn;
-  if (!clockwise && sweep < 1e-9) sweep += kTurn;
-  if (words.has('P') && words['P'] > 1) sweep += (clockwise ? -kTurn : kTurn) * (words['P'] - 1);
-  const double tolerance = options_.arc_tolerance_mm;
-  const double step = radius > tolerance ? 2 * std::acos(1 - tolerance / radius) : kTurn / 8;
-  const int pieces = std::clamp(static_cast<int>(std::ceil(std::abs(sweep) / step)), 1, kMaxArcPieces);
+  at_ = target;
+}
+
+void PathReader::turn(const canonical::Arc& arc) {
+  begin_move(arc.target, true);
+  using gcode::operator-;
+  const gcode::Vector3 start = gcode::xyz(at_) - arc.centre_mm;
+  const auto& n = arc.normal;
+  // The start as seen from the axis: along it, and across; side is a quarter turn ahead.
+  const double along = start[0] * n[0] + start[1] * n[1] + start[2] * n[2];
+  const gcode::Vector3 across = {start[0] - along * n[0], start[1] - along * n[1], start[2] - along * n[2]};
+  const gcode::Vector3 side = {n[1] * across[2] - n[2] * across[1], n[2] * across[0] - n[0] * across[2],
+                               n[0] * across[1] - n[1] * across[0]};
+  const gcode::Vector3 way = gcode::xyz(arc.target) - gcode::xyz(at_);
+  const double rise = way[0] * n[0] + way[1] * n[1] + way[2] * n[2];
+  const double radius = gcode::norm(across), tolerance = options_.arc_tolerance_mm;
+  const double feed =
+      kMinutes * (arc.inverse_time_s > 0 ? radius * arc.sweep_rad / arc.inverse_time_s : arc.feed_per_s);
+  const double step = radius > tolerance ? 2 * std::acos(1 - tolerance / radius) : std::numbers::pi / 4;
+  // A turn of many turns is drawn coarser, never without an end.
+  const int pieces =
+      std::clamp(static_cast<int>(std::ceil(std::min(arc.sweep_rad / step, 1e6))), 1, kMaxPieces);
   for (int i = 1; i < pieces; ++i) {
-    const double share = static_cast<double>(i) / pieces, angle = start + sweep * share;
-    std::array<double, 3> point{};
+    const double share = static_cast<double>(i) / pieces, angle = arc.sweep_rad * share;
+    Pose pose = between(at_, arc.target, share);
     for (std::size_t axis = 0; axis < 3; ++axis)
-      point[axis] = at_mm_[axis] + (target_mm[axis] - at_mm_[axis]) * share;
-    point[u] = cu + radius * std::cos(angle);
-    point[v] = cv + radius * std::sin(angle);
-    put(point, share);
+      pose[axis] = arc.centre_mm[axis] + (along + rise * share) * n[axis] + std::cos(angle) * across[axis] +
+                   std::sin(angle) * side[axis];
+    put(pose, feed);
   }
-  put(target_mm, 1);
+  put(arc.target, feed);
+  at_ = arc.target;
 }
 
-/// share: of the move, 0 .. 1, for what turns along with it.
-void GcodeScanner::put(const std::array<double, 3>& point_mm, double share) {
+void PathReader::put(const Pose& pose, double feed_mm_per_min) {
+  const bool turns = turned(pose);
+  const Pose part =
+      frame_ == Frame::kMachine && turns ? gcode::in_frame(pose, Frame::kMachine, Frame::kPart) : pose;
+  if (turns && path_.tilts_rad.empty()) path_.tilts_rad.assign(path_.size(), {0.0F, 0.0F});
+  if (turns || !path_.tilts_rad.empty())
+    path_.tilts_rad.push_back({static_cast<float>(pose[kAxisA]), static_cast<float>(pose[kAxisC])});
   path_.points_mm.push_back(
-      {static_cast<float>(point_mm[0]), static_cast<float>(point_mm[1]), static_cast<float>(point_mm[2])});
+      {static_cast<float>(part[0]), static_cast<float>(part[1]), static_cast<float>(part[2])});
   path_.lines.push_back(line_);
   path_.kinds.push_back(kind_);
-  const double feed = motion_ == 0 ? 0 : std::clamp(feed_mm_per_min_, 1.0, 65535.0);
-  path_.feeds_mm_per_min.push_back(static_cast<std::uint16_t>(feed));
-  if (!path_.tilts_rad.empty() || a_rad_ != 0 || c_rad_ != 0)
-    path_.tilts_rad.push_back({static_cast<float>(from_a_rad_ + (a_rad_ - from_a_rad_) * share),
-                               static_cast<float>(from_c_rad_ + (c_rad_ - from_c_rad_) * share)});
+  path_.feeds_mm_per_min.push_back(
+      feed_mm_per_min > 0 ? static_cast<std::uint16_t>(std::lround(std::clamp(feed_mm_per_min, 1.0, 65535.0)))
+                          : std::uint16_t{0});
+  if (!planes_.empty())
+    heights_mm_.push_back(
+        static_cast<float>(up_[0] * part[0] + up_[1] * part[1] + up_[2] * part[2] - zero_mm_));
 }
 
-void GcodeScanner::close_layers() {
+std::vector<PathLayer> PathReader::layers() const {
+  std::vector<PathLayer> found;
   const auto count = static_cast<std::uint32_t>(path_.size());
+  std::size_t plane = 0, plane_of_layer = 0;  // how many of planes_ began
   for (std::uint32_t i = 1; i < count; ++i) {
+    while (plane < planes_.size() && planes_[plane] <= i) ++plane;
     if (path_.kinds[i] != PathKind::kWork) continue;
-    const float z = path_.points_mm[i][2];
-    const bool first = path_.layers.empty();
-    if (!first && std::abs(z - path_.layers.back().z_mm) < options_.layer_height_min_mm) continue;
+    const float z = heights_mm_.empty() ? path_.points_mm[i][2] : heights_mm_[i];
+    const bool first = found.empty();
+    if (!first && plane == plane_of_layer && std::abs(z - found.back().z_mm) < options_.layer_height_min_mm)
+      continue;
     // A layer begins where the travel to it begins, so that every vertex is in one.
     std::uint32_t begin = i;
     while (begin > 0 && path_.kinds[begin - 1] == PathKind::kTravel) --begin;
-    if (!first) begin = std::max(begin, path_.layers.back().first + 1);
+    if (!first) begin = std::max(begin, found.back().first + 1);
     if (first) begin = 0;
-    if (!first) path_.layers.back().last = begin;
-    path_.layers.push_back({begin, count, z});
+    if (!first) found.back().last = begin;
+    found.push_back({begin, count, z});
+    plane_of_layer = plane;
   }
-  if (path_.layers.empty() && count > 0) path_.layers.push_back({0, count, path_.points_mm.front()[2]});
+  if (found.empty() && count > 0) found.push_back({0, count, path_.points_mm.front()[2]});
+  return found;
 }
 
 }  // namespace kinebus::gui

@@ -1,60 +1,71 @@
 #pragma once
-// Reads G-code for the eye: moves and arcs of both dialects into a ToolPath, at some tens of megabytes a
-// second. It judges nothing (the gateway's pre-flight does that) and computes no expressions: a line with one
-// is counted as unread and its other words are used.
+// Reads a job for the eye with the gateway's own interpreter: what is drawn is what will move. Offsets,
+// tilted planes, expressions and arcs are worked out there; here canonical commands become a ToolPath in part
+// coordinates. A line that is refused is counted and left out, and the reading goes on behind it.
 
 #include <array>
 #include <cstdint>
-#include <string>
 #include <string_view>
+#include <vector>
 
+#include "gateway/gcode/interpreter.hpp"
+#include "gateway/gcode/job_reader.hpp"
 #include "gui/scene/tool_path.hpp"
 
 namespace kinebus::gui {
 
-class GcodeScanner {
+class PathReader {
  public:
   struct Options {
-    float arc_tolerance_mm = 0.02F;     ///< a chord may leave its arc by this
+    gcode::Options machine = any_machine();  ///< as far as it is known
+    float arc_tolerance_mm = 0.02F;          ///< a chord may leave its arc by this
     float layer_height_min_mm = 0.03F;  ///< a smaller rise does not begin a layer: spirals have layers too
-    std::array<float, 3> start_mm{0, 0, 20};
   };
+  /// A machine of which nothing is known: the machine file's defaults, a spindle (S and M3 are no errors
+  /// here), the tool 20 mm above the table.
+  static gcode::Options any_machine();
 
-  GcodeScanner() : GcodeScanner(Options{}) {}
-  explicit GcodeScanner(Options options);
+  PathReader() : PathReader(Options{}) {}
+  explicit PathReader(Options options);
+  PathReader(const PathReader&) = delete;
+  PathReader& operator=(const PathReader&) = delete;
+
   /// The next part of the text, cut anywhere.
   void add(std::string_view text);
-  /// Ends the last line and closes the layers. The scanner is empty then.
+  /// Ends the last line and closes the layers. The reader is of no use then.
   ToolPath finish();
-  std::uint32_t lines_read() const { return line_; }
 
  private:
-  struct Words;
-  void scan_line(std::string_view line);
-  bool read_words(std::string_view line, Words& words);
-  void codes(const Words& words);
-  void move(const Words& words);
-  void arc(const Words& words, const std::array<double, 3>& target_mm);
-  void put(const std::array<double, 3>& point_mm, double share);
-  void close_layers();
+  using Pose = canonical::Pose;
+
+  void drain();
+  void take(const canonical::Line& line);
+  void follow_plane();
+  void straight(const Pose& target, double feed_mm_per_min);
+  void turn(const canonical::Arc& arc);
+  bool begin_move(const Pose& target, bool is_arc);
+  void put(const Pose& pose, double feed_mm_per_min);
+  double feed_of(const canonical::Feed& feed) const;
+  std::vector<PathLayer> layers() const;
 
   Options options_;
+  gcode::Interpreter interpreter_;
+  gcode::JobReader reader_;
+  gcode::CommandBuffer commands_;
   ToolPath path_;
-  std::string carry_;  ///< the beginning of a line whose end has not come yet
-  std::uint32_t line_ = 0;
 
-  // Modal state.
-  int motion_ = 0;
-  int plane_ = 17;
-  double scale_mm_ = 1;
-  bool absolute_ = true, absolute_e_ = true, absolute_centre_ = false;
-  std::array<double, 3> at_mm_{}, offset_mm_{};
-  double e_mm_ = 0, a_rad_ = 0, c_rad_ = 0;
-  double feed_mm_per_min_ = 1500;
-  // The move at work.
-  double from_a_rad_ = 0, from_c_rad_ = 0;
-  PathKind kind_ = PathKind::kTravel;
-  bool extrudes_ = false;  ///< any extrusion so far
+  Pose at_{};  ///< as the last command left it, in frame_
+  canonical::Frame frame_ = canonical::Frame::kMachine;
+  std::uint32_t line_ = 0;
+  PathKind kind_ = PathKind::kTravel;  ///< of the move at work
+  bool extrudes_ = false;              ///< any extrusion so far
+
+  // Layers of what is made in a tilted plane lie in that plane.
+  bool tilted_ = false;
+  std::array<double, 3> up_{0, 0, 1};  ///< the plane's normal, part coordinates
+  double zero_mm_ = 0;                 ///< height above the plane's zero is up_ * point - zero_mm_
+  std::vector<float> heights_mm_;      ///< of the vertices; empty as long as no plane was tilted: their Z
+  std::vector<std::uint32_t> planes_;  ///< first vertex of each plane but the first
 };
 
 }  // namespace kinebus::gui
