@@ -12,6 +12,7 @@ namespace {
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 bool is_comment(std::string_view text) {
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   const std::size_t first = text.find_first_not_of(" \t\r");
   return first != std::string_view::npos && text[first] == ';';
 }
@@ -51,6 +52,7 @@ Result<void, ParseError> JobReader::refuse(ParseError error) {
 Result<void, ParseError> JobReader::line(std::string_view text, CommandBuffer& out) {
   ++line_;
   if (interpreter_.ended() || no_text_) return {};
+  const bool too_long = text.size() > kMaxLine && !is_comment(text);
   if (line_ == 1) {
     if (auto words = not_text(text)) {
       no_text_ = true;
@@ -62,7 +64,7 @@ Result<void, ParseError> JobReader::line(std::string_view text, CommandBuffer& o
     const auto column = static_cast<std::uint32_t>(static_cast<const char*>(nul) - text.data()) + 1;
     return refuse({line_, column, say("the text holds a NUL byte: this is not a G-code file")});
   }
-  if (text.size() > kMaxLine && !is_comment(text))
+  if (too_long)
     return refuse(
         {line_, static_cast<std::uint32_t>(kMaxLine) + 1, say("the line is longer than 4096 bytes")});
   if (!text.empty() && text.back() == '\r') text.remove_suffix(1);
@@ -101,10 +103,10 @@ Result<void, ParseError> JobReader::read(std::string_view chunk, CommandBuffer& 
     if (ending_ == Ending::kReturn && !carry_.empty() && carry_.back() == '\r') {
       // The CRs at the end of what is carried turn out to end lines; all but the first are empty ones.
       const std::size_t text = carry_.find_last_not_of('\r') + 1;
-      const auto empty = static_cast<std::uint32_t>(carry_.size() - text - 1);
+      const std::size_t empty = carry_.size() - text - 1;
       carry_.resize(text);
       auto result = end_carried_line(out);
-      line_ += empty;
+      for (std::size_t i = 0; i < empty; ++i) static_cast<void>(line({}, out));  // cannot be refused
       after_return_ = true;
       if (!result) return result;
     }

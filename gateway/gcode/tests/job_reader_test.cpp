@@ -1,5 +1,8 @@
 #include "gateway/gcode/job_reader.hpp"
 
+#include <algorithm>
+#include <random>
+
 #include "gateway/gcode/tests/test_support.hpp"
 
 namespace kinebus::gcode {
@@ -87,6 +90,47 @@ TEST(JobReader, LinesMayEndAsTheyLike) {
   EXPECT_EQ(read_in_chunks("G0 X1\rG0 X2\nG0 X3\r\nG0 X4\r\rG0 X5", 4).texts.back(), "6 end");
   // A CR within a line is a blank where lines end with LF.
   EXPECT_EQ(read_in_chunks("G21\nG0\rX1\nG0 X2", 3).texts.back(), "3 end");
+}
+
+/// Everything that a reading that goes on behind refused lines gives.
+std::string read_all(std::string_view text, std::size_t chunk) {
+  Options options;
+  options.default_feed_mm_per_s = 10;
+  Interpreter interpreter(options);
+  JobReader reader(interpreter);
+  CommandBuffer out;
+  std::string all;
+  const auto told = [&](const Result<void, ParseError>& result) {
+    if (result) return false;
+    all += to_string(result.error()) + "\n";
+    reader.skip_refused();
+    return true;
+  };
+  for (std::size_t at = 0; at < text.size(); at += chunk) {
+    std::string_view part = text.substr(at, chunk);
+    while (told(reader.read(part, out))) part.remove_prefix(reader.taken());
+    EXPECT_EQ(reader.taken(), part.size());
+  }
+  while (told(reader.finish(out))) {
+  }
+  for (const canonical::Line& line : out) all += canonical::to_text(line) + "\n";
+  EXPECT_EQ(reader.bytes(), text.size());
+  return all + std::to_string(reader.lines()) + " lines, " + std::to_string(reader.refused()) + " refused";
+}
+
+TEST(JobReader, AnyTextInAnyChunksReadsTheSame) {
+  constexpr unsigned kSeed = 5;
+  std::mt19937 random(kSeed);
+  const std::vector<std::string> parts = {"\r",   "\n",     "\r\n", "\r\r\n", "G1 X1", "G0 Y2",
+                                          "X3 Y", "M99999", "; c",  ";\r",    " ",     "\xEF\xBB\xBF"};
+  for (int run = 0; run < 3000; ++run) {
+    std::string text;
+    for (auto i = 1 + random() % 14; i > 0; --i) text += parts[random() % parts.size()];
+    if (run % 100 == 0) text += std::string(JobReader::kMaxLine + 1000, 'x') + "\nG1 X9\n";
+    const std::string whole = read_all(text, text.size());
+    for (std::size_t chunk = 1; chunk < std::min<std::size_t>(text.size(), 20); ++chunk)
+      ASSERT_EQ(read_all(text, chunk), whole) << "seed " << kSeed << " run " << run << " chunk " << chunk;
+  }
 }
 
 TEST(JobReader, AByteOrderMarkIsPassedOver) {
