@@ -75,7 +75,7 @@ std::optional<MachineModel> model_of(const joblink::MachineInfo& machine) {
   return m;
 }
 
-gcode::Pose to_pose(const joblink::Pose& pose) {
+kinebus::Pose to_pose(const joblink::Pose& pose) {
   return {pose.x_mm(), pose.y_mm(), pose.z_mm(), pose.a_rad(), pose.c_rad(), pose.e_mm()};
 }
 

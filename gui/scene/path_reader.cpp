@@ -10,7 +10,6 @@
 namespace kinebus::gui {
 namespace {
 
-using canonical::Frame;
 using gcode::kAxisA;
 using gcode::kAxisC;
 using gcode::kAxisE;
@@ -23,12 +22,12 @@ constexpr double kTurnStep_rad = 2 * std::numbers::pi / 180;
 constexpr double kNoExtrusion_mm = 1e-9;
 constexpr double kMinutes = 60;
 
-bool turned(const canonical::Pose& pose) {
+bool turned(const Pose& pose) {
   return pose[kAxisA] != 0 || pose[kAxisC] != 0;
 }
 
-canonical::Pose between(const canonical::Pose& from, const canonical::Pose& to, double share) {
-  canonical::Pose pose = from;
+Pose between(const Pose& from, const Pose& to, double share) {
+  Pose pose = from;
   for (std::size_t i = 0; i < pose.size(); ++i) pose[i] += (to[i] - from[i]) * share;
   return pose;
 }

@@ -10,6 +10,7 @@
 
 #include "gateway/gcode/interpreter.hpp"
 #include "gateway/gcode/job_reader.hpp"
+#include "gateway/pose.hpp"
 #include "gui/scene/tool_path.hpp"
 
 namespace kinebus::gui {
@@ -36,8 +37,6 @@ class PathReader {
   ToolPath finish();
 
  private:
-  using Pose = canonical::Pose;
-
   void drain();
   void take(const canonical::Line& line);
   void follow_plane();
@@ -55,7 +54,7 @@ class PathReader {
   ToolPath path_;
 
   Pose at_{};  ///< as the last command left it, in frame_
-  canonical::Frame frame_ = canonical::Frame::kMachine;
+  Frame frame_ = Frame::kMachine;
   std::uint32_t line_ = 0;
   PathKind kind_ = PathKind::kTravel;  ///< of the move at work
   bool extrudes_ = false;              ///< any extrusion so far

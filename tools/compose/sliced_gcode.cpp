@@ -9,17 +9,16 @@
 
 #include "gateway/gcode/codes.hpp"
 #include "gateway/gcode/job_reader.hpp"
+#include "gateway/pose.hpp"
 
 namespace kinebus::compose {
 namespace {
-
-using canonical::Pose;
 
 // Where the tool stands as long as the piece has not said where: the composer brings it to the first place
 // that it states. Farther away than any piece.
 constexpr double kUnplaced_mm = 1e6;
 constexpr double kNoMotion_mm = 1e-9;
-constexpr std::size_t kE = 5;
+constexpr std::size_t kFilament = 5;
 
 bool placed(double coordinate_mm) {
   return std::abs(coordinate_mm) < kUnplaced_mm / 2;
@@ -131,7 +130,7 @@ class Reader {
     if (const auto* feed = std::get_if<canonical::Feed>(&command)) {
       const double tool =
           std::hypot(feed->target[0] - at_[0], feed->target[1] - at_[1], feed->target[2] - at_[2]);
-      const double length = tool > 0 ? tool : std::abs(feed->target[kE] - at_[kE]);
+      const double length = tool > 0 ? tool : std::abs(feed->target[kFilament] - at_[kFilament]);
       const double per_s = feed->inverse_time_s > 0 ? length / feed->inverse_time_s : feed->feed_per_s;
       move(line.line, 1, feed->target, per_s);
     } else if (const auto* traverse = std::get_if<canonical::Traverse>(&command)) {
@@ -139,7 +138,7 @@ class Reader {
     } else if (const auto* arc = std::get_if<canonical::Arc>(&command)) {
       turn(line.line, *arc);
     } else if (const auto* set = std::get_if<canonical::SetPosition>(&command)) {
-      if (set->frame != canonical::Frame::kMachine)
+      if (set->frame != Frame::kMachine)
         refuse(line.line, "frames are set by the composer; export the piece in its own coordinates");
       at_ = set->pose;
     } else if (const auto* home = std::get_if<canonical::Home>(&command)) {
@@ -170,7 +169,7 @@ class Reader {
     const bool across = target[0] != at_[0] || target[1] != at_[1];
     for (std::size_t axis = 0; axis < 3; ++axis)
       if (placed(target[axis]) && (axis == 2 ? target[2] != at_[2] : across)) move.to_mm[axis] = target[axis];
-    move.e_mm = target[kE] - at_[kE];
+    move.e_mm = target[kFilament] - at_[kFilament];
     if (std::abs(move.e_mm) < kNoMotion_mm) move.e_mm = 0;
     if (const double feed = feed_per_s * 60; feed > 0 && std::abs(feed - feed_) > 1e-9 * feed)
       move.feed_mm_per_min = feed_ = feed;

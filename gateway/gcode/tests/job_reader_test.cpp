@@ -79,7 +79,7 @@ TEST(JobReader, LinesMayEndAsTheyLike) {
   for (const std::string& end : ends) {
     const std::string text = "G21" + end + "G1 X1 F600 ; out" + end + end + "G1 X2" + end + "G1 X3";
     for (std::size_t chunk = 1; chunk <= text.size(); ++chunk) {
-      const Outcome outcome = read_in_chunks(text, chunk);
+      const Reading outcome = read_in_chunks(text, chunk);
       EXPECT_EQ(outcome.error, "") << chunk;
       ASSERT_EQ(outcome.texts.size(), 5U) << chunk;
       EXPECT_EQ(outcome.lines, 5U) << chunk;
@@ -135,7 +135,7 @@ TEST(JobReader, AnyTextInAnyChunksReadsTheSame) {
 
 TEST(JobReader, AByteOrderMarkIsPassedOver) {
   for (const std::size_t chunk : {1U, 2U, 100U}) {
-    const Outcome outcome = read_in_chunks("\xEF\xBB\xBFG0 X1\nG0 X2\n", chunk);
+    const Reading outcome = read_in_chunks("\xEF\xBB\xBFG0 X1\nG0 X2\n", chunk);
     EXPECT_EQ(outcome.error, "");
     EXPECT_EQ(outcome.texts.size(), 4U);
   }

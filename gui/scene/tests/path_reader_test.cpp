@@ -171,9 +171,9 @@ const std::vector<Job> kJobs = {
 };
 
 /// Where the tool is on the part after each line that moves, by the canonical commands alone.
-std::map<std::uint32_t, canonical::Pose> canonical_ends(const std::string& text) {
+std::map<std::uint32_t, Pose> canonical_ends(const std::string& text) {
   gcode::Interpreter interpreter(PathReader::any_machine());
-  std::map<std::uint32_t, canonical::Pose> ends;
+  std::map<std::uint32_t, Pose> ends;
   gcode::CommandBuffer out;
   std::uint32_t number = 0;
   for (std::size_t at = 0; at < text.size() && !interpreter.ended();) {
@@ -182,8 +182,8 @@ std::map<std::uint32_t, canonical::Pose> canonical_ends(const std::string& text)
     at = end + 1;
   }
   for (const canonical::Line& line : out) {
-    const auto put = [&](const canonical::Pose& pose, canonical::Frame frame) {
-      ends[line.line] = gcode::in_frame(pose, frame, canonical::Frame::kPart);
+    const auto put = [&](const Pose& pose, Frame frame) {
+      ends[line.line] = gcode::in_frame(pose, frame, Frame::kPart);
     };
     if (const auto* traverse = std::get_if<canonical::Traverse>(&line.command))
       put(traverse->target, traverse->frame);
