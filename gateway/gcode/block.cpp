@@ -173,7 +173,8 @@ class BlockReader {
     }
     if (letter == 'G') return has_value ? add_g(value, column) : fail(column, say("G needs a number"));
     if (letter == 'M') return has_value ? add_m(value, column) : fail(column, say("M needs a number"));
-    if (letter == 'O')
+    // A bare O belongs to G28 (home where it is needed).
+    if (letter == 'O' && (has_value || (!cursor_.at_end() && *cursor_.p == '<')))
       return fail(column, say("O words (subroutines, loops, program numbers) are not supported"));
     if (!(std::abs(value) <= kLargestWord))
       return fail(column, say("%1 is too large (10^9 at most)", std::string(1, letter)));

@@ -16,6 +16,7 @@ namespace kinebus::canonical {
 struct Traverse {  ///< G0: as fast as the machine allows
   Pose target{};
   Frame frame{};
+  double speed_per_s = 0;  ///< > 0: no faster than this; as Feed::feed_per_s
 };
 
 struct Feed {  ///< G1

@@ -61,7 +61,10 @@ void append_limits(std::string& text, std::string_view name, const std::array<do
 }
 
 struct Writer {
-  std::string operator()(const Traverse& c) const { return "traverse " + pose_text(c.target, c.frame); }
+  std::string operator()(const Traverse& c) const {
+    return "traverse " + pose_text(c.target, c.frame) +
+           (c.speed_per_s > 0 ? feed_text(c.speed_per_s, 0) : "");
+  }
   std::string operator()(const Feed& c) const {
     return "feed " + pose_text(c.target, c.frame) + feed_text(c.feed_per_s, c.inverse_time_s);
   }

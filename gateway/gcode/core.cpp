@@ -223,6 +223,7 @@ void Core::begin_program() {
   m.tool_length_mm = 0;
   m.spindle_turns = 0;
   m.feed_known = options_.default_feed_mm_per_s > 0;
+  m.traverse_limited = false;
   m.feed_mm_per_s = options_.default_feed_mm_per_s;
   m.feed_rad_per_s = options_.default_feed_mm_per_s * std::numbers::pi / 180;
   m.position = in_frame(m.position, m.frame, wanted_frame());

@@ -124,9 +124,9 @@ double apply(Operator op, double left, double right) {
     case Operator::kDivide:
       return left / right;
     case Operator::kModulo: {
-      // RS274/NGC: the result has the sign of the divisor.
+      // RS274/NGC: never below 0, whatever the signs.
       const double rest = std::fmod(left, right);
-      return rest != 0 && (rest < 0) != (right < 0) ? rest + right : rest;
+      return rest < 0 ? rest + std::abs(right) : rest;
     }
     case Operator::kPlus:
       return left + right;

@@ -30,8 +30,9 @@ struct Options {
   /// G4 P counts milliseconds in printer firmware and seconds in RS274/NGC. G4 S is always seconds.
   DwellUnit dwell_p_unit = DwellUnit::kMilliseconds;
   double default_feed_mm_per_s = 0;  ///< until the first F; 0: a feed move without F is refused
-  bool traverse_uses_feed = false;   ///< G0 means G1, as in Marlin
-  bool block_delete = false;         ///< lines that begin with / are skipped
+  /// As Cura writes travel: once a program has written an F with G0, G0 goes no faster than the F in force.
+  bool traverse_uses_feed = false;
+  bool block_delete = false;  ///< lines that begin with / are skipped
   /// How far the start and end radius of an arc may differ. Arcs within it are corrected to go through both
   /// ends.
   double arc_radius_tolerance_mm = 0.005;

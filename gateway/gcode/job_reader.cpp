@@ -1,42 +1,134 @@
 #include "gateway/gcode/job_reader.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cstring>
+#include <optional>
+#include <utility>
 
 namespace kinebus::gcode {
 namespace {
 
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
 bool is_comment(std::string_view text) {
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   const std::size_t first = text.find_first_not_of(" \t\r");
   return first != std::string_view::npos && text[first] == ';';
 }
 
+/// Files that are often taken for G-code, by their first bytes.
+std::optional<Sentence> not_text(std::string_view begin) {
+  struct Kind {
+    std::string_view begin;
+    const char* words;
+  };
+  static constexpr std::array<Kind, 5> kKinds = {{
+      {"GCDE", phrase("this is binary G-code (.bgcode): have the slicer write it as text")},
+      {"PK\x03\x04", phrase("this is a ZIP archive (3MF or similar): unpack the G-code in it first")},
+      {"\x1F\x8B", phrase("this is a gzip archive: unpack it first")},
+      {"\xFF\xFE", phrase("this text is UTF-16: save it as UTF-8")},
+      {"\xFE\xFF", phrase("this text is UTF-16: save it as UTF-8")},
+  }};
+  for (const Kind& kind : kKinds)
+    if (begin.starts_with(kind.begin)) return say(kind.words);
+  return std::nullopt;
+}
+
 }  // namespace
+
+Result<void, ParseError> JobReader::refuse(ParseError error) {
+  ++refused_;
+  if (skips_) {
+    if (std::find(reasons_.begin(), reasons_.end(), error.message.english()) != reasons_.end()) {
+      ++untold_;
+      return {};
+    }
+  }
+  if (reasons_.size() < kReasons) reasons_.push_back(error.message.english());
+  return failed_ = Error<ParseError>(std::move(error));
+}
 
 Result<void, ParseError> JobReader::line(std::string_view text, CommandBuffer& out) {
   ++line_;
-  if (interpreter_.ended()) return {};
+  if (interpreter_.ended() || no_text_) return {};
+  const bool too_long = text.size() > kMaxLine && !is_comment(text);
+  if (line_ == 1) {
+    if (auto words = not_text(text)) {
+      no_text_ = true;
+      return refuse({1, 1, std::move(*words)});
+    }
+    if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  }
   if (const void* nul = std::memchr(text.data(), 0, text.size())) {
     const auto column = static_cast<std::uint32_t>(static_cast<const char*>(nul) - text.data()) + 1;
-    return failed_ = Error<ParseError>(
-               {line_, column, say("the text holds a NUL byte: this is not a G-code file")});
+    return refuse({line_, column, say("the text holds a NUL byte: this is not a G-code file")});
   }
-  if (text.size() > kMaxLine && !is_comment(text))
-    return failed_ = Error<ParseError>(
-               {line_, static_cast<std::uint32_t>(kMaxLine) + 1, say("the line is longer than 4096 bytes")});
+  if (too_long)
+    return refuse(
+        {line_, static_cast<std::uint32_t>(kMaxLine) + 1, say("the line is longer than 4096 bytes")});
   if (!text.empty() && text.back() == '\r') text.remove_suffix(1);
   auto result = interpreter_.execute(text, line_, out);
-  if (!result) failed_ = result;
+  if (!result) return refuse(std::move(result.error()));
   return result;
 }
 
+Result<void, ParseError> JobReader::end_carried_line(CommandBuffer& out) {
+  auto result = line(carry_, out);
+  carry_.clear();
+  long_comment_ = false;
+  return result;
+}
+
+/// Looks for the end of the text's first line. A CR is one when something else than LF follows; blanks of CRs
+/// before an LF are not.
+void JobReader::find_ending(std::string_view chunk) {
+  if (!carry_.empty() && carry_.back() == '\r') {
+    const std::size_t next = chunk.find_first_not_of('\r');
+    if (next != std::string_view::npos) ending_ = chunk[next] == '\n' ? Ending::kFeed : Ending::kReturn;
+    return;
+  }
+  const std::size_t end = chunk.find_first_of("\r\n");
+  if (end == std::string_view::npos) return;
+  const std::size_t next = chunk.find_first_not_of('\r', end);
+  if (next != std::string_view::npos) ending_ = chunk[next] == '\n' ? Ending::kFeed : Ending::kReturn;
+}
+
 Result<void, ParseError> JobReader::read(std::string_view chunk, CommandBuffer& out) {
+  taken_ = 0;
   if (!failed_) return failed_;
-  bytes_ += chunk.size();
+  const char* const begin = chunk.data();
+  if (ending_ == Ending::kUnknown) {
+    find_ending(chunk);
+    if (ending_ == Ending::kReturn && !carry_.empty() && carry_.back() == '\r') {
+      // The CRs at the end of what is carried turn out to end lines; all but the first are empty ones.
+      const std::size_t text = carry_.find_last_not_of('\r') + 1;
+      const std::size_t empty = carry_.size() - text - 1;
+      carry_.resize(text);
+      auto result = end_carried_line(out);
+      for (std::size_t i = 0; i < empty; ++i) static_cast<void>(line({}, out));  // cannot be refused
+      after_return_ = true;
+      if (!result) return result;
+    }
+  }
+  const bool returns = ending_ == Ending::kReturn;
   while (!chunk.empty()) {
-    const std::size_t end = chunk.find('\n');
+    if (std::exchange(after_return_, false) && chunk.front() == '\n') {
+      chunk.remove_prefix(1);
+      continue;
+    }
+    const std::size_t end = returns ? chunk.find_first_of("\r\n") : chunk.find('\n');
     const bool whole = end != std::string_view::npos;
     const std::string_view part = chunk.substr(0, end);
+    after_return_ = returns && whole && chunk[end] == '\r';
     chunk.remove_prefix(whole ? end + 1 : chunk.size());
+    const auto taken = static_cast<std::size_t>(chunk.data() - begin);
+    bytes_ += taken - taken_;
+    taken_ = taken;
+    if (rest_of_line_) {
+      rest_of_line_ = !whole;
+      continue;
+    }
     if (whole && carry_.empty()) {
       if (auto result = line(part, out); !result) return result;
       continue;
@@ -47,26 +139,26 @@ Result<void, ParseError> JobReader::read(std::string_view chunk, CommandBuffer& 
         // Too long to keep: its beginning says whether it may be passed over.
         carry_.resize(kMaxLine + 1);
         long_comment_ = is_comment(carry_);
-        if (!long_comment_) return line(carry_, out);
+        if (!long_comment_) {
+          rest_of_line_ = !whole;
+          if (auto result = end_carried_line(out); !result) return result;
+          continue;
+        }
       }
     }
     if (!whole) continue;
-    auto result = line(carry_, out);
-    carry_.clear();
-    long_comment_ = false;
-    if (!result) return result;
+    if (auto result = end_carried_line(out); !result) return result;
   }
+  const auto taken = static_cast<std::size_t>(chunk.data() - begin);
+  bytes_ += taken - taken_;
+  taken_ = taken;
   return {};
 }
 
 Result<void, ParseError> JobReader::finish(CommandBuffer& out) {
   if (!failed_) return failed_;
-  if (!carry_.empty()) {
-    auto result = line(carry_, out);
-    carry_.clear();
-    long_comment_ = false;
-    if (!result) return result;
-  }
+  if (!carry_.empty())
+    if (auto result = end_carried_line(out); !result) return result;
   interpreter_.finish(line_, out);
   return {};
 }

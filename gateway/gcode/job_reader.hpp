@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "gateway/gcode/error.hpp"
 #include "gateway/gcode/interpreter.hpp"
@@ -12,9 +13,10 @@
 
 namespace kinebus::gcode {
 
-/// Splits chunks into lines (LF, CRLF or CR LF across chunks; the last line may lack its end), counts them
-/// from 1 and hands them to the interpreter. Refused: NUL bytes outside comments' reach, lines of more than
-/// kMaxLine bytes that are not comments. Memory: one line.
+/// Splits chunks into lines, counts them from 1 and hands them to the interpreter. Lines end with LF or CRLF;
+/// in a text whose first line ends with CR alone, with CR, LF or CRLF. The last line may lack its end, a byte
+/// order mark of UTF-8 is passed over. Refused: what is no text (named where it is known: binary G-code, ZIP,
+/// gzip, UTF-16), NUL bytes, lines of more than kMaxLine bytes that are not comments. Memory: one line.
 class JobReader {
  public:
   static constexpr std::size_t kMaxLine = 4096;
@@ -24,30 +26,50 @@ class JobReader {
   /// Carries out all whole lines of the text so far. After an error the reader stays at it: every further
   /// call returns the same error. Text after the program's end is passed over.
   Result<void, ParseError> read(std::string_view chunk, CommandBuffer& out);
+  /// Bytes of the last chunk that are done with: fewer than it had only when a line was refused.
+  std::size_t taken() const { return taken_; }
 
   /// The text is complete: carries out an unfinished last line and appends End if the job did not.
   Result<void, ParseError> finish(CommandBuffer& out);
 
-  /// Goes on behind a refused line, so that a check finds all errors of a job. What is left of the chunk that
-  /// held it is lost: give one line at a time.
+  /// Goes on behind a refused line, so that a check finds all errors of a job: read() the rest of the chunk,
+  /// from taken(). From here on a line that is refused in the words of an earlier one is passed over: one
+  /// code that is not known, or the mode that it would have set, is told once and not for a thousand lines.
   void skip_refused() {
     failed_ = {};
-    carry_.clear();
-    long_comment_ = false;
+    skips_ = true;
   }
+  std::uint32_t refused() const { return refused_; }  ///< lines refused so far
+  std::uint32_t untold() const { return untold_; }    ///< of them: passed over, in words told before
 
   std::uint32_t lines() const { return line_; }   ///< lines seen so far
   std::uint64_t bytes() const { return bytes_; }  ///< bytes handed to read()
+  /// What lines end with: LF until a CR was found to end the first.
+  char line_end() const { return ending_ == Ending::kReturn ? '\r' : '\n'; }
 
  private:
+  enum class Ending : std::uint8_t { kUnknown, kFeed, kReturn };
+  // Different reasons kept to compare with: as many as a list of problems shows.
+  static constexpr std::size_t kReasons = 300;
+
   Result<void, ParseError> line(std::string_view text, CommandBuffer& out);
+  Result<void, ParseError> refuse(ParseError error);
+  Result<void, ParseError> end_carried_line(CommandBuffer& out);
+  void find_ending(std::string_view chunk);
 
   Interpreter& interpreter_;
   std::string carry_;          ///< the beginning of a line whose end has not come yet
   bool long_comment_ = false;  ///< carry_ stands for a comment line that is passed over to its end
-  std::uint32_t line_ = 0;
+  bool rest_of_line_ = false;  ///< of one that was refused for its length
+  bool no_text_ = false;       ///< refused as a whole
+  Ending ending_ = Ending::kUnknown;
+  bool after_return_ = false;  ///< kReturn: an LF now belongs to the CR before it
+  std::uint32_t line_ = 0, refused_ = 0, untold_ = 0;
   std::uint64_t bytes_ = 0;
+  std::size_t taken_ = 0;
   Result<void, ParseError> failed_;
+  bool skips_ = false;
+  std::vector<std::string> reasons_;  ///< told so far
 };
 
 }  // namespace kinebus::gcode

@@ -64,6 +64,8 @@ bool Core::run_motion() {
   const std::uint32_t words = block_.present & ~used_;
   if (is_arc && ((words & (kAllAxes | kCentreWords)) != 0 || block_.has(GGroup::kMotion)))
     return run_arc(clockwise);
+  if (m.motion == Motion::kTraverse && options_.traverse_uses_feed && block_.has('F'))
+    m.traverse_limited = true;
   if (is_arc || m.motion == Motion::kNone || (words & kAllAxes) == 0) return true;
   for (const char letter : kAxisLetters)
     if ((words & block_.bare & Block::bit(letter)) != 0)
@@ -131,17 +133,22 @@ bool Core::move_to(const Pose& program, const Pose& target, bool traverse) {
   const double turned =
       std::max(std::abs(target[kAxisA] - m.position[kAxisA]), std::abs(target[kAxisC] - m.position[kAxisC]));
   const bool moves = linear > kNoMotion || extruded > kNoMotion || turned > kNoMotion;
-  if (moves && traverse && !options_.traverse_uses_feed && extruded <= kNoMotion) {
-    out_->push_back({line_, canonical::Traverse{target, m.frame}});
+  const bool turns_alone = linear <= kNoMotion && turned > kNoMotion && turned >= extruded;
+  const bool limited = m.traverse_limited || (traverse && options_.traverse_uses_feed && block_.has('F'));
+  if (moves && traverse && extruded <= kNoMotion) {
+    canonical::Traverse command{target, m.frame, 0};
+    if (limited && feed.known && !m.inverse_time)
+      command.speed_per_s = turns_alone ? feed.rad_per_s : feed.mm_per_s;
+    out_->push_back({line_, command});
     m.position = target;
   } else if (moves) {
     canonical::Feed command{target, m.frame, 0, 0};
-    const bool turns_alone = linear <= kNoMotion && turned > kNoMotion && turned >= extruded;
     if (!speed_for(turns_alone, feed, command.feed_per_s, command.inverse_time_s)) return false;
     out_->push_back({line_, command});
     m.position = target;
   }
   m.program = program;
+  m.traverse_limited = limited;
   m.feed_known = feed.known;
   m.feed_mm_per_s = feed.mm_per_s;
   m.feed_rad_per_s = feed.rad_per_s;

@@ -282,8 +282,10 @@ bool Core::home() {
     pass_over(letter);
     axes |= 1U << axis;
   }
-  // G28 W: without bed levelling, which is never done here.
-  if (block_.is_bare('W')) pass_over('W');
+  // G28 W: without bed levelling, which is never done here. G28 O: only where it is needed; a machine that
+  // knows its position goes to its reference without looking for switches, whatever the word says.
+  for (const char letter : {'W', 'O'})
+    if (block_.is_bare(letter)) pass_over(letter);
   Pose machine = in_frame(m.position, m.frame, Frame::kMachine);
   for (std::size_t axis = kAxisX; axis <= kAxisC; ++axis)
     if (axes == 0 || (axes >> axis & 1U) != 0) machine[axis] = options_.home[axis];

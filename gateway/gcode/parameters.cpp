@@ -49,7 +49,9 @@ double read_parameter(const State& state, int index) {
   if (index >= kPointFirst) {
     const int axis = kSlotAxis[static_cast<std::size_t>(index - kPointFirst)];
     if (axis < 0) return 0;
-    return m.program[static_cast<std::size_t>(axis)] / unit(static_cast<std::size_t>(axis));
+    const bool turns = axis == kAxisA || axis == kAxisC;
+    return m.program[static_cast<std::size_t>(axis)] / unit(static_cast<std::size_t>(axis)) /
+           (m.inches && !turns ? 25.4 : 1);
   }
   if (index == kG92Active) return m.g92_active ? 1 : 0;
   if (index == kSystem) return m.coordinate_system + 1;

@@ -15,7 +15,8 @@ ParameterUse parameter_use(int index);
 
 /// Value of #index, which must be readable. #5211-#5219 are the G92 offsets, #5221-#5229 those of G54, and so
 /// on in steps of 20 to G59.3 (X Y Z A B C U V W: mm, degrees), #5210: G92 is active, #5220: 1 for G54 ... 9
-/// for G59.3, #5400: tool, #5420-#5425: current point X Y Z A B C (mm, degrees).
+/// for G59.3, #5400: tool, #5420-#5425: current point X Y Z A B C in the
+/// units in force (mm or inches, degrees).
 double read_parameter(const State& state, int index);
 
 bool is_offset_parameter(int index);

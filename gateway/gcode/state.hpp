@@ -41,11 +41,12 @@ struct ModalState {
   bool g92_active = false;
   bool tilted = false;  ///< G68.2
   bool feed_known = false;
-  bool retracted = false;     ///< G10
-  bool ended = false;         ///< M2, M30 or the closing % was read
-  bool content_seen = false;  ///< a block came before: a % now is the closing one
-  int spindle_turns = 0;      ///< M3 1, M4 -1, M5 0
-  double spindle_rpm = 0;     ///< the last S
+  bool traverse_limited = false;  ///< an F stood with G0: it limits G0 (Options::traverse_uses_feed)
+  bool retracted = false;         ///< G10
+  bool ended = false;             ///< M2, M30 or the closing % was read
+  bool content_seen = false;      ///< a block came before: a % now is the closing one
+  int spindle_turns = 0;          ///< M3 1, M4 -1, M5 0
+  double spindle_rpm = 0;         ///< the last S
   int tool = 0;
   int coordinate_system = 0;  ///< 0: G54
 

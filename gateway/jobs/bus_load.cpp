@@ -29,6 +29,11 @@ void BusLoad::add(BusTime when, std::int64_t bits) {
   peak_bits_ = std::max(peak_bits_, window_bits_);
 }
 
+void BusLoad::skip(BusTime until, std::int64_t bits) {
+  advance(until);
+  total_bits_ += bits;
+}
+
 double BusLoad::mean() const {
   if (bucket_ < 0) return 0;
   const double seconds = static_cast<double>((bucket_ - first_bucket_ + 1) * kBucketNs) * 1e-9;

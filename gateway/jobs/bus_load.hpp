@@ -14,6 +14,8 @@ inline constexpr double kBusBitsPerSecond = 1'000'000;
 class BusLoad {
  public:
   void add(BusTime when, std::int64_t bits);
+  /// Time passes with these bits, too evenly to be a peak.
+  void skip(BusTime until, std::int64_t bits);
   /// Lets empty time pass too. Called by add().
   void advance(BusTime now);
 

@@ -193,23 +193,25 @@ void JobPipeline::read_text(int& budget) {
   next_command_ = 0;
   char* const begin = text_.data();
   const char* end_of_line =
-      static_cast<const char*>(std::memchr(begin + text_at_, '\n', text_end_ - text_at_));
+      static_cast<const char*>(std::memchr(begin + text_at_, reader_->line_end(), text_end_ - text_at_));
   Result<void, gcode::ParseError> read{};
-  if (end_of_line) {
-    const auto length = static_cast<std::size_t>(end_of_line + 1 - begin) - text_at_;
+  if (const std::size_t length =
+          (end_of_line ? static_cast<std::size_t>(end_of_line + 1 - begin) : text_end_) - text_at_;
+      length > 0) {
+    // Without an end: the front of a line that the reader keeps.
     read = reader_->read({begin + text_at_, length}, commands_);
-    text_at_ += length;
-    bytes_ += length;
-  } else {
-    // The front of a line whose end is not here yet: the reader keeps it.
-    const std::size_t length = text_end_ - text_at_;
-    if (length > 0) read = reader_->read({begin + text_at_, length}, commands_);
-    bytes_ += length;
+    text_at_ += reader_->taken();
+    bytes_ += reader_->taken();
+  }
+  if (!end_of_line && read) {
     text_at_ = 0;
     text_end_ = source_->read(text_);
-    if (text_end_ == 0 && read) {
-      text_done_ = true;
+    if (text_end_ == 0) {
       read = reader_->finish(commands_);
+      text_done_ = read.has_value();
+      if (text_done_ && reader_->untold() > 0)
+        refuse(reader_->lines(), 0,
+               say("%1 more lines are refused for reasons named above", reader_->untold()));
     }
   }
   lines_ = reader_->lines();

@@ -15,6 +15,11 @@ constexpr BusTime kTick = std::chrono::milliseconds{20};
 constexpr BusTime kRatePeriod = std::chrono::milliseconds{100};
 /// From the first frame of a run to its START: the queues are filled meanwhile.
 constexpr BusTime kStartLead = std::chrono::milliseconds{200};
+/// What of a long wait is gone through frame by frame, at its beginning and its end: the background repeats
+/// itself within it.
+constexpr BusTime kSteady = std::chrono::seconds{10};
+/// No plan goes beyond this, 200 years: its nanoseconds still fit.
+constexpr BusTime kEndOfTime = std::chrono::hours{200 * 365 * 24};
 
 PathTime path_time(double ticks) {
   return PathTime{static_cast<std::int64_t>(ticks)};
@@ -70,7 +75,20 @@ void JobPlan::count(std::int64_t bits) {
 
 /// Lets `duration` of bus time pass with the background traffic alone.
 void JobPlan::pass(BusTime duration) {
-  const BusTime end = now_ + duration;
+  const BusTime end = now_ + std::min(duration, kEndOfTime - now_);
+  if (end - now_ > 2 * kSteady) {
+    pass(kSteady);
+    now_ = end - kSteady;
+    std::int64_t bits = 0;
+    for (Background& b : background_) {
+      if (b.due > now_) continue;
+      const std::int64_t frames = (now_ - b.due) / b.period + 1;
+      b.due += frames * b.period;
+      report_.frames += static_cast<std::uint64_t>(frames);
+      bits += frames * b.bits;
+    }
+    load_.skip(now_, bits);
+  }
   while (now_ < end) {
     now_ = std::min(now_ + kTick, end);
     for (Background& b : background_)

@@ -35,6 +35,7 @@ gcode::Options interpreter_options(const MachineDescription& machine, const Pose
   options.block_delete = machine.gcode.block_delete;
   options.arc_radius_tolerance_mm = machine.gcode.arc_radius_tolerance_mm;
   options.spindle = machine.spindle.present;
+  options.traverse_uses_feed = !machine.spindle.present;  // on a mill F is for cutting alone (RS274/NGC)
   options.retract_length_mm = machine.gcode.retract_mm;
   options.retract_mm_per_s = options.recover_mm_per_s = machine.gcode.retract_mm_per_s;
   options.retract_lift_mm = machine.gcode.retract_lift_mm;

@@ -147,7 +147,7 @@ Result<void, PlanError> Planner::Impl::add_arc(const canonical::Arc& arc, std::u
 Result<void, PlanError> Planner::Impl::complete(Move& move, double feed, double duration,
                                                 double feed_length) {
   if (move.traverse) {
-    move.speed = kUnlimited;
+    move.speed = feed > 0 ? feed * move.length / feed_length : kUnlimited;
   } else if (duration > 0) {
     move.speed = move.length / duration * feed_ratio;
   } else {
@@ -219,7 +219,7 @@ Result<void, PlanError> Planner::add(const canonical::Line& line) {
                           line.line);
   }
   if (const auto* traverse = std::get_if<canonical::Traverse>(&line.command)) {
-    return d.add_straight(traverse->target, traverse->frame, 0, 0, true, line.line);
+    return d.add_straight(traverse->target, traverse->frame, traverse->speed_per_s, 0, true, line.line);
   }
   if (const auto* arc = std::get_if<canonical::Arc>(&line.command)) return d.add_arc(*arc, line.line);
   if (const auto* mode = std::get_if<canonical::PathMode>(&line.command)) {

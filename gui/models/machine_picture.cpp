@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "gui/scene/path_reader.hpp"
+
 namespace kinebus::gui {
 namespace {
 
@@ -71,6 +73,20 @@ std::optional<MachineModel> model_of(const joblink::MachineInfo& machine) {
   m.z_mm = range(machine.reach().z_mm(), m.z_mm);
   m.radius_mm = machine.reach().radius_mm();
   return m;
+}
+
+kinebus::Pose to_pose(const joblink::Pose& pose) {
+  return {pose.x_mm(), pose.y_mm(), pose.z_mm(), pose.a_rad(), pose.c_rad(), pose.e_mm()};
+}
+
+gcode::Options reading_options(const joblink::MachineInfo& machine) {
+  gcode::Options options = PathReader::any_machine();
+  if (machine.has_bed_reference()) options.start = options.home = to_pose(machine.bed_reference());
+  if (const joblink::Range& a = machine.reach().a_rad(); a.min() < a.max()) {
+    options.a_min_rad = a.min();
+    options.a_max_rad = a.max();
+  }
+  return options;
 }
 
 PartPose pose_of(const joblink::Status& status) {

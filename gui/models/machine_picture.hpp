@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "gateway/gcode/interpreter.hpp"
 #include "gui/scene/machine_model.hpp"
 #include "protocol/joblink/kinebus.pb.h"
 
@@ -11,6 +12,10 @@ namespace kinebus::gui {
 
 /// nullopt: a machine without a picture.
 std::optional<MachineModel> model_of(const joblink::MachineInfo& machine);
+/// What the gateway told of the machine, for reading its jobs; the rest as the machine file has it by
+/// default.
+gcode::Options reading_options(const joblink::MachineInfo& machine);
+kinebus::Pose to_pose(const joblink::Pose& pose);
 PartPose pose_of(const joblink::Status& status);
 /// Travel of the carriages, in the order of the model's legs.
 std::vector<double> carriages_of(const joblink::MachineInfo& machine, const joblink::Status& status);

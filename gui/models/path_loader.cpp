@@ -8,7 +8,7 @@
 #include <QPointer>
 #include <QThreadPool>
 
-#include "gui/scene/gcode_scanner.hpp"
+#include "gui/scene/path_reader.hpp"
 
 namespace kinebus::gui {
 namespace {
@@ -21,22 +21,23 @@ struct Outcome {
 };
 
 Outcome load_file(const QString& path, const std::optional<MachineModel>& model,
-                  const std::atomic<bool>& cancelled, const std::function<void(double)>& progress) {
+                  const gcode::Options& machine, const std::atomic<bool>& cancelled,
+                  const std::function<void(double)>& progress) {
   QFile file(path);
   if (!file.open(QIODevice::ReadOnly)) return {nullptr, file.errorString()};
-  GcodeScanner scanner;
+  PathReader reader({.machine = machine});
   const auto total = static_cast<double>(std::max<qint64>(1, file.size()));
   double told = 0;
   while (!file.atEnd()) {
     if (cancelled) return {};
     const QByteArray part = file.read(kPartBytes);
     if (part.isEmpty()) return {nullptr, file.errorString()};
-    scanner.add({part.constData(), static_cast<std::size_t>(part.size())});
+    reader.add({part.constData(), static_cast<std::size_t>(part.size())});
     if (const double share = static_cast<double>(file.pos()) / total * 0.6; share > told + 0.05)
       progress(told = share);
   }
   auto scene = std::make_shared<ScenePath>();
-  scene->path = scanner.finish();
+  scene->path = reader.finish();
   const auto stop = [&] { return cancelled.load(); };
   progress(0.7);
   scene->levels = make_path_levels(scene->path, stop);
@@ -59,13 +60,14 @@ void PathLoader::cancel() {
   cancelled_.reset();
 }
 
-void PathLoader::load(const QString& file_path, const std::optional<MachineModel>& model) {
+void PathLoader::load(const QString& file_path, const std::optional<MachineModel>& model,
+                      const gcode::Options& machine) {
   cancel();
   cancelled_ = std::make_shared<std::atomic<bool>>(false);
   // The thread never touches this object: it posts to the application, which finds out whether it is still
   // there.
   QThreadPool::globalInstance()->start(
-      [self = QPointer<PathLoader>(this), cancelled = cancelled_, file_path, model] {
+      [self = QPointer<PathLoader>(this), cancelled = cancelled_, file_path, model, machine] {
         const auto post = [&](auto&& news) {
           QMetaObject::invokeMethod(
               qApp,
@@ -74,7 +76,7 @@ void PathLoader::load(const QString& file_path, const std::optional<MachineModel
               },
               Qt::QueuedConnection);
         };
-        Outcome outcome = load_file(file_path, model, *cancelled, [&](double share) {
+        Outcome outcome = load_file(file_path, model, machine, *cancelled, [&](double share) {
           post([share](PathLoader& loader) { emit loader.progressed(share); });
         });
         post([outcome = std::move(outcome)](PathLoader& loader) {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "gateway/gcode/interpreter.hpp"
 #include "gui/scene/gl_path.hpp"
 
 namespace kinebus::gui {
@@ -15,7 +16,9 @@ class PathLoader : public QObject {
  public:
   explicit PathLoader(QObject* parent = nullptr);
   ~PathLoader() override;
-  void load(const QString& file_path, const std::optional<MachineModel>& model);
+  /// `machine`: what is known of the machine that will run the job.
+  void load(const QString& file_path, const std::optional<MachineModel>& model,
+            const gcode::Options& machine);
   void cancel();
 
  signals:

@@ -33,7 +33,18 @@ PathSource::PathSource(Session& session, QObject* parent)
   });
 }
 
+void PathSource::follow_offsets() {
+  const joblink::Status& status = session_.status();
+  const std::size_t system = status.work_system();
+  if (system < 1 || system > offsets_.size()) return;
+  offsets_[system - 1] = to_pose(status.work_offset());
+  // A job that runs keeps the zeros that it began with.
+  if (offsets_ == read_with_ || file_path_.isEmpty() || loading_ || !status.job().empty()) return;
+  load(file_path_);
+}
+
 void PathSource::follow_status() {
+  follow_offsets();
   const QString job = QString::fromStdString(session_.status().job());
   if (job == running_) return;
   // Wait until the list of jobs has it: the hash tells whether it is in the cache.
@@ -52,6 +63,7 @@ void PathSource::clear() {
   file_path_.clear();
   error_.clear();
   running_.clear();
+  offsets_ = {};
   scene_ = nullptr;
   loading_ = false;
   emit changed();
@@ -67,7 +79,10 @@ void PathSource::load(const QString& path) {
   error_.clear();
   loading_ = true;
   progress_ = 0;
-  loader_.load(path, model_of(session_.machine()));
+  read_with_ = offsets_;
+  gcode::Options machine = reading_options(session_.machine());
+  machine.work_offsets = offsets_;
+  loader_.load(path, model_of(session_.machine()), machine);
   emit changed();
 }
 

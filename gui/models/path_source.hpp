@@ -5,6 +5,7 @@
 #include <QHash>
 #include <QObject>
 #include <QPointer>
+#include <optional>
 
 #include "gui/models/path_loader.hpp"
 
@@ -36,11 +37,14 @@ class PathSource : public QObject {
  private:
   void load(const QString& path);
   void follow_status();
+  void follow_offsets();
 
   Session& session_;
   PathLoader loader_;
   QPointer<JobDownload> download_;
   QHash<QString, QString> uploaded_files_;  ///< job name to the file it came from
+  /// Work zeros of the machine, as far as the gateway has told them, and those that the path was read with.
+  gcode::WorkOffsets offsets_{}, read_with_{};
   QString name_, file_path_, error_, running_;
   std::shared_ptr<const ScenePath> scene_;
   bool loading_ = false;

@@ -7,21 +7,37 @@
 namespace kinebus::gui {
 namespace {
 
-/// Leg vector from the platform's joint to the carriage's joint has this angle to its rail; 0 when upright.
-double leg_angle_rad(double along_mm, double length_mm) {
-  return std::acos(std::clamp(std::abs(along_mm) / length_mm, 0.0, 1.0));
-}
-
 double share_of(const Range& range, double value) {
   const double half = (range.max - range.min) / 2;
   if (!(half > 0)) return 1;
   return std::clamp(std::min(value - range.min, range.max - value) / half, 0.0, 1.0);
 }
 
-/// Platform's joint seen from the rail's foot.
-Vec3 joint_from_foot(const MachineModel& m, const MachineModel::Leg& leg, const PartPose& pose) {
-  if (m.kind == MachineModel::Kind::kLinearDelta) return pose.q_mm + leg.attachment_mm - leg.foot_mm;
-  return m.platform_mm(pose) + turn_x(pose.a_rad, leg.attachment_mm) - leg.foot_mm;
+/// A leg's platform joint as its rail sees it.
+struct LegPlace {
+  double along_mm = 0;      ///< the rail, from its foot
+  double radicand_mm2 = 0;  ///< square of what of the leg lies along the rail; < 0: out of reach
+};
+
+/// For each leg, in their order: `take(index, place)`; until it says no. One sine and cosine an angle.
+template <typename Take>
+bool each_leg(const MachineModel& m, const PartPose& pose, Take take) {
+  const bool delta = m.kind == MachineModel::Kind::kLinearDelta;
+  const Vec3 centre = delta ? pose.q_mm : m.platform_mm(pose);
+  const double c = delta ? 1 : std::cos(pose.a_rad), s = delta ? 0 : std::sin(pose.a_rad);
+  for (std::size_t i = 0; i < m.legs.size() && i < 4; ++i) {
+    const MachineModel::Leg& leg = m.legs[i];
+    const Vec3& at = leg.attachment_mm;
+    const Vec3 joint = centre + Vec3{at[0], c * at[1] - s * at[2], s * at[1] + c * at[2]} - leg.foot_mm;
+    const double along = dot(leg.rail, joint);
+    if (!take(i, LegPlace{along, leg.length_mm * leg.length_mm - dot(joint, joint) + along * along}))
+      return false;
+  }
+  return true;
+}
+
+double carriage_mm(const MachineModel::Leg& leg, const LegPlace& place, double upright_mm) {
+  return place.along_mm - leg.connector_mm + (leg.carriage_above ? 1 : -1) * upright_mm;
 }
 
 }  // namespace
@@ -32,34 +48,39 @@ Vec3 MachineModel::platform_mm(const PartPose& pose) const {
 
 std::optional<std::array<double, 4>> MachineModel::carriages_mm(const PartPose& pose) const {
   std::array<double, 4> travel{};
-  for (std::size_t i = 0; i < legs.size() && i < travel.size(); ++i) {
-    const Leg& leg = legs[i];
-    const Vec3 s = joint_from_foot(*this, leg, pose);
-    const double along = dot(leg.rail, s);
-    const double radicand = leg.length_mm * leg.length_mm - dot(s, s) + along * along;
-    if (radicand < 0) return std::nullopt;
-    travel[i] = along - leg.connector_mm + (leg.carriage_above ? 1 : -1) * std::sqrt(radicand);
-  }
-  return travel;
+  const bool reached = each_leg(*this, pose, [&](std::size_t i, const LegPlace& place) {
+    travel[i] = carriage_mm(legs[i], place, std::sqrt(std::max(0.0, place.radicand_mm2)));
+    return place.radicand_mm2 >= 0;
+  });
+  return reached ? std::optional(travel) : std::nullopt;
 }
 
 double MachineModel::margin(const PartPose& pose) const {
+  std::optional<std::array<double, 4>> travel;
+  return margin(pose, travel);
+}
+
+double MachineModel::margin(const PartPose& pose, std::optional<std::array<double, 4>>& travel_mm) const {
   double least = share_of(z_mm, pose.q_mm[2] + (z_mm.max - z_mm.min) * 0.02);
   if (round())
     least = std::min(least, std::clamp(1 - std::hypot(pose.q_mm[0], pose.q_mm[1]) / radius_mm, 0.0, 1.0));
   else
     least = std::min({least, share_of(x_mm, pose.q_mm[0]), share_of(y_mm, pose.q_mm[1])});
+  travel_mm.reset();
   if (legs.empty()) return least;
-  const auto travel = carriages_mm(pose);
-  if (!travel) return 0;
-  for (std::size_t i = 0; i < legs.size() && i < travel->size(); ++i) {
-    const Leg& leg = legs[i];
-    least = std::min(least, share_of(leg.travel_mm, (*travel)[i]));
-    const Vec3 s = joint_from_foot(*this, leg, pose);
-    const double along = dot(leg.rail, s) - (*travel)[i] - leg.connector_mm;
-    least = std::min(least,
-                     std::clamp(1 - leg_angle_rad(along, leg.length_mm) / max_leg_angle_rad, 0.0, 1.0) * 2);
-  }
+  std::array<double, 4> travel{};
+  double cosine = 1;  // of the leg that leans most
+  const bool reached = each_leg(*this, pose, [&](std::size_t i, const LegPlace& place) {
+    if (place.radicand_mm2 < 0) return false;
+    const double upright = std::sqrt(place.radicand_mm2);
+    travel[i] = carriage_mm(legs[i], place, upright);
+    least = std::min(least, share_of(legs[i].travel_mm, travel[i]));
+    cosine = std::min(cosine, upright / legs[i].length_mm);
+    return true;
+  });
+  if (!reached) return 0;
+  travel_mm = travel;
+  least = std::min(least, std::clamp(1 - std::acos(cosine) / max_leg_angle_rad, 0.0, 1.0) * 2);
   return std::clamp(least, 0.0, 1.0);
 }
 

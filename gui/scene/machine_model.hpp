@@ -49,6 +49,8 @@ struct MachineModel {
   /// How far a pose is from the nearest limit of reach, 0 (at it or beyond) .. 1 (as free as can be): travel
   /// of the carriages, angle of the legs, workspace.
   double margin(const PartPose& pose) const;
+  /// With the carriages' travels, which it needs anyway.
+  double margin(const PartPose& pose, std::optional<std::array<double, 4>>& travel_mm) const;
 };
 
 }  // namespace kinebus::gui

@@ -88,8 +88,7 @@ PathShades shade_path(const ToolPath& path, const std::optional<MachineModel>& m
     double margin = 1;
     if (model) {
       const PartPose pose = pose_at(path, i);
-      now = model->legs.empty() ? std::nullopt : model->carriages_mm(pose);
-      margin = model->margin(pose);
+      margin = model->margin(pose, now);
       if (i > 0 && path.feeds_mm_per_min[i] > 0) {
         const auto &a = path.points_mm[i - 1], &b = path.points_mm[i];
         const double length_mm = std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);

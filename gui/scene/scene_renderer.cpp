@@ -65,12 +65,6 @@ std::vector<QVector3D> circle(float radius_mm, float z_mm) {
 
 }  // namespace
 
-QMatrix4x4 SceneContent::path_frame() const {
-  QMatrix4x4 frame = figure.part_frame;
-  frame.translate(path_zero_mm);
-  return frame;
-}
-
 SceneRenderer::Budget SceneRenderer::budget_for(std::string_view name) {
   Budget budget;
   for (const std::string_view software :
@@ -209,7 +203,7 @@ void SceneRenderer::present(GLuint target) {
 
 PathView SceneRenderer::path_view(std::size_t max_lines) const {
   PathView view;
-  const QMatrix4x4 frame = content_.path_frame();
+  const QMatrix4x4 frame = content_.figure.part_frame;
   view.clip = world_clip_ * frame;
   view.eye_mm = frame.inverted().map(content_.camera.eye_mm());
   view.mm_per_pixel_at_1mm = content_.camera.mm_per_pixel(pixels_) / content_.camera.distance_mm;
@@ -344,7 +338,7 @@ void SceneRenderer::draw_mark() {
   const ScenePath* scene = path_.scene();
   if (scene == nullptr || content_.marked_vertex >= scene->path.size()) return;
   const auto& p = scene->path.points_mm[content_.marked_vertex];
-  const QVector3D place = content_.path_frame().map(QVector3D(p[0], p[1], p[2]));
+  const QVector3D place = content_.figure.part_frame.map(QVector3D(p[0], p[1], p[2]));
   const float size = content_.camera.mm_per_pixel(pixels_) * 9;
   gl_.glDisable(GL_DEPTH_TEST);
   QOpenGLShaderProgram& program = *programs_.bodies;

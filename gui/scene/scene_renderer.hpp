@@ -32,11 +32,9 @@ struct SceneColours {
 /// All that is seen, but the path itself.
 struct SceneContent {
   /// From the path's coordinates to the machine frame.
-  QMatrix4x4 path_frame() const;
 
   MachineFigure figure;
   MachineModel model;
-  QVector3D path_zero_mm;  ///< the path's zero, in the part's coordinates: a work offset
   bool has_machine = false;
   bool show_machine = true;
   bool show_reach = true;

@@ -39,8 +39,8 @@ struct ToolPath {
   std::vector<PathLayer> layers;                ///< ascending, together all vertices
   Box bounds_mm;                                ///< of what is worked
   std::uint32_t line_count = 0;
-  std::uint32_t unread_lines =
-      0;  ///< lines with words that only the gateway can work out (expressions, O-words)
+  std::uint32_t refused_lines =
+      0;  ///< lines that are no G-code for this machine; the path goes on behind them
   double work_length_mm = 0;
 
   std::size_t size() const { return points_mm.size(); }

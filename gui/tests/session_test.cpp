@@ -146,6 +146,32 @@ TEST_F(SessionTest, RunningJobsPathIsReadFromTheGatewayAndShown) {
   EXPECT_EQ(path.scene()->path.line_count, 4u);
 }
 
+TEST_F(SessionTest, APathIsReadWithTheMachinesReferenceAndWorkZeros) {
+  gateway.machine.mutable_bed_reference()->set_z_mm(120);
+  gateway.status.set_work_system(2);
+  gateway.status.mutable_work_offset()->set_y_mm(-4);
+  PathSource path(session);
+  connect();
+  path.show_file(file("G28\nG1 X1 E1 ; here G54 is not known yet\nG55\nG1 Y0 E2\nG1 W5\n"));
+  const auto last = [&] { return path.scene()->path.points_mm.back(); };
+  ASSERT_TRUE(wait_until([&] { return path.scene() != nullptr; }));
+  EXPECT_EQ(last(), (std::array<float, 3>{1, -4, 120}));
+  EXPECT_EQ(path.scene()->path.refused_lines, 1u);
+  // A zero that is set anew has the path read again.
+  gateway.status.set_work_system(1);
+  gateway.status.mutable_work_offset()->set_y_mm(0);
+  gateway.status.mutable_work_offset()->set_x_mm(7);
+  ASSERT_TRUE(wait_until([&] { return last()[0] == 8; }));
+  EXPECT_EQ(last(), (std::array<float, 3>{8, -4, 120}));
+  // Not under a job that runs: it keeps the zeros that it began with.
+  gateway.status.set_job("another.gcode");
+  gateway.status.mutable_work_offset()->set_x_mm(9);
+  const double now = session.status().time_s();
+  ASSERT_TRUE(wait_until([&] { return session.status().time_s() > now + 1; }));
+  EXPECT_FALSE(path.loading());
+  EXPECT_EQ(last()[0], 8);
+}
+
 TEST_F(SessionTest, AlarmsAreShownNewestFirstWithAdvice) {
   EventsModel events(session);
   connect();

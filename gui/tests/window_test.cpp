@@ -425,8 +425,8 @@ TEST_F(WindowTest, MillionLineJobIsShownWithoutBlockingTheWindow) {
   EXPECT_LE(big.quick_lines, SceneRenderer::budget_for("llvmpipe").quick_lines);
   EXPECT_LE(big.thread_ms, 3 * small.thread_ms);
   // The job is read elsewhere and drawn in slices: the window is never away for more than a share of what the
-  // job takes (0.03 to 0.06 measured).
-  EXPECT_LE(watchdog.most_cpu_ms, big.reading_ms / 10);
+  // job takes, which is four passes over its lines: read, put in levels, coloured, copied.
+  EXPECT_LE(watchdog.most_cpu_ms, big.reading_ms / 5);
   EXPECT_LE(peak_memory_mb(), 600);
 }
 

@@ -48,10 +48,10 @@
     <context>
         <name>kinebus::gui::ViewPage</name>
         <message numerus="yes">
-            <source>%Ln line(s) with expressions are not drawn</source>
+            <source>%Ln line(s) are refused and not drawn</source>
             <translation>
-                <numerusform>%Ln line with expressions is not drawn</numerusform>
-                <numerusform>%Ln lines with expressions are not drawn</numerusform>
+                <numerusform>%Ln line is refused and not drawn</numerusform>
+                <numerusform>%Ln lines are refused and not drawn</numerusform>
             </translation>
         </message>
     </context>

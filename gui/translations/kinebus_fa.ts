@@ -528,6 +528,26 @@
         <translation>%1 ناشناخته است</translation>
     </message>
     <message>
+        <source>this is binary G-code (.bgcode): have the slicer write it as text</source>
+        <translation>این G-code دودویی (.bgcode) است: بگذارید برش‌دهنده آن را به شکل متن بنویسد</translation>
+    </message>
+    <message>
+        <source>this is a ZIP archive (3MF or similar): unpack the G-code in it first</source>
+        <translation>این یک بایگانی ZIP (3MF یا مانند آن) است: نخست G-code درون آن را بیرون بیاورید</translation>
+    </message>
+    <message>
+        <source>this is a gzip archive: unpack it first</source>
+        <translation>این یک بایگانی gzip است: نخست آن را باز کنید</translation>
+    </message>
+    <message>
+        <source>this text is UTF-16: save it as UTF-8</source>
+        <translation>این متن UTF-16 است: آن را به شکل UTF-8 ذخیره کنید</translation>
+    </message>
+    <message>
+        <source>%1 more lines are refused for reasons named above</source>
+        <translation>%1 خط دیگر نیز به دلیل‌های یادشده پذیرفته نشد</translation>
+    </message>
+    <message>
         <source>the line is longer than 4096 bytes</source>
         <translation>خط از 4096 بایت درازتر است</translation>
     </message>
@@ -3581,9 +3601,9 @@
         <translation>%1 · %2 خط · %3 لایه · %4 متر مسیر</translation>
     </message>
     <message numerus="yes">
-        <source>%Ln line(s) with expressions are not drawn</source>
+        <source>%Ln line(s) are refused and not drawn</source>
         <translation>
-            <numerusform>%Ln خط دارای عبارت رسم نشد</numerusform>
+            <numerusform>%Ln خط پذیرفته نشد و رسم نشد</numerusform>
         </translation>
     </message>
     <message>

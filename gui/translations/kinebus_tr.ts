@@ -528,6 +528,26 @@
         <translation>%1 bilinmiyor</translation>
     </message>
     <message>
+        <source>this is binary G-code (.bgcode): have the slicer write it as text</source>
+        <translation>bu ikili G kodu (.bgcode): dilimleyiciye metin olarak yazdırın</translation>
+    </message>
+    <message>
+        <source>this is a ZIP archive (3MF or similar): unpack the G-code in it first</source>
+        <translation>bu bir ZIP arşivi (3MF veya benzeri): önce içindeki G kodunu çıkarın</translation>
+    </message>
+    <message>
+        <source>this is a gzip archive: unpack it first</source>
+        <translation>bu bir gzip arşivi: önce açın</translation>
+    </message>
+    <message>
+        <source>this text is UTF-16: save it as UTF-8</source>
+        <translation>bu metin UTF-16: UTF-8 olarak kaydedin</translation>
+    </message>
+    <message>
+        <source>%1 more lines are refused for reasons named above</source>
+        <translation>%1 satır daha yukarıda belirtilen nedenlerle kabul edilmiyor</translation>
+    </message>
+    <message>
         <source>the line is longer than 4096 bytes</source>
         <translation>satır 4096 bayttan uzun</translation>
     </message>
@@ -3581,9 +3601,9 @@
         <translation>%1 · %2 satır · %3 katman · %4 m yol</translation>
     </message>
     <message numerus="yes">
-        <source>%Ln line(s) with expressions are not drawn</source>
+        <source>%Ln line(s) are refused and not drawn</source>
         <translation>
-            <numerusform>ifadeli %Ln satır çizilmedi</numerusform>
+            <numerusform>%Ln satır reddedildi ve çizilmedi</numerusform>
         </translation>
     </message>
     <message>

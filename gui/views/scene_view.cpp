@@ -210,7 +210,7 @@ void SceneView::fit_machine() {
 void SceneView::fit_part() {
   Box box;
   const Box part = next_path_ != nullptr ? next_path_->path.bounds_mm : Box{};
-  const QMatrix4x4 frame = part.empty() ? content_.figure.part_frame : content_.path_frame();
+  const QMatrix4x4 frame = content_.figure.part_frame;
   const auto add = [&](float x, float y, float z) {
     const QVector3D p = frame.map(QVector3D(x, y, z));
     box.add(std::array<float, 3>{p.x(), p.y(), p.z()});
@@ -233,7 +233,7 @@ void SceneView::show_vertex(std::uint32_t vertex) {
   if (next_path_ == nullptr || vertex >= next_path_->path.size()) return;
   const auto& p = next_path_->path.points_mm[vertex];
   content_.marked_vertex = vertex;
-  content_.camera.target_mm = content_.path_frame().map(QVector3D(p[0], p[1], p[2]));
+  content_.camera.target_mm = content_.figure.part_frame.map(QVector3D(p[0], p[1], p[2]));
   content_.camera.distance_mm = std::min(content_.camera.distance_mm, 220.0F);
   redraw();
 }

@@ -236,13 +236,8 @@ void ViewPage::take_status() {
       runs ? static_cast<std::uint32_t>(shown_->path.vertex_at_line(std::max(1u, status.line())))
            : UINT32_MAX;
   content.done_vertex = done;
-  // Jobs begin in G54.
-  const joblink::Pose& zero = status.work_offset();
-  if (status.work_system() == 1)
-    content.path_zero_mm = {static_cast<float>(zero.x_mm()), static_cast<float>(zero.y_mm()),
-                            static_cast<float>(zero.z_mm())};
   // A status that changes nothing to be seen lets the picture come to rest.
-  std::string seen = status.tool().SerializeAsString() + zero.SerializeAsString() + std::to_string(done);
+  std::string seen = status.tool().SerializeAsString() + std::to_string(done);
   for (const double joint : status.joints()) seen += ' ' + std::to_string(joint);
   seen += status.hotend().actual_celsius() > 50 ? 'h' : 'c';
   if (seen == seen_status_) return;
@@ -299,9 +294,9 @@ void ViewPage::tell_job() {
                         .arg(Format::isolated(path.name()), Format::number(shown_->path.line_count, 0),
                              Format::number(static_cast<double>(shown_->path.layers.size()), 0),
                              Format::number(shown_->path.work_length_mm / 1000, 1));
-    if (shown_->path.unread_lines > 0)
-      words += QStringLiteral(" · ") + tr("%Ln line(s) with expressions are not drawn", nullptr,
-                                          static_cast<int>(shown_->path.unread_lines));
+    if (shown_->path.refused_lines > 0)
+      words += QStringLiteral(" · ") + tr("%Ln line(s) are refused and not drawn", nullptr,
+                                          static_cast<int>(shown_->path.refused_lines));
     job_text_->set_text(words);
   } else {
     job_text_->set_text(tr("No job is shown. Choose one on the Jobs page."));

@@ -59,6 +59,10 @@ class JobText {
       line("G1 F{:.0f}", feed);
     }
     if (!goes && e_mm == 0 && !move.feed_mm_per_min) return;
+    if (move.plane != plane_) {
+      plane_ = move.plane;
+      line("G{}", plane_);
+    }
     std::string words = fmt::format("G{}", move.code);
     for (std::size_t axis = 0; axis < 3; ++axis)
       if (move.to_mm[axis]) words += fmt::format(" {}{:.4f}", "XYZ"[axis], *move.to_mm[axis]);
@@ -82,6 +86,7 @@ class JobText {
   double drawn_back_ = 0;  ///< mm of filament that the next strand needs before it begins
   double pulled_ = 0;      ///< how far the piece's own G-code believes it drawn back
   double rounding_ = 0, feed_ = 0;
+  int plane_ = 17;
 };
 
 struct Start {

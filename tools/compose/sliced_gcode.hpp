@@ -1,5 +1,6 @@
 #pragma once
-// The G-code of one piece as a slicer wrote it, read into moves that can be set into a larger job.
+// The G-code of one piece as a slicer wrote it, as moves that can be set into a larger job. Read by the
+// gateway's interpreter: units, offsets, distance modes, arcs and expressions are worked out there.
 
 #include <array>
 #include <map>
@@ -13,10 +14,11 @@ namespace kinebus::compose {
 
 struct SlicedMove {
   int code = 1;                                ///< G0 .. G3
-  std::array<std::optional<double>, 3> to_mm;  ///< X Y Z, absolute in the piece's frame, where stated
-  std::string arc;                             ///< the words I, J, K, R of an arc, as they stood
+  std::array<std::optional<double>, 3> to_mm;  ///< X Y Z, absolute in the piece's frame, where they change
+  int plane = 17;                              ///< of an arc: G17, G18, G19
+  std::string arc;                             ///< words I, J, K, P of an arc, from its start, mm
   double e_mm = 0;                             ///< filament fed by this move (negative: drawn back)
-  std::optional<double> feed_mm_per_min;
+  std::optional<double> feed_mm_per_min;       ///< where it changes
 };
 
 /// A move, or a line that goes into the job as it is (fan, dwell, comment).
@@ -31,9 +33,9 @@ struct SlicedGcode {
   int layers = 0;          ///< different heights at which filament was fed
 };
 
-/// Units mm, absolute X Y Z; E absolute or relative. Throws std::runtime_error "NAME:line: ..." for text that
-/// is not G-code and for commands that cannot be set into a tilted frame (G20, G91 with axes, G53 to G59,
-/// G68, tools other than T0, G92 of axes).
+/// Throws std::runtime_error "NAME:line: ..." for text that is not G-code and for what cannot be set into a
+/// tilted frame: G43.4, G68.2, turns of A and C, tools other than T0, filament fed before X, Y and Z are
+/// stated.
 SlicedGcode read_sliced(std::string_view text, const std::string& name);
 
 }  // namespace kinebus::compose

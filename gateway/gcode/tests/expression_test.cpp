@@ -51,7 +51,7 @@ constexpr std::array<BinaryOperator, 13> kBinary = {{
     {" ** ", 5, [](double a, double b) { return std::pow(a, b); }},
     {"*", 4, [](double a, double b) { return a * b; }},
     {"/", 4, [](double a, double b) { return a / b; }},
-    {" MOD ", 4, [](double a, double b) { return a - std::floor(a / b) * b; }},
+    {" MOD ", 4, [](double a, double b) { return a - (b > 0 ? std::floor(a / b) : std::ceil(a / b)) * b; }},
     {"+", 3, [](double a, double b) { return a + b; }},
     {" - ", 3, [](double a, double b) { return a - b; }},
     {" gt ", 2, [](double a, double b) { return a > b ? 1.0 : 0.0; }},
@@ -62,6 +62,23 @@ constexpr std::array<BinaryOperator, 13> kBinary = {{
     {" or ", 1, [](double a, double b) { return a != 0 || b != 0 ? 1.0 : 0.0; }},
     {" xor ", 1, [](double a, double b) { return (a != 0) != (b != 0) ? 1.0 : 0.0; }},
 }};
+
+TEST(Expression, ModuloIsNeverNegative) {
+  const State state;
+  for (const auto& [text, expected] : {std::pair{"[7 MOD 3]", 1.0},
+                                       {"[-7 MOD 3]", 2.0},
+                                       {"[7 MOD -3]", 1.0},
+                                       {"[-7 MOD -3]", 2.0},
+                                       {"[-6 MOD 3]", 0.0},
+                                       {"[5.5 MOD -2]", 1.5}}) {
+    const std::string_view line = text;
+    Cursor cursor{line.data(), line.data(), line.data() + line.size()};
+    SyntaxError error;
+    double value = 0;
+    ASSERT_TRUE(ValueReader(state, cursor, error).read_value(value)) << text;
+    EXPECT_NEAR(value, expected, 1e-12) << text;
+  }
+}
 
 struct UnaryFunction {
   const char* text;

@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <new>
+#include <numbers>
 #include <random>
 
 #include "gateway/gcode/job_reader.hpp"
@@ -77,6 +78,62 @@ TEST(Interpreter, ASavedStateGoesOnExactlyWhereItWas) {
   EXPECT_EQ(actual.front().find(" position part"), actual.front().find(' '));
   actual.erase(actual.begin());
   EXPECT_EQ(actual, expected);
+}
+
+TEST(Interpreter, G10L20GivesTheCurrentPointItsNumbersInEverySystem) {
+  struct Case {
+    const char* job;
+    double x, y;  ///< machine, after the last line
+  };
+  for (const Case& c : {Case{"G10 L2 P1 X5\nG0 X10\nG10 L20 P1 X0\nG0 X0", 15, 0},
+                        Case{"G10 L2 P1 X5 Y-3\nG0 X10 Y1\nG10 L20 P0 X0 Y0\nG0 X1 Y1", 16, -1},
+                        Case{"G10 L2 P1 X5\nG92 X1\nG0 X10\nG10 L20 P1 X2\nG0 X3", 10, 0},
+                        Case{"G10 L2 P1 X5\nG0 X10\nG10 L20 P2 X1\nG55\nG0 X1", 15, 0},
+                        Case{"G20\nG10 L2 P1 X1\nG0 X2\nG10 L20 P1 X0\nG0 X1", 4 * 25.4, 0}}) {
+    Session session;
+    session.must(c.job);
+    EXPECT_NEAR(session.interpreter.state().modal.position[kAxisX], c.x, 1e-9) << c.job;
+    EXPECT_NEAR(session.interpreter.state().modal.position[kAxisY], c.y, 1e-9) << c.job;
+  }
+}
+
+TEST(Interpreter, TheCurrentPointIsReadInTheUnitsInForce) {
+  Session session;
+  session.must("G20\nG0 X2 Z1 A30\n#1=#5420\n#2=#5422\n#3=#5423\nG0 X[#5420 + 1]\nG21\n#4=#5420");
+  const auto& numbered = session.interpreter.state().parameters.numbered;
+  EXPECT_NEAR(numbered[1], 2, 1e-12);
+  EXPECT_NEAR(numbered[2], 1, 1e-12);
+  EXPECT_NEAR(numbered[3], 30, 1e-12);
+  EXPECT_NEAR(numbered[4], 76.2, 1e-12);
+}
+
+TEST(Interpreter, AnFWithG0LimitsTravelWhereTheDialectSaysSo) {
+  Options options;
+  options.traverse_uses_feed = true;
+  Session session(options);
+  // As Cura writes: the F of travel stands with G0; without one, the F in force is meant.
+  session.must("G1 X1 F600\nG0 X2\nG0 X3 F6000\nG0 X4\nG1 X5 F1200\nG0 X6\nG0 A90\nM2\nG0 X7");
+  std::vector<double> speeds;
+  for (const auto& move : session.all<canonical::Traverse>()) speeds.push_back(move.speed_per_s);
+  ASSERT_EQ(speeds.size(), 6U);
+  EXPECT_EQ(speeds[0], 0) << "an F of feed moves alone says nothing about travel";
+  EXPECT_NEAR(speeds[1], 100, 1e-12);
+  EXPECT_NEAR(speeds[2], 100, 1e-12);
+  EXPECT_NEAR(speeds[3], 20, 1e-12);
+  EXPECT_NEAR(speeds[4], 20 * std::numbers::pi / 180, 1e-12) << "1200 deg/min";
+  EXPECT_EQ(speeds[5], 0) << "a new program";
+  Session mill;
+  mill.must("G0 X3 F6000");
+  EXPECT_EQ(mill.all<canonical::Traverse>().at(0).speed_per_s, 0);
+}
+
+TEST(Interpreter, HomingWhereNeededIsHoming) {
+  Session session;
+  session.must("G28 O\nG28 X O W");
+  EXPECT_EQ(session.all<canonical::Home>().size(), 2U);
+  EXPECT_NE(session.run("O100 sub"), "");
+  EXPECT_NE(session.run("o<part> call"), "");
+  EXPECT_NE(session.run("G1 O X1 F600"), "");
 }
 
 TEST(Interpreter, FilamentIsContinuousThroughG92RetractionAndFlow) {

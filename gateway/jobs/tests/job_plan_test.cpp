@@ -42,6 +42,26 @@ TEST(JobPlan, DwellIsPartOfTheJobTime) {
   EXPECT_NEAR(p.report.job_time_s, p.report.motion_s + 3, 1.0);
 }
 
+TEST(JobPlan, ALongDwellCountsAsTheSameFramesAndIsPlannedAtOnce) {
+  // 40 s are gone through in two parts, 4 times 10 s frame by frame: equal up to where waits begin in a tick.
+  const Planned at_once = plan("G4 S40\n"), in_parts = plan("G4 S10\nG4 S10\nG4 S10\nG4 S10\n");
+  EXPECT_EQ(at_once.report.frames, in_parts.report.frames);
+  EXPECT_DOUBLE_EQ(at_once.report.job_time_s, in_parts.report.job_time_s);
+  EXPECT_NEAR(at_once.report.bus_load_mean, in_parts.report.bus_load_mean, 1e-12);
+  EXPECT_NEAR(at_once.report.bus_load_peak_1s, in_parts.report.bus_load_peak_1s, 1e-12);
+  // 31 years, and ten times as much: the end of time.
+  EXPECT_NEAR(plan("G4 S1000000000\n").report.job_time_s, 1e9, 1);
+  std::string ages;
+  for (int i = 0; i < 10; ++i) ages += "G4 S1000000000\n";
+  EXPECT_LT(plan(ages).report.job_time_s, 1e10);
+}
+
+TEST(JobPlan, AnFWithG0LimitsTravelOnAPrinter) {
+  const double free = plan("G1 Z5 F6000\nG0 X-40\nG0 X40\n").report.motion_s;
+  const double limited = plan("G1 Z5 F6000\nG0 X-40\nG0 X40 F600\n").report.motion_s;
+  EXPECT_GT(limited, free + 5) << "80 mm at 10 mm/s";
+}
+
 TEST(JobPlan, ProblemsAreCollectedToTheEndOfTheJob) {
   const Planned p = plan("G1 X10 F3000\nG1 X5000\nG1 X0\nG1 X200\nG99\n");
   ASSERT_GE(p.problems.errors(), 3u);

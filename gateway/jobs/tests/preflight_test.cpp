@@ -72,11 +72,28 @@ TEST(Preflight, ExtrusionWithoutAnyTemperatureIsOnlyWarnedOf) {
 
 TEST(Preflight, ListOfProblemsIsCappedAndCountsOn) {
   std::string job;
-  for (int i = 0; i < 1000; ++i) job += "G1 X1 Q\n";
+  for (int i = 0; i < 1000; ++i)
+    job += "G" + std::to_string(100 + i / 10) + "." + std::to_string(i % 10) + "\n";
   const Checked c = check(job);
   EXPECT_EQ(c.problems.errors(), 1000u);
   EXPECT_EQ(c.problems.all().size(), 300u);
   EXPECT_TRUE(c.problems.truncated());
+}
+
+TEST(Preflight, RefusalsInTheSameWordsAreToldOnceAndCounted) {
+  std::string job;
+  for (int i = 0; i < 1192; ++i) job += "G1 X1 Q\n";
+  const Checked c = check(job);
+  ASSERT_EQ(c.problems.errors(), 2u);
+  EXPECT_EQ(c.problems.all()[0].line, 1u);
+  EXPECT_EQ(c.problems.all()[1].words, "1191 more lines are refused for reasons named above");
+}
+
+TEST(Preflight, LinesThatEndWithReturnsAloneAreRead) {
+  const Checked c = check("G1 X10 F3000\rG1 X5000\rG1 X0\rG99\rG4 S2\r");
+  ASSERT_EQ(c.problems.errors(), 2u);
+  EXPECT_EQ(c.problems.all()[0].line + c.problems.all()[1].line, 2u + 4u);
+  EXPECT_NEAR(c.report.dwell_s, 2, 1e-9);
 }
 
 TEST(Preflight, DwellsAndWaitsAreCounted) {

@@ -4,14 +4,14 @@
 
 #include <cmath>
 
-#include "gui/scene/gcode_scanner.hpp"
+#include "gui/scene/path_reader.hpp"
 
 namespace kinebus::gui {
 namespace {
 
 /// Circles of short lines, a layer each.
 ToolPath rings(int layers, int lines) {
-  GcodeScanner scanner;
+  PathReader reader;
   std::string text;
   double e = 0;
   for (int layer = 0; layer < layers; ++layer) {
@@ -21,9 +21,9 @@ ToolPath rings(int layers, int lines) {
       text += "G1 X" + std::to_string(r * std::cos(angle)) + " Y" + std::to_string(r * std::sin(angle)) +
               " E" + std::to_string(e += 0.01) + "\n";
     }
-    scanner.add(text);
+    reader.add(text);
   }
-  return scanner.finish();
+  return reader.finish();
 }
 
 float distance(const std::array<float, 3>& p, const std::array<float, 3>& a, const std::array<float, 3>& b) {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "gui/scene/camera.hpp"
-#include "gui/scene/gcode_scanner.hpp"
+#include "gui/scene/path_reader.hpp"
 
 namespace kinebus::gui {
 namespace {
@@ -16,7 +16,7 @@ constexpr int kLayers = 200;
 constexpr float kLayer_mm = 0.2F;
 
 PathLevels tower() {
-  GcodeScanner scanner;
+  PathReader reader;
   double e = 0;
   for (int layer = 0; layer < kLayers; ++layer) {
     std::string text = "G0 X40 Y0 Z" + std::to_string(kLayer_mm * static_cast<float>(layer + 1)) + "\n";
@@ -25,9 +25,9 @@ PathLevels tower() {
       text += "G1 X" + std::to_string(40 * std::cos(angle)) + " Y" + std::to_string(40 * std::sin(angle)) +
               " E" + std::to_string(e += 0.01) + "\n";
     }
-    scanner.add(text);
+    reader.add(text);
   }
-  return make_path_levels(scanner.finish());
+  return make_path_levels(reader.finish());
 }
 
 PathView view_from(float distance_mm) {

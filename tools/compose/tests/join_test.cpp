@@ -33,13 +33,63 @@ TEST(SlicedGcode, IsReadIntoMovesWithTheFilamentOfEach) {
 }
 
 TEST(SlicedGcode, WhatCannotBeTiltedIsRefusedWithItsLine) {
-  for (const char* bad : {"G20", "G91", "T1", "G54", "G92 X0", "G1 X", "G1 Q4", "hello", "G1 X1..2"}) {
+  for (const char* bad :
+       {"T1", "G43.4", "G68.2 J10", "G1 A5", "G1 X1 E1", "G2 X1 I1", "G1 X", "G1 Q4", "hello", "G1 X1..2"}) {
     try {
-      read_sliced(std::string("G90\n") + bad + "\n", "piece.gcode");
+      read_sliced(std::string("M83\n") + bad + "\n", "piece.gcode");
       ADD_FAILURE() << bad << " was taken";
     } catch (const std::runtime_error& error) {
       EXPECT_EQ(std::string(error.what()).rfind("piece.gcode:2: ", 0), 0u) << error.what();
     }
+  }
+}
+
+TEST(SlicedGcode, WhateverTheDialectTheMovesAreTheSame) {
+  const auto moves = [](const std::string& text) {
+    std::vector<std::string> lines;
+    for (const SlicedItem& item : read_sliced(text, "piece.gcode").items) {
+      const auto& move = std::get<SlicedMove>(item);
+      std::string line = "G" + std::to_string(move.code);
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        if (move.to_mm[axis]) line += " " + std::string(1, "XYZ"[axis]) + std::to_string(*move.to_mm[axis]);
+      lines.push_back(line + " E" + std::to_string(move.e_mm) +
+                      (move.feed_mm_per_min ? " F" + std::to_string(*move.feed_mm_per_min) : ""));
+    }
+    return lines;
+  };
+  const auto expected = moves("M83\nG1 X25.4 Y50.8 Z12.7 F2540\nG1 X50.8 Y50.8 E2.54\nG1 Z25.4\n");
+  ASSERT_EQ(expected.size(), 3u);
+  for (const char* text :
+       {"G20\nM83\nG1 X1 Y2 Z.5 F100\nG1 X2 E.1\nG1 Z1\n", "G20 M82\nG1 X1 Y2 Z.5 F100\nG92 E5\nX2 E5.1\nZ1",
+        "M83\nG1 X25.4 Y50.8 Z12.7 F2540\nG91\nG1 X25.4 E2.54\nG1 Z12.7\n",
+        "M83\nG1 X25.4 Y50.8 Z12.7 F2540\nG92 X0 Y0 Z100\nG1 X25.4 E2.54\nG1 Z112.7\n",
+        "M83\nG10 L2 P2 X5.4\nG55\nG1 X20 Y50.8 Z12.7 F2540\nG1 X[40 + 5.4] E[1.27 * 2]\n#1=25.4\nG1 Z#1\n"})
+    EXPECT_EQ(moves(text), expected) << text;
+}
+
+TEST(SlicedGcode, ArcsComeBackInEveryPlane) {
+  const char* const kArcs =
+      "M83\nG1 X10 Y10 Z5 F1200\nG2 X20 Y10 I5 E1\nG3 X10 Y10 R5 E1\nG18 G2 X20 Z5 I5 E1\nG19 G3 Y20 Z6 J5 "
+      "K.5 E1\n"
+      "G17 G3 I3 P2 Z8 E1\n";
+  const SlicedGcode read = read_sliced(kArcs, "piece.gcode");
+  ASSERT_EQ(read.items.size(), 6u);
+  EXPECT_EQ(std::get<SlicedMove>(read.items[3]).plane, 18);
+  EXPECT_EQ(std::get<SlicedMove>(read.items[4]).plane, 19);
+  JoinPiece piece{"arcs", frame_from_angles({0, 0, 0}, 0, 0, 0), read, {}};
+  const JoinedJob job = join({piece}, JoinOptions{});
+  // Read again, the piece within the job is what it was.
+  const SlicedGcode again =
+      read_sliced("M83\nG1 X10 Y10 Z5 F1200\n" +
+                      job.text.substr(job.text.find("G2 "), job.text.find("G69") - job.text.find("G2 ")),
+                  "again.gcode");
+  ASSERT_GE(again.items.size(), 6u);
+  for (std::size_t i = 1; i < 6; ++i) {
+    const auto &was = std::get<SlicedMove>(read.items[i]), &is = std::get<SlicedMove>(again.items[i]);
+    EXPECT_EQ(was.code, is.code) << i;
+    EXPECT_EQ(was.plane, is.plane) << i;
+    EXPECT_EQ(was.arc, is.arc) << i;
+    EXPECT_NEAR(was.e_mm, is.e_mm, 1e-4) << i;
   }
 }
 
