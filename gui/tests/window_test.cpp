@@ -337,6 +337,7 @@ class ShownJob {
     const auto is_there = [&] { return desk_.path.scene() != nullptr && desk_.path.scene() != before; };
     if (!wait_until(is_there, kPatience_ms)) return false;
     reading_ms = others_ms() - others_from;
+    scene_.redraw();  // a short job's picture may have come with the news of it
     const bool shown = wait_until(
         [&, painted = scene_.frames()] {
           return scene_.frames() > painted && !scene_.renderer().copying() &&
