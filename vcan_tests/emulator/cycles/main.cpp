@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "protocol/host/guarded_main.hpp"
-#include "tools/firmware_report/load.hpp"
+#include "vcan_tests/emulator/cycles/load.hpp"
 
 namespace {
 
