@@ -1,18 +1,18 @@
 #pragma once
-// Alarms by their code: a title and what to do next, in the user's language. The gateway's own words say the
-// details.
+// Alarms by their code, in the user's language: the headlines of protocol/canopen/alarm_table.hpp. The
+// gateway's own words say the details.
 
-#include <QCoreApplication>
 #include <QString>
 
 namespace kinebus::gui {
 
 class AlarmWords {
-  Q_DECLARE_TR_FUNCTIONS(AlarmWords)
  public:
   static QString title(unsigned code);
-  /// Empty: the gateway's own advice is used.
+  /// Of a gateway that gives none.
   static QString advice(unsigned code);
+  /// With a capital letter and a full stop: the gateway says parts of sentences.
+  static QString sentence(const QString& words);
 };
 
 }  // namespace kinebus::gui

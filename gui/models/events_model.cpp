@@ -92,7 +92,7 @@ QVariant EventsModel::data(const QModelIndex& index, int role) const {
       return Format::date_time(e.unix_s());
     case Qt::DisplayRole:
     case kTitle:
-      if (alarm) return AlarmWords::title(e.code());
+      if (alarm && e.code() != 0) return AlarmWords::title(e.code());
       switch (e.kind()) {
         case joblink::EVENT_FINISHED:
           return tr("Done");
@@ -112,8 +112,8 @@ QVariant EventsModel::data(const QModelIndex& index, int role) const {
     }
     case kAdvice: {
       if (!alarm) return QString();
-      const QString own = AlarmWords::advice(e.code());
-      return own.isEmpty() ? GatewayWords::said(e.advice_said(), e.advice()) : own;
+      const QString said = GatewayWords::said(e.advice_said(), e.advice());
+      return AlarmWords::sentence(said.isEmpty() && e.code() != 0 ? AlarmWords::advice(e.code()) : said);
     }
     default:
       return {};

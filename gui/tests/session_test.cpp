@@ -13,6 +13,7 @@
 #include <QTranslator>
 
 #include "gui/link/socket_link.hpp"
+#include "gui/models/alarm_words.hpp"
 #include "gui/models/axes_model.hpp"
 #include "gui/models/events_model.hpp"
 #include "gui/models/jobs_model.hpp"
@@ -22,6 +23,7 @@
 #include "gui/session/job_upload.hpp"
 #include "gui/tests/fake_gateway.hpp"
 #include "gui/tests/wait.hpp"
+#include "protocol/canopen/alarm_table.hpp"
 
 namespace kinebus::gui {
 namespace {
@@ -188,6 +190,30 @@ TEST_F(SessionTest, AlarmsAreShownNewestFirstWithAdvice) {
   EXPECT_TRUE(events.index(0).data(EventsModel::kDetails).toString().contains(QStringLiteral("1.5 s")));
   gateway.status.set_state(joblink::STATE_READY);
   ASSERT_TRUE(wait_until([&] { return events.open_alarms() == 0; }));
+}
+
+TEST_F(SessionTest, EveryAlarmHasHeadlineWordsAndAdviceInEveryLanguage) {
+  for (const char* language : {"tr", "fa"}) {
+    QTranslator translator;
+    ASSERT_TRUE(translator.load(QStringLiteral(":/i18n/kinebus_%1.qm").arg(QLatin1String(language))));
+    const auto said = [&](const char* words) { return translator.translate("Gateway", words); };
+    const auto expect_said = [&](const AlarmRow& row) {
+      ASSERT_TRUE(row.name && row.advice) << std::hex << row.code;
+      EXPECT_FALSE(said(row.name).isEmpty()) << language << ": " << row.name;
+      EXPECT_FALSE(said(row.advice).isEmpty()) << language << ": " << row.advice;
+      // The gateway's own alarms (FF80h and above) say what has happened with its place.
+      ASSERT_TRUE(row.words != nullptr || row.code >= 0xFF80) << std::hex << row.code;
+      if (row.words != nullptr) EXPECT_FALSE(said(row.words).isEmpty()) << language << ": " << row.words;
+    };
+    for (const AlarmRow& row : kAlarms) expect_said(row);
+    for (const AlarmRow& row : kAlarmClasses) expect_said(row);
+    expect_said(kUnknownAlarm);
+  }
+  EXPECT_EQ(AlarmWords::title(0x3130), QStringLiteral("A motor phase is open"));
+  EXPECT_EQ(AlarmWords::title(0x4310), QStringLiteral("A drive is too hot"));
+  EXPECT_EQ(AlarmWords::title(0x3299), QStringLiteral("The supply voltage is wrong"));
+  EXPECT_EQ(AlarmWords::sentence(AlarmWords::advice(0xFF84)),
+            QStringLiteral("Switch one of the gateways off."));
 }
 
 TEST_F(SessionTest, WhatTheGatewaySaysIsToldInTheUsersLanguage) {

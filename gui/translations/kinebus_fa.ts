@@ -2,189 +2,6 @@
 <!DOCTYPE TS>
 <TS version="2.1" language="fa" sourcelanguage="en">
 <context>
-    <name>AlarmWords</name>
-    <message>
-        <source>A node does not answer</source>
-        <translation>یک گره پاسخ نمی‌دهد</translation>
-    </message>
-    <message>
-        <source>The wrong node is connected</source>
-        <translation>گرهٔ نادرست وصل است</translation>
-    </message>
-    <message>
-        <source>A node refuses its settings</source>
-        <translation>یک گره تنظیماتش را نمی‌پذیرد</translation>
-    </message>
-    <message>
-        <source>A drive does not switch on</source>
-        <translation>یک درایو روشن نمی‌شود</translation>
-    </message>
-    <message>
-        <source>There is a second gateway on the bus</source>
-        <translation>درگاه دومی روی گذرگاه است</translation>
-    </message>
-    <message>
-        <source>A node has gone silent</source>
-        <translation>یک گره ساکت شده است</translation>
-    </message>
-    <message>
-        <source>A node has restarted</source>
-        <translation>یک گره دوباره راه افتاده است</translation>
-    </message>
-    <message>
-        <source>The clocks have drifted apart</source>
-        <translation>ساعت‌ها از هم دور شده‌اند</translation>
-    </message>
-    <message>
-        <source>Homing has failed</source>
-        <translation>خانه‌یابی ناموفق بود</translation>
-    </message>
-    <message>
-        <source>The carriages are too far apart</source>
-        <translation>حامل‌ها بیش از حد از هم دورند</translation>
-    </message>
-    <message>
-        <source>Homing took too long</source>
-        <translation>خانه‌یابی بیش از حد طول کشید</translation>
-    </message>
-    <message>
-        <source>Motion was interrupted</source>
-        <translation>حرکت قطع شد</translation>
-    </message>
-    <message>
-        <source>The nodes disagree about the path</source>
-        <translation>گره‌ها دربارهٔ مسیر هم‌نظر نیستند</translation>
-    </message>
-    <message>
-        <source>The bus has failed</source>
-        <translation>گذرگاه از کار افتاده است</translation>
-    </message>
-    <message>
-        <source>A heater is not as it should be</source>
-        <translation>وضعیت یک گرم‌کن درست نیست</translation>
-    </message>
-    <message>
-        <source>The job went wrong</source>
-        <translation>کار با خطا روبه‌رو شد</translation>
-    </message>
-    <message>
-        <source>Stopped by the operator</source>
-        <translation>به دست کاربر متوقف شد</translation>
-    </message>
-    <message>
-        <source>The machine did not come to rest</source>
-        <translation>ماشین از حرکت نایستاد</translation>
-    </message>
-    <message>
-        <source>Too much current in a motor</source>
-        <translation>جریان یک موتور بیش از حد است</translation>
-    </message>
-    <message>
-        <source>The supply voltage is wrong</source>
-        <translation>ولتاژ تغذیه نادرست است</translation>
-    </message>
-    <message>
-        <source>A drive is too hot</source>
-        <translation>یک درایو بیش از حد داغ است</translation>
-    </message>
-    <message>
-        <source>Communication trouble on the bus</source>
-        <translation>اشکال ارتباط روی گذرگاه</translation>
-    </message>
-    <message>
-        <source>A carriage is not where it should be</source>
-        <translation>یک حامل در جای خود نیست</translation>
-    </message>
-    <message>
-        <source>Message</source>
-        <translation>پیام</translation>
-    </message>
-    <message>
-        <source>A node reports a fault</source>
-        <translation>یک گره خطا گزارش می‌کند</translation>
-    </message>
-    <message>
-        <source>Check the node&apos;s power and the bus cable, then home again.</source>
-        <translation>برق گره و کابل گذرگاه را بررسی کنید، سپس دوباره خانه‌یابی کنید.</translation>
-    </message>
-    <message>
-        <source>Connect the right node or update its firmware.</source>
-        <translation>گرهٔ درست را وصل کنید یا میان‌افزارش را به‌روز کنید.</translation>
-    </message>
-    <message>
-        <source>Check the machine file against the node&apos;s limits.</source>
-        <translation>پروندهٔ ماشین را با محدوده‌های گره مقایسه کنید.</translation>
-    </message>
-    <message>
-        <source>Look at the drive&apos;s fault, clear the alarm, then home again.</source>
-        <translation>خطای درایو را ببینید، هشدار را پاک کنید، سپس دوباره خانه‌یابی کنید.</translation>
-    </message>
-    <message>
-        <source>Switch one of the gateways off.</source>
-        <translation>یکی از درگاه‌ها را خاموش کنید.</translation>
-    </message>
-    <message>
-        <source>Check the node&apos;s power and the bus cable, then clear and home again.</source>
-        <translation>برق گره و کابل گذرگاه را بررسی کنید، سپس پاک کنید و دوباره خانه‌یابی کنید.</translation>
-    </message>
-    <message>
-        <source>Check the node&apos;s power, then clear and home again.</source>
-        <translation>برق گره را بررسی کنید، سپس پاک کنید و دوباره خانه‌یابی کنید.</translation>
-    </message>
-    <message>
-        <source>Check the bus for errors, then clear.</source>
-        <translation>خطاهای گذرگاه را بررسی کنید، سپس پاک کنید.</translation>
-    </message>
-    <message>
-        <source>Check the switch and its wiring, then clear and home again.</source>
-        <translation>کلید و سیم‌کشی آن را بررسی کنید، سپس پاک کنید و دوباره خانه‌یابی کنید.</translation>
-    </message>
-    <message>
-        <source>Check the switches of the carriages that went on, then clear and home again.</source>
-        <translation>کلیدهای حامل‌هایی را که پیش رفتند بررسی کنید، سپس پاک کنید و دوباره خانه‌یابی کنید.</translation>
-    </message>
-    <message>
-        <source>Check the switches and the homing speeds, then clear and home again.</source>
-        <translation>کلیدها و سرعت‌های خانه‌یابی را بررسی کنید، سپس پاک کنید و دوباره خانه‌یابی کنید.</translation>
-    </message>
-    <message>
-        <source>Clear: positions are known, the job can be run again.</source>
-        <translation>پاک کنید: موقعیت‌ها معلوم است و کار را می‌توان دوباره اجرا کرد.</translation>
-    </message>
-    <message>
-        <source>Clear. If it comes again, check the bus for lost frames.</source>
-        <translation>پاک کنید. اگر تکرار شد، قاب‌های گم‌شدهٔ گذرگاه را بررسی کنید.</translation>
-    </message>
-    <message>
-        <source>Check cable and termination of the bus, then clear and home again.</source>
-        <translation>کابل و پایانهٔ گذرگاه را بررسی کنید، سپس پاک کنید و دوباره خانه‌یابی کنید.</translation>
-    </message>
-    <message>
-        <source>Check the heater and its sensor, then clear.</source>
-        <translation>گرم‌کن و حسگرش را بررسی کنید، سپس پاک کنید.</translation>
-    </message>
-    <message>
-        <source>Correct the job, then clear.</source>
-        <translation>کار را اصلاح کنید، سپس پاک کنید.</translation>
-    </message>
-    <message>
-        <source>Clear when the machine is safe.</source>
-        <translation>وقتی ماشین امن است پاک کنید.</translation>
-    </message>
-    <message>
-        <source>Switch the machine off and on, then home again.</source>
-        <translation>ماشین را خاموش و روشن کنید، سپس دوباره خانه‌یابی کنید.</translation>
-    </message>
-    <message>
-        <source>Two nodes use the same id</source>
-        <translation>دو گره یک شناسهٔ یکسان دارند</translation>
-    </message>
-    <message>
-        <source>Give one of them another id or take it off the bus, then home again.</source>
-        <translation>به یکی از آن‌ها شناسهٔ دیگری بدهید یا آن را از گذرگاه جدا کنید، سپس دوباره خانه‌یابی کنید.</translation>
-    </message>
-</context>
-<context>
     <name>ConsoleHints</name>
     <message>
         <source>traverse</source>
@@ -2427,6 +2244,246 @@
         <source>%1: go to the bed reference first</source>
         <translation>%1. نخست به مرجع بستر بروید</translation>
     </message>
+    <message>
+        <source>A node does not answer</source>
+        <translation>یک گره پاسخ نمی‌دهد</translation>
+    </message>
+    <message>
+        <source>The wrong node is connected</source>
+        <translation>گرهٔ نادرست وصل است</translation>
+    </message>
+    <message>
+        <source>A node refuses its settings</source>
+        <translation>یک گره تنظیماتش را نمی‌پذیرد</translation>
+    </message>
+    <message>
+        <source>A drive does not switch on</source>
+        <translation>یک درایو روشن نمی‌شود</translation>
+    </message>
+    <message>
+        <source>There is a second gateway on the bus</source>
+        <translation>درگاه دومی روی گذرگاه است</translation>
+    </message>
+    <message>
+        <source>A node has gone silent</source>
+        <translation>یک گره ساکت شده است</translation>
+    </message>
+    <message>
+        <source>A node has restarted</source>
+        <translation>یک گره دوباره راه افتاده است</translation>
+    </message>
+    <message>
+        <source>The clocks have drifted apart</source>
+        <translation>ساعت‌ها از هم دور شده‌اند</translation>
+    </message>
+    <message>
+        <source>Homing has failed</source>
+        <translation>خانه‌یابی ناموفق بود</translation>
+    </message>
+    <message>
+        <source>The carriages are too far apart</source>
+        <translation>حامل‌ها بیش از حد از هم دورند</translation>
+    </message>
+    <message>
+        <source>Homing took too long</source>
+        <translation>خانه‌یابی بیش از حد طول کشید</translation>
+    </message>
+    <message>
+        <source>Motion was interrupted</source>
+        <translation>حرکت قطع شد</translation>
+    </message>
+    <message>
+        <source>The nodes disagree about the path</source>
+        <translation>گره‌ها دربارهٔ مسیر هم‌نظر نیستند</translation>
+    </message>
+    <message>
+        <source>The bus has failed</source>
+        <translation>گذرگاه از کار افتاده است</translation>
+    </message>
+    <message>
+        <source>A heater is not as it should be</source>
+        <translation>وضعیت یک گرم‌کن درست نیست</translation>
+    </message>
+    <message>
+        <source>The job went wrong</source>
+        <translation>کار با خطا روبه‌رو شد</translation>
+    </message>
+    <message>
+        <source>Stopped by the operator</source>
+        <translation>به دست کاربر متوقف شد</translation>
+    </message>
+    <message>
+        <source>The machine did not come to rest</source>
+        <translation>ماشین از حرکت نایستاد</translation>
+    </message>
+    <message>
+        <source>Too much current in a motor</source>
+        <translation>جریان یک موتور بیش از حد است</translation>
+    </message>
+    <message>
+        <source>The supply voltage is wrong</source>
+        <translation>ولتاژ تغذیه نادرست است</translation>
+    </message>
+    <message>
+        <source>A drive is too hot</source>
+        <translation>یک درایو بیش از حد داغ است</translation>
+    </message>
+    <message>
+        <source>Communication trouble on the bus</source>
+        <translation>اشکال ارتباط روی گذرگاه</translation>
+    </message>
+    <message>
+        <source>A carriage is not where it should be</source>
+        <translation>یک حامل در جای خود نیست</translation>
+    </message>
+    <message>
+        <source>A node reports a fault</source>
+        <translation>یک گره خطا گزارش می‌کند</translation>
+    </message>
+    <message>
+        <source>Two nodes use the same id</source>
+        <translation>دو گره یک شناسهٔ یکسان دارند</translation>
+    </message>
+    <message>
+        <source>A motor phase is shorted</source>
+        <translation>یک فاز موتور اتصال کوتاه است</translation>
+    </message>
+    <message>
+        <source>A motor phase is open</source>
+        <translation>یک فاز موتور قطع است</translation>
+    </message>
+    <message>
+        <source>a motor phase carries no current</source>
+        <translation>از یک فاز موتور جریان نمی‌گذرد</translation>
+    </message>
+    <message>
+        <source>check the motor&apos;s plug and cable for a break, then clear</source>
+        <translation>دوشاخه و کابل موتور را برای قطعی وارسی کنید، سپس رفع کنید</translation>
+    </message>
+    <message>
+        <source>The supply voltage is too high</source>
+        <translation>ولتاژ تغذیه بسیار بالاست</translation>
+    </message>
+    <message>
+        <source>The supply voltage is too low</source>
+        <translation>ولتاژ تغذیه بسیار پایین است</translation>
+    </message>
+    <message>
+        <source>A node is too hot</source>
+        <translation>یک گره بسیار داغ است</translation>
+    </message>
+    <message>
+        <source>A node&apos;s stored settings are damaged</source>
+        <translation>تنظیمات ذخیره‌شدهٔ یک گره خراب است</translation>
+    </message>
+    <message>
+        <source>A node&apos;s software has failed</source>
+        <translation>نرم‌افزار یک گره خطا داد</translation>
+    </message>
+    <message>
+        <source>An encoder has failed</source>
+        <translation>یک انکودر از کار افتاد</translation>
+    </message>
+    <message>
+        <source>A node has lost frames of the bus</source>
+        <translation>یک گره قاب‌های گذرگاه را از دست داد</translation>
+    </message>
+    <message>
+        <source>Many errors on the bus</source>
+        <translation>خطاهای فراوان روی گذرگاه</translation>
+    </message>
+    <message>
+        <source>A node does not hear the gateway</source>
+        <translation>یک گره درگاه را نمی‌شنود</translation>
+    </message>
+    <message>
+        <source>A node was off the bus</source>
+        <translation>یک گره از گذرگاه جدا شده بود</translation>
+    </message>
+    <message>
+        <source>A frame on the bus has the wrong length</source>
+        <translation>طول یک قاب روی گذرگاه نادرست است</translation>
+    </message>
+    <message>
+        <source>a PDO was too short</source>
+        <translation>یک PDO بیش از حد کوتاه بود</translation>
+    </message>
+    <message>
+        <source>a PDO was too long</source>
+        <translation>یک PDO بیش از حد بلند بود</translation>
+    </message>
+    <message>
+        <source>a SYNC had the wrong length</source>
+        <translation>طول یک SYNC نادرست بود</translation>
+    </message>
+    <message>
+        <source>look for another master on the bus, update the node&apos;s firmware</source>
+        <translation>به دنبال فرمانده دیگری روی گذرگاه بگردید، سفت‌افزار گره را نو کنید</translation>
+    </message>
+    <message>
+        <source>A frame to a node did not come in time</source>
+        <translation>قابی به یک گره به‌موقع نرسید</translation>
+    </message>
+    <message>
+        <source>A motor does not follow</source>
+        <translation>یک موتور پیروی نمی‌کند</translation>
+    </message>
+    <message>
+        <source>A position limit was reached</source>
+        <translation>به یک حد موقعیت رسید</translation>
+    </message>
+    <message>
+        <source>A node has lost the common time</source>
+        <translation>یک گره زمان مشترک را از دست داد</translation>
+    </message>
+    <message>
+        <source>A node&apos;s queue ran low</source>
+        <translation>صف یک گره ته کشید</translation>
+    </message>
+    <message>
+        <source>A motion record was lost</source>
+        <translation>یک رکورد حرکت گم شد</translation>
+    </message>
+    <message>
+        <source>A node is not where the gateway has sent it</source>
+        <translation>یک گره در جایی که درگاه فرستاده نیست</translation>
+    </message>
+    <message>
+        <source>A motion record broke a node&apos;s limits</source>
+        <translation>یک رکورد حرکت از حدهای یک گره گذشت</translation>
+    </message>
+    <message>
+        <source>Drives were switched off in motion</source>
+        <translation>درایوها در حرکت خاموش شدند</translation>
+    </message>
+    <message>
+        <source>Emergency stop</source>
+        <translation>توقف اضطراری</translation>
+    </message>
+    <message>
+        <source>A limit switch was reached</source>
+        <translation>به یک کلید حد رسید</translation>
+    </message>
+    <message>
+        <source>homing did not find the switch&apos;s edge</source>
+        <translation>خانه‌یابی لبهٔ کلید را نیافت</translation>
+    </message>
+    <message>
+        <source>this line taken out: every node speaks 1 Mbit/s, which is set on the interface (ip link set can0 type can bitrate 1000000)</source>
+        <translation>برداشتن این سطر: هر گره با ۱ Mbit/s سخن می‌گوید و آن روی رابط تنظیم می‌شود (ip link set can0 type can bitrate 1000000)</translation>
+    </message>
+    <message>
+        <source>A node&apos;s power stage does not work</source>
+        <translation>طبقهٔ توان یک گره کار نمی‌کند</translation>
+    </message>
+    <message>
+        <source>the power stage does not measure the motor&apos;s currents</source>
+        <translation>طبقهٔ توان جریان‌های موتور را اندازه نمی‌گیرد</translation>
+    </message>
+    <message>
+        <source>switch the node off and on; when it comes again, replace the board</source>
+        <translation>گره را خاموش و روشن کنید؛ اگر باز پیش آمد برد را عوض کنید</translation>
+    </message>
 </context>
 <context>
     <name>GatewayWords</name>
@@ -2584,8 +2641,8 @@
         <translation>%1 mm</translation>
     </message>
     <message>
-        <source>%1 A</source>
-        <translation>%1 A</translation>
+        <source>%1 of %2 A</source>
+        <translation>%1 از %2 A</translation>
     </message>
     <message>
         <source>Fault</source>

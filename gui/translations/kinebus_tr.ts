@@ -2,189 +2,6 @@
 <!DOCTYPE TS>
 <TS version="2.1" language="tr" sourcelanguage="en">
 <context>
-    <name>AlarmWords</name>
-    <message>
-        <source>A node does not answer</source>
-        <translation>Bir düğüm yanıt vermiyor</translation>
-    </message>
-    <message>
-        <source>The wrong node is connected</source>
-        <translation>Yanlış düğüm bağlı</translation>
-    </message>
-    <message>
-        <source>A node refuses its settings</source>
-        <translation>Bir düğüm ayarlarını kabul etmiyor</translation>
-    </message>
-    <message>
-        <source>A drive does not switch on</source>
-        <translation>Bir sürücü açılmıyor</translation>
-    </message>
-    <message>
-        <source>There is a second gateway on the bus</source>
-        <translation>Veri yolunda ikinci bir ağ geçidi var</translation>
-    </message>
-    <message>
-        <source>A node has gone silent</source>
-        <translation>Bir düğüm sustu</translation>
-    </message>
-    <message>
-        <source>A node has restarted</source>
-        <translation>Bir düğüm yeniden başladı</translation>
-    </message>
-    <message>
-        <source>The clocks have drifted apart</source>
-        <translation>Saatler birbirinden ayrıldı</translation>
-    </message>
-    <message>
-        <source>Homing has failed</source>
-        <translation>Eve dönüş başarısız oldu</translation>
-    </message>
-    <message>
-        <source>The carriages are too far apart</source>
-        <translation>Arabalar birbirinden çok uzak</translation>
-    </message>
-    <message>
-        <source>Homing took too long</source>
-        <translation>Eve dönüş çok uzun sürdü</translation>
-    </message>
-    <message>
-        <source>Motion was interrupted</source>
-        <translation>Hareket kesildi</translation>
-    </message>
-    <message>
-        <source>The nodes disagree about the path</source>
-        <translation>Düğümler yol üzerinde anlaşamıyor</translation>
-    </message>
-    <message>
-        <source>The bus has failed</source>
-        <translation>Veri yolu arızalandı</translation>
-    </message>
-    <message>
-        <source>A heater is not as it should be</source>
-        <translation>Bir ısıtıcı olması gerektiği gibi değil</translation>
-    </message>
-    <message>
-        <source>The job went wrong</source>
-        <translation>İş ters gitti</translation>
-    </message>
-    <message>
-        <source>Stopped by the operator</source>
-        <translation>Operatör tarafından durduruldu</translation>
-    </message>
-    <message>
-        <source>The machine did not come to rest</source>
-        <translation>Makine durmadı</translation>
-    </message>
-    <message>
-        <source>Too much current in a motor</source>
-        <translation>Bir motorda aşırı akım</translation>
-    </message>
-    <message>
-        <source>The supply voltage is wrong</source>
-        <translation>Besleme gerilimi hatalı</translation>
-    </message>
-    <message>
-        <source>A drive is too hot</source>
-        <translation>Bir sürücü çok sıcak</translation>
-    </message>
-    <message>
-        <source>Communication trouble on the bus</source>
-        <translation>Veri yolunda iletişim sorunu</translation>
-    </message>
-    <message>
-        <source>A carriage is not where it should be</source>
-        <translation>Bir araba olması gereken yerde değil</translation>
-    </message>
-    <message>
-        <source>Message</source>
-        <translation>İleti</translation>
-    </message>
-    <message>
-        <source>A node reports a fault</source>
-        <translation>Bir düğüm arıza bildiriyor</translation>
-    </message>
-    <message>
-        <source>Check the node&apos;s power and the bus cable, then home again.</source>
-        <translation>Düğümün beslemesini ve veri yolu kablosunu denetleyin, sonra yeniden eve gönderin.</translation>
-    </message>
-    <message>
-        <source>Connect the right node or update its firmware.</source>
-        <translation>Doğru düğümü bağlayın ya da yazılımını güncelleyin.</translation>
-    </message>
-    <message>
-        <source>Check the machine file against the node&apos;s limits.</source>
-        <translation>Makine dosyasını düğümün sınırlarıyla karşılaştırın.</translation>
-    </message>
-    <message>
-        <source>Look at the drive&apos;s fault, clear the alarm, then home again.</source>
-        <translation>Sürücünün arızasına bakın, alarmı temizleyin, sonra yeniden eve gönderin.</translation>
-    </message>
-    <message>
-        <source>Switch one of the gateways off.</source>
-        <translation>Ağ geçitlerinden birini kapatın.</translation>
-    </message>
-    <message>
-        <source>Check the node&apos;s power and the bus cable, then clear and home again.</source>
-        <translation>Düğümün beslemesini ve veri yolu kablosunu denetleyin, sonra temizleyip yeniden eve gönderin.</translation>
-    </message>
-    <message>
-        <source>Check the node&apos;s power, then clear and home again.</source>
-        <translation>Düğümün beslemesini denetleyin, sonra temizleyip yeniden eve gönderin.</translation>
-    </message>
-    <message>
-        <source>Check the bus for errors, then clear.</source>
-        <translation>Veri yolunda hata arayın, sonra temizleyin.</translation>
-    </message>
-    <message>
-        <source>Check the switch and its wiring, then clear and home again.</source>
-        <translation>Anahtarı ve kablosunu denetleyin, sonra temizleyip yeniden eve gönderin.</translation>
-    </message>
-    <message>
-        <source>Check the switches of the carriages that went on, then clear and home again.</source>
-        <translation>İlerleyen arabaların anahtarlarını denetleyin, sonra temizleyip yeniden eve gönderin.</translation>
-    </message>
-    <message>
-        <source>Check the switches and the homing speeds, then clear and home again.</source>
-        <translation>Anahtarları ve eve dönüş hızlarını denetleyin, sonra temizleyip yeniden eve gönderin.</translation>
-    </message>
-    <message>
-        <source>Clear: positions are known, the job can be run again.</source>
-        <translation>Temizleyin: konumlar biliniyor, iş yeniden çalıştırılabilir.</translation>
-    </message>
-    <message>
-        <source>Clear. If it comes again, check the bus for lost frames.</source>
-        <translation>Temizleyin. Yinelenirse veri yolunda kayıp çerçeve arayın.</translation>
-    </message>
-    <message>
-        <source>Check cable and termination of the bus, then clear and home again.</source>
-        <translation>Veri yolunun kablosunu ve sonlandırmasını denetleyin, sonra temizleyip yeniden eve gönderin.</translation>
-    </message>
-    <message>
-        <source>Check the heater and its sensor, then clear.</source>
-        <translation>Isıtıcıyı ve algılayıcısını denetleyin, sonra temizleyin.</translation>
-    </message>
-    <message>
-        <source>Correct the job, then clear.</source>
-        <translation>İşi düzeltin, sonra temizleyin.</translation>
-    </message>
-    <message>
-        <source>Clear when the machine is safe.</source>
-        <translation>Makine güvenli olduğunda temizleyin.</translation>
-    </message>
-    <message>
-        <source>Switch the machine off and on, then home again.</source>
-        <translation>Makineyi kapatıp açın, sonra yeniden eve gönderin.</translation>
-    </message>
-    <message>
-        <source>Two nodes use the same id</source>
-        <translation>İki düğüm aynı kimliği kullanıyor</translation>
-    </message>
-    <message>
-        <source>Give one of them another id or take it off the bus, then home again.</source>
-        <translation>Birine başka bir kimlik verin ya da onu veri yolundan çıkarın, sonra yeniden eve gönderin.</translation>
-    </message>
-</context>
-<context>
     <name>ConsoleHints</name>
     <message>
         <source>traverse</source>
@@ -2427,6 +2244,246 @@
         <source>%1: go to the bed reference first</source>
         <translation>%1. Önce tabla referansına gidin</translation>
     </message>
+    <message>
+        <source>A node does not answer</source>
+        <translation>Bir düğüm yanıt vermiyor</translation>
+    </message>
+    <message>
+        <source>The wrong node is connected</source>
+        <translation>Yanlış düğüm bağlı</translation>
+    </message>
+    <message>
+        <source>A node refuses its settings</source>
+        <translation>Bir düğüm ayarlarını kabul etmiyor</translation>
+    </message>
+    <message>
+        <source>A drive does not switch on</source>
+        <translation>Bir sürücü açılmıyor</translation>
+    </message>
+    <message>
+        <source>There is a second gateway on the bus</source>
+        <translation>Veri yolunda ikinci bir ağ geçidi var</translation>
+    </message>
+    <message>
+        <source>A node has gone silent</source>
+        <translation>Bir düğüm sustu</translation>
+    </message>
+    <message>
+        <source>A node has restarted</source>
+        <translation>Bir düğüm yeniden başladı</translation>
+    </message>
+    <message>
+        <source>The clocks have drifted apart</source>
+        <translation>Saatler birbirinden ayrıldı</translation>
+    </message>
+    <message>
+        <source>Homing has failed</source>
+        <translation>Eve dönüş başarısız oldu</translation>
+    </message>
+    <message>
+        <source>The carriages are too far apart</source>
+        <translation>Arabalar birbirinden çok uzak</translation>
+    </message>
+    <message>
+        <source>Homing took too long</source>
+        <translation>Eve dönüş çok uzun sürdü</translation>
+    </message>
+    <message>
+        <source>Motion was interrupted</source>
+        <translation>Hareket kesildi</translation>
+    </message>
+    <message>
+        <source>The nodes disagree about the path</source>
+        <translation>Düğümler yol üzerinde anlaşamıyor</translation>
+    </message>
+    <message>
+        <source>The bus has failed</source>
+        <translation>Veri yolu arızalandı</translation>
+    </message>
+    <message>
+        <source>A heater is not as it should be</source>
+        <translation>Bir ısıtıcı olması gerektiği gibi değil</translation>
+    </message>
+    <message>
+        <source>The job went wrong</source>
+        <translation>İş ters gitti</translation>
+    </message>
+    <message>
+        <source>Stopped by the operator</source>
+        <translation>Operatör tarafından durduruldu</translation>
+    </message>
+    <message>
+        <source>The machine did not come to rest</source>
+        <translation>Makine durmadı</translation>
+    </message>
+    <message>
+        <source>Too much current in a motor</source>
+        <translation>Bir motorda aşırı akım</translation>
+    </message>
+    <message>
+        <source>The supply voltage is wrong</source>
+        <translation>Besleme gerilimi hatalı</translation>
+    </message>
+    <message>
+        <source>A drive is too hot</source>
+        <translation>Bir sürücü çok sıcak</translation>
+    </message>
+    <message>
+        <source>Communication trouble on the bus</source>
+        <translation>Veri yolunda iletişim sorunu</translation>
+    </message>
+    <message>
+        <source>A carriage is not where it should be</source>
+        <translation>Bir araba olması gereken yerde değil</translation>
+    </message>
+    <message>
+        <source>A node reports a fault</source>
+        <translation>Bir düğüm arıza bildiriyor</translation>
+    </message>
+    <message>
+        <source>Two nodes use the same id</source>
+        <translation>İki düğüm aynı kimliği kullanıyor</translation>
+    </message>
+    <message>
+        <source>A motor phase is shorted</source>
+        <translation>Bir motor fazı kısa devre</translation>
+    </message>
+    <message>
+        <source>A motor phase is open</source>
+        <translation>Bir motor fazı kopuk</translation>
+    </message>
+    <message>
+        <source>a motor phase carries no current</source>
+        <translation>bir motor fazından akım geçmiyor</translation>
+    </message>
+    <message>
+        <source>check the motor&apos;s plug and cable for a break, then clear</source>
+        <translation>motorun fişinde ve kablosunda kopukluk arayın, sonra temizleyin</translation>
+    </message>
+    <message>
+        <source>The supply voltage is too high</source>
+        <translation>Besleme gerilimi çok yüksek</translation>
+    </message>
+    <message>
+        <source>The supply voltage is too low</source>
+        <translation>Besleme gerilimi çok düşük</translation>
+    </message>
+    <message>
+        <source>A node is too hot</source>
+        <translation>Bir düğüm çok sıcak</translation>
+    </message>
+    <message>
+        <source>A node&apos;s stored settings are damaged</source>
+        <translation>Bir düğümün kayıtlı ayarları bozuk</translation>
+    </message>
+    <message>
+        <source>A node&apos;s software has failed</source>
+        <translation>Bir düğümün yazılımı hata verdi</translation>
+    </message>
+    <message>
+        <source>An encoder has failed</source>
+        <translation>Bir kodlayıcı arızalandı</translation>
+    </message>
+    <message>
+        <source>A node has lost frames of the bus</source>
+        <translation>Bir düğüm veri yolu çerçevelerini kaçırdı</translation>
+    </message>
+    <message>
+        <source>Many errors on the bus</source>
+        <translation>Veri yolunda çok sayıda hata</translation>
+    </message>
+    <message>
+        <source>A node does not hear the gateway</source>
+        <translation>Bir düğüm ağ geçidini duymuyor</translation>
+    </message>
+    <message>
+        <source>A node was off the bus</source>
+        <translation>Bir düğüm veri yolundan kopmuştu</translation>
+    </message>
+    <message>
+        <source>A frame on the bus has the wrong length</source>
+        <translation>Veri yolundaki bir çerçevenin uzunluğu yanlış</translation>
+    </message>
+    <message>
+        <source>a PDO was too short</source>
+        <translation>bir PDO çok kısaydı</translation>
+    </message>
+    <message>
+        <source>a PDO was too long</source>
+        <translation>bir PDO çok uzundu</translation>
+    </message>
+    <message>
+        <source>a SYNC had the wrong length</source>
+        <translation>bir SYNC iletisinin uzunluğu yanlıştı</translation>
+    </message>
+    <message>
+        <source>look for another master on the bus, update the node&apos;s firmware</source>
+        <translation>veri yolunda başka bir yönetici arayın, düğümün yazılımını güncelleyin</translation>
+    </message>
+    <message>
+        <source>A frame to a node did not come in time</source>
+        <translation>Bir düğüme giden çerçeve zamanında gelmedi</translation>
+    </message>
+    <message>
+        <source>A motor does not follow</source>
+        <translation>Bir motor geri kaldı</translation>
+    </message>
+    <message>
+        <source>A position limit was reached</source>
+        <translation>Bir konum sınırına gelindi</translation>
+    </message>
+    <message>
+        <source>A node has lost the common time</source>
+        <translation>Bir düğüm ortak zamanı kaybetti</translation>
+    </message>
+    <message>
+        <source>A node&apos;s queue ran low</source>
+        <translation>Bir düğümün kuyruğu boşaldı</translation>
+    </message>
+    <message>
+        <source>A motion record was lost</source>
+        <translation>Bir hareket kaydı kayboldu</translation>
+    </message>
+    <message>
+        <source>A node is not where the gateway has sent it</source>
+        <translation>Bir düğüm ağ geçidinin gönderdiği yerde değil</translation>
+    </message>
+    <message>
+        <source>A motion record broke a node&apos;s limits</source>
+        <translation>Bir hareket kaydı bir düğümün sınırlarını aştı</translation>
+    </message>
+    <message>
+        <source>Drives were switched off in motion</source>
+        <translation>Sürücüler hareket hâlinde kapatıldı</translation>
+    </message>
+    <message>
+        <source>Emergency stop</source>
+        <translation>Acil durdurma</translation>
+    </message>
+    <message>
+        <source>A limit switch was reached</source>
+        <translation>Bir sınır anahtarına gelindi</translation>
+    </message>
+    <message>
+        <source>homing did not find the switch&apos;s edge</source>
+        <translation>eve dönüş anahtarın kenarını bulamadı</translation>
+    </message>
+    <message>
+        <source>this line taken out: every node speaks 1 Mbit/s, which is set on the interface (ip link set can0 type can bitrate 1000000)</source>
+        <translation>bu satırın çıkarılması: her düğüm 1 Mbit/s konuşur, bu da arayüzde ayarlanır (ip link set can0 type can bitrate 1000000)</translation>
+    </message>
+    <message>
+        <source>A node&apos;s power stage does not work</source>
+        <translation>Bir düğümün güç katı çalışmıyor</translation>
+    </message>
+    <message>
+        <source>the power stage does not measure the motor&apos;s currents</source>
+        <translation>güç katı motorun akımlarını ölçmüyor</translation>
+    </message>
+    <message>
+        <source>switch the node off and on; when it comes again, replace the board</source>
+        <translation>düğümü kapatıp açın; yinelenirse kartı değiştirin</translation>
+    </message>
 </context>
 <context>
     <name>GatewayWords</name>
@@ -2584,8 +2641,8 @@
         <translation>%1 mm</translation>
     </message>
     <message>
-        <source>%1 A</source>
-        <translation>%1 A</translation>
+        <source>%1 of %2 A</source>
+        <translation>%1 / %2 A</translation>
     </message>
     <message>
         <source>Fault</source>

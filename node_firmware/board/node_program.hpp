@@ -126,7 +126,7 @@ bool NodeProgram<Can, Switches, Counter>::refuse_power() {
   bool refused = false;
   for (int axis = 0; axis < kAxesPerNode; ++axis) {
     if (!node_.drive(axis).power) continue;
-    node_.on_drive_fault(now_, axis, 0x5200);  // device hardware, control
+    node_.on_drive_fault(now_, axis, emcy::kControlHardware);
     refused = true;
   }
   return refused;

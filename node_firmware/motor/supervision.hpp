@@ -6,14 +6,17 @@
 #include <cstdint>
 
 #include "node_firmware/motor/current_loop.hpp"
+#include "protocol/canopen/alarm_codes.hpp"
 
 namespace kinebus::motor {
 
 /// Standard EMCY codes (CiA 301, 402).
 namespace fault {
-inline constexpr std::uint16_t kNone = 0, kOverCurrent = 0x2310, kShortCircuit = 0x2320, kPhaseOpen = 0x3130,
-                               kOverVoltage = 0x3210, kUnderVoltage = 0x3220, kTemperature = 0x4310,
-                               kSoftware = 0x6100, kEncoder = 0x7305, kFollowing = 0x8611;
+inline constexpr std::uint16_t kNone = emcy::kNoError, kOverCurrent = emcy::kOverCurrent,
+                               kShortCircuit = emcy::kShortCircuit, kPhaseOpen = emcy::kPhaseOpen,
+                               kOverVoltage = emcy::kOverVoltage, kUnderVoltage = emcy::kUnderVoltage,
+                               kTemperature = emcy::kDriveTemperature, kSoftware = emcy::kSoftware,
+                               kEncoder = emcy::kIncrementalEncoder, kFollowing = emcy::kFollowingError;
 }  // namespace fault
 
 /// True after `limit` periods in a row (less one for each good one in between).

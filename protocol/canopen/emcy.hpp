@@ -6,19 +6,13 @@
 #include <optional>
 
 #include "protocol/can/frame.hpp"
+#include "protocol/canopen/alarm_codes.hpp"
 #include "protocol/canopen/cob_id.hpp"
 #include "protocol/time.hpp"
 
 namespace kinebus {
 
 namespace emcy {
-inline constexpr std::uint16_t kNoError = 0x0000, kOverCurrent = 0x2310, kOverVoltage = 0x3210,
-                               kUnderVoltage = 0x3220, kDriveTemperature = 0x4310, kStorage = 0x5530,
-                               kSoftware = 0x6100, kEncoder = 0x7300, kCanOverrun = 0x8110,
-                               kErrorPassive = 0x8120, kHeartbeat = 0x8130, kBusOffRecovered = 0x8140,
-                               kPdoTooShort = 0x8210, kPdoTooLong = 0x8220, kSyncLength = 0x8240,
-                               kRpdoTimeout = 0x8250, kFollowingError = 0x8611, kSyncController = 0x8700,
-                               kManufacturer = 0xFF00;
 /// Bits of the error register.
 inline constexpr std::uint8_t kGeneric = 0x01, kCurrent = 0x02, kVoltage = 0x04, kTemperature = 0x08,
                               kCommunication = 0x10, kProfile = 0x20, kVendor = 0x80;

@@ -86,8 +86,11 @@ TEST(Alarms, EmergenciesAreToldInWords) {
   const AlarmText current = describe_emergency({2, 0x2310, 3, {9, 0, 0, 0, 0}});
   EXPECT_EQ(current.words, "node 2: over-current in a motor phase; fault of a drive (EMCY 2310h)");
   EXPECT_FALSE(current.advice.empty());
-  const AlarmText starved = describe_emergency({1, 0xFF00, 0x81, {1, 0, 0, 0, 0}});
-  EXPECT_EQ(starved.words, "node 1: its queue ran low (EMCY FF00h)");
+  const AlarmText starved = describe_emergency({1, 0xFF01, 0x81, {1, 0, 0, 0, 0}});
+  EXPECT_EQ(starved.words, "node 1: its queue ran low (EMCY FF01h)");
+  const AlarmText open = describe_emergency({3, 0x3130, 5, {0x89, 0, 0, 0, 0}});
+  EXPECT_EQ(open.words, "node 3: a motor phase carries no current; fault of a drive, axis B (EMCY 3130h)");
+  EXPECT_EQ(open.advice, "check the motor's plug and cable for a break, then clear");
   const AlarmText unknown = describe_emergency({1, 0x5999, 1, {0x7F, 0, 0, 0, 0}});
   EXPECT_EQ(unknown.words, "node 1: hardware fault (EMCY 5999h)");
 }

@@ -109,8 +109,8 @@ TEST(Sync, ConsumerChecksTheCounterByte) {
 }
 
 TEST(Emcy, EncodesAndDecodes) {
-  const Emergency emergency{3, emcy::kManufacturer, 0x81, {1, 2, 3, 4, 5}};
-  EXPECT_EQ(str(encode(emergency)), "083#00FF810102030405");
+  const Emergency emergency{3, node_emcy::kStarved, 0x81, {1, 2, 3, 4, 5}};
+  EXPECT_EQ(str(encode(emergency)), "083#01FF810102030405");
   EXPECT_EQ(decode_emcy(encode(emergency)), emergency);
   EXPECT_FALSE(decode_emcy(frame("080#0000000000000000")));
   EXPECT_FALSE(decode_emcy(frame("083#00")));
@@ -142,11 +142,11 @@ TEST(Emcy, UrgentOnesOvertakeAndAlwaysFindRoom) {
   producer.set_inhibit_time(milliseconds{10});
   for (int i = 0; i < 12; ++i) producer.raise(emcy::kHeartbeat);
   EXPECT_EQ(producer.lost(), 4u);
-  producer.raise(emcy::kManufacturer, {7}, true);
+  producer.raise(node_emcy::kStarved, {7}, true);
   EXPECT_EQ(producer.next_deadline(), LocalTime::min());
-  EXPECT_EQ(str(producer.next_frame(LocalTime{0}, 2)), "082#00FF910700000000");
-  producer.raise(emcy::kManufacturer, {8}, true);
-  EXPECT_EQ(str(producer.next_frame(LocalTime{0}, 2)), "082#00FF910800000000") << "no inhibit time";
+  EXPECT_EQ(str(producer.next_frame(LocalTime{0}, 2)), "082#01FF910700000000");
+  producer.raise(node_emcy::kStarved, {8}, true);
+  EXPECT_EQ(str(producer.next_frame(LocalTime{0}, 2)), "082#01FF910800000000") << "no inhibit time";
 }
 
 TEST(Crc, KnownCheckValues) {
