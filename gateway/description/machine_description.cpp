@@ -39,6 +39,7 @@ MachineDescription default_m1() {
   MachineDescription d;
   d.name = "M1";
   d.kinematics = M1Geometry{};
+  d.gcode.traverse_mm_per_s = 300;
   for (int number = 1; number <= 4; ++number) d.joints.push_back(tower(number));
   JointDescription c;
   c.name = "C";

@@ -110,18 +110,18 @@ struct JointDescription {
 };
 
 /// Limits of the tool tip relative to the part, and of the pose axes that are no joints of their own.
-struct PathLimits {
+struct PathDescription {
   double tool_speed_mm_per_s = 300;
   double tool_accel_mm_per_s2 = 3000;
   /// Of pose axes, by PoseAxis: mm or rad. 0: no limit of its own (the tool's, and the joints', still hold).
   Pose axis_speed_per_s{0, 0, 0, 90 * kRadPerDeg, 360 * kRadPerDeg, 60};
   Pose axis_accel_per_s2{0, 0, 0, 900 * kRadPerDeg, 3600 * kRadPerDeg, 3000};
-  friend bool operator==(const PathLimits&, const PathLimits&) = default;
+  friend bool operator==(const PathDescription&, const PathDescription&) = default;
 };
 
 struct PathTolerances {
   double blend_mm = 0.005;      ///< corners (G64 without P)
-  double merge_mm = 0.003;      ///< runs of short lines against the smooth curve put through them
+  double merge_mm = 0.005;      ///< runs of short lines against the smooth curve put through them; 0: none is
   double segment_counts = 0.5;  ///< streamed segments against q(tau), in microsteps of each joint
   friend bool operator==(const PathTolerances&, const PathTolerances&) = default;
 };
@@ -151,7 +151,6 @@ struct ResumeDescription {
 
 struct BusDescription {
   std::string interface = "can0";
-  std::uint32_t bitrate = 1'000'000;
   double budget = 0.60;  ///< share of the bus that streaming may use
   std::chrono::milliseconds sync_period{50};
   std::chrono::milliseconds sync_timeout{175};  ///< without SYNC for so long a node stops on the path
@@ -231,14 +230,18 @@ struct SpindleDescription {
 
 struct GcodeDescription {
   double initial_feed_mm_per_min = 1500;  ///< until the job states its first F
-  double traverse_mm_per_s = 300;         ///< tool speed of G0
+  /// What G4 P counts: milliseconds in printer firmware, seconds in RS274/NGC.
+  enum class DwellUnit : std::uint8_t { kMilliseconds, kSeconds };
+  double traverse_mm_per_s = 0;  ///< tool speed of G0; 0: the tool's own limit
   double filament_diameter_mm = 1.75;
   double arc_radius_tolerance_mm = 0.01;  ///< start and end radius of G2/G3 may differ by it
   double retract_mm = 0.8;                ///< G10/G11 without words, or M207
   double retract_mm_per_s = 35;
   double retract_lift_mm = 0;
-  bool optional_stop = false;  ///< M1 stops
-  bool block_delete = false;   ///< lines that begin with / are left out
+  DwellUnit dwell_p_unit = DwellUnit::kMilliseconds;
+  std::vector<double> tool_length_mm;  ///< of T1, T2 ...: G43 takes it by H, or by T without H
+  bool optional_stop = false;          ///< M1 stops
+  bool block_delete = false;           ///< lines that begin with / are left out
   friend bool operator==(const GcodeDescription&, const GcodeDescription&) = default;
 };
 
@@ -247,7 +250,7 @@ struct MachineDescription {
   KinematicsGeometry kinematics;         ///< travel and limits of joints and poses already filled in
   std::vector<JointDescription> joints;  ///< in the order of the kinematics' joints
   std::vector<NodeDescription> nodes;    ///< ascending ids; every node that a joint names
-  PathLimits path;
+  PathDescription path;
   PathTolerances tolerances;
   StopDescription stop;
   ResumeDescription resume;

@@ -64,7 +64,7 @@ std::size_t distance(std::string_view a, std::string_view b) {
 class Reader {
  public:
   Reader(const toml::table& root, std::string_view file) : file_(file) {
-    levels_.push_back({&root, "", {}, true, {}});
+    levels_.push_back({&root, "", {}, {}, true, {}});
   }
 
   void finish() { end_table(); }
@@ -182,7 +182,7 @@ class Reader {
     const toml::node* node = find(key, need, expected);
     if (node == nullptr) return;
     if (const auto* t = node->as_table()) {
-      levels_.push_back({t, path(key), {}, true, {}});
+      levels_.push_back({t, path(key), {}, {}, true, {}});
       content();
       end_table();
     } else {
@@ -222,6 +222,12 @@ class Reader {
     std::sort(nodes.begin(), nodes.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
   }
 
+  /// A key of older files: `expected`, a phrase, says what to do.
+  void removed(std::string_view key, const char* expected) {
+    level().removed.insert(std::string(key));
+    if (const toml::node* node = find(key, Need::kOptional, {})) wrong(key, *node, say(expected));
+  }
+
   /// What this table may hold is not known, because something before it was wrong.
   void leave_unjudged() {
     level().judged = false;
@@ -242,6 +248,7 @@ class Reader {
     const toml::table* table;
     std::string path;
     std::set<std::string> known;
+    std::set<std::string> removed;
     bool judged;
     Sentence others{};  // what keys the table takes besides the known ones
   };
@@ -318,6 +325,7 @@ class Reader {
     std::size_t nearest_distance = 1 + name.size() / 3;
     std::string all;
     for (const std::string& k : l.known) {
+      if (l.removed.contains(k)) continue;
       all += (all.empty() ? "" : ", ") + k;
       const std::size_t d = distance(k, name);
       if (d <= nearest_distance && (nearest == nullptr || d < nearest_distance)) {

@@ -152,11 +152,6 @@ class Rules {
             {"bus.heartbeat_timeout_ms", "bus.heartbeat_period_ms"},
             Sentence::verbatim(std::to_string(b.heartbeat_timeout.count())),
             say("at least two heartbeats, %1", 2 * b.heartbeat_period.count()));
-    constexpr std::uint32_t kBitrates[] = {10000, 20000, 50000, 125000, 250000, 500000, 800000, 1000000};
-    bool standard = false;
-    for (const std::uint32_t rate : kBitrates) standard = standard || rate == b.bitrate;
-    require(standard, {"bus.bitrate"}, Sentence::verbatim(std::to_string(b.bitrate)),
-            say("a CiA 301 bit rate: 10000, 20000, 50000, 125000, 250000, 500000, 800000 or 1000000"));
     require(!b.interface.empty() && b.interface.size() < 16, {"bus.interface"},
             Sentence::verbatim(b.interface), say("a network interface's name of 1 .. 15 characters"));
   }

@@ -32,6 +32,8 @@ inline constexpr Choice kAxes[] = {{"A", 0}, {"B", 1}};
 inline constexpr Choice kCarriage[] = {{"below", 0}, {"above", 1}};
 inline constexpr Choice kResumeThen[] = {{"ask", static_cast<int>(ResumeDescription::Then::kAsk)},
                                          {"go_on", static_cast<int>(ResumeDescription::Then::kGoOn)}};
+inline constexpr Choice kDwellUnits[] = {{"ms", static_cast<int>(GcodeDescription::DwellUnit::kMilliseconds)},
+                                         {"s", static_cast<int>(GcodeDescription::DwellUnit::kSeconds)}};
 inline constexpr Choice kEncoders[] = {
     {"none", static_cast<int>(MotorDescription::Encoder::kNone)},
     {"watch", static_cast<int>(MotorDescription::Encoder::kWatch)},
@@ -246,7 +248,9 @@ template <class V>
 void visit_bus(V& v, BusDescription& b) {
   v.table("bus", Need::kOptional, [&] {
     v.text("interface", b.interface, Need::kOptional);
-    v.integer("bitrate", b.bitrate, 10000, 1000000, Need::kOptional);
+    v.removed("bitrate",
+              phrase("this line taken out: every node speaks 1 Mbit/s, which is set on the interface "
+                     "(ip link set can0 type can bitrate 1000000)"));
     v.number("budget", b.budget, {0.05, 0.95}, Need::kOptional);
     v.duration("sync_period_ms", b.sync_period, 5, 1000, Need::kOptional);
     v.duration("sync_timeout_ms", b.sync_timeout, 10, 10000, Need::kOptional);
@@ -259,12 +263,14 @@ template <class V>
 void visit_gcode(V& v, GcodeDescription& g) {
   v.table("gcode", Need::kOptional, [&] {
     v.number("initial_feed_mm_per_min", g.initial_feed_mm_per_min, {1, 100000}, Need::kOptional);
-    v.number("traverse_mm_per_s", g.traverse_mm_per_s, {0.1, 10000}, Need::kOptional);
+    v.unless_zero("traverse_mm_per_s", g.traverse_mm_per_s, {0.1, 10000}, 1);
     v.number("filament_diameter_mm", g.filament_diameter_mm, {0.1, 10}, Need::kOptional);
     v.number("arc_radius_tolerance_mm", g.arc_radius_tolerance_mm, {0, 1}, Need::kOptional);
     v.number("retract_mm", g.retract_mm, {0, 100}, Need::kOptional);
     v.number("retract_mm_per_s", g.retract_mm_per_s, {0.1, 1000}, Need::kOptional);
     v.number("retract_lift_mm", g.retract_lift_mm, {0, 50}, Need::kOptional);
+    v.choice("dwell_p_unit", g.dwell_p_unit, kDwellUnits, Need::kOptional);
+    v.numbers("tool_length_mm", g.tool_length_mm, {-1000, 1000}, 99, 1);
     v.flag("optional_stop", g.optional_stop, Need::kOptional);
     v.flag("block_delete", g.block_delete, Need::kOptional);
   });

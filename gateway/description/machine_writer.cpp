@@ -98,6 +98,7 @@ class Writer {
     return true;
   }
   void leave_unjudged() {}
+  void removed(std::string_view, const char*) {}
   void vector3(std::string_view key, const Vector3& v, Range, Need, double unit = 1) {
     line(key, list(v, unit));
   }

@@ -46,8 +46,9 @@ struct Dwell {
 struct PathMode {  ///< G61, G61.1 / G64
   bool exact = false;
   double tolerance_mm = 0;  ///< G64 P; 0: the machine's default
-  double merge_tolerance_mm =
-      0;  ///< G64 Q: how far merging short lines may leave them; 0: the machine's default
+  /// G64 Q, or P without Q: how far the curve through short lines may leave them; 0: the machine's default.
+  double merge_tolerance_mm = 0;
+  bool merge = true;  ///< false: G64 Q0, short lines stay as they are
 };
 struct SetPosition {
   Pose pose{};

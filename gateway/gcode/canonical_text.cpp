@@ -76,7 +76,8 @@ struct Writer {
   std::string operator()(const Dwell& c) const { return "dwell " + number(c.seconds); }
   std::string operator()(const PathMode& c) const {
     if (c.exact) return "path exact";
-    return "path blend tolerance" + number(c.tolerance_mm) + " merge" + number(c.merge_tolerance_mm);
+    return "path blend tolerance" + number(c.tolerance_mm) + " merge" +
+           (c.merge ? number(c.merge_tolerance_mm) : " off");
   }
   std::string operator()(const SetPosition& c) const { return "position " + pose_text(c.pose, c.frame); }
   std::string operator()(const Limits& c) const {

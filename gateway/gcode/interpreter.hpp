@@ -39,6 +39,7 @@ struct Options {
   double a_min_rad = -0.7853981633974483, a_max_rad = 0.7853981633974483;  ///< what G53.1 may choose from
   bool spindle = false;                                                    ///< there is one: M3, M4, M5 and S
   int tools = 1;                                                           ///< T0 .. T(tools - 1)
+  int hotends = 1;                                                         ///< M104 T0 .. T(hotends - 1)
   std::vector<double> tool_length_mm;                                      ///< G43 H1 is the first entry
   double retract_length_mm = 1, retract_mm_per_s = 40, retract_lift_mm = 0;  ///< until M207
   double recover_extra_mm = 0, recover_mm_per_s = 40;                        ///< until M208

@@ -1,5 +1,6 @@
 // M codes, except what M0, M1, M2, M30 stop and M82, M83 set.
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -177,8 +178,8 @@ bool Core::thermal(Code code) {
     return fail(block_.column_of(letter), say("a target temperature cannot be below 0 deg C"));
   command.wait_cooling = both;
   if (command.what == What::kHotend) {
-    command.index = state_.modal.tool;
-    if (!take_integer('T', 0, options_.tools - 1, command.index)) return false;
+    command.index = std::min(state_.modal.tool, options_.hotends - 1);
+    if (!take_integer('T', 0, options_.hotends - 1, command.index)) return false;
   }
   emit(command);
   return true;

@@ -75,15 +75,19 @@ bool Core::dwell() {
 bool Core::set_path_mode(Code code) {
   ModalState& m = state_.modal;
   double tolerance = 0, merge = 0;
+  bool merges = true;
   if (code.number == 640) {
     if (!take_if_given('P', tolerance) || !take_if_given('Q', merge)) return false;
     if (tolerance < 0) return fail(block_.column_of('P'), say("the tolerance P of G64 cannot be negative"));
     if (merge < 0) return fail(block_.column_of('Q'), say("the tolerance Q of G64 cannot be negative"));
+    const bool given = block_.has('Q');
+    merges = !given || merge > 0;
+    if (!given) merge = tolerance;
   }
   m.exact_path = code.number != 640;
   m.path_tolerance_mm = length(tolerance);
   m.merge_tolerance_mm = length(merge);
-  emit(canonical::PathMode{m.exact_path, m.path_tolerance_mm, m.merge_tolerance_mm});
+  emit(canonical::PathMode{m.exact_path, m.path_tolerance_mm, m.merge_tolerance_mm, merges});
   return true;
 }
 

@@ -24,6 +24,8 @@ MotionLimits motion_limits(const MachineDescription& machine) {
     limits.joint_accel_per_s2[joint] = limit(reserve.accel_per_s2);
   }
   limits.blend_tolerance_mm = machine.tolerances.blend_mm;
+  limits.merge_tolerance_mm = machine.tolerances.merge_mm;
+  limits.traverse_mm_per_s = limit(machine.gcode.traverse_mm_per_s);
   return limits;
 }
 
@@ -36,6 +38,11 @@ gcode::Options interpreter_options(const MachineDescription& machine, const Pose
   options.arc_radius_tolerance_mm = machine.gcode.arc_radius_tolerance_mm;
   options.spindle = machine.spindle.present;
   options.traverse_uses_feed = !machine.spindle.present;  // on a mill F is for cutting alone (RS274/NGC)
+  options.dwell_p_unit = machine.gcode.dwell_p_unit == GcodeDescription::DwellUnit::kSeconds
+                             ? gcode::DwellUnit::kSeconds
+                             : gcode::DwellUnit::kMilliseconds;
+  options.tools = 1 + static_cast<int>(machine.gcode.tool_length_mm.size());
+  options.tool_length_mm = machine.gcode.tool_length_mm;
   options.retract_length_mm = machine.gcode.retract_mm;
   options.retract_mm_per_s = options.recover_mm_per_s = machine.gcode.retract_mm_per_s;
   options.retract_lift_mm = machine.gcode.retract_lift_mm;

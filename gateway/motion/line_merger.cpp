@@ -33,12 +33,12 @@ bool may_merge(const Move& before, const Move& after, const MotionLimits& limits
   const double longer = std::max(before.length, after.length),
                shorter = std::min(before.length, after.length);
   if (longer > kLongestLine_mm || longer > kGreatestLengthRatio * shorter) return false;
-  if (before.tolerance_mm != after.tolerance_mm || before.traverse != after.traverse ||
-      before.accel_mm_per_s2 != after.accel_mm_per_s2)
+  if (before.merge_tolerance_mm != after.merge_tolerance_mm || !(after.merge_tolerance_mm > 0) ||
+      before.traverse != after.traverse || before.accel_mm_per_s2 != after.accel_mm_per_s2)
     return false;
   if (std::abs(before.speed - after.speed) > 0.1 * before.speed && before.speed != after.speed) return false;
   if (dot_xyz(before.u, after.u) < kLeastCosine) return false;
-  const double tolerance = after.tolerance_mm;
+  const double tolerance = after.merge_tolerance_mm;
   const double share = 8 * kVertexShare / longer;
   double bend2 = 0;
   for (std::size_t i = 0; i < 3; ++i) bend2 += (after.u[i] - before.u[i]) * (after.u[i] - before.u[i]);
@@ -83,10 +83,10 @@ Pose LineMerger::direction(const GrowingRing<Move>& moves, std::uint64_t line, s
   for (std::size_t i = 0; i < 3; ++i) off2 += (t[i] - move.u[i]) * (t[i] - move.u[i]);
   const double allowed = kDirectionShare / (kSlopeToDeviation * kLongestPair * move.length);
   const double rotation = std::max(std::abs(t[kA] - move.u[kA]), std::abs(t[kC] - move.u[kC]));
-  if (off2 > allowed * allowed * move.tolerance_mm * move.tolerance_mm ||
+  if (off2 > allowed * allowed * move.merge_tolerance_mm * move.merge_tolerance_mm ||
       std::abs(t[kE] - move.u[kE]) > allowed * limits_->blend_tolerance_e_mm ||
-      (rotation > 0 &&
-       rotation > allowed * rotation_tolerance_rad(move.frame, move.from, move.tolerance_mm, *limits_))) {
+      (rotation > 0 && rotation > allowed * rotation_tolerance_rad(move.frame, move.from,
+                                                                   move.merge_tolerance_mm, *limits_))) {
     return move.u;
   }
   return t;
@@ -109,10 +109,10 @@ void LineMerger::span(const GrowingRing<Move>& moves, std::uint64_t end, std::ui
 bool LineMerger::fits(const GrowingRing<Move>& moves, std::uint64_t end, const PathPiece& piece) const {
   const Move& first = moves[knot_];
   const double share2 = kSpanShare * kSpanShare;
-  const double xyz2 = share2 * first.tolerance_mm * first.tolerance_mm;
+  const double xyz2 = share2 * first.merge_tolerance_mm * first.merge_tolerance_mm;
   const double e = kSpanShare * limits_->blend_tolerance_e_mm;
   const double rotation =
-      kSpanShare * rotation_tolerance_rad(first.frame, first.from, first.tolerance_mm, *limits_);
+      kSpanShare * rotation_tolerance_rad(first.frame, first.from, first.merge_tolerance_mm, *limits_);
   const auto& c = piece.coefficients;
   double s = 0.5 * first.length;
   for (std::uint64_t k = knot_; k < end; ++k) {

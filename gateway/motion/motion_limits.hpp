@@ -16,6 +16,8 @@ struct MotionLimits {
   /// Tool tip relative to the frame of the move: length of its velocity and of its acceleration vector.
   double tool_speed_mm_per_s = 300;
   double tool_accel_mm_per_s2 = 3000;
+  /// Tool speed of a traverse (G0), when it is below tool_speed_mm_per_s.
+  double traverse_mm_per_s = kUnlimited;
   /// Each pose axis by itself, X Y Z A C E. X Y Z are usually limited by the tool and the joints alone.
   Pose axis_speed_per_s{kUnlimited, kUnlimited, kUnlimited, 1.5707963267948966, 6.283185307179586, 60};
   Pose axis_accel_per_s2{kUnlimited, kUnlimited, kUnlimited, 31.41592653589793, 62.83185307179586, 3000};
@@ -25,6 +27,8 @@ struct MotionLimits {
 
   /// G64 without P: how far the planned path may leave the programmed one (X Y Z, distance).
   double blend_tolerance_mm = 0.005;
+  /// G64 without P and Q: how far a smooth curve through many short lines may leave them; 0: no such curves.
+  double merge_tolerance_mm = 0.005;
   /// The same for filament at the nozzle, and for the rotations under tool-centre-point control (where they
   /// do not move the tip). In Frame::kMachine the rotations' own tolerance is what moves the tip by the blend
   /// tolerance.

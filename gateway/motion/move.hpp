@@ -24,10 +24,11 @@ struct Move {
   Pose u{};      ///< dx/ds at the start (lines: all along)
   Pose u_end{};  ///< dx/ds at the end
   double length = 0;
-  double speed = 0;            ///< ds/dt that the feed asks for; infinite for a traverse
-  double accel_mm_per_s2 = 0;  ///< tool acceleration for this kind of move
-  double tolerance_mm = 0;     ///< how far the path may leave this move
-  bool exact = false;          ///< G61: no merging
+  double speed = 0;               ///< ds/dt that the feed asks for; infinite: none
+  double accel_mm_per_s2 = 0;     ///< tool acceleration for this kind of move
+  double tolerance_mm = 0;        ///< how far the path may leave this move in a corner
+  double merge_tolerance_mm = 0;  ///< how far a curve through it and its neighbours may leave it; 0: none
+  bool exact = false;             ///< G61: no merging
   bool traverse = false;
   bool tool_motion = false;  ///< X Y Z move, and |dx/ds| of X Y Z is 1
   bool arc = false;

@@ -45,6 +45,7 @@ struct Planner::Impl {
     builder.set_limits(current);
     exact = false;
     tolerance_mm = limits.blend_tolerance_mm;
+    merge_tolerance_mm = limits.merge_tolerance_mm;
     feed_ratio = 1;
     print_accel = travel_accel = retract_accel = limits.tool_accel_mm_per_s2;
   }
@@ -81,7 +82,7 @@ struct Planner::Impl {
   Pose end{};
   Frame frame = Frame::kMachine;
   bool exact = false;
-  double tolerance_mm = 0, feed_ratio = 1;
+  double tolerance_mm = 0, merge_tolerance_mm = 0, feed_ratio = 1;
   double print_accel = 0, travel_accel = 0, retract_accel = 0;
   bool has_failed = false;
   PlanError failed{};
@@ -147,7 +148,10 @@ Result<void, PlanError> Planner::Impl::add_arc(const canonical::Arc& arc, std::u
 Result<void, PlanError> Planner::Impl::complete(Move& move, double feed, double duration,
                                                 double feed_length) {
   if (move.traverse) {
-    move.speed = feed > 0 ? feed * move.length / feed_length : kUnlimited;
+    const bool slower = limits.traverse_mm_per_s < limits.tool_speed_mm_per_s && norm_xyz(move.u) > 0;
+    const double ratio = move.length / feed_length;
+    move.speed = slower ? limits.traverse_mm_per_s * ratio : kUnlimited;
+    if (feed > 0) move.speed = std::min(move.speed, feed * ratio);
   } else if (duration > 0) {
     move.speed = move.length / duration * feed_ratio;
   } else {
@@ -159,6 +163,7 @@ Result<void, PlanError> Planner::Impl::complete(Move& move, double feed, double 
   }
   move.exact = exact;
   move.tolerance_mm = tolerance_mm;
+  move.merge_tolerance_mm = merge_tolerance_mm;
   move.frame = frame;
   end = move.to;
   return take(builder.move_added());
@@ -227,6 +232,9 @@ Result<void, PlanError> Planner::add(const canonical::Line& line) {
     d.tolerance_mm = mode->exact
                          ? d.limits.exact_tolerance_mm
                          : (mode->tolerance_mm > 0 ? mode->tolerance_mm : d.limits.blend_tolerance_mm);
+    d.merge_tolerance_mm = !mode->merge                   ? 0
+                           : mode->merge_tolerance_mm > 0 ? mode->merge_tolerance_mm
+                                                          : d.limits.merge_tolerance_mm;
     return {};
   }
   if (const auto* set = std::get_if<canonical::SetPosition>(&line.command)) return d.set_position(*set);

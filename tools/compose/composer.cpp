@@ -12,7 +12,6 @@ namespace kinebus::compose {
 namespace {
 
 constexpr double kDeg = 180 / std::numbers::pi;
-constexpr double kFilamentMm2 = std::numbers::pi / 4 * 1.75 * 1.75;
 
 TriangleMesh placed(TriangleMesh mesh, bool keep_position) {
   const Box box = bounds(mesh);
@@ -33,7 +32,8 @@ SupportComparison with_support(const Slicer& slicer, const TriangleMesh& part, c
   JoinPiece whole{"uncut", {}, read_sliced(supported, "uncut-support.gcode"), bounds(part)};
   out.support_filament_mm =
       std::max(0.0, whole.gcode.filament_mm - read_sliced(plain, "uncut.gcode").filament_mm);
-  out.support_mm3 = out.support_filament_mm * kFilamentMm2;
+  const double radius_mm = machine.gcode.filament_diameter_mm / 2;
+  out.support_mm3 = out.support_filament_mm * std::numbers::pi * radius_mm * radius_mm;
   ProblemList problems;
   out.time_s = planned_time_s(join({whole}, options.join).text, machine, problems);
   return out;
@@ -49,7 +49,9 @@ Composed compose(const TriangleMesh& given, const ComposeOptions& options,
   const std::vector<Solid> pieces = options.planes.empty()
                                         ? decompose(solid, options.decompose)
                                         : decompose(solid, options.planes, options.decompose);
-  const Slicer slicer(options.slicer, options.work_folder);
+  SlicerOptions sliced = options.slicer;
+  sliced.filament_diameter_mm = machine.gcode.filament_diameter_mm;
+  const Slicer slicer(sliced, options.work_folder);
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const Solid& piece = pieces[i];
     const std::string name = fmt::format("piece-{}", i + 1);

@@ -56,7 +56,7 @@ Slicer::Slicer(SlicerOptions options, std::string folder)
   std::ofstream out(folder_ + "/settings.ini");
   out << fmt::format(
       "bed_shape = -200x-200,200x-200,200x200,-200x200\nmax_print_height = 400\ngcode_flavor = marlin\n"
-      "nozzle_diameter = 0.4\nfilament_diameter = 1.75\nlayer_height = {0}\nfirst_layer_height = {0}\n"
+      "nozzle_diameter = 0.4\nfilament_diameter = {3}\nlayer_height = {0}\nfirst_layer_height = {0}\n"
       "temperature = {1}\nfirst_layer_temperature = {1}\nbed_temperature = {2}\nfirst_layer_bed_temperature "
       "= {2}\n"
       "skirts = 0\nbrim_width = 0\nperimeters = 2\nfill_density = 15%\nfill_pattern = grid\n"
@@ -64,7 +64,7 @@ Slicer::Slicer(SlicerOptions options, std::string folder)
       "35\n"
       "retract_lift = 0.3\nwipe = 0\nperimeter_speed = 60\nexternal_perimeter_speed = 35\ninfill_speed = 80\n"
       "travel_speed = 150\nfirst_layer_speed = 25\nstart_gcode =\nend_gcode =\n",
-      options_.layer_mm, options_.hotend_celsius, options_.bed_celsius);
+      options_.layer_mm, options_.hotend_celsius, options_.bed_celsius, options_.filament_diameter_mm);
   if (!out.flush()) throw std::runtime_error(folder_ + "/settings.ini: could not be written");
   options_.config = folder_ + "/settings.ini";
 }

@@ -12,6 +12,7 @@ struct SlicerOptions {
   std::string program = "prusa-slicer";
   std::string config;     ///< a PrusaSlicer .ini of the user's; empty: the composer's own settings
   double layer_mm = 0.2;  ///< of the composer's own settings
+  double filament_diameter_mm = 1.75;
   double hotend_celsius = 205;
   double bed_celsius = 60;
   bool support = false;  ///< let the slicer add support (to measure what was saved)

@@ -21,7 +21,7 @@ inline Options golden_options(std::string_view text) {
   options.traverse_uses_feed = says("traverse_uses_feed");
   if (says("dwell_seconds")) options.dwell_p_unit = DwellUnit::kSeconds;
   if (says("default_feed")) options.default_feed_mm_per_s = 25;
-  if (says("two_tools")) options.tools = 2;
+  if (says("two_tools")) options.tools = options.hotends = 2;
   return options;
 }
 

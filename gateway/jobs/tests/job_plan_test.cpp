@@ -18,9 +18,9 @@ struct Planned {
   ProblemList problems;
 };
 
-Planned plan(const std::string& job, int lines = 1000) {
+Planned plan(const std::string& job, int lines = 1000, const MachineDescription& on = machine()) {
   StringSource source(job);
-  JobPlan p(machine(), kinematics(), source);
+  JobPlan p(on, kinematics(), source);
   while (!p.step(lines)) {
   }
   return {p.report(), p.problems()};
@@ -60,6 +60,64 @@ TEST(JobPlan, AnFWithG0LimitsTravelOnAPrinter) {
   const double free = plan("G1 Z5 F6000\nG0 X-40\nG0 X40\n").report.motion_s;
   const double limited = plan("G1 Z5 F6000\nG0 X-40\nG0 X40 F600\n").report.motion_s;
   EXPECT_GT(limited, free + 5) << "80 mm at 10 mm/s";
+}
+
+/// Four turns of short lines about a circle of 10 mm.
+std::string circle_of_lines(const std::string& before) {
+  std::string job = "G21\nG90\nG1 X10 Y0 Z20 F6000\n" + before + "\n";
+  for (int i = 1; i <= 1200; ++i) {
+    const double t = i * 0.02;
+    job += "G1 X" + std::to_string(10 * std::cos(t)) + " Y" + std::to_string(10 * std::sin(t)) + "\n";
+  }
+  return job;
+}
+
+TEST(JobPlan, MachineFileAndG64SayHowShortLinesAreMerged) {
+  MachineDescription none = machine(), tight = machine();
+  none.tolerances.merge_mm = 0;
+  tight.tolerances.merge_mm = 0.0005;
+  const Planned by_file = plan(circle_of_lines("")), not_merged = plan(circle_of_lines(""), 1000, none);
+  // Each corner is rounded by itself, and slower than one smooth curve.
+  EXPECT_GT(not_merged.report.segments, 2 * by_file.report.segments);
+  EXPECT_GT(not_merged.report.motion_s, 1.05 * by_file.report.motion_s);
+  // A word of the job goes before the file, in both directions.
+  EXPECT_EQ(plan(circle_of_lines("G64 P0.005 Q0")).report.motion_s, not_merged.report.motion_s);
+  EXPECT_EQ(plan(circle_of_lines("G64 P0.005 Q0.005"), 1000, none).report.motion_s, by_file.report.motion_s);
+  EXPECT_EQ(plan(circle_of_lines("G64 Q0.0005")).report.segments,
+            plan(circle_of_lines(""), 1000, tight).report.segments);
+  EXPECT_NE(plan(circle_of_lines("G64 Q0.0005")).report.segments, by_file.report.segments);
+}
+
+TEST(JobPlan, TraversesKeepTheSpeedOfTheMachineFile) {
+  const std::string job = "G1 X-50 Y0 Z20 F6000\nG0 X50\nG0 X-50\n";
+  MachineDescription slow = machine(), open = machine();
+  slow.gcode.traverse_mm_per_s = 50;
+  open.gcode.traverse_mm_per_s = 0;
+  const double fast_s = plan(job).report.motion_s;
+  // Two times 100 mm, and less of it to accelerate.
+  const double ramps_s = 2 * (300 - 50) / 3000.0;
+  EXPECT_NEAR(plan(job, 1000, slow).report.motion_s - fast_s, 200.0 / 50 - 200.0 / 300 - ramps_s, 0.1);
+  EXPECT_EQ(plan(job, 1000, open).report.motion_s, fast_s);
+}
+
+TEST(JobPlan, MachineFileSaysWhatPOfADwellCounts) {
+  MachineDescription rs274 = machine();
+  rs274.gcode.dwell_p_unit = GcodeDescription::DwellUnit::kSeconds;
+  const std::string job = "G1 X10 F3000\nG4 P4\nG1 X0\n";
+  const double rest_s = plan(job).report.job_time_s;
+  EXPECT_NEAR(plan(job, 1000, rs274).report.job_time_s - rest_s, 4, 0.1);
+}
+
+TEST(JobPlan, ToolLengthsOfTheMachineFileLiftTheTool) {
+  MachineDescription tools = machine();
+  tools.gcode.tool_length_mm = {10, 400};
+  const std::string rise = "G1 Z20 F6000\n";
+  EXPECT_EQ(plan("T1 G43\n" + rise, 1000, tools).problems.errors(), 0u);
+  // No reach has 420 mm above the table.
+  EXPECT_EQ(plan("G43 H2\n" + rise, 1000, tools).problems.errors(), 1u);
+  EXPECT_EQ(plan("T2 G43\n" + rise, 1000, tools).problems.errors(), 1u);
+  EXPECT_EQ(plan("G43 H3\n" + rise, 1000, tools).problems.errors(), 1u);
+  EXPECT_EQ(plan("T1\n" + rise).problems.errors(), 1u);
 }
 
 TEST(JobPlan, ProblemsAreCollectedToTheEndOfTheJob) {

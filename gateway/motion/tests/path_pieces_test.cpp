@@ -25,6 +25,7 @@ Move line(const Pose& from, const Pose& to) {
   for (double& u : move.u) u /= move.length;
   move.u_end = move.u;
   move.tolerance_mm = kPieceLimits.blend_tolerance_mm;
+  move.merge_tolerance_mm = kPieceLimits.merge_tolerance_mm;
   move.speed = 100;
   move.accel_mm_per_s2 = 3000;
   move.tool_motion = true;

@@ -55,6 +55,30 @@ TEST(Planner, ToleranceOfG64IsUsed) {
   EXPECT_GT(m.path_error_mm, 0.02);
 }
 
+TEST(Planner, MergeToleranceOfG64IsUsedAndKept) {
+  const auto with = [](const canonical::PathMode& mode) {
+    Lines lines = dense_curve(2000, 30, 100, 0, 0);
+    lines.insert(lines.begin() + 1, {0, mode});
+    return measure(m1(), kLimits, lines);
+  };
+  const Measured wide = with({false, 0.005, 0.1}), tight = with({false, 0.1, 0.002});
+  expect_within_limits(wide, kLimits, 0.1);
+  EXPECT_GT(wide.path_error_mm, 0.01);
+  EXPECT_EQ(wide.counters.merged_moves, 2000u);
+  expect_within_limits(tight, kLimits, 0.1);
+  EXPECT_LT(tight.path_error_mm, wide.path_error_mm);
+  EXPECT_EQ(with({false, 0.005, 0, false}).counters.merged_moves, 0u);
+}
+
+TEST(Planner, TraverseSpeedIsThatOfTheTool) {
+  MotionLimits limits;
+  limits.traverse_mm_per_s = 120;
+  const Measured m =
+      measure(m1(), limits, Job().rapid({50, 30, 20, 0, 0, 0.5}).rapid({-50, 30, 20, 0, 0, 0}).lines());
+  expect_within_limits(m, limits, 0.005);
+  EXPECT_NEAR(m.tool_speed_mm_per_s, 120, 1e-6);
+}
+
 TEST(Planner, ExactPathStaysOnThePath) {
   Lines lines = random_print(3, 1500);
   lines.insert(lines.begin() + 1, {0, canonical::PathMode{true, 0}});

@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <iterator>
 
 #include "tools/compose/job_description.hpp"
 #include "tools/compose/joiner.hpp"
+#include "tools/compose/slicer.hpp"
 #include "tools/compose/verify.hpp"
 
 namespace kinebus::compose {
@@ -30,6 +32,14 @@ TEST(SlicedGcode, IsReadIntoMovesWithTheFilamentOfEach) {
   EXPECT_NEAR(read.filament_mm, -0.8 + 0.8 + 2.4 - 0.8, 1e-9);
   EXPECT_EQ(read.left_out.at("G28"), 1);
   EXPECT_EQ(read.left_out.at("M84"), 1);
+}
+
+TEST(Slicer, SettingsHaveTheFilamentOfTheMachine) {
+  const std::string folder = testing::TempDir();
+  const Slicer slicer({.config = "", .filament_diameter_mm = 2.85}, folder);
+  std::ifstream file(folder + "/settings.ini");
+  const std::string settings{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_NE(settings.find("filament_diameter = 2.85\n"), std::string::npos) << settings;
 }
 
 TEST(SlicedGcode, WhatCannotBeTiltedIsRefusedWithItsLine) {
