@@ -26,11 +26,16 @@ Sentence to_string(std::uint8_t node, const SdoResult& result) {
 SdoChannel::SdoChannel(std::uint8_t node_id) : node_id_(node_id) {}
 
 void SdoChannel::read(ObjectAddress address) {
-  requests_.push_back({.address = address, .read = true, .size = 8, .bytes = {}});
+  requests_.push_back({.address = address, .read = true, .glance = false, .size = 8, .bytes = {}});
+}
+
+void SdoChannel::glance(ObjectAddress address) {
+  if (!idle()) return;
+  requests_.push_back({.address = address, .read = true, .glance = true, .size = 8, .bytes = {}});
 }
 
 void SdoChannel::write(const ParameterWrite& write) {
-  Request request{.address = write.address, .read = false, .size = write.size, .bytes = {}};
+  Request request{.address = write.address, .read = false, .glance = false, .size = write.size, .bytes = {}};
   put_le(request.bytes, static_cast<std::uint64_t>(write.value), write.size);
   requests_.push_back(request);
 }
@@ -46,6 +51,7 @@ void SdoChannel::abandon() {
   if (client_.status() == SdoClient::Status::kBusy) client_.cancel();
   requests_.clear();
   results_.clear();
+  glanced_.reset();
   attempts_ = 0;
 }
 
@@ -68,7 +74,7 @@ void SdoChannel::settle() {
     result.abort = client_.abort_code();
     if (result.abort == AbortCode::kTimeout) {
       ++counters_.timeouts;
-      if (attempts_ < kAttempts) return;  // next_frame() begins again
+      if (attempts_ < kAttempts && !request.glance) return;  // next_frame() begins again
     } else if (disturbed(result.abort)) {
       ++counters_.aborts;
       if (attempts_ < kDisturbedAttempts) return;
@@ -81,7 +87,10 @@ void SdoChannel::settle() {
     result.value = slot < 0 ? static_cast<std::int64_t>(raw)
                             : value_of(kNodeObjects[static_cast<std::size_t>(slot)].type, raw);
   }
-  results_.push_back(result);
+  if (request.glance)
+    glanced_ = result;
+  else
+    results_.push_back(result);
   requests_.pop_front();
   attempts_ = 0;
 }

@@ -7,6 +7,7 @@
 #include <deque>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "gateway/bus_nodes/node_configuration.hpp"
 #include "gateway/sentence.hpp"
@@ -40,6 +41,9 @@ class SdoChannel {
   /// Nothing is under way and all results were fetched.
   bool idle() const { return requests_.empty() && results_.empty(); }
   std::optional<SdoResult> next_result();
+  /// A read for displays, when the channel is idle: tried once, its result comes apart from the others.
+  void glance(ObjectAddress address);
+  std::optional<SdoResult> next_glance() { return std::exchange(glanced_, std::nullopt); }
   /// Forgets all requests and results.
   void abandon();
 
@@ -58,6 +62,7 @@ class SdoChannel {
   struct Request {
     ObjectAddress address;
     bool read = false;
+    bool glance = false;
     std::uint8_t size = 0;
     std::array<std::uint8_t, 8> bytes{};
   };
@@ -68,6 +73,7 @@ class SdoChannel {
   SdoClient client_;
   std::deque<Request> requests_;  ///< the first is under way when attempts_ > 0
   std::deque<SdoResult> results_;
+  std::optional<SdoResult> glanced_;
   std::array<std::uint8_t, 8> buffer_{};
   int attempts_ = 0;
   Counters counters_;

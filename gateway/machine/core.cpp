@@ -52,6 +52,7 @@ Gateway::Core::Core(const MachineDescription& machine, Options options)
       watch_(machine_, links_, rate_, group_, events_, counters_),
       bring_up_(machine_, links_, rate_),
       homing_(machine_, links_),
+      currents_(links_.size()),
       position_(machine_, *kinematics_, axes_, group_),
       rest_(machine_, links_, rate_),
       clearing_(axes_, links_, rate_),
@@ -153,6 +154,7 @@ void Gateway::Core::on_time(BusTime now) {
   rate_.on_time(now_);
   heat_.on_time(now_);
   for (NodeLink& link : links_) link.on_time(now_);
+  currents_.on_time(now_, links_, axes_, may_glance());
   watch_nodes();
   note_progress();
   voice_.on_time(now_, bring_up_.busy());

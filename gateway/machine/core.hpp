@@ -21,6 +21,7 @@
 #include "gateway/machine/gateway.hpp"
 #include "gateway/machine/line_desk.hpp"
 #include "gateway/machine/manual_motion.hpp"
+#include "gateway/machine/motor_currents.hpp"
 #include "gateway/machine/node_watch.hpp"
 #include "gateway/machine/position.hpp"
 #include "gateway/machine/print_job.hpp"
@@ -63,6 +64,7 @@ class Gateway::Core {
 
   // core_status.cpp
   MachineStatus status() const;
+  void watch_currents() { currents_.watch(now_); }
   std::optional<PlannedPose> planned_pose(PathTime tau) const { return runner_->planned_pose(tau); }
 
   // text_session.cpp
@@ -133,6 +135,8 @@ class Gateway::Core {
   void begin_job(const Pose& start);
   void note_progress();
 
+  /// The nodes are on, and nothing else is asked of them.
+  bool may_glance() const;
   /// Records of a run may go to the nodes.
   bool streams_flow() const { return state_.streams() && !position_.stream_lost(); }
   JointVector joints_now() const { return position_.joints(*runner_, rate_.tau(now_)); }
@@ -157,6 +161,7 @@ class Gateway::Core {
   NodeWatch watch_;
   BringUp bring_up_;
   MachineHoming homing_;
+  MotorCurrents currents_;
   Position position_;
   Rest rest_;
   Clearing clearing_;

@@ -6,6 +6,12 @@
 
 namespace kinebus {
 
+bool Gateway::Core::may_glance() const {
+  return voice_.speaks() && !bring_up_.busy() && !rest_.reading() && !clearing_.busy() &&
+         !watch_.needs_bring_up() && state_.now() != MachineState::kOff &&
+         state_.now() != MachineState::kHoming;
+}
+
 MachineStatus Gateway::Core::status() const {
   MachineStatus s;
   s.state = state_.now();
@@ -42,6 +48,8 @@ MachineStatus Gateway::Core::status() const {
   for (std::size_t i = 0; i < links_.size(); ++i) {
     s.nodes.push_back(links_[i].status(now_, machine_.bus.heartbeat_timeout));
     s.nodes.back().records_sent = group_.stream(i).counters().records;
+    for (std::size_t axis = 0; axis < kAxesPerNode; ++axis)
+      s.nodes.back().current_a[axis] = currents_.amperes(i, axis, now_);
     s.counters.sdo_aborts += links_[i].sdo().counters().aborts;
     s.counters.sdo_timeouts += links_[i].sdo().counters().timeouts;
   }

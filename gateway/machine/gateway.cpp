@@ -72,6 +72,9 @@ Result<void, Refusal> Gateway::recover(journal::State state, std::unique_ptr<Byt
 MachineState Gateway::state() const {
   return core_->state();
 }
+void Gateway::watch_currents() {
+  core_->watch_currents();
+}
 MachineStatus Gateway::status() const {
   return core_->status();
 }

@@ -96,6 +96,8 @@ class Gateway {
 
   MachineState state() const;
   MachineStatus status() const;
+  /// Somebody looks at status(): the motors' currents are read for the next seconds.
+  void watch_currents();
   std::optional<MachineEvent> next_event();
   /// Path time by the gateway's own copy of the nodes' arithmetic.
   PathTime path_time(BusTime at) const;

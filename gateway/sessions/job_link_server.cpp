@@ -169,6 +169,7 @@ void JobLinkServer::on_event(LocalTime now, const MachineEvent& event) {
 
 const joblink::Status& JobLinkServer::status() {
   if (status_) return *status_;
+  gateway_.watch_currents();
   status_bytes_.clear();
   status_ = to_message(gateway_.status(), machine_);
   add_commands(*status_, gateway_);

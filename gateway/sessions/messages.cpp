@@ -62,9 +62,10 @@ void set_node(joblink::NodeStatus& message, const NodeStatus& node, const Machin
     a.set_enabled(node.present && operation_enabled(node.statusword[axis]));
     a.set_fault(node.present && in_fault(node.statusword[axis]));
     if (node.off_course[axis]) a.set_off_course(*node.off_course[axis]);
+    if (node.current_a[axis]) a.set_current_a(*node.current_a[axis]);
     for (const JointDescription& joint : machine.joints)
       if (joint.node_id == node.id && joint.axis == axis && a.enabled())
-        a.set_current_a((moves ? joint.run_current_ma : joint.hold_current_ma) * 1e-3);
+        a.set_configured_current_a((moves ? joint.run_current_ma : joint.hold_current_ma) * 1e-3);
   }
 }
 

@@ -24,6 +24,8 @@ struct NodeStatus {
   std::uint32_t inputs = 0;                   ///< 60FDh
   /// Commanded less measured by the axis' encoder, mm or rad; empty without one.
   std::array<std::optional<double>, 2> off_course{};
+  /// Measured amplitude; empty: not read lately (Gateway::watch_currents).
+  std::array<std::optional<double>, 2> current_a{};
   bool synchronised = false;
   int sync_error_us = 0;     ///< bound of its clock estimate's error
   int queue_records = 0;     ///< records in its queue

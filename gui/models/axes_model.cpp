@@ -131,8 +131,11 @@ QVariant AxesModel::data(const QModelIndex& index, int role) const {
                                     QStringLiteral(" °"))
                  : Format::isolated(tr("%1 µm").arg(Format::number(-axis->off_course() * 1000, 0)));
     case kCurrent:
-      return axis == nullptr ? QStringLiteral("–")
-                             : Format::isolated(tr("%1 A").arg(Format::number(axis->current_a(), 2)));
+      if (axis == nullptr) return QStringLiteral("–");
+      return Format::isolated(
+          tr("%1 of %2 A")
+              .arg(axis->has_current_a() ? Format::number(axis->current_a(), 2) : QStringLiteral("–"),
+                   Format::number(axis->configured_current_a(), 2)));
     case kDrive:
       if (axis == nullptr) return QStringLiteral("–");
       return axis->fault() ? tr("Fault") : axis->enabled() ? tr("On") : tr("Off");

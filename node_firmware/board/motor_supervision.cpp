@@ -133,7 +133,7 @@ void MotorSupervision::serve_slowly(Node& node, int axis) {
                            .supply_mv = static_cast<std::uint16_t>(readings_.supply_v * 1e3F),
                            .temperature_dc = static_cast<std::int16_t>(
                                readings_.temperature_c[static_cast<std::size_t>(axis)] * 10),
-                           .current_ma = static_cast<std::int16_t>(control.amplitude_a() * 1e3F),
+                           .current_ma = static_cast<std::int16_t>(control.measured_a() * 1e3F),
                            .tune_state = static_cast<std::uint8_t>(tune)});
 }
 

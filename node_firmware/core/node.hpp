@@ -59,7 +59,7 @@ struct DriveFeedback {
   std::int32_t following_error = 0;  ///< counts: command less encoder; 0 without encoder
   std::uint16_t supply_mv = 0;
   std::int16_t temperature_dc = 0;  ///< 0.1 C
-  std::int16_t current_ma = 0;      ///< amplitude
+  std::int16_t current_ma = 0;      ///< amplitude, measured
   std::uint8_t tune_state = 0;      ///< 0 idle, 1 runs, 2 done, 3 failed
 };
 
@@ -99,6 +99,7 @@ class Node final : private ObjectOwner {
   /// What the port measures, for the objects that show it.
   void set_feedback(int axis, const DriveFeedback& feedback) {
     feedback_[static_cast<std::size_t>(axis & 1)] = feedback;
+    measures_ = true;
   }
   /// Frames were lost in the receiver. One of them may have been a hold or a start that all others obey: when
   /// motion is queued or under way, all nodes stop together. As soon as the port knows.
@@ -159,6 +160,7 @@ class Node final : private ObjectOwner {
   AbortCode write(const ObjectEntry& entry, std::int64_t value) override;
   bool read_node_object(ObjectAddress address, std::int64_t& value);
   bool read_axis_object(const DriveAxis& axis, ObjectAddress base, std::int64_t& value);
+  std::int64_t told_current(const DriveAxis& axis) const;
   AbortCode write_node_object(const ObjectEntry& entry, std::int64_t value);
   AbortCode write_axis_object(const ObjectEntry& entry, std::int64_t value);
   AbortCode command_storage(ObjectAddress address, std::int64_t value);
@@ -200,6 +202,7 @@ class Node final : private ObjectOwner {
 
   friend class NodePreview;
   std::array<DriveFeedback, kAxesPerNode> feedback_{};
+  bool measures_ = false;  ///< the port has sensors
   std::array<bool, kAxesPerNode> tune_requested_{};
   std::optional<CanFrame> boot_up_;
   std::array<std::uint32_t, static_cast<std::size_t>(NodeCounter::kLast) + 1> counters_{};

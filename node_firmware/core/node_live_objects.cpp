@@ -88,12 +88,20 @@ bool Node::read_node_object(ObjectAddress address, std::int64_t& value) {
   }
 }
 
+/// Without sensors a motor has the current that it is told to have.
+std::int64_t Node::told_current(const DriveAxis& axis) const {
+  const std::size_t i = &axis == &axes_[0] ? 0 : 1;
+  if (!axis.powered()) return 0;
+  return objects_.value(axis.moving(now_) ? slot_of_axes(object::kRunCurrent)[i]
+                                          : slot_of_axes(object::kHoldCurrent)[i]);
+}
+
 bool Node::read_axis_object(const DriveAxis& axis, ObjectAddress base, std::int64_t& value) {
   const DriveFeedback& feedback = feedback_[&axis == &axes_[0] ? 0 : 1];
   switch (base.index) {
     case 0x2150:
       if (base == object::kAutoTune) value = feedback.tune_state;
-      if (base == object::kMotorCurrent) value = feedback.current_ma;
+      if (base == object::kMotorCurrent) value = measures_ ? feedback.current_ma : told_current(axis);
       if (base == object::kStageTemperature) value = feedback.temperature_dc;
       return true;
     case 0x6079:

@@ -70,6 +70,7 @@ void AxisControl::take_config() {
 void AxisControl::trip(std::uint16_t code) {
   on_ = false;
   amplitude_a_ = 0;
+  measured_a2_.store(0, std::memory_order_relaxed);
   tune_.stop();
   tripped_.store(code, std::memory_order_release);
 }
@@ -197,6 +198,14 @@ AxisOutputs AxisControl::apply(const Vector& volts, const Vector& wanted) const 
   return {{duty(volts.x, wanted.x), duty(volts.y, wanted.y)}, true};
 }
 
+// The square of the amplitude is the same at every angle of the motor.
+void AxisControl::note_current(const Vector& measured) {
+  constexpr float kShare = kLookEvery * kControlPeriodS / 10e-3F;
+  const float before = measured_a2_.load(std::memory_order_relaxed);
+  const float now = measured.x * measured.x + measured.y * measured.y;
+  measured_a2_.store(before + (now - before) * kShare, std::memory_order_relaxed);
+}
+
 AxisOutputs AxisControl::tune(const AxisInputs& in, Angle angle) {
   const SineCosine at = sine_cosine(angle);
   const float direct_a = turn_back(in.current_a, at).x;
@@ -235,6 +244,7 @@ AxisOutputs AxisControl::step(const AxisInputs& in) {
   if (!wanted) {
     on_ = false;
     amplitude_a_ = 0;
+    measured_a2_.store(0, std::memory_order_relaxed);
     return {};
   }
   if (!on_) begin();
@@ -251,6 +261,7 @@ AxisOutputs AxisControl::step(const AxisInputs& in) {
   if (power_faults_.over_current(in.current_a, trip_a_)) return trip(fault::kOverCurrent), AxisOutputs{};
   // Not in the same period as the look at the surroundings.
   if (looks_ % kLookEvery == kLookEvery / 2) {
+    note_current(in.current_a);
     const std::uint16_t code =
         power_faults_.look(in.current_a, reference, amplitude_a_, loop_.direct_v(),
                            config_.motor_measured ? config_.motor.resistance_ohm : 0, omega);

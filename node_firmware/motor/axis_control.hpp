@@ -5,6 +5,7 @@
 
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <cstdint>
 
 #include "node_firmware/motor/auto_tune.hpp"
@@ -69,7 +70,10 @@ class AxisControl {
   /// Valid when tune_state() is kDone.
   AutoTune::Result tune_result() const { return tune_.result(); }
   std::int32_t tuned_encoder_offset() const { return tuned_offset_; }
+  /// What the windings are to have: it grows and falls with a slope.
   float amplitude_a() const { return amplitude_a_; }
+  /// What they are measured to have, smoothed over some 10 ms; 0 without power.
+  float measured_a() const { return std::sqrt(measured_a2_.load(std::memory_order_relaxed)); }
   const Encoder& encoder() const { return encoder_; }
 
   /// Control interrupt.
@@ -85,6 +89,7 @@ class AxisControl {
   Angle commanded_angle(const AxisInputs& in);
   std::int32_t rest_angle(std::int32_t error);
   AxisOutputs tune(const AxisInputs& in, Angle angle);
+  void note_current(const Vector& measured);
   AxisOutputs apply(const Vector& volts, const Vector& wanted) const;
 
   AxisConfig config_, next_config_;
@@ -93,6 +98,7 @@ class AxisControl {
   std::atomic<std::uint16_t> tripped_{0};
   std::atomic<std::uint8_t> troubles_{0};
   std::atomic<std::int32_t> following_{0};
+  std::atomic<float> measured_a2_{0};
   std::atomic<AutoTune::State> tune_state_{AutoTune::State::kIdle};
 
   CurrentLoop loop_;

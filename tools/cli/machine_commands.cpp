@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cmath>
 #include <map>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "tools/cli/job_watch.hpp"
@@ -84,6 +86,29 @@ void print_nodes(const Status& s) {
                n.present() ? "yes" : "no", n.nmt_state(), n.axes_size() > 0 ? n.axes(0).statusword() : 0,
                n.axes_size() > 1 ? n.axes(1).statusword() : 0, n.queue_records(), n.sync_error_s() * 1e6,
                n.records_sent(), n.emergencies());
+  for (const joblink::NodeStatus& n : s.nodes())
+    for (int axis = 0; axis < n.axes_size(); ++axis) {
+      const joblink::AxisStatus& a = n.axes(axis);
+      const std::string measured = a.has_current_a() ? fmt::format("{:.2f}", a.current_a()) : "-";
+      fmt::print("node {} {}  current {} A measured, {:.2f} A configured\n", n.id(), axis == 0 ? "A" : "B",
+                 measured, a.configured_current_a());
+    }
+}
+
+/// The gateway reads currents while somebody looks: its first answer has none yet.
+Status with_currents(Client& client) {
+  const auto all_read = [](const Status& s) {
+    for (const joblink::NodeStatus& n : s.nodes())
+      for (const joblink::AxisStatus& a : n.axes())
+        if (a.enabled() && !a.has_current_a()) return false;
+    return true;
+  };
+  Status status = client.status();
+  for (int i = 0; i < 10 && !all_read(status); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds{150});
+    status = client.status();
+  }
+  return status;
 }
 
 void print_bus(const Status& s) {
@@ -129,7 +154,7 @@ void add_view(CLI::App& app, const Options& options, const std::string& name, co
               void (*print)(const Status&)) {
   app.add_subcommand(name, help)->callback([=] {
     Client client(options->reach);
-    const Status status = client.status();
+    const Status status = print == print_nodes ? with_currents(client) : client.status();
     if (options->json)
       fmt::print("{}", to_json_text(status));
     else

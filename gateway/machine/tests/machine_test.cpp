@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "gateway/machine/tests/machine_rig.hpp"
+#include "protocol/canopen/cob_id.hpp"
 
 namespace kinebus {
 namespace {
@@ -23,6 +24,35 @@ TEST(Machine, BringUpEndsUnhomedWithDrivesEnabledAndClocksSynchronised) {
     for (const std::uint16_t word : node.statusword) EXPECT_EQ(word & 0x6F, 0x27) << std::hex << word;
   }
   EXPECT_FALSE(status.positions_known);
+}
+
+TEST(Machine, CurrentsAreThoseThatTheNodesMeasureAndReadOnlyForSomebody) {
+  MachineRig rig;
+  ASSERT_TRUE(rig.gateway->carry_out(command::BringUp{}));
+  ASSERT_TRUE(rig.reach(MachineState::kUnhomed, 30s)) << rig.story();
+  int requests = 0;
+  rig.on_frame = [&](BusTime, const CanFrame& frame) {
+    requests += frame.id > cob_id::kSdoRequest && frame.id <= cob_id::kSdoRequest + 3 ? 1 : 0;
+  };
+  rig.run_for(2s);
+  EXPECT_EQ(requests, 0);
+  for (const NodeStatus& node : rig.gateway->status().nodes) EXPECT_FALSE(node.current_a[0]);
+
+  for (int i = 0; i < 10; ++i) {
+    rig.gateway->watch_currents();
+    rig.run_for(100ms);
+  }
+  EXPECT_NEAR(requests, 10, 2);
+  // A node without sensors has what it is told to hold.
+  EXPECT_EQ(rig.gateway->status().nodes[0].current_a[1], 1.5);
+  EXPECT_EQ(rig.gateway->status().nodes[2].current_a[1], 0.4);
+  rig.nodes.node(0).set_feedback(1, {.current_ma = 1234});
+  rig.gateway->watch_currents();
+  rig.run_for(1s);
+  EXPECT_EQ(rig.gateway->status().nodes[0].current_a[1], 1.234);
+  // Nobody has looked for long: what was read then is no current of now.
+  rig.run_for(6s);
+  EXPECT_FALSE(rig.gateway->status().nodes[0].current_a[1]);
 }
 
 TEST(Machine, HomingTakesAllCarriagesToTheirSwitches) {

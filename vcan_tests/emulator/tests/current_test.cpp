@@ -103,6 +103,9 @@ TEST(Current, RipplesLittleAtRest) {
   fmt::print("current at rest: {:.4f} A of 2.5 A, ripple {:.1f} mA rms, {:.1f} mA from peak to peak\n",
              middle, rms * 1e3, (most - least) * 1e3);
   EXPECT_NEAR(middle, 2.5, 0.02);
+  // The node tells what it measures, not what it is told.
+  EXPECT_NEAR(static_cast<double>(node.bench.read(OneBoard::kId, 0x2150, 9)), 2500, 25);
+  EXPECT_NEAR(static_cast<double>(node.bench.read(OneBoard::kId, 0x2950, 9)), 2500, 25);
   // A microstep's share of 2.5 A is 15 mA.
   EXPECT_LT(rms, 0.015);
 }
