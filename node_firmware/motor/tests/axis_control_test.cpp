@@ -76,9 +76,10 @@ TEST(AxisControl, CurrentIsTheMeasuredOneNotTheOneAskedFor) {
   bench.control.set_power(true);
   bench.run(0.15);
   EXPECT_NEAR(bench.control.measured_a(), 1.5F, 0.05F);
-  // So little supply cannot drive it through the winding.
-  bench.supply = 1.2;
+  // The supply cannot drive it through a contact that has gone bad.
+  bench.motor.resistance = 30;
   bench.run(0.04);
+  EXPECT_EQ(bench.control.tripped(), fault::kNone);
   EXPECT_NEAR(bench.control.amplitude_a(), 1.5F, 0.01F);
   EXPECT_LT(bench.control.measured_a(), 1.2F);
   EXPECT_NEAR(bench.control.measured_a(), std::hypot(bench.motor.ia, bench.motor.ib), 0.05);

@@ -18,7 +18,7 @@ struct AxisPlantOptions {
 };
 
 /// A raw level of a switch input, and when it came.
-struct SwitchEdge {
+struct SwitchChange {
   LocalTime at{0};
   int input = 0;  ///< 0..6
   bool level = false;
@@ -31,7 +31,7 @@ class AxisPlant {
   /// The motor is at `motor` (32 fractional bits, 0 at power-up) at `now`. Gives the edge since the last
   /// call, its time interpolated between the two; the first call gives the level at power-up. Call every
   /// millisecond or so while the axis moves.
-  std::optional<SwitchEdge> on_position(LocalTime now, std::int64_t motor) {
+  std::optional<SwitchChange> on_position(LocalTime now, std::int64_t motor) {
     const std::int64_t before = last_;
     const LocalTime since = last_time_;
     last_ = motor;
@@ -48,7 +48,7 @@ class AxisPlant {
     }
     known_ = true;
     level_ = level;
-    return SwitchEdge{at, options_.switch_input - 1, level};
+    return SwitchChange{at, options_.switch_input - 1, level};
   }
 
   /// Where the carriage is, counts.
