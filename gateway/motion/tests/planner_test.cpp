@@ -78,7 +78,7 @@ TEST(Planner, TraverseSpeedIsThatOfTheTool) {
   expect_within_limits(m, limits, 0.005);
   EXPECT_NEAR(m.tool_speed_mm_per_s, 120, 1e-6);
   // An F with G0 slows it down, and does not speed it up.
-  for (const auto [asked, speed] : {std::pair{50.0, 50.0}, std::pair{200.0, 120.0}}) {
+  for (const auto& [asked, speed] : {std::pair{50.0, 50.0}, std::pair{200.0, 120.0}}) {
     Lines lines = Job().rapid({50, 30, 20, 0, 0, 0}).rapid({-50, 30, 20, 0, 0, 0}).lines();
     for (canonical::Line& line : lines)
       if (auto* traverse = std::get_if<canonical::Traverse>(&line.command)) traverse->speed_per_s = asked;
