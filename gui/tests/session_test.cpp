@@ -203,7 +203,8 @@ TEST_F(SessionTest, EveryAlarmHasHeadlineWordsAndAdviceInEveryLanguage) {
       EXPECT_FALSE(said(row.advice).isEmpty()) << language << ": " << row.advice;
       // The gateway's own alarms (FF80h and above) say what has happened with its place.
       ASSERT_TRUE(row.words != nullptr || row.code >= 0xFF80) << std::hex << row.code;
-      if (row.words != nullptr) EXPECT_FALSE(said(row.words).isEmpty()) << language << ": " << row.words;
+      if (row.words == nullptr) return;
+      EXPECT_FALSE(said(row.words).isEmpty()) << language << ": " << row.words;
     };
     for (const AlarmRow& row : kAlarms) expect_said(row);
     for (const AlarmRow& row : kAlarmClasses) expect_said(row);
