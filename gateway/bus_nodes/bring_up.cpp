@@ -51,8 +51,12 @@ void BringUp::start(BusTime now, bool alone) {
 void BringUp::enter(Stage stage, BusTime now) {
   stage_ = stage;
   entered_ = now;
-  for (Node& node : nodes_) {
-    node.done = node.requested = false;
+  // Clocks, path time and drives are asked of nodes that have axes.
+  const bool of_axes = stage >= Stage::kSynchronise && stage <= Stage::kEnable;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    Node& node = nodes_[i];
+    node.requested = false;
+    node.done = of_axes && !links_[i].functions().has_axes();
     node.attempts = 0;
     node.asked = now - kAskAgain;
   }
@@ -129,13 +133,17 @@ BringUp::Outcome BringUp::on_time(BusTime now) {
   }
   if (stage_ == Stage::kListen || !all_done()) return Outcome::kBusy;
   if (stage_ == Stage::kPathTime) {
-    if (found_.empty())
-      for (const Node& node : nodes_) found_.emplace_back(node.path_ticks);
+    const bool first = found_.empty();
+    std::optional<std::int64_t> one;
     std::int64_t most = 0;
     bool equal = true;
-    for (const Node& node : nodes_) {
-      most = std::max(most, node.path_ticks);
-      equal = equal && node.path_ticks == nodes_.front().path_ticks;
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      if (!links_[i].functions().has_axes()) continue;
+      const std::int64_t ticks = nodes_[i].path_ticks;
+      if (first) found_.emplace_back(ticks);
+      most = std::max(most, ticks);
+      equal = equal && ticks == one.value_or(ticks);
+      one = ticks;
     }
     if (!std::exchange(equalising_, true)) {
       // Nodes that were switched on at different times: all take a time that none of them has seen. Equal

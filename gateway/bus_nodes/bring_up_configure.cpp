@@ -32,6 +32,8 @@ void BringUp::configure(BusTime now, NodeLink& link, Node& node) {
     return;
   }
   if (node.config == Config::kSettling) return settle(now, link, node);
+  // Without a fingerprint the few parameters are written every time.
+  if (node.config == Config::kCheck && !node.configuration.fingerprint) node.config = Config::kWriting;
   if (!node.requested) {
     node.requested = true;
     switch (node.config) {
@@ -67,7 +69,10 @@ void BringUp::configure(BusTime now, NodeLink& link, Node& node) {
     if (answer->read) return check_fingerprint(link, node, static_cast<std::uint32_t>(answer->value));
   if (failed_ || !link.sdo().idle()) return;
   node.requested = false;
-  if (node.config == Config::kWriting) {
+  if (node.config == Config::kWriting && !node.configuration.fingerprint) {
+    node.config = Config::kDone;
+    node.done = true;
+  } else if (node.config == Config::kWriting) {
     node.config = Config::kVerify;
   } else if (node.config == Config::kRestoring) {
     static_cast<void>(link.take_boot_up());
@@ -112,7 +117,7 @@ void BringUp::check_fingerprint(NodeLink& link, Node& node, std::uint32_t finger
          say("node %1: its parameters have the fingerprint %2, the machine file's have %3, after all were "
              "written",
              link.id(), printed("%08Xh", static_cast<unsigned>(fingerprint)),
-             printed("%08Xh", static_cast<unsigned>(node.configuration.fingerprint))));
+             printed("%08Xh", static_cast<unsigned>(*node.configuration.fingerprint))));
   }
 }
 

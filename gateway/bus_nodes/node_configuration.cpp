@@ -160,6 +160,14 @@ std::int32_t home_counts(const JointDescription& joint) {
 }
 
 NodeConfiguration configure_node(const MachineDescription& machine, std::uint8_t node_id) {
+  const NodeDescription* described = machine.node(node_id);
+  if (described != nullptr && !described->functions.has_axes()) {
+    const auto heartbeats =
+        (std::int64_t{kGatewayNodeId} << 16) + std::int64_t{machine.bus.heartbeat_timeout.count()};
+    return {.fingerprint = {},
+            .writes = {{object::kConsumerHeartbeat, 4, heartbeats},
+                       {object::kProducerHeartbeat, 2, machine.bus.heartbeat_period.count()}}};
+  }
   Writer writer(node_id);
   if (const NodeDescription* node = machine.node(node_id)) set_node(writer, machine, *node);
   for (const JointDescription& joint : machine.joints)

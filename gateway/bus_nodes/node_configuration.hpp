@@ -1,8 +1,10 @@
 #pragma once
 // What the machine description means for one node's object dictionary: the value of every parameter, and the
-// fingerprint (2116h) of a node that has them all.
+// fingerprint (2116h) of a node that has them all. A node without axes is told its heartbeats alone; what its
+// devices need they write themselves.
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "gateway/description/machine_description.hpp"
@@ -17,7 +19,7 @@ struct ParameterWrite {
 };
 
 struct NodeConfiguration {
-  std::uint32_t fingerprint = 0;
+  std::optional<std::uint32_t> fingerprint;  ///< none: a node without axes does not tell one
   /// Every parameter outside the PDO and COB-ID objects, which keep their defaults, but for TPDO4: it tells
   /// the following errors of a node that has an encoder. In the order of addresses.
   std::vector<ParameterWrite> writes;

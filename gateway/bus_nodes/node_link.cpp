@@ -1,6 +1,7 @@
 #include "gateway/bus_nodes/node_link.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "protocol/bytes.hpp"
 #include "protocol/canopen/cob_id.hpp"
@@ -16,7 +17,6 @@ constexpr std::size_t kMaxEmergencies = 32;
 
 bool NodeLink::on_frame(BusTime now, const CanFrame& frame) {
   if (frame.extended || frame.remote) return false;
-  const auto data = frame.bytes();
   if (const auto heartbeat = decode_heartbeat(frame)) {
     if (heartbeat->node != id_) return false;
     nmt_state_ = heartbeat->state;
@@ -28,7 +28,21 @@ bool NodeLink::on_frame(BusTime now, const CanFrame& frame) {
     if (emergency->node != id_) return false;
     ++emergency_count_;
     if (emergencies_.size() < kMaxEmergencies) emergencies_.push_back(*emergency);
-  } else if (frame.id == cob_id::tpdo(1, id_) && frame.length >= 7) {
+  } else if (frame.id == cob_id::kSdoReply + id_ && frame.length == 8) {
+    note_serial_number(frame);
+    sdo_.on_frame(now, frame);
+  } else if (!functions_.has_axes() || !on_axis_frame(frame)) {
+    return false;
+  }
+  heard_ = true;
+  last_heard_ = now;
+  return true;
+}
+
+/// The PDOs of a pair of axes.
+bool NodeLink::on_axis_frame(const CanFrame& frame) {
+  const auto data = frame.bytes();
+  if (frame.id == cob_id::tpdo(1, id_) && frame.length >= 7) {
     on_status_words(frame);
   } else if (frame.id == cob_id::tpdo(2, id_) && frame.length == 8) {
     stream_ = new_stream_ = decode_stream_status(get_u64_le(data));
@@ -37,14 +51,9 @@ bool NodeLink::on_frame(BusTime now, const CanFrame& frame) {
     ++position_frames_;
   } else if (frame.id == cob_id::tpdo(4, id_) && frame.length == 8) {
     following_error_ = {get_i32_le(data), get_i32_le(data.subspan(4))};
-  } else if (frame.id == cob_id::kSdoReply + id_ && frame.length == 8) {
-    note_serial_number(frame);
-    sdo_.on_frame(now, frame);
   } else {
     return false;
   }
-  heard_ = true;
-  last_heard_ = now;
   return true;
 }
 
@@ -82,8 +91,7 @@ void NodeLink::set_control(std::size_t axis, std::uint16_t controlword, std::int
 }
 
 std::optional<CanFrame> NodeLink::next_frame(BusTime now) {
-  if (control_due_) {
-    control_due_ = false;
+  if (std::exchange(control_due_, false) && functions_.has_axes()) {
     CanFrame frame{.id = cob_id::rpdo(1, id_), .length = 6};
     put_u16_le(frame.data, control_[0]);
     put_u16_le(std::span(frame.data).subspan(2), control_[1]);
@@ -110,6 +118,7 @@ void NodeLink::forget() {
 NodeStatus NodeLink::status(BusTime now, BusTime heartbeat_timeout) const {
   NodeStatus status;
   status.id = id_;
+  status.has_axes = functions_.has_axes();
   status.present = heard_ && now - last_heard_ < heartbeat_timeout;
   status.nmt_state = static_cast<std::uint8_t>(nmt_state_);
   status.statusword = statusword_;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gateway/bus_nodes/sdo_channel.hpp"
+#include "gateway/description/device_description.hpp"
 #include "gateway/status/status.hpp"
 #include "protocol/can/frame.hpp"
 #include "protocol/canopen/cia402.hpp"
@@ -21,7 +22,9 @@ namespace kinebus {
 
 class NodeLink {
  public:
-  explicit NodeLink(std::uint8_t id) : id_(id), sdo_(id) {}
+  /// What the node does not have is neither heard nor told.
+  explicit NodeLink(std::uint8_t id, NodeFunctions functions = {})
+      : id_(id), functions_(functions), sdo_(id) {}
 
   /// Takes a frame of this node; false: it is not one, or none that is understood.
   bool on_frame(BusTime now, const CanFrame& frame);
@@ -30,6 +33,7 @@ class NodeLink {
   std::optional<CanFrame> next_frame(BusTime now);
 
   std::uint8_t id() const { return id_; }
+  const NodeFunctions& functions() const { return functions_; }
   SdoChannel& sdo() { return sdo_; }
   const SdoChannel& sdo() const { return sdo_; }
 
@@ -72,10 +76,12 @@ class NodeLink {
   NodeStatus status(BusTime now, BusTime heartbeat_timeout) const;
 
  private:
+  bool on_axis_frame(const CanFrame& frame);
   void on_status_words(const CanFrame& frame);
   void note_serial_number(const CanFrame& reply);
 
   std::uint8_t id_;
+  NodeFunctions functions_;
   SdoChannel sdo_;
   bool heard_ = false, booted_ = false, drive_heard_ = false, control_due_ = false;
   BusTime last_heard_{0};

@@ -15,6 +15,7 @@ void Standstill::start(PathTime tau) {
   equal_ = false;
   tau_ = tau;
   for (NodeLink& link : links_) {
+    if (!link.functions().has_axes()) continue;
     SdoChannel& sdo = link.sdo();
     sdo.abandon();
     sdo.write({object::kBufferClear, 1, 0});
@@ -29,13 +30,15 @@ void Standstill::start(PathTime tau) {
 void Standstill::abort() {
   if (!busy_) return;
   busy_ = false;
-  for (NodeLink& link : links_) link.sdo().abandon();
+  for (NodeLink& link : links_)
+    if (link.functions().has_axes()) link.sdo().abandon();
 }
 
 Standstill::Outcome Standstill::on_time() {
   if (!busy_) return Outcome::kDone;
   bool idle = true;
   for (std::size_t i = 0; i < links_.size(); ++i) {
+    if (!links_[i].functions().has_axes()) continue;
     SdoChannel& sdo = links_[i].sdo();
     while (const auto answer = sdo.next_result()) {
       if (answer->abort != AbortCode::kNone) {
@@ -64,9 +67,12 @@ Standstill::Outcome Standstill::on_time() {
   if (!idle) return Outcome::kBusy;
   if (!std::exchange(equal_, true)) {
     // A node that was not told of a change of rate, or all of them, rest elsewhere than the gateway believes.
-    const auto same = [this](const Node& node) { return node.found == tau_; };
-    if (!std::all_of(nodes_.begin(), nodes_.end(), same)) {
-      for (NodeLink& link : links_) link.sdo().write({object::kPathTime, 8, tau_.count()});
+    bool same = true;
+    for (std::size_t i = 0; i < links_.size(); ++i)
+      same = same && (!links_[i].functions().has_axes() || nodes_[i].found == tau_);
+    if (!same) {
+      for (NodeLink& link : links_)
+        if (link.functions().has_axes()) link.sdo().write({object::kPathTime, 8, tau_.count()});
       return Outcome::kBusy;
     }
   }
@@ -76,7 +82,8 @@ Standstill::Outcome Standstill::on_time() {
 
 PathTime Standstill::path_time() const {
   PathTime least = PathTime::max();
-  for (const Node& node : nodes_) least = std::min(least, node.found);
+  for (std::size_t i = 0; i < nodes_.size(); ++i)
+    if (links_[i].functions().has_axes()) least = std::min(least, nodes_[i].found);
   return least;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// With the nodes at rest: empties their queues and reads where they stand, exactly. The beginning of every
-// new motion after bring-up, homing, a cancel or a lost stream.
+// With the nodes that have axes at rest: empties their queues and reads where they stand, exactly. The
+// beginning of every new motion after bring-up, homing, a cancel or a lost stream.
 
 #include <array>
 #include <cstdint>

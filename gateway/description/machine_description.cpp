@@ -1,5 +1,7 @@
 #include "gateway/description/machine_description.hpp"
 
+#include <algorithm>
+
 #include "gateway/description/machine_schema.hpp"
 
 namespace kinebus {
@@ -70,7 +72,22 @@ MachineDescription default_m1() {
       for (std::uint8_t axis = 0; axis < 2; ++axis) node.inputs[axis] = {InputFunction::kHome, axis};
     d.nodes.push_back(node);
   }
+  d.heaters = {{.name = "bed",
+                .kind = HeaterKind::kBed,
+                .max_c = 120,
+                .sim_power_w = 150,
+                .sim_heat_capacity_j_per_k = 300,
+                .sim_loss_w_per_k = 1},
+               {.name = "hotend"}};
+  d.fans = {{.name = "part"}};
   return d;
+}
+
+int MachineDescription::tools() const {
+  int tools = 1;
+  for (const HeaterDescription& h : heaters)
+    if (h.kind == HeaterKind::kHotend) tools = std::max(tools, h.index + 1);
+  return tools;
 }
 
 std::string identity(const MachineDescription& description) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "gateway/calibration/joint_calibration.hpp"
+#include "gateway/description/device_description.hpp"
 #include "gateway/kinematics/geometry.hpp"
 
 namespace kinebus {
@@ -184,6 +185,7 @@ struct NodeDescription {
   std::uint8_t id = 1;  ///< 1..126
   /// Identity expected in 0x1018; absent: anything is accepted.
   std::optional<std::uint32_t> vendor, product, serial;
+  NodeFunctions functions{};
   std::array<SwitchInput, kNodeInputs> inputs{};  ///< input n is inputs[n - 1]
   friend bool operator==(const NodeDescription&, const NodeDescription&) = default;
 };
@@ -196,36 +198,6 @@ struct HomingRun {
   double max_spread_mm = 260;
   std::chrono::seconds timeout{120};
   friend bool operator==(const HomingRun&, const HomingRun&) = default;
-};
-
-/// Hotend or bed: its limits, and the heat model that the simulated device uses.
-struct HeaterDescription {
-  bool present = true;
-  double max_c = 300;
-  double window_c = 2;             ///< reached: within the window ...
-  std::chrono::seconds settle{3};  ///< ... for so long
-  double sim_power_w = 40;
-  double sim_heat_capacity_j_per_k = 10;
-  double sim_loss_w_per_k = 0.12;
-  friend bool operator==(const HeaterDescription&, const HeaterDescription&) = default;
-};
-
-struct ThermalDescription {
-  HeaterDescription hotend;
-  HeaterDescription bed{
-      .max_c = 120, .sim_power_w = 150, .sim_heat_capacity_j_per_k = 300, .sim_loss_w_per_k = 1.0};
-  double ambient_c = 23;
-  double min_extrude_c = 170;  ///< E does not move forward below it
-  friend bool operator==(const ThermalDescription&, const ThermalDescription&) = default;
-};
-
-/// What a mill cuts with. `sim_`: of the simulated one.
-struct SpindleDescription {
-  bool present = false;
-  double min_rpm = 1000, max_rpm = 24000;
-  bool reversible = false;  ///< M4
-  double sim_rpm_per_s = 6000;
-  friend bool operator==(const SpindleDescription&, const SpindleDescription&) = default;
 };
 
 struct GcodeDescription {
@@ -249,7 +221,7 @@ struct MachineDescription {
   std::string name = "machine";
   KinematicsGeometry kinematics;         ///< travel and limits of joints and poses already filled in
   std::vector<JointDescription> joints;  ///< in the order of the kinematics' joints
-  std::vector<NodeDescription> nodes;    ///< ascending ids; every node that a joint names
+  std::vector<NodeDescription> nodes;    ///< ascending ids; every node that a joint or device names
   PathDescription path;
   PathTolerances tolerances;
   StopDescription stop;
@@ -257,7 +229,13 @@ struct MachineDescription {
   BusDescription bus;
   HomingRun homing;
   ThermalDescription thermal;
+  // Devices, each in the order of its name.
+  std::vector<HeaterDescription> heaters;
+  std::vector<FanDescription> fans;
+  std::vector<OutputDescription> outputs;
+  std::vector<SensorDescription> sensors;
   SpindleDescription spindle;
+  ProbeDescription probe;
   GcodeDescription gcode;
   /// M1 and M5: how the machine's geometry was measured to differ from the one above it in the file.
   std::optional<M1Correction> geometry_calibration;
@@ -269,6 +247,13 @@ struct MachineDescription {
       if (n.id == id) return &n;
     return nullptr;
   }
+  const HeaterDescription* heater(HeaterId id) const {
+    for (const HeaterDescription& h : heaters)
+      if (h.id() == id) return &h;
+    return nullptr;
+  }
+  /// The tools T0 .. T(n - 1) that a job may name: hot ends, and always one.
+  int tools() const;
 };
 
 /// The default machine: M1, 4 towers on nodes 1 and 2, table C and extruder E on node 3. Equal to

@@ -209,6 +209,34 @@ class Reader {
     });
   }
 
+  /// A table of tables, each of them named by its key, in the order of the names.
+  template <typename T, typename F>
+  void named_tables(std::string_view key, std::vector<T>& all, F&& content) {
+    all.clear();
+    table(key, Need::kOptional, [&] {
+      constexpr std::size_t kMost = 32, kLongestName = 32;
+      level().others =
+          say("at most %1 tables with names of 1 .. %2 letters, digits, - and _", kMost, kLongestName);
+      for (const auto& [name, node] : *level().table) {
+        const std::string_view text = name.str();
+        const bool plain = std::all_of(text.begin(), text.end(), [](char c) {
+          return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
+                 c == '_';
+        });
+        if (!plain || text.empty() || text.size() > kLongestName || all.size() == kMost) continue;
+        T& made = all.emplace_back();
+        made.name = text;
+        table(text, Need::kRequired, [&] { content(made); });
+      }
+    });
+  }
+
+  /// A key of earlier files: refused with what stands for it now.
+  void retired(std::string_view key, const Sentence& instead) {
+    level().known_before.insert(std::string(key));
+    if (const toml::node* node = level().table->get(key)) wrong(key, *node, instead);
+  }
+
   void node_ids(std::vector<NodeDescription>& nodes) {
     nodes.clear();
     level().others = say("a node id in 1 .. 126");
@@ -250,7 +278,8 @@ class Reader {
     std::set<std::string> known;
     std::set<std::string> removed;
     bool judged;
-    Sentence others{};  // what keys the table takes besides the known ones
+    Sentence others{};                        // what keys the table takes besides the known ones
+    std::set<std::string> known_before = {};  // and are refused with what stands for them now
   };
 
   Level& level() { return levels_.back(); }
@@ -315,7 +344,8 @@ class Reader {
     const Level& l = level();
     if (l.judged)
       for (const auto& [key, node] : *l.table)
-        if (!l.known.contains(std::string(key.str()))) unknown(key, l);
+        if (!l.known.contains(std::string(key.str())) && !l.known_before.contains(std::string(key.str())))
+          unknown(key, l);
     levels_.pop_back();
   }
 

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "gateway/calibration/joint_map.hpp"
+#include "gateway/description/device_rules.hpp"
 
 namespace kinebus {
 namespace {
@@ -19,6 +20,7 @@ class Rules {
     nodes();
     times();
     speeds();
+    judge_devices(d_, broken_);
     if (const auto kinematics = make_kinematics(d_); !kinematics)
       broken_.push_back({geometry_keys(), say("a machine that cannot work"), kinematics.error().what});
     return std::move(broken_);
@@ -161,9 +163,6 @@ class Rules {
             {"gcode.traverse_mm_per_s", "path.tool_speed_mm_per_s"},
             Sentence::verbatim(number(d_.gcode.traverse_mm_per_s)),
             say("at most the tool's speed, %1", number(d_.path.tool_speed_mm_per_s)));
-    require(d_.spindle.min_rpm <= d_.spindle.max_rpm, {"spindle.min_rpm", "spindle.max_rpm"},
-            Sentence::verbatim(number(d_.spindle.min_rpm)),
-            say("at most the largest speed, %1", number(d_.spindle.max_rpm)));
     require(!d_.name.empty(), {"name"}, say("an empty name"), say("a name"));
     require(!d_.jobs_directory.empty(), {"jobs_directory"}, say("an empty path"), say("a directory"));
   }

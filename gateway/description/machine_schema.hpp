@@ -9,23 +9,16 @@
 #include <string>
 #include <string_view>
 
+#include "gateway/description/device_schema.hpp"
 #include "gateway/description/machine_description.hpp"
+#include "gateway/description/schema_words.hpp"
 
 namespace kinebus::machine_schema {
-
-enum class Need : std::uint8_t { kRequired, kOptional };
-struct Range {
-  double min = 0, max = 0;
-};
 
 inline constexpr Range kAnywhere_mm{-10000, 10000};
 inline constexpr Range kAngle_deg{-360, 360};
 inline constexpr Range kAngleLimit_deg{0, 90};
 
-struct Choice {
-  std::string_view word;
-  int value;
-};
 inline constexpr Choice kKinds[] = {{"m1", 0},           {"cartesian", 1}, {"corexy", 2},
                                     {"linear_delta", 3}, {"m4", 4},        {"m5", 5}};
 inline constexpr Choice kAxes[] = {{"A", 0}, {"B", 1}};
@@ -181,6 +174,11 @@ void visit_joint(V& v, JointDescription& j, bool own_travel) {
 
 template <class V>
 void visit_node(V& v, NodeDescription& n) {
+  v.integer("axis_pairs", n.functions.axis_pairs, 0, 1, Need::kOptional);
+  v.integer("inputs", n.functions.inputs, 0, kNodeInputs, Need::kOptional);
+  v.integer("heaters", n.functions.heaters, 0, 8, Need::kOptional);
+  v.integer("sensors", n.functions.sensors, 0, 8, Need::kOptional);
+  v.integer("outputs", n.functions.outputs, 0, 16, Need::kOptional);
   v.optional_integer("vendor", n.vendor);
   v.optional_integer("product", n.product);
   v.optional_integer("serial", n.serial);
@@ -191,19 +189,6 @@ void visit_node(V& v, NodeDescription& n) {
       v.flag("active_low", s.active_low, Need::kOptional);
       v.duration("debounce_us", s.debounce, 0, 100000, Need::kOptional);
     });
-}
-
-template <class V>
-void visit_heater(V& v, std::string_view key, HeaterDescription& h) {
-  v.table(key, Need::kOptional, [&] {
-    v.flag("present", h.present, Need::kOptional);
-    v.number("max_c", h.max_c, {20, 600}, Need::kOptional);
-    v.number("window_c", h.window_c, {0.1, 50}, Need::kOptional);
-    v.duration("settle_s", h.settle, 0, 600, Need::kOptional);
-    v.number("sim_power_w", h.sim_power_w, {0.1, 10000}, Need::kOptional);
-    v.number("sim_heat_capacity_j_per_k", h.sim_heat_capacity_j_per_k, {0.1, 100000}, Need::kOptional);
-    v.number("sim_loss_w_per_k", h.sim_loss_w_per_k, {0.0001, 1000}, Need::kOptional);
-  });
 }
 
 template <class V>
@@ -318,19 +303,7 @@ void visit_machine(V& v, MachineDescription& d) {
     for (NodeDescription& n : d.nodes)
       v.table(std::to_string(n.id), Need::kRequired, [&] { visit_node(v, n); });
   });
-  v.table("thermal", Need::kOptional, [&] {
-    v.number("ambient_c", d.thermal.ambient_c, {-20, 60}, Need::kOptional);
-    v.number("min_extrude_c", d.thermal.min_extrude_c, {0, 500}, Need::kOptional);
-    visit_heater(v, "hotend", d.thermal.hotend);
-    visit_heater(v, "bed", d.thermal.bed);
-  });
-  v.table("spindle", Need::kOptional, [&] {
-    v.flag("present", d.spindle.present, Need::kOptional);
-    v.number("min_rpm", d.spindle.min_rpm, {0, 100000}, Need::kOptional);
-    v.number("max_rpm", d.spindle.max_rpm, {1, 200000}, Need::kOptional);
-    v.flag("reversible", d.spindle.reversible, Need::kOptional);
-    v.number("sim_rpm_per_s", d.spindle.sim_rpm_per_s, {10, 1000000}, Need::kOptional);
-  });
+  visit_devices(v, d);
   visit_gcode(v, d.gcode);
   if (!known_kind || d.kinematics.index() == 0 || d.kinematics.index() == 5)
     visit_correction(v, d.geometry_calibration);

@@ -131,6 +131,13 @@ class Writer {
   void optional_table(std::string_view key, std::optional<T>& value, F&& content) {
     if (value) table(key, Need::kOptional, [&] { content(*value); });
   }
+  template <typename T, typename F>
+  void named_tables(std::string_view key, std::vector<T>& all, F&& content) {
+    table(key, Need::kOptional, [&] {
+      for (T& one : all) table(one.name, Need::kRequired, [&] { content(one); });
+    });
+  }
+  void retired(std::string_view, const Sentence&) {}
   void node_ids(const std::vector<NodeDescription>&) {}
 
  private:

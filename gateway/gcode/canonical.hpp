@@ -61,13 +61,14 @@ struct Limits {  ///< M201/M203/M204/M205; 0: unchanged
   double travel_accel_mm_per_s2 = 0;
   double retract_accel_mm_per_s2 = 0;
 };
-struct Thermal {  ///< M104/M109 (hotend), M140/M190 (bed), M106/M107 (fan): handed to the thermal device in
-                  ///< path order
-  enum class What : std::uint8_t { kHotend, kBed, kFan } what{};
-  double value = 0;  ///< deg C, or 0..1 for the fan
+/// M104/M109 (hot end), M140/M190 (bed), M141/M191 (chamber), M106/M107 (fan), M42 (output): handed to the
+/// device in path order.
+struct Thermal {
+  enum class What : std::uint8_t { kHotend, kBed, kFan, kChamber, kOutput } what{};
+  double value = 0;  ///< deg C; 0..1 for a fan or an output
   bool wait = false;
   bool wait_cooling = false;  ///< R form: also waits for it to fall
-  int index = 0;
+  int index = 0;              ///< among those of its kind
 };
 /// M3 > 0 (clockwise seen from the spindle), M4 < 0, M5 0. Motion waits at rest until the speed is reached.
 struct Spindle {

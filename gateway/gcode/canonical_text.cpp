@@ -90,7 +90,7 @@ struct Writer {
     return text;
   }
   std::string operator()(const Thermal& c) const {
-    static constexpr std::array<std::string_view, 3> kNames = {"hotend", "bed", "fan"};
+    static constexpr std::array<std::string_view, 5> kNames = {"hotend", "bed", "fan", "chamber", "output"};
     std::string text(kNames[static_cast<std::size_t>(c.what)]);
     text += std::to_string(c.index) + " " + number(c.value);
     if (c.wait) text += c.wait_cooling ? " wait_both" : " wait";

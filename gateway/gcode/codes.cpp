@@ -62,6 +62,9 @@ MGroup m_group(int number) {
     case 140:
     case 190:
       return MGroup::kBed;
+    case 141:
+    case 191:
+      return MGroup::kChamber;
     case 106:
     case 107:
       return MGroup::kFan;
@@ -80,6 +83,7 @@ MGroup m_group(int number) {
     case 5:
       return MGroup::kSpindle;
     case 9:
+    case 42:
     case 110:
     case 112:
     case 117:

@@ -97,6 +97,7 @@ enum class MGroup : std::uint8_t {
   kMotors,     ///< M17 M18 M84
   kHotend,     ///< M104 M109
   kBed,        ///< M140 M190
+  kChamber,    ///< M141 M191
   kFan,        ///< M106 M107
   kSpindle,    ///< M3 M4 M5
   kJobs,       ///< M20 .. M32

@@ -52,7 +52,10 @@ bool Core::run_machine_code(Code code) {
     case 109:
     case 140:
     case 190:
+    case 141:
+    case 191:
       return thermal(code);
+    case 42:
     case 106:
     case 107:
       return fan(code);
@@ -165,8 +168,9 @@ bool Core::thermal(Code code) {
   using What = canonical::Thermal::What;
   canonical::Thermal command;
   const std::string name = m_name(code.number);
-  command.what = code.number < 140 ? What::kHotend : What::kBed;
-  command.wait = code.number == 109 || code.number == 190;
+  const bool chamber = code.number == 141 || code.number == 191;
+  command.what = code.number < 140 ? What::kHotend : chamber ? What::kChamber : What::kBed;
+  command.wait = code.number == 109 || code.number >= 190;
   const bool rising = has('S'), both = command.wait && has('R');
   if (rising && both) return fail(block_.column_of('R'), say("%1 takes S or R, not both", name));
   if (!rising && !both)
@@ -180,6 +184,8 @@ bool Core::thermal(Code code) {
   if (command.what == What::kHotend) {
     command.index = std::min(state_.modal.tool, options_.hotends - 1);
     if (!take_integer('T', 0, options_.hotends - 1, command.index)) return false;
+  } else if (!take_integer('P', 0, 7, command.index)) {
+    return false;
   }
   emit(command);
   return true;
@@ -187,12 +193,17 @@ bool Core::thermal(Code code) {
 
 bool Core::fan(Code code) {
   canonical::Thermal command;
-  command.what = canonical::Thermal::What::kFan;
+  using What = canonical::Thermal::What;
+  command.what = code.number == 42 ? What::kOutput : What::kFan;
+  if (code.number == 42 && (!has('P') || !has('S')))
+    return fail(code.column, say("M42 needs the output P and its value S"));
   if (!take_integer('P', 0, 7, command.index)) return false;
-  if (code.number == 106) {
+  if (code.number != 107) {
     double speed = 255;
     if (!take_if_given('S', speed)) return false;
-    if (speed < 0 || speed > 255) return fail(block_.column_of('S'), say("the fan's speed S is 0 to 255"));
+    if (speed < 0 || speed > 255)
+      return fail(block_.column_of('S'), code.number == 42 ? say("an output's value S is 0 to 255")
+                                                           : say("the fan's speed S is 0 to 255"));
     command.value = speed / 255;
   }
   emit(command);

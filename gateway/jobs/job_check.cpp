@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "gateway/jobs/machine_setup.hpp"
 
@@ -53,7 +54,7 @@ void JobCheck::check_pose(const Phase& phase, double s) {
 }
 
 void JobCheck::check_extrusion(const Phase& phase) {
-  if (!machine_.thermal.hotend.present) return;
+  if (machine_.heater(kFirstHotend) == nullptr) return;
   if (!hotend_celsius_) {
     cold_reported_ = true;
     add(Problem::Severity::kWarning, phase.line,
@@ -80,22 +81,11 @@ void JobCheck::command(const canonical::Line& line) {
 }
 
 void JobCheck::check_thermal(const canonical::Thermal& thermal, std::uint32_t line) {
-  using What = canonical::Thermal::What;
-  if (thermal.what == What::kFan) return;
-  const bool hotend = thermal.what == What::kHotend;
-  const HeaterDescription& heater = hotend ? machine_.thermal.hotend : machine_.thermal.bed;
-  const Sentence name = hotend ? say("hotend") : say("bed");
-  if (!heater.present && thermal.value > 0)
-    add(Problem::Severity::kError, line, say("this machine has no %1 heater", name));
-  else if (thermal.value < 0 || thermal.value > heater.max_c)
-    add(Problem::Severity::kError, line,
-        say("%1 temperature %2; allowed are 0 to %3", name, celsius(thermal.value), celsius(heater.max_c)));
-  else if (thermal.wait && thermal.wait_cooling && thermal.value < machine_.thermal.ambient_c &&
-           thermal.value > 0)
-    add(Problem::Severity::kError, line,
-        say("%1 would wait forever: %2 is below the room's %3", name, celsius(thermal.value),
-            celsius(machine_.thermal.ambient_c)));
-  if (hotend && thermal.index == 0) hotend_celsius_ = thermal.value;
+  if (auto wrong = wrong_device_command(machine_, thermal))
+    add(Problem::Severity::kError, line, std::move(*wrong));
+  if (auto missing = missing_fan(machine_, thermal); missing && !std::exchange(fan_reported_, true))
+    add(Problem::Severity::kWarning, line, std::move(*missing));
+  if (heater_of(thermal) == kFirstHotend) hotend_celsius_ = thermal.value;
 }
 
 }  // namespace kinebus

@@ -45,7 +45,7 @@ class JobCheck {
   bool bad_pose_ = false;                    ///< the last pose checked was bad: one report for each way out
   double since_mm_ = 1e9, since_rad_ = 1e9;  ///< travelled since the last check
   std::optional<double> hotend_celsius_;
-  bool cold_reported_ = false;
+  bool cold_reported_ = false, fan_reported_ = false;
 };
 
 }  // namespace kinebus

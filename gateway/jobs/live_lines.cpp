@@ -51,7 +51,7 @@ void LiveLines::restart(const gcode::WorkOffsets& offsets) {
   interpreter_ = gcode::Interpreter(std::move(options));
   limits_ = {};
   path_mode_.reset();
-  may_move_ = cold_noted_ = false;
+  may_move_ = cold_noted_ = fan_noted_ = false;
 }
 
 void LiveLines::stand_at(const Pose& pose) {
@@ -196,7 +196,7 @@ Refused LiveLines::check_home(const canonical::Home& home) {
 }
 
 Refused LiveLines::check_extrusion(const Pose& target) {
-  if (!machine_.thermal.hotend.present || target[kE] - place_.pose[kE] <= kNoExtrusion_mm)
+  if (machine_.heater(kFirstHotend) == nullptr || target[kE] - place_.pose[kE] <= kNoExtrusion_mm)
     return std::nullopt;
   if (!hotend_celsius_) {
     if (!std::exchange(cold_noted_, true))
@@ -209,20 +209,11 @@ Refused LiveLines::check_extrusion(const Pose& target) {
 }
 
 Refused LiveLines::check_thermal(const canonical::Thermal& thermal) {
-  using What = canonical::Thermal::What;
-  if (thermal.what == What::kFan) return std::nullopt;
-  const bool hotend = thermal.what == What::kHotend;
-  const HeaterDescription& heater = hotend ? machine_.thermal.hotend : machine_.thermal.bed;
-  const Sentence name = hotend ? say("hotend") : say("bed");
-  if (!heater.present && thermal.value > 0) return say("this machine has no %1 heater", name);
-  if (!(thermal.value >= 0 && thermal.value <= heater.max_c))
-    return say("%1 temperature %2; allowed are 0 to %3", name, rounded_celsius(thermal.value),
-               rounded_celsius(heater.max_c));
-  if (thermal.wait && thermal.wait_cooling && thermal.value > 0 && thermal.value < machine_.thermal.ambient_c)
-    return say("%1 would wait forever: %2 is below the room's %3", name, rounded_celsius(thermal.value),
-               rounded_celsius(machine_.thermal.ambient_c));
+  if (auto wrong = wrong_device_command(machine_, thermal)) return wrong;
+  if (auto missing = missing_fan(machine_, thermal); missing && !std::exchange(fan_noted_, true))
+    notes_.push_back(std::move(*missing));
   // A cold end after a print is no news: only lines that feed filament afterwards are refused.
-  if (hotend && thermal.index == 0) hotend_celsius_ = thermal.value;
+  if (heater_of(thermal) == kFirstHotend) hotend_celsius_ = thermal.value;
   return std::nullopt;
 }
 

@@ -65,7 +65,7 @@ class LiveLines {
   bool may_move_ = false;
   Place place_;  ///< where the lines taken so far lead
   std::optional<double> hotend_celsius_;
-  bool cold_noted_ = false;
+  bool cold_noted_ = false, fan_noted_ = false;
   canonical::Limits limits_{};  ///< in force
   std::optional<canonical::PathMode> path_mode_;
   std::vector<Sentence> notes_;

@@ -41,7 +41,8 @@ gcode::Options interpreter_options(const MachineDescription& machine, const Pose
   options.dwell_p_unit = machine.gcode.dwell_p_unit == GcodeDescription::DwellUnit::kSeconds
                              ? gcode::DwellUnit::kSeconds
                              : gcode::DwellUnit::kMilliseconds;
-  options.tools = 1 + static_cast<int>(machine.gcode.tool_length_mm.size());
+  options.hotends = machine.tools();
+  options.tools = std::max(options.hotends, 1 + static_cast<int>(machine.gcode.tool_length_mm.size()));
   options.tool_length_mm = machine.gcode.tool_length_mm;
   options.retract_length_mm = machine.gcode.retract_mm;
   options.retract_mm_per_s = options.recover_mm_per_s = machine.gcode.retract_mm_per_s;
@@ -71,7 +72,8 @@ double segment_tolerance(const MachineDescription& machine, const JointDescripti
 
 std::vector<NodeAxes> node_axes(const MachineDescription& machine) {
   std::vector<NodeAxes> nodes;
-  for (const NodeDescription& node : machine.nodes) nodes.push_back({.node_id = node.id, .axes = {}});
+  for (const NodeDescription& node : machine.nodes)
+    if (node.functions.has_axes()) nodes.push_back({.node_id = node.id, .axes = {}});
   std::sort(nodes.begin(), nodes.end(), [](const auto& a, const auto& b) { return a.node_id < b.node_id; });
   for (std::size_t joint = 0; joint < machine.joints.size(); ++joint) {
     const JointDescription& j = machine.joints[joint];
@@ -110,6 +112,65 @@ std::optional<Sentence> wrong_spindle_speed(const SpindleDescription& spindle, d
   if (speed >= spindle.min_rpm && speed <= spindle.max_rpm) return std::nullopt;
   return say("spindle speed %1 rpm; allowed are %2 to %3 rpm", printed("%.6g", speed),
              printed("%.6g", spindle.min_rpm), printed("%.6g", spindle.max_rpm));
+}
+
+std::optional<HeaterId> heater_of(const canonical::Thermal& thermal) {
+  using What = canonical::Thermal::What;
+  const auto index = static_cast<std::uint8_t>(thermal.index);
+  switch (thermal.what) {
+    case What::kHotend:
+      return HeaterId{HeaterKind::kHotend, index};
+    case What::kBed:
+      return HeaterId{HeaterKind::kBed, index};
+    case What::kChamber:
+      return HeaterId{HeaterKind::kChamber, index};
+    case What::kFan:
+    case What::kOutput:
+      break;
+  }
+  return std::nullopt;
+}
+
+Sentence heater_words(HeaterId id) {
+  switch (id.kind) {
+    case HeaterKind::kHotend:
+      return id.index == 0 ? say("hotend") : say("hotend %1", int{id.index});
+    case HeaterKind::kBed:
+      return id.index == 0 ? say("bed") : say("bed %1", int{id.index});
+    case HeaterKind::kChamber:
+      return id.index == 0 ? say("chamber") : say("chamber %1", int{id.index});
+  }
+  return {};
+}
+
+std::optional<Sentence> wrong_device_command(const MachineDescription& machine,
+                                             const canonical::Thermal& thermal) {
+  const auto celsius = [](double value) { return printed("%.6g C", value); };
+  if (thermal.what == canonical::Thermal::What::kOutput) {
+    const bool there = std::any_of(machine.outputs.begin(), machine.outputs.end(),
+                                   [&](const OutputDescription& o) { return o.index == thermal.index; });
+    return there ? std::nullopt : std::optional(say("this machine has no output %1", thermal.index));
+  }
+  const auto id = heater_of(thermal);
+  if (!id) return std::nullopt;
+  const HeaterDescription* heater = machine.heater(*id);
+  const Sentence name = heater_words(*id);
+  if (heater == nullptr && thermal.value > 0) return say("this machine has no %1 heater", name);
+  if (heater == nullptr) return std::nullopt;
+  if (!(thermal.value >= 0 && thermal.value <= heater->max_c))
+    return say("%1 temperature %2; allowed are 0 to %3", name, celsius(thermal.value),
+               celsius(heater->max_c));
+  if (thermal.wait && thermal.wait_cooling && thermal.value > 0 && thermal.value < machine.thermal.ambient_c)
+    return say("%1 would wait forever: %2 is below the room's %3", name, celsius(thermal.value),
+               celsius(machine.thermal.ambient_c));
+  return std::nullopt;
+}
+
+std::optional<Sentence> missing_fan(const MachineDescription& machine, const canonical::Thermal& thermal) {
+  if (thermal.what != canonical::Thermal::What::kFan || thermal.value == 0) return std::nullopt;
+  for (const FanDescription& fan : machine.fans)
+    if (fan.index == thermal.index) return std::nullopt;
+  return say("this machine has no fan %1: M106 has no effect", thermal.index);
 }
 
 Result<Pose, PoseError> convert_pose(const Kinematics& kinematics, Frame from, const Pose& pose, Frame to) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gateway/description/machine_description.hpp"
+#include "gateway/gcode/canonical.hpp"
 #include "gateway/gcode/interpreter.hpp"
 #include "gateway/motion/motion_limits.hpp"
 #include "gateway/sentence.hpp"
@@ -19,14 +20,26 @@ MotionLimits motion_limits(const MachineDescription& machine);
 /// `start`: where the machine stands when the job begins, `home`: after G28; both Frame::kMachine.
 gcode::Options interpreter_options(const MachineDescription& machine, const Pose& start, const Pose& home);
 
-/// Nodes in ascending order of their ids; an axis that no joint names has joint -1. Counts are 0 where the
-/// joint value is 0.
+/// Nodes that have axes, in ascending order of their ids; an axis that no joint names has joint -1. Counts
+/// are 0 where the joint value is 0.
 std::vector<NodeAxes> node_axes(const MachineDescription& machine);
 
 StreamGroup::Options stream_options(const MachineDescription& machine);
 
 /// Why this machine's spindle cannot turn so fast (`rpm` < 0: the other way round); none: it can.
 std::optional<Sentence> wrong_spindle_speed(const SpindleDescription& spindle, double rpm);
+
+/// Which heater a canonical command names; none: a fan or an output.
+std::optional<HeaterId> heater_of(const canonical::Thermal& thermal);
+/// "bed", "hotend 1"
+Sentence heater_words(HeaterId id);
+
+/// Why this machine cannot do what is asked of its heaters and outputs; none: it can.
+std::optional<Sentence> wrong_device_command(const MachineDescription& machine,
+                                             const canonical::Thermal& thermal);
+/// What is asked of a fan that the machine does not have: sliced for another machine, and no reason to refuse
+/// a job.
+std::optional<Sentence> missing_fan(const MachineDescription& machine, const canonical::Thermal& thermal);
 
 /// The same place in the other frame, by way of the joints.
 Result<Pose, PoseError> convert_pose(const Kinematics& kinematics, Frame from, const Pose& pose, Frame to);

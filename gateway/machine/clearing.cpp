@@ -24,7 +24,7 @@ Clearing::Outcome Clearing::on_time(BusTime now) {
   bool enabled = true;
   together_ = true;
   const auto units = static_cast<std::uint32_t>(rate_.tau(now).count() / kPathTicksPerUnit);
-  for (std::size_t i = 0; i < links_.size(); ++i) {
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
     NodeLink& link = links_[i];
     if (link.stream() && (link.stream()->flags & StreamStatus::kStopped) != 0) lifted = false;
     together_ = together_ && link.stream() && link.stream()->path_units == units;

@@ -37,6 +37,7 @@ constexpr std::array<Row, kCommandKinds> kTable{{
      in(S::kUnhomed, S::kReady, S::kStopped, S::kAlarm)},
     {command::kind<command::SetTemperature>, phrase("set a temperature"), kAny & ~in(S::kAlarm)},
     {command::kind<command::SetFan>, phrase("set the fan"), kAny},
+    {command::kind<command::SetOutput>, phrase("set an output"), kAny},
     {command::kind<command::SetSpindle>, phrase("turn the spindle"), kAny & ~in(S::kAlarm)},
     {command::kind<command::SetWorkOffset>, phrase("set a work offset"), kAny},
 }};

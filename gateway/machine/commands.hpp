@@ -10,6 +10,7 @@
 #include <string>
 #include <variant>
 
+#include "gateway/description/device_description.hpp"
 #include "gateway/jobs/byte_source.hpp"
 #include "gateway/pose.hpp"
 #include "gateway/sentence.hpp"
@@ -50,11 +51,16 @@ struct SetFeedOverride {
 };
 struct MotorsOff {};
 struct SetTemperature {
-  bool bed = false;  ///< false: the hotend
-  double celsius = 0;
+  HeaterId heater = kFirstHotend;
+  double celsius = 0;  ///< 0: off
 };
 struct SetFan {
   double ratio = 0;  ///< 0..1
+  std::uint8_t index = 0;
+};
+struct SetOutput {
+  double ratio = 0;  ///< 0..1
+  std::uint8_t index = 0;
 };
 struct SetSpindle {
   double rpm = 0;  ///< > 0 clockwise, < 0 the other way, 0: off
@@ -73,7 +79,7 @@ using Command =
     std::variant<command::BringUp, command::Home, command::GoToReference, command::Jog, command::Run,
                  command::OpenLines, command::Hold, command::Resume, command::Cancel, command::Stop,
                  command::Clear, command::SetFeedOverride, command::MotorsOff, command::SetTemperature,
-                 command::SetFan, command::SetSpindle, command::SetWorkOffset>;
+                 command::SetFan, command::SetOutput, command::SetSpindle, command::SetWorkOffset>;
 
 /// A kind of command: its place in Command.
 using CommandKind = std::size_t;

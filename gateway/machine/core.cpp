@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "gateway/devices/registry.hpp"
 #include "gateway/jobs/machine_setup.hpp"
 #include "protocol/canopen/cob_id.hpp"
 
@@ -22,9 +23,12 @@ bool is_of_a_gateway(const CanFrame& frame) {
                              frame.id == kSyncStampCobId || frame.id == cob_id::kHeartbeat + kGatewayNodeId);
 }
 
-std::deque<NodeLink> make_links(const std::vector<NodeAxes>& axes) {
+/// Nodes with axes first, in the order of the streams: the one is at the same place as the other.
+std::deque<NodeLink> make_links(const MachineDescription& machine, const std::vector<NodeAxes>& axes) {
   std::deque<NodeLink> links;
-  for (const NodeAxes& node : axes) links.emplace_back(node.node_id);
+  for (const NodeAxes& node : axes) links.emplace_back(node.node_id, machine.node(node.node_id)->functions);
+  for (const NodeDescription& node : machine.nodes)
+    if (!node.functions.has_axes()) links.emplace_back(node.id, node.functions);
   return links;
 }
 
@@ -36,17 +40,27 @@ std::unique_ptr<Kinematics> machine_kinematics(const MachineDescription& machine
   return std::move(*make_m1_kinematics(M1Geometry{}));
 }
 
+/// Devices that nobody stands behind are a defect of the file, as a geometry that cannot work is.
+Devices machine_devices(const MachineDescription& machine, std::optional<Devices> given, Sentence& defect) {
+  if (given) return std::move(*given);
+  auto made = make_devices(machine);
+  if (made) return std::move(*made);
+  if (defect.empty()) defect = made.error();
+  return {};
+}
+
 }  // namespace
 
-Gateway::Core::Core(const MachineDescription& machine, Options options)
+Gateway::Core::Core(const MachineDescription& machine, Options options, std::optional<Devices> devices)
     : machine_(machine),
       options_(options),
       kinematics_(machine_kinematics(machine_, defect_)),
       axes_(node_axes(machine_)),
-      links_(make_links(axes_)),
+      links_(make_links(machine_, axes_)),
       rate_({.stop_ramp = machine_.stop.ramp}),
       group_(*kinematics_, axes_, stream_options(machine_)),
-      heat_(machine_),
+      devices_(machine_devices(machine_, std::move(devices), defect_)),
+      heat_(machine_, devices_),
       state_(events_),
       voice_(machine_, options.epoch),
       watch_(machine_, links_, rate_, group_, events_, counters_),
@@ -87,11 +101,13 @@ void Gateway::Core::on_frame(BusTime when, const CanFrame& frame) {
     rate_.on_stop_request(*request, now_);
     if (!bring_up_.busy()) stop_all(false);
   }
+  const bool of_device = devices_.on_frame(when, frame);
   for (NodeLink& link : links_) {
     if (!link.on_frame(when, frame)) continue;
     take_stream_status(link);
     return;
   }
+  if (of_device) return;
   if (cob_id::node_of(frame.id, cob_id::kHeartbeat) != 0)
     ++counters_.foreign_frames;
   else
@@ -113,6 +129,8 @@ std::optional<CanFrame> Gateway::Core::next_frame(BusTime now) {
   if (const auto frame = bring_up_.next_frame()) return frame;
   for (NodeLink& link : links_)
     if (const auto frame = link.next_frame(now)) return frame;
+  if (voice_.speaks())
+    if (const auto frame = devices_.next_frame(now)) return frame;
   if (!streams_flow()) return std::nullopt;
   const auto frame = group_.next_frame(now, rate_.tau(now));
   if (frame) ++counters_.segments_sent;
@@ -142,7 +160,10 @@ BusTime Gateway::Core::next_deadline() const {
   }
   // From when time was served, not from the last frame: no flood of frames puts it off.
   BusTime due = voice_.next_deadline(now_, std::max(served_ + wait, now_ + BusTime{1}));
-  if (voice_.speaks() && rate_.next_deadline() > now_) due = std::min(due, rate_.next_deadline());
+  if (!voice_.speaks()) return due;
+  // What is due already waits for the bus, not for time: it is pulled when a frame can be sent.
+  for (const BusTime deadline : {rate_.next_deadline(), devices_.next_deadline()})
+    if (deadline > now_) due = std::min(due, deadline);
   return due;
 }
 
@@ -152,10 +173,11 @@ BusTime Gateway::Core::next_deadline() const {
 void Gateway::Core::on_time(BusTime now) {
   served_ = now_ = std::max(now_, now);
   rate_.on_time(now_);
-  heat_.on_time(now_);
+  devices_.on_time(now_);
   for (NodeLink& link : links_) link.on_time(now_);
   currents_.on_time(now_, links_, axes_, may_glance());
   watch_nodes();
+  watch_devices();
   note_progress();
   voice_.on_time(now_, bring_up_.busy());
   switch (state_.now()) {
@@ -215,6 +237,14 @@ void Gateway::Core::watch_nodes() {
         {.state = state_.now(),
          .bringing_up = bring_up_.busy(),
          .homes = state_.is(MachineState::kHoming) && homing_.reports(i, now_ - NodeWatch::kStatusTimeout)}));
+}
+
+/// A device that is out of order has switched itself off; whatever it was needed for must not go on.
+void Gateway::Core::watch_devices() {
+  const auto fault = heat_.new_fault();
+  if (!fault) return;
+  events_.alarm(now_, AlarmCode::kThermal, say("%1: %2", fault->device, fault->words), fault->node);
+  if (!state_.is(MachineState::kOff)) stop_all(true);
 }
 
 void Gateway::Core::take_stream_status(NodeLink& link) {
@@ -453,7 +483,7 @@ void Gateway::Core::finish_standstill() {
   const After after = rest_.after();
   const Standstill& found = rest_.found();
   group_.cancel();
-  for (std::size_t i = 0; i < links_.size(); ++i)
+  for (std::size_t i = 0; i < axes_.size(); ++i)
     group_.set_state(links_[i].id(), found.node(i).position, found.node(i).stream);
   if (after == After::kHoming) group_.homed();
   position_.take(found);

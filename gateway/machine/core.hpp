@@ -14,6 +14,7 @@
 #include "gateway/bus_nodes/bring_up.hpp"
 #include "gateway/bus_nodes/homing.hpp"
 #include "gateway/bus_nodes/node_link.hpp"
+#include "gateway/devices/devices.hpp"
 #include "gateway/jobs/journal/journal_queue.hpp"
 #include "gateway/machine/bus_voice.hpp"
 #include "gateway/machine/clearing.hpp"
@@ -36,7 +37,7 @@ namespace kinebus {
 
 class Gateway::Core {
  public:
-  Core(const MachineDescription& machine, Options options);
+  Core(const MachineDescription& machine, Options options, std::optional<Devices> devices);
 
   // core.cpp
   void on_frame(BusTime when, const CanFrame& frame);
@@ -91,8 +92,9 @@ class Gateway::Core {
   Done on(command::Clear& asked);
   Done on(command::SetFeedOverride& asked);
   Done on(command::MotorsOff& asked);
-  Done on(command::SetTemperature& asked) { return heat_.set_temperature(asked.bed, asked.celsius); }
-  Done on(command::SetFan& asked) { return heat_.set_fan(asked.ratio); }
+  Done on(command::SetTemperature& asked) { return heat_.set_temperature(asked.heater, asked.celsius); }
+  Done on(command::SetFan& asked) { return heat_.set_fan(asked.index, asked.ratio); }
+  Done on(command::SetOutput& asked) { return heat_.set_output(asked.index, asked.ratio); }
   Done on(command::SetSpindle& asked) { return heat_.set_spindle(asked.rpm); }
   Done on(command::SetWorkOffset& asked);
 
@@ -118,6 +120,7 @@ class Gateway::Core {
   void step_clear();
   void finish_motion();
   void watch_nodes();
+  void watch_devices();
   void take_stream_status(NodeLink& link);
   void follow(const NodeWatch::Verdict& verdict);
 
@@ -152,6 +155,7 @@ class Gateway::Core {
   std::deque<NodeLink> links_;
   PathRate rate_;
   StreamGroup group_;
+  Devices devices_;
   Heat heat_;
   EventQueue events_;
   journal::Queue journal_;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "gateway/jobs/machine_setup.hpp"
 #include "gateway/machine/core.hpp"
 
 namespace kinebus {
@@ -228,10 +229,15 @@ Done Gateway::Core::take_line(std::string_view line, std::uint32_t number) {
 
 /// What does not move.
 Done Gateway::Core::carry_out_at_rest(const canonical::Line& line) {
-  using What = canonical::Thermal::What;
   if (const auto* thermal = std::get_if<canonical::Thermal>(&line.command)) {
-    if (thermal->what == What::kFan) return carry_out(command::SetFan{thermal->value});
-    return carry_out(command::SetTemperature{thermal->what == What::kBed, thermal->value});
+    if (const auto heater = heater_of(*thermal))
+      return carry_out(command::SetTemperature{*heater, thermal->value});
+    const auto index = static_cast<std::uint8_t>(thermal->index);
+    if (thermal->what == canonical::Thermal::What::kOutput)
+      return carry_out(command::SetOutput{thermal->value, index});
+    // A line for a fan that is not there is taken, with a note.
+    if (missing_fan(machine_, *thermal)) return {};
+    return carry_out(command::SetFan{thermal->value, index});
   }
   if (const auto* spindle = std::get_if<canonical::Spindle>(&line.command))
     return carry_out(command::SetSpindle{spindle->rpm});

@@ -29,7 +29,7 @@ Done Gateway::Core::recover(journal::State state, std::unique_ptr<ByteSource> jo
   if (!job) return refused(say("the interrupted job %1 is not there any more", state.job->name));
   print_.rename(state.job->name);
   if (state.override_ratio) override_ = std::clamp(*state.override_ratio, 0.01, 5.0);
-  heat_.take_up(state.thermal);
+  heat_.take_up(state.heat);
   recovery_.take_up(std::move(state), std::move(job));
   events_.message(now_, say("the job %1 was interrupted: resume to go on with it, or cancel", print_.name()));
   return {};

@@ -47,7 +47,7 @@ MachineStatus Gateway::Core::status() const {
   }
   for (std::size_t i = 0; i < links_.size(); ++i) {
     s.nodes.push_back(links_[i].status(now_, machine_.bus.heartbeat_timeout));
-    s.nodes.back().records_sent = group_.stream(i).counters().records;
+    if (i < axes_.size()) s.nodes.back().records_sent = group_.stream(i).counters().records;
     for (std::size_t axis = 0; axis < kAxesPerNode; ++axis)
       s.nodes.back().current_a[axis] = currents_.amperes(i, axis, now_);
     s.counters.sdo_aborts += links_[i].sdo().counters().aborts;

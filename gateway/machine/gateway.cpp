@@ -6,7 +6,9 @@ namespace kinebus {
 
 Gateway::Gateway(const MachineDescription& machine) : Gateway(machine, Options{}) {}
 Gateway::Gateway(const MachineDescription& machine, Options options)
-    : core_(std::make_unique<Core>(machine, options)) {}
+    : core_(std::make_unique<Core>(machine, options, std::nullopt)) {}
+Gateway::Gateway(const MachineDescription& machine, Options options, Devices devices)
+    : core_(std::make_unique<Core>(machine, options, std::move(devices))) {}
 Gateway::~Gateway() = default;
 
 void Gateway::on_frame(BusTime when, const CanFrame& frame) {

@@ -19,6 +19,7 @@
 #include <string_view>
 #include <vector>
 
+#include "gateway/devices/devices.hpp"
 #include "gateway/jobs/byte_source.hpp"
 #include "gateway/jobs/journal/journal_state.hpp"
 #include "gateway/kinematics/kinematics.hpp"
@@ -47,6 +48,8 @@ class Gateway {
 
   explicit Gateway(const MachineDescription& machine);
   Gateway(const MachineDescription& machine, Options options);
+  /// With devices that are not those of the registry.
+  Gateway(const MachineDescription& machine, Options options, Devices devices);
   ~Gateway();
   Gateway(const Gateway&) = delete;
   Gateway& operator=(const Gateway&) = delete;

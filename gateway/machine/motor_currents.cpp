@@ -23,9 +23,9 @@ void MotorCurrents::on_time(BusTime now, std::deque<NodeLink>& links, const std:
       read_[i].when[axis] = now;
     }
   if (!may_ask || now >= until_ || now < due_) return;
-  for (std::size_t tried = 0; tried < kAxesPerNode * links.size(); ++tried) {
+  for (std::size_t tried = 0; tried < kAxesPerNode * axes.size(); ++tried) {
     const std::size_t node = next_ / kAxesPerNode, axis = next_ % kAxesPerNode;
-    next_ = (next_ + 1) % (kAxesPerNode * links.size());
+    next_ = (next_ + 1) % (kAxesPerNode * axes.size());
     SdoChannel& sdo = links[node].sdo();
     if (axes[node].axes[axis].joint < 0 || !links[node].heard() || !sdo.idle()) continue;
     sdo.glance({static_cast<std::uint16_t>(object::kMotorCurrent.index + axis * kAxisOffset),

@@ -24,8 +24,8 @@ void NodeWatch::on_time(BusTime now, bool streaming) {
 NodeWatch::Verdict NodeWatch::look(BusTime now, std::size_t node, const Situation& situation) {
   // Nodes that move tell how far they are: one that does not is dead, and its carriages stand while others go
   // on.
-  const bool judged = now - streaming_since_ > kStatusTimeout;
   NodeLink& link = links_[node];
+  const bool judged = link.functions().has_axes() && now - streaming_since_ > kStatusTimeout;
   // So do those whose carriages home: with one that is dead the others must not go on.
   const BusTime timeout =
       judged || situation.homes ? kStatusTimeout : BusTime{machine_.bus.heartbeat_timeout};
@@ -36,7 +36,8 @@ NodeWatch::Verdict NodeWatch::look(BusTime now, std::size_t node, const Situatio
   if (!watched) return verdict;
   if (link.take_boot_up()) {
     needs_bring_up_ = true;
-    verdict.positions_lost = verdict.stop = verdict.fault = true;
+    verdict.stop = verdict.fault = true;
+    verdict.positions_lost = link.functions().has_axes();
     events_.alarm(now, AlarmCode::kNodeRestarted, say("%1 has restarted", name_of(link)), link.id());
   } else if (now - (judged ? std::max(link.last_heard(), streaming_since_) : link.last_heard()) > timeout) {
     needs_bring_up_ = true;

@@ -68,7 +68,7 @@ void Position::report(MachineStatus& s, const JointVector& joints, const std::de
     s.pose = s.machine_pose;
     static_cast<void>(kinematics_.forward(Frame::kPart, joints, s.pose));
   }
-  for (std::size_t i = 0; i < links.size(); ++i) {
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
     NodeStatus& node = s.nodes[i];
     const auto& counts = links[i].following_error();
     if (!counts || !node.present) continue;

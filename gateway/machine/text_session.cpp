@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "gateway/machine/core.hpp"
+#include "gateway/status/temperature_text.hpp"
 
 namespace kinebus {
 namespace {
@@ -57,11 +58,6 @@ Result<std::string, Refusal> reply(Result<void, Refusal> done) {
   return std::string();
 }
 
-std::string temperatures(const MachineStatus& s) {
-  return print("T:%.2f /%.2f B:%.2f /%.2f @:0 B@:0", s.hotend.actual_celsius, s.hotend.target_celsius,
-               s.bed.actual_celsius, s.bed.target_celsius);
-}
-
 /// No "-0.000".
 double tidy3(double value) {
   return std::abs(value) < 5e-4 ? 0.0 : value;
@@ -95,10 +91,13 @@ std::string switches(const MachineStatus& s, const MachineDescription& machine) 
 
 Result<std::string, Refusal> Gateway::Core::text_line(std::string_view line) {
   const Words words(line);
-  const auto temperature = [&](bool bed) -> Result<std::string, Refusal> {
+  const auto index = [&](char letter) {
+    return static_cast<std::uint8_t>(std::clamp(words.word(letter).value_or(0), 0.0, 255.0));
+  };
+  const auto temperature = [&](HeaterKind kind, char letter) -> Result<std::string, Refusal> {
     const auto celsius = words.word('S');
     if (!celsius) return Error<Refusal>(Refusal{say("a temperature needs S")});
-    return reply(carry_out(command::SetTemperature{bed, *celsius}));
+    return reply(carry_out(command::SetTemperature{{kind, index(letter)}, *celsius}));
   };
   if (words.letter == 0 || words.letter == ';') return std::string();
   if (words.letter == 'G' && words.number == 28)
@@ -121,15 +120,18 @@ Result<std::string, Refusal> Gateway::Core::text_line(std::string_view line) {
         return print("SD printing line %u, %.1f %%", static_cast<unsigned>(s.line), 100 * s.progress);
       }
       case 104:
-        return temperature(false);
+        return temperature(HeaterKind::kHotend, 'T');
       case 140:
-        return temperature(true);
+        return temperature(HeaterKind::kBed, 'P');
+      case 141:
+        return temperature(HeaterKind::kChamber, 'P');
       case 105:
-        return temperatures(status());
+        return temperature_text(status());
       case 106:
-        return reply(carry_out(command::SetFan{std::clamp(words.word('S').value_or(255) / 255, 0.0, 1.0)}));
+        return reply(carry_out(
+            command::SetFan{std::clamp(words.word('S').value_or(255) / 255, 0.0, 1.0), index('P')}));
       case 107:
-        return reply(carry_out(command::SetFan{0}));
+        return reply(carry_out(command::SetFan{0, index('P')}));
       case 112:
       case 410:
         return reply(carry_out(command::Stop{say("stop by the session")}));

@@ -11,75 +11,79 @@ namespace {
 using Done = Result<void, Refusal>;
 using What = canonical::Thermal::What;
 
-SimulatedThermal::Model heat_model(const HeaterDescription& heater) {
-  return {.rise_celsius = heater.sim_power_w / heater.sim_loss_w_per_k,
-          .time_constant_s = heater.sim_heat_capacity_j_per_k / heater.sim_loss_w_per_k,
-          .band_celsius = heater.window_c};
-}
-
-SimulatedThermal::Options device_options(const MachineDescription& machine) {
-  return {.ambient_celsius = machine.thermal.ambient_c,
-          .hotend = heat_model(machine.thermal.hotend),
-          .bed = heat_model(machine.thermal.bed),
-          .spindle_rpm_per_s = machine.spindle.sim_rpm_per_s};
-}
-
 }  // namespace
 
-Heat::Heat(const MachineDescription& machine) : machine_(machine), device_(device_options(machine)) {}
-
-Done Heat::set_temperature(bool bed, double celsius) {
-  const HeaterDescription& heater = bed ? machine_.thermal.bed : machine_.thermal.hotend;
+Done Heat::set_temperature(HeaterId heater, double celsius) {
+  if (static_cast<std::size_t>(heater.kind) >= kHeaterKinds)
+    return refused(say("this machine has no such heater"));
+  const HeaterDescription* known = machine_.heater(heater);
   // What is not there is off.
-  if (!heater.present && celsius != 0)
-    return refused(say("this machine has no %1 heater", bed ? say("bed") : say("hotend")));
-  if (!(celsius >= 0 && celsius <= heater.max_c))
-    return refused(say("the temperature must be 0 to %1 C", std::lround(heater.max_c)));
-  device_.set_target(bed ? Heater::kBed : Heater::kHotend, celsius);
-  if (kept_) (bed ? kept_->bed_celsius : kept_->hotend_celsius) = celsius;
+  if (known == nullptr && celsius == 0) return {};
+  if (known == nullptr) return refused(say("this machine has no %1 heater", heater_words(heater)));
+  if (!(celsius >= 0 && celsius <= known->max_c))
+    return refused(say("the temperature must be 0 to %1 C", std::lround(known->max_c)));
+  devices_.heat(heater, celsius);
+  if (kept_) kept_->heater(heater) = celsius;
   return {};
 }
 
-Done Heat::set_fan(double ratio) {
+Done Heat::set_fan(std::uint8_t index, double ratio) {
   if (!(ratio >= 0 && ratio <= 1)) return refused(say("a fan's ratio is 0 to 1"));
-  device_.set_fan(ratio);
+  if (auto missing = missing_fan(machine_, {.what = What::kFan, .value = ratio, .index = index}))
+    return refused(std::move(*missing));
+  devices_.blow(index, ratio);
+  return {};
+}
+
+Done Heat::set_output(std::uint8_t index, double ratio) {
+  if (!(ratio >= 0 && ratio <= 1)) return refused(say("an output's ratio is 0 to 1"));
+  if (auto wrong = wrong_device_command(machine_, {.what = What::kOutput, .value = ratio, .index = index}))
+    return refused(std::move(*wrong));
+  devices_.put_out(index, ratio);
   return {};
 }
 
 Done Heat::set_spindle(double rpm) {
   if (auto wrong = wrong_spindle_speed(machine_.spindle, rpm)) return refused(std::move(*wrong));
-  device_.set_spindle(rpm);
+  devices_.turn_spindle(rpm);
   return {};
 }
 
 void Heat::execute(const canonical::Thermal& thermal) {
-  if (thermal.what == What::kFan)
-    device_.set_fan(thermal.value);
+  const auto index = static_cast<std::uint8_t>(thermal.index);
+  if (const auto heater = heater_of(thermal))
+    devices_.heat(*heater, thermal.value);
+  else if (thermal.what == What::kFan)
+    devices_.blow(index, thermal.value);
   else
-    device_.set_target(thermal.what == What::kHotend ? Heater::kHotend : Heater::kBed, thermal.value);
-}
-
-void Heat::heaters_off() {
-  device_.set_target(Heater::kHotend, 0);
-  device_.set_target(Heater::kBed, 0);
+    devices_.put_out(index, thermal.value);
 }
 
 std::optional<double> Heat::hotend_target() const {
-  const double celsius = device_.heater(Heater::kHotend).target_celsius;
+  const double celsius = devices_.heater(kFirstHotend).target_celsius;
   return celsius > 0 ? std::optional(celsius) : std::nullopt;
 }
 
 std::optional<Sentence> Heat::too_cold() const {
-  const double celsius = device_.heater(Heater::kHotend).actual_celsius;
-  if (!machine_.thermal.hotend.present || celsius >= machine_.thermal.min_extrude_c) return std::nullopt;
+  const double celsius = devices_.heater(kFirstHotend).actual_celsius;
+  if (machine_.heater(kFirstHotend) == nullptr || celsius >= machine_.thermal.min_extrude_c)
+    return std::nullopt;
   return say("the hotend is too cold to feed filament: %1 C", std::lround(celsius));
 }
 
 void Heat::report(MachineStatus& status) const {
-  status.hotend = device_.heater(Heater::kHotend);
-  status.bed = device_.heater(Heater::kBed);
-  status.fan = device_.fan();
-  status.spindle = device_.spindle();
+  status.heaters = devices_.heaters();
+  status.fans = devices_.fans();
+  status.outputs = devices_.outputs();
+  status.sensors = devices_.sensors();
+  status.spindle = devices_.spindle();
+  if (machine_.probe.present) status.probe_touches = devices_.probe_touches();
+}
+
+std::optional<DeviceFault> Heat::new_fault() {
+  auto fault = devices_.fault();
+  const bool told = std::exchange(fault_told_, fault.has_value());
+  return told ? std::nullopt : fault;
 }
 
 // The job under way
@@ -90,17 +94,24 @@ void Heat::begin_job() {
   noted_ = {};
 }
 
-void Heat::take_up(const std::optional<journal::Thermal>& noted) {
+void Heat::take_up(const std::optional<journal::Heat>& noted) {
   kept_ = noted;
   if (noted) noted_ = *noted;
 }
 
+journal::Heat Heat::told_now() const {
+  journal::Heat heat;
+  for (const HeaterDescription& h : machine_.heaters)
+    heat.heater(h.id()) = devices_.heater(h.id()).target_celsius;
+  for (const FanDescription& f : machine_.fans) heat.fan(f.index) = devices_.fan(f.index);
+  for (const OutputDescription& o : machine_.outputs) heat.output(o.index) = devices_.output(o.index);
+  heat.spindle_rpm = devices_.spindle().target_rpm;
+  return heat;
+}
+
 void Heat::note(journal::Queue& journal) {
   if (kept_) return;
-  const journal::Thermal now{device_.heater(Heater::kHotend).target_celsius,
-                             device_.heater(Heater::kBed).target_celsius, device_.fan(),
-                             device_.spindle().target_rpm};
-  if (!(now == noted_)) journal.push(noted_ = now);
+  if (const journal::Heat now = told_now(); !(now == noted_)) journal.push(noted_ = now);
 }
 
 void Heat::keep() {
@@ -108,29 +119,32 @@ void Heat::keep() {
 }
 
 std::optional<double> Heat::kept_hotend() const {
-  return kept_ && kept_->hotend_celsius > 0 ? std::optional(kept_->hotend_celsius) : std::nullopt;
+  if (!kept_ || kept_->heater(kFirstHotend) <= 0) return std::nullopt;
+  return kept_->heater(kFirstHotend);
 }
 
 bool Heat::start_kept_spindle() {
   if (!kept_ || kept_->spindle_rpm == 0) return false;
-  device_.set_spindle(kept_->spindle_rpm);
+  devices_.turn_spindle(kept_->spindle_rpm);
   return true;
 }
 
+/// Beds first: they take longest and hold the part; then chambers, then hot ends, then the spindle.
 std::vector<canonical::Line> Heat::lead_back() {
-  const journal::Thermal wanted = kept_.value_or(noted_);
-  device_.set_fan(wanted.fan);
+  const journal::Heat wanted = kept_.value_or(noted_);
+  for (const FanDescription& f : machine_.fans) devices_.blow(f.index, wanted.fan(f.index));
+  for (const OutputDescription& o : machine_.outputs) devices_.put_out(o.index, wanted.output(o.index));
   std::vector<canonical::Line> commands;
-  const auto add = [&](What what, Heater heater, const HeaterDescription& description, double celsius) {
-    const HeaterStatus status = device_.heater(heater);
-    if (!description.present || celsius <= 0) return;
-    const bool hot = status.actual_celsius >= celsius - description.window_c;
-    if (!hot || status.target_celsius != celsius)
-      commands.push_back({0, canonical::Thermal{.what = what, .value = celsius, .wait = true}});
-  };
-  add(What::kBed, Heater::kBed, machine_.thermal.bed, wanted.bed_celsius);
-  add(What::kHotend, Heater::kHotend, machine_.thermal.hotend, wanted.hotend_celsius);
-  if (wanted.spindle_rpm != 0 && wanted.spindle_rpm != device_.spindle().actual_rpm)
+  for (const What what : {What::kBed, What::kChamber, What::kHotend})
+    for (const HeaterDescription& h : machine_.heaters) {
+      const canonical::Thermal command{
+          .what = what, .value = wanted.heater(h.id()), .wait = true, .index = h.index};
+      if (heater_of(command) != h.id() || command.value <= 0) continue;
+      const HeaterStatus status = devices_.heater(h.id());
+      const bool hot = status.actual_celsius >= command.value - h.window_c;
+      if (!hot || status.target_celsius != command.value) commands.push_back({0, command});
+    }
+  if (wanted.spindle_rpm != 0 && wanted.spindle_rpm != devices_.spindle().actual_rpm)
     commands.push_back({0, canonical::Spindle{wanted.spindle_rpm}});
   return commands;
 }
@@ -138,16 +152,15 @@ std::vector<canonical::Line> Heat::lead_back() {
 void Heat::finish_return() {
   const auto kept = std::exchange(kept_, std::nullopt);
   if (!kept) return;
-  if (kept->hotend_celsius <= 0) device_.set_target(Heater::kHotend, 0);
-  if (kept->bed_celsius <= 0) device_.set_target(Heater::kBed, 0);
+  for (const HeaterDescription& h : machine_.heaters)
+    if (kept->heater(h.id()) <= 0) devices_.heat(h.id(), 0);
 }
 
 // Waits
 // -------------------------------------------------------------------------------------------------------
 
 void HeatWait::begin(const canonical::Thermal& thermal, const HeaterDescription& heater) {
-  wait_ = {thermal.what == What::kHotend ? Heater::kHotend : Heater::kBed, thermal.value, heater.window_c,
-           thermal.wait_cooling};
+  wait_ = {heater.id(), thermal.value, heater.window_c, thermal.wait_cooling};
   settle_ = heater.settle;
   since_.reset();
 }

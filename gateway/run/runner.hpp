@@ -112,7 +112,7 @@ class Runner {
 
   void begin();
   Outcome stream(BusTime now);
-  static bool waits(const canonical::Line& line);
+  bool waits(const canonical::Line& line) const;
   void end_wait();
   void control_rate(BusTime now);
   void settle_when_late(BusTime now);
@@ -123,6 +123,8 @@ class Runner {
   Outcome take(BusTime now, JobPipeline::Step step);
   Outcome barrier(BusTime now);
   Outcome fail(std::uint32_t line, Sentence words, bool stream);
+  /// nullptr: nothing is to be waited for.
+  const HeaterDescription* awaited(const canonical::Thermal& thermal) const;
   void begin_heating(const canonical::Thermal& thermal);
 
   const MachineDescription& machine_;

@@ -1,6 +1,7 @@
 // What a job commands besides motion: heaters, spindle, messages, and the waits for them, for time and for
 // the operator. Commands take effect when path time has passed the phase before them.
 
+#include "gateway/jobs/machine_setup.hpp"
 #include "gateway/run/runner.hpp"
 
 namespace kinebus {
@@ -67,9 +68,9 @@ void Runner::execute(BusTime now, const canonical::Line& line) {
 }
 
 /// Whether the machine waits there; the same for every reading of the job.
-bool Runner::waits(const canonical::Line& line) {
+bool Runner::waits(const canonical::Line& line) const {
   if (const auto* thermal = std::get_if<canonical::Thermal>(&line.command))
-    return thermal->value > 0 || thermal->wait_cooling;
+    return awaited(*thermal) != nullptr;
   if (const auto* spindle = std::get_if<canonical::Spindle>(&line.command)) return spindle->rpm != 0;
   return std::holds_alternative<canonical::Dwell>(line.command) ||
          std::holds_alternative<canonical::Pause>(line.command);
@@ -103,13 +104,17 @@ Runner::Outcome Runner::barrier(BusTime now) {
   return Outcome::kBusy;
 }
 
+const HeaterDescription* Runner::awaited(const canonical::Thermal& thermal) const {
+  const auto id = heater_of(thermal);
+  return id && (thermal.value > 0 || thermal.wait_cooling) ? machine_.heater(*id) : nullptr;
+}
+
 void Runner::begin_heating(const canonical::Thermal& thermal) {
-  const bool hotend = thermal.what == canonical::Thermal::What::kHotend;
-  if (thermal.value <= 0 && !thermal.wait_cooling) return;
-  heating_.begin(thermal, hotend ? machine_.thermal.hotend : machine_.thermal.bed);
+  const HeaterDescription* heater = awaited(thermal);
+  if (heater == nullptr) return;
+  heating_.begin(thermal, *heater);
   wait_ = Wait::kHeating;
-  const std::string celsius = printed("%.0f C", thermal.value);
-  doing_ = hotend ? say("waiting for the hotend at %1", celsius) : say("waiting for the bed at %1", celsius);
+  doing_ = say("waiting for the %1 at %2", heater_words(heater->id()), printed("%.0f C", thermal.value));
 }
 
 }  // namespace kinebus

@@ -1,5 +1,7 @@
 #include "gateway/sessions/command_requests.hpp"
 
+#include <algorithm>
+
 #include "gateway/sessions/messages.hpp"
 
 namespace kinebus {
@@ -12,6 +14,17 @@ struct Row {
   CommandKind kind;
   Command (*made)(const ClientMessage& request);  ///< nullptr: it has to wait for something first
 };
+
+/// No machine has the last one.
+constexpr std::uint8_t narrow(std::uint32_t number) {
+  return static_cast<std::uint8_t>(std::min(number, 255u));
+}
+
+HeaterId heater_of(const joblink::SetTemperature& request) {
+  if (request.bed()) return kFirstBed;
+  const std::uint8_t kind = narrow(static_cast<std::uint32_t>(request.kind()));
+  return {static_cast<HeaterKind>(kind), narrow(request.index())};
+}
 
 template <typename C>
 constexpr Row plain(joblink::Command request) {
@@ -36,10 +49,12 @@ const Row kTable[] = {
      [](const ClientMessage& m) -> Command { return command::SetFeedOverride{m.set_override().ratio()}; }},
     {joblink::COMMAND_SET_TEMPERATURE, command::kind<command::SetTemperature>,
      [](const ClientMessage& m) -> Command {
-       return command::SetTemperature{m.set_temperature().bed(), m.set_temperature().celsius()};
+       return command::SetTemperature{heater_of(m.set_temperature()), m.set_temperature().celsius()};
      }},
     {joblink::COMMAND_SET_FAN, command::kind<command::SetFan>,
-     [](const ClientMessage& m) -> Command { return command::SetFan{m.set_fan().ratio()}; }},
+     [](const ClientMessage& m) -> Command {
+       return command::SetFan{m.set_fan().ratio(), narrow(m.set_fan().index())};
+     }},
     plain<command::MotorsOff>(joblink::COMMAND_MOTORS_OFF),
     {joblink::COMMAND_SET_WORK_OFFSET, command::kind<command::SetWorkOffset>,
      [](const ClientMessage& m) -> Command {

@@ -26,6 +26,13 @@ void set_heater(joblink::Heater& message, const HeaterStatus& heater) {
   message.set_actual_celsius(heater.actual_celsius);
   message.set_target_celsius(heater.target_celsius);
 }
+
+void set_output(joblink::Output& message, const OutputStatus& output) {
+  message.set_name(shown(output.name));
+  message.set_index(output.index);
+  message.set_ratio(output.ratio);
+}
+
 void set_reach(joblink::Reach& reach, const PoseLimits& limits) {
   set_range(*reach.mutable_x_mm(), limits.x_mm);
   set_range(*reach.mutable_y_mm(), limits.y_mm);
@@ -56,7 +63,7 @@ void set_node(joblink::NodeStatus& message, const NodeStatus& node, const Machin
   message.set_stopped(node.stopped);
   message.set_records_sent(node.records_sent);
   message.set_emergencies(node.emergencies);
-  for (std::size_t axis = 0; axis < node.statusword.size(); ++axis) {
+  for (std::size_t axis = 0; node.has_axes && axis < node.statusword.size(); ++axis) {
     joblink::AxisStatus& a = *message.add_axes();
     a.set_statusword(node.statusword[axis]);
     a.set_enabled(node.present && operation_enabled(node.statusword[axis]));
@@ -202,9 +209,26 @@ joblink::Status to_message(const MachineStatus& s, const MachineDescription& mac
   m.set_remaining_s(s.remaining_s);
   m.set_work_system(s.work_system);
   set_pose(*m.mutable_work_offset(), s.work_offset);
-  set_heater(*m.mutable_hotend(), s.hotend);
-  set_heater(*m.mutable_bed(), s.bed);
-  m.set_fan(s.fan);
+  set_heater(*m.mutable_hotend(), s.heater(kFirstHotend));
+  set_heater(*m.mutable_bed(), s.heater(kFirstBed));
+  for (const NamedHeaterStatus& heater : s.heaters) {
+    joblink::Heater& h = *m.add_heaters();
+    set_heater(h, heater);
+    h.set_kind(static_cast<joblink::HeaterKind>(heater.id.kind));
+    h.set_index(heater.id.index);
+    h.set_name(shown(heater.name));
+  }
+  for (const OutputStatus& fan : s.fans) {
+    set_output(*m.add_fans(), fan);
+    if (fan.index == 0) m.set_fan(fan.ratio);
+  }
+  for (const OutputStatus& output : s.outputs) set_output(*m.add_outputs(), output);
+  for (const SensorStatus& sensor : s.sensors) {
+    joblink::Sensor& told = *m.add_sensors();
+    told.set_name(shown(sensor.name));
+    told.set_celsius(sensor.celsius);
+  }
+  if (s.probe_touches) m.set_probe_touches(*s.probe_touches);
   m.set_spindle_rpm(s.spindle.actual_rpm);
   m.set_spindle_target_rpm(s.spindle.target_rpm);
   m.set_bus_load(s.bus_load);
@@ -266,8 +290,19 @@ joblink::MachineInfo to_message(const MachineDescription& machine, const Pose& b
   set_pose(*m.mutable_bed_reference(), bed_reference);
   m.set_tool_speed_mm_per_s(machine.path.tool_speed_mm_per_s);
   m.set_tool_accel_mm_per_s2(machine.path.tool_accel_mm_per_s2);
-  m.set_hotend_max_celsius(machine.thermal.hotend.present ? machine.thermal.hotend.max_c : 0);
-  m.set_bed_max_celsius(machine.thermal.bed.present ? machine.thermal.bed.max_c : 0);
+  const auto most = [&](HeaterId id) {
+    const HeaterDescription* heater = machine.heater(id);
+    return heater != nullptr ? heater->max_c : 0;
+  };
+  m.set_hotend_max_celsius(most(kFirstHotend));
+  m.set_bed_max_celsius(most(kFirstBed));
+  for (const HeaterDescription& heater : machine.heaters) {
+    joblink::HeaterInfo& h = *m.add_heaters();
+    h.set_name(shown(heater.name));
+    h.set_kind(static_cast<joblink::HeaterKind>(heater.kind));
+    h.set_index(heater.index);
+    h.set_max_celsius(heater.max_c);
+  }
   m.set_filament_diameter_mm(machine.gcode.filament_diameter_mm);
   m.set_bus(shown(machine.bus.interface));
   return m;

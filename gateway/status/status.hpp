@@ -2,12 +2,12 @@
 // A snapshot of the whole machine, for displays and for answers to queries. Plain values, made on demand.
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "gateway/devices/devices.hpp"
 #include "gateway/kinematics/kinematics.hpp"
 #include "gateway/sentence.hpp"
 #include "gateway/status/state.hpp"
@@ -20,6 +20,7 @@ struct NodeStatus {
   bool present = false;  ///< heard within the heartbeat time
   std::uint8_t nmt_state =
       0;  ///< as in the heartbeat: 0 boot-up, 4 stopped, 5 operational, 127 pre-operational
+  bool has_axes = true;
   std::array<std::uint16_t, 2> statusword{};  ///< CiA 402, axis A and B
   std::uint32_t inputs = 0;                   ///< 60FDh
   /// Commanded less measured by the axis' encoder, mm or rad; empty without one.
@@ -33,19 +34,6 @@ struct NodeStatus {
   bool stopped = false;      ///< its stop latch
   std::uint64_t records_sent = 0;
   std::uint32_t emergencies = 0;  ///< EMCY frames heard from it
-};
-
-struct HeaterStatus {
-  double actual_celsius = 0;
-  double target_celsius = 0;  ///< 0: off
-};
-struct SpindleStatus {
-  double actual_rpm = 0, target_rpm = 0;  ///< > 0 clockwise
-  /// Under load it is a little slow.
-  bool at_speed() const {
-    constexpr double kWindow = 0.02;
-    return std::abs(actual_rpm - target_rpm) <= kWindow * std::abs(target_rpm);
-  }
 };
 
 struct MachineCounters {
@@ -83,9 +71,17 @@ struct MachineStatus {
   std::uint32_t work_system = 1;  ///< of lines from outside: 1 (G54) .. 9 (G59.3)
   Pose work_offset{};             ///< of it: work zero in table coordinates, mm and rad
 
-  HeaterStatus hotend, bed;
-  double fan = 0;  ///< 0..1
+  std::vector<NamedHeaterStatus> heaters;
+  std::vector<OutputStatus> fans, outputs;
+  std::vector<SensorStatus> sensors;
   SpindleStatus spindle;
+  std::optional<bool> probe_touches;  ///< empty: there is no probe
+  /// Cold and off when there is none.
+  HeaterStatus heater(HeaterId id) const {
+    for (const NamedHeaterStatus& h : heaters)
+      if (h.id == id) return h;
+    return {};
+  }
 
   double bus_load = 0;  ///< fraction of 1 Mbit/s over the last second
   double bus_load_peak = 0;

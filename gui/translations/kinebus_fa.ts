@@ -1793,6 +1793,118 @@
         <translation>ورودی‌ای از گره %1 با کارکرد حد برای محور %2</translation>
     </message>
     <message>
+        <source>an index that no other heater of the kind has: [heater.%1] has it</source>
+        <translation>شماره‌ای که هیچ گرم‌کن دیگری از این نوع ندارد: [heater.%1] آن را دارد</translation>
+    </message>
+    <message>
+        <source>an index that no other has: [%1] has it</source>
+        <translation>شماره‌ای که دیگری ندارد: [%1] آن را دارد</translation>
+    </message>
+    <message>
+        <source>a node that has such channels: %1 is 0</source>
+        <translation>گره‌ای که چنین کانال‌هایی دارد: %1 برابر 0 است</translation>
+    </message>
+    <message>
+        <source>a channel in 1 .. %1, as %2 says</source>
+        <translation>کانالی در 1 .. %1، چنان‌که %2 می‌گوید</translation>
+    </message>
+    <message>
+        <source>node %1 channel %2</source>
+        <translation>گره %1 کانال %2</translation>
+    </message>
+    <message>
+        <source>a channel that no other device has: [%1] has it</source>
+        <translation>کانالی که هیچ دستگاه دیگری ندارد: [%1] آن را دارد</translation>
+    </message>
+    <message>
+        <source>a function</source>
+        <translation>یک کارکرد</translation>
+    </message>
+    <message>
+        <source>an input that the node has: %1 is %2</source>
+        <translation>ورودی‌ای که گره دارد: %1 برابر %2 است</translation>
+    </message>
+    <message>
+        <source>a switch of an axis</source>
+        <translation>کلید یک محور</translation>
+    </message>
+    <message>
+        <source>none, emergency_stop or probe: this node has no axes</source>
+        <translation>none، emergency_stop یا probe: این گره محور ندارد</translation>
+    </message>
+    <message>
+        <source>a node that has axes: node.%1.axis_pairs is 0</source>
+        <translation>گره‌ای که محور دارد: node.%1.axis_pairs برابر 0 است</translation>
+    </message>
+    <message>
+        <source>an input of node %1 that has the probe function</source>
+        <translation>ورودی‌ای از گره %1 با کارکرد پروب</translation>
+    </message>
+    <message>
+        <source>no such key: a heater that is not there has no table</source>
+        <translation>چنین کلیدی نیست: گرم‌کنی که نیست جدول ندارد</translation>
+    </message>
+    <message>
+        <source>[heater.hotend] with kind = &quot;hotend&quot;, where = &quot;simulated&quot; and the same keys; a machine without hot end has no such table</source>
+        <translation>[heater.hotend] با kind = &quot;hotend&quot;، where = &quot;simulated&quot; و همان کلیدها؛ ماشین بی‌نازل چنین جدولی ندارد</translation>
+    </message>
+    <message>
+        <source>[heater.bed] with kind = &quot;bed&quot;, where = &quot;simulated&quot; and the same keys; a machine without heated bed has no such table</source>
+        <translation>[heater.bed] با kind = &quot;bed&quot;، where = &quot;simulated&quot; و همان کلیدها؛ ماشین بی‌بستر گرم چنین جدولی ندارد</translation>
+    </message>
+    <message>
+        <source>no such key: a machine without spindle has no table [spindle]</source>
+        <translation>چنین کلیدی نیست: ماشین بی‌اسپیندل جدول [spindle] ندارد</translation>
+    </message>
+    <message>
+        <source>at most %1 tables with names of 1 .. %2 letters, digits, - and _</source>
+        <translation>حداکثر %1 جدول با نام‌هایی از 1 .. %2 حرف، رقم، - و _</translation>
+    </message>
+    <message>
+        <source>%1 is to live on node %2, where this gateway knows no such device: use where = &quot;simulated&quot;</source>
+        <translation>%1 باید روی گره %2 باشد، ولی این درگاه آنجا چنین دستگاهی نمی‌شناسد: where = &quot;simulated&quot; بنویسید</translation>
+    </message>
+    <message>
+        <source>M42 needs the output P and its value S</source>
+        <translation>M42 خروجی P و مقدار آن S را می‌خواهد</translation>
+    </message>
+    <message>
+        <source>an output&apos;s value S is 0 to 255</source>
+        <translation>مقدار S یک خروجی از 0 تا 255 است</translation>
+    </message>
+    <message>
+        <source>hotend %1</source>
+        <translation>نازل %1</translation>
+    </message>
+    <message>
+        <source>bed %1</source>
+        <translation>بستر %1</translation>
+    </message>
+    <message>
+        <source>chamber</source>
+        <translation>محفظه</translation>
+    </message>
+    <message>
+        <source>chamber %1</source>
+        <translation>محفظه %1</translation>
+    </message>
+    <message>
+        <source>this machine has no output %1</source>
+        <translation>این ماشین خروجی %1 ندارد</translation>
+    </message>
+    <message>
+        <source>this machine has no fan %1: M106 has no effect</source>
+        <translation>این ماشین فن %1 ندارد: M106 اثری ندارد</translation>
+    </message>
+    <message>
+        <source>waiting for the %1 at %2</source>
+        <translation>چشم به راه %1 در %2</translation>
+    </message>
+    <message>
+        <source>this machine has no such heater</source>
+        <translation>این ماشین چنین گرم‌کنی ندارد</translation>
+    </message>
+    <message>
         <source>a node that has its table, [node.%1]</source>
         <translation>گره‌ای که جدولش هست، [node.%1]</translation>
     </message>
@@ -1909,14 +2021,6 @@
         <translation>M18/M84 در کار: موتورها همچنان نگه می‌دارند</translation>
     </message>
     <message>
-        <source>waiting for the hotend at %1</source>
-        <translation>چشم به راه نازل در %1</translation>
-    </message>
-    <message>
-        <source>waiting for the bed at %1</source>
-        <translation>چشم به راه بستر در %1</translation>
-    </message>
-    <message>
         <source>node %1, object %2: no answer</source>
         <translation>گره %1، شیء %2: پاسخی نیست</translation>
     </message>
@@ -1975,6 +2079,14 @@
     <message>
         <source>set the fan</source>
         <translation>تنظیم فن</translation>
+    </message>
+    <message>
+        <source>set an output</source>
+        <translation>تنظیم یک خروجی</translation>
+    </message>
+    <message>
+        <source>an output's ratio is 0 to 1</source>
+        <translation>نسبت یک خروجی ۰ تا ۱ است</translation>
     </message>
     <message>
         <source>turn the spindle</source>

@@ -1793,6 +1793,118 @@
         <translation>düğüm %1 üzerinde %2 ekseninin sınır işlevli girişi</translation>
     </message>
     <message>
+        <source>an index that no other heater of the kind has: [heater.%1] has it</source>
+        <translation>aynı türden başka ısıtıcının taşımadığı bir sıra numarası: [heater.%1] taşıyor</translation>
+    </message>
+    <message>
+        <source>an index that no other has: [%1] has it</source>
+        <translation>başkasının taşımadığı bir sıra numarası: [%1] taşıyor</translation>
+    </message>
+    <message>
+        <source>a node that has such channels: %1 is 0</source>
+        <translation>böyle kanalları olan bir düğüm: %1 0</translation>
+    </message>
+    <message>
+        <source>a channel in 1 .. %1, as %2 says</source>
+        <translation>%2 anahtarının dediği gibi 1 .. %1 arasında bir kanal</translation>
+    </message>
+    <message>
+        <source>node %1 channel %2</source>
+        <translation>düğüm %1 kanalı %2</translation>
+    </message>
+    <message>
+        <source>a channel that no other device has: [%1] has it</source>
+        <translation>başka aygıtın kullanmadığı bir kanal: [%1] kullanıyor</translation>
+    </message>
+    <message>
+        <source>a function</source>
+        <translation>bir işlev</translation>
+    </message>
+    <message>
+        <source>an input that the node has: %1 is %2</source>
+        <translation>düğümde bulunan bir giriş: %1 %2</translation>
+    </message>
+    <message>
+        <source>a switch of an axis</source>
+        <translation>bir eksenin anahtarı</translation>
+    </message>
+    <message>
+        <source>none, emergency_stop or probe: this node has no axes</source>
+        <translation>none, emergency_stop ya da probe: bu düğümün ekseni yok</translation>
+    </message>
+    <message>
+        <source>a node that has axes: node.%1.axis_pairs is 0</source>
+        <translation>ekseni olan bir düğüm: node.%1.axis_pairs 0</translation>
+    </message>
+    <message>
+        <source>an input of node %1 that has the probe function</source>
+        <translation>düğüm %1 üzerinde prob işlevli bir giriş</translation>
+    </message>
+    <message>
+        <source>no such key: a heater that is not there has no table</source>
+        <translation>böyle bir anahtar yok: bulunmayan ısıtıcının tablosu olmaz</translation>
+    </message>
+    <message>
+        <source>[heater.hotend] with kind = &quot;hotend&quot;, where = &quot;simulated&quot; and the same keys; a machine without hot end has no such table</source>
+        <translation>kind = &quot;hotend&quot;, where = &quot;simulated&quot; ve aynı anahtarlarla [heater.hotend]; nozulu olmayan makinede böyle bir tablo olmaz</translation>
+    </message>
+    <message>
+        <source>[heater.bed] with kind = &quot;bed&quot;, where = &quot;simulated&quot; and the same keys; a machine without heated bed has no such table</source>
+        <translation>kind = &quot;bed&quot;, where = &quot;simulated&quot; ve aynı anahtarlarla [heater.bed]; tablası ısıtılmayan makinede böyle bir tablo olmaz</translation>
+    </message>
+    <message>
+        <source>no such key: a machine without spindle has no table [spindle]</source>
+        <translation>böyle bir anahtar yok: iş mili olmayan makinede [spindle] tablosu olmaz</translation>
+    </message>
+    <message>
+        <source>at most %1 tables with names of 1 .. %2 letters, digits, - and _</source>
+        <translation>adları 1 .. %2 harf, rakam, - ve _ olan en çok %1 tablo</translation>
+    </message>
+    <message>
+        <source>%1 is to live on node %2, where this gateway knows no such device: use where = &quot;simulated&quot;</source>
+        <translation>%1 düğüm %2 üzerinde olacak, ama bu ağ geçidi orada böyle bir aygıt tanımıyor: where = &quot;simulated&quot; yazın</translation>
+    </message>
+    <message>
+        <source>M42 needs the output P and its value S</source>
+        <translation>M42 çıkış P ile değeri S ister</translation>
+    </message>
+    <message>
+        <source>an output&apos;s value S is 0 to 255</source>
+        <translation>bir çıkışın değeri S 0 ile 255 arasındadır</translation>
+    </message>
+    <message>
+        <source>hotend %1</source>
+        <translation>nozul %1</translation>
+    </message>
+    <message>
+        <source>bed %1</source>
+        <translation>tabla %1</translation>
+    </message>
+    <message>
+        <source>chamber</source>
+        <translation>kabin</translation>
+    </message>
+    <message>
+        <source>chamber %1</source>
+        <translation>kabin %1</translation>
+    </message>
+    <message>
+        <source>this machine has no output %1</source>
+        <translation>bu makinede çıkış %1 yok</translation>
+    </message>
+    <message>
+        <source>this machine has no fan %1: M106 has no effect</source>
+        <translation>bu makinede fan %1 yok: M106 etkisizdir</translation>
+    </message>
+    <message>
+        <source>waiting for the %1 at %2</source>
+        <translation>%1 %2 olsun diye bekleniyor</translation>
+    </message>
+    <message>
+        <source>this machine has no such heater</source>
+        <translation>bu makinede böyle bir ısıtıcı yok</translation>
+    </message>
+    <message>
         <source>a node that has its table, [node.%1]</source>
         <translation>tablosu olan bir düğüm, [node.%1]</translation>
     </message>
@@ -1909,14 +2021,6 @@
         <translation>işte M18/M84: motorlar tutmayı sürdürüyor</translation>
     </message>
     <message>
-        <source>waiting for the hotend at %1</source>
-        <translation>nozul %1 olsun diye bekleniyor</translation>
-    </message>
-    <message>
-        <source>waiting for the bed at %1</source>
-        <translation>tabla %1 olsun diye bekleniyor</translation>
-    </message>
-    <message>
         <source>node %1, object %2: no answer</source>
         <translation>düğüm %1, nesne %2: yanıt yok</translation>
     </message>
@@ -1975,6 +2079,14 @@
     <message>
         <source>set the fan</source>
         <translation>fan ayarı</translation>
+    </message>
+    <message>
+        <source>set an output</source>
+        <translation>bir çıkışın ayarı</translation>
+    </message>
+    <message>
+        <source>an output's ratio is 0 to 1</source>
+        <translation>bir çıkışın oranı 0 ile 1 arasıdır</translation>
     </message>
     <message>
         <source>turn the spindle</source>

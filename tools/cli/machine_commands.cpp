@@ -45,6 +45,23 @@ std::string pose_words(const joblink::Pose& pose) {
                      tidy(pose.c_rad() / kRadians), tidy(pose.e_mm()));
 }
 
+void print_devices(const Status& s) {
+  std::string words;
+  for (const joblink::Heater& heater : s.heaters())
+    words += fmt::format("{} {:.1f} / {:.0f} C   ", heater.name(), heater.actual_celsius(),
+                         heater.target_celsius());
+  for (const joblink::Output& fan : s.fans())
+    words += fmt::format("fan {} {:.0f} %   ", fan.name(), 100 * fan.ratio());
+  for (const joblink::Output& output : s.outputs())
+    words += fmt::format("{} {:.0f} %   ", output.name(), 100 * output.ratio());
+  for (const joblink::Sensor& sensor : s.sensors())
+    words += fmt::format("{} {:.1f} C   ", sensor.name(), sensor.celsius());
+  if (s.has_probe_touches()) words += s.probe_touches() ? "probe touches   " : "probe free   ";
+  if (words.empty()) return;
+  words.resize(words.find_last_not_of(' ') + 1);
+  fmt::print("devices   {}\n", words);
+}
+
 void print_status(const Status& s) {
   fmt::print("{}: {}\n", s.state_words(), s.doing());
   if (s.positions_known())
@@ -56,9 +73,7 @@ void print_status(const Status& s) {
                time_words(s.remaining_s()));
   if (s.interrupted())
     fmt::print("          interrupted: 'kinebus resume' goes on from its place, 'kinebus cancel' drops it\n");
-  fmt::print("hotend    {:.1f} / {:.0f} C   bed {:.1f} / {:.0f} C   fan {:.0f} %\n",
-             s.hotend().actual_celsius(), s.hotend().target_celsius(), s.bed().actual_celsius(),
-             s.bed().target_celsius(), 100 * s.fan());
+  print_devices(s);
   if (s.spindle_rpm() != 0 || s.spindle_target_rpm() != 0)
     fmt::print("spindle   {:.0f} / {:.0f} rpm\n", s.spindle_rpm(), s.spindle_target_rpm());
   fmt::print("path      rate {:.2f}   override {:.0f} %   bus {:.1f} % (peak {:.1f} %)\n", s.rate(),

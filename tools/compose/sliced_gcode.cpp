@@ -158,6 +158,15 @@ class Reader {
                                                 : fmt::format("M107{}", which));
       return;
     }
+    if (thermal.what == What::kOutput) {
+      out_.items.emplace_back(fmt::format("M42 P{} S{:g}", thermal.index, thermal.value * 255));
+      return;
+    }
+    if (thermal.what == What::kChamber) {
+      out_.items.emplace_back(fmt::format("{} P{} {}{:g}", thermal.wait ? "M191" : "M141", thermal.index,
+                                          thermal.wait_cooling ? 'R' : 'S', thermal.value));
+      return;
+    }
     std::optional<double>& celsius = thermal.what == What::kBed ? out_.bed_celsius : out_.hotend_celsius;
     if (thermal.value > 0 && !celsius) celsius = thermal.value;
   }

@@ -173,9 +173,106 @@ TEST(MachineFile, AllMistakesAreReportedTogetherInTheOrderOfTheFile) {
   std::vector<std::string> keys;
   for (const MachineFileError& e : machine.error()) keys.push_back(e.key);
   EXPECT_EQ(keys, (std::vector<std::string>{"kinematics.nozzle_mm", "kinematics.nozle_mm", "bus.budget",
-                                            "bus.sync_timeout_ms", "thermal.bed.max_c"}));
+                                            "bus.sync_timeout_ms", "heater.bed.max_c"}));
   for (std::size_t i = 1; i < machine.error().size(); ++i)
     EXPECT_LE(machine.error()[i - 1].line, machine.error()[i].line);
+}
+
+/// m1.toml with a node 4 that carries `functions`, and the bed there.
+std::string with_node_4(std::string_view functions, std::string_view bed_place) {
+  std::string text = edited("[thermal]", "[node.4]\n" + std::string(functions) + "\n[thermal]").text;
+  const std::size_t bed = text.find("[heater.bed]"), where = text.find("where = \"simulated\"", bed);
+  text.replace(where, 19, bed_place);
+  return text;
+}
+
+TEST(MachineFile, ADeviceLivesOnAChannelThatItsNodeHas) {
+  const auto machine = parse_machine(
+      with_node_4("axis_pairs = 0\ninputs = 0\nheaters = 2", "where = \"node\"\nnode = 4\nchannel = 2"), "m");
+  ASSERT_TRUE(machine) << to_string(machine.error());
+  const HeaterDescription* bed = machine->heater(kFirstBed);
+  ASSERT_NE(bed, nullptr);
+  EXPECT_EQ(bed->place, (DevicePlace{DevicePlace::Where::kNode, 4, 2}));
+  EXPECT_FALSE(machine->node(4)->functions.has_axes());
+  EXPECT_TRUE(machine->node(1)->functions.has_axes()) << "a node is a pair of axes unless it says otherwise";
+  const auto again = parse_machine(write_machine(*machine), "written");
+  ASSERT_TRUE(again) << to_string(again.error());
+  EXPECT_TRUE(*again == *machine);
+}
+
+TEST(MachineFile, ADeviceWhereNoneCanBeIsRefused) {
+  struct Case {
+    std::string functions, place, message;
+  };
+  const Case table[] = {
+      {"axis_pairs = 0", "where = \"node\"\nnode = 5\nchannel = 1",
+       "heater.bed.node: found 5; expected a node that has its table, [node.5]"},
+      {"axis_pairs = 0", "where = \"node\"\nnode = 4\nchannel = 1",
+       "heater.bed.channel: found 1; expected a node that has such channels: node.4.heaters is 0"},
+      {"heaters = 2", "where = \"node\"\nnode = 4\nchannel = 3",
+       "heater.bed.channel: found 3; expected a channel in 1 .. 2, as node.4.heaters says"},
+      {"heaters = 2", "where = \"node\"\nnode = 4",
+       "heater.bed.channel: missing; expected a whole number in 1 .. 16"},
+      {"heaters = 2", "where = \"node\"\nnode = 4\nchannel = 99",
+       "heater.bed.channel: found 99; expected a whole number in 1 .. 16"},
+      {"heaters = 9", "where = \"simulated\"", "node.4.heaters: found 9; expected a whole number in 0 .. 8"},
+      {"axis_pairs = 2", "where = \"simulated\"",
+       "node.4.axis_pairs: found 2; expected a whole number in 0 .. 1"},
+      {"", "where = \"there\"", "heater.bed.where: found 'there'; expected one of \"simulated\" \"node\""},
+      {"", "", "heater.bed.where: missing; expected one of \"simulated\" \"node\""},
+      {"", "where = \"simulated\"\nnode = 4", "heater.bed.node: found a key that does not exist"},
+      {"axis_pairs = 0\n[node.4.input1]\nfunction = \"home\"", "where = \"simulated\"",
+       "node.4.input1.function: found a switch of an axis; expected none, emergency_stop or probe: this node "
+       "has no axes"},
+      {"inputs = 1\n[node.4.input2]\nfunction = \"probe\"", "where = \"simulated\"",
+       "node.4.input2: found a function; expected an input that the node has: node.4.inputs is 1"},
+      {"", "where = \"simulated\"\n[spindle]\nwhere = \"simulated\"\npresent = true",
+       "spindle.present: found true; expected no such key: a machine without spindle has no table [spindle]"},
+      {"", "where = \"simulated\"\n[heater.second]\nkind = \"bed\"\nwhere = \"simulated\"",
+       "heater.second.index: found 0; expected an index that no other heater of the kind has: [heater.bed] "
+       "has it"},
+      {"", "where = \"simulated\"\n[fan.rear]\nwhere = \"simulated\"",
+       "fan.rear.index: found 0; expected an index that no other has: [fan.part] has it"},
+      {"heaters = 2",
+       "where = \"node\"\nnode = 4\nchannel = 1\n[heater.oven]\nkind = \"chamber\"\nwhere = \"node\"\nnode = "
+       "4\nchannel = 1",
+       "heater.oven.channel: found node 4 channel 1; expected a channel that no other device has: "
+       "[heater.bed] "
+       "has it"},
+      {"", "where = \"simulated\"\n[probe]\nwhere = \"node\"\nnode = 3\nchannel = 1",
+       "probe.channel: found 1; expected an input of node 3 that has the probe function"},
+      {"", "where = \"simulated\"\n[fan.\"two words\"]\nwhere = \"simulated\"",
+       "fan.two words: found a key that does not exist; expected at most 32 tables with names of 1 .. 32 "
+       "letters, "
+       "digits, - and _"},
+  };
+  for (const Case& c : table) {
+    const auto machine = parse_machine(with_node_4(c.functions, c.place), "m");
+    ASSERT_FALSE(machine) << c.message;
+    EXPECT_NE(to_string(machine.error()).find(": " + c.message), std::string::npos)
+        << c.message << "\n"
+        << to_string(machine.error());
+    EXPECT_EQ(machine.error().size(), 1u) << to_string(machine.error());
+  }
+}
+
+TEST(MachineFile, AnAxisNeedsANodeThatHasAxes) {
+  const auto machine = parse_machine(edited("[node.3] ", "[node.3]\naxis_pairs = 0 ").text, "m");
+  ASSERT_FALSE(machine);
+  EXPECT_NE(to_string(machine.error())
+                .find("joint.C.node: found 3; expected a node that has axes: node.3.axis_pairs is 0"),
+            std::string::npos)
+      << to_string(machine.error());
+}
+
+TEST(MachineFile, HeatersOfEarlierFilesAreRefusedWithWhatStandsForThemNow) {
+  const Edited e = edited("[heater.hotend]", "[thermal.hotend]\npresent = true\n\n[heater.hotend]");
+  const auto machine = parse_machine(e.text, "m");
+  ASSERT_FALSE(machine);
+  EXPECT_EQ(to_string(machine.error()),
+            "m:" + std::to_string(e.line) +
+                ": thermal.hotend: found a table; expected [heater.hotend] with kind = \"hotend\", where = "
+                "\"simulated\" and the same keys; a machine without hot end has no such table\n");
 }
 
 TEST(MachineFile, TwoJointsOnOneDriveAreRefused) {

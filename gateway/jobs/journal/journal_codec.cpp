@@ -89,6 +89,12 @@ void fields(Io& io, Offsets& r) {
     for (double& value : system) io.f64(value);
 }
 
+template <class Io>
+void fields(Io& io, Heat& r) {
+  io.f64(r.spindle_rpm);
+  io.stated(r.targets);
+}
+
 struct Writer {
   std::vector<std::uint8_t>& out;
   void bits(std::uint64_t value, int bytes) {
@@ -99,6 +105,16 @@ struct Writer {
   void u64(std::uint64_t value) { bits(value, 8); }
   void f64(double value) { bits(std::bit_cast<std::uint64_t>(value), 8); }
   void time(PathTime value) { bits(static_cast<std::uint64_t>(value.count()), 8); }
+  /// Those that are not 0, each with its number.
+  void stated(std::span<const double> values) {
+    const auto is_stated = [](double value) { return value != 0; };
+    u8(static_cast<std::uint8_t>(std::count_if(values.begin(), values.end(), is_stated)));
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (!is_stated(values[i])) continue;
+      u8(static_cast<std::uint8_t>(i));
+      f64(values[i]);
+    }
+  }
   void text(const std::string& value) {
     const std::string_view kept = std::string_view(value).substr(0, kMaxName);
     bits(kept.size(), 2);
@@ -127,6 +143,16 @@ struct Reader {
     good = good && std::isfinite(value);
   }
   void time(PathTime& value) { value = PathTime{static_cast<std::int64_t>(bits(8))}; }
+  void stated(std::span<double> values) {
+    std::uint8_t count = 0, number = 0;
+    for (u8(count); count > 0 && good; --count) {
+      double value = 0;
+      u8(number);
+      f64(value);
+      good = good && number < values.size();
+      if (good) values[number] = value;
+    }
+  }
   void text(std::string& value) {
     const std::size_t length = static_cast<std::size_t>(bits(2));
     if (length > kMaxName || length > in.size()) {

@@ -3,10 +3,12 @@
 // can take it up from the exact place. Path time at rest is what the nodes remember themselves; the journal
 // tells which place of the job it is.
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <variant>
 
+#include "gateway/description/device_description.hpp"
 #include "gateway/gcode/state.hpp"
 #include "gateway/jobs/job_place.hpp"
 #include "gateway/kinematics/kinematics.hpp"
@@ -50,7 +52,28 @@ struct Override {
   double ratio = 1;
   friend bool operator==(const Override&, const Override&) = default;
 };
-/// Targets, deg C (0: off), the fan, 0..1, and the spindle.
+/// What the devices were told: heaters' targets, deg C (0: off), fans and outputs, 0..1, and the spindle.
+/// Records name a target by its place here.
+struct Heat {
+  static constexpr std::size_t kFans = kHeaterKinds * kMostOfAKind, kOutputs = kFans + kMostOfAKind,
+                               kSlots = kOutputs + kMostOfAKind;
+  std::array<double, kSlots> targets{};
+  double spindle_rpm = 0;
+
+  double& heater(HeaterId id) { return targets[slot(id)]; }
+  double heater(HeaterId id) const { return targets[slot(id)]; }
+  double& fan(std::uint8_t index) { return targets[kFans + index % kMostOfAKind]; }
+  double fan(std::uint8_t index) const { return targets[kFans + index % kMostOfAKind]; }
+  double& output(std::uint8_t index) { return targets[kOutputs + index % kMostOfAKind]; }
+  double output(std::uint8_t index) const { return targets[kOutputs + index % kMostOfAKind]; }
+  friend bool operator==(const Heat&, const Heat&) = default;
+
+ private:
+  static std::size_t slot(HeaterId id) {
+    return static_cast<std::size_t>(id.kind) * kMostOfAKind + id.index % kMostOfAKind;
+  }
+};
+/// The same of a gateway that knew one hot end, one bed and one fan: read, not written.
 struct Thermal {
   double hotend_celsius = 0, bed_celsius = 0, fan = 0, spindle_rpm = 0;
   friend bool operator==(const Thermal&, const Thermal&) = default;
@@ -85,6 +108,6 @@ struct Offsets {
 };
 
 using Record = std::variant<Epoch, JobBegin, RunBegin, WaitsDone, Scale, Override, Thermal, Progress,
-                            Interrupted, Found, JobEnd, Offsets>;
+                            Interrupted, Found, JobEnd, Offsets, Heat>;
 
 }  // namespace kinebus::journal

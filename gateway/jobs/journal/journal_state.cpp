@@ -21,7 +21,14 @@ struct Taker {
   void operator()(const WaitsDone& r) const { s.waits_done = r.count; }
   void operator()(const Scale& r) const { s.scales.push_back(r.scale); }
   void operator()(const Override& r) const { s.override_ratio = r.ratio; }
-  void operator()(const Thermal& r) const { s.thermal = r; }
+  void operator()(const Thermal& r) const {
+    Heat& heat = s.heat.emplace();
+    heat.heater(kFirstHotend) = r.hotend_celsius;
+    heat.heater(kFirstBed) = r.bed_celsius;
+    heat.fan(0) = r.fan;
+    heat.spindle_rpm = r.spindle_rpm;
+  }
+  void operator()(const Heat& r) const { s.heat = r; }
   void operator()(const Progress& r) const { s.progress = r; }
   void operator()(const Interrupted& r) const {
     s.interrupted = r;
@@ -67,7 +74,7 @@ std::vector<Record> State::records() const {
   for (const FeedScale& scale : scales) all.emplace_back(Scale{scale});
   if (waits_done > 0) all.emplace_back(WaitsDone{waits_done});
   if (override_ratio) all.emplace_back(Override{*override_ratio});
-  if (thermal) all.emplace_back(*thermal);
+  if (heat) all.emplace_back(*heat);
   if (run) all.emplace_back(*run);
   if (progress) all.emplace_back(*progress);
   if (found) all.emplace_back(Found{*found});

@@ -20,7 +20,7 @@ struct State {
   std::uint64_t waits_done = 0;
   std::vector<FeedScale> scales;
   std::optional<double> override_ratio;
-  std::optional<Thermal> thermal;
+  std::optional<Heat> heat;
   std::optional<Progress> progress;
   friend bool operator==(const State&, const State&) = default;
 

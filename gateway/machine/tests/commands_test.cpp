@@ -40,12 +40,16 @@ TEST(Commands, WhatMayNotBeGivenIsRefusedInTheWordsThatWereToldBefore) {
 TEST(Commands, ValuesThatTheMachineCannotHaveAreRefused) {
   Gateway gateway(default_m1());
   EXPECT_FALSE(gateway.carry_out(command::SetFan{1.5}));
+  EXPECT_FALSE(gateway.carry_out(command::SetFan{.ratio = 1, .index = 7}));
+  EXPECT_FALSE(gateway.carry_out(command::SetOutput{.ratio = 1, .index = 7}));
+  EXPECT_FALSE(gateway.carry_out(command::SetTemperature{{static_cast<HeaterKind>(200), 0}, 0}));
+  EXPECT_FALSE(gateway.carry_out(command::SetTemperature{{HeaterKind::kHotend, 255}, 40}));
   EXPECT_FALSE(gateway.carry_out(command::SetSpindle{9000}));
   EXPECT_FALSE(gateway.carry_out(command::SetWorkOffset{.system = 10}));
   EXPECT_FALSE(gateway.carry_out(command::SetWorkOffset{.offset = {1e9, 0, 0, 0, 0, 0}}));
   EXPECT_FALSE(gateway.carry_out(command::SetWorkOffset{.here = true})) << "nobody knows where the tool is";
   ASSERT_TRUE(gateway.carry_out(command::SetFan{0.4}));
-  EXPECT_EQ(gateway.status().fan, 0.4);
+  EXPECT_EQ(gateway.status().fans.at(0).ratio, 0.4);
 }
 
 TEST(Commands, AWorkOffsetIsInMillimetresWhateverTheLinesCount) {

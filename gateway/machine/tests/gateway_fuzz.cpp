@@ -85,8 +85,8 @@ void command(Gateway& gateway, Script& script) {
       static_cast<void>(gateway.text_line(std::string{'M', static_cast<char>(script.byte()), '1'}));
       break;
     case 13:
-      static_cast<void>(
-          gateway.carry_out(command::SetTemperature{(script.byte() & 1) != 0, 1.0 * script.byte()}));
+      static_cast<void>(gateway.carry_out(
+          command::SetTemperature{{static_cast<HeaterKind>(script.byte() % 3), 0}, 1.0 * script.byte()}));
       break;
   }
 }

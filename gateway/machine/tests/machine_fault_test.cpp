@@ -167,7 +167,7 @@ TEST(MachineFaults, DriveFaultStopsAllAndIsToldInWords) {
   ASSERT_TRUE(rig.reach(MachineState::kAlarm, 5s)) << rig.story();
   EXPECT_NE(rig.story().find("over-current"), std::string::npos) << rig.story();
   EXPECT_TRUE(rig.rests());
-  EXPECT_EQ(rig.gateway->status().hotend.target_celsius, 0);
+  EXPECT_EQ(rig.gateway->status().heater(kFirstHotend).target_celsius, 0);
 }
 
 TEST(MachineFaults, EmergencyStopInputStopsAllOnThePath) {
@@ -260,7 +260,7 @@ TEST(MachineFaults, CommandsAreRefusedWithAReasonWhereTheyMakeNoSense) {
   EXPECT_FALSE(rig.gateway->carry_out(command::Resume{}));
   EXPECT_FALSE(rig.gateway->carry_out(command::Cancel{}));
   EXPECT_FALSE(rig.gateway->carry_out(command::SetFeedOverride{0}));
-  EXPECT_FALSE(rig.gateway->carry_out(command::SetTemperature{false, 1000}));
+  EXPECT_FALSE(rig.gateway->carry_out(command::SetTemperature{kFirstHotend, 1000}));
 }
 
 }  // namespace

@@ -164,7 +164,7 @@ TEST(Machine, WaitForTemperatureTakesVirtualTime) {
   const BusTime begin = rig.now;
   ASSERT_TRUE(rig.run_job("M109 S200\nG1 X5 F3000\n", 600s)) << rig.story();
   EXPECT_GT(to_seconds(rig.now - begin), 10);
-  EXPECT_NEAR(rig.gateway->status().hotend.actual_celsius, 200, 3);
+  EXPECT_NEAR(rig.gateway->status().heater(kFirstHotend).actual_celsius, 200, 3);
 }
 
 TEST(Machine, PauseInTheJobWaitsForResume) {
@@ -210,7 +210,7 @@ TEST(Machine, TextSessionAnswersItsQueries) {
   EXPECT_NE(rig.gateway->text_line("M115")->find("FIRMWARE_NAME:Kinebus"), std::string::npos);
   EXPECT_NE(rig.gateway->text_line("M119")->find("tower1: open"), std::string::npos);
   ASSERT_TRUE(rig.gateway->text_line("M104 S60"));
-  EXPECT_EQ(rig.gateway->status().hotend.target_celsius, 60);
+  EXPECT_EQ(rig.gateway->status().heater(kFirstHotend).target_celsius, 60);
   EXPECT_FALSE(rig.gateway->text_line("M104 S900"));
   EXPECT_FALSE(rig.gateway->text_line("G1 X10"));
   ASSERT_TRUE(rig.gateway->text_line("M112"));

@@ -45,7 +45,7 @@ class ResumeRig : public MachineRig {
 
   bool begin(double at_s) {
     if (!make_ready()) return false;
-    gateway->carry_out(command::SetTemperature{false, 0});
+    gateway->carry_out(command::SetTemperature{kFirstHotend, 0});
     if (!gateway->carry_out(command::Run{std::make_unique<StringSource>(kResumeJob), "part"})) return false;
     if (!reach(MachineState::kRunning, 5s)) return false;
     if (!run_until([&] { return gateway->status().line >= 2; }, 30s)) return false;

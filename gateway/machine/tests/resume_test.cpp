@@ -251,6 +251,10 @@ TEST(Journal, ACutAtAnyByteLeavesAnEarlierState) {
   std::vector<std::uint8_t> bytes;
   std::vector<std::size_t> ends{0};
   std::vector<journal::State> states{state};
+  journal::Heat heat{.targets = {}, .spindle_rpm = 3000};
+  heat.heater({HeaterKind::kHotend, 1}) = 210;
+  heat.heater({HeaterKind::kChamber, 0}) = 45;
+  heat.fan(2) = 0.25;
   const std::vector<journal::Record> records{
       journal::Epoch{7},
       journal::JobBegin{"a part", 100, 42, {1, 2, 3, 0, 0, 5}, {{{4, 5, 6}}}},
@@ -260,6 +264,7 @@ TEST(Journal, ACutAtAnyByteLeavesAnEarlierState) {
       journal::Progress{PathTime{5000}, 7, {1, 2, 3}},
       journal::WaitsDone{1},
       journal::Thermal{200, 60, 0.5},
+      heat,
       journal::RunBegin{PathTime{9000}, {12, 0.25}, 0.2, 0.1},
       journal::Found{PathTime{9500}},
       journal::Interrupted{{14, 0.125}, 0.1},
@@ -282,6 +287,22 @@ TEST(Journal, ACutAtAnyByteLeavesAnEarlierState) {
     wrong[cut] ^= 0x10;
     ASSERT_LE(journal::decode(wrong).records, whole) << "changed at " << cut;
   }
+}
+
+TEST(Journal, AGatewayThatKnewOneHotendOneBedAndOneFanIsUnderstood) {
+  journal::State state;
+  state.take(journal::JobBegin{.name = "a part"});
+  state.take(journal::Thermal{200, 60, 0.5, 1000});
+  ASSERT_TRUE(state.heat);
+  journal::Heat same{.targets = {}, .spindle_rpm = 1000};
+  same.heater(kFirstHotend) = 200;
+  same.heater(kFirstBed) = 60;
+  same.fan(0) = 0.5;
+  EXPECT_EQ(*state.heat, same);
+  // What is written of it is the record of today.
+  journal::State again;
+  for (const journal::Record& record : state.records()) again.take(record);
+  EXPECT_EQ(again, state);
 }
 
 }  // namespace

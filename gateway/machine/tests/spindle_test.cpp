@@ -13,7 +13,8 @@ using namespace std::chrono_literals;
 
 MachineDescription mill() {
   MachineDescription machine = default_m1();
-  machine.thermal.hotend.present = machine.thermal.bed.present = false;
+  machine.heaters.clear();
+  machine.fans.clear();
   machine.spindle = {.present = true, .min_rpm = 3000, .max_rpm = 24000, .sim_rpm_per_s = 6000};
   return machine;
 }

@@ -8,6 +8,7 @@
 #include "gateway/gcode/codes.hpp"
 #include "gateway/sessions/serial/line_control.hpp"
 #include "gateway/sessions/serial/marlin_session.hpp"
+#include "gateway/status/temperature_text.hpp"
 
 namespace kinebus {
 namespace {
@@ -39,7 +40,7 @@ bool moves(std::string_view text) {
 /// "ok" means that they are carried out, not only taken.
 bool waits_for_end(const Code& code) {
   return code.is('G', 28) || code.is('G', 4) || code.is('M', 400) || code.is('M', 109) || code.is('M', 190) ||
-         code.is('M', 0) || code.is('M', 1) || code.is('M', 2) || code.is('M', 30);
+         code.is('M', 191) || code.is('M', 0) || code.is('M', 1) || code.is('M', 2) || code.is('M', 30);
 }
 
 }  // namespace
@@ -91,11 +92,7 @@ MarlinSession::Done MarlinSession::query(const Line& line) {
 }
 
 std::string MarlinSession::temperatures() const {
-  const MachineStatus s = gateway_.status();
-  std::array<char, 128> text{};
-  std::snprintf(text.data(), text.size(), "T:%.2f /%.2f B:%.2f /%.2f @:0 B@:0", s.hotend.actual_celsius,
-                s.hotend.target_celsius, s.bed.actual_celsius, s.bed.target_celsius);
-  return text.data();
+  return temperature_text(gateway_.status());
 }
 
 MarlinSession::Done MarlinSession::carry_out_m(const Line& line, int number) {
@@ -160,7 +157,12 @@ MarlinSession::Done MarlinSession::carry_out_m(const Line& line, int number) {
       return Done::kYes;
     case 109:
     case 190:
-      if (!mine_ && gateway_.state() != MachineState::kReady) return heat_and_wait(line, number == 190);
+    case 191:
+      if (!mine_ && gateway_.state() != MachineState::kReady) {
+        return heat_and_wait(line, number == 109   ? HeaterKind::kHotend
+                                   : number == 190 ? HeaterKind::kBed
+                                                   : HeaterKind::kChamber);
+      }
       return to_machine(line);
     case 999:
       if (!machine_stopped()) {
@@ -185,7 +187,7 @@ MarlinSession::Done MarlinSession::carry_out_m(const Line& line, int number) {
 /// G-code: to the gateway, opened for lines when they move.
 MarlinSession::Done MarlinSession::to_machine(const Line& line) {
   const Code code = serial::code_of(line.text);
-  const bool opens = moves(line.text) || code.is('M', 109) || code.is('M', 190);
+  const bool opens = moves(line.text) || code.is('M', 109) || code.is('M', 190) || code.is('M', 191);
   if (code.is('G', 28)) dropped_ = false;
   if (!mine_ && opens) {
     if (dropped_)
@@ -212,7 +214,7 @@ MarlinSession::Done MarlinSession::feed(const Line& line) {
   const Code code = serial::code_of(line.text);
   if (!mine_ || !waits_for_end(code)) return Done::kYes;
   wait_ = Wait::kIdle;
-  heats_ = code.is('M', 109) || code.is('M', 190);
+  heats_ = code.is('M', 109) || code.is('M', 190) || code.is('M', 191);
   if (heats_) next_temperature_ = now_ + kHeatReport;
   return Done::kWaiting;
 }

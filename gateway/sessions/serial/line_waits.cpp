@@ -33,9 +33,11 @@ MarlinSession::Done MarlinSession::home(const Line&) {
   return refuse("cannot home while the machine is " + std::string(to_string(state)));
 }
 
-MarlinSession::Done MarlinSession::heat_and_wait(const Line& line, bool bed) {
+MarlinSession::Done MarlinSession::heat_and_wait(const Line& line, HeaterKind kind) {
   if (const auto taken = gateway_.take_line(line.text, ++count_); !taken) return refuse(taken.error().words);
-  waits_for_bed_ = bed;
+  const char letter = kind == HeaterKind::kHotend ? 'T' : 'P';
+  waits_for_ = {
+      kind, static_cast<std::uint8_t>(std::clamp(serial::word(line.text, letter).value_or(0), 0.0, 255.0))};
   waits_cooling_ = serial::word(line.text, 'R').has_value();
   wait_ = Wait::kHeater;
   heats_ = true;
@@ -62,7 +64,7 @@ MarlinSession::Done MarlinSession::wait_over() {
       return gateway_.lines_idle() ? over() : Done::kWaiting;
     case Wait::kHeater: {
       const MachineStatus s = gateway_.status();
-      const HeaterStatus& heater = waits_for_bed_ ? s.bed : s.hotend;
+      const HeaterStatus heater = s.heater(waits_for_);
       const bool warm = heater.actual_celsius >= heater.target_celsius - kHeaterWindow_c;
       const bool cool = !waits_cooling_ || heater.actual_celsius <= heater.target_celsius + kHeaterWindow_c;
       return (warm && cool) || (heater.target_celsius <= 0 && !waits_cooling_) ? over() : Done::kWaiting;

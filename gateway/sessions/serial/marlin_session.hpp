@@ -91,7 +91,7 @@ class MarlinSession : public ByteSession {
   // line_waits.cpp: lines that are answered when they are carried out
   static constexpr LocalTime kHeatReport = std::chrono::seconds{1};
   Done home(const serial::Line& line);
-  Done heat_and_wait(const serial::Line& line, bool bed);
+  Done heat_and_wait(const serial::Line& line, HeaterKind kind);
   Done wait_over();
 
   // line_control.cpp: who may command
@@ -132,7 +132,8 @@ class MarlinSession : public ByteSession {
   std::uint32_t count_ = 0;  ///< lines given to the gateway
   Wait wait_ = Wait::kNone;
   bool heats_ = false;  ///< the line at the front waits for a heater: temperatures are told meanwhile
-  bool waits_for_bed_ = false, waits_cooling_ = false;
+  HeaterId waits_for_;
+  bool waits_cooling_ = false;
   LocalTime last_line_{0}, last_command_{0}, next_busy_{0};
 
   LocalTime temperature_period_{0}, next_temperature_{0};  ///< M155

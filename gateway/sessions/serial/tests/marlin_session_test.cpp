@@ -92,7 +92,7 @@ TEST(MarlinSession, HeatersAreReportedWhileALineWaitsForThem) {
   rig.ask("M140 S40");
   rig.ask("M190 S40");
   EXPECT_TRUE(rig.said(" T:")) << rig.log();
-  EXPECT_GT(rig.machine.gateway->status().bed.actual_celsius, 37);
+  EXPECT_GT(rig.machine.gateway->status().heater(kFirstBed).actual_celsius, 37);
   EXPECT_EQ(rig.ask("M104 S900").rfind("Error:", 0), 0u);
 }
 

@@ -1,0 +1,148 @@
+#include "gateway/description/device_rules.hpp"
+
+#include <map>
+#include <tuple>
+#include <utility>
+
+namespace kinebus {
+namespace {
+
+class DeviceRules {
+ public:
+  DeviceRules(const MachineDescription& description, std::vector<BrokenRule>& broken)
+      : d_(description), broken_(broken) {}
+
+  void judge() {
+    for (const NodeDescription& node : d_.nodes) inputs(node);
+    for (const JointDescription& joint : d_.joints) axes(joint);
+    std::map<HeaterId, std::string> heaters;
+    for (const HeaterDescription& h : d_.heaters) {
+      const std::string key = "heater." + h.name + ".";
+      const auto [first, is_new] = heaters.emplace(h.id(), h.name);
+      require(is_new, {key + "index", key + "kind"}, number(h.index),
+              say("an index that no other heater of the kind has: [heater.%1] has it", first->second));
+      place(h.place, key, Channels::kHeaters);
+    }
+    indices("fan", d_.fans);
+    indices("output", d_.outputs);
+    for (const SensorDescription& s : d_.sensors)
+      place(s.place, "sensor." + s.name + ".", Channels::kSensors);
+    if (d_.spindle.present) {
+      place(d_.spindle.place, "spindle.", Channels::kOutputs);
+      require(d_.spindle.min_rpm <= d_.spindle.max_rpm, {"spindle.min_rpm", "spindle.max_rpm"},
+              Sentence::verbatim(printed("%.6g", d_.spindle.min_rpm)),
+              say("at most the largest speed, %1", printed("%.6g", d_.spindle.max_rpm)));
+    }
+    if (d_.probe.present) probe();
+  }
+
+ private:
+  enum class Channels : std::uint8_t { kHeaters, kSensors, kOutputs, kInputs };
+
+  void require(bool holds, std::vector<std::string> keys, Sentence found, Sentence expected) {
+    if (!holds) broken_.push_back({std::move(keys), std::move(found), std::move(expected)});
+  }
+  static Sentence number(int value) { return Sentence::verbatim(std::to_string(value)); }
+
+  static int count(const NodeFunctions& has, Channels channels) {
+    switch (channels) {
+      case Channels::kHeaters:
+        return has.heaters;
+      case Channels::kSensors:
+        return has.sensors;
+      case Channels::kOutputs:
+        return has.outputs;
+      case Channels::kInputs:
+        return has.inputs;
+    }
+    return 0;
+  }
+  static const char* key_of(Channels channels) {
+    switch (channels) {
+      case Channels::kHeaters:
+        return "heaters";
+      case Channels::kSensors:
+        return "sensors";
+      case Channels::kOutputs:
+        return "outputs";
+      case Channels::kInputs:
+        return "inputs";
+    }
+    return "";
+  }
+
+  template <typename Device>
+  void indices(const char* table, const std::vector<Device>& devices) {
+    std::map<int, std::string> known;
+    for (const Device& device : devices) {
+      const std::string key = std::string(table) + "." + device.name + ".";
+      const auto [first, is_new] = known.emplace(device.index, device.name);
+      require(is_new, {key + "index"}, number(device.index),
+              say("an index that no other has: [%1] has it", std::string(table) + "." + first->second));
+      place(device.place, key, Channels::kOutputs);
+    }
+  }
+
+  void place(const DevicePlace& place, const std::string& key, Channels channels) {
+    if (!place.on_node()) return;
+    const NodeDescription* node = d_.node(place.node_id);
+    require(node != nullptr, {key + "node"}, number(place.node_id),
+            say("a node that has its table, [node.%1]", place.node_id));
+    if (node == nullptr) return;
+    const int most = count(node->functions, channels);
+    const std::string node_key = "node." + std::to_string(place.node_id) + "." + key_of(channels);
+    require(place.channel <= most, {key + "channel", node_key}, number(place.channel),
+            most == 0 ? say("a node that has such channels: %1 is 0", node_key)
+                      : say("a channel in 1 .. %1, as %2 says", most, node_key));
+    const auto [first, is_new] = taken_.emplace(std::tuple(place.node_id, channels, place.channel), key);
+    require(is_new, {key + "channel", key + "node"}, say("node %1 channel %2", place.node_id, place.channel),
+            say("a channel that no other device has: [%1] has it",
+                first->second.substr(0, first->second.size() - 1)));
+  }
+
+  void inputs(const NodeDescription& node) {
+    const std::string key = "node." + std::to_string(node.id) + ".";
+    for (std::size_t i = 0; i < node.inputs.size(); ++i) {
+      if (node.inputs[i].function == InputFunction::kNone) continue;
+      const std::string input = key + "input" + std::to_string(i + 1);
+      require(i < node.functions.inputs, {input, key + "inputs"}, say("a function"),
+              say("an input that the node has: %1 is %2", key + "inputs", int{node.functions.inputs}));
+      const bool of_axis = node.inputs[i].function == InputFunction::kHome ||
+                           node.inputs[i].function == InputFunction::kPositiveLimit ||
+                           node.inputs[i].function == InputFunction::kNegativeLimit;
+      require(!of_axis || node.functions.has_axes(), {input + ".function", key + "axis_pairs"},
+              say("a switch of an axis"), say("none, emergency_stop or probe: this node has no axes"));
+    }
+  }
+
+  void axes(const JointDescription& joint) {
+    const NodeDescription* node = d_.node(joint.node_id);
+    if (node == nullptr) return;
+    require(node->functions.has_axes(),
+            {"joint." + joint.name + ".node", "node." + std::to_string(joint.node_id) + ".axis_pairs"},
+            number(joint.node_id), say("a node that has axes: node.%1.axis_pairs is 0", joint.node_id));
+  }
+
+  void probe() {
+    const DevicePlace& at = d_.probe.place;
+    place(at, "probe.", Channels::kInputs);
+    const NodeDescription* node = at.on_node() ? d_.node(at.node_id) : nullptr;
+    if (node == nullptr || at.channel > kNodeInputs) return;
+    const std::string input = "node." + std::to_string(at.node_id) + ".input" + std::to_string(at.channel);
+    require(node->inputs[at.channel - 1u].function == InputFunction::kProbe,
+            {"probe.channel", input + ".function"}, number(at.channel),
+            say("an input of node %1 that has the probe function", at.node_id));
+  }
+
+  const MachineDescription& d_;
+  std::vector<BrokenRule>& broken_;
+  std::map<std::tuple<std::uint8_t, Channels, std::uint8_t>, std::string> taken_;
+};
+
+}  // namespace
+
+void judge_devices(const MachineDescription& description, std::vector<BrokenRule>& broken) {
+  DeviceRules(description, broken).judge();
+}
+
+}  // namespace kinebus

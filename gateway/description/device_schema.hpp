@@ -1,0 +1,87 @@
+#pragma once
+// The keys of devices in a machine file: what there is, and where it lives. A table is one device; no table,
+// no device.
+
+#include <string>
+
+#include "gateway/description/machine_description.hpp"
+#include "gateway/description/schema_words.hpp"
+#include "gateway/sentence.hpp"
+
+namespace kinebus::machine_schema {
+
+inline constexpr Choice kWheres[] = {{"simulated", static_cast<int>(DevicePlace::Where::kSimulated)},
+                                     {"node", static_cast<int>(DevicePlace::Where::kNode)}};
+inline constexpr Choice kHeaterKinds[] = {{"hotend", static_cast<int>(HeaterKind::kHotend)},
+                                          {"bed", static_cast<int>(HeaterKind::kBed)},
+                                          {"chamber", static_cast<int>(HeaterKind::kChamber)}};
+
+/// Stated in every device's table: a heater that only seems to be there must be no oversight.
+template <class V>
+void visit_place(V& v, DevicePlace& place) {
+  if (!v.choice("where", place.where, kWheres, Need::kRequired)) return v.leave_unjudged();
+  if (!place.on_node()) return;
+  v.integer("node", place.node_id, 1, 126, Need::kRequired);
+  v.integer("channel", place.channel, 1, 16, Need::kRequired);
+}
+
+template <class V>
+void visit_device(V& v, HeaterDescription& h) {
+  v.choice("kind", h.kind, kHeaterKinds, Need::kRequired);
+  v.integer("index", h.index, 0, kMostOfAKind - 1, Need::kOptional);
+  v.retired("present", say("no such key: a heater that is not there has no table"));
+  v.number("max_c", h.max_c, {20, 600}, Need::kOptional);
+  v.number("window_c", h.window_c, {0.1, 50}, Need::kOptional);
+  v.duration("settle_s", h.settle, 0, 600, Need::kOptional);
+  v.number("sim_power_w", h.sim_power_w, {0.1, 10000}, Need::kOptional);
+  v.number("sim_heat_capacity_j_per_k", h.sim_heat_capacity_j_per_k, {0.1, 100000}, Need::kOptional);
+  v.number("sim_loss_w_per_k", h.sim_loss_w_per_k, {0.0001, 1000}, Need::kOptional);
+  visit_place(v, h.place);
+}
+
+template <class V>
+void visit_device(V& v, FanDescription& f) {
+  v.integer("index", f.index, 0, kMostOfAKind - 1, Need::kOptional);
+  visit_place(v, f.place);
+}
+
+template <class V>
+void visit_device(V& v, OutputDescription& o) {
+  v.integer("index", o.index, 0, kMostOfAKind - 1, Need::kOptional);
+  visit_place(v, o.place);
+}
+
+template <class V>
+void visit_device(V& v, SensorDescription& s) {
+  v.number("sim_c", s.sim_c, {-50, 600}, Need::kOptional);
+  visit_place(v, s.place);
+}
+
+template <class V>
+void visit_devices(V& v, MachineDescription& d) {
+  v.table("thermal", Need::kOptional, [&] {
+    v.number("ambient_c", d.thermal.ambient_c, {-20, 60}, Need::kOptional);
+    v.number("min_extrude_c", d.thermal.min_extrude_c, {0, 500}, Need::kOptional);
+    v.retired("hotend",
+              say("[heater.hotend] with kind = \"hotend\", where = \"simulated\" and the same keys; "
+                  "a machine without hot end has no such table"));
+    v.retired("bed",
+              say("[heater.bed] with kind = \"bed\", where = \"simulated\" and the same keys; a machine "
+                  "without heated bed has no such table"));
+  });
+  v.named_tables("heater", d.heaters, [&](HeaterDescription& h) { visit_device(v, h); });
+  v.named_tables("fan", d.fans, [&](FanDescription& f) { visit_device(v, f); });
+  v.named_tables("output", d.outputs, [&](OutputDescription& o) { visit_device(v, o); });
+  v.named_tables("sensor", d.sensors, [&](SensorDescription& s) { visit_device(v, s); });
+  v.present("spindle", d.spindle.present, [&] {
+    v.retired("present", say("no such key: a machine without spindle has no table [spindle]"));
+    v.number("min_rpm", d.spindle.min_rpm, {0, 100000}, Need::kOptional);
+    v.number("max_rpm", d.spindle.max_rpm, {1, 200000}, Need::kOptional);
+    v.flag("reversible", d.spindle.reversible, Need::kOptional);
+    v.number("sim_rpm_per_s", d.spindle.sim_rpm_per_s, {10, 1000000}, Need::kOptional);
+    visit_place(v, d.spindle.place);
+  });
+  v.present("probe", d.probe.present, [&] { visit_place(v, d.probe.place); });
+}
+
+}  // namespace kinebus::machine_schema

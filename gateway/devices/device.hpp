@@ -1,0 +1,76 @@
+#pragma once
+// What a machine has besides motion, as the gateway sees it: one interface for each kind, whoever stands
+// behind it (the simulation, a node on the bus). All are sans-IO, in the shape of every core here.
+
+#include <cmath>
+#include <optional>
+
+#include "gateway/description/device_description.hpp"
+#include "gateway/sentence.hpp"
+#include "protocol/can/frame.hpp"
+#include "protocol/time.hpp"
+
+namespace kinebus {
+
+class Device {
+ public:
+  Device() = default;
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+  virtual ~Device() = default;
+
+  /// Every frame of the bus that no motion part needs for itself alone. True: it was this device's.
+  virtual bool on_frame(BusTime, const CanFrame&) { return false; }
+  virtual void on_time(BusTime) {}
+  /// Pulled until empty. Small: streams of motion share the bus.
+  virtual std::optional<CanFrame> next_frame(BusTime) { return std::nullopt; }
+  /// When on_time() is next needed; it comes at least ten times a second anyway.
+  virtual BusTime next_deadline() const { return BusTime::max(); }
+  /// Plain words while it is out of order (sensor broken, no rise); then it has switched itself off already.
+  virtual std::optional<Sentence> fault() const { return std::nullopt; }
+};
+
+struct HeaterStatus {
+  double actual_celsius = 0;
+  double target_celsius = 0;  ///< 0: off
+};
+
+class Heater : public Device {
+ public:
+  virtual void set_target(double celsius) = 0;  ///< 0: off
+  virtual HeaterStatus status() const = 0;
+};
+
+/// A fan or an output.
+class Output : public Device {
+ public:
+  virtual void set(double ratio) = 0;  ///< 0..1
+  virtual double ratio() const = 0;
+};
+
+struct SpindleStatus {
+  double actual_rpm = 0, target_rpm = 0;  ///< > 0 clockwise
+  /// Under load it is a little slow.
+  bool at_speed() const {
+    constexpr double kWindow = 0.02;
+    return std::abs(actual_rpm - target_rpm) <= kWindow * std::abs(target_rpm);
+  }
+};
+
+class SpindleDrive : public Device {
+ public:
+  virtual void set(double rpm) = 0;  ///< > 0 clockwise, < 0 the other way, 0: off
+  virtual SpindleStatus status() const = 0;
+};
+
+class Sensor : public Device {
+ public:
+  virtual double celsius() const = 0;
+};
+
+class ContactProbe : public Device {
+ public:
+  virtual bool touches() const = 0;
+};
+
+}  // namespace kinebus

@@ -1,0 +1,122 @@
+#include "gateway/devices/devices.hpp"
+
+#include <algorithm>
+
+namespace kinebus {
+
+void Devices::add(HeaterId id, std::string name, std::uint8_t node, std::unique_ptr<Heater> heater) {
+  members_.push_back({"heater." + name, node, heater.get()});
+  heaters_.push_back({id, std::move(name), std::move(heater)});
+}
+
+void Devices::add_fan(DeviceName name, std::uint8_t node, std::unique_ptr<Output> fan) {
+  members_.push_back({"fan." + name.name, node, fan.get()});
+  fans_.push_back({std::move(name), std::move(fan)});
+}
+
+void Devices::add_output(DeviceName name, std::uint8_t node, std::unique_ptr<Output> output) {
+  members_.push_back({"output." + name.name, node, output.get()});
+  outputs_.push_back({std::move(name), std::move(output)});
+}
+
+void Devices::add_sensor(std::string name, std::uint8_t node, std::unique_ptr<Sensor> sensor) {
+  members_.push_back({"sensor." + name, node, sensor.get()});
+  sensors_.push_back({std::move(name), std::move(sensor)});
+}
+
+void Devices::set_spindle(std::uint8_t node, std::unique_ptr<SpindleDrive> spindle) {
+  members_.push_back({"spindle", node, spindle.get()});
+  spindle_ = std::move(spindle);
+}
+
+void Devices::set_probe(std::uint8_t node, std::unique_ptr<ContactProbe> probe) {
+  members_.push_back({"probe", node, probe.get()});
+  probe_ = std::move(probe);
+}
+
+void Devices::heat(HeaterId id, double celsius) {
+  for (KnownHeater& known : heaters_)
+    if (known.id == id) known.heater->set_target(celsius);
+}
+
+void Devices::heaters_off() {
+  for (KnownHeater& known : heaters_) known.heater->set_target(0);
+}
+
+Output* Devices::find(const std::vector<KnownOutput>& all, std::uint8_t index) {
+  for (const KnownOutput& known : all)
+    if (known.name.index == index) return known.output.get();
+  return nullptr;
+}
+
+void Devices::blow(std::uint8_t fan, double ratio) {
+  if (Output* known = find(fans_, fan)) known->set(ratio);
+}
+
+void Devices::put_out(std::uint8_t output, double ratio) {
+  if (Output* known = find(outputs_, output)) known->set(ratio);
+}
+
+void Devices::turn_spindle(double rpm) {
+  if (spindle_) spindle_->set(rpm);
+}
+
+HeaterStatus Devices::heater(HeaterId id) const {
+  for (const KnownHeater& known : heaters_)
+    if (known.id == id) return known.heater->status();
+  return {};
+}
+
+double Devices::ratio(const std::vector<KnownOutput>& all, std::uint8_t index) {
+  const Output* known = find(all, index);
+  return known != nullptr ? known->ratio() : 0;
+}
+
+std::vector<NamedHeaterStatus> Devices::heaters() const {
+  std::vector<NamedHeaterStatus> all;
+  for (const KnownHeater& known : heaters_) all.push_back({known.heater->status(), known.name, known.id});
+  return all;
+}
+
+std::vector<OutputStatus> Devices::ratios(const std::vector<KnownOutput>& all) {
+  std::vector<OutputStatus> told;
+  for (const KnownOutput& known : all)
+    told.push_back({known.name.name, known.name.index, known.output->ratio()});
+  return told;
+}
+
+std::vector<SensorStatus> Devices::sensors() const {
+  std::vector<SensorStatus> all;
+  for (const KnownSensor& known : sensors_) all.push_back({known.name, known.sensor->celsius()});
+  return all;
+}
+
+std::optional<DeviceFault> Devices::fault() const {
+  for (const Member& member : members_)
+    if (auto words = member.device->fault()) return DeviceFault{member.key, member.node, std::move(*words)};
+  return std::nullopt;
+}
+
+bool Devices::on_frame(BusTime now, const CanFrame& frame) {
+  bool taken = false;
+  for (const Member& member : members_) taken = member.device->on_frame(now, frame) || taken;
+  return taken;
+}
+
+void Devices::on_time(BusTime now) {
+  for (const Member& member : members_) member.device->on_time(now);
+}
+
+std::optional<CanFrame> Devices::next_frame(BusTime now) {
+  for (const Member& member : members_)
+    if (const auto frame = member.device->next_frame(now)) return frame;
+  return std::nullopt;
+}
+
+BusTime Devices::next_deadline() const {
+  BusTime due = BusTime::max();
+  for (const Member& member : members_) due = std::min(due, member.device->next_deadline());
+  return due;
+}
+
+}  // namespace kinebus

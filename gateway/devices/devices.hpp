@@ -1,0 +1,104 @@
+#pragma once
+// All devices of a machine together: found by kind and index, served as one.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gateway/devices/device.hpp"
+
+namespace kinebus {
+
+/// As the machine file has named and numbered it.
+struct DeviceName {
+  std::string name;
+  std::uint8_t index = 0;
+};
+struct NamedHeaterStatus : HeaterStatus {
+  std::string name;
+  HeaterId id;
+};
+struct OutputStatus {
+  std::string name;
+  std::uint8_t index = 0;
+  double ratio = 0;  ///< 0..1
+};
+struct SensorStatus {
+  std::string name;
+  double celsius = 0;
+};
+struct DeviceFault {
+  std::string device;  ///< "heater.bed", as the machine file says
+  std::uint8_t node = 0;
+  Sentence words;
+};
+
+class Devices {
+ public:
+  void add(HeaterId id, std::string name, std::uint8_t node, std::unique_ptr<Heater> heater);
+  void add_fan(DeviceName name, std::uint8_t node, std::unique_ptr<Output> fan);
+  void add_output(DeviceName name, std::uint8_t node, std::unique_ptr<Output> output);
+  void add_sensor(std::string name, std::uint8_t node, std::unique_ptr<Sensor> sensor);
+  void set_spindle(std::uint8_t node, std::unique_ptr<SpindleDrive> spindle);
+  void set_probe(std::uint8_t node, std::unique_ptr<ContactProbe> probe);
+
+  // Commands. One for a device that is not there has no effect: whether it is, is asked of the description.
+  void heat(HeaterId id, double celsius);  ///< 0: off
+  void heaters_off();
+  void blow(std::uint8_t fan, double ratio);
+  void put_out(std::uint8_t output, double ratio);
+  void turn_spindle(double rpm);
+
+  // What they say. Cold, off and at rest when there is none.
+  HeaterStatus heater(HeaterId id) const;
+  double fan(std::uint8_t index) const { return ratio(fans_, index); }
+  double output(std::uint8_t index) const { return ratio(outputs_, index); }
+  SpindleStatus spindle() const { return spindle_ ? spindle_->status() : SpindleStatus{}; }
+  bool probe_touches() const { return probe_ && probe_->touches(); }
+  std::vector<NamedHeaterStatus> heaters() const;
+  std::vector<OutputStatus> fans() const { return ratios(fans_); }
+  std::vector<OutputStatus> outputs() const { return ratios(outputs_); }
+  std::vector<SensorStatus> sensors() const;
+  /// Of the first that is out of order.
+  std::optional<DeviceFault> fault() const;
+
+  // Sans-IO, as of every device.
+  bool on_frame(BusTime now, const CanFrame& frame);
+  void on_time(BusTime now);
+  std::optional<CanFrame> next_frame(BusTime now);
+  BusTime next_deadline() const;
+
+ private:
+  struct Member {
+    std::string key;
+    std::uint8_t node;
+    Device* device;
+  };
+  struct KnownHeater {
+    HeaterId id;
+    std::string name;
+    std::unique_ptr<Heater> heater;
+  };
+  struct KnownOutput {
+    DeviceName name;
+    std::unique_ptr<Output> output;
+  };
+  struct KnownSensor {
+    std::string name;
+    std::unique_ptr<Sensor> sensor;
+  };
+  static std::vector<OutputStatus> ratios(const std::vector<KnownOutput>& all);
+  static double ratio(const std::vector<KnownOutput>& all, std::uint8_t index);
+  static Output* find(const std::vector<KnownOutput>& all, std::uint8_t index);
+
+  std::vector<Member> members_;  ///< all of them, as they were added
+  std::vector<KnownHeater> heaters_;
+  std::vector<KnownOutput> fans_, outputs_;
+  std::vector<KnownSensor> sensors_;
+  std::unique_ptr<SpindleDrive> spindle_;
+  std::unique_ptr<ContactProbe> probe_;
+};
+
+}  // namespace kinebus

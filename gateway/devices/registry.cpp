@@ -1,0 +1,78 @@
+#include "gateway/devices/registry.hpp"
+
+#include "gateway/devices/node_probe.hpp"
+#include "gateway/devices/simulated.hpp"
+
+namespace kinebus {
+namespace {
+
+using Where = DevicePlace::Where;
+
+template <typename Interface, typename Description>
+struct Implementation {
+  Where where;
+  std::unique_ptr<Interface> (*make)(const Description&, const MachineDescription&);
+};
+
+// One line for each implementation.
+constexpr Implementation<Heater, HeaterDescription> kHeaters[] = {{Where::kSimulated, simulate}};
+constexpr Implementation<Output, FanDescription> kFans[] = {{Where::kSimulated, simulate}};
+constexpr Implementation<Output, OutputDescription> kOutputs[] = {{Where::kSimulated, simulate}};
+constexpr Implementation<Sensor, SensorDescription> kSensors[] = {{Where::kSimulated, simulate}};
+constexpr Implementation<SpindleDrive, SpindleDescription> kSpindles[] = {{Where::kSimulated, simulate}};
+constexpr Implementation<ContactProbe, ProbeDescription> kProbes[] = {
+    {Where::kSimulated, simulate},
+    {Where::kNode, node_probe},
+};
+
+class Maker {
+ public:
+  explicit Maker(const MachineDescription& machine) : machine_(machine) {}
+
+  /// nullptr: nobody stands behind it, and wrong() says so.
+  template <typename Interface, typename Description, std::size_t N>
+  std::unique_ptr<Interface> make(const Implementation<Interface, Description> (&known)[N],
+                                  const Description& description, const std::string& key) {
+    for (const auto& implementation : known)
+      if (implementation.where == description.place.where) return implementation.make(description, machine_);
+    if (wrong_.empty())
+      wrong_ =
+          say("%1 is to live on node %2, where this gateway knows no such device: use where = \"simulated\"",
+              key, description.place.node_id);
+    return nullptr;
+  }
+  const Sentence& wrong() const { return wrong_; }
+
+ private:
+  const MachineDescription& machine_;
+  Sentence wrong_;
+};
+
+}  // namespace
+
+Result<Devices, Sentence> make_devices(const MachineDescription& machine) {
+  Devices devices;
+  Maker maker(machine);
+  for (const HeaterDescription& h : machine.heaters)
+    if (auto heater = maker.make(kHeaters, h, "heater." + h.name))
+      devices.add(h.id(), h.name, h.place.node_id, std::move(heater));
+  for (const FanDescription& f : machine.fans)
+    if (auto fan = maker.make(kFans, f, "fan." + f.name))
+      devices.add_fan({f.name, f.index}, f.place.node_id, std::move(fan));
+  for (const OutputDescription& o : machine.outputs)
+    if (auto output = maker.make(kOutputs, o, "output." + o.name))
+      devices.add_output({o.name, o.index}, o.place.node_id, std::move(output));
+  for (const SensorDescription& s : machine.sensors)
+    if (auto sensor = maker.make(kSensors, s, "sensor." + s.name))
+      devices.add_sensor(s.name, s.place.node_id, std::move(sensor));
+  if (machine.spindle.present)
+    if (auto spindle = maker.make(kSpindles, machine.spindle, "spindle"))
+      devices.set_spindle(machine.spindle.place.node_id, std::move(spindle));
+  if (machine.probe.present)
+    if (auto probe = maker.make(kProbes, machine.probe, "probe"))
+      devices.set_probe(machine.probe.place.node_id, std::move(probe));
+  if (!maker.wrong().empty()) return Error<Sentence>(maker.wrong());
+  return devices;
+}
+
+}  // namespace kinebus

@@ -1,0 +1,76 @@
+#include "gateway/devices/simulated.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kinebus {
+namespace {
+
+/// Seconds since the last call; 0 at the first. Time that stands or goes back counts for nothing.
+double elapsed_s(std::optional<BusTime>& last, BusTime now) {
+  if (last && now <= *last) return 0;
+  const double seconds = last ? to_seconds(now - *last) : 0;
+  last = now;
+  return seconds;
+}
+
+}  // namespace
+
+void SimulatedHeater::on_time(BusTime now) {
+  double seconds = elapsed_s(last_, now);
+  HeaterStatus& s = status_;
+  const double ambient = model_.ambient_celsius;
+  // Steps of at most a fifth of the band's own time constant keep the explicit thermostat stable.
+  const double step_s = model_.time_constant_s * model_.band_celsius / model_.rise_celsius / 5;
+  while (seconds > 0) {
+    const double dt = std::min(seconds, step_s);
+    const double hold = (s.target_celsius - ambient) / model_.rise_celsius;
+    const double power =
+        s.target_celsius <= 0
+            ? 0
+            : std::clamp(hold + (s.target_celsius - s.actual_celsius) / model_.band_celsius, 0.0, 1.0);
+    const double end = ambient + model_.rise_celsius * power;
+    s.actual_celsius = end + (s.actual_celsius - end) * std::exp(-dt / model_.time_constant_s);
+    seconds -= dt;
+    // A long step at rest temperature needs no small steps.
+    if (s.target_celsius <= 0 && seconds > 0) {
+      s.actual_celsius = ambient + (s.actual_celsius - ambient) * std::exp(-seconds / model_.time_constant_s);
+      seconds = 0;
+    }
+  }
+}
+
+void SimulatedSpindle::on_time(BusTime now) {
+  const double most = rpm_per_s_ * elapsed_s(last_, now);
+  status_.actual_rpm += std::clamp(status_.target_rpm - status_.actual_rpm, -most, most);
+}
+
+std::unique_ptr<Heater> simulate(const HeaterDescription& heater, const MachineDescription& machine) {
+  return std::make_unique<SimulatedHeater>(
+      HeatModel{.ambient_celsius = machine.thermal.ambient_c,
+                .rise_celsius = heater.sim_power_w / heater.sim_loss_w_per_k,
+                .time_constant_s = heater.sim_heat_capacity_j_per_k / heater.sim_loss_w_per_k,
+                .band_celsius = heater.window_c});
+}
+
+std::unique_ptr<Output> simulate(const FanDescription&, const MachineDescription&) {
+  return std::make_unique<SimulatedOutput>();
+}
+
+std::unique_ptr<Output> simulate(const OutputDescription&, const MachineDescription&) {
+  return std::make_unique<SimulatedOutput>();
+}
+
+std::unique_ptr<Sensor> simulate(const SensorDescription& sensor, const MachineDescription&) {
+  return std::make_unique<SimulatedSensor>(sensor.sim_c);
+}
+
+std::unique_ptr<SpindleDrive> simulate(const SpindleDescription& spindle, const MachineDescription&) {
+  return std::make_unique<SimulatedSpindle>(spindle.sim_rpm_per_s);
+}
+
+std::unique_ptr<ContactProbe> simulate(const ProbeDescription&, const MachineDescription&) {
+  return std::make_unique<SimulatedProbe>();
+}
+
+}  // namespace kinebus

@@ -1,0 +1,80 @@
+#pragma once
+// Devices that are not there: heat is a first-order model with a thermostat, the spindle gains speed evenly,
+// so that waits (M109, M3) take time on the virtual machine too.
+
+#include <memory>
+
+#include "gateway/description/machine_description.hpp"
+#include "gateway/devices/device.hpp"
+
+namespace kinebus {
+
+/// T' = (ambient + rise * power - T) / time_constant, solved exactly for any step; the thermostat is a
+/// proportional band of `band` around the target with the model's own holding power, so the temperature
+/// settles on the target.
+struct HeatModel {
+  double ambient_celsius = 22;
+  double rise_celsius = 320;  ///< above ambient at full power, in the end
+  double time_constant_s = 90;
+  double band_celsius = 4;
+};
+
+class SimulatedHeater : public Heater {
+ public:
+  explicit SimulatedHeater(HeatModel model)
+      : model_(model), status_{.actual_celsius = model.ambient_celsius} {}
+  void set_target(double celsius) override { status_.target_celsius = celsius; }
+  HeaterStatus status() const override { return status_; }
+  void on_time(BusTime now) override;
+
+ private:
+  HeatModel model_;
+  HeaterStatus status_;
+  std::optional<BusTime> last_;
+};
+
+class SimulatedOutput : public Output {
+ public:
+  void set(double ratio) override { ratio_ = ratio; }
+  double ratio() const override { return ratio_; }
+
+ private:
+  double ratio_ = 0;
+};
+
+class SimulatedSpindle : public SpindleDrive {
+ public:
+  explicit SimulatedSpindle(double rpm_per_s) : rpm_per_s_(rpm_per_s) {}
+  void set(double rpm) override { status_.target_rpm = rpm; }
+  SpindleStatus status() const override { return status_; }
+  void on_time(BusTime now) override;
+
+ private:
+  double rpm_per_s_;
+  SpindleStatus status_;
+  std::optional<BusTime> last_;
+};
+
+class SimulatedSensor : public Sensor {
+ public:
+  explicit SimulatedSensor(double celsius) : celsius_(celsius) {}
+  double celsius() const override { return celsius_; }
+
+ private:
+  double celsius_;
+};
+
+class SimulatedProbe : public ContactProbe {
+ public:
+  bool touches() const override { return false; }
+};
+
+// For the registry.
+std::unique_ptr<Heater> simulate(const HeaterDescription& heater, const MachineDescription& machine);
+std::unique_ptr<Output> simulate(const FanDescription& fan, const MachineDescription& machine);
+std::unique_ptr<Output> simulate(const OutputDescription& output, const MachineDescription& machine);
+std::unique_ptr<Sensor> simulate(const SensorDescription& sensor, const MachineDescription& machine);
+std::unique_ptr<SpindleDrive> simulate(const SpindleDescription& spindle, const MachineDescription& machine);
+std::unique_ptr<ContactProbe> simulate(const ProbeDescription& probe, const MachineDescription& machine);
+
+}  // namespace kinebus
