@@ -27,7 +27,10 @@ inline constexpr std::uint8_t kMostOfAKind = 8;  ///< heaters of a kind; fans; o
 struct HeaterId {
   HeaterKind kind = HeaterKind::kHotend;
   std::uint8_t index = 0;
-  friend auto operator<=>(const HeaterId&, const HeaterId&) = default;
+  friend bool operator==(const HeaterId&, const HeaterId&) = default;
+  friend bool operator<(const HeaterId& a, const HeaterId& b) {
+    return a.kind != b.kind ? a.kind < b.kind : a.index < b.index;
+  }
 };
 inline constexpr HeaterId kFirstHotend{HeaterKind::kHotend, 0}, kFirstBed{HeaterKind::kBed, 0};
 

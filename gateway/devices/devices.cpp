@@ -80,6 +80,7 @@ std::vector<NamedHeaterStatus> Devices::heaters() const {
 
 std::vector<OutputStatus> Devices::ratios(const std::vector<KnownOutput>& all) {
   std::vector<OutputStatus> told;
+  told.reserve(all.size());
   for (const KnownOutput& known : all)
     told.push_back({known.name.name, known.name.index, known.output->ratio()});
   return told;

@@ -117,7 +117,7 @@ void StoreFiles::store(const Asked& answer, std::string_view name, std::string t
         if (Sentence broken = JobStore::check_name(name); !broken.empty())
           return Error<StoreError>({StoreError::Kind::kName, broken});
         const fs::path written = store.folder() / kWritten;
-        if (const auto there = write_file(written, text); !there) return there;
+        if (auto there = write_file(written, text); !there) return there;
         return store.adopt(written, name, unix_s);
       },
       [answer](const Result<void, StoreError>& stored) { finish(answer, stored); });

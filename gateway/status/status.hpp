@@ -79,7 +79,7 @@ struct MachineStatus {
   /// Cold and off when there is none.
   HeaterStatus heater(HeaterId id) const {
     for (const NamedHeaterStatus& h : heaters)
-      if (h.id == id) return h;
+      if (h.id == id) return static_cast<const HeaterStatus&>(h);
     return {};
   }
 

@@ -19,7 +19,7 @@ class SocketLink : public Link {
  private:
   /// More than this waits in the socket's own buffer: the caller has to wait, so that urgent commands stay
   /// quick.
-  static constexpr qint64 kMaxWaiting_bytes = 512 * 1024;
+  static constexpr qint64 kMaxWaiting_bytes = qint64{512} * 1024;
   QString path_;
   QLocalSocket socket_;
   bool full_ = false;

@@ -149,7 +149,7 @@ QWidget* PositionPanel::make_heaters() {
       if (desk_.session.connected() && std::abs(target->value() - heater.target_celsius()) > 0.5)
         desk_.session.set_temperature(bed, target->value());
     });
-    says([this, name, bed] { name->setText(bed ? tr("Bed") : tr("Nozzle")); });
+    says([name, bed] { name->setText(bed ? tr("Bed") : tr("Nozzle")); });
   };
   add(0, hotend_, hotend_target_, 300, false);
   add(1, bed_, bed_target_, 120, true);
@@ -157,7 +157,7 @@ QWidget* PositionPanel::make_heaters() {
   fan_ = new QLabel(card);
   grid->addWidget(fan_name, 2, 0);
   grid->addWidget(fan_, 2, 2, Qt::AlignTrailing);
-  says([this, fan_name] { fan_name->setText(tr("Fan")); });
+  says([fan_name] { fan_name->setText(tr("Fan")); });
   card->column()->addLayout(grid);
   return card;
 }

@@ -1,5 +1,7 @@
 #include "node_firmware/board/motor_supervision.hpp"
 
+#include <cmath>
+
 namespace kinebus {
 namespace {
 
@@ -124,8 +126,8 @@ void MotorSupervision::serve_slowly(Node& node, int axis) {
   const motor::AutoTune::State tune = control.tune_state();
   if (tune == motor::AutoTune::State::kDone && served.tune == motor::AutoTune::State::kRuns) {
     const motor::AutoTune::Result result = control.tune_result();
-    node.set_motor(axis, static_cast<std::uint32_t>(result.resistance_ohm * 1e3F + 0.5F),
-                   static_cast<std::uint32_t>(result.inductance_h * 1e6F + 0.5F),
+    node.set_motor(axis, static_cast<std::uint32_t>(std::lround(result.resistance_ohm * 1e3F)),
+                   static_cast<std::uint32_t>(std::lround(result.inductance_h * 1e6F)),
                    control.tuned_encoder_offset());
   }
   served.tune = tune;

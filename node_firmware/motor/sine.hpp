@@ -41,7 +41,8 @@ inline constexpr auto kTable = [] {
   for (std::size_t i = 0; i < table.size(); ++i) {
     // To the nearest quarter, so that the series is short.
     const std::size_t quarter = (i + kTurn / 8) / (kTurn / 4);
-    const double x = (static_cast<double>(i) - static_cast<double>(quarter * (kTurn / 4))) * 2 * kPi / kTurn;
+    const std::size_t nearest = quarter * (kTurn / 4);
+    const double x = (static_cast<double>(i) - static_cast<double>(nearest)) * 2 * kPi / kTurn;
     const double value = (quarter % 2) == 0 ? sine_of(x) : cosine_of(x);
     table[i] = static_cast<float>((quarter % 4) < 2 ? value : -value);
   }

@@ -133,13 +133,13 @@ constexpr void pdo_mapping(Rows& t, const PdoDefault& pdo, std::string_view obje
 
 /// CiA 301: the node's PDOs, all of them can be mapped anew.
 constexpr void pdos(Rows& t, const PdoSet& set) {
-  for (std::uint16_t i = 0; i < set.rpdos.size(); ++i)
+  for (std::size_t i = 0; i < set.rpdos.size(); ++i)
     pdo_parameters(t, set.rpdos[i], kRpdoNames[0][i], static_cast<std::uint16_t>(0x1400 + i), false);
-  for (std::uint16_t i = 0; i < set.rpdos.size(); ++i)
+  for (std::size_t i = 0; i < set.rpdos.size(); ++i)
     pdo_mapping(t, set.rpdos[i], kRpdoNames[1][i], static_cast<std::uint16_t>(0x1600 + i));
-  for (std::uint16_t i = 0; i < set.tpdos.size(); ++i)
+  for (std::size_t i = 0; i < set.tpdos.size(); ++i)
     pdo_parameters(t, set.tpdos[i], kTpdoNames[0][i], static_cast<std::uint16_t>(0x1800 + i), true);
-  for (std::uint16_t i = 0; i < set.tpdos.size(); ++i)
+  for (std::size_t i = 0; i < set.tpdos.size(); ++i)
     pdo_mapping(t, set.tpdos[i], kTpdoNames[1][i], static_cast<std::uint16_t>(0x1A00 + i));
 }
 

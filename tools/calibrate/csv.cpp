@@ -99,7 +99,7 @@ Result<double, CsvError> Csv::quantity(std::size_t row, std::string_view name) c
   if (columns_[*column].unit == 0)
     return Error<CsvError>(
         {0, "column " + std::string(name) + " does not say its unit: name it " + std::string(name) + "_mm"});
-  const auto value = number(row, *column);
+  auto value = number(row, *column);
   if (!value) return value;
   return *value * columns_[*column].unit;
 }

@@ -105,7 +105,7 @@ int watch_job(Client& client) {
 }
 
 std::string upload_job(Client& client, const std::string& file) {
-  const std::string name = std::filesystem::path(file).filename().string();
+  std::string name = std::filesystem::path(file).filename().string();
   ProgressLine line;
   client.upload(file, name, [&](std::uint64_t received, std::uint64_t all) {
     line.show(static_cast<double>(received) / static_cast<double>(std::max<std::uint64_t>(all, 1)),

@@ -116,6 +116,7 @@ std::vector<Candidate> candidates(const Solid& solid, const DecomposeOptions& op
     const std::vector<bool> along = overhang.hanging(n, nullptr);
     const UnheldAbove above(solid.mesh, n, options.max_overhang_rad);
     std::vector<double> left;  // heights along n of what nothing holds now
+    left.reserve(unheld.size());
     for (const LayeredBody::Place& place : unheld) left.push_back(n.dot(place.at));
     std::sort(left.begin(), left.end());
     for (const double height : heights(solid.mesh, hanging, n)) {

@@ -53,7 +53,7 @@ struct Scene {
   void add_face(const std::array<Vector, 3>& corners, const std::string& colour) {
     std::size_t longest = 0;
     const auto edge = [&](std::size_t i) { return (corners[(i + 1) % 3] - corners[i]).norm(); };
-    for (const std::size_t i : {1, 2})
+    for (const std::size_t i : {std::size_t{1}, std::size_t{2}})
       if (edge(i) > edge(longest)) longest = i;
     if (edge(longest) > longest_edge_mm) {
       const Vector middle = (corners[longest] + corners[(longest + 1) % 3]) / 2;

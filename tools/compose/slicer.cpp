@@ -5,14 +5,13 @@
 #include <sys/wait.h>
 
 #include <fcntl.h>
+#include <unistd.h>
 #include <cerrno>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
 #include <vector>
-
-extern char** environ;
 
 namespace kinebus::compose {
 namespace {
@@ -93,7 +92,7 @@ std::string Slicer::slice(const TriangleMesh& piece, const std::string& name, bo
     arguments += fmt::format("--support-material\n--support-material-threshold\n{}\n",
                              static_cast<int>(options_.support_threshold_deg));
   run(arguments + stl, name);
-  const std::string text = read_text(gcode);
+  std::string text = read_text(gcode);
   if (text.empty())
     throw std::runtime_error(name + ": the slicer wrote no G-code:\n" +
                              tail(read_text(folder_ + "/slicer.log")));
@@ -101,7 +100,7 @@ std::string Slicer::slice(const TriangleMesh& piece, const std::string& name, bo
 }
 
 std::string Slicer::to_stl(const std::string& path) const {
-  const std::string stl = folder_ + "/converted.stl";
+  std::string stl = folder_ + "/converted.stl";
   run("--export-stl\n--dont-arrange\n--output\n" + stl + "\n" + path, path);
   return stl;
 }

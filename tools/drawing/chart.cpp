@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <ranges>
 
 namespace kinebus::drawing {
 
@@ -78,7 +77,8 @@ void draw_points(Document& document, const Chart& chart, std::span<const Point> 
 }
 
 void draw_legend(Document& document, Point end, std::span<const LegendEntry> entries) {
-  for (const LegendEntry& entry : std::views::reverse(entries)) {
+  for (auto it = entries.rbegin(); it != entries.rend(); ++it) {
+    const LegendEntry& entry = *it;
     document.text(end, entry.words, {.size = 12, .anchor = Anchor::kEnd});
     end.x -= text_width(entry.words, 12) + 8;
     document.line({end.x - 18, end.y - 4}, {end.x, end.y - 4}, {.stroke = entry.colour, .width = 3});

@@ -210,6 +210,7 @@ void draw_series(Document& document, double top, const PlotData& data, const std
       {.x_step = round_step(chart.x_high, 10), .y_step = step, .title = title, .x_name = "time, s"});
   if (series.size() > 1) {
     std::vector<drawing::LegendEntry> legend;
+    legend.reserve(series.size());
     for (const Series& s : series) legend.push_back({s.name, s.colour});
     drawing::draw_legend(document, {chart.area.right(), top - 12}, legend);
   }

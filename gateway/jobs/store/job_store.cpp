@@ -362,7 +362,7 @@ Result<void, StoreError> JobStore::adopt(const fs::path& written, std::string_vi
     return Error<StoreError>({StoreError::Kind::kName, broken});
   const fs::path path = options_.folder / name;
   if (const auto mark = mark_of(written)) {
-    const auto room = check_room({std::string(name), mark->size_bytes, {}}, 0);
+    auto room = check_room({std::string(name), mark->size_bytes, {}}, 0);
     if (!room && room.error().kind == StoreError::Kind::kQuota) {
       ::unlink(written.c_str());
       return room;

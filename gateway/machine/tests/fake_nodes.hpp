@@ -21,7 +21,7 @@ namespace kinebus {
 class FakeNode final : private SdoObjects {
  public:
   FakeNode(const MachineDescription& machine, std::uint8_t id)
-      : id_(id), sdo_(*this), ideal_(id), fingerprint_(configure_node(machine, id).fingerprint) {
+      : id_(id), sdo_(*this), ideal_(id), fingerprint_(configure_node(machine, id).fingerprint.value()) {
     sdo_.reset(id);
     out_.push_back(heartbeat_frame(NmtState::kInitialising, id));
   }

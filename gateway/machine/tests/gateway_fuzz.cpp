@@ -39,7 +39,7 @@ CanFrame any_frame(Script& script) {
   return frame;
 }
 
-void command(Gateway& gateway, Script& script) {
+void give_command(Gateway& gateway, Script& script) {
   static constexpr const char* kJobs[] = {"G1 X10 F3000\nG1 X0\n", "M109 S60\nG1 X5\n", "G1 X900\n",
                                           "G4 P100\nM0\nG28\n", "G2 X10 Y0 I5 F1200\nM104 S0\n"};
   switch (script.byte() % 14) {
@@ -150,7 +150,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         bench.gateway.on_frame(bench.now, any_frame(script));
         break;
       case 1:
-        command(bench.gateway, script);
+        give_command(bench.gateway, script);
         break;
       case 2:
         bench.run_for(std::chrono::milliseconds{script.byte()});

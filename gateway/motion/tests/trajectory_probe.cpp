@@ -101,13 +101,13 @@ Measured measure(const Kinematics& kinematics, const MotionLimits& limits, const
   for (const auto& line : lines) {
     path.add(line);
     if (const auto ok = planner.add(line); !ok) {
-      m.error = to_string(ok.error());
+      m.error = to_string(ok.error()).english();
       return m;
     }
     if (!planner.wants_more()) pull();
   }
   if (const auto ok = planner.finish(); !ok) {
-    m.error = to_string(ok.error());
+    m.error = to_string(ok.error()).english();
     return m;
   }
   pull();
