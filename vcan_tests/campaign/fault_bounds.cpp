@@ -85,7 +85,7 @@ FaultBounds bounds_of(const Fault& fault) {
       // Steeper ramps that begin 20 us of interrupt latency apart, and end at one tau, are up to a quarter of
       // that apart on the way.
       b.outcomes = kFinished | kContinued | kHomedAgain | kBegunAgain;
-      b.skew_us = 2 + 20 / 4;
+      b.skew_us = 2 + 20.0 / 4;
       break;
     case kFramesCorrupted:
       // Rates, stops and stamps carry check bits; a record is 64 bits full. One that is wrong in spite of the

@@ -4,6 +4,7 @@
 // written only before it is first run or over a reset, where CortexM4 throws all translations away; stores to
 // flash go another way (CortexM4).
 
+// NOLINTBEGIN(bugprone-reserved-identifier): the linker looks for these names.
 extern "C" {
 
 void* __wrap_page_collection_lock_arm(void*, unsigned long, unsigned long);
@@ -17,3 +18,4 @@ void __wrap_page_collection_unlock_arm(void*) {}
 void __wrap_tb_invalidate_phys_page_fast_arm(void*, void*, unsigned long, int, unsigned long) {}
 
 }  // extern "C"
+// NOLINTEND(bugprone-reserved-identifier)

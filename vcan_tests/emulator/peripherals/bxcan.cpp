@@ -13,7 +13,8 @@ constexpr std::uint32_t kErrorInterrupt = 4;  // MSR
 constexpr std::uint32_t kRelease = 0x20, kOverrun = 0x10, kFull = 8;
 constexpr std::uint32_t kTransmitRequest = 1, kRemote = 2, kExtended = 4;
 constexpr std::uint32_t kWarning = 1, kPassive = 2, kOff = 4;
-constexpr Cycle kRecovery = 128 * 11 * (kCoreHz / 1'000'000);  // 128 times 11 recessive bits at 1 Mbit/s
+constexpr Cycle kRecovery =
+    Cycle{128} * 11 * (kCoreHz / 1'000'000);  // 128 times 11 recessive bits at 1 Mbit/s
 
 std::uint32_t identifier(const CanFrame& frame) {
   return frame.extended ? frame.id << 3 | kExtended : frame.id << 21;

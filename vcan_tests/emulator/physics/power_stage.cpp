@@ -9,7 +9,7 @@ namespace {
 constexpr Cycle kMechanicalStep = kCoreHz / 80'000;
 
 Cycle cycles_of(double seconds) {
-  return static_cast<Cycle>(seconds * static_cast<double>(kCoreHz) + 0.5);
+  return static_cast<Cycle>(std::llround(seconds * static_cast<double>(kCoreHz)));
 }
 }  // namespace
 
