@@ -25,7 +25,7 @@ TriangleMesh extrude(const Profile& profile, double depth_mm) {
     const std::size_t next = (i + 1) % n;
     polygons.push_back({i, i + n, next + n, next});
   }
-  return close_mesh(std::move(points), std::move(polygons), "extruded profile").first;
+  return close_mesh(points, std::move(polygons), "extruded profile").first;
 }
 
 TriangleMesh box(const Vector& low, const Vector& high) {
@@ -59,7 +59,7 @@ TriangleMesh column(const std::vector<Vector>& line, double radius_mm) {
       polygons.push_back({a, b, b + kSides, a + kSides});
     }
   }
-  return close_mesh(std::move(points), std::move(polygons), "column").first;
+  return close_mesh(points, std::move(polygons), "column").first;
 }
 
 TriangleMesh t_part() {

@@ -93,7 +93,7 @@ std::string Repair::words() const {
   return out.empty() ? "nothing to repair" : out;
 }
 
-std::pair<TriangleMesh, Repair> close_mesh(std::vector<Vector> given,
+std::pair<TriangleMesh, Repair> close_mesh(const std::vector<Vector>& given,
                                            std::vector<std::vector<std::size_t>> polygons,
                                            const std::string& what) {
   Repair repair;
@@ -146,7 +146,7 @@ std::pair<TriangleMesh, Repair> read_mesh(const std::string& path) {
   std::vector<Vector> converted;
   converted.reserve(points.size());
   for (const auto& p : points) converted.emplace_back(p.x(), p.y(), p.z());
-  return close_mesh(std::move(converted), std::move(polygons), path);
+  return close_mesh(converted, std::move(polygons), path);
 }
 
 Halves cut(const TriangleMesh& mesh, const Plane& plane) {
@@ -178,6 +178,7 @@ std::vector<TriangleMesh> bodies(const TriangleMesh& mesh) {
   Mesh whole = to_cgal(mesh);
   pmp::split_connected_components(whole, parts);
   std::vector<TriangleMesh> out;
+  out.reserve(parts.size());
   for (Mesh& part : parts) out.push_back(from_cgal(part));
   return out;
 }

@@ -23,7 +23,7 @@ struct Repair {
 std::pair<TriangleMesh, Repair> read_mesh(const std::string& path);
 
 /// Closed mesh out of loose polygons; `what` names it in errors.
-std::pair<TriangleMesh, Repair> close_mesh(std::vector<Vector> points,
+std::pair<TriangleMesh, Repair> close_mesh(const std::vector<Vector>& points,
                                            std::vector<std::vector<std::size_t>> polygons,
                                            const std::string& what);
 
