@@ -134,6 +134,7 @@ int run(int argc, char** argv) {
   }
   if (nodes.empty()) nodes = {1};
   std::vector<EmulatedNodeOptions> boards;
+  boards.reserve(nodes.size());
   for (const int node : nodes) boards.push_back(board_of(node));
   live.most_behind = BusTime{std::llround(late_ms * 1e6)};
   InterfacePort can;

@@ -117,7 +117,7 @@ Nearest nearest(const std::vector<Pose>& path, std::size_t from, std::size_t ahe
   for (std::size_t i = from; i + 1 < path.size() && i < from + ahead; ++i) {
     const Pose &a = path[i], &b = path[i + 1];
     double way = 0, along = 0;
-    for (const std::size_t k : {0, 1, 2, 5}) {
+    for (const std::size_t k : std::array<std::size_t, 4>{0, 1, 2, 5}) {
       const double weight = k == 5 ? 0.2 : 1;
       way += weight * (b[k] - a[k]) * (b[k] - a[k]);
       along += weight * (b[k] - a[k]) * (p[k] - a[k]);
