@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <optional>
 #include <utility>
 
@@ -60,8 +59,8 @@ Result<void, ParseError> JobReader::line(std::string_view text, CommandBuffer& o
     }
     if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   }
-  if (const void* nul = std::memchr(text.data(), 0, text.size())) {
-    const auto column = static_cast<std::uint32_t>(static_cast<const char*>(nul) - text.data()) + 1;
+  if (const std::size_t nul = text.find('\0'); nul != std::string_view::npos) {
+    const auto column = static_cast<std::uint32_t>(nul) + 1;
     return refuse({line_, column, say("the text holds a NUL byte: this is not a G-code file")});
   }
   if (too_long)

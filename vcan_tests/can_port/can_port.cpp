@@ -71,6 +71,7 @@ StreamPort::StreamPort(int fd) {
 }
 
 StreamPort::~StreamPort() {
+  if (listener_ >= 0) ::close(listener_);
   if (fd_ >= 0) ::close(fd_);
 }
 
@@ -105,7 +106,7 @@ std::string StreamPort::open(const std::string& path) {
   return error;
 }
 
-std::string StreamPort::wait_at(const std::string& path) {
+std::string StreamPort::listen_at(const std::string& path) {
   // Under its own name only when it listens: who sees it can connect.
   const std::string before = path + ".new";
   const sockaddr_un address = address_of(before);
@@ -113,21 +114,25 @@ std::string StreamPort::wait_at(const std::string& path) {
   const int listener = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
   if (listener < 0) return because(path, "no socket");
   ::unlink(before.c_str());
-  std::string error;
   if (::bind(listener, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
       ::listen(listener, 1) != 0 || ::rename(before.c_str(), path.c_str()) != 0) {
-    error = because(path, "the socket cannot be made");
-  } else {
-    int fd = -1;
-    while (fd < 0 && (fd = ::accept4(listener, nullptr, nullptr, SOCK_CLOEXEC)) < 0 && errno == EINTR) {
-    }
-    if (fd < 0)
-      error = because(path, "nobody came");
-    else
-      take(fd);
+    std::string error = because(path, "the socket cannot be made");
+    ::close(listener);
+    return error;
   }
-  ::close(listener);
-  return error;
+  path_ = path;
+  listener_ = listener;
+  return {};
+}
+
+std::string StreamPort::wait() {
+  int fd = -1;
+  while (fd < 0 && (fd = ::accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC)) < 0 && errno == EINTR) {
+  }
+  if (fd < 0) return because(path_, "nobody came");
+  ::close(std::exchange(listener_, -1));
+  take(fd);
+  return {};
 }
 
 bool StreamPort::send(const CanFrame& frame) {

@@ -76,8 +76,10 @@ class StreamPort final : public CanPort {
 
   /// A Unix socket that somebody listens at, or a device. Empty: open. Otherwise what is wrong.
   std::string open(const std::string& path);
-  /// Makes the Unix socket and waits for the one who connects. Empty: open. Otherwise what is wrong.
-  std::string wait_at(const std::string& path);
+  /// Makes the Unix socket: who sees it can open() it from now on. Empty: made. Otherwise what is wrong.
+  std::string listen_at(const std::string& path);
+  /// After listen_at(): waits for the one who connects. Empty: open. Otherwise what is wrong.
+  std::string wait();
 
   bool send(const CanFrame& frame) override;
   void flush() override;
@@ -89,7 +91,8 @@ class StreamPort final : public CanPort {
   void take(int fd);
   bool fill();
 
-  int fd_ = -1;
+  std::string path_;
+  int listener_ = -1, fd_ = -1;
   bool socket_ = false;
   std::array<std::uint8_t, 256 * kFrameBytes> in_{}, out_{};
   std::size_t in_begin_ = 0, in_end_ = 0, out_begin_ = 0, out_end_ = 0;

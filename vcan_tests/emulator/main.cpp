@@ -139,7 +139,8 @@ int run(int argc, char** argv) {
   live.most_behind = BusTime{std::llround(late_ms * 1e6)};
   InterfacePort can;
   StreamPort stream;
-  std::string error = socket.empty() ? can.open(interface) : stream.wait_at(socket);
+  std::string error = socket.empty() ? can.open(interface) : stream.listen_at(socket);
+  if (error.empty() && !socket.empty()) error = stream.wait();
   if (error.empty())
     error = run_live(image, boards, socket.empty() ? static_cast<CanPort&>(can) : stream, live);
   if (!error.empty()) std::fprintf(stderr, "kinebus-emulate: %s\n", error.c_str());

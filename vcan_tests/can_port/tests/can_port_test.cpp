@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include <filesystem>
-#include <thread>
 #include <vector>
 
 #include "protocol/host/kernel_frame.hpp"
@@ -157,16 +156,14 @@ TEST(StreamPort, MeetsAtAUnixSocket) {
   const std::string path = folder + "/bus";
   StreamPort listener, other;
   EXPECT_NE(other.open(path).find("No such file"), std::string::npos);
-  std::string trouble;
-  std::thread waiting([&] { trouble = listener.wait_at(path); });
-  while (!other.open(path).empty()) std::this_thread::yield();
-  waiting.join();
-  EXPECT_EQ(trouble, "");
+  ASSERT_EQ(listener.listen_at(path), "");
+  EXPECT_EQ(other.open(path), "");
+  EXPECT_EQ(listener.wait(), "");
   ASSERT_TRUE(other.send(numbered(5)));
   other.flush();
   EXPECT_EQ(all_of(listener), std::vector{numbered(5)});
-  EXPECT_NE(StreamPort().wait_at(folder + "/none/bus").find("cannot be made"), std::string::npos);
-  EXPECT_NE(StreamPort().wait_at(std::string(200, 'x')).find("103"), std::string::npos);
+  EXPECT_NE(StreamPort().listen_at(folder + "/none/bus").find("cannot be made"), std::string::npos);
+  EXPECT_NE(StreamPort().listen_at(std::string(200, 'x')).find("103"), std::string::npos);
   std::filesystem::remove_all(folder);
 }
 
