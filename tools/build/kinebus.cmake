@@ -1,5 +1,5 @@
 # How every target of Kinebus is built. Targets are layers: a library lists the layers it may include, so an
-# include of a layer that is not linked does not compile (include paths travel with the targets' links).
+# include of a layer that is not linked does not compile (include_roots.cmake).
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
@@ -24,7 +24,6 @@ if(CCACHE)
 endif()
 
 add_library(kinebus_options INTERFACE)
-target_include_directories(kinebus_options INTERFACE ${PROJECT_SOURCE_DIR})
 target_compile_options(kinebus_options INTERFACE
   -Wall -Wextra -Wconversion -Wshadow -Werror
   # Identical arithmetic on every platform and build: no fused multiply-add behind our back.
