@@ -31,6 +31,15 @@ std::size_t chunk_bytes(const ChunkHead& head, std::size_t data_bytes) {
          CodedOutputStream::VarintSize32(kData) + CodedOutputStream::VarintSize64(data_bytes) + data_bytes;
 }
 
+/// A length, by the library's rule: at most five bytes, and below 2^31.
+bool read_length(CodedInputStream& in, std::uint32_t& length) {
+  const int begin = in.CurrentPosition();
+  std::uint64_t value = 0;
+  if (!in.ReadVarint64(&value) || in.CurrentPosition() - begin > 5 || value > 0x7FFF'FFFF) return false;
+  length = static_cast<std::uint32_t>(value);
+  return true;
+}
+
 /// The fields of the chunk itself, which are all that is left in `in`.
 bool read_fields(CodedInputStream& in, std::span<const std::uint8_t> message, ChunkView& view) {
   while (const std::uint32_t field = in.ReadTag()) {
@@ -40,7 +49,7 @@ bool read_fields(CodedInputStream& in, std::span<const std::uint8_t> message, Ch
       if (!in.ReadVarint64(&view.head.offset_bytes)) return false;
     } else if (field == kData) {
       std::uint32_t size = 0;
-      if (!in.ReadVarint32(&size)) return false;
+      if (!read_length(in, size)) return false;
       const auto begin = static_cast<std::size_t>(in.CurrentPosition());
       if (size > message.size() - begin || !in.Skip(static_cast<int>(size))) return false;
       view.data = {reinterpret_cast<const char*>(message.data()) + begin, size};
@@ -86,7 +95,7 @@ std::optional<ChunkView> read_chunk(std::span<const std::uint8_t> message) {
       if (!in.ReadVarint32(&view.head.request_id)) return std::nullopt;
     } else if (field == kChunk && !found) {
       std::uint32_t size = 0;
-      if (!in.ReadVarint32(&size)) return std::nullopt;
+      if (!read_length(in, size)) return std::nullopt;
       if (size > message.size() - static_cast<std::size_t>(in.CurrentPosition())) return std::nullopt;
       const auto outer = in.PushLimit(static_cast<int>(size));
       if (!read_fields(in, message, view)) return std::nullopt;

@@ -59,6 +59,21 @@ TEST(UploadChunk, FieldsThatAreNotThereAreZeroAndEmpty) {
   EXPECT_TRUE(read->data.empty());
 }
 
+TEST(UploadChunk, LengthsThatTheLibraryRefusesAreNone) {
+  for (const std::string& length :
+       {std::string("\x80\x80\x80\x80\x80\x80\x80\x80\x00", 9), std::string("\x80\x80\x80\x80\x10"),
+        std::string("\xff\xff\xff\xff\x0f")}) {
+    const std::string message = "\xaa\x01" + length;
+    ClientMessage parsed;
+    EXPECT_FALSE(parsed.ParseFromString(message));
+    EXPECT_FALSE(read_chunk(message_bytes(message)));
+  }
+  const std::string four("\xaa\x01\x80\x80\x80\x00", 6);  // longer than needed, but allowed
+  ClientMessage parsed;
+  EXPECT_TRUE(parsed.ParseFromString(four));
+  EXPECT_TRUE(read_chunk(message_bytes(four)));
+}
+
 TEST(UploadChunk, OtherMessagesAndHalfOnesAreNone) {
   ClientMessage ping;
   ping.set_request_id(3);
