@@ -298,7 +298,6 @@ constexpr std::array kM = {
     m(862, M::kHarmless, true, "", "printer checks"),
     m(863, M::kHarmless, true, "", "tool mapping"),
     m(871, M::kHarmless, true, "", "probe temperature"),
-    m(876, M::kHarmless, true, "", "prompt answer"),
     m(881, M::kHarmless, true, "", "filament"),
     m(900, M::kHarmless, true, "", "pressure advance"),
     m(906, M::kHarmless, true, "", "motor currents"),

@@ -17,8 +17,7 @@ bool Core::run_modes() {
   }
   if (has('F') && !m.inverse_time && !run_feed_word()) return false;
   if (has('T')) {
-    // On a mill the operator puts in whatever tool is asked for.
-    const int last = options_.spindle ? 99999 : options_.tools - 1;
+    const int last = options_.tools - 1;
     if (block_['T'] == -1 && !block_.is_bare('T')) {
       pass_over('T');  // RepRapFirmware: no tool
     } else {

@@ -65,7 +65,7 @@ bool Core::run_motion() {
       return run_spline(code);
     }
     if (code.number < 730 || code.number == 800) m.cycle = 0;
-    if (code.number == 800 && !options_.spindle && (block_.present & bits("WH")) != 0) {
+    if (code.number == 800 && (block_.present & bits("WH")) != 0) {
       // Printers level the named part of the bed.
       used_ |= block_.present & bits("XYWHNPC");
       note(kNoteForLevelling, say("%1 has no effect on this machine", "G80 X Y W H"));

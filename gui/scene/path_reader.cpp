@@ -42,6 +42,7 @@ gcode::Options PathReader::any_machine() {
   options.a_min_rad = -std::numbers::pi / 2;
   options.a_max_rad = std::numbers::pi / 2;
   options.spindle = true;
+  options.tools = 100'000;
   options.retract_length_mm = 0.8;
   options.retract_mm_per_s = options.recover_mm_per_s = 35;
   return options;
