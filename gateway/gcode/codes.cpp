@@ -454,7 +454,7 @@ struct Word {
 constexpr std::array<Word, 9> kOWords = {{
     {"sub",
      "oN sub ... oN endsub: a subroutine; #1 to #30 and #<name> are its own, the arguments are #1 ..."},
-    {"call", "oN call [1] [2] ...: carries out a subroutine, o<name> call also a macro of the machine file"},
+    {"call", "oN call [1] [2] ...: carries out a subroutine, o<name> call also a macro"},
     {"return", "oN return [value], oN endsub [value]: back to the call; the value is #<_value>"},
     {"if", "oN if [..] ... oN elseif [..] ... oN else ... oN endif"},
     {"while", "oN while [..] ... oN endwhile"},

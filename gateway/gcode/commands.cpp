@@ -1,4 +1,4 @@
-// Words of Klipper that begin a line, and macros of the machine file: START_PRINT BED=60 HOTEND=210.
+// Words of Klipper that begin a line, and macros: START_PRINT BED=60 HOTEND=210.
 
 #include <algorithm>
 #include <cmath>
@@ -147,8 +147,7 @@ bool Core::run_command() {
     emit(command);
     return true;
   }
-  return fail(column, say("%1 is unknown: a macro of this name would stand in the machine file as [macro.%1]",
-                          std::string(block_.command)));
+  return fail(column, say("%1 is unknown", std::string(block_.command)));
 }
 
 }  // namespace kinebus::gcode

@@ -175,8 +175,7 @@ bool Core::program_call(Code code) {
     for (char& c : small)
       if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + ('a' - 'A'));
     if (find_macro(small) == nullptr)
-      return fail(block_.text_column,
-                  say("the machine file has no macro %1: add [macro.%1]", std::string(name)));
+      return fail(block_.text_column, say("there is no macro %1", std::string(name)));
     call_.what = ProgramCall::What::kMacro;
     call_.name = small;
     return true;

@@ -2585,10 +2585,6 @@
         <translation>سرعت برشی ثابت (G96) ماشین تراش می‌خواهد</translation>
     </message>
     <message>
-        <source>%1 is unknown: a macro of this name would stand in the machine file as [macro.%1]</source>
-        <translation>%1 ناشناخته است: ماکرویی به این نام در پروندهٔ ماشین به صورت [macro.%1] می‌ایستد</translation>
-    </message>
-    <message>
         <source>A is taken for extrusion (E), as the slicer in the file&apos;s header writes it</source>
         <translation>A به جای اکستروژن (E) گرفته می‌شود، چنان که برش‌دهندهٔ سرآغاز پرونده می‌نویسد</translation>
     </message>
@@ -2657,8 +2653,8 @@
         <translation>M99 P پشتیبانی نمی‌شود: M99 به فراخوانی بازمی‌گردد</translation>
     </message>
     <message>
-        <source>the machine file has no macro %1: add [macro.%1]</source>
-        <translation>پروندهٔ ماشین ماکروی %1 ندارد: [macro.%1] را بیفزایید</translation>
+        <source>there is no macro %1</source>
+        <translation>ماکروی %1 وجود ندارد</translation>
     </message>
     <message>
         <source>M98 needs the program P</source>

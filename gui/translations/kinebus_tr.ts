@@ -2585,10 +2585,6 @@
         <translation>sabit kesme hızı (G96) torna ister</translation>
     </message>
     <message>
-        <source>%1 is unknown: a macro of this name would stand in the machine file as [macro.%1]</source>
-        <translation>%1 bilinmiyor: bu adda bir makro makine dosyasında [macro.%1] olarak dururdu</translation>
-    </message>
-    <message>
         <source>A is taken for extrusion (E), as the slicer in the file&apos;s header writes it</source>
         <translation>A, dosya başlığındaki dilimleyicinin yazdığı gibi ekstrüzyon (E) sayılıyor</translation>
     </message>
@@ -2657,8 +2653,8 @@
         <translation>M99 P desteklenmiyor: M99 çağrıya geri döner</translation>
     </message>
     <message>
-        <source>the machine file has no macro %1: add [macro.%1]</source>
-        <translation>makine dosyasında %1 makrosu yok: [macro.%1] ekleyin</translation>
+        <source>there is no macro %1</source>
+        <translation>%1 makrosu yok</translation>
     </message>
     <message>
         <source>M98 needs the program P</source>
