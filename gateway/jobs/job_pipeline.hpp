@@ -86,6 +86,8 @@ class JobPipeline {
 
   void begin(const Pose& start);
   void refuse(std::uint32_t line, std::uint32_t column, Sentence words);
+  void number_commands();
+  std::uint32_t line_of(std::uint32_t place);
   std::optional<Step> take_phase();
   std::optional<Step> settle();
   void read_text(int& budget);
@@ -103,6 +105,13 @@ class JobPipeline {
   ByteSource* source_ = nullptr;
   std::vector<char> text_;  ///< read, not yet interpreted: from text_at_ to text_end_
   std::size_t text_at_ = 0, text_end_ = 0;
+
+  // Inside, a command's line is its place in the order in which lines are carried out, which loops and
+  // subroutines make differ from the text's. While it is the same, nothing is noted.
+  struct Place {
+    std::uint32_t place = 0, line = 0;
+  };
+  std::deque<Place> places_;  ///< from here on: this line
 
   gcode::CommandBuffer commands_;  ///< interpreted, not yet taken: from next_command_ on
   std::size_t next_command_ = 0;

@@ -90,7 +90,7 @@ TEST(Preflight, RefusalsInTheSameWordsAreToldOnceAndCounted) {
 }
 
 TEST(Preflight, LinesThatEndWithReturnsAloneAreRead) {
-  const Checked c = check("G1 X10 F3000\rG1 X5000\rG1 X0\rG99\rG4 S2\r");
+  const Checked c = check("G1 X10 F3000\rG1 X5000\rG1 X0\rG199\rG4 S2\r");
   ASSERT_EQ(c.problems.errors(), 2u);
   EXPECT_EQ(c.problems.all()[0].line + c.problems.all()[1].line, 2u + 4u);
   EXPECT_NEAR(c.report.dwell_s, 2, 1e-9);
