@@ -135,10 +135,9 @@ std::optional<SteinhartHart> thermistor_curve(const SensorSetup& setup) {
 SetupError Linearisation::configure(const SensorSetup& setup) {
   kind_ = SensorKind::kNone;
   const bool rtd = setup.kind == SensorKind::kPt100 || setup.kind == SensorKind::kPt1000;
-  const bool named = std::any_of(kNamed.begin(), kNamed.end(),
-                                 [&](const Named& each) { return each.kind == setup.kind; });
-  const bool custom =
-      setup.kind == SensorKind::kCustomBeta || setup.kind == SensorKind::kCustomThreePoints;
+  const bool named =
+      std::any_of(kNamed.begin(), kNamed.end(), [&](const Named& each) { return each.kind == setup.kind; });
+  const bool custom = setup.kind == SensorKind::kCustomBeta || setup.kind == SensorKind::kCustomThreePoints;
   if (!rtd && !named && !custom) return SetupError::kUnknownKind;
   if (setup.reference_mohm < 10'000 || (setup.path == SensorPath::kMax31865 && !rtd))
     return SetupError::kReference;
@@ -169,8 +168,8 @@ SetupError Linearisation::configure(const SensorSetup& setup) {
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const double u = (start_ + static_cast<double>(i) * (1 << shift_)) / kCoordinateOne;
     const double resistance = logarithmic_ ? reference * exponential(u * kLn2) : reference * u;
-    points_[i] = milli(rtd ? rtd_celsius(nominal, resistance)
-                           : curve->kelvin(natural_log(resistance)) - kZeroCelsius);
+    points_[i] =
+        milli(rtd ? rtd_celsius(nominal, resistance) : curve->kelvin(natural_log(resistance)) - kZeroCelsius);
   }
   const auto ratio_at = [&](std::int32_t mc) {
     const double resistance = rtd ? callendar_van_dusen(nominal, celsius(mc))

@@ -27,11 +27,11 @@ enum class SensorKind : std::uint16_t {
   kSemitec104Nt4 = 10003,  ///< 104NT-4-R025H42G
   kGeneric3950 = 10004,
   kSlice450 = 10005,
-  kNtc100kMgb18 = 10006,        ///< MGB18-104F39050L32
-  kHoneywell100k = 10007,       ///< 135-104LAG-J01
-  kTdkNtcg104 = 10008,          ///< NTCG104LH104JT1
-  kCustomBeta = 10100,          ///< 2202h, 2203h
-  kCustomThreePoints = 10101,   ///< 2204h to 2209h
+  kNtc100kMgb18 = 10006,       ///< MGB18-104F39050L32
+  kHoneywell100k = 10007,      ///< 135-104LAG-J01
+  kTdkNtcg104 = 10008,         ///< NTCG104LH104JT1
+  kCustomBeta = 10100,         ///< 2202h, 2203h
+  kCustomThreePoints = 10101,  ///< 2204h to 2209h
 };
 
 enum class SensorPath : std::uint8_t { kDivider = 0, kMax31865 = 1 };

@@ -12,7 +12,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-double max_error(const SensorSetup& setup, double from, double to, double (*ohm_at)(const SensorSetup&, double)) {
+double max_error(const SensorSetup& setup, double from, double to,
+                 double (*ohm_at)(const SensorSetup&, double)) {
   Linearisation table;
   EXPECT_EQ(table.configure(setup), SetupError::kNone);
   double worst = 0;
@@ -95,8 +96,14 @@ TEST(Thermometry, KnowsEightThermistorsByName) {
     std::uint16_t number;
     double ohm_at_25;
   };
-  for (const Known known : {Known{10001, 100e3}, {10002, 100e3}, {10003, 100e3}, {10004, 100e3},
-                            {10005, 500e3}, {10006, 100e3}, {10007, 100e3}, {10008, 100e3}}) {
+  for (const Known known : {Known{10001, 100e3},
+                            {10002, 100e3},
+                            {10003, 100e3},
+                            {10004, 100e3},
+                            {10005, 500e3},
+                            {10006, 100e3},
+                            {10007, 100e3},
+                            {10008, 100e3}}) {
     SensorSetup setup{.kind = static_cast<SensorKind>(known.number), .low_mc = 0};
     Linearisation table;
     ASSERT_EQ(table.configure(setup), SetupError::kNone) << known.number;
