@@ -5,7 +5,6 @@
 namespace kinebus::heat {
 namespace {
 
-
 std::uint32_t limited(std::int64_t power, std::uint32_t most) {
   return static_cast<std::uint32_t>(std::clamp<std::int64_t>(power, 0, most));
 }
@@ -29,8 +28,7 @@ std::uint32_t PidControl::step(std::int32_t target, std::int32_t measured, std::
   // Of the measurement, so that a new target gives no kick; smoothed over 8 ticks.
   slope_ += (static_cast<std::int64_t>(measured - last_) * 256 - slope_) / 8;
   last_ = measured;
-  const std::int64_t straight =
-      error * proportional_ - ((slope_ * derivative_gain_) >> 16) * proportional_;
+  const std::int64_t straight = error * proportional_ - ((slope_ * derivative_gain_) >> 16) * proportional_;
   const std::int64_t power = (straight + sum_) >> 16;
   const bool winds_up = (power >= most && error > 0) || (power <= 0 && error < 0);
   if (!winds_up) sum_ += (error * proportional_ >> 16) * integral_gain_ >> 16;
@@ -50,7 +48,8 @@ std::uint32_t ModelControl::step(std::int32_t target, const ThermalModel& model,
 }
 
 PidParameters pid_for(const ModelParameters& m) {
-  // Band = rate * 2 * dead time as control sees it; its integral is slow enough not to overshoot an integrator.
+  // Band = rate * 2 * dead time as control sees it; its integral is slow enough not to overshoot an
+  // integrator.
   const std::uint64_t dead_ms = m.dead_ms + m.lag_ms / 2 + 100;
   return {.band_mc = static_cast<std::uint32_t>(m.rate_mc_per_s * 2 * dead_ms / 1000),
           .integral_ms = static_cast<std::uint32_t>(8 * dead_ms),

@@ -9,9 +9,9 @@ namespace kinebus::heat {
 
 /// The words of CiA 404: proportional band, integral and derivative time.
 struct PidParameters {
-  std::uint32_t band_mc = 30'000;      ///< Xp: error that asks for full power
-  std::uint32_t integral_ms = 40'000;  ///< Tn; 0: none
-  std::uint32_t derivative_ms = 4'000; ///< Tv
+  std::uint32_t band_mc = 30'000;       ///< Xp: error that asks for full power
+  std::uint32_t integral_ms = 40'000;   ///< Tn; 0: none
+  std::uint32_t derivative_ms = 4'000;  ///< Tv
 };
 
 class PidControl {
@@ -22,11 +22,11 @@ class PidControl {
   std::uint32_t step(std::int32_t target, std::int32_t measured, std::uint32_t most);
 
  private:
-  std::int64_t proportional_ = 0;           // kFullPower a mC, 16 fractional bits
-  std::int64_t integral_gain_ = 0;          // a tick, 32 fractional bits of the proportional part
-  std::int64_t derivative_gain_ = 0;        // ticks, 8 fractional bits
-  std::int64_t sum_ = 0;                    // 16 fractional bits
-  std::int64_t slope_ = 0;                  // mC a tick, smoothed, 8 fractional bits
+  std::int64_t proportional_ = 0;     // kFullPower a mC, 16 fractional bits
+  std::int64_t integral_gain_ = 0;    // a tick, 32 fractional bits of the proportional part
+  std::int64_t derivative_gain_ = 0;  // ticks, 8 fractional bits
+  std::int64_t sum_ = 0;              // 16 fractional bits
+  std::int64_t slope_ = 0;            // mC a tick, smoothed, 8 fractional bits
   std::int32_t last_ = 0;
 };
 

@@ -86,8 +86,8 @@ std::uint32_t HeatTuning::step(std::int32_t measured, std::uint32_t power) {
   return 0;
 }
 
-// With dead time and lag given, ts - start = rate * integral(delayed and lagged power) - loss * integral(ts - room):
-// two unknowns, straight.
+// With dead time and lag given, ts - start = rate * integral(delayed and lagged power) - loss * integral(ts -
+// room): two unknowns, straight.
 HeatTuning::Trial HeatTuning::fit(double dead_s, double lag_s) const {
   Trial trial{.dead_s = dead_s, .lag_s = lag_s};
   const double dt = kTickSeconds * ticks_a_sample_;
@@ -169,13 +169,16 @@ void HeatTuning::search() {
 }
 
 void HeatTuning::finish() {
-  const auto rounded = [](double value) { return static_cast<std::uint32_t>(std::clamp(value, 0.0, 1e9) + 0.5); };
+  const auto rounded = [](double value) {
+    return static_cast<std::uint32_t>(std::clamp(value, 0.0, 1e9) + 0.5);
+  };
   result_ = {.rate_mc_per_s = rounded(best_.rate * 1000),
              .loss_ppm_per_s = rounded(best_.loss * 1e6),
              .lag_ms = std::max<std::uint32_t>(rounded(best_.lag_s * 1000), 100),
              .dead_ms = rounded(best_.dead_s * 1000)};
   residual_mc_ = rounded(square_root(best_.residual) * 1000);
-  // A curve of another kind: half a degree and 2 % of the rise are noise and the lumps that the model leaves out.
+  // A curve of another kind: half a degree and 2 % of the rise are noise and the lumps that the model leaves
+  // out.
   const std::uint32_t allowed = 500 + static_cast<std::uint32_t>(peak_ - start_) / 50;
   if (!result_.usable() || residual_mc_ > allowed) {
     fail(Failure::kNoModel);

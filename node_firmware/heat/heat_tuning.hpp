@@ -22,9 +22,9 @@ class HeatTuning {
     kNoModel,        ///< no model of this kind fits the curve
   };
   /// A bed of 300 W takes some minutes.
-  static constexpr std::uint32_t kLongest = 20 * 60 * 10;   // ticks
-  static constexpr std::uint32_t kNoRiseAfter = 60 * 10;    // ticks
-  static constexpr std::int32_t kLeastWay = 40'000;         // mC
+  static constexpr std::uint32_t kLongest = 20 * 60 * 10;  // ticks
+  static constexpr std::uint32_t kNoRiseAfter = 60 * 10;   // ticks
+  static constexpr std::int32_t kLeastWay = 40'000;        // mC
 
   void begin(std::int32_t measured, std::int32_t target, std::int32_t limit);
   void stop() { state_ = State::kIdle; }
@@ -44,8 +44,8 @@ class HeatTuning {
   static constexpr std::size_t kSamples = 240;
   struct Trial {
     double dead_s = 0, lag_s = 0;
-    double rate = 0, loss = 0;      // K/s of full power; 1/s
-    double residual = 1e30;         // K^2
+    double rate = 0, loss = 0;  // K/s of full power; 1/s
+    double residual = 1e30;     // K^2
   };
   std::uint32_t fail(Failure failure);
   void record(std::int32_t measured, std::uint32_t power);

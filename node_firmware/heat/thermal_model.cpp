@@ -24,8 +24,8 @@ void ThermalModel::configure(const ModelParameters& p) {
   lag_ = ((kTickMs << 32) / (p.lag_ms + static_cast<std::uint32_t>(kTickMs) / 2));
   dead_ = p.dead_ms / static_cast<std::uint32_t>(kTickMs);
   dead_part_ = p.dead_ms % static_cast<std::uint32_t>(kTickMs) * 256 / static_cast<std::uint32_t>(kTickMs);
-  // The observer's three poles lie at 1 / (half of the dead time and lag, and 1 s): what is faster is noise, or
-  // a model that is a little wrong.
+  // The observer's three poles lie at 1 / (half of the dead time and lag, and 1 s): what is faster is noise,
+  // or a model that is a little wrong.
   const std::int64_t time_ms = (p.dead_ms + p.lag_ms) / 2 + 1000;
   const std::int64_t pole = (kTickMs << 16) / time_ms;  // a tick, 16 fractional bits
   const std::int64_t lag = lag_ >> 16;

@@ -6,7 +6,8 @@
 //   sensor  dTs/dt = (Tb - Ts) / lag
 //
 // u is the share of full power at the nominal supply. The disturbance is what the model does not know: fan,
-// filament, a chamber; and, when it is large, a fault. Integers only; temperatures mC with 16 fractional bits.
+// filament, a chamber; and, when it is large, a fault. Integers only; temperatures mC with 16 fractional
+// bits.
 
 #include <array>
 #include <cstdint>
@@ -53,8 +54,8 @@ class ThermalModel {
   std::int32_t block_ahead() const;
   /// Parts of kFullPower (signed): so much more heat comes than the model knows; negative: is missing.
   std::int32_t disturbance() const;
-  /// Power that keeps the block at `mc`, and moves it there from `block_ahead` with `gain` (16 fractional bits) a
-  /// tick. Signed and unlimited: 0 and full power are the caller's.
+  /// Power that keeps the block at `mc`, and moves it there from `block_ahead` with `gain` (16 fractional
+  /// bits) a tick. Signed and unlimited: 0 and full power are the caller's.
   std::int32_t power_for(std::int32_t mc, std::int32_t ahead, std::int32_t gain) const;
   /// Power that keeps the block at `mc` without any disturbance.
   std::int32_t holding_power(std::int32_t mc) const;
@@ -70,8 +71,8 @@ class ThermalModel {
   std::int64_t share_of(std::int64_t heat) const;
 
   ModelParameters parameters_{};
-  std::int64_t heat_ = 0;        // of full power a tick, mC with 16 fractional bits
-  std::int64_t reciprocal_ = 0;  // 2^48 / heat_
+  std::int64_t heat_ = 0;            // of full power a tick, mC with 16 fractional bits
+  std::int64_t reciprocal_ = 0;      // 2^48 / heat_
   std::int64_t loss_ = 0, lag_ = 0;  // a tick, 32 fractional bits
   std::int64_t gain_sensor_ = 0, gain_block_ = 0, gain_disturbance_ = 0;  // 16 fractional bits
   std::uint32_t dead_ = 0, dead_part_ = 0;                                // ticks, and 1/256 of one

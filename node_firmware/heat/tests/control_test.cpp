@@ -69,14 +69,15 @@ Heating heat_by_model(Rig& rig, const ModelParameters& parameters, double target
   return run;
 }
 
-// The shortest time in which the sensor can be there to stay: full power until the one right moment, then what holds;
-// found by trying moments on a plant without noise.
+// The shortest time in which the sensor can be there to stay: full power until the one right moment, then
+// what holds; found by trying moments on a plant without noise.
 double shortest_time(const PlantParameters& parameters, double target) {
   PlantParameters quiet = parameters;
   const double above = target - quiet.ambient_c, kelvin = target + 273.15, room = quiet.ambient_c + 273.15;
   const double lost =
       above * quiet.loss_w_per_k + quiet.radiation_w_per_k4 * (std::pow(kelvin, 4) - std::pow(room, 4));
-  const double hold = (lost + (above + lost / quiet.heater_w_per_k) * ThermalPlant::kHeaterLoss) / quiet.power_w;
+  const double hold =
+      (lost + (above + lost / quiet.heater_w_per_k) * ThermalPlant::kHeaterLoss) / quiet.power_w;
   const auto try_moment = [&](double off, double& settled) {
     ThermalPlant plant(quiet);
     double peak = 0;
@@ -134,8 +135,8 @@ TEST(Tuning, HotEndsOfAllKindsAreReachedWithoutOvershoot) {
     worst_overshoot = std::max(worst_overshoot, run.overshoot);
     worst_ratio = std::max(worst_ratio, run.settled_s / shortest);
   }
-  std::printf("50 hot ends: overshoot at most %.2f K, settled in at most %.2f of the shortest time\n", worst_overshoot,
-              worst_ratio);
+  std::printf("50 hot ends: overshoot at most %.2f K, settled in at most %.2f of the shortest time\n",
+              worst_overshoot, worst_ratio);
 }
 
 TEST(Tuning, ABedThatTakesMinutesIsMeasuredToo) {

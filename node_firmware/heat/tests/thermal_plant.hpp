@@ -1,7 +1,8 @@
 #pragma once
-// A hot end or bed as it is, in double precision, for tests: heater, block and sensor as three lumps, a dead time, loss
-// by convection and radiation, filament and fan, a converter of 12 bits with noise, and everything that can break. It is
-// another model than that of the controller, with more in it, and its numbers are its own.
+// A hot end or bed as it is, in double precision, for tests: heater, block and sensor as three lumps, a dead
+// time, loss by convection and radiation, filament and fan, a converter of 12 bits with noise, and everything
+// that can break. It is another model than that of the controller, with more in it, and its numbers are its
+// own.
 
 #include <algorithm>
 #include <array>
@@ -15,18 +16,18 @@
 namespace kinebus::heat {
 
 struct PlantParameters {
-  double power_w = 40;           // at the nominal supply
+  double power_w = 40;  // at the nominal supply
   double supply_v = 24, nominal_v = 24;
-  double heater_j_per_k = 2.5;   // the cartridge
-  double heater_w_per_k = 4;     // cartridge to block
+  double heater_j_per_k = 2.5;  // the cartridge
+  double heater_w_per_k = 4;    // cartridge to block
   double block_j_per_k = 14;
-  double loss_w_per_k = 0.06;    // to the air
+  double loss_w_per_k = 0.06;  // to the air
   double radiation_w_per_k4 = 3e-11;
-  double fan_w_per_k = 0.03;     // more, with the fan full on
+  double fan_w_per_k = 0.03;  // more, with the fan full on
   double sensor_lag_s = 1.5;
-  double dead_s = 1.2;           // transport: the sensor feels the block of that long ago
+  double dead_s = 1.2;  // transport: the sensor feels the block of that long ago
   double filament_j_per_mm3k = 0.0023;
-  double noise_k = 0.05;         // rms of one sample, before the converter's steps
+  double noise_k = 0.05;  // rms of one sample, before the converter's steps
   double ambient_c = 22;
 };
 
@@ -37,13 +38,13 @@ class ThermalPlant {
 
   // What can break, at any time.
   bool sensor_open = false, sensor_short = false;
-  double sensor_contact = 1;    // of the sensor with the block: 0 hangs in air
-  double heater_contact = 1;    // of the cartridge with the block
-  double series_ohm = 0;        // a bad plug
+  double sensor_contact = 1;  // of the sensor with the block: 0 hangs in air
+  double heater_contact = 1;  // of the cartridge with the block
+  double series_ohm = 0;      // a bad plug
   bool mosfet_stuck = false;
   bool mosfet_open = false;
-  bool silent = false;          // the converter says nothing
-  bool frozen = false;          // the converter repeats itself
+  bool silent = false;  // the converter says nothing
+  bool frozen = false;  // the converter repeats itself
   bool contactor = true;
   double fan = 0, flow_mm3_per_s = 0;
 
@@ -62,8 +63,9 @@ class ThermalPlant {
     const double own_loss = (heater_ - p.ambient_c) * kHeaterLoss;
     heater_ += (given - across - own_loss) / p.heater_j_per_k * kStep;
     const double above = block_ - p.ambient_c, kelvin = block_ + 273.15, room = p.ambient_c + 273.15;
-    const double lost = above * (p.loss_w_per_k + fan * p.fan_w_per_k + flow_mm3_per_s * p.filament_j_per_mm3k) +
-                        p.radiation_w_per_k4 * (kelvin * kelvin * kelvin * kelvin - room * room * room * room);
+    const double lost =
+        above * (p.loss_w_per_k + fan * p.fan_w_per_k + flow_mm3_per_s * p.filament_j_per_mm3k) +
+        p.radiation_w_per_k4 * (kelvin * kelvin * kelvin * kelvin - room * room * room * room);
     block_ += (across - lost) / p.block_j_per_k * kStep;
     past_.push_back(block_);
     const double felt = past_.front();
