@@ -26,7 +26,8 @@ void Fan::step(LocalTime now, std::int32_t hot_end_mc, bool fault) {
   if (settings_.pulses_per_turn == 0) return;
   counted_ += pulses;
   if (++ticks_ == kRpmTicks) {
-    rpm_ = static_cast<std::uint16_t>(std::min<std::uint32_t>(counted_ * 60 / settings_.pulses_per_turn, 65'535));
+    rpm_ = static_cast<std::uint16_t>(
+        std::min<std::uint32_t>(counted_ * 60 / settings_.pulses_per_turn, 65'535));
     counted_ = ticks_ = 0;
   }
   if (pulses != 0 || output_ == 0) turned_at_ = now;

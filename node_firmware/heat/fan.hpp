@@ -8,16 +8,16 @@
 namespace kinebus::heat {
 
 enum class FanFunction : std::uint8_t {
-  kFree = 0,     ///< by its command alone
-  kHotEnd = 1,   ///< full on while its heater is warmer than kHotEndFanFrom, and at a fault
+  kFree = 0,    ///< by its command alone
+  kHotEnd = 1,  ///< full on while its heater is warmer than kHotEndFanFrom, and at a fault
 };
 
 struct FanSettings {
   FanFunction function = FanFunction::kFree;
-  std::uint8_t heater = 0;              ///< 1..: of kHotEnd
-  std::uint16_t kick_ms = 200;          ///< full power so long when it starts; 0: none
-  std::uint8_t least_duty = 15;         ///< per cent: below, it would stand
-  std::uint8_t pulses_per_turn = 0;     ///< of the tacho; 0: has none
+  std::uint8_t heater = 0;           ///< 1..: of kHotEnd
+  std::uint16_t kick_ms = 200;       ///< full power so long when it starts; 0: none
+  std::uint8_t least_duty = 15;      ///< per cent: below, it would stand
+  std::uint8_t pulses_per_turn = 0;  ///< of the tacho; 0: has none
 };
 
 inline constexpr std::uint16_t kFullFan = 32'767;  // 6411h
@@ -38,7 +38,8 @@ class Fan {
   std::int32_t command() const { return command_; }
   /// Edges of the tacho since the last call.
   void on_pulses(std::uint32_t pulses) { pulses_ += pulses; }
-  /// Once a tick (kControlTick). `hot_end_mc`: of its heater; `fault`: that heater's, or its sensor is not believed.
+  /// Once a tick (kControlTick). `hot_end_mc`: of its heater; `fault`: that heater's, or its sensor is not
+  /// believed.
   void step(LocalTime now, std::int32_t hot_end_mc, bool fault);
 
   std::uint16_t output() const { return output_; }

@@ -123,8 +123,8 @@ void Heater::follow_supply(std::uint32_t supply_mv) {
 }
 
 void Heater::set_duty(std::uint32_t power) {
-  std::uint32_t duty = std::min(
-      static_cast<std::uint32_t>(static_cast<std::uint64_t>(power) * weakness_ / kFullPower), most_);
+  std::uint32_t duty =
+      std::min(static_cast<std::uint32_t>(static_cast<std::uint64_t>(power) * weakness_ / kFullPower), most_);
   if (settings_.output == OutputKind::kWholeTicks) {
     // What is owed is paid when it is a whole tick.
     owed_ = duty == 0 ? 0 : owed_ + duty;

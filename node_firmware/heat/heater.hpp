@@ -1,6 +1,6 @@
 #pragma once
-// One heater: its sensor's word, its control, its watch, its tuning, and the power that goes out. A fault takes
-// the power and stays until it is cleared.
+// One heater: its sensor's word, its control, its watch, its tuning, and the power that goes out. A fault
+// takes the power and stays until it is cleared.
 
 #include <cstdint>
 

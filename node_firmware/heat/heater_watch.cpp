@@ -6,7 +6,7 @@ namespace kinebus::heat {
 namespace {
 
 constexpr std::uint32_t kHotTicks = 3;      // the noise of a mean of 8 samples is far below
-constexpr std::uint32_t kModelTicks = 8;   // the observer has its own patience
+constexpr std::uint32_t kModelTicks = 8;    // the observer has its own patience
 constexpr std::int32_t kLeastRise = 2'000;  // mC
 constexpr std::int32_t kAway = 15'000;      // mC
 constexpr std::uint32_t kAwayTicks = 50;

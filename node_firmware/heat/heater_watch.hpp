@@ -1,7 +1,7 @@
 #pragma once
-// Whether a heater does what it is told, apart from how it is controlled. The model's disturbance is the measure:
-// heat that is missing or comes unasked, as a share of full power. A heater that was never measured is watched
-// by plain rules until it is.
+// Whether a heater does what it is told, apart from how it is controlled. The model's disturbance is the
+// measure: heat that is missing or comes unasked, as a share of full power. A heater that was never measured
+// is watched by plain rules until it is.
 
 #include <cstdint>
 
@@ -24,7 +24,8 @@ enum class HeaterFault : std::uint8_t {
 
 struct WatchSettings {
   std::int32_t limit_mc = 280'000;
-  /// The most that fan and filament may take, and the most that may come from elsewhere: per cent of full power.
+  /// The most that fan and filament may take, and the most that may come from elsewhere: per cent of full
+  /// power.
   std::uint8_t most_missing = 50, most_unasked = 25;
   /// Without a model: at full power it must gain 2 K in so long, and must not leave its target by 15 K.
   std::uint16_t rise_s = 20;
@@ -35,7 +36,8 @@ class HeaterWatch {
   void configure(const WatchSettings& settings) { settings_ = settings; }
   void start();
   /// Once a tick. `power`: given since the last one. `target`: 0, off. `model`: nullptr, not measured.
-  HeaterFault step(std::int32_t measured, std::uint32_t power, std::int32_t target, const ThermalModel* model);
+  HeaterFault step(std::int32_t measured, std::uint32_t power, std::int32_t target,
+                   const ThermalModel* model);
 
  private:
   HeaterFault by_model(const ThermalModel& model);

@@ -1,4 +1,5 @@
-// Faults of a hot end, each at its worst moment: when it is found, when power is gone, how hot the block gets.
+// Faults of a hot end, each at its worst moment: when it is found, when power is gone, how hot the block
+// gets.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -74,24 +75,41 @@ struct FaultCase {
 // found_within_s are claims: an electrical fault 0.5 s, the others less than what peers take.
 const std::vector<FaultCase>& cases() {
   static const std::vector<FaultCase> all{
-      {"sensor open", When::kHeating, [](auto& p) { p.sensor_open = true; }, HeaterFault::kSensorOpen, 0.3, 0.05},
-      {"sensor open", When::kHolding, [](auto& p) { p.sensor_open = true; }, HeaterFault::kSensorOpen, 0.3, 0.05},
+      {"sensor open", When::kHeating, [](auto& p) { p.sensor_open = true; }, HeaterFault::kSensorOpen, 0.3,
+       0.05},
+      {"sensor open", When::kHolding, [](auto& p) { p.sensor_open = true; }, HeaterFault::kSensorOpen, 0.3,
+       0.05},
       {"sensor open", When::kOff, [](auto& p) { p.sensor_open = true; }, HeaterFault::kSensorOpen, 0.3, 0},
-      {"sensor shorted", When::kHeating, [](auto& p) { p.sensor_short = true; }, HeaterFault::kSensorShort, 0.3, 0.05},
-      {"sensor shorted", When::kHolding, [](auto& p) { p.sensor_short = true; }, HeaterFault::kSensorShort, 0.3, 0.05},
-      {"bad plug, 200 Ohm", When::kHolding, [](auto& p) { p.series_ohm = 200; }, HeaterFault::kSensorJump, 0.3, 0.05},
-      {"converter silent", When::kHeating, [](auto& p) { p.silent = true; }, HeaterFault::kSensorSilent, 0.3, 0.05},
-      {"converter silent", When::kHolding, [](auto& p) { p.silent = true; }, HeaterFault::kSensorSilent, 0.3, 0.05},
-      {"converter frozen", When::kHeating, [](auto& p) { p.frozen = true; }, HeaterFault::kHeatMissing, 10, 10},
-      {"sensor out of its hole", When::kHeating, [](auto& p) { p.sensor_contact = 0; }, HeaterFault::kHeatMissing, 10, 10},
-      {"sensor out of its hole", When::kHolding, [](auto& p) { p.sensor_contact = 0; }, HeaterFault::kHeatMissing, 10, 10},
-      {"sensor half out", When::kHolding, [](auto& p) { p.sensor_contact = 0.3; }, HeaterFault::kHeatMissing, 10, 10},
-      {"heater out of its hole", When::kHeating, [](auto& p) { p.heater_contact = 0.02; }, HeaterFault::kHeatMissing, 12, 12},
-      {"heater out of its hole", When::kHolding, [](auto& p) { p.heater_contact = 0.02; }, HeaterFault::kHeatMissing, 18, 18},
-      {"heater's wire off", When::kHeating, [](auto& p) { p.mosfet_open = true; }, HeaterFault::kHeatMissing, 12, 12},
-      {"heater's wire off", When::kHolding, [](auto& p) { p.mosfet_open = true; }, HeaterFault::kHeatMissing, 18, 18},
-      {"MOSFET stuck on", When::kHolding, [](auto& p) { p.mosfet_stuck = true; }, HeaterFault::kHeatUnasked, 10, 10},
-      {"MOSFET stuck on", When::kOff, [](auto& p) { p.mosfet_stuck = true; }, HeaterFault::kHeatUnasked, 8, 0},
+      {"sensor shorted", When::kHeating, [](auto& p) { p.sensor_short = true; }, HeaterFault::kSensorShort,
+       0.3, 0.05},
+      {"sensor shorted", When::kHolding, [](auto& p) { p.sensor_short = true; }, HeaterFault::kSensorShort,
+       0.3, 0.05},
+      {"bad plug, 200 Ohm", When::kHolding, [](auto& p) { p.series_ohm = 200; }, HeaterFault::kSensorJump,
+       0.3, 0.05},
+      {"converter silent", When::kHeating, [](auto& p) { p.silent = true; }, HeaterFault::kSensorSilent, 0.3,
+       0.05},
+      {"converter silent", When::kHolding, [](auto& p) { p.silent = true; }, HeaterFault::kSensorSilent, 0.3,
+       0.05},
+      {"converter frozen", When::kHeating, [](auto& p) { p.frozen = true; }, HeaterFault::kHeatMissing, 10,
+       10},
+      {"sensor out of its hole", When::kHeating, [](auto& p) { p.sensor_contact = 0; },
+       HeaterFault::kHeatMissing, 10, 10},
+      {"sensor out of its hole", When::kHolding, [](auto& p) { p.sensor_contact = 0; },
+       HeaterFault::kHeatMissing, 10, 10},
+      {"sensor half out", When::kHolding, [](auto& p) { p.sensor_contact = 0.3; }, HeaterFault::kHeatMissing,
+       10, 10},
+      {"heater out of its hole", When::kHeating, [](auto& p) { p.heater_contact = 0.02; },
+       HeaterFault::kHeatMissing, 12, 12},
+      {"heater out of its hole", When::kHolding, [](auto& p) { p.heater_contact = 0.02; },
+       HeaterFault::kHeatMissing, 18, 18},
+      {"heater's wire off", When::kHeating, [](auto& p) { p.mosfet_open = true; }, HeaterFault::kHeatMissing,
+       12, 12},
+      {"heater's wire off", When::kHolding, [](auto& p) { p.mosfet_open = true; }, HeaterFault::kHeatMissing,
+       18, 18},
+      {"MOSFET stuck on", When::kHolding, [](auto& p) { p.mosfet_stuck = true; }, HeaterFault::kHeatUnasked,
+       10, 10},
+      {"MOSFET stuck on", When::kOff, [](auto& p) { p.mosfet_stuck = true; }, HeaterFault::kHeatUnasked, 8,
+       0},
   };
   return all;
 }
@@ -100,7 +118,9 @@ TEST(Safety, EveryFaultTakesThePowerBeforeTheBlockIsTooHot) {
   std::printf("%-24s %-8s %9s %9s %12s\n", "fault", "in", "found, s", "off, s", "hottest, C");
   for (const FaultCase& each : cases()) {
     HotEndBench bench(true);
-    const char* when = each.when == When::kHeating ? "heating" : each.when == When::kHolding ? "holding" : "off";
+    const char* when = each.when == When::kHeating   ? "heating"
+                       : each.when == When::kHolding ? "holding"
+                                                     : "off";
     const std::string name = std::string(each.name) + ", " + when;
     if (each.when != When::kOff) bench.heater.set_target(210'000);
     bench.run(each.when == When::kHolding ? 300 : 0);
