@@ -15,7 +15,7 @@ void Fan::step(LocalTime now, std::int32_t hot_end_mc, bool fault) {
     hot_ = fault || hot_end_mc >= (hot_ ? kHotEndFanTo : kHotEndFanFrom);
     if (hot_) wanted = kFullFan;
   }
-  if (wanted > 0) wanted = std::max(wanted, kFullFan * settings_.least_duty / 100);
+  if (wanted > 0) wanted = std::max<std::int32_t>(wanted, kFullFan * settings_.least_duty / 100);
   if (wanted > 0 && output_ == 0) {
     kick_until_ = now + LocalTime{settings_.kick_ms * 1'000'000LL};
     turned_at_ = now;

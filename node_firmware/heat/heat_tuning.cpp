@@ -16,7 +16,14 @@ constexpr double kLeastTime = 0.05;  // s
 }  // namespace
 
 void HeatTuning::begin(std::int32_t measured, std::int32_t target, std::int32_t limit) {
-  *this = {};
+  failure_ = Failure::kNone;
+  ticks_ = off_at_ = peak_at_ = rise_at_ = 0;
+  count_ = 0;
+  ticks_a_sample_ = 1;
+  in_sample_ = 0;
+  power_sum_ = 0;
+  result_ = {};
+  residual_mc_ = 0;
   if (target - measured < kLeastWay) {
     fail(Failure::kTargetTooNear);
     return;

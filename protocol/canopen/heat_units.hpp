@@ -37,12 +37,12 @@ inline constexpr ObjectAddress kContactor{0x2240, 0}, kSupply{0x2241, 0}, kMaste
 
 namespace object_table {
 
-inline constexpr std::array<std::string_view, kHeatSensors> kSensorNames = {"Sensor 1", "Sensor 2", "Sensor 3",
-                                                                        "Sensor 4", "Sensor 5", "Sensor 6"};
+inline constexpr std::array<std::string_view, kHeatSensors> kSensorNames = {
+    "Sensor 1", "Sensor 2", "Sensor 3", "Sensor 4", "Sensor 5", "Sensor 6"};
 inline constexpr std::array<std::string_view, kHeaters> kHeaterNames = {"Heater 1", "Heater 2", "Heater 3",
-                                                                    "Heater 4"};
+                                                                        "Heater 4"};
 inline constexpr std::array<std::string_view, kFans> kFanNames = {"Fan 1", "Fan 2", "Fan 3",
-                                                              "Fan 4", "Fan 5", "Fan 6"};
+                                                                  "Fan 4", "Fan 5", "Fan 6"};
 
 /// An array with one entry a name, all as `row` says.
 constexpr void array_of(Rows& t, std::uint16_t index, std::string_view object,
@@ -137,7 +137,8 @@ constexpr void heaters(Rows& t) {
   array_of(t, 0x2226, "Heater fault reset", names, entry_of(kU8, kWriteOnly, kLive).between(1, 1));
   array_of(t, 0x6406, "CO physical unit W and X", names, entry_of(kU32, kConst, kConstant, 0x002D'0000));
   array_of(t, 0x6407, "CO decimal digits W and X", names, entry_of(kU8, kConst, kConstant, 1));
-  array_of(t, 0x6422, "CO on/off", names, entry_of(kU8, kReadWrite, kLive).between(0, 1).maps(Mapping::kRpdo));
+  array_of(t, 0x6422, "CO on/off", names,
+           entry_of(kU8, kReadWrite, kLive).between(0, 1).maps(Mapping::kRpdo));
   array_of(t, 0x7402, "CO set point W", names,
            entry_of(kI16, kReadWrite, kLive).maps(Mapping::kRpdo).in("0.1C"));
   array_of(t, 0x7410, "CO effective output Y", names, state(kI16).in("0.1%"));

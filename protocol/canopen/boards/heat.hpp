@@ -1,6 +1,6 @@
 #pragma once
-// A heat node, on whatever chip it runs: what it is known by, and its objects. It has a node id of its own, also
-// when it shares a chip with axes.
+// A heat node, on whatever chip it runs: what it is known by, and its objects. It has a node id of its own,
+// also when it shares a chip with axes.
 
 #include "protocol/canopen/heat_units.hpp"
 

@@ -26,8 +26,7 @@ TEST(HeatTable, ArraysLieInARow) {
   // What heat_slot_of(first) + n relies on.
   for (const ObjectEntry& e : kHeatObjects) {
     if (e.code != ObjectCode::kArray || e.address.subindex < 2) continue;
-    const int before =
-        kHeatTable.find({e.address.index, static_cast<std::uint8_t>(e.address.subindex - 1)});
+    const int before = kHeatTable.find({e.address.index, static_cast<std::uint8_t>(e.address.subindex - 1)});
     ASSERT_GE(before, 0);
     EXPECT_EQ(kHeatTable[before].slot + 1, e.slot) << std::hex << e.address.index;
   }
