@@ -2373,6 +2373,90 @@
         <translation>گذرگاه از کار افتاده است</translation>
     </message>
     <message>
+        <source>A heater is too hot</source>
+        <translation>یک گرم‌کن بسیار داغ است</translation>
+    </message>
+    <message>
+        <source>a heater is above its limit</source>
+        <translation>دمای یک گرم‌کن از حدش گذشته است</translation>
+    </message>
+    <message>
+        <source>let it cool; check heater and sensor, then clear</source>
+        <translation>بگذارید خنک شود؛ گرم‌کن و حسگر را وارسی کنید، سپس رفع کنید</translation>
+    </message>
+    <message>
+        <source>A temperature sensor is open</source>
+        <translation>مدار یک حسگر دما باز است</translation>
+    </message>
+    <message>
+        <source>a temperature sensor or its wire is open</source>
+        <translation>یک حسگر دما یا سیم آن قطع است</translation>
+    </message>
+    <message>
+        <source>check the sensor, its plug and its wires, then clear</source>
+        <translation>حسگر، دوشاخه و سیم‌هایش را وارسی کنید، سپس رفع کنید</translation>
+    </message>
+    <message>
+        <source>A temperature sensor is shorted</source>
+        <translation>یک حسگر دما اتصال کوتاه است</translation>
+    </message>
+    <message>
+        <source>a temperature sensor is shorted</source>
+        <translation>یک حسگر دما اتصال کوتاه است</translation>
+    </message>
+    <message>
+        <source>A temperature sensor jumps</source>
+        <translation>مقدار یک حسگر دما می‌پرد</translation>
+    </message>
+    <message>
+        <source>a temperature changed faster than it can</source>
+        <translation>دمایی تندتر از آنچه ممکن است تغییر کرد</translation>
+    </message>
+    <message>
+        <source>A temperature sensor is silent</source>
+        <translation>یک حسگر دما خاموش است</translation>
+    </message>
+    <message>
+        <source>a temperature is not measured any more</source>
+        <translation>دمایی دیگر اندازه‌گیری نمی‌شود</translation>
+    </message>
+    <message>
+        <source>A heater does not heat as it should</source>
+        <translation>یک گرم‌کن آن‌گونه که باید گرم نمی‌کند</translation>
+    </message>
+    <message>
+        <source>a heater&apos;s power does not arrive at its sensor</source>
+        <translation>توان یک گرم‌کن به حسگرش نمی‌رسد</translation>
+    </message>
+    <message>
+        <source>check that heater and sensor sit tight and are the right ones, then clear</source>
+        <translation>وارسی کنید که گرم‌کن و حسگر محکم و از نوع درست باشند، سپس رفع کنید</translation>
+    </message>
+    <message>
+        <source>A heater heats without being told to</source>
+        <translation>یک گرم‌کن بدون فرمان گرم می‌کند</translation>
+    </message>
+    <message>
+        <source>a heater&apos;s switch does not open: the contactor was opened</source>
+        <translation>کلید یک گرم‌کن باز نمی‌شود: کنتاکتور قطع شد</translation>
+    </message>
+    <message>
+        <source>switch off, let it cool, replace the heater&apos;s switch</source>
+        <translation>خاموش کنید، بگذارید خنک شود، کلید گرم‌کن را عوض کنید</translation>
+    </message>
+    <message>
+        <source>A fan stands still</source>
+        <translation>یک فن ایستاده است</translation>
+    </message>
+    <message>
+        <source>a fan does not turn</source>
+        <translation>یک فن نمی‌چرخد</translation>
+    </message>
+    <message>
+        <source>check the fan and its plug, then clear</source>
+        <translation>فن و دوشاخه‌اش را وارسی کنید، سپس رفع کنید</translation>
+    </message>
+    <message>
         <source>A heater is not as it should be</source>
         <translation>وضعیت یک گرم‌کن درست نیست</translation>
     </message>

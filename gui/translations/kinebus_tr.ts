@@ -2373,6 +2373,90 @@
         <translation>Veri yolu arızalandı</translation>
     </message>
     <message>
+        <source>A heater is too hot</source>
+        <translation>Bir ısıtıcı çok sıcak</translation>
+    </message>
+    <message>
+        <source>a heater is above its limit</source>
+        <translation>bir ısıtıcı sınırının üzerinde</translation>
+    </message>
+    <message>
+        <source>let it cool; check heater and sensor, then clear</source>
+        <translation>soğumasını bekleyin; ısıtıcıyı ve algılayıcıyı denetleyin, sonra temizleyin</translation>
+    </message>
+    <message>
+        <source>A temperature sensor is open</source>
+        <translation>Bir sıcaklık algılayıcısında kopukluk var</translation>
+    </message>
+    <message>
+        <source>a temperature sensor or its wire is open</source>
+        <translation>bir sıcaklık algılayıcısı veya kablosu kopuk</translation>
+    </message>
+    <message>
+        <source>check the sensor, its plug and its wires, then clear</source>
+        <translation>algılayıcıyı, fişini ve kablolarını denetleyin, sonra temizleyin</translation>
+    </message>
+    <message>
+        <source>A temperature sensor is shorted</source>
+        <translation>Bir sıcaklık algılayıcısında kısa devre var</translation>
+    </message>
+    <message>
+        <source>a temperature sensor is shorted</source>
+        <translation>bir sıcaklık algılayıcısında kısa devre var</translation>
+    </message>
+    <message>
+        <source>A temperature sensor jumps</source>
+        <translation>Bir sıcaklık algılayıcısı sıçrıyor</translation>
+    </message>
+    <message>
+        <source>a temperature changed faster than it can</source>
+        <translation>bir sıcaklık olabileceğinden daha hızlı değişti</translation>
+    </message>
+    <message>
+        <source>A temperature sensor is silent</source>
+        <translation>Bir sıcaklık algılayıcısı susuyor</translation>
+    </message>
+    <message>
+        <source>a temperature is not measured any more</source>
+        <translation>bir sıcaklık artık ölçülmüyor</translation>
+    </message>
+    <message>
+        <source>A heater does not heat as it should</source>
+        <translation>Bir ısıtıcı gerektiği gibi ısıtmıyor</translation>
+    </message>
+    <message>
+        <source>a heater&apos;s power does not arrive at its sensor</source>
+        <translation>bir ısıtıcının gücü algılayıcısına ulaşmıyor</translation>
+    </message>
+    <message>
+        <source>check that heater and sensor sit tight and are the right ones, then clear</source>
+        <translation>ısıtıcı ile algılayıcının sıkı oturduğunu ve doğru parçalar olduğunu denetleyin, sonra temizleyin</translation>
+    </message>
+    <message>
+        <source>A heater heats without being told to</source>
+        <translation>Bir ısıtıcı komut verilmeden ısıtıyor</translation>
+    </message>
+    <message>
+        <source>a heater&apos;s switch does not open: the contactor was opened</source>
+        <translation>bir ısıtıcının anahtarı açılmıyor: kontaktör açıldı</translation>
+    </message>
+    <message>
+        <source>switch off, let it cool, replace the heater&apos;s switch</source>
+        <translation>kapatın, soğumasını bekleyin, ısıtıcının anahtarını değiştirin</translation>
+    </message>
+    <message>
+        <source>A fan stands still</source>
+        <translation>Bir fan duruyor</translation>
+    </message>
+    <message>
+        <source>a fan does not turn</source>
+        <translation>bir fan dönmüyor</translation>
+    </message>
+    <message>
+        <source>check the fan and its plug, then clear</source>
+        <translation>fanı ve fişini denetleyin, sonra temizleyin</translation>
+    </message>
+    <message>
         <source>A heater is not as it should be</source>
         <translation>Bir ısıtıcı olması gerektiği gibi değil</translation>
     </message>
