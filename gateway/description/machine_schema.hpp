@@ -262,6 +262,12 @@ void visit_gcode(V& v, GcodeDescription& g) {
 }
 
 template <class V>
+void visit_serial(V& v, SerialDescription& s) {
+  // A second holds the reserve in which a planned stop reaches the nodes, and braking from any speed.
+  v.table("serial", Need::kOptional, [&] { v.number("lead_s", s.lead_s, {1, 600}, Need::kOptional); });
+}
+
+template <class V>
 void visit_correction(V& v, std::optional<M1Correction>& correction) {
   v.optional_table("calibration", correction, [&](M1Correction& c) {
     for (std::size_t i = 0; i < c.legs.size(); ++i)
@@ -305,6 +311,7 @@ void visit_machine(V& v, MachineDescription& d) {
   });
   visit_devices(v, d);
   visit_gcode(v, d.gcode);
+  visit_serial(v, d.serial);
   if (!known_kind || d.kinematics.index() == 0 || d.kinematics.index() == 5)
     visit_correction(v, d.geometry_calibration);
 }

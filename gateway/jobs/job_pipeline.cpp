@@ -104,8 +104,42 @@ bool JobPipeline::live_idle() const {
          !refused_ && stage_ == Stage::kFeeding && planner_.idle();
 }
 
+std::vector<gcode::Note> JobPipeline::take_notes() {
+  if (!interpreter_ || interpreter_->notes().empty()) return {};
+  std::vector<gcode::Note> notes(interpreter_->notes().begin(), interpreter_->notes().end());
+  interpreter_->clear_notes();
+  return notes;
+}
+
 void JobPipeline::settle_live() {
   if (stage_ == Stage::kFeeding && waiting() == 0 && !live_idle()) drain(std::nullopt);
+}
+
+void JobPipeline::plan_live() {
+  while (stage_ == Stage::kFeeding && !refused_ && planner_.wants_more() && take_known()) {
+  }
+}
+
+Planner::Ahead JobPipeline::ahead() {
+  Planner::Ahead ahead = planner_.ahead();
+  if (phase_waits_) {
+    ahead.final_s += phase_.duration_s;
+    ahead.all_s += phase_.duration_s;
+  }
+  return ahead;
+}
+
+/// The next command that needs no reading; false: there is none.
+bool JobPipeline::take_known() {
+  if (!first_.empty()) {
+    const canonical::Line line = std::move(first_.front());
+    first_.pop_front();
+    take(line);
+    return true;
+  }
+  if (next_command_ == commands_.size()) return false;
+  take(commands_[next_command_++]);
+  return true;
 }
 
 void JobPipeline::refuse(std::uint32_t line, std::uint32_t column, Sentence words) {
@@ -128,13 +162,8 @@ JobPipeline::Step JobPipeline::next(int& budget) {
       continue;
     }
     if (stage_ == Stage::kEnded) return Step::kEnd;
-    if (!first_.empty()) {
-      const canonical::Line line = std::move(first_.front());
-      first_.pop_front();
-      take(line);
-    } else if (next_command_ < commands_.size()) {
-      take(commands_[next_command_++]);
-    } else if (text_done_) {
+    if (take_known()) continue;
+    if (text_done_) {
       ends_ = true;
       drain(std::nullopt);
     } else if (source_ == nullptr) {

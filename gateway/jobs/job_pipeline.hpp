@@ -48,6 +48,12 @@ class JobPipeline {
   void start_live(const Pose& start);
   void add(const canonical::Line& line);
   void settle_live();
+  /// Plans what was added, as far as no rest comes before it.
+  void plan_live();
+  /// A rest comes before what is added now.
+  bool rest_first() const { return stage_ != Stage::kFeeding; }
+  /// Of the motion that was not given out.
+  Planner::Ahead ahead();
   void end_live() { text_done_ = true; }
   /// Commands added and not yet used.
   std::size_t waiting() const { return commands_.size() - next_command_; }
@@ -61,6 +67,8 @@ class JobPipeline {
   const canonical::Line& command() const { return command_; }
   double event_s() const { return event_s_; }
   const Problem& problem() const { return problem_; }
+  /// What was accepted without effect since the last call, once for each code.
+  std::vector<gcode::Note> take_notes();
 
   /// Motion ends of the phases given out, s of the present run.
   double run_s() const { return run_s_; }
@@ -90,6 +98,7 @@ class JobPipeline {
   std::uint32_t line_of(std::uint32_t place);
   std::optional<Step> take_phase();
   std::optional<Step> settle();
+  bool take_known();
   void read_text(int& budget);
   void take(const canonical::Line& line);
   void take_motion(const canonical::Line& line);

@@ -70,6 +70,11 @@ Result<void, Sentence> LiveLines::set_work_offset(int system, const Pose& offset
   return interpreter_.set_work_offset(system, offset, here);
 }
 
+Pose LiveLines::program_position(const std::optional<Pose>& where) {
+  if (where) stand_at(*where);
+  return interpreter_.program_position();
+}
+
 void LiveLines::begin(const Pose& pose, std::optional<double> hotend_celsius, gcode::CommandBuffer& out) {
   stand_at(pose);
   place_ = {pose, Frame::kMachine};

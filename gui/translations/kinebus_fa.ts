@@ -2113,6 +2113,18 @@
         <translation>دما به S نیاز دارد</translation>
     </message>
     <message>
+        <source>the lines&apos; host has gone: what is left of them is given up</source>
+        <translation>میزبان خط‌ها رفته است: باقیماندهٔ خط‌ها رها شد</translation>
+    </message>
+    <message>
+        <source>the heaters are off: %1</source>
+        <translation>گرم‌کن‌ها خاموش شدند: %1</translation>
+    </message>
+    <message>
+        <source>M112 of the session</source>
+        <translation>M112 از نشست</translation>
+    </message>
+    <message>
         <source>stop by the session</source>
         <translation>ایست از نشست</translation>
     </message>

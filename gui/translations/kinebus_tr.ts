@@ -2113,6 +2113,18 @@
         <translation>sıcaklık S ister</translation>
     </message>
     <message>
+        <source>the lines&apos; host has gone: what is left of them is given up</source>
+        <translation>satırların sunucusu gitti: satırlardan kalan bırakıldı</translation>
+    </message>
+    <message>
+        <source>the heaters are off: %1</source>
+        <translation>ısıtıcılar kapatıldı: %1</translation>
+    </message>
+    <message>
+        <source>M112 of the session</source>
+        <translation>oturumdan M112</translation>
+    </message>
+    <message>
         <source>stop by the session</source>
         <translation>oturum durdurdu</translation>
     </message>

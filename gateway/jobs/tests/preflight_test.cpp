@@ -70,6 +70,15 @@ TEST(Preflight, ExtrusionWithoutAnyTemperatureIsOnlyWarnedOf) {
   EXPECT_EQ(c.problems.warnings(), 1u);
 }
 
+TEST(Preflight, WhatHasNoEffectHereIsWarnedOfOnce) {
+  const Checked c = check("G29\nG1 X10 F1200\nG29\nM205 J0.1\nM205 J0.2\n");
+  EXPECT_EQ(c.problems.errors(), 0u);
+  ASSERT_EQ(c.problems.warnings(), 2u);
+  EXPECT_EQ(c.problems.all()[0].line, 1u);
+  EXPECT_EQ(c.problems.all()[0].words, "G29 has no effect on this machine");
+  EXPECT_EQ(c.problems.all()[1].line, 4u);
+}
+
 TEST(Preflight, ListOfProblemsIsCappedAndCountsOn) {
   std::string job;
   for (int i = 0; i < 1000; ++i)
