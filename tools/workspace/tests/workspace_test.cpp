@@ -65,8 +65,8 @@ TEST(Scan, BodiesTakeWhatTheyCannotKeepAndAreNamedWithThePlace) {
     EXPECT_TRUE(s.meetings.empty()) << model->words(s.meetings.front().worst);
     EXPECT_EQ(s.allowed, free.allowed) << "this machine has room for its bodies";
   }
-  // A holder as wide as the nozzle is long meets the tilted table.
-  d.bodies->holder_radius_mm = 50;
+  // A holder much wider than the nozzle is long meets the tilted table.
+  d.bodies->holder_radius_mm = 75;
   const bodies::Model model = make_collision_model(d);
   const Scan s = scan(*kinematics, room, sparse(1), model.get()),
              three = scan(*kinematics, room, sparse(3), model.get());
