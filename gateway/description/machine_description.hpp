@@ -218,6 +218,13 @@ struct GcodeDescription {
   friend bool operator==(const GcodeDescription&, const GcodeDescription&) = default;
 };
 
+/// Lines of a print host.
+struct SerialDescription {
+  /// Motion taken ahead: a host's pause, cancel or end brings the machine to rest within it.
+  double lead_s = 2;
+  friend bool operator==(const SerialDescription&, const SerialDescription&) = default;
+};
+
 struct MachineDescription {
   std::string name = "machine";
   KinematicsGeometry kinematics;         ///< travel and limits of joints and poses already filled in
@@ -239,6 +246,7 @@ struct MachineDescription {
   ProbeDescription probe;
   GcodeDescription gcode;
   std::optional<BodiesDescription> bodies;  ///< none: nobody knows what is solid, and nothing is checked
+  SerialDescription serial;
   /// M1 and M5: how the machine's geometry was measured to differ from the one above it in the file.
   std::optional<M1Correction> geometry_calibration;
   std::string jobs_directory = "/var/lib/kinebus/jobs";

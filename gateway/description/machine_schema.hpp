@@ -265,6 +265,12 @@ void visit_gcode(V& v, GcodeDescription& g) {
 }
 
 template <class V>
+void visit_serial(V& v, SerialDescription& s) {
+  // A second holds the reserve in which a planned stop reaches the nodes, and braking from any speed.
+  v.table("serial", Need::kOptional, [&] { v.number("lead_s", s.lead_s, {1, 600}, Need::kOptional); });
+}
+
+template <class V>
 void visit_correction(V& v, std::optional<M1Correction>& correction) {
   v.optional_table("calibration", correction, [&](M1Correction& c) {
     for (std::size_t i = 0; i < c.legs.size(); ++i)
@@ -312,6 +318,7 @@ void visit_machine(V& v, MachineDescription& d) {
     if (!known_kind) return v.leave_unjudged();
     visit_bodies(v, b, body_keys(d.kinematics));
   });
+  visit_serial(v, d.serial);
   if (!known_kind || d.kinematics.index() == 0 || d.kinematics.index() == 5)
     visit_correction(v, d.geometry_calibration);
 }

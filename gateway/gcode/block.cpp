@@ -14,6 +14,9 @@ constexpr double kWholeTolerance = 1e-4;  // RS274/NGC: how near a computed numb
 bool is_letter(char c) {
   return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
 }
+bool is_name(char c) {
+  return is_letter(c) || c == '_';
+}
 char upper(char c) {
   return c >= 'a' ? static_cast<char>(c - ('a' - 'A')) : c;
 }
@@ -48,7 +51,11 @@ class BlockReader {
       cursor_.skip_blanks();
     }
     if (!cursor_.at_end() && *cursor_.p == '%') return read_percent();
-    if (!cursor_.at_end() && upper(*cursor_.p) == 'N' && !read_line_number()) return false;
+    if (!cursor_.at_end() && upper(*cursor_.p) == 'N' && cursor_.p + 1 != cursor_.end &&
+        !is_name(cursor_.p[1]) && !read_line_number())
+      return false;
+    cursor_.skip_blanks();
+    if (cursor_.end - cursor_.p > 1 && is_name(cursor_.p[1]) && read_command()) return true;
     for (;;) {
       cursor_.skip_blanks();
       if (cursor_.at_end()) return true;
@@ -70,6 +77,19 @@ class BlockReader {
     return false;
   }
   bool fail_here(Sentence message) { return fail(cursor_.column(), std::move(message)); }
+
+  /// A word of several letters that begins the line, and its text. False: it is none.
+  bool read_command() {
+    if (!is_letter(*cursor_.p) && *cursor_.p != '_') return false;
+    // Xsin[30] is a word and its value.
+    Cursor value{cursor_.begin, cursor_.p + 1, cursor_.end};
+    if (ValueReader(state_, value, error_).starts_value()) return false;
+    const char* const start = cursor_.p;
+    while (!cursor_.at_end() && (is_name(*cursor_.p) || is_digit(*cursor_.p))) ++cursor_.p;
+    block_.command = {start, static_cast<std::size_t>(cursor_.p - start)};
+    block_.command_column = cursor_.column_of(start);
+    return take_text();
+  }
 
   bool read_percent() {
     block_.percent = true;
@@ -171,11 +191,15 @@ class BlockReader {
       has_value = values.starts_value();
       if (has_value && !values.read_value(value)) return false;
     }
+    if (letter == 'A' && state_.modal.a_extrudes) {
+      letter = 'E';
+      block_.a_taken = true;
+    }
     if (letter == 'G') return has_value ? add_g(value, column) : fail(column, say("G needs a number"));
     if (letter == 'M') return has_value ? add_m(value, column) : fail(column, say("M needs a number"));
     // A bare O belongs to G28 (home where it is needed).
     if (letter == 'O' && (has_value || (!cursor_.at_end() && *cursor_.p == '<')))
-      return fail(column, say("O words (subroutines, loops, program numbers) are not supported"));
+      return fail(column, say("an O word stands at the beginning of its line"));
     if (!(std::abs(value) <= kLargestWord))
       return fail(column, say("%1 is too large (10^9 at most)", std::string(1, letter)));
     const std::uint32_t bit = Block::bit(letter);
@@ -198,8 +222,8 @@ class BlockReader {
       return fail(column, say("G codes are 0 to 999.9 with one decimal place at most"));
     const int number = static_cast<int>(tenths);
     const GGroup group = g_group(number);
-    if (group == GGroup::kUnknown) {
-      if (!gcode::harmless_g(number)) return fail(column, unknown_g(number));
+    if (group >= GGroup::kUnknown) {
+      if (group == GGroup::kUnknown) return fail(column, unknown_g(number));
       block_.harmless_g = number;
       return take_text();
     }
@@ -233,6 +257,21 @@ class BlockReader {
     if (block_.m_count == Block::kMaxMCodes)
       return fail(column, say("too many M codes in one line (8 at most)"));
     block_.m[static_cast<std::size_t>(block_.m_count++)] = code;
+    if (code.number <= 1) {
+      // M0 Press the button
+      cursor_.skip_blanks();
+      if (cursor_.end - cursor_.p > 1 && is_letter(*cursor_.p) && is_letter(cursor_.p[1])) return take_text();
+    }
+    if (code.number == 115) {
+      // U3.9.0, the firmware that the slicer expects, is no number.
+      cursor_.skip_blanks();
+      if (!cursor_.at_end() && upper(*cursor_.p) == 'U') return take_text();
+    }
+    if (code.number == 98) {
+      // P"name" is a text, P1234 a word.
+      cursor_.skip_blanks();
+      if (cursor_.end - cursor_.p > 1 && upper(*cursor_.p) == 'P' && cursor_.p[1] == '"') return take_text();
+    }
     return takes_text(code.number) ? take_text() : true;
   }
 
@@ -276,7 +315,8 @@ void Block::clear() {
   present = bare = groups = 0;
   m_count = 0;
   harmless_g = -1;
-  has_line_number = has_checksum = deleted = percent = has_text = false;
+  command = {};
+  has_line_number = has_checksum = a_taken = deleted = percent = has_text = false;
   plain = true;
   if (!messages.empty()) messages.clear();
   if (!assignments.empty()) assignments.clear();

@@ -44,9 +44,13 @@ struct Block {
 
   bool has_line_number = false;
   bool has_checksum = false;
+  bool a_taken = false;  ///< an A was read as E
   bool deleted = false;  ///< begins with /
   bool percent = false;  ///< a % line
   std::int64_t line_number = 0;
+
+  std::string_view command;  ///< the word that begins the line (START_PRINT); text: what follows it
+  std::uint32_t command_column = 0;
 
   bool has_text = false;  ///< the line has a code of takes_text(); text may be empty
   std::string_view text;  ///< trimmed

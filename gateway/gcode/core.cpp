@@ -1,6 +1,7 @@
 #include "gateway/gcode/core.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -14,6 +15,7 @@ constexpr std::uint32_t kStraightWords = Block::bit('X') | Block::bit('Y') | Blo
                                          Block::bit('A') | Block::bit('C') | Block::bit('E') |
                                          Block::bit('F');
 constexpr std::size_t kMaxLine = 4096;
+constexpr int kNoteForA = 99999;
 constexpr int kNoteForG = 100000;  // keys of notes: M numbers, G tenths above this
 
 }  // namespace
@@ -47,6 +49,8 @@ bool Core::execute(std::string_view line, std::uint32_t line_number, CommandBuff
   SyntaxError error;
   if (!read_block(line, state_, block_, error)) return fail(error.column, std::move(error.message));
   used_ = 0;
+  if (block_.a_taken) [[unlikely]]
+    note(kNoteForA, say("A is taken for extrusion (E), as the slicer in the file's header writes it"));
   if (block_.is_plain() && !announce_ && !state_.modal.ended && (block_.present & ~kStraightWords) == 0 &&
       block_.present != 0) {
     const int g = block_.has(GGroup::kMotion) ? block_.code(GGroup::kMotion).number : -1;
@@ -58,6 +62,8 @@ bool Core::execute(std::string_view line, std::uint32_t line_number, CommandBuff
       // A straight move checks everything before it changes anything.
       if (!run_straight(motion == Motion::kTraverse)) return false;
       state_.modal.motion = motion;
+      state_.modal.cycle = 0;
+      state_.modal.spline = false;
       return true;
     }
   }
@@ -75,6 +81,7 @@ bool Core::run_careful() {
   if (run_block()) return true;
   state_.modal = before;
   announce_ = announce_before;
+  call_ = {};
   out_->resize(size_before);
   refresh_shift();
   return false;
@@ -94,6 +101,7 @@ bool Core::run_block() {
   const bool has_content = block_.groups != 0 || block_.m_count != 0 || block_.present != 0;
   if (has_content) state_.modal.content_seen = true;
   for (const std::string_view text : block_.messages) emit(canonical::Message{std::string(text)});
+  if (!block_.command.empty() && !run_command()) return false;
   if (block_.harmless_g >= 0)
     note(kNoteForG + block_.harmless_g, say("%1 has no effect on this machine", g_name(block_.harmless_g)));
 
@@ -115,7 +123,8 @@ bool Core::run_block() {
 }
 
 bool Core::run_nonmodal(Code code) {
-  const bool uses_axes = code.number == 280 || code.number == 920 || (code.number == 100 && has('L'));
+  const bool uses_axes =
+      code.number == 280 || code.number == 920 || code.number == 520 || (code.number == 100 && has('L'));
   const Code motion = block_.code(GGroup::kMotion);
   if (uses_axes && block_.has(GGroup::kMotion))
     return fail(code.column, say("%1 and %2 would both use the line's axis words: write them in two lines",
@@ -124,7 +133,19 @@ bool Core::run_nonmodal(Code code) {
     case 40:
       return dwell();
     case 100:
-      return has('L') ? set_coordinate_system() : retract();
+      if (has('L')) return set_coordinate_system();
+      return has('P') || has('S') ? tool_temperature('P') : retract();
+    case 300:
+      if (options_.spindle)
+        return fail(code.column,
+                    say("G30 means a probe to printers and a stored position to mills: use G53 G0 "
+                        "with coordinates"));
+      for (char letter = 'A'; letter <= 'Z'; ++letter)
+        if (letter != 'F') pass_over(letter);
+      note(kNoteForG + 300, say("%1 has no effect on this machine", g_name(300)));
+      return true;
+    case 520:
+      return set_local_offset(code);
     case 110:
       return recover();
     case 280:
@@ -142,8 +163,12 @@ bool Core::run_stop() {
   for (int i = 0; i < block_.m_count; ++i) {
     const Code code = block_.m[static_cast<std::size_t>(i)];
     if (m_group(code.number) != MGroup::kStop) continue;
-    if (code.number <= 1) {
+    if (code.number <= 1 || code.number == 60) {
+      if (code.number <= 1 && block_.has_text) emit(canonical::Message{std::string(block_.text)});
       emit(canonical::Pause{code.number == 1});
+    } else if (code.number == 226 || code.number == 600 || code.number == 601) {
+      if (code.number == 600) emit(canonical::Message{say("change the filament, then go on")});
+      emit(canonical::Pause{false});
     } else if (code.number == 30 && !block_.text.empty() && block_.text.front() != '(') {
       emit(canonical::StoredJob{canonical::StoredJob::What::kDelete, std::string(block_.text), 0});
     } else {
@@ -167,9 +192,14 @@ bool Core::assign_parameters() {
       return fail(assignment.column, say("the offset is too large (10^9 at most)"));
   }
   std::size_t new_names = 0;
-  for (const Assignment& assignment : block_.assignments)
-    if (assignment.target.index == 0 && !read_named(state_.parameters, assignment.target.name)) ++new_names;
-  if (state_.parameters.named.size() + new_names > ParameterState::kMaxNamed)
+  for (const Assignment& assignment : block_.assignments) {
+    if (assignment.target.index != 0) continue;
+    if (is_predefined(assignment.target.name))
+      return fail(assignment.column, say("%1 can only be read", "#<" + assignment.target.name + ">"));
+    if (!read_named(state_, assignment.target.name)) ++new_names;
+  }
+  if (state_.parameters.named.size() + state_.parameters.locals.size() + new_names >
+      ParameterState::kMaxNamed)
     return fail(block_.assignments.front().column, say("too many named parameters (1000 at most)"));
   for (const Assignment& assignment : block_.assignments) {
     if (assignment.target.index != 0)
@@ -221,7 +251,8 @@ void Core::begin_program() {
   m.g92_active = false;
   m.tool_centre_point = m.tilted = false;
   m.tool_length_mm = 0;
-  m.spindle_turns = 0;
+  m.spindle_turns = m.cycle = 0;
+  m.retract_to_r = m.spline = m.plane_rotation = m.a_extrudes = false;
   m.feed_known = options_.default_feed_mm_per_s > 0;
   m.traverse_limited = false;
   m.feed_mm_per_s = options_.default_feed_mm_per_s;
@@ -246,6 +277,36 @@ void Core::set_position(const Pose& pose, Frame frame) {
   m.lifted_mm = 0;
   refresh();
   announce_ = true;
+}
+
+void Core::swap_locals(Locals& locals) {
+  std::swap_ranges(locals.numbers.begin(), locals.numbers.end(), state_.parameters.numbered.begin() + 1);
+  std::swap(locals.names, state_.parameters.locals);
+}
+
+void Core::set_returned(double value, bool given) {
+  write_named(state_.parameters, "_value", value);
+  write_named(state_.parameters, "_value_returned", given ? 1 : 0);
+}
+
+void Core::read_header(std::string_view comment) {
+  // PrusaSlicer and Slic3r write A for Mach3 and Machinekit, and turn no axes; Cura tells its flavour.
+  static constexpr std::array<std::string_view, 7> kHeaders = {
+      "generated by PrusaSlicer", "generated by Slic3r", "generated by SuperSlicer",
+      "generated by OrcaSlicer",  "FLAVOR:Mach3",        "FLAVOR:MACH3",
+      "FLAVOR:Machinekit"};
+  if (state_.modal.a_extrudes) return;
+  for (const std::string_view header : kHeaders) {
+    if (comment.find(header) == std::string_view::npos) continue;
+    state_.modal.a_extrudes = true;
+    return;
+  }
+}
+
+const Macro* Core::find_macro(std::string_view name) const {
+  for (const Macro& macro : options_.macros)
+    if (macro.name == name) return &macro;
+  return nullptr;
 }
 
 void Core::announce() {

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "gateway/gcode/block.hpp"
@@ -34,6 +35,14 @@ class Core {
   const State& state() const { return state_; }
   const ParseError& error() const { return error_; }
   std::vector<Note>& notes() { return notes_; }
+  const Options& options() const { return options_; }
+
+  void swap_locals(Locals& locals);
+  void set_returned(double value, bool given);
+  void read_header(std::string_view comment);
+  const Macro* find_macro(std::string_view name) const;
+  const ProgramCall& call() const { return call_; }
+  ProgramCall take_call() { return std::exchange(call_, {}); }
 
  private:
   struct FeedRate {
@@ -43,6 +52,11 @@ class Core {
 
   // core.cpp
   bool fail(std::uint32_t column, Sentence message);
+  /// The axes of the plane: counterclockwise is from u to v, seen from the positive end of w.
+  struct PlaneAxes {
+    std::size_t u, v, w;
+  };
+  PlaneAxes plane_axes() const;
   bool run_careful();  ///< any block; state and output are put back on an error
   bool run_block();
   bool run_nonmodal(Code code);
@@ -70,6 +84,8 @@ class Core {
   bool run_feed_word();
   bool feed_from(double value, FeedRate& feed);
   bool dwell();
+  bool change_tool();
+  canonical::PathMode path_mode() const;
   bool set_path_mode(Code code);
 
   // moves.cpp
@@ -85,6 +101,15 @@ class Core {
                  int& turns);
   bool retract();
   bool recover();
+
+  // cycles.cpp
+  bool run_cycle();
+  bool cycle_words(Code code, bool fresh);
+  bool drill(std::size_t w, double r, double bottom, double clear);
+  bool cycle_move(const Vector3& program, bool traverse);
+
+  // splines.cpp
+  bool run_spline(Code code);
   void move_lift(double height_mm);
 
   // offsets.cpp
@@ -94,6 +119,8 @@ class Core {
   bool set_g92(Code code);
   bool set_tool_length(Code code);
   bool set_tilt(Code code);
+  bool rotate_plane(Code code);
+  bool set_local_offset(Code code);
   bool orient_tool();
   bool home();
   bool refuse_in_tilt(Code code);
@@ -121,6 +148,13 @@ class Core {
   bool retract_settings(Code code);
   bool override_ratio(Code code);
   bool stored_job(Code code);
+  bool tool_temperature(char tool_letter);
+  bool wait_for_temperatures();
+  void remember(const canonical::Thermal& thermal);
+  bool program_call(Code code);
+
+  // commands.cpp: words of Klipper and macros
+  bool run_command();
 
   Options options_;
   State state_;
@@ -128,6 +162,7 @@ class Core {
   ParseError error_;
   std::vector<Note> notes_;
   std::vector<int> noted_;
+  ProgramCall call_;  ///< what the line at work asks for
   CommandBuffer* out_ = nullptr;
   std::uint32_t line_ = 0;
   std::uint32_t used_ = 0;  ///< words of the block that a code has taken

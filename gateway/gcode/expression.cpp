@@ -288,7 +288,7 @@ bool ValueReader::read_exists(double& value) {
   if (!cursor_.accept('#')) return fail(cursor_.p, say("exists is written exists[#<name>]"));
   if (!read_parameter_ref(ref)) return false;
   if (!cursor_.accept(']')) return fail(cursor_.p, say("expected ]"));
-  value = ref.index != 0 || read_named(state_.parameters, ref.name).has_value() ? 1 : 0;
+  value = ref.index != 0 || read_named(state_, ref.name).has_value() ? 1 : 0;
   return true;
 }
 
@@ -299,7 +299,7 @@ bool ValueReader::read_parameter_ref(ParameterRef& ref) {
     while (!cursor_.at_end() && *cursor_.p != '>') {
       const char c = lower(*cursor_.p++);
       if (c == ' ' || c == '\t') continue;
-      if (!((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-'))
+      if (c <= ' ' || c >= 0x7F || c == '#' || c == '<')
         return fail(cursor_.p - 1, say("a parameter's name is made of letters, digits, _ and -"));
       if (ref.name.size() >= ParameterState::kMaxNameLength)
         return fail(start, say("the parameter's name is too long (64 letters at most)"));
@@ -312,10 +312,10 @@ bool ValueReader::read_parameter_ref(ParameterRef& ref) {
   double number = 0;
   if (!read_value(number)) return false;
   if (std::abs(number) > 1e6 || std::abs(number - std::round(number)) > kEqualTolerance)
-    return fail(start, say("a parameter's number must be a whole number from 1 to 5400"));
+    return fail(start, say("a parameter's number must be a whole number from 1 to 5602"));
   ref.index = static_cast<int>(std::lround(number));
   if (parameter_use(ref.index) == ParameterUse::kNone)
-    return fail(start, say("there is no parameter #%1; they are #1 to #5400", ref.index));
+    return fail(start, say("there is no parameter #%1; they are #1 to #5602", ref.index));
   return true;
 }
 
@@ -327,7 +327,7 @@ bool ValueReader::read_parameter(double& value) {
     value = gcode::read_parameter(state_, ref.index);
     return true;
   }
-  const auto named = read_named(state_.parameters, ref.name);
+  const auto named = read_named(state_, ref.name);
   if (!named) return fail(start, say("#<%1> has no value yet", ref.name));
   value = *named;
   return true;

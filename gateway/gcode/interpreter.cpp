@@ -44,6 +44,36 @@ void Interpreter::clear_notes() {
   core_->notes().clear();
 }
 
+bool Interpreter::evaluate(std::string_view line, std::size_t& at, double& value, SyntaxError& error) const {
+  Cursor cursor{line.data(), line.data() + at, line.data() + line.size()};
+  ValueReader values(state(), cursor, error);
+  if (!values.read_value(value)) return false;
+  at = static_cast<std::size_t>(cursor.p - line.data());
+  return true;
+}
+
+void Interpreter::swap_locals(Locals& locals) {
+  core_->swap_locals(locals);
+}
+void Interpreter::set_returned(double value, bool given) {
+  core_->set_returned(value, given);
+}
+const Options& Interpreter::options() const {
+  return core_->options();
+}
+void Interpreter::read_header(std::string_view comment) {
+  core_->read_header(comment);
+}
+const Macro* Interpreter::find_macro(std::string_view name) const {
+  return core_->find_macro(name);
+}
+const ProgramCall& Interpreter::call() const {
+  return core_->call();
+}
+ProgramCall Interpreter::take_call() {
+  return core_->take_call();
+}
+
 Pose Interpreter::program_position() const {
   Pose pose = state().modal.program;
   pose[kAxisA] *= 180 / std::numbers::pi;

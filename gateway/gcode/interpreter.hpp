@@ -2,6 +2,7 @@
 // G-code lines to canonical commands: RS274/NGC and the 3D-printing dialect in one interpreter.
 // The supported codes are listed in gateway/gcode/README.md.
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -11,6 +12,7 @@
 
 #include "gateway/gcode/canonical.hpp"
 #include "gateway/gcode/error.hpp"
+#include "gateway/gcode/expression.hpp"
 #include "gateway/gcode/state.hpp"
 #include "gateway/result.hpp"
 
@@ -19,6 +21,29 @@ namespace kinebus::gcode {
 /// Canonical commands are appended here; the caller clears and reuses it, so that nothing is allocated per
 /// line.
 using CommandBuffer = std::vector<canonical::Line>;
+
+/// A subroutine of the machine file: "start_print" in lower case, and its lines.
+struct Macro {
+  std::string name;
+  std::string text;
+};
+
+/// What a line asks of whoever gives the interpreter its lines (Program).
+struct ProgramCall {
+  enum class What : std::uint8_t { kNone, kProgram, kReturn, kMacro } what = What::kNone;
+  std::uint32_t column = 0;
+  int number = 0;                ///< M98 P
+  int times = 1;                 ///< M98 L
+  std::string name;              ///< of the macro
+  NamedValues arguments;         ///< sorted by name
+  std::vector<double> numbered;  ///< #1 ...
+};
+
+/// What belongs to one subroutine at work alone.
+struct Locals {
+  std::array<double, ParameterState::kLocals> numbers{};
+  NamedValues names;
+};
 
 enum class DwellUnit : std::uint8_t { kMilliseconds, kSeconds };
 
@@ -43,6 +68,9 @@ struct Options {
   std::vector<double> tool_length_mm;                                      ///< G43 H1 is the first entry
   double retract_length_mm = 1, retract_mm_per_s = 40, retract_lift_mm = 0;  ///< until M207
   double recover_extra_mm = 0, recover_mm_per_s = 40;                        ///< until M208
+  std::vector<Macro> macros;
+  /// Lines of loops and subroutines that a text carries out at most, so that one without end is an error.
+  std::uint64_t most_recorded_steps = 10'000'000;
 };
 
 class Core;
@@ -78,6 +106,23 @@ class Interpreter {
   /// point gets these coordinates. Refused in a tilted plane.
   Result<void, Sentence> set_work_offset(int system, const Pose& offset, bool here);
 
+  // For Program, which carries out lines in the order of O words.
+  /// Reads the value at line[at] and leaves `at` behind it.
+  bool evaluate(std::string_view line, std::size_t& at, double& value, SyntaxError& error) const;
+  void swap_locals(Locals& locals);
+  /// endsub, return: #<_value> and #<_value_returned>.
+  void set_returned(double value, bool given);
+  const Options& options() const;
+  /// A comment of the text's beginning. Where it names a slicer or firmware whose A is extrusion, A is E from
+  /// here on, with a note when it is first used.
+  void read_header(std::string_view comment);
+  bool has_macro(std::string_view name) const { return find_macro(name) != nullptr; }
+  /// Which exists; lives as long as this.
+  std::string_view macro_text(std::string_view name) const { return find_macro(name)->text; }
+  /// What the last line asked for.
+  const ProgramCall& call() const;
+  ProgramCall take_call();
+
   /// The current point as the job would write it: mm and degrees.
   Pose program_position() const;
   /// "G1 G17 G21 G90 G91.1 G94 G54 G49 G64 G69 M82": for status displays.
@@ -88,6 +133,8 @@ class Interpreter {
   void clear_notes();
 
  private:
+  const Macro* find_macro(std::string_view name) const;
+
   std::unique_ptr<Core> core_;
 };
 

@@ -49,6 +49,9 @@ Result<void, ParseError> JobReader::refuse(ParseError error) {
 }
 
 Result<void, ParseError> JobReader::line(std::string_view text, CommandBuffer& out) {
+  if (program_.busy()) [[unlikely]] {
+    if (auto result = run_recorded(kWithoutEnd, out); !result) return result;
+  }
   ++line_;
   if (interpreter_.ended() || no_text_) return {};
   const bool too_long = text.size() > kMaxLine && !is_comment(text);
@@ -67,9 +70,19 @@ Result<void, ParseError> JobReader::line(std::string_view text, CommandBuffer& o
     return refuse(
         {line_, static_cast<std::uint32_t>(kMaxLine) + 1, say("the line is longer than 4096 bytes")});
   if (!text.empty() && text.back() == '\r') text.remove_suffix(1);
-  auto result = interpreter_.execute(text, line_, out);
-  if (!result) return refuse(std::move(result.error()));
-  return result;
+  constexpr std::uint32_t kHeaderLines = 40;
+  if (line_ <= kHeaderLines && !text.empty() && text.front() == ';') [[unlikely]]
+    interpreter_.read_header(text);
+  if (auto result = program_.line(text, line_, out); !result) return refuse(std::move(result.error()));
+  if (program_.busy()) [[unlikely]]
+    return run_recorded(steps_a_call_, out);
+  return {};
+}
+
+Result<void, ParseError> JobReader::run_recorded(std::uint32_t steps, CommandBuffer& out) {
+  for (; steps > 0 && program_.busy(); --steps)
+    if (auto result = program_.step(out); !result) return refuse(std::move(result.error()));
+  return {};
 }
 
 Result<void, ParseError> JobReader::end_carried_line(CommandBuffer& out) {
@@ -96,6 +109,9 @@ void JobReader::find_ending(std::string_view chunk) {
 Result<void, ParseError> JobReader::read(std::string_view chunk, CommandBuffer& out) {
   taken_ = 0;
   if (!failed_) return failed_;
+  if (program_.busy()) [[unlikely]] {
+    if (auto result = run_recorded(steps_a_call_, out); !result || program_.busy()) return result;
+  }
   const char* const begin = chunk.data();
   if (ending_ == Ending::kUnknown) {
     find_ending(chunk);
@@ -104,10 +120,11 @@ Result<void, ParseError> JobReader::read(std::string_view chunk, CommandBuffer& 
       const std::size_t text = carry_.find_last_not_of('\r') + 1;
       const std::size_t empty = carry_.size() - text - 1;
       carry_.resize(text);
-      auto result = end_carried_line(out);
-      for (std::size_t i = 0; i < empty; ++i) static_cast<void>(line({}, out));  // cannot be refused
+      static_cast<void>(end_carried_line(out));
+      for (std::size_t i = 0; i < empty; ++i) static_cast<void>(line({}, out));
       after_return_ = true;
-      if (!result) return result;
+      if (!failed_) return failed_;
+      if (program_.busy()) return {};
     }
   }
   const bool returns = ending_ == Ending::kReturn;
@@ -129,7 +146,7 @@ Result<void, ParseError> JobReader::read(std::string_view chunk, CommandBuffer& 
       continue;
     }
     if (whole && carry_.empty()) {
-      if (auto result = line(part, out); !result) return result;
+      if (auto result = line(part, out); !result || program_.busy()) return result;
       continue;
     }
     if (!long_comment_) {
@@ -140,13 +157,13 @@ Result<void, ParseError> JobReader::read(std::string_view chunk, CommandBuffer& 
         long_comment_ = is_comment(carry_);
         if (!long_comment_) {
           rest_of_line_ = !whole;
-          if (auto result = end_carried_line(out); !result) return result;
+          if (auto result = end_carried_line(out); !result || program_.busy()) return result;
           continue;
         }
       }
     }
     if (!whole) continue;
-    if (auto result = end_carried_line(out); !result) return result;
+    if (auto result = end_carried_line(out); !result || program_.busy()) return result;
   }
   const auto taken = static_cast<std::size_t>(chunk.data() - begin);
   bytes_ += taken - taken_;
@@ -156,8 +173,18 @@ Result<void, ParseError> JobReader::read(std::string_view chunk, CommandBuffer& 
 
 Result<void, ParseError> JobReader::finish(CommandBuffer& out) {
   if (!failed_) return failed_;
+  if (program_.busy()) {
+    if (auto result = run_recorded(steps_a_call_, out); !result || program_.busy()) return result;
+  }
   if (!carry_.empty())
-    if (auto result = end_carried_line(out); !result) return result;
+    if (auto result = end_carried_line(out); !result || program_.busy()) return result;
+  if (!interpreter_.ended())
+    if (auto result = program_.finish(); !result) {
+      if (auto refused = refuse(std::move(result.error())); !refused) return refused;
+    }
+  if (program_.busy()) {
+    if (auto result = run_recorded(steps_a_call_, out); !result || program_.busy()) return result;
+  }
   interpreter_.finish(line_, out);
   return {};
 }

@@ -41,9 +41,47 @@ bool Core::run_machine_code(Code code) {
     case 5:
       return spindle(code);
     case 9:
+    case 6:
     case 82:
     case 83:
-      return true;  // no coolant; the E modes are set in run_modes()
+      return true;  // no coolant; the rest is done in run_modes()
+    case 61: {
+      int tool = 0;
+      if (!has('Q')) return fail(code.column, say("M61 needs the tool Q"));
+      if (!take_integer('Q', 0, 99999, tool)) return false;
+      state_.modal.tool = state_.modal.tool_in_spindle = tool;
+      return true;
+    }
+    case 62:
+    case 63:
+    case 64:
+    case 65: {
+      canonical::Thermal output;
+      output.what = canonical::Thermal::What::kOutput;
+      output.value = code.number % 2 == 0 ? 1 : 0;
+      if (!has('P')) return fail(code.column, say("%1 needs the output P", m_name(code.number)));
+      if (!take_integer('P', 0, 7, output.index)) return false;
+      emit(output);
+      return true;
+    }
+    case 98:
+    case 99:
+      return program_call(code);
+    case 116:
+      return wait_for_temperatures();
+    case 568:
+      return tool_temperature('P');
+    case 200: {
+      double diameter = 0;
+      if (!take_if_given('D', diameter)) return false;
+      if (diameter > 0)
+        return fail(code.column,
+                    say("volumetric extrusion (M200 D) is not supported: use lengths of filament"));
+      pass_over('S');
+      pass_over('T');
+      note(200, say("%1 has no effect on this machine", m_name(200)));
+      return true;
+    }
     case 17:
     case 18:
     case 84:
@@ -73,6 +111,7 @@ bool Core::run_machine_code(Code code) {
       emit(Query{Query::What::kPosition});
       return true;
     case 115:
+      if (block_.has_text) note(115, say("%1 has no effect on this machine", "M115 U"));
       emit(Query{Query::What::kFirmware});
       return true;
     case 119:
@@ -116,6 +155,80 @@ bool Core::run_machine_code(Code code) {
   }
   if (m_group(code.number) == MGroup::kJobs) return stored_job(code);
   note(code.number, say("%1 has no effect on this machine", m_name(code.number)));
+  return true;
+}
+
+bool Core::program_call(Code code) {
+  call_ = {};
+  call_.column = code.column;
+  if (code.number == 99) {
+    call_.what = ProgramCall::What::kReturn;
+    return !has('P') || fail(block_.column_of('P'), say("M99 P is not supported: M99 goes back to the call"));
+  }
+  if (block_.has_text) {
+    // P"name": RepRapFirmware's macros
+    std::string_view name = block_.text;
+    if (name.starts_with('P') || name.starts_with('p')) name.remove_prefix(1);
+    const std::size_t end = name.find('"', 1);
+    name = name.substr(1, end == std::string_view::npos ? end : end - 1);
+    std::string small(name);
+    for (char& c : small)
+      if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + ('a' - 'A'));
+    if (find_macro(small) == nullptr)
+      return fail(block_.text_column, say("there is no macro %1", std::string(name)));
+    call_.what = ProgramCall::What::kMacro;
+    call_.name = small;
+    return true;
+  }
+  call_.what = ProgramCall::What::kProgram;
+  if (!has('P')) return fail(code.column, say("M98 needs the program P"));
+  return take_integer('P', 0, 99'999'999, call_.number) && take_integer('L', 0, 9999, call_.times);
+}
+
+void Core::remember(const canonical::Thermal& thermal) {
+  using What = canonical::Thermal::What;
+  ModalState& m = state_.modal;
+  if (thermal.what == What::kHotend)
+    m.hotend_celsius[static_cast<std::size_t>(std::clamp(thermal.index, 0, 7))] = thermal.value;
+  if (thermal.what == What::kBed && thermal.index == 0) m.bed_celsius = thermal.value;
+  if (thermal.what == What::kChamber && thermal.index == 0) m.chamber_celsius = thermal.value;
+}
+
+/// G10 P S, M568 P S.
+bool Core::tool_temperature(char tool_letter) {
+  canonical::Thermal command;
+  command.what = canonical::Thermal::What::kHotend;
+  command.index = std::min(state_.modal.tool, options_.hotends - 1);
+  if (!take_integer(tool_letter, 0, options_.hotends - 1, command.index)) return false;
+  const bool given = has('S');
+  if (given && !take('S', command.value)) return false;
+  if (command.value < 0)
+    return fail(block_.column_of('S'), say("a target temperature cannot be below 0 deg C"));
+  for (const char letter : {'R', 'A', 'F', 'X', 'Y', 'Z'}) pass_over(letter);  // standby, offsets of the tool
+  if (!given) return true;
+  remember(command);
+  emit(command);
+  return true;
+}
+
+/// M116: those that were set before and are not off.
+bool Core::wait_for_temperatures() {
+  using What = canonical::Thermal::What;
+  const ModalState& m = state_.modal;
+  for (const char letter : {'P', 'H', 'C', 'S'}) pass_over(letter);
+  const auto wait = [this](What what, double celsius, int index) {
+    if (!(celsius > 0)) return;
+    canonical::Thermal command;
+    command.what = what;
+    command.value = celsius;
+    command.index = index;
+    command.wait = true;
+    emit(command);
+  };
+  wait(What::kBed, m.bed_celsius, 0);
+  wait(What::kChamber, m.chamber_celsius, 0);
+  for (int i = 0; i < std::min(options_.hotends, 8); ++i)
+    wait(What::kHotend, m.hotend_celsius[static_cast<std::size_t>(i)], i);
   return true;
 }
 
@@ -171,6 +284,7 @@ bool Core::thermal(Code code) {
   const bool chamber = code.number == 141 || code.number == 191;
   command.what = code.number < 140 ? What::kHotend : chamber ? What::kChamber : What::kBed;
   command.wait = code.number == 109 || code.number >= 190;
+  for (const char letter : {'C', 'W'}) pass_over(letter);  // window and time of the wait
   const bool rising = has('S'), both = command.wait && has('R');
   if (rising && both) return fail(block_.column_of('R'), say("%1 takes S or R, not both", name));
   if (!rising && !both)
@@ -181,12 +295,20 @@ bool Core::thermal(Code code) {
   if (command.value < 0)
     return fail(block_.column_of(letter), say("a target temperature cannot be below 0 deg C"));
   command.wait_cooling = both;
+  if (command.what == What::kHotend && has('T') && !block_.is_bare('T') && block_['T'] >= options_.hotends &&
+      command.value == 0) {
+    // A hot end that is not there is off.
+    pass_over('T');
+    note(code.number, say("%1 has no effect on this machine", name + " T"));
+    return true;
+  }
   if (command.what == What::kHotend) {
     command.index = std::min(state_.modal.tool, options_.hotends - 1);
     if (!take_integer('T', 0, options_.hotends - 1, command.index)) return false;
   } else if (!take_integer('P', 0, 7, command.index)) {
     return false;
   }
+  remember(command);
   emit(command);
   return true;
 }
@@ -223,6 +345,7 @@ bool Core::axis_limits(Code code) {
     values[static_cast<std::size_t>(axis)] = axis_value(axis, value);
     any = true;
   }
+  for (const char letter : {'U', 'V', 'W'}) pass_over(letter);  // axes of other machines
   if (!any) return fail(code.column, say("%1 needs at least one axis word", m_name(code.number)));
   emit(command);
   return true;
@@ -248,7 +371,7 @@ bool Core::acceleration_limits() {
 }
 
 bool Core::jerk() {
-  for (const char letter : {'X', 'Y', 'Z', 'A', 'C', 'E', 'J', 'S', 'T', 'B'}) pass_over(letter);
+  for (const char letter : {'X', 'Y', 'Z', 'A', 'C', 'E', 'J', 'S', 'T', 'B', 'V'}) pass_over(letter);
   note(205, say("M205 (jerk, junction deviation) has no effect: corners are blended within the tolerance of "
                 "G64 P"));
   return true;
@@ -286,6 +409,13 @@ bool Core::override_ratio(Code code) {
   ModalState& m = state_.modal;
   const std::string name = m_name(code.number);
   double percent = 0;
+  if (!has('S') && (block_.is_bare('B') || block_.is_bare('R'))) {
+    // Marlin stores and restores the percentage around a change of filament.
+    pass_over('B');
+    pass_over('R');
+    note(code.number, say("%1 has no effect on this machine", name + " B, R"));
+    return true;
+  }
   if (!has('S')) return fail(code.column, say("%1 needs a percentage S", name));
   if (!take('S', percent)) return false;
   const double ratio = percent / 100;
@@ -296,6 +426,7 @@ bool Core::override_ratio(Code code) {
     emit(canonical::Override{ratio, 0});
   } else {
     pass_over('T');
+    pass_over('D');
     base_e_here(m.program[kAxisE]);
     m.flow_ratio = ratio;
     emit(canonical::Override{0, ratio});

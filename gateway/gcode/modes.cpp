@@ -17,11 +17,19 @@ bool Core::run_modes() {
   }
   if (has('F') && !m.inverse_time && !run_feed_word()) return false;
   if (has('T')) {
-    if (!block_.is_bare('T') && block_['T'] >= options_.tools)
-      return fail(block_.column_of('T'),
-                  say("the machine has no such tool: the last is T%1", options_.tools - 1));
-    if (!take_integer('T', 0, options_.tools - 1, m.tool)) return false;
+    const int last = options_.tools - 1;
+    if (block_['T'] == -1 && !block_.is_bare('T')) {
+      pass_over('T');  // RepRapFirmware: no tool
+    } else {
+      if (!block_.is_bare('T') && block_['T'] > last)
+        return fail(block_.column_of('T'), say("the machine has no such tool: the last is T%1", last));
+      if (!take_integer('T', 0, last, m.tool)) return false;
+    }
+    // What a change of tools does there: P in RepRapFirmware, S L D in others.
+    if (block_.groups == 0 && block_.m_count == 0)
+      for (const char letter : {'P', 'S', 'L', 'D'}) pass_over(letter);
   }
+  if (block_.has_m(6) && !change_tool()) return false;
   if (block_.has(GGroup::kPlane)) {
     const int number = block_.code(GGroup::kPlane).number;
     m.plane = number == 170 ? Plane::kXy : number == 180 ? Plane::kZx : Plane::kYz;
@@ -37,8 +45,20 @@ bool Core::run_modes() {
   }
   if (block_.has_m(82)) m.incremental_e = m.relative_extruder = false;
   if (block_.has_m(83)) m.incremental_e = m.relative_extruder = true;
+  if (block_.has(GGroup::kRetract)) m.retract_to_r = block_.code(GGroup::kRetract).number == 990;
   if (block_.has(GGroup::kCentre)) m.absolute_centre = block_.code(GGroup::kCentre).number == 901;
   if (block_.has(GGroup::kTilt) && !set_tilt(block_.code(GGroup::kTilt))) return false;
+  return true;
+}
+
+bool Core::change_tool() {
+  ModalState& m = state_.modal;
+  if (m.tool_in_spindle == m.tool) return true;
+  m.tool_in_spindle = m.tool;
+  if (m.spindle_turns != 0) emit(canonical::Spindle{0});
+  m.spindle_turns = 0;
+  emit(canonical::Message{say("put in the tool T%1, then go on", m.tool)});
+  emit(canonical::Pause{false});
   return true;
 }
 
@@ -84,6 +104,7 @@ bool Core::set_path_mode(Code code) {
     merges = !given || merge > 0;
     if (!given) merge = tolerance;
   }
+  m.merge_lines = merges;
   m.exact_path = code.number != 640;
   m.path_tolerance_mm = length(tolerance);
   m.merge_tolerance_mm = length(merge);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "gateway/gcode/arc.hpp"
 #include "gateway/gcode/core.hpp"
@@ -15,24 +16,10 @@ constexpr std::uint32_t bits(std::string_view letters) {
   for (const char c : letters) result |= Block::bit(c);
   return result;
 }
+constexpr int kNoteForLevelling = 100800;
 constexpr std::uint32_t kLinear = bits("XYZ"), kTurning = bits("AC"), kAllAxes = bits("XYZACE");
 constexpr std::uint32_t kCentreWords = bits("IJKR");
 
-/// Axes of a plane: counterclockwise is from u to v, seen from the positive end of w.
-struct PlaneAxes {
-  std::size_t u, v, w;
-};
-constexpr PlaneAxes axes_of(Plane plane) {
-  switch (plane) {
-    case Plane::kXy:
-      return {kAxisX, kAxisY, kAxisZ};
-    case Plane::kZx:
-      return {kAxisZ, kAxisX, kAxisY};
-    case Plane::kYz:
-      return {kAxisY, kAxisZ, kAxisX};
-  }
-  return {kAxisX, kAxisY, kAxisZ};
-}
 constexpr std::array<char, 3> kCentreLetters = {'I', 'J', 'K'};
 
 Motion motion_of(int g_tenths) {
@@ -52,11 +39,44 @@ Motion motion_of(int g_tenths) {
 
 }  // namespace
 
+Core::PlaneAxes Core::plane_axes() const {
+  switch (state_.modal.plane) {
+    case Plane::kXy:
+      return {kAxisX, kAxisY, kAxisZ};
+    case Plane::kZx:
+      return {kAxisZ, kAxisX, kAxisY};
+    case Plane::kYz:
+      return {kAxisY, kAxisZ, kAxisX};
+  }
+  return {kAxisX, kAxisY, kAxisZ};
+}
+
 bool Core::run_motion() {
   ModalState& m = state_.modal;
+  const bool spline_before = std::exchange(m.spline, false);
   const bool machine_coordinates =
       block_.has(GGroup::kNonmodal) && block_.code(GGroup::kNonmodal).number == 530;
-  if (block_.has(GGroup::kMotion)) m.motion = motion_of(block_.code(GGroup::kMotion).number);
+  if (block_.has(GGroup::kMotion)) {
+    const Code code = block_.code(GGroup::kMotion);
+    m.motion = motion_of(code.number);
+    if (code.number == 50 || code.number == 51) {
+      m.cycle = 0;
+      m.spline = spline_before;
+      return run_spline(code);
+    }
+    if (code.number < 730 || code.number == 800) m.cycle = 0;
+    if (code.number == 800 && (block_.present & bits("WH")) != 0) {
+      // Printers level the named part of the bed.
+      used_ |= block_.present & bits("XYWHNPC");
+      note(kNoteForLevelling, say("%1 has no effect on this machine", "G80 X Y W H"));
+      return true;
+    }
+  }
+  if (m.cycle != 0 || (block_.has(GGroup::kMotion) && block_.code(GGroup::kMotion).number >= 730)) {
+    if (machine_coordinates)
+      return fail(block_.code(GGroup::kNonmodal).column, say("G53 needs G0 or G1, in this line or active"));
+    if (!block_.has(GGroup::kMotion) || block_.code(GGroup::kMotion).number != 800) return run_cycle();
+  }
   const bool clockwise = m.motion == Motion::kArcClockwise;
   const bool is_arc = clockwise || m.motion == Motion::kArcCounterclockwise;
   if (machine_coordinates) return run_machine_coordinates();
@@ -94,7 +114,8 @@ void Core::program_target(Pose& program) const {
 
 bool Core::check_turning() {
   const ModalState& m = state_.modal;
-  if (!m.tilted || m.tool_centre_point || (block_.present & ~used_ & kTurning) == 0) return true;
+  if (!m.tilted || m.plane_rotation || m.tool_centre_point || (block_.present & ~used_ & kTurning) == 0)
+    return true;
   const char letter = block_.has('A') ? 'A' : 'C';
   return fail(block_.column_of(letter), say("in a tilted plane A and C turn only under G43.4, or by G53.1"));
 }
@@ -176,7 +197,7 @@ bool Core::speed_for(bool turns_alone, const FeedRate& feed, double& feed_per_s,
 bool Core::arc_words(const Pose& start, bool& by_radius, double& radius_mm, std::array<double, 2>& centre,
                      int& turns) {
   const ModalState& m = state_.modal;
-  const PlaneAxes plane = axes_of(m.plane);
+  const PlaneAxes plane = plane_axes();
   const Code code = block_.has(GGroup::kMotion) ? block_.code(GGroup::kMotion) : Code{0, 1};
   const std::string name = m.motion == Motion::kArcClockwise ? "G2" : "G3";
   const char first = kCentreLetters[plane.u], second = kCentreLetters[plane.v],
@@ -207,7 +228,7 @@ bool Core::arc_words(const Pose& start, bool& by_radius, double& radius_mm, std:
 
 bool Core::run_arc(bool clockwise) {
   ModalState& m = state_.modal;
-  const PlaneAxes plane = axes_of(m.plane);
+  const PlaneAxes plane = plane_axes();
   const std::uint32_t column = block_.has(GGroup::kMotion) ? block_.code(GGroup::kMotion).column : 1;
   for (const char letter : kAxisLetters)
     if ((block_.present & ~used_ & block_.bare & Block::bit(letter)) != 0)
@@ -286,7 +307,9 @@ bool Core::run_machine_coordinates() {
     if (!take('E', value)) return false;
     target[kAxisE] = canonical_e(program[kAxisE]);
   }
-  return move_to(program, target, m.motion == Motion::kTraverse);
+  if (!move_to(program, target, m.motion == Motion::kTraverse)) return false;
+  if (m.tilted) refresh();  // G68: the point as the rotated plane has it
+  return true;
 }
 
 bool Core::retract() {

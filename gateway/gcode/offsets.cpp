@@ -76,7 +76,8 @@ void Core::base_e_here(double program_e) {
 }
 
 Frame Core::wanted_frame() const {
-  return state_.modal.tool_centre_point || state_.modal.tilted ? Frame::kPart : Frame::kMachine;
+  const ModalState& m = state_.modal;
+  return m.tool_centre_point || (m.tilted && !m.plane_rotation) ? Frame::kPart : Frame::kMachine;
 }
 
 void Core::change_frame() {
@@ -183,10 +184,16 @@ bool Core::set_tool_length(Code code) {
   ModalState& m = state_.modal;
   const int tools = static_cast<int>(options_.tool_length_mm.size());
   int h = m.tool <= tools ? m.tool : 0;
-  if (code.number != 490 && !take_integer('H', 0, tools, h)) return false;
-  const double tool_length =
+  if (code.number != 490 && code.number != 431 && !take_integer('H', 0, tools, h)) return false;
+  double tool_length =
       code.number == 490 || h == 0 ? 0 : options_.tool_length_mm[static_cast<std::size_t>(h - 1)];
-  if (tool_length != 0 && (code.number == 434 || m.tilted))
+  if (code.number == 431) {
+    if (block_.has(GGroup::kMotion) || !has('Z'))
+      return fail(code.column, say("G43.1 needs the tool's length Z, and a line without motion"));
+    if (!take('Z', tool_length)) return false;
+    tool_length = length(tool_length);
+  }
+  if (tool_length != 0 && (code.number == 434 || (m.tilted && !m.plane_rotation)))
     return fail(
         code.column,
         say("G43.4 and G68.2 need a tool of length 0: the machine file says where the tool's tip is"));
@@ -198,8 +205,9 @@ bool Core::set_tool_length(Code code) {
 
 bool Core::set_tilt(Code code) {
   ModalState& m = state_.modal;
+  if (code.number == 680) return rotate_plane(code);
   if (code.number == 690) {
-    m.tilted = false;
+    m.tilted = m.plane_rotation = false;
     change_frame();
     return true;
   }
@@ -221,10 +229,61 @@ bool Core::set_tilt(Code code) {
   return true;
 }
 
+/// G68: about the point given, else about the current one.
+bool Core::rotate_plane(Code code) {
+  ModalState& m = state_.modal;
+  if (m.tilted && !m.plane_rotation)
+    return fail(code.column, say("a tilted plane is active already: end it with G69 first"));
+  if (block_.has(GGroup::kMotion))
+    return fail(code.column,
+                say("%1 uses the line's axis words: write the motion in another line", g_name(680)));
+  if (!has('R')) return fail(code.column, say("G68 needs R, the angle in degrees"));
+  m.tilted = m.plane_rotation = false;
+  refresh();
+  const PlaneAxes plane = plane_axes();
+  Vector3 centre = xyz(m.program);
+  double value = 0;
+  for (const std::size_t axis : {plane.u, plane.v}) {
+    if (!has(kAxisLetters[axis])) continue;
+    if (!take(kAxisLetters[axis], value)) return false;
+    centre[axis] = length(value);
+  }
+  if (!take('R', value)) return false;
+  const double cosine = std::cos(value * kRadians), sine = std::sin(value * kRadians);
+  m.tilt = kIdentity;
+  m.tilt[plane.u][plane.u] = m.tilt[plane.v][plane.v] = cosine;
+  m.tilt[plane.v][plane.u] = sine;
+  m.tilt[plane.u][plane.v] = -sine;
+  m.tilt_origin_mm = centre - m.tilt * centre;
+  m.tilted = m.plane_rotation = true;
+  refresh();
+  return true;
+}
+
+/// G52: as LinuxCNC has it, the same values that G92 sets.
+bool Core::set_local_offset(Code code) {
+  ModalState& m = state_.modal;
+  if (!refuse_in_tilt(code)) return false;
+  if (!m.g92_active) m.g92_offset = {};
+  bool any = false;
+  for (int axis = kAxisX; axis <= kAxisC; ++axis) {
+    const char letter = kAxisLetters[static_cast<std::size_t>(axis)];
+    double value = 0;
+    if (!has(letter)) continue;
+    if (!take(letter, value)) return false;
+    m.g92_offset[static_cast<std::size_t>(axis)] = axis_value(axis, value);
+    any = true;
+  }
+  if (!any) return fail(code.column, say("G52 needs at least one axis word"));
+  m.g92_active = true;
+  refresh();
+  return true;
+}
+
 bool Core::orient_tool() {
   ModalState& m = state_.modal;
   const Code code = block_.code(GGroup::kNonmodal);
-  if (!m.tilted) return fail(code.column, say("G53.1 needs a tilted plane (G68.2)"));
+  if (!m.tilted || m.plane_rotation) return fail(code.column, say("G53.1 needs a tilted plane (G68.2)"));
   int choice = 0;
   if (!take_integer('P', 0, 2, choice)) return false;
   // R_X(A) R_Z(C) turns the plane's normal (in the part) to the machine's +Z, where the tool comes from.
@@ -286,6 +345,7 @@ bool Core::home() {
   // knows its position goes to its reference without looking for switches, whatever the word says.
   for (const char letter : {'W', 'O'})
     if (block_.is_bare(letter)) pass_over(letter);
+  pass_over('R');  // how high other machines lift before it
   Pose machine = in_frame(m.position, m.frame, Frame::kMachine);
   for (std::size_t axis = kAxisX; axis <= kAxisC; ++axis)
     if (axes == 0 || (axes >> axis & 1U) != 0) machine[axis] = options_.home[axis];

@@ -50,6 +50,21 @@ struct ModalState {
   int tool = 0;
   int coordinate_system = 0;  ///< 0: G54
 
+  int tool_in_spindle = -1;  ///< by M6; -1: not known
+  bool merge_lines = true;   ///< not G64 Q0
+  bool a_extrudes = false;   ///< A of this text is E (Mach3, Machinekit)
+
+  int cycle = 0;                ///< canned cycle in force, in tenths (810); 0: none
+  bool retract_to_r = false;    ///< G99
+  double cycle_initial_mm = 0;  ///< where the first of its row began
+  double cycle_r_mm = 0, cycle_bottom_mm = 0, cycle_peck_mm = 0, cycle_dwell_s = 0;  ///< G91: as increments
+  std::array<double, 2> spline_end_mm{};  ///< G5 P Q of the line before
+  bool spline = false;                    ///< the line before was a G5
+  bool plane_rotation = false;            ///< `tilted` by G68: the tool does not turn with the plane
+
+  std::array<double, 8> hotend_celsius{};  ///< targets, for M116
+  double bed_celsius = 0, chamber_celsius = 0;
+
   double path_tolerance_mm = 0;   ///< G64 P
   double merge_tolerance_mm = 0;  ///< G64 Q
   double tool_length_mm = 0;      ///< G43 H; 0 after G49
@@ -75,13 +90,17 @@ struct ModalState {
   Pose position{};  ///< the same point as the last canonical command left it
 };
 
-/// #1 .. #5400 and #<name>.
+using NamedValues = std::vector<std::pair<std::string, double>>;
+
+/// #1 .. #5602 and #<name>.
 struct ParameterState {
-  static constexpr int kCount = 5401;
+  static constexpr int kCount = 5603;
+  static constexpr std::size_t kLocals = 30;  ///< #1 .. #30 belong to the subroutine at work
   static constexpr std::size_t kMaxNamed = 1000;
   static constexpr std::size_t kMaxNameLength = 64;
   std::array<double, kCount> numbered{};
-  std::vector<std::pair<std::string, double>> named;  ///< sorted by name
+  NamedValues named;   ///< those that begin with _: everybody's; sorted by name
+  NamedValues locals;  ///< the others: of the subroutine at work; sorted by name
 };
 
 struct State {

@@ -1,6 +1,8 @@
 #include "gateway/jobs/job_pipeline.hpp"
 
+#include <algorithm>
 #include <cstring>
+#include <iterator>
 #include <utility>
 
 #include "gateway/jobs/live_lines.hpp"
@@ -61,6 +63,7 @@ void JobPipeline::begin(const Pose& start) {
   feed_scale_ = 1;
   moves_taken_ = 0;
   scales_.clear();
+  places_.clear();
 }
 
 void JobPipeline::start_job(ByteSource& source, const Pose& start, const gcode::WorkOffsets& offsets) {
@@ -69,7 +72,7 @@ void JobPipeline::start_job(ByteSource& source, const Pose& start, const gcode::
   gcode::Options options = interpreter_options(machine_, start, home);
   options.work_offsets = offsets;
   interpreter_ = std::make_unique<gcode::Interpreter>(std::move(options));
-  reader_ = std::make_unique<gcode::JobReader>(*interpreter_);
+  reader_ = std::make_unique<gcode::JobReader>(*interpreter_, 1);
   source_ = &source;
   text_done_ = false;
 }
@@ -101,8 +104,42 @@ bool JobPipeline::live_idle() const {
          !refused_ && stage_ == Stage::kFeeding && planner_.idle();
 }
 
+std::vector<gcode::Note> JobPipeline::take_notes() {
+  if (!interpreter_ || interpreter_->notes().empty()) return {};
+  std::vector<gcode::Note> notes(interpreter_->notes().begin(), interpreter_->notes().end());
+  interpreter_->clear_notes();
+  return notes;
+}
+
 void JobPipeline::settle_live() {
   if (stage_ == Stage::kFeeding && waiting() == 0 && !live_idle()) drain(std::nullopt);
+}
+
+void JobPipeline::plan_live() {
+  while (stage_ == Stage::kFeeding && !refused_ && planner_.wants_more() && take_known()) {
+  }
+}
+
+Planner::Ahead JobPipeline::ahead() {
+  Planner::Ahead ahead = planner_.ahead();
+  if (phase_waits_) {
+    ahead.final_s += phase_.duration_s;
+    ahead.all_s += phase_.duration_s;
+  }
+  return ahead;
+}
+
+/// The next command that needs no reading; false: there is none.
+bool JobPipeline::take_known() {
+  if (!first_.empty()) {
+    const canonical::Line line = std::move(first_.front());
+    first_.pop_front();
+    take(line);
+    return true;
+  }
+  if (next_command_ == commands_.size()) return false;
+  take(commands_[next_command_++]);
+  return true;
 }
 
 void JobPipeline::refuse(std::uint32_t line, std::uint32_t column, Sentence words) {
@@ -125,13 +162,8 @@ JobPipeline::Step JobPipeline::next(int& budget) {
       continue;
     }
     if (stage_ == Stage::kEnded) return Step::kEnd;
-    if (!first_.empty()) {
-      const canonical::Line line = std::move(first_.front());
-      first_.pop_front();
-      take(line);
-    } else if (next_command_ < commands_.size()) {
-      take(commands_[next_command_++]);
-    } else if (text_done_) {
+    if (take_known()) continue;
+    if (text_done_) {
       ends_ = true;
       drain(std::nullopt);
     } else if (source_ == nullptr) {
@@ -154,10 +186,14 @@ std::optional<JobPipeline::Step> JobPipeline::take_phase() {
   if (!events_.empty() && events_.front().line < phase_.line) {
     command_ = std::move(events_.front());
     events_.pop_front();
+    command_.line = line_of(command_.line);
     event_s_ = run_s_;
     return Step::kEvent;
   }
   phase_waits_ = false;
+  // What waits in events_ comes after this phase: the places before it are done with.
+  while (places_.size() > 1 && places_[1].place <= phase_.line) places_.pop_front();
+  phase_.line = line_of(phase_.line);
   run_s_ += phase_.duration_s;
   return Step::kPhase;
 }
@@ -167,6 +203,7 @@ std::optional<JobPipeline::Step> JobPipeline::settle() {
   if (!events_.empty()) {
     command_ = std::move(events_.front());
     events_.pop_front();
+    command_.line = line_of(command_.line);
     event_s_ = in_run_ ? run_s_ : 0;
     return Step::kEvent;
   }
@@ -182,6 +219,7 @@ std::optional<JobPipeline::Step> JobPipeline::settle() {
       home(Home(*h), command_.line);
       return std::nullopt;
     }
+    command_.line = line_of(command_.line);
     return Step::kBarrier;
   }
   stage_ = ends_ ? Stage::kEnded : Stage::kFeeding;
@@ -191,6 +229,14 @@ std::optional<JobPipeline::Step> JobPipeline::settle() {
 void JobPipeline::read_text(int& budget) {
   commands_.clear();
   next_command_ = 0;
+  if (reader_->busy()) {
+    const auto read = reader_->read({}, commands_);
+    number_commands();
+    --budget;
+    if (read) return;
+    refuse(read.error().line, read.error().column, read.error().message);
+    return reader_->skip_refused();
+  }
   char* const begin = text_.data();
   const char* end_of_line =
       static_cast<const char*>(std::memchr(begin + text_at_, reader_->line_end(), text_end_ - text_at_));
@@ -208,18 +254,35 @@ void JobPipeline::read_text(int& budget) {
     text_end_ = source_->read(text_);
     if (text_end_ == 0) {
       read = reader_->finish(commands_);
-      text_done_ = read.has_value();
+      text_done_ = read.has_value() && !reader_->busy();
       if (text_done_ && reader_->untold() > 0)
         refuse(reader_->lines(), 0,
                say("%1 more lines are refused for reasons named above", reader_->untold()));
     }
   }
   lines_ = reader_->lines();
+  number_commands();
   --budget;
   if (!read) {
     refuse(read.error().line, read.error().column, read.error().message);
     reader_->skip_refused();
   }
+}
+
+/// Gives the commands of one line the place of that line.
+void JobPipeline::number_commands() {
+  if (reader_->steps() == 0 || commands_.empty()) return;
+  const auto place = static_cast<std::uint32_t>(reader_->lines() + reader_->steps());
+  places_.push_back({place, commands_.back().line});
+  for (canonical::Line& command : commands_) command.line = place;
+}
+
+/// The line of the text. Places are asked for in rising order, but for those not yet given out.
+std::uint32_t JobPipeline::line_of(std::uint32_t place) {
+  if (places_.empty() || place < places_.front().place) return place;
+  const auto after = std::upper_bound(places_.begin(), places_.end(), place,
+                                      [](std::uint32_t wanted, const Place& p) { return wanted < p.place; });
+  return std::prev(after)->line;
 }
 
 void JobPipeline::take(const canonical::Line& line) {
@@ -232,8 +295,11 @@ void JobPipeline::take(const canonical::Line& line) {
     ends_ = true;
     return drain(std::nullopt);
   }
-  if (std::holds_alternative<StoredJob>(command))
-    return refuse(line.line, 0, say("a job cannot manage stored jobs: M20 to M32 belong to a session"));
+  if (const auto* stored = std::get_if<StoredJob>(&command)) {
+    if (stored->what == StoredJob::What::kPause) return drain(canonical::Line{line.line, Pause{}});
+    return refuse(line_of(line.line), 0,
+                  say("a job cannot manage stored jobs: M20 to M32 belong to a session"));
+  }
   if (is_barrier(command, machine_.gcode.optional_stop)) return drain(line);
   if (std::holds_alternative<Pause>(command)) return;
   events_.push_back(line);
@@ -259,7 +325,7 @@ void JobPipeline::take_motion(const canonical::Line& line) {
 void JobPipeline::add_to_planner(const canonical::Line& line) {
   const auto added = planner_.add(line);
   if (added) return;
-  refuse(added.error().line, 0, to_string(added.error()));
+  refuse(line_of(added.error().line), 0, to_string(added.error()));
   // The planner refuses everything now. It goes on behind the refused move, so that later problems are seen
   // too.
   if (const auto target = target_of(line.command))
@@ -282,7 +348,7 @@ void JobPipeline::home(const Home& home, std::uint32_t line) {
   const Frame frame = home.frame;
   if (planner_.end_frame() != frame) {
     const auto pose = convert_pose(kinematics_, planner_.end_frame(), planner_.end_pose(), frame);
-    if (!pose) return refuse(line, 0, say("G28: %1", to_string(pose.error())));
+    if (!pose) return refuse(line_of(line), 0, say("G28: %1", to_string(pose.error())));
     first_.push_back({line, SetPosition{*pose, home.frame}});
   }
   Pose target = home.afterwards;

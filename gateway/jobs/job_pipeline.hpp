@@ -48,6 +48,12 @@ class JobPipeline {
   void start_live(const Pose& start);
   void add(const canonical::Line& line);
   void settle_live();
+  /// Plans what was added, as far as no rest comes before it.
+  void plan_live();
+  /// A rest comes before what is added now.
+  bool rest_first() const { return stage_ != Stage::kFeeding; }
+  /// Of the motion that was not given out.
+  Planner::Ahead ahead();
   void end_live() { text_done_ = true; }
   /// Commands added and not yet used.
   std::size_t waiting() const { return commands_.size() - next_command_; }
@@ -61,6 +67,8 @@ class JobPipeline {
   const canonical::Line& command() const { return command_; }
   double event_s() const { return event_s_; }
   const Problem& problem() const { return problem_; }
+  /// What was accepted without effect since the last call, once for each code.
+  std::vector<gcode::Note> take_notes();
 
   /// Motion ends of the phases given out, s of the present run.
   double run_s() const { return run_s_; }
@@ -86,8 +94,11 @@ class JobPipeline {
 
   void begin(const Pose& start);
   void refuse(std::uint32_t line, std::uint32_t column, Sentence words);
+  void number_commands();
+  std::uint32_t line_of(std::uint32_t place);
   std::optional<Step> take_phase();
   std::optional<Step> settle();
+  bool take_known();
   void read_text(int& budget);
   void take(const canonical::Line& line);
   void take_motion(const canonical::Line& line);
@@ -103,6 +114,13 @@ class JobPipeline {
   ByteSource* source_ = nullptr;
   std::vector<char> text_;  ///< read, not yet interpreted: from text_at_ to text_end_
   std::size_t text_at_ = 0, text_end_ = 0;
+
+  // Inside, a command's line is its place in the order in which lines are carried out, which loops and
+  // subroutines make differ from the text's. While it is the same, nothing is noted.
+  struct Place {
+    std::uint32_t place = 0, line = 0;
+  };
+  std::deque<Place> places_;  ///< from here on: this line
 
   gcode::CommandBuffer commands_;  ///< interpreted, not yet taken: from next_command_ on
   std::size_t next_command_ = 0;

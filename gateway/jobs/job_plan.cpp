@@ -182,12 +182,15 @@ bool JobPlan::take(JobPipeline::Step step) {
       return false;
     case Step::kProblem:
       streaming_ = false;
+      tell_notes(pipeline_, check_);
       check_.problem(pipeline_.problem());
       return false;
     case Step::kMore:
     case Step::kStarved:
+      tell_notes(pipeline_, check_);
       return true;
     case Step::kEnd:
+      tell_notes(pipeline_, check_);
       finish();
       return true;
   }

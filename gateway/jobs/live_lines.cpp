@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "gateway/gcode/program.hpp"
 #include "gateway/jobs/machine_setup.hpp"
 #include "gateway/motion/arc_piece.hpp"
 
@@ -69,6 +70,11 @@ Result<void, Sentence> LiveLines::set_work_offset(int system, const Pose& offset
   return interpreter_.set_work_offset(system, offset, here);
 }
 
+Pose LiveLines::program_position(const std::optional<Pose>& where) {
+  if (where) stand_at(*where);
+  return interpreter_.program_position();
+}
+
 void LiveLines::begin(const Pose& pose, std::optional<double> hotend_celsius, gcode::CommandBuffer& out) {
   stand_at(pose);
   place_ = {pose, Frame::kMachine};
@@ -87,7 +93,11 @@ Result<void, Problem> LiveLines::take(std::string_view line, std::uint32_t numbe
   const Place place = place_;
   const auto hotend = hotend_celsius_;
   const std::size_t first = out.size();
-  if (auto read = interpreter_.execute(line, number, out); !read) {
+  gcode::Program program(interpreter_, gcode::Program::Use::kLines);
+  auto read = program.line(line, number, out);
+  while (read && program.busy()) read = program.step(out);
+  if (!read) {
+    if (program.steps() > 0) interpreter_.restore(before);
     out.resize(first);
     return refuse(read.error().column, read.error().message);
   }

@@ -44,6 +44,12 @@ class LiveLines {
   const Pose& work_offset() const { return work_offsets()[static_cast<std::size_t>(work_system())]; }
   const gcode::WorkOffsets& work_offsets() const { return interpreter_.state().modal.coordinate_offsets; }
 
+  /// Where the lines lead, or the tool at `where` (Frame::kMachine), as a line would write it: mm and
+  /// degrees.
+  Pose program_position(const std::optional<Pose>& where);
+  double feed_ratio() const { return interpreter_.state().modal.feed_ratio; }  ///< M220
+  double flow_ratio() const { return interpreter_.state().modal.flow_ratio; }  ///< M221
+
   /// What was accepted without effect since the last call, in words.
   std::vector<Sentence> take_notes();
 

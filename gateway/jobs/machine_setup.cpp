@@ -43,6 +43,8 @@ gcode::Options interpreter_options(const MachineDescription& machine, const Pose
                              : gcode::DwellUnit::kMilliseconds;
   options.hotends = machine.tools();
   options.tools = std::max(options.hotends, 1 + static_cast<int>(machine.gcode.tool_length_mm.size()));
+  // On a mill the operator puts in whatever tool is asked for.
+  if (options.spindle) options.tools = 100'000;
   options.tool_length_mm = machine.gcode.tool_length_mm;
   options.retract_length_mm = machine.gcode.retract_mm;
   options.retract_mm_per_s = options.recover_mm_per_s = machine.gcode.retract_mm_per_s;

@@ -1,5 +1,7 @@
 #include "gateway/jobs/preflight.hpp"
 
+#include <utility>
+
 namespace kinebus {
 
 void count_command(const canonical::Command& command, JobReport& report) {
@@ -7,6 +9,11 @@ void count_command(const canonical::Command& command, JobReport& report) {
   if (std::holds_alternative<canonical::Pause>(command)) ++report.pauses;
   if (const auto* thermal = std::get_if<canonical::Thermal>(&command))
     report.heat_waits += thermal->wait ? 1 : 0;
+}
+
+void tell_notes(JobPipeline& pipeline, JobCheck& check) {
+  for (gcode::Note& note : pipeline.take_notes())
+    check.problem({Problem::Severity::kWarning, note.line, 0, std::move(note.text)});
 }
 
 Preflight::Preflight(const MachineDescription& machine, const Kinematics& kinematics, ByteSource& source,
@@ -36,12 +43,15 @@ bool Preflight::step(int lines) {
         ++report_.runs;
         break;
       case Step::kProblem:
+        tell_notes(pipeline_, check_);
         check_.problem(pipeline_.problem());
         break;
       case Step::kMore:
       case Step::kStarved:
+        tell_notes(pipeline_, check_);
         return false;
       case Step::kEnd:
+        tell_notes(pipeline_, check_);
         report_.lines = pipeline_.lines();
         report_.moves = pipeline_.planner().counters().moves;
         return true;

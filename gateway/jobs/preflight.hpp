@@ -24,6 +24,9 @@ struct JobReport {
 /// Takes what a command adds to the report.
 void count_command(const canonical::Command& command, JobReport& report);
 
+/// What the job has no effect with here is told as warnings.
+void tell_notes(JobPipeline& pipeline, JobCheck& check);
+
 class Preflight {
  public:
   /// `source` at its beginning; must outlive this. The job starts at `start`, Frame::kMachine, with the

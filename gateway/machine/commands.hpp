@@ -44,6 +44,7 @@ struct Resume {};
 struct Cancel {};
 struct Stop {  ///< latched, in every state
   Sentence why = say("stop by command");
+  bool heaters_off = false;  ///< too, as M112; a job that goes on heats again first
 };
 struct Clear {};  ///< lifts a stop or an alarm
 struct SetFeedOverride {

@@ -345,6 +345,11 @@ void Gateway::Core::step_checking() {
 }
 
 void Gateway::Core::step_running() {
+  if (runner_->live() && lines_.given_up(now_)) {
+    events_.message(now_, say("the lines' host has gone: what is left of them is given up"));
+    static_cast<void>(carry_out(command::Cancel{}));
+    return;
+  }
   switch (runner_->on_time(now_, options_.planning_budget)) {
     case Runner::Outcome::kBusy:
       return;
@@ -356,6 +361,7 @@ void Gateway::Core::step_running() {
       return finish_motion();
     case Runner::Outcome::kEmergencyStop:
       events_.alarm(now_, AlarmCode::kEmergencyStop, say("M112 in the job"), 0, runner_->line(now_));
+      cut_heat(say("M112 in the job"));
       return stop_all(false);
     case Runner::Outcome::kFailed: {
       const Runner::Failure& failure = runner_->failure();
@@ -463,8 +469,10 @@ void Gateway::Core::step_clear() {
       break;
   }
   fault_ = false;
+  // A job whose heaters went off heats on its way back.
   const bool goes_on = runner_->active() && !runner_->suspended() && !position_.stream_lost() &&
-                       position_.homed() && clearing_.together() && state_.is(MachineState::kStopped);
+                       position_.homed() && clearing_.together() && !heat_.kept_heat() &&
+                       state_.is(MachineState::kStopped);
   if (!goes_on) return rest_.read(now_, Rest::After::kClear);
   runner_->hold(now_);
   enter(MachineState::kHeld);

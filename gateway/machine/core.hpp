@@ -51,10 +51,12 @@ class Gateway::Core {
   Result<void, Refusal> may(CommandKind command) const;
   Result<void, Refusal> carry_out(Command command);
   Result<void, Refusal> take_line(std::string_view line, std::uint32_t number);
-  std::size_t line_room() const;
+  std::size_t line_room();
   bool lines_open() const;
   bool lines_idle() const;
   void close_lines();
+  void leave_lines();
+  void skip_heating();
   void forget_line_modes();
   const gcode::WorkOffsets& work_offsets() const { return lines_.work_offsets(); }
 
@@ -70,6 +72,8 @@ class Gateway::Core {
 
   // text_session.cpp
   Result<std::string, Refusal> text_line(std::string_view line);
+  std::string position_text();
+  std::string settings_text() const;
 
   MachineState state() const { return state_.now(); }
   std::optional<MachineEvent> next_event() { return events_.pop(); }
@@ -102,6 +106,7 @@ class Gateway::Core {
   void begin_bring_up();
   void begin_homing();
   void begin_move(canonical::Command move, const Pose& from);
+  void cut_heat(const Sentence& why);
   /// Stops everything on the path; with `fault` the machine ends in kAlarm.
   void stop_all(bool fault);
   Done carry_out_at_rest(const canonical::Line& command);

@@ -10,6 +10,13 @@
 namespace kinebus {
 namespace {
 using Done = Result<void, Refusal>;
+
+/// A host that cancels wants its heaters off now, not when the motion before is done.
+bool takes_effect_at_once(const canonical::Line& line) {
+  const auto* thermal = std::get_if<canonical::Thermal>(&line.command);
+  return thermal != nullptr && !thermal->wait && heater_of(*thermal);
+}
+
 }  // namespace
 
 Done Gateway::Core::may(CommandKind command) const {
@@ -129,10 +136,22 @@ Done Gateway::Core::on(command::Cancel&) {
 }
 
 Done Gateway::Core::on(command::Stop& asked) {
+  if (asked.heaters_off) cut_heat(asked.why);
   if (state_.is_one_of(MachineState::kStopping, MachineState::kStopped, MachineState::kAlarm)) return {};
   events_.message(now_, std::move(asked.why));
-  stop_all(false);
+  // Nothing moves that is switched off, and nobody is asked for a ramp.
+  if (state_.is(MachineState::kOff))
+    recovery_.do_not_go_on();
+  else
+    stop_all(false);
   return {};
+}
+
+void Gateway::Core::cut_heat(const Sentence& why) {
+  if (!heat_.heats()) return;
+  if (print_.runner().active()) heat_.keep();
+  heat_.heaters_off();
+  events_.message(now_, say("the heaters are off: %1", why));
 }
 
 Done Gateway::Core::on(command::Clear&) {
@@ -220,11 +239,12 @@ Done Gateway::Core::take_line(std::string_view line, std::uint32_t number) {
   if (!commands) return Error<Refusal>(commands.error());
   for (Sentence& note : lines_.take_notes()) events_.message(now_, std::move(note), number);
   for (const canonical::Line& command : *commands) {
-    if (open)
+    if (open && !takes_effect_at_once(command))
       print_.runner().add(now_, command);
     else if (auto done = carry_out_at_rest(command); !done)
       return done;
   }
+  if (open) print_.runner().plan_live();
   return {};
 }
 
@@ -247,8 +267,8 @@ Done Gateway::Core::carry_out_at_rest(const canonical::Line& line) {
   return {};
 }
 
-std::size_t Gateway::Core::line_room() const {
-  return lines_open() ? kLineRoom - std::min(kLineRoom, print_.runner().live_waiting()) : 0;
+std::size_t Gateway::Core::line_room() {
+  return lines_open() ? print_.runner().live_room(now_, kLineRoom) : 0;
 }
 
 bool Gateway::Core::lines_idle() const {
@@ -259,6 +279,17 @@ void Gateway::Core::close_lines() {
   if (!lines_open()) return;
   lines_.close();
   print_.runner().end_live();
+}
+
+void Gateway::Core::leave_lines() {
+  if (!lines_open()) return;
+  close_lines();
+  const auto lead = std::chrono::duration<double>(machine_.serial.lead_s);
+  lines_.give_up_from(now_ + std::chrono::duration_cast<BusTime>(lead) - machine_.stop.hold_ramp);
+}
+
+void Gateway::Core::skip_heating() {
+  if (lines_open()) print_.runner().skip_heating();
 }
 
 void Gateway::Core::forget_line_modes() {

@@ -51,6 +51,12 @@ bool Gateway::lines_idle() const {
 void Gateway::close_lines() {
   core_->close_lines();
 }
+void Gateway::leave_lines() {
+  core_->leave_lines();
+}
+void Gateway::skip_heating() {
+  core_->skip_heating();
+}
 const gcode::WorkOffsets& Gateway::work_offsets() const {
   return core_->work_offsets();
 }

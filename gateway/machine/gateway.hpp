@@ -76,12 +76,18 @@ class Gateway {
   // until close_lines() and the last motion's end (or a cancel). Every line is checked before it is taken.
   // The host may be slow: motion then ends in a planned stop and goes on with the next line.
   /// One line. Refused: why, and nothing has changed. When not open lines that do not move are taken,
-  /// too: modes and limits count from then on, heaters are set at once. Give no more than line_room().
+  /// too: modes and limits count from then on. Heaters are set at once, others take effect in their order.
+  /// Give no more than line_room().
   Result<void, Refusal> take_line(std::string_view line, std::uint32_t number);
-  std::size_t line_room() const;  ///< lines that can be taken now, of kLineRoom; 0 also while closing
+  /// Lines that can be taken now, of kLineRoom; 0 while closing, and when the motion taken and not carried
+  /// out takes as long as the machine file's serial.lead_s.
+  std::size_t line_room() const;
   bool lines_open() const;
   bool lines_idle() const;  ///< every line taken is carried out, and nothing moves
   void close_lines();
+  /// close_lines() of a host that has gone: what is not carried out within the lead is given up, on the path.
+  void leave_lines();
+  void skip_heating();       ///< a line's wait for a temperature is over
   void forget_line_modes();  ///< G-code modes and limits of lines are as after switching on
   /// Of G54 .. G59.3: lines set them, jobs begin with them, the journal keeps them.
   const gcode::WorkOffsets& work_offsets() const;

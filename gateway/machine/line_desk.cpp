@@ -15,6 +15,7 @@ const gcode::CommandBuffer& LineDesk::open(const Pose& pose, std::optional<doubl
   commands_.clear();
   lines_.begin(pose, hotend_celsius, commands_);
   closing_ = false;
+  give_up_from_.reset();
   return commands_;
 }
 

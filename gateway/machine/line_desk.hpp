@@ -13,6 +13,7 @@
 #include "gateway/jobs/live_lines.hpp"
 #include "gateway/result.hpp"
 #include "gateway/status/refusal.hpp"
+#include "protocol/time.hpp"
 
 namespace kinebus {
 
@@ -27,6 +28,9 @@ class LineDesk {
   /// No more lines are taken: those that were are carried out.
   void close() { closing_ = true; }
   bool closing() const { return closing_; }
+  /// What is not carried out by then is not wanted any more.
+  void give_up_from(BusTime when) { give_up_from_ = when; }
+  bool given_up(BusTime now) const { return closing_ && give_up_from_ && now >= *give_up_from_; }
 
   /// What one line means, valid until the next one. `open`: it may move.
   Result<std::span<const canonical::Line>, Refusal> take(bool open, std::string_view line,
@@ -37,6 +41,9 @@ class LineDesk {
   /// `where`: the tool's pose, Frame::kMachine, when it is not where the lines have led it.
   Result<void, Refusal> set_work_offset(std::uint32_t system, const Pose& offset, bool here,
                                         const std::optional<Pose>& where);
+  Pose program_position(const std::optional<Pose>& where) { return lines_.program_position(where); }
+  double feed_ratio() const { return lines_.feed_ratio(); }
+  double flow_ratio() const { return lines_.flow_ratio(); }
   const gcode::WorkOffsets& work_offsets() const { return lines_.work_offsets(); }
   /// 1 (G54) .. 9 (G59.3)
   int work_system() const { return lines_.work_system() + 1; }
@@ -50,6 +57,7 @@ class LineDesk {
   LiveLines lines_;
   gcode::CommandBuffer commands_;  ///< of the line at work
   bool closing_ = false;
+  std::optional<BusTime> give_up_from_;
 };
 
 }  // namespace kinebus

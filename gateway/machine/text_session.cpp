@@ -66,15 +66,6 @@ double tidy(double value) {
   return std::abs(value) < 5e-5 ? 0.0 : value;
 }
 
-std::string position(const MachineStatus& s) {
-  std::string text =
-      print("X:%.3f Y:%.3f Z:%.3f A:%.4f C:%.4f E:%.4f Count", tidy3(s.pose[kX]), tidy3(s.pose[kY]),
-            tidy3(s.pose[kZ]), tidy(s.pose[kA] * kDegrees), tidy(s.pose[kC] * kDegrees), tidy(s.pose[kE]));
-  for (int joint = 0; joint < s.joint_count; ++joint)
-    text += print(" %d:%.4f", joint + 1, s.joints[static_cast<std::size_t>(joint)]);
-  return text + (s.positions_known ? "" : " (not homed)");
-}
-
 std::string switches(const MachineStatus& s, const MachineDescription& machine) {
   std::string text = "Reporting endstop status";
   for (const JointDescription& joint : machine.joints) {
@@ -87,7 +78,59 @@ std::string switches(const MachineStatus& s, const MachineDescription& machine) 
   return text;
 }
 
+/// "M203 X300.00 Y300.00", the axes' values in a line's units; those without a limit of their own left out.
+std::string axis_values(const char* code, const Pose& values) {
+  constexpr const char* kLetters = "XYZACE";
+  std::string text = std::string("\necho:  ") + code;
+  for (std::size_t axis = 0; axis < kPoseAxes; ++axis) {
+    const double unit = axis == kA || axis == kC ? kDegrees : 1;
+    if (values[axis] > 0 && std::isfinite(values[axis]))
+      text += print(" %c%.2f", kLetters[axis], values[axis] * unit);
+  }
+  return text;
+}
+
 }  // namespace
+
+/// In the coordinates of the lines: where those taken lead; else where the tool is. Hosts read X Y Z E up to
+/// "Count".
+std::string Gateway::Core::position_text() {
+  const MachineStatus s = status();
+  std::optional<Pose> where;
+  if (!lines_open() && s.positions_known) where = s.machine_pose;
+  Pose at = lines_.program_position(where);
+  if (!s.positions_known) {
+    at = s.pose;
+    at[kA] *= kDegrees;
+    at[kC] *= kDegrees;
+  }
+  std::string text = print("X:%.3f Y:%.3f Z:%.3f E:%.4f Count A:%.4f C:%.4f", tidy3(at[kX]), tidy3(at[kY]),
+                           tidy3(at[kZ]), tidy(at[kE]), tidy(at[kA]), tidy(at[kC]));
+  for (int joint = 0; joint < s.joint_count; ++joint)
+    text += print(" %d:%.4f", joint + 1, s.joints[static_cast<std::size_t>(joint)]);
+  return text + (s.positions_known ? "" : " (not homed)");
+}
+
+/// The machine's limits as the lines that would set them. They are the machine file's: nothing is stored.
+std::string Gateway::Core::settings_text() const {
+  const PathDescription& path = machine_.path;
+  std::string text = "echo:; limits of the machine file; M500 to M502 change nothing\necho:  G21";
+  text += axis_values("M203", path.axis_speed_per_s);
+  text += axis_values("M201", path.axis_accel_per_s2);
+  text += print("\necho:  M204 P%.2f R%.2f T%.2f", path.tool_accel_mm_per_s2, path.tool_accel_mm_per_s2,
+                path.tool_accel_mm_per_s2);
+  text += print("\necho:  M207 S%.2f F%.2f Z%.2f", machine_.gcode.retract_mm,
+                machine_.gcode.retract_mm_per_s * 60, machine_.gcode.retract_lift_mm);
+  text += print("\necho:  M220 S%.0f\necho:  M221 S%.0f", 100 * lines_.feed_ratio() * override_,
+                100 * lines_.flow_ratio());
+  for (std::size_t system = 0; system < lines_.work_offsets().size(); ++system) {
+    const Pose& offset = lines_.work_offsets()[system];
+    if (offset == Pose{}) continue;
+    text += print("\necho:  G10 L2 P%d X%.3f Y%.3f Z%.3f A%.4f C%.4f", static_cast<int>(system) + 1,
+                  offset[kX], offset[kY], offset[kZ], offset[kA] * kDegrees, offset[kC] * kDegrees);
+  }
+  return text;
+}
 
 Result<std::string, Refusal> Gateway::Core::text_line(std::string_view line) {
   const Words words(line);
@@ -133,17 +176,23 @@ Result<std::string, Refusal> Gateway::Core::text_line(std::string_view line) {
       case 107:
         return reply(carry_out(command::SetFan{0, index('P')}));
       case 112:
+        return reply(carry_out(command::Stop{.why = say("M112 of the session"), .heaters_off = true}));
       case 410:
-        return reply(carry_out(command::Stop{say("stop by the session")}));
+        return reply(carry_out(command::Stop{.why = say("stop by the session")}));
       case 114:
-        return position(status());
+        return position_text();
       case 115:
         return "FIRMWARE_NAME:Kinebus PROTOCOL_VERSION:1.0 MACHINE_TYPE:" + machine_.name +
-               " EXTRUDER_COUNT:1 CAP:EMERGENCY_PARSER:1";
+               " EXTRUDER_COUNT:" + std::to_string(machine_.tools());
       case 119:
         return switches(status(), machine_);
       case 220:
-        return reply(carry_out(command::SetFeedOverride{words.word('S').value_or(100) / 100}));
+        if (!words.word('S')) return print("FR:%.0f%%", 100 * lines_.feed_ratio() * override_);
+        return reply(carry_out(command::SetFeedOverride{*words.word('S') / 100}));
+      case 221:
+        return print("echo:E0 Flow: %.0f%%", 100 * lines_.flow_ratio());
+      case 503:
+        return settings_text();
       case 524:
         return reply(carry_out(command::Cancel{}));
       case 999:

@@ -101,6 +101,21 @@ bool Lookahead::take(Step& step) {
   return true;
 }
 
+Lookahead::Ahead Lookahead::ahead() {
+  plan_known();
+  Ahead ahead;
+  double x = x_;
+  for (std::uint64_t i = pieces_.begin(); i != pieces_.end(); ++i) {
+    const PlanPiece& piece = pieces_[i];
+    const bool last = i + 1 == pieces_.end();
+    const double x_end = last ? 0 : std::min(pieces_[i + 1].entry, piece.reach_accelerating(x));
+    ahead.all_s += piece.crossing_s(x, x_end);
+    if (last ? finishing_ : i + 1 <= final_) ahead.final_s = ahead.all_s;
+    x = x_end;
+  }
+  return ahead;
+}
+
 void Lookahead::clear() {
   pieces_.clear();
   geometry_.clear();

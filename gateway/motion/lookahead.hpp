@@ -45,6 +45,12 @@ class Lookahead {
   /// final.
   bool take(Step& step);
 
+  /// Time that the pieces held take, s, to a stop at the end of what is known; and that of the final ones.
+  struct Ahead {
+    double final_s = 0, all_s = 0;
+  };
+  Ahead ahead();
+
   bool full() const { return pieces_.size() >= window_; }
   bool empty() const { return pieces_.empty(); }
   std::uint64_t forced() const { return forced_; }

@@ -61,6 +61,13 @@ Result<void, PathBuilder::Unreachable> PathBuilder::close() {
   return result;
 }
 
+double PathBuilder::open_s(double fastest) const {
+  double open = 0;
+  for (std::uint64_t i = moves_.begin(); i != moves_.end(); ++i)
+    open += moves_[i].length / std::min(moves_[i].speed, fastest);
+  return open;
+}
+
 void PathBuilder::clear() {
   moves_.clear();
   run_first_ = moves_.end();

@@ -40,6 +40,8 @@ class PathBuilder {
   void clear();
 
   bool empty() const { return moves_.empty(); }
+  /// Time that the moves not yet on the path take at their own speed, at most `fastest` mm/s; s.
+  double open_s(double fastest) const;
   const Counters& counters() const { return counters_; }
 
  private:

@@ -87,6 +87,12 @@ void PhaseEmitter::start(const Lookahead::Step& step) {
   if (down > 0) append(down, peak, x1);
 }
 
+double PhaseEmitter::left_s() const {
+  double left = 0;
+  for (int i = index_; i < count_; ++i) left += 2 * parts_[i].distance / (parts_[i].v0 + parts_[i].v1);
+  return left;
+}
+
 bool PhaseEmitter::next(Phase& phase) {
   if (index_ == count_) return false;
   const Part& part = parts_[index_++];

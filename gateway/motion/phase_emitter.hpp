@@ -15,6 +15,8 @@ class PhaseEmitter {
   bool next(Phase& phase);
   void clear() { index_ = count_ = 0; }
   bool empty() const { return index_ == count_; }
+  /// Time of the phases that next() has still to give, s.
+  double left_s() const;
 
  private:
   struct Part {

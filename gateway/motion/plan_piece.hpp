@@ -52,6 +52,20 @@ struct PlanPiece {
     return linear ? std::min(tool, std::max({up0, up1, down0, down1})) : tool;
   }
 
+  /// Time over the piece between these speeds at its ends, s: as fast as its limits allow, within a few
+  /// percent.
+  double crossing_s(double x0, double x1) const {
+    const double high = std::max(x0, x1);
+    const double up = 2 * accel_between(high, high), down = 2 * decel_between(high, high);
+    double peak = high;
+    if (up > 0 && down > 0)
+      peak = std::clamp((length + x0 / up + x1 / down) / (1 / up + 1 / down), high, cap);
+    const double v0 = std::sqrt(x0), v1 = std::sqrt(x1), v = std::sqrt(peak);
+    if (!(peak > high)) return v0 + v1 > 0 ? 2 * length / (v0 + v1) : 0;
+    const double cruise = std::max(0.0, length - (peak - x0) / up - (peak - x1) / down);
+    return 2 * (v - v0) / up + 2 * (v - v1) / down + cruise / v;
+  }
+
   /// Greatest x (<= cap) that one constant acceleration over the whole piece reaches from x0.
   double reach_accelerating(double x0) const { return linear ? reach(x0, up0, up1) : reach_tool(x0); }
   /// Greatest x (<= cap) from which one constant deceleration over the whole piece gets down to x1.

@@ -18,6 +18,8 @@ constexpr double kShortestMove = 1e-6;
 // A move whose rotations or filament dwarf its tool motion is measured by them: s grows at least by this
 // share of their dynamically equal length. For table C at 3600 deg/s2 this begins at 2 rad a millimetre.
 constexpr double kDwarfs = 0.01;
+// Motion added at most until the time ahead is summed up anew.
+constexpr double kUnsummed_s = 0.05;
 
 bool finite(const Pose& pose) {
   return std::all_of(pose.begin(), pose.end(), [](double x) { return std::isfinite(x); });
@@ -88,6 +90,8 @@ struct Planner::Impl {
   PlanError failed{};
   std::uint64_t phases = 0;
   Counters counters;
+  Ahead ahead;            ///< as summed up last, less what was pulled since
+  double unsummed_s = 0;  ///< of the moves added since, each from rest to rest
 };
 
 Result<void, PlanError> Planner::Impl::add_straight(const Pose& target, Frame in, double feed,
@@ -166,6 +170,8 @@ Result<void, PlanError> Planner::Impl::complete(Move& move, double feed, double 
   move.merge_tolerance_mm = merge_tolerance_mm;
   move.frame = frame;
   end = move.to;
+  const double v = std::min(move.speed, limits.tool_speed_mm_per_s), a = move.accel_mm_per_s2;
+  unsummed_s += move.length * a > v * v ? move.length / v + v / a : 2 * std::sqrt(move.length / a);
   return take(builder.move_added());
 }
 
@@ -256,6 +262,18 @@ void Planner::plan_known() {
   impl_->lookahead.plan_known();
 }
 
+Planner::Ahead Planner::ahead() {
+  Impl& d = *impl_;
+  if (d.unsummed_s > kUnsummed_s || idle()) {
+    const Lookahead::Ahead pieces = d.lookahead.ahead();
+    const double given = d.emitter.left_s();
+    d.ahead.final_s = given + pieces.final_s;
+    d.ahead.all_s = given + pieces.all_s + d.builder.open_s(d.limits.tool_speed_mm_per_s);
+    d.unsummed_s = 0;
+  }
+  return {std::max(0.0, d.ahead.final_s), std::max(0.0, d.ahead.all_s) + d.unsummed_s};
+}
+
 bool Planner::wants_more() const {
   return !impl_->lookahead.full();
 }
@@ -268,6 +286,8 @@ bool Planner::next(Phase& phase) {
     d.emitter.start(step);
   }
   ++d.phases;
+  d.ahead.final_s -= phase.duration_s;
+  d.ahead.all_s -= phase.duration_s;
   return true;
 }
 
@@ -288,6 +308,8 @@ void Planner::reset(const Pose& pose, Frame frame) {
   impl_->has_failed = false;
   impl_->end = pose;
   impl_->frame = frame;
+  impl_->ahead = {};
+  impl_->unsummed_s = 0;
   impl_->reset_modes();
 }
 

@@ -1,5 +1,6 @@
 #include "gateway/run/heat.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -59,6 +60,12 @@ void Heat::execute(const canonical::Thermal& thermal) {
     devices_.put_out(index, thermal.value);
 }
 
+bool Heat::heats() const {
+  return std::any_of(machine_.heaters.begin(), machine_.heaters.end(), [this](const HeaterDescription& h) {
+    return devices_.heater(h.id()).target_celsius > 0;
+  });
+}
+
 std::optional<double> Heat::hotend_target() const {
   const double celsius = devices_.heater(kFirstHotend).target_celsius;
   return celsius > 0 ? std::optional(celsius) : std::nullopt;
@@ -116,6 +123,14 @@ void Heat::note(journal::Queue& journal) {
 
 void Heat::keep() {
   if (!kept_) kept_ = noted_;
+}
+
+bool Heat::kept_heat() const {
+  return kept_ &&
+         std::any_of(machine_.heaters.begin(), machine_.heaters.end(), [this](const HeaterDescription& h) {
+           const double kept = kept_->heater(h.id());
+           return kept > 0 && devices_.heater(h.id()).target_celsius != kept;
+         });
 }
 
 std::optional<double> Heat::kept_hotend() const {

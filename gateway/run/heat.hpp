@@ -31,6 +31,8 @@ class Heat {
   void execute(const canonical::Spindle& spindle) { devices_.turn_spindle(spindle.rpm); }
   void stop_spindle() { devices_.turn_spindle(0); }
   void heaters_off() { devices_.heaters_off(); }
+  /// A heater has a target.
+  bool heats() const;
 
   bool reached(const TemperatureWait& wait) const { return wait.over(devices_); }
   bool spindle_on() const { return devices_.spindle().target_rpm != 0; }
@@ -52,6 +54,8 @@ class Heat {
   void keep();
   bool kept() const { return kept_.has_value(); }
   void forget_kept() { kept_.reset(); }
+  /// The job that goes on wants heat that is off.
+  bool kept_heat() const;
   /// The first hot end's of the job that goes on, deg C; none: off, or nothing is kept.
   std::optional<double> kept_hotend() const;
   /// The spindle turns again as the job wants it; false: it wants none.

@@ -47,6 +47,13 @@ bool RunFeed::wants_phase(PathTime tau) const {
   return !pending() && (!streaming_ || !released_ || group_.wants_phases(tau));
 }
 
+double RunFeed::pending_s() const {
+  double pending = -next_from_s_;
+  for (std::size_t i = next_; i < originals_.size(); ++i) pending += originals_[i].phase.duration_s;
+  for (std::size_t i = at_piece_; i < pieces_.size(); ++i) pending += pieces_[i].phase.duration_s;
+  return std::max(0.0, pending);
+}
+
 void RunFeed::begin_run() {
   run_.from = {first_ + next_, next_from_s_};
   const bool moves = originals_[next_].phase.speed(next_from_s_) > kRestSpeed;

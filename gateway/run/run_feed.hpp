@@ -37,6 +37,8 @@ class RunFeed {
   /// Into the group, as far as it wants. Begins and releases the run with its first phase.
   Result<void, StreamError> pump(PathTime tau);
   bool pending() const { return next_ < originals_.size() || at_piece_ < pieces_.size(); }
+  /// Of the phases added, what is not in the group, s.
+  double pending_s() const;
   /// A run is in the group.
   bool streaming() const { return streaming_; }
   /// Of the last run.

@@ -22,6 +22,14 @@ constexpr BusTime kLiveQuiet = std::chrono::milliseconds{30};
 /// then begins as one.
 constexpr BusTime kLiveGather = std::chrono::milliseconds{100};
 
+/// Of the motion ahead so much is known for good while a run is under way, or lines are taken beyond the
+/// lead: a stop that nobody asked for is not needed then.
+constexpr double kLiveFinal_s = kLiveReserve_s + 0.4;
+/// So much before the lead is full no more is taken: the end of a line and the way out of its ramp fit in.
+constexpr double kLiveMargin_s = 0.25;
+/// Commands taken while the machine has to come to rest before them.
+constexpr std::size_t kLiveBehindRest = 4;
+
 /// planned_pose() knows so much of the past.
 constexpr PathTime kPlannedMemory = std::chrono::seconds{1};
 /// A run waits at most so long for the journal to have its beginning on the disk.
@@ -79,6 +87,19 @@ void Runner::start_live(const Pose& start) {
 void Runner::add(BusTime now, const canonical::Line& line) {
   pipeline_.add(line);
   last_added_ = now;
+}
+
+std::size_t Runner::live_room(BusTime now, std::size_t most) {
+  const std::size_t waiting = pipeline_.waiting();
+  if (pipeline_.rest_first()) return kLiveBehindRest - std::min(kLiveBehindRest, waiting);
+  const Planner::Ahead planned = pipeline_.ahead();
+  double given = feed_.pending_s();
+  if (feed_.streaming()) given += std::max(0.0, live_left_s(now));
+  const bool enough = !feed_.streaming() || given + planned.final_s >= kLiveFinal_s;
+  // At half the rate the same motion takes twice as long.
+  const double lead_s = (machine_.serial.lead_s - kLiveMargin_s) * std::min(1.0, override_);
+  if (enough && given + planned.all_s >= lead_s) return 0;
+  return most - std::min(most, waiting);
 }
 
 /// The pipeline has nothing more to give out before the next live command comes.

@@ -49,7 +49,13 @@ class Runner {
   void add(BusTime now, const canonical::Line& line);
   void end_live() { pipeline_.end_live(); }
   bool live() const { return active_ && live_; }
-  std::size_t live_waiting() const { return pipeline_.waiting(); }  ///< commands not yet planned
+  /// After the commands of a line: they are planned as far as no rest comes before them.
+  void plan_live() { pipeline_.plan_live(); }
+  /// Lines that may be added now, of `most`: none when more motion is known than the machine's lead for a
+  /// print host, except where a stop on the path needs more.
+  std::size_t live_room(BusTime now, std::size_t most);
+  /// A wait for a temperature is over, as if it were reached.
+  void skip_heating();
   /// All that was added is carried out, at rest.
   bool live_idle() const {
     return live() && !feed_.streaming() && !feed_.pending() && wait_ == Wait::kNone && pipeline_.live_idle();

@@ -46,6 +46,10 @@ void Runner::end_wait() {
   if (noted_) journal_.push(journal::WaitsDone{waits_done_});
 }
 
+void Runner::skip_heating() {
+  if (wait_ == Wait::kHeating) end_wait();
+}
+
 void Runner::execute_due(BusTime now) {
   if (events_.empty()) return;
   const std::uint64_t done = feed_.place(rate_.tau(now)).phase;

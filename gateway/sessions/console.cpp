@@ -27,7 +27,7 @@ Code code_of(std::string_view line) {
   return code;
 }
 
-constexpr std::array<int, 7> kQueries{27, 105, 112, 114, 115, 119, 410};
+constexpr std::array<int, 8> kQueries{27, 105, 112, 114, 115, 119, 410, 503};
 constexpr std::array<int, 13> kSessionCommands{17, 18, 24, 25, 84, 104, 106, 107, 140, 220, 524, 999, 28};
 
 template <std::size_t n>

@@ -42,22 +42,24 @@ gcode::Options PathReader::any_machine() {
   options.a_min_rad = -std::numbers::pi / 2;
   options.a_max_rad = std::numbers::pi / 2;
   options.spindle = true;
+  options.tools = 100'000;
   options.retract_length_mm = 0.8;
   options.retract_mm_per_s = options.recover_mm_per_s = 35;
   return options;
 }
 
 PathReader::PathReader(Options options)
-    : options_(std::move(options)), interpreter_(options_.machine), reader_(interpreter_) {
+    : options_(std::move(options)), interpreter_(options_.machine), reader_(interpreter_, 1) {
   at_ = options_.machine.start;
 }
 
 void PathReader::add(std::string_view text) {
-  while (!text.empty()) {
+  while (!text.empty() || reader_.busy()) {
     // Line by line, so that the interpreter's state is that of the commands. What ends the first is not known
     // yet.
     const std::size_t end = reader_.lines() == 0 ? text.find_first_of("\r\n") : text.find(reader_.line_end());
-    const std::string_view line = text.substr(0, end == std::string_view::npos ? end : end + 1);
+    const std::string_view line =
+        reader_.busy() ? std::string_view() : text.substr(0, end == std::string_view::npos ? end : end + 1);
     const bool good = reader_.read(line, commands_).has_value();
     text.remove_prefix(reader_.taken());
     if (!good) reader_.skip_refused();
@@ -67,8 +69,10 @@ void PathReader::add(std::string_view text) {
 
 ToolPath PathReader::finish() {
   // A last line without an end may be refused; what follows it is the end alone.
-  while (!reader_.finish(commands_)) reader_.skip_refused();
-  drain();
+  do {
+    while (!reader_.finish(commands_)) reader_.skip_refused();
+    drain();
+  } while (reader_.busy());
   path_.line_count = reader_.lines();
   path_.refused_lines = reader_.refused();
   // A job that extrudes nothing is a cut: its feed moves are the work.

@@ -241,10 +241,6 @@
         <translation>M عدد می‌خواهد</translation>
     </message>
     <message>
-        <source>O words (subroutines, loops, program numbers) are not supported</source>
-        <translation>واژه‌های O (زیربرنامه، حلقه، شمارهٔ برنامه) پشتیبانی نمی‌شوند</translation>
-    </message>
-    <message>
         <source>%1 is too large (10^9 at most)</source>
         <translation>%1 بسیار بزرگ است (حداکثر 10^9)</translation>
     </message>
@@ -273,10 +269,6 @@
         <translation>کد M در یک خط زیاد است (حداکثر 8)</translation>
     </message>
     <message>
-        <source>splines (G5) are not supported: use G1, G2 or G3</source>
-        <translation>اسپلاین (G5) پشتیبانی نمی‌شود: G1 یا G2 یا G3 به کار ببرید</translation>
-    </message>
-    <message>
         <source>G30 means a probe to printers and a stored position to mills: use G53 G0 with coordinates</source>
         <translation>G30 در چاپگرها پروب و در فرزها موقعیت ذخیره‌شده است: G53 G0 با مختصات به کار ببرید</translation>
     </message>
@@ -301,10 +293,6 @@
         <translation>پروب (G38.2) پشتیبانی نمی‌شود</translation>
     </message>
     <message>
-        <source>G68 is not supported: use G68.2 for a tilted plane</source>
-        <translation>G68 پشتیبانی نمی‌شود: برای صفحهٔ شیب‌دار G68.2 به کار ببرید</translation>
-    </message>
-    <message>
         <source>G68.3 is not supported: use G68.2 with I J K</source>
         <translation>G68.3 پشتیبانی نمی‌شود: G68.2 با I J K به کار ببرید</translation>
     </message>
@@ -319,26 +307,6 @@
     <message>
         <source>M4 turns a spindle, which this machine does not have</source>
         <translation>M4 اسپیندل را می‌چرخاند که این ماشین ندارد</translation>
-    </message>
-    <message>
-        <source>M6 changes tools, which this machine cannot</source>
-        <translation>M6 ابزار عوض می‌کند که این ماشین نمی‌تواند</translation>
-    </message>
-    <message>
-        <source>M7 switches coolant, which this machine does not have</source>
-        <translation>M7 خنک‌کننده را روشن می‌کند که این ماشین ندارد</translation>
-    </message>
-    <message>
-        <source>M8 switches coolant, which this machine does not have</source>
-        <translation>M8 خنک‌کننده را روشن می‌کند که این ماشین ندارد</translation>
-    </message>
-    <message>
-        <source>M92 changes steps for each mm: they belong to the machine file</source>
-        <translation>M92 گام در هر میلی‌متر را عوض می‌کند: جای آن پروندهٔ ماشین است</translation>
-    </message>
-    <message>
-        <source>canned cycles (%1) are not supported: use G0 and G1</source>
-        <translation>چرخه‌های آماده (%1) پشتیبانی نمی‌شوند: G0 و G1 به کار ببرید</translation>
     </message>
     <message>
         <source>%1 is unknown</source>
@@ -475,14 +443,6 @@
     <message>
         <source>the parameter&apos;s name is empty</source>
         <translation>نام پارامتر تهی است</translation>
-    </message>
-    <message>
-        <source>a parameter&apos;s number must be a whole number from 1 to 5400</source>
-        <translation>شمارهٔ پارامتر باید عددی درست از 1 تا 5400 باشد</translation>
-    </message>
-    <message>
-        <source>there is no parameter #%1; they are #1 to #5400</source>
-        <translation>پارامتر #%1 وجود ندارد؛ از #1 تا #5400 هستند</translation>
     </message>
     <message>
         <source>#&lt;%1&gt; has no value yet</source>
@@ -2153,6 +2113,18 @@
         <translation>دما به S نیاز دارد</translation>
     </message>
     <message>
+        <source>the lines&apos; host has gone: what is left of them is given up</source>
+        <translation>میزبان خط‌ها رفته است: باقیماندهٔ خط‌ها رها شد</translation>
+    </message>
+    <message>
+        <source>the heaters are off: %1</source>
+        <translation>گرم‌کن‌ها خاموش شدند: %1</translation>
+    </message>
+    <message>
+        <source>M112 of the session</source>
+        <translation>M112 از نشست</translation>
+    </message>
+    <message>
         <source>stop by the session</source>
         <translation>ایست از نشست</translation>
     </message>
@@ -2411,6 +2383,90 @@
     <message>
         <source>The bus has failed</source>
         <translation>گذرگاه از کار افتاده است</translation>
+    </message>
+    <message>
+        <source>A heater is too hot</source>
+        <translation>یک گرم‌کن بسیار داغ است</translation>
+    </message>
+    <message>
+        <source>a heater is above its limit</source>
+        <translation>دمای یک گرم‌کن از حدش گذشته است</translation>
+    </message>
+    <message>
+        <source>let it cool; check heater and sensor, then clear</source>
+        <translation>بگذارید خنک شود؛ گرم‌کن و حسگر را وارسی کنید، سپس رفع کنید</translation>
+    </message>
+    <message>
+        <source>A temperature sensor is open</source>
+        <translation>مدار یک حسگر دما باز است</translation>
+    </message>
+    <message>
+        <source>a temperature sensor or its wire is open</source>
+        <translation>یک حسگر دما یا سیم آن قطع است</translation>
+    </message>
+    <message>
+        <source>check the sensor, its plug and its wires, then clear</source>
+        <translation>حسگر، دوشاخه و سیم‌هایش را وارسی کنید، سپس رفع کنید</translation>
+    </message>
+    <message>
+        <source>A temperature sensor is shorted</source>
+        <translation>یک حسگر دما اتصال کوتاه است</translation>
+    </message>
+    <message>
+        <source>a temperature sensor is shorted</source>
+        <translation>یک حسگر دما اتصال کوتاه است</translation>
+    </message>
+    <message>
+        <source>A temperature sensor jumps</source>
+        <translation>مقدار یک حسگر دما می‌پرد</translation>
+    </message>
+    <message>
+        <source>a temperature changed faster than it can</source>
+        <translation>دمایی تندتر از آنچه ممکن است تغییر کرد</translation>
+    </message>
+    <message>
+        <source>A temperature sensor is silent</source>
+        <translation>یک حسگر دما خاموش است</translation>
+    </message>
+    <message>
+        <source>a temperature is not measured any more</source>
+        <translation>دمایی دیگر اندازه‌گیری نمی‌شود</translation>
+    </message>
+    <message>
+        <source>A heater does not heat as it should</source>
+        <translation>یک گرم‌کن آن‌گونه که باید گرم نمی‌کند</translation>
+    </message>
+    <message>
+        <source>a heater&apos;s power does not arrive at its sensor</source>
+        <translation>توان یک گرم‌کن به حسگرش نمی‌رسد</translation>
+    </message>
+    <message>
+        <source>check that heater and sensor sit tight and are the right ones, then clear</source>
+        <translation>وارسی کنید که گرم‌کن و حسگر محکم و از نوع درست باشند، سپس رفع کنید</translation>
+    </message>
+    <message>
+        <source>A heater heats without being told to</source>
+        <translation>یک گرم‌کن بدون فرمان گرم می‌کند</translation>
+    </message>
+    <message>
+        <source>a heater&apos;s switch does not open: the contactor was opened</source>
+        <translation>کلید یک گرم‌کن باز نمی‌شود: کنتاکتور قطع شد</translation>
+    </message>
+    <message>
+        <source>switch off, let it cool, replace the heater&apos;s switch</source>
+        <translation>خاموش کنید، بگذارید خنک شود، کلید گرم‌کن را عوض کنید</translation>
+    </message>
+    <message>
+        <source>A fan stands still</source>
+        <translation>یک فن ایستاده است</translation>
+    </message>
+    <message>
+        <source>a fan does not turn</source>
+        <translation>یک فن نمی‌چرخد</translation>
+    </message>
+    <message>
+        <source>check the fan and its plug, then clear</source>
+        <translation>فن و دوشاخه‌اش را وارسی کنید، سپس رفع کنید</translation>
     </message>
     <message>
         <source>A heater is not as it should be</source>
@@ -2687,6 +2743,266 @@
     <message>
         <source>move the tool clear by hand, then run it again</source>
         <translation>ابزار را دستی دور کنید، سپس دوباره اجرا کنید</translation>
+    </message>
+    <message>
+        <source>an O word stands at the beginning of its line</source>
+        <translation>واژهٔ O در آغاز سطر خود می‌ایستد</translation>
+    </message>
+    <message>
+        <source>NURBS (%1) are not supported: use G5 or G1</source>
+        <translation>NURBS (%1) پشتیبانی نمی‌شود: G5 یا G1 به کار ببرید</translation>
+    </message>
+    <message>
+        <source>%1 turns with the spindle, which needs an encoder on it</source>
+        <translation>%1 با اسپیندل می‌چرخد و به انکودر روی آن نیاز دارد</translation>
+    </message>
+    <message>
+        <source>G76 means threading to some and fine boring to others; both need a spindle that follows an angle, which this machine does not have</source>
+        <translation>G76 برای برخی پیچ‌تراشی و برای برخی داخل‌تراشی ظریف است؛ هر دو اسپیندلی می‌خواهند که زاویه را دنبال کند و این ماشین ندارد</translation>
+    </message>
+    <message>
+        <source>G87 needs a spindle that stops at an angle, which this machine does not have</source>
+        <translation>G87 اسپیندلی می‌خواهد که در زاویهٔ معین بایستد و این ماشین ندارد</translation>
+    </message>
+    <message>
+        <source>G88 needs an operator who moves the axes by hand: use G82 or G86</source>
+        <translation>G88 کاربری می‌خواهد که محورها را با دست حرکت دهد: G82 یا G86 به کار ببرید</translation>
+    </message>
+    <message>
+        <source>constant surface speed (G96) needs a lathe</source>
+        <translation>سرعت برشی ثابت (G96) ماشین تراش می‌خواهد</translation>
+    </message>
+    <message>
+        <source>A is taken for extrusion (E), as the slicer in the file&apos;s header writes it</source>
+        <translation>A به جای اکستروژن (E) گرفته می‌شود، چنان که برش‌دهندهٔ سرآغاز پرونده می‌نویسد</translation>
+    </message>
+    <message>
+        <source>change the filament, then go on</source>
+        <translation>فیلامنت را عوض کنید و سپس ادامه دهید</translation>
+    </message>
+    <message>
+        <source>%1 needs %2, the bottom of the hole</source>
+        <translation>%1 به %2، ته سوراخ، نیاز دارد</translation>
+    </message>
+    <message>
+        <source>%1 needs R, where the feed begins</source>
+        <translation>%1 به R، جای آغاز پیشروی، نیاز دارد</translation>
+    </message>
+    <message>
+        <source>%1 needs Q, the depth of a peck</source>
+        <translation>%1 به Q، عمق هر گام، نیاز دارد</translation>
+    </message>
+    <message>
+        <source>the depth of a peck Q must be greater than 0</source>
+        <translation>عمق هر گام Q باید بزرگ‌تر از 0 باشد</translation>
+    </message>
+    <message>
+        <source>%1 has no place in a canned cycle</source>
+        <translation>%1 در چرخهٔ آماده جایی ندارد</translation>
+    </message>
+    <message>
+        <source>a canned cycle needs feed per minute (G94)</source>
+        <translation>چرخهٔ آماده پیشروی بر دقیقه (G94) می‌خواهد</translation>
+    </message>
+    <message>
+        <source>%1 needs the spindle to turn (%2)</source>
+        <translation>برای %1 اسپیندل باید بچرخد (%2)</translation>
+    </message>
+    <message>
+        <source>the bottom of the hole lies above R: %1 goes from R down</source>
+        <translation>ته سوراخ بالای R است: %1 از R پایین می‌رود</translation>
+    </message>
+    <message>
+        <source>the depth of a peck Q is far too small for this hole</source>
+        <translation>عمق هر گام Q برای این سوراخ بسیار کوچک است</translation>
+    </message>
+    <message>
+        <source>a parameter&apos;s number must be a whole number from 1 to 5602</source>
+        <translation>شمارهٔ پارامتر باید عددی صحیح از 1 تا 5602 باشد</translation>
+    </message>
+    <message>
+        <source>there is no parameter #%1; they are #1 to #5602</source>
+        <translation>پارامتر #%1 وجود ندارد؛ پارامترها از #1 تا #5602 هستند</translation>
+    </message>
+    <message>
+        <source>M61 needs the tool Q</source>
+        <translation>M61 به ابزار Q نیاز دارد</translation>
+    </message>
+    <message>
+        <source>%1 needs the output P</source>
+        <translation>%1 به خروجی P نیاز دارد</translation>
+    </message>
+    <message>
+        <source>volumetric extrusion (M200 D) is not supported: use lengths of filament</source>
+        <translation>اکستروژن حجمی (M200 D) پشتیبانی نمی‌شود: درازای فیلامنت به کار ببرید</translation>
+    </message>
+    <message>
+        <source>M99 P is not supported: M99 goes back to the call</source>
+        <translation>M99 P پشتیبانی نمی‌شود: M99 به فراخوانی بازمی‌گردد</translation>
+    </message>
+    <message>
+        <source>there is no macro %1</source>
+        <translation>ماکروی %1 وجود ندارد</translation>
+    </message>
+    <message>
+        <source>M98 needs the program P</source>
+        <translation>M98 به برنامهٔ P نیاز دارد</translation>
+    </message>
+    <message>
+        <source>put in the tool T%1, then go on</source>
+        <translation>ابزار T%1 را ببندید و سپس ادامه دهید</translation>
+    </message>
+    <message>
+        <source>an O number has 9 digits at most</source>
+        <translation>شمارهٔ O حداکثر 9 رقم دارد</translation>
+    </message>
+    <message>
+        <source>the name of an O word needs a closing &gt;</source>
+        <translation>نام واژهٔ O به &gt; پایانی نیاز دارد</translation>
+    </message>
+    <message>
+        <source>the name of an O word is empty</source>
+        <translation>نام واژهٔ O خالی است</translation>
+    </message>
+    <message>
+        <source>the name of an O word is too long (64 letters at most)</source>
+        <translation>نام واژهٔ O بسیار دراز است (حداکثر 64 حرف)</translation>
+    </message>
+    <message>
+        <source>only a call may compute its O number</source>
+        <translation>تنها فراخوانی می‌تواند شمارهٔ O را حساب کند</translation>
+    </message>
+    <message>
+        <source>expected sub, call, if, while, do, repeat or another word of O after the label</source>
+        <translation>پس از برچسب، sub، call، if، while، do، repeat یا واژهٔ دیگری از O انتظار می‌رود</translation>
+    </message>
+    <message>
+        <source>G43.1 needs the tool&apos;s length Z, and a line without motion</source>
+        <translation>G43.1 به درازای ابزار Z و سطری بی‌حرکت نیاز دارد</translation>
+    </message>
+    <message>
+        <source>%1 uses the line&apos;s axis words: write the motion in another line</source>
+        <translation>%1 واژه‌های محور سطر را به کار می‌برد: حرکت را در سطر دیگری بنویسید</translation>
+    </message>
+    <message>
+        <source>G68 needs R, the angle in degrees</source>
+        <translation>G68 به R، زاویه به درجه، نیاز دارد</translation>
+    </message>
+    <message>
+        <source>G52 needs at least one axis word</source>
+        <translation>G52 دست‌کم یک واژهٔ محور می‌خواهد</translation>
+    </message>
+    <message>
+        <source>in the macro %1, line %2: %3</source>
+        <translation>در ماکروی %1، سطر %2: %3</translation>
+    </message>
+    <message>
+        <source>%1 (called in line %2)</source>
+        <translation>%1 (فراخوانده در سطر %2)</translation>
+    </message>
+    <message>
+        <source>%1 begins a program before the one above it has ended with M30</source>
+        <translation>%1 برنامه‌ای آغاز می‌کند پیش از آن که برنامهٔ بالای آن با M30 پایان یابد</translation>
+    </message>
+    <message>
+        <source>O words belong to a job: a single line can only call a macro</source>
+        <translation>واژه‌های O از آنِ کارند: یک سطر تنها می‌تواند ماکرو فراخواند</translation>
+    </message>
+    <message>
+        <source>what has to be kept since line %1 is too long (16 MB or a million lines)</source>
+        <translation>آنچه از سطر %1 باید نگه داشته شود بسیار دراز است (16 MB یا یک میلیون سطر)</translation>
+    </message>
+    <message>
+        <source>%1 has no beginning</source>
+        <translation>%1 آغازی ندارد</translation>
+    </message>
+    <message>
+        <source>%1 stands where %2 of line %3 is open</source>
+        <translation>%1 جایی ایستاده که %2 سطر %3 باز است</translation>
+    </message>
+    <message>
+        <source>%1 is defined already, in line %2</source>
+        <translation>%1 پیش‌تر در سطر %2 تعریف شده است</translation>
+    </message>
+    <message>
+        <source>O words are nested too deep (100 levels at most)</source>
+        <translation>واژه‌های O بسیار تودرتو هستند (حداکثر 100 لایه)</translation>
+    </message>
+    <message>
+        <source>%1 is in no loop of this label</source>
+        <translation>%1 در حلقه‌ای با این برچسب نیست</translation>
+    </message>
+    <message>
+        <source>%1 has no end</source>
+        <translation>%1 پایانی ندارد</translation>
+    </message>
+    <message>
+        <source>the program %1 has no M99 at its end</source>
+        <translation>برنامهٔ %1 در پایان M99 ندارد</translation>
+    </message>
+    <message>
+        <source>loops and calls carry out more than %1 lines: one of them does not end</source>
+        <translation>حلقه‌ها و فراخوانی‌ها بیش از %1 سطر اجرا می‌کنند: یکی از آن‌ها پایان نمی‌یابد</translation>
+    </message>
+    <message>
+        <source>%1 stands in no subroutine</source>
+        <translation>%1 در زیربرنامه نیست</translation>
+    </message>
+    <message>
+        <source>calls are nested too deep (%1 levels at most)</source>
+        <translation>فراخوانی‌ها بسیار تودرتو هستند (حداکثر %1 لایه)</translation>
+    </message>
+    <message>
+        <source>the arguments of a call stand in [ ]</source>
+        <translation>آرگومان‌های فراخوانی در [ ] می‌ایستند</translation>
+    </message>
+    <message>
+        <source>a call has 30 arguments at most</source>
+        <translation>فراخوانی حداکثر 30 آرگومان دارد</translation>
+    </message>
+    <message>
+        <source>%1 is not defined above this call</source>
+        <translation>%1 بالای این فراخوانی تعریف نشده است</translation>
+    </message>
+    <message>
+        <source>M99 ends a subprogram: a main program that begins again for ever is not run</source>
+        <translation>M99 زیربرنامه را پایان می‌دهد: برنامهٔ اصلی‌ای که همواره از نو آغاز شود اجرا نمی‌شود</translation>
+    </message>
+    <message>
+        <source>M98 P belongs to a job: a single line can only call a macro</source>
+        <translation>M98 P از آنِ کار است: یک سطر تنها می‌تواند ماکرو فراخواند</translation>
+    </message>
+    <message>
+        <source>there is no program O%1 in this text</source>
+        <translation>در این متن برنامهٔ O%1 نیست</translation>
+    </message>
+    <message>
+        <source>in the macro %1, line %2: an O word has no end</source>
+        <translation>در ماکروی %1، سطر %2: واژهٔ O پایانی ندارد</translation>
+    </message>
+    <message>
+        <source>%1 needs the plane XY (G17)</source>
+        <translation>%1 به صفحهٔ XY (G17) نیاز دارد</translation>
+    </message>
+    <message>
+        <source>%1 needs feed per minute (G94)</source>
+        <translation>%1 پیشروی بر دقیقه (G94) می‌خواهد</translation>
+    </message>
+    <message>
+        <source>%1 has no place in a spline</source>
+        <translation>%1 در اسپلاین جایی ندارد</translation>
+    </message>
+    <message>
+        <source>%1 needs I and J</source>
+        <translation>%1 به I و J نیاز دارد</translation>
+    </message>
+    <message>
+        <source>%1 needs P and Q</source>
+        <translation>%1 به P و Q نیاز دارد</translation>
+    </message>
+    <message>
+        <source>the spline is too large</source>
+        <translation>اسپلاین بسیار بزرگ است</translation>
     </message>
 </context>
 <context>

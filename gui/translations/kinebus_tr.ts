@@ -241,10 +241,6 @@
         <translation>M bir sayı ister</translation>
     </message>
     <message>
-        <source>O words (subroutines, loops, program numbers) are not supported</source>
-        <translation>O sözcükleri (altprogram, döngü, program numarası) desteklenmiyor</translation>
-    </message>
-    <message>
         <source>%1 is too large (10^9 at most)</source>
         <translation>%1 çok büyük (en çok 10^9)</translation>
     </message>
@@ -273,10 +269,6 @@
         <translation>bir satırda çok fazla M kodu var (en çok 8)</translation>
     </message>
     <message>
-        <source>splines (G5) are not supported: use G1, G2 or G3</source>
-        <translation>eğriler (G5) desteklenmiyor: G1, G2 ya da G3 kullanın</translation>
-    </message>
-    <message>
         <source>G30 means a probe to printers and a stored position to mills: use G53 G0 with coordinates</source>
         <translation>G30 yazıcılarda prob, frezelerde kayıtlı konum demektir: koordinatlarla G53 G0 kullanın</translation>
     </message>
@@ -301,10 +293,6 @@
         <translation>problama (G38.2) desteklenmiyor</translation>
     </message>
     <message>
-        <source>G68 is not supported: use G68.2 for a tilted plane</source>
-        <translation>G68 desteklenmiyor: eğik düzlem için G68.2 kullanın</translation>
-    </message>
-    <message>
         <source>G68.3 is not supported: use G68.2 with I J K</source>
         <translation>G68.3 desteklenmiyor: I J K ile G68.2 kullanın</translation>
     </message>
@@ -319,26 +307,6 @@
     <message>
         <source>M4 turns a spindle, which this machine does not have</source>
         <translation>M4 iş milini döndürür, bu makinede yok</translation>
-    </message>
-    <message>
-        <source>M6 changes tools, which this machine cannot</source>
-        <translation>M6 takım değiştirir, bu makine değiştiremez</translation>
-    </message>
-    <message>
-        <source>M7 switches coolant, which this machine does not have</source>
-        <translation>M7 soğutmayı açar, bu makinede yok</translation>
-    </message>
-    <message>
-        <source>M8 switches coolant, which this machine does not have</source>
-        <translation>M8 soğutmayı açar, bu makinede yok</translation>
-    </message>
-    <message>
-        <source>M92 changes steps for each mm: they belong to the machine file</source>
-        <translation>M92 mm başına adımı değiştirir: adımlar makine dosyasında durur</translation>
-    </message>
-    <message>
-        <source>canned cycles (%1) are not supported: use G0 and G1</source>
-        <translation>hazır çevrimler (%1) desteklenmiyor: G0 ve G1 kullanın</translation>
     </message>
     <message>
         <source>%1 is unknown</source>
@@ -475,14 +443,6 @@
     <message>
         <source>the parameter&apos;s name is empty</source>
         <translation>parametre adı boş</translation>
-    </message>
-    <message>
-        <source>a parameter&apos;s number must be a whole number from 1 to 5400</source>
-        <translation>parametre numarası 1 ile 5400 arasında bir tam sayı olmalı</translation>
-    </message>
-    <message>
-        <source>there is no parameter #%1; they are #1 to #5400</source>
-        <translation>#%1 parametresi yok; #1 ile #5400 arasındadır</translation>
     </message>
     <message>
         <source>#&lt;%1&gt; has no value yet</source>
@@ -2153,6 +2113,18 @@
         <translation>sıcaklık S ister</translation>
     </message>
     <message>
+        <source>the lines&apos; host has gone: what is left of them is given up</source>
+        <translation>satırların sunucusu gitti: satırlardan kalan bırakıldı</translation>
+    </message>
+    <message>
+        <source>the heaters are off: %1</source>
+        <translation>ısıtıcılar kapatıldı: %1</translation>
+    </message>
+    <message>
+        <source>M112 of the session</source>
+        <translation>oturumdan M112</translation>
+    </message>
+    <message>
         <source>stop by the session</source>
         <translation>oturum durdurdu</translation>
     </message>
@@ -2411,6 +2383,90 @@
     <message>
         <source>The bus has failed</source>
         <translation>Veri yolu arızalandı</translation>
+    </message>
+    <message>
+        <source>A heater is too hot</source>
+        <translation>Bir ısıtıcı çok sıcak</translation>
+    </message>
+    <message>
+        <source>a heater is above its limit</source>
+        <translation>bir ısıtıcı sınırının üzerinde</translation>
+    </message>
+    <message>
+        <source>let it cool; check heater and sensor, then clear</source>
+        <translation>soğumasını bekleyin; ısıtıcıyı ve algılayıcıyı denetleyin, sonra temizleyin</translation>
+    </message>
+    <message>
+        <source>A temperature sensor is open</source>
+        <translation>Bir sıcaklık algılayıcısında kopukluk var</translation>
+    </message>
+    <message>
+        <source>a temperature sensor or its wire is open</source>
+        <translation>bir sıcaklık algılayıcısı veya kablosu kopuk</translation>
+    </message>
+    <message>
+        <source>check the sensor, its plug and its wires, then clear</source>
+        <translation>algılayıcıyı, fişini ve kablolarını denetleyin, sonra temizleyin</translation>
+    </message>
+    <message>
+        <source>A temperature sensor is shorted</source>
+        <translation>Bir sıcaklık algılayıcısında kısa devre var</translation>
+    </message>
+    <message>
+        <source>a temperature sensor is shorted</source>
+        <translation>bir sıcaklık algılayıcısında kısa devre var</translation>
+    </message>
+    <message>
+        <source>A temperature sensor jumps</source>
+        <translation>Bir sıcaklık algılayıcısı sıçrıyor</translation>
+    </message>
+    <message>
+        <source>a temperature changed faster than it can</source>
+        <translation>bir sıcaklık olabileceğinden daha hızlı değişti</translation>
+    </message>
+    <message>
+        <source>A temperature sensor is silent</source>
+        <translation>Bir sıcaklık algılayıcısı susuyor</translation>
+    </message>
+    <message>
+        <source>a temperature is not measured any more</source>
+        <translation>bir sıcaklık artık ölçülmüyor</translation>
+    </message>
+    <message>
+        <source>A heater does not heat as it should</source>
+        <translation>Bir ısıtıcı gerektiği gibi ısıtmıyor</translation>
+    </message>
+    <message>
+        <source>a heater&apos;s power does not arrive at its sensor</source>
+        <translation>bir ısıtıcının gücü algılayıcısına ulaşmıyor</translation>
+    </message>
+    <message>
+        <source>check that heater and sensor sit tight and are the right ones, then clear</source>
+        <translation>ısıtıcı ile algılayıcının sıkı oturduğunu ve doğru parçalar olduğunu denetleyin, sonra temizleyin</translation>
+    </message>
+    <message>
+        <source>A heater heats without being told to</source>
+        <translation>Bir ısıtıcı komut verilmeden ısıtıyor</translation>
+    </message>
+    <message>
+        <source>a heater&apos;s switch does not open: the contactor was opened</source>
+        <translation>bir ısıtıcının anahtarı açılmıyor: kontaktör açıldı</translation>
+    </message>
+    <message>
+        <source>switch off, let it cool, replace the heater&apos;s switch</source>
+        <translation>kapatın, soğumasını bekleyin, ısıtıcının anahtarını değiştirin</translation>
+    </message>
+    <message>
+        <source>A fan stands still</source>
+        <translation>Bir fan duruyor</translation>
+    </message>
+    <message>
+        <source>a fan does not turn</source>
+        <translation>bir fan dönmüyor</translation>
+    </message>
+    <message>
+        <source>check the fan and its plug, then clear</source>
+        <translation>fanı ve fişini denetleyin, sonra temizleyin</translation>
     </message>
     <message>
         <source>A heater is not as it should be</source>
@@ -2687,6 +2743,266 @@
     <message>
         <source>move the tool clear by hand, then run it again</source>
         <translation>takımı elle uzaklaştırın, sonra yeniden çalıştırın</translation>
+    </message>
+    <message>
+        <source>an O word stands at the beginning of its line</source>
+        <translation>bir O sözcüğü satırının başında durur</translation>
+    </message>
+    <message>
+        <source>NURBS (%1) are not supported: use G5 or G1</source>
+        <translation>NURBS (%1) desteklenmiyor: G5 ya da G1 kullanın</translation>
+    </message>
+    <message>
+        <source>%1 turns with the spindle, which needs an encoder on it</source>
+        <translation>%1 iş mili ile birlikte döner; bunun için mil üzerinde kodlayıcı gerekir</translation>
+    </message>
+    <message>
+        <source>G76 means threading to some and fine boring to others; both need a spindle that follows an angle, which this machine does not have</source>
+        <translation>G76 kimine göre diş açma, kimine göre hassas delik işlemedir; ikisi de açı izleyen bir iş mili ister, bu makinede yoktur</translation>
+    </message>
+    <message>
+        <source>G87 needs a spindle that stops at an angle, which this machine does not have</source>
+        <translation>G87 belirli bir açıda duran iş mili ister, bu makinede yoktur</translation>
+    </message>
+    <message>
+        <source>G88 needs an operator who moves the axes by hand: use G82 or G86</source>
+        <translation>G88 eksenleri elle hareket ettiren bir operatör ister: G82 ya da G86 kullanın</translation>
+    </message>
+    <message>
+        <source>constant surface speed (G96) needs a lathe</source>
+        <translation>sabit kesme hızı (G96) torna ister</translation>
+    </message>
+    <message>
+        <source>A is taken for extrusion (E), as the slicer in the file&apos;s header writes it</source>
+        <translation>A, dosya başlığındaki dilimleyicinin yazdığı gibi ekstrüzyon (E) sayılıyor</translation>
+    </message>
+    <message>
+        <source>change the filament, then go on</source>
+        <translation>filamenti değiştirin, sonra devam edin</translation>
+    </message>
+    <message>
+        <source>%1 needs %2, the bottom of the hole</source>
+        <translation>%1 deliğin dibi olan %2 ister</translation>
+    </message>
+    <message>
+        <source>%1 needs R, where the feed begins</source>
+        <translation>%1 ilerlemenin başladığı R ister</translation>
+    </message>
+    <message>
+        <source>%1 needs Q, the depth of a peck</source>
+        <translation>%1 bir gagalama derinliği olan Q ister</translation>
+    </message>
+    <message>
+        <source>the depth of a peck Q must be greater than 0</source>
+        <translation>gagalama derinliği Q 0&apos;dan büyük olmalı</translation>
+    </message>
+    <message>
+        <source>%1 has no place in a canned cycle</source>
+        <translation>%1 hazır çevrimde yer alamaz</translation>
+    </message>
+    <message>
+        <source>a canned cycle needs feed per minute (G94)</source>
+        <translation>hazır çevrim dakika başına ilerleme (G94) ister</translation>
+    </message>
+    <message>
+        <source>%1 needs the spindle to turn (%2)</source>
+        <translation>%1 için iş mili dönmeli (%2)</translation>
+    </message>
+    <message>
+        <source>the bottom of the hole lies above R: %1 goes from R down</source>
+        <translation>deliğin dibi R&apos;nin üstünde: %1 R&apos;den aşağı gider</translation>
+    </message>
+    <message>
+        <source>the depth of a peck Q is far too small for this hole</source>
+        <translation>gagalama derinliği Q bu delik için çok küçük</translation>
+    </message>
+    <message>
+        <source>a parameter&apos;s number must be a whole number from 1 to 5602</source>
+        <translation>bir parametrenin numarası 1 ile 5602 arasında tam sayı olmalı</translation>
+    </message>
+    <message>
+        <source>there is no parameter #%1; they are #1 to #5602</source>
+        <translation>#%1 parametresi yok; parametreler #1 ile #5602 arasıdır</translation>
+    </message>
+    <message>
+        <source>M61 needs the tool Q</source>
+        <translation>M61 takım Q ister</translation>
+    </message>
+    <message>
+        <source>%1 needs the output P</source>
+        <translation>%1 çıkış P ister</translation>
+    </message>
+    <message>
+        <source>volumetric extrusion (M200 D) is not supported: use lengths of filament</source>
+        <translation>hacimsel ekstrüzyon (M200 D) desteklenmiyor: filament uzunluğu kullanın</translation>
+    </message>
+    <message>
+        <source>M99 P is not supported: M99 goes back to the call</source>
+        <translation>M99 P desteklenmiyor: M99 çağrıya geri döner</translation>
+    </message>
+    <message>
+        <source>there is no macro %1</source>
+        <translation>%1 makrosu yok</translation>
+    </message>
+    <message>
+        <source>M98 needs the program P</source>
+        <translation>M98 program P ister</translation>
+    </message>
+    <message>
+        <source>put in the tool T%1, then go on</source>
+        <translation>T%1 takımını takın, sonra devam edin</translation>
+    </message>
+    <message>
+        <source>an O number has 9 digits at most</source>
+        <translation>bir O numarası en çok 9 basamaklıdır</translation>
+    </message>
+    <message>
+        <source>the name of an O word needs a closing &gt;</source>
+        <translation>O sözcüğünün adı kapanan &gt; ister</translation>
+    </message>
+    <message>
+        <source>the name of an O word is empty</source>
+        <translation>O sözcüğünün adı boş</translation>
+    </message>
+    <message>
+        <source>the name of an O word is too long (64 letters at most)</source>
+        <translation>O sözcüğünün adı çok uzun (en çok 64 harf)</translation>
+    </message>
+    <message>
+        <source>only a call may compute its O number</source>
+        <translation>O numarasını yalnız bir çağrı hesaplayabilir</translation>
+    </message>
+    <message>
+        <source>expected sub, call, if, while, do, repeat or another word of O after the label</source>
+        <translation>etiketten sonra sub, call, if, while, do, repeat ya da başka bir O sözcüğü beklenir</translation>
+    </message>
+    <message>
+        <source>G43.1 needs the tool&apos;s length Z, and a line without motion</source>
+        <translation>G43.1 takım boyu Z ve hareketsiz bir satır ister</translation>
+    </message>
+    <message>
+        <source>%1 uses the line&apos;s axis words: write the motion in another line</source>
+        <translation>%1 satırın eksen sözcüklerini kullanır: hareketi başka satıra yazın</translation>
+    </message>
+    <message>
+        <source>G68 needs R, the angle in degrees</source>
+        <translation>G68 derece olarak açı R ister</translation>
+    </message>
+    <message>
+        <source>G52 needs at least one axis word</source>
+        <translation>G52 en az bir eksen sözcüğü ister</translation>
+    </message>
+    <message>
+        <source>in the macro %1, line %2: %3</source>
+        <translation>%1 makrosunda, satır %2: %3</translation>
+    </message>
+    <message>
+        <source>%1 (called in line %2)</source>
+        <translation>%1 (satır %2&apos;de çağrıldı)</translation>
+    </message>
+    <message>
+        <source>%1 begins a program before the one above it has ended with M30</source>
+        <translation>%1, üstündeki program M30 ile bitmeden yeni program başlatıyor</translation>
+    </message>
+    <message>
+        <source>O words belong to a job: a single line can only call a macro</source>
+        <translation>O sözcükleri işe aittir: tek satır yalnız makro çağırabilir</translation>
+    </message>
+    <message>
+        <source>what has to be kept since line %1 is too long (16 MB or a million lines)</source>
+        <translation>satır %1&apos;den beri saklanması gereken metin çok uzun (16 MB ya da bir milyon satır)</translation>
+    </message>
+    <message>
+        <source>%1 has no beginning</source>
+        <translation>%1 başlangıcı yok</translation>
+    </message>
+    <message>
+        <source>%1 stands where %2 of line %3 is open</source>
+        <translation>%1, satır %3&apos;teki %2 açıkken duruyor</translation>
+    </message>
+    <message>
+        <source>%1 is defined already, in line %2</source>
+        <translation>%1 zaten satır %2&apos;de tanımlı</translation>
+    </message>
+    <message>
+        <source>O words are nested too deep (100 levels at most)</source>
+        <translation>O sözcükleri çok derin iç içe (en çok 100 düzey)</translation>
+    </message>
+    <message>
+        <source>%1 is in no loop of this label</source>
+        <translation>%1 bu etiketli bir döngüde değil</translation>
+    </message>
+    <message>
+        <source>%1 has no end</source>
+        <translation>%1 sonu yok</translation>
+    </message>
+    <message>
+        <source>the program %1 has no M99 at its end</source>
+        <translation>%1 programının sonunda M99 yok</translation>
+    </message>
+    <message>
+        <source>loops and calls carry out more than %1 lines: one of them does not end</source>
+        <translation>döngüler ve çağrılar %1 satırdan fazlasını yürütüyor: biri bitmiyor</translation>
+    </message>
+    <message>
+        <source>%1 stands in no subroutine</source>
+        <translation>%1 bir alt programda durmuyor</translation>
+    </message>
+    <message>
+        <source>calls are nested too deep (%1 levels at most)</source>
+        <translation>çağrılar çok derin iç içe (en çok %1 düzey)</translation>
+    </message>
+    <message>
+        <source>the arguments of a call stand in [ ]</source>
+        <translation>bir çağrının bağımsız değişkenleri [ ] içinde durur</translation>
+    </message>
+    <message>
+        <source>a call has 30 arguments at most</source>
+        <translation>bir çağrının en çok 30 bağımsız değişkeni olur</translation>
+    </message>
+    <message>
+        <source>%1 is not defined above this call</source>
+        <translation>%1 bu çağrının üstünde tanımlı değil</translation>
+    </message>
+    <message>
+        <source>M99 ends a subprogram: a main program that begins again for ever is not run</source>
+        <translation>M99 alt programı bitirir: sonsuza dek yeniden başlayan ana program yürütülmez</translation>
+    </message>
+    <message>
+        <source>M98 P belongs to a job: a single line can only call a macro</source>
+        <translation>M98 P işe aittir: tek satır yalnız makro çağırabilir</translation>
+    </message>
+    <message>
+        <source>there is no program O%1 in this text</source>
+        <translation>bu metinde O%1 programı yok</translation>
+    </message>
+    <message>
+        <source>in the macro %1, line %2: an O word has no end</source>
+        <translation>%1 makrosunda, satır %2: bir O sözcüğünün sonu yok</translation>
+    </message>
+    <message>
+        <source>%1 needs the plane XY (G17)</source>
+        <translation>%1 XY düzlemi (G17) ister</translation>
+    </message>
+    <message>
+        <source>%1 needs feed per minute (G94)</source>
+        <translation>%1 dakika başına ilerleme (G94) ister</translation>
+    </message>
+    <message>
+        <source>%1 has no place in a spline</source>
+        <translation>%1 spline içinde yer alamaz</translation>
+    </message>
+    <message>
+        <source>%1 needs I and J</source>
+        <translation>%1 I ve J ister</translation>
+    </message>
+    <message>
+        <source>%1 needs P and Q</source>
+        <translation>%1 P ve Q ister</translation>
+    </message>
+    <message>
+        <source>the spline is too large</source>
+        <translation>spline çok büyük</translation>
     </message>
 </context>
 <context>

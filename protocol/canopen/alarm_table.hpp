@@ -46,6 +46,7 @@ constexpr AlarmRow stop(std::uint16_t code, std::size_t reason, const char* name
   return {code, name, kStopWords[reason].words, kStopWords[reason].advice};
 }
 constexpr const char* kWrongLength = "A frame on the bus has the wrong length";
+constexpr const char* kCheckSensor = "check the sensor, its plug and its wires, then clear";
 constexpr const char* kLookForMaster = "look for another master on the bus, update the node's firmware";
 }  // namespace alarm_table
 
@@ -61,10 +62,28 @@ inline constexpr std::array kAlarms{
              "check the power supply"},
     AlarmRow{emcy::kUnderVoltage, "The supply voltage is too low", "supply voltage too low",
              "check the power supply and its wiring"},
+    AlarmRow{emcy::kHeaterTooHot, "A heater is too hot", "a heater is above its limit",
+             "let it cool; check heater and sensor, then clear"},
     AlarmRow{emcy::kDeviceTemperature, "A node is too hot", "the node is too hot",
              "let it cool, check the fan"},
     AlarmRow{emcy::kDriveTemperature, "A drive is too hot", "a motor driver is too hot",
              "let it cool, lower the current, check the fan"},
+    AlarmRow{emcy::kSensorOpen, "A temperature sensor is open", "a temperature sensor or its wire is open",
+             alarm_table::kCheckSensor},
+    AlarmRow{emcy::kSensorShort, "A temperature sensor is shorted", "a temperature sensor is shorted",
+             alarm_table::kCheckSensor},
+    AlarmRow{emcy::kSensorJump, "A temperature sensor jumps", "a temperature changed faster than it can",
+             alarm_table::kCheckSensor},
+    AlarmRow{emcy::kSensorSilent, "A temperature sensor is silent", "a temperature is not measured any more",
+             alarm_table::kCheckSensor},
+    AlarmRow{emcy::kHeatMissing, "A heater does not heat as it should",
+             "a heater's power does not arrive at its sensor",
+             "check that heater and sensor sit tight and are the right ones, then clear"},
+    AlarmRow{emcy::kHeatUnasked, "A heater heats without being told to",
+             "a heater's switch does not open: the contactor was opened",
+             "switch off, let it cool, replace the heater's switch"},
+    AlarmRow{emcy::kFanStalled, "A fan stands still", "a fan does not turn",
+             "check the fan and its plug, then clear"},
     AlarmRow{emcy::kControlHardware, "A node's power stage does not work",
              "the power stage does not measure the motor's currents",
              "switch the node off and on; when it comes again, replace the board"},

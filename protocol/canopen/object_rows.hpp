@@ -37,7 +37,7 @@ struct ObjectRow : ObjectEntry, ObjectNames {
 };
 
 struct Rows {
-  static constexpr std::size_t kCapacity = 512;
+  static constexpr std::size_t kCapacity = 640;
   std::array<ObjectRow, kCapacity> rows{};
   std::size_t count = 0;
 

@@ -7,6 +7,7 @@
 
 #include "protocol/host/guarded_main.hpp"
 #include "tools/cli/explain_command.hpp"
+#include "tools/cli/gcode_command.hpp"
 #include "tools/cli/job_commands.hpp"
 #include "tools/cli/link_bench.hpp"
 #include "tools/cli/machine_commands.hpp"
@@ -29,6 +30,7 @@ int run(int argc, char** argv) {
   kinebus::add_plan_command(app, exit_code);
   kinebus::add_simulate_command(app, exit_code);
   kinebus::add_explain_command(app, exit_code);
+  kinebus::add_gcode_command(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

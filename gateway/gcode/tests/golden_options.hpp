@@ -8,11 +8,13 @@
 namespace kinebus::gcode {
 
 /// Home 200 mm above the table, one spare tool of 12.5 mm. A file changes it with "options: word word"
-/// anywhere in its text: block_delete, dwell_seconds, traverse_uses_feed, default_feed, two_tools.
+/// anywhere in its text: block_delete, dwell_seconds, traverse_uses_feed, default_feed, two_tools,
+/// spindle, macros (prime LENGTH=, and square with an argument by number).
 inline Options golden_options(std::string_view text) {
   Options options;
   options.home = {0, 0, 200, 0, 0, 0};
   options.tool_length_mm = {12.5};
+  options.most_recorded_steps = 10'000;
   const std::size_t at = text.find("options:");
   if (at == std::string_view::npos) return options;
   const std::string_view line = text.substr(at, text.find('\n', at) - at);
@@ -21,6 +23,17 @@ inline Options golden_options(std::string_view text) {
   options.traverse_uses_feed = says("traverse_uses_feed");
   if (says("dwell_seconds")) options.dwell_p_unit = DwellUnit::kSeconds;
   if (says("default_feed")) options.default_feed_mm_per_s = 25;
+  options.spindle = says("spindle");
+  if (options.spindle) options.tools = 100'000;
+  if (says("macros"))
+    options.macros = {{"prime",
+                       "; as a machine file has it\n"
+                       "o1 if [exists[#<length>]]\n"
+                       "  G1 E[#<length>] F300\n"
+                       "o1 else\n"
+                       "  (MSG, no length)\n"
+                       "o1 endif\n"},
+                      {"square", "G1 X#1 F600\nY#1\nX0\nY0\n"}};
   if (says("two_tools")) options.tools = options.hotends = 2;
   return options;
 }

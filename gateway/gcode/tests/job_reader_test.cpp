@@ -161,7 +161,7 @@ TEST(JobReader, FilesThatAreNoTextAreNamedOnce) {
 }
 
 TEST(JobReader, OneUnknownCodeIsToldOnceAndWhatComesOfItToo) {
-  std::string text = "G17 G21 G90 G81 X1 Y1 Z-2 R1 F100\n";
+  std::string text = "G17 G21 G90 G41 X1 Y1 Z-2 F100\n";
   for (int i = 0; i < 1192; ++i) text += "X" + std::to_string(i) + " Y2\n";
   for (int i = 0; i < 500; ++i) text += "M1234 P1\n";
   text += "G1 X1 Y\nG0 X7\n";
@@ -182,7 +182,7 @@ TEST(JobReader, OneUnknownCodeIsToldOnceAndWhatComesOfItToo) {
     }
     ASSERT_TRUE(reader.finish(out));
     const std::vector<std::string> expected = {
-        "1:13: canned cycles (G81) are not supported: use G0 and G1",
+        "1:13: cutter compensation (G41) is not supported: offset the path in CAM",
         "2:1: X has no use in this line: no motion code is given or active", "1194:1: M1234 is unknown",
         "1694:7: Y needs a number"};
     EXPECT_EQ(told, expected);
@@ -191,6 +191,47 @@ TEST(JobReader, OneUnknownCodeIsToldOnceAndWhatComesOfItToo) {
     EXPECT_EQ(reader.bytes(), text.size());
     EXPECT_EQ(canonical::to_text(out[out.size() - 2]), "1695 traverse machine x7 y0 z0 a0 c0 e0");
   }
+}
+
+TEST(JobReader, LoopsReadTheSameInAnyChunksAndSteps) {
+  const std::string text =
+      "#1=3\no1 while [#1 GT 0]\nG0 X#1\n#1=[#1-1]\no1 endwhile\nM98 P7 L2\nG0 Y9\nM30\nO7\nG0 Z1\nG0 "
+      "Z2\nM99\n";
+  std::vector<std::string> whole;
+  for (std::size_t chunk = 1; chunk <= text.size(); ++chunk)
+    for (const std::uint32_t steps : {1U, 2U, JobReader::kWithoutEnd}) {
+      Interpreter interpreter;
+      JobReader reader(interpreter, steps);
+      CommandBuffer out;
+      for (std::size_t at = 0; at < text.size(); at += chunk) {
+        std::string_view part = std::string_view(text).substr(at, chunk);
+        do {
+          ASSERT_TRUE(reader.read(part, out));
+          part.remove_prefix(reader.taken());
+        } while (!part.empty() || reader.busy());
+      }
+      do ASSERT_TRUE(reader.finish(out));
+      while (reader.busy());
+      std::vector<std::string> texts;
+      for (const canonical::Line& line : out) texts.push_back(canonical::to_text(line));
+      if (whole.empty()) whole = texts;
+      EXPECT_EQ(texts, whole) << chunk << " " << steps;
+      EXPECT_EQ(reader.bytes(), text.size());
+    }
+  EXPECT_EQ(whole.size(), 10U);
+  EXPECT_EQ(whole.back(), "8 end");
+}
+
+TEST(JobReader, ALoopWithoutEndIsAnErrorWithItsLine) {
+  Options options;
+  options.most_recorded_steps = 1000;
+  Interpreter interpreter(options);
+  JobReader reader(interpreter);
+  CommandBuffer out;
+  const auto result = reader.read("G0 X1\no1 while [1]\no1 endwhile\nG0 X2\n", out);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().line, 2U);
+  EXPECT_NE(result.error().message.find("does not end"), std::string::npos);
 }
 
 TEST(JobReader, WhatFollowsAnOverlongLineIsRead) {

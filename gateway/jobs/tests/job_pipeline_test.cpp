@@ -71,6 +71,29 @@ TEST(JobPipeline, EmptyJobEndsAtOnce) {
   EXPECT_EQ(trace("").steps, "");
 }
 
+TEST(JobPipeline, EventsOfALoopFallDueInEachTurn) {
+  const Trace t = trace("o1 repeat [3]\nG91 G1 X5 F3000\nM117 turn\no1 endrepeat\nG90 G1 X-10\n");
+  EXPECT_EQ(t.steps, "pepepepr");
+  ASSERT_EQ(t.event_s.size(), 3U);
+  EXPECT_GT(t.event_s[0], 0.05);
+  EXPECT_GT(t.event_s[1], t.event_s[0] + 0.05);
+  EXPECT_GT(t.event_s[2], t.event_s[1] + 0.05);
+  EXPECT_NEAR(t.end[kX], -10, 1e-6);
+}
+
+TEST(JobPipeline, ProblemsInLoopsNameTheLineOfTheText) {
+  const Trace t = trace("G1 X1 F3000\no1 repeat [2]\nG1 X2\nG1 X1\nM20\no1 endrepeat\nG1 X5\nM20\n");
+  ASSERT_EQ(t.problems.size(), 3U);
+  EXPECT_EQ(t.problems[0].line, 5U);
+  EXPECT_EQ(t.problems[1].line, 5U);
+  EXPECT_EQ(t.problems[2].line, 8U);
+  EXPECT_EQ(t.lines, 8U);
+}
+
+TEST(JobPipeline, AJobPausesItself) {
+  EXPECT_EQ(trace("G1 X1 F3000\nM25\nG1 X2\n").steps, "prbpr");
+}
+
 TEST(JobPipeline, MovesMakeOneRunThatEndsAtTheLastTarget) {
   const Trace t = trace("G1 X10 Y0 Z20 F3000\nG1 X10 Y10\n");
   EXPECT_EQ(t.steps, "pr");

@@ -120,7 +120,7 @@ TEST(JobPlan, ToolLengthsOfTheMachineFileLiftTheTool) {
 }
 
 TEST(JobPlan, ProblemsAreCollectedToTheEndOfTheJob) {
-  const Planned p = plan("G1 X10 F3000\nG1 X5000\nG1 X0\nG1 X200\nG99\n");
+  const Planned p = plan("G1 X10 F3000\nG1 X5000\nG1 X0\nG1 X200\nG199\n");
   ASSERT_GE(p.problems.errors(), 3u);
   EXPECT_EQ(p.problems.all()[0].line, 2u);
 }

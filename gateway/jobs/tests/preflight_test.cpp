@@ -131,6 +131,15 @@ TEST(Preflight, ExtrusionWithoutAnyTemperatureIsOnlyWarnedOf) {
   EXPECT_EQ(c.problems.warnings(), 1u);
 }
 
+TEST(Preflight, WhatHasNoEffectHereIsWarnedOfOnce) {
+  const Checked c = check("G29\nG1 X10 F1200\nG29\nM205 J0.1\nM205 J0.2\n");
+  EXPECT_EQ(c.problems.errors(), 0u);
+  ASSERT_EQ(c.problems.warnings(), 2u);
+  EXPECT_EQ(c.problems.all()[0].line, 1u);
+  EXPECT_EQ(c.problems.all()[0].words, "G29 has no effect on this machine");
+  EXPECT_EQ(c.problems.all()[1].line, 4u);
+}
+
 TEST(Preflight, ListOfProblemsIsCappedAndCountsOn) {
   std::string job;
   for (int i = 0; i < 1000; ++i)
@@ -151,7 +160,7 @@ TEST(Preflight, RefusalsInTheSameWordsAreToldOnceAndCounted) {
 }
 
 TEST(Preflight, LinesThatEndWithReturnsAloneAreRead) {
-  const Checked c = check("G1 X10 F3000\rG1 X5000\rG1 X0\rG99\rG4 S2\r");
+  const Checked c = check("G1 X10 F3000\rG1 X5000\rG1 X0\rG199\rG4 S2\r");
   ASSERT_EQ(c.problems.errors(), 2u);
   EXPECT_EQ(c.problems.all()[0].line + c.problems.all()[1].line, 2u + 4u);
   EXPECT_NEAR(c.report.dwell_s, 2, 1e-9);

@@ -138,5 +138,36 @@ TEST(MachineDevices, ANodeWithoutAxesThatFallsSilentIsToldAndPositionsStayKnown)
   EXPECT_TRUE(rig.gateway->status().positions_known);
 }
 
+TEST(MachineDevices, M112SwitchesHeatersOffAndAJobThatGoesOnHeatsFirst) {
+  MachineRig rig;
+  ASSERT_TRUE(rig.make_ready()) << rig.story();
+  ASSERT_TRUE(rig.gateway->carry_out(
+      command::Run{std::make_unique<StringSource>("M109 S60\nG1 X40 F600\nG1 X-40\n"), "part"}));
+  ASSERT_TRUE(rig.run_until([&] { return rig.gateway->status().pose[kX] > 20; }, 200s)) << rig.story();
+  ASSERT_TRUE(rig.gateway->carry_out(command::Stop{.why = say("M112"), .heaters_off = true}));
+  EXPECT_EQ(rig.gateway->status().heater(kFirstHotend).target_celsius, 0);
+  ASSERT_TRUE(rig.reach(MachineState::kStopped)) << rig.story();
+  EXPECT_NE(rig.story().find("the heaters are off: M112"), std::string::npos) << rig.story();
+  rig.run_for(60s);
+  ASSERT_LT(rig.gateway->status().heater(kFirstHotend).actual_celsius, 55);
+  ASSERT_TRUE(rig.gateway->carry_out(command::Clear{}));
+  ASSERT_TRUE(rig.reach(MachineState::kHeld)) << rig.story();
+  const double x = rig.gateway->status().pose[kX];
+  ASSERT_TRUE(rig.gateway->carry_out(command::Resume{}));
+  ASSERT_TRUE(rig.run_until([&] { return rig.gateway->status().pose[kX] > x + 0.5; }, 200s)) << rig.story();
+  EXPECT_GT(rig.gateway->status().heater(kFirstHotend).actual_celsius, 55) << "it moves when it is hot again";
+  ASSERT_TRUE(rig.reach(MachineState::kReady)) << rig.story();
+  EXPECT_NEAR(rig.gateway->status().pose[kX], -40, 2e-3);
+}
+
+TEST(MachineDevices, AStopWhileSwitchedOffIsHarmless) {
+  MachineRig rig;
+  ASSERT_TRUE(rig.gateway->carry_out(command::Stop{}));
+  rig.run_for(5s);
+  EXPECT_EQ(rig.gateway->state(), MachineState::kOff);
+  EXPECT_FALSE(rig.told(MachineEvent::Kind::kAlarm)) << rig.story();
+  EXPECT_TRUE(rig.make_ready()) << rig.story();
+}
+
 }  // namespace
 }  // namespace kinebus

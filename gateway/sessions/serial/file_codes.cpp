@@ -77,7 +77,10 @@ MarlinSession::Done MarlinSession::file_code(const serial::Line& line, int numbe
       if (!stored) return Done::kWaiting;
       writing_.clear();
       written_ = std::string();
-      if (!stored->refused.empty()) return refuse("Error writing to file: " + stored->refused);
+      if (!stored->refused.empty()) {
+        say("Error:Error writing to file: " + stored->refused);
+        return Done::kYes;
+      }
       say("Done saving file.");
       return Done::kYes;
     }

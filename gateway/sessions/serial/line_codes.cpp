@@ -37,6 +37,22 @@ bool moves(std::string_view text) {
   return code.letter != 'T' && code.letter != 0 && code.letter != '(' && code.letter != '#';
 }
 
+/// What M118 says: E1 and A1 choose how the host takes it, P the port.
+std::string told(std::string_view text) {
+  bool action = false;
+  while (text.size() >= 2 && std::string_view("EAP").find(text[0]) != std::string_view::npos &&
+         (text[1] >= '0' && text[1] <= '9') && (text.size() == 2 || text[2] == ' ')) {
+    action = text[0] == 'A' ? text[1] == '1' : action;
+    text.remove_prefix(std::min(text.size(), std::size_t{3}));
+  }
+  return (action ? "//" : "echo:") + std::string(text);
+}
+
+/// They take effect when they are taken: nothing before them makes them wait.
+bool takes_effect_at_once(const Code& code) {
+  return code.is('M', 104) || code.is('M', 140) || code.is('M', 141);
+}
+
 /// "ok" means that they are carried out, not only taken.
 bool waits_for_end(const Code& code) {
   return code.is('G', 28) || code.is('G', 4) || code.is('M', 400) || code.is('M', 109) || code.is('M', 190) ||
@@ -50,9 +66,15 @@ bool MarlinSession::machine_stopped() const {
   return state == MachineState::kStopping || state == MachineState::kStopped || state == MachineState::kAlarm;
 }
 
+/// The machine is as safe as before: "Error:" would make hosts give up and send M112. A numbered line is one
+/// of a print, which is not whole without it: the host is asked to pause and tell why.
 MarlinSession::Done MarlinSession::refuse(std::string_view words) {
   ++counters_.refused;
-  say("Error:" + std::string(words));
+  say("echo:" + std::string(words));
+  if (!lines_.empty() && lines_.front().number && !halted_ && !dropped_) {
+    say("//action:notification " + std::string(words));
+    say("//action:pause");
+  }
   return Done::kYes;
 }
 
@@ -76,7 +98,7 @@ MarlinSession::Done MarlinSession::carry_out(const Line& line) {
       halted_ = false;  // others cleared it
     } else {
       if (serial::urgent(line.text) != Urgent::kNone) return Done::kYes;
-      return refuse("Printer halted. M999 lifts the stop");
+      return refuse("the machine is stopped: M999 lifts the stop");
     }
   }
   if (serial::changes_machine(code) && !may_command()) return refuse(no_control());
@@ -127,7 +149,11 @@ MarlinSession::Done MarlinSession::carry_out_m(const Line& line, int number) {
       return Done::kYes;
     case 114:
     case 119:
+    case 503:
       return query(line);
+    case 220:
+    case 221:
+      return serial::word(line.text, 'S') ? to_machine(line) : query(line);
     case 115: {
       if (const Done done = query(line); done != Done::kYes) return done;
       for (const char* capability :
@@ -139,7 +165,7 @@ MarlinSession::Done MarlinSession::carry_out_m(const Line& line, int number) {
       return Done::kYes;
     }
     case 118:
-      say("echo:" + std::string(serial::argument(line.text)));
+      say(told(serial::argument(line.text)));
       return Done::kYes;
     case 155:
       temperature_period_ = seconds(serial::word(line.text, 'S').value_or(0));
@@ -208,10 +234,10 @@ MarlinSession::Done MarlinSession::to_machine(const Line& line) {
 }
 
 MarlinSession::Done MarlinSession::feed(const Line& line) {
-  if (mine_ && gateway_.line_room() == 0) return Done::kWaiting;
+  const Code code = serial::code_of(line.text);
+  if (mine_ && gateway_.line_room() == 0 && !takes_effect_at_once(code)) return Done::kWaiting;
   if (!mine_ && gateway_.lines_open()) return refuse("another client's lines move the machine");
   if (const auto taken = gateway_.take_line(line.text, ++count_); !taken) return refuse(taken.error().words);
-  const Code code = serial::code_of(line.text);
   if (!mine_ || !waits_for_end(code)) return Done::kYes;
   wait_ = Wait::kIdle;
   heats_ = code.is('M', 109) || code.is('M', 190) || code.is('M', 191);

@@ -161,7 +161,8 @@ void LineReader::finish(std::string_view raw) {
   const auto keep = [&] { lines_.push_back(std::move(line)); };
   if ((text.empty() || own_words_come_back(text)) && !too_long_) return;
   if (too_long_ || text.find('\0') != std::string_view::npos) {
-    damaged(line, too_long_ ? "Line too long" : "Unreadable line");
+    // Hosts go on after "Format error"; words that they do not know make them give up.
+    damaged(line, too_long_ ? "Format error: line too long" : "Format error: unreadable line");
     return keep();
   }
   std::optional<long> number;

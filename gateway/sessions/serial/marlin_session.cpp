@@ -89,7 +89,8 @@ void MarlinSession::see_urgent(LocalTime now, Urgent what) {
       lines_.clear();
       stop_waiting();
       halted_ = true;
-      static_cast<void>(gateway_.carry_out(command::Stop{}));
+      static_cast<void>(gateway_.carry_out(
+          command::Stop{.why = kinebus::say("M112 of the print host"), .heaters_off = true}));
       say("Error:Printer halted. kill() called!");
       return;
     case Urgent::kQuickStop:
@@ -100,6 +101,7 @@ void MarlinSession::see_urgent(LocalTime now, Urgent what) {
       return;
     case Urgent::kGoOn:
       if (wait_ == Wait::kHeater) stop_waiting();
+      if (mine_) gateway_.skip_heating();
       if (gateway_.state() == MachineState::kHeld && may_command())
         static_cast<void>(gateway_.carry_out(command::Resume{}));
       next_busy_ = now + options_.keep_alive;
@@ -202,8 +204,8 @@ void MarlinSession::on_closed(LocalTime now, std::string_view) {
   now_ = std::max(now_, now);
   lines_.clear();
   stop_waiting();
-  // What was taken is still moved; then the machine rests, at a place of the path.
-  if (mine_) gateway_.close_lines();
+  // What was taken is still moved, as far as the lead goes; then the machine rests, at a place of the path.
+  if (mine_) gateway_.leave_lines();
   mine_ = false;
   leave();
 }

@@ -5,7 +5,7 @@
 //   bytes -> LineReader (numbers, checksums, Resend) -> lines wait -> work(): each answered by one "ok"
 //
 // G-code goes to the gateway line by line (Gateway::take_line): it is checked, planned with look-ahead and
-// moved like a job's. "ok" comes when a line is taken, so it waits while the planner is full; of G28, G4,
+// moved like a job's. "ok" comes when a line is taken, so it waits while the lead is full; of G28, G4,
 // M109, M190 and M400 when they are carried out. M112, M410 and M108 are seen at once, whatever waits.
 //
 // The host is a client like all others: it has control from its first command that changes the machine until

@@ -95,7 +95,7 @@ TEST(PathReader, TiltsAreKeptOnlyForJobsThatTurn) {
 }
 
 TEST(PathReader, RefusedLinesAreCountedAndThePathGoesOnBehindThem) {
-  const ToolPath path = scan("G1 X1 E1\nG81 X9 Y9 Z9 R1\nM1234\nG1 X Y3\nO1 sub\nM1234\nG1 X5 E2\nG1 X[");
+  const ToolPath path = scan("G1 X1 E1\nG41 X9 Y9 Z9\nM1234\nG1 X Y3\nO1 go\nM1234\nG1 X5 E2\nG1 X[");
   EXPECT_EQ(path.refused_lines, 6u);
   EXPECT_EQ(path.line_count, 8u);
   ASSERT_EQ(path.size(), 3u);

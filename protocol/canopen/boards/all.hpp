@@ -2,6 +2,7 @@
 // Every board there is, for programs that speak of boards by name.
 
 #include "protocol/canopen/board_objects.hpp"
+#include "protocol/canopen/boards/heat.hpp"
 #include "protocol/canopen/boards/stm32f405.hpp"
 
 namespace kinebus {
@@ -17,7 +18,7 @@ template <typename Board>
 inline constexpr BoardDescription kBoardDescription{Board::kFacts, BoardObjects<Board>::kTable,
                                                     BoardObjects<Board>::kNames, Board::kPdos};
 
-inline constexpr std::array kBoards{kBoardDescription<Stm32f405Board>};
+inline constexpr std::array kBoards{kBoardDescription<Stm32f405Board>, kBoardDescription<HeatBoard>};
 
 /// nullptr: no board is called so.
 constexpr const BoardDescription* find_board(std::string_view name) {

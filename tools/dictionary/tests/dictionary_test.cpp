@@ -112,6 +112,31 @@ TEST(Eds, IsOfTheBoardThatIsNamed) {
   }
 }
 
+TEST(Eds, OfEveryBoardHasEveryObjectWithItsTypeAndLimits) {
+  for (const BoardDescription& board : kBoards) {
+    auto sections = read_ini(eds_text(board));
+    std::set<std::uint16_t> indices;
+    for (const ObjectEntry& entry : board.objects.entries) {
+      indices.insert(entry.address.index);
+      const std::string name = section_name(entry.address, entry.code != ObjectCode::kVar);
+      ASSERT_EQ(sections.count(name), 1u) << board.facts.name << " " << name;
+      Section& s = sections[name];
+      EXPECT_FALSE(s["ParameterName"].empty()) << name;
+      EXPECT_EQ(number(s["DataType"]), static_cast<std::int64_t>(entry.type)) << name;
+      EXPECT_EQ(s.count("LowLimit") == 1, entry.limited) << name;
+      if (entry.limited) {
+        EXPECT_EQ(number(s["HighLimit"]), entry.high) << name;
+      }
+    }
+    std::int64_t listed = 0;
+    for (const char* part : {"MandatoryObjects", "OptionalObjects", "ManufacturerObjects"})
+      listed += number(sections[part]["SupportedObjects"]);
+    EXPECT_EQ(static_cast<std::size_t>(listed), indices.size()) << board.facts.name;
+    EXPECT_EQ(number(sections["DeviceInfo"]["NrOfTXPDO"]),
+              static_cast<std::int64_t>(board.pdos.tpdos.size()));
+  }
+}
+
 TEST(Eds, ListsEveryObjectOnceInItsPart) {
   auto sections = read_ini(eds_text(kBoard));
   std::set<std::int64_t> listed;

@@ -96,9 +96,9 @@ TEST_F(Reader, NumberedLineThatLostItsEndIsAskedForAgain) {
 
 TEST_F(Reader, LongOrUnreadableLinesAreDamaged) {
   give(std::string(5000, 'G') + "\n");
-  EXPECT_EQ(next(), "!1: Line too long, Last Line: 0");
+  EXPECT_EQ(next(), "!1: Format error: line too long, Last Line: 0");
   give(std::string("G1\0X\n", 5));
-  EXPECT_EQ(next(), "!1: Unreadable line, Last Line: 0");
+  EXPECT_EQ(next(), "!1: Format error: unreadable line, Last Line: 0");
 }
 
 TEST(SerialCode, WordsAndArguments) {

@@ -20,7 +20,7 @@ TEST(MarlinSession, GreetsAndAnswersTemperatureWithinOk) {
 
 TEST(MarlinSession, G28FromSwitchedOffBringsUpHomesAndStandsAtTheReference) {
   SerialRig rig;
-  EXPECT_EQ(rig.ask("G1 X10"), "Error:home the machine first (G28)\n");
+  EXPECT_EQ(rig.ask("G1 X10"), "echo:home the machine first (G28)\n");
   rig.ask("G28");
   EXPECT_TRUE(rig.said("echo:busy: processing")) << rig.log();
   const MachineStatus status = rig.machine.gateway->status();
@@ -41,7 +41,7 @@ TEST(MarlinSession, LineOutOfReachIsRefusedAndNothingMoves) {
   SerialRig rig;
   ASSERT_TRUE(rig.machine.make_ready());
   const std::string answer = rig.ask("G1 X400 F3000");
-  EXPECT_EQ(answer.rfind("Error:", 0), 0u) << answer;
+  EXPECT_EQ(answer.rfind("echo:", 0), 0u) << answer;
   rig.ask("M400");
   EXPECT_NEAR(rig.machine.gateway->status().machine_pose[kX], 0, 1e-3);
   EXPECT_EQ(rig.ask("G1 X5 F3000"), "");
@@ -67,13 +67,13 @@ TEST(MarlinSession, M112StopsAtOnceThoughLinesWait) {
   const BusTime asked = rig.machine.now;
   ASSERT_TRUE(rig.until([&] { return rig.machine.gateway->state() == MachineState::kStopped; }, 5s));
   EXPECT_LT(rig.machine.now - asked, 500ms);
-  EXPECT_EQ(rig.ask("G1 X1"), "Error:Printer halted. M999 lifts the stop\n");
+  EXPECT_EQ(rig.ask("G1 X1"), "echo:the machine is stopped: M999 lifts the stop\n");
   rig.ask("M999");
   EXPECT_EQ(rig.machine.gateway->state(), MachineState::kReady) << rig.log();
   EXPECT_EQ(rig.ask("G1 X1 F600"), "");
 }
 
-TEST(MarlinSession, PlannerThatIsFullHoldsTheOkBack) {
+TEST(MarlinSession, MotionOfTheLeadHoldsTheOkBack) {
   SerialRig rig;
   ASSERT_TRUE(rig.machine.make_ready());
   rig.ask("G91");
@@ -83,8 +83,7 @@ TEST(MarlinSession, PlannerThatIsFullHoldsTheOkBack) {
   rig.turn();
   std::size_t oks = 0;
   for (const std::string& answer : rig.answers) oks += answer.rfind("ok", 0) == 0 ? 1 : 0;
-  EXPECT_LT(oks, 60u);
-  EXPECT_GT(oks, 20u);
+  EXPECT_EQ(oks, 2u) << "G91, and a move that alone takes longer than the lead";
 }
 
 TEST(MarlinSession, HeatersAreReportedWhileALineWaitsForThem) {
@@ -93,7 +92,7 @@ TEST(MarlinSession, HeatersAreReportedWhileALineWaitsForThem) {
   rig.ask("M190 S40");
   EXPECT_TRUE(rig.said(" T:")) << rig.log();
   EXPECT_GT(rig.machine.gateway->status().heater(kFirstBed).actual_celsius, 37);
-  EXPECT_EQ(rig.ask("M104 S900").rfind("Error:", 0), 0u);
+  EXPECT_EQ(rig.ask("M104 S900").rfind("echo:", 0), 0u);
 }
 
 TEST(MarlinSession, TemperatureIsReportedByItselfAfterM155) {
@@ -116,7 +115,7 @@ TEST(MarlinSession, CancelByAnotherClientEndsThePrintUntilANewOneBegins) {
   ASSERT_TRUE(rig.until([&] { return rig.machine.gateway->state() == MachineState::kReady; }, 10s))
       << rig.log();
   EXPECT_TRUE(rig.said("//action:cancel"));
-  EXPECT_EQ(rig.ask("G1 X1 F600").rfind("Error:", 0), 0u);
+  EXPECT_EQ(rig.ask("G1 X1 F600").rfind("echo:", 0), 0u);
   rig.ask("M110 N0");
   EXPECT_EQ(rig.ask("G1 X1 F600"), "");
 }
@@ -159,12 +158,12 @@ TEST(MarlinSession, StoredJobsAreListedWrittenRunAndDeleted) {
 TEST(MarlinSession, HostThatVanishesLeavesTheMachineAtRestOnThePath) {
   SerialRig rig;
   ASSERT_TRUE(rig.machine.make_ready());
-  rig.write("G91\nG1 X20 F1200\nG1 Y20\n");
+  rig.write("G91\nG1 X14 F1200\nG1 Y14\n");
   ASSERT_TRUE(rig.until([&] { return rig.machine.gateway->status().rate > 0.9; }, 10s));
   rig.session.on_closed(rig.machine.now, "cable pulled");
   ASSERT_TRUE(rig.machine.reach(MachineState::kReady, 10s)) << rig.log();
-  EXPECT_NEAR(rig.machine.gateway->status().machine_pose[kX], 20, 2e-3);
-  EXPECT_NEAR(rig.machine.gateway->status().machine_pose[kY], 20, 2e-3);
+  EXPECT_NEAR(rig.machine.gateway->status().machine_pose[kX], 14, 2e-3);
+  EXPECT_NEAR(rig.machine.gateway->status().machine_pose[kY], 14, 2e-3);
   EXPECT_FALSE(rig.machine.told(MachineEvent::Kind::kAlarm)) << rig.log();
 }
 
@@ -214,14 +213,14 @@ TEST(MarlinSession, WhileAnotherClientHasControlAHostMayAskAndStopButNotMove) {
   const ClientId desk = rig.control.attach("desktop", "usb");
   ASSERT_TRUE(rig.control.take(desk, false));
   for (const char* line : {"G1 X5 F3000", "M104 S200", "G28", "M24", "M17"})
-    EXPECT_EQ(rig.ask(line), "Error:desktop has control of the machine\n") << line;
+    EXPECT_EQ(rig.ask(line), "echo:desktop has control of the machine\n") << line;
   EXPECT_NE(rig.ask("M105").find("ok T:"), std::string::npos);
   EXPECT_NEAR(rig.machine.gateway->status().machine_pose[kX], 0, 1e-3);
   rig.control.release(desk);
   EXPECT_EQ(rig.ask("G1 X5 F3000"), "");
   // Taken by force in the middle: what was taken is moved, nothing more is.
   ASSERT_TRUE(rig.control.take(desk, true));
-  EXPECT_EQ(rig.ask("G1 X9"), "Error:desktop has control of the machine\n");
+  EXPECT_EQ(rig.ask("G1 X9"), "echo:desktop has control of the machine\n");
   ASSERT_TRUE(rig.until([&] { return rig.machine.gateway->state() == MachineState::kReady; }, 20s))
       << rig.log();
   EXPECT_NEAR(rig.machine.gateway->status().machine_pose[kX], 5, 2e-3);

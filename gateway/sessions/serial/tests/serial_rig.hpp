@@ -117,6 +117,7 @@ class SerialRig {
     printing_ = false;
     return done && until([&] { return machine.gateway->state() == MachineState::kReady; }, limit);
   }
+  std::size_t oks() const { return oks_; }
   bool said(std::string_view words) const {
     for (const std::string& answer : answers)
       if (answer.find(words) != std::string::npos) return true;

@@ -1,0 +1,32 @@
+#pragma once
+// A heat node, on whatever chip it runs: what it is known by, and its objects. It has a node id of its own,
+// also when it shares a chip with axes.
+
+#include "protocol/canopen/heat_units.hpp"
+
+namespace kinebus {
+
+struct HeatBoard {
+  static constexpr BoardFacts kFacts{.name = "heat",
+                                     .order_code = "kinebus-heat",
+                                     .device_name = "Kinebus heat node",
+                                     .hardware_version = "heat",
+                                     .description = "Kinebus heaters, temperatures and fans on CAN",
+                                     // CiA 404: analogue inputs, controllers, analogue outputs.
+                                     .device_type = 0x0000'0194,
+                                     .product_code = 0x0000'0404,
+                                     .revision = 0x0001'0000,
+                                     .hardware = 0x0404'0001};
+  static constexpr object_table::PdoSet kPdos = object_table::kHeatPdos;
+
+  static constexpr void compose(object_table::Rows& t) {
+    object_table::communication(t, kFacts);
+    object_table::pdos(t, kPdos);
+    object_table::heat_supervision(t);
+    object_table::temperature_inputs(t);
+    object_table::heaters(t);
+    object_table::fans(t);
+  }
+};
+
+}  // namespace kinebus
