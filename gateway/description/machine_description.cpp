@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "gateway/bodies/collision_model.hpp"
 #include "gateway/description/machine_schema.hpp"
 
 namespace kinebus {
@@ -138,6 +139,19 @@ Result<std::unique_ptr<Kinematics>, GeometryError> make_kinematics(const Machine
   return std::visit(Make{description.geometry_calibration}, description.kinematics);
 }
 
+std::unique_ptr<const bodies::CollisionModel> make_collision_model(const MachineDescription& description) {
+  if (!description.bodies) return nullptr;
+  return std::visit(
+      [&d = description]<typename G>(const G& geometry) {
+        if constexpr (std::is_base_of_v<M1Geometry, G>)
+          return bodies::make_model(
+              d.geometry_calibration ? G{corrected(geometry, *d.geometry_calibration)} : geometry, *d.bodies);
+        else
+          return bodies::make_model(geometry, *d.bodies);
+      },
+      description.kinematics);
+}
+
 namespace machine_schema {
 
 void prepare_kinematics(MachineDescription& d, int kind) {
@@ -175,6 +189,14 @@ void prepare_kinematics(MachineDescription& d, int kind) {
     }
   }
   d.joints.clear();
+}
+
+BodyKeys body_keys(const KinematicsGeometry& geometry) {
+  const bool m4 = std::holds_alternative<M4Geometry>(geometry);
+  const bool legs = m4 || std::holds_alternative<M1Geometry>(geometry) ||
+                    std::holds_alternative<M5Geometry>(geometry) ||
+                    std::holds_alternative<LinearDeltaGeometry>(geometry);
+  return {.legs = legs, .pairs = legs && !m4, .platform = legs};
 }
 
 void prepare_joints(MachineDescription& d) {

@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "gateway/bodies/bodies_description.hpp"
 #include "gateway/calibration/joint_calibration.hpp"
 #include "gateway/description/device_description.hpp"
 #include "gateway/kinematics/geometry.hpp"
@@ -244,6 +245,7 @@ struct MachineDescription {
   SpindleDescription spindle;
   ProbeDescription probe;
   GcodeDescription gcode;
+  std::optional<BodiesDescription> bodies;  ///< none: nobody knows what is solid, and nothing is checked
   SerialDescription serial;
   /// M1 and M5: how the machine's geometry was measured to differ from the one above it in the file.
   std::optional<M1Correction> geometry_calibration;
@@ -281,5 +283,12 @@ std::vector<JointName> joint_names(const KinematicsGeometry& geometry);
 
 /// The kinematics that the description states, calibration of the geometry included. Error: see geometry.hpp.
 Result<std::unique_ptr<Kinematics>, GeometryError> make_kinematics(const MachineDescription& description);
+
+namespace bodies {
+class CollisionModel;
+}
+/// What is solid of the machine, calibration of the geometry included; nullptr: the description has no
+/// bodies. The description must be one that has kinematics.
+std::unique_ptr<const bodies::CollisionModel> make_collision_model(const MachineDescription& description);
 
 }  // namespace kinebus

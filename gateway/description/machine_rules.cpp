@@ -6,6 +6,7 @@
 #include <set>
 
 #include "gateway/calibration/joint_map.hpp"
+#include "gateway/description/bodies_rules.hpp"
 #include "gateway/description/device_rules.hpp"
 
 namespace kinebus {
@@ -23,6 +24,8 @@ class Rules {
     judge_devices(d_, broken_);
     if (const auto kinematics = make_kinematics(d_); !kinematics)
       broken_.push_back({geometry_keys(), say("a machine that cannot work"), kinematics.error().what});
+    else
+      judge_bodies(d_, **kinematics, broken_);
     return std::move(broken_);
   }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "gateway/description/bodies_schema.hpp"
 #include "gateway/description/device_schema.hpp"
 #include "gateway/description/machine_description.hpp"
 #include "gateway/description/schema_words.hpp"
@@ -42,6 +43,8 @@ inline constexpr Choice kInputFunctions[] = {
 /// Empties the geometry of everything that a file may leave out, so that left out means "no limit", and sets
 /// up the joints that this kinematics has. Does nothing when the description already is of this kind.
 void prepare_kinematics(MachineDescription& d, int kind);
+/// Which keys of [bodies] this kind of machine has.
+BodyKeys body_keys(const KinematicsGeometry& geometry);
 /// Gives the joints the names of the kinematics; keeps what already fits.
 void prepare_joints(MachineDescription& d);
 /// CoreXY's belts have no travel of their own: X and Y have.
@@ -311,6 +314,10 @@ void visit_machine(V& v, MachineDescription& d) {
   });
   visit_devices(v, d);
   visit_gcode(v, d.gcode);
+  v.optional_table("bodies", d.bodies, [&](BodiesDescription& b) {
+    if (!known_kind) return v.leave_unjudged();
+    visit_bodies(v, b, body_keys(d.kinematics));
+  });
   visit_serial(v, d.serial);
   if (!known_kind || d.kinematics.index() == 0 || d.kinematics.index() == 5)
     visit_correction(v, d.geometry_calibration);

@@ -19,7 +19,7 @@ JobCheck::JobCheck(const MachineDescription& machine, const Kinematics& kinemati
     : JobCheck(machine, kinematics, Options{}) {}
 JobCheck::JobCheck(const MachineDescription& machine, const Kinematics& kinematics, Options options)
     : machine_(machine),
-      kinematics_(kinematics),
+      way_(machine, kinematics),
       options_(options),
       hotend_celsius_(options.hotend_celsius) {}
 
@@ -43,14 +43,17 @@ void JobCheck::phase(const Phase& phase) {
                                   std::ceil(length * rad / options_.pose_distance_rad)});
   const auto count = static_cast<std::int64_t>(checks);
   for (std::int64_t i = 1; i <= count; ++i)
-    check_pose(phase, from + (to - from) * static_cast<double>(i) / checks);
+    check_pose(phase, from + (to - from) * static_cast<double>(i - 1) / checks,
+               from + (to - from) * static_cast<double>(i) / checks);
   since_mm_ = since_rad_ = 0;
 }
 
-void JobCheck::check_pose(const Phase& phase, double s) {
-  const auto checked = kinematics_.check(phase.piece.frame, phase.piece.evaluate(s).x);
-  if (!checked && !bad_pose_) add(Problem::Severity::kError, phase.line, to_string(checked.error()));
-  bad_pose_ = !checked;
+void JobCheck::check_pose(const Phase& phase, double before, double s) {
+  auto broken =
+      way_.broken(phase.piece.frame, before, s, [&phase](double at) { return phase.piece.evaluate(at).x; });
+  const bool bad = broken.has_value();
+  if (bad && !bad_pose_) add(Problem::Severity::kError, phase.line, std::move(*broken));
+  bad_pose_ = bad;
 }
 
 void JobCheck::check_extrusion(const Phase& phase) {

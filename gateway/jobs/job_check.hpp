@@ -1,6 +1,6 @@
 #pragma once
-// The rules that a job must keep, applied to what the pipeline gives out: poses along the path, temperatures,
-// commands out of place. Collects every problem with its line.
+// The rules that a job must keep, applied to what the pipeline gives out: poses along the path, bodies on
+// their way, temperatures, commands out of place. Collects every problem with its line.
 
 #include <cstdint>
 #include <optional>
@@ -8,6 +8,7 @@
 #include "gateway/description/machine_description.hpp"
 #include "gateway/gcode/canonical.hpp"
 #include "gateway/jobs/problem.hpp"
+#include "gateway/jobs/way_rules.hpp"
 #include "gateway/motion/trajectory.hpp"
 
 namespace kinebus {
@@ -33,13 +34,13 @@ class JobCheck {
   const ProblemList& problems() const { return problems_; }
 
  private:
-  void check_pose(const Phase& phase, double s);
+  void check_pose(const Phase& phase, double before, double s);
   void check_extrusion(const Phase& phase);
   void check_thermal(const canonical::Thermal& thermal, std::uint32_t line);
   void add(Problem::Severity severity, std::uint32_t line, Sentence words);
 
   const MachineDescription& machine_;
-  const Kinematics& kinematics_;
+  WayRules way_;
   Options options_;
   ProblemList problems_;
   bool bad_pose_ = false;                    ///< the last pose checked was bad: one report for each way out

@@ -41,7 +41,7 @@ void merge_limits(canonical::Limits& all, const canonical::Limits& more) {
 }
 
 LiveLines::LiveLines(const MachineDescription& machine, const Kinematics& kinematics)
-    : machine_(machine), kinematics_(kinematics) {
+    : machine_(machine), kinematics_(kinematics), way_(machine, kinematics) {
   restart({});
 }
 
@@ -162,12 +162,16 @@ Refused LiveLines::check_straight(const Pose& target, Frame frame) {
   if (!(mm <= kLongestMove_mm && rad <= kLongestTurn_rad)) return say("the move is too long to be checked");
   // At most some hundred thousand, by the two limits above.
   const auto steps = static_cast<int>(std::ceil(std::max(mm / kCheckStep_mm, rad / kCheckStep_rad)));
-  for (int i = 1; i < steps; ++i) {
+  const auto at = [&](double i) {
+    if (i >= steps) return target;
     Pose pose = from;
     for (std::size_t axis = 0; axis < kPoseAxes; ++axis)
       pose[axis] += (target[axis] - from[axis]) * i / steps;
-    if (const auto fits = kinematics_.check(frame, pose); !fits) return to_string(fits.error());
-  }
+    return pose;
+  };
+  way_.jump();
+  for (int i = 1; i <= std::max(steps, 1); ++i)
+    if (auto broken = way_.broken(frame, i - 1, i, at)) return broken;
   place_ = {target, frame};
   return std::nullopt;
 }
@@ -185,9 +189,10 @@ Refused LiveLines::check_arc(const canonical::Arc& arc) {
   if (!(turning <= kLongestTurn_rad)) return say("the arc turns too far to be checked");
   const auto steps =
       static_cast<int>(std::ceil(std::max(move.length / kCheckStep_mm, turning / kCheckStep_rad)));
+  const auto at = [&](double i) { return point_on(move, move.length * i / steps).x; };
+  way_.jump();
   for (int i = 1; i <= steps; ++i)
-    if (const auto fits = kinematics_.check(move.frame, point_on(move, move.length * i / steps).x); !fits)
-      return to_string(fits.error());
+    if (auto broken = way_.broken(move.frame, i - 1, i, at)) return broken;
   place_ = {arc.target, arc.frame};
   return std::nullopt;
 }

@@ -12,6 +12,7 @@
 #include "gateway/description/machine_description.hpp"
 #include "gateway/gcode/interpreter.hpp"
 #include "gateway/jobs/problem.hpp"
+#include "gateway/jobs/way_rules.hpp"
 #include "gateway/result.hpp"
 
 namespace kinebus {
@@ -67,6 +68,7 @@ class LiveLines {
 
   const MachineDescription& machine_;
   const Kinematics& kinematics_;
+  WayRules way_;
   gcode::Interpreter interpreter_;
   bool may_move_ = false;
   Place place_;  ///< where the lines taken so far lead

@@ -329,6 +329,15 @@ void Gateway::Core::step_checking() {
     events_.alarm(now_, AlarmCode::kJobError, pose.error().words);
     return stop_all(true);
   }
+  if (auto meet = hand_.in_the_way_to_reference(*pose)) {
+    events_.push({.kind = MachineEvent::Kind::kFinished,
+                  .when = now_,
+                  .words = say("the job was not begun: on the way to the bed reference %1", std::move(*meet)),
+                  .advice = say("move the tool clear by hand, then run it again")});
+    print_.drop_source();
+    print_.forget_name();
+    return enter(MachineState::kReady);
+  }
   runner_ = &hand_.runner();
   hand_.start({{0, hand_.reference(*pose)}}, *pose, override_, ManualMotion::Then::kJob);
   started_ = now_;

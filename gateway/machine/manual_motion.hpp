@@ -3,11 +3,13 @@
 // interrupted job's place.
 
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "gateway/description/machine_description.hpp"
 #include "gateway/gcode/canonical.hpp"
+#include "gateway/jobs/way_rules.hpp"
 #include "gateway/kinematics/kinematics.hpp"
 #include "gateway/machine/commands.hpp"
 #include "gateway/result.hpp"
@@ -24,16 +26,20 @@ class ManualMotion {
 
   ManualMotion(const MachineDescription& machine, const Kinematics& kinematics, StreamGroup& group,
                PathRate& rate, Heat& heat, EventQueue& events, journal::Queue& journal)
-      : kinematics_(kinematics), runner_(machine, kinematics, group, rate, heat, events, journal) {}
+      : kinematics_(kinematics),
+        way_(machine, kinematics),
+        runner_(machine, kinematics, group, rate, heat, events, journal) {}
 
   Runner& runner() { return runner_; }
   const Runner& runner() const { return runner_; }
 
   /// The move that is asked for, whose whole way lies within the workspace; `from`: Frame::kMachine.
-  Result<canonical::Command, Refusal> jog(const command::Jog& asked, const Pose& from,
-                                          const Heat& heat) const;
+  Result<canonical::Command, Refusal> jog(const command::Jog& asked, const Pose& from, const Heat& heat);
   /// To the bed reference, the filament as it is.
   canonical::Command reference(const Pose& from) const;
+  /// Which two bodies would meet on the straight way there; nullopt: none. Bodies that are near at its
+  /// beginning may be.
+  std::optional<Sentence> in_the_way_to_reference(const Pose& from);
 
   void start(std::vector<canonical::Line> commands, const Pose& from, double override_ratio, Then then);
   /// Of the move that is done, once.
@@ -44,6 +50,7 @@ class ManualMotion {
 
  private:
   const Kinematics& kinematics_;
+  WayRules way_;
   Runner runner_;
   Then then_ = Then::kNothing;
 };

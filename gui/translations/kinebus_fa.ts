@@ -2653,6 +2653,98 @@
         <translation>گره را خاموش و روشن کنید؛ اگر باز پیش آمد برد را عوض کنید</translation>
     </message>
     <message>
+        <source>carriage %1</source>
+        <translation>حامل %1</translation>
+    </message>
+    <message>
+        <source>rail %1</source>
+        <translation>ریل %1</translation>
+    </message>
+    <message>
+        <source>platform</source>
+        <translation>سکو</translation>
+    </message>
+    <message>
+        <source>beam</source>
+        <translation>تیر</translation>
+    </message>
+    <message>
+        <source>table</source>
+        <translation>میز</translation>
+    </message>
+    <message>
+        <source>part on the table</source>
+        <translation>قطعهٔ روی میز</translation>
+    </message>
+    <message>
+        <source>tool</source>
+        <translation>ابزار</translation>
+    </message>
+    <message>
+        <source>nozzle</source>
+        <translation>نازل</translation>
+    </message>
+    <message>
+        <source>spindle</source>
+        <translation>اسپیندل</translation>
+    </message>
+    <message>
+        <source>nozzle holder</source>
+        <translation>نگهدارندهٔ نازل</translation>
+    </message>
+    <message>
+        <source>floor</source>
+        <translation>کف</translation>
+    </message>
+    <message>
+        <source>%1 and %2 would touch</source>
+        <translation>%1 و %2 به هم می‌خورند</translation>
+    </message>
+    <message>
+        <source>%1 and %2 would come as near as %3 mm; bodies keep %4 mm apart</source>
+        <translation>%1 و %2 تا %3 mm به هم نزدیک می‌شوند؛ جسم‌ها %4 mm از هم فاصله دارند</translation>
+    </message>
+    <message>
+        <source>above tool_radius_mm, %1: the tool&apos;s end is round</source>
+        <translation>بیشتر از tool_radius_mm یعنی %1: نوک ابزار گرد است</translation>
+    </message>
+    <message>
+        <source>part_radius_mm and part_height_mm both above 0, or neither of them</source>
+        <translation>یا هر دوی part_radius_mm و part_height_mm بیشتر از ۰، یا هیچ‌کدام</translation>
+    </message>
+    <message>
+        <source>%1 tables</source>
+        <translation>%1 جدول</translation>
+    </message>
+    <message>
+        <source>a box turned inside out</source>
+        <translation>جعبه‌ای وارونه</translation>
+    </message>
+    <message>
+        <source>each of its three numbers above that of from_mm</source>
+        <translation>هر یک از سه عدد آن بیشتر از عدد from_mm</translation>
+    </message>
+    <message>
+        <source>bodies that touch: at %1, %2</source>
+        <translation>جسم‌هایی که به هم می‌خورند: در %1، %2</translation>
+    </message>
+    <message>
+        <source>a machine that has room somewhere: this is its best pose</source>
+        <translation>ماشینی که جایی فضای کافی دارد: این بهترین وضعیت آن است</translation>
+    </message>
+    <message>
+        <source>room at the bed reference, where the machine waits before a job</source>
+        <translation>فضای کافی در مرجع بستر، جایی که ماشین پیش از کار منتظر می‌ماند</translation>
+    </message>
+    <message>
+        <source>the job was not begun: on the way to the bed reference %1</source>
+        <translation>کار آغاز نشد: در راه مرجع بستر %1</translation>
+    </message>
+    <message>
+        <source>move the tool clear by hand, then run it again</source>
+        <translation>ابزار را دستی دور کنید، سپس دوباره اجرا کنید</translation>
+    </message>
+    <message>
         <source>an O word stands at the beginning of its line</source>
         <translation>واژهٔ O در آغاز سطر خود می‌ایستد</translation>
     </message>

@@ -2653,6 +2653,98 @@
         <translation>düğümü kapatıp açın; yinelenirse kartı değiştirin</translation>
     </message>
     <message>
+        <source>carriage %1</source>
+        <translation>araba %1</translation>
+    </message>
+    <message>
+        <source>rail %1</source>
+        <translation>ray %1</translation>
+    </message>
+    <message>
+        <source>platform</source>
+        <translation>platform</translation>
+    </message>
+    <message>
+        <source>beam</source>
+        <translation>kiriş</translation>
+    </message>
+    <message>
+        <source>table</source>
+        <translation>tabla</translation>
+    </message>
+    <message>
+        <source>part on the table</source>
+        <translation>tabladaki parça</translation>
+    </message>
+    <message>
+        <source>tool</source>
+        <translation>takım</translation>
+    </message>
+    <message>
+        <source>nozzle</source>
+        <translation>nozul</translation>
+    </message>
+    <message>
+        <source>spindle</source>
+        <translation>iş mili</translation>
+    </message>
+    <message>
+        <source>nozzle holder</source>
+        <translation>nozul tutucusu</translation>
+    </message>
+    <message>
+        <source>floor</source>
+        <translation>zemin</translation>
+    </message>
+    <message>
+        <source>%1 and %2 would touch</source>
+        <translation>%1 ile %2 birbirine değerdi</translation>
+    </message>
+    <message>
+        <source>%1 and %2 would come as near as %3 mm; bodies keep %4 mm apart</source>
+        <translation>%1 ile %2 arasında %3 mm kalırdı; cisimler %4 mm uzak durur</translation>
+    </message>
+    <message>
+        <source>above tool_radius_mm, %1: the tool&apos;s end is round</source>
+        <translation>tool_radius_mm üzerinde, %1: takımın ucu yuvarlaktır</translation>
+    </message>
+    <message>
+        <source>part_radius_mm and part_height_mm both above 0, or neither of them</source>
+        <translation>part_radius_mm ve part_height_mm ikisi de 0 üzerinde, ya da hiçbiri</translation>
+    </message>
+    <message>
+        <source>%1 tables</source>
+        <translation>%1 tablo</translation>
+    </message>
+    <message>
+        <source>a box turned inside out</source>
+        <translation>içi dışına dönmüş bir kutu</translation>
+    </message>
+    <message>
+        <source>each of its three numbers above that of from_mm</source>
+        <translation>üç sayısının her biri from_mm değerinin üzerinde</translation>
+    </message>
+    <message>
+        <source>bodies that touch: at %1, %2</source>
+        <translation>değen cisimler: %1 konumunda %2</translation>
+    </message>
+    <message>
+        <source>a machine that has room somewhere: this is its best pose</source>
+        <translation>bir yerde boşluğu olan bir makine: bu en iyi konumudur</translation>
+    </message>
+    <message>
+        <source>room at the bed reference, where the machine waits before a job</source>
+        <translation>makinenin işten önce beklediği tabla referansında boşluk</translation>
+    </message>
+    <message>
+        <source>the job was not begun: on the way to the bed reference %1</source>
+        <translation>iş başlatılmadı: tabla referansına giderken %1</translation>
+    </message>
+    <message>
+        <source>move the tool clear by hand, then run it again</source>
+        <translation>takımı elle uzaklaştırın, sonra yeniden çalıştırın</translation>
+    </message>
+    <message>
         <source>an O word stands at the beginning of its line</source>
         <translation>bir O sözcüğü satırının başında durur</translation>
     </message>

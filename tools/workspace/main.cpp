@@ -6,6 +6,7 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "gateway/bodies/collision_model.hpp"
 #include "gateway/description/machine_file.hpp"
 #include "tools/workspace/boundary.hpp"
 #include "tools/workspace/optimise.hpp"
@@ -51,7 +52,38 @@ void write(const std::string& path, const auto& what) {
   std::printf("wrote %s\n", path.c_str());
 }
 
-void print_scan(const Scan& s) {
+/// Which rule of the machine's paper two bodies fall under.
+const char* rule_of(bodies::BodyKind a, bodies::BodyKind b) {
+  using K = bodies::BodyKind;
+  const auto both = [&](auto&& first, auto&& second) {
+    return (first(a) && second(b)) || (first(b) && second(a));
+  };
+  const auto rails = [](K k) { return k == K::kRail || k == K::kCarriage; };
+  const auto platform = [](K k) { return k == K::kPlatform || k == K::kTable || k == K::kPart; };
+  const auto leg = [](K k) { return k == K::kLeg; };
+  if (both(platform, rails)) return "(b) platform against rail";
+  if (both(leg, platform)) return "(d) leg against platform";
+  if (both(leg, leg)) return "leg against leg";
+  return "";
+}
+
+void print_meetings(const Scan& s, const bodies::CollisionModel* model) {
+  if (model == nullptr) {
+    std::printf("bodies               not checked: the machine file has no [bodies]\n");
+    return;
+  }
+  if (s.meetings.empty())
+    std::printf("bodies               keep %g mm apart at every pose left\n", model->wanted_mm());
+  for (const Meeting& m : s.meetings)
+    std::printf(
+        "refused              %5.2f %% by %s and %s, nearest (%s) at X %.1f Y %.1f Z %.1f A %.1f  %s\n",
+        100.0 * static_cast<double>(m.poses) / static_cast<double>(s.poses),
+        model->name(m.worst.first).c_str(), model->name(m.worst.second).c_str(),
+        m.worst.mm > 0 ? printed("%.2f mm", m.worst.mm).c_str() : "they touch", m.pose[kX], m.pose[kY],
+        m.pose[kZ], m.pose[kA] / kRadPerDeg, rule_of(m.worst.first.kind, m.worst.second.kind));
+}
+
+void print_scan(const Scan& s, const bodies::CollisionModel* model) {
   std::printf("poses checked        %llu in %.2f s on %d threads, %.2f s of computing\n",
               static_cast<unsigned long long>(s.poses), s.seconds, s.options.threads, s.cpu_seconds);
   constexpr const char* kWhy[] = {"out of reach", "carriage travel", "leg angle",     "clearance",
@@ -60,6 +92,7 @@ void print_scan(const Scan& s) {
     if (s.refused[k] > 0)
       std::printf("refused              %5.2f %% by %s\n",
                   100.0 * static_cast<double>(s.refused[k]) / static_cast<double>(s.poses), kWhy[k]);
+  print_meetings(s, model);
   std::printf("volume at every tilt %.3f l\n\n", volume_mm3(s, -1) * 1e-6);
   std::printf(
       "  tilt   volume   largest upright cylinder\n   deg      l      diameter  height      z       "
@@ -140,17 +173,18 @@ int run(const Arguments& a) {
   options.tilt_step_rad = a.tilt_step_deg * kRadPerDeg;
   options.threads = a.threads;
   options.dexterous_condition = a.dexterous;
-  const Scan fine = scan(**kinematics, room, options);
+  const bodies::Model model = make_collision_model(machine);
+  const Scan fine = scan(**kinematics, room, options, model.get());
   std::printf("%s: radius %.0f mm, z %.0f .. %.0f mm, tilt %.0f .. %.0f deg; %g mm and %g deg\n",
               machine.name.c_str(), room.radius_mm, room.z_min_mm, room.z_max_mm,
               room.tilt_min_rad / kRadPerDeg, room.tilt_max_rad / kRadPerDeg, a.step_mm, a.tilt_step_deg);
-  print_scan(fine);
+  print_scan(fine, model.get());
   print_dexterity(fine);
   if (!a.svg.empty()) {
     ScanOptions wide = options;
     wide.step_mm = std::max(a.step_mm, room.radius_mm / 36);
     wide.ray_step_mm = 1.6 * wide.step_mm;
-    const Scan coarse = scan(**kinematics, room, wide);
+    const Scan coarse = scan(**kinematics, room, wide, model.get());
     char subtitle[256];
     const Cylinder always = largest_cylinder(fine, -1);
     std::snprintf(

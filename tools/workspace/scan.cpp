@@ -5,8 +5,14 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <memory>
 #include <numbers>
+#include <optional>
 #include <thread>
+#include <tuple>
+#include <utility>
+
+#include "gateway/bodies/sweep.hpp"
 
 namespace kinebus::workspace {
 
@@ -35,9 +41,49 @@ namespace {
 
 constexpr int kConditionEvery = 4;
 
+/// Bodies as one worker looks at them, and what it met.
+class Watch {
+ public:
+  explicit Watch(const bodies::CollisionModel* model) {
+    if (model != nullptr) sweep_.emplace(*model);
+  }
+
+  bool clear(const Pose& pose) {
+    using Step = bodies::Sweep::Step;
+    if (!sweep_) return true;
+    Step step = sweep_->to(Frame::kPart, pose);
+    // The scan is of poses, not of ways between them.
+    if (step == Step::kCoarse) {
+      sweep_->jump();
+      step = sweep_->to(Frame::kPart, pose);
+    }
+    if (step != Step::kNear) return true;
+    meet({.worst = sweep_->nearest(), .pose = pose, .poses = 1});
+    return false;
+  }
+
+  void meet(const Meeting& met) {
+    const auto same = std::find_if(met_.begin(), met_.end(), [&](const Meeting& m) {
+      return m.worst.first == met.worst.first && m.worst.second == met.worst.second;
+    });
+    if (same == met_.end()) return met_.push_back(met);
+    same->poses += met.poses;
+    // Whichever worker was first: of places as bad, the one that comes first in space.
+    if (std::pair(met.worst.mm, met.pose) < std::pair(same->worst.mm, same->pose)) {
+      same->worst = met.worst;
+      same->pose = met.pose;
+    }
+  }
+  const std::vector<Meeting>& met() const { return met_; }
+
+ private:
+  std::optional<bodies::Sweep> sweep_;
+  std::vector<Meeting> met_;
+};
+
 /// One plane: each worker writes cells of its own planes only, and counts for itself.
 void scan_plane(const Kinematics& kinematics, Scan& s, int plane, std::array<std::uint64_t, 8>& refused,
-                std::uint64_t& poses) {
+                std::uint64_t& poses, Watch& watch) {
   std::vector<int> stride(static_cast<std::size_t>(s.radii));
   for (int radius = 0; radius < s.radii; ++radius)
     stride[static_cast<std::size_t>(radius)] = s.stride(radius);
@@ -54,11 +100,13 @@ void scan_plane(const Kinematics& kinematics, Scan& s, int plane, std::array<std
       poses += static_cast<std::uint64_t>(s.tilts);
       std::uint64_t allowed = 0;
       double worst = 0;
-      for (int tilt = 0; tilt < s.tilts; ++tilt) {
+      for (int k = 0; k < s.tilts; ++k) {
+        // To and fro: each pose is next to the one before, and bodies have hardly moved.
+        const int tilt = radius % 2 == 0 ? k : s.tilts - 1 - k;
         const Pose pose{r * c, r * sn, s.z_mm(plane), s.tilt_rad(tilt), 0, 0};
         if (const auto ok = kinematics.check(Frame::kPart, pose); !ok)
           ++refused[static_cast<std::size_t>(ok.error().kind)];
-        else
+        else if (watch.clear(pose))
           allowed |= std::uint64_t{1} << tilt;
       }
       // Conditioning is dear: at the middle and the outermost of the tilts that are allowed.
@@ -80,7 +128,8 @@ void scan_plane(const Kinematics& kinematics, Scan& s, int plane, std::array<std
 
 }  // namespace
 
-Scan scan(const Kinematics& kinematics, const Room& room, const ScanOptions& options) {
+Scan scan(const Kinematics& kinematics, const Room& room, const ScanOptions& options,
+          const bodies::CollisionModel* model) {
   const auto began = std::chrono::steady_clock::now();
   const std::clock_t cpu_began = std::clock();
   Scan s;
@@ -100,16 +149,25 @@ Scan scan(const Kinematics& kinematics, const Room& room, const ScanOptions& opt
   std::atomic<int> next{0};
   std::vector<std::array<std::uint64_t, 8>> refused(static_cast<std::size_t>(std::max(1, options.threads)));
   std::vector<std::uint64_t> poses(refused.size(), 0);
+  std::vector<std::unique_ptr<Watch>> watches;
+  for (std::size_t n = 0; n < refused.size(); ++n) watches.push_back(std::make_unique<Watch>(model));
   std::vector<std::thread> workers;
   for (std::size_t n = 0; n < refused.size(); ++n)
     workers.emplace_back([&, n] {
       for (int plane = next++; plane < s.planes; plane = next++)
-        scan_plane(kinematics, s, plane, refused[n], poses[n]);
+        scan_plane(kinematics, s, plane, refused[n], poses[n], *watches[n]);
     });
   for (std::thread& worker : workers) worker.join();
   for (const std::uint64_t own : poses) s.poses += own;
   for (const auto& own : refused)
     for (std::size_t k = 0; k < own.size(); ++k) s.refused[k] += own[k];
+  Watch all(nullptr);
+  for (const auto& own : watches)
+    for (const Meeting& met : own->met()) all.meet(met);
+  s.meetings = all.met();
+  std::sort(s.meetings.begin(), s.meetings.end(), [](const Meeting& a, const Meeting& b) {
+    return std::tie(b.poses, a.worst.mm, a.pose) < std::tie(a.poses, b.worst.mm, b.pose);
+  });
   s.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   s.cpu_seconds = static_cast<double>(std::clock() - cpu_began) / CLOCKS_PER_SEC;
   return s;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "gateway/bodies/collision_model.hpp"
 #include "gateway/kinematics/geometry.hpp"
 
 namespace kinebus::workspace {
@@ -24,8 +25,15 @@ struct Room {
   double tilt_min_rad = 0, tilt_max_rad = 0;
 };
 
+/// Two bodies that came nearer than they may.
+struct Meeting {
+  bodies::Clearance worst;  ///< smallest clearance of these two
+  Pose pose{};              ///< and where
+  std::uint64_t poses = 0;  ///< refused because these two are the nearest
+};
+
 /// Cells in cylindrical order: plane (z), ray (angle), place on the ray (radius). Of every cell the tilts
-/// that are allowed: reach, travel, leg angle, both clearances, and conditioning.
+/// that are allowed: reach, travel, leg angle, both clearances, conditioning, and bodies.
 struct Scan {
   Room room;
   ScanOptions options;
@@ -35,6 +43,7 @@ struct Scan {
   /// is beyond the machine's own limit is checked at every pose.)
   std::vector<float> worst_condition;
   std::array<std::uint64_t, 8> refused{};  ///< poses by PoseError::Kind
+  std::vector<Meeting> meetings;           ///< poses that all rules but bodies allow; most poses first
   std::uint64_t poses = 0;
   double seconds = 0;      ///< of the clock on the wall
   double cpu_seconds = 0;  ///< of all threads
@@ -57,7 +66,9 @@ struct Scan {
 };
 
 /// At most 64 tilts: the tilt step is widened if it must be. Positions are those of the tool at C = 0.
-Scan scan(const Kinematics& kinematics, const Room& room, const ScanOptions& options);
+/// `model`: bodies that must keep their clearance; nullptr: none.
+Scan scan(const Kinematics& kinematics, const Room& room, const ScanOptions& options,
+          const bodies::CollisionModel* model = nullptr);
 
 /// Reachable at this tilt, mm^3; tilt < 0: at every tilt of the scan.
 double volume_mm3(const Scan& scan, int tilt);

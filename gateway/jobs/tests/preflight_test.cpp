@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "gateway/bodies/tests/legs_below.hpp"
 #include "gateway/jobs/tests/job_support.hpp"
 
 namespace kinebus {
@@ -42,6 +43,66 @@ TEST(Preflight, LeavingTheWorkspaceIsReportedOncePerWayOutWithItsLine) {
 TEST(Preflight, BorderIsFoundWithinAMillimetre) {
   EXPECT_EQ(check("G1 X149.9 F6000\n").problems.errors(), 0u);
   EXPECT_EQ(check("G1 X150.1 F6000\n").problems.errors(), 1u);
+}
+
+/// A machine with bodies, and with a clamp beside its table, over the arms: its inner face at X 131.
+MachineDescription with_clamp(bool has_bodies) {
+  MachineDescription d = legs_below();
+  d.bodies->fixed.push_back({"clamp", {131, -15, 1275}, {160, 15, 1299}});
+  if (!has_bodies) d.bodies.reset();
+  return d;
+}
+
+ProblemList problems_on(const MachineDescription& d, const std::string& job) {
+  const auto its_kinematics = make_kinematics(d);
+  StringSource source(job);
+  Preflight preflight(d, **its_kinematics, source, (*its_kinematics)->bed_reference());
+  while (!preflight.step(1000)) {
+  }
+  return preflight.problems();
+}
+
+TEST(Preflight, TwoBodiesThatMeetAreNamedWithTheLineAndTheSamePathBesideThemPasses) {
+  const MachineDescription d = with_clamp(true);
+  // The platform goes to +X as the tool goes to -X on the part: the disc of 100 mm comes to 2 mm from the
+  // clamp at X -29.
+  const ProblemList bad = problems_on(d, "G1 Z20 F6000\nG1 X-10\nG1 X-40\nG1 X0\nG1 X-40\n");
+  ASSERT_EQ(bad.errors(), 2u);
+  EXPECT_EQ(bad.all()[0].line, 3u);
+  EXPECT_TRUE(bad.all()[0].words.starts_with("table and clamp would")) << bad.all()[0].words;
+  EXPECT_EQ(bad.all()[1].line, 5u);
+  EXPECT_EQ(problems_on(d, "G1 Z20 F6000\nG1 X-10\nG1 X-28\nG1 X0\nG1 X-28\n").errors(), 0u);
+  EXPECT_EQ(problems_on(with_clamp(false), "G1 Z20 F6000\nG1 X-10\nG1 X-40\n").errors(), 0u)
+      << "without [bodies] nobody knows of the clamp";
+}
+
+TEST(Preflight, ATiltThatBringsTheTableUpAgainstTheNozzleHolderIsNamed) {
+  MachineDescription d = legs_below();
+  d.bodies->holder_radius_mm = 45;
+  const ProblemList bad = problems_on(d, "G43.4\nG1 Z1 F3000\nG1 A45\n");
+  ASSERT_EQ(bad.errors(), 1u);
+  EXPECT_EQ(bad.all()[0].line, 3u);
+  EXPECT_TRUE(bad.all()[0].words.starts_with("table and nozzle holder would")) << bad.all()[0].words;
+  EXPECT_EQ(problems_on(d, "G43.4\nG1 Z30 F3000\nG1 A45\n").errors(), 0u);
+}
+
+TEST(WayRules, WhatIsMetBetweenTwoPosesThatAreClearIsFound) {
+  const MachineDescription d = with_clamp(true);
+  const auto its_kinematics = make_kinematics(d);
+  WayRules way(d, **its_kinematics);
+  // Past the clamp in one step of 160 mm; and the same 20 mm farther from it.
+  for (const auto& [x, meets] : {std::pair{-40.0, true}, std::pair{-20.0, false}}) {
+    const auto at = [x = x](double s) { return Pose{x, -80 + 160 * s, 20, 0, 0, 0}; };
+    way.jump();
+    EXPECT_FALSE(way.broken(Frame::kMachine, 0, 0, at));
+    const auto words = way.broken(Frame::kMachine, 0, 1, at);
+    EXPECT_EQ(words.has_value(), meets) << words.value_or(Sentence{});
+    if (words) {
+      EXPECT_TRUE(words->starts_with("table and clamp would")) << *words;
+    }
+    way.jump();
+    EXPECT_FALSE(way.broken(Frame::kMachine, 1, 1, at));
+  }
 }
 
 TEST(Preflight, TiltBeyondTheLimitIsReported) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "gateway/bodies/tests/legs_below.hpp"
 #include "gateway/machine/tests/machine_rig.hpp"
 #include "protocol/canopen/cob_id.hpp"
 
@@ -199,6 +200,44 @@ TEST(Machine, JogMovesRelativeAndIsRefusedBeyondTheWorkspace) {
   EXPECT_NEAR(rig.gateway->status().machine_pose[kY], -3, 2e-3);
   EXPECT_FALSE(rig.gateway->carry_out(command::Jog{.delta = {500, 0, 0, 0, 0, 0}}));
   EXPECT_FALSE(rig.gateway->carry_out(command::Jog{.delta = {0, 0, 0, 0, 0, 5}})) << "cold extrusion";
+}
+
+TEST(Machine, MovesByHandThatBringTwoBodiesTogetherAreRefusedWithTheirNames) {
+  MachineDescription d = legs_below();
+  d.bodies->fixed.push_back({"clamp", {131, -15, 1240}, {160, 15, 1299}});
+  MachineRig rig(d);
+  ASSERT_TRUE(rig.make_ready()) << rig.story();
+  const auto jog = rig.gateway->carry_out(command::Jog{.delta = {-60, 0, 0, 0, 0, 0}, .speed_per_s = 100});
+  ASSERT_FALSE(jog);
+  EXPECT_TRUE(jog.error().words.starts_with("table and clamp would")) << jog.error().words;
+  ASSERT_TRUE(rig.gateway->carry_out(command::Jog{.delta = {-20, 0, 0, 0, 0, 0}, .speed_per_s = 100}));
+  ASSERT_TRUE(rig.reach(MachineState::kReady, 10s));
+}
+
+TEST(Machine, TheWayToTheBedReferenceIsRefusedWhereTwoBodiesMeetOnIt) {
+  MachineDescription d = legs_below();
+  // Beside the table where it waits; the machine comes in under it.
+  d.bodies->fixed.push_back({"ledge", {105, -15, 1200}, {160, 15, 1262}});
+  MachineRig rig(d);
+  ASSERT_TRUE(rig.make_ready()) << rig.story();
+  const auto jog = [&](const Pose& delta) {
+    const auto done = rig.gateway->carry_out(command::Jog{.delta = delta, .speed_per_s = 200});
+    EXPECT_TRUE(done) << done.error().words;
+    EXPECT_TRUE(rig.reach(MachineState::kReady, 20s)) << rig.story();
+  };
+  jog({0, 0, 100, 0, 0, 0});
+  jog({-40, 0, 0, 0, 0, 0});
+  const auto reference = rig.gateway->carry_out(command::GoToReference{});
+  ASSERT_FALSE(reference);
+  EXPECT_TRUE(reference.error().words.starts_with("table and ledge would")) << reference.error().words;
+  // A job goes there first: it is not begun.
+  EXPECT_TRUE(rig.run_job("G1 Z30 F6000\n")) << rig.story();
+  EXPECT_NE(rig.story().find("the job was not begun: on the way to the bed reference table and ledge would"),
+            std::string::npos)
+      << rig.story();
+  jog({40, 0, 0, 0, 0, 0});
+  EXPECT_TRUE(rig.gateway->carry_out(command::GoToReference{}));
+  EXPECT_TRUE(rig.reach(MachineState::kReady, 20s));
 }
 
 TEST(Machine, TextSessionAnswersItsQueries) {

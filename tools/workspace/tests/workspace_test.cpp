@@ -4,6 +4,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "gateway/bodies/tests/legs_below.hpp"
 #include "tools/workspace/boundary.hpp"
 #include "tools/workspace/optimise.hpp"
 #include "tools/workspace/picture.hpp"
@@ -43,6 +44,47 @@ TEST(Scan, EveryCellIsWhatTheMachineSays) {
           const Pose pose{r * std::cos(a), r * std::sin(a), s.z_mm(plane), s.tilt_rad(tilt), 0, 0};
           EXPECT_EQ(s.is_allowed(s.cell(plane, ray, radius), tilt),
                     m1->check(Frame::kPart, pose).has_value());
+        }
+}
+
+TEST(Scan, BodiesTakeWhatTheyCannotKeepAndAreNamedWithThePlace) {
+  MachineDescription d = legs_below();
+  const Room room{100, 0, 200, -45 * kRadPerDeg, 45 * kRadPerDeg};
+  const auto kinematics = *make_kinematics(d);
+  const auto sparse = [](int threads) {
+    ScanOptions o = coarse(threads);
+    o.step_mm = 25;
+    o.ray_step_mm = 50;
+    o.tilt_step_rad = 15 * kRadPerDeg;
+    return o;
+  };
+  const Scan free = scan(*kinematics, room, sparse(2));
+  {
+    const bodies::Model model = make_collision_model(d);
+    const Scan s = scan(*kinematics, room, sparse(2), model.get());
+    EXPECT_TRUE(s.meetings.empty()) << model->words(s.meetings.front().worst);
+    EXPECT_EQ(s.allowed, free.allowed) << "this machine has room for its bodies";
+  }
+  // A holder much wider than the nozzle is long meets the tilted table.
+  d.bodies->holder_radius_mm = 75;
+  const bodies::Model model = make_collision_model(d);
+  const Scan s = scan(*kinematics, room, sparse(1), model.get()),
+             three = scan(*kinematics, room, sparse(3), model.get());
+  EXPECT_EQ(s.allowed, three.allowed);
+  ASSERT_FALSE(s.meetings.empty());
+  EXPECT_EQ(model->words(s.meetings.front().worst), "table and nozzle holder would touch");
+  EXPECT_EQ(s.meetings.front().pose, three.meetings.front().pose);
+  EXPECT_EQ(s.meetings.front().poses, three.meetings.front().poses);
+  for (int plane = 0; plane < s.planes; ++plane)
+    for (int ray = 0; ray < s.rays; ++ray)
+      for (int radius = 0; radius < s.radii; ++radius)
+        for (int tilt = 0; tilt < s.tilts; ++tilt) {
+          const double a = s.angle_rad(ray - ray % s.stride(radius)), r = s.radius_mm(radius);
+          const Pose pose{r * std::cos(a), r * std::sin(a), s.z_mm(plane), s.tilt_rad(tilt), 0, 0};
+          const std::size_t cell = s.cell(plane, ray, radius);
+          EXPECT_EQ(
+              s.is_allowed(cell, tilt),
+              free.is_allowed(cell, tilt) && model->clearance(Frame::kPart, pose)->mm >= model->wanted_mm());
         }
 }
 

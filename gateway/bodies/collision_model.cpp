@@ -1,0 +1,129 @@
+#include "gateway/bodies/collision_model.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+
+namespace kinebus::bodies {
+namespace {
+
+/// Pairs whose bodies may touch at work.
+bool at_work(BodyKind a, BodyKind b) {
+  if (a > b) std::swap(a, b);
+  return (a == BodyKind::kTable || a == BodyKind::kPart) && b == BodyKind::kTool;
+}
+
+}  // namespace
+
+std::size_t CollisionModel::add(BodyId id, std::uint8_t group, std::span<const Shape> shapes,
+                                double lever_mm) {
+  assert(bodies_.size() < kMostBodies && shapes_ + shapes.size() <= kMostShapes);
+  bodies_.push_back(
+      {id, static_cast<std::uint8_t>(shapes_), static_cast<std::uint8_t>(shapes.size()), group, lever_mm});
+  for (const Shape& shape : shapes) rest_.shapes[shapes_++] = shape;
+  return bodies_.size() - 1;
+}
+
+void CollisionModel::add_fixed(const BodiesDescription& bodies) {
+  assert(bodies.fixed.size() <= kMostFixed);
+  for (const FixedBody& body : bodies.fixed) {
+    const Vec from{body.from_mm[0], body.from_mm[1], body.from_mm[2]},
+        to{body.to_mm[0], body.to_mm[1], body.to_mm[2]}, half = 0.5 * (to - from);
+    fixed_names_.push_back(body.name);
+    add({BodyKind::kFixed, static_cast<std::uint8_t>(fixed_names_.size())}, kStill,
+        Shape::box(from + half, {half.x, 0, 0}, {0, half.y, 0}, {0, 0, half.z}));
+  }
+}
+
+void CollisionModel::add_floor(double z_mm) {
+  constexpr double kHalfWidth_mm = 3000, kHalfThickness_mm = 50;
+  add({BodyKind::kFloor, 0}, kStill,
+      Shape::box({0, 0, z_mm - kHalfThickness_mm}, {kHalfWidth_mm, 0, 0}, {0, kHalfWidth_mm, 0},
+                 {0, 0, kHalfThickness_mm}));
+}
+
+void CollisionModel::pair_up() {
+  for (std::size_t a = 0; a < bodies_.size(); ++a)
+    for (std::size_t b = a + 1; b < bodies_.size(); ++b) {
+      if (bodies_[a].group == bodies_[b].group) continue;
+      const bool joined = std::any_of(joined_.begin(), joined_.end(), [&](const auto& j) {
+        return (j[0] == a && j[1] == b) || (j[0] == b && j[1] == a);
+      });
+      if (joined) continue;
+      const BodyKind kinds[] = {bodies_[a].id.kind, bodies_[b].id.kind};
+      const auto is = [&](BodyKind k) { return kinds[0] == k || kinds[1] == k; };
+      const bool homing_only = at_work(kinds[0], kinds[1]) || (is(BodyKind::kPart) && is(BodyKind::kHolder));
+      pairs_.push_back({static_cast<std::uint8_t>(a), static_cast<std::uint8_t>(b), homing_only});
+    }
+}
+
+double CollisionModel::distance(const Scene& scene, const Pair& pair) const {
+  const Body &a = bodies_[pair.first], &b = bodies_[pair.second];
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = a.first_shape; i < std::size_t{a.first_shape} + a.shapes; ++i)
+    for (std::size_t j = b.first_shape; j < std::size_t{b.first_shape} + b.shapes; ++j)
+      least = std::min(least, distance_mm(scene.shapes[i], scene.shapes[j]));
+  return least;
+}
+
+double CollisionModel::least_distance(const Scene& scene, const Pair& pair) const {
+  const Body &a = bodies_[pair.first], &b = bodies_[pair.second];
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = a.first_shape; i < std::size_t{a.first_shape} + a.shapes; ++i)
+    for (std::size_t j = b.first_shape; j < std::size_t{b.first_shape} + b.shapes; ++j)
+      least = std::min(least, least_distance_mm(scene.shapes[i], scene.shapes[j]));
+  return least;
+}
+
+std::optional<Clearance> CollisionModel::clearance(Frame frame, const Pose& pose, Occasion occasion) const {
+  Scene scene = rest_;
+  if (!place(frame, pose, scene)) return std::nullopt;
+  return clearance(scene, occasion);
+}
+
+Clearance CollisionModel::clearance(const Scene& scene, Occasion occasion) const {
+  Clearance best{.mm = std::numeric_limits<double>::infinity()};
+  for (const Pair& pair : pairs_) {
+    if (pair.homing_only && occasion != Occasion::kHoming) continue;
+    if (least_distance(scene, pair) >= best.mm) continue;
+    const double mm = distance(scene, pair);
+    if (mm < best.mm) best = {mm, bodies_[pair.first].id, bodies_[pair.second].id};
+  }
+  return best;
+}
+
+Sentence CollisionModel::name(BodyId body) const {
+  switch (body.kind) {
+    case BodyKind::kLeg:
+      return say("leg %1", int{body.number});
+    case BodyKind::kCarriage:
+      return say("carriage %1", int{body.number});
+    case BodyKind::kRail:
+      return say("rail %1", int{body.number});
+    case BodyKind::kPlatform:
+      return say("platform");
+    case BodyKind::kBeam:
+      return say("beam");
+    case BodyKind::kTable:
+      return say("table");
+    case BodyKind::kPart:
+      return say("part on the table");
+    case BodyKind::kTool:
+      return mill_ ? say("tool") : say("nozzle");
+    case BodyKind::kHolder:
+      return mill_ ? say("spindle") : say("nozzle holder");
+    case BodyKind::kFloor:
+      return say("floor");
+    case BodyKind::kFixed:
+      break;
+  }
+  return Sentence::verbatim(fixed_names_[body.number - 1u]);
+}
+
+Sentence CollisionModel::words(const Clearance& c) const {
+  if (c.mm <= 0) return say("%1 and %2 would touch", name(c.first), name(c.second));
+  return say("%1 and %2 would come as near as %3 mm; bodies keep %4 mm apart", name(c.first), name(c.second),
+             printed("%.2f", c.mm), printed("%.6g", wanted_mm_));
+}
+
+}  // namespace kinebus::bodies

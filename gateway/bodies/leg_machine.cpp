@@ -1,0 +1,153 @@
+// Bodies of M1 and M5. Legs are pairs of rods, apart along X, about which alone the platform turns. The
+// platform is a star of arms below the table, one to each leg. Rails stand outside their legs' joints,
+// carriages reach from one to the other.
+
+#include <algorithm>
+#include <cmath>
+
+#include "gateway/bodies/collision_model.hpp"
+#include "gateway/kinematics/table_rotation.hpp"
+
+namespace kinebus::bodies {
+namespace {
+
+constexpr std::size_t kLegs = 4;
+
+Vec vec(const Vector3& v) {
+  return {v[0], v[1], v[2]};
+}
+
+class LegMachine final : public CollisionModel {
+ public:
+  LegMachine(const M1Geometry& g, const BodiesDescription& b, bool mill)
+      : CollisionModel(b, mill), nozzle_(vec(g.nozzle_mm)), half_spacing_(0.5 * b.rod_spacing_mm) {
+    Vec middle{};
+    for (std::size_t i = 0; i < kLegs; ++i) {
+      const M1Leg& leg = g.legs[i];
+      const double rail_length = norm(vec(leg.rail));
+      legs_[i] = {.foot = vec(leg.foot_mm),
+                  .rail = (1 / rail_length) * vec(leg.rail),
+                  .attachment = vec(leg.attachment_mm),
+                  .length = leg.length_mm,
+                  .connector = leg.connector_mm,
+                  .branch = leg.carriage_above ? 1.0 : -1.0};
+      middle = middle + (1.0 / kLegs) * legs_[i].foot;
+    }
+    const double offset =
+        b.rail_offset_mm > 0 ? b.rail_offset_mm : half_spacing_ + b.rod_radius_mm + b.rail_radius_mm + 15;
+    // The arms lie under the table.
+    const double arms_z = -b.table_thickness_mm - b.platform_radius_mm;
+    double table_radius = b.table_radius_mm > 0 ? b.table_radius_mm : g.limits.radius_mm;
+    if (!(table_radius > 0)) table_radius = 100;
+    table_ = add({BodyKind::kTable, 0}, kPlatformGroup,
+                 Shape::cylinder({0, 0, -b.table_thickness_mm}, {}, table_radius),
+                 std::hypot(table_radius, b.table_thickness_mm));
+    table_shape_ = at_rest().shapes[shape_of(table_)];
+    if (b.part_height_mm > 0) {
+      part_ = add({BodyKind::kPart, 0}, kPlatformGroup,
+                  Shape::cylinder({}, {0, 0, b.part_height_mm}, b.part_radius_mm),
+                  std::hypot(b.part_radius_mm, b.part_height_mm));
+      part_shape_ = at_rest().shapes[shape_of(*part_)];
+    }
+    double floor_z = nozzle_.z;
+    for (std::size_t i = 0; i < kLegs; ++i) {
+      Leg& leg = legs_[i];
+      const auto number = static_cast<std::uint8_t>(i + 1);
+      leg.arm_end = {leg.attachment.x, leg.attachment.y, arms_z};
+      leg.arm = add({BodyKind::kPlatform, 0}, kPlatformGroup,
+                    Shape::capsule({0, 0, arms_z}, leg.arm_end, b.platform_radius_mm), norm(leg.arm_end));
+      // Rods, and the connector from them to the attachment. Placed with the pose.
+      const auto rod = [&b](double length) { return Shape::capsule({}, {0, 0, length}, b.rod_radius_mm); };
+      leg.body = add({BodyKind::kLeg, number}, static_cast<std::uint8_t>(kFirstLegGroup + i),
+                     std::array{rod(leg.length), rod(leg.length), rod(leg.connector)});
+      const Vec out_of_middle = leg.foot - middle;
+      Vec out = out_of_middle - dot(out_of_middle, leg.rail) * leg.rail;
+      if (!(norm(out) > 1)) out = {1, 0, 0};
+      out = (1 / norm(out)) * out;
+      const Vec half_out = (0.5 * offset) * out, half_along = (0.5 * b.carriage_length_mm) * leg.rail;
+      leg.carriage_offset = half_out;
+      leg.carriage =
+          add({BodyKind::kCarriage, number}, static_cast<std::uint8_t>(kFirstCarriageGroup + i),
+              Shape::box({}, half_along, half_out, (0.5 * b.carriage_width_mm) * cross(leg.rail, out)));
+      const Interval travel = g.legs[i].travel_mm;
+      const Vec low = leg.foot + offset * out + travel.min * leg.rail - half_along,
+                high = leg.foot + offset * out + travel.max * leg.rail + half_along;
+      leg.rail_body = add({BodyKind::kRail, number}, kStill, Shape::capsule(low, high, b.rail_radius_mm));
+      floor_z = std::min({floor_z, low.z, high.z});
+      join(leg.body, leg.carriage);
+      join(leg.body, leg.arm);
+      join(leg.carriage, leg.rail_body);
+    }
+    const Vec collet = nozzle_ + Vec{0, 0, b.tool_length_mm};
+    add({BodyKind::kTool, 0}, kStill,
+        Shape::capsule(nozzle_ + Vec{0, 0, b.tool_radius_mm}, collet, b.tool_radius_mm));
+    add({BodyKind::kHolder, 0}, kStill,
+        Shape::cylinder(collet, collet + Vec{0, 0, b.holder_length_mm}, b.holder_radius_mm));
+    add_fixed(b);
+    add_floor(floor_z - b.floor_mm);
+    pair_up();
+  }
+
+  bool place(Frame frame, const Pose& pose, Scene& scene) const override {
+    const Turn a(pose[kA]);
+    Vector3 m{pose[kX], pose[kY], pose[kZ]};
+    if (frame == Frame::kPart) m = turn_x(a, turn_z(Turn(pose[kC]), m));
+    const Vec p = nozzle_ - vec(m);
+    scene.tilt_rad = pose[kA];
+    const auto turned = [&a](const Vec& v) { return Vec{v.x, a.c * v.y - a.s * v.z, a.s * v.y + a.c * v.z}; };
+    const auto set_disc = [&](std::size_t body, const Shape& home) {
+      Shape& s = scene.shapes[shape_of(body)];
+      s.centre = p + turned(home.centre);
+      s.half[0] = turned(home.half[0]);
+      s.axis = turned(home.axis);
+      scene.witness[body] = {p, p};
+    };
+    set_disc(table_, table_shape_);
+    if (part_) set_disc(*part_, part_shape_);
+    for (const Leg& leg : legs_) {
+      const Vec joint = p + turned(leg.attachment), s = joint - leg.foot;
+      const double u = dot(s, leg.rail), radicand = leg.length * leg.length - dot(s, s) + u * u;
+      if (!(radicand > 0)) return false;
+      const Vec end = joint - leg.connector * leg.rail,
+                carriage = leg.foot + (u + leg.branch * std::sqrt(radicand) - leg.connector) * leg.rail;
+      Shape* rods = &scene.shapes[shape_of(leg.body)];
+      const Vec apart{half_spacing_, 0, 0};
+      rods[0].lay(carriage + apart, end + apart);
+      rods[1].lay(carriage - apart, end - apart);
+      rods[2].lay(end, joint);
+      scene.witness[leg.body] = {carriage, joint};
+      scene.shapes[shape_of(leg.carriage)].centre = carriage + leg.carriage_offset;
+      scene.witness[leg.carriage] = {carriage, carriage};
+      const Vec hub = turned({0, 0, leg.arm_end.z});
+      scene.shapes[shape_of(leg.arm)].lay(p + hub, p + turned(leg.arm_end));
+      scene.witness[leg.arm] = {p, p};
+    }
+    return true;
+  }
+
+ private:
+  static constexpr std::uint8_t kPlatformGroup = 1, kFirstCarriageGroup = 2, kFirstLegGroup = 6;
+  struct Leg {
+    Vec foot, rail, attachment;
+    double length = 0, connector = 0, branch = 1;
+    Vec carriage_offset{}, arm_end{};
+    std::size_t body = 0, carriage = 0, rail_body = 0, arm = 0;
+  };
+  Vec nozzle_;
+  double half_spacing_;
+  std::array<Leg, kLegs> legs_{};
+  std::size_t table_ = 0;
+  std::optional<std::size_t> part_;
+  Shape table_shape_{}, part_shape_{};
+};
+
+}  // namespace
+
+Model make_model(const M1Geometry& geometry, const BodiesDescription& bodies) {
+  return std::make_unique<LegMachine>(geometry, bodies, false);
+}
+Model make_model(const M5Geometry& geometry, const BodiesDescription& bodies) {
+  return std::make_unique<LegMachine>(geometry, bodies, true);
+}
+
+}  // namespace kinebus::bodies

@@ -1,0 +1,118 @@
+#include "gateway/bodies/sweep.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "gateway/bodies/tests/legs_below.hpp"
+
+namespace kinebus::bodies {
+namespace {
+
+/// A path that wanders through the workspace and out of it.
+class Walk {
+ public:
+  explicit Walk(std::uint32_t seed) : source_(seed) {}
+  Pose next(double step_mm, double step_rad) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      speed_[k] = 0.98 * speed_[k] + 0.2 * in(-1, 1);
+      pose_[k] += step_mm * std::clamp(speed_[k], -0.57, 0.57);
+    }
+    speed_[kA] = 0.98 * speed_[kA] + 0.2 * in(-1, 1);
+    pose_[kA] += step_rad * std::clamp(speed_[kA], -1.0, 1.0);
+    pose_[kX] = std::clamp(pose_[kX], -180.0, 180.0);
+    pose_[kY] = std::clamp(pose_[kY], -180.0, 180.0);
+    pose_[kZ] = std::clamp(pose_[kZ], -10.0, 250.0);
+    pose_[kA] = std::clamp(pose_[kA], -0.9, 0.9);
+    return pose_;
+  }
+
+ private:
+  double in(double low, double high) { return std::uniform_real_distribution<>(low, high)(source_); }
+  std::mt19937 source_;
+  Pose pose_{0, 0, 60, 0, 0, 0}, speed_{};
+};
+
+TEST(Sweep, SaysAtEveryPoseWhatMeasuringAllPairsSays) {
+  MachineDescription d = legs_below();
+  d.bodies->clearance_mm = 10;
+  const Model model = make_collision_model(d);
+  int near = 0, clear = 0;
+  for (std::uint32_t seed = 1; seed <= 4; ++seed) {
+    Walk walk(seed);
+    Sweep sweep(*model);
+    for (int n = 0; n < 2000; ++n) {
+      const Pose pose = walk.next(1, 0.01);
+      const auto all = model->clearance(Frame::kPart, pose);
+      const Sweep::Step step = sweep.to(Frame::kPart, pose);
+      if (!all) {
+        EXPECT_EQ(step, Sweep::Step::kOutOfReach) << "seed " << seed << ", pose " << n;
+        continue;
+      }
+      ASSERT_NE(step, Sweep::Step::kCoarse) << "10 mm are more than a step of 1 mm can take";
+      EXPECT_EQ(step == Sweep::Step::kNear, all->mm < 10)
+          << "seed " << seed << ", pose " << n << ": " << all->mm;
+      if (step == Sweep::Step::kNear) {
+        ++near;
+        EXPECT_NEAR(std::max(sweep.nearest().mm, 0.0), std::max(all->mm, 0.0), 2e-3);
+      } else {
+        ++clear;
+      }
+    }
+  }
+  EXPECT_GT(near, 100);
+  EXPECT_GT(clear, 2000);
+}
+
+TEST(Sweep, NoPairComesFartherThanItsWitnessesSay) {
+  const Model model = make_collision_model(legs_below());
+  Walk walk(11);
+  Scene from = model->at_rest(), to = model->at_rest();
+  Pose pose = walk.next(20, 0.2);
+  ASSERT_TRUE(model->place(Frame::kPart, pose, from));
+  for (int n = 0; n < 300; ++n) {
+    pose = walk.next(20, 0.2);
+    if (!model->place(Frame::kPart, pose, to)) continue;
+    const double turn = std::abs(to.tilt_rad - from.tilt_rad);
+    const auto motion = [&](std::size_t i) {
+      double most = 0;
+      for (std::size_t k = 0; k < 2; ++k) most = std::max(most, norm(to.witness[i][k] - from.witness[i][k]));
+      return most + turn * model->bodies()[i].lever_mm;
+    };
+    for (const CollisionModel::Pair& pair : model->pairs()) {
+      const double before = model->distance(from, pair), after = model->distance(to, pair);
+      // Where bodies overlap the distance says so and no more.
+      if (before <= 0 || after <= 0) continue;
+      EXPECT_LE(std::abs(after - before), motion(pair.first) + motion(pair.second) + 2e-3)
+          << model->name(model->bodies()[pair.first].id) << " and "
+          << model->name(model->bodies()[pair.second].id);
+    }
+    from = to;
+  }
+}
+
+TEST(Sweep, AStepThatMayHaveJumpedOverSomethingIsCoarse) {
+  MachineDescription d = legs_below();
+  // A thin post that the table's edge would pass in one long step.
+  d.bodies->fixed.push_back({"post", {120, -1, 1100}, {122, 1, 1300}});
+  const Model model = make_collision_model(d);
+  Sweep sweep(*model);
+  ASSERT_EQ(sweep.to(Frame::kPart, {0, 0, 20, 0, 0, 0}), Sweep::Step::kClear);
+  // The platform goes 60 mm towards +X: who measured at the end alone would find the table beyond the post.
+  EXPECT_EQ(sweep.to(Frame::kPart, {-60, 0, 20, 0, 0, 0}), Sweep::Step::kCoarse);
+  auto step = Sweep::Step::kClear;
+  double x = 0;
+  for (; x >= -60 && step == Sweep::Step::kClear; x -= 1) step = sweep.to(Frame::kPart, {x, 0, 20, 0, 0, 0});
+  EXPECT_EQ(step, Sweep::Step::kNear);
+  EXPECT_EQ(model->name(sweep.nearest().second), "post");
+  // Disc and post are 120 - 100 mm apart at first, and keep 2 mm.
+  EXPECT_NEAR(x, -20, 1.01);
+  // Over it, from one side to the other, tilted out of its way at both ends.
+  sweep.jump();
+  ASSERT_EQ(sweep.to(Frame::kPart, {-15, 0, 20, 0, 0, 0}), Sweep::Step::kClear);
+  EXPECT_EQ(sweep.to(Frame::kPart, {-15, 60, 20, 0, 0, 0}), Sweep::Step::kCoarse);
+  EXPECT_EQ(sweep.to(Frame::kPart, {-15, 1, 20, 0, 0, 0}), Sweep::Step::kClear);
+}
+
+}  // namespace
+}  // namespace kinebus::bodies

@@ -1,0 +1,14 @@
+#pragma once
+// What the keys of [bodies] must be to each other, and what a machine with these bodies must be able to do.
+
+#include <vector>
+
+#include "gateway/description/machine_rules.hpp"
+
+namespace kinebus {
+
+/// Appends what is broken. `kinematics`: of the description.
+void judge_bodies(const MachineDescription& description, const Kinematics& kinematics,
+                  std::vector<BrokenRule>& broken);
+
+}  // namespace kinebus

@@ -1,0 +1,78 @@
+#pragma once
+// Whether the machine can go a way: pose after pose within the kinematics' limits, and no two bodies nearer
+// than they may come. Between two poses bodies are looked at where they could have met.
+
+#include <optional>
+
+#include "gateway/bodies/sweep.hpp"
+#include "gateway/description/machine_description.hpp"
+
+namespace kinebus {
+
+class WayRules {
+ public:
+  /// Both must outlive this. A description without bodies has none to be checked.
+  WayRules(const MachineDescription& machine, const Kinematics& kinematics)
+      : kinematics_(kinematics), model_(make_collision_model(machine)) {
+    if (model_) sweep_.emplace(*model_);
+  }
+
+  /// The next way does not begin where the last one ended.
+  void jump() {
+    if (sweep_) sweep_->jump();
+  }
+
+  /// Why the machine cannot stand at `at(to)`, or not come there from `at(from)`, where it stands: at(s) is
+  /// the pose at s of the way. nullopt: it can. Allocates only for words.
+  template <typename PoseAt>
+  std::optional<Sentence> broken(Frame frame, double from, double to, PoseAt&& at) {
+    const Pose pose = at(to);
+    const auto checked = kinematics_.check(frame, pose);
+    if (!checked) {
+      jump();
+      return to_string(checked.error());
+    }
+    if (!sweep_) return std::nullopt;
+    return collision(frame, pose, from, to, at, kHalvings);
+  }
+
+  /// The same for bodies alone: poses outside the workspace are taken as well.
+  template <typename PoseAt>
+  std::optional<Sentence> collision(Frame frame, double from, double to, PoseAt&& at) {
+    if (!sweep_) return std::nullopt;
+    return collision(frame, at(to), from, to, at, kHalvings);
+  }
+
+ private:
+  // Halved so often a way of 1 mm is in parts of 4 um: what can still meet in them is as good as touching at
+  // an end.
+  static constexpr int kHalvings = 8;
+
+  /// `pose`: at(to).
+  template <typename PoseAt>
+  std::optional<Sentence> collision(Frame frame, const Pose& pose, double from, double to, PoseAt&& at,
+                                    int halvings) {
+    using Step = bodies::Sweep::Step;
+    Step step = sweep_->to(frame, pose);
+    if (step == Step::kCoarse && halvings > 0) {
+      const double middle = 0.5 * (from + to);
+      if (auto words = collision(frame, at(middle), from, middle, at, halvings - 1)) {
+        jump();
+        return words;
+      }
+      return collision(frame, pose, middle, to, at, halvings - 1);
+    }
+    if (step == Step::kCoarse) {
+      jump();
+      step = sweep_->to(frame, pose);
+    }
+    if (step != Step::kNear) return std::nullopt;
+    return model_->words(sweep_->nearest());
+  }
+
+  const Kinematics& kinematics_;
+  bodies::Model model_;
+  std::optional<bodies::Sweep> sweep_;
+};
+
+}  // namespace kinebus
