@@ -138,7 +138,7 @@ Vec nearest(Simplex& s) {
   if (all.count == 1) return p[0];
   if (all.count == 2) return nearest(p[0], p[1], s);
   if (all.count == 3) return nearest(p[0], p[1], p[2], s);
-  constexpr int kFaces[4][4] = {{0, 1, 2, 3}, {0, 1, 3, 2}, {0, 2, 3, 1}, {1, 2, 3, 0}};
+  constexpr std::size_t kFaces[4][4] = {{0, 1, 2, 3}, {0, 1, 3, 2}, {0, 2, 3, 1}, {1, 2, 3, 0}};
   bool inside = true;
   Vec best{};
   double least = HUGE_VAL;

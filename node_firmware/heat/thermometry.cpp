@@ -24,9 +24,9 @@ constexpr auto kLog2 = [] {
 
 // value > 0; 20 fractional bits.
 std::int32_t log2_of(std::uint32_t value) {
-  const int exponent = std::bit_width(value) - 1;
+  const int exponent = static_cast<int>(std::bit_width(value)) - 1;
   const std::uint32_t mantissa = value << (31 - exponent);
-  const std::size_t line = (mantissa >> 24) & (kLogLines - 1);
+  const std::size_t line = (mantissa >> 24) & static_cast<std::uint32_t>(kLogLines - 1);
   const std::uint32_t part = (mantissa >> 8) & 0xFFFF;
   const std::uint32_t log = kLog2[line] + (((kLog2[line + 1] - kLog2[line]) * part) >> 16);
   return static_cast<std::int32_t>(log) + (exponent << 20);
