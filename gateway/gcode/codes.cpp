@@ -1,6 +1,7 @@
 #include "gateway/gcode/codes.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 #include "gateway/gcode/o_word.hpp"
@@ -514,11 +515,11 @@ std::string reference_entry(std::string_view code) {
   const std::string name = lower_case(code);
   if (name.size() > 1 && (name[0] == 'g' || name[0] == 'm') && name[1] >= '0' && name[1] <= '9') {
     const double number = std::strtod(name.c_str() + 1, nullptr);
-    const auto tenths = static_cast<int>(number * 10 + 0.5);
+    const auto tenths = static_cast<int>(std::lround(std::min(number, 1e6) * 10));
     if (name[0] == 'g') {
       if (const CodeEntry* entry = find(kG, tenths)) return text_of_g(*entry);
       for (const Reason& reason : kGReasons)
-        if (reason.code == tenths) return unknown_g(tenths);
+        if (reason.code == tenths) return unknown_g(tenths).english();
       return {};
     }
     const CodeEntry* const entry = find(kM, tenths / 10);

@@ -167,7 +167,7 @@ bool Core::run_stop() {
       if (code.number <= 1 && block_.has_text) emit(canonical::Message{std::string(block_.text)});
       emit(canonical::Pause{code.number == 1});
     } else if (code.number == 226 || code.number == 600 || code.number == 601) {
-      if (code.number == 600) emit(canonical::Message{say("change the filament, then go on")});
+      if (code.number == 600) emit(canonical::Message{say("change the filament, then go on").english()});
       emit(canonical::Pause{false});
     } else if (code.number == 30 && !block_.text.empty() && block_.text.front() != '(') {
       emit(canonical::StoredJob{canonical::StoredJob::What::kDelete, std::string(block_.text), 0});

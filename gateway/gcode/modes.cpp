@@ -57,7 +57,7 @@ bool Core::change_tool() {
   m.tool_in_spindle = m.tool;
   if (m.spindle_turns != 0) emit(canonical::Spindle{0});
   m.spindle_turns = 0;
-  emit(canonical::Message{say("put in the tool T%1, then go on", m.tool)});
+  emit(canonical::Message{say("put in the tool T%1, then go on", m.tool).english()});
   emit(canonical::Pause{false});
   return true;
 }

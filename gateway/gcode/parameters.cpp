@@ -1,6 +1,7 @@
 #include "gateway/gcode/parameters.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <numbers>
 
 #include "gateway/gcode/rotation.hpp"
@@ -188,6 +189,7 @@ bool is_predefined(std::string_view name) {
 
 std::vector<std::string_view> predefined_names() {
   std::vector<std::string_view> names;
+  names.reserve(std::size(kPredefined));
   for (const Predefined& entry : kPredefined) names.push_back(entry.name);
   return names;
 }

@@ -3,6 +3,8 @@
 // platform, at compile time too. Software floating point on a chip without FPU; nothing that runs every tick
 // uses it.
 
+#include <cstdint>
+
 namespace kinebus::heat {
 
 /// x > 0. Error below 1e-15 relative to 1.
@@ -37,6 +39,12 @@ constexpr double square_root(double x) {
   double root = x > 1 ? x : 1;
   for (int i = 0; i < 64; ++i) root = (root + x / root) / 2;
   return root;
+}
+
+/// The nearest whole number of one that is not negative.
+constexpr std::uint32_t nearest_whole(double value) {
+  const double above = value + 0.5;
+  return static_cast<std::uint32_t>(above);
 }
 
 }  // namespace kinebus::heat

@@ -51,7 +51,7 @@ PidParameters pid_for(const ModelParameters& m) {
   // Band = rate * 2 * dead time as control sees it; its integral is slow enough not to overshoot an
   // integrator.
   const std::uint64_t dead_ms = m.dead_ms + m.lag_ms / 2 + 100;
-  return {.band_mc = static_cast<std::uint32_t>(m.rate_mc_per_s * 2 * dead_ms / 1000),
+  return {.band_mc = static_cast<std::uint32_t>(2 * dead_ms * m.rate_mc_per_s / 1000),
           .integral_ms = static_cast<std::uint32_t>(8 * dead_ms),
           .derivative_ms = m.lag_ms / 2};
 }

@@ -176,9 +176,7 @@ void HeatTuning::search() {
 }
 
 void HeatTuning::finish() {
-  const auto rounded = [](double value) {
-    return static_cast<std::uint32_t>(std::clamp(value, 0.0, 1e9) + 0.5);
-  };
+  const auto rounded = [](double value) { return nearest_whole(std::clamp(value, 0.0, 1e9)); };
   result_ = {.rate_mc_per_s = rounded(best_.rate * 1000),
              .loss_ppm_per_s = rounded(best_.loss * 1e6),
              .lag_ms = std::max<std::uint32_t>(rounded(best_.lag_s * 1000), 100),

@@ -17,8 +17,7 @@ constexpr int kLogLines = 128;
 constexpr auto kLog2 = [] {
   std::array<std::uint32_t, kLogLines + 1> table{};
   for (std::size_t i = 0; i < table.size(); ++i)
-    table[i] = static_cast<std::uint32_t>(
-        natural_log(1 + static_cast<double>(i) / kLogLines) / kLn2 * kCoordinateOne + 0.5);
+    table[i] = nearest_whole(natural_log(1 + static_cast<double>(i) / kLogLines) / kLn2 * kCoordinateOne);
   return table;
 }();
 
@@ -175,7 +174,7 @@ SetupError Linearisation::configure(const SensorSetup& setup) {
     const double resistance = rtd ? callendar_van_dusen(nominal, celsius(mc))
                                   : exponential(curve->log_ohm(celsius(mc) + kZeroCelsius));
     const double share = logarithmic_ ? resistance / (resistance + reference) : resistance / reference;
-    return static_cast<std::uint32_t>(std::clamp(share, 0.0, 1.0) * kFullRatio + 0.5);
+    return nearest_whole(std::clamp(share, 0.0, 1.0) * kFullRatio);
   };
   low_ratio_ = ratio_at(rtd ? setup.low_mc : setup.high_mc);
   high_ratio_ = ratio_at(rtd ? setup.high_mc : setup.low_mc);

@@ -35,6 +35,7 @@ Json named(const std::vector<Subject::Axis>& axes, const Vector& v, const char* 
 
 std::vector<std::string> names(const std::vector<Subject::Axis>& axes, const char* per = "") {
   std::vector<std::string> out;
+  out.reserve(axes.size());
   for (const Subject::Axis& axis : axes) out.push_back(axis.column(per));
   return out;
 }

@@ -50,7 +50,8 @@ struct Question {
   std::span<const double> values;  ///< by the command's columns
 };
 
-struct Answer {
+// Json's move only asserts.
+struct Answer {  // NOLINT(bugprone-exception-escape)
   struct Line {
     std::vector<double> values;  ///< by the command's result columns
     std::string remark;          ///< behind a #

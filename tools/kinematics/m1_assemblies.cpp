@@ -81,24 +81,28 @@ std::vector<double> candidate_tilts(const Legs& legs) {
     values[static_cast<std::size_t>(k)] = eliminated(legs, 2 * std::numbers::pi * k / kSamples);
     largest = std::max(largest, std::abs(values[static_cast<std::size_t>(k)]));
   }
-  std::array<Complex, 2 * kDegree + 1> c{};  // of z^(n - degree)
+  std::array<Complex, 2 * kDegree + 1> c{};
+  const auto coefficient = [&c](int power) -> Complex& {
+    const int place = power + kDegree;
+    return c[static_cast<std::size_t>(place)];
+  };
   for (int n = -kDegree; n <= kDegree; ++n) {
     Complex sum = 0;
     for (int k = 0; k < kSamples; ++k)
       sum += values[static_cast<std::size_t>(k)] *
              std::polar(1.0, -2 * std::numbers::pi * ((n * k) % kSamples) / kSamples);
-    c[static_cast<std::size_t>(n + kDegree)] = sum / static_cast<double>(kSamples);
+    coefficient(n) = sum / static_cast<double>(kSamples);
   }
   // Vertical rails leave leading coefficients that are rounding.
   constexpr double kZero = 1e-13;
   int degree = kDegree;
-  while (degree > 0 && std::abs(c[static_cast<std::size_t>(kDegree + degree)]) <= kZero * largest) --degree;
+  while (degree > 0 && std::abs(coefficient(degree)) <= kZero * largest) --degree;
   if (degree == 0 || !(largest > 0)) return {};
   const int order = 2 * degree;
   Eigen::MatrixXcd companion = Eigen::MatrixXcd::Zero(order, order);
-  const Complex leading = c[static_cast<std::size_t>(kDegree + degree)];
+  const Complex leading = coefficient(degree);
   for (int n = 0; n < order; ++n) {
-    companion(n, order - 1) = -c[static_cast<std::size_t>(kDegree - degree + n)] / leading;
+    companion(n, order - 1) = -coefficient(n - degree) / leading;
     if (n > 0) companion(n, n - 1) = 1;
   }
   const Eigen::ComplexEigenSolver<Eigen::MatrixXcd> solver(companion, false);
