@@ -201,6 +201,14 @@ struct HomingRun {
   friend bool operator==(const HomingRun&, const HomingRun&) = default;
 };
 
+/// [macro.START_PRINT]: G-code that START_PRINT BED=60, M98 P"start_print" or o<start_print> call carries
+/// out.
+struct MacroDescription {
+  std::string name;  ///< of its table; upper and lower case are the same
+  std::string gcode;
+  friend bool operator==(const MacroDescription&, const MacroDescription&) = default;
+};
+
 struct GcodeDescription {
   double initial_feed_mm_per_min = 1500;  ///< until the job states its first F
   /// What G4 P counts: milliseconds in printer firmware, seconds in RS274/NGC.
@@ -245,6 +253,7 @@ struct MachineDescription {
   SpindleDescription spindle;
   ProbeDescription probe;
   GcodeDescription gcode;
+  std::vector<MacroDescription> macros;     ///< called by name from jobs and lines
   std::optional<BodiesDescription> bodies;  ///< none: nobody knows what is solid, and nothing is checked
   SerialDescription serial;
   /// M1 and M5: how the machine's geometry was measured to differ from the one above it in the file.

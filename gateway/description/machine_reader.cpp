@@ -15,6 +15,7 @@
 #include "gateway/description/machine_file.hpp"
 #include "gateway/description/machine_rules.hpp"
 #include "gateway/description/machine_schema.hpp"
+#include "gateway/gcode/recording.hpp"
 
 namespace kinebus {
 namespace {
@@ -78,6 +79,16 @@ class Reader {
       value = s->get();
     else
       wrong(key, *node, expected);
+  }
+
+  /// G-code, a line each.
+  void program(std::string_view key, std::string& value) {
+    text(key, value, Need::kRequired);
+    const toml::node* node = level().table->get(key);
+    if (node == nullptr || !node->is_string()) return;
+    gcode::Recording recording;
+    if (const auto lines = recording.add_macro(value); !lines)
+      wrong(key, *node, say("G-code, a line each; line %1: %2", lines.error().line, lines.error().message));
   }
 
   void flag(std::string_view key, bool& value, Need need) {

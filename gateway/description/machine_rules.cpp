@@ -8,6 +8,7 @@
 #include "gateway/calibration/joint_map.hpp"
 #include "gateway/description/bodies_rules.hpp"
 #include "gateway/description/device_rules.hpp"
+#include "gateway/gcode/letters.hpp"
 
 namespace kinebus {
 namespace {
@@ -166,6 +167,11 @@ class Rules {
             {"gcode.traverse_mm_per_s", "path.tool_speed_mm_per_s"},
             Sentence::verbatim(number(d_.gcode.traverse_mm_per_s)),
             say("at most the tool's speed, %1", number(d_.path.tool_speed_mm_per_s)));
+    for (const MacroDescription& macro : d_.macros)
+      for (const MacroDescription* other = d_.macros.data(); other != &macro; ++other)
+        require(gcode::in_lower_case(other->name) != gcode::in_lower_case(macro.name),
+                {"macro." + macro.name, "macro." + other->name}, Sentence::verbatim(macro.name),
+                say("another name than %1: upper and lower case are the same", other->name));
     require(!d_.name.empty(), {"name"}, say("an empty name"), say("a name"));
     require(!d_.jobs_directory.empty(), {"jobs_directory"}, say("an empty path"), say("a directory"));
   }

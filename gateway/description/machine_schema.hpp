@@ -314,6 +314,7 @@ void visit_machine(V& v, MachineDescription& d) {
   });
   visit_devices(v, d);
   visit_gcode(v, d.gcode);
+  v.named_tables("macro", d.macros, [&](MacroDescription& m) { v.program("gcode", m.gcode); });
   v.optional_table("bodies", d.bodies, [&](BodiesDescription& b) {
     if (!known_kind) return v.leave_unjudged();
     visit_bodies(v, b, body_keys(d.kinematics));

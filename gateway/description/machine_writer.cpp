@@ -70,6 +70,7 @@ class Writer {
   std::string take() { return std::move(text_); }
 
   void text(std::string_view key, const std::string& value, Need) { line(key, basic_string(value)); }
+  void program(std::string_view key, const std::string& value) { line(key, basic_string(value)); }
   void flag(std::string_view key, bool value, Need) { line(key, value ? "true" : "false"); }
   void number(std::string_view key, double value, Range, Need, double unit = 1) {
     line(key, decimal(value, unit));

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "gateway/gcode/core.hpp"
+#include "gateway/gcode/letters.hpp"
 #include "gateway/gcode/number.hpp"
 #include "gateway/gcode/parameters.hpp"
 
@@ -12,13 +13,6 @@ namespace kinebus::gcode {
 namespace {
 
 constexpr int kNoteForCommands = 200000;  // keys of notes: behind those of codes
-
-std::string in_lower_case(std::string_view text) {
-  std::string small(text);
-  for (char& c : small)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + ('a' - 'A'));
-  return small;
-}
 
 struct Argument {
   std::string name;  ///< in lower case

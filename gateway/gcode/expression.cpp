@@ -5,6 +5,7 @@
 #include <numbers>
 #include <string_view>
 
+#include "gateway/gcode/letters.hpp"
 #include "gateway/gcode/number.hpp"
 #include "gateway/gcode/parameters.hpp"
 
@@ -88,14 +89,10 @@ constexpr std::array<FunctionName, 14> kFunctions = {{{"abs", Function::kAbs},
                                                       {"sqrt", Function::kSqrt},
                                                       {"tan", Function::kTan}}};
 
-char lower(char c) {
-  return c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c;
-}
-
 bool matches(const Cursor& cursor, std::string_view text) {
   if (static_cast<std::size_t>(cursor.end - cursor.p) < text.size()) return false;
   for (std::size_t i = 0; i < text.size(); ++i)
-    if (lower(cursor.p[i]) != text[i]) return false;
+    if (in_lower_case(cursor.p[i]) != text[i]) return false;
   return true;
 }
 
@@ -297,7 +294,7 @@ bool ValueReader::read_parameter_ref(ParameterRef& ref) {
   const char* const start = cursor_.p;
   if (cursor_.accept('<')) {
     while (!cursor_.at_end() && *cursor_.p != '>') {
-      const char c = lower(*cursor_.p++);
+      const char c = in_lower_case(*cursor_.p++);
       if (c == ' ' || c == '\t') continue;
       if (c <= ' ' || c >= 0x7F || c == '#' || c == '<')
         return fail(cursor_.p - 1, say("a parameter's name is made of letters, digits, _ and -"));

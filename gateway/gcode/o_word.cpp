@@ -3,6 +3,8 @@
 #include <array>
 #include <cstdlib>
 
+#include "gateway/gcode/letters.hpp"
+
 namespace kinebus::gcode {
 namespace {
 
@@ -27,16 +29,13 @@ constexpr std::array<Keyword, 15> kKeywords = {{{"sub", OKind::kSub},
                                                 {"break", OKind::kBreak},
                                                 {"continue", OKind::kContinue}}};
 
-char small(char c) {
-  return c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c;
-}
 bool is_number(char c) {
   return c >= '0' && c <= '9';
 }
 bool starts_as(std::string_view text, std::string_view word) {
   if (text.size() < word.size()) return false;
   for (std::size_t i = 0; i < word.size(); ++i)
-    if (small(text[i]) != word[i]) return false;
+    if (in_lower_case(text[i]) != word[i]) return false;
   return true;
 }
 
@@ -52,13 +51,13 @@ class OReader {
       ++at_;
       skip();
     }
-    if (small(peek()) == 'n') {
+    if (in_lower_case(peek()) == 'n') {
       ++at_;
       skip();
       while (is_number(peek()) || peek() == '.') ++at_;
       skip();
     }
-    if (small(peek()) != 'o') return true;
+    if (in_lower_case(peek()) != 'o') return true;
     word_.column = static_cast<std::uint32_t>(at_) + 1;
     ++at_;
     skip();
@@ -102,7 +101,7 @@ class OReader {
     const std::size_t first = at_++;
     std::string name = "<";
     while (at_ < line_.size() && peek() != '>') {
-      const char c = small(line_[at_++]);
+      const char c = in_lower_case(line_[at_++]);
       if (c != ' ' && c != '\t') name += c;
     }
     if (peek() != '>') return fail(first, say("the name of an O word needs a closing >"));
@@ -131,7 +130,7 @@ class OReader {
     const std::string_view text = line_.substr(at_);
     for (const Keyword& keyword : kKeywords) {
       if (!starts_as(text, keyword.text)) continue;
-      const char after = text.size() > keyword.text.size() ? small(text[keyword.text.size()]) : '\0';
+      const char after = text.size() > keyword.text.size() ? in_lower_case(text[keyword.text.size()]) : '\0';
       if ((after >= 'a' && after <= 'z') || after == '_') continue;
       word_.kind = keyword.kind;
       at_ += keyword.text.size();

@@ -12,6 +12,7 @@
 #include "gateway/gcode/error.hpp"
 #include "gateway/gcode/interpreter.hpp"
 #include "gateway/gcode/o_word.hpp"
+#include "gateway/gcode/recording.hpp"
 #include "gateway/result.hpp"
 
 namespace kinebus::gcode {
@@ -24,8 +25,6 @@ namespace kinebus::gcode {
 /// a program that hangs.
 class Program {
  public:
-  static constexpr std::size_t kMaxText = 16U << 20;      ///< bytes recorded
-  static constexpr std::size_t kMaxLines = 1'000'000;     ///< lines recorded
   static constexpr std::size_t kMaxDepth = 32;            ///< calls within calls
   static constexpr std::uint32_t kMaxLiveSteps = 10'000;  ///< of one line of Use::kLines
 
@@ -47,29 +46,8 @@ class Program {
   std::uint64_t steps() const { return steps_; }
 
  private:
-  static constexpr std::uint32_t kNowhere = 0xFFFFFFFF;
   static constexpr std::size_t kLocals = 30;
 
-  struct Recorded {
-    std::uint32_t line = 0;
-    std::uint32_t begin = 0, size = 0;  ///< in text_
-    OKind kind = OKind::kNone;
-    std::uint32_t rest_at = 0;  ///< of the line: behind the keyword
-    std::uint32_t next =
-        kNowhere;                  ///< if, elseif: the next branch. while, do, repeat: their end. Ends: begin
-    std::uint32_t end = kNowhere;  ///< branches: endif. break, continue: the loop's begin
-    std::string label;             ///< of lines with an O word
-  };
-  struct Range {
-    std::uint32_t begin = 0, end = 0;
-    std::uint32_t line = 0;  ///< where it is defined
-  };
-  struct Open {
-    OKind kind{};
-    std::uint32_t index = 0;
-    std::uint32_t last_branch = 0;
-    bool has_else = false;
-  };
   struct Counter {
     std::uint32_t loop = 0;
     double left = 0;
@@ -87,19 +65,17 @@ class Program {
     Locals locals;  ///< the caller's
   };
 
-  Result<void, ParseError> fail(std::uint32_t line, std::uint32_t column, Sentence message);
-  /// As fail(), of a recorded line at work: leaves everything that was called.
+  /// An error of a recorded line at work: leaves everything that was called.
   Result<void, ParseError> abandon(ParseError error);
 
-  Result<void, ParseError> record(std::string_view text, std::uint32_t number, OWord& word);
-  Result<void, ParseError> nest(const OWord& word, std::uint32_t number, std::uint32_t index);
-  Result<void, ParseError> wrong_end(const OWord& word, std::uint32_t number);
+  Result<void, ParseError> record(std::string_view text, std::uint32_t number, const OWord& word);
+  /// An error in what is recorded: the text's rest has no meaning.
+  Result<void, ParseError> give_up(ParseError error);
   Result<void, ParseError> begin_rest(std::uint32_t number);
-  bool has_rest_program(int number, Range& range) const;
   void leave_all();
 
-  Result<double, ParseError> value_of(const Recorded& line);
-  Result<bool, ParseError> condition(const Recorded& line);
+  Result<double, ParseError> value_of(const Recording::Line& line);
+  Result<bool, ParseError> condition(const Recording::Line& line);
   Result<void, ParseError> run(std::uint32_t index, CommandBuffer& out);
   Result<void, ParseError> run_plain(std::string_view text, std::uint32_t number, CommandBuffer& out);
   Result<void, ParseError> call_o(std::string_view text, const OWord& word, std::uint32_t number);
@@ -107,31 +83,24 @@ class Program {
   Result<void, ParseError> call_program(const ProgramCall& call, std::uint32_t number);
   Result<void, ParseError> call_macro(const ProgramCall& call, std::uint32_t number);
   Result<void, ParseError> push(Frame frame, std::uint32_t column);
-  Result<void, ParseError> give_back(const Recorded& line);
+  Result<void, ParseError> give_back(const Recording::Line& line);
   Result<void, ParseError> choose_branch(std::uint32_t index);
   Result<void, ParseError> repeat(std::uint32_t index);
   void leave_frame();
   void leave_loops(std::uint32_t from);
   std::uint32_t shown_line(std::uint32_t number) const;
-  std::string_view text_of(const Recorded& line) const {
-    return std::string_view(text_).substr(line.begin, line.size);
-  }
 
   Interpreter& interpreter_;
   Use use_;
-  std::string text_;
-  std::vector<Recorded> lines_;
-  std::vector<Open> open_;                         ///< of what is being recorded
-  std::unordered_map<std::string, Range> subs_;    ///< by label
-  std::unordered_map<std::string, Range> macros_;  ///< by name
+  Recording recording_;
+  std::unordered_map<std::string, Recording::Range> macros_;  ///< by name
   std::vector<Frame> frames_;
-  std::size_t kept_lines_ = 0, kept_text_ = 0;  ///< of definitions: what stays when a loop is done
-  bool passes_over_ = false;                    ///< a block is wrong: the text's rest has no meaning
-  bool named_ = false;                          ///< the main program's O number came
-  bool rest_ = false;                           ///< all that comes is recorded: a program is looked for
-  ProgramCall waiting_;                         ///< for that program
+  bool passes_over_ = false;  ///< a block is wrong: the text's rest has no meaning
+  bool named_ = false;        ///< the main program's O number came
+  bool rest_ = false;         ///< all that comes is recorded: a program is looked for
+  ProgramCall waiting_;       ///< for that program
   std::uint32_t waiting_line_ = 0;
-  std::size_t rest_begin_ = 0;
+  std::uint32_t rest_begin_ = 0;
   std::uint64_t steps_ = 0;
 };
 

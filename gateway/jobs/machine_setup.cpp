@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "gateway/gcode/letters.hpp"
+
 namespace kinebus {
 
 MotionLimits motion_limits(const MachineDescription& machine) {
@@ -49,6 +51,8 @@ gcode::Options interpreter_options(const MachineDescription& machine, const Pose
   options.retract_length_mm = machine.gcode.retract_mm;
   options.retract_mm_per_s = options.recover_mm_per_s = machine.gcode.retract_mm_per_s;
   options.retract_lift_mm = machine.gcode.retract_lift_mm;
+  for (const MacroDescription& macro : machine.macros)
+    options.macros.push_back({gcode::in_lower_case(macro.name), macro.gcode});
   if (const PoseLimits* limits = pose_limits(machine.kinematics);
       limits != nullptr && limits->a_rad.limited()) {
     options.a_min_rad = limits->a_rad.min;

@@ -1601,6 +1601,14 @@
         <translation>یک متن</translation>
     </message>
     <message>
+        <source>G-code, a line each; line %1: %2</source>
+        <translation>G-code، هر فرمان در یک سطر؛ سطر %1: %2</translation>
+    </message>
+    <message>
+        <source>another name than %1: upper and lower case are the same</source>
+        <translation>نامی جز %1: حروف بزرگ و کوچک یکی هستند</translation>
+    </message>
+    <message>
         <source>true or false</source>
         <translation>true یا false</translation>
     </message>
@@ -2925,8 +2933,8 @@
         <translation>%1 پیش‌تر در سطر %2 تعریف شده است</translation>
     </message>
     <message>
-        <source>O words are nested too deep (100 levels at most)</source>
-        <translation>واژه‌های O بسیار تودرتو هستند (حداکثر 100 لایه)</translation>
+        <source>O words are nested too deep (%1 levels at most)</source>
+        <translation>واژه‌های O بسیار تودرتو هستند (حداکثر %1 لایه)</translation>
     </message>
     <message>
         <source>%1 is in no loop of this label</source>
@@ -2975,10 +2983,6 @@
     <message>
         <source>there is no program O%1 in this text</source>
         <translation>در این متن برنامهٔ O%1 نیست</translation>
-    </message>
-    <message>
-        <source>in the macro %1, line %2: an O word has no end</source>
-        <translation>در ماکروی %1، سطر %2: واژهٔ O پایانی ندارد</translation>
     </message>
     <message>
         <source>%1 needs the plane XY (G17)</source>

@@ -1601,6 +1601,14 @@
         <translation>bir metin</translation>
     </message>
     <message>
+        <source>G-code, a line each; line %1: %2</source>
+        <translation>her satırda bir komut olan G-kodu; satır %1: %2</translation>
+    </message>
+    <message>
+        <source>another name than %1: upper and lower case are the same</source>
+        <translation>%1 dışında bir ad: büyük ve küçük harf aynıdır</translation>
+    </message>
+    <message>
         <source>true or false</source>
         <translation>true ya da false</translation>
     </message>
@@ -2925,8 +2933,8 @@
         <translation>%1 zaten satır %2&apos;de tanımlı</translation>
     </message>
     <message>
-        <source>O words are nested too deep (100 levels at most)</source>
-        <translation>O sözcükleri çok derin iç içe (en çok 100 düzey)</translation>
+        <source>O words are nested too deep (%1 levels at most)</source>
+        <translation>O sözcükleri çok derin iç içe (en çok %1 düzey)</translation>
     </message>
     <message>
         <source>%1 is in no loop of this label</source>
@@ -2975,10 +2983,6 @@
     <message>
         <source>there is no program O%1 in this text</source>
         <translation>bu metinde O%1 programı yok</translation>
-    </message>
-    <message>
-        <source>in the macro %1, line %2: an O word has no end</source>
-        <translation>%1 makrosunda, satır %2: bir O sözcüğünün sonu yok</translation>
     </message>
     <message>
         <source>%1 needs the plane XY (G17)</source>

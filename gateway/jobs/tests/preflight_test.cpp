@@ -76,6 +76,28 @@ TEST(Preflight, TwoBodiesThatMeetAreNamedWithTheLineAndTheSamePathBesideThemPass
       << "without [bodies] nobody knows of the clamp";
 }
 
+TEST(Preflight, MacrosOfTheMachineFileAreCarriedOutWithTheirArguments) {
+  MachineDescription d = machine();
+  d.macros = {{"Start_Print", "G1 X0 Y0 F6000\no1 repeat [#<times>]\nG91\nG1 X60\nG90\no1 endrepeat\n"},
+              {"broken", "G1 X0\nG1 X\n"}};
+  EXPECT_EQ(problems_on(d, "START_PRINT TIMES=2\nG1 X0\n").errors(), 0u);
+  const ProblemList far = problems_on(d, "G1 X0 F6000\nSTART_PRINT TIMES=3\nG1 X0\n");
+  ASSERT_EQ(far.errors(), 1u) << "X 180 is out of reach";
+  EXPECT_EQ(far.all()[0].line, 2u);
+  const ProblemList wrong = problems_on(d, "G1 X0 F6000\nM98 P\"BROKEN\"\n");
+  ASSERT_EQ(wrong.errors(), 1u);
+  EXPECT_EQ(wrong.all()[0].line, 2u);
+  EXPECT_TRUE(wrong.all()[0].words.starts_with("in the macro broken, line 2: ")) << wrong.all()[0].words;
+}
+
+TEST(Preflight, NothingOfAMacroThatCannotBeReadIsCarriedOut) {
+  MachineDescription d = machine();
+  d.macros = {{"half", "G1 X500 F6000\no1 if [1]\n"}};
+  const ProblemList problems = problems_on(d, "HALF\no2 repeat [1]\nG1 X10 F6000\no2 endrepeat\n");
+  ASSERT_EQ(problems.errors(), 1u);
+  EXPECT_EQ(problems.all()[0].words, "in the macro half, line 2: o1 if has no end");
+}
+
 TEST(Preflight, ATiltThatBringsTheTableUpAgainstTheNozzleHolderIsNamed) {
   MachineDescription d = legs_below();
   d.bodies->holder_radius_mm = 45;
