@@ -7,8 +7,9 @@
 #include <algorithm>
 #include <cerrno>
 #include <climits>
-#include <csignal>
 #include <utility>
+
+#include "gateway/io/quiet_thread.hpp"
 
 namespace kinebus {
 namespace {
@@ -22,13 +23,7 @@ constexpr int kLookMs = 100;
 }  // namespace
 
 LogQueue::LogQueue(int fd) : fd_(fd), formatter_(std::make_unique<spdlog::pattern_formatter>()) {
-  // Signals are the main thread's.
-  sigset_t all, before;
-  sigfillset(&all);
-  for (const int own_fault : {SIGSEGV, SIGBUS, SIGFPE, SIGILL}) sigdelset(&all, own_fault);
-  pthread_sigmask(SIG_SETMASK, &all, &before);
-  thread_ = std::thread([this] { run(); });
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  thread_ = quiet_thread([this] { run(); });
 }
 
 LogQueue::~LogQueue() {

@@ -5,23 +5,18 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <csignal>
 #include <mutex>
 #include <system_error>
 #include <utility>
+
+#include "gateway/io/quiet_thread.hpp"
 
 namespace kinebus {
 
 WorkerThread::WorkerThread(EventLoop& loop) : loop_(loop), event_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
   if (event_ < 0) throw std::system_error(errno, std::generic_category(), "worker thread");
   loop_.watch(event_, EPOLLIN, [this](std::uint32_t) { take_done(); });
-  // Signals are the main thread's.
-  sigset_t all, before;
-  sigfillset(&all);
-  for (const int own_fault : {SIGSEGV, SIGBUS, SIGFPE, SIGILL}) sigdelset(&all, own_fault);
-  pthread_sigmask(SIG_SETMASK, &all, &before);
-  thread_ = std::thread([this] { run(); });
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  thread_ = quiet_thread([this] { run(); });
 }
 
 WorkerThread::~WorkerThread() {

@@ -1602,7 +1602,7 @@
     </message>
     <message>
         <source>G-code, a line each; line %1: %2</source>
-        <translation>her satırda bir komut olan G-kodu; satır %1: %2</translation>
+        <translation>her satırda bir komut olan G kodu; satır %1: %2</translation>
     </message>
     <message>
         <source>another name than %1: upper and lower case are the same</source>
