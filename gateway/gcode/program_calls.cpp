@@ -110,7 +110,7 @@ Result<void, ParseError> Program::follow_call(std::uint32_t number) {
   }
   if (frames_.empty() || frames_.back().kind == FrameKind::kBlock || frames_.back().kind == FrameKind::kRest)
     return wrong(number, call.column,
-                say("M99 ends a subprogram: a main program that begins again for ever is not run"));
+                 say("M99 ends a subprogram: a main program that begins again for ever is not run"));
   leave_frame();
   return {};
 }
@@ -149,7 +149,7 @@ Result<void, ParseError> Program::call_program(const ProgramCall& call, std::uin
     if (in_rest) return wrong(number, call.column, say("there is no program O%1 in this text", program));
     if (!frames_.empty())
       return wrong(number, call.column,
-                  say("%1 is not defined above this call", "O" + std::to_string(program)));
+                   say("%1 is not defined above this call", "O" + std::to_string(program)));
     waiting_ = call;
     return begin_rest(number);
   }

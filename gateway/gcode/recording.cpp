@@ -42,7 +42,8 @@ Result<void, ParseError> Recording::add(std::string_view text, std::uint32_t num
     const std::uint32_t from = open_.empty() ? kept_.lines : open_.front().index;
     const std::uint32_t since = from < size() ? lines_[from].number : number;
     open_.clear();
-    return wrong(number, 1, say("what has to be kept since line %1 is too long (16 MB or a million lines)", since));
+    return wrong(number, 1,
+                 say("what has to be kept since line %1 is too long (16 MB or a million lines)", since));
   }
   Line line;
   line.number = number;
@@ -106,10 +107,11 @@ std::optional<Recording::Range> Recording::program(int number, std::uint32_t beg
 }
 
 Result<void, ParseError> Recording::wrong_end(const OWord& word, std::uint32_t number) const {
-  if (open_.empty()) return wrong(number, word.column, say("%1 has no beginning", spelled(word.kind, word.label)));
+  if (open_.empty())
+    return wrong(number, word.column, say("%1 has no beginning", spelled(word.kind, word.label)));
   const Line& open = lines_[open_.back().index];
   return wrong(number, word.column,
-              say("%1 stands where %2 of line %3 is open", spelled(word.kind, word.label),
+               say("%1 stands where %2 of line %3 is open", spelled(word.kind, word.label),
                    spelled(open_.back().kind, open.label), open.number));
 }
 
@@ -128,7 +130,7 @@ Result<void, ParseError> Recording::nest(const OWord& word, std::uint32_t number
       if (!open_.empty()) return wrong_end(word, number);
       if (const auto known = subroutines_.find(word.label); known != subroutines_.end())
         return wrong(number, word.column,
-                    say("%1 is defined already, in line %2", o_name(word.label), known->second.number));
+                     say("%1 is defined already, in line %2", o_name(word.label), known->second.number));
       open_.push_back({OKind::kSub, index, index, false});
       return {};
     case OKind::kEndsub: {
@@ -181,7 +183,8 @@ Result<void, ParseError> Recording::nest(const OWord& word, std::uint32_t number
         lines_[index].end = open->index;
         return {};
       }
-      return wrong(number, word.column, say("%1 is in no loop of this label", spelled(word.kind, word.label)));
+      return wrong(number, word.column,
+                   say("%1 is in no loop of this label", spelled(word.kind, word.label)));
     default:
       return {};
   }

@@ -39,7 +39,8 @@ class Recording {
     std::uint32_t number = 0;  ///< of the line where it is defined
   };
 
-  /// One line more. An error (too long, or its O word stands wrong) leaves the line recorded and no block open.
+  /// One line more. An error (too long, or its O word stands wrong) leaves the line recorded and no block
+  /// open.
   Result<void, ParseError> add(std::string_view text, std::uint32_t number, const OWord& word);
   /// The text is at its end: a block that is open is an error.
   Result<void, ParseError> close();

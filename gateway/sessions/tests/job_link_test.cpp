@@ -1,4 +1,4 @@
-// Clients and the gateway's end together: hello, control, uploads, and what happens when links break.
+// Clients and the gateway's end together: hello, control, and what happens when links break.
 
 #include <fstream>
 #include <random>
@@ -14,24 +14,6 @@ namespace {
 
 using joblink::ClientMessage;
 using namespace std::chrono_literals;
-using Phase = joblink::UploadNews::Phase;
-
-std::string gcode_of(std::size_t size) {
-  std::string text;
-  for (std::size_t i = 0; text.size() < size; ++i) text += "G1 X" + std::to_string(i % 97) + " F1200\n";
-  text.resize(size);
-  return text;
-}
-std::string stored_text(const LinkRig& rig, const std::string& name) {
-  std::ostringstream text;
-  text << std::ifstream(rig.folder.path() / "jobs" / name, std::ios::binary).rdbuf();
-  return std::move(text).str();
-}
-ClientMessage take_control(bool force = false) {
-  ClientMessage message;
-  message.mutable_take_control()->set_force(force);
-  return message;
-}
 
 TEST(JobLink, HelloTellsVersionMachineAndCapabilities) {
   LinkRig rig;
@@ -141,62 +123,6 @@ TEST(JobLink, AClientThatIsBackBeforeItsOldStreamDiedKeepsControl) {
   rig.plug(anna);
   EXPECT_EQ(rig.control.holder(), anna.link.client_id());
   EXPECT_TRUE(dead->ended());
-}
-
-TEST(JobLink, AnUploadIsStoredAndAllHearOfIt) {
-  LinkRig rig;
-  LinkedClient& anna = rig.connect("anna");
-  LinkedClient& bert = rig.connect("bert");
-  const std::string text = gcode_of(700'000);
-  rig.upload(anna, "part.gcode", text);
-  rig.pump();
-  ASSERT_FALSE(anna.all<joblink::UploadNews>().empty());
-  EXPECT_EQ(anna.all<joblink::UploadNews>().back().phase, Phase::kStored);
-  EXPECT_EQ(stored_text(rig, "part.gcode"), text);
-  EXPECT_TRUE(bert.saw_event(joblink::EVENT_JOBS));
-  const auto jobs = rig.ask(bert, plain(&ClientMessage::mutable_list_jobs)).jobs();
-  ASSERT_EQ(jobs.jobs_size(), 1);
-  EXPECT_EQ(jobs.jobs(0).size_bytes(), text.size());
-}
-
-TEST(JobLink, AnUploadGoesOnWhereverTheCableIsPulled) {
-  const unsigned seed = std::random_device()();
-  std::mt19937 random(seed);
-  SCOPED_TRACE("seed " + std::to_string(seed));
-  LinkRig rig;
-  LinkedClient& anna = rig.connect("anna");
-  for (int round = 0; round < 200; ++round) {
-    const std::string text = gcode_of(100'000 + random() % 1000), name = "job" + std::to_string(round % 3);
-    rig.upload(anna, name, text);
-    const std::size_t cut = random() % (text.size() + 2000);
-    rig.pump(&anna, cut);
-    rig.unplug(anna);
-    if (round % 2 == 0) rig.pump();
-    rig.plug(anna);
-    rig.pump();
-    ASSERT_EQ(anna.all<joblink::UploadNews>().back().phase, Phase::kStored) << "cut after " << cut;
-    ASSERT_EQ(stored_text(rig, name), text) << "cut after " << cut;
-    anna.news.clear();
-  }
-}
-
-TEST(JobLink, BadNamesQuotaAndWrongSumsAreRefusedWithTheRule) {
-  LinkRig rig({.folder = {}, .quota_bytes = 5000});
-  LinkedClient& anna = rig.connect("anna");
-  const auto error_of = [&](const std::string& name, const std::string& text, const std::string& sum) {
-    anna.news.clear();
-    anna.link.upload({.name = name, .size_bytes = text.size(), .hash = sum},
-                     std::make_unique<TextSource>(text));
-    rig.pump();
-    return anna.all<joblink::UploadNews>().back().error.code();
-  };
-  const std::string text = gcode_of(1000);
-  EXPECT_EQ(error_of("../a", text, joblink::job_hash_of(text)), joblink::ERROR_NAME);
-  EXPECT_EQ(error_of("/a", text, joblink::job_hash_of(text)), joblink::ERROR_NAME);
-  EXPECT_EQ(error_of("a", gcode_of(6000), joblink::job_hash_of(gcode_of(6000))), joblink::ERROR_QUOTA);
-  EXPECT_EQ(error_of("a", text, joblink::job_hash_of("other")), joblink::ERROR_CHECKSUM);
-  EXPECT_EQ(error_of("a", text, "short"), joblink::ERROR_CHECKSUM);
-  EXPECT_EQ(rig.ask(anna, plain(&ClientMessage::mutable_list_jobs)).jobs().jobs_size(), 0);
 }
 
 TEST(JobLink, GarbageNeverMovesTheMachineNorEndsTheServer) {
@@ -410,110 +336,6 @@ TEST(JobLink, AFloodOfRequestsIsWorkedOffInBoundedPartsAndAStopIsNotBehindIt) {
   EXPECT_LT(longest, 16'000U);
   rig.pump();
   EXPECT_EQ(anna.all<joblink::Answer>().size(), 502U);
-}
-
-// Places.
-
-TEST(JobLink, WhoSaysNoHelloIsCutOffOnEveryTransport) {
-  LinkRig rig;
-  for (const std::string token : {"", "secret"}) {
-    const auto silent = rig.server->open(rig.machine.now, {.transport = "x", .token = token});
-    const LocalTime begun = rig.machine.now;
-    // A byte now and then does not help.
-    while (rig.machine.now < begun + 9s) {
-      rig.machine.run_for(500ms);
-      silent->on_bytes(rig.machine.now, std::vector<std::uint8_t>{'K'});
-      silent->on_time(rig.machine.now);
-      EXPECT_FALSE(silent->ended());
-    }
-    EXPECT_LE(silent->next_deadline(), begun + 10s);
-    rig.machine.run_for(1s);
-    silent->on_time(rig.machine.now);
-    EXPECT_TRUE(silent->ended());
-  }
-  const auto cable = rig.server->open(rig.machine.now, {.transport = "usb", .token = {}, .lasting = true});
-  rig.machine.run_for(20s);
-  cable->on_time(rig.machine.now);
-  EXPECT_FALSE(cable->ended());
-}
-
-TEST(JobLink, StrangersLockNobodyOut) {
-  LinkRig rig;
-  std::vector<std::unique_ptr<ByteSession>> greedy;
-  const auto other = rig.server->open(rig.machine.now, {.transport = "tcp b", .token = "t", .peer = "b"});
-  for (int i = 0; i < 100; ++i)
-    greedy.push_back(rig.server->open(rig.machine.now, {.transport = "tcp a", .token = "t", .peer = "a"}));
-  EXPECT_FALSE(other->ended());
-  EXPECT_LE(std::count_if(greedy.begin(), greedy.end(), [](const auto& s) { return !s->ended(); }), 16);
-  EXPECT_TRUE(rig.connect("operator").link.connected());
-}
-
-TEST(JobLink, WhenAllPlacesAreTakenEveryoneMayStillStopTheMachine) {
-  LinkRig rig;
-  for (int i = 0; i < 100; ++i)
-    rig.connect("crowd", 0, {.transport = "tcp a", .token = {}, .peer = "a", .remote = true});
-  // The network's share is not all there is, and one peer's share is not the network's.
-  EXPECT_FALSE(rig.ask(rig.connect("b", 0, {.transport = "tcp b", .token = {}, .peer = "b", .remote = true}),
-                       take_control())
-                   .has_error());
-  EXPECT_FALSE(rig.ask(rig.connect("here"), take_control(true)).has_error());
-  for (int i = 0; i < 100; ++i) rig.connect("crowd");
-  EXPECT_FALSE(rig.ask(*rig.clients[0], plain(&ClientMessage::mutable_ping)).has_error());
-  LinkedClient& late = rig.connect("late");
-  ASSERT_TRUE(late.link.connected());
-  EXPECT_EQ(rig.ask(late, take_control(true)).error().code(), joblink::ERROR_BUSY);
-  EXPECT_FALSE(rig.ask(late, plain(&ClientMessage::mutable_get_status)).has_error());
-  EXPECT_FALSE(rig.ask(late, plain(&ClientMessage::mutable_stop)).has_error());
-  EXPECT_LE(rig.control.clients().size(), 36U);
-  rig.run_until([&] { return late.session->ended(); }, 11s);
-  EXPECT_TRUE(late.session->ended());
-}
-
-TEST(JobLink, AnUploadIsThatOfWhoBeganIt) {
-  LinkRig rig;
-  LinkedClient& anna = rig.connect("anna");
-  LinkedClient& bert = rig.connect("bert");
-  const std::string text = gcode_of(1000);
-  ClientMessage begin;
-  begin.mutable_upload_begin()->set_name("a");
-  begin.mutable_upload_begin()->set_size_bytes(text.size());
-  begin.mutable_upload_begin()->set_hash(joblink::job_hash_of(text));
-  const std::uint32_t id = rig.ask(anna, begin).upload().upload_id();
-  ASSERT_NE(id, 0U);
-  ClientMessage chunk, commit, abort;
-  chunk.mutable_upload_chunk()->set_upload_id(id);
-  chunk.mutable_upload_chunk()->set_data(text);
-  commit.mutable_upload_commit()->set_upload_id(id);
-  abort.mutable_upload_abort()->set_upload_id(id);
-  abort.mutable_upload_abort()->set_discard(true);
-  for (const ClientMessage& foreign : {chunk, commit, abort})
-    EXPECT_EQ(rig.ask(bert, foreign).error().code(), joblink::ERROR_BAD_VALUE);
-  EXPECT_FALSE(rig.ask(anna, chunk).has_error());
-  EXPECT_TRUE(rig.ask(anna, commit).upload().stored());
-}
-
-TEST(JobLink, AHalfUploadIsListedAndCanBeDiscarded) {
-  LinkRig rig;
-  LinkedClient& anna = rig.connect("anna");
-  const std::string text = gcode_of(1000);
-  ClientMessage begin;
-  begin.mutable_upload_begin()->set_name("a");
-  begin.mutable_upload_begin()->set_size_bytes(text.size());
-  begin.mutable_upload_begin()->set_hash(joblink::job_hash_of(text));
-  const std::uint32_t id = rig.ask(anna, begin).upload().upload_id();
-  ClientMessage discard, abort;
-  discard.mutable_discard_upload()->set_name("a");
-  discard.mutable_discard_upload()->set_size_bytes(text.size());
-  discard.mutable_discard_upload()->set_hash(joblink::job_hash_of(text));
-  EXPECT_EQ(rig.ask(anna, discard).error().code(), joblink::ERROR_BUSY);
-  abort.mutable_upload_abort()->set_upload_id(id);
-  rig.ask(anna, abort);
-  const auto list = rig.ask(anna, plain(&ClientMessage::mutable_list_jobs)).jobs();
-  ASSERT_EQ(list.partial_uploads_size(), 1);
-  EXPECT_EQ(list.partial_uploads(0).name(), "a");
-  EXPECT_FALSE(list.partial_uploads(0).open());
-  EXPECT_FALSE(rig.ask(anna, discard).has_error());
-  EXPECT_EQ(rig.ask(anna, plain(&ClientMessage::mutable_list_jobs)).jobs().partial_uploads_size(), 0);
 }
 
 }  // namespace

@@ -223,6 +223,12 @@ class LinkRig {
   }
 };
 
+inline joblink::ClientMessage take_control(bool force = false) {
+  joblink::ClientMessage message;
+  message.mutable_take_control()->set_force(force);
+  return message;
+}
+
 /// plain(&joblink::ClientMessage::mutable_hold)
 template <typename Body>
 joblink::ClientMessage plain(Body* (joblink::ClientMessage::*body)()) {

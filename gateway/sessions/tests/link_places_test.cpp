@@ -1,0 +1,67 @@
+// How many may be connected, for how long without a word, and that nobody is locked out of a stop.
+
+#include "gateway/sessions/tests/link_rig.hpp"
+
+namespace kinebus {
+namespace {
+
+using joblink::ClientMessage;
+using namespace std::chrono_literals;
+
+TEST(LinkPlaces, WhoSaysNoHelloIsCutOffOnEveryTransport) {
+  LinkRig rig;
+  for (const std::string token : {"", "secret"}) {
+    const auto silent = rig.server->open(rig.machine.now, {.transport = "x", .token = token});
+    const LocalTime begun = rig.machine.now;
+    // A byte now and then does not help.
+    while (rig.machine.now < begun + 9s) {
+      rig.machine.run_for(500ms);
+      silent->on_bytes(rig.machine.now, std::vector<std::uint8_t>{'K'});
+      silent->on_time(rig.machine.now);
+      EXPECT_FALSE(silent->ended());
+    }
+    EXPECT_LE(silent->next_deadline(), begun + 10s);
+    rig.machine.run_for(1s);
+    silent->on_time(rig.machine.now);
+    EXPECT_TRUE(silent->ended());
+  }
+  const auto cable = rig.server->open(rig.machine.now, {.transport = "usb", .token = {}, .lasting = true});
+  rig.machine.run_for(20s);
+  cable->on_time(rig.machine.now);
+  EXPECT_FALSE(cable->ended());
+}
+
+TEST(LinkPlaces, StrangersLockNobodyOut) {
+  LinkRig rig;
+  std::vector<std::unique_ptr<ByteSession>> greedy;
+  const auto other = rig.server->open(rig.machine.now, {.transport = "tcp b", .token = "t", .peer = "b"});
+  for (int i = 0; i < 100; ++i)
+    greedy.push_back(rig.server->open(rig.machine.now, {.transport = "tcp a", .token = "t", .peer = "a"}));
+  EXPECT_FALSE(other->ended());
+  EXPECT_LE(std::count_if(greedy.begin(), greedy.end(), [](const auto& s) { return !s->ended(); }), 16);
+  EXPECT_TRUE(rig.connect("operator").link.connected());
+}
+
+TEST(LinkPlaces, WhenAllPlacesAreTakenEveryoneMayStillStopTheMachine) {
+  LinkRig rig;
+  for (int i = 0; i < 100; ++i)
+    rig.connect("crowd", 0, {.transport = "tcp a", .token = {}, .peer = "a", .remote = true});
+  // The network's share is not all there is, and one peer's share is not the network's.
+  EXPECT_FALSE(rig.ask(rig.connect("b", 0, {.transport = "tcp b", .token = {}, .peer = "b", .remote = true}),
+                       take_control())
+                   .has_error());
+  EXPECT_FALSE(rig.ask(rig.connect("here"), take_control(true)).has_error());
+  for (int i = 0; i < 100; ++i) rig.connect("crowd");
+  EXPECT_FALSE(rig.ask(*rig.clients[0], plain(&ClientMessage::mutable_ping)).has_error());
+  LinkedClient& late = rig.connect("late");
+  ASSERT_TRUE(late.link.connected());
+  EXPECT_EQ(rig.ask(late, take_control(true)).error().code(), joblink::ERROR_BUSY);
+  EXPECT_FALSE(rig.ask(late, plain(&ClientMessage::mutable_get_status)).has_error());
+  EXPECT_FALSE(rig.ask(late, plain(&ClientMessage::mutable_stop)).has_error());
+  EXPECT_LE(rig.control.clients().size(), 36U);
+  rig.run_until([&] { return late.session->ended(); }, 11s);
+  EXPECT_TRUE(late.session->ended());
+}
+
+}  // namespace
+}  // namespace kinebus
