@@ -68,14 +68,18 @@ void Table::note(const std::string& words) {
   std::printf("  %s\n", words.c_str());
 }
 
-void write_picture(const std::string& folder, const char* name, const std::string& svg) {
-  if (folder.empty()) return;
+void write_text(const std::string& folder, const char* name, const std::string& text) {
   std::filesystem::create_directories(folder);
   const auto path = std::filesystem::path(folder) / name;
   std::ofstream out(path, std::ios::binary);
-  out << svg;
+  out << text;
   if (!out.flush()) throw std::runtime_error("cannot write " + path.string());
-  std::printf("  picture: %s\n", path.c_str());
+}
+
+void write_picture(const std::string& folder, const char* name, const std::string& svg) {
+  if (folder.empty()) return;
+  write_text(folder, name, svg);
+  std::printf("  picture: %s\n", (std::filesystem::path(folder) / name).c_str());
 }
 
 namespace {

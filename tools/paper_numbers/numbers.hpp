@@ -45,6 +45,8 @@ int m5(const std::string& folder);
 /// M4's path of its table 4 (figure 10): rows into `table`, the picture into `folder`.
 void m4_path(Table& table, const MachineDescription& machine, const std::string& folder);
 
+void write_text(const std::string& folder, const char* name, const std::string& text);
+/// The same, and says so; nothing without a folder.
 void write_picture(const std::string& folder, const char* name, const std::string& svg);
 /// The four closures of M4 for the inputs of its table 6.
 std::string draw_m4_assemblies(const M4Geometry& geometry);
