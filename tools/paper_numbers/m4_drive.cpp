@@ -12,8 +12,8 @@
 namespace kinebus::papers {
 namespace {
 
-constexpr int kLines = 600;      // chords of 1 mm: 0.6 um from the circle
-constexpr int kFirstLine = 4;    // of the path, in the job
+constexpr int kLines = 600;    // chords of 1 mm: 0.6 um from the circle
+constexpr int kFirstLine = 4;  // of the path, in the job
 constexpr double kRoom_mm = 5000;
 
 /// The path's t at which the closures are nearest to `y`, from `t` on; and by how much they miss, mm.
@@ -39,7 +39,7 @@ std::string refusal_of_papers_assembly(MachineDescription machine, const std::st
   g.spindle_rad = 0;
   for (Interval& travel : g.travel_mm) travel = {-kRoom_mm, kRoom_mm};
   const auto kinematics = make_kinematics(machine);
-  if (!kinematics) return kinematics.error().what;
+  if (!kinematics) return kinematics.error().what.english();
   StringSource source(job);
   JobPlan plan(machine, **kinematics, source);
   while (!plan.step(10'000)) {
@@ -79,8 +79,8 @@ M4Drive drive_m4_path(const MachineDescription& machine) {
   SimulateOptions options;
   options.on_sample = [&](const Sample& sample, double, std::uint32_t line) {
     if (!sample.in_job || line < kFirstLine || line >= kFirstLine + kLines) return;
-    const double now_s = 1e-9 * static_cast<double>(
-        std::chrono::duration_cast<std::chrono::nanoseconds>(sample.time).count());
+    const double now_s =
+        1e-9 * static_cast<double>(std::chrono::duration_cast<std::chrono::nanoseconds>(sample.time).count());
     if (!began_s) began_s = now_s;
     drive.duration_s = now_s - *began_s;
     const Vector3 y{sample.joints[0], sample.joints[1], sample.joints[2]};
@@ -88,8 +88,7 @@ M4Drive drive_m4_path(const MachineDescription& machine) {
     drive.blocks_driven.push_back({drive.duration_s, y});
   };
   StringSource same(job);
-  const SimulationReport report =
-      simulate(machine, std::make_unique<StringSource>(job), same, options);
+  const SimulationReport report = simulate(machine, std::make_unique<StringSource>(job), same, options);
   drive.outcome = report.outcome;
   constexpr double kEndSeen_s = 0.01;
   if (!report.finished || t < kM4PathEnd_s - kEndSeen_s) drive.off_um = HUGE_VAL;

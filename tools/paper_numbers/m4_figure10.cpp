@@ -25,9 +25,8 @@ drawing::Chart draw_panel(drawing::Document& document, const drawing::Box& area,
     }
   const double step = drawing::round_step(high - low, 6);
   const drawing::Chart chart{area, 0, end_s, step * std::floor(low / step), step * std::ceil(high / step)};
-  drawing::draw_frame(
-      document, chart,
-      {.x_step = 0.5, .y_step = step, .title = title, .x_name = "t, s", .y_name = "mm"});
+  drawing::draw_frame(document, chart,
+                      {.x_step = 0.5, .y_step = step, .title = title, .x_name = "t, s", .y_name = "mm"});
   return chart;
 }
 
@@ -50,11 +49,10 @@ std::string draw_figure10(const M4Geometry& g, const std::vector<double>& crossi
   for (std::size_t k = 0; k < driven.size(); k += 10)
     for (std::size_t i = 0; i < 3; ++i) run[i].push_back({driven[k].t_s, driven[k].y_mm[i]});
 
-  const auto paper = draw_panel(document, {90, 140, 1040, 330},
-                                "The paper's assembly: blocks above the tool, AB level with it", kM4PathEnd_s,
-                                curves);
-  for (std::size_t i = 0; i < 3; ++i)
-    drawing::draw_curve(document, paper, curves[i], kBlockColours[i], 2.5);
+  const auto paper =
+      draw_panel(document, {90, 140, 1040, 330},
+                 "The paper's assembly: blocks above the tool, AB level with it", kM4PathEnd_s, curves);
+  for (std::size_t i = 0; i < 3; ++i) drawing::draw_curve(document, paper, curves[i], kBlockColours[i], 2.5);
   std::vector<Point> dashed;
   for (const Point& p : curves[3]) dashed.push_back(paper.at(p.x, p.y));
   document.polyline(dashed, {.stroke = kBlockColours[1], .width = 2, .dash = "7 5"});
@@ -68,12 +66,11 @@ std::string draw_figure10(const M4Geometry& g, const std::vector<double>& crossi
                        std::vector<drawing::LegendEntry>{
                            {"y1", kBlockColours[0]}, {"y2", kBlockColours[1]}, {"y3", kBlockColours[2]}});
   if (driven.empty()) return document.svg();
-  const auto machine = draw_panel(
-      document, {90, 580, 1040, 330},
-      "m4.toml on the same path of the tool, as its simulated motors ran: the triangle turned against the tool",
-      std::max(kM4PathEnd_s, driven.back().t_s), run);
-  for (std::size_t i = 0; i < 3; ++i)
-    drawing::draw_curve(document, machine, run[i], kBlockColours[i], 2.5);
+  const auto machine = draw_panel(document, {90, 580, 1040, 330},
+                                  "m4.toml on the same path of the tool, as its simulated motors ran: the "
+                                  "triangle turned against the tool",
+                                  std::max(kM4PathEnd_s, driven.back().t_s), run);
+  for (std::size_t i = 0; i < 3; ++i) drawing::draw_curve(document, machine, run[i], kBlockColours[i], 2.5);
   return document.svg();
 }
 

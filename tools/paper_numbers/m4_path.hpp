@@ -35,7 +35,8 @@ struct M4Drive {
   std::string refusal;  ///< pre-flight of the paper's own assembly, for the first line where it is singular
   std::string outcome;
   double duration_s = 0;
-  double off_um = 0;       ///< blocks from the closures, at the nearest time of the path; infinite: it did not end there
+  double off_um =
+      0;  ///< blocks from the closures, at the nearest time of the path; infinite: it did not end there
   double speed_ratio = 0;  ///< the largest of all joints
   std::vector<BlocksAt> blocks_driven;
 };
