@@ -11,7 +11,7 @@
 namespace kinebus {
 
 struct JointCalibration {
-  double scale = 0;     ///< relative, for example -0.00025 (paper M5's correction factors)
+  double scale = 0;     ///< measured travel / commanded - 1; a correction to apply has the other sign
   double offset = 0;    ///< mm or rad, added to the home switch position
   double backlash = 0;  ///< mm or rad: the whole gap, forth against back
   /// Error that repeats with each turn of a screw or pulley: e = sine sin(2 pi q / pitch) + cosine cos(...).

@@ -1,18 +1,12 @@
 #include "tools/kinematics/commands.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include "tools/kinematics/assemblies.hpp"
 
 namespace kinebus::kinematics_tool {
 namespace {
-
-std::string lower(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
 
 template <typename Vector>
 Vector filled(const std::vector<Subject::Axis>& axes, std::span<const double> values) {
@@ -69,6 +63,15 @@ void add_rule(Answer& answer, const std::string& broken) {
   if (!broken.empty()) answer.json["breaks"] = broken;
 }
 
+/// The answer to a row that is a pose, begun.
+Answer about_pose(const Question& q, Pose& pose) {
+  const auto& axes = q.subject.pose_axes();
+  pose = filled<Pose>(axes, q.values);
+  Answer answer;
+  answer.json["pose"] = named(axes, pose);
+  return answer;
+}
+
 // ---- inverse
 
 NumberColumns pose_columns(const Subject& s) {
@@ -81,9 +84,8 @@ std::vector<std::string> joint_columns(const Subject& s) {
 
 Answer inverse(const Question& q) {
   const Subject& s = q.subject;
-  Answer answer;
-  const auto pose = filled<Pose>(s.pose_axes(), q.values);
-  answer.json["pose"] = named(s.pose_axes(), pose);
+  Pose pose{};
+  Answer answer = about_pose(q, pose);
   JointVector joints{};
   if (const auto reached = s.kinematics().inverse(q.frame, pose, joints); !reached)
     return refused(std::move(answer), s, reached.error());
@@ -164,9 +166,8 @@ std::vector<std::string> jacobian_result(const Subject& s) {
 
 Answer jacobian(const Question& q) {
   const Subject& s = q.subject;
-  Answer answer;
-  const auto pose = filled<Pose>(s.pose_axes(), q.values);
-  answer.json["pose"] = named(s.pose_axes(), pose);
+  Pose pose{};
+  Answer answer = about_pose(q, pose);
   std::array<double, std::size_t{kMaxJoints} * kPoseAxes> matrix{};
   JointVector joints{};
   if (const auto reached = s.kinematics().jacobian(q.frame, pose, joints, matrix); !reached)
@@ -252,6 +253,40 @@ Answer acceleration(const Question& q) {
   return answer;
 }
 
+// ---- clearance
+
+std::vector<std::string> clearance_result(const Subject& s) {
+  std::vector<std::string> out = names(s.pose_axes());
+  out.emplace_back("clearance_mm");
+  return out;
+}
+
+Answer clearance(const Question& q) {
+  const Subject& s = q.subject;
+  const bodies::CollisionModel& model = *s.collision_model();
+  Pose pose{};
+  Answer answer = about_pose(q, pose);
+  JointVector joints{};
+  if (const auto reached = s.kinematics().inverse(q.frame, pose, joints); !reached)
+    return refused(std::move(answer), s, reached.error());
+  const auto nearest = model.clearance(q.frame, pose);
+  if (!nearest) return refused(std::move(answer), s, {PoseError::Kind::kOutOfReach});
+  std::string broken = broken_rule(q, pose);
+  if (nearest->mm < model.wanted_mm())
+    broken += (broken.empty() ? "" : ", ") + model.words(*nearest).english();
+  const std::string first = model.name(nearest->first).english(),
+                    second = model.name(nearest->second).english();
+  Answer::Line line{{}, first + " and " + second + (broken.empty() ? "" : "; " + broken)};
+  append(line.values, s.pose_axes(), pose);
+  line.values.push_back(nearest->mm);
+  answer.lines.push_back(std::move(line));
+  answer.json["clearance_mm"] = nearest->mm;
+  answer.json["between"] = {first, second};
+  answer.json["kept_mm"] = model.wanted_mm();
+  add_rule(answer, broken);
+  return answer;
+}
+
 constexpr Command kCommands[] = {
     {"inverse", "joints for a pose; what is broken of the machine's rules stands behind a #", pose_columns,
      joint_columns, inverse},
@@ -262,44 +297,15 @@ constexpr Command kCommands[] = {
      jacobian_result, jacobian},
     {"acceleration", "joints, their speed and acceleration for a pose, its speed and acceleration",
      path_columns, motion_columns, acceleration},
+    {"clearance",
+     "smallest clearance of all bodies of the machine file's [bodies] at a pose, and which two it is between",
+     pose_columns, clearance_result, clearance, true},
 };
 
 }  // namespace
 
 std::span<const Command> commands() {
   return kCommands;
-}
-
-std::string Subject::Axis::column(const char* per) const {
-  return lower(name) + (rotary ? "_deg" : "_mm") + per;
-}
-
-Result<Subject, std::string> Subject::of(MachineDescription machine) {
-  Subject s;
-  auto kinematics = make_kinematics(machine);
-  if (!kinematics) return Error<std::string>(kinematics.error().what);
-  s.machine_ = std::move(machine);
-  s.kinematics_ = std::move(*kinematics);
-  bool table = false, tilts = !std::holds_alternative<CoreXyGeometry>(s.machine_.kinematics) &&
-                              !std::holds_alternative<LinearDeltaGeometry>(s.machine_.kinematics);
-  for (int j = 0; j < s.kinematics_->joint_count(); ++j) {
-    const JointInfo info = s.kinematics_->joint_info(j);
-    if (info.name == "E") continue;
-    table = table || info.name == "C";
-    s.joints_.push_back({info.name, static_cast<std::size_t>(j), info.rotary});
-  }
-  if (const auto* cartesian = std::get_if<CartesianGeometry>(&s.machine_.kinematics))
-    tilts = cartesian->has_table;
-  s.pose_axes_ = {{"X", kX, false}, {"Y", kY, false}, {"Z", kZ, false}};
-  if (tilts) s.pose_axes_.push_back({"A", kA, true});
-  if (table) s.pose_axes_.push_back({"C", kC, true});
-  return s;
-}
-
-std::size_t Subject::mechanism_joints() const {
-  if (std::holds_alternative<M1Geometry>(machine_.kinematics)) return 4;
-  if (std::holds_alternative<M4Geometry>(machine_.kinematics)) return 3;
-  return joints_.size();
 }
 
 }  // namespace kinebus::kinematics_tool

@@ -2,46 +2,19 @@
 // What kinebus-kinematics answers: a row of numbers in, lines of numbers out. One entry of the table a
 // command.
 
-#include <memory>
+#include <iosfwd>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "gateway/description/machine_description.hpp"
 #include "tools/kinematics/number_table.hpp"
+#include "tools/kinematics/subject.hpp"
 
 namespace kinebus::kinematics_tool {
 
 using Json = nlohmann::ordered_json;
-
-/// A machine, and what of it takes part in its kinematics: all but the filament.
-class Subject {
- public:
-  /// The error: why no machine can have this geometry.
-  static Result<Subject, std::string> of(MachineDescription machine);
-
-  const MachineDescription& machine() const { return machine_; }
-  const Kinematics& kinematics() const { return *kinematics_; }
-
-  struct Axis {
-    std::string name;   ///< "X", "tower1"
-    std::size_t index;  ///< in a Pose or JointVector
-    bool rotary;
-    double unit() const { return rotary ? kRadPerDeg : 1; }  ///< of a number that a person reads
-    std::string column(const char* per = "") const;          ///< "x_mm", "x_mm_per_s"
-  };
-  const std::vector<Axis>& pose_axes() const { return pose_axes_; }
-  const std::vector<Axis>& joints() const { return joints_; }
-  /// So many joints belong to the mechanism that is not a table on its own: forward() needs them at least.
-  std::size_t mechanism_joints() const;
-
- private:
-  MachineDescription machine_;
-  std::unique_ptr<Kinematics> kinematics_;
-  std::vector<Axis> pose_axes_, joints_;
-};
 
 struct Question {
   const Subject& subject;
@@ -67,6 +40,7 @@ struct Command {
   NumberColumns (*columns)(const Subject&);
   std::vector<std::string> (*result_columns)(const Subject&);
   Answer (*answer)(const Question&);
+  bool of_bodies = false;  ///< asked of machines with bodies only
 };
 std::span<const Command> commands();
 

@@ -96,6 +96,10 @@ Result<int, std::string> execute(const Command& command, const Arguments& a, std
   if (a.mirrored && !std::holds_alternative<M4Geometry>(subject->machine().kinematics))
     return Error<std::string>("--mirrored: " + subject->machine().name +
                               " has no part that could be mounted mirrored; expected a machine of type m4");
+  if (command.of_bodies && subject->collision_model() == nullptr)
+    return Error<std::string>(a.machine +
+                              ": nobody knows what is solid; expected a table [bodies] in the machine file, "
+                              "whose keys all have defaults");
   auto rows = rows_of(a, command.columns(*subject), in);
   if (!rows) return Error<std::string>(rows.error());
   std::vector<std::pair<NumberRow, Answer>> answers;

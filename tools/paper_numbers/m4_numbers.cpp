@@ -1,5 +1,6 @@
-// M4: tables 4 and 6.
+// M4: table 6, and the path of table 4.
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -10,88 +11,84 @@
 namespace kinebus::papers {
 namespace {
 
-struct Printed {
+struct PrintedRow {
   double phi_deg, y_mm, x_mm;
-  bool mirrored;
-  double turned_deg;  ///< what the print left out
 };
-constexpr Printed kTable6[] = {{36.5, 163, -7.1, false, 0},
-                               {115.27, 219.5, -49.7, true, 0},
-                               {-249.91, 232, 248.8, false, 180},
-                               {77.46, 250.9, 221, true, 180}};
+constexpr PrintedRow kTable6[] = {
+    {36.5, 163, -7.1}, {115.27, 219.5, -49.7}, {-249.91, 232, 248.8}, {77.46, 250.9, 221}};
 constexpr Vector3 kInputs{932.6, 1029.4, 283.4};
 
-void table6(Table& t) {
-  const auto found = m4_assemblies({}, kInputs);
-  for (const Printed& p : kTable6) {
-    const double phi = std::remainder((p.phi_deg + p.turned_deg) * kRadPerDeg, 2 * std::numbers::pi);
-    const M4Assembly* nearest = nullptr;
-    const auto distance = [&](const M4Assembly& a) {
-      return std::hypot(a.pose.x_mm - p.x_mm, a.pose.y_mm - p.y_mm,
-                        100 * std::remainder(a.pose.phi_rad - phi, 2 * std::numbers::pi));
-    };
-    for (const M4Assembly& a : found)
-      if (a.mirrored == p.mirrored && (nearest == nullptr || distance(a) < distance(*nearest))) nearest = &a;
-    if (nearest == nullptr) {
-      t.above("an assembly for a printed row", 1, 0, "");
-      continue;
-    }
-    char name[96];
-    std::snprintf(name, sizeof name, "row (%.2f, %.1f, %.1f)%s%s", p.phi_deg, p.y_mm, p.x_mm,
-                  p.turned_deg != 0 ? ", 180 deg added" : "", p.mirrored ? ", mirrored triangle" : "");
-    t.note(name);
-    t.compare("    phi", phi / kRadPerDeg, nearest->pose.phi_rad / kRadPerDeg, 0.05, "deg");
-    t.compare("    yp", p.y_mm, nearest->pose.y_mm, 0.1, "mm");
-    t.compare("    xp", p.x_mm, nearest->pose.x_mm, 0.1, "mm");
-    t.below("    residual by substitution", 1e-9, nearest->residual_mm, "mm");
-  }
-  std::printf("  all %zu assemblies:      phi deg        yp mm        xp mm   residual\n", found.size());
-  for (const M4Assembly& a : found)
-    std::printf("    %-22s %10.4f %12.4f %12.4f   %.1e mm\n",
-                a.mirrored     ? "mirrored triangle"
-                : a.physical() ? "the real machine"
-                               : "a block below its tool",
-                a.pose.phi_rad / kRadPerDeg, a.pose.y_mm, a.pose.x_mm, a.residual_mm);
+/// Substitution: both rods' length errors and the height error of C, of one triangle or of its mirror image.
+Eigen::Vector3d substituted(const M4Geometry& g, const PlanarPose& p, bool mirrored) {
+  const double c = std::cos(p.phi_rad), s = std::sin(p.phi_rad), l = g.triangle_mm / 2;
+  const double height = (mirrored ? -1 : 1) * std::sqrt(3.0) * l;
+  return {std::hypot(p.x_mm - l * c + g.rails_mm / 2, p.y_mm - l * s - kInputs[0]) - g.rod_mm,
+          std::hypot(p.x_mm + l * c - g.rails_mm / 2, p.y_mm + l * s - kInputs[1]) - g.rod_mm,
+          p.y_mm + height * c - kInputs[2]};
 }
 
-void table4(Table& t) {
-  const M4Geometry g;
-  double closure = 0, back = 0;
-  double previous = 0, crossing = -1;
-  for (int k = 0; k <= 3000; ++k) {
-    const double time = 1e-3 * k;
-    const PlanarPose p{200 * std::cos(time), 100 + 200 * std::sin(time), -0.3 + 0.2 * time};
-    const auto inputs = m4_inputs(g, p);
-    if (!inputs) {
-      closure = HUGE_VAL;
-      break;
-    }
-    const double c = std::cos(p.phi_rad), s = std::sin(p.phi_rad), l = g.triangle_mm / 2;
-    const double h1 = p.x_mm - l * c + g.rails_mm / 2, h2 = p.x_mm + l * c - g.rails_mm / 2;
-    closure = std::max({closure, std::abs(std::hypot(h1, p.y_mm - l * s - (*inputs)[0]) - g.rod_mm),
-                        std::abs(std::hypot(h2, p.y_mm + l * s - (*inputs)[1]) - g.rod_mm)});
-    if (k % 20 == 0) {
-      double nearest = HUGE_VAL;
-      for (const M4Assembly& a : m4_assemblies(g, *inputs))
-        if (a.physical()) nearest = std::min(nearest, std::hypot(a.pose.x_mm - p.x_mm, a.pose.y_mm - p.y_mm));
-      back = std::max(back, nearest);
-    }
-    // d(y1, y2, y3) / d(x, y, phi): where its determinant changes sign the inputs no longer control the tool.
-    const double s1 = -h1 / std::sqrt(g.rod_mm * g.rod_mm - h1 * h1),
-                 s2 = -h2 / std::sqrt(g.rod_mm * g.rod_mm - h2 * h2);
-    const double f1 = -l * (c - s1 * s), f2 = l * (c - s2 * s), f3 = -std::sqrt(3.0) * l * s;
-    const double determinant = s1 * (f3 - f2) - s2 * (f3 - f1);
-    if (k > 0 && determinant * previous < 0) crossing = time;
-    previous = determinant;
+/// The closure next to a printed row: Newton by differences, no more than the paper's equations.
+PlanarPose closed_next_to(const M4Geometry& g, PlanarPose p, bool mirrored) {
+  for (int step = 0; step < 30; ++step) {
+    const Eigen::Vector3d r = substituted(g, p, mirrored);
+    Eigen::Matrix3d j;
+    constexpr double h = 1e-4;
+    j.col(0) = (substituted(g, {p.x_mm + h, p.y_mm, p.phi_rad}, mirrored) - r) / h;
+    j.col(1) = (substituted(g, {p.x_mm, p.y_mm + h, p.phi_rad}, mirrored) - r) / h;
+    j.col(2) = (substituted(g, {p.x_mm, p.y_mm, p.phi_rad + h / 100}, mirrored) - r) * (100 / h);
+    const Eigen::Vector3d move = j.fullPivLu().solve(-r);
+    p = {p.x_mm + move(0), p.y_mm + move(1), p.phi_rad + move(2)};
   }
-  t.below("path of table 4: both rods close", 1e-6, closure, "mm");
-  t.below("its poses found again by elimination", 1e-6, back, "mm");
-  char words[160];
-  std::snprintf(words, sizeof words,
-                "not in the paper: its path crosses the mechanism's singular curve at t = %.3f s (x = %.1f "
-                "mm, phi = %.2f deg)",
-                crossing, 200 * std::cos(crossing), (-0.3 + 0.2 * crossing) / kRadPerDeg);
-  t.note(words);
+  return p;
+}
+
+/// How far a printed row is from closing.
+double open_by(const M4Geometry& g, const PrintedRow& row, double turned_deg, bool mirrored) {
+  return substituted(g, {row.x_mm, row.y_mm, (row.phi_deg + turned_deg) * kRadPerDeg}, mirrored)
+      .cwiseAbs()
+      .maxCoeff();
+}
+
+void table6(Table& t, const M4Geometry& g) {
+  const auto found = m4_assemblies(g, kInputs);
+  const auto own = std::count_if(found.begin(), found.end(), [](const M4Assembly& a) { return !a.mirrored; });
+  int closing = 0;
+  for (const PrintedRow& row : kTable6) {
+    // As printed, with the half turn that the arc tangent loses, or with the triangle's mirror image.
+    double turned_deg = 0;
+    bool mirrored = false;
+    for (const bool mirror : {false, true})
+      for (const double turn : {0.0, 180.0})
+        if (open_by(g, row, turn, mirror) < open_by(g, row, turned_deg, mirrored)) {
+          turned_deg = turn;
+          mirrored = mirror;
+        }
+    closing += mirrored ? 0 : 1;
+    const PlanarPose follows =
+        closed_next_to(g, {row.x_mm, row.y_mm, (row.phi_deg + turned_deg) * kRadPerDeg}, mirrored);
+    const M4Assembly* here = nullptr;
+    const auto distance = [&](const M4Assembly& a) {
+      return std::hypot(a.pose.x_mm - follows.x_mm, a.pose.y_mm - follows.y_mm) +
+             (a.mirrored == mirrored ? 0 : 1e6);
+    };
+    for (const M4Assembly& a : found)
+      if (here == nullptr || distance(a) < distance(*here)) here = &a;
+    t.note(printed("row (%.2f, %.1f, %.1f): as printed it is open by %.3g mm", row.phi_deg, row.y_mm,
+                   row.x_mm, open_by(g, row, 0, false)) +
+           (turned_deg != 0 ? "; closes half a turn on" : "") +
+           (mirrored ? "; closes with the mirrored triangle only" : ""));
+    const auto degrees = [](double rad) { return std::remainder(rad / kRadPerDeg, 360); };
+    t.compare("    phi", row.phi_deg, degrees(follows.phi_rad), here ? degrees(here->pose.phi_rad) : NAN,
+              0.05, "deg");
+    t.compare("    yp", row.y_mm, follows.y_mm, here ? here->pose.y_mm : NAN, 0.1, "mm");
+    t.compare("    xp", row.x_mm, follows.x_mm, here ? here->pose.x_mm : NAN, 0.1, "mm");
+  }
+  t.compare("poses of the machine's own triangle", static_cast<double>(std::size(kTable6)), closing,
+            static_cast<double>(own), 0, "");
+  double residual = 0;
+  for (const M4Assembly& a : found)
+    residual = std::max(residual, substituted(g, a.pose, a.mirrored).cwiseAbs().maxCoeff());
+  t.compare("largest residual of all assemblies found, by substitution", {}, 0, residual, 1e-9, "mm");
 }
 
 }  // namespace
@@ -99,9 +96,11 @@ void table4(Table& t) {
 int m4(const std::string& folder) {
   Table t(
       "M4, hybrid mill: forward kinematics (table 6) for 932.6, 1029.4, 283.4 mm, and the path of table 4");
-  table6(t);
-  table4(t);
-  write_picture(folder, "m4-assemblies.svg", draw_m4_assemblies());
+  const MachineDescription machine = shipped("m4");
+  const auto& g = std::get<M4Geometry>(machine.kinematics);
+  table6(t, g);
+  m4_path(t, machine, folder);
+  if (!folder.empty()) write_picture(folder, "m4-assemblies.svg", draw_m4_assemblies(g));
   return t.wrong();
 }
 

@@ -69,8 +69,7 @@ void draw_assembly(drawing::Document& document, const M4Geometry& g, const Vecto
 
 }  // namespace
 
-std::string draw_m4_assemblies() {
-  const M4Geometry g;
+std::string draw_m4_assemblies(const M4Geometry& g) {
   const Vector3 inputs{932.6, 1029.4, 283.4};
   auto found = m4_assemblies(g, inputs);
   std::erase_if(found, [](const M4Assembly& a) { return !a.block_above[0] || !a.block_above[1]; });
