@@ -126,7 +126,7 @@ TEST(Segmenter, CurvesInFiveAxesStayWithinHalfACount) {
                                                                  .speed_mm_per_s = 60,
                                                                  .accel_mm_per_s2 = 1000,
                                                                  .piece_mm = piece,
-                                                                 .tilt_rad = 0.4,
+                                                                 .tilt_rad = 0.3,
                                                                  .turn_rad = 1}));
       for (const NodeAxes& node : m1_axes()) {
         const Outcome o = stream(node, spans);
