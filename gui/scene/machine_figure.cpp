@@ -127,14 +127,14 @@ void pose_m1(const MachineModel& m, const PartPose& pose, const std::vector<doub
   // Frame: the rails' feet on the ground, and a portal that the table passes under, from which the nozzle
   // hangs.
   const double x = reach_x + 26, top = m.nozzle_mm[2] + 160;
-  const double post = std::max(x, 2 * m.radius_mm + 50);
+  const double column = std::max(x, 2 * m.radius_mm + 50);
   for (const double side : {-1.0, 1.0}) {
     build.box(Finish::kFrame, {0, side * reach_y, 20}, {2 * x + 40, 40, 40});
     build.box(Finish::kFrame, {side * x, 0, 20}, {40, 2 * reach_y - 40, 40});
-    build.bar(Body::kBox, Finish::kFrame, {side * post, 0, 0}, {side * post, 0, top}, 40);
+    build.bar(Body::kBox, Finish::kFrame, {side * column, 0, 0}, {side * column, 0, top}, 40);
   }
-  build.box(Finish::kFrame, {0, 0, 20}, {2 * post, 40, 40});
-  build.box(Finish::kFrame, {0, 0, top}, {2 * post + 40, 40, 40});
+  build.box(Finish::kFrame, {0, 0, 20}, {2 * column, 40, 40});
+  build.box(Finish::kFrame, {0, 0, top}, {2 * column + 40, 40, 40});
   build.bar(Body::kBox, Finish::kFrame, m.nozzle_mm + Vec3{0, 0, 62},
             {m.nozzle_mm[0], m.nozzle_mm[1], top - 20}, 22);
   build.hotend(m.nozzle_mm, hot);
