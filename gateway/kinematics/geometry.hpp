@@ -51,7 +51,7 @@ struct M1Leg {
 /// The default stands on its legs: carriages below, table, part and nozzle free above. Over a cylinder of 200
 /// mm diameter and 200 mm height and |A| <= 45 deg its legs lean 27.4 deg at most, stay 91 mm from each
 /// other, 65 mm from other legs' rails and 19 deg under the platform's plane; condition number 7.34 at most,
-/// carriages at 53.8 to 528.1 mm. Rails and attachments of one side are no mirror image of the other's: else
+/// carriages at 53.8 to 525.0 mm. Rails and attachments of one side are no mirror image of the other's: else
 /// y and A could not be told apart. With connectors of 15 mm on the side whose legs lean more, a level table
 /// has its carriages at one height.
 struct M1Geometry {
