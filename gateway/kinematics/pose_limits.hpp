@@ -60,7 +60,7 @@ inline std::span<double> jacobian_row(std::span<double> matrix, std::size_t row)
 double condition_number(const double* matrix, int n);
 
 /// The same, without singular values, for a 4 x 4 matrix: true when it is at most `most`; false says nothing
-/// when it is within 5 % of that.
+/// when it is more than that less 9 %.
 bool condition_is_within_4(const double* matrix, double most);
 
 }  // namespace kinebus
