@@ -9,13 +9,13 @@ namespace kinebus {
 namespace {
 
 HomingDescription tower_homing(std::uint8_t input) {
-  return {.method = 20,
+  return {.method = 22,
           .switch_input = input,
           .fast_per_s = 40,
           .slow_per_s = 4,
           .accel_per_s2 = 500,
           .back_off = 5,
-          .switch_position = 1030,
+          .switch_position = 40,
           .max_search = 600,
           .order = 1};
 }
@@ -26,7 +26,7 @@ JointDescription tower(int number) {
   j.node_id = static_cast<std::uint8_t>((number + 1) / 2);
   j.axis = static_cast<std::uint8_t>((number - 1) % 2);
   j.drive.travel_per_turn = 40;
-  j.travel = {530, 1030};
+  j.travel = {40, 540};
   j.speed_per_s = 450;
   j.accel_per_s2 = 5000;
   j.stop_accel_per_s2 = 10000;
@@ -43,6 +43,8 @@ MachineDescription default_m1() {
   d.name = "M1";
   d.kinematics = M1Geometry{};
   d.gcode.traverse_mm_per_s = 300;
+  // Upright legs pass a carriage's error on up to 3.6 times: 0.3 microsteps keep the tool within 1.5 um.
+  d.tolerances.segment_counts = 0.3;
   for (int number = 1; number <= 4; ++number) d.joints.push_back(tower(number));
   JointDescription c;
   c.name = "C";
@@ -160,6 +162,7 @@ void prepare_kinematics(MachineDescription& d, int kind) {
     case 0: {
       M1Geometry g;
       g.limits = {};
+      g.min_platform_clearance_rad = 0;
       d.kinematics = g;
       break;
     }
@@ -184,6 +187,7 @@ void prepare_kinematics(MachineDescription& d, int kind) {
     default: {
       M5Geometry g;
       g.limits = {};
+      g.min_platform_clearance_rad = 0;
       d.kinematics = g;
       break;
     }

@@ -116,6 +116,7 @@ class Rules {
             Sentence::verbatim(shown(h.switch_position)),
             say("within the joint's travel, %1 .. %2", shown(j.travel.min), shown(j.travel.max)));
     if (h.method == 37) return;
+    away_from_nozzle(j, h, key + "method");
     const NodeDescription* node = d_.node(j.node_id);
     if (node == nullptr) return;
     const InputFunction wanted = h.method == 17   ? InputFunction::kNegativeLimit
@@ -131,6 +132,26 @@ class Rules {
             wanted == InputFunction::kHome
                 ? say("an input of node %1 that has the home function for axis %2", j.node_id, axis)
                 : say("an input of node %1 that has the limit function for axis %2", j.node_id, axis));
+  }
+
+  /// M1 and M5: the nozzle is fixed over the table, so that a platform that homes upwards runs into it.
+  void away_from_nozzle(const JointDescription& j, const HomingDescription& h, const std::string& key) {
+    const auto* m1 = std::get_if<M1Geometry>(&d_.kinematics);
+    const auto* m5 = std::get_if<M5Geometry>(&d_.kinematics);
+    const M1Geometry* g = m5 != nullptr ? m5 : m1;
+    const auto leg = static_cast<std::size_t>(&j - d_.joints.data());
+    if (g == nullptr || leg >= g->legs.size()) return;
+    const Vector3& rail = g->legs[leg].rail;
+    const double length = std::hypot(rail[0], rail[1], rail[2]);
+    if (!(length > 0)) return;
+    // A rail nearer to level than 60 deg from upright carries the platform past the nozzle more than towards
+    // it.
+    constexpr double kUpwards = 0.5;
+    const double up = (h.towards_positive() ? 1 : -1) * rail[2] / length;
+    const int other = h.method <= 18 ? 35 - h.method : h.method <= 20 ? h.method + 2 : h.method - 2;
+    require(up <= kUpwards, {key, "kinematics.leg" + std::to_string(leg + 1) + ".rail"},
+            say("%1, which homes towards the nozzle", static_cast<int>(h.method)),
+            say("homing away from the nozzle: method %1, with the switch at the rail's other end", other));
   }
 
   void nodes() {

@@ -34,32 +34,41 @@ struct PoseLimits {
 
 /// One leg of M1 (paper M1, eq. 1-5), machine frame, mm.
 struct M1Leg {
-  Vector3 foot_mm{};           ///< a: start of the rail
-  Vector3 rail{0, 0, 1};       ///< d^: direction of positive travel; normalised when used
-  Vector3 attachment_mm{};     ///< b: on the platform, platform frame
-  double length_mm = 640;      ///< l
-  double connector_mm = 0;     ///< c: from carriage to the leg's upper joint along the rail
-  bool carriage_above = true;  ///< the branch: carriage ahead of the platform along d^ (+ root), or behind
-  Interval travel_mm{530, 1030};
+  Vector3 foot_mm{};        ///< a: start of the rail
+  Vector3 rail{0, 0, 1};    ///< d^: direction of positive travel; normalised when used
+  Vector3 attachment_mm{};  ///< b: on the platform, platform frame
+  double length_mm = 991;   ///< l
+  /// c: at the platform's end, from the leg to its attachment along the rail. It stays parallel to the rail
+  /// at every tilt, so the leg runs from a + q d^ to p + R b - c d^.
+  double connector_mm = 0;
+  bool carriage_above = false;  ///< the branch: carriage ahead of the platform along d^ (+ root), or behind
+  Interval travel_mm{40, 540};
   friend bool operator==(const M1Leg&, const M1Leg&) = default;
 };
 
 /// Four-leg parallel mechanism (x, y, z, A) with rotary table C on the platform and a fixed nozzle.
+///
+/// The default stands on its legs: carriages below, table, part and nozzle free above. Over a cylinder of 200
+/// mm diameter and 200 mm height and |A| <= 45 deg its legs lean 27.4 deg at most, stay 91 mm from each
+/// other, 65 mm from other legs' rails and 19 deg under the platform's plane; condition number 7.34 at most,
+/// carriages at 53.8 to 525.0 mm. Rails and attachments of one side are no mirror image of the other's: else
+/// y and A could not be told apart. With connectors of 15 mm on the side whose legs lean more, a level table
+/// has its carriages at one height.
 struct M1Geometry {
   std::array<M1Leg, 4> legs{{
-      {.foot_mm = {310, 210, 0}, .attachment_mm = {75, 90, 0}, .connector_mm = 25},
-      {.foot_mm = {310, -210, 0}, .attachment_mm = {75, -90, 0}, .connector_mm = 0},
-      {.foot_mm = {-310, -210, 0}, .attachment_mm = {-75, 45, 0}, .connector_mm = 25},
-      {.foot_mm = {-310, 210, 0}, .attachment_mm = {-75, -45, 0}, .connector_mm = 0},
+      {.foot_mm = {273, 63, 0}, .attachment_mm = {124, 128, -5}, .connector_mm = 0},
+      {.foot_mm = {273, -63, 0}, .attachment_mm = {124, -128, -5}, .connector_mm = 0},
+      {.foot_mm = {-273, -252, 0}, .attachment_mm = {-124, -69, -5}, .connector_mm = 15},
+      {.foot_mm = {-273, 252, 0}, .attachment_mm = {-124, 69, -5}, .connector_mm = 15},
   }};
-  Vector3 nozzle_mm{0, 0, 300};  ///< n
+  Vector3 nozzle_mm{0, 0, 1340};  ///< n
   PoseLimits limits{.z_mm = {-5, 250}, .a_rad = {-45 * kRadPerDeg, 45 * kRadPerDeg}, .radius_mm = 150};
-  double max_leg_angle_rad = 58 * kRadPerDeg;  ///< between a leg and its rail; pi/2: no limit
+  double max_leg_angle_rad = 30 * kRadPerDeg;  ///< between a leg and its rail; pi/2: no limit
   /// Smallest angle between a rail and the arm from platform centre to attachment, either way; 0: no limit.
   double min_rail_clearance_rad = 0;
-  /// Smallest angle of a leg above the platform's plane; 0: no limit.
-  double min_platform_clearance_rad = 0;
-  double max_condition = 10;  ///< of J, with A scaled by rotation_scale_mm
+  /// Smallest angle between a leg and the platform's plane, on the side that its carriage is on; 0: no limit.
+  double min_platform_clearance_rad = 15 * kRadPerDeg;
+  double max_condition = 8;  ///< of J, with A scaled by rotation_scale_mm
   double rotation_scale_mm = 100;
   double bed_reference_mm =
       20;  ///< height of the nozzle over the table's centre at the bed reference position

@@ -31,7 +31,8 @@ class M1 final : public Kinematics {
   explicit M1(const M1Geometry& geometry)
       : g_(geometry),
         legs_(geometry),
-        least_cosine_(std::cos(std::min(geometry.max_leg_angle_rad, std::numbers::pi / 2))) {}
+        least_cosine_(std::cos(std::min(geometry.max_leg_angle_rad, std::numbers::pi / 2))),
+        least_rise_(std::sin(std::min(geometry.min_platform_clearance_rad, std::numbers::pi / 2))) {}
 
   std::string name() const override { return "m1"; }
   int joint_count() const override { return kJoints; }
@@ -178,7 +179,7 @@ class M1 final : public Kinematics {
 
     double matrix[16];
     parallel_jacobian(legs, matrix);
-    if (condition_bound_4(matrix) <= g_.max_condition) return {};
+    if (condition_is_within_4(matrix, g_.max_condition)) return {};
     const double cond = condition_number(matrix, 4);
     if (!(cond <= g_.max_condition)) return Error<PoseError>({Kind::kSingular, -1, cond});
     return {};
@@ -269,13 +270,16 @@ class M1 final : public Kinematics {
       }
       if (g_.min_platform_clearance_rad > 0) {
         const double w = legs.w[i];
-        // From the attachment up the leg, along the platform's normal R z^ = (0, -sin A, cos A).
-        const double up_y = legs_.ay[i] + w * legs_.dy[i] - p[1] - b[1];
-        const double up_z = legs_.az[i] + w * legs_.dz[i] - p[2] - b[2];
-        const double rise = (-a.s * up_y + a.c * up_z) / leg.length_mm;
-        const double elevation = std::asin(std::clamp(rise, -1.0, 1.0));
-        if (elevation < g_.min_platform_clearance_rad)
+        // From the platform along the leg, on the platform's normal R z^ = (0, -sin A, cos A); what counts as
+        // free is the side of the carriage.
+        const double leg_y = legs_.ay[i] + w * legs_.dy[i] - p[1] - b[1];
+        const double leg_z = legs_.az[i] + w * legs_.dz[i] - p[2] - b[2];
+        const double side = legs_.branch[i] * (legs_.dz[i] < 0 ? -1 : 1);
+        const double rise = side * (-a.s * leg_y + a.c * leg_z) / leg.length_mm;
+        if (rise < least_rise_) {
+          const double elevation = std::asin(std::max(rise, -1.0));
           return PoseError{Kind::kClearance, i, g_.min_platform_clearance_rad - elevation, true};
+        }
       }
     }
     return std::nullopt;
@@ -300,6 +304,7 @@ class M1 final : public Kinematics {
   M1Geometry g_;
   LegTable legs_;
   double least_cosine_;  ///< of a leg's angle against its rail
+  double least_rise_;    ///< sine of a leg's angle against the platform's plane
 };
 
 }  // namespace

@@ -59,7 +59,8 @@ inline std::span<double> jacobian_row(std::span<double> matrix, std::size_t row)
 /// singular.
 double condition_number(const double* matrix, int n);
 
-/// An upper bound of it that costs a determinant only (Guggenheimer, Edelman, Johnson 1995), 4 x 4.
-double condition_bound_4(const double* matrix);
+/// The same, without singular values, for a 4 x 4 matrix: true when it is at most `most`; false says nothing
+/// when it is more than that less 9 %.
+bool condition_is_within_4(const double* matrix, double most);
 
 }  // namespace kinebus

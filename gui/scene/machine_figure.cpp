@@ -87,11 +87,9 @@ void rail_and_carriage(Builder& build, const MachineModel::Leg& leg, double trav
             guide + (top - 10) * leg.rail, 13);
   const Vec3 carriage = leg.foot_mm + travel_mm * leg.rail;
   build.bar(Body::kBox, Finish::kCarriage, carriage - 30 * leg.rail, carriage + 30 * leg.rail, 44);
-  // The arm to the leg's joint.
-  if (std::abs(leg.connector_mm) > 1)
-    build.bar(Body::kCylinder, Finish::kJoint, carriage, carriage + leg.connector_mm * leg.rail, 12);
-  // The optical switch's flag near the end of the travel.
-  build.box(Finish::kMark, leg.foot_mm + (leg.travel_mm.max + 38) * leg.rail - 4 * inwards, {20, 20, 8});
+  // The optical switch, at the end that carriages home to: away from the platform's tool.
+  const double end = leg.carriage_above ? leg.travel_mm.max + 38 : leg.travel_mm.min - 38;
+  build.box(Finish::kMark, leg.foot_mm + end * leg.rail - 4 * inwards, {20, 20, 8});
 }
 
 double travel_of(const MachineModel& model, const PartPose& pose, const std::vector<double>& joints_mm,
@@ -112,28 +110,31 @@ void pose_m1(const MachineModel& m, const PartPose& pose, const std::vector<doub
   figure.part_frame.rotate(static_cast<float>(pose.c_rad) * kDegPerRad, 0, 0, 1);
   figure.tool.translate(to_qt(m.nozzle_mm));
 
-  double reach_x = 0, reach_y = 0, top = 0;
+  double reach_x = 0, reach_y = 0;
   for (std::size_t i = 0; i < m.legs.size(); ++i) {
     const auto& leg = m.legs[i];
     const double travel = travel_of(m, pose, joints_mm, i);
     const Vec3 inwards = unit({-leg.foot_mm[0], 0, 0});
     rail_and_carriage(build, leg, travel, inwards);
-    const Vec3 upper = leg.foot_mm + (travel + leg.connector_mm) * leg.rail;
-    const Vec3 lower = p + turn_x(pose.a_rad, leg.attachment_mm);
-    parallelogram(build, upper, lower, {1, 0, 0});
+    const Vec3 attachment = p + turn_x(pose.a_rad, leg.attachment_mm);
+    const Vec3 joint = attachment - leg.connector_mm * leg.rail;
+    parallelogram(build, leg.foot_mm + travel * leg.rail, joint, {1, 0, 0});
+    // The connector stays parallel to the rail.
+    if (std::abs(leg.connector_mm) > 1) build.bar(Body::kCylinder, Finish::kJoint, joint, attachment, 12);
     reach_x = std::max(reach_x, std::abs(leg.foot_mm[0]));
     reach_y = std::max(reach_y, std::abs(leg.foot_mm[1]));
-    top = std::max(top, leg.travel_mm.max + 70);
   }
-  // Frame: feet on the ground and beams at the top; the nozzle hangs from a column in the middle.
-  const double x = reach_x + 26;
+  // Frame: the rails' feet on the ground, and a portal that the table passes under, from which the nozzle
+  // hangs.
+  const double x = reach_x + 26, top = m.nozzle_mm[2] + 160;
+  const double column = std::max(x, 2 * m.radius_mm + 50);
   for (const double side : {-1.0, 1.0}) {
-    build.box(Finish::kFrame, {0, side * reach_y, top}, {2 * x + 40, 40, 40});
-    build.box(Finish::kFrame, {side * x, 0, top}, {40, 2 * reach_y - 40, 40});
     build.box(Finish::kFrame, {0, side * reach_y, 20}, {2 * x + 40, 40, 40});
     build.box(Finish::kFrame, {side * x, 0, 20}, {40, 2 * reach_y - 40, 40});
+    build.bar(Body::kBox, Finish::kFrame, {side * column, 0, 0}, {side * column, 0, top}, 40);
   }
-  build.box(Finish::kFrame, {m.nozzle_mm[0], 0, top}, {40, 2 * reach_y - 40, 40});
+  build.box(Finish::kFrame, {0, 0, 20}, {2 * column, 40, 40});
+  build.box(Finish::kFrame, {0, 0, top}, {2 * column + 40, 40, 40});
   build.bar(Body::kBox, Finish::kFrame, m.nozzle_mm + Vec3{0, 0, 62},
             {m.nozzle_mm[0], m.nozzle_mm[1], top - 20}, 22);
   build.hotend(m.nozzle_mm, hot);

@@ -26,9 +26,9 @@ struct MachineModel {
   enum class Kind { kM1, kCartesian, kCoreXy, kLinearDelta };
   struct Leg {
     Vec3 foot_mm{}, rail{0, 0, 1}, attachment_mm{};
-    double length_mm = 640, connector_mm = 0;
-    bool carriage_above = true;
-    Range travel_mm{530, 1030};
+    double length_mm = 991, connector_mm = 0;
+    bool carriage_above = false;
+    Range travel_mm{40, 540};
     double speed_mm_per_s = 450;
   };
   Kind kind = Kind::kM1;

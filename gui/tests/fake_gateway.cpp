@@ -13,8 +13,8 @@ joblink::MachineInfo m1_info() {
   m.set_name("M1");
   m.set_kinematics("m1");
   m.set_bus("inproc");
-  const double feet[4][2] = {{310, 210}, {310, -210}, {-310, -210}, {-310, 210}};
-  const double attachments[4][2] = {{75, 90}, {75, -90}, {-75, 45}, {-75, -45}};
+  const double feet[4][2] = {{273, 63}, {273, -63}, {-273, -252}, {-273, 252}};
+  const double attachments[4][2] = {{124, 128}, {124, -128}, {-124, -69}, {-124, 69}};
   for (int i = 0; i < 6; ++i) {
     auto& joint = *m.add_joints();
     joint.set_name(i < 4 ? "tower" + std::to_string(i + 1) : i == 4 ? "C" : "E");
@@ -24,21 +24,22 @@ joblink::MachineInfo m1_info() {
     joint.set_speed_per_s(450);
     if (i >= 4) continue;
     joint.set_home_switch(static_cast<std::uint32_t>(i % 2 + 1));
-    joint.mutable_travel()->set_min(530);
-    joint.mutable_travel()->set_max(1030);
+    joint.mutable_travel()->set_min(40);
+    joint.mutable_travel()->set_max(540);
     auto& leg = *m.mutable_legs()->add_legs();
     leg.mutable_foot()->set_x_mm(feet[i][0]);
     leg.mutable_foot()->set_y_mm(feet[i][1]);
     leg.mutable_rail()->set_z_mm(1);
     leg.mutable_attachment()->set_x_mm(attachments[i][0]);
     leg.mutable_attachment()->set_y_mm(attachments[i][1]);
-    leg.set_length_mm(640);
-    leg.set_connector_mm(i % 2 == 0 ? 25 : 0);
-    leg.set_carriage_above(true);
-    leg.mutable_travel_mm()->set_min(530);
-    leg.mutable_travel_mm()->set_max(1030);
+    leg.mutable_attachment()->set_z_mm(-5);
+    leg.set_length_mm(991);
+    leg.set_connector_mm(i < 2 ? 0 : 15);
+    leg.set_carriage_above(false);
+    leg.mutable_travel_mm()->set_min(40);
+    leg.mutable_travel_mm()->set_max(540);
   }
-  m.mutable_legs()->mutable_nozzle()->set_z_mm(300);
+  m.mutable_legs()->mutable_nozzle()->set_z_mm(1340);
   for (std::uint32_t i = 1; i <= 3; ++i) m.add_nodes()->set_id(i);
   m.mutable_reach()->set_radius_mm(150);
   m.mutable_reach()->mutable_z_mm()->set_min(-5);

@@ -257,7 +257,7 @@ TEST_F(SessionTest, AnAxisWithAnEncoderSaysWhereItReallyIs) {
   const auto said = [&](int row, AxesModel::Column column) {
     return axes.index(row, column).data().toString().remove(QChar(0x2066)).remove(QChar(0x2069));
   };
-  for (int i = 0; i < 6; ++i) gateway.status.add_joints(780);
+  for (int i = 0; i < 6; ++i) gateway.status.add_joints(290);
   connect();
   ASSERT_TRUE(wait_until([&] { return session.status().joints_size() == 6; }));
   EXPECT_FALSE(axes.measured());
@@ -265,15 +265,15 @@ TEST_F(SessionTest, AnAxisWithAnEncoderSaysWhereItReallyIs) {
   gateway.status.mutable_nodes(0)->mutable_axes(1)->set_off_course(0.012);
   ASSERT_TRUE(wait_until([&] { return axes.measured(); }));
   EXPECT_EQ(said(0, AxesModel::kMeasured), QStringLiteral("–")) << "the other axis of the node has none";
-  EXPECT_EQ(said(1, AxesModel::kPosition), QStringLiteral("780.000 mm"));
-  EXPECT_EQ(said(1, AxesModel::kMeasured), QStringLiteral("779.988 mm"));
+  EXPECT_EQ(said(1, AxesModel::kPosition), QStringLiteral("290.000 mm"));
+  EXPECT_EQ(said(1, AxesModel::kMeasured), QStringLiteral("289.988 mm"));
   EXPECT_EQ(said(1, AxesModel::kError), QStringLiteral("-12 µm"));
 }
 
 TEST_F(SessionTest, AxesAndNodesFollowTheStatus) {
   AxesModel axes(session);
   NodesModel nodes(session);
-  for (int i = 0; i < 6; ++i) gateway.status.add_joints(i < 4 ? 780 : 0);
+  for (int i = 0; i < 6; ++i) gateway.status.add_joints(i < 4 ? 290 : 0);
   gateway.status.mutable_nodes(1)->set_inputs(1);
   connect();
   ASSERT_TRUE(wait_until([&] { return nodes.rowCount() == 3; }));

@@ -1877,6 +1877,14 @@
         <translation>گره‌ای که جدولش هست، [node.%1]</translation>
     </message>
     <message>
+        <source>%1, which homes towards the nozzle</source>
+        <translation>%1، که به سوی نازل خانه‌یابی می‌کند</translation>
+    </message>
+    <message>
+        <source>homing away from the nozzle: method %1, with the switch at the rail&apos;s other end</source>
+        <translation>خانه‌یابی به دور از نازل: روش %1، با کلید در سر دیگر ریل</translation>
+    </message>
+    <message>
         <source>an even number: ramps travel in 2 ms</source>
         <translation>عدد زوج: شیب‌ها با 2 ms می‌روند</translation>
     </message>

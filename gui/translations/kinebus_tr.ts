@@ -1877,6 +1877,14 @@
         <translation>tablosu olan bir düğüm, [node.%1]</translation>
     </message>
     <message>
+        <source>%1, which homes towards the nozzle</source>
+        <translation>%1, nozüle doğru sıfırlar</translation>
+    </message>
+    <message>
+        <source>homing away from the nozzle: method %1, with the switch at the rail&apos;s other end</source>
+        <translation>nozülden uzağa sıfırlama: yöntem %1, anahtar rayın öbür ucunda</translation>
+    </message>
+    <message>
         <source>an even number: ramps travel in 2 ms</source>
         <translation>çift sayı: rampalar 2 ms&apos;lik adımlarla gider</translation>
     </message>

@@ -17,7 +17,7 @@ namespace {
 
 struct Arguments {
   std::string machine, svg, stl, ply;
-  double step_mm = 2, tilt_step_deg = 2, dexterous = 4;
+  double step_mm = 2, tilt_step_deg = 2, dexterous = 8;
   int threads = 2;
   std::vector<double> wanted;  // radius, height, tilt from, tilt to
   bool optimise = false;
@@ -219,7 +219,7 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(0.5, 90.0));
     app.add_option("--threads", a.threads, "Default 2")->check(CLI::Range(1, 64));
     app.add_option("--dexterous", a.dexterous,
-                   "Condition number up to which the dexterity map counts (default 4)");
+                   "Condition number up to which the dexterity map counts (default 8)");
     app.add_option("--svg", a.svg, "Picture");
     app.add_option("--stl", a.stl, "Boundary as binary STL");
     app.add_option("--ply", a.ply, "Boundary as PLY, coloured by the share of tilts");

@@ -13,7 +13,7 @@ struct Fitness {
   double worst_condition = 0;  ///< over the reached poses
   double worst_leg_angle_rad = 0;
   Interval travel_mm{};     ///< that the carriages use, all legs together
-  double footprint_mm = 0;  ///< radius of the rails' circle
+  double footprint_mm = 0;  ///< radius of the circle around the rails
   double cost = 0;          ///< what the search makes small
 };
 

@@ -16,7 +16,7 @@ struct ScanOptions {
   double ray_step_mm = 2;  ///< between rays at the largest radius
   double tilt_step_rad = 2 * kRadPerDeg;
   int threads = 2;
-  double dexterous_condition = 4;  ///< tilts with a condition number up to this count for the dexterity map
+  double dexterous_condition = 8;  ///< tilts with a condition number up to this count for the dexterity map
 };
 
 /// What a scan covers: a cylinder around the table's centre.

@@ -20,8 +20,8 @@ using namespace kinebus;
 using namespace kinebus::emulator;
 using namespace std::chrono_literals;
 
-// The default machine's carriages on nodes 1 and 2, with switches at 1030 mm; node 3 turns the table and the
-// extruder.
+// The default machine's carriages on nodes 1 and 2, with switches under them at 40 mm; node 3 turns the table
+// and the extruder.
 EmulatedNodeOptions board_of(int node) {
   constexpr double kCountsPerMm = 1280;
   EmulatedNodeOptions options;
@@ -31,9 +31,10 @@ EmulatedNodeOptions board_of(int node) {
   if (node > 2) return options;
   for (int axis = 0; axis < 2; ++axis) {
     VirtualAxis& a = options.board.axes[static_cast<std::size_t>(axis)];
-    a.start_counts = (960 + 2 * node - axis) * kCountsPerMm;
+    a.start_counts = (110 - 2 * node + axis) * kCountsPerMm;
     a.switch_input = axis + 1;
-    a.switch_counts = 1030 * kCountsPerMm;
+    a.switch_counts = 40 * kCountsPerMm;
+    a.active_above = false;
   }
   return options;
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <cstring>
 #include <fstream>
 #include <sstream>
 
@@ -85,7 +86,7 @@ TEST(MachineFile, AWrongKeyIsRefusedWithItsLineWhatWasFoundAndWhatIsAllowed) {
        "joint.tower1.speed_mm_per_s: found 'fast'; expected a number in 0.001 .. 100000"},
       {"speed_mm_per_s = 450 ", "speed_mm_per_s = nan ",
        "joint.tower1.speed_mm_per_s: found nan; expected a number in 0.001 .. 100000"},
-      {"max_condition = 10 ", "max_condition = inf ",
+      {"max_condition = 8 ", "max_condition = inf ",
        "kinematics.max_condition: found inf; expected a number in 1 .. 1000"},
       {"microsteps = 256 ", "microstep = 256 ",
        "joint.tower1.microstep: found a key that does not exist; expected perhaps microsteps"},
@@ -93,11 +94,11 @@ TEST(MachineFile, AWrongKeyIsRefusedWithItsLineWhatWasFoundAndWhatIsAllowed) {
        "joint.tower1.microsteps: found 100; expected a power of two"},
       {"node = 1 ", "node = 1.5 ", "joint.tower1.node: found 1.5; expected a whole number in 1 .. 126"},
       {"axis = \"A\" ", "axis = \"C\" ", "joint.tower1.axis: found 'C'; expected one of \"A\" \"B\""},
-      {"nozzle_mm = [0, 0, 300]", "nozzle_mm = [0, 300]",
+      {"nozzle_mm = [0, 0, 1340]", "nozzle_mm = [0, 300]",
        "kinematics.nozzle_mm: found an array of 2; expected three numbers, each in -10000 .. 10000"},
-      {"nozzle_mm = [0, 0, 300]", "nozzle_mm = 300",
+      {"nozzle_mm = [0, 0, 1340]", "nozzle_mm = 300",
        "kinematics.nozzle_mm: found 300; expected three numbers, each in -10000 .. 10000"},
-      {"travel_mm = [530, 1030]", "travel_mm = [1030, 530]",
+      {"travel_mm = [40, 540]", "travel_mm = [540, 40]",
        "joint.tower1.travel_mm: found an array of 2; expected [least, most], least below most, in -100000 .. "
        "100000"},
       {"inverted = false ", "inverted = 0 ", "joint.tower1.inverted: found 0; expected true or false"},
@@ -120,8 +121,11 @@ TEST(MachineFile, AWrongKeyIsRefusedWithItsLineWhatWasFoundAndWhatIsAllowed) {
       {"switch_input = 1 ", "switch_input = 3 ",
        "joint.tower1.homing.switch_input: found 3; expected an input of node 1 that has the home function "
        "for axis A"},
-      {"switch_position_mm = 1030 ", "switch_position_mm = 1031 ",
-       "joint.tower1.homing.switch_position_mm: found 1031; expected within the joint's travel, 530 .. 1030"},
+      {"switch_position_mm = 40 ", "switch_position_mm = 39 ",
+       "joint.tower1.homing.switch_position_mm: found 39; expected within the joint's travel, 40 .. 540"},
+      {"method = 22 ", "method = 20 ",
+       "joint.tower1.homing.method: found 20, which homes towards the nozzle; expected homing away from the "
+       "nozzle: method 22, with the switch at the rail's other end"},
       {"slow_mm_per_s = 4 ", "slow_mm_per_s = 41 ",
        "joint.tower1.homing.slow_mm_per_s: found 41; expected at most the fast speed, 40"},
       {"hold_current_ma = 1500 ", "hold_current_ma = 2500 ",
@@ -162,7 +166,7 @@ TEST(MachineFile, AMissingTableIsOneError) {
 }
 
 TEST(MachineFile, AllMistakesAreReportedTogetherInTheOrderOfTheFile) {
-  std::string text = edited("nozzle_mm = [0, 0, 300]", "nozle_mm = [0, 0, 300]").text;
+  std::string text = edited("nozzle_mm = [0, 0, 1340]", "nozle_mm = [0, 0, 1340]").text;
   const auto replace = [&](std::string_view from, std::string_view to) {
     const std::size_t at = text.find(from);
     ASSERT_NE(at, std::string::npos) << from;
@@ -299,9 +303,12 @@ TEST(MachineFile, AJointWithTravelMustHaveHoming) {
 }
 
 TEST(MachineFile, AMirroredMechanismIsRefusedWithTheReason) {
-  std::string text = edited("attachment_mm = [-75, 45, 0]", "attachment_mm = [-75, -90, 0]").text;
-  const std::string other = "attachment_mm = [-75, -45, 0]";
-  text.replace(text.find(other), other.size(), "attachment_mm = [-75, 90, 0]");
+  std::string text = file_text("m1.toml");
+  for (const auto& [from, to] : {std::pair{"foot_mm = [-273, -252, 0]", "foot_mm = [-273, -63, 0]"},
+                                 {"foot_mm = [-273, 252, 0]", "foot_mm = [-273, 63, 0]"},
+                                 {"attachment_mm = [-124, -69, -5]", "attachment_mm = [-124, -128, -5]"},
+                                 {"attachment_mm = [-124, 69, -5]", "attachment_mm = [-124, 128, -5]"}})
+    text.replace(text.find(from), std::strlen(from), to);
   const auto machine = parse_machine(text, "m1.toml");
   ASSERT_FALSE(machine);
   EXPECT_EQ(machine.error().front().key, "kinematics");
@@ -309,12 +316,39 @@ TEST(MachineFile, AMirroredMechanismIsRefusedWithTheReason) {
       << to_string(machine.error());
 }
 
+TEST(MachineFile, HomingThatDrivesThePlatformIntoTheNozzleIsRefused) {
+  // Whatever way the rail counts: it is the platform's motion that is judged.
+  MachineDescription d = default_m1();
+  auto& g = std::get<M1Geometry>(d.kinematics);
+  g.legs[2].rail = {0, 0, -1};
+  g.legs[2].foot_mm[2] = 580;
+  g.legs[2].connector_mm = -15;
+  g.legs[2].carriage_above = true;
+  d.joints[2].homing->switch_position = 540;
+  auto machine = parse_machine(write_machine(d), "x");
+  ASSERT_FALSE(machine);
+  ASSERT_EQ(machine.error().size(), 1u) << to_string(machine.error());
+  EXPECT_EQ(machine.error().front().key, "joint.tower3.homing.method");
+  EXPECT_NE(machine.error().front().expected.find("method 20, "), std::string::npos)
+      << to_string(machine.error());
+  d.joints[2].homing->method = 20;
+  machine = parse_machine(write_machine(d), "x");
+  EXPECT_TRUE(machine) << to_string(machine.error());
+  // Limit switches, and M5's rails, are judged alike.
+  std::string mill = file_text("m5.toml");
+  for (std::size_t at; (at = mill.find("method = 22")) != std::string::npos;)
+    mill.replace(at, 11, "method = 20");
+  const auto refused = parse_machine(mill, "m5.toml");
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().size(), 4u) << to_string(refused.error());
+}
+
 TEST(MachineFile, CalibrationBendsTheGeometryAndNotTheStatedOne) {
   std::string text = write_machine(default_m1());
   text += "\n[calibration.leg2]\nfoot_mm = [0.5, 0, 0]\nlength_mm = -0.25\n";
   const auto machine = parse_machine(text, "calibrated");
   ASSERT_TRUE(machine) << to_string(machine.error());
-  EXPECT_EQ(std::get<M1Geometry>(machine->kinematics).legs[1].length_mm, 640);
+  EXPECT_EQ(std::get<M1Geometry>(machine->kinematics).legs[1].length_mm, 991);
   JointVector nominal{}, measured{};
   const Pose pose{10, 20, 30, 0.1, 0, 0};
   ASSERT_TRUE((*make_kinematics(default_m1()))->inverse(Frame::kPart, pose, nominal));
@@ -438,9 +472,10 @@ TEST(MachineFile, WhatIsWrittenReadsBackToTheLastBit) {
         leg.attachment_mm[k] += in(-2, 2);
         leg.rail[k] += in(-0.02, 0.02);
       }
-      leg.length_mm = in(635, 645);
+      leg.length_mm = in(986, 996);
     }
-    g.max_leg_angle_rad = in(50, 89) * kRadPerDeg;
+    g.max_condition = in(20, 1000);
+    g.max_leg_angle_rad = in(30, 89) * kRadPerDeg;
     g.limits.a_rad = {-in(1, 45) * kRadPerDeg, in(1, 45) * kRadPerDeg};
     for (JointDescription& j : d.joints) {
       j.drive.travel_per_turn = in(1, 500) * (j.rotary ? kRadPerDeg : 1);

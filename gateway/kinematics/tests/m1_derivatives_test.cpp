@@ -20,7 +20,8 @@ TEST(M1Derivatives, VelocityAndBothAccelerationTermsTo1e8At10000Poses) {
     PosePoint coasting = path, starting = path;
     coasting.x2 = {};
     starting.x1 = {};
-    testing::expect_derivatives(*m1, Frame::kPart, coasting, 1.0, 1e-9, 1e-8);
+    // Upright legs bend the carriages' motion little: long steps keep it above the rounding of 1340 mm.
+    testing::expect_derivatives(*m1, Frame::kPart, coasting, 1.5, 1e-9, 1e-8);
     JointPoint exact;
     ASSERT_TRUE(m1->inverse_along(Frame::kPart, starting, exact));
     const JointPoint numeric = testing::numeric_along(*m1, Frame::kPart, starting, 0.7);

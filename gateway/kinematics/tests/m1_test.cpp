@@ -17,18 +17,21 @@ std::unique_ptr<Kinematics> m1(const M1Geometry& geometry = {}) {
   return made ? std::move(*made) : nullptr;
 }
 
-/// Rails that lean in four directions, attachments off the platform's plane, one carriage below.
+/// Rails that lean in four directions, attachments off the platform's plane, and one rail that counts
+/// downwards: there the carriage below is the one ahead of the platform.
 M1Geometry leaning() {
   M1Geometry g;
   g.legs[0].rail = {0.10, 0.05, 1.0};
   g.legs[1].rail = {-0.2, 0.1, 2.0};
   g.legs[2].rail = {0.03, 0.04, 0.7};
   g.legs[3].rail = {0.05, -0.12, -1.0};
-  g.legs[3].foot_mm = {-310, 210, 1100};
-  g.legs[3].carriage_above = false;
+  g.legs[3].foot_mm = {-273, 252, 600};
+  g.legs[3].carriage_above = true;
   g.legs[0].attachment_mm[2] = 12;
   g.legs[2].attachment_mm[2] = -7;
   for (M1Leg& leg : g.legs) leg.travel_mm = {0, 0};
+  // A machine for its equations alone: nobody would build it.
+  g.max_condition = 100;
   return g;
 }
 
@@ -49,10 +52,10 @@ TEST(M1, LegsCloseBetweenCarriageAndPlatform) {
         const M1Leg& leg = g.legs[i];
         const Eigen::Vector3d rail = Eigen::Vector3d(leg.rail.data()).normalized();
         const Eigen::Vector3d carriage = Eigen::Vector3d(leg.foot_mm.data()) + q[i] * rail;
-        const Eigen::Vector3d upper = carriage + leg.connector_mm * rail;
-        const Eigen::Vector3d lower = platform + tilt * Eigen::Vector3d(leg.attachment_mm.data());
-        EXPECT_NEAR((lower - upper).norm(), leg.length_mm, 1e-9) << "leg " << i;
-        EXPECT_EQ((upper - lower).dot(rail) > 0, leg.carriage_above) << "leg " << i;
+        const Eigen::Vector3d attachment = platform + tilt * Eigen::Vector3d(leg.attachment_mm.data());
+        const Eigen::Vector3d end = attachment - leg.connector_mm * rail;
+        EXPECT_NEAR((end - carriage).norm(), leg.length_mm, 1e-9) << "leg " << i;
+        EXPECT_EQ((carriage - end).dot(rail) > 0, leg.carriage_above) << "leg " << i;
       }
       EXPECT_EQ(q[4], pose[kC]);
       EXPECT_EQ(q[5], pose[kE]);
@@ -141,8 +144,13 @@ TEST(M1, ForwardOfLeaningRailsFindsThePose) {
 TEST(M1, ForwardFindsTheHomePose) {
   const auto kinematics = m1();
   Pose pose{};
-  const JointVector home{1030, 1030, 1030, 1030, 0, 0};
+  const JointVector home{40, 40, 40, 40, 0, 0};
   ASSERT_TRUE(kinematics->forward(Frame::kMachine, home, pose));
+  // The table is level, in the middle, and far below the nozzle.
+  EXPECT_NEAR(pose[kX], 0, 0.5);
+  EXPECT_NEAR(pose[kY], 0, 1e-9);
+  EXPECT_NEAR(pose[kA], 0, 1e-9);
+  EXPECT_GT(pose[kZ], 300);
   JointVector again{};
   ASSERT_TRUE(kinematics->inverse(Frame::kMachine, pose, again));
   for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(again[i], home[i], 1e-9);
@@ -152,30 +160,30 @@ TEST(M1, ForwardSaysWhenNoPlatformFits) {
   const auto kinematics = m1();
   Pose pose{1, 2, 3, 0, 0, 0};
   const Pose before = pose;
-  const auto result = kinematics->forward(Frame::kPart, {530, 1030, 530, 1030, 0, 0}, pose);
+  const auto result = kinematics->forward(Frame::kPart, {40, 540, 40, 540, 0, 0}, pose);
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().kind, PoseError::Kind::kNoConvergence);
   EXPECT_EQ(pose, before);
 }
 
 TEST(M1, TheDefaultCylinderIsWellConditioned) {
-  // Numbers of the geometry table: condition number <= 3.1, leg angle <= 44.3 deg level and <= 56 deg at 45
-  // deg tilt.
+  // Numbers of the geometry's search: condition number <= 7.34, leg angle <= 19.8 deg level and <= 27.4 deg
+  // at any tilt.
   const auto kinematics = m1();
   RandomPose random(7);
   double worst = 0;
   for (int n = 0; n < 20000; ++n)
     worst = std::max(worst, kinematics->condition(Frame::kPart, random.in_m1_cylinder()));
-  EXPECT_LE(worst, 3.1);
-  EXPECT_GE(worst, 2.9);
+  EXPECT_LE(worst, 7.34);
+  EXPECT_GE(worst, 7.3);
 
   M1Geometry g;
   g.limits = {};
   for (M1Leg& leg : g.legs) leg.travel_mm = {0, 0};
-  g.max_leg_angle_rad = 56 * kRadPerDeg;
+  g.max_leg_angle_rad = 27.4 * kRadPerDeg;
   const auto tight = m1(g);
   for (int n = 0; n < 20000; ++n) ASSERT_TRUE(tight->check(Frame::kPart, random.in_m1_cylinder()));
-  g.max_leg_angle_rad = 44.3 * kRadPerDeg;
+  g.max_leg_angle_rad = 19.9 * kRadPerDeg;
   const auto level = m1(g);
   for (int n = 0; n < 20000; ++n) {
     Pose pose = random.in_m1_cylinder();
@@ -184,12 +192,29 @@ TEST(M1, TheDefaultCylinderIsWellConditioned) {
   }
 }
 
+TEST(M1, CheckRefusesExactlyThePosesOfAWorseConditionNumber) {
+  M1Geometry g;
+  g.limits = {};
+  g.min_platform_clearance_rad = 0;
+  g.max_leg_angle_rad = 90 * kRadPerDeg;
+  for (M1Leg& leg : g.legs) leg.travel_mm = {0, 0};
+  RandomPose random(9);
+  for (const double most : {7.1, 7.2, 7.25, 7.33}) {
+    g.max_condition = most;
+    const auto kinematics = m1(g);
+    for (int n = 0; n < 5000; ++n) {
+      const Pose pose = random.in_m1_cylinder();
+      ASSERT_EQ(kinematics->check(Frame::kPart, pose).has_value(),
+                kinematics->condition(Frame::kPart, pose) <= most);
+    }
+  }
+}
+
 TEST(M1, CheckAcceptsTheWorkspaceThatTheDefaultMachineIsFor) {
   const auto kinematics = m1();
   RandomPose random(8);
   for (int n = 0; n < 20000; ++n) {
     Pose pose = random.in_m1_cylinder();
-    pose[kA] = random.uniform(0, 30) * kRadPerDeg;
     const auto ok = kinematics->check(Frame::kPart, pose);
     ASSERT_TRUE(ok) << to_string(ok.error());
   }
@@ -213,8 +238,8 @@ TEST(M1, CheckNamesTheRuleThatIsBroken) {
       {"tilted too far", {0, 0, 50, 46 * kRadPerDeg, 0, 0}, PoseError::Kind::kPoseLimit, kA},
       {"not a number", {nan, 0, 50, 0, 0, 0}, PoseError::Kind::kPoseLimit, kX},
       {"not a number in E", {0, 0, 50, 0, 0, nan}, PoseError::Kind::kPoseLimit, kE},
-      {"rail's lower end", {0, -145, 200, 0, 0, 0}, PoseError::Kind::kJointLimit, -1},
-      {"leg angle", {0, -125, 240, 44 * kRadPerDeg, 0, 0}, PoseError::Kind::kLegAngle, -1},
+      {"rail's lower end", {0, 145, 245, 25 * kRadPerDeg, 0, 0}, PoseError::Kind::kJointLimit, 1},
+      {"leg angle", {0, -145, 245, 44 * kRadPerDeg, 0, 0}, PoseError::Kind::kLegAngle, -1},
   };
   for (const Refused& r : table) {
     const auto result = kinematics->check(Frame::kPart, r.pose);
@@ -230,20 +255,20 @@ TEST(M1, CheckNamesTheRuleThatIsBroken) {
 TEST(M1, OutOfReachSaysWhichLegAndByHowMuch) {
   const auto kinematics = m1();
   JointVector q{};
-  // Far towards +x: leg 3 (foot -310, -210, attachment -75, 45) is the one most stretched when y is -100.
-  const double beside_x = 600 - 75 + 310, beside_y = 100 + 45 + 210;
-  const Pose pose{-600, -100, 0, 0, 0, 0};
+  // Far towards +x: leg 3 (foot -273, -252, attachment -124, -69) is the one most stretched when y is -100.
+  const double beside_x = 900 - 124 + 273, beside_y = 100 - 69 + 252;
+  const Pose pose{-900, -100, 0, 0, 0, 0};
   const auto result = kinematics->inverse(Frame::kMachine, pose, q);
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().kind, PoseError::Kind::kOutOfReach);
   EXPECT_EQ(result.error().joint, 2);
-  EXPECT_NEAR(result.error().amount, std::hypot(beside_x, beside_y) - 640, 1e-9);
-  EXPECT_EQ(to_string(result.error(), *kinematics), "tower3: out of reach, the leg is 267.331 mm too short");
+  EXPECT_NEAR(result.error().amount, std::hypot(beside_x, beside_y) - 991, 1e-9);
+  EXPECT_EQ(to_string(result.error(), *kinematics), "tower3: out of reach, the leg is 95.504 mm too short");
 }
 
 TEST(M1, ClearanceAnglesAreKeptWhenAsked) {
   M1Geometry g;
-  // At A = 0 every arm stands at 90 deg to its rail; tilted by 30 deg the longest arms come nearer.
+  // At A = 0 every arm stands nearly square to its rail; tilted by 30 deg the longest arms come nearer.
   g.min_rail_clearance_rad = 80 * kRadPerDeg;
   auto kinematics = m1(g);
   EXPECT_TRUE(kinematics->check(Frame::kPart, {0, 0, 50, 0, 0, 0}));
@@ -253,17 +278,31 @@ TEST(M1, ClearanceAnglesAreKeptWhenAsked) {
 
   g.min_rail_clearance_rad = 0;
   g.min_platform_clearance_rad = 50 * kRadPerDeg;
-  kinematics = m1(g);
-  EXPECT_TRUE(kinematics->check(Frame::kPart, {0, 0, 50, 0, 0, 0}));
-  const auto leg = kinematics->check(Frame::kPart, {0, 0, 50, 44 * kRadPerDeg, 0, 0});
-  ASSERT_FALSE(leg);
-  EXPECT_EQ(leg.error().kind, PoseError::Kind::kClearance);
+  const auto nearest_leg = [](const M1Geometry& geometry) {
+    const auto machine = m1(geometry);
+    EXPECT_TRUE(machine->check(Frame::kPart, {0, 0, 50, 0, 0, 0}));
+    const auto leg = machine->check(Frame::kPart, {0, 0, 50, 44 * kRadPerDeg, 0, 0});
+    EXPECT_FALSE(leg);
+    EXPECT_EQ(leg.error().kind, PoseError::Kind::kClearance);
+    return leg.error().amount;
+  };
+  const double below = nearest_leg(g);
+  // The carriages' side of the platform is the free one, whichever way the rails count.
+  for (M1Leg& leg : g.legs) {
+    leg.foot_mm[2] = 600;
+    leg.rail = {0, 0, -1};
+    leg.connector_mm = -leg.connector_mm;
+    leg.carriage_above = true;
+  }
+  EXPECT_NEAR(nearest_leg(g), below, 1e-9);
 }
 
 TEST(M1, MirrorSymmetricAttachmentsAreRefusedAsSingular) {
   M1Geometry g;
-  g.legs[2].attachment_mm = {-75, -90, 0};
-  g.legs[3].attachment_mm = {-75, 90, 0};
+  g.legs[2].foot_mm = {-273, -63, 0};
+  g.legs[2].attachment_mm = {-124, -128, -5};
+  g.legs[3].foot_mm = {-273, 63, 0};
+  g.legs[3].attachment_mm = {-124, 128, -5};
   const auto made = make_m1_kinematics(g);
   ASSERT_FALSE(made);
   EXPECT_NE(made.error().what.find("singular or nearly so at every pose"), std::string::npos)

@@ -46,8 +46,10 @@ TEST(M5, TableAndExtruderMustStandStill) {
 
 TEST(M5, ASingularMechanismIsRefused) {
   M5Geometry g;
-  g.legs[2].attachment_mm = {-75, -90, 0};
-  g.legs[3].attachment_mm = {-75, 90, 0};
+  g.legs[2].foot_mm = {-273, -63, 0};
+  g.legs[2].attachment_mm = {-124, -128, -5};
+  g.legs[3].foot_mm = {-273, 63, 0};
+  g.legs[3].attachment_mm = {-124, 128, -5};
   ASSERT_FALSE(make_m5_kinematics(g));
 }
 

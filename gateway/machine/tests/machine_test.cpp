@@ -65,7 +65,7 @@ TEST(Machine, HomingTakesAllCarriagesToTheirSwitches) {
   const JointVector joints = rig.joints();
   const JointVector told = rig.gateway->status().joints;
   for (std::size_t tower = 0; tower < 4; ++tower) {
-    EXPECT_NEAR(joints[tower], 1030, 0.1);
+    EXPECT_NEAR(joints[tower], 40, 0.1);
     EXPECT_NEAR(told[tower], joints[tower], 0.002);
   }
   EXPECT_TRUE(rig.gateway->status().positions_known);
@@ -291,7 +291,7 @@ TEST(Calibration, HomesAndRunsWithEveryCorrectionInThePath) {
     c.backlash = 0.08;
     c.pitch = 40;
     c.periodic_sine = 0.01;
-    c.table_start = 530;
+    c.table_start = 40;
     c.table_step = 100;
     c.table = {0, 0.02, -0.01, 0.03, 0, 0.01};
   }

@@ -28,6 +28,7 @@ std::vector<FittedSegment> fit_all(Segmenter& segmenter, const std::vector<Joint
 struct Measured {
   double error_counts = 0;        ///< largest distance from the spans, at 16 places of every segment
   double acceleration_ratio = 0;  ///< largest acceleration over the axis' limit
+  double asked_ratio = 0;         ///< the same of the spans themselves
   double excess = 0;              ///< how far accelerations leave those of the spans, over the limit
 };
 
@@ -73,6 +74,7 @@ Measured measure(const NodeAxes& node, const std::vector<JointSpan>& spans,
           most = std::max(most, 2 * c[2] + 6 * c[3] * x);
         }
       }
+      m.asked_ratio = std::max(m.asked_ratio, std::max(most, -least) / axis.acceleration_limit);
       const double a = 2 * s.acceleration[i] * 4 / kCountFraction / (u * u) / axis.slope();
       m.acceleration_ratio = std::max(m.acceleration_ratio, std::abs(a) / axis.acceleration_limit);
       m.excess = std::max(m.excess, std::max(a - most, least - a) / axis.acceleration_limit);
@@ -131,7 +133,9 @@ TEST(Segmenter, CurvesInFiveAxesStayWithinHalfACount) {
       for (const NodeAxes& node : m1_axes()) {
         const Outcome o = stream(node, spans);
         EXPECT_LE(o.measured.error_counts, 0.5) << "seed " << seed;
-        EXPECT_LE(o.measured.acceleration_ratio, 1.0) << "seed " << seed;
+        // No planner stands before these curves: at a lobe's tip seed 2 asks a carriage for 1.10 of its
+        // limit.
+        EXPECT_LE(o.measured.acceleration_ratio, std::max(1.0, o.measured.asked_ratio)) << "seed " << seed;
         EXPECT_EQ(o.counters.loose, 0u) << "seed " << seed;
       }
     }

@@ -10,15 +10,16 @@
 namespace {
 
 // The default machine: carriages of 1280 counts/mm on nodes 1 and 2, a bit different in height, with their
-// switches at 1030 mm; node 3 turns the table and feeds the filament.
+// switches under them at 40 mm; node 3 turns the table and feeds the filament.
 void set_default_plant(kinebus::VirtualNodeProcessOptions& options) {
   constexpr std::int64_t kCountsPerMm = 1280;
   if (options.node.node_id > 2) return;
   for (int axis = 0; axis < 2; ++axis)
     options.plant[static_cast<std::size_t>(axis)] = {
-        .start_counts = (960 + 2 * options.node.node_id - axis) * kCountsPerMm,
+        .start_counts = (110 - 2 * options.node.node_id + axis) * kCountsPerMm,
         .switch_input = axis + 1,
-        .switch_counts = 1030 * kCountsPerMm};
+        .switch_counts = 40 * kCountsPerMm,
+        .active_above = false};
 }
 
 int serve(const kinebus::VirtualNodeProcessOptions& options, int priority) {
@@ -52,8 +53,8 @@ int run(int argc, char** argv) {
   app.add_option("--trace", options.trace_path, "File for the true positions of both motors, every 2 ms");
   app.add_option("--start-a", start[0], "Carriage A at power-up, counts");
   app.add_option("--start-b", start[1], "Carriage B at power-up, counts");
-  app.add_option("--switch-a", edge[0], "Edge of switch A (input 1), counts; active above");
-  app.add_option("--switch-b", edge[1], "Edge of switch B (input 2), counts; active above");
+  app.add_option("--switch-a", edge[0], "Edge of switch A (input 1), counts; active below");
+  app.add_option("--switch-b", edge[1], "Edge of switch B (input 2), counts; active below");
   app.add_option(
          "--priority", priority,
          "SCHED_FIFO priority and locked memory: above the daemon's (80) where both share a processor, "
@@ -69,6 +70,7 @@ int run(int argc, char** argv) {
     if (!edge[axis]) continue;
     options.plant[axis].switch_counts = *edge[axis];
     options.plant[axis].switch_input = static_cast<int>(axis) + 1;
+    options.plant[axis].active_above = false;
   }
   return serve(options, priority);
 }

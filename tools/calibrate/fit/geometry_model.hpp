@@ -21,7 +21,7 @@ struct MachineDeviation {
 /// The machine as its controller believes it, and where its switches are believed to be.
 struct BelievedMachine {
   M1Geometry geometry;
-  std::array<double, 4> switch_mm{1030, 1030, 1030, 1030};
+  std::array<double, 4> switch_mm{40, 40, 40, 40};
 };
 
 /// One reading. `commanded`: the pose that the controller was told, table coordinates, C = 0.

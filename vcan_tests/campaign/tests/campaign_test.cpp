@@ -101,8 +101,8 @@ TEST(Campaign, AnEmergencyStopRampsAllNodesWithinTwoMillisecondsAndAFrame) {
 }
 
 TEST(Campaign, AStopAtAnyMomentAroundTheEndOfAMoveGoesOn) {
-  // The way to the bed reference takes some 0.8 s, then the print's first records go out.
-  for (BusTime after = 700ms; after < 1000ms; after += 20ms) {
+  // The way to the bed reference takes some 1.1 s, then the print's first records go out.
+  for (BusTime after = 1010ms; after < 1310ms; after += 20ms) {
     const FaultResult result = run_one(3, {.kind = FaultKind::kOperatorStop, .after = after, .length = 20ms});
     EXPECT_TRUE(result.violations.empty()) << after / 1ms << " ms: " << words_of(result);
     EXPECT_EQ(result.outcome, FaultOutcome::kContinued) << after / 1ms << " ms";
@@ -110,22 +110,26 @@ TEST(Campaign, AStopAtAnyMomentAroundTheEndOfAMoveGoesOn) {
 }
 
 TEST(Campaign, ANewGatewayGoesOnThroughTheBacklashOfTheCarriages) {
+  const double gap_um = 80;
   MachineDescription machine = campaign_machine();
   for (JointDescription& joint : machine.joints)
-    if (joint.homing && !joint.rotary) joint.calibration.backlash = 0.08;
+    if (joint.homing && !joint.rotary) joint.calibration.backlash = gap_um / 1000;
   const auto kinematics = make_kinematics(machine);
   const auto run = [&](const Fault& fault) {
     return run_faults(machine, **kinematics, {.seed = 5, .faults = {fault}});
   };
-  // Undisturbed, the tool is off the plan while a carriage that turns round crosses the gap, by the gap.
+  // Undisturbed, a carriage that turns round is off the plan while it crosses the gap, by more than half of
+  // it.
   const FaultResult clean = run({});
   EXPECT_GT(clean.path_um, 40);
-  for (BusTime after = 1200ms; after < 3200ms; after += 190ms) {
+  EXPECT_LE(clean.path_um, gap_um + 1);
+  for (BusTime after = 1600ms; after < 3500ms; after += 190ms) {
     const FaultResult result = run({.kind = FaultKind::kGatewayDies, .after = after, .length = 400ms});
     EXPECT_EQ(result.outcome, FaultOutcome::kContinued) << after / 1ms << " ms";
     // Nothing jumps, and the gap is not lost: a carriage on its wrong side would be off by it all the way. A
-    // stop in the middle of the gap makes the crossing longer.
-    EXPECT_LE(result.path_um, clean.path_um + 1) << after / 1ms << " ms";
+    // stop in the middle of the gap makes the crossing longer; and a new gateway cannot know on which side of
+    // its gap a carriage stands, which begins the way back off by the whole gap then (79 um on tower4).
+    EXPECT_LE(result.path_um, gap_um + 1) << after / 1ms << " ms";
     EXPECT_LE(result.far_ms, clean.far_ms + 250) << after / 1ms << " ms";
     EXPECT_LE(result.step_ratio, clean.step_ratio * 1.01) << after / 1ms << " ms";
     EXPECT_LE(result.known_counts, 1) << after / 1ms << " ms";

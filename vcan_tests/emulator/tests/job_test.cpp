@@ -28,12 +28,13 @@ const ElfImage& image() {
   return loaded;
 }
 
-// The carriages stand a little under their switches: homing takes a second, not ten.
+// The carriages stand a little off their switches: homing takes a second, not ten.
 std::vector<VirtualNodeOptions> near_the_switches(std::vector<VirtualNodeOptions> nodes) {
-  double below = 9'000;
+  double off = 9'000;
   for (VirtualNodeOptions& node : nodes)
     for (VirtualAxis& axis : node.axes)
-      if (axis.switch_input != 0) axis.start_counts = axis.switch_counts - (below += 1'111);
+      if (axis.switch_input != 0)
+        axis.start_counts = axis.switch_counts + (axis.active_above ? -1 : 1) * (off += 1'111);
   return nodes;
 }
 
