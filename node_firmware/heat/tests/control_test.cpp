@@ -124,15 +124,14 @@ TEST(Tuning, HotEndsOfAllKindsAreReachedWithoutOvershoot) {
 }
 
 TEST(Tuning, ABedThatTakesMinutesIsMeasuredToo) {
-  PlantParameters bed;
-  bed.power_w = 250;
-  bed.heater_j_per_k = 120;
-  bed.heater_w_per_k = 40;
-  bed.block_j_per_k = 1100;
-  bed.loss_w_per_k = 1.2;
-  bed.radiation_w_per_k4 = 3e-9;
-  bed.sensor_lag_s = 8;
-  bed.dead_s = 3;
+  const PlantParameters bed{.power_w = 250,
+                            .heater_j_per_k = 120,
+                            .heater_w_per_k = 40,
+                            .block_j_per_k = 1100,
+                            .loss_w_per_k = 1.2,
+                            .radiation_w_per_k4 = 3e-9,
+                            .sensor_lag_s = 8,
+                            .dead_s = 3};
   Rig rig(bed);
   ModelParameters model;
   ASSERT_EQ(tune(rig, 90'000, model, 120'000), HeatTuning::State::kDone);
