@@ -101,7 +101,7 @@ const SensorInput* HeatNode::sensor_of(std::size_t heater) const {
 std::int32_t HeatNode::highest_set_point(std::size_t heater) const {
   const auto asked = static_cast<std::int32_t>(value(heat_slot_of(kHighestSetPoint), heater));
   const auto limit = static_cast<std::int32_t>(value(heat_slot_of(kLimit), heater));
-  return std::max(0, std::min(asked, limit - kBelowLimit));
+  return std::max<std::int32_t>(0, std::min<std::int32_t>(asked, limit - kBelowLimit));
 }
 
 bool HeatNode::any_heat() const {
