@@ -57,7 +57,8 @@ class Session {
       }
       case 2: {
         const std::uint8_t which = byte();
-        ratios_[which % kHeatSensors] = (byte() << 12 | byte() << 4) & 0xFFFFFu;
+        const unsigned high = byte(), low = byte();
+        ratios_[which % kHeatSensors] = high << 12 | low << 4;
         if ((which & 0x80) != 0) ratios_[which % kHeatSensors] = kFullRatio;
         break;
       }
