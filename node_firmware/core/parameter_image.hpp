@@ -14,9 +14,19 @@
 
 namespace kinebus {
 
-class ParameterImage {
+/// An image in memory that somebody lends: room for all parameters of a table.
+class ParameterBytes {
+  static constexpr std::size_t kHeader = 12, kEntry = 12, kTail = 4;
+
  public:
   enum class Load : std::uint8_t { kEmpty, kGood, kDamaged };
+
+  explicit ParameterBytes(std::span<std::uint8_t> room) : room_(room) {}
+  static constexpr std::size_t room_for(const ObjectTable& table) {
+    std::size_t n = 0;
+    for (const ObjectEntry& entry : table.entries) n += entry.binding == Binding::kParameter ? 1 : 0;
+    return kHeader + n * kEntry + kTail;
+  }
 
   /// Takes over what the port's memory holds. kDamaged and kEmpty: as after clear().
   Load adopt(std::span<const std::uint8_t> stored);
@@ -28,26 +38,45 @@ class ParameterImage {
   /// Writes the stored values into a dictionary that has its defaults. Addresses that are gone, and values
   /// that are out of their limits now, are left out.
   /// Only objects below `end_index`: for a reset of communication.
-  void apply(ObjectDictionary& objects, std::uint8_t node_id, std::uint32_t end_index = 0x10000) const;
+  void apply(ObjectDictionary& objects, std::uint8_t node_id, std::uint32_t end_index) const;
   void set_node_id(std::uint8_t node_id);
-
-  std::uint8_t node_id() const;  ///< 0: none stored
-  std::span<const std::uint8_t> bytes() const { return {bytes_.data(), size_}; }
+  std::uint8_t node_id() const;
+  std::span<const std::uint8_t> bytes() const;
 
  private:
-  static constexpr std::size_t kHeader = 12, kEntry = 12, kTail = 4;
   static constexpr std::uint16_t kVersion = 1;
-  static constexpr std::size_t kMostEntries = [] {
-    std::size_t n = 0;
-    for (const ObjectEntry& entry : kNodeObjects) n += entry.binding == Binding::kParameter ? 1 : 0;
-    return n;
-  }();
 
   void begin(std::uint8_t node_id);
   void finish(std::size_t entries);
 
-  std::array<std::uint8_t, kHeader + kMostEntries * kEntry + kTail> bytes_{};
-  std::size_t size_ = 0;
+  std::span<std::uint8_t> room_;
 };
+
+/// The image of a node with that table, with room of its own.
+template <const ObjectTable& kTable>
+class ImageOf {
+ public:
+  using Load = ParameterBytes::Load;
+
+  // As those of ParameterBytes.
+  Load adopt(std::span<const std::uint8_t> stored) { return image().adopt(stored); }
+  void clear(std::uint8_t node_id) { image().clear(node_id); }
+  void save(const ObjectDictionary& objects, std::uint8_t node_id, std::uint8_t kept_node_id) {
+    image().save(objects, node_id, kept_node_id);
+  }
+  void apply(ObjectDictionary& objects, std::uint8_t node_id, std::uint32_t end_index = 0x10000) {
+    image().apply(objects, node_id, end_index);
+  }
+  void set_node_id(std::uint8_t node_id) { image().set_node_id(node_id); }
+  std::uint8_t node_id() { return image().node_id(); }  ///< 0: none stored
+  std::span<const std::uint8_t> bytes() { return image().bytes(); }
+
+ private:
+  ParameterBytes image() { return ParameterBytes(room_); }
+
+  std::array<std::uint8_t, ParameterBytes::room_for(kTable)> room_{};
+};
+/// Of a node with an axis pair.
+using ParameterImage = ImageOf<kNodeTable>;
 
 }  // namespace kinebus

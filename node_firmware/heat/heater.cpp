@@ -76,6 +76,7 @@ void Heater::step(const SensorInput& sensor, std::uint32_t supply_mv) {
   if (!sensor.good()) {
     // Blind for a moment: no power, no word from the watch, and the model goes on by itself.
     if (started_ && has_model_) model_.step_blind(0);
+    watch_.interrupt();
     duty_ = given_ = 0;
     return;
   }

@@ -35,10 +35,31 @@ void HeaterWatch::start() {
 HeaterFault HeaterWatch::step(std::int32_t measured, std::uint32_t power, std::int32_t target,
                               const ThermalModel* model) {
   if (lasts(hot_, measured > settings_.limit_mc, kHotTicks)) return HeaterFault::kTooHot;
-  return model != nullptr ? by_model(*model) : by_rules(measured, power, target);
+  return model != nullptr ? by_model(measured, *model) : by_rules(measured, power, target);
 }
 
-HeaterFault HeaterWatch::by_model(const ThermalModel& model) {
+// Parts of full power by which the sensor rose more than it should have over the last ticks; 0 as long as
+// there is no telling. The observer follows what is missing only after its own lag; this sees a heater that
+// came loose as soon as the sensor can, and needs a model that is right about dead time and lag, as a
+// measured one is.
+std::int32_t HeaterWatch::rise_unexplained(std::int32_t measured, const ThermalModel& model) {
+  const std::int32_t gained = measured - measured_[at_];
+  if (seen_ == 0) expected_sum_ = 0;
+  if (seen_ < kRiseTicks) expected_[at_] = 0;
+  expected_sum_ += model.expected_rise() - expected_[at_];
+  measured_[at_] = measured;
+  expected_[at_] = model.expected_rise();
+  at_ = (at_ + 1) & (kRiseTicks - 1);
+  ++seen_;
+  // Until the heat from before the start has come through, it is not known.
+  if (++known_ <= model.response_ticks() || seen_ <= kRiseTicks) return 0;
+  const std::int64_t unexplained = static_cast<std::int64_t>(gained) * 256 - expected_sum_;
+  return model.share_of_rise(unexplained / static_cast<std::int64_t>(kRiseTicks));
+}
+
+HeaterFault HeaterWatch::by_model(std::int32_t measured, const ThermalModel& model) {
+  const bool less = rise_unexplained(measured, model) < -per_cent(settings_.most_missing);
+  if (lasts(rising_less_, less, kModelTicks)) return HeaterFault::kHeatMissing;
   const std::int32_t share = model.disturbance();
   if (lasts(missing_, share < -per_cent(settings_.most_missing), kModelTicks))
     return HeaterFault::kHeatMissing;

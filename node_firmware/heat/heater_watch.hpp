@@ -3,6 +3,7 @@
 // measure: heat that is missing or comes unasked, as a share of full power. A heater that was never measured
 // is watched by plain rules until it is.
 
+#include <array>
 #include <cstdint>
 
 #include "node_firmware/heat/thermal_model.hpp"
@@ -35,12 +36,15 @@ class HeaterWatch {
  public:
   void configure(const WatchSettings& settings) { settings_ = settings; }
   void start();
+  /// Measurements are missing: what was seen before and what comes after are no rise.
+  void interrupt() { seen_ = 0; }
   /// Once a tick. `power`: given since the last one. `target`: 0, off. `model`: nullptr, not measured.
   HeaterFault step(std::int32_t measured, std::uint32_t power, std::int32_t target,
                    const ThermalModel* model);
 
  private:
-  HeaterFault by_model(const ThermalModel& model);
+  HeaterFault by_model(std::int32_t measured, const ThermalModel& model);
+  std::int32_t rise_unexplained(std::int32_t measured, const ThermalModel& model);
   HeaterFault by_rules(std::int32_t measured, std::uint32_t power, std::int32_t target);
 
   WatchSettings settings_{};
@@ -48,6 +52,14 @@ class HeaterWatch {
   std::int32_t rise_from_ = 0, lowest_off_ = 0;
   std::uint32_t rise_ticks_ = 0, away_ticks_ = 0, off_ticks_ = 0;
   bool reached_ = false;
+
+  /// The sensor's rise over so many ticks is held against the expected one: long against noise, short against
+  /// any lag.
+  static constexpr std::size_t kRiseTicks = 16;
+  std::array<std::int32_t, kRiseTicks> measured_{}, expected_{};
+  std::int64_t expected_sum_ = 0;
+  std::size_t at_ = 0;
+  std::uint32_t seen_ = 0, known_ = 0, rising_less_ = 0;
   std::int32_t last_target_ = 0;
 };
 

@@ -54,6 +54,13 @@ class ThermalModel {
   std::int32_t block_ahead() const;
   /// Parts of kFullPower (signed): so much more heat comes than the model knows; negative: is missing.
   std::int32_t disturbance() const;
+  /// What the sensor should have gained in the last tick by what is known alone, without the disturbance: mC
+  /// with 8 fractional bits.
+  std::int32_t expected_rise() const { return static_cast<std::int32_t>(rise_ >> 8); }
+  /// A rise of so much a tick (mC with 8 fractional bits) as parts of kFullPower, signed.
+  std::int32_t share_of_rise(std::int64_t rise) const {
+    return static_cast<std::int32_t>(share_of(rise * 256));
+  }
   /// Power that keeps the block at `mc`, and moves it there from `block_ahead` with `gain` (16 fractional
   /// bits) a tick. Signed and unlimited: 0 and full power are the caller's.
   std::int32_t power_for(std::int32_t mc, std::int32_t ahead, std::int32_t gain) const;
@@ -77,7 +84,7 @@ class ThermalModel {
   std::int64_t gain_sensor_ = 0, gain_block_ = 0, gain_disturbance_ = 0;  // 16 fractional bits
   std::uint32_t dead_ = 0, dead_part_ = 0;                                // ticks, and 1/256 of one
 
-  std::int64_t block_ = 0, sensor_ = 0, disturbance_ = 0;
+  std::int64_t block_ = 0, sensor_ = 0, disturbance_ = 0, rise_ = 0;
   std::array<std::uint32_t, kHistory> history_{};
   std::size_t at_ = 0;  // of the newest
 };

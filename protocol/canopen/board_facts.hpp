@@ -8,15 +8,15 @@ namespace kinebus {
 
 /// What a board is called and known by.
 struct BoardFacts {
-  std::string_view name{};              ///< for programs' options: --board NAME
-  std::string_view order_code{};        ///< of its image and data sheet: kinebus-node.elf, kinebus-node.eds
-  std::string_view device_name{};       ///< 1008h
-  std::string_view hardware_version{};  ///< 1009h
-  std::string_view description{};       ///< of the data sheet
-  std::uint32_t device_type = 0;        ///< 1000h
-  std::uint32_t product_code = 0;       ///< 1018h:2
-  std::uint32_t revision = 0;           ///< 1018h:3
-  std::uint32_t hardware = 0;           ///< chip and pin map, as a program's image names them
+  std::string_view name{};               ///< for programs' options: --board NAME
+  std::string_view order_code{};         ///< of its image and data sheet: kinebus-node.elf, kinebus-node.eds
+  std::string_view device_name{};        ///< 1008h
+  std::string_view hardware_version{};   ///< 1009h
+  std::string_view description{};        ///< of the data sheet
+  std::uint32_t device_type = 0;         ///< 1000h
+  std::uint32_t product_code = 0;        ///< 1018h:2
+  std::uint32_t revision = 0x0001'0000;  ///< 1018h:3
+  std::uint32_t hardware = 0;            ///< chip and pin map, as a program's image names them
 };
 
 }  // namespace kinebus

@@ -143,6 +143,12 @@ constexpr void pdos(Rows& t, const PdoSet& set) {
     pdo_mapping(t, set.tpdos[i], kTpdoNames[1][i], static_cast<std::uint16_t>(0x1A00 + i));
 }
 
+/// What every board has first.
+constexpr void device(Rows& t, const BoardFacts& board, const PdoSet& set) {
+  communication(t, board);
+  pdos(t, set);
+}
+
 /// CiA 302. 1F50h, the program itself, is the boot loader's: it answers on the same node id after 1F51h = 0.
 constexpr void program_download(Rows& t) {
   t.head(0x1F51, "Program control", ObjectCode::kArray, 1);

@@ -8,7 +8,8 @@
 #include "node_firmware/heat/heat_control.hpp"
 #include "node_firmware/heat/heat_tuning.hpp"
 #include "node_firmware/heat/sensor_input.hpp"
-#include "node_firmware/heat/tests/thermal_plant.hpp"
+#include "node_firmware/heat/tests/random_hot_end.hpp"
+#include "node_firmware/port/host/thermal_plant.hpp"
 
 namespace kinebus::heat {
 namespace {
@@ -101,23 +102,6 @@ double shortest_time(const PlantParameters& parameters, double target) {
   return settled;
 }
 
-PlantParameters random_hot_end(std::mt19937& random) {
-  const auto between = [&](double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random);
-  };
-  PlantParameters p;
-  p.power_w = between(24, 80);
-  const double capacity = 16.7 * between(0.5, 1.5);
-  p.heater_j_per_k = 0.12 * capacity;
-  p.block_j_per_k = 0.88 * capacity;
-  p.heater_w_per_k = between(2.5, 5);
-  p.loss_w_per_k = between(0.04, 0.08);
-  p.ambient_c = between(18, 32);
-  p.dead_s = between(1, 6);
-  p.sensor_lag_s = between(0.5, 2.5);
-  return p;
-}
-
 TEST(Tuning, HotEndsOfAllKindsAreReachedWithoutOvershoot) {
   std::mt19937 random(20);
   double worst_overshoot = -1, worst_ratio = 0;
@@ -140,15 +124,14 @@ TEST(Tuning, HotEndsOfAllKindsAreReachedWithoutOvershoot) {
 }
 
 TEST(Tuning, ABedThatTakesMinutesIsMeasuredToo) {
-  PlantParameters bed;
-  bed.power_w = 250;
-  bed.heater_j_per_k = 120;
-  bed.heater_w_per_k = 40;
-  bed.block_j_per_k = 1100;
-  bed.loss_w_per_k = 1.2;
-  bed.radiation_w_per_k4 = 3e-9;
-  bed.sensor_lag_s = 8;
-  bed.dead_s = 3;
+  const PlantParameters bed{.power_w = 250,
+                            .heater_j_per_k = 120,
+                            .heater_w_per_k = 40,
+                            .block_j_per_k = 1100,
+                            .loss_w_per_k = 1.2,
+                            .radiation_w_per_k4 = 3e-9,
+                            .sensor_lag_s = 8,
+                            .dead_s = 3};
   Rig rig(bed);
   ModelParameters model;
   ASSERT_EQ(tune(rig, 90'000, model, 120'000), HeatTuning::State::kDone);

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
+#include "node_firmware/port/host/virtual_heat_node.hpp"
 #include "node_firmware/port/host/virtual_node.hpp"
 #include "protocol/host/guarded_main.hpp"
 #include "protocol/host/realtime.hpp"
@@ -22,14 +23,13 @@ void set_default_plant(kinebus::VirtualNodeProcessOptions& options) {
         .active_above = false};
 }
 
-int serve(const kinebus::VirtualNodeProcessOptions& options, int priority) {
-  kinebus::VirtualNodeProcess process(options);
+int serve(kinebus::BusProcess& process, int node, const std::string& interface, int priority) {
   std::string error = process.open();
   if (priority > 0)
     if (const std::string missing = kinebus::become_realtime(priority); !missing.empty())
       error += (error.empty() ? "" : "; ") + std::string("cannot have ") + missing;
   if (error.empty()) {
-    std::fprintf(stderr, "kinebus-vnode: node %d on %s\n", options.node.node_id, options.interface.c_str());
+    std::fprintf(stderr, "kinebus-vnode: node %d on %s\n", node, interface.c_str());
     error = process.run();
   }
   if (!error.empty()) std::fprintf(stderr, "kinebus-vnode: %s\n", error.c_str());
@@ -41,12 +41,17 @@ int run(int argc, char** argv) {
   int node = 1, priority = 0;
   std::array<std::optional<std::int64_t>, 2> start, edge;
   CLI::App app{
-      "One Kinebus node on a CAN interface, with simulated motors and switches.\n"
-      "SIGUSR1 presses and releases the E-stop button; SIGTERM ends."};
+      "One Kinebus node on a CAN interface, with simulated motors and switches; SIGUSR1 presses and\n"
+      "releases the E-stop button. With --heat: one with a simulated hot end, bed and fans, which lines of\n"
+      "its standard input break and mend: sensor 1 open, heater 2 stuck, fan 1 stalled, flow 12, sensor 1 "
+      "ok.\n"
+      "SIGTERM ends it."};
   app.add_option("-i,--interface", options.interface, "SocketCAN interface, such as vcan0")->required();
   app.add_option("-n,--node", node, "Node id; 0: as stored, or given by LSS")->check(CLI::Range(0, 127));
   app.add_option("--serial", options.node.identity.serial, "Serial number (default: 1000 + node id)");
   app.add_option("--store", options.image_path, "File for stored parameters; without it nothing is kept");
+  bool heat = false;
+  CLI::Option* as_heat = app.add_flag("--heat", heat, "A heat node instead of one with motors");
   app.add_option("--estop-input", options.emergency_input, "Input of the E-stop button")
       ->check(CLI::Range(1, 7))
       ->capture_default_str();
@@ -60,10 +65,20 @@ int run(int argc, char** argv) {
          "SCHED_FIFO priority and locked memory: above the daemon's (80) where both share a processor, "
          "as a real node has its own")
       ->check(CLI::Range(1, 99));
+  for (const char* of_motors :
+       {"--estop-input", "--trace", "--start-a", "--start-b", "--switch-a", "--switch-b"})
+    as_heat->excludes(app.get_option(of_motors));
   CLI11_PARSE(app, argc, argv);
 
   options.node.node_id = static_cast<std::uint8_t>(node);
   if (options.node.identity.serial == 0) options.node.identity.serial = 1000u + static_cast<unsigned>(node);
+  if (heat) {
+    kinebus::VirtualHeatNodeProcess process(
+        {.interface = options.interface,
+         .node = {.node_id = options.node.node_id, .serial = options.node.identity.serial},
+         .image_path = options.image_path});
+    return serve(process, node, options.interface, priority);
+  }
   set_default_plant(options);
   for (std::size_t axis = 0; axis < 2; ++axis) {
     if (start[axis]) options.plant[axis].start_counts = *start[axis];
@@ -72,7 +87,8 @@ int run(int argc, char** argv) {
     options.plant[axis].switch_input = static_cast<int>(axis) + 1;
     options.plant[axis].active_above = false;
   }
-  return serve(options, priority);
+  kinebus::VirtualNodeProcess process(options);
+  return serve(process, node, options.interface, priority);
 }
 
 }  // namespace

@@ -1,15 +1,15 @@
 #pragma once
-// The node core as a Linux process on SocketCAN: its event loop. The kernel's receive time stamps stand for
-// the receive interrupt, a timer for the timer, a file for the flash, SIGUSR1 for the E-stop button.
+// The node core as a Linux process on SocketCAN, with simulated motors and switches. SIGUSR1 is the E-stop
+// button.
 
+#include <algorithm>
 #include <array>
 #include <optional>
 
 #include "node_firmware/core/node.hpp"
 #include "node_firmware/port/host/axis_plant.hpp"
-#include "node_firmware/port/host/image_file.hpp"
+#include "node_firmware/port/host/bus_process.hpp"
 #include "node_firmware/port/host/position_trace.hpp"
-#include "protocol/host/socketcan.hpp"
 
 namespace kinebus {
 
@@ -22,40 +22,30 @@ struct VirtualNodeProcessOptions {
   std::string trace_path;  ///< see PositionTrace; empty: none
 };
 
-class VirtualNodeProcess {
+class VirtualNodeProcess final : public BusProcess {
  public:
   explicit VirtualNodeProcess(const VirtualNodeProcessOptions& options);
-  ~VirtualNodeProcess();
-  VirtualNodeProcess(const VirtualNodeProcess&) = delete;
-  VirtualNodeProcess& operator=(const VirtualNodeProcess&) = delete;
-
-  /// Empty: ready. Otherwise what is wrong and what to do.
-  std::string open();
-  /// Until SIGTERM or SIGINT: empty. Otherwise why it could not go on.
-  std::string run();
 
  private:
-  void receive();
-  void filter();
-  void send();
+  std::string start(LocalTime now, std::span<const std::uint8_t> stored) override;
+  void on_frame(LocalTime at, const CanFrame& frame) override;
+  void on_time(LocalTime now) override;
+  std::optional<CanFrame> next_frame() override { return node_->next_frame(); }
+  LocalTime next_deadline() override { return std::min(node_->next_deadline(), next_look_); }
+  std::span<const std::uint8_t> image_to_store() override { return node_->image_to_store(); }
+  void on_image_stored(bool good) override { node_->on_image_stored(good); }
+  bool take_reset_request() override { return node_->take_reset_request(); }
+  Ids wanted_ids() override { return ids_of(*node_); }
+  void on_user_signal() override;
+
   void look_at_switches(LocalTime now);
-  void store();
-  void arm_timer();
-  /// True: end.
-  bool on_signal();
 
   VirtualNodeProcessOptions options_;
-  SocketCan can_;
-  ImageFile image_;
   std::optional<Node> node_;
   std::array<AxisPlant, 2> plant_;
-  std::array<SocketCan::Accept, 16> filters_{};
-  std::optional<CanFrame> unsent_;
   PositionTrace trace_;
   LocalTime next_look_{0};
   bool emergency_ = false;
-  bool bus_down_ = false;
-  int epoll_ = -1, timer_ = -1, signals_ = -1;
 };
 
 }  // namespace kinebus

@@ -15,13 +15,11 @@ struct HeatBoard {
                                      // CiA 404: analogue inputs, controllers, analogue outputs.
                                      .device_type = 0x0000'0194,
                                      .product_code = 0x0000'0404,
-                                     .revision = 0x0001'0000,
                                      .hardware = 0x0404'0001};
   static constexpr object_table::PdoSet kPdos = object_table::kHeatPdos;
 
   static constexpr void compose(object_table::Rows& t) {
-    object_table::communication(t, kFacts);
-    object_table::pdos(t, kPdos);
+    object_table::device(t, kFacts, kPdos);
     object_table::heat_supervision(t);
     object_table::temperature_inputs(t);
     object_table::heaters(t);

@@ -13,13 +13,11 @@ struct Stm32f405Board {
                                      .description = "Kinebus two-axis CAN node",
                                      .device_type = 0xFFFF'0192,  // several CiA 402 axes: see 67FFh, 6FFFh
                                      .product_code = kProductCode,
-                                     .revision = kRevisionNumber,
                                      .hardware = 0x0405'0001};
   static constexpr object_table::PdoSet kPdos = object_table::kAxisPairPdos;
 
   static constexpr void compose(object_table::Rows& t) {
-    object_table::communication(t, kFacts);
-    object_table::pdos(t, kPdos);
+    object_table::device(t, kFacts, kPdos);
     object_table::program_download(t);
     object_table::stream(t);
     object_table::counters(t);

@@ -1,5 +1,5 @@
 #pragma once
-// A hot end or bed as it is, in double precision, for tests: heater, block and sensor as three lumps, a dead
+// A hot end or bed as it is, in double precision: heater, block and sensor as three lumps, a dead
 // time, loss by convection and radiation, filament and fan, a converter of 12 bits with noise, and everything
 // that can break. It is another model than that of the controller, with more in it, and its numbers are its
 // own.

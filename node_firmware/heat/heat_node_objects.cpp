@@ -1,0 +1,307 @@
+// HeatNode: the objects whose values are the node's own state, and the rules for what may be written.
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "node_firmware/heat/heat_node.hpp"
+
+namespace kinebus::heat {
+namespace {
+
+using namespace heat_object;
+
+/// At its target: mC.
+constexpr std::int32_t kThere = 2'000;
+/// Cold enough to try whether a switch opens again: mC.
+constexpr std::int32_t kCold = 50'000;
+
+std::int32_t tenths(std::int32_t mc) {
+  return (mc + (mc < 0 ? -50 : 50)) / 100;
+}
+std::int32_t milli(std::int64_t tenths_of_a_degree) {
+  return static_cast<std::int32_t>(tenths_of_a_degree) * 100;
+}
+
+bool is_sensor_setting(std::uint16_t index) {
+  return (index >= kSensorPath.index && index <= kHighestPlausible.index) || index == kSensorType.index;
+}
+/// What safety rests on.
+bool is_setting(std::uint16_t index) {
+  return is_sensor_setting(index) || (index >= kHeaterSensor.index && index <= kSafeTime.index) ||
+         (index >= kFanFunction.index && index <= kFanPulses.index) || index == kMasterLost.index ||
+         (index >= kProportionalBand.index && index <= kDerivativeTime.index);
+}
+
+/// Of a subindex of an array.
+std::size_t place_of(ObjectAddress address) {
+  return address.subindex == 0 ? 0 : address.subindex - 1u;
+}
+
+}  // namespace
+
+AbortCode HeatNode::read(const ObjectEntry& entry, std::int64_t& result) {
+  const std::uint16_t index = entry.address.index;
+  const std::size_t n = place_of(entry.address);
+  switch (index) {
+    case kRatio.index:
+    case kInputStatus.index:
+    case kInputI16.index:
+    case kInputI32.index:
+      return read_sensor(index, n, result);
+    case kFanSpeed.index:
+      result = fans_[n].turns_per_minute();
+      return AbortCode::kNone;
+    case kFanOutput.index:
+      result = fans_[n].command();
+      return AbortCode::kNone;
+    default:
+      break;
+  }
+  const bool of_a_heater = (index >= kHeaterState.index && index <= kTuneState.index) ||
+                           index == kOnOff.index || index == kSetPoint.index ||
+                           index == kEffectiveOutput.index;
+  return of_a_heater ? read_heater(index, n, result) : read_device(entry.address, result);
+}
+
+AbortCode HeatNode::read_device(ObjectAddress address, std::int64_t& result) const {
+  switch (address.index) {
+    case 0x1001:
+      result = emcy_.error_register();
+      return AbortCode::kNone;
+    case 0x1002:
+      result = master_lost_ ? 1 : 0;
+      return AbortCode::kNone;
+    case 0x1003:
+      if (address.subindex > emcy_.history_length()) return AbortCode::kNoData;
+      result = address.subindex == 0 ? emcy_.history_length() : emcy_.history(address.subindex - 1u);
+      return AbortCode::kNone;
+    case 0x1010:
+    case 0x1011:
+      result = 1;  // on command, of all parameters
+      return AbortCode::kNone;
+    case 0x1013:
+      result = static_cast<std::uint32_t>(now_.count() / 1000);
+      return AbortCode::kNone;
+    case 0x1018: {
+      const std::array<std::uint32_t, 4> fields{kVendorId, HeatBoard::kFacts.product_code,
+                                                HeatBoard::kFacts.revision, options_.serial};
+      result = fields[place_of(address) & 3u];
+      return AbortCode::kNone;
+    }
+    case kFingerprint.index:
+      result = objects_.fingerprint();
+      return AbortCode::kNone;
+    case kContactor.index:
+      result = contactor() ? 1 : 0;
+      return AbortCode::kNone;
+    case kSupply.index:
+      result = supply_mv_;
+      return AbortCode::kNone;
+    default:
+      return AbortCode::kNoData;
+  }
+}
+
+AbortCode HeatNode::read_sensor(std::uint16_t index, std::size_t n, std::int64_t& result) const {
+  const SensorInput& sensor = sensors_[n];
+  if (index == kRatio.index) {
+    result = sensor.ratio();
+  } else if (index == kInputStatus.index) {
+    // An open thermistor is below what can be measured, an open resistance thermometer above.
+    const auto kind = static_cast<SensorKind>(value(heat_slot_of(kSensorType), n));
+    const bool rises = kind == SensorKind::kPt100 || kind == SensorKind::kPt1000;
+    const bool open = sensor.fault() == SensorFault::kOpen, shorted = sensor.fault() == SensorFault::kShort;
+    result = (sensor.configured() && sensor.good() ? 0 : 1) | ((rises ? open : shorted) ? 2 : 0) |
+             ((rises ? shorted : open) ? 4 : 0);
+  } else {
+    result = sensor.configured() ? tenths(sensor.temperature()) : 0;
+  }
+  return AbortCode::kNone;
+}
+
+std::uint8_t HeatNode::heater_state(std::size_t n) const {
+  const Heater& heater = heaters_[n];
+  const SensorInput* sensor = sensor_of(n);
+  if (heater.fault() != HeaterFault::kNone) return 4;
+  if (heater.tuning()) return 3;
+  if (heater.target() == 0 || sensor == nullptr) return 0;
+  return std::abs(sensor->temperature() - heater.target()) <= kThere ? 2 : 1;
+}
+
+AbortCode HeatNode::read_heater(std::uint16_t index, std::size_t n, std::int64_t& result) const {
+  switch (index) {
+    case kHeaterState.index:
+      result = heater_state(n);
+      return AbortCode::kNone;
+    case kHeaterFault.index:
+      result = static_cast<std::int64_t>(heaters_[n].fault());
+      return AbortCode::kNone;
+    case kFeedForward.index:
+      result = feed_forward_[n];
+      return AbortCode::kNone;
+    case kTuneState.index:
+      result = static_cast<int>(n) == tuned_
+                   ? static_cast<int>(tuning_.state()) | static_cast<int>(tuning_.failure()) << 4
+                   : 0;
+      return AbortCode::kNone;
+    case kOnOff.index:
+      result = on_[n] ? 1 : 0;
+      return AbortCode::kNone;
+    case kSetPoint.index:
+      result = set_points_[n];
+      return AbortCode::kNone;
+    case kEffectiveOutput.index:
+      result = heater_output(static_cast<int>(n)) * 1000u >> 16;
+      return AbortCode::kNone;
+    default:
+      return AbortCode::kNoData;
+  }
+}
+
+AbortCode HeatNode::write(const ObjectEntry& entry, std::int64_t to) {
+  const std::uint16_t index = entry.address.index;
+  if (index < 0x2000) return write_communication(entry, to);
+  if (index == kFanOutput.index) {
+    if (to < 0) return AbortCode::kTooLow;
+    fans_[place_of(entry.address)].set_command(static_cast<std::int32_t>(to));
+    return AbortCode::kNone;
+  }
+  if (entry.binding == Binding::kLive) return write_heater(index, place_of(entry.address), to);
+  return check_setting(entry, to);
+}
+
+AbortCode HeatNode::write_communication(const ObjectEntry& entry, std::int64_t to) {
+  if (PdoEngine::owns(entry.address)) return pdo_.accept(entry, to);
+  switch (entry.address.index) {
+    case 0x1003:
+      if (to != 0) return AbortCode::kInvalidValue;
+      emcy_.clear_history();
+      return AbortCode::kNone;
+    case 0x1005:
+      // SYNC and EMCY are where they always are.
+      return to == 0x80 ? AbortCode::kNone : AbortCode::kInvalidValue;
+    case 0x1014:
+      return to == 0x80 + node_id_ ? AbortCode::kNone : AbortCode::kInvalidValue;
+    case 0x1010:
+    case 0x1011:
+      return command_storage(entry.address, to);
+    default:
+      communication_changed_ = true;
+      return AbortCode::kNone;
+  }
+}
+
+// Settings change while nothing heats, and by no job: those run in operational.
+AbortCode HeatNode::check_setting(const ObjectEntry& entry, std::int64_t to) {
+  if (!is_setting(entry.address.index)) return AbortCode::kNone;
+  if (nmt_.state() != NmtState::kPreOperational || any_heat()) return AbortCode::kDeviceState;
+  // In its place for a moment, to be looked at with all that hangs together with it.
+  const std::int64_t before = objects_.value(entry.value_slot());
+  objects_.set_value(entry.value_slot(), to);
+  const AbortCode refused = inconsistent(entry);
+  objects_.set_value(entry.value_slot(), before);
+  if (refused == AbortCode::kNone) settings_changed_ = true;
+  return refused;
+}
+
+AbortCode HeatNode::inconsistent(const ObjectEntry& entry) const {
+  const std::uint16_t index = entry.address.index;
+  // A sensor is described first; its type, last, switches it on.
+  if (const SensorSetup setup = sensor_setup(is_sensor_setting(index) ? place_of(entry.address) : 0);
+      is_sensor_setting(index) && setup.kind != SensorKind::kNone) {
+    Linearisation trial;
+    if (trial.configure(setup) != SetupError::kNone) return AbortCode::kInvalidValue;
+  }
+  for (std::size_t i = 0; i < heaters_.size(); ++i) {
+    const int sensor = sensor_number(i);
+    if (sensor < 0) continue;
+    for (std::size_t other = 0; other < i; ++other)
+      if (sensor_number(other) == sensor) return AbortCode::kInvalidValue;  // neither would be watched
+    const SensorSetup setup = sensor_setup(static_cast<std::size_t>(sensor));
+    if (setup.kind != SensorKind::kNone && milli(value(heat_slot_of(kLimit), i)) > setup.high_mc)
+      return index == kLimit.index ? AbortCode::kTooHigh : AbortCode::kInvalidValue;
+  }
+  return AbortCode::kNone;
+}
+
+AbortCode HeatNode::write_heater(std::uint16_t index, std::size_t n, std::int64_t to) {
+  switch (index) {
+    case kSetPoint.index:
+      return write_set_point(n, to);
+    case kOnOff.index:
+      on_[n] = to != 0;
+      break;
+    case kFeedForward.index:
+      feed_forward_[n] = static_cast<std::int16_t>(to);
+      break;
+    case kTune.index:
+      return begin_tuning(n, to);
+    case kFaultReset.index:
+      return reset_fault(n);
+    default:
+      return AbortCode::kNoData;
+  }
+  apply_targets();
+  return AbortCode::kNone;
+}
+
+AbortCode HeatNode::write_set_point(std::size_t n, std::int64_t to) {
+  Heater& heater = heaters_[n];
+  if (to > highest_set_point(n)) return AbortCode::kTooHigh;
+  if (to < 0) return AbortCode::kTooLow;
+  const bool ready =
+      sensor_of(n) != nullptr && heater.fault() == HeaterFault::kNone && contactor() && !master_lost_;
+  if (to != 0 && (!ready || heater.tuning())) return AbortCode::kDeviceState;
+  if (to == 0 && heater.tuning()) heater.trip(HeaterFault::kNone);
+  set_points_[n] = static_cast<std::int16_t>(to);
+  apply_targets();
+  return AbortCode::kNone;
+}
+
+AbortCode HeatNode::begin_tuning(std::size_t n, std::int64_t to) {
+  Heater& heater = heaters_[n];
+  const SensorInput* sensor = sensor_of(n);
+  if (to > highest_set_point(n)) return AbortCode::kTooHigh;
+  if (to <= 0) return AbortCode::kTooLow;
+  if (sensor == nullptr || !sensor->good() || heater.fault() != HeaterFault::kNone || !contactor() ||
+      master_lost_ || tuning_.running() || set_points_[n] != 0 || !on_[n])
+    return AbortCode::kDeviceState;
+  heater.begin_tuning(tuning_, *sensor, milli(to));
+  tuned_ = static_cast<int>(n);
+  tuning_taken_ = !heater.tuning();
+  return heater.tuning() ? AbortCode::kNone : AbortCode::kTooLow;  // the way is too short to measure anything
+}
+
+AbortCode HeatNode::reset_fault(std::size_t n) {
+  Heater& heater = heaters_[n];
+  const SensorInput* sensor = sensor_of(n);
+  // The contactor closes on a cold block only: its switch may still not open.
+  const bool cold = sensor != nullptr && sensor->good() && sensor->temperature() < kCold;
+  if (heater.fault() == HeaterFault::kHeatUnasked && !cold) return AbortCode::kDeviceState;
+  for (std::size_t i = 0; i < sensors_.size(); ++i) {
+    bool mine = true;  // or nobody's
+    for (std::size_t h = 0; h < heaters_.size(); ++h)
+      if (h != n && sensor_number(h) == static_cast<int>(i)) mine = false;
+    if (mine && sensors_[i].fault() != SensorFault::kNone) sensors_[i].clear(now_);
+  }
+  for (Fan& fan : fans_)
+    if (fan.settings().heater == n + 1) fan.clear_stall(now_);
+  heater.clear_fault();
+  return AbortCode::kNone;
+}
+
+AbortCode HeatNode::command_storage(ObjectAddress address, std::int64_t to) {
+  const bool save = address == object::kStoreParameters;
+  if (to != (save ? kSaveSignature : kLoadSignature)) return AbortCode::kCannotStore;
+  // Writing flash holds up control.
+  if (any_heat() || storing_ != Storing::kNothing) return AbortCode::kDeviceState;
+  if (save)
+    image_.save(objects_, node_id_, image_.node_id());
+  else
+    image_.clear(image_.node_id());  // the defaults come into force at the next reset
+  storing_ = Storing::kWanted;
+  sdo_.defer();
+  return AbortCode::kNone;
+}
+
+}  // namespace kinebus::heat

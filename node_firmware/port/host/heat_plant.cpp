@@ -1,0 +1,122 @@
+#include "node_firmware/port/host/heat_plant.hpp"
+
+#include <charconv>
+#include <sstream>
+
+namespace kinebus::heat {
+namespace {
+
+constexpr double kFanLag = 0.5;         // s
+constexpr double kFanPulsesPerS = 180;  // at full speed: 5400 turns a minute, 2 pulses each
+constexpr double kLeastTurning = 0.08;  // of full: below, it stands
+
+PlantParameters hot_end() {
+  return {.power_w = 44, .heater_j_per_k = 2.1, .block_j_per_k = 12.5, .sensor_lag_s = 1.3, .dead_s = 1.6};
+}
+PlantParameters bed_of_250_w() {
+  return {.power_w = 250,
+          .heater_j_per_k = 110,
+          .heater_w_per_k = 40,
+          .block_j_per_k = 950,
+          .loss_w_per_k = 1.1,
+          .radiation_w_per_k4 = 3e-9,
+          .sensor_lag_s = 7,
+          .dead_s = 3};
+}
+PlantParameters chamber() {
+  return {.power_w = 0, .sensor_lag_s = 5, .dead_s = 0, .ambient_c = 24};
+}
+
+}  // namespace
+
+HeatPlant::HeatPlant(std::uint32_t seed)
+    : places_{ThermalPlant(heat::hot_end(), seed), ThermalPlant(bed_of_250_w(), seed + 1),
+              ThermalPlant(chamber(), seed + 2)} {}
+
+void HeatPlant::step(HeatNode& node, LocalTime now) {
+  constexpr double dt = ThermalPlant::kStep;
+  node.set_supply(kSupplyMv);
+  for (std::size_t i = 0; i < fans_.size(); ++i) {
+    Turning& fan = fans_[i];
+    const double wanted = node.fan_output(static_cast<int>(i)) / static_cast<double>(kFullFan);
+    const double goal = fan.stalled || wanted < kLeastTurning ? 0 : wanted;
+    fan.speed += (goal - fan.speed) * dt / kFanLag;
+    if (goal == 0 && fan.speed < kLeastTurning) fan.speed = 0;
+    fan.turned += fan.speed * kFanPulsesPerS * dt;
+    const auto pulses = static_cast<std::uint32_t>(fan.turned);
+    fan.turned -= pulses;
+    node.on_tacho(static_cast<int>(i), pulses);
+  }
+  hot_end().fan = fans_[1].speed;
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    ThermalPlant& place = places_[i];
+    const int number = static_cast<int>(i);
+    place.contactor = node.contactor();
+    place.step(i < 2 ? node.heater_output(number) / static_cast<double>(kFullPower) : 0);
+    if (!place.silent) node.on_sample(now, number, place.ratio());
+  }
+}
+
+std::string HeatPlant::command(std::string_view text) {
+  std::istringstream words{std::string(text)};
+  std::string what, which, how, rest;
+  words >> what >> which >> how >> rest;
+  int number = 0;
+  std::from_chars(which.data(), which.data() + which.size(), number);
+  const bool done =
+      rest.empty() &&
+      ((what == "sensor" && break_sensor(number, how)) || (what == "heater" && break_heater(number, how)) ||
+       (what == "fan" && break_fan(number, how)) || (what == "flow" && how.empty() && set_flow(which)));
+  if (done) return {};
+  return "\"" + std::string(text) +
+         "\": expected sensor N open|short|loose|silent|frozen|ok, heater N loose|open|stuck|ok, fan N "
+         "stalled|ok, or flow MM3_PER_S";
+}
+
+bool HeatPlant::break_sensor(int number, std::string_view how) {
+  if (number < 1 || number > 3) return false;
+  ThermalPlant& place = places_[static_cast<std::size_t>(number - 1)];
+  if (how == "open") return place.sensor_open = true;
+  if (how == "short") return place.sensor_short = true;
+  if (how == "silent") return place.silent = true;
+  if (how == "frozen") return place.frozen = true;
+  if (how == "loose") {
+    place.sensor_contact = 0;
+    return true;
+  }
+  if (how != "ok") return false;
+  place.sensor_open = place.sensor_short = place.silent = place.frozen = false;
+  place.sensor_contact = 1;
+  return true;
+}
+
+bool HeatPlant::break_heater(int number, std::string_view how) {
+  if (number < 1 || number > 2) return false;
+  ThermalPlant& place = places_[static_cast<std::size_t>(number - 1)];
+  if (how == "open") return place.mosfet_open = true;
+  if (how == "stuck") return place.mosfet_stuck = true;
+  if (how == "loose") {
+    place.heater_contact = 0.02;
+    return true;
+  }
+  if (how != "ok") return false;
+  place.mosfet_open = place.mosfet_stuck = false;
+  place.heater_contact = 1;
+  return true;
+}
+
+bool HeatPlant::break_fan(int number, std::string_view how) {
+  if (number < 1 || number > 2 || (how != "stalled" && how != "ok")) return false;
+  fans_[static_cast<std::size_t>(number - 1)].stalled = how == "stalled";
+  return true;
+}
+
+bool HeatPlant::set_flow(std::string_view text) {
+  double flow = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), flow);
+  if (error != std::errc{} || end != text.data() + text.size() || !(flow >= 0 && flow <= 100)) return false;
+  hot_end().flow_mm3_per_s = flow;
+  return true;
+}
+
+}  // namespace kinebus::heat

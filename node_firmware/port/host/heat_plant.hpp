@@ -1,0 +1,55 @@
+#pragma once
+// What hangs on a simulated heat node: a hot end, a bed, a chamber's sensor, two fans, and what can break of
+// them. No clock and no input or output; the numbers are not those that the node assumes.
+//
+//   heater 1, sensor 1   hot end of 40 W          fan 1   the hot end's own, with tacho
+//   heater 2, sensor 2   bed of 250 W             fan 2   cools the print, and the hot end a little
+//             sensor 3   the chamber's air
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "node_firmware/heat/heat_node.hpp"
+#include "node_firmware/port/host/thermal_plant.hpp"
+
+namespace kinebus::heat {
+
+class HeatPlant {
+ public:
+  static constexpr LocalTime kPeriod = SensorInput::kSamplePeriod;
+  static constexpr std::uint16_t kSupplyMv = 24'000;
+
+  explicit HeatPlant(std::uint32_t seed = 1);
+
+  /// One kPeriod goes by under what `node` puts out; then its sensors and tachos tell it.
+  void step(HeatNode& node, LocalTime now);
+
+  /// Breaks or mends something:
+  ///   sensor N open | short | loose | silent | frozen | ok      N: 1 to 3; the chamber's sensor: open,
+  ///   short, ok heater N loose | open | stuck | ok                        N: 1, 2; stuck: its MOSFET is
+  ///   always on fan N stalled | ok flow MM3_PER_S                                            filament
+  ///   through the hot end, 0 to 100
+  /// Empty: done. Otherwise what is wrong with the command, and what there is.
+  std::string command(std::string_view text);
+
+  ThermalPlant& hot_end() { return places_[0]; }
+  ThermalPlant& bed() { return places_[1]; }
+
+ private:
+  struct Turning {
+    double speed = 0;   ///< of full
+    double turned = 0;  ///< pulses that the tacho has not given yet
+    bool stalled = false;
+  };
+  bool break_sensor(int number, std::string_view how);
+  bool break_heater(int number, std::string_view how);
+  bool break_fan(int number, std::string_view how);
+  bool set_flow(std::string_view mm3_per_s);
+
+  std::array<ThermalPlant, 3> places_;
+  std::array<Turning, 2> fans_;
+};
+
+}  // namespace kinebus::heat
