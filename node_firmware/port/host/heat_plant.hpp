@@ -26,11 +26,15 @@ class HeatPlant {
   /// One kPeriod goes by under what `node` puts out; then its sensors and tachos tell it.
   void step(HeatNode& node, LocalTime now);
 
-  /// Breaks or mends something:
-  ///   sensor N open | short | loose | silent | frozen | ok      N: 1 to 3; the chamber's sensor: open,
-  ///   short, ok heater N loose | open | stuck | ok                        N: 1, 2; stuck: its MOSFET is
-  ///   always on fan N stalled | ok flow MM3_PER_S                                            filament
-  ///   through the hot end, 0 to 100
+  /// Breaks or mends something, one of:
+  ///
+  ///     sensor N open | short | loose | silent | frozen | ok
+  ///     heater N loose | open | stuck | ok
+  ///     fan N stalled | ok
+  ///     flow MM3_PER_S
+  ///
+  /// Sensors are 1 to 3, the chamber's can be open, short and ok; heaters and fans 1 and 2. A stuck heater's
+  /// MOSFET is always on. Flow is that of filament through the hot end, 0 to 100.
   /// Empty: done. Otherwise what is wrong with the command, and what there is.
   std::string command(std::string_view text);
 
