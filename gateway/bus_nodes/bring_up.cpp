@@ -167,7 +167,7 @@ void BringUp::step(BusTime now, std::size_t i) {
   Node& node = nodes_[i];
   switch (stage_) {
     case Stage::kIdentify:
-      return identify(link, node);
+      return identify(now, link, node);
     case Stage::kConfigure:
       return configure(now, link, node);
     case Stage::kOperational:
@@ -195,7 +195,20 @@ std::optional<SdoResult> BringUp::result(NodeLink& link, AlarmCode code) {
   return std::nullopt;
 }
 
-void BringUp::identify(NodeLink& link, Node& node) {
+/// A node that NMT has stopped answers no SDO.
+void BringUp::wake(BusTime now, NodeLink& link, Node& node) {
+  link.sdo().abandon();
+  node.requested = false;
+  if (now - node.asked >= kAskAgain) {
+    out_.push_back(nmt_frame(NmtCommand::kEnterPreOperational, link.id()));
+    node.asked = now;
+  }
+  if (now - entered_ > kOperationalTimeout + machine_.bus.heartbeat_timeout)
+    fail(AlarmCode::kNodeMissing, link.id(), say("node %1 stays stopped by NMT", link.id()));
+}
+
+void BringUp::identify(BusTime now, NodeLink& link, Node& node) {
+  if (link.nmt_state() == NmtState::kStopped) return wake(now, link, node);
   if (!node.requested) {
     node.requested = true;
     for (std::uint8_t sub = 1; sub <= 4; ++sub) link.sdo().read({object::kVendorIdentity.index, sub});

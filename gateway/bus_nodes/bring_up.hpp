@@ -90,7 +90,8 @@ class BringUp {
   bool all_done() const;
   void fail(AlarmCode code, std::uint8_t node, Sentence words);
   void step(BusTime now, std::size_t i);
-  void identify(NodeLink& link, Node& node);
+  void identify(BusTime now, NodeLink& link, Node& node);
+  void wake(BusTime now, NodeLink& link, Node& node);
   void configure(BusTime now, NodeLink& link, Node& node);
   void settle(BusTime now, NodeLink& link, Node& node);
   void check_fingerprint(NodeLink& link, Node& node, std::uint32_t fingerprint);

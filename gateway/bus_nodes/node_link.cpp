@@ -31,7 +31,7 @@ bool NodeLink::on_frame(BusTime now, const CanFrame& frame) {
   } else if (frame.id == cob_id::kSdoReply + id_ && frame.length == 8) {
     note_serial_number(frame);
     sdo_.on_frame(now, frame);
-  } else if (!functions_.has_axes() || !on_axis_frame(frame)) {
+  } else if (!functions_.has_axes() || !on_axis_frame(now, frame)) {
     return false;
   }
   heard_ = true;
@@ -40,10 +40,11 @@ bool NodeLink::on_frame(BusTime now, const CanFrame& frame) {
 }
 
 /// The PDOs of a pair of axes.
-bool NodeLink::on_axis_frame(const CanFrame& frame) {
+bool NodeLink::on_axis_frame(BusTime now, const CanFrame& frame) {
   const auto data = frame.bytes();
   if (frame.id == cob_id::tpdo(1, id_) && frame.length >= 7) {
     on_status_words(frame);
+    drive_told_ = now;
   } else if (frame.id == cob_id::tpdo(2, id_) && frame.length == 8) {
     stream_ = new_stream_ = decode_stream_status(get_u64_le(data));
   } else if (frame.id == cob_id::tpdo(3, id_) && frame.length == 8) {

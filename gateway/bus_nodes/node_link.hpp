@@ -44,6 +44,8 @@ class NodeLink {
   std::uint16_t statusword(std::size_t axis) const { return statusword_[axis]; }
   cia402::State drive_state(std::size_t axis) const { return cia402::state_of(statusword_[axis]); }
   bool drive_known() const { return drive_heard_; }
+  /// When its statuswords came last.
+  BusTime drive_told() const { return drive_told_; }
   std::int8_t mode(std::size_t axis) const { return mode_[axis]; }
   std::uint32_t inputs() const { return inputs_; }
   const std::optional<StreamStatus>& stream() const { return stream_; }
@@ -76,7 +78,7 @@ class NodeLink {
   NodeStatus status(BusTime now, BusTime heartbeat_timeout) const;
 
  private:
-  bool on_axis_frame(const CanFrame& frame);
+  bool on_axis_frame(BusTime now, const CanFrame& frame);
   void on_status_words(const CanFrame& frame);
   void note_serial_number(const CanFrame& reply);
 
@@ -84,7 +86,7 @@ class NodeLink {
   NodeFunctions functions_;
   SdoChannel sdo_;
   bool heard_ = false, booted_ = false, drive_heard_ = false, control_due_ = false;
-  BusTime last_heard_{0};
+  BusTime last_heard_{0}, drive_told_{0};
   NmtState nmt_state_ = NmtState::kInitialising;
   std::array<std::uint16_t, 2> statusword_{}, control_{};
   std::array<std::int8_t, 2> mode_{}, wanted_mode_{};

@@ -34,6 +34,13 @@ void SdoChannel::glance(ObjectAddress address) {
   requests_.push_back({.address = address, .read = true, .glance = true, .size = 8, .bytes = {}});
 }
 
+std::optional<SdoResult> SdoChannel::next_glance(ObjectAddress base) {
+  if (!glanced_) return std::nullopt;
+  const ObjectAddress second{static_cast<std::uint16_t>(base.index + kAxisOffset), base.subindex};
+  if (glanced_->address != base && glanced_->address != second) return std::nullopt;
+  return std::exchange(glanced_, std::nullopt);
+}
+
 void SdoChannel::write(const ParameterWrite& write) {
   Request request{.address = write.address, .read = false, .glance = false, .size = write.size, .bytes = {}};
   put_le(request.bytes, static_cast<std::uint64_t>(write.value), write.size);

@@ -43,7 +43,8 @@ class SdoChannel {
   std::optional<SdoResult> next_result();
   /// A read for displays, when the channel is idle: tried once, its result comes apart from the others.
   void glance(ObjectAddress address);
-  std::optional<SdoResult> next_glance() { return std::exchange(glanced_, std::nullopt); }
+  /// Of this object, on either axis.
+  std::optional<SdoResult> next_glance(ObjectAddress base);
   /// Forgets all requests and results.
   void abandon();
 

@@ -64,6 +64,7 @@ Gateway::Core::Core(const MachineDescription& machine, Options options, std::opt
       state_(events_),
       voice_(machine_, options.epoch),
       watch_(machine_, links_, rate_, group_, events_, counters_),
+      parameters_(machine_, links_),
       bring_up_(machine_, links_, rate_),
       homing_(machine_, links_),
       currents_(links_.size()),
@@ -86,12 +87,23 @@ void Gateway::Core::on_frame(BusTime when, const CanFrame& frame) {
   now_ = std::max(now_, when);
   ++counters_.frames_received;
   voice_.on_frame(when, frame);
+  if (frame.remote) {
+    // Node guarding and polls of other masters: nobody here answers them, and they say nothing.
+    ++counters_.foreign_frames;
+    if (!std::exchange(remote_told_, true))
+      events_.message(now_, say("another device sends remote frames (COB-ID %1): nobody answers them",
+                                printed("%03Xh", static_cast<unsigned>(frame.id))));
+    return;
+  }
+  parameters_.on_frame(when, frame);
   if (is_of_a_gateway(frame)) {
     ++counters_.foreign_frames;
     if (bring_up_.busy()) {
       bring_up_.on_foreign_gateway();
     } else if (!state_.is_one_of(MachineState::kOff, MachineState::kAlarm) && !fault_) {
-      events_.alarm(now_, AlarmCode::kSecondGateway, say("another gateway has begun to speak on this bus"));
+      events_.alarm(now_, AlarmCode::kSecondGateway,
+                    say("another gateway has begun to speak on this bus (COB-ID %1)",
+                        printed("%03Xh", static_cast<unsigned>(frame.id))));
       stop_all(true);
     }
     return;
@@ -99,6 +111,7 @@ void Gateway::Core::on_frame(BusTime when, const CanFrame& frame) {
   // Path time first: every node that heard this EMCY has begun to count.
   if (const auto request = decode_stop_request(frame, when); request && voice_.speaks()) {
     rate_.on_stop_request(*request, now_);
+    on_foreign_stop(static_cast<std::uint8_t>(frame.id - cob_id::kEmcy));
     if (!bring_up_.busy()) stop_all(false);
   }
   const bool of_device = devices_.on_frame(when, frame);
@@ -112,6 +125,16 @@ void Gateway::Core::on_frame(BusTime when, const CanFrame& frame) {
     ++counters_.foreign_frames;
   else
     ++counters_.malformed_frames;
+}
+
+/// What the machine's own nodes ask for has words of its own.
+void Gateway::Core::on_foreign_stop(std::uint8_t node) {
+  const bool known =
+      std::any_of(links_.begin(), links_.end(), [&](const NodeLink& link) { return link.id() == node; });
+  if (known || state_.is_one_of(MachineState::kStopping, MachineState::kStopped, MachineState::kAlarm))
+    return;
+  events_.alarm(now_, AlarmCode::kNodeChanged,
+                say("node %1, which the machine file does not name, has asked all to stop", node), node);
 }
 
 void Gateway::Core::on_frame_sent(BusTime when, const CanFrame& frame) {
@@ -176,6 +199,7 @@ void Gateway::Core::on_time(BusTime now) {
   devices_.on_time(now_);
   for (NodeLink& link : links_) link.on_time(now_);
   currents_.on_time(now_, links_, axes_, may_glance());
+  watch_parameters();
   watch_nodes();
   watch_devices();
   note_progress();
@@ -231,12 +255,35 @@ void Gateway::Core::on_bus_failure(BusTime now, std::string_view what) {
 void Gateway::Core::watch_nodes() {
   const bool moves = runner_->active() && !runner_->suspended();
   watch_.on_time(now_, streams_flow() && moves && rate_.rate(now_) > 0);
-  for (std::size_t i = 0; i < links_.size(); ++i)
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    const bool follows =
+        state_.streams() || state_.is_one_of(MachineState::kUnhomed, MachineState::kReady,
+                                             MachineState::kChecking, MachineState::kCancelling);
+    const bool rests = state_.is_one_of(MachineState::kUnhomed, MachineState::kReady);
     follow(watch_.look(
         now_, i,
         {.state = state_.now(),
          .bringing_up = bring_up_.busy(),
-         .homes = state_.is(MachineState::kHoming) && homing_.reports(i, now_ - NodeWatch::kStatusTimeout)}));
+         .homes = state_.is(MachineState::kHoming) && homing_.reports(i, now_ - NodeWatch::kStatusTimeout),
+         .enabled = follows || state_.is(MachineState::kHoming),
+         .follows = follows,
+         .rests_since = rests ? std::optional(state_.since()) : std::nullopt}));
+  }
+}
+
+void Gateway::Core::watch_parameters() {
+  const auto change = parameters_.on_time(now_, may_glance());
+  if (!change) return;
+  const std::uint8_t node = links_[change->node].id();
+  events_.alarm(
+      now_, AlarmCode::kNodeChanged,
+      say("node %1: another device has changed its parameters (fingerprint %2, the machine file's is "
+          "%3): bringing up again writes them anew",
+          node, printed("%08Xh", static_cast<unsigned>(change->found)),
+          printed("%08Xh", static_cast<unsigned>(change->expected))),
+      node);
+  watch_.lose();
+  stop_all(true);
 }
 
 /// A device that is out of order has switched itself off; whatever it was needed for must not go on.
@@ -265,6 +312,8 @@ void Gateway::Core::follow(const NodeWatch::Verdict& verdict) {
 
 void Gateway::Core::begin_bring_up() {
   watch_.bring_up_begins();
+  parameters_.forget();
+  remote_told_ = false;
   fault_ = false;
   position_.forget();
   position_.stream_is_new();

@@ -24,6 +24,7 @@
 #include "gateway/machine/manual_motion.hpp"
 #include "gateway/machine/motor_currents.hpp"
 #include "gateway/machine/node_watch.hpp"
+#include "gateway/machine/parameter_watch.hpp"
 #include "gateway/machine/position.hpp"
 #include "gateway/machine/print_job.hpp"
 #include "gateway/machine/recovery.hpp"
@@ -126,6 +127,8 @@ class Gateway::Core {
   void finish_motion();
   void watch_nodes();
   void watch_devices();
+  void watch_parameters();
+  void on_foreign_stop(std::uint8_t node);
   void take_stream_status(NodeLink& link);
   void follow(const NodeWatch::Verdict& verdict);
 
@@ -168,6 +171,7 @@ class Gateway::Core {
   CurrentState state_;
   BusVoice voice_;
   NodeWatch watch_;
+  ParameterWatch parameters_;
   BringUp bring_up_;
   MachineHoming homing_;
   MotorCurrents currents_;
@@ -181,9 +185,10 @@ class Gateway::Core {
 
   Runner* runner_ = &hand_.runner();  ///< whose motion it is
   BusTime now_{0};
-  BusTime served_{0};                                ///< the last on_time()
-  BusTime started_{0};                               ///< of the job or the move under way
-  bool fault_ = false;                               ///< the stop under way ends in an alarm
+  BusTime served_{0};         ///< the last on_time()
+  BusTime started_{0};        ///< of the job or the move under way
+  bool remote_told_ = false;  ///< a remote frame was passed over, since the last bring-up
+  bool fault_ = false;        ///< the stop under way ends in an alarm
   MachineState held_from_ = MachineState::kRunning;  ///< what resume goes back to
   double override_ = 1;
 };

@@ -16,7 +16,7 @@ constexpr BusTime kOldestGlance = 3s;
 void MotorCurrents::on_time(BusTime now, std::deque<NodeLink>& links, const std::vector<NodeAxes>& axes,
                             bool may_ask) {
   for (std::size_t i = 0; i < links.size(); ++i)
-    while (const auto result = links[i].sdo().next_glance()) {
+    while (const auto result = links[i].sdo().next_glance(object::kMotorCurrent)) {
       const std::size_t axis = result->address.index >= object::kMotorCurrent.index + kAxisOffset ? 1 : 0;
       if (result->abort != AbortCode::kNone) continue;
       read_[i].amperes[axis] = static_cast<double>(result->value) * 1e-3;

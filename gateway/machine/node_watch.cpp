@@ -43,8 +43,45 @@ NodeWatch::Verdict NodeWatch::look(BusTime now, std::size_t node, const Situatio
     needs_bring_up_ = true;
     verdict.stop = verdict.fault = true;
     events_.alarm(now, AlarmCode::kHeartbeatLost, say("%1 is silent", name_of(link)), link.id());
+  } else if (link.nmt_state() == NmtState::kStopped || link.nmt_state() == NmtState::kPreOperational) {
+    needs_bring_up_ = true;
+    verdict.stop = verdict.fault = true;
+    events_.alarm(now, AlarmCode::kNodeChanged,
+                  say("%1 was taken out of operation by an NMT command of another device", name_of(link)),
+                  link.id());
+  } else if (link.functions().has_axes() && link.drive_known()) {
+    check_drives(now, link, situation, verdict);
   }
   return verdict;
+}
+
+void NodeWatch::check_drives(BusTime now, const NodeLink& link, const Situation& situation,
+                             Verdict& verdict) {
+  for (const JointDescription& joint : machine_.joints) {
+    if (joint.node_id != link.id() || verdict.stop) continue;
+    const std::size_t axis = joint.axis & 1u;
+    const std::uint16_t word = link.statusword(axis);
+    constexpr auto kMode = static_cast<std::int8_t>(cia402::Mode::kInterpolatedPosition);
+    const bool told_at_rest =
+        situation.rests_since && link.drive_told() > *situation.rests_since + kFrameDelay;
+    const std::uint8_t number = joint.axis + 1u;
+    Sentence words;
+    if (situation.enabled && link.drive_state(axis) != cia402::State::kOperationEnabled) {
+      words = say("%1: the drive of axis %2 was switched off by another device or a fault (statusword %3)",
+                  name_of(link), number, printed("%04Xh", static_cast<unsigned>(word)));
+      // A motor without current may have been turned; the node says so when it is asked again.
+      verdict.positions_lost = true;
+    } else if (situation.follows && link.mode(axis) != kMode) {
+      words = say("%1: axis %2 was set to the mode of operation %3 by another device", name_of(link), number,
+                  link.mode(axis));
+    } else if (told_at_rest && (word & cia402::status::kTargetReached) == 0) {
+      words = say("%1: axis %2 moves, and not by this gateway", name_of(link), number);
+    } else {
+      continue;
+    }
+    verdict.stop = verdict.fault = verdict.stream_lost = true;
+    events_.alarm(now, AlarmCode::kNodeChanged, std::move(words), link.id());
+  }
 }
 
 void NodeWatch::take_emergencies(BusTime now, NodeLink& link, const Situation& situation, Verdict& verdict) {

@@ -3,6 +3,7 @@
 // clocks that drift apart, streams that went wrong.
 
 #include <deque>
+#include <optional>
 
 #include "gateway/bus_nodes/node_link.hpp"
 #include "gateway/description/machine_description.hpp"
@@ -21,7 +22,10 @@ class NodeWatch {
   struct Situation {
     MachineState state{};
     bool bringing_up = false;
-    bool homes = false;  ///< the carriages of this node home, and it has told where they are in time
+    bool homes = false;    ///< the carriages of this node home, and it has told where they are in time
+    bool enabled = false;  ///< all drives were enabled, and nobody has been told to switch them off
+    bool follows = false;  ///< all axes are at the gateway's records
+    std::optional<BusTime> rests_since{};  ///< nothing was to move since then
   };
   /// What has to follow.
   struct Verdict {
@@ -52,6 +56,8 @@ class NodeWatch {
 
  private:
   void take_emergencies(BusTime now, NodeLink& link, const Situation& situation, Verdict& verdict);
+  /// What another device may have done to its drives.
+  void check_drives(BusTime now, const NodeLink& link, const Situation& situation, Verdict& verdict);
   bool check_clock(BusTime now, const NodeLink& link, const StreamStatus& status, Verdict& verdict);
 
   const MachineDescription& machine_;

@@ -1433,8 +1433,52 @@
         <translation>دما باید از 0 تا %1 °C باشد</translation>
     </message>
     <message>
-        <source>another gateway has begun to speak on this bus</source>
-        <translation>درگاه دیگری روی این گذرگاه به سخن آمده است</translation>
+        <source>another gateway has begun to speak on this bus (COB-ID %1)</source>
+        <translation>درگاه دیگری روی این گذرگاه به سخن آمده است (COB-ID %1)</translation>
+    </message>
+    <message>
+        <source>node %1 stays stopped by NMT</source>
+        <translation>گره %1 با NMT متوقف می‌ماند</translation>
+    </message>
+    <message>
+        <source>%1 was taken out of operation by an NMT command of another device</source>
+        <translation>دستور NMT دستگاهی دیگر %1 را از کار خارج کرد</translation>
+    </message>
+    <message>
+        <source>%1: the drive of axis %2 was switched off by another device or a fault (statusword %3)</source>
+        <translation>%1: دستگاهی دیگر یا یک خطا درایو محور %2 را خاموش کرد (statusword %3)</translation>
+    </message>
+    <message>
+        <source>%1: axis %2 was set to the mode of operation %3 by another device</source>
+        <translation>%1: دستگاهی دیگر حالت کار محور %2 را %3 کرد</translation>
+    </message>
+    <message>
+        <source>%1: axis %2 moves, and not by this gateway</source>
+        <translation>%1: محور %2 حرکت می‌کند، اما نه به خواست این درگاه</translation>
+    </message>
+    <message>
+        <source>node %1: another device has changed its parameters (fingerprint %2, the machine file&apos;s is %3): bringing up again writes them anew</source>
+        <translation>گره %1: دستگاهی دیگر پارامترهای آن را تغییر داده است (اثر انگشت %2، از آنِ پروندهٔ ماشین %3): راه‌اندازی دوباره آن‌ها را از نو می‌نویسد</translation>
+    </message>
+    <message>
+        <source>node %1, which the machine file does not name, has asked all to stop</source>
+        <translation>گره %1 که در پروندهٔ ماشین نیامده، از همه خواست بایستند</translation>
+    </message>
+    <message>
+        <source>another device sends remote frames (COB-ID %1): nobody answers them</source>
+        <translation>دستگاهی دیگر قاب‌های درخواست (remote) می‌فرستد (COB-ID %1): کسی پاسخ نمی‌دهد</translation>
+    </message>
+    <message>
+        <source>Another device has changed a node</source>
+        <translation>دستگاهی دیگر گره‌ای را تغییر داده است</translation>
+    </message>
+    <message>
+        <source>look for another master or tool on the bus, then clear</source>
+        <translation>به دنبال فرمانده یا ابزار دیگری روی گذرگاه بگردید، سپس رفع کنید</translation>
+    </message>
+    <message>
+        <source>clear: positions are read again; when it comes again, check the bus for errors</source>
+        <translation>رفع کنید: موقعیت‌ها دوباره خوانده می‌شوند؛ اگر باز پیش آمد گذرگاه را برای خطا وارسی کنید</translation>
     </message>
     <message>
         <source>node %1</source>

@@ -1433,8 +1433,52 @@
         <translation>sıcaklık 0 ile %1 °C arasında olmalı</translation>
     </message>
     <message>
-        <source>another gateway has begun to speak on this bus</source>
-        <translation>bu veri yolunda başka bir ağ geçidi konuşmaya başladı</translation>
+        <source>another gateway has begun to speak on this bus (COB-ID %1)</source>
+        <translation>bu veri yolunda başka bir ağ geçidi konuşmaya başladı (COB-ID %1)</translation>
+    </message>
+    <message>
+        <source>node %1 stays stopped by NMT</source>
+        <translation>düğüm %1 NMT ile durdurulmuş kalıyor</translation>
+    </message>
+    <message>
+        <source>%1 was taken out of operation by an NMT command of another device</source>
+        <translation>%1 başka bir aygıtın NMT komutuyla çalışmadan çıkarıldı</translation>
+    </message>
+    <message>
+        <source>%1: the drive of axis %2 was switched off by another device or a fault (statusword %3)</source>
+        <translation>%1: eksen %2 sürücüsünü başka bir aygıt ya da bir arıza kapattı (statusword %3)</translation>
+    </message>
+    <message>
+        <source>%1: axis %2 was set to the mode of operation %3 by another device</source>
+        <translation>%1: başka bir aygıt eksen %2 için çalışma kipini %3 yaptı</translation>
+    </message>
+    <message>
+        <source>%1: axis %2 moves, and not by this gateway</source>
+        <translation>%1: eksen %2 hareket ediyor, ama bu ağ geçidi istemedi</translation>
+    </message>
+    <message>
+        <source>node %1: another device has changed its parameters (fingerprint %2, the machine file&apos;s is %3): bringing up again writes them anew</source>
+        <translation>düğüm %1: başka bir aygıt parametrelerini değiştirdi (parmak izi %2, makine dosyasınınki %3): yeniden devreye almak onları yeniden yazar</translation>
+    </message>
+    <message>
+        <source>node %1, which the machine file does not name, has asked all to stop</source>
+        <translation>makine dosyasında adı geçmeyen düğüm %1 herkesin durmasını istedi</translation>
+    </message>
+    <message>
+        <source>another device sends remote frames (COB-ID %1): nobody answers them</source>
+        <translation>başka bir aygıt uzak çerçeveler gönderiyor (COB-ID %1): kimse yanıtlamaz</translation>
+    </message>
+    <message>
+        <source>Another device has changed a node</source>
+        <translation>Başka bir aygıt bir düğümü değiştirdi</translation>
+    </message>
+    <message>
+        <source>look for another master or tool on the bus, then clear</source>
+        <translation>veri yolunda başka bir yönetici ya da araç arayın, sonra temizleyin</translation>
+    </message>
+    <message>
+        <source>clear: positions are read again; when it comes again, check the bus for errors</source>
+        <translation>temizleyin: konumlar yeniden okunur; yinelenirse veri yolunda hata arayın</translation>
     </message>
     <message>
         <source>node %1</source>

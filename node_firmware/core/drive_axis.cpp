@@ -86,7 +86,8 @@ void DriveAxis::on_path_stop(LocalTime now) {
 }
 
 void DriveAxis::on_stream_cleared(LocalTime now) {
-  if (source_ != Source::kStream) return;
+  creeps_ = source_ == Source::kStream;
+  if (!creeps_) return;
   to_profile(to_ticks(now));
   profile_.stop(to_ticks(now), profile_.at(to_ticks(now)), unsigned_parameter(kSlowDown));
 }
@@ -113,12 +114,38 @@ void DriveAxis::serve_power(LocalTime now) {
     limited_ = false;
   }
   if (!enabled && was_enabled_) halted_ = false;
+  // Disabled without a ramp of its own (605Ch = 0): the motor keeps its current, and must not go on.
+  if (!enabled && was_enabled_ && power_.state() == cia402::State::kSwitchedOn && moving(now))
+    end_motion(now);
   was_powered_ = power_.powered();
   was_enabled_ = enabled;
   const bool faulty =
       power_.state() == cia402::State::kFault || power_.state() == cia402::State::kFaultReactionActive;
   if (error_code_ != 0 && !faulty) {
     cleared_fault_ = std::exchange(error_code_, std::uint16_t{0});
+  }
+}
+
+void DriveAxis::end_motion(LocalTime now) {
+  if (source_ == Source::kStream)
+    return path_.request_stop(StopReason::kCommand, static_cast<int>(index_), node_emcy::kCommand, now);
+  homing_.abort();
+  profile_position_.reset(word_);
+  brake(to_ticks(now), unsigned_parameter(kQuickStop));
+}
+
+void DriveAxis::on_connection_lost(LocalTime now) {
+  on_time(now);
+  if (source_ == Source::kStream || !moving(now)) return;
+  switch (parameter(slot_of_axes(object::kAbortConnectionOption))) {
+    case 0:
+      return;
+    case 1:
+      return on_fault(now, node_emcy::kCommand, false);
+    case 2:
+      return on_controlword(now, 0);
+    default:
+      return on_controlword(now, control::kEnableVoltage);  // without the quick stop's bit
   }
 }
 

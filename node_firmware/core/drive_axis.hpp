@@ -32,8 +32,11 @@ class DriveAxis {
   void set_fault_present(bool present) { power_.set_fault_present(present); }
   /// The instant of a stop of all nodes has come: own motions brake too.
   void on_path_stop(LocalTime now);
+  /// NMT has taken the axis from its master: what 6007h says of a motion of its own.
+  void on_connection_lost(LocalTime now);
   /// The stream's queue was dropped in motion: creeps to the nearest whole count.
   void on_stream_cleared(LocalTime now);
+  bool creeping(LocalTime at) const { return creeps_ && source_ == Source::kProfile && moving(at); }
   /// Whatever has become due; call after every other input too.
   void on_time(LocalTime now);
   LocalTime next_deadline() const;
@@ -84,6 +87,7 @@ class DriveAxis {
   SwitchFunction homing_function() const;
 
   void to_profile(ProfileTicks t);
+  void end_motion(LocalTime now);
   void brake(ProfileTicks t, std::uint32_t deceleration);
   void serve_power(LocalTime now);
   void serve_stop(LocalTime now);
@@ -120,6 +124,7 @@ class DriveAxis {
   bool was_enabled_ = false;
   bool halted_ = false;
   bool position_known_ = false;
+  bool creeps_ = false;   // after the stream was dropped; the flag outlives that motion's end
   bool leaving_ = false;  // brakes for a change of mode
   bool homing_error_told_ = false;
   ProfileTicks served_until_ = std::numeric_limits<ProfileTicks>::min();

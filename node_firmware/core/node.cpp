@@ -59,6 +59,7 @@ void Node::reset_communication() {
 
 void Node::apply_node_id() {
   sdo_.reset(node_id_);
+  clearing_ = false;
   pdo_.set_operational(false, now_);
   pdo_.configure();
   apply_parameters();
@@ -138,10 +139,15 @@ void Node::on_lss() {
 }
 
 void Node::on_nmt(NmtCommand command) {
-  const bool moves = !path_.at_rest(now_) && !path_.stream().idle();
-  // Without PDOs the stream would starve; all others stop with this node, at once.
-  if (command != NmtCommand::kStart && moves && !path_.stop_latched())
+  const bool starts = command == NmtCommand::kStart;
+  const bool streams = !path_.at_rest(now_) && !path_.stream().idle();
+  const bool together = streams || (path_.clock().synchronised() && moving(now_));
+  // Without PDOs the stream would starve, and a carriage that homes goes its way unseen; all others stop with
+  // this node, at once. A drive that has no gateway does what its 6007h says.
+  if (!starts && together && !path_.stop_latched())
     path_.request_stop(StopReason::kCommand, 0, node_emcy::kCommand, now_);
+  if (!starts && !together)
+    for (DriveAxis& axis : axes_) axis.on_connection_lost(now_);
   switch (command) {
     case NmtCommand::kStart:
       emcy_.clear(emcy::kSyncLength);
@@ -321,7 +327,7 @@ void Node::on_image_stored(bool good) {
   if (storing_ != Storing::kWriting) return;
   storing_ = Storing::kNothing;
   if (std::exchange(storing_for_lss_, false)) lss_.finish_store(good);
-  if (sdo_.deferred()) sdo_.finish(good ? AbortCode::kNone : AbortCode::kHardware);
+  if (sdo_.deferred() && !clearing_) sdo_.finish(good ? AbortCode::kNone : AbortCode::kHardware);
   if (good) return;
   count(NodeCounter::kStorageErrors);
   emcy_.raise(emcy::kStorage);

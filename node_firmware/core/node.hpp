@@ -178,8 +178,11 @@ class Node final : private ObjectOwner {
   void serve_stops();
   void serve_emergencies();
   void serve_stream_status();
+  void serve_clearing();
+  void serve_pdo_problems();
   void watch_levels();
   bool clear_allowed() const;
+  bool in_motion() const;
   void end_stop();
 
   NodeOptions options_;
@@ -211,6 +214,7 @@ class Node final : private ObjectOwner {
   bool parameters_changed_ = false;
   bool reset_requested_ = false;
   bool program_stop_requested_ = false;
+  bool clearing_ = false;  ///< 60C4h:6 was written, and axes creep to a whole count: the answer waits
   bool stop_served_ = false;
   bool emergency_stop_ = false;
   std::array<bool, 4> limit_active_{};

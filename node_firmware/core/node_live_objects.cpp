@@ -21,6 +21,17 @@ AbortCode verdict_code(SegmentStream::Verdict verdict) {
   return good ? AbortCode::kNone : AbortCode::kInvalidValue;
 }
 
+/// Parameters on which a motion that is under way relies, and how it is stopped. Not those that the next
+/// set-point takes, and not what the node tells by itself.
+bool kept_in_motion(const ObjectEntry& entry) {
+  const ObjectAddress base = entry.base();
+  if (base == object::kAbortConnectionOption) return true;
+  const bool tpdo = (base.index >= 0x1800 && base.index < 0x1C00);
+  const bool of_set_point = base == object::kProfileVelocity || base == object::kProfileAcceleration ||
+                            base == object::kProfileDeceleration;
+  return entry.binding == Binding::kParameter && !tpdo && !of_set_point;
+}
+
 bool known_mode(std::int64_t mode) {
   return mode == 0 || mode == 1 || mode == 6 || mode == 7 || mode == 8;
 }
@@ -194,7 +205,12 @@ std::int64_t Node::counter_value(NodeCounter counter) const {
   }
 }
 
+bool Node::in_motion() const {
+  return moving(now_) || (!path_.at_rest(now_) && !path_.stream().idle());
+}
+
 AbortCode Node::write(const ObjectEntry& entry, std::int64_t value) {
+  if (kept_in_motion(entry) && in_motion()) return AbortCode::kDeviceState;
   if (entry.binding == Binding::kParameter) parameters_changed_ = true;
   return entry.axis < 0 ? write_node_object(entry, value) : write_axis_object(entry, value);
 }
@@ -268,6 +284,9 @@ AbortCode Node::write_axis_object(const ObjectEntry& entry, std::int64_t value) 
     if (value != 0) return AbortCode::kNone;  // 1: the buffer is in use, which it always is
     if (!path_.clear_stream(now_)) return AbortCode::kDeviceState;
     for (DriveAxis& each : axes_) each.on_stream_cleared(now_);
+    // Who has the answer may read where the axes are: by then they have crept to their whole counts.
+    clearing_ = axes_[0].creeping(now_) || axes_[1].creeping(now_);
+    if (clearing_) sdo_.defer();
     return AbortCode::kNone;
   }
   if (base.index == 0x60C4 && entry.binding == Binding::kLive)

@@ -37,9 +37,20 @@ void Node::serve() {
   for (DriveAxis& axis : axes_) axis.on_time(now_);
   serve_emergencies();
   serve_stops();
+  serve_clearing();
   sdo_.on_time(now_);
   serve_stream_status();
   pdo_.on_time(now_);
+  serve_pdo_problems();
+}
+
+/// Last, so that what on_time() has found is told now.
+void Node::serve_pdo_problems() {
+  while (const auto problem = pdo_.next_problem()) {
+    if (problem->emcy_code != emcy::kRpdoTimeout) count(NodeCounter::kPdoLengthErrors);
+    if (!emcy_.active(problem->emcy_code)) emcy_.raise(problem->emcy_code, {0, problem->rpdo});
+  }
+  if (!pdo_.rpdo_missing()) emcy_.clear(emcy::kRpdoTimeout);
 }
 
 void Node::serve_switches() {
@@ -117,11 +128,13 @@ void Node::serve_emergencies() {
            HeartbeatConsumer::Health::kLost;
   });
   if (!missing) emcy_.clear(emcy::kHeartbeat);
-  while (const auto problem = pdo_.next_problem()) {
-    count(NodeCounter::kPdoLengthErrors);
-    if (!emcy_.active(problem->emcy_code)) emcy_.raise(problem->emcy_code, {0, problem->rpdo});
-  }
   while (const auto alarm = path_.next_alarm()) emcy_.raise(alarm->emcy_code, encode(alarm->stop), true);
+}
+
+void Node::serve_clearing() {
+  if (!clearing_ || axes_[0].creeping(now_) || axes_[1].creeping(now_)) return;
+  clearing_ = false;
+  sdo_.finish(AbortCode::kNone);
 }
 
 void Node::serve_stream_status() {

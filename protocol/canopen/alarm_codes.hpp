@@ -49,6 +49,7 @@ enum class AlarmCode : std::uint16_t {
   kEmergencyStop = 0xFF90,  ///< M112 or the operator's stop
   kStopTimeout = 0xFF91,    ///< the nodes did not come to rest as they should
   kIdTaken = 0xFF92,        ///< two nodes answer to one id
+  kNodeChanged = 0xFF93,    ///< another device has stopped, moved, switched or written to a node
 };
 
 }  // namespace kinebus

@@ -19,7 +19,8 @@ inline constexpr std::array<StopWords, 12> kStopWords{{
     {nullptr, nullptr},
     {"its queue ran low", "clear and resume; when it comes again, check the load of gateway and bus"},
     {"a record was lost", "clear; when it comes again, check the bus for errors"},
-    {"its position is not the gateway's", "clear and home again"},
+    {"its position is not the gateway's",
+     "clear: positions are read again; when it comes again, check the bus for errors"},
     {"a record broke its limits", "clear; check the machine file against the node's limits"},
     {"the emergency stop input", "release the emergency stop when it is safe, then clear"},
     {"a limit switch", "move the carriage off the switch, then clear and home again"},
@@ -168,6 +169,8 @@ inline constexpr std::array kAlarms{
         AlarmCode::kIdTaken, "Two nodes use the same id",
         "give one of them another id (kinebus-node-id) or take it off the bus, then clear and "
         "bring up again"),
+    alarm_table::gateway(AlarmCode::kNodeChanged, "Another device has changed a node",
+                         "look for another master or tool on the bus, then clear"),
 };
 
 /// Codes of CiA 301 that no part of Kinebus sends, by their first digit.

@@ -220,6 +220,9 @@ constexpr void axis_record(Rows& t) {
 constexpr void cia402_axis(Rows& t) {
   constexpr std::int64_t i32_min = std::numeric_limits<std::int32_t>::min();
   constexpr std::int64_t i32_max = std::numeric_limits<std::int32_t>::max();
+  // NMT stop, pre-operational and reset communication in motion: 0 goes on, 1 fault, 2 power off, 3 quick
+  // stop.
+  t.var(0x6007, "Abort connection option code", kI16, kReadWrite, kVariable, 3).between(0, 3);
   t.var(0x603F, "Error code", kU16, kReadOnly, kLive).maps(Mapping::kTpdo);
   t.var(0x6040, "Controlword", kU16, kReadWrite, kVariable).maps(Mapping::kRpdo);
   t.var(0x6041, "Statusword", kU16, kReadOnly, kLive).maps(Mapping::kTpdo);

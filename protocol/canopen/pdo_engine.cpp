@@ -118,7 +118,7 @@ AbortCode PdoEngine::accept_communication(Pdo& pdo, const ObjectEntry& entry, st
       const bool starts = on && !pdo.valid;
       pdo.cob_id = id;
       pdo.valid = on;
-      pdo.waiting = pdo.due = false;
+      pdo.waiting = pdo.due = pdo.missing = false;
       pdo.timer = LocalTime::max();
       if (starts && operational_) start(pdo, is_tpdo(entry.address), now_);
       return AbortCode::kNone;
@@ -135,6 +135,7 @@ AbortCode PdoEngine::accept_communication(Pdo& pdo, const ObjectEntry& entry, st
       return AbortCode::kNone;
     case 5:
       pdo.event = milliseconds_of(value);
+      pdo.missing = false;
       pdo.timer = LocalTime::max();
       if (is_tpdo(entry.address) && operational_ && pdo.valid && value != 0) pdo.timer = now_ + pdo.event;
       return AbortCode::kNone;
@@ -162,7 +163,7 @@ AbortCode PdoEngine::accept_mapping(Pdo& pdo, const ObjectEntry& entry, std::int
 }
 
 void PdoEngine::start(Pdo& pdo, bool tpdo, LocalTime now) {
-  pdo.waiting = pdo.sync_started = false;
+  pdo.waiting = pdo.sync_started = pdo.missing = false;
   pdo.syncs = 0;
   pdo.not_before = now;
   pdo.timer = LocalTime::max();
@@ -178,6 +179,10 @@ void PdoEngine::set_operational(bool operational, LocalTime now) {
   operational_ = operational;
   for (Pdo& pdo : rpdos_) start(pdo, false, now);
   for (Pdo& pdo : tpdos_) start(pdo, true, now);
+}
+
+bool PdoEngine::rpdo_missing() const {
+  return std::any_of(rpdos_.begin(), rpdos_.end(), [](const Pdo& pdo) { return pdo.valid && pdo.missing; });
 }
 
 void PdoEngine::report(std::uint16_t code, const Pdo& pdo) {
@@ -204,6 +209,7 @@ PdoEngine::Reception PdoEngine::on_frame(LocalTime now, const CanFrame& frame) {
     }
     // Longer than mapped: what is mapped is used, the rest told.
     if (frame.length > pdo.map.length) report(emcy::kPdoTooLong, pdo);
+    pdo.missing = false;
     if (pdo.event.count() != 0) pdo.timer = now + pdo.event;
     if (!synchronous(pdo.type)) return write(pdo, frame);
     pdo.frame = frame;
@@ -261,6 +267,7 @@ void PdoEngine::on_time(LocalTime now) {
   for (Pdo& pdo : rpdos_) {
     if (!pdo.valid || now < pdo.timer) continue;
     pdo.timer = LocalTime::max();
+    pdo.missing = true;
     report(emcy::kRpdoTimeout, pdo);
   }
   for (Pdo& pdo : tpdos_) {

@@ -49,6 +49,8 @@ class PdoEngine {
   LocalTime next_deadline() const;
   std::optional<Problem> next_problem();
 
+  /// An RPDO is overdue (its event timer), until one comes.
+  bool rpdo_missing() const;
   bool rpdo_valid(int number) const { return rpdos_[static_cast<std::size_t>(number - 1)].valid; }
   bool tpdo_valid(int number) const { return tpdos_[static_cast<std::size_t>(number - 1)].valid; }
 
@@ -74,6 +76,7 @@ class PdoEngine {
     CanFrame frame;
     bool waiting = false;
     bool due = false;
+    bool missing = false;
     LocalTime not_before{0};
     LocalTime timer = LocalTime::max();
     std::uint8_t syncs = 0;

@@ -179,6 +179,7 @@ PathClock::Outcome PathClock::apply(const RateCommand& command, BusTime now) {
       const std::int64_t earliest = in_time ? command.start.count() : now.count();
       if (command.start.count() < cleared_ || (stop_ && earliest >= stop_->start)) return Outcome::kLatched;
       if (command.start.count() < newest_) return Outcome::kDuplicate;
+      make_room(now.count());
       if (count_ + 6 > kMaxLegs) return Outcome::kFull;  // the other three are a stop's: it is never refused
       newest_ = command.start.count();
       const auto changed = change(command.start.count(), static_cast<std::uint64_t>(command.rate_q15) << 17,
@@ -272,10 +273,21 @@ void PathClock::shift(BusTime by) {
   last_.reset();
 }
 
+/// Rather the oldest of what could be rewound than a change that all others make.
+void PathClock::make_room(std::int64_t now) {
+  int old = 0;
+  while (count_ - old + 6 > kMaxLegs && old + 1 < count_ && leg(old + 1).start <= now) ++old;
+  drop(old);
+}
+
 void PathClock::forget_before(BusTime now) {
   const std::int64_t kept = (now - options_.rewind).count();
   int old = 0;
   while (old + 1 < count_ && leg(old + 1).start <= kept) ++old;
+  drop(old);
+}
+
+void PathClock::drop(int old) {
   if (old == 0) return;
   std::move(legs_.begin() + old, legs_.begin() + count_, legs_.begin());
   count_ -= old;

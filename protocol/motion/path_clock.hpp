@@ -110,6 +110,8 @@ class PathClock {
                                 std::int64_t now);
   Outcome begin_stop(std::int64_t now);
   void put(const Change& change);
+  void make_room(std::int64_t now);
+  void drop(int old);
   static Leg make_leg(std::int64_t start, std::int64_t tau0, std::uint64_t rate_q32,
                       std::uint64_t full_ramp_ns, bool rising);
 

@@ -2,6 +2,7 @@
 // The gateway core joined with real node cores, their motors and switches, on a modelled bus, in virtual
 // time.
 
+#include <deque>
 #include <functional>
 #include <memory>
 #include <string>
@@ -30,6 +31,9 @@ class MachineRig {
   std::function<bool(const CanFrame&)> lose_from_gateway;
   /// Sees all frames of the bus.
   std::function<void(BusTime, const CanFrame&)> on_frame;
+
+  /// Another device on the bus sends this: nodes and gateway hear it.
+  void stranger_sends(const CanFrame& frame) { strangers_.push_back(frame); }
 
   void run_for(BusTime duration) {
     run_until([] { return false; }, duration);
@@ -105,6 +109,12 @@ class MachineRig {
   }
   void serve() {
     while (nodes.can_send()) {
+      if (!strangers_.empty()) {
+        nodes.send(now, strangers_.front());
+        sent_by_strangers_.push_back(strangers_.front());
+        strangers_.pop_front();
+        continue;
+      }
       const auto frame = gateway->next_frame(now);
       if (!frame) break;
       if (lose_from_gateway && lose_from_gateway(*frame))
@@ -123,7 +133,10 @@ class MachineRig {
       now = std::max(now, got->when);
       if (on_frame) on_frame(got->when, got->frame);
       stirred = true;
-      if (got->own)
+      const bool stranger =
+          got->own && !sent_by_strangers_.empty() && sent_by_strangers_.front() == got->frame;
+      if (stranger) sent_by_strangers_.pop_front();
+      if (got->own && !stranger)
         gateway->on_frame_sent(got->when, got->frame);
       else if (!lose_to_gateway || !lose_to_gateway(got->frame))
         gateway->on_frame(got->when, got->frame);
@@ -135,6 +148,7 @@ class MachineRig {
     }
     if (stirred) serve();
   }
+  std::deque<CanFrame> strangers_, sent_by_strangers_;
 };
 
 }  // namespace kinebus

@@ -247,6 +247,17 @@ TEST(PathClock, IsMonotoneExactAndInvertibleUnderRandomCommands) {
   }
 }
 
+TEST(PathClock, WhoRemembersLongTakesEveryOneOfManyCommandsInAShortTime) {
+  PathClock node, gateway({.rewind = seconds{2}, .most_step = PathTime::max()});
+  BusTime t = seconds{1};
+  for (int i = 0; i < 60; ++i, t += milliseconds{40}) {
+    const RateCommand command = rate(i % 2 == 0 ? 1.0 : 0.0, t + milliseconds{5}, i % 16, 20);
+    EXPECT_EQ(gateway.apply(command, t), PathClock::Outcome::kScheduled) << i;
+    EXPECT_EQ(node.apply(command, t), PathClock::Outcome::kScheduled) << i;
+    EXPECT_EQ(gateway.tau(t + milliseconds{30}), node.tau(t + milliseconds{30})) << i;
+  }
+}
+
 TEST(PathClock, EveryNanosecondOfARampIsMonotone) {
   PathClock clock;
   clock.apply(rate(1.0, seconds{1}, 0, 2), seconds{0});

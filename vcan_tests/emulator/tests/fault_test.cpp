@@ -180,7 +180,7 @@ TEST_F(Fault, AnExceptionOfTheProcessorLetsGoOfTheMotorsAndStartsTheProgramAnew)
 
 TEST_F(Fault, BusOffIsToldWhenTheBusIsBack) {
   node.machine.disturb(0, 32);
-  node.bench.write(OneBoard::kId, 0x1017, 0, 2, 10);
+  node.bench.write(OneBoard::kId, 0x1802, 5, 2, 10);  // it speaks often, also in motion
   node.bench.run(200ms);
   expect(0x8140, 5.0);
   EXPECT_EQ(node.board.can().counters().bus_offs, 1u);

@@ -1,0 +1,240 @@
+// What another device on the bus can do to a machine: it is told who did what, nothing moves apart, and the
+// operator can go on. And what the machine does to itself: no stop ends in a complaint about positions.
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <random>
+
+#include "gateway/machine/tests/machine_rig.hpp"
+#include "protocol/bytes.hpp"
+#include "protocol/can/candump.hpp"
+#include "protocol/canopen/cob_id.hpp"
+#include "protocol/canopen/emcy.hpp"
+
+namespace kinebus {
+namespace {
+
+using namespace std::chrono_literals;
+
+CanFrame text_frame(std::string_view text) {
+  const auto frame = parse_frame(text);
+  EXPECT_TRUE(frame) << text;
+  return frame.value_or(CanFrame{});
+}
+
+/// KINEBUS_ROUNDS: as often as wanted by hand.
+int rounds(int usual) {
+  const char* text = std::getenv("KINEBUS_ROUNDS");
+  return text != nullptr ? std::atoi(text) : usual;
+}
+
+/// A rig in the midst of a job whose lines bend, so that no axis stands at a whole count.
+struct Stranger : MachineRig {
+  bool begin() {
+    return gateway->carry_out(command::Run{
+               std::make_unique<StringSource>("G1 X60 Y13 F1200\nG1 X7 Y-21\nG1 X55 Y5\nG1 X0 Y0\n"),
+               "line"}) &&
+           run_until(
+               [&] { return gateway->state() == MachineState::kRunning && gateway->status().line >= 1; },
+               30s);
+  }
+  bool told_code(std::uint16_t code) const {
+    return std::any_of(events.begin(), events.end(), [&](const MachineEvent& e) {
+      return e.kind == MachineEvent::Kind::kAlarm && e.code == code;
+    });
+  }
+  bool says(std::string_view part) const { return story().find(part) != std::string::npos; }
+  /// Bits that differ from how far anything moves: all carriages stand.
+  bool rests() {
+    run_for(300ms);
+    const JointVector still = joints();
+    run_for(300ms);
+    return joints() == still;
+  }
+};
+
+TEST(Stranger, CancelAndReferenceAgainAndAgainFindsEveryNodeWhereTheGatewayBelieves) {
+  Stranger rig;
+  ASSERT_TRUE(rig.make_ready()) << rig.story();
+  std::mt19937 random(11);
+  const int wanted = rounds(60);
+  for (int i = 0; i < wanted; ++i) {
+    ASSERT_TRUE(rig.begin()) << i << rig.story();
+    rig.run_for(BusTime{100'000'000 + static_cast<std::int64_t>(random() % 900'000'000)});
+    ASSERT_TRUE(rig.gateway->carry_out(command::Cancel{})) << i;
+    ASSERT_TRUE(rig.reach(MachineState::kReady, 5s)) << i << rig.story();
+    ASSERT_TRUE(rig.gateway->carry_out(command::GoToReference{})) << i;
+    ASSERT_TRUE(rig.reach(MachineState::kReady, 30s)) << i << rig.story();
+    ASSERT_FALSE(rig.told_code(node_emcy::kCheckpoint)) << i << rig.story();
+    rig.events.clear();
+  }
+}
+
+TEST(Stranger, LostRecordAndResumeAgainAndAgainFindsEveryNodeWhereTheGatewayBelieves) {
+  Stranger rig;
+  ASSERT_TRUE(rig.make_ready()) << rig.story();
+  std::mt19937 random(12);
+  const int wanted = rounds(40);
+  for (int i = 0; i < wanted; ++i) {
+    rig.lose_from_gateway = {};
+    if (rig.gateway->state() == MachineState::kReady) {
+      ASSERT_TRUE(rig.begin()) << i << rig.story();
+    }
+    rig.run_for(BusTime{static_cast<std::int64_t>(random() % 700'000'000)});
+    bool lost = false;
+    const std::uint8_t node = static_cast<std::uint8_t>(1 + i % 3);
+    rig.lose_from_gateway = [&](const CanFrame& frame) {
+      return frame.id == cob_id::rpdo(3, node) && !std::exchange(lost, true);
+    };
+    rig.run_until([&] { return !rig.gateway->may(command::kind<command::Hold>); }, 60s);
+    if (rig.gateway->state() == MachineState::kReady) continue;  // the job had ended
+    ASSERT_TRUE(rig.reach(MachineState::kStopped, 10s)) << i << rig.story();
+    ASSERT_TRUE(rig.gateway->carry_out(command::Clear{})) << i;
+    ASSERT_TRUE(rig.reach(MachineState::kHeld, 5s)) << i << rig.story();
+    ASSERT_TRUE(rig.gateway->carry_out(command::Resume{})) << i;
+    ASSERT_TRUE(rig.reach(MachineState::kRunning, 30s)) << i << rig.story();
+    ASSERT_FALSE(rig.told_code(node_emcy::kCheckpoint)) << i << rig.story();
+    rig.events.clear();
+  }
+}
+
+TEST(Stranger, NmtStopOfAllIsNamedAndBringUpStartsTheNodesAgain) {
+  Stranger rig;
+  ASSERT_TRUE(rig.make_ready()) << rig.story();
+  rig.stranger_sends(text_frame("000#0200"));
+  ASSERT_TRUE(rig.reach(MachineState::kAlarm, 5s)) << rig.story();
+  EXPECT_TRUE(rig.told(AlarmCode::kNodeChanged)) << rig.story();
+  EXPECT_TRUE(rig.says("taken out of operation by an NMT command")) << rig.story();
+  ASSERT_TRUE(rig.gateway->carry_out(command::Clear{}));
+  ASSERT_TRUE(rig.gateway->carry_out(command::BringUp{}));
+  ASSERT_TRUE(rig.run_until(
+      [&] {
+        return rig.gateway->state() == MachineState::kReady || rig.gateway->state() == MachineState::kUnhomed;
+      },
+      30s))
+      << rig.story();
+  EXPECT_EQ(rig.gateway->state(), MachineState::kReady) << "the drives kept their power: positions are known";
+}
+
+TEST(Stranger, NmtStopInMotionStopsAllOnThePathAndTheMachineComesUpAgain) {
+  Stranger rig;
+  ASSERT_TRUE(rig.make_ready()) << rig.story();
+  ASSERT_TRUE(rig.begin());
+  rig.run_for(300ms);
+  rig.stranger_sends(text_frame("000#0200"));
+  ASSERT_TRUE(rig.run_until([&] { return rig.told(AlarmCode::kNodeChanged); }, 5s)) << rig.story();
+  EXPECT_TRUE(rig.says("taken out of operation by an NMT command")) << rig.story();
+  EXPECT_TRUE(rig.rests());
+  ASSERT_TRUE(rig.gateway->carry_out(command::Clear{}));
+  ASSERT_TRUE(rig.gateway->carry_out(command::Resume{}));
+  ASSERT_TRUE(rig.reach(MachineState::kRunning, 30s)) << rig.story();
+  ASSERT_TRUE(rig.reach(MachineState::kReady, 60s)) << rig.story();
+}
+
+TEST(Stranger, AMotorThatIsMadeFreeAtRestIsNoLongerReady) {
+  Stranger rig;
+  ASSERT_TRUE(rig.make_ready()) << rig.story();
+  rig.run_for(1s);
+  rig.stranger_sends(text_frame("202#00000F000000"));
+  ASSERT_TRUE(rig.reach(MachineState::kAlarm, 2s)) << rig.story();
+  EXPECT_TRUE(rig.says("node 2: the drive of axis 1 was switched off")) << rig.story();
+  EXPECT_FALSE(rig.gateway->status().positions_known);
+  ASSERT_TRUE(rig.gateway->carry_out(command::Clear{}));
+  ASSERT_TRUE(rig.reach(MachineState::kUnhomed, 5s)) << rig.story();
+  ASSERT_TRUE(rig.gateway->carry_out(command::Home{}));
+  ASSERT_TRUE(rig.reach(MachineState::kReady, 120s)) << rig.story();
+}
+
+TEST(Stranger, AMoveOfAnotherMasterAtRestIsSeenAndStoppedAndPositionsAreReadAgain) {
+  Stranger rig;
+  ASSERT_TRUE(rig.make_ready()) << rig.story();
+  rig.run_for(1s);
+  const JointVector before = rig.joints();
+  rig.stranger_sends(text_frame("201#0F000F000107"));  // axis 1: profile position
+  rig.stranger_sends(text_frame("601#237A600000E01E00"));
+  rig.stranger_sends(text_frame("201#1F000F000107"));
+  ASSERT_TRUE(rig.reach(MachineState::kAlarm, 2s)) << rig.story();
+  EXPECT_TRUE(rig.says("node 1: axis 1 was set to the mode of operation 1 by another device")) << rig.story();
+  EXPECT_TRUE(rig.rests());
+  ASSERT_TRUE(rig.gateway->carry_out(command::Clear{}));
+  ASSERT_TRUE(rig.reach(MachineState::kReady, 5s)) << rig.story();
+  const JointVector after = rig.joints(), told = rig.gateway->status().joints;
+  EXPECT_NE(after, before);
+  for (std::size_t tower = 0; tower < 4; ++tower) EXPECT_NEAR(after[tower], told[tower], 0.002);
+}
+
+TEST(Stranger, ParametersThatAreChangedAtRestAreNamedAndWrittenAnew) {
+  Stranger rig;
+  ASSERT_TRUE(rig.make_ready()) << rig.story();
+  rig.stranger_sends(text_frame("602#4041600000000000"));  // who only reads changes nothing
+  rig.run_for(2s);
+  ASSERT_EQ(rig.gateway->state(), MachineState::kReady) << rig.story();
+  rig.stranger_sends(text_frame("602#2B13210002000000"));  // stop ramp 2 ms
+  ASSERT_TRUE(rig.reach(MachineState::kAlarm, 2s)) << rig.story();
+  EXPECT_TRUE(rig.told(AlarmCode::kNodeChanged)) << rig.story();
+  EXPECT_TRUE(rig.says("node 2: another device has changed its parameters")) << rig.story();
+  ASSERT_TRUE(rig.gateway->carry_out(command::Clear{}));
+  ASSERT_TRUE(rig.gateway->carry_out(command::BringUp{}));
+  ASSERT_TRUE(rig.reach(MachineState::kReady, 30s)) << rig.story();
+  rig.events.clear();
+  rig.stranger_sends(text_frame("602#4041600000000000"));
+  rig.run_for(2s);
+  EXPECT_EQ(rig.gateway->state(), MachineState::kReady) << rig.story();
+}
+
+TEST(Stranger, ParametersAreNotChangedInMotionAndTheJobGoesOn) {
+  Stranger rig;
+  ASSERT_TRUE(rig.make_ready()) << rig.story();
+  ASSERT_TRUE(rig.begin());
+  rig.run_for(300ms);
+  int refused = 0;
+  rig.on_frame = [&](BusTime, const CanFrame& frame) {
+    if (frame.id == cob_id::kSdoReply + 2 && frame.data[0] == 0x80 &&
+        get_u32_le(frame.bytes().subspan(4)) == 0x0800'0022)
+      ++refused;
+  };
+  for (const char* write : {"602#2B13210002000000", "602#2F40210401000000", "602#2B40210200000000"}) {
+    rig.stranger_sends(text_frame(write));
+    rig.run_for(20ms);
+  }
+  EXPECT_EQ(refused, 3);
+  ASSERT_TRUE(rig.reach(MachineState::kReady, 60s)) << rig.story();
+  EXPECT_FALSE(rig.told(MachineEvent::Kind::kAlarm)) << rig.story();
+}
+
+TEST(Stranger, RemoteFramesStopNobodyAndAreToldOnce) {
+  Stranger rig;
+  ASSERT_TRUE(rig.make_ready()) << rig.story();
+  ASSERT_TRUE(rig.begin());
+  for (const char* poll : {"77F#R", "1FF#R8", "080#R", "2FF#R8", "701#R", "181#R", "081#R8"}) {
+    rig.stranger_sends(text_frame(poll));
+    rig.run_for(50ms);
+  }
+  ASSERT_TRUE(rig.reach(MachineState::kReady, 60s)) << rig.story();
+  EXPECT_FALSE(rig.told(MachineEvent::Kind::kAlarm)) << rig.story();
+  EXPECT_TRUE(rig.says("remote frames (COB-ID 77Fh)")) << rig.story();
+  EXPECT_FALSE(rig.says("remote frames (COB-ID 1FFh)")) << rig.story();
+}
+
+TEST(Stranger, AStopOfAnUnknownDeviceHasACauseAndTheJobGoesOnAfterIt) {
+  Stranger rig;
+  ASSERT_TRUE(rig.make_ready()) << rig.story();
+  ASSERT_TRUE(rig.begin());
+  rig.run_for(300ms);
+  CanFrame forged = encode(Emergency{.node = 44, .code = 0x1000, .error_register = 1});
+  const auto stop = encode(StopRequest{StopReason::kCommand, 0, rig.now});
+  std::copy(stop.begin(), stop.end(), forged.data.begin() + 3);
+  rig.stranger_sends(forged);
+  ASSERT_TRUE(rig.reach(MachineState::kStopped, 5s)) << rig.story();
+  EXPECT_TRUE(rig.says("node 44, which the machine file does not name, has asked all to stop"))
+      << rig.story();
+  EXPECT_TRUE(rig.rests());
+  ASSERT_TRUE(rig.gateway->carry_out(command::Clear{}));
+  ASSERT_TRUE(rig.reach(MachineState::kHeld, 5s)) << rig.story();
+  ASSERT_TRUE(rig.gateway->carry_out(command::Resume{}));
+  ASSERT_TRUE(rig.reach(MachineState::kReady, 60s)) << rig.story();
+}
+
+}  // namespace
+}  // namespace kinebus
