@@ -57,22 +57,22 @@ void CollisionModel::pair_up() {
     }
 }
 
-double CollisionModel::distance(const Scene& scene, const Pair& pair) const {
+template <typename Measure>
+double CollisionModel::least_of_shapes(const Scene& scene, const Pair& pair, Measure&& measure) const {
   const Body &a = bodies_[pair.first], &b = bodies_[pair.second];
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = a.first_shape; i < std::size_t{a.first_shape} + a.shapes; ++i)
     for (std::size_t j = b.first_shape; j < std::size_t{b.first_shape} + b.shapes; ++j)
-      least = std::min(least, distance_mm(scene.shapes[i], scene.shapes[j]));
+      least = std::min(least, measure(scene.shapes[i], scene.shapes[j]));
   return least;
 }
 
+double CollisionModel::distance(const Scene& scene, const Pair& pair) const {
+  return least_of_shapes(scene, pair, distance_mm);
+}
+
 double CollisionModel::least_distance(const Scene& scene, const Pair& pair) const {
-  const Body &a = bodies_[pair.first], &b = bodies_[pair.second];
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = a.first_shape; i < std::size_t{a.first_shape} + a.shapes; ++i)
-    for (std::size_t j = b.first_shape; j < std::size_t{b.first_shape} + b.shapes; ++j)
-      least = std::min(least, least_distance_mm(scene.shapes[i], scene.shapes[j]));
-  return least;
+  return least_of_shapes(scene, pair, least_distance_mm);
 }
 
 std::optional<Clearance> CollisionModel::clearance(Frame frame, const Pose& pose, Occasion occasion) const {

@@ -70,7 +70,7 @@ class CollisionModel {
   virtual bool place(Frame frame, const Pose& pose, Scene& scene) const = 0;
   const Scene& at_rest() const { return rest_; }
 
-  /// Smallest clearance of all pairs at a pose; nullopt: out of reach. Cost M1: 10 us, without heap.
+  /// Smallest clearance of all pairs at a pose; nullopt: out of reach. Without heap.
   std::optional<Clearance> clearance(Frame frame, const Pose& pose,
                                      Occasion occasion = Occasion::kMotion) const;
   /// The same for bodies that are placed already.
@@ -120,6 +120,9 @@ class CollisionModel {
   std::size_t shape_of(std::size_t body) const { return bodies_[body].first_shape; }
 
  private:
+  template <typename Measure>
+  double least_of_shapes(const Scene& scene, const Pair& pair, Measure&& measure) const;
+
   Scene rest_{};
   std::size_t shapes_ = 0;
   std::vector<Body> bodies_;

@@ -21,8 +21,7 @@ class Sweep {
   /// `model` must outlive this.
   explicit Sweep(const CollisionModel& model, Occasion occasion = Occasion::kMotion);
 
-  /// The machine moves to `pose`, near enough to straight on. Allocates nothing. Cost M1: 0.3 us while
-  /// nothing is near.
+  /// The machine moves to `pose`, near enough to straight on. Allocates nothing.
   Step to(Frame frame, const Pose& pose);
   /// The next pose follows from none.
   void jump() { placed_ = false; }
