@@ -145,6 +145,7 @@ class Core {
   bool axis_limits(Code code);
   bool acceleration_limits();
   bool jerk();
+  bool firmware_setting(Code code);
   bool retract_settings(Code code);
   bool override_ratio(Code code);
   bool stored_job(Code code);

@@ -122,6 +122,13 @@ bool Core::run_machine_code(Code code) {
     case 118:
       emit(canonical::Message{std::string(block_.text)});
       return true;
+    case 92:
+    case 206:
+    case 301:
+    case 304:
+    case 665:
+    case 666:
+      return firmware_setting(code);
     case 201:
     case 203:
       return axis_limits(code);
@@ -157,6 +164,38 @@ bool Core::run_machine_code(Code code) {
   if (m_group(code.number) == MGroup::kJobs) return stored_job(code);
   note(code.number, say("%1 has no effect on this machine", m_name(code.number)));
   return true;
+}
+
+// What a printer's firmware keeps in its memory and a machine file says here. What would move the tool
+// elsewhere when it is passed over is refused.
+bool Core::firmware_setting(Code code) {
+  const std::string name = m_name(code.number);
+  if (block_.text.empty() || block_.text.front() == '(') {
+    note(code.number, say("%1 has no effect on this machine", name));
+    return true;
+  }
+  switch (code.number) {
+    case 206:
+      return fail(block_.text_column,
+                  say("M206 is not supported: write G10 L2 P0 with the values of the other sign"));
+    case 665:
+      return fail(block_.text_column,
+                  say("M665 is not supported: write the geometry under [kinematics] in the machine file"));
+    case 666:
+      return fail(
+          block_.text_column,
+          say("M666 is not supported: write offset_mm of [joint.NAME.calibration] in the machine file"));
+    case 92:
+      note(92,
+           say("M92 has no effect: mm_per_turn, full_steps_per_turn and microsteps of [joint.NAME] in the "
+               "machine file say how far a step goes"));
+      return true;
+    default:
+      note(code.number, say("%1 has no effect: a heater's control belongs to its node and to [heater.NAME] "
+                            "in the machine file",
+                            name));
+      return true;
+  }
 }
 
 bool Core::program_call(Code code) {

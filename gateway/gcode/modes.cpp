@@ -22,7 +22,10 @@ bool Core::run_modes() {
       pass_over('T');  // RepRapFirmware: no tool
     } else {
       if (!block_.is_bare('T') && block_['T'] > last)
-        return fail(block_.column_of('T'), say("the machine has no such tool: the last is T%1", last));
+        return fail(block_.column_of('T'),
+                    last > 0
+                        ? say("the machine has no such tool: the last is T%1", last)
+                        : say("the machine has one tool, T0; where T1 and T2 turned axes, write A and C"));
       if (!take_integer('T', 0, last, m.tool)) return false;
     }
     // What a change of tools does there: P in RepRapFirmware, S L D in others.

@@ -501,6 +501,30 @@
         <translation>M205 (جرک، انحراف گوشه) اثری ندارد: گوشه‌ها در رواداری G64 P گرد می‌شوند</translation>
     </message>
     <message>
+        <source>M206 is not supported: write G10 L2 P0 with the values of the other sign</source>
+        <translation>M206 پشتیبانی نمی‌شود: G10 L2 P0 را با همان مقدارها و علامت وارونه بنویسید</translation>
+    </message>
+    <message>
+        <source>M665 is not supported: write the geometry under [kinematics] in the machine file</source>
+        <translation>M665 پشتیبانی نمی‌شود: هندسه را در پروندهٔ ماشین زیر [kinematics] بنویسید</translation>
+    </message>
+    <message>
+        <source>M666 is not supported: write offset_mm of [joint.NAME.calibration] in the machine file</source>
+        <translation>M666 پشتیبانی نمی‌شود: offset_mm را در پروندهٔ ماشین زیر [joint.NAME.calibration] بنویسید</translation>
+    </message>
+    <message>
+        <source>M92 has no effect: mm_per_turn, full_steps_per_turn and microsteps of [joint.NAME] in the machine file say how far a step goes</source>
+        <translation>M92 اثری ندارد: mm_per_turn، full_steps_per_turn و microsteps زیر [joint.NAME] در پروندهٔ ماشین می‌گویند که یک گام چقدر می‌رود</translation>
+    </message>
+    <message>
+        <source>%1 has no effect: a heater&apos;s control belongs to its node and to [heater.NAME] in the machine file</source>
+        <translation>%1 اثری ندارد: کنترل گرم‌کن کار گره‌اش و [heater.NAME] در پروندهٔ ماشین است</translation>
+    </message>
+    <message>
+        <source>the machine has one tool, T0; where T1 and T2 turned axes, write A and C</source>
+        <translation>ماشین یک ابزار دارد، T0؛ جایی که T1 و T2 محور می‌چرخاندند، A و C بنویسید</translation>
+    </message>
+    <message>
         <source>the retraction&apos;s length cannot be negative</source>
         <translation>درازای عقب‌کشی نمی‌تواند منفی باشد</translation>
     </message>

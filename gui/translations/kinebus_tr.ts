@@ -501,6 +501,30 @@
         <translation>M205 (silkinme, kavşak sapması) etkisiz: köşeler G64 P toleransı içinde yuvarlanır</translation>
     </message>
     <message>
+        <source>M206 is not supported: write G10 L2 P0 with the values of the other sign</source>
+        <translation>M206 desteklenmiyor: G10 L2 P0 yazın, değerler ters işaretli</translation>
+    </message>
+    <message>
+        <source>M665 is not supported: write the geometry under [kinematics] in the machine file</source>
+        <translation>M665 desteklenmiyor: geometriyi makine dosyasında [kinematics] altına yazın</translation>
+    </message>
+    <message>
+        <source>M666 is not supported: write offset_mm of [joint.NAME.calibration] in the machine file</source>
+        <translation>M666 desteklenmiyor: makine dosyasında [joint.NAME.calibration] altına offset_mm yazın</translation>
+    </message>
+    <message>
+        <source>M92 has no effect: mm_per_turn, full_steps_per_turn and microsteps of [joint.NAME] in the machine file say how far a step goes</source>
+        <translation>M92 etkisiz: bir adımın ne kadar gittiğini makine dosyasındaki [joint.NAME] altında mm_per_turn, full_steps_per_turn ve microsteps söyler</translation>
+    </message>
+    <message>
+        <source>%1 has no effect: a heater&apos;s control belongs to its node and to [heater.NAME] in the machine file</source>
+        <translation>%1 etkisiz: ısıtıcının denetimi düğümünün ve makine dosyasındaki [heater.NAME] tablosunun işidir</translation>
+    </message>
+    <message>
+        <source>the machine has one tool, T0; where T1 and T2 turned axes, write A and C</source>
+        <translation>makinenin tek takımı var, T0; T1 ve T2 eksen döndürüyorsa A ve C yazın</translation>
+    </message>
+    <message>
         <source>the retraction&apos;s length cannot be negative</source>
         <translation>geri çekme uzunluğu eksi olamaz</translation>
     </message>

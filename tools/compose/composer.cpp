@@ -6,6 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "tools/compose/medial_axis.hpp"
 #include "tools/compose/support.hpp"
 
 namespace kinebus::compose {
@@ -61,7 +62,7 @@ Composed compose(const TriangleMesh& given, const ComposeOptions& options,
     out.pieces.push_back({name, joined.frame.j_deg, std::atan2(n[1], n[0]) * kDeg, volume_mm3(piece.mesh),
                           overhang_mm2(piece, options.decompose.max_overhang_rad),
                           unheld_mm2(piece, options.decompose.max_overhang_rad), joined.gcode.filament_mm,
-                          joined.gcode.layers});
+                          joined.gcode.layers, angle_to_medial_axis(piece.mesh, n) * kDeg});
     out.joined.push_back(std::move(joined));
     out.meshes.push_back(piece.mesh);
   }

@@ -28,6 +28,7 @@ struct PieceReport {
   std::string name;
   double tilt_deg = 0, azimuth_deg = 0, volume_mm3 = 0, overhang_mm2 = 0, unheld_mm2 = 0, filament_mm = 0;
   int layers = 0;
+  double layers_off_square_deg = 0;  ///< to the piece's own axis, as its mesh has it
 };
 
 /// What the uncut part would have needed.

@@ -168,6 +168,7 @@ json to_json(const Composed& c) {
   for (const PieceReport& p : c.pieces)
     pieces.push_back({{"name", p.name},
                       {"tilt_deg", p.tilt_deg},
+                      {"layers_off_square_deg", p.layers_off_square_deg},
                       {"azimuth_deg", p.azimuth_deg},
                       {"volume_mm3", p.volume_mm3},
                       {"overhang_mm2", p.overhang_mm2},
@@ -211,13 +212,13 @@ int compose_part(const Arguments& arguments) {
   fmt::print("{}: {} faces; {}\n", arguments.input, part.faces.size(), repair.words());
   const Composed result = compose(part, options, machine_of(arguments));
   write_text(arguments.output, result.job.text);
-  fmt::print("{:<10} {:>7} {:>9} {:>11} {:>12} {:>7} {:>12}\n", "piece", "tilt", "azimuth", "volume",
-             "overhang", "layers", "filament");
+  fmt::print("{:<10} {:>8} {:>9} {:>9} {:>11} {:>12} {:>7} {:>12}\n", "piece", "tilt", "azimuth", "off axis",
+             "volume", "overhang", "layers", "filament");
   bool hangs = false;
   for (const PieceReport& p : result.pieces) {
-    fmt::print("{:<10} {:>4.1f} deg {:>5.0f} deg {:>7.0f} mm3 {:>8.2f} mm2 {:>7} {:>9.0f} mm\n", p.name,
-               p.tilt_deg, p.azimuth_deg, p.volume_mm3, p.overhang_mm2 + p.unheld_mm2, p.layers,
-               p.filament_mm);
+    fmt::print("{:<10} {:>4.1f} deg {:>5.0f} deg {:>5.1f} deg {:>7.0f} mm3 {:>8.2f} mm2 {:>7} {:>9.0f} mm\n",
+               p.name, p.tilt_deg, p.azimuth_deg, p.layers_off_square_deg, p.volume_mm3,
+               p.overhang_mm2 + p.unheld_mm2, p.layers, p.filament_mm);
     hangs = hangs || p.overhang_mm2 > options.decompose.allowed_mm2 ||
             p.unheld_mm2 > options.decompose.allowed_mm2;
   }

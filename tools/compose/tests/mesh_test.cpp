@@ -6,6 +6,7 @@
 
 #include "tools/compose/decompose.hpp"
 #include "tools/compose/example_parts.hpp"
+#include "tools/compose/medial_axis.hpp"
 #include "tools/compose/mesh_kernel.hpp"
 #include "tools/compose/nozzle.hpp"
 #include "tools/compose/piece_frame.hpp"
@@ -26,6 +27,19 @@ TEST(Mesh, ACubeWithAFaceMissingIsClosed) {
   const auto [mesh, repair] = close_mesh(points, polygons, "cube");
   EXPECT_EQ(repair.holes_filled, 1);
   EXPECT_NEAR(volume_mm3(mesh), 1000, 1e-9);
+}
+
+TEST(MedialAxis, OfALeaningPrismIsItsEdgeWhicheverWayItIsLayered) {
+  auto [points, polygons] = cube();
+  // 10 mm high, its top moved by 7 and 2 mm; then far from the origin.
+  for (Vector& p : points) p += Vector(0.7 * p[2] + 50, 0.2 * p[2] - 30, 80);
+  const auto [mesh, repair] = close_mesh(points, polygons, "prism");
+  const Vector edge = Vector(0.7, 0.2, 1).normalized(), up(0, 0, 1);
+  EXPECT_NEAR(angle_to_medial_axis(mesh, up), std::acos(edge.dot(up)), 1e-9);
+  // Square to the edge every section of the middle is the same: up to its ends, which are cut level.
+  auto [tall, sides] = cube();
+  for (Vector& p : tall) p = Vector(p[0] + 7 * p[2], p[1] + 2 * p[2], 10 * p[2]);
+  EXPECT_NEAR(angle_to_medial_axis(close_mesh(tall, sides, "tall").first, edge), 0, 1e-9);
 }
 
 TEST(Mesh, AMeshTurnedInsideOutIsTurnedBack) {
