@@ -27,7 +27,7 @@ double Nozzle::widest() const {
 
 Obstacles::Obstacles(const std::vector<const TriangleMesh*>& meshes, double table_radius_mm,
                      const Vector& tool_up, double lowest_tip_mm, double grid_mm)
-    : up_(tool_up), grid_mm_(grid_mm) {
+    : up_(tool_up) {
   across_ = (std::abs(up_[0]) < 0.9 ? Vector::UnitX() : Vector::UnitY()).cross(up_).normalized();
   along_ = up_.cross(across_);
   const auto seen = [&](const Vector& q) { return Vector(across_.dot(q), along_.dot(q), up_.dot(q)); };

@@ -34,7 +34,6 @@ class Obstacles {
   void sample(const Vector& a, const Vector& b, const Vector& c, double lowest, double grid_mm);
 
   Vector across_, along_, up_;
-  double grid_mm_;
   struct Sample {
     double x = 0, y = 0, z = 0;
   };
