@@ -26,6 +26,15 @@ std::string stored_text(const LinkRig& rig, const std::string& name) {
   return std::move(text).str();
 }
 
+/// Of the job "a": the upload's id.
+std::uint32_t begin_upload(LinkRig& rig, LinkedClient& client, const std::string& text) {
+  ClientMessage begin;
+  begin.mutable_upload_begin()->set_name("a");
+  begin.mutable_upload_begin()->set_size_bytes(text.size());
+  begin.mutable_upload_begin()->set_hash(joblink::job_hash_of(text));
+  return rig.ask(client, begin).upload().upload_id();
+}
+
 TEST(LinkUploads, AnUploadIsStoredAndAllHearOfIt) {
   LinkRig rig;
   LinkedClient& anna = rig.connect("anna");
@@ -87,11 +96,7 @@ TEST(LinkUploads, AnUploadIsThatOfWhoBeganIt) {
   LinkedClient& anna = rig.connect("anna");
   LinkedClient& bert = rig.connect("bert");
   const std::string text = gcode_of(1000);
-  ClientMessage begin;
-  begin.mutable_upload_begin()->set_name("a");
-  begin.mutable_upload_begin()->set_size_bytes(text.size());
-  begin.mutable_upload_begin()->set_hash(joblink::job_hash_of(text));
-  const std::uint32_t id = rig.ask(anna, begin).upload().upload_id();
+  const std::uint32_t id = begin_upload(rig, anna, text);
   ASSERT_NE(id, 0U);
   ClientMessage chunk, commit, abort;
   chunk.mutable_upload_chunk()->set_upload_id(id);
@@ -109,11 +114,7 @@ TEST(LinkUploads, AHalfUploadIsListedAndCanBeDiscarded) {
   LinkRig rig;
   LinkedClient& anna = rig.connect("anna");
   const std::string text = gcode_of(1000);
-  ClientMessage begin;
-  begin.mutable_upload_begin()->set_name("a");
-  begin.mutable_upload_begin()->set_size_bytes(text.size());
-  begin.mutable_upload_begin()->set_hash(joblink::job_hash_of(text));
-  const std::uint32_t id = rig.ask(anna, begin).upload().upload_id();
+  const std::uint32_t id = begin_upload(rig, anna, text);
   ClientMessage discard, abort;
   discard.mutable_discard_upload()->set_name("a");
   discard.mutable_discard_upload()->set_size_bytes(text.size());

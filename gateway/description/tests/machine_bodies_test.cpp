@@ -1,0 +1,88 @@
+// [bodies] of a machine file.
+
+#include <gtest/gtest.h>
+
+#include "gateway/bodies/collision_model.hpp"
+#include "gateway/bodies/tests/legs_below.hpp"
+#include "gateway/description/machine_file.hpp"
+#include "gateway/description/tests/machine_text.hpp"
+
+namespace kinebus {
+namespace {
+
+/// A machine that has room for its bodies, and `lines` in its [bodies].
+std::string with_bodies(std::string_view lines) {
+  return write_machine(legs_below()).substr(0, write_machine(legs_below()).find("\n[bodies]")) +
+         "\n[bodies]\n" + std::string(lines);
+}
+
+TEST(MachineFile, BodiesReadBackAsTheyWereWritten) {
+  MachineDescription d = legs_below();
+  d.bodies->clearance_mm = 3.5;
+  d.bodies->rail_offset_mm = 61;
+  d.bodies->part_radius_mm = 40;
+  d.bodies->part_height_mm = 90;
+  d.bodies->fixed = {{"camera", {300, -20, 1400}, {340, 20, 1440}},
+                     {"lamp", {-340, -20, 1400}, {-300, 20, 1440}}};
+  const auto machine = parse_machine(write_machine(d), "written");
+  ASSERT_TRUE(machine) << to_string(machine.error());
+  EXPECT_TRUE(*machine == d);
+  const auto defaults = parse_machine(with_bodies(""), "written");
+  ASSERT_TRUE(defaults) << to_string(defaults.error());
+  EXPECT_TRUE(defaults->bodies == BodiesDescription{});
+  EXPECT_NE(make_collision_model(*defaults), nullptr);
+  EXPECT_EQ(make_collision_model(default_m1()), nullptr) << "no table, no bodies";
+}
+
+TEST(MachineFile, WrongBodiesAreRefusedWithTheirKeyAndRule) {
+  const std::pair<const char*, const char*> table[] = {
+      {"clearance_mm = -1", "bodies.clearance_mm: found -1; expected a number in 0.1 .. 100"},
+      {"clearance_mm = 0", "bodies.clearance_mm: found 0; expected a number in 0.1 .. 100"},
+      {"rod_radius_mm = 0", "bodies.rod_radius_mm: found 0; expected a number in 0.1 .. 10000"},
+      {"rod_radiu_mm = 5",
+       "bodies.rod_radiu_mm: found a key that does not exist; expected perhaps rod_radius_mm"},
+      {"tool_length_mm = 3",
+       "bodies.tool_length_mm: found 3; expected above tool_radius_mm, 4: the tool's end is round"},
+      {"part_radius_mm = 30",
+       "bodies.part_radius_mm: found 30; expected part_radius_mm and part_height_mm both above 0, or neither "
+       "of "
+       "them"},
+      {"[bodies.fixed.lamp]\nfrom_mm = [1, 2, 3]",
+       "bodies.fixed.lamp.to_mm: missing; expected three numbers, each in -10000 .. 10000"},
+      {"[bodies.fixed.lamp]\nfrom_mm = [1, 2, 3]\nto_mm = [4, 5, 3]",
+       "bodies.fixed.lamp.to_mm: found a box turned inside out; expected each of its three numbers above "
+       "that of "
+       "from_mm"},
+      // A beam through the nozzle's axis that the table comes up against, at the bed reference as well.
+      {"[bodies.fixed.beam]\nfrom_mm = [-10, -10, 1260]\nto_mm = [10, 10, 1290]",
+       "bodies: found bodies that touch: at X 0 Y 0 Z 20 A 0, platform and beam would touch; expected room "
+       "at "
+       "the bed "
+       "reference, where the machine waits before a job"},
+      {"rod_radius_mm = 100", "expected a machine that has room somewhere: this is its best pose"},
+  };
+  for (const auto& [lines, message] : table) {
+    const auto machine = parse_machine(with_bodies(lines), "m");
+    ASSERT_FALSE(machine) << lines;
+    EXPECT_NE(to_string(machine.error()).find(message), std::string::npos) << to_string(machine.error());
+    EXPECT_EQ(machine.error().size(), 1u) << to_string(machine.error());
+  }
+}
+
+TEST(MachineFile, EachKindHasTheKeysOfItsBodies) {
+  for (const char* file : {"cartesian.toml", "corexy.toml"}) {
+    const std::string text = file_text(file);
+    EXPECT_TRUE(parse_machine(text + "\n[bodies]\nholder_radius_mm = 30\n", file));
+    const auto machine = parse_machine(text + "\n[bodies]\nrod_radius_mm = 5\n", file);
+    ASSERT_FALSE(machine) << file;
+    EXPECT_NE(to_string(machine.error()).find("bodies.rod_radius_mm: found a key that does not exist"),
+              std::string::npos);
+  }
+  EXPECT_TRUE(parse_machine(file_text("delta.toml") + "\n[bodies]\nrod_spacing_mm = 40\n", "delta"));
+  EXPECT_TRUE(parse_machine(file_text("m4.toml") + "\n[bodies]\nrod_radius_mm = 12\n", "m4"));
+  EXPECT_FALSE(parse_machine(file_text("m4.toml") + "\n[bodies]\nrod_spacing_mm = 40\n", "m4"))
+      << "M4's legs are single rods";
+}
+
+}  // namespace
+}  // namespace kinebus

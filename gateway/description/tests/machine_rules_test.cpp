@@ -1,0 +1,198 @@
+// What the parts of a machine file demand of each other.
+
+#include <gtest/gtest.h>
+
+#include "gateway/description/machine_file.hpp"
+#include "gateway/description/tests/machine_text.hpp"
+
+namespace kinebus {
+namespace {
+
+/// m1.toml with a node 4 that carries `functions`, and the bed there.
+std::string with_node_4(std::string_view functions, std::string_view bed_place) {
+  std::string text = edited("[thermal]", "[node.4]\n" + std::string(functions) + "\n[thermal]").text;
+  const std::size_t bed = text.find("[heater.bed]"), where = text.find("where = \"simulated\"", bed);
+  text.replace(where, 19, bed_place);
+  return text;
+}
+
+TEST(MachineFile, ADeviceLivesOnAChannelThatItsNodeHas) {
+  const auto machine = parse_machine(
+      with_node_4("axis_pairs = 0\ninputs = 0\nheaters = 2", "where = \"node\"\nnode = 4\nchannel = 2"), "m");
+  ASSERT_TRUE(machine) << to_string(machine.error());
+  const HeaterDescription* bed = machine->heater(kFirstBed);
+  ASSERT_NE(bed, nullptr);
+  EXPECT_EQ(bed->place, (DevicePlace{DevicePlace::Where::kNode, 4, 2}));
+  EXPECT_FALSE(machine->node(4)->functions.has_axes());
+  EXPECT_TRUE(machine->node(1)->functions.has_axes()) << "a node is a pair of axes unless it says otherwise";
+  const auto again = parse_machine(write_machine(*machine), "written");
+  ASSERT_TRUE(again) << to_string(again.error());
+  EXPECT_TRUE(*again == *machine);
+}
+
+TEST(MachineFile, ADeviceWhereNoneCanBeIsRefused) {
+  struct Case {
+    std::string functions, place, message;
+  };
+  const Case table[] = {
+      {"axis_pairs = 0", "where = \"node\"\nnode = 5\nchannel = 1",
+       "heater.bed.node: found 5; expected a node that has its table, [node.5]"},
+      {"axis_pairs = 0", "where = \"node\"\nnode = 4\nchannel = 1",
+       "heater.bed.channel: found 1; expected a node that has such channels: node.4.heaters is 0"},
+      {"heaters = 2", "where = \"node\"\nnode = 4\nchannel = 3",
+       "heater.bed.channel: found 3; expected a channel in 1 .. 2, as node.4.heaters says"},
+      {"heaters = 2", "where = \"node\"\nnode = 4",
+       "heater.bed.channel: missing; expected a whole number in 1 .. 16"},
+      {"heaters = 2", "where = \"node\"\nnode = 4\nchannel = 99",
+       "heater.bed.channel: found 99; expected a whole number in 1 .. 16"},
+      {"heaters = 9", "where = \"simulated\"", "node.4.heaters: found 9; expected a whole number in 0 .. 8"},
+      {"axis_pairs = 2", "where = \"simulated\"",
+       "node.4.axis_pairs: found 2; expected a whole number in 0 .. 1"},
+      {"", "where = \"there\"", "heater.bed.where: found 'there'; expected one of \"simulated\" \"node\""},
+      {"", "", "heater.bed.where: missing; expected one of \"simulated\" \"node\""},
+      {"", "where = \"simulated\"\nnode = 4", "heater.bed.node: found a key that does not exist"},
+      {"axis_pairs = 0\n[node.4.input1]\nfunction = \"home\"", "where = \"simulated\"",
+       "node.4.input1.function: found a switch of an axis; expected none, emergency_stop or probe: this node "
+       "has no axes"},
+      {"inputs = 1\n[node.4.input2]\nfunction = \"probe\"", "where = \"simulated\"",
+       "node.4.input2: found a function; expected an input that the node has: node.4.inputs is 1"},
+      {"", "where = \"simulated\"\n[spindle]\nwhere = \"simulated\"\npresent = true",
+       "spindle.present: found true; expected no such key: a machine without spindle has no table [spindle]"},
+      {"", "where = \"simulated\"\n[heater.second]\nkind = \"bed\"\nwhere = \"simulated\"",
+       "heater.second.index: found 0; expected an index that no other heater of the kind has: [heater.bed] "
+       "has it"},
+      {"", "where = \"simulated\"\n[fan.rear]\nwhere = \"simulated\"",
+       "fan.rear.index: found 0; expected an index that no other has: [fan.part] has it"},
+      {"heaters = 2",
+       "where = \"node\"\nnode = 4\nchannel = 1\n[heater.oven]\nkind = \"chamber\"\nwhere = \"node\"\nnode = "
+       "4\nchannel = 1",
+       "heater.oven.channel: found node 4 channel 1; expected a channel that no other device has: "
+       "[heater.bed] "
+       "has it"},
+      {"", "where = \"simulated\"\n[probe]\nwhere = \"node\"\nnode = 3\nchannel = 1",
+       "probe.channel: found 1; expected an input of node 3 that has the probe function"},
+      {"", "where = \"simulated\"\n[fan.\"two words\"]\nwhere = \"simulated\"",
+       "fan.two words: found a key that does not exist; expected at most 32 tables with names of 1 .. 32 "
+       "letters, "
+       "digits, - and _"},
+  };
+  for (const Case& c : table) {
+    const auto machine = parse_machine(with_node_4(c.functions, c.place), "m");
+    ASSERT_FALSE(machine) << c.message;
+    EXPECT_NE(to_string(machine.error()).find(": " + c.message), std::string::npos)
+        << c.message << "\n"
+        << to_string(machine.error());
+    EXPECT_EQ(machine.error().size(), 1u) << to_string(machine.error());
+  }
+}
+
+TEST(MachineFile, AnAxisNeedsANodeThatHasAxes) {
+  const auto machine = parse_machine(edited("[node.3] ", "[node.3]\naxis_pairs = 0 ").text, "m");
+  ASSERT_FALSE(machine);
+  EXPECT_NE(to_string(machine.error())
+                .find("joint.C.node: found 3; expected a node that has axes: node.3.axis_pairs is 0"),
+            std::string::npos)
+      << to_string(machine.error());
+}
+
+TEST(MachineFile, HeatersOfEarlierFilesAreRefusedWithWhatStandsForThemNow) {
+  const Edited e = edited("[heater.hotend]", "[thermal.hotend]\npresent = true\n\n[heater.hotend]");
+  const auto machine = parse_machine(e.text, "m");
+  ASSERT_FALSE(machine);
+  EXPECT_EQ(to_string(machine.error()),
+            "m:" + std::to_string(e.line) +
+                ": thermal.hotend: found a table; expected [heater.hotend] with kind = \"hotend\", where = "
+                "\"simulated\" and the same keys; a machine without hot end has no such table\n");
+}
+
+TEST(MachineFile, TwoJointsOnOneDriveAreRefused) {
+  const auto machine =
+      parse_machine(edited("axis = \"B\"\nmm_per_turn = 40", "axis = \"A\"\nmm_per_turn = 40").text, "m");
+  ASSERT_FALSE(machine);
+  EXPECT_NE(to_string(machine.error())
+                .find("joint.tower2.axis: found node 1 axis A; expected a node's axis that no "
+                      "other joint has"),
+            std::string::npos)
+      << to_string(machine.error());
+}
+
+TEST(MachineFile, AJointWithTravelMustHaveHoming) {
+  std::string text = file_text("delta.toml");
+  const std::size_t from = text.find("[joint.tower2.homing]"), to = text.find("[joint.tower2.calibration]");
+  text.erase(from, to - from);
+  const auto machine = parse_machine(text, "delta.toml");
+  ASSERT_FALSE(machine);
+  EXPECT_EQ(machine.error().front().key, "joint.tower2.homing");
+}
+
+TEST(MachineFile, AMirroredMechanismIsRefusedWithTheReason) {
+  std::string text = file_text("m1.toml");
+  for (const auto& [from, to] : {std::pair{"foot_mm = [-273, -252, 0]", "foot_mm = [-273, -63, 0]"},
+                                 {"foot_mm = [-273, 252, 0]", "foot_mm = [-273, 63, 0]"},
+                                 {"attachment_mm = [-124, -69, -5]", "attachment_mm = [-124, -128, -5]"},
+                                 {"attachment_mm = [-124, 69, -5]", "attachment_mm = [-124, 128, -5]"}})
+    text.replace(text.find(from), std::strlen(from), to);
+  const auto machine = parse_machine(text, "m1.toml");
+  ASSERT_FALSE(machine);
+  EXPECT_EQ(machine.error().front().key, "kinematics");
+  EXPECT_NE(machine.error().front().expected.find("singular"), std::string::npos)
+      << to_string(machine.error());
+}
+
+TEST(MachineFile, HomingThatDrivesThePlatformIntoTheNozzleIsRefused) {
+  // Whatever way the rail counts: it is the platform's motion that is judged.
+  MachineDescription d = default_m1();
+  auto& g = std::get<M1Geometry>(d.kinematics);
+  g.legs[2].rail = {0, 0, -1};
+  g.legs[2].foot_mm[2] = 580;
+  g.legs[2].connector_mm = -15;
+  g.legs[2].carriage_above = true;
+  d.joints[2].homing->switch_position = 540;
+  auto machine = parse_machine(write_machine(d), "x");
+  ASSERT_FALSE(machine);
+  ASSERT_EQ(machine.error().size(), 1u) << to_string(machine.error());
+  EXPECT_EQ(machine.error().front().key, "joint.tower3.homing.method");
+  EXPECT_NE(machine.error().front().expected.find("method 20, "), std::string::npos)
+      << to_string(machine.error());
+  d.joints[2].homing->method = 20;
+  machine = parse_machine(write_machine(d), "x");
+  EXPECT_TRUE(machine) << to_string(machine.error());
+  // Limit switches, and M5's rails, are judged alike.
+  std::string mill = file_text("m5.toml");
+  for (std::size_t at; (at = mill.find("method = 22")) != std::string::npos;)
+    mill.replace(at, 11, "method = 20");
+  const auto refused = parse_machine(mill, "m5.toml");
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().size(), 4u) << to_string(refused.error());
+}
+
+TEST(MachineFile, CalibrationBendsTheGeometryAndNotTheStatedOne) {
+  std::string text = write_machine(default_m1());
+  text += "\n[calibration.leg2]\nfoot_mm = [0.5, 0, 0]\nlength_mm = -0.25\n";
+  const auto machine = parse_machine(text, "calibrated");
+  ASSERT_TRUE(machine) << to_string(machine.error());
+  EXPECT_EQ(std::get<M1Geometry>(machine->kinematics).legs[1].length_mm, 991);
+  JointVector nominal{}, measured{};
+  const Pose pose{10, 20, 30, 0.1, 0, 0};
+  ASSERT_TRUE((*make_kinematics(default_m1()))->inverse(Frame::kPart, pose, nominal));
+  ASSERT_TRUE((*make_kinematics(*machine))->inverse(Frame::kPart, pose, measured));
+  EXPECT_EQ(nominal[0], measured[0]);
+  EXPECT_GT(std::abs(nominal[1] - measured[1]), 0.1);
+  EXPECT_EQ(nominal[2], measured[2]);
+  const auto refused =
+      parse_machine("[calibration.leg5]\nlength_mm = 1\n" + write_machine(default_m1()), "x");
+  EXPECT_FALSE(refused);
+}
+
+TEST(MachineFile, ACorrectionThatNoJointCanFollowIsRefused) {
+  MachineDescription d = default_m1();
+  d.joints[0].calibration.pitch = 2;
+  d.joints[0].calibration.periodic_sine = 0.1;
+  const auto refused = parse_machine(write_machine(d), "steep");
+  ASSERT_FALSE(refused);
+  EXPECT_NE(to_string(refused.error()).find("slope of 0.314159; expected at most 0.05"), std::string::npos)
+      << to_string(refused.error());
+}
+
+}  // namespace
+}  // namespace kinebus

@@ -1,0 +1,287 @@
+// What each state of the machine does as time passes, and what it leads to.
+
+#include <utility>
+
+#include "gateway/machine/core.hpp"
+
+namespace kinebus {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// A stop takes its ramp and no more; a node that does not say so is lost.
+constexpr BusTime kStopTimeout = 3s;
+
+}  // namespace
+
+// Bring-up and homing
+// ------------------------------------------------------------------------------------------
+
+void Gateway::Core::begin_bring_up() {
+  watch_.bring_up_begins();
+  parameters_.forget();
+  remote_told_ = false;
+  fault_ = false;
+  position_.forget();
+  position_.stream_is_new();
+  hand_.runner().drop();
+  recovery_.bring_up_begins(rate_.tau(now_));
+  bring_up_.start(now_, voice_.speaks());
+  enter(MachineState::kBringUp);
+}
+
+void Gateway::Core::step_bring_up() {
+  if (rest_.reading()) return step_standstill();
+  if (recovery_.waits_for_journal(now_)) return;
+  const BringUp::Outcome outcome = bring_up_.on_time(now_);
+  if (bring_up_.may_speak()) voice_.begin(now_);
+  recovery_.note_found(now_, bring_up_);
+  if (outcome == BringUp::Outcome::kBusy) return;
+  if (outcome == BringUp::Outcome::kDone) {
+    voice_.nodes_are_new(now_);
+    return rest_.read(now_, Rest::After::kBringUp);
+  }
+  const StepFailure& failure = bring_up_.failure();
+  if (failure.code == AlarmCode::kSecondGateway) voice_.end();
+  watch_.lose();
+  recovery_.do_not_go_on();
+  events_.alarm(now_, failure.code, failure.words, failure.node);
+  enter(MachineState::kAlarm);
+}
+
+void Gateway::Core::begin_homing() {
+  position_.forget();
+  homing_.start(now_);
+  enter(MachineState::kHoming);
+}
+
+void Gateway::Core::step_homing() {
+  if (rest_.reading()) return step_standstill();
+  const MachineHoming::Outcome outcome = homing_.on_time(now_);
+  if (outcome == MachineHoming::Outcome::kBusy) return;
+  if (outcome == MachineHoming::Outcome::kDone) return rest_.read(now_, Rest::After::kHoming);
+  const StepFailure& failure = homing_.failure();
+  events_.alarm(now_, failure.code, failure.words, failure.node);
+  stop_all(true);
+}
+
+// Jobs and moves
+// -----------------------------------------------------------------------------------------------
+
+void Gateway::Core::step_checking() {
+  if (recovery_.left()) return step_recovery();
+  if (!print_.check(now_, options_.planning_budget)) return;
+  if (print_.errors() > 0 || !print_.rewind()) {
+    events_.push({.kind = MachineEvent::Kind::kFinished,
+                  .when = now_,
+                  .words = say("the job was not begun: it has %1 errors", print_.errors()),
+                  .advice = say("correct the lines named, then run it again")});
+    print_.drop_source();
+    print_.forget_name();
+    return enter(MachineState::kReady);
+  }
+  const auto pose = machine_pose();
+  if (!pose) {
+    events_.alarm(now_, AlarmCode::kJobError, pose.error().words);
+    return stop_all(true);
+  }
+  if (auto meet = hand_.in_the_way_to_reference(*pose)) {
+    events_.push({.kind = MachineEvent::Kind::kFinished,
+                  .when = now_,
+                  .words = say("the job was not begun: on the way to the bed reference %1", std::move(*meet)),
+                  .advice = say("move the tool clear by hand, then run it again")});
+    print_.drop_source();
+    print_.forget_name();
+    return enter(MachineState::kReady);
+  }
+  runner_ = &hand_.runner();
+  hand_.start({{0, hand_.reference(*pose)}}, *pose, override_, ManualMotion::Then::kJob);
+  started_ = now_;
+  enter(MachineState::kRunning);
+}
+
+void Gateway::Core::step_running() {
+  if (runner_->live() && lines_.given_up(now_)) {
+    events_.message(now_, say("the lines' host has gone: what is left of them is given up"));
+    static_cast<void>(carry_out(command::Cancel{}));
+    return;
+  }
+  switch (runner_->on_time(now_, options_.planning_budget)) {
+    case Runner::Outcome::kBusy:
+      return;
+    case Runner::Outcome::kPaused:
+      held_from_ = state_.now();
+      enter(MachineState::kHolding);
+      return enter(MachineState::kHeld);
+    case Runner::Outcome::kDone:
+      return finish_motion();
+    case Runner::Outcome::kEmergencyStop:
+      events_.alarm(now_, AlarmCode::kEmergencyStop, say("M112 in the job"), 0, runner_->line(now_));
+      cut_heat(say("M112 in the job"));
+      return stop_all(false);
+    case Runner::Outcome::kFailed: {
+      const Runner::Failure& failure = runner_->failure();
+      position_.lose_stream();
+      if (runner_ == &print_.runner() && !failure.stream) recovery_.fail_job();
+      events_.alarm(now_, failure.stream ? AlarmCode::kStreamLost : AlarmCode::kJobError, failure.words, 0,
+                    failure.line);
+      return stop_all(false);
+    }
+  }
+}
+
+void Gateway::Core::finish_motion() {
+  const bool live = runner_->live();
+  if (runner_ == &print_.runner()) journal_.push(journal::JobEnd{});
+  runner_->drop();
+  position_.take_run_end();
+  switch (hand_.take_then()) {
+    case ManualMotion::Then::kReturn:
+      return finish_return();
+    case ManualMotion::Then::kJob: {
+      Pose start = kinematics_->bed_reference();
+      if (const auto pose = machine_pose()) start[kE] = (*pose)[kE];
+      return begin_job(start);
+    }
+    case ManualMotion::Then::kNothing:
+      break;
+  }
+  const bool job = state_.is(MachineState::kRunning);
+  if (job) heat_.stop_spindle();  // the end of a program stops it (RS274/NGC 3.6.1)
+  events_.push({.kind = MachineEvent::Kind::kFinished,
+                .when = now_,
+                .words = !job   ? say("move done")
+                         : live ? say("all lines done: %1", print_.name())
+                                : say("job done: %1", print_.name()),
+                .advice = {}});
+  if (job) print_.forget_name();
+  enter(MachineState::kReady);
+}
+
+void Gateway::Core::step_hold() {
+  // A wait between runs stands still at once; planning ahead goes on.
+  static_cast<void>(runner_->on_time(now_, options_.planning_budget));
+  if (rest_.standing(now_)) enter(MachineState::kHeld);
+}
+
+void Gateway::Core::step_held() {
+  if (!recovery_.awaits_spindle(state_.visit()) || !heat_.spindle_at_speed()) return;
+  heat_.forget_kept();
+  runner_->resume(now_);
+  enter(held_from_);
+}
+
+// Stops, and the standstill in which positions are read before anything moves again
+// -----------------------------------------------------------------------------------------------
+
+void Gateway::Core::stop_all(bool fault) {
+  fault_ = fault_ || fault;
+  recovery_.do_not_go_on();
+  if (hand_.leads_to(ManualMotion::Then::kReturn)) hand_.forget_then();
+  bring_up_.abort();
+  if (homing_.busy()) {
+    homing_.abort();
+    position_.forget();
+  }
+  if (auto& left = recovery_.left(); left && left->replaying) {
+    left->job = print_.runner().take_source();
+    left->replaying = false;
+    print_.runner().drop();
+  } else if (left) {
+    if (auto source = print_.take_source()) left->job = std::move(source);
+  }
+  print_.abort_check();
+  rest_.abort();
+  clearing_.abort();
+  if (state_.is_one_of(MachineState::kRunning, MachineState::kMoving)) held_from_ = state_.now();
+  if (voice_.speaks() && !rate_.stop_latched()) rate_.stop(now_);
+  // Whatever stopped the machine stops the cutter; a job that goes on gets it back first.
+  if (print_.runner().active() && (fault_ || heat_.spindle_on())) heat_.keep();
+  heat_.stop_spindle();
+  if (fault_) heat_.heaters_off();
+  if (!state_.is_one_of(MachineState::kAlarm, MachineState::kStopped)) enter(MachineState::kStopping);
+}
+
+void Gateway::Core::step_stop() {
+  if (rest_.settled(now_) && now_ - state_.since() >= Rest::kSettle)
+    return enter(fault_ ? MachineState::kAlarm : MachineState::kStopped);
+  if (now_ - state_.since() < kStopTimeout) return;
+  events_.alarm(now_, AlarmCode::kStopTimeout, say("path time did not come to rest"));
+  fault_ = true;
+  watch_.lose();
+  enter(MachineState::kAlarm);
+}
+
+/// After clear the run can go on, or its rest is dropped.
+void Gateway::Core::step_clear() {
+  if (rest_.reading()) return step_standstill();
+  if (!clearing_.busy()) return;
+  switch (clearing_.on_time(now_)) {
+    case Clearing::Outcome::kBusy:
+      return;
+    case Clearing::Outcome::kFailed:
+      return events_.alarm(now_, clearing_.failure().code, clearing_.failure().words);
+    case Clearing::Outcome::kLifted:
+      break;
+  }
+  fault_ = false;
+  // A job whose heaters went off heats on its way back.
+  const bool goes_on = runner_->active() && !runner_->suspended() && !position_.stream_lost() &&
+                       position_.homed() && clearing_.together() && !heat_.kept_heat() &&
+                       state_.is(MachineState::kStopped);
+  if (!goes_on) return rest_.read(now_, Rest::After::kClear);
+  runner_->hold(now_);
+  enter(MachineState::kHeld);
+}
+
+void Gateway::Core::step_cancel() {
+  if (rest_.reading()) return step_standstill();
+  if (rest_.settled(now_)) rest_.read(now_, Rest::After::kCancel);
+}
+
+void Gateway::Core::step_standstill() {
+  const Standstill::Outcome outcome = rest_.on_time();
+  if (outcome == Standstill::Outcome::kBusy) return;
+  if (outcome == Standstill::Outcome::kDone) return finish_standstill();
+  watch_.lose();
+  events_.alarm(now_, rest_.failure().code, rest_.failure().words, rest_.failure().node);
+  if (state_.is(MachineState::kAlarm)) return;
+  fault_ = true;
+  enter(MachineState::kAlarm);
+}
+
+/// Positions are read and queues are empty: every motion can begin from here.
+void Gateway::Core::finish_standstill() {
+  using After = Rest::After;
+  const After after = rest_.after();
+  const Standstill& found = rest_.found();
+  group_.cancel();
+  for (std::size_t i = 0; i < axes_.size(); ++i)
+    group_.set_state(links_[i].id(), found.node(i).position, found.node(i).stream);
+  if (after == After::kHoming) group_.homed();
+  position_.take(found);
+  const bool cancelled = after == After::kCancel, job_failed = recovery_.take_job_failed();
+  fault_ = false;
+  hand_.runner().drop();
+  if (after == After::kHoming && !position_.homed()) {
+    events_.alarm(now_, AlarmCode::kHomingFailed, say("a node does not know its position after homing"));
+    return stop_all(true);
+  }
+  if (cancelled || job_failed)
+    give_up_job();
+  else
+    interrupt(after == After::kBringUp ? recovery_.found_tau(bring_up_, print_.runner().run_start())
+                                       : found.path_time());
+  if (!interrupted()) print_.forget_name();
+  if (interrupted() && !position_.homed()) recovery_.lose_filament();
+  if (after == After::kHoming)
+    events_.push({.kind = MachineEvent::Kind::kFinished, .when = now_, .words = say("homed"), .advice = {}});
+  if (cancelled) events_.message(now_, say("cancelled: positions are known"));
+  // What was interrupted by a stop alone is held; elsewhere the machine may be moved first.
+  if (after == After::kClear && position_.homed() && print_.runner().active())
+    return enter(MachineState::kHeld);
+  enter(position_.homed() ? MachineState::kReady : MachineState::kUnhomed);
+  if (recovery_.going_on()) finish_recovery();
+}
+
+}  // namespace kinebus
