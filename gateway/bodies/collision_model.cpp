@@ -57,22 +57,33 @@ void CollisionModel::pair_up() {
     }
 }
 
-template <typename Measure>
-double CollisionModel::least_of_shapes(const Scene& scene, const Pair& pair, Measure&& measure) const {
+Parting CollisionModel::part(const Scene& scene, const Pair& pair) const {
+  const Body &a = bodies_[pair.first], &b = bodies_[pair.second];
+  Parting least{.mm = std::numeric_limits<double>::infinity()};
+  for (std::size_t i = a.first_shape; i < std::size_t{a.first_shape} + a.shapes; ++i)
+    for (std::size_t j = b.first_shape; j < std::size_t{b.first_shape} + b.shapes; ++j)
+      if (const Parting found = bodies::part(scene.shapes[i], scene.shapes[j]); found.mm < least.mm)
+        least = found;
+  return least;
+}
+
+double CollisionModel::gap_along(const Scene& scene, const Pair& pair, const Vec& axis) const {
+  const auto reach = [&](const Body& body, const Vec& direction) {
+    double most = -std::numeric_limits<double>::infinity();
+    for (std::size_t i = body.first_shape; i < std::size_t{body.first_shape} + body.shapes; ++i)
+      most = std::max(most, reach_along(scene.shapes[i], direction));
+    return most;
+  };
+  return -reach(bodies_[pair.first], -axis) - reach(bodies_[pair.second], axis);
+}
+
+double CollisionModel::least_distance(const Scene& scene, const Pair& pair) const {
   const Body &a = bodies_[pair.first], &b = bodies_[pair.second];
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = a.first_shape; i < std::size_t{a.first_shape} + a.shapes; ++i)
     for (std::size_t j = b.first_shape; j < std::size_t{b.first_shape} + b.shapes; ++j)
-      least = std::min(least, measure(scene.shapes[i], scene.shapes[j]));
+      least = std::min(least, least_distance_mm(scene.shapes[i], scene.shapes[j]));
   return least;
-}
-
-double CollisionModel::distance(const Scene& scene, const Pair& pair) const {
-  return least_of_shapes(scene, pair, distance_mm);
-}
-
-double CollisionModel::least_distance(const Scene& scene, const Pair& pair) const {
-  return least_of_shapes(scene, pair, least_distance_mm);
 }
 
 std::optional<Clearance> CollisionModel::clearance(Frame frame, const Pose& pose, Occasion occasion) const {

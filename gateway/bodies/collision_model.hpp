@@ -6,6 +6,8 @@
 // their work, and the workspace's least Z is their limit.
 
 #include <array>
+#include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -70,6 +72,22 @@ class CollisionModel {
   virtual bool place(Frame frame, const Pose& pose, Scene& scene) const = 0;
   const Scene& at_rest() const { return rest_; }
 
+  /// A pose as a place at which distances bound the bodies' motion: on the way from one place to another no
+  /// body moves against another by more than gain() times apart_mm() of the two.
+  struct Place {
+    Vec point{};         ///< of what carries all that moves
+    double turn_mm = 0;  ///< its tilt, times twice the longest lever
+  };
+  static double apart_mm(const Place& a, const Place& b) {
+    return norm(a.point - b.point) + std::abs(a.turn_mm - b.turn_mm);
+  }
+  /// nullopt: this kind of machine has no such bound.
+  virtual std::optional<Place> place_of(Frame, const Pose&) const { return std::nullopt; }
+  /// Holds for all places less than `radius_mm` from `place`; infinite where not all of them are in reach.
+  virtual double gain(const Place&, double /*radius_mm*/) const {
+    return std::numeric_limits<double>::infinity();
+  }
+
   /// Smallest clearance of all pairs at a pose; nullopt: out of reach. Without heap.
   std::optional<Clearance> clearance(Frame frame, const Pose& pose,
                                      Occasion occasion = Occasion::kMotion) const;
@@ -97,7 +115,11 @@ class CollisionModel {
   };
   const std::vector<Body>& bodies() const { return bodies_; }
   const std::vector<Pair>& pairs() const { return pairs_; }
-  double distance(const Scene& scene, const Pair& pair) const;
+  double distance(const Scene& scene, const Pair& pair) const { return part(scene, pair).mm; }
+  /// With the axis of the two solids that are nearest.
+  Parting part(const Scene& scene, const Pair& pair) const;
+  /// Not more than distance(): what is left between both along `axis`, which has length 1.
+  double gap_along(const Scene& scene, const Pair& pair, const Vec& axis) const;
   /// Not more than distance(), and cheap.
   double least_distance(const Scene& scene, const Pair& pair) const;
 
@@ -120,9 +142,6 @@ class CollisionModel {
   std::size_t shape_of(std::size_t body) const { return bodies_[body].first_shape; }
 
  private:
-  template <typename Measure>
-  double least_of_shapes(const Scene& scene, const Pair& pair, Measure&& measure) const;
-
   Scene rest_{};
   std::size_t shapes_ = 0;
   std::vector<Body> bodies_;

@@ -86,26 +86,51 @@ class LegMachine final : public CollisionModel {
     add_fixed(b);
     add_floor(floor_z - b.floor_mm);
     pair_up();
+    for (const Body& body : this->bodies())
+      if (body.group == kPlatformGroup) longest_lever_ = std::max(longest_lever_, body.lever_mm);
+    for (const Leg& leg : legs_) {
+      longest_lever_ = std::max(longest_lever_, norm(leg.attachment));
+      parallel_ = parallel_ && norm(cross(leg.rail, legs_[0].rail)) < 1e-12;
+    }
+  }
+
+  std::optional<Place> place_of(Frame frame, const Pose& pose) const override {
+    return Place{platform(frame, pose, Turn(pose[kA])), 2 * longest_lever_ * pose[kA]};
+  }
+
+  /// With p the joint at a leg's end, s of it aside from the rail: the carriage moves by p + p . s / h along
+  /// the rail, h^2 = length^2 - s^2. Against the platform that is at most length / h of p; two carriages on
+  /// parallel rails move against each other by what s / h differ. A turn moves both of a pair, so it counts
+  /// twice.
+  double gain(const Place& place, double radius_mm) const override {
+    const Turn a(place.turn_mm / (2 * longest_lever_));
+    double steepest = 0;
+    for (const Leg& leg : legs_) {
+      const Vec s = place.point + turned(a, leg.attachment) - leg.foot;
+      const double u = dot(s, leg.rail);
+      const double aside = std::sqrt(std::max(0.0, dot(s, s) - u * u)) + radius_mm;
+      steepest = std::max(steepest, aside / leg.length);
+    }
+    if (!(steepest < 1)) return std::numeric_limits<double>::infinity();
+    const double upright = std::sqrt(1 - steepest * steepest);
+    return parallel_ ? std::max(1.0, 2 * steepest) / upright : 2 / upright;
   }
 
   bool place(Frame frame, const Pose& pose, Scene& scene) const override {
     const Turn a(pose[kA]);
-    Vector3 m{pose[kX], pose[kY], pose[kZ]};
-    if (frame == Frame::kPart) m = turn_x(a, turn_z(Turn(pose[kC]), m));
-    const Vec p = nozzle_ - vec(m);
+    const Vec p = platform(frame, pose, a);
     scene.tilt_rad = pose[kA];
-    const auto turned = [&a](const Vec& v) { return Vec{v.x, a.c * v.y - a.s * v.z, a.s * v.y + a.c * v.z}; };
     const auto set_disc = [&](std::size_t body, const Shape& home) {
       Shape& s = scene.shapes[shape_of(body)];
-      s.centre = p + turned(home.centre);
-      s.half[0] = turned(home.half[0]);
-      s.axis = turned(home.axis);
+      s.centre = p + turned(a, home.centre);
+      s.half[0] = turned(a, home.half[0]);
+      s.axis = turned(a, home.axis);
       scene.witness[body] = {p, p};
     };
     set_disc(table_, table_shape_);
     if (part_) set_disc(*part_, part_shape_);
     for (const Leg& leg : legs_) {
-      const Vec joint = p + turned(leg.attachment), s = joint - leg.foot;
+      const Vec joint = p + turned(a, leg.attachment), s = joint - leg.foot;
       const double u = dot(s, leg.rail), radicand = leg.length * leg.length - dot(s, s) + u * u;
       if (!(radicand > 0)) return false;
       const Vec end = joint - leg.connector * leg.rail,
@@ -118,8 +143,8 @@ class LegMachine final : public CollisionModel {
       scene.witness[leg.body] = {carriage, joint};
       scene.shapes[shape_of(leg.carriage)].centre = carriage + leg.carriage_offset;
       scene.witness[leg.carriage] = {carriage, carriage};
-      const Vec hub = turned({0, 0, leg.arm_end.z});
-      scene.shapes[shape_of(leg.arm)].lay(p + hub, p + turned(leg.arm_end));
+      const Vec hub = turned(a, {0, 0, leg.arm_end.z});
+      scene.shapes[shape_of(leg.arm)].lay(p + hub, p + turned(a, leg.arm_end));
       scene.witness[leg.arm] = {p, p};
     }
     return true;
@@ -133,8 +158,20 @@ class LegMachine final : public CollisionModel {
     Vec carriage_offset{}, arm_end{};
     std::size_t body = 0, carriage = 0, rail_body = 0, arm = 0;
   };
+  static Vec turned(const Turn& a, const Vec& v) {
+    return {v.x, a.c * v.y - a.s * v.z, a.s * v.y + a.c * v.z};
+  }
+  /// Its origin, in the middle of the table's surface.
+  Vec platform(Frame frame, const Pose& pose, const Turn& a) const {
+    Vector3 m{pose[kX], pose[kY], pose[kZ]};
+    if (frame == Frame::kPart) m = turn_x(a, turn_z(Turn(pose[kC]), m));
+    return nozzle_ - vec(m);
+  }
+
   Vec nozzle_;
   double half_spacing_;
+  double longest_lever_ = 1;  ///< of what turns with the platform
+  bool parallel_ = true;      ///< rails
   std::array<Leg, kLegs> legs_{};
   std::size_t table_ = 0;
   std::optional<std::size_t> part_;

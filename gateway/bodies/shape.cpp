@@ -54,15 +54,15 @@ Vec farthest(const Shape& s, const Vec& d) {
   return end + (s.radius_mm / length) * across;
 }
 
-/// Distance of two segments (closest points by clamping, one parameter after the other).
-double segment_distance(const Shape& a, const Shape& b) {
+/// Between two segments (closest points by clamping, one parameter after the other).
+Vec between_segments(const Shape& a, const Shape& b) {
   const Vec u = 2 * a.half[0], v = 2 * b.half[0];
   const Vec r = (a.centre - a.half[0]) - (b.centre - b.half[0]);
   const double uu = dot(u, u), vv = dot(v, v), uv = dot(u, v), ur = dot(u, r), vr = dot(v, r);
   const auto clamp01 = [](double x) { return std::clamp(x, 0.0, 1.0); };
   double s = 0, t = 0;
   constexpr double kPoint = 1e-18;  // mm^2: a segment without length
-  if (uu <= kPoint && vv <= kPoint) return norm(r);
+  if (uu <= kPoint && vv <= kPoint) return r;
   if (uu <= kPoint) {
     t = clamp01(vr / vv);
   } else if (vv <= kPoint) {
@@ -80,7 +80,7 @@ double segment_distance(const Shape& a, const Shape& b) {
       s = clamp01((uv - ur) / uu);
     }
   }
-  return norm(r + s * u - t * v);
+  return r + s * u - t * v;
 }
 
 /// Up to four points of the difference of both cores, the smallest set that holds the point next to the
@@ -160,31 +160,50 @@ Vec nearest(Simplex& s) {
 
 /// Gilbert, Johnson and Keerthi: walks over the difference of both cores towards the origin. What it returns
 /// is the distance of a plane that parts the two, so never more than the truth.
-double core_distance(const Shape& a, const Shape& b) {
+Parting part_cores(const Shape& a, const Shape& b) {
   constexpr double kGood_mm = 1e-3;
   constexpr int kMost = 64;
   Vec v = a.centre - b.centre;
-  if (!(dot(v, v) > 0)) return 0;
+  if (!(dot(v, v) > 0)) return {};
   Simplex simplex;
-  double parted = 0;
+  Parting best;
   for (int i = 0; i < kMost; ++i) {
     const double length = norm(v);
-    if (length < kGood_mm) return 0;
+    if (length < kGood_mm) return {};
     const Vec w = farthest(a, -v) - farthest(b, v);
-    parted = std::max(parted, dot(v, w) / length);
-    if (simplex.count > 0 && length - parted <= kGood_mm) break;
+    const double parted = dot(v, w) / length;
+    if (parted > best.mm) best = {parted, (1 / length) * v};
+    if (simplex.count > 0 && length - best.mm <= kGood_mm) break;
     simplex.point[static_cast<std::size_t>(simplex.count++)] = w;
     v = nearest(simplex);
-    if (simplex.count == 4) return 0;
+    if (simplex.count == 4) return {};
   }
-  return parted;
+  return best;
 }
 
 }  // namespace
 
-double distance_mm(const Shape& a, const Shape& b) {
-  const bool capsules = a.core == Shape::Core::kSegment && b.core == Shape::Core::kSegment;
-  return (capsules ? segment_distance(a, b) : core_distance(a, b)) - a.skin_mm - b.skin_mm;
+Parting part(const Shape& a, const Shape& b) {
+  Parting cores;
+  if (a.core == Shape::Core::kSegment && b.core == Shape::Core::kSegment) {
+    const Vec between = between_segments(a, b);
+    cores.mm = norm(between);
+    if (cores.mm > 0) cores.axis = (1 / cores.mm) * between;
+  } else {
+    cores = part_cores(a, b);
+  }
+  cores.mm -= a.skin_mm + b.skin_mm;
+  return cores;
+}
+
+double reach_along(const Shape& s, const Vec& axis) {
+  double reach = dot(s.centre, axis) + std::abs(dot(s.half[0], axis)) + s.skin_mm;
+  if (s.core == Shape::Core::kBox) reach += std::abs(dot(s.half[1], axis)) + std::abs(dot(s.half[2], axis));
+  if (s.core == Shape::Core::kCylinder) {
+    const double along = dot(s.axis, axis);
+    reach += s.radius_mm * std::sqrt(std::max(0.0, 1 - along * along));
+  }
+  return reach;
 }
 
 }  // namespace kinebus::bodies

@@ -53,10 +53,21 @@ struct Shape {
   }
 };
 
+struct Parting {
+  double mm = 0;
+  Vec axis{};  ///< of length 1: across a plane with `b` below it and `a` above; 0 where solids overlap
+};
 /// Smallest distance of the two surfaces, mm. Two capsules: to rounding; else never more than the truth and
 /// at most 1 um less, for solids up to some metres. Solids that overlap: 0 or less, which says that they do
 /// and not how far. Allocates nothing.
-double distance_mm(const Shape& a, const Shape& b);
+Parting part(const Shape& a, const Shape& b);
+inline double distance_mm(const Shape& a, const Shape& b) {
+  return part(a, b).mm;
+}
+
+/// How far the solid reaches along `axis`, which has length 1. Two solids are at least as far apart as what
+/// is left between both along any axis.
+double reach_along(const Shape& shape, const Vec& axis);
 
 /// Not more than distance_mm, from the spheres around both.
 inline double least_distance_mm(const Shape& a, const Shape& b) {

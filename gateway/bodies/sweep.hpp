@@ -1,6 +1,7 @@
 #pragma once
 // Bodies along a path, pose after pose. A pair that was far apart is not measured again until both bodies
-// have moved so far that they could have met: most poses cost little more than the bodies' places.
+// have moved so far that they could have met; near a pose at which all pairs were clear nothing is looked at
+// but how near it is.
 
 #include <array>
 #include <optional>
@@ -24,25 +25,39 @@ class Sweep {
   /// The machine moves to `pose`, near enough to straight on. Allocates nothing.
   Step to(Frame frame, const Pose& pose);
   /// The next pose follows from none.
-  void jump() { placed_ = false; }
+  void jump();
   const Clearance& nearest() const { return nearest_; }
   const CollisionModel& model() const { return model_; }
 
  private:
+  struct Stand {
+    Frame frame{};
+    Pose pose{};
+  };
+  Step measure(Frame frame, const Pose& pose, bool way_is_clear);
+  double look(const Scene& scene, std::size_t pair);
   void measure_motion();
-  float motion_of(const CollisionModel::Pair& pair) const {
-    return motion_[pair.first] + motion_[pair.second];
-  }
+  float motion_over(const CollisionModel::Pair& pair, float matters_mm) const;
+  void carry_on();
+  void find_room(Frame frame, const Pose& pose);
 
-  static constexpr std::size_t kMostPairs = kMostBodies * (kMostBodies - 1) / 2;
   const CollisionModel& model_;
   Occasion occasion_;
   std::array<Scene, 2> scenes_;
   std::size_t now_ = 0;  ///< which of both
   bool placed_ = false;
-  std::array<float, kMostBodies> motion_{};  ///< mm since the last pose, at most
+  std::array<float, kMostBodies> motion_{};                ///< mm since the last pose, at most
+  std::array<std::array<Vec, 2>, kMostBodies> displaced_;  ///< of each witness since then
+  float turned_rad_ = 0;
   std::vector<CollisionModel::Pair> pairs_;
-  std::vector<float> spare_, next_;  ///< of each pair: distance at the last pose, or less
+  std::vector<float> spare_, next_;  ///< of each pair: distance at the last pose measured, or less
+  std::vector<Parting> parting_;     ///< of each pair, when its distance was last measured
+  /// Around the last pose measured: what comes no farther than this from it is clear.
+  CollisionModel::Place middle_{};
+  double room_mm_ = 0;
+  std::optional<Stand> unmeasured_;  ///< the last pose, if it was clear for that reason
+  bool has_places_;
+  float enough_mm_;  ///< to spare: a pair that has it is not measured
   Clearance nearest_{};
 };
 

@@ -129,6 +129,10 @@ TEST(ShapeDistance, IsThatOfSearchedSurfacesForEveryTwoCores) {
       continue;
     }
     ++apart;
+    const Vec axis = part(a, b).axis;
+    EXPECT_NEAR(-reach_along(a, -axis) - reach_along(b, axis), d, 1e-6) << "seed " << seed;
+    const Vec any = random.direction();
+    EXPECT_LE(-reach_along(a, -any) - reach_along(b, any), d + 2e-3) << "seed " << seed;
     EXPECT_LE(d, found + 1e-9) << "seed " << seed;
     EXPECT_GT(d, found - 0.01) << "seed " << seed;
   }

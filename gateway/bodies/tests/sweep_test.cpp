@@ -91,6 +91,49 @@ TEST(Sweep, NoPairComesFartherThanItsWitnessesSay) {
   }
 }
 
+TEST(Sweep, NoPairMovesFartherThanThePlacesOfTwoPosesSay) {
+  MachineDescription d = legs_below();
+  d.bodies->part_radius_mm = 80;
+  d.bodies->part_height_mm = 120;
+  for (const double lean : {0.0, 0.05}) {
+    // Rails that are not parallel, too.
+    std::get<M1Geometry>(d.kinematics).legs[0].rail = {lean, 0, 1};
+    const Model model = make_collision_model(d);
+    Walk walk(13);
+    Scene from = model->at_rest(), to = model->at_rest();
+    Pose pose = walk.next(20, 0.2);
+    ASSERT_TRUE(model->place(Frame::kPart, pose, from));
+    auto place = model->place_of(Frame::kPart, pose);
+    double nearest_to_bound = 0;
+    for (int n = 0; n < 2000; ++n) {
+      // Some steps turn, some do not.
+      pose = walk.next(20, n % 2 * 0.2);
+      pose[kC] += 0.01;
+      if (!model->place(Frame::kPart, pose, to)) continue;
+      const auto next = model->place_of(Frame::kPart, pose);
+      ASSERT_TRUE(place && next);
+      const double apart = CollisionModel::apart_mm(*place, *next);
+      const double most = model->gain(*place, apart) * apart;
+      const double turn = std::abs(to.tilt_rad - from.tilt_rad);
+      for (const CollisionModel::Pair& pair : model->pairs()) {
+        const CollisionModel::Body &a = model->bodies()[pair.first], &b = model->bodies()[pair.second];
+        for (std::size_t k = 0; k < 4; ++k) {
+          Vec moved{};
+          if (a.moves()) moved = to.witness[pair.first][k / 2] - from.witness[pair.first][k / 2];
+          if (b.moves()) moved = moved - (to.witness[pair.second][k % 2] - from.witness[pair.second][k % 2]);
+          const double sum =
+              norm(moved) + turn * ((a.moves() ? a.lever_mm : 0) + (b.moves() ? b.lever_mm : 0));
+          ASSERT_LE(sum, most + 1e-9) << model->name(a.id) << ", " << model->name(b.id) << ", pose " << n;
+          if (turn == 0) nearest_to_bound = std::max(nearest_to_bound, sum / most);
+        }
+      }
+      from = to;
+      place = next;
+    }
+    EXPECT_GT(nearest_to_bound, lean == 0 ? 0.85 : 0.4) << "a bound that is never met costs time";
+  }
+}
+
 TEST(Sweep, AStepThatMayHaveJumpedOverSomethingIsCoarse) {
   MachineDescription d = legs_below();
   // A thin post that the table's edge would pass in one long step.
@@ -98,6 +141,8 @@ TEST(Sweep, AStepThatMayHaveJumpedOverSomethingIsCoarse) {
   const Model model = make_collision_model(d);
   Sweep sweep(*model);
   ASSERT_EQ(sweep.to(Frame::kPart, {0, 0, 20, 0, 0, 0}), Sweep::Step::kClear);
+  // Next to a pose that was measured; what follows begins here.
+  ASSERT_EQ(sweep.to(Frame::kPart, {-3, 0, 20, 0, 0, 0}), Sweep::Step::kClear);
   // The platform goes 60 mm towards +X: who measured at the end alone would find the table beyond the post.
   EXPECT_EQ(sweep.to(Frame::kPart, {-60, 0, 20, 0, 0, 0}), Sweep::Step::kCoarse);
   auto step = Sweep::Step::kClear;
