@@ -7,12 +7,24 @@
 
 namespace kinebus::gui {
 
+QString SocketLink::words_of(QLocalSocket::LocalSocketError error) {
+  switch (error) {
+    case QLocalSocket::ServerNotFoundError:
+    case QLocalSocket::ConnectionRefusedError:
+      return tr("no gateway runs there");
+    case QLocalSocket::SocketAccessError:
+      return tr("this user may not use the gateway's socket");
+    default:
+      return tr("the connection on this computer has failed");
+  }
+}
+
 SocketLink::SocketLink(QString path, QObject* parent) : Link(parent), path_(std::move(path)), socket_(this) {
   connect(&socket_, &QLocalSocket::connected, this, &Link::opened);
   connect(&socket_, &QLocalSocket::disconnected, this,
           [this] { emit closed(tr("the gateway closed the connection")); });
   connect(&socket_, &QLocalSocket::errorOccurred, this, [this](QLocalSocket::LocalSocketError error) {
-    if (error != QLocalSocket::PeerClosedError) emit closed(socket_.errorString());
+    if (error != QLocalSocket::PeerClosedError) emit closed(words_of(error));
   });
   connect(&socket_, &QLocalSocket::readyRead, this, [this] { emit received(socket_.readAll()); });
   connect(&socket_, &QLocalSocket::bytesWritten, this, [this] {

@@ -2,6 +2,7 @@
 // A gateway on this computer, by its local socket.
 
 #include <QLocalSocket>
+#include <QString>
 
 #include "gui/link/link.hpp"
 
@@ -17,6 +18,7 @@ class SocketLink : public Link {
   QString description() const override;
 
  private:
+  static QString words_of(QLocalSocket::LocalSocketError error);
   /// More than this waits in the socket's own buffer: the caller has to wait, so that urgent commands stay
   /// quick.
   static constexpr qint64 kMaxWaiting_bytes = qint64{512} * 1024;

@@ -34,7 +34,10 @@ QString Format::duration(double seconds) {
 }
 
 QString Format::percent(double share, int decimals) {
-  return number(share * 100, decimals) + QLocale().percent();
+  const auto figure = number(share * 100, decimals);
+  const QLocale locale;
+  // Turkish writes %50.
+  return locale.language() == QLocale::Turkish ? locale.percent() + figure : figure + locale.percent();
 }
 
 QString Format::date_time(double unix_s) {

@@ -142,6 +142,7 @@ void Session::set_link_state(LinkState state, const QString& words) {
 void Session::take(joblink::News& news) {
   if (auto* status = std::get_if<joblink::Status>(&news)) {
     status_.Swap(status);
+    status_at_ns_ = clock_.nsecsElapsed();
     if (home_wanted_ && status_.state() != joblink::STATE_OFF && status_.state() != joblink::STATE_BRING_UP) {
       home_wanted_ = false;  // an alarm while waking ends the wish too
       if (status_.state() == joblink::STATE_UNHOMED || status_.state() == joblink::STATE_READY) home();

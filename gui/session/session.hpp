@@ -34,6 +34,8 @@ class Session : public QObject {
   LinkState link_state() const { return link_state_; }
   const QString& gateway_title() const { return title_; }
   const QString& link_words() const { return link_words_; }  ///< why it is lost, or how it is connected
+  /// How long ago the newest status came: while the link is lost, status() is what was known then.
+  double status_age_s() const { return static_cast<double>(clock_.nsecsElapsed() - status_at_ns_) * 1e-9; }
   const joblink::HelloReply& hello() const { return client_->hello(); }
   const joblink::Status& status() const { return status_; }
   const joblink::MachineInfo& machine() const { return machine_; }
@@ -122,6 +124,7 @@ class Session : public QObject {
   };
   std::unordered_map<joblink::RequestId, Open> open_;
   joblink::Status status_;
+  qint64 status_at_ns_ = 0;
   joblink::MachineInfo machine_;
   joblink::JobList jobs_;
   double round_trip_ms_ = 0;

@@ -41,7 +41,7 @@
     </message>
     <message>
         <source>call this position so</source>
-        <translation>نام‌گذاری موقعیت کنونی</translation>
+        <translation>تنظیم موقعیت کنونی</translation>
     </message>
     <message>
         <source>motors on</source>
@@ -802,11 +802,11 @@
     </message>
     <message>
         <source>the store&apos;s quota of %1 MiB has no room for this job: delete others first</source>
-        <translation>سهمیهٔ %1 MiB انبار برای این کار جا ندارد: نخست کارهای دیگر را پاک کنید</translation>
+        <translation>سهمیهٔ %1 MiB انبار برای این کار جا ندارد: نخست کارهای دیگر را حذف کنید</translation>
     </message>
     <message>
         <source>the disk has no room for this job: delete others first</source>
-        <translation>دیسک برای این کار جا ندارد: نخست کارهای دیگر را پاک کنید</translation>
+        <translation>دیسک برای این کار جا ندارد: نخست کارهای دیگر را حذف کنید</translation>
     </message>
     <message>
         <source>an upload names the XXH3 of its job: 16 bytes</source>
@@ -966,7 +966,7 @@
     </message>
     <message>
         <source>check the motor and its cable for a short, then clear</source>
-        <translation>موتور و کابلش را برای اتصال کوتاه وارسی کنید، سپس رفع کنید</translation>
+        <translation>موتور و کابلش را برای اتصال کوتاه بررسی کنید، سپس هشدار را رفع کنید</translation>
     </message>
     <message>
         <source>a motor phase is shorted</source>
@@ -974,7 +974,7 @@
     </message>
     <message>
         <source>switch off, check the motor and its cable</source>
-        <translation>خاموش کنید، موتور و کابلش را وارسی کنید</translation>
+        <translation>خاموش کنید، موتور و کابلش را بررسی کنید</translation>
     </message>
     <message>
         <source>supply voltage too high</source>
@@ -982,7 +982,7 @@
     </message>
     <message>
         <source>check the power supply</source>
-        <translation>منبع تغذیه را وارسی کنید</translation>
+        <translation>منبع تغذیه را بررسی کنید</translation>
     </message>
     <message>
         <source>supply voltage too low</source>
@@ -990,7 +990,7 @@
     </message>
     <message>
         <source>check the power supply and its wiring</source>
-        <translation>منبع تغذیه و سیم‌کشی آن را وارسی کنید</translation>
+        <translation>منبع تغذیه و سیم‌کشی آن را بررسی کنید</translation>
     </message>
     <message>
         <source>the node is too hot</source>
@@ -998,7 +998,7 @@
     </message>
     <message>
         <source>let it cool, check the fan</source>
-        <translation>بگذارید خنک شود، فن را وارسی کنید</translation>
+        <translation>بگذارید خنک شود، فن را بررسی کنید</translation>
     </message>
     <message>
         <source>a motor driver is too hot</source>
@@ -1006,7 +1006,7 @@
     </message>
     <message>
         <source>let it cool, lower the current, check the fan</source>
-        <translation>بگذارید خنک شود، جریان را کم کنید، فن را وارسی کنید</translation>
+        <translation>بگذارید خنک شود، جریان را کم کنید، فن را بررسی کنید</translation>
     </message>
     <message>
         <source>stored parameters are damaged</source>
@@ -1025,16 +1025,12 @@
         <translation>گره را خاموش و روشن کنید و گزارش دهید</translation>
     </message>
     <message>
-        <source>user software fault</source>
-        <translation>خطای نرم‌افزار کاربر</translation>
-    </message>
-    <message>
         <source>encoder fault</source>
         <translation>نقص انکودر</translation>
     </message>
     <message>
         <source>check the encoder&apos;s cable</source>
-        <translation>کابل انکودر را وارسی کنید</translation>
+        <translation>کابل انکودر را بررسی کنید</translation>
     </message>
     <message>
         <source>CAN frames were lost (overrun)</source>
@@ -1042,7 +1038,7 @@
     </message>
     <message>
         <source>check the load of the bus</source>
-        <translation>بار گذرگاه را وارسی کنید</translation>
+        <translation>بار گذرگاه را بررسی کنید</translation>
     </message>
     <message>
         <source>many CAN errors</source>
@@ -1050,7 +1046,7 @@
     </message>
     <message>
         <source>check cable and termination of the bus</source>
-        <translation>کابل و پایان‌دهی گذرگاه را وارسی کنید</translation>
+        <translation>کابل و پایان‌دهی گذرگاه را بررسی کنید</translation>
     </message>
     <message>
         <source>the gateway&apos;s heartbeat or SYNC was missed</source>
@@ -1058,7 +1054,7 @@
     </message>
     <message>
         <source>check the gateway and the bus, then clear</source>
-        <translation>درگاه و گذرگاه را وارسی کنید، سپس رفع کنید</translation>
+        <translation>درگاه و گذرگاه را بررسی کنید، سپس هشدار را رفع کنید</translation>
     </message>
     <message>
         <source>recovered from bus-off</source>
@@ -1090,7 +1086,7 @@
     </message>
     <message>
         <source>check the machine file&apos;s limits, home again</source>
-        <translation>حدهای پروندهٔ ماشین را وارسی کنید، دوباره خانه‌یابی کنید</translation>
+        <translation>حدهای پروندهٔ ماشین را بررسی کنید، دوباره خانه‌یابی کنید</translation>
     </message>
     <message>
         <source>clock synchronisation was lost</source>
@@ -1098,7 +1094,7 @@
     </message>
     <message>
         <source>check the bus, then clear</source>
-        <translation>گذرگاه را وارسی کنید، سپس رفع کنید</translation>
+        <translation>گذرگاه را بررسی کنید، سپس هشدار را رفع کنید</translation>
     </message>
     <message>
         <source>general fault</source>
@@ -1106,7 +1102,7 @@
     </message>
     <message>
         <source>look at the node&apos;s state, then clear</source>
-        <translation>وضعیت گره را ببینید، سپس رفع کنید</translation>
+        <translation>وضعیت گره را ببینید، سپس هشدار را رفع کنید</translation>
     </message>
     <message>
         <source>current fault</source>
@@ -1114,7 +1110,7 @@
     </message>
     <message>
         <source>check motor and cable</source>
-        <translation>موتور و کابل را وارسی کنید</translation>
+        <translation>موتور و کابل را بررسی کنید</translation>
     </message>
     <message>
         <source>voltage fault</source>
@@ -1154,11 +1150,11 @@
     </message>
     <message>
         <source>its queue ran low</source>
-        <translation>صف آن ته کشید</translation>
+        <translation>صف آن کم شد</translation>
     </message>
     <message>
         <source>clear and resume; when it comes again, check the load of gateway and bus</source>
-        <translation>رفع کنید و ادامه دهید؛ اگر باز پیش آمد بار درگاه و گذرگاه را وارسی کنید</translation>
+        <translation>هشدار را رفع کنید و ادامه دهید؛ اگر باز پیش آمد بار درگاه و گذرگاه را بررسی کنید</translation>
     </message>
     <message>
         <source>a record was lost</source>
@@ -1166,15 +1162,11 @@
     </message>
     <message>
         <source>clear; when it comes again, check the bus for errors</source>
-        <translation>رفع کنید؛ اگر باز پیش آمد گذرگاه را برای خطا وارسی کنید</translation>
+        <translation>هشدار را رفع کنید؛ اگر باز پیش آمد گذرگاه را برای خطا بررسی کنید</translation>
     </message>
     <message>
         <source>its position is not the gateway&apos;s</source>
         <translation>موقعیتش با درگاه یکی نیست</translation>
-    </message>
-    <message>
-        <source>clear and home again</source>
-        <translation>رفع کنید و دوباره خانه‌یابی کنید</translation>
     </message>
     <message>
         <source>a record broke its limits</source>
@@ -1182,7 +1174,7 @@
     </message>
     <message>
         <source>clear; check the machine file against the node&apos;s limits</source>
-        <translation>رفع کنید؛ پروندهٔ ماشین را با حدهای گره بسنجید</translation>
+        <translation>هشدار را رفع کنید؛ پروندهٔ ماشین را با حدهای گره بسنجید</translation>
     </message>
     <message>
         <source>the emergency stop input</source>
@@ -1190,7 +1182,7 @@
     </message>
     <message>
         <source>release the emergency stop when it is safe, then clear</source>
-        <translation>هنگامی که امن است توقف اضطراری را رها کنید، سپس رفع کنید</translation>
+        <translation>هنگامی که امن است توقف اضطراری را رها کنید، سپس توقف را رفع کنید</translation>
     </message>
     <message>
         <source>a limit switch</source>
@@ -1198,7 +1190,7 @@
     </message>
     <message>
         <source>move the carriage off the switch, then clear and home again</source>
-        <translation>حامل را از کلید دور کنید، سپس رفع کنید و دوباره خانه‌یابی کنید</translation>
+        <translation>حامل را از کلید دور کنید، سپس هشدار را رفع کنید و دوباره خانه‌یابی کنید</translation>
     </message>
     <message>
         <source>the gateway&apos;s heartbeat is missing</source>
@@ -1214,7 +1206,7 @@
     </message>
     <message>
         <source>look at the drive&apos;s fault, then clear</source>
-        <translation>نقص درایو را ببینید، سپس رفع کنید</translation>
+        <translation>نقص درایو را ببینید، سپس هشدار را رفع کنید</translation>
     </message>
     <message>
         <source>its drives were switched off in motion</source>
@@ -1222,7 +1214,7 @@
     </message>
     <message>
         <source>clear and enable again</source>
-        <translation>رفع کنید و دوباره روشن کنید</translation>
+        <translation>هشدار را رفع کنید و دوباره روشن کنید</translation>
     </message>
     <message>
         <source>another node asked for it</source>
@@ -1246,7 +1238,7 @@
     </message>
     <message>
         <source>check the node&apos;s power, its id (kinebus-node-id) and the bus cable, then bring up again</source>
-        <translation>برق گره، شناسهٔ آن (kinebus-node-id) و کابل گذرگاه را وارسی کنید، سپس دوباره راه‌اندازی کنید</translation>
+        <translation>برق گره، شناسهٔ آن (kinebus-node-id) و کابل گذرگاه را بررسی کنید، سپس دوباره راه‌اندازی کنید</translation>
     </message>
     <message>
         <source>connect the right node or update its firmware</source>
@@ -1258,7 +1250,7 @@
     </message>
     <message>
         <source>look at the drive&apos;s fault, clear, then bring up again</source>
-        <translation>نقص درایو را ببینید، رفع کنید، سپس دوباره راه‌اندازی کنید</translation>
+        <translation>نقص درایو را ببینید، هشدار را رفع کنید، سپس دوباره راه‌اندازی کنید</translation>
     </message>
     <message>
         <source>switch one of the gateways off</source>
@@ -1266,51 +1258,51 @@
     </message>
     <message>
         <source>check the node&apos;s power and the bus cable, then clear and bring up again</source>
-        <translation>برق گره و کابل گذرگاه را وارسی کنید، سپس رفع کنید و دوباره راه‌اندازی کنید</translation>
+        <translation>برق گره و کابل گذرگاه را بررسی کنید، سپس هشدار را رفع کنید و دوباره راه‌اندازی کنید</translation>
     </message>
     <message>
         <source>check the node&apos;s power, then clear, bring up and home again</source>
-        <translation>برق گره را وارسی کنید، سپس رفع کنید، راه‌اندازی و خانه‌یابی کنید</translation>
+        <translation>برق گره را بررسی کنید، سپس هشدار را رفع کنید، راه‌اندازی و خانه‌یابی کنید</translation>
     </message>
     <message>
         <source>check the bus for errors, then clear</source>
-        <translation>گذرگاه را برای خطا وارسی کنید، سپس رفع کنید</translation>
+        <translation>گذرگاه را برای خطا بررسی کنید، سپس هشدار را رفع کنید</translation>
     </message>
     <message>
         <source>check switch and wiring, then clear and home again</source>
-        <translation>کلید و سیم‌کشی را وارسی کنید، سپس رفع کنید و دوباره خانه‌یابی کنید</translation>
+        <translation>کلید و سیم‌کشی را بررسی کنید، سپس هشدار را رفع کنید و دوباره خانه‌یابی کنید</translation>
     </message>
     <message>
         <source>check the switches of the carriages that went on, then clear and home again</source>
-        <translation>کلید حامل‌هایی را که رفتند وارسی کنید، سپس رفع کنید و دوباره خانه‌یابی کنید</translation>
+        <translation>کلید حامل‌هایی را که رفتند بررسی کنید، سپس هشدار را رفع کنید و دوباره خانه‌یابی کنید</translation>
     </message>
     <message>
         <source>check switches and home speeds, then clear and home again</source>
-        <translation>کلیدها و سرعت خانه‌یابی را وارسی کنید، سپس رفع کنید و دوباره خانه‌یابی کنید</translation>
+        <translation>کلیدها و سرعت خانه‌یابی را بررسی کنید، سپس هشدار را رفع کنید و دوباره خانه‌یابی کنید</translation>
     </message>
     <message>
         <source>clear: positions are known, the job can be run again</source>
-        <translation>رفع کنید: موقعیت‌ها دانسته‌اند، کار را می‌توان دوباره اجرا کرد</translation>
+        <translation>هشدار را رفع کنید: موقعیت‌ها دانسته‌اند، کار را می‌توان دوباره اجرا کرد</translation>
     </message>
     <message>
         <source>clear; when it comes again, check the bus for lost frames</source>
-        <translation>رفع کنید؛ اگر باز پیش آمد گذرگاه را برای قاب‌های گم‌شده وارسی کنید</translation>
+        <translation>هشدار را رفع کنید؛ اگر باز پیش آمد گذرگاه را برای قاب‌های گم‌شده بررسی کنید</translation>
     </message>
     <message>
         <source>check cable and termination of the bus, then clear and bring up again</source>
-        <translation>کابل و پایان‌دهی گذرگاه را وارسی کنید، سپس رفع کنید و دوباره راه‌اندازی کنید</translation>
+        <translation>کابل و پایان‌دهی گذرگاه را بررسی کنید، سپس هشدار را رفع کنید و دوباره راه‌اندازی کنید</translation>
     </message>
     <message>
         <source>check heater and sensor, then clear</source>
-        <translation>گرم‌کن و حسگر را وارسی کنید، سپس رفع کنید</translation>
+        <translation>گرم‌کن و حسگر را بررسی کنید، سپس هشدار را رفع کنید</translation>
     </message>
     <message>
         <source>correct the job, then clear</source>
-        <translation>کار را درست کنید، سپس رفع کنید</translation>
+        <translation>کار را درست کنید، سپس هشدار را رفع کنید</translation>
     </message>
     <message>
         <source>clear when the machine is safe</source>
-        <translation>هنگامی که ماشین امن است رفع کنید</translation>
+        <translation>هنگامی که ماشین امن است توقف را رفع کنید</translation>
     </message>
     <message>
         <source>switch the machine off and on, home again</source>
@@ -1498,11 +1490,11 @@
     </message>
     <message>
         <source>look for another master or tool on the bus, then clear</source>
-        <translation>به دنبال فرمانده یا ابزار دیگری روی گذرگاه بگردید، سپس رفع کنید</translation>
+        <translation>به دنبال فرمانده یا ابزار دیگری روی گذرگاه بگردید، سپس هشدار را رفع کنید</translation>
     </message>
     <message>
         <source>clear: positions are read again; when it comes again, check the bus for errors</source>
-        <translation>رفع کنید: موقعیت‌ها دوباره خوانده می‌شوند؛ اگر باز پیش آمد گذرگاه را برای خطا وارسی کنید</translation>
+        <translation>هشدار را رفع کنید: موقعیت‌ها دوباره خوانده می‌شوند؛ اگر باز پیش آمد گذرگاه را برای خطا بررسی کنید</translation>
     </message>
     <message>
         <source>node %1</source>
@@ -1514,7 +1506,7 @@
     </message>
     <message>
         <source>%1 is silent</source>
-        <translation>%1 خاموش است</translation>
+        <translation>%1 پاسخ نمی‌دهد</translation>
     </message>
     <message>
         <source>%1 has lost the synchronisation of its clock</source>
@@ -1610,7 +1602,7 @@
     </message>
     <message>
         <source>warning: %1</source>
-        <translation>هشدار: %1</translation>
+        <translation>اخطار: %1</translation>
     </message>
     <message>
         <source>the job was not begun: it has %1 errors</source>
@@ -1969,10 +1961,6 @@
         <translation>دست‌کم دو ضربان، %1</translation>
     </message>
     <message>
-        <source>a CiA 301 bit rate: 10000, 20000, 50000, 125000, 250000, 500000, 800000 or 1000000</source>
-        <translation>یک نرخ بیت CiA 301: 10000، 20000، 50000، 125000، 250000، 500000، 800000 یا 1000000</translation>
-    </message>
-    <message>
         <source>a network interface&apos;s name of 1 .. 15 characters</source>
         <translation>نام واسط شبکه با 1 .. 15 نویسه</translation>
     </message>
@@ -2129,7 +2117,7 @@
         <translation>تنظیم یک خروجی</translation>
     </message>
     <message>
-        <source>an output's ratio is 0 to 1</source>
+        <source>an output&apos;s ratio is 0 to 1</source>
         <translation>نسبت یک خروجی ۰ تا ۱ است</translation>
     </message>
     <message>
@@ -2286,7 +2274,7 @@
     </message>
     <message>
         <source>the machine file is no text in UTF-8</source>
-        <translation>فایل ماشین متنی به UTF-8 نیست</translation>
+        <translation>پروندهٔ ماشین متنی به UTF-8 نیست</translation>
     </message>
     <message>
         <source>a job&apos;s name is text in UTF-8, without control characters and marks of direction</source>
@@ -2402,7 +2390,7 @@
     </message>
     <message>
         <source>give one of them another id (kinebus-node-id) or take it off the bus, then clear and bring up again</source>
-        <translation>به یکی شناسهٔ دیگری بدهید (kinebus-node-id) یا آن را از گذرگاه جدا کنید، سپس رفع کنید و دوباره راه‌اندازی کنید</translation>
+        <translation>به یکی شناسهٔ دیگری بدهید (kinebus-node-id) یا آن را از گذرگاه جدا کنید، سپس هشدار را رفع کنید و دوباره راه‌اندازی کنید</translation>
     </message>
     <message>
         <source>two nodes use the id %1: those with the serial numbers %2 and %3</source>
@@ -2478,7 +2466,7 @@
     </message>
     <message>
         <source>let it cool; check heater and sensor, then clear</source>
-        <translation>بگذارید خنک شود؛ گرم‌کن و حسگر را وارسی کنید، سپس رفع کنید</translation>
+        <translation>بگذارید خنک شود؛ گرم‌کن و حسگر را بررسی کنید، سپس هشدار را رفع کنید</translation>
     </message>
     <message>
         <source>A temperature sensor is open</source>
@@ -2490,7 +2478,7 @@
     </message>
     <message>
         <source>check the sensor, its plug and its wires, then clear</source>
-        <translation>حسگر، دوشاخه و سیم‌هایش را وارسی کنید، سپس رفع کنید</translation>
+        <translation>حسگر، دوشاخه و سیم‌هایش را بررسی کنید، سپس هشدار را رفع کنید</translation>
     </message>
     <message>
         <source>A temperature sensor is shorted</source>
@@ -2510,7 +2498,7 @@
     </message>
     <message>
         <source>A temperature sensor is silent</source>
-        <translation>یک حسگر دما خاموش است</translation>
+        <translation>یک حسگر دما پاسخ نمی‌دهد</translation>
     </message>
     <message>
         <source>a temperature is not measured any more</source>
@@ -2526,7 +2514,7 @@
     </message>
     <message>
         <source>check that heater and sensor sit tight and are the right ones, then clear</source>
-        <translation>وارسی کنید که گرم‌کن و حسگر محکم و از نوع درست باشند، سپس رفع کنید</translation>
+        <translation>بررسی کنید که گرم‌کن و حسگر محکم و از نوع درست باشند، سپس هشدار را رفع کنید</translation>
     </message>
     <message>
         <source>A heater heats without being told to</source>
@@ -2550,7 +2538,7 @@
     </message>
     <message>
         <source>check the fan and its plug, then clear</source>
-        <translation>فن و دوشاخه‌اش را وارسی کنید، سپس رفع کنید</translation>
+        <translation>فن و دوشاخه‌اش را بررسی کنید، سپس هشدار را رفع کنید</translation>
     </message>
     <message>
         <source>A heater is not as it should be</source>
@@ -2585,10 +2573,6 @@
         <translation>اشکال ارتباط روی گذرگاه</translation>
     </message>
     <message>
-        <source>A carriage is not where it should be</source>
-        <translation>یک حامل در جای خود نیست</translation>
-    </message>
-    <message>
         <source>A node reports a fault</source>
         <translation>یک گره خطا گزارش می‌کند</translation>
     </message>
@@ -2610,7 +2594,7 @@
     </message>
     <message>
         <source>check the motor&apos;s plug and cable for a break, then clear</source>
-        <translation>دوشاخه و کابل موتور را برای قطعی وارسی کنید، سپس رفع کنید</translation>
+        <translation>دوشاخه و کابل موتور را برای قطعی بررسی کنید، سپس هشدار را رفع کنید</translation>
     </message>
     <message>
         <source>The supply voltage is too high</source>
@@ -2690,7 +2674,7 @@
     </message>
     <message>
         <source>A node&apos;s queue ran low</source>
-        <translation>صف یک گره ته کشید</translation>
+        <translation>صف یک گره کم شد</translation>
     </message>
     <message>
         <source>A motion record was lost</source>
@@ -3176,14 +3160,14 @@
     </message>
     <message>
         <source>Read the alarm, remove its cause, then clear it.</source>
-        <translation>هشدار را بخوانید، علت را برطرف کنید، سپس پاکش کنید.</translation>
+        <translation>هشدار را بخوانید، علت را برطرف کنید، سپس آن را رفع کنید.</translation>
     </message>
 </context>
 <context>
     <name>kinebus::gui::AlarmsPage</name>
     <message>
         <source>Clear</source>
-        <translation>پاک کردن</translation>
+        <translation>رفع هشدار</translation>
     </message>
     <message>
         <source>No alarm is open.</source>
@@ -3324,8 +3308,8 @@
         <translation>به %1 وصل است.</translation>
     </message>
     <message>
-        <source>The connection is lost: %1. It comes back by itself; a job on the machine goes on.</source>
-        <translation>اتصال قطع شد: %1. خودش برمی‌گردد و کار روی ماشین ادامه دارد.</translation>
+        <source>The connection is lost: %1. It is tried again by itself. Jobs run on the gateway: a pulled cable does not end them.</source>
+        <translation>اتصال قطع شد: %1. خودش دوباره تلاش می‌کند. کارها روی درگاه اجرا می‌شوند: کشیدن کابل آن‌ها را پایان نمی‌دهد.</translation>
     </message>
 </context>
 <context>
@@ -3457,6 +3441,10 @@
     <message>
         <source>No job is running</source>
         <translation>کاری در حال اجرا نیست</translation>
+    </message>
+    <message>
+        <source>Last known: what the job does now is not.</source>
+        <translation>آخرین وضعیت دانسته: اکنونِ کار دانسته نیست.</translation>
     </message>
 </context>
 <context>
@@ -3617,7 +3605,7 @@
     </message>
     <message>
         <source>The gateway checks a whole job against every limit before anything moves.</source>
-        <translation>درگاه پیش از هر حرکت، کل کار را با همهٔ محدوده‌ها می‌سنجد.</translation>
+        <translation>درگاه پیش از هر حرکت، کل کار را با همهٔ حد‌ها می‌سنجد.</translation>
     </message>
     <message>
         <source>%1 of %2 used</source>
@@ -3779,7 +3767,7 @@
     </message>
     <message>
         <source>The machine file says what the machine is: kinematics, axes, limits, nodes.</source>
-        <translation>پروندهٔ ماشین می‌گوید ماشین چیست: سینماتیک، محورها، محدوده‌ها، گره‌ها.</translation>
+        <translation>پروندهٔ ماشین می‌گوید ماشین چیست: سینماتیک، محورها، حد‌ها، گره‌ها.</translation>
     </message>
     <message>
         <source>Checking…</source>
@@ -3856,7 +3844,7 @@
     </message>
     <message>
         <source>Segments sent</source>
-        <translation>قطعه‌های فرستاده</translation>
+        <translation>پاره‌های فرستاده</translation>
     </message>
     <message>
         <source>Sequence errors</source>
@@ -3911,7 +3899,7 @@
     </message>
     <message>
         <source>Console</source>
-        <translation>پایانه</translation>
+        <translation>کنسول</translation>
     </message>
     <message>
         <source>Alarms</source>
@@ -3928,6 +3916,22 @@
     <message>
         <source>Job</source>
         <translation>کار</translation>
+    </message>
+    <message>
+        <source>Close the demo</source>
+        <translation>بستن نمایشی</translation>
+    </message>
+    <message>
+        <source>The demo machine ends with this window, and its job with it.</source>
+        <translation>ماشین نمایشی با این پنجره پایان می‌یابد و کار آن نیز.</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>بستن</translation>
+    </message>
+    <message>
+        <source>Go on</source>
+        <translation>ادامه</translation>
     </message>
 </context>
 <context>
@@ -3954,7 +3958,7 @@
     </message>
     <message>
         <source>Segments sent</source>
-        <translation>قطعه‌های فرستاده</translation>
+        <translation>پاره‌های فرستاده</translation>
     </message>
     <message>
         <source>Faults</source>
@@ -3994,6 +3998,13 @@
     </message>
 </context>
 <context>
+    <name>kinebus::gui::NumberField</name>
+    <message>
+        <source>%1 is not within %2 to %3</source>
+        <translation>%1 میان %2 و %3 نیست</translation>
+    </message>
+</context>
+<context>
     <name>kinebus::gui::PlotWidget</name>
     <message>
         <source>%1 s ago</source>
@@ -4012,7 +4023,7 @@
     </message>
     <message>
         <source>Heat</source>
-        <translation>گرما</translation>
+        <translation>دما</translation>
     </message>
     <message>
         <source>Target temperature of the nozzle</source>
@@ -4045,6 +4056,10 @@
     <message>
         <source>Position not known yet</source>
         <translation>موقعیت هنوز معلوم نیست</translation>
+    </message>
+    <message>
+        <source>Last known position</source>
+        <translation>آخرین موقعیت دانسته</translation>
     </message>
 </context>
 <context>
@@ -4079,6 +4094,18 @@
     <message>
         <source>on this computer</source>
         <translation>روی این رایانه</translation>
+    </message>
+    <message>
+        <source>no gateway runs there</source>
+        <translation>آنجا درگاهی اجرا نمی‌شود</translation>
+    </message>
+    <message>
+        <source>this user may not use the gateway&apos;s socket</source>
+        <translation>این کاربر اجازهٔ سوکت درگاه را ندارد</translation>
+    </message>
+    <message>
+        <source>the connection on this computer has failed</source>
+        <translation>اتصال روی این رایانه شکست خورد</translation>
     </message>
 </context>
 <context>
@@ -4120,10 +4147,6 @@
         <translation>اتصال قطع شد</translation>
     </message>
     <message>
-        <source>A job on the machine goes on.</source>
-        <translation>کار روی ماشین ادامه دارد.</translation>
-    </message>
-    <message>
         <source>Connect</source>
         <translation>اتصال</translation>
     </message>
@@ -4134,6 +4157,14 @@
     <message>
         <source>Choose a gateway</source>
         <translation>یک درگاه برگزینید</translation>
+    </message>
+    <message>
+        <source>No news for %1. Last known: %2</source>
+        <translation>%1 است که خبری نیست. آخرین وضعیت: %2</translation>
+    </message>
+    <message>
+        <source>No news for %1. Last known: %2, %3 at %4</source>
+        <translation>%1 است که خبری نیست. آخرین وضعیت: %2، %3 در %4</translation>
     </message>
 </context>
 <context>
@@ -4191,7 +4222,7 @@
     </message>
     <message>
         <source>Limit margin</source>
-        <translation>فاصله تا محدوده</translation>
+        <translation>فاصله تا حد</translation>
     </message>
     <message>
         <source>Colour of the tool path</source>

@@ -21,7 +21,7 @@
     </message>
     <message>
         <source>home, or go to the bed reference</source>
-        <translation>eve dön ya da tabla referansına git</translation>
+        <translation>referansa git ya da tabla referansına git</translation>
     </message>
     <message>
         <source>first work coordinate system</source>
@@ -518,7 +518,7 @@
     </message>
     <message>
         <source>%1 has no effect: a heater&apos;s control belongs to its node and to [heater.NAME] in the machine file</source>
-        <translation>%1 etkisiz: ısıtıcının denetimi düğümünün ve makine dosyasındaki [heater.NAME] tablosunun işidir</translation>
+        <translation>%1 etkisiz: ısıtıcının kontrolü düğümünün ve makine dosyasındaki [heater.NAME] tablosunun işidir</translation>
     </message>
     <message>
         <source>the machine has one tool, T0; where T1 and T2 turned axes, write A and C</source>
@@ -654,7 +654,7 @@
     </message>
     <message>
         <source>G28 finds the home switches: name axes without a number</source>
-        <translation>G28 ev anahtarlarını bulur: eksenleri sayısız yazın</translation>
+        <translation>G28 referans anahtarlarını bulur: eksenleri sayısız yazın</translation>
     </message>
     <message>
         <source>this gateway runs with its built-in machine: start it with --machine FILE</source>
@@ -714,7 +714,7 @@
     </message>
     <message>
         <source>the machine is not ready to move: home it first (G28)</source>
-        <translation>makine harekete hazır değil: önce eve gönderin (G28)</translation>
+        <translation>makine harekete hazır değil: önce referansa gönderin (G28)</translation>
     </message>
     <message>
         <source>a move needs numbers</source>
@@ -722,7 +722,7 @@
     </message>
     <message>
         <source>the move is too long to be checked</source>
-        <translation>hareket denetlenemeyecek kadar uzun</translation>
+        <translation>hareket kontrol edilemeyecek kadar uzun</translation>
     </message>
     <message>
         <source>centre, plane and target do not make an arc</source>
@@ -730,11 +730,11 @@
     </message>
     <message>
         <source>the arc is too long to be checked</source>
-        <translation>yay denetlenemeyecek kadar uzun</translation>
+        <translation>yay kontrol edilemeyecek kadar uzun</translation>
     </message>
     <message>
         <source>the arc turns too far to be checked</source>
-        <translation>yay denetlenemeyecek kadar çok dönüyor</translation>
+        <translation>yay kontrol edilemeyecek kadar çok dönüyor</translation>
     </message>
     <message>
         <source>filament is fed before a hotend temperature is set</source>
@@ -778,7 +778,7 @@
     </message>
     <message>
         <source>a job&apos;s name has no slashes and no control characters</source>
-        <translation>iş adında bölü işareti ve denetim karakteri olmaz</translation>
+        <translation>iş adında bölü işareti ve kontrol karakteri olmaz</translation>
     </message>
     <message>
         <source>%1 cannot be written</source>
@@ -898,7 +898,7 @@
     </message>
     <message>
         <source>the mechanism is singular or nearly so at every pose: the best condition number in the workspace is %1, the limit is %2; rails and attachments leave one motion of the platform without control (for instance attachments mirrored about the YZ plane)</source>
-        <translation>mekanizma her duruşta tekil ya da neredeyse tekil: çalışma alanındaki en iyi koşul sayısı %1, sınır %2; raylar ve bağlantılar platformun bir hareketini denetimsiz bırakıyor (örneğin YZ düzlemine göre yansımış bağlantılar)</translation>
+        <translation>mekanizma her duruşta tekil ya da neredeyse tekil: çalışma alanındaki en iyi koşul sayısı %1, sınır %2; raylar ve bağlantılar platformun bir hareketini kontrolsüz bırakıyor (örneğin YZ düzlemine göre yansımış bağlantılar)</translation>
     </message>
     <message>
         <source>rods, triangle, rails and rotation_scale_mm must be above 0 mm</source>
@@ -918,7 +918,7 @@
     </message>
     <message>
         <source>the mechanism is singular or nearly so at every pose: the best condition number in the workspace is %1, the limit is %2; rods and triangle leave one motion of the spindle without control</source>
-        <translation>mekanizma her duruşta tekil ya da neredeyse tekil: çalışma alanındaki en iyi koşul sayısı %1, sınır %2; çubuklar ve üçgen iş milinin bir hareketini denetimsiz bırakıyor</translation>
+        <translation>mekanizma her duruşta tekil ya da neredeyse tekil: çalışma alanındaki en iyi koşul sayısı %1, sınır %2; çubuklar ve üçgen iş milinin bir hareketini kontrolsüz bırakıyor</translation>
     </message>
     <message>
         <source>%1: out of reach, the leg is %2 too short</source>
@@ -966,7 +966,7 @@
     </message>
     <message>
         <source>check the motor and its cable for a short, then clear</source>
-        <translation>motorda ve kablosunda kısa devre arayın, sonra temizleyin</translation>
+        <translation>motorda ve kablosunda kısa devre arayın, sonra alarmı kaldırın</translation>
     </message>
     <message>
         <source>a motor phase is shorted</source>
@@ -974,7 +974,7 @@
     </message>
     <message>
         <source>switch off, check the motor and its cable</source>
-        <translation>kapatın, motoru ve kablosunu denetleyin</translation>
+        <translation>kapatın, motoru ve kablosunu kontrol edin</translation>
     </message>
     <message>
         <source>supply voltage too high</source>
@@ -982,7 +982,7 @@
     </message>
     <message>
         <source>check the power supply</source>
-        <translation>güç kaynağını denetleyin</translation>
+        <translation>güç kaynağını kontrol edin</translation>
     </message>
     <message>
         <source>supply voltage too low</source>
@@ -990,7 +990,7 @@
     </message>
     <message>
         <source>check the power supply and its wiring</source>
-        <translation>güç kaynağını ve kablolarını denetleyin</translation>
+        <translation>güç kaynağını ve kablolarını kontrol edin</translation>
     </message>
     <message>
         <source>the node is too hot</source>
@@ -998,7 +998,7 @@
     </message>
     <message>
         <source>let it cool, check the fan</source>
-        <translation>soğumasını bekleyin, fanı denetleyin</translation>
+        <translation>soğumasını bekleyin, fanı kontrol edin</translation>
     </message>
     <message>
         <source>a motor driver is too hot</source>
@@ -1006,7 +1006,7 @@
     </message>
     <message>
         <source>let it cool, lower the current, check the fan</source>
-        <translation>soğumasını bekleyin, akımı düşürün, fanı denetleyin</translation>
+        <translation>soğumasını bekleyin, akımı düşürün, fanı kontrol edin</translation>
     </message>
     <message>
         <source>stored parameters are damaged</source>
@@ -1025,16 +1025,12 @@
         <translation>düğümü kapatıp açın, bildirin</translation>
     </message>
     <message>
-        <source>user software fault</source>
-        <translation>kullanıcı yazılımı hatası</translation>
-    </message>
-    <message>
         <source>encoder fault</source>
         <translation>kodlayıcı arızası</translation>
     </message>
     <message>
         <source>check the encoder&apos;s cable</source>
-        <translation>kodlayıcının kablosunu denetleyin</translation>
+        <translation>kodlayıcının kablosunu kontrol edin</translation>
     </message>
     <message>
         <source>CAN frames were lost (overrun)</source>
@@ -1042,7 +1038,7 @@
     </message>
     <message>
         <source>check the load of the bus</source>
-        <translation>veri yolunun yükünü denetleyin</translation>
+        <translation>veri yolunun yükünü kontrol edin</translation>
     </message>
     <message>
         <source>many CAN errors</source>
@@ -1050,7 +1046,7 @@
     </message>
     <message>
         <source>check cable and termination of the bus</source>
-        <translation>veri yolunun kablosunu ve sonlandırmasını denetleyin</translation>
+        <translation>veri yolunun kablosunu ve sonlandırmasını kontrol edin</translation>
     </message>
     <message>
         <source>the gateway&apos;s heartbeat or SYNC was missed</source>
@@ -1058,7 +1054,7 @@
     </message>
     <message>
         <source>check the gateway and the bus, then clear</source>
-        <translation>ağ geçidini ve veri yolunu denetleyin, sonra temizleyin</translation>
+        <translation>ağ geçidini ve veri yolunu kontrol edin, sonra alarmı kaldırın</translation>
     </message>
     <message>
         <source>recovered from bus-off</source>
@@ -1082,7 +1078,7 @@
     </message>
     <message>
         <source>look for an obstacle, home again</source>
-        <translation>engel arayın, yeniden eve gönderin</translation>
+        <translation>engel arayın, yeniden referansa gönderin</translation>
     </message>
     <message>
         <source>a position limit was reached</source>
@@ -1090,7 +1086,7 @@
     </message>
     <message>
         <source>check the machine file&apos;s limits, home again</source>
-        <translation>makine dosyasının sınırlarını denetleyin, yeniden eve gönderin</translation>
+        <translation>makine dosyasının sınırlarını kontrol edin, yeniden referansa gönderin</translation>
     </message>
     <message>
         <source>clock synchronisation was lost</source>
@@ -1098,7 +1094,7 @@
     </message>
     <message>
         <source>check the bus, then clear</source>
-        <translation>veri yolunu denetleyin, sonra temizleyin</translation>
+        <translation>veri yolunu kontrol edin, sonra alarmı kaldırın</translation>
     </message>
     <message>
         <source>general fault</source>
@@ -1106,7 +1102,7 @@
     </message>
     <message>
         <source>look at the node&apos;s state, then clear</source>
-        <translation>düğümün durumuna bakın, sonra temizleyin</translation>
+        <translation>düğümün durumuna bakın, sonra alarmı kaldırın</translation>
     </message>
     <message>
         <source>current fault</source>
@@ -1114,7 +1110,7 @@
     </message>
     <message>
         <source>check motor and cable</source>
-        <translation>motoru ve kabloyu denetleyin</translation>
+        <translation>motoru ve kabloyu kontrol edin</translation>
     </message>
     <message>
         <source>voltage fault</source>
@@ -1154,11 +1150,11 @@
     </message>
     <message>
         <source>its queue ran low</source>
-        <translation>kuyruğu boşaldı</translation>
+        <translation>kuyruğu azaldı</translation>
     </message>
     <message>
         <source>clear and resume; when it comes again, check the load of gateway and bus</source>
-        <translation>temizleyip sürdürün; yinelenirse ağ geçidi ve veri yolu yükünü denetleyin</translation>
+        <translation>alarmı kaldırıp sürdürün; yinelenirse ağ geçidi ve veri yolu yükünü kontrol edin</translation>
     </message>
     <message>
         <source>a record was lost</source>
@@ -1166,15 +1162,11 @@
     </message>
     <message>
         <source>clear; when it comes again, check the bus for errors</source>
-        <translation>temizleyin; yinelenirse veri yolunda hata arayın</translation>
+        <translation>alarmı kaldırın; yinelenirse veri yolunda hata arayın</translation>
     </message>
     <message>
         <source>its position is not the gateway&apos;s</source>
         <translation>konumu ağ geçidininkinden farklı</translation>
-    </message>
-    <message>
-        <source>clear and home again</source>
-        <translation>temizleyip yeniden eve gönderin</translation>
     </message>
     <message>
         <source>a record broke its limits</source>
@@ -1182,7 +1174,7 @@
     </message>
     <message>
         <source>clear; check the machine file against the node&apos;s limits</source>
-        <translation>temizleyin; makine dosyasını düğümün sınırlarıyla karşılaştırın</translation>
+        <translation>alarmı kaldırın; makine dosyasını düğümün sınırlarıyla karşılaştırın</translation>
     </message>
     <message>
         <source>the emergency stop input</source>
@@ -1190,7 +1182,7 @@
     </message>
     <message>
         <source>release the emergency stop when it is safe, then clear</source>
-        <translation>güvenli olunca acil durdurmayı bırakın, sonra temizleyin</translation>
+        <translation>güvenli olunca acil durdurmayı bırakın, sonra durdurmayı kaldırın</translation>
     </message>
     <message>
         <source>a limit switch</source>
@@ -1198,7 +1190,7 @@
     </message>
     <message>
         <source>move the carriage off the switch, then clear and home again</source>
-        <translation>arabayı anahtardan çekin, sonra temizleyip yeniden eve gönderin</translation>
+        <translation>taşıyıcıyı anahtardan çekin, sonra alarmı kaldırıp yeniden referansa gönderin</translation>
     </message>
     <message>
         <source>the gateway&apos;s heartbeat is missing</source>
@@ -1214,7 +1206,7 @@
     </message>
     <message>
         <source>look at the drive&apos;s fault, then clear</source>
-        <translation>sürücünün arızasına bakın, sonra temizleyin</translation>
+        <translation>sürücünün arızasına bakın, sonra alarmı kaldırın</translation>
     </message>
     <message>
         <source>its drives were switched off in motion</source>
@@ -1222,7 +1214,7 @@
     </message>
     <message>
         <source>clear and enable again</source>
-        <translation>temizleyip yeniden açın</translation>
+        <translation>alarmı kaldırıp yeniden açın</translation>
     </message>
     <message>
         <source>another node asked for it</source>
@@ -1246,7 +1238,7 @@
     </message>
     <message>
         <source>check the node&apos;s power, its id (kinebus-node-id) and the bus cable, then bring up again</source>
-        <translation>düğümün beslemesini, kimliğini (kinebus-node-id) ve veri yolu kablosunu denetleyin, sonra yeniden devreye alın</translation>
+        <translation>düğümün beslemesini, kimliğini (kinebus-node-id) ve veri yolu kablosunu kontrol edin, sonra yeniden devreye alın</translation>
     </message>
     <message>
         <source>connect the right node or update its firmware</source>
@@ -1258,7 +1250,7 @@
     </message>
     <message>
         <source>look at the drive&apos;s fault, clear, then bring up again</source>
-        <translation>sürücünün arızasına bakın, temizleyin, sonra yeniden devreye alın</translation>
+        <translation>sürücünün arızasına bakın, alarmı kaldırın, sonra yeniden devreye alın</translation>
     </message>
     <message>
         <source>switch one of the gateways off</source>
@@ -1266,59 +1258,59 @@
     </message>
     <message>
         <source>check the node&apos;s power and the bus cable, then clear and bring up again</source>
-        <translation>düğümün beslemesini ve veri yolu kablosunu denetleyin, sonra temizleyip yeniden devreye alın</translation>
+        <translation>düğümün beslemesini ve veri yolu kablosunu kontrol edin, sonra alarmı kaldırıp yeniden devreye alın</translation>
     </message>
     <message>
         <source>check the node&apos;s power, then clear, bring up and home again</source>
-        <translation>düğümün beslemesini denetleyin, sonra temizleyin, devreye alın ve yeniden eve gönderin</translation>
+        <translation>düğümün beslemesini kontrol edin, sonra alarmı kaldırın, devreye alın ve yeniden referansa gönderin</translation>
     </message>
     <message>
         <source>check the bus for errors, then clear</source>
-        <translation>veri yolunda hata arayın, sonra temizleyin</translation>
+        <translation>veri yolunda hata arayın, sonra alarmı kaldırın</translation>
     </message>
     <message>
         <source>check switch and wiring, then clear and home again</source>
-        <translation>anahtarı ve kablosunu denetleyin, sonra temizleyip yeniden eve gönderin</translation>
+        <translation>anahtarı ve kablosunu kontrol edin, sonra alarmı kaldırıp yeniden referansa gönderin</translation>
     </message>
     <message>
         <source>check the switches of the carriages that went on, then clear and home again</source>
-        <translation>ilerleyen arabaların anahtarlarını denetleyin, sonra temizleyip yeniden eve gönderin</translation>
+        <translation>ilerleyen taşıyıcıların anahtarlarını kontrol edin, sonra alarmı kaldırıp yeniden referansa gönderin</translation>
     </message>
     <message>
         <source>check switches and home speeds, then clear and home again</source>
-        <translation>anahtarları ve eve gitme hızlarını denetleyin, sonra temizleyip yeniden eve gönderin</translation>
+        <translation>anahtarları ve referansa gitme hızlarını kontrol edin, sonra alarmı kaldırıp yeniden referansa gönderin</translation>
     </message>
     <message>
         <source>clear: positions are known, the job can be run again</source>
-        <translation>temizleyin: konumlar biliniyor, iş yeniden çalıştırılabilir</translation>
+        <translation>alarmı kaldırın: konumlar biliniyor, iş yeniden çalıştırılabilir</translation>
     </message>
     <message>
         <source>clear; when it comes again, check the bus for lost frames</source>
-        <translation>temizleyin; yinelenirse veri yolunda kayıp çerçeve arayın</translation>
+        <translation>alarmı kaldırın; yinelenirse veri yolunda kayıp çerçeve arayın</translation>
     </message>
     <message>
         <source>check cable and termination of the bus, then clear and bring up again</source>
-        <translation>veri yolunun kablosunu ve sonlandırmasını denetleyin, sonra temizleyip yeniden devreye alın</translation>
+        <translation>veri yolunun kablosunu ve sonlandırmasını kontrol edin, sonra alarmı kaldırıp yeniden devreye alın</translation>
     </message>
     <message>
         <source>check heater and sensor, then clear</source>
-        <translation>ısıtıcıyı ve algılayıcıyı denetleyin, sonra temizleyin</translation>
+        <translation>ısıtıcıyı ve algılayıcıyı kontrol edin, sonra alarmı kaldırın</translation>
     </message>
     <message>
         <source>correct the job, then clear</source>
-        <translation>işi düzeltin, sonra temizleyin</translation>
+        <translation>işi düzeltin, sonra alarmı kaldırın</translation>
     </message>
     <message>
         <source>clear when the machine is safe</source>
-        <translation>makine güvenli olunca temizleyin</translation>
+        <translation>makine güvenli olunca durdurmayı kaldırın</translation>
     </message>
     <message>
         <source>switch the machine off and on, home again</source>
-        <translation>makineyi kapatıp açın, yeniden eve gönderin</translation>
+        <translation>makineyi kapatıp açın, yeniden referansa gönderin</translation>
     </message>
     <message>
         <source>clear</source>
-        <translation>temizleme</translation>
+        <translation>alarmı kaldırma</translation>
     </message>
     <message>
         <source>listening for another gateway</source>
@@ -1330,7 +1322,7 @@
     </message>
     <message>
         <source>checking the nodes&apos; parameters</source>
-        <translation>düğümlerin parametreleri denetleniyor</translation>
+        <translation>düğümlerin parametreleri kontrol ediliyor</translation>
     </message>
     <message>
         <source>starting the nodes</source>
@@ -1410,11 +1402,11 @@
     </message>
     <message>
         <source>%1: home it first</source>
-        <translation>%1. Önce eve gönderin</translation>
+        <translation>%1. Önce referansa gönderin</translation>
     </message>
     <message>
         <source>%1: clear first</source>
-        <translation>%1. Önce temizleyin</translation>
+        <translation>%1. Önce alarmı kaldırın</translation>
     </message>
     <message>
         <source>no pose fits the joints&apos; positions: %1</source>
@@ -1422,15 +1414,15 @@
     </message>
     <message>
         <source>a jog needs numbers</source>
-        <translation>elle sürme sayı ister</translation>
+        <translation>manuel hareket sayı ister</translation>
     </message>
     <message>
         <source>a jog&apos;s speed is 0 or more</source>
-        <translation>elle sürme hızı 0 ya da büyüktür</translation>
+        <translation>manuel hareket hızı 0 ya da büyüktür</translation>
     </message>
     <message>
         <source>a jog needs a distance</source>
-        <translation>elle sürme bir uzaklık ister</translation>
+        <translation>manuel hareket bir uzaklık ister</translation>
     </message>
     <message>
         <source>the hotend is too cold to feed filament: %1 C</source>
@@ -1438,15 +1430,15 @@
     </message>
     <message>
         <source>the job cannot be read twice: it is checked before it runs</source>
-        <translation>iş iki kez okunamıyor: çalışmadan önce denetlenir</translation>
+        <translation>iş iki kez okunamıyor: çalışmadan önce kontrol edilir</translation>
     </message>
     <message>
         <source>cleared: resume brings the machine up again and goes on with the job</source>
-        <translation>temizlendi: sürdürme makineyi yeniden devreye alır ve işe devam eder</translation>
+        <translation>kaldırıldı: sürdürme makineyi yeniden devreye alır ve işe devam eder</translation>
     </message>
     <message>
         <source>cleared: bring the machine up again</source>
-        <translation>temizlendi: makineyi yeniden devreye alın</translation>
+        <translation>kaldırıldı: makineyi yeniden devreye alın</translation>
     </message>
     <message>
         <source>a feed override is 0.01 to 5</source>
@@ -1498,11 +1490,11 @@
     </message>
     <message>
         <source>look for another master or tool on the bus, then clear</source>
-        <translation>veri yolunda başka bir yönetici ya da araç arayın, sonra temizleyin</translation>
+        <translation>veri yolunda başka bir yönetici ya da araç arayın, sonra alarmı kaldırın</translation>
     </message>
     <message>
         <source>clear: positions are read again; when it comes again, check the bus for errors</source>
-        <translation>temizleyin: konumlar yeniden okunur; yinelenirse veri yolunda hata arayın</translation>
+        <translation>alarmı kaldırın: konumlar yeniden okunur; yinelenirse veri yolunda hata arayın</translation>
     </message>
     <message>
         <source>node %1</source>
@@ -1538,7 +1530,7 @@
     </message>
     <message>
         <source>the nodes have lost their positions: resume homes the machine and goes on</source>
-        <translation>düğümler konumlarını yitirdi: sürdürme makineyi eve gönderir ve devam eder</translation>
+        <translation>düğümler konumlarını yitirdi: sürdürme makineyi referansa gönderir ve devam eder</translation>
     </message>
     <message>
         <source>the job does not go on: %1</source>
@@ -1550,7 +1542,7 @@
     </message>
     <message>
         <source>the job %1 is not the text that was interrupted: it does not go on</source>
-        <translation>%1 kesilen metin değil: sürmüyor</translation>
+        <translation>%1 işi kesilen metin değil: sürmüyor</translation>
     </message>
     <message>
         <source>run it from its beginning</source>
@@ -1590,11 +1582,11 @@
     </message>
     <message>
         <source>a node does not know its position after homing</source>
-        <translation>bir düğüm eve gittikten sonra konumunu bilmiyor</translation>
+        <translation>bir düğüm referansa gittikten sonra konumunu bilmiyor</translation>
     </message>
     <message>
         <source>homed</source>
-        <translation>eve gönderildi</translation>
+        <translation>referansa gidildi</translation>
     </message>
     <message>
         <source>cancelled: positions are known</source>
@@ -1722,7 +1714,7 @@
     </message>
     <message>
         <source>a control character</source>
-        <translation>bir denetim karakteri</translation>
+        <translation>bir kontrol karakteri</translation>
     </message>
     <message>
         <source>printable text, tabs and line ends</source>
@@ -1746,7 +1738,7 @@
     </message>
     <message>
         <source>node %1 axis %2</source>
-        <translation>düğüm %1 ekseni %2</translation>
+        <translation>düğüm %1, eksen %2</translation>
     </message>
     <message>
         <source>a node&apos;s axis that no other joint has</source>
@@ -1822,7 +1814,7 @@
     </message>
     <message>
         <source>an input of node %1 that has the home function for axis %2</source>
-        <translation>düğüm %1 üzerinde %2 ekseninin ev işlevli girişi</translation>
+        <translation>düğüm %1 üzerinde %2 ekseninin referans işlevli girişi</translation>
     </message>
     <message>
         <source>an input of node %1 that has the limit function for axis %2</source>
@@ -1846,7 +1838,7 @@
     </message>
     <message>
         <source>node %1 channel %2</source>
-        <translation>düğüm %1 kanalı %2</translation>
+        <translation>düğüm %1, kanal %2</translation>
     </message>
     <message>
         <source>a channel that no other device has: [%1] has it</source>
@@ -1946,11 +1938,11 @@
     </message>
     <message>
         <source>%1, which homes towards the nozzle</source>
-        <translation>%1, nozüle doğru sıfırlar</translation>
+        <translation>%1, nozula doğru referansa gidiyor</translation>
     </message>
     <message>
         <source>homing away from the nozzle: method %1, with the switch at the rail&apos;s other end</source>
-        <translation>nozülden uzağa sıfırlama: yöntem %1, anahtar rayın öbür ucunda</translation>
+        <translation>nozuldan uzağa referansa gitme: yöntem %1, anahtar rayın öbür ucunda</translation>
     </message>
     <message>
         <source>an even number: ramps travel in 2 ms</source>
@@ -1967,10 +1959,6 @@
     <message>
         <source>at least two heartbeats, %1</source>
         <translation>en az iki kalp atışı, %1</translation>
-    </message>
-    <message>
-        <source>a CiA 301 bit rate: 10000, 20000, 50000, 125000, 250000, 500000, 800000 or 1000000</source>
-        <translation>bir CiA 301 bit hızı: 10000, 20000, 50000, 125000, 250000, 500000, 800000 ya da 1000000</translation>
     </message>
     <message>
         <source>a network interface&apos;s name of 1 .. 15 characters</source>
@@ -2018,15 +2006,15 @@
     </message>
     <message>
         <source>%1 did not find its home switch, or the switch did not release: is it wired to another carriage?</source>
-        <translation>%1 ev anahtarını bulamadı ya da anahtar bırakmadı: kablosu başka bir arabaya mı gidiyor?</translation>
+        <translation>%1 referans anahtarını bulamadı ya da anahtar bırakmadı: kablosu başka bir taşıyıcıya mı gidiyor?</translation>
     </message>
     <message>
         <source>homing took too long; not at home: %1</source>
-        <translation>eve gitme çok uzun sürdü; evde olmayanlar: %1</translation>
+        <translation>referansa gitme çok uzun sürdü; referansta olmayanlar: %1</translation>
     </message>
     <message>
         <source>%1 has gone %2 mm farther than another carriage; allowed are %3 mm</source>
-        <translation>%1 başka bir arabadan %2 mm ileri gitti; izin verilen %3 mm</translation>
+        <translation>%1 başka bir taşıyıcıdan %2 mm ileri gitti; izin verilen %3 mm</translation>
     </message>
     <message>
         <source>moving</source>
@@ -2078,7 +2066,7 @@
     </message>
     <message>
         <source>home</source>
-        <translation>eve gönderme</translation>
+        <translation>referansa gitme</translation>
     </message>
     <message>
         <source>go to the bed reference</source>
@@ -2086,7 +2074,7 @@
     </message>
     <message>
         <source>jog</source>
-        <translation>elle sürme</translation>
+        <translation>manuel hareket</translation>
     </message>
     <message>
         <source>run a job</source>
@@ -2129,7 +2117,7 @@
         <translation>bir çıkışın ayarı</translation>
     </message>
     <message>
-        <source>an output's ratio is 0 to 1</source>
+        <source>an output&apos;s ratio is 0 to 1</source>
         <translation>bir çıkışın oranı 0 ile 1 arasıdır</translation>
     </message>
     <message>
@@ -2150,11 +2138,11 @@
     </message>
     <message>
         <source>not homed</source>
-        <translation>eve gönderilmedi</translation>
+        <translation>referansa gidilmedi</translation>
     </message>
     <message>
         <source>homing</source>
-        <translation>eve gidiyor</translation>
+        <translation>referansa gidiyor</translation>
     </message>
     <message>
         <source>ready</source>
@@ -2162,7 +2150,7 @@
     </message>
     <message>
         <source>checking the job</source>
-        <translation>iş denetleniyor</translation>
+        <translation>iş kontrol ediliyor</translation>
     </message>
     <message>
         <source>running</source>
@@ -2238,19 +2226,19 @@
     </message>
     <message>
         <source>%1 has control of the machine</source>
-        <translation>makinenin denetimi %1 programında</translation>
+        <translation>makinenin kontrolü %1 programında</translation>
     </message>
     <message>
         <source>ask for it to be handed over, or take control by force</source>
-        <translation>devredilmesini isteyin ya da denetimi zorla alın</translation>
+        <translation>devredilmesini isteyin ya da kontrolü zorla alın</translation>
     </message>
     <message>
         <source>%1 has control</source>
-        <translation>denetim %1 programında</translation>
+        <translation>kontrol %1 programında</translation>
     </message>
     <message>
         <source>nobody has control</source>
-        <translation>denetim kimsede değil</translation>
+        <translation>kontrol kimsede değil</translation>
     </message>
     <message>
         <source>the gateway and the client speak different versions of the job link</source>
@@ -2290,7 +2278,7 @@
     </message>
     <message>
         <source>a job&apos;s name is text in UTF-8, without control characters and marks of direction</source>
-        <translation>bir işin adı UTF-8 metnidir; denetim karakteri ve yön işareti içermez</translation>
+        <translation>bir işin adı UTF-8 metnidir; kontrol karakteri ve yön işareti içermez</translation>
     </message>
     <message>
         <source>a client is sending this upload</source>
@@ -2306,7 +2294,7 @@
     </message>
     <message>
         <source>too many jobs are being checked: ask again later</source>
-        <translation>çok fazla iş denetleniyor: sonra yeniden isteyin</translation>
+        <translation>çok fazla iş kontrol ediliyor: sonra yeniden isteyin</translation>
     </message>
     <message>
         <source>a machine file has at most 512 KiB</source>
@@ -2318,7 +2306,7 @@
     </message>
     <message>
         <source>control is handed over by the client that has it, to a client that is here</source>
-        <translation>denetimi elinde tutan, burada olan birine devredebilir</translation>
+        <translation>kontrolü elinde tutan, burada olan birine devredebilir</translation>
     </message>
     <message>
         <source>a fan&apos;s ratio is 0 to 1</source>
@@ -2402,7 +2390,7 @@
     </message>
     <message>
         <source>give one of them another id (kinebus-node-id) or take it off the bus, then clear and bring up again</source>
-        <translation>birine başka kimlik verin (kinebus-node-id) ya da onu veri yolundan çıkarın, sonra temizleyip yeniden devreye alın</translation>
+        <translation>birine başka kimlik verin (kinebus-node-id) ya da onu veri yolundan çıkarın, sonra alarmı kaldırıp yeniden devreye alın</translation>
     </message>
     <message>
         <source>two nodes use the id %1: those with the serial numbers %2 and %3</source>
@@ -2446,15 +2434,15 @@
     </message>
     <message>
         <source>Homing has failed</source>
-        <translation>Eve dönüş başarısız oldu</translation>
+        <translation>Referansa gitme başarısız oldu</translation>
     </message>
     <message>
         <source>The carriages are too far apart</source>
-        <translation>Arabalar birbirinden çok uzak</translation>
+        <translation>Taşıyıcılar birbirinden çok uzak</translation>
     </message>
     <message>
         <source>Homing took too long</source>
-        <translation>Eve dönüş çok uzun sürdü</translation>
+        <translation>Referansa gitme çok uzun sürdü</translation>
     </message>
     <message>
         <source>Motion was interrupted</source>
@@ -2478,7 +2466,7 @@
     </message>
     <message>
         <source>let it cool; check heater and sensor, then clear</source>
-        <translation>soğumasını bekleyin; ısıtıcıyı ve algılayıcıyı denetleyin, sonra temizleyin</translation>
+        <translation>soğumasını bekleyin; ısıtıcıyı ve algılayıcıyı kontrol edin, sonra alarmı kaldırın</translation>
     </message>
     <message>
         <source>A temperature sensor is open</source>
@@ -2490,7 +2478,7 @@
     </message>
     <message>
         <source>check the sensor, its plug and its wires, then clear</source>
-        <translation>algılayıcıyı, fişini ve kablolarını denetleyin, sonra temizleyin</translation>
+        <translation>algılayıcıyı, fişini ve kablolarını kontrol edin, sonra alarmı kaldırın</translation>
     </message>
     <message>
         <source>A temperature sensor is shorted</source>
@@ -2526,7 +2514,7 @@
     </message>
     <message>
         <source>check that heater and sensor sit tight and are the right ones, then clear</source>
-        <translation>ısıtıcı ile algılayıcının sıkı oturduğunu ve doğru parçalar olduğunu denetleyin, sonra temizleyin</translation>
+        <translation>ısıtıcı ile algılayıcının sıkı oturduğunu ve doğru parçalar olduğunu kontrol edin, sonra alarmı kaldırın</translation>
     </message>
     <message>
         <source>A heater heats without being told to</source>
@@ -2550,7 +2538,7 @@
     </message>
     <message>
         <source>check the fan and its plug, then clear</source>
-        <translation>fanı ve fişini denetleyin, sonra temizleyin</translation>
+        <translation>fanı ve fişini kontrol edin, sonra alarmı kaldırın</translation>
     </message>
     <message>
         <source>A heater is not as it should be</source>
@@ -2585,10 +2573,6 @@
         <translation>Veri yolunda iletişim sorunu</translation>
     </message>
     <message>
-        <source>A carriage is not where it should be</source>
-        <translation>Bir araba olması gereken yerde değil</translation>
-    </message>
-    <message>
         <source>A node reports a fault</source>
         <translation>Bir düğüm arıza bildiriyor</translation>
     </message>
@@ -2610,7 +2594,7 @@
     </message>
     <message>
         <source>check the motor&apos;s plug and cable for a break, then clear</source>
-        <translation>motorun fişinde ve kablosunda kopukluk arayın, sonra temizleyin</translation>
+        <translation>motorun fişinde ve kablosunda kopukluk arayın, sonra alarmı kaldırın</translation>
     </message>
     <message>
         <source>The supply voltage is too high</source>
@@ -2690,7 +2674,7 @@
     </message>
     <message>
         <source>A node&apos;s queue ran low</source>
-        <translation>Bir düğümün kuyruğu boşaldı</translation>
+        <translation>Bir düğümün kuyruğu azaldı</translation>
     </message>
     <message>
         <source>A motion record was lost</source>
@@ -2718,7 +2702,7 @@
     </message>
     <message>
         <source>homing did not find the switch&apos;s edge</source>
-        <translation>eve dönüş anahtarın kenarını bulamadı</translation>
+        <translation>referansa gitme anahtarın kenarını bulamadı</translation>
     </message>
     <message>
         <source>this line taken out: every node speaks 1 Mbit/s, which is set on the interface (ip link set can0 type can bitrate 1000000)</source>
@@ -2738,7 +2722,7 @@
     </message>
     <message>
         <source>carriage %1</source>
-        <translation>araba %1</translation>
+        <translation>taşıyıcı %1</translation>
     </message>
     <message>
         <source>rail %1</source>
@@ -3104,11 +3088,11 @@
     </message>
     <message>
         <source>Not homed</source>
-        <translation>Ev konumu bilinmiyor</translation>
+        <translation>Referansa gidilmedi</translation>
     </message>
     <message>
         <source>Homing</source>
-        <translation>Eve dönüyor</translation>
+        <translation>Referansa gidiyor</translation>
     </message>
     <message>
         <source>Ready</source>
@@ -3120,7 +3104,7 @@
     </message>
     <message>
         <source>Checking the job</source>
-        <translation>İş denetleniyor</translation>
+        <translation>İş kontrol ediliyor</translation>
     </message>
     <message>
         <source>Printing</source>
@@ -3156,34 +3140,34 @@
     </message>
     <message>
         <source>Home the machine to wake the motors and find the carriages.</source>
-        <translation>Motorları uyandırmak ve arabaları bulmak için makineyi eve gönderin.</translation>
+        <translation>Motorları uyandırmak ve taşıyıcıları bulmak için makineyi referansa gönderin.</translation>
     </message>
     <message>
         <source>Home the machine: positions are not known yet.</source>
-        <translation>Makineyi eve gönderin: konumlar henüz bilinmiyor.</translation>
+        <translation>Makineyi referansa gönderin: konumlar henüz bilinmiyor.</translation>
     </message>
     <message>
         <source>Choose a job and start it, or jog the tool.</source>
-        <translation>Bir iş seçip başlatın ya da takımı elle sürün.</translation>
+        <translation>Bir iş seçip başlatın ya da takımı manuel hareket ettirin.</translation>
     </message>
     <message>
         <source>All carriages rest on the path. Resume or cancel.</source>
-        <translation>Bütün arabalar yol üzerinde duruyor. Sürdürün ya da iptal edin.</translation>
+        <translation>Bütün taşıyıcılar yol üzerinde duruyor. Sürdürün ya da iptal edin.</translation>
     </message>
     <message>
         <source>Make sure that the machine is safe, then clear the stop.</source>
-        <translation>Makinenin güvenli olduğundan emin olun, sonra durdurmayı temizleyin.</translation>
+        <translation>Makinenin güvenli olduğundan emin olun, sonra durdurmayı kaldırın.</translation>
     </message>
     <message>
         <source>Read the alarm, remove its cause, then clear it.</source>
-        <translation>Alarmı okuyun, nedenini giderin, sonra temizleyin.</translation>
+        <translation>Alarmı okuyun, nedenini giderin, sonra kaldırın.</translation>
     </message>
 </context>
 <context>
     <name>kinebus::gui::AlarmsPage</name>
     <message>
         <source>Clear</source>
-        <translation>Temizle</translation>
+        <translation>Alarmı kaldır</translation>
     </message>
     <message>
         <source>No alarm is open.</source>
@@ -3289,7 +3273,7 @@
     </message>
     <message>
         <source>The whole machine, simulated on this computer: upload, home and print without hardware.</source>
-        <translation>Bütün makine bu bilgisayarda benzetimle: donanım olmadan yükleyin, eve gönderin ve basın.</translation>
+        <translation>Bütün makine bu bilgisayarda benzetimle: donanım olmadan yükleyin, referansa gönderin ve basın.</translation>
     </message>
     <message>
         <source>Try the demo</source>
@@ -3324,8 +3308,8 @@
         <translation>%1 ile bağlantı kuruldu.</translation>
     </message>
     <message>
-        <source>The connection is lost: %1. It comes back by itself; a job on the machine goes on.</source>
-        <translation>Bağlantı koptu: %1. Kendiliğinden geri gelir; makinedeki iş sürer.</translation>
+        <source>The connection is lost: %1. It is tried again by itself. Jobs run on the gateway: a pulled cable does not end them.</source>
+        <translation>Bağlantı koptu: %1. Kendiliğinden yeniden denenir. İşler ağ geçidinde çalışır: çekilen kablo onları bitirmez.</translation>
     </message>
 </context>
 <context>
@@ -3370,7 +3354,7 @@
     </message>
     <message>
         <source>The check of the job found a problem</source>
-        <translation>İşin denetimi bir sorun buldu</translation>
+        <translation>İşin kontrolü bir sorun buldu</translation>
     </message>
     <message>
         <source>Message</source>
@@ -3386,7 +3370,7 @@
     </message>
     <message>
         <source>Control of the machine</source>
-        <translation>Makinenin denetimi</translation>
+        <translation>Makinenin kontrolü</translation>
     </message>
 </context>
 <context>
@@ -3458,6 +3442,10 @@
         <source>No job is running</source>
         <translation>Çalışan iş yok</translation>
     </message>
+    <message>
+        <source>Last known: what the job does now is not.</source>
+        <translation>Son bilinen durum: işin şu anda ne yaptığı bilinmiyor.</translation>
+    </message>
 </context>
 <context>
     <name>kinebus::gui::JobUpload</name>
@@ -3482,7 +3470,7 @@
     </message>
     <message>
         <source>Check</source>
-        <translation>Denetle</translation>
+        <translation>Kontrol et</translation>
     </message>
     <message>
         <source>Time</source>
@@ -3506,7 +3494,7 @@
     </message>
     <message>
         <source>Not checked</source>
-        <translation>Denetlenmedi</translation>
+        <translation>Kontrol edilmedi</translation>
     </message>
     <message numerus="yes">
         <source>%Ln error(s)</source>
@@ -3542,7 +3530,7 @@
     </message>
     <message>
         <source>Refused by the check</source>
-        <translation>Denetimde reddedildi</translation>
+        <translation>Kontrolde reddedildi</translation>
     </message>
     <message>
         <source>Stopped by an alarm</source>
@@ -3569,7 +3557,7 @@
     </message>
     <message>
         <source>Check</source>
-        <translation>Denetle</translation>
+        <translation>Kontrol et</translation>
     </message>
     <message>
         <source>Show</source>
@@ -3585,7 +3573,7 @@
     </message>
     <message>
         <source>What the check has found</source>
-        <translation>Denetimin buldukları</translation>
+        <translation>Kontrolün buldukları</translation>
     </message>
     <message>
         <source>Lines of the job</source>
@@ -3597,7 +3585,7 @@
     </message>
     <message>
         <source>Checking %1…</source>
-        <translation>%1 denetleniyor…</translation>
+        <translation>%1 kontrol ediliyor…</translation>
     </message>
     <message numerus="yes">
         <source>%1: %Ln error(s). It will not start.</source>
@@ -3617,7 +3605,7 @@
     </message>
     <message>
         <source>The gateway checks a whole job against every limit before anything moves.</source>
-        <translation>Ağ geçidi, bir şey kımıldamadan önce işin tümünü her sınıra karşı denetler.</translation>
+        <translation>Ağ geçidi, bir şey kımıldamadan önce işin tümünü her sınıra karşı kontrol eder.</translation>
     </message>
     <message>
         <source>%1 of %2 used</source>
@@ -3641,14 +3629,14 @@
     </message>
     <message>
         <source>Keep</source>
-        <translation>Tut</translation>
+        <translation>Vazgeç</translation>
     </message>
 </context>
 <context>
     <name>kinebus::gui::JogPage</name>
     <message>
         <source>Jog</source>
-        <translation>Elle sürme</translation>
+        <translation>Manuel hareket</translation>
     </message>
     <message>
         <source>Keys: arrows move X and Y, Page Up and Page Down move Z, A and D tilt, Q and W turn the table, 1 to 5 choose the step.</source>
@@ -3672,11 +3660,11 @@
     </message>
     <message>
         <source>Home</source>
-        <translation>Eve gönder</translation>
+        <translation>Referansa git</translation>
     </message>
     <message>
         <source>Wakes the nodes and brings all carriages to their switches</source>
-        <translation>Düğümleri uyandırır ve bütün arabaları anahtarlarına götürür</translation>
+        <translation>Düğümleri uyandırır ve bütün taşıyıcıları anahtarlarına götürür</translation>
     </message>
     <message>
         <source>Bed reference</source>
@@ -3692,7 +3680,7 @@
     </message>
     <message>
         <source>Clear stop</source>
-        <translation>Durdurmayı temizle</translation>
+        <translation>Durdurmayı kaldır</translation>
     </message>
     <message>
         <source>Motors off</source>
@@ -3700,7 +3688,7 @@
     </message>
     <message>
         <source>Positions are lost: the machine must be homed again</source>
-        <translation>Konumlar yitirilir: makine yeniden eve gönderilmelidir</translation>
+        <translation>Konumlar yitirilir: makine yeniden referansa gönderilmelidir</translation>
     </message>
     <message>
         <source>Work offsets</source>
@@ -3712,7 +3700,7 @@
     </message>
     <message>
         <source>Zero here</source>
-        <translation>Burası sıfır</translation>
+        <translation>Burayı sıfırla</translation>
     </message>
     <message>
         <source>The tool&apos;s position becomes the zero of this system</source>
@@ -3783,7 +3771,7 @@
     </message>
     <message>
         <source>Checking…</source>
-        <translation>Denetleniyor…</translation>
+        <translation>Kontrol ediliyor…</translation>
     </message>
     <message>
         <source>The file is right.</source>
@@ -3907,7 +3895,7 @@
     </message>
     <message>
         <source>Jog</source>
-        <translation>Elle sürme</translation>
+        <translation>Manuel hareket</translation>
     </message>
     <message>
         <source>Console</source>
@@ -3928,6 +3916,22 @@
     <message>
         <source>Job</source>
         <translation>İş</translation>
+    </message>
+    <message>
+        <source>Close the demo</source>
+        <translation>Tanıtımı kapat</translation>
+    </message>
+    <message>
+        <source>The demo machine ends with this window, and its job with it.</source>
+        <translation>Tanıtım makinesi bu pencereyle, işi de onunla biter.</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>Kapat</translation>
+    </message>
+    <message>
+        <source>Go on</source>
+        <translation>Sürdür</translation>
     </message>
 </context>
 <context>
@@ -3994,6 +3998,13 @@
     </message>
 </context>
 <context>
+    <name>kinebus::gui::NumberField</name>
+    <message>
+        <source>%1 is not within %2 to %3</source>
+        <translation>%1, %2 ile %3 arasında değil</translation>
+    </message>
+</context>
+<context>
     <name>kinebus::gui::PlotWidget</name>
     <message>
         <source>%1 s ago</source>
@@ -4008,11 +4019,11 @@
     <name>kinebus::gui::PositionPanel</name>
     <message>
         <source>Carriages and axes</source>
-        <translation>Arabalar ve eksenler</translation>
+        <translation>Taşıyıcılar ve eksenler</translation>
     </message>
     <message>
         <source>Heat</source>
-        <translation>Isı</translation>
+        <translation>Sıcaklık</translation>
     </message>
     <message>
         <source>Target temperature of the nozzle</source>
@@ -4045,6 +4056,10 @@
     <message>
         <source>Position not known yet</source>
         <translation>Konum henüz bilinmiyor</translation>
+    </message>
+    <message>
+        <source>Last known position</source>
+        <translation>Son bilinen konum</translation>
     </message>
 </context>
 <context>
@@ -4080,6 +4095,18 @@
         <source>on this computer</source>
         <translation>bu bilgisayarda</translation>
     </message>
+    <message>
+        <source>no gateway runs there</source>
+        <translation>orada çalışan ağ geçidi yok</translation>
+    </message>
+    <message>
+        <source>this user may not use the gateway&apos;s socket</source>
+        <translation>bu kullanıcı ağ geçidinin soketini kullanamaz</translation>
+    </message>
+    <message>
+        <source>the connection on this computer has failed</source>
+        <translation>bu bilgisayardaki bağlantı kurulamadı</translation>
+    </message>
 </context>
 <context>
     <name>kinebus::gui::TopBar</name>
@@ -4101,11 +4128,11 @@
     </message>
     <message>
         <source>Take control</source>
-        <translation>Denetimi al</translation>
+        <translation>Kontrolü al</translation>
     </message>
     <message>
         <source>%1 has control</source>
-        <translation>Denetim %1 programında</translation>
+        <translation>Kontrol %1 programında</translation>
     </message>
     <message>
         <source>Not connected</source>
@@ -4120,10 +4147,6 @@
         <translation>Bağlantı koptu</translation>
     </message>
     <message>
-        <source>A job on the machine goes on.</source>
-        <translation>Makinedeki iş sürer.</translation>
-    </message>
-    <message>
         <source>Connect</source>
         <translation>Bağlan</translation>
     </message>
@@ -4134,6 +4157,14 @@
     <message>
         <source>Choose a gateway</source>
         <translation>Bir ağ geçidi seçin</translation>
+    </message>
+    <message>
+        <source>No news for %1. Last known: %2</source>
+        <translation>%1 süredir haber yok. Son bilinen: %2</translation>
+    </message>
+    <message>
+        <source>No news for %1. Last known: %2, %3 at %4</source>
+        <translation>%1 süredir haber yok. Son bilinen: %2, %3 %4</translation>
     </message>
 </context>
 <context>

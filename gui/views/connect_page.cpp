@@ -165,9 +165,9 @@ void ConnectPage::tell() {
       link_words_->setText(tr("Connected to %1.").arg(session.gateway_title()));
       break;
     case Session::LinkState::kLost:
-      link_words_->setText(
-          tr("The connection is lost: %1. It comes back by itself; a job on the machine goes on.")
-              .arg(session.link_words()));
+      link_words_->setText(tr("The connection is lost: %1. It is tried again by itself. Jobs run on the "
+                              "gateway: a pulled cable does not end them.")
+                               .arg(session.link_words()));
       break;
   }
 }

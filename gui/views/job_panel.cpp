@@ -32,6 +32,9 @@ JobPanel::JobPanel(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(
   name_->setProperty("role", "heading");
   doing_ = make_label("small", card);
   doing_->setWordWrap(true);
+  // Buttons below stay where they are, whether there is something to say or not.
+  doing_->setMinimumHeight(2 * doing_->fontMetrics().lineSpacing());
+  doing_->setAlignment(Qt::AlignTop | Qt::AlignLeading);
   progress_ = new QProgressBar(card);
   progress_->setRange(0, 1000);
   progress_->setTextVisible(false);
@@ -100,7 +103,9 @@ JobPanel::JobPanel(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(
                                      QMessageBox::NoButton, window());
     question->setAttribute(Qt::WA_DeleteOnClose);
     auto* yes = question->addButton(tr("Cancel the job"), QMessageBox::DestructiveRole);
-    question->addButton(tr("Go on"), QMessageBox::RejectRole);
+    auto* no = question->addButton(tr("Go on"), QMessageBox::RejectRole);
+    question->setDefaultButton(no);
+    question->setEscapeButton(no);
     connect(yes, &QAbstractButton::clicked, &desk_.session, &Session::cancel);
     question->open();
   });
@@ -119,15 +124,22 @@ JobPanel::JobPanel(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(
 
 void JobPanel::take_status() {
   const joblink::Status& s = desk_.session.status();
-  const bool connected = desk_.session.connected(), job = connected && !s.job().empty();
+  const bool connected = desk_.session.connected();
+  // What was known when the link broke stays on the screen and is called so.
+  const bool lost = desk_.session.link_state() == Session::LinkState::kLost;
+  const bool job = (connected || lost) && !s.job().empty();
   name_->set_text(job ? QString::fromStdString(s.job()) : tr("No job is running"));
   const bool interrupted = job && s.interrupted() && s.state() != joblink::STATE_HELD;
   // What a job waits for, while nothing moves, is the gateway's to say.
   const bool busy = job && (s.state() == joblink::STATE_RUNNING || s.state() == joblink::STATE_CHECKING);
-  doing_->setText(interrupted ? tr("Interrupted: resume goes on from its place.")
-                  : busy      ? GatewayWords::said(s.doing_said(), s.doing())
-                              : QString());
-  doing_->setVisible(!doing_->text().isEmpty());
+  doing_->setText(lost && job   ? tr("Last known: what the job does now is not.")
+                  : interrupted ? tr("Interrupted: resume goes on from its place.")
+                  : busy        ? GatewayWords::said(s.doing_said(), s.doing())
+                                : QString());
+  for (QWidget* known :
+       {static_cast<QWidget*>(progress_), static_cast<QWidget*>(percent_), static_cast<QWidget*>(elapsed_),
+        static_cast<QWidget*>(remaining_), static_cast<QWidget*>(line_)})
+    known->setEnabled(!lost);
   progress_->setValue(job ? static_cast<int>(std::lround(s.progress() * 1000)) : 0);
   const QString none = QStringLiteral("—");
   percent_->setText(job ? Format::percent(s.progress(), 1) : none);

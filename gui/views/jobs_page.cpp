@@ -332,7 +332,9 @@ void JobsPage::ask_to_delete() {
                                    QMessageBox::NoButton, window());
   question->setAttribute(Qt::WA_DeleteOnClose);
   auto* yes = question->addButton(tr("Delete"), QMessageBox::DestructiveRole);
-  question->addButton(tr("Keep"), QMessageBox::RejectRole);
+  auto* no = question->addButton(tr("Keep"), QMessageBox::RejectRole);
+  question->setDefaultButton(no);
+  question->setEscapeButton(no);
   connect(yes, &QAbstractButton::clicked, &desk_.session, [this, job] { desk_.session.delete_job(job); });
   question->open();
 }

@@ -1,7 +1,6 @@
 #include "gui/views/jog_page.hpp"
 
 #include <QAbstractButton>
-#include <QAbstractSpinBox>
 #include <QChar>
 #include <QEvent>
 #include <QGridLayout>
@@ -161,12 +160,11 @@ QWidget* JogPage::make_steps() {
   row->addStretch(1);
   steps_->button(2)->setChecked(true);
   auto* speed_name = make_label("muted", box);
-  speed_ = new QDoubleSpinBox(box);
+  speed_ = new NumberField(box);
   speed_->setRange(1, 300);
   speed_->setDecimals(0);
   speed_->setValue(50);
   speed_->setFixedWidth(110);
-  speed_->setButtonSymbols(QAbstractSpinBox::NoButtons);
   grid->addWidget(step_name, 0, 0);
   grid->addLayout(row, 0, 1);
   grid->addWidget(speed_name, 1, 0);
@@ -238,10 +236,9 @@ QWidget* JogPage::make_offsets() {
   for (int i = 0; i < 5; ++i) {
     auto* name = make_label("muted", card);
     name->setText(QString::fromLatin1(kAxes[static_cast<std::size_t>(i)]));
-    auto* box = new QDoubleSpinBox(card);
+    auto* box = new NumberField(card);
     box->setRange(-2000, 2000);
     box->setDecimals(3);
-    box->setButtonSymbols(QAbstractSpinBox::NoButtons);
     box->setSuffix(i < 3 ? QStringLiteral(" mm") : QStringLiteral(" °"));
     box->setAccessibleName(name->text());
     grid->addWidget(name, i % 3, i / 3 * 2);

@@ -3,7 +3,6 @@
 
 #include <QButtonGroup>
 #include <QComboBox>
-#include <QDoubleSpinBox>
 #include <QEvent>
 #include <QKeyEvent>
 #include <QLabel>
@@ -12,6 +11,7 @@
 #include <QWidget>
 
 #include "gui/views/desk.hpp"
+#include "gui/views/number_field.hpp"
 #include "gui/views/widgets.hpp"
 
 namespace kinebus::gui {
@@ -38,11 +38,11 @@ class JogPage : public SpeakingWidget {
 
   Desk& desk_;
   QButtonGroup* steps_;
-  QDoubleSpinBox* speed_;
+  NumberField* speed_;
   QVector<QPushButton*> jog_buttons_, turn_buttons_;
   QPushButton *home_, *reference_, *motors_off_, *clear_, *hold_;
   QComboBox* system_;
-  QVector<QDoubleSpinBox*> offset_boxes_;
+  QVector<NumberField*> offset_boxes_;
   QPushButton *zero_here_, *set_offset_;
   QLabel *hint_, *active_offset_;
 };

@@ -8,14 +8,13 @@
 #include <QHBoxLayout>
 #include <QIcon>
 #include <QKeySequence>
-#include <QLabel>
 #include <QLatin1String>
 #include <QLocale>
+#include <QMessageBox>
 #include <QScrollArea>
 #include <QSettings>
 #include <QShortcut>
 #include <QSizePolicy>
-#include <QTimer>
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <QWidget>
@@ -27,19 +26,19 @@
 #include "gui/views/jobs_page.hpp"
 #include "gui/views/jog_page.hpp"
 #include "gui/views/machine_page.hpp"
+#include "gui/views/notice.hpp"
 #include "gui/views/position_panel.hpp"
 #include "gui/views/top_bar.hpp"
 #include "gui/views/view_page.hpp"
 
 namespace kinebus::gui {
 namespace {
-constexpr int kBanner_ms = 9000;
 constexpr int kLayoutVersion = 1;
 constexpr std::array<const char*, MainWindow::kPages> kIcons{"gateway", "view",   "jobs",   "jog",
                                                              "console", "alarms", "machine"};
 }  // namespace
 
-MainWindow::MainWindow(Desk& desk) : desk_(desk), banner_timer_(this) {
+MainWindow::MainWindow(Desk& desk) : desk_(desk) {
   setWindowIcon(QIcon(QStringLiteral(":/icons/kinebus.svg")));
   setWindowTitle(QStringLiteral("Kinebus"));
   setMinimumSize(980, 600);
@@ -60,37 +59,14 @@ MainWindow::MainWindow(Desk& desk) : desk_(desk), banner_timer_(this) {
         static_cast<QWidget*>(machine_)})
     pages_->addWidget(page);
 
-  banner_ = new QWidget(this);
-  banner_->setObjectName(QStringLiteral("banner"));
-  banner_->setProperty("kind", "danger");
-  banner_->setAttribute(Qt::WA_StyledBackground);
-  auto* banner_row = new QHBoxLayout(banner_);
-  banner_row->setContentsMargins(14, 7, 8, 7);
-  banner_text_ = new QLabel(banner_);
-  banner_text_->setWordWrap(true);
-  auto* banner_close = make_tool(desk_.theme, QStringLiteral("cancel"), false, banner_);
-  banner_row->addWidget(banner_text_, 1);
-  banner_row->addWidget(banner_close);
-  banner_->hide();
-  banner_timer_.setSingleShot(true);
-  connect(&banner_timer_, &QTimer::timeout, banner_, &QWidget::hide);
-  connect(banner_close, &QToolButton::clicked, banner_, &QWidget::hide);
-
   auto* centre = new QWidget(this);
   auto* side = new QHBoxLayout(centre);
   side->setContentsMargins(0, 0, 0, 0);
   side->setSpacing(0);
   side->addWidget(make_navigation());
-  auto* column = new QVBoxLayout;
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(0);
-  auto* banner_room = new QVBoxLayout;
-  banner_room->setContentsMargins(12, 0, 12, 0);
-  banner_room->addWidget(banner_);
-  column->addLayout(banner_room);
-  column->addWidget(pages_, 1);
-  side->addLayout(column, 1);
+  side->addWidget(pages_, 1);
   setCentralWidget(centre);
+  notice_ = new Notice(desk_.theme, pages_);
   setMenuWidget(top_);
 
   position_dock_ = make_dock(QStringLiteral("position"), new PositionPanel(desk_));
@@ -104,11 +80,14 @@ MainWindow::MainWindow(Desk& desk) : desk_(desk), banner_timer_(this) {
   connect(jobs_, &JobsPage::show_place, view_, &ViewPage::show_line);
   connect(jobs_, &JobsPage::show_view, this, [this] { show_page(kView); });
   connect(&desk_.session, &Session::link_changed, this, &MainWindow::take_link);
-  connect(&desk_.session, &Session::refused, this, &MainWindow::take_refusal);
+  connect(&desk_.session, &Session::refused, notice_, &Notice::tell);
   connect(&desk_.events, &EventsModel::open_alarms_changed, this, &MainWindow::retranslate);
+  connect(&desk_.events, &EventsModel::open_alarms_changed, this, [this] {
+    if (desk_.events.open_alarms() == 0) notice_->end_alarm();
+  });
   connect(&desk_.events, &EventsModel::alarm_arrived, this, [this] {
-    take_refusal(desk_.events.index(0).data(EventsModel::kTitle).toString() + QStringLiteral(" — ") +
-                 desk_.events.index(0).data(EventsModel::kAdvice).toString());
+    notice_->tell_alarm(desk_.events.index(0).data(EventsModel::kTitle).toString() + QStringLiteral(" — ") +
+                        desk_.events.index(0).data(EventsModel::kAdvice).toString());
   });
   for (int i = 0; i < kPages; ++i) {
     auto* shortcut = new QShortcut(QKeySequence(Qt::CTRL | static_cast<Qt::Key>(Qt::Key_1 + i)), this);
@@ -223,12 +202,6 @@ void MainWindow::take_link() {
   was_connected_ = connected;
 }
 
-void MainWindow::take_refusal(const QString& words) {
-  banner_text_->setText(words);
-  banner_->show();
-  banner_timer_.start(kBanner_ms);
-}
-
 void MainWindow::set_theme(bool dark) {
   desk_.theme.apply(dark);
 }
@@ -263,7 +236,29 @@ void MainWindow::restore(QSettings& settings) {
   view_->restore(settings);
 }
 
+void MainWindow::ask_before_the_demo_ends() {
+  auto* question = new QMessageBox(QMessageBox::Question, tr("Close the demo"),
+                                   tr("The demo machine ends with this window, and its job with it."),
+                                   QMessageBox::NoButton, this);
+  question->setAttribute(Qt::WA_DeleteOnClose);
+  auto* yes = question->addButton(tr("Close"), QMessageBox::DestructiveRole);
+  auto* no = question->addButton(tr("Go on"), QMessageBox::RejectRole);
+  question->setDefaultButton(no);
+  question->setEscapeButton(no);
+  connect(yes, &QAbstractButton::clicked, this, [this] {
+    end_of_demo_is_wanted_ = true;
+    close();
+  });
+  question->open();
+}
+
 void MainWindow::closeEvent(QCloseEvent* event) {
+  if (desk_.demo != nullptr && desk_.session.connected() && !desk_.session.status().job().empty() &&
+      !end_of_demo_is_wanted_) {
+    event->ignore();
+    ask_before_the_demo_ends();
+    return;
+  }
   QSettings settings;
   save(settings);
   event->accept();

@@ -23,6 +23,7 @@ class ConsolePage;
 class JobsPage;
 class JogPage;
 class MachinePage;
+class Notice;
 class TopBar;
 class ViewPage;
 
@@ -45,6 +46,7 @@ class MainWindow : public QMainWindow {
   MachinePage& machine_page() { return *machine_; }
   ConnectPage& connect_page() { return *connect_; }
   TopBar& top_bar() { return *top_; }
+  Notice& notice() { return *notice_; }
 
  protected:
   void closeEvent(QCloseEvent* event) override;
@@ -57,7 +59,8 @@ class MainWindow : public QMainWindow {
   /// The panels stand where a line of text ends: right, or left when one reads from right to left.
   void mirror_docks();
   void take_link();
-  void take_refusal(const QString& words);
+  /// A demo machine ends with this window: a print on it is not ended by a slip.
+  void ask_before_the_demo_ends();
 
   Desk& desk_;
   TopBar* top_;
@@ -71,11 +74,10 @@ class MainWindow : public QMainWindow {
   AlarmsPage* alarms_;
   MachinePage* machine_;
   QDockWidget *position_dock_, *job_dock_;
-  QWidget* banner_;
-  QLabel* banner_text_;
-  QTimer banner_timer_;
+  Notice* notice_;
   bool was_connected_ = false;
   bool docks_mirrored_ = false;
+  bool end_of_demo_is_wanted_ = false;
 };
 
 }  // namespace kinebus::gui

@@ -1,6 +1,5 @@
 #include "gui/views/position_panel.hpp"
 
-#include <QAbstractSpinBox>
 #include <QColor>
 #include <QFont>
 #include <QGridLayout>
@@ -76,6 +75,7 @@ PositionPanel::PositionPanel(Desk& desk, QWidget* parent) : SpeakingWidget(paren
   setMinimumWidth(268);
   connect(&desk_.session, &Session::machine_changed, this, &PositionPanel::rebuild_joints);
   connect(&desk_.session, &Session::status_changed, this, &PositionPanel::take_status);
+  connect(&desk_.session, &Session::link_changed, this, &PositionPanel::take_status);
   connect(&desk_.theme, &Theme::changed, this, &PositionPanel::take_status);
   rebuild_joints();
   says([this] {
@@ -129,22 +129,21 @@ QWidget* PositionPanel::make_heaters() {
   grid->setHorizontalSpacing(10);
   grid->setVerticalSpacing(5);
   grid->setColumnStretch(1, 1);
-  const auto add = [&](int row, QLabel*& actual, QDoubleSpinBox*& target, double max, bool bed) {
+  const auto add = [&](int row, QLabel*& actual, NumberField*& target, double max, bool bed) {
     auto* name = new QLabel(card);
     actual = new QLabel(card);
-    target = new QDoubleSpinBox(card);
+    target = new NumberField(card);
     target->setRange(0, max);
     target->setDecimals(0);
     target->setSingleStep(5);
     target->setSuffix(QStringLiteral(" °C"));
-    target->setKeyboardTracking(false);
-    target->setButtonSymbols(QAbstractSpinBox::NoButtons);
     target->setAlignment(Qt::AlignRight);
     target->setFixedWidth(84);
     grid->addWidget(name, row, 0);
     grid->addWidget(actual, row, 1, Qt::AlignTrailing);
     grid->addWidget(target, row, 2);
-    connect(target, &QDoubleSpinBox::editingFinished, this, [this, target, bed] {
+    connect(target, &NumberField::refused, &desk_.session, &Session::refused);
+    connect(target, &NumberField::editingFinished, this, [this, target, bed] {
       const auto& heater = bed ? desk_.session.status().bed() : desk_.session.status().hotend();
       if (desk_.session.connected() && std::abs(target->value() - heater.target_celsius()) > 0.5)
         desk_.session.set_temperature(bed, target->value());
@@ -194,7 +193,9 @@ void PositionPanel::rebuild_joints() {
 
 void PositionPanel::take_status() {
   const joblink::Status& s = desk_.session.status();
-  const bool known = desk_.session.connected() && s.positions_known();
+  // What was known when the link broke stays, grey, and is called so.
+  const bool lost = desk_.session.link_state() == Session::LinkState::kLost;
+  const bool known = (desk_.session.connected() || lost) && s.positions_known();
   const joblink::Pose& t = s.tool();
   const std::array<double, 6> values{
       t.x_mm(), t.y_mm(), t.z_mm(), t.a_rad() * kDegPerRad, t.c_rad() * kDegPerRad, t.e_mm()};
@@ -202,10 +203,13 @@ void PositionPanel::take_status() {
     const double v = values[static_cast<std::size_t>(i)];
     // Coordinates keep the digits of G-code in every language.
     const double shown = std::abs(v) < 5e-4 ? 0 : v;
+    axes_[i].value->setEnabled(!lost);
     axes_[i].value->setText(known ? QString::number(shown, 'f', i == 3 || i == 4 ? 2 : 3)
                                   : QStringLiteral("—"));
   }
-  frame_text_->setText(known ? tr("Tool over the part") : tr("Position not known yet"));
+  frame_text_->setText(lost    ? tr("Last known position")
+                       : known ? tr("Tool over the part")
+                               : tr("Position not known yet"));
   for (int i = 0; i < joints_.size(); ++i) {
     const int number = joints_[i].joint;
     if (number >= desk_.session.machine().joints_size()) break;  // the gateway was left
@@ -215,12 +219,15 @@ void PositionPanel::take_status() {
     joints_[i].value->setText(
         here ? QString::number(joint.rotary() ? q * kDegPerRad : q, 'f', joint.rotary() ? 2 : 3)
              : QStringLiteral("—"));
+    joints_[i].value->setEnabled(!lost);
     const double span = joint.travel().max() - joint.travel().min();
     const double share = here && span > 0 ? (q - joint.travel().min()) / span : -1;
     const bool near = share >= 0 && (share < 0.04 || share > 0.96);
-    joints_[i].bar->set(share, near ? desk_.theme.colours().waiting : desk_.theme.colours().accent);
+    joints_[i].bar->set(share, lost   ? palette().color(QPalette::Mid)
+                               : near ? desk_.theme.colours().waiting
+                                      : desk_.theme.colours().accent);
   }
-  const auto heat = [&](QLabel* actual, QDoubleSpinBox* target, const joblink::Heater& heater) {
+  const auto heat = [&](QLabel* actual, NumberField* target, const joblink::Heater& heater) {
     actual->setText(desk_.session.connected() ? Format::isolated(Format::temperature(heater.actual_celsius()))
                                               : QStringLiteral("—"));
     // Set only when it is another: a spin box paints itself, and with it the whole window, even for the same.

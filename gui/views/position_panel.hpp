@@ -3,7 +3,6 @@
 // heaters.
 
 #include <QColor>
-#include <QDoubleSpinBox>
 #include <QGridLayout>
 #include <QLabel>
 #include <QPaintEvent>
@@ -11,6 +10,7 @@
 #include <QWidget>
 
 #include "gui/views/desk.hpp"
+#include "gui/views/number_field.hpp"
 #include "gui/views/widgets.hpp"
 
 namespace kinebus::gui {
@@ -54,7 +54,7 @@ class PositionPanel : public SpeakingWidget {
   Card* joints_card_;
   QGridLayout* joints_grid_;
   QLabel *frame_text_, *joints_heading_, *heat_heading_, *hotend_, *bed_, *fan_;
-  QDoubleSpinBox *hotend_target_, *bed_target_;
+  NumberField *hotend_target_, *bed_target_;
   QVector<JointRow> joints_;
 };
 

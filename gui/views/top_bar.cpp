@@ -120,6 +120,8 @@ TopBar::TopBar(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(desk
   connect(control_, &QPushButton::clicked, this, [this] { desk_.session.take_control(true); });
   connect(&desk_.session, &Session::status_changed, this, &TopBar::take);
   connect(&desk_.session, &Session::link_changed, this, &TopBar::take);
+  silence_.setInterval(1000);
+  connect(&silence_, &QTimer::timeout, this, &TopBar::take);
   connect(&desk_.theme, &Theme::changed, this, [this] {
     colour_stop();
     take();
@@ -154,6 +156,11 @@ void TopBar::take() {
       if (client.id() == s.controller())
         control_->setToolTip(tr("%1 has control").arg(QString::fromStdString(client.name())));
   QString doing;
+  const auto silent = [&] { return Format::isolated(Format::duration(session.status_age_s())); };
+  if (session.link_state() != Session::LinkState::kLost)
+    silence_.stop();
+  else if (!silence_.isActive())
+    silence_.start();
   switch (session.link_state()) {
     case Session::LinkState::kNone:
       chip_->set(tr("Not connected"), desk_.theme.tone(StateTone::kNeutral));
@@ -163,7 +170,12 @@ void TopBar::take() {
       break;
     case Session::LinkState::kLost:
       chip_->set(tr("Connection lost"), desk_.theme.tone(StateTone::kWaiting));
-      doing = tr("A job on the machine goes on.");
+      doing =
+          s.job().empty()
+              ? tr("No news for %1. Last known: %2").arg(silent(), StateWords::title(s.state()))
+              : tr("No news for %1. Last known: %2, %3 at %4")
+                    .arg(silent(), StateWords::title(s.state()),
+                         Format::isolated(QString::fromStdString(s.job())), Format::percent(s.progress(), 1));
       break;
     case Session::LinkState::kConnected:
       chip_->set(StateWords::title(s.state()), desk_.theme.tone(StateWords::tone(s.state())));

@@ -7,6 +7,7 @@
 #include <QPaintEvent>
 #include <QPushButton>
 #include <QSize>
+#include <QTimer>
 #include <QToolButton>
 #include <QWidget>
 
@@ -56,6 +57,7 @@ class TopBar : public SpeakingWidget {
   QToolButton *connection_, *language_, *theme_;
   QPushButton *control_, *stop_;
   QMenu* languages_;
+  QTimer silence_;  ///< the words tell how long, while the link is lost
 };
 
 }  // namespace kinebus::gui

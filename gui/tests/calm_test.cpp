@@ -1,0 +1,157 @@
+// Nothing by accident, and nothing shown that is not known.
+#include <gtest/gtest.h>
+
+#include <QAbstractButton>
+#include <QApplication>
+#include <QKeyEvent>
+#include <QLabel>
+#include <QMessageBox>
+#include <QPoint>
+#include <QPushButton>
+#include <QStackedWidget>
+#include <QString>
+#include <QWheelEvent>
+#include <memory>
+#include <stdexcept>
+
+#include "gui/tests/window_fixture.hpp"
+#include "gui/views/notice.hpp"
+#include "gui/views/number_field.hpp"
+#include "gui/views/top_bar.hpp"
+
+namespace kinebus::gui {
+namespace {
+
+void type(QWidget& where, const QString& text) {
+  for (const QChar c : text) {
+    QKeyEvent press(QEvent::KeyPress, 0, Qt::NoModifier, QString(c));
+    QApplication::sendEvent(&where, &press);
+  }
+  QKeyEvent enter(QEvent::KeyPress, Qt::Key_Return, Qt::NoModifier);
+  QApplication::sendEvent(&where, &enter);
+}
+
+void turn_wheel_over(QWidget& where) {
+  QWheelEvent wheel(where.rect().center(), where.mapToGlobal(where.rect().center()), {}, QPoint(0, 120),
+                    Qt::NoButton, Qt::NoModifier, Qt::NoScrollPhase, false);
+  QApplication::sendEvent(&where, &wheel);
+}
+
+class CalmTest : public WindowTest {
+ protected:
+  void SetUp() override {
+    gateway.machine.set_bed_max_celsius(120);
+    show_connected();
+    window->activateWindow();
+    ASSERT_TRUE(wait_until([&] { return desk.session.machine().bed_max_celsius() == 120; }));
+  }
+  NumberField& bed() {
+    for (auto* field : window->findChildren<NumberField*>())
+      if (field->accessibleName() == QStringLiteral("Target temperature of the bed")) return *field;
+    throw std::runtime_error("no field for the bed");
+  }
+  int temperatures_sent() const { return gateway.count(joblink::ClientMessage::kSetTemperature); }
+  bool shows(const QString& text) const {
+    for (const auto* label : window->findChildren<QLabel*>())
+      if (label->isVisible() && label->text().contains(text)) return true;
+    return false;
+  }
+  QMessageBox* question() const { return window->findChild<QMessageBox*>(); }
+};
+
+TEST_F(CalmTest, TheWheelOverAFieldWithoutFocusChangesNothing) {
+  NumberField& field = bed();
+  field.clearFocus();
+  turn_wheel_over(field);
+  EXPECT_EQ(field.value(), 0);
+  EXPECT_EQ(temperatures_sent(), 0);
+}
+
+TEST_F(CalmTest, ANumberOutOfRangeIsRefusedAsAWhole) {
+  NumberField& field = bed();
+  field.setFocus();
+  field.selectAll();
+  type(field, QStringLiteral("400"));
+  EXPECT_EQ(field.value(), 0);
+  EXPECT_EQ(temperatures_sent(), 0);
+  EXPECT_EQ(window->notice().words().remove(QChar(0x2066)).remove(QChar(0x2069)),
+            QStringLiteral("400 is not within 0 to 120 °C"));
+  EXPECT_TRUE(window->notice().isVisible());
+  field.selectAll();
+  type(field, QStringLiteral("60"));
+  EXPECT_EQ(field.value(), 60);
+  EXPECT_TRUE(wait_until([&] { return temperatures_sent() == 1; }));
+}
+
+TEST_F(CalmTest, ANoticeMovesNothing) {
+  const QWidget* page = window->findChild<QStackedWidget*>()->currentWidget();
+  const QPoint before = page->mapToGlobal(QPoint(0, 0));
+  window->notice().tell(QStringLiteral("out of reach"));
+  QApplication::processEvents();
+  EXPECT_EQ(page->mapToGlobal(QPoint(0, 0)), before);
+}
+
+TEST_F(CalmTest, AnAlarmStaysWhileItIsOpen) {
+  joblink::Event event;
+  event.set_kind(joblink::EVENT_ALARM);
+  event.set_words("a heater is above its limit");
+  gateway.status.set_state(joblink::STATE_ALARM);
+  gateway.send_status();
+  gateway.say(event);
+  ASSERT_TRUE(wait_until([&] { return window->notice().isVisible(); }));
+  window->notice().tell(QStringLiteral("clear the alarm first"));
+  EXPECT_EQ(window->notice().words().count(QLatin1Char('\n')), 1) << window->notice().words().toStdString();
+}
+
+TEST_F(CalmTest, QuestionsWaitOnTheHarmlessAnswer) {
+  gateway.status.set_state(joblink::STATE_RUNNING);
+  gateway.status.set_job("vase.gcode");
+  gateway.allow({joblink::COMMAND_HOLD, joblink::COMMAND_CANCEL});
+  gateway.send_status();
+  QPushButton* cancel = nullptr;
+  for (auto* button : window->findChildren<QPushButton*>())
+    if (button->text() == QStringLiteral("Cancel")) cancel = button;
+  ASSERT_NE(cancel, nullptr);
+  ASSERT_TRUE(wait_until([&] { return cancel->isEnabled(); }));
+  cancel->click();
+  ASSERT_NE(question(), nullptr);
+  EXPECT_EQ(question()->defaultButton()->text(), QStringLiteral("Go on"));
+  EXPECT_EQ(question()->escapeButton()->text(), QStringLiteral("Go on"));
+  question()->defaultButton()->click();
+  EXPECT_EQ(gateway.count(joblink::ClientMessage::kCancel), 0);
+}
+
+TEST_F(CalmTest, ADemoWithAJobDoesNotEndByASlip) {
+  gateway.status.set_state(joblink::STATE_RUNNING);
+  gateway.status.set_job("vase.gcode");
+  gateway.send_status();
+  ASSERT_TRUE(wait_until([&] { return desk.session.status().job() == "vase.gcode"; }));
+  desk.demo = std::make_unique<DemoGateway>();
+  EXPECT_FALSE(window->close());
+  ASSERT_NE(question(), nullptr);
+  question()->defaultButton()->click();
+  EXPECT_TRUE(window->isVisible());
+  desk.demo.reset();
+  EXPECT_TRUE(window->close());
+}
+
+TEST_F(CalmTest, ALostLinkIsSaidAndWhatWasKnownIsCalledSo) {
+  gateway.status.set_state(joblink::STATE_RUNNING);
+  gateway.status.set_job("vase.gcode");
+  gateway.status.set_progress(0.42);
+  gateway.status.set_positions_known(true);
+  gateway.status.mutable_tool()->set_x_mm(12.5);
+  gateway.send_status();
+  ASSERT_TRUE(wait_until([&] { return shows(QStringLiteral("12.500")); }));
+  gateway.break_link();
+  ASSERT_TRUE(wait_until([&] { return desk.session.link_state() == Session::LinkState::kLost; }));
+  EXPECT_EQ(window->top_bar().chip().words(), QStringLiteral("Connection lost"));
+  EXPECT_TRUE(shows(QStringLiteral("No news for")));
+  EXPECT_TRUE(shows(QStringLiteral("Last known position")));
+  EXPECT_FALSE(shows(QStringLiteral("No job is running")));
+  for (const auto* label : window->findChildren<QLabel*>())
+    EXPECT_FALSE(label->text() == QStringLiteral("12.500") && label->isEnabled());
+}
+
+}  // namespace
+}  // namespace kinebus::gui
