@@ -50,4 +50,5 @@ set(CPACK_DEBIAN_DAEMON_PACKAGE_CONTROL_EXTRA
 set(CPACK_DEBIAN_CLI_PACKAGE_NAME kinebus-cli)
 set(CPACK_COMPONENT_CLI_DESCRIPTION
   "Kinebus command line\n Commands the gateway daemon, plans and simulates jobs, offers virtual nodes and scans workspaces.")
+set(CPACK_DEBIAN_CLI_PACKAGE_SUGGESTS "wireshark, tshark")
 include(CPack)

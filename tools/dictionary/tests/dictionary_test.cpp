@@ -16,6 +16,7 @@
 #include "protocol/motion/segment.hpp"
 #include "tools/dictionary/dbc.hpp"
 #include "tools/dictionary/eds.hpp"
+#include "tools/dictionary/frame_fields.hpp"
 
 namespace kinebus {
 namespace {
@@ -163,6 +164,9 @@ struct Signal {
   int start = 0, bits = 0;
   bool is_signed = false;
   double factor = 0;
+  bool selects = false;              // other signals are there by its raw value ...
+  std::string selector;              // ... and this one by that of `selector`
+  std::pair<long, long> when{0, 0};  // from, to
 };
 struct Message {
   std::string name, sender;
@@ -186,13 +190,43 @@ std::map<unsigned, Message> read_dbc(const std::string& text) {
       m.name = name;
       m.sender = sender;
       current = &(messages[id] = m);
-    } else if (std::sscanf(line.c_str(), " SG_ %63s : %d|%d@1%c (%lf,0) [0|0] \"%63[^\n]", name, &s.start,
-                           &s.bits, &sign, &s.factor, unit) == 6) {
+    } else if (line.rfind(" SG_ ", 0) == 0) {
+      std::istringstream words(line.substr(5));
+      std::string signal, mark, rest;
+      words >> signal >> mark;
+      if (mark != ":") {
+        s.selects = mark.back() == 'M';
+        if (mark != "M") {
+          EXPECT_EQ(mark.front(), 'm') << line;
+          s.when.first = s.when.second = std::stol(mark.substr(1));
+          s.selector = "?";
+        }
+        words >> mark;
+      }
+      EXPECT_EQ(mark, ":") << line;
+      std::getline(words, rest);
+      EXPECT_EQ(std::sscanf(rest.c_str(), " %d|%d@1%c (%lf,0) [0|0] \"%63[^\n]", &s.start, &s.bits, &sign,
+                            &s.factor, unit),
+                5)
+          << line;
       EXPECT_NE(current, nullptr);
       s.is_signed = sign == '-';
-      EXPECT_TRUE(current->signals.emplace(name, s).second) << line;
+      EXPECT_TRUE(current->signals.emplace(signal, s).second) << line;
       EXPECT_LE(s.start + s.bits, 8 * current->length) << line;
-      current->order.emplace_back(name);
+      current->order.emplace_back(signal);
+    } else if (line.rfind("SG_MUL_VAL_ ", 0) == 0) {
+      char selector[64];
+      long low = 0, high = 0;
+      EXPECT_EQ(
+          std::sscanf(line.c_str(), "SG_MUL_VAL_ %u %63s %63s %ld-%ld;", &id, name, selector, &low, &high), 5)
+          << line;
+      Message& of = messages.at(id);
+      Signal& signal = of.signals.at(name);
+      EXPECT_EQ(signal.selector, "?") << line;
+      EXPECT_EQ(signal.when.first, low) << line;
+      EXPECT_TRUE(of.signals.at(selector).selects) << line;
+      signal.selector = selector;
+      signal.when = {low, high};
     } else {
       EXPECT_EQ(line.find("SG_ "), line.rfind("CM_ SG_ ", 0) == 0 ? 4u : std::string::npos)
           << "not read: " << line;
@@ -201,13 +235,24 @@ std::map<unsigned, Message> read_dbc(const std::string& text) {
   return messages;
 }
 
-double decode(const Message& message, const std::string& signal, const CanFrame& frame) {
-  const Signal& s = message.signals.at(signal);
+std::int64_t raw_value(const Signal& s, const CanFrame& frame) {
   std::uint64_t raw = get_u64_le(frame.data) >> s.start;
   if (s.bits < 64) raw &= (std::uint64_t{1} << s.bits) - 1;
   auto value = static_cast<std::int64_t>(raw);
   if (s.is_signed && s.bits < 64 && ((raw >> (s.bits - 1)) & 1) != 0) value -= std::int64_t{1} << s.bits;
-  return static_cast<double>(value) * s.factor;
+  return value;
+}
+/// By its selector and the selector's own, is the signal in this frame?
+bool is_there(const Message& message, const std::string& signal, const CanFrame& frame) {
+  const Signal& s = message.signals.at(signal);
+  if (s.selector.empty()) return true;
+  const std::int64_t value = raw_value(message.signals.at(s.selector), frame);
+  return is_there(message, s.selector, frame) && value >= s.when.first && value <= s.when.second;
+}
+double decode(const Message& message, const std::string& signal, const CanFrame& frame) {
+  EXPECT_TRUE(is_there(message, signal, frame)) << signal;
+  const Signal& s = message.signals.at(signal);
+  return static_cast<double>(raw_value(s, frame)) * s.factor;
 }
 CanFrame frame_of(std::uint64_t record) {
   CanFrame frame{.length = 8};
@@ -217,7 +262,7 @@ CanFrame frame_of(std::uint64_t record) {
 
 TEST(Dbc, PdosAreThoseOfTheTable) {
   using namespace object_table;
-  const auto messages = read_dbc(dbc_text(kBoard));
+  const auto messages = read_dbc(dbc_text(nodes_of(kBoard)));
   const auto check = [&](const PdoDefault& pdo, unsigned id) {
     ASSERT_EQ(messages.count(id), 1u) << pdo.name;
     const Message& m = messages.at(id);
@@ -233,7 +278,7 @@ TEST(Dbc, PdosAreThoseOfTheTable) {
     for (const auto& name : m.order) got.emplace_back(m.signals.at(name).start, m.signals.at(name).bits);
     EXPECT_EQ(got, expected) << pdo.name;
   };
-  for (unsigned node = 1; node <= kDbcNodes; ++node) {
+  for (unsigned node = 1; node <= 3; ++node) {
     for (const auto& pdo : kAxisPairTpdos)
       if ((pdo.cob_id & kPdoOff) == 0) check(pdo, (pdo.cob_id & 0x7FF) + node);
     for (const auto& pdo : kAxisPairRpdos) check(pdo, (pdo.cob_id & 0x7FF) + (pdo.plus_node_id ? node : 0));
@@ -245,14 +290,16 @@ TEST(Dbc, PdosAreThoseOfTheTable) {
 }
 
 TEST(Dbc, PackedRecordsDecodeAsTheCodecPacks) {
-  const auto messages = read_dbc(dbc_text(kBoard));
+  const auto messages = read_dbc(dbc_text(nodes_of(kBoard)));
   const CanFrame segment =
       frame_of(encode(Segment{.sequence = 101, .duration = 5000, .acceleration = {-2000000, 77}}));
   const Message& m = messages.at(0x402);
   EXPECT_EQ(decode(m, "Sequence", segment), 101);
   EXPECT_EQ(decode(m, "Duration", segment), 80000);
-  EXPECT_EQ(decode(m, "Acceleration_A", segment), -2000000);
-  EXPECT_EQ(decode(m, "Acceleration_B", segment), 77);
+  const double unit = 8 / 4294967296.0 / (16e-6 * 16e-6);  // of the default shift, counts/s2
+  EXPECT_NEAR(decode(m, "Acceleration_A", segment), -2000000 * unit, 1e-6);
+  EXPECT_NEAR(decode(m, "Acceleration_B", segment), 77 * unit, 1e-6);
+  EXPECT_FALSE(is_there(m, "Control", segment) || is_there(m, "Start", segment));
 
   const CanFrame checkpoint = frame_of(encode(Checkpoint{9, 1, -(std::int64_t{3} << 31)}));
   EXPECT_EQ(decode(messages.at(0x501), "Sequence", checkpoint), 9);
@@ -291,16 +338,63 @@ TEST(Dbc, PackedRecordsDecodeAsTheCodecPacks) {
   EXPECT_EQ(decode(messages.at(0x082), "StopStart", emergency), 10000);
 }
 
-TEST(Dbc, EverySignalOfAMessageHasItsOwnBits) {
-  for (const auto& [id, message] : read_dbc(dbc_text(kBoard))) {
-    std::uint64_t used = 0;
-    for (const auto& [name, s] : message.signals) {
-      const std::uint64_t mask = (s.bits == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << s.bits) - 1)
-                                 << s.start;
-      EXPECT_EQ(used & mask, 0u) << message.name << " " << name;
-      used |= mask;
+TEST(Dbc, StartAndEndRecordsDecodeByTheirMultiplexor) {
+  const auto messages = read_dbc(dbc_text(nodes_of(kBoard)));
+  const Message& m = messages.at(0x402);
+  const std::uint64_t start_record =
+      encode(Segment{.sequence = 5, .control = SegmentControl::kStart, .start_units = 0x12'3456'789A});
+  const CanFrame start = frame_of(start_record);
+  EXPECT_EQ(decode(m, "Sequence", start), 5);
+  EXPECT_EQ(decode(m, "Duration", start), 0);
+  EXPECT_EQ(decode(m, "Control", start), 1);
+  EXPECT_EQ(decode(m, "Start", start), 16.0 * 0x12'3456'789A);
+  EXPECT_EQ(decode(m, "RecordCheck", start), static_cast<double>(start_record >> 61));
+  EXPECT_FALSE(is_there(m, "Acceleration_A", start) || is_there(m, "Acceleration_B", start));
+
+  const CanFrame end = frame_of(encode(Segment{.sequence = 6, .control = SegmentControl::kEnd}));
+  EXPECT_EQ(decode(m, "Sequence", end), 6);
+  EXPECT_EQ(decode(m, "Control", end), 2);
+  EXPECT_FALSE(is_there(m, "Start", end));
+}
+
+TEST(Dbc, HasTheNodesThatAreNamed) {
+  const NodeList list = read_nodes("2,40-41,20:heat", kBoard);
+  ASSERT_EQ(list.error, "");
+  const auto messages = read_dbc(dbc_text(list.nodes));
+  for (const unsigned node : {2u, 40u, 41u}) EXPECT_EQ(messages.at(0x180 + node).length, 7) << node;
+  const Message& temperatures = messages.at(0x294);
+  EXPECT_EQ(temperatures.name, "NODE20_Temperatures");
+  CanFrame frame{.length = 8};
+  put_u16_le(frame.data, 2005);
+  EXPECT_NEAR(decode(temperatures, "Sensor1", frame), 200.5, 1e-9);
+  EXPECT_EQ(messages.count(0x181), 0u);
+  EXPECT_EQ(messages.count(kRateCobId), 1u);
+
+  for (const char* wrong : {"", "0", "127", "1-", "3-1", "1,,2", "a", "1,1", "1-3,2:heat", "4:oven", "1:"})
+    EXPECT_FALSE(read_nodes(wrong, kBoard).error.empty()) << wrong;
+}
+
+TEST(Dictionaries, ScaleEveryUnitThatHasANumber) {
+  for (const BoardDescription& board : kBoards)
+    for (const ObjectNames& names : board.names) {
+      const ScaledUnit unit = scaled_unit(names.unit);
+      const bool number = !unit.unit.empty() && unit.unit.front() >= '0' && unit.unit.front() <= '9';
+      EXPECT_TRUE(!number || unit.unit == "1/min" || unit.unit == "1/s") << names.unit;
     }
-  }
+}
+
+TEST(Dbc, EverySignalOfAMessageHasItsOwnBits) {
+  for (const auto& [id, message] : read_dbc(dbc_text(nodes_of(kBoard))))
+    for (const auto& [name, s] : message.signals)
+      for (const auto& [other_name, other] : message.signals) {
+        // Signals that are never there together may share bits.
+        const bool apart = s.start + s.bits <= other.start || other.start + other.bits <= s.start;
+        const bool either = s.selector != other.selector || s.when.second < other.when.first ||
+                            other.when.second < s.when.first;
+        const bool by_selector = !s.selector.empty() && !other.selector.empty() && either;
+        EXPECT_TRUE(name == other_name || apart || by_selector)
+            << message.name << " " << name << " " << other_name;
+      }
 }
 
 }  // namespace
