@@ -10,6 +10,7 @@
 #include "gateway/io/log_queue.hpp"
 #include "gateway/service.hpp"
 #include "protocol/host/guarded_main.hpp"
+#include "protocol/host/usage.hpp"
 
 namespace {
 
@@ -22,7 +23,7 @@ int run(int argc, char** argv) {
   kinebus::Arguments arguments;
   CLI::App app("kinebusd: the Kinebus gateway. Plans G-code and moves the machine's CAN nodes.");
   kinebus::add_options(app, arguments);
-  CLI11_PARSE(app, argc, argv);
+  if (const auto end = kinebus::parse_arguments(app, argc, argv)) return *end;
   const auto log = std::make_shared<kinebus::LogQueue>(STDERR_FILENO);
   spdlog::set_default_logger(std::make_shared<spdlog::logger>("kinebusd", log));
   spdlog::set_level(spdlog::level::from_str(arguments.log_level));

@@ -16,6 +16,7 @@
 #include "gateway/description/machine_rules.hpp"
 #include "gateway/description/machine_schema.hpp"
 #include "gateway/gcode/recording.hpp"
+#include "gateway/near_word.hpp"
 
 namespace kinebus {
 namespace {
@@ -44,22 +45,6 @@ Sentence shown(const toml::node& node) {
   constexpr std::size_t kLongest = 80;
   if (text.size() > kLongest) text = text.substr(0, kLongest) + "...";
   return Sentence::verbatim(std::move(text));
-}
-
-/// Levenshtein distance, for "did you mean".
-std::size_t distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t k = 0; k <= b.size(); ++k) row[k] = k;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t k = 1; k <= b.size(); ++k) {
-      const std::size_t above = row[k];
-      row[k] = std::min({row[k] + 1, row[k - 1] + 1, diagonal + (a[i - 1] == b[k - 1] ? 0u : 1u)});
-      diagonal = above;
-    }
-  }
-  return row[b.size()];
 }
 
 class Reader {
@@ -362,21 +347,17 @@ class Reader {
 
   void unknown(const toml::key& key, const Level& l) {
     const std::string_view name = key.str().substr(0, 100);
-    const std::string* nearest = nullptr;
-    std::size_t nearest_distance = 1 + name.size() / 3;
+    std::vector<std::string_view> keys;
     std::string all;
     for (const std::string& k : l.known) {
       if (l.removed.contains(k)) continue;
       all += (all.empty() ? "" : ", ") + k;
-      const std::size_t d = distance(k, name);
-      if (d <= nearest_distance && (nearest == nullptr || d < nearest_distance)) {
-        nearest = &k;
-        nearest_distance = d;
-      }
+      keys.emplace_back(k);
     }
+    const std::string_view nearest = near_word(keys, name);
     const std::string full = l.path.empty() ? std::string(name) : l.path + "." + std::string(name);
     Sentence expected = l.others;
-    if (expected.empty()) expected = nearest != nullptr ? say("perhaps %1", *nearest) : say("one of %1", all);
+    if (expected.empty()) expected = !nearest.empty() ? say("perhaps %1", nearest) : say("one of %1", all);
     errors_.push_back(
         {file_, key.source().begin.line, full, say("a key that does not exist"), std::move(expected)});
   }

@@ -1,5 +1,6 @@
 #pragma once
-// What the gateway refuses or alarms about, over the page: nothing moves under the pointer when it comes or goes.
+// What the gateway refuses or alarms about, over the page: nothing moves under the pointer when it comes or
+// goes.
 
 #include <QEvent>
 #include <QLabel>

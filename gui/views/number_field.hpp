@@ -1,6 +1,6 @@
 #pragma once
-// A field for a number that never changes by accident: the wheel turns it only while it has the focus, and a number out of
-// range is refused as a whole instead of being cut to its first digits.
+// A field for a number that never changes by accident: the wheel turns it only while it has the focus, and a
+// number out of range is refused as a whole instead of being cut to its first digits.
 
 #include <QDoubleSpinBox>
 #include <QString>

@@ -270,7 +270,7 @@ void run(int argc, char** argv, int& code) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    code = app.exit(e);
+    code = app.exit(e) == 0 ? 0 : 2;
   }
 }
 

@@ -165,15 +165,28 @@ void add_plain(CLI::App& app, const Options& options, int& exit_code, const std:
   });
 }
 
+/// `fields`: of the status, what the view is about; none: all of them.
 void add_view(CLI::App& app, const Options& options, const std::string& name, const std::string& help,
-              void (*print)(const Status&)) {
+              void (*print)(const Status&), const std::vector<std::string>& fields = {}) {
   app.add_subcommand(name, help)->callback([=] {
     Client client(options->reach);
     const Status status = print == print_nodes ? with_currents(client) : client.status();
     if (options->json)
-      fmt::print("{}", to_json_text(status));
+      fmt::print("{}", to_json_text(status, fields));
     else
       print(status);
+  });
+}
+
+/// Comes back when the stop is lifted: the next command of a script finds the machine so.
+void add_clear(CLI::App& app, const Options& options, int& exit_code) {
+  app.add_subcommand("clear", "Lift a stop or an alarm")->callback([=, &exit_code] {
+    Client client(options->reach, kStatusHz, true);
+    take_control(client, *options);
+    client.ask(plain(&ClientMessage::mutable_clear));
+    exit_code = wait_until_rest(client, [](const Status& s) {
+      return s.state() != joblink::STATE_STOPPED && s.state() != joblink::STATE_ALARM;
+    });
   });
 }
 
@@ -271,10 +284,13 @@ void add_machine_commands(CLI::App& app, const Options& options, int& exit_code)
   app.add_flag("--as-json", options->json, "Views print JSON");
   app.add_flag("--force", options->force, "Take control from another client");
   add_view(app, options, "status", "What the machine does now", print_status);
-  add_view(app, options, "position", "Tool and joint positions", print_position);
-  add_view(app, options, "nodes", "The nodes on the bus", print_nodes);
-  add_view(app, options, "bus", "Bus load and everything that was counted", print_bus);
-  add_view(app, options, "clients", "Who is connected, and who has control", print_clients);
+  add_view(app, options, "position", "Tool and joint positions", print_position,
+           {"positions_known", "tool", "machine", "joints", "nodes"});
+  add_view(app, options, "nodes", "The nodes on the bus", print_nodes, {"nodes"});
+  add_view(app, options, "bus", "Bus load and everything that was counted", print_bus,
+           {"bus_load", "bus_load_peak", "counters"});
+  add_view(app, options, "clients", "Who is connected, and who has control", print_clients,
+           {"clients", "controller"});
   const auto add = [&](const char* name, const ClientMessage& request, const char* help, bool moves) {
     add_plain(app, options, exit_code, name, request, help, moves);
   };
@@ -287,7 +303,7 @@ void add_machine_commands(CLI::App& app, const Options& options, int& exit_code)
   add("resume", plain(&M::mutable_resume), "Go on from a hold", false);
   add("cancel", plain(&M::mutable_cancel), "Come to rest on the path and drop the job", true);
   add("stop", plain(&M::mutable_stop), "Stop now, all carriages together on the path, and stay so", false);
-  add("clear", plain(&M::mutable_clear), "Lift a stop or an alarm", false);
+  add_clear(app, options, exit_code);
   add("motors-off", plain(&M::mutable_motors_off), "Switch the drives off (the platform must be supported)",
       false);
   add_values(app, options, exit_code);

@@ -2,9 +2,11 @@
 
 #include <google/protobuf/util/json_util.h>
 
+#include <nlohmann/json.hpp>
+
 namespace kinebus {
 
-std::string to_json_text(const joblink::Status& status) {
+std::string to_json_text(const joblink::Status& status, const std::vector<std::string>& fields) {
   google::protobuf::util::JsonPrintOptions options;
   options.add_whitespace = true;
   options.always_print_primitive_fields = true;
@@ -12,7 +14,12 @@ std::string to_json_text(const joblink::Status& status) {
   std::string text;
   // A message in memory always has a JSON form.
   static_cast<void>(google::protobuf::util::MessageToJsonString(status, &text, options));
-  return text;
+  if (fields.empty()) return text;
+  const auto all = nlohmann::ordered_json::parse(text);
+  nlohmann::ordered_json asked;
+  for (const std::string& field : fields)
+    if (all.contains(field)) asked[field] = all[field];
+  return asked.dump(1) + "\n";
 }
 
 }  // namespace kinebus

@@ -3,9 +3,11 @@
 // too.
 
 #include <string>
+#include <vector>
 
 #include "protocol/joblink/kinebus.pb.h"
 
 namespace kinebus {
-std::string to_json_text(const joblink::Status& status);
+/// `fields`: only these; none: all. A message that is not set is left out.
+std::string to_json_text(const joblink::Status& status, const std::vector<std::string>& fields = {});
 }  // namespace kinebus

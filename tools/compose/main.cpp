@@ -11,6 +11,7 @@
 
 #include "gateway/description/machine_file.hpp"
 #include "protocol/host/guarded_main.hpp"
+#include "protocol/host/usage.hpp"
 #include "tools/compose/composer.hpp"
 #include "tools/compose/example_parts.hpp"
 #include "tools/compose/job_description.hpp"
@@ -333,7 +334,7 @@ int run(int argc, char** argv) {
   example->add_option("name", arguments.input)->required()->check(CLI::IsMember(example_names()));
   example->add_option("-o,--output", arguments.output, "STL file")->required();
   example->callback([&] { write_stl(example_part(arguments.input), arguments.output); });
-  CLI11_PARSE(app, argc, argv);
+  if (const auto end = kinebus::parse_arguments(app, argc, argv)) return *end;
   return exit_code;
 }
 

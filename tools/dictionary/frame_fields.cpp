@@ -29,7 +29,12 @@ std::vector<FrameField> segment_fields() {
   const std::string shift = "for acceleration shift 2 (2140h:1); doubles with each more";
   return {
       {"Sequence", 0, 7},
-      {.name = "Duration", .start = 7, .bits = 13, .factor = 16, .unit = "us", .comment = "0: control record"},
+      {.name = "Duration",
+       .start = 7,
+       .bits = 13,
+       .factor = 16,
+       .unit = "us",
+       .comment = "0: control record"},
       {"Acceleration_A", 20, 22, true, acceleration_unit(), "counts/s2", {}, shift, motion, 0},
       {"Acceleration_B", 42, 22, true, acceleration_unit(), "counts/s2", {}, shift, motion, 1},
       {.name = "Control",
@@ -56,23 +61,18 @@ std::vector<FrameField> segment_fields() {
 
 std::vector<FrameField> stream_status_fields() {
   std::vector<FrameField> fields{{"NextSequence", 0, 7}, {"FreeRecords", 8, 8}};
-  const std::pair<const char*, std::uint8_t> flags[] = {{"Running", StreamStatus::kRunning},
-                                                        {"AtRest", StreamStatus::kAtRest},
-                                                        {"Stopped", StreamStatus::kStopped},
-                                                        {"SequenceError", StreamStatus::kSequenceError},
-                                                        {"Underrun", StreamStatus::kUnderrun},
-                                                        {"CheckpointError", StreamStatus::kCheckpointError},
-                                                        {"Synchronised", StreamStatus::kSynchronised}};
+  const std::pair<const char*, std::uint8_t> flags[] = {
+      {"Running", StreamStatus::kRunning},          {"AtRest", StreamStatus::kAtRest},
+      {"Stopped", StreamStatus::kStopped},          {"SequenceError", StreamStatus::kSequenceError},
+      {"Underrun", StreamStatus::kUnderrun},        {"CheckpointError", StreamStatus::kCheckpointError},
+      {"Synchronised", StreamStatus::kSynchronised}};
   for (const auto& [name, flag] : flags) {
     int bit = 0;
     while (flag >> bit != 1) ++bit;
     fields.push_back({name, 16 + bit, 1});
   }
-  fields.push_back({.name = "SyncError",
-                    .start = 24,
-                    .bits = 8,
-                    .unit = "us",
-                    .comment = "bound; 255: that or more"});
+  fields.push_back(
+      {.name = "SyncError", .start = 24, .bits = 8, .unit = "us", .comment = "bound; 255: that or more"});
   fields.push_back({.name = "PathTime", .start = 32, .bits = 32, .factor = 16, .unit = "us"});
   return fields;
 }
@@ -156,38 +156,39 @@ std::vector<FrameField> heartbeat_fields() {
 }
 
 std::vector<FrameField> lss_fields() {
-  return {{.name = "Command",
-           .start = 0,
-           .bits = 8,
-           .values = {{lss::kSwitchGlobal, "switch state global"},
-                      {lss::kConfigureNodeId, "configure node id"},
-                      {lss::kConfigureBitTiming, "configure bit timing"},
-                      {lss::kActivateBitTiming, "activate bit timing"},
-                      {lss::kStore, "store configuration"},
-                      {lss::kSelectVendor, "select vendor"},
-                      {lss::kSelectProduct, "select product code"},
-                      {lss::kSelectRevision, "select revision"},
-                      {lss::kSelectSerial, "select serial number"},
-                      {lss::kSelected, "selected"},
-                      {lss::kIdentifyVendor, "identify vendor"},
-                      {lss::kIdentifyProduct, "identify product code"},
-                      {lss::kIdentifyRevisionLow, "identify revision, lowest"},
-                      {lss::kIdentifyRevisionHigh, "identify revision, highest"},
-                      {lss::kIdentifySerialLow, "identify serial number, lowest"},
-                      {lss::kIdentifySerialHigh, "identify serial number, highest"},
-                      {lss::kIdentifyUnconfigured, "identify unconfigured"},
-                      {lss::kIdentified, "identified"},
-                      {lss::kIdentifiedUnconfigured, "unconfigured is there"},
-                      {lss::kFastscan, "fastscan"},
-                      {lss::kInquireVendor, "inquire vendor"},
-                      {lss::kInquireVendor + 1, "inquire product code"},
-                      {lss::kInquireVendor + 2, "inquire revision"},
-                      {lss::kInquireVendor + 3, "inquire serial number"},
-                      {lss::kInquireNodeId, "inquire node id"}}},
-          {"Value", 8, 32},
-          {.name = "BitCheck", .start = 40, .bits = 8, .comment = "fastscan: bits 31 to this one are compared"},
-          {.name = "Part", .start = 48, .bits = 8, .comment = "fastscan: 0 vendor .. 3 serial number"},
-          {.name = "NextPart", .start = 56, .bits = 8, .comment = "fastscan: to be compared next"}};
+  return {
+      {.name = "Command",
+       .start = 0,
+       .bits = 8,
+       .values = {{lss::kSwitchGlobal, "switch state global"},
+                  {lss::kConfigureNodeId, "configure node id"},
+                  {lss::kConfigureBitTiming, "configure bit timing"},
+                  {lss::kActivateBitTiming, "activate bit timing"},
+                  {lss::kStore, "store configuration"},
+                  {lss::kSelectVendor, "select vendor"},
+                  {lss::kSelectProduct, "select product code"},
+                  {lss::kSelectRevision, "select revision"},
+                  {lss::kSelectSerial, "select serial number"},
+                  {lss::kSelected, "selected"},
+                  {lss::kIdentifyVendor, "identify vendor"},
+                  {lss::kIdentifyProduct, "identify product code"},
+                  {lss::kIdentifyRevisionLow, "identify revision, lowest"},
+                  {lss::kIdentifyRevisionHigh, "identify revision, highest"},
+                  {lss::kIdentifySerialLow, "identify serial number, lowest"},
+                  {lss::kIdentifySerialHigh, "identify serial number, highest"},
+                  {lss::kIdentifyUnconfigured, "identify unconfigured"},
+                  {lss::kIdentified, "identified"},
+                  {lss::kIdentifiedUnconfigured, "unconfigured is there"},
+                  {lss::kFastscan, "fastscan"},
+                  {lss::kInquireVendor, "inquire vendor"},
+                  {lss::kInquireVendor + 1, "inquire product code"},
+                  {lss::kInquireVendor + 2, "inquire revision"},
+                  {lss::kInquireVendor + 3, "inquire serial number"},
+                  {lss::kInquireNodeId, "inquire node id"}}},
+      {"Value", 8, 32},
+      {.name = "BitCheck", .start = 40, .bits = 8, .comment = "fastscan: bits 31 to this one are compared"},
+      {.name = "Part", .start = 48, .bits = 8, .comment = "fastscan: 0 vendor .. 3 serial number"},
+      {.name = "NextPart", .start = 56, .bits = 8, .comment = "fastscan: to be compared next"}};
 }
 
 const ValueNames& mode_names() {

@@ -4,8 +4,8 @@
 #include <array>
 #include <cctype>
 #include <cstdio>
-#include <vector>
 #include <span>
+#include <vector>
 
 #include "protocol/canopen/abort_code.hpp"
 #include "protocol/canopen/alarm_table.hpp"
@@ -235,12 +235,15 @@ std::string state_rows() {
 std::string wireshark_text() {
   std::string text =
       "-- Kinebus for Wireshark and tshark, printed by kinebus-dictionary from the nodes' object tables and\n"
-      "-- record definitions. It belongs in the folder \"Global Lua Plugins\" or \"Personal Lua Plugins\" of\n"
+      "-- record definitions. It belongs in the folder \"Global Lua Plugins\" or \"Personal Lua Plugins\" "
+      "of\n"
       "-- Help > About Wireshark > Folders.\n\nlocal boards = {\n";
   for (const BoardDescription& board : kBoards) text += board_row(board);
-  text += "}\n-- Of the boot loader, which answers on the same node id.\nlocal other_objects = {\n"
-          "  [0x1F5001] = {name = \"Program data: Program 1\", type = \"text\", unit = \"\", factor = 1, bits = 0,\n"
-          "    signed = false, axis = -1, base = 0x1F5001},\n}\n";
+  text +=
+      "}\n-- Of the boot loader, which answers on the same node id.\nlocal other_objects = {\n"
+      "  [0x1F5001] = {name = \"Program data: Program 1\", type = \"text\", unit = \"\", factor = 1, bits = "
+      "0,\n"
+      "    signed = false, axis = -1, base = 0x1F5001},\n}\n";
   text += record_rows() + broadcast_rows();
   text += "local emcy_fields = " + field_rows(emcy_fields(), "") + "\n";
   text += "local nmt_fields = " + field_rows(nmt_fields(), "") + "\n";

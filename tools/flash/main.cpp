@@ -17,6 +17,7 @@
 #include "node_firmware/boot/image_header.hpp"
 #include "protocol/host/guarded_main.hpp"
 #include "protocol/host/socketcan.hpp"
+#include "protocol/host/usage.hpp"
 #include "tools/flash/console_request.hpp"
 #include "tools/flash/program_update.hpp"
 
@@ -163,7 +164,7 @@ int run(int argc, char** argv) {
                  "The node's console, /dev/ttyACM0: asks it for its USB boot loader")
       ->needs(dfu);
   auto* swd = app.add_flag("--swd", arguments.swd, "By a debug probe, with openocd");
-  CLI11_PARSE(app, argc, argv);
+  if (const auto end = parse_arguments(app, argc, argv)) return *end;
   if (*dfu || *swd || *node || *all) return flash(arguments);
   fmt::print(stderr, "say which: --node ID, --all, --dfu or --swd\n");
   return 2;

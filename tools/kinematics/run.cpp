@@ -159,7 +159,7 @@ int run(std::vector<std::string> arguments, std::istream& in, std::ostream& out,
   try {
     app.parse(std::move(arguments));
   } catch (const CLI::ParseError& error) {
-    return app.exit(error, out, err);
+    return app.exit(error, out, err) == 0 ? 0 : 2;
   }
   const auto code = execute(*chosen, a, in, out, err);
   if (code) return *code;

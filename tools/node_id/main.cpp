@@ -10,6 +10,7 @@
 
 #include "protocol/host/guarded_main.hpp"
 #include "protocol/host/socketcan.hpp"
+#include "protocol/host/usage.hpp"
 #include "tools/node_id/node_ids.hpp"
 
 namespace {
@@ -122,7 +123,7 @@ int run(int argc, char** argv) {
     command->add_option("id", arguments.node_id, "Node id")->required()->check(CLI::Range(1, 126));
   give_command->add_option("--serial", arguments.serial,
                            "The board with this serial number; without it the one that has no id");
-  CLI11_PARSE(app, argc, argv);
+  if (const auto end = parse_arguments(app, argc, argv)) return *end;
 
   SocketCan can;
   if (const std::string error = can.open(arguments.interface, false); !error.empty())

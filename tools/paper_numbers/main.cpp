@@ -104,7 +104,11 @@ int main(int argc, char** argv) {
     app.add_option("paper", paper, "m1, m4, m5 or all (default); M2 and M3: tools/papers")
         ->check(CLI::IsMember({"m1", "m4", "m5", "all"}));
     app.add_option("--pictures", folder, "Write pictures (SVG) into this folder");
-    CLI11_PARSE(app, argc, argv);
+    try {
+      app.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+      return app.exit(e) == 0 ? 0 : 2;
+    }
     return kinebus::papers::run(paper, folder);
   } catch (const std::exception& e) {
     std::fprintf(stderr, "kinebus-papers: %s\n", e.what());

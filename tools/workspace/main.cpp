@@ -227,7 +227,11 @@ int main(int argc, char** argv) {
         ->expected(4);
     app.add_flag("--optimise", a.optimise,
                  "Search a geometry for that room, show before and after, scan the result");
-    CLI11_PARSE(app, argc, argv);
+    try {
+      app.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+      return app.exit(e) == 0 ? 0 : 2;
+    }
     return kinebus::workspace::run(a);
   } catch (const std::exception& e) {
     std::fprintf(stderr, "kinebus-workspace: %s\n", e.what());

@@ -7,6 +7,7 @@
 #include "node_firmware/port/host/virtual_node.hpp"
 #include "protocol/host/guarded_main.hpp"
 #include "protocol/host/realtime.hpp"
+#include "protocol/host/usage.hpp"
 
 namespace {
 
@@ -68,7 +69,7 @@ int run(int argc, char** argv) {
   for (const char* of_motors :
        {"--estop-input", "--trace", "--start-a", "--start-b", "--switch-a", "--switch-b"})
     as_heat->excludes(app.get_option(of_motors));
-  CLI11_PARSE(app, argc, argv);
+  if (const auto end = kinebus::parse_arguments(app, argc, argv)) return *end;
 
   options.node.node_id = static_cast<std::uint8_t>(node);
   if (options.node.identity.serial == 0) options.node.identity.serial = 1000u + static_cast<unsigned>(node);

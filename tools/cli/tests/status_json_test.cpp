@@ -31,5 +31,15 @@ TEST(StatusJson, HasEveryValueOfTheSchemaUnderItsName) {
   }
 }
 
+TEST(StatusJson, HasOnlyWhatIsAskedFor) {
+  joblink::Status status;
+  status.set_bus_load(0.25);
+  status.add_nodes()->set_id(3);
+  const auto json = nlohmann::json::parse(to_json_text(status, {"nodes", "bus_load"}));
+  EXPECT_EQ(json.size(), 2u);
+  EXPECT_EQ(json["nodes"][0]["id"], 3);
+  EXPECT_EQ(json["bus_load"], 0.25);
+}
+
 }  // namespace
 }  // namespace kinebus

@@ -46,7 +46,8 @@ class Tshark {
     const auto add = [&file](std::uint64_t value, int bytes) {
       for (int i = 0; i < bytes; ++i) file += static_cast<char>(value >> (8 * i));
     };
-    for (const auto& [value, bytes] : {std::pair{0xA1B2C3D4u, 4}, {2u, 2}, {4u, 2}, {0u, 4}, {0u, 4}, {65535u, 4}, {227u, 4}})
+    for (const auto& [value, bytes] :
+         {std::pair{0xA1B2C3D4u, 4}, {2u, 2}, {4u, 2}, {0u, 4}, {0u, 4}, {65535u, 4}, {227u, 4}})
       add(value, bytes);
     std::uint32_t us = 0;
     for (const CanFrame& frame : frames) {
@@ -55,7 +56,8 @@ class Tshark {
       add(us % 1'000'000, 4);
       add(16, 4);
       add(16, 4);
-      const std::uint32_t id = frame.id | (frame.extended ? 0x8000'0000u : 0u) | (frame.remote ? 0x4000'0000u : 0u);
+      const std::uint32_t id =
+          frame.id | (frame.extended ? 0x8000'0000u : 0u) | (frame.remote ? 0x4000'0000u : 0u);
       for (int i = 3; i >= 0; --i) file += static_cast<char>(id >> (8 * i));
       add(frame.length, 4);
       for (std::size_t i = 0; i < 8; ++i) file += static_cast<char>(i < frame.length ? frame.data[i] : 0);
@@ -76,10 +78,12 @@ class Tshark {
   /// `fields` beside number, protocols, Info and notes. The person's own settings are not used.
   std::vector<DissectedFrame> read(const std::string& capture, const std::vector<std::string>& fields = {},
                                    const std::string& options = "-d can.subdissector,kinebus") const {
-    std::vector<std::string> names{"frame.number", "frame.protocols", "_ws.col.Info", "_ws.expert.message", "kinebus.rest"};
+    std::vector<std::string> names{"frame.number", "frame.protocols", "_ws.col.Info", "_ws.expert.message",
+                                   "kinebus.rest"};
     names.insert(names.end(), fields.begin(), fields.end());
     const std::string folder = folder_.string(), told = folder + "/told", errors = folder + "/errors";
-    std::string command = "HOME=" + folder + " XDG_CONFIG_HOME=" + folder + "/.config tshark -n -r " + capture + " " + options +
+    std::string command = "HOME=" + folder + " XDG_CONFIG_HOME=" + folder + "/.config tshark -n -r " +
+                          capture + " " + options +
                           " -T fields -E separator=/t -E occurrence=a -E aggregator=,";
     for (const std::string& name : names) command += " -e " + name;
     const int status = std::system((command + " >" + told + " 2>" + errors).c_str());

@@ -80,22 +80,38 @@ TEST(Wireshark, LeavesNothingOfAPrintOpaque) {
     EXPECT_NE(frame["frame.protocols"].find("kinebus"), std::string::npos) << to_text(frames[i]).view();
     ++services[frame["kinebus.service"]];
   }
-  for (const char* service :
-       {"NMT", "SYNC", "EMCY", "Heartbeat", "SDO request", "SDO reply", "RPDO1 Control", "RPDO3 Segment",
-        "RPDO4 Checkpoint", "Rate", "SyncStamp", "TPDO1 Status", "TPDO2 Stream", "TPDO3 Positions",
-        "RPDO1 SetPoints", "RPDO2 Fans", "RPDO3 FeedForward", "TPDO1 State", "TPDO2 Temperatures",
-        "TPDO3 Outputs", "TPDO4 MoreTemperatures"})
+  for (const char* service : {"NMT",
+                              "SYNC",
+                              "EMCY",
+                              "Heartbeat",
+                              "SDO request",
+                              "SDO reply",
+                              "RPDO1 Control",
+                              "RPDO3 Segment",
+                              "RPDO4 Checkpoint",
+                              "Rate",
+                              "SyncStamp",
+                              "TPDO1 Status",
+                              "TPDO2 Stream",
+                              "TPDO3 Positions",
+                              "RPDO1 SetPoints",
+                              "RPDO2 Fans",
+                              "RPDO3 FeedForward",
+                              "TPDO1 State",
+                              "TPDO2 Temperatures",
+                              "TPDO3 Outputs",
+                              "TPDO4 MoreTemperatures"})
     EXPECT_GT(services[service], 0) << service;
 }
 
 TEST(Wireshark, ReadsEveryRecordOfAPrintAsTheCodec) {
   const Tshark tshark;
-  const auto told = tshark.read(
-      tshark.candump(print_frames()),
-      {"kinebus.segment.sequence", "kinebus.segment.duration", "kinebus.segment.acceleration_a",
-       "kinebus.segment.acceleration_b", "kinebus.segment.control", "kinebus.segment.start",
-       "kinebus.checkpoint.position", "kinebus.stream.pathtime", "kinebus.stream.freerecords",
-       "kinebus.rate.rate", "kinebus.rate.start", "kinebus.stamp.microseconds"});
+  const auto told =
+      tshark.read(tshark.candump(print_frames()),
+                  {"kinebus.segment.sequence", "kinebus.segment.duration", "kinebus.segment.acceleration_a",
+                   "kinebus.segment.acceleration_b", "kinebus.segment.control", "kinebus.segment.start",
+                   "kinebus.checkpoint.position", "kinebus.stream.pathtime", "kinebus.stream.freerecords",
+                   "kinebus.rate.rate", "kinebus.rate.start", "kinebus.stamp.microseconds"});
   ASSERT_EQ(told.size(), print_frames().size());
   int starts = 0, ends = 0, motions = 0;
   for (std::size_t i = 0; i < told.size(); ++i) {
@@ -131,7 +147,8 @@ TEST(Wireshark, ReadsEveryRecordOfAPrintAsTheCodec) {
     } else if (frame.id == kRateCobId) {
       const auto rate = decode_rate_command(frame, BusTime{0}).value_or(RateCommand{});
       EXPECT_EQ(number("rate.rate"), rate.rate_q15 / 32768.0);
-      EXPECT_EQ(number("rate.start"), static_cast<double>(get_u32_le(std::span(frame.data).subspan(4)) & 0xFFFFFF));
+      EXPECT_EQ(number("rate.start"),
+                static_cast<double>(get_u32_le(std::span(frame.data).subspan(4)) & 0xFFFFFF));
     } else if (frame.id == kSyncStampCobId) {
       EXPECT_EQ(number("stamp.microseconds"), get_u32_le(std::span(frame.data).subspan(4)));
     }
@@ -156,9 +173,12 @@ TEST(Wireshark, NamesEveryKindOfFrame) {
        "Node 2: EMCY 8611h following error: the motor did not follow (generic, device profile)"},
       {encode(Emergency{2, 0x2399, 0x03, {}}), "Node 2: EMCY 2399h current fault (generic, current)"},
       {encode(Emergency{2, 0, 0, {}}), "Node 2: EMCY 0000h no error"},
-      {record_frame(0x401, encode(Segment{.sequence = 9, .control = SegmentControl::kStart, .start_units = 1000})),
-       "Gateway to Node 1: RPDO3 Segment Sequence 9, Duration 0 us, Control start, Start 16000 us, Record check " +
-           std::to_string(encode(Segment{.sequence = 9, .control = SegmentControl::kStart, .start_units = 1000}) >> 61)},
+      {record_frame(0x401,
+                    encode(Segment{.sequence = 9, .control = SegmentControl::kStart, .start_units = 1000})),
+       "Gateway to Node 1: RPDO3 Segment Sequence 9, Duration 0 us, Control start, Start 16000 us, Record "
+       "check " +
+           std::to_string(
+               encode(Segment{.sequence = 9, .control = SegmentControl::kStart, .start_units = 1000}) >> 61)},
       {record_frame(0x501, encode(Checkpoint{9, 1, -(std::int64_t{3} << 31)})),
        "Gateway to Node 1: RPDO4 Checkpoint Sequence 9, Axis B, Position -1.5 counts"},
       {frame_of("601#4041600000000000"), "Gateway to Node 1: SDO request read 6041h:0 Statusword A"},
@@ -167,13 +187,15 @@ TEST(Wireshark, NamesEveryKindOfFrame) {
       {frame_of("601#2F60600008000000"),
        "Gateway to Node 1: SDO request write 6060h:0 Modes of operation A = cyclic synchronous position (8)"},
       {frame_of("581#80606000.22000008"),
-       "Node 1: SDO reply abort 6060h:0 Modes of operation A: 08000022h data cannot be transferred because of the "
+       "Node 1: SDO reply abort 6060h:0 Modes of operation A: 08000022h data cannot be transferred because "
+       "of the "
        "present device state"},
       {frame_of("7E5#0401000000000000"), "Gateway: LSS request Command switch state global, Value 1"},
       {frame_of("7E5#1105000000000000"), "Gateway: LSS request Command configure node id, Value 5"},
       {frame_of("7E5#51.454E494B.1F.00.00"), "Gateway: LSS request Command fastscan, Value 1263095365"},
       {frame_of("7E4#4F00000000000000"), "Node: LSS reply Command identified, Value 0"},
-      {frame_of("601#C2501F0100010000"), "Gateway to Node 1: SDO request block download 1F50h:1 Program data: Program 1"},
+      {frame_of("601#C2501F0100010000"),
+       "Gateway to Node 1: SDO request block download 1F50h:1 Program data: Program 1"},
       {frame_of("581#A4501F0102000000"),
        "Node 1: SDO reply block download accepted 1F50h:1 Program data: Program 1"},
       {frame_of("601#0111223344556677"),
@@ -186,7 +208,8 @@ TEST(Wireshark, NamesEveryKindOfFrame) {
        "Gateway to Node 1: SDO request block download ends 1F50h:1 Program data: Program 1"},
       {frame_of("581#A100000000000000"),
        "Node 1: SDO reply block download has ended 1F50h:1 Program data: Program 1"},
-      {frame_of("601#4008100000000000"), "Gateway to Node 1: SDO request read 1008h:0 Manufacturer device name"},
+      {frame_of("601#4008100000000000"),
+       "Gateway to Node 1: SDO request read 1008h:0 Manufacturer device name"},
       {frame_of("581#410810000C000000"), "Node 1: SDO reply 1008h:0 Manufacturer device name"},
       {frame_of("601#6000000000000000"),
        "Gateway to Node 1: SDO request next segment, please 1008h:0 Manufacturer device name"},
@@ -209,24 +232,31 @@ TEST(Wireshark, NamesEveryKindOfFrame) {
 
 TEST(Wireshark, FollowsMappingsIdentitiesAndShiftsThatTheBusTells) {
   const std::vector<CanFrame> frames{
-      // TPDO1 of node 5 becomes one object of 4 bytes on identifier 1A0h; a heat node is told by its identity.
-      frame_of("605#23001A0120006460"), frame_of("585#60001A0100000000"),
-      frame_of("605#2F001A0001000000"), frame_of("585#60001A0000000000"),
-      frame_of("605#23001801A0010040"), frame_of("585#6000180100000000"),
+      // TPDO1 of node 5 becomes one object of 4 bytes on identifier 1A0h; a heat node is told by its
+      // identity.
+      frame_of("605#23001A0120006460"),
+      frame_of("585#60001A0100000000"),
+      frame_of("605#2F001A0001000000"),
+      frame_of("585#60001A0000000000"),
+      frame_of("605#23001801A0010040"),
+      frame_of("585#6000180100000000"),
       frame_of("1A0#FEFFFFFF"),
-      frame_of("60C#4018100200000000"), frame_of("58C#4318100204040000"),
+      frame_of("60C#4018100200000000"),
+      frame_of("58C#4318100204040000"),
       frame_of("28C#C800FFFF00000000"),
       // Refused, a shift is not taken for set.
-      frame_of("605#2F40210106000000"), frame_of("585#8040210131000906"),
+      frame_of("605#2F40210106000000"),
+      frame_of("585#8040210131000906"),
       record_frame(0x405, encode(Segment{.sequence = 1, .duration = 1, .acceleration = {1000, 1000}})),
-      frame_of("605#2F40210103000000"), frame_of("585#6040210100000000"),
+      frame_of("605#2F40210103000000"),
+      frame_of("585#6040210100000000"),
       record_frame(0x405, encode(Segment{.sequence = 1, .duration = 1, .acceleration = {1000, 1000}})),
       // An unknown node whose TPDO1 has the length of one board only.
       frame_of("18D#0102030401"),
   };
   const Tshark tshark;
-  const auto told =
-      tshark.read(tshark.capture(frames), {"kinebus.segment.acceleration_a", "kinebus.segment.acceleration_b"});
+  const auto told = tshark.read(tshark.capture(frames),
+                                {"kinebus.segment.acceleration_a", "kinebus.segment.acceleration_b"});
   ASSERT_EQ(told.size(), frames.size());
   const auto info = [&](std::size_t i) { return told[i].at("_ws.col.Info"); };
   EXPECT_EQ(info(6), "Node 5: TPDO1 Status Position actual value A -2 counts");
@@ -254,7 +284,8 @@ TEST(Wireshark, NotesWhatIsWrongWithAFrame) {
   stamp.data[5] ^= 1;
   auto stop = encode(StopRequest{StopReason::kLimitSwitch, 1, BusTime{10'000'000}});
   stop[2] ^= 1;
-  const std::uint64_t start = encode(Segment{.sequence = 9, .control = SegmentControl::kStart, .start_units = 1000});
+  const std::uint64_t start =
+      encode(Segment{.sequence = 9, .control = SegmentControl::kStart, .start_units = 1000});
   CanFrame extended = frame_of("181#11");
   extended.id = 0x12345678;
   extended.extended = true;
@@ -299,13 +330,15 @@ TEST(Wireshark, SurvivesAnyFrame) {
   std::mt19937_64 random(19);
   std::vector<CanFrame> frames;
   for (int i = 0; i < 30'000; ++i) {
-    CanFrame frame{.id = static_cast<std::uint32_t>(random() % 0x800), .length = static_cast<std::uint8_t>(random() % 9)};
+    CanFrame frame{.id = static_cast<std::uint32_t>(random() % 0x800),
+                   .length = static_cast<std::uint8_t>(random() % 9)};
     // Half of them SDO of one node with whole frames, so that transfers begin, are cut short and mixed up.
     if (i % 2 == 0) frame = {.id = random() % 2 == 0 ? 0x601u : 0x581u, .length = 8};
     const std::uint64_t bits = random();
     for (std::size_t k = 0; k < frame.length; ++k) frame.data[k] = static_cast<std::uint8_t>(bits >> (8 * k));
     if (i % 4 == 0) {  // an object that there is
-      constexpr std::array<std::uint16_t, 8> kIndices{0x1A00, 0x1800, 0x1601, 0x2140, 0x6041, 0x1008, 0x1018, 0x2102};
+      constexpr std::array<std::uint16_t, 8> kIndices{0x1A00, 0x1800, 0x1601, 0x2140,
+                                                      0x6041, 0x1008, 0x1018, 0x2102};
       put_u16_le(std::span(frame.data).subspan(1), kIndices[bits >> 60 & 7]);
       frame.data[3] %= 9;
     }
