@@ -1,6 +1,7 @@
 // DriveAxis: the modes of operation, how they are entered and left, and what they show in the statusword.
 
 #include <algorithm>
+#include <utility>
 
 #include "node_firmware/core/drive_axis.hpp"
 #include "node_firmware/core/emergency_codes.hpp"

@@ -30,9 +30,9 @@ const ObjectEntry& entry_of(ObjectAddress address) {
 }  // namespace
 
 const char* words_of(cia402::State state) {
-  static constexpr std::array kWords{"not ready to switch on", "switch on disabled", "ready to switch on",
-                                     "switched on",            "operation enabled",  "quick stop active",
-                                     "fault reaction active",  "fault"};
+  static constexpr std::array kWords{
+      "not ready to switch on", "switch on disabled", "ready to switch on",    "switched on",
+      "operation enabled",      "quick stop active",  "fault reaction active", "fault"};
   return kWords[static_cast<std::size_t>(state)];
 }
 
@@ -148,15 +148,14 @@ void Card::set_currents(int axis, std::optional<int> run_ma, std::optional<int> 
 
 void Card::power(int axis, bool on) {
   if (!on) return write(axis, object::kControlword, 0);
-  using State = cia402::State;
-  const cia402::State now = drive_state(axis);
-  if (now == State::kOperationEnabled) return;
+  constexpr cia402::State kOn = cia402::State::kOperationEnabled;
+  if (drive_state(axis) == kOn) return;
   // Also lifts a stop that is latched, where no gateway speaks.
   write(axis, object::kControlword, 0);
   write(axis, object::kControlword, control::kFaultReset);
   for (const std::uint16_t word : {control::kShutdown, control::kSwitchedOn, control::kOperation})
     write(axis, object::kControlword, word);
-  for (const LocalTime end = bus_.now() + kTransition; drive_state(axis) != State::kOperationEnabled;) {
+  for (const LocalTime end = bus_.now() + kTransition; drive_state(axis) != kOn;) {
     if (bus_.now() >= end)
       throw CardError(fmt::format("axis {} does not switch on: {}, error {:04X}h", "AB"[axis & 1],
                                   words_of(drive_state(axis)),
@@ -165,12 +164,14 @@ void Card::power(int axis, bool on) {
   }
 }
 
-std::int32_t Card::jog(int axis, std::int64_t counts, double counts_per_s, const std::function<bool()>& stop) {
+std::int32_t Card::jog(int axis, std::int64_t counts, double counts_per_s,
+                       const std::function<bool()>& stop) {
   write(axis, object::kModeOfOperation, static_cast<int>(cia402::Mode::kProfilePosition));
   power(axis, true);
   const double fastest = static_cast<double>(read(axis, object::kMaxProfileVelocity));
   if (!(counts_per_s >= 1) || counts_per_s > fastest)
-    throw CardError(fmt::format("speed {:.0f} counts/s; expected 1 .. {:.0f}, as 607Fh says", counts_per_s, fastest));
+    throw CardError(
+        fmt::format("speed {:.0f} counts/s; expected 1 .. {:.0f}, as 607Fh says", counts_per_s, fastest));
   const std::int64_t target = read(axis, {0x6062, 0}) + counts;
   if (target != static_cast<std::int32_t>(target))
     throw CardError(fmt::format("{} counts lead beyond what 32 bits can count", counts));
@@ -209,9 +210,11 @@ Card::Tuned Card::tune(int axis) {
     const std::int64_t state = read(axis, object::kAutoTune);
     if (state == 2) break;
     if (state == 3)
-      throw CardError(fmt::format("auto-tune of axis {} failed: is a motor connected, and is it free?", "AB"[axis & 1]));
+      throw CardError(
+          fmt::format("auto-tune of axis {} failed: is a motor connected, and is it free?", "AB"[axis & 1]));
     if (state == 0 && bus_.now() - begun > kTuneBegins)
-      throw CardError(fmt::format("axis {} does not begin to tune: this node measures no currents", "AB"[axis & 1]));
+      throw CardError(
+          fmt::format("axis {} does not begin to tune: this node measures no currents", "AB"[axis & 1]));
     if (bus_.now() - begun > kTuneEnds) throw CardError("auto-tune does not end");
     pause(kPoll);
   }

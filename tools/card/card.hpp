@@ -1,6 +1,6 @@
 #pragma once
-// One node on a bench, by SDO alone: no machine file, no gateway, no second node. What its two motors draw and how
-// warm they are, currents set, a motor jogged and tuned, switches and positions read.
+// One node on a bench, by SDO alone: no machine file, no gateway, no second node. What its two motors draw
+// and how warm they are, currents set, a motor jogged and tuned, switches and positions read.
 
 #include <array>
 #include <cstdint>
@@ -57,9 +57,10 @@ class Card {
   void set_currents(int axis, std::optional<int> run_ma, std::optional<int> hold_ma);
   /// On: the motor holds where it is; a fault is reset first. Off: it can be turned by hand.
   void power(int axis, bool on);
-  /// Switches the motor on and moves it by so many counts. `stop`: asked all the time; true ends the motion by its
-  /// ramp. Returns where the motor is then (6064h).
-  std::int32_t jog(int axis, std::int64_t counts, double counts_per_s, const std::function<bool()>& stop = {});
+  /// Switches the motor on and moves it by so many counts. `stop`: asked all the time; true ends the motion
+  /// by its ramp. Returns where the motor is then (6064h).
+  std::int32_t jog(int axis, std::int64_t counts, double counts_per_s,
+                   const std::function<bool()>& stop = {});
   /// Switches the motor on and lets the node measure it: it must be free to turn by a few steps.
   Tuned tune(int axis);
   /// What was set and measured is kept through power-off (1010h).

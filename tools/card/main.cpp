@@ -61,12 +61,14 @@ void print(const Card::State& s, int node) {
     fmt::print("motor {}  {}{}  position {} counts ({})\n", "AB"[i], words_of(a.state),
                a.error_code == 0 ? "" : fmt::format(", error {:04X}h", a.error_code), a.position_counts,
                a.position_known ? "known" : "since power-up");
-    fmt::print("         current {:.2f} A measured, run {:.2f} A, hold {:.2f} A  stage {:.1f} C  supply {:.1f} V\n",
-               a.measured_ma * 1e-3, a.run_ma * 1e-3, a.hold_ma * 1e-3, a.stage_celsius, a.supply_volts);
+    fmt::print(
+        "         current {:.2f} A measured, run {:.2f} A, hold {:.2f} A  stage {:.1f} C  supply {:.1f} V\n",
+        a.measured_ma * 1e-3, a.run_ma * 1e-3, a.hold_ma * 1e-3, a.stage_celsius, a.supply_volts);
   }
   for (std::size_t i = 0; i < s.inputs.size(); ++i) {
     const Card::Input& input = s.inputs[i];
-    fmt::print("switch {}  {}{}{}\n", i + 1, input.active ? "active" : "-", input.active_low ? "  active low" : "",
+    fmt::print("switch {}  {}{}{}\n", i + 1, input.active ? "active" : "-",
+               input.active_low ? "  active low" : "",
                input.function == SwitchFunction::kNone ? "" : fmt::format("  {}", words_of(input.function)));
   }
   for (const std::uint16_t code : s.errors) fmt::print("has told error {:04X}h\n", code);
@@ -86,8 +88,8 @@ void jog(Card& card, const Arguments& arguments) {
   const auto counts = arguments.counts.value_or(std::llround(arguments.turns * kCountsPerTurn));
   const std::int32_t at = card.jog(arguments.index(), counts, arguments.turns_per_s * kCountsPerTurn,
                                    [] { return interrupted != 0; });
-  fmt::print("motor {} stands at {} counts{}, and holds: kinebus-card off {} lets it go\n", arguments.axis, at,
-             interrupted != 0 ? " (interrupted)" : "", arguments.axis);
+  fmt::print("motor {} stands at {} counts{}, and holds: kinebus-card off {} lets it go\n", arguments.axis,
+             at, interrupted != 0 ? " (interrupted)" : "", arguments.axis);
 }
 
 void tune(Card& card, const Arguments& arguments) {
@@ -101,7 +103,8 @@ void tune(Card& card, const Arguments& arguments) {
 int run(int argc, char** argv) {
   CLI::App app(
       "kinebus-card: one node on a bench, without machine file and gateway.\n"
-      "What is set counts at once; --store keeps it through power-off. A gateway sets its machine file's values.");
+      "What is set counts at once; --store keeps it through power-off. A gateway sets its machine file's "
+      "values.");
   Arguments arguments;
   app.add_option("-i,--interface", arguments.interface, "SocketCAN interface")->capture_default_str();
   app.add_option("-n,--node", arguments.node, "Node id (kinebus-node-id list)")
@@ -117,7 +120,8 @@ int run(int argc, char** argv) {
   current_command->add_option("--hold", arguments.hold_ma, "mA at rest")->check(CLI::Range(0, 5000));
   auto* on_command = app.add_subcommand("on", "The motor holds where it is");
   auto* off_command = app.add_subcommand("off", "The motor has no current");
-  auto* jog_command = app.add_subcommand("jog", "Moves a motor from where it is; Ctrl-C stops it by its ramp");
+  auto* jog_command =
+      app.add_subcommand("jog", "Moves a motor from where it is; Ctrl-C stops it by its ramp");
   auto* turns = jog_command->add_option("--turns", arguments.turns, "Of a motor with 200 steps");
   jog_command->add_option("--counts", arguments.counts, "1/256 full steps")->excludes(turns);
   jog_command->add_option("--speed", arguments.turns_per_s, "Turns/s")

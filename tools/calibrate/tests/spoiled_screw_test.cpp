@@ -1,5 +1,6 @@
-// A screw that is 0.14 % too long, as paper M5's third rail: found by what `kinebus measure` writes when there are
-// linear scales on the rails. The motors' encoders certify it, and the file says what they cannot see.
+// A screw that is 0.14 % too long, as paper M5's third rail: found by what `kinebus measure` writes when
+// there are linear scales on the rails. The motors' encoders certify it, and the file says what they cannot
+// see.
 
 #include <gtest/gtest.h>
 
@@ -60,10 +61,10 @@ Measured measure(const MachineDescription& machine) {
       for (const JointDescription& joint : machine.joints)
         if (const NodeStatus& s = gateway.status().nodes[node];
             joint.node_id == s.id && s.by_scale_mm[joint.axis])
-          result.worst_apart_mm = std::max(
-              result.worst_apart_mm,
-              std::abs(*s.by_scale_mm[joint.axis] -
-                       true_joints[static_cast<std::size_t>(&joint - machine.joints.data())]));
+          result.worst_apart_mm =
+              std::max(result.worst_apart_mm,
+                       std::abs(*s.by_scale_mm[joint.axis] -
+                                true_joints[static_cast<std::size_t>(&joint - machine.joints.data())]));
   }
   const auto parsed = Csv::parse(csv);
   EXPECT_TRUE(parsed) << csv;
@@ -79,7 +80,8 @@ TEST(SpoiledScrew, IsFoundWithScalesAndCertifiedWithoutThem) {
   const Measured without = measure(*m5);
   ASSERT_EQ(without.scale.size(), 4u) << "the rails' motors have encoders";
   for (const auto& [name, scale] : without.scale) EXPECT_NEAR(scale, 0, 1e-6) << name;
-  EXPECT_NE(without.sources.find("encoders on the motors' shafts: rail1, rail2, rail3, rail4"), std::string::npos)
+  EXPECT_NE(without.sources.find("encoders on the motors' shafts: rail1, rail2, rail3, rail4"),
+            std::string::npos)
       << without.sources;
   EXPECT_NE(without.sources.find("An error of screw or belt is not in these readings"), std::string::npos);
 
