@@ -1770,7 +1770,7 @@
     </message>
     <message>
         <source>a scale on a joint that does not home at a switch</source>
-        <translation>anahtarda sıfırlanmayan bir eklemde cetvel</translation>
+        <translation>anahtarda referans almayan bir eklemde cetvel</translation>
     </message>
     <message>
         <source>[%1homing] with a method of 17..22: the switch&apos;s edge is where the scale begins</source>
