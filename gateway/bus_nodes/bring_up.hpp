@@ -71,6 +71,7 @@ class BringUp {
     kSettling,
     kRestoring,
     kRestarting,
+    kSettings,
     kDone
   };
   struct Node {
@@ -94,6 +95,7 @@ class BringUp {
   void wake(BusTime now, NodeLink& link, Node& node);
   void configure(BusTime now, NodeLink& link, Node& node);
   void settle(BusTime now, NodeLink& link, Node& node);
+  void parameters_are_right(Node& node);
   void check_fingerprint(NodeLink& link, Node& node, std::uint32_t fingerprint);
   void operational(BusTime now, NodeLink& link, Node& node);
   void synchronise(BusTime now, NodeLink& link, Node& node);

@@ -47,6 +47,9 @@ void BringUp::configure(BusTime now, NodeLink& link, Node& node) {
       case Config::kStoring:
         link.sdo().write({object::kStoreParameters, 4, kSaveSignature});
         break;
+      case Config::kSettings:
+        for (const ParameterWrite& write : node.configuration.settings) link.sdo().write(write);
+        break;
       case Config::kRestoring:
         link.sdo().write({object::kRestoreParameters, 4, kLoadSignature});
         break;
@@ -70,6 +73,8 @@ void BringUp::configure(BusTime now, NodeLink& link, Node& node) {
   if (failed_ || !link.sdo().idle()) return;
   node.requested = false;
   if (node.config == Config::kWriting && !node.configuration.fingerprint) {
+    parameters_are_right(node);
+  } else if (node.config == Config::kSettings) {
     node.config = Config::kDone;
     node.done = true;
   } else if (node.config == Config::kWriting) {
@@ -80,6 +85,12 @@ void BringUp::configure(BusTime now, NodeLink& link, Node& node) {
     node.asked = now;
     node.config = Config::kRestarting;
   }
+}
+
+void BringUp::parameters_are_right(Node& node) {
+  node.done = node.configuration.settings.empty();
+  node.config = node.done ? Config::kDone : Config::kSettings;
+  node.requested = false;
 }
 
 /// Until the node answers again after storing.
@@ -95,8 +106,7 @@ void BringUp::settle(BusTime now, NodeLink& link, Node& node) {
   node.requested = false;
   node.asked = now;
   if (answer->abort == AbortCode::kNone) {
-    node.config = Config::kDone;
-    node.done = true;
+    parameters_are_right(node);
   } else if (now - node.stored > kStoreTimeout) {
     fail(AlarmCode::kConfiguration, link.id(), to_string(link.id(), *answer));
   }
@@ -106,8 +116,8 @@ void BringUp::check_fingerprint(NodeLink& link, Node& node, std::uint32_t finger
   node.requested = false;
   const bool equal = fingerprint == node.configuration.fingerprint;
   if (node.config == Config::kCheck) {
-    node.config = equal ? Config::kDone : Config::kWriting;
-    node.done = equal;
+    node.config = Config::kWriting;
+    if (equal) parameters_are_right(node);
   } else if (equal) {
     node.config = Config::kStoring;
   } else if (!std::exchange(node.rewritten, true)) {

@@ -148,6 +148,26 @@ void set_joint(Writer& writer, const JointDescription& joint) {
   writer.set_axis(axis, kHomingBackOff, 10 * homing.back_off * counts);
 }
 
+/// Both axes of a node that has a scale.
+std::vector<ParameterWrite> scale_settings(const MachineDescription& machine, std::uint8_t node_id) {
+  std::array<const ScaleDescription*, 2> scales{};
+  for (const JointDescription& joint : machine.joints)
+    if (joint.node_id == node_id && joint.scale) scales[joint.axis & 1u] = &*joint.scale;
+  if (scales[0] == nullptr && scales[1] == nullptr) return {};
+  std::vector<ParameterWrite> writes;
+  for (std::size_t axis = 0; axis < scales.size(); ++axis) {
+    const auto write = [&](ObjectAddress base, std::uint8_t size, std::int64_t value) {
+      writes.push_back(
+          {{static_cast<std::uint16_t>(base.index + axis * kAxisOffset), base.subindex}, size, value});
+    };
+    const ScaleDescription scale = scales[axis] == nullptr ? ScaleDescription{} : *scales[axis];
+    write(object::kScaleCountsPerUnit, 4, std::llround(1000 * scale.pulses_per_mm));
+    write(object::kScaleInverted, 1, scale.inverted ? 1 : 0);
+    write(object::kScaleFitted, 1, scales[axis] == nullptr ? 0 : 1);
+  }
+  return writes;
+}
+
 }  // namespace
 
 std::int32_t home_counts(const JointDescription& joint) {
@@ -183,6 +203,7 @@ NodeConfiguration configure_node(const MachineDescription& machine, std::uint8_t
     configuration.writes.push_back(
         {entry.address, entry.size(), writer.dictionary().value(entry.value_slot())});
   }
+  configuration.settings = scale_settings(machine, node_id);
   return configuration;
 }
 

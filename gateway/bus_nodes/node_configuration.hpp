@@ -23,6 +23,8 @@ struct NodeConfiguration {
   /// Every parameter outside the PDO and COB-ID objects, which keep their defaults, but for TPDO4: it tells
   /// the following errors of a node that has an encoder. In the order of addresses.
   std::vector<ParameterWrite> writes;
+  /// What a node does not keep and its fingerprint does not cover: written at every bring-up. Empty: nothing.
+  std::vector<ParameterWrite> settings{};
 };
 
 NodeConfiguration configure_node(const MachineDescription& machine, std::uint8_t node_id);

@@ -91,6 +91,13 @@ struct MotorDescription {
   friend bool operator==(const MotorDescription&, const MotorDescription&) = default;
 };
 
+/// A linear scale beside the rail, that measures the carriage itself and not its motor.
+struct ScaleDescription {
+  double pulses_per_mm = 0;  ///< counts of the node a millimetre, every edge counted
+  bool inverted = false;     ///< it counts down when the joint's value grows
+  friend bool operator==(const ScaleDescription&, const ScaleDescription&) = default;
+};
+
 struct JointDescription {
   std::string name;          ///< as Kinematics::joint_info names it: "tower1", "C", "E"
   bool rotary = false;       ///< units are rad instead of mm
@@ -104,6 +111,7 @@ struct JointDescription {
   std::uint16_t run_current_ma = 2000;
   std::uint16_t hold_current_ma = 1500;
   std::optional<MotorDescription> motor;    ///< none: the node's cautious guess, no encoder
+  std::optional<ScaleDescription> scale;    ///< none: nobody but the motor knows where the joint is
   std::optional<HomingDescription> homing;  ///< none: the position at power-up is zero (E, endless C)
   JointCalibration calibration;
   /// Its position is measured.

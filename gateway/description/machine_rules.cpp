@@ -69,6 +69,14 @@ class Rules {
     const bool belt = std::holds_alternative<CoreXyGeometry>(d_.kinematics) && j.name.starts_with("belt");
     require(j.homing.has_value() || !j.travel.limited() || belt, {key + "homing", key + "travel_" + u},
             say("no table"), say("[%1homing]: a joint with limited travel must find its position", key));
+    if (j.scale) {
+      require(!j.rotary, {key + "scale.pulses_per_mm"}, say("a scale on a joint that turns"),
+              say("a joint that moves along a rail"));
+      // The edge of the switch is where scale and axis are known to be at the same place.
+      require(j.homing && j.homing->method != 37, {key + "scale.pulses_per_mm", key + "homing.method"},
+              say("a scale on a joint that does not home at a switch"),
+              say("[%1homing] with a method of 17..22: the switch's edge is where the scale begins", key));
+    }
     if (j.homing) homing(j, *j.homing, key + "homing.");
     calibration(j, key + "calibration.");
   }

@@ -150,6 +150,10 @@ void visit_joint(V& v, JointDescription& j, bool own_travel) {
     v.flag("encoder_reversed", m.encoder_reversed, Need::kOptional);
     v.integer("encoder_offset_counts", m.encoder_offset_counts, -1, 1023, Need::kOptional);
   });
+  v.optional_table("scale", j.scale, [&](ScaleDescription& s) {
+    v.number("pulses_per_mm", s.pulses_per_mm, {1, 100000}, Need::kRequired);
+    v.flag("inverted", s.inverted, Need::kOptional);
+  });
   v.optional_table("homing", j.homing, [&](HomingDescription& h) {
     v.integer("method", h.method, 17, 37, Need::kRequired);
     v.integer("switch_input", h.switch_input, 1, 7, Need::kOptional);

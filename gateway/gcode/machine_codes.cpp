@@ -128,6 +128,8 @@ bool Core::run_machine_code(Code code) {
     case 304:
     case 665:
     case 666:
+    case 906:
+    case 907:
       return firmware_setting(code);
     case 201:
     case 203:
@@ -170,6 +172,13 @@ bool Core::run_machine_code(Code code) {
 // elsewhere when it is passed over is refused.
 bool Core::firmware_setting(Code code) {
   const std::string name = m_name(code.number);
+  if (code.number == 906 || code.number == 907) {
+    note(code.number, say("%1 has no effect: run_current_ma and hold_current_ma of [joint.NAME] in the "
+                          "machine file say what "
+                          "a motor gets; on a bench kinebus-card sets it at once",
+                          name));
+    return true;
+  }
   if (block_.text.empty() || block_.text.front() == '(') {
     note(code.number, say("%1 has no effect on this machine", name));
     return true;

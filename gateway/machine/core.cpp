@@ -65,6 +65,7 @@ Gateway::Core::Core(const MachineDescription& machine, Options options, std::opt
       bring_up_(machine_, links_, rate_),
       homing_(machine_, links_),
       currents_(links_.size()),
+      scales_(machine_, axes_),
       position_(machine_, *kinematics_, axes_, group_),
       rest_(machine_, links_, rate_),
       clearing_(axes_, links_, rate_),
@@ -196,6 +197,9 @@ void Gateway::Core::on_time(BusTime now) {
   devices_.on_time(now_);
   for (NodeLink& link : links_) link.on_time(now_);
   currents_.on_time(now_, links_, axes_, may_glance());
+  scales_.on_time(now_, links_,
+                  position_.homed() && state_.is_one_of(MachineState::kReady, MachineState::kHeld),
+                  may_glance());
   watch_parameters();
   watch_nodes();
   watch_devices();

@@ -29,6 +29,7 @@
 #include "gateway/machine/print_job.hpp"
 #include "gateway/machine/recovery.hpp"
 #include "gateway/machine/rest.hpp"
+#include "gateway/machine/scale_readings.hpp"
 #include "gateway/run/heat.hpp"
 #include "gateway/status/event_queue.hpp"
 #include "gateway/stream/path_rate.hpp"
@@ -175,6 +176,7 @@ class Gateway::Core {
   BringUp bring_up_;
   MachineHoming homing_;
   MotorCurrents currents_;
+  ScaleReadings scales_;
   Position position_;
   Rest rest_;
   Clearing clearing_;

@@ -48,8 +48,10 @@ MachineStatus Gateway::Core::status() const {
   for (std::size_t i = 0; i < links_.size(); ++i) {
     s.nodes.push_back(links_[i].status(now_, machine_.bus.heartbeat_timeout));
     if (i < axes_.size()) s.nodes.back().records_sent = group_.stream(i).counters().records;
-    for (std::size_t axis = 0; axis < kAxesPerNode; ++axis)
+    for (std::size_t axis = 0; axis < kAxesPerNode; ++axis) {
       s.nodes.back().current_a[axis] = currents_.amperes(i, axis, now_);
+      s.nodes.back().by_scale_mm[axis] = scales_.joint_mm(i, axis);
+    }
     s.counters.sdo_aborts += links_[i].sdo().counters().aborts;
     s.counters.sdo_timeouts += links_[i].sdo().counters().timeouts;
   }

@@ -64,6 +64,7 @@ void set_node(joblink::NodeStatus& message, const NodeStatus& node, const Machin
     a.set_enabled(node.present && operation_enabled(node.statusword[axis]));
     a.set_fault(node.present && in_fault(node.statusword[axis]));
     if (node.off_course[axis]) a.set_off_course(*node.off_course[axis]);
+    if (node.by_scale_mm[axis]) a.set_by_scale_mm(*node.by_scale_mm[axis]);
     if (node.current_a[axis]) a.set_current_a(*node.current_a[axis]);
     for (const JointDescription& joint : machine.joints)
       if (joint.node_id == node.id && joint.axis == axis && a.enabled())
@@ -274,6 +275,7 @@ joblink::MachineInfo to_message(const MachineDescription& machine, const Pose& b
     j.set_accel_per_s2(joint.accel_per_s2);
     j.set_run_current_a(joint.run_current_ma * 1e-3);
     j.set_hold_current_a(joint.hold_current_ma * 1e-3);
+    j.set_has_scale(joint.scale.has_value());
     if (joint.homing) j.set_home_switch(joint.homing->switch_input);
   }
   for (const NodeDescription& node : machine.nodes) {

@@ -25,6 +25,8 @@ struct NodeStatus {
   std::uint32_t inputs = 0;                   ///< 60FDh
   /// Commanded less measured by the axis' encoder, mm or rad; empty without one.
   std::array<std::optional<double>, 2> off_course{};
+  /// Where the joint's linear scale has it; empty: none, or not read since the machine came to rest.
+  std::array<std::optional<double>, 2> by_scale_mm{};
   /// Measured amplitude; empty: not read lately (Gateway::watch_currents).
   std::array<std::optional<double>, 2> current_a{};
   bool synchronised = false;

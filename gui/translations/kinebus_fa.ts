@@ -517,6 +517,10 @@
         <translation>M92 اثری ندارد: mm_per_turn، full_steps_per_turn و microsteps زیر [joint.NAME] در پروندهٔ ماشین می‌گویند که یک گام چقدر می‌رود</translation>
     </message>
     <message>
+        <source>%1 has no effect: run_current_ma and hold_current_ma of [joint.NAME] in the machine file say what a motor gets; on a bench kinebus-card sets it at once</source>
+        <translation>%1 اثری ندارد: جریان موتور را run_current_ma و hold_current_ma در [joint.NAME] پروندهٔ ماشین می‌گویند؛ روی میز کار kinebus-card بی‌درنگ تنظیمش می‌کند</translation>
+    </message>
+    <message>
         <source>%1 has no effect: a heater&apos;s control belongs to its node and to [heater.NAME] in the machine file</source>
         <translation>%1 اثری ندارد: کنترل گرم‌کن کار گره‌اش و [heater.NAME] در پروندهٔ ماشین است</translation>
     </message>
@@ -1755,6 +1759,22 @@
     <message>
         <source>[%1homing]: a joint with limited travel must find its position</source>
         <translation>[%1homing]: مفصل با کورس محدود باید موقعیتش را بیابد</translation>
+    </message>
+    <message>
+        <source>a scale on a joint that turns</source>
+        <translation>خط‌کش روی مفصلی که می‌چرخد</translation>
+    </message>
+    <message>
+        <source>a joint that moves along a rail</source>
+        <translation>مفصلی که روی ریل حرکت می‌کند</translation>
+    </message>
+    <message>
+        <source>a scale on a joint that does not home at a switch</source>
+        <translation>خط‌کش روی مفصلی که با کلید به خانه نمی‌رود</translation>
+    </message>
+    <message>
+        <source>[%1homing] with a method of 17..22: the switch&apos;s edge is where the scale begins</source>
+        <translation>[%1homing] با روش 17..22: خط‌کش از لبهٔ کلید آغاز می‌شود</translation>
     </message>
     <message>
         <source>no pitch</source>

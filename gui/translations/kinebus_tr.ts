@@ -517,6 +517,10 @@
         <translation>M92 etkisiz: bir adımın ne kadar gittiğini makine dosyasındaki [joint.NAME] altında mm_per_turn, full_steps_per_turn ve microsteps söyler</translation>
     </message>
     <message>
+        <source>%1 has no effect: run_current_ma and hold_current_ma of [joint.NAME] in the machine file say what a motor gets; on a bench kinebus-card sets it at once</source>
+        <translation>%1 etkisiz: motorun alacağı akımı makine dosyasındaki [joint.NAME] altında run_current_ma ve hold_current_ma söyler; tezgâhta kinebus-card hemen ayarlar</translation>
+    </message>
+    <message>
         <source>%1 has no effect: a heater&apos;s control belongs to its node and to [heater.NAME] in the machine file</source>
         <translation>%1 etkisiz: ısıtıcının kontrolü düğümünün ve makine dosyasındaki [heater.NAME] tablosunun işidir</translation>
     </message>
@@ -1755,6 +1759,22 @@
     <message>
         <source>[%1homing]: a joint with limited travel must find its position</source>
         <translation>[%1homing]: strok sınırı olan eklem konumunu bulmalı</translation>
+    </message>
+    <message>
+        <source>a scale on a joint that turns</source>
+        <translation>dönen bir eklemde cetvel</translation>
+    </message>
+    <message>
+        <source>a joint that moves along a rail</source>
+        <translation>ray boyunca giden bir eklem</translation>
+    </message>
+    <message>
+        <source>a scale on a joint that does not home at a switch</source>
+        <translation>anahtarda referans almayan bir eklemde cetvel</translation>
+    </message>
+    <message>
+        <source>[%1homing] with a method of 17..22: the switch&apos;s edge is where the scale begins</source>
+        <translation>17..22 yöntemli [%1homing]: cetvel anahtarın kenarında başlar</translation>
     </message>
     <message>
         <source>no pitch</source>

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 
 #include "node_firmware/core/homing.hpp"
 #include "node_firmware/core/linear_interpolator.hpp"
@@ -59,6 +60,12 @@ class DriveAxis {
   /// Position at the last home edge, in the coordinates of before, or at the last probe edge.
   std::int64_t home_latch() const { return home_latch_; }
   void set_probe(std::int64_t latched) { home_latch_ = latched; }
+  /// What the axis' linear scale counted at the edge that gave the position; none: no switch did.
+  std::optional<std::int32_t> scale_at_home() const {
+    return position_known_ ? scale_at_home_ : std::nullopt;
+  }
+  /// The scale counts otherwise from now on.
+  void forget_scale() { scale_at_edge_.reset(), scale_at_home_.reset(); }
   /// The other axis of the node, with which this one takes turns in homing.
   void set_neighbour(const DriveAxis& other) { neighbour_ = &other; }
   HomingError homing_error() const { return homing_.error(); }
@@ -131,6 +138,7 @@ class DriveAxis {
   bool limited_ = false;  // a target was cut to a limit
   std::int64_t origin_ = 0;
   std::int64_t home_latch_ = 0;
+  std::optional<std::int32_t> scale_at_edge_, scale_at_home_;
   std::uint16_t error_code_ = 0;
   std::uint16_t emergency_ = 0;
   std::uint16_t cleared_fault_ = 0;

@@ -1,6 +1,7 @@
 // DriveAxis: the modes of operation, how they are entered and left, and what they show in the statusword.
 
 #include <algorithm>
+#include <utility>
 
 #include "node_firmware/core/drive_axis.hpp"
 #include "node_firmware/core/emergency_codes.hpp"
@@ -182,6 +183,7 @@ void DriveAxis::on_switch(LocalTime now, const SwitchEvent& event) {
   on_time(now);
   if (!homes_with(event.function)) return;
   homing_.set_turn(homing_turn());
+  scale_at_edge_ = event.scales[index_];  // the last edge of a homing is the one that counts
   homing_.on_switch(to_ticks(now), event.active, event.latched[index_], profile_);
   serve_homing(now);
   on_time(now);
@@ -196,6 +198,7 @@ void DriveAxis::serve_homing(LocalTime now) {
     origin_ = static_cast<std::int64_t>(static_cast<std::uint64_t>(origin_) + static_cast<std::uint64_t>(by));
     position_known_ = true;
     home_latch_ = homing_.latched();
+    scale_at_home_ = std::exchange(scale_at_edge_, std::nullopt);
   }
   if (homing_.error() != HomingError::kNone && !homing_error_told_) {
     ++homing_errors_;

@@ -175,7 +175,7 @@ void Node::on_switch(LocalTime at, int input, bool level) {
   // Where the axes were at the edge; a stream is never looked at backwards.
   path_.advance_to(at);
   const LatchedPositions latched{axes_[0].position(at), axes_[1].position(at)};
-  inputs_.on_level(at, input, level, latched);
+  inputs_.on_level(at, input, level, latched, directed_scales());
   now_ = std::max(now_, at);
   serve();
 }

@@ -45,6 +45,8 @@ struct NodeOptions {
   std::uint32_t program_crc = 0;  ///< 1F56h; 0: a program that no boot loader has started
   /// The board's objects: those of kNodeTable, which this core serves, at the same places, and perhaps more.
   const ObjectTable* table = &kNodeTable;
+  /// Axes whose linear scales the board can count (2160h).
+  std::array<bool, kAxesPerNode> scale_inputs{};
 };
 
 /// What the power stage of one axis is to do. The currents are objects of the parameter set.
@@ -101,6 +103,13 @@ class Node final : private ObjectOwner {
     feedback_[static_cast<std::size_t>(axis & 1)] = feedback;
     measures_ = true;
   }
+  /// What an axis' linear scale counts now, wrapping around; told before the inputs that it is to be seen
+  /// with.
+  void set_scale(int axis, std::int32_t counts) {
+    scale_counts_[static_cast<std::size_t>(axis & 1)] = counts;
+  }
+  /// The scale of this axis is to be counted (2160h:1).
+  bool scale_fitted(int axis) const { return axis_parameter(slot_of_axes(object::kScaleFitted), axis) != 0; }
   /// Frames were lost in the receiver. One of them may have been a hold or a start that all others obey: when
   /// motion is queued or under way, all nodes stop together. As soon as the port knows.
   void on_receive_overrun(LocalTime at, std::uint32_t frames);
@@ -160,6 +169,8 @@ class Node final : private ObjectOwner {
   AbortCode write(const ObjectEntry& entry, std::int64_t value) override;
   bool read_node_object(ObjectAddress address, std::int64_t& value);
   bool read_axis_object(const DriveAxis& axis, ObjectAddress base, std::int64_t& value);
+  /// In the direction of 2160h:3.
+  ScaleCounts directed_scales() const;
   std::int64_t told_current(const DriveAxis& axis) const;
   AbortCode write_node_object(const ObjectEntry& entry, std::int64_t value);
   AbortCode write_axis_object(const ObjectEntry& entry, std::int64_t value);
@@ -205,6 +216,7 @@ class Node final : private ObjectOwner {
 
   friend class NodePreview;
   std::array<DriveFeedback, kAxesPerNode> feedback_{};
+  ScaleCounts scale_counts_{};
   bool measures_ = false;  ///< the port has sensors
   std::array<bool, kAxesPerNode> tune_requested_{};
   std::optional<CanFrame> boot_up_;

@@ -107,6 +107,16 @@ std::int64_t Node::told_current(const DriveAxis& axis) const {
                                           : slot_of_axes(object::kHoldCurrent)[i]);
 }
 
+ScaleCounts Node::directed_scales() const {
+  ScaleCounts directed{};
+  for (std::size_t i = 0; i < directed.size(); ++i) {
+    const bool inverted = objects_.value(slot_of_axes(object::kScaleInverted)[i]) != 0;
+    const auto counts = static_cast<std::uint32_t>(scale_counts_[i]);
+    directed[i] = static_cast<std::int32_t>(inverted ? 0u - counts : counts);
+  }
+  return directed;
+}
+
 bool Node::read_axis_object(const DriveAxis& axis, ObjectAddress base, std::int64_t& value) {
   const DriveFeedback& feedback = feedback_[&axis == &axes_[0] ? 0 : 1];
   switch (base.index) {
@@ -115,6 +125,14 @@ bool Node::read_axis_object(const DriveAxis& axis, ObjectAddress base, std::int6
       if (base == object::kMotorCurrent) value = measures_ ? feedback.current_ma : told_current(axis);
       if (base == object::kStageTemperature) value = feedback.temperature_dc;
       return true;
+    case 0x2160: {
+      const int i = &axis == &axes_[0] ? 0 : 1;
+      const auto home = axis.scale_at_home();
+      const bool at_home = base == object::kScaleHomeLatch;
+      if (!scale_fitted(i) || (at_home && !home)) return false;
+      value = at_home ? *home : directed_scales()[static_cast<std::size_t>(i)];
+      return true;
+    }
     case 0x6079:
       value = feedback.supply_mv;
       return true;
@@ -278,6 +296,13 @@ AbortCode Node::write_axis_object(const ObjectEntry& entry, std::int64_t value) 
     // The motor is supplied and does not move while it is measured.
     if (value != 1 || !axis.powered() || axis.moving(now_)) return AbortCode::kDeviceState;
     tune_requested_[entry.axis == 1 ? 1 : 0] = true;
+    return AbortCode::kNone;
+  }
+  if (base == object::kScaleFitted || base == object::kScaleInverted) {
+    if (base == object::kScaleFitted && value != 0 && !options_.scale_inputs[entry.axis == 1 ? 1 : 0])
+      return AbortCode::kHardware;
+    // The same again, as a gateway says that has been started anew, does not lose where home is.
+    if (value != objects_.value(entry.value_slot())) axis.forget_scale();
     return AbortCode::kNone;
   }
   if (base == object::kBufferClear) {

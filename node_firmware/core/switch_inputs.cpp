@@ -8,7 +8,8 @@ void SwitchInputs::configure(int input, const Config& config) {
   inputs_[static_cast<std::size_t>(input)].config = config;
 }
 
-void SwitchInputs::on_level(LocalTime at, int input, bool level, const LatchedPositions& latched) {
+void SwitchInputs::on_level(LocalTime at, int input, bool level, const LatchedPositions& latched,
+                            const ScaleCounts& scales) {
   if (input < 0 || input >= kSwitchInputs) return;
   Input& in = inputs_[static_cast<std::size_t>(input)];
   if (level == in.level) {
@@ -18,6 +19,7 @@ void SwitchInputs::on_level(LocalTime at, int input, bool level, const LatchedPo
     in.pending = true;
     in.since = at;
     in.latched = latched;
+    in.scales = scales;
   }
 }
 
@@ -29,8 +31,12 @@ std::optional<SwitchEvent> SwitchInputs::next_event(LocalTime now) {
   if (first == nullptr) return std::nullopt;
   first->pending = false;
   first->level = !first->level;
-  return SwitchEvent{static_cast<int>(first - inputs_.data()), first->config.function, first->active(),
-                     first->since, first->latched};
+  return SwitchEvent{static_cast<int>(first - inputs_.data()),
+                     first->config.function,
+                     first->active(),
+                     first->since,
+                     first->latched,
+                     first->scales};
 }
 
 LocalTime SwitchInputs::next_deadline() const {

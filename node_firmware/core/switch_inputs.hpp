@@ -15,6 +15,9 @@ namespace kinebus {
 /// Positions of both axes at one instant, 32 fractional bits.
 using LatchedPositions = std::array<std::int64_t, kAxesPerNode>;
 
+/// What the linear scales of both axes count at one instant.
+using ScaleCounts = std::array<std::int32_t, kAxesPerNode>;
+
 /// A level that lasted for the debounce time.
 struct SwitchEvent {
   int input = 0;
@@ -22,6 +25,7 @@ struct SwitchEvent {
   bool active = false;
   LocalTime at{0};  ///< the edge itself
   LatchedPositions latched{};
+  ScaleCounts scales{};
 };
 
 class SwitchInputs {
@@ -36,7 +40,8 @@ class SwitchInputs {
   /// Levels stay as they are; what they mean may change at once, without an event.
   void configure(int input, const Config& config);
   /// A raw level, time-stamped by the port. A repetition of the known level is harmless.
-  void on_level(LocalTime at, int input, bool level, const LatchedPositions& latched);
+  void on_level(LocalTime at, int input, bool level, const LatchedPositions& latched,
+                const ScaleCounts& scales = {});
   /// The earliest level that has lasted long enough by `now`; pull until empty.
   std::optional<SwitchEvent> next_event(LocalTime now);
   /// When next_event() will have something, LocalTime::max(): never.
@@ -55,6 +60,7 @@ class SwitchInputs {
     bool pending = false;  // the other level has come at `since`
     LocalTime since{0};
     LatchedPositions latched{};
+    ScaleCounts scales{};
     bool active() const { return level != config.active_low; }
   };
   std::array<Input, kSwitchInputs> inputs_{};

@@ -319,6 +319,21 @@ constexpr void motors(Rows& t) {
   t.for_both_axes(from);
 }
 
+/// Linear scales on what the motors move: quadrature counters, apart from the encoders on the motors' shafts.
+/// What a scale is like is told by the master at every start and not stored: 2116h does not cover it.
+constexpr void linear_scales(Rows& t) {
+  const std::size_t from = t.count;
+  t.head(0x2160, "Linear scale", ObjectCode::kRecord, 5);
+  t.sub(1, "Scale fitted", kU8, kReadWrite, kVariable).between(0, 1);
+  t.sub(2, "Scale counts per unit x1000", kU32, kReadWrite, kVariable)
+      .in("1/1000");  // for people: the node does not use it
+  t.sub(3, "Scale direction inverted", kU8, kReadWrite, kVariable).between(0, 1);
+  // From wherever it stood at power-up; by 5 both can be compared with the axis' coordinates.
+  t.sub(4, "Position by scale", kI32, kReadOnly, kLive).maps(Mapping::kTpdo).in("counts");
+  t.sub(5, "Position by scale at home", kI32, kReadOnly, kLive).maps(Mapping::kTpdo).in("counts");
+  t.for_both_axes(from);
+}
+
 // The PDOs of an axis pair.
 inline constexpr std::array<PdoDefault, kRpdoCount> kAxisPairRpdos{{
     {"Control",

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <map>
@@ -9,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "tools/cli/encoder_rows.hpp"
 #include "tools/cli/job_watch.hpp"
 #include "tools/cli/requests.hpp"
 #include "tools/cli/status_json.hpp"
@@ -78,6 +80,15 @@ void print_status(const Status& s) {
     fmt::print("spindle   {:.0f} / {:.0f} rpm\n", s.spindle_rpm(), s.spindle_target_rpm());
   fmt::print("path      rate {:.2f}   override {:.0f} %   bus {:.1f} % (peak {:.1f} %)\n", s.rate(),
              100 * s.feed_override(), 100 * s.bus_load(), 100 * s.bus_load_peak());
+}
+
+/// What the linear scales say, axis by axis; `s`: at rest, else they say nothing.
+void print_scales(const Status& s, const joblink::MachineInfo& machine) {
+  for (int i = 0; i < std::min(machine.joints_size(), s.joints_size()); ++i)
+    if (const joblink::AxisStatus* axis = axis_of(s, machine.joints(i));
+        axis != nullptr && axis->has_by_scale_mm())
+      fmt::print("{:9} {:.4f}, by its scale {:.4f} ({:+.4f})\n", machine.joints(i).name(), s.joints(i),
+                 axis->by_scale_mm(), axis->by_scale_mm() - s.joints(i));
 }
 
 void print_position(const Status& s) {
@@ -171,10 +182,12 @@ void add_view(CLI::App& app, const Options& options, const std::string& name, co
   app.add_subcommand(name, help)->callback([=] {
     Client client(options->reach);
     const Status status = print == print_nodes ? with_currents(client) : client.status();
-    if (options->json)
-      fmt::print("{}", to_json_text(status, fields));
-    else
-      print(status);
+    if (options->json) return fmt::print("{}", to_json_text(status, fields));
+    print(status);
+    if (print != print_status && print != print_position) return;
+    joblink::ClientMessage ask_machine;
+    ask_machine.mutable_get_machine();
+    print_scales(status, client.ask(std::move(ask_machine)).machine());
   });
 }
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "gateway/status/alarm.hpp"
 #include "protocol/canopen/node_objects.hpp"
 
@@ -40,6 +42,24 @@ TEST(NodeConfiguration, FingerprintTellsEveryChange) {
   EXPECT_EQ(configure_node(m1, 1).fingerprint, configure_node(m1, 1).fingerprint);
   EXPECT_NE(configure_node(m1, 1).fingerprint, configure_node(other, 1).fingerprint);
   EXPECT_EQ(configure_node(m1, 2).fingerprint, configure_node(other, 2).fingerprint);
+}
+
+TEST(NodeConfiguration, AScaleIsToldAtEveryStartAndChangesNoFingerprint) {
+  MachineDescription m1 = default_m1();
+  EXPECT_TRUE(configure_node(m1, 1).settings.empty()) << "without scales nothing more is said on the bus";
+  const auto fingerprint = configure_node(m1, 1).fingerprint;
+  m1.joints[1].scale = ScaleDescription{.pulses_per_mm = 100, .inverted = true};
+  const NodeConfiguration c = configure_node(m1, 1);
+  EXPECT_EQ(c.fingerprint, fingerprint);
+  EXPECT_FALSE(written(c, object::kScaleFitted));
+  std::map<std::uint32_t, std::int64_t> told;
+  for (const ParameterWrite& write : c.settings) told[write.address.key()] = write.value;
+  EXPECT_EQ(told[second(object::kScaleFitted).key()], 1);
+  EXPECT_EQ(told[second(object::kScaleInverted).key()], 1);
+  EXPECT_EQ(told[second(object::kScaleCountsPerUnit).key()], 100'000);
+  ASSERT_TRUE(told.contains(object::kScaleFitted.key()));
+  EXPECT_EQ(told[object::kScaleFitted.key()], 0);
+  EXPECT_TRUE(configure_node(m1, 2).settings.empty());
 }
 
 TEST(NodeConfiguration, AMotorsDataAndItsEncoderReachTheNode) {

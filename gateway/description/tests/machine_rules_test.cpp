@@ -30,6 +30,37 @@ TEST(MachineFile, ADeviceLivesOnAChannelThatItsNodeHas) {
   EXPECT_TRUE(*again == *machine);
 }
 
+TEST(MachineFile, AScaleSaysItsPulsesAndIsOnARailThatHomes) {
+  const auto with = [](const std::string& table) {
+    return parse_machine(edited("[joint.tower2]", table + "\n[joint.tower2]").text, "m");
+  };
+  const auto machine = with("[joint.tower1.scale]\npulses_per_mm = 100\ninverted = true");
+  ASSERT_TRUE(machine) << to_string(machine.error());
+  EXPECT_EQ(machine->joints[0].scale, (ScaleDescription{100, true}));
+  EXPECT_FALSE(machine->joints[1].scale);
+  const auto again = parse_machine(write_machine(*machine), "written");
+  ASSERT_TRUE(again) << to_string(again.error());
+  EXPECT_TRUE(*again == *machine);
+
+  const std::pair<const char*, const char*> refused[] = {
+      {"[joint.tower1.scale]", "joint.tower1.scale.pulses_per_mm: missing; expected a number in 1 .. 100000"},
+      {"[joint.tower1.scale]\npulses_per_mm = 0",
+       "joint.tower1.scale.pulses_per_mm: found 0; expected a number in 1 .. 100000"},
+      {"[joint.C.scale]\npulses_per_mm = 100",
+       "joint.C.scale.pulses_per_mm: found a scale on a joint that turns; expected a joint that moves along "
+       "a "
+       "rail"},
+      {"[joint.E.scale]\npulses_per_mm = 100",
+       "joint.E.scale.pulses_per_mm: found a scale on a joint that does not home at a switch; expected "
+       "[joint.E.homing] with a method of 17..22: the switch's edge is where the scale begins"},
+  };
+  for (const auto& [table, message] : refused) {
+    const auto bad = with(table);
+    ASSERT_FALSE(bad) << table;
+    EXPECT_NE(to_string(bad.error()).find(message), std::string::npos) << to_string(bad.error());
+  }
+}
+
 TEST(MachineFile, ADeviceWhereNoneCanBeIsRefused) {
   struct Case {
     std::string functions, place, message;

@@ -185,8 +185,11 @@ class Bench {
   struct Station {
     explicit Station(const NodeSetup& s)
         : setup(s),
-          core({.identity = {.serial = s.id}, .node_id = s.id}, local(BusTime{0}), s.stored),
-          plant{AxisPlant(s.plant[0]), AxisPlant(s.plant[1])} {}
+          plant{AxisPlant(s.plant[0]), AxisPlant(s.plant[1])},
+          core({.identity = {.serial = s.id},
+                .node_id = s.id,
+                .scale_inputs = {plant[0].has_scale(), plant[1].has_scale()}},
+               local(BusTime{0}), s.stored) {}
     LocalTime local(BusTime t) const {
       return t + setup.offset +
              LocalTime{std::llround(static_cast<double>(t.count()) * setup.drift_ppm * 1e-6)};
@@ -197,8 +200,8 @@ class Bench {
       return BusTime{static_cast<std::int64_t>(std::ceil(since / (1 + setup.drift_ppm * 1e-6))) + 1};
     }
     NodeSetup setup;
-    Node core;
     std::array<AxisPlant, 2> plant;
+    Node core;
     std::deque<Wire> inbox;
     BusTime deadline{0};
     BusTime next_plant{0};
@@ -259,6 +262,7 @@ class Bench {
         for (int axis = 0; axis < 2; ++axis) {
           const auto edge = station.plant[static_cast<std::size_t>(axis)].on_position(
               station.local(now), station.core.position(station.local(now), axis));
+          station.core.set_scale(axis, station.plant[static_cast<std::size_t>(axis)].scale_counts());
           if (edge) station.core.on_switch(edge->at, edge->input, edge->level);
         }
         station.next_plant = now + (station.core.moving(station.local(now)) ? 1ms : 5ms);

@@ -61,13 +61,30 @@ int run(int argc, char** argv) {
   app.add_option("--start-b", start[1], "Carriage B at power-up, counts");
   app.add_option("--switch-a", edge[0], "Edge of switch A (input 1), counts; active below");
   app.add_option("--switch-b", edge[1], "Edge of switch B (input 2), counts; active below");
+  double counts_per_mm = 1280;
+  std::array<double, 2> pulses{}, error{}, play{};
+  app.add_option("--counts-per-mm", counts_per_mm, "Of the motors, for what follows in mm")
+      ->check(CLI::Range(1.0, 1e6))
+      ->capture_default_str();
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const std::string letter(1, "ab"[axis]);
+    app.add_option("--scale-" + letter, pulses[axis],
+                   "Pulses a mm of the linear scale on carriage " + letter + "; without it there is none")
+        ->check(CLI::Range(1.0, 1e5));
+    app.add_option("--screw-error-" + letter, error[axis],
+                   "Ratio by which carriage " + letter + " goes further than it is told, such as 0.0014")
+        ->check(CLI::Range(-0.1, 0.1));
+    app.add_option("--play-" + letter, play[axis], "mm of play between motor and carriage " + letter)
+        ->check(CLI::Range(0.0, 10.0));
+  }
   app.add_option(
          "--priority", priority,
          "SCHED_FIFO priority and locked memory: above the daemon's (80) where both share a processor, "
          "as a real node has its own")
       ->check(CLI::Range(1, 99));
   for (const char* of_motors :
-       {"--estop-input", "--trace", "--start-a", "--start-b", "--switch-a", "--switch-b"})
+       {"--estop-input", "--trace", "--start-a", "--start-b", "--switch-a", "--switch-b", "--counts-per-mm",
+        "--scale-a", "--scale-b", "--screw-error-a", "--screw-error-b", "--play-a", "--play-b"})
     as_heat->excludes(app.get_option(of_motors));
   if (const auto end = kinebus::parse_arguments(app, argc, argv)) return *end;
 
@@ -82,6 +99,9 @@ int run(int argc, char** argv) {
   }
   set_default_plant(options);
   for (std::size_t axis = 0; axis < 2; ++axis) {
+    options.plant[axis].scale_pulses = pulses[axis] / counts_per_mm;
+    options.plant[axis].screw_error = error[axis];
+    options.plant[axis].play_counts = play[axis] * counts_per_mm;
     if (start[axis]) options.plant[axis].start_counts = *start[axis];
     if (!edge[axis]) continue;
     options.plant[axis].switch_counts = *edge[axis];

@@ -16,7 +16,9 @@ constexpr LocalTime kLookAtRest = std::chrono::milliseconds{20};
 VirtualNodeProcess::VirtualNodeProcess(const VirtualNodeProcessOptions& options)
     : BusProcess(options.interface, options.image_path),
       options_(options),
-      plant_{AxisPlant(options.plant[0]), AxisPlant(options.plant[1])} {}
+      plant_{AxisPlant(options.plant[0]), AxisPlant(options.plant[1])} {
+  options_.node.scale_inputs = {plant_[0].has_scale(), plant_[1].has_scale()};
+}
 
 std::string VirtualNodeProcess::start(LocalTime now, std::span<const std::uint8_t> stored) {
   if (!trace_.open(options_.trace_path)) return "trace " + options_.trace_path + ": " + std::strerror(errno);
@@ -37,7 +39,9 @@ void VirtualNodeProcess::on_time(LocalTime now) {
 
 void VirtualNodeProcess::look_at_switches(LocalTime now) {
   for (int axis = 0; axis < 2; ++axis) {
-    const auto edge = plant_[static_cast<std::size_t>(axis)].on_position(now, node_->position(now, axis));
+    AxisPlant& plant = plant_[static_cast<std::size_t>(axis)];
+    const auto edge = plant.on_position(now, node_->position(now, axis));
+    node_->set_scale(axis, plant.scale_counts());
     if (edge) node_->on_switch(edge->at, edge->input, edge->level);
   }
   next_look_ = now + (node_->moving(now) ? kLook : kLookAtRest);

@@ -24,6 +24,7 @@ struct Stm32f405Board {
     object_table::switch_inputs(t);
     object_table::axis_pair(t);
     object_table::motors(t);
+    object_table::linear_scales(t);
   }
 };
 

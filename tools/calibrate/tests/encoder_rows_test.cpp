@@ -35,7 +35,7 @@ TEST(EncoderRows, AScaleErrorThatTheEncodersSeeIsFoundByTheRailsFit) {
         status.set_joints(i, at);
         status.mutable_nodes(0)->mutable_axes(i)->set_off_course(at - kScale * at);
       }
-      csv += encoder_rows(status, info);
+      csv += encoder_rows(status, info).csv;
     }
   const auto read = Csv::parse(csv);
   ASSERT_TRUE(read) << csv;
@@ -53,10 +53,10 @@ TEST(EncoderRows, WithoutAnEncoderThereIsNothingToWrite) {
   info.add_joints()->set_node(1);
   joblink::Status status;
   status.add_joints(5);
-  EXPECT_EQ(encoder_rows(status, info), "") << "its node is not there";
+  EXPECT_EQ(encoder_rows(status, info).csv, "") << "its node is not there";
   status.add_nodes()->set_id(1);
   status.mutable_nodes(0)->add_axes();
-  EXPECT_EQ(encoder_rows(status, info), "") << "its node tells nothing";
+  EXPECT_EQ(encoder_rows(status, info).csv, "") << "its node tells nothing";
 }
 
 }  // namespace

@@ -24,6 +24,13 @@ struct VirtualMachine::VirtualNode {
   VirtualNode(const VirtualNodeOptions& o, BusModel::Port p, int i)
       : options(o), port(p), index(i), core(std::in_place, o.node, to_local(BusTime{0})) {}
 
+  void count_scales(BusTime now) {
+    if (!core) return;
+    for (int axis = 0; axis < 2; ++axis)
+      if (const auto& scale = options.axes[static_cast<std::size_t>(axis)].scale)
+        core->set_scale(axis, scale(counts(axis, now)));
+  }
+
   LocalTime to_local(BusTime t) const {
     return t + options.clock_offset +
            LocalTime{std::llround(static_cast<double>(t.count()) * options.clock_drift_ppm * 1e-6)};
@@ -291,6 +298,7 @@ bool VirtualMachine::advance(BusTime now) {
       }
       continue;
     }
+    due->count_scales(next);
     if (due->next_check <= next) check_switches(*due, next);
     if (due->stalled) continue;
     if (!due->edges.empty() && due->edges.front().at <= next) {
@@ -343,6 +351,7 @@ Node& VirtualMachine::node(int index) {
 void VirtualMachine::set_input(int node, BusTime at, int input, bool level) {
   VirtualNode& n = *nodes_[static_cast<std::size_t>(node)];
   if (!n.core) return;
+  n.count_scales(at);
   n.core->on_switch(n.to_local(at), input - 1, level);
   serve(n, at);
 }

@@ -26,6 +26,9 @@ struct VirtualAxis {
   double switch_counts = 0;  ///< where the switch's edge is
   bool active_above = true;  ///< the switch is active at and above its edge (else at and below)
   bool active_low = false;   ///< electrically
+  /// What a linear scale on the carriage counts, when the motor is at these true counts; asked in the order
+  /// of time. Empty: no scale.
+  std::function<std::int32_t(double counts)> scale{};
   double max_counts_per_s = 1e6;  ///< bound used to find the edge without fine ticks
 };
 

@@ -2,12 +2,26 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <optional>
 #include <random>
 
 #include "gateway/calibration/joint_map.hpp"
 
 namespace kinebus {
 namespace {
+
+/// A scale on the joint itself: behind screw, belt and play. Where it counts from is anybody's guess.
+std::function<std::int32_t(double)> scale_of(const JointDescription& joint) {
+  if (!joint.scale) return {};
+  return [plant = JointPlant(joint), scale = *joint.scale,
+          from = std::optional<double>()](double counts) mutable {
+    const double at = plant.at(counts);
+    if (!from) from = at;
+    const auto whole = static_cast<std::int32_t>(std::floor((at - *from) * scale.pulses_per_mm));
+    return scale.inverted ? -whole : whole;
+  };
+}
 
 // Vendor id 0 is not assigned by CiA: fine for simulated boards unless the machine file asks for another.
 NodeIdentity identity_of(const NodeDescription& node) {
@@ -23,6 +37,7 @@ VirtualAxis axis_of(const JointDescription& joint, const NodeDescription& node, 
   const double counts_per_unit = joint.drive.counts_per_unit();
   VirtualAxis axis;
   axis.start_counts = start * counts_per_unit;
+  axis.scale = scale_of(joint);
   axis.max_counts_per_s = 2 * std::abs(joint.speed_per_s * counts_per_unit);
   if (joint.homing && joint.homing->switch_input != 0) {
     const HomingDescription& homing = *joint.homing;
@@ -49,7 +64,7 @@ std::vector<VirtualNodeOptions> virtual_nodes_of(const MachineDescription& machi
   for (std::size_t n = 0; n < count; ++n) {
     const NodeDescription& node = machine.nodes[n];
     VirtualNodeOptions options;
-    options.node = {identity_of(node), node.id};
+    options.node = {.identity = identity_of(node), .node_id = node.id, .scale_inputs = {true, true}};
     options.clock_drift_ppm =
         count > 1 ? clocks.drift_ppm * (2.0 * static_cast<double>(n) / static_cast<double>(count - 1) - 1)
                   : 0;
