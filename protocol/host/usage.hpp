@@ -8,7 +8,8 @@ namespace kinebus {
 
 constexpr int kUsageError = 2;
 
-/// nullopt: go on. Else the program's exit status: 0 after help or version, kUsageError after words on what is wrong.
+/// nullopt: go on. Else the program's exit status: 0 after help or version, kUsageError after words on what
+/// is wrong.
 inline std::optional<int> parse_arguments(CLI::App& app, int argc, char** argv) {
   try {
     app.parse(argc, argv);

@@ -108,8 +108,8 @@ std::string zsh_completion(const CLI::App& app) {
   std::string commands, cases, common;
   for (const CLI::Option* option : options_of(app)) common += " " + spec(*option);
   for (const CLI::App* command : commands_of(app)) {
-    commands += "    " +
-                quoted(command->get_name() + ":" + replaced(command->get_description(), ":", "\\:")) + "\n";
+    commands +=
+        "    " + quoted(command->get_name() + ":" + replaced(command->get_description(), ":", "\\:")) + "\n";
     std::string arguments;
     for (const CLI::Option* option : options_of(*command)) arguments += " " + spec(*option);
     cases += fmt::format("      {}) _arguments{} '*:file:_files' ;;\n", command->get_name(), arguments);
@@ -151,21 +151,25 @@ std::string fish_completion(const CLI::App& app) {
 std::string man_page(const CLI::App& app, const std::string& version) {
   const std::string& name = app.get_name();
   const std::string& about = app.get_description();
-  std::string text =
-      fmt::format(".TH {} 1 \"\" \"{} {}\"\n.SH NAME\n{} \\- {}\n.SH SYNOPSIS\n.B {}\n[OPTIONS] COMMAND [ARGUMENTS]\n",
-                  upper(name), name, version, name, roff(about.substr(about.find(": ") + 2)), name);
-  text += ".SH OPTIONS\nThey may stand before or behind the command.\n" + roff_options(app, true) + ".SH COMMANDS\n";
+  std::string text = fmt::format(
+      ".TH {} 1 \"\" \"{} {}\"\n.SH NAME\n{} \\- {}\n.SH SYNOPSIS\n.B {}\n[OPTIONS] COMMAND [ARGUMENTS]\n",
+      upper(name), name, version, name, roff(about.substr(about.find(": ") + 2)), name);
+  text += ".SH OPTIONS\nThey may stand before or behind the command.\n" + roff_options(app, true) +
+          ".SH COMMANDS\n";
   for (const CLI::App* command : commands_of(app))
     text += fmt::format(".SS {}\n{}.\n{}", roff(command->get_name()), roff(command->get_description()),
                         roff_options(*command, false));
   text +=
-      ".SH EXIT STATUS\n0: done. 1: refused, or the machine did not come to where it should. 2: wrong arguments.\n"
-      ".SH ENVIRONMENT\n.TP\n.B KINEBUS_SOCKET\nThe daemon's local socket, when \\fB\\-\\-socket\\fR is not given.\n";
+      ".SH EXIT STATUS\n0: done. 1: refused, or the machine did not come to where it should. 2: wrong "
+      "arguments.\n"
+      ".SH ENVIRONMENT\n.TP\n.B KINEBUS_SOCKET\nThe daemon's local socket, when \\fB\\-\\-socket\\fR is not "
+      "given.\n";
   return text;
 }
 
 void add_shell_words(CLI::App& app, const std::string& version) {
-  auto* completion = app.add_subcommand("completion", "Print what bash, zsh or fish need to complete this command");
+  auto* completion =
+      app.add_subcommand("completion", "Print what bash, zsh or fish need to complete this command");
   auto shell = std::make_shared<std::string>();
   completion->add_option("shell", *shell, "bash, zsh or fish")
       ->required()
