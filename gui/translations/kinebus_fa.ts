@@ -3187,7 +3187,7 @@
     <name>kinebus::gui::AlarmsPage</name>
     <message>
         <source>Clear</source>
-        <translation>رفع هشدار</translation>
+        <translation>رفع</translation>
     </message>
     <message>
         <source>No alarm is open.</source>

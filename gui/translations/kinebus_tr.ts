@@ -3187,7 +3187,7 @@
     <name>kinebus::gui::AlarmsPage</name>
     <message>
         <source>Clear</source>
-        <translation>Alarmı kaldır</translation>
+        <translation>Kaldır</translation>
     </message>
     <message>
         <source>No alarm is open.</source>
@@ -3915,7 +3915,7 @@
     </message>
     <message>
         <source>Jog</source>
-        <translation>Manuel hareket</translation>
+        <translation>Manuel</translation>
     </message>
     <message>
         <source>Console</source>
