@@ -11,6 +11,7 @@
 
 #include "protocol/host/guarded_main.hpp"
 #include "protocol/host/socketcan.hpp"
+#include "protocol/host/usage.hpp"
 #include "tools/card/card.hpp"
 
 namespace {
@@ -133,7 +134,7 @@ int run(int argc, char** argv) {
     command->add_option("motor", arguments.axis, "A or B")->required()->check(CLI::IsMember({"A", "B"}));
   for (auto* command : {current_command, tune_command})
     command->add_flag("--store", arguments.store, "Kept through power-off");
-  CLI11_PARSE(app, argc, argv);
+  if (const auto end = kinebus::parse_arguments(app, argc, argv)) return *end;
   if (*current_command && !arguments.run_ma && !arguments.hold_ma)
     return fmt::print(stderr, "current: expected --run, --hold or both\n"), 1;
   if (*jog_command && arguments.turns == 0 && !arguments.counts)
