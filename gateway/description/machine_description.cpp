@@ -83,6 +83,7 @@ MachineDescription default_m1() {
                 .sim_loss_w_per_k = 1},
                {.name = "hotend"}};
   d.fans = {{.name = "part"}};
+  d.bodies.emplace().table_radius_mm = 100;
   return d;
 }
 

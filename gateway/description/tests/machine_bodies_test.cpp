@@ -31,7 +31,8 @@ TEST(MachineFile, BodiesReadBackAsTheyWereWritten) {
   ASSERT_TRUE(defaults) << to_string(defaults.error());
   EXPECT_TRUE(defaults->bodies == BodiesDescription{});
   EXPECT_NE(make_collision_model(*defaults), nullptr);
-  EXPECT_EQ(make_collision_model(default_m1()), nullptr) << "no table, no bodies";
+  d.bodies.reset();
+  EXPECT_EQ(make_collision_model(d), nullptr) << "no table, no bodies";
 }
 
 TEST(MachineFile, WrongBodiesAreRefusedWithTheirKeyAndRule) {
@@ -69,19 +70,50 @@ TEST(MachineFile, WrongBodiesAreRefusedWithTheirKeyAndRule) {
   }
 }
 
+/// A shipped file, and `lines` in its [bodies] instead of its own.
+std::string with_lines(const char* file, std::string_view lines) {
+  const std::string text = file_text(file);
+  return text.substr(0, text.find("\n[bodies]")) + "\n[bodies]\n" + std::string(lines);
+}
+
 TEST(MachineFile, EachKindHasTheKeysOfItsBodies) {
   for (const char* file : {"cartesian.toml", "corexy.toml"}) {
-    const std::string text = file_text(file);
-    EXPECT_TRUE(parse_machine(text + "\n[bodies]\nholder_radius_mm = 30\n", file));
-    const auto machine = parse_machine(text + "\n[bodies]\nrod_radius_mm = 5\n", file);
+    EXPECT_TRUE(parse_machine(with_lines(file, "holder_radius_mm = 30\n"), file));
+    const auto machine = parse_machine(with_lines(file, "rod_radius_mm = 5\n"), file);
     ASSERT_FALSE(machine) << file;
     EXPECT_NE(to_string(machine.error()).find("bodies.rod_radius_mm: found a key that does not exist"),
               std::string::npos);
   }
-  EXPECT_TRUE(parse_machine(file_text("delta.toml") + "\n[bodies]\nrod_spacing_mm = 40\n", "delta"));
-  EXPECT_TRUE(parse_machine(file_text("m4.toml") + "\n[bodies]\nrod_radius_mm = 12\n", "m4"));
-  EXPECT_FALSE(parse_machine(file_text("m4.toml") + "\n[bodies]\nrod_spacing_mm = 40\n", "m4"))
+  EXPECT_TRUE(parse_machine(with_lines("delta.toml", "rod_spacing_mm = 40\n"), "delta"));
+  EXPECT_TRUE(parse_machine(with_lines("m4.toml", "rod_radius_mm = 12\n"), "m4"));
+  EXPECT_FALSE(parse_machine(with_lines("m4.toml", "rod_spacing_mm = 40\n"), "m4"))
       << "M4's legs are single rods";
+}
+
+TEST(MachineFile, EveryShippedMachineHasBodies) {
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(kMachines)) {
+    const auto machine = load_machine(entry.path());
+    ASSERT_TRUE(machine) << to_string(machine.error());
+    EXPECT_NE(make_collision_model(*machine), nullptr) << entry.path();
+    ++files;
+  }
+  EXPECT_GE(files, 8);
+}
+
+TEST(MachineFile, LegsThatCrossAreRefusedWithThePairAndAPose) {
+  // Rails of one side to the other's attachments.
+  MachineDescription d = default_m1();
+  auto& legs = std::get<M1Geometry>(d.kinematics).legs;
+  std::swap(legs[2].attachment_mm, legs[3].attachment_mm);
+  const auto machine = parse_machine(write_machine(d), "m");
+  ASSERT_FALSE(machine);
+  const std::string words = to_string(machine.error());
+  EXPECT_NE(
+      words.find(
+          "bodies: found bodies that touch: at X 0 Y 0 Z 20 A 0, leg 3 and leg 4 would touch; expected room"),
+      std::string::npos)
+      << words;
 }
 
 }  // namespace

@@ -108,6 +108,19 @@ TEST(Preflight, ATiltThatBringsTheTableUpAgainstTheNozzleHolderIsNamed) {
   EXPECT_EQ(problems_on(d, "G43.4\nG1 Z30 F3000\nG1 A45\n").errors(), 0u);
 }
 
+TEST(Preflight, ACornerOfThePlatformAgainstTheNozzleIsNamedWithItsLineAndPasses2MmBesideIt) {
+  // Tilted, past the corner where leg 3 carries the platform: once 1 mm from its rods, once 3 mm.
+  const auto past_the_corner = [](const char* z) {
+    return "G43.4\nG1 Z60 F3000\nG1 A45\nG1 X-124 Y-40\nG1 Z" + std::string(z) + "\nG1 Y-80\nG1 Z60\n";
+  };
+  const ProblemList bad = problems_on(default_m1(), past_the_corner("2"));
+  ASSERT_EQ(bad.errors(), 1u);
+  EXPECT_EQ(bad.all()[0].line, 6u);
+  EXPECT_TRUE(bad.all()[0].words.starts_with("leg 3 and nozzle would come as near as "))
+      << bad.all()[0].words;
+  EXPECT_EQ(problems_on(default_m1(), past_the_corner("4")).errors(), 0u);
+}
+
 TEST(WayRules, WhatIsMetBetweenTwoPosesThatAreClearIsFound) {
   const MachineDescription d = with_clamp(true);
   const auto its_kinematics = make_kinematics(d);
