@@ -1,6 +1,8 @@
 // The largest cylinder around the table's axis: the table turns, so only what is allowed all around counts.
 
+#include <algorithm>
 #include <numbers>
+#include <vector>
 
 #include "tools/workspace/scan.hpp"
 
@@ -10,9 +12,11 @@ double Cylinder::volume_mm3() const {
   return std::numbers::pi * radius_mm * radius_mm * (z_max_mm - z_min_mm);
 }
 
-Cylinder largest_cylinder(const Scan& s, int tilt) {
+namespace {
+
+/// How many cells from the axis outwards are allowed on every ray of each plane.
+std::vector<int> free_cells(const Scan& s, int tilt) {
   const std::uint64_t all = s.tilts == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << s.tilts) - 1;
-  // How many cells from the axis outwards are allowed on every ray of a plane.
   std::vector<int> free(static_cast<std::size_t>(s.planes), 0);
   for (int plane = 0; plane < s.planes; ++plane)
     for (int radius = 0; radius < s.radii; ++radius) {
@@ -24,18 +28,40 @@ Cylinder largest_cylinder(const Scan& s, int tilt) {
       if (!around) break;
       free[static_cast<std::size_t>(plane)] = radius + 1;
     }
+  return free;
+}
+
+/// The largest whose lowest plane is `low`.
+Cylinder largest_from(const Scan& s, const std::vector<int>& free, int low, double most_radius_mm) {
   Cylinder best;
-  for (int low = 0; low < s.planes; ++low) {
-    int least = s.radii;
-    for (int high = low; high < s.planes; ++high) {
-      least = std::min(least, free[static_cast<std::size_t>(high)]);
-      if (least == 0) break;
-      const Cylinder c{least * s.options.step_mm, s.room.z_min_mm + low * s.options.step_mm,
-                       s.room.z_min_mm + (high + 1) * s.options.step_mm};
-      if (c.volume_mm3() > best.volume_mm3()) best = c;
-    }
+  int least = s.radii;
+  for (int high = low; high < s.planes; ++high) {
+    least = std::min(least, free[static_cast<std::size_t>(high)]);
+    if (least == 0) break;
+    const Cylinder c{std::min(least * s.options.step_mm, most_radius_mm),
+                     s.room.z_min_mm + low * s.options.step_mm,
+                     s.room.z_min_mm + (high + 1) * s.options.step_mm};
+    if (c.volume_mm3() > best.volume_mm3()) best = c;
   }
   return best;
+}
+
+}  // namespace
+
+Cylinder largest_cylinder(const Scan& s, int tilt) {
+  const std::vector<int> free = free_cells(s, tilt);
+  Cylinder best;
+  for (int low = 0; low < s.planes; ++low)
+    if (const Cylinder c = largest_from(s, free, low, s.radii * s.options.step_mm);
+        c.volume_mm3() > best.volume_mm3())
+      best = c;
+  return best;
+}
+
+Cylinder standing_cylinder(const Scan& s, double table_radius_mm) {
+  int low = 0;
+  while (low + 1 < s.planes && s.z_mm(low) < 0) ++low;
+  return largest_from(s, free_cells(s, -1), low, table_radius_mm);
 }
 
 }  // namespace kinebus::workspace

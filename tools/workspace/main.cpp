@@ -8,6 +8,7 @@
 
 #include "gateway/bodies/collision_model.hpp"
 #include "gateway/description/machine_file.hpp"
+#include "tools/workspace/bodies_picture.hpp"
 #include "tools/workspace/boundary.hpp"
 #include "tools/workspace/optimise.hpp"
 #include "tools/workspace/picture.hpp"
@@ -16,7 +17,7 @@ namespace kinebus::workspace {
 namespace {
 
 struct Arguments {
-  std::string machine, svg, stl, ply;
+  std::string machine, svg, bodies_svg, stl, ply;
   double step_mm = 2, tilt_step_deg = 2, dexterous = 8;
   int threads = 2;
   std::vector<double> wanted;  // radius, height, tilt from, tilt to
@@ -67,6 +68,16 @@ const char* rule_of(bodies::BodyKind a, bodies::BodyKind b) {
   return "";
 }
 
+double table_radius_mm(const bodies::CollisionModel& model) {
+  for (const auto& body : model.bodies())
+    if (body.id.kind == bodies::BodyKind::kTable) {
+      const bodies::Shape& s = model.at_rest().shapes[body.first_shape];
+      // A bed that is a box: the circle in it.
+      return s.core == bodies::Shape::Core::kBox ? std::min(norm(s.half[0]), norm(s.half[1])) : s.radius_mm;
+    }
+  return 0;
+}
+
 void print_meetings(const Scan& s, const bodies::CollisionModel* model) {
   if (model == nullptr) {
     std::printf("bodies               not checked: the machine file has no [bodies]\n");
@@ -110,6 +121,10 @@ void print_scan(const Scan& s, const bodies::CollisionModel* model) {
     row(tilt, name);
   }
   row(-1, "every");
+  const double table = model != nullptr ? table_radius_mm(*model) : s.room.radius_mm;
+  const Cylinder c = standing_cylinder(s, table);
+  std::printf("on a table of %.0f mm, at every tilt: %.0f mm diameter, %.0f mm high, from z %.0f\n",
+              2 * table, 2 * c.radius_mm, c.z_max_mm - c.z_min_mm, c.z_min_mm);
 }
 
 /// Radius outwards, height upwards: tilts allowed all around, as a share.
@@ -197,6 +212,12 @@ int run(const Arguments& a) {
       out << draw_workspace(fine, coarse, {"Workspace of " + machine.name, subtitle});
     });
   }
+  if (!a.bodies_svg.empty()) {
+    if (model == nullptr) throw std::runtime_error("--bodies-svg is for a machine file with [bodies]");
+    write(a.bodies_svg, [&](std::ostream& out) {
+      out << draw_bodies(*model, **kinematics, room, "Bodies of " + machine.name);
+    });
+  }
   if (!a.stl.empty() || !a.ply.empty()) {
     const auto triangles = boundary(fine, -1);
     write(a.stl, [&](std::ostream& out) { write_stl(out, triangles); });
@@ -221,6 +242,8 @@ int main(int argc, char** argv) {
     app.add_option("--dexterous", a.dexterous,
                    "Condition number up to which the dexterity map counts (default 8)");
     app.add_option("--svg", a.svg, "Picture");
+    app.add_option("--bodies-svg", a.bodies_svg,
+                   "Picture of the bodies at four poses, and which two are nearest");
     app.add_option("--stl", a.stl, "Boundary as binary STL");
     app.add_option("--ply", a.ply, "Boundary as PLY, coloured by the share of tilts");
     app.add_option("--wanted", a.wanted, "Another room: RADIUS HEIGHT TILT-FROM TILT-TO, mm and deg")

@@ -80,5 +80,8 @@ struct Cylinder {
   double volume_mm3() const;
 };
 Cylinder largest_cylinder(const Scan& scan, int tilt);
+/// The largest that stands on the table, at every tilt: from z = 0, or the lowest plane above, and no wider
+/// than the table.
+Cylinder standing_cylinder(const Scan& scan, double table_radius_mm);
 
 }  // namespace kinebus::workspace

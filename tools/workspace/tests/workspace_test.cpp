@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "gateway/bodies/tests/legs_below.hpp"
+#include "tools/workspace/bodies_picture.hpp"
 #include "tools/workspace/boundary.hpp"
 #include "tools/workspace/optimise.hpp"
 #include "tools/workspace/picture.hpp"
@@ -98,6 +99,33 @@ TEST(Scan, AMachineWithoutRulesFillsTheRoom) {
   EXPECT_NEAR(volume_mm3(s, 0), full, 1e-6 * full);
   const Cylinder c = largest_cylinder(s, -1);
   EXPECT_NEAR(c.volume_mm3(), full, 1e-6 * full);
+}
+
+TEST(Scan, ACylinderStandsOnTheTableAndIsNoWiderThanIt) {
+  CartesianGeometry g;
+  g.x_mm = g.y_mm = g.z_mm = {-1000, 1000};
+  const auto cartesian = *make_cartesian_kinematics(g);
+  Scan s = scan(*cartesian, {100, -20, 50, 0, 0}, coarse(2));
+  const Cylinder c = standing_cylinder(s, 60);
+  EXPECT_DOUBLE_EQ(c.radius_mm, 60);
+  EXPECT_NEAR(c.z_min_mm, 0, s.options.step_mm);
+  EXPECT_NEAR(c.z_max_mm, 50, s.options.step_mm);
+  // Something on the table near its axis: nothing stands there.
+  for (int plane = 0; plane < s.planes; ++plane)
+    if (s.z_mm(plane) < 10) s.allowed[s.cell(plane, 0, 0)] = 0;
+  EXPECT_EQ(standing_cylinder(s, 60).volume_mm3(), 0);
+  EXPECT_GT(largest_cylinder(s, -1).z_min_mm, 0);
+}
+
+TEST(BodiesPicture, ShowsFourPosesAndNamesTheTwoThatAreNearest) {
+  const MachineDescription d = legs_below();
+  const bodies::Model model = make_collision_model(d);
+  const std::string svg =
+      draw_bodies(*model, **make_kinematics(d), {100, 0, 200, -45 * kRadPerDeg, 45 * kRadPerDeg}, "Bodies");
+  for (const char* words : {"X 0 Y 0 Z 0 A 0<", "X 0 Y 0 Z 100 A -45<", "X 0 Y 0 Z 100 A 45<",
+                            "where two bodies are nearest", " mm: platform, nozzle<"})
+    EXPECT_NE(svg.find(words), std::string::npos) << words;
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
 }
 
 TEST(Scan, TheDefaultMachineHoldsTheCylinderItIsMadeFor) {
