@@ -134,6 +134,32 @@ struct GeometryMessage {
   }
 };
 
+void set_bodies(joblink::Bodies& message, const BodiesDescription& b) {
+  message.set_clearance_mm(b.clearance_mm);
+  message.set_rod_radius_mm(b.rod_radius_mm);
+  message.set_rod_spacing_mm(b.rod_spacing_mm);
+  message.set_carriage_length_mm(b.carriage_length_mm);
+  message.set_carriage_width_mm(b.carriage_width_mm);
+  message.set_rail_radius_mm(b.rail_radius_mm);
+  message.set_rail_offset_mm(b.rail_offset_mm);
+  message.set_platform_radius_mm(b.platform_radius_mm);
+  message.set_table_radius_mm(b.table_radius_mm);
+  message.set_table_thickness_mm(b.table_thickness_mm);
+  message.set_tool_radius_mm(b.tool_radius_mm);
+  message.set_tool_length_mm(b.tool_length_mm);
+  message.set_holder_radius_mm(b.holder_radius_mm);
+  message.set_holder_length_mm(b.holder_length_mm);
+  message.set_floor_mm(b.floor_mm);
+  message.set_part_radius_mm(b.part_radius_mm);
+  message.set_part_height_mm(b.part_height_mm);
+  for (const FixedBody& body : b.fixed) {
+    joblink::Bodies::Fixed& fixed = *message.add_fixed();
+    fixed.set_name(shown(body.name));
+    set_vector(*fixed.mutable_from(), body.from_mm);
+    set_vector(*fixed.mutable_to(), body.to_mm);
+  }
+}
+
 std::string input_words(const SwitchInput& input) {
   const std::string axis = input.axis == 0 ? " A" : " B";
   switch (input.function) {
@@ -302,6 +328,7 @@ joblink::MachineInfo to_message(const MachineDescription& machine, const Pose& b
   }
   m.set_filament_diameter_mm(machine.gcode.filament_diameter_mm);
   m.set_bus(shown(machine.bus.interface));
+  if (machine.bodies) set_bodies(*m.mutable_bodies(), *machine.bodies);
   return m;
 }
 

@@ -2,7 +2,6 @@
 // From what the gateway tells to what the scene draws.
 
 #include <optional>
-#include <vector>
 
 #include "gateway/gcode/interpreter.hpp"
 #include "gui/scene/machine_model.hpp"
@@ -17,7 +16,5 @@ std::optional<MachineModel> model_of(const joblink::MachineInfo& machine);
 gcode::Options reading_options(const joblink::MachineInfo& machine);
 kinebus::Pose to_pose(const joblink::Pose& pose);
 PartPose pose_of(const joblink::Status& status);
-/// Travel of the carriages, in the order of the model's legs.
-std::vector<double> carriages_of(const joblink::MachineInfo& machine, const joblink::Status& status);
 
 }  // namespace kinebus::gui

@@ -1,9 +1,12 @@
 #pragma once
-// The machine at one instant as solid bodies: where each goes and what it is, for the renderer and for tests.
+// The machine at one instant as solid bodies, those of the gateway's collision model: where each goes and
+// what it is, for the renderer and for tests.
 
 #include <QMatrix4x4>
+#include <optional>
 #include <vector>
 
+#include "gateway/bodies/collision_model.hpp"
 #include "gui/scene/machine_model.hpp"
 
 namespace kinebus::gui {
@@ -11,17 +14,17 @@ namespace kinebus::gui {
 /// Unit bodies: box and cylinder fill -0.5 .. 0.5 (cylinder and cone along z); cone's tip is at z = -0.5.
 enum class Body { kBox, kCylinder, kCone, kSphere };
 enum class Finish {
-  kFrame,
+  kFixed,
   kRail,
   kCarriage,
   kLeg,
-  kJoint,
+  kHolder,
   kPlatform,
   kTable,
-  kTableRim,
-  kBrass,
+  kTool,
   kHot,
-  kMark
+  kMark,
+  kNear  ///< comes close to another
 };
 
 struct FigurePart {
@@ -32,13 +35,15 @@ struct FigurePart {
 
 struct MachineFigure {
   std::vector<FigurePart> parts;
-  QMatrix4x4 part_frame;  ///< table coordinates to machine frame
-  QMatrix4x4 tool;        ///< tool tip, machine frame
+  QMatrix4x4 part_frame;                   ///< table coordinates to machine frame
+  std::optional<bodies::Clearance> close;  ///< of the two that are nearest, when they come close
 };
 
-/// joints_mm: carriages as the gateway reports them, in the machine's order; fewer than the machine has:
-/// worked out of the pose. hot: the nozzle glows.
-MachineFigure pose_machine(const MachineModel& model, const PartPose& pose,
-                           const std::vector<double>& joints_mm, bool hot);
+/// Two bodies are close when less than this is left to the clearance that they must keep.
+inline constexpr double kClose_mm = 3;
+
+/// Without the floor, and without the room that is kept for a part. hot: the tool glows. What moves is left
+/// out where the pose is out of reach.
+MachineFigure pose_machine(const MachineModel& model, const PartPose& pose, bool hot);
 
 }  // namespace kinebus::gui

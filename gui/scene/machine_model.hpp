@@ -3,10 +3,12 @@
 // (MachineInfo).
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "gateway/bodies/collision_model.hpp"
 #include "gui/scene/vec.hpp"
 
 namespace kinebus::gui {
@@ -23,7 +25,7 @@ struct PartPose {
 };
 
 struct MachineModel {
-  enum class Kind { kM1, kCartesian, kCoreXy, kLinearDelta };
+  enum class Kind { kM1, kCartesian, kCoreXy, kLinearDelta, kM4 };
   struct Leg {
     Vec3 foot_mm{}, rail{0, 0, 1}, attachment_mm{};
     double length_mm = 991, connector_mm = 0;
@@ -36,10 +38,12 @@ struct MachineModel {
   Vec3 nozzle_mm{};       ///< fixed in the machine frame (M1); elsewhere the tool moves
   std::vector<Leg> legs;  ///< M1: four; linear delta: three towers with their arms
   double max_leg_angle_rad = 1.2;
-  double tower_radius_mm = 0;                            ///< linear delta: of the rails, as drawn
   Range x_mm{-100, 100}, y_mm{-100, 100}, z_mm{0, 200};  ///< where the tool may be, table coordinates
   double radius_mm = 0;                                  ///< 0: the workspace is the box alone
   bool turns = false;                                    ///< has A or C
+  std::shared_ptr<const bodies::CollisionModel> solid;   ///< what is drawn
+  bool watched = false;                                  ///< the gateway keeps these bodies apart, too
+  double table_radius_mm = 0;                            ///< 0: the bed is the box of X and Y
 
   bool round() const { return radius_mm > 0; }
   /// Carriage travels for a pose, by the closure of each leg; nullopt: out of reach. Only machines with legs.

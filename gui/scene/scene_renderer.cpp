@@ -27,7 +27,7 @@ struct Look {
 
 Look look_of(Finish finish) {
   switch (finish) {
-    case Finish::kFrame:
+    case Finish::kFixed:
       return {{0.72F, 0.74F, 0.77F}, {0.30F, 0.33F, 0.37F}, 0.10F, 0};
     case Finish::kRail:
       return {{0.82F, 0.84F, 0.87F}, {0.58F, 0.62F, 0.67F}, 0.45F, 0};
@@ -35,20 +35,20 @@ Look look_of(Finish finish) {
       return {{0.06F, 0.52F, 0.62F}, {0.07F, 0.58F, 0.68F}, 0.25F, 0};
     case Finish::kLeg:
       return {{0.20F, 0.22F, 0.25F}, {0.13F, 0.145F, 0.165F}, 0.30F, 0};
-    case Finish::kJoint:
+    case Finish::kHolder:
       return {{0.48F, 0.51F, 0.55F}, {0.42F, 0.45F, 0.50F}, 0.40F, 0};
     case Finish::kPlatform:
       return {{0.62F, 0.65F, 0.69F}, {0.36F, 0.40F, 0.45F}, 0.15F, 0};
     case Finish::kTable:
       return {{0.28F, 0.31F, 0.35F}, {0.17F, 0.19F, 0.22F}, 0.12F, 0};
-    case Finish::kTableRim:
-      return {{0.86F, 0.87F, 0.89F}, {0.50F, 0.54F, 0.59F}, 0.35F, 0};
-    case Finish::kBrass:
+    case Finish::kTool:
       return {{0.86F, 0.68F, 0.30F}, {0.80F, 0.62F, 0.27F}, 0.60F, 0};
     case Finish::kHot:
       return {{0.93F, 0.42F, 0.16F}, {0.96F, 0.44F, 0.16F}, 0.20F, 0.35F};
     case Finish::kMark:
       return {{0.95F, 0.61F, 0.13F}, {0.95F, 0.61F, 0.13F}, 0.10F, 0.15F};
+    case Finish::kNear:
+      return {{0.86F, 0.13F, 0.17F}, {0.92F, 0.17F, 0.20F}, 0.20F, 0.25F};
   }
   return {};
 }
@@ -267,8 +267,7 @@ void SceneRenderer::draw_figure() {
   program.setUniformValue("clip", world_clip_);
   program.setUniformValue("eye", content_.camera.eye_mm());
   for (const FigurePart& part : content_.figure.parts) {
-    const bool bed = part.finish == Finish::kTable || part.finish == Finish::kTableRim;
-    if (!content_.show_machine && !bed) continue;
+    if (!content_.show_machine && part.finish != Finish::kTable) continue;
     const Look look = look_of(part.finish);
     program.setUniformValue("place", part.place);
     program.setUniformValue("normal_matrix", part.place.normalMatrix());
@@ -280,8 +279,10 @@ void SceneRenderer::draw_figure() {
   // The bed's grid, every 50 mm, just above the table.
   std::vector<QVector3D> grid;
   const MachineModel& m = content_.model;
-  const double half_x = m.round() ? m.radius_mm : m.x_mm.max, half_y = m.round() ? m.radius_mm : m.y_mm.max;
-  const double low_x = m.round() ? -half_x : m.x_mm.min, low_y = m.round() ? -half_y : m.y_mm.min;
+  const bool round = m.table_radius_mm > 0;
+  const double half_x = round ? m.table_radius_mm : m.x_mm.max,
+               half_y = round ? m.table_radius_mm : m.y_mm.max;
+  const double low_x = round ? -half_x : m.x_mm.min, low_y = round ? -half_y : m.y_mm.min;
   const auto line = [&](double x0, double y0, double x1, double y1) {
     grid.emplace_back(static_cast<float>(x0), static_cast<float>(y0), 0.1F);
     grid.emplace_back(static_cast<float>(x1), static_cast<float>(y1), 0.1F);
@@ -290,13 +291,13 @@ void SceneRenderer::draw_figure() {
   const auto first = [](double low_mm) { return static_cast<int>(std::ceil(low_mm / kGrid_mm)); };
   for (int i = first(low_x); i * kGrid_mm <= half_x; ++i) {
     const double x = i * kGrid_mm;
-    const double y = m.round() ? std::sqrt(std::max(0.0, half_y * half_y - x * x)) : half_y;
-    line(x, m.round() ? -y : low_y, x, y);
+    const double y = round ? std::sqrt(std::max(0.0, half_y * half_y - x * x)) : half_y;
+    line(x, round ? -y : low_y, x, y);
   }
   for (int i = first(low_y); i * kGrid_mm <= half_y; ++i) {
     const double y = i * kGrid_mm;
-    const double x = m.round() ? std::sqrt(std::max(0.0, half_x * half_x - y * y)) : half_x;
-    line(m.round() ? -x : low_x, y, x, y);
+    const double x = round ? std::sqrt(std::max(0.0, half_x * half_x - y * y)) : half_x;
+    line(round ? -x : low_x, y, x, y);
   }
   const QMatrix4x4 clip = world_clip_ * content_.figure.part_frame;
   draw_plain(grid, GL_LINES, clip, QVector4D(content_.colours.grid, 1));

@@ -220,9 +220,7 @@ void ViewPage::take_status() {
   SceneContent& content = scene_->content();
   const joblink::Status& status = desk_.session.status();
   if (content.has_machine) {
-    content.figure =
-        pose_machine(content.model, pose_of(status), carriages_of(desk_.session.machine(), status),
-                     status.hotend().actual_celsius() > 50);
+    content.figure = pose_machine(content.model, pose_of(status), status.hotend().actual_celsius() > 50);
     if (!fitted_ && status.has_tool()) {
       fitted_ = true;
       content.camera = {};
