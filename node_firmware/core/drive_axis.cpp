@@ -184,6 +184,9 @@ void DriveAxis::serve_stop(LocalTime now) {
 void DriveAxis::serve_motion(LocalTime now) {
   const ProfileTicks t = to_ticks(now);
   if (homing_.running()) serve_homing(now);
+  // SYNC has ended in the midst of a motion: a master, or the bus, is gone.
+  if (source_ == Source::kLine && t >= line_.lost_at() && !blocked())
+    path_.request_stop(StopReason::kSyncLost, static_cast<int>(index_), emcy::kSyncController, now);
   if (source_ == Source::kProfile && mode_ == Mode::kProfilePosition && serving_ == cia402::Stop::kNone)
     profile_position_.on_time(t, served_until_, profile_);
   // So that a checkpoint before the first record compares with where the axis is.
@@ -248,8 +251,12 @@ bool DriveAxis::moving(LocalTime at) const {
 
 LocalTime DriveAxis::next_deadline() const {
   const bool ends = source_ == Source::kProfile || source_ == Source::kLine;
-  const ProfileTicks end = source_ == Source::kLine ? line_.end() : profile_.end();
-  LocalTime deadline = ends && end > served_until_ ? to_local(end) : LocalTime::max();
+  const bool waits_for_sync = source_ == Source::kLine && line_.end() <= served_until_;
+  const ProfileTicks end = waits_for_sync             ? line_.lost_at()
+                           : source_ == Source::kLine ? line_.end()
+                                                      : profile_.end();
+  LocalTime deadline =
+      ends && end > served_until_ && end < LinearInterpolator::kNever ? to_local(end) : LocalTime::max();
   if (homing_.waiting()) deadline = std::min(deadline, to_local(served_until_) + kTurn);
   return deadline;
 }

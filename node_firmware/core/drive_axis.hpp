@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "node_firmware/core/homing.hpp"
 #include "node_firmware/core/linear_interpolator.hpp"
@@ -75,6 +76,8 @@ class DriveAxis {
 
   /// Set once when an error of this axis asks for an EMCY; 0: none.
   std::uint16_t take_emergency();
+  /// Set-points have stopped all; once, when that stop is over.
+  bool take_left_behind() { return std::exchange(left_behind_, false); }
   /// The code of a fault that has been reset, once; 0: none.
   std::uint16_t take_cleared_fault();
 
@@ -103,6 +106,7 @@ class DriveAxis {
   void serve_homing(LocalTime now);
   void enter_mode(LocalTime now, Mode mode);
   void begin_stream(LocalTime now);
+  void follow(LocalTime now, std::int64_t behind);
   void start_or_end_homing(LocalTime now, bool start);
   bool blocked() const { return path_.stop_latched(); }
 
@@ -131,6 +135,9 @@ class DriveAxis {
   bool was_enabled_ = false;
   bool halted_ = false;
   bool position_known_ = false;
+  LocalTime behind_since_ =
+      LocalTime::max();  // set-points of SYNC are farther than the following error window
+  bool left_behind_ = false;
   bool creeps_ = false;   // after the stream was dropped; the flag outlives that motion's end
   bool leaving_ = false;  // brakes for a change of mode
   bool homing_error_told_ = false;

@@ -83,8 +83,11 @@ void DriveAxis::on_sync(LocalTime now) {
   const bool cyclic = mode_ == Mode::kCyclicSynchronousPosition;
   const bool linear = mode_ == Mode::kInterpolatedPosition && parameter(kSubMode) == 0 &&
                       (word_ & control::kInterpolationEnable) != 0;
-  if ((!cyclic && !linear) || wanted_mode_ != mode_ || !power_.moves() || blocked()) return;
   const ProfileTicks t = to_ticks(now);
+  // Set-points are not taken any more: the axis is not to go on as if one were late.
+  if (!cyclic && !linear && source_ == Source::kLine)
+    brake(t, unsigned_parameter(slot_of_axes(object::kProfileDeceleration)));
+  if ((!cyclic && !linear) || wanted_mode_ != mode_ || !power_.moves() || blocked()) return;
   // An axis on the stream leaves it only when the stream rests.
   if (source_ == Source::kStream || (source_ == Source::kProfile && !profile_.done(t))) return;
   if (source_ != Source::kLine) line_.hold(state_at(t).position);
@@ -93,12 +96,35 @@ void DriveAxis::on_sync(LocalTime now) {
                                            parameter(slot_of_axes(object::kPositionOffset))
                                      : parameter(slot_of_axes(object::kInterpolationData));
   limited_ = false;
-  const std::int64_t target =
-      within_limits(from_counts(std::clamp<std::int64_t>(wanted, -(1 << 30), 1 << 30)));
+  const std::int64_t set_point = from_counts(std::clamp<std::int64_t>(wanted, -(1 << 30), 1 << 30));
+  const std::int64_t target = within_limits(set_point);
   const ProfileTicks period = interpolation_period(parameter(slot_of_axes(object::kInterpolationPeriod)),
                                                    parameter(slot_of_axes(object::kInterpolationIndex)));
-  if (!line_.go(t, target, period, unsigned_parameter(slot_of_axes(object::kMaxProfileVelocity))))
-    limited_ = true;
+  LinearInterpolator::Limits limits;
+  limits.profile = {unsigned_parameter(slot_of_axes(object::kMaxProfileVelocity)),
+                    unsigned_parameter(slot_of_axes(object::kMaxAcceleration)),
+                    unsigned_parameter(slot_of_axes(object::kMaxDeceleration))};
+  if (position_known_) {
+    limits.low = from_counts(parameter(slot_of_axes(object::kMinPositionLimit)));
+    limits.high = from_counts(parameter(slot_of_axes(object::kMaxPositionLimit)));
+  }
+  follow(now, line_.go(t, target, period, limits));
+}
+
+/// A set-point that stays too far ahead, for too long, is none that the master has planned: all stop.
+void DriveAxis::follow(LocalTime now, std::int64_t behind) {
+  if (behind != 0) limited_ = true;
+  constexpr std::int64_t kUnwatched = 0xFFFF'FFFF;
+  const std::int64_t window = parameter(slot_of_axes(object::kFollowingErrorWindow));
+  if (window == kUnwatched || (behind >> 32) < window) {
+    behind_since_ = LocalTime::max();
+    return;
+  }
+  behind_since_ = std::min(behind_since_, now);
+  const LocalTime patience{parameter(slot_of_axes(object::kFollowingErrorTimeout)) * 1'000'000};
+  if (now - behind_since_ < patience) return;
+  left_behind_ = true;
+  path_.request_stop(StopReason::kAxisFault, static_cast<int>(index_), emcy::kFollowingError, now);
 }
 
 ProfilePosition::SetPoint DriveAxis::next_set_point(std::uint16_t word) {
@@ -231,6 +257,7 @@ std::uint16_t DriveAxis::statusword(LocalTime now) const {
     case Mode::kCyclicSynchronousPosition:
       if (rests) word |= status::kTargetReached;
       if (source_ == Source::kLine && power_.moves()) word |= status::kFollowsCommand;
+      if (left_behind_) word |= status::kFollowingError;
       break;
     case Mode::kNone:
       break;

@@ -1,6 +1,8 @@
 #pragma once
-// Straight lines from set-point to set-point, one for each SYNC: cyclic synchronous position, and
-// interpolated position with linear sub-mode.
+// From set-point to set-point, one for each SYNC: cyclic synchronous position, and interpolated position with
+// linear sub-mode. Each way is a ramp from the speed of before to the one that reaches the set-point at the
+// next SYNC, and a straight line after it: never faster, and never steeper, than the limits. A set-point that
+// cannot be reached so is approached as one to stop at.
 
 #include <algorithm>
 
@@ -10,36 +12,46 @@ namespace kinebus {
 
 class LinearInterpolator {
  public:
+  struct Limits {
+    ProfileLimits profile;
+    std::int64_t low = -kPositionBound, high = kPositionBound;  ///< braked for in time
+  };
+
   void hold(std::int64_t position) {
-    from_ = to_ = position;
-    length_ = 0;
+    *this = {};
+    set_point_ = from_ = ramped_ = to_ = position;
   }
 
-  /// From where the axis is at `now` to `target` in `period` ticks, not faster than `max_speed` (counts/s):
-  /// false when that keeps it from reaching the target.
-  bool go(ProfileTicks now, std::int64_t target, ProfileTicks period, std::uint32_t max_speed) {
-    from_ = at(now).position;
-    start_ = now;
-    length_ = std::max<ProfileTicks>(period, 1);
-    const std::int64_t most = distance_of(velocity_from(max_speed), length_);
-    to_ = std::clamp(target, from_ - most, from_ + most);
-    const std::int64_t way = to_ > from_ ? to_ - from_ : from_ - to_;
-    velocity_ = velocity_over(static_cast<std::uint64_t>(way), length_) * (to_ > from_ ? 1 : -1);
-    return to_ == target;
-  }
+  /// From where the axis is at `now` to `target` in `period` ticks, 100 us to 10 s. Returns how far it stays
+  /// away from the target; 0: reached.
+  std::int64_t go(ProfileTicks now, std::int64_t target, ProfileTicks period, const Limits& limits);
 
-  /// Stands at the last set-point when no new one has come in time.
-  ProfileState at(ProfileTicks time) const {
-    if (time >= start_ + length_) return {to_, 0};
-    return {from_ + distance_of(velocity_, std::max<ProfileTicks>(time - start_, 0)), velocity_};
+  /// After its end it goes on at the same speed, for a SYNC that is late.
+  ProfileState at(ProfileTicks time) const;
+  /// Stands, and will: also between set-points that are one and the same.
+  bool done(ProfileTicks time) const {
+    return after_ == 0 && (time >= end() || (before_ == 0 && from_ == to_));
   }
-  bool done(ProfileTicks time) const { return time >= start_ + length_; }
   ProfileTicks end() const { return start_ + length_; }
-  std::int64_t target() const { return to_; }
+  /// In motion, and no SYNC has come for so long that it is not late but lost: one that is missing, or late
+  /// by half a period, is waited for, unless the period is long.
+  ProfileTicks lost_at() const {
+    constexpr ProfileTicks most = kTicksPerSecond / 50;
+    return after_ == 0 ? kNever : end() + std::max(length_ / 2, std::min(length_ * 3 / 2, most));
+  }
+
+  static constexpr ProfileTicks kNever = std::int64_t{1} << 62;
 
  private:
-  std::int64_t from_ = 0, to_ = 0, velocity_ = 0;
-  ProfileTicks start_ = 0, length_ = 0;
+  /// The ramp that changes the speed by `by` (2^-56 counts a tick), as far as `acceleration` allows.
+  void ramp(std::int64_t by, std::int64_t acceleration);
+  ProfileState on_ramp(ProfileTicks t) const;  ///< `t` after the start
+
+  std::int64_t set_point_ = 0;          // the last one
+  std::int64_t from_ = 0, before_ = 0;  // at the start: position and speed
+  std::int64_t acceleration_ = 0;       // of the ramp, with its sign
+  ProfileTicks start_ = 0, ramp_ = 0, length_ = 0;
+  std::int64_t ramped_ = 0, after_ = 0, to_ = 0;  // position and speed after the ramp; position at the end
 };
 
 }  // namespace kinebus

@@ -97,6 +97,8 @@ void Node::serve_stops() {
 
 void Node::end_stop() {
   for (const std::uint16_t code : node_emcy::kEndWithClear) emcy_.clear(code);
+  for (DriveAxis& axis : axes_)
+    if (axis.take_left_behind()) emcy_.clear(emcy::kFollowingError);
 }
 
 void Node::serve_emergencies() {

@@ -5,6 +5,7 @@
 
 #include <numbers>
 
+#include "protocol/canopen/alarm_codes.hpp"
 #include "vcan_tests/emulator/tests/one_board.hpp"
 
 namespace kinebus::emulator {
@@ -147,6 +148,78 @@ TEST(Motion, ARotorDrawnFromHalfAnElectricalTurnAwayIsReferencedWhereItComesToRe
     EXPECT_LT(std::abs(node.error(axis)), 8) << "in step";
     EXPECT_LE(std::abs(told), 8);
   }
+}
+
+/// What both motors are told in a span, and how far their rotors are from it: within these limits?
+void watch_commands(OneBoard& node, BusTime span, double speed, double acceleration) {
+  std::array<double, 2> last{}, last_speed{};
+  int sample = 0;
+  node.bench.run(span, 1ms, [&] {
+    for (int axis = 0; axis < 2; ++axis) {
+      const auto a = static_cast<std::size_t>(axis);
+      const double here = static_cast<double>(node.machine.commanded(0, axis).value_or(0)) / 4294967296.0;
+      const double now = (here - last[a]) * 1000;
+      if (sample > 0) {
+        EXPECT_LE(std::abs(now), speed * 1.01);
+      }
+      // The image gives commands out every 50 us: a millisecond's way is known to a twentieth.
+      if (sample > 1) {
+        EXPECT_LE(std::abs(now - last_speed[a]), acceleration * 1e-3 * 1.1 + std::abs(now) * 0.05 + 100);
+      }
+      EXPECT_LT(std::abs(node.error(axis)), 0.5 * kFullStep);
+      last[a] = here;
+      last_speed[a] = now;
+    }
+    ++sample;
+  });
+}
+
+TEST(Motion, SetPointsOfSyncKeepTheLimitsAndTheFollowingErrorWindow) {
+  OneBoard node;
+  node.configure(1500, 0);
+  for (int axis = 0; axis < 2; ++axis) {
+    node.write(axis, 0x60C2, 1, 1, 4);
+    node.write(axis, 0x60C5, 0, 4, 2'000'000);
+    node.write(axis, 0x60C6, 0, 4, 4'000'000);
+    node.write(axis, 0x607F, 0, 4, 200'000);
+    node.write(axis, 0x6065, 0, 4, 0xFFFF'FFFF);
+  }
+  node.enable(8);
+  node.bench.start_sync(4ms);
+  for (int axis = 0; axis < 2; ++axis) node.write(axis, 0x607A, 0, 4, axis == 0 ? 100'000 : -20'000);
+  watch_commands(node, 800ms, 200'000, 4'000'000);
+  for (int axis = 0; axis < 2; ++axis)
+    EXPECT_EQ(node.bench.read(OneBoard::kId, static_cast<std::uint16_t>(0x6062 + 0x800 * axis), 0),
+              axis == 0 ? 100'000 : -20'000);
+  EXPECT_TRUE(node.bench.emergencies(OneBoard::kId).empty());
+
+  // Watched, such a jump stops both axes.
+  node.write(0, 0x6065, 0, 4, 1024);
+  node.write(0, 0x607A, 0, 4, 0);
+  watch_commands(node, 200ms, 200'000, 6'400'000);
+  EXPECT_TRUE(node.told(emcy::kFollowingError));
+  EXPECT_GT(node.bench.read(OneBoard::kId, 0x6062, 0), 95'000);
+}
+
+TEST(Motion, SyncThatEndsInMotionIsARampAndTold) {
+  OneBoard node;
+  node.configure(1500, 0);
+  for (int axis = 0; axis < 2; ++axis) {
+    node.write(axis, 0x60C2, 1, 1, 10);
+    node.write(axis, 0x6065, 0, 4, 0xFFFF'FFFF);
+    node.write(axis, 0x607F, 0, 4, 200'000);
+    node.write(axis, 0x6085, 0, 4, 2'000'000);
+  }
+  node.enable(8);
+  node.bench.start_sync(10ms);
+  for (int axis = 0; axis < 2; ++axis) node.write(axis, 0x607A, 0, 4, 400'000);
+  watch_commands(node, 300ms, 200'000, 6'400'000);
+  node.bench.stop_sync();
+  watch_commands(node, 300ms, 200'000, 6'400'000);
+  EXPECT_TRUE(node.told(emcy::kSyncController));
+  const auto there = node.machine.commanded(0, 0);
+  node.bench.run(50ms);
+  EXPECT_EQ(node.machine.commanded(0, 0), there);
 }
 
 TEST(Motion, AFullBusLosesNoFrameAndStampsSyncInTime) {
