@@ -136,9 +136,9 @@ int run(int argc, char** argv) {
     command->add_flag("--store", arguments.store, "Kept through power-off");
   if (const auto end = kinebus::parse_arguments(app, argc, argv)) return *end;
   if (*current_command && !arguments.run_ma && !arguments.hold_ma)
-    return fmt::print(stderr, "current: expected --run, --hold or both\n"), 1;
+    return fmt::print(stderr, "current: expected --run, --hold or both\n"), 2;
   if (*jog_command && arguments.turns == 0 && !arguments.counts)
-    return fmt::print(stderr, "jog: expected --turns or --counts\n"), 1;
+    return fmt::print(stderr, "jog: expected --turns or --counts\n"), 2;
 
   SocketCan can;
   if (const std::string error = can.open(arguments.interface, false); !error.empty())
