@@ -1,4 +1,5 @@
-// Any set-points, periods and limits: the way between them is continuous, and never faster or steeper than allowed.
+// Any set-points, periods and limits: the way between them is continuous, and never faster or steeper than
+// allowed.
 #include "node_firmware/core/linear_interpolator.hpp"
 
 #include <gtest/gtest.h>
@@ -27,7 +28,8 @@ TEST(LinearInterpolator, KeepsItsLimitsWhateverIsAskedOfIt) {
     };
     LinearInterpolator line;
     LinearInterpolator::Limits limits;
-    limits.profile = {static_cast<std::uint32_t>(within(100, 1.6e7)), static_cast<std::uint32_t>(within(1e4, 4.2e9)),
+    limits.profile = {static_cast<std::uint32_t>(within(100, 1.6e7)),
+                      static_cast<std::uint32_t>(within(1e4, 4.2e9)),
                       static_cast<std::uint32_t>(within(1e4, 4.2e9))};
     const double speed = limits.profile.velocity;
     const double steepest = std::max(limits.profile.acceleration, limits.profile.deceleration);
@@ -39,7 +41,9 @@ TEST(LinearInterpolator, KeepsItsLimitsWhateverIsAskedOfIt) {
     for (int i = 0; i < 60; ++i) {
       // Far jumps, small steps, and the same set-point again; SYNC a little early or late.
       const std::uint64_t kind = random() % 4;
-      const double far = kind == 0 ? within(1, 1e9) : kind == 1 ? within(0.01, 2) * speed * static_cast<double>(period) / kPerSecond : 0;
+      const double far = kind == 0   ? within(1, 1e9)
+                         : kind == 1 ? within(0.01, 2) * speed * static_cast<double>(period) / kPerSecond
+                                     : 0;
       target += from_counts(static_cast<std::int64_t>(random() % 2 == 0 ? far : -far));
       target = std::clamp(target, -kPositionBound, kPositionBound);
       const std::int64_t behind = line.go(now, target, period, limits);
@@ -55,7 +59,8 @@ TEST(LinearInterpolator, KeepsItsLimitsWhateverIsAskedOfIt) {
         const ProfileState state = line.at(t);
         const double dt = static_cast<double>(t - then) / kPerSecond;
         ASSERT_LE(std::abs(speed_of(state)), speed * 1.001 + 30) << seed << " " << i;
-        ASSERT_LE(std::abs(speed_of(state) - speed_of(last)), steepest * dt * 1.001 + speed * 1e-3 + 30) << seed << " " << i;
+        ASSERT_LE(std::abs(speed_of(state) - speed_of(last)), steepest * dt * 1.001 + speed * 1e-3 + 30)
+            << seed << " " << i;
         const double way = counts_of(state.position) - counts_of(last.position);
         ASSERT_LE(std::abs(way), (speed * 1.001 + 30) * dt + 1e-3) << seed << " " << i;
         last = state;
