@@ -155,6 +155,7 @@ void Gateway::Core::cut_heat(const Sentence& why) {
 }
 
 Done Gateway::Core::on(command::Clear&) {
+  heat_.clear_faults();
   if (watch_.needs_bring_up() || !voice_.speaks()) {
     fault_ = false;
     position_.forget();

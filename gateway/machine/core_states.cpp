@@ -26,6 +26,7 @@ void Gateway::Core::begin_bring_up() {
   position_.stream_is_new();
   hand_.runner().drop();
   recovery_.bring_up_begins(rate_.tau(now_));
+  devices_.on_bring_up(now_, false);
   bring_up_.start(now_, voice_.speaks());
   enter(MachineState::kBringUp);
 }
@@ -39,6 +40,7 @@ void Gateway::Core::step_bring_up() {
   if (outcome == BringUp::Outcome::kBusy) return;
   if (outcome == BringUp::Outcome::kDone) {
     voice_.nodes_are_new(now_);
+    devices_.on_bring_up(now_, true);
     return rest_.read(now_, Rest::After::kBringUp);
   }
   const StepFailure& failure = bring_up_.failure();

@@ -23,6 +23,7 @@ Done Heat::set_temperature(HeaterId heater, double celsius) {
   if (known == nullptr) return refused(say("this machine has no %1 heater", heater_words(heater)));
   if (!(celsius >= 0 && celsius <= known->max_c))
     return refused(say("the temperature must be 0 to %1 C", std::lround(known->max_c)));
+  if (auto absent = celsius > 0 ? devices_.absent(heater) : std::nullopt) return refused(std::move(*absent));
   devices_.heat(heater, celsius);
   if (kept_) kept_->heater(heater) = celsius;
   return {};

@@ -42,6 +42,8 @@ class Heat {
   /// Why no filament may be fed now; none: it may.
   std::optional<Sentence> too_cold() const;
   void report(MachineStatus& status) const;
+  /// What is mended may heat again.
+  void clear_faults() { devices_.clear_faults(); }
   /// Of the device that is out of order, told once.
   std::optional<DeviceFault> new_fault();
 
