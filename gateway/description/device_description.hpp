@@ -142,6 +142,10 @@ struct ThermalDescription {
   double min_extrude_c = 170;  ///< E does not move forward below it
   /// Without a heartbeat of the gateway for so long heat nodes fall back to what is safe.
   std::chrono::milliseconds gateway_lost{5000};
+  enum class After : std::uint8_t { kKeep, kOff };
+  After on_stop = After::kKeep;         ///< what heaters do at STOP; M112 and an E-stop input switch them off
+  After on_cancel = After::kKeep;       ///< and when a job is cancelled
+  std::chrono::seconds idle_off{1800};  ///< nothing moves for so long: off
   friend bool operator==(const ThermalDescription&, const ThermalDescription&) = default;
 };
 

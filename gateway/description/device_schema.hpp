@@ -16,6 +16,9 @@ inline constexpr Choice kHeaterKinds[] = {{"hotend", static_cast<int>(HeaterKind
                                           {"bed", static_cast<int>(HeaterKind::kBed)},
                                           {"chamber", static_cast<int>(HeaterKind::kChamber)}};
 
+inline constexpr Choice kAfters[] = {{"keep", static_cast<int>(ThermalDescription::After::kKeep)},
+                                     {"off", static_cast<int>(ThermalDescription::After::kOff)}};
+
 /// Stated in every device's table: a heater that only seems to be there must be no oversight.
 template <class V>
 void visit_place(V& v, DevicePlace& place) {
@@ -103,6 +106,9 @@ void visit_devices(V& v, MachineDescription& d) {
     v.number("ambient_c", d.thermal.ambient_c, {-20, 60}, Need::kOptional);
     v.number("min_extrude_c", d.thermal.min_extrude_c, {0, 500}, Need::kOptional);
     v.duration("gateway_lost_ms", d.thermal.gateway_lost, 500, 60'000, Need::kOptional);
+    v.choice("on_stop", d.thermal.on_stop, kAfters, Need::kOptional);
+    v.choice("on_cancel", d.thermal.on_cancel, kAfters, Need::kOptional);
+    v.duration("idle_off_s", d.thermal.idle_off, 60, 86'400, Need::kOptional);
     v.retired("hotend",
               say("[heater.hotend] with kind = \"hotend\", where = \"simulated\" and the same keys; "
                   "a machine without hot end has no such table"));

@@ -113,6 +113,12 @@ std::optional<Sentence> Devices::absent(HeaterId id) const {
   return std::nullopt;
 }
 
+std::optional<Sentence> Devices::heater_fault(HeaterId id) const {
+  for (const KnownHeater& known : heaters_)
+    if (known.id == id) return known.heater->fault();
+  return std::nullopt;
+}
+
 void Devices::on_bring_up(BusTime now, bool done) {
   for (const Member& member : members_) member.device->on_bring_up(now, done);
 }

@@ -68,6 +68,7 @@ class Devices {
   void clear_faults();
   /// Why this heater cannot be told anything now; none: it can.
   std::optional<Sentence> absent(HeaterId id) const;
+  std::optional<Sentence> heater_fault(HeaterId id) const;
 
   // Sans-IO, as of every device.
   bool on_frame(BusTime now, const CanFrame& frame);

@@ -200,7 +200,7 @@ void Gateway::Core::stop_all(bool fault) {
   // Whatever stopped the machine stops the cutter; a job that goes on gets it back first.
   if (print_.runner().active() && (fault_ || heat_.spindle_on())) heat_.keep();
   heat_.stop_spindle();
-  if (fault_) heat_.heaters_off();
+  if (fault_) heat_.heaters_off(std::exchange(beds_stay_, false) ? Heat::Beds::kStay : Heat::Beds::kOff);
   if (!state_.is_one_of(MachineState::kAlarm, MachineState::kStopped)) enter(MachineState::kStopping);
 }
 

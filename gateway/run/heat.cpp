@@ -61,6 +61,12 @@ void Heat::execute(const canonical::Thermal& thermal) {
     devices_.put_out(index, thermal.value);
 }
 
+void Heat::heaters_off(Beds beds) {
+  if (beds == Beds::kOff) return devices_.heaters_off();
+  for (const HeaterDescription& h : machine_.heaters)
+    if (h.kind != HeaterKind::kBed || devices_.heater_fault(h.id())) devices_.heat(h.id(), 0);
+}
+
 bool Heat::heats() const {
   return std::any_of(machine_.heaters.begin(), machine_.heaters.end(), [this](const HeaterDescription& h) {
     return devices_.heater(h.id()).target_celsius > 0;

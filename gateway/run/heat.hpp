@@ -30,7 +30,8 @@ class Heat {
   void execute(const canonical::Thermal& thermal);
   void execute(const canonical::Spindle& spindle) { devices_.turn_spindle(spindle.rpm); }
   void stop_spindle() { devices_.turn_spindle(0); }
-  void heaters_off() { devices_.heaters_off(); }
+  enum class Beds : std::uint8_t { kOff, kStay };
+  void heaters_off(Beds beds = Beds::kOff);
   /// A heater has a target.
   bool heats() const;
 

@@ -2213,6 +2213,14 @@
         <translation>گرم‌کن‌ها خاموش شدند: %1</translation>
     </message>
     <message>
+        <source>nothing has moved for %1 minutes</source>
+        <translation>%1 دقیقه است که هیچ چیز حرکت نکرده است</translation>
+    </message>
+    <message>
+        <source>the job was cancelled</source>
+        <translation>کار لغو شد</translation>
+    </message>
+    <message>
         <source>at least %1 below limit_c, which is at most %2</source>
         <translation>دست‌کم %1 کمتر از limit_c، که حداکثر %2 است</translation>
     </message>
@@ -2222,15 +2230,15 @@
     </message>
     <message>
         <source>0 of a node that carries heat</source>
-        <translation>برای گره‌ای که گرما دارد 0</translation>
+        <translation>برای گره‌ای که گرم‌کن دارد 0</translation>
     </message>
     <message>
         <source>at most %1 on a heat node</source>
-        <translation>روی یک گرهٔ گرما حداکثر %1</translation>
+        <translation>روی یک گرهٔ گرم‌کن حداکثر %1</translation>
     </message>
     <message>
         <source>at most %1 on a heat node, with those of the heaters</source>
-        <translation>روی یک گرهٔ گرما، با آن‌های گرم‌کن‌ها، حداکثر %1</translation>
+        <translation>روی یک گرهٔ گرم‌کن، با آن‌های گرم‌کن‌ها، حداکثر %1</translation>
     </message>
     <message>
         <source>its node says that it is out of order</source>

@@ -2213,6 +2213,14 @@
         <translation>ısıtıcılar kapatıldı: %1</translation>
     </message>
     <message>
+        <source>nothing has moved for %1 minutes</source>
+        <translation>%1 dakikadır hiçbir şey hareket etmedi</translation>
+    </message>
+    <message>
+        <source>the job was cancelled</source>
+        <translation>iş iptal edildi</translation>
+    </message>
+    <message>
         <source>at least %1 below limit_c, which is at most %2</source>
         <translation>en çok %2 olan limit_c değerinin en az %1 altında</translation>
     </message>

@@ -37,6 +37,7 @@ MachineDescription printer_on_the_bus() {
     heater.wiring.fan_channel = bed ? 0 : 1;
     heater.wiring.fan_pulses = 2;
   }
+  machine.nodes[2].inputs[6] = {InputFunction::kEmergencyStop, 0};
   machine.fans[0].place = {DevicePlace::Where::kNode, kHeatId, 2};
   machine.sensors.push_back(
       {.name = "chamber", .place = {DevicePlace::Where::kNode, kHeatId, 1}, .wiring = thermistor});
@@ -128,6 +129,7 @@ TEST_F(HeatOnTheBus, AnOpenSensorHoldsTheMotionOnThePathAndTheJobGoesOnWhenItIsM
   EXPECT_NE(rig.story().find("heater.hotend: a temperature sensor or its wire is open"), std::string::npos)
       << rig.story();
   EXPECT_TRUE(rig.gateway->status().positions_known);
+  EXPECT_EQ(rig.gateway->status().heater(kFirstBed).target_celsius, 50) << "the part stays where it is";
   EXPECT_EQ(rig.nodes.heat_node(kHeat).fan_output(0), heat::kFullFan) << "its own fan goes on";
   rig.run_for(30s);
 
@@ -184,6 +186,72 @@ TEST_F(HeatOnTheBus, WithoutTheGatewayTheNodeFallsToWhatIsSafe) {
   EXPECT_GT(rig.nodes.heat_plant(kHeat).bed().block(), 38);
   rig.run_for(10s);
   EXPECT_EQ(power(1), 0) << "the bed, too, after its time";
+}
+
+TEST_F(HeatOnTheBus, TheEmergencyStopInputTakesTheHeatWithoutTheGateway) {
+  ASSERT_TRUE(rig.make_ready()) << rig.story();
+  for (const HeaterId heater : {kFirstHotend, kFirstBed})
+    ASSERT_TRUE(rig.gateway->carry_out(command::SetTemperature{heater, 60}));
+  rig.run_for(5s);
+  ASSERT_GT(power(0) + power(1), 0);
+  // The gateway is deaf and dumb; a node with axes tells of its button.
+  rig.lose_to_gateway = rig.lose_from_gateway = [](const CanFrame&) { return true; };
+  rig.run_for(100ms);
+  ASSERT_GT(power(0) + power(1), 0);
+  rig.nodes.set_input(2, rig.now, 7, true);
+  rig.run_for(200ms);
+  EXPECT_EQ(power(0) + power(1), 0);
+}
+
+TEST_F(HeatOnTheBus, AfterTheEmergencyStopTheJobHeatsBeforeItGoesOn) {
+  ASSERT_TRUE(begin("M109 S60\nG1 X40 F600\nG1 X-40\n")) << rig.story();
+  ASSERT_TRUE(rig.run_until([&] { return rig.gateway->status().pose[kX] > 20; }, 200s)) << rig.story();
+  rig.nodes.set_input(2, rig.now, 7, true);
+  ASSERT_TRUE(rig.reach(MachineState::kStopped, 5s)) << rig.story();
+  EXPECT_EQ(rig.gateway->status().heater(kFirstHotend).target_celsius, 0);
+  EXPECT_NE(rig.story().find("the heaters are off: the emergency stop input"), std::string::npos)
+      << rig.story();
+  rig.run_for(30s);
+  rig.nodes.set_input(2, rig.now, 7, false);
+  rig.run_for(1s);
+  ASSERT_TRUE(rig.gateway->carry_out(command::Clear{}));
+  ASSERT_TRUE(rig.reach(MachineState::kHeld, 5s)) << rig.story();
+  ASSERT_TRUE(rig.gateway->carry_out(command::Resume{}));
+  ASSERT_TRUE(rig.run_until([&] { return rig.gateway->status().pose[kX] < 0; }, 200s)) << rig.story();
+  EXPECT_GT(hotend(), 55);
+}
+
+TEST_F(HeatOnTheBus, WhatIsHotIsNotLeftAloneForLong) {
+  ASSERT_TRUE(begin("M109 S60\nG1 X40 F600\nM0\nG1 X-40\n")) << rig.story();
+  ASSERT_TRUE(rig.reach(MachineState::kHeld, 200s)) << rig.story();
+  rig.run_for(29min);
+  EXPECT_NEAR(hotend(), 60, 2);
+  ASSERT_TRUE(rig.reach(MachineState::kStopped, 2min)) << rig.story();
+  EXPECT_NE(rig.story().find("the heaters are off: nothing has moved for 30 minutes"), std::string::npos)
+      << rig.story();
+  rig.run_for(60s);
+  EXPECT_LT(hotend(), 55);
+  ASSERT_TRUE(rig.gateway->carry_out(command::Clear{}));
+  ASSERT_TRUE(rig.reach(MachineState::kHeld, 5s)) << rig.story();
+  ASSERT_TRUE(rig.gateway->carry_out(command::Resume{}));
+  ASSERT_TRUE(rig.run_until([&] { return rig.gateway->status().pose[kX] < 30; }, 200s)) << rig.story();
+  EXPECT_GT(hotend(), 55) << "it moves when it is hot again";
+}
+
+TEST_F(HeatOnTheBus, StopAndCancelDoWithHeatWhatTheMachineFileSays) {
+  rig.machine.thermal.on_stop = rig.machine.thermal.on_cancel = ThermalDescription::After::kOff;
+  rig.gateway = std::make_unique<Gateway>(rig.machine);
+  ASSERT_TRUE(begin("M104 S60\nG1 X40 F600\nG1 X-40\n")) << rig.story();
+  ASSERT_TRUE(rig.run_until([&] { return rig.gateway->status().pose[kX] > 5; }, 60s)) << rig.story();
+  ASSERT_TRUE(rig.gateway->carry_out(command::Stop{.why = say("STOP")}));
+  EXPECT_EQ(rig.gateway->status().heater(kFirstHotend).target_celsius, 0);
+  ASSERT_TRUE(rig.reach(MachineState::kStopped, 5s)) << rig.story();
+  ASSERT_TRUE(rig.gateway->carry_out(command::Clear{}));
+  ASSERT_TRUE(rig.reach(MachineState::kHeld, 5s)) << rig.story();
+  ASSERT_TRUE(rig.gateway->carry_out(command::SetTemperature{kFirstHotend, 50}));
+  ASSERT_TRUE(rig.gateway->carry_out(command::Cancel{}));
+  EXPECT_EQ(rig.gateway->status().heater(kFirstHotend).target_celsius, 0);
+  EXPECT_NE(rig.story().find("STOP"), std::string::npos);
 }
 
 TEST_F(HeatOnTheBus, AnotherMasterWhoSwitchesItOffIsFoundOut) {

@@ -381,6 +381,9 @@ std::optional<double> VirtualMachine::believed_counts(int node, int axis, BusTim
 
 PathTime VirtualMachine::path_time(int node, BusTime at) {
   VirtualNode& n = *nodes_[static_cast<std::size_t>(node)];
+  if (n.options.heat)
+    for (const auto& other : nodes_)
+      if (!other->options.heat) return path_time(other->index, at);
   return n.core ? n.core->path_time(n.to_local(at)) : PathTime{0};
 }
 
