@@ -40,7 +40,7 @@ void BringUp::start(BusTime now, bool alone) {
   for (NodeLink& link : links_) link.forget();
   for (Node& node : nodes_) {
     node.config = Config::kCheck;
-    node.rewritten = false;
+    node.rewritten = node.differs = false;
   }
   foreign_ = failed_ = equalising_ = false;
   out_.clear();
@@ -219,7 +219,8 @@ void BringUp::identify(BusTime now, NodeLink& link, Node& node) {
     if (answer->address.subindex < 4) continue;
     const NodeDescription* wanted = machine_.node(link.id());
     const std::array<std::optional<std::uint32_t>, 4> rules{
-        wanted ? wanted->vendor : std::nullopt, wanted ? wanted->product : std::nullopt, std::nullopt,
+        wanted ? wanted->vendor : std::nullopt,
+        wanted && wanted->product ? wanted->product : node.configuration.product, std::nullopt,
         wanted ? wanted->serial : std::nullopt};
     constexpr std::array kNames{phrase("vendor"), phrase("product"), phrase("revision"),
                                 phrase("serial number")};

@@ -81,6 +81,8 @@ class BringUp {
     bool done = false;       ///< with the present stage
     bool requested = false;  ///< SDO requests of the stage are under way
     bool rewritten = false;
+    bool differs = false;  ///< a setting is not the machine file's
+    std::size_t compared = 0;
     std::array<std::uint32_t, 4> identity{};
     std::int64_t path_ticks = 0;
     std::array<bool, kAxesPerNode> used{};
@@ -96,6 +98,7 @@ class BringUp {
   void configure(BusTime now, NodeLink& link, Node& node);
   void settle(BusTime now, NodeLink& link, Node& node);
   void parameters_are_right(Node& node);
+  void compare(NodeLink& link, Node& node);
   void check_fingerprint(NodeLink& link, Node& node, std::uint32_t fingerprint);
   void operational(BusTime now, NodeLink& link, Node& node);
   void synchronise(BusTime now, NodeLink& link, Node& node);

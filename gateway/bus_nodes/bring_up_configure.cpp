@@ -18,6 +18,35 @@ constexpr BusTime kFingerprintAgain = 200ms;
 
 }  // namespace
 
+/// A heat node is asked for each of its settings: it may be hot, and what it has already it need not be told.
+/// Otherwise it is taken out of operation and cools: it takes settings in no other state.
+void BringUp::compare(NodeLink& link, Node& node) {
+  const std::vector<ParameterWrite>& wanted = node.configuration.writes;
+  if (!node.requested) {
+    node.requested = true;
+    node.compared = 0;
+    for (const ParameterWrite& write : wanted) link.sdo().read(write.address);
+    return;
+  }
+  while (const auto answer = result(link, AlarmCode::kConfiguration)) {
+    const ParameterWrite& write = wanted[node.compared++];
+    const std::uint64_t mask = (std::uint64_t{1} << (8 * write.size)) - 1;
+    node.differs =
+        node.differs ||
+        ((static_cast<std::uint64_t>(answer->value) ^ static_cast<std::uint64_t>(write.value)) & mask) != 0;
+  }
+  if (failed_ || node.compared < wanted.size()) return;
+  node.requested = false;
+  if (!node.differs) {
+    node.config = Config::kDone;
+    node.done = true;
+    return;
+  }
+  out_.push_back(nmt_frame(NmtCommand::kEnterPreOperational, link.id()));
+  for (const ParameterWrite& write : node.configuration.before) link.sdo().write(write);
+  node.config = Config::kWriting;
+}
+
 /// Fingerprint equal: done. Else all parameters are written; when that does not do, after a return to the
 /// defaults.
 void BringUp::configure(BusTime now, NodeLink& link, Node& node) {
@@ -32,6 +61,7 @@ void BringUp::configure(BusTime now, NodeLink& link, Node& node) {
     return;
   }
   if (node.config == Config::kSettling) return settle(now, link, node);
+  if (node.config == Config::kCheck && !node.configuration.before.empty()) return compare(link, node);
   // Without a fingerprint the few parameters are written every time.
   if (node.config == Config::kCheck && !node.configuration.fingerprint) node.config = Config::kWriting;
   if (!node.requested) {

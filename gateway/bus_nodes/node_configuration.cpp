@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "gateway/bus_nodes/heat_settings.hpp"
 #include "gateway/calibration/joint_map.hpp"
 #include "gateway/jobs/machine_setup.hpp"
 #include "protocol/canopen/object_dictionary.hpp"
@@ -184,9 +185,11 @@ NodeConfiguration configure_node(const MachineDescription& machine, std::uint8_t
   if (described != nullptr && !described->functions.has_axes()) {
     const auto heartbeats =
         (std::int64_t{kGatewayNodeId} << 16) + std::int64_t{machine.bus.heartbeat_timeout.count()};
-    return {.fingerprint = {},
-            .writes = {{object::kConsumerHeartbeat, 4, heartbeats},
-                       {object::kProducerHeartbeat, 2, machine.bus.heartbeat_period.count()}}};
+    NodeConfiguration configuration;
+    configuration.writes = {{object::kConsumerHeartbeat, 4, heartbeats},
+                            {object::kProducerHeartbeat, 2, machine.bus.heartbeat_period.count()}};
+    if (machine.carries_heat(node_id)) add_heat_settings(machine, node_id, configuration);
+    return configuration;
   }
   Writer writer(node_id);
   if (const NodeDescription* node = machine.node(node_id)) set_node(writer, machine, *node);

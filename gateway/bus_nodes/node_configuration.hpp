@@ -1,7 +1,8 @@
 #pragma once
 // What the machine description means for one node's object dictionary: the value of every parameter, and the
-// fingerprint (2116h) of a node that has them all. A node without axes is told its heartbeats alone; what its
-// devices need they write themselves.
+// fingerprint (2116h) of a node that has them all. A node without axes is told its heartbeats, and what the
+// heaters, sensors and fans on it are; what it measures itself of its heaters stays its own, so no
+// fingerprint is held against it.
 
 #include <cstdint>
 #include <optional>
@@ -19,12 +20,15 @@ struct ParameterWrite {
 };
 
 struct NodeConfiguration {
-  std::optional<std::uint32_t> fingerprint;  ///< none: a node without axes does not tell one
+  std::optional<std::uint32_t> fingerprint;  ///< none: of a node without axes
   /// Every parameter outside the PDO and COB-ID objects, which keep their defaults, but for TPDO4: it tells
   /// the following errors of a node that has an encoder. In the order of addresses.
   std::vector<ParameterWrite> writes;
   /// What a node does not keep and its fingerprint does not cover: written at every bring-up. Empty: nothing.
   std::vector<ParameterWrite> settings{};
+  /// Written before them, unless the node has them all: what makes a heat node take its settings.
+  std::vector<ParameterWrite> before{};
+  std::optional<std::uint32_t> product{};  ///< 1018h:2 that a node with these objects has
 };
 
 NodeConfiguration configure_node(const MachineDescription& machine, std::uint8_t node_id);

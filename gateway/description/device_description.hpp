@@ -34,6 +34,49 @@ struct HeaterId {
 };
 inline constexpr HeaterId kFirstHotend{HeaterKind::kHotend, 0}, kFirstBed{HeaterKind::kBed, 0};
 
+/// What a heat node has, at most.
+inline constexpr int kHeatNodeHeaters = 4, kHeatNodeSensors = 6, kHeatNodeOutputs = 6;
+
+/// A temperature sensor on a heat node, with the number that 6110h has for it.
+enum class SensorElement : std::uint16_t {
+  kPt100 = 30,
+  kPt1000 = 33,
+  kEpcos100k = 10001,
+  kSemitec104Gt2 = 10002,
+  kSemitec104Nt4 = 10003,
+  kGeneric3950 = 10004,
+  kSlice450 = 10005,
+  kNtc100kMgb18 = 10006,
+  kHoneywell100k = 10007,
+  kTdkNtcg104 = 10008,
+  kBeta = 10100,
+};
+struct SensorWiring {
+  SensorElement element = SensorElement::kGeneric3950;
+  bool max31865 = false;         ///< measured by that converter; else by a divider
+  double reference_ohm = 4700;   ///< pull-up, or the converter's reference resistor
+  double nominal_ohm = 100'000;  ///< of kBeta, at 25 C
+  int beta_k = 3950;             ///< of kBeta
+  friend bool operator==(const SensorWiring&, const SensorWiring&) = default;
+};
+
+/// What a heat node is told of a heater, besides what it is for.
+struct HeaterWiring {
+  SensorWiring sensor{};              ///< on the input of the heater's number
+  double limit_c = 0;                 ///< hotter, the node takes its power; 0: kDefaultMargin_c above max_c
+  double power_w = 40;                ///< at supply_v
+  double supply_v = 24;               ///< 0: on a supply that the node does not measure
+  bool relay = false;                 ///< switched in whole half waves of the mains
+  std::chrono::seconds rise{20};      ///< gains 2 K in so long at full power, until the node has measured it
+  double safe_c = 0;                  ///< what it falls to when the gateway is lost ...
+  std::chrono::seconds safe_time{0};  ///< ... and stays at for so long
+  std::uint8_t fan_channel = 0;       ///< of the fan that must turn while it is hot; 0: none
+  std::uint8_t fan_pulses = 0;        ///< a turn, of its tacho; 0: it has none
+  static constexpr double kDefaultMargin_c = 15, kLeastMargin_c = 10;
+  double limit_for(double max_c) const { return limit_c > 0 ? limit_c : max_c + kDefaultMargin_c; }
+  friend bool operator==(const HeaterWiring&, const HeaterWiring&) = default;
+};
+
 /// Its limits, and the heat model that the simulated one uses.
 struct HeaterDescription {
   std::string name;  ///< of its table
@@ -46,6 +89,7 @@ struct HeaterDescription {
   double sim_power_w = 40;
   double sim_heat_capacity_j_per_k = 10;
   double sim_loss_w_per_k = 0.12;
+  HeaterWiring wiring{};  ///< on a node
   HeaterId id() const { return {kind, index}; }
   friend bool operator==(const HeaterDescription&, const HeaterDescription&) = default;
 };
@@ -71,6 +115,7 @@ struct SensorDescription {
   std::string name;
   DevicePlace place{};
   double sim_c = 23;
+  SensorWiring wiring{};  ///< on a node
   friend bool operator==(const SensorDescription&, const SensorDescription&) = default;
 };
 
@@ -95,6 +140,12 @@ struct ProbeDescription {
 struct ThermalDescription {
   double ambient_c = 23;
   double min_extrude_c = 170;  ///< E does not move forward below it
+  /// Without a heartbeat of the gateway for so long heat nodes fall back to what is safe.
+  std::chrono::milliseconds gateway_lost{5000};
+  enum class After : std::uint8_t { kKeep, kOff };
+  After on_stop = After::kKeep;         ///< what heaters do at STOP; M112 and an E-stop input switch them off
+  After on_cancel = After::kKeep;       ///< and when a job is cancelled
+  std::chrono::seconds idle_off{1800};  ///< nothing moves for so long: off
   friend bool operator==(const ThermalDescription&, const ThermalDescription&) = default;
 };
 

@@ -22,6 +22,7 @@ class DeviceRules {
       require(is_new, {key + "index", key + "kind"}, number(h.index),
               say("an index that no other heater of the kind has: [heater.%1] has it", first->second));
       place(h.place, key, Channels::kHeaters);
+      if (h.place.on_node()) wiring(h, key);
     }
     indices("fan", d_.fans);
     indices("output", d_.outputs);
@@ -34,6 +35,8 @@ class DeviceRules {
               say("at most the largest speed, %1", printed("%.6g", d_.spindle.max_rpm)));
     }
     if (d_.probe.present) probe();
+    for (const NodeDescription& node : d_.nodes)
+      if (d_.carries_heat(node.id)) heat_node(node);
   }
 
  private:
@@ -98,6 +101,34 @@ class DeviceRules {
     require(is_new, {key + "channel", key + "node"}, say("node %1 channel %2", place.node_id, place.channel),
             say("a channel that no other device has: [%1] has it",
                 first->second.substr(0, first->second.size() - 1)));
+  }
+
+  /// What a heat node can be told.
+  void wiring(const HeaterDescription& h, const std::string& key) {
+    const double limit = h.wiring.limit_for(h.max_c);
+    constexpr double kHighestLimit_c = 550;
+    require(h.max_c + HeaterWiring::kLeastMargin_c <= limit && limit <= kHighestLimit_c,
+            {key + "max_c", key + "limit_c"}, Sentence::verbatim(printed("%.6g", h.max_c)),
+            say("at least %1 below limit_c, which is at most %2",
+                printed("%.6g", HeaterWiring::kLeastMargin_c), printed("%.6g", kHighestLimit_c)));
+    require(h.wiring.safe_c <= h.max_c, {key + "safe_c"},
+            Sentence::verbatim(printed("%.6g", h.wiring.safe_c)), say("at most max_c"));
+    if (h.wiring.fan_channel != 0)
+      place({h.place.where, h.place.node_id, h.wiring.fan_channel}, key + "fan_", Channels::kOutputs);
+  }
+
+  /// It has a node id of its own, also when it shares a chip with axes; its inputs are the heaters' first.
+  void heat_node(const NodeDescription& node) {
+    const std::string key = "node." + std::to_string(node.id) + ".";
+    const NodeFunctions& has = node.functions;
+    require(!has.has_axes(), {key + "axis_pairs"}, number(has.axis_pairs),
+            say("0 of a node that carries heat"));
+    require(has.heaters <= kHeatNodeHeaters, {key + "heaters"}, number(has.heaters),
+            say("at most %1 on a heat node", kHeatNodeHeaters));
+    require(has.heaters + has.sensors <= kHeatNodeSensors, {key + "sensors"}, number(has.sensors),
+            say("at most %1 on a heat node, with those of the heaters", kHeatNodeSensors));
+    require(has.outputs <= kHeatNodeOutputs, {key + "outputs"}, number(has.outputs),
+            say("at most %1 on a heat node", kHeatNodeOutputs));
   }
 
   void inputs(const NodeDescription& node) {

@@ -16,6 +16,9 @@ inline constexpr Choice kHeaterKinds[] = {{"hotend", static_cast<int>(HeaterKind
                                           {"bed", static_cast<int>(HeaterKind::kBed)},
                                           {"chamber", static_cast<int>(HeaterKind::kChamber)}};
 
+inline constexpr Choice kAfters[] = {{"keep", static_cast<int>(ThermalDescription::After::kKeep)},
+                                     {"off", static_cast<int>(ThermalDescription::After::kOff)}};
+
 /// Stated in every device's table: a heater that only seems to be there must be no oversight.
 template <class V>
 void visit_place(V& v, DevicePlace& place) {
@@ -23,6 +26,44 @@ void visit_place(V& v, DevicePlace& place) {
   if (!place.on_node()) return;
   v.integer("node", place.node_id, 1, 126, Need::kRequired);
   v.integer("channel", place.channel, 1, 16, Need::kRequired);
+}
+
+inline constexpr Choice kSensorElements[] = {
+    {"pt100", static_cast<int>(SensorElement::kPt100)},
+    {"pt1000", static_cast<int>(SensorElement::kPt1000)},
+    {"epcos_100k", static_cast<int>(SensorElement::kEpcos100k)},
+    {"semitec_104gt2", static_cast<int>(SensorElement::kSemitec104Gt2)},
+    {"semitec_104nt4", static_cast<int>(SensorElement::kSemitec104Nt4)},
+    {"generic_3950", static_cast<int>(SensorElement::kGeneric3950)},
+    {"slice_450", static_cast<int>(SensorElement::kSlice450)},
+    {"ntc100k_mgb18", static_cast<int>(SensorElement::kNtc100kMgb18)},
+    {"honeywell_100k", static_cast<int>(SensorElement::kHoneywell100k)},
+    {"tdk_ntcg104", static_cast<int>(SensorElement::kTdkNtcg104)},
+    {"beta", static_cast<int>(SensorElement::kBeta)}};
+
+template <class V>
+void visit_sensor(V& v, SensorWiring& s) {
+  // The wrong sensor is the wrong temperature: stated, always.
+  if (!v.choice("sensor", s.element, kSensorElements, Need::kRequired)) return;
+  v.flag("sensor_max31865", s.max31865, Need::kOptional);
+  v.number("sensor_reference_ohm", s.reference_ohm, {10, 2e6}, Need::kOptional);
+  if (s.element != SensorElement::kBeta) return;
+  v.number("sensor_25c_ohm", s.nominal_ohm, {1, 2e6}, Need::kOptional);
+  v.integer("sensor_beta_k", s.beta_k, 1000, 10'000, Need::kOptional);
+}
+
+template <class V>
+void visit_wiring(V& v, HeaterWiring& w) {
+  visit_sensor(v, w.sensor);
+  v.unless_zero("limit_c", w.limit_c, {30, 550}, 1);
+  v.number("power_w", w.power_w, {0.1, 5000}, Need::kOptional);
+  v.number("supply_v", w.supply_v, {0, 60}, Need::kOptional);
+  v.flag("relay", w.relay, Need::kOptional);
+  v.duration("rise_s", w.rise, 5, 300, Need::kOptional);
+  v.number("safe_c", w.safe_c, {0, 530}, Need::kOptional);
+  v.duration("safe_time_s", w.safe_time, 0, 7200, Need::kOptional);
+  v.integer("fan_channel", w.fan_channel, 0, kHeatNodeOutputs, Need::kOptional);
+  v.integer("fan_pulses_per_turn", w.fan_pulses, 0, 20, Need::kOptional);
 }
 
 template <class V>
@@ -37,6 +78,7 @@ void visit_device(V& v, HeaterDescription& h) {
   v.number("sim_heat_capacity_j_per_k", h.sim_heat_capacity_j_per_k, {0.1, 100000}, Need::kOptional);
   v.number("sim_loss_w_per_k", h.sim_loss_w_per_k, {0.0001, 1000}, Need::kOptional);
   visit_place(v, h.place);
+  if (h.place.on_node()) visit_wiring(v, h.wiring);
 }
 
 template <class V>
@@ -55,6 +97,7 @@ template <class V>
 void visit_device(V& v, SensorDescription& s) {
   v.number("sim_c", s.sim_c, {-50, 600}, Need::kOptional);
   visit_place(v, s.place);
+  if (s.place.on_node()) visit_sensor(v, s.wiring);
 }
 
 template <class V>
@@ -62,6 +105,10 @@ void visit_devices(V& v, MachineDescription& d) {
   v.table("thermal", Need::kOptional, [&] {
     v.number("ambient_c", d.thermal.ambient_c, {-20, 60}, Need::kOptional);
     v.number("min_extrude_c", d.thermal.min_extrude_c, {0, 500}, Need::kOptional);
+    v.duration("gateway_lost_ms", d.thermal.gateway_lost, 500, 60'000, Need::kOptional);
+    v.choice("on_stop", d.thermal.on_stop, kAfters, Need::kOptional);
+    v.choice("on_cancel", d.thermal.on_cancel, kAfters, Need::kOptional);
+    v.duration("idle_off_s", d.thermal.idle_off, 60, 86'400, Need::kOptional);
     v.retired("hotend",
               say("[heater.hotend] with kind = \"hotend\", where = \"simulated\" and the same keys; "
                   "a machine without hot end has no such table"));

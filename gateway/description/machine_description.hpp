@@ -274,6 +274,15 @@ struct MachineDescription {
       if (n.id == id) return &n;
     return nullptr;
   }
+  /// A heat node: heaters, fans, outputs or sensors live on it.
+  bool carries_heat(std::uint8_t id) const {
+    const auto there = [id](const auto& devices) {
+      for (const auto& device : devices)
+        if (device.place.on_node() && device.place.node_id == id) return true;
+      return false;
+    };
+    return there(heaters) || there(fans) || there(outputs) || there(sensors);
+  }
   const HeaterDescription* heater(HeaterId id) const {
     for (const HeaterDescription& h : heaters)
       if (h.id() == id) return &h;

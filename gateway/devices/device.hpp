@@ -26,6 +26,13 @@ class Device {
   virtual std::optional<CanFrame> next_frame(BusTime) { return std::nullopt; }
   /// When on_time() is next needed; it comes at least ten times a second anyway.
   virtual BusTime next_deadline() const { return BusTime::max(); }
+  /// Bring-up begins (false): its node hears nobody else now. It is done (true): the node is in operation,
+  /// and has the machine file's settings.
+  virtual void on_bring_up(BusTime, bool) {}
+  /// Why it cannot be told anything now; none: it can.
+  virtual std::optional<Sentence> absent() const { return std::nullopt; }
+  /// The operator has seen to what was wrong: a fault that has gone is forgotten.
+  virtual void clear_fault() {}
   /// Plain words while it is out of order (sensor broken, no rise); then it has switched itself off already.
   virtual std::optional<Sentence> fault() const { return std::nullopt; }
 };

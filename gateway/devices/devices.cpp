@@ -24,6 +24,11 @@ void Devices::add_sensor(std::string name, std::uint8_t node, std::unique_ptr<Se
   sensors_.push_back({std::move(name), std::move(sensor)});
 }
 
+void Devices::add_node(std::uint8_t node, std::shared_ptr<Device> shared) {
+  members_.push_back({"node." + std::to_string(node), node, shared.get()});
+  nodes_.push_back(std::move(shared));
+}
+
 void Devices::set_spindle(std::uint8_t node, std::unique_ptr<SpindleDrive> spindle) {
   members_.push_back({"spindle", node, spindle.get()});
   spindle_ = std::move(spindle);
@@ -96,6 +101,26 @@ std::optional<DeviceFault> Devices::fault() const {
   for (const Member& member : members_)
     if (auto words = member.device->fault()) return DeviceFault{member.key, member.node, std::move(*words)};
   return std::nullopt;
+}
+
+void Devices::clear_faults() {
+  for (const Member& member : members_) member.device->clear_fault();
+}
+
+std::optional<Sentence> Devices::absent(HeaterId id) const {
+  for (const KnownHeater& known : heaters_)
+    if (known.id == id) return known.heater->absent();
+  return std::nullopt;
+}
+
+std::optional<Sentence> Devices::heater_fault(HeaterId id) const {
+  for (const KnownHeater& known : heaters_)
+    if (known.id == id) return known.heater->fault();
+  return std::nullopt;
+}
+
+void Devices::on_bring_up(BusTime now, bool done) {
+  for (const Member& member : members_) member.device->on_bring_up(now, done);
 }
 
 bool Devices::on_frame(BusTime now, const CanFrame& frame) {

@@ -41,6 +41,8 @@ class Devices {
   void add_fan(DeviceName name, std::uint8_t node, std::unique_ptr<Output> fan);
   void add_output(DeviceName name, std::uint8_t node, std::unique_ptr<Output> output);
   void add_sensor(std::string name, std::uint8_t node, std::unique_ptr<Sensor> sensor);
+  /// What several of the others live on. Before them.
+  void add_node(std::uint8_t node, std::shared_ptr<Device> shared);
   void set_spindle(std::uint8_t node, std::unique_ptr<SpindleDrive> spindle);
   void set_probe(std::uint8_t node, std::unique_ptr<ContactProbe> probe);
 
@@ -63,10 +65,15 @@ class Devices {
   std::vector<SensorStatus> sensors() const;
   /// Of the first that is out of order.
   std::optional<DeviceFault> fault() const;
+  void clear_faults();
+  /// Why this heater cannot be told anything now; none: it can.
+  std::optional<Sentence> absent(HeaterId id) const;
+  std::optional<Sentence> heater_fault(HeaterId id) const;
 
   // Sans-IO, as of every device.
   bool on_frame(BusTime now, const CanFrame& frame);
   void on_time(BusTime now);
+  void on_bring_up(BusTime now, bool done);
   std::optional<CanFrame> next_frame(BusTime now);
   BusTime next_deadline() const;
 
@@ -94,6 +101,7 @@ class Devices {
   static Output* find(const std::vector<KnownOutput>& all, std::uint8_t index);
 
   std::vector<Member> members_;  ///< all of them, as they were added
+  std::vector<std::shared_ptr<Device>> nodes_;
   std::vector<KnownHeater> heaters_;
   std::vector<KnownOutput> fans_, outputs_;
   std::vector<KnownSensor> sensors_;

@@ -1,5 +1,6 @@
 #include "gateway/devices/registry.hpp"
 
+#include "gateway/devices/heat_node_devices.hpp"
 #include "gateway/devices/node_probe.hpp"
 #include "gateway/devices/simulated.hpp"
 
@@ -11,14 +12,28 @@ using Where = DevicePlace::Where;
 template <typename Interface, typename Description>
 struct Implementation {
   Where where;
-  std::unique_ptr<Interface> (*make)(const Description&, const MachineDescription&);
+  std::unique_ptr<Interface> (*make)(const Description&, const MachineDescription&) = nullptr;
+  std::unique_ptr<Interface> (*on_heat_node)(const Description&, const MachineDescription&,
+                                             const HeatNodeLinks&) = nullptr;
 };
 
 // One line for each implementation.
-constexpr Implementation<Heater, HeaterDescription> kHeaters[] = {{Where::kSimulated, simulate}};
-constexpr Implementation<Output, FanDescription> kFans[] = {{Where::kSimulated, simulate}};
-constexpr Implementation<Output, OutputDescription> kOutputs[] = {{Where::kSimulated, simulate}};
-constexpr Implementation<Sensor, SensorDescription> kSensors[] = {{Where::kSimulated, simulate}};
+constexpr Implementation<Heater, HeaterDescription> kHeaterMakers[] = {
+    {Where::kSimulated, simulate},
+    {Where::kNode, nullptr, on_heat_node},
+};
+constexpr Implementation<Output, FanDescription> kFanMakers[] = {
+    {Where::kSimulated, simulate},
+    {Where::kNode, nullptr, on_heat_node},
+};
+constexpr Implementation<Output, OutputDescription> kOutputs[] = {
+    {Where::kSimulated, simulate},
+    {Where::kNode, nullptr, on_heat_node},
+};
+constexpr Implementation<Sensor, SensorDescription> kSensors[] = {
+    {Where::kSimulated, simulate},
+    {Where::kNode, nullptr, on_heat_node},
+};
 constexpr Implementation<SpindleDrive, SpindleDescription> kSpindles[] = {{Where::kSimulated, simulate}};
 constexpr Implementation<ContactProbe, ProbeDescription> kProbes[] = {
     {Where::kSimulated, simulate},
@@ -27,14 +42,22 @@ constexpr Implementation<ContactProbe, ProbeDescription> kProbes[] = {
 
 class Maker {
  public:
-  explicit Maker(const MachineDescription& machine) : machine_(machine) {}
+  explicit Maker(const MachineDescription& machine)
+      : machine_(machine), heat_nodes_(heat_node_links(machine)) {}
+
+  const HeatNodeLinks& heat_nodes() const { return heat_nodes_; }
 
   /// nullptr: nobody stands behind it, and wrong() says so.
   template <typename Interface, typename Description, std::size_t N>
   std::unique_ptr<Interface> make(const Implementation<Interface, Description> (&known)[N],
                                   const Description& description, const std::string& key) {
-    for (const auto& implementation : known)
-      if (implementation.where == description.place.where) return implementation.make(description, machine_);
+    for (const auto& implementation : known) {
+      if (implementation.where != description.place.where) continue;
+      auto made = implementation.make != nullptr
+                      ? implementation.make(description, machine_)
+                      : implementation.on_heat_node(description, machine_, heat_nodes_);
+      if (made) return made;
+    }
     if (wrong_.empty())
       wrong_ =
           say("%1 is to live on node %2, where this gateway knows no such device: use where = \"simulated\"",
@@ -45,6 +68,7 @@ class Maker {
 
  private:
   const MachineDescription& machine_;
+  HeatNodeLinks heat_nodes_;
   Sentence wrong_;
 };
 
@@ -53,11 +77,12 @@ class Maker {
 Result<Devices, Sentence> make_devices(const MachineDescription& machine) {
   Devices devices;
   Maker maker(machine);
+  for (const auto& [id, link] : maker.heat_nodes()) devices.add_node(id, link);
   for (const HeaterDescription& h : machine.heaters)
-    if (auto heater = maker.make(kHeaters, h, "heater." + h.name))
+    if (auto heater = maker.make(kHeaterMakers, h, "heater." + h.name))
       devices.add(h.id(), h.name, h.place.node_id, std::move(heater));
   for (const FanDescription& f : machine.fans)
-    if (auto fan = maker.make(kFans, f, "fan." + f.name))
+    if (auto fan = maker.make(kFanMakers, f, "fan." + f.name))
       devices.add_fan({f.name, f.index}, f.place.node_id, std::move(fan));
   for (const OutputDescription& o : machine.outputs)
     if (auto output = maker.make(kOutputs, o, "output." + o.name))

@@ -110,6 +110,8 @@ void Gateway::Core::on_frame(BusTime when, const CanFrame& frame) {
   if (const auto request = decode_stop_request(frame, when); request && voice_.speaks()) {
     rate_.on_stop_request(*request, now_);
     on_foreign_stop(static_cast<std::uint8_t>(frame.id - cob_id::kEmcy));
+    // Heat nodes hear it, too, and do the same.
+    if (request->reason == StopReason::kEmergencyStopInput) cut_heat(say("the emergency stop input"));
     if (!bring_up_.busy()) stop_all(false);
   }
   const bool of_device = devices_.on_frame(when, frame);
@@ -203,6 +205,7 @@ void Gateway::Core::on_time(BusTime now) {
   watch_parameters();
   watch_nodes();
   watch_devices();
+  watch_idle_heat();
   note_progress();
   voice_.on_time(now_, bring_up_.busy());
   switch (state_.now()) {
@@ -287,12 +290,28 @@ void Gateway::Core::watch_parameters() {
   stop_all(true);
 }
 
+/// What is hot is not left alone for long.
+void Gateway::Core::watch_idle_heat() {
+  const bool held = state_.is(MachineState::kHeld);
+  const bool idle =
+      held || state_.idle() || lines_idle() || state_.is_one_of(MachineState::kStopped, MachineState::kAlarm);
+  if (!idle || !heat_.heats()) heat_idle_since_ = now_;
+  const auto patience = machine_.thermal.idle_off;
+  if (now_ - heat_idle_since_ < patience) return;
+  cut_heat(say("nothing has moved for %1 minutes",
+               std::chrono::duration_cast<std::chrono::minutes>(patience).count()));
+  // What is held in the middle of a job heats before it goes on, as after every stop.
+  if (held) stop_all(false);
+}
+
 /// A device that is out of order has switched itself off; whatever it was needed for must not go on.
 void Gateway::Core::watch_devices() {
   const auto fault = heat_.new_fault();
   if (!fault) return;
   events_.alarm(now_, AlarmCode::kThermal, say("%1: %2", fault->device, fault->words), fault->node);
-  if (!state_.is(MachineState::kOff)) stop_all(true);
+  if (state_.is(MachineState::kOff)) return;
+  beds_stay_ = true;
+  stop_all(true);
 }
 
 void Gateway::Core::take_stream_status(NodeLink& link) {

@@ -98,7 +98,10 @@ class Gateway::Core {
   Done on(command::Clear& asked);
   Done on(command::SetFeedOverride& asked);
   Done on(command::MotorsOff& asked);
-  Done on(command::SetTemperature& asked) { return heat_.set_temperature(asked.heater, asked.celsius); }
+  Done on(command::SetTemperature& asked) {
+    heat_idle_since_ = now_;
+    return heat_.set_temperature(asked.heater, asked.celsius);
+  }
   Done on(command::SetFan& asked) { return heat_.set_fan(asked.index, asked.ratio); }
   Done on(command::SetOutput& asked) { return heat_.set_output(asked.index, asked.ratio); }
   Done on(command::SetSpindle& asked) { return heat_.set_spindle(asked.rpm); }
@@ -128,6 +131,7 @@ class Gateway::Core {
   void finish_motion();
   void watch_nodes();
   void watch_devices();
+  void watch_idle_heat();
   void watch_parameters();
   void on_foreign_stop(std::uint8_t node);
   void take_stream_status(NodeLink& link);
@@ -191,6 +195,8 @@ class Gateway::Core {
   BusTime started_{0};        ///< of the job or the move under way
   bool remote_told_ = false;  ///< a remote frame was passed over, since the last bring-up
   bool fault_ = false;        ///< the stop under way ends in an alarm
+  bool beds_stay_ = false;    ///< that alarm is of a device: a bed that is in order keeps the part on it
+  BusTime heat_idle_since_{0};
   MachineState held_from_ = MachineState::kRunning;  ///< what resume goes back to
   double override_ = 1;
 };

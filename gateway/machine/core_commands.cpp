@@ -117,6 +117,11 @@ Done Gateway::Core::on(command::Resume&) {
 }
 
 Done Gateway::Core::on(command::Cancel&) {
+  // Nothing goes on that would want it back.
+  if (machine_.thermal.on_cancel == ThermalDescription::After::kOff && heat_.heats()) {
+    heat_.heaters_off();
+    events_.message(now_, say("the heaters are off: %1", say("the job was cancelled")));
+  }
   if (state_.is(MachineState::kChecking)) {
     print_.abort_check();
     print_.drop_source();
@@ -136,7 +141,8 @@ Done Gateway::Core::on(command::Cancel&) {
 }
 
 Done Gateway::Core::on(command::Stop& asked) {
-  if (asked.heaters_off) cut_heat(asked.why);
+  const bool off = asked.heaters_off || machine_.thermal.on_stop == ThermalDescription::After::kOff;
+  if (off) cut_heat(asked.why);
   if (state_.is_one_of(MachineState::kStopping, MachineState::kStopped, MachineState::kAlarm)) return {};
   events_.message(now_, std::move(asked.why));
   // Nothing moves that is switched off, and nobody is asked for a ramp.
@@ -155,6 +161,7 @@ void Gateway::Core::cut_heat(const Sentence& why) {
 }
 
 Done Gateway::Core::on(command::Clear&) {
+  heat_.clear_faults();
   if (watch_.needs_bring_up() || !voice_.speaks()) {
     fault_ = false;
     position_.forget();

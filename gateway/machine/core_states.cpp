@@ -26,6 +26,7 @@ void Gateway::Core::begin_bring_up() {
   position_.stream_is_new();
   hand_.runner().drop();
   recovery_.bring_up_begins(rate_.tau(now_));
+  devices_.on_bring_up(now_, false);
   bring_up_.start(now_, voice_.speaks());
   enter(MachineState::kBringUp);
 }
@@ -39,6 +40,7 @@ void Gateway::Core::step_bring_up() {
   if (outcome == BringUp::Outcome::kBusy) return;
   if (outcome == BringUp::Outcome::kDone) {
     voice_.nodes_are_new(now_);
+    devices_.on_bring_up(now_, true);
     return rest_.read(now_, Rest::After::kBringUp);
   }
   const StepFailure& failure = bring_up_.failure();
@@ -198,7 +200,7 @@ void Gateway::Core::stop_all(bool fault) {
   // Whatever stopped the machine stops the cutter; a job that goes on gets it back first.
   if (print_.runner().active() && (fault_ || heat_.spindle_on())) heat_.keep();
   heat_.stop_spindle();
-  if (fault_) heat_.heaters_off();
+  if (fault_) heat_.heaters_off(std::exchange(beds_stay_, false) ? Heat::Beds::kStay : Heat::Beds::kOff);
   if (!state_.is_one_of(MachineState::kAlarm, MachineState::kStopped)) enter(MachineState::kStopping);
 }
 

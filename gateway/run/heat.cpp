@@ -23,6 +23,7 @@ Done Heat::set_temperature(HeaterId heater, double celsius) {
   if (known == nullptr) return refused(say("this machine has no %1 heater", heater_words(heater)));
   if (!(celsius >= 0 && celsius <= known->max_c))
     return refused(say("the temperature must be 0 to %1 C", std::lround(known->max_c)));
+  if (auto absent = celsius > 0 ? devices_.absent(heater) : std::nullopt) return refused(std::move(*absent));
   devices_.heat(heater, celsius);
   if (kept_) kept_->heater(heater) = celsius;
   return {};
@@ -58,6 +59,12 @@ void Heat::execute(const canonical::Thermal& thermal) {
     devices_.blow(index, thermal.value);
   else
     devices_.put_out(index, thermal.value);
+}
+
+void Heat::heaters_off(Beds beds) {
+  if (beds == Beds::kOff) return devices_.heaters_off();
+  for (const HeaterDescription& h : machine_.heaters)
+    if (h.kind != HeaterKind::kBed || devices_.heater_fault(h.id())) devices_.heat(h.id(), 0);
 }
 
 bool Heat::heats() const {

@@ -30,7 +30,8 @@ class Heat {
   void execute(const canonical::Thermal& thermal);
   void execute(const canonical::Spindle& spindle) { devices_.turn_spindle(spindle.rpm); }
   void stop_spindle() { devices_.turn_spindle(0); }
-  void heaters_off() { devices_.heaters_off(); }
+  enum class Beds : std::uint8_t { kOff, kStay };
+  void heaters_off(Beds beds = Beds::kOff);
   /// A heater has a target.
   bool heats() const;
 
@@ -42,6 +43,8 @@ class Heat {
   /// Why no filament may be fed now; none: it may.
   std::optional<Sentence> too_cold() const;
   void report(MachineStatus& status) const;
+  /// What is mended may heat again.
+  void clear_faults() { devices_.clear_faults(); }
   /// Of the device that is out of order, told once.
   std::optional<DeviceFault> new_fault();
 

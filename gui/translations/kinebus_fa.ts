@@ -2213,6 +2213,54 @@
         <translation>گرم‌کن‌ها خاموش شدند: %1</translation>
     </message>
     <message>
+        <source>nothing has moved for %1 minutes</source>
+        <translation>%1 دقیقه است که هیچ چیز حرکت نکرده است</translation>
+    </message>
+    <message>
+        <source>the job was cancelled</source>
+        <translation>کار لغو شد</translation>
+    </message>
+    <message>
+        <source>at least %1 below limit_c, which is at most %2</source>
+        <translation>دست‌کم %1 کمتر از limit_c، که حداکثر %2 است</translation>
+    </message>
+    <message>
+        <source>at most max_c</source>
+        <translation>حداکثر max_c</translation>
+    </message>
+    <message>
+        <source>0 of a node that carries heat</source>
+        <translation>برای گره‌ای که گرم‌کن دارد 0</translation>
+    </message>
+    <message>
+        <source>at most %1 on a heat node</source>
+        <translation>روی یک گرهٔ گرم‌کن حداکثر %1</translation>
+    </message>
+    <message>
+        <source>at most %1 on a heat node, with those of the heaters</source>
+        <translation>روی یک گرهٔ گرم‌کن، با آن‌های گرم‌کن‌ها، حداکثر %1</translation>
+    </message>
+    <message>
+        <source>its node says that it is out of order</source>
+        <translation>گره‌اش می‌گوید که خراب است</translation>
+    </message>
+    <message>
+        <source>its node refuses %1 C: %2</source>
+        <translation>گره‌اش %1 °C را نمی‌پذیرد: %2</translation>
+    </message>
+    <message>
+        <source>its node has switched it off, and not by this gateway</source>
+        <translation>گره‌اش آن را خاموش کرده است، و نه به خواست این درگاه</translation>
+    </message>
+    <message>
+        <source>its node tells no temperatures any more</source>
+        <translation>گره‌اش دیگر دمایی نمی‌گوید</translation>
+    </message>
+    <message>
+        <source>node %1, which heats it, is not in operation: bring the machine up first</source>
+        <translation>گره %1 که آن را گرم می‌کند در کار نیست: نخست ماشین را راه‌اندازی کنید</translation>
+    </message>
+    <message>
         <source>M112 of the session</source>
         <translation>M112 از نشست</translation>
     </message>

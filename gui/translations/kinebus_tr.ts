@@ -2213,6 +2213,54 @@
         <translation>ısıtıcılar kapatıldı: %1</translation>
     </message>
     <message>
+        <source>nothing has moved for %1 minutes</source>
+        <translation>%1 dakikadır hiçbir şey hareket etmedi</translation>
+    </message>
+    <message>
+        <source>the job was cancelled</source>
+        <translation>iş iptal edildi</translation>
+    </message>
+    <message>
+        <source>at least %1 below limit_c, which is at most %2</source>
+        <translation>en çok %2 olan limit_c değerinin en az %1 altında</translation>
+    </message>
+    <message>
+        <source>at most max_c</source>
+        <translation>en çok max_c</translation>
+    </message>
+    <message>
+        <source>0 of a node that carries heat</source>
+        <translation>ısı taşıyan bir düğümde 0</translation>
+    </message>
+    <message>
+        <source>at most %1 on a heat node</source>
+        <translation>bir ısı düğümünde en çok %1</translation>
+    </message>
+    <message>
+        <source>at most %1 on a heat node, with those of the heaters</source>
+        <translation>bir ısı düğümünde, ısıtıcılarınkilerle birlikte en çok %1</translation>
+    </message>
+    <message>
+        <source>its node says that it is out of order</source>
+        <translation>düğümü, bozuk olduğunu bildiriyor</translation>
+    </message>
+    <message>
+        <source>its node refuses %1 C: %2</source>
+        <translation>düğümü %1 °C değerini reddediyor: %2</translation>
+    </message>
+    <message>
+        <source>its node has switched it off, and not by this gateway</source>
+        <translation>düğümü onu kapattı; kapatan bu ağ geçidi değil</translation>
+    </message>
+    <message>
+        <source>its node tells no temperatures any more</source>
+        <translation>düğümü artık sıcaklık bildirmiyor</translation>
+    </message>
+    <message>
+        <source>node %1, which heats it, is not in operation: bring the machine up first</source>
+        <translation>onu ısıtan düğüm %1 çalışmıyor: önce makineyi devreye alın</translation>
+    </message>
+    <message>
         <source>M112 of the session</source>
         <translation>oturumdan M112</translation>
     </message>

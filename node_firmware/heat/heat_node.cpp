@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "protocol/motion/broadcast.hpp"
+
 namespace kinebus::heat {
 namespace {
 
@@ -89,6 +91,10 @@ void HeatNode::on_frame(LocalTime at, const CanFrame& frame) {
     on_sync(sync);
   } else if (lss_.on_frame(frame)) {
     on_lss();
+  } else if (const auto stop = decode_stop_request(frame, BusTime{0});
+             stop && stop->reason == StopReason::kEmergencyStopInput) {
+    // Whoever has the button: what it stops is not to be touched hot, and this needs no gateway.
+    switch_off();
   } else if (nmt_.state() != NmtState::kInitialising) {
     static_cast<void>(watched_.on_frame(now_, frame));
     if (is_sign_of_life(frame)) {

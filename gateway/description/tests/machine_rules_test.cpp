@@ -18,7 +18,10 @@ std::string with_node_4(std::string_view functions, std::string_view bed_place) 
 
 TEST(MachineFile, ADeviceLivesOnAChannelThatItsNodeHas) {
   const auto machine = parse_machine(
-      with_node_4("axis_pairs = 0\ninputs = 0\nheaters = 2", "where = \"node\"\nnode = 4\nchannel = 2"), "m");
+      with_node_4(
+          "axis_pairs = 0\ninputs = 0\nheaters = 2",
+          "where = \"node\"\nnode = 4\nchannel = 2\nsensor = \"pt1000\"\nlimit_c = 140\nfan_channel = 0"),
+      "m");
   ASSERT_TRUE(machine) << to_string(machine.error());
   const HeaterDescription* bed = machine->heater(kFirstBed);
   ASSERT_NE(bed, nullptr);
@@ -66,15 +69,15 @@ TEST(MachineFile, ADeviceWhereNoneCanBeIsRefused) {
     std::string functions, place, message;
   };
   const Case table[] = {
-      {"axis_pairs = 0", "where = \"node\"\nnode = 5\nchannel = 1",
+      {"axis_pairs = 0", "where = \"node\"\nnode = 5\nchannel = 1\nsensor = \"pt1000\"",
        "heater.bed.node: found 5; expected a node that has its table, [node.5]"},
-      {"axis_pairs = 0", "where = \"node\"\nnode = 4\nchannel = 1",
+      {"axis_pairs = 0", "where = \"node\"\nnode = 4\nchannel = 1\nsensor = \"pt1000\"",
        "heater.bed.channel: found 1; expected a node that has such channels: node.4.heaters is 0"},
-      {"heaters = 2", "where = \"node\"\nnode = 4\nchannel = 3",
+      {"axis_pairs = 0\nheaters = 2", "where = \"node\"\nnode = 4\nchannel = 3\nsensor = \"pt1000\"",
        "heater.bed.channel: found 3; expected a channel in 1 .. 2, as node.4.heaters says"},
-      {"heaters = 2", "where = \"node\"\nnode = 4",
+      {"axis_pairs = 0\nheaters = 2", "where = \"node\"\nnode = 4\nsensor = \"pt1000\"",
        "heater.bed.channel: missing; expected a whole number in 1 .. 16"},
-      {"heaters = 2", "where = \"node\"\nnode = 4\nchannel = 99",
+      {"axis_pairs = 0\nheaters = 2", "where = \"node\"\nnode = 4\nchannel = 99\nsensor = \"pt1000\"",
        "heater.bed.channel: found 99; expected a whole number in 1 .. 16"},
       {"heaters = 9", "where = \"simulated\"", "node.4.heaters: found 9; expected a whole number in 0 .. 8"},
       {"axis_pairs = 2", "where = \"simulated\"",
@@ -94,12 +97,29 @@ TEST(MachineFile, ADeviceWhereNoneCanBeIsRefused) {
        "has it"},
       {"", "where = \"simulated\"\n[fan.rear]\nwhere = \"simulated\"",
        "fan.rear.index: found 0; expected an index that no other has: [fan.part] has it"},
-      {"heaters = 2",
-       "where = \"node\"\nnode = 4\nchannel = 1\n[heater.oven]\nkind = \"chamber\"\nwhere = \"node\"\nnode = "
-       "4\nchannel = 1",
+      {"axis_pairs = 0\nheaters = 2",
+       "where = \"node\"\nnode = 4\nchannel = 1\nsensor = \"pt100\"\n[heater.oven]\nkind = "
+       "\"chamber\"\nwhere = \"node\"\nnode = 4\nchannel = 1\nsensor = \"pt100\"",
        "heater.oven.channel: found node 4 channel 1; expected a channel that no other device has: "
        "[heater.bed] "
        "has it"},
+      {"axis_pairs = 0\nheaters = 2", "where = \"node\"\nnode = 4\nchannel = 1",
+       "heater.bed.sensor: missing; expected one of \"pt100\" \"pt1000\" \"epcos_100k\" \"semitec_104gt2\" "
+       "\"semitec_104nt4\" \"generic_3950\" \"slice_450\" \"ntc100k_mgb18\" \"honeywell_100k\" "
+       "\"tdk_ntcg104\" \"beta\""},
+      {"heaters = 2", "where = \"node\"\nnode = 4\nchannel = 1\nsensor = \"pt100\"",
+       "node.4.axis_pairs: found 1; expected 0 of a node that carries heat"},
+      {"axis_pairs = 0\nheaters = 5", "where = \"node\"\nnode = 4\nchannel = 1\nsensor = \"pt100\"",
+       "node.4.heaters: found 5; expected at most 4 on a heat node"},
+      {"axis_pairs = 0\nheaters = 2",
+       "where = \"node\"\nnode = 4\nchannel = 1\nsensor = \"pt100\"\nlimit_c = 125",
+       "heater.bed.max_c: found 120; expected at least 10 below limit_c, which is at most 550"},
+      {"axis_pairs = 0\nheaters = 2",
+       "where = \"node\"\nnode = 4\nchannel = 1\nsensor = \"pt100\"\nsafe_c = 130",
+       "heater.bed.safe_c: found 130; expected at most max_c"},
+      {"axis_pairs = 0\nheaters = 2\noutputs = 1",
+       "where = \"node\"\nnode = 4\nchannel = 1\nsensor = \"pt100\"\nfan_channel = 2",
+       "heater.bed.fan_channel: found 2; expected a channel in 1 .. 1, as node.4.outputs says"},
       {"", "where = \"simulated\"\n[probe]\nwhere = \"node\"\nnode = 3\nchannel = 1",
        "probe.channel: found 1; expected an input of node 3 that has the probe function"},
       {"", "where = \"simulated\"\n[fan.\"two words\"]\nwhere = \"simulated\"",

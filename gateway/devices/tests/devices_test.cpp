@@ -101,14 +101,12 @@ TEST(Devices, AMachineWithoutAnyIsColdAndAtRest) {
 
 TEST(Devices, WhereNoImplementationLivesIsSaid) {
   MachineDescription machine = default_m1();
-  machine.nodes.push_back(
-      {.id = 4, .vendor = {}, .product = {}, .serial = {}, .functions = {.axis_pairs = 0, .heaters = 1}});
-  machine.heaters[0].place = {DevicePlace::Where::kNode, 4, 1};
+  machine.heaters[0].place = {DevicePlace::Where::kNode, 3, 1};
   const auto made = make_devices(machine);
   ASSERT_FALSE(made);
   EXPECT_EQ(
       made.error().english(),
-      "heater.bed is to live on node 4, where this gateway knows no such device: use where = \"simulated\"");
+      "heater.bed is to live on node 3, where this gateway knows no such device: use where = \"simulated\"");
 }
 
 /// A device on the bus as a test needs it: one frame out, one frame in, a deadline, a fault.

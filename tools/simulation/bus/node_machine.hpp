@@ -35,7 +35,8 @@ class NodeMachine {
 
   /// True position, counts, of an axis now. `at` at or after the last advance().
   virtual double true_counts(int node, int axis, BusTime at) = 0;
-  /// The node's own idea of path time at true time `at`.
+  /// The node's own idea of path time at true time `at`; of one without axes, that of the first that has
+  /// them.
   virtual PathTime path_time(int node, BusTime at) = 0;
   virtual int node_count() const = 0;
   virtual const BusModel& bus() const = 0;

@@ -21,8 +21,20 @@ constexpr int kMailboxes = 3;
 }  // namespace
 
 struct VirtualMachine::VirtualNode {
-  VirtualNode(const VirtualNodeOptions& o, BusModel::Port p, int i)
-      : options(o), port(p), index(i), core(std::in_place, o.node, to_local(BusTime{0})) {}
+  VirtualNode(const VirtualNodeOptions& o, BusModel::Port p, int i) : options(o), port(p), index(i) {
+    switch_on(BusTime{0});
+  }
+  void switch_on(BusTime now) {
+    const LocalTime local = to_local(now);
+    if (!options.heat) {
+      core.emplace(options.node, local);
+      return;
+    }
+    if (!plant) plant = std::make_unique<heat::HeatPlant>(static_cast<std::uint32_t>(index) + 1);
+    heat.emplace(heat::HeatNodeOptions{options.node.node_id, options.node.identity.serial}, local);
+    next_sample = local;
+  }
+  bool powered() const { return core || heat; }
 
   void count_scales(BusTime now) {
     if (!core) return;
@@ -45,7 +57,43 @@ struct VirtualMachine::VirtualNode {
     const double start = options.axes[static_cast<std::size_t>(axis)].start_counts;
     return core ? start + static_cast<double>(core->position(to_local(at), axis)) / 4294967296.0 : start;
   }
+  /// Samples come in their time, before what came later.
+  void sample_until(LocalTime now) {
+    for (; heat && next_sample <= now; next_sample += heat::HeatPlant::kPeriod) {
+      heat->on_time(next_sample);
+      plant->step(*heat, next_sample);
+    }
+  }
+  void on_frame(LocalTime at, const CanFrame& frame) {
+    sample_until(at);
+    if (core)
+      core->on_frame(at, frame);
+    else if (heat)
+      heat->on_frame(at, frame);
+  }
+  void on_time(LocalTime now) {
+    sample_until(now);
+    if (core)
+      core->on_time(now);
+    else if (heat)
+      heat->on_time(now);
+  }
+  template <typename Core>
+  BusTime put_out(Core& of, BusModel& bus, BusTime now) {
+    // Parameters are stored at once; a virtual node powers up with its defaults all the same.
+    if (!of.image_to_store().empty()) of.on_image_stored(true);
+    while (bus.has_room(port)) {
+      const auto frame = of.next_frame();
+      if (!frame) break;
+      bus.send(port, now, *frame);
+    }
+    return to_true(of.next_deadline());
+  }
   BusTime next_due() const {
+    if (options.heat)
+      return !heat ? BusTime::max()
+                   : std::min({deadline, to_true(next_sample),
+                               pending.empty() ? BusTime::max() : pending.front().at});
     if (!core || stalled) return next_check;
     return std::min({deadline, next_check, pending.empty() ? BusTime::max() : pending.front().at,
                      edges.empty() ? BusTime::max() : edges.front().at});
@@ -54,7 +102,10 @@ struct VirtualMachine::VirtualNode {
   VirtualNodeOptions options;
   BusModel::Port port;
   int index;
-  std::optional<Node> core;  // none: without power
+  std::optional<Node> core;            // none: without power, or a heat node
+  std::optional<heat::HeatNode> heat;  // none: without power, or a node with axes
+  std::unique_ptr<heat::HeatPlant> plant;
+  LocalTime next_sample{0};
   bool stalled = false;
   std::uint32_t lost_while_stalled = 0;  // frames that its full queue refused: it finds out when it goes on
   std::vector<Pending> pending;
@@ -111,7 +162,7 @@ void VirtualMachine::deliver(const BusModel::Delivery& delivery) {
       else
         take_in_at_gateway(arrival);
   for (const auto& node : nodes_) {
-    if (!node->core) continue;
+    if (!node->powered()) continue;
     if (node->port == delivery.from) {
       serve(*node, delivery.end);  // its mailbox is free again
       continue;
@@ -162,12 +213,12 @@ BusModel::Port VirtualMachine::node_port(int node) const {
 }
 
 bool VirtualMachine::powered(int node) const {
-  return nodes_[static_cast<std::size_t>(node)]->core.has_value();
+  return nodes_[static_cast<std::size_t>(node)]->powered();
 }
 
 void VirtualMachine::set_power(int node, BusTime now, bool on) {
   VirtualNode& n = *nodes_[static_cast<std::size_t>(node)];
-  if (on == n.core.has_value()) return;
+  if (on == n.powered()) return;
   n.pending.clear();
   n.edges.clear();
   n.stalled = false;
@@ -176,11 +227,12 @@ void VirtualMachine::set_power(int node, BusTime now, bool on) {
     for (int axis = 0; axis < 2; ++axis)
       n.options.axes[static_cast<std::size_t>(axis)].start_counts = n.counts(axis, now);
     n.core.reset();
+    n.heat.reset();
     bus_.clear(n.port);
     n.next_check = BusTime::max();
     return;
   }
-  n.core.emplace(n.options.node, n.to_local(now));
+  n.switch_on(now);
   n.switch_level = {-1, -1};
   n.next_check = now;
   serve(n, now);
@@ -237,14 +289,7 @@ void VirtualMachine::lose_steps(int node, int axis, double counts) {
 }
 
 void VirtualMachine::serve(VirtualNode& node, BusTime now) {
-  // Parameters are stored at once; a virtual node powers up with its defaults all the same.
-  if (!node.core->image_to_store().empty()) node.core->on_image_stored(true);
-  while (bus_.has_room(node.port)) {
-    const auto frame = node.core->next_frame();
-    if (!frame) break;
-    bus_.send(node.port, now, *frame);
-  }
-  node.deadline = node.to_true(node.core->next_deadline());
+  node.deadline = node.core ? node.put_out(*node.core, bus_, now) : node.put_out(*node.heat, bus_, now);
 }
 
 void VirtualMachine::check_switches(VirtualNode& node, BusTime now) {
@@ -299,7 +344,7 @@ bool VirtualMachine::advance(BusTime now) {
       continue;
     }
     due->count_scales(next);
-    if (due->next_check <= next) check_switches(*due, next);
+    if (!due->options.heat && due->next_check <= next) check_switches(*due, next);
     if (due->stalled) continue;
     if (!due->edges.empty() && due->edges.front().at <= next) {
       const VirtualNode::RawEdge edge = due->edges.front();
@@ -309,9 +354,9 @@ bool VirtualMachine::advance(BusTime now) {
     if (!due->pending.empty() && due->pending.front().at <= next) {
       const Pending pending = due->pending.front();
       due->pending.erase(due->pending.begin());
-      due->core->on_frame(due->to_local(pending.stamp), pending.frame);
+      due->on_frame(due->to_local(pending.stamp), pending.frame);
     }
-    if (due->deadline <= next) due->core->on_time(due->to_local(next));
+    if (due->deadline <= next || due->options.heat) due->on_time(due->to_local(next));
     serve(*due, next);
     // A deadline that stays in the past would stop time: the next turn is a microsecond later.
     due->deadline = std::max(due->deadline, next + BusTime{1'000});
@@ -336,6 +381,9 @@ std::optional<double> VirtualMachine::believed_counts(int node, int axis, BusTim
 
 PathTime VirtualMachine::path_time(int node, BusTime at) {
   VirtualNode& n = *nodes_[static_cast<std::size_t>(node)];
+  if (n.options.heat)
+    for (const auto& other : nodes_)
+      if (!other->options.heat) return path_time(other->index, at);
   return n.core ? n.core->path_time(n.to_local(at)) : PathTime{0};
 }
 
@@ -346,6 +394,14 @@ bool VirtualMachine::path_time_counts(int node, BusTime at) const {
 
 Node& VirtualMachine::node(int index) {
   return *nodes_[static_cast<std::size_t>(index)]->core;
+}
+
+heat::HeatNode& VirtualMachine::heat_node(int index) {
+  return *nodes_[static_cast<std::size_t>(index)]->heat;
+}
+
+heat::HeatPlant& VirtualMachine::heat_plant(int index) {
+  return *nodes_[static_cast<std::size_t>(index)]->plant;
 }
 
 void VirtualMachine::set_input(int node, BusTime at, int input, bool level) {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "node_firmware/core/node.hpp"
+#include "node_firmware/port/host/heat_plant.hpp"
 #include "tools/simulation/bus/bus_model.hpp"
 #include "tools/simulation/bus/node_machine.hpp"
 
@@ -34,6 +35,7 @@ struct VirtualAxis {
 
 struct VirtualNodeOptions {
   NodeOptions node;
+  bool heat = false;  ///< a heat node, with a HeatPlant behind it and no axes
   std::array<VirtualAxis, 2> axes{};
   BusTime clock_offset{0};
   double clock_drift_ppm = 0;
@@ -83,6 +85,9 @@ class VirtualMachine final : public NodeMachine {
   /// Motion is queued, or path time runs or is about to.
   bool path_time_counts(int node, BusTime at) const;
   Node& node(int index);
+  /// Of a heat node, which has power.
+  heat::HeatNode& heat_node(int index);
+  heat::HeatPlant& heat_plant(int index);
   int node_count() const override { return static_cast<int>(nodes_.size()); }
   const BusModel& bus() const override { return bus_; }
 

@@ -65,6 +65,7 @@ std::vector<VirtualNodeOptions> virtual_nodes_of(const MachineDescription& machi
     const NodeDescription& node = machine.nodes[n];
     VirtualNodeOptions options;
     options.node = {.identity = identity_of(node), .node_id = node.id, .scale_inputs = {true, true}};
+    options.heat = !node.functions.has_axes() && machine.carries_heat(node.id);
     options.clock_drift_ppm =
         count > 1 ? clocks.drift_ppm * (2.0 * static_cast<double>(n) / static_cast<double>(count - 1) - 1)
                   : 0;

@@ -1,0 +1,88 @@
+#include "gateway/devices/heat_node_devices.hpp"
+
+#include <utility>
+
+namespace kinebus {
+namespace {
+
+class NodeHeater : public Heater {
+ public:
+  NodeHeater(std::shared_ptr<HeatNodeLink> node, std::size_t channel)
+      : node_(std::move(node)), channel_(channel) {}
+  void set_target(double celsius) override { node_->set_target(channel_, celsius); }
+  HeaterStatus status() const override { return {node_->celsius(channel_), node_->target(channel_)}; }
+  std::optional<Sentence> fault() const override { return node_->heater_fault(channel_); }
+  std::optional<Sentence> absent() const override { return node_->absent(); }
+  void clear_fault() override { node_->reset_fault(channel_); }
+
+ private:
+  std::shared_ptr<HeatNodeLink> node_;
+  std::size_t channel_;
+};
+
+class HeatNodeOutput : public Output {
+ public:
+  HeatNodeOutput(std::shared_ptr<HeatNodeLink> node, std::size_t channel)
+      : node_(std::move(node)), channel_(channel) {}
+  void set(double ratio) override { node_->set_output(channel_, ratio); }
+  double ratio() const override { return node_->output(channel_); }
+
+ private:
+  std::shared_ptr<HeatNodeLink> node_;
+  std::size_t channel_;
+};
+
+class NodeSensor : public Sensor {
+ public:
+  NodeSensor(std::shared_ptr<HeatNodeLink> node, std::size_t input) : node_(std::move(node)), input_(input) {}
+  double celsius() const override { return node_->celsius(input_); }
+
+ private:
+  std::shared_ptr<HeatNodeLink> node_;
+  std::size_t input_;
+};
+
+/// `first`: the number of the first channel on the node.
+template <typename Made, typename Interface>
+std::unique_ptr<Interface> make(const DevicePlace& place, std::size_t first, std::size_t count,
+                                const HeatNodeLinks& links) {
+  const auto link = links.find(place.node_id);
+  const std::size_t channel = first + place.channel - 1u;
+  if (link == links.end() || place.channel == 0 || channel >= count) return nullptr;
+  return std::make_unique<Made>(link->second, channel);
+}
+
+}  // namespace
+
+HeatNodeLinks heat_node_links(const MachineDescription& machine) {
+  HeatNodeLinks links;
+  for (const NodeDescription& node : machine.nodes)
+    if (!node.functions.has_axes() && machine.carries_heat(node.id))
+      links[node.id] = std::make_shared<HeatNodeLink>(node.id);
+  return links;
+}
+
+std::unique_ptr<Heater> on_heat_node(const HeaterDescription& heater, const MachineDescription&,
+                                     const HeatNodeLinks& links) {
+  return make<NodeHeater, Heater>(heater.place, 0, kHeaters, links);
+}
+
+std::unique_ptr<Output> on_heat_node(const FanDescription& fan, const MachineDescription&,
+                                     const HeatNodeLinks& links) {
+  return make<HeatNodeOutput, Output>(fan.place, 0, kFans, links);
+}
+
+std::unique_ptr<Output> on_heat_node(const OutputDescription& output, const MachineDescription&,
+                                     const HeatNodeLinks& links) {
+  return make<HeatNodeOutput, Output>(output.place, 0, kFans, links);
+}
+
+/// Inputs of a node are its heaters' first.
+std::unique_ptr<Sensor> on_heat_node(const SensorDescription& sensor, const MachineDescription& machine,
+                                     const HeatNodeLinks& links) {
+  const NodeDescription* node = machine.node(sensor.place.node_id);
+  const std::size_t heaters = node != nullptr ? node->functions.heaters : 0;
+  return make<NodeSensor, Sensor>(sensor.place, heaters, kHeatSensors, links);
+}
+
+}  // namespace kinebus

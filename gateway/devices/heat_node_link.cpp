@@ -1,0 +1,214 @@
+#include "gateway/devices/heat_node_link.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "protocol/bytes.hpp"
+#include "protocol/canopen/alarm_table.hpp"
+#include "protocol/canopen/cob_id.hpp"
+#include "protocol/canopen/emcy.hpp"
+#include "protocol/canopen/heartbeat.hpp"
+
+namespace kinebus {
+namespace {
+
+using namespace heat_object;
+
+constexpr double kFullOutput = 32'767;  // 6411h
+
+/// Codes that say of a heater why it has no power.
+bool is_of_a_heater(std::uint16_t code) {
+  return code == emcy::kHeaterTooHot || (code >= emcy::kSensorOpen && code <= emcy::kFanStalled);
+}
+
+}  // namespace
+
+// From the node
+// ---------------------------------------------------------------------------------------------------
+
+bool HeatNodeLink::on_frame(BusTime now, const CanFrame& frame) {
+  if (frame.extended || frame.remote) return false;
+  now_ = std::max(now_, now);
+  if (frame.id == cob_id::kSdoReply + id_) {
+    if (writing_ == Writing::kNothing) return false;
+    sdo_.on_frame(now, frame);
+    settle(now);
+    return true;
+  }
+  if (const auto heartbeat = decode_heartbeat(frame); heartbeat && heartbeat->node == id_) {
+    heard_ = now;
+    // After a restart it has neither settings nor targets.
+    if (heartbeat->state == NmtState::kInitialising) on_bring_up(now, false);
+    return true;
+  }
+  if (frame.id == cob_id::kEmcy + id_) {
+    on_emergency(frame);
+    return true;
+  }
+  return on_report(now, frame);
+}
+
+bool HeatNodeLink::on_report(BusTime now, const CanFrame& frame) {
+  const auto data = frame.bytes();
+  const auto take = [&](std::size_t first, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i)
+      temperatures_[first + i] = static_cast<std::int16_t>(get_u16_le(data.subspan(2 * i)));
+  };
+  constexpr std::size_t kInOnePdo = 4, kInTheOther = kHeatSensors - kInOnePdo;
+  if (frame.id == cob_id::tpdo(1, id_) && frame.length >= kHeaters) {
+    on_states(data);
+  } else if (frame.id == cob_id::tpdo(2, id_) && frame.length >= 2 * kInOnePdo) {
+    take(0, kInOnePdo);
+    measured_ = now;
+  } else if (frame.id == cob_id::tpdo(4, id_) && frame.length >= 2 * kInTheOther) {
+    take(kInOnePdo, kInTheOther);
+  } else {
+    return frame.id == cob_id::tpdo(3, id_);
+  }
+  heard_ = now;
+  return true;
+}
+
+void HeatNodeLink::on_states(std::span<const std::uint8_t> states) {
+  for (std::size_t n = 0; n < kHeaters; ++n) {
+    states_[n] = static_cast<State>(states[n]);
+    if (states_[n] != State::kFault) reasons_[n] = 0;
+    // It may have been told a moment ago.
+    const Value& set = set_points_[n];
+    const bool should = serves_ && set.wanted != 0 && !set.due && now_ - set.told > kStateTimeout;
+    lost_[n] = should && states_[n] == State::kOff;
+  }
+}
+
+void HeatNodeLink::on_emergency(const CanFrame& frame) {
+  const auto emergency = decode_emcy(frame);
+  if (!emergency || !is_of_a_heater(emergency->code)) return;
+  for (std::size_t n = 0; n < kHeaters; ++n) {
+    if ((emergency->vendor[1] >> n & 1) == 0) continue;
+    reasons_[n] = emergency->code;
+    states_[n] = State::kFault;
+  }
+}
+
+std::optional<Sentence> HeatNodeLink::heater_fault(std::size_t heater) const {
+  const Value& set = set_points_[heater];
+  if (states_[heater] == State::kFault)
+    return reasons_[heater] != 0 ? say(alarm_row(reasons_[heater]).words)
+                                 : say("its node says that it is out of order");
+  if (!serves_ || set.wanted == 0) return std::nullopt;
+  if (set.refused != AbortCode::kNone)
+    return say("its node refuses %1 C: %2", set.wanted / 10, text(set.refused));
+  if (lost_[heater]) return say("its node has switched it off, and not by this gateway");
+  // A node that says nothing at all is missed by its heartbeat.
+  const bool heard = now_ - heard_ <= kTemperatureTimeout;
+  if (heard && now_ - measured_ > kTemperatureTimeout) return say("its node tells no temperatures any more");
+  return std::nullopt;
+}
+
+// To the node
+// -----------------------------------------------------------------------------------------------------
+
+void HeatNodeLink::set_target(std::size_t heater, double celsius) {
+  set_points_[heater].set(static_cast<std::int16_t>(std::lround(10 * celsius)));
+  lost_[heater] = false;
+}
+
+void HeatNodeLink::set_output(std::size_t output, double ratio) {
+  outputs_[output].set(static_cast<std::int16_t>(std::lround(kFullOutput * ratio)));
+}
+
+double HeatNodeLink::output(std::size_t output) const {
+  return outputs_[output].wanted / kFullOutput;
+}
+
+void HeatNodeLink::reset_fault(std::size_t heater) {
+  if (states_[heater] == State::kFault) reset_due_[heater] = true;
+  lost_[heater] = false;
+  set_points_[heater].refused = AbortCode::kNone;
+}
+
+std::optional<Sentence> HeatNodeLink::absent() const {
+  if (serves_) return std::nullopt;
+  return say("node %1, which heats it, is not in operation: bring the machine up first", id_);
+}
+
+void HeatNodeLink::on_bring_up(BusTime now, bool done) {
+  if (writing_ != Writing::kNothing && sdo_.status() == SdoClient::Status::kBusy) sdo_.cancel();
+  writing_ = Writing::kNothing;
+  serves_ = done;
+  reset_due_.fill(false);
+  lost_.fill(false);
+  if (!done) return;
+  heard_ = measured_ = now_ = std::max(now_, now);
+  for (Value& set : set_points_) set.due = true;
+  for (Value& output : outputs_) output.due = true;
+  for (std::size_t n = 0; n < kHeaters; ++n) reset_fault(n);
+}
+
+void HeatNodeLink::on_time(BusTime now) {
+  now_ = std::max(now_, now);
+  if (writing_ == Writing::kNothing) return;
+  sdo_.on_time(now);
+  settle(now);
+}
+
+std::optional<CanFrame> HeatNodeLink::next_frame(BusTime now) {
+  if (!serves_) return std::nullopt;
+  if (writing_ == Writing::kNothing) begin_next(now);
+  return sdo_.next_frame();
+}
+
+bool HeatNodeLink::begin(BusTime now, Writing what, std::size_t n, ObjectAddress first, std::int16_t value,
+                         int bytes) {
+  const ObjectAddress address{first.index, static_cast<std::uint8_t>(first.subindex + n)};
+  put_u16_le(bytes_, static_cast<std::uint16_t>(value));
+  if (!sdo_.download(now, id_, address, std::span(bytes_).first(static_cast<std::size_t>(bytes))))
+    return false;
+  writing_ = what;
+  channel_ = n;
+  written_ = value;
+  return true;
+}
+
+/// What takes heat away goes first.
+void HeatNodeLink::begin_next(BusTime now) {
+  for (const bool off : {true, false})
+    for (std::size_t n = 0; n < kHeaters; ++n) {
+      const Value& set = set_points_[n];
+      if (!off && reset_due_[n]) {
+        begin(now, Writing::kReset, n, kFaultReset, 1, 1);
+        return;
+      }
+      if (set.due && (set.wanted == 0) == off) {
+        begin(now, Writing::kSetPoint, n, kSetPoint, set.wanted, 2);
+        return;
+      }
+    }
+  for (std::size_t n = 0; n < kFans; ++n)
+    if (outputs_[n].due) {
+      begin(now, Writing::kOutput, n, kFanOutput, outputs_[n].wanted, 2);
+      return;
+    }
+}
+
+void HeatNodeLink::settle(BusTime now) {
+  if (sdo_.status() == SdoClient::Status::kBusy) return;
+  const Writing what = std::exchange(writing_, Writing::kNothing);
+  const bool failed = sdo_.status() == SdoClient::Status::kFailed;
+  // No answer, or a disturbed one: again. A node that is gone is missed by its heartbeat.
+  const AbortCode code = failed ? sdo_.abort_code() : AbortCode::kNone;
+  if (code == AbortCode::kTimeout || code == AbortCode::kToggleBit || code == AbortCode::kCommandSpecifier)
+    return;
+  if (what == Writing::kReset) {
+    reset_due_[channel_] = false;
+    return;
+  }
+  Value& value = what == Writing::kSetPoint ? set_points_[channel_] : outputs_[channel_];
+  if (value.wanted != written_) return;  // it is to be another by now
+  value.due = false;
+  value.told = now;
+  value.refused = code;
+}
+
+}  // namespace kinebus

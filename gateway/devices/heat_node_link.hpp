@@ -1,0 +1,82 @@
+#pragma once
+// A heat node on the bus, as all that lives on it share it: what each channel is to do goes out by SDO, one
+// write at a time, the newest alone; temperatures and states come by TPDO, reasons by EMCY. Its settings are
+// bring-up's. Safety is the node's own: here is what the gateway has to know of it.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "gateway/devices/device.hpp"
+#include "protocol/canopen/heat_units.hpp"
+#include "protocol/canopen/sdo_client.hpp"
+
+namespace kinebus {
+
+class HeatNodeLink : public Device {
+ public:
+  /// Temperatures come four times a second, states once and whenever one changes.
+  static constexpr BusTime kTemperatureTimeout = std::chrono::seconds{2};
+  static constexpr BusTime kStateTimeout = std::chrono::milliseconds{2500};
+
+  explicit HeatNodeLink(std::uint8_t id) : id_(id) {}
+
+  bool on_frame(BusTime now, const CanFrame& frame) override;
+  void on_time(BusTime now) override;
+  void on_bring_up(BusTime now, bool done) override;
+  std::optional<CanFrame> next_frame(BusTime now) override;
+  BusTime next_deadline() const override { return sdo_.next_deadline(); }
+  std::optional<Sentence> absent() const override;
+
+  // Channels of a kind and inputs are counted from 0.
+  void set_target(std::size_t heater, double celsius);
+  void set_output(std::size_t output, double ratio);
+  double target(std::size_t heater) const { return set_points_[heater].wanted / 10.0; }
+  double output(std::size_t output) const;
+  double celsius(std::size_t input) const { return temperatures_[input] / 10.0; }
+  std::optional<Sentence> heater_fault(std::size_t heater) const;
+  /// The node is asked to try again.
+  void reset_fault(std::size_t heater);
+
+ private:
+  enum class State : std::uint8_t { kOff = 0, kHeats = 1, kThere = 2, kTunes = 3, kFault = 4 };
+  /// A number on the node, and whether it has it already.
+  struct Value {
+    std::int16_t wanted = 0;
+    bool due = false;
+    BusTime told{0};
+    AbortCode refused = AbortCode::kNone;
+    void set(std::int16_t value) {
+      due = due || value != wanted || refused != AbortCode::kNone;
+      refused = AbortCode::kNone;
+      wanted = value;
+    }
+  };
+  enum class Writing : std::uint8_t { kNothing, kReset, kSetPoint, kOutput };
+
+  bool on_report(BusTime now, const CanFrame& frame);
+  void on_states(std::span<const std::uint8_t> states);
+  void on_emergency(const CanFrame& frame);
+  bool begin(BusTime now, Writing what, std::size_t n, ObjectAddress first, std::int16_t value, int bytes);
+  void begin_next(BusTime now);
+  void settle(BusTime now);
+
+  std::uint8_t id_;
+  bool serves_ = false;
+  SdoClient sdo_;
+  Writing writing_ = Writing::kNothing;
+  std::size_t channel_ = 0;
+  std::int16_t written_ = 0;
+  std::array<std::uint8_t, 2> bytes_{};
+
+  std::array<Value, kHeaters> set_points_{};
+  std::array<bool, kHeaters> reset_due_{};
+  std::array<Value, kFans> outputs_{};
+  std::array<State, kHeaters> states_{};
+  std::array<std::uint16_t, kHeaters> reasons_{};  ///< EMCY codes; 0: none
+  std::array<bool, kHeaters> lost_{};              ///< off, and not by this gateway
+  std::array<std::int16_t, kHeatSensors> temperatures_{};
+  BusTime heard_{0}, measured_{0}, now_{0};
+};
+
+}  // namespace kinebus
