@@ -1,12 +1,14 @@
 // Bodies of M1 and M5. Legs are pairs of rods, apart along X, about which alone the platform turns. The
-// platform is a star of arms below the table, one to each leg. Rails stand outside their legs' joints,
-// carriages reach from one to the other.
+// platform is a star of arms, one to each leg: below the table that it carries, or at the attachments'
+// height behind its tool. What it does not carry of table and tool stands in the frame. Rails stand outside
+// their legs' joints, carriages reach from one to the other.
 
 #include <algorithm>
 #include <cmath>
 
 #include "gateway/bodies/collision_model.hpp"
 #include "gateway/kinematics/table_rotation.hpp"
+#include "gateway/kinematics/tool_placement.hpp"
 
 namespace kinebus::bodies {
 namespace {
@@ -20,7 +22,10 @@ Vec vec(const Vector3& v) {
 class LegMachine final : public CollisionModel {
  public:
   LegMachine(const M1Geometry& g, const BodiesDescription& b, bool mill)
-      : CollisionModel(b, mill), nozzle_(vec(g.nozzle_mm)), half_spacing_(0.5 * b.rod_spacing_mm) {
+      : CollisionModel(b, mill),
+        g_(g),
+        carries_tool_(g.tool == ToolPlacement::kPlatform),
+        half_spacing_(0.5 * b.rod_spacing_mm) {
     Vec middle{};
     for (std::size_t i = 0; i < kLegs; ++i) {
       const M1Leg& leg = g.legs[i];
@@ -35,27 +40,24 @@ class LegMachine final : public CollisionModel {
     }
     const double offset =
         b.rail_offset_mm > 0 ? b.rail_offset_mm : half_spacing_ + b.rod_radius_mm + b.rail_radius_mm + 15;
-    // The arms lie under the table.
-    const double arms_z = -b.table_thickness_mm - b.platform_radius_mm;
     double table_radius = b.table_radius_mm > 0 ? b.table_radius_mm : g.limits.radius_mm;
     if (!(table_radius > 0)) table_radius = 100;
-    table_ = add({BodyKind::kTable, 0}, kPlatformGroup,
-                 Shape::cylinder({0, 0, -b.table_thickness_mm}, {}, table_radius),
-                 std::hypot(table_radius, b.table_thickness_mm));
-    table_shape_ = at_rest().shapes[shape_of(table_)];
-    if (b.part_height_mm > 0) {
-      part_ = add({BodyKind::kPart, 0}, kPlatformGroup,
-                  Shape::cylinder({}, {0, 0, b.part_height_mm}, b.part_radius_mm),
-                  std::hypot(b.part_radius_mm, b.part_height_mm));
-      part_shape_ = at_rest().shapes[shape_of(*part_)];
-    }
-    double floor_z = nozzle_.z;
+    const Vec tip = vec(g.nozzle_mm), table = vec(g.table_mm), table_foot{0, 0, -b.table_thickness_mm};
+    add_table(BodyKind::kTable, Shape::cylinder(table + table_foot, table, table_radius),
+              std::hypot(table_radius, b.table_thickness_mm));
+    if (b.part_height_mm > 0)
+      add_table(BodyKind::kPart,
+                Shape::cylinder(table, table + Vec{0, 0, b.part_height_mm}, b.part_radius_mm),
+                std::hypot(b.part_radius_mm, b.part_height_mm));
+    double floor_z = carries_tool_ ? table.z - b.table_thickness_mm : tip.z;
     for (std::size_t i = 0; i < kLegs; ++i) {
       Leg& leg = legs_[i];
       const auto number = static_cast<std::uint8_t>(i + 1);
-      leg.arm_end = {leg.attachment.x, leg.attachment.y, arms_z};
-      leg.arm = add({BodyKind::kPlatform, 0}, kPlatformGroup,
-                    Shape::capsule({0, 0, arms_z}, leg.arm_end, b.platform_radius_mm), norm(leg.arm_end));
+      leg.arm_end = leg.attachment;
+      if (!carries_tool_) leg.arm_end.z = -b.table_thickness_mm - b.platform_radius_mm;
+      leg.arm =
+          add({BodyKind::kPlatform, 0}, kPlatformGroup,
+              Shape::capsule({0, 0, leg.arm_end.z}, leg.arm_end, b.platform_radius_mm), norm(leg.arm_end));
       // Rods, and the connector from them to the attachment. Placed with the pose.
       const auto rod = [&b](double length) { return Shape::capsule({}, {0, 0, length}, b.rod_radius_mm); };
       leg.body = add({BodyKind::kLeg, number}, static_cast<std::uint8_t>(kFirstLegGroup + i),
@@ -78,11 +80,11 @@ class LegMachine final : public CollisionModel {
       join(leg.body, leg.arm);
       join(leg.carriage, leg.rail_body);
     }
-    const Vec collet = nozzle_ + Vec{0, 0, b.tool_length_mm};
-    add({BodyKind::kTool, 0}, kStill,
-        Shape::capsule(nozzle_ + Vec{0, 0, b.tool_radius_mm}, collet, b.tool_radius_mm));
-    add({BodyKind::kHolder, 0}, kStill,
-        Shape::cylinder(collet, collet + Vec{0, 0, b.holder_length_mm}, b.holder_radius_mm));
+    const Vec collet = tip + Vec{0, 0, b.tool_length_mm}, end = collet + Vec{0, 0, b.holder_length_mm};
+    add_tool(BodyKind::kTool, Shape::capsule(tip + Vec{0, 0, b.tool_radius_mm}, collet, b.tool_radius_mm),
+             std::max(norm(tip), norm(collet)));
+    add_tool(BodyKind::kHolder, Shape::cylinder(collet, end, b.holder_radius_mm),
+             std::max(norm(collet), norm(end)) + b.holder_radius_mm);
     add_fixed(b);
     add_floor(floor_z - b.floor_mm);
     pair_up();
@@ -95,7 +97,8 @@ class LegMachine final : public CollisionModel {
   }
 
   std::optional<Place> place_of(Frame frame, const Pose& pose) const override {
-    return Place{platform(frame, pose, Turn(pose[kA])), 2 * longest_lever_ * pose[kA]};
+    const double tilt = platform_tilt(g_, pose);
+    return Place{vec(platform_at(g_, frame, pose, Turn(tilt))), 2 * longest_lever_ * tilt};
   }
 
   /// With p the joint at a leg's end, s of it aside from the rail: the carriage moves by p + p . s / h along
@@ -117,18 +120,18 @@ class LegMachine final : public CollisionModel {
   }
 
   bool place(Frame frame, const Pose& pose, Scene& scene) const override {
-    const Turn a(pose[kA]);
-    const Vec p = platform(frame, pose, a);
-    scene.tilt_rad = pose[kA];
-    const auto set_disc = [&](std::size_t body, const Shape& home) {
+    const double tilt = platform_tilt(g_, pose);
+    const Turn a(tilt);
+    const Vec p = vec(platform_at(g_, frame, pose, a));
+    scene.tilt_rad = tilt;
+    for (std::size_t i = 0; i < carried_count_; ++i) {
+      const auto& [body, home] = carried_[i];
       Shape& s = scene.shapes[shape_of(body)];
       s.centre = p + turned(a, home.centre);
       s.half[0] = turned(a, home.half[0]);
       s.axis = turned(a, home.axis);
       scene.witness[body] = {p, p};
-    };
-    set_disc(table_, table_shape_);
-    if (part_) set_disc(*part_, part_shape_);
+    }
     for (const Leg& leg : legs_) {
       const Vec joint = p + turned(a, leg.attachment), s = joint - leg.foot;
       const double u = dot(s, leg.rail), radicand = leg.length * leg.length - dot(s, s) + u * u;
@@ -161,21 +164,32 @@ class LegMachine final : public CollisionModel {
   static Vec turned(const Turn& a, const Vec& v) {
     return {v.x, a.c * v.y - a.s * v.z, a.s * v.y + a.c * v.z};
   }
-  /// Its origin, in the middle of the table's surface.
-  Vec platform(Frame frame, const Pose& pose, const Turn& a) const {
-    Vector3 m{pose[kX], pose[kY], pose[kZ]};
-    if (frame == Frame::kPart) m = turn_x(a, turn_z(Turn(pose[kC]), m));
-    return nozzle_ - vec(m);
+  /// Rides on the platform, where it is at `home` in the platform's frame.
+  struct Carried {
+    std::size_t body = 0;
+    Shape home{};
+  };
+
+  /// `place`: in the frame of what holds it. `lever_mm`: about the platform's zero, when that does.
+  void add_held(bool carried, BodyKind kind, const Shape& place, double lever_mm) {
+    const std::size_t body = add({kind, 0}, carried ? kPlatformGroup : kStill, place, carried ? lever_mm : 0);
+    if (carried) carried_[carried_count_++] = {body, place};
+  }
+  void add_table(BodyKind kind, const Shape& place, double lever_mm) {
+    add_held(!carries_tool_, kind, place, lever_mm);
+  }
+  void add_tool(BodyKind kind, const Shape& place, double lever_mm) {
+    add_held(carries_tool_, kind, place, lever_mm);
   }
 
-  Vec nozzle_;
+  M1Geometry g_;
+  bool carries_tool_;
   double half_spacing_;
   double longest_lever_ = 1;  ///< of what turns with the platform
   bool parallel_ = true;      ///< rails
   std::array<Leg, kLegs> legs_{};
-  std::size_t table_ = 0;
-  std::optional<std::size_t> part_;
-  Shape table_shape_{}, part_shape_{};
+  std::array<Carried, 2> carried_{};
+  std::size_t carried_count_ = 0;
 };
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "gateway/description/bodies_rules.hpp"
 #include "gateway/description/device_rules.hpp"
 #include "gateway/gcode/letters.hpp"
+#include "gateway/kinematics/tool_placement.hpp"
 
 namespace kinebus {
 namespace {
@@ -142,7 +143,7 @@ class Rules {
                 : say("an input of node %1 that has the limit function for axis %2", j.node_id, axis));
   }
 
-  /// M1 and M5: the nozzle is fixed over the table, so that a platform that homes upwards runs into it.
+  /// M1 and M5: a platform that homes towards the tool, or the tool towards the table, runs into it.
   void away_from_nozzle(const JointDescription& j, const HomingDescription& h, const std::string& key) {
     const auto* m1 = std::get_if<M1Geometry>(&d_.kinematics);
     const auto* m5 = std::get_if<M5Geometry>(&d_.kinematics);
@@ -154,10 +155,11 @@ class Rules {
     if (!(length > 0)) return;
     // A rail nearer to level than 60 deg from upright carries the platform past the nozzle more than towards
     // it.
-    constexpr double kUpwards = 0.5;
-    const double up = (h.towards_positive() ? 1 : -1) * rail[2] / length;
+    constexpr double kTowards = 0.5;
+    const double towards = approach_direction(*g) * (h.towards_positive() ? 1 : -1) * rail[2] / length;
     const int other = h.method <= 18 ? 35 - h.method : h.method <= 20 ? h.method + 2 : h.method - 2;
-    require(up <= kUpwards, {key, "kinematics.leg" + std::to_string(leg + 1) + ".rail"},
+    require(towards <= kTowards,
+            {key, "kinematics.leg" + std::to_string(leg + 1) + ".rail", "kinematics.tool"},
             say("%1, which homes towards the nozzle", static_cast<int>(h.method)),
             say("homing away from the nozzle: method %1, with the switch at the rail's other end", other));
   }

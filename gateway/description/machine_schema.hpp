@@ -23,6 +23,8 @@ inline constexpr Range kAngleLimit_deg{0, 90};
 inline constexpr Choice kKinds[] = {{"m1", 0},           {"cartesian", 1}, {"corexy", 2},
                                     {"linear_delta", 3}, {"m4", 4},        {"m5", 5}};
 inline constexpr Choice kAxes[] = {{"A", 0}, {"B", 1}};
+inline constexpr Choice kToolPlacements[] = {{"frame", static_cast<int>(ToolPlacement::kFrame)},
+                                             {"platform", static_cast<int>(ToolPlacement::kPlatform)}};
 inline constexpr Choice kCarriage[] = {{"below", 0}, {"above", 1}};
 inline constexpr Choice kResumeThen[] = {{"ask", static_cast<int>(ResumeDescription::Then::kAsk)},
                                          {"go_on", static_cast<int>(ResumeDescription::Then::kGoOn)}};
@@ -65,7 +67,13 @@ void visit_workspace(V& v, PoseLimits& limits, bool tilts) {
 
 template <class V>
 void visit_geometry(V& v, M1Geometry& g) {
+  const bool known = v.choice("tool", g.tool, kToolPlacements, Need::kOptional);
   v.vector3("nozzle_mm", g.nozzle_mm, kAnywhere_mm, Need::kRequired);
+  if (!known || g.tool == ToolPlacement::kPlatform)
+    v.vector3("table_mm", g.table_mm, kAnywhere_mm, known ? Need::kRequired : Need::kOptional);
+  else
+    v.retired("table_mm",
+              say("no such key with the tool in the frame: the table's centre is the platform's zero"));
   v.number("bed_reference_mm", g.bed_reference_mm, kAnywhere_mm, Need::kOptional);
   v.number("max_leg_angle_deg", g.max_leg_angle_rad, {1, 90}, Need::kRequired, kRadPerDeg);
   v.number("min_rail_clearance_deg", g.min_rail_clearance_rad, kAngleLimit_deg, Need::kOptional, kRadPerDeg);

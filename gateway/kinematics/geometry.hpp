@@ -46,7 +46,11 @@ struct M1Leg {
   friend bool operator==(const M1Leg&, const M1Leg&) = default;
 };
 
-/// Four-leg parallel mechanism (x, y, z, A) with rotary table C on the platform and a fixed nozzle.
+/// Who holds the tool of a four-leg machine; the table is where the tool is not (tool_placement.hpp).
+enum class ToolPlacement : std::uint8_t { kFrame, kPlatform };
+
+/// Four-leg parallel mechanism (x, y, z, A) with rotary table C on the platform and a fixed nozzle, or with
+/// the tool on the platform and the table in the frame.
 ///
 /// The default stands on its legs: carriages below, table, part and nozzle free above. Over a cylinder of 200
 /// mm diameter and 200 mm height and |A| <= 45 deg its legs lean 27.4 deg at most, stay 91 mm from each
@@ -61,7 +65,9 @@ struct M1Geometry {
       {.foot_mm = {-273, -252, 0}, .attachment_mm = {-124, -69, -5}, .connector_mm = 15},
       {.foot_mm = {-273, 252, 0}, .attachment_mm = {-124, 69, -5}, .connector_mm = 15},
   }};
-  Vector3 nozzle_mm{0, 0, 1340};  ///< n
+  ToolPlacement tool = ToolPlacement::kFrame;
+  Vector3 nozzle_mm{0, 0, 1340};  ///< the tool's tip in the frame of what holds it: n, or t on the platform
+  Vector3 table_mm{};  ///< w: the table's centre in the machine frame, where the tool is on the platform
   PoseLimits limits{.z_mm = {-5, 250}, .a_rad = {-45 * kRadPerDeg, 45 * kRadPerDeg}, .radius_mm = 150};
   double max_leg_angle_rad = 30 * kRadPerDeg;  ///< between a leg and its rail; pi/2: no limit
   /// Smallest angle between a rail and the arm from platform centre to attachment, either way; 0: no limit.

@@ -18,6 +18,7 @@
 #include "gateway/kinematics/m1_geometry.hpp"
 #include "gateway/kinematics/pose_limits.hpp"
 #include "gateway/kinematics/table_rotation.hpp"
+#include "gateway/kinematics/tool_placement.hpp"
 
 namespace kinebus {
 namespace {
@@ -329,7 +330,8 @@ LegTable::LegTable(const M1Geometry& g) {
 
 Result<std::unique_ptr<Kinematics>, GeometryError> make_m1_kinematics(const M1Geometry& geometry) {
   if (auto wrong = m1_geometry::wrong_numbers(geometry)) return Error<GeometryError>({*wrong});
-  auto m1 = std::make_unique<M1>(geometry);
+  std::unique_ptr<Kinematics> m1 = std::make_unique<M1>(with_tool_in_frame(geometry));
+  if (geometry.tool == ToolPlacement::kPlatform) m1 = make_tool_on_platform(geometry, std::move(m1));
   if (auto wrong = m1_geometry::wrong_everywhere(*m1, geometry)) return Error<GeometryError>({*wrong});
   return m1;
 }

@@ -1,7 +1,7 @@
 #pragma once
 // Forward kinematics of M1's parallel part: where the platform is, for four carriage travels.
 
-#include "gateway/kinematics/geometry.hpp"
+#include "gateway/kinematics/tool_placement.hpp"
 
 namespace kinebus {
 
@@ -15,11 +15,6 @@ struct LegTable {
   alignas(32) double ll[4];                ///< l^2
   alignas(32) double c[4];
   alignas(32) double branch[4];  ///< +1: carriage ahead of the platform along d^
-};
-
-struct PlatformPose {
-  Vector3 p_mm{};
-  double a_rad = 0;
 };
 
 /// Solved when every leg closes to this. Rounding leaves about 1e-13.

@@ -25,6 +25,9 @@ std::optional<Sentence> wrong_numbers(const M1Geometry& g) {
   }
   for (const Interval& i : {g.limits.x_mm, g.limits.y_mm, g.limits.z_mm, g.limits.a_rad, g.limits.c_rad})
     if (!(i.min <= i.max)) return say("a pose limit's minimum is above its maximum");
+  for (const Vector3& v : {g.nozzle_mm, g.table_mm})
+    for (const double x : v)
+      if (!std::isfinite(x)) return say("tool or table position is not a number");
   if (!(g.rotation_scale_mm > 0)) return say("rotation_scale_mm must be above 0");
   if (!(g.max_condition >= 1)) return say("max_condition must be 1 or more");
   return std::nullopt;

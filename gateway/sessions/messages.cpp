@@ -88,6 +88,9 @@ struct GeometryMessage {
       set_range(*l.mutable_travel_mm(), leg.travel_mm);
     }
     set_vector(*info.mutable_legs()->mutable_nozzle(), g.nozzle_mm);
+    if (g.tool != ToolPlacement::kPlatform) return;
+    info.mutable_legs()->set_tool_on_platform(true);
+    set_vector(*info.mutable_legs()->mutable_table(), g.table_mm);
   }
   void operator()(const CartesianGeometry& g) const {
     info.set_kinematics("cartesian");

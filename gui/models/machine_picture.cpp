@@ -17,7 +17,9 @@ Range range(const joblink::Range& r, const Range& otherwise) {
 
 void legs_of(const joblink::MachineInfo& machine, MachineModel& m) {
   m.kind = MachineModel::Kind::kM1;
+  m.tool_on_platform = machine.legs().tool_on_platform();
   m.nozzle_mm = vec(machine.legs().nozzle());
+  m.table_mm = vec(machine.legs().table());
   m.turns = true;
   int i = 0;
   for (const auto& leg : machine.legs().legs()) {
@@ -74,7 +76,9 @@ void set_travel(std::array<Interval, 3>& travel, const joblink::MachineInfo& mac
 
 M1Geometry leg_geometry(const joblink::MachineInfo& machine) {
   M1Geometry g;
+  if (machine.legs().tool_on_platform()) g.tool = ToolPlacement::kPlatform;
   g.nozzle_mm = vector3(machine.legs().nozzle());
+  g.table_mm = vector3(machine.legs().table());
   g.limits = limits_of(machine.reach());
   for (std::size_t i = 0; i < g.legs.size(); ++i) {
     const auto& leg = machine.legs().legs(static_cast<int>(i));

@@ -23,12 +23,13 @@ struct LegPlace {
 template <typename Take>
 bool each_leg(const MachineModel& m, const PartPose& pose, Take take) {
   const bool delta = m.kind == MachineModel::Kind::kLinearDelta;
-  const Vec3 centre = delta ? pose.q_mm : m.platform_mm(pose);
-  const double c = delta ? 1 : std::cos(pose.a_rad), s = delta ? 0 : std::sin(pose.a_rad);
+  const MachineModel::Platform platform = delta ? MachineModel::Platform{pose.q_mm, 0} : m.platform(pose);
+  const double c = delta ? 1 : std::cos(platform.a_rad), s = delta ? 0 : std::sin(platform.a_rad);
   for (std::size_t i = 0; i < m.legs.size() && i < 4; ++i) {
     const MachineModel::Leg& leg = m.legs[i];
     const Vec3& at = leg.attachment_mm;
-    const Vec3 joint = centre + Vec3{at[0], c * at[1] - s * at[2], s * at[1] + c * at[2]} - leg.foot_mm;
+    const Vec3 joint =
+        platform.p_mm + Vec3{at[0], c * at[1] - s * at[2], s * at[1] + c * at[2]} - leg.foot_mm;
     const double along = dot(leg.rail, joint);
     if (!take(i, LegPlace{along, leg.length_mm * leg.length_mm - dot(joint, joint) + along * along}))
       return false;
@@ -42,8 +43,10 @@ double carriage_mm(const MachineModel::Leg& leg, const LegPlace& place, double u
 
 }  // namespace
 
-Vec3 MachineModel::platform_mm(const PartPose& pose) const {
-  return nozzle_mm - turn_x(pose.a_rad, turn_z(pose.c_rad, pose.q_mm));
+MachineModel::Platform MachineModel::platform(const PartPose& pose) const {
+  const Vec3 q = turn_z(pose.c_rad, pose.q_mm);
+  if (tool_on_platform) return {table_mm + q - turn_x(-pose.a_rad, nozzle_mm), -pose.a_rad};
+  return {nozzle_mm - turn_x(pose.a_rad, q), pose.a_rad};
 }
 
 std::optional<std::array<double, 4>> MachineModel::carriages_mm(const PartPose& pose) const {

@@ -35,7 +35,10 @@ struct MachineModel {
   };
   Kind kind = Kind::kM1;
   std::string name;
-  Vec3 nozzle_mm{};       ///< fixed in the machine frame (M1); elsewhere the tool moves
+  /// M1: the platform carries the tool, and the table stands in the frame.
+  bool tool_on_platform = false;
+  Vec3 nozzle_mm{};       ///< M1: the tip in the frame of what holds it: machine, or platform
+  Vec3 table_mm{};        ///< M1 with the tool on the platform: the table's centre, machine frame
   std::vector<Leg> legs;  ///< M1: four; linear delta: three towers with their arms
   double max_leg_angle_rad = 1.2;
   Range x_mm{-100, 100}, y_mm{-100, 100}, z_mm{0, 200};  ///< where the tool may be, table coordinates
@@ -48,8 +51,13 @@ struct MachineModel {
   bool round() const { return radius_mm > 0; }
   /// Carriage travels for a pose, by the closure of each leg; nullopt: out of reach. Only machines with legs.
   std::optional<std::array<double, 4>> carriages_mm(const PartPose& pose) const;
-  /// Platform's point under the tool, machine frame (M1: p = n - R_X(A) R_Z(C) q).
-  Vec3 platform_mm(const PartPose& pose) const;
+  /// Where M1's platform is in the machine frame, and its tilt about X.
+  struct Platform {
+    Vec3 p_mm{};
+    double a_rad = 0;
+  };
+  /// p = n - R_X(A) R_Z(C) q, tilted by A; p = w + R_Z(C) q - R_X(-A) t, tilted by -A.
+  Platform platform(const PartPose& pose) const;
   /// How far a pose is from the nearest limit of reach, 0 (at it or beyond) .. 1 (as free as can be): travel
   /// of the carriages, angle of the legs, workspace.
   double margin(const PartPose& pose) const;

@@ -1905,6 +1905,10 @@
         <translation>چنین کلیدی نیست: ماشین بی‌اسپیندل جدول [spindle] ندارد</translation>
     </message>
     <message>
+        <source>no such key with the tool in the frame: the table&apos;s centre is the platform&apos;s zero</source>
+        <translation>با ابزار در بدنه چنین کلیدی نیست: مرکز میز همان صفر سکو است</translation>
+    </message>
+    <message>
         <source>at most %1 tables with names of 1 .. %2 letters, digits, - and _</source>
         <translation>حداکثر %1 جدول با نام‌هایی از 1 .. %2 حرف، رقم، - و _</translation>
     </message>

@@ -1905,6 +1905,10 @@
         <translation>böyle bir anahtar yok: iş mili olmayan makinede [spindle] tablosu olmaz</translation>
     </message>
     <message>
+        <source>no such key with the tool in the frame: the table&apos;s centre is the platform&apos;s zero</source>
+        <translation>takım gövdedeyken böyle bir anahtar yok: tablanın merkezi platformun sıfırıdır</translation>
+    </message>
+    <message>
         <source>at most %1 tables with names of 1 .. %2 letters, digits, - and _</source>
         <translation>adları 1 .. %2 harf, rakam, - ve _ olan en çok %1 tablo</translation>
     </message>

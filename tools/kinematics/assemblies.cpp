@@ -5,6 +5,7 @@
 
 #include "gateway/kinematics/m4.hpp"
 #include "gateway/kinematics/table_rotation.hpp"
+#include "gateway/kinematics/tool_placement.hpp"
 #include "tools/kinematics/m1_assemblies.hpp"
 
 namespace kinebus {
@@ -26,9 +27,7 @@ class Forward {
       Assembly one;
       const Vector3& p = a.platform_mm;
       one.mechanism = {{"px_mm", p[0]}, {"py_mm", p[1]}, {"pz_mm", p[2]}};
-      Vector3 m{g.nozzle_mm[0] - p[0], g.nozzle_mm[1] - p[1], g.nozzle_mm[2] - p[2]};
-      if (frame_ == Frame::kPart) m = turn_back_z(Turn(c_rad), turn_back_x(Turn(a.a_rad), m));
-      one.pose = {m[0], m[1], m[2], a.a_rad, c_rad, e_mm};
+      one.pose = pose_at(g, frame_, {p, a.a_rad}, c_rad, e_mm);
       one.residual_mm = a.residual_mm;
       one.as_described = a.physical();
       for (std::size_t i = 0; i < 4; ++i) {

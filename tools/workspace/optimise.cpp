@@ -7,6 +7,8 @@
 #include <numbers>
 #include <vector>
 
+#include "gateway/kinematics/tool_placement.hpp"
+
 namespace kinebus::workspace {
 namespace {
 
@@ -79,13 +81,13 @@ Fitness fitness(const M1Geometry& geometry, const Room& room) {
           }
           // The leg's angle from how far the carriage is ahead of the platform joint along the rail.
           double angle = 0;
-          const double ca = std::cos(pose[kA]), sa = std::sin(pose[kA]);
+          const PlatformPose at = platform_at(g, Frame::kPart, pose);
+          const double ca = std::cos(at.a_rad), sa = std::sin(at.a_rad);
           for (std::size_t i = 0; i < 4; ++i) {
             const M1Leg& leg = g.legs[i];
-            const double y = ca * pose[kY] - sa * pose[kZ], zz = sa * pose[kY] + ca * pose[kZ];
-            const double p[3] = {g.nozzle_mm[0] - pose[kX] + leg.attachment_mm[0],
-                                 g.nozzle_mm[1] - y + ca * leg.attachment_mm[1] - sa * leg.attachment_mm[2],
-                                 g.nozzle_mm[2] - zz + sa * leg.attachment_mm[1] + ca * leg.attachment_mm[2]};
+            const Vector3& b = leg.attachment_mm;
+            const double p[3] = {at.p_mm[0] + b[0], at.p_mm[1] + ca * b[1] - sa * b[2],
+                                 at.p_mm[2] + sa * b[1] + ca * b[2]};
             double along = 0;
             const double norm = std::hypot(leg.rail[0], leg.rail[1], leg.rail[2]);
             for (std::size_t k = 0; k < 3; ++k)

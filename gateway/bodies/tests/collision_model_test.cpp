@@ -242,6 +242,47 @@ TEST(EveryMachine, TipAndTableAreAsFarApartAsThePoseSays) {
   }
 }
 
+TEST(ToolOnPlatform, ToolAndHolderTiltWithThePlatformOverATableThatStands) {
+  MachineDescription d = shipped("m5.toml");
+  d.bodies->part_radius_mm = 30;
+  d.bodies->part_height_mm = 10;
+  const auto& g = std::get<M5Geometry>(d.kinematics);
+  const Model model = make_collision_model(d);
+  Scene scene = model->at_rest();
+  std::mt19937 source(9);
+  for (int n = 0; n < 50; ++n) {
+    Pose pose = random_pose(source, 100, 200, 45 * kRadPerDeg);
+    pose[kC] = 0;
+    ASSERT_TRUE(model->place(Frame::kPart, pose, scene));
+    // The tool leans by -A about its tip, which is over the table as the pose says.
+    const Vec tip{g.table_mm[0] + pose[kX], g.table_mm[1] + pose[kY], g.table_mm[2] + pose[kZ]};
+    const Vec up{0, std::sin(pose[kA]), std::cos(pose[kA])};
+    int found = 0;
+    for (const CollisionModel::Body& body : model->bodies()) {
+      const Shape& s = scene.shapes[body.first_shape];
+      const auto expect_at = [&](const Vec& expected) {
+        ++found;
+        EXPECT_LT(norm(s.centre - expected), 1e-9) << model->name(body.id);
+      };
+      const double tool = d.bodies->tool_length_mm;
+      if (body.id.kind == BodyKind::kTool) expect_at(tip + (0.5 * (tool + d.bodies->tool_radius_mm)) * up);
+      if (body.id.kind == BodyKind::kHolder) expect_at(tip + (tool + 0.5 * d.bodies->holder_length_mm) * up);
+      const Vec table{g.table_mm[0], g.table_mm[1], g.table_mm[2]};
+      if (body.id.kind == BodyKind::kTable) expect_at(table - Vec{0, 0, 0.5 * d.bodies->table_thickness_mm});
+      if (body.id.kind == BodyKind::kPart) expect_at(table + Vec{0, 0, 5});
+    }
+    EXPECT_EQ(found, 4);
+  }
+  // The platform comes down on the table's side towards which it leans; nearer to the platform, sooner.
+  const Pose leaning{-20, -90, 1, 45 * kRadPerDeg, 0, 0};
+  EXPECT_GT(model->clearance(Frame::kPart, leaning)->mm, 2);
+  std::get<M5Geometry>(d.kinematics).nozzle_mm[2] = -110;
+  const auto c = make_collision_model(d)->clearance(Frame::kPart, leaning);
+  ASSERT_TRUE(c);
+  EXPECT_LT(c->mm, 0);
+  EXPECT_TRUE(c->first.kind == BodyKind::kTable || c->second.kind == BodyKind::kTable) << model->words(*c);
+}
+
 TEST(EveryMachine, LegsEndAtTheirCarriagesAndHaveTheirLength) {
   for (const char* name : {"m4.toml", "delta.toml", "m5.toml"}) {
     SCOPED_TRACE(name);

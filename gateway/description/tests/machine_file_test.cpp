@@ -67,6 +67,14 @@ TEST(MachineFile, AWrongKeyIsRefusedWithItsLineWhatWasFoundAndWhatIsAllowed) {
       {"axis = \"A\" ", "axis = \"C\" ", "joint.tower1.axis: found 'C'; expected one of \"A\" \"B\""},
       {"nozzle_mm = [0, 0, 1340]", "nozzle_mm = [0, 300]",
        "kinematics.nozzle_mm: found an array of 2; expected three numbers, each in -10000 .. 10000"},
+      {"bed_reference_mm = 20", "tool = \"table\"",
+       "kinematics.tool: found 'table'; expected one of \"frame\" \"platform\""},
+      {"bed_reference_mm = 20", "tool = 1",
+       "kinematics.tool: found 1; expected one of \"frame\" \"platform\""},
+      {"bed_reference_mm = 20", "table_mm = [0, 0, 0]",
+       "kinematics.table_mm: found an array of 3; expected no such key with the tool in the frame: the "
+       "table's "
+       "centre is the platform's zero"},
       {"nozzle_mm = [0, 0, 1340]", "nozzle_mm = 300",
        "kinematics.nozzle_mm: found 300; expected three numbers, each in -10000 .. 10000"},
       {"travel_mm = [40, 540]", "travel_mm = [540, 40]",

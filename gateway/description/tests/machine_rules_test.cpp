@@ -210,11 +210,30 @@ TEST(MachineFile, HomingThatDrivesThePlatformIntoTheNozzleIsRefused) {
   EXPECT_TRUE(machine) << to_string(machine.error());
   // Limit switches, and M5's rails, are judged alike.
   std::string mill = file_text("m5.toml");
-  for (std::size_t at; (at = mill.find("method = 22")) != std::string::npos;)
-    mill.replace(at, 11, "method = 20");
+  for (std::size_t at; (at = mill.find("method = 20")) != std::string::npos;)
+    mill.replace(at, 11, "method = 22");
+  // It carries its tool, and the table is below.
   const auto refused = parse_machine(mill, "m5.toml");
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().size(), 4u) << to_string(refused.error());
+}
+
+TEST(MachineFile, AToolOnThePlatformNeedsToKnowWhereTheTableIs) {
+  std::string text = file_text("m5.toml");
+  const std::string line = "table_mm = [0, 0, 90] ";
+  ASSERT_NE(text.find(line), std::string::npos);
+  auto without = text;
+  without.replace(without.find(line), line.size(), "# ");
+  const auto missing = parse_machine(without, "m5.toml");
+  ASSERT_FALSE(missing);
+  ASSERT_EQ(missing.error().size(), 1u) << to_string(missing.error());
+  EXPECT_EQ(missing.error().front().key, "kinematics.table_mm");
+  // A placement that nobody knows is the one error, whatever else is said with it.
+  text.replace(text.find("\"platform\""), 10, "\"spindle\"");
+  const auto unknown = parse_machine(text, "m5.toml");
+  ASSERT_FALSE(unknown);
+  ASSERT_EQ(unknown.error().size(), 1u) << to_string(unknown.error());
+  EXPECT_EQ(unknown.error().front().key, "kinematics.tool");
 }
 
 TEST(MachineFile, CalibrationBendsTheGeometryAndNotTheStatedOne) {

@@ -121,6 +121,31 @@ TEST(Preflight, ACornerOfThePlatformAgainstTheNozzleIsNamedWithItsLineAndPasses2
   EXPECT_EQ(problems_on(default_m1(), past_the_corner("4")).errors(), 0u);
 }
 
+TEST(Preflight, WhatThePlatformCarriesIsCheckedAgainstATableThatStands) {
+  MachineDescription d = legs_below();
+  auto& g = std::get<M1Geometry>(d.kinematics);
+  // Upside down, with the tool on the platform and the table in the frame.
+  g.tool = ToolPlacement::kPlatform;
+  g.nozzle_mm = {0, 0, -180};
+  g.table_mm = {0, 0, 60};
+  for (std::size_t i = 0; i < 4; ++i) {
+    g.legs[i].foot_mm[2] = 1020;
+    g.legs[i].attachment_mm[2] = 5;
+    g.legs[i].carriage_above = true;
+    d.joints[i].homing->method = 20;
+    d.joints[i].homing->switch_position = d.joints[i].travel.max;
+  }
+  const std::string job = "G43.4\nG1 Z1 F3000\nG1 A45\nG1 A-45\nG1 X30 Y-20 C90 A20\n";
+  const ProblemList good = problems_on(d, job);
+  EXPECT_EQ(good.errors(), 0u) << good.all()[0].words;
+  // A spindle so wide that its face meets the table when it leans.
+  d.bodies->holder_radius_mm = 45;
+  const ProblemList bad = problems_on(d, job);
+  ASSERT_GE(bad.errors(), 1u);
+  EXPECT_EQ(bad.all()[0].line, 3u);
+  EXPECT_TRUE(bad.all()[0].words.starts_with("table and nozzle holder would")) << bad.all()[0].words;
+}
+
 TEST(WayRules, WhatIsMetBetweenTwoPosesThatAreClearIsFound) {
   const MachineDescription d = with_clamp(true);
   const auto its_kinematics = make_kinematics(d);

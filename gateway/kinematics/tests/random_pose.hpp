@@ -1,5 +1,5 @@
 #pragma once
-// Poses and paths that are drawn from one seed.
+// Poses and paths that are drawn from one seed, and a machine for them.
 
 #include <cmath>
 #include <random>
@@ -7,6 +7,21 @@
 #include "gateway/kinematics/geometry.hpp"
 
 namespace kinebus::testing {
+
+/// The default M1 upside down, with everything off its centre.
+inline M1Geometry hanging() {
+  M1Geometry g;
+  g.tool = ToolPlacement::kPlatform;
+  g.nozzle_mm = {3, -2, -180};
+  g.table_mm = {5, -4, 80};
+  for (M1Leg& leg : g.legs) {
+    leg.foot_mm[2] = 1020;
+    leg.attachment_mm[2] = 5;
+    leg.connector_mm = -leg.connector_mm;
+    leg.carriage_above = true;
+  }
+  return g;
+}
 
 class RandomPose {
  public:

@@ -5,7 +5,6 @@
 #include <map>
 
 #include "gateway/kinematics/m1_forward.hpp"
-#include "gateway/kinematics/table_rotation.hpp"
 
 namespace kinebus {
 
@@ -16,9 +15,12 @@ constexpr std::size_t kLegs = 4, kPerLeg = 11, kTilt = kLegs * kPerLeg, kOwn = k
 /// A machine with its deviations, made ready once for many poses.
 struct DeviatedMachine {
   DeviatedMachine(const BelievedMachine& believed, const MachineDeviation& d)
-      : deviation(d), geometry(corrected(believed.geometry, d.geometry)), legs(geometry) {}
+      : deviation(d),
+        geometry(corrected(believed.geometry, d.geometry)),
+        fixed_tool(with_tool_in_frame(geometry)),
+        legs(geometry) {}
   MachineDeviation deviation;
-  M1Geometry geometry;
+  M1Geometry geometry, fixed_tool;
   LegTable legs;
 };
 
@@ -109,14 +111,11 @@ std::optional<std::array<double, 4>> GeometryModel::tool_at(const DeviatedMachin
   for (std::size_t i = 0; i < kLegs; ++i)
     true_joints[i] = joints[i] + machine.deviation.offset_mm[i] +
                      machine.deviation.scale[i] * (joints[i] - machine_.switch_mm[i]);
-  const Vector3& n = machine.geometry.nozzle_mm;
-  const Vector3 m = turn_x(Turn(near[kA]), {near[kX], near[kY], near[kZ]});
-  PlatformPose pose{{n[0] - m[0], n[1] - m[1], n[2] - m[2]}, near[kA]};
-  if (!(solve_platform(machine.legs, machine.geometry, true_joints, pose) < kForwardTolerance_mm))
+  PlatformPose platform = platform_at(machine.geometry, Frame::kPart, near);
+  if (!(solve_platform(machine.legs, machine.fixed_tool, true_joints, platform) < kForwardTolerance_mm))
     return std::nullopt;
-  const Vector3 q =
-      turn_back_x(Turn(pose.a_rad), {n[0] - pose.p_mm[0], n[1] - pose.p_mm[1], n[2] - pose.p_mm[2]});
-  return std::array<double, 4>{q[0], q[1], q[2], pose.a_rad};
+  const Pose pose = pose_at(machine.geometry, Frame::kPart, platform, 0, 0);
+  return std::array<double, 4>{pose[kX], pose[kY], pose[kZ], pose[kA]};
 }
 
 std::optional<std::array<double, 4>> GeometryModel::tool(const MachineDeviation& deviation,

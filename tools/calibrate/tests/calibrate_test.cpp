@@ -74,6 +74,26 @@ TEST(CalibrationLoop, AScrewsPeriodicErrorGoesToo) {
   EXPECT_LE(accuracy(machine, truth, 500, 5).rms_mm, 0.025);
 }
 
+TEST(CalibrationLoop, FindsAMachineWhosePlatformCarriesTheToolAndItsTwinThatCarriesTheTable) {
+  auto mill = load_machine(std::filesystem::path(KINEBUS_MACHINES) / "m5.toml");
+  ASSERT_TRUE(mill) << to_string(mill.error());
+  ASSERT_EQ(std::get<M5Geometry>(mill->kinematics).tool, ToolPlacement::kPlatform);
+  MachineDescription twin = *mill;
+  auto& g = std::get<M5Geometry>(twin.kinematics);
+  static_cast<M1Geometry&>(g) = M1Geometry{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    twin.joints[i].homing->method = 22;
+    twin.joints[i].homing->switch_position = 40;
+  }
+  for (const MachineDescription& nominal : {*mill, twin})
+    for (const std::uint64_t seed : {21u, 22u}) {
+      const MachineDescription truth = with_hidden_errors(nominal, {}, seed);
+      EXPECT_GT(accuracy(nominal, truth, 500, seed + 100).rms_mm, 0.4) << "seed " << seed;
+      const MachineDescription machine = calibrate(nominal, truth, 10, seed);
+      EXPECT_LE(accuracy(machine, truth, 500, seed + 200).rms_mm, 0.025) << "seed " << seed;
+    }
+}
+
 TEST(CalibrationLoop, ASecondRoundFindsNothingMore) {
   const MachineDescription nominal = default_m1();
   const MachineDescription truth = with_hidden_errors(nominal, {}, 7);

@@ -17,22 +17,29 @@ inline std::string generated_job(const std::string& kind, std::uint32_t lines) {
   return text;
 }
 
-inline SimulationReport simulate_text(const std::string& text, std::uint64_t seed = 1,
-                                      SimulateOptions options = {}) {
+inline SimulationReport simulate_on(const MachineDescription& machine, const std::string& text,
+                                    std::uint64_t seed = 1, SimulateOptions options = {}) {
   options.simulation.seed = seed;
   StringSource same(text);
-  return simulate(default_m1(), std::make_unique<StringSource>(text), same, options);
+  return simulate(machine, std::make_unique<StringSource>(text), same, options);
+}
+
+inline SimulationReport simulate_text(const std::string& text, std::uint64_t seed = 1,
+                                      SimulateOptions options = {}) {
+  return simulate_on(default_m1(), text, seed, std::move(options));
 }
 
 /// The limits of the machine and the accuracy promised. `path_um`: tracking error and blend tolerance.
-inline void expect_within_bounds(const SimulationReport& r, double path_um = 1.5 + 5.0) {
+/// `joint_counts`: of a motor, in its microsteps.
+inline void expect_within_bounds(const SimulationReport& r, double path_um = 1.5 + 5.0,
+                                 double joint_counts = 0.5) {
   const bool failed_before = ::testing::Test::HasFailure();
   EXPECT_TRUE(r.finished) << r.outcome;
   EXPECT_FALSE(r.trouble);
   EXPECT_GT(r.samples, 0u);
   EXPECT_LE(r.max_tracking_error_um, 1.5);
   EXPECT_LE(r.max_path_error_um, path_um);
-  EXPECT_LE(r.max_joint_error_counts, 0.5);
+  EXPECT_LE(r.max_joint_error_counts, joint_counts);
   EXPECT_LE(r.max_joint_velocity_ratio, 1.0);
   EXPECT_LE(r.max_joint_acceleration_ratio, 1.0);
   EXPECT_LE(r.max_velocity_step_ratio, 1.0);
