@@ -243,11 +243,9 @@ std::string draw_bodies(const bodies::CollisionModel& model, const Kinematics& k
       continue;
     }
     const bodies::Clearance least = model.clearance(scenes[k]);
-    words(777,
-          least.mm > 0 ? printed("%.1f mm: ", least.mm) + std::string(model.name(least.first)) + ", " +
-                             std::string(model.name(least.second))
-                       : std::string(model.words(least)),
-          false);
+    const std::string nearest = printed("%.1f mm: %s, %s", least.mm, model.name(least.first).c_str(),
+                                        model.name(least.second).c_str());
+    words(777, least.mm > 0 ? nearest : model.words(least).c_str(), false);
     Panel panel({x + 10, kTop, kPanel_mm - 20, 600}, low, high);
     for (const auto& body : model.bodies()) {
       if (hidden(body.id.kind)) continue;
