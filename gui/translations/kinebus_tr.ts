@@ -2830,15 +2830,15 @@
     </message>
     <message>
         <source>an order for every joint that homes, or for none: then it follows from the kinematics</source>
-        <translation>eve giden her eklem için bir sıra, ya da hiçbiri için: o zaman sıra kinematikten çıkar</translation>
+        <translation>referansa giden her eklem için bir sıra, ya da hiçbiri için: o zaman sıra kinematikten çıkar</translation>
     </message>
     <message>
         <source>homing that is not safe: begun at %1, at %2 %3</source>
-        <translation>güvenli olmayan eve dönüş: %1 konumunda başlayınca %2 konumunda %3</translation>
+        <translation>güvenli olmayan referansa gitme: %1 konumunda başlayınca %2 konumunda %3</translation>
     </message>
     <message>
         <source>homing that is not safe: begun at %1, from %2 on the mechanism cannot follow</source>
-        <translation>güvenli olmayan eve dönüş: %1 konumunda başlayınca mekanizma %2 konumundan öteye izleyemiyor</translation>
+        <translation>güvenli olmayan referansa gitme: %1 konumunda başlayınca mekanizma %2 konumundan öteye izleyemiyor</translation>
     </message>
     <message>
         <source>switches that can be reached from everywhere: see kinebus plan --home</source>
