@@ -139,9 +139,9 @@ void judge_homing(const MachineDescription& description, std::vector<BrokenRule>
   if (!description.bodies || !moves) return;
   HomingStudy study(description);
   if (!(description.bodies->part_height_mm > 0)) study.set_part(0, 0);
-  constexpr int kStarts = 12;
+  constexpr int kStarts = 8, kAttempts = 12;
   constexpr homing::Walker::Density kCoarse{.least_mm = 2, .most_mm = 25};
-  const homing::Survey found = homing::survey(study.machine(), study.plan(), 1, kStarts, kCoarse);
+  const homing::Survey found = homing::survey(study.machine(), study.plan(), 1, kStarts, kCoarse, kAttempts);
   if (!found.failure) return;
   const auto& [start, way] = *found.failure;
   keys.insert(keys.end(), {"bodies", "kinematics"});

@@ -10,7 +10,6 @@ namespace {
 
 /// Tool and part at a start: as after a layer.
 constexpr double kLayer_mm = 0.2;
-constexpr int kAttempts = 2000;
 /// How densely the way to a start is looked at, mm of a joint.
 constexpr double kStep_mm = 10;
 const Plan kNoPlan;
@@ -27,7 +26,7 @@ double Starts::in_or_end(const Interval& range) {
 }
 
 std::optional<Start> Starts::next() {
-  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+  for (int attempt = 0; attempt < attempts_; ++attempt) {
     Start start;
     if (draw(start) && put_part(start)) return start;
   }
@@ -126,10 +125,10 @@ bool Starts::put_part(Start& start) {
 }
 
 Survey survey(const Machine& machine, const Plan& plan, std::uint64_t seed, int starts,
-              Walker::Density density) {
+              Walker::Density density, int attempts) {
   Survey found;
   found.nearest.mm = std::numeric_limits<double>::infinity();
-  Starts source(machine, seed);
+  Starts source(machine, seed, attempts);
   for (int n = 0; n < starts; ++n) {
     std::optional<Start> start = source.next();
     if (!start) break;

@@ -41,8 +41,9 @@ struct Start {
 /// there without touching. The part is as high as the tool leaves room for, or lower.
 class Starts {
  public:
-  Starts(const Machine& machine, std::uint64_t seed) : machine_(machine), random_(seed) {}
-  /// nullopt: found none in many attempts, the machine can hardly stand anywhere.
+  Starts(const Machine& machine, std::uint64_t seed, int attempts = 200)
+      : machine_(machine), random_(seed), attempts_(attempts) {}
+  /// nullopt: found none in so many attempts, the machine can hardly stand anywhere.
   std::optional<Start> next();
 
  private:
@@ -55,6 +56,7 @@ class Starts {
 
   const Machine& machine_;
   std::mt19937_64 random_;
+  int attempts_;
 };
 
 struct Failure {
@@ -73,6 +75,6 @@ struct Survey {
 };
 
 Survey survey(const Machine& machine, const Plan& plan, std::uint64_t seed, int starts,
-              Walker::Density density = {});
+              Walker::Density density = {}, int attempts = 200);
 
 }  // namespace kinebus::homing
