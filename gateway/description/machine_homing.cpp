@@ -140,7 +140,7 @@ void judge_homing(const MachineDescription& description, std::vector<BrokenRule>
   HomingStudy study(description);
   if (!(description.bodies->part_height_mm > 0)) study.set_part(0, 0);
   constexpr int kStarts = 8, kAttempts = 12;
-  constexpr homing::Walker::Density kCoarse{.least_mm = 2, .most_mm = 25};
+  constexpr homing::Walker::Density kCoarse{.least_mm = 2, .most_mm = 25, .most_poses = 100};
   const homing::Survey found = homing::survey(study.machine(), study.plan(), 1, kStarts, kCoarse, kAttempts);
   if (!found.failure) return;
   const auto& [start, way] = *found.failure;

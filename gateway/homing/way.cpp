@@ -117,12 +117,13 @@ bool Walker::seek(const Stage& stage, JointVector& joints, Way& way) {
     double left;
   };
   std::vector<Goal> goals;
-  double shortest = kInfinite, longest = 0;
+  double shortest = kInfinite, longest = 0, farthest = 0;
   for (const Joint& j : stage.joints) {
     if (!j.moves) continue;
     const double to_edge = (j.switch_position - joints[j.joint]) * j.direction();
     const double travel = to_edge > 0 ? to_edge + j.overrun() : 0;
     goals.push_back({&j, travel});
+    farthest = std::max(farthest, travel);
     if (kinematics_.joint_info(static_cast<int>(j.joint)).rotary) continue;
     shortest = std::min(shortest, travel);
     longest = std::max(longest, travel);
@@ -137,7 +138,8 @@ bool Walker::seek(const Stage& stage, JointVector& joints, Way& way) {
     }
     if (!(fastest > 0)) return true;
     // A carriage's motion is passed on to the bodies up to some 4 times.
-    const double step = std::clamp(near_mm_ / 8, density_.least_mm, density_.most_mm);
+    const double step = std::max(std::clamp(near_mm_ / 8, density_.least_mm, density_.most_mm),
+                                 farthest / density_.most_poses);
     const double seconds = std::min(arrival_s, step / fastest);
     for (Goal& g : goals) {
       if (!(g.left > 0)) continue;

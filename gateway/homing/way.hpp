@@ -32,6 +32,7 @@ class Walker {
   /// where bodies are near.
   struct Density {
     double least_mm = 0.5, most_mm = 8;
+    int most_poses = 4000;  ///< in a stage: a longer way is looked at in longer steps
   };
   /// All must outlive this. `model` nullptr: nobody knows what is solid; the mechanism alone is looked at.
   Walker(const Kinematics& kinematics, const Plan& plan, const bodies::CollisionModel* model,
