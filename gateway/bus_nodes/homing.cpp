@@ -24,11 +24,21 @@ constexpr BusTime kSettle = 50ms;
 /// A controlword that was lost comes again: a carriage that waits for it would wait for ever.
 constexpr BusTime kRepeatControl = 200ms;
 
+/// From 1.
+std::uint8_t stage_of(const homing::Plan& plan, std::size_t joint) {
+  for (std::size_t stage = 0; stage < plan.stages.size(); ++stage)
+    for (const homing::Joint& member : plan.stages[stage].joints)
+      if (member.joint == joint) return static_cast<std::uint8_t>(stage + 1);
+  return 1;
+}
+
 }  // namespace
 
-MachineHoming::MachineHoming(const MachineDescription& machine, std::deque<NodeLink>& links)
+MachineHoming::MachineHoming(const MachineDescription& machine, const homing::Plan& plan,
+                             std::deque<NodeLink>& links)
     : machine_(machine), links_(links), reports_(links.size()) {
-  for (const JointDescription& joint : machine.joints) {
+  for (std::size_t number = 0; number < machine.joints.size(); ++number) {
+    const JointDescription& joint = machine.joints[number];
     if (!joint.homing) continue;
     for (std::size_t node = 0; node < links.size(); ++node) {
       if (links[node].id() != joint.node_id) continue;
@@ -41,7 +51,7 @@ MachineHoming::MachineHoming(const MachineDescription& machine, std::deque<NodeL
       // Three reports may have been lost.
       axis.jump_counts =
           4 * joint.homing->fast_per_s * axis.counts_per_unit * 1e-3 * static_cast<double>(kReportMs);
-      axis.order = joint.homing->order;
+      axis.order = stage_of(plan, number);
       axes_.push_back(axis);
     }
   }

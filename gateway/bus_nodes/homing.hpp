@@ -1,5 +1,6 @@
 #pragma once
-// Homing of all joints that have a switch, those of one order together.
+// Homing of all joints that have a switch, stage after stage of the plan (gateway/homing/plan.hpp), those of
+// a stage together.
 //
 // The method: every node homes its own axes (CiA 402 mode 6: fast to the switch, off it, slowly over the
 // edge), all started within one frame time of each other and with equal speeds, so that the platform of a
@@ -23,6 +24,7 @@
 #include "gateway/bus_nodes/bring_up.hpp"
 #include "gateway/bus_nodes/node_link.hpp"
 #include "gateway/description/machine_description.hpp"
+#include "gateway/homing/plan.hpp"
 #include "gateway/sentence.hpp"
 
 namespace kinebus {
@@ -31,7 +33,7 @@ class MachineHoming {
  public:
   enum class Outcome : std::uint8_t { kBusy, kDone, kFailed };
 
-  MachineHoming(const MachineDescription& machine, std::deque<NodeLink>& links);
+  MachineHoming(const MachineDescription& machine, const homing::Plan& plan, std::deque<NodeLink>& links);
 
   void start(BusTime now);
   Outcome on_time(BusTime now);
@@ -51,7 +53,7 @@ class MachineHoming {
     bool linear = true;
     double counts_per_unit = 1;
     double jump_counts = 0;  ///< a greater step between two reports is a new zero, not a motion
-    std::uint8_t order = 1;
+    std::uint8_t order = 1;  ///< the stage of the plan, from 1
     bool attained = false;
     bool waits = false;  ///< stands on its switch
     double travel_counts = 0;

@@ -36,11 +36,6 @@ void judge_numbers(const BodiesDescription& b, std::vector<BrokenRule>& broken) 
   }
 }
 
-/// "X 10 Y 0 Z 20 A 45"
-std::string pose_text(const Pose& pose) {
-  return printed("X %.4g Y %.4g Z %.4g A %.4g", pose[kX], pose[kY], pose[kZ], pose[kA] / kRadPerDeg);
-}
-
 /// Poses all over the workspace, those among them that the kinematics allow.
 template <typename Visit>
 void visit_workspace(const MachineDescription& d, const Kinematics& kinematics, Visit&& visit) {
@@ -65,6 +60,10 @@ void visit_workspace(const MachineDescription& d, const Kinematics& kinematics, 
 }
 
 }  // namespace
+
+std::string pose_text(const Pose& pose) {
+  return printed("X %.4g Y %.4g Z %.4g A %.4g", pose[kX], pose[kY], pose[kZ], pose[kA] / kRadPerDeg);
+}
 
 void judge_bodies(const MachineDescription& d, const Kinematics& kinematics,
                   std::vector<BrokenRule>& broken) {

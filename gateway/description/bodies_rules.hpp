@@ -1,6 +1,7 @@
 #pragma once
 // What the keys of [bodies] must be to each other, and what a machine with these bodies must be able to do.
 
+#include <string>
 #include <vector>
 
 #include "gateway/description/machine_rules.hpp"
@@ -10,5 +11,8 @@ namespace kinebus {
 /// Appends what is broken. `kinematics`: of the description.
 void judge_bodies(const MachineDescription& description, const Kinematics& kinematics,
                   std::vector<BrokenRule>& broken);
+
+/// "X 10 Y 0 Z 20 A 45"
+std::string pose_text(const Pose& pose);
 
 }  // namespace kinebus

@@ -16,8 +16,7 @@ HomingDescription tower_homing(std::uint8_t input) {
           .accel_per_s2 = 500,
           .back_off = 5,
           .switch_position = 40,
-          .max_search = 600,
-          .order = 1};
+          .max_search = 600};
 }
 
 JointDescription tower(int number) {

@@ -8,6 +8,7 @@
 #include "gateway/calibration/joint_map.hpp"
 #include "gateway/description/bodies_rules.hpp"
 #include "gateway/description/device_rules.hpp"
+#include "gateway/description/machine_homing.hpp"
 #include "gateway/gcode/letters.hpp"
 #include "gateway/kinematics/tool_placement.hpp"
 
@@ -28,6 +29,8 @@ class Rules {
       broken_.push_back({geometry_keys(), say("a machine that cannot work"), kinematics.error().what});
     else
       judge_bodies(d_, **kinematics, broken_);
+    // A machine with something else wrong has no ways worth looking at.
+    if (broken_.empty()) judge_homing(d_, broken_);
     return std::move(broken_);
   }
 

@@ -171,7 +171,7 @@ void visit_joint(V& v, JointDescription& j, bool own_travel) {
     v.number("back_off_" + u, h.back_off, {0, 1000}, Need::kRequired, unit);
     v.number("switch_position_" + u, h.switch_position, {-100000, 100000}, Need::kRequired, unit);
     v.number("max_search_" + u, h.max_search, {0.1, 100000}, Need::kRequired, unit);
-    v.integer("order", h.order, 1, 8, Need::kOptional);
+    v.integer("order", h.order, 0, 8, Need::kOptional);
   });
   v.table("calibration", Need::kOptional, [&] {
     v.number("scale", j.calibration.scale, {-0.05, 0.05}, Need::kOptional);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "gateway/description/machine_homing.hpp"
 #include "gateway/devices/registry.hpp"
 #include "gateway/jobs/machine_setup.hpp"
 #include "protocol/canopen/cob_id.hpp"
@@ -63,7 +64,7 @@ Gateway::Core::Core(const MachineDescription& machine, Options options, std::opt
       watch_(machine_, links_, rate_, group_, events_, counters_),
       parameters_(machine_, links_),
       bring_up_(machine_, links_, rate_),
-      homing_(machine_, links_),
+      homing_(machine_, homing_plan(machine_, *kinematics_), links_),
       currents_(links_.size()),
       scales_(machine_, axes_),
       position_(machine_, *kinematics_, axes_, group_),

@@ -2877,6 +2877,26 @@
         <translation>فضای کافی در مرجع بستر، جایی که ماشین پیش از کار منتظر می‌ماند</translation>
     </message>
     <message>
+        <source>an order of some joints</source>
+        <translation>ترتیب برای برخی مفصل‌ها</translation>
+    </message>
+    <message>
+        <source>an order for every joint that homes, or for none: then it follows from the kinematics</source>
+        <translation>ترتیب برای هر مفصلی که خانه‌یابی می‌کند یا برای هیچ‌کدام: آنگاه ترتیب از سینماتیک برمی‌آید</translation>
+    </message>
+    <message>
+        <source>homing that is not safe: begun at %1, at %2 %3</source>
+        <translation>خانه‌یابی ناامن: با آغاز در %1، در %2 %3</translation>
+    </message>
+    <message>
+        <source>homing that is not safe: begun at %1, from %2 on the mechanism cannot follow</source>
+        <translation>خانه‌یابی ناامن: با آغاز در %1، سازوکار از %2 به بعد نمی‌تواند دنبال کند</translation>
+    </message>
+    <message>
+        <source>switches that can be reached from everywhere: see kinebus plan --home</source>
+        <translation>کلیدهایی که از هر جا دست‌یافتنی باشند: kinebus plan --home را ببینید</translation>
+    </message>
+    <message>
         <source>the job was not begun: on the way to the bed reference %1</source>
         <translation>کار آغاز نشد: در راه مرجع بستر %1</translation>
     </message>

@@ -2877,6 +2877,26 @@
         <translation>makinenin işten önce beklediği tabla referansında boşluk</translation>
     </message>
     <message>
+        <source>an order of some joints</source>
+        <translation>bazı eklemler için bir sıra</translation>
+    </message>
+    <message>
+        <source>an order for every joint that homes, or for none: then it follows from the kinematics</source>
+        <translation>referansa giden her eklem için bir sıra, ya da hiçbiri için: o zaman sıra kinematikten çıkar</translation>
+    </message>
+    <message>
+        <source>homing that is not safe: begun at %1, at %2 %3</source>
+        <translation>güvenli olmayan referansa gitme: %1 konumunda başlayınca %2 konumunda %3</translation>
+    </message>
+    <message>
+        <source>homing that is not safe: begun at %1, from %2 on the mechanism cannot follow</source>
+        <translation>güvenli olmayan referansa gitme: %1 konumunda başlayınca mekanizma %2 konumundan öteye izleyemiyor</translation>
+    </message>
+    <message>
+        <source>switches that can be reached from everywhere: see kinebus plan --home</source>
+        <translation>her yerden ulaşılabilen anahtarlar: kinebus plan --home gösterir</translation>
+    </message>
+    <message>
         <source>the job was not begun: on the way to the bed reference %1</source>
         <translation>iş başlatılmadı: tabla referansına giderken %1</translation>
     </message>

@@ -8,6 +8,7 @@
 
 #include "gateway/jobs/job_plan.hpp"
 #include "gateway/jobs/store/file_source.hpp"
+#include "tools/cli/home_plan.hpp"
 #include "tools/cli/job_watch.hpp"
 #include "tools/cli/offline.hpp"
 
@@ -18,6 +19,8 @@ using nlohmann::json;
 
 struct PlanArguments {
   std::string job, machine, json_path;
+  bool home = false;
+  HomePlanArguments homing;
 };
 
 double cpu_seconds(const rusage& usage) {
@@ -99,13 +102,41 @@ int plan(const PlanArguments& arguments) {
 
 void add_plan_command(CLI::App& app, int& exit_code) {
   auto* command =
-      app.add_subcommand("plan", "Check a job and estimate time, frames and bus load; nothing moves");
+      app.add_subcommand("plan",
+                         "Check a job and estimate time, frames and bus load, or show how the machine "
+                         "homes; nothing moves");
   auto arguments = std::make_shared<PlanArguments>();
-  command->add_option("job", arguments->job, "G-code file")->required()->check(CLI::ExistingFile);
+  command->add_option("job", arguments->job, "G-code file")->check(CLI::ExistingFile);
   command->add_option("--machine", arguments->machine, "Machine file; without it the default machine M1")
       ->check(CLI::ExistingFile);
   command->add_option("--json", arguments->json_path, "Also write the report here");
-  command->callback([=, &exit_code] { exit_code = plan(*arguments); });
+  auto* home =
+      command->add_flag("--home", arguments->home,
+                        "Order and directions of homing, and what comes near on the way from random poses");
+  command->add_option("--starts", arguments->homing.starts, "With --home: from so many poses")
+      ->check(CLI::Range(1, 1'000'000))
+      ->needs(home);
+  command->add_option("--seed", arguments->homing.seed, "With --home: the poses are drawn from it")
+      ->needs(home);
+  auto* radius = command
+                     ->add_option("--part-radius", arguments->homing.part_radius_mm,
+                                  "With --home: the greatest part on the table, mm")
+                     ->check(CLI::Range(0.1, 10000.0))
+                     ->needs(home);
+  auto* height = command->add_option("--part-height", arguments->homing.part_height_mm, "Its height, mm")
+                     ->check(CLI::Range(0.1, 10000.0))
+                     ->needs(radius);
+  radius->needs(height);
+  command->callback([=, &exit_code] {
+    if (arguments->home == !arguments->job.empty())
+      throw CLI::ValidationError("plan", "name a job, or --home");
+    if (!arguments->home) {
+      exit_code = plan(*arguments);
+      return;
+    }
+    arguments->homing.json_path = arguments->json_path;
+    exit_code = plan_homing(read_machine(arguments->machine), arguments->homing);
+  });
 }
 
 }  // namespace kinebus

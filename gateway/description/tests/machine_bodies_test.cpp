@@ -76,6 +76,42 @@ std::string with_lines(const char* file, std::string_view lines) {
   return text.substr(0, text.find("\n[bodies]")) + "\n[bodies]\n" + std::string(lines);
 }
 
+// The lamp is under the workspace: only homing takes the platform down there.
+TEST(MachineFile, HomingThatRunsIntoSomethingIsRefusedWithThePairAndThePose) {
+  const std::string table = with_lines("m1.toml", "table_radius_mm = 100\n");
+  EXPECT_TRUE(parse_machine(table, "m1"));
+  const auto machine =
+      parse_machine(table + "[bodies.fixed.lamp]\nfrom_mm = [-20, -20, 950]\nto_mm = [20, 20, 1000]\n", "m1");
+  ASSERT_FALSE(machine);
+  const std::string words = to_string(machine.error());
+  EXPECT_EQ(machine.error().size(), 1u) << words;
+  EXPECT_NE(words.find("joint.tower1.homing.method: found homing that is not safe: begun at X "),
+            std::string::npos)
+      << words;
+  EXPECT_NE(words.find("platform and lamp would"), std::string::npos) << words;
+}
+
+TEST(MachineFile, AnOrderOfHomingIsStatedForAllJointsOrNone) {
+  std::string text = file_text("cartesian.toml");
+  const auto state = [&](const std::string& joint, int order) {
+    const std::string table = "[joint." + joint + ".homing]\n";
+    const std::size_t at = text.find(table);
+    ASSERT_NE(at, std::string::npos);
+    text.insert(at + table.size(), "order = " + std::to_string(order) + "\n");
+  };
+  state("X", 2);
+  const auto some = parse_machine(text, "cartesian");
+  ASSERT_FALSE(some);
+  EXPECT_NE(to_string(some.error()).find("found an order of some joints; expected an order for every joint"),
+            std::string::npos)
+      << to_string(some.error());
+  state("Y", 3);
+  state("Z", 1);
+  const auto all = parse_machine(text, "cartesian");
+  ASSERT_TRUE(all) << to_string(all.error());
+  EXPECT_EQ(all->joints[1].homing->order, 3);
+}
+
 TEST(MachineFile, EachKindHasTheKeysOfItsBodies) {
   for (const char* file : {"cartesian.toml", "corexy.toml"}) {
     EXPECT_TRUE(parse_machine(with_lines(file, "holder_radius_mm = 30\n"), file));
