@@ -107,8 +107,9 @@ HomingStudy::HomingStudy(const MachineDescription& description) {
     with_part.bodies->part_height_mm = height > 0 ? height : 0;
     // Where the tool is fixed to the frame, which hangs it from above.
     constexpr double kCarrier_mm = 1000;
-    const bool hangs = std::holds_alternative<M1Geometry>(bare_.kinematics) ||
-                       std::holds_alternative<M5Geometry>(bare_.kinematics);
+    const M1Geometry* legs = std::get_if<M1Geometry>(&bare_.kinematics);
+    if (const auto* m5 = std::get_if<M5Geometry>(&bare_.kinematics)) legs = m5;
+    const bool hangs = legs != nullptr && legs->tool == ToolPlacement::kFrame;
     if (carrier && hangs) with_part.bodies->holder_length_mm += kCarrier_mm;
     return make_collision_model(with_part);
   };
