@@ -23,6 +23,7 @@ using joblink::Status;
 using Options = std::shared_ptr<MachineOptions>;
 constexpr double kRadians = 0.017453292519943295;
 constexpr double kStatusHz = 10;
+constexpr auto kClearedWithin = std::chrono::seconds{30};
 
 bool ready(const Status& status) {
   return status.state() == joblink::STATE_READY;
@@ -191,15 +192,31 @@ void add_view(CLI::App& app, const Options& options, const std::string& name, co
   });
 }
 
+/// 0: the stop is lifted; 1: the gateway has said why not, or says nothing.
+int wait_until_cleared(Client& client) {
+  const auto end = std::chrono::steady_clock::now() + kClearedWithin;
+  while (std::chrono::steady_clock::now() < end) {
+    const auto report = client.next(std::chrono::seconds{1});
+    if (!report) continue;
+    if (const auto* event = std::get_if<joblink::Event>(&*report)) {
+      if (event->kind() != joblink::EVENT_ALARM) continue;
+      fmt::print(stderr, "ALARM {}\n      {}\n", event->words(), event->advice());
+      return 1;
+    }
+    const auto state = std::get<Status>(*report).state();
+    if (state != joblink::STATE_STOPPED && state != joblink::STATE_ALARM) return 0;
+  }
+  fmt::print(stderr, "kinebus: the gateway has not lifted the stop yet\n");
+  return 1;
+}
+
 /// Comes back when the stop is lifted: the next command of a script finds the machine so.
 void add_clear(CLI::App& app, const Options& options, int& exit_code) {
   app.add_subcommand("clear", "Lift a stop or an alarm")->callback([=, &exit_code] {
     Client client(options->reach, kStatusHz, true);
     take_control(client, *options);
     client.ask(plain(&ClientMessage::mutable_clear));
-    exit_code = wait_until_rest(client, [](const Status& s) {
-      return s.state() != joblink::STATE_STOPPED && s.state() != joblink::STATE_ALARM;
-    });
+    exit_code = wait_until_cleared(client);
   });
 }
 
