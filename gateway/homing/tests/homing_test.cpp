@@ -30,7 +30,7 @@ std::string order_of(const MachineDescription& machine) {
 
 TEST(HomingPlan, TakesToolAndTableApartFirst) {
   EXPECT_EQ(order_of(default_m1()), "tower1- tower2- tower3- tower4- ");
-  EXPECT_EQ(order_of(shipped("m5")), "rail1- rail2- rail3- rail4- ");
+  EXPECT_EQ(order_of(shipped("m5")), "rail1+ rail2+ rail3+ rail4+ ");
   EXPECT_EQ(order_of(shipped("m4")), "rail1+ rail2+ rail3+ | X- ");
   EXPECT_EQ(order_of(shipped("delta")), "tower1+ tower2+ tower3+ ");
   EXPECT_EQ(order_of(shipped("cartesian")), "Z+ | X- Y- ");
