@@ -121,13 +121,12 @@ class Search {
       fmt::print("  smallest clearance {:.2f} mm: {} at {}\n", found.nearest.mm, pair,
                  pose_text(found.nearest_at));
       row["smallest_clearance_mm"] = found.nearest.mm;
-      row["nearest"] = {std::string(model->name(found.nearest.first)),
-                        std::string(model->name(found.nearest.second))};
+      row["nearest"] = {model->name(found.nearest.first).c_str(), model->name(found.nearest.second).c_str()};
       row["nearest_at"] = pose_text(found.nearest_at);
     }
     if (found.failure) {
       const auto& [start, way] = *found.failure;
-      std::string words = way.end == homing::Way::End::kTouches ? std::string(start.model->words(way.nearest))
+      std::string words = way.end == homing::Way::End::kTouches ? start.model->words(way.nearest).c_str()
                                                                 : "the mechanism cannot follow";
       words = fmt::format("begun at {}, at {} {}", pose_text(start.pose), pose_text(way.at), words);
       fmt::print("  first: {}\n", words);
