@@ -1,7 +1,6 @@
 // kinebus-card: one node on a bench, its motors, currents and switches.
 
 #include <fmt/format.h>
-#include <poll.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -10,6 +9,7 @@
 #include <memory>
 
 #include "protocol/host/guarded_main.hpp"
+#include "protocol/host/patient_can.hpp"
 #include "protocol/host/socketcan.hpp"
 #include "protocol/host/usage.hpp"
 #include "tools/card/card.hpp"
@@ -35,25 +35,6 @@ struct Arguments {
 
 // Of the usual motor: 200 full steps of 256 counts.
 constexpr double kCountsPerTurn = 200 * 256;
-
-std::optional<CanFrame> receive(SocketCan& can, LocalTime until) {
-  for (;;) {
-    while (const auto got = can.receive()) {
-      if (got->kind == SocketCan::Kind::kDown) throw CardError("the CAN interface went down");
-      if (got->kind == SocketCan::Kind::kFrame) return got->frame;
-    }
-    const LocalTime left = until - monotonic_now();
-    if (left <= LocalTime{0}) return std::nullopt;
-    pollfd wait{.fd = can.fd(), .events = POLLIN, .revents = 0};
-    ::poll(&wait, 1,
-           static_cast<int>(
-               std::min<std::int64_t>(std::chrono::ceil<std::chrono::milliseconds>(left).count(), 100)));
-  }
-}
-
-void send(SocketCan& can, const CanFrame& frame) {
-  if (const std::string error = can.send_patiently(frame); !error.empty()) throw CardError(error);
-}
 
 void print(const Card::State& s, int node) {
   fmt::print("node {}: {}, serial number {}\n", node, s.name, s.serial);
@@ -143,8 +124,8 @@ int run(int argc, char** argv) {
   SocketCan can;
   if (const std::string error = can.open(arguments.interface, false); !error.empty())
     return fmt::print(stderr, "{}\n", error), 1;
-  const BusAccess bus{.send = [&](const CanFrame& frame) { send(can, frame); },
-                      .receive = [&](LocalTime until) { return receive(can, until); },
+  const BusAccess bus{.send = [&](const CanFrame& frame) { send_or_throw(can, frame); },
+                      .receive = [&](LocalTime until) { return receive_until(can, until); },
                       .now = monotonic_now};
   if (NodeIds(bus, {}).gateway_speaks())
     return fmt::print(stderr, "a gateway runs on {}: stop it first (systemctl stop kinebusd)\n",

@@ -1,7 +1,6 @@
 // kinebus-node-id: which board on the bus has which node id, and a new one for a board.
 
 #include <fmt/format.h>
-#include <poll.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -9,6 +8,7 @@
 #include <stdexcept>
 
 #include "protocol/host/guarded_main.hpp"
+#include "protocol/host/patient_can.hpp"
 #include "protocol/host/socketcan.hpp"
 #include "protocol/host/usage.hpp"
 #include "tools/node_id/node_ids.hpp"
@@ -25,25 +25,6 @@ struct Arguments {
   int node_id = 0;
   std::optional<std::uint32_t> serial;
 };
-
-std::optional<CanFrame> receive(SocketCan& can, LocalTime until) {
-  for (;;) {
-    while (const auto got = can.receive()) {
-      if (got->kind == SocketCan::Kind::kDown) throw std::runtime_error("the CAN interface went down");
-      if (got->kind == SocketCan::Kind::kFrame) return got->frame;
-    }
-    const LocalTime left = until - monotonic_now();
-    if (left <= LocalTime{0}) return std::nullopt;
-    pollfd wait{.fd = can.fd(), .events = POLLIN, .revents = 0};
-    ::poll(&wait, 1,
-           static_cast<int>(
-               std::min<std::int64_t>(std::chrono::ceil<std::chrono::milliseconds>(left).count(), 100)));
-  }
-}
-
-void send(SocketCan& can, const CanFrame& frame) {
-  if (const std::string error = can.send_patiently(frame); !error.empty()) throw std::runtime_error(error);
-}
 
 std::string name_of(const Board& board) {
   return fmt::format("serial number {} ({:08X}h)", board.serial(), board.serial());
@@ -128,8 +109,8 @@ int run(int argc, char** argv) {
   SocketCan can;
   if (const std::string error = can.open(arguments.interface, false); !error.empty())
     return fmt::print(stderr, "{}\n", error), 1;
-  NodeIds ids({.send = [&](const CanFrame& frame) { send(can, frame); },
-               .receive = [&](LocalTime until) { return receive(can, until); },
+  NodeIds ids({.send = [&](const CanFrame& frame) { send_or_throw(can, frame); },
+               .receive = [&](LocalTime until) { return receive_until(can, until); },
                .now = monotonic_now},
               {.scan_wait = LocalTime{std::llround(arguments.wait_ms * 1e6)}});
   if (ids.gateway_speaks())
