@@ -3,13 +3,18 @@
 #include <QApplication>
 #include <QCommandLineOption>
 #include <QCommandLineParser>
+#include <QCoreApplication>
+#include <QFileInfo>
 #include <QGuiApplication>
 #include <QPalette>
 #include <QSettings>
 #include <QStringList>
 #include <QStyleHints>
+#include <algorithm>
 #include <cstdio>
+#include <memory>
 #include <stdexcept>
+#include <string_view>
 
 #include "gui/views/connect_page.hpp"
 #include "gui/views/jobs_page.hpp"
@@ -30,13 +35,25 @@ bool draws_without_opengl() {
   return names.contains(QGuiApplication::platformName());
 }
 
+/// Only words are wanted, which need no display.
+bool wants_words(int argc, char** argv) {
+  return std::any_of(argv + 1, argv + argc, [](std::string_view word) {
+    return word == "--help" || word == "-h" || word == "--help-all" || word == "--version" || word == "-v";
+  });
+}
+
 int run(int argc, char** argv) {
-  kinebus::gui::SceneView::choose_format();
-  QApplication app(argc, argv);
-  QApplication::setOrganizationName(QStringLiteral("kinebus"));
-  QApplication::setApplicationName(QStringLiteral("kinebus-gui"));
-  QApplication::setApplicationVersion(QStringLiteral(KINEBUS_VERSION));
-  QApplication::setDesktopFileName(QStringLiteral("kinebus-gui"));
+  QCoreApplication::setOrganizationName(QStringLiteral("kinebus"));
+  QCoreApplication::setApplicationName(QStringLiteral("kinebus-gui"));
+  QCoreApplication::setApplicationVersion(QStringLiteral(KINEBUS_VERSION));
+  std::unique_ptr<QCoreApplication> app;
+  if (wants_words(argc, argv)) {
+    app = std::make_unique<QCoreApplication>(argc, argv);
+  } else {
+    kinebus::gui::SceneView::choose_format();
+    app = std::make_unique<QApplication>(argc, argv);
+    QApplication::setDesktopFileName(QStringLiteral("kinebus-gui"));
+  }
 
   QCommandLineParser arguments;
   arguments.setApplicationDescription(
@@ -54,7 +71,7 @@ int run(int argc, char** argv) {
   arguments.addPositionalArgument(QStringLiteral("files"),
                                   QStringLiteral("G-code files to upload once connected."),
                                   QStringLiteral("[FILE...]"));
-  arguments.process(app);
+  arguments.process(*app);
   if (draws_without_opengl())
     throw std::runtime_error("Qt's platform \"" + QGuiApplication::platformName().toStdString() +
                              "\" has no OpenGL, which the 3D view needs; use X11 (xcb) or Wayland");
@@ -76,7 +93,7 @@ int run(int argc, char** argv) {
   } else if (arguments.isSet(socket)) {
     kinebus::gui::FoundGateway gateway;
     gateway.way = kinebus::gui::FoundGateway::Way::kSocket;
-    gateway.title = gateway.socket_path = arguments.value(socket);
+    gateway.title = gateway.socket_path = QFileInfo(arguments.value(socket)).absoluteFilePath();
     desk.connect_to(gateway);
   }
   QStringList files = arguments.positionalArguments();

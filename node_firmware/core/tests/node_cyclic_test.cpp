@@ -1,4 +1,5 @@
-// Set-points that come with SYNC, cyclic synchronous and interpolated: joined without a step, within the limits, watched.
+// Set-points that come with SYNC, cyclic synchronous and interpolated: joined without a step, within the
+// limits, watched.
 
 #include "node_firmware/core/tests/drive_bench.hpp"
 
