@@ -9,6 +9,7 @@
 #include <fstream>
 #include <random>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include "gateway/description/machine_file.hpp"
@@ -23,6 +24,8 @@
 namespace kinebus {
 namespace {
 
+/// The bus inside the process.
+constexpr std::string_view kInproc = "inproc";
 constexpr double kBytesPerGib = 1073741824;
 
 template <typename T>
@@ -43,13 +46,14 @@ MachineDescription read_machine(const std::string& path) {
 }
 
 std::unique_ptr<BusPort> open_bus(const std::string& name, const MachineDescription& machine,
-                                  const std::string& log) {
+                                  const std::string& log, LocalTime now) {
   std::unique_ptr<BusPort> bus;
-  if (name == "inproc")
-    bus = std::make_unique<InprocBus>(machine, monotonic_now());
+  if (name == kInproc)
+    bus = std::make_unique<InprocBus>(machine, now);
   else
     bus = must(SocketCanBus::open(name));
-  return log.empty() ? std::move(bus) : must(LoggedBus::open(std::move(bus), log), "bus log ");
+  if (!log.empty()) return must(LoggedBus::open(std::move(bus), log), "bus log ");
+  return bus;
 }
 
 std::string default_socket() {
@@ -114,7 +118,8 @@ Service::Service(const Arguments& arguments)
       socket_(arguments.socket.empty() ? default_socket() : arguments.socket),
       journal_path_(arguments.journal.empty() ? beside(jobs_folder_, "resume.journal")
                                               : std::filesystem::absolute(arguments.journal)),
-      bus_((lock(), open_bus(bus_name_, machine_, arguments.bus_log))),
+      loop_(bus_name_ == kInproc ? LoopClock::Kind::kOwn : LoopClock::Kind::kMonotonic),
+      bus_((lock(), open_bus(bus_name_, machine_, arguments.bus_log, loop_.now()))),
       store_(JobStore::open({.folder = jobs_folder_,
                              .quota_bytes = static_cast<std::uint64_t>(arguments.quota_gib * kBytesPerGib)},
                             unix_now())),

@@ -44,9 +44,9 @@ class Service {
   std::string bus_name_, jobs_folder_, socket_;
   std::filesystem::path journal_path_;
   InstanceLock lock_;
+  EventLoop loop_;
   std::unique_ptr<BusPort> bus_;
   std::unique_ptr<JobStore> store_;
-  EventLoop loop_;
   journal::State noted_;
   Gateway gateway_;
   JournalFile journal_;

@@ -7,7 +7,6 @@
 #include <algorithm>
 
 #include "gateway/sessions/messages.hpp"
-#include "protocol/host/socketcan.hpp"
 #include "protocol/joblink/shown_text.hpp"
 
 namespace kinebus {
@@ -47,7 +46,7 @@ Daemon::Daemon(EventLoop& loop, BusPort& bus, Gateway& gateway) : loop_(loop), b
 
 void Daemon::exchange_frames() {
   for (int i = 0; i < kFramesPerTurn; ++i) {
-    const auto received = bus_.receive(monotonic_now());
+    const auto received = bus_.receive(loop_.now());
     if (!received) break;
     switch (received->kind) {
       case BusPort::Received::Kind::kFrame:
@@ -61,13 +60,13 @@ void Daemon::exchange_frames() {
         break;
     }
   }
-  LocalTime now = monotonic_now();
+  LocalTime now = loop_.now();
   if (now >= gateway_.next_deadline()) gateway_.on_time(now);
   while (bus_.can_send(now)) {
     const auto frame = gateway_.next_frame(now);
     if (!frame) break;
     bus_.send(now, *frame);
-    now = monotonic_now();
+    now = loop_.now();
   }
 }
 
@@ -90,7 +89,7 @@ void Daemon::run(const volatile std::sig_atomic_t* quit) {
   for (;;) {
     exchange_frames();
     report_events();
-    const LocalTime now = monotonic_now();
+    const LocalTime now = loop_.now();
     for (DaemonPart* part : parts_) part->on_time(now);
     if (now >= next_watchdog) {
       sd_notify(0, "WATCHDOG=1");

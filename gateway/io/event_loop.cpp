@@ -12,8 +12,9 @@
 
 namespace kinebus {
 
-EventLoop::EventLoop()
-    : epoll_(::epoll_create1(EPOLL_CLOEXEC)),
+EventLoop::EventLoop(LoopClock::Kind clock)
+    : clock_(clock),
+      epoll_(::epoll_create1(EPOLL_CLOEXEC)),
       timer_(::timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK)) {
   if (epoll_ < 0 || timer_ < 0) throw std::system_error(errno, std::generic_category(), "event loop");
   epoll_event event{};
@@ -50,15 +51,18 @@ void EventLoop::forget(int fd) {
 
 bool EventLoop::wait(LocalTime deadline) {
   // A deadline of zero would disarm the timer: the earliest time is 1 ns.
-  const std::int64_t ns = std::max<std::int64_t>(deadline.count(), 1);
+  const std::int64_t ns = std::max<std::int64_t>(clock_.monotonic_at(deadline).count(), 1);
   itimerspec when{};
   when.it_value.tv_sec = ns / 1'000'000'000;
   when.it_value.tv_nsec = ns % 1'000'000'000;
   ::timerfd_settime(timer_, TFD_TIMER_ABSTIME, &when, nullptr);
 
+  const LocalTime from = clock_.now();
   std::array<epoll_event, 16> ready{};
   const int count = ::epoll_wait(epoll_, ready.data(), static_cast<int>(ready.size()), -1);
-  if (count < 0) return errno != EINTR;
+  const bool interrupted = count < 0 && errno == EINTR;
+  clock_.woken(from, deadline);
+  if (count < 0) return !interrupted;
   for (int i = 0; i < count; ++i) {
     const int fd = ready[static_cast<std::size_t>(i)].data.fd;
     if (fd == timer_) {

@@ -5,13 +5,13 @@
 #include <functional>
 #include <unordered_map>
 
-#include "protocol/time.hpp"
+#include "gateway/io/loop_clock.hpp"
 
 namespace kinebus {
 
 class EventLoop {
  public:
-  EventLoop();
+  explicit EventLoop(LoopClock::Kind clock = LoopClock::Kind::kMonotonic);
   ~EventLoop();
   EventLoop(const EventLoop&) = delete;
   EventLoop& operator=(const EventLoop&) = delete;
@@ -22,11 +22,17 @@ class EventLoop {
   void change(int fd, std::uint32_t events);
   void forget(int fd);
 
-  /// Waits until something is ready or `deadline` (monotonic) has come, and calls what is due. False:
+  /// The time of everything on this loop.
+  LocalTime now() { return clock_.now(); }
+  /// How far that time has fallen behind the monotonic clock.
+  LocalTime behind() const { return clock_.behind(); }
+
+  /// Waits until something is ready or `deadline` (of now()) has come, and calls what is due. False:
   /// interrupted by a signal.
   bool wait(LocalTime deadline);
 
  private:
+  LoopClock clock_;
   int epoll_ = -1;
   int timer_ = -1;
   std::unordered_map<int, std::function<void(std::uint32_t)>> handlers_;

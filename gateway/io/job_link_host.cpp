@@ -58,7 +58,8 @@ Result<std::string, std::string> token_of(const std::filesystem::path& path) {
 }
 
 JobLinkHost::JobLinkHost(EventLoop& loop, StreamHub& hub, JobLinkServer& server)
-    : hub_(hub),
+    : loop_(loop),
+      hub_(hub),
       server_(server),
       local_(loop,
              [this](int fd, std::string who) {
@@ -87,16 +88,16 @@ std::string JobLinkHost::listen_tcp(const std::string& address, const std::files
 }
 
 void JobLinkHost::on_time(LocalTime now) {
-  server_.wall_clock(unix_s_at_zero());
+  server_.wall_clock(unix_s_at_zero() + to_seconds(loop_.behind()));
   server_.on_time(now);
 }
 
 void JobLinkHost::on_event(const MachineEvent& event) {
-  server_.on_event(monotonic_now(), event);
+  server_.on_event(loop_.now(), event);
 }
 
 void JobLinkHost::add(std::unique_ptr<ByteStream> stream, SessionInfo info) {
-  hub_.add(std::move(stream), server_.open(monotonic_now(), std::move(info)));
+  hub_.add(std::move(stream), server_.open(loop_.now(), std::move(info)));
 }
 
 }  // namespace kinebus

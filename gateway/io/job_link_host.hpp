@@ -35,6 +35,7 @@ class JobLinkHost : public DaemonPart {
   LocalTime next_deadline() const override { return server_.next_deadline(); }
 
  private:
+  EventLoop& loop_;
   StreamHub& hub_;
   JobLinkServer& server_;
   std::optional<TlsContext> tls_;

@@ -44,10 +44,11 @@ void StreamHub::close(Pair& pair, const char* why) {
   pair.closed = true;
   loop_.forget(pair.stream->fd());
   const std::string reason = pair.stream->closed_reason();
-  pair.session->on_closed(monotonic_now(), reason.empty() ? why : reason);
+  pair.session->on_closed(loop_.now(), reason.empty() ? why : reason);
 }
 
-/// The turn's time for streams begins with the first of them that needs any.
+/// The turn's time for streams begins with the first of them that needs any. It is the computer's time, not
+/// the loop's.
 bool StreamHub::time_left() {
   const LocalTime now = monotonic_now();
   if (work_until_ == LocalTime::max()) work_until_ = now + options_.work_per_turn;
@@ -65,10 +66,10 @@ void StreamHub::on_ready(Pair& pair, std::uint32_t events) {
   std::size_t taken = 0;
   while (taken < options_.bytes_per_turn && pair.session->wants_bytes()) {
     const ByteStream::Moved moved = pair.stream->read(buffer);
-    if (moved.count > 0) pair.session->on_bytes(monotonic_now(), std::span(buffer).first(moved.count));
+    if (moved.count > 0) pair.session->on_bytes(loop_.now(), std::span(buffer).first(moved.count));
     if (moved.closed) {
       // What came with the end is still carried out.
-      pair.session->on_time(monotonic_now());
+      pair.session->on_time(loop_.now());
       return close(pair, "the other side ended the connection");
     }
     if (moved.count == 0) break;

@@ -60,7 +60,7 @@ void DemoGateway::start() {
   // The demo never outlives the program, however that ends.
   process_.setChildProcessModifier([] { ::prctl(PR_SET_PDEATHSIG, SIGTERM); });
   process_.setWorkingDirectory(folder_.path());
-  // In real time where the user may: on a busy computer the machine would be held up for want of SYNC.
+  // In real time where the user may: on a busy computer the machine would be slow otherwise.
   process_.start(daemon, {QStringLiteral("--bus"), QStringLiteral("inproc"), QStringLiteral("--socket"),
                           socket_path(), QStringLiteral("--jobs"), folder_.filePath(QStringLiteral("jobs")),
                           QStringLiteral("--new-machine"), folder_.filePath(QStringLiteral("machine.toml")),

@@ -12,7 +12,6 @@
 #include <cstring>
 
 #include "gateway/io/usb/usb_descriptors.hpp"
-#include "protocol/host/socketcan.hpp"
 
 namespace kinebus {
 namespace {
@@ -131,9 +130,9 @@ void FunctionFs::on_pipe() {
   loop_.forget(pipe_->fd());
   listening_ = false;
   if (pipe_->closed()) return;
-  auto session = new_session_(monotonic_now());
+  auto session = new_session_(loop_.now());
   if (!session) {
-    next_open_ = monotonic_now() + kOpenRetry;
+    next_open_ = loop_.now() + kOpenRetry;
     return;
   }
   ++counters_.sessions;

@@ -1,6 +1,7 @@
 #pragma once
 // The bus inside the daemon: the machine's nodes as virtual nodes on a modelled 1 Mbit/s bus, driven by the
-// wall clock. A first run needs no hardware and no kernel module.
+// clock of the daemon's loop, which stands while the process is not run. A first run needs no hardware and no
+// kernel module.
 
 #include <deque>
 #include <memory>
