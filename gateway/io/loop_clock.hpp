@@ -7,8 +7,8 @@
 
 namespace kinebus {
 
-/// With real nodes it is the monotonic clock. With simulated ones it is a clock of their own that stands while
-/// the process is not run: a computer that is too busy makes such a machine slow, never late.
+/// With real nodes it is the monotonic clock. With simulated ones it is a clock of their own that stands
+/// while the process is not run: a computer that is too busy makes such a machine slow, never late.
 class LoopClock {
  public:
   enum class Kind : std::uint8_t {

@@ -22,11 +22,12 @@ constexpr std::array<Row, kCommandKinds> kTable{{
     {command::kind<command::BringUp>, phrase("bring up"), in(S::kOff)},
     {command::kind<command::Home>, phrase("home"), in(S::kUnhomed, S::kReady)},
     {command::kind<command::GoToReference>, phrase("go to the bed reference"), in(S::kReady)},
-    {command::kind<command::Jog>, phrase("jog"), in(S::kReady)},
+    {command::kind<command::Jog>, phrase("jog"), in(S::kReady, S::kMoving)},
     {command::kind<command::Run>, phrase("run a job"), in(S::kReady)},
     {command::kind<command::OpenLines>, phrase("run a job"), in(S::kReady)},
     {command::kind<command::Hold>, phrase("hold"), in(S::kMoving, S::kRunning)},
-    // Resume and cancel at rest are for an interrupted job (Gateway::Core::may).
+    // Resume and cancel at rest are for an interrupted job, a jog in motion follows jogs alone
+    // (Gateway::Core::may).
     {command::kind<command::Resume>, phrase("resume"), in(S::kHeld, S::kOff, S::kUnhomed, S::kReady)},
     {command::kind<command::Cancel>, phrase("cancel"),
      in(S::kMoving, S::kRunning, S::kHolding, S::kHeld, S::kChecking, S::kOff, S::kUnhomed, S::kReady)},

@@ -4,6 +4,7 @@
 // link, console, print host, tests) only makes the struct. Gateway::may() tells whether it may be given now.
 
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -23,11 +24,16 @@ namespace command {
 struct BringUp {};
 struct Home {};
 struct GoToReference {};
-/// A relative move of the tool in the machine frame.
+/// A relative move of the tool in the machine frame. While one is under way, further ones wait for their
+/// turn; those that go on alike are joined.
 struct Jog {
   Pose delta{};            ///< mm, mm, mm, rad, rad, mm
   double speed_per_s = 0;  ///< of the tool tip, mm/s, or of the turning axis, rad/s; 0: the machine's default
+  /// As long as a key is held: along `delta` as far as the machine can go of it, and only while this command
+  /// is given again at least every kHeldJogPatience. A delta of 0 lets go.
+  bool while_held = false;
 };
+inline constexpr std::chrono::milliseconds kHeldJogPatience{200};
 /// Checks the whole job (kChecking), then runs it. Problems come as kProblem events; with errors nothing
 /// moves.
 struct Run {

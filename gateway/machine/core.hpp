@@ -111,6 +111,8 @@ class Gateway::Core {
   void begin_bring_up();
   void begin_homing();
   void begin_move(canonical::Command move, const Pose& from);
+  Done jog_on(const command::Jog& asked);
+  void end_jog();
   void cut_heat(const Sentence& why);
   /// Stops everything on the path; with `fault` the machine ends in kAlarm.
   void stop_all(bool fault);

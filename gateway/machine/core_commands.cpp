@@ -29,6 +29,9 @@ Done Gateway::Core::may(CommandKind command) const {
         (command == command::kind<command::Cancel> && state_.idle());
     if (for_interrupted && !interrupted())
       return refused(say("there is no interrupted job to %1", sentence(command)));
+    if (command == command::kind<command::Jog> && state == MachineState::kMoving &&
+        hand_.jogs() == ManualMotion::Jogs::kNone)
+      return refused(say("cannot %1 while the machine is %2", sentence(command), sentence(state)));
     return {};
   }
   const Sentence words = say("cannot %1 while the machine is %2", sentence(command), sentence(state));
@@ -67,24 +70,46 @@ void Gateway::Core::begin_move(canonical::Command move, const Pose& from) {
   runner_ = &hand_.runner();
   hand_.start({{0, std::move(move)}}, from, override_, ManualMotion::Then::kNothing);
   started_ = now_;
-  enter(MachineState::kMoving);
+  if (!state_.is(MachineState::kMoving)) enter(MachineState::kMoving);
 }
 
 Done Gateway::Core::on(command::GoToReference&) {
   const auto from = machine_pose();
   if (!from) return Error<Refusal>(from.error());
   if (auto meet = hand_.in_the_way_to_reference(*from)) return refused(std::move(*meet));
+  hand_.end_jogs();
   begin_move(hand_.reference(*from), *from);
   return {};
 }
 
 Done Gateway::Core::on(command::Jog& asked) {
+  if (state_.is(MachineState::kMoving)) return jog_on(asked);
+  // Let go when it had come to its end already.
+  if (asked.while_held && asked.delta == Pose{}) return {};
   const auto from = machine_pose();
   if (!from) return Error<Refusal>(from.error());
   auto move = hand_.jog(asked, *from, heat_);
   if (!move) return Error<Refusal>(move.error());
-  begin_move(std::move(*move), *from);
+  hand_.begin_jog(now_, asked, *move, *from);
+  begin_move(*move, *from);
   return {};
+}
+
+Done Gateway::Core::jog_on(const command::Jog& asked) {
+  const bool held = hand_.jogs() == ManualMotion::Jogs::kWhileHeld;
+  if (held != asked.while_held) return refused(say("another jog is under way"));
+  if (!held) return hand_.add_jog(asked, heat_);
+  if (asked.delta == Pose{})
+    end_jog();
+  else if (!hand_.hold_on(now_, asked))
+    return refused(say("another jog is under way"));
+  return {};
+}
+
+void Gateway::Core::end_jog() {
+  runner_->hold(now_);
+  rest_.begin(now_);
+  enter(MachineState::kCancelling);
 }
 
 Done Gateway::Core::on(command::Run& asked) {
@@ -135,6 +160,7 @@ Done Gateway::Core::on(command::Cancel&) {
   }
   runner_->hold(now_);
   hand_.forget_then();
+  hand_.end_jogs();
   rest_.begin(now_);
   enter(MachineState::kCancelling);
   return {};

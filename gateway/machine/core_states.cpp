@@ -108,6 +108,7 @@ void Gateway::Core::step_running() {
     static_cast<void>(carry_out(command::Cancel{}));
     return;
   }
+  if (state_.is(MachineState::kMoving) && hand_.let_go(now_)) return end_jog();
   switch (runner_->on_time(now_, options_.planning_budget)) {
     case Runner::Outcome::kBusy:
       return;
@@ -149,6 +150,9 @@ void Gateway::Core::finish_motion() {
       break;
   }
   const bool job = state_.is(MachineState::kRunning);
+  if (const auto next = job ? std::nullopt : hand_.take_jog())
+    if (const auto from = machine_pose()) return begin_move(*next, *from);
+  hand_.end_jogs();
   if (job) heat_.stop_spindle();  // the end of a program stops it (RS274/NGC 3.6.1)
   events_.push({.kind = MachineEvent::Kind::kFinished,
                 .when = now_,
@@ -180,6 +184,7 @@ void Gateway::Core::stop_all(bool fault) {
   fault_ = fault_ || fault;
   recovery_.do_not_go_on();
   if (hand_.leads_to(ManualMotion::Then::kReturn)) hand_.forget_then();
+  hand_.end_jogs();
   bring_up_.abort();
   if (homing_.busy()) {
     homing_.abort();
@@ -238,7 +243,10 @@ void Gateway::Core::step_clear() {
 
 void Gateway::Core::step_cancel() {
   if (rest_.reading()) return step_standstill();
-  if (rest_.settled(now_)) rest_.read(now_, Rest::After::kCancel);
+  // The end of a jog that was held cancels nothing.
+  if (rest_.settled(now_))
+    rest_.read(now_,
+               hand_.jogs() == ManualMotion::Jogs::kWhileHeld ? Rest::After::kJog : Rest::After::kCancel);
 }
 
 void Gateway::Core::step_standstill() {
@@ -265,6 +273,7 @@ void Gateway::Core::finish_standstill() {
   const bool cancelled = after == After::kCancel, job_failed = recovery_.take_job_failed();
   fault_ = false;
   hand_.runner().drop();
+  hand_.end_jogs();
   if (after == After::kHoming && !position_.homed()) {
     events_.alarm(now_, AlarmCode::kHomingFailed, say("a node does not know its position after homing"));
     return stop_all(true);
@@ -278,6 +287,9 @@ void Gateway::Core::finish_standstill() {
   if (interrupted() && !position_.homed()) recovery_.lose_filament();
   if (after == After::kHoming)
     events_.push({.kind = MachineEvent::Kind::kFinished, .when = now_, .words = say("homed"), .advice = {}});
+  if (after == After::kJog)
+    events_.push(
+        {.kind = MachineEvent::Kind::kFinished, .when = now_, .words = say("move done"), .advice = {}});
   if (cancelled) events_.message(now_, say("cancelled: positions are known"));
   // What was interrupted by a stop alone is held; elsewhere the machine may be moved first.
   if (after == After::kClear && position_.homed() && print_.runner().active())

@@ -10,14 +10,40 @@ namespace {
 constexpr double kCheckStep = 1.0;  // mm
 constexpr double kCheckStepRad = 0.01;
 
+/// How many poses of a way are looked at.
+int checks(double mm, double rad, int most) {
+  const double wanted = std::ceil(std::max(mm / kCheckStep, rad / kCheckStepRad));
+  return static_cast<int>(std::clamp(wanted, 1.0, static_cast<double>(most)));
+}
+
 constexpr double kDefaultJogSpeed = 20;       // mm/s
 constexpr double kDefaultTurnSpeed = 0.3;     // rad/s
 constexpr double kDefaultExtrusionSpeed = 3;  // mm/s of filament
 
+/// Jogs that wait; those that go on alike are one.
+constexpr std::size_t kMostWaiting = 16;
+
+Pose difference(const Pose& a, const Pose& b) {
+  Pose d{};
+  for (std::size_t axis = 0; axis < kPoseAxes; ++axis) d[axis] = a[axis] - b[axis];
+  return d;
+}
+
+/// Of one direction.
+bool alike(const Pose& a, const Pose& b) {
+  double ab = 0, aa = 0, bb = 0;
+  for (std::size_t axis = 0; axis < kPoseAxes; ++axis) {
+    ab += a[axis] * b[axis];
+    aa += a[axis] * a[axis];
+    bb += b[axis] * b[axis];
+  }
+  return ab > 0 && ab * ab >= (1 - 1e-9) * aa * bb;
+}
+
 }  // namespace
 
-Result<canonical::Command, Refusal> ManualMotion::jog(const command::Jog& asked, const Pose& from,
-                                                      const Heat& heat) {
+Result<canonical::Feed, Refusal> ManualMotion::jog(const command::Jog& asked, const Pose& from,
+                                                   const Heat& heat) {
   const Pose& d = asked.delta;
   for (const double value : d)
     if (!std::isfinite(value)) return refused(say("a jog needs numbers"));
@@ -28,7 +54,7 @@ Result<canonical::Command, Refusal> ManualMotion::jog(const command::Jog& asked,
   if (mm == 0 && rad == 0 && d[kE] == 0) return refused(say("a jog needs a distance"));
   if (d[kE] > 0)
     if (auto cold = heat.too_cold()) return refused(std::move(*cold));
-  const double steps = std::clamp(std::ceil(std::max(mm / kCheckStep, rad / kCheckStepRad)), 1.0, 2000.0);
+  const int steps = checks(mm, rad, 2000);
   const auto at = [&](double i) {
     Pose pose = from;
     for (std::size_t axis = 0; axis < kPoseAxes; ++axis) pose[axis] += d[axis] * i / steps;
@@ -37,15 +63,65 @@ Result<canonical::Command, Refusal> ManualMotion::jog(const command::Jog& asked,
   way_.jump();
   const bool stands_well =
       kinematics_.check(Frame::kMachine, from) && !way_.collision(Frame::kMachine, 0, 0, at);
-  for (double i = 1; i <= steps && (mm > 0 || rad > 0); ++i)
-    if (auto broken = way_.broken(Frame::kMachine, i - 1, i, at))
-      return refused(stands_well ? std::move(*broken)
-                                 : say("%1: go to the bed reference first", std::move(*broken)));
-  Pose target = from;
-  for (std::size_t axis = 0; axis < kPoseAxes; ++axis) target[axis] += d[axis];
+  int reached = steps;
+  for (int i = 1; i <= steps && (mm > 0 || rad > 0); ++i) {
+    auto broken = way_.broken(Frame::kMachine, i - 1, i, at);
+    if (!broken) continue;
+    if (asked.while_held && i > 1) {
+      reached = i - 1;
+      break;
+    }
+    return refused(stands_well ? std::move(*broken)
+                               : say("%1: go to the bed reference first", std::move(*broken)));
+  }
+  const Pose target = at(reached);
   double speed = asked.speed_per_s;
   if (speed == 0) speed = mm > 0 ? kDefaultJogSpeed : rad > 0 ? kDefaultTurnSpeed : kDefaultExtrusionSpeed;
   return canonical::Feed{.target = target, .frame = Frame::kMachine, .feed_per_s = speed};
+}
+
+void ManualMotion::begin_jog(BusTime now, const command::Jog& asked, const canonical::Feed& move,
+                             const Pose& from) {
+  end_jogs();
+  jogs_ = asked.while_held ? Jogs::kWhileHeld : Jogs::kBySteps;
+  last_begin_ = from;
+  last_end_ = move.target;
+  direction_ = asked.delta;
+  wanted_until_ = now + command::kHeldJogPatience;
+}
+
+Result<void, Refusal> ManualMotion::add_jog(const command::Jog& asked, const Heat& heat) {
+  const auto move = jog(asked, last_end_, heat);
+  if (!move) return Error<Refusal>(move.error());
+  const bool joins = !waiting_.empty() && waiting_.back().feed_per_s == move->feed_per_s &&
+                     alike(difference(last_end_, last_begin_), asked.delta);
+  if (joins) {
+    waiting_.back().target = move->target;
+  } else {
+    if (waiting_.size() >= kMostWaiting) return refused(say("%1 moves are waiting already", kMostWaiting));
+    waiting_.push_back(*move);
+    last_begin_ = last_end_;
+  }
+  last_end_ = move->target;
+  return {};
+}
+
+std::optional<canonical::Feed> ManualMotion::take_jog() {
+  if (waiting_.empty()) return std::nullopt;
+  const canonical::Feed next = waiting_.front();
+  waiting_.pop_front();
+  return next;
+}
+
+bool ManualMotion::hold_on(BusTime now, const command::Jog& asked) {
+  if (!alike(direction_, asked.delta)) return false;
+  wanted_until_ = now + command::kHeldJogPatience;
+  return true;
+}
+
+void ManualMotion::end_jogs() {
+  jogs_ = Jogs::kNone;
+  waiting_.clear();
 }
 
 canonical::Command ManualMotion::reference(const Pose& from) const {
@@ -59,7 +135,7 @@ std::optional<Sentence> ManualMotion::in_the_way_to_reference(const Pose& from) 
   double mm = 0, rad = 0;
   for (const PoseAxis axis : {kX, kY, kZ}) mm = std::hypot(mm, to[axis] - from[axis]);
   for (const PoseAxis axis : {kA, kC}) rad = std::max(rad, std::abs(to[axis] - from[axis]));
-  const double steps = std::clamp(std::ceil(std::max(mm / kCheckStep, rad / kCheckStepRad)), 1.0, 20000.0);
+  const int steps = checks(mm, rad, 20000);
   const auto at = [&](double i) {
     Pose pose = from;
     for (std::size_t axis = 0; axis < kPoseAxes; ++axis) pose[axis] += (to[axis] - from[axis]) * i / steps;
@@ -67,8 +143,8 @@ std::optional<Sentence> ManualMotion::in_the_way_to_reference(const Pose& from) 
   };
   way_.jump();
   bool leaving = true;  // what is near at the beginning
-  for (double i = 0; i <= steps; ++i) {
-    auto near = way_.collision(Frame::kMachine, std::max(i - 1, 0.0), i, at);
+  for (int i = 0; i <= steps; ++i) {
+    auto near = way_.collision(Frame::kMachine, std::max(i - 1, 0), i, at);
     if (near && !leaving) return near;
     leaving = leaving && near;
   }

@@ -3,6 +3,7 @@
 // interrupted job's place.
 
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -34,7 +35,22 @@ class ManualMotion {
   const Runner& runner() const { return runner_; }
 
   /// The move that is asked for, whose whole way lies within the workspace; `from`: Frame::kMachine.
-  Result<canonical::Command, Refusal> jog(const command::Jog& asked, const Pose& from, const Heat& heat);
+  Result<canonical::Feed, Refusal> jog(const command::Jog& asked, const Pose& from, const Heat& heat);
+
+  // Jogs while one is under way.
+  enum class Jogs : std::uint8_t { kNone, kBySteps, kWhileHeld };
+  void begin_jog(BusTime now, const command::Jog& asked, const canonical::Feed& move, const Pose& from);
+  Jogs jogs() const { return jogs_; }
+  /// A further one, from where the last one is going to end.
+  Result<void, Refusal> add_jog(const command::Jog& asked, const Heat& heat);
+  /// The next of those that wait.
+  std::optional<canonical::Feed> take_jog();
+  /// The jog under way is still wanted. False: it goes another way than this one.
+  bool hold_on(BusTime now, const command::Jog& asked);
+  /// Nobody has said for too long that it is still wanted.
+  bool let_go(BusTime now) const { return jogs_ == Jogs::kWhileHeld && now > wanted_until_; }
+  /// The move under way is none, or none any more, that others may follow.
+  void end_jogs();
   /// To the bed reference, the filament as it is.
   canonical::Command reference(const Pose& from) const;
   /// Which two bodies would meet on the straight way there; nullopt: none. Bodies that are near at its
@@ -53,6 +69,11 @@ class ManualMotion {
   WayRules way_;
   Runner runner_;
   Then then_ = Then::kNothing;
+  Jogs jogs_ = Jogs::kNone;
+  std::deque<canonical::Feed> waiting_;
+  Pose last_begin_{}, last_end_{};  ///< of the last one that waits, or of the one under way
+  Pose direction_{};                ///< of the one that is held
+  BusTime wanted_until_{0};
 };
 
 }  // namespace kinebus

@@ -14,7 +14,7 @@ namespace kinebus {
 
 class Rest {
  public:
-  enum class After : std::uint8_t { kBringUp, kHoming, kCancel, kClear };
+  enum class After : std::uint8_t { kBringUp, kHoming, kCancel, kJog, kClear };
 
   Rest(const MachineDescription& machine, std::deque<NodeLink>& links, const PathRate& rate)
       : rate_(rate), standstill_(machine, links) {}

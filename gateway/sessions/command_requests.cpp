@@ -44,7 +44,7 @@ const Row kTable[] = {
     plain<command::GoToReference>(joblink::COMMAND_REFERENCE),
     {joblink::COMMAND_JOG, command::kind<command::Jog>,
      [](const ClientMessage& m) -> Command {
-       return command::Jog{pose_of(m.jog().delta()), m.jog().speed_per_s()};
+       return command::Jog{pose_of(m.jog().delta()), m.jog().speed_per_s(), m.jog().while_held()};
      }},
     {joblink::COMMAND_SET_OVERRIDE, command::kind<command::SetFeedOverride>,
      [](const ClientMessage& m) -> Command { return command::SetFeedOverride{m.set_override().ratio()}; }},

@@ -282,10 +282,11 @@ void Session::go_to_reference() {
 void Session::motors_off() {
   command(plain([](auto& r) { r.mutable_motors_off(); }));
 }
-void Session::jog(const joblink::Pose& delta, double speed_per_s) {
+void Session::jog(const joblink::Pose& delta, double speed_per_s, bool held) {
   command(plain([&](auto& r) {
     *r.mutable_jog()->mutable_delta() = delta;
     r.mutable_jog()->set_speed_per_s(speed_per_s);
+    r.mutable_jog()->set_while_held(held);
   }));
 }
 void Session::set_override(double ratio) {

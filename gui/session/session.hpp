@@ -67,7 +67,8 @@ class Session : public QObject {
   void home();
   void go_to_reference();
   void motors_off();
-  void jog(const joblink::Pose& delta, double speed_per_s);
+  /// `held`: as long as this is asked for again (joblink::Jog).
+  void jog(const joblink::Pose& delta, double speed_per_s, bool held = false);
   void set_override(double ratio);
   void set_temperature(bool bed, double celsius);
   void set_fan(double ratio);

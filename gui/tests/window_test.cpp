@@ -89,7 +89,9 @@ TEST_F(WindowTest, ArrowsJogAlsoAfterAButtonWasClicked) {
   ASSERT_NE(home, nullptr);
   home->setFocus();
   QKeyEvent press(QEvent::KeyPress, Qt::Key_Right, Qt::NoModifier);
+  QKeyEvent release(QEvent::KeyRelease, Qt::Key_Right, Qt::NoModifier);
   QApplication::sendEvent(home, &press);
+  QApplication::sendEvent(home, &release);
   EXPECT_TRUE(wait_until([&] { return gateway.count(joblink::ClientMessage::kJog) == 1; }));
 }
 

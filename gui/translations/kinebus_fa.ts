@@ -3160,6 +3160,14 @@
         <source>the spline is too large</source>
         <translation>اسپلاین بسیار بزرگ است</translation>
     </message>
+    <message>
+        <source>another jog is under way</source>
+        <translation>حرکت دستی دیگری در جریان است</translation>
+    </message>
+    <message>
+        <source>%1 moves are waiting already</source>
+        <translation>%1 حرکت هم‌اکنون در صف است</translation>
+    </message>
 </context>
 <context>
     <name>GatewayWords</name>
@@ -3725,14 +3733,14 @@
     </message>
 </context>
 <context>
-    <name>kinebus::gui::JogPage</name>
+    <name>kinebus::gui::JogPad</name>
     <message>
         <source>Jog</source>
         <translation>حرکت دستی</translation>
     </message>
     <message>
-        <source>Keys: arrows move X and Y, Page Up and Page Down move Z, A and D tilt, Q and W turn the table, 1 to 5 choose the step.</source>
-        <translation>کلیدها: پیکان‌ها X و Y را، Page Up و Page Down محور Z را حرکت می‌دهند؛ A و D کج می‌کنند، Q و W میز را می‌چرخانند و 1 تا 5 گام را برمی‌گزینند.</translation>
+        <source>A click is a step; a button or key that is held moves until it is let go. Keys: arrows move X and Y, Page Up and Page Down move Z, A and D tilt, Q and W turn the table, 1 to 5 choose the step.</source>
+        <translation>هر کلیک یک گام است؛ دکمه یا کلیدی که نگه داشته شود تا رها شدن حرکت می‌دهد. کلیدها: پیکان‌ها X و Y را، Page Up و Page Down محور Z را حرکت می‌دهند؛ A و D کج می‌کنند، Q و W میز را می‌چرخانند و 1 تا 5 گام را برمی‌گزینند.</translation>
     </message>
     <message>
         <source>Step, mm or °</source>
@@ -3746,6 +3754,9 @@
         <source>mm/s</source>
         <translation>mm/s</translation>
     </message>
+</context>
+<context>
+    <name>kinebus::gui::JogPage</name>
     <message>
         <source>Machine</source>
         <translation>ماشین</translation>

@@ -3160,6 +3160,14 @@
         <source>the spline is too large</source>
         <translation>spline çok büyük</translation>
     </message>
+    <message>
+        <source>another jog is under way</source>
+        <translation>başka bir manuel hareket sürüyor</translation>
+    </message>
+    <message>
+        <source>%1 moves are waiting already</source>
+        <translation>%1 hareket zaten sırada</translation>
+    </message>
 </context>
 <context>
     <name>GatewayWords</name>
@@ -3725,14 +3733,14 @@
     </message>
 </context>
 <context>
-    <name>kinebus::gui::JogPage</name>
+    <name>kinebus::gui::JogPad</name>
     <message>
         <source>Jog</source>
         <translation>Manuel hareket</translation>
     </message>
     <message>
-        <source>Keys: arrows move X and Y, Page Up and Page Down move Z, A and D tilt, Q and W turn the table, 1 to 5 choose the step.</source>
-        <translation>Tuşlar: oklar X ve Y&apos;yi, Page Up ve Page Down Z&apos;yi sürer; A ve D eğer, Q ve W tablayı döndürür, 1–5 adımı seçer.</translation>
+        <source>A click is a step; a button or key that is held moves until it is let go. Keys: arrows move X and Y, Page Up and Page Down move Z, A and D tilt, Q and W turn the table, 1 to 5 choose the step.</source>
+        <translation>Bir tıklama bir adımdır; basılı tutulan düğme ya da tuş bırakılana kadar hareket ettirir. Tuşlar: oklar X ve Y&apos;yi, Page Up ve Page Down Z&apos;yi sürer; A ve D eğer, Q ve W tablayı döndürür, 1–5 adımı seçer.</translation>
     </message>
     <message>
         <source>Step, mm or °</source>
@@ -3746,6 +3754,9 @@
         <source>mm/s</source>
         <translation>mm/sn</translation>
     </message>
+</context>
+<context>
+    <name>kinebus::gui::JogPage</name>
     <message>
         <source>Machine</source>
         <translation>Makine</translation>

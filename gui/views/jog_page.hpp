@@ -1,9 +1,9 @@
 #pragma once
-// Moving the tool by hand: buttons and keys in steps, homing, the bed reference, motors, work offsets.
+// Moving the tool by hand: the jog keys, homing, the bed reference, motors, work offsets.
 
-#include <QButtonGroup>
 #include <QComboBox>
 #include <QEvent>
+#include <QFocusEvent>
 #include <QKeyEvent>
 #include <QLabel>
 #include <QPushButton>
@@ -11,6 +11,7 @@
 #include <QWidget>
 
 #include "gui/views/desk.hpp"
+#include "gui/views/jog_pad.hpp"
 #include "gui/views/number_field.hpp"
 #include "gui/views/widgets.hpp"
 
@@ -23,28 +24,22 @@ class JogPage : public SpeakingWidget {
 
  protected:
   void keyPressEvent(QKeyEvent* event) override;
+  void keyReleaseEvent(QKeyEvent* event) override;
+  void focusOutEvent(QFocusEvent* event) override;
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
-  enum class Axis { kX, kY, kZ, kA, kC, kE };
-  QWidget* make_pad();
-  QWidget* make_steps();
   QWidget* make_actions();
   QWidget* make_offsets();
-  QPushButton* jog_button(Axis axis, int sign, const QString& icon);
-  void jog(Axis axis, int sign);
   void take_status();
-  void take_machine();
 
   Desk& desk_;
-  QButtonGroup* steps_;
-  NumberField* speed_;
-  QVector<QPushButton*> jog_buttons_, turn_buttons_;
+  JogPad* pad_;
   QPushButton *home_, *reference_, *motors_off_, *clear_, *hold_;
   QComboBox* system_;
   QVector<NumberField*> offset_boxes_;
   QPushButton *zero_here_, *set_offset_;
-  QLabel *hint_, *active_offset_;
+  QLabel* active_offset_;
 };
 
 }  // namespace kinebus::gui

@@ -17,10 +17,16 @@ TEST(Commands, StopIsAllowedEverywhere) {
 
 TEST(Commands, MotionBeginsOnlyWhenReady) {
   for (int i = 0; i < kMachineStates; ++i)
-    for (const CommandKind command :
-         {command::kind<command::Jog>, command::kind<command::Run>, command::kind<command::OpenLines>,
-          command::kind<command::GoToReference>})
+    for (const CommandKind command : {command::kind<command::Run>, command::kind<command::OpenLines>,
+                                      command::kind<command::GoToReference>})
       EXPECT_EQ(allowed(command, static_cast<S>(i)), static_cast<S>(i) == S::kReady);
+}
+
+TEST(Commands, AJogMayFollowAnother) {
+  for (int i = 0; i < kMachineStates; ++i) {
+    const auto state = static_cast<S>(i);
+    EXPECT_EQ(allowed(command::kind<command::Jog>, state), state == S::kReady || state == S::kMoving);
+  }
 }
 
 TEST(Commands, WhatMayNotBeGivenIsRefusedInTheWordsThatWereToldBefore) {
