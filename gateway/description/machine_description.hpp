@@ -142,6 +142,12 @@ struct StopDescription {
   std::chrono::milliseconds ramp{100};
   /// A gentler ramp for feed hold, resume and override.
   std::chrono::milliseconds hold_ramp{200};
+  /// The gateway was not run for a while, and the nodes have stopped the job on its path.
+  enum class AfterStall : std::uint8_t {
+    kAsk,   ///< clear and resume are a person's
+    kGoOn,  ///< by itself, where nothing else is wrong
+  };
+  AfterStall after_stall = AfterStall::kAsk;
   friend bool operator==(const StopDescription&, const StopDescription&) = default;
 };
 

@@ -26,6 +26,8 @@ inline constexpr Choice kAxes[] = {{"A", 0}, {"B", 1}};
 inline constexpr Choice kToolPlacements[] = {{"frame", static_cast<int>(ToolPlacement::kFrame)},
                                              {"platform", static_cast<int>(ToolPlacement::kPlatform)}};
 inline constexpr Choice kCarriage[] = {{"below", 0}, {"above", 1}};
+inline constexpr Choice kAfterStall[] = {{"ask", static_cast<int>(StopDescription::AfterStall::kAsk)},
+                                         {"go_on", static_cast<int>(StopDescription::AfterStall::kGoOn)}};
 inline constexpr Choice kResumeThen[] = {{"ask", static_cast<int>(ResumeDescription::Then::kAsk)},
                                          {"go_on", static_cast<int>(ResumeDescription::Then::kGoOn)}};
 inline constexpr Choice kDwellUnits[] = {{"ms", static_cast<int>(GcodeDescription::DwellUnit::kMilliseconds)},
@@ -234,6 +236,7 @@ void visit_path(V& v, MachineDescription& d) {
   v.table("stop", Need::kOptional, [&] {
     v.duration("ramp_ms", d.stop.ramp, 2, 510, Need::kOptional);
     v.duration("hold_ramp_ms", d.stop.hold_ramp, 2, 510, Need::kOptional);
+    v.choice("after_stall", d.stop.after_stall, kAfterStall, Need::kOptional);
   });
   v.table("resume", Need::kOptional, [&] {
     v.choice("after_restart", d.resume.after_restart, kResumeThen, Need::kOptional);

@@ -87,6 +87,8 @@ void Daemon::run(const volatile std::sig_atomic_t* quit) {
   LocalTime next_watchdog{0};
   LocalTime quit_at = LocalTime::max();
   for (;;) {
+    if (const auto stall = stalls_.wakes(loop_.now()))
+      gateway_.on_stall(loop_.now(), stall->length, stall->why);
     exchange_frames();
     report_events();
     const LocalTime now = loop_.now();
@@ -104,8 +106,10 @@ void Daemon::run(const volatile std::sig_atomic_t* quit) {
           static_cast<void>(gateway_.carry_out(command::Stop{}));
     }
     if (*quit != 0 && (may_leave(gateway_.state()) || now >= quit_at)) return;
-    loop_.wait(
-        std::min({next_deadline(), next_watchdog, quit_at, *quit != 0 ? now + BusTime{1'000'000} : quit_at}));
+    const LocalTime until =
+        std::min({next_deadline(), next_watchdog, quit_at, *quit != 0 ? now + BusTime{1'000'000} : quit_at});
+    stalls_.sleeps(loop_.now(), until);
+    loop_.wait(until);
   }
 }
 

@@ -7,6 +7,7 @@
 #include "gateway/io/bus_port.hpp"
 #include "gateway/io/daemon_part.hpp"
 #include "gateway/io/event_loop.hpp"
+#include "gateway/io/stall_watch.hpp"
 #include "gateway/machine/gateway.hpp"
 
 namespace kinebus {
@@ -31,6 +32,7 @@ class Daemon {
   BusPort& bus_;
   Gateway& gateway_;
   std::vector<DaemonPart*> parts_;
+  StallWatch stalls_;
 };
 
 }  // namespace kinebus

@@ -73,7 +73,8 @@ Gateway::Core::Core(const MachineDescription& machine, Options options, std::opt
       hand_(machine_, *kinematics_, group_, rate_, heat_, events_, journal_),
       print_(machine_, *kinematics_, group_, rate_, heat_, events_, journal_),
       lines_(machine_, *kinematics_, journal_),
-      recovery_(machine_, *kinematics_, journal_) {
+      recovery_(machine_, *kinematics_, journal_),
+      stall_(machine_, events_) {
   if (!options_.journal) return;
   journal_.enable();
   journal_.push(journal::Epoch{options_.epoch});
@@ -113,7 +114,7 @@ void Gateway::Core::on_frame(BusTime when, const CanFrame& frame) {
     on_foreign_stop(static_cast<std::uint8_t>(frame.id - cob_id::kEmcy));
     // Heat nodes hear it, too, and do the same.
     if (request->reason == StopReason::kEmergencyStopInput) cut_heat(say("the emergency stop input"));
-    if (!bring_up_.busy()) stop_all(false);
+    if (!bring_up_.busy()) stop_all(false, NodeWatch::is_of_absence(request->reason));
   }
   const bool of_device = devices_.on_frame(when, frame);
   for (NodeLink& link : links_) {
@@ -246,6 +247,13 @@ void Gateway::Core::on_time(BusTime now) {
     case MachineState::kReady:
       break;
   }
+  step_after_stall();
+}
+
+void Gateway::Core::on_stall(BusTime now, BusTime length, const Sentence& why) {
+  now_ = std::max(now_, now);
+  watch_.on_stall(now_);
+  stall_.on_stall(now_, length, why);
 }
 
 void Gateway::Core::on_bus_failure(BusTime now, std::string_view what) {
@@ -325,7 +333,7 @@ void Gateway::Core::take_stream_status(NodeLink& link) {
 void Gateway::Core::follow(const NodeWatch::Verdict& verdict) {
   if (verdict.stream_lost) position_.lose_stream();
   if (verdict.positions_lost) position_.forget();
-  if (verdict.stop) stop_all(verdict.fault);
+  if (verdict.stop) stop_all(verdict.fault, verdict.by_absence);
 }
 
 }  // namespace kinebus

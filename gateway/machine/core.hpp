@@ -30,6 +30,7 @@
 #include "gateway/machine/recovery.hpp"
 #include "gateway/machine/rest.hpp"
 #include "gateway/machine/scale_readings.hpp"
+#include "gateway/machine/stall_recovery.hpp"
 #include "gateway/run/heat.hpp"
 #include "gateway/status/event_queue.hpp"
 #include "gateway/stream/path_rate.hpp"
@@ -47,6 +48,7 @@ class Gateway::Core {
   std::optional<CanFrame> next_frame(BusTime now);
   BusTime next_deadline() const;
   void on_time(BusTime now);
+  void on_stall(BusTime now, BusTime length, const Sentence& why);
   void on_bus_failure(BusTime now, std::string_view what);
 
   // core_commands.cpp
@@ -114,8 +116,9 @@ class Gateway::Core {
   Done jog_on(const command::Jog& asked);
   void end_jog();
   void cut_heat(const Sentence& why);
-  /// Stops everything on the path; with `fault` the machine ends in kAlarm.
-  void stop_all(bool fault);
+  /// Stops everything on the path; with `fault` the machine ends in kAlarm. `by_absence`: the nodes have
+  /// stopped because they did not hear the gateway.
+  void stop_all(bool fault, bool by_absence = false);
   Done carry_out_at_rest(const canonical::Line& command);
 
   // What each state does as time passes (core.cpp).
@@ -130,6 +133,8 @@ class Gateway::Core {
   void step_cancel();
   void step_stop();
   void step_clear();
+  void step_after_stall();
+  Done resume();
   void finish_motion();
   void watch_nodes();
   void watch_devices();
@@ -190,6 +195,7 @@ class Gateway::Core {
   PrintJob print_;
   LineDesk lines_;
   Recovery recovery_;
+  StallRecovery stall_;
 
   Runner* runner_ = &hand_.runner();  ///< whose motion it is
   BusTime now_{0};

@@ -50,6 +50,7 @@ Done Gateway::Core::may(CommandKind command) const {
 
 Done Gateway::Core::carry_out(Command command) {
   if (auto ok = may(command.index()); !ok) return ok;
+  stall_.commanded();
   return std::visit([this](auto& asked) { return on(asked); }, command);
 }
 
@@ -131,6 +132,10 @@ Done Gateway::Core::on(command::Hold&) {
 
 Done Gateway::Core::on(command::Resume&) {
   recovery_.commanded();
+  return resume();
+}
+
+Done Gateway::Core::resume() {
   if (!state_.is(MachineState::kHeld) || print_.runner().suspended()) return go_on();
   if (heat_.start_kept_spindle()) {
     recovery_.await_spindle(state_.visit());

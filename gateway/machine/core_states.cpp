@@ -128,7 +128,7 @@ void Gateway::Core::step_running() {
       if (runner_ == &print_.runner() && !failure.stream) recovery_.fail_job();
       events_.alarm(now_, failure.stream ? AlarmCode::kStreamLost : AlarmCode::kJobError, failure.words, 0,
                     failure.line);
-      return stop_all(false);
+      return stop_all(false, failure.stream);
     }
   }
 }
@@ -180,7 +180,8 @@ void Gateway::Core::step_held() {
 // Stops, and the standstill in which positions are read before anything moves again
 // -----------------------------------------------------------------------------------------------
 
-void Gateway::Core::stop_all(bool fault) {
+void Gateway::Core::stop_all(bool fault, bool by_absence) {
+  stall_.on_stop(now_, by_absence);
   fault_ = fault_ || fault;
   recovery_.do_not_go_on();
   if (hand_.leads_to(ManualMotion::Then::kReturn)) hand_.forget_then();
@@ -239,6 +240,31 @@ void Gateway::Core::step_clear() {
   if (!goes_on) return rest_.read(now_, Rest::After::kClear);
   runner_->hold(now_);
   enter(MachineState::kHeld);
+}
+
+/// Clears what the gateway's own absence has caused, and goes on with the job, where the machine file says
+/// so.
+void Gateway::Core::step_after_stall() {
+  const bool stopped =
+      state_.is_one_of(MachineState::kStopping, MachineState::kStopped, MachineState::kAlarm);
+  if (stopped && (state_.is(MachineState::kStopping) || rest_.reading() || clearing_.busy())) return;
+  if (!stopped && !state_.is_one_of(MachineState::kOff, MachineState::kReady, MachineState::kHeld)) return;
+  switch (stall_.next(now_, state_.since(), stopped)) {
+    case StallRecovery::Step::kNone:
+      return;
+    case StallRecovery::Step::kClear:
+      if (print_.runner().active()) {
+        command::Clear clear;
+        static_cast<void>(on(clear));
+      }
+      return;
+    case StallRecovery::Step::kGoOn:
+      if (const Done done = may(command::kind<command::Resume>); !done) return;
+      events_.message(now_, say("the gateway is back: the job goes on by itself"));
+      recovery_.goes_by_itself();
+      static_cast<void>(resume());
+      return;
+  }
 }
 
 void Gateway::Core::step_cancel() {

@@ -26,6 +26,9 @@ std::optional<CanFrame> Gateway::next_frame(BusTime now) {
 BusTime Gateway::next_deadline() const {
   return core_->next_deadline();
 }
+void Gateway::on_stall(BusTime now, BusTime length, const Sentence& why) {
+  core_->on_stall(now, length, why);
+}
 void Gateway::on_bus_failure(BusTime now, std::string_view what) {
   core_->on_bus_failure(now, what);
 }

@@ -63,6 +63,9 @@ class Gateway {
   /// Pull when the bus can take a frame, not ahead: the order is decided late.
   std::optional<CanFrame> next_frame(BusTime now);
   BusTime next_deadline() const;  ///< when on_time is next needed: always later than the last time given
+  /// The owner was not run for `length`, up to now, and so nothing was heard or said; before the frames that
+  /// waited.
+  void on_stall(BusTime now, BusTime length, const Sentence& why);
   /// The bus controller reported bus-off or lost its carrier: motion cannot be commanded any more.
   void on_bus_failure(BusTime now, std::string_view what);
 

@@ -17,6 +17,11 @@ Sentence name_of(const NodeLink& link) {
 
 }  // namespace
 
+bool NodeWatch::is_of_absence(StopReason reason) {
+  return reason == StopReason::kStarved || reason == StopReason::kGatewayLost ||
+         reason == StopReason::kSyncLost || reason == StopReason::kPeer;
+}
+
 void NodeWatch::on_time(BusTime now, bool streaming) {
   if (!streaming) streaming_since_ = now;
 }
@@ -37,15 +42,19 @@ NodeWatch::Verdict NodeWatch::look(BusTime now, std::size_t node, const Situatio
   if (link.take_boot_up()) {
     needs_bring_up_ = true;
     verdict.stop = verdict.fault = true;
+    verdict.by_absence = false;
     verdict.positions_lost = link.functions().has_axes();
     events_.alarm(now, AlarmCode::kNodeRestarted, say("%1 has restarted", name_of(link)), link.id());
-  } else if (now - (judged ? std::max(link.last_heard(), streaming_since_) : link.last_heard()) > timeout) {
+  } else if (const BusTime heard = std::max(link.last_heard(), listens_since_);
+             now - (judged ? std::max(heard, streaming_since_) : heard) > timeout) {
     needs_bring_up_ = true;
     verdict.stop = verdict.fault = true;
+    verdict.by_absence = false;
     events_.alarm(now, AlarmCode::kHeartbeatLost, say("%1 is silent", name_of(link)), link.id());
   } else if (link.nmt_state() == NmtState::kStopped || link.nmt_state() == NmtState::kPreOperational) {
     needs_bring_up_ = true;
     verdict.stop = verdict.fault = true;
+    verdict.by_absence = false;
     events_.alarm(now, AlarmCode::kNodeChanged,
                   say("%1 was taken out of operation by an NMT command of another device", name_of(link)),
                   link.id());
@@ -80,6 +89,7 @@ void NodeWatch::check_drives(BusTime now, const NodeLink& link, const Situation&
       continue;
     }
     verdict.stop = verdict.fault = verdict.stream_lost = true;
+    verdict.by_absence = false;
     events_.alarm(now, AlarmCode::kNodeChanged, std::move(words), link.id());
   }
 }
@@ -100,6 +110,7 @@ void NodeWatch::take_emergencies(BusTime now, NodeLink& link, const Situation& s
     verdict.stream_lost = verdict.stream_lost || reason == StopReason::kStarved ||
                           reason == StopReason::kSequenceError || reason == StopReason::kCheckpointError ||
                           reason == StopReason::kStreamError;
+    verdict.by_absence = (verdict.by_absence || !verdict.stop) && is_of_absence(reason);
     verdict.stop = true;
     verdict.fault = verdict.fault || reason == StopReason::kAxisFault;
   }
@@ -110,7 +121,7 @@ bool NodeWatch::check_clock(BusTime now, const NodeLink& link, const StreamStatu
   if ((status.flags & StreamStatus::kSynchronised) == 0) {
     events_.alarm(now, AlarmCode::kSyncError,
                   say("%1 has lost the synchronisation of its clock", name_of(link)), link.id());
-    verdict.stop = true;
+    verdict.stop = verdict.by_absence = true;
     return false;
   }
   const bool rested = rate_.at_rest(now) && rate_.rate(now - kFrameDelay) == 0;
@@ -144,6 +155,7 @@ NodeWatch::Verdict NodeWatch::take_stream(BusTime now, NodeLink& link, const Str
   counters_.underruns += kind == Kind::kUnderrun ? 1 : 0;
   events_.alarm(now, AlarmCode::kStreamLost, to_string(taken.error()), link.id(), taken.error().line);
   verdict.stream_lost = verdict.stop = true;
+  verdict.by_absence = kind == Kind::kUnderrun;
   return verdict;
 }
 

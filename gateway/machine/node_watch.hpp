@@ -30,6 +30,7 @@ class NodeWatch {
   /// What has to follow.
   struct Verdict {
     bool stop = false;
+    bool by_absence = false;      ///< all of the stop's reasons are that nobody spoke to the nodes
     bool fault = false;           ///< the stop ends in an alarm
     bool positions_lost = false;  ///< of a node
     bool stream_lost = false;     ///< what the nodes hold is not what was sent
@@ -45,6 +46,11 @@ class NodeWatch {
   Verdict look(BusTime now, std::size_t node, const Situation& situation);
   /// At the stream status that has just come. `stopping`: the run is being stopped, and may go on.
   Verdict take_stream(BusTime now, NodeLink& link, const StreamStatus& status, bool stopping);
+
+  /// A node stops for it when the gateway says nothing.
+  static bool is_of_absence(StopReason reason);
+  /// The gateway was away until now: no node could be heard.
+  void on_stall(BusTime now) { listens_since_ = now; }
 
   /// A node was lost or restarted: nothing but a bring-up helps.
   bool needs_bring_up() const { return needs_bring_up_; }
@@ -67,6 +73,7 @@ class NodeWatch {
   EventQueue& events_;
   MachineCounters& counters_;
   bool needs_bring_up_ = false;
+  BusTime listens_since_{0};    ///< what was not heard before says nothing
   BusTime streaming_since_{0};  ///< path time runs; the present, when it does not
 };
 

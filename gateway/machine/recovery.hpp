@@ -55,6 +55,7 @@ class Recovery {
   /// Once after the start, when the machine file says so: nobody has commanded it.
   bool begins_by_itself();
   void commanded() { by_itself_ = false; }
+  void goes_by_itself() { by_itself_ = true; }
   /// Not by itself: the nodes have lost their positions.
   bool must_ask_to_home() const;
 

@@ -3168,6 +3168,38 @@
         <source>%1 moves are waiting already</source>
         <translation>%1 حرکت هم‌اکنون در صف است</translation>
     </message>
+    <message>
+        <source>it was busy itself</source>
+        <translation>خودش مشغول بود</translation>
+    </message>
+    <message>
+        <source>it waited for the disk (%1 pages)</source>
+        <translation>منتظر دیسک بود (%1 صفحه)</translation>
+    </message>
+    <message>
+        <source>other programs had the processor</source>
+        <translation>پردازنده در اختیار برنامه‌های دیگر بود</translation>
+    </message>
+    <message>
+        <source>it was stopped, or the computer was</source>
+        <translation>متوقف شده بود، یا رایانه متوقف بود</translation>
+    </message>
+    <message>
+        <source>%1; it has no real-time priority</source>
+        <translation>%1؛ اولویت بی‌درنگ ندارد</translation>
+    </message>
+    <message>
+        <source>the gateway is back: the job goes on by itself</source>
+        <translation>درگاه بازگشت: کار خودبه‌خود ادامه می‌یابد</translation>
+    </message>
+    <message>
+        <source>the gateway did not run for %1 s: %2</source>
+        <translation>درگاه %1 ثانیه اجرا نشد: %2</translation>
+    </message>
+    <message>
+        <source>the gateway was away %1 times: the job waits for a person</source>
+        <translation>درگاه %1 بار غایب بود: کار منتظر یک نفر است</translation>
+    </message>
 </context>
 <context>
     <name>GatewayWords</name>

@@ -3168,6 +3168,38 @@
         <source>%1 moves are waiting already</source>
         <translation>%1 hareket zaten sırada</translation>
     </message>
+    <message>
+        <source>it was busy itself</source>
+        <translation>kendisi meşguldü</translation>
+    </message>
+    <message>
+        <source>it waited for the disk (%1 pages)</source>
+        <translation>diski bekledi (%1 sayfa)</translation>
+    </message>
+    <message>
+        <source>other programs had the processor</source>
+        <translation>işlemci başka programlardaydı</translation>
+    </message>
+    <message>
+        <source>it was stopped, or the computer was</source>
+        <translation>durdurulmuştu ya da bilgisayar durmuştu</translation>
+    </message>
+    <message>
+        <source>%1; it has no real-time priority</source>
+        <translation>%1; gerçek zaman önceliği yok</translation>
+    </message>
+    <message>
+        <source>the gateway is back: the job goes on by itself</source>
+        <translation>ağ geçidi geri geldi: iş kendiliğinden sürüyor</translation>
+    </message>
+    <message>
+        <source>the gateway did not run for %1 s: %2</source>
+        <translation>ağ geçidi %1 s çalışmadı: %2</translation>
+    </message>
+    <message>
+        <source>the gateway was away %1 times: the job waits for a person</source>
+        <translation>ağ geçidi %1 kez uzakta kaldı: iş birini bekliyor</translation>
+    </message>
 </context>
 <context>
     <name>GatewayWords</name>

@@ -51,6 +51,26 @@ class MachineRig {
   bool reach(MachineState state, BusTime limit = std::chrono::seconds{60}) {
     return run_until([&] { return gateway->state() == state; }, limit);
   }
+  /// The gateway is not run for `duration`; what came meanwhile waits for it.
+  void stall(BusTime duration) {
+    std::vector<VirtualMachine::Received> waiting;
+    const BusTime from = now;
+    for (bool done = false; !done;) {
+      done = nodes.advance(from + duration);
+      while (auto got = nodes.receive()) waiting.push_back(*got);
+    }
+    now = from + duration;
+    gateway->on_stall(now, duration, say("a test"));
+    for (const auto& got : waiting) {
+      if (on_frame) on_frame(got.when, got.frame);
+      if (got.own)
+        gateway->on_frame_sent(got.when, got.frame);
+      else
+        gateway->on_frame(got.when, got.frame);
+    }
+    gateway->on_time(now);
+    serve();
+  }
   /// Brings up, homes and goes to the bed reference.
   bool make_ready() {
     using namespace std::chrono_literals;
