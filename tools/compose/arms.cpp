@@ -18,7 +18,7 @@ constexpr double kOnBase_mm = 0.5;
 constexpr double kTipOfWidth = 0.5;
 constexpr double kShortestStretchOfWidth = 0.6;
 constexpr double kSmoothOfWidth = 0.25;  // to either side: round bends come in facets
-constexpr double kPlate = 2;              // sections of a plate are this much longer than a square's side
+constexpr double kPlate = 2;             // sections of a plate are this much longer than a square's side
 constexpr double kLikeBase_rad = 0.01;
 
 struct Walk {

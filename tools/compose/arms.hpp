@@ -26,7 +26,8 @@ struct Arm {
   Vector where(const Plane& plane) const;
 };
 
-/// The arm around a point of the solid. nullopt: it is none, being shorter than wide, a plate, or held at both ends.
+/// The arm around a point of the solid. nullopt: it is none, being shorter than wide, a plate, or held at
+/// both ends.
 std::optional<Arm> arm_around(const Solid& solid, const Sections& sections, const Vector& inside);
 
 /// A stretch of an arm that is printed along one direction.

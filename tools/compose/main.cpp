@@ -350,7 +350,7 @@ int compose_examples(const Arguments& arguments) {
       "with "
       "support, same machine and\nspeeds; the same without, as if nothing hung: about the least that cutting "
       "can reach.\n\n"
-      "{:<10} {:<14} {:<14} {:<14} {:>6} {:>8} {:>8} {:>6} {:>7}\n",
+      "{:<10} {:<17} {:<17} {:<17} {:>6} {:>8} {:>8} {:>6} {:>7}\n",
       options.decompose.max_tilt_rad / kRad, "part", "tilt", "arm leans", "layers off", "job", "support",
       "without", "times", "ideal");
   bool good = true;
@@ -360,7 +360,7 @@ int compose_examples(const Arguments& arguments) {
     steps.clear();
     const SupportComparison& uncut = made.support.value();
     const double job_s = made.verification.job_time_s;
-    fmt::print("{:<10} {:<14} {:<14} {:<14} {:>6.0f} {:>8.0f} {:>8.0f} {:>6.2f} {:>7.2f}{}\n", name,
+    fmt::print("{:<10} {:<17} {:<17} {:<17} {:>6.0f} {:>8.0f} {:>8.0f} {:>6.2f} {:>7.2f}{}\n", name,
                list(made, [](const PieceReport& p) { return std::optional(p.tilt_deg); }),
                list(made, [](const PieceReport& p) { return p.arm_leans_deg; }),
                list(made, [](const PieceReport& p) { return p.layers_off_square_deg; }), job_s, uncut.time_s,

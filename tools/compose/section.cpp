@@ -145,8 +145,7 @@ std::optional<Sections::Smallest> Sections::smallest_near(const Vector& inside, 
     bool better = false;
     for (int i = 0; i < 8; ++i) {
       const double f = i * std::numbers::pi / 4;
-      const Vector tried =
-          (n + std::tan(ring) * (std::cos(f) * across + std::sin(f) * along)).normalized();
+      const Vector tried = (n + std::tan(ring) * (std::cos(f) * across + std::sin(f) * along)).normalized();
       if (tried.dot(normal) < least_cosine) continue;
       const auto section = at({tried, tried.dot(inside)}, inside);
       if (!section || (best && section->area_mm2 >= best->section.area_mm2 * (1 - 1e-9))) continue;
