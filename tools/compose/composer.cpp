@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -28,15 +29,17 @@ TriangleMesh placed(TriangleMesh mesh, bool keep_position) {
 SupportComparison with_support(const Slicer& slicer, const TriangleMesh& part, const ComposeOptions& options,
                                const MachineDescription& machine) {
   SupportComparison out;
-  const std::string plain = slicer.slice(part, "uncut"),
-                    supported = slicer.slice(part, "uncut-support", true);
-  JoinPiece whole{"uncut", {}, read_sliced(supported, "uncut-support.gcode"), bounds(part)};
-  out.support_filament_mm =
-      std::max(0.0, whole.gcode.filament_mm - read_sliced(plain, "uncut.gcode").filament_mm);
+  const JoinPiece plain{"uncut", {}, read_sliced(slicer.slice(part, "uncut"), "uncut.gcode"), bounds(part)};
+  const JoinPiece supported{"uncut-support",
+                            {},
+                            read_sliced(slicer.slice(part, "uncut-support", true), "uncut-support.gcode"),
+                            bounds(part)};
+  out.support_filament_mm = std::max(0.0, supported.gcode.filament_mm - plain.gcode.filament_mm);
   const double radius_mm = machine.gcode.filament_diameter_mm / 2;
   out.support_mm3 = out.support_filament_mm * std::numbers::pi * radius_mm * radius_mm;
   ProblemList problems;
-  out.time_s = planned_time_s(join({whole}, options.join).text, machine, problems);
+  out.time_s = planned_time_s(join({supported}, options.join).text, machine, problems);
+  out.unsupported_time_s = planned_time_s(join({plain}, options.join).text, machine, problems);
   return out;
 }
 
@@ -47,6 +50,10 @@ Composed compose(const TriangleMesh& given, const ComposeOptions& options,
   Composed out;
   const TriangleMesh part = placed(given, options.keep_position);
   const Solid solid{part, {Vector(0, 0, 1), 0}};
+  const auto step = [&](const std::string& words) {
+    if (options.on_step) options.on_step(words);
+  };
+  step("looking for arms and cuts");
   const std::vector<Solid> pieces = options.planes.empty()
                                         ? decompose(solid, options.decompose)
                                         : decompose(solid, options.planes, options.decompose);
@@ -56,19 +63,39 @@ Composed compose(const TriangleMesh& given, const ComposeOptions& options,
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const Solid& piece = pieces[i];
     const std::string name = fmt::format("piece-{}", i + 1);
+    step(fmt::format("slicing piece {} of {}", i + 1, pieces.size()));
     JoinPiece joined{name, frame_of(piece), {}, bounds(piece.mesh)};
     joined.gcode = read_sliced(slicer.slice(in_frame(piece.mesh, joined.frame), name), name + ".gcode");
     const Vector n = joined.frame.normal();
-    out.pieces.push_back({name, joined.frame.j_deg, std::atan2(n[1], n[0]) * kDeg, volume_mm3(piece.mesh),
+    out.pieces.push_back({name,
+                          joined.frame.j_deg,
+                          std::atan2(n[1], n[0]) * kDeg,
+                          volume_mm3(piece.mesh),
                           overhang_mm2(piece, options.decompose.max_overhang_rad),
-                          unheld_mm2(piece, options.decompose.max_overhang_rad), joined.gcode.filament_mm,
-                          joined.gcode.layers, angle_to_medial_axis(piece.mesh, n) * kDeg});
+                          unheld_mm2(piece, options.decompose.max_overhang_rad),
+                          joined.gcode.filament_mm,
+                          joined.gcode.layers,
+                          {},
+                          {}});
+    if (const MedialAxis axis = medial_axis(part, piece.mesh, n); axis.of_arm) {
+      PieceReport& report = out.pieces.back();
+      const double off = std::atan2(axis.along.cross(n).norm(), axis.along.dot(n));
+      const double leans = std::atan2(std::hypot(axis.along[0], axis.along[1]), axis.along[2]);
+      report.layers_off_square_deg = off * kDeg;
+      report.arm_leans_deg = leans * kDeg;
+      report.tilted_to_limit = leans > options.decompose.max_tilt_rad + 0.5 / kDeg &&
+                               joined.frame.j_deg / kDeg > options.decompose.max_tilt_rad - 0.5 / kDeg;
+    }
     out.joined.push_back(std::move(joined));
     out.meshes.push_back(piece.mesh);
   }
+  step("joining and checking");
   out.job = join(out.joined, options.join);
   out.verification = verify(out.job, out.joined, out.meshes, machine, options.sweep);
-  if (options.compare_support) out.support = with_support(slicer, part, options, machine);
+  if (options.compare_support) {
+    step("slicing the uncut part with support");
+    out.support = with_support(slicer, part, options, machine);
+  }
   return out;
 }
 

@@ -1,5 +1,8 @@
 #include "tools/compose/job_description.hpp"
 
+// As the machine file's reader has it: of both kinds in one program the linker would keep one.
+#define TOML_EXCEPTIONS 0
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -60,12 +63,9 @@ PieceFrame frame(const std::string& path, const toml::table& table) {
 }  // namespace
 
 std::vector<DescribedPiece> read_job_description(const std::string& path) {
-  toml::table root;
-  try {
-    root = toml::parse_file(path);
-  } catch (const toml::parse_error& error) {
-    refuse(path, error.source(), std::string(error.description()));
-  }
+  const toml::parse_result parsed = toml::parse_file(path);
+  if (!parsed) refuse(path, parsed.error().source(), std::string(parsed.error().description()));
+  const toml::table& root = parsed.table();
   const toml::array* list = root.get_as<toml::array>("piece");
   if (list == nullptr || list->empty())
     throw std::runtime_error(path + ": expected [[piece]] tables, in the order of printing");

@@ -2,11 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <optional>
 #include <sstream>
 
 #include "gateway/description/machine_file.hpp"
@@ -29,7 +35,8 @@ struct Arguments {
   std::string input, output, machine, config, program = "prusa-slicer", report, picture, printing, work,
                                               nozzle;
   std::vector<std::string> planes;
-  double max_overhang_deg = 45, max_tilt_deg = 45, layer_mm = 0.2, clearance_mm = 20, table_radius_mm = 100;
+  std::optional<double> max_tilt_deg;  // else the machine's
+  double max_overhang_deg = 45, layer_mm = 0.2, clearance_mm = 20, table_radius_mm = 100;
   bool keep_position = false, no_support_comparison = false;
 };
 
@@ -104,10 +111,23 @@ Nozzle nozzle_of(const std::string& text) {
   return out;
 }
 
-ComposeOptions options_of(const Arguments& arguments) {
+/// How far the machine tilts to either side, deg; 0: not at all.
+double tilt_deg_of(const MachineDescription& machine) {
+  const PoseLimits* limits = pose_limits(machine.kinematics);
+  if (limits == nullptr) return 0;
+  return std::max(0.0, std::min(-limits->a_rad.min, limits->a_rad.max)) / kRad;
+}
+
+void require_tilt(const ComposeOptions& options) {
+  if (options.planes.empty() && options.decompose.max_tilt_rad < 1 * kRad)
+    throw std::runtime_error(
+        "the machine does not tilt: expected workspace.a_deg on both sides of 0 in its file");
+}
+
+ComposeOptions options_of(const Arguments& arguments, const MachineDescription& machine) {
   ComposeOptions out;
   out.decompose.max_overhang_rad = arguments.max_overhang_deg * kRad;
-  out.decompose.max_tilt_rad = arguments.max_tilt_deg * kRad;
+  out.decompose.max_tilt_rad = arguments.max_tilt_deg.value_or(std::min(89.0, tilt_deg_of(machine))) * kRad;
   out.slicer.program = arguments.program;
   out.slicer.config = arguments.config;
   out.slicer.layer_mm = arguments.layer_mm;
@@ -149,6 +169,34 @@ class WorkFolder {
   bool keep_;
 };
 
+/// What is being done, once it takes longer than two seconds: over itself in a terminal, else a line now and
+/// then.
+class StepLine {
+ public:
+  StepLine() = default;
+  ~StepLine() { clear(); }
+  StepLine(const StepLine&) = delete;
+  StepLine& operator=(const StepLine&) = delete;
+
+  void show(const std::string& words) {
+    using namespace std::chrono_literals;
+    const auto now = std::chrono::steady_clock::now();
+    if (now - began_ < 2s || (!terminal_ && now - shown_ < 20s)) return;
+    fmt::print(stderr, "{}{}{}", terminal_ ? "\r\033[K" : "", words, terminal_ ? "" : "\n");
+    std::fflush(stderr);
+    shown_ = now;
+    open_ = terminal_;
+  }
+  void clear() {
+    if (open_) fmt::print(stderr, "\r\033[K");
+    open_ = false;
+  }
+
+ private:
+  bool terminal_ = ::isatty(STDERR_FILENO) != 0, open_ = false;
+  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now(), shown_ = began_;
+};
+
 void print_verification(const std::string& job, const Verification& v) {
   for (const Problem& p : v.problems.all())
     fmt::print("{}:{}: {}: {}\n", job, p.line, p.severity == Problem::Severity::kError ? "error" : "warning",
@@ -164,12 +212,18 @@ void print_verification(const std::string& job, const Verification& v) {
   fmt::print("job time          {:.0f} s, filament {:.0f} mm\n", v.job_time_s, v.filament_mm);
 }
 
+json number_or_null(const std::optional<double>& value) {
+  return value ? json(*value) : json(nullptr);
+}
+
 json to_json(const Composed& c) {
   json pieces = json::array();
   for (const PieceReport& p : c.pieces)
     pieces.push_back({{"name", p.name},
                       {"tilt_deg", p.tilt_deg},
-                      {"layers_off_square_deg", p.layers_off_square_deg},
+                      {"layers_off_square_deg", number_or_null(p.layers_off_square_deg)},
+                      {"arm_leans_deg", number_or_null(p.arm_leans_deg)},
+                      {"tilted_to_limit", p.tilted_to_limit},
                       {"azimuth_deg", p.azimuth_deg},
                       {"volume_mm3", p.volume_mm3},
                       {"overhang_mm2", p.overhang_mm2},
@@ -187,7 +241,8 @@ json to_json(const Composed& c) {
   if (c.support)
     out["uncut_with_support"] = {{"support_filament_mm", c.support->support_filament_mm},
                                  {"support_mm3", c.support->support_mm3},
-                                 {"job_time_s", c.support->time_s}};
+                                 {"job_time_s", c.support->time_s},
+                                 {"unsupported_time_s", c.support->unsupported_time_s}};
   return out;
 }
 
@@ -202,40 +257,60 @@ void describe_pieces(const std::string& folder, const Composed& made) {
   write_text((fs::path(folder) / "pieces.toml").string(), describe_job(pieces));
 }
 
+/// "-" for none; never "-0".
+std::string degrees(const std::optional<double>& deg, int digits) {
+  if (!deg) return "-";
+  const double scale = digits == 0 ? 1 : 10;
+  return fmt::format("{:.{}f} deg", std::round(*deg * scale) / scale + 0.0, digits);
+}
+
 int compose_part(const Arguments& arguments) {
   const WorkFolder work(arguments.work);
-  ComposeOptions options = options_of(arguments);
+  const MachineDescription machine = machine_of(arguments);
+  StepLine steps;
+  ComposeOptions options = options_of(arguments, machine);
+  require_tilt(options);
   options.work_folder = work.path();
+  options.on_step = [&](const std::string& words) { steps.show(words); };
   std::string path = arguments.input;
   if (fs::path(path).extension() == ".3mf" || fs::path(path).extension() == ".3MF")
     path = Slicer(options.slicer, work.path()).to_stl(path);
   const auto [part, repair] = read_mesh(path);
   fmt::print("{}: {} faces; {}\n", arguments.input, part.faces.size(), repair.words());
-  const Composed result = compose(part, options, machine_of(arguments));
+  const Composed result = compose(part, options, machine);
+  steps.clear();
   write_text(arguments.output, result.job.text);
-  fmt::print("{:<10} {:>8} {:>9} {:>9} {:>11} {:>12} {:>7} {:>12}\n", "piece", "tilt", "azimuth", "off axis",
-             "volume", "overhang", "layers", "filament");
+  fmt::print("{:<10} {:>8} {:>8} {:>8} {:>9} {:>11} {:>11} {:>6} {:>10}\n", "piece", "tilt", "azimuth", "arm",
+             "off axis", "volume", "overhang", "layers", "filament");
   bool hangs = false;
   for (const PieceReport& p : result.pieces) {
-    fmt::print("{:<10} {:>4.1f} deg {:>5.0f} deg {:>5.1f} deg {:>7.0f} mm3 {:>8.2f} mm2 {:>7} {:>9.0f} mm\n",
-               p.name, p.tilt_deg, p.azimuth_deg, p.layers_off_square_deg, p.volume_mm3,
-               p.overhang_mm2 + p.unheld_mm2, p.layers, p.filament_mm);
+    fmt::print("{:<10} {:>8} {:>8} {:>8} {:>9} {:>7.0f} mm3 {:>7.2f} mm2 {:>6} {:>7.0f} mm{}\n", p.name,
+               degrees(p.tilt_deg, 1), degrees(p.azimuth_deg, 0), degrees(p.arm_leans_deg, 1),
+               degrees(p.layers_off_square_deg, 1), p.volume_mm3, p.overhang_mm2 + p.unheld_mm2, p.layers,
+               p.filament_mm, p.tilted_to_limit ? "  tilted as far as the machine does" : "");
     hangs = hangs || p.overhang_mm2 > options.decompose.allowed_mm2 ||
             p.unheld_mm2 > options.decompose.allowed_mm2;
   }
   print_verification(arguments.output, result.verification);
   if (result.support)
     fmt::print(
-        "support saved     {:.0f} mm of filament ({:.0f} mm3); the uncut part with support takes {:.0f} s\n",
-        result.support->support_filament_mm, result.support->support_mm3, result.support->time_s);
+        "support saved     {:.0f} mm of filament ({:.0f} mm3); the uncut part with support takes {:.0f} s, "
+        "{:.2f} "
+        "times as long\n"
+        "                  (cutting for nothing would give {:.2f}: with its support left out it takes {:.0f} "
+        "s)\n",
+        result.support->support_filament_mm, result.support->support_mm3, result.support->time_s,
+        result.support->time_s / result.verification.job_time_s,
+        result.support->time_s / result.support->unsupported_time_s, result.support->unsupported_time_s);
   if (!arguments.report.empty()) write_text(arguments.report, to_json(result).dump(2) + "\n");
   const std::string name = "Part " + fs::path(arguments.input).stem().string();
   if (!arguments.picture.empty()) {
     std::vector<DrawnPiece> drawn;
     for (std::size_t i = 0; i < result.meshes.size(); ++i)
-      drawn.push_back(
-          {result.meshes[i], result.joined[i].frame,
-           i == 0 ? std::string("upright") : fmt::format("tilt {:.0f}°", result.pieces[i].tilt_deg)});
+      drawn.push_back({result.meshes[i], result.joined[i].frame,
+                       result.pieces[i].tilt_deg < 0.5
+                           ? std::string("upright")
+                           : fmt::format("tilt {:.0f}°", result.pieces[i].tilt_deg)});
     write_text(arguments.picture, picture(name, drawn));
   }
   if (!arguments.work.empty()) describe_pieces(arguments.work, result);
@@ -243,14 +318,57 @@ int compose_part(const Arguments& arguments) {
     PrintPictureOptions look;
     look.nozzle = options.sweep.nozzle;
     look.table_radius_mm = options.sweep.table_radius_mm;
-    write_text(arguments.printing,
-               print_picture(name + ", being printed", result.job, machine_of(arguments), look));
+    write_text(arguments.printing, print_picture(name + ", being printed", result.job, machine, look));
   }
   fmt::print("job               {}\n", arguments.output);
   if (hangs)
     fmt::print(stderr,
                "kinebus-compose: a piece still overhangs; allow more tilt or overhang, or give planes\n");
   return result.verification.good() && !hangs ? 0 : 1;
+}
+
+/// The example parts one after the other: tilt, layers to the arm, and time, as a table.
+int compose_examples(const Arguments& arguments) {
+  const MachineDescription machine = machine_of(arguments);
+  ComposeOptions options = options_of(arguments, machine);
+  const WorkFolder work(arguments.work);
+  require_tilt(options);
+  options.work_folder = work.path();
+  StepLine steps;
+  const auto list = [](const Composed& made, const auto& of) {
+    std::string out;
+    for (const PieceReport& piece : made.pieces) {
+      const std::optional<double> deg = of(piece);
+      out += fmt::format("{}{}", out.empty() ? "" : " ", deg ? fmt::format("{:.0f}", std::abs(*deg)) : "-");
+    }
+    return out;
+  };
+  fmt::print(
+      "A machine that tilts {:.0f} deg. For each piece, deg: tilt of the table; how far its arm leans from "
+      "z; its "
+      "layers off\nsquare to the arm, measured on the mesh (-: no arm). Time, s: this job; the uncut part "
+      "with "
+      "support, same machine and\nspeeds; the same without, as if nothing hung: about the least that cutting "
+      "can reach.\n\n"
+      "{:<10} {:<17} {:<17} {:<17} {:>6} {:>8} {:>8} {:>6} {:>7}\n",
+      options.decompose.max_tilt_rad / kRad, "part", "tilt", "arm leans", "layers off", "job", "support",
+      "without", "times", "ideal");
+  bool good = true;
+  for (const std::string& name : example_names()) {
+    options.on_step = [&](const std::string& words) { steps.show(name + ": " + words); };
+    const Composed made = compose(example_part(name), options, machine);
+    steps.clear();
+    const SupportComparison& uncut = made.support.value();
+    const double job_s = made.verification.job_time_s;
+    fmt::print("{:<10} {:<17} {:<17} {:<17} {:>6.0f} {:>8.0f} {:>8.0f} {:>6.2f} {:>7.2f}{}\n", name,
+               list(made, [](const PieceReport& p) { return std::optional(p.tilt_deg); }),
+               list(made, [](const PieceReport& p) { return p.arm_leans_deg; }),
+               list(made, [](const PieceReport& p) { return p.layers_off_square_deg; }), job_s, uncut.time_s,
+               uncut.unsupported_time_s, uncut.time_s / job_s, uncut.time_s / uncut.unsupported_time_s,
+               made.verification.good() ? "" : "  THE JOB IS NOT GOOD");
+    good = good && made.verification.good();
+  }
+  return good ? 0 : 1;
 }
 
 int join_pieces(const Arguments& arguments) {
@@ -268,10 +386,11 @@ int join_pieces(const Arguments& arguments) {
       fmt::print("{}: left out {} x {}: it belongs to a job of its own\n", piece.name, count, command);
     pieces.push_back(std::move(piece));
   }
-  const ComposeOptions options = options_of(arguments);
+  const MachineDescription machine = machine_of(arguments);
+  const ComposeOptions options = options_of(arguments, machine);
   const JoinedJob job = join(pieces, options.join);
   write_text(arguments.output, job.text);
-  const Verification result = verify(job, pieces, meshes, machine_of(arguments), options.sweep);
+  const Verification result = verify(job, pieces, meshes, machine, options.sweep);
   print_verification(arguments.output, result);
   return result.good() ? 0 : 1;
 }
@@ -304,9 +423,9 @@ int run(int argc, char** argv) {
                    "From the wall, that prints without support")
       ->check(CLI::Range(10.0, 80.0))
       ->capture_default_str();
-  part->add_option("--max-tilt-deg", arguments.max_tilt_deg, "Of the table")
-      ->check(CLI::Range(1.0, 89.0))
-      ->capture_default_str();
+  part->add_option("--max-tilt-deg", arguments.max_tilt_deg,
+                   "Of the table (default: as far as the machine tilts)")
+      ->check(CLI::Range(1.0, 89.0));
   part->add_option("--layer-mm", arguments.layer_mm, "Layer height")
       ->check(CLI::Range(0.05, 1.0))
       ->capture_default_str();
@@ -330,6 +449,16 @@ int run(int argc, char** argv) {
       ->check(CLI::ExistingFile);
   common_options(*joined, arguments);
   joined->callback([&] { exit_code = join_pieces(arguments); });
+  auto* examples = app.add_subcommand("examples", "All example parts: tilt, layers to the arm, and time");
+  examples->add_option("--machine", arguments.machine, "Machine file (default: M1)")
+      ->check(CLI::ExistingFile);
+  examples->add_option("--layer-mm", arguments.layer_mm, "Layer height")
+      ->check(CLI::Range(0.05, 1.0))
+      ->capture_default_str();
+  examples->add_option("--slicer", arguments.program, "PrusaSlicer's program")->capture_default_str();
+  examples->add_option("--slicer-config", arguments.config, "Your PrusaSlicer settings (.ini)")
+      ->check(CLI::ExistingFile);
+  examples->callback([&] { exit_code = compose_examples(arguments); });
   auto* example = app.add_subcommand("example", "Writes a part to try: t, y, hook, table or two-piece");
   example->add_option("name", arguments.input)->required()->check(CLI::IsMember(example_names()));
   example->add_option("-o,--output", arguments.output, "STL file")->required();

@@ -52,6 +52,8 @@ int run_program(const std::vector<std::string>& arguments, const std::string& lo
 Slicer::Slicer(SlicerOptions options, std::string folder)
     : options_(std::move(options)), folder_(std::move(folder)) {
   if (!options_.config.empty()) return;
+  // The same for pieces and for the uncut part that they are compared with: one speed for like strands, and
+  // infill of the same density in small sections as in large ones.
   std::ofstream out(folder_ + "/settings.ini");
   out << fmt::format(
       "bed_shape = -200x-200,200x-200,200x200,-200x200\nmax_print_height = 400\ngcode_flavor = marlin\n"
@@ -62,6 +64,10 @@ Slicer::Slicer(SlicerOptions options, std::string folder)
       "elefant_foot_compensation = 0\nuse_relative_e_distances = 0\nretract_length = 0.8\nretract_speed = "
       "35\n"
       "retract_lift = 0.3\nwipe = 0\nperimeter_speed = 60\nexternal_perimeter_speed = 35\ninfill_speed = 80\n"
+      "solid_infill_speed = 80\ntop_solid_infill_speed = 40\ngap_fill_speed = 40\nsmall_perimeter_speed = "
+      "35\n"
+      "support_material_speed = 60\nsupport_material_spacing = 2.5\nsupport_material_interface_layers = 3\n"
+      "slowdown_below_layer_time = 5\nsolid_infill_below_area = 0\n"
       "travel_speed = 150\nfirst_layer_speed = 25\nstart_gcode =\nend_gcode =\n",
       options_.layer_mm, options_.hotend_celsius, options_.bed_celsius, options_.filament_diameter_mm);
   if (!out.flush()) throw std::runtime_error(folder_ + "/settings.ini: could not be written");

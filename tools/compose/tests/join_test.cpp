@@ -3,6 +3,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "gateway/description/machine_file.hpp"
 #include "tools/compose/job_description.hpp"
 #include "tools/compose/joiner.hpp"
 #include "tools/compose/slicer.hpp"
@@ -150,6 +151,12 @@ TEST(JobDescription, TellsFileLineAndKey) {
       EXPECT_NE(std::string(error.what()).find(expected), std::string::npos) << error.what();
     }
   }
+}
+
+TEST(JobDescription, AMachineFileIsReadBesideIt) {
+  const std::string path = testing::TempDir() + "/compose-machine.toml";
+  std::ofstream(path) << write_machine(default_m1());
+  EXPECT_TRUE(load_machine(path));
 }
 
 }  // namespace

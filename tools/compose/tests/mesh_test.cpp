@@ -10,6 +10,7 @@
 #include "tools/compose/mesh_kernel.hpp"
 #include "tools/compose/nozzle.hpp"
 #include "tools/compose/piece_frame.hpp"
+#include "tools/compose/section.hpp"
 #include "tools/compose/support.hpp"
 
 namespace kinebus::compose {
@@ -29,17 +30,70 @@ TEST(Mesh, ACubeWithAFaceMissingIsClosed) {
   EXPECT_NEAR(volume_mm3(mesh), 1000, 1e-9);
 }
 
-TEST(MedialAxis, OfALeaningPrismIsItsEdgeWhicheverWayItIsLayered) {
+/// 10 x 10 mm, 80 mm high, its top moved sideways: a column that leans along `leaning_edge()`, cut level.
+TriangleMesh leaning_column(const Vector& shift) {
   auto [points, polygons] = cube();
-  // 10 mm high, its top moved by 7 and 2 mm; then far from the origin.
-  for (Vector& p : points) p += Vector(0.7 * p[2] + 50, 0.2 * p[2] - 30, 80);
-  const auto [mesh, repair] = close_mesh(points, polygons, "prism");
-  const Vector edge = Vector(0.7, 0.2, 1).normalized(), up(0, 0, 1);
-  EXPECT_NEAR(angle_to_medial_axis(mesh, up), std::acos(edge.dot(up)), 1e-9);
-  // Square to the edge every section of the middle is the same: up to its ends, which are cut level.
-  auto [tall, sides] = cube();
-  for (Vector& p : tall) p = Vector(p[0] + 7 * p[2], p[1] + 2 * p[2], 10 * p[2]);
-  EXPECT_NEAR(angle_to_medial_axis(close_mesh(tall, sides, "tall").first, edge), 0, 1e-9);
+  for (Vector& p : points) p = Vector(p[0] + 5.6 * p[2], p[1] + 1.6 * p[2], 8 * p[2]) + shift;
+  return close_mesh(points, polygons, "column").first;
+}
+
+Vector leaning_edge() {
+  return Vector(0.7, 0.2, 1).normalized();
+}
+
+TEST(MedialAxis, OfALeaningColumnIsItsEdgeWhicheverWayItIsLayered) {
+  const TriangleMesh column = leaning_column({50, -30, 80});
+  const Vector up(0, 0, 1), across = Vector(-0.2, 0.1, 1).normalized();
+  for (const Vector& normal : {up, leaning_edge(), across}) {
+    const MedialAxis axis = medial_axis(column, column, normal);
+    EXPECT_TRUE(axis.of_arm);
+    EXPECT_NEAR(axis.along.cross(leaning_edge()).norm(), 0, 1e-4) << normal.transpose();
+  }
+  auto [points, polygons] = cube();
+  for (Vector& p : points) p = Vector(6 * p[0], 8 * p[1], p[2]);
+  const TriangleMesh plate = close_mesh(points, polygons, "plate").first;
+  EXPECT_FALSE(medial_axis(plate, plate, Vector(1, 0, 0)).of_arm);
+}
+
+TEST(Section, TheSmallestThroughAPointStandsSquareToTheArm) {
+  const TriangleMesh column = leaning_column({0, 0, 0});
+  const Sections sections(column);
+  const Vector inside = Vector(33, 13, 40);
+  const auto found = sections.smallest(inside);
+  ASSERT_TRUE(found);
+  EXPECT_LT(found->normal.cross(leaning_edge()).norm(), 0.003);
+  // A level section is 100 mm2; square to the edge it is smaller by the lean.
+  EXPECT_NEAR(found->section.area_mm2, 100 * leaning_edge()[2], 0.01);
+  EXPECT_EQ(found->section.parts, 1);
+  EXPECT_FALSE(sections.at({Vector(0, 0, 1), 40}, Vector(0, 0, 40))) << "beside it";
+  const TriangleMesh t = example_part("t");
+  const auto level = Sections(t).at({Vector(0, 0, 1), 10}, Vector(0, 0, 10));
+  ASSERT_TRUE(level);
+  EXPECT_NEAR(level->area_mm2, 16 * 14, 1e-6);
+  EXPECT_NEAR(level->extent_mm, std::hypot(16, 14), 1e-6);
+}
+
+TEST(Decompose, LayersOfAnArmLieSquareToItAsFarAsTheTableTilts) {
+  const Solid bent{example_part("two-piece"), {}};
+  const double lean = 50 * std::numbers::pi / 180;  // of its upper half
+  const Vector arm(std::sin(lean), 0, std::cos(lean));
+  for (const double most_deg : {30.0, 45.0, 60.0}) {
+    DecomposeOptions options;
+    options.max_tilt_rad = most_deg * std::numbers::pi / 180;
+    const std::vector<Solid> pieces = decompose(bent, options);
+    const Vector n = pieces.back().base.normal;
+    const double off_deg = std::acos(std::min(1.0, n.dot(arm))) * 180 / std::numbers::pi;
+    EXPECT_NEAR(off_deg, std::max(0.0, 50 - most_deg), 0.6) << "tilt " << most_deg;
+  }
+  // The hook bends over in a quarter circle: in several pieces, each with the arc's slope in its middle.
+  std::vector<double> tilts_deg;
+  for (const Solid& piece : decompose({example_part("hook"), {}}, DecomposeOptions{}))
+    tilts_deg.push_back(std::acos(std::min(1.0, piece.base.normal[2])) * 180 / std::numbers::pi);
+  ASSERT_EQ(tilts_deg.size(), 4u);
+  EXPECT_NEAR(tilts_deg[0], 0, 1e-6);
+  EXPECT_NEAR(tilts_deg[1], 23, 3);
+  EXPECT_NEAR(tilts_deg[2], 45, 1e-6) << "level from here on: as far as the table tilts";
+  EXPECT_NEAR(tilts_deg[3], 0, 1) << "the lip stands upright";
 }
 
 TEST(Mesh, AMeshTurnedInsideOutIsTurnedBack) {
