@@ -47,8 +47,9 @@ M1Geometry unlimited(M1Geometry g) {
 }
 
 bool upright(const M1Geometry& g) {
-  return std::all_of(g.legs.begin(), g.legs.end(),
-                     [](const M1Leg& leg) { return leg.rail[0] == 0 && leg.rail[1] == 0 && leg.rail[2] > 0; });
+  return std::all_of(g.legs.begin(), g.legs.end(), [](const M1Leg& leg) {
+    return leg.rail[0] == 0 && leg.rail[1] == 0 && leg.rail[2] > 0;
+  });
 }
 
 class Judge {
@@ -100,7 +101,8 @@ class Judge {
     return reached;
   }
 
-  void look_at_bodies(const BodiesDescription& description, const Room& room, const std::vector<Pose>& poses) {
+  void look_at_bodies(const BodiesDescription& description, const Room& room,
+                      const std::vector<Pose>& poses) {
     const bodies::Model model = bodies::make_model(fitted(g_, judged_, room), description);
     finding(LegRule::kBodies).limit = model->wanted_mm();
     bodies::Scene scene = model->at_rest();
@@ -222,13 +224,16 @@ M1Geometry fitted(const M1Geometry& geometry, const Judgement& judged, const Roo
   M1Geometry g = geometry;
   Interval used = judged.travel_mm;
   if (upright(g) && g.tool == ToolPlacement::kFrame) {
-    const double lift = std::ceil((kLowest_mm + kSpare_mm - used.min + g.nozzle_mm[2]) / 10) * 10 - g.nozzle_mm[2];
+    const double lift =
+        std::ceil((kLowest_mm + kSpare_mm - used.min + g.nozzle_mm[2]) / 10) * 10 - g.nozzle_mm[2];
     g.nozzle_mm[2] += lift;
     used = {used.min + lift, used.max + lift};
   }
-  const Interval travel{std::floor((used.min - kSpare_mm) / 10) * 10, std::ceil((used.max + kSpare_mm) / 10) * 10};
+  const Interval travel{std::floor((used.min - kSpare_mm) / 10) * 10,
+                        std::ceil((used.max + kSpare_mm) / 10) * 10};
   for (M1Leg& leg : g.legs) leg.travel_mm = travel;
-  g.limits = {.z_mm = {room.z_min_mm, room.z_max_mm}, .a_rad = {room.tilt_min_rad, room.tilt_max_rad},
+  g.limits = {.z_mm = {room.z_min_mm, room.z_max_mm},
+              .a_rad = {room.tilt_min_rad, room.tilt_max_rad},
               .radius_mm = room.radius_mm};
   return g;
 }

@@ -12,12 +12,12 @@
 namespace kinebus::workspace {
 
 enum class LegRule : std::uint8_t {
-  kReach,         ///< share of a leg's length, squared, that is left along its rail: more than 0
-  kLegAngle,      ///< rad between leg and rail, at most
-  kCondition,     ///< at most
-  kUnderPlatform, ///< rad between leg and the platform's plane, on its carriage's side, at least
-  kLegsApart,     ///< mm between two legs, rods and joints counted, at least
-  kBodies,        ///< mm between any two bodies, at least
+  kReach,          ///< share of a leg's length, squared, that is left along its rail: more than 0
+  kLegAngle,       ///< rad between leg and rail, at most
+  kCondition,      ///< at most
+  kUnderPlatform,  ///< rad between leg and the platform's plane, on its carriage's side, at least
+  kLegsApart,      ///< mm between two legs, rods and joints counted, at least
+  kBodies,         ///< mm between any two bodies, at least
 };
 inline constexpr std::size_t kLegRules = 6;
 
@@ -31,10 +31,12 @@ struct Wish {
 struct Finding {
   LegRule rule{};
   double worst = 0, limit = 0;
-  Pose pose{};  ///< of the worst, Frame::kPart
+  Pose pose{};                       ///< of the worst, Frame::kPart
   bodies::BodyId first{}, second{};  ///< of kLegsApart and kBodies
   bool at_most() const { return rule == LegRule::kLegAngle || rule == LegRule::kCondition; }
-  bool keeps() const { return at_most() ? worst <= limit : rule == LegRule::kReach ? worst > limit : worst >= limit; }
+  bool keeps() const {
+    return at_most() ? worst <= limit : rule == LegRule::kReach ? worst > limit : worst >= limit;
+  }
   /// What is left to the limit, as a share of it (kReach: of the leg's length, squared; kBodies: of 20 mm).
   double spare() const;
 };

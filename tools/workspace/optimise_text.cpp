@@ -81,8 +81,9 @@ std::string rules_text(const Judgement& judged, const bodies::CollisionModel& mo
     if (of_bodies(f.rule)) text += ": " + pair_of(f, model);
     text += "\n";
   }
-  text += printed("  carriages use %.0f .. %.0f mm, rails stand on a circle of %.0f mm, legs are %.0f mm long\n",
-                  judged.travel_mm.min, judged.travel_mm.max, judged.footprint_mm, judged.leg_mm);
+  text +=
+      printed("  carriages use %.0f .. %.0f mm, rails stand on a circle of %.0f mm, legs are %.0f mm long\n",
+              judged.travel_mm.min, judged.travel_mm.max, judged.footprint_mm, judged.leg_mm);
   return text;
 }
 
