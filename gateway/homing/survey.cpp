@@ -122,8 +122,10 @@ bool Starts::put_part(Start& start) {
   // Lower, until it has room. Under a level tool that is a layer below its tip.
   Pose tip = start.pose;
   if (tip[kA] == 0 && tip[kZ] - kLayer_mm < height) height = tip[kZ] - kLayer_mm;
-  for (; height > 0.5; height -= std::max(0.5, 0.02 * height))
+  while (height > 0.5) {
     if (fits(start, radius, height)) return real_bodies();
+    height -= std::max(0.5, 0.02 * height);
+  }
   fits(start, 0, 0);
   return real_bodies();
 }
