@@ -35,6 +35,10 @@ MachineDescription mechanism_of(const MachineDescription& d) {
       for (std::size_t i = 0; i < g.travel_mm.size(); ++i) g.travel_mm[i] = travel[i];
       g.table_travel_mm = travel[g.travel_mm.size()];
       widen_limits(g.limits);
+      // The tilt's limits are those of work. Its rods stand well up to this much farther.
+      constexpr double kTilt_rad = 20 * kRadPerDeg;
+      g.limits.a_rad.min -= kTilt_rad;
+      g.limits.a_rad.max += kTilt_rad;
     }
     void operator()(LinearDeltaGeometry& g) const {
       for (std::size_t i = 0; i < g.travel_mm.size(); ++i) g.travel_mm[i] = travel[i];
@@ -141,8 +145,11 @@ void judge_homing(const MachineDescription& description, std::vector<BrokenRule>
   HomingStudy study(description);
   if (!(description.bodies->part_height_mm > 0)) study.set_part(0, 0);
   constexpr int kStarts = 8, kAttempts = 12;
+  // It is a part that corners are about.
+  const std::size_t corners = study.machine().part_height_mm > 0 ? 32 : 0;
   constexpr homing::Walker::Density kCoarse{.least_mm = 2, .most_mm = 25, .most_poses = 100};
-  const homing::Survey found = homing::survey(study.machine(), study.plan(), 1, kStarts, kCoarse, kAttempts);
+  const homing::Survey found =
+      homing::survey(study.machine(), study.plan(), 1, kStarts, kCoarse, kAttempts, corners);
   if (!found.failure) return;
   const auto& [start, way] = *found.failure;
   keys.insert(keys.end(), {"bodies", "kinematics"});

@@ -89,63 +89,126 @@ bool Starts::draw_towards_switches(Start& start, bool one_on_switch) {
   if (!machine_.mechanism->forward(Frame::kMachine, start.joints, start.pose) ||
       !machine_.mechanism->check(Frame::kMachine, start.pose))
     return false;
+  // The mechanism may tilt farther on its way.
+  if (const Interval& a = machine_.limits.a_rad;
+      a.limited() && !(start.pose[kA] >= a.min && start.pose[kA] <= a.max))
+    return false;
   const bodies::Model bare = machine_.bodies ? machine_.bodies(0, 0, false) : nullptr;
   return Walker(*machine_.mechanism, kNoPlan, bare.get(), {}).passes(from, before, start.joints, kStep_mm);
+}
+
+/// With such a part the machine can stand there.
+bool Starts::fits(Start& start, double radius_mm, double height_mm) const {
+  start.part_radius_mm = radius_mm;
+  start.part_height_mm = height_mm;
+  start.model = machine_.bodies(radius_mm, height_mm, true);
+  const auto room = Walker(*machine_.mechanism, kNoPlan, start.model.get(), {}).room(start.pose);
+  return room.machine_mm >= start.model->wanted_mm() && room.holder_mm >= start.model->wanted_mm() &&
+         room.tool_mm >= 0.5 * kLayer_mm;
 }
 
 /// A part that the bodies leave room for, in many starts right under the tool.
 bool Starts::put_part(Start& start) {
   if (!machine_.bodies) return true;
-  const auto room_with = [&](double radius, double height) {
-    start.part_radius_mm = radius;
-    start.part_height_mm = height;
-    start.model = machine_.bodies(radius, height, true);
-    return Walker(*machine_.mechanism, kNoPlan, start.model.get(), {}).room(start.pose);
-  };
-  const auto has_room = [&](const Walker::Room& room) {
-    return room.machine_mm >= start.model->wanted_mm() && room.holder_mm >= start.model->wanted_mm() &&
-           room.tool_mm >= 0.5 * kLayer_mm;
-  };
   const auto real_bodies = [&] {
     start.model = machine_.bodies(start.part_radius_mm, start.part_height_mm, false);
     return true;
   };
-  if (!has_room(room_with(0, 0))) return false;
+  if (!fits(start, 0, 0)) return false;
   if (!(machine_.part_height_mm > 0)) return real_bodies();
   const double radius = in(std::min(2.0, machine_.part_radius_mm), machine_.part_radius_mm);
   double height = random_() % 2 == 0 ? machine_.part_height_mm : in(0, machine_.part_height_mm);
-  if (has_room(room_with(radius, height))) return real_bodies();
+  if (fits(start, radius, height)) return real_bodies();
   // Lower, until it has room. Under a level tool that is a layer below its tip.
   Pose tip = start.pose;
   if (tip[kA] == 0 && tip[kZ] - kLayer_mm < height) height = tip[kZ] - kLayer_mm;
-  for (; height > 0.5; height -= std::max(0.5, 0.02 * height))
-    if (has_room(room_with(radius, height))) return real_bodies();
-  room_with(0, 0);
+  while (height > 0.5) {
+    if (fits(start, radius, height)) return real_bodies();
+    height -= std::max(0.5, 0.02 * height);
+  }
+  fits(start, 0, 0);
   return real_bodies();
 }
 
+namespace {
+
+// Around, tilts, heights, and what of a corner: the tool on the rim, or against the part.
+constexpr std::size_t kRays = 8, kTilts = 2, kPlaces = 2;
+// A part swings farthest at this height of the tool, as a share: there what is not safe shows first.
+constexpr std::array<double, 3> kHeights{2.0 / 3, 0, 1.0 / 3};
+
+}  // namespace
+
+std::size_t Starts::corner_count() {
+  return kRays * kTilts * kHeights.size() * kPlaces;
+}
+
+std::optional<Start> Starts::corner(std::size_t number) {
+  const PoseLimits& limits = machine_.limits;
+  if (!limits.z_mm.limited()) return std::nullopt;
+  const std::size_t ray = number % kRays, tilt = number / kRays % kTilts,
+                    height = number / (kRays * kTilts) % kHeights.size(),
+                    place = number / (kRays * kTilts * kHeights.size());
+  const Kinematics& k = *machine_.kinematics;
+  const double rim = limits.radius_mm > 0 ? limits.radius_mm : 100;
+  // Against the part where it leaves room for that.
+  const double beside = std::min(rim, machine_.part_radius_mm + 6);
+  const double r = place == 0 ? rim : beside, angle = 2 * std::numbers::pi * static_cast<double>(ray) / kRays;
+  Start start;
+  Pose pose = k.bed_reference();
+  pose[kX] = r * std::cos(angle);
+  pose[kY] = r * std::sin(angle);
+  const double low = std::max(limits.z_mm.min, kLayer_mm);
+  pose[kZ] = low + (limits.z_mm.max - low) * kHeights[height];
+  pose[kA] = tilt == 0 ? limits.a_rad.min : limits.a_rad.max;
+  if (!k.check(Frame::kPart, pose) || !k.inverse(Frame::kPart, pose, start.joints)) return std::nullopt;
+  start.pose = k.bed_reference();
+  if (!k.forward(Frame::kMachine, start.joints, start.pose)) return std::nullopt;
+  if (!machine_.bodies) return start;
+  if (!fits(start, 0, 0)) return std::nullopt;
+  if (machine_.part_height_mm > 0 && !fits(start, machine_.part_radius_mm, machine_.part_height_mm)) {
+    // The highest that the tool and what it hangs from leave room for.
+    double fitting = 0, too_high = machine_.part_height_mm;
+    while (too_high - fitting > 1) {
+      const double middle = 0.5 * (fitting + too_high);
+      (fits(start, machine_.part_radius_mm, middle) ? fitting : too_high) = middle;
+    }
+    start.part_height_mm = fitting;
+  }
+  start.model = machine_.bodies(start.part_radius_mm, start.part_height_mm, false);
+  return start;
+}
+
 Survey survey(const Machine& machine, const Plan& plan, std::uint64_t seed, int starts,
-              Walker::Density density, int attempts) {
+              Walker::Density density, int attempts, std::size_t corners) {
   Survey found;
   found.nearest.mm = std::numeric_limits<double>::infinity();
   Starts source(machine, seed, attempts);
-  for (int n = 0; n < starts; ++n) {
-    std::optional<Start> start = source.next();
-    if (!start) break;
-    Walker walker(*machine.mechanism, plan, start->model.get(), density);
-    const Way way = walker.walk(start->joints, start->pose);
+  const auto home_from = [&](Start& start) {
+    Walker walker(*machine.mechanism, plan, start.model.get(), density);
+    const Way way = walker.walk(start.joints, start.pose);
     ++found.starts;
-    found.on_switch += start->on_switch ? 1 : 0;
-    found.under_tool += start->part_height_mm > 0 && walker.room(start->pose).tool_mm < 2 ? 1 : 0;
+    found.on_switch += start.on_switch ? 1 : 0;
+    found.under_tool += start.part_height_mm > 0 && walker.room(start.pose).tool_mm < 2 ? 1 : 0;
     found.spread_mm = std::max(found.spread_mm, way.spread_mm);
     found.worst_condition = std::max(found.worst_condition, way.worst_condition);
     if (way.nearest.mm < found.nearest.mm) {
       found.nearest = way.nearest;
       found.nearest_at = way.at;
     }
-    if (way.end == Way::End::kHome) continue;
+    if (way.end == Way::End::kHome) return;
     ++(way.end == Way::End::kTouches ? found.touching : found.not_closed);
-    if (!found.failure) found.failure = Failure{std::move(*start), way};
+    if (!found.failure) found.failure = Failure{std::move(start), way};
+  };
+  for (std::size_t n = 0; n < std::min(corners, Starts::corner_count()); ++n)
+    if (std::optional<Start> start = source.corner(n)) {
+      ++found.corners;
+      home_from(*start);
+    }
+  for (int n = 0; n < starts; ++n) {
+    std::optional<Start> start = source.next();
+    if (!start) break;
+    home_from(*start);
   }
   return found;
 }

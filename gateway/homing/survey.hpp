@@ -46,6 +46,12 @@ class Starts {
   /// nullopt: found none in so many attempts, the machine can hardly stand anywhere.
   std::optional<Start> next();
 
+  /// Where homings that are not safe are found first: all around, at the lowest and highest tilts, the tool
+  /// on the workspace's rim and against the greatest part, which is as high as it can be. No chance is in
+  /// them. nullopt: the machine cannot stand at this one.
+  std::optional<Start> corner(std::size_t number);
+  static std::size_t corner_count();
+
  private:
   double in(double low, double high);
   double in_or_end(const Interval& range);
@@ -53,6 +59,7 @@ class Starts {
   bool draw_in_workspace(Start& start);
   bool draw_towards_switches(Start& start, bool one_on_switch);
   bool put_part(Start& start);
+  bool fits(Start& start, double radius_mm, double height_mm) const;
 
   const Machine& machine_;
   std::mt19937_64 random_;
@@ -65,7 +72,7 @@ struct Failure {
 };
 
 struct Survey {
-  int starts = 0, on_switch = 0, under_tool = 0;  ///< under_tool: a part reaches up to the tool
+  int starts = 0, corners = 0, on_switch = 0, under_tool = 0;  ///< under_tool: a part reaches up to the tool
   int touching = 0, not_closed = 0;
   std::optional<Failure> failure;  ///< the first one
   bodies::Clearance nearest{};
@@ -74,7 +81,8 @@ struct Survey {
   bool safe() const { return touching == 0 && not_closed == 0; }
 };
 
+/// `corners`: so many of the machine's are looked at before the random ones, and count.
 Survey survey(const Machine& machine, const Plan& plan, std::uint64_t seed, int starts,
-              Walker::Density density = {}, int attempts = 200);
+              Walker::Density density = {}, int attempts = 200, std::size_t corners = 0);
 
 }  // namespace kinebus::homing

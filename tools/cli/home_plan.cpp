@@ -76,9 +76,10 @@ class Search {
 
   /// `fixed`: only the part that is stated counts.
   homing::Survey run(bool fixed, json& tried) {
+    constexpr int kAttempts = 200;
     for (;;) {
-      homing::Survey found =
-          homing::survey(study_.machine(), study_.plan(), arguments_.seed, arguments_.starts);
+      homing::Survey found = homing::survey(study_.machine(), study_.plan(), arguments_.seed,
+                                            arguments_.starts, {}, kAttempts, homing::Starts::corner_count());
       tell(found, tried);
       const double height = study_.machine().part_height_mm;
       if (found.safe() || fixed || !touches_part(found) || height < 10) return found;
@@ -96,6 +97,7 @@ class Search {
   void tell(const homing::Survey& found, json& tried) const {
     const homing::Machine& m = study_.machine();
     json row = {{"starts", found.starts},
+                {"corners", found.corners},
                 {"one_on_its_switch", found.on_switch},
                 {"part_under_tool", found.under_tool},
                 {"contacts", found.touching},

@@ -65,7 +65,8 @@ class Panel {
       across = std::max(across, std::abs(seen(at).x));
       along = std::max(along, std::abs(seen(at).y));
     }
-    scale_ = std::min(0.5 * room.width / across, 0.5 * room.height / along);
+    constexpr double kMargin = 0.95;  // nothing touches the panel's edge
+    scale_ = kMargin * std::min(0.5 * room.width / across, 0.5 * room.height / along);
   }
 
   void add(const Shape& s, const Colour& colour) {

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <bit>
+#include <chrono>
 #include <cstdio>
 #include <fstream>
 #include <stdexcept>
@@ -10,15 +11,15 @@
 #include "gateway/description/machine_file.hpp"
 #include "tools/workspace/bodies_picture.hpp"
 #include "tools/workspace/boundary.hpp"
-#include "tools/workspace/optimise.hpp"
+#include "tools/workspace/optimise_text.hpp"
 #include "tools/workspace/picture.hpp"
 
 namespace kinebus::workspace {
 namespace {
 
 struct Arguments {
-  std::string machine, svg, bodies_svg, stl, ply;
-  double step_mm = 2, tilt_step_deg = 2, dexterous = 8;
+  std::string machine, output, svg, bodies_svg, stl, ply;
+  double step_mm = 2, tilt_step_deg = 2, dexterous = 8, legs_apart_mm = 40;
   int threads = 2;
   std::vector<double> wanted;  // radius, height, tilt from, tilt to
   bool optimise = false;
@@ -155,12 +156,47 @@ void print_dexterity(const Scan& s) {
   std::printf("  radius 0 .. %.0f mm\n", s.room.radius_mm);
 }
 
-void print_fitness(const char* name, const Fitness& f) {
+/// Says that something is going on when it takes its time.
+class Progress {
+ public:
+  void operator()(double share) {
+    const auto now = std::chrono::steady_clock::now();
+    if (now - told_ < std::chrono::seconds(2)) return;
+    told_ = now;
+    std::fprintf(stderr, "searching: %.0f %%\n", 100 * share);
+  }
+
+ private:
+  std::chrono::steady_clock::time_point told_ = std::chrono::steady_clock::now();
+};
+
+/// The machine found; an error where none keeps all rules, or the gateway would refuse it.
+MachineDescription search(const Arguments& a, const MachineDescription& start, const Wish& wish) {
+  const M1Geometry* before = four_legs(start);
+  if (before == nullptr) throw std::runtime_error("--optimise is for machines of type m1");
+  const Optimised better = optimise(start, wish, {.threads = a.threads}, Progress());
+  const Room& room = wish.room;
   std::printf(
-      "%-7s reached %5.1f %%  condition <= %.2f  leg angle <= %.1f deg  rails r = %.0f mm  travel %.0f .. "
-      "%.0f mm\n",
-      name, 100 * f.reached, f.worst_condition, f.worst_leg_angle_rad / kRadPerDeg, f.footprint_mm,
-      f.travel_mm.min, f.travel_mm.max);
+      "wanted: diameter %.0f mm, height %.0f .. %.0f mm, tilt %.0f .. %.0f deg; %d geometries tried\n",
+      2 * room.radius_mm, room.z_min_mm, room.z_max_mm, room.tilt_min_rad / kRadPerDeg,
+      room.tilt_max_rad / kRadPerDeg, better.tried);
+  const M1Geometry& after = *four_legs(better.machine);
+  const BodiesDescription& solid = *better.machine.bodies;
+  std::printf("before, price %.3f:\n%s", better.before.price(*before),
+              rules_text(better.before, *bodies::make_model(*before, solid)).c_str());
+  const bodies::Model model = bodies::make_model(after, solid);
+  std::printf("after, price %.3f:\n%s%s\n", better.after.price(after),
+              rules_text(better.after, *model).c_str(), legs_text(after).c_str());
+  if (!better.found())
+    throw std::runtime_error("no machine was found that keeps all rules there; the nearest one has " +
+                             broken_text(better.after, *model));
+  // What the gateway would say to it, homing included.
+  const std::string text = write_machine(better.machine);
+  auto read = parse_machine(text, "the machine found");
+  if (!read)
+    throw std::runtime_error("the gateway would refuse the machine found:\n" + to_string(read.error()));
+  write(a.output, [&](std::ostream& out) { out << text; });
+  return std::move(*read);
 }
 
 int run(const Arguments& a) {
@@ -169,17 +205,11 @@ int run(const Arguments& a) {
   if (!a.wanted.empty())
     room = {a.wanted[0], 0, a.wanted[1], a.wanted[2] * kRadPerDeg, a.wanted[3] * kRadPerDeg};
   if (a.optimise) {
-    const auto* m1 = std::get_if<M1Geometry>(&machine.kinematics);
-    if (m1 == nullptr) throw std::runtime_error("--optimise is for machines of type m1");
-    const Optimised better = optimise(*m1, room);
-    std::printf(
-        "wanted: diameter %.0f mm, height %.0f .. %.0f mm, tilt %.0f .. %.0f deg; %d geometries tried\n",
-        2 * room.radius_mm, room.z_min_mm, room.z_max_mm, room.tilt_min_rad / kRadPerDeg,
-        room.tilt_max_rad / kRadPerDeg, better.tried);
-    print_fitness("before", better.before);
-    print_fitness("after", better.after);
-    std::printf("\n%s", geometry_toml(better.geometry).c_str());
-    machine.kinematics = better.geometry;
+    Wish wish;
+    wish.legs_apart_mm = a.legs_apart_mm;
+    if (!a.wanted.empty()) wish.room = room;
+    room = wish.room;
+    machine = search(a, machine, wish);
   }
   const auto kinematics = make_kinematics(machine);
   if (!kinematics) throw std::runtime_error(kinematics.error().what);
@@ -248,8 +278,14 @@ int main(int argc, char** argv) {
     app.add_option("--ply", a.ply, "Boundary as PLY, coloured by the share of tilts");
     app.add_option("--wanted", a.wanted, "Another room: RADIUS HEIGHT TILT-FROM TILT-TO, mm and deg")
         ->expected(4);
-    app.add_flag("--optimise", a.optimise,
-                 "Search a geometry for that room, show before and after, scan the result");
+    CLI::Option* optimise =
+        app.add_flag("--optimise", a.optimise,
+                     "Search a machine for that room (default 100 200 -45 45) that keeps every rule, bodies "
+                     "among them; show which rule binds where, scan the result");
+    app.add_option("--legs-apart", a.legs_apart_mm, "With --optimise: mm between two legs (default 40)")
+        ->check(CLI::Range(0.0, 1000.0))
+        ->needs(optimise);
+    app.add_option("--write", a.output, "With --optimise: machine file of what was found")->needs(optimise);
     try {
       app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {

@@ -91,6 +91,21 @@ TEST(MachineFile, HomingThatRunsIntoSomethingIsRefusedWithThePairAndThePose) {
   EXPECT_NE(words.find("platform and lamp would"), std::string::npos) << words;
 }
 
+TEST(MachineFile, APartThatHomingCannotSpareIsRefusedWithThePairAndThePose) {
+  const auto with_part = [](int height) {
+    return parse_machine(
+        with_lines("m1.toml", "table_radius_mm = 100\npart_radius_mm = 100\npart_height_mm = " +
+                                  std::to_string(height) + "\n"),
+        "m1");
+  };
+  EXPECT_TRUE(with_part(200));
+  const auto machine = with_part(250);
+  ASSERT_FALSE(machine);
+  const std::string words = to_string(machine.error());
+  EXPECT_NE(words.find("homing that is not safe: begun at X "), std::string::npos) << words;
+  EXPECT_NE(words.find("part on the table and nozzle"), std::string::npos) << words;
+}
+
 TEST(MachineFile, AnOrderOfHomingIsStatedForAllJointsOrNone) {
   std::string text = file_text("cartesian.toml");
   const auto state = [&](const std::string& joint, int order) {

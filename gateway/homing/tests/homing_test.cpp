@@ -110,6 +110,37 @@ TEST(HomingSurvey, TheSameSeedGivesTheSameStarts) {
   }
 }
 
+// A tall part swings about the tilted table's axis while the first carriages stand on their switches.
+TEST(HomingSurvey, CornersFindAPartThatIsTooTall) {
+  HomingStudy study(m1_with_bodies());
+  const auto corners_with = [&study](double radius, double height) {
+    study.set_part(radius, height);
+    return survey(study.machine(), study.plan(), 1, 0, {}, 1, 32);
+  };
+  const Survey promised = corners_with(100, 200);
+  EXPECT_GT(promised.corners, 16);
+  EXPECT_EQ(promised.starts, promised.corners);
+  EXPECT_TRUE(promised.safe()) << told(promised);
+  const Survey tall = corners_with(100, 250);
+  EXPECT_GT(tall.touching, 0);
+  EXPECT_LE(tall.failure->way.nearest.mm, 0.2);
+}
+
+// Rail 1 stood on its switch, moved by hand, and the spindle as askew as it works.
+TEST(HomingWay, M4TiltsFartherThanItWorksAndClosesAllTheWay) {
+  const MachineDescription machine = shipped("m4");
+  const HomingStudy study(machine);
+  for (Pose pose : {Pose{38.09, -222.6, 85.28, 25 * kRadPerDeg, 0, 0},
+                    Pose{6.178, -218.5, 66.65, 25 * kRadPerDeg, 0, 0}}) {
+    JointVector joints{};
+    ASSERT_TRUE(study.machine().mechanism->inverse(Frame::kMachine, pose, joints));
+    const bodies::Model model = make_collision_model(machine);
+    const Way way = Walker(*study.machine().mechanism, study.plan(), model.get(), {}).walk(joints, pose);
+    EXPECT_EQ(way.end, Way::End::kHome) << model->words(way.nearest);
+    EXPECT_LT(way.worst_condition, 30);
+  }
+}
+
 // Carriages that look for switches at their upper ends drive the table into the nozzle.
 TEST(HomingSurvey, FindsThatHomingUpwardsDrivesThePartIntoTheTool) {
   MachineDescription machine = m1_with_bodies();

@@ -5,9 +5,10 @@
 #include <sstream>
 
 #include "gateway/bodies/tests/legs_below.hpp"
+#include "gateway/description/machine_file.hpp"
 #include "tools/workspace/bodies_picture.hpp"
 #include "tools/workspace/boundary.hpp"
-#include "tools/workspace/optimise.hpp"
+#include "tools/workspace/optimise_text.hpp"
 #include "tools/workspace/picture.hpp"
 
 namespace kinebus::workspace {
@@ -166,20 +167,88 @@ TEST(Picture, IsAnSvgWithAllItsParts) {
   EXPECT_EQ(svg.find("nan"), std::string::npos);
 }
 
-TEST(Optimise, ABadGeometryBecomesOneThatReachesTheRoom) {
-  M1Geometry bad;
-  for (M1Leg& leg : bad.legs) leg.length_mm = 420;
-  const Room room{100, 0, 200, -30 * kRadPerDeg, 45 * kRadPerDeg};
-  const Optimised o = optimise(bad, room);
-  EXPECT_LT(o.before.reached, 0.9);
-  EXPECT_EQ(o.after.reached, 1);
-  EXPECT_LE(o.after.worst_condition, bad.max_condition);
-  EXPECT_LE(o.after.worst_leg_angle_rad, bad.max_leg_angle_rad);
-  M1Geometry g = o.geometry;
-  const auto m1 = make_m1_kinematics(g);
-  ASSERT_TRUE(m1);
-  const Scan s = scan(**m1, room, coarse(2));
-  EXPECT_GT(volume_mm3(s, -1), 0.98 * std::numbers::pi * 100 * 100 * 200);
+std::string said(const std::vector<Finding>& findings) {
+  std::string text;
+  for (const Finding& f : findings) text += printed("rule %d: %g ", static_cast<int>(f.rule), f.worst);
+  return text;
+}
+
+TEST(LegRules, TheDefaultMachineKeepsThemAll) {
+  const MachineDescription d = default_m1();
+  const M1Geometry& g = *four_legs(d);
+  const Wish wish;
+  const Judgement judged =
+      judge(g, d.bodies ? *d.bodies : BodiesDescription{}, wish, poses_of(wish.room, Density::fine()));
+  EXPECT_TRUE(judged.holds()) << said(judged.findings);
+  // As the header of its geometry says.
+  EXPECT_NEAR(judged.of(LegRule::kLegAngle).worst / kRadPerDeg, 27.4, 0.1);
+  EXPECT_NEAR(judged.of(LegRule::kCondition).worst, 7.34, 0.02);
+  EXPECT_NEAR(judged.travel_mm.min, 53.8, 0.2);
+  EXPECT_NEAR(judged.travel_mm.max, 525, 0.2);
+}
+
+TEST(LegRules, WhatTheKinematicsRefuseIsBroken) {
+  const MachineDescription d = default_m1();
+  M1Geometry g = *four_legs(d);
+  const Wish wish;
+  const auto poses = poses_of(wish.room, {});
+  const auto verdict = [&](const Pose& pose) {
+    M1Geometry free = g;
+    free.limits = {};
+    for (M1Leg& leg : free.legs) leg.travel_mm = {};
+    return (*make_m1_kinematics(free))->check(Frame::kPart, pose).has_value();
+  };
+  for (const double length : {991.0, 900.0, 800.0, 700.0}) {
+    for (M1Leg& leg : g.legs) leg.length_mm = length;
+    for (std::size_t k = 0; k < poses.size(); k += 17)
+      EXPECT_EQ(judge(g, std::nullopt, wish, {poses[k]}).holds(), verdict(poses[k])) << length << " " << k;
+  }
+}
+
+TEST(Optimise, ABadMachineBecomesOneThatKeepsEveryRuleAndIsNoWorseThanTheDefault) {
+  MachineDescription bad = default_m1();
+  auto& g = std::get<M1Geometry>(bad.kinematics);
+  for (std::size_t i = 0; i < 4; ++i) {
+    M1Leg& leg = g.legs[i];
+    leg.length_mm = 520;
+    leg.carriage_above = true;
+    // Legs 3 and 4 cross.
+    leg.attachment_mm = {i < 2 ? 75.0 : -75.0, i % 2 == 0 ? 75.0 : -75.0, 0};
+    leg.foot_mm = {i < 2 ? 310.0 : -310.0, i % 3 == 0 ? 210.0 : -210.0, 0};
+  }
+  const Wish wish;
+  const Optimised o = optimise(bad, wish);
+  EXPECT_FALSE(o.before.holds());
+  ASSERT_TRUE(o.found()) << said(o.after.findings);
+  const MachineDescription d = default_m1();
+  const Judgement default_machine =
+      judge(*four_legs(d), o.machine.bodies, wish, poses_of(wish.room, Density::fine()));
+  EXPECT_LE(o.after.price(*four_legs(o.machine)), 1.02 * default_machine.price(*four_legs(d)));
+
+  // The gateway takes the file as it is.
+  const auto read = parse_machine(write_machine(o.machine), "found.toml");
+  ASSERT_TRUE(read) << to_string(read.error());
+  EXPECT_EQ(*read, o.machine);
+  // And says the same of it, pose by pose.
+  const auto kinematics = *make_kinematics(*read);
+  const bodies::Model model = make_collision_model(*read);
+  const Scan s = scan(*kinematics, wish.room, coarse(2), model.get());
+  EXPECT_TRUE(s.meetings.empty());
+  EXPECT_NEAR(volume_mm3(s, -1), std::numbers::pi * 100 * 100 * 200, 1);
+
+  const std::string text = rules_text(o.after, *model);
+  EXPECT_NE(text.find("binds"), std::string::npos) << text;
+  EXPECT_EQ(text.find("BROKEN"), std::string::npos) << text;
+}
+
+TEST(Optimise, WhereNothingKeepsTheRulesThatIsSaid) {
+  // No leg stays under a platform that tilts so far.
+  const Wish wish{.room = {100, 0, 200, -80 * kRadPerDeg, 80 * kRadPerDeg}};
+  const Optimised o = optimise(default_m1(), wish, {.threads = 2, .begins = 2, .tries = 120});
+  EXPECT_FALSE(o.found());
+  const bodies::Model model = bodies::make_model(*four_legs(o.machine), *o.machine.bodies);
+  const std::string text = broken_text(o.after, *model);
+  EXPECT_NE(text.find(" at X "), std::string::npos) << text;
 }
 
 }  // namespace
