@@ -1,11 +1,15 @@
 // M906 of a text session: the motors' currents, told and set. Letters name motors where an axis has one of
 // its own; on a parallel mechanism motors are joints, and have numbers.
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
+#include <span>
+#include <string>
 
 #include "gateway/machine/core.hpp"
 
@@ -35,7 +39,9 @@ struct CurrentWords {
       text.remove_prefix(static_cast<std::size_t>(end - rest.c_str()));
     }
   }
-  std::optional<double> operator[](char letter) const { return value[static_cast<std::size_t>(letter - 'A')]; }
+  std::optional<double> operator[](char letter) const {
+    return value[static_cast<std::size_t>(letter - 'A')];
+  }
 };
 
 }  // namespace
@@ -53,7 +59,8 @@ std::optional<std::size_t> Gateway::Core::motor_of_axis(std::size_t axis) const 
   std::optional<std::size_t> own;
   for (std::size_t joint = 0; joint < std::min(rows, machine_.joints.size()); ++joint) {
     bool alone = moves(joint, axis);
-    for (std::size_t other = 0; other < kPoseAxes; ++other) alone = alone && (other == axis || !moves(joint, other));
+    for (std::size_t other = 0; other < kPoseAxes; ++other)
+      alone = alone && (other == axis || !moves(joint, other));
     if (!alone) continue;
     if (own) return std::nullopt;
     own = joint;
@@ -89,9 +96,10 @@ Result<std::string, Refusal> Gateway::Core::set_currents(std::string_view text) 
     if (!run) continue;
     const auto joint = motor_of_axis(axis);
     if (!joint)
-      return refused(say("no motor moves %1 alone on this machine: name a joint by its number, as M906 I1 S800 "
-                         "for %2",
-                         std::string(1, letter), machine_.joints.front().name));
+      return refused(
+          say("no motor moves %1 alone on this machine: name a joint by its number, as M906 I1 S800 "
+              "for %2",
+              std::string(1, letter), machine_.joints.front().name));
     asked.motors.push_back({.joint = *joint, .run_ma = *run, .hold_ma = words['H']});
   }
   const auto index = words['I'];
@@ -99,7 +107,8 @@ Result<std::string, Refusal> Gateway::Core::set_currents(std::string_view text) 
     const auto joints = static_cast<double>(machine_.joints.size());
     if (!(*index >= 1 && *index <= joints) || *index != std::floor(*index))
       return refused(say("I is the number of a joint, 1 to %1", machine_.joints.size()));
-    if (!words['S'] && !words['H']) return refused(say("M906 I needs the run current S or the hold current H"));
+    if (!words['S'] && !words['H'])
+      return refused(say("M906 I needs the run current S or the hold current H"));
     asked.motors.push_back(
         {.joint = static_cast<std::size_t>(*index) - 1, .run_ma = words['S'], .hold_ma = words['H']});
   } else if (words['S'] || (asked.motors.empty() && words['H'])) {

@@ -58,9 +58,10 @@ Result<void, Refusal> MotorSettings::set(const command::SetMotorCurrents& asked)
     const double ratio = static_cast<double>(file_[motor.joint].hold_ma) / file_[motor.joint].run_ma;
     const double hold = motor.hold_ma.value_or(motor.run_ma ? std::round(run * ratio) : now.hold_ma);
     if (!(run >= 50 && run <= most))
-      return refused(say("%1: a run current is 50 to %2 mA; max_current_ma of [joint.%3] in the machine file "
-                         "says how much the motor bears",
-                         joint.name, static_cast<int>(most), joint.name));
+      return refused(
+          say("%1: a run current is 50 to %2 mA; max_current_ma of [joint.%3] in the machine file "
+              "says how much the motor bears",
+              joint.name, static_cast<int>(most), joint.name));
     if (!(hold >= 0 && hold <= run))
       return refused(say("%1: a hold current is 0 to the run current, %2 mA", joint.name,
                          static_cast<int>(std::lround(run))));
@@ -154,8 +155,7 @@ void MotorSettings::ask() {
       return;
     case Step::kTuneRuns:
     case Step::kTuneRead: {
-      const ObjectAddress base =
-          work.step == Step::kTuneRuns ? object::kAutoTune : kTunedObjects[work.next];
+      const ObjectAddress base = work.step == Step::kTuneRuns ? object::kAutoTune : kTunedObjects[work.next];
       work.asked = on_axis(base, axis);
       sdo.glance(*work.asked);
       return;
@@ -216,10 +216,10 @@ void MotorSettings::measured(BusTime now, const SdoResult& answer) {
 void MotorSettings::restore_tuned(BusTime now) {
   Work& work = *work_;
   const JointDescription& joint = machine_.joints[work.joint];
-  events_.message(
-      now, say("%1: measured %2 Ohm, %3 mH, encoder offset %4: resistance_ohm, inductance_mh and "
-               "encoder_offset_counts of [joint.%5.motor] in the machine file keep them",
-               joint.name, thousandths(work.found[0]), thousandths(work.found[1]), work.found[2], joint.name));
+  events_.message(now, say("%1: measured %2 Ohm, %3 mH, encoder offset %4: resistance_ohm, inductance_mh and "
+                           "encoder_offset_counts of [joint.%5.motor] in the machine file keep them",
+                           joint.name, thousandths(work.found[0]), thousandths(work.found[1]), work.found[2],
+                           joint.name));
   work.step = Step::kWrite;
   work.next = 0;
   for (const ParameterWrite& write : configure_node(machine_, joint.node_id).writes)

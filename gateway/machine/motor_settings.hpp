@@ -74,7 +74,7 @@ class MotorSettings {
   std::deque<NodeLink>& links_;
   ParameterWatch& parameters_;
   EventQueue& events_;
-  std::vector<Currents> file_;                  ///< by joint: what the machine file says
+  std::vector<Currents> file_;                   ///< by joint: what the machine file says
   std::vector<std::optional<Currents>> wanted_;  ///< by joint
   std::optional<std::size_t> to_tune_;
   std::optional<Work> work_;

@@ -2,9 +2,11 @@
 
 #include <QAbstractItemView>
 #include <QChar>
+#include <QFrame>
 #include <QGridLayout>
 #include <QHBoxLayout>
 #include <QHeaderView>
+#include <QLatin1Char>
 #include <QScrollArea>
 #include <QSignalBlocker>
 #include <QStringList>
@@ -60,9 +62,10 @@ MotorsPanel::MotorsPanel(Desk& desk, QWidget* parent) : SpeakingWidget(parent), 
   connect(&desk_.session, &Session::machine_changed, this, &MotorsPanel::take_machine);
   connect(motor_, &QComboBox::currentIndexChanged, this, &MotorsPanel::take_motor);
   says([this] {
-    bench_->setText(tr("One node on a bench, without a machine file: stop the gateway, then %1 on the computer "
-                       "with the bus shows, sets, jogs and measures its motors.")
-                        .arg(Format::isolated(QStringLiteral("kinebus-card"))));
+    bench_->setText(
+        tr("One node on a bench, without a machine file: stop the gateway, then %1 on the computer "
+           "with the bus shows, sets, jogs and measures its motors.")
+            .arg(Format::isolated(QStringLiteral("kinebus-card"))));
     take_machine();
   });
 }
@@ -114,8 +117,9 @@ QWidget* MotorsPanel::make_currents() {
   grid->setColumnStretch(1, 1);
   card->column()->addLayout(grid);
   card->column()->addStretch(1);
-  connect(set_, &QPushButton::clicked, this,
-          [this] { desk_.session.set_motor_currents(motor_->currentIndex(), run_->value(), hold_->value()); });
+  connect(set_, &QPushButton::clicked, this, [this] {
+    desk_.session.set_motor_currents(motor_->currentIndex(), run_->value(), hold_->value());
+  });
   says([this, heading, run_name, hold_name] {
     heading->setText(tr("Motor"));
     motor_->setAccessibleName(tr("Motor"));
@@ -243,8 +247,7 @@ void MotorsPanel::take_status() {
 void MotorsPanel::jog(int sign) {
   const joblink::Joint* of = joint();
   if (of == nullptr) return;
-  desk_.session.jog_motor(motor_->currentIndex(),
-                          sign * step_->value() * (of->rotary() ? kRadPerDegree : 1));
+  desk_.session.jog_motor(motor_->currentIndex(), sign * step_->value() * (of->rotary() ? kRadPerDegree : 1));
 }
 
 }  // namespace kinebus::gui

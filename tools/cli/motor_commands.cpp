@@ -76,8 +76,7 @@ void add_motor_commands(CLI::App& app, const std::shared_ptr<MachineOptions>& op
       "current", "The motors' currents, or those of one set: kinebus current tower1 --run 1500");
   current->add_option("joint", *name, "Its name in the machine file");
   current->add_option("--run", *run, "mA in motion, peak of a phase")->check(CLI::Range(0, 5000));
-  current
-      ->add_option("--hold", *hold, "mA at rest (default: the machine file's share of the run current)")
+  current->add_option("--hold", *hold, "mA at rest (default: the machine file's share of the run current)")
       ->check(CLI::Range(0, 5000));
   current->callback([=, &exit_code] {
     const bool sets = run->has_value() || hold->has_value();
@@ -146,8 +145,7 @@ void add_motor_commands(CLI::App& app, const std::shared_ptr<MachineOptions>& op
     asked.set_distance(*distance * unit);
     asked.set_speed_per_s(*speed * unit);
     client.ask(std::move(request));
-    exit_code = wait_until_rest(
-        client, [](const Status& s) { return s.state() == joblink::STATE_READY; });
+    exit_code = wait_until_rest(client, [](const Status& s) { return s.state() == joblink::STATE_READY; });
   });
 }
 

@@ -141,9 +141,10 @@ TEST_F(MotorSettingsTest, WhatCannotBeIsRefusedInWords) {
   ASSERT_TRUE(bring_up()) << rig.story();
   EXPECT_EQ(refusal("M906 X800"),
             "no motor moves X alone on this machine: name a joint by its number, as M906 I1 S800 for tower1");
-  EXPECT_EQ(refusal("M906 I1 S2500"),
-            "tower1: a run current is 50 to 2000 mA; max_current_ma of [joint.tower1] in the machine file says "
-            "how much the motor bears");
+  EXPECT_EQ(
+      refusal("M906 I1 S2500"),
+      "tower1: a run current is 50 to 2000 mA; max_current_ma of [joint.tower1] in the machine file says "
+      "how much the motor bears");
   EXPECT_NE(refusal("M906 I1 S20").find("50 to 2000"), std::string::npos);
   EXPECT_EQ(refusal("M906 I1 S800 H900"), "tower1: a hold current is 0 to the run current, 800 mA");
   EXPECT_EQ(refusal("M906 I9 S800"), "I is the number of a joint, 1 to 6");
@@ -254,7 +255,8 @@ TEST(MotorLetters, AnAxisWithAMotorOfItsOwnIsNamedByItsLetter) {
   ASSERT_TRUE(corexy.gateway->carry_out(command::BringUp{}));
   ASSERT_TRUE(corexy.reach(MachineState::kUnhomed, 30s)) << corexy.story();
   EXPECT_FALSE(corexy.gateway->text_line("M906 Y400")) << "both belts move Y";
-  EXPECT_TRUE(corexy.gateway->text_line("M906 Z400")) << corexy.gateway->text_line("M906 Z400").error().words.english();
+  EXPECT_TRUE(corexy.gateway->text_line("M906 Z400"))
+      << corexy.gateway->text_line("M906 Z400").error().words.english();
 }
 
 }  // namespace
