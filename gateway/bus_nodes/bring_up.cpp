@@ -29,7 +29,6 @@ BringUp::BringUp(const MachineDescription& machine, std::deque<NodeLink>& links,
     : machine_(machine), links_(links), rate_(rate) {
   for (const NodeLink& link : links) {
     Node node;
-    node.configuration = configure_node(machine, link.id());
     for (const JointDescription& joint : machine.joints)
       if (joint.node_id == link.id()) node.used[joint.axis & 1u] = true;
     nodes_.push_back(std::move(node));
@@ -38,9 +37,11 @@ BringUp::BringUp(const MachineDescription& machine, std::deque<NodeLink>& links,
 
 void BringUp::start(BusTime now, bool alone) {
   for (NodeLink& link : links_) link.forget();
-  for (Node& node : nodes_) {
-    node.config = Config::kCheck;
-    node.rewritten = node.differs = false;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    // The description's currents may be others than at the last one.
+    nodes_[i].configuration = configure_node(machine_, links_[i].id());
+    nodes_[i].config = Config::kCheck;
+    nodes_[i].rewritten = nodes_[i].differs = false;
   }
   foreign_ = failed_ = equalising_ = false;
   out_.clear();

@@ -26,12 +26,12 @@ Sentence to_string(std::uint8_t node, const SdoResult& result) {
 SdoChannel::SdoChannel(std::uint8_t node_id) : node_id_(node_id) {}
 
 void SdoChannel::read(ObjectAddress address) {
-  requests_.push_back({.address = address, .read = true, .glance = false, .size = 8, .bytes = {}});
+  requests_.push_back({.address = address, .read = true, .apart = false, .size = 8, .bytes = {}});
 }
 
 void SdoChannel::glance(ObjectAddress address) {
   if (!idle()) return;
-  requests_.push_back({.address = address, .read = true, .glance = true, .size = 8, .bytes = {}});
+  requests_.push_back({.address = address, .read = true, .apart = true, .size = 8, .bytes = {}});
 }
 
 std::optional<SdoResult> SdoChannel::next_glance(ObjectAddress base) {
@@ -42,9 +42,15 @@ std::optional<SdoResult> SdoChannel::next_glance(ObjectAddress base) {
 }
 
 void SdoChannel::write(const ParameterWrite& write) {
-  Request request{.address = write.address, .read = false, .glance = false, .size = write.size, .bytes = {}};
+  Request request{.address = write.address, .read = false, .apart = false, .size = write.size, .bytes = {}};
   put_le(request.bytes, static_cast<std::uint64_t>(write.value), write.size);
   requests_.push_back(request);
+}
+
+void SdoChannel::write_apart(const ParameterWrite& write) {
+  if (!idle()) return;
+  this->write(write);
+  requests_.back().apart = true;
 }
 
 std::optional<SdoResult> SdoChannel::next_result() {
@@ -81,7 +87,7 @@ void SdoChannel::settle() {
     result.abort = client_.abort_code();
     if (result.abort == AbortCode::kTimeout) {
       ++counters_.timeouts;
-      if (attempts_ < kAttempts && !request.glance) return;  // next_frame() begins again
+      if (attempts_ < kAttempts && !(request.read && request.apart)) return;  // next_frame() begins again
     } else if (disturbed(result.abort)) {
       ++counters_.aborts;
       if (attempts_ < kDisturbedAttempts) return;
@@ -94,7 +100,7 @@ void SdoChannel::settle() {
     result.value = slot < 0 ? static_cast<std::int64_t>(raw)
                             : value_of(kNodeObjects[static_cast<std::size_t>(slot)].type, raw);
   }
-  if (request.glance)
+  if (request.apart)
     glanced_ = result;
   else
     results_.push_back(result);

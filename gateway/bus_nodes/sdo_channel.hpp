@@ -43,6 +43,8 @@ class SdoChannel {
   std::optional<SdoResult> next_result();
   /// A read for displays, when the channel is idle: tried once, its result comes apart from the others.
   void glance(ObjectAddress address);
+  /// A write when the channel is idle, beside whatever is asked for next: its result comes as a glance's.
+  void write_apart(const ParameterWrite& write);
   /// Of this object, on either axis.
   std::optional<SdoResult> next_glance(ObjectAddress base);
   /// Forgets all requests and results.
@@ -63,7 +65,7 @@ class SdoChannel {
   struct Request {
     ObjectAddress address;
     bool read = false;
-    bool glance = false;
+    bool apart = false;  ///< its result does not come in the order of the others
     std::uint8_t size = 0;
     std::array<std::uint8_t, 8> bytes{};
   };

@@ -111,9 +111,10 @@ struct JointDescription {
   double stop_accel_per_s2 = 10000;  ///< path deceleration and stop ramp together stay below it
   std::uint16_t run_current_ma = 2000;
   std::uint16_t hold_current_ma = 1500;
-  std::optional<MotorDescription> motor;    ///< none: the node's cautious guess, no encoder
-  std::optional<ScaleDescription> scale;    ///< none: nobody but the motor knows where the joint is
-  std::optional<HomingDescription> homing;  ///< none: the position at power-up is zero (E, endless C)
+  std::optional<std::uint32_t> max_current_ma{};  ///< what M906 may ask for at most; none: run_current_ma
+  std::optional<MotorDescription> motor;          ///< none: the node's cautious guess, no encoder
+  std::optional<ScaleDescription> scale;          ///< none: nobody but the motor knows where the joint is
+  std::optional<HomingDescription> homing;        ///< none: the position at power-up is zero (E, endless C)
   JointCalibration calibration;
   /// Its position is measured.
   bool has_encoder() const { return motor && motor->encoder != MotorDescription::Encoder::kNone; }

@@ -55,6 +55,9 @@ class Rules {
     require(j.hold_current_ma <= j.run_current_ma, {key + "hold_current_ma", key + "run_current_ma"},
             Sentence::verbatim(std::to_string(j.hold_current_ma)),
             say("at most run_current_ma, %1", j.run_current_ma));
+    const std::uint32_t most = j.max_current_ma.value_or(j.run_current_ma);
+    require(most >= j.run_current_ma && most <= 5000, {key + "max_current_ma", key + "run_current_ma"},
+            Sentence::verbatim(std::to_string(most)), say("run_current_ma, %1, to 5000", j.run_current_ma));
     const auto address = std::pair{j.node_id, j.axis};
     require(addresses_.insert(address).second, {key + "axis", key + "node"},
             say("node %1 axis %2", j.node_id, j.axis == 0 ? 'A' : 'B'),

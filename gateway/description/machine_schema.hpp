@@ -152,6 +152,7 @@ void visit_joint(V& v, JointDescription& j, bool own_travel) {
   v.number("stop_accel_" + u + "_per_s2", j.stop_accel_per_s2, {0.1, 1e7}, Need::kRequired, unit);
   v.integer("run_current_ma", j.run_current_ma, 50, 5000, Need::kRequired);
   v.integer("hold_current_ma", j.hold_current_ma, 0, 5000, Need::kRequired);
+  v.optional_integer("max_current_ma", j.max_current_ma);
   v.optional_table("motor", j.motor, [&](MotorDescription& m) {
     v.number("resistance_ohm", m.resistance_ohm, {0, 60}, Need::kOptional);
     v.number("inductance_mh", m.inductance_mh, {0, 60}, Need::kOptional);

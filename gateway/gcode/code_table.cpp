@@ -295,7 +295,9 @@ constexpr std::array kM = {
     m(871, M::kHarmless, true, "", "probe temperature"),
     m(881, M::kHarmless, true, "", "filament"),
     m(900, M::kHarmless, true, "", "pressure advance"),
-    m(906, M::kHarmless, true, "", "motor currents: [joint.NAME] of the machine file has them"),
+    m(906, M::kHarmless, true, "X Y Z A C E, or I S; H",
+      "in a job; on the console and of a print host: run current in mA of an axis' motor, or S of joint I; H "
+      "hold current; without words: tells them"),
     m(907, M::kHarmless, true, "", "motor currents: [joint.NAME] of the machine file has them"),
     m(908, M::kHarmless, true, "", "motor currents"),
     m(909, M::kHarmless, true, "", "drivers"),

@@ -173,9 +173,9 @@ bool Core::run_machine_code(Code code) {
 bool Core::firmware_setting(Code code) {
   const std::string name = m_name(code.number);
   if (code.number == 906 || code.number == 907) {
-    note(code.number, say("%1 has no effect: run_current_ma and hold_current_ma of [joint.NAME] in the "
-                          "machine file say what "
-                          "a motor gets; on a bench kinebus-card sets it at once",
+    note(code.number, say("%1 has no effect in a job: run_current_ma and hold_current_ma of [joint.NAME] in "
+                          "the machine file say what a motor gets; M906 on the console or of a print host "
+                          "sets it",
                           name));
     return true;
   }

@@ -41,6 +41,11 @@ constexpr std::array<Row, kCommandKinds> kTable{{
     {command::kind<command::SetOutput>, phrase("set an output"), kAny},
     {command::kind<command::SetSpindle>, phrase("turn the spindle"), kAny & ~in(S::kAlarm)},
     {command::kind<command::SetWorkOffset>, phrase("set a work offset"), kAny},
+    // In motion it waits for the end of it.
+    {command::kind<command::SetMotorCurrents>, phrase("set a motor's currents"),
+     kAny & ~in(S::kOff, S::kBringUp)},
+    {command::kind<command::TuneMotor>, phrase("measure a motor"), in(S::kUnhomed, S::kReady)},
+    {command::kind<command::JogMotor>, phrase("jog"), in(S::kReady)},
 }};
 
 constexpr bool table_is_in_order() {

@@ -8,8 +8,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "gateway/description/device_description.hpp"
 #include "gateway/jobs/byte_source.hpp"
@@ -79,6 +81,25 @@ struct SetWorkOffset {
                   ///< called
   bool here = false;
 };
+/// Until the gateway is started anew; then the machine file's count again.
+struct MotorCurrents {
+  std::size_t joint = 0;  ///< index into MachineDescription::joints
+  /// mA, peak of a phase. None: as it is, or for the hold current, the file's share of the new run current.
+  std::optional<double> run_ma{}, hold_ma{};
+};
+struct SetMotorCurrents {
+  std::vector<MotorCurrents> motors;
+};
+/// The node measures the motor's winding while it stands.
+struct TuneMotor {
+  std::size_t joint = 0;
+};
+/// One joint alone, all others end where they were.
+struct JogMotor {
+  std::size_t joint = 0;
+  double distance = 0;     ///< mm or rad
+  double speed_per_s = 0;  ///< of the joint; 0: slow
+};
 
 }  // namespace command
 
@@ -86,7 +107,8 @@ using Command =
     std::variant<command::BringUp, command::Home, command::GoToReference, command::Jog, command::Run,
                  command::OpenLines, command::Hold, command::Resume, command::Cancel, command::Stop,
                  command::Clear, command::SetFeedOverride, command::MotorsOff, command::SetTemperature,
-                 command::SetFan, command::SetOutput, command::SetSpindle, command::SetWorkOffset>;
+                 command::SetFan, command::SetOutput, command::SetSpindle, command::SetWorkOffset,
+                 command::SetMotorCurrents, command::TuneMotor, command::JogMotor>;
 
 /// A kind of command: its place in Command.
 using CommandKind = std::size_t;

@@ -65,6 +65,7 @@ Gateway::Core::Core(const MachineDescription& machine, Options options, std::opt
       parameters_(machine_, links_),
       bring_up_(machine_, links_, rate_),
       homing_(machine_, homing_plan(machine_, *kinematics_), links_),
+      motors_(machine_, links_, parameters_, events_),
       currents_(links_.size()),
       scales_(machine_, axes_),
       position_(machine_, *kinematics_, axes_, group_),
@@ -204,6 +205,7 @@ void Gateway::Core::on_time(BusTime now) {
   scales_.on_time(now_, links_,
                   position_.homed() && state_.is_one_of(MachineState::kReady, MachineState::kHeld),
                   may_glance());
+  motors_.on_time(now_, may_glance(), state_.idle() || state_.is(MachineState::kHeld) || lines_idle());
   watch_parameters();
   watch_nodes();
   watch_devices();
@@ -285,7 +287,7 @@ void Gateway::Core::watch_nodes() {
 }
 
 void Gateway::Core::watch_parameters() {
-  const auto change = parameters_.on_time(now_, may_glance());
+  const auto change = parameters_.on_time(now_, may_glance() && !motors_.busy());
   if (!change) return;
   const std::uint8_t node = links_[change->node].id();
   events_.alarm(

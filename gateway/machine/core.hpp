@@ -23,6 +23,7 @@
 #include "gateway/machine/line_desk.hpp"
 #include "gateway/machine/manual_motion.hpp"
 #include "gateway/machine/motor_currents.hpp"
+#include "gateway/machine/motor_settings.hpp"
 #include "gateway/machine/node_watch.hpp"
 #include "gateway/machine/parameter_watch.hpp"
 #include "gateway/machine/position.hpp"
@@ -78,6 +79,10 @@ class Gateway::Core {
   Result<std::string, Refusal> text_line(std::string_view line);
   std::string position_text();
   std::string settings_text() const;
+  std::string currents_text() const;
+  /// The joint that moves for this axis of the pose and for no other; none on a mechanism that couples them.
+  std::optional<std::size_t> motor_of_axis(std::size_t axis) const;
+  Result<std::string, Refusal> set_currents(std::string_view words);
 
   MachineState state() const { return state_.now(); }
   std::optional<MachineEvent> next_event() { return events_.pop(); }
@@ -108,6 +113,9 @@ class Gateway::Core {
   Done on(command::SetOutput& asked) { return heat_.set_output(asked.index, asked.ratio); }
   Done on(command::SetSpindle& asked) { return heat_.set_spindle(asked.rpm); }
   Done on(command::SetWorkOffset& asked);
+  Done on(command::SetMotorCurrents& asked) { return motors_.set(asked); }
+  Done on(command::TuneMotor& asked) { return motors_.tune(asked.joint); }
+  Done on(command::JogMotor& asked);
 
   void enter(MachineState state) { state_.enter(now_, state); }
   void begin_bring_up();
@@ -186,6 +194,7 @@ class Gateway::Core {
   ParameterWatch parameters_;
   BringUp bring_up_;
   MachineHoming homing_;
+  MotorSettings motors_;
   MotorCurrents currents_;
   ScaleReadings scales_;
   Position position_;

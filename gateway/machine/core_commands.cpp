@@ -1,6 +1,7 @@
 // The commands, refused with a reason or begun; and lines as they come.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -17,12 +18,29 @@ bool takes_effect_at_once(const canonical::Line& line) {
   return thermal != nullptr && !thermal->wait && heater_of(*thermal);
 }
 
+bool moves_or_measures(CommandKind command) {
+  static constexpr std::array kKinds{command::kind<command::Home>,      command::kind<command::GoToReference>,
+                                     command::kind<command::Jog>,       command::kind<command::Run>,
+                                     command::kind<command::OpenLines>, command::kind<command::Resume>,
+                                     command::kind<command::TuneMotor>, command::kind<command::JogMotor>};
+  return std::find(kKinds.begin(), kKinds.end(), command) != kKinds.end();
+}
+
+constexpr double kFarthestMotorJog = 20;       // mm
+constexpr double kFarthestMotorTurn = 0.5236;  // rad, 30 degrees
+constexpr double kMotorJogSpeed = 5;           // mm/s
+constexpr double kMotorTurnSpeed = 0.1;        // rad/s
+constexpr double kJointsMeet = 1e-3;           // mm or rad: as exact as a pose is found
+
 }  // namespace
 
 Done Gateway::Core::may(CommandKind command) const {
   if (command == command::kind<command::Stop>) return {};
   if (!defect_.empty()) return refused(defect_);
   const MachineState state = state_.now();
+  if (const auto joint = motors_.tuned(); joint && moves_or_measures(command))
+    return refused(
+        say("cannot %1 while a motor is measured (%2)", sentence(command), machine_.joints[*joint].name));
   if (allowed(command, state)) {
     const bool for_interrupted =
         (command == command::kind<command::Resume> && state != MachineState::kHeld) ||
@@ -111,6 +129,44 @@ void Gateway::Core::end_jog() {
   runner_->hold(now_);
   rest_.begin(now_);
   enter(MachineState::kCancelling);
+}
+
+/// A jog of the tool to where this one joint's new value has it.
+Done Gateway::Core::on(command::JogMotor& asked) {
+  if (asked.joint >= machine_.joints.size())
+    return refused(say("there is no joint %1: they are 1 to %2", asked.joint + 1, machine_.joints.size()));
+  const JointDescription& joint = machine_.joints[asked.joint];
+  const double farthest = joint.rotary ? kFarthestMotorTurn : kFarthestMotorJog;
+  if (!std::isfinite(asked.distance) || !std::isfinite(asked.speed_per_s) || asked.speed_per_s < 0)
+    return refused(say("a jog needs numbers"));
+  if (asked.distance == 0) return refused(say("a jog needs a distance"));
+  if (std::abs(asked.distance) > farthest)
+    return refused(say("one motor alone goes at most 20 mm or 30 degrees: the others hold the tool"));
+  const auto from = machine_pose();
+  if (!from) return Error<Refusal>(from.error());
+  JointVector joints = joints_now();
+  joints[asked.joint] += asked.distance;
+  Pose to = *from;
+  JointVector reached{};
+  if (auto found = kinematics_->forward(Frame::kMachine, joints, to); !found)
+    return refused(to_string(found.error(), *kinematics_));
+  if (auto back = kinematics_->inverse(Frame::kMachine, to, reached); !back)
+    return refused(to_string(back.error(), *kinematics_));
+  for (std::size_t i = 0; i < machine_.joints.size(); ++i)
+    if (std::abs(reached[i] - joints[i]) > kJointsMeet)
+      return refused(say("%1 cannot move alone here", joint.name));
+  command::Jog jog;
+  for (std::size_t axis = 0; axis < kPoseAxes; ++axis) jog.delta[axis] = to[axis] - (*from)[axis];
+  // As long as the joint takes; a jog's speed is the tool's, or that of the axis that goes farthest.
+  const double speed = asked.speed_per_s > 0 ? asked.speed_per_s
+                       : joint.rotary        ? kMotorTurnSpeed
+                                             : kMotorJogSpeed;
+  const double mm = std::hypot(jog.delta[kX], jog.delta[kY], jog.delta[kZ]);
+  double way = mm;
+  if (mm == 0)
+    for (const double part : jog.delta) way = std::max(way, std::abs(part));
+  jog.speed_per_s = way * speed / std::abs(asked.distance);
+  return on(jog);
 }
 
 Done Gateway::Core::on(command::Run& asked) {

@@ -19,6 +19,7 @@ constexpr BusTime kStopTimeout = 3s;
 
 void Gateway::Core::begin_bring_up() {
   watch_.bring_up_begins();
+  motors_.bring_up_begins(now_);
   parameters_.forget();
   remote_told_ = false;
   fault_ = false;

@@ -51,9 +51,21 @@ MachineStatus Gateway::Core::status() const {
     for (std::size_t axis = 0; axis < kAxesPerNode; ++axis) {
       s.nodes.back().current_a[axis] = currents_.amperes(i, axis, now_);
       s.nodes.back().by_scale_mm[axis] = scales_.joint_mm(i, axis);
+      s.nodes.back().stage_celsius[axis] = currents_.celsius(i, axis, now_);
+      s.nodes.back().position_counts[axis] = links_[i].position_counts(axis);
     }
     s.counters.sdo_aborts += links_[i].sdo().counters().aborts;
     s.counters.sdo_timeouts += links_[i].sdo().counters().timeouts;
+  }
+  for (std::size_t j = 0; j < machine_.joints.size(); ++j) {
+    const JointDescription& joint = machine_.joints[j];
+    const std::size_t axis = joint.axis & 1u;
+    for (NodeStatus& node : s.nodes) {
+      if (node.id != joint.node_id) continue;
+      node.run_current_a[axis] = joint.run_current_ma * 1e-3;
+      node.hold_current_a[axis] = joint.hold_current_ma * 1e-3;
+      node.measures[axis] = motors_.tuned() == j;
+    }
   }
   position_.report(s, joints_now(), links_);
   return s;

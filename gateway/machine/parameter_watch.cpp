@@ -45,6 +45,10 @@ std::optional<ParameterWatch::Change> ParameterWatch::on_time(BusTime now, bool 
   return change;
 }
 
+void ParameterWatch::changed(const MachineDescription& machine, std::size_t node, BusTime now) {
+  nodes_[node] = {configure_node(machine, links_[node].id()).fingerprint, now};
+}
+
 void ParameterWatch::forget() {
   for (Node& node : nodes_) node.ask.reset();
 }

@@ -30,6 +30,8 @@ class ParameterWatch {
   /// `may_ask`: the nodes answer, and nothing else is asked of them. A node whose parameters are others,
   /// once.
   std::optional<Change> on_time(BusTime now, bool may_ask);
+  /// This gateway has changed the node's parameters itself: they are the description's, and are compared.
+  void changed(const MachineDescription& machine, std::size_t node, BusTime now);
   /// Bring-up compares them all.
   void forget();
 

@@ -62,6 +62,21 @@ const Row kTable[] = {
        const joblink::SetWorkOffset& set = m.set_work_offset();
        return command::SetWorkOffset{set.system(), pose_of(set.offset()), set.here()};
      }},
+    {joblink::COMMAND_SET_MOTOR_CURRENTS, command::kind<command::SetMotorCurrents>,
+     [](const ClientMessage& m) -> Command {
+       const joblink::SetMotorCurrents& set = m.set_motor_currents();
+       command::MotorCurrents motor{.joint = set.joint()};
+       if (set.has_run_a()) motor.run_ma = 1000 * set.run_a();
+       if (set.has_hold_a()) motor.hold_ma = 1000 * set.hold_a();
+       return command::SetMotorCurrents{{motor}};
+     }},
+    {joblink::COMMAND_TUNE_MOTOR, command::kind<command::TuneMotor>,
+     [](const ClientMessage& m) -> Command { return command::TuneMotor{m.tune_motor().joint()}; }},
+    {joblink::COMMAND_JOG_MOTOR, command::kind<command::JogMotor>,
+     [](const ClientMessage& m) -> Command {
+       const joblink::JogMotor& jog = m.jog_motor();
+       return command::JogMotor{jog.joint(), jog.distance(), jog.speed_per_s()};
+     }},
 };
 
 }  // namespace

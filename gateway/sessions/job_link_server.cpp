@@ -171,7 +171,7 @@ const joblink::Status& JobLinkServer::status() {
   if (status_) return *status_;
   gateway_.watch_currents();
   status_bytes_.clear();
-  status_ = to_message(gateway_.status(), machine_);
+  status_ = to_message(gateway_.status());
   add_commands(*status_, gateway_);
   status_->set_controller(control_.holder());
   for (const Control::Client& client : control_.clients()) {

@@ -20,7 +20,7 @@ bool MachineRequests::take(const Asker& asker, const ClientMessage& message) {
     console(asker, message.console().line());
     return true;
   }
-  if (message.request_case() < ClientMessage::kStartJob || message.request_case() > ClientMessage::kConsole)
+  if (message.request_case() < ClientMessage::kStartJob || message.request_case() > ClientMessage::kJogMotor)
     return false;
   if (!server_.control_.may_command(session_.client())) {
     server_.refuse(asker, server_.no_control());

@@ -45,8 +45,7 @@ constexpr bool in_fault(std::uint16_t statusword) {
   return (statusword & 0x4F) == 0x08 || (statusword & 0x4F) == 0x0F;
 }
 
-void set_node(joblink::NodeStatus& message, const NodeStatus& node, const MachineDescription& machine,
-              bool moves) {
+void set_node(joblink::NodeStatus& message, const NodeStatus& node, bool moves) {
   message.set_id(node.id);
   message.set_present(node.present);
   message.set_nmt_state(node.nmt_state);
@@ -66,9 +65,12 @@ void set_node(joblink::NodeStatus& message, const NodeStatus& node, const Machin
     if (node.off_course[axis]) a.set_off_course(*node.off_course[axis]);
     if (node.by_scale_mm[axis]) a.set_by_scale_mm(*node.by_scale_mm[axis]);
     if (node.current_a[axis]) a.set_current_a(*node.current_a[axis]);
-    for (const JointDescription& joint : machine.joints)
-      if (joint.node_id == node.id && joint.axis == axis && a.enabled())
-        a.set_configured_current_a((moves ? joint.run_current_ma : joint.hold_current_ma) * 1e-3);
+    a.set_run_current_a(node.run_current_a[axis]);
+    a.set_hold_current_a(node.hold_current_a[axis]);
+    if (a.enabled()) a.set_configured_current_a(moves ? a.run_current_a() : a.hold_current_a());
+    if (node.stage_celsius[axis]) a.set_stage_celsius(*node.stage_celsius[axis]);
+    a.set_position_counts(node.position_counts[axis]);
+    a.set_measures(node.measures[axis]);
   }
 }
 
@@ -211,7 +213,7 @@ Pose pose_of(const joblink::Pose& message) {
   return {message.x_mm(), message.y_mm(), message.z_mm(), message.a_rad(), message.c_rad(), message.e_mm()};
 }
 
-joblink::Status to_message(const MachineStatus& s, const MachineDescription& machine) {
+joblink::Status to_message(const MachineStatus& s) {
   joblink::Status m;
   m.set_time_s(to_seconds(s.now));
   m.set_state(static_cast<joblink::State>(s.state));
@@ -258,7 +260,7 @@ joblink::Status to_message(const MachineStatus& s, const MachineDescription& mac
   m.set_spindle_target_rpm(s.spindle.target_rpm);
   m.set_bus_load(s.bus_load);
   m.set_bus_load_peak(s.bus_load_peak);
-  for (const NodeStatus& node : s.nodes) set_node(*m.add_nodes(), node, machine, s.rate > 0);
+  for (const NodeStatus& node : s.nodes) set_node(*m.add_nodes(), node, s.rate > 0);
   joblink::Counters& c = *m.mutable_counters();
   c.set_frames_sent(s.counters.frames_sent);
   c.set_frames_received(s.counters.frames_received);

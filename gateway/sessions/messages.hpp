@@ -20,7 +20,7 @@ namespace kinebus {
 /// Nothing moves and nothing will by itself.
 bool at_rest(MachineState state);
 
-joblink::Status to_message(const MachineStatus& status, const MachineDescription& machine);
+joblink::Status to_message(const MachineStatus& status);
 joblink::Event to_message(const MachineEvent& event);
 joblink::MachineInfo to_message(const MachineDescription& machine, const Pose& bed_reference);
 joblink::Job to_message(const StoredJob& job);

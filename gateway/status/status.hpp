@@ -29,6 +29,11 @@ struct NodeStatus {
   std::array<std::optional<double>, 2> by_scale_mm{};
   /// Measured amplitude; empty: not read lately (Gateway::watch_currents).
   std::array<std::optional<double>, 2> current_a{};
+  std::array<double, 2> run_current_a{}, hold_current_a{};  ///< what the motor is given; 0 without one
+  /// Of the power stage; empty: not read lately, or the node has no sensor.
+  std::array<std::optional<double>, 2> stage_celsius{};
+  std::array<std::int32_t, 2> position_counts{};  ///< 6064h
+  std::array<bool, 2> measures{};                 ///< it measures the motor's winding
   bool synchronised = false;
   int sync_error_us = 0;     ///< bound of its clock estimate's error
   int queue_records = 0;     ///< records in its queue

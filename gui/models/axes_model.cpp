@@ -1,6 +1,7 @@
 #include "gui/models/axes_model.hpp"
 
 #include <QLatin1Char>
+#include <QLocale>
 #include <QModelIndex>
 #include <QObject>
 #include <QString>
@@ -19,7 +20,8 @@ constexpr double kDegPerRad = 180 / std::numbers::pi;
 
 bool is_number(int column) {
   return column == AxesModel::kPosition || column == AxesModel::kMeasured || column == AxesModel::kError ||
-         column == AxesModel::kCurrent;
+         column == AxesModel::kCurrent || column == AxesModel::kCounts || column == AxesModel::kRun ||
+         column == AxesModel::kHold || column == AxesModel::kStage;
 }
 
 }  // namespace
@@ -76,6 +78,14 @@ QVariant AxesModel::headerData(int section, Qt::Orientation orientation, int rol
       return tr("Error");
     case kTravel:
       return tr("Travel");
+    case kCounts:
+      return tr("Counts");
+    case kRun:
+      return tr("Run");
+    case kHold:
+      return tr("Hold");
+    case kStage:
+      return tr("Stage");
     case kCurrent:
       return tr("Current");
     case kDrive:
@@ -136,6 +146,18 @@ QVariant AxesModel::data(const QModelIndex& index, int role) const {
           tr("%1 of %2 A")
               .arg(axis->has_current_a() ? Format::number(axis->current_a(), 2) : QStringLiteral("–"),
                    Format::number(axis->configured_current_a(), 2)));
+    case kCounts:
+      if (axis == nullptr) return QStringLiteral("–");
+      return Format::isolated(QLocale().toString(axis->position_counts()));
+    case kRun:
+    case kHold:
+      if (axis == nullptr) return QStringLiteral("–");
+      return Format::isolated(tr("%1 A").arg(
+          Format::number(index.column() == kRun ? axis->run_current_a() : axis->hold_current_a(), 2)));
+    case kStage:
+      return axis != nullptr && axis->has_stage_celsius()
+                 ? Format::isolated(Format::temperature(axis->stage_celsius()))
+                 : QStringLiteral("–");
     case kDrive:
       if (axis == nullptr) return QStringLiteral("–");
       return axis->fault() ? tr("Fault") : axis->enabled() ? tr("On") : tr("Off");

@@ -14,7 +14,22 @@ class Session;
 class AxesModel : public QAbstractTableModel {
   Q_OBJECT
  public:
-  enum Column { kJoint, kPosition, kMeasured, kError, kTravel, kCurrent, kDrive, kSwitch, kPlace, kColumns };
+  enum Column {
+    kJoint,
+    kPosition,
+    kMeasured,
+    kError,
+    kTravel,
+    kCounts,
+    kRun,
+    kHold,
+    kCurrent,
+    kStage,
+    kDrive,
+    kSwitch,
+    kPlace,
+    kColumns
+  };
   enum Role { kShare = Qt::UserRole, kFault, kSwitchOn };
   explicit AxesModel(Session& session, QObject* parent = nullptr);
   int rowCount(const QModelIndex& parent = {}) const override;

@@ -140,6 +140,9 @@ int run(int argc, char** argv) {
        [&] { return !window.machine_page().editor().text().document()->isEmpty(); });
   photographer.all(MainWindow::kMachine, QStringLiteral("9-machine-file"));
 
+  window.machine_page().show_tab(3);
+  photographer.all(MainWindow::kMachine, QStringLiteral("10-motors"));
+
   wait("still connected", [&] { return desk.session.connected(); });
   desk.session.start_job(QStringLiteral("vase.gcode"));
   // A computer that is too busy for the demo holds it up: the job goes on from its place.

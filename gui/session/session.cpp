@@ -289,6 +289,22 @@ void Session::jog(const joblink::Pose& delta, double speed_per_s, bool held) {
     r.mutable_jog()->set_while_held(held);
   }));
 }
+void Session::set_motor_currents(int joint, double run_a, double hold_a) {
+  command(plain([&](auto& r) {
+    r.mutable_set_motor_currents()->set_joint(static_cast<std::uint32_t>(joint));
+    r.mutable_set_motor_currents()->set_run_a(run_a);
+    r.mutable_set_motor_currents()->set_hold_a(hold_a);
+  }));
+}
+void Session::tune_motor(int joint) {
+  command(plain([&](auto& r) { r.mutable_tune_motor()->set_joint(static_cast<std::uint32_t>(joint)); }));
+}
+void Session::jog_motor(int joint, double distance) {
+  command(plain([&](auto& r) {
+    r.mutable_jog_motor()->set_joint(static_cast<std::uint32_t>(joint));
+    r.mutable_jog_motor()->set_distance(distance);
+  }));
+}
 void Session::set_override(double ratio) {
   command(plain([&](auto& r) { r.mutable_set_override()->set_ratio(ratio); }));
 }

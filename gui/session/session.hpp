@@ -69,6 +69,11 @@ class Session : public QObject {
   void motors_off();
   /// `held`: as long as this is asked for again (joblink::Jog).
   void jog(const joblink::Pose& delta, double speed_per_s, bool held = false);
+  /// Of the joint at this place of the machine's list, A.
+  void set_motor_currents(int joint, double run_a, double hold_a);
+  void tune_motor(int joint);
+  /// One joint alone, mm or rad.
+  void jog_motor(int joint, double distance);
   void set_override(double ratio);
   void set_temperature(bool bed, double celsius);
   void set_fan(double ratio);

@@ -60,8 +60,10 @@ TEST_F(WindowTest, NoCellOfTheMachinePageIsCutInAnyLanguage) {
   show_connected();
   window->resize(1280, 720);
   window->show_page(MainWindow::kMachine);
-  for (const auto& language : Language::choices()) {
+  for (int i = 0; i < 2 * static_cast<int>(Language::choices().size()); ++i) {
+    const auto& language = Language::choices()[i / 2];
     window->set_language(language.code);
+    window->machine_page().show_tab(i % 2 == 0 ? 0 : 3);
     QCoreApplication::processEvents();
     for (const QTableView* table : window->findChildren<QTableView*>()) {
       if (!table->isVisible()) continue;
@@ -76,6 +78,30 @@ TEST_F(WindowTest, NoCellOfTheMachinePageIsCutInAnyLanguage) {
       }
     }
   }
+}
+
+TEST_F(WindowTest, TheMotorsPageSetsCurrentsAndJogsOneMotor) {
+  gateway.status.set_state(joblink::STATE_READY);
+  show_connected();
+  window->set_language(QStringLiteral("en"));
+  window->show_page(MainWindow::kMachine);
+  window->machine_page().show_tab(3);
+  QCoreApplication::processEvents();
+  int clicked = 0;
+  for (QPushButton* button : window->findChildren<QPushButton*>())
+    if (button->isVisible() && (button->text() == QStringLiteral("Set currents") ||
+                                button->accessibleName() == QStringLiteral("Jog on") ||
+                                button->text() == QStringLiteral("Measure the motor"))) {
+      ASSERT_TRUE(button->isEnabled()) << button->text().toStdString();
+      button->click();
+      ++clicked;
+    }
+  EXPECT_EQ(clicked, 3);
+  using C = joblink::ClientMessage;
+  EXPECT_TRUE(wait_until([&] {
+    return gateway.count(C::kSetMotorCurrents) == 1 && gateway.count(C::kJogMotor) == 1 &&
+           gateway.count(C::kTuneMotor) == 1;
+  }));
 }
 
 TEST_F(WindowTest, ArrowsJogAlsoAfterAButtonWasClicked) {

@@ -517,10 +517,6 @@
         <translation>M92 اثری ندارد: mm_per_turn، full_steps_per_turn و microsteps زیر [joint.NAME] در پروندهٔ ماشین می‌گویند که یک گام چقدر می‌رود</translation>
     </message>
     <message>
-        <source>%1 has no effect: run_current_ma and hold_current_ma of [joint.NAME] in the machine file say what a motor gets; on a bench kinebus-card sets it at once</source>
-        <translation>%1 اثری ندارد: جریان موتور را run_current_ma و hold_current_ma در [joint.NAME] پروندهٔ ماشین می‌گویند؛ روی میز کار kinebus-card بی‌درنگ تنظیمش می‌کند</translation>
-    </message>
-    <message>
         <source>%1 has no effect: a heater&apos;s control belongs to its node and to [heater.NAME] in the machine file</source>
         <translation>%1 اثری ندارد: کنترل گرم‌کن کار گره‌اش و [heater.NAME] در پروندهٔ ماشین است</translation>
     </message>
@@ -3200,6 +3196,94 @@
         <source>the gateway was away %1 times: the job waits for a person</source>
         <translation>درگاه %1 بار غایب بود: کار منتظر یک نفر است</translation>
     </message>
+    <message>
+        <source>run_current_ma, %1, to 5000</source>
+        <translation>run_current_ma، %1، تا 5000</translation>
+    </message>
+    <message>
+        <source>%1 has no effect in a job: run_current_ma and hold_current_ma of [joint.NAME] in the machine file say what a motor gets; M906 on the console or of a print host sets it</source>
+        <translation>%1 در یک کار اثری ندارد: run_current_ma و hold_current_ma در [joint.NAME] پروندهٔ ماشین می‌گویند موتور چه می‌گیرد؛ M906 از کنسول یا از برنامهٔ چاپ آن را تنظیم می‌کند</translation>
+    </message>
+    <message>
+        <source>set a motor&apos;s currents</source>
+        <translation>تنظیم جریان‌های یک موتور</translation>
+    </message>
+    <message>
+        <source>measure a motor</source>
+        <translation>اندازه‌گیری یک موتور</translation>
+    </message>
+    <message>
+        <source>cannot %1 while a motor is measured (%2)</source>
+        <translation>هنگام اندازه‌گیری یک موتور (%2) ممکن نیست: %1</translation>
+    </message>
+    <message>
+        <source>there is no joint %1: they are 1 to %2</source>
+        <translation>مفصل %1 وجود ندارد: شماره‌ها از 1 تا %2 هستند</translation>
+    </message>
+    <message>
+        <source>one motor alone goes at most 20 mm or 30 degrees: the others hold the tool</source>
+        <translation>یک موتور به‌تنهایی حداکثر 20 mm یا 30 درجه می‌رود: بقیه ابزار را نگه می‌دارند</translation>
+    </message>
+    <message>
+        <source>%1 cannot move alone here</source>
+        <translation>%1 اینجا نمی‌تواند به‌تنهایی حرکت کند</translation>
+    </message>
+    <message>
+        <source>M906 takes letters with numbers, as M906 X800 H400 or M906 I1 S800</source>
+        <translation>M906 حرف با عدد می‌گیرد، مانند M906 X800 H400 یا M906 I1 S800</translation>
+    </message>
+    <message>
+        <source>no motor moves %1 alone on this machine: name a joint by its number, as M906 I1 S800 for %2</source>
+        <translation>در این ماشین هیچ موتوری %1 را به‌تنهایی حرکت نمی‌دهد: مفصل را با شماره‌اش بگویید، مانند M906 I1 S800 برای %2</translation>
+    </message>
+    <message>
+        <source>I is the number of a joint, 1 to %1</source>
+        <translation>I شمارهٔ یک مفصل است، 1 تا %1</translation>
+    </message>
+    <message>
+        <source>M906 I needs the run current S or the hold current H</source>
+        <translation>M906 I جریان حرکت S یا جریان نگهداری H می‌خواهد</translation>
+    </message>
+    <message>
+        <source>S and H need the joint I</source>
+        <translation>S و H مفصل I را می‌خواهند</translation>
+    </message>
+    <message>
+        <source>M906 takes axes or the joint I, not both</source>
+        <translation>M906 یا محورها را می‌گیرد یا مفصل I را، نه هر دو</translation>
+    </message>
+    <message>
+        <source>no motor is named</source>
+        <translation>هیچ موتوری نام برده نشده است</translation>
+    </message>
+    <message>
+        <source>%1: a run current is 50 to %2 mA; max_current_ma of [joint.%3] in the machine file says how much the motor bears</source>
+        <translation>%1: جریان حرکت از 50 تا %2 mA است؛ max_current_ma در [joint.%3] پروندهٔ ماشین می‌گوید موتور چه‌قدر تحمل می‌کند</translation>
+    </message>
+    <message>
+        <source>%1: a hold current is 0 to the run current, %2 mA</source>
+        <translation>%1: جریان نگهداری از 0 تا جریان حرکت، %2 mA، است</translation>
+    </message>
+    <message>
+        <source>the measurement failed: is a motor connected?</source>
+        <translation>اندازه‌گیری ناموفق بود: آیا موتوری وصل است؟</translation>
+    </message>
+    <message>
+        <source>this node measures no currents</source>
+        <translation>این گره جریان را اندازه نمی‌گیرد</translation>
+    </message>
+    <message>
+        <source>the measurement does not end</source>
+        <translation>اندازه‌گیری تمام نمی‌شود</translation>
+    </message>
+    <message>
+        <source>%1: measured %2 Ohm, %3 mH, encoder offset %4: resistance_ohm, inductance_mh and encoder_offset_counts of [joint.%5.motor] in the machine file keep them</source>
+        <translation>%1: اندازه‌گیری شد %2 اهم، %3 mH، انحراف انکودر %4: resistance_ohm، inductance_mh و encoder_offset_counts در [joint.%5.motor] پروندهٔ ماشین آن‌ها را نگه می‌دارند</translation>
+    </message>
+    <message>
+        <source>%1: run current %2 mA, hold current %3 mA</source>
+        <translation>%1: جریان حرکت %2 mA، جریان نگهداری %3 mA</translation>
+    </message>
 </context>
 <context>
     <name>GatewayWords</name>
@@ -3379,6 +3463,26 @@
     <message>
         <source>Free</source>
         <translation>آزاد</translation>
+    </message>
+    <message>
+        <source>Counts</source>
+        <translation>شمارش</translation>
+    </message>
+    <message>
+        <source>Run</source>
+        <translation>حرکت</translation>
+    </message>
+    <message>
+        <source>Hold</source>
+        <translation>نگهداری</translation>
+    </message>
+    <message>
+        <source>Stage</source>
+        <translation>طبقهٔ قدرت</translation>
+    </message>
+    <message>
+        <source>%1 A</source>
+        <translation>%1 A</translation>
     </message>
 </context>
 <context>
@@ -4013,6 +4117,10 @@
         <source>%1 · kinematics %2 · %3 axes on %4 nodes · bus %5</source>
         <translation>%1 · سینماتیک %2 · %3 محور روی %4 گره · گذرگاه %5</translation>
     </message>
+    <message>
+        <source>Motors</source>
+        <translation>موتورها</translation>
+    </message>
 </context>
 <context>
     <name>kinebus::gui::MainWindow</name>
@@ -4067,6 +4175,65 @@
     <message>
         <source>Go on</source>
         <translation>ادامه</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::MotorsPanel</name>
+    <message>
+        <source>One node on a bench, without a machine file: stop the gateway, then %1 on the computer with the bus shows, sets, jogs and measures its motors.</source>
+        <translation>یک گره روی میز کار، بدون پروندهٔ ماشین: درگاه را متوقف کنید؛ سپس %1 در رایانه‌ای که گذرگاه به آن وصل است موتورهایش را نشان می‌دهد، تنظیم می‌کند، دستی حرکت می‌دهد و اندازه می‌گیرد.</translation>
+    </message>
+    <message>
+        <source>Motors</source>
+        <translation>موتورها</translation>
+    </message>
+    <message>
+        <source>Motor</source>
+        <translation>موتور</translation>
+    </message>
+    <message>
+        <source>Run current</source>
+        <translation>جریان حرکت</translation>
+    </message>
+    <message>
+        <source>Hold current</source>
+        <translation>جریان نگهداری</translation>
+    </message>
+    <message>
+        <source>Set currents</source>
+        <translation>تنظیم جریان‌ها</translation>
+    </message>
+    <message>
+        <source>Counts when the machine next stands still, and until the gateway is started anew</source>
+        <translation>از ایست بعدی ماشین معتبر است، تا وقتی درگاه از نو آغاز شود</translation>
+    </message>
+    <message>
+        <source>Jog this motor alone</source>
+        <translation>حرکت دستی فقط این موتور</translation>
+    </message>
+    <message>
+        <source>Step</source>
+        <translation>گام</translation>
+    </message>
+    <message>
+        <source>Jog back</source>
+        <translation>دستی: عقب</translation>
+    </message>
+    <message>
+        <source>Jog on</source>
+        <translation>دستی: جلو</translation>
+    </message>
+    <message>
+        <source>Measure the motor</source>
+        <translation>اندازه‌گیری موتور</translation>
+    </message>
+    <message>
+        <source>The node measures resistance, inductance and the encoder&apos;s offset while the motor stands</source>
+        <translation>گره هنگام ایست موتور مقاومت، القاوری و انحراف انکودر را اندازه می‌گیرد</translation>
+    </message>
+    <message>
+        <source>Switches of node %1: %2</source>
+        <translation>کلیدهای گره %1: %2</translation>
     </message>
 </context>
 <context>

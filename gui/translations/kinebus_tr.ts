@@ -517,10 +517,6 @@
         <translation>M92 etkisiz: bir adımın ne kadar gittiğini makine dosyasındaki [joint.NAME] altında mm_per_turn, full_steps_per_turn ve microsteps söyler</translation>
     </message>
     <message>
-        <source>%1 has no effect: run_current_ma and hold_current_ma of [joint.NAME] in the machine file say what a motor gets; on a bench kinebus-card sets it at once</source>
-        <translation>%1 etkisiz: motorun alacağı akımı makine dosyasındaki [joint.NAME] altında run_current_ma ve hold_current_ma söyler; tezgâhta kinebus-card hemen ayarlar</translation>
-    </message>
-    <message>
         <source>%1 has no effect: a heater&apos;s control belongs to its node and to [heater.NAME] in the machine file</source>
         <translation>%1 etkisiz: ısıtıcının kontrolü düğümünün ve makine dosyasındaki [heater.NAME] tablosunun işidir</translation>
     </message>
@@ -3200,6 +3196,94 @@
         <source>the gateway was away %1 times: the job waits for a person</source>
         <translation>ağ geçidi %1 kez uzakta kaldı: iş birini bekliyor</translation>
     </message>
+    <message>
+        <source>run_current_ma, %1, to 5000</source>
+        <translation>run_current_ma, %1, ile 5000 arası</translation>
+    </message>
+    <message>
+        <source>%1 has no effect in a job: run_current_ma and hold_current_ma of [joint.NAME] in the machine file say what a motor gets; M906 on the console or of a print host sets it</source>
+        <translation>%1 bir iş içinde etkisizdir: bir motorun aldığı akımı makine dosyasındaki [joint.NAME] run_current_ma ve hold_current_ma belirler; konsoldan ya da baskı programından gelen M906 onu ayarlar</translation>
+    </message>
+    <message>
+        <source>set a motor&apos;s currents</source>
+        <translation>bir motorun akımlarını ayarlama</translation>
+    </message>
+    <message>
+        <source>measure a motor</source>
+        <translation>bir motoru ölçme</translation>
+    </message>
+    <message>
+        <source>cannot %1 while a motor is measured (%2)</source>
+        <translation>bir motor ölçülürken (%2) yapılamaz: %1</translation>
+    </message>
+    <message>
+        <source>there is no joint %1: they are 1 to %2</source>
+        <translation>%1 numaralı eklem yok: numaralar 1 ile %2 arası</translation>
+    </message>
+    <message>
+        <source>one motor alone goes at most 20 mm or 30 degrees: the others hold the tool</source>
+        <translation>tek bir motor en çok 20 mm ya da 30 derece gider: takımı ötekiler tutar</translation>
+    </message>
+    <message>
+        <source>%1 cannot move alone here</source>
+        <translation>%1 burada tek başına hareket edemez</translation>
+    </message>
+    <message>
+        <source>M906 takes letters with numbers, as M906 X800 H400 or M906 I1 S800</source>
+        <translation>M906 sayılı harfler alır: M906 X800 H400 ya da M906 I1 S800 gibi</translation>
+    </message>
+    <message>
+        <source>no motor moves %1 alone on this machine: name a joint by its number, as M906 I1 S800 for %2</source>
+        <translation>bu makinede hiçbir motor yalnız %1 yönünü hareket ettirmez: bir eklemi numarasıyla söyleyin, örneğin %2 için M906 I1 S800</translation>
+    </message>
+    <message>
+        <source>I is the number of a joint, 1 to %1</source>
+        <translation>I bir eklemin numarasıdır, 1 ile %1 arası</translation>
+    </message>
+    <message>
+        <source>M906 I needs the run current S or the hold current H</source>
+        <translation>M906 I, çalışma akımı S ya da tutma akımı H ister</translation>
+    </message>
+    <message>
+        <source>S and H need the joint I</source>
+        <translation>S ve H, eklem I ister</translation>
+    </message>
+    <message>
+        <source>M906 takes axes or the joint I, not both</source>
+        <translation>M906 ya eksenleri ya eklem I alır, ikisini birden değil</translation>
+    </message>
+    <message>
+        <source>no motor is named</source>
+        <translation>hiçbir motor belirtilmedi</translation>
+    </message>
+    <message>
+        <source>%1: a run current is 50 to %2 mA; max_current_ma of [joint.%3] in the machine file says how much the motor bears</source>
+        <translation>%1: çalışma akımı 50 ile %2 mA arasıdır; motorun ne kadarına dayandığını makine dosyasındaki [joint.%3] max_current_ma söyler</translation>
+    </message>
+    <message>
+        <source>%1: a hold current is 0 to the run current, %2 mA</source>
+        <translation>%1: tutma akımı 0 ile çalışma akımı, %2 mA, arasıdır</translation>
+    </message>
+    <message>
+        <source>the measurement failed: is a motor connected?</source>
+        <translation>ölçüm başarısız oldu: bir motor bağlı mı?</translation>
+    </message>
+    <message>
+        <source>this node measures no currents</source>
+        <translation>bu düğüm akım ölçmüyor</translation>
+    </message>
+    <message>
+        <source>the measurement does not end</source>
+        <translation>ölçüm bitmiyor</translation>
+    </message>
+    <message>
+        <source>%1: measured %2 Ohm, %3 mH, encoder offset %4: resistance_ohm, inductance_mh and encoder_offset_counts of [joint.%5.motor] in the machine file keep them</source>
+        <translation>%1: ölçülen %2 Ohm, %3 mH, kodlayıcı kayması %4: bunları makine dosyasındaki [joint.%5.motor] resistance_ohm, inductance_mh ve encoder_offset_counts saklar</translation>
+    </message>
+    <message>
+        <source>%1: run current %2 mA, hold current %3 mA</source>
+        <translation>%1: çalışma akımı %2 mA, tutma akımı %3 mA</translation>
+    </message>
 </context>
 <context>
     <name>GatewayWords</name>
@@ -3379,6 +3463,26 @@
     <message>
         <source>Free</source>
         <translation>Serbest</translation>
+    </message>
+    <message>
+        <source>Counts</source>
+        <translation>Sayım</translation>
+    </message>
+    <message>
+        <source>Run</source>
+        <translation>Çalışma</translation>
+    </message>
+    <message>
+        <source>Hold</source>
+        <translation>Tutma</translation>
+    </message>
+    <message>
+        <source>Stage</source>
+        <translation>Güç katı</translation>
+    </message>
+    <message>
+        <source>%1 A</source>
+        <translation>%1 A</translation>
     </message>
 </context>
 <context>
@@ -4013,6 +4117,10 @@
         <source>%1 · kinematics %2 · %3 axes on %4 nodes · bus %5</source>
         <translation>%1 · kinematik %2 · %4 düğümde %3 eksen · veri yolu %5</translation>
     </message>
+    <message>
+        <source>Motors</source>
+        <translation>Motorlar</translation>
+    </message>
 </context>
 <context>
     <name>kinebus::gui::MainWindow</name>
@@ -4067,6 +4175,65 @@
     <message>
         <source>Go on</source>
         <translation>Sürdür</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::MotorsPanel</name>
+    <message>
+        <source>One node on a bench, without a machine file: stop the gateway, then %1 on the computer with the bus shows, sets, jogs and measures its motors.</source>
+        <translation>Masa üzerinde, makine dosyası olmadan tek bir düğüm: ağ geçidini durdurun; veri yolunun bağlı olduğu bilgisayarda %1 motorlarını gösterir, ayarlar, manuel hareket ettirir ve ölçer.</translation>
+    </message>
+    <message>
+        <source>Motors</source>
+        <translation>Motorlar</translation>
+    </message>
+    <message>
+        <source>Motor</source>
+        <translation>Motor</translation>
+    </message>
+    <message>
+        <source>Run current</source>
+        <translation>Çalışma akımı</translation>
+    </message>
+    <message>
+        <source>Hold current</source>
+        <translation>Tutma akımı</translation>
+    </message>
+    <message>
+        <source>Set currents</source>
+        <translation>Akımları ayarla</translation>
+    </message>
+    <message>
+        <source>Counts when the machine next stands still, and until the gateway is started anew</source>
+        <translation>Makine bir sonraki duruşunda geçerli olur, ağ geçidi yeniden başlatılana kadar sürer</translation>
+    </message>
+    <message>
+        <source>Jog this motor alone</source>
+        <translation>Yalnız bu motorun manuel hareketi</translation>
+    </message>
+    <message>
+        <source>Step</source>
+        <translation>Adım</translation>
+    </message>
+    <message>
+        <source>Jog back</source>
+        <translation>Manuel: geri</translation>
+    </message>
+    <message>
+        <source>Jog on</source>
+        <translation>Manuel: ileri</translation>
+    </message>
+    <message>
+        <source>Measure the motor</source>
+        <translation>Motoru ölç</translation>
+    </message>
+    <message>
+        <source>The node measures resistance, inductance and the encoder&apos;s offset while the motor stands</source>
+        <translation>Motor dururken düğüm direnci, endüktansı ve kodlayıcı kaymasını ölçer</translation>
+    </message>
+    <message>
+        <source>Switches of node %1: %2</source>
+        <translation>Düğüm %1 anahtarları: %2</translation>
     </message>
 </context>
 <context>

@@ -21,6 +21,7 @@
 
 #include "gui/models/format.hpp"
 #include "gui/views/machine_file_editor.hpp"
+#include "gui/views/motors_panel.hpp"
 #include "gui/views/plot_widget.hpp"
 #include "gui/views/table_columns.hpp"
 
@@ -122,6 +123,7 @@ MachinePage::MachinePage(Desk& desk, QWidget* parent) : SpeakingWidget(parent), 
   tabs_->addTab(make_live(), {});
   tabs_->addTab(make_numbers(), {});
   tabs_->addTab(editor_, {});
+  tabs_->addTab(new MotorsPanel(desk_, this), {});
   column->addWidget(tabs_);
   connect(tabs_, &QTabWidget::currentChanged, this, [this](int tab) {
     if (tabs_->widget(tab) == editor_) editor_->read_if_empty();
@@ -132,6 +134,7 @@ MachinePage::MachinePage(Desk& desk, QWidget* parent) : SpeakingWidget(parent), 
     tabs_->setTabText(0, tr("Axes and nodes"));
     tabs_->setTabText(1, tr("Bus and time"));
     tabs_->setTabText(2, tr("Machine file"));
+    tabs_->setTabText(3, tr("Motors"));
     take_status();
   });
 }
@@ -173,6 +176,8 @@ QWidget* MachinePage::make_live() {
                                                                        : desk_.theme.colours().waiting;
                                                           },
                                                           nodes));
+  for (const int other : {AxesModel::kCounts, AxesModel::kRun, AxesModel::kHold, AxesModel::kStage})
+    axes->setColumnHidden(other, true);
   axes_ = axes;
   column->addWidget(axes, 2);
   column->addWidget(nodes, 1);

@@ -33,13 +33,6 @@ bool brought_up(const Status& status) {
          status.state() != joblink::STATE_ALARM;
 }
 
-void take_control(Client& client, const MachineOptions& options) {
-  if (!options.force) return;
-  ClientMessage request;
-  request.mutable_take_control()->set_force(true);
-  client.ask(std::move(request));
-}
-
 std::string pose_words(const joblink::Pose& pose) {
   // Rounded first: a coordinate of -1e-9 is shown as 0.000, not as -0.000.
   const auto tidy = [](double value) { return std::round(value * 1000) / 1000 + 0.0; };
@@ -120,22 +113,6 @@ void print_nodes(const Status& s) {
       fmt::print("node {} {}  current {} A measured, {:.2f} A configured\n", n.id(), axis == 0 ? "A" : "B",
                  measured, a.configured_current_a());
     }
-}
-
-/// The gateway reads currents while somebody looks: its first answer has none yet.
-Status with_currents(Client& client) {
-  const auto all_read = [](const Status& s) {
-    for (const joblink::NodeStatus& n : s.nodes())
-      for (const joblink::AxisStatus& a : n.axes())
-        if (a.enabled() && !a.has_current_a()) return false;
-    return true;
-  };
-  Status status = client.status();
-  for (int i = 0; i < 10 && !all_read(status); ++i) {
-    std::this_thread::sleep_for(std::chrono::milliseconds{150});
-    status = client.status();
-  }
-  return status;
 }
 
 void print_bus(const Status& s) {
@@ -303,6 +280,28 @@ void add_values(CLI::App& app, const Options& options, int& exit_code) {
 }
 
 }  // namespace
+
+void take_control(Client& client, const MachineOptions& options) {
+  if (!options.force) return;
+  ClientMessage request;
+  request.mutable_take_control()->set_force(true);
+  client.ask(std::move(request));
+}
+
+Status with_currents(Client& client) {
+  const auto all_read = [](const Status& s) {
+    for (const joblink::NodeStatus& n : s.nodes())
+      for (const joblink::AxisStatus& a : n.axes())
+        if (a.enabled() && !a.has_current_a()) return false;
+    return true;
+  };
+  Status status = client.status();
+  for (int i = 0; i < 10 && !all_read(status); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds{150});
+    status = client.status();
+  }
+  return status;
+}
 
 void add_machine_commands(CLI::App& app, const Options& options, int& exit_code) {
   app.add_option("--socket", options->reach.socket,

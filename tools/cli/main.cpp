@@ -17,6 +17,7 @@
 #include "tools/cli/link_bench.hpp"
 #include "tools/cli/machine_commands.hpp"
 #include "tools/cli/measure_command.hpp"
+#include "tools/cli/motor_commands.hpp"
 #include "tools/cli/plan_command.hpp"
 #include "tools/cli/shell_words.hpp"
 #include "tools/cli/simulate_command.hpp"
@@ -45,6 +46,7 @@ int run(int argc, char** argv) {
   int exit_code = 0;
   const auto options = std::make_shared<kinebus::MachineOptions>();
   kinebus::add_machine_commands(app, options, exit_code);
+  kinebus::add_motor_commands(app, options, exit_code);
   kinebus::add_measure_command(app, options);
   kinebus::add_job_commands(app, options, exit_code);
   kinebus::add_link_bench(app, options);

@@ -150,6 +150,7 @@ MarlinSession::Done MarlinSession::carry_out_m(const Line& line, int number) {
     case 114:
     case 119:
     case 503:
+    case 906:
       return query(line);
     case 220:
     case 221:

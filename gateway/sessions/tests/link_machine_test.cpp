@@ -157,6 +157,29 @@ TEST_F(LinkMachineTest, AWorkOffsetShiftsWhatTheConsoleSays) {
   EXPECT_EQ(rig_.ask(*anna_, plain(&ClientMessage::mutable_get_status)).status().work_system(), 3u);
 }
 
+TEST_F(LinkMachineTest, AMotorsCurrentsAreSetAndOneMotorIsJogged) {
+  const auto tower1 = [&] {
+    return rig_.ask(*anna_, plain(&ClientMessage::mutable_get_status)).status().nodes(0).axes(0);
+  };
+  const double run_a = tower1().run_current_a();
+  ClientMessage set;
+  set.mutable_set_motor_currents()->set_joint(0);
+  set.mutable_set_motor_currents()->set_run_a(run_a / 2);
+  ASSERT_FALSE(rig_.ask(*anna_, set).has_error());
+  ASSERT_TRUE(rig_.run_until([&] { return tower1().run_current_a() == run_a / 2; }, 5s));
+  set.mutable_set_motor_currents()->set_run_a(run_a * 2);
+  EXPECT_NE(rig_.ask(*anna_, set).error().rule().find("max_current_ma"), std::string::npos);
+  const double before = rig_.machine.gateway->status().joints[0];
+  ClientMessage jog;
+  jog.mutable_jog_motor()->set_distance(1);
+  ASSERT_FALSE(rig_.ask(*anna_, jog).has_error());
+  ASSERT_TRUE(rig_.run_until([&] { return ready(); }, 20s));
+  EXPECT_NEAR(rig_.machine.gateway->status().joints[0], before + 1, 0.01);
+  ClientMessage tune;
+  tune.mutable_tune_motor()->set_joint(17);
+  EXPECT_TRUE(rig_.ask(*anna_, tune).has_error());
+}
+
 TEST_F(LinkMachineTest, TheStatusTellsWhichCommandsMayBeGivenAndWhyNotTheOthers) {
   const auto of = [&](joblink::Command wanted) {
     const auto status = rig_.ask(*anna_, plain(&ClientMessage::mutable_get_status)).status();

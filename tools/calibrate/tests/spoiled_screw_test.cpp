@@ -52,7 +52,7 @@ Measured measure(const MachineDescription& machine) {
     simulation.run_until(simulation.now() + 200ms);
     EXPECT_TRUE(reach(MachineState::kReady));
     simulation.run_until(simulation.now() + 2s);
-    const EncoderRows rows = encoder_rows(to_message(gateway.status(), machine), info);
+    const EncoderRows rows = encoder_rows(to_message(gateway.status()), info);
     EXPECT_TRUE(rows.silent.empty()) << rows.silent.front();
     csv += rows.csv;
     result.sources = source_words(rows);
