@@ -151,6 +151,7 @@ void Node::on_nmt(NmtCommand command) {
   switch (command) {
     case NmtCommand::kStart:
       emcy_.clear(emcy::kSyncLength);
+      emcy_.clear(emcy::kPdoRefused);
       emcy_.clear(emcy::kPdoTooShort);
       emcy_.clear(emcy::kPdoTooLong);
       break;
@@ -296,7 +297,9 @@ std::optional<CanFrame> Node::next_frame() {
   if (boot_up_) return std::exchange(boot_up_, std::nullopt);
   // A stop request goes out in every state: the other nodes move.
   const bool urgent = emcy_.next_deadline() == LocalTime::min();
-  if (nmt_.allows_emcy() || urgent)
+  if ((objects_.value(slot_of(object::kEmcyCobId)) & kEmcyOff) != 0)
+    emcy_.discard();
+  else if (nmt_.allows_emcy() || urgent)
     if (auto frame = emcy_.next_frame(now_, node_id_)) return frame;
   if (auto frame = pdo_.next_frame(now_)) return frame;
   if (auto frame = heartbeat_.next_frame(now_, nmt_.state(), node_id_)) return frame;

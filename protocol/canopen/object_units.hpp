@@ -227,11 +227,11 @@ constexpr void cia402_axis(Rows& t) {
   t.var(0x6040, "Controlword", kU16, kReadWrite, kVariable).maps(Mapping::kRpdo);
   t.var(0x6041, "Statusword", kU16, kReadOnly, kLive).maps(Mapping::kTpdo);
   // Stops end with the motor holding: a platform on vertical rails falls when its drives let go.
-  t.var(0x605A, "Quick stop option code", kI16, kReadWrite, kParameter, 6).between(0, 6);
+  t.var(0x605A, "Quick stop option code", kI16, kReadWrite, kParameter, 6).between(0, 8);
   t.var(0x605B, "Shutdown option code", kI16, kReadWrite, kParameter, 1).between(0, 1);
   t.var(0x605C, "Disable operation option code", kI16, kReadWrite, kParameter, 1).between(0, 1);
-  t.var(0x605D, "Halt option code", kI16, kReadWrite, kParameter, 1).between(1, 2);
-  t.var(0x605E, "Fault reaction option code", kI16, kReadWrite, kParameter, 2).between(0, 2);
+  t.var(0x605D, "Halt option code", kI16, kReadWrite, kParameter, 1).between(1, 4);
+  t.var(0x605E, "Fault reaction option code", kI16, kReadWrite, kParameter, 2).between(0, 4);
   t.var(0x6060, "Modes of operation", kI8, kReadWrite, kVariable).maps(Mapping::kRpdo);
   t.var(0x6061, "Modes of operation display", kI8, kReadOnly, kLive).maps(Mapping::kTpdo);
   t.var(0x6062, "Position demand value", kI32, kReadOnly, kLive).maps(Mapping::kTpdo).in("counts");
