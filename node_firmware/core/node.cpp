@@ -117,7 +117,8 @@ void Node::on_sync(const SyncReception& sync) {
   if (!nmt_.allows_sync()) return;
   if (sync.length_error) {
     count(NodeCounter::kRxMalformed);
-    if (!emcy_.active(emcy::kSyncLength)) emcy_.raise(emcy::kSyncLength);
+    // Before the start its master may not have come to 1019h yet.
+    if (nmt_.allows_pdo() && !emcy_.active(emcy::kSyncLength)) emcy_.raise(emcy::kSyncLength);
     return;
   }
   // What synchronous RPDOs brought since the last SYNC is what the axes start for now.

@@ -28,7 +28,7 @@ bool kept_in_motion(const ObjectEntry& entry) {
   if (base == object::kAbortConnectionOption) return true;
   const bool tpdo = (base.index >= 0x1800 && base.index < 0x1C00);
   const bool of_set_point = base == object::kProfileVelocity || base == object::kProfileAcceleration ||
-                            base == object::kProfileDeceleration;
+                            base == object::kProfileDeceleration || base == object::kInterpolationSubMode;
   return entry.binding == Binding::kParameter && !tpdo && !of_set_point;
 }
 
@@ -269,6 +269,9 @@ AbortCode Node::write_node_object(const ObjectEntry& entry, std::int64_t value) 
                                                     (address.subindex == 1 ? 1 : 0));
       return watch_the_same(value, objects_.value({other})) ? AbortCode::kIncompatible : AbortCode::kNone;
     }
+    case 0x1019:
+      return sync_counter_refused(value, objects_.value(entry.value_slot()),
+                                  objects_.value(slot_of(object::kSyncPeriod)));
     case 0x1010:
     case 0x1011:
       return command_storage(address, value);

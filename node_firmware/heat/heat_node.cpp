@@ -131,7 +131,7 @@ void HeatNode::on_sync(const SyncReception& sync) {
   if (!nmt_.allows_sync()) return;
   if (!sync.length_error)
     pdo_.on_sync(now_, sync.counter);
-  else if (!emcy_.active(emcy::kSyncLength))
+  else if (nmt_.allows_pdo() && !emcy_.active(emcy::kSyncLength))  // before, 1019h may not be written yet
     emcy_.raise(emcy::kSyncLength);
 }
 

@@ -188,6 +188,9 @@ AbortCode HeatNode::write_communication(const ObjectEntry& entry, std::int64_t t
         return AbortCode::kIncompatible;
       communication_changed_ = true;
       return AbortCode::kNone;
+    case 0x1019:
+      return sync_counter_refused(to, objects_.value(entry.value_slot()),
+                                  value(heat_slot_of(object::kSyncPeriod)));
     case 0x1010:
     case 0x1011:
       return command_storage(entry.address, to);

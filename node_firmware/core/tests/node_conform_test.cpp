@@ -5,7 +5,7 @@
 namespace kinebus::testing_bench {
 namespace {
 
-constexpr std::uint32_t kInvalidValue = 0x0609'0030, kIncompatible = 0x0604'0043;
+constexpr std::uint32_t kInvalidValue = 0x0609'0030, kIncompatible = 0x0604'0043, kDeviceState = 0x0800'0022;
 
 TEST_F(DriveTest, AnExpeditedDownloadNeedNotSayItsSize) {
   bench.send("601#2217100034120000");  // 16 bits of the four bytes
@@ -90,6 +90,44 @@ TEST_F(DriveTest, StatuswordTellsTheFollowingErrorOfAProfileMove) {
   EXPECT_EQ(status() & 0x2000, 0x2000);
   bench.write(kId, 0x6065, 0, 4, 0xFFFF'FFFF);
   EXPECT_EQ(status() & 0x2000, 0);
+}
+
+TEST(NodeAsItComes, ModesEightAndSevenGoByAPlainSync) {
+  Bench bench({{.id = kId, .told = false}});
+  bench.send("000#0101");
+  bench.write(kId, 0x60C2, 1, 1, 10);
+  for (const auto& [mode, index, sub] :
+       {std::tuple{8, std::uint16_t{0x607A}, std::uint8_t{0}}, {7, std::uint16_t{0x60C1}, std::uint8_t{1}}}) {
+    const std::int64_t from = bench.read(kId, 0x6064, 0);
+    bench.enable(kId, 0, mode);
+    bench.write(kId, 0x6040, 0, 2, 0x1F);
+    for (int i = 1; i <= 44; ++i) {
+      bench.write(kId, index, sub, 4, from + 10 * std::min(i, 40));
+      bench.send("080#");
+      bench.run(9ms);
+    }
+    EXPECT_EQ(bench.statusword(kId, 0) & 0x1000, 0x1000) << mode;
+    EXPECT_EQ(bench.read(kId, 0x6064, 0), from + 400) << mode;
+    bench.write(kId, 0x6040, 0, 2, 0);
+  }
+  EXPECT_FALSE(bench.was_seen(0x081));
+}
+
+TEST(NodeAsItComes, TheCounterOfSyncChangesOnlyWithoutAPeriod) {
+  Bench bench({{.id = kId, .told = false}});
+  EXPECT_EQ(bench.try_write(kId, 0x1019, 0, 1, 1), kInvalidValue);
+  bench.write(kId, 0x1006, 0, 4, 10'000);
+  EXPECT_EQ(bench.try_write(kId, 0x1019, 0, 1, 10), kDeviceState);
+  bench.write(kId, 0x1006, 0, 4, 0);
+  bench.write(kId, 0x1019, 0, 1, 10);
+  bench.send("080#");
+  bench.run(5ms);
+  EXPECT_FALSE(bench.was_seen(0x081)) << "a master that is still busy with its nodes";
+  bench.send("000#0101");
+  bench.send("080#");
+  bench.run(5ms);
+  ASSERT_TRUE(bench.last(0x081));
+  EXPECT_EQ(text_of(*bench.last(0x081)).substr(0, 8), "081#4082");
 }
 
 }  // namespace
