@@ -68,6 +68,9 @@ void BringUp::configure(BusTime now, NodeLink& link, Node& node) {
     node.requested = true;
     switch (node.config) {
       case Config::kCheck:
+        // Of a homing that did not come to its end: no reason to give the node all its parameters again.
+        if (link.reports()) link.set_report_period({});
+        [[fallthrough]];
       case Config::kVerify:
         link.sdo().read(object::kFingerprint);
         break;
@@ -144,6 +147,7 @@ void BringUp::settle(BusTime now, NodeLink& link, Node& node) {
 
 void BringUp::check_fingerprint(NodeLink& link, Node& node, std::uint32_t fingerprint) {
   node.requested = false;
+  link.reports_ended();
   const bool equal = fingerprint == node.configuration.fingerprint;
   if (node.config == Config::kCheck) {
     node.config = Config::kWriting;

@@ -103,7 +103,7 @@ void MachineHoming::repeat_control(BusTime now) {
 }
 
 void MachineHoming::set_report_period(std::int64_t ms) {
-  for (const std::size_t node : group_nodes()) links_[node].sdo().write({{0x1802, 5}, 2, ms});
+  for (const std::size_t node : group_nodes()) links_[node].set_report_period(std::chrono::milliseconds{ms});
 }
 
 bool MachineHoming::reports(std::size_t node, BusTime from) const {
@@ -184,6 +184,8 @@ MachineHoming::Outcome MachineHoming::on_time(BusTime now) {
       break;
     case Stage::kQuiet:
       if (!requests_done()) break;
+      if (!failed_)
+        for (const std::size_t node : group_nodes()) links_[node].reports_ended();
       next_order();
       enter(order_ == 0 ? Stage::kIdle : Stage::kReports, now);
       break;

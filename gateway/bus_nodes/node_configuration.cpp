@@ -7,6 +7,7 @@
 #include "gateway/bus_nodes/heat_settings.hpp"
 #include "gateway/calibration/joint_map.hpp"
 #include "gateway/jobs/machine_setup.hpp"
+#include "gateway/stream/sync_producer.hpp"
 #include "protocol/canopen/object_dictionary.hpp"
 
 namespace kinebus {
@@ -28,6 +29,7 @@ constexpr double kAccelerationMargin = 1.05;
 constexpr double kTravelMargin = 2;  // mm or rad
 // A node brakes by its own crystal, which may be 100 ppm fast: its deceleration counts twice that more.
 constexpr double kCrystalShare = 0.9995;
+constexpr double kStreamSubMode = -1;  // 60C0h
 
 class Writer {
  public:
@@ -81,7 +83,6 @@ SwitchFunction function_of(const SwitchInput& input) {
 
 void set_node(Writer& writer, const MachineDescription& machine, const NodeDescription& node) {
   using namespace object;
-  writer.set(kSyncPeriod, 1000 * milliseconds(machine.bus.sync_period));
   writer.set(kConsumerHeartbeat, kGatewayNodeId * 65536.0 + milliseconds(machine.bus.heartbeat_timeout));
   writer.set(kProducerHeartbeat, milliseconds(machine.bus.heartbeat_period));
   writer.set(kStopRamp, milliseconds(machine.stop.ramp));
@@ -134,7 +135,8 @@ void set_joint(Writer& writer, const JointDescription& joint) {
   writer.set_axis(axis, kProfileVelocity, joint.speed_per_s * counts / 4);
   writer.set_axis(axis, kProfileAcceleration, joint.accel_per_s2 * counts / 4);
   writer.set_axis(axis, kProfileDeceleration, joint.accel_per_s2 * counts / 4);
-  writer.set_axis(axis, kHomeOffset, home_counts(joint));
+  writer.set_axis(axis, kHomeOffset, -static_cast<double>(home_counts(joint)));
+  writer.set_axis(axis, kInterpolationSubMode, kStreamSubMode);
   if (!joint.homing) {
     writer.set_axis(axis, kHomingMethod, 37);
     return;
@@ -187,11 +189,14 @@ NodeConfiguration configure_node(const MachineDescription& machine, std::uint8_t
         (std::int64_t{kGatewayNodeId} << 16) + std::int64_t{machine.bus.heartbeat_timeout.count()};
     NodeConfiguration configuration;
     configuration.writes = {{object::kConsumerHeartbeat, 4, heartbeats},
-                            {object::kProducerHeartbeat, 2, machine.bus.heartbeat_period.count()}};
+                            {object::kProducerHeartbeat, 2, machine.bus.heartbeat_period.count()},
+                            {object::kSyncCounterOverflow, 1, kLastSyncCounter}};
     if (machine.carries_heat(node_id)) add_heat_settings(machine, node_id, configuration);
     return configuration;
   }
   Writer writer(node_id);
+  // 1006h stays 0: 1019h can be written then, and what a node makes of a lost SYNC is said by 2114h.
+  writer.set(object::kSyncCounterOverflow, kLastSyncCounter);
   if (const NodeDescription* node = machine.node(node_id)) set_node(writer, machine, *node);
   for (const JointDescription& joint : machine.joints)
     if (joint.node_id == node_id) set_joint(writer, joint);

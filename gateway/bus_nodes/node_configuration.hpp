@@ -1,8 +1,8 @@
 #pragma once
 // What the machine description means for one node's object dictionary: the value of every parameter, and the
-// fingerprint (2116h) of a node that has them all. A node without axes is told its heartbeats, and what the
-// heaters, sensors and fans on it are; what it measures itself of its heaters stays its own, so no
-// fingerprint is held against it.
+// fingerprint (2116h) of a node that has them all. A node without axes is told its heartbeats and SYNC's
+// counter, and what the heaters, sensors and fans on it are; what it measures itself of its heaters stays its
+// own, so no fingerprint is held against it.
 
 #include <cstdint>
 #include <optional>
@@ -33,7 +33,7 @@ struct NodeConfiguration {
 
 NodeConfiguration configure_node(const MachineDescription& machine, std::uint8_t node_id);
 
-/// Counts that the node shows when the joint stands at its home switch (607Ch).
+/// Counts that the node shows when the joint stands at its home switch: the negative of its 607Ch.
 std::int32_t home_counts(const JointDescription& joint);
 
 }  // namespace kinebus

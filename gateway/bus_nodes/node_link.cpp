@@ -12,6 +12,7 @@ namespace kinebus {
 namespace {
 
 constexpr std::size_t kMaxEmergencies = 32;
+constexpr ObjectAddress kReportPeriod{0x1802, 5};
 
 }  // namespace
 
@@ -75,6 +76,11 @@ void NodeLink::note_serial_number(const CanFrame& reply) {
   const auto& known = serial_numbers_;
   if (known.size() < 2 && std::find(known.begin(), known.end(), number) == known.end())
     serial_numbers_.push_back(number);
+}
+
+void NodeLink::set_report_period(std::chrono::milliseconds period) {
+  reports_ = reports_ || period.count() != 0;
+  sdo_.write({kReportPeriod, 2, period.count()});
 }
 
 std::optional<Emergency> NodeLink::next_emergency() {

@@ -2,6 +2,7 @@
 // What the gateway knows of one node, and what it tells it outside of streams: drive states, modes, SDO.
 
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <deque>
 #include <optional>
@@ -64,6 +65,13 @@ class NodeLink {
   /// The status frame that came last, once.
   std::optional<StreamStatus> take_stream() { return std::exchange(new_stream_, std::nullopt); }
 
+  /// Its positions (TPDO3) come every so often; 0: no more. By 1802h:5, which is one of its parameters.
+  void set_report_period(std::chrono::milliseconds period);
+  /// Told to report, and not yet known to have ended: its fingerprint may be another meanwhile.
+  bool reports() const { return reports_; }
+  /// What it was told last has been answered: it reports no more.
+  void reports_ended() { reports_ = false; }
+
   // What it is told (RPDO1). Sent when it changes.
   void set_control(std::size_t axis, std::uint16_t controlword, std::int8_t mode);
   void set_control(std::size_t axis, std::uint16_t controlword) {
@@ -85,6 +93,7 @@ class NodeLink {
   std::uint8_t id_;
   NodeFunctions functions_;
   SdoChannel sdo_;
+  bool reports_ = false;
   bool heard_ = false, booted_ = false, drive_heard_ = false, control_due_ = false;
   BusTime last_heard_{0}, drive_told_{0};
   NmtState nmt_state_ = NmtState::kInitialising;

@@ -18,6 +18,8 @@ void Standstill::start(PathTime tau) {
     if (!link.functions().has_axes()) continue;
     SdoChannel& sdo = link.sdo();
     sdo.abandon();
+    // Of a homing that did not come to its end.
+    if (link.reports()) link.set_report_period({});
     sdo.write({object::kBufferClear, 1, 0});
     for (std::uint16_t axis = 0; axis < kAxesPerNode; ++axis)
       for (const ObjectAddress base : {object::kPositionKnown, object::kStreamPosition})
@@ -65,6 +67,7 @@ Standstill::Outcome Standstill::on_time() {
     idle = idle && sdo.idle();
   }
   if (!idle) return Outcome::kBusy;
+  for (NodeLink& link : links_) link.reports_ended();
   if (!std::exchange(equal_, true)) {
     // A node that was not told of a change of rate, or all of them, rest elsewhere than the gateway believes.
     bool same = true;

@@ -36,9 +36,11 @@ std::optional<ParameterWatch::Change> ParameterWatch::on_time(BusTime now, bool 
         told && told->abort == AbortCode::kNone && node.expected) {
       const auto found = static_cast<std::uint32_t>(told->value);
       node.ask.reset();
-      if (found != *node.expected && may_ask && !change) change = Change{i, found, *node.expected};
+      if (found != *node.expected && may_ask && !links_[i].reports() && !change)
+        change = Change{i, found, *node.expected};
     }
-    if (!node.ask || !may_ask || now < *node.ask || !sdo.idle()) continue;
+    // A node that was told to report its positions has another fingerprint until that is taken back.
+    if (!node.ask || !may_ask || links_[i].reports() || now < *node.ask || !sdo.idle()) continue;
     sdo.glance(object::kFingerprint);
     node.ask = now + kAgain;  // unless the answer comes
   }

@@ -2705,6 +2705,14 @@
         <translation>یک گره از گذرگاه جدا شده بود</translation>
     </message>
     <message>
+        <source>A frame on the bus has a wrong value</source>
+        <translation>یک قاب روی گذرگاه مقدار نادرستی دارد</translation>
+    </message>
+    <message>
+        <source>a PDO had a value that is not allowed</source>
+        <translation>یک PDO مقداری داشت که مجاز نیست</translation>
+    </message>
+    <message>
         <source>A frame on the bus has the wrong length</source>
         <translation>طول یک قاب روی گذرگاه نادرست است</translation>
     </message>

@@ -2705,6 +2705,14 @@
         <translation>Bir düğüm veri yolundan kopmuştu</translation>
     </message>
     <message>
+        <source>A frame on the bus has a wrong value</source>
+        <translation>Veri yolundaki bir çerçevede yanlış bir değer var</translation>
+    </message>
+    <message>
+        <source>a PDO had a value that is not allowed</source>
+        <translation>bir PDO&apos;da izin verilmeyen bir değer vardı</translation>
+    </message>
+    <message>
         <source>A frame on the bus has the wrong length</source>
         <translation>Veri yolundaki bir çerçevenin uzunluğu yanlış</translation>
     </message>

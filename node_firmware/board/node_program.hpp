@@ -82,9 +82,10 @@ void NodeProgram<Can, Switches, Counter>::pass() {
     plan_.renew(node_, from, counts);
     plan_due_ = now_ + kPlanPeriod;
   }
+  // Before the answer: who has it may send at once what was asked for.
+  if (now_ >= filter_due_) filter();
   send();
   report_bus();
-  if (now_ >= filter_due_) filter();
   due_ = std::min({node_.next_deadline(), plan_due_, filter_due_});
 }
 
@@ -101,7 +102,9 @@ bool NodeProgram<Can, Switches, Counter>::take_inputs() {
       node_.on_switch(clock_.at(edge->counts), edge->input, edge->level);
       switches_.drop();
     } else if (frame != nullptr) {
-      node_.on_frame(clock_.at(frame->counts), frame->frame());
+      const CanFrame heard = frame->frame();
+      node_.on_frame(clock_.at(frame->counts), heard);
+      if (heard.id == cob_id::kSdoRequest + node_.node_id()) filter_due_ = now_;
       can_.drop();
     } else {
       break;

@@ -115,10 +115,10 @@ void Homing::stop_into(Phase phase, ProfileTicks now, Trapezoid& motion) {
   phase_ = phase;
 }
 
-// The axis rests. The edge gets the position `offset`; a rest beside a whole count creeps onto it, so that
-// 32-bit objects tell the position exactly.
+// The axis rests. Zero comes to lie at the edge plus `offset`; a rest beside a whole count creeps onto it, so
+// that 32-bit objects tell the position exactly.
 void Homing::finish(ProfileTicks now, Trapezoid& motion) {
-  shift_ = from_counts(config_.offset) - latched_;
+  shift_ = -from_counts(config_.offset) - latched_;
   has_shift_ = true;
   motion.shift(shift_);
   stop_into(Phase::kSettle, now, motion);

@@ -23,7 +23,7 @@ struct HomingConfig {
   std::uint32_t fast = 1;          ///< counts/s
   std::uint32_t slow = 1;          ///< counts/s
   std::uint32_t acceleration = 1;  ///< counts/s^2
-  std::int32_t offset = 0;         ///< counts: the position at the edge from now on
+  std::int32_t offset = 0;         ///< counts: from the edge to the new zero
   std::uint32_t travel = 0;        ///< counts: at most so far towards the switch
   std::uint32_t back_off = 0;      ///< counts: at most so far off it, and back to it
 };

@@ -117,7 +117,8 @@ void Node::on_sync(const SyncReception& sync) {
   if (!nmt_.allows_sync()) return;
   if (sync.length_error) {
     count(NodeCounter::kRxMalformed);
-    if (!emcy_.active(emcy::kSyncLength)) emcy_.raise(emcy::kSyncLength);
+    // Before the start its master may not have come to 1019h yet.
+    if (nmt_.allows_pdo() && !emcy_.active(emcy::kSyncLength)) emcy_.raise(emcy::kSyncLength);
     return;
   }
   // What synchronous RPDOs brought since the last SYNC is what the axes start for now.
@@ -151,6 +152,7 @@ void Node::on_nmt(NmtCommand command) {
   switch (command) {
     case NmtCommand::kStart:
       emcy_.clear(emcy::kSyncLength);
+      emcy_.clear(emcy::kPdoRefused);
       emcy_.clear(emcy::kPdoTooShort);
       emcy_.clear(emcy::kPdoTooLong);
       break;
@@ -296,7 +298,9 @@ std::optional<CanFrame> Node::next_frame() {
   if (boot_up_) return std::exchange(boot_up_, std::nullopt);
   // A stop request goes out in every state: the other nodes move.
   const bool urgent = emcy_.next_deadline() == LocalTime::min();
-  if (nmt_.allows_emcy() || urgent)
+  if ((objects_.value(slot_of(object::kEmcyCobId)) & kEmcyOff) != 0)
+    emcy_.discard();
+  else if (nmt_.allows_emcy() || urgent)
     if (auto frame = emcy_.next_frame(now_, node_id_)) return frame;
   if (auto frame = pdo_.next_frame(now_)) return frame;
   if (auto frame = heartbeat_.next_frame(now_, nmt_.state(), node_id_)) return frame;

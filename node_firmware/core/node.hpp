@@ -167,11 +167,13 @@ class Node final : private ObjectOwner {
 
   AbortCode read(const ObjectEntry& entry, std::int64_t& value) override;
   AbortCode write(const ObjectEntry& entry, std::int64_t value) override;
+  AbortCode check(const ObjectEntry& entry, std::int64_t value) const override;
   bool read_node_object(ObjectAddress address, std::int64_t& value);
   bool read_axis_object(const DriveAxis& axis, ObjectAddress base, std::int64_t& value);
   /// In the direction of 2160h:3.
   ScaleCounts directed_scales() const;
   std::int64_t told_current(const DriveAxis& axis) const;
+  bool follows_badly(const DriveAxis& axis) const;
   AbortCode write_node_object(const ObjectEntry& entry, std::int64_t value);
   AbortCode write_axis_object(const ObjectEntry& entry, std::int64_t value);
   AbortCode command_storage(ObjectAddress address, std::int64_t value);

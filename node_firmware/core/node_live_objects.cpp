@@ -28,7 +28,7 @@ bool kept_in_motion(const ObjectEntry& entry) {
   if (base == object::kAbortConnectionOption) return true;
   const bool tpdo = (base.index >= 0x1800 && base.index < 0x1C00);
   const bool of_set_point = base == object::kProfileVelocity || base == object::kProfileAcceleration ||
-                            base == object::kProfileDeceleration;
+                            base == object::kProfileDeceleration || base == object::kInterpolationSubMode;
   return entry.binding == Binding::kParameter && !tpdo && !of_set_point;
 }
 
@@ -107,6 +107,19 @@ std::int64_t Node::told_current(const DriveAxis& axis) const {
                                           : slot_of_axes(object::kHoldCurrent)[i]);
 }
 
+/// Farther from where it is told to be than the following error window; of the modes that have a bit for it.
+bool Node::follows_badly(const DriveAxis& axis) const {
+  const std::size_t i = &axis == &axes_[0] ? 0 : 1;
+  const int mode = axis.mode_display();
+  if (mode != static_cast<int>(cia402::Mode::kProfilePosition) &&
+      mode != static_cast<int>(cia402::Mode::kCyclicSynchronousPosition))
+    return false;
+  constexpr std::int64_t kUnwatched = 0xFFFF'FFFF;
+  const std::int64_t window = objects_.value(slot_of_axes(object::kFollowingErrorWindow)[i]);
+  const std::int64_t error = feedback_[i].following_error;
+  return window != kUnwatched && (error < 0 ? -error : error) > window;
+}
+
 ScaleCounts Node::directed_scales() const {
   ScaleCounts directed{};
   for (std::size_t i = 0; i < directed.size(); ++i) {
@@ -145,7 +158,7 @@ bool Node::read_axis_object(const DriveAxis& axis, ObjectAddress base, std::int6
       value = axis.error_code();
       return true;
     case 0x6041:
-      value = axis.statusword(now_);
+      value = axis.statusword(now_) | (follows_badly(axis) ? cia402::status::kFollowingError : 0);
       return true;
     case 0x6061:
       value = axis.mode_display();
@@ -227,6 +240,11 @@ bool Node::in_motion() const {
   return moving(now_) || (!path_.at_rest(now_) && !path_.stream().idle());
 }
 
+AbortCode Node::check(const ObjectEntry& entry, std::int64_t value) const {
+  const bool good = entry.base() != object::kModeOfOperation || known_mode(value);
+  return good ? AbortCode::kNone : AbortCode::kInvalidValue;
+}
+
 AbortCode Node::write(const ObjectEntry& entry, std::int64_t value) {
   if (kept_in_motion(entry) && in_motion()) return AbortCode::kDeviceState;
   if (entry.binding == Binding::kParameter) parameters_changed_ = true;
@@ -245,7 +263,15 @@ AbortCode Node::write_node_object(const ObjectEntry& entry, std::int64_t value) 
       // The gateway sends SYNC, and where it always is.
       return value == 0x80 ? AbortCode::kNone : AbortCode::kInvalidValue;
     case 0x1014:
-      return value == 0x80 + node_id_ ? AbortCode::kNone : AbortCode::kInvalidValue;
+      return (value & ~kEmcyOff) == 0x80 + node_id_ ? AbortCode::kNone : AbortCode::kInvalidValue;
+    case 0x1016: {
+      const auto other = static_cast<std::uint16_t>(slot_of(object::kConsumerHeartbeat).value +
+                                                    (address.subindex == 1 ? 1 : 0));
+      return watch_the_same(value, objects_.value({other})) ? AbortCode::kIncompatible : AbortCode::kNone;
+    }
+    case 0x1019:
+      return sync_counter_refused(value, objects_.value(entry.value_slot()),
+                                  objects_.value(slot_of(object::kSyncPeriod)));
     case 0x1010:
     case 0x1011:
       return command_storage(address, value);
@@ -285,7 +311,6 @@ AbortCode Node::write_axis_object(const ObjectEntry& entry, std::int64_t value) 
     return AbortCode::kNone;
   }
   if (base == object::kModeOfOperation) {
-    if (!known_mode(value)) return AbortCode::kInvalidValue;
     axis.on_mode(now_, static_cast<int>(value));
     return AbortCode::kNone;
   }

@@ -47,8 +47,12 @@ void Node::serve() {
 /// Last, so that what on_time() has found is told now.
 void Node::serve_pdo_problems() {
   while (const auto problem = pdo_.next_problem()) {
-    if (problem->emcy_code != emcy::kRpdoTimeout) count(NodeCounter::kPdoLengthErrors);
-    if (!emcy_.active(problem->emcy_code)) emcy_.raise(problem->emcy_code, {0, problem->rpdo});
+    const bool length = problem->emcy_code == emcy::kPdoTooShort || problem->emcy_code == emcy::kPdoTooLong;
+    if (length) count(NodeCounter::kPdoLengthErrors);
+    const std::uint16_t index = problem->object.index;
+    if (!emcy_.active(problem->emcy_code))
+      emcy_.raise(problem->emcy_code, {0, problem->rpdo, static_cast<std::uint8_t>(index),
+                                       static_cast<std::uint8_t>(index >> 8), problem->object.subindex});
   }
   if (!pdo_.rpdo_missing()) emcy_.clear(emcy::kRpdoTimeout);
 }

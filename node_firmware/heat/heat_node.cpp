@@ -131,7 +131,7 @@ void HeatNode::on_sync(const SyncReception& sync) {
   if (!nmt_.allows_sync()) return;
   if (!sync.length_error)
     pdo_.on_sync(now_, sync.counter);
-  else if (!emcy_.active(emcy::kSyncLength))
+  else if (nmt_.allows_pdo() && !emcy_.active(emcy::kSyncLength))  // before, 1019h may not be written yet
     emcy_.raise(emcy::kSyncLength);
 }
 
@@ -152,7 +152,7 @@ void HeatNode::on_nmt(NmtCommand command) {
   switch (command) {
     case NmtCommand::kStart:
       for (const std::uint16_t code :
-           {emcy::kSyncLength, emcy::kPdoTooShort, emcy::kPdoTooLong, emcy::kRpdoTimeout})
+           {emcy::kSyncLength, emcy::kPdoRefused, emcy::kPdoTooShort, emcy::kPdoTooLong, emcy::kRpdoTimeout})
         emcy_.clear(code);
       break;
     case NmtCommand::kEnterPreOperational:
@@ -184,7 +184,9 @@ std::optional<CanFrame> HeatNode::next_frame() {
   if (auto reply = lss_.next_frame()) return reply;
   if (node_id_ == 0) return std::nullopt;
   if (boot_up_) return std::exchange(boot_up_, std::nullopt);
-  if (nmt_.allows_emcy())
+  if ((value(heat_slot_of(object::kEmcyCobId)) & kEmcyOff) != 0)
+    emcy_.discard();
+  else if (nmt_.allows_emcy())
     if (auto frame = emcy_.next_frame(now_, node_id_)) return frame;
   if (auto frame = pdo_.next_frame(now_)) return frame;
   if (auto frame = heartbeat_.next_frame(now_, nmt_.state(), node_id_)) return frame;

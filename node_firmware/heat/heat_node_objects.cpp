@@ -181,7 +181,16 @@ AbortCode HeatNode::write_communication(const ObjectEntry& entry, std::int64_t t
       // SYNC and EMCY are where they always are.
       return to == 0x80 ? AbortCode::kNone : AbortCode::kInvalidValue;
     case 0x1014:
-      return to == 0x80 + node_id_ ? AbortCode::kNone : AbortCode::kInvalidValue;
+      return (to & ~kEmcyOff) == 0x80 + node_id_ ? AbortCode::kNone : AbortCode::kInvalidValue;
+    case 0x1016:
+      if (watch_the_same(
+              to, value(heat_slot_of(object::kConsumerHeartbeat), entry.address.subindex == 1 ? 1u : 0u)))
+        return AbortCode::kIncompatible;
+      communication_changed_ = true;
+      return AbortCode::kNone;
+    case 0x1019:
+      return sync_counter_refused(to, objects_.value(entry.value_slot()),
+                                  value(heat_slot_of(object::kSyncPeriod)));
     case 0x1010:
     case 0x1011:
       return command_storage(entry.address, to);

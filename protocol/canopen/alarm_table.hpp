@@ -105,6 +105,8 @@ inline constexpr std::array kAlarms{
              "check cable and termination of the bus"},
     AlarmRow{emcy::kIdCollision, "Two nodes use the same id", "two nodes use the same id",
              "give one of them another id (kinebus-node-id)"},
+    AlarmRow{emcy::kPdoRefused, "A frame on the bus has a wrong value",
+             "a PDO had a value that is not allowed", alarm_table::kLookForMaster},
     AlarmRow{emcy::kPdoTooShort, alarm_table::kWrongLength, "a PDO was too short",
              alarm_table::kLookForMaster},
     AlarmRow{emcy::kPdoTooLong, alarm_table::kWrongLength, "a PDO was too long", alarm_table::kLookForMaster},

@@ -11,12 +11,12 @@ Stop ramp_of_quick_stop(std::int16_t option) {
     case 2:
     case 6:
       return Stop::kQuickStop;
-    default:
+    default:  // 3, 4, 7 and 8
       return Stop::kCurrentLimit;
   }
 }
 
-Stop ramp_of_fault(std::int16_t option) {
+Stop ramp_of_halt_or_fault(std::int16_t option) {
   return option == 1 ? Stop::kSlowDown : option == 2 ? Stop::kQuickStop : Stop::kCurrentLimit;
 }
 
@@ -91,7 +91,7 @@ void PowerStateMachine::on_controlword(std::uint16_t word, const StopOptions& op
         else
           begin_stop(Stop::kSlowDown, After::kSwitchedOn);
       } else if (halt_) {
-        begin_stop(options.halt == 1 ? Stop::kSlowDown : Stop::kQuickStop, After::kNothing);
+        begin_stop(ramp_of_halt_or_fault(options.halt), After::kNothing);
       } else {
         begin_stop(Stop::kNone, After::kNothing);  // commands of a stop withdrawn before its end
       }
@@ -129,7 +129,7 @@ void PowerStateMachine::on_fault(const StopOptions& options, bool power_lost) {
   if (state_ == State::kFaultReactionActive && !power_lost) return;
   if (!ramp) return enter(State::kFault);  // 13 and 14 at once
   enter(State::kFaultReactionActive);
-  begin_stop(ramp_of_fault(options.fault_reaction), After::kFault);
+  begin_stop(ramp_of_halt_or_fault(options.fault_reaction), After::kFault);
 }
 
 bool PowerStateMachine::powered() const {

@@ -62,6 +62,8 @@ class EmcyProducer {
   void clear_all();
 
   std::optional<CanFrame> next_frame(LocalTime now, std::uint8_t node);
+  /// What waits is not told (1014h is off).
+  void discard() { count_ = 0; }
   LocalTime next_deadline() const;
 
   std::uint8_t error_register() const;

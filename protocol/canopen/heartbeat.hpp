@@ -27,6 +27,12 @@ class HeartbeatProducer {
   LocalTime due_{0};
 };
 
+/// Whether two entries of 1016h watch the same node, which CiA 301 forbids.
+constexpr bool watch_the_same(std::int64_t a, std::int64_t b) {
+  const auto used = [](std::int64_t entry) { return (entry & 0xFFFF) != 0 && (entry >> 16 & 0xFF) != 0; };
+  return used(a) && used(b) && (a >> 16 & 0xFF) == (b >> 16 & 0xFF);
+}
+
 class HeartbeatConsumer {
  public:
   static constexpr std::size_t kCapacity = 8;

@@ -13,6 +13,7 @@ inline constexpr std::uint32_t kProductCode = 0x0000'0402;
 inline constexpr std::uint32_t kRevisionNumber = 0x0001'0000;
 inline constexpr std::int64_t kSaveSignature = 0x6576'6173;  // "save", 1010h
 inline constexpr std::int64_t kLoadSignature = 0x6461'6F6C;  // "load", 1011h
+inline constexpr std::int64_t kEmcyOff = 0x8000'0000;        // 1014h, bit 31
 inline constexpr int kRpdoCount = 6;
 inline constexpr int kTpdoCount = 4;
 inline constexpr int kSwitchInputs = 7;

@@ -28,11 +28,17 @@ AbortCode ObjectDictionary::read_value(int place, std::int64_t& value) {
   return AbortCode::kNone;
 }
 
-AbortCode ObjectDictionary::write_value(int place, std::int64_t value) {
+AbortCode ObjectDictionary::check_value(int place, std::int64_t value) const {
   const ObjectEntry& entry = table_[place];
   if (entry.limited && value > entry.high) return AbortCode::kTooHigh;
   if (entry.limited && value < entry.low) return AbortCode::kTooLow;
-  const AbortCode refused = owner_.write(entry, value);
+  return owner_.check(entry, value);
+}
+
+AbortCode ObjectDictionary::write_value(int place, std::int64_t value) {
+  const ObjectEntry& entry = table_[place];
+  AbortCode refused = check_value(place, value);
+  if (refused == AbortCode::kNone) refused = owner_.write(entry, value);
   if (refused == AbortCode::kNone && entry.binding != Binding::kLive) values_[entry.slot] = value;
   return refused;
 }
@@ -78,6 +84,11 @@ AbortCode ObjectDictionary::sdo_read(ObjectAddress address, std::uint32_t offset
 AbortCode ObjectDictionary::sdo_write(ObjectAddress address, std::uint32_t offset,
                                       std::span<const std::uint8_t> bytes, bool last) {
   return offset == 0 && last ? write(address, bytes) : AbortCode::kTooLong;
+}
+
+std::size_t ObjectDictionary::sdo_size(ObjectAddress address) const {
+  const int place = place_of(address);
+  return place < 0 || table_[place].type == DataType::kString ? 4 : table_[place].size();
 }
 
 std::uint32_t ObjectDictionary::fingerprint() const {

@@ -24,6 +24,8 @@ class ObjectOwner {
   /// `value` is about to become that of `entry`; existence, access, length and limits are checked. For a live
   /// object the owner takes it; for the others the dictionary stores it when this returns kNone.
   virtual AbortCode write(const ObjectEntry& entry, std::int64_t value) = 0;
+  /// Whether write() would take this value at another time; changes nothing.
+  virtual AbortCode check(const ObjectEntry&, std::int64_t) const { return AbortCode::kNone; }
 
  protected:
   ~ObjectOwner() = default;
@@ -46,6 +48,8 @@ class ObjectDictionary : public SdoObjects {
   // By place, for PDOs: access rights are those of the mapping, checked when it was made.
   AbortCode read_value(int place, std::int64_t& value);
   AbortCode write_value(int place, std::int64_t value);
+  /// Whether `value` is one that the object can have; changes nothing.
+  AbortCode check_value(int place, std::int64_t value) const;
 
   /// By address, for SDO. Numbers are little endian. `bytes` must have room for 8 bytes, or for the longest
   /// string.
@@ -57,6 +61,7 @@ class ObjectDictionary : public SdoObjects {
                      std::uint32_t& total) final;
   AbortCode sdo_write(ObjectAddress address, std::uint32_t offset, std::span<const std::uint8_t> bytes,
                       bool last) final;
+  std::size_t sdo_size(ObjectAddress address) const final;
 
   /// CRC-32 (IEEE) over address and value of every parameter: equal configurations have equal fingerprints.
   /// The node id does not count: values relative to it are taken without it.

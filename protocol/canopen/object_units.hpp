@@ -74,7 +74,7 @@ constexpr void communication(Rows& t, const BoardFacts& board) {
   for (std::uint8_t i = 0; i < kErrorHistoryLength; ++i)
     t.sub(static_cast<std::uint8_t>(i + 1), kErrorFieldNames[i], kU32, kReadOnly, kLive);
   t.var(0x1005, "COB-ID SYNC message", kU32, kReadWrite, kParameter, 0x80);
-  t.var(0x1006, "Communication cycle period", kU32, kReadWrite, kParameter, 50'000).in("us");
+  t.var(0x1006, "Communication cycle period", kU32, kReadWrite, kParameter).in("us");
   t.var(0x1007, "Synchronous window length", kU32, kReadWrite, kParameter).in("us");
   t.string(0x1008, "Manufacturer device name", board.device_name);
   t.string(0x1009, "Manufacturer hardware version", board.hardware_version);
@@ -96,7 +96,7 @@ constexpr void communication(Rows& t, const BoardFacts& board) {
   t.sub(2, "Product code", kU32, kReadOnly, kLive, board.product_code);
   t.sub(3, "Revision number", kU32, kReadOnly, kLive, board.revision);
   t.sub(4, "Serial number", kU32, kReadOnly, kLive);
-  t.var(0x1019, "Synchronous counter overflow value", kU8, kReadWrite, kParameter, 240).between(0, 240);
+  t.var(0x1019, "Synchronous counter overflow value", kU8, kReadWrite, kParameter).between(0, 240);
   t.head(0x1029, "Error behaviour", ObjectCode::kArray, 1);
   // No change of NMT state: a lost gateway is answered by a stop on the path, after which positions stay in
   // use.
@@ -227,11 +227,11 @@ constexpr void cia402_axis(Rows& t) {
   t.var(0x6040, "Controlword", kU16, kReadWrite, kVariable).maps(Mapping::kRpdo);
   t.var(0x6041, "Statusword", kU16, kReadOnly, kLive).maps(Mapping::kTpdo);
   // Stops end with the motor holding: a platform on vertical rails falls when its drives let go.
-  t.var(0x605A, "Quick stop option code", kI16, kReadWrite, kParameter, 6).between(0, 6);
+  t.var(0x605A, "Quick stop option code", kI16, kReadWrite, kParameter, 6).between(0, 8);
   t.var(0x605B, "Shutdown option code", kI16, kReadWrite, kParameter, 1).between(0, 1);
   t.var(0x605C, "Disable operation option code", kI16, kReadWrite, kParameter, 1).between(0, 1);
-  t.var(0x605D, "Halt option code", kI16, kReadWrite, kParameter, 1).between(1, 2);
-  t.var(0x605E, "Fault reaction option code", kI16, kReadWrite, kParameter, 2).between(0, 2);
+  t.var(0x605D, "Halt option code", kI16, kReadWrite, kParameter, 1).between(1, 4);
+  t.var(0x605E, "Fault reaction option code", kI16, kReadWrite, kParameter, 2).between(0, 4);
   t.var(0x6060, "Modes of operation", kI8, kReadWrite, kVariable).maps(Mapping::kRpdo);
   t.var(0x6061, "Modes of operation display", kI8, kReadOnly, kLive).maps(Mapping::kTpdo);
   t.var(0x6062, "Position demand value", kI32, kReadOnly, kLive).maps(Mapping::kTpdo).in("counts");
@@ -241,7 +241,7 @@ constexpr void cia402_axis(Rows& t) {
   t.var(0x606C, "Velocity actual value", kI32, kReadOnly, kLive).maps(Mapping::kTpdo).in("counts/s");
   t.var(0x6079, "DC link circuit voltage", kU32, kReadOnly, kLive).maps(Mapping::kTpdo).in("mV");
   t.var(0x607A, "Target position", kI32, kReadWrite, kVariable).maps(Mapping::kRpdo).in("counts");
-  // The position is made equal to this at the edge of the home switch.
+  // As IEC 61800-7-201: zero is the edge of the home switch plus this; the edge has its negative.
   t.var(0x607C, "Home offset", kI32, kReadWrite, kParameter).in("counts");
   t.head(0x607D, "Software position limit", ObjectCode::kArray, 2);
   t.sub(1, "Min position limit", kI32, kReadWrite, kParameter, i32_min).in("counts");
@@ -264,7 +264,8 @@ constexpr void cia402_axis(Rows& t) {
   t.var(0x609A, "Homing acceleration", kU32, kReadWrite, kParameter, 1'280'000).in("counts/s2");
   t.var(0x60B0, "Position offset", kI32, kReadWrite, kVariable).maps(Mapping::kRpdo).in("counts");
   t.var(0x60B1, "Velocity offset", kI32, kReadWrite, kVariable).maps(Mapping::kRpdo).in("counts/s");
-  t.var(0x60C0, "Interpolation sub mode select", kI16, kReadWrite, kVariable, -1).between(-1, 0);
+  // 0: a set-point a SYNC; -1: the stream.
+  t.var(0x60C0, "Interpolation sub mode select", kI16, kReadWrite, kParameter).between(-1, 0);
   t.head(0x60C1, "Interpolation data record", ObjectCode::kArray, 1);
   t.sub(1, "Position set-point", kI32, kReadWrite, kVariable).maps(Mapping::kRpdo).in("counts");
   t.head(0x60C2, "Interpolation time period", ObjectCode::kRecord, 2);

@@ -9,7 +9,7 @@
 namespace kinebus {
 namespace {
 
-constexpr std::uint32_t kOff = 0x8000'0000, kExtended = 0x2000'0000, kIdBits = 0x7FF;
+constexpr std::uint32_t kOff = 0x8000'0000, kNoRtr = 0x4000'0000, kExtended = 0x2000'0000, kIdBits = 0x7FF;
 // Of a PDO that this node's table does not have: a COB-ID that is off, and a type that is none.
 constexpr std::int64_t kNoSuchPdo = -1;
 constexpr std::uint32_t kUnusedIdBits = 0x1FFF'F800;
@@ -110,6 +110,8 @@ AbortCode PdoEngine::accept_communication(Pdo& pdo, const ObjectEntry& entry, st
     case 1: {
       const auto raw = static_cast<std::uint32_t>(value);
       if ((raw & kExtended) != 0 || (raw & kUnusedIdBits) != 0) return AbortCode::kInvalidValue;
+      // Nobody can ask for a TPDO by a remote frame here.
+      if (is_tpdo(entry.address) && (raw & kNoRtr) == 0) return AbortCode::kInvalidValue;
       const bool on = (raw & kOff) == 0;
       const std::uint32_t id = raw & kIdBits;
       if (on && cob_id::is_restricted(id)) return AbortCode::kInvalidValue;
@@ -169,6 +171,7 @@ void PdoEngine::start(Pdo& pdo, bool tpdo, LocalTime now) {
   pdo.timer = LocalTime::max();
   pdo.due = false;
   if (!tpdo) return;
+  if (pdo.type == 0) pdo.waiting = true;
   if (!synchronous(pdo.type)) pdo.due = true;
   if (!synchronous(pdo.type) && pdo.event.count() != 0) pdo.timer = now + pdo.event;
 }
@@ -185,9 +188,9 @@ bool PdoEngine::rpdo_missing() const {
   return std::any_of(rpdos_.begin(), rpdos_.end(), [](const Pdo& pdo) { return pdo.valid && pdo.missing; });
 }
 
-void PdoEngine::report(std::uint16_t code, const Pdo& pdo) {
+void PdoEngine::report(std::uint16_t code, const Pdo& pdo, ObjectAddress object) {
   if (problem_count_ == problems_.size()) return;
-  problems_[problem_count_++] = {code, static_cast<std::uint8_t>(&pdo - rpdos_.data() + 1)};
+  problems_[problem_count_++] = {code, static_cast<std::uint8_t>(&pdo - rpdos_.data() + 1), object};
 }
 
 std::optional<PdoEngine::Problem> PdoEngine::next_problem() {
@@ -219,18 +222,25 @@ PdoEngine::Reception PdoEngine::on_frame(LocalTime now, const CanFrame& frame) {
   return Reception::kNotMine;
 }
 
+/// All of it, or, for one value that its object cannot have, nothing.
 PdoEngine::Reception PdoEngine::write(Pdo& pdo, const CanFrame& frame) {
   Reception result = Reception::kWritten;
-  std::size_t at = 0;
-  for (std::size_t i = 0; i < pdo.map.count; ++i) {
-    const MappedObject& object = pdo.map.objects[i];
-    if (object.place >= 0) {
+  for (const bool trial : {true, false}) {
+    std::size_t at = 0;
+    for (std::size_t i = 0; i < pdo.map.count; ++i) {
+      const MappedObject& object = pdo.map.objects[i];
       const std::uint64_t raw = get_le(std::span(frame.data).subspan(at), object.bytes);
-      const DataType type = objects_.table()[object.place].type;
-      if (objects_.write_value(object.place, value_of(type, raw)) != AbortCode::kNone)
-        result = Reception::kRefused;
+      at += object.bytes;
+      if (object.place < 0) continue;
+      const ObjectEntry& entry = objects_.table()[object.place];
+      const std::int64_t value = value_of(entry.type, raw);
+      if (!trial) {
+        if (objects_.write_value(object.place, value) != AbortCode::kNone) result = Reception::kRefused;
+      } else if (objects_.check_value(object.place, value) != AbortCode::kNone) {
+        report(emcy::kPdoRefused, pdo, entry.address);
+        return Reception::kRefused;
+      }
     }
-    at += object.bytes;
   }
   return result;
 }
@@ -246,7 +256,9 @@ void PdoEngine::on_sync(LocalTime now, std::uint8_t counter) {
   for (Pdo& pdo : tpdos_) {
     if (!pdo.valid || !synchronous(pdo.type)) continue;
     if (pdo.type == 0) {  // acyclic: at the SYNC after an event
-      pdo.due = pdo.due || pdo.waiting;
+      CanFrame fresh;
+      const bool changed = pack(pdo, fresh) && fresh.data != pdo.frame.data;
+      pdo.due = pdo.due || pdo.waiting || changed;
       pdo.waiting = false;
       continue;
     }

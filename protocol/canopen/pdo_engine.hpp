@@ -15,8 +15,10 @@ class PdoEngine {
  public:
   /// What went wrong, to be told by EMCY; pull until empty.
   struct Problem {
-    std::uint16_t emcy_code = 0;  ///< 8210h too short, 8220h too long, 8250h RPDO timeout
-    std::uint8_t rpdo = 0;        ///< 1..
+    std::uint16_t emcy_code =
+        0;                   ///< 8200h refused value, 8210h too short, 8220h too long, 8250h RPDO timeout
+    std::uint8_t rpdo = 0;   ///< 1..
+    ObjectAddress object{};  ///< of a refused value
   };
   enum class Reception : std::uint8_t { kNotMine, kWritten, kAwaitsSync, kRefused };
 
@@ -42,7 +44,8 @@ class PdoEngine {
   /// Timers; and looks for changed values of TPDOs of type 255 (the device profile's event). Cheap enough to
   /// call after every input.
   void on_time(LocalTime now);
-  /// The application's event for TPDO `number` (1..4); types 0, 254 and 255.
+  /// The application's event for TPDO `number` (1..4); types 0, 254 and 255. Of type 254 it is, with the
+  /// event timer, the only one (manufacturer-specific); 0 and 255 also go by the change of a mapped value.
   void trigger(int number);
 
   std::optional<CanFrame> next_frame(LocalTime now);
@@ -94,7 +97,7 @@ class PdoEngine {
   void start(Pdo& pdo, bool tpdo, LocalTime now);
   Reception write(Pdo& pdo, const CanFrame& frame);
   bool pack(Pdo& pdo, CanFrame& frame);
-  void report(std::uint16_t code, const Pdo& pdo);
+  void report(std::uint16_t code, const Pdo& pdo, ObjectAddress object = {});
 
   ObjectDictionary& objects_;
   std::array<Pdo, kRpdoCount> rpdos_{};

@@ -24,6 +24,8 @@ class SdoObjects {
   /// Pieces come in order, the first with offset 0; a value of up to 889 bytes comes in one, with `last` set.
   virtual AbortCode sdo_write(ObjectAddress address, std::uint32_t offset,
                               std::span<const std::uint8_t> bytes, bool last) = 0;
+  /// Bytes that a number has: what a client means that sends up to four without saying how many.
+  virtual std::size_t sdo_size(ObjectAddress) const { return 4; }
 
  protected:
   ~SdoObjects() = default;

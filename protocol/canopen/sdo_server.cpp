@@ -115,8 +115,8 @@ void SdoServer::initiate_download(const CanFrame& request) {
   size_known_ = (request.data[0] & 1) != 0;
   const CanFrame answer = sdo::frame_of(reply_id(), 0x60, address_);
   if ((request.data[0] & 2) != 0) {
-    const std::size_t unused = size_known_ ? (request.data[0] >> 2) & 3u : 0u;
-    buffered_ = 4 - unused;
+    buffered_ = size_known_ ? 4 - ((request.data[0] >> 2) & 3u)
+                            : std::min<std::size_t>(objects_.sdo_size(address_), 4);
     std::copy_n(request.data.begin() + 4, buffered_, buffer_.begin());
     return write_done(flush(true), answer);
   }

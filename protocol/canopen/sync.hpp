@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "protocol/can/frame.hpp"
+#include "protocol/canopen/abort_code.hpp"
 #include "protocol/canopen/cob_id.hpp"
 #include "protocol/time.hpp"
 
@@ -44,6 +45,12 @@ class PlainSyncProducer {
   std::uint8_t last_counter_ = 0;
   bool running_ = false;
 };
+
+/// CiA 301 on writing 1019h: 1 is no counter, and it changes only while 1006h is 0.
+constexpr AbortCode sync_counter_refused(std::int64_t wanted, std::int64_t present, std::int64_t period) {
+  if (wanted == 1) return AbortCode::kInvalidValue;
+  return wanted != present && period != 0 ? AbortCode::kDeviceState : AbortCode::kNone;
+}
 
 /// What a SYNC frame says to a consumer whose 1005h and 1019h are these.
 struct SyncReception {

@@ -32,8 +32,9 @@ std::string number(const ObjectEntry& entry, std::int64_t value) {
   return hex(static_cast<unsigned long long>(value), 2 * size_of(entry.type));
 }
 
-const char* access_name(Access access) {
-  switch (access) {
+/// As CiA 306: what may be read and written says by which kind of PDO it may be reached.
+const char* access_name(const ObjectEntry& entry) {
+  switch (entry.access) {
     case Access::kConst:
       return "const";
     case Access::kReadOnly:
@@ -41,14 +42,19 @@ const char* access_name(Access access) {
     case Access::kWriteOnly:
       return "wo";
     case Access::kReadWrite:
-      return "rw";
+      return entry.mapping == Mapping::kNone ? "rw" : entry.maps_to(Mapping::kTpdo) ? "rwr" : "rww";
   }
   return "ro";
 }
 
+/// A master's program finds objects by their names: those of the second axis have one of their own.
+std::string object_name(const ObjectEntry& entry, const ObjectNames& names) {
+  return std::string(names.object) + (entry.axis == 1 ? " B" : "");
+}
+
 void add_value(Ini& ini, const ObjectEntry& entry) {
   ini.set("DataType", hex(static_cast<unsigned>(entry.type), 4));
-  ini.set("AccessType", access_name(entry.access));
+  ini.set("AccessType", access_name(entry));
   if (entry.type == DataType::kString)
     ini.set("DefaultValue", entry.text);
   else if (entry.binding != Binding::kLive || entry.initial != 0)
@@ -132,7 +138,7 @@ std::string eds_text(const BoardDescription& board) {
     const std::string section = hex(entry.address.index, 4, "");
     if (entry.code == ObjectCode::kVar) {
       ini.section(section);
-      ini.set("ParameterName", names.object);
+      ini.set("ParameterName", object_name(entry, names));
       ini.set("ObjectType", "0x7");
       add_value(ini, entry);
       continue;
@@ -142,7 +148,7 @@ std::string eds_text(const BoardDescription& board) {
       for (std::size_t k = i; k < objects.size() && objects[k].address.index == entry.address.index; ++k)
         ++entries;
       ini.section(section);
-      ini.set("ParameterName", names.object);
+      ini.set("ParameterName", object_name(entry, names));
       ini.set("ObjectType", entry.code == ObjectCode::kArray ? "0x8" : "0x9");
       ini.set("SubNumber", entries);
     }

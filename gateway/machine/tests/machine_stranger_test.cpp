@@ -99,6 +99,34 @@ TEST(Stranger, LostRecordAndResumeAgainAndAgainFindsEveryNodeWhereTheGatewayBeli
   }
 }
 
+TEST(Stranger, AHomingThatWasStoppedIsNoChangeOfParameters) {
+  Stranger rig;
+  ASSERT_TRUE(rig.make_ready()) << rig.story();
+  ASSERT_TRUE(rig.gateway->carry_out(command::Home{}));
+  ASSERT_TRUE(rig.reach(MachineState::kHoming, 5s)) << rig.story();
+  rig.run_for(500ms);
+  ASSERT_TRUE(rig.gateway->carry_out(command::Stop{}));
+  ASSERT_TRUE(rig.reach(MachineState::kStopped, 5s)) << rig.story();
+  const auto others_ask = [&] {
+    for (const char* request : {"601#4000100000000000", "602#4000100000000000", "603#4000100000000000"})
+      rig.stranger_sends(text_frame(request));
+    rig.run_for(2s);
+  };
+  others_ask();
+  EXPECT_FALSE(rig.told(AlarmCode::kNodeChanged)) << rig.story();
+  ASSERT_TRUE(rig.gateway->carry_out(command::Clear{}));
+  ASSERT_TRUE(rig.run_until(
+      [&] {
+        return rig.gateway->state() == MachineState::kReady || rig.gateway->state() == MachineState::kUnhomed;
+      },
+      5s))
+      << rig.story();
+  others_ask();
+  EXPECT_FALSE(rig.told(AlarmCode::kNodeChanged)) << rig.story();
+  rig.stranger_sends(text_frame("602#2B15210033000000"));
+  ASSERT_TRUE(rig.run_until([&] { return rig.told(AlarmCode::kNodeChanged); }, 2s)) << "it is watched again";
+}
+
 TEST(Stranger, NmtStopOfAllIsNamedAndBringUpStartsTheNodesAgain) {
   Stranger rig;
   ASSERT_TRUE(rig.make_ready()) << rig.story();

@@ -38,6 +38,7 @@ struct NodeSetup {
   BusTime offset{0};
   std::array<AxisPlantOptions, 2> plant{};
   std::vector<std::uint8_t> stored{};
+  bool told = true;  ///< what a gateway tells a node before it moves; otherwise it is as it comes
 };
 
 class Bench {
@@ -50,6 +51,8 @@ class Bench {
   explicit Bench(const std::vector<NodeSetup>& setups, unsigned seed = 1) : random_(seed) {
     for (const NodeSetup& setup : setups) nodes_.push_back(std::make_unique<Station>(setup));
     settle();
+    for (std::size_t i = 0; i < nodes_.size(); ++i)
+      if (setups[i].told) tell_what_a_gateway_tells(i);
   }
 
   Node& node(std::size_t i = 0) { return nodes_[i]->core; }
@@ -219,6 +222,17 @@ class Bench {
     return {};
   }
 
+  /// SYNC with a counter (1019h), and mode 7 is the stream (60C0h). Not by the bus: at once.
+  void tell_what_a_gateway_tells(std::size_t i) {
+    Station& station = *nodes_[i];
+    for (const char* data : {"2F191000F0000000", "2BC06000FFFF0000", "2BC06800FFFF0000"}) {
+      CanFrame request = frame_of(std::string("600#") + data);
+      request.id += station.setup.id;
+      station.core.on_frame(station.local(now), request);
+      while (station.core.next_frame()) {
+      }
+    }
+  }
   void settle() {
     for (std::size_t i = 0; i < nodes_.size(); ++i) pull(i);
   }

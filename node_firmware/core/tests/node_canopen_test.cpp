@@ -101,7 +101,7 @@ TEST_F(OneNode, RemapsATpdoAndSendsItOnSync) {
                    {To, "000#0101"}});
   while (node.next_frame()) {
   }
-  node.on_frame(now, frame_of("080#01"));
+  node.on_frame(now, frame_of("080#"));
   EXPECT_EQ(text_of(*node.next_frame()), "381#00000000");
 }
 

@@ -125,17 +125,17 @@ TEST_P(NodeHoming, FindsTheSwitchByStandardObjects) {
   });
   EXPECT_EQ(bench.statusword(kId, 1) & 0x3400, 0x1400);
   EXPECT_EQ(bench.read(kId, 0x2940, 6), 1);
-  // Where the carriage is on its rail, and where the node thinks it is: the edge is at 12345.
+  // Where the carriage is on its rail, and where the node thinks it is: zero lies 12345 above the edge.
   const double carriage =
       static_cast<double>(plant.start_counts) + std::ldexp(static_cast<double>(last), -32);
-  EXPECT_NEAR(static_cast<double>(bench.read(kId, 0x6864, 0)), carriage - 100'000 + 12'345, 0.6);
+  EXPECT_NEAR(static_cast<double>(bench.read(kId, 0x6864, 0)), carriage - 100'000 - 12'345, 0.6);
 }
 INSTANTIATE_TEST_SUITE_P(AllMethods, NodeHoming,
                          testing::Values(HomingCase{17, false}, HomingCase{18, true}, HomingCase{19, true},
                                          HomingCase{20, true}, HomingCase{21, false}, HomingCase{22, false}));
 
 TEST_F(DriveTest, HomingOnThePlaceTakesTheOffset) {
-  bench.write(kId, 0x607C, 0, 4, -500);
+  bench.write(kId, 0x607C, 0, 4, 500);
   bench.write(kId, 0x6098, 0, 1, 37);
   bench.enable(kId, 0, 6);
   control(0x1F);

@@ -318,14 +318,14 @@ TEST(HeatNode, SynchronousPdosAndWrongLengthsAreAsCiaSays) {
   bench.send(set_points);
   EXPECT_EQ(bench.read({0x7402, 1}), 0u);
   bench.forget();
-  bench.send(CanFrame::make(0x080, {1}));
+  bench.send(CanFrame{.id = 0x080});
   EXPECT_EQ(bench.read({0x7402, 1}), 2000u);
   EXPECT_EQ(std::count_if(bench.seen.begin(), bench.seen.end(),
                           [](const CanFrame& frame) { return frame.id == 0x280u + HeatNodeBench::kId; }),
             1);
   bench.send(CanFrame::make(0x200u + HeatNodeBench::kId, {1, 2, 3}));
   EXPECT_EQ(bench.emergencies(0x8210).size(), 1u);
-  bench.send(CanFrame{.id = 0x080});
+  bench.send(CanFrame::make(0x080, {1}));
   EXPECT_EQ(bench.emergencies(0x8240).size(), 1u);
 }
 

@@ -22,6 +22,7 @@ struct Bench : ObjectOwner {
   SdoServer server{objects};
   std::map<std::uint32_t, std::int64_t> live;
   std::vector<std::pair<std::uint32_t, std::int64_t>> written;
+  std::uint32_t never = 0;  ///< an object that takes nothing
   LocalTime now{0};
 
   Bench() {
@@ -36,6 +37,9 @@ struct Bench : ObjectOwner {
     if (PdoEngine::owns(entry.address)) return pdos.accept(entry, value);
     written.emplace_back(entry.address.key(), value);
     return AbortCode::kNone;
+  }
+  AbortCode check(const ObjectEntry& entry, std::int64_t) const override {
+    return entry.address.key() == never ? AbortCode::kInvalidValue : AbortCode::kNone;
   }
   void sdo(const char* request, const char* reply) {
     server.on_frame(now, parse_frame(request).value());
@@ -142,14 +146,14 @@ TEST(PdoEngine, StreamStatusIsSentWhenTriggered) {
 TEST(PdoEngine, IsRemappedAsCiaSays) {
   Bench b;
   b.sdo("601#2F001A0000000000", "581#80001A0000000106");  // while valid: unsupported access
-  b.sdo("601#2300180181010080", "581#6000180100000000");  // off
+  b.sdo("601#23001801810100C0", "581#6000180100000000");  // off
   b.sdo("601#23001A0110006460", "581#80001A0100000106");  // count is not 0 yet
   b.sdo("601#2F001A0000000000", "581#60001A0000000000");
   b.sdo("601#23001A0120006460", "581#60001A0100000000");  // 6064h, 32 bits
   b.sdo("601#23001A0210004160", "581#60001A0200000000");
   b.sdo("601#2F001A0002000000", "581#60001A0000000000");
   b.sdo("601#2F00180201000000", "581#6000180200000000");  // every SYNC
-  b.sdo("601#2300180181010000", "581#6000180100000000");
+  b.sdo("601#2300180181010040", "581#6000180100000000");
   b.live[object::kPositionActual.key()] = -2;
   b.live[object::kStatusword.key()] = 0x237;
   b.operate();
@@ -190,14 +194,15 @@ TEST(PdoEngine, CommunicationParametersAreChecked) {
   b.sdo("601#2F001402F1000000", "581#8000140230000906");  // reserved
   b.sdo("601#2F001402F0000000", "581#6000140200000000");
   b.sdo("601#2B0018030A000000", "581#8000180300000106");  // inhibit time while valid
+  b.sdo("601#2300180181010080", "581#8000180130000906");  // for remote frames, which nobody answers here
 }
 
 TEST(PdoEngine, SynchronousTpdoCountsFromItsStartValue) {
   Bench b;
-  b.sdo("601#2301180181020080", "581#6001180100000000");
+  b.sdo("601#23011801810200C0", "581#6001180100000000");
   b.sdo("601#2F01180203000000", "581#6001180200000000");
   b.sdo("601#2F01180605000000", "581#6001180600000000");
-  b.sdo("601#2301180181020000", "581#6001180100000000");
+  b.sdo("601#2301180181020040", "581#6001180100000000");
   b.operate();
   std::string when;
   for (int counter = 1; counter <= 14; ++counter) {
@@ -211,12 +216,37 @@ TEST(PdoEngine, AcyclicSynchronousTpdoNeedsAnEvent) {
   Bench b;
   b.sdo("601#2F01180200000000", "581#6001180200000000");
   b.operate();
+  EXPECT_EQ(b.sent(), Frames{});
   b.pdos.on_sync(b.now, 1);
+  EXPECT_EQ(b.sent().size(), 1u) << "how it stands, once";
+  b.pdos.on_sync(b.now, 2);
   EXPECT_EQ(b.sent(), Frames{});
   b.pdos.trigger(2);
   EXPECT_EQ(b.sent(), Frames{});
-  b.pdos.on_sync(b.now, 2);
+  b.pdos.on_sync(b.now, 3);
   EXPECT_EQ(b.sent().size(), 1u);
+  b.live[object::kStreamStatus.key()] = 7;
+  EXPECT_EQ(b.sent(), Frames{}) << "not before SYNC";
+  b.pdos.on_sync(b.now, 4);
+  EXPECT_EQ(b.sent(), Frames{"281#0700000000000000"});
+  b.pdos.on_sync(b.now, 5);
+  EXPECT_EQ(b.sent(), Frames{});
+}
+
+TEST(PdoEngine, OneValueThatIsRefusedTakesTheWholePdoWithIt) {
+  Bench b;
+  b.never = object::kModeOfOperation.key();
+  b.operate();
+  EXPECT_EQ(b.receive("201#0F0006000108"), PdoEngine::Reception::kRefused);
+  EXPECT_EQ(b.value(object::kControlword), 0);
+  EXPECT_EQ(b.value({0x6860, 0}), 0);
+  EXPECT_TRUE(b.written.empty());
+  const auto told = b.pdos.next_problem();
+  ASSERT_TRUE(told);
+  EXPECT_EQ(told->emcy_code, emcy::kPdoRefused);
+  EXPECT_EQ(told->rpdo, 1);
+  EXPECT_EQ(told->object, object::kModeOfOperation);
+  EXPECT_FALSE(b.pdos.next_problem());
 }
 
 TEST(PdoEngine, RpdoTimeoutIsToldOnce) {

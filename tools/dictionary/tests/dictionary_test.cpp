@@ -65,14 +65,17 @@ TEST(Eds, SaysOfEveryObjectWhatTheTableSays) {
     ASSERT_EQ(sections.count(name), 1u) << name;
     Section& s = sections[name];
     ++values;
-    EXPECT_EQ(s["ParameterName"], names_of(entry).name) << name;
+    const std::string second = entry.axis == 1 ? " B" : "";
+    EXPECT_EQ(s["ParameterName"], std::string(names_of(entry).name) + (var ? second : "")) << name;
     EXPECT_EQ(number(s["ObjectType"]), 7) << name;
     EXPECT_EQ(number(s["DataType"]), static_cast<std::int64_t>(entry.type)) << name;
-    const std::map<std::string, Access> accesses{{"const", Access::kConst},
-                                                 {"ro", Access::kReadOnly},
-                                                 {"wo", Access::kWriteOnly},
-                                                 {"rw", Access::kReadWrite}};
+    const std::map<std::string, Access> accesses{{"const", Access::kConst},   {"ro", Access::kReadOnly},
+                                                 {"wo", Access::kWriteOnly},  {"rw", Access::kReadWrite},
+                                                 {"rww", Access::kReadWrite}, {"rwr", Access::kReadWrite}};
     EXPECT_EQ(accesses.at(s["AccessType"]), entry.access) << name;
+    if (entry.access == Access::kReadWrite) {
+      EXPECT_EQ(s["AccessType"] == "rww", entry.mapping == Mapping::kRpdo) << name;
+    }
     EXPECT_EQ(s["PDOMapping"] == "1", entry.mapping != Mapping::kNone) << name;
     std::string initial = s["DefaultValue"];
     if (entry.type == DataType::kString) {
@@ -90,7 +93,7 @@ TEST(Eds, SaysOfEveryObjectWhatTheTableSays) {
     }
     if (!var && entry.address.subindex == 0) {
       Section& whole = sections[section_name(entry.address, false)];
-      EXPECT_EQ(whole["ParameterName"], names_of(entry).object);
+      EXPECT_EQ(whole["ParameterName"], std::string(names_of(entry).object) + second);
       EXPECT_EQ(number(whole["ObjectType"]), static_cast<std::int64_t>(entry.code));
       std::int64_t entries = 0;
       for (const ObjectEntry& other : kNodeObjects)
@@ -99,6 +102,19 @@ TEST(Eds, SaysOfEveryObjectWhatTheTableSays) {
     }
   }
   EXPECT_EQ(values, kNodeObjectCount);
+}
+
+TEST(Eds, NamesAreUnique) {
+  for (const BoardDescription& board : kBoards) {
+    std::set<std::string> names;
+    for (const auto& [section, keys] : read_ini(eds_text(board))) {
+      const bool object = section.size() == 4 || section.find("sub") == 4;
+      if (!object || !keys.contains("ParameterName")) continue;
+      const std::string whole = section.size() > 4 ? section.substr(0, 4) + "/" : "";
+      EXPECT_TRUE(names.insert(whole + keys.at("ParameterName")).second)
+          << board.facts.name << " " << section;
+    }
+  }
 }
 
 TEST(Eds, IsOfTheBoardThatIsNamed) {

@@ -23,6 +23,7 @@ class Load {
 
   void bring_up() {
     machine_.send(now_, nmt_frame(NmtCommand::kStart, kAllNodes));
+    write(0x1019, 0, 1, 240);
     for (const std::uint16_t base : {std::uint16_t{0x6000}, std::uint16_t{0x6800}}) {
       const auto at = [&](int index) { return static_cast<std::uint16_t>(base + index); };
       write(at(0x7F), 0, 4, kFast);

@@ -108,7 +108,7 @@ TYPED_TEST(Conformance, MovesBothAxesToTheirTargetsExactly) {
 }
 
 TYPED_TEST(Conformance, StreamedPositionsAreThoseOfTheirPathTimeToTheBit) {
-  this->bench.bring_up();
+  this->bench.bring_up({kId});
   this->bench.write(kId, 0x2115, 0, 2, 5);
   for (int axis = 0; axis < 2; ++axis) this->bench.enable(kId, axis, 7);
   StreamFeed feed{.id = kId};
@@ -143,7 +143,7 @@ TYPED_TEST(Conformance, StreamedPositionsAreThoseOfTheirPathTimeToTheBit) {
 }
 
 TYPED_TEST(Conformance, StopsOnThePathWhenSyncIsLost) {
-  this->bench.bring_up();
+  this->bench.bring_up({kId});
   this->bench.write(kId, 0x2115, 0, 2, 5);
   for (int axis = 0; axis < 2; ++axis) this->bench.enable(kId, axis, 7);
   StreamFeed feed{.id = kId};

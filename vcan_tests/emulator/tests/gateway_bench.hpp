@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -66,8 +67,15 @@ class GatewayBench {
     next_sync_ = now + 1ms;
   }
   void stop_sync() { sync_period_ = 0ns; }
-  /// Clocks synchronised, all nodes operational.
-  void bring_up() {
+  /// SYNC has a counter (1019h), and mode 7 is the stream (60C0h).
+  void tell_stream_and_counter(std::uint8_t id) {
+    write(id, 0x1019, 0, 1, 240);
+    write(id, 0x60C0, 0, 2, -1);
+    write(id, 0x68C0, 0, 2, -1);
+  }
+  /// Clocks synchronised, all nodes operational, mode 7 is the stream.
+  void bring_up(std::initializer_list<std::uint8_t> ids) {
+    for (const std::uint8_t id : ids) tell_stream_and_counter(id);
     send(nmt_frame(NmtCommand::kStart, kAllNodes));
     start_sync(5ms);
     run(1s);

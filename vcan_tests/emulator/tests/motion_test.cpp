@@ -184,6 +184,7 @@ TEST(Motion, SetPointsOfSyncKeepTheLimitsAndTheFollowingErrorWindow) {
     node.write(axis, 0x607F, 0, 4, 200'000);
     node.write(axis, 0x6065, 0, 4, 0xFFFF'FFFF);
   }
+  node.bench.tell_stream_and_counter(OneBoard::kId);
   node.enable(8);
   node.bench.start_sync(4ms);
   for (int axis = 0; axis < 2; ++axis) node.write(axis, 0x607A, 0, 4, axis == 0 ? 100'000 : -20'000);
@@ -210,6 +211,7 @@ TEST(Motion, SyncThatEndsInMotionIsARampAndTold) {
     node.write(axis, 0x607F, 0, 4, 200'000);
     node.write(axis, 0x6085, 0, 4, 2'000'000);
   }
+  node.bench.tell_stream_and_counter(OneBoard::kId);
   node.enable(8);
   node.bench.start_sync(10ms);
   for (int axis = 0; axis < 2; ++axis) node.write(axis, 0x607A, 0, 4, 400'000);

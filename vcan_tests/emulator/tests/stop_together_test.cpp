@@ -21,7 +21,7 @@ EmulatedNodeOptions board_options(std::uint8_t id) {
 
 struct TwoBoards {
   TwoBoards() : machine(firmware_image(), {board_options(kIds[0]), board_options(kIds[1])}), bench(machine) {
-    bench.bring_up();
+    bench.bring_up({kIds[0], kIds[1]});
     for (std::size_t node = 0; node < 2; ++node) {
       feed[node].id = kIds[node];
       configure(static_cast<int>(node));
