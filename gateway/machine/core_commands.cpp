@@ -131,7 +131,14 @@ Done Gateway::Core::on(command::Hold&) {
 
 Done Gateway::Core::on(command::Resume&) {
   recovery_.commanded();
-  if (!state_.is(MachineState::kHeld) || print_.runner().suspended()) return go_on();
+  if (state_.is(MachineState::kHeld) && !heat_hold_.why().empty() && heat_.fault()) {
+    heat_.clear_faults();
+    heat_hold_.await_mended(now_);
+    return {};
+  }
+  // What is held on its way back to the job goes on with that.
+  const bool by_hand = hand_.runner().active();
+  if (!state_.is(MachineState::kHeld) || (print_.runner().suspended() && !by_hand)) return go_on();
   if (heat_.start_kept_spindle()) {
     recovery_.await_spindle(state_.visit());
     return {};
@@ -158,10 +165,15 @@ Done Gateway::Core::on(command::Cancel&) {
     give_up_job();
     return {};
   }
-  runner_->hold(now_);
+  heat_hold_.abort();
   hand_.forget_then();
   hand_.end_jogs();
-  rest_.begin(now_);
+  if (rest_.reading()) {
+    rest_.read_for(Rest::After::kCancel);
+  } else {
+    runner_->hold(now_);
+    rest_.begin(now_);
+  }
   enter(MachineState::kCancelling);
   return {};
 }
