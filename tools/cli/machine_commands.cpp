@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "tools/cli/encoder_rows.hpp"
+#include "tools/cli/heat_command.hpp"
 #include "tools/cli/job_watch.hpp"
 #include "tools/cli/requests.hpp"
 #include "tools/cli/status_json.hpp"
@@ -31,13 +32,6 @@ bool ready(const Status& status) {
 bool brought_up(const Status& status) {
   return status.state() != joblink::STATE_OFF && status.state() != joblink::STATE_STOPPED &&
          status.state() != joblink::STATE_ALARM;
-}
-
-void take_control(Client& client, const MachineOptions& options) {
-  if (!options.force) return;
-  ClientMessage request;
-  request.mutable_take_control()->set_force(true);
-  client.ask(std::move(request));
 }
 
 std::string pose_words(const joblink::Pose& pose) {
@@ -304,6 +298,13 @@ void add_values(CLI::App& app, const Options& options, int& exit_code) {
 
 }  // namespace
 
+void take_control(Client& client, const MachineOptions& options) {
+  if (!options.force) return;
+  ClientMessage request;
+  request.mutable_take_control()->set_force(true);
+  client.ask(std::move(request));
+}
+
 void add_machine_commands(CLI::App& app, const Options& options, int& exit_code) {
   app.add_option("--socket", options->reach.socket,
                  "The daemon's local socket (default: $KINEBUS_SOCKET, else found)");
@@ -336,6 +337,7 @@ void add_machine_commands(CLI::App& app, const Options& options, int& exit_code)
   add_clear(app, options, exit_code);
   add("motors-off", plain(&M::mutable_motors_off), "Switch the drives off (the platform must be supported)",
       false);
+  add_heat(app, options, exit_code);
   add_values(app, options, exit_code);
 }
 
