@@ -20,9 +20,8 @@ void Gateway::Core::watch_devices() {
 
 /// False: no job is under way that could be held.
 bool Gateway::Core::hold_for_heat(const DeviceFault& fault) {
-  const bool of_job =
-      print_.runner().active() &&
-      state_.is_one_of(MachineState::kRunning, MachineState::kHolding, MachineState::kHeld);
+  const bool of_job = print_.runner().active() &&
+                      state_.is_one_of(MachineState::kRunning, MachineState::kHolding, MachineState::kHeld);
   if (!fault.heater || !of_job) return false;
   heat_.note(journal_);
   heat_.keep();

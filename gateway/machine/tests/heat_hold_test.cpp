@@ -1,11 +1,11 @@
-// A heater's fault in a print: held on the path, lifted, gone on with; measured at the motors and at the node.
+// A heater's fault in a print: held on the path, lifted, gone on with; measured at the motors and at the
+// node.
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "gateway/jobs/machine_setup.hpp"
 #include "gateway/machine/tests/heat_printer.hpp"
 
 namespace kinebus {
@@ -13,21 +13,13 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr double kOnTheLine = 2e-3;  // mm
-constexpr double kBesideIt = 5e-3;   // mm: on the way up and down
-constexpr double kLift = 5;          // mm
+constexpr double kBesideIt = 5e-3;  // mm: on the way up and down
+constexpr double kLift = 5;         // mm
 
 const std::string kLine = "M104 S80\nM109 S80\nG1 X60 F600\nG1 X-60\n";
 
 class HeldByHeat : public HeatPrinter {
  protected:
-  HeldByHeat() : kinematics(std::move(*make_kinematics(rig.machine))) {}
-  /// Where the motors have the tool.
-  Pose tool() {
-    Pose pose = kinematics->bed_reference();
-    static_cast<void>(kinematics->forward(Frame::kMachine, rig.joints(), pose));
-    return pose;
-  }
   double off_the_line() {
     const Pose pose = tool();
     return std::max(std::abs(pose[kY] - line[kY]), std::abs(pose[kZ] - line[kZ]));
@@ -87,7 +79,6 @@ class HeldByHeat : public HeatPrinter {
     return ::testing::AssertionSuccess();
   }
 
-  std::unique_ptr<Kinematics> kinematics;
   Pose line{};
 };
 
@@ -123,8 +114,7 @@ TEST_F(HeldByHeat, AnOpenSensorHoldsTheJobOnThePathAndLiftsTheTool) {
   EXPECT_EQ(s.job, "part");
   EXPECT_EQ(s.heater(kFirstHotend).target_celsius, 0);
   EXPECT_EQ(s.heater(kFirstBed).target_celsius, 40) << "the part stays where it is";
-  for (std::size_t n = 0; n < 3; ++n)
-    EXPECT_EQ(s.nodes[n].statusword[0] & 0x6F, 0x27) << "drives hold";
+  for (std::size_t n = 0; n < 3; ++n) EXPECT_EQ(s.nodes[n].statusword[0] & 0x6F, 0x27) << "drives hold";
   rig.run_for(30s);
 
   // Not mended: said again, and nothing moves.
@@ -300,7 +290,8 @@ TEST_F(HeldByHeat, AStopOnTheWayBackLeavesTheJobToResume) {
 TEST_F(HeldByHeat, WhatTheJobSaysWhileItComesToRestIsSaidWhenItGoesOn) {
   // The target changes within the way that the stop takes.
   std::string job = "M109 S80\nG1 X20 F6000\n";
-  for (int x = 21; x < 60; ++x) job += "M104 S" + std::to_string(60 + x) + "\nG1 X" + std::to_string(x) + "\n";
+  for (int x = 21; x < 60; ++x)
+    job += "M104 S" + std::to_string(60 + x) + "\nG1 X" + std::to_string(x) + "\n";
   ASSERT_TRUE(begin(job + "G1 X-60 F6000\n")) << rig.story();
   ASSERT_TRUE(rig.run_until([&] { return rig.gateway->status().pose[kX] > 30; }, 900s)) << rig.story();
   line = tool();

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "gateway/jobs/machine_setup.hpp"
 #include "gateway/machine/tests/machine_rig.hpp"
 #include "node_firmware/heat/heat_node.hpp"
 
@@ -44,8 +45,17 @@ inline MachineDescription printer_on_the_bus() {
   return machine;
 }
 
+/// Off the programmed line, mm: the motors as they really stand.
+inline constexpr double kOnTheLine = 2e-3;
+
 class HeatPrinter : public testing::Test {
  protected:
+  /// Where the motors have the tool, Frame::kMachine.
+  Pose tool() {
+    Pose pose = kinematics->bed_reference();
+    static_cast<void>(kinematics->forward(Frame::kMachine, rig.joints(), pose));
+    return pose;
+  }
   double hotend() { return rig.gateway->status().heater(kFirstHotend).actual_celsius; }
   double bed() { return rig.gateway->status().heater(kFirstBed).actual_celsius; }
   /// Of full power.
@@ -59,6 +69,7 @@ class HeatPrinter : public testing::Test {
   }
 
   MachineRig rig{printer_on_the_bus()};
+  std::unique_ptr<Kinematics> kinematics = std::move(*make_kinematics(rig.machine));
 };
 
 }  // namespace kinebus
