@@ -54,7 +54,8 @@ JogPad::JogPad(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(desk
   says([this, heading] {
     heading->setText(tr("Jog"));
     hint_->setText(
-        tr("A click is a step; a button or key that is held moves until it is let go. Keys: arrows move X and Y, "
+        tr("A click is a step; a button or key that is held moves until it is let go. Keys: arrows move X "
+           "and Y, "
            "Page Up and Page Down move Z, A and D tilt, Q and W turn the table, 1 to 5 choose the step."));
   });
   long_enough_.setSingleShot(true);

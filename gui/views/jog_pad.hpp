@@ -1,6 +1,6 @@
 #pragma once
-// The keys of moving by hand, on the screen and on the keyboard: a click is a step, a key that is held moves until it is
-// let go.
+// The keys of moving by hand, on the screen and on the keyboard: a click is a step, a key that is held moves
+// until it is let go.
 
 #include <QButtonGroup>
 #include <QEvent>

@@ -1,5 +1,5 @@
-// Every fault of heat that the plant knows, in the middle of a print: when it is known, when power is off, how
-// hot it gets, what the motion does, and whether the job goes on when it is mended. Prints the table.
+// Every fault of heat that the plant knows, in the middle of a print: when it is known, when power is off,
+// how hot it gets, what the motion does, and whether the job goes on when it is mended. Prints the table.
 
 #include <gtest/gtest.h>
 
@@ -20,10 +20,11 @@ using namespace std::chrono_literals;
 
 constexpr double kHot = 210, kBed = 50;
 
-/// What breaks, and after how many seconds peers take the power, by their rules and arithmetic on this plant (it
-/// cools by 1 K/s at 210 C and warms by 2 K/s of power that nobody asked for). Klipper: 4 readings of 300 ms; an error
-/// sum of 120 K s beyond 5 K; 2 K in 20 s. RepRapFirmware: more than 15 K away for 5 s; less than 0.6 of the model's
-/// rise for 5 s after twice the dead time. Marlin: 4 K away for 40 s; 2 K in 20 s. 0: their rules say no time.
+/// What breaks, and after how many seconds peers take the power, by their rules and arithmetic on this plant
+/// (it cools by 1 K/s at 210 C and warms by 2 K/s of power that nobody asked for). Klipper: 4 readings of 300
+/// ms; an error sum of 120 K s beyond 5 K; 2 K in 20 s. RepRapFirmware: more than 15 K away for 5 s; less
+/// than 0.6 of the model's rise for 5 s after twice the dead time. Marlin: 4 K away for 40 s; 2 K in 20 s. 0:
+/// their rules say no time.
 struct Kind {
   const char* name;
   const char* breaks;  ///< of HeatPlant::command(), or of HeatFaults::act()
@@ -129,7 +130,8 @@ class HeatFaults : public HeatPrinter {
           if (found.known_s < 0 && rig.told(MachineEvent::Kind::kAlarm)) found.known_s = since(rig.now);
           const Pose pose = tool();
           if (pose[kX] > last_x + 1e-4)
-            found.off_line_mm = std::max({found.off_line_mm, std::abs(pose[kY] - line[kY]), std::abs(pose[kZ] - line[kZ])});
+            found.off_line_mm =
+                std::max({found.off_line_mm, std::abs(pose[kY] - line[kY]), std::abs(pose[kZ] - line[kZ])});
           last_x = std::max(last_x, pose[kX]);
           return rig.gateway->state() == kind.motion;
         },
@@ -158,7 +160,8 @@ class HeatFaults : public HeatPrinter {
           const Pose pose = tool();
           // On the line again and on its way.
           if (pose[kX] > last_x + 0.5)
-            found.off_line_mm = std::max({found.off_line_mm, std::abs(pose[kY] - line[kY]), std::abs(pose[kZ] - line[kZ])});
+            found.off_line_mm =
+                std::max({found.off_line_mm, std::abs(pose[kY] - line[kY]), std::abs(pose[kZ] - line[kZ])});
           return rig.gateway->state() == MachineState::kReady;
         },
         900s);
@@ -186,9 +189,10 @@ TEST_P(EveryFaultOfHeat, TakesThePowerBeforeAnyPeerAndTheJobGoesOn) {
   if (GetParam() == 0)
     std::printf("%-28s %-8s %9s %7s %8s %9s %-8s %8s   %8s %8s %8s\n", "fault", "in", "known, s", "off, s",
                 "hottest", "path, um", "motion", "resumed", "Klipper", "RRF", "Marlin");
-  std::printf("%-28s %-8s %9s %7s %8.1f %9.2f %-8s %8s   %8s %8s %8s\n", kind.name, kind.heating ? "heating" : "print",
-              seconds_of(found.known_s).c_str(), seconds_of(found.off_s).c_str(), found.hottest,
-              1000 * found.off_line_mm, std::string(to_string(kind.motion)).c_str(), found.resumed ? "yes" : "no",
+  std::printf("%-28s %-8s %9s %7s %8.1f %9.2f %-8s %8s   %8s %8s %8s\n", kind.name,
+              kind.heating ? "heating" : "print", seconds_of(found.known_s).c_str(),
+              seconds_of(found.off_s).c_str(), found.hottest, 1000 * found.off_line_mm,
+              std::string(to_string(kind.motion)).c_str(), found.resumed ? "yes" : "no",
               seconds_of(kind.klipper_s).c_str(), seconds_of(kind.reprap_s).c_str(),
               seconds_of(kind.marlin_s).c_str());
   EXPECT_GE(found.known_s, 0);

@@ -39,14 +39,17 @@ TEST_F(Jogs, FiveClicksAreFiveSteps) {
   }
   ASSERT_TRUE(rig.reach(MachineState::kReady, 10s));
   EXPECT_NEAR(at(kX), before + 5, 2e-3);
-  EXPECT_EQ(std::count_if(rig.events.begin(), rig.events.end(), [](const MachineEvent& e) { return e.words == "move done"; }), 2)
+  EXPECT_EQ(std::count_if(rig.events.begin(), rig.events.end(),
+                          [](const MachineEvent& e) { return e.words == "move done"; }),
+            2)
       << "the bed reference, and all clicks together";
 }
 
 TEST_F(Jogs, ThatGoElsewhereAreCarriedOutOneAfterTheOther) {
   double farthest = at(kX);
   const double x = at(kX), y = at(kY);
-  for (const Pose& delta : {Pose{4, 0, 0, 0, 0, 0}, Pose{0, 3, 0, 0, 0, 0}, Pose{-4, 0, 0, 0, 0, 0}}) ASSERT_TRUE(jog(delta));
+  for (const Pose& delta : {Pose{4, 0, 0, 0, 0, 0}, Pose{0, 3, 0, 0, 0, 0}, Pose{-4, 0, 0, 0, 0, 0}})
+    ASSERT_TRUE(jog(delta));
   ASSERT_TRUE(rig.run_until(
       [&] {
         farthest = std::max(farthest, at(kX));
@@ -135,7 +138,8 @@ TEST_F(Jogs, AHeldOneTakesNoOtherDirectionAndNoStep) {
 }
 
 TEST_F(Jogs, InAnInterruptedJobLeaveItThere) {
-  ASSERT_TRUE(rig.gateway->carry_out(command::Run{std::make_unique<StringSource>("G1 X60 F1200\nG1 X0\n"), "test"}));
+  ASSERT_TRUE(
+      rig.gateway->carry_out(command::Run{std::make_unique<StringSource>("G1 X60 F1200\nG1 X0\n"), "test"}));
   ASSERT_TRUE(rig.run_until([&] { return at(kX) > 20; }, 60s)) << rig.story();
   ASSERT_TRUE(rig.gateway->carry_out(command::Stop{}));
   ASSERT_TRUE(rig.reach(MachineState::kStopped, 10s));
