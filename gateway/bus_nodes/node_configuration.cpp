@@ -7,8 +7,8 @@
 #include "gateway/bus_nodes/heat_settings.hpp"
 #include "gateway/calibration/joint_map.hpp"
 #include "gateway/jobs/machine_setup.hpp"
-#include "gateway/stream/sync_producer.hpp"
 #include "protocol/canopen/object_dictionary.hpp"
+#include "protocol/canopen/sync.hpp"
 
 namespace kinebus {
 namespace {
@@ -190,13 +190,13 @@ NodeConfiguration configure_node(const MachineDescription& machine, std::uint8_t
     NodeConfiguration configuration;
     configuration.writes = {{object::kConsumerHeartbeat, 4, heartbeats},
                             {object::kProducerHeartbeat, 2, machine.bus.heartbeat_period.count()},
-                            {object::kSyncCounterOverflow, 1, kLastSyncCounter}};
+                            {object::kSyncCounterOverflow, 1, kinebus::kSyncCounterOverflow}};
     if (machine.carries_heat(node_id)) add_heat_settings(machine, node_id, configuration);
     return configuration;
   }
   Writer writer(node_id);
   // 1006h stays 0: 1019h can be written then, and what a node makes of a lost SYNC is said by 2114h.
-  writer.set(object::kSyncCounterOverflow, kLastSyncCounter);
+  writer.set(object::kSyncCounterOverflow, kinebus::kSyncCounterOverflow);
   if (const NodeDescription* node = machine.node(node_id)) set_node(writer, machine, *node);
   for (const JointDescription& joint : machine.joints)
     if (joint.node_id == node_id) set_joint(writer, joint);

@@ -146,6 +146,7 @@ struct ThermalDescription {
   After on_stop = After::kKeep;         ///< what heaters do at STOP; M112 and an E-stop input switch them off
   After on_cancel = After::kKeep;       ///< and when a job is cancelled
   std::chrono::seconds idle_off{1800};  ///< nothing moves for so long: off
+  double lift_mm = 5;  ///< a job held by a heater's fault: the tool rises so far off the part; 0: not at all
   friend bool operator==(const ThermalDescription&, const ThermalDescription&) = default;
 };
 

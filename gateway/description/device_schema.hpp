@@ -109,6 +109,7 @@ void visit_devices(V& v, MachineDescription& d) {
     v.choice("on_stop", d.thermal.on_stop, kAfters, Need::kOptional);
     v.choice("on_cancel", d.thermal.on_cancel, kAfters, Need::kOptional);
     v.duration("idle_off_s", d.thermal.idle_off, 60, 86'400, Need::kOptional);
+    v.number("lift_mm", d.thermal.lift_mm, {0, 100}, Need::kOptional);
     v.retired("hotend",
               say("[heater.hotend] with kind = \"hotend\", where = \"simulated\" and the same keys; "
                   "a machine without hot end has no such table"));

@@ -5,7 +5,7 @@
 namespace kinebus {
 
 void Devices::add(HeaterId id, std::string name, std::uint8_t node, std::unique_ptr<Heater> heater) {
-  members_.push_back({"heater." + name, node, heater.get()});
+  members_.push_back({"heater." + name, node, heater.get(), true});
   heaters_.push_back({id, std::move(name), std::move(heater)});
 }
 
@@ -99,7 +99,17 @@ std::vector<SensorStatus> Devices::sensors() const {
 
 std::optional<DeviceFault> Devices::fault() const {
   for (const Member& member : members_)
-    if (auto words = member.device->fault()) return DeviceFault{member.key, member.node, std::move(*words)};
+    if (auto words = member.device->fault())
+      return DeviceFault{member.key, member.node, std::move(*words), member.heater};
+  return std::nullopt;
+}
+
+std::optional<DeviceFault> Devices::new_fault() {
+  for (Member& member : members_) {
+    auto words = member.device->fault();
+    if (const bool told = std::exchange(member.told, words.has_value()); words && !told)
+      return DeviceFault{member.key, member.node, std::move(*words), member.heater};
+  }
   return std::nullopt;
 }
 

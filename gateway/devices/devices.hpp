@@ -33,6 +33,7 @@ struct DeviceFault {
   std::string device;  ///< "heater.bed", as the machine file says
   std::uint8_t node = 0;
   Sentence words;
+  bool heater = false;
 };
 
 class Devices {
@@ -65,6 +66,8 @@ class Devices {
   std::vector<SensorStatus> sensors() const;
   /// Of the first that is out of order.
   std::optional<DeviceFault> fault() const;
+  /// Of one that has come to be out of order: each is told once, until it is in order again.
+  std::optional<DeviceFault> new_fault();
   void clear_faults();
   /// Why this heater cannot be told anything now; none: it can.
   std::optional<Sentence> absent(HeaterId id) const;
@@ -82,6 +85,8 @@ class Devices {
     std::string key;
     std::uint8_t node;
     Device* device;
+    bool heater = false;
+    bool told = false;  ///< that it is out of order
   };
   struct KnownHeater {
     HeaterId id;

@@ -311,18 +311,9 @@ void Gateway::Core::watch_idle_heat() {
   if (now_ - heat_idle_since_ < patience) return;
   cut_heat(say("nothing has moved for %1 minutes",
                std::chrono::duration_cast<std::chrono::minutes>(patience).count()));
-  // What is held in the middle of a job heats before it goes on, as after every stop.
-  if (held) stop_all(false);
-}
-
-/// A device that is out of order has switched itself off; whatever it was needed for must not go on.
-void Gateway::Core::watch_devices() {
-  const auto fault = heat_.new_fault();
-  if (!fault) return;
-  events_.alarm(now_, AlarmCode::kThermal, say("%1: %2", fault->device, fault->words), fault->node);
-  if (state_.is(MachineState::kOff)) return;
-  beds_stay_ = true;
-  stop_all(true);
+  // What is held in the middle of a job heats before it goes on, as after every stop; an interrupted one
+  // does.
+  if (held && !print_.runner().suspended()) stop_all(false);
 }
 
 void Gateway::Core::take_stream_status(NodeLink& link) {

@@ -2,8 +2,10 @@
 // The inside of Gateway: how the parts are joined. What a part does, and what it has to remember for that, is
 // the part's own; here is which of them works in which state of the machine, and what follows when it is
 // done.
-//   core.cpp           frames, time, the steps of each state     core_commands.cpp  one handler a command,
-//   lines core_recovery.cpp  interrupted jobs                          core_status.cpp    the snapshot
+//   core.cpp           frames, time                core_states.cpp     the steps of each state
+//   core_commands.cpp  one handler a command       core_lines.cpp      lines of print hosts and the console
+//   core_recovery.cpp  interrupted jobs            core_heat_hold.cpp  a heater's fault in a job
+//   core_status.cpp    the snapshot
 
 #include <deque>
 #include <memory>
@@ -20,6 +22,7 @@
 #include "gateway/machine/clearing.hpp"
 #include "gateway/machine/current_state.hpp"
 #include "gateway/machine/gateway.hpp"
+#include "gateway/machine/heat_hold.hpp"
 #include "gateway/machine/line_desk.hpp"
 #include "gateway/machine/manual_motion.hpp"
 #include "gateway/machine/motor_currents.hpp"
@@ -145,12 +148,19 @@ class Gateway::Core {
   Done resume();
   void finish_motion();
   void watch_nodes();
-  void watch_devices();
   void watch_idle_heat();
   void watch_parameters();
   void on_foreign_stop(std::uint8_t node);
   void take_stream_status(NodeLink& link);
   void follow(const NodeWatch::Verdict& verdict);
+
+  // Faults of devices (core_heat_hold.cpp).
+  void watch_devices();
+  bool hold_for_heat(const DeviceFault& fault);
+  void step_heat_hold();
+  void begin_lift();
+  void finish_lift();
+  void step_mending();
 
   // Interruption and resume (core_recovery.cpp).
   /// A job is interrupted: it can go on, or be cancelled.
@@ -169,7 +179,7 @@ class Gateway::Core {
   /// The nodes are on, and nothing else is asked of them.
   bool may_glance() const;
   /// Records of a run may go to the nodes.
-  bool streams_flow() const { return state_.streams() && !position_.stream_lost(); }
+  bool streams_flow() const { return state_.streams() && !position_.stream_lost() && !rest_.reading(); }
   JointVector joints_now() const { return position_.joints(*runner_, rate_.tau(now_)); }
   Result<Pose, Refusal> machine_pose() const { return position_.pose(joints_now()); }
 
@@ -200,6 +210,7 @@ class Gateway::Core {
   Position position_;
   Rest rest_;
   Clearing clearing_;
+  HeatHold heat_hold_;
   ManualMotion hand_;
   PrintJob print_;
   LineDesk lines_;

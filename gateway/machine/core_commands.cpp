@@ -1,4 +1,4 @@
-// The commands, refused with a reason or begun; and lines as they come.
+// The commands, refused with a reason or begun.
 
 #include <algorithm>
 #include <array>
@@ -11,12 +11,6 @@
 namespace kinebus {
 namespace {
 using Done = Result<void, Refusal>;
-
-/// A host that cancels wants its heaters off now, not when the motion before is done.
-bool takes_effect_at_once(const canonical::Line& line) {
-  const auto* thermal = std::get_if<canonical::Thermal>(&line.command);
-  return thermal != nullptr && !thermal->wait && heater_of(*thermal);
-}
 
 bool moves_or_measures(CommandKind command) {
   static constexpr std::array kKinds{command::kind<command::Home>,      command::kind<command::GoToReference>,
@@ -188,11 +182,18 @@ Done Gateway::Core::on(command::Hold&) {
 
 Done Gateway::Core::on(command::Resume&) {
   recovery_.commanded();
+  if (state_.is(MachineState::kHeld) && !heat_hold_.why().empty() && heat_.fault()) {
+    heat_.clear_faults();
+    heat_hold_.await_mended(now_);
+    return {};
+  }
   return resume();
 }
 
 Done Gateway::Core::resume() {
-  if (!state_.is(MachineState::kHeld) || print_.runner().suspended()) return go_on();
+  // What is held on its way back to the job goes on with that.
+  const bool by_hand = hand_.runner().active();
+  if (!state_.is(MachineState::kHeld) || (print_.runner().suspended() && !by_hand)) return go_on();
   if (heat_.start_kept_spindle()) {
     recovery_.await_spindle(state_.visit());
     return {};
@@ -219,10 +220,15 @@ Done Gateway::Core::on(command::Cancel&) {
     give_up_job();
     return {};
   }
-  runner_->hold(now_);
+  heat_hold_.abort();
   hand_.forget_then();
   hand_.end_jogs();
-  rest_.begin(now_);
+  if (rest_.reading()) {
+    rest_.read_for(Rest::After::kCancel);
+  } else {
+    runner_->hold(now_);
+    rest_.begin(now_);
+  }
   enter(MachineState::kCancelling);
   return {};
 }
@@ -299,95 +305,6 @@ Done Gateway::Core::on(command::SetWorkOffset& asked) {
     where = *pose;
   }
   return lines_.set_work_offset(asked.system, asked.offset, asked.here, where);
-}
-
-// Lines
-// -----------------------------------------------------------------------------------------------------
-
-bool Gateway::Core::lines_open() const {
-  return state_.is_one_of(MachineState::kRunning, MachineState::kHolding, MachineState::kHeld) &&
-         print_.runner().live() && !lines_.closing();
-}
-
-Done Gateway::Core::on(command::OpenLines& asked) {
-  const auto pose = machine_pose();
-  if (!pose) return Error<Refusal>(pose.error());
-  const gcode::CommandBuffer& in_force = lines_.open(*pose, heat_.hotend_target());
-  give_up_job();
-  Runner& runner = print_.runner();
-  runner_ = &runner;
-  runner.start_live(*pose);
-  runner.set_override(override_);
-  for (const canonical::Line& command : in_force) runner.add(now_, command);
-  print_.rename(std::move(asked.name));
-  print_.forget_report();
-  hand_.forget_then();
-  started_ = now_;
-  enter(MachineState::kRunning);
-  return {};
-}
-
-Done Gateway::Core::take_line(std::string_view line, std::uint32_t number) {
-  const bool open = lines_open();
-  const auto commands = lines_.take(open, line, number);
-  if (!commands) return Error<Refusal>(commands.error());
-  for (Sentence& note : lines_.take_notes()) events_.message(now_, std::move(note), number);
-  for (const canonical::Line& command : *commands) {
-    if (open && !takes_effect_at_once(command))
-      print_.runner().add(now_, command);
-    else if (auto done = carry_out_at_rest(command); !done)
-      return done;
-  }
-  if (open) print_.runner().plan_live();
-  return {};
-}
-
-/// What does not move.
-Done Gateway::Core::carry_out_at_rest(const canonical::Line& line) {
-  if (const auto* thermal = std::get_if<canonical::Thermal>(&line.command)) {
-    if (const auto heater = heater_of(*thermal))
-      return carry_out(command::SetTemperature{*heater, thermal->value});
-    const auto index = static_cast<std::uint8_t>(thermal->index);
-    if (thermal->what == canonical::Thermal::What::kOutput)
-      return carry_out(command::SetOutput{thermal->value, index});
-    // A line for a fan that is not there is taken, with a note.
-    if (missing_fan(machine_, *thermal)) return {};
-    return carry_out(command::SetFan{thermal->value, index});
-  }
-  if (const auto* spindle = std::get_if<canonical::Spindle>(&line.command))
-    return carry_out(command::SetSpindle{spindle->rpm});
-  if (const auto* message = std::get_if<canonical::Message>(&line.command))
-    events_.message(now_, Sentence::verbatim(message->text), line.line);
-  return {};
-}
-
-std::size_t Gateway::Core::line_room() {
-  return lines_open() ? print_.runner().live_room(now_, kLineRoom) : 0;
-}
-
-bool Gateway::Core::lines_idle() const {
-  return lines_open() && print_.runner().live_idle();
-}
-
-void Gateway::Core::close_lines() {
-  if (!lines_open()) return;
-  lines_.close();
-  print_.runner().end_live();
-}
-
-void Gateway::Core::leave_lines() {
-  if (!lines_open()) return;
-  close_lines();
-  const auto lead = std::chrono::duration<double>(machine_.serial.lead_s);
-  lines_.give_up_from(now_ + std::chrono::duration_cast<BusTime>(lead) - machine_.stop.hold_ramp);
-}
-
-void Gateway::Core::skip_heating() {
-  if (lines_open()) print_.runner().skip_heating();
-}
-
-void Gateway::Core::forget_line_modes() {
-  if (!lines_open()) lines_.forget_modes();
 }
 
 }  // namespace kinebus

@@ -52,6 +52,9 @@ void Gateway::Core::give_up_job() {
   if (job.active()) heat_.stop_spindle();
   job.drop();
   heat_.forget_kept();
+  // Nobody has to clear before the next job: what is still out of order says so again.
+  if (!heat_hold_.why().empty()) heat_.clear_faults();
+  heat_hold_.forget();
   print_.forget_name();
 }
 
@@ -99,6 +102,7 @@ void Gateway::Core::finish_recovery() {
 }
 
 Done Gateway::Core::begin_return() {
+  heat_hold_.abort();
   if (auto& left = recovery_.left()) {
     // Checked once more, then read up to its place.
     if (!left->job->rewind()) return refused(say("the interrupted job cannot be read"));
@@ -165,6 +169,7 @@ void Gateway::Core::finish_return() {
       by_mm != 0)
     job.shift_extruder(by_mm);
   heat_.finish_return();
+  heat_hold_.forget();
   runner_ = &job;
   job.set_override(override_);
   job.go_on(now_);

@@ -147,6 +147,8 @@ void Gateway::Core::finish_motion() {
       if (const auto pose = machine_pose()) start[kE] = (*pose)[kE];
       return begin_job(start);
     }
+    case ManualMotion::Then::kHeld:
+      return finish_lift();
     case ManualMotion::Then::kNothing:
       break;
   }
@@ -166,12 +168,15 @@ void Gateway::Core::finish_motion() {
 }
 
 void Gateway::Core::step_hold() {
+  if (rest_.reading()) return step_standstill();
+  if (!heat_hold_.is(HeatHold::Stage::kNone)) return step_heat_hold();
   // A wait between runs stands still at once; planning ahead goes on.
   static_cast<void>(runner_->on_time(now_, options_.planning_budget));
   if (rest_.standing(now_)) enter(MachineState::kHeld);
 }
 
 void Gateway::Core::step_held() {
+  if (heat_hold_.is(HeatHold::Stage::kMends)) return step_mending();
   if (!recovery_.awaits_spindle(state_.visit()) || !heat_.spindle_at_speed()) return;
   heat_.forget_kept();
   runner_->resume(now_);
@@ -185,7 +190,9 @@ void Gateway::Core::stop_all(bool fault, bool by_absence) {
   stall_.on_stop(now_, by_absence);
   fault_ = fault_ || fault;
   recovery_.do_not_go_on();
-  if (hand_.leads_to(ManualMotion::Then::kReturn)) hand_.forget_then();
+  heat_hold_.abort();
+  if (hand_.leads_to(ManualMotion::Then::kReturn) || hand_.leads_to(ManualMotion::Then::kHeld))
+    hand_.forget_then();
   hand_.end_jogs();
   bring_up_.abort();
   if (homing_.busy()) {
@@ -235,7 +242,7 @@ void Gateway::Core::step_clear() {
   }
   fault_ = false;
   // A job whose heaters went off heats on its way back.
-  const bool goes_on = runner_->active() && !runner_->suspended() && !position_.stream_lost() &&
+  const bool goes_on = runner_->active() && !print_.runner().suspended() && !position_.stream_lost() &&
                        position_.homed() && clearing_.together() && !heat_.kept_heat() &&
                        state_.is(MachineState::kStopped);
   if (!goes_on) return rest_.read(now_, Rest::After::kClear);
@@ -318,6 +325,7 @@ void Gateway::Core::finish_standstill() {
     events_.push(
         {.kind = MachineEvent::Kind::kFinished, .when = now_, .words = say("move done"), .advice = {}});
   if (cancelled) events_.message(now_, say("cancelled: positions are known"));
+  if (after == After::kHeatFault && position_.homed()) return begin_lift();
   // What was interrupted by a stop alone is held; elsewhere the machine may be moved first.
   if (after == After::kClear && position_.homed() && print_.runner().active())
     return enter(MachineState::kHeld);

@@ -16,7 +16,9 @@ MachineStatus Gateway::Core::status() const {
   MachineStatus s;
   s.state = state_.now();
   s.now = now_;
+  const bool held_by_heat = s.state == MachineState::kHeld && !heat_hold_.why().empty();
   s.doing = bring_up_.busy()    ? bring_up_.doing()
+            : held_by_heat      ? heat_hold_.why()
             : runner_->active() ? runner_->doing()
             : rest_.reading()   ? say("reading where the nodes stand")
                                 : sentence(s.state);

@@ -9,6 +9,8 @@ namespace {
 /// Between two poses of a jog: the workspace is checked so often.
 constexpr double kCheckStep = 1.0;  // mm
 constexpr double kCheckStepRad = 0.01;
+constexpr double kLiftStep = 0.25;   // mm
+constexpr double kLeastLift = 0.01;  // mm: less frees no nozzle
 
 /// How many poses of a way are looked at.
 int checks(double mm, double rad, int most) {
@@ -149,6 +151,27 @@ std::optional<Sentence> ManualMotion::in_the_way_to_reference(const Pose& from) 
     leaving = leaving && near;
   }
   return std::nullopt;
+}
+
+std::optional<canonical::Command> ManualMotion::lift(const Pose& from, double z_mm,
+                                                     std::optional<Sentence>& kept_from) {
+  const double rise_mm = z_mm - from[kZ];
+  if (!(rise_mm > kLeastLift)) return std::nullopt;
+  const auto steps = static_cast<int>(std::ceil(rise_mm / kLiftStep));
+  const auto at = [&](double i) {
+    Pose pose = from;
+    pose[kZ] += rise_mm * i / steps;
+    return pose;
+  };
+  way_.jump();
+  kept_from = way_.broken(Frame::kMachine, 0, 0, at);
+  int free = 0;
+  while (!kept_from && free < steps) {
+    kept_from = way_.broken(Frame::kMachine, free, free + 1, at);
+    if (!kept_from) ++free;
+  }
+  if (rise_mm * free / steps < kLeastLift) return std::nullopt;
+  return canonical::Traverse{at(free), Frame::kMachine};
 }
 
 void ManualMotion::start(std::vector<canonical::Line> commands, const Pose& from, double override_ratio,

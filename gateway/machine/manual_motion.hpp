@@ -23,7 +23,7 @@ namespace kinebus {
 class ManualMotion {
  public:
   /// What comes when the move is done.
-  enum class Then : std::uint8_t { kNothing, kJob, kReturn };
+  enum class Then : std::uint8_t { kNothing, kJob, kReturn, kHeld };
 
   ManualMotion(const MachineDescription& machine, const Kinematics& kinematics, StreamGroup& group,
                PathRate& rate, Heat& heat, EventQueue& events, journal::Queue& journal)
@@ -56,6 +56,10 @@ class ManualMotion {
   /// Which two bodies would meet on the straight way there; nullopt: none. Bodies that are near at its
   /// beginning may be.
   std::optional<Sentence> in_the_way_to_reference(const Pose& from);
+
+  /// Straight up to `z_mm` of the machine, or as far as every pose on the way is allowed: `kept_from` says
+  /// why no farther. nullopt: there is no way up, or none is needed.
+  std::optional<canonical::Command> lift(const Pose& from, double z_mm, std::optional<Sentence>& kept_from);
 
   void start(std::vector<canonical::Line> commands, const Pose& from, double override_ratio, Then then);
   /// Of the move that is done, once.

@@ -14,7 +14,7 @@ namespace kinebus {
 
 class Rest {
  public:
-  enum class After : std::uint8_t { kBringUp, kHoming, kCancel, kJog, kClear };
+  enum class After : std::uint8_t { kBringUp, kHoming, kCancel, kJog, kClear, kHeatFault };
 
   Rest(const MachineDescription& machine, std::deque<NodeLink>& links, const PathRate& rate)
       : rate_(rate), standstill_(machine, links) {}
@@ -34,6 +34,8 @@ class Rest {
     after_ = after;
     standstill_.start(rate_.tau(now));
   }
+  /// What is being read is for something else now.
+  void read_for(After after) { after_ = after; }
   bool reading() const { return standstill_.busy(); }
   Standstill::Outcome on_time() { return standstill_.on_time(); }
   void abort() { standstill_.abort(); }

@@ -94,12 +94,6 @@ void Heat::report(MachineStatus& status) const {
   if (machine_.probe.present) status.probe_touches = devices_.probe_touches();
 }
 
-std::optional<DeviceFault> Heat::new_fault() {
-  auto fault = devices_.fault();
-  const bool told = std::exchange(fault_told_, fault.has_value());
-  return told ? std::nullopt : fault;
-}
-
 // The job under way
 // -----------------------------------------------------------------------------------------------
 

@@ -45,8 +45,9 @@ class Heat {
   void report(MachineStatus& status) const;
   /// What is mended may heat again.
   void clear_faults() { devices_.clear_faults(); }
-  /// Of the device that is out of order, told once.
-  std::optional<DeviceFault> new_fault();
+  /// Of a device that is out of order; the new one tells each once.
+  std::optional<DeviceFault> fault() const { return devices_.fault(); }
+  std::optional<DeviceFault> new_fault() { return devices_.new_fault(); }
 
   // What the job under way wants. It is kept while the job is interrupted, whatever is switched off.
   void begin_job();
@@ -75,7 +76,6 @@ class Heat {
   Devices& devices_;
   std::optional<journal::Heat> kept_;
   journal::Heat noted_;
-  bool fault_told_ = false;
 };
 
 /// One wait of a job for a temperature: over when it was within the window for the settling time.

@@ -50,7 +50,7 @@ Runner::Runner(const MachineDescription& machine, const Kinematics& kinematics, 
 
 void Runner::begin() {
   active_ = true;
-  held_ = suspended_ = started_ = finished_ = stop_asked_ = barrier_waits_ = live_ = false;
+  held_ = still_ = suspended_ = started_ = finished_ = stop_asked_ = barrier_waits_ = live_ = false;
   wait_ = Wait::kNone;
   waits_done_ = waits_replayed_ = 0;
   events_.clear();
@@ -138,7 +138,7 @@ void Runner::hold(BusTime now) {
 }
 
 void Runner::resume(BusTime now) {
-  held_ = false;
+  held_ = still_ = false;
   if (wait_ == Wait::kPause) end_wait();
   last_rate_change_ = now - kRaisePeriod;
 }
@@ -183,10 +183,10 @@ Runner::Outcome Runner::on_time(BusTime now, int budget) {
   if (stop_asked_) return Outcome::kEmergencyStop;
   feed_.forget_before(group_.confirmed(rate_.tau(now)) - kPlannedMemory);
   Outcome outcome = Outcome::kBusy;
-  if (std::exchange(barrier_waits_, false)) outcome = barrier(now);
+  if (!still_ && std::exchange(barrier_waits_, false)) outcome = barrier(now);
   if (outcome == Outcome::kBusy) outcome = stream(now);
   while (outcome == Outcome::kBusy && budget > 0) {
-    if (feed_.pending()) break;
+    if (feed_.pending() || barrier_waits_) break;
     if (wait_ != Wait::kNone && !wait_is_over(now)) break;
     if (stop_asked_) return Outcome::kEmergencyStop;
     if (!finished_ && !feed_.wants_phase(rate_.tau(now))) break;
@@ -229,7 +229,7 @@ void Runner::suspend(PathTime tau) {
 }
 
 void Runner::go_on(BusTime now) {
-  suspended_ = held_ = false;
+  suspended_ = held_ = still_ = false;
   if (wait_ == Wait::kPause) end_wait();
   feed_.go_on(to_seconds(BusTime{machine_.stop.hold_ramp}));
   heating_.restart();
@@ -316,7 +316,8 @@ Runner::Outcome Runner::take(BusTime now, JobPipeline::Step step) {
       if (feed_.streaming()) wait_ = Wait::kRunDone;
       return Outcome::kBusy;
     case Step::kBarrier:
-      return barrier(now);
+      barrier_waits_ = still_;
+      return still_ ? Outcome::kBusy : barrier(now);
     case Step::kEnd:
       return Outcome::kDone;
     case Step::kProblem:

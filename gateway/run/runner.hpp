@@ -89,6 +89,11 @@ class Runner {
 
   /// Feed hold: the rate goes to 0 and the waits between runs stand still.
   void hold(BusTime now);
+  /// The same, and what the job commands besides motion waits for go_on(), too.
+  void hold_still(BusTime now) {
+    hold(now);
+    still_ = true;
+  }
   /// Goes on after hold() and after a pause of the job.
   void resume(BusTime now);
   /// Above 1: what is planned from now on is planned faster; at most 1: the rate of path time.
@@ -144,7 +149,7 @@ class Runner {
   std::unique_ptr<ByteSource> source_;
   Pose start_{};
 
-  bool active_ = false, held_ = false, suspended_ = false;
+  bool active_ = false, held_ = false, still_ = false, suspended_ = false;
   bool live_ = false;           ///< commands come over time
   bool noted_ = false;          ///< in the journal: a job, not a motion by hand
   bool started_ = false;        ///< path time was let go for this run

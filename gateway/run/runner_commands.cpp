@@ -51,7 +51,7 @@ void Runner::skip_heating() {
 }
 
 void Runner::execute_due(BusTime now) {
-  if (events_.empty()) return;
+  if (events_.empty() || still_) return;
   const std::uint64_t done = feed_.place(rate_.tau(now)).phase;
   while (!events_.empty() && (!feed_.streaming() || events_.front().phase <= done)) {
     execute(now, events_.front().line);

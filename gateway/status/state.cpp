@@ -34,7 +34,7 @@ constexpr std::array<StateRule, kMachineStates> kStates{{
     {S::kMoving, phrase("moving"), set(S::kReady, S::kHeld)},
     {S::kChecking, phrase("checking the job"), set(S::kReady)},
     {S::kRunning, phrase("running"), set(S::kReady, S::kChecking, S::kHeld)},
-    {S::kHolding, phrase("holding"), set(S::kMoving, S::kRunning)},
+    {S::kHolding, phrase("holding"), set(S::kMoving, S::kRunning, S::kHeld)},
     {S::kHeld, phrase("held"), set(S::kHolding, S::kStopped, S::kAlarm)},
     {S::kCancelling, phrase("cancelling"), kInMotion},
     {S::kStopping, phrase("stopping"), kAny},

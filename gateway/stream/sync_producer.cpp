@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "protocol/canopen/sync.hpp"
+
 namespace kinebus {
 
 void StampedSyncProducer::start(BusTime first) {
@@ -35,7 +37,7 @@ std::optional<CanFrame> StampedSyncProducer::next_frame(BusTime now) {
     counters_.late += missed;
     due_ += missed * options_.period;
   }
-  counter_ = counter_ >= kLastSyncCounter ? std::uint8_t{1} : static_cast<std::uint8_t>(counter_ + 1);
+  counter_ = counter_ >= kSyncCounterOverflow ? std::uint8_t{1} : static_cast<std::uint8_t>(counter_ + 1);
   awaiting_sent_ = true;
   ++counters_.syncs;
   return CanFrame::make(kSyncCobId, {counter_});

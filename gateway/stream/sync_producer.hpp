@@ -11,7 +11,6 @@
 namespace kinebus {
 
 inline constexpr std::uint32_t kSyncCobId = 0x080;
-inline constexpr std::uint8_t kLastSyncCounter = 240;  // 0x1019; CiA 301 allows up to 240
 
 /// The gateway's SYNC. (protocol/canopen/sync.hpp has the plain one of CiA 301.)
 class StampedSyncProducer {

@@ -1293,8 +1293,8 @@
         <translation>کابل و پایان‌دهی گذرگاه را بررسی کنید، سپس هشدار را رفع کنید و دوباره راه‌اندازی کنید</translation>
     </message>
     <message>
-        <source>check heater and sensor, then clear</source>
-        <translation>گرم‌کن و حسگر را بررسی کنید، سپس هشدار را رفع کنید</translation>
+        <source>check heater and sensor, then clear; a job that is held goes on by resume</source>
+        <translation>گرم‌کن و حسگر را بررسی کنید، سپس هشدار را رفع کنید؛ کاری که مکث کرده است با ادامه دادن پیش می‌رود</translation>
     </message>
     <message>
         <source>correct the job, then clear</source>
@@ -2215,6 +2215,14 @@
     <message>
         <source>nothing has moved for %1 minutes</source>
         <translation>%1 دقیقه است که هیچ چیز حرکت نکرده است</translation>
+    </message>
+    <message>
+        <source>the tool is not lifted as far as it should be: %1</source>
+        <translation>ابزار به اندازهٔ لازم بالا برده نشد: %1</translation>
+    </message>
+    <message>
+        <source>the job is held: mend what is wrong, then resume heats and goes on</source>
+        <translation>کار مکث کرده است: خرابی را برطرف کنید، سپس ادامه دهید؛ نخست گرم می‌کند و بعد پیش می‌رود</translation>
     </message>
     <message>
         <source>the job was cancelled</source>

@@ -1293,8 +1293,8 @@
         <translation>veri yolunun kablosunu ve sonlandırmasını kontrol edin, sonra alarmı kaldırıp yeniden devreye alın</translation>
     </message>
     <message>
-        <source>check heater and sensor, then clear</source>
-        <translation>ısıtıcıyı ve algılayıcıyı kontrol edin, sonra alarmı kaldırın</translation>
+        <source>check heater and sensor, then clear; a job that is held goes on by resume</source>
+        <translation>ısıtıcıyı ve algılayıcıyı kontrol edin, sonra alarmı kaldırın; duraklatılmış bir iş sürdürülünce devam eder</translation>
     </message>
     <message>
         <source>correct the job, then clear</source>
@@ -2215,6 +2215,14 @@
     <message>
         <source>nothing has moved for %1 minutes</source>
         <translation>%1 dakikadır hiçbir şey hareket etmedi</translation>
+    </message>
+    <message>
+        <source>the tool is not lifted as far as it should be: %1</source>
+        <translation>takım gerektiği kadar kaldırılmadı: %1</translation>
+    </message>
+    <message>
+        <source>the job is held: mend what is wrong, then resume heats and goes on</source>
+        <translation>iş duraklatıldı: bozuk olanı onarın, sonra sürdürün; iş önce ısıtır, sonra devam eder</translation>
     </message>
     <message>
         <source>the job was cancelled</source>

@@ -7,6 +7,8 @@ namespace {
 
 /// A supply that has changed by less than 0.4 % is the same.
 constexpr std::uint32_t kSupplyStep = 256;
+/// A block that was at its target is not so much warmer, by no overshoot.
+constexpr std::int32_t kPutBack = 10'000;  // mC
 /// A supply so far from nominal is not compensated further: the measurement may be wrong.
 constexpr std::uint32_t kLowestSupply = 2, kHighestSupply = 2;  // halves to doubles
 
@@ -56,6 +58,7 @@ void Heater::begin_tuning(HeatTuning& tuning, const SensorInput& sensor, std::in
 
 void Heater::trip(HeaterFault fault) {
   if (fault_ == HeaterFault::kNone) fault_ = fault;
+  if (target_ != 0) asked_ = target_;
   target_ = 0;
   feed_forward_ = 0;
   duty_ = 0;
@@ -90,7 +93,10 @@ void Heater::step(const SensorInput& sensor, std::uint32_t supply_mv) {
   if (has_model_) model_.step(given_, measured);
   const bool modelled = has_model_ && tuning_ == nullptr;
   // The model's watch goes on after a fault, too: heat that does not end is another one.
-  const HeaterFault found = watch_.step(measured, given_, target_, modelled ? &model_ : nullptr);
+  HeaterFault found = watch_.step(measured, given_, target_, modelled ? &model_ : nullptr);
+  // A loose sensor that is put back warms without power, to what the block was heated to.
+  const bool put_back = fault_ == HeaterFault::kHeatMissing && measured < asked_ + kPutBack;
+  if (found == HeaterFault::kHeatUnasked && put_back) found = HeaterFault::kNone;
   if (found == HeaterFault::kHeatUnasked && fault_ != HeaterFault::kNone) fault_ = found;
   if (found != HeaterFault::kNone) trip(found);
   set_duty(fault_ == HeaterFault::kNone ? wanted(measured, most_) : 0);

@@ -65,6 +65,7 @@ class Heater {
   HeaterSettings settings_{};
   bool has_model_ = false, started_ = false;
   std::int32_t target_ = 0, feed_forward_ = 0;
+  std::int32_t asked_ = 0;  // the target before the fault
   std::uint32_t most_ = kFullPower;
   HeaterFault fault_ = HeaterFault::kNone;
   ThermalModel model_;

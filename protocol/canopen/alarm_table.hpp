@@ -161,7 +161,7 @@ inline constexpr std::array kAlarms{
     alarm_table::gateway(AlarmCode::kBusFailure, "The bus has failed",
                          "check cable and termination of the bus, then clear and bring up again"),
     alarm_table::gateway(AlarmCode::kThermal, "A heater is not as it should be",
-                         "check heater and sensor, then clear"),
+                         "check heater and sensor, then clear; a job that is held goes on by resume"),
     alarm_table::gateway(AlarmCode::kJobError, "The job went wrong", "correct the job, then clear"),
     alarm_table::gateway(AlarmCode::kEmergencyStop, "Stopped by the operator",
                          "clear when the machine is safe"),

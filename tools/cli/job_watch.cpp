@@ -4,9 +4,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <utility>
 
 namespace kinebus {
@@ -95,6 +97,49 @@ int wait_until_rest(Client& client, const std::function<bool(const Status&)>& go
   ProgressLine line;
   const Status status = follow(client, line, [](const Status& s) { return s.at_rest(); });
   return good(status) ? 0 : 1;
+}
+
+int wait_for_heat(Client& client, const std::string& heater, double celsius) {
+  using Clock = std::chrono::steady_clock;
+  constexpr double kWindow = 2;  // K
+  constexpr auto kSettle = std::chrono::seconds{2}, kTaken = std::chrono::seconds{5};
+  ProgressLine line;
+  std::optional<double> from;
+  bool taken = false;
+  const auto asked = Clock::now();
+  auto outside = asked;
+  for (;;) {
+    const auto report = client.next(std::chrono::seconds{10});
+    if (!report) throw ClientError("the daemon has gone silent");
+    if (const auto* event = std::get_if<Event>(&*report)) {
+      line.end();
+      print_event(*event);
+      continue;
+    }
+    const auto& heaters = std::get<Status>(*report).heaters();
+    const auto found = std::find_if(heaters.begin(), heaters.end(),
+                                    [&](const joblink::Heater& h) { return h.name() == heater; });
+    if (found == heaters.end()) throw ClientError("the daemon tells nothing of " + heater);
+    const auto now = Clock::now();
+    const double actual = found->actual_celsius();
+    // A status may be older than what was asked.
+    if (std::abs(found->target_celsius() - celsius) > 0.1) {
+      if (!taken && now - asked < kTaken) continue;
+      line.end();
+      fmt::print(stderr, "kinebus: the {} is to be at {:.0f} C by now, not at {:.0f} C\n", heater,
+                 found->target_celsius(), celsius);
+      return 1;
+    }
+    taken = true;
+    if (!from) from = actual;
+    if (std::abs(actual - celsius) > kWindow) outside = now;
+    const double way = celsius - *from;
+    line.show(way == 0 ? 1 : (actual - *from) / way,
+              fmt::format("{} {:.1f} / {:.0f} C", heater, actual, celsius));
+    if (now - outside < kSettle) continue;
+    line.end();
+    return 0;
+  }
 }
 
 int watch_job(Client& client) {

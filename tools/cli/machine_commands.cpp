@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "tools/cli/encoder_rows.hpp"
+#include "tools/cli/heat_command.hpp"
 #include "tools/cli/job_watch.hpp"
 #include "tools/cli/requests.hpp"
 #include "tools/cli/status_json.hpp"
@@ -335,6 +336,7 @@ void add_machine_commands(CLI::App& app, const Options& options, int& exit_code)
   add_clear(app, options, exit_code);
   add("motors-off", plain(&M::mutable_motors_off), "Switch the drives off (the platform must be supported)",
       false);
+  add_heat(app, options, exit_code);
   add_values(app, options, exit_code);
 }
 

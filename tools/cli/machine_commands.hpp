@@ -14,8 +14,11 @@ struct MachineOptions {
   bool force = false;  ///< take control from another client
 };
 
+/// From whoever has it, when the options say so.
+void take_control(Client& client, const MachineOptions& options);
+
 /// Adds status, position, nodes, bus, bring-up, home, reference, jog, hold, resume, cancel, stop, clear,
-/// motors-off, override, console, clients to `app`; each sets `exit_code` when it runs.
+/// motors-off, heat, override, console, clients to `app`; each sets `exit_code` when it runs.
 void add_machine_commands(CLI::App& app, const std::shared_ptr<MachineOptions>& options, int& exit_code);
 
 /// When --force asks for it.

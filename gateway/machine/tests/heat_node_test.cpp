@@ -4,8 +4,7 @@
 
 #include <algorithm>
 
-#include "gateway/machine/tests/machine_rig.hpp"
-#include "node_firmware/heat/heat_node.hpp"
+#include "gateway/machine/tests/heat_printer.hpp"
 #include "protocol/canopen/cob_id.hpp"
 
 namespace kinebus {
@@ -13,38 +12,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::uint8_t kHeatId = 20;
-constexpr int kHeat = 3;  // its place among the nodes
-
-/// M1, with hot end, bed and the part's fan on node 20, as HeatPlant has them.
-MachineDescription printer_on_the_bus() {
-  MachineDescription machine = default_m1();
-  machine.nodes.push_back(
-      {.id = kHeatId,
-       .vendor = {},
-       .product = {},
-       .serial = {},
-       .functions = {.axis_pairs = 0, .inputs = 0, .heaters = 2, .sensors = 1, .outputs = 2}});
-  const SensorWiring thermistor{.element = SensorElement::kBeta};
-  for (HeaterDescription& heater : machine.heaters) {
-    const bool bed = heater.kind == HeaterKind::kBed;
-    heater.place = {DevicePlace::Where::kNode, kHeatId, static_cast<std::uint8_t>(bed ? 2 : 1)};
-    heater.wiring.sensor = thermistor;
-    heater.wiring.power_w = bed ? 250 : 44;
-    heater.wiring.rise = std::chrono::seconds{bed ? 60 : 20};
-    heater.wiring.safe_c = bed ? 40 : 0;
-    heater.wiring.safe_time = std::chrono::seconds{bed ? 20 : 0};
-    heater.wiring.fan_channel = bed ? 0 : 1;
-    heater.wiring.fan_pulses = 2;
-  }
-  machine.nodes[2].inputs[6] = {InputFunction::kEmergencyStop, 0};
-  machine.fans[0].place = {DevicePlace::Where::kNode, kHeatId, 2};
-  machine.sensors.push_back(
-      {.name = "chamber", .place = {DevicePlace::Where::kNode, kHeatId, 1}, .wiring = thermistor});
-  return machine;
-}
-
-class HeatOnTheBus : public testing::Test {
+class HeatOnTheBus : public HeatPrinter {
  protected:
   HeatOnTheBus() {
     rig.on_frame = [this](BusTime when, const CanFrame& frame) {
@@ -54,23 +22,12 @@ class HeatOnTheBus : public testing::Test {
       since = std::min(since, when);
     };
   }
-  double hotend() { return rig.gateway->status().heater(kFirstHotend).actual_celsius; }
-  double bed() { return rig.gateway->status().heater(kFirstBed).actual_celsius; }
-  double power(int heater) {
-    return rig.nodes.heat_node(kHeat).heater_output(heater) / static_cast<double>(heat::kFullPower);
-  }
-  std::string breaks(std::string_view what) { return rig.nodes.heat_plant(kHeat).command(what); }
-  bool begin(std::string job) {
-    return rig.make_ready() &&
-           rig.gateway->carry_out(command::Run{std::make_unique<StringSource>(std::move(job)), "part"});
-  }
   /// Off the line along X on which a job moves, mm.
   double off_the_line() {
     const Pose pose = rig.gateway->status().machine_pose;
     return std::max(std::abs(pose[kY] - line[kY]), std::abs(pose[kZ] - line[kZ]));
   }
 
-  MachineRig rig{printer_on_the_bus()};
   Pose line{};
   int written = 0;
   std::int64_t bits = 0;
@@ -116,41 +73,6 @@ TEST_F(HeatOnTheBus, ColdExtrusionIsRefusedByWhatTheNodeMeasures) {
   const auto refused = rig.gateway->carry_out(feed);
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().words.find("too cold"), std::string::npos) << refused.error().words;
-}
-
-TEST_F(HeatOnTheBus, AnOpenSensorHoldsTheMotionOnThePathAndTheJobGoesOnWhenItIsMended) {
-  ASSERT_TRUE(begin(kPrint)) << rig.story();
-  ASSERT_TRUE(rig.run_until([&] { return rig.gateway->status().pose[kX] > 20; }, 900s)) << rig.story();
-  line = rig.gateway->status().machine_pose;
-  ASSERT_EQ(breaks("sensor 1 open"), "");
-  ASSERT_TRUE(rig.run_until([&] { return power(0) == 0; }, 500ms));
-  ASSERT_TRUE(rig.reach(MachineState::kAlarm, 5s)) << rig.story();
-  EXPECT_LT(off_the_line(), 2e-3);
-  EXPECT_NE(rig.story().find("heater.hotend: a temperature sensor or its wire is open"), std::string::npos)
-      << rig.story();
-  EXPECT_TRUE(rig.gateway->status().positions_known);
-  EXPECT_EQ(rig.gateway->status().heater(kFirstBed).target_celsius, 50) << "the part stays where it is";
-  EXPECT_EQ(rig.nodes.heat_node(kHeat).fan_output(0), heat::kFullFan) << "its own fan goes on";
-  rig.run_for(30s);
-
-  // Cleared without being mended: said again, and nothing moves.
-  rig.events.clear();
-  ASSERT_TRUE(rig.gateway->carry_out(command::Clear{}));
-  rig.run_for(2s);
-  EXPECT_TRUE(rig.told(AlarmCode::kThermal)) << rig.story();
-  EXPECT_EQ(rig.gateway->state(), MachineState::kAlarm);
-
-  ASSERT_EQ(breaks("sensor 1 ok"), "");
-  rig.run_for(1s);
-  ASSERT_TRUE(rig.gateway->carry_out(command::Clear{}));
-  ASSERT_TRUE(rig.reach(MachineState::kHeld)) << rig.story();
-  ASSERT_TRUE(rig.gateway->carry_out(command::Resume{}));
-  const double x = rig.gateway->status().pose[kX];
-  ASSERT_TRUE(rig.run_until([&] { return std::abs(rig.gateway->status().pose[kX] - x) > 1; }, 300s))
-      << rig.story();
-  EXPECT_GT(hotend(), 190) << "it moves when it is hot again";
-  ASSERT_TRUE(rig.reach(MachineState::kReady)) << rig.story();
-  EXPECT_NEAR(rig.gateway->status().pose[kX], -60, 2e-3);
 }
 
 TEST_F(HeatOnTheBus, ADeadHeatNodeIsNamedAndTheJobGoesOnWhenItIsBack) {

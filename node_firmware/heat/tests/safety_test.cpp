@@ -163,6 +163,31 @@ TEST(Safety, AnUnmeasuredHeaterIsWatchedByRules) {
   }
 }
 
+TEST(Safety, ASensorThatIsPutBackIsNoHeatUnasked) {
+  for (const bool stuck : {false, true}) {
+    HotEndBench bench(true);
+    bench.heater.set_target(210'000);
+    bench.run(300);
+    bench.plant.sensor_contact = 0;
+    bench.run(20);
+    ASSERT_EQ(bench.heater.fault(), HeaterFault::kHeatMissing);
+    bench.plant.mosfet_stuck = stuck;
+    bench.plant.sensor_contact = 1;
+    bench.run(60);
+    if (stuck) {
+      EXPECT_EQ(bench.heater.fault(), HeaterFault::kHeatUnasked) << "a second fault is found all the same";
+      EXPECT_LE(bench.plant.hottest(), 210 + 30);
+      continue;
+    }
+    EXPECT_EQ(bench.heater.fault(), HeaterFault::kHeatMissing);
+    bench.heater.clear_fault();
+    bench.heater.set_target(210'000);
+    bench.run(100);
+    EXPECT_EQ(bench.heater.fault(), HeaterFault::kNone);
+    EXPECT_NEAR(bench.plant.sensor(), 210, 0.5);
+  }
+}
+
 TEST(Safety, NothingIsFoundWhereNothingIsWrong) {
   for (std::uint32_t seed = 1; seed <= 3; ++seed) {
     HotEndBench bench(true, seed);

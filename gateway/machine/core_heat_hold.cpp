@@ -1,0 +1,101 @@
+// A heater's fault in a job: held on the path, lifted off the part, and gone on with when it is mended.
+
+#include <utility>
+
+#include "gateway/machine/core.hpp"
+
+namespace kinebus {
+
+using Stage = HeatHold::Stage;
+
+/// A device that is out of order has switched itself off; whatever it was needed for must not go on.
+void Gateway::Core::watch_devices() {
+  while (const auto fault = heat_.new_fault()) {
+    events_.alarm(now_, AlarmCode::kThermal, say("%1: %2", fault->device, fault->words), fault->node);
+    if (state_.is(MachineState::kOff) || hold_for_heat(*fault)) continue;
+    beds_stay_ = true;
+    stop_all(true);
+  }
+}
+
+/// False: no job is under way that could be held.
+bool Gateway::Core::hold_for_heat(const DeviceFault& fault) {
+  const bool of_job = print_.runner().active() &&
+                      state_.is_one_of(MachineState::kRunning, MachineState::kHolding, MachineState::kHeld);
+  if (!fault.heater || !of_job) return false;
+  heat_.note(journal_);
+  heat_.keep();
+  heat_.heaters_off(Heat::Beds::kStay);
+  heat_hold_.note(fault);
+  if (heat_hold_.is(Stage::kMends)) heat_hold_.holds();
+  if (!heat_hold_.is(Stage::kNone)) return true;
+  recovery_.do_not_go_on();
+  hand_.forget_then();
+  hand_.end_jogs();
+  runner_->hold_still(now_);
+  rest_.begin(now_);
+  heat_hold_.begin();
+  enter(MachineState::kHolding);
+  return true;
+}
+
+void Gateway::Core::step_heat_hold() {
+  const Runner::Outcome outcome = runner_->on_time(now_, options_.planning_budget);
+  if (heat_hold_.is(Stage::kStops)) {
+    if (rest_.settled(now_)) rest_.read(now_, Rest::After::kHeatFault);
+    return;
+  }
+  if (outcome == Runner::Outcome::kDone) return finish_motion();
+  if (outcome != Runner::Outcome::kFailed) return;
+  const Runner::Failure& failure = runner_->failure();
+  position_.lose_stream();
+  events_.alarm(now_, failure.stream ? AlarmCode::kStreamLost : AlarmCode::kJobError, failure.words);
+  stop_all(false);
+}
+
+/// The job's place is kept, the tool stands on it. A job that was on its way back is lifted no higher.
+void Gateway::Core::begin_lift() {
+  runner_ = &print_.runner();
+  const PlannedPose place = runner_->rest_pose();
+  const auto on_part = convert_pose(*kinematics_, place.frame, place.pose, Frame::kMachine);
+  const auto from = machine_pose();
+  std::optional<Sentence> kept_from;
+  std::optional<canonical::Command> up;
+  if (on_part && from && machine_.thermal.lift_mm > 0)
+    up = hand_.lift(*from, (*on_part)[kZ] + machine_.thermal.lift_mm, kept_from);
+  if (kept_from) events_.message(now_, say("the tool is not lifted as far as it should be: %1", *kept_from));
+  if (!up) return finish_lift();
+  heat_hold_.lifts();
+  runner_ = &hand_.runner();
+  hand_.start({{0, std::move(*up)}}, *from, 1, ManualMotion::Then::kHeld);
+}
+
+void Gateway::Core::finish_lift() {
+  runner_ = &print_.runner();
+  heat_hold_.holds();
+  heat_.stop_spindle();
+  events_.message(now_, say("the job is held: mend what is wrong, then resume heats and goes on"),
+                  runner_->rest_pose().line);
+  enter(MachineState::kHeld);
+}
+
+/// In kHeld, after resume.
+void Gateway::Core::step_mending() {
+  const auto fault = heat_.fault();
+  switch (heat_hold_.mended(now_, fault.has_value())) {
+    case HeatHold::Mended::kNotYet:
+      return;
+    case HeatHold::Mended::kNo:
+      heat_hold_.holds();
+      if (fault)
+        events_.alarm(now_, AlarmCode::kThermal, say("%1: %2", fault->device, fault->words), fault->node);
+      return;
+    case HeatHold::Mended::kYes:
+      break;
+  }
+  heat_hold_.holds();
+  recovery_.go_on();
+  finish_recovery();
+}
+
+}  // namespace kinebus

@@ -1,0 +1,62 @@
+#pragma once
+// A job that a heater's fault holds: how far that is, why, and when it is mended.
+
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include "gateway/devices/devices.hpp"
+#include "protocol/time.hpp"
+
+namespace kinebus {
+
+class HeatHold {
+ public:
+  enum class Stage : std::uint8_t {
+    kNone,
+    kStops,  ///< on the path, then positions are read
+    kLifts,
+    kHolds,
+    kMends,  ///< resume is asked for, and the device is to show that it is in order
+  };
+  enum class Mended : std::uint8_t { kNotYet, kYes, kNo };
+
+  Stage stage() const { return stage_; }
+  bool is(Stage stage) const { return stage_ == stage; }
+  void begin() { stage_ = Stage::kStops; }
+  void lifts() { stage_ = Stage::kLifts; }
+  void holds() { stage_ = Stage::kHolds; }
+  /// Something else has stopped the machine; the reason stays.
+  void abort() { stage_ = Stage::kNone; }
+
+  /// Of the job; empty: none.
+  const Sentence& why() const { return why_; }
+  void note(const DeviceFault& fault) { why_ = say("%1: %2", fault.device, fault.words); }
+  /// The job goes on, or is no more.
+  void forget() {
+    abort();
+    why_ = {};
+  }
+
+  void await_mended(BusTime now) {
+    stage_ = Stage::kMends;
+    asked_ = faulty_ = now;
+  }
+  /// In order for so long that a fault which comes back at once is seen before anything moves.
+  Mended mended(BusTime now, bool fault) {
+    if (fault) faulty_ = now;
+    if (now - faulty_ >= kInOrder) return Mended::kYes;
+    return now - asked_ < kPatience ? Mended::kNotYet : Mended::kNo;
+  }
+
+ private:
+  static constexpr BusTime kInOrder = std::chrono::milliseconds{500};
+  /// States of heat nodes come at least so often.
+  static constexpr BusTime kPatience = std::chrono::milliseconds{3500};
+
+  Stage stage_ = Stage::kNone;
+  Sentence why_;
+  BusTime asked_{0}, faulty_{0};
+};
+
+}  // namespace kinebus
