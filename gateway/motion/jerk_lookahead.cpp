@@ -200,12 +200,18 @@ void JerkLookahead::solve(const Stretch& stretch) {
   // What is exactly a ramp needs no more planning.
   const bool up_done = !descends && from <= f.cruise_from, down_done = to >= f.cruise_to;
   if (down_done)
-    open_.push_back({.from = f.cruise_to, .to = stretch.to, .v0 = cap, .v1 = stretch.v1, .ramp = f.down, .ramped = true});
+    open_.push_back(
+        {.from = f.cruise_to, .to = stretch.to, .v0 = cap, .v1 = stretch.v1, .ramp = f.down, .ramped = true});
   else
     open_.push_back({.from = to, .to = stretch.to, .v0 = cap, .v1 = stretch.v1});
   open_.push_back({.from = from, .to = to, .v0 = cap, .v1 = cap, .plateau = true});
   if (up_done)
-    open_.push_back({.from = stretch.from, .to = f.cruise_from, .v0 = stretch.v0, .v1 = cap, .ramp = f.up, .ramped = true});
+    open_.push_back({.from = stretch.from,
+                     .to = f.cruise_from,
+                     .v0 = stretch.v0,
+                     .v1 = cap,
+                     .ramp = f.up,
+                     .ramped = true});
   else
     open_.push_back({.from = stretch.from, .to = from, .v0 = stretch.v0, .v1 = cap});
 }
@@ -259,7 +265,8 @@ void JerkLookahead::commit() {
   } else {
     // Of a full window, a quarter of its pieces is kept back.
     const double enough = path_->full() ? starts_[speeds_.size() - speeds_.size() / 4] : parts_.back().to;
-    for (std::size_t i = committed_; i < parts_.size() && (until == committed_ || parts_[i].to <= enough); ++i)
+    for (std::size_t i = committed_; i < parts_.size() && (until == committed_ || parts_[i].to <= enough);
+         ++i)
       if (parts_[i].capped) until = i + 1;
     if (until == committed_ && path_->full()) {
       const double half = 0.5 * (end_ + parts_.back().to);
@@ -365,9 +372,10 @@ Lookahead::Ahead JerkLookahead::ahead() {
   plan();
   Lookahead::Ahead ahead;
   for (std::size_t i = part_; i < parts_.size(); ++i) {
-    const double passed = i == part_ && parts_[i].to > parts_[i].from
-                              ? std::clamp((done_ - parts_[i].from) / (parts_[i].to - parts_[i].from), 0.0, 1.0)
-                              : 0;
+    const double passed =
+        i == part_ && parts_[i].to > parts_[i].from
+            ? std::clamp((done_ - parts_[i].from) / (parts_[i].to - parts_[i].from), 0.0, 1.0)
+            : 0;
     ahead.all_s += parts_[i].duration_s() * (1 - passed);
     if (i < committed_ || parts_[i].capped || (path_->finishing() && !kept_)) ahead.final_s = ahead.all_s;
   }

@@ -84,14 +84,18 @@ TEST(JerkLimit, Corners) {
   const MotionLimits limits = jerk_limits();
   Job job;
   job.feed(100);
-  for (int i = 0; i < 20; ++i) job.by({5.0 + i, 0, 0, 0, 0, 0.1}).by({0, 0.1 * i, 0, 0, 0, 0.1}).by({-5.0 - i, 0.5, 0, 0, 0, 0});
+  for (int i = 0; i < 20; ++i)
+    job.by({5.0 + i, 0, 0, 0, 0, 0.1}).by({0, 0.1 * i, 0, 0, 0, 0.1}).by({-5.0 - i, 0.5, 0, 0, 0, 0});
   expect_smooth(measure(m1(), limits, job.lines()), limits, 0.005);
 }
 
 TEST(JerkLimit, Arcs) {
   const MotionLimits limits = jerk_limits();
   Job job;
-  job.feed(60).to({20, 0, 0, 0, 0, 0}).arc({20, 20, 0, 0, 0, 1}, {20, 10, 0}, {0, 0, 1}, 3.14159265358979).to({-20, 20, 0, 0, 0, 1});
+  job.feed(60)
+      .to({20, 0, 0, 0, 0, 0})
+      .arc({20, 20, 0, 0, 0, 1}, {20, 10, 0}, {0, 0, 1}, 3.14159265358979)
+      .to({-20, 20, 0, 0, 0, 1});
   expect_smooth(measure(m1(), limits, job.lines()), limits, 0.005);
 }
 
@@ -123,7 +127,8 @@ TEST(JerkLimit, SmallWindowsAreSafe) {
   const MotionLimits limits = jerk_limits();
   for (const std::size_t window : {8, 20, 60, 200}) {
     SCOPED_TRACE(window);
-    expect_smooth(measure(m1(), limits, random_print(5, 1500), 8, false, {.window_pieces = window}), limits, 0.01);
+    expect_smooth(measure(m1(), limits, random_print(5, 1500), 8, false, {.window_pieces = window}), limits,
+                  0.01);
   }
 }
 
@@ -169,8 +174,8 @@ TEST(JerkLimit, MoreThanWasFinishedStartsFromRest) {
   Planner planner(m1(), jerk_limits());
   Phase phase;
   for (int i = 1; i <= 3; ++i) {
-    ASSERT_TRUE(planner.add({static_cast<std::uint32_t>(i),
-                             canonical::Feed{{10.0 * i, 0, 0, 0, 0, 0}, Frame::kMachine, 50, 0}}));
+    ASSERT_TRUE(planner.add(
+        {static_cast<std::uint32_t>(i), canonical::Feed{{10.0 * i, 0, 0, 0, 0, 0}, Frame::kMachine, 50, 0}}));
     ASSERT_TRUE(planner.finish());
     bool first = true, last = false;
     while (planner.next(phase)) {
