@@ -138,6 +138,25 @@ TEST(WholeMachine, HoldsAndResumesOnThePathWithoutAStep) {
   EXPECT_GE(holds, 10);
 }
 
+TEST(WholeMachine, HoldsAndResumesWithLimitedJerk) {
+  MachineDescription machine = default_m1();
+  machine.path.tool_jerk_mm_per_s3 = 100'000;
+  SimulateOptions options;
+  int holds = 0;
+  options.operate = [&](Gateway& gateway, double job_s) {
+    const MachineState state = gateway.state();
+    if (state == MachineState::kRunning && job_s > 1 + 0.7 * holds && gateway.carry_out(command::Hold{}))
+      ++holds;
+    if (state == MachineState::kHeld) {
+      EXPECT_TRUE(gateway.carry_out(command::Resume{}));
+    }
+  };
+  const SimulationReport r = simulate_on(machine, generated_job("print", 400), 3, options);
+  expect_within_bounds(r);
+  EXPECT_LE(r.max_joint_jerk_ratio, 1.0);
+  EXPECT_GE(holds, 10);
+}
+
 TEST(WholeMachine, OverridesChangeTheTimeAndNothingElse) {
   const std::string job = generated_job("print", 400);
   SimulateOptions options;
