@@ -108,6 +108,7 @@ struct JointDescription {
   Interval travel;  ///< min == max: endless
   double speed_per_s = 450;
   double accel_per_s2 = 5000;
+  double jerk_per_s3 = 0;            ///< 0: in proportion to the tool's; counts where that is limited
   double stop_accel_per_s2 = 10000;  ///< path deceleration and stop ramp together stay below it
   std::uint16_t run_current_ma = 2000;
   std::uint16_t hold_current_ma = 1500;
@@ -125,6 +126,7 @@ struct JointDescription {
 struct PathDescription {
   double tool_speed_mm_per_s = 300;
   double tool_accel_mm_per_s2 = 3000;
+  double tool_jerk_mm_per_s3 = 0;  ///< 0: no limit
   /// Of pose axes, by PoseAxis: mm or rad. 0: no limit of its own (the tool's, and the joints', still hold).
   Pose axis_speed_per_s{0, 0, 0, 90 * kRadPerDeg, 360 * kRadPerDeg, 60};
   Pose axis_accel_per_s2{0, 0, 0, 900 * kRadPerDeg, 3600 * kRadPerDeg, 3000};

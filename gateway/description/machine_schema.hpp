@@ -149,6 +149,7 @@ void visit_joint(V& v, JointDescription& j, bool own_travel) {
   if (own_travel) v.interval("travel_" + u, j.travel, {-100000, 100000}, Need::kOptional, unit);
   v.number("speed_" + u + "_per_s", j.speed_per_s, {0.001, 100000}, Need::kRequired, unit);
   v.number("accel_" + u + "_per_s2", j.accel_per_s2, {0.1, 1e6}, Need::kRequired, unit);
+  v.number("jerk_" + u + "_per_s3", j.jerk_per_s3, {0, 1e9}, Need::kOptional, unit);
   v.number("stop_accel_" + u + "_per_s2", j.stop_accel_per_s2, {0.1, 1e7}, Need::kRequired, unit);
   v.integer("run_current_ma", j.run_current_ma, 50, 5000, Need::kRequired);
   v.integer("hold_current_ma", j.hold_current_ma, 0, 5000, Need::kRequired);
@@ -214,6 +215,7 @@ void visit_path(V& v, MachineDescription& d) {
   v.table("path", Need::kRequired, [&] {
     v.number("tool_speed_mm_per_s", d.path.tool_speed_mm_per_s, {0.1, 10000}, Need::kRequired);
     v.number("tool_accel_mm_per_s2", d.path.tool_accel_mm_per_s2, {1, 1e6}, Need::kRequired);
+    v.number("tool_jerk_mm_per_s3", d.path.tool_jerk_mm_per_s3, {0, 1e9}, Need::kOptional);
     struct Keys {
       const char *speed, *accel;
       double unit;

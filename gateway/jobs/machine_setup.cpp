@@ -13,6 +13,7 @@ MotionLimits motion_limits(const MachineDescription& machine) {
   limits.tool_speed_mm_per_s = machine.path.tool_speed_mm_per_s;
   limits.tool_accel_mm_per_s2 = machine.path.tool_accel_mm_per_s2;
   const auto limit = [](double value) { return value > 0 ? value : kUnlimited; };
+  limits.tool_jerk_mm_per_s3 = limit(machine.path.tool_jerk_mm_per_s3);
   for (std::size_t axis = 0; axis < kPoseAxes; ++axis) {
     limits.axis_speed_per_s[axis] = limit(machine.path.axis_speed_per_s[axis]);
     limits.axis_accel_per_s2[axis] = limit(machine.path.axis_accel_per_s2[axis]);
@@ -24,11 +25,18 @@ MotionLimits motion_limits(const MachineDescription& machine) {
     const JointReserve reserve = reserve_for(j.calibration, j.speed_per_s, j.accel_per_s2);
     limits.joint_speed_per_s[joint] = limit(reserve.speed_per_s);
     limits.joint_accel_per_s2[joint] = limit(reserve.accel_per_s2);
+    limits.joint_jerk_per_s3[joint] = joint_jerk_limit(machine, j);
   }
   limits.blend_tolerance_mm = machine.tolerances.blend_mm;
   limits.merge_tolerance_mm = machine.tolerances.merge_mm;
   limits.traverse_mm_per_s = limit(machine.gcode.traverse_mm_per_s);
   return limits;
+}
+
+double joint_jerk_limit(const MachineDescription& machine, const JointDescription& joint) {
+  if (!(machine.path.tool_jerk_mm_per_s3 > 0)) return kUnlimited;
+  if (joint.jerk_per_s3 > 0) return joint.jerk_per_s3;
+  return machine.path.tool_jerk_mm_per_s3 * joint.accel_per_s2 / machine.path.tool_accel_mm_per_s2;
 }
 
 gcode::Options interpreter_options(const MachineDescription& machine, const Pose& start, const Pose& home) {

@@ -16,6 +16,9 @@
 namespace kinebus {
 
 MotionLimits motion_limits(const MachineDescription& machine);
+/// Of one joint, mm or rad a s^3: its own limit, or the tool's in proportion to their accelerations; infinite
+/// where the tool's jerk is not limited.
+double joint_jerk_limit(const MachineDescription& machine, const JointDescription& joint);
 
 /// `start`: where the machine stands when the job begins, `home`: after G28; both Frame::kMachine.
 gcode::Options interpreter_options(const MachineDescription& machine, const Pose& start, const Pose& home);

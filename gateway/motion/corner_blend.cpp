@@ -37,11 +37,14 @@ double blend_half_length(const Move& before, const Move& after, const MotionLimi
 
   double half = std::min({0.5 * before.length, 0.5 * after.length, kLongestHalf_mm});
   const bool arc = before.arc || after.arc;
-  half = std::min(half, (arc ? kKinkShare : 1.0) * 4 * tolerance / std::max(bend, 1e-15));
+  // A parabola passes the corner at bend * half / 4, an even blend at bend * half / 6.
+  const double per_deviation = !arc && limits.limits_jerk() ? 6 : 4;
+  half = std::min(half, (arc ? kKinkShare : 1.0) * per_deviation * tolerance / std::max(bend, 1e-15));
   if (rotation > 0) {
-    half = std::min(half, 4 * rotation_tolerance_rad(after.frame, after.from, tolerance, limits) / rotation);
+    half = std::min(
+        half, per_deviation * rotation_tolerance_rad(after.frame, after.from, tolerance, limits) / rotation);
   }
-  if (filament > 0) half = std::min(half, 4 * limits.blend_tolerance_e_mm / filament);
+  if (filament > 0) half = std::min(half, per_deviation * limits.blend_tolerance_e_mm / filament);
   for (const Move* move : {&before, &after}) {
     // The tangent, instead of the arc, is off by b^2 / 2R at the far end, a quarter of it within the cubic.
     if (move->arc) half = std::min(half, std::sqrt(8 * kBendShare * tolerance * move->shape.radius_mm));
@@ -75,6 +78,22 @@ void blend_piece(const Move& before, const Move& after, double half_length, Path
   }
   piece.arc = false;
   piece.length = 2 * half_length;
+}
+
+void even_blend_piece(const Move& before, const Move& after, double half_length, bool second,
+                      PathPiece& piece) {
+  const double h = half_length;
+  piece.frame = after.frame;
+  piece.arc = false;
+  piece.length = h;
+  for (std::size_t i = 0; i < kPoseAxes; ++i) {
+    const double du = after.u[i] - before.u[i];
+    if (second)
+      piece.coefficients[i] = {after.from[i] + du * h / 6, before.u[i] + 0.5 * du, du / (2 * h),
+                               -du / (6 * h * h)};
+    else
+      piece.coefficients[i] = {after.from[i] - before.u[i] * h, before.u[i], 0, du / (6 * h * h)};
+  }
 }
 
 }  // namespace kinebus

@@ -17,6 +17,11 @@ double blend_half_length(const Move& before, const Move& after, const MotionLimi
 /// cubic that continues both sides with their position and direction.
 void blend_piece(const Move& before, const Move& after, double half_length, PathPiece& piece);
 
+/// Either half of a blend between lines whose bend rises evenly from 0 and falls again, where jerk is
+/// limited. It passes the corner at a distance of |u2 - u1| b / 6.
+void even_blend_piece(const Move& before, const Move& after, double half_length, bool second,
+                      PathPiece& piece);
+
 /// The cubic over `length` with these ends (pose and dx/ds).
 void hermite_piece(const Pose& x0, const Pose& u0, const Pose& x1, const Pose& u1, double length,
                    PathPiece& piece);

@@ -12,21 +12,22 @@ constexpr std::uint64_t kBatch = 128;
 
 }  // namespace
 
-Lookahead::Lookahead(std::size_t window_pieces)
+Lookahead::Lookahead(std::size_t window_pieces, bool own_passes)
     : pieces_(window_pieces * 2),
       geometry_(window_pieces * 2),
-      window_(std::max<std::size_t>(window_pieces, 8)) {}
+      window_(std::max<std::size_t>(window_pieces, 8)),
+      own_passes_(own_passes) {}
 
 void Lookahead::add(const PlanPiece& piece) {
   PlanPiece& added = pieces_.push();
   added = piece;
   added.geometry = geometry_.end() - 1;
   finishing_ = false;
-  if (pieces_.end() - planned_ >= kBatch) plan_backward();
+  if (own_passes_ && pieces_.end() - planned_ >= kBatch) plan_backward();
 }
 
 void Lookahead::plan_known() {
-  if (planned_ < pieces_.end()) plan_backward();
+  if (own_passes_ && planned_ < pieces_.end()) plan_backward();
 }
 
 void Lookahead::stop_here() {
@@ -35,7 +36,7 @@ void Lookahead::stop_here() {
 
 void Lookahead::finish() {
   stop_here();
-  plan_backward();
+  if (own_passes_) plan_backward();
   final_ = pieces_.end();
   finishing_ = true;
 }
@@ -114,6 +115,12 @@ Lookahead::Ahead Lookahead::ahead() {
     x = x_end;
   }
   return ahead;
+}
+
+void Lookahead::drop_first() {
+  const std::uint64_t first = pieces_.begin();
+  geometry_.drop_to(pieces_[first].geometry);
+  pieces_.drop_to(first + 1);
 }
 
 void Lookahead::clear() {

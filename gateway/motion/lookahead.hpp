@@ -20,7 +20,9 @@ namespace kinebus {
 
 class Lookahead {
  public:
-  explicit Lookahead(std::size_t window_pieces);
+  /// own_passes: false where another planner (JerkLookahead) makes the speed profile, and only the pieces are
+  /// kept here.
+  explicit Lookahead(std::size_t window_pieces, bool own_passes = true);
 
   /// A new PathPiece (not cleared); the pieces added after it lie on it.
   PathPiece& new_geometry() { return geometry_.push(); }
@@ -51,6 +53,13 @@ class Lookahead {
   };
   Ahead ahead();
 
+  // For a planner of its own.
+  const PlanPiece& piece(std::uint64_t index) const { return pieces_[index]; }
+  const PathPiece& geometry(const PlanPiece& piece) const { return geometry_[piece.geometry]; }
+  std::uint64_t first() const { return pieces_.begin(); }
+  void drop_first();
+  bool finishing() const { return finishing_; }
+
   bool full() const { return pieces_.size() >= window_; }
   bool empty() const { return pieces_.empty(); }
   std::uint64_t forced() const { return forced_; }
@@ -64,6 +73,7 @@ class Lookahead {
   GrowingRing<PlanPiece> pieces_;
   GrowingRing<PathPiece> geometry_;
   std::size_t window_;
+  bool own_passes_;
   std::uint64_t planned_ = 0;  ///< pieces before this one have an entry speed
   std::uint64_t final_ = 0;    ///< entry speeds up to this piece's are final
   bool finishing_ = false;

@@ -11,11 +11,17 @@ namespace kinebus {
 
 inline constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
+/// Half of the shortest segment on the wire, within which its acceleration is constant anyway.
+inline constexpr double kCurvatureJump_s = 0.5e-3;
+
 /// Defaults: machine M1 (four carriages, table C, extruder E as joints 0..5). Every value is > 0.
 struct MotionLimits {
   /// Tool tip relative to the frame of the move: length of its velocity and of its acceleration vector.
   double tool_speed_mm_per_s = 300;
   double tool_accel_mm_per_s2 = 3000;
+  /// Infinite: none. Where the path's curvature jumps (an arc that begins on a tangent), the acceleration may
+  /// jump by what this makes in kCurvatureJump_s.
+  double tool_jerk_mm_per_s3 = kUnlimited;
   /// Tool speed of a traverse (G0), when it is below tool_speed_mm_per_s.
   double traverse_mm_per_s = kUnlimited;
   /// Each pose axis by itself, X Y Z A C E. X Y Z are usually limited by the tool and the joints alone.
@@ -24,6 +30,11 @@ struct MotionLimits {
   /// Each joint, in the kinematics' order; both terms of q'' count.
   JointVector joint_speed_per_s{450, 450, 450, 450, 6.283185307179586, 60, kUnlimited, kUnlimited};
   JointVector joint_accel_per_s2{5000, 5000, 5000, 5000, 62.83185307179586, 3000, kUnlimited, kUnlimited};
+
+  /// The same, of all terms of q'''. Only where the tool's jerk is limited.
+  JointVector joint_jerk_per_s3{kUnlimited, kUnlimited, kUnlimited, kUnlimited,
+                                kUnlimited, kUnlimited, kUnlimited, kUnlimited};
+  bool limits_jerk() const { return tool_jerk_mm_per_s3 < kUnlimited; }
 
   /// G64 without P: how far the planned path may leave the programmed one (X Y Z, distance).
   double blend_tolerance_mm = 0.005;

@@ -149,9 +149,17 @@ Result<void, PathBuilder::Unreachable> PathBuilder::emit_part(const Move& move, 
 Result<void, PathBuilder::Unreachable> PathBuilder::emit_corner(const Move& before, const Move& after,
                                                                 double half_length) {
   if (half_length <= 0) return {};
-  blend_piece(before, after, half_length, lookahead_->new_geometry());
   ++counters_.blends;
   const PieceDemand demand = demand_of(before, after);
+  if (limits_.limits_jerk() && !before.arc && !after.arc) {
+    for (const bool second : {false, true}) {
+      even_blend_piece(before, after, half_length, second, lookahead_->new_geometry());
+      if (const auto ok = path_limits_->add_curve(demand); !ok)
+        return Error<Unreachable>({after.line, ok.error()});
+    }
+    return {};
+  }
+  blend_piece(before, after, half_length, lookahead_->new_geometry());
   const auto ok =
       before.arc || after.arc ? path_limits_->add_curve(demand) : path_limits_->add_parabola(demand);
   if (!ok) return Error<Unreachable>({after.line, ok.error()});

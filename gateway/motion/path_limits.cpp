@@ -27,6 +27,30 @@ int parts_for(const PathPiece& piece, double part_mm, double part_rad) {
   return static_cast<int>(std::clamp(std::ceil(parts), 1.0, static_cast<double>(kMostParts)));
 }
 
+/// Bounds over a stretch of a piece, whose derivatives vary little on it.
+JerkTerms jerk_terms(const PathPiece& geometry, double from, double to) {
+  JerkTerms terms{0, 0, 0};
+  for (const double s : {from, 0.5 * (from + to), to}) {
+    const PosePoint p = geometry.evaluate(s);
+    const auto x3 = geometry.third_derivative(s);
+    terms.x1 = std::max(terms.x1, dot3(p.x1, p.x1));
+    terms.x2 = std::max(terms.x2, dot3(p.x2, p.x2));
+    terms.x3 = std::max(terms.x3, x3[0] * x3[0] + x3[1] * x3[1] + x3[2] * x3[2]);
+  }
+  return {std::sqrt(terms.x1), std::sqrt(terms.x2), std::sqrt(terms.x3)};
+}
+
+/// Between two places `length` apart.
+JointJerkTerms joint_terms(const JointPoint& before, const JointPoint& after, double length) {
+  JointJerkTerms terms;
+  for (std::size_t j = 0; j < kMaxJoints; ++j) {
+    terms.q1[j] = std::max(std::abs(before.q1[j]), std::abs(after.q1[j]));
+    terms.q2[j] = std::max(std::abs(before.q2[j]), std::abs(after.q2[j]));
+    terms.q3[j] = std::abs(after.q2[j] - before.q2[j]) / length;
+  }
+  return terms;
+}
+
 }  // namespace
 
 PathLimits::PathLimits(const Kinematics& kinematics, const MotionLimits& limits, Lookahead& lookahead)
@@ -50,6 +74,21 @@ Result<void, PoseError> PathLimits::start_of_line(const PathPiece& geometry) {
   return {};
 }
 
+/// Where jerk is limited: what a jump of the curvature at the start of newest geometry allows.
+void PathLimits::begin_jerk(const PieceDemand& demand, const PathPiece& geometry) {
+  if (!limits_.limits_jerk()) return;
+  PlanPiece place;
+  place.line = demand.line;
+  place.cap = limits_.jump_cap(bend_, geometry.evaluate(0).x2);
+  bend_ = geometry.evaluate(geometry.length).x2;
+  if (place.cap < kNoAccel) lookahead_->add(place);
+}
+
+void PathLimits::put(const JerkTerms& terms, const JointJerkTerms* joints, PlanPiece& piece) {
+  if (limits_.limits_jerk()) limits_.limit_jerk(terms, joints, piece);
+  lookahead_->add(piece);
+}
+
 /// Adds a curve in equal parts. near: joints count, with their terms at both ends of each part.
 Result<void, PoseError> PathLimits::add_curve_parts(const PieceDemand& demand, const PathPiece& geometry,
                                                     int parts, bool near) {
@@ -68,16 +107,22 @@ Result<void, PoseError> PathLimits::add_curve_parts(const PieceDemand& demand, c
       after.pose = geometry.evaluate(part.s0 + part.length);
       if (auto ok = evaluate(geometry.frame, after); !ok) return ok;
       limits_.add_joints(before.joints, after.joints, part);
-      before = after;
     }
-    lookahead_->add(part);
+    if (limits_.limits_jerk()) {
+      const JointJerkTerms joints =
+          near ? joint_terms(before.joints, after.joints, part.length) : JointJerkTerms{};
+      put(jerk_terms(geometry, part.s0, part.s0 + part.length), near ? &joints : nullptr, part);
+    } else {
+      lookahead_->add(part);
+    }
+    before = after;
   }
   return {};
 }
 
 /// Adds a line in equal parts, with the joints' terms at both ends of each.
 Result<void, PoseError> PathLimits::add_line_parts(const PieceDemand& demand, const PathPiece& geometry,
-                                                   const PlanPiece& whole, int parts) {
+                                                   const PlanPiece& whole, double tool_rate, int parts) {
   Sample before, after;
   before.pose = geometry.evaluate(0);
   if (auto ok = evaluate(geometry.frame, before); !ok) return ok;
@@ -90,7 +135,12 @@ Result<void, PoseError> PathLimits::add_line_parts(const PieceDemand& demand, co
     limits_.tip_cap(demand, before.pose, part);
     limits_.tip_cap(demand, after.pose, part);
     limits_.add_joints(before.joints, after.joints, part);
-    lookahead_->add(part);
+    if (limits_.limits_jerk()) {
+      const JointJerkTerms joints = joint_terms(before.joints, after.joints, part.length);
+      put({tool_rate, 0, 0}, &joints, part);
+    } else {
+      lookahead_->add(part);
+    }
     before = after;
   }
   return {};
@@ -99,6 +149,7 @@ Result<void, PoseError> PathLimits::add_line_parts(const PieceDemand& demand, co
 Result<void, PoseError> PathLimits::add_line(const PieceDemand& demand) {
   const PathPiece& geometry = lookahead_->newest_geometry();
   if (auto ok = start_of_line(geometry); !ok) return ok;
+  begin_jerk(demand, geometry);
   PosePoint direction;
   for (std::size_t i = 0; i < kPoseAxes; ++i) direction.x1[i] = geometry.coefficients[i][1];
   const double tool_rate = std::sqrt(dot3(direction.x1, direction.x1));
@@ -113,11 +164,20 @@ Result<void, PoseError> PathLimits::add_line(const PieceDemand& demand) {
 
   const int far_parts = parts_for(geometry, kFarLine_mm, kFarTurn_rad);
   double ratio = limits_.joint_ratio(tail_, piece);
+  const bool jerk = limits_.limits_jerk();
+  PlanPiece even = piece;
+  if (jerk) limits_.limit_jerk({tool_rate, 0, 0}, nullptr, even);
+  JointPoint before = tail_;
   Sample end;
   for (int i = 1; i <= far_parts; ++i) {
     end.pose = geometry.evaluate(geometry.length * i / far_parts);
     if (auto ok = evaluate(geometry.frame, end); !ok) return ok;
     ratio = std::max(ratio, limits_.joint_ratio(end.joints, piece));
+    if (jerk) {
+      const JointJerkTerms joints = joint_terms(before, end.joints, geometry.length / far_parts);
+      ratio = std::max(ratio, limits_.joint_jerk_ratio(joints, even));
+      before = end.joints;
+    }
   }
   const bool turning_feed = demand.tip_feed && far_parts > 1;
   tail_ = end.joints;
@@ -126,10 +186,10 @@ Result<void, PoseError> PathLimits::add_line(const PieceDemand& demand) {
       limits_.tip_cap(demand, geometry.evaluate(0), piece);
       limits_.tip_cap(demand, end.pose, piece);
     }
-    lookahead_->add(piece);
+    put({tool_rate, 0, 0}, nullptr, piece);
     return {};
   }
-  return add_line_parts(demand, geometry, piece, parts_for(geometry, kNearLine_mm, kNearTurn_rad));
+  return add_line_parts(demand, geometry, piece, tool_rate, parts_for(geometry, kNearLine_mm, kNearTurn_rad));
 }
 
 Result<void, PoseError> PathLimits::add_parabola(const PieceDemand& demand) {
@@ -196,6 +256,7 @@ Result<void, PoseError> PathLimits::add_parabola(const PieceDemand& demand) {
 Result<void, PoseError> PathLimits::add_curve(const PieceDemand& demand) {
   const PathPiece& geometry = lookahead_->newest_geometry();
   tail_valid_ = false;
+  begin_jerk(demand, geometry);
   PlanPiece piece;
   piece.line = demand.line;
   piece.length = geometry.length;
@@ -205,11 +266,23 @@ Result<void, PoseError> PathLimits::add_curve(const PieceDemand& demand) {
   const double angle = geometry.arc ? geometry.length * geometry.angle1_rad_per_mm : 0;
   const int looks = 2 + static_cast<int>(std::min(angle / kArcLook_rad, static_cast<double>(kMostParts)));
   double ratio = 0;
-  Sample sample;
+  Sample sample, before;
+  const bool jerk = limits_.limits_jerk();
+  JerkTerms terms;
+  if (jerk) {
+    terms = jerk_terms(geometry, 0, geometry.length);
+    limits_.limit_jerk(terms, nullptr, piece);
+  }
   for (int i = 0; i <= looks; ++i) {
     sample.pose = geometry.evaluate(geometry.length * i / looks);
     if (auto ok = evaluate(geometry.frame, sample); !ok) return ok;
     ratio = std::max(ratio, limits_.joint_ratio(sample.joints, piece));
+    if (!jerk) continue;
+    if (i > 0) {
+      const JointJerkTerms joints = joint_terms(before.joints, sample.joints, geometry.length / looks);
+      ratio = std::max(ratio, limits_.joint_jerk_ratio(joints, piece));
+    }
+    before = sample;
   }
   const bool near = ratio >= kNear;
   // Where curvature or joints set the speed, it varies along the curve: parts of a share of the braking
@@ -223,7 +296,7 @@ Result<void, PoseError> PathLimits::add_curve(const PieceDemand& demand) {
   if (near) part_mm = std::min(part_mm, kNearLine_mm);
   const int parts = parts_for(geometry, part_mm, near ? kNearTurn_rad : kFarTurn_rad);
   if (!near && parts == 1) {
-    lookahead_->add(piece);
+    put(terms, nullptr, piece);
     return {};
   }
   return add_curve_parts(demand, geometry, parts, near);

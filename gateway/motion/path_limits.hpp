@@ -22,7 +22,10 @@ class PathLimits {
   Result<void, PoseError> add_curve(const PieceDemand& demand);
 
   /// The next piece may begin anywhere (after a stop).
-  void restart() { tail_valid_ = false; }
+  void restart() {
+    tail_valid_ = false;
+    bend_ = {};
+  }
   /// Limits for the pieces from here on.
   void set_limits(const MotionLimits& limits) { limits_.set_limits(limits); }
 
@@ -31,10 +34,12 @@ class PathLimits {
     PosePoint pose;
     JointPoint joints;
   };
+  void begin_jerk(const PieceDemand& demand, const PathPiece& geometry);
+  void put(const JerkTerms& terms, const JointJerkTerms* joints, PlanPiece& piece);
   Result<void, PoseError> evaluate(Frame frame, Sample& sample) const;
   Result<void, PoseError> start_of_line(const PathPiece& geometry);
   Result<void, PoseError> add_line_parts(const PieceDemand& demand, const PathPiece& geometry,
-                                         const PlanPiece& whole, int parts);
+                                         const PlanPiece& whole, double tool_rate, int parts);
   Result<void, PoseError> add_curve_parts(const PieceDemand& demand, const PathPiece& geometry, int parts,
                                           bool near);
 
@@ -45,6 +50,7 @@ class PathLimits {
   // Joints at the end of the newest piece, along its direction, with no bend of the path in q''.
   JointPoint tail_{};
   bool tail_valid_ = false;
+  Pose bend_{};  ///< d2x/ds2 at the end of the newest piece; kept where jerk is limited
 };
 
 }  // namespace kinebus

@@ -23,6 +23,14 @@ struct PlanPiece {
   double up0 = 0, up1 = 0;      ///< linear part: greatest a at x = 0 and at x = cap
   double down0 = 0, down1 = 0;  ///< the same for -a
   double entry = 0;  ///< look-ahead: greatest x at the start from which the rest of the path is feasible
+  /// Where jerk is limited: greatest path acceleration and jerk, at any speed up to the cap, and up to
+  /// kSlow of it, where the path's curvature takes a much smaller share. A piece without length only caps the
+  /// speed at its place.
+  static constexpr double kSlow = 0.7;
+  struct Even {
+    double accel = 0, jerk = 0;
+  };
+  Even even{}, even_slow{};
   std::uint64_t geometry = 0;
   std::uint32_t line = 0;
   bool curved = false;  ///< k2, c, w2 count

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <variant>
 
 #include "gateway/motion/arc_piece.hpp"
+#include "gateway/motion/jerk_lookahead.hpp"
 #include "gateway/motion/lookahead.hpp"
 #include "gateway/motion/path_builder.hpp"
 #include "gateway/motion/path_limits.hpp"
@@ -35,9 +37,10 @@ struct Planner::Impl {
   Impl(const Kinematics& machine, const MotionLimits& machine_limits, Options options)
       : limits(machine_limits),
         current(machine_limits),
-        lookahead(options.window_pieces),
+        lookahead(options.window_pieces, !machine_limits.limits_jerk()),
         path_limits(machine, machine_limits, lookahead),
-        builder(machine_limits, path_limits, lookahead) {
+        builder(machine_limits, path_limits, lookahead),
+        jerk_lookahead(lookahead) {
     reset_modes();
   }
 
@@ -81,6 +84,8 @@ struct Planner::Impl {
   PathLimits path_limits;
   PathBuilder builder;
   PhaseEmitter emitter;
+  JerkLookahead jerk_lookahead;
+  bool early = false;  ///< plan_known() was called
   Pose end{};
   Frame frame = Frame::kMachine;
   bool exact = false;
@@ -260,12 +265,13 @@ Result<void, PlanError> Planner::finish() {
 
 void Planner::plan_known() {
   impl_->lookahead.plan_known();
+  impl_->early = true;
 }
 
 Planner::Ahead Planner::ahead() {
   Impl& d = *impl_;
   if (d.unsummed_s > kUnsummed_s || idle()) {
-    const Lookahead::Ahead pieces = d.lookahead.ahead();
+    const Lookahead::Ahead pieces = d.limits.limits_jerk() ? d.jerk_lookahead.ahead() : d.lookahead.ahead();
     const double given = d.emitter.left_s();
     d.ahead.final_s = given + pieces.final_s;
     d.ahead.all_s = given + pieces.all_s + d.builder.open_s(d.limits.tool_speed_mm_per_s);
@@ -280,10 +286,14 @@ bool Planner::wants_more() const {
 
 bool Planner::next(Phase& phase) {
   Impl& d = *impl_;
-  while (!d.emitter.next(phase)) {
-    Lookahead::Step step;
-    if (!d.lookahead.take(step)) return false;
-    d.emitter.start(step);
+  if (d.limits.limits_jerk()) {
+    if (!d.jerk_lookahead.next(phase, std::exchange(d.early, false))) return false;
+  } else {
+    while (!d.emitter.next(phase)) {
+      Lookahead::Step step;
+      if (!d.lookahead.take(step)) return false;
+      d.emitter.start(step);
+    }
   }
   ++d.phases;
   d.ahead.final_s -= phase.duration_s;
@@ -303,6 +313,8 @@ Frame Planner::end_frame() const {
 
 void Planner::reset(const Pose& pose, Frame frame) {
   impl_->lookahead.clear();
+  impl_->jerk_lookahead.clear();
+  impl_->early = false;
   impl_->builder.clear();
   impl_->emitter.clear();
   impl_->has_failed = false;
@@ -317,7 +329,7 @@ const Planner::Counters& Planner::counters() const {
   const auto& built = impl_->builder.counters();
   impl_->counters = {built.moves,   built.merged,
                      built.blends,  impl_->lookahead.added(),
-                     impl_->phases, impl_->lookahead.forced()};
+                     impl_->phases, impl_->lookahead.forced() + impl_->jerk_lookahead.forced()};
   return impl_->counters;
 }
 

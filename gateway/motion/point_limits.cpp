@@ -12,6 +12,19 @@ namespace {
 constexpr double kJointShare = 0.98;
 // The bounds of a cubic's slope are taken at five points; between them it is greater by less than this.
 constexpr double kBetweenSamples = 1 + 1e-4;
+// Jerk: the same for the tool, whose tangent and curvature are not quite perpendicular on cubics.
+constexpr double kToolJerkShare = 0.97;
+// Of a jerk limit, what a bend may take at the cap; of an acceleration, what it may take there. The rest is
+// for changing the speed.
+constexpr double kBendJerk = 0.7;
+constexpr double kBendAccel = 0.9;
+// Of what bends leave of the jerk, what the tangent's turning (3 x_ss v a) may take; across for the tool,
+// where a right angle leaves 0.6 for the jerk along the path, and in line for a joint.
+constexpr double kTurnJerk = 0.8, kTurnJointJerk = 0.5;
+// Share of the acceleration at rest that the cap has to leave, and by how much a cap is lowered for that.
+constexpr double kLeastAccel = 0.15, kLower = 0.9;
+constexpr int kLowerings = 60;
+constexpr double kNoJerk = 1e9;
 double inverse_of(double limit) {
   return std::isfinite(limit) ? 1 / limit : 0;
 }
@@ -48,6 +61,7 @@ void PointLimits::set_limits(const MotionLimits& limits) {
     inverse_speed_[j] = inverse_of(limits.joint_speed_per_s[j] * kJointShare);
     inverse_accel_[j] = inverse_of(limits.joint_accel_per_s2[j] * kJointShare);
     accel_[j] = limits.joint_accel_per_s2[j] * kJointShare;
+    jerk_[j] = limits.joint_jerk_per_s3[j] * kJointShare;
   }
   limited_xyz_ = false;
   for (std::size_t i = 0; i < kPoseAxes; ++i) {
@@ -170,6 +184,77 @@ void PointLimits::bound_curve(const PieceDemand& demand, const PathPiece& geomet
   if (ratio <= kNear) return;
   allow_any_acceleration(piece);
   for (const PosePoint& point : points) axis_accels(point, piece);
+}
+
+PlanPiece::Even PointLimits::even(const JerkTerms& terms, const JointJerkTerms* joints,
+                                  const PlanPiece& piece, double x) const {
+  const double v = std::sqrt(x);
+  PlanPiece::Even even{std::min({piece.accel_between(0, x), piece.decel_between(0, x), kNoAccel}), kNoJerk};
+  const double left = limits_.tool_jerk_mm_per_s3 * kToolJerkShare - terms.x3 * x * v;
+  const double turn = 3 * terms.x2 * v;
+  if (turn * even.accel > kTurnJerk * left) even.accel = std::max(kTurnJerk * left, 0.0) / turn;
+  for (std::size_t j = 0; j < joints_ && joints != nullptr; ++j) {
+    const double room = kTurnJointJerk * (jerk_[j] - joints->q3[j] * x * v);
+    const double joint_turn = 3 * joints->q2[j] * v;
+    if (joint_turn * even.accel > room) even.accel = std::max(room, 0.0) / joint_turn;
+  }
+  const double across = turn * even.accel;
+  if (terms.x1 > 0)
+    even.jerk = std::min(kNoJerk, std::sqrt(std::max(left * left - across * across, 0.0)) / terms.x1);
+  for (std::size_t j = 0; j < joints_ && joints != nullptr; ++j) {
+    const double room = jerk_[j] - joints->q3[j] * x * v - 3 * joints->q2[j] * v * even.accel;
+    if (joints->q1[j] * even.jerk > room) even.jerk = room / joints->q1[j];
+  }
+  return even;
+}
+
+void PointLimits::limit_jerk(const JerkTerms& terms, const JointJerkTerms* joints, PlanPiece& piece) const {
+  const double before = piece.cap;
+  double speed = std::sqrt(piece.cap);
+  const double jerk = limits_.tool_jerk_mm_per_s3 * kToolJerkShare;
+  if (terms.x3 * speed * speed * speed > kBendJerk * jerk) speed = std::cbrt(kBendJerk * jerk / terms.x3);
+  for (std::size_t j = 0; j < joints_ && joints != nullptr; ++j)
+    if (joints->q3[j] * speed * speed * speed > kBendJerk * jerk_[j])
+      speed = std::cbrt(kBendJerk * jerk_[j] / joints->q3[j]);
+  double cap = std::min(piece.cap, speed * speed);
+  if (piece.curved && piece.k2 * cap * cap > kBendAccel * kBendAccel * piece.accel * piece.accel)
+    cap = kBendAccel * piece.accel / std::sqrt(piece.k2);
+  const auto accel_at = [&](double x) {
+    return std::min(piece.accel_between(0, x), piece.decel_between(0, x));
+  };
+  const double least = kLeastAccel * accel_at(0);
+  for (int i = 0; i < kLowerings && accel_at(cap) < least; ++i) cap *= kLower;
+  piece.even = even(terms, joints, piece, cap);
+  piece.even_slow = even(terms, joints, piece, cap * PlanPiece::kSlow * PlanPiece::kSlow);
+  if (piece.linear) {
+    const double down = cap / before;
+    piece.up1 = piece.up0 + (piece.up1 - piece.up0) * down;
+    piece.down1 = piece.down0 + (piece.down1 - piece.down0) * down;
+  }
+  piece.cap = cap;
+}
+
+double PointLimits::joint_jerk_ratio(const JointJerkTerms& joints, const PlanPiece& piece) const {
+  const double v = std::sqrt(piece.cap);
+  double ratio = 0;
+  for (std::size_t j = 0; j < joints_; ++j) {
+    const double turning = joints.q3[j] * v * v * v;
+    const double fast = joints.q1[j] * piece.even.jerk + 3 * joints.q2[j] * v * piece.even.accel;
+    const double slow = joints.q1[j] * piece.even_slow.jerk + 3 * joints.q2[j] * v * piece.even_slow.accel;
+    ratio = std::max(ratio, (turning + std::max(fast, slow)) / jerk_[j]);
+  }
+  return ratio;
+}
+
+double PointLimits::jump_cap(const Pose& before, const Pose& after) const {
+  const double jerk = limits_.tool_jerk_mm_per_s3;
+  double square = 0;
+  for (std::size_t i = 0; i < 3; ++i) square += (after[i] - before[i]) * (after[i] - before[i]);
+  double share = std::sqrt(square) / jerk;
+  for (std::size_t i = 3; i < kPoseAxes; ++i)
+    share = std::max(
+        share, std::abs(after[i] - before[i]) * limits_.tool_accel_mm_per_s2 * inverse_axis_accel_[i] / jerk);
+  return kCurvatureJump_s / std::max(share, 1e-300);
 }
 
 void PointLimits::add_joints(const JointPoint& before, const JointPoint& after, PlanPiece& piece) const {

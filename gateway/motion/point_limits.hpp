@@ -35,6 +35,15 @@ inline void allow_any_acceleration(PlanPiece& piece) {
   piece.up0 = piece.up1 = piece.down0 = piece.down1 = kNoAccel;
 }
 
+/// What a stretch of path adds to the tool's jerk: the greatest |x_s|, |x_ss| and |x_sss| of X Y Z on it.
+struct JerkTerms {
+  double x1 = 1, x2 = 0, x3 = 0;
+};
+/// Greatest magnitudes of the joints' derivatives by s on a stretch of path.
+struct JointJerkTerms {
+  JointVector q1{}, q2{}, q3{};
+};
+
 /// Each call lowers what `piece` has by the terms at a point.
 class PointLimits {
  public:
@@ -58,13 +67,24 @@ class PointLimits {
   void joint_accels(const JointPoint& joints, PlanPiece& piece) const;
   /// The joints' terms at both ends of a piece: cap and accelerations.
   void add_joints(const JointPoint& before, const JointPoint& after, PlanPiece& piece) const;
+  bool limits_jerk() const { return limits_.limits_jerk(); }
+  /// Last of all: even acceleration and jerk, and a cap at which the path's bends leave something for them.
+  /// joints: nullptr where they are far from their limits.
+  void limit_jerk(const JerkTerms& terms, const JointJerkTerms* joints, PlanPiece& piece) const;
+  /// How near the joints' jerk comes to its limit at the piece's cap, after limit_jerk().
+  double joint_jerk_ratio(const JointJerkTerms& joints, const PlanPiece& piece) const;
+  /// Greatest x where the second derivative by s jumps from `before` to `after`.
+  double jump_cap(const Pose& before, const Pose& after) const;
   /// Speed cap and acceleration bounds of geometry's stretch from piece.s0 over piece.length, joints aside.
   void bound_curve(const PieceDemand& demand, const PathPiece& geometry, PlanPiece& piece) const;
 
  private:
+  PlanPiece::Even even(const JerkTerms& terms, const JointJerkTerms* joints, const PlanPiece& piece,
+                       double x) const;
+
   MotionLimits limits_{};
   std::size_t joints_;
-  JointVector inverse_speed_{}, inverse_accel_{}, accel_{};
+  JointVector inverse_speed_{}, inverse_accel_{}, accel_{}, jerk_{};
   Pose inverse_axis_speed_{}, inverse_axis_accel_{};
   bool limited_xyz_ = false;  ///< X, Y or Z have limits of their own
 };

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gateway/motion/speed_ramp.hpp"
+
 namespace kinebus {
 namespace {
 
@@ -38,6 +40,7 @@ void StartRamp::apply(const Phase& phase, double from_s, std::vector<Phase>& out
       part.v0 = v0;
       part.duration_s = 2 * way / (v0 + v1);
       part.a = (v1 - v0) / part.duration_s;
+      part.jerk = 0;
       part.last = false;
       out.push_back(part);
     }
@@ -50,6 +53,7 @@ void StartRamp::apply(const Phase& phase, double from_s, std::vector<Phase>& out
     Phase rest = phase;
     rest.s0 = s;
     rest.v0 = phase.speed(t) * rate_;
+    rest.a = phase.accel(t);
     rest.duration_s = phase.duration_s - t;
     rest.last = false;
     out.push_back(rest);
@@ -59,6 +63,7 @@ void StartRamp::apply(const Phase& phase, double from_s, std::vector<Phase>& out
 
 double time_at(const Phase& phase, double s) {
   const double way = std::max(0.0, s - phase.s0);
+  if (phase.jerk != 0) return SpeedRamp::Stage{phase.duration_s, phase.v0, phase.a, phase.jerk}.time_of(way);
   const double speed = std::sqrt(std::max(0.0, phase.v0 * phase.v0 + 2 * phase.a * way));
   const double sum = phase.v0 + speed;
   return sum > 0 ? std::min(phase.duration_s, 2 * way / sum) : 0;

@@ -26,11 +26,21 @@ PosePoint PathPiece::evaluate(double s) const {
   return p;
 }
 
+std::array<double, 3> PathPiece::third_derivative(double s) const {
+  std::array<double, 3> x3{6 * coefficients[0][3], 6 * coefficients[1][3], 6 * coefficients[2][3]};
+  if (arc) {
+    const double w = angle1_rad_per_mm, angle = angle0_rad + s * w;
+    const double cosine = std::cos(angle), sine = std::sin(angle);
+    for (std::size_t i = 0; i < 3; ++i) x3[i] -= radius_mm * w * w * w * (v[i] * cosine - u[i] * sine);
+  }
+  return x3;
+}
+
 PosePoint Phase::at(double t) const {
   PosePoint p = piece.evaluate(s(t));
-  const double rate = speed(t);
+  const double rate = speed(t), now = accel(t);
   for (std::size_t i = 0; i < kPoseAxes; ++i) {
-    p.x2[i] = p.x2[i] * rate * rate + p.x1[i] * a;
+    p.x2[i] = p.x2[i] * rate * rate + p.x1[i] * now;
     p.x1[i] *= rate;
   }
   return p;

@@ -1,7 +1,7 @@
 #pragma once
 // The planner's output: pose(tau) as a chain of phases. Each phase is a piece of path, traversed with one
-// constant path acceleration. Position and velocity are continuous from phase to phase (no velocity step
-// anywhere).
+// constant path acceleration, or, where jerk is limited, with one constant path jerk. Position and velocity
+// are continuous from phase to phase (no velocity step anywhere).
 
 #include <array>
 #include <cstdint>
@@ -24,18 +24,21 @@ struct PathPiece {
 
   /// x(s), dx/ds, d2x/ds2.
   PosePoint evaluate(double s) const;
+  /// d3x/ds3, X Y Z.
+  std::array<double, 3> third_derivative(double s) const;
 };
 
-/// Parameter law of a phase: s(t) = s0 + v0 t + a t^2 / 2, t = 0..duration.
+/// Parameter law of a phase: s(t) = s0 + v0 t + a t^2 / 2 + jerk t^3 / 6, t = 0..duration.
 struct Phase {
   PathPiece piece;
-  double s0 = 0, v0 = 0, a = 0;
+  double s0 = 0, v0 = 0, a = 0, jerk = 0;
   double duration_s = 0;
   std::uint32_t line = 0;  ///< the job's line whose motion this is (a blend or a merged curve: the last one)
   bool last = false;       ///< the run ends at rest with this phase
 
-  double s(double t) const { return s0 + t * (v0 + 0.5 * a * t); }
-  double speed(double t) const { return v0 + a * t; }
+  double s(double t) const { return s0 + t * (v0 + (0.5 * a + jerk * t * (1.0 / 6)) * t); }
+  double speed(double t) const { return v0 + (a + 0.5 * jerk * t) * t; }
+  double accel(double t) const { return a + jerk * t; }
   /// Pose and its derivatives by time at t seconds after the phase's start.
   PosePoint at(double t) const;
 };

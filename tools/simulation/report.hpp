@@ -23,6 +23,7 @@ struct SimulationReport {
   double max_joint_velocity_ratio = 0;
   double max_joint_acceleration_ratio = 0;
   double max_measured_acceleration_ratio = 0;
+  double max_joint_jerk_ratio = 0;  ///< of the plan, at full rate; 0: the machine has no limit
   double max_velocity_step_ratio =
       0;  ///< in a millisecond, to what the stop acceleration allows; from power-up on
   double max_node_time_skew_us = 0;
@@ -37,8 +38,9 @@ struct SimulationReport {
   int queue_fullest = 0;  ///< records in one node's queue
   std::uint32_t queue_overruns = 0, records_out_of_sequence = 0;
   std::uint64_t trace_hash = 0;  ///< over all frames and their times: same seed, same hash
-  double worst_tracking_s = 0, worst_path_s = 0, worst_joint_s = 0, worst_skew_s = 0, worst_step_s = 0;
-  std::string worst_joint, worst_step_joint;
+  double worst_tracking_s = 0, worst_path_s = 0, worst_joint_s = 0, worst_skew_s = 0, worst_step_s = 0,
+         worst_jerk_s = 0;
+  std::string worst_joint, worst_step_joint, worst_jerk_joint;
   std::uint32_t worst_tracking_line = 0, worst_path_line = 0;
   std::vector<std::string> messages;  ///< alarms and problems, in words
 };

@@ -7,6 +7,7 @@
 
 #include "gateway/description/machine_file.hpp"
 #include "tools/simulation/checkers/bus_checker.hpp"
+#include "tools/simulation/checkers/jerk_checker.hpp"
 #include "tools/simulation/checkers/joint_checker.hpp"
 #include "tools/simulation/checkers/path_checker.hpp"
 #include "tools/simulation/checkers/queue_checker.hpp"
@@ -48,10 +49,12 @@ struct Checkers {
            ByteSource& text, const Pose& start)
       : tracking(machine, kinematics, [&simulation](PathTime tau) { return simulation.planned_pose(tau); }),
         path(machine, kinematics, text, start),
-        joints(machine) {}
+        joints(machine),
+        jerk(machine, kinematics, [&simulation](PathTime tau) { return simulation.planned_pose(tau); }) {}
   TrackingChecker tracking;
   PathChecker path;
   JointChecker joints;
+  JerkChecker jerk;
   SkewChecker skew;
   BusChecker bus;
   QueueChecker queues;
@@ -169,6 +172,7 @@ class Run {
     if (!sample.in_job) return;
     simulation_.locate(sample);
     checkers_->tracking.on_sample(sample);
+    checkers_->jerk.on_sample(sample);
     checkers_->path.on_sample(sample);
     if (options_.on_sample)
       options_.on_sample(sample, checkers_->path.last_um(), checkers_->path.nearest_line());
@@ -220,6 +224,9 @@ class Run {
     report_.max_joint_velocity_ratio = c.joints.max_velocity_ratio();
     report_.max_joint_acceleration_ratio = c.joints.max_acceleration_ratio();
     report_.max_measured_acceleration_ratio = c.joints.max_measured_acceleration_ratio();
+    report_.max_joint_jerk_ratio = c.jerk.max_ratio();
+    report_.worst_jerk_s = std::max(0.0, c.jerk.worst_time_s() - to_seconds(begin_));
+    report_.worst_jerk_joint = c.jerk.worst_joint();
     report_.max_node_time_skew_us = c.skew.max_us();
     report_.worst_skew_s = c.skew.worst_time_s() - to_seconds(begin_);
     report_.queue_fullest = c.queues.findings().fullest;

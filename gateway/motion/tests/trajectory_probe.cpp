@@ -31,9 +31,13 @@ class Prober {
     } else {
       m.position_jump = std::max(m.position_jump, greatest(start.x, last_.x));
       m.velocity_jump = std::max(m.velocity_jump, greatest(start.x1, last_.x1));
+      Pose jump;
+      for (std::size_t i = 0; i < kPoseAxes; ++i) jump[i] = start.x2[i] - last_.x2[i];
+      m.accel_jump_mm_per_s2 = std::max(m.accel_jump_mm_per_s2, length3(jump));
     }
     const int steps = std::max(samples_, static_cast<int>(phase.duration_s * 1000));
     for (int i = 0; i <= steps; ++i) sample(phase, phase.duration_s * i / steps, m, path);
+    if (limits_.limits_jerk()) jerks(phase, m);
     last_ = end;
     last_speed_ = phase.speed(phase.duration_s);
     m.duration_s += phase.duration_s;
@@ -48,7 +52,30 @@ class Prober {
     m.end_error = greatest(last_.x, programmed_end);
   }
 
- private:
+  /// Third differences of positions a millisecond apart, over the whole run.
+  void jerks(const Phase& phase, Measured& m) {
+    constexpr double h = 1e-3;
+    for (; next_s_ <= m.duration_s + phase.duration_s; next_s_ += h) {
+      const double t = std::clamp(next_s_ - m.duration_s, 0.0, phase.duration_s);
+      const Pose pose = phase.piece.evaluate(phase.s(t)).x;
+      JointVector joints{};
+      if (!kinematics_.inverse(phase.piece.frame, pose, joints)) return;
+      std::move_backward(poses_, poses_ + 3, poses_ + 4);
+      std::move_backward(joints_, joints_ + 3, joints_ + 4);
+      poses_[0] = pose;
+      joints_[0] = joints;
+      if (++in_a_row_ < 4) continue;
+      Pose jerk;
+      for (std::size_t i = 0; i < kPoseAxes; ++i)
+        jerk[i] = (poses_[0][i] - 3 * poses_[1][i] + 3 * poses_[2][i] - poses_[3][i]) / (h * h * h);
+      m.tool_jerk_mm_per_s3 = std::max(m.tool_jerk_mm_per_s3, length3(jerk));
+      for (std::size_t j = 0; j < static_cast<std::size_t>(kinematics_.joint_count()); ++j)
+        m.joint_jerk_ratio = std::max(m.joint_jerk_ratio, std::abs(joints_[0][j] - 3 * joints_[1][j] +
+                                                                   3 * joints_[2][j] - joints_[3][j]) /
+                                                              (h * h * h) / limits_.joint_jerk_per_s3[j]);
+    }
+  }
+
   void sample(const Phase& phase, double t, Measured& m, PathDistance& path) {
     const PosePoint p = phase.at(t);
     m.tool_speed_mm_per_s = std::max(m.tool_speed_mm_per_s, length3(p.x1));
@@ -81,6 +108,10 @@ class Prober {
   PosePoint last_{};
   double last_speed_ = 0;
   bool marked_ = false;
+  double next_s_ = 0;
+  int in_a_row_ = 0;
+  Pose poses_[4]{};
+  JointVector joints_[4]{};
 };
 
 }  // namespace

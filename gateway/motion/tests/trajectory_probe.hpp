@@ -27,12 +27,16 @@ struct Measured {
   double axis_speed_ratio = 0, axis_accel_ratio = 0;
   double path_error_mm = 0;  ///< to the programmed moves
   std::uint32_t path_error_line = 0;
-  double position_jump = 0;  ///< between phases, any axis, mm or rad
-  double velocity_jump = 0;  ///< between phases, any axis, per s
-  double speed_at_ends = 0;  ///< ds/dt at start and end of the run
-  double end_error = 0;      ///< last pose against the programmed end, any axis
-  bool last_marked = false;  ///< exactly the last phase carries `last`
-  std::vector<Phase> all;    ///< when asked for
+  // By third differences of positions a millisecond apart; only where jerk is limited.
+  double tool_jerk_mm_per_s3 = 0;
+  double joint_jerk_ratio = 0;      ///< to the limits
+  double accel_jump_mm_per_s2 = 0;  ///< between phases, of the tool
+  double position_jump = 0;         ///< between phases, any axis, mm or rad
+  double velocity_jump = 0;         ///< between phases, any axis, per s
+  double speed_at_ends = 0;         ///< ds/dt at start and end of the run
+  double end_error = 0;             ///< last pose against the programmed end, any axis
+  bool last_marked = false;         ///< exactly the last phase carries `last`
+  std::vector<Phase> all;           ///< when asked for
 };
 
 /// Feeds and pulls as the interface says, finishes, and measures. samples: at least this many a phase, and

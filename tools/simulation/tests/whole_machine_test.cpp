@@ -43,6 +43,18 @@ TEST(WholeMachine, TiltsAndTurnsInTheMachineFrameWithinBounds) {
       "G43.4\nG1 X30 Y0 Z25 A10 C700 F6000\nG49\nG0 A0 C720\nG0 X0 Y0 Z20\n"));
 }
 
+TEST(WholeMachine, KeepsTheJerkLimitOfEveryJoint) {
+  MachineDescription machine = default_m1();
+  machine.path.tool_jerk_mm_per_s3 = 100'000;
+  for (const std::string& job : {generated_job("print", 300), generated_job("dense-curve", 1500),
+                                 generated_job("five-axis", 1500), "G21 G90\n" + std::string(kCorners)}) {
+    const SimulationReport r = simulate_on(machine, job);
+    expect_within_bounds(r);
+    EXPECT_GT(r.max_joint_jerk_ratio, 0);
+    EXPECT_LE(r.max_joint_jerk_ratio, 1.0) << to_table(r);
+  }
+}
+
 /// Lines, arcs, dwells, retractions and rotations of all sizes and speeds, inside the workspace.
 std::string random_job(std::uint64_t seed, int moves) {
   std::mt19937_64 random(seed);
@@ -123,6 +135,25 @@ TEST(WholeMachine, HoldsAndResumesOnThePathWithoutAStep) {
     }
   };
   expect_within_bounds(simulate_text(generated_job("print", 400), 3, options));
+  EXPECT_GE(holds, 10);
+}
+
+TEST(WholeMachine, HoldsAndResumesWithLimitedJerk) {
+  MachineDescription machine = default_m1();
+  machine.path.tool_jerk_mm_per_s3 = 100'000;
+  SimulateOptions options;
+  int holds = 0;
+  options.operate = [&](Gateway& gateway, double job_s) {
+    const MachineState state = gateway.state();
+    if (state == MachineState::kRunning && job_s > 1 + 0.7 * holds && gateway.carry_out(command::Hold{}))
+      ++holds;
+    if (state == MachineState::kHeld) {
+      EXPECT_TRUE(gateway.carry_out(command::Resume{}));
+    }
+  };
+  const SimulationReport r = simulate_on(machine, generated_job("print", 400), 3, options);
+  expect_within_bounds(r);
+  EXPECT_LE(r.max_joint_jerk_ratio, 1.0);
   EXPECT_GE(holds, 10);
 }
 

@@ -1,0 +1,385 @@
+#include "gateway/motion/jerk_lookahead.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+namespace kinebus {
+namespace {
+
+// Of a phase: shorter ones are rounding, 3 pm of path at 300 mm/s.
+constexpr double kBriefest_s = 1e-11;
+// Of a piece that is left: rounding of positions.
+constexpr double kShortest_mm = 1e-9;
+// The peak of a stretch that reaches no cap: to 1e-6 of what there is to gain.
+constexpr int kHalvings = 20;
+// The same where the stretch begins and ends at rest, and would not be passed at all.
+constexpr int kMostHalvings = 200;
+// Times that one stretch may be tried with a higher cap than its lowest.
+constexpr int kRaises = 8;
+constexpr PlanPiece::Even kUnbounded{std::numeric_limits<double>::infinity(),
+                                     std::numeric_limits<double>::infinity()};
+
+}  // namespace
+
+void JerkLookahead::clear() {
+  parts_.clear();
+  committed_ = part_ = 0;
+  stage_ = 0;
+  stage_s_ = stage_at_ = done_ = end_ = window_at_ = speed_ = 0;
+  planned_end_ = 0;
+  planned_finish_ = to_the_end_ = kept_ = false;
+}
+
+/// The window as arrays, from the first piece that is held.
+void JerkLookahead::load() {
+  const std::uint64_t first = path_->first(), end = path_->added();
+  const auto count = static_cast<std::size_t>(end - first);
+  leaves_ = std::bit_ceil(std::max<std::size_t>(count, 1));
+  starts_.resize(count + 1);
+  speeds_.resize(count);
+  even_.resize(count);
+  even_slow_.resize(count);
+  lowest_.assign(2 * leaves_, std::numeric_limits<std::uint32_t>::max());
+  starts_[0] = window_at_;
+  for (std::size_t i = 0; i < count; ++i) {
+    const PlanPiece& piece = path_->piece(first + i);
+    starts_[i + 1] = starts_[i] + piece.length;
+    speeds_[i] = std::sqrt(piece.cap);
+    even_[i] = piece.even;
+    even_slow_[i] = piece.even_slow;
+    lowest_[leaves_ + i] = static_cast<std::uint32_t>(i);
+  }
+  for (std::size_t node = leaves_ - 1; node > 0; --node) {
+    const std::uint32_t a = lowest_[2 * node], b = lowest_[2 * node + 1];
+    lowest_[node] = b >= count || (a < count && speeds_[a] <= speeds_[b]) ? a : b;
+  }
+}
+
+std::size_t JerkLookahead::lowest(std::size_t first, std::size_t last) const {
+  std::size_t best = first;
+  for (std::size_t l = first + leaves_, r = last + leaves_ + 1; l < r; l /= 2, r /= 2) {
+    if ((l & 1) != 0) {
+      const std::size_t i = lowest_[l++];
+      if (speeds_[i] < speeds_[best]) best = i;
+    }
+    if ((r & 1) != 0) {
+      const std::size_t i = lowest_[--r];
+      if (speeds_[i] < speeds_[best]) best = i;
+    }
+  }
+  return best;
+}
+
+std::size_t JerkLookahead::piece_after(double position) const {
+  const auto at = std::upper_bound(starts_.begin() + 1, starts_.end(), position + kShortest_mm);
+  return std::min(static_cast<std::size_t>(at - starts_.begin()) - 1, speeds_.size() - 1);
+}
+
+std::size_t JerkLookahead::piece_before(double position) const {
+  const auto at = std::lower_bound(starts_.begin(), starts_.end() - 1, position - kShortest_mm);
+  return at == starts_.begin() ? 0 : static_cast<std::size_t>(at - starts_.begin()) - 1;
+}
+
+void JerkLookahead::put(double from, double to, const SpeedRamp& ramp, bool capped) {
+  if (to > from) parts_.push_back({from, to, ramp, capped});
+}
+
+bool JerkLookahead::lower(std::size_t i, double speed, PlanPiece::Even& even) const {
+  if (!(starts_[i + 1] > starts_[i])) return false;
+  const PlanPiece::Even& bound = speed <= PlanPiece::kSlow * speeds_[i] ? even_slow_[i] : even_[i];
+  if (bound.accel >= even.accel && bound.jerk >= even.jerk) return false;
+  even = {std::min(even.accel, bound.accel), std::min(even.jerk, bound.jerk)};
+  return true;
+}
+
+/// Ramps from both ends to `speed`, each by the bounds of the pieces that it passes.
+JerkLookahead::Fit JerkLookahead::fit(const Stretch& stretch, std::size_t first, std::size_t last,
+                                      double speed) const {
+  Fit f;
+  f.cruise_from = stretch.from;
+  f.cruise_to = stretch.to;
+  if (speed > stretch.v0) {
+    PlanPiece::Even even = kUnbounded;
+    for (std::size_t i = first;; ++i) {
+      if (lower(i, speed, even)) {
+        f.up = SpeedRamp(stretch.v0, speed, even.accel, even.jerk);
+        f.cruise_from = stretch.from + f.up.length();
+      }
+      if (i == last || starts_[i + 1] >= f.cruise_from) break;
+    }
+  }
+  if (speed > stretch.v1) {
+    PlanPiece::Even even = kUnbounded;
+    for (std::size_t i = last;; --i) {
+      if (lower(i, speed, even)) {
+        f.down = SpeedRamp(speed, stretch.v1, even.accel, even.jerk);
+        f.cruise_to = stretch.to - f.down.length();
+      }
+      if (i == first || starts_[i] <= f.cruise_to) break;
+    }
+  }
+  f.fits = f.cruise_from <= f.cruise_to;
+  return f;
+}
+
+/// Whether the ramp up passes every piece below its cap, and the ramp down none whose cap is lower. A slower
+/// piece that a ramp down has begun before would have to be reached without acceleration when the path goes
+/// on, for which there might be no room then.
+bool JerkLookahead::keeps_caps(const Stretch& stretch, std::size_t first, std::size_t last,
+                               const Fit& fit) const {
+  const double speed = std::max(fit.up.to(), fit.down.from());
+  for (std::size_t i = first; i <= last && starts_[i] < fit.cruise_from; ++i) {
+    const double way = starts_[i + 1] - stretch.from;
+    const double v = way >= fit.up.length() ? speed : fit.up.speed_after(way);
+    if (speeds_[i] < speed && v > speeds_[i]) return false;
+  }
+  for (std::size_t i = last + 1; i-- > first && starts_[i + 1] > fit.cruise_to;) {
+    if (speeds_[i] < speed) return false;
+  }
+  return true;
+}
+
+/// No piece can be passed at its cap: up, and down again.
+void JerkLookahead::solve_below_caps(const Stretch& stretch, std::size_t first, std::size_t last,
+                                     double cap) {
+  const double higher = std::max(stretch.v0, stretch.v1);
+  double low = higher, high = cap;
+  Fit best = fit(stretch, first, last, higher);
+  no_room_ = no_room_ || best.cruise_from > best.cruise_to + kShortest_mm;
+  for (int k = 0; k < kHalvings || (low == 0 && k < kMostHalvings); ++k) {
+    const double middle = 0.5 * (low + high);
+    const Fit tried = fit(stretch, first, last, middle);
+    (tried.fits ? low : high) = middle;
+    if (tried.fits) best = tried;
+  }
+  const double from = std::min(best.cruise_from, stretch.to), to = std::max(best.cruise_to, from);
+  put(stretch.from, from, best.up);
+  put(from, to, SpeedRamp(low, low, 1, 1));
+  put(to, stretch.to, best.down);
+}
+
+/// Plans one stretch, or gives its parts back to open_, the later ones first.
+void JerkLookahead::solve(const Stretch& stretch) {
+  if (!(stretch.to > stretch.from)) return;
+  if (stretch.plateau) return put(stretch.from, stretch.to, SpeedRamp(stretch.v0, stretch.v0, 1, 1), true);
+  const std::size_t first = piece_after(stretch.from), last = std::max(first, piece_before(stretch.to));
+  std::size_t slowest = lowest(first, last);
+  // Lower than v0: the path went on with slower pieces after v0 had been given out.
+  const bool descends = speeds_[slowest] < stretch.v0;
+  double cap = std::max(speeds_[slowest], stretch.v1);
+  Fit f = fit(stretch, first, last, cap);
+  if (!f.fits) return solve_below_caps(stretch, first, last, cap);
+  for (int k = 0; k < kRaises && !descends; ++k) {
+    if (starts_[slowest + 1] > f.cruise_from) break;
+    if (!(f.cruise_to > f.cruise_from)) break;
+    // The slowest piece lies under a ramp: perhaps the next one can be reached all the same.
+    const std::size_t next =
+        lowest(piece_after(f.cruise_from), std::max(piece_after(f.cruise_from), piece_before(f.cruise_to)));
+    if (!(speeds_[next] > cap)) break;
+    const Fit raised = fit(stretch, first, last, speeds_[next]);
+    if (!raised.fits || !keeps_caps(stretch, first, last, raised)) break;
+    f = raised;
+    slowest = next;
+    cap = speeds_[next];
+  }
+  double from = f.cruise_from, to = f.cruise_to;
+  if (starts_[slowest + 1] <= from && starts_[slowest] < from) {
+    to = from;  // under the ramp up: on from its end
+  } else if (starts_[slowest] >= to && starts_[slowest + 1] > to) {
+    from = to;
+  } else {
+    std::size_t a = slowest, b = slowest;
+    while (a > first && speeds_[a - 1] == cap) --a;
+    while (b < last && speeds_[b + 1] == cap) ++b;
+    from = std::clamp(starts_[a], from, to);
+    to = std::clamp(starts_[b + 1], from, to);
+  }
+  // What is exactly a ramp needs no more planning.
+  const bool up_done = !descends && from <= f.cruise_from, down_done = to >= f.cruise_to;
+  if (down_done)
+    open_.push_back(
+        {.from = f.cruise_to, .to = stretch.to, .v0 = cap, .v1 = stretch.v1, .ramp = f.down, .ramped = true});
+  else
+    open_.push_back({.from = to, .to = stretch.to, .v0 = cap, .v1 = stretch.v1});
+  open_.push_back({.from = from, .to = to, .v0 = cap, .v1 = cap, .plateau = true});
+  if (up_done)
+    open_.push_back({.from = stretch.from,
+                     .to = f.cruise_from,
+                     .v0 = stretch.v0,
+                     .v1 = cap,
+                     .ramp = f.up,
+                     .ramped = true});
+  else
+    open_.push_back({.from = stretch.from, .to = from, .v0 = stretch.v0, .v1 = cap});
+}
+
+/// From the end of what is committed to a stop at the end of what is known.
+void JerkLookahead::plan() {
+  if (planned_end_ == path_->added() && planned_finish_ == path_->finishing() && planned_end_ > 0) return;
+  planned_end_ = path_->added();
+  planned_finish_ = path_->finishing();
+  before_.assign(parts_.begin() + static_cast<std::ptrdiff_t>(committed_), parts_.end());
+  parts_.resize(committed_);
+  no_room_ = kept_ = false;
+  if (path_->empty()) return;
+  load();
+  const std::uint64_t first = path_->first();
+  double at = end_, speed = speed_;
+  for (std::size_t i = 0; i < speeds_.size(); ++i) {
+    const bool last = i + 1 == speeds_.size();
+    if ((!last && !path_->piece(first + i).stop_after) || starts_[i + 1] <= at) continue;
+    open_.clear();
+    open_.push_back({.from = at, .to = starts_[i + 1], .v0 = speed, .v1 = 0});
+    while (!open_.empty()) {
+      const Stretch stretch = open_.back();
+      open_.pop_back();
+      if (stretch.ramped)
+        put(stretch.from, stretch.to, stretch.ramp);
+      else
+        solve(stretch);
+    }
+    at = starts_[i + 1];
+    speed = 0;
+  }
+  if (!no_room_ || before_.empty()) return;
+  parts_.resize(committed_);
+  parts_.insert(parts_.end(), before_.begin(), before_.end());
+  kept_ = true;
+}
+
+/// Gives out what more path would hardly change.
+void JerkLookahead::commit() {
+  plan();
+  if (committed_ == parts_.size()) return;
+  std::size_t until = committed_;
+  if (kept_) {
+    until = committed_ + 1;
+    planned_end_ = 0;
+    ++forced_;
+  } else if (path_->finishing()) {
+    until = parts_.size();
+    to_the_end_ = true;
+  } else {
+    // Of a full window, a quarter of its pieces is kept back.
+    const double enough = path_->full() ? starts_[speeds_.size() - speeds_.size() / 4] : parts_.back().to;
+    for (std::size_t i = committed_; i < parts_.size() && (until == committed_ || parts_[i].to <= enough);
+         ++i)
+      if (parts_[i].capped) until = i + 1;
+    if (until == committed_ && path_->full()) {
+      const double half = 0.5 * (end_ + parts_.back().to);
+      until = committed_ + 1;
+      while (until < parts_.size() && parts_[until].to <= half) ++until;
+      ++forced_;
+    }
+  }
+  if (until == committed_) return;
+  committed_ = until;
+  end_ = parts_[until - 1].to;
+  speed_ = parts_[until - 1].ramp.to();
+}
+
+bool JerkLookahead::next(Phase& phase, bool early) {
+  for (;;) {
+    if (give(phase)) return true;
+    // All that was committed is given out: its parts are not needed any more.
+    parts_.erase(parts_.begin(), parts_.begin() + static_cast<std::ptrdiff_t>(committed_));
+    committed_ = part_ = 0;
+    if (path_->empty() || (!early && !path_->finishing() && !path_->full())) return false;
+    commit();
+    if (committed_ == 0) return false;
+  }
+}
+
+/// The next phase of what is committed.
+bool JerkLookahead::give(Phase& phase) {
+  while (part_ < committed_) {
+    const Part& part = parts_[part_];
+    const bool even = part.ramp.from() == part.ramp.to();
+    while (!path_->empty() && window_at_ + path_->piece(path_->first()).length <= done_ + kShortest_mm &&
+           path_->first() + 1 < path_->added()) {
+      window_at_ += path_->piece(path_->first()).length;
+      path_->drop_first();
+    }
+    const PlanPiece& piece = path_->piece(path_->first());
+    // As far as the geometry goes, which may be many pieces.
+    double end = window_at_ + piece.length;
+    for (std::uint64_t i = path_->first() + 1; i < path_->added() && end < part.to; ++i) {
+      if (path_->piece(i).geometry != piece.geometry) break;
+      end += path_->piece(i).length;
+    }
+    const bool to_end = end + kShortest_mm >= part.to;
+    if (to_end) end = part.to;
+    phase.s0 = piece.s0 + std::max(done_ - window_at_, 0.0);
+    phase.line = piece.line;
+    const PathPiece& geometry = path_->geometry(piece);
+    bool part_done = to_end;
+    if (even) {
+      phase.v0 = part.ramp.from();
+      phase.a = phase.jerk = 0;
+      phase.duration_s = (end - done_) / phase.v0;
+      done_ = end;
+    } else {
+      const SpeedRamp::Stage stage = part.ramp.stage(stage_);
+      const double way = stage.way(stage.duration_s);
+      double until_s = stage.duration_s;
+      bool stage_done = true;
+      if (!to_end && stage_at_ + way > end) {
+        until_s = stage.time_of(end - stage_at_);
+        stage_done = stage.duration_s - until_s < kBriefest_s;
+        if (stage_done) until_s = stage.duration_s;
+      }
+      phase.v0 = stage.speed_at(stage_s_);
+      phase.a = stage.accel + stage.jerk * stage_s_;
+      phase.jerk = stage.jerk;
+      phase.duration_s = until_s - stage_s_;
+      if (stage_done) {
+        stage_at_ = done_ = stage_at_ + way;
+        stage_s_ = 0;
+        part_done = ++stage_ == SpeedRamp::kStages;
+      } else {
+        done_ = end;
+        stage_s_ = until_s;
+        part_done = false;
+      }
+    }
+    bool last = false;
+    if (part_done) {
+      done_ = part.to;
+      ++part_;
+      stage_ = 0;
+      stage_s_ = 0;
+      stage_at_ = done_;
+      last = to_the_end_ && part_ == committed_;
+    }
+    const bool there = phase.duration_s > kBriefest_s || last;
+    if (there) {
+      phase.piece = geometry;
+      phase.last = last;
+    }
+    if (last) {
+      while (!path_->empty()) path_->drop_first();
+      clear();
+    }
+    if (there) return true;
+  }
+  return false;
+}
+
+Lookahead::Ahead JerkLookahead::ahead() {
+  plan();
+  Lookahead::Ahead ahead;
+  for (std::size_t i = part_; i < parts_.size(); ++i) {
+    const double passed =
+        i == part_ && parts_[i].to > parts_[i].from
+            ? std::clamp((done_ - parts_[i].from) / (parts_[i].to - parts_[i].from), 0.0, 1.0)
+            : 0;
+    ahead.all_s += parts_[i].duration_s() * (1 - passed);
+    if (i < committed_ || parts_[i].capped || (path_->finishing() && !kept_)) ahead.final_s = ahead.all_s;
+  }
+  return ahead;
+}
+
+}  // namespace kinebus
