@@ -46,9 +46,7 @@ class Writer {
     }
     dictionary_.set_value(entry.value_slot(), std::llround(std::clamp(value, low, high)));
   }
-  void set_axis(int axis, ObjectAddress base, double value) {
-    set({static_cast<std::uint16_t>(base.index + axis * kAxisOffset), base.subindex}, value);
-  }
+  void set_axis(int axis, ObjectAddress base, double value) { set(on_axis(base, axis), value); }
   void set_element(ObjectAddress first, std::size_t n, double value) {
     set({first.index, static_cast<std::uint8_t>(first.subindex + n)}, value);
   }
@@ -160,8 +158,7 @@ std::vector<ParameterWrite> scale_settings(const MachineDescription& machine, st
   std::vector<ParameterWrite> writes;
   for (std::size_t axis = 0; axis < scales.size(); ++axis) {
     const auto write = [&](ObjectAddress base, std::uint8_t size, std::int64_t value) {
-      writes.push_back(
-          {{static_cast<std::uint16_t>(base.index + axis * kAxisOffset), base.subindex}, size, value});
+      writes.push_back({on_axis(base, axis), size, value});
     };
     const ScaleDescription scale = scales[axis] == nullptr ? ScaleDescription{} : *scales[axis];
     write(object::kScaleCountsPerUnit, 4, std::llround(1000 * scale.pulses_per_mm));

@@ -13,6 +13,11 @@
 
 namespace kinebus {
 
+/// The object of that axis of a node.
+constexpr ObjectAddress on_axis(ObjectAddress base, std::size_t axis) {
+  return {static_cast<std::uint16_t>(base.index + axis * kAxisOffset), base.subindex};
+}
+
 struct ParameterWrite {
   ObjectAddress address;
   std::uint8_t size = 0;  ///< bytes

@@ -36,7 +36,7 @@ void SdoChannel::glance(ObjectAddress address) {
 
 std::optional<SdoResult> SdoChannel::next_glance(ObjectAddress base) {
   if (!glanced_) return std::nullopt;
-  const ObjectAddress second{static_cast<std::uint16_t>(base.index + kAxisOffset), base.subindex};
+  const ObjectAddress second = on_axis(base, 1);
   if (glanced_->address != base && glanced_->address != second) return std::nullopt;
   return std::exchange(glanced_, std::nullopt);
 }

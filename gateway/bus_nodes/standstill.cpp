@@ -23,7 +23,7 @@ void Standstill::start(PathTime tau) {
     sdo.write({object::kBufferClear, 1, 0});
     for (std::uint16_t axis = 0; axis < kAxesPerNode; ++axis)
       for (const ObjectAddress base : {object::kPositionKnown, object::kStreamPosition})
-        sdo.read({static_cast<std::uint16_t>(base.index + axis * kAxisOffset), base.subindex});
+        sdo.read(on_axis(base, axis));
     sdo.read(object::kStreamStatus);
     sdo.read(object::kPathTime);
   }

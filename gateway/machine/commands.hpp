@@ -15,6 +15,7 @@
 
 #include "gateway/description/device_description.hpp"
 #include "gateway/jobs/byte_source.hpp"
+#include "gateway/motors/motor_settings.hpp"
 #include "gateway/pose.hpp"
 #include "gateway/sentence.hpp"
 #include "gateway/status/state.hpp"
@@ -81,14 +82,8 @@ struct SetWorkOffset {
                   ///< called
   bool here = false;
 };
-/// Until the gateway is started anew; then the machine file's count again.
-struct MotorCurrents {
-  std::size_t joint = 0;  ///< index into MachineDescription::joints
-  /// mA, peak of a phase. None: as it is, or for the hold current, the file's share of the new run current.
-  std::optional<double> run_ma{}, hold_ma{};
-};
 struct SetMotorCurrents {
-  std::vector<MotorCurrents> motors;
+  std::vector<MotorSetting> motors;
 };
 /// The node measures the motor's winding while it stands.
 struct TuneMotor {

@@ -14,27 +14,27 @@
 #include <vector>
 
 #include "gateway/bus_nodes/bring_up.hpp"
+#include "gateway/bus_nodes/clearing.hpp"
 #include "gateway/bus_nodes/homing.hpp"
 #include "gateway/bus_nodes/node_link.hpp"
+#include "gateway/bus_nodes/rest.hpp"
 #include "gateway/devices/devices.hpp"
 #include "gateway/jobs/journal/journal_queue.hpp"
 #include "gateway/machine/bus_voice.hpp"
-#include "gateway/machine/clearing.hpp"
 #include "gateway/machine/current_state.hpp"
 #include "gateway/machine/gateway.hpp"
 #include "gateway/machine/heat_hold.hpp"
 #include "gateway/machine/line_desk.hpp"
 #include "gateway/machine/manual_motion.hpp"
-#include "gateway/machine/motor_currents.hpp"
-#include "gateway/machine/motor_settings.hpp"
 #include "gateway/machine/node_watch.hpp"
-#include "gateway/machine/parameter_watch.hpp"
 #include "gateway/machine/position.hpp"
 #include "gateway/machine/print_job.hpp"
 #include "gateway/machine/recovery.hpp"
-#include "gateway/machine/rest.hpp"
-#include "gateway/machine/scale_readings.hpp"
 #include "gateway/machine/stall_recovery.hpp"
+#include "gateway/motors/motor_currents.hpp"
+#include "gateway/motors/motor_settings.hpp"
+#include "gateway/motors/parameter_watch.hpp"
+#include "gateway/motors/scale_readings.hpp"
 #include "gateway/run/heat.hpp"
 #include "gateway/status/event_queue.hpp"
 #include "gateway/stream/path_rate.hpp"
@@ -116,7 +116,7 @@ class Gateway::Core {
   Done on(command::SetOutput& asked) { return heat_.set_output(asked.index, asked.ratio); }
   Done on(command::SetSpindle& asked) { return heat_.set_spindle(asked.rpm); }
   Done on(command::SetWorkOffset& asked);
-  Done on(command::SetMotorCurrents& asked) { return motors_.set(asked); }
+  Done on(command::SetMotorCurrents& asked) { return motors_.set(asked.motors); }
   Done on(command::TuneMotor& asked) { return motors_.tune(asked.joint); }
   Done on(command::JogMotor& asked);
 

@@ -65,7 +65,7 @@ const Row kTable[] = {
     {joblink::COMMAND_SET_MOTOR_CURRENTS, command::kind<command::SetMotorCurrents>,
      [](const ClientMessage& m) -> Command {
        const joblink::SetMotorCurrents& set = m.set_motor_currents();
-       command::MotorCurrents motor{.joint = set.joint()};
+       MotorSetting motor{.joint = set.joint()};
        if (set.has_run_a()) motor.run_ma = 1000 * set.run_a();
        if (set.has_hold_a()) motor.hold_ma = 1000 * set.hold_a();
        return command::SetMotorCurrents{{motor}};

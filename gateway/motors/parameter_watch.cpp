@@ -1,4 +1,4 @@
-#include "gateway/machine/parameter_watch.hpp"
+#include "gateway/motors/parameter_watch.hpp"
 
 #include "gateway/bus_nodes/node_configuration.hpp"
 #include "protocol/canopen/cob_id.hpp"

@@ -1,4 +1,4 @@
-#include "gateway/machine/scale_readings.hpp"
+#include "gateway/motors/scale_readings.hpp"
 
 #include "protocol/canopen/node_objects.hpp"
 
@@ -9,10 +9,6 @@ using namespace std::chrono_literals;
 
 // A question to each node: with two nodes 0.6 % of the bus, and four scales are known in 0.4 s.
 constexpr BusTime kScalePeriod = 100ms;
-
-ObjectAddress on_axis(ObjectAddress base, std::size_t axis) {
-  return {static_cast<std::uint16_t>(base.index + axis * kAxisOffset), base.subindex};
-}
 
 }  // namespace
 

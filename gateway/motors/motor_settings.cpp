@@ -1,4 +1,4 @@
-#include "gateway/machine/motor_settings.hpp"
+#include "gateway/motors/motor_settings.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,10 +23,6 @@ constexpr std::int64_t kTuneIdle = 0, kTuneDone = 2, kTuneFailed = 3;
 constexpr std::array kTunedObjects{object::kPhaseResistance, object::kPhaseInductance,
                                    object::kEncoderOffset};
 
-ObjectAddress on_axis(ObjectAddress base, std::size_t axis) {
-  return {static_cast<std::uint16_t>(base.index + axis * kAxisOffset), base.subindex};
-}
-
 std::string thousandths(std::int64_t value) {
   return printed("%.3f", static_cast<double>(value) * 1e-3);
 }
@@ -44,10 +40,10 @@ MotorSettings::MotorSettings(MachineDescription& machine, std::deque<NodeLink>& 
     file_.push_back({joint.run_current_ma, joint.hold_current_ma});
 }
 
-Result<void, Refusal> MotorSettings::set(const command::SetMotorCurrents& asked) {
-  if (asked.motors.empty()) return refused(say("no motor is named"));
+Result<void, Refusal> MotorSettings::set(const std::vector<MotorSetting>& asked) {
+  if (asked.empty()) return refused(say("no motor is named"));
   std::vector<std::pair<std::size_t, Currents>> all;
-  for (const command::MotorCurrents& motor : asked.motors) {
+  for (const MotorSetting& motor : asked) {
     if (motor.joint >= machine_.joints.size())
       return refused(say("there is no joint %1: they are 1 to %2", motor.joint + 1, machine_.joints.size()));
     const JointDescription& joint = machine_.joints[motor.joint];

@@ -1,4 +1,4 @@
-#include "gateway/machine/motor_currents.hpp"
+#include "gateway/motors/motor_currents.hpp"
 
 #include "protocol/canopen/node_objects.hpp"
 
@@ -30,7 +30,7 @@ void MotorCurrents::on_time(BusTime now, std::deque<NodeLink>& links, const std:
     next = (next + 1) % (kAxesPerNode * axes.size());
     SdoChannel& sdo = links[node].sdo();
     if (axes[node].axes[axis].joint < 0 || !links[node].heard() || !sdo.idle()) continue;
-    sdo.glance({static_cast<std::uint16_t>(base.index + axis * kAxisOffset), base.subindex});
+    sdo.glance(on_axis(base, axis));
     ++turns_;
     due_ = now + kGlancePeriod;
     return;

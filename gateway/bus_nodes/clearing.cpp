@@ -1,6 +1,6 @@
-#include "gateway/machine/clearing.hpp"
+#include "gateway/bus_nodes/clearing.hpp"
 
-#include "gateway/machine/rest.hpp"
+#include "gateway/bus_nodes/rest.hpp"
 
 namespace kinebus {
 namespace {

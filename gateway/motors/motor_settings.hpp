@@ -12,8 +12,7 @@
 
 #include "gateway/bus_nodes/node_link.hpp"
 #include "gateway/description/machine_description.hpp"
-#include "gateway/machine/commands.hpp"
-#include "gateway/machine/parameter_watch.hpp"
+#include "gateway/motors/parameter_watch.hpp"
 #include "gateway/result.hpp"
 #include "gateway/status/event_queue.hpp"
 #include "gateway/status/refusal.hpp"
@@ -21,13 +20,20 @@
 
 namespace kinebus {
 
+/// Until the gateway is started anew; then the machine file's count again.
+struct MotorSetting {
+  std::size_t joint = 0;  ///< index into MachineDescription::joints
+  /// mA, peak of a phase. None: as it is, or for the hold current, the file's share of the new run current.
+  std::optional<double> run_ma{}, hold_ma{};
+};
+
 class MotorSettings {
  public:
   MotorSettings(MachineDescription& machine, std::deque<NodeLink>& links, ParameterWatch& parameters,
                 EventQueue& events);
 
   /// Of all motors that are named, or of none. They have them when everything next rests.
-  Result<void, Refusal> set(const command::SetMotorCurrents& asked);
+  Result<void, Refusal> set(const std::vector<MotorSetting>& asked);
   /// The node measures the joint's winding; what it finds is told, and the file's values count again.
   Result<void, Refusal> tune(std::size_t joint);
 
