@@ -57,8 +57,8 @@ struct Rail {
     }
   }
   double home_error_counts() const {
-    // Where the edge is in the new coordinates, against the offset that it should have.
-    return std::abs(static_cast<double>(edge + origin - from_counts(config.offset)) /
+    // Where the edge is in the new coordinates: zero is the edge plus the offset (607Ch).
+    return std::abs(static_cast<double>(edge + origin + from_counts(config.offset)) /
                     static_cast<double>(kOneCount));
   }
 };
@@ -94,7 +94,7 @@ TEST(Homing, CurrentPositionMethodMovesNothing) {
     rail.motion.hold(from_counts(777));
     rail.run(method);
     EXPECT_TRUE(rail.homing.attained());
-    EXPECT_EQ(rail.motion.at(rail.now).position, from_counts(rail.config.offset));
+    EXPECT_EQ(rail.motion.at(rail.now).position, -from_counts(rail.config.offset));
   }
 }
 
