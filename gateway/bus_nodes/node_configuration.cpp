@@ -46,7 +46,9 @@ class Writer {
     }
     dictionary_.set_value(entry.value_slot(), std::llround(std::clamp(value, low, high)));
   }
-  void set_axis(int axis, ObjectAddress base, double value) { set(on_axis(base, axis), value); }
+  void set_axis(int axis, ObjectAddress base, double value) {
+    set(on_axis(base, static_cast<std::size_t>(axis)), value);
+  }
   void set_element(ObjectAddress first, std::size_t n, double value) {
     set({first.index, static_cast<std::uint8_t>(first.subindex + n)}, value);
   }

@@ -21,8 +21,6 @@ void take_control(Client& client, const MachineOptions& options);
 /// motors-off, heat, override, console, clients to `app`; each sets `exit_code` when it runs.
 void add_machine_commands(CLI::App& app, const std::shared_ptr<MachineOptions>& options, int& exit_code);
 
-/// When --force asks for it.
-void take_control(Client& client, const MachineOptions& options);
 /// The gateway reads currents while somebody looks: its first answer has none yet.
 joblink::Status with_currents(Client& client);
 

@@ -188,7 +188,7 @@ class StepLine {
     open_ = terminal_;
   }
   void clear() {
-    if (open_) fmt::print(stderr, "\r\033[K");
+    if (open_) std::fputs("\r\033[K", stderr);
     open_ = false;
   }
 
@@ -355,7 +355,7 @@ int compose_examples(const Arguments& arguments) {
       "without", "times", "ideal");
   bool good = true;
   for (const std::string& name : example_names()) {
-    options.on_step = [&](const std::string& words) { steps.show(name + ": " + words); };
+    options.on_step = [&](const std::string& words) { steps.show(fmt::format("{}: {}", name, words)); };
     const Composed made = compose(example_part(name), options, machine);
     steps.clear();
     const SupportComparison& uncut = made.support.value();
