@@ -98,7 +98,15 @@ Document::Document(double width, double height) : width_(width), height_(height)
 
 void Document::heading(double x, std::string_view title, std::string_view subtitle) {
   text({x, 44}, title, {.size = 24, .bold = true});
-  text({x, 70}, subtitle, {.size = 14, .fill = kMuted});
+  // SVG draws many spaces as one: items stand apart by a dot.
+  std::string items;
+  for (std::size_t at = 0; at < subtitle.size();) {
+    const std::size_t gap = std::min(subtitle.find("  ", at), subtitle.size());
+    items += subtitle.substr(at, gap - at);
+    at = std::min(subtitle.find_first_not_of(' ', gap), subtitle.size());
+    if (gap < at && at < subtitle.size() && gap > 0) items += " \u00b7 ";
+  }
+  text({x, 70}, items, {.size = 14, .fill = kMuted});
 }
 
 void Document::text(Point at, std::string_view words, const TextStyle& style) {

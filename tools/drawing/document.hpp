@@ -55,7 +55,8 @@ class Document {
  public:
   Document(double width, double height);  ///< white
 
-  /// The picture's name and one line below it, at the top.
+  /// The picture's name and one line below it, at the top; items of that line have two spaces or more between
+  /// them, and are drawn apart.
   void heading(double x, std::string_view title, std::string_view subtitle);
   void text(Point at, std::string_view words, const TextStyle& style);
   void line(Point from, Point to, const Style& style);

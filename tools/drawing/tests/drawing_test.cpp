@@ -27,6 +27,12 @@ TEST(Document, WordsAreEscaped) {
   EXPECT_NE(svg.find(">&quot;d&quot; </text>"), std::string::npos) << svg;
 }
 
+TEST(Document, ItemsOfASubtitleStandApart) {
+  Document d(100, 50);
+  d.heading(10, "job", "two words   5 lines  seed 1 ");
+  EXPECT_NE(d.svg().find(">two words \u00b7 5 lines \u00b7 seed 1 </text>"), std::string::npos) << d.svg();
+}
+
 TEST(Document, NumbersAreShortAndNeverMinusZero) {
   Document d(100, 50);
   d.line({-0.04, 12.0}, {-0.06, 1.25}, {.width = 0.55});
