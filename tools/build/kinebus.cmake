@@ -82,7 +82,7 @@ endif()
 # Not run on arm64, where an emulator stands in for the board: Debian 12's qemu-aarch64 hangs when a program begins a
 # thread, fits of the calibration take it minutes, and so do the job store's power cuts, hundreds of killed forks, and the
 # prints that are broken off and go on.
-set(KINEBUS_NOT_UNDER_EMULATION streams_test kinebus_workspace_test kinebus_calibrate_test)
+set(KINEBUS_NOT_UNDER_EMULATION streams_test kinebus_workspace_test kinebus_optimise_test kinebus_calibrate_test)
 set(KINEBUS_EMULATION_ARGUMENTS_job_store_test --gtest_filter=-PowerCut.*)
 set(KINEBUS_EMULATION_ARGUMENTS_machine_test --gtest_filter=-Resume.*)
 
