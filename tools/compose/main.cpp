@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -15,9 +14,10 @@
 #include <optional>
 #include <sstream>
 
-#include "gateway/description/machine_file.hpp"
 #include "protocol/host/guarded_main.hpp"
+#include "protocol/host/step_line.hpp"
 #include "protocol/host/usage.hpp"
+#include "tools/compose/arguments.hpp"
 #include "tools/compose/composer.hpp"
 #include "tools/compose/example_parts.hpp"
 #include "tools/compose/job_description.hpp"
@@ -31,15 +31,6 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 constexpr double kRad = std::numbers::pi / 180;
 
-struct Arguments {
-  std::string input, output, machine, config, program = "prusa-slicer", report, picture, printing, work,
-                                              nozzle;
-  std::vector<std::string> planes;
-  std::optional<double> max_tilt_deg;  // else the machine's
-  double max_overhang_deg = 45, layer_mm = 0.2, clearance_mm = 20, table_radius_mm = 100;
-  bool keep_position = false, no_support_comparison = false;
-};
-
 std::string read_text(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   std::ostringstream text;
@@ -52,95 +43,6 @@ void write_text(const std::string& path, const std::string& text) {
   std::ofstream out(path, std::ios::binary);
   out << text;
   if (!out.flush()) throw std::runtime_error(path + ": cannot be written");
-}
-
-MachineDescription machine_of(const Arguments& arguments) {
-  if (arguments.machine.empty()) return default_m1();
-  auto machine = load_machine(arguments.machine);
-  if (!machine) throw std::runtime_error(to_string(machine.error()));
-  return *machine;
-}
-
-std::vector<double> numbers(const std::string& text, std::size_t count, const char* option) {
-  std::vector<double> out;
-  std::istringstream in(text);
-  for (std::string word; std::getline(in, word, ',');) {
-    std::size_t used = 0;
-    double value = 0;
-    try {
-      value = std::stod(word, &used);
-    } catch (const std::exception&) {
-      used = 0;
-    }
-    if (used == 0 || used != word.size() || !std::isfinite(value))
-      throw std::runtime_error(fmt::format("{}: '{}' is not a number in '{}'", option, word, text));
-    out.push_back(value);
-  }
-  if (out.size() != count)
-    throw std::runtime_error(
-        fmt::format("{}: expected {} numbers with commas, found '{}'", option, count, text));
-  return out;
-}
-
-Plane plane_of(const std::string& text) {
-  const std::vector<double> n = numbers(text, 4, "--plane");
-  const Vector normal(n[0], n[1], n[2]);
-  if (normal.norm() < 1e-9) throw std::runtime_error("--plane: the normal is 0, 0, 0");
-  return {normal.normalized(), n[3] / normal.norm()};
-}
-
-/// "height:radius,height:radius,..." from the tip up.
-Nozzle nozzle_of(const std::string& text) {
-  Nozzle out;
-  if (text.empty()) return out;
-  out.profile.clear();
-  std::istringstream in(text);
-  for (std::string corner; std::getline(in, corner, ',');) {
-    const std::size_t colon = corner.find(':');
-    if (colon == std::string::npos)
-      throw std::runtime_error("--nozzle: expected height:radius, found '" + corner + "'");
-    const double height = numbers(corner.substr(0, colon), 1, "--nozzle")[0];
-    const double radius = numbers(corner.substr(colon + 1), 1, "--nozzle")[0];
-    if (radius < 0 || (!out.profile.empty() &&
-                       (height <= out.profile.back().height_mm || radius < out.profile.back().radius_mm)))
-      throw std::runtime_error("--nozzle: heights have to rise and radii not to fall, from the tip up");
-    out.profile.push_back({height, radius});
-  }
-  if (out.profile.empty() || out.profile.front().height_mm != 0)
-    throw std::runtime_error("--nozzle: the first corner is the tip, at height 0");
-  return out;
-}
-
-/// How far the machine tilts to either side, deg; 0: not at all.
-double tilt_deg_of(const MachineDescription& machine) {
-  const PoseLimits* limits = pose_limits(machine.kinematics);
-  if (limits == nullptr) return 0;
-  return std::max(0.0, std::min(-limits->a_rad.min, limits->a_rad.max)) / kRad;
-}
-
-void require_tilt(const ComposeOptions& options) {
-  if (options.planes.empty() && options.decompose.max_tilt_rad < 1 * kRad)
-    throw std::runtime_error(
-        "the machine does not tilt: expected workspace.a_deg on both sides of 0 in its file");
-}
-
-ComposeOptions options_of(const Arguments& arguments, const MachineDescription& machine) {
-  ComposeOptions out;
-  out.decompose.max_overhang_rad = arguments.max_overhang_deg * kRad;
-  out.decompose.max_tilt_rad = arguments.max_tilt_deg.value_or(std::min(89.0, tilt_deg_of(machine))) * kRad;
-  out.slicer.program = arguments.program;
-  out.slicer.config = arguments.config;
-  out.slicer.layer_mm = arguments.layer_mm;
-  out.slicer.support_threshold_deg = arguments.max_overhang_deg;
-  out.join.clearance_mm = arguments.clearance_mm;
-  out.sweep.table_radius_mm = arguments.table_radius_mm;
-  out.sweep.nozzle = nozzle_of(arguments.nozzle);
-  out.decompose.nozzle = out.sweep.nozzle;
-  out.decompose.table_radius_mm = out.sweep.table_radius_mm;
-  out.keep_position = arguments.keep_position;
-  out.compare_support = !arguments.no_support_comparison;
-  for (const std::string& text : arguments.planes) out.planes.push_back(plane_of(text));
-  return out;
 }
 
 /// Removes itself, unless the user named the folder.
@@ -167,34 +69,6 @@ class WorkFolder {
  private:
   std::string path_;
   bool keep_;
-};
-
-/// What is being done, once it takes longer than two seconds: over itself in a terminal, else a line now and
-/// then.
-class StepLine {
- public:
-  StepLine() = default;
-  ~StepLine() { clear(); }
-  StepLine(const StepLine&) = delete;
-  StepLine& operator=(const StepLine&) = delete;
-
-  void show(const std::string& words) {
-    using namespace std::chrono_literals;
-    const auto now = std::chrono::steady_clock::now();
-    if (now - began_ < 2s || (!terminal_ && now - shown_ < 20s)) return;
-    fmt::print(stderr, "{}{}{}", terminal_ ? "\r\033[K" : "", words, terminal_ ? "" : "\n");
-    std::fflush(stderr);
-    shown_ = now;
-    open_ = terminal_;
-  }
-  void clear() {
-    if (open_) std::fputs("\r\033[K", stderr);
-    open_ = false;
-  }
-
- private:
-  bool terminal_ = ::isatty(STDERR_FILENO) != 0, open_ = false;
-  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now(), shown_ = began_;
 };
 
 void print_verification(const std::string& job, const Verification& v) {

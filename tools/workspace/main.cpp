@@ -2,13 +2,16 @@
 
 #include <CLI/CLI.hpp>
 #include <bit>
-#include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <stdexcept>
 
 #include "gateway/bodies/collision_model.hpp"
 #include "gateway/description/machine_file.hpp"
+#include "protocol/host/guarded_main.hpp"
+#include "protocol/host/step_line.hpp"
+#include "protocol/host/usage.hpp"
 #include "tools/workspace/bodies_picture.hpp"
 #include "tools/workspace/boundary.hpp"
 #include "tools/workspace/optimise_text.hpp"
@@ -156,25 +159,15 @@ void print_dexterity(const Scan& s) {
   std::printf("  radius 0 .. %.0f mm\n", s.room.radius_mm);
 }
 
-/// Says that something is going on when it takes its time.
-class Progress {
- public:
-  void operator()(double share) {
-    const auto now = std::chrono::steady_clock::now();
-    if (now - told_ < std::chrono::seconds(2)) return;
-    told_ = now;
-    std::fprintf(stderr, "searching: %.0f %%\n", 100 * share);
-  }
-
- private:
-  std::chrono::steady_clock::time_point told_ = std::chrono::steady_clock::now();
-};
-
 /// The machine found; an error where none keeps all rules, or the gateway would refuse it.
 MachineDescription search(const Arguments& a, const MachineDescription& start, const Wish& wish) {
   const M1Geometry* before = four_legs(start);
   if (before == nullptr) throw std::runtime_error("--optimise is for machines of type m1");
-  const Optimised better = optimise(start, wish, {.threads = a.threads}, Progress());
+  StepLine steps;
+  const Optimised better = optimise(start, wish, {.threads = a.threads}, [&](double share) {
+    steps.show("searching: " + std::to_string(std::lround(100 * share)) + " %");
+  });
+  steps.clear();
   const Room& room = wish.room;
   std::printf(
       "wanted: diameter %.0f mm, height %.0f .. %.0f mm, tilt %.0f .. %.0f deg; %d geometries tried\n",
@@ -260,7 +253,7 @@ int run(const Arguments& a) {
 }  // namespace kinebus::workspace
 
 int main(int argc, char** argv) {
-  try {
+  return kinebus::guarded_main("kinebus-workspace", [&] {
     kinebus::workspace::Arguments a;
     CLI::App app("What a machine can reach: volume, cylinders, dexterity, picture and mesh");
     app.add_option("--machine", a.machine, "Machine file; without it the default machine M1")
@@ -286,14 +279,7 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(0.0, 1000.0))
         ->needs(optimise);
     app.add_option("--write", a.output, "With --optimise: machine file of what was found")->needs(optimise);
-    try {
-      app.parse(argc, argv);
-    } catch (const CLI::ParseError& e) {
-      return app.exit(e) == 0 ? 0 : 2;
-    }
+    if (const auto end = kinebus::parse_arguments(app, argc, argv)) return *end;
     return kinebus::workspace::run(a);
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "kinebus-workspace: %s\n", e.what());
-    return 1;
-  }
+  });
 }
