@@ -139,7 +139,8 @@ class JournalFile::Writer {
     std::uint32_t number = number_;
     for (const journal::Record& record : batch) {
       state_.take(record);
-      urgent = urgent || !std::holds_alternative<journal::Progress>(record);
+      urgent = urgent || !(std::holds_alternative<journal::Progress>(record) ||
+                           std::holds_alternative<journal::JobTime>(record));
       journal::encode(record, number++, bytes);
     }
     const auto now = std::chrono::steady_clock::now();

@@ -52,7 +52,8 @@ void LiveLines::restart(const gcode::WorkOffsets& offsets) {
   interpreter_ = gcode::Interpreter(std::move(options));
   limits_ = {};
   path_mode_.reset();
-  may_move_ = cold_noted_ = fan_noted_ = false;
+  cold_noted_ = fan_noted_ = false;
+  end(say("no lines are open"));
 }
 
 void LiveLines::stand_at(const Pose& pose) {
@@ -79,7 +80,7 @@ void LiveLines::begin(const Pose& pose, std::optional<double> hotend_celsius, gc
   stand_at(pose);
   place_ = {pose, Frame::kMachine};
   hotend_celsius_ = hotend_celsius;
-  may_move_ = true;
+  still_.reset();
   if (path_mode_) out.push_back({0, *path_mode_});
   out.push_back({0, limits_});
 }
@@ -138,7 +139,7 @@ Refused LiveLines::check(const canonical::Command& command) {
   const auto* arc = std::get_if<canonical::Arc>(&command);
   const auto* home = std::get_if<canonical::Home>(&command);
   if (!feed && !traverse && !arc && !home) return std::nullopt;
-  if (!may_move_) return say("the machine is not ready to move: home it first (G28)");
+  if (still_) return *still_;
   if (home) return check_home(*home);
   if (arc) return check_arc(*arc);
   return feed ? check_straight(feed->target, feed->frame) : check_straight(traverse->target, traverse->frame);

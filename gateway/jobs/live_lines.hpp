@@ -30,7 +30,7 @@ class LiveLines {
   /// program's E. `hotend_celsius`: its target, if it has one. Appends what is in force to `out`.
   void begin(const Pose& pose, std::optional<double> hotend_celsius, gcode::CommandBuffer& out);
   /// Lines that move are refused from here on, until begin().
-  void end() { may_move_ = false; }
+  void end(Sentence why) { still_ = std::move(why); }
 
   /// Carries out one line (without its end). Refused: why, and nothing has changed.
   Result<void, Problem> take(std::string_view line, std::uint32_t number, gcode::CommandBuffer& out);
@@ -70,8 +70,8 @@ class LiveLines {
   const Kinematics& kinematics_;
   WayRules way_;
   gcode::Interpreter interpreter_;
-  bool may_move_ = false;
-  Place place_;  ///< where the lines taken so far lead
+  std::optional<Sentence> still_;  ///< why nothing may move
+  Place place_;                    ///< where the lines taken so far lead
   std::optional<double> hotend_celsius_;
   bool cold_noted_ = false, fan_noted_ = false;
   canonical::Limits limits_{};  ///< in force

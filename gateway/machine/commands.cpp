@@ -24,7 +24,7 @@ constexpr std::array<Row, kCommandKinds> kTable{{
     {command::kind<command::GoToReference>, phrase("go to the bed reference"), in(S::kReady)},
     {command::kind<command::Jog>, phrase("jog"), in(S::kReady, S::kMoving)},
     {command::kind<command::Run>, phrase("run a job"), in(S::kReady)},
-    {command::kind<command::OpenLines>, phrase("run a job"), in(S::kReady)},
+    {command::kind<command::OpenLines>, phrase("move"), in(S::kReady)},
     {command::kind<command::Hold>, phrase("hold"), in(S::kMoving, S::kRunning)},
     // Resume and cancel at rest are for an interrupted job, a jog in motion follows jogs alone
     // (Gateway::Core::may).

@@ -173,6 +173,8 @@ class Gateway::Core {
   void finish_recovery();
   void finish_return();
   void give_up_job();
+  void end_override();
+  void report_progress(MachineStatus& s) const;
   void begin_job(const Pose& start);
   void note_progress();
 
@@ -220,7 +222,7 @@ class Gateway::Core {
   Runner* runner_ = &hand_.runner();  ///< whose motion it is
   BusTime now_{0};
   BusTime served_{0};         ///< the last on_time()
-  BusTime started_{0};        ///< of the job or the move under way
+  BusTime started_{0};        ///< of the move under way
   bool remote_told_ = false;  ///< a remote frame was passed over, since the last bring-up
   bool fault_ = false;        ///< the stop under way ends in an alarm
   bool beds_stay_ = false;    ///< that alarm is of a device: a bed that is in order keeps the part on it

@@ -35,14 +35,19 @@ Done Gateway::Core::on(command::OpenLines& asked) {
   print_.rename(std::move(asked.name));
   print_.forget_report();
   hand_.forget_then();
-  started_ = now_;
+  print_.begin_clock(now_);
   enter(MachineState::kRunning);
   return {};
 }
 
 Done Gateway::Core::take_line(std::string_view line, std::uint32_t number) {
   const bool open = lines_open();
-  const auto commands = lines_.take(open, line, number);
+  std::optional<Sentence> still;
+  if (!open) {
+    const auto may_open = may(command::kind<command::OpenLines>);
+    still = may_open ? say("no lines are open") : may_open.error().words;
+  }
+  const auto commands = lines_.take(std::move(still), line, number);
   if (!commands) return Error<Refusal>(commands.error());
   for (Sentence& note : lines_.take_notes()) events_.message(now_, std::move(note), number);
   for (const canonical::Line& command : *commands) {

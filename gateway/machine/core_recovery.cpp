@@ -29,6 +29,7 @@ Done Gateway::Core::recover(journal::State state, std::unique_ptr<ByteSource> jo
   if (!job) return refused(say("the interrupted job %1 is not there any more", state.job->name));
   print_.rename(state.job->name);
   if (state.override_ratio) override_ = std::clamp(*state.override_ratio, 0.01, 5.0);
+  if (state.time) print_.stop_clock_at(state.time->elapsed_s);
   heat_.take_up(state.heat);
   recovery_.take_up(std::move(state), std::move(job));
   events_.message(now_, say("the job %1 was interrupted: resume to go on with it, or cancel", print_.name()));
@@ -47,7 +48,8 @@ void Gateway::Core::begin_job(const Pose& start) {
 
 void Gateway::Core::give_up_job() {
   Runner& job = print_.runner();
-  if (job.active() || recovery_.left()) journal_.push(journal::JobEnd{});
+  const bool had_one = job.active() || recovery_.left();
+  if (had_one) journal_.push(journal::JobEnd{});
   recovery_.left().reset();
   if (job.active()) heat_.stop_spindle();
   job.drop();
@@ -56,6 +58,15 @@ void Gateway::Core::give_up_job() {
   if (!heat_hold_.why().empty()) heat_.clear_faults();
   heat_hold_.forget();
   print_.forget_name();
+  if (had_one) end_override();
+}
+
+/// A feed override is for the job in which it was set, or the one that is next.
+void Gateway::Core::end_override() {
+  if (override_ == 1) return;
+  override_ = 1;
+  runner_->set_override(1);
+  events_.message(now_, say("the feed is as programmed again"));
 }
 
 /// Targets, and now and then the place, as the job goes on.
@@ -63,8 +74,10 @@ void Gateway::Core::note_progress() {
   if (!print_.runner().active() || heat_.kept()) return;
   heat_.note(journal_);
   if (!print_.progress_is_due(now_, rate_.rate(now_) != 0)) return;
+  const Runner& job = print_.runner();
+  journal_.push(journal::Progress{group_.confirmed(rate_.tau(now_)), job.line(now_), joints_now()});
   journal_.push(
-      journal::Progress{group_.confirmed(rate_.tau(now_)), print_.runner().line(now_), joints_now()});
+      journal::JobTime{job.line(now_), print_.elapsed_s(now_), job.done_s(now_), print_.report().motion_s});
 }
 
 // Going on
@@ -170,6 +183,7 @@ void Gateway::Core::finish_return() {
     job.shift_extruder(by_mm);
   heat_.finish_return();
   heat_hold_.forget();
+  if (!print_.clock_runs()) print_.begin_clock(now_, print_.elapsed_s(now_));
   runner_ = &job;
   job.set_override(override_);
   job.go_on(now_);

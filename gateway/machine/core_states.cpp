@@ -99,7 +99,7 @@ void Gateway::Core::step_checking() {
   }
   runner_ = &hand_.runner();
   hand_.start({{0, hand_.reference(*pose)}}, *pose, override_, ManualMotion::Then::kJob);
-  started_ = now_;
+  print_.begin_clock(now_);
   enter(MachineState::kRunning);
 }
 
@@ -164,6 +164,7 @@ void Gateway::Core::finish_motion() {
                                 : say("job done: %1", print_.name()),
                 .advice = {}});
   if (job) print_.forget_name();
+  if (job && !live) end_override();
   enter(MachineState::kReady);
 }
 

@@ -12,6 +12,29 @@ bool Gateway::Core::may_glance() const {
          state_.now() != MachineState::kHoming;
 }
 
+/// Of the job, also while it is interrupted and on its way back; of a move when there is no job.
+void Gateway::Core::report_progress(MachineStatus& s) const {
+  double done_s = 0, all_s = 0;
+  if (const auto& left = recovery_.left()) {
+    if (!left->state.time) return;
+    s.line = left->state.time->line;
+    done_s = left->state.time->done_s;
+    all_s = left->state.time->motion_s;
+    s.elapsed_s = print_.elapsed_s(now_);
+  } else if (const Runner& job = print_.runner(); job.active()) {
+    s.line = job.line(now_);
+    done_s = job.done_s(now_);
+    all_s = print_.report().motion_s;
+    s.elapsed_s = print_.elapsed_s(now_);
+  } else if (runner_->active() && !hand_.leads_to(ManualMotion::Then::kJob)) {
+    s.line = runner_->line(now_);
+    s.elapsed_s = to_seconds(now_ - started_);
+  }
+  if (!(all_s > 0)) return;
+  s.progress = std::clamp(done_s / all_s, 0.0, 1.0);
+  s.remaining_s = std::max(0.0, all_s - done_s) / override_;
+}
+
 MachineStatus Gateway::Core::status() const {
   MachineStatus s;
   s.state = state_.now();
@@ -27,16 +50,7 @@ MachineStatus Gateway::Core::status() const {
   s.feed_override = override_;
   s.job = print_.name();
   s.interrupted = interrupted() && s.state != MachineState::kRunning;
-  if (runner_->active() && !hand_.leads_to(ManualMotion::Then::kJob)) {
-    s.line = runner_->line(now_);
-    s.elapsed_s = to_seconds(now_ - started_);
-    const double all = print_.name().empty() ? 0 : print_.report().motion_s;
-    const double done = runner_->done_s(now_);
-    if (all > 0) {
-      s.progress = std::clamp(done / all, 0.0, 1.0);
-      s.remaining_s = std::max(0.0, all - done) / override_;
-    }
-  }
+  report_progress(s);
   s.work_system = static_cast<std::uint32_t>(lines_.work_system());
   s.work_offset = lines_.work_offset();
   heat_.report(s);

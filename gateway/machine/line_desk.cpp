@@ -19,9 +19,10 @@ const gcode::CommandBuffer& LineDesk::open(const Pose& pose, std::optional<doubl
   return commands_;
 }
 
-Result<std::span<const canonical::Line>, Refusal> LineDesk::take(bool open, std::string_view line,
+Result<std::span<const canonical::Line>, Refusal> LineDesk::take(std::optional<Sentence> still,
+                                                                 std::string_view line,
                                                                  std::uint32_t number) {
-  if (!open) lines_.end();
+  if (still) lines_.end(*std::move(still));
   commands_.clear();
   const gcode::WorkOffsets before = lines_.work_offsets();
   if (const auto taken = lines_.take(line, number, commands_); !taken) return refused(taken.error().words);

@@ -32,8 +32,8 @@ class LineDesk {
   void give_up_from(BusTime when) { give_up_from_ = when; }
   bool given_up(BusTime now) const { return closing_ && give_up_from_ && now >= *give_up_from_; }
 
-  /// What one line means, valid until the next one. `open`: it may move.
-  Result<std::span<const canonical::Line>, Refusal> take(bool open, std::string_view line,
+  /// What one line means, valid until the next one. `still`: why it may not move.
+  Result<std::span<const canonical::Line>, Refusal> take(std::optional<Sentence> still, std::string_view line,
                                                          std::uint32_t number);
   std::vector<Sentence> take_notes() { return lines_.take_notes(); }
   void forget_modes() { lines_.forget(); }

@@ -73,6 +73,8 @@ Result<canonical::Feed, Refusal> ManualMotion::jog(const command::Jog& asked, co
       reached = i - 1;
       break;
     }
+    // How far the target is outside says more than where the way leaves the workspace.
+    if (const auto end = kinematics_.check(Frame::kMachine, at(steps)); !end) broken = to_string(end.error());
     return refused(stands_well ? std::move(*broken)
                                : say("%1: go to the bed reference first", std::move(*broken)));
   }

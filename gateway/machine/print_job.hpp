@@ -51,6 +51,21 @@ class PrintJob {
   const JobReport& report() const { return report_; }
   void forget_report() { report_ = {}; }
 
+  // Its time, from its beginning on, with the interruptions in which a gateway ran.
+  void begin_clock(BusTime now, double elapsed_s = 0) {
+    clock_from_ = now;
+    elapsed_before_s_ = elapsed_s;
+  }
+  /// It stands until begin_clock.
+  void stop_clock_at(double elapsed_s) {
+    clock_from_.reset();
+    elapsed_before_s_ = elapsed_s;
+  }
+  double elapsed_s(BusTime now) const {
+    return elapsed_before_s_ + (clock_from_ ? to_seconds(now - *clock_from_) : 0);
+  }
+  bool clock_runs() const { return clock_from_.has_value(); }
+
   // The run.
   /// What the journal has to know when it begins at `start`, Frame::kMachine.
   journal::JobBegin record(const Pose& start) const;
@@ -74,6 +89,8 @@ class PrintJob {
   gcode::WorkOffsets offsets_{};
   std::uint64_t bytes_ = 0, hash_ = 0;  ///< of the text that was checked
   BusTime progress_due_{0};
+  std::optional<BusTime> clock_from_;
+  double elapsed_before_s_ = 0;
 };
 
 }  // namespace kinebus

@@ -164,6 +164,8 @@ std::optional<PlannedPose> Runner::planned_pose(PathTime tau) const {
 }
 
 std::uint32_t Runner::line(BusTime now) const {
+  // What is planned behind the place does not count.
+  if (suspended_) return rest_pose().line;
   const std::uint32_t line = feed_.streaming() ? group_.line_at(rate_.tau(now)) : 0;
   return line != 0 ? line : last_line_;
 }
@@ -233,6 +235,7 @@ void Runner::go_on(BusTime now) {
   if (wait_ == Wait::kPause) end_wait();
   feed_.go_on(to_seconds(BusTime{machine_.stop.hold_ramp}));
   heating_.restart();
+  doing_ = say("moving");
   last_time_ = now;
 }
 

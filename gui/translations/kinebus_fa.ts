@@ -713,10 +713,6 @@
         <translation>کارهای ذخیره‌شده را نشست می‌گرداند: M20 تا M32 در خط تنها می‌آیند</translation>
     </message>
     <message>
-        <source>the machine is not ready to move: home it first (G28)</source>
-        <translation>ماشین آمادهٔ حرکت نیست: نخست خانه‌یابی کنید (G28)</translation>
-    </message>
-    <message>
         <source>a move needs numbers</source>
         <translation>حرکت عدد می‌خواهد</translation>
     </message>
@@ -3299,6 +3295,18 @@
     <message>
         <source>%1: run current %2 mA, hold current %3 mA</source>
         <translation>%1: جریان حرکت %2 mA، جریان نگهداری %3 mA</translation>
+    </message>
+    <message>
+        <source>no lines are open</source>
+        <translation>هیچ جریان خطی باز نیست</translation>
+    </message>
+    <message>
+        <source>move</source>
+        <translation>حرکت</translation>
+    </message>
+    <message>
+        <source>the feed is as programmed again</source>
+        <translation>سرعت دوباره همان سرعت برنامه است</translation>
     </message>
 </context>
 <context>

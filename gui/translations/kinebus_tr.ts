@@ -713,10 +713,6 @@
         <translation>kayıtlı işleri oturum yönetir: M20 - M32 satırda tek başına durur</translation>
     </message>
     <message>
-        <source>the machine is not ready to move: home it first (G28)</source>
-        <translation>makine harekete hazır değil: önce referansa gönderin (G28)</translation>
-    </message>
-    <message>
         <source>a move needs numbers</source>
         <translation>hareket sayı ister</translation>
     </message>
@@ -3299,6 +3295,18 @@
     <message>
         <source>%1: run current %2 mA, hold current %3 mA</source>
         <translation>%1: çalışma akımı %2 mA, tutma akımı %3 mA</translation>
+    </message>
+    <message>
+        <source>no lines are open</source>
+        <translation>açık satır akışı yok</translation>
+    </message>
+    <message>
+        <source>move</source>
+        <translation>hareket</translation>
+    </message>
+    <message>
+        <source>the feed is as programmed again</source>
+        <translation>ilerleme hızı yeniden programdaki gibi</translation>
     </message>
 </context>
 <context>

@@ -69,7 +69,7 @@ JobPanel::JobPanel(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(
   override_->setPageStep(10);
   override_->setValue(100);
   override_text_ = new QLabel(card);
-  override_text_->setMinimumWidth(override_text_->fontMetrics().horizontalAdvance(QStringLiteral("200%")) +
+  override_text_->setMinimumWidth(override_text_->fontMetrics().horizontalAdvance(QStringLiteral("%500")) +
                                   6);
   override_text_->setAlignment(Qt::AlignTrailing);
   speed->addWidget(speed_name);
@@ -152,7 +152,8 @@ void JobPanel::take_status() {
   if (!override_->isSliderDown() && connected && s.feed_override() > 0) {
     const QSignalBlocker quiet(override_);
     override_->setValue(static_cast<int>(std::lround(s.feed_override() * 100)));
-    override_text_->setText(Format::percent(override_->value() / 100.0));
+    // Another client may have set more than the slider can.
+    override_text_->setText(Format::percent(s.feed_override()));
   }
   const bool resume = desk_.session.allowed(joblink::COMMAND_RESUME);
   pause_->setVisible(!resume);

@@ -10,6 +10,7 @@
 
 #include "protocol/joblink/job_hash.hpp"
 #include "tools/cli/job_watch.hpp"
+#include "tools/cli/message_json.hpp"
 #include "tools/cli/requests.hpp"
 
 namespace kinebus {
@@ -123,6 +124,7 @@ void add_store(CLI::App& app, const Options& options, int& exit_code) {
       more = reply.jobs().more() && reply.jobs().jobs_size() > 0;
       all.MergeFrom(reply.jobs());
     }
+    if (options->json) return fmt::print("{}", to_json_text(all, {"jobs", "partial_uploads"}));
     print_jobs(all);
   });
   auto* remove = app.add_subcommand("delete", "Delete a stored job");
@@ -154,11 +156,15 @@ void add_store(CLI::App& app, const Options& options, int& exit_code) {
     Client client(options->reach);
     ClientMessage request;
     request.mutable_check_job()->set_name(*checked);
-    exit_code = print_preflight(client.ask(std::move(request)).preflight());
+    const joblink::PreflightResult result = client.ask(std::move(request)).preflight();
+    if (options->json) fmt::print("{}", to_json_text(result));
+    exit_code = options->json ? result.summary().errors() > 0 : print_preflight(result);
   });
   app.add_subcommand("history", "What ran, and how it ended")->callback([=] {
     Client client(options->reach);
-    print_history(client.ask(plain(&ClientMessage::mutable_get_history)).history());
+    const joblink::History history = client.ask(plain(&ClientMessage::mutable_get_history)).history();
+    if (options->json) return fmt::print("{}", to_json_text(history));
+    print_history(history);
   });
 }
 
@@ -169,6 +175,7 @@ void add_events(CLI::App& app, const Options& options) {
   events->callback([=] {
     Client client(options->reach);
     std::uint64_t last = 0;
+    joblink::EventList all;
     for (bool more = true; more;) {
       ClientMessage request;
       request.mutable_get_events()->set_alarms_only(*alarms);
@@ -176,12 +183,17 @@ void add_events(CLI::App& app, const Options& options) {
       request.mutable_get_events()->set_after_id(last);
       const joblink::Reply reply = client.ask(std::move(request));
       for (const joblink::Event& e : reply.events().events()) {
-        fmt::print("{}  {}{}\n", date_words(e.unix_s()), e.words(),
-                   e.advice().empty() ? "" : " - " + e.advice());
         last = e.id();
+        if (options->json) {
+          *all.add_events() = e;
+        } else if (!e.words().empty()) {  // a list that has changed is told without words
+          fmt::print("{}  {}{}\n", date_words(e.unix_s()), e.words(),
+                     e.advice().empty() ? "" : " - " + e.advice());
+        }
       }
       more = reply.events().more();
     }
+    if (options->json) fmt::print("{}", to_json_text(all, {"events"}));
   });
 }
 

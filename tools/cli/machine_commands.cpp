@@ -13,8 +13,8 @@
 #include "tools/cli/encoder_rows.hpp"
 #include "tools/cli/heat_command.hpp"
 #include "tools/cli/job_watch.hpp"
+#include "tools/cli/message_json.hpp"
 #include "tools/cli/requests.hpp"
-#include "tools/cli/status_json.hpp"
 
 namespace kinebus {
 namespace {
@@ -311,7 +311,7 @@ void add_machine_commands(CLI::App& app, const Options& options, int& exit_code)
   app.add_option("--fingerprint", options->reach.fingerprint,
                  "SHA-256 of the daemon's certificate (with --tcp)");
   app.add_option("--token-file", options->reach.token_file, "File with the daemon's token (with --tcp)");
-  app.add_flag("--as-json", options->json, "Views print JSON");
+  app.add_flag("--as-json", options->json, "Views, lists and reports print JSON");
   app.add_flag("--force", options->force, "Take control from another client");
   add_view(app, options, "status", "What the machine does now", print_status);
   add_view(app, options, "position", "Tool and joint positions", print_position,

@@ -50,8 +50,8 @@ int run(int argc, char** argv) {
   kinebus::add_measure_command(app, options);
   kinebus::add_job_commands(app, options, exit_code);
   kinebus::add_link_bench(app, options);
-  kinebus::add_plan_command(app, exit_code);
-  kinebus::add_simulate_command(app, exit_code);
+  kinebus::add_plan_command(app, options->json, exit_code);
+  kinebus::add_simulate_command(app, options->json, exit_code);
   kinebus::add_explain_command(app, exit_code);
   kinebus::add_gcode_command(app, exit_code);
   kinebus::add_shell_words(app, KINEBUS_VERSION);

@@ -13,7 +13,7 @@
 
 #include "tools/cli/encoder_rows.hpp"
 #include "tools/cli/job_watch.hpp"
-#include "tools/cli/status_json.hpp"
+#include "tools/cli/message_json.hpp"
 
 namespace kinebus {
 namespace {

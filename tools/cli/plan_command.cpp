@@ -19,7 +19,7 @@ using nlohmann::json;
 
 struct PlanArguments {
   std::string job, machine, json_path;
-  bool home = false;
+  bool home = false, json = false;
   HomePlanArguments homing;
 };
 
@@ -91,16 +91,20 @@ int plan(const PlanArguments& arguments) {
   report.cpu_s = cpu_seconds(after) - cpu_seconds(before);
   report.peak_rss_mb = static_cast<double>(after.ru_maxrss) / 1024.0;
 
-  print_problems(arguments.job, job.problems());
-  print_report(report, job.problems());
-  if (!arguments.json_path.empty())
-    write_text(arguments.json_path, to_json(report, job.problems()).dump(2) + "\n");
+  const std::string text = to_json(report, job.problems()).dump(2) + "\n";
+  if (arguments.json) {
+    fmt::print("{}", text);
+  } else {
+    print_problems(arguments.job, job.problems());
+    print_report(report, job.problems());
+  }
+  if (!arguments.json_path.empty()) write_text(arguments.json_path, text);
   return job.problems().errors() == 0 ? 0 : 1;
 }
 
 }  // namespace
 
-void add_plan_command(CLI::App& app, int& exit_code) {
+void add_plan_command(CLI::App& app, const bool& json, int& exit_code) {
   auto* command =
       app.add_subcommand("plan",
                          "Check a job and estimate time, frames and bus load, or show how the machine "
@@ -127,7 +131,8 @@ void add_plan_command(CLI::App& app, int& exit_code) {
                      ->check(CLI::Range(0.1, 10000.0))
                      ->needs(radius);
   radius->needs(height);
-  command->callback([=, &exit_code] {
+  command->callback([=, &json, &exit_code] {
+    arguments->json = json;
     if (arguments->home == !arguments->job.empty())
       throw CLI::ValidationError("plan", "name a job, or --home");
     if (!arguments->home) {

@@ -21,6 +21,7 @@ struct Arguments {
   std::string job, machine, plant, json_path, plot_path, candump_path;
   std::uint64_t seed = 1;
   double limit_s = 0;
+  bool json = false;
 };
 
 std::unique_ptr<FileSource> open_job(const std::string& path) {
@@ -53,7 +54,7 @@ int run(const Arguments& arguments) {
   }
   const SimulationReport report = simulate(machine, open_job(arguments.job), *checkers_text, options);
   if (options.on_progress) fmt::print(stderr, "\r\033[K");
-  fmt::print("{}", to_table(report));
+  fmt::print("{}", arguments.json ? to_json_text(report) : to_table(report));
   if (!arguments.json_path.empty()) write_text(arguments.json_path, to_json_text(report));
   if (!arguments.plot_path.empty())
     write_text(
@@ -70,7 +71,7 @@ int run(const Arguments& arguments) {
 
 }  // namespace
 
-void add_simulate_command(CLI::App& app, int& exit_code) {
+void add_simulate_command(CLI::App& app, const bool& json, int& exit_code) {
   auto* command =
       app.add_subcommand("simulate", "Run a job on the whole simulated machine and measure it from outside");
   auto arguments = std::make_shared<Arguments>();
@@ -87,7 +88,10 @@ void add_simulate_command(CLI::App& app, int& exit_code) {
   command->add_option("--candump", arguments->candump_path, "Write all frames here, as candump -l does");
   command->add_option("--seed", arguments->seed, "Of clocks, latencies and start positions (default 1)");
   command->add_option("--limit-seconds", arguments->limit_s, "Measure only so much of the job, machine time");
-  command->callback([=, &exit_code] { exit_code = run(*arguments); });
+  command->callback([=, &json, &exit_code] {
+    arguments->json = json;
+    exit_code = run(*arguments);
+  });
 }
 
 }  // namespace kinebus

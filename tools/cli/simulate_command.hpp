@@ -4,5 +4,6 @@
 #include <CLI/CLI.hpp>
 
 namespace kinebus {
-void add_simulate_command(CLI::App& app, int& exit_code);
+/// `json`, which outlives the parse: print JSON instead of words.
+void add_simulate_command(CLI::App& app, const bool& json, int& exit_code);
 }  // namespace kinebus

@@ -95,6 +95,14 @@ void fields(Io& io, Heat& r) {
   io.stated(r.targets);
 }
 
+template <class Io>
+void fields(Io& io, JobTime& r) {
+  io.u32(r.line);
+  io.f64(r.elapsed_s);
+  io.f64(r.done_s);
+  io.f64(r.motion_s);
+}
+
 struct Writer {
   std::vector<std::uint8_t>& out;
   void bits(std::uint64_t value, int bytes) {

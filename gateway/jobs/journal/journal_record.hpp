@@ -106,8 +106,15 @@ struct Offsets {
   gcode::WorkOffsets offsets{};
   friend bool operator==(const Offsets&, const Offsets&) = default;
 };
+/// How far the job has come, for who looks.
+struct JobTime {
+  std::uint32_t line = 0;
+  double elapsed_s = 0;             ///< since the job began, under all gateways
+  double done_s = 0, motion_s = 0;  ///< of its motion at 100 %, and all of it
+  friend bool operator==(const JobTime&, const JobTime&) = default;
+};
 
 using Record = std::variant<Epoch, JobBegin, RunBegin, WaitsDone, Scale, Override, Thermal, Progress,
-                            Interrupted, Found, JobEnd, Offsets, Heat>;
+                            Interrupted, Found, JobEnd, Offsets, Heat, JobTime>;
 
 }  // namespace kinebus::journal

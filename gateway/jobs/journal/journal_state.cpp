@@ -30,6 +30,7 @@ struct Taker {
   }
   void operator()(const Heat& r) const { s.heat = r; }
   void operator()(const Progress& r) const { s.progress = r; }
+  void operator()(const JobTime& r) const { s.time = r; }
   void operator()(const Interrupted& r) const {
     s.interrupted = r;
     s.run.reset();
@@ -75,6 +76,7 @@ std::vector<Record> State::records() const {
   if (waits_done > 0) all.emplace_back(WaitsDone{waits_done});
   if (override_ratio) all.emplace_back(Override{*override_ratio});
   if (heat) all.emplace_back(*heat);
+  if (time) all.emplace_back(*time);
   if (run) all.emplace_back(*run);
   if (progress) all.emplace_back(*progress);
   if (found) all.emplace_back(Found{*found});

@@ -22,6 +22,7 @@ struct State {
   std::optional<double> override_ratio;
   std::optional<Heat> heat;
   std::optional<Progress> progress;
+  std::optional<JobTime> time;
   friend bool operator==(const State&, const State&) = default;
 
   static constexpr std::size_t kMachines = 16;  ///< whose offsets are kept

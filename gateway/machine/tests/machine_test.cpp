@@ -176,6 +176,9 @@ TEST(Machine, PauseInTheJobWaitsForResume) {
   ASSERT_TRUE(rig.reach(MachineState::kHeld, 30s)) << rig.story();
   rig.run_for(1s);
   EXPECT_NEAR(rig.gateway->status().machine_pose[kX], 5, 2e-3);
+  const auto moved = rig.gateway->take_line("G1 X1", 1);
+  ASSERT_FALSE(moved);
+  EXPECT_EQ(moved.error().words, "cannot move while the machine is held");
   ASSERT_TRUE(rig.gateway->carry_out(command::Resume{}));
   ASSERT_TRUE(rig.reach(MachineState::kReady, 30s)) << rig.story();
   EXPECT_NEAR(rig.gateway->status().machine_pose[kX], 10, 2e-3);
@@ -189,6 +192,7 @@ TEST(Machine, FeedOverrideSlowsTheJobDown) {
   ASSERT_TRUE(rig.run_job("G1 X60 F1200\n")) << rig.story();
   EXPECT_GT(to_seconds(rig.now - begin), 5.9);
   EXPECT_LT(to_seconds(rig.now - begin), 8);
+  EXPECT_EQ(rig.gateway->status().feed_override, 1) << "the next job's";
 }
 
 TEST(Machine, JogMovesRelativeAndIsRefusedBeyondTheWorkspace) {
@@ -198,7 +202,9 @@ TEST(Machine, JogMovesRelativeAndIsRefusedBeyondTheWorkspace) {
   ASSERT_TRUE(rig.reach(MachineState::kReady, 10s));
   EXPECT_NEAR(rig.gateway->status().machine_pose[kX], 5, 2e-3);
   EXPECT_NEAR(rig.gateway->status().machine_pose[kY], -3, 2e-3);
-  EXPECT_FALSE(rig.gateway->carry_out(command::Jog{.delta = {500, 0, 0, 0, 0, 0}}));
+  const auto beyond = rig.gateway->carry_out(command::Jog{.delta = {500, 0, 0, 0, 0, 0}});
+  ASSERT_FALSE(beyond);
+  EXPECT_TRUE(beyond.error().words.starts_with("X is 355.0")) << beyond.error().words;
   EXPECT_FALSE(rig.gateway->carry_out(command::Jog{.delta = {0, 0, 0, 0, 0, 5}})) << "cold extrusion";
 }
 

@@ -144,6 +144,37 @@ TEST(Resume, AnotherGatewayTakesUpTheJobFromTheJournal) {
   }
 }
 
+TEST(Resume, AnotherGatewayKnowsHowFarTheJobIs) {
+  ResumeRig rig;
+  ASSERT_TRUE(rig.begin(1.3)) << rig.story();
+  rig.watch();
+  rig.run(300ms);
+  const MachineStatus before = rig.gateway->status();
+  rig.lose_from_gateway = rig.lose_to_gateway = [](const CanFrame&) { return true; };
+  rig.run_for(60s);
+  rig.lose_from_gateway = rig.lose_to_gateway = {};
+  rig.replace_gateway();
+  const auto as_before = [&](const MachineStatus& s, double more_s) {
+    EXPECT_EQ(s.line, before.line);
+    EXPECT_NEAR(s.progress, before.progress, 0.1);
+    EXPECT_NEAR(s.elapsed_s, before.elapsed_s, 0.5 + more_s) << "the time without a gateway does not count";
+  };
+  as_before(rig.gateway->status(), 0);
+  rig.run_for(10s);
+  as_before(rig.gateway->status(), 0);
+  ASSERT_TRUE(rig.gateway->carry_out(command::Resume{}));
+  ASSERT_TRUE(rig.run_until(
+      [&] {
+        rig.watch();
+        return rig.gateway->state() == MachineState::kRunning &&
+               rig.gateway->status().doing.starts_with("moving");
+      },
+      60s))
+      << rig.story();
+  as_before(rig.gateway->status(), 10);
+  ASSERT_TRUE(rig.finish()) << rig.story();
+}
+
 TEST(Resume, AnotherGatewayGoesOnWithTheWorkOffsetsOfTheJob) {
   ResumeRig rig;
   ASSERT_TRUE(rig.gateway->take_line("G10 L2 P1 X4 Y-3 Z2", 1));
@@ -265,6 +296,7 @@ TEST(Journal, ACutAtAnyByteLeavesAnEarlierState) {
       journal::WaitsDone{1},
       journal::Thermal{200, 60, 0.5},
       heat,
+      journal::JobTime{7, 12.5, 5, 60},
       journal::RunBegin{PathTime{9000}, {12, 0.25}, 0.2, 0.1},
       journal::Found{PathTime{9500}},
       journal::Interrupted{{14, 0.125}, 0.1},

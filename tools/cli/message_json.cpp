@@ -1,4 +1,4 @@
-#include "tools/cli/status_json.hpp"
+#include "tools/cli/message_json.hpp"
 
 #include <google/protobuf/util/json_util.h>
 
@@ -6,14 +6,14 @@
 
 namespace kinebus {
 
-std::string to_json_text(const joblink::Status& status, const std::vector<std::string>& fields) {
+std::string to_json_text(const google::protobuf::Message& message, const std::vector<std::string>& fields) {
   google::protobuf::util::JsonPrintOptions options;
   options.add_whitespace = true;
   options.always_print_primitive_fields = true;
   options.preserve_proto_field_names = true;
   std::string text;
   // A message in memory always has a JSON form.
-  static_cast<void>(google::protobuf::util::MessageToJsonString(status, &text, options));
+  static_cast<void>(google::protobuf::util::MessageToJsonString(message, &text, options));
   if (fields.empty()) return text;
   const auto all = nlohmann::ordered_json::parse(text);
   nlohmann::ordered_json asked;

@@ -1,13 +1,15 @@
-#include "tools/cli/status_json.hpp"
+#include "tools/cli/message_json.hpp"
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
+#include "protocol/joblink/kinebus.pb.h"
+
 namespace kinebus {
 namespace {
 
-TEST(StatusJson, HasEveryValueOfTheSchemaUnderItsName) {
+TEST(MessageJson, HasEveryValueOfTheSchemaUnderItsName) {
   joblink::Status status;
   status.set_state(joblink::STATE_HELD);
   status.set_job("part \"1\".gcode");
@@ -31,7 +33,7 @@ TEST(StatusJson, HasEveryValueOfTheSchemaUnderItsName) {
   }
 }
 
-TEST(StatusJson, HasOnlyWhatIsAskedFor) {
+TEST(MessageJson, HasOnlyWhatIsAskedFor) {
   joblink::Status status;
   status.set_bus_load(0.25);
   status.add_nodes()->set_id(3);
