@@ -46,6 +46,7 @@ void HeatNode::boot() {
   }
   for (Fan& fan : fans_) fan.set_command(0);
   feed_forward_.fill(0);
+  flow_.clear();
   on_.fill(true);
   tuned_ = -1;
   tuning_taken_ = true;

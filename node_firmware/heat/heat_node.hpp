@@ -15,6 +15,7 @@
 
 #include "node_firmware/core/parameter_image.hpp"
 #include "node_firmware/heat/fan.hpp"
+#include "node_firmware/heat/flow_profile.hpp"
 #include "node_firmware/heat/heater.hpp"
 #include "protocol/canopen/emcy.hpp"
 #include "protocol/canopen/heartbeat.hpp"
@@ -151,6 +152,7 @@ class HeatNode final : private ObjectOwner {
   std::array<std::int16_t, kHeaters> set_points_{};  // 0.1 C, as the master asks
   std::array<bool, kHeaters> on_{};
   std::array<std::int16_t, kHeaters> feed_forward_{};
+  FlowProfile flow_;
   LocalTime master_seen_{0};
   bool master_lost_ = false;
   LocalTime lost_at_{0};

@@ -28,6 +28,7 @@ bool is_sensor_setting(std::uint16_t index) {
 /// What safety rests on.
 bool is_setting(std::uint16_t index) {
   return is_sensor_setting(index) || (index >= kHeaterSensor.index && index <= kSafeTime.index) ||
+         index == kFlowHeater.index || index == kFlowLead.index ||
          (index >= kFanFunction.index && index <= kFanPulses.index) || index == kMasterLost.index ||
          (index >= kProportionalBand.index && index <= kDerivativeTime.index);
 }
@@ -53,6 +54,9 @@ AbortCode HeatNode::read(const ObjectEntry& entry, std::int64_t& result) {
       return AbortCode::kNone;
     case kFanOutput.index:
       result = fans_[n].command();
+      return AbortCode::kNone;
+    case kFlowPower.index:
+      result = flow_.step(n) / 10;
       return AbortCode::kNone;
     default:
       break;
@@ -164,6 +168,10 @@ AbortCode HeatNode::write(const ObjectEntry& entry, std::int64_t to) {
   if (index == kFanOutput.index) {
     if (to < 0) return AbortCode::kTooLow;
     fans_[place_of(entry.address)].set_command(static_cast<std::int32_t>(to));
+    return AbortCode::kNone;
+  }
+  if (index == kFlowPower.index) {
+    flow_.set(place_of(entry.address), static_cast<std::int32_t>(to) * 10, now_);
     return AbortCode::kNone;
   }
   if (entry.binding == Binding::kLive) return write_heater(index, place_of(entry.address), to);

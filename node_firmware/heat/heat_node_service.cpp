@@ -206,6 +206,7 @@ void HeatNode::switch_off() {
 }
 
 void HeatNode::apply_targets() {
+  const std::chrono::milliseconds lead{value(heat_slot_of(kFlowLead))};
   for (std::size_t i = 0; i < heaters_.size(); ++i) {
     const std::chrono::seconds kept{value(heat_slot_of(kSafeTime), i)};
     if (master_lost_ && now_ - lost_at_ >= kept) set_points_[i] = 0;
@@ -214,7 +215,9 @@ void HeatNode::apply_targets() {
         on_[i] && contactor() && heaters_[i].fault() == HeaterFault::kNone && sensor_of(i) != nullptr;
     if (heaters_[i].tuning()) continue;
     heaters_[i].set_target(heats ? wanted * kMcPerTenth : 0);
-    heaters_[i].set_feed_forward(feed_forward_[i] * 10);
+    const bool fed = static_cast<std::int64_t>(i) + 1 == value(heat_slot_of(kFlowHeater));
+    const std::int32_t taken = feed_forward_[i] * 10 + (fed ? flow_.power(now_ + lead) : 0);
+    heaters_[i].set_feed_forward(heaters_[i].target() != 0 ? taken : 0);
   }
 }
 

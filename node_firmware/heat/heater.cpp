@@ -60,7 +60,7 @@ void Heater::trip(HeaterFault fault) {
   if (fault_ == HeaterFault::kNone) fault_ = fault;
   if (target_ != 0) asked_ = target_;
   target_ = 0;
-  feed_forward_ = 0;
+  feed_forward_ = given_forward_ = 0;
   duty_ = 0;
   if (tuning_ != nullptr) tuning_->stop();
   tuning_ = nullptr;
@@ -78,7 +78,7 @@ void Heater::step(const SensorInput& sensor, std::uint32_t supply_mv) {
   if (const HeaterFault fault = heater_fault(sensor.fault()); fault != HeaterFault::kNone) trip(fault);
   if (!sensor.good()) {
     // Blind for a moment: no power, no word from the watch, and the model goes on by itself.
-    if (started_ && has_model_) model_.step_blind(0);
+    if (started_ && has_model_) model_.step_blind(-given_forward_);
     watch_.interrupt();
     duty_ = given_ = 0;
     return;
@@ -90,10 +90,11 @@ void Heater::step(const SensorInput& sensor, std::uint32_t supply_mv) {
     by_pid_.start(measured);
     watch_.start();
   }
-  if (has_model_) model_.step(given_, measured);
+  if (has_model_) model_.step(static_cast<std::int32_t>(given_) - given_forward_, measured);
+  given_forward_ = feed_forward_;
   const bool modelled = has_model_ && tuning_ == nullptr;
   // The model's watch goes on after a fault, too: heat that does not end is another one.
-  HeaterFault found = watch_.step(measured, given_, target_, modelled ? &model_ : nullptr);
+  HeaterFault found = watch_.step(measured, given_, target_, modelled ? &model_ : nullptr, feed_forward_);
   // A loose sensor that is put back warms without power, to what the block was heated to.
   const bool put_back = fault_ == HeaterFault::kHeatMissing && measured < asked_ + kPutBack;
   if (found == HeaterFault::kHeatUnasked && put_back) found = HeaterFault::kNone;

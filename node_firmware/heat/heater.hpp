@@ -34,8 +34,8 @@ class Heater {
   /// mC; 0: off.
   void set_target(std::int32_t mc) { target_ = mc; }
   std::int32_t target() const { return target_; }
-  /// Power that is about to be needed for something the model does not know, such as filament to come: mW,
-  /// signed.
+  /// Power that something takes which the model does not know, such as filament: mW, signed. It is given on
+  /// top, and the model counts both as one: no heat.
   void set_feed_forward(std::int32_t mw);
   /// The tuning is lent by the node: one runs at a time.
   void begin_tuning(HeatTuning& tuning, const SensorInput& sensor, std::int32_t target);
@@ -64,8 +64,9 @@ class Heater {
 
   HeaterSettings settings_{};
   bool has_model_ = false, started_ = false;
-  std::int32_t target_ = 0, feed_forward_ = 0;
-  std::int32_t asked_ = 0;  // the target before the fault
+  std::int32_t target_ = 0;
+  std::int32_t feed_forward_ = 0, given_forward_ = 0;  // parts of kFullPower: now, and in the last tick
+  std::int32_t asked_ = 0;                             // the target before the fault
   std::uint32_t most_ = kFullPower;
   HeaterFault fault_ = HeaterFault::kNone;
   ThermalModel model_;

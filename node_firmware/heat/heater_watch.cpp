@@ -1,5 +1,6 @@
 #include "node_firmware/heat/heater_watch.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace kinebus::heat {
@@ -7,6 +8,7 @@ namespace {
 
 constexpr std::uint32_t kHotTicks = 3;      // the noise of a mean of 8 samples is far below
 constexpr std::uint32_t kModelTicks = 8;    // the observer has its own patience
+constexpr std::int32_t kTakenTicks = 100;   // to be forgotten
 constexpr std::int32_t kLeastRise = 2'000;  // mC
 constexpr std::int32_t kAway = 15'000;      // mC
 constexpr std::uint32_t kAwayTicks = 50;
@@ -33,9 +35,9 @@ void HeaterWatch::start() {
 }
 
 HeaterFault HeaterWatch::step(std::int32_t measured, std::uint32_t power, std::int32_t target,
-                              const ThermalModel* model) {
+                              const ThermalModel* model, std::int32_t taken) {
   if (lasts(hot_, measured > settings_.limit_mc, kHotTicks)) return HeaterFault::kTooHot;
-  return model != nullptr ? by_model(measured, *model) : by_rules(measured, power, target);
+  return model != nullptr ? by_model(measured, *model, taken) : by_rules(measured, power, target);
 }
 
 // Parts of full power by which the sensor rose more than it should have over the last ticks; 0 as long as
@@ -57,13 +59,15 @@ std::int32_t HeaterWatch::rise_unexplained(std::int32_t measured, const ThermalM
   return model.share_of_rise(unexplained / static_cast<std::int64_t>(kRiseTicks));
 }
 
-HeaterFault HeaterWatch::by_model(std::int32_t measured, const ThermalModel& model) {
+HeaterFault HeaterWatch::by_model(std::int32_t measured, const ThermalModel& model, std::int32_t taken) {
+  // What was told to be taken shows as long as the observer remembers it.
+  taken_ = std::max({taken, taken_ - taken_ / kTakenTicks - 1, std::int32_t{0}});
   const bool less = rise_unexplained(measured, model) < -per_cent(settings_.most_missing);
   if (lasts(rising_less_, less, kModelTicks)) return HeaterFault::kHeatMissing;
   const std::int32_t share = model.disturbance();
   if (lasts(missing_, share < -per_cent(settings_.most_missing), kModelTicks))
     return HeaterFault::kHeatMissing;
-  if (lasts(unasked_, share > per_cent(settings_.most_unasked), kModelTicks))
+  if (lasts(unasked_, share > per_cent(settings_.most_unasked) + taken_, kModelTicks))
     return HeaterFault::kHeatUnasked;
   return HeaterFault::kNone;
 }

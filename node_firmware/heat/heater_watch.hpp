@@ -39,17 +39,19 @@ class HeaterWatch {
   /// Measurements are missing: what was seen before and what comes after are no rise.
   void interrupt() { seen_ = 0; }
   /// Once a tick. `power`: given since the last one. `target`: 0, off. `model`: nullptr, not measured.
-  HeaterFault step(std::int32_t measured, std::uint32_t power, std::int32_t target,
-                   const ThermalModel* model);
+  /// `taken`: parts of kFullPower that the model was told are taken; they may be not, without a fault.
+  HeaterFault step(std::int32_t measured, std::uint32_t power, std::int32_t target, const ThermalModel* model,
+                   std::int32_t taken = 0);
 
  private:
-  HeaterFault by_model(std::int32_t measured, const ThermalModel& model);
+  HeaterFault by_model(std::int32_t measured, const ThermalModel& model, std::int32_t taken);
   std::int32_t rise_unexplained(std::int32_t measured, const ThermalModel& model);
   HeaterFault by_rules(std::int32_t measured, std::uint32_t power, std::int32_t target);
 
   WatchSettings settings_{};
   std::uint32_t hot_ = 0, missing_ = 0, unasked_ = 0;  // ticks in which it was so, or mC s
   std::int32_t rise_from_ = 0, lowest_off_ = 0;
+  std::int32_t taken_ = 0;  // the most of late
   std::uint32_t rise_ticks_ = 0, away_ticks_ = 0, off_ticks_ = 0;
   bool reached_ = false;
 

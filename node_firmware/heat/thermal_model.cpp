@@ -23,7 +23,8 @@ void ThermalModel::configure(const ModelParameters& p) {
   // A tick's share of the way for a lag of some ticks: tick / (lag + tick / 2).
   lag_ = ((kTickMs << 32) / (p.lag_ms + static_cast<std::uint32_t>(kTickMs) / 2));
   dead_ = p.dead_ms / static_cast<std::uint32_t>(kTickMs);
-  dead_part_ = p.dead_ms % static_cast<std::uint32_t>(kTickMs) * 256 / static_cast<std::uint32_t>(kTickMs);
+  dead_part_ = static_cast<std::int32_t>(p.dead_ms % static_cast<std::uint32_t>(kTickMs) * 256 /
+                                         static_cast<std::uint32_t>(kTickMs));
   // The observer's three poles lie at 1 / (half of the dead time and lag, and 1 s): what is faster is noise,
   // or a model that is a little wrong.
   const std::int64_t time_ms = (p.dead_ms + p.lag_ms) / 2 + 1000;
@@ -40,8 +41,8 @@ void ThermalModel::start(std::int32_t measured) {
   history_.fill(0);
 }
 
-std::uint32_t ThermalModel::delayed() const {
-  const std::uint32_t late = power_before(dead_ + 1), early = power_before(dead_);
+std::int32_t ThermalModel::delayed() const {
+  const std::int32_t late = power_before(dead_ + 1), early = power_before(dead_);
   return (late * dead_part_ + early * (256 - dead_part_)) >> 8;
 }
 
@@ -49,7 +50,7 @@ std::int64_t ThermalModel::lost_at(std::int64_t block) const {
   return times_q32(block - kRoomState, loss_);
 }
 
-void ThermalModel::step_blind(std::uint32_t power) {
+void ThermalModel::step_blind(std::int32_t power) {
   at_ = (at_ + 1) & (kHistory - 1);
   history_[at_] = power;
   const std::int64_t known = heat_of(delayed()) - lost_at(block_);
@@ -59,7 +60,7 @@ void ThermalModel::step_blind(std::uint32_t power) {
   block_ = block;
 }
 
-void ThermalModel::step(std::uint32_t power, std::int32_t measured) {
+void ThermalModel::step(std::int32_t power, std::int32_t measured) {
   step_blind(power);
   const std::int64_t error = (static_cast<std::int64_t>(measured) << 16) - sensor_;
   sensor_ += (error >> 8) * gain_sensor_ / 256;

@@ -44,10 +44,11 @@ class ThermalModel {
 
   /// The block is as warm as the sensor says, and no heat is on its way.
   void start(std::int32_t measured);
-  /// One tick: `power` (parts of kFullPower, at nominal supply) was on since the last one.
-  void step(std::uint32_t power, std::int32_t measured);
+  /// One tick: `power` (parts of kFullPower, at nominal supply) was on since the last one, less what is known
+  /// to have been taken.
+  void step(std::int32_t power, std::int32_t measured);
   /// The same without a measurement: the sensor is not believed now.
-  void step_blind(std::uint32_t power);
+  void step_blind(std::int32_t power);
 
   std::int32_t block() const { return static_cast<std::int32_t>(block_ >> 16); }
   /// The block a dead time ahead, when what is on its way has come. What power can still change begins there.
@@ -71,10 +72,10 @@ class ThermalModel {
 
  private:
   static constexpr std::size_t kHistory = 128;  // > kMostDead / kControlTick
-  std::int64_t heat_of(std::uint32_t power) const { return (heat_ * power) >> 16; }
+  std::int64_t heat_of(std::int32_t power) const { return (heat_ * power) >> 16; }
   std::int64_t lost_at(std::int64_t block) const;
-  std::uint32_t power_before(std::size_t ticks) const { return history_[(at_ - ticks) & (kHistory - 1)]; }
-  std::uint32_t delayed() const;
+  std::int32_t power_before(std::size_t ticks) const { return history_[(at_ - ticks) & (kHistory - 1)]; }
+  std::int32_t delayed() const;
   std::int64_t share_of(std::int64_t heat) const;
 
   ModelParameters parameters_{};
@@ -82,10 +83,11 @@ class ThermalModel {
   std::int64_t reciprocal_ = 0;      // 2^48 / heat_
   std::int64_t loss_ = 0, lag_ = 0;  // a tick, 32 fractional bits
   std::int64_t gain_sensor_ = 0, gain_block_ = 0, gain_disturbance_ = 0;  // 16 fractional bits
-  std::uint32_t dead_ = 0, dead_part_ = 0;                                // ticks, and 1/256 of one
+  std::uint32_t dead_ = 0;                                                // ticks
+  std::int32_t dead_part_ = 0;                                            // 1/256 of one
 
   std::int64_t block_ = 0, sensor_ = 0, disturbance_ = 0, rise_ = 0;
-  std::array<std::uint32_t, kHistory> history_{};
+  std::array<std::int32_t, kHistory> history_{};
   std::size_t at_ = 0;  // of the newest
 };
 

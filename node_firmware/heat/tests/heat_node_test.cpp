@@ -35,6 +35,57 @@ TEST(HeatNode, IsTheDeviceOfItsTable) {
   EXPECT_EQ(heartbeats() - before, 10);
 }
 
+/// Tells it again as a gateway does: the same flow from now on, W.
+void tell_flow(HeatNodeBench& bench, double watts, double seconds) {
+  CanFrame flow{.id = 0x500u + HeatNodeBench::kId, .length = 8};
+  for (std::size_t i = 0; i < 4; ++i)
+    put_u16_le(std::span(flow.data).subspan(2 * i), static_cast<std::uint16_t>(100 * watts));
+  for (double t = 0; t < seconds; t += 0.1) {
+    bench.send(flow);
+    bench.run(0.1);
+  }
+}
+
+TEST(HeatNode, FlowThatIsToldIsHeatedAheadForAndForgottenWithoutNews) {
+  HeatNodeBench bench;
+  bench.set_up();
+  ASSERT_EQ(bench.write_set_point(1, 2100), 0u);
+  bench.run(200);
+  const double before = bench.node.heater_output(0);
+  tell_flow(bench, 10, 0.3);
+  EXPECT_EQ(bench.read({0x2227, 1}), 1000u);
+  // Of 40 W nominal.
+  EXPECT_NEAR((bench.node.heater_output(0) - before) / kFullPower, 0.25, 0.03);
+  // The plant takes what was told: nothing is noticed of it.
+  ASSERT_EQ(bench.plant.command("flow 23"), "");
+  tell_flow(bench, 10, 30);
+  EXPECT_NEAR(bench.plant.hot_end().block(), 210, 1);
+  ASSERT_EQ(bench.plant.command("flow 0"), "");
+  bench.run(1.7);
+  EXPECT_NEAR((bench.node.heater_output(0) - before) / kFullPower, 0, 0.05) << "over after its steps";
+  EXPECT_EQ(bench.write({0x2229, 0}, 200, 2), kState) << "no job changes it";
+  EXPECT_EQ(bench.write({0x2228, 0}, 5, 1), kTooHigh);
+}
+
+TEST(HeatNode, FlowThatIsToldAndDoesNotComeIsNoFaultAndAStuckSwitchIsOneAllTheSame) {
+  HeatNodeBench bench;
+  bench.set_up();
+  ASSERT_EQ(bench.write_set_point(1, 2100), 0u);
+  bench.run(200);
+  tell_flow(bench, 18, 60);
+  EXPECT_EQ(bench.node.fault(0), HeaterFault::kNone) << "no filament";
+  EXPECT_LT(bench.plant.hot_end().hottest(), 225);
+  tell_flow(bench, 0, 60);
+  ASSERT_EQ(bench.plant.command("flow 20"), "");
+  tell_flow(bench, 9, 60);
+  ASSERT_EQ(bench.plant.command("heater 1 stuck"), "");
+  bench.plant.hot_end().forget_hottest();
+  tell_flow(bench, 9, 20);
+  EXPECT_EQ(bench.node.fault(0), HeaterFault::kHeatUnasked);
+  EXPECT_FALSE(bench.node.contactor());
+  EXPECT_LT(bench.plant.hot_end().hottest(), 285);
+}
+
 TEST(HeatNode, HeatsHoldsAndTellsIt) {
   HeatNodeBench bench;
   bench.set_up();
