@@ -78,6 +78,8 @@ void add_heat_settings(const MachineDescription& machine, std::uint8_t node_id,
   std::array<const SensorWiring*, kHeatSensors> sensors{};
   std::array<bool, kHeaters> used{};
   std::array<const HeaterDescription*, kFans> cools{};
+  const HeaterDescription* melts = machine.heater(kFirstHotend);
+  settings.set(kFlowHeater, 0, melts != nullptr && here(melts->place) ? melts->place.channel : 1);
   settings.set(kMasterLost, 0, static_cast<double>(machine.thermal.gateway_lost.count()));
   for (const HeaterDescription& heater : machine.heaters) {
     if (!here(heater.place) || heater.place.channel > kHeaters) continue;

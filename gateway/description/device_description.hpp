@@ -62,9 +62,11 @@ struct SensorWiring {
 
 /// What a heat node is told of a heater, besides what it is for.
 struct HeaterWiring {
-  SensorWiring sensor{};              ///< on the input of the heater's number
-  double limit_c = 0;                 ///< hotter, the node takes its power; 0: kDefaultMargin_c above max_c
-  double power_w = 40;                ///< at supply_v
+  SensorWiring sensor{};  ///< on the input of the heater's number
+  double limit_c = 0;     ///< hotter, the node takes its power; 0: kDefaultMargin_c above max_c
+  double power_w = 40;    ///< at supply_v
+  /// What filament takes up on its way through; 0: it is not heated ahead for.
+  double filament_j_per_mm3_k = 0.0021;
   double supply_v = 24;               ///< 0: on a supply that the node does not measure
   bool relay = false;                 ///< switched in whole half waves of the mains
   std::chrono::seconds rise{20};      ///< gains 2 K in so long at full power, until the node has measured it

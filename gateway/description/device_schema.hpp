@@ -57,6 +57,7 @@ void visit_wiring(V& v, HeaterWiring& w) {
   visit_sensor(v, w.sensor);
   v.unless_zero("limit_c", w.limit_c, {30, 550}, 1);
   v.number("power_w", w.power_w, {0.1, 5000}, Need::kOptional);
+  v.number("filament_j_per_mm3_k", w.filament_j_per_mm3_k, {0, 0.02}, Need::kOptional);
   v.number("supply_v", w.supply_v, {0, 60}, Need::kOptional);
   v.flag("relay", w.relay, Need::kOptional);
   v.duration("rise_s", w.rise, 5, 300, Need::kOptional);

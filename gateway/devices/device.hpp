@@ -2,6 +2,7 @@
 // What a machine has besides motion, as the gateway sees it: one interface for each kind, whoever stands
 // behind it (the simulation, a node on the bus). All are sans-IO, in the shape of every core here.
 
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -42,10 +43,43 @@ struct HeaterStatus {
   double target_celsius = 0;  ///< 0: off
 };
 
+/// How far a heater's node is with measuring it, or how that ended last.
+enum class TuningStage : std::uint8_t { kNone, kBegins, kHeats, kCools, kFits, kKeeps, kDone, kFailed };
+
+/// A heater as its node has measured it.
+struct HeaterModel {
+  double power_w = 0;  ///< at the nominal supply, as the machine file says
+  double capacity_j_per_k = 0, loss_w_per_k = 0;
+  double lag_s = 0, dead_s = 0;  ///< of the sensor behind the block; of the block behind the power
+};
+
+struct HeaterTuning {
+  TuningStage stage = TuningStage::kNone;
+  double celsius = 0;  ///< it shall be good at
+  HeaterModel model;   ///< after kFits
+  Sentence failure;    ///< why it failed, or why the result will not outlive the node's power
+  bool runs() const { return stage >= TuningStage::kBegins && stage <= TuningStage::kKeeps; }
+};
+
+/// The power that filament to come will take of a hot end, W: means over steps, the first from now.
+inline constexpr BusTime kFlowAheadStep = std::chrono::milliseconds{400};
+using FlowAhead = std::array<double, 4>;
+
 class Heater : public Device {
  public:
-  virtual void set_target(double celsius) = 0;  ///< 0: off
+  virtual void set_target(double celsius) = 0;  ///< 0: off, a measurement too
   virtual HeaterStatus status() const = 0;
+
+  /// Why nobody can measure it; none: tune() may be called.
+  virtual std::optional<Sentence> cannot_tune() const {
+    return say("it is simulated: only a heater on a heat node can be measured");
+  }
+  /// Its node heats it part of the way and finds its model; needs cannot_tune() to be none.
+  virtual void tune(double) {}
+  virtual HeaterTuning tuning() const { return {}; }
+
+  /// Ten times a second while it may be other than none.
+  virtual void feed_ahead(const FlowAhead&) {}
 };
 
 /// A fan or an output.

@@ -39,9 +39,32 @@ void Devices::set_probe(std::uint8_t node, std::unique_ptr<ContactProbe> probe) 
   probe_ = std::move(probe);
 }
 
+Heater* Devices::find(HeaterId id) const {
+  for (const KnownHeater& known : heaters_)
+    if (known.id == id) return known.heater.get();
+  return nullptr;
+}
+
 void Devices::heat(HeaterId id, double celsius) {
-  for (KnownHeater& known : heaters_)
-    if (known.id == id) known.heater->set_target(celsius);
+  if (Heater* known = find(id)) known->set_target(celsius);
+}
+
+std::optional<Sentence> Devices::cannot_tune(HeaterId id) const {
+  const Heater* known = find(id);
+  return known != nullptr ? known->cannot_tune() : std::nullopt;
+}
+
+void Devices::tune(HeaterId id, double celsius) {
+  if (Heater* known = find(id)) known->tune(celsius);
+}
+
+HeaterTuning Devices::tuning(HeaterId id) const {
+  const Heater* known = find(id);
+  return known != nullptr ? known->tuning() : HeaterTuning{};
+}
+
+void Devices::feed_ahead(HeaterId id, const FlowAhead& watts) {
+  if (Heater* known = find(id)) known->feed_ahead(watts);
 }
 
 void Devices::heaters_off() {
@@ -67,9 +90,8 @@ void Devices::turn_spindle(double rpm) {
 }
 
 HeaterStatus Devices::heater(HeaterId id) const {
-  for (const KnownHeater& known : heaters_)
-    if (known.id == id) return known.heater->status();
-  return {};
+  const Heater* known = find(id);
+  return known != nullptr ? known->status() : HeaterStatus{};
 }
 
 double Devices::ratio(const std::vector<KnownOutput>& all, std::uint8_t index) {
@@ -79,7 +101,8 @@ double Devices::ratio(const std::vector<KnownOutput>& all, std::uint8_t index) {
 
 std::vector<NamedHeaterStatus> Devices::heaters() const {
   std::vector<NamedHeaterStatus> all;
-  for (const KnownHeater& known : heaters_) all.push_back({known.heater->status(), known.name, known.id});
+  for (const KnownHeater& known : heaters_)
+    all.push_back({known.heater->status(), known.name, known.id, known.heater->tuning()});
   return all;
 }
 
@@ -118,15 +141,13 @@ void Devices::clear_faults() {
 }
 
 std::optional<Sentence> Devices::absent(HeaterId id) const {
-  for (const KnownHeater& known : heaters_)
-    if (known.id == id) return known.heater->absent();
-  return std::nullopt;
+  const Heater* known = find(id);
+  return known != nullptr ? known->absent() : std::nullopt;
 }
 
 std::optional<Sentence> Devices::heater_fault(HeaterId id) const {
-  for (const KnownHeater& known : heaters_)
-    if (known.id == id) return known.heater->fault();
-  return std::nullopt;
+  const Heater* known = find(id);
+  return known != nullptr ? known->fault() : std::nullopt;
 }
 
 void Devices::on_bring_up(BusTime now, bool done) {

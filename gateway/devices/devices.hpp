@@ -19,6 +19,7 @@ struct DeviceName {
 struct NamedHeaterStatus : HeaterStatus {
   std::string name;
   HeaterId id;
+  HeaterTuning tuning{};
 };
 struct OutputStatus {
   std::string name;
@@ -50,6 +51,11 @@ class Devices {
   // Commands. One for a device that is not there has no effect: whether it is, is asked of the description.
   void heat(HeaterId id, double celsius);  ///< 0: off
   void heaters_off();
+  /// As Heater's.
+  std::optional<Sentence> cannot_tune(HeaterId id) const;
+  void tune(HeaterId id, double celsius);
+  HeaterTuning tuning(HeaterId id) const;
+  void feed_ahead(HeaterId id, const FlowAhead& watts);
   void blow(std::uint8_t fan, double ratio);
   void put_out(std::uint8_t output, double ratio);
   void turn_spindle(double rpm);
@@ -103,6 +109,7 @@ class Devices {
   };
   static std::vector<OutputStatus> ratios(const std::vector<KnownOutput>& all);
   static double ratio(const std::vector<KnownOutput>& all, std::uint8_t index);
+  Heater* find(HeaterId id) const;
   static Output* find(const std::vector<KnownOutput>& all, std::uint8_t index);
 
   std::vector<Member> members_;  ///< all of them, as they were added

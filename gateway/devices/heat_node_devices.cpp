@@ -7,17 +7,22 @@ namespace {
 
 class NodeHeater : public Heater {
  public:
-  NodeHeater(std::shared_ptr<HeatNodeLink> node, std::size_t channel)
-      : node_(std::move(node)), channel_(channel) {}
+  NodeHeater(std::shared_ptr<HeatNodeLink> node, std::size_t channel, double power_w)
+      : node_(std::move(node)), channel_(channel), power_w_(power_w) {}
   void set_target(double celsius) override { node_->set_target(channel_, celsius); }
   HeaterStatus status() const override { return {node_->celsius(channel_), node_->target(channel_)}; }
   std::optional<Sentence> fault() const override { return node_->heater_fault(channel_); }
   std::optional<Sentence> absent() const override { return node_->absent(); }
   void clear_fault() override { node_->reset_fault(channel_); }
+  std::optional<Sentence> cannot_tune() const override { return std::nullopt; }
+  void tune(double celsius) override { node_->tune(channel_, celsius, power_w_); }
+  HeaterTuning tuning() const override { return node_->tuning(channel_); }
+  void feed_ahead(const FlowAhead& watts) override { node_->feed_ahead(watts); }
 
  private:
   std::shared_ptr<HeatNodeLink> node_;
   std::size_t channel_;
+  double power_w_;
 };
 
 class HeatNodeOutput : public Output {
@@ -42,14 +47,14 @@ class NodeSensor : public Sensor {
   std::size_t input_;
 };
 
-/// `first`: the number of the first channel on the node.
-template <typename Made, typename Interface>
+/// `first`: the number of the first channel on the node. `more`: what else it is made of.
+template <typename Made, typename Interface, typename... More>
 std::unique_ptr<Interface> make(const DevicePlace& place, std::size_t first, std::size_t count,
-                                const HeatNodeLinks& links) {
+                                const HeatNodeLinks& links, More... more) {
   const auto link = links.find(place.node_id);
   const std::size_t channel = first + place.channel - 1u;
   if (link == links.end() || place.channel == 0 || channel >= count) return nullptr;
-  return std::make_unique<Made>(link->second, channel);
+  return std::make_unique<Made>(link->second, channel, more...);
 }
 
 }  // namespace
@@ -64,7 +69,7 @@ HeatNodeLinks heat_node_links(const MachineDescription& machine) {
 
 std::unique_ptr<Heater> on_heat_node(const HeaterDescription& heater, const MachineDescription&,
                                      const HeatNodeLinks& links) {
-  return make<NodeHeater, Heater>(heater.place, 0, kHeaters, links);
+  return make<NodeHeater, Heater>(heater.place, 0, kHeaters, links, heater.wiring.power_w);
 }
 
 std::unique_ptr<Output> on_heat_node(const FanDescription& fan, const MachineDescription&,

@@ -15,6 +15,13 @@ namespace {
 
 using namespace heat_object;
 
+/// A flow that is as it was is told again so often, and one that has changed after so long: a lost frame
+/// counts for little, and the bus has other things to carry.
+constexpr BusTime kFlowAgain = std::chrono::milliseconds{250};
+constexpr BusTime kFlowNews = std::chrono::milliseconds{90};
+static_assert(std::tuple_size_v<FlowAhead> == kFlowSteps);
+static_assert(kFlowAheadStep == std::chrono::milliseconds{kFlowStepMs});
+
 constexpr double kFullOutput = 32'767;  // 6411h
 
 /// Codes that say of a heater why it has no power.
@@ -110,6 +117,10 @@ std::optional<Sentence> HeatNodeLink::heater_fault(std::size_t heater) const {
 // -----------------------------------------------------------------------------------------------------
 
 void HeatNodeLink::set_target(std::size_t heater, double celsius) {
+  if (tuning_.runs() && tuning_.heater() == heater) {
+    tuning_.end(say("it was ended before it was done"));
+    set_points_[heater].due = true;  // by that the node ends it
+  }
   set_points_[heater].set(static_cast<std::int16_t>(std::lround(10 * celsius)));
   lost_[heater] = false;
 }
@@ -128,6 +139,32 @@ void HeatNodeLink::reset_fault(std::size_t heater) {
   set_points_[heater].refused = AbortCode::kNone;
 }
 
+void HeatNodeLink::tune(std::size_t heater, double celsius, double power_w) {
+  tuning_.begin(now_, heater, celsius, power_w);
+}
+
+HeaterTuning HeatNodeLink::tuning(std::size_t heater) const {
+  return tuning_.heater() == heater ? tuning_.told() : HeaterTuning{};
+}
+
+void HeatNodeLink::feed_ahead(const FlowAhead& watts) {
+  constexpr double kMost_w = 327;
+  for (std::size_t i = 0; i < flow_.size(); ++i)
+    flow_[i] = static_cast<std::int16_t>(std::lround(100 * std::clamp(watts[i], 0.0, kMost_w)));
+}
+
+std::optional<CanFrame> HeatNodeLink::flow_frame(BusTime now) {
+  const bool flows = flow_ != Flow{};
+  const BusTime since = now - flow_told_at_;
+  if (!(flow_ != flow_told_ && since >= kFlowNews) && !(flows && since >= kFlowAgain)) return std::nullopt;
+  flow_told_ = flow_;
+  flow_told_at_ = now;
+  CanFrame frame{.id = cob_id::rpdo(4, id_), .length = 8};
+  for (std::size_t i = 0; i < flow_.size(); ++i)
+    put_u16_le(std::span(frame.data).subspan(2 * i), static_cast<std::uint16_t>(flow_[i]));
+  return frame;
+}
+
 std::optional<Sentence> HeatNodeLink::absent() const {
   if (serves_) return std::nullopt;
   return say("node %1, which heats it, is not in operation: bring the machine up first", id_);
@@ -139,6 +176,7 @@ void HeatNodeLink::on_bring_up(BusTime now, bool done) {
   serves_ = done;
   reset_due_.fill(false);
   lost_.fill(false);
+  tuning_.end(say("its node was not in operation any more: measure it again"));
   if (!done) return;
   heard_ = measured_ = now_ = std::max(now_, now);
   for (Value& set : set_points_) set.due = true;
@@ -155,6 +193,7 @@ void HeatNodeLink::on_time(BusTime now) {
 
 std::optional<CanFrame> HeatNodeLink::next_frame(BusTime now) {
   if (!serves_) return std::nullopt;
+  if (const auto frame = flow_frame(now)) return frame;
   if (writing_ == Writing::kNothing) begin_next(now);
   return sdo_.next_frame();
 }
@@ -190,12 +229,27 @@ void HeatNodeLink::begin_next(BusTime now) {
       begin(now, Writing::kOutput, n, kFanOutput, outputs_[n].wanted, 2);
       return;
     }
+  if (ask_for_tuning(now)) writing_ = Writing::kTuning;
+}
+
+bool HeatNodeLink::ask_for_tuning(BusTime now) {
+  const auto question = tuning_.next(now);
+  if (!question) return false;
+  const auto bytes = std::span(bytes_).first(question->bytes);
+  if (!question->write) return sdo_.upload(now, id_, question->address, bytes);
+  put_u32_le(bytes_, question->value);
+  return sdo_.download(now, id_, question->address, bytes);
 }
 
 void HeatNodeLink::settle(BusTime now) {
   if (sdo_.status() == SdoClient::Status::kBusy) return;
   const Writing what = std::exchange(writing_, Writing::kNothing);
   const bool failed = sdo_.status() == SdoClient::Status::kFailed;
+  if (what == Writing::kTuning) {
+    const std::uint32_t value =
+        failed ? 0 : static_cast<std::uint32_t>(get_le(bytes_, std::min(sdo_.received(), bytes_.size())));
+    return tuning_.on_answer(now, failed ? sdo_.abort_code() : AbortCode::kNone, value);
+  }
   // No answer, or a disturbed one: again. A node that is gone is missed by its heartbeat.
   const AbortCode code = failed ? sdo_.abort_code() : AbortCode::kNone;
   if (code == AbortCode::kTimeout || code == AbortCode::kToggleBit || code == AbortCode::kCommandSpecifier)

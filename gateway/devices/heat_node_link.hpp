@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "gateway/devices/device.hpp"
+#include "gateway/devices/heat_node_tuning.hpp"
 #include "protocol/canopen/heat_units.hpp"
 #include "protocol/canopen/sdo_client.hpp"
 
@@ -37,6 +38,11 @@ class HeatNodeLink : public Device {
   std::optional<Sentence> heater_fault(std::size_t heater) const;
   /// The node is asked to try again.
   void reset_fault(std::size_t heater);
+  /// The node measures it; a target, 0 too, ends that. One at a time.
+  void tune(std::size_t heater, double celsius, double power_w);
+  HeaterTuning tuning(std::size_t heater) const;
+  /// For the heater that its settings name (2228h).
+  void feed_ahead(const FlowAhead& watts);
 
  private:
   enum class State : std::uint8_t { kOff = 0, kHeats = 1, kThere = 2, kTunes = 3, kFault = 4 };
@@ -52,13 +58,15 @@ class HeatNodeLink : public Device {
       wanted = value;
     }
   };
-  enum class Writing : std::uint8_t { kNothing, kReset, kSetPoint, kOutput };
+  enum class Writing : std::uint8_t { kNothing, kReset, kSetPoint, kOutput, kTuning };
 
   bool on_report(BusTime now, const CanFrame& frame);
   void on_states(std::span<const std::uint8_t> states);
   void on_emergency(const CanFrame& frame);
   bool begin(BusTime now, Writing what, std::size_t n, ObjectAddress first, std::int16_t value, int bytes);
   void begin_next(BusTime now);
+  bool ask_for_tuning(BusTime now);
+  std::optional<CanFrame> flow_frame(BusTime now);
   void settle(BusTime now);
 
   std::uint8_t id_;
@@ -67,7 +75,11 @@ class HeatNodeLink : public Device {
   Writing writing_ = Writing::kNothing;
   std::size_t channel_ = 0;
   std::int16_t written_ = 0;
-  std::array<std::uint8_t, 2> bytes_{};
+  std::array<std::uint8_t, 4> bytes_{};
+  HeatNodeTuning tuning_;
+  using Flow = std::array<std::int16_t, std::tuple_size_v<FlowAhead>>;  ///< 10 mW
+  Flow flow_{}, flow_told_{};
+  BusTime flow_told_at_{0};
 
   std::array<Value, kHeaters> set_points_{};
   std::array<bool, kHeaters> reset_due_{};

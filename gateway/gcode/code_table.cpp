@@ -197,7 +197,7 @@ constexpr std::array kM = {
     m(300, M::kHarmless, true, "", "sound"),
     m(301, M::kHarmless, true, "", "PID: [heater.NAME] of the machine file and its node control the heater"),
     m(302, M::kHarmless, true, "", "cold extrusion"),
-    m(303, M::kHarmless, true, "", "PID tuning"),
+    m(303, M::kOther, true, "E | H | T | P; S", "its node measures a heater: on the console or of a print host, while no job runs"),
     m(304, M::kHarmless, true, "", "PID: [heater.NAME] of the machine file and its node control the heater"),
     m(305, M::kHarmless, true, "", "thermistor"),
     m(306, M::kHarmless, true, "", "heater model"),

@@ -131,6 +131,10 @@ bool Core::run_machine_code(Code code) {
     case 906:
     case 907:
       return firmware_setting(code);
+    case 303:
+      return fail(code.column,
+                  say("M303 measures a heater, which no job does: write it on the console or send "
+                      "it from a print host while nothing runs"));
     case 201:
     case 203:
       return axis_limits(code);

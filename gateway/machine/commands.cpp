@@ -46,6 +46,7 @@ constexpr std::array<Row, kCommandKinds> kTable{{
      kAny & ~in(S::kOff, S::kBringUp)},
     {command::kind<command::TuneMotor>, phrase("measure a motor"), in(S::kUnhomed, S::kReady)},
     {command::kind<command::JogMotor>, phrase("jog"), in(S::kReady)},
+    {command::kind<command::TuneHeater>, phrase("measure a heater"), in(S::kUnhomed, S::kReady)},
 }};
 
 constexpr bool table_is_in_order() {

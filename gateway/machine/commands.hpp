@@ -89,6 +89,11 @@ struct SetMotorCurrents {
 struct TuneMotor {
   std::size_t joint = 0;
 };
+/// The heater's node heats it part of the way and finds its model. SetTemperature with 0 ends it.
+struct TuneHeater {
+  HeaterId heater = kFirstHotend;
+  double celsius = 0;  ///< it shall be good at; 0: where its kind usually works
+};
 /// One joint alone, all others end where they were.
 struct JogMotor {
   std::size_t joint = 0;
@@ -103,7 +108,7 @@ using Command =
                  command::OpenLines, command::Hold, command::Resume, command::Cancel, command::Stop,
                  command::Clear, command::SetFeedOverride, command::MotorsOff, command::SetTemperature,
                  command::SetFan, command::SetOutput, command::SetSpindle, command::SetWorkOffset,
-                 command::SetMotorCurrents, command::TuneMotor, command::JogMotor>;
+                 command::SetMotorCurrents, command::TuneMotor, command::JogMotor, command::TuneHeater>;
 
 /// A kind of command: its place in Command.
 using CommandKind = std::size_t;

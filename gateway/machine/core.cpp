@@ -118,6 +118,7 @@ void Gateway::Core::on_frame(BusTime when, const CanFrame& frame) {
     if (!bring_up_.busy()) stop_all(false, NodeWatch::is_of_absence(request->reason));
   }
   const bool of_device = devices_.on_frame(when, frame);
+  tell_of_tuning();  // before anybody who waits for it sees that it is over
   for (NodeLink& link : links_) {
     if (!link.on_frame(when, frame)) continue;
     take_stream_status(link);
@@ -210,6 +211,8 @@ void Gateway::Core::on_time(BusTime now) {
   watch_nodes();
   watch_devices();
   watch_idle_heat();
+  tell_of_tuning();
+  feed_heat_ahead();
   note_progress();
   voice_.on_time(now_, bring_up_.busy());
   switch (state_.now()) {
@@ -314,6 +317,14 @@ void Gateway::Core::watch_idle_heat() {
   // What is held in the middle of a job heats before it goes on, as after every stop; an interrupted one
   // does.
   if (held && !print_.runner().suspended()) stop_all(false);
+}
+
+/// What is planned is known to the heater before it is fed.
+void Gateway::Core::feed_heat_ahead() {
+  constexpr BusTime kPeriod = 100ms;
+  if (now_ < next_flow_) return;
+  next_flow_ = now_ + kPeriod;
+  heat_.feed_ahead(runner_->filament_ahead(now_));
 }
 
 void Gateway::Core::take_stream_status(NodeLink& link) {

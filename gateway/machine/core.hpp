@@ -5,6 +5,7 @@
 //   core.cpp           frames, time                core_states.cpp     the steps of each state
 //   core_commands.cpp  one handler a command       core_lines.cpp      lines of print hosts and the console
 //   core_recovery.cpp  interrupted jobs            core_heat_hold.cpp  a heater's fault in a job
+//   core_heat_tuning.cpp  a heater that is measured
 //   core_status.cpp    the snapshot
 
 #include <deque>
@@ -86,6 +87,8 @@ class Gateway::Core {
   /// The joint that moves for this axis of the pose and for no other; none on a mechanism that couples them.
   std::optional<std::size_t> motor_of_axis(std::size_t axis) const;
   Result<std::string, Refusal> set_currents(std::string_view words);
+  /// M303.
+  Result<std::string, Refusal> measure_heater(std::string_view words);
 
   MachineState state() const { return state_.now(); }
   std::optional<MachineEvent> next_event() { return events_.pop(); }
@@ -119,6 +122,7 @@ class Gateway::Core {
   Done on(command::SetMotorCurrents& asked) { return motors_.set(asked.motors); }
   Done on(command::TuneMotor& asked) { return motors_.tune(asked.joint); }
   Done on(command::JogMotor& asked);
+  Done on(command::TuneHeater& asked);
 
   void enter(MachineState state) { state_.enter(now_, state); }
   void begin_bring_up();
@@ -149,6 +153,8 @@ class Gateway::Core {
   void finish_motion();
   void watch_nodes();
   void watch_idle_heat();
+  void tell_of_tuning();
+  void feed_heat_ahead();
   void watch_parameters();
   void on_foreign_stop(std::uint8_t node);
   void take_stream_status(NodeLink& link);
@@ -226,7 +232,9 @@ class Gateway::Core {
   bool remote_told_ = false;  ///< a remote frame was passed over, since the last bring-up
   bool fault_ = false;        ///< the stop under way ends in an alarm
   bool beds_stay_ = false;    ///< that alarm is of a device: a bed that is in order keeps the part on it
-  BusTime heat_idle_since_{0};
+  BusTime heat_idle_since_{0}, next_flow_{0};
+  std::optional<HeaterId> tuned_;  ///< whose measurement is told of
+  TuningStage tuning_told_ = TuningStage::kNone;
   MachineState held_from_ = MachineState::kRunning;  ///< what resume goes back to
   double override_ = 1;
 };

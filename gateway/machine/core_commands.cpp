@@ -16,7 +16,8 @@ bool moves_or_measures(CommandKind command) {
   static constexpr std::array kKinds{command::kind<command::Home>,      command::kind<command::GoToReference>,
                                      command::kind<command::Jog>,       command::kind<command::Run>,
                                      command::kind<command::OpenLines>, command::kind<command::Resume>,
-                                     command::kind<command::TuneMotor>, command::kind<command::JogMotor>};
+                                     command::kind<command::TuneMotor>, command::kind<command::JogMotor>,
+                                     command::kind<command::TuneHeater>};
   return std::find(kKinds.begin(), kKinds.end(), command) != kKinds.end();
 }
 
@@ -35,6 +36,9 @@ Done Gateway::Core::may(CommandKind command) const {
   if (const auto joint = motors_.tuned(); joint && moves_or_measures(command))
     return refused(
         say("cannot %1 while a motor is measured (%2)", sentence(command), machine_.joints[*joint].name));
+  if (const HeaterDescription* heater = heat_.tuned(); heater != nullptr && moves_or_measures(command))
+    return refused(say("cannot %1 while heater.%2 is measured: a target of 0 ends that", sentence(command),
+                       heater->name));
   if (allowed(command, state)) {
     const bool for_interrupted =
         (command == command::kind<command::Resume> && state != MachineState::kHeld) ||
@@ -234,7 +238,8 @@ Done Gateway::Core::on(command::Cancel&) {
 }
 
 Done Gateway::Core::on(command::Stop& asked) {
-  const bool off = asked.heaters_off || machine_.thermal.on_stop == ThermalDescription::After::kOff;
+  const bool off = asked.heaters_off || machine_.thermal.on_stop == ThermalDescription::After::kOff ||
+                   heat_.tuned() != nullptr;
   if (off) cut_heat(asked.why);
   if (state_.is_one_of(MachineState::kStopping, MachineState::kStopped, MachineState::kAlarm)) return {};
   events_.message(now_, std::move(asked.why));

@@ -195,6 +195,8 @@ Result<std::string, Refusal> Gateway::Core::text_line(std::string_view line) {
         return settings_text();
       case 524:
         return reply(carry_out(command::Cancel{}));
+      case 303:
+        return measure_heater(words.rest);
       case 906:
         return set_currents(words.rest);
       case 999:

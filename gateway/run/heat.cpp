@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "gateway/jobs/machine_setup.hpp"
@@ -11,6 +12,20 @@ namespace {
 
 using Done = Result<void, Refusal>;
 using What = canonical::Thermal::What;
+
+/// A node measures a rise of at least so much: K.
+constexpr double kLeastWay = 40;
+
+double usual_celsius(HeaterKind kind) {
+  switch (kind) {
+    case HeaterKind::kHotend:
+      return 200;
+    case HeaterKind::kBed:
+      return 80;
+    default:
+      return 70;
+  }
+}
 
 }  // namespace
 
@@ -24,9 +39,42 @@ Done Heat::set_temperature(HeaterId heater, double celsius) {
   if (!(celsius >= 0 && celsius <= known->max_c))
     return refused(say("the temperature must be 0 to %1 C", std::lround(known->max_c)));
   if (auto absent = celsius > 0 ? devices_.absent(heater) : std::nullopt) return refused(std::move(*absent));
+  if (const HeaterDescription* measured = tuned(); celsius > 0 && measured != nullptr)
+    return refused(say("heater.%1 is being measured: a target of 0 ends that", measured->name));
   devices_.heat(heater, celsius);
   if (kept_) kept_->heater(heater) = celsius;
   return {};
+}
+
+Done Heat::tune(HeaterId heater, double celsius) {
+  const HeaterDescription* known =
+      static_cast<std::size_t>(heater.kind) < kHeaterKinds ? machine_.heater(heater) : nullptr;
+  if (known == nullptr) return refused(say("this machine has no such heater"));
+  const auto name = "heater." + known->name;
+  if (auto cannot = devices_.cannot_tune(heater)) return refused(say("%1: %2", name, std::move(*cannot)));
+  if (auto absent = devices_.absent(heater)) return refused(std::move(*absent));
+  if (auto fault = devices_.heater_fault(heater)) return refused(say("%1: %2", name, std::move(*fault)));
+  if (const HeaterDescription* measured = tuned(); measured != nullptr)
+    return refused(say("heater.%1 is being measured: a target of 0 ends that", measured->name));
+  if (heats()) return refused(say("a heater is measured while all are off: switch them off first"));
+  if (celsius == 0) celsius = std::min(usual_celsius(known->kind), known->max_c);
+  if (!(celsius > 0 && celsius <= known->max_c))
+    return refused(say("the temperature must be 0 to %1 C", std::lround(known->max_c)));
+  const double actual = devices_.heater(heater).actual_celsius;
+  if (celsius - actual < kLeastWay)
+    return refused(
+        say("%1 is at %2 C: from there to %3 C it is less than the %4 K that a measurement needs; "
+            "let it cool, or choose a higher temperature",
+            name, std::lround(actual), std::lround(celsius), std::lround(kLeastWay)));
+  devices_.tune(heater, celsius);
+  return {};
+}
+
+const HeaterDescription* Heat::tuned() const {
+  const auto found =
+      std::find_if(machine_.heaters.begin(), machine_.heaters.end(),
+                   [this](const HeaterDescription& h) { return devices_.tuning(h.id()).runs(); });
+  return found != machine_.heaters.end() ? &*found : nullptr;
 }
 
 Done Heat::set_fan(std::uint8_t index, double ratio) {
@@ -64,18 +112,31 @@ void Heat::execute(const canonical::Thermal& thermal) {
 void Heat::heaters_off(Beds beds) {
   if (beds == Beds::kOff) return devices_.heaters_off();
   for (const HeaterDescription& h : machine_.heaters)
-    if (h.kind != HeaterKind::kBed || devices_.heater_fault(h.id())) devices_.heat(h.id(), 0);
+    if (h.kind != HeaterKind::kBed || devices_.heater_fault(h.id()) || devices_.tuning(h.id()).runs())
+      devices_.heat(h.id(), 0);
 }
 
 bool Heat::heats() const {
   return std::any_of(machine_.heaters.begin(), machine_.heaters.end(), [this](const HeaterDescription& h) {
-    return devices_.heater(h.id()).target_celsius > 0;
+    return devices_.heater(h.id()).target_celsius > 0 || devices_.tuning(h.id()).runs();
   });
 }
 
 std::optional<double> Heat::hotend_target() const {
   const double celsius = devices_.heater(kFirstHotend).target_celsius;
   return celsius > 0 ? std::optional(celsius) : std::nullopt;
+}
+
+void Heat::feed_ahead(const FlowAhead& mm_per_s) {
+  const HeaterDescription* hotend = machine_.heater(kFirstHotend);
+  if (hotend == nullptr) return;
+  const double target = devices_.heater(kFirstHotend).target_celsius;
+  const double radius = machine_.gcode.filament_diameter_mm / 2;
+  const double j_per_mm = hotend->wiring.filament_j_per_mm3_k * std::numbers::pi * radius * radius *
+                          std::max(0.0, target - machine_.thermal.ambient_c);
+  FlowAhead watts{};
+  for (std::size_t i = 0; i < watts.size(); ++i) watts[i] = std::max(0.0, mm_per_s[i]) * j_per_mm;
+  devices_.feed_ahead(kFirstHotend, watts);
 }
 
 std::optional<Sentence> Heat::too_cold() const {

@@ -22,8 +22,13 @@ class Heat {
 
   // By command: refused with what this machine can have.
   Result<void, Refusal> set_temperature(HeaterId heater, double celsius);  ///< 0: off
-  Result<void, Refusal> set_fan(std::uint8_t index, double ratio);         ///< 0..1
-  Result<void, Refusal> set_output(std::uint8_t index, double ratio);      ///< 0..1
+  /// Its node measures it, to be good at `celsius`; 0: where its kind usually works.
+  Result<void, Refusal> tune(HeaterId heater, double celsius);
+  /// The heater that is measured now.
+  const HeaterDescription* tuned() const;
+  HeaterTuning tuning(HeaterId heater) const { return devices_.tuning(heater); }
+  Result<void, Refusal> set_fan(std::uint8_t index, double ratio);     ///< 0..1
+  Result<void, Refusal> set_output(std::uint8_t index, double ratio);  ///< 0..1
   Result<void, Refusal> set_spindle(double rpm);
 
   // By a job: it was checked before.
@@ -32,7 +37,10 @@ class Heat {
   void stop_spindle() { devices_.turn_spindle(0); }
   enum class Beds : std::uint8_t { kOff, kStay };
   void heaters_off(Beds beds = Beds::kOff);
-  /// A heater has a target.
+  /// The filament that will be fed, mm/s: means over steps of kFlowAheadStep, the first from now. Of the
+  /// first hot end.
+  void feed_ahead(const FlowAhead& mm_per_s);
+  /// A heater has a target, or is measured.
   bool heats() const;
 
   bool reached(const TemperatureWait& wait) const { return wait.over(devices_); }

@@ -1,6 +1,7 @@
 #include "gateway/run/runner.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -161,6 +162,31 @@ std::optional<PlannedPose> Runner::planned_pose(PathTime tau) const {
   if (!point) return std::nullopt;
   planned.pose = point->x;
   return planned;
+}
+
+FlowAhead Runner::filament_ahead(BusTime now) const {
+  FlowAhead flow{};
+  const double rate = rate_.target();
+  if (!active_ || suspended_ || held_ || !started_ || !feed_.streaming() || !(rate > 0)) return flow;
+  const PathTime tau = rate_.tau(now);
+  const double step_s = to_seconds(kFlowAheadStep);
+  const auto filament_at = [&](std::size_t steps) -> std::optional<double> {
+    const auto ahead = PathTime{std::llround(static_cast<double>(steps) * step_s * rate * 16e6)};
+    const auto planned = planned_pose(tau + ahead);
+    return planned ? std::optional(planned->pose[kE]) : std::nullopt;
+  };
+  auto from = filament_at(0);
+  for (std::size_t i = 0; from && i < flow.size(); ++i) {
+    const auto to = filament_at(i + 1);
+    if (to)
+      flow[i] = (*to - *from) / step_s;
+    else if (!finished_ && i > 0)
+      flow[i] = flow[i - 1];  // not planned yet
+    else
+      break;
+    if (to) from = to;
+  }
+  return flow;
 }
 
 std::uint32_t Runner::line(BusTime now) const {

@@ -109,6 +109,9 @@ class Runner {
   std::uint64_t bytes() const { return pipeline_.bytes(); }
   /// The exact planned pose at path time `tau`, by the phases of the last second and all that are queued.
   std::optional<PlannedPose> planned_pose(PathTime tau) const;
+  /// The filament that will be fed, mm/s: means over steps of kFlowAheadStep, the first from `now`, as path
+  /// time is to go on now. Less than 0: drawn back.
+  FlowAhead filament_ahead(BusTime now) const;
   const Sentence& doing() const { return doing_; }
   const Counters& counters() const { return counters_; }
 

@@ -20,10 +20,11 @@ constexpr std::uint8_t narrow(std::uint32_t number) {
   return static_cast<std::uint8_t>(std::min(number, 255u));
 }
 
+HeaterId heater_of(joblink::HeaterKind kind, std::uint32_t index) {
+  return {static_cast<HeaterKind>(narrow(static_cast<std::uint32_t>(kind))), narrow(index)};
+}
 HeaterId heater_of(const joblink::SetTemperature& request) {
-  if (request.bed()) return kFirstBed;
-  const std::uint8_t kind = narrow(static_cast<std::uint32_t>(request.kind()));
-  return {static_cast<HeaterKind>(kind), narrow(request.index())};
+  return request.bed() ? kFirstBed : heater_of(request.kind(), request.index());
 }
 
 template <typename C>
@@ -76,6 +77,11 @@ const Row kTable[] = {
      [](const ClientMessage& m) -> Command {
        const joblink::JogMotor& jog = m.jog_motor();
        return command::JogMotor{jog.joint(), jog.distance(), jog.speed_per_s()};
+     }},
+    {joblink::COMMAND_TUNE_HEATER, command::kind<command::TuneHeater>,
+     [](const ClientMessage& m) -> Command {
+       const joblink::TuneHeater& tune = m.tune_heater();
+       return command::TuneHeater{heater_of(tune.kind(), tune.index()), tune.celsius()};
      }},
 };
 

@@ -20,7 +20,8 @@ bool MachineRequests::take(const Asker& asker, const ClientMessage& message) {
     console(asker, message.console().line());
     return true;
   }
-  if (message.request_case() < ClientMessage::kStartJob || message.request_case() > ClientMessage::kJogMotor)
+  if (message.request_case() < ClientMessage::kStartJob ||
+      message.request_case() > ClientMessage::kTuneHeater)
     return false;
   if (!server_.control_.may_command(session_.client())) {
     server_.refuse(asker, server_.no_control());

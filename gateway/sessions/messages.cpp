@@ -22,6 +22,19 @@ void set_heater(joblink::Heater& message, const HeaterStatus& heater) {
   message.set_target_celsius(heater.target_celsius);
 }
 
+static_assert(static_cast<int>(TuningStage::kFailed) == joblink::TUNING_FAILED);
+
+void set_tuning(joblink::HeaterTuning& message, const HeaterTuning& tuning) {
+  message.set_stage(static_cast<joblink::TuningStage>(tuning.stage));
+  message.set_celsius(tuning.celsius);
+  message.set_power_w(tuning.model.power_w);
+  message.set_capacity_j_per_k(tuning.model.capacity_j_per_k);
+  message.set_loss_w_per_k(tuning.model.loss_w_per_k);
+  message.set_lag_s(tuning.model.lag_s);
+  message.set_dead_s(tuning.model.dead_s);
+  if (!tuning.failure.empty()) *message.mutable_failure() = to_message(tuning.failure);
+}
+
 void set_output(joblink::Output& message, const OutputStatus& output) {
   message.set_name(shown(output.name));
   message.set_index(output.index);
@@ -245,6 +258,7 @@ joblink::Status to_message(const MachineStatus& s) {
     h.set_kind(static_cast<joblink::HeaterKind>(heater.id.kind));
     h.set_index(heater.id.index);
     h.set_name(shown(heater.name));
+    if (heater.tuning.stage != TuningStage::kNone) set_tuning(*h.mutable_tuning(), heater.tuning);
   }
   for (const OutputStatus& fan : s.fans) {
     set_output(*m.add_fans(), fan);

@@ -3241,6 +3241,106 @@
         <translation>%1 اینجا نمی‌تواند به‌تنهایی حرکت کند</translation>
     </message>
     <message>
+        <source>it is simulated: only a heater on a heat node can be measured</source>
+        <translation>شبیه‌سازی‌شده است: تنها گرم‌کنی که روی یک گرهٔ گرم‌کن باشد اندازه‌گیری می‌شود</translation>
+    </message>
+    <message>
+        <source>it was ended before it was done</source>
+        <translation>پیش از پایان کار متوقف شد</translation>
+    </message>
+    <message>
+        <source>its node was not in operation any more: measure it again</source>
+        <translation>گره آن دیگر در کار نبود: دوباره اندازه بگیرید</translation>
+    </message>
+    <message>
+        <source>the way to the temperature is too short to measure anything: let it cool first</source>
+        <translation>راه تا آن دما برای اندازه‌گیری بسیار کوتاه است: نخست بگذارید خنک شود</translation>
+    </message>
+    <message>
+        <source>full power does not warm its sensor: look whether heater and sensor are plugged in, and in their places</source>
+        <translation>توان کامل حسگرش را گرم نمی‌کند: ببینید گرم‌کن و حسگر وصل و در جای خود باشند</translation>
+    </message>
+    <message>
+        <source>it was not half the way up after 20 minutes: choose a lower temperature, or look at its supply and its power</source>
+        <translation>پس از 20 دقیقه به نیمهٔ راه نرسید: دمای پایین‌تری برگزینید یا تغذیه و توان آن را ببینید</translation>
+    </message>
+    <message>
+        <source>it would have gone above its limit: choose a lower temperature</source>
+        <translation>از حد خود بالاتر می‌رفت: دمای پایین‌تری برگزینید</translation>
+    </message>
+    <message>
+        <source>its curve is not that of a heater: look for a loose heater or sensor, a fan or a draught, then measure again</source>
+        <translation>منحنی آن از آنِ یک گرم‌کن نیست: گرم‌کن یا حسگر شل، فن یا جریان هوا را بجویید و دوباره اندازه بگیرید</translation>
+    </message>
+    <message>
+        <source>its node gives no reason</source>
+        <translation>گره آن دلیلی نمی‌گوید</translation>
+    </message>
+    <message>
+        <source>its node refuses to measure it: %1</source>
+        <translation>گره آن اندازه‌گیری را نمی‌پذیرد: %1</translation>
+    </message>
+    <message>
+        <source>its node has ended it: see its alarms, or measure it again</source>
+        <translation>گره آن را پایان داد: هشدارهایش را ببینید یا دوباره اندازه بگیرید</translation>
+    </message>
+    <message>
+        <source>its node did not store it, and forgets it without power: %1</source>
+        <translation>گره آن را ذخیره نکرد و بی برق فراموش می‌کند: %1</translation>
+    </message>
+    <message>
+        <source>its node does not answer: %1</source>
+        <translation>گره آن پاسخ نمی‌دهد: %1</translation>
+    </message>
+    <message>
+        <source>M303 measures a heater, which no job does: write it on the console or send it from a print host while nothing runs</source>
+        <translation>M303 یک گرم‌کن را اندازه می‌گیرد و هیچ کاری چنین نمی‌کند: وقتی چیزی اجرا نمی‌شود آن را در کنسول بنویسید یا از برنامهٔ چاپ بفرستید</translation>
+    </message>
+    <message>
+        <source>measure a heater</source>
+        <translation>اندازه‌گیری یک گرم‌کن</translation>
+    </message>
+    <message>
+        <source>cannot %1 while heater.%2 is measured: a target of 0 ends that</source>
+        <translation>هنگام اندازه‌گیری گرم‌کن heater.%2 ممکن نیست: %1؛ هدف 0 آن را پایان می‌دهد</translation>
+    </message>
+    <message>
+        <source>an interrupted job waits: cancel it, or resume it, before a heater is measured</source>
+        <translation>یک کار نیمه‌تمام در انتظار است: پیش از اندازه‌گیری گرم‌کن آن را لغو کنید یا ادامه دهید</translation>
+    </message>
+    <message>
+        <source>%1 is measured, to be good at %2 C: full power for half of the way</source>
+        <translation>%1 برای کار در %2 °C اندازه‌گیری می‌شود: توان کامل تا نیمهٔ راه</translation>
+    </message>
+    <message>
+        <source>%1: the power is off, its curve is followed</source>
+        <translation>%1: توان قطع است و منحنی آن دنبال می‌شود</translation>
+    </message>
+    <message>
+        <source>%1 was not measured: %2</source>
+        <translation>%1 اندازه‌گیری نشد: %2</translation>
+    </message>
+    <message>
+        <source>%1: at %2 W it has %3 J/K, a dead time of %4 s, a lag of %5 s, and loses %6 W/K</source>
+        <translation>%1: با %2 W دارای %3 J/K، زمان مردهٔ %4 s، تأخیر %5 s و اتلاف %6 W/K است</translation>
+    </message>
+    <message>
+        <source>M303 names a heater by a whole number: E0 or H1 the first hot end, E-1 or H0 the bed</source>
+        <translation>M303 گرم‌کن را با عدد صحیح می‌نامد: E0 یا H1 نخستین نازل و E-1 یا H0 بستر</translation>
+    </message>
+    <message>
+        <source>heater.%1 is being measured: a target of 0 ends that</source>
+        <translation>گرم‌کن heater.%1 در حال اندازه‌گیری است: هدف 0 آن را پایان می‌دهد</translation>
+    </message>
+    <message>
+        <source>a heater is measured while all are off: switch them off first</source>
+        <translation>یک گرم‌کن وقتی اندازه‌گیری می‌شود که همه خاموش باشند: نخست آن‌ها را خاموش کنید</translation>
+    </message>
+    <message>
+        <source>%1 is at %2 C: from there to %3 C it is less than the %4 K that a measurement needs; let it cool, or choose a higher temperature</source>
+        <translation>%1 اکنون %2 °C است: از آنجا تا %3 °C کمتر از %4 K است که اندازه‌گیری لازم دارد؛ بگذارید خنک شود یا دمای بالاتری برگزینید</translation>
+    </message>
+    <message>
         <source>M906 takes letters with numbers, as M906 X800 H400 or M906 I1 S800</source>
         <translation>M906 حرف با عدد می‌گیرد، مانند M906 X800 H400 یا M906 I1 S800</translation>
     </message>

@@ -3241,6 +3241,106 @@
         <translation>%1 burada tek başına hareket edemez</translation>
     </message>
     <message>
+        <source>it is simulated: only a heater on a heat node can be measured</source>
+        <translation>o benzetilmiş: yalnızca bir ısı düğümündeki ısıtıcı ölçülebilir</translation>
+    </message>
+    <message>
+        <source>it was ended before it was done</source>
+        <translation>bitmeden sonlandırıldı</translation>
+    </message>
+    <message>
+        <source>its node was not in operation any more: measure it again</source>
+        <translation>düğümü artık çalışmıyordu: yeniden ölçün</translation>
+    </message>
+    <message>
+        <source>the way to the temperature is too short to measure anything: let it cool first</source>
+        <translation>sıcaklığa kalan yol bir şey ölçmek için çok kısa: önce soğumasını bekleyin</translation>
+    </message>
+    <message>
+        <source>full power does not warm its sensor: look whether heater and sensor are plugged in, and in their places</source>
+        <translation>tam güç algılayıcısını ısıtmıyor: ısıtıcı ile algılayıcının takılı ve yerinde olup olmadığına bakın</translation>
+    </message>
+    <message>
+        <source>it was not half the way up after 20 minutes: choose a lower temperature, or look at its supply and its power</source>
+        <translation>20 dakika sonra yolun yarısına gelmemişti: daha düşük bir sıcaklık seçin ya da beslemesine ve gücüne bakın</translation>
+    </message>
+    <message>
+        <source>it would have gone above its limit: choose a lower temperature</source>
+        <translation>sınırını aşacaktı: daha düşük bir sıcaklık seçin</translation>
+    </message>
+    <message>
+        <source>its curve is not that of a heater: look for a loose heater or sensor, a fan or a draught, then measure again</source>
+        <translation>eğrisi bir ısıtıcının eğrisi değil: gevşek ısıtıcı veya algılayıcı, fan ya da hava akımı arayın, sonra yeniden ölçün</translation>
+    </message>
+    <message>
+        <source>its node gives no reason</source>
+        <translation>düğümü neden bildirmiyor</translation>
+    </message>
+    <message>
+        <source>its node refuses to measure it: %1</source>
+        <translation>düğümü onu ölçmeyi reddediyor: %1</translation>
+    </message>
+    <message>
+        <source>its node has ended it: see its alarms, or measure it again</source>
+        <translation>düğümü sonlandırdı: alarmlarına bakın ya da yeniden ölçün</translation>
+    </message>
+    <message>
+        <source>its node did not store it, and forgets it without power: %1</source>
+        <translation>düğümü bunu saklamadı, elektrik kesilince unutur: %1</translation>
+    </message>
+    <message>
+        <source>its node does not answer: %1</source>
+        <translation>düğümü yanıt vermiyor: %1</translation>
+    </message>
+    <message>
+        <source>M303 measures a heater, which no job does: write it on the console or send it from a print host while nothing runs</source>
+        <translation>M303 bir ısıtıcıyı ölçer, bunu hiçbir iş yapmaz: hiçbir şey çalışmazken konsola yazın veya yazdırma programından gönderin</translation>
+    </message>
+    <message>
+        <source>measure a heater</source>
+        <translation>bir ısıtıcıyı ölçme</translation>
+    </message>
+    <message>
+        <source>cannot %1 while heater.%2 is measured: a target of 0 ends that</source>
+        <translation>heater.%2 (ısıtıcı) ölçülürken yapılamaz: %1; hedef 0 ölçümü bitirir</translation>
+    </message>
+    <message>
+        <source>an interrupted job waits: cancel it, or resume it, before a heater is measured</source>
+        <translation>yarıda kalmış bir iş bekliyor: bir ısıtıcı ölçülmeden önce onu iptal edin veya sürdürün</translation>
+    </message>
+    <message>
+        <source>%1 is measured, to be good at %2 C: full power for half of the way</source>
+        <translation>%1 ölçülüyor, %2 °C için: yolun yarısına kadar tam güç</translation>
+    </message>
+    <message>
+        <source>%1: the power is off, its curve is followed</source>
+        <translation>%1: güç kapalı, eğrisi izleniyor</translation>
+    </message>
+    <message>
+        <source>%1 was not measured: %2</source>
+        <translation>%1 ölçülemedi: %2</translation>
+    </message>
+    <message>
+        <source>%1: at %2 W it has %3 J/K, a dead time of %4 s, a lag of %5 s, and loses %6 W/K</source>
+        <translation>%1: %2 W güçle %3 J/K, ölü zaman %4 s, gecikme %5 s, kayıp %6 W/K</translation>
+    </message>
+    <message>
+        <source>M303 names a heater by a whole number: E0 or H1 the first hot end, E-1 or H0 the bed</source>
+        <translation>M303 ısıtıcıyı tam sayıyla adlandırır: E0 veya H1 ilk nozul, E-1 veya H0 tabla</translation>
+    </message>
+    <message>
+        <source>heater.%1 is being measured: a target of 0 ends that</source>
+        <translation>heater.%1 (ısıtıcı) ölçülüyor: hedef 0 bunu bitirir</translation>
+    </message>
+    <message>
+        <source>a heater is measured while all are off: switch them off first</source>
+        <translation>bir ısıtıcı hepsi kapalıyken ölçülür: önce hepsini kapatın</translation>
+    </message>
+    <message>
+        <source>%1 is at %2 C: from there to %3 C it is less than the %4 K that a measurement needs; let it cool, or choose a higher temperature</source>
+        <translation>%1 şu anda %2 °C: oradan %3 °C değerine, ölçümün gerektirdiği %4 K&apos;den az; soğumasını bekleyin veya daha yüksek bir sıcaklık seçin</translation>
+    </message>
+    <message>
         <source>M906 takes letters with numbers, as M906 X800 H400 or M906 I1 S800</source>
         <translation>M906 sayılı harfler alır: M906 X800 H400 ya da M906 I1 S800 gibi</translation>
     </message>

@@ -142,6 +142,43 @@ int wait_for_heat(Client& client, const std::string& heater, double celsius) {
   }
 }
 
+joblink::Heater watch_tuning(Client& client, const std::string& heater) {
+  ProgressLine line;
+  std::optional<double> from;
+  double shown = 0;
+  bool runs = false;
+  const auto asked = std::chrono::steady_clock::now();
+  for (;;) {
+    const auto report = client.next(std::chrono::seconds{10});
+    if (!report) throw ClientError("the daemon has gone silent");
+    if (const auto* event = std::get_if<Event>(&*report)) {
+      line.end();
+      print_event(*event);
+      continue;
+    }
+    const auto& heaters = std::get<Status>(*report).heaters();
+    const auto found = std::find_if(heaters.begin(), heaters.end(),
+                                    [&](const joblink::Heater& h) { return h.name() == heater; });
+    if (found == heaters.end()) throw ClientError("the daemon tells nothing of " + heater);
+    const joblink::HeaterTuning& tuning = found->tuning();
+    const bool over = tuning.stage() == joblink::TUNING_DONE || tuning.stage() == joblink::TUNING_FAILED;
+    // A status may be older than what was asked.
+    runs = runs || (!over && tuning.stage() != joblink::TUNING_NONE);
+    const bool new_by_now = std::chrono::steady_clock::now() - asked > std::chrono::seconds{2};
+    if (over && (runs || new_by_now)) {
+      line.end();
+      return *found;
+    }
+    if (!from) from = found->actual_celsius();
+    // Full power for half of the way, then about as long without: the second half has no number of its own.
+    const double half = std::max(1.0, (tuning.celsius() - *from) / 2);
+    if (tuning.stage() == joblink::TUNING_HEATS)
+      shown = std::clamp((found->actual_celsius() - *from) / half, 0.0, 1.0) / 2;
+    line.show(shown, fmt::format("{} {:.1f} C  {}", heater, found->actual_celsius(),
+                                 tuning.stage() == joblink::TUNING_HEATS ? "full power" : "off, its curve"));
+  }
+}
+
 int watch_job(Client& client) {
   ProgressLine line;
   const Status status =

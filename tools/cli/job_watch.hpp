@@ -11,12 +11,15 @@ namespace kinebus {
 /// "1 h 02 min", "3 min 10 s", "12 s".
 std::string time_words(double seconds);
 
-/// Waits until the machine rests; events are printed. Returns the exit code: 0 when the status then is
-/// `good`. The client must be watching.
 /// Until the heater is at its target (within 2 K for 2 s), with progress on stdout. 1: it is to have another
 /// one by now, since somebody or a fault has changed it.
 int wait_for_heat(Client& client, const std::string& heater, double celsius);
 
+/// Until the heater's measurement, just begun, is over, with progress on stdout; as it is then.
+joblink::Heater watch_tuning(Client& client, const std::string& heater);
+
+/// Waits until the machine rests; events are printed. Returns the exit code: 0 when the status then is
+/// `good`. The client must be watching.
 int wait_until_rest(Client& client, const std::function<bool(const joblink::Status&)>& good);
 
 /// Shows a progress bar until the job ended. 0: complete; 1: not.

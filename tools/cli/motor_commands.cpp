@@ -12,6 +12,7 @@
 #include <string>
 
 #include "tools/cli/encoder_rows.hpp"
+#include "tools/cli/heat_command.hpp"
 #include "tools/cli/job_watch.hpp"
 #include "tools/cli/message_json.hpp"
 
@@ -24,13 +25,16 @@ constexpr double kRadiansPerDegree = 0.017453292519943295;
 constexpr double kMotorStatusHz = 10;
 
 /// Joint by its name, as the machine file has it.
-std::uint32_t joint_named(const joblink::MachineInfo& machine, const std::string& name) {
+/// `others`: names of other things that would have been right, each with ", " behind it.
+std::uint32_t joint_named(const joblink::MachineInfo& machine, const std::string& name,
+                          const std::string& others = {}) {
   std::string names;
   for (int i = 0; i < machine.joints_size(); ++i) {
     if (machine.joints(i).name() == name) return static_cast<std::uint32_t>(i);
     names += (i > 0 ? ", " : "") + machine.joints(i).name();
   }
-  throw ClientError(fmt::format("there is no joint {}; expected {}", name, names));
+  throw ClientError(fmt::format("there is no {} {}; expected {}{}",
+                                others.empty() ? "joint" : "joint or heater", name, others, names));
 }
 
 joblink::MachineInfo machine_of(Client& client) {
@@ -111,14 +115,26 @@ void add_motor_commands(CLI::App& app, const std::shared_ptr<MachineOptions>& op
   });
 
   auto tuned = std::make_shared<std::string>();
-  auto* tune = app.add_subcommand("tune", "Let a node measure a motor's winding while it stands");
-  tune->add_option("joint", *tuned, "Its name in the machine file")->required();
+  auto celsius = std::make_shared<std::optional<double>>();
+  auto* tune = app.add_subcommand(
+      "tune", "Let a node measure a motor's winding while it stands, or a heater: kinebus tune hotend");
+  tune->add_option("name", *tuned, "A joint's or a heater's name in the machine file")->required();
+  tune->add_option("--temperature", *celsius,
+                   "C that a heater shall be good at (default: 200 a hot end, 80 a bed, 70 a chamber)")
+      ->check(CLI::Range(1.0, 1000.0));
   tune->callback([=, &exit_code] {
     Client client(options->reach, kMotorStatusHz, true);
-    take_control(client, *options);
     const joblink::MachineInfo machine = machine_of(client);
+    if (const joblink::HeaterInfo* heater = heater_called(machine, *tuned)) {
+      exit_code = tune_heater(client, *options, *heater, celsius->value_or(0));
+      return;
+    }
+    if (*celsius) throw ClientError(no_such_heater(machine, *tuned));
+    take_control(client, *options);
     ClientMessage request;
-    request.mutable_tune_motor()->set_joint(joint_named(machine, *tuned));
+    std::string heaters;
+    for (const joblink::HeaterInfo& heater : machine.heaters()) heaters += heater.name() + ", ";
+    request.mutable_tune_motor()->set_joint(joint_named(machine, *tuned, heaters));
     const joblink::Joint& joint = machine.joints(static_cast<int>(request.tune_motor().joint()));
     client.ask(std::move(request));
     const bool done = listen_until(client, kMeasuredWithin, [&](const Status& s) {

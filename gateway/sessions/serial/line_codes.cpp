@@ -191,6 +191,8 @@ MarlinSession::Done MarlinSession::carry_out_m(const Line& line, int number) {
                                                    : HeaterKind::kChamber);
       }
       return to_machine(line);
+    case 303:
+      return measure_and_wait(line);
     case 999:
       if (!machine_stopped()) {
         halted_ = false;

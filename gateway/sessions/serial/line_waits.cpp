@@ -1,6 +1,8 @@
 // Lines whose "ok" comes when they are carried out: homing, heating, motion to its end, a stop that is
 // lifted.
 
+#include <algorithm>
+
 #include "gateway/sessions/serial/marlin_session.hpp"
 
 namespace kinebus {
@@ -45,6 +47,23 @@ MarlinSession::Done MarlinSession::heat_and_wait(const Line& line, HeaterKind ki
   return Done::kWaiting;
 }
 
+/// M303: nothing runs meanwhile, this session's own lines neither.
+MarlinSession::Done MarlinSession::measure_and_wait(const Line& line) {
+  if (mine_) {
+    if (!gateway_.lines_idle()) return Done::kWaiting;
+    gateway_.close_lines();
+    mine_ = false;
+  }
+  const bool closes = gateway_.state() == MachineState::kRunning && !file_runs_ && !gateway_.lines_open() &&
+                      gateway_.status().job == options_.name;
+  if (closes) return Done::kWaiting;
+  if (const auto begun = gateway_.text_line(line.text); !begun) return refuse(begun.error().words);
+  wait_ = Wait::kTuning;
+  heats_ = true;
+  next_temperature_ = now_ + kHeatReport;
+  return Done::kWaiting;
+}
+
 /// The line at the front is under way: is it over?
 MarlinSession::Done MarlinSession::wait_over() {
   const MachineState state = gateway_.state();
@@ -68,6 +87,12 @@ MarlinSession::Done MarlinSession::wait_over() {
       const bool warm = heater.actual_celsius >= heater.target_celsius - kHeaterWindow_c;
       const bool cool = !waits_cooling_ || heater.actual_celsius <= heater.target_celsius + kHeaterWindow_c;
       return (warm && cool) || (heater.target_celsius <= 0 && !waits_cooling_) ? over() : Done::kWaiting;
+    }
+    case Wait::kTuning: {
+      const MachineStatus s = gateway_.status();
+      const bool runs = std::any_of(s.heaters.begin(), s.heaters.end(),
+                                    [](const NamedHeaterStatus& h) { return h.tuning.runs(); });
+      return runs ? Done::kWaiting : over();
     }
     case Wait::kBringUp:
       if (state == MachineState::kBringUp) return Done::kWaiting;

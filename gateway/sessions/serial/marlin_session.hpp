@@ -68,7 +68,7 @@ class MarlinSession : public ByteSession {
     kWaiting,  ///< not yet: asked again as time passes
   };
   /// What the line at the front waits for, besides room.
-  enum class Wait : std::uint8_t { kNone, kIdle, kHeater, kBringUp, kHoming, kClear };
+  enum class Wait : std::uint8_t { kNone, kIdle, kHeater, kBringUp, kHoming, kClear, kTuning };
 
   void say(std::string_view line);
   void say_ok(const serial::Line& line);
@@ -92,6 +92,7 @@ class MarlinSession : public ByteSession {
   static constexpr LocalTime kHeatReport = std::chrono::seconds{1};
   Done home(const serial::Line& line);
   Done heat_and_wait(const serial::Line& line, HeaterKind kind);
+  Done measure_and_wait(const serial::Line& line);
   Done wait_over();
 
   // line_control.cpp: who may command

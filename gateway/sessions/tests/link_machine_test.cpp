@@ -178,6 +178,10 @@ TEST_F(LinkMachineTest, AMotorsCurrentsAreSetAndOneMotorIsJogged) {
   ClientMessage tune;
   tune.mutable_tune_motor()->set_joint(17);
   EXPECT_TRUE(rig_.ask(*anna_, tune).has_error());
+  ClientMessage heater;
+  heater.mutable_tune_heater()->set_kind(joblink::HEATER_HOTEND);
+  EXPECT_NE(rig_.ask(*anna_, heater).error().rule().find("only a heater on a heat node can be measured"),
+            std::string::npos);
 }
 
 TEST_F(LinkMachineTest, TheStatusTellsWhichCommandsMayBeGivenAndWhyNotTheOthers) {

@@ -31,7 +31,7 @@ struct VirtualMachine::VirtualNode {
       return;
     }
     if (!plant) plant = std::make_unique<heat::HeatPlant>(static_cast<std::uint32_t>(index) + 1);
-    heat.emplace(heat::HeatNodeOptions{options.node.node_id, options.node.identity.serial}, local);
+    heat.emplace(heat::HeatNodeOptions{options.node.node_id, options.node.identity.serial}, local, stored);
     next_sample = local;
   }
   bool powered() const { return core || heat; }
@@ -80,8 +80,11 @@ struct VirtualMachine::VirtualNode {
   }
   template <typename Core>
   BusTime put_out(Core& of, BusModel& bus, BusTime now) {
-    // Parameters are stored at once; a virtual node powers up with its defaults all the same.
-    if (!of.image_to_store().empty()) of.on_image_stored(true);
+    // Parameters are stored at once; a node with axes powers up with its defaults all the same.
+    if (const auto image = of.image_to_store(); !image.empty()) {
+      if (heat) stored.assign(image.begin(), image.end());
+      of.on_image_stored(true);
+    }
     while (bus.has_room(port)) {
       const auto frame = of.next_frame();
       if (!frame) break;
@@ -105,6 +108,7 @@ struct VirtualMachine::VirtualNode {
   std::optional<Node> core;            // none: without power, or a heat node
   std::optional<heat::HeatNode> heat;  // none: without power, or a node with axes
   std::unique_ptr<heat::HeatPlant> plant;
+  std::vector<std::uint8_t> stored;  // parameters of a heat node
   LocalTime next_sample{0};
   bool stalled = false;
   std::uint32_t lost_while_stalled = 0;  // frames that its full queue refused: it finds out when it goes on

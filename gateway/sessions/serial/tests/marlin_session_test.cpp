@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "gateway/machine/tests/heat_printer.hpp"
 #include "gateway/sessions/serial/tests/serial_rig.hpp"
 
 namespace kinebus {
@@ -71,6 +72,25 @@ TEST(MarlinSession, M112StopsAtOnceThoughLinesWait) {
   rig.ask("M999");
   EXPECT_EQ(rig.machine.gateway->state(), MachineState::kReady) << rig.log();
   EXPECT_EQ(rig.ask("G1 X1 F600"), "");
+}
+
+TEST(MarlinSession, M303IsAnsweredWhenTheHeaterIsMeasured) {
+  SerialRig rig(0, 1, printer_on_the_bus());
+  ASSERT_TRUE(rig.machine.make_ready());
+  rig.ask("G91");
+  rig.ask("G1 X5 F3000");  // its lines are open
+  const std::string answer = rig.ask("M303 E0 S210 C8", 400s);
+  for (const char* words : {"full power for half of the way", "T:1", "busy: processing", "dead time of"})
+    EXPECT_NE((answer + rig.log()).find(words), std::string::npos) << words << "\n" << answer << rig.log();
+  bool done = false;
+  for (const NamedHeaterStatus& heater : rig.machine.gateway->status().heaters)
+    done = done || heater.tuning.stage == TuningStage::kDone;
+  EXPECT_TRUE(done) << rig.log();
+  EXPECT_EQ(rig.ask("G1 X5 F3000"), "");
+  SerialRig simulated;
+  ASSERT_TRUE(simulated.machine.make_ready());
+  EXPECT_EQ(simulated.ask("M303 E0 S210"),
+            "echo:heater.hotend: it is simulated: only a heater on a heat node can be measured\n");
 }
 
 TEST(MarlinSession, MotionOfTheLeadHoldsTheOkBack) {

@@ -6,6 +6,7 @@
 #include <random>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gateway/machine/tests/machine_rig.hpp"
@@ -61,8 +62,10 @@ class MemoryFiles : public SerialFiles {
 class SerialRig {
  public:
   using Clock = std::chrono::nanoseconds;
-  explicit SerialRig(double noise_per_line = 0, std::uint64_t seed = 1)
-      : files(*machine.gateway),
+  explicit SerialRig(double noise_per_line = 0, std::uint64_t seed = 1,
+                     MachineDescription description = default_m1())
+      : machine(std::move(description)),
+        files(*machine.gateway),
         session(*machine.gateway, files, {.control = &control}),
         noise_(noise_per_line),
         random_(seed) {
