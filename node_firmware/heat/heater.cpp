@@ -76,7 +76,10 @@ void Heater::step(const SensorInput& sensor, std::uint32_t supply_mv) {
   // What really went out: nothing while the sensor is not believed.
   given_ = static_cast<std::uint32_t>(static_cast<std::uint64_t>(duty_) * strength_ / kFullPower);
   if (const HeaterFault fault = heater_fault(sensor.fault()); fault != HeaterFault::kNone) trip(fault);
-  if (!sensor.good()) {
+  // Where nothing changes the model has nothing to miss: in holding only this tells.
+  if (sensor.frozen() && (target_ != 0 || tuning_ != nullptr)) trip(HeaterFault::kSensorSilent);
+  const bool repeats = sensor.frozen() && fault_ == HeaterFault::kSensorSilent;
+  if (!sensor.good() || repeats) {
     // Blind for a moment: no power, no word from the watch, and the model goes on by itself.
     if (started_ && has_model_) model_.step_blind(-given_forward_);
     watch_.interrupt();

@@ -12,6 +12,7 @@ SetupError SensorInput::configure(const SensorSetup& setup, LocalTime now) {
 
 void SensorInput::clear(LocalTime now) {
   fault_ = SensorFault::kNone;
+  same_ = 0;
   start_over(now);
 }
 
@@ -34,6 +35,7 @@ SensorFault SensorInput::judge(std::uint32_t ratio, std::int32_t mc, bool broken
 
 void SensorInput::on_sample(LocalTime now, std::uint32_t ratio, bool broken) {
   if (!configured()) return;
+  same_ = ratio == ratio_ ? same_ + 1 : 0;
   ratio_ = ratio;
   heard_at_ = now;
   const std::int32_t mc = table_.milli_celsius(ratio);

@@ -29,6 +29,10 @@ class SensorInput {
   /// A single sample so far from the mean is suspect. 80 W on 8 J/K are 10 K/s: 0.4 K against the mean.
   static constexpr std::int32_t kJump = 8'000;
 
+  /// A converter that says the same to the last bit for so long repeats itself: noise moves a sum of several
+  /// conversions all the time.
+  static constexpr LocalTime kFrozen = std::chrono::seconds{5};
+
   SetupError configure(const SensorSetup& setup, LocalTime now);
   bool configured() const { return table_.kind() != SensorKind::kNone; }
 
@@ -45,6 +49,7 @@ class SensorInput {
   /// True: the temperature is what the sensor says now. A heater has power only then.
   bool good() const { return good_ && fault_ == SensorFault::kNone; }
   SensorFault fault() const { return fault_; }
+  bool frozen() const { return same_ >= kFrozen / kSamplePeriod; }
 
  private:
   SensorFault judge(std::uint32_t ratio, std::int32_t mc, bool broken) const;
@@ -55,6 +60,7 @@ class SensorInput {
   std::uint8_t filled_ = 0, at_ = 0;
   std::int32_t sum_ = 0, mean_ = 0;
   std::uint32_t ratio_ = 0;
+  std::uint32_t same_ = 0;  // samples in a row that were as the one before
   bool good_ = false;
   SensorFault fault_ = SensorFault::kNone;
   LocalTime good_at_{0};  // last good sample

@@ -42,6 +42,7 @@ const std::vector<Kind>& kinds() {
       {"sensor open", "sensor 1 open", "sensor 1 ok", 0.5, 0.1, 1.2},
       {"sensor shorted", "sensor 1 short", "sensor 1 ok", 0.5, 0.1, 1.2},
       {"converter silent", "sensor 1 silent", "sensor 1 ok", 0.5, 0.1, 1.2},
+      {"converter frozen", "sensor 1 frozen", "sensor 1 ok", 5.5, 5.5},
       {"sensor out of its hole", "sensor 1 loose", "sensor 1 ok", 2, 2, 5.5, 5.4, 40},
       {"heater out of its hole", "heater 1 loose", "heater 1 ok", 12, 12, 20.5, 20, 44},
       {"heater's wire off", "heater 1 open", "heater 1 ok", 12, 12, 20.5, 20, 44},

@@ -93,6 +93,8 @@ const std::vector<FaultCase>& cases() {
       {"converter silent", When::kHolding, [](auto& p) { p.silent = true; }, HeaterFault::kSensorSilent, 0.3,
        0.05},
       {"converter frozen", When::kHeating, [](auto& p) { p.frozen = true; }, HeaterFault::kHeatMissing, 3, 3},
+      {"converter frozen", When::kHolding, [](auto& p) { p.frozen = true; }, HeaterFault::kSensorSilent, 5.2,
+       5.2},
       {"sensor out of its hole", When::kHeating, [](auto& p) { p.sensor_contact = 0; },
        HeaterFault::kHeatMissing, 2, 2},
       {"sensor out of its hole", When::kHolding, [](auto& p) { p.sensor_contact = 0; },
