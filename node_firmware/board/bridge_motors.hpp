@@ -33,6 +33,7 @@ concept BridgeStage = requires(T& stage, const T& seen, int axis, const motor::A
   T::begin_encoder(axis);
   stage.apply(axis, outputs);
   stage.on_break(axis);
+  { seen.dark() } -> std::same_as<bool>;  // no bridge is on
   // Once for a break. From the break until then apply() gives no power, whatever it is told.
   { stage.take_break(axis) } -> std::same_as<bool>;
 };
@@ -56,6 +57,8 @@ class BridgeMotors {
   /// Control interrupts so far; the watchdog wants to see it move.
   std::uint32_t ticks() const { return ticks_.load(std::memory_order_relaxed); }
   ControlCycles cycles() const { return cycles_; }
+  /// No bridge is on: a control interrupt may be missed.
+  bool dark() const { return stage_.dark(); }
   const MotorSupervision& supervision() const { return supervision_; }
 
   // Interrupts.

@@ -50,11 +50,11 @@ concept SwitchDriver = requires(T& switches, const T& seen) {
   switches.drop();
 };
 
-/// Resets the processor when it is not fed for about 100 ms; longer only where an erase is allowed.
+/// Resets the processor when it is not fed for about 100 ms; longer only while flash is written.
 template <typename T>
 concept WatchdogDriver = requires(T& dog) {
   dog.feed();
-  dog.allow_erase();
+  dog.allow_flash();
   dog.back_to_normal();
 };
 

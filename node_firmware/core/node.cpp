@@ -128,6 +128,7 @@ void Node::on_sync(const SyncReception& sync) {
 
 void Node::on_lss() {
   if (lss_.take_store_request()) {
+    if (powered()) return lss_.refuse_store();
     const std::uint8_t id = lss_.pending_node_id();
     image_.set_node_id(id == kUnconfiguredNodeId ? std::uint8_t{0} : id);
     storing_ = Storing::kWanted;
@@ -323,8 +324,18 @@ LocalTime Node::next_deadline() const {
 
 std::span<const std::uint8_t> Node::image_to_store() {
   if (storing_ != Storing::kWanted) return {};
+  if (powered()) {
+    refuse_storing();
+    return {};
+  }
   storing_ = Storing::kWriting;
   return image_.bytes();
+}
+
+void Node::refuse_storing() {
+  storing_ = Storing::kNothing;
+  if (std::exchange(storing_for_lss_, false)) lss_.refuse_store();
+  if (sdo_.deferred() && !clearing_) sdo_.finish(AbortCode::kDeviceState);
 }
 
 void Node::on_image_stored(bool good) {

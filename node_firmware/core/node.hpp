@@ -130,6 +130,8 @@ class Node final : private ObjectOwner {
   /// The same in the coordinates of 6064h and of the stream.
   std::int64_t user_position(LocalTime at, int axis);
   bool moving(LocalTime at) const;
+  /// An axis has power: no flash is written then, for that holds up the control of the motors.
+  bool powered() const { return axes_[0].powered() || axes_[1].powered(); }
   DriveOutput drive(int axis) const;
   /// COB-IDs of the receive PDOs that are on, for a port that filters; 0: off.
   std::array<std::uint16_t, kRpdoCount> rpdo_cob_ids() const;
@@ -147,7 +149,8 @@ class Node final : private ObjectOwner {
   const DriveAxis& axis(int index) const { return axes_[static_cast<std::size_t>(index)]; }
 
   // Storage: asked for by 1010h, 1011h or LSS, whose answer on the bus waits for on_image_stored().
-  /// The image to write, once; empty: nothing to do. Valid until the next call of any member.
+  /// The image to write, once; empty: nothing to do, or refused because power has come since it was asked
+  /// for. Valid until the next call of any member.
   std::span<const std::uint8_t> image_to_store();
   void on_image_stored(bool good);
 
@@ -197,6 +200,7 @@ class Node final : private ObjectOwner {
   bool clear_allowed() const;
   bool in_motion() const;
   void end_stop();
+  void refuse_storing();
 
   NodeOptions options_;
   LocalTime now_;

@@ -49,6 +49,8 @@ class LssSlave {
   /// The master wants the pending id kept through power-off; answer with finish_store().
   bool take_store_request();
   void finish_store(bool good);
+  /// Not now: 255, implementation specific, with 1: a drive has power.
+  void refuse_store();
 
  private:
   void reply(std::uint8_t command, std::uint32_t data = 0);

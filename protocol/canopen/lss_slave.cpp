@@ -32,6 +32,10 @@ void LssSlave::finish_store(bool good) {
   reply(lss::kStore, good ? 0 : 2);
 }  // 2: storage media access error
 
+void LssSlave::refuse_store() {
+  reply(lss::kStore, 0x01FF);
+}
+
 void LssSlave::set_configuring(bool configuring) {
   // CiA 305: an unconfigured node that was given an id starts with it on its way back to waiting.
   if (configuring_ && !configuring && active_ == kUnconfiguredNodeId && pending_ != kUnconfiguredNodeId) {

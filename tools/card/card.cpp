@@ -224,6 +224,15 @@ Card::Tuned Card::tune(int axis) {
 }
 
 void Card::store() {
+  using enum cia402::State;
+  for (int axis = 0; axis < 2; ++axis)
+    if (const cia402::State state = drive_state(axis); state == kSwitchedOn || state == kOperationEnabled ||
+                                                       state == kQuickStopActive ||
+                                                       state == kFaultReactionActive)
+      throw CardError(
+          fmt::format("motor {} has power, and a node writes no memory while one has: switch it "
+                      "off first (kinebus-card off {})",
+                      "AB"[axis], "AB"[axis]));
   write(object::kStoreParameters, kSaveSignature);
 }
 

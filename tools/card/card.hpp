@@ -63,7 +63,7 @@ class Card {
                    const std::function<bool()>& stop = {});
   /// Switches the motor on and lets the node measure it: it must be free to turn by a few steps.
   Tuned tune(int axis);
-  /// What was set and measured is kept through power-off (1010h).
+  /// What was set and measured is kept through power-off (1010h). Neither motor may have power.
   void store();
 
  private:

@@ -114,7 +114,7 @@ int run(int argc, char** argv) {
   for (auto* command : {current_command, on_command, off_command, jog_command, tune_command})
     command->add_option("motor", arguments.axis, "A or B")->required()->check(CLI::IsMember({"A", "B"}));
   for (auto* command : {current_command, tune_command})
-    command->add_flag("--store", arguments.store, "Kept through power-off");
+    command->add_flag("--store", arguments.store, "Kept through power-off; no motor has power then");
   if (const auto end = kinebus::parse_arguments(app, argc, argv)) return *end;
   if (*current_command && !arguments.run_ma && !arguments.hold_ma)
     return fmt::print(stderr, "current: expected --run, --hold or both\n"), 2;
@@ -138,6 +138,7 @@ int run(int argc, char** argv) {
   if (*on_command || *off_command) card.power(arguments.index(), bool(*on_command));
   if (*jog_command) jog(card, arguments);
   if (*tune_command) tune(card, arguments);
+  if (arguments.store && *tune_command) card.power(arguments.index(), false);
   if (arguments.store) card.store();
   return 0;
 }

@@ -73,9 +73,9 @@ struct Switches {
 
 struct Watchdog {
   void feed() { ++feeds; }
-  void allow_erase() { ++erases; }
-  void back_to_normal() { --erases; }
-  int feeds = 0, erases = 0;
+  void allow_flash() { ++patient, ++allowed; }
+  void back_to_normal() { --patient; }
+  int feeds = 0, patient = 0, allowed = 0;
 };
 
 /// What a test wants to be measured; one, as a board has one.
@@ -119,6 +119,7 @@ struct Stage {
   void apply(int axis, const motor::AxisOutputs& outputs) {
     applied[static_cast<std::size_t>(axis)] = outputs;
   }
+  bool dark() const { return !applied[0].power && !applied[1].power; }
   void on_break(int axis) {
     ++breaks;
     broken[static_cast<std::size_t>(axis)] = true;

@@ -179,6 +179,39 @@ TEST_F(OneNode, RestoreBringsTheDefaultsBackAtTheNextReset) {
   expect_exchange(node, now, {{To, "601#4081600000000000"}, {From, "581#4381600000F40100"}});
 }
 
+TEST_F(OneNode, NothingIsStoredWhileAnAxisHasPower) {
+  node.on_frame(now, frame_of("000#0101"));
+  for (const char* word : {"601#2B40600006000000", "601#2B40600007000000"})
+    node.on_frame(now, frame_of(word));
+  ASSERT_TRUE(node.powered());
+  while (node.next_frame()) {
+  }
+  expect_exchange(node, now,
+                  {{To, "601#2310100173617665"},
+                   {From, "581#8010100122000008"},
+                   {To, "601#231110016C6F6164"},
+                   {From, "581#8011100122000008"}});
+  node.on_frame(now, frame_of("7E5#0401000000000000"));
+  node.on_frame(now, frame_of("7E5#1700000000000000"));
+  EXPECT_EQ(text_of(*node.next_frame()), "7E4#17FF010000000000");
+  EXPECT_TRUE(node.image_to_store().empty());
+}
+
+TEST_F(OneNode, PowerThatComesBeforeTheMemoryIsWrittenComesFirst) {
+  node.on_frame(now, frame_of("601#2310100173617665"));
+  node.on_frame(now, frame_of("7E5#0401000000000000"));
+  node.on_frame(now, frame_of("7E5#1700000000000000"));
+  node.on_frame(now, frame_of("000#0101"));
+  for (const char* word : {"201#0600", "201#0700"})
+    node.on_frame(now, frame_of(std::string(word) + "00000000"));
+  ASSERT_TRUE(node.powered());
+  EXPECT_TRUE(node.image_to_store().empty());
+  std::vector<std::string> sent;
+  while (const auto frame = node.next_frame()) sent.push_back(text_of(*frame));
+  for (const char* told : {"581#8010100122000008", "7E4#17FF010000000000"})
+    EXPECT_EQ(std::count(sent.begin(), sent.end(), told), 1) << told;
+}
+
 TEST(NodeLss, AnUnconfiguredNodeGetsItsIdOverTheBusAndKeepsIt) {
   LocalTime now{0};
   Node node({.identity = {.serial = 0x1234}}, now);

@@ -95,7 +95,7 @@ int main() {
       program->send();
       program->touch();
     }
-    store_parameters(node, parameters, dog);
+    if (motors.dark()) store_parameters(node, parameters, dog);
     const Console::Subject subject{.node = node,
                                    .motors = motors.supervision(),
                                    .cycles = motors.cycles(),

@@ -105,7 +105,7 @@ void PowerStage::on_break(int axis) {
   // again.
   timer(axis).DIER = 0;
   timer(axis).SR = ~Timer::kBreakFlag;
-  on_[static_cast<std::size_t>(axis)] = false;
+  on_[static_cast<std::size_t>(axis)].store(false, std::memory_order_relaxed);
   broken_[static_cast<std::size_t>(axis)].store(true, std::memory_order_relaxed);
 }
 
@@ -115,10 +115,10 @@ void PowerStage::apply(int axis, const motor::AxisOutputs& outputs) {
   if (!outputs.power) {
     // The period in which power comes begins with these, not with the duty of before.
     rest_at_half(t);
-    if (on_[i]) {
+    if (on_[i].load(std::memory_order_relaxed)) {
       t.BDTR = kBreakSetting;
       write(board::kDriverEnable[i], false);
-      on_[i] = false;
+      on_[i].store(false, std::memory_order_relaxed);
     }
     return;
   }
@@ -128,7 +128,7 @@ void PowerStage::apply(int axis, const motor::AxisOutputs& outputs) {
   t.CCR[1] = static_cast<std::uint32_t>(kHalf - a + 0.5F);
   t.CCR[2] = static_cast<std::uint32_t>(kHalf + b + 0.5F);
   t.CCR[3] = static_cast<std::uint32_t>(kHalf - b + 0.5F);
-  if (on_[i]) return;
+  if (on_[i].load(std::memory_order_relaxed)) return;
   // A break interrupt comes before this or after: one that came since take_break() is not undone here.
   disable_interrupts();
   if (!broken_[i].load(std::memory_order_relaxed)) {
@@ -137,7 +137,7 @@ void PowerStage::apply(int axis, const motor::AxisOutputs& outputs) {
     t.DIER = Timer::kBreakInterrupt;
     t.BDTR = kBreakSetting | Timer::kMainOutput;
     write(board::kDriverEnable[i], true);
-    on_[i] = true;
+    on_[i].store(true, std::memory_order_relaxed);
   }
   enable_interrupts();
 }

@@ -52,6 +52,10 @@ class PowerStage {
   /// Break interrupt: the hardware has switched the outputs off; the drivers are disabled too.
   void on_break(int axis);
 
+  /// Main loop: no bridge is on.
+  bool dark() const {
+    return !on_[0].load(std::memory_order_relaxed) && !on_[1].load(std::memory_order_relaxed);
+  }
   /// Main loop: the shunt amplifiers' zero, averaged while nothing flows. `steps`: sums of a conversion each.
   void set_zero(int axis, float phase_a_steps, float phase_b_steps) {
     zero_[static_cast<std::size_t>(axis)] = {phase_a_steps, phase_b_steps};
@@ -61,7 +65,7 @@ class PowerStage {
  private:
   std::array<motor::Vector, 2> zero_{motor::Vector{board::kCurrentZero, board::kCurrentZero},
                                      motor::Vector{board::kCurrentZero, board::kCurrentZero}};
-  std::array<bool, 2> on_{};
+  std::array<std::atomic<bool>, 2> on_{};
   std::array<std::atomic<bool>, 2> broken_{};
   BridgeReadings readings_{.supply_v = 0, .temperature_c = {25, 25}};
   std::size_t slow_ = 0, turn_ = 0;  // place in board::kSlowChannels, and in the order of conversions

@@ -13,8 +13,8 @@ class WatchdogPort {
     watchdog().KR = IndependentWatchdog::kStart;
     set(3, 100);  // 32 kHz / 32 = 1 kHz
   }
-  /// Before flash is erased: 4 s.
-  void allow_erase() { set(6, 500); }  // 125 Hz
+  /// Before flash is erased or written (1250 words of 100 us): 4 s.
+  void allow_flash() { set(6, 500); }  // 125 Hz
   void back_to_normal() { set(3, 100); }
   void feed() { watchdog().KR = IndependentWatchdog::kFeed; }
   static bool caused_reset() { return (rcc().CSR & Rcc::kWatchdogReset) != 0; }

@@ -72,11 +72,12 @@ TEST_F(OneCard, CurrentsCountAtOnceAndAreKeptWhenAsked) {
   EXPECT_TRUE(node_->drive(1).power) << "under power";
   EXPECT_THROW(card().set_currents(1, std::nullopt, 2300), CardError) << "hold above run";
   EXPECT_THROW(card().set_currents(1, 6000, std::nullopt), CardError) << "more than the board can";
+  EXPECT_THROW(card().store(), CardError) << "no memory is written under power";
   EXPECT_TRUE(flash_.empty());
+  card().power(1, false);
   card().store();
   Node again({.identity = {.serial = 77}, .node_id = 5}, now_, flash_);
   EXPECT_EQ(again.axis_parameter(slot_of_axes(object::kRunCurrent), 1), 2200);
-  card().power(1, false);
   EXPECT_FALSE(node_->drive(1).power);
 }
 

@@ -9,9 +9,9 @@ constexpr std::uint32_t kKey1 = 0x45670123, kKey2 = 0xCDEF89AB;
 constexpr std::uint32_t kProgram = 1, kSectorErase = 2, kStart = 1u << 16, kLock = 1u << 31;
 constexpr std::uint32_t kBusy = 1u << 16, kSequenceError = 1u << 7, kSizeError = 1u << 6,
                         kProtectionError = 1u << 4;
-// Datasheet, x32 parallelism, typical.
-constexpr Cycle kProgramTime = kCoreHz / 1'000'000 * 16;
-constexpr Cycle kErase16 = kCoreHz / 1000 * 250, kErase64 = kCoreHz / 1000 * 550, kErase128 = kCoreHz;
+// Data sheet DS8626, x32 parallelism, maximum.
+constexpr Cycle kProgramTime = kCoreHz / 1'000'000 * 100;
+constexpr Cycle kErase16 = kCoreHz / 1000 * 500, kErase64 = kCoreHz / 1000 * 1100, kErase128 = 2 * kCoreHz;
 }  // namespace
 
 FlashController::Sector FlashController::sector(unsigned number) {

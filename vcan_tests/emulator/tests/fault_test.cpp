@@ -138,6 +138,7 @@ TEST_F(Fault, AHotPowerStageIsTold) {
 
 TEST_F(Fault, AnExceptionOfTheProcessorLetsGoOfTheMotorsAndStartsTheProgramAnew) {
   // The node id came by LSS: kept from now on.
+  for (int axis = 0; axis < 2; ++axis) node.write(axis, 0x6040, 0, 2, 0);
   for (const CanFrame& lss :
        {CanFrame::make(0x7E5, {4, 1, 0, 0, 0, 0, 0, 0}), CanFrame::make(0x7E5, {23, 0, 0, 0, 0, 0, 0, 0}),
         CanFrame::make(0x7E5, {4, 0, 0, 0, 0, 0, 0, 0})}) {

@@ -70,6 +70,18 @@ TEST(Flash, ProgramsOnlyUnlockedAndOnlyClearsBits) {
   EXPECT_FALSE(f.flash.program(0x08008004, 0, 1, 0)) << "the size is set to words";
 }
 
+TEST(Flash, TakesTheLongestTimesOfTheDataSheet) {
+  FlashUnderTest f;
+  f.unlock();
+  f.flash.write(0x10, 1 | 2u << 8, 0);
+  EXPECT_TRUE(f.flash.program(0x08008000, 0, 4, 0));
+  EXPECT_EQ(f.flash.busy_until(), kCoreHz / 10'000) << "100 us a word";
+  f.flash.write(0x10, 2 | 2u << 3 | 1u << 16, kCoreHz);
+  EXPECT_EQ(f.flash.busy_until(), kCoreHz + kCoreHz / 2) << "0.5 s for 16 KiB";
+  f.flash.write(0x10, 2 | 5u << 3 | 1u << 16, 2 * kCoreHz);
+  EXPECT_EQ(f.flash.busy_until(), 4 * kCoreHz) << "2 s for 128 KiB";
+}
+
 TEST(Flash, ErasesTheSectorAndNothingElse) {
   FlashUnderTest f;
   std::iota(f.memory.begin(), f.memory.end(), std::uint8_t{0});
@@ -333,14 +345,33 @@ TEST(Usart, SendsAtTheSetRateAndReceives) {
 TEST(Watchdog, OnlyTheKeyHoldsItOff) {
   Watchdog dog;
   dog.reset();
+  dog.write(0, 0xCCCC, 0);
   dog.write(0, 0x5555, 0);
   dog.write(4, 1, 0);    // / 8
-  dog.write(8, 399, 0);  // 100 ms
-  dog.write(0, 0xCCCC, 0);
-  EXPECT_EQ(dog.next_event(), kCoreHz / 10);
-  dog.write(0, 0xAAAA, kCoreHz / 20);
-  EXPECT_FALSE(dog.expired(kCoreHz / 10));
-  EXPECT_TRUE(dog.expired(kCoreHz / 10 + kCoreHz / 20));
+  dog.write(8, 399, 0);  // 68 ms of the fastest chip
+  const Cycle ready = Watchdog::kTakesOver, time = Watchdog::kFastestClock * 8 * 400;
+  dog.write(0, 0xAAAA, ready);
+  EXPECT_EQ(dog.next_event(), ready + time);
+  dog.write(0, 0xAAAA, ready + time / 2);
+  EXPECT_FALSE(dog.expired(ready + time));
+  EXPECT_TRUE(dog.expired(ready + time + time / 2));
+}
+
+TEST(Watchdog, TakesOverASettingFiveClocksLaterAndNoOtherUntilThen) {
+  Watchdog dog;
+  dog.reset();
+  dog.write(0, 0x5555, 0);
+  dog.write(8, 99, 0);
+  EXPECT_EQ(dog.read(12, kCoreHz), 2u) << "without its start there is no oscillator";
+  dog.write(0, 0xCCCC, kCoreHz);
+  dog.write(0, 0x5555, kCoreHz);
+  dog.write(8, 7, kCoreHz + 1000);
+  EXPECT_EQ(dog.read(8, 0), 99u) << "busy";
+  dog.write(0, 0xAAAA, kCoreHz + 1000);
+  EXPECT_EQ(dog.next_event(), kCoreHz + 1000 + Watchdog::kFastestClock * 4 * 0x1000) << "the value of before";
+  EXPECT_EQ(dog.read(12, kCoreHz + Watchdog::kTakesOver), 0u);
+  dog.write(0, 0xAAAA, kCoreHz + Watchdog::kTakesOver);
+  EXPECT_EQ(dog.next_event(), kCoreHz + Watchdog::kTakesOver + Watchdog::kFastestClock * 4 * 100);
 }
 
 TEST(RccClock, IsLiveAfterAReadBackOrAfterTheErratumsDelayAndNotBefore) {
