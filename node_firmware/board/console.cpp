@@ -7,7 +7,10 @@ namespace {
 
 // In full, so that nothing that is typed or sent by mistake is it.
 constexpr std::string_view kSystemBoot = "DFU";
-constexpr std::string_view kOffTheBus = " OFF THE BUS";
+constexpr std::string_view kOffTheBus = " OFF THE BUS", kNoBus = " NO BUS";
+/// By ResetCause.
+constexpr std::array<std::string_view, 6> kCauses{"power-on", "reset pin", "brown-out",
+                                                  "watchdog", "program",   "other"};
 
 }  // namespace
 
@@ -30,6 +33,21 @@ Console& Console::put(std::int64_t number) {
   } while (rest != 0);
   if (number < 0) digits[--at] = '-';
   return put(std::string_view(digits.data() + at, digits.size() - at));
+}
+
+Console& Console::put_hex(std::uint32_t number) {
+  std::array<char, 8> digits{};
+  for (std::size_t at = digits.size(); at-- > 0; number >>= 4) digits[at] = "0123456789ABCDEF"[number & 0xF];
+  return put(std::string_view(digits.data(), digits.size()));
+}
+
+void Console::reset(const ResetReport& report) {
+  put("reset by ").put(kCauses[static_cast<std::size_t>(report.cause)]);
+  if (report.reason != fault_reason::kNone) {
+    put(" fault ").put(report.reason).put(" PC ").put_hex(report.pc).put(" LR ").put_hex(report.lr);
+    put(" CFSR ").put_hex(report.cfsr).put(" HFSR ").put_hex(report.hfsr).put(" at ").put_hex(report.address);
+  }
+  put("\r\n");
 }
 
 void Console::axis(int axis, const Subject& subject) {
@@ -60,8 +78,13 @@ void Console::answer(char letter, const Subject& subject) {
       put("CAN overruns ").put(subject.can.overruns).put(" bus-off ").put(subject.can.bus_off);
       put(" passive ")
           .put(subject.can.passive)
-          .put(subject.off_the_bus ? kOffTheBus : std::string_view())
+          .put(subject.no_bus        ? kNoBus
+               : subject.off_the_bus ? kOffTheBus
+                                     : std::string_view())
           .put("\r\n");
+      break;
+    case 'r':
+      reset(node.reset_report());
       break;
     case 't':
       put("control cycles last ").put(subject.cycles.last).put(" worst ").put(subject.cycles.worst);
@@ -75,7 +98,7 @@ void Console::answer(char letter, const Subject& subject) {
           .put("\r\n");
       break;
     default:
-      put("s state, c CAN, t timing, v version, DFU: USB boot loader\r\n");
+      put("s state, c CAN, r reset, t timing, v version, DFU: USB boot loader\r\n");
       break;
   }
 }

@@ -22,6 +22,7 @@ class Console {
     std::uint32_t control_interrupts = 0;
     const CanEvents& can;
     bool off_the_bus = false;
+    bool no_bus = false;  ///< none was found since the start
     std::uint32_t serial = 0, image_bytes = 0;
   };
   /// Only when nothing is waiting: who does not read is not heard.
@@ -40,6 +41,8 @@ class Console {
     return put(std::string_view(text, kSize - 1));
   }
   Console& put(std::int64_t number);
+  Console& put_hex(std::uint32_t number);
+  void reset(const ResetReport& report);
   void answer(char letter, const Subject& subject);
   void axis(int axis, const Subject& subject);
   void request_system_boot(const Node& node);

@@ -3,18 +3,25 @@
 #include <cstddef>
 
 #include "node_firmware/board/runtime.hpp"
+#include "node_firmware/core/reset_report.hpp"
 
-using kinebus::power_off_and_reset;
+namespace {
+
+[[noreturn]] void end(std::uint16_t reason, const void* caller) {
+  kinebus::power_off_and_reset(reason, caller);
+}
+
+}  // namespace
 
 extern "C" {
 [[noreturn]] void __assert_func(const char*, int, const char*, const char*) {
-  power_off_and_reset();
+  end(kinebus::fault_reason::kAssert, __builtin_return_address(0));
 }
 [[noreturn]] void abort() {
-  power_off_and_reset();
+  end(kinebus::fault_reason::kAbort, __builtin_return_address(0));
 }
 [[noreturn]] void __cxa_pure_virtual() {
-  power_off_and_reset();
+  end(kinebus::fault_reason::kAbort, __builtin_return_address(0));
 }
 // Static objects live until the power goes off.
 int __aeabi_atexit(void*, void (*)(void*), void*) {
@@ -24,8 +31,8 @@ void* __dso_handle = nullptr;
 }
 // Virtual destructors name these, and nothing calls them: there is no heap.
 void operator delete(void*) noexcept {
-  power_off_and_reset();
+  end(kinebus::fault_reason::kAbort, __builtin_return_address(0));
 }
 void operator delete(void*, std::size_t) noexcept {
-  power_off_and_reset();
+  end(kinebus::fault_reason::kAbort, __builtin_return_address(0));
 }

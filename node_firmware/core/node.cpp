@@ -36,9 +36,24 @@ Node::Node(const NodeOptions& options, LocalTime now, std::span<const std::uint8
   node_id_ = usable_id(options.node_id, image_.node_id());
   lss_ = LssSlave(lss_identity(options.identity), node_id_ == 0 ? kUnconfiguredNodeId : node_id_);
   boot();
+  tell_reset();
   if (!damaged) return;
   count(NodeCounter::kStorageErrors);
   emcy_.raise(emcy::kStorage);
+}
+
+// Of the past: in the history, and over as soon as it is told.
+void Node::tell_reset() {
+  const ResetReport& reset = options_.reset;
+  const bool by_watchdog = reset.cause == ResetCause::kWatchdog;
+  if (by_watchdog) count(NodeCounter::kWatchdogResets);
+  const std::uint16_t code = by_watchdog || reset.reason != fault_reason::kNone ? emcy::kSoftware
+                             : reset.cause == ResetCause::kBrownOut             ? emcy::kUnderVoltage
+                                                                                : emcy::kNoError;
+  if (code == emcy::kNoError) return;
+  emcy_.raise(code, {0, static_cast<std::uint8_t>(reset.cause), static_cast<std::uint8_t>(reset.reason),
+                     static_cast<std::uint8_t>(reset.reason >> 8), 0});
+  emcy_.clear(code);
 }
 
 // From power-up, and after NMT reset node: values as stored, drives without power.

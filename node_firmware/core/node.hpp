@@ -17,6 +17,7 @@
 #include "node_firmware/core/drive_axis.hpp"
 #include "node_firmware/core/parameter_image.hpp"
 #include "node_firmware/core/path_motion.hpp"
+#include "node_firmware/core/reset_report.hpp"
 #include "node_firmware/core/switch_inputs.hpp"
 #include "protocol/can/frame.hpp"
 #include "protocol/canopen/emcy.hpp"
@@ -43,6 +44,7 @@ struct NodeOptions {
   NodeIdentity identity{};
   std::uint8_t node_id = 0;       ///< 1..127; 0: as stored, and without that the node waits for LSS
   std::uint32_t program_crc = 0;  ///< 1F56h; 0: a program that no boot loader has started
+  ResetReport reset{};            ///< 2121h
   /// The board's objects: those of kNodeTable, which this core serves, at the same places, and perhaps more.
   const ObjectTable* table = &kNodeTable;
   /// Axes whose linear scales the board can count (2160h).
@@ -162,6 +164,7 @@ class Node final : private ObjectOwner {
   bool program_stop_requested() const { return program_stop_requested_; }
   /// Watchdog: true as long as every timed job has been served within its time. Feed the watchdog only then.
   bool healthy(LocalTime now) const;
+  const ResetReport& reset_report() const { return options_.reset; }
   std::uint8_t node_id() const { return node_id_; }
   NmtState nmt_state() const { return nmt_.state(); }
 
@@ -201,6 +204,7 @@ class Node final : private ObjectOwner {
   bool in_motion() const;
   void end_stop();
   void refuse_storing();
+  void tell_reset();
 
   NodeOptions options_;
   LocalTime now_;

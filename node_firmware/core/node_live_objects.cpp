@@ -91,6 +91,18 @@ bool Node::read_node_object(ObjectAddress address, std::int64_t& value) {
     case 0x2120:
       value = counter_value(static_cast<NodeCounter>(address.subindex));
       return true;
+    case 0x2121: {
+      const ResetReport& reset = options_.reset;
+      const std::array<std::uint32_t, 7> fields{static_cast<std::uint32_t>(reset.cause),
+                                                reset.reason,
+                                                reset.pc,
+                                                reset.lr,
+                                                reset.cfsr,
+                                                reset.hfsr,
+                                                reset.address};
+      value = fields[(address.subindex - 1u) % fields.size()];
+      return true;
+    }
     case 0x2133:
       value = inputs_.active_inputs();
       return true;

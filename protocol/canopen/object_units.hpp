@@ -182,6 +182,18 @@ constexpr void counters(Rows& t) {
     t.sub(static_cast<std::uint8_t>(i + 1), kCounterNames[i], kU32, kReadOnly, kLive);
 }
 
+/// Why the processor has begun anew, and where the program was then (node_firmware/core/reset_report.hpp).
+constexpr void last_reset(Rows& t) {
+  t.head(0x2121, "Last reset", ObjectCode::kRecord, 7);
+  t.sub(1, "Cause", kU8, kReadOnly, kLive);
+  t.sub(2, "Fault reason", kU16, kReadOnly, kLive);
+  t.sub(3, "Program counter", kU32, kReadOnly, kLive);
+  t.sub(4, "Link register", kU32, kReadOnly, kLive);
+  t.sub(5, "Configurable fault status", kU32, kReadOnly, kLive);
+  t.sub(6, "Hard fault status", kU32, kReadOnly, kLive);
+  t.sub(7, "Bus fault address", kU32, kReadOnly, kLive);
+}
+
 /// Switches of the axes, stop buttons, a probe.
 constexpr void switch_inputs(Rows& t) {
   t.head(0x2130, "Switch input function", ObjectCode::kArray, kSwitchInputs);

@@ -118,6 +118,7 @@ void Board::reset(Rcc::ResetCause cause) {
   const Cycle now = cpu_.now();
   ++resets_;
   rcc_.reset(cause);
+  power_control_.reset();
   flash_.reset();
   for (GpioPort& port : ports_) port.reset();
   exti_.reset();
@@ -159,7 +160,7 @@ void Board::advance(Cycle now) {
     if (in.sent_mailbox >= 0)
       can_.on_sent(in.sent_mailbox);
     else
-      can_.on_frame(in.frame);
+      can_.on_frame(in.frame, now);
   }
   tim1_.advance(now);
   tim8_.advance(now);
@@ -268,6 +269,21 @@ bool Board::usb_device_seen() {
 
 bool Board::system_boot_selected() const {
   return ports_[static_cast<std::size_t>(board::kSystemBoot.port)].output_high(board::kSystemBoot.number);
+}
+
+void Board::set_chip_supply(double volts) {
+  power_control_.set_supply(volts);
+  exti_.on_inner_level(PowerControl::kDetectorLine, power_control_.supply_low());
+}
+
+void Board::set_crystal(bool swings) {
+  if (rcc_.set_crystal(swings)) cpu_.nvic().pend(kNmi);
+}
+
+bool Board::led_lit() const {
+  const GpioPort& port = ports_[static_cast<std::size_t>(board::kStatusLed.port)];
+  return port.mode(board::kStatusLed.number) == GpioPort::Mode::kOutput &&
+         !port.output_high(board::kStatusLed.number);
 }
 
 void Board::set_supply(double volts) {

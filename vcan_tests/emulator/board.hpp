@@ -20,7 +20,7 @@
 #include "vcan_tests/emulator/peripherals/flash.hpp"
 #include "vcan_tests/emulator/peripherals/gpio.hpp"
 #include "vcan_tests/emulator/peripherals/otg_hs.hpp"
-#include "vcan_tests/emulator/peripherals/plain_registers.hpp"
+#include "vcan_tests/emulator/peripherals/power_control.hpp"
 #include "vcan_tests/emulator/peripherals/rcc.hpp"
 #include "vcan_tests/emulator/peripherals/spi.hpp"
 #include "vcan_tests/emulator/peripherals/timer.hpp"
@@ -67,6 +67,14 @@ class Board final : public Devices {
   void set_input(int input, bool level);
   void set_supply(double volts);
   void set_temperature(int axis, double celsius) { temperature_c_[static_cast<std::size_t>(axis)] = celsius; }
+
+  /// The chip's own supply, 3.3 V by itself: only what the detector (PVD) makes of it.
+  void set_chip_supply(double volts);
+  /// It was so low that the chip was reset; RAM has kept.
+  void brown_out() { reset(Rcc::ResetCause::kBrownOut); }
+  void set_crystal(bool swings);
+  /// The status LED, active low.
+  bool led_lit() const;
 
   CortexM4& cpu() { return cpu_; }
   const CortexM4& cpu() const { return cpu_; }
@@ -128,7 +136,7 @@ class Board final : public Devices {
   CortexM4 cpu_;
   Rcc rcc_;
   FlashController flash_;
-  PlainRegisters power_control_;
+  PowerControl power_control_;
   std::array<GpioPort, 4> ports_;
   Exti exti_;
   SysConfig sysconfig_;

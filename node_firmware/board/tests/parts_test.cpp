@@ -2,11 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+#include <vector>
+
 #include <cmath>
 
 #include "node_firmware/board/boot_program.hpp"
 #include "node_firmware/board/can_timing.hpp"
+#include "node_firmware/board/fault_record.hpp"
 #include "node_firmware/board/identity.hpp"
+#include "node_firmware/board/status_led.hpp"
 #include "node_firmware/board/tests/fake_drivers.hpp"
 #include "node_firmware/board/thermistor.hpp"
 #include "node_firmware/board/upkeep.hpp"
@@ -25,6 +30,39 @@ TEST(LocalClock, GoesOnWhenTheCounterGoesRound) {
   fake::Counter::now += 0x200;
   EXPECT_EQ(clock.now() - before, 0x200 * kPlanCount);
   EXPECT_EQ(clock.at(noted) - before, 0x80 * kPlanCount) << "of an interrupt before the last look";
+}
+
+TEST(FaultRecord, IsToldOnceAndOnlyWhenItIsWhole) {
+  FaultRecord record{.reason = 3, .lr = 5, .pc = 0x0802'0000, .cfsr = 1, .hfsr = 2, .address = 4};
+  EXPECT_EQ(FaultRecord(record).take().reason, fault_reason::kNone) << "not sealed";
+  record.seal();
+  FaultRecord damaged = record;
+  damaged.psr ^= 1u << 31;
+  EXPECT_EQ(damaged.take().reason, fault_reason::kNone);
+  const ResetReport report = record.take();
+  EXPECT_EQ(report.reason, 3);
+  EXPECT_EQ(report.pc, 0x0802'0000u);
+  EXPECT_EQ(report.address, 4u);
+  EXPECT_EQ(record.take().reason, fault_reason::kNone) << "once";
+}
+
+TEST(StatusLed, EachStateHasItsOwnPattern) {
+  const std::array<LedState, 6> states{LedState{.on_bus = false},
+                                       {.fault = true, .node_id = 1},
+                                       {.node_id = 0},
+                                       {.node_id = 1, .nmt = NmtState::kOperational},
+                                       {.node_id = 1, .nmt = NmtState::kStopped},
+                                       {.node_id = 1, .nmt = NmtState::kPreOperational}};
+  std::set<std::vector<bool>> patterns;
+  for (const LedState& state : states) {
+    std::vector<bool> pattern;
+    for (std::uint32_t step = 0; step < 16; ++step) {
+      pattern.push_back(led_on(state, step));
+      EXPECT_EQ(led_on(state, step), led_on(state, step + 16));
+    }
+    patterns.insert(pattern);
+  }
+  EXPECT_EQ(patterns.size(), states.size());
 }
 
 TEST(WatchdogKeeper, FeedsOnlyWhileTheControlGoesOnAndTheNodeIsServed) {

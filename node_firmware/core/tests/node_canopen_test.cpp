@@ -37,6 +37,31 @@ struct OneNode : testing::Test {
   Node node;
 };
 
+TEST(NodeBoot, TellsWhyTheProgramBeforeItEnded) {
+  LocalTime now{0};
+  struct Case {
+    ResetReport reset;
+    std::string_view emergency;
+  };
+  for (const Case& c :
+       {Case{{.cause = ResetCause::kSoftware, .reason = 3, .pc = 0x0802'1234}, "081#0061010004030000"},
+        Case{{.cause = ResetCause::kWatchdog}, "081#0061010003000000"},
+        Case{{.cause = ResetCause::kBrownOut}, "081#2032050002000000"},
+        Case{{.cause = ResetCause::kPowerOn}, ""}, Case{{.cause = ResetCause::kSoftware}, ""},
+        Case{{.cause = ResetCause::kResetPin}, ""}}) {
+    Node node({.node_id = 1, .reset = c.reset}, now);
+    EXPECT_EQ(text_of(*node.next_frame()), "701#00");
+    const auto told = node.next_frame();
+    EXPECT_EQ(told ? text_of(*told) : "", c.emergency);
+    if (told) EXPECT_EQ(text_of(*node.next_frame()), "081#0000000000000000") << "it is over";
+    expect_exchange(node, now,
+                    {{To, "601#4021210300000000"},
+                     {From, c.reset.pc != 0 ? "581#4321210334120208" : "581#4321210300000000"}});
+    node.on_frame(now, frame_of("601#4003100000000000"));
+    EXPECT_EQ(node.next_frame()->data[4], told ? 1 : 0) << "1003h";
+  }
+}
+
 TEST(NodeBoot, TellsBootUpThenHeartbeats) {
   LocalTime now{0};
   Node node({.node_id = 5}, now);

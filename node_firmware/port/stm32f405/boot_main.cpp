@@ -5,6 +5,9 @@
 
 #include "node_firmware/board/boot_program.hpp"
 #include "node_firmware/board/identity.hpp"
+#include "node_firmware/board/runtime.hpp"
+#include "node_firmware/board/status_led.hpp"
+#include "node_firmware/core/reset_report.hpp"
 #include "node_firmware/port/stm32f405/can_port.hpp"
 #include "node_firmware/port/stm32f405/clock_tree.hpp"
 #include "node_firmware/port/stm32f405/flash_port.hpp"
@@ -95,9 +98,9 @@ int main() {
   if (start_system_boot(handover_ram)) jump_to_system_boot();
   if (start_program(handover_ram, check_image(program_sector.bytes(), kBoard))) jump_to_program();
   configure_pins();
-  if (!start_clocks()) isr_fault();
+  if (!start_clocks()) power_off_and_reset(fault_reason::kNoClock, nullptr);
   start_local_time();
-  if (!can_port.start()) isr_fault();
+  can_port.start();
   start_tick();
   const LssIdentity identity{kVendorId, kBoard.product_code, kBoard.revision, serial_number(unique_id())};
   boot.emplace(kBoard, identity, boot_node_id(handover_ram, parameter_image, parameters.load()),
@@ -107,6 +110,9 @@ int main() {
       handover_ram = Handover{.node_id = boot->node_id()};
       reset_processor();
     }
+    // One flash a second: the boot loader.
+    const LedState state{.on_bus = can_port.joined(), .node_id = 1, .nmt = NmtState::kStopped};
+    write(board::kStatusLed, !led_on(state, local_counts() / kLedStep));
     rest();
   }
 }

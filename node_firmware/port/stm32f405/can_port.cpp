@@ -25,18 +25,28 @@ CanFrame CanPort::Received::frame() const {
   return frame;
 }
 
-bool CanPort::start() {
+void CanPort::start() {
   enable_clock(rcc().APB1ENR, Rcc::kCan1);
-  Can& can = can1();
-  can.MCR = Can::kInitRequest;
-  if (!wait_until([&] { return (can.MSR & Can::kInitDone) != 0; })) return false;
-  can.MCR = Can::kInitRequest | Can::kAutoBusOff;
-  can.BTR = kBitTiming;
-  can.IER = Can::kOnFifo0 | Can::kOnOverrun0 | Can::kOnPassive | Can::kOnBusOff | Can::kOnError;
-  can.MCR = Can::kAutoBusOff;
+  can1().MCR = Can::kInitRequest;
+  static_cast<void>(wait_until([] { return (can1().MSR & Can::kInitDone) != 0; }, 10'000));
+  join();
   enable_interrupt(Irq::kCan1Rx0, 0);
   enable_interrupt(Irq::kCan1Sce, 12);
-  return wait_until([&] { return (can.MSR & Can::kInitDone) == 0; });
+}
+
+// A bus that is stuck, or none, must not hold up what can be said elsewhere: no step is waited for.
+void CanPort::join() {
+  Can& can = can1();
+  const bool initialising = (can.MSR & Can::kInitDone) != 0;
+  if (progress_ == Progress::kAsked && initialising) {
+    can.MCR = Can::kInitRequest | Can::kAutoBusOff;
+    can.BTR = kBitTiming;
+    can.IER = Can::kOnFifo0 | Can::kOnOverrun0 | Can::kOnPassive | Can::kOnBusOff | Can::kOnError;
+    can.MCR = Can::kAutoBusOff;
+    progress_ = Progress::kSetUp;
+  } else if (progress_ == Progress::kSetUp && !initialising) {
+    progress_ = Progress::kJoined;
+  }
 }
 
 void CanPort::accept(std::span<const CanAccept> filters) {
@@ -88,6 +98,7 @@ bool CanPort::bus_off() const {
 }
 
 void CanPort::serve_mailboxes() {
+  if (!joined()) join();
   Can& can = can1();
   for (int i = 0; i < TransmitQueue::kMailboxes; ++i) {
     const std::uint32_t status = can.TSR;

@@ -29,15 +29,17 @@ class CanPort {
     CanFrame frame() const;
   };
 
-  /// False: the controller does not leave its initialisation: no bus with recessive level.
-  bool start();
+  /// Sets the controller up. It joins the bus when that has been recessive for 11 bits: soon, or when there
+  /// is one.
+  void start();
+  bool joined() const { return progress_ == Progress::kJoined; }
   void accept(std::span<const CanAccept> filters);
 
   /// Main loop.
   const Received* front() const { return received_.front(); }
   void drop() { received_.drop(); }
   TransmitQueue& queue() { return queue_; }
-  /// Moves frames into the mailboxes, and finds those that were sent.
+  /// Moves frames into the mailboxes, and finds those that were sent. Looks whether the bus was joined.
   void serve_mailboxes();
   const CanEvents& events() const { return events_; }
   bool bus_off() const;
@@ -47,10 +49,13 @@ class CanPort {
   void on_state();
 
  private:
+  void join();
+
   TransmitQueue queue_;
   Ring<Received, 64> received_;
   CanEvents events_;
   bool was_off_ = false, was_passive_ = false;
+  enum class Progress : std::uint8_t { kAsked, kSetUp, kJoined } progress_ = Progress::kAsked;
 };
 static_assert(CanDriver<CanPort>);
 

@@ -22,7 +22,8 @@ inline bool start_clocks() {
   r.CR = r.CR | Rcc::kHseOn;
   if (!wait_until([&] { return (r.CR & Rcc::kHseReady) != 0; })) return false;
   r.PLLCFGR = kPll.m | kPll.n << 6 | (kPll.p / 2 - 1) << 16 | Rcc::kPllFromHse | kPll.q << 24;
-  r.CR = r.CR | Rcc::kPllOn;
+  // A crystal that stops later is an NMI, and a break of both timers by hardware.
+  r.CR = r.CR | Rcc::kPllOn | Rcc::kClockSecurity;
   flash_interface().ACR = FlashInterface::kWaitStates5 | FlashInterface::kPrefetch |
                           FlashInterface::kInstructionCache | FlashInterface::kDataCache;
   // AHB / 1, APB1 / 4 = 42 MHz, APB2 / 2 = 84 MHz.

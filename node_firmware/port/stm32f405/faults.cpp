@@ -1,28 +1,80 @@
-// What ends in a reset: exceptions of the core, interrupts that nobody handles, failed asserts.
+// What ends in a reset: exceptions of the core, interrupts that nobody handles, failed asserts. First no
+// bridge is on, then the reason is recorded.
 
 #include "node_firmware/board/runtime.hpp"
 #include "node_firmware/port/stm32f405/handlers.hpp"
+#include "node_firmware/port/stm32f405/handover_port.hpp"
 #include "node_firmware/port/stm32f405/pins.hpp"
+#include "node_firmware/port/stm32f405/reset_port.hpp"
+
+extern "C" {
+extern std::uint32_t stack_bottom, stack_top;  // set by the linker script
+}
 
 namespace kinebus {
+namespace {
 
-void power_off_and_reset() {
+void power_off() {
   stm32::disable_interrupts();
   for (const board::OutputPin enable : board::kDriverEnable) stm32::write(enable, false);
   stm32::tim1().BDTR = 0;
   stm32::tim8().BDTR = 0;
   stm32::barrier();
-  stm32::system_control().AIRCR = stm32::SystemControl::kResetRequest;
-  for (;;) stm32::wait_for_interrupt();
+}
+
+[[noreturn]] void leave(FaultRecord& record) {
+  record.seal();
+  fault_ram = record;
+  stm32::reset_processor();
+}
+
+std::uint32_t address_of(const void* place) {
+  return reinterpret_cast<std::uintptr_t>(place);
+}
+
+}  // namespace
+
+void power_off_and_reset(std::uint16_t reason, const void* place) {
+  power_off();
+  FaultRecord record{.reason = reason, .pc = address_of(place)};
+  leave(record);
 }
 
 }  // namespace kinebus
 
 extern "C" {
-void isr_fault() {
-  kinebus::power_off_and_reset();
+/// `frame`: r0 to r3, r12, lr, pc, psr, as the core has put them on the stack, when that is one.
+[[noreturn, gnu::used]] void record_exception(const std::uint32_t* frame) {
+  using namespace kinebus;
+  power_off();
+  const stm32::SystemControl& core = stm32::system_control();
+  FaultRecord record{.reason = core.ICSR & 0x1FF,
+                     .sp = address_of(frame),
+                     .cfsr = core.CFSR,
+                     .hfsr = core.HFSR,
+                     .address = core.BFAR};
+  if (frame >= &stack_bottom && frame + 8 <= &stack_top) {
+    record.r = {frame[0], frame[1], frame[2], frame[3]};
+    record.r12 = frame[4];
+    record.lr = frame[5];
+    record.pc = frame[6];
+    record.psr = frame[7];
+  }
+  leave(record);
 }
-void isr_unexpected() {
-  kinebus::power_off_and_reset();
+
+// A stack that has run over is none to stand on.
+[[gnu::naked]] void isr_fault() {
+  asm volatile(
+      "mov r0, sp\n"
+      "ldr r1, =stack_bottom + 256\n"
+      "cmp r0, r1\n"
+      "bhs 1f\n"
+      "ldr r1, =stack_top\n"
+      "mov sp, r1\n"
+      "1: b record_exception\n");
+}
+[[gnu::naked]] void isr_unexpected() {
+  asm volatile("b isr_fault");
 }
 }

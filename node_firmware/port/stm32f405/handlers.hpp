@@ -3,9 +3,10 @@
 
 extern "C" {
 [[noreturn]] void reset_handler();
-/// Hard fault, NMI and all other exceptions of the core, and a failed assert: power off, then reset.
-[[noreturn]] void isr_fault();
-[[noreturn]] void isr_unexpected();
+/// Hard fault, NMI (the crystal has stopped) and all other exceptions of the core, and interrupts without
+/// handler (17: the supply is low): power off, record, reset. Only the vector table leads here.
+void isr_fault();
+void isr_unexpected();
 
 void isr_tick();          ///< SysTick
 void isr_switches();      ///< EXTI: time-stamps an edge

@@ -18,6 +18,8 @@ inline void start_local_time() {
 inline std::uint32_t local_counts() {
   return tim2().CNT;
 }
+/// 65 ms, a step of the status LED's patterns.
+inline constexpr std::uint32_t kLedStep = 1u << 18;
 struct LocalTimer {
   static PlanCounts counts() { return local_counts(); }
 };

@@ -4,6 +4,8 @@
 
 #include "node_firmware/board/identity.hpp"
 #include "node_firmware/board/node_program.hpp"
+#include "node_firmware/board/runtime.hpp"
+#include "node_firmware/board/status_led.hpp"
 #include "node_firmware/board/upkeep.hpp"
 #include "node_firmware/boot/image_header.hpp"
 #include "node_firmware/port/stm32f405/can_port.hpp"
@@ -14,6 +16,8 @@
 #include "node_firmware/port/stm32f405/local_time.hpp"
 #include "node_firmware/port/stm32f405/pins.hpp"
 #include "node_firmware/port/stm32f405/power_stage.hpp"
+#include "node_firmware/port/stm32f405/reset_port.hpp"
+#include "node_firmware/port/stm32f405/supply_port.hpp"
 #include "node_firmware/port/stm32f405/switch_port.hpp"
 #include "node_firmware/port/stm32f405/usart_port.hpp"
 #include "node_firmware/port/stm32f405/usb_port.hpp"
@@ -43,6 +47,15 @@ void give_way(const Node& node, std::uint32_t to) {
   reset_processor();
 }
 
+void show(const Node& node) {
+  const auto faulty = [&](int axis) { return node.axis(axis).state() == cia402::State::kFault; };
+  const LedState state{.on_bus = can_port.joined() && !can_port.bus_off(),
+                       .fault = faulty(0) || faulty(1),
+                       .node_id = node.node_id(),
+                       .nmt = node.nmt_state()};
+  write(board::kStatusLed, !led_on(state, local_counts() / kLedStep));
+}
+
 }  // namespace
 
 extern "C" {
@@ -68,23 +81,22 @@ void isr_switches() {
 
 int main() {
   configure_pins();
-  if (!start_clocks()) isr_fault();
+  if (!start_clocks()) power_off_and_reset(fault_reason::kNoClock, nullptr);
   system_control().VTOR = board::kProgramAddress;
   start_local_time();
-  if (!can_port.start()) isr_fault();
+  can_port.start();
   const auto stored = parameters.load();
   static_cast<void>(parameters.prepare(kLargestParameterImage));
   const std::uint32_t serial = serial_number(unique_id());
   program.emplace(NodeOptions{.identity = {.serial = serial},
                               .node_id = take_inherited_node_id(handover_ram),
-                              .program_crc = kImageHeader.crc},
+                              .program_crc = kImageHeader.crc,
+                              .reset = take_reset_report()},
                   stored, can_port, switch_port, motion_plan);
   Node& node = program->node();
-  if (WatchdogPort::caused_reset()) node.count(NodeCounter::kWatchdogResets);
-  rcc().CSR = rcc().CSR | Rcc::kClearResetFlags;
   switch_port.start(local_counts());
   enable_interrupts();
-  const bool motors_good = motors.start();
+  const bool motors_good = watch_supply() && motors.start();
   usart.start();
   usb.start();
   dog.start();
@@ -102,10 +114,12 @@ int main() {
                                    .control_interrupts = motors.ticks(),
                                    .can = can_port.events(),
                                    .off_the_bus = can_port.bus_off(),
+                                   .no_bus = !can_port.joined(),
                                    .serial = serial,
                                    .image_bytes = kImageHeader.length};
     usart.serve(subject);
     usb.serve(subject);
+    show(node);
     if (node.program_stop_requested() && can_port.queue().idle()) give_way(node, Handover::kBootLoader);
     if (usart.console().system_boot_requested() || usb.console().system_boot_requested())
       give_way(node, Handover::kSystemBoot);

@@ -27,10 +27,13 @@ struct Rcc {
   Reg AHB1LPENR, AHB2LPENR, AHB3LPENR, reserved4, APB1LPENR, APB2LPENR, reserved5[2];
   Reg BDCR, CSR;
   static constexpr std::uint32_t kHseOn = bit(16), kHseReady = bit(17), kPllOn = bit(24), kPllReady = bit(25);
+  static constexpr std::uint32_t kClockSecurity = bit(19);  // CR CSSON
   static constexpr std::uint32_t kPllFromHse = bit(22);
   static constexpr std::uint32_t kSwitchPll = 2, kSwitchStatusMask = 3u << 2, kSwitchStatusPll = 2u << 2;
-  static constexpr std::uint32_t kWatchdogReset = bit(29), kSoftwareReset = bit(28),
-                                 kClearResetFlags = bit(24);
+  // CSR
+  static constexpr std::uint32_t kBrownOutReset = bit(25), kPinReset = bit(26), kPowerOnReset = bit(27),
+                                 kSoftwareReset = bit(28), kWatchdogReset = bit(29),
+                                 kWindowWatchdogReset = bit(30), kClearResetFlags = bit(24);
   // AHB1ENR
   static constexpr std::uint32_t kGpioA = bit(0), kGpioB = bit(1), kGpioC = bit(2), kGpioD = bit(3),
                                  kGpioH = bit(7), kUsbHs = bit(29);
@@ -47,7 +50,9 @@ inline Rcc& rcc() {
 
 struct Pwr {
   Reg CR, CSR;
-  static constexpr std::uint32_t kScale1 = bit(14);  // VOS: 168 MHz
+  static constexpr std::uint32_t kScale1 = bit(14);                           // CR VOS: 168 MHz
+  static constexpr std::uint32_t kDetectorOn = bit(4), kDetect2V9 = 7u << 5;  // CR PVDE, PLS
+  static constexpr std::uint32_t kSupplyLow = bit(2);                         // CSR PVDO
 };
 inline Pwr& pwr() {
   return peripheral<Pwr>(0x4000'7000);
@@ -86,6 +91,7 @@ inline SysConfig& sysconfig() {
 
 struct Exti {
   Reg IMR, EMR, RTSR, FTSR, SWIER, PR;
+  static constexpr std::uint32_t kSupplyDetector = bit(16);
 };
 inline Exti& exti() {
   return peripheral<Exti>(0x4001'3C00);
@@ -279,6 +285,7 @@ inline Reg& debug_control() {
 
 /// Places in the vector table after the 16 of the core.
 enum class Irq : int {
+  kSupplyDetector = 1,
   kExti0 = 6,
   kExti1 = 7,
   kExti3 = 9,

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include "node_firmware/board/runtime.hpp"
+#include "node_firmware/core/reset_report.hpp"
 #include "node_firmware/port/stm32f405/handlers.hpp"
 #include "node_firmware/port/stm32f405/registers.hpp"
 
@@ -23,7 +25,7 @@ int main();
   for (std::uint32_t* to = &bss_start; to != &bss_end;) *to++ = 0;
   for (auto* init = init_array_start; init != init_array_end; ++init) (*init)();
   main();
-  isr_fault();
+  kinebus::power_off_and_reset(kinebus::fault_reason::kMainEnded, nullptr);
 }
 }
 
@@ -65,33 +67,33 @@ constexpr VectorTable make_vectors() {
 
 }  // namespace
 
-// What a program does not use falls back to these.
+// What a program does not use falls back to these: a branch, so that the stack is as the exception left it.
 extern "C" {
-[[gnu::weak]] void isr_tick() {
-  isr_unexpected();
+[[gnu::weak, gnu::naked]] void isr_tick() {
+  asm volatile("b isr_unexpected");
 }
-[[gnu::weak]] void isr_switches() {
-  isr_unexpected();
+[[gnu::weak, gnu::naked]] void isr_switches() {
+  asm volatile("b isr_unexpected");
 }
-[[gnu::weak]] void isr_control() {
-  isr_unexpected();
+[[gnu::weak, gnu::naked]] void isr_control() {
+  asm volatile("b isr_unexpected");
 }
-[[gnu::weak]] void isr_can_receive() {
-  isr_unexpected();
+[[gnu::weak, gnu::naked]] void isr_can_receive() {
+  asm volatile("b isr_unexpected");
 }
-[[gnu::weak]] void isr_can_transmit() {
-  isr_unexpected();
+[[gnu::weak, gnu::naked]] void isr_can_transmit() {
+  asm volatile("b isr_unexpected");
 }
-[[gnu::weak]] void isr_can_state() {
-  isr_unexpected();
+[[gnu::weak, gnu::naked]] void isr_can_state() {
+  asm volatile("b isr_unexpected");
 }
-[[gnu::weak]] void isr_break_a() {
-  isr_unexpected();
+[[gnu::weak, gnu::naked]] void isr_break_a() {
+  asm volatile("b isr_unexpected");
 }
-[[gnu::weak]] void isr_break_b() {
-  isr_unexpected();
+[[gnu::weak, gnu::naked]] void isr_break_b() {
+  asm volatile("b isr_unexpected");
 }
-[[gnu::weak]] void isr_console() {
-  isr_unexpected();
+[[gnu::weak, gnu::naked]] void isr_console() {
+  asm volatile("b isr_unexpected");
 }
 }

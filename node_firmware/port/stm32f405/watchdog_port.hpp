@@ -17,7 +17,6 @@ class WatchdogPort {
   void allow_flash() { set(6, 500); }  // 125 Hz
   void back_to_normal() { set(3, 100); }
   void feed() { watchdog().KR = IndependentWatchdog::kFeed; }
-  static bool caused_reset() { return (rcc().CSR & Rcc::kWatchdogReset) != 0; }
 
  private:
   static void set(std::uint32_t prescaler, std::uint32_t reload) {

@@ -193,6 +193,8 @@ std::uint32_t Nvic::read(std::uint32_t offset, Cycle now) {
       return cfsr_;
     case 0xED2C:
       return hfsr_;
+    case 0xED38:
+      return bfar_;
     case 0xED88:
       return cpacr_;
     case 0xEDFC:

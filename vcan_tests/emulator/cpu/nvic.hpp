@@ -12,6 +12,7 @@ namespace kinebus::emulator {
 /// Exception numbers as in IPSR; interrupt n is 16 + n.
 enum Exception : int {
   kThread = 0,
+  kNmi = 2,
   kHardFault = 3,
   kSvCall = 11,
   kPendSv = 14,
@@ -40,6 +41,12 @@ class Nvic final : public Peripheral, public InterruptLines {
 
   void set_line(int irq, bool level) override;
   void pend(int exception);
+  /// What the fault status registers say of a fault that comes.
+  void set_fault_status(std::uint32_t cfsr, std::uint32_t hfsr, std::uint32_t address) {
+    cfsr_ = cfsr;
+    hfsr_ = hfsr;
+    bfar_ = address;
+  }
 
   bool any_pending() const { return pending_count_ > 0; }
   /// The exception that preempts what runs now; kThread: none. WFI wakes for one that only PRIMASK holds
@@ -80,7 +87,7 @@ class Nvic final : public Peripheral, public InterruptLines {
 
   std::uint32_t vtor_ = kBootVectors, aircr_ = 0, ccr_ = 0x200, scr_ = 0, shcsr_ = 0, cpacr_ = 0,
                 fpccr_ = 0xC0000000u;
-  std::uint32_t cfsr_ = 0, hfsr_ = 0, demcr_ = 0, dwt_control_ = 0x40000000u;
+  std::uint32_t cfsr_ = 0, hfsr_ = 0, bfar_ = 0, demcr_ = 0, dwt_control_ = 0x40000000u;
   Cycle dwt_zero_ = 0;
   std::uint32_t dwt_frozen_ = 0;
   std::uint32_t systick_control_ = 0, systick_reload_ = 0;

@@ -15,6 +15,7 @@ constexpr std::uint32_t kTransmitRequest = 1, kRemote = 2, kExtended = 4;
 constexpr std::uint32_t kWarning = 1, kPassive = 2, kOff = 4;
 constexpr Cycle kRecovery =
     Cycle{128} * 11 * (kCoreHz / 1'000'000);  // 128 times 11 recessive bits at 1 Mbit/s
+constexpr Cycle kJoin = 11 * (kCoreHz / 1'000'000);
 
 std::uint32_t identifier(const CanFrame& frame) {
   return frame.extended ? frame.id << 3 | kExtended : frame.id << 21;
@@ -39,7 +40,8 @@ void BxCan::reset() {
   banks_ = {};
   tec_ = rec_ = last_state_ = lec_ = 0;
   bus_off_ = false;
-  recovers_ = kNever;
+  recovers_ = joins_ = kNever;
+  joined_ = false;
   for (int i = 0; i < kMailboxes; ++i) requests_.push_back({0, i, true, {}});  // whatever waited is gone
   update_lines();
 }
@@ -141,7 +143,14 @@ void BxCan::store(Fifo& fifo, const CanFrame& frame, int index) {
   ++counters_.accepted;
 }
 
-void BxCan::on_frame(const CanFrame& frame) {
+void BxCan::set_dominant(bool dominant, Cycle now) {
+  dominant_ = dominant;
+  if ((mcr_ & 3) == 0 && !joined_) joins_ = dominant ? kNever : now + kJoin;
+}
+
+void BxCan::on_frame(const CanFrame& frame, Cycle now) {
+  // Its dominant bits begin the count of recessive ones anew; the end of a frame has eleven.
+  if ((mcr_ & 3) == 0 && !joined_ && !dominant_) joins_ = now;
   if (!listening()) return;
   ++counters_.received;
   if (rec_ > 0) rec_ = rec_ > 127 ? 120 : rec_ - 1;
@@ -152,7 +161,7 @@ void BxCan::on_frame(const CanFrame& frame) {
 }
 
 void BxCan::on_error(bool sending, Cycle now) {
-  if (bus_off_ || (mcr_ & 3) != 0) return;
+  if (!listening()) return;
   lec_ = 4;
   if (sending)
     tec_ += 8;
@@ -170,16 +179,26 @@ void BxCan::enter_bus_off(Cycle now) {
 }
 
 void BxCan::advance(Cycle now) {
+  if (joins_ <= now) {
+    joins_ = kNever;
+    joined_ = true;
+    send_pending(now);
+  }
   if (recovers_ > now) return;
   recovers_ = kNever;
   bus_off_ = false;
   tec_ = rec_ = 0;
-  // What still waits in the mailboxes is sent now.
+  send_pending(now);
+  watch_errors();
+  update_lines();
+}
+
+// What still waits in the mailboxes is sent now.
+void BxCan::send_pending(Cycle now) {
+  if (!listening()) return;
   for (int i = 0; i < kMailboxes; ++i)
     if (mailboxes_[static_cast<std::size_t>(i)].pending)
       requests_.push_back({now, i, false, frame_of(mailboxes_[static_cast<std::size_t>(i)])});
-  watch_errors();
-  update_lines();
 }
 
 std::uint32_t BxCan::esr() const {
@@ -253,7 +272,7 @@ std::uint32_t BxCan::read(std::uint32_t offset, Cycle now) {
     case 0x00:
       return mcr_;
     case 0x04:
-      return (mcr_ & 3) | msr_flags_ | 0xC00;
+      return (mcr_ & 3) | ((mcr_ & 3) == 0 && !joined_ ? 1u : 0u) | msr_flags_ | 0xC00;
     case 0x08:
       return tsr();
     case 0x0C:
@@ -296,7 +315,7 @@ void BxCan::write(std::uint32_t offset, std::uint32_t value, Cycle now) {
         if ((value & kTransmitRequest) != 0) {
           m.pending = true;
           done_flags_ &= ~(0xFu << (8 * number));
-          if (!bus_off_ && (mcr_ & 3) == 0) requests_.push_back({now, number, false, frame_of(m)});
+          if (listening()) requests_.push_back({now, number, false, frame_of(m)});
         }
         break;
       case 1:
@@ -329,10 +348,12 @@ void BxCan::write(std::uint32_t offset, std::uint32_t value, Cycle now) {
       mcr_ = value & 0x100FF;
       if ((mcr_ & (kInitRequest | kSleepRequest)) == (kInitRequest | kSleepRequest)) mcr_ &= ~kSleepRequest;
       if ((was & kInitRequest) != 0 && (mcr_ & kInitRequest) == 0 && bus_off_) recovers_ = now + kRecovery;
-      if ((was & 3) != 0 && (mcr_ & 3) == 0 && !bus_off_)
-        for (int i = 0; i < kMailboxes; ++i)
-          if (mailboxes_[static_cast<std::size_t>(i)].pending)
-            requests_.push_back({now, i, false, frame_of(mailboxes_[static_cast<std::size_t>(i)])});
+      if ((mcr_ & 3) != 0) {
+        joined_ = false;
+        joins_ = kNever;
+      } else if ((was & 3) != 0) {
+        joins_ = dominant_ ? kNever : now + kJoin;
+      }
       break;
     }
     case 0x04:

@@ -31,17 +31,21 @@ class BxCan final : public Peripheral {
   explicit BxCan(InterruptLines& lines) : lines_(lines) {}
   std::uint32_t read(std::uint32_t offset, Cycle now) override;
   void write(std::uint32_t offset, std::uint32_t value, Cycle now) override;
-  Cycle next_event() const override { return recovers_; }
+  Cycle next_event() const override { return recovers_ < joins_ ? recovers_ : joins_; }
   void advance(Cycle now) override;
   void reset();
 
   // The bus.
   /// What the program has asked for since the last call, in order.
   std::vector<Request> take_requests();
-  bool listening() const { return (mcr_ & 3) == 0 && !bus_off_; }
+  /// It takes part: out of its initialisation, and 11 recessive bits were seen since.
+  bool listening() const { return (mcr_ & 3) == 0 && joined_ && !bus_off_; }
+  /// The bus is held dominant, as by a broken transceiver or a short, or let go.
+  void set_dominant(bool dominant, Cycle now);
   void on_sent(int mailbox);
   void on_aborted(int mailbox);
-  void on_frame(const CanFrame& frame);
+  /// A frame ends on the bus.
+  void on_frame(const CanFrame& frame, Cycle now);
   /// An error frame while sending or receiving (ISO 11898-1's counting, its special cases left out).
   void on_error(bool sending, Cycle now);
 
@@ -77,6 +81,7 @@ class BxCan final : public Peripheral {
   std::optional<Match> match(const CanFrame& frame) const;
   void store(Fifo& fifo, const CanFrame& frame, int index);
   void enter_bus_off(Cycle now);
+  void send_pending(Cycle now);
   void watch_errors();
   std::uint32_t tsr() const;
   std::uint32_t esr() const;
@@ -92,6 +97,8 @@ class BxCan final : public Peripheral {
   std::uint32_t last_state_ = 0, lec_ = 0;
   bool bus_off_ = false;
   Cycle recovers_ = kNever;
+  bool joined_ = false, dominant_ = false;
+  Cycle joins_ = kNever;
   std::vector<Request> requests_;
   Counters counters_{};
 };

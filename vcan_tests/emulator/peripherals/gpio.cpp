@@ -106,9 +106,19 @@ void Exti::on_level(int port, int pin, bool level) {
   update();
 }
 
+void Exti::on_inner_level(int line, bool level) {
+  const std::uint32_t bit = 1u << line;
+  if (((inner_level_ & bit) != 0) == level) return;
+  inner_level_ ^= bit;
+  if (((level ? rtsr_ : ftsr_) & bit) == 0) return;
+  pr_ |= bit;
+  update();
+}
+
 void Exti::update() {
   const std::uint32_t active = pr_ & imr_;
   for (int line = 0; line < 5; ++line) lines_.set_line(6 + line, (active >> line & 1) != 0);
+  lines_.set_line(1, (active >> 16 & 1) != 0);  // supply detector
   lines_.set_line(23, (active & 0x03E0) != 0);
   lines_.set_line(40, (active & 0xFC00) != 0);
 }

@@ -45,6 +45,8 @@ class Exti final : public Peripheral {
   void reset();
   /// The level on `pin` of `port` (0 = A).
   void on_level(int port, int pin, bool level);
+  /// An inner line, 16 or above.
+  void on_inner_level(int line, bool level);
   /// SYSCFG_EXTICR1..4.
   void select(int index, std::uint32_t value) { source_[static_cast<std::size_t>(index)] = value; }
   std::uint32_t selected(int index) const { return source_[static_cast<std::size_t>(index)]; }
@@ -53,6 +55,7 @@ class Exti final : public Peripheral {
   void update();
   InterruptLines& lines_;
   std::uint32_t imr_ = 0, rtsr_ = 0, ftsr_ = 0, pr_ = 0;
+  std::uint32_t inner_level_ = 0;
   std::array<std::uint32_t, 4> source_{};
   std::array<std::uint16_t, 16> level_{};  // by line: bit per port
 };

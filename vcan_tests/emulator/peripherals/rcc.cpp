@@ -5,8 +5,9 @@ namespace {
 constexpr std::uint32_t kCr = 0x00, kPllCfgr = 0x04, kCfgr = 0x08, kAhb1LpEnr = 0x50, kCsr = 0x74;
 constexpr std::uint32_t kAhb1Enr = 0x30, kAhb2Enr = 0x34, kApb1Enr = 0x40, kApb2Enr = 0x44;
 constexpr std::uint32_t kCrystalHz = 8'000'000, kInternalHz = 16'000'000;
-constexpr std::uint32_t kPowerOnReset = 1u << 27, kPinReset = 1u << 26, kSoftwareResetFlag = 1u << 28,
-                        kWatchdogReset = 1u << 29;
+constexpr std::uint32_t kSecurityOn = 1u << 19, kSecurityFlag = 1u << 7, kCir = 0x0C;
+constexpr std::uint32_t kBrownOutReset = 1u << 25, kPowerOnReset = 1u << 27, kPinReset = 1u << 26,
+                        kSoftwareResetFlag = 1u << 28, kWatchdogReset = 1u << 29;
 
 bool enables_clocks(std::uint32_t offset) {
   return offset == kAhb1Enr || offset == kAhb2Enr || offset == kApb1Enr || offset == kApb2Enr;
@@ -25,7 +26,10 @@ void Rcc::reset(ResetCause cause) {
   word(kAhb1LpEnr) = 0x7E6791FF;
   switch (cause) {
     case ResetCause::kPowerOn:
-      causes_ |= kPowerOnReset | kPinReset;
+      causes_ |= kPowerOnReset | kPinReset | kBrownOutReset;
+      break;
+    case ResetCause::kBrownOut:
+      causes_ |= kBrownOutReset | kPinReset;
       break;
     case ResetCause::kSoftware:
       causes_ |= kSoftwareResetFlag | kPinReset;
@@ -39,7 +43,12 @@ void Rcc::reset(ResetCause cause) {
 std::uint32_t Rcc::read(std::uint32_t offset, Cycle) {
   std::uint32_t value = word(offset);
   if (enables_clocks(offset)) fresh(offset).clocks = 0;
-  if (offset == kCr) value |= (value & 0x01010001u) << 1;  // what is switched on is ready
+  if (offset == kCr) {
+    // What is switched on is ready; without the crystal neither it is nor a PLL that runs from it.
+    const bool from_crystal = (word(kPllCfgr) & 1u << 22) != 0;
+    const std::uint32_t able = crystal_ ? 0x01010001u : from_crystal ? 1u : 0x01000001u;
+    value |= (value & able) << 1;
+  }
   if (offset == kCfgr) value = (value & ~0xCu) | (value & 3) << 2;
   if (offset == kCsr) value = (value & 1) | (value & 1) << 1 | causes_;
   return value;
@@ -54,6 +63,13 @@ void Rcc::write(std::uint32_t offset, std::uint32_t value, Cycle now) {
   }
   if (offset == kCsr && (value & 1u << 24) != 0) causes_ = 0;
   word(offset) = value;
+}
+
+bool Rcc::set_crystal(bool swings) {
+  crystal_ = swings;
+  const bool noticed = !swings && (word(kCr) & kSecurityOn) != 0;
+  if (noticed) word(kCir) |= kSecurityFlag;
+  return noticed;
 }
 
 bool Rcc::live(Clock clock, Cycle now) {

@@ -10,13 +10,15 @@ namespace kinebus::emulator {
 
 class Rcc final : public PlainRegisters {
  public:
-  enum class ResetCause : std::uint8_t { kPowerOn, kSoftware, kWatchdog };
+  enum class ResetCause : std::uint8_t { kPowerOn, kSoftware, kWatchdog, kBrownOut };
 
   Rcc() { reset(ResetCause::kPowerOn); }
   void reset(ResetCause cause);
   std::uint32_t read(std::uint32_t offset, Cycle now) override;
   void write(std::uint32_t offset, std::uint32_t value, Cycle now) override;
 
+  /// The crystal stops, or swings again. True: the clock security system was on, and its NMI comes.
+  bool set_crystal(bool swings);
   /// What the registers ask for, with the board's 8 MHz crystal; empty: settings outside the chip's limits.
   std::optional<std::uint32_t> system_hz();
   std::optional<std::uint32_t> apb1_hz();
@@ -45,6 +47,7 @@ class Rcc final : public PlainRegisters {
   Fresh& fresh(std::uint32_t enable_register) { return fresh_[enable_register / 4 % fresh_.size()]; }
 
   std::uint32_t causes_ = 0;
+  bool crystal_ = true;
   std::array<Fresh, 8> fresh_{};
 };
 

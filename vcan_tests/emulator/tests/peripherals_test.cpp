@@ -237,7 +237,9 @@ struct Can {
     can.write(0x00, 1, 0);
     can.write(0x1C, 2u << 24 | 1u << 20 | 0xAu << 16 | 2, 0);
     can.write(0x00, 0, 0);
+    can.advance(kLater);
   }
+  static constexpr Cycle kLater = 11 * kCoreHz / 1'000'000;  // 11 recessive bits
   void filter(std::uint32_t bank, std::uint32_t r1, std::uint32_t r2, std::uint32_t fifo) {
     can.write(0x200, can.read(0x200, 0) | 1, 0);
     can.write(0x20C, can.read(0x20C, 0) | 1u << bank, 0);
@@ -267,9 +269,9 @@ TEST(BxCan, FiltersByMaskIntoTheChosenFifo) {
   c.filter(0, 0x080u << 21, 0x780u << 21 | 6, 0);
   c.filter(1, 0x605u << 21, 0x7FFu << 21 | 6, 1);
   c.can.write(0x14, 2 | 0x10, 0);
-  c.can.on_frame(CanFrame::make(0x085, {1}));
-  c.can.on_frame(CanFrame::make(0x605, {2}));
-  c.can.on_frame(CanFrame::make(0x606, {3}));
+  c.can.on_frame(CanFrame::make(0x085, {1}), Can::kLater);
+  c.can.on_frame(CanFrame::make(0x605, {2}), Can::kLater);
+  c.can.on_frame(CanFrame::make(0x606, {3}), Can::kLater);
   EXPECT_EQ(c.can.read(0x0C, 0) & 3, 1u);
   EXPECT_EQ(c.can.read(0x10, 0) & 3, 1u);
   EXPECT_EQ(c.can.read(0x1C0, 0) >> 21, 0x605u);
@@ -282,9 +284,27 @@ TEST(BxCan, FiltersByMaskIntoTheChosenFifo) {
 TEST(BxCan, TheFourthFrameThatNobodyFetchesIsAnOverrun) {
   Can c;
   c.filter(0, 0, 0, 0);
-  for (std::uint8_t i = 0; i < 4; ++i) c.can.on_frame(CanFrame::make(0x100, {i}));
+  for (std::uint8_t i = 0; i < 4; ++i) c.can.on_frame(CanFrame::make(0x100, {i}), Can::kLater);
   EXPECT_EQ(c.can.read(0x0C, 0), 3u | 8 | 0x10);
   EXPECT_EQ(c.can.counters().overruns, 1u);
+}
+
+TEST(BxCan, TakesPartWhenTheBusWasRecessiveForElevenBits) {
+  Lines lines;
+  BxCan can(lines);
+  can.set_dominant(true, 0);
+  can.write(0x00, 0, 0);
+  can.write(0x180, 0x181u << 21 | 1, 0);
+  can.advance(kCoreHz);
+  EXPECT_EQ(can.read(0x04, kCoreHz) & 1, 1u) << "still initialising";
+  EXPECT_FALSE(can.listening());
+  can.set_dominant(false, kCoreHz);
+  can.advance(kCoreHz + Can::kLater - 1);
+  EXPECT_FALSE(can.listening());
+  EXPECT_TRUE(can.take_requests().empty());
+  can.advance(kCoreHz + Can::kLater);
+  EXPECT_EQ(can.read(0x04, kCoreHz + Can::kLater) & 1, 0u);
+  EXPECT_EQ(can.take_requests().size(), 1u);
 }
 
 TEST(BxCan, SendsAndAbortsByMailbox) {

@@ -1,7 +1,9 @@
-// What a real chip does and a friendly one does not: long flash times, resets, a bus that is not there.
+// What a real chip does and a friendly one does not: long flash times, faults and resets, a bus that is not
+// there, a crystal that stops, a supply that dips.
 
 #include <gtest/gtest.h>
 
+#include "node_firmware/port/stm32f405/board.hpp"
 #include "vcan_tests/emulator/tests/one_board.hpp"
 
 namespace kinebus::emulator {
@@ -46,6 +48,147 @@ TEST(Silicon, NoFlashIsWrittenWhileAMotorHasPower) {
   EXPECT_GT(board.now(), began);
   EXPECT_EQ(board.resets(), 0u);
   EXPECT_TRUE(node.bench.emergencies(OneBoard::kId).empty());
+}
+
+/// A board that has kept its id, and motors that hold.
+struct Trace : testing::Test {
+  Trace() {
+    for (const CanFrame& lss :
+         {CanFrame::make(0x7E5, {4, 1, 0, 0, 0, 0, 0, 0}), CanFrame::make(0x7E5, {23, 0, 0, 0, 0, 0, 0, 0}),
+          CanFrame::make(0x7E5, {4, 0, 0, 0, 0, 0, 0, 0})}) {
+      node.bench.send(lss);
+      node.bench.run(200ms);
+    }
+    node.configure(1500, 0);
+    node.enable(1);
+    EXPECT_TRUE(bridges_on());
+    EXPECT_EQ(last_reset(1), 0) << "power-on";
+  }
+  bool bridges_on() { return node.board.pwm(0).sweep().main_output && node.board.pwm(1).sweep().main_output; }
+  std::int64_t last_reset(std::uint8_t sub) { return node.bench.read(OneBoard::kId, 0x2121, sub); }
+  std::string ask(const char* letter) {
+    node.board.console().take_sent();
+    node.board.console().receive(letter);
+    node.bench.run(50ms);
+    return node.board.console().take_sent();
+  }
+  /// After a reset: the code is told and over, and in the history.
+  void expect_told(std::uint16_t code) {
+    EXPECT_TRUE(node.told(code)) << std::hex << code;
+    EXPECT_EQ(node.bench.read(OneBoard::kId, 0x1001, 0), 0);
+    ASSERT_EQ(node.bench.read(OneBoard::kId, 0x1003, 0), 1);
+    EXPECT_EQ(node.bench.read(OneBoard::kId, 0x1003, 1) & 0xFFFF, code);
+  }
+  OneBoard node;
+};
+
+TEST_F(Trace, OfAHardFaultIsItsPlaceItsRegistersAndItsReason) {
+  Board& board = node.board;
+  board.cpu().nvic().set_fault_status(0x8200, 0x4000'0000, 0x2002'0000);
+  board.cpu().nvic().pend(kHardFault);
+  node.bench.run(200ms);
+  EXPECT_EQ(board.resets(), 1u);
+  EXPECT_FALSE(bridges_on());
+  expect_told(0x6100);
+  EXPECT_EQ(last_reset(1), 4) << "by the program";
+  EXPECT_EQ(last_reset(2), kHardFault);
+  for (const std::uint8_t place : {std::uint8_t{3}, std::uint8_t{4}}) {
+    EXPECT_GE(last_reset(place), board::kProgramAddress);
+    EXPECT_LT(last_reset(place), board::kProgramAddress + board::kProgramBytes);
+  }
+  EXPECT_EQ(last_reset(5), 0x8200);
+  EXPECT_EQ(last_reset(6), 0x4000'0000);
+  EXPECT_EQ(last_reset(7), 0x2002'0000);
+  const std::string text = ask("r");
+  EXPECT_EQ(text.rfind("reset by program fault 3 PC 0802", 0), 0u) << text;
+  EXPECT_NE(text.find("CFSR 00008200 HFSR 40000000 at 20020000\r\n"), std::string::npos) << text;
+  // The next one tells of itself alone.
+  board.cpu().nvic().write(0xED0C, 0x05FA'0004, board.now());
+  node.bench.run(200ms);
+  EXPECT_EQ(board.resets(), 2u);
+  EXPECT_EQ(last_reset(2), 0);
+  EXPECT_EQ(node.bench.read(OneBoard::kId, 0x1003, 0), 0);
+}
+
+TEST_F(Trace, OfAControlThatStandsStillIsTheWatchdog) {
+  constexpr std::uint32_t kDisableIrqs = 0xE180, kAdc = 1u << 18;
+  node.board.cpu().nvic().write(kDisableIrqs, kAdc, node.board.now());
+  node.bench.run(500ms);
+  EXPECT_EQ(node.board.watchdog_resets(), 1u);
+  EXPECT_FALSE(bridges_on());
+  expect_told(0x6100);
+  EXPECT_EQ(last_reset(1), 3);
+  EXPECT_EQ(node.bench.read(OneBoard::kId, 0x2120, 19), 1);
+  EXPECT_EQ(ask("r"), "reset by watchdog\r\n");
+}
+
+TEST_F(Trace, OfABrownOutIsAnUndervoltage) {
+  node.board.brown_out();
+  node.bench.run(200ms);
+  EXPECT_FALSE(bridges_on());
+  expect_told(0x3220);
+  EXPECT_EQ(last_reset(1), 2);
+  EXPECT_EQ(ask("r"), "reset by brown-out\r\n");
+}
+
+TEST_F(Trace, OfACrystalThatStopsIsTheClockSecuritySystem) {
+  node.board.set_crystal(false);
+  node.bench.run(1ms);
+  EXPECT_FALSE(bridges_on());
+  node.board.set_crystal(true);
+  node.bench.run(200ms);
+  expect_told(0x6100);
+  EXPECT_EQ(last_reset(2), kNmi);
+}
+
+TEST_F(Trace, OfASupplyBelowTwoVoltsNineIsItsDetector) {
+  node.board.set_chip_supply(2.85);
+  node.bench.run(1ms);
+  EXPECT_FALSE(bridges_on());
+  node.board.set_chip_supply(3.3);
+  node.bench.run(200ms);
+  expect_told(0x6100);
+  EXPECT_EQ(last_reset(2), kFirstInterrupt + 1);
+}
+
+TEST(Silicon, WithoutABusANodeStartsAndSaysSoAndJoinsWhenItComes) {
+  ElfImage image = firmware_image();
+  const std::string path = KINEBUS_FIRMWARE_IMAGE;
+  const ElfImage boot = load_elf(path.substr(0, path.rfind('/')) + "/kinebus-boot.elf");
+  image.pieces.insert(image.pieces.end(), boot.pieces.begin(), boot.pieces.end());
+  Board board(image, {.unique_id = {1, 2, 3}});
+  board.can().set_dominant(true, board.now());
+  board.set_usb_cable(true);
+  const auto run = [&](std::uint32_t ms) { board.run(board.now() + ms * (kCoreHz / 1000)); };
+  run(100);
+  EXPECT_TRUE(board.usb_device_seen());
+  board.console().receive("c");
+  run(50);
+  EXPECT_EQ(board.console().take_sent(), "CAN overruns 0 bus-off 0 passive 0 NO BUS\r\n");
+  // Two short flashes a second.
+  int flashes = 0;
+  bool lit = board.led_lit();
+  for (int i = 0; i < 105; ++i) {
+    run(10);
+    if (!lit && board.led_lit()) ++flashes;
+    lit = board.led_lit();
+  }
+  EXPECT_EQ(flashes, 2);
+  EXPECT_EQ(board.resets(), 0u);
+  EXPECT_FALSE(board.can().listening());
+  board.can().set_dominant(false, board.now());
+  run(20);
+  EXPECT_TRUE(board.can().listening());
+  board.can().take_requests();
+  board.deliver(board.now() + 1000, CanFrame::make(0x7E5, {76, 0, 0, 0, 0, 0, 0, 0}));
+  run(20);
+  const auto answers = board.can().take_requests();
+  ASSERT_FALSE(answers.empty());
+  EXPECT_EQ(answers[0].frame.id, 0x7E4u) << "an unconfigured node answers LSS";
+  board.console().receive("c");
+  run(50);
+  EXPECT_EQ(board.console().take_sent(), "CAN overruns 0 bus-off 0 passive 0\r\n");
+  EXPECT_EQ(board.resets(), 0u);
 }
 
 }  // namespace
