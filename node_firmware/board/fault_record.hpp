@@ -1,6 +1,6 @@
 #pragma once
-// What a program that must end leaves for the next: why, and the registers then. It lies in RAM that a reset keeps
-// (sections.ld) and that holds anything after power-on: hence the check.
+// What a program that must end leaves for the next: why, and the registers then. It lies in RAM that a reset
+// keeps (sections.ld) and that holds anything after power-on: hence the check.
 
 #include <array>
 #include <bit>

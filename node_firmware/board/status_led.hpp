@@ -17,12 +17,12 @@ struct LedState {
 /// On, at this time in steps of 65 ms, of which 16 are a round.
 constexpr bool led_on(const LedState& state, std::uint32_t step) {
   const auto pattern = [&]() -> std::uint32_t {
-    if (!state.on_bus) return 0b101;           // two flashes: no bus
-    if (state.fault) return 0x5555;            // flickers: a drive's fault
-    if (state.node_id == 0) return 0b10101;    // three flashes: no node id
+    if (!state.on_bus) return 0b101;         // two flashes: no bus
+    if (state.fault) return 0x5555;          // flickers: a drive's fault
+    if (state.node_id == 0) return 0b10101;  // three flashes: no node id
     if (state.nmt == NmtState::kOperational) return 0xFFFF;
     if (state.nmt == NmtState::kStopped) return 0b1;  // one flash
-    return 0x0F0F;                             // blinks: pre-operational
+    return 0x0F0F;                                    // blinks: pre-operational
   };
   return (pattern() >> step % 16 & 1) != 0;
 }

@@ -123,6 +123,10 @@ AbortCode BootLoader::sdo_read(ObjectAddress address, std::uint32_t offset, std:
     case 0x1F57'01:
       value = static_cast<std::uint32_t>(status_) << 1;
       break;
+    case 0x2122'00:
+      value = flash_.unprotected();
+      total = 1;
+      break;
     default:
       return AbortCode::kNoObject;
   }
@@ -137,10 +141,16 @@ AbortCode BootLoader::sdo_write(ObjectAddress address, std::uint32_t offset,
   if (address == ObjectAddress{0x1F50, 1}) return write_program(offset, bytes, last);
   if (address == ObjectAddress{0x1F51, 1})
     return bytes.size() == 1 && last ? control(bytes[0]) : AbortCode::kLength;
+  if (address == kChipProtection) return bytes.size() == 4 && last ? protect(bytes) : AbortCode::kLength;
   std::uint32_t total = 0;
   std::array<std::uint8_t, 4> unused{};
   return sdo_read(address, 0, unused, total) == AbortCode::kNoObject ? AbortCode::kNoObject
                                                                      : AbortCode::kReadOnly;
+}
+
+AbortCode BootLoader::protect(std::span<const std::uint8_t> signature) {
+  if (get_u32_le(signature) != kProtectSignature) return AbortCode::kCannotStore;
+  return flash_.protect() && flash_.unprotected() == 0 ? AbortCode::kNone : AbortCode::kHardware;
 }
 
 AbortCode BootLoader::control(std::uint8_t command) {

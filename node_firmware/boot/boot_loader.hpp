@@ -17,9 +17,16 @@
 
 namespace kinebus {
 
-/// The flash that holds the program: one erase for all of it.
+/// The flash that holds the program: one erase for all of it. And what the chip can keep from being lost for
+/// good.
 class ProgramFlash {
  public:
+  /// Bits of what is missing. 1: the chip's brown-out reset at the lowest supply at which it works; 2: the
+  /// boot loader's own flash is write protected.
+  static constexpr std::uint8_t kNoBrownOut = 1, kBootLoaderOpen = 2;
+  virtual std::uint8_t unprotected() const { return 0; }
+  /// Sets both, for good: the boot loader itself is not changed over CAN any more (nor ever was).
+  virtual bool protect() { return true; }
   virtual std::span<const std::uint8_t> bytes() const = 0;
   virtual bool erase() = 0;
   virtual bool program(std::uint32_t offset, std::uint32_t word) = 0;
@@ -38,6 +45,10 @@ enum class ProgramStatus : std::uint8_t {
   kWriteError = 5,
   kAddressError = 6,
 };
+
+/// 2122h, chip protection: what is missing (ProgramFlash); writing the signature sets it.
+inline constexpr ObjectAddress kChipProtection{0x2122, 0};
+inline constexpr std::uint32_t kProtectSignature = 0x746F'7270;  // "prot"
 
 /// 1F51h.
 namespace program_control {
@@ -67,6 +78,7 @@ class BootLoader final : private SdoObjects {
   AbortCode sdo_write(ObjectAddress address, std::uint32_t offset, std::span<const std::uint8_t> bytes,
                       bool last) override;
   AbortCode control(std::uint8_t command);
+  AbortCode protect(std::span<const std::uint8_t> signature);
   AbortCode write_program(std::uint32_t offset, std::span<const std::uint8_t> bytes, bool last);
   AbortCode put(std::uint8_t byte);
   AbortCode fail(ProgramStatus status, AbortCode code);

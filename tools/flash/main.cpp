@@ -9,11 +9,13 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <iostream>
 #include <iterator>
 #include <set>
 #include <stdexcept>
 #include <vector>
 
+#include "node_firmware/boot/boot_loader.hpp"
 #include "node_firmware/boot/image_header.hpp"
 #include "protocol/host/guarded_main.hpp"
 #include "protocol/host/socketcan.hpp"
@@ -29,7 +31,7 @@ using namespace std::chrono_literals;
 struct Arguments {
   std::string image, interface = "can0", console;
   std::vector<int> nodes;
-  bool all = false, force = false, dfu = false, swd = false;
+  bool all = false, force = false, protect = false, yes = false, dfu = false, swd = false;
   double answer_s = 6;
 };
 
@@ -74,6 +76,7 @@ bool update(SocketCan& can, std::uint8_t node, const std::vector<std::uint8_t>& 
   const LocalTime began = monotonic_now();
   ProgramUpdate::Options options;
   options.even_if_same = arguments.force;
+  options.protect = arguments.protect;
   options.answer = answer_time(arguments);
   options.boot = std::max(options.boot, options.answer / 2);
   ProgramUpdate work(node, image, began, options);
@@ -97,8 +100,24 @@ bool update(SocketCan& can, std::uint8_t node, const std::vector<std::uint8_t>& 
   const double seconds = to_seconds(monotonic_now() - began);
   if (::isatty(STDOUT_FILENO) != 0) fmt::print("\r");
   fmt::print("node {}: {} ({:.1f} s)\n", node, work.message(), seconds);
+  if ((work.unprotected() & ProgramFlash::kNoBrownOut) != 0)
+    fmt::print("node {}: no brown-out reset at 2.7 V: --protect sets it\n", node);
+  if ((work.unprotected() & ProgramFlash::kBootLoaderOpen) != 0)
+    fmt::print("node {}: the boot loader is not write protected: --protect does it\n", node);
   std::fflush(stdout);
   return work.status() == ProgramUpdate::Status::kDone;
+}
+
+/// For good, as far as CAN goes: asked for twice.
+bool protection_confirmed(const Arguments& arguments) {
+  if (!arguments.protect || arguments.yes) return true;
+  fmt::print(
+      "Option bytes will be written: brown-out reset at 2.7 V, boot loader write protected. Only SWD or DFU "
+      "undo that.\n"
+      "The nodes' power must stay on meanwhile. Type yes to go on: ");
+  std::fflush(stdout);
+  std::string answer;
+  return static_cast<bool>(std::getline(std::cin, answer)) && answer == "yes";
 }
 
 /// Hands over to a standard tool, which must be installed.
@@ -132,6 +151,7 @@ int flash(const Arguments& arguments) {
     ProgramUpdate refused(1, image, LocalTime{0}, {});
     return fmt::print(stderr, "{}: {}\n", arguments.image, refused.message()), 1;
   }
+  if (!protection_confirmed(arguments)) return fmt::print(stderr, "not confirmed: nothing was done\n"), 1;
   SocketCan can;
   if (const std::string error = can.open(arguments.interface, false); !error.empty())
     return fmt::print(stderr, "{}\n", error), 1;
@@ -158,12 +178,17 @@ int run(int argc, char** argv) {
                  "Seconds to wait for an answer: an erase takes up to 2, emulated boards may be slow")
       ->check(CLI::Range(0.5, 600.0))
       ->capture_default_str();
+  auto* protect =
+      app.add_flag("--protect", arguments.protect,
+                   "Sets the chip's brown-out reset and write protects its boot loader; asks first");
+  app.add_flag("--yes", arguments.yes, "Does not ask")->needs(protect);
   auto* dfu = app.add_flag("--dfu", arguments.dfu,
                            "By USB: the chip's own boot loader (BOOT0 or --console), with dfu-util");
   app.add_option("--console", arguments.console,
                  "The node's console, /dev/ttyACM0: asks it for its USB boot loader")
       ->needs(dfu);
   auto* swd = app.add_flag("--swd", arguments.swd, "By a debug probe, with openocd");
+  protect->excludes(dfu)->excludes(swd);
   if (const auto end = parse_arguments(app, argc, argv)) return *end;
   if (*dfu || *swd || *node || *all) return flash(arguments);
   fmt::print(stderr, "say which: --node ID, --all, --dfu or --swd\n");

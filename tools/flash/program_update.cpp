@@ -108,6 +108,12 @@ void ProgramUpdate::go(LocalTime now, Step step) {
     case Step::kReadStatus:
       message_ = "checking";
       return upload(now, kFlashStatus);
+    case Step::kReadProtection:
+      return upload(now, kChipProtection);
+    case Step::kProtect:
+      message_ = "protecting";
+      put_u32_le(signature_, kProtectSignature);
+      return download(now, kChipProtection, signature_);
     case Step::kStart:
       message_ = "starting";
       return control(program_control::kStart);
@@ -124,9 +130,10 @@ void ProgramUpdate::on_transfer(LocalTime now) {
     case Step::kReadIdentity:
       if (get_u32_le(value_) != decode_image_header(image_).product_code)
         return fail("is not the node that this image is for: product code differs (1018h:2)");
-      return go(now, in_boot_loader_ ? Step::kClear : Step::kReadProgram);
+      return go(now, !in_boot_loader_ ? Step::kReadProgram : same_ ? Step::kReadProtection : Step::kClear);
     case Step::kReadProgram:
-      if (get_u32_le(value_) == crc_ && !options_.even_if_same) {
+      same_ = get_u32_le(value_) == crc_ && !options_.even_if_same;
+      if (same_ && !options_.protect) {
         status_ = Status::kDone;
         message_ = "runs this program already";
         return;
@@ -140,13 +147,19 @@ void ProgramUpdate::on_transfer(LocalTime now) {
       return go(now, Step::kReadStatus);
     case Step::kReadStatus:
       if (value_[0] != 0) return fail("the node refuses the program: 1F57h = " + std::to_string(value_[0]));
+      return go(now, Step::kReadProtection);
+    case Step::kReadProtection:
+      unprotected_ = value_[0];
+      return go(now, unprotected_ != 0 && options_.protect ? Step::kProtect : Step::kStart);
+    case Step::kProtect:
+      unprotected_ = 0;
       return go(now, Step::kStart);
     case Step::kStart:
       return go(now, Step::kAwaitProgram);
     case Step::kVerify:
       if (get_u32_le(value_) != crc_) return fail("another program came up than was written");
       status_ = Status::kDone;
-      message_ = "updated";
+      message_ = same_ ? "protected" : "updated";
       return;
     case Step::kAwaitBootLoader:
     case Step::kAwaitProgram:
@@ -164,6 +177,10 @@ void ProgramUpdate::on_failed_transfer(LocalTime now) {
     --attempts_left_;
     return go(now, Step::kReadControl);
   }
+  // A boot loader of before protection: nothing is known of the chip.
+  if (step_ == Step::kReadProtection && code == AbortCode::kNoObject)
+    return options_.protect ? fail("its boot loader cannot protect the chip: write a new one by SWD or DFU")
+                            : go(now, Step::kStart);
   if (step_ == Step::kStop && code == AbortCode::kDeviceState)
     return fail(
         "its motors have power, or no boot loader started it: switch the drives off, or flash by SWD");
@@ -178,7 +195,7 @@ void ProgramUpdate::on_frame(LocalTime now, const CanFrame& frame) {
   if (heartbeat && heartbeat->node == node_ && heartbeat->state == NmtState::kInitialising &&
       boot_due_ != LocalTime::max()) {
     boot_due_ = LocalTime::max();
-    go(now, step_ == Step::kAwaitBootLoader ? Step::kClear : Step::kVerify);
+    go(now, step_ == Step::kAwaitProgram ? Step::kVerify : same_ ? Step::kReadProtection : Step::kClear);
   }
   on_time(now);
 }

@@ -30,6 +30,7 @@ class ProgramUpdate {
     LocalTime boot = std::chrono::seconds{3};  ///< from a reset to the boot-up message
     int attempts = 3;  ///< downloads that fail by a timeout or a wrong CRC are repeated
     bool even_if_same = false;
+    bool protect = false;  ///< set what the boot loader finds unprotected (2122h)
   };
 
   /// `image`: as kinebus-node.bin; must stay. Failed at once when it is no image for a board.
@@ -44,6 +45,9 @@ class ProgramUpdate {
   Status status() const { return status_; }
   /// What is done now, what went wrong, or that there was nothing to do.
   const std::string& message() const { return message_; }
+  /// What the boot loader finds unprotected (ProgramFlash), when it was asked; one of before 2122h says
+  /// nothing.
+  std::uint8_t unprotected() const { return unprotected_; }
   /// Of the download, 0..100.
   int percent() const;
   std::uint8_t node() const { return node_; }
@@ -58,6 +62,8 @@ class ProgramUpdate {
     kClear,
     kDownload,
     kReadStatus,
+    kReadProtection,
+    kProtect,
     kStart,
     kAwaitProgram,
     kVerify,
@@ -83,6 +89,9 @@ class ProgramUpdate {
   std::optional<CanFrame> before_;  ///< goes ahead of the transfer that was begun
   LocalTime boot_due_ = LocalTime::max();
   bool in_boot_loader_ = false;
+  bool same_ = false;  ///< the program is there: only protection is wanted
+  std::uint8_t unprotected_ = 0;
+  std::array<std::uint8_t, 4> signature_{};
   int attempts_left_;
 };
 

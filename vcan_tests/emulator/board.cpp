@@ -274,6 +274,7 @@ bool Board::system_boot_selected() const {
 void Board::set_chip_supply(double volts) {
   power_control_.set_supply(volts);
   exti_.on_inner_level(PowerControl::kDetectorLine, power_control_.supply_low());
+  if (volts < flash_.brown_out_volts()) reset(Rcc::ResetCause::kBrownOut);
 }
 
 void Board::set_crystal(bool swings) {

@@ -68,10 +68,9 @@ class Board final : public Devices {
   void set_supply(double volts);
   void set_temperature(int axis, double celsius) { temperature_c_[static_cast<std::size_t>(axis)] = celsius; }
 
-  /// The chip's own supply, 3.3 V by itself: only what the detector (PVD) makes of it.
+  /// The chip's own supply, 3.3 V by itself: what the detector (PVD) makes of it, and a reset below the
+  /// brown-out level of the option bytes; RAM keeps. Not what flash and core do below 2.7 V.
   void set_chip_supply(double volts);
-  /// It was so low that the chip was reset; RAM has kept.
-  void brown_out() { reset(Rcc::ResetCause::kBrownOut); }
   void set_crystal(bool swings);
   /// The status LED, active low.
   bool led_lit() const;

@@ -35,8 +35,15 @@ struct ModelFlash final : ProgramFlash {
     return true;
   }
   bool program(std::uint32_t offset, std::uint32_t word) override { return model.program(offset, word); }
+  std::uint8_t unprotected() const override { return missing; }
+  bool protect() override {
+    if (locks) missing = 0;
+    return locks;
+  }
   FlashModel model;
   int erasures = 0;
+  std::uint8_t missing = kNoBrownOut | kBootLoaderOpen;
+  bool locks = true;
 };
 
 }  // namespace kinebus

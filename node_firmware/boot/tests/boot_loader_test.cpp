@@ -49,6 +49,24 @@ struct BootTest : testing::Test {
   }
 };
 
+TEST_F(BootTest, TheChipIsProtectedByASignatureAndNothingElse) {
+  ASSERT_FALSE(reset());
+  const auto protect = [&](std::uint32_t signature, std::size_t length = 4) {
+    std::array<std::uint8_t, 4> bytes{};
+    put_u32_le(bytes, signature);
+    return transfer([&](SdoClient& c) { c.download(now, 7, {0x2122, 0}, std::span(bytes).first(length)); });
+  };
+  EXPECT_EQ(read(0x2122, 0), 3u) << "brown-out level and boot loader";
+  EXPECT_EQ(protect(0x6576'6173), AbortCode::kCannotStore);
+  EXPECT_EQ(protect(kProtectSignature, 2), AbortCode::kLength);
+  EXPECT_EQ(read(0x2122, 0), 3u);
+  flash.locks = false;
+  EXPECT_EQ(protect(kProtectSignature), AbortCode::kHardware) << "a chip that does not take it";
+  flash.locks = true;
+  EXPECT_EQ(protect(kProtectSignature), AbortCode::kNone);
+  EXPECT_EQ(read(0x2122, 0), 0u);
+}
+
 TEST_F(BootTest, ABlankBoardAnswersTakesAProgramAndStartsIt) {
   ASSERT_FALSE(reset());
   EXPECT_EQ(read(0x1018, 2), kProductCode);

@@ -14,6 +14,7 @@
 #include "node_firmware/port/stm32f405/handlers.hpp"
 #include "node_firmware/port/stm32f405/handover_port.hpp"
 #include "node_firmware/port/stm32f405/local_time.hpp"
+#include "node_firmware/port/stm32f405/option_port.hpp"
 #include "node_firmware/port/stm32f405/pins.hpp"
 #include "protocol/canopen/boards/stm32f405.hpp"
 
@@ -31,6 +32,8 @@ class ProgramSector final : public ProgramFlash {
   bool program(std::uint32_t offset, std::uint32_t word) override {
     return flash::program(board::kProgramAddress + offset, word);
   }
+  std::uint8_t unprotected() const override { return options::missing(); }
+  bool protect() override { return options::protect(); }
 };
 
 constinit ProgramSector program_sector;

@@ -64,6 +64,11 @@ struct FlashInterface {
                                  kDataCache = bit(10), kInstructionCacheReset = bit(11),
                                  kDataCacheReset = bit(12);
   static constexpr std::uint32_t kKey1 = 0x4567'0123, kKey2 = 0xCDEF'89AB;
+  static constexpr std::uint32_t kOptionKey1 = 0x0819'2A3B, kOptionKey2 = 0x4C5D'6E7F;
+  // OPTCR. BOR_LEV 0 is level 3, 2.7 V; nWRP: 0 is protected, by sector; RDP AAh: not read protected.
+  static constexpr std::uint32_t kOptionLock = bit(0), kOptionStart = bit(1), kBrownOutLevel = 3u << 2,
+                                 kReadProtection = 0xFFu << 8, kNotReadProtected = 0xAAu << 8;
+  static constexpr std::uint32_t not_write_protected(unsigned sector) { return 1u << (16 + sector); }
   static constexpr std::uint32_t kEndOfOperation = bit(0), kBusy = bit(16), kErrors = 0xF2;
   static constexpr std::uint32_t kProgram = bit(0), kSectorErase = bit(1), kStart = bit(16), kLock = bit(31);
   static constexpr std::uint32_t kSizeWord = 2u << 8;  // PSIZE x32: 2.7 to 3.6 V

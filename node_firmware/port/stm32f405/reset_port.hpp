@@ -1,5 +1,6 @@
 #pragma once
-// Why this chip has begun anew: the flags of RCC_CSR, and the record behind the handover in RAM (sections.ld).
+// Why this chip has begun anew: the flags of RCC_CSR, and the record behind the handover in RAM
+// (sections.ld).
 
 #include "node_firmware/board/fault_record.hpp"
 #include "node_firmware/port/stm32f405/registers.hpp"
@@ -8,7 +9,8 @@ extern "C" kinebus::FaultRecord fault_ram;
 
 namespace kinebus::stm32 {
 
-/// A reset from within pulls the pin too, and power-on sets the flag of the brown-out too: the most telling first.
+/// A reset from within pulls the pin too, and power-on sets the flag of the brown-out too: the most telling
+/// first.
 constexpr ResetCause reset_cause(std::uint32_t csr) {
   if ((csr & (Rcc::kWatchdogReset | Rcc::kWindowWatchdogReset)) != 0) return ResetCause::kWatchdog;
   if ((csr & Rcc::kSoftwareReset) != 0) return ResetCause::kSoftware;

@@ -5,8 +5,8 @@
 
 namespace kinebus::stm32 {
 
-/// From now on a supply below 2.9 V is an interrupt that nobody handles: power off and reset, while flash and core
-/// still work (down to 2.7 V). False: it is that low already. start_clocks() has enabled PWR.
+/// From now on a supply below 2.9 V is an interrupt that nobody handles: power off and reset, while flash and
+/// core still work (down to 2.7 V). False: it is that low already. start_clocks() has enabled PWR.
 inline bool watch_supply() {
   pwr().CR = pwr().CR | Pwr::kDetect2V9 | Pwr::kDetectorOn;
   if (!wait_until([] { return (pwr().CSR & Pwr::kSupplyLow) == 0; })) return false;

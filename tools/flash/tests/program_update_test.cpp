@@ -21,6 +21,7 @@ struct Board {
   std::unique_ptr<Node> node;
   LocalTime now{0};
   std::uint32_t downloads = 0;
+  std::uint8_t unprotected = 0;
 
   void reset() {
     boot.reset();
@@ -57,8 +58,8 @@ struct Board {
     return std::nullopt;
   }
   ProgramUpdate::Status update(std::span<const std::uint8_t> image, std::string* message = nullptr,
-                               const std::function<bool(const CanFrame&)>& lose = {}) {
-    ProgramUpdate work(3, image, now, {.answer = std::chrono::seconds{1}});
+                               const std::function<bool(const CanFrame&)>& lose = {}, bool protect = false) {
+    ProgramUpdate work(3, image, now, {.answer = std::chrono::seconds{1}, .protect = protect});
     int last_percent = 0;
     while (work.status() == ProgramUpdate::Status::kBusy) {
       now += std::chrono::microseconds{130};
@@ -69,6 +70,7 @@ struct Board {
       last_percent = work.percent();
     }
     if (message != nullptr) *message = work.message();
+    unprotected = work.unprotected();
     return work.status();
   }
 };
@@ -88,6 +90,30 @@ TEST(ProgramUpdate, BlankBoardThenUpdateThenNothingToDo) {
   EXPECT_EQ(board.update(second, &message), Status::kDone);
   EXPECT_EQ(message, "runs this program already");
   EXPECT_EQ(board.flash.erasures, erasures);
+}
+
+TEST(ProgramUpdate, TheChipIsProtectedWhenAskedWithANewProgramOrWithoutOne) {
+  Board board;
+  board.reset();
+  const auto image = make_image(9000, 1);
+  std::string message;
+  EXPECT_EQ(board.update(image, &message), Status::kDone);
+  EXPECT_EQ(board.unprotected, 3) << "told";
+  EXPECT_EQ(board.flash.missing, 3) << "and not set";
+  const int erasures = board.flash.erasures;
+  EXPECT_EQ(board.update(image, &message, {}, true), Status::kDone) << message;
+  EXPECT_EQ(message, "protected");
+  EXPECT_EQ(board.flash.missing, 0);
+  EXPECT_EQ(board.flash.erasures, erasures) << "the program stays";
+  ASSERT_TRUE(board.node) << "and runs";
+  board.flash.missing = ProgramFlash::kNoBrownOut;
+  EXPECT_EQ(board.update(make_image(9000, 2), &message, {}, true), Status::kDone) << message;
+  EXPECT_EQ(message, "updated");
+  EXPECT_EQ(board.flash.missing, 0);
+  board.flash.missing = ProgramFlash::kNoBrownOut;
+  board.flash.locks = false;
+  EXPECT_EQ(board.update(make_image(9000, 3), &message, {}, true), Status::kFailed);
+  EXPECT_EQ(message.rfind("protecting: ", 0), 0u) << message;
 }
 
 TEST(ProgramUpdate, WrongFilesAndPoweredDrivesAreRefusedWithTheReason) {

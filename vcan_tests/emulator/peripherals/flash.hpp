@@ -25,6 +25,10 @@ class FlashController final : public Peripheral {
   /// The processor waits for the flash that long when it fetches during an operation.
   Cycle busy_until() const { return busy_until_; }
 
+  /// OPTCR without its lock and start bits: not lost with the power.
+  std::uint32_t options() const { return options_; }
+  /// Below this supply the chip is reset.
+  double brown_out_volts() const;
   std::uint32_t wait_states() const { return acr_ & 7; }
   std::uint64_t erases() const { return erases_; }
   std::uint64_t programs() const { return programs_; }
@@ -36,9 +40,14 @@ class FlashController final : public Peripheral {
   static Sector sector(unsigned number);
 
  private:
+  bool write_protected(unsigned sector) const { return (options_ >> (16 + sector) & 1) == 0; }
+  void write_options(std::uint32_t value, Cycle now);
+
   std::span<std::uint8_t> memory_;
   std::uint32_t acr_ = 0, sr_ = 0, cr_ = 1u << 31;
-  int key_step_ = 0;
+  int key_step_ = 0, option_key_step_ = 0;
+  std::uint32_t options_ = 0x0FFFAAEC;  ///< as delivered
+  std::uint32_t optcr_ = 0x0FFFAAED;    ///< as written, in force from its start bit on
   Cycle busy_until_ = 0;
   bool erased_ = false;
   std::uint64_t erases_ = 0, programs_ = 0;

@@ -82,6 +82,31 @@ TEST(Flash, TakesTheLongestTimesOfTheDataSheet) {
   EXPECT_EQ(f.flash.busy_until(), 4 * kCoreHz) << "2 s for 128 KiB";
 }
 
+TEST(Flash, OptionsNeedTheirKeysAndProtectSectorsForGood) {
+  FlashUnderTest f;
+  constexpr std::uint32_t kWanted = 0x0FFCAAE0;  // brown-out level 3, sectors 0 and 1
+  EXPECT_EQ(f.flash.read(0x14, 0), 0x0FFFAAEDu) << "as delivered, locked";
+  f.flash.write(0x14, kWanted | 2, 0);
+  EXPECT_EQ(f.flash.options(), 0x0FFFAAECu) << "locked";
+  f.flash.write(0x08, 0x08192A3B, 0);
+  f.flash.write(0x08, 0x4C5D6E7F, 0);
+  f.flash.write(0x14, kWanted, 0);
+  EXPECT_EQ(f.flash.options(), 0x0FFFAAECu) << "not started";
+  EXPECT_DOUBLE_EQ(f.flash.brown_out_volts(), 1.8);
+  f.flash.write(0x14, kWanted | 2, 0);
+  EXPECT_NE(f.flash.read(0x0C, 1000) & 1u << 16, 0u) << "busy";
+  EXPECT_EQ(f.flash.options(), kWanted);
+  EXPECT_DOUBLE_EQ(f.flash.brown_out_volts(), 2.7);
+  f.flash.reset();
+  EXPECT_EQ(f.flash.read(0x14, kCoreHz), kWanted | 1) << "kept, and locked again";
+  f.unlock();
+  f.flash.write(0x10, 2 | 1u << 3 | 1u << 16, kCoreHz);
+  EXPECT_NE(f.flash.read(0x0C, kCoreHz) & 0x10, 0u) << "sector 1 is protected";
+  f.flash.write(0x10, 1 | 2u << 8, kCoreHz);
+  EXPECT_FALSE(f.flash.program(0x08000000, 0, 4, kCoreHz));
+  EXPECT_TRUE(f.flash.program(0x08008000, 0, 4, kCoreHz)) << "sector 2 is not";
+}
+
 TEST(Flash, ErasesTheSectorAndNothingElse) {
   FlashUnderTest f;
   std::iota(f.memory.begin(), f.memory.end(), std::uint8_t{0});

@@ -123,7 +123,8 @@ TEST_F(Trace, OfAControlThatStandsStillIsTheWatchdog) {
 }
 
 TEST_F(Trace, OfABrownOutIsAnUndervoltage) {
-  node.board.brown_out();
+  node.board.set_chip_supply(1.75);
+  node.board.set_chip_supply(3.3);
   node.bench.run(200ms);
   EXPECT_FALSE(bridges_on());
   expect_told(0x3220);

@@ -57,8 +57,10 @@ struct EmulatedUpdate : testing::Test {
     }
   }
   /// False: it failed. `cut_at`: at so many percent the node's power goes.
-  bool update(std::uint8_t node, std::span<const std::uint8_t> bytes, int cut_at = 101) {
-    ProgramUpdate work(node, bytes, now, {.answer = 3s, .attempts = cut_at > 100 ? 3 : 1});
+  bool update(std::uint8_t node, std::span<const std::uint8_t> bytes, int cut_at = 101,
+              bool protect = false) {
+    ProgramUpdate work(node, bytes, now,
+                       {.answer = 3s, .attempts = cut_at > 100 ? 3 : 1, .protect = protect});
     std::optional<CanFrame> unsent;
     while (work.status() == ProgramUpdate::Status::kBusy) {
       while (machine.can_send() && (unsent || (unsent = work.next_frame()))) {
@@ -126,6 +128,24 @@ TEST_F(EmulatedUpdate, AllNodesGetTheNewProgramAndACutIsRepairedByRunningItAgain
     EXPECT_EQ(machine.board(node).watchdog_resets(), 0u);
     EXPECT_TRUE(machine.board(node).strange_accesses().empty());
   }
+}
+
+TEST_F(EmulatedUpdate, TheChipIsProtectedAndTakesProgramsAllTheSame) {
+  Board& board = machine.board(0);
+  const std::vector<std::uint8_t> program = program_in(board);
+  constexpr std::uint32_t kBefore = 0x0FFFAAEC, kAfter = 0x0FFCAAE0;
+  ASSERT_EQ(board.flash().options(), kBefore);
+  EXPECT_TRUE(update(1, program, 101, true));
+  EXPECT_EQ(board.flash().options(), kAfter) << "brown-out level 3, sectors 0 and 1, and nothing else";
+  keep_id(1);
+  machine.power_cycle(0);
+  for (const BusTime end = now + 100ms; now < end;) pass([](const CanFrame&) {});
+  EXPECT_EQ(board.flash().options(), kAfter);
+  const std::uint64_t erases = board.flash().erases();
+  EXPECT_TRUE(update(1, program, 101, true)) << "again: nothing to do";
+  EXPECT_EQ(board.flash().erases(), erases);
+  EXPECT_EQ(machine.board(1).flash().options(), kBefore) << "who was not asked";
+  EXPECT_EQ(board.watchdog_resets(), 0u);
 }
 
 }  // namespace
