@@ -1,6 +1,7 @@
 // The node's firmware: builds the parts, connects them, loops.
 
 #include <optional>
+#include <utility>
 
 #include "node_firmware/board/identity.hpp"
 #include "node_firmware/board/node_program.hpp"
@@ -47,13 +48,17 @@ void give_way(const Node& node, std::uint32_t to) {
   reset_processor();
 }
 
+// Once a step of the pattern: the main loop has better things to do.
 void show(const Node& node) {
+  static std::uint32_t shown = 0;
+  const std::uint32_t step = local_counts() / kLedStep;
+  if (std::exchange(shown, step) == step) return;
   const auto faulty = [&](int axis) { return node.axis(axis).state() == cia402::State::kFault; };
   const LedState state{.on_bus = can_port.joined() && !can_port.bus_off(),
                        .fault = faulty(0) || faulty(1),
                        .node_id = node.node_id(),
                        .nmt = node.nmt_state()};
-  write(board::kStatusLed, !led_on(state, local_counts() / kLedStep));
+  write(board::kStatusLed, !led_on(state, step));
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 #pragma once
-// The option bytes: brown-out reset at 2.7 V, below which neither flash nor 168 MHz are in specification, and write
-// protection of the boot loader's sectors. All other options stay as they are; a chip that is read protected is left
-// alone.
+// The option bytes: brown-out reset at 2.7 V, below which neither flash nor 168 MHz are in specification, and
+// write protection of the boot loader's sectors. All other options stay as they are; a chip that is read
+// protected is left alone.
 
 #include "node_firmware/boot/boot_loader.hpp"
 #include "node_firmware/port/stm32f405/flash_port.hpp"
