@@ -36,6 +36,7 @@ void visit_bodies(V& v, BodiesDescription& b, BodyKeys has) {
   v.number("floor_mm", b.floor_mm, kSizeOrNone, Need::kOptional);
   v.unless_zero("part_radius_mm", b.part_radius_mm, kSizeOrNone, 1);
   v.unless_zero("part_height_mm", b.part_height_mm, kSizeOrNone, 1);
+  v.flag("printed_part", b.printed_part, Need::kOptional);
   v.named_tables("fixed", b.fixed, [&](FixedBody& body) {
     v.vector3("from_mm", body.from_mm, kPlace, Need::kRequired);
     v.vector3("to_mm", body.to_mm, kPlace, Need::kRequired);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "gateway/jobs/machine_setup.hpp"
+#include "gateway/jobs/print_trace.hpp"
 
 namespace kinebus {
 namespace {
@@ -19,7 +20,9 @@ JobCheck::JobCheck(const MachineDescription& machine, const Kinematics& kinemati
     : JobCheck(machine, kinematics, Options{}) {}
 JobCheck::JobCheck(const MachineDescription& machine, const Kinematics& kinematics, Options options)
     : machine_(machine),
-      way_(machine, kinematics),
+      printed_(machine.bodies && machine.bodies->printed_part ? std::make_unique<bodies::PrintedPart>()
+                                                              : nullptr),
+      way_(machine, kinematics, printed_.get()),
       options_(options),
       hotend_celsius_(options.hotend_celsius) {}
 
@@ -28,9 +31,14 @@ void JobCheck::add(Problem::Severity severity, std::uint32_t line, Sentence word
 }
 
 void JobCheck::phase(const Phase& phase) {
+  const PosePoint end = phase.piece.evaluate(phase.s(phase.duration_s));
+  check_way(phase, end);
+  if (printed_) trace_print(phase, end, *printed_);
+}
+
+void JobCheck::check_way(const Phase& phase, const PosePoint& end) {
   const double from = phase.s0;
   const double to = phase.s(phase.duration_s);
-  const PosePoint end = phase.piece.evaluate(to);
   const double length = std::abs(to - from);
   // What one unit of s moves: s is close to arc length, or the dominant axis' own unit.
   const double mm = std::sqrt(end.x1[kX] * end.x1[kX] + end.x1[kY] * end.x1[kY] + end.x1[kZ] * end.x1[kZ]);

@@ -3,6 +3,7 @@
 // their way, temperatures, commands out of place. Collects every problem with its line.
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 #include "gateway/description/machine_description.hpp"
@@ -34,12 +35,14 @@ class JobCheck {
   const ProblemList& problems() const { return problems_; }
 
  private:
+  void check_way(const Phase& phase, const PosePoint& end);
   void check_pose(const Phase& phase, double before, double s);
   void check_extrusion(const Phase& phase);
   void check_thermal(const canonical::Thermal& thermal, std::uint32_t line);
   void add(Problem::Severity severity, std::uint32_t line, Sentence words);
 
   const MachineDescription& machine_;
+  std::unique_ptr<bodies::PrintedPart> printed_;  ///< by the job, so far; nullptr: nobody looks
   WayRules way_;
   Options options_;
   ProblemList problems_;

@@ -40,8 +40,9 @@ void merge_limits(canonical::Limits& all, const canonical::Limits& more) {
   take(all.retract_accel_mm_per_s2, more.retract_accel_mm_per_s2);
 }
 
-LiveLines::LiveLines(const MachineDescription& machine, const Kinematics& kinematics)
-    : machine_(machine), kinematics_(kinematics), way_(machine, kinematics) {
+LiveLines::LiveLines(const MachineDescription& machine, const Kinematics& kinematics,
+                     const bodies::PrintedPart* printed)
+    : machine_(machine), kinematics_(kinematics), way_(machine, kinematics, printed) {
   restart({});
 }
 

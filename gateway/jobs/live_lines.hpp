@@ -19,8 +19,9 @@ namespace kinebus {
 
 class LiveLines {
  public:
-  /// Both must outlive this.
-  LiveLines(const MachineDescription& machine, const Kinematics& kinematics);
+  /// All must outlive this. `printed`: what stands on the table; nullptr: nobody looks.
+  LiveLines(const MachineDescription& machine, const Kinematics& kinematics,
+            const bodies::PrintedPart* printed = nullptr);
 
   /// Modal state and limits are forgotten, as after switching on. Work offsets stay: they are the machine's.
   void forget() { restart(gcode::WorkOffsets(work_offsets())); }

@@ -1,9 +1,11 @@
 #pragma once
-// Whether the machine can go a way: pose after pose within the kinematics' limits, and no two bodies nearer
-// than they may come. Between two poses bodies are looked at where they could have met.
+// Whether the machine can go a way: pose after pose within the kinematics' limits, no two bodies nearer than
+// they may come, and tool and holder out of what has been printed. Between two poses bodies are looked at
+// where they could have met.
 
 #include <optional>
 
+#include "gateway/bodies/printed_part.hpp"
 #include "gateway/bodies/sweep.hpp"
 #include "gateway/description/machine_description.hpp"
 
@@ -11,15 +13,20 @@ namespace kinebus {
 
 class WayRules {
  public:
-  /// Both must outlive this. A description without bodies has none to be checked.
-  WayRules(const MachineDescription& machine, const Kinematics& kinematics)
-      : kinematics_(kinematics), model_(make_collision_model(machine)) {
-    if (model_) sweep_.emplace(*model_);
+  /// All must outlive this. A description without bodies has none to be checked. `printed`: what stands on
+  /// the table; nullptr: nothing does.
+  WayRules(const MachineDescription& machine, const Kinematics& kinematics,
+           const bodies::PrintedPart* printed = nullptr)
+      : kinematics_(kinematics), model_(make_collision_model(machine)), printed_(printed) {
+    if (!model_) return;
+    sweep_.emplace(*model_);
+    if (printed_ != nullptr) watch_.emplace(*machine.bodies);
   }
 
   /// The next way does not begin where the last one ended.
   void jump() {
     if (sweep_) sweep_->jump();
+    if (watch_) watch_->jump();
   }
 
   /// Why the machine cannot stand at `at(to)`, or not come there from `at(from)`, where it stands: at(s) is
@@ -32,15 +39,13 @@ class WayRules {
       jump();
       return to_string(checked.error());
     }
-    if (!sweep_) return std::nullopt;
-    return collision(frame, pose, from, to, at, kHalvings);
+    return collision(frame, pose, from, to, at);
   }
 
   /// The same for bodies alone: poses outside the workspace are taken as well.
   template <typename PoseAt>
   std::optional<Sentence> collision(Frame frame, double from, double to, PoseAt&& at) {
-    if (!sweep_) return std::nullopt;
-    return collision(frame, at(to), from, to, at, kHalvings);
+    return collision(frame, at(to), from, to, at);
   }
 
  private:
@@ -49,6 +54,17 @@ class WayRules {
   static constexpr int kHalvings = 8;
 
   /// `pose`: at(to).
+  template <typename PoseAt>
+  std::optional<Sentence> collision(Frame frame, const Pose& pose, double from, double to, PoseAt&& at) {
+    if (!sweep_) return std::nullopt;
+    if (auto words = collision(frame, pose, from, to, at, kHalvings)) return words;
+    if (!watch_) return std::nullopt;
+    const auto in_part = watch_->meets(*printed_, frame, pose);
+    if (!in_part) return std::nullopt;
+    return model_->words({0, {*in_part}, {bodies::BodyKind::kPart}});
+  }
+
+  /// The same of the bodies that the machine has.
   template <typename PoseAt>
   std::optional<Sentence> collision(Frame frame, const Pose& pose, double from, double to, PoseAt&& at,
                                     int halvings) {
@@ -73,6 +89,8 @@ class WayRules {
   const Kinematics& kinematics_;
   bodies::Model model_;
   std::optional<bodies::Sweep> sweep_;
+  const bodies::PrintedPart* printed_;
+  std::optional<bodies::PrintWatch> watch_;
 };
 
 }  // namespace kinebus

@@ -71,9 +71,11 @@ Gateway::Core::Core(const MachineDescription& machine, Options options, std::opt
       position_(machine_, *kinematics_, axes_, group_),
       rest_(machine_, links_, rate_),
       clearing_(axes_, links_, rate_),
-      hand_(machine_, *kinematics_, group_, rate_, heat_, events_, journal_),
-      print_(machine_, *kinematics_, group_, rate_, heat_, events_, journal_),
-      lines_(machine_, *kinematics_, journal_),
+      printed_(machine_.bodies && machine_.bodies->printed_part ? std::make_unique<bodies::PrintedPart>()
+                                                                : nullptr),
+      hand_(machine_, *kinematics_, group_, rate_, heat_, events_, journal_, printed_.get()),
+      print_(machine_, *kinematics_, group_, rate_, heat_, events_, journal_, printed_.get()),
+      lines_(machine_, *kinematics_, journal_, printed_.get()),
       recovery_(machine_, *kinematics_, journal_),
       stall_(machine_, events_) {
   if (!options_.journal) return;

@@ -219,6 +219,7 @@ class Gateway::Core {
   Rest rest_;
   Clearing clearing_;
   HeatHold heat_hold_;
+  std::unique_ptr<bodies::PrintedPart> printed_;  ///< on the table; nullptr: the machine does not look at it
   ManualMotion hand_;
   PrintJob print_;
   LineDesk lines_;

@@ -88,6 +88,8 @@ void Gateway::Core::step_checking() {
     events_.alarm(now_, AlarmCode::kJobError, pose.error().words);
     return stop_all(true);
   }
+  // Who begins a job has taken the last one off the table.
+  if (printed_) printed_->clear();
   if (auto meet = hand_.in_the_way_to_reference(*pose)) {
     events_.push({.kind = MachineEvent::Kind::kFinished,
                   .when = now_,

@@ -8,8 +8,9 @@ namespace {
 constexpr double kLargestOffset = 1e6;  // mm
 }  // namespace
 
-LineDesk::LineDesk(const MachineDescription& machine, const Kinematics& kinematics, journal::Queue& journal)
-    : machine_(machine), journal_(journal), lines_(machine, kinematics) {}
+LineDesk::LineDesk(const MachineDescription& machine, const Kinematics& kinematics, journal::Queue& journal,
+                   const bodies::PrintedPart* printed)
+    : machine_(machine), journal_(journal), lines_(machine, kinematics, printed) {}
 
 const gcode::CommandBuffer& LineDesk::open(const Pose& pose, std::optional<double> hotend_celsius) {
   commands_.clear();

@@ -19,7 +19,8 @@ namespace kinebus {
 
 class LineDesk {
  public:
-  LineDesk(const MachineDescription& machine, const Kinematics& kinematics, journal::Queue& journal);
+  LineDesk(const MachineDescription& machine, const Kinematics& kinematics, journal::Queue& journal,
+           const bodies::PrintedPart* printed);
 
   /// As the gateway before has left them.
   void restart(const gcode::WorkOffsets& offsets) { lines_.restart(offsets); }

@@ -26,9 +26,10 @@ class ManualMotion {
   enum class Then : std::uint8_t { kNothing, kJob, kReturn, kHeld };
 
   ManualMotion(const MachineDescription& machine, const Kinematics& kinematics, StreamGroup& group,
-               PathRate& rate, Heat& heat, EventQueue& events, journal::Queue& journal)
+               PathRate& rate, Heat& heat, EventQueue& events, journal::Queue& journal,
+               const bodies::PrintedPart* printed)
       : kinematics_(kinematics),
-        way_(machine, kinematics),
+        way_(machine, kinematics, printed),
         runner_(machine, kinematics, group, rate, heat, events, journal) {}
 
   Runner& runner() { return runner_; }

@@ -20,11 +20,12 @@ namespace kinebus {
 class PrintJob {
  public:
   PrintJob(const MachineDescription& machine, const Kinematics& kinematics, StreamGroup& group,
-           PathRate& rate, Heat& heat, EventQueue& events, journal::Queue& journal)
+           PathRate& rate, Heat& heat, EventQueue& events, journal::Queue& journal,
+           bodies::PrintedPart* printed)
       : machine_(machine),
         kinematics_(kinematics),
         events_(events),
-        runner_(machine, kinematics, group, rate, heat, events, journal) {}
+        runner_(machine, kinematics, group, rate, heat, events, journal, printed) {}
 
   Runner& runner() { return runner_; }
   const Runner& runner() const { return runner_; }

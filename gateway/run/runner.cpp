@@ -5,6 +5,8 @@
 #include <iterator>
 #include <utility>
 
+#include "gateway/jobs/print_trace.hpp"
+
 namespace kinebus {
 namespace {
 
@@ -39,13 +41,15 @@ constexpr BusTime kJournalPatience = std::chrono::milliseconds{500};
 }  // namespace
 
 Runner::Runner(const MachineDescription& machine, const Kinematics& kinematics, StreamGroup& group,
-               PathRate& rate, Heat& heat, EventQueue& events, journal::Queue& journal)
+               PathRate& rate, Heat& heat, EventQueue& events, journal::Queue& journal,
+               bodies::PrintedPart* printed)
     : machine_(machine),
       group_(group),
       rate_(rate),
       heat_(heat),
       events_out_(events),
       journal_(journal),
+      printed_(printed),
       pipeline_(machine, kinematics),
       feed_(group) {}
 
@@ -62,6 +66,7 @@ void Runner::begin() {
 
 void Runner::start_job(std::unique_ptr<ByteSource> source, const Pose& start,
                        const gcode::WorkOffsets& offsets) {
+  if (printed_ != nullptr) printed_->clear();
   source_ = std::move(source);
   pipeline_.start_job(*source_, start, offsets);
   start_ = start;
@@ -86,6 +91,8 @@ void Runner::start_live(const Pose& start) {
 }
 
 void Runner::add(BusTime now, const canonical::Line& line) {
+  // How a print host begins: what it has printed before is off the table.
+  if (printed_ != nullptr && std::holds_alternative<canonical::Home>(line.command)) printed_->clear();
   pipeline_.add(line);
   last_added_ = now;
 }
@@ -298,9 +305,7 @@ Runner::Outcome Runner::replay(int budget) {
       case Step::kMore:
         return Outcome::kBusy;
       case Step::kPhase:
-        finished_ = pipeline_.phase().last;
-        last_line_ = pipeline_.phase().line;
-        feed_.add(pipeline_.phase());
+        take_phase();
         break;
       case Step::kBarrier:
         last_line_ = pipeline_.command().line;
@@ -328,13 +333,19 @@ Runner::Outcome Runner::replay(int budget) {
   return Outcome::kDone;
 }
 
+void Runner::take_phase() {
+  const Phase& phase = pipeline_.phase();
+  finished_ = phase.last;
+  last_line_ = phase.line;
+  feed_.add(phase);
+  if (printed_ != nullptr) trace_print(phase, phase.piece.evaluate(phase.s(phase.duration_s)), *printed_);
+}
+
 Runner::Outcome Runner::take(BusTime now, JobPipeline::Step step) {
   using Step = JobPipeline::Step;
   switch (step) {
     case Step::kPhase:
-      finished_ = pipeline_.phase().last;
-      last_line_ = pipeline_.phase().line;
-      feed_.add(pipeline_.phase());
+      take_phase();
       return stream(now);
     case Step::kEvent:
       events_.push_back({feed_.added(), pipeline_.command()});

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "gateway/bodies/printed_part.hpp"
 #include "gateway/jobs/job_pipeline.hpp"
 #include "gateway/jobs/journal/journal_queue.hpp"
 #include "gateway/jobs/journal/journal_state.hpp"
@@ -36,8 +37,10 @@ class Runner {
     std::uint32_t live_stops = 0;  ///< planned stops in motion, because the next line had not come yet
   };
 
+  /// All must outlive this. `printed` grows by what is printed, and is cleared where a job or lines say that
+  /// the table is empty; nullptr: nobody looks at it.
   Runner(const MachineDescription& machine, const Kinematics& kinematics, StreamGroup& group, PathRate& rate,
-         Heat& heat, EventQueue& events, journal::Queue& journal);
+         Heat& heat, EventQueue& events, journal::Queue& journal, bodies::PrintedPart* printed = nullptr);
 
   /// A job's text from its beginning, the machine standing at `start` (Frame::kMachine).
   void start_job(std::unique_ptr<ByteSource> source, const Pose& start, const gcode::WorkOffsets& offsets);
@@ -125,6 +128,7 @@ class Runner {
   };
 
   void begin();
+  void take_phase();
   Outcome stream(BusTime now);
   bool waits(const canonical::Line& line) const;
   void end_wait();
@@ -147,6 +151,7 @@ class Runner {
   Heat& heat_;
   EventQueue& events_out_;
   journal::Queue& journal_;
+  bodies::PrintedPart* printed_;
   JobPipeline pipeline_;
   RunFeed feed_;
   std::unique_ptr<ByteSource> source_;

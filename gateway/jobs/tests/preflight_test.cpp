@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 #include "gateway/bodies/tests/legs_below.hpp"
@@ -119,6 +120,43 @@ TEST(Preflight, ACornerOfThePlatformAgainstTheNozzleIsNamedWithItsLineAndPasses2
   EXPECT_TRUE(bad.all()[0].words.starts_with("leg 3 and nozzle would come as near as "))
       << bad.all()[0].words;
   EXPECT_EQ(problems_on(default_m1(), past_the_corner("4")).errors(), 0u);
+}
+
+/// A wall along X that stands at `y`, in layers of 0.5 mm; the tool ends 20 mm above it. It is `layers` long.
+std::string wall(double y, int layers) {
+  std::string job = "G43.4\nM83\nG1 Z20 F6000\nG1 X-10 Y" + std::to_string(y) + "\n";
+  for (int i = 1; i <= layers; ++i)
+    job += "G1 Z" + std::to_string(0.5 * i) + "\nG1 X" + (i % 2 == 0 ? "-10" : "10") + " E1\n";
+  return job + "G1 Z" + std::to_string(0.5 * layers + 20) + "\n";
+}
+
+std::uint32_t lines_in(const std::string& job) {
+  return static_cast<std::uint32_t>(std::count(job.begin(), job.end(), '\n'));
+}
+
+TEST(Preflight, ATravelThroughWhatTheJobHasPrintedIsRefusedWithItsLineAndOneOverItIsNot) {
+  const std::string printed = wall(0, 24), travel = "G1 X0 Y30\nG1 Z3\nG1 Y-30\n";
+  const ProblemList bad = problems_on(legs_below(), printed + travel);
+  ASSERT_EQ(bad.errors(), 1u);
+  EXPECT_EQ(bad.all()[1].line, lines_in(printed) + 3);
+  EXPECT_EQ(bad.all()[1].words, "nozzle and part on the table would touch");
+  EXPECT_EQ(problems_on(legs_below(), printed + "G1 X0 Y30\nG1 Z12\nG1 Y-30\n").errors(), 0u);
+  EXPECT_EQ(problems_on(legs_below(), "G43.4\nG1 Z20 F6000\n" + travel).errors(), 0u)
+      << "nothing was printed";
+  MachineDescription blind = legs_below();
+  blind.bodies->printed_part = false;
+  EXPECT_EQ(problems_on(blind, printed + travel).errors(), 0u);
+}
+
+TEST(Preflight, ATiltThatLeansTheNozzleHolderAgainstWhatWasPrintedBeforeIsRefused) {
+  const std::string printed = wall(45, 120);  // 60 mm high
+  const std::string beside = "G1 X0 Y0\nG1 Z5\n";
+  const ProblemList bad = problems_on(legs_below(), printed + beside + "G1 A40\n");
+  ASSERT_EQ(bad.errors(), 1u);
+  EXPECT_EQ(bad.all()[1].line, lines_in(printed) + 3);
+  EXPECT_EQ(bad.all()[1].words, "nozzle holder and part on the table would touch");
+  const ProblemList good = problems_on(legs_below(), printed + beside + "G1 A-40\n");
+  EXPECT_EQ(good.errors(), 0u) << good.all()[1].words;
 }
 
 TEST(Preflight, WhatThePlatformCarriesIsCheckedAgainstATableThatStands) {

@@ -246,6 +246,33 @@ TEST(Machine, TheWayToTheBedReferenceIsRefusedWhereTwoBodiesMeetOnIt) {
   EXPECT_TRUE(rig.reach(MachineState::kReady, 20s));
 }
 
+TEST(Machine, WhatAJobHasPrintedStandsInTheWayUntilTheTableIsSaidToBeEmpty) {
+  MachineRig rig;
+  ASSERT_TRUE(rig.make_ready()) << rig.story();
+  std::string job = "M83\nG1 X-5 Y0 Z0.5 F12000\n";
+  for (int i = 1; i <= 80; ++i)
+    job += "G1 Z" + std::to_string(0.5 * i) + "\nG1 X" + (i % 2 == 0 ? "-5" : "5") + " E0.5\n";
+  job += "G1 Z60\nG1 X0 Y60\nG1 Z10\n";
+  ASSERT_TRUE(rig.run_job(job)) << rig.story();
+  const Pose through{0, -120, 0, 0, 0, 0};
+  const auto jog = rig.gateway->carry_out(command::Jog{.delta = through, .speed_per_s = 200});
+  ASSERT_FALSE(jog);
+  EXPECT_EQ(jog.error().words, "nozzle and part on the table would touch");
+  const auto reference = rig.gateway->carry_out(command::GoToReference{});
+  ASSERT_FALSE(reference) << "20 mm above the table's middle, where 40 mm stand";
+  EXPECT_EQ(reference.error().words, "nozzle and part on the table would touch");
+  // Away from it, and over it.
+  for (const Pose& delta : {Pose{0, 0, 40, 0, 0, 0}, through}) {
+    const auto done = rig.gateway->carry_out(command::Jog{.delta = delta, .speed_per_s = 200});
+    ASSERT_TRUE(done) << done.error().words;
+    ASSERT_TRUE(rig.reach(MachineState::kReady, 20s)) << rig.story();
+  }
+  // The next job is begun on an empty table.
+  ASSERT_TRUE(rig.run_job("G1 Z10 F12000\nG1 Y-60\n")) << rig.story();
+  EXPECT_TRUE(rig.gateway->carry_out(command::GoToReference{}));
+  EXPECT_TRUE(rig.reach(MachineState::kReady, 20s)) << rig.story();
+}
+
 TEST(Machine, TextSessionAnswersItsQueries) {
   MachineRig rig;
   ASSERT_TRUE(rig.make_ready()) << rig.story();
