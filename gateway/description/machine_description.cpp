@@ -124,6 +124,17 @@ const PoseLimits* pose_limits(const KinematicsGeometry& geometry) {
       geometry);
 }
 
+const AxisVibration& VibrationDescription::axis(std::size_t pose_axis) const {
+  const std::optional<AxisVibration>& own = pose_axis == 0 ? x : pose_axis == 1 ? y : z;
+  return own ? *own : every;
+}
+
+bool VibrationDescription::shapes() const {
+  for (std::size_t i = 0; i < 3; ++i)
+    if (axis(i).shaper != ShaperKind::kNone) return true;
+  return false;
+}
+
 Result<std::unique_ptr<Kinematics>, GeometryError> make_kinematics(const MachineDescription& description) {
   struct Make {
     const std::optional<M1Correction>& correction;

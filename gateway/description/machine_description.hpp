@@ -14,6 +14,7 @@
 #include "gateway/calibration/joint_calibration.hpp"
 #include "gateway/description/device_description.hpp"
 #include "gateway/kinematics/geometry.hpp"
+#include "gateway/shaping/input_shaper.hpp"
 
 namespace kinebus {
 
@@ -131,6 +132,26 @@ struct PathDescription {
   Pose axis_speed_per_s{0, 0, 0, 90 * kRadPerDeg, 360 * kRadPerDeg, 60};
   Pose axis_accel_per_s2{0, 0, 0, 900 * kRadPerDeg, 3600 * kRadPerDeg, 3000};
   friend bool operator==(const PathDescription&, const PathDescription&) = default;
+};
+
+/// How one direction of the tool swings on its frame, and what is done about it.
+struct AxisVibration {
+  ShaperKind shaper = ShaperKind::kNone;
+  double frequency_hz = 0;
+  double damping_ratio = 0.1;
+  friend bool operator==(const AxisVibration&, const AxisVibration&) = default;
+};
+
+struct VibrationDescription {
+  AxisVibration every;                   ///< X, Y and Z
+  std::optional<AxisVibration> x, y, z;  ///< in the place of that
+  /// Shaping may move the tool so far off its path, mm; 0: as far as the tool's acceleration makes it.
+  double deviation_mm = 0;
+
+  const AxisVibration& axis(std::size_t pose_axis) const;
+  /// Motion is shaped at all.
+  bool shapes() const;
+  friend bool operator==(const VibrationDescription&, const VibrationDescription&) = default;
 };
 
 struct PathTolerances {
@@ -258,6 +279,7 @@ struct MachineDescription {
   std::vector<JointDescription> joints;  ///< in the order of the kinematics' joints
   std::vector<NodeDescription> nodes;    ///< ascending ids; every node that a joint or device names
   PathDescription path;
+  VibrationDescription vibration;
   PathTolerances tolerances;
   StopDescription stop;
   ResumeDescription resume;

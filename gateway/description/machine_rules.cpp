@@ -24,6 +24,7 @@ class Rules {
     nodes();
     times();
     speeds();
+    vibration();
     judge_devices(d_, broken_);
     if (const auto kinematics = make_kinematics(d_); !kinematics)
       broken_.push_back({geometry_keys(), say("a machine that cannot work"), kinematics.error().what});
@@ -211,6 +212,39 @@ class Rules {
                 say("another name than %1: upper and lower case are the same", other->name));
     require(!d_.name.empty(), {"name"}, say("an empty name"), say("a name"));
     require(!d_.jobs_directory.empty(), {"jobs_directory"}, say("an empty path"), say("a directory"));
+  }
+
+  void vibration() {
+    const VibrationDescription& v = d_.vibration;
+    const auto has_frequency = [&](const AxisVibration& a, const std::string& key) {
+      require(a.shaper == ShaperKind::kNone || a.frequency_hz > 0, {key + "frequency_hz", key + "shaper"},
+              say("no frequency"), say("the frequency of the vibration that the shaper is for"));
+    };
+    has_frequency(v.every, "vibration.");
+    const std::pair<const std::optional<AxisVibration>*, const char*> axes[] = {
+        {&v.x, "vibration.x."}, {&v.y, "vibration.y."}, {&v.z, "vibration.z."}};
+    for (const auto& [axis, key] : axes)
+      if (*axis) has_frequency(**axis, key);
+    require(v.deviation_mm == 0 || v.shapes(), {"vibration.deviation_um", "vibration.shaper"},
+            say("a deviation without a shaper"), say("a shaper: without one nothing is moved off its path"));
+    // X of the part is not X of the frame when the table has turned.
+    require(v.axis(0) == v.axis(1) && v.axis(1) == v.axis(2) ? true : !turns(),
+            {"vibration.x", "vibration.y", "vibration.z", "vibration.shaper"},
+            say("different shapers on a machine that turns or tilts the part"),
+            say("one shaper for X, Y and Z, in [vibration] itself"));
+  }
+
+  /// A pose's A or C moves something.
+  bool turns() const {
+    const auto kinematics = make_kinematics(d_);
+    if (!kinematics) return false;
+    const Kinematics& k = **kinematics;
+    JointVector joints{};
+    std::vector<double> matrix(static_cast<std::size_t>(k.joint_count()) * kPoseAxes);
+    if (!k.jacobian(Frame::kMachine, k.bed_reference(), joints, matrix)) return false;
+    for (std::size_t row = 0; row < matrix.size(); row += kPoseAxes)
+      if (matrix[row + kA] != 0 || matrix[row + kC] != 0) return true;
+    return false;
   }
 
   /// A geometry may fail through any of its keys or the joints' travel: only judged when all of them could be

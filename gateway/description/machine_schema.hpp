@@ -32,6 +32,11 @@ inline constexpr Choice kResumeThen[] = {{"ask", static_cast<int>(ResumeDescript
                                          {"go_on", static_cast<int>(ResumeDescription::Then::kGoOn)}};
 inline constexpr Choice kDwellUnits[] = {{"ms", static_cast<int>(GcodeDescription::DwellUnit::kMilliseconds)},
                                          {"s", static_cast<int>(GcodeDescription::DwellUnit::kSeconds)}};
+inline constexpr Choice kShapers[] = {
+    {"none", static_cast<int>(ShaperKind::kNone)},      {"ZV", static_cast<int>(ShaperKind::kZv)},
+    {"MZV", static_cast<int>(ShaperKind::kMzv)},        {"ZVD", static_cast<int>(ShaperKind::kZvd)},
+    {"EI", static_cast<int>(ShaperKind::kEi)},          {"2HUMP", static_cast<int>(ShaperKind::kTwoHump)},
+    {"3HUMP", static_cast<int>(ShaperKind::kThreeHump)}};
 inline constexpr Choice kEncoders[] = {
     {"none", static_cast<int>(MotorDescription::Encoder::kNone)},
     {"watch", static_cast<int>(MotorDescription::Encoder::kWatch)},
@@ -211,6 +216,22 @@ void visit_node(V& v, NodeDescription& n) {
 }
 
 template <class V>
+void visit_axis_vibration(V& v, AxisVibration& a) {
+  v.choice("shaper", a.shaper, kShapers, Need::kOptional);
+  v.unless_zero("frequency_hz", a.frequency_hz, {1, 500}, 1);
+  v.number("damping_ratio", a.damping_ratio, {0, 0.5}, Need::kOptional);
+}
+
+template <class V>
+void visit_vibration(V& v, VibrationDescription& d) {
+  visit_axis_vibration(v, d.every);
+  v.unless_zero("deviation_um", d.deviation_mm, {1, 10000}, 1e-3);
+  v.optional_table("x", d.x, [&](AxisVibration& a) { visit_axis_vibration(v, a); });
+  v.optional_table("y", d.y, [&](AxisVibration& a) { visit_axis_vibration(v, a); });
+  v.optional_table("z", d.z, [&](AxisVibration& a) { visit_axis_vibration(v, a); });
+}
+
+template <class V>
 void visit_path(V& v, MachineDescription& d) {
   v.table("path", Need::kRequired, [&] {
     v.number("tool_speed_mm_per_s", d.path.tool_speed_mm_per_s, {0.1, 10000}, Need::kRequired);
@@ -231,6 +252,7 @@ void visit_path(V& v, MachineDescription& d) {
       v.number(kKeys[k].accel, d.path.axis_accel_per_s2[k], {0, 1e6}, Need::kOptional, kKeys[k].unit);
     }
   });
+  v.table_unless_default("vibration", d.vibration, [&](VibrationDescription& s) { visit_vibration(v, s); });
   v.table("tolerance", Need::kOptional, [&] {
     v.number("blend_mm", d.tolerances.blend_mm, {0, 1}, Need::kOptional);
     v.number("merge_mm", d.tolerances.merge_mm, {0, 1}, Need::kOptional);

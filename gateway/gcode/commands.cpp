@@ -80,8 +80,12 @@ bool Core::run_command() {
   const auto noted = [&] {
     std::uint32_t key = 0;
     for (const char c : name) key = key * 31 + static_cast<unsigned char>(c);
+    const std::string command(block_.command);
     note(static_cast<int>(key % 1'000'000'000U) + kNoteForCommands,
-         say("%1 has no effect on this machine", std::string(block_.command)));
+         name == "set_input_shaper"
+             ? say("%1 has no effect in a job: [vibration] in the machine file says how motion is shaped",
+                   command)
+             : say("%1 has no effect on this machine", command));
     return true;
   };
   if (harmless_command(name)) return noted();

@@ -168,6 +168,11 @@ bool Core::run_machine_code(Code code) {
       break;
   }
   if (m_group(code.number) == MGroup::kJobs) return stored_job(code);
+  if (code.number == 593) {
+    note(593, say("%1 has no effect in a job: [vibration] in the machine file says how motion is shaped",
+                  m_name(593)));
+    return true;
+  }
   note(code.number, say("%1 has no effect on this machine", m_name(code.number)));
   return true;
 }

@@ -14,6 +14,13 @@ std::string celsius(double value) {
   return printed("%.6g C", value);
 }
 
+double tip_speed(const PosePoint& point) {
+  return std::hypot(point.x1[kX], point.x1[kY], point.x1[kZ]);
+}
+double turning_speed(const PosePoint& point) {
+  return std::max(std::abs(point.x1[kA]), std::abs(point.x1[kC]));
+}
+
 }  // namespace
 
 JobCheck::JobCheck(const MachineDescription& machine, const Kinematics& kinematics)
@@ -40,9 +47,14 @@ void JobCheck::check_way(const Phase& phase, const PosePoint& end) {
   const double from = phase.s0;
   const double to = phase.s(phase.duration_s);
   const double length = std::abs(to - from);
-  // What one unit of s moves: s is close to arc length, or the dominant axis' own unit.
-  const double mm = std::sqrt(end.x1[kX] * end.x1[kX] + end.x1[kY] * end.x1[kY] + end.x1[kZ] * end.x1[kZ]);
-  const double rad = std::max(std::abs(end.x1[kA]), std::abs(end.x1[kC]));
+  // What one unit of s moves: s is close to arc length, or the dominant axis' own unit. Where it is time, the
+  // acceleration hardly changes: the speed is greatest at an end.
+  double mm = tip_speed(end), rad = turning_speed(end);
+  if (phase.timed) {
+    const PosePoint start = phase.piece.evaluate(from);
+    mm = std::max(mm, tip_speed(start));
+    rad = std::max(rad, turning_speed(start));
+  }
   if (end.x1[kE] > 1e-9 && !cold_reported_) check_extrusion(phase);
   since_mm_ += length * mm;
   since_rad_ += length * rad;

@@ -41,11 +41,16 @@ std::optional<SetPosition> target_of(const Command& command) {
 JobPipeline::JobPipeline(const MachineDescription& machine, const Kinematics& kinematics)
     : machine_(machine),
       kinematics_(kinematics),
-      planner_(kinematics, motion_limits(machine)),
+      planner_(kinematics, limits_before_shaping(machine, machine.vibration)),
+      shaper_(axis_shapers(machine.vibration)),
+      shaped_limits_(kinematics, motion_limits(machine).joint_speed_per_s,
+                     motion_limits(machine).joint_accel_per_s2),
       text_(kTextBytes) {}
 
 void JobPipeline::begin(const Pose& start) {
   planner_.reset(start, Frame::kMachine);
+  shaper_.reset();
+  over_limit_ = false;
   commands_.clear();
   next_command_ = 0;
   first_.clear();
@@ -122,6 +127,8 @@ void JobPipeline::plan_live() {
 
 Planner::Ahead JobPipeline::ahead() {
   Planner::Ahead ahead = planner_.ahead();
+  ahead.final_s += shaper_.held_s();
+  ahead.all_s += shaper_.held_s();
   if (phase_waits_) {
     ahead.final_s += phase_.duration_s;
     ahead.all_s += phase_.duration_s;
@@ -177,9 +184,38 @@ JobPipeline::Step JobPipeline::next(int& budget) {
   }
 }
 
+/// The planner's next phase, shaped where the machine shapes.
+bool JobPipeline::pull_phase() {
+  if (!shaper_.active()) return planner_.next(phase_);
+  while (!shaper_.next(phase_)) {
+    if (!planner_.next(planned_)) return false;
+    shaper_.push(planned_);
+  }
+  check_shaped();
+  return true;
+}
+
+void JobPipeline::check_shaped() {
+  const auto excess = shaped_limits_.excess(phase_);
+  if (excess && !over_limit_) {
+    const JointDescription& joint = machine_.joints[static_cast<std::size_t>(excess->joint)];
+    const std::string ratio = printed("%.3f", excess->ratio);
+    refuse(
+        line_of(phase_.line), 0,
+        excess->acceleration
+            ? say("shaped, this move asks %1 for %2 times its acceleration: lower the tool's acceleration, "
+                  "or take a shorter shaper",
+                  joint.name, ratio)
+            : say("shaped, this move asks %1 for %2 times its speed: lower the tool's speed, or take a "
+                  "shorter shaper",
+                  joint.name, ratio));
+  }
+  over_limit_ = excess.has_value();
+}
+
 /// The next phase, or an event that falls due before it.
 std::optional<JobPipeline::Step> JobPipeline::take_phase() {
-  if (!phase_waits_) phase_waits_ = planner_.next(phase_);
+  if (!phase_waits_) phase_waits_ = pull_phase();
   if (!phase_waits_) return std::nullopt;
   if (!in_run_) run_s_ = 0;
   in_run_ = true;
@@ -328,6 +364,7 @@ void JobPipeline::add_to_planner(const canonical::Line& line) {
   refuse(line_of(added.error().line), 0, to_string(added.error()));
   // The planner refuses everything now. It goes on behind the refused move, so that later problems are seen
   // too.
+  shaper_.reset();
   if (const auto target = target_of(line.command))
     planner_.reset(target->pose, target->frame);
   else

@@ -1,6 +1,6 @@
 #pragma once
-// text -> interpreter -> planner -> phases, step by step, with the commands that are no motion in between,
-// each at its place on the path. Memory does not grow with the job.
+// text -> interpreter -> planner -> shaper -> phases, step by step, with the commands that are no motion in
+// between, each at its place on the path. Memory does not grow with the job.
 //
 // A job is a chain of runs. A run is motion from rest to rest; between two runs stand the commands for which
 // motion must have come to rest (barriers: dwell, waits, pauses). Commands that need no rest (M104, M106,
@@ -19,6 +19,8 @@
 #include "gateway/jobs/job_place.hpp"
 #include "gateway/jobs/problem.hpp"
 #include "gateway/motion/planner.hpp"
+#include "gateway/shaping/path_shaper.hpp"
+#include "gateway/shaping/shaped_limits.hpp"
 
 namespace kinebus {
 
@@ -96,6 +98,8 @@ class JobPipeline {
   void refuse(std::uint32_t line, std::uint32_t column, Sentence words);
   void number_commands();
   std::uint32_t line_of(std::uint32_t place);
+  bool pull_phase();
+  void check_shaped();
   std::optional<Step> take_phase();
   std::optional<Step> settle();
   bool take_known();
@@ -109,6 +113,10 @@ class JobPipeline {
   const MachineDescription& machine_;
   const Kinematics& kinematics_;
   Planner planner_;
+  PathShaper shaper_;
+  ShapedLimits shaped_limits_;
+  Phase planned_{};          ///< on its way from the planner to the shaper
+  bool over_limit_ = false;  ///< the last shaped phase was: one report for each time
   std::unique_ptr<gcode::Interpreter> interpreter_;
   std::unique_ptr<gcode::JobReader> reader_;
   ByteSource* source_ = nullptr;

@@ -33,6 +33,60 @@ MotionLimits motion_limits(const MachineDescription& machine) {
   return limits;
 }
 
+PathShaper::Shapers axis_shapers(const VibrationDescription& vibration) {
+  PathShaper::Shapers shapers;
+  for (std::size_t i = 0; i < shapers.size(); ++i) {
+    const AxisVibration& axis = vibration.axis(i);
+    shapers[i] = make_shaper(axis.shaper, axis.frequency_hz, axis.damping_ratio);
+  }
+  return shapers;
+}
+
+namespace {
+
+// No kinematics' joints bend more sharply over the workspace than with this radius of curvature, mm.
+constexpr double kJointRadius_mm = 100;
+constexpr double kMostReserve = 0.5;
+
+/// A shaped pose is an average of poses of half the shaper's duration before and after it. Joints that follow
+/// the tool in a straight line stay within any limit that held for each of them; others differ by how much
+/// the kinematics changes on the way.
+double bent_reserve(const MachineDescription& machine, double duration_s) {
+  const auto* cartesian = std::get_if<CartesianGeometry>(&machine.kinematics);
+  const bool straight = (cartesian != nullptr && !cartesian->has_table) ||
+                        std::holds_alternative<CoreXyGeometry>(machine.kinematics);
+  if (straight) return 0;
+  return std::min(kMostReserve, 0.5 * machine.path.tool_speed_mm_per_s * duration_s / kJointRadius_mm);
+}
+
+}  // namespace
+
+MotionLimits limits_before_shaping(const MachineDescription& machine, const VibrationDescription& vibration) {
+  MotionLimits limits = motion_limits(machine);
+  if (!vibration.shapes()) return limits;
+  const PathShaper::Shapers shapers = axis_shapers(vibration);
+  double duration_s = 0, variance_s2 = 0;
+  for (const InputShaper& shaper : shapers) {
+    duration_s = std::max(duration_s, shaper.duration_s());
+    variance_s2 = std::max(variance_s2, shaper.variance_s2());
+  }
+  if (vibration.deviation_mm > 0)
+    limits.tool_accel_mm_per_s2 =
+        std::min(limits.tool_accel_mm_per_s2, 2 * vibration.deviation_mm / variance_s2);
+  double share = 1 - bent_reserve(machine, duration_s);
+  // Shaped apart, X may still brake from the move before a corner while Y begins the one after it: a joint
+  // that follows both then feels the sum.
+  const bool apart = shapers[0] != shapers[1] || shapers[1] != shapers[2];
+  if (apart && !std::holds_alternative<CartesianGeometry>(machine.kinematics)) share *= std::sqrt(0.5);
+  for (std::size_t joint = 0; joint < machine.joints.size() && joint < kMaxJoints; ++joint) {
+    if (machine.joints[joint].name == "E") continue;
+    limits.joint_speed_per_s[joint] *= share;
+    limits.joint_accel_per_s2[joint] *= share;
+    limits.joint_jerk_per_s3[joint] *= share;
+  }
+  return limits;
+}
+
 double joint_jerk_limit(const MachineDescription& machine, const JointDescription& joint) {
   if (!(machine.path.tool_jerk_mm_per_s3 > 0)) return kUnlimited;
   if (joint.jerk_per_s3 > 0) return joint.jerk_per_s3;

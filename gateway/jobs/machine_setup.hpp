@@ -10,12 +10,16 @@
 #include "gateway/gcode/interpreter.hpp"
 #include "gateway/motion/motion_limits.hpp"
 #include "gateway/sentence.hpp"
+#include "gateway/shaping/path_shaper.hpp"
 #include "gateway/stream/axis_scaling.hpp"
 #include "gateway/stream/stream_group.hpp"
 
 namespace kinebus {
 
 MotionLimits motion_limits(const MachineDescription& machine);
+/// Those to plan with, so that the machine's own hold after shaping. Equal where nothing is shaped.
+MotionLimits limits_before_shaping(const MachineDescription& machine, const VibrationDescription& vibration);
+PathShaper::Shapers axis_shapers(const VibrationDescription& vibration);
 /// Of one joint, mm or rad a s^3: its own limit, or the tool's in proportion to their accelerations; infinite
 /// where the tool's jerk is not limited.
 double joint_jerk_limit(const MachineDescription& machine, const JointDescription& joint);

@@ -1,5 +1,6 @@
 #include "gateway/motion/trajectory.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace kinebus {
@@ -44,6 +45,13 @@ PosePoint Phase::at(double t) const {
     p.x1[i] *= rate;
   }
   return p;
+}
+
+double Phase::pose_speed(double t) const {
+  if (!timed) return std::abs(speed(t));
+  double fastest = 0;
+  for (const double x1 : at(t).x1) fastest = std::max(fastest, std::abs(x1));
+  return fastest;
 }
 
 }  // namespace kinebus

@@ -29,18 +29,22 @@ struct PathPiece {
 };
 
 /// Parameter law of a phase: s(t) = s0 + v0 t + a t^2 / 2 + jerk t^3 / 6, t = 0..duration.
+/// A timed phase's parameter is the time for which it was planned, s; v0 is 1 there.
 struct Phase {
   PathPiece piece;
   double s0 = 0, v0 = 0, a = 0, jerk = 0;
   double duration_s = 0;
   std::uint32_t line = 0;  ///< the job's line whose motion this is (a blend or a merged curve: the last one)
   bool last = false;       ///< the run ends at rest with this phase
+  bool timed = false;
 
   double s(double t) const { return s0 + t * (v0 + (0.5 * a + jerk * t * (1.0 / 6)) * t); }
   double speed(double t) const { return v0 + (a + 0.5 * jerk * t) * t; }
   double accel(double t) const { return a + jerk * t; }
   /// Pose and its derivatives by time at t seconds after the phase's start.
   PosePoint at(double t) const;
+  /// How fast the pose changes at t: by the path's parameter, or of a timed phase by its fastest axis.
+  double pose_speed(double t) const;
 };
 
 }  // namespace kinebus

@@ -56,7 +56,7 @@ double RunFeed::pending_s() const {
 
 void RunFeed::begin_run() {
   run_.from = {first_ + next_, next_from_s_};
-  const bool moves = originals_[next_].phase.speed(next_from_s_) > kRestSpeed;
+  const bool moves = originals_[next_].phase.pose_speed(next_from_s_) > kRestSpeed;
   run_.ramp_s = moves ? ramp_s_ : 0;
   ramp_.start(run_.ramp_s);
   fed_s_ = 0;

@@ -65,8 +65,8 @@ double JointSampler::stretch(const Knot& end) const {
 
 Result<void, StreamError> JointSampler::push(const Phase& phase) {
   if (!wants_phase()) return Error<StreamError>({.kind = StreamError::Kind::kPhaseOrder, .line = phase.line});
-  const double end_speed = phase.last ? std::abs(phase.speed(phase.duration_s)) : 0.0;
-  const double speed = std::max(have_knot_ ? 0.0 : std::abs(phase.v0), end_speed);
+  const double end_speed = phase.last ? phase.pose_speed(phase.duration_s) : 0.0;
+  const double speed = std::max(have_knot_ ? 0.0 : phase.pose_speed(0), end_speed);
   if (speed > kRestSpeed)
     return Error<StreamError>({.kind = StreamError::Kind::kNotAtRest, .line = phase.line, .amount = speed});
   ++counters_.phases;

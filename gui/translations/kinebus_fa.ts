@@ -341,6 +341,10 @@
         <translation>%1 در این ماشین اثری ندارد</translation>
     </message>
     <message>
+        <source>%1 has no effect in a job: [vibration] in the machine file says how motion is shaped</source>
+        <translation>%1 در کار اثری ندارد: [vibration] در پروندهٔ ماشین می‌گوید حرکت چگونه شکل داده می‌شود</translation>
+    </message>
+    <message>
         <source>%1 and %2 would both use the line&apos;s axis words: write them in two lines</source>
         <translation>%1 و %2 هر دو واژه‌های محور این خط را به کار می‌برند: در دو خط بنویسید</translation>
     </message>
@@ -699,6 +703,14 @@
     <message>
         <source>a job cannot manage stored jobs: M20 to M32 belong to a session</source>
         <translation>کار نمی‌تواند کارهای ذخیره‌شده را بگرداند: M20 تا M32 از آنِ نشست‌اند</translation>
+    </message>
+    <message>
+        <source>shaped, this move asks %1 for %2 times its acceleration: lower the tool&apos;s acceleration, or take a shorter shaper</source>
+        <translation>این حرکت پس از شکل‌دهی از %1 شتابی %2 برابر شتاب خودش می‌خواهد: شتاب ابزار را کم کنید یا شکل‌دهندهٔ کوتاه‌تری بگیرید</translation>
+    </message>
+    <message>
+        <source>shaped, this move asks %1 for %2 times its speed: lower the tool&apos;s speed, or take a shorter shaper</source>
+        <translation>این حرکت پس از شکل‌دهی از %1 سرعتی %2 برابر سرعت خودش می‌خواهد: سرعت ابزار را کم کنید یا شکل‌دهندهٔ کوتاه‌تری بگیرید</translation>
     </message>
     <message>
         <source>G28: %1</source>
@@ -1743,6 +1755,30 @@
     <message>
         <source>at least acceleration + speed / stop ramp = %1, or a longer stop.ramp_ms</source>
         <translation>دست‌کم شتاب + سرعت / شیب توقف = %1، یا stop.ramp_ms درازتر</translation>
+    </message>
+    <message>
+        <source>no frequency</source>
+        <translation>بدون بسامد</translation>
+    </message>
+    <message>
+        <source>the frequency of the vibration that the shaper is for</source>
+        <translation>بسامد ارتعاشی که شکل‌دهنده برای آن است</translation>
+    </message>
+    <message>
+        <source>a deviation without a shaper</source>
+        <translation>انحراف بدون شکل‌دهنده</translation>
+    </message>
+    <message>
+        <source>a shaper: without one nothing is moved off its path</source>
+        <translation>یک شکل‌دهنده: بدون آن چیزی از مسیرش جابه‌جا نمی‌شود</translation>
+    </message>
+    <message>
+        <source>different shapers on a machine that turns or tilts the part</source>
+        <translation>شکل‌دهنده‌های متفاوت در ماشینی که قطعه را می‌چرخاند یا کج می‌کند</translation>
+    </message>
+    <message>
+        <source>one shaper for X, Y and Z, in [vibration] itself</source>
+        <translation>یک شکل‌دهنده برای X، Y و Z، در خود [vibration]</translation>
     </message>
     <message>
         <source>no table</source>

@@ -341,6 +341,10 @@
         <translation>%1 bu makinede etkisiz</translation>
     </message>
     <message>
+        <source>%1 has no effect in a job: [vibration] in the machine file says how motion is shaped</source>
+        <translation>%1 bir işte etkisiz: hareketin nasıl biçimlendirileceğini makine dosyasındaki [vibration] söyler</translation>
+    </message>
+    <message>
         <source>%1 and %2 would both use the line&apos;s axis words: write them in two lines</source>
         <translation>%1 ile %2 satırın eksen sözcüklerini birlikte kullanır: iki satıra yazın</translation>
     </message>
@@ -699,6 +703,14 @@
     <message>
         <source>a job cannot manage stored jobs: M20 to M32 belong to a session</source>
         <translation>iş, kayıtlı işleri yönetemez: M20 - M32 oturumundur</translation>
+    </message>
+    <message>
+        <source>shaped, this move asks %1 for %2 times its acceleration: lower the tool&apos;s acceleration, or take a shorter shaper</source>
+        <translation>biçimlendirilince bu hareket %1 ekleminden ivmesinin %2 katını ister: takımın ivmesini düşürün ya da daha kısa bir biçimlendirici seçin</translation>
+    </message>
+    <message>
+        <source>shaped, this move asks %1 for %2 times its speed: lower the tool&apos;s speed, or take a shorter shaper</source>
+        <translation>biçimlendirilince bu hareket %1 ekleminden hızının %2 katını ister: takımın hızını düşürün ya da daha kısa bir biçimlendirici seçin</translation>
     </message>
     <message>
         <source>G28: %1</source>
@@ -1743,6 +1755,30 @@
     <message>
         <source>at least acceleration + speed / stop ramp = %1, or a longer stop.ramp_ms</source>
         <translation>en az ivme + hız / durma rampası = %1, ya da daha uzun stop.ramp_ms</translation>
+    </message>
+    <message>
+        <source>no frequency</source>
+        <translation>frekans yok</translation>
+    </message>
+    <message>
+        <source>the frequency of the vibration that the shaper is for</source>
+        <translation>biçimlendiricinin giderdiği titreşimin frekansı</translation>
+    </message>
+    <message>
+        <source>a deviation without a shaper</source>
+        <translation>biçimlendirici olmadan sapma</translation>
+    </message>
+    <message>
+        <source>a shaper: without one nothing is moved off its path</source>
+        <translation>bir biçimlendirici: o olmadan hiçbir şey yolundan ayrılmaz</translation>
+    </message>
+    <message>
+        <source>different shapers on a machine that turns or tilts the part</source>
+        <translation>parçayı döndüren ya da eğen bir makinede farklı biçimlendiriciler</translation>
+    </message>
+    <message>
+        <source>one shaper for X, Y and Z, in [vibration] itself</source>
+        <translation>X, Y ve Z için tek biçimlendirici, doğrudan [vibration] içinde</translation>
     </message>
     <message>
         <source>no table</source>

@@ -22,6 +22,8 @@ struct Arguments {
   std::uint64_t seed = 1;
   double limit_s = 0;
   bool json = false;
+  std::string physics = "rigid";
+  double frequency_error_percent = 10, damping_error_percent = 30;
 };
 
 std::unique_ptr<FileSource> open_job(const std::string& path) {
@@ -52,7 +54,12 @@ int run(const Arguments& arguments) {
       candump << to_candump({time, "can0", frame}).view() << "\n";
     };
   }
-  const SimulationReport report = simulate(machine, open_job(arguments.job), *checkers_text, options);
+  const SimulationReport report =
+      arguments.physics == "flexible"
+          ? simulate_flexible(
+                machine, [&] { return open_job(arguments.job); },
+                {arguments.frequency_error_percent / 100, arguments.damping_error_percent / 100}, options)
+          : simulate(machine, open_job(arguments.job), *checkers_text, options);
   if (options.on_progress) fmt::print(stderr, "\r\033[K");
   fmt::print("{}", arguments.json ? to_json_text(report) : to_table(report));
   if (!arguments.json_path.empty()) write_text(arguments.json_path, to_json_text(report));
@@ -88,6 +95,19 @@ void add_simulate_command(CLI::App& app, const bool& json, int& exit_code) {
   command->add_option("--candump", arguments->candump_path, "Write all frames here, as candump -l does");
   command->add_option("--seed", arguments->seed, "Of clocks, latencies and start positions (default 1)");
   command->add_option("--limit-seconds", arguments->limit_s, "Measure only so much of the job, machine time");
+  command
+      ->add_option("--physics", arguments->physics,
+                   "flexible: the tool swings on its frame, other than [vibration] says, and the job runs "
+                   "again without shaping (default rigid)")
+      ->check(CLI::IsMember({"rigid", "flexible"}));
+  command
+      ->add_option("--frequency-error", arguments->frequency_error_percent,
+                   "Of the true frequencies, each direction up or down by the seed, % (default 10)")
+      ->check(CLI::Range(0.0, 60.0));
+  command
+      ->add_option("--damping-error", arguments->damping_error_percent,
+                   "Of the true damping, the same way, % (default 30)")
+      ->check(CLI::Range(0.0, 90.0));
   command->callback([=, &json, &exit_code] {
     arguments->json = json;
     exit_code = run(*arguments);

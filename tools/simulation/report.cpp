@@ -7,46 +7,57 @@
 namespace kinebus {
 
 std::string to_json_text(const SimulationReport& r) {
-  const nlohmann::json json{{"finished", r.finished},
-                            {"outcome", r.outcome},
-                            {"seed", r.seed},
-                            {"job_time_s", r.job_time_s},
-                            {"machine_time_s", r.machine_time_s},
-                            {"cpu_s", r.cpu_s},
-                            {"speedup", r.speedup},
-                            {"max_tracking_error_um", r.max_tracking_error_um},
-                            {"max_path_error_um", r.max_path_error_um},
-                            {"rms_tracking_error_um", r.rms_tracking_error_um},
-                            {"rms_path_error_um", r.rms_path_error_um},
-                            {"max_joint_error_counts", r.max_joint_error_counts},
-                            {"max_joint_velocity_ratio", r.max_joint_velocity_ratio},
-                            {"max_joint_acceleration_ratio", r.max_joint_acceleration_ratio},
-                            {"max_measured_acceleration_ratio", r.max_measured_acceleration_ratio},
-                            {"max_joint_jerk_ratio", r.max_joint_jerk_ratio},
-                            {"max_velocity_step_ratio", r.max_velocity_step_ratio},
-                            {"max_node_time_skew_us", r.max_node_time_skew_us},
-                            {"bus_load_mean", r.bus_load_mean},
-                            {"bus_load_peak_1s", r.bus_load_peak_1s},
-                            {"segments", r.segments},
-                            {"frames", r.frames},
-                            {"lines", r.lines},
-                            {"samples", r.samples},
-                            {"underruns", r.underruns},
-                            {"sequence_errors", r.sequence_errors},
-                            {"checkpoint_errors", r.checkpoint_errors},
-                            {"bus_slowdowns", r.bus_slowdowns},
-                            {"starvation_holds", r.starvation_holds},
-                            {"queue_fullest", r.queue_fullest},
-                            {"queue_overruns", r.queue_overruns},
-                            {"records_out_of_sequence", r.records_out_of_sequence},
-                            {"trace_hash", fmt::format("{:016x}", r.trace_hash)},
-                            {"worst_joint", r.worst_joint},
-                            {"worst_joint_s", r.worst_joint_s},
-                            {"worst_tracking_s", r.worst_tracking_s},
-                            {"worst_tracking_line", r.worst_tracking_line},
-                            {"worst_path_s", r.worst_path_s},
-                            {"worst_path_line", r.worst_path_line},
-                            {"messages", r.messages}};
+  nlohmann::json json{{"finished", r.finished},
+                      {"outcome", r.outcome},
+                      {"seed", r.seed},
+                      {"job_time_s", r.job_time_s},
+                      {"machine_time_s", r.machine_time_s},
+                      {"cpu_s", r.cpu_s},
+                      {"speedup", r.speedup},
+                      {"max_tracking_error_um", r.max_tracking_error_um},
+                      {"max_path_error_um", r.max_path_error_um},
+                      {"rms_tracking_error_um", r.rms_tracking_error_um},
+                      {"rms_path_error_um", r.rms_path_error_um},
+                      {"max_joint_error_counts", r.max_joint_error_counts},
+                      {"max_joint_velocity_ratio", r.max_joint_velocity_ratio},
+                      {"max_joint_acceleration_ratio", r.max_joint_acceleration_ratio},
+                      {"max_measured_acceleration_ratio", r.max_measured_acceleration_ratio},
+                      {"max_joint_jerk_ratio", r.max_joint_jerk_ratio},
+                      {"max_velocity_step_ratio", r.max_velocity_step_ratio},
+                      {"max_node_time_skew_us", r.max_node_time_skew_us},
+                      {"bus_load_mean", r.bus_load_mean},
+                      {"bus_load_peak_1s", r.bus_load_peak_1s},
+                      {"segments", r.segments},
+                      {"frames", r.frames},
+                      {"lines", r.lines},
+                      {"samples", r.samples},
+                      {"underruns", r.underruns},
+                      {"sequence_errors", r.sequence_errors},
+                      {"checkpoint_errors", r.checkpoint_errors},
+                      {"bus_slowdowns", r.bus_slowdowns},
+                      {"starvation_holds", r.starvation_holds},
+                      {"queue_fullest", r.queue_fullest},
+                      {"queue_overruns", r.queue_overruns},
+                      {"records_out_of_sequence", r.records_out_of_sequence},
+                      {"trace_hash", fmt::format("{:016x}", r.trace_hash)},
+                      {"worst_joint", r.worst_joint},
+                      {"worst_joint_s", r.worst_joint_s},
+                      {"worst_tracking_s", r.worst_tracking_s},
+                      {"worst_tracking_line", r.worst_tracking_line},
+                      {"worst_path_s", r.worst_path_s},
+                      {"worst_path_line", r.worst_path_line},
+                      {"messages", r.messages}};
+  if (r.vibration) {
+    json["vibration_ratio_rms"] = r.vibration->ratio_rms();
+    json["vibration_ratio_peak"] = r.vibration->ratio_peak();
+    json["vibration_rms_um"] = r.vibration->rms_um;
+    json["vibration_peak_um"] = r.vibration->peak_um;
+    json["unshaped_vibration_rms_um"] = r.vibration->unshaped_rms_um;
+    json["unshaped_vibration_peak_um"] = r.vibration->unshaped_peak_um;
+    json["unshaped_job_time_s"] = r.vibration->unshaped_job_time_s;
+    json["shaping_deviation_um"] = r.vibration->plan_deviation_um;
+    json["vibration_samples"] = r.vibration->samples;
+  }
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
@@ -89,6 +100,17 @@ std::string to_table(const SimulationReport& r) {
   row("queue_fullest", fmt::format("{}", r.queue_fullest),
       fmt::format("records; sent without room {}, out of sequence {}", r.queue_overruns,
                   r.records_out_of_sequence));
+  if (r.vibration) {
+    const VibrationReport& v = *r.vibration;
+    row("vibration_ratio_rms", fmt::format("{:.4f}", v.ratio_rms()),
+        fmt::format("left after changes of acceleration, {:.3f} um; unshaped {:.3f} um", v.rms_um,
+                    v.unshaped_rms_um));
+    row("vibration_ratio_peak", fmt::format("{:.4f}", v.ratio_peak()),
+        fmt::format("{:.3f} um, line {}; unshaped {:.3f} um", v.peak_um, v.peak_line, v.unshaped_peak_um));
+    row("shaping_deviation_um", fmt::format("{:.3f}", v.plan_deviation_um),
+        fmt::format("of the plan from the path, blends included; job unshaped {:.3f} s",
+                    v.unshaped_job_time_s));
+  }
   row("trace_hash", fmt::format("{:016x}", r.trace_hash), "same seed, same hash");
   return text;
 }

@@ -2,10 +2,25 @@
 // What a simulation measured.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace kinebus {
+
+/// Of the tool on a flexible frame; see VibrationChecker for what counts.
+struct VibrationReport {
+  double rms_um = 0, peak_um = 0;
+  double unshaped_rms_um = 0, unshaped_peak_um = 0;  ///< of the same job and frame without shaping
+  double plan_deviation_um = 0;                      ///< of the shaped plan from the programmed path
+  double unshaped_job_time_s = 0;
+  std::uint64_t samples = 0;
+  std::uint32_t peak_line = 0;
+  /// 0 where nothing has swung that could be compared.
+  double ratio_rms() const { return unshaped_rms_um > kNothing_um ? rms_um / unshaped_rms_um : 0; }
+  double ratio_peak() const { return unshaped_peak_um > kNothing_um ? peak_um / unshaped_peak_um : 0; }
+  static constexpr double kNothing_um = 0.05;
+};
 
 struct SimulationReport {
   bool finished = false;  ///< the job ran to its end
@@ -37,7 +52,8 @@ struct SimulationReport {
                 starvation_holds = 0;
   int queue_fullest = 0;  ///< records in one node's queue
   std::uint32_t queue_overruns = 0, records_out_of_sequence = 0;
-  std::uint64_t trace_hash = 0;  ///< over all frames and their times: same seed, same hash
+  std::optional<VibrationReport> vibration;  ///< none: the machine was rigid
+  std::uint64_t trace_hash = 0;              ///< over all frames and their times: same seed, same hash
   double worst_tracking_s = 0, worst_path_s = 0, worst_joint_s = 0, worst_skew_s = 0, worst_step_s = 0,
          worst_jerk_s = 0;
   std::string worst_joint, worst_step_joint, worst_jerk_joint;

@@ -14,6 +14,7 @@
 #include "tools/simulation/checkers/skew_checker.hpp"
 #include "tools/simulation/checkers/step_checker.hpp"
 #include "tools/simulation/checkers/tracking_checker.hpp"
+#include "tools/simulation/checkers/vibration_checker.hpp"
 
 namespace kinebus {
 namespace {
@@ -133,8 +134,12 @@ class Run {
 
   void print(std::unique_ptr<ByteSource> job, ByteSource& same_job) {
     Gateway& gateway = simulation_.gateway();
-    checkers_ = std::make_unique<Checkers>(machine_, kinematics_, simulation_, same_job,
-                                           gateway.status().machine_pose);
+    const Pose start = gateway.status().machine_pose;
+    checkers_ = std::make_unique<Checkers>(machine_, kinematics_, simulation_, same_job, start);
+    if (const auto& flexible = options_.flexible)
+      vibration_ = std::make_unique<VibrationChecker>(
+          machine_, kinematics_, flexible->truth,
+          [this](PathTime tau) { return simulation_.planned_pose(tau); }, flexible->text.get(), start);
     if (const auto run = gateway.carry_out(command::Run{std::move(job), "job"}); !run) {
       fail("the job was refused: " + run.error().words);
       return;
@@ -174,6 +179,7 @@ class Run {
     checkers_->tracking.on_sample(sample);
     checkers_->jerk.on_sample(sample);
     checkers_->path.on_sample(sample);
+    if (vibration_) vibration_->on_sample(sample);
     if (options_.on_sample)
       options_.on_sample(sample, checkers_->path.last_um(), checkers_->path.nearest_line());
     report_.lines = std::max(report_.lines, sample.line);
@@ -227,6 +233,12 @@ class Run {
     report_.max_joint_jerk_ratio = c.jerk.max_ratio();
     report_.worst_jerk_s = std::max(0.0, c.jerk.worst_time_s() - to_seconds(begin_));
     report_.worst_jerk_joint = c.jerk.worst_joint();
+    if (vibration_)
+      report_.vibration = VibrationReport{.rms_um = vibration_->rms_um(),
+                                          .peak_um = vibration_->peak_um(),
+                                          .plan_deviation_um = vibration_->plan_deviation_um(),
+                                          .samples = vibration_->samples(),
+                                          .peak_line = vibration_->peak_line()};
     report_.max_node_time_skew_us = c.skew.max_us();
     report_.worst_skew_s = c.skew.worst_time_s() - to_seconds(begin_);
     report_.queue_fullest = c.queues.findings().fullest;
@@ -250,6 +262,7 @@ class Run {
   Simulation simulation_;
   StepChecker steps_;
   std::unique_ptr<Checkers> checkers_;
+  std::unique_ptr<VibrationChecker> vibration_;
   SimulationReport report_;
   BusTime begin_{0}, last_time_{0};
   Pose last_pose_{};
@@ -267,6 +280,40 @@ SimulationReport simulate(const MachineDescription& machine, std::unique_ptr<Byt
     return report;
   }
   return Run(machine, **kinematics, options).go(std::move(job), same_job);
+}
+
+SimulationReport simulate_flexible(const MachineDescription& machine,
+                                   const std::function<std::unique_ptr<ByteSource>()>& open,
+                                   const FlexibleFrame::Error& error, SimulateOptions options) {
+  options.flexible.emplace();
+  options.flexible->truth = FlexibleFrame::truth(machine.vibration, error, options.simulation.seed);
+  SimulateOptions without = options;
+  options.flexible->text = open();
+  const auto checkers_text = open();
+  SimulationReport report = simulate(machine, open(), *checkers_text, options);
+  if (!report.vibration) return report;
+  VibrationReport& vibration = *report.vibration;
+  vibration.unshaped_rms_um = vibration.rms_um;
+  vibration.unshaped_peak_um = vibration.peak_um;
+  vibration.unshaped_job_time_s = report.job_time_s;
+  if (!machine.vibration.shapes()) return report;
+  MachineDescription plain = machine;
+  plain.vibration = {};
+  without.plot = nullptr;
+  without.on_frame = nullptr;
+  without.on_sample = nullptr;
+  const auto text = open();
+  const SimulationReport unshaped = simulate(plain, open(), *text, without);
+  report.cpu_s += unshaped.cpu_s;
+  if (!unshaped.vibration || unshaped.trouble) {
+    report.messages.push_back("without shaping: " + unshaped.outcome);
+    report.trouble = true;
+    return report;
+  }
+  vibration.unshaped_rms_um = unshaped.vibration->rms_um;
+  vibration.unshaped_peak_um = unshaped.vibration->peak_um;
+  vibration.unshaped_job_time_s = unshaped.job_time_s;
+  return report;
 }
 
 }  // namespace kinebus

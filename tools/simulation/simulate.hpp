@@ -1,22 +1,33 @@
 #pragma once
 // One job on the whole simulated machine, with all checkers: the engine of `kinebus simulate`.
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "gateway/description/machine_description.hpp"
 #include "gateway/jobs/byte_source.hpp"
+#include "tools/simulation/flexible_frame.hpp"
 #include "tools/simulation/plot.hpp"
 #include "tools/simulation/report.hpp"
 #include "tools/simulation/simulation.hpp"
 
 namespace kinebus {
 
+/// The tool swings on its frame.
+struct FlexiblePhysics {
+  std::array<FlexibleFrame::Modes, 3> truth{};
+  /// The job's text once more, for how far the plan leaves it; may be nothing.
+  std::shared_ptr<ByteSource> text;
+};
+
 struct SimulateOptions {
   SimulationOptions simulation;
+  std::optional<FlexiblePhysics> flexible;  ///< none: a rigid machine
   /// Nodes of another make in the place of these virtual ones (firmware images on emulated boards).
   std::function<std::unique_ptr<NodeMachine>(const std::vector<VirtualNodeOptions>&)> make_nodes;
   double limit_s = 0;        ///< stop measuring after so much job time; 0: the whole job
@@ -33,5 +44,12 @@ struct SimulateOptions {
 /// `same_job` are two readers of the same text: one for the machine, one for the checker.
 SimulationReport simulate(const MachineDescription& machine, std::unique_ptr<ByteSource> job,
                           ByteSource& same_job, const SimulateOptions& options);
+
+/// The same on a flexible frame whose parameters are off by `error` from what `machine` states, beside a run
+/// of the same job, machine and truth without shaping: SimulationReport::vibration has both and their ratios.
+/// `open`: the job's text from its beginning, each time it is asked for.
+SimulationReport simulate_flexible(const MachineDescription& machine,
+                                   const std::function<std::unique_ptr<ByteSource>()>& open,
+                                   const FlexibleFrame::Error& error, SimulateOptions options);
 
 }  // namespace kinebus

@@ -64,6 +64,55 @@ TEST(MachineFile, AScaleSaysItsPulsesAndIsOnARailThatHomes) {
   }
 }
 
+TEST(MachineFile, VibrationSaysAShaperForAllDirectionsOrEach) {
+  EXPECT_FALSE(parse_machine(edited("[tolerance]", "[tolerance]").text, "m")->vibration.shapes());
+  const auto machine = parse_machine(
+      edited("[tolerance]",
+             "[vibration]\nshaper = \"EI\"\nfrequency_hz = 48.5\ndeviation_um = 20\n[tolerance]")
+          .text,
+      "m");
+  ASSERT_TRUE(machine) << to_string(machine.error());
+  EXPECT_TRUE(machine->vibration.shapes());
+  EXPECT_EQ(machine->vibration.axis(2), (AxisVibration{ShaperKind::kEi, 48.5, 0.1}));
+  EXPECT_NEAR(machine->vibration.deviation_mm, 0.020, 1e-12);
+  const auto again = parse_machine(write_machine(*machine), "written");
+  ASSERT_TRUE(again) << to_string(again.error());
+  EXPECT_TRUE(*again == *machine);
+
+  const std::pair<const char*, const char*> refused[] = {
+      {"[vibration]\nshaper = \"ei\"\nfrequency_hz = 40",
+       "vibration.shaper: found \"ei\"; expected one of \"none\" \"ZV\" \"MZV\" \"ZVD\" \"EI\" \"2HUMP\" "
+       "\"3HUMP\""},
+      {"[vibration]\nshaper = \"ZV\"",
+       "found no frequency; expected the frequency of the vibration that the shaper is for"},
+      {"[vibration]\nshaper = \"ZV\"\nfrequency_hz = 0.5", "expected a number in 1 .. 500"},
+      {"[vibration]\nshaper = \"ZV\"\nfrequency_hz = 40\ndamping_ratio = 0.9",
+       "expected a number in 0 .. 0.5"},
+      {"[vibration]\ndeviation_um = 20", "found a deviation without a shaper"},
+      {"[vibration.x]\nshaper = \"ZV\"\nfrequency_hz = 40",
+       "found different shapers on a machine that turns or tilts the part; expected one shaper for X, Y and "
+       "Z, in [vibration] itself"},
+  };
+  for (const auto& [table, message] : refused) {
+    const auto bad = parse_machine(edited("[tolerance]", table + std::string("\n[tolerance]")).text, "m");
+    ASSERT_FALSE(bad) << table;
+    EXPECT_NE(to_string(bad.error()).find(message), std::string::npos) << to_string(bad.error());
+  }
+}
+
+TEST(MachineFile, ADirectionHasAShaperOfItsOwnWhereNothingTurns) {
+  const auto corexy = load_machine(kMachines / "corexy.toml");
+  ASSERT_TRUE(corexy) << to_string(corexy.error());
+  MachineDescription machine = *corexy;
+  machine.vibration.every = {ShaperKind::kMzv, 60, 0.1};
+  machine.vibration.y = {ShaperKind::kZvd, 38, 0.08};
+  const auto again = parse_machine(write_machine(machine), "written");
+  ASSERT_TRUE(again) << to_string(again.error());
+  EXPECT_TRUE(*again == machine);
+  EXPECT_EQ(again->vibration.axis(1).shaper, ShaperKind::kZvd);
+  EXPECT_EQ(again->vibration.axis(0).shaper, ShaperKind::kMzv);
+}
+
 TEST(MachineFile, ADeviceWhereNoneCanBeIsRefused) {
   struct Case {
     std::string functions, place, message;

@@ -4,8 +4,10 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "gateway/jobs/machine_setup.hpp"
 #include "gateway/jobs/tests/job_support.hpp"
 
 namespace kinebus {
@@ -191,6 +193,57 @@ TEST(JobPipeline, FeedScaleMakesAJobFaster) {
   for (Step step = pipeline.next(budget); step != Step::kEnd; step = pipeline.next(budget))
     if (step == Step::kPhase) motion_s += pipeline.phase().duration_s;
   EXPECT_NEAR(motion_s, 50 / 20.0, 0.1);
+}
+
+/// Motion of all runs, s, and how many there are.
+std::pair<double, int> motion_of(const MachineDescription& shaped, const std::string& job, int lines) {
+  StringSource source(job);
+  JobPipeline pipeline(shaped, kinematics());
+  pipeline.start_job(source, kinematics().bed_reference());
+  double motion_s = 0;
+  int runs = 0, budget = lines;
+  for (Step step = pipeline.next(budget); step != Step::kEnd; step = pipeline.next(budget)) {
+    if (step == Step::kMore) budget = lines;
+    if (step == Step::kRunEnd) ++runs;
+    if (step != Step::kPhase) continue;
+    EXPECT_TRUE(pipeline.phase().timed);
+    motion_s += pipeline.phase().duration_s;
+  }
+  return {motion_s, runs};
+}
+
+TEST(JobPipeline, ShapingMakesEachRunLongerByTheShaper) {
+  const std::string job = "G1 X50 F3000\nM117 half\nG1 X20 Y20\nG4 P100\nG1 X0\n";
+  MachineDescription shaped = machine();
+  shaped.vibration.every = {ShaperKind::kZvd, 40, 0};
+  const double plain_s = trace(job).motion_s;
+  for (const int lines : {1, 1000}) {
+    const auto [motion_s, runs] = motion_of(shaped, job, lines);
+    EXPECT_EQ(runs, 2);
+    // The joints' reserve makes a little of it slower.
+    EXPECT_NEAR(motion_s, plain_s + 2.0 / 40, 0.02 * plain_s);
+    EXPECT_GE(motion_s, plain_s + 2.0 / 40 - 1e-6);
+  }
+}
+
+TEST(JobPipeline, AStatedDeviationLowersTheAcceleration) {
+  const std::string job = "G1 X50 F12000\nG1 X0\n";
+  MachineDescription shaped = machine();
+  shaped.vibration.every = {ShaperKind::kEi, 50, 0};
+  const double free_s = motion_of(shaped, job, 1000).first;
+  shaped.vibration.deviation_mm = 0.020;
+  EXPECT_NEAR(limits_before_shaping(shaped, shaped.vibration).tool_accel_mm_per_s2, 762, 1);
+  EXPECT_GT(motion_of(shaped, job, 1000).first, free_s + 0.1);
+  EXPECT_EQ(limits_before_shaping(machine(), {}).tool_accel_mm_per_s2, 3000);
+}
+
+TEST(JobPipeline, LongShapersLeaveTheJointsAReserve) {
+  MachineDescription shaped = machine();
+  shaped.vibration.every = {ShaperKind::kThreeHump, 20, 0};
+  EXPECT_LT(limits_before_shaping(shaped, shaped.vibration).joint_accel_per_s2[0],
+            0.9 * motion_limits(shaped).joint_accel_per_s2[0]);
+  EXPECT_EQ(limits_before_shaping(shaped, shaped.vibration).joint_accel_per_s2[5],
+            motion_limits(shaped).joint_accel_per_s2[5]);
 }
 
 }  // namespace

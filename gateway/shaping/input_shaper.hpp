@@ -1,0 +1,46 @@
+#pragma once
+// Input shapers: a few pulses whose answers of one vibration cancel each other. A motion convolved with them
+// moves a spring without leaving it swinging.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace kinebus {
+
+/// Singer and Seering 1990 (ZV, ZVD); Singhose, Seering and Singer 1994 (EI); Singhose, Porter and Seering
+/// 1997 (2HUMP, 3HUMP); MZV: three pulses within three quarters of a period.
+enum class ShaperKind : std::uint8_t { kNone, kZv, kMzv, kZvd, kEi, kTwoHump, kThreeHump };
+
+/// Pulses at times from 0 on, s; weights > 0 whose sum is 1. One pulse at 0: the motion stays as it is.
+struct InputShaper {
+  static constexpr std::size_t kMostPulses = 5;
+  struct Pulse {
+    double time_s = 0, weight = 0;
+    friend bool operator==(const Pulse&, const Pulse&) = default;
+  };
+  std::array<Pulse, kMostPulses> pulses{{{0, 1}}};
+  std::size_t count = 1;
+
+  std::span<const Pulse> all() const { return {pulses.data(), count}; }
+  double duration_s() const { return pulses[count - 1].time_s; }
+  /// How much later the shaped motion is.
+  double mean_s() const;
+  /// Of the pulses' times. At an acceleration of at most a, a shaped place is within a / 2 times this of the
+  /// one that the motion would have without, a mean time earlier.
+  double variance_s2() const;
+  friend bool operator==(const InputShaper&, const InputShaper&) = default;
+};
+
+/// Vibration that EI and the humps leave at their own frequency, or between their zeros, to unshaped.
+inline constexpr double kShaperTolerance = 0.05;
+
+/// `frequency_hz`: of the vibration as it swings undamped, > 0; `damping_ratio` 0 .. 0.9.
+InputShaper make_shaper(ShaperKind kind, double frequency_hz, double damping_ratio);
+
+/// What a shaped step of acceleration leaves of a vibration: its amplitude at the last pulse, to the one that
+/// the unshaped step begins with.
+double residual_vibration(const InputShaper& shaper, double frequency_hz, double damping_ratio);
+
+}  // namespace kinebus
