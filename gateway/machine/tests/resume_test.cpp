@@ -38,23 +38,24 @@ struct Undisturbed {
   std::vector<Pose> track;
   double filament_mm = 0;
 };
+Undisturbed undisturbed_on(const MachineDescription& machine) {
+  Undisturbed made;
+  ResumeRig rig(machine);
+  EXPECT_TRUE(rig.begin(0)) << rig.story();
+  // Slowly, so that corners are seen in all their roundness.
+  EXPECT_TRUE(rig.gateway->carry_out(command::SetFeedOverride{0.1}));
+  rig.track_ = &made.track;
+  EXPECT_TRUE(rig.finish()) << rig.story();
+  made.filament_mm = rig.filament_mm;
+  return made;
+}
 const Undisturbed& undisturbed() {
-  static const Undisturbed result = [] {
-    Undisturbed made;
-    ResumeRig rig;
-    EXPECT_TRUE(rig.begin(0)) << rig.story();
-    // Slowly, so that corners are seen in all their roundness.
-    EXPECT_TRUE(rig.gateway->carry_out(command::SetFeedOverride{0.1}));
-    rig.track_ = &made.track;
-    EXPECT_TRUE(rig.finish()) << rig.story();
-    made.filament_mm = rig.filament_mm;
-    return made;
-  }();
+  static const Undisturbed result = undisturbed_on(default_m1());
   return result;
 }
 
-void expect_same_part(const ResumeRig& rig, const std::vector<Pose>& track, double path_um = 5) {
-  const Undisturbed& clean = undisturbed();
+void expect_same_part(const ResumeRig& rig, const std::vector<Pose>& track, double path_um = 5,
+                      const Undisturbed& clean = undisturbed()) {
   double worst = 0;
   for (std::size_t i = 0; i < track.size(); i += 3)
     worst = std::max(worst, distance_from(clean.track, track[i]));
@@ -141,6 +142,38 @@ TEST(Resume, AnotherGatewayTakesUpTheJobFromTheJournal) {
     ASSERT_TRUE(rig.gateway->carry_out(command::Resume{}));
     ASSERT_TRUE(rig.finish()) << rig.story();
     expect_same_part(rig, track);
+  }
+}
+
+TEST(Resume, ShapedMotionGoesOnFromTheExactPlace) {
+  MachineDescription machine = default_m1();
+  machine.vibration.every = {ShaperKind::kZvd, 40, 0.1};
+  const Undisturbed clean = undisturbed_on(machine);
+  for (const double at_s : {0.4, 1.1, 2.9}) {
+    SCOPED_TRACE("interrupted " + std::to_string(at_s) + " s into the job");
+    ResumeRig stopped(machine), killed(machine);
+    std::vector<Pose> track;
+    ASSERT_TRUE(stopped.begin(at_s)) << stopped.story();
+    stopped.track_ = &track;
+    ASSERT_TRUE(stopped.gateway->carry_out(command::Stop{}));
+    ASSERT_TRUE(stopped.reach(MachineState::kStopped, 5s));
+    ASSERT_TRUE(stopped.gateway->carry_out(command::Clear{}));
+    ASSERT_TRUE(stopped.reach(MachineState::kHeld, 5s)) << stopped.story();
+    ASSERT_TRUE(stopped.gateway->carry_out(command::Resume{}));
+    ASSERT_TRUE(stopped.finish()) << stopped.story();
+    expect_same_part(stopped, track, 5, clean);
+
+    track.clear();
+    ASSERT_TRUE(killed.begin(at_s)) << killed.story();
+    killed.track_ = &track;
+    killed.store();
+    killed.lose_from_gateway = killed.lose_to_gateway = [](const CanFrame&) { return true; };
+    killed.run_for(1200ms);
+    killed.lose_from_gateway = killed.lose_to_gateway = {};
+    killed.replace_gateway();
+    ASSERT_TRUE(killed.gateway->carry_out(command::Resume{}));
+    ASSERT_TRUE(killed.finish()) << killed.story();
+    expect_same_part(killed, track, 5, clean);
   }
 }
 
