@@ -7,6 +7,8 @@
 #include "gateway/sessions/command_requests.hpp"
 #include "gateway/sessions/job_check_task.hpp"
 #include "gateway/sessions/job_link_session.hpp"
+#include "gateway/sessions/job_requests.hpp"
+#include "gateway/sessions/machine_requests.hpp"
 #include "gateway/sessions/messages.hpp"
 #include "protocol/joblink/sha256.hpp"
 #include "protocol/joblink/shown_text.hpp"
@@ -81,19 +83,30 @@ bool JobLinkServer::has_place_for(const JobLinkSession& session) const {
          (!info.remote || of_peer < places.of_a_remote_peer);
 }
 
-JobLinkSession* JobLinkServer::find(std::uint64_t session) {
-  const auto found = sessions_.find(session);
-  return found != sessions_.end() ? found->second : nullptr;
+Requester* JobLinkServer::find(std::uint64_t session) {
+  const auto found = requesters_.find(session);
+  return found != requesters_.end() ? found->second : nullptr;
+}
+
+std::uint64_t JobLinkServer::enter(Requester& requester) {
+  requesters_[++last_session_] = &requester;
+  return last_session_;
+}
+
+void JobLinkServer::request(LocalTime now, Requester& by, const Asker& asker,
+                            const joblink::ClientMessage& message) {
+  // What is told afterwards is the state after it.
+  if (!message.has_get_status()) forget_status();
+  if (JobRequests(*this, by, now).take(asker, message)) return;
+  if (MachineRequests(*this, by).take(asker, message)) return;
+  refuse(asker, problem(joblink::ERROR_NOT_UNDERSTOOD, {}, say("this gateway does not know the request")));
 }
 
 void JobLinkServer::answer(const Asker& asker, joblink::Reply reply) {
-  JobLinkSession* session = find(asker.session);
-  if (session == nullptr) return;
-  joblink::ServerMessage message;
-  *message.mutable_reply() = std::move(reply);
-  message.mutable_reply()->set_request_id(asker.request);
-  session->answered();
-  session->send(message);
+  Requester* requester = find(asker.session);
+  if (requester == nullptr) return;
+  reply.set_request_id(asker.request);
+  requester->take_reply(std::move(reply));
 }
 
 void JobLinkServer::refuse(const Asker& asker, joblink::Problem error) {

@@ -21,6 +21,7 @@
 #include "gateway/sessions/control.hpp"
 #include "gateway/sessions/event_log.hpp"
 #include "gateway/sessions/machine_file_port.hpp"
+#include "gateway/sessions/requester.hpp"
 #include "gateway/sessions/run_recorder.hpp"
 #include "gateway/sessions/worker.hpp"
 #include "protocol/joblink/kinebus.pb.h"
@@ -81,17 +82,25 @@ class JobLinkServer {
   /// Another kind of session has started a stored job: its run belongs to the history, too.
   void job_started(const std::string& name);
 
- private:
-  friend class JobLinkSession;
-  friend class JobRequests;
-  friend class MachineRequests;
-
   /// What a request may use to answer, now or later.
   struct Asker {
     std::uint64_t session = 0;
     std::uint32_t request = 0;
   };
-  JobLinkSession* find(std::uint64_t session);
+  /// Somebody who speaks another language than the job link's asks for the same things: its number, until it
+  /// leaves. It is answered by take_reply(), often before request() returns.
+  std::uint64_t enter(Requester& requester);
+  void leave(std::uint64_t session) { requesters_.erase(session); }
+  void request(LocalTime now, Requester& by, const Asker& asker, const joblink::ClientMessage& message);
+  const EventLog& events() const { return events_; }
+  const Options& options() const { return options_; }
+
+ private:
+  friend class JobLinkSession;
+  friend class JobRequests;
+  friend class MachineRequests;
+
+  Requester* find(std::uint64_t session);
   bool has_place_for(const JobLinkSession& session) const;
   /// The oldest of the peer that has most of the sessions that `counts` ends, where there are `most` of them.
   void make_room(LocalTime now, bool (JobLinkSession::*counts)() const, std::size_t most);
@@ -123,6 +132,7 @@ class JobLinkServer {
   joblink::MachineInfo machine_info_;
 
   std::unordered_map<std::uint64_t, JobLinkSession*> sessions_;
+  std::unordered_map<std::uint64_t, Requester*> requesters_;  ///< they among them
   std::uint64_t last_session_ = 0;
   std::string vanished_key_;  ///< of the client that lost control by vanishing
   std::uint64_t keys_made_ = 0;

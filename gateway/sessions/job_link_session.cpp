@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "gateway/sessions/job_requests.hpp"
-#include "gateway/sessions/machine_requests.hpp"
 #include "gateway/sessions/messages.hpp"
 #include "protocol/joblink/upload_chunk.hpp"
 #include "protocol/joblink/version.hpp"
@@ -30,8 +29,6 @@ constexpr std::size_t kEnoughUnread = 64U << 10;
 /// A stop as it is written: at most a number of six bytes, then field 44, empty.
 constexpr std::string_view kStopEnd("\xE2\x02\x00", 3);
 constexpr std::size_t kStopBytes = 9;
-/// Open at once, of one client; it sends one after the other.
-constexpr std::size_t kMaxUploads = 2;
 /// What may come before a client has been let in: a hello.
 constexpr std::size_t kMaxHello = 4096;
 
@@ -43,18 +40,26 @@ bool same_secret(std::string_view a, std::string_view b) {
 }  // namespace
 
 JobLinkSession::JobLinkSession(JobLinkServer& server, std::uint64_t id, SessionInfo info, LocalTime now)
-    : server_(server), id_(id), info_(std::move(info)), last_heard_(now), now_(now), since_(now) {
+    : Requester(server.store_, server.worker_),
+      server_(server),
+      id_(id),
+      info_(std::move(info)),
+      last_heard_(now),
+      now_(now),
+      since_(now) {
   reader_.limit(kMaxHello);
   server_.sessions_[id_] = this;
+  server_.requesters_[id_] = this;
 }
 
 JobLinkSession::~JobLinkSession() {
   leave(now_);
   server_.sessions_.erase(id_);
+  server_.requesters_.erase(id_);
 }
 
 void JobLinkSession::leave(LocalTime now) {
-  while (!uploads_.empty()) set_aside(uploads_.front());
+  set_uploads_aside();
   if (client_ == 0) return;
   if (server_.control_.holder() == client_) server_.vanished_key_ = resume_key_;
   server_.control_.detach(client_);
@@ -64,17 +69,6 @@ void JobLinkSession::leave(LocalTime now) {
   next_status_ = LocalTime::max();
   watches_events_ = false;
   now_ = now;
-}
-
-/// It goes on when somebody begins it again.
-void JobLinkSession::set_aside(std::uint32_t upload) {
-  server_.worker_.post([&store = server_.store_, upload] { store.abort(upload, false); }, [] {});
-  end_upload(upload);
-}
-
-void JobLinkSession::begin_upload(std::uint32_t upload) {
-  if (uploads_.size() >= kMaxUploads) set_aside(uploads_.front());
-  uploads_.push_back(upload);
 }
 
 void JobLinkSession::on_closed(LocalTime now, std::string_view) {
@@ -93,7 +87,7 @@ void JobLinkSession::end(LocalTime now, const char* why) {
 }
 
 bool JobLinkSession::full() const {
-  return out_.size() > kMaxBacklog || open_requests_ >= kMaxOpenRequests || owed_bytes_ > 2 * kUploadWindow;
+  return out_.size() > kMaxBacklog || open_requests_ >= kMaxOpenRequests || owed_bytes() > 2 * kUploadWindow;
 }
 
 bool JobLinkSession::wants_bytes() const {
@@ -225,12 +219,7 @@ void JobLinkSession::request(LocalTime now, const ClientMessage& message) {
     return server_.answer(asker, {});
   }
   if (message.has_ping()) return server_.answer(asker, {});
-  // What is told afterwards is the state after it.
-  if (!message.has_get_status()) server_.forget_status();
-  if (JobRequests(server_, *this, now).take(asker, message)) return;
-  if (MachineRequests(server_, *this).take(asker, message)) return;
-  server_.refuse(asker,
-                 problem(joblink::ERROR_NOT_UNDERSTOOD, {}, say("this gateway does not know the request")));
+  server_.request(now, *this, asker, message);
 }
 
 void JobLinkSession::welcomed(LocalTime now, ClientId client, std::string resume_key, bool visitor) {
@@ -241,19 +230,11 @@ void JobLinkSession::welcomed(LocalTime now, ClientId client, std::string resume
   reader_.limit(joblink::kMaxMessageBytes);
 }
 
-void JobLinkSession::paid(std::size_t bytes) {
-  owed_bytes_ -= bytes;
-}
-
-std::string JobLinkSession::spare_buffer() {
-  if (spare_buffers_.empty()) return {};
-  std::string buffer = std::move(spare_buffers_.back());
-  spare_buffers_.pop_back();
-  return buffer;
-}
-
-void JobLinkSession::keep_buffer(std::string&& buffer) {
-  if (spare_buffers_.size() < kUploadWindow / kMaxChunk) spare_buffers_.push_back(std::move(buffer));
+void JobLinkSession::take_reply(joblink::Reply reply) {
+  --open_requests_;
+  joblink::ServerMessage message;
+  *message.mutable_reply() = std::move(reply);
+  send(message);
 }
 
 void JobLinkSession::send(const joblink::ServerMessage& message) {

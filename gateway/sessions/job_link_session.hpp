@@ -2,22 +2,17 @@
 // One client's conversation on one stream: frames, hello, what it is told without asking, and how much of it
 // is taken at once.
 
-#include <algorithm>
 #include <cstdint>
 #include <string>
-#include <vector>
 
 #include "gateway/sessions/job_link_server.hpp"
+#include "gateway/sessions/requester.hpp"
 #include "protocol/joblink/frame_codec.hpp"
 
 namespace kinebus {
 
-class JobLinkSession : public ByteSession {
+class JobLinkSession : public ByteSession, public Requester {
  public:
-  /// With its frame just two transfers of USB.
-  static constexpr std::size_t kMaxChunk = (128U << 10) - 128;
-  static constexpr std::size_t kUploadWindow = 1U << 20;
-
   JobLinkSession(JobLinkServer& server, std::uint64_t id, SessionInfo info, LocalTime now);
   ~JobLinkSession() override;
 
@@ -31,7 +26,8 @@ class JobLinkSession : public ByteSession {
   void on_closed(LocalTime now, std::string_view why) override;
 
   std::uint64_t id() const { return id_; }
-  ClientId client() const { return client_; }
+  ClientId client() const override { return client_; }
+  void take_reply(joblink::Reply reply) override;
   const std::string& resume_key() const { return resume_key_; }
   const SessionInfo& info() const { return info_; }
   bool stranger() const { return client_ == 0 && !ended_ && !info_.lasting; }
@@ -40,21 +36,6 @@ class JobLinkSession : public ByteSession {
   /// `visitor`: all places are taken; it may stop the machine and ask, and leaves soon.
   void welcomed(LocalTime now, ClientId client, std::string resume_key, bool visitor);
   void send(const joblink::ServerMessage& message);
-  /// Bytes of an upload are with the worker.
-  void owe(std::size_t bytes) { owed_bytes_ += bytes; }
-  void paid(std::size_t bytes);
-  /// A text to be filled, with the memory of one that was kept: chunks come by the hundred a second.
-  std::string spare_buffer();
-  void keep_buffer(std::string&& buffer);
-  /// Uploads are those of who began them. The one that began first goes back to the disk when there are too
-  /// many.
-  void begin_upload(std::uint32_t upload);
-  void end_upload(std::uint32_t upload) { std::erase(uploads_, upload); }
-  bool owns_upload(std::uint32_t upload) const {
-    return std::find(uploads_.begin(), uploads_.end(), upload) != uploads_.end();
-  }
-  /// A reply that comes later counts until it is sent.
-  void answered() { --open_requests_; }
   /// The stream is to be closed, when `why` is told to a client.
   void end(LocalTime now, const char* why);
 
@@ -69,7 +50,6 @@ class JobLinkSession : public ByteSession {
   void refuse_visitor(const JobLinkServer::Asker& asker);
   bool greeted(const JobLinkServer::Asker& asker);
   void leave(LocalTime now);
-  void set_aside(std::uint32_t upload);
   void resynchronise(LocalTime now, const char* why);
   bool write(std::string_view message);
   bool full() const;
@@ -90,10 +70,7 @@ class JobLinkSession : public ByteSession {
   bool unread_ = false;  ///< whole frames may wait in the reader
   bool visitor_ = false, watches_events_ = false, ended_ = false;
   std::uint64_t told_event_ = 0;
-  std::size_t owed_bytes_ = 0;
-  std::vector<std::string> spare_buffers_;
-  int open_requests_ = 0;
-  std::vector<std::uint32_t> uploads_;
+  int open_requests_ = 0;  ///< a reply that comes later counts until it is sent
 };
 
 }  // namespace kinebus

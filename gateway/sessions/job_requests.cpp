@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "gateway/sessions/job_check_task.hpp"
-#include "gateway/sessions/job_link_session.hpp"
 #include "gateway/sessions/messages.hpp"
 #include "protocol/joblink/frame_codec.hpp"
 #include "protocol/joblink/sha256.hpp"
@@ -93,17 +92,15 @@ bool JobRequests::take(const Asker& asker, const ClientMessage& message) {
   }
 }
 
-void JobRequests::begin_upload(const Asker& asker, const joblink::UploadBegin& request) {
-  UploadIdentity identity{request.name(), request.size_bytes(), request.hash()};
+template <typename Begin>
+void JobRequests::begin(const Asker& asker, Begin begin) {
   server_.worker_.ask(
-      [&store = server_.store_, identity = std::move(identity), replace = request.replace(),
-       unix_s = server_.unix_s(now_)] { return store.begin_upload(identity, replace, unix_s); },
-      [&server = server_, asker](const Result<UploadProgress, StoreError>& begun) {
-        JobLinkSession* session = server.find(asker.session);
+      std::move(begin), [&server = server_, asker](const Result<UploadProgress, StoreError>& begun) {
+        Requester* requester = server.find(asker.session);
         if (begun && begun->id != 0) {
           // Who has gone meanwhile leaves nothing open.
-          if (session != nullptr && session->client() != 0)
-            session->begin_upload(begun->id);
+          if (requester != nullptr && requester->client() != 0)
+            requester->begin_upload(begun->id);
           else
             server.worker_.post([&store = server.store_, id = begun->id] { store.abort(id, false); }, [] {});
         }
@@ -111,11 +108,24 @@ void JobRequests::begin_upload(const Asker& asker, const joblink::UploadBegin& r
       });
 }
 
+void JobRequests::begin_upload(const Asker& asker, const joblink::UploadBegin& request) {
+  UploadIdentity identity{request.name(), request.size_bytes(), request.hash()};
+  begin(asker, [&store = server_.store_, identity = std::move(identity), replace = request.replace(),
+                unix_s = server_.unix_s(now_)] { return store.begin_upload(identity, replace, unix_s); });
+}
+
+void JobRequests::begin_open_ended(const Asker& asker, const std::string& name, std::uint64_t expected_bytes,
+                                   bool replace) {
+  begin(asker, [&store = server_.store_, name, expected_bytes, replace, unix_s = server_.unix_s(now_)] {
+    return store.begin_open_ended(name, expected_bytes, replace, unix_s);
+  });
+}
+
 void JobRequests::chunk(const Asker& asker, const joblink::ChunkView& chunk) {
-  if (!session_.owns_upload(chunk.head.upload_id)) return refuse_upload(asker);
+  if (!requester_.owns_upload(chunk.head.upload_id)) return refuse_upload(asker);
   const std::size_t size = chunk.data.size();
-  session_.owe(size);
-  auto data = std::make_shared<std::string>(session_.spare_buffer());
+  requester_.owe(size);
+  auto data = std::make_shared<std::string>(requester_.spare_buffer());
   data->assign(chunk.data);
   server_.worker_.ask(
       [&store = server_.store_, head = chunk.head, data] {
@@ -123,31 +133,31 @@ void JobRequests::chunk(const Asker& asker, const joblink::ChunkView& chunk) {
       },
       [&server = server_, asker, size, data](const Result<UploadProgress, StoreError>& taken) {
         server.answer(asker, taken ? upload_reply(*taken) : error_reply(taken));
-        JobLinkSession* session = server.find(asker.session);
-        if (session == nullptr) return;
-        session->keep_buffer(std::move(*data));
-        session->paid(size);
+        Requester* requester = server.find(asker.session);
+        if (requester == nullptr) return;
+        requester->keep_buffer(std::move(*data));
+        requester->paid(size);
       });
 }
 
 void JobRequests::commit(const Asker& asker, const joblink::UploadCommit& request) {
-  if (!session_.owns_upload(request.upload_id())) return refuse_upload(asker);
+  if (!requester_.owns_upload(request.upload_id())) return refuse_upload(asker);
   server_.worker_.ask([&store = server_.store_, id = request.upload_id(),
                        unix_s = server_.unix_s(now_)] { return store.commit(id, unix_s); },
                       [&server = server_, asker, id = request.upload_id(),
                        now = now_](const Result<UploadProgress, StoreError>& done) {
-                        JobLinkSession* session = server.find(asker.session);
+                        Requester* requester = server.find(asker.session);
                         // What came too early is still open.
-                        if (session != nullptr && (done || done.error().kind != StoreError::Kind::kOrder))
-                          session->end_upload(id);
+                        if (requester != nullptr && (done || done.error().kind != StoreError::Kind::kOrder))
+                          requester->end_upload(id);
                         server.answer(asker, done ? upload_reply(*done) : error_reply(done));
                         if (done) server.tell(now, jobs_changed({}));
                       });
 }
 
 void JobRequests::abort(const Asker& asker, const joblink::UploadAbort& request) {
-  if (!session_.owns_upload(request.upload_id())) return refuse_upload(asker);
-  session_.end_upload(request.upload_id());
+  if (!requester_.owns_upload(request.upload_id())) return refuse_upload(asker);
+  requester_.end_upload(request.upload_id());
   server_.worker_.post([&store = server_.store_, id = request.upload_id(),
                         discard = request.discard()] { store.abort(id, discard); },
                        [&server = server_, asker] { server.answer(asker, {}); });
@@ -298,7 +308,7 @@ void JobRequests::check_machine_file(const Asker& asker, const std::string& text
 }
 
 void JobRequests::write_machine_file(const Asker& asker, const joblink::WriteMachineFile& request) {
-  if (!server_.control_.may_command(session_.client())) return server_.refuse(asker, server_.no_control());
+  if (!server_.control_.may_command(requester_.client())) return server_.refuse(asker, server_.no_control());
   if (request.text().size() > kMaxMachineFile)
     return server_.refuse(
         asker, problem(joblink::ERROR_BAD_VALUE, "text", say("a machine file has at most 512 KiB")));

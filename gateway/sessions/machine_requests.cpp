@@ -4,7 +4,6 @@
 
 #include "gateway/sessions/command_requests.hpp"
 #include "gateway/sessions/console.hpp"
-#include "gateway/sessions/job_link_session.hpp"
 #include "gateway/sessions/messages.hpp"
 #include "protocol/joblink/shown_text.hpp"
 
@@ -23,7 +22,7 @@ bool MachineRequests::take(const Asker& asker, const ClientMessage& message) {
   if (message.request_case() < ClientMessage::kStartJob ||
       message.request_case() > ClientMessage::kTuneHeater)
     return false;
-  if (!server_.control_.may_command(session_.client())) {
+  if (!server_.control_.may_command(requester_.client())) {
     server_.refuse(asker, server_.no_control());
     return true;
   }
@@ -74,19 +73,19 @@ bool MachineRequests::take_free(const Asker& asker, const ClientMessage& message
 bool MachineRequests::take_control_request(const Asker& asker, const ClientMessage& message) {
   Control& control = server_.control_;
   if (message.has_take_control()) {
-    if (control.take(session_.client(), message.take_control().force()))
+    if (control.take(requester_.client(), message.take_control().force()))
       server_.answer(asker, {});
     else
       server_.refuse(asker, server_.no_control());
     return true;
   }
   if (message.has_release_control()) {
-    control.release(session_.client());
+    control.release(requester_.client());
     server_.answer(asker, {});
     return true;
   }
   if (message.has_hand_over()) {
-    if (control.hand_over(session_.client(), message.hand_over().client_id()))
+    if (control.hand_over(requester_.client(), message.hand_over().client_id()))
       server_.answer(asker, {});
     else
       server_.refuse(

@@ -2,12 +2,13 @@
 // Requests to the machine itself, and about who may make them.
 
 #include "gateway/sessions/job_link_server.hpp"
+#include "gateway/sessions/requester.hpp"
 
 namespace kinebus {
 
 class MachineRequests {
  public:
-  MachineRequests(JobLinkServer& server, JobLinkSession& session) : server_(server), session_(session) {}
+  MachineRequests(JobLinkServer& server, Requester& requester) : server_(server), requester_(requester) {}
   /// False: not one of these.
   bool take(const JobLinkServer::Asker& asker, const joblink::ClientMessage& message);
 
@@ -20,7 +21,7 @@ class MachineRequests {
   void console(const Asker& asker, const std::string& line);
 
   JobLinkServer& server_;
-  JobLinkSession& session_;
+  Requester& requester_;
 };
 
 }  // namespace kinebus

@@ -33,6 +33,8 @@ struct UploadIdentity {
   std::string name{};
   std::uint64_t size_bytes = 0;
   std::string hash{};  ///< of its text (job_hash.hpp)
+  /// Nobody knows its size and hash before its end: `size_bytes` is what room is kept for, `hash` a mark.
+  bool open_ended = false;
 };
 struct UploadProgress {
   std::uint32_t id = 0;
@@ -111,6 +113,10 @@ class JobStore {
   // upload.cpp
   Result<UploadProgress, StoreError> begin_upload(const UploadIdentity& identity, bool replace,
                                                   double now_unix_s);
+  /// One whose size and hash the sender does not know (HTTP). `expected_bytes`: room that is kept for it; it
+  /// may take more or less. It cannot be taken up again: once nobody sends it, it is deleted.
+  Result<UploadProgress, StoreError> begin_open_ended(std::string_view name, std::uint64_t expected_bytes,
+                                                      bool replace, double now_unix_s);
   Result<UploadProgress, StoreError> append(std::uint32_t upload, std::uint64_t offset_bytes,
                                             std::string_view bytes);
   Result<UploadProgress, StoreError> commit(std::uint32_t upload, double now_unix_s);
@@ -170,6 +176,8 @@ class JobStore {
   std::optional<StoredRun> last_run(std::string_view name);
   std::filesystem::path partial_of(const UploadIdentity& identity) const;
   Result<std::unique_ptr<Upload>, StoreError> reopen(const UploadIdentity& identity);
+  Result<UploadProgress, StoreError> open_upload(std::unique_ptr<Upload> upload, bool replace);
+  Result<void, StoreError> make_room(Upload& upload, std::uint64_t size_bytes);
   Result<void, StoreError> secure(Upload& upload);
   void forget_partial(const UploadIdentity& identity);
   Result<void, StoreError> writable_or_error();

@@ -23,6 +23,8 @@ constexpr std::uint64_t kSecureEvery = 16ULL << 20;
 /// Uploads that are open at once, of all clients; the one that began first goes back to the disk alone.
 constexpr std::size_t kMaxOpen = 64;
 constexpr std::size_t kReadPiece = 1U << 20;
+/// Room that an upload of unknown size takes at once, where there is so much.
+constexpr std::uint64_t kRoomStep = 8ULL << 20;
 
 Error<StoreError> fail(StoreError::Kind kind, Sentence words) {
   return Error<StoreError>({kind, std::move(words)});
@@ -34,7 +36,15 @@ Error<StoreError> not_open() {
 }
 
 bool same(const UploadIdentity& a, const UploadIdentity& b) {
-  return a.name == b.name && a.size_bytes == b.size_bytes && a.hash == b.hash;
+  return a.name == b.name && (a.size_bytes == b.size_bytes || a.open_ended) && a.hash == b.hash;
+}
+
+/// What stands for the hash of an upload that has none yet: no other upload has it.
+std::string random_mark() {
+  std::random_device random;
+  std::string mark(joblink::kJobHashBytes, '\0');
+  for (char& byte : mark) byte = static_cast<char>(random());
+  return mark;
 }
 
 }  // namespace
@@ -46,7 +56,7 @@ JobStore::Upload::~Upload() {
 fs::path JobStore::partial_of(const UploadIdentity& identity) const {
   joblink::Sha256 sum;
   sum.add(identity.hash);
-  sum.add(std::to_string(identity.size_bytes) + "/");
+  sum.add(std::to_string(identity.open_ended ? 0 : identity.size_bytes) + "/");
   sum.add(identity.name);
   return options_.folder / (std::string(kPartialPrefix) + joblink::to_hex(sum.finish()).substr(0, 32));
 }
@@ -217,15 +227,48 @@ Result<UploadProgress, StoreError> JobStore::begin_upload(const UploadIdentity& 
                     .finish();
       !ok)
     return Error<StoreError>(ok.error());
+  return open_upload(std::move(*upload), replace);
+}
+
+Result<UploadProgress, StoreError> JobStore::open_upload(std::unique_ptr<Upload> upload, bool replace) {
   if (uploads_.size() >= kMaxOpen) {
     static_cast<void>(secure(*uploads_.front()));
     uploads_.erase(uploads_.begin());
   }
-  (*upload)->id = new_upload_id();
-  (*upload)->replace = replace;
-  const UploadProgress progress{(*upload)->id, (*upload)->received_bytes, false};
-  uploads_.push_back(std::move(*upload));
+  upload->id = new_upload_id();
+  upload->replace = replace;
+  const UploadProgress progress{upload->id, upload->received_bytes, false};
+  uploads_.push_back(std::move(upload));
   return progress;
+}
+
+Result<UploadProgress, StoreError> JobStore::begin_open_ended(std::string_view name,
+                                                              std::uint64_t expected_bytes, bool replace,
+                                                              double now_unix_s) {
+  if (Sentence broken = check_name(name); !broken.empty()) return fail(StoreError::Kind::kName, broken);
+  if (auto ok = writable_or_error(); !ok) return Error<StoreError>(ok.error());
+  // Those that nobody sends any more among them: no row of the database knows them.
+  forget_old_uploads(now_unix_s);
+  if (!replace && find(name))
+    return fail(StoreError::Kind::kName, say("another job has the name %1 already", name));
+  const UploadIdentity identity{std::string(name), expected_bytes, random_mark(), true};
+  if (auto ok = check_room(identity, 0); !ok) return Error<StoreError>(ok.error());
+  auto upload = reopen(identity);
+  if (!upload) return Error<StoreError>(upload.error());
+  return open_upload(std::move(*upload), replace);
+}
+
+/// For an upload that brings more than was expected.
+Result<void, StoreError> JobStore::make_room(Upload& upload, std::uint64_t size_bytes) {
+  const std::uint64_t before = upload.identity.size_bytes;
+  Result<void, StoreError> ok;
+  for (const std::uint64_t ahead : {kRoomStep, std::uint64_t{0}}) {
+    upload.identity.size_bytes = size_bytes + ahead;
+    ok = check_room(upload.identity, upload.received_bytes);
+    if (ok) return ok;
+  }
+  upload.identity.size_bytes = before;
+  return ok;
 }
 
 /// All bytes received are on the disk, and the database knows it.
@@ -247,8 +290,13 @@ Result<UploadProgress, StoreError> JobStore::append(std::uint32_t id, std::uint6
   if (offset_bytes != upload.received_bytes)
     return fail(StoreError::Kind::kOrder,
                 say("the next byte of this upload is %1, not %2", upload.received_bytes, offset_bytes));
-  if (bytes.size() > upload.identity.size_bytes - upload.received_bytes)
+  const bool too_many = bytes.size() > upload.identity.size_bytes - upload.received_bytes;
+  if (too_many && upload.identity.open_ended) {
+    if (auto ok = make_room(upload, upload.received_bytes + bytes.size()); !ok)
+      return Error<StoreError>(ok.error());
+  } else if (too_many) {
     return fail(StoreError::Kind::kOrder, say("more bytes than were announced"));
+  }
   std::string_view rest = bytes;
   while (!rest.empty()) {
     const ssize_t count = ::write(upload.fd, rest.data(), rest.size());
@@ -275,13 +323,17 @@ Result<UploadProgress, StoreError> JobStore::commit(std::uint32_t id, double now
       std::find_if(uploads_.begin(), uploads_.end(), [&](const auto& u) { return u->id == id; });
   if (found == uploads_.end()) return not_open();
   Upload& upload = **found;
-  const UploadIdentity identity = upload.identity;
-  if (upload.received_bytes != identity.size_bytes)
+  UploadIdentity identity = upload.identity;
+  if (identity.open_ended) {
+    upload.identity.size_bytes = identity.size_bytes = upload.received_bytes;
+  } else if (upload.received_bytes != identity.size_bytes) {
     return fail(StoreError::Kind::kOrder,
                 say("%1 bytes of the job have not come yet", identity.size_bytes - upload.received_bytes));
+  }
   if (!upload.replace && find(identity.name))
     return fail(StoreError::Kind::kName, say("another job has the name %1 already", identity.name));
-  if (upload.sum.finish() != identity.hash) {
+  const std::string hash = upload.sum.finish();
+  if (!identity.open_ended && hash != identity.hash) {
     uploads_.erase(found);
     forget_partial(identity);
     return fail(
@@ -296,7 +348,7 @@ Result<UploadProgress, StoreError> JobStore::commit(std::uint32_t id, double now
   if (!stored) return Error<StoreError>(disk_error(partial, error));
   sync_folder(options_.folder);
   if (auto ok = database_->run("BEGIN IMMEDIATE"); !ok) return Error<StoreError>(ok.error());
-  auto entered = enter(identity.name, identity.hash, now_unix_s);
+  auto entered = enter(identity.name, hash, now_unix_s);
   Database::Statement remove(*database_, "DELETE FROM uploads WHERE partial = ?");
   if (entered) entered = remove.bind(partial.filename().string()).finish();
   if (entered) entered = database_->run("COMMIT");
@@ -312,6 +364,7 @@ void JobStore::abort(std::uint32_t id, bool discard) {
       std::find_if(uploads_.begin(), uploads_.end(), [&](const auto& u) { return u->id == id; });
   if (found == uploads_.end()) return;
   const UploadIdentity identity = (*found)->identity;
+  discard = discard || identity.open_ended;
   if (!discard) static_cast<void>(secure(**found));
   uploads_.erase(found);
   if (discard) forget_partial(identity);
