@@ -26,6 +26,14 @@ void add_options(CLI::App& app, Arguments& arguments) {
   app.add_option("--tcp", arguments.tcp, "Also serve the job link by TLS on ADDRESS:PORT (default: off)");
   app.add_option("--credentials", arguments.credentials,
                  "Folder of the TLS certificate and the token (default: .tls in the folder of jobs)");
+  app.add_option(
+      "--http", arguments.http,
+      "Also serve slicers and managers of printers (OctoPrint's and PrusaLink's requests) by HTTP on "
+      "ADDRESS:PORT; on an address that others can reach by HTTPS (default: off)");
+  app.add_option("--http-key", arguments.http_key,
+                 "File of the API key that HTTP clients must know (default: http-key beside the token)");
+  app.add_option("--http-name", arguments.http_names,
+                 "A name by which HTTP clients call this computer, besides its own and its addresses");
   app.add_option("--quota", arguments.quota_gib, "GiB that stored jobs may take")
       ->check(CLI::Range(0.001, 1e6));
   app.add_option("--jobs", arguments.jobs, "Folder of stored jobs (default: the machine file's)");

@@ -2,6 +2,7 @@
 // What kinebusd is told on its command line.
 
 #include <string>
+#include <vector>
 
 #include "gateway/io/usb/serial_ports.hpp"
 
@@ -25,6 +26,9 @@ struct Arguments {
   std::string flight;
   std::string tcp;
   std::string credentials;
+  std::string http;
+  std::string http_key;
+  std::vector<std::string> http_names;
   double quota_gib = 16;
   std::string log_level = "info";
   int realtime_priority = 80;

@@ -132,6 +132,7 @@ Service::Service(const Arguments& arguments)
               server_options(jobs_folder_, machine_file_)),
       hub_(loop_),
       host_(loop_, hub_, server_),
+      http_host_(loop_, hub_),
       serial_files_(*store_, worker_, gateway_, server_),
       serial_(loop_, gateway_, serial_files_, control_, arguments.serial),
       usb_(loop_, hub_, arguments.usb,
@@ -168,9 +169,9 @@ void Service::take_up_what_was_noted() {
 
 void Service::listen() {
   must_be_empty(host_.listen_local(socket_, arguments_.group), "local socket");
+  const std::string folder = arguments_.credentials.empty() ? jobs_folder_ + "/.tls" : arguments_.credentials;
+  if (!arguments_.http.empty()) listen_http(folder);
   if (!arguments_.tcp.empty()) {
-    const std::string folder =
-        arguments_.credentials.empty() ? jobs_folder_ + "/.tls" : arguments_.credentials;
     must_be_empty(host_.listen_tcp(arguments_.tcp, folder), "TCP");
     spdlog::info("TCP port {}, fingerprint {}, token in {}/token", host_.tcp_port(), host_.tls_fingerprint(),
                  folder);
@@ -181,12 +182,24 @@ void Service::listen() {
   spdlog::info("{} on bus {}, listening at {}", machine_.name, bus_name_, socket_);
 }
 
+void Service::listen_http(const std::string& credentials) {
+  std::filesystem::create_directories(credentials);
+  const std::string file = arguments_.http_key.empty() ? credentials + "/http-key" : arguments_.http_key;
+  http_.emplace(server_, *store_, worker_, control_,
+                http::Server::Options{.key = must(token_of(file), "HTTP "),
+                                      .names = host_names(arguments_.http_names)});
+  must_be_empty(http_host_.listen(arguments_.http, credentials, *http_), "HTTP");
+  spdlog::info("{} port {}, API key in {}", http_host_.encrypted() ? "HTTPS" : "HTTP", http_host_.port(),
+               file);
+}
+
 void Service::run(const volatile std::sig_atomic_t* quit) {
   sd_notify(0, "READY=1");
   RecordedBus recorded(std::move(bus_), recorder_);
   Daemon daemon(loop_, recorded, gateway_);
   daemon.add(recorder_);
   daemon.add(host_);
+  daemon.add(http_host_);
   daemon.add(hub_);
   daemon.add(serial_);
   if (!arguments_.usb.empty()) daemon.add(usb_);

@@ -4,6 +4,7 @@
 #include <csignal>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "gateway/arguments.hpp"
@@ -11,6 +12,7 @@
 #include "gateway/io/bus_port.hpp"
 #include "gateway/io/event_loop.hpp"
 #include "gateway/io/flight_recorder.hpp"
+#include "gateway/io/http_host.hpp"
 #include "gateway/io/instance_lock.hpp"
 #include "gateway/io/job_link_host.hpp"
 #include "gateway/io/journal_file.hpp"
@@ -23,6 +25,7 @@
 #include "gateway/jobs/store/job_store.hpp"
 #include "gateway/machine/gateway.hpp"
 #include "gateway/sessions/control.hpp"
+#include "gateway/sessions/http/http_server.hpp"
 #include "gateway/sessions/job_link_server.hpp"
 
 namespace kinebus {
@@ -38,6 +41,7 @@ class Service {
   void lock();
   void take_up_what_was_noted();
   void listen();
+  void listen_http(const std::string& credentials);
 
   const Arguments& arguments_;
   MachineDescription machine_;
@@ -54,8 +58,10 @@ class Service {
   WorkerThread worker_;
   Control control_;
   JobLinkServer server_;
+  std::optional<http::Server> http_;
   StreamHub hub_;
   JobLinkHost host_;
+  HttpHost http_host_;
   StoreFiles serial_files_;
   SerialPorts serial_;
   FunctionFs usb_;

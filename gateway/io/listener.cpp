@@ -132,6 +132,16 @@ int Listener::port() const {
                                        : ntohs(reinterpret_cast<const sockaddr_in&>(address).sin_port);
 }
 
+bool Listener::loopback() const {
+  sockaddr_storage address{};
+  socklen_t size = sizeof address;
+  ::getsockname(fd_, reinterpret_cast<sockaddr*>(&address), &size);
+  if (address.ss_family == AF_INET6)
+    return IN6_IS_ADDR_LOOPBACK(&reinterpret_cast<const sockaddr_in6&>(address).sin6_addr);
+  const std::uint32_t host = ntohl(reinterpret_cast<const sockaddr_in&>(address).sin_addr.s_addr);
+  return address.ss_family == AF_INET && (host >> 24U) == IN_LOOPBACKNET;
+}
+
 void Listener::accept_client() {
   sockaddr_storage address{};
   socklen_t size = sizeof address;

@@ -26,6 +26,8 @@ class Listener {
   std::string listen_tcp(const std::string& address);
   /// The port in use (TCP).
   int port() const;
+  /// Only programs of this computer can connect (TCP).
+  bool loopback() const;
 
  private:
   void accept_client();

@@ -1,0 +1,193 @@
+#include "gateway/sessions/http/api.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "protocol/joblink/shown_text.hpp"
+
+namespace kinebus::http {
+namespace {
+
+/// So long a request to start a job waits for the pre-flight's verdict: less than the patience of clients.
+constexpr LocalTime kVerdictWithin = std::chrono::seconds{8};
+constexpr std::size_t kReadBytes = 128U << 10;
+
+/// The first error that the pre-flight found after event `after`; "": none.
+std::string first_error(const EventLog& events, std::uint64_t after) {
+  static constexpr std::string_view kError = "error: ";
+  std::string words;
+  events.each(after, false, [&](const joblink::Event& event) {
+    if (event.kind() == joblink::EVENT_PROBLEM && event.words().starts_with(kError))
+      words = event.words().substr(kError.size());
+    // Some name their line themselves.
+    if (!words.empty() && !words.starts_with("line "))
+      words = "line " + std::to_string(event.line()) + ": " + words;
+    return words.empty();
+  });
+  return words;
+}
+
+class Download : public Task {
+ public:
+  Download(Session& session, std::string name) : session_(session), name_(std::move(name)) {}
+  void on_body(std::string_view) override {}
+  void on_end() override { read(); }
+  void on_written() override {
+    if (begun_ && !asked_) read();
+  }
+
+ private:
+  void read() {
+    asked_ = true;
+    joblink::ClientMessage message;
+    message.mutable_read_job()->set_name(name_);
+    message.mutable_read_job()->set_offset_bytes(offset_);
+    message.mutable_read_job()->set_max_bytes(kReadBytes);
+    session_.ask(message, [this](const joblink::Reply& reply) { take(reply); });
+  }
+  void take(const joblink::Reply& reply) {
+    asked_ = false;
+    const joblink::JobText& text = reply.job_text();
+    if (reply.has_error() && !begun_) return session_.refuse(reply.error());
+    if (!begun_) {
+      size_ = text.size_bytes();
+      session_.answer_head(200, "text/x.gcode", size_);
+      begun_ = true;
+      if (session_.head().method == "HEAD") return session_.finish();
+    }
+    // Replaced or deleted while it was read.
+    if (reply.has_error() || text.size_bytes() != size_) return session_.break_off();
+    session_.write(text.data());
+    offset_ += text.data().size();
+    if (offset_ >= size_) return session_.finish();
+    if (text.data().empty()) session_.break_off();
+  }
+  Session& session_;
+  std::string name_;
+  std::uint64_t offset_ = 0, size_ = 0;
+  bool begun_ = false, asked_ = false;
+};
+
+}  // namespace
+
+std::string text_of(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+Answer json_answer(const Json& json, int status) {
+  return {.status = status, .body = text_of(json)};
+}
+
+Answer no_content() {
+  return {.status = 204};
+}
+
+std::optional<Json> json_body(Session& session, std::string_view body) {
+  const std::string_view type = session.head().field("Content-Type");
+  if (!same_word(type.substr(0, type.find(';')), "application/json")) {
+    session.refuse(415, "such a request has a body of application/json");
+    return std::nullopt;
+  }
+  // A form of a foreign page cannot send this type, and depth is bounded by the size.
+  Json parsed = Json::parse(body, nullptr, false);
+  if (parsed.is_object()) return parsed;
+  session.refuse(400, "the body is no object of JSON");
+  return std::nullopt;
+}
+
+std::string word_in(const Json& object, const char* key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+joblink::Status machine_status(Session& session) {
+  joblink::ClientMessage message;
+  message.mutable_get_status();
+  return session.ask_now(message).status();
+}
+
+joblink::MachineInfo machine_info(Session& session) {
+  joblink::ClientMessage message;
+  message.mutable_get_machine();
+  return session.ask_now(message).machine();
+}
+
+bool job_is_there(const joblink::Status& status) {
+  return !status.job().empty();
+}
+
+bool is_paused(const joblink::Status& status) {
+  return status.state() == joblink::STATE_HELD ||
+         (job_is_there(status) && status.interrupted() && status.at_rest());
+}
+
+void command(Session& session, const joblink::ClientMessage& message) {
+  session.ask(message, [&session](const joblink::Reply& reply) {
+    if (reply.has_error()) return session.refuse(reply.error());
+    session.answer(no_content());
+  });
+}
+
+void start_job(Session& session, const std::string& name, std::function<void()> started) {
+  const std::uint64_t before = session.server().link().events().newest();
+  joblink::ClientMessage message;
+  message.mutable_start_job()->set_name(name);
+  session.ask(message, [&session, name, before, started = std::move(started)](const joblink::Reply& reply) {
+    if (reply.has_error()) return session.refuse(reply.error());
+    const LocalTime until = session.now() + kVerdictWithin;
+    session.wait_for([&session, before, until, started](LocalTime now) {
+      const bool checking = machine_status(session).state() == joblink::STATE_CHECKING;
+      if (checking && now < until) return false;
+      const std::string wrong =
+          checking ? std::string() : first_error(session.server().link().events(), before);
+      if (wrong.empty())
+        started();
+      else
+        session.refuse(409, "the job is refused: " + wrong);
+      return true;
+    });
+  });
+}
+
+void delete_job(Session& session, const std::string& name) {
+  joblink::ClientMessage message;
+  message.mutable_delete_job()->set_name(name);
+  if (session.server().selected == name) session.server().selected.clear();
+  command(session, message);
+}
+
+void with_job(Session& session, const std::string& name, std::function<void(const StoredJob&)> found) {
+  session.beside([name](JobStore& store) { return store.find(name); },
+                 [&session, found = std::move(found)](const std::optional<StoredJob>& job) {
+                   if (!job) return session.refuse(404, "no stored job has this name");
+                   found(*job);
+                 });
+}
+
+std::unique_ptr<Task> download(Session& session, std::string name) {
+  return std::make_unique<Download>(session, std::move(name));
+}
+
+void pause(Session& session, Pausing pausing) {
+  joblink::ClientMessage message;
+  const bool resume =
+      pausing == Pausing::kResume || (pausing == Pausing::kToggle && is_paused(machine_status(session)));
+  if (resume)
+    message.mutable_resume();
+  else
+    message.mutable_hold();
+  command(session, message);
+}
+
+void cancel(Session& session) {
+  joblink::ClientMessage message;
+  message.mutable_cancel();
+  command(session, message);
+}
+
+std::string download_path(const std::string& name) {
+  return "/downloads/files/local/" + percent_encoded(name);
+}
+
+}  // namespace kinebus::http

@@ -1,0 +1,73 @@
+#pragma once
+// HTTP for slicers, managers of printers and whoever looks at the machine: OctoPrint's and PrusaLink's
+// requests, each carried out by the handlers of the job link.
+//
+//   open() -> a session for each connection (byte_session.hpp)      on_event: news of the machine
+//
+// Who has the key may do all; who has not, nothing. Nobody can lock others out: connections that wait for
+// nothing give way to new ones.
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "gateway/jobs/store/job_store.hpp"
+#include "gateway/sessions/byte_session.hpp"
+#include "gateway/sessions/control.hpp"
+#include "gateway/sessions/job_link_server.hpp"
+#include "gateway/sessions/worker.hpp"
+
+namespace kinebus::http {
+
+class Session;
+
+class Server {
+ public:
+  struct Options {
+    std::string key;  ///< what X-Api-Key must say; never empty
+    /// By which a client may call this computer (Host), besides its addresses and "localhost": a page of
+    /// another name that leads here is refused.
+    std::vector<std::string> names;
+    std::size_t max_sessions = 32;
+  };
+
+  /// All must outlive it. `store` is touched by `worker` alone.
+  Server(JobLinkServer& link, JobStore& store, Worker& worker, Control& control, Options options);
+  ~Server();
+  Server(const Server&) = delete;
+  Server& operator=(const Server&) = delete;
+
+  /// `peer`: whose places it takes.
+  std::unique_ptr<ByteSession> open(LocalTime now, std::string transport, std::string peer);
+  void on_event(const MachineEvent& event);
+
+  JobLinkServer& link() { return link_; }
+  JobStore& store() { return store_; }
+  Worker& worker() { return worker_; }
+  Control& control() { return control_; }
+  const Options& options() const { return options_; }
+  Session* find(std::uint64_t session);
+  std::size_t sessions() const { return sessions_.size(); }
+
+  /// What OctoPrint calls the selected file; empty: none.
+  std::string selected;
+  /// Counts the jobs that were started, by whomever, since the gateway's start.
+  std::uint32_t job_id() const { return job_id_; }
+
+ private:
+  friend class Session;
+  /// False: there is none.
+  bool make_room(LocalTime now);
+
+  JobLinkServer& link_;
+  JobStore& store_;
+  Worker& worker_;
+  Control& control_;
+  Options options_;
+  std::unordered_map<std::uint64_t, Session*> sessions_;
+  std::uint32_t job_id_ = 0;
+};
+
+}  // namespace kinebus::http

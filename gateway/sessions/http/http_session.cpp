@@ -1,0 +1,403 @@
+#include "gateway/sessions/http/http_session.hpp"
+
+#include <openssl/crypto.h>
+
+#include <algorithm>
+#include <cassert>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "gateway/sessions/http/routes.hpp"
+#include "protocol/joblink/shown_text.hpp"
+#include "protocol/joblink/upload_chunk.hpp"
+
+namespace kinebus::http {
+namespace {
+
+/// Waits unread at most; more is not read from the stream.
+constexpr std::size_t kMaxUnread = 64U << 10;
+/// Of a body in one turn of the loop.
+constexpr std::size_t kBytesPerTurn = 64U << 10;
+constexpr LocalTime kLookPeriod = std::chrono::milliseconds{50};
+constexpr std::string_view kContinue = "HTTP/1.1 100 Continue\r\n\r\n";
+
+std::string_view reason_of(int status) {
+  static constexpr std::pair<int, std::string_view> kReasons[] = {
+      {200, "OK"},
+      {201, "Created"},
+      {204, "No Content"},
+      {400, "Bad Request"},
+      {401, "Unauthorized"},
+      {403, "Forbidden"},
+      {404, "Not Found"},
+      {405, "Method Not Allowed"},
+      {408, "Request Timeout"},
+      {409, "Conflict"},
+      {411, "Length Required"},
+      {413, "Content Too Large"},
+      {415, "Unsupported Media Type"},
+      {417, "Expectation Failed"},
+      {431, "Request Header Fields Too Large"},
+      {500, "Internal Server Error"},
+      {503, "Service Unavailable"},
+      {505, "HTTP Version Not Supported"},
+      {507, "Insufficient Storage"},
+  };
+  for (const auto& [number, reason] : kReasons)
+    if (number == status) return reason;
+  return "Error";
+}
+
+int status_of(joblink::ErrorCode code) {
+  switch (code) {
+    case joblink::ERROR_NO_CONTROL:
+    case joblink::ERROR_MACHINE_STATE:
+    case joblink::ERROR_JOB_IN_USE:
+    case joblink::ERROR_CONFLICT:
+      return 409;
+    case joblink::ERROR_NO_SUCH_JOB:
+      return 404;
+    case joblink::ERROR_QUOTA:
+      return 507;
+    case joblink::ERROR_BUSY:
+      return 503;
+    case joblink::ERROR_STORAGE:
+      return 500;
+    default:
+      return 400;
+  }
+}
+
+/// Takes as long for a wrong key as for the right one.
+bool same_key(std::string_view a, std::string_view b) {
+  return a.size() == b.size() && CRYPTO_memcmp(a.data(), b.data(), a.size()) == 0;
+}
+
+std::string_view without_port(std::string_view host) {
+  if (host.starts_with('[')) return host.substr(0, std::min(host.find(']'), host.size() - 1) + 1);
+  return host.substr(0, host.find(':'));
+}
+
+/// "10.0.0.7" or "[fe80::1]": no name, and so no page of another server can have it.
+bool is_address(std::string_view host) {
+  if (host.starts_with('[')) return host.ends_with(']');
+  return !host.empty() && host.find_first_not_of("0123456789.") == std::string_view::npos;
+}
+
+}  // namespace
+
+Session::Session(Server& server, LocalTime now, std::string transport, std::string peer)
+    : Requester(server.store(), server.worker()),
+      server_(server),
+      id_(server.link().enter(*this)),
+      transport_(std::move(transport)),
+      peer_(std::move(peer)),
+      now_(now),
+      since_(now),
+      moved_(now) {
+  server_.sessions_[id_] = this;
+}
+
+Session::~Session() {
+  end_exchange();
+  server_.sessions_.erase(id_);
+  server_.link().leave(id_);
+}
+
+void Session::on_closed(LocalTime now, std::string_view) {
+  now_ = now;
+  ended_ = true;
+  out_.clear();
+  sent_ = 0;
+  end_exchange();
+}
+
+void Session::on_bytes(LocalTime now, std::span<const std::uint8_t> bytes) {
+  now_ = moved_ = now;
+  if (lingers_ || ended_) return;
+  // A head counts from its first byte.
+  if (task_ == nullptr && in_.size() == at_) since_ = now;
+  in_.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  starved_ = false;
+  work();
+}
+
+bool Session::wants_bytes() const {
+  if (ended_) return false;
+  if (lingers_) return true;
+  return in_.size() - at_ < kMaxUnread && (task_ == nullptr || (!whole_ && task_->takes_body()));
+}
+
+bool Session::work_waits() const {
+  return !starved_ && !ended_ && !lingers_ && !answered_ &&
+         (task_ == nullptr || (!whole_ && task_->takes_body()));
+}
+
+void Session::work() {
+  done_task_.reset();
+  std::size_t budget = kBytesPerTurn;
+  while (work_waits() && budget > 0) {
+    const std::string_view given = input().substr(0, budget);
+    const Reader::Taken taken = reader_.take(given);
+    starved_ = taken.step == Reader::Step::kMore && given.size() == input().size();
+    at_ += taken.count;
+    budget -= taken.count;
+    if (taken.step == Reader::Step::kMore) break;
+    if (taken.step == Reader::Step::kBad) {
+      refuse(reader_.bad_status(), reader_.bad_why());
+    } else if (taken.step == Reader::Step::kHead) {
+      begin_request();
+      if (whole_ && task_ != nullptr && !answered_) task_->on_end();
+    } else if (taken.step == Reader::Step::kBody) {
+      task_->on_body(reader_.body());
+    } else {
+      whole_ = true;
+      task_->on_end();
+    }
+  }
+  if (at_ == in_.size() || at_ > kMaxUnread) {
+    in_.erase(0, at_);
+    at_ = 0;
+  }
+}
+
+bool Session::host_is_ours(std::string_view host) const {
+  const std::string_view name = without_port(host);
+  if (is_address(name) || same_word(name, "localhost")) return true;
+  const auto& names = server_.options().names;
+  return std::any_of(names.begin(), names.end(), [&](const std::string& n) { return same_word(n, name); });
+}
+
+int Session::check_request(const char*& why) const {
+  const Head& asked = head();
+  const std::string_view host = asked.field("Host");
+  if (asked.count("Host") != 1 || host.empty()) return why = "a request names one Host", 400;
+  if (!host_is_ours(host)) return why = "this computer is not known by the name in Host (--http-name)", 403;
+  const std::string_view origin = asked.field("Origin");
+  const bool own =
+      origin.ends_with(host) && (same_word(origin.substr(0, origin.size() - host.size()), "http://") ||
+                                 same_word(origin.substr(0, origin.size() - host.size()), "https://"));
+  if (!origin.empty() && !own) return why = "pages of other servers may not ask this one", 403;
+  const std::string_view site = asked.field("Sec-Fetch-Site");
+  if (!site.empty() && site != "same-origin" && site != "none")
+    return why = "pages of other servers may not ask this one", 403;
+  const std::string_view key = asked.field("X-Api-Key");
+  const std::string_view bearer = asked.field("Authorization");
+  const bool knows = same_key(key, server_.options().key) ||
+                     (bearer.starts_with("Bearer ") && same_key(bearer.substr(7), server_.options().key));
+  if (!knows) return why = "X-Api-Key must be this gateway's key", 401;
+  const std::string_view expected = asked.field("Expect");
+  if (!expected.empty() && !same_word(expected, "100-continue"))
+    return why = "the only expectation that can be met is 100-continue", 417;
+  return 0;
+}
+
+void Session::begin_request() {
+  no_body_ = head().method == "HEAD";
+  keep_alive_ = head().keep_alive;
+  whole_ = !head().has_body();
+  const char* why = "";
+  if (const int status = check_request(why); status != 0) return refuse(status, why);
+  auto target = parse_target(head().target);
+  if (!target) return refuse(400, "the target is no path of this server");
+  target_ = std::move(*target);
+  const Found found = find_route(no_body_ ? "GET" : head().method, target_.path);
+  if (found.allowed.empty()) return refuse(404, "there is nothing under this path");
+  if (found.route == nullptr) {
+    const nlohmann::json body{{"error", "this path does not take the method " + head().method}};
+    return answer({.status = 405, .body = body.dump(), .fields = {{"Allow", found.allowed}}});
+  }
+  if (head().method != "GET" && !no_body_) {
+    const std::string_view agent = head().field("User-Agent");
+    const std::string name = shown(agent.substr(0, agent.find(' ')), kMaxNameBytes);
+    client_ = server_.control().attach(name.empty() ? "HTTP client" : name, transport_);
+  }
+  task_ = make_task(*found.route, *this);
+  task_->begin();
+  if (task_ != nullptr && !answered_ && !task_->holds_body()) let_body_come();
+}
+
+void Session::let_body_come() {
+  if (head().has_body() && !head().field("Expect").empty()) out_ += kContinue;
+}
+
+void Session::ask(const joblink::ClientMessage& message, Then then) {
+  const JobLinkServer::Asker asker{id_, expect(std::move(then))};
+  server_.link().request(now_, *this, asker, message);
+}
+
+joblink::Reply Session::ask_now(const joblink::ClientMessage& message) {
+  joblink::Reply got;
+  const std::uint32_t before = last_request_;
+  ask(message, [&](const joblink::Reply& reply) { got = reply; });
+  assert(!expected_.contains(before + 1));
+  return got;
+}
+
+void Session::begin_open_ended(const std::string& name, std::uint64_t expected_bytes, bool replace,
+                               Then then) {
+  JobRequests(server_.link(), *this, now_)
+      .begin_open_ended({id_, expect(std::move(then))}, name, expected_bytes, replace);
+}
+
+void Session::send_chunk(std::uint32_t upload, std::uint64_t offset_bytes, std::string_view data, Then then) {
+  const std::uint32_t request = expect(std::move(then));
+  JobRequests(server_.link(), *this, now_)
+      .chunk(
+          {id_, request},
+          {.head = {.request_id = request, .upload_id = upload, .offset_bytes = offset_bytes}, .data = data});
+}
+
+std::uint32_t Session::expect(Then then) {
+  expected_[++last_request_] = std::move(then);
+  return last_request_;
+}
+
+void Session::take_reply(joblink::Reply reply) {
+  const auto found = expected_.find(reply.request_id());
+  if (found == expected_.end()) return;
+  const Then then = std::move(found->second);
+  expected_.erase(found);
+  then(reply);
+}
+
+void Session::wait_for(std::function<bool(LocalTime)> look) {
+  look_ = std::move(look);
+  next_look_ = now_;
+}
+
+void Session::put_head(const Answer& answer, std::uint64_t length) {
+  // Who has not sent all of its request would send it to nobody.
+  if (!whole_) keep_alive_ = false;
+  out_ += "HTTP/1.1 " + std::to_string(answer.status) + " " + std::string(reason_of(answer.status)) + "\r\n";
+  if (answer.status != 204) {
+    out_ += "Content-Type: " + answer.type + "\r\n";
+    out_ += "Content-Length: " + std::to_string(length) + "\r\n";
+  }
+  for (const auto& [name, value] : answer.fields) out_.append(name).append(": ").append(value).append("\r\n");
+  out_ += "Cache-Control: no-store\r\nX-Content-Type-Options: nosniff\r\nX-Robots-Tag: noindex\r\n";
+  out_ += keep_alive_ ? "Connection: keep-alive\r\n\r\n" : "Connection: close\r\n\r\n";
+}
+
+void Session::answer(const Answer& answer) {
+  if (answered_ || ended_) return;
+  put_head(answer, answer.body.size());
+  if (!no_body_ && answer.status != 204) out_ += answer.body;
+  finish();
+}
+
+void Session::answer_head(int status, const std::string& type, std::uint64_t length) {
+  put_head({.status = status, .type = type}, length);
+}
+
+void Session::write(std::string_view bytes) {
+  if (!no_body_) out_ += bytes;
+}
+
+void Session::break_off() {
+  keep_alive_ = false;
+  finish();
+}
+
+void Session::finish() {
+  answered_ = true;
+  end_exchange();
+  lingers_ = !whole_;
+  if (!lingers_) return;
+  in_.clear();
+  at_ = 0;
+}
+
+/// Of the request that is answered, or never will be. The task may be the caller.
+void Session::end_exchange() {
+  ++exchange_;
+  expected_.clear();
+  look_ = nullptr;
+  next_look_ = LocalTime::max();
+  set_uploads_aside();
+  if (client_ != 0) server_.control().detach(client_);
+  client_ = 0;
+  if (task_ != nullptr) done_task_ = std::move(task_);
+}
+
+void Session::refuse(int status, std::string_view why) {
+  Answer refusal{
+      .status = status,
+      .body = nlohmann::json{{"error", why}}.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)};
+  if (status == 401) refusal.fields.emplace_back("WWW-Authenticate", "Bearer realm=\"kinebus\"");
+  answer(refusal);
+}
+
+void Session::refuse(const joblink::Problem& problem, int status) {
+  std::string why = problem.rule();
+  if (!problem.expected().empty()) why += " (" + problem.expected() + ")";
+  refuse(status != 0 ? status : status_of(problem.code()), why);
+}
+
+/// The answer is on its way: the next request may be there already.
+void Session::next_request() {
+  reader_.next();
+  whole_ = answered_ = starved_ = no_body_ = false;
+  target_ = {};
+  since_ = now_;
+}
+
+void Session::on_time(LocalTime now) {
+  now_ = now;
+  if (ended_) return;
+  if (look_ && now >= next_look_) {
+    next_look_ = now + kLookPeriod;
+    // It may give the answer, which forgets it.
+    const auto look = look_;
+    if (look(now)) {
+      if (!answered_) look_ = nullptr;
+    }
+  }
+  if (sent_some_) moved_ = now;
+  sent_some_ = false;
+  if (answered_ && whole_ && out_.empty()) next_request();
+  work();
+  done_task_.reset();
+  if (lingers_) {
+    if (linger_until_ == LocalTime::max()) linger_until_ = now + kLinger;
+    ended_ = now >= linger_until_;
+  } else if (!out_.empty() && now >= moved_ + kStall) {
+    on_closed(now, "the client does not take its answer");
+  } else if (task_ != nullptr) {
+    if (!whole_ && !answered_ && task_->takes_body() && now >= moved_ + kStall)
+      refuse(408, "the rest of the request did not come");
+  } else if (!reader_.idle() || in_.size() > at_) {
+    if (!answered_ && now >= since_ + kHeadWithin)
+      refuse(408, "the head of the request did not come in time");
+  } else if (out_.empty() && now >= since_ + kIdle) {
+    on_closed(now, "nothing was asked for");
+  }
+}
+
+LocalTime Session::next_deadline() const {
+  if (ended_) return LocalTime::max();
+  if (lingers_) return linger_until_ == LocalTime::max() ? LocalTime{0} : linger_until_;
+  if (work_waits() || (answered_ && out_.empty())) return LocalTime{0};
+  LocalTime next = next_look_;
+  if (!out_.empty()) next = std::min(next, moved_ + kStall);
+  if (task_ != nullptr && !whole_) next = std::min(next, moved_ + kStall);
+  if (task_ == nullptr) next = std::min(next, since_ + (reader_.idle() ? kIdle : kHeadWithin));
+  return next;
+}
+
+std::span<const std::uint8_t> Session::next_bytes() {
+  if (out_.empty() && task_ != nullptr) task_->on_written();
+  const std::string_view rest = std::string_view(out_).substr(sent_);
+  return {reinterpret_cast<const std::uint8_t*>(rest.data()), rest.size()};
+}
+
+void Session::on_bytes_sent(std::size_t count) {
+  sent_ += count;
+  sent_some_ = sent_some_ || count > 0;
+  if (sent_ < out_.size()) return;
+  out_.clear();
+  sent_ = 0;
+  ended_ = ended_ || (answered_ && whole_ && !keep_alive_);
+}
+
+}  // namespace kinebus::http

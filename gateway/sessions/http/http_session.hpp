@@ -1,0 +1,159 @@
+#pragma once
+// One connection: requests one after the other, each read, checked, carried out by its task and answered. How
+// slow, long or malformed a client may be is decided here, for all requests alike.
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "gateway/sessions/byte_session.hpp"
+#include "gateway/sessions/http/http_reader.hpp"
+#include "gateway/sessions/http/http_server.hpp"
+#include "gateway/sessions/http/target.hpp"
+#include "gateway/sessions/job_requests.hpp"
+#include "gateway/sessions/requester.hpp"
+
+namespace kinebus::http {
+
+struct Answer {
+  int status = 200;
+  std::string body{};
+  std::string type = "application/json";
+  std::vector<std::pair<std::string, std::string>> fields{};
+};
+
+/// What one request asks for: takes its body, and answers by the session, then or later. Lives until the
+/// answer is given.
+class Task {
+ public:
+  virtual ~Task() = default;
+  virtual void begin() {}
+  virtual void on_body(std::string_view bytes) = 0;
+  virtual void on_end() = 0;
+  /// False: the body waits, and the client with it.
+  virtual bool takes_body() const { return true; }
+  /// All that was written is on its way: more may be written.
+  virtual void on_written() {}
+  /// True: the task says itself when the body may come (Session::let_body_come), for clients that wait for
+  /// it.
+  virtual bool holds_body() const { return false; }
+};
+
+class Session : public ByteSession, public Requester {
+ public:
+  static constexpr LocalTime kHeadWithin = std::chrono::seconds{10};
+  static constexpr LocalTime kIdle = std::chrono::seconds{60};
+  /// A client that neither sends what it announced nor takes what it asked for.
+  static constexpr LocalTime kStall = std::chrono::seconds{30};
+  static constexpr LocalTime kLinger = std::chrono::seconds{2};
+
+  Session(Server& server, LocalTime now, std::string transport, std::string peer);
+  ~Session() override;
+
+  void on_bytes(LocalTime now, std::span<const std::uint8_t> bytes) override;
+  void on_time(LocalTime now) override;
+  LocalTime next_deadline() const override;
+  std::span<const std::uint8_t> next_bytes() override;
+  void on_bytes_sent(std::size_t count) override;
+  bool wants_bytes() const override;
+  bool ended() const override { return ended_; }
+  void on_closed(LocalTime now, std::string_view why) override;
+  ClientId client() const override { return client_; }
+  void take_reply(joblink::Reply reply) override;
+
+  std::uint64_t id() const { return id_; }
+  const std::string& peer() const { return peer_; }
+  /// Nobody waits for anything on it.
+  bool idle() const { return task_ == nullptr && out_.empty() && !ended_; }
+
+  /// No place for it.
+  void turn_away() { refuse(503, "all places for connections are taken: come back in some seconds"); }
+
+  // For tasks.
+  Server& server() { return server_; }
+  LocalTime now() const { return now_; }
+  const Head& head() const { return reader_.head(); }
+  const Target& target() const { return target_; }
+  /// Bytes of an upload that the worker has not written yet are within their bound.
+  bool has_window() const { return owed_bytes() < kUploadWindow; }
+
+  using Then = std::function<void(const joblink::Reply&)>;
+  /// A request as the job link knows it; `then` is called with its reply unless the answer is given before.
+  void ask(const joblink::ClientMessage& message, Then then);
+  /// The same of what is answered at once.
+  joblink::Reply ask_now(const joblink::ClientMessage& message);
+  void begin_open_ended(const std::string& name, std::uint64_t expected_bytes, bool replace, Then then);
+  void send_chunk(std::uint32_t upload, std::uint64_t offset_bytes, std::string_view data, Then then);
+  /// `work` beside the loop, with the store; `then` takes what it returns.
+  template <typename Work, typename Done>
+  void beside(Work work, Done then) {
+    server_.worker().ask(
+        [&store = server_.store(), work = std::move(work)] { return work(store); },
+        [&server = server_, id = id_, exchange = exchange_, then = std::move(then)](auto found) {
+          Session* session = server.find(id);
+          if (session != nullptr && session->exchange_ == exchange) then(std::move(found));
+        });
+  }
+  /// Asks `look` now and then until it answers true.
+  void wait_for(std::function<bool(LocalTime)> look);
+  void let_body_come();
+  bool unanswered() const { return !answered_ && !ended_; }
+
+  void answer(const Answer& answer);
+  void refuse(int status, std::string_view why);
+  void refuse(const joblink::Problem& problem, int status = 0);
+  /// A long answer: its head, then write() until `length` bytes are written.
+  void answer_head(int status, const std::string& type, std::uint64_t length);
+  void write(std::string_view bytes);
+  void finish();
+  /// The answer cannot be given as it was begun.
+  void break_off();
+
+ private:
+  void work();
+  void begin_request();
+  void next_request();
+  bool work_waits() const;
+  /// Why the request is not let in; 0: it is.
+  int check_request(const char*& why) const;
+  bool host_is_ours(std::string_view host) const;
+  void put_head(const Answer& answer, std::uint64_t length);
+  void end_exchange();
+  std::uint32_t expect(Then then);
+  std::string_view input() const { return std::string_view(in_).substr(at_); }
+
+  Server& server_;
+  std::uint64_t id_;
+  std::string transport_, peer_;
+  Reader reader_;
+  std::string in_, out_;
+  std::size_t at_ = 0, sent_ = 0;  ///< of in_ and out_, done with
+
+  Target target_;
+  std::unique_ptr<Task> task_, done_task_;
+  bool whole_ = false;      ///< the request's body has come
+  bool answered_ = false;   ///< its answer is given
+  bool no_body_ = false;    ///< HEAD
+  bool keep_alive_ = true;  ///< after this answer
+  bool starved_ = true;     ///< what has come is too little to go on
+  bool lingers_ = false;    ///< what comes is thrown away, so that the client reads the answer
+  bool ended_ = false;
+  std::uint64_t exchange_ = 0;
+  ClientId client_ = 0;
+  std::map<std::uint32_t, Then> expected_;
+  std::uint32_t last_request_ = 0;
+  std::function<bool(LocalTime)> look_;
+  LocalTime next_look_ = LocalTime::max();
+
+  LocalTime now_, since_, moved_;  ///< since_: of the connection or the last answer; moved_: the last byte
+  LocalTime linger_until_ = LocalTime::max();  ///< max: it has not begun
+  bool sent_some_ = false;                     ///< since moved_
+};
+
+}  // namespace kinebus::http
