@@ -13,6 +13,7 @@
 #include "gateway/bodies/bodies_description.hpp"
 #include "gateway/calibration/joint_calibration.hpp"
 #include "gateway/description/device_description.hpp"
+#include "gateway/gcode/dialects.hpp"
 #include "gateway/kinematics/geometry.hpp"
 #include "gateway/shaping/input_shaper.hpp"
 
@@ -251,15 +252,16 @@ struct MacroDescription {
 
 struct GcodeDescription {
   double initial_feed_mm_per_min = 1500;  ///< until the job states its first F
-  /// What G4 P counts: milliseconds in printer firmware, seconds in RS274/NGC.
-  enum class DwellUnit : std::uint8_t { kMilliseconds, kSeconds };
-  double traverse_mm_per_s = 0;  ///< tool speed of G0; 0: the tool's own limit
+  /// What G4 P counts: milliseconds in printer firmware, seconds in RS274/NGC and on machines with a spindle.
+  enum class DwellUnit : std::uint8_t { kByDialect, kMilliseconds, kSeconds };
+  gcode::Dialect dialect = gcode::Dialect::kGeneral;  ///< kGeneral ("auto"): as the header of a job says
+  double traverse_mm_per_s = 0;                       ///< tool speed of G0; 0: the tool's own limit
   double filament_diameter_mm = 1.75;
   double arc_radius_tolerance_mm = 0.01;  ///< start and end radius of G2/G3 may differ by it
   double retract_mm = 0.8;                ///< G10/G11 without words, or M207
   double retract_mm_per_s = 35;
   double retract_lift_mm = 0;
-  DwellUnit dwell_p_unit = DwellUnit::kMilliseconds;
+  DwellUnit dwell_p_unit = DwellUnit::kByDialect;
   std::vector<double> tool_length_mm;  ///< of T1, T2 ...: G43 takes it by H, or by T without H
   bool optional_stop = false;          ///< M1 stops
   bool block_delete = false;           ///< lines that begin with / are left out

@@ -30,8 +30,19 @@ inline constexpr Choice kAfterStall[] = {{"ask", static_cast<int>(StopDescriptio
                                          {"go_on", static_cast<int>(StopDescription::AfterStall::kGoOn)}};
 inline constexpr Choice kResumeThen[] = {{"ask", static_cast<int>(ResumeDescription::Then::kAsk)},
                                          {"go_on", static_cast<int>(ResumeDescription::Then::kGoOn)}};
-inline constexpr Choice kDwellUnits[] = {{"ms", static_cast<int>(GcodeDescription::DwellUnit::kMilliseconds)},
-                                         {"s", static_cast<int>(GcodeDescription::DwellUnit::kSeconds)}};
+inline constexpr Choice kDwellUnits[] = {
+    {"dialect", static_cast<int>(GcodeDescription::DwellUnit::kByDialect)},
+    {"ms", static_cast<int>(GcodeDescription::DwellUnit::kMilliseconds)},
+    {"s", static_cast<int>(GcodeDescription::DwellUnit::kSeconds)}};
+inline std::span<const Choice> dialect_choices() {
+  static const std::vector<Choice> choices = [] {
+    std::vector<Choice> all;
+    for (const gcode::DialectRules& rules : gcode::dialects())
+      all.push_back({rules.key, static_cast<int>(rules.dialect)});
+    return all;
+  }();
+  return choices;
+}
 inline constexpr Choice kShapers[] = {
     {"none", static_cast<int>(ShaperKind::kNone)},      {"ZV", static_cast<int>(ShaperKind::kZv)},
     {"MZV", static_cast<int>(ShaperKind::kMzv)},        {"ZVD", static_cast<int>(ShaperKind::kZvd)},
@@ -297,6 +308,7 @@ void visit_gcode(V& v, GcodeDescription& g) {
     v.number("retract_mm", g.retract_mm, {0, 100}, Need::kOptional);
     v.number("retract_mm_per_s", g.retract_mm_per_s, {0.1, 1000}, Need::kOptional);
     v.number("retract_lift_mm", g.retract_lift_mm, {0, 50}, Need::kOptional);
+    v.choice("dialect", g.dialect, dialect_choices(), Need::kOptional);
     v.choice("dwell_p_unit", g.dwell_p_unit, kDwellUnits, Need::kOptional);
     v.numbers("tool_length_mm", g.tool_length_mm, {-1000, 1000}, 99, 1);
     v.flag("optional_stop", g.optional_stop, Need::kOptional);

@@ -55,7 +55,8 @@ class BlockReader {
         !is_name(cursor_.p[1]) && !read_line_number())
       return false;
     cursor_.skip_blanks();
-    if (cursor_.end - cursor_.p > 1 && is_name(cursor_.p[1]) && read_command()) return true;
+    if (cursor_.end - cursor_.p > 1 && (is_name(cursor_.p[1]) || is_question()) && read_command())
+      return true;
     for (;;) {
       cursor_.skip_blanks();
       if (cursor_.at_end()) return true;
@@ -78,6 +79,9 @@ class BlockReader {
   }
   bool fail_here(Sentence message) { return fail(cursor_.column(), std::move(message)); }
 
+  /// T? of filament units: the operator chooses.
+  bool is_question() const { return upper(*cursor_.p) == 'T' && cursor_.p[1] == '?'; }
+
   /// A word of several letters that begins the line, and its text. False: it is none.
   bool read_command() {
     if (!is_letter(*cursor_.p) && *cursor_.p != '_') return false;
@@ -85,6 +89,7 @@ class BlockReader {
     Cursor value{cursor_.begin, cursor_.p + 1, cursor_.end};
     if (ValueReader(state_, value, error_).starts_value()) return false;
     const char* const start = cursor_.p;
+    if (is_question()) cursor_.p += 2;
     while (!cursor_.at_end() && (is_name(*cursor_.p) || is_digit(*cursor_.p))) ++cursor_.p;
     block_.command = {start, static_cast<std::size_t>(cursor_.p - start)};
     block_.command_column = cursor_.column_of(start);

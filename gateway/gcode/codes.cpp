@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "gateway/gcode/dialects.hpp"
 #include "gateway/gcode/letters.hpp"
 #include "gateway/gcode/parameters.hpp"
 
@@ -12,7 +13,7 @@ namespace {
 
 // What Klipper and slicers write as words: it tells or tunes what other machines have, and leaves the job's
 // meaning as it is. In lower case, sorted.
-constexpr std::array<std::string_view, 35> kHarmlessCommands = {"bed_mesh_calibrate",
+constexpr std::array<std::string_view, 31> kHarmlessCommands = {"bed_mesh_calibrate",
                                                                 "bed_mesh_clear",
                                                                 "bed_mesh_output",
                                                                 "bed_mesh_profile",
@@ -20,10 +21,6 @@ constexpr std::array<std::string_view, 35> kHarmlessCommands = {"bed_mesh_calibr
                                                                 "bed_tilt_calibrate",
                                                                 "bltouch_debug",
                                                                 "delta_calibrate",
-                                                                "exclude_object",
-                                                                "exclude_object_define",
-                                                                "exclude_object_end",
-                                                                "exclude_object_start",
                                                                 "probe",
                                                                 "probe_calibrate",
                                                                 "quad_gantry_level",
@@ -52,12 +49,18 @@ static_assert(std::is_sorted(kHarmlessCommands.begin(), kHarmlessCommands.end())
 struct Command {
   std::string_view name, words, meaning;
 };
-constexpr std::array<Command, 8> kCommands = {{
+constexpr std::array<Command, 15> kCommands = {{
     {"cancel_print", "", "end of the program"},
+    {"exclude_object", "NAME= | CURRENT=1 | RESET=1", "the moves of this object are left out from here on"},
+    {"exclude_object_define", "NAME= RESET=", "names an object; the rest is passed over"},
+    {"exclude_object_end", "NAME=", "the object's moves end"},
+    {"exclude_object_start", "NAME=", "the object's moves begin"},
     {"pause", "", "pause"},
     {"respond", "MSG=", "message"},
+    {"set_gcode_offset", "X= Y= Z=", "of 0: without effect; others are refused"},
     {"set_heater_temperature", "HEATER= TARGET=", "temperature of extruder, extruder1, heater_bed"},
     {"set_velocity_limit", "ACCEL= VELOCITY=", "acceleration of printing and travel; the rest is noted"},
+    {"t?", "", "asks for the filament and pauses"},
     {"tc", "", "without effect on this machine: filament unit"},
     {"turn_off_heaters", "", "all heaters off"},
     {"tx", "", "without effect on this machine: filament unit"},
@@ -88,7 +91,8 @@ constexpr std::array<Reason, 18> kGReasons = {{
     {950, phrase("feed for each turn (G95) needs a spindle, which this machine does not have")},
     {960, phrase("constant surface speed (G96) needs a lathe")},
 }};
-constexpr std::array<Reason, 2> kMReasons = {{
+constexpr std::array<Reason, 3> kMReasons = {{
+    {66, phrase("M66 waits for an input, which machines of this kind do not have")},
     {3, phrase("M3 turns a spindle, which this machine does not have")},
     {4, phrase("M4 turns a spindle, which this machine does not have")},
 }};
@@ -168,7 +172,9 @@ Sentence unknown_m(int number) {
   return say("%1 is unknown", m_name(number));
 }
 
-std::string reference_entry(std::string_view code) {
+namespace {
+
+std::string entry_of(std::string_view code) {
   const std::string name = in_lower_case(code);
   if (name.size() > 1 && (name[0] == 'g' || name[0] == 'm') && name[1] >= '0' && name[1] <= '9') {
     const double number = std::strtod(name.c_str() + 1, nullptr);
@@ -193,10 +199,27 @@ std::string reference_entry(std::string_view code) {
   return {};
 }
 
+}  // namespace
+
+std::string reference_entry(std::string_view code) {
+  std::string name = in_lower_case(code);
+  // G04 is G4.
+  while (name.size() > 2 && name[1] == '0' && name[2] >= '0' && name[2] <= '9') name.erase(1, 1);
+  std::string entry = entry_of(name == in_lower_case(code) ? code : std::string_view(name));
+  std::string differences = entry.empty() && name != "a" ? dialect_entry(name) : dialect_differences(name);
+  if (differences.empty()) return entry;
+  differences.pop_back();
+  if (name == "a") entry = "A: axis in degrees";
+  if (!entry.empty()) entry += '\n';
+  return entry + differences;
+}
+
 std::string reference() {
   std::string all;
   for (const CodeEntry& entry : g_codes()) all += text_of_g(entry) + "\n";
   for (const CodeEntry& entry : m_codes()) all += text_of_m(entry) + "\n";
+  for (const DialectRules& rules : dialects())
+    all.append(rules.key).append(": a dialect, [gcode] dialect of the machine file\n");
   for (const Command& command : kCommands)
     all += entry_text(std::string(command.name), command.words, command.meaning, false) + "\n";
   for (const std::string_view name : kHarmlessCommands)

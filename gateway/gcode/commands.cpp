@@ -60,6 +60,48 @@ std::optional<double> number_of(const std::vector<Argument>& all, std::string_vi
 
 }  // namespace
 
+/// A code that is unknown here and that the machine file has as a macro: [macro.G1009], #<p> for P.
+bool Core::call_code_macro(std::string_view line) {
+  const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
+  const auto digit = [](char c) { return (c >= '0' && c <= '9') || c == '.'; };
+  std::size_t at = 0;
+  const auto skip = [&](auto what) {
+    while (at < line.size() && what(line[at])) ++at;
+  };
+  skip(blank);
+  if (at < line.size() && in_lower_case(line[at]) == 'n') {
+    ++at;
+    skip(digit);
+    skip(blank);
+  }
+  const std::size_t begin = at;
+  if (at >= line.size() || (in_lower_case(line[at]) != 'g' && in_lower_case(line[at]) != 'm')) return false;
+  ++at;
+  skip(digit);
+  const std::string name = in_lower_case(line.substr(begin, at - begin));
+  if (find_macro(name) == nullptr) return false;
+  ParameterState named;
+  for (;;) {
+    skip(blank);
+    if (at >= line.size() || line[at] == ';' || line[at] == '*' || line[at] == '(') break;
+    const char letter = in_lower_case(line[at]);
+    double value = 0;
+    if (letter < 'a' || letter > 'z') return false;
+    const char* const after = parse_decimal(line.data() + at + 1, line.data() + line.size(), value);
+    if (after != nullptr) write_named(named, std::string(1, letter), value);
+    at = after != nullptr ? static_cast<std::size_t>(after - line.data()) : at + 1;
+  }
+  if (state_.modal.ended) begin_program();
+  if (announce_) announce();
+  state_.modal.content_seen = true;
+  call_ = {};
+  call_.what = ProgramCall::What::kMacro;
+  call_.column = static_cast<std::uint32_t>(begin) + 1;
+  call_.name = name;
+  call_.arguments = std::move(named.locals);
+  return true;
+}
+
 bool Core::run_command() {
   using What = canonical::Thermal::What;
   const std::string name = in_lower_case(block_.command);
@@ -89,6 +131,23 @@ bool Core::run_command() {
     return true;
   };
   if (harmless_command(name)) return noted();
+  if (name.starts_with("exclude_object")) {
+    const Argument* const which = find_argument(arguments, "name");
+    return object_command({name, which == nullptr ? std::string() : in_lower_case(which->text),
+                           number_of(arguments, "current").value_or(0) != 0,
+                           number_of(arguments, "reset").value_or(0) != 0});
+  }
+  if (name == "set_gcode_offset") {
+    for (const Argument& argument : arguments)
+      if (argument.name != "move" && argument.name != "move_speed" && argument.value.value_or(0) != 0)
+        return fail(column, say("%1 is not supported: write G10 L2 P0 with the values", "SET_GCODE_OFFSET"));
+    return noted();
+  }
+  if (name == "t?") {
+    emit(canonical::Message{say("load the filament, then go on").english()});
+    emit(canonical::Pause{false});
+    return true;
+  }
   if (name == "pause" || name == "cancel_print") {
     if (name == "pause") {
       emit(canonical::Pause{false});
@@ -145,7 +204,10 @@ bool Core::run_command() {
     emit(command);
     return true;
   }
-  return fail(column, say("%1 is unknown", std::string(block_.command)));
+  const std::string word(block_.command);
+  return fail(
+      column,
+      say("%1 is unknown; a macro of the printer is written as [macro.%1] in the machine file", word));
 }
 
 }  // namespace kinebus::gcode

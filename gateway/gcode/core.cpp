@@ -15,7 +15,7 @@ constexpr std::uint32_t kStraightWords = Block::bit('X') | Block::bit('Y') | Blo
                                          Block::bit('A') | Block::bit('C') | Block::bit('E') |
                                          Block::bit('F');
 constexpr std::size_t kMaxLine = 4096;
-constexpr int kNoteForA = 99999;
+constexpr int kNoteForA = 99999, kNoteForDialect = 99998;
 constexpr int kNoteForG = 100000;  // keys of notes: M numbers, G tenths above this
 
 }  // namespace
@@ -32,8 +32,22 @@ Core::Core(Options options) : options_(std::move(options)) {
   m.recover_extra_mm = options_.recover_extra_mm;
   m.recover_mm_per_s = options_.recover_mm_per_s;
   m.coordinate_offsets = options_.work_offsets;
+  set_dialect(options_.dialect);
   m.e_canonical_base_mm = m.position[kAxisE];
   refresh();
+}
+
+void Core::follow_dialect() {
+  const Dialect dialect = state_.modal.dialect;
+  rules_ = &rules_of(dialect);
+  const bool general = dialect == Dialect::kGeneral;
+  traverse_has_feed_ = general ? options_.traverse_uses_feed : rules_->traverse_has_feed;
+}
+
+void Core::set_dialect(Dialect dialect) {
+  state_.modal.dialect = dialect;
+  follow_dialect();
+  if (rules_->a_extrudes && !options_.spindle) state_.modal.a_extrudes = true;
 }
 
 bool Core::fail(std::uint32_t column, Sentence message) {
@@ -47,12 +61,20 @@ bool Core::execute(std::string_view line, std::uint32_t line_number, CommandBuff
   out_ = &out;
   line_ = line_number;
   SyntaxError error;
-  if (!read_block(line, state_, block_, error)) return fail(error.column, std::move(error.message));
+  if (!read_block(line, state_, block_, error)) {
+    if (!options_.macros.empty() && call_code_macro(line)) return true;
+    return fail(error.column, std::move(error.message));
+  }
   used_ = 0;
   if (block_.a_taken) [[unlikely]]
-    note(kNoteForA, say("A is taken for extrusion (E), as the slicer in the file's header writes it"));
-  if (block_.is_plain() && !announce_ && !state_.modal.ended && (block_.present & ~kStraightWords) == 0 &&
-      block_.present != 0) {
+    note(kNoteForA,
+         rules_->a_extrudes
+             ? say("A is taken for extrusion (E), as slicers write it for %1", std::string(rules_->name))
+             : say("A is taken for extrusion (E), as the slicer in the file's header writes it"));
+  if (watches_comments_ && !line.empty() && line.front() == ';') [[unlikely]]
+    return read_object_comment(line);
+  if (block_.is_plain() && !announce_ && !state_.modal.away && !state_.modal.ended &&
+      (block_.present & ~kStraightWords) == 0 && block_.present != 0) {
     const int g = block_.has(GGroup::kMotion) ? block_.code(GGroup::kMotion).number : -1;
     const Motion motion = g == 10  ? Motion::kFeed
                           : g == 0 ? Motion::kTraverse
@@ -78,8 +100,9 @@ bool Core::run_careful() {
   const std::size_t size_before = out_->size();
   if (state_.modal.ended) begin_program();
   if (announce_) announce();
-  if (run_block()) return true;
+  if (run_block() && (!before.away || leave_out(size_before, before))) return true;
   state_.modal = before;
+  follow_dialect();
   announce_ = announce_before;
   call_ = {};
   out_->resize(size_before);
@@ -134,7 +157,11 @@ bool Core::run_nonmodal(Code code) {
       return dwell();
     case 100:
       if (has('L')) return set_coordinate_system();
-      return has('P') || has('S') ? tool_temperature('P') : retract();
+      if (rules_->g10 == DialectRules::G10::kOffsets && !state_.modal.a_extrudes)
+        return fail(code.column, say("G10 needs L2 or L20 in this dialect (%1)", std::string(rules_->name)));
+      if (rules_->g10 == DialectRules::G10::kByWords && (has('P') || has('S'))) return tool_temperature('P');
+      pass_over('S');
+      return retract();
     case 300:
       if (options_.spindle)
         return fail(code.column,
@@ -148,6 +175,14 @@ bool Core::run_nonmodal(Code code) {
       return set_local_offset(code);
     case 110:
       return recover();
+    case 220:
+    case 230:
+      // Machinekit's retraction of PrusaSlicer; to mills a stroke check, which the machine file states.
+      if (rules_->p_is_value && state_.modal.a_extrudes) return code.number == 220 ? retract() : recover();
+      for (char letter = 'A'; letter <= 'Z'; ++letter)
+        if (letter != 'F') pass_over(letter);
+      note(kNoteForG + code.number, say("%1 has no effect on this machine", g_name(code.number)));
+      return true;
     case 280:
       return home();
     case 531:
@@ -163,7 +198,10 @@ bool Core::run_stop() {
   for (int i = 0; i < block_.m_count; ++i) {
     const Code code = block_.m[static_cast<std::size_t>(i)];
     if (m_group(code.number) != MGroup::kStop) continue;
-    if (code.number <= 1 || code.number == 60) {
+    if (code.number <= 1 && rules_->m0_ends) {
+      emit(canonical::End{});
+      state_.modal.ended = true;
+    } else if (code.number <= 1 || code.number == 60) {
       if (code.number <= 1 && block_.has_text) emit(canonical::Message{std::string(block_.text)});
       emit(canonical::Pause{code.number == 1});
     } else if (code.number == 226 || code.number == 600 || code.number == 601) {
@@ -242,6 +280,7 @@ void Core::finish(std::uint32_t line_number, CommandBuffer& out) {
 void Core::begin_program() {
   // RS274/NGC, 3.6.1 (M2, M30): what the end of a program resets.
   ModalState& m = state_.modal;
+  if (std::exchange(m.away, false)) m.position = m.real_position;
   m.ended = false;
   m.content_seen = false;
   m.motion = Motion::kNone;
@@ -252,7 +291,10 @@ void Core::begin_program() {
   m.tool_centre_point = m.tilted = false;
   m.tool_length_mm = 0;
   m.spindle_turns = m.cycle = 0;
+  m.object = -1;
+  m.left_out = false;
   m.retract_to_r = m.spline = m.plane_rotation = m.a_extrudes = false;
+  set_dialect(options_.dialect);
   m.feed_known = options_.default_feed_mm_per_s > 0;
   m.traverse_limited = false;
   m.feed_mm_per_s = options_.default_feed_mm_per_s;
@@ -265,6 +307,9 @@ void Core::begin_program() {
 
 void Core::restore(const State& state) {
   state_ = state;
+  follow_dialect();
+  watches_comments_ = std::any_of(state_.objects.begin(), state_.objects.end(),
+                                  [](const PrintObject& object) { return object.excluded; });
   announce_ = true;
   refresh_shift();
 }
@@ -274,6 +319,12 @@ void Core::set_position(const Pose& pose, Frame frame) {
   const double e = m.position[kAxisE];
   m.position = in_frame(pose, frame, m.frame);
   m.position[kAxisE] = e;
+  if (m.away) {
+    const double real_e = m.real_position[kAxisE];
+    m.real_position = m.position;
+    m.real_position[kAxisE] = real_e;
+    m.real_frame = m.frame;
+  }
   m.lifted_mm = 0;
   refresh();
   announce_ = true;
@@ -289,18 +340,21 @@ void Core::set_returned(double value, bool given) {
   write_named(state_.parameters, "_value_returned", given ? 1 : 0);
 }
 
-void Core::read_header(std::string_view comment) {
-  // PrusaSlicer and Slic3r write A for Mach3 and Machinekit, and turn no axes; Cura tells its flavour.
-  static constexpr std::array<std::string_view, 7> kHeaders = {
-      "generated by PrusaSlicer", "generated by Slic3r", "generated by SuperSlicer",
-      "generated by OrcaSlicer",  "FLAVOR:Mach3",        "FLAVOR:MACH3",
-      "FLAVOR:Machinekit"};
-  if (state_.modal.a_extrudes) return;
-  for (const std::string_view header : kHeaders) {
-    if (comment.find(header) == std::string_view::npos) continue;
-    state_.modal.a_extrudes = true;
-    return;
+bool Core::read_header(std::string_view comment, std::uint32_t line_number) {
+  const Header header = read_dialect(comment);
+  line_ = line_number;
+  if (!header.volumetric.empty())
+    return fail(1, say("the header names %1, which measures extrusion in mm^3: have the slicer write Marlin",
+                       std::string(header.volumetric)));
+  ModalState& m = state_.modal;
+  if (header.dialect && options_.dialect == Dialect::kGeneral && m.dialect != *header.dialect) {
+    set_dialect(*header.dialect);
+    note(kNoteForDialect,
+         say("the header names %1, and the text is read as that dialect", std::string(rules_->name)));
   }
+  // PrusaSlicer and Slic3r write A for Mach3 and Machinekit, and turn no axes.
+  if (header.a_extrudes) m.a_extrudes = true;
+  return true;
 }
 
 const Macro* Core::find_macro(std::string_view name) const {

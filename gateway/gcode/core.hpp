@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "gateway/gcode/block.hpp"
+#include "gateway/gcode/dialects.hpp"
 #include "gateway/gcode/interpreter.hpp"
 #include "gateway/gcode/rotation.hpp"
 
@@ -39,7 +40,7 @@ class Core {
 
   void swap_locals(Locals& locals);
   void set_returned(double value, bool given);
-  void read_header(std::string_view comment);
+  bool read_header(std::string_view comment, std::uint32_t line_number);
   const Macro* find_macro(std::string_view name) const;
   const ProgramCall& call() const { return call_; }
   ProgramCall take_call() { return std::exchange(call_, {}); }
@@ -68,6 +69,10 @@ class Core {
   canonical::Command& emit(canonical::Command command);
   void note(int key, Sentence text);
 
+  void set_dialect(Dialect dialect);
+  void follow_dialect();  ///< the state's
+  bool call_code_macro(std::string_view line);
+
   // Words. take(): the word belongs to the code at work; refused when it has no number or another code took
   // it.
   bool has(char letter) const { return block_.has(letter) && (used_ & Block::bit(letter)) == 0; }
@@ -84,6 +89,8 @@ class Core {
   bool run_feed_word();
   bool feed_from(double value, FeedRate& feed);
   bool dwell();
+  /// P of G4 and of canned cycles.
+  double dwell_s(double p) const;
   bool change_tool();
   canonical::PathMode path_mode() const;
   bool set_path_mode(Code code);
@@ -140,9 +147,12 @@ class Core {
   /// An S that no code of the line owns: the spindle's speed.
   bool spindle_speed();
   bool thermal(Code code);
+  bool value_by_p(Code code);
+  double target_of(const canonical::Thermal& thermal) const;
   bool fan(Code code);
   bool motors(Code code);
   bool axis_limits(Code code);
+  bool axis_acceleration(Code code);
   bool acceleration_limits();
   bool jerk();
   bool firmware_setting(Code code);
@@ -153,6 +163,23 @@ class Core {
   bool wait_for_temperatures();
   void remember(const canonical::Thermal& thermal);
   bool program_call(Code code);
+
+  // objects.cpp: objects of a print that are left out
+  struct ObjectCommand {
+    std::string_view word;  ///< "exclude_object_start", lower case
+    std::string name;
+    bool current = false, reset = false;
+  };
+  bool object_command(const ObjectCommand& command);
+  bool object_code(Code code);
+  std::size_t object_named(std::string_view name);
+  std::size_t object_numbered(int number);
+  bool read_object_comment(std::string_view comment);
+  void begin_object(std::size_t object);
+  void exclude(std::size_t object, bool out);
+  void look_whether_left_out();
+  bool leave_out(std::size_t from, const ModalState& before);
+  void come_back(const Pose& goal, double shift_e, std::uint32_t line);
 
   // commands.cpp: words of Klipper and macros
   bool run_command();
@@ -168,7 +195,10 @@ class Core {
   std::uint32_t line_ = 0;
   std::uint32_t used_ = 0;  ///< words of the block that a code has taken
   Pose shift_{};            ///< canonical = program + shift for X Y Z A C, outside a tilted plane
-  bool announce_ = true;    ///< SetPosition is due before the next command
+  const DialectRules* rules_ = nullptr;  ///< of the dialect in force
+  bool traverse_has_feed_ = false;
+  bool watches_comments_ = false;  ///< an object is excluded
+  bool announce_ = true;           ///< SetPosition is due before the next command
 };
 
 /// The letters of the axes, in the order of Pose.

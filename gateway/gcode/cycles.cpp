@@ -57,7 +57,7 @@ bool Core::cycle_words(Code code, bool fresh) {
   if (uses_dwell(code.number) && has('P')) {
     if (!take('P', value)) return false;
     if (value < 0) return fail(block_.column_of('P'), say("G4 cannot wait for a negative time"));
-    m.cycle_dwell_s = options_.dwell_p_unit == DwellUnit::kSeconds ? value : value / 1000;
+    m.cycle_dwell_s = dwell_s(value);
   } else if (fresh) {
     m.cycle_dwell_s = 0;
   }

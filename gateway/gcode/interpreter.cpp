@@ -61,8 +61,9 @@ void Interpreter::set_returned(double value, bool given) {
 const Options& Interpreter::options() const {
   return core_->options();
 }
-void Interpreter::read_header(std::string_view comment) {
-  core_->read_header(comment);
+Result<void, ParseError> Interpreter::read_header(std::string_view comment, std::uint32_t line_number) {
+  if (core_->read_header(comment, line_number)) return {};
+  return Error<ParseError>(core_->error());
 }
 const Macro* Interpreter::find_macro(std::string_view name) const {
   return core_->find_macro(name);

@@ -45,17 +45,20 @@ struct Locals {
   NamedValues names;
 };
 
-enum class DwellUnit : std::uint8_t { kMilliseconds, kSeconds };
+enum class DwellUnit : std::uint8_t { kByDialect, kMilliseconds, kSeconds };
 
 /// What the machine file says about the dialect.
 struct Options {
   Pose start{};                ///< where the machine stands when the job begins, machine frame (mm, rad)
   Pose home{};                 ///< where it stands after G28, machine frame; E unused
   WorkOffsets work_offsets{};  ///< in force when the program begins
+  /// kGeneral: as a text's header says, if it does.
+  Dialect dialect = Dialect::kGeneral;
   /// G4 P counts milliseconds in printer firmware and seconds in RS274/NGC. G4 S is always seconds.
-  DwellUnit dwell_p_unit = DwellUnit::kMilliseconds;
+  DwellUnit dwell_p_unit = DwellUnit::kByDialect;
   double default_feed_mm_per_s = 0;  ///< until the first F; 0: a feed move without F is refused
-  /// As Cura writes travel: once a program has written an F with G0, G0 goes no faster than the F in force.
+  /// Of kGeneral. As Cura writes travel: once a program has written an F with G0, G0 goes no faster than the
+  /// F in force.
   bool traverse_uses_feed = false;
   bool block_delete = false;  ///< lines that begin with / are skipped
   /// How far the start and end radius of an arc may differ. Arcs within it are corrected to go through both
@@ -114,8 +117,9 @@ class Interpreter {
   void set_returned(double value, bool given);
   const Options& options() const;
   /// A comment of the text's beginning. Where it names a slicer or firmware whose A is extrusion, A is E from
-  /// here on, with a note when it is first used.
-  void read_header(std::string_view comment);
+  /// here on, with a note when it is first used; where it names a dialect and Options does not, the text is
+  /// read as that, with a note. Refused: one that measures extrusion in mm^3.
+  Result<void, ParseError> read_header(std::string_view comment, std::uint32_t line_number);
   bool has_macro(std::string_view name) const { return find_macro(name) != nullptr; }
   /// Which exists; lives as long as this.
   std::string_view macro_text(std::string_view name) const { return find_macro(name)->text; }

@@ -70,9 +70,16 @@ Result<void, ParseError> JobReader::line(std::string_view text, CommandBuffer& o
     return refuse(
         {line_, static_cast<std::uint32_t>(kMaxLine) + 1, say("the line is longer than 4096 bytes")});
   if (!text.empty() && text.back() == '\r') text.remove_suffix(1);
-  constexpr std::uint32_t kHeaderLines = 40;
-  if (line_ <= kHeaderLines && !text.empty() && text.front() == ';') [[unlikely]]
-    interpreter_.read_header(text);
+  if (in_header_) [[unlikely]] {
+    // Comments with which the text begins, pictures among them, and those of the first lines.
+    constexpr std::uint32_t kHeaderLines = 40;
+    const bool is_comment_line = !text.empty() && (text.front() == ';' || text.front() == '(');
+    if (is_comment_line) {
+      if (auto read = interpreter_.read_header(text, line_); !read) return refuse(std::move(read.error()));
+    } else if (line_ > kHeaderLines && !text.empty()) {
+      in_header_ = false;
+    }
+  }
   if (auto result = program_.line(text, line_, out); !result) return refuse(std::move(result.error()));
   if (program_.busy()) [[unlikely]]
     return run_recorded(steps_a_call_, out);

@@ -76,7 +76,8 @@ class JobReader {
   std::string carry_;          ///< the beginning of a line whose end has not come yet
   bool long_comment_ = false;  ///< carry_ stands for a comment line that is passed over to its end
   bool rest_of_line_ = false;  ///< of one that was refused for its length
-  bool no_text_ = false;       ///< refused as a whole
+  bool in_header_ = true;
+  bool no_text_ = false;  ///< refused as a whole
   Ending ending_ = Ending::kUnknown;
   bool after_return_ = false;  ///< kReturn: an LF now belongs to the CR before it
   std::uint32_t line_ = 0, refused_ = 0, untold_ = 0;

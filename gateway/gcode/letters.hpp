@@ -15,4 +15,11 @@ inline std::string in_lower_case(std::string_view text) {
   return small;
 }
 
+inline std::string in_upper_case(std::string_view text) {
+  std::string large(text);
+  for (char& c : large)
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - ('a' - 'A'));
+  return large;
+}
+
 }  // namespace kinebus::gcode

@@ -65,9 +65,23 @@ bool Core::run_machine_code(Code code) {
       emit(output);
       return true;
     }
+    case 67:
+    case 68: {
+      canonical::Thermal output;
+      output.what = canonical::Thermal::What::kOutput;
+      if (!has('E') || !has('Q'))
+        return fail(code.column, say("%1 needs the output E and its value Q", m_name(code.number)));
+      if (!take_integer('E', 0, 7, output.index) || !take('Q', output.value)) return false;
+      if (output.value < 0 || output.value > 1)
+        return fail(block_.column_of('Q'), say("an output's value Q is 0 to 1"));
+      emit(output);
+      return true;
+    }
     case 98:
     case 99:
       return program_call(code);
+    case 486:
+      return object_code(code);
     case 116:
       return wait_for_temperatures();
     case 568:
@@ -97,6 +111,8 @@ bool Core::run_machine_code(Code code) {
     case 42:
     case 106:
     case 107:
+    case 126:
+    case 127:
       return fan(code);
     case 105:
       pass_over('T');
@@ -136,6 +152,9 @@ bool Core::run_machine_code(Code code) {
                   say("M303 measures a heater, which no job does: write it on the console or send "
                       "it from a print host while nothing runs"));
     case 201:
+      return rules_->m201_is_printing ? axis_acceleration(code) : axis_limits(code);
+    case 202:
+      return axis_acceleration(code);
     case 203:
       return axis_limits(code);
     case 204:
@@ -271,11 +290,31 @@ bool Core::axis_limits(Code code) {
     if (!has(letter)) continue;
     if (!take(letter, value)) return false;
     if (!(value > 0)) return fail(block_.column_of(letter), say("a limit must be greater than 0"));
+    if (code.number == 203 && rules_->m203_per_minute) value /= 60;
     values[static_cast<std::size_t>(axis)] = axis_value(axis, value);
     any = true;
   }
   for (const char letter : {'U', 'V', 'W'}) pass_over(letter);  // axes of other machines
   if (!any) return fail(code.column, say("%1 needs at least one axis word", m_name(code.number)));
+  emit(command);
+  return true;
+}
+
+/// Repetier: M201 of printing moves, M202 of travel; the lowest of X and Y holds for both.
+bool Core::axis_acceleration(Code code) {
+  double lowest = 0;
+  for (const char letter : {'X', 'Y'}) {
+    double value = 0;
+    if (!has(letter)) continue;
+    if (!take(letter, value)) return false;
+    if (!(value > 0)) return fail(block_.column_of(letter), say("a limit must be greater than 0"));
+    value = length(value);
+    lowest = lowest > 0 ? std::min(lowest, value) : value;
+  }
+  for (const char letter : {'Z', 'E'}) pass_over(letter);
+  if (!(lowest > 0)) return fail(code.column, say("%1 needs at least one axis word", m_name(code.number)));
+  canonical::Limits command;
+  (code.number == 201 ? command.print_accel_mm_per_s2 : command.travel_accel_mm_per_s2) = lowest;
   emit(command);
   return true;
 }

@@ -42,9 +42,10 @@ bool Core::run_modes() {
     return false;
   if (block_.has(GGroup::kPathMode) && !set_path_mode(block_.code(GGroup::kPathMode))) return false;
   if (block_.has(GGroup::kDistance)) {
-    // G91 takes E along; G90 goes back to what M82 or M83 said.
+    using Extruder = DialectRules::Extruder;
     m.incremental = block_.code(GGroup::kDistance).number == 910;
-    m.incremental_e = m.incremental || m.relative_extruder;
+    if (rules_->extruder == Extruder::kG91Takes) m.incremental_e = m.incremental || m.relative_extruder;
+    if (rules_->extruder == Extruder::kG90Sets) m.incremental_e = m.relative_extruder = m.incremental;
   }
   if (block_.has_m(82)) m.incremental_e = m.relative_extruder = false;
   if (block_.has_m(83)) m.incremental_e = m.relative_extruder = true;
@@ -83,12 +84,21 @@ bool Core::run_feed_word() {
   return true;
 }
 
+double Core::dwell_s(double p) const {
+  const bool by_dialect =
+      state_.modal.dialect == Dialect::kGeneral ? options_.spindle : rules_->dwell_p_seconds;
+  const bool seconds = options_.dwell_p_unit == DwellUnit::kByDialect
+                           ? by_dialect
+                           : options_.dwell_p_unit == DwellUnit::kSeconds;
+  return seconds ? p : p / 1000;
+}
+
 bool Core::dwell() {
   double p = 0, s = 0;
   const bool has_p = block_.has('P'), has_s = block_.has('S');
   if (has_p && has_s) return fail(block_.column_of('S'), say("G4 takes P or S, not both"));
   if (!take_if_given('P', p) || !take_if_given('S', s)) return false;
-  const double seconds = has_s ? s : options_.dwell_p_unit == DwellUnit::kSeconds ? p : p / 1000;
+  const double seconds = has_s ? s : dwell_s(p);
   if (seconds < 0)
     return fail(block_.column_of(has_s ? 'S' : 'P'), say("G4 cannot wait for a negative time"));
   emit(canonical::Dwell{seconds});

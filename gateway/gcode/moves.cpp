@@ -84,8 +84,7 @@ bool Core::run_motion() {
   const std::uint32_t words = block_.present & ~used_;
   if (is_arc && ((words & (kAllAxes | kCentreWords)) != 0 || block_.has(GGroup::kMotion)))
     return run_arc(clockwise);
-  if (m.motion == Motion::kTraverse && options_.traverse_uses_feed && block_.has('F'))
-    m.traverse_limited = true;
+  if (m.motion == Motion::kTraverse && traverse_has_feed_ && block_.has('F')) m.traverse_limited = true;
   if (is_arc || m.motion == Motion::kNone || (words & kAllAxes) == 0) return true;
   for (const char letter : kAxisLetters)
     if ((words & block_.bare & Block::bit(letter)) != 0)
@@ -155,7 +154,7 @@ bool Core::move_to(const Pose& program, const Pose& target, bool traverse) {
       std::max(std::abs(target[kAxisA] - m.position[kAxisA]), std::abs(target[kAxisC] - m.position[kAxisC]));
   const bool moves = linear > kNoMotion || extruded > kNoMotion || turned > kNoMotion;
   const bool turns_alone = linear <= kNoMotion && turned > kNoMotion && turned >= extruded;
-  const bool limited = m.traverse_limited || (traverse && options_.traverse_uses_feed && block_.has('F'));
+  const bool limited = m.traverse_limited || (traverse && traverse_has_feed_ && block_.has('F'));
   if (moves && traverse && extruded <= kNoMotion) {
     canonical::Traverse command{target, m.frame, 0};
     if (limited && feed.known && !m.inverse_time)
@@ -167,6 +166,7 @@ bool Core::move_to(const Pose& program, const Pose& target, bool traverse) {
     if (!speed_for(turns_alone, feed, command.feed_per_s, command.inverse_time_s)) return false;
     out_->push_back({line_, command});
     m.position = target;
+    m.e_max_mm = std::max(m.e_max_mm, target[kAxisE]);
   }
   m.program = program;
   m.traverse_limited = limited;
@@ -268,6 +268,7 @@ bool Core::run_arc(bool clockwise) {
   command.sweep_rad = geometry->sweep_rad;
   out_->push_back({line_, command});
   m.position = command.target;
+  m.e_max_mm = std::max(m.e_max_mm, m.position[kAxisE]);
   m.program = program;
 
   // What the end misses its circle by (within the tolerance) is left to a line.
@@ -337,6 +338,7 @@ bool Core::recover() {
   m.e_canonical_base_mm += m.recover_extra_mm;
   if (m.retracted_mm + m.recover_extra_mm != 0) emit(canonical::Feed{target, m.frame, m.recover_mm_per_s, 0});
   m.position = target;
+  m.e_max_mm = std::max(m.e_max_mm, target[kAxisE]);
   m.retracted = false;
   m.retracted_mm = 0;
   return true;

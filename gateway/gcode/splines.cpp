@@ -13,10 +13,16 @@ namespace {
 // corners again.
 constexpr double kFlatness_mm = 0.002;
 constexpr double kMaxPieces = 20'000;
+constexpr int kNoteForSpline = 101000;
 
 }  // namespace
 
 bool Core::run_spline(Code code) {
+  if (block_.present == 0 && !options_.spindle) {
+    // Some printers: going on after a loss of power.
+    note(kNoteForSpline + code.number, say("%1 has no effect on this machine", g_name(code.number)));
+    return true;
+  }
   ModalState& m = state_.modal;
   const std::string name = g_name(code.number);
   const bool cubic = code.number == 50;
@@ -72,6 +78,7 @@ bool Core::run_spline(Code code) {
     const Pose target = canonical_pose(program);
     emit(canonical::Feed{target, m.frame, m.feed_mm_per_s * m.feed_ratio, 0});
     m.position = target;
+    m.e_max_mm = std::max(m.e_max_mm, target[kAxisE]);
   }
   m.program = to;
   used_ |= block_.present & (Block::bit('X') | Block::bit('Y') | Block::bit('Z') | Block::bit('E'));

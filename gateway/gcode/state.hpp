@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gateway/gcode/canonical.hpp"
+#include "gateway/gcode/dialects.hpp"
 
 namespace kinebus::gcode {
 
@@ -53,6 +54,7 @@ struct ModalState {
   int tool_in_spindle = -1;  ///< by M6; -1: not known
   bool merge_lines = true;   ///< not G64 Q0
   bool a_extrudes = false;   ///< A of this text is E (Mach3, Machinekit)
+  Dialect dialect = Dialect::kGeneral;
 
   int cycle = 0;                ///< canned cycle in force, in tenths (810); 0: none
   bool retract_to_r = false;    ///< G99
@@ -64,6 +66,14 @@ struct ModalState {
 
   std::array<double, 8> hotend_celsius{};  ///< targets, for M116
   double bed_celsius = 0, chamber_celsius = 0;
+
+  int object = -1;        ///< of the print, at work; -1: none
+  bool left_out = false;  ///< it is excluded: its moves are not given out
+  bool away = false;      ///< moves were left out: the machine stands at real_position
+  Pose real_position{};   ///< while away; position is where the text has the tool
+  Frame real_frame = Frame::kMachine;
+  double e_max_mm = 0;       ///< the farthest that canonical E has been: behind it filament is retracted
+  double real_e_max_mm = 0;  ///< while away
 
   double path_tolerance_mm = 0;   ///< G64 P
   double merge_tolerance_mm = 0;  ///< G64 Q
@@ -103,8 +113,17 @@ struct ParameterState {
   NamedValues locals;  ///< the others: of the subroutine at work; sorted by name
 };
 
+/// An object of a print, as EXCLUDE_OBJECT_DEFINE or M486 name it.
+struct PrintObject {
+  static constexpr std::size_t kMost = 1000, kMaxName = 200;
+  std::string name;  ///< lower case
+  int number = -1;   ///< M486 S; -1: none
+  bool excluded = false;
+};
+
 struct State {
   ModalState modal;
+  std::vector<PrintObject> objects;
   ParameterState parameters;
 };
 

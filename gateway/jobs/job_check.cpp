@@ -20,6 +20,8 @@ double tip_speed(const PosePoint& point) {
 double turning_speed(const PosePoint& point) {
   return std::max(std::abs(point.x1[kA]), std::abs(point.x1[kC]));
 }
+// Corners are rounded in filament too: the last move that was hot may end this much before its E.
+constexpr double kFedBack_mm = 0.1;
 
 }  // namespace
 
@@ -55,7 +57,7 @@ void JobCheck::check_way(const Phase& phase, const PosePoint& end) {
     mm = std::max(mm, tip_speed(start));
     rad = std::max(rad, turning_speed(start));
   }
-  if (end.x1[kE] > 1e-9 && !cold_reported_) check_extrusion(phase);
+  if (end.x1[kE] > 1e-9 && !cold_reported_) check_extrusion(phase.line, end.x[kE]);
   since_mm_ += length * mm;
   since_rad_ += length * rad;
   if (since_mm_ < options_.pose_distance_mm && since_rad_ < options_.pose_distance_rad && !phase.last) return;
@@ -76,15 +78,18 @@ void JobCheck::check_pose(const Phase& phase, double before, double s) {
   bad_pose_ = bad;
 }
 
-void JobCheck::check_extrusion(const Phase& phase) {
+void JobCheck::check_extrusion(std::uint32_t line, double e_mm) {
   if (machine_.heater(kFirstHotend) == nullptr) return;
   if (!hotend_celsius_) {
     cold_reported_ = true;
-    add(Problem::Severity::kWarning, phase.line,
+    add(Problem::Severity::kWarning, line,
         say("filament is fed before the job has set a hotend temperature (M104)"));
-  } else if (*hotend_celsius_ < machine_.thermal.min_extrude_c) {
+  } else if (*hotend_celsius_ >= machine_.thermal.min_extrude_c) {
+    hot_e_mm_ = std::max(hot_e_mm_, e_mm);
+  } else if (e_mm > hot_e_mm_ + kFedBack_mm) {
+    // Up to where it was fed hot, filament goes back into what it came out of: ends of jobs press it.
     cold_reported_ = true;
-    add(Problem::Severity::kError, phase.line,
+    add(Problem::Severity::kError, line,
         say("filament is fed with the hotend at %1; at least %2 is needed", celsius(*hotend_celsius_),
             celsius(machine_.thermal.min_extrude_c)));
   }

@@ -37,7 +37,7 @@ class JobCheck {
  private:
   void check_way(const Phase& phase, const PosePoint& end);
   void check_pose(const Phase& phase, double before, double s);
-  void check_extrusion(const Phase& phase);
+  void check_extrusion(std::uint32_t line, double e_mm);
   void check_thermal(const canonical::Thermal& thermal, std::uint32_t line);
   void add(Problem::Severity severity, std::uint32_t line, Sentence words);
 
@@ -49,6 +49,7 @@ class JobCheck {
   bool bad_pose_ = false;                    ///< the last pose checked was bad: one report for each way out
   double since_mm_ = 1e9, since_rad_ = 1e9;  ///< travelled since the last check
   std::optional<double> hotend_celsius_;
+  double hot_e_mm_ = -1e300;  ///< the farthest that filament was fed hot
   bool cold_reported_ = false, fan_reported_ = false;
 };
 

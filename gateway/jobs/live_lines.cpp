@@ -80,6 +80,7 @@ Pose LiveLines::program_position(const std::optional<Pose>& where) {
 void LiveLines::begin(const Pose& pose, std::optional<double> hotend_celsius, gcode::CommandBuffer& out) {
   stand_at(pose);
   place_ = {pose, Frame::kMachine};
+  hot_e_mm_ = -1e300;
   hotend_celsius_ = hotend_celsius;
   still_.reset();
   if (path_mode_) out.push_back({0, *path_mode_});
@@ -220,7 +221,12 @@ Refused LiveLines::check_extrusion(const Pose& target) {
       notes_.push_back(say("filament is fed before a hotend temperature is set"));
     return std::nullopt;
   }
-  if (*hotend_celsius_ >= machine_.thermal.min_extrude_c) return std::nullopt;
+  if (*hotend_celsius_ >= machine_.thermal.min_extrude_c) {
+    hot_e_mm_ = std::max(hot_e_mm_, target[kE]);
+    return std::nullopt;
+  }
+  // As in a job: filament that was taken back goes where it came from.
+  if (target[kE] <= hot_e_mm_ + kNoExtrusion_mm) return std::nullopt;
   return say("filament would be fed with the hotend at %1; at least %2 is needed",
              rounded_celsius(*hotend_celsius_), rounded_celsius(machine_.thermal.min_extrude_c));
 }

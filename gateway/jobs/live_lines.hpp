@@ -74,6 +74,7 @@ class LiveLines {
   std::optional<Sentence> still_;  ///< why nothing may move
   Place place_;                    ///< where the lines taken so far lead
   std::optional<double> hotend_celsius_;
+  double hot_e_mm_ = -1e300;  ///< the farthest that filament was fed hot
   bool cold_noted_ = false, fan_noted_ = false;
   canonical::Limits limits_{};  ///< in force
   std::optional<canonical::PathMode> path_mode_;

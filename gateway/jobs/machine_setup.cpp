@@ -102,9 +102,12 @@ gcode::Options interpreter_options(const MachineDescription& machine, const Pose
   options.arc_radius_tolerance_mm = machine.gcode.arc_radius_tolerance_mm;
   options.spindle = machine.spindle.present;
   options.traverse_uses_feed = !machine.spindle.present;  // on a mill F is for cutting alone (RS274/NGC)
-  options.dwell_p_unit = machine.gcode.dwell_p_unit == GcodeDescription::DwellUnit::kSeconds
-                             ? gcode::DwellUnit::kSeconds
-                             : gcode::DwellUnit::kMilliseconds;
+  options.dialect = machine.gcode.dialect;
+  using DwellUnit = GcodeDescription::DwellUnit;
+  options.dwell_p_unit = machine.gcode.dwell_p_unit == DwellUnit::kSeconds ? gcode::DwellUnit::kSeconds
+                         : machine.gcode.dwell_p_unit == DwellUnit::kMilliseconds
+                             ? gcode::DwellUnit::kMilliseconds
+                             : gcode::DwellUnit::kByDialect;
   options.hotends = machine.tools();
   options.tools = std::max(options.hotends, 1 + static_cast<int>(machine.gcode.tool_length_mm.size()));
   // On a mill the operator puts in whatever tool is asked for.

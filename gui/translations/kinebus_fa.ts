@@ -2981,6 +2981,78 @@
         <translation>A به جای اکستروژن (E) گرفته می‌شود، چنان که برش‌دهندهٔ سرآغاز پرونده می‌نویسد</translation>
     </message>
     <message>
+        <source>M66 waits for an input, which machines of this kind do not have</source>
+        <translation>M66 منتظر یک ورودی می‌ماند که این گونه ماشین ندارد</translation>
+    </message>
+    <message>
+        <source>%1 is not supported: write G10 L2 P0 with the values</source>
+        <translation>%1 پشتیبانی نمی‌شود: G10 L2 P0 را با این مقدارها بنویسید</translation>
+    </message>
+    <message>
+        <source>load the filament, then go on</source>
+        <translation>فیلامنت را بگذارید و سپس ادامه دهید</translation>
+    </message>
+    <message>
+        <source>%1 is unknown; a macro of the printer is written as [macro.%1] in the machine file</source>
+        <translation>%1 ناشناخته است؛ ماکروی چاپگر در پروندهٔ ماشین به صورت [macro.%1] نوشته می‌شود</translation>
+    </message>
+    <message>
+        <source>A is taken for extrusion (E), as slicers write it for %1</source>
+        <translation>A به جای اکستروژن (E) گرفته می‌شود، چنان که برش‌دهنده‌ها برای %1 می‌نویسند</translation>
+    </message>
+    <message>
+        <source>G10 needs L2 or L20 in this dialect (%1)</source>
+        <translation>در این گویش (%1) G10 به L2 یا L20 نیاز دارد</translation>
+    </message>
+    <message>
+        <source>the header names %1, which measures extrusion in mm^3: have the slicer write Marlin</source>
+        <translation>سرآغاز %1 را نام می‌برد که اکستروژن را با mm^3 می‌سنجد: بگذارید برش‌دهنده برای Marlin بنویسد</translation>
+    </message>
+    <message>
+        <source>the header names %1, and the text is read as that dialect</source>
+        <translation>سرآغاز %1 را نام می‌برد و متن به آن گویش خوانده می‌شود</translation>
+    </message>
+    <message>
+        <source>P of %1 is read as its value, as slicers write it for Mach3 and Machinekit</source>
+        <translation>P در %1 مقدار آن گرفته می‌شود، چنان که برش‌دهنده‌ها برای Mach3 و Machinekit می‌نویسند</translation>
+    </message>
+    <message>
+        <source>%1 needs the output E and its value Q</source>
+        <translation>%1 خروجی E و مقدار Q را می‌خواهد</translation>
+    </message>
+    <message>
+        <source>an output&apos;s value Q is 0 to 1</source>
+        <translation>مقدار Q خروجی از 0 تا 1 است</translation>
+    </message>
+    <message>
+        <source>the object %1 is left out</source>
+        <translation>جسم %1 کنار گذاشته می‌شود</translation>
+    </message>
+    <message>
+        <source>no object of the print is at work here</source>
+        <translation>اینجا هیچ جسمی از چاپ در کار نیست</translation>
+    </message>
+    <message>
+        <source>too many objects, or too long a name (1000 of 200 letters at most)</source>
+        <translation>جسم‌ها بیش از اندازه‌اند یا نام بیش از اندازه بلند است (بیشینه 1000 جسم، 200 حرف)</translation>
+    </message>
+    <message>
+        <source>%1 stands alone in its line</source>
+        <translation>%1 در خط خود تنها می‌ایستد</translation>
+    </message>
+    <message>
+        <source>M486 A needs a name in quotation marks</source>
+        <translation>M486 A نامی در گیومه می‌خواهد</translation>
+    </message>
+    <message>
+        <source>M486 takes S, P, U, T with a whole number, C and A&quot;name&quot;</source>
+        <translation>M486 این‌ها را می‌گیرد: S، P، U، T با عدد درست، C و A&quot;نام&quot;</translation>
+    </message>
+    <message>
+        <source>G43.4 and tilted planes cannot begin or end while an object is left out</source>
+        <translation>تا جسمی کنار گذاشته است G43.4 و صفحهٔ شیب‌دار آغاز یا پایان نمی‌یابد</translation>
+    </message>
+    <message>
         <source>change the filament, then go on</source>
         <translation>فیلامنت را عوض کنید و سپس ادامه دهید</translation>
     </message>

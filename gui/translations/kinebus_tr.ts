@@ -2981,6 +2981,78 @@
         <translation>A, dosya başlığındaki dilimleyicinin yazdığı gibi ekstrüzyon (E) sayılıyor</translation>
     </message>
     <message>
+        <source>M66 waits for an input, which machines of this kind do not have</source>
+        <translation>M66 bir girişi bekler; bu tür makinelerde giriş yok</translation>
+    </message>
+    <message>
+        <source>%1 is not supported: write G10 L2 P0 with the values</source>
+        <translation>%1 desteklenmiyor: değerlerle G10 L2 P0 yazın</translation>
+    </message>
+    <message>
+        <source>load the filament, then go on</source>
+        <translation>filamenti yükleyin, sonra devam edin</translation>
+    </message>
+    <message>
+        <source>%1 is unknown; a macro of the printer is written as [macro.%1] in the machine file</source>
+        <translation>%1 bilinmiyor; yazıcının makrosu makine dosyasına [macro.%1] olarak yazılır</translation>
+    </message>
+    <message>
+        <source>A is taken for extrusion (E), as slicers write it for %1</source>
+        <translation>A, dilimleyicilerin %1 için yazdığı gibi ekstrüzyon (E) sayılıyor</translation>
+    </message>
+    <message>
+        <source>G10 needs L2 or L20 in this dialect (%1)</source>
+        <translation>bu lehçede (%1) G10 L2 ya da L20 ister</translation>
+    </message>
+    <message>
+        <source>the header names %1, which measures extrusion in mm^3: have the slicer write Marlin</source>
+        <translation>başlık, ekstrüzyonu mm^3 ile ölçen %1 diyor: dilimleyici Marlin için yazsın</translation>
+    </message>
+    <message>
+        <source>the header names %1, and the text is read as that dialect</source>
+        <translation>başlık %1 diyor; metin o lehçeyle okunuyor</translation>
+    </message>
+    <message>
+        <source>P of %1 is read as its value, as slicers write it for Mach3 and Machinekit</source>
+        <translation>%1 içindeki P, dilimleyicilerin Mach3 ve Machinekit için yazdığı gibi değer sayılıyor</translation>
+    </message>
+    <message>
+        <source>%1 needs the output E and its value Q</source>
+        <translation>%1 E çıkışını ve Q değerini ister</translation>
+    </message>
+    <message>
+        <source>an output&apos;s value Q is 0 to 1</source>
+        <translation>bir çıkışın Q değeri 0 ile 1 arasındadır</translation>
+    </message>
+    <message>
+        <source>the object %1 is left out</source>
+        <translation>%1 nesnesi atlanıyor</translation>
+    </message>
+    <message>
+        <source>no object of the print is at work here</source>
+        <translation>burada baskının hiçbir nesnesi işlenmiyor</translation>
+    </message>
+    <message>
+        <source>too many objects, or too long a name (1000 of 200 letters at most)</source>
+        <translation>çok fazla nesne ya da çok uzun ad (en çok 1000 nesne, 200 harf)</translation>
+    </message>
+    <message>
+        <source>%1 stands alone in its line</source>
+        <translation>%1 satırında tek başına durur</translation>
+    </message>
+    <message>
+        <source>M486 A needs a name in quotation marks</source>
+        <translation>M486 A tırnak içinde bir ad ister</translation>
+    </message>
+    <message>
+        <source>M486 takes S, P, U, T with a whole number, C and A&quot;name&quot;</source>
+        <translation>M486 tam sayıyla S, P, U, T ile C ve A&quot;ad&quot; alır</translation>
+    </message>
+    <message>
+        <source>G43.4 and tilted planes cannot begin or end while an object is left out</source>
+        <translation>bir nesne atlanırken G43.4 ve eğik düzlem başlayamaz ve bitemez</translation>
+    </message>
+    <message>
         <source>change the filament, then go on</source>
         <translation>filamenti değiştirin, sonra devam edin</translation>
     </message>

@@ -90,7 +90,10 @@ TEST(MachineFile, AWrongKeyIsRefusedWithItsLineWhatWasFoundAndWhatIsAllowed) {
        "bus.bitrate: found 500000; expected this line taken out: every node speaks 1 Mbit/s, which is set on "
        "the interface (ip link set can0 type can bitrate 1000000)"},
       {"retract_mm = 0.8", "dwell_p_unit = \"min\"",
-       "gcode.dwell_p_unit: found 'min'; expected one of \"ms\" \"s\""},
+       "gcode.dwell_p_unit: found 'min'; expected one of \"dialect\" \"ms\" \"s\""},
+      {"dialect = \"auto\"", "dialect = \"grbl\"",
+       "gcode.dialect: found 'grbl'; expected one of \"auto\" \"marlin\" \"reprapfirmware\" \"klipper\" "
+       "\"repetier\" \"smoothie\" \"mach3\" \"machinekit\" \"linuxcnc\""},
       {"ramp_ms = 100", "ramp_ms = 101",
        "stop.ramp_ms: found 101; expected an even number: ramps travel in 2 ms"},
       {"stop_accel_mm_per_s2 = 10000", "stop_accel_mm_per_s2 = 9000",

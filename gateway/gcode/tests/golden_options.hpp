@@ -9,18 +9,24 @@ namespace kinebus::gcode {
 
 /// Home 200 mm above the table, one spare tool of 12.5 mm. A file changes it with "options: word word"
 /// anywhere in its text: block_delete, dwell_seconds, traverse_uses_feed, default_feed, two_tools,
-/// spindle, macros (prime LENGTH=, and square with an argument by number).
+/// spindle, dialect=NAME, macros (prime LENGTH=, and square with an argument by number).
 inline Options golden_options(std::string_view text) {
   Options options;
   options.home = {0, 0, 200, 0, 0, 0};
   options.tool_length_mm = {12.5};
   options.most_recorded_steps = 10'000;
+  options.dwell_p_unit = DwellUnit::kMilliseconds;
   const std::size_t at = text.find("options:");
   if (at == std::string_view::npos) return options;
   const std::string_view line = text.substr(at, text.find('\n', at) - at);
   const auto says = [line](std::string_view word) { return line.find(word) != std::string_view::npos; };
   options.block_delete = says("block_delete");
   options.traverse_uses_feed = says("traverse_uses_feed");
+  for (const DialectRules& rules : dialects()) {
+    if (!says("dialect=" + std::string(rules.key))) continue;
+    options.dialect = rules.dialect;
+    options.dwell_p_unit = DwellUnit::kByDialect;
+  }
   if (says("dwell_seconds")) options.dwell_p_unit = DwellUnit::kSeconds;
   if (says("default_feed")) options.default_feed_mm_per_s = 25;
   options.spindle = says("spindle");
@@ -33,7 +39,8 @@ inline Options golden_options(std::string_view text) {
                        "o1 else\n"
                        "  (MSG, no length)\n"
                        "o1 endif\n"},
-                      {"square", "G1 X#1 F600\nY#1\nX0\nY0\n"}};
+                      {"square", "G1 X#1 F600\nY#1\nX0\nY0\n"},
+                      {"g1009", "G1 E#<p> F300\n"}};
   if (says("two_tools")) options.tools = options.hotends = 2;
   return options;
 }

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <random>
 
+#include "gateway/gcode/codes.hpp"
 #include "gateway/gcode/job_reader.hpp"
 #include "gateway/gcode/tests/test_support.hpp"
 
@@ -248,6 +249,17 @@ TEST(Interpreter, AProgramAfterTheEndBeginsWithDefaults) {
   EXPECT_FALSE(session.interpreter.ended());
   EXPECT_EQ(session.interpreter.modal_codes(), "G0 G17 G21 G90 G91.1 G94 G54 G49 G64 G69 G92.1 M82");
   EXPECT_EQ(session.texts().back(), "3 traverse machine x1 y1 z0 a0 c0 e0");
+}
+
+TEST(Reference, TellsWhereDialectsDiffer) {
+  EXPECT_EQ(reference_entry("m203"),
+            "M203 X Y Z A C E: speeds of axes, mm/s or deg/s\n"
+            "  auto, marlin, klipper, repetier, smoothie, mach3, machinekit, linuxcnc: mm/s\n"
+            "  reprapfirmware: mm/min");
+  EXPECT_EQ(reference_entry("G04").substr(0, 3), "G4 ");
+  EXPECT_NE(reference_entry("repetier").find("M201: acceleration of printing moves"), std::string::npos);
+  EXPECT_EQ(reference_entry("M117").find('\n'), std::string::npos);
+  EXPECT_EQ(reference_entry("G999"), "");
 }
 
 TEST(Interpreter, BlankAndCommentLinesDoNothing) {

@@ -107,6 +107,30 @@ TEST(JobPlan, MachineFileSaysWhatPOfADwellCounts) {
   EXPECT_NEAR(plan(job, 1000, rs274).report.job_time_s - rest_s, 4, 0.1);
 }
 
+TEST(JobPlan, TheDialectOfTheMachineFileOrOfTheHeaderSaysItToo) {
+  MachineDescription mill = machine();
+  mill.gcode.dialect = gcode::Dialect::kLinuxCnc;
+  const std::string job = "G1 X10 F3000\nG4 P4\nG1 X0\n";
+  const double rest_s = plan(job).report.job_time_s;
+  EXPECT_NEAR(plan(job, 1000, mill).report.job_time_s - rest_s, 4, 0.1);
+  EXPECT_NEAR(plan("(Post Processor: linuxcnc_post)\n" + job).report.job_time_s - rest_s, 4, 0.1);
+  MachineDescription printer = machine();
+  printer.gcode.dialect = gcode::Dialect::kMarlin;
+  EXPECT_NEAR(plan("(Post Processor: linuxcnc_post)\n" + job, 1000, printer).report.job_time_s, rest_s, 0.1)
+      << "the machine file goes before the header";
+}
+
+TEST(JobPlan, FilamentGoesBackIntoAColdNozzleOnlyAsFarAsItWasFedHot) {
+  const std::string print = "M83\nM109 S210\nG1 X10 E5 F600\nM104 S0\nG1 E-3\n";
+  EXPECT_EQ(plan(print + "G1 E3\n").problems.errors(), 0u);
+  EXPECT_EQ(plan(print + "G1 E3.5\n").problems.errors(), 1u);
+}
+
+TEST(JobPlan, OutputsThatTheMachineDoesNotHaveAreRefused) {
+  for (const char* line : {"M62 P1", "M64 P1", "M68 E1 Q0.5"})
+    EXPECT_EQ(plan(std::string(line) + "\nG1 X10 F3000\n").problems.errors(), 1u) << line;
+}
+
 TEST(JobPlan, ToolLengthsOfTheMachineFileLiftTheTool) {
   MachineDescription tools = machine();
   tools.gcode.tool_length_mm = {10, 400};
