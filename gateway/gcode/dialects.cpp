@@ -192,8 +192,8 @@ Header read_dialect(std::string_view comment) {
 std::string dialect_differences(std::string_view code) {
   std::string lines;
   for (const Difference& difference : kDifferences) {
-    if (code.empty() || std::find(difference.codes.begin(), difference.codes.end(), code) ==
-                            difference.codes.end())
+    if (code.empty() ||
+        std::find(difference.codes.begin(), difference.codes.end(), code) == difference.codes.end())
       continue;
     std::vector<std::string_view> told;
     for (const DialectRules& first : kDialects) {

@@ -25,8 +25,8 @@ enum class Dialect : std::uint8_t {
 /// A row of the table. kGeneral has no say where it is marked so: there the machine decides.
 struct DialectRules {
   Dialect dialect = Dialect::kGeneral;
-  std::string_view key;   ///< in the machine file
-  std::string_view name;  ///< as its makers write it
+  std::string_view key;           ///< in the machine file
+  std::string_view name;          ///< as its makers write it
   bool dwell_p_seconds = false;   ///< G4 P; kGeneral: on machines with a spindle
   bool traverse_has_feed = true;  ///< an F that stood with G0 limits G0; kGeneral: without a spindle
   bool a_extrudes = false;        ///< A is E, on machines without a spindle
@@ -42,9 +42,9 @@ struct DialectRules {
     kRetracts,  ///< L: offsets; else retraction (S: the longer one of a swap)
     kOffsets    ///< L alone
   } g10 = G10::kByWords;
-  bool m0_ends = false;             ///< M0 and M1 end the job
-  bool m203_per_minute = false;     ///< M203 in mm/min
-  bool m201_is_printing = false;    ///< M201 X Y: acceleration of printing moves, not limits of axes
+  bool m0_ends = false;           ///< M0 and M1 end the job
+  bool m203_per_minute = false;   ///< M203 in mm/min
+  bool m201_is_printing = false;  ///< M201 X Y: acceleration of printing moves, not limits of axes
 };
 
 std::span<const DialectRules> dialects();

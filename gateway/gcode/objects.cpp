@@ -63,8 +63,7 @@ void Core::exclude(std::size_t object, bool out) {
   if (out) {
     const PrintObject& which = state_.objects[object];
     note(kNoteForExcluded + 1'000'000 + static_cast<int>(object),
-         say("the object %1 is left out",
-             which.name.empty() ? std::to_string(which.number) : which.name));
+         say("the object %1 is left out", which.name.empty() ? std::to_string(which.number) : which.name));
   }
   look_whether_left_out();
 }
@@ -190,8 +189,7 @@ bool Core::leave_out(std::size_t from, const ModalState& before) {
     }
     if (auto* home = std::get_if<canonical::Home>(&line.command); home != nullptr && m.away) {
       for (std::size_t axis = kAxisX; axis <= kAxisC; ++axis)
-        if (home->axes != 0 && (home->axes >> axis & 1U) == 0)
-          home->afterwards[axis] = m.real_position[axis];
+        if (home->axes != 0 && (home->axes >> axis & 1U) == 0) home->afterwards[axis] = m.real_position[axis];
       at = home->afterwards;
       at[kAxisE] = m.position[kAxisE];
       home->afterwards[kAxisE] = before.real_position[kAxisE];

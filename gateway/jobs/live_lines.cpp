@@ -60,8 +60,12 @@ void LiveLines::restart(const gcode::WorkOffsets& offsets) {
 void LiveLines::stand_at(const Pose& pose) {
   // The program's E stays; what it stands for on the machine is where the machine's E is.
   gcode::State state = interpreter_.state();
-  state.modal.e_canonical_base_mm += pose[kE] - state.modal.position[kE];
-  state.modal.position[kE] = pose[kE];
+  gcode::ModalState& m = state.modal;
+  double& real_e = (m.away ? m.real_position : m.position)[kE];
+  const double shift = pose[kE] - real_e;
+  m.e_canonical_base_mm += shift;
+  for (double* e : {&m.position[kE], &m.real_position[kE], &m.e_max_mm, &m.real_e_max_mm}) *e += shift;
+  real_e = pose[kE];
   interpreter_.restore(state);
   interpreter_.set_position(pose, Frame::kMachine);
 }

@@ -41,7 +41,9 @@ std::vector<Strand> strands_of(const std::string& text) {
 
 /// A print of objects in changing order, each in a column of its own: X is 100 times its number.
 std::string print(std::mt19937_64& random, int objects, bool by_number) {
-  const auto chance = [&random](double share) { return std::uniform_real_distribution<>(0, 1)(random) < share; };
+  const auto chance = [&random](double share) {
+    return std::uniform_real_distribution<>(0, 1)(random) < share;
+  };
   const auto place = [&random](int object) {
     return " X" + std::to_string(object * 100 + static_cast<int>(random() % 50)) + " Y" +
            std::to_string(static_cast<int>(random() % 50));
@@ -79,7 +81,8 @@ std::string print(std::mt19937_64& random, int objects, bool by_number) {
       }
       if (chance(0.3)) text += "G10\nG11\n";
       text += by_number ? "M486 S-1\n" : "EXCLUDE_OBJECT_END\n";
-      if (chance(0.2)) text += "G1 Z" + std::to_string(layer * 0.2 + 1) + "\nG1 Z" + std::to_string(layer * 0.2) + "\n";
+      if (chance(0.2))
+        text += "G1 Z" + std::to_string(layer * 0.2 + 1) + "\nG1 Z" + std::to_string(layer * 0.2) + "\n";
     }
   }
   return text;
@@ -96,7 +99,8 @@ TEST(Objects, WhatIsLeftOutLeavesTheOthersAsTheyAre) {
     for (int i = 0; i < objects; ++i) {
       if (random() % 2 == 0) continue;
       out.insert(i);
-      header += by_number ? "M486 P" + std::to_string(i) + "\n" : "EXCLUDE_OBJECT NAME=O" + std::to_string(i) + "\n";
+      header += by_number ? "M486 P" + std::to_string(i) + "\n"
+                          : "EXCLUDE_OBJECT NAME=O" + std::to_string(i) + "\n";
     }
     std::vector<Strand> wanted;
     for (const Strand& strand : strands_of(job))

@@ -206,5 +206,31 @@ TEST_F(Lines, ProgramKeepsItsEWhenTheMachineWasMovedInBetween) {
   EXPECT_NEAR(feed.target[kX], 12, 1e-9);
 }
 
+TEST_F(Lines, AnObjectIsLeftOutWhileItsLinesCome) {
+  for (const char* line : {"M83", "M486 S1", "G1 X10 E1 F600", "M486 P1", "G1 X20 E1"})
+    EXPECT_EQ(refused(line), "");
+  ASSERT_FALSE(out.empty());
+  EXPECT_NEAR(std::get<canonical::Feed>(out.back().command).target[kX], 10, 1e-9);
+  // Meanwhile a host's pause has brought the machine to rest elsewhere.
+  Pose elsewhere = kinematics().bed_reference();
+  elsewhere[kX] = 15;
+  elsewhere[kE] = 40;
+  lines.begin(elsewhere, std::nullopt, out);
+  out.clear();
+  for (const char* line : {"M486 S2", "G0 X30 Y1"}) EXPECT_EQ(refused(line), "");
+  ASSERT_FALSE(out.empty());
+  const Pose& there = std::get<canonical::Traverse>(out.back().command).target;
+  EXPECT_NEAR(there[kX], 30, 1e-9);
+  EXPECT_NEAR(there[kE], 40, 1e-9);
+  EXPECT_EQ(refused("G1 X31 E1"), "");
+  EXPECT_NEAR(std::get<canonical::Feed>(out.back().command).target[kE], 41, 1e-9);
+}
+
+TEST_F(Lines, FilamentGoesBackIntoAColdNozzleOnlyAsFarAsItWasFedHot) {
+  for (const char* line : {"M83", "M104 S210", "G1 E5 F300", "M104 S0", "G1 E-3", "G1 E3"})
+    EXPECT_EQ(refused(line), "");
+  EXPECT_NE(refused("G1 E0.5"), "");
+}
+
 }  // namespace
 }  // namespace kinebus
