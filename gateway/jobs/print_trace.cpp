@@ -25,7 +25,12 @@ bodies::Vec tip_at(const PathPiece& piece, double s) {
 }  // namespace
 
 void trace_print(const Phase& phase, const PosePoint& end, bodies::PrintedPart& part) {
-  const Pose& x1 = end.x1;
+  Pose x1 = end.x1;
+  // Where s is time, a phase may end at rest: the faster end tells the way.
+  if (phase.timed) {
+    const Pose begins = phase.piece.evaluate(phase.s0).x1;
+    if (std::hypot(begins[kX], begins[kY], begins[kZ]) > std::hypot(x1[kX], x1[kY], x1[kZ])) x1 = begins;
+  }
   double mm = std::sqrt(x1[kX] * x1[kX] + x1[kY] * x1[kY] + x1[kZ] * x1[kZ]);
   const Frame frame = phase.piece.frame;
   // The table turns under a tool that stands.

@@ -160,10 +160,33 @@ void explain_next(const json& report, bool died) {
              report.at("frames").get<std::string>());
 }
 
-int explain(const std::string& path) {
+/// Throws: it is none, and what is not as a report has it.
+json read_report(const std::string& path) {
   std::ifstream file(path);
   if (!file) throw std::runtime_error("cannot read " + path);
-  const json report = json::parse(file);
+  const auto refuse = [&](const std::string& why) {
+    throw std::runtime_error(
+        fmt::format("{}: no report of the flight recorder (flight-*.json): {}", path, why));
+  };
+  json report;
+  try {
+    report = json::parse(file);
+  } catch (const json::parse_error& error) {
+    refuse(fmt::format("at byte {} it is no JSON", error.byte));
+  }
+  if (!report.is_object()) refuse("it is no object");
+  const auto expect = [&](const char* key, json::value_t type, const char* what) {
+    if (!report.contains(key)) refuse(fmt::format("it has no \"{}\"", key));
+    if (report[key].type() != type && !(type == json::value_t::number_float && report[key].is_number()))
+      refuse(fmt::format("\"{}\" is not {}", key, what));
+  };
+  for (const char* key : {"machine", "cause", "frames"}) expect(key, json::value_t::string, "a text");
+  for (const char* key : {"emergencies", "events", "samples"}) expect(key, json::value_t::array, "a list");
+  expect("end_unix_s", json::value_t::number_float, "a number");
+  return report;
+}
+
+void explain_report(const json& report) {
   const bool died = report.at("cause") == "the gateway died";
   const auto end = static_cast<std::time_t>(report.at("end_unix_s").get<double>());
   fmt::print("{}: the minute up to {:%Y-%m-%d %H:%M:%S}\nWritten because: {}\n",
@@ -173,6 +196,16 @@ int explain(const std::string& path) {
   explain_motion(report, died);
   explain_order(report);
   explain_next(report, died);
+}
+
+int explain(const std::string& path) {
+  const json report = read_report(path);
+  try {
+    explain_report(report);
+  } catch (const json::exception&) {
+    throw std::runtime_error(path +
+                             ": a value of this report is missing, or of another kind than the recorder's");
+  }
   return 0;
 }
 

@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "tools/cli/console_session.hpp"
 #include "tools/cli/encoder_rows.hpp"
 #include "tools/cli/heat_command.hpp"
 #include "tools/cli/job_watch.hpp"
@@ -265,18 +266,18 @@ void add_values(CLI::App& app, const Options& options, int& exit_code) {
     client.ask(std::move(request));
   });
 
-  auto* console = app.add_subcommand("console", "Send one G-code or M-code line and print the answer");
+  auto* console = app.add_subcommand("console",
+                                     "Send one G-code or M-code line and print the answer; without a "
+                                     "line: a session with history, or lines from a pipe");
   auto words = std::make_shared<std::vector<std::string>>();
   auto no_wait = std::make_shared<bool>(false);
-  console->add_option("line", *words)->required();
+  console->add_option("line", *words);
   console->add_flag("--no-wait", *no_wait, "Return at once instead of when the machine is at rest");
   console->callback([=, &exit_code] {
     Client client(options->reach, kStatusHz, true);
     take_control(client, *options);
-    ClientMessage request;
-    request.mutable_console()->set_line(fmt::format("{}", fmt::join(*words, " ")));
-    fmt::print("{}\n", client.ask(std::move(request)).console().text());
-    if (!*no_wait) exit_code = wait_until_rest(client, [](const Status&) { return true; });
+    exit_code = words->empty() ? console_session(client)
+                               : console_line(client, fmt::format("{}", fmt::join(*words, " ")), !*no_wait);
   });
 }
 
