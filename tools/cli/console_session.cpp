@@ -42,24 +42,38 @@ std::filesystem::path history_file() {
   return std::filesystem::path(home) / ".local" / "state" / "kinebus" / "console_history";
 }
 
+/// Of this session and those before.
+class History {
+ public:
+  History() : file_(history_file()) {
+    ::using_history();
+    ::stifle_history(kHistoryLines);
+    if (!file_.empty()) ::read_history(file_.c_str());
+  }
+  ~History() {
+    if (file_.empty()) return;
+    std::error_code error;
+    std::filesystem::create_directories(file_.parent_path(), error);
+    if (!error) ::write_history(file_.c_str());
+  }
+  History(const History&) = delete;
+  History& operator=(const History&) = delete;
+
+ private:
+  std::filesystem::path file_;
+};
+
 /// The terminal's line, edited while the gateway is listened to. One at a time: the library keeps its state
 /// in globals.
 class LineEditor {
  public:
-  LineEditor() : history_(history_file()) {
-    ::using_history();
-    ::stifle_history(kHistoryLines);
-    if (!history_.empty()) ::read_history(history_.c_str());
+  LineEditor() {
     at_work = this;
     ::rl_callback_handler_install(kPrompt, &LineEditor::take);
   }
   ~LineEditor() {
     ::rl_callback_handler_remove();
     at_work = nullptr;
-    if (history_.empty()) return;
-    std::error_code error;
-    std::filesystem::create_directories(history_.parent_path(), error);
-    if (!error) ::write_history(history_.c_str());
   }
   LineEditor(const LineEditor&) = delete;
   LineEditor& operator=(const LineEditor&) = delete;
@@ -97,7 +111,6 @@ class LineEditor {
   }
 
   static inline LineEditor* at_work = nullptr;
-  std::filesystem::path history_;
   std::deque<std::string> lines_;
   bool ended_ = false;
 };
@@ -125,6 +138,7 @@ void carry_out(Client& client, const std::string& line) {
 int on_a_terminal(Client& client) {
   fmt::print("G-code and M-codes, a line each; 'quit' or Ctrl-D ends.\n");
   std::fflush(stdout);
+  const History history;
   for (;;) {
     std::string line;
     {
