@@ -84,6 +84,9 @@ void BringUp::configure(BusTime now, NodeLink& link, Node& node) {
         for (const ParameterWrite& write : node.configuration.settings) link.sdo().write(write);
         break;
       case Config::kRestoring:
+        // A node with power for its motors writes no flash; the reset that comes takes it anyway.
+        for (std::size_t axis = 0; axis < kAxesPerNode; ++axis)
+          link.sdo().write({on_axis(object::kControlword, axis), 2, 0});
         link.sdo().write({object::kRestoreParameters, 4, kLoadSignature});
         break;
       case Config::kSettling:

@@ -20,6 +20,9 @@ constexpr std::uint8_t kGatewayId = 127;
 constexpr LocalTime kListen = 600ms;
 constexpr std::uint16_t kIdentity = 0x1018;
 
+/// What a Kinebus node answers to a store while a motor of its has power.
+constexpr std::uint8_t kStoreRefused = 255;
+
 std::string words(LssMaster::Status status, std::uint8_t error) {
   switch (status) {
     case LssMaster::Status::kNotFound:
@@ -118,7 +121,14 @@ std::string NodeIds::configure(const Board& board, std::uint8_t node_id) {
   if (failed.empty() && master.store(bus_.now())) {
     const auto status = serve(master);
     failed = words(status, master.error_code());
-    if (!failed.empty()) failed = "it cannot store its id: " + failed;
+    if (!failed.empty() && master.error_code() == kStoreRefused)
+      failed = "its motors have power: switch them off first (kinebus motors-off)";
+    if (!failed.empty()) {
+      failed = "it cannot store its id: " + failed;
+      // What is pending would count at its next reset, and be lost with its power.
+      const std::uint8_t kept = board.node_id == 0 ? kUnconfiguredNodeId : board.node_id;
+      if (master.configure_node_id(bus_.now(), kept)) serve(master);
+    }
   }
   if (master.switch_all(bus_.now(), false)) serve(master);
   return failed;
