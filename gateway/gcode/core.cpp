@@ -198,10 +198,7 @@ bool Core::run_stop() {
   for (int i = 0; i < block_.m_count; ++i) {
     const Code code = block_.m[static_cast<std::size_t>(i)];
     if (m_group(code.number) != MGroup::kStop) continue;
-    if (code.number <= 1 && rules_->m0_ends) {
-      emit(canonical::End{});
-      state_.modal.ended = true;
-    } else if (code.number <= 1 || code.number == 60) {
+    if ((code.number <= 1 && !rules_->m0_ends) || code.number == 60) {
       if (code.number <= 1 && block_.has_text) emit(canonical::Message{std::string(block_.text)});
       emit(canonical::Pause{code.number == 1});
     } else if (code.number == 226 || code.number == 600 || code.number == 601) {

@@ -4,11 +4,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cstdio>
-#include <exception>
 #include <fstream>
+#include <stdexcept>
 #include <string>
 
+#include "protocol/host/guarded_main.hpp"
 #include "tools/heat_study/picture.hpp"
 
 namespace {
@@ -39,9 +41,7 @@ int study(const Scene& scene, const std::string& picture) {
   return 1;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   CLI::App app("A step of filament through a hot end: what the block does under each control");
   Scene scene;
   std::string picture;
@@ -49,10 +49,11 @@ int main(int argc, char** argv) {
   app.add_option("--temperature", scene.target_c, "C")->check(CLI::Range(150.0, 260.0));
   app.add_option("--picture", picture, "SVG to be written");
   CLI11_PARSE(app, argc, argv);
-  try {
-    return study(scene, picture);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "kinebus-heat-study: {}\n", error.what());
-    return 1;
-  }
+  return study(scene, picture);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return kinebus::guarded_main("kinebus-heat-study", [&] { return run(argc, argv); });
 }
