@@ -62,18 +62,31 @@ void print_event(const Event& event) {
   }
 }
 
+/// The next status; events that come before it are printed.
+Status next_status(Client& client, ProgressLine& line) {
+  for (;;) {
+    const auto report = client.next(std::chrono::seconds{10});
+    if (!report) throw ClientError("the daemon has gone silent");
+    if (const auto* status = std::get_if<Status>(&*report)) return *status;
+    line.end();
+    print_event(std::get<Event>(*report));
+  }
+}
+
+/// The same of one heater, by its name.
+joblink::Heater next_heater(Client& client, ProgressLine& line, const std::string& name) {
+  const Status status = next_status(client, line);
+  const auto found = std::find_if(status.heaters().begin(), status.heaters().end(),
+                                  [&](const joblink::Heater& h) { return h.name() == name; });
+  if (found == status.heaters().end()) throw ClientError("the daemon tells nothing of " + name);
+  return *found;
+}
+
 /// Follows statuses and events until `done(status)`; returns the last status.
 template <typename Done>
 Status follow(Client& client, ProgressLine& line, Done done) {
   for (;;) {
-    const auto report = client.next(std::chrono::seconds{10});
-    if (!report) throw ClientError("the daemon has gone silent");
-    if (const auto* event = std::get_if<Event>(&*report)) {
-      line.end();
-      print_event(*event);
-      continue;
-    }
-    const auto& status = std::get<Status>(*report);
+    Status status = next_status(client, line);
     if (!status.job().empty())
       line.show(status.progress(), fmt::format("line {}  {}  {} to go", status.line(), status.doing(),
                                                time_words(status.remaining_s())));
@@ -109,25 +122,15 @@ int wait_for_heat(Client& client, const std::string& heater, double celsius) {
   const auto asked = Clock::now();
   auto outside = asked;
   for (;;) {
-    const auto report = client.next(std::chrono::seconds{10});
-    if (!report) throw ClientError("the daemon has gone silent");
-    if (const auto* event = std::get_if<Event>(&*report)) {
-      line.end();
-      print_event(*event);
-      continue;
-    }
-    const auto& heaters = std::get<Status>(*report).heaters();
-    const auto found = std::find_if(heaters.begin(), heaters.end(),
-                                    [&](const joblink::Heater& h) { return h.name() == heater; });
-    if (found == heaters.end()) throw ClientError("the daemon tells nothing of " + heater);
+    joblink::Heater found = next_heater(client, line, heater);
     const auto now = Clock::now();
-    const double actual = found->actual_celsius();
+    const double actual = found.actual_celsius();
     // A status may be older than what was asked.
-    if (std::abs(found->target_celsius() - celsius) > 0.1) {
+    if (std::abs(found.target_celsius() - celsius) > 0.1) {
       if (!taken && now - asked < kTaken) continue;
       line.end();
       fmt::print(stderr, "kinebus: the {} is to be at {:.0f} C by now, not at {:.0f} C\n", heater,
-                 found->target_celsius(), celsius);
+                 found.target_celsius(), celsius);
       return 1;
     }
     taken = true;
@@ -149,32 +152,22 @@ joblink::Heater watch_tuning(Client& client, const std::string& heater) {
   bool runs = false;
   const auto asked = std::chrono::steady_clock::now();
   for (;;) {
-    const auto report = client.next(std::chrono::seconds{10});
-    if (!report) throw ClientError("the daemon has gone silent");
-    if (const auto* event = std::get_if<Event>(&*report)) {
-      line.end();
-      print_event(*event);
-      continue;
-    }
-    const auto& heaters = std::get<Status>(*report).heaters();
-    const auto found = std::find_if(heaters.begin(), heaters.end(),
-                                    [&](const joblink::Heater& h) { return h.name() == heater; });
-    if (found == heaters.end()) throw ClientError("the daemon tells nothing of " + heater);
-    const joblink::HeaterTuning& tuning = found->tuning();
+    joblink::Heater found = next_heater(client, line, heater);
+    const joblink::HeaterTuning& tuning = found.tuning();
     const bool over = tuning.stage() == joblink::TUNING_DONE || tuning.stage() == joblink::TUNING_FAILED;
     // A status may be older than what was asked.
     runs = runs || (!over && tuning.stage() != joblink::TUNING_NONE);
     const bool new_by_now = std::chrono::steady_clock::now() - asked > std::chrono::seconds{2};
     if (over && (runs || new_by_now)) {
       line.end();
-      return *found;
+      return found;
     }
-    if (!from) from = found->actual_celsius();
+    if (!from) from = found.actual_celsius();
     // Full power for half of the way, then about as long without: the second half has no number of its own.
     const double half = std::max(1.0, (tuning.celsius() - *from) / 2);
     if (tuning.stage() == joblink::TUNING_HEATS)
-      shown = std::clamp((found->actual_celsius() - *from) / half, 0.0, 1.0) / 2;
-    line.show(shown, fmt::format("{} {:.1f} C  {}", heater, found->actual_celsius(),
+      shown = std::clamp((found.actual_celsius() - *from) / half, 0.0, 1.0) / 2;
+    line.show(shown, fmt::format("{} {:.1f} C  {}", heater, found.actual_celsius(),
                                  tuning.stage() == joblink::TUNING_HEATS ? "full power" : "off, its curve"));
   }
 }
