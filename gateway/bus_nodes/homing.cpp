@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "gateway/bus_nodes/node_configuration.hpp"
 #include "protocol/canopen/node_objects.hpp"
 
 namespace kinebus {
@@ -24,12 +25,18 @@ constexpr BusTime kSettle = 50ms;
 /// A controlword that was lost comes again: a carriage that waits for it would wait for ever.
 constexpr BusTime kRepeatControl = 200ms;
 
-/// From 1.
-std::uint8_t stage_of(const homing::Plan& plan, std::size_t joint) {
-  for (std::size_t stage = 0; stage < plan.stages.size(); ++stage)
-    for (const homing::Joint& member : plan.stages[stage].joints)
-      if (member.joint == joint) return static_cast<std::uint8_t>(stage + 1);
-  return 1;
+struct Place {
+  std::uint8_t order = 1;  ///< of its stage, from 1
+  double lift_per_s = 0;
+};
+Place place_of(const homing::Plan& plan, std::size_t joint) {
+  for (std::size_t n = 0; n < plan.stages.size(); ++n) {
+    const homing::Stage& stage = plan.stages[n];
+    for (std::size_t i = 0; i < stage.joints.size(); ++i)
+      if (stage.joints[i].joint == joint)
+        return {static_cast<std::uint8_t>(n + 1), stage.lift_per_s.empty() ? 0 : stage.lift_per_s[i]};
+  }
+  return {};
 }
 
 }  // namespace
@@ -43,6 +50,7 @@ MachineHoming::MachineHoming(const MachineDescription& machine, const homing::Pl
     for (std::size_t node = 0; node < links.size(); ++node) {
       if (links[node].id() != joint.node_id) continue;
       Axis axis;
+      axis.joint = number;
       axis.node = node;
       axis.axis = joint.axis & 1u;
       axis.name = joint.name;
@@ -51,7 +59,9 @@ MachineHoming::MachineHoming(const MachineDescription& machine, const homing::Pl
       // Three reports may have been lost.
       axis.jump_counts =
           4 * joint.homing->fast_per_s * axis.counts_per_unit * 1e-3 * static_cast<double>(kReportMs);
-      axis.order = stage_of(plan, number);
+      const Place place = place_of(plan, number);
+      axis.order = place.order;
+      axis.lift_per_s = place.lift_per_s;
       axes_.push_back(axis);
     }
   }
@@ -96,6 +106,26 @@ bool MachineHoming::group_in_mode(std::int8_t mode) {
   return true;
 }
 
+bool MachineHoming::group_lifts() {
+  const std::vector<Axis*> members = group();
+  return std::any_of(members.begin(), members.end(), [](const Axis* a) { return a->lift_per_s > 0; });
+}
+
+bool MachineHoming::group_rests() {
+  for (const Axis* axis : group())
+    if ((links_[axis->node].statusword(axis->axis) & cia402::status::kTargetReached) == 0) return false;
+  return true;
+}
+
+void MachineHoming::lend_speeds(bool own) {
+  for (const Axis* axis : group()) {
+    if (!(axis->lift_per_s > 0)) continue;
+    const JointDescription& joint = machine_.joints[axis->joint];
+    const ParameterWrite its = homing_speed(joint, joint.homing->fast_per_s);
+    links_[axis->node].lend(own ? its : homing_speed(joint, axis->lift_per_s), its);
+  }
+}
+
 void MachineHoming::repeat_control(BusTime now) {
   if (now - repeated_ < kRepeatControl) return;
   repeated_ = now;
@@ -107,7 +137,7 @@ void MachineHoming::set_report_period(std::int64_t ms) {
 }
 
 bool MachineHoming::reports(std::size_t node, BusTime from) const {
-  return stage_ == Stage::kMove && entered_ < from &&
+  return (stage_ == Stage::kMove || stage_ == Stage::kLift) && entered_ < from &&
          std::any_of(axes_.begin(), axes_.end(),
                      [&](const Axis& axis) { return axis.node == node && axis.order == order_; });
 }
@@ -143,10 +173,27 @@ void MachineHoming::enter(Stage stage, BusTime now) {
   entered_ = repeated_ = now;
   switch (stage) {
     case Stage::kReports:
+      began_ = now;
       set_report_period(kReportMs);
+      lend_speeds(false);
       break;
     case Stage::kMode:
       set_group(cia402::control::kOperation, kHomingMode);
+      break;
+    case Stage::kLift:
+      for (std::size_t node = 0; node < links_.size(); ++node)
+        reports_[node] = links_[node].position_frames();
+      for (const Axis* axis : group())
+        links_[axis->node].set_control(
+            axis->axis,
+            axis->lift_per_s > 0 ? kHome | cia402::control::kHomingStay : cia402::control::kOperation,
+            kHomingMode);
+      break;
+    case Stage::kHalt:
+      set_group(cia402::control::kOperation, kHomingMode);
+      break;
+    case Stage::kSpeeds:
+      lend_speeds(true);
       break;
     case Stage::kMove:
       for (std::size_t node = 0; node < links_.size(); ++node)
@@ -178,9 +225,19 @@ MachineHoming::Outcome MachineHoming::on_time(BusTime now) {
         fail(AlarmCode::kHomingFailed, 0, say("the drives do not change their mode of operation"));
       repeat_control(now);
       break;
+    case Stage::kLift:
     case Stage::kMove:
       watch(now);
       repeat_control(now);
+      break;
+    case Stage::kHalt:
+      if (now - entered_ >= kSettle && group_rests())
+        enter(Stage::kSpeeds, now);
+      else if (in_time(now))
+        repeat_control(now);
+      break;
+    case Stage::kSpeeds:
+      if (requests_done()) enter(Stage::kMove, now);
       break;
     case Stage::kQuiet:
       if (!requests_done()) break;
@@ -201,7 +258,7 @@ MachineHoming::Outcome MachineHoming::on_time(BusTime now) {
 
 void MachineHoming::watch(BusTime now) {
   watch_spread();
-  bool all = true;
+  bool all = true, first = false;
   for (Axis* axis : group()) {
     const NodeLink& link = links_[axis->node];
     const std::uint16_t status = link.statusword(axis->axis);
@@ -220,14 +277,25 @@ void MachineHoming::watch(BusTime now) {
         (status & cia402::status::kHomingAttained) != 0 && (status & cia402::status::kTargetReached) != 0;
     axis->waits = (status & cia402::status::kHomingWaits) != 0;
     all = all && axis->attained;
+    first = first || axis->waits;
   }
-  if (all) return enter(Stage::kBack, now);
-  if (now - entered_ >= kSettle) let_leave();
-  if (now - entered_ <= machine_.homing.timeout) return;
+  if (stage_ == Stage::kLift) {
+    if (first) return enter(Stage::kHalt, now);
+  } else {
+    if (all) return enter(Stage::kBack, now);
+    if (now - entered_ >= kSettle) let_leave();
+  }
+  in_time(now);
+}
+
+/// Fails when it is not.
+bool MachineHoming::in_time(BusTime now) {
+  if (now - began_ <= machine_.homing.timeout) return true;
   std::string names;
   for (const Axis* axis : group())
     if (!axis->attained) names += (names.empty() ? "" : ", ") + axis->name;
   fail(AlarmCode::kHomingTimeout, 0, say("homing took too long; not at home: %1", names));
+  return false;
 }
 
 /// All stand on their switches, or have left them: the next node's may go.

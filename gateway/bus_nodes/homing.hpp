@@ -14,6 +14,9 @@
 // there until all have; then the nodes let theirs leave, one node after the other. So a switch whose wire
 // goes to another carriage is found out: it does not go off when the carriage leaves, or goes off when
 // another one does.
+//
+// Carriages that go at different speeds begin with the plan's lift where it has one: their nodes are lent its
+// speeds (6099h:1) before the start, and at the first switch all halt, get their own back and start again.
 
 #include <array>
 #include <cstdint>
@@ -45,15 +48,17 @@ class MachineHoming {
   const StepFailure& failure() const { return failure_; }
 
  private:
-  enum class Stage : std::uint8_t { kIdle, kReports, kMode, kMove, kBack, kQuiet };
+  enum class Stage : std::uint8_t { kIdle, kReports, kMode, kLift, kHalt, kSpeeds, kMove, kBack, kQuiet };
   struct Axis {
-    std::size_t node = 0;  ///< place in the list of links
+    std::size_t joint = 0;  ///< place in the machine's list
+    std::size_t node = 0;   ///< place in the list of links
     std::size_t axis = 0;
     std::string name;
     bool linear = true;
     double counts_per_unit = 1;
     double jump_counts = 0;  ///< a greater step between two reports is a new zero, not a motion
     std::uint8_t order = 1;  ///< the stage of the plan, from 1
+    double lift_per_s = 0;   ///< 0: takes no part in a lift
     bool attained = false;
     bool waits = false;  ///< stands on its switch
     double travel_counts = 0;
@@ -67,6 +72,10 @@ class MachineHoming {
   std::vector<std::size_t> group_nodes();
   void set_group(std::uint16_t controlword, std::int8_t mode);
   bool group_in_mode(std::int8_t mode);
+  bool group_lifts();
+  bool group_rests();
+  void lend_speeds(bool own);
+  bool in_time(BusTime now);
   void repeat_control(BusTime now);
   void set_report_period(std::int64_t ms);
   bool requests_done();
@@ -81,7 +90,7 @@ class MachineHoming {
   std::vector<std::uint32_t> reports_;  ///< position frames seen, by node
   Stage stage_ = Stage::kIdle;
   std::uint8_t order_ = 0;
-  BusTime entered_{0}, repeated_{0};
+  BusTime entered_{0}, repeated_{0}, began_{0};
   bool failed_ = false;
   StepFailure failure_;
 };

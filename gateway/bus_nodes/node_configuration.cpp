@@ -181,6 +181,16 @@ std::int32_t home_counts(const JointDescription& joint) {
       std::lround(slope * (drive + joint.homing->edge_direction() * c.backlash / 2)));
 }
 
+ParameterWrite homing_speed(const JointDescription& joint, double per_s) {
+  const std::size_t axis = joint.axis & 1u;
+  Writer writer(joint.node_id);
+  writer.set_axis(static_cast<int>(axis), object::kHomingFastSpeed,
+                  per_s * std::abs(joint.drive.counts_per_unit()));
+  const ObjectAddress address = on_axis(object::kHomingFastSpeed, axis);
+  const ObjectEntry& entry = kNodeObjects[static_cast<std::size_t>(find_object(address))];
+  return {address, static_cast<std::uint8_t>(entry.size()), writer.dictionary().value(entry.value_slot())};
+}
+
 NodeConfiguration configure_node(const MachineDescription& machine, std::uint8_t node_id) {
   const NodeDescription* described = machine.node(node_id);
   if (described != nullptr && !described->functions.has_axes()) {

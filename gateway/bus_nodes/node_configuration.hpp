@@ -38,6 +38,9 @@ struct NodeConfiguration {
 
 NodeConfiguration configure_node(const MachineDescription& machine, std::uint8_t node_id);
 
+/// How fast that joint looks for its switch (6099h:1), mm/s or rad/s.
+ParameterWrite homing_speed(const JointDescription& joint, double per_s);
+
 /// Counts that the node shows when the joint stands at its home switch: the negative of its 607Ch.
 std::int32_t home_counts(const JointDescription& joint);
 

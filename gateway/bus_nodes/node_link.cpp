@@ -81,6 +81,15 @@ void NodeLink::note_serial_number(const CanFrame& reply) {
 void NodeLink::set_report_period(std::chrono::milliseconds period) {
   reports_ = reports_ || period.count() != 0;
   sdo_.write({kReportPeriod, 2, period.count()});
+  if (period.count() == 0)
+    for (const ParameterWrite& own : lent_) sdo_.write(own);
+}
+
+void NodeLink::lend(const ParameterWrite& value, const ParameterWrite& own) {
+  if (std::none_of(lent_.begin(), lent_.end(),
+                   [&own](const ParameterWrite& w) { return w.address == own.address; }))
+    lent_.push_back(own);
+  sdo_.write(value);
 }
 
 std::optional<Emergency> NodeLink::next_emergency() {

@@ -65,12 +65,18 @@ class NodeLink {
   /// The status frame that came last, once.
   std::optional<StreamStatus> take_stream() { return std::exchange(new_stream_, std::nullopt); }
 
-  /// Its positions (TPDO3) come every so often; 0: no more. By 1802h:5, which is one of its parameters.
+  /// Its positions (TPDO3) come every so often; 0: no more. By 1802h:5, which is one of its parameters. With
+  /// 0 it gets back what it was lent.
   void set_report_period(std::chrono::milliseconds period);
+  /// While it reports a parameter may have another value than its `own`.
+  void lend(const ParameterWrite& value, const ParameterWrite& own);
   /// Told to report, and not yet known to have ended: its fingerprint may be another meanwhile.
   bool reports() const { return reports_; }
   /// What it was told last has been answered: it reports no more.
-  void reports_ended() { reports_ = false; }
+  void reports_ended() {
+    reports_ = false;
+    lent_.clear();
+  }
 
   // What it is told (RPDO1). Sent when it changes.
   void set_control(std::size_t axis, std::uint16_t controlword, std::int8_t mode);
@@ -94,6 +100,7 @@ class NodeLink {
   NodeFunctions functions_;
   SdoChannel sdo_;
   bool reports_ = false;
+  std::vector<ParameterWrite> lent_;  ///< its own values
   bool heard_ = false, booted_ = false, drive_heard_ = false, control_due_ = false;
   BusTime last_heard_{0}, drive_told_{0};
   NmtState nmt_state_ = NmtState::kInitialising;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 namespace kinebus::homing {
 namespace {
@@ -60,10 +61,69 @@ Effect effect_of(double parting_mm_per_s, const std::vector<Joint>& joints) {
   return parting_mm_per_s < -little ? Effect::kNears : Effect::kKeeps;
 }
 
+/// What each joint does while the tool goes 1 mm straight away from the table. nullopt: not the same
+/// everywhere, or other joints take part in it.
+std::optional<std::vector<double>> straight(const Kinematics& kinematics, Frame frame,
+                                            const std::vector<Joint>& joints) {
+  std::vector<double> rates;
+  const Pose centre = kinematics.bed_reference();
+  constexpr double kAside_mm = 30, kTilt_rad = 0.15;
+  for (const auto& [x, y, a] : {std::array{0.0, 0.0, 0.0}, std::array{kAside_mm, -kAside_mm, kTilt_rad},
+                                std::array{-kAside_mm, kAside_mm, -kTilt_rad}}) {
+    Pose pose = centre;
+    pose[kX] += x;
+    pose[kY] += y;
+    pose[kA] += a;
+    JointVector at{};
+    std::array<double, std::size_t{kMaxJoints} * kPoseAxes> matrix{};
+    if (!kinematics.jacobian(frame, pose, at, matrix)) continue;  // a machine that does not tilt, or go there
+    constexpr double kSame = 1e-6;
+    double others = 0;
+    for (int j = 0; j < kinematics.joint_count(); ++j)
+      others += std::abs(matrix[static_cast<std::size_t>(j) * kPoseAxes + kZ]);
+    std::vector<double> here;
+    for (const Joint& j : joints) {
+      here.push_back(matrix[j.joint * kPoseAxes + kZ]);
+      others -= std::abs(here.back());
+    }
+    if (others > kSame) return std::nullopt;
+    if (rates.empty()) rates = here;
+    for (std::size_t i = 0; i < here.size(); ++i)
+      if (std::abs(here[i] - rates[i]) > kSame) return std::nullopt;
+  }
+  return rates;
+}
+
+/// The fastest rates that take the tool straight away and are not faster than the joints' own.
+std::vector<double> lift_of(const Kinematics& kinematics, const std::vector<Joint>& joints) {
+  for (const Frame frame : {Frame::kMachine, Frame::kPart}) {
+    const auto rates = straight(kinematics, frame, joints);
+    if (!rates) continue;
+    double speed = HUGE_VAL, own = 0;  // of the tool, and what the joints' own speeds would make it at most
+    bool possible = true;
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+      const double rate = (*rates)[i] * joints[i].direction();
+      if (std::abs(rate) < 1e-9) continue;
+      possible = possible && rate > 0 && joints[i].moves;
+      speed = std::min(speed, joints[i].fast_per_s / std::abs(rate));
+      own = std::max(own, joints[i].fast_per_s / std::abs(rate));
+    }
+    constexpr double kSameSpeed = 1e-6;
+    if (!possible || !std::isfinite(speed)) continue;
+    if (own - speed < kSameSpeed * speed) return {};
+    std::vector<double> lift;
+    for (const double rate : *rates) lift.push_back(std::abs(rate) < 1e-9 ? 0 : std::abs(rate) * speed);
+    return lift;
+  }
+  return {};
+}
+
 Stage stage_of(const Kinematics& kinematics, std::vector<Joint> joints) {
-  Stage stage{.joints = std::move(joints)};
+  Stage stage;
+  stage.joints = std::move(joints);
   stage.parting_mm_per_s = parting(kinematics, stage.joints);
   stage.effect = effect_of(stage.parting_mm_per_s, stage.joints);
+  if (stage.effect == Effect::kParts) stage.lift_per_s = lift_of(kinematics, stage.joints);
   return stage;
 }
 

@@ -6,6 +6,10 @@
 // distance, or comes nearer. Joints that move the tool together (the carriages of one mechanism) go together,
 // so that at first the mechanism moves as one; each stands still on its own switch until all have come. First
 // go those that take tool and table apart, last those that would bring them together.
+//
+// Joints that go at different speeds move the tool sideways while they take it away, and a part may stand
+// right beside it. Where some rates take it straight away from everywhere (carriages on parallel rails: equal
+// ones), they go at these first, until one has come to its switch.
 
 #include <cstdint>
 #include <span>
@@ -45,6 +49,9 @@ struct Stage {
   Effect effect = Effect::kKeeps;
   /// How fast the tool leaves the table, at the bed reference; < 0: comes nearer.
   double parting_mm_per_s = 0;
+  /// How fast each of `joints` goes in the lift, 0: stands. Empty: there is none, their own speeds do it or
+  /// no speeds can. After it they go at their own.
+  std::vector<double> lift_per_s;
 };
 
 struct Plan {

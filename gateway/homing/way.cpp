@@ -11,6 +11,9 @@ namespace {
 constexpr double kRounding_mm = 5e-3;
 /// Bodies as near as this touch: what lies between two poses is looked at no more closely.
 constexpr double kTouch_mm = 0.2;
+/// From the first switch of a lift until all have been told to halt: a statusword and two controlwords, and
+/// what bus_nodes/homing.cpp lets pass before it believes the first statusword.
+constexpr double kReaction_s = 0.1;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -48,8 +51,10 @@ Way Walker::walk(JointVector joints, Pose pose) {
       p.apart = p.start_mm >= model_->wanted_mm();
     }
   if (!look(joints, way)) return way;
-  for (const Stage& stage : plan_.stages)
-    if (!seek(stage, joints, way) || !leave(stage, joints, way)) return way;
+  for (const Stage& stage : plan_.stages) {
+    note_spread(stage, joints, way);
+    if (!lift(stage, joints, way) || !seek(stage, joints, way) || !leave(stage, joints, way)) return way;
+  }
   return way;
 }
 
@@ -109,32 +114,64 @@ bool Walker::judge(Way& way) {
   return false;
 }
 
-/// All go at once; each stops behind the edge of its own switch. Ramps are left out: they are the same for
-/// all that go as fast, and the way is looked at in any case.
-bool Walker::seek(const Stage& stage, JointVector& joints, Way& way) {
-  struct Goal {
-    const Joint* joint;
-    double left;
-  };
-  std::vector<Goal> goals;
-  double shortest = kInfinite, longest = 0, farthest = 0;
+/// To rest behind the edge.
+double Walker::travel(const Joint& joint, const JointVector& joints) {
+  const double to_edge = (joint.switch_position - joints[joint.joint]) * joint.direction();
+  return to_edge > 0 ? to_edge + joint.overrun() : 0;
+}
+
+void Walker::note_spread(const Stage& stage, const JointVector& joints, Way& way) const {
+  double shortest = kInfinite, longest = 0;
   for (const Joint& j : stage.joints) {
-    if (!j.moves) continue;
-    const double to_edge = (j.switch_position - joints[j.joint]) * j.direction();
-    const double travel = to_edge > 0 ? to_edge + j.overrun() : 0;
-    goals.push_back({&j, travel});
-    farthest = std::max(farthest, travel);
-    if (kinematics_.joint_info(static_cast<int>(j.joint)).rotary) continue;
-    shortest = std::min(shortest, travel);
-    longest = std::max(longest, travel);
+    if (!j.moves || kinematics_.joint_info(static_cast<int>(j.joint)).rotary) continue;
+    shortest = std::min(shortest, travel(j, joints));
+    longest = std::max(longest, travel(j, joints));
   }
   if (longest > shortest) way.spread_mm = std::max(way.spread_mm, longest - shortest);
+}
+
+/// Straight away at the lift's rates, until the first has come to its switch and all are told to halt.
+bool Walker::lift(const Stage& stage, JointVector& joints, Way& way) {
+  double seconds = kInfinite;
+  for (std::size_t i = 0; i < stage.lift_per_s.size(); ++i) {
+    const Joint& j = stage.joints[i];
+    if (!(stage.lift_per_s[i] > 0)) continue;
+    const double to_edge = (j.switch_position - joints[j.joint]) * j.direction();
+    seconds = std::min(seconds, std::max(to_edge, 0.0) / stage.lift_per_s[i]);
+  }
+  if (!std::isfinite(seconds)) return true;
+  std::vector<Goal> goals;
+  for (std::size_t i = 0; i < stage.lift_per_s.size(); ++i) {
+    const Joint& j = stage.joints[i];
+    const double speed = stage.lift_per_s[i];
+    if (!(speed > 0)) continue;
+    const double ramp = 0.5 * speed * speed / j.accel_per_s2;
+    const double to_edge = (j.switch_position - joints[j.joint]) * j.direction();
+    if (to_edge <= 0) continue;  // stands on its switch
+    const double by = speed * (seconds + kReaction_s) + ramp;
+    goals.push_back({&j, std::min(by, to_edge + ramp), speed});
+  }
+  return go(goals, joints, way);
+}
+
+/// All go at once; each stops behind the edge of its own switch.
+bool Walker::seek(const Stage& stage, JointVector& joints, Way& way) {
+  std::vector<Goal> goals;
+  for (const Joint& j : stage.joints)
+    if (j.moves) goals.push_back({&j, travel(j, joints), j.fast_per_s});
+  return go(goals, joints, way);
+}
+
+/// Ramps are left out: they are the same for all that go as fast, and the way is looked at in any case.
+bool Walker::go(std::vector<Goal>& goals, JointVector& joints, Way& way) {
+  double farthest = 0;
+  for (const Goal& g : goals) farthest = std::max(farthest, g.left);
   for (;;) {
     double fastest = 0, arrival_s = kInfinite;
     for (const Goal& g : goals) {
       if (!(g.left > 0)) continue;
-      fastest = std::max(fastest, g.joint->fast_per_s);
-      arrival_s = std::min(arrival_s, g.left / g.joint->fast_per_s);
+      fastest = std::max(fastest, g.per_s);
+      arrival_s = std::min(arrival_s, g.left / g.per_s);
     }
     if (!(fastest > 0)) return true;
     // A carriage's motion is passed on to the bodies up to some 4 times.
@@ -143,7 +180,7 @@ bool Walker::seek(const Stage& stage, JointVector& joints, Way& way) {
     const double seconds = std::min(arrival_s, step / fastest);
     for (Goal& g : goals) {
       if (!(g.left > 0)) continue;
-      const double by = std::min(g.left, g.joint->fast_per_s * seconds);
+      const double by = std::min(g.left, g.per_s * seconds);
       // What rounding would leave of the last step is no step.
       g.left = g.left - by > 1e-9 ? g.left - by : 0;
       joints[g.joint->joint] += g.joint->direction() * by;

@@ -54,7 +54,16 @@ class Walker {
 
  private:
   bool look(const JointVector& joints, Way& way);
+  struct Goal {
+    const Joint* joint;
+    double left;   ///< of its way
+    double per_s;  ///< how fast it goes
+  };
+  static double travel(const Joint& joint, const JointVector& joints);
+  void note_spread(const Stage& stage, const JointVector& joints, Way& way) const;
+  bool lift(const Stage& stage, JointVector& joints, Way& way);
   bool seek(const Stage& stage, JointVector& joints, Way& way);
+  bool go(std::vector<Goal>& goals, JointVector& joints, Way& way);
   bool leave(const Stage& stage, JointVector& joints, Way& way);
   bool judge(Way& way);
 

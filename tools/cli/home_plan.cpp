@@ -34,6 +34,16 @@ std::string joint_words(const MachineDescription& machine, const homing::Joint& 
                      joint.rotary ? "deg" : "mm");
 }
 
+std::string lift_words(const MachineDescription& machine, const homing::Stage& stage) {
+  std::string words;
+  for (std::size_t i = 0; i < stage.lift_per_s.size(); ++i) {
+    homing::Joint joint = stage.joints[i];
+    joint.fast_per_s = stage.lift_per_s[i];
+    if (joint.fast_per_s > 0) words += (words.empty() ? "" : ", ") + joint_words(machine, joint);
+  }
+  return words;
+}
+
 json to_json(const MachineDescription& machine, const homing::Plan& plan) {
   json stages = json::array();
   for (const homing::Stage& stage : plan.stages) {
@@ -47,8 +57,16 @@ json to_json(const MachineDescription& machine, const homing::Plan& plan) {
                         {"fast_per_s", j.fast_per_s / unit},
                         {"switch_position", j.switch_position / unit}});
     }
-    stages.push_back(
-        {{"joints", joints}, {"parting_mm_per_s", stage.parting_mm_per_s}, {"reason", why(stage)}});
+    json lift = json::array();
+    for (std::size_t i = 0; i < stage.lift_per_s.size(); ++i) {
+      const JointDescription& joint = machine.joints[stage.joints[i].joint];
+      lift.push_back(
+          {{"joint", joint.name}, {"per_s", stage.lift_per_s[i] / (joint.rotary ? kRadPerDeg : 1)}});
+    }
+    stages.push_back({{"joints", joints},
+                      {"lift", lift},
+                      {"parting_mm_per_s", stage.parting_mm_per_s},
+                      {"reason", why(stage)}});
   }
   return {{"machine", machine.name}, {"order_is_stated", plan.stated}, {"stages", stages}};
 }
@@ -62,6 +80,9 @@ void print_plan(const MachineDescription& machine, const homing::Plan& plan) {
     for (const homing::Joint& j : stage.joints)
       joints += (joints.empty() ? "" : ", ") + joint_words(machine, j);
     fmt::print("  {}. {}\n     {}\n", ++number, joints, why(stage));
+    if (!stage.lift_per_s.empty())
+      fmt::print("     first straight up, until one has come to its switch: {}\n",
+                 lift_words(machine, stage));
   }
   std::string others;
   for (const JointDescription& joint : machine.joints)

@@ -40,6 +40,40 @@ TEST(HomingPlan, TakesToolAndTableApartFirst) {
   EXPECT_NEAR(m1.plan().stages[0].parting_mm_per_s, 40, 0.01) << "all carriages move the table as one";
 }
 
+TEST(HomingPlan, LiftsAtTheRatesThatTakeTheToolStraightAway) {
+  for (const char* name : {"m1", "m2", "m3", "m5", "delta", "cartesian", "corexy"}) {
+    const HomingStudy study(shipped(name));
+    for (const Stage& stage : study.plan().stages)
+      EXPECT_TRUE(stage.lift_per_s.empty()) << name << ": their own speeds do it";
+  }
+  const HomingStudy m4(shipped("m4"));
+  ASSERT_EQ(m4.plan().stages.size(), 2u);
+  EXPECT_TRUE(m4.plan().stages[1].lift_per_s.empty());
+  const std::vector<double>& lift = m4.plan().stages[0].lift_per_s;
+  ASSERT_EQ(lift.size(), 3u);
+  for (const double speed : lift) EXPECT_NEAR(speed, 30, 1e-6) << "the slowest of the three";
+  // From anywhere: the same rates, and neither sideways nor tilted.
+  for (Pose pose : {Pose{0, 0, 10, 0, 0, 0}, Pose{50, -150, 40, 0.4, 0, 0}, Pose{-90, 120, 5, -0.4, 0, 0}}) {
+    const Pose from = pose;
+    JointVector q{};
+    ASSERT_TRUE(m4.kinematics().inverse(Frame::kPart, from, q));
+    for (std::size_t i = 0; i < lift.size(); ++i) q[i] += 2 * lift[i];
+    ASSERT_TRUE(m4.kinematics().forward(Frame::kPart, q, pose));
+    EXPECT_NEAR(pose[kZ], from[kZ] + 60, 1e-6);
+    EXPECT_NEAR(pose[kY], from[kY], 1e-6);
+    EXPECT_NEAR(pose[kA], from[kA], 1e-9);
+  }
+}
+
+TEST(HomingPlan, AMachineWhoseCarriagesGoAtDifferentSpeedsLiftsWithEqualOnes) {
+  MachineDescription machine = shipped("delta");
+  machine.joints[1].homing->fast_per_s = 55;
+  const HomingStudy study(machine);
+  const std::vector<double>& lift = study.plan().stages.at(0).lift_per_s;
+  ASSERT_EQ(lift.size(), 3u);
+  for (const double speed : lift) EXPECT_NEAR(speed, machine.joints[0].homing->fast_per_s, 1e-6);
+}
+
 TEST(HomingPlan, BringsToolAndTableTogetherLast) {
   MachineDescription machine = shipped("cartesian");
   machine.joints[2].homing->method = 22;
@@ -84,6 +118,18 @@ TEST(HomingSurvey, NothingTouchesOnM1WithAPartOnTheTable) {
   EXPECT_LE(found.spread_mm, default_m1().homing.max_spread_mm)
       << "the watch on the carriages lets them home";
   EXPECT_LE(found.worst_condition, 8);
+}
+
+// As wide and high as its workspace, and the tool often right beside it. More starts: kinebus plan --home.
+TEST(HomingSurvey, NothingTouchesOnM4WithAPartOnTheTable) {
+  HomingStudy study(shipped("m4"));
+  study.set_part(170, 200);
+  const Survey found = survey(study.machine(), study.plan(), 1, 400, {}, 200, Starts::corner_count());
+  EXPECT_GT(found.starts, 400);
+  EXPECT_GT(found.on_switch, 40);
+  EXPECT_GT(found.under_tool, 40);
+  EXPECT_TRUE(found.safe()) << told(found);
+  EXPECT_LE(found.worst_condition, 20) << "of its work";
 }
 
 TEST(HomingSurvey, TheOthersCloseAllTheWay) {

@@ -6,8 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <string>
 
+#include "gateway/bus_nodes/node_configuration.hpp"
+#include "gateway/description/machine_file.hpp"
 #include "gateway/description/machine_homing.hpp"
+#include "protocol/canopen/cob_id.hpp"
 #include "tools/simulation/simulation.hpp"
 
 namespace kinebus {
@@ -62,7 +67,8 @@ bool reach(Simulation& simulation, MachineState wanted, BusTime within) {
 
 class Carriages {
  public:
-  Carriages(const MachineDescription& machine, const JointVector& joints, std::uint64_t seed) {
+  Carriages(const MachineDescription& machine, const JointVector& joints, std::uint64_t seed)
+      : machine_(machine) {
     SimulationOptions options;
     options.seed = seed;
     options.sample_period = 5ms;
@@ -74,7 +80,7 @@ class Carriages {
               joints[j] * machine.joints[j].drive.counts_per_unit();
     auto made = std::make_unique<VirtualMachine>(nodes, seed);
     nodes_ = made.get();
-    simulation_.emplace(machine, **kinematics_, options, std::move(made));
+    simulation_.emplace(machine_, **kinematics_, options, std::move(made));
     simulation_->run_until(1s);
   }
   Simulation& operator*() { return *simulation_; }
@@ -82,7 +88,7 @@ class Carriages {
   VirtualMachine& nodes() { return *nodes_; }
 
  private:
-  MachineDescription machine_ = m1_with_bodies();
+  MachineDescription machine_;
   Result<std::unique_ptr<Kinematics>, GeometryError> kinematics_ = make_kinematics(machine_);
   VirtualMachine* nodes_ = nullptr;
   std::optional<Simulation> simulation_;
@@ -169,6 +175,95 @@ TEST(HomingCampaign, MovesAwayFromThePartAfterAPowerLossInAPrint) {
   EXPECT_LT(eye.sank_mm(), 0.01) << "and never towards it";
   ASSERT_TRUE(reach(*carriages, MachineState::kReady, 60s));
   EXPECT_GE(eye.least_mm(), 0.18) << eye.words();
+}
+
+// M4's rails go at different speeds, and a part may stand right beside its tool.
+class M4Homing : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    auto machine = load_machine(std::string(KINEBUS_MACHINES) + "/m4.toml");
+    ASSERT_TRUE(machine) << to_string(machine.error());
+    machine_ = *machine;
+    study_.emplace(machine_);
+    Pose pose{20, 120, 60, -12 * kRadPerDeg, 0, 0};
+    ASSERT_TRUE(study_->kinematics().inverse(Frame::kPart, pose, start_));
+  }
+
+  void bring_up(Carriages& carriages) {
+    ASSERT_TRUE(carriages->gateway().carry_out(command::BringUp{}));
+    ASSERT_TRUE(reach(*carriages, MachineState::kUnhomed, 10s)) << to_string(carriages->gateway().state());
+  }
+
+  /// What the nodes tell of their parameters at a bring-up (2116h), by node id.
+  std::map<std::uint8_t, std::uint32_t> fingerprints(Carriages& carriages) {
+    std::map<std::uint8_t, std::uint32_t> told;
+    carriages.nodes().set_arrival_hook([&told](int station, std::vector<VirtualMachine::Arrival>& arrivals) {
+      if (station != VirtualMachine::kGatewayStation) return;
+      for (const VirtualMachine::Arrival& a : arrivals) {
+        const std::uint8_t node = cob_id::node_of(a.frame.id, cob_id::kSdoReply);
+        const auto& d = a.frame.data;
+        if (node != 0 && d[0] == 0x43 && d[1] == 0x16 && d[2] == 0x21)
+          told[node] = d[4] | static_cast<std::uint32_t>(d[5]) << 8 | static_cast<std::uint32_t>(d[6]) << 16 |
+                       static_cast<std::uint32_t>(d[7]) << 24;
+      }
+    });
+    EXPECT_TRUE(carriages->gateway().carry_out(command::MotorsOff{}));
+    EXPECT_TRUE(reach(*carriages, MachineState::kOff, 10s));
+    EXPECT_TRUE(carriages->gateway().carry_out(command::BringUp{}));
+    carriages->run_until(carriages->now() + 5s);
+    carriages.nodes().set_arrival_hook({});
+    return told;
+  }
+  void expect_their_own_parameters(Carriages& carriages) {
+    const auto told = fingerprints(carriages);
+    EXPECT_EQ(told.size(), machine_.nodes.size());
+    for (const auto& [node, fingerprint] : told)
+      EXPECT_EQ(fingerprint, configure_node(machine_, node).fingerprint) << "node " << int{node};
+  }
+
+  MachineDescription machine_;
+  std::optional<HomingStudy> study_;
+  JointVector start_{};
+};
+
+TEST_F(M4Homing, RisesStraightUntilTheFirstRailHasCome) {
+  Carriages carriages(machine_, start_, 5);
+  Pose from = study_->kinematics().bed_reference();
+  ASSERT_TRUE(study_->kinematics().forward(Frame::kPart, start_, from));
+  Pose pose = from, farthest = from;
+  bool come = false;
+  carriages->on_sample = [&](const Sample& sample) {
+    for (std::size_t rail = 0; rail < 3; ++rail)
+      come = come || sample.joints[rail] >= machine_.joints[rail].homing->switch_position;
+    ASSERT_TRUE(study_->machine().mechanism->forward(Frame::kPart, sample.joints, pose));
+    if (come) return;
+    EXPECT_NEAR(pose[kY], from[kY], 0.05) << "at Z " << pose[kZ];
+    EXPECT_NEAR(pose[kA], from[kA], 2e-4);
+    farthest = pose;
+  };
+  bring_up(carriages);
+  ASSERT_TRUE(carriages->gateway().carry_out(command::Home{}));
+  ASSERT_TRUE(reach(*carriages, MachineState::kReady, 90s)) << to_string(carriages->gateway().state());
+  EXPECT_GT(farthest[kZ], from[kZ] + 100);
+  for (std::size_t rail = 0; rail < 3; ++rail)
+    EXPECT_NEAR(carriages->sample().joints[rail], machine_.joints[rail].homing->switch_position, 0.05);
+  carriages->on_sample = {};
+  expect_their_own_parameters(carriages);
+}
+
+TEST_F(M4Homing, ALiftThatIsStoppedLeavesTheNodesTheirOwnSpeeds) {
+  Carriages carriages(machine_, start_, 6);
+  bring_up(carriages);
+  ASSERT_TRUE(carriages->gateway().carry_out(command::Home{}));
+  ASSERT_TRUE(reach(*carriages, MachineState::kHoming, 5s));
+  carriages->run_until(carriages->now() + 1s);
+  ASSERT_TRUE(carriages->gateway().carry_out(command::Stop{}));
+  ASSERT_TRUE(reach(*carriages, MachineState::kStopped, 5s));
+  ASSERT_TRUE(carriages->gateway().carry_out(command::Clear{}));
+  ASSERT_TRUE(reach(*carriages, MachineState::kUnhomed, 5s)) << to_string(carriages->gateway().state());
+  expect_their_own_parameters(carriages);
+  ASSERT_TRUE(carriages->gateway().carry_out(command::Home{}));
+  ASSERT_TRUE(reach(*carriages, MachineState::kReady, 90s)) << to_string(carriages->gateway().state());
 }
 
 }  // namespace
