@@ -78,6 +78,9 @@ std::vector<VirtualNodeOptions> virtual_nodes_of(const MachineDescription& machi
       if (joint.travel.min < joint.travel.max)
         start = joint.travel.min + 0.4 * (joint.travel.max - joint.travel.min) +
                 (joint.rotary ? 0 : 6 * unit(random) - 3);
+      // Nothing finds these: where they stand at power-up is their zero, or what the file says of it.
+      if (!joint.homing) start = 0;
+      if (joint.homing && joint.homing->method >= 35) start = joint.homing->switch_position;
       options.axes[joint.axis] = axis_of(joint, node, start);
     }
     nodes.push_back(options);

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <random>
 
+#include "gateway/description/machine_file.hpp"
 #include "tools/simulation/tests/simulated_job.hpp"
 
 namespace kinebus {
@@ -199,6 +201,29 @@ TEST(WholeMachine, SlowsThePathWhenTheBusIsTooSmallForIt) {
   EXPECT_GT(fast.bus_load_peak_1s, 0.06);
   EXPECT_LT(slow.bus_load_peak_1s, 0.055);  // the budget, SYNC, status and heartbeats
   EXPECT_GT(slow.bus_slowdowns, 0u);
+}
+
+// Its belts find no switch: the tool stands at the bed's centre when power comes. Where the tool is follows
+// here from the motors alone.
+TEST(WholeMachine, ACoreXysToolIsWhereTheJobSays) {
+  const auto machine = load_machine(std::filesystem::path(KINEBUS_MACHINES) / "corexy.toml");
+  ASSERT_TRUE(machine) << to_string(machine.error());
+  std::array<double, 3> tool{}, farthest{};
+  SimulateOptions options;
+  options.on_sample = [&](const Sample& sample, double, std::uint32_t) {
+    const JointVector& q = sample.joints;
+    tool = {0.5 * (q[0] + q[1]), 0.5 * (q[0] - q[1]), q[2]};
+    for (std::size_t i = 0; i < tool.size(); ++i) farthest[i] = std::max(farthest[i], std::abs(tool[i]));
+  };
+  const SimulationReport r =
+      simulate_on(*machine, "G21 G90\nG1 X60 Y-40 Z30 F6000\nG1 X-70\nG1 X15 Y25\n", 1, options);
+  expect_within_bounds(r);
+  constexpr double kCounts_mm = 2e-3;
+  EXPECT_NEAR(tool[0], 15, kCounts_mm);
+  EXPECT_NEAR(tool[1], 25, kCounts_mm);
+  EXPECT_NEAR(tool[2], 30, kCounts_mm);
+  EXPECT_NEAR(farthest[0], 70, 0.01);
+  EXPECT_NEAR(farthest[1], 40, 0.01);
 }
 
 TEST(WholeMachine, AJobWithAnErrorDoesNotBegin) {
