@@ -35,12 +35,16 @@ class WayRules {
   std::optional<Sentence> broken(Frame frame, double from, double to, PoseAt&& at) {
     const Pose pose = at(to);
     const auto checked = kinematics_.check(frame, pose);
+    met_print_ = false;
     if (!checked) {
       jump();
       return to_string(checked.error());
     }
     return collision(frame, pose, from, to, at);
   }
+
+  /// What the last answer was about: what has been printed.
+  bool met_print() const { return met_print_; }
 
   /// The same for bodies alone: poses outside the workspace are taken as well.
   template <typename PoseAt>
@@ -56,11 +60,13 @@ class WayRules {
   /// `pose`: at(to).
   template <typename PoseAt>
   std::optional<Sentence> collision(Frame frame, const Pose& pose, double from, double to, PoseAt&& at) {
+    met_print_ = false;
     if (!sweep_) return std::nullopt;
     if (auto words = collision(frame, pose, from, to, at, kHalvings)) return words;
     if (!watch_) return std::nullopt;
     const auto in_part = watch_->meets(*printed_, frame, pose);
     if (!in_part) return std::nullopt;
+    met_print_ = true;
     return model_->words({0, {*in_part}, {bodies::BodyKind::kPart}});
   }
 
@@ -91,6 +97,7 @@ class WayRules {
   std::optional<bodies::Sweep> sweep_;
   const bodies::PrintedPart* printed_;
   std::optional<bodies::PrintWatch> watch_;
+  bool met_print_ = false;
 };
 
 }  // namespace kinebus

@@ -95,7 +95,7 @@ void Gateway::Core::begin_move(canonical::Command move, const Pose& from) {
 Done Gateway::Core::on(command::GoToReference&) {
   const auto from = machine_pose();
   if (!from) return Error<Refusal>(from.error());
-  if (auto meet = hand_.in_the_way_to_reference(*from)) return refused(std::move(*meet));
+  if (auto meet = hand_.in_the_way_to_reference(*from)) return refused(hand_.with_way_out(std::move(*meet)));
   hand_.end_jogs();
   begin_move(hand_.reference(*from), *from);
   return {};

@@ -125,14 +125,19 @@ Done Gateway::Core::begin_return() {
   }
   const auto from = machine_pose();
   if (!from) return Error<Refusal>(from.error());
-  auto commands = recovery_.way_back(print_.runner().rest_pose(), *from, position_, heat_);
-  if (!commands) return Error<Refusal>(commands.error());
-  if (commands->empty()) {
+  const auto moves = recovery_.way_back(print_.runner().rest_pose(), *from, position_);
+  if (!moves) return Error<Refusal>(moves.error());
+  if (auto meet = hand_.in_the_way(*from, *moves))
+    return refused(say("on the way back to the job's place %1: move the tool clear by hand, then resume",
+                       std::move(*meet)));
+  std::vector<canonical::Line> commands = heat_.lead_back();
+  commands.insert(commands.end(), moves->begin(), moves->end());
+  if (commands.empty()) {
     finish_return();
     return {};
   }
   runner_ = &hand_.runner();
-  hand_.start(std::move(*commands), *from, 1, ManualMotion::Then::kReturn);
+  hand_.start(std::move(commands), *from, 1, ManualMotion::Then::kReturn);
   enter(MachineState::kRunning);
   return {};
 }

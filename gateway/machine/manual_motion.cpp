@@ -74,7 +74,8 @@ Result<canonical::Feed, Refusal> ManualMotion::jog(const command::Jog& asked, co
       break;
     }
     // How far the target is outside says more than where the way leaves the workspace.
-    if (const auto end = kinematics_.check(Frame::kMachine, at(steps)); !end) broken = to_string(end.error());
+    const auto end = kinematics_.check(Frame::kMachine, at(steps));
+    broken = end ? with_way_out(std::move(*broken)) : to_string(end.error());
     return refused(stands_well ? std::move(*broken)
                                : say("%1: go to the bed reference first", std::move(*broken)));
   }
@@ -135,7 +136,33 @@ canonical::Command ManualMotion::reference(const Pose& from) const {
 }
 
 std::optional<Sentence> ManualMotion::in_the_way_to_reference(const Pose& from) {
-  const Pose to = kinematics_.bed_reference();
+  way_.jump();
+  bool leaving = true;
+  return in_the_way(from, kinematics_.bed_reference(), leaving);
+}
+
+std::optional<Sentence> ManualMotion::in_the_way(const Pose& from,
+                                                 const std::vector<canonical::Line>& moves) {
+  bool leaving = true;
+  Pose at = from;
+  way_.jump();
+  for (const canonical::Line& line : moves) {
+    if (const auto* traverse = std::get_if<canonical::Traverse>(&line.command)) {
+      if (auto near = in_the_way(at, traverse->target, leaving)) return near;
+      at = traverse->target;
+    } else if (const auto* feed = std::get_if<canonical::Feed>(&line.command)) {
+      const auto place = [&](double) { return feed->target; };
+      way_.jump();
+      const bool stood_so = way_.collision(Frame::kMachine, 0, 0, place).has_value();
+      way_.jump();
+      if (auto near = stood_so ? std::nullopt : in_the_way(at, feed->target, leaving)) return near;
+      at = feed->target;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Sentence> ManualMotion::in_the_way(const Pose& from, const Pose& to, bool& leaving) {
   double mm = 0, rad = 0;
   for (const PoseAxis axis : {kX, kY, kZ}) mm = std::hypot(mm, to[axis] - from[axis]);
   for (const PoseAxis axis : {kA, kC}) rad = std::max(rad, std::abs(to[axis] - from[axis]));
@@ -145,14 +172,21 @@ std::optional<Sentence> ManualMotion::in_the_way_to_reference(const Pose& from) 
     for (std::size_t axis = 0; axis < kPoseAxes; ++axis) pose[axis] += (to[axis] - from[axis]) * i / steps;
     return pose;
   };
-  way_.jump();
-  bool leaving = true;  // what is near at the beginning
   for (int i = 0; i <= steps; ++i) {
     auto near = way_.collision(Frame::kMachine, std::max(i - 1, 0), i, at);
     if (near && !leaving) return near;
     leaving = leaving && near;
   }
   return std::nullopt;
+}
+
+Sentence ManualMotion::with_way_out(Sentence words) const {
+  if (!way_.met_print()) return words;
+  return say(
+      "%1: what was printed is taken to stand on the table until the next job begins, or the machine is "
+      "homed "
+      "with no job interrupted",
+      std::move(words));
 }
 
 std::optional<canonical::Command> ManualMotion::lift(const Pose& from, double z_mm,

@@ -57,6 +57,11 @@ class ManualMotion {
   /// Which two bodies would meet on the straight way there; nullopt: none. Bodies that are near at its
   /// beginning may be.
   std::optional<Sentence> in_the_way_to_reference(const Pose& from);
+  /// The same of moves one after the other, Frame::kMachine. What is near where a feed ends may be near on
+  /// it: the job stood there, and its print is known a little ahead of the tool.
+  std::optional<Sentence> in_the_way(const Pose& from, const std::vector<canonical::Line>& moves);
+  /// The last answer, and if it was about what has been printed, how that is forgotten.
+  Sentence with_way_out(Sentence words) const;
 
   /// Straight up to `z_mm` of the machine, or as far as every pose on the way is allowed: `kept_from` says
   /// why no farther. nullopt: there is no way up, or none is needed.
@@ -70,6 +75,9 @@ class ManualMotion {
   void forget_then() { then_ = Then::kNothing; }
 
  private:
+  /// `leaving`: of what is near at the beginning, until it is not.
+  std::optional<Sentence> in_the_way(const Pose& from, const Pose& to, bool& leaving);
+
   const Kinematics& kinematics_;
   WayRules way_;
   Runner runner_;

@@ -99,7 +99,7 @@ void Recovery::add_approach(std::vector<canonical::Line>& commands, const Pose& 
 }
 
 Result<std::vector<canonical::Line>, Refusal> Recovery::way_back(const PlannedPose& place, const Pose& from,
-                                                                 const Position& position, Heat& heat) const {
+                                                                 const Position& position) const {
   JointVector wanted{};
   if (const auto found = kinematics_.inverse(place.frame, place.pose, wanted); !found)
     return refused(say("the job's place cannot be reached: %1", to_string(found.error())));
@@ -116,7 +116,7 @@ Result<std::vector<canonical::Line>, Refusal> Recovery::way_back(const PlannedPo
     return refused(
         say("the tool was found %1 mm from its place: resume brings it back", printed("%.3f", away_mm)));
 
-  std::vector<canonical::Line> commands = heat.lead_back();
+  std::vector<canonical::Line> commands;
   const bool exact =
       distance.others <= kExactCounts && (filament_elsewhere || distance.filament <= kExactCounts);
   if (!exact) add_approach(commands, from, target);

@@ -14,7 +14,7 @@
 #include "gateway/kinematics/kinematics.hpp"
 #include "gateway/machine/position.hpp"
 #include "gateway/result.hpp"
-#include "gateway/run/heat.hpp"
+#include "gateway/run/planned_pose.hpp"
 #include "gateway/status/refusal.hpp"
 
 namespace kinebus {
@@ -65,9 +65,9 @@ class Recovery {
   void fail_job() { job_failed_ = true; }
   bool take_job_failed() { return std::exchange(job_failed_, false); }
 
-  /// Moves and waits that lead from `from` (Frame::kMachine) to where the job goes on. Sets the fan.
+  /// Moves that lead from `from` (Frame::kMachine) to where the job goes on.
   Result<std::vector<canonical::Line>, Refusal> way_back(const PlannedPose& place, const Pose& from,
-                                                         const Position& position, Heat& heat) const;
+                                                         const Position& position) const;
   /// The tool is back at `place`. How far the filament stands from where the job believes it, mm, when that
   /// is right so; 0: it goes on as planned.
   double finish_return(const PlannedPose& place, const std::optional<Pose>& here);

@@ -3516,6 +3516,14 @@
         <source>the feed is as programmed again</source>
         <translation>سرعت دوباره همان سرعت برنامه است</translation>
     </message>
+    <message>
+        <source>on the way back to the job&apos;s place %1: move the tool clear by hand, then resume</source>
+        <translation>در راه برگشت به جای کار %1: ابزار را دستی دور کنید، سپس ادامه دهید</translation>
+    </message>
+    <message>
+        <source>%1: what was printed is taken to stand on the table until the next job begins, or the machine is homed with no job interrupted</source>
+        <translation>%1: فرض بر این است که آنچه چاپ شده روی میز است، تا کار بعدی آغاز شود یا دستگاه بدون کار قطع‌شده خانه‌یابی شود</translation>
+    </message>
 </context>
 <context>
     <name>GatewayWords</name>

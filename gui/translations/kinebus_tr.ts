@@ -3516,6 +3516,14 @@
         <source>the feed is as programmed again</source>
         <translation>ilerleme hızı yeniden programdaki gibi</translation>
     </message>
+    <message>
+        <source>on the way back to the job&apos;s place %1: move the tool clear by hand, then resume</source>
+        <translation>işin kaldığı yere dönerken %1: takımı elle uzaklaştırın, sonra sürdürün</translation>
+    </message>
+    <message>
+        <source>%1: what was printed is taken to stand on the table until the next job begins, or the machine is homed with no job interrupted</source>
+        <translation>%1: basılanın, sonraki iş başlayana ya da kesilmiş iş yokken makine referansa gidene kadar tablada durduğu varsayılır</translation>
+    </message>
 </context>
 <context>
     <name>GatewayWords</name>

@@ -257,10 +257,13 @@ TEST(Machine, WhatAJobHasPrintedStandsInTheWayUntilTheTableIsSaidToBeEmpty) {
   const Pose through{0, -120, 0, 0, 0, 0};
   const auto jog = rig.gateway->carry_out(command::Jog{.delta = through, .speed_per_s = 200});
   ASSERT_FALSE(jog);
-  EXPECT_EQ(jog.error().words, "nozzle and part on the table would touch");
+  const std::string touches =
+      "nozzle and part on the table would touch: what was printed is taken to stand on the table until the "
+      "next job begins, or the machine is homed with no job interrupted";
+  EXPECT_EQ(jog.error().words, touches);
   const auto reference = rig.gateway->carry_out(command::GoToReference{});
   ASSERT_FALSE(reference) << "20 mm above the table's middle, where 40 mm stand";
-  EXPECT_EQ(reference.error().words, "nozzle and part on the table would touch");
+  EXPECT_EQ(reference.error().words, touches);
   // Away from it, and over it.
   for (const Pose& delta : {Pose{0, 0, 40, 0, 0, 0}, through}) {
     const auto done = rig.gateway->carry_out(command::Jog{.delta = delta, .speed_per_s = 200});
