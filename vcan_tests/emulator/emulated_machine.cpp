@@ -63,7 +63,7 @@ EmulatedMachine::EmulatedMachine(const ElfImage& image, const std::vector<Emulat
   for (const EmulatedNodeOptions& options : nodes) longest = std::max(longest, options.powered_before);
   for (const EmulatedNodeOptions& options : nodes) {
     auto node = std::make_unique<Node>();
-    node->board = std::make_unique<Board>(image, options.board);
+    node->board = options.make(image, options.board);
     node->port = bus_.add_port(BxCan::kMailboxes);
     node->powered = longest - options.powered_before;
     node->drift_ppm = options.clock_drift_ppm;
@@ -97,8 +97,10 @@ void EmulatedMachine::commission(const std::vector<EmulatedNodeOptions>& options
       throw std::runtime_error("emulated board for node " + std::to_string(node_id) + ": no answer to LSS (" +
                                what + ")");
   };
-  for (const EmulatedNodeOptions& o : options) {
-    master.select(time_, {kVendorId, kProductCode, kRevisionNumber, serial_of(o.board.unique_id)});
+  for (std::size_t i = 0; i < options.size(); ++i) {
+    const EmulatedNodeOptions& o = options[i];
+    const std::uint32_t product = nodes_[i]->board->product_code();
+    master.select(time_, {kVendorId, product, kRevisionNumber, serial_of(o.board.unique_id)});
     finish("select", o.node_id);
     master.configure_node_id(time_, o.node_id);
     finish("node id", o.node_id);
@@ -210,7 +212,7 @@ void EmulatedMachine::deliver(const BusModel::Delivery& delivery) {
 }
 
 double EmulatedMachine::true_counts(int node, int axis, BusTime) {
-  return board(node).true_counts(axis);
+  return chip(node).true_counts(axis);
 }
 
 PathTime EmulatedMachine::path_time(int node, BusTime at) {
@@ -228,13 +230,13 @@ PathTime EmulatedMachine::path_time(int node, BusTime at) {
 std::optional<std::int64_t> EmulatedMachine::commanded(int node, int axis) {
   const auto function = image_.symbol("debug_position");
   if (!function) return std::nullopt;
-  const auto position = board(node).cpu().call(*function, static_cast<std::uint64_t>(axis));
+  const auto position = chip(node).cpu().call(*function, static_cast<std::uint64_t>(axis));
   if (!position) return std::nullopt;
   return static_cast<std::int64_t>(*position);
 }
 
 void EmulatedMachine::set_input(int node, BusTime, int input, bool level) {
-  board(node).set_input(input - 1, level);
+  chip(node).set_input(input - 1, level);
 }
 
 }  // namespace kinebus::emulator

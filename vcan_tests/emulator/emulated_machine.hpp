@@ -13,8 +13,16 @@
 #include "protocol/canopen/lss.hpp"
 #include "tools/simulation/bus/node_machine.hpp"
 #include "vcan_tests/emulator/board.hpp"
+#include "vcan_tests/emulator/chip.hpp"
 
 namespace kinebus::emulator {
+
+/// A board with the image in its flash.
+using BoardMaker = std::unique_ptr<Chip> (*)(const ElfImage& image, const BoardOptions& options);
+template <typename Made>
+std::unique_ptr<Chip> make_board(const ElfImage& image, const BoardOptions& options) {
+  return std::make_unique<Made>(image, options);
+}
 
 struct EmulatedNodeOptions {
   BoardOptions board;
@@ -22,6 +30,7 @@ struct EmulatedNodeOptions {
   bool keeps_node_id = false;  ///< it has stored that id and has it again after a loss of power
   BusTime powered_before{0};   ///< how long before the others' commissioning it was switched on
   double clock_drift_ppm = 0;
+  BoardMaker make = &make_board<Board>;
 };
 
 /// The boards that stand for these virtual nodes: same places, switches, crystals, power-up times.
@@ -47,12 +56,17 @@ class EmulatedMachine final : public NodeMachine {
   const BusModel& bus() const override { return bus_; }
   void set_input(int node, BusTime at, int input, bool level) override;
 
-  Board& board(int node) { return *nodes_[static_cast<std::size_t>(node)]->board; }
+  Chip& chip(int node) { return *nodes_[static_cast<std::size_t>(node)]->board; }
+  /// Of nodes that were made so.
+  template <typename Made = Board>
+  Made& board(int node) {
+    return dynamic_cast<Made&>(chip(node));
+  }
   BusTime now() const { return time_ - epoch_; }
   /// Where a carriage stood at power-up, counts.
-  double start_counts(int node, int axis) { return board(node).start_counts(axis); }
+  double start_counts(int node, int axis) { return chip(node).start_counts(axis); }
   /// The processor is asleep: what the main loop keeps is consistent.
-  bool idle(int node) { return board(node).cpu().asleep(); }
+  bool idle(int node) { return chip(node).cpu().asleep(); }
   /// What the program's motion asks of a motor now: counts with 32 fractional bits, 0 at power-up.
   std::optional<std::int64_t> commanded(int node, int axis);
 
@@ -63,7 +77,7 @@ class EmulatedMachine final : public NodeMachine {
 
  private:
   struct Node {
-    std::unique_ptr<Board> board;
+    std::unique_ptr<Chip> board;
     BusModel::Port port = 0;
     BusTime powered{0};
     double drift_ppm = 0;

@@ -6,27 +6,22 @@
 #include <array>
 #include <cstdint>
 
+#include "node_firmware/port/stm32f4/clocks.hpp"
+#include "node_firmware/port/stm32f4/pin_table.hpp"
+
 namespace kinebus::board {
 
 inline constexpr std::uint32_t kCrystalHz = 8'000'000;
-inline constexpr std::uint32_t kCoreHz = 168'000'000;
-inline constexpr std::uint32_t kApb1Hz = 42'000'000;  // its timers: 84 MHz
-inline constexpr std::uint32_t kApb2Hz = 84'000'000;  // its timers: 168 MHz
+using stm32::kApb2Hz;
+using stm32::kCoreHz;
 
-enum class Port : std::uint8_t { A, B, C, D };
-enum class Mode : std::uint8_t { kInput, kOutput, kAlternate, kAnalogue };
-enum class Pull : std::uint8_t { kNone, kUp, kDown };
-
-struct Pin {
-  Port port;
-  std::uint8_t number;
-  Mode mode;
-  Pull pull;
-  std::uint8_t alternate;  ///< AF number
-  bool high;               ///< outputs: level from reset on
-  const char* signal;
-};
-
+using stm32::InputPin;
+using stm32::Mode;
+using stm32::OutputPin;
+using stm32::Pin;
+using stm32::Port;
+using stm32::Pull;
+using stm32::SwitchPin;
 using enum Port;
 using enum Mode;
 using enum Pull;
@@ -86,27 +81,17 @@ inline constexpr std::array kPins = {
   Pin{C, 13, kOutput,    kNone,  0, true,  "status LED, active low"},
 };
 // clang-format on
+static_assert(stm32::pins_differ(kPins));
 
-struct SwitchPin {
-  Port port;
-  std::uint8_t line;  ///< pin number, and with it the EXTI line
-};
 inline constexpr std::array<SwitchPin, 7> kSwitchPins{
     {{B, 0}, {B, 1}, {C, 3}, {C, 4}, {C, 5}, {B, 10}, {B, 11}}};
+static_assert(stm32::lines_differ(kSwitchPins));
 
-struct OutputPin {
-  Port port;
-  std::uint8_t number;
-};
 inline constexpr std::array<OutputPin, 2> kDriverEnable{{{A, 4}, {A, 5}}};
 inline constexpr std::array<OutputPin, 2> kEncoderSelect{{{A, 15}, {D, 2}}};
 inline constexpr OutputPin kStatusLed{C, 13};
 inline constexpr OutputPin kSystemBoot{C, 14};
 
-struct InputPin {
-  Port port;
-  std::uint8_t number;
-};
 inline constexpr InputPin kUsbVbus{B, 13};
 
 // Analogue: 12 bits at 3.3 V.
@@ -143,14 +128,9 @@ inline constexpr std::uint32_t kPwmRepetition = 2 * (kPwmHz / kControlHz) - 1;
 /// TIM8 lags so many counts, a conversion's time: motor B's quiet moment is when its slot samples.
 inline constexpr std::uint32_t kMotorBLag = 216;
 
-/// Local time: TIM2, free-running, 32 bits, 4 MHz.
-inline constexpr std::uint32_t kLocalHz = 4'000'000;
-inline constexpr std::int64_t kLocalNs = 250;
-
 // Flash: boot loader in sectors 0 and 1, parameters in 2 and 3, program in 5.
 inline constexpr std::uint32_t kBootAddress = 0x0800'0000, kBootBytes = 0x8000;
-inline constexpr std::array<std::uint32_t, 2> kParameterPages{0x0800'8000, 0x0800'C000};
-inline constexpr std::array<std::uint8_t, 2> kParameterSectors{2, 3};
+inline constexpr std::array<stm32::FlashSector, 2> kParameterSectors{{{0x0800'8000, 2}, {0x0800'C000, 3}}};
 inline constexpr std::uint32_t kParameterPageBytes = 0x4000;
 inline constexpr std::uint32_t kProgramAddress = 0x0802'0000, kProgramBytes = 0x2'0000;
 inline constexpr std::uint8_t kProgramSector = 5;

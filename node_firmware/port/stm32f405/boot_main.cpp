@@ -8,14 +8,15 @@
 #include "node_firmware/board/runtime.hpp"
 #include "node_firmware/board/status_led.hpp"
 #include "node_firmware/core/reset_report.hpp"
-#include "node_firmware/port/stm32f405/can_port.hpp"
-#include "node_firmware/port/stm32f405/clock_tree.hpp"
-#include "node_firmware/port/stm32f405/flash_port.hpp"
-#include "node_firmware/port/stm32f405/handlers.hpp"
-#include "node_firmware/port/stm32f405/handover_port.hpp"
-#include "node_firmware/port/stm32f405/local_time.hpp"
+#include "node_firmware/port/stm32f4/can_port.hpp"
+#include "node_firmware/port/stm32f4/clock_tree.hpp"
+#include "node_firmware/port/stm32f4/flash_port.hpp"
+#include "node_firmware/port/stm32f4/handlers.hpp"
+#include "node_firmware/port/stm32f4/handover_port.hpp"
+#include "node_firmware/port/stm32f4/local_time.hpp"
+#include "node_firmware/port/stm32f4/pins.hpp"
+#include "node_firmware/port/stm32f405/board.hpp"
 #include "node_firmware/port/stm32f405/option_port.hpp"
-#include "node_firmware/port/stm32f405/pins.hpp"
 #include "protocol/canopen/boards/stm32f405.hpp"
 
 namespace {
@@ -38,7 +39,7 @@ class ProgramSector final : public ProgramFlash {
 
 constinit ProgramSector program_sector;
 constinit CanPort can_port;
-constinit ParameterFlash parameter_flash;
+constinit ParameterFlash<board::kParameterSectors, board::kParameterPageBytes> parameter_flash;
 constinit PageStore parameters{parameter_flash};
 constinit ParameterImage parameter_image;
 constinit std::optional<BootProgram<CanPort, LocalTimer>> boot;
@@ -61,7 +62,7 @@ constexpr ImageTarget kBoard = image_target(Stm32f405Board::kFacts);
 
 // As BOOT0 would: its flash at address 0, the connector led to its USB pins, no gate driver enabled.
 [[noreturn]] void jump_to_system_boot() {
-  enable_clock(rcc().AHB1ENR, Rcc::kGpioC);
+  enable_clock(rcc().AHB1ENR, Rcc::gpio_clock(Port::C));
   enable_clock(rcc().APB2ENR, Rcc::kSysConfig);
   static_assert(board::kSystemBoot.port == board::Port::C);
   Gpio& g = gpio(static_cast<unsigned>(board::kSystemBoot.port));
@@ -100,8 +101,8 @@ void isr_can_state() {
 int main() {
   if (start_system_boot(handover_ram)) jump_to_system_boot();
   if (start_program(handover_ram, check_image(program_sector.bytes(), kBoard))) jump_to_program();
-  configure_pins();
-  if (!start_clocks()) power_off_and_reset(fault_reason::kNoClock, nullptr);
+  configure_pins<board::kPins>();
+  if (!start_clocks<board::kCrystalHz>()) power_off_and_reset(fault_reason::kNoClock, nullptr);
   start_local_time();
   can_port.start();
   start_tick();

@@ -9,20 +9,21 @@
 #include "node_firmware/board/status_led.hpp"
 #include "node_firmware/board/upkeep.hpp"
 #include "node_firmware/boot/image_header.hpp"
-#include "node_firmware/port/stm32f405/can_port.hpp"
-#include "node_firmware/port/stm32f405/clock_tree.hpp"
-#include "node_firmware/port/stm32f405/flash_port.hpp"
-#include "node_firmware/port/stm32f405/handlers.hpp"
-#include "node_firmware/port/stm32f405/handover_port.hpp"
-#include "node_firmware/port/stm32f405/local_time.hpp"
-#include "node_firmware/port/stm32f405/pins.hpp"
+#include "node_firmware/port/stm32f4/can_port.hpp"
+#include "node_firmware/port/stm32f4/clock_tree.hpp"
+#include "node_firmware/port/stm32f4/flash_port.hpp"
+#include "node_firmware/port/stm32f4/handlers.hpp"
+#include "node_firmware/port/stm32f4/handover_port.hpp"
+#include "node_firmware/port/stm32f4/local_time.hpp"
+#include "node_firmware/port/stm32f4/pins.hpp"
+#include "node_firmware/port/stm32f4/reset_port.hpp"
+#include "node_firmware/port/stm32f4/supply_port.hpp"
+#include "node_firmware/port/stm32f4/switch_port.hpp"
+#include "node_firmware/port/stm32f4/watchdog_port.hpp"
+#include "node_firmware/port/stm32f405/board.hpp"
 #include "node_firmware/port/stm32f405/power_stage.hpp"
-#include "node_firmware/port/stm32f405/reset_port.hpp"
-#include "node_firmware/port/stm32f405/supply_port.hpp"
-#include "node_firmware/port/stm32f405/switch_port.hpp"
 #include "node_firmware/port/stm32f405/usart_port.hpp"
 #include "node_firmware/port/stm32f405/usb_port.hpp"
-#include "node_firmware/port/stm32f405/watchdog_port.hpp"
 
 namespace {
 
@@ -30,16 +31,17 @@ using namespace kinebus;
 using namespace kinebus::stm32;
 
 constinit CanPort can_port;
-constinit SwitchPort switch_port;
+using Switches = SwitchPort<board::kSwitchPins>;
+constinit Switches switch_port;
 constinit MotionPlanExchange motion_plan;
 constinit BridgeMotors<PowerStage> motors{motion_plan};
-constinit ParameterFlash parameter_flash;
+constinit ParameterFlash<board::kParameterSectors, board::kParameterPageBytes> parameter_flash;
 constinit PageStore parameters{parameter_flash};
 constinit WatchdogPort dog;
 constinit WatchdogKeeper keeper;
 constinit UsartPort usart;
 constinit UsbPort usb;
-constinit std::optional<NodeProgram<CanPort, SwitchPort, LocalTimer>> program;
+constinit std::optional<NodeProgram<CanPort, Switches, LocalTimer>> program;
 
 // Asked for by 1F51h, when the answer is on the bus, or by a console. Motors have no power then (Node and
 // Console refuse otherwise).
@@ -85,8 +87,8 @@ void isr_switches() {
 }
 
 int main() {
-  configure_pins();
-  if (!start_clocks()) power_off_and_reset(fault_reason::kNoClock, nullptr);
+  configure_pins<board::kPins>();
+  if (!start_clocks<board::kCrystalHz>()) power_off_and_reset(fault_reason::kNoClock, nullptr);
   system_control().VTOR = board::kProgramAddress;
   start_local_time();
   can_port.start();

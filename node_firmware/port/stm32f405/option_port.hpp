@@ -4,7 +4,8 @@
 // protected is left alone.
 
 #include "node_firmware/boot/boot_loader.hpp"
-#include "node_firmware/port/stm32f405/flash_port.hpp"
+#include "node_firmware/port/stm32f4/flash_port.hpp"
+#include "node_firmware/port/stm32f405/board.hpp"
 
 namespace kinebus::stm32::options {
 

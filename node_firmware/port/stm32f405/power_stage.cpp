@@ -1,7 +1,8 @@
 #include "node_firmware/port/stm32f405/power_stage.hpp"
 
 #include "node_firmware/board/thermistor.hpp"
-#include "node_firmware/port/stm32f405/pins.hpp"
+#include "node_firmware/port/stm32f4/pins.hpp"
+#include "node_firmware/port/stm32f405/board.hpp"
 
 namespace kinebus::stm32 {
 namespace {

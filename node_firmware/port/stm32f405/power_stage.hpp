@@ -8,9 +8,9 @@
 #include <cstdint>
 
 #include "node_firmware/board/bridge_motors.hpp"
+#include "node_firmware/port/stm32f4/local_time.hpp"
+#include "node_firmware/port/stm32f4/registers.hpp"
 #include "node_firmware/port/stm32f405/board.hpp"
-#include "node_firmware/port/stm32f405/local_time.hpp"
-#include "node_firmware/port/stm32f405/registers.hpp"
 
 namespace kinebus::stm32 {
 

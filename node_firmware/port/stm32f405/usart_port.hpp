@@ -2,8 +2,8 @@
 // USART1 as a line to the console: a byte a pass, and never a wait.
 
 #include "node_firmware/board/console.hpp"
+#include "node_firmware/port/stm32f4/registers.hpp"
 #include "node_firmware/port/stm32f405/board.hpp"
-#include "node_firmware/port/stm32f405/registers.hpp"
 
 namespace kinebus::stm32 {
 

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <array>
 
-#include "node_firmware/port/stm32f405/clock_tree.hpp"
-#include "node_firmware/port/stm32f405/local_time.hpp"
-#include "node_firmware/port/stm32f405/pins.hpp"
+#include "node_firmware/port/stm32f4/clock_tree.hpp"
+#include "node_firmware/port/stm32f4/local_time.hpp"
+#include "node_firmware/port/stm32f4/pins.hpp"
+#include "node_firmware/port/stm32f405/board.hpp"
 #include "protocol/bytes.hpp"
 
 namespace kinebus::stm32 {
@@ -22,7 +23,7 @@ constexpr std::size_t kTextBytes = cdc::kPacketBytes - 1;
 // What the core does within a few clocks, or when a packet that is on the wire (50 us) has ended.
 constexpr std::uint32_t kFewLooks = 1000;
 // A plug's contacts come to rest, and the core has become a device (25 ms).
-constexpr std::uint32_t kSettle = board::kLocalHz / 20;
+constexpr std::uint32_t kSettle = kLocalHz / 20;
 // Between a packet and its answer at full speed with a fast bus clock: RM0090, table of TRDT.
 constexpr unsigned kTurnaround = 6;
 // What GRXSTSP says has come.

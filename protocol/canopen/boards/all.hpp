@@ -4,6 +4,7 @@
 #include "protocol/canopen/board_objects.hpp"
 #include "protocol/canopen/boards/heat.hpp"
 #include "protocol/canopen/boards/stm32f405.hpp"
+#include "protocol/canopen/boards/stm32f446_octopus.hpp"
 
 namespace kinebus {
 
@@ -18,7 +19,8 @@ template <typename Board>
 inline constexpr BoardDescription kBoardDescription{Board::kFacts, BoardObjects<Board>::kTable,
                                                     BoardObjects<Board>::kNames, Board::kPdos};
 
-inline constexpr std::array kBoards{kBoardDescription<Stm32f405Board>, kBoardDescription<HeatBoard>};
+inline constexpr std::array kBoards{kBoardDescription<Stm32f405Board>,
+                                    kBoardDescription<Stm32f446OctopusBoard>, kBoardDescription<HeatBoard>};
 
 /// nullptr: no board is called so.
 constexpr const BoardDescription* find_board(std::string_view name) {

@@ -89,7 +89,7 @@ struct CortexM4::Hooks {
   }
 };
 
-CortexM4::CortexM4(Devices& devices)
+CortexM4::CortexM4(Devices& devices, bool core_coupled_memory)
     : devices_(devices), flash_(kFlashSize + kPage, 0xFF), block_costs_(kFlashSize / 2) {
   uc_engine* uc = nullptr;
   check(uc_open(UC_ARCH_ARM, UC_MODE_THUMB, &uc), "uc_open");
@@ -103,7 +103,8 @@ CortexM4::CortexM4(Devices& devices)
                                                0xE7FEE7FE};  // stack, entry, b .
   std::memcpy(system_boot_, kLoop.data(), sizeof kLoop);
   check(uc_mem_map_ptr(uc, kSram, kSramSize, UC_PROT_ALL, sram_), "SRAM");
-  check(uc_mem_map_ptr(uc, kCcm, kCcmSize, UC_PROT_READ | UC_PROT_WRITE, ccm_), "CCM");
+  if (core_coupled_memory)
+    check(uc_mem_map_ptr(uc, kCcm, kCcmSize, UC_PROT_READ | UC_PROT_WRITE, ccm_), "CCM");
   check(uc_mem_map_ptr(uc, kSystemMemory, kSystemMemorySize, UC_PROT_READ, system_memory_), "system memory");
   check(uc_mem_map_ptr(uc, kSystemBoot, kSystemBootSize, UC_PROT_READ | UC_PROT_EXEC, system_boot_),
         "system boot loader");

@@ -57,7 +57,8 @@ class CortexM4 {
   /// Where the chip's own boot loader begins. Not its code: an endless loop, to see who arrives there.
   static constexpr std::uint32_t kSystemBoot = 0x1FFF0000, kSystemBootSize = 1024;
 
-  explicit CortexM4(Devices& devices);
+  /// core_coupled_memory: the F405 has it, the F446 has not.
+  explicit CortexM4(Devices& devices, bool core_coupled_memory = true);
   ~CortexM4();
   CortexM4(const CortexM4&) = delete;
   CortexM4& operator=(const CortexM4&) = delete;

@@ -201,6 +201,8 @@ std::uint32_t Nvic::read(std::uint32_t offset, Cycle now) {
       return demcr_;
     case 0xEF34:
       return fpccr_;
+    case 0x42000:
+      return device_id_;
     default:
       return 0;
   }

@@ -48,6 +48,9 @@ class Nvic final : public Peripheral, public InterruptLines {
     bfar_ = address;
   }
 
+  /// DBGMCU_IDCODE, which lies among the core's registers.
+  void set_device_id(std::uint32_t id) { device_id_ = id; }
+
   bool any_pending() const { return pending_count_ > 0; }
   /// The exception that preempts what runs now; kThread: none. WFI wakes for one that only PRIMASK holds
   /// back.
@@ -94,6 +97,7 @@ class Nvic final : public Peripheral, public InterruptLines {
   Cycle systick_zero_ = 0;  // when the count was at its reload value
   Cycle systick_event_ = kNever;
   bool reset_requested_ = false;
+  std::uint32_t device_id_ = 0;
 };
 
 }  // namespace kinebus::emulator

@@ -4,7 +4,7 @@ namespace kinebus::emulator {
 namespace {
 constexpr std::uint32_t kCr = 0x00, kPllCfgr = 0x04, kCfgr = 0x08, kAhb1LpEnr = 0x50, kCsr = 0x74;
 constexpr std::uint32_t kAhb1Enr = 0x30, kAhb2Enr = 0x34, kApb1Enr = 0x40, kApb2Enr = 0x44;
-constexpr std::uint32_t kCrystalHz = 8'000'000, kInternalHz = 16'000'000;
+constexpr std::uint32_t kInternalHz = 16'000'000;
 constexpr std::uint32_t kSecurityOn = 1u << 19, kSecurityFlag = 1u << 7, kCir = 0x0C;
 constexpr std::uint32_t kBrownOutReset = 1u << 25, kPowerOnReset = 1u << 27, kPinReset = 1u << 26,
                         kSoftwareResetFlag = 1u << 28, kWatchdogReset = 1u << 29;
@@ -81,11 +81,12 @@ bool Rcc::live(Clock clock, Cycle now) {
 std::optional<std::uint32_t> Rcc::system_hz() {
   const std::uint32_t source = word(kCfgr) & 3;
   if (source == 0) return kInternalHz;
-  if (source == 1) return (word(kCr) & 1u << 16) != 0 ? std::optional(kCrystalHz) : std::nullopt;
+  if (source == 1) return (word(kCr) & 1u << 16) != 0 ? std::optional(facts_.crystal_hz) : std::nullopt;
   if (source != 2 || (word(kCr) & 1u << 24) == 0) return std::nullopt;
   const std::uint32_t pll = word(kPllCfgr);
   const std::uint32_t m = pll & 0x3F, n = pll >> 6 & 0x1FF, p = 2 * ((pll >> 16 & 3) + 1);
-  const std::uint32_t input = (pll & 1u << 22) != 0 ? kCrystalHz : kInternalHz;
+  const std::uint32_t input = (pll & 1u << 22) != 0 ? facts_.crystal_hz : kInternalHz;
+  if (facts_.pll_r && (pll >> 28 & 7) < 2) return std::nullopt;
   if (m < 2 || n < 50 || n > 432) return std::nullopt;
   const std::uint32_t compare = input / m;
   const std::uint64_t vco = std::uint64_t{compare} * n;

@@ -12,14 +12,19 @@ class Rcc final : public PlainRegisters {
  public:
   enum class ResetCause : std::uint8_t { kPowerOn, kSoftware, kWatchdog, kBrownOut };
 
-  Rcc() { reset(ResetCause::kPowerOn); }
+  struct Facts {
+    std::uint32_t crystal_hz = 8'000'000;
+    bool pll_r = false;  ///< the PLL has a third divider, which must be 2 to 7 (F446)
+  };
+  Rcc() : Rcc(Facts{}) {}
+  explicit Rcc(const Facts& facts) : facts_(facts) { reset(ResetCause::kPowerOn); }
   void reset(ResetCause cause);
   std::uint32_t read(std::uint32_t offset, Cycle now) override;
   void write(std::uint32_t offset, std::uint32_t value, Cycle now) override;
 
   /// The crystal stops, or swings again. True: the clock security system was on, and its NMI comes.
   bool set_crystal(bool swings);
-  /// What the registers ask for, with the board's 8 MHz crystal; empty: settings outside the chip's limits.
+  /// What the registers ask for, with the board's crystal; empty: settings outside the chip's limits.
   std::optional<std::uint32_t> system_hz();
   std::optional<std::uint32_t> apb1_hz();
   std::optional<std::uint32_t> apb2_hz();
@@ -46,6 +51,7 @@ class Rcc final : public PlainRegisters {
   };
   Fresh& fresh(std::uint32_t enable_register) { return fresh_[enable_register / 4 % fresh_.size()]; }
 
+  Facts facts_;
   std::uint32_t causes_ = 0;
   bool crystal_ = true;
   std::array<Fresh, 8> fresh_{};

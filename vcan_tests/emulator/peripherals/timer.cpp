@@ -1,5 +1,7 @@
 #include "vcan_tests/emulator/peripherals/timer.hpp"
 
+#include <algorithm>
+
 namespace kinebus::emulator {
 namespace {
 constexpr std::uint32_t kEnable = 1, kUpdateDisable = 2, kUpdateRequestSource = 4, kOnePulse = 8,
@@ -30,6 +32,31 @@ void Timer::begin_sweep(Cycle at, bool up) {
   sweep_begin_ = at;
   up_ = up;
   count_at_begin_ = up ? 0 : arr_in_force_;
+  compared_ = {};
+}
+
+// When the count upwards comes to the compare value in this sweep, and asks for a word then.
+Cycle Timer::compare_at(std::size_t channel) const {
+  const std::uint32_t value = ccr_in_force_[channel];
+  if (compared_[channel] || (dier_ >> (9 + channel) & 1) == 0 || value < count_at_begin_ ||
+      value > arr_in_force_)
+    return kNever;
+  return sweep_begin_ + (value - count_at_begin_) * tick();
+}
+
+Cycle Timer::next_compare() const {
+  Cycle next = kNever;
+  for (std::size_t i = 0; i < 4; ++i) next = std::min(next, compare_at(i));
+  return next;
+}
+
+void Timer::serve_compares(Cycle now) {
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Cycle at = compare_at(i);
+    if (at > now) continue;
+    compared_[i] = true;
+    if (on_request) on_request(static_cast<int>(i) + 1, at);
+  }
 }
 
 std::uint32_t Timer::count(Cycle now) const {
@@ -40,12 +67,14 @@ std::uint32_t Timer::count(Cycle now) const {
 
 Cycle Timer::next_event() const {
   if (!running() || arr_in_force_ == 0) return kNever;
-  return sweep_begin_ + sweep_length();
+  const Cycle end = sweep_begin_ + sweep_length();
+  return requests() ? std::min(end, next_compare()) : end;
 }
 
 void Timer::advance(Cycle now) {
   while (running() && arr_in_force_ != 0 && sweep_begin_ + sweep_length() <= now) {
     const Cycle end = sweep_begin_ + sweep_length();
+    if (requests()) serve_compares(end);
     if (before_change) before_change(end);
     const bool next_up = !centre_aligned() || !up_;
     if (repetitions_left_ == 0)
@@ -58,6 +87,7 @@ void Timer::advance(Cycle now) {
       frozen_count_ = 0;
     }
   }
+  if (running() && requests()) serve_compares(now);
 }
 
 void Timer::update_event(Cycle now, bool sets_flag) {

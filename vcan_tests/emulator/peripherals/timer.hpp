@@ -1,6 +1,7 @@
 #pragma once
 // TIM1 and TIM8 as centre-aligned PWM with preload, repetition counter, main output enable and break input;
-// TIM2 as a free-running time base. The count is a formula of time; only updates are events.
+// TIM2 as a free-running time base. The count is a formula of time; only updates are events, and compares of
+// a counter upwards that ask a DMA controller for a word.
 
 #include <array>
 #include <functional>
@@ -40,7 +41,8 @@ class Timer final : public Peripheral {
   void set_break_level(bool high, Cycle now);
   bool break_armed() const { return (bdtr_ >> 12 & 1) != 0; }
 
-  std::function<void(Cycle)> on_trigger;     ///< TRGO by update
+  std::function<void(Cycle)> on_trigger;               ///< TRGO by update
+  std::function<void(int channel, Cycle)> on_request;  ///< a compare event whose DMA request is on (DIER)
   std::function<void(Cycle)> before_change;  ///< outputs change at that time: whoever follows them catches up
 
  private:
@@ -49,6 +51,10 @@ class Timer final : public Peripheral {
   Cycle sweep_length() const;
   std::uint32_t count(Cycle now) const;
   void begin_sweep(Cycle at, bool up);
+  bool requests() const { return (dier_ >> 9 & 0xF) != 0 && !centre_aligned(); }
+  Cycle compare_at(std::size_t channel) const;
+  Cycle next_compare() const;
+  void serve_compares(Cycle now);
   void update_event(Cycle now, bool sets_flag);
   void update_lines();
 
@@ -61,6 +67,7 @@ class Timer final : public Peripheral {
   std::uint32_t psc_in_force_ = 0, arr_in_force_ = 0xFFFF, repetitions_left_ = 0;
   std::array<std::uint32_t, 4> ccr_in_force_{};
   Cycle sweep_begin_ = 0;
+  std::array<bool, 4> compared_{};    // in this sweep
   std::uint32_t count_at_begin_ = 0;  // where this sweep started (CNT written, or 0)
   bool up_ = true;
   std::uint32_t frozen_count_ = 0;

@@ -1,10 +1,12 @@
-// One suite for the node core on the host and for the firmware's image on the emulated board: what is true of
-// one must be true of the other, to the bit where positions are concerned.
+// One suite for the node core on the host and for the firmware's images on their emulated boards: what is
+// true of one must be true of the other, to the bit where positions are concerned.
 
 #include <gtest/gtest.h>
 
+#include "protocol/canopen/boards/stm32f446_octopus.hpp"
 #include "tools/simulation/bus/virtual_machine.hpp"
 #include "vcan_tests/emulator/emulated_machine.hpp"
+#include "vcan_tests/emulator/octopus_board.hpp"
 #include "vcan_tests/emulator/tests/gateway_bench.hpp"
 
 namespace kinebus::emulator {
@@ -13,6 +15,7 @@ namespace {
 constexpr std::uint8_t kId = 5;
 
 struct HostCore {
+  static constexpr std::uint32_t kProduct = kProductCode;
   static std::unique_ptr<NodeMachine> make() {
     VirtualNodeOptions options;
     options.node = {.identity = {.serial = 77}, .node_id = kId};
@@ -22,6 +25,7 @@ struct HostCore {
 };
 
 struct EmulatedImage {
+  static constexpr std::uint32_t kProduct = kProductCode;
   static std::unique_ptr<NodeMachine> make() {
     static const ElfImage image = load_elf(KINEBUS_FIRMWARE_IMAGE);
     EmulatedNodeOptions options;
@@ -32,18 +36,31 @@ struct EmulatedImage {
   }
 };
 
+struct OctopusImage {
+  static constexpr std::uint32_t kProduct = Stm32f446OctopusBoard::kFacts.product_code;
+  static std::unique_ptr<NodeMachine> make() {
+    static const ElfImage image = load_elf(KINEBUS_OCTOPUS_IMAGE);
+    EmulatedNodeOptions options;
+    options.board.unique_id = {1, 2, 3};
+    options.node_id = kId;
+    options.clock_drift_ppm = 20;
+    options.make = &make_board<OctopusBoard>;
+    return std::make_unique<EmulatedMachine>(image, std::vector{options});
+  }
+};
+
 template <typename Node>
 struct Conformance : testing::Test {
   std::unique_ptr<NodeMachine> node = Node::make();
   GatewayBench bench{*node};
 };
-using Nodes = testing::Types<HostCore, EmulatedImage>;
+using Nodes = testing::Types<HostCore, EmulatedImage, OctopusImage>;
 TYPED_TEST_SUITE(Conformance, Nodes);
 
 TYPED_TEST(Conformance, IsATwoAxisDriveAndSaysSo) {
   EXPECT_EQ(this->bench.read(kId, 0x1000, 0), 0xFFFF0192) << "CiA 402, several axes";
   EXPECT_EQ(this->bench.read(kId, 0x1018, 1), kVendorId);
-  EXPECT_EQ(this->bench.read(kId, 0x1018, 2), kProductCode);
+  EXPECT_EQ(this->bench.read(kId, 0x1018, 2), TypeParam::kProduct);
   EXPECT_EQ(this->bench.read(kId, 0x1018, 3), kRevisionNumber);
   EXPECT_NE(this->bench.read(kId, 0x1018, 4), 0);
 }

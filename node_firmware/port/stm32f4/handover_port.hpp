@@ -2,7 +2,7 @@
 // Where the handover is: the first bytes of the RAM, in boot loader and program alike (sections.ld).
 
 #include "node_firmware/boot/handover.hpp"
-#include "node_firmware/port/stm32f405/registers.hpp"
+#include "node_firmware/port/stm32f4/registers.hpp"
 
 extern "C" kinebus::Handover handover_ram;
 

@@ -1,6 +1,6 @@
-#include "node_firmware/port/stm32f405/can_port.hpp"
+#include "node_firmware/port/stm32f4/can_port.hpp"
 
-#include "node_firmware/port/stm32f405/registers.hpp"
+#include "node_firmware/port/stm32f4/registers.hpp"
 #include "protocol/bytes.hpp"
 
 namespace kinebus::stm32 {

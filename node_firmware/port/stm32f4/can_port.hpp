@@ -10,13 +10,13 @@
 #include "node_firmware/board/drivers.hpp"
 #include "node_firmware/board/ring.hpp"
 #include "node_firmware/core/transmit_queue.hpp"
-#include "node_firmware/port/stm32f405/board.hpp"
+#include "node_firmware/port/stm32f4/clocks.hpp"
 #include "protocol/can/frame.hpp"
 
 namespace kinebus::stm32 {
 
-inline constexpr CanTiming kCanTiming = can_timing(board::kApb1Hz, 1'000'000, 800);
-static_assert(kCanTiming.prescaler * kCanTiming.quanta() * 1'000'000 == board::kApb1Hz);
+inline constexpr CanTiming kCanTiming = can_timing(kApb1Hz, 1'000'000, 800);
+static_assert(kCanTiming.prescaler * kCanTiming.quanta() * 1'000'000 == kApb1Hz);
 static_assert(kCanTiming.sample_permille() >= 750 && kCanTiming.sample_permille() <= 875,
               "CiA 301: 75 to 87.5 %");
 

@@ -1,7 +1,7 @@
 #pragma once
 // The chip's own supply of 3.3 V.
 
-#include "node_firmware/port/stm32f405/registers.hpp"
+#include "node_firmware/port/stm32f4/registers.hpp"
 
 namespace kinebus::stm32 {
 

@@ -5,8 +5,8 @@
 #include <span>
 
 #include "node_firmware/core/page_store.hpp"
-#include "node_firmware/port/stm32f405/board.hpp"
-#include "node_firmware/port/stm32f405/registers.hpp"
+#include "node_firmware/port/stm32f4/pin_table.hpp"
+#include "node_firmware/port/stm32f4/registers.hpp"
 
 namespace kinebus::stm32 {
 
@@ -66,15 +66,16 @@ inline std::span<const std::uint8_t> bytes(std::uint32_t address, std::size_t le
 
 }  // namespace flash
 
-/// The two sectors of the parameters.
+/// Two sectors, of which the first kBytes are the pages of the parameters.
+template <const auto& kSectors, std::uint32_t kBytes>
 class ParameterFlash final : public FlashPages {
  public:
   std::span<const std::uint8_t> page(std::size_t which) const override {
-    return flash::bytes(board::kParameterPages[which], board::kParameterPageBytes);
+    return flash::bytes(kSectors[which].address, kBytes);
   }
-  bool erase(std::size_t which) override { return flash::erase(board::kParameterSectors[which]); }
+  bool erase(std::size_t which) override { return flash::erase(kSectors[which].number); }
   bool program(std::size_t which, std::uint32_t offset, std::uint32_t word) override {
-    return flash::program(board::kParameterPages[which] + offset, word);
+    return flash::program(kSectors[which].address + offset, word);
   }
 };
 

@@ -10,11 +10,11 @@ void isr_unexpected();
 
 void isr_tick();          ///< SysTick
 void isr_switches();      ///< EXTI: time-stamps an edge
-void isr_control();       ///< ADC: end of the injected conversions, 20 kHz
+void isr_control();       ///< what moves the motors, at a steady rate
 void isr_can_receive();   ///< time-stamps and queues
 void isr_can_transmit();  ///< a mailbox has become free
 void isr_can_state();     ///< error passive, bus-off
-void isr_break_a();       ///< TIM1: over-current comparator
-void isr_break_b();       ///< TIM8
+void isr_break_a();       ///< over-current comparator of motor A
+void isr_break_b();       ///< of motor B
 void isr_console();
 }

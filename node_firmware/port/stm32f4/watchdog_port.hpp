@@ -2,7 +2,7 @@
 // The independent watchdog, on its own 32 kHz oscillator (17 to 47 kHz over all chips).
 
 #include "node_firmware/board/drivers.hpp"
-#include "node_firmware/port/stm32f405/registers.hpp"
+#include "node_firmware/port/stm32f4/registers.hpp"
 
 namespace kinebus::stm32 {
 

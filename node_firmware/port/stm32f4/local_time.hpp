@@ -2,14 +2,14 @@
 // Local time: TIM2 counts at 4 MHz.
 
 #include "node_firmware/board/local_clock.hpp"
-#include "node_firmware/port/stm32f405/board.hpp"
-#include "node_firmware/port/stm32f405/registers.hpp"
+#include "node_firmware/port/stm32f4/clocks.hpp"
+#include "node_firmware/port/stm32f4/registers.hpp"
 
 namespace kinebus::stm32 {
 
 inline void start_local_time() {
   enable_clock(rcc().APB1ENR, Rcc::kTim2);
-  tim2().PSC = 2 * board::kApb1Hz / board::kLocalHz - 1;
+  tim2().PSC = 2 * kApb1Hz / kLocalHz - 1;
   tim2().ARR = 0xFFFF'FFFF;
   tim2().EGR = Timer::kGenerateUpdate;  // the prescaler takes effect
   tim2().CR1 = Timer::kEnable;
@@ -23,6 +23,6 @@ inline constexpr std::uint32_t kLedStep = 1u << 18;
 struct LocalTimer {
   static PlanCounts counts() { return local_counts(); }
 };
-static_assert(board::kLocalNs == kPlanCount.count());
+static_assert(kLocalNs == kPlanCount.count());
 
 }  // namespace kinebus::stm32

@@ -1,16 +1,16 @@
-// From reset to main: vectors, memory, floating point. Runs before any constructor; touches no peripheral.
+// From reset to main: memory, floating point. Runs before any constructor; touches no peripheral.
 
 #include <cstdint>
 
 #include "node_firmware/board/runtime.hpp"
 #include "node_firmware/core/reset_report.hpp"
-#include "node_firmware/port/stm32f405/handlers.hpp"
-#include "node_firmware/port/stm32f405/registers.hpp"
+#include "node_firmware/port/stm32f4/handlers.hpp"
+#include "node_firmware/port/stm32f4/registers.hpp"
 
 extern "C" {
 
 // Set by the linker script.
-extern std::uint32_t stack_top, data_start, data_end, data_load, bss_start, bss_end;
+extern std::uint32_t data_start, data_end, data_load, bss_start, bss_end;
 extern void (*init_array_start[])();
 extern void (*init_array_end[])();
 
@@ -28,44 +28,6 @@ int main();
   kinebus::power_off_and_reset(kinebus::fault_reason::kMainEnded, nullptr);
 }
 }
-
-namespace {
-
-using Handler = void (*)();
-using kinebus::stm32::Irq;
-
-struct VectorTable {
-  std::uint32_t* stack;
-  Handler core[15];
-  Handler interrupts[kinebus::stm32::kInterruptCount];
-};
-
-constexpr VectorTable make_vectors() {
-  VectorTable table{&stack_top, {}, {}};
-  for (Handler& handler : table.core) handler = isr_fault;
-  for (Handler& handler : table.interrupts) handler = isr_unexpected;
-  table.core[0] = reset_handler;
-  table.core[14] = isr_tick;
-  const auto at = [&](Irq irq) -> Handler& { return table.interrupts[static_cast<int>(irq)]; };
-  at(Irq::kExti0) = isr_switches;
-  at(Irq::kExti1) = isr_switches;
-  at(Irq::kExti3) = isr_switches;
-  at(Irq::kExti4) = isr_switches;
-  at(Irq::kExti9To5) = isr_switches;
-  at(Irq::kExti15To10) = isr_switches;
-  at(Irq::kAdc) = isr_control;
-  at(Irq::kCan1Rx0) = isr_can_receive;
-  at(Irq::kCan1Tx) = isr_can_transmit;
-  at(Irq::kCan1Sce) = isr_can_state;
-  at(Irq::kTim1Break) = isr_break_a;
-  at(Irq::kTim8Break) = isr_break_b;
-  at(Irq::kUsart1) = isr_console;
-  return table;
-}
-
-[[gnu::section(".vectors"), gnu::used]] constinit const VectorTable kVectors = make_vectors();
-
-}  // namespace
 
 // What a program does not use falls back to these: a branch, so that the stack is as the exception left it.
 extern "C" {

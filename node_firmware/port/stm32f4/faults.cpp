@@ -1,11 +1,11 @@
 // What ends in a reset: exceptions of the core, interrupts that nobody handles, failed asserts. First no
-// bridge is on, then the reason is recorded.
+// motor has power, then the reason is recorded.
 
 #include "node_firmware/board/runtime.hpp"
-#include "node_firmware/port/stm32f405/handlers.hpp"
-#include "node_firmware/port/stm32f405/handover_port.hpp"
-#include "node_firmware/port/stm32f405/pins.hpp"
-#include "node_firmware/port/stm32f405/reset_port.hpp"
+#include "node_firmware/port/stm32f4/handlers.hpp"
+#include "node_firmware/port/stm32f4/handover_port.hpp"
+#include "node_firmware/port/stm32f4/outputs_off.hpp"
+#include "node_firmware/port/stm32f4/reset_port.hpp"
 
 extern "C" {
 extern std::uint32_t stack_bottom, stack_top;  // set by the linker script
@@ -13,14 +13,6 @@ extern std::uint32_t stack_bottom, stack_top;  // set by the linker script
 
 namespace kinebus {
 namespace {
-
-void power_off() {
-  stm32::disable_interrupts();
-  for (const board::OutputPin enable : board::kDriverEnable) stm32::write(enable, false);
-  stm32::tim1().BDTR = 0;
-  stm32::tim8().BDTR = 0;
-  stm32::barrier();
-}
 
 [[noreturn]] void leave(FaultRecord& record) {
   record.seal();
@@ -35,7 +27,7 @@ std::uint32_t address_of(const void* place) {
 }  // namespace
 
 void power_off_and_reset(std::uint16_t reason, const void* place) {
-  power_off();
+  stm32::outputs_off();
   FaultRecord record{.reason = reason, .pc = address_of(place)};
   leave(record);
 }
@@ -46,7 +38,7 @@ extern "C" {
 /// `frame`: r0 to r3, r12, lr, pc, psr, as the core has put them on the stack, when that is one.
 [[noreturn, gnu::used]] void record_exception(const std::uint32_t* frame) {
   using namespace kinebus;
-  power_off();
+  stm32::outputs_off();
   const stm32::SystemControl& core = stm32::system_control();
   FaultRecord record{.reason = core.ICSR & 0x1FF,
                      .sp = address_of(frame),

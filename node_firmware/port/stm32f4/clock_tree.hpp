@@ -1,27 +1,25 @@
 #pragma once
-// Crystal to core: 8 MHz / 4 * 168 = 336 MHz, / 2 = 168 MHz for the core, / 7 = 48 MHz for USB.
+// Crystal to core: 2 MHz * 168 = 336 MHz, / 2 = 168 MHz for the core, / 7 = 48 MHz for USB.
 
-#include "node_firmware/port/stm32f405/board.hpp"
-#include "node_firmware/port/stm32f405/registers.hpp"
+#include "node_firmware/port/stm32f4/clocks.hpp"
+#include "node_firmware/port/stm32f4/registers.hpp"
 
 namespace kinebus::stm32 {
 
-struct PllSetting {
-  std::uint32_t m = 4, n = 168, p = 2, q = 7;
-};
-inline constexpr PllSetting kPll{};
-static_assert(board::kCrystalHz / kPll.m == 2'000'000, "the PLL's input should be 2 MHz for least jitter");
-static_assert(board::kCrystalHz / kPll.m * kPll.n / kPll.p == board::kCoreHz);
-static_assert(board::kCrystalHz / kPll.m * kPll.n / kPll.q == 48'000'000);
-
 /// False: the crystal or the PLL does not start; the core stays on its 16 MHz oscillator.
-inline bool start_clocks() {
+template <std::uint32_t kCrystalHz>
+bool start_clocks() {
+  // The PLL's input should be 2 MHz for least jitter. R is the F446's, not used, and has no lesser value; on
+  // the F405 it is reserved, with that reset value.
+  constexpr std::uint32_t kM = kCrystalHz / 2'000'000, kN = 168, kP = 2, kQ = 7, kR = 2;
+  static_assert(kCrystalHz % 2'000'000 == 0 && kM >= 2 && kM <= 63);
+  static_assert(kCrystalHz / kM * kN / kP == kCoreHz && kCrystalHz / kM * kN / kQ == 48'000'000);
   Rcc& r = rcc();
   enable_clock(r.APB1ENR, Rcc::kPower);
   pwr().CR = pwr().CR | Pwr::kScale1;
   r.CR = r.CR | Rcc::kHseOn;
   if (!wait_until([&] { return (r.CR & Rcc::kHseReady) != 0; })) return false;
-  r.PLLCFGR = kPll.m | kPll.n << 6 | (kPll.p / 2 - 1) << 16 | Rcc::kPllFromHse | kPll.q << 24;
+  r.PLLCFGR = kM | kN << 6 | (kP / 2 - 1) << 16 | Rcc::kPllFromHse | kQ << 24 | kR << 28;
   // A crystal that stops later is an NMI, and a break of both timers by hardware.
   r.CR = r.CR | Rcc::kPllOn | Rcc::kClockSecurity;
   flash_interface().ACR = FlashInterface::kWaitStates5 | FlashInterface::kPrefetch |

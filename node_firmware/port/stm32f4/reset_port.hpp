@@ -3,7 +3,7 @@
 // (sections.ld).
 
 #include "node_firmware/board/fault_record.hpp"
-#include "node_firmware/port/stm32f405/registers.hpp"
+#include "node_firmware/port/stm32f4/registers.hpp"
 
 extern "C" kinebus::FaultRecord fault_ram;
 

@@ -1,10 +1,12 @@
 #pragma once
-// Registers of the STM32F405 that the firmware uses, and no others: names, order and bits as in the reference
-// manual RM0090, core peripherals as in the ARMv7-M manual.
+// Registers of the STM32F4 that the firmware uses, and no others: names, order and bits as in the reference
+// manuals RM0090 (F405) and RM0390 (F446), core peripherals as in the ARMv7-M manual.
 
 #include <cstddef>
 #include <cstdint>
 #include <span>
+
+#include "node_firmware/port/stm32f4/pin_table.hpp"
 
 namespace kinebus::stm32 {
 
@@ -26,7 +28,8 @@ struct Rcc {
   Reg AHB1ENR, AHB2ENR, AHB3ENR, reserved2, APB1ENR, APB2ENR, reserved3[2];
   Reg AHB1LPENR, AHB2LPENR, AHB3LPENR, reserved4, APB1LPENR, APB2LPENR, reserved5[2];
   Reg BDCR, CSR;
-  static constexpr std::uint32_t kHseOn = bit(16), kHseReady = bit(17), kPllOn = bit(24), kPllReady = bit(25);
+  static constexpr std::uint32_t kHsiOn = bit(0), kHsiReady = bit(1), kHseOn = bit(16), kHseReady = bit(17),
+                                 kPllOn = bit(24), kPllReady = bit(25);
   static constexpr std::uint32_t kClockSecurity = bit(19);  // CR CSSON
   static constexpr std::uint32_t kPllFromHse = bit(22);
   static constexpr std::uint32_t kSwitchPll = 2, kSwitchStatusMask = 3u << 2, kSwitchStatusPll = 2u << 2;
@@ -35,8 +38,8 @@ struct Rcc {
                                  kSoftwareReset = bit(28), kWatchdogReset = bit(29),
                                  kWindowWatchdogReset = bit(30), kClearResetFlags = bit(24);
   // AHB1ENR
-  static constexpr std::uint32_t kGpioA = bit(0), kGpioB = bit(1), kGpioC = bit(2), kGpioD = bit(3),
-                                 kGpioH = bit(7), kUsbHs = bit(29);
+  static constexpr std::uint32_t gpio_clock(Port port) { return bit(static_cast<int>(port)); }
+  static constexpr std::uint32_t kDma2 = bit(22), kUsbHs = bit(29);
   static constexpr std::uint32_t kUsbUlpi = bit(30);  // AHB1LPENR: clock of an external PHY, in sleep
   // APB1ENR
   static constexpr std::uint32_t kTim2 = bit(0), kSpi3 = bit(15), kCan1 = bit(25), kPower = bit(28);
@@ -50,7 +53,8 @@ inline Rcc& rcc() {
 
 struct Pwr {
   Reg CR, CSR;
-  static constexpr std::uint32_t kScale1 = bit(14);                           // CR VOS: 168 MHz
+  static constexpr std::uint32_t kScale1 =
+      bit(14);  // CR VOS: 168 MHz; the F446 has bit 15, too, set by reset
   static constexpr std::uint32_t kDetectorOn = bit(4), kDetect2V9 = 7u << 5;  // CR PVDE, PLS
   static constexpr std::uint32_t kSupplyLow = bit(2);                         // CSR PVDO
 };
@@ -108,6 +112,7 @@ struct Timer {
   static constexpr std::uint32_t kMasterUpdate = 2u << 4;                            // CR2 MMS: TRGO = update
   static constexpr std::uint32_t kUpdateFlag = bit(0), kBreakFlag = bit(7);          // SR
   static constexpr std::uint32_t kBreakInterrupt = bit(7);                           // DIER
+  static constexpr std::uint32_t request(int channel) { return bit(8 + channel); }   // DIER CCxDE
   static constexpr std::uint32_t kGenerateUpdate = bit(0), kGenerateBreak = bit(7);  // EGR
   // CCMR: PWM mode 1 with preload on both channels of the register.
   static constexpr std::uint32_t kPwm1Preload = (6u << 4 | bit(3)) | (6u << 12 | bit(11));
@@ -238,6 +243,34 @@ inline Otg& otg() {
   return peripheral<Otg>(0x4004'0000);
 }
 
+/// DMA2, the controller that reaches the GPIO ports: its eight streams.
+struct Dma {
+  Reg LISR, HISR, LIFCR, HIFCR;
+  struct Stream {
+    Reg CR, NDTR, PAR, M0AR, M1AR, FCR;
+  } stream[8];
+  // CR
+  static constexpr std::uint32_t kEnable = bit(0), kOnHalf = bit(3), kOnComplete = bit(4),
+                                 kFromMemory = 1u << 6, kCircular = bit(8), kMemoryIncrement = bit(10),
+                                 kPeripheralWords = 2u << 11, kMemoryWords = 2u << 13,
+                                 kPriorityHigh = 3u << 16;
+  static constexpr std::uint32_t channel(unsigned n) { return n << 25; }
+  /// All flags of streams 0 to 3, in LISR and LIFCR.
+  static constexpr std::uint32_t flags(unsigned stream) {
+    constexpr std::uint32_t kAt[4] = {0, 6, 16, 22};
+    return 0x3Du << kAt[stream];
+  }
+};
+inline Dma& dma2() {
+  return peripheral<Dma>(0x4002'6400);
+}
+
+/// DBGMCU_IDCODE, of which the lower 12 bits name the kind of chip.
+inline std::uint32_t device_id() {
+  return peripheral<Reg>(0xE004'2000) & 0xFFF;
+}
+inline constexpr std::uint32_t kDeviceF405 = 0x413, kDeviceF446 = 0x421;
+
 struct IndependentWatchdog {
   Reg KR, PR, RLR, SR;
   static constexpr std::uint32_t kFeed = 0xAAAA, kUnlock = 0x5555, kStart = 0xCCCC;
@@ -293,6 +326,7 @@ enum class Irq : int {
   kSupplyDetector = 1,
   kExti0 = 6,
   kExti1 = 7,
+  kExti2 = 8,
   kExti3 = 9,
   kExti4 = 10,
   kAdc = 18,
@@ -304,9 +338,8 @@ enum class Irq : int {
   kUsart1 = 37,
   kExti15To10 = 40,
   kTim8Break = 43,
+  kDma2Stream1 = 57,
 };
-inline constexpr int kInterruptCount = 82;
-
 /// priority: 0 (most urgent) to 15.
 inline void enable_interrupt(Irq irq, unsigned priority) {
   const auto n = static_cast<unsigned>(irq);

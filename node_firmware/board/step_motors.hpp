@@ -1,0 +1,175 @@
+#pragma once
+// Two motors behind step and direction inputs: the control interrupt, from the plan to the words that a timer
+// puts out, and power and faults between the drivers and the node. The stage is the board's: registers and
+// pins.
+//
+// A frame is filled while the one before it is put out: what is planned anew shows 64 to 128 us later.
+
+#include <array>
+#include <atomic>
+#include <concepts>
+#include <cstdint>
+
+#include "node_firmware/board/bridge_motors.hpp"
+#include "node_firmware/core/motion_plan.hpp"
+#include "node_firmware/core/node.hpp"
+#include "node_firmware/step/step_axis.hpp"
+#include "node_firmware/step/step_frame.hpp"
+
+namespace kinebus {
+
+/// Bits of a port's word for an axis.
+struct StepPins {
+  std::size_t step_port = 0, direction_port = 0;  ///< as the stage numbers its ports
+  std::uint32_t step = 0, direction = 0;
+};
+
+template <typename T>
+concept StepStage = requires(T& stage, step::StepFrames<T::kPorts>& frames, int axis, bool on) {
+  { T::kPins } -> std::convertible_to<std::array<StepPins, kAxesPerNode>>;
+  { T::kStepBits } -> std::convertible_to<int>;  // log2 of counts a step
+  // Puts frames out from now on, the two halves in turn, a word each kSlotCounts of the same clock, and calls
+  // the control interrupt at the last word of each. When the first has begun.
+  { stage.start(frames) } -> std::same_as<PlanCounts>;
+  { T::cycles() } -> std::same_as<std::uint32_t>;  // of the processor, for measuring
+  { T::counts() } -> std::same_as<PlanCounts>;
+  T::acknowledge_control();
+  stage.enable(axis, on);  // of the driver
+};
+
+template <StepStage Stage>
+class StepMotors {
+ public:
+  explicit constexpr StepMotors(const MotionPlanExchange& plan) : plan_(plan) {}
+
+  /// Frames begin; no driver is enabled.
+  void start() { start_ = stage_.start(frames_); }
+
+  /// Main loop, each pass. True: the node was told something.
+  bool serve(Node& node, LocalTime now);
+  /// Control interrupts so far; the watchdog wants to see it move.
+  std::uint32_t ticks() const { return ticks_.load(std::memory_order_relaxed); }
+  ControlCycles cycles() const { return cycles_; }
+  /// No driver is enabled: control interrupts may be missed.
+  bool dark() const { return !axes_[0].power.load() && !axes_[1].power.load(); }
+  /// From power-up to the end of what is planned, where the motor had power.
+  std::int32_t steps(int axis) const { return axes_[static_cast<std::size_t>(axis)].steps.steps(); }
+
+  // Interrupt.
+  void on_control();
+
+ private:
+  // What a fault has left has gone by then.
+  static constexpr LocalTime kFaultRest = std::chrono::milliseconds{100};
+
+  struct Axis {
+    step::StepAxis<Stage::kStepBits> steps;
+    std::atomic<bool> power{false}, inverted{false};
+    std::atomic<bool> lost{false};  ///< steps were asked for that cannot be made, or made twice
+    bool moved = false;             ///< in the last two frames
+    bool moved_before = false;
+    bool fault_told = false;
+    LocalTime fault_at{0};
+  };
+
+  bool serve_axis(Node& node, LocalTime now, int axis);
+  void set_power(int axis, bool on);
+  void fill(Axis& axis, const step::PlannedWay& way, const StepPins& pins);
+
+  const MotionPlanExchange& plan_;
+  Stage stage_;
+  step::StepFrames<Stage::kPorts> frames_;
+  std::array<Axis, kAxesPerNode> axes_{};
+  PlanCounts start_ = 0;     ///< when the first frame began
+  std::uint32_t frame_ = 0;  ///< the number of the one that is put out
+  std::atomic<std::uint32_t> ticks_{0};
+  ControlCycles cycles_;
+};
+
+template <StepStage Stage>
+bool StepMotors<Stage>::serve(Node& node, LocalTime now) {
+  bool told = false;
+  for (int axis = 0; axis < kAxesPerNode; ++axis) told = serve_axis(node, now, axis) || told;
+  return told;
+}
+
+template <StepStage Stage>
+bool StepMotors<Stage>::serve_axis(Node& node, LocalTime now, int index) {
+  Axis& axis = axes_[static_cast<std::size_t>(index)];
+  if (!axis.fault_told && axis.lost.load(std::memory_order_relaxed)) {
+    axis.fault_told = true;
+    axis.fault_at = now;
+    set_power(index, false);
+    node.on_drive_fault(now, index, emcy::kSoftware);
+    return true;
+  }
+  const DriveOutput drive = node.drive(index);
+  if (axis.fault_told) {
+    if (drive.power || now - axis.fault_at < kFaultRest) return false;
+    axis.fault_told = false;
+    axis.lost.store(false, std::memory_order_relaxed);
+    node.on_drive_fault_gone(now, index);
+    return true;
+  }
+  axis.inverted.store(drive.inverted, std::memory_order_relaxed);
+  if (drive.power != axis.power.load(std::memory_order_relaxed)) set_power(index, drive.power);
+  return false;
+}
+
+template <StepStage Stage>
+void StepMotors<Stage>::set_power(int axis, bool on) {
+  stage_.enable(axis, on);
+  axes_[static_cast<std::size_t>(axis)].power.store(on, std::memory_order_relaxed);
+}
+
+template <StepStage Stage>
+void StepMotors<Stage>::fill(Axis& axis, const step::PlannedWay& way, const StepPins& pins) {
+  axis.moved_before = axis.moved;
+  axis.moved = false;
+  if (!axis.power.load(std::memory_order_relaxed)) {
+    // An inverted axis may have become one that is not.
+    axis.steps.forget_direction();
+    axis.steps.follow(way);
+    return;
+  }
+  step::StepEvents events;
+  if (!axis.steps.fill(way, events)) axis.lost.store(true, std::memory_order_relaxed);
+  const bool inverted = axis.inverted.load(std::memory_order_relaxed);
+  for (std::size_t i = 0; i < events.count; ++i) {
+    const auto& event = events.list[i];
+    if (event.turned)
+      frames_.put(pins.direction_port, event.slot,
+                  event.up != inverted ? pins.direction : pins.direction << 16);
+    frames_.put(pins.step_port, event.slot + step::kSetUp, pins.step);
+    frames_.put(pins.step_port, event.slot + step::kSetUp + step::kPulse, pins.step << 16);
+  }
+  axis.moved = events.count != 0;
+}
+
+template <StepStage Stage>
+void StepMotors<Stage>::on_control() {
+  const std::uint32_t began = Stage::cycles();
+  Stage::acknowledge_control();
+  // It comes with the last word of the frame before: a slot early, and half a slot for how start() may round.
+  const PlanCounts elapsed = Stage::counts() + 2 * step::kSlotCounts - start_;
+  const std::uint32_t frame = elapsed / step::kFrameCounts;
+  if (frame == frame_) return;
+  // Frames were put out again, as when flash is written, which holds the processor up; then nothing moves.
+  if (frame - frame_ != 1)
+    for (Axis& axis : axes_)
+      if (axis.moved || axis.moved_before) axis.lost.store(true, std::memory_order_relaxed);
+  frame_ = frame;
+  frames_.begin((frame + 1) % 2);
+  const PlanCounts next = start_ + (frame + 1) * step::kFrameCounts;
+  const MotionPlan& plan = plan_.current();
+  for (int axis = 0; axis < kAxesPerNode; ++axis) {
+    const auto i = static_cast<std::size_t>(axis);
+    fill(axes_[i], step::planned_way(plan, axis, next), Stage::kPins[i]);
+  }
+  std::atomic_signal_fence(std::memory_order_release);  // the words are there before the half's turn comes
+  ticks_.store(ticks_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+  cycles_.last = Stage::cycles() - began;
+  if (cycles_.last > cycles_.worst) cycles_.worst = cycles_.last;
+}
+
+}  // namespace kinebus

@@ -1,0 +1,14 @@
+#include "node_firmware/port/stm32f4/outputs_off.hpp"
+
+#include "node_firmware/port/stm32f4/pins.hpp"
+#include "node_firmware/port/stm32f446_octopus/board.hpp"
+
+namespace kinebus::stm32 {
+
+void outputs_off() {
+  disable_interrupts();
+  for (const octopus::PowerPin& power : octopus::kPowerPins) write(power.pin, power.off);
+  barrier();
+}
+
+}  // namespace kinebus::stm32

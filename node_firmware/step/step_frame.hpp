@@ -1,0 +1,65 @@
+#pragma once
+// What the pins of a board do in the next 64 us, as words that a timer and a DMA controller put out one a
+// microsecond: the lower half of a word sets pins of its port, the upper half resets them (BSRR of the
+// STM32).
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "node_firmware/core/motion_plan.hpp"
+
+namespace kinebus::step {
+
+/// A slot is a microsecond; a frame is what is computed at once. An eighth of a piece of the plan.
+inline constexpr int kSlots = 64;
+inline constexpr PlanCounts kSlotCounts = 4, kFrameCounts = kSlotCounts * kSlots;
+static_assert(kPlanCount.count() * kSlotCounts == 1000);
+
+/// The direction is set so many slots before its step, and a pulse is as long. Drivers want at most 0.65 us
+/// and 1.9 us (DRV8825; TMC2209: 20 ns and 100 ns).
+inline constexpr int kSetUp = 2, kPulse = 2;
+/// At least so many slots from one step of an axis to the next, whatever their directions: pulse and pause
+/// are kPulse at least, and a direction stays for as long after its last step. 250,000 steps/s.
+inline constexpr int kSpacing = 4;
+
+/// Two frames of every port: one is put out while the other is filled.
+template <std::size_t kPorts>
+class StepFrames {
+ public:
+  /// What reaches beyond a frame: a step of the last slot begins kSetUp later and ends kPulse after that.
+  static constexpr int kTail = kSetUp + kPulse;
+
+  /// Empties the half that is to be filled; what the frame before has begun goes on in it.
+  void begin(std::size_t half) {
+    half_ = half;
+    for (Port& port : ports_) {
+      std::uint32_t* words = port.words.data() + half * kSlots;
+      for (int i = 0; i < kSlots; ++i) words[i] = 0;
+      for (std::size_t i = 0; i < kTail; ++i) words[i] = port.tail[i];
+      port.tail = {};
+    }
+  }
+  /// slot: below kSlots + kTail.
+  void put(std::size_t port, int slot, std::uint32_t bits) {
+    Port& p = ports_[port];
+    if (slot < kSlots)
+      p.words[half_ * kSlots + static_cast<std::size_t>(slot)] |= bits;
+    else
+      p.tail[static_cast<std::size_t>(slot - kSlots)] |= bits;
+  }
+  /// Both halves of a port, one after the other.
+  const std::array<std::uint32_t, std::size_t{2} * kSlots>& words(std::size_t port) const {
+    return ports_[port].words;
+  }
+
+ private:
+  struct Port {
+    std::array<std::uint32_t, std::size_t{2} * kSlots> words{};
+    std::array<std::uint32_t, kTail> tail{};
+  };
+  std::array<Port, kPorts> ports_{};
+  std::size_t half_ = 0;
+};
+
+}  // namespace kinebus::step

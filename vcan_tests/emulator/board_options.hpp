@@ -1,0 +1,23 @@
+#pragma once
+// What hangs on an emulated board, and where its carriages stand.
+
+#include <array>
+#include <cstdint>
+
+#include "tools/simulation/bus/virtual_machine.hpp"
+#include "vcan_tests/emulator/physics/power_stage.hpp"
+#include "vcan_tests/emulator/physics/stepper_motor.hpp"
+
+namespace kinebus::emulator {
+
+struct BoardOptions {
+  std::array<std::uint32_t, 3> unique_id{};
+  std::array<StepperParameters, 2> motors{};  ///< of boards that drive motors themselves
+  PowerStageParameters stage{};
+  std::array<VirtualAxis, 2> axes{};             ///< where the carriages stand, and their switches
+  std::array<double, 2> encoder_offset_turns{};  ///< how the magnet is glued on
+  double supply_v = 24;
+  double temperature_c = 30;
+};
+
+}  // namespace kinebus::emulator

@@ -1,0 +1,127 @@
+#include "vcan_tests/emulator/octopus_board.hpp"
+
+#include <algorithm>
+
+#include "node_firmware/port/stm32f446_octopus/board.hpp"
+#include "protocol/canopen/boards/stm32f446_octopus.hpp"
+
+namespace kinebus::emulator {
+namespace {
+
+ChipFacts facts(std::uint32_t device_id) {
+  return {.device_id = device_id,
+          .flash_bytes = 512 * 1024,
+          .core_coupled_memory = false,
+          .clocks = {.crystal_hz = octopus::kCrystalHz, .pll_r = true},
+          .ports = 8,
+          .program = octopus::kProgramAddress};
+}
+
+}  // namespace
+
+void StepDriver::on_pins(bool step, bool direction, bool enabled, Cycle now) {
+  enabled_ = enabled;
+  if (direction != direction_) {
+    if (stepped_) shortest_.hold = std::min(shortest_.hold, now - rose_);
+    turned_ = now;
+    direction_ = direction;
+  }
+  if (step == step_) return;
+  step_ = step;
+  if (!step) {
+    shortest_.high = std::min(shortest_.high, now - rose_);
+    fell_ = now;
+    return;
+  }
+  if (stepped_) shortest_.low = std::min(shortest_.low, now - fell_);
+  shortest_.set_up = std::min(shortest_.set_up, now - turned_);
+  rose_ = now;
+  stepped_ = true;
+  if (!enabled) {
+    ++while_disabled_;
+    return;
+  }
+  steps_ += direction ? 1 : -1;
+  edges_.push_back({now, steps_, direction});
+}
+
+OctopusBoard::OctopusBoard(const ElfImage& image, const BoardOptions& options)
+    : OctopusBoard(image, options, kF446) {}
+
+OctopusBoard::OctopusBoard(const ElfImage& image, const BoardOptions& options, std::uint32_t device_id)
+    : Chip(image, options, facts(device_id)),
+      tim1_(cpu_.nvic(), {.update_irq = 25, .break_irq = 24}),
+      dma2_(cpu_.nvic(), {56, 57, 58, 59, 60, 68, 69, 70}) {
+  map(0x40010000, 0x400, tim1_, apb2(0));
+  map(0x40026400, 0x400, dma2_, ahb1(22));
+  dma2_.fetch = [this](std::uint32_t address) { return cpu_.peek(address); };
+  dma2_.put = [this](std::uint32_t address, std::uint32_t word, Cycle at) { write(address, word, 4, at); };
+  // RM0390, DMA2 request mapping: channel 6 of streams 1 and 3 is TIM1_CH1, of stream 2 TIM1_CH2.
+  tim1_.on_request = [this](int channel, Cycle at) {
+    if (channel == 1)
+      for (const int stream : {1, 3}) dma2_.on_request(stream, 6, at);
+    if (channel == 2) dma2_.on_request(2, 6, at);
+  };
+  for (GpioPort& port : ports_) port.on_change = [this](Cycle at) { on_pins(at); };
+  start();
+}
+
+OctopusBoard::~OctopusBoard() = default;
+
+std::uint32_t OctopusBoard::product_code() const {
+  return Stm32f446OctopusBoard::kFacts.product_code;
+}
+
+double OctopusBoard::true_counts(int axis) const {
+  return static_cast<double>(driver(axis).steps()) * kCountsPerStep + start_counts(axis);
+}
+
+void OctopusBoard::set_input(int input, bool level) {
+  const stm32::SwitchPin pin = octopus::kSwitchPins[static_cast<std::size_t>(input)];
+  ports_[static_cast<std::size_t>(pin.port)].drive(pin.line, level);
+  exti_.on_level(static_cast<int>(pin.port), pin.line, level);
+}
+
+bool OctopusBoard::anything_on() const {
+  return std::ranges::any_of(octopus::kPowerPins, [&](const octopus::PowerPin& power) {
+    const GpioPort& port = ports_[static_cast<std::size_t>(power.pin.port)];
+    return port.mode(power.pin.number) == GpioPort::Mode::kOutput &&
+           port.output_high(power.pin.number) != power.off;
+  });
+}
+
+int OctopusBoard::outputs() const {
+  int count = 0;
+  for (const GpioPort& port : ports_)
+    for (int pin = 0; pin < 16; ++pin) count += port.mode(pin) == GpioPort::Mode::kOutput ? 1 : 0;
+  return count;
+}
+
+void OctopusBoard::reset_devices(Cycle now) {
+  tim1_.reset(now);
+  dma2_.reset();
+  on_pins(now);
+}
+
+void OctopusBoard::advance_devices(Cycle now) {
+  tim1_.advance(now);
+}
+
+Cycle OctopusBoard::next_of_devices() const {
+  return tim1_.next_event();
+}
+
+void OctopusBoard::on_pins(Cycle now) {
+  const auto high = [&](const stm32::OutputPin& pin) {
+    return ports_[static_cast<std::size_t>(pin.port)].output_high(pin.number);
+  };
+  for (std::size_t axis = 0; axis < drivers_.size(); ++axis) {
+    const octopus::DriverPins& pins = octopus::kDrivers[axis];
+    // A pin that nobody drives leaves the driver disabled: pulled up on the board.
+    const GpioPort& port = ports_[static_cast<std::size_t>(pins.enable.port)];
+    const bool enabled = port.mode(pins.enable.number) == GpioPort::Mode::kOutput && !high(pins.enable);
+    drivers_[axis].on_pins(high(pins.step), high(pins.direction), enabled, now);
+  }
+}
+
+}  // namespace kinebus::emulator

@@ -1,0 +1,79 @@
+#pragma once
+// The BTT Octopus with an STM32F446, emulated: stepper drivers that count steps, and switches, wired as
+// node_firmware/port/stm32f446_octopus/board.hpp says. The drivers are judges: they note when each edge came,
+// and what of a driver's needs was not kept.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "vcan_tests/emulator/chip.hpp"
+#include "vcan_tests/emulator/peripherals/dma.hpp"
+
+namespace kinebus::emulator {
+
+/// A stepper driver behind step, direction and enable pins.
+class StepDriver {
+ public:
+  struct Edge {
+    Cycle at = 0;
+    std::int64_t after = 0;  ///< steps, when it has been made
+    bool up = false;
+  };
+  /// Shortest times seen, in cycles.
+  struct Shortest {
+    Cycle high = kNever, low = kNever, set_up = kNever, hold = kNever;
+  };
+  void on_pins(bool step, bool direction, bool enabled, Cycle now);
+  std::int64_t steps() const { return steps_; }
+  bool enabled() const { return enabled_; }
+  std::uint64_t while_disabled() const { return while_disabled_; }
+  const std::vector<Edge>& edges() const { return edges_; }
+  void clear_edges() { edges_.clear(); }
+  const Shortest& shortest() const { return shortest_; }
+
+ private:
+  bool step_ = false, direction_ = false, enabled_ = false;
+  bool stepped_ = false;
+  Cycle rose_ = 0, fell_ = 0, turned_ = 0;
+  std::int64_t steps_ = 0;
+  std::uint64_t while_disabled_ = 0;
+  std::vector<Edge> edges_;
+  Shortest shortest_;
+};
+
+class OctopusBoard final : public Chip {
+ public:
+  static constexpr double kCountsPerStep = 16;
+
+  static constexpr std::uint32_t kF446 = 0x1000'0421, kF405 = 0x1007'0413;  ///< DBGMCU_IDCODE
+
+  OctopusBoard(const ElfImage& image, const BoardOptions& options);
+  /// With another chip in the F446's place.
+  OctopusBoard(const ElfImage& image, const BoardOptions& options, std::uint32_t device_id);
+  ~OctopusBoard() override;
+
+  std::uint32_t product_code() const override;
+  double true_counts(int axis) const override;
+  void set_input(int input, bool level) override;
+  const StepDriver& driver(int axis) const { return drivers_[static_cast<std::size_t>(axis)]; }
+  void clear_edges() {
+    for (StepDriver& driver : drivers_) driver.clear_edges();
+  }
+  /// A pin that gives power to something is driven, and not to its level without.
+  bool anything_on() const;
+  /// Pins that the program has made outputs.
+  int outputs() const;
+
+ private:
+  void reset_devices(Cycle now) override;
+  void advance_devices(Cycle now) override;
+  Cycle next_of_devices() const override;
+  void on_pins(Cycle now);
+
+  Timer tim1_;
+  Dma dma2_;
+  std::array<StepDriver, 2> drivers_;
+};
+
+}  // namespace kinebus::emulator
