@@ -66,6 +66,7 @@ class StepMotors {
     step::StepAxis<Stage::kStepBits> steps;
     std::atomic<bool> power{false}, inverted{false};
     std::atomic<bool> lost{false};  ///< steps were asked for that cannot be made, or made twice
+    bool steps_inverted = false;    ///< as the direction pin was set last
     bool moved = false;             ///< in the last two frames
     bool moved_before = false;
     bool fault_told = false;
@@ -127,14 +128,18 @@ void StepMotors<Stage>::fill(Axis& axis, const step::PlannedWay& way, const Step
   axis.moved_before = axis.moved;
   axis.moved = false;
   if (!axis.power.load(std::memory_order_relaxed)) {
-    // An inverted axis may have become one that is not.
+    // Frames that were put out twice may have left the pin either way.
     axis.steps.forget_direction();
     axis.steps.follow(way);
     return;
   }
+  const bool inverted = axis.inverted.load(std::memory_order_relaxed);
+  if (inverted != axis.steps_inverted) {
+    axis.steps_inverted = inverted;
+    axis.steps.forget_direction();
+  }
   step::StepEvents events;
   if (!axis.steps.fill(way, events)) axis.lost.store(true, std::memory_order_relaxed);
-  const bool inverted = axis.inverted.load(std::memory_order_relaxed);
   for (std::size_t i = 0; i < events.count; ++i) {
     const auto& event = events.list[i];
     if (event.turned)

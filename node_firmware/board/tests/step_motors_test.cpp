@@ -108,6 +108,20 @@ TEST_F(Steps, DriversAreEnabledWithTheDriveAndTheirMotorsArriveToTheStep) {
   EXPECT_FALSE(FakeStepStage::enabled[0]);
 }
 
+TEST_F(Steps, AnAxisThatIsInvertedAtRestSetsItsDirectionAnew) {
+  enable(0);
+  run(10ms);
+  move(0, 16'000);
+  run(500ms);
+  EXPECT_EQ(made[0], 1'000);
+  write(0, 0x2140, 4, 1);
+  run(10ms);
+  move(0, 24'000);
+  run(500ms);
+  EXPECT_EQ(made[0], 500) << "as the driver counts: the motor turns the other way";
+  EXPECT_EQ(motors.steps(0), 1'500);
+}
+
 TEST_F(Steps, FramesMissedAtRestAreHarmlessAndInMotionAFault) {
   enable(0);
   run(10ms);
