@@ -1,12 +1,11 @@
 #include "gateway/sessions/http/http_session.hpp"
 
-#include <openssl/crypto.h>
-
 #include <algorithm>
 #include <cassert>
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "gateway/sessions/http/gate.hpp"
 #include "gateway/sessions/http/routes.hpp"
 #include "protocol/joblink/shown_text.hpp"
 #include "protocol/joblink/upload_chunk.hpp"
@@ -66,22 +65,6 @@ int status_of(joblink::ErrorCode code) {
     default:
       return 400;
   }
-}
-
-/// Takes as long for a wrong key as for the right one.
-bool same_key(std::string_view a, std::string_view b) {
-  return a.size() == b.size() && CRYPTO_memcmp(a.data(), b.data(), a.size()) == 0;
-}
-
-std::string_view without_port(std::string_view host) {
-  if (host.starts_with('[')) return host.substr(0, std::min(host.find(']'), host.size() - 1) + 1);
-  return host.substr(0, host.find(':'));
-}
-
-/// "10.0.0.7" or "[fe80::1]": no name, and so no page of another server can have it.
-bool is_address(std::string_view host) {
-  if (host.starts_with('[')) return host.ends_with(']');
-  return !host.empty() && host.find_first_not_of("0123456789.") == std::string_view::npos;
 }
 
 }  // namespace
@@ -161,43 +144,12 @@ void Session::work() {
   }
 }
 
-bool Session::host_is_ours(std::string_view host) const {
-  const std::string_view name = without_port(host);
-  if (is_address(name) || same_word(name, "localhost")) return true;
-  const auto& names = server_.options().names;
-  return std::any_of(names.begin(), names.end(), [&](const std::string& n) { return same_word(n, name); });
-}
-
-int Session::check_request(const char*& why) const {
-  const Head& asked = head();
-  const std::string_view host = asked.field("Host");
-  if (asked.count("Host") != 1 || host.empty()) return why = "a request names one Host", 400;
-  if (!host_is_ours(host)) return why = "this computer is not known by the name in Host (--http-name)", 403;
-  const std::string_view origin = asked.field("Origin");
-  const bool own =
-      origin.ends_with(host) && (same_word(origin.substr(0, origin.size() - host.size()), "http://") ||
-                                 same_word(origin.substr(0, origin.size() - host.size()), "https://"));
-  if (!origin.empty() && !own) return why = "pages of other servers may not ask this one", 403;
-  const std::string_view site = asked.field("Sec-Fetch-Site");
-  if (!site.empty() && site != "same-origin" && site != "none")
-    return why = "pages of other servers may not ask this one", 403;
-  const std::string_view key = asked.field("X-Api-Key");
-  const std::string_view bearer = asked.field("Authorization");
-  const bool knows = same_key(key, server_.options().key) ||
-                     (bearer.starts_with("Bearer ") && same_key(bearer.substr(7), server_.options().key));
-  if (!knows) return why = "X-Api-Key must be this gateway's key", 401;
-  const std::string_view expected = asked.field("Expect");
-  if (!expected.empty() && !same_word(expected, "100-continue"))
-    return why = "the only expectation that can be met is 100-continue", 417;
-  return 0;
-}
-
 void Session::begin_request() {
   no_body_ = head().method == "HEAD";
   keep_alive_ = head().keep_alive;
   whole_ = !head().has_body();
-  const char* why = "";
-  if (const int status = check_request(why); status != 0) return refuse(status, why);
+  if (const auto no = refusal_at_gate(head(), server_.options().key, server_.options().names))
+    return refuse(no->status, no->why);
   auto target = parse_target(head().target);
   if (!target) return refuse(400, "the target is no path of this server");
   target_ = std::move(*target);

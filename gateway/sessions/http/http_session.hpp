@@ -121,8 +121,6 @@ class Session : public ByteSession, public Requester {
   void next_request();
   bool work_waits() const;
   /// Why the request is not let in; 0: it is.
-  int check_request(const char*& why) const;
-  bool host_is_ours(std::string_view host) const;
   void put_head(const Answer& answer, std::uint64_t length);
   void end_exchange();
   std::uint32_t expect(Then then);

@@ -26,7 +26,8 @@ struct Found {
 Found find_route(std::string_view method, const std::vector<std::string>& path);
 std::unique_ptr<Task> make_task(const Route& route, Session& session);
 
-std::span<const Route> octoprint_routes();
+std::span<const Route> octoprint_machine_routes();
+std::span<const Route> octoprint_job_routes();
 std::span<const Route> prusalink_routes();
 
 }  // namespace kinebus::http

@@ -207,7 +207,6 @@ TEST(ClockEstimate, JoinsANewEpochByOneToldShift) {
   ClockEstimate estimate;
   const Crystal crystal{40, 5'000};
   std::mt19937_64 random(4);
-  BusTime reference{0};
   bool joined = false;
   for (int i = 1; i < 200; ++i) {
     const BusTime t = seconds{5000} + milliseconds{50} * i;
