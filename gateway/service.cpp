@@ -16,6 +16,7 @@
 #include "gateway/io/bus_log.hpp"
 #include "gateway/io/daemon.hpp"
 #include "gateway/io/socketcan_bus.hpp"
+#include "protocol/host/can_interface.hpp"
 #include "protocol/host/realtime.hpp"
 #include "protocol/host/socketcan.hpp"
 #include "protocol/joblink/sha256.hpp"
@@ -45,13 +46,20 @@ MachineDescription read_machine(const std::string& path) {
   return *machine;
 }
 
+std::unique_ptr<BusPort> open_interface(const std::string& name) {
+  auto bus = must(SocketCanBus::open(name));
+  if (const auto interface = ask_kernel(name))
+    for (const std::string& words : advice(name, *interface)) spdlog::warn("{}", words);
+  return bus;
+}
+
 std::unique_ptr<BusPort> open_bus(const std::string& name, const MachineDescription& machine,
                                   const std::string& log, LocalTime now) {
   std::unique_ptr<BusPort> bus;
   if (name == kInproc)
     bus = std::make_unique<InprocBus>(machine, now);
   else
-    bus = must(SocketCanBus::open(name));
+    bus = open_interface(name);
   if (!log.empty()) return must(LoggedBus::open(std::move(bus), log), "bus log ");
   return bus;
 }

@@ -136,6 +136,16 @@ bool NodeWatch::check_clock(BusTime now, const NodeLink& link, const StreamStatu
   return false;
 }
 
+/// The nodes put records in order; what exchanges them may lose others.
+void NodeWatch::tell_order(BusTime now, const NodeLink& link, const StreamStatus& status) {
+  if (told_order_ || (status.flags & StreamStatus::kReordered) == 0) return;
+  told_order_ = true;
+  events_.message(now, say("frames reach %1 in another order than they were sent; it puts them right. A USB "
+                           "adapter does that: "
+                           "gs_usb keeps the order from Linux 6.6 on, candleLight's firmware from 2.0 on",
+                           name_of(link)));
+}
+
 NodeWatch::Verdict NodeWatch::take_stream(BusTime now, NodeLink& link, const StreamStatus& status,
                                           bool stopping) {
   Verdict verdict;
@@ -145,6 +155,7 @@ NodeWatch::Verdict NodeWatch::take_stream(BusTime now, NodeLink& link, const Str
     verdict.stream_lost = !group_.on_status(now, link.id(), status, tau);
     return verdict;
   }
+  tell_order(now, link, status);
   if (!check_clock(now, link, status, verdict)) return verdict;
   const auto taken = group_.on_status(now, link.id(), status, tau);
   if (taken) return verdict;

@@ -64,6 +64,7 @@ class NodeWatch {
   void take_emergencies(BusTime now, NodeLink& link, const Situation& situation, Verdict& verdict);
   /// What another device may have done to its drives.
   void check_drives(BusTime now, const NodeLink& link, const Situation& situation, Verdict& verdict);
+  void tell_order(BusTime now, const NodeLink& link, const StreamStatus& status);
   bool check_clock(BusTime now, const NodeLink& link, const StreamStatus& status, Verdict& verdict);
 
   const MachineDescription& machine_;
@@ -73,6 +74,7 @@ class NodeWatch {
   EventQueue& events_;
   MachineCounters& counters_;
   bool needs_bring_up_ = false;
+  bool told_order_ = false;
   BusTime listens_since_{0};    ///< what was not heard before says nothing
   BusTime streaming_since_{0};  ///< path time runs; the present, when it does not
 };

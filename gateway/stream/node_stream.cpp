@@ -111,9 +111,12 @@ std::optional<CanFrame> NodeStream::next_frame(BusTime now, PathTime tau) {
 
 Result<void, StreamError> NodeStream::on_status(BusTime now, const StreamStatus& status, PathTime tau) {
   ++counters_.statuses;
-  last_status_ = status;
   StreamError error{.node_id = node_id_};
   const auto known = static_cast<std::uint8_t>(accepted_ % kSequenceModulus);
+  const int behind = (known - status.next_sequence) & (kSequenceModulus - 1);
+  if (behind != 0 && behind <= kMaxOvertaken && accepted_ >= static_cast<std::uint64_t>(behind))
+    return silence(now, tau);  // overtaken on its way by the one that is known
+  last_status_ = status;
   const std::uint64_t accepted = accepted_ + static_cast<std::uint8_t>((status.next_sequence - known) & 0x7F);
   if (accepted > sent_) {
     error.kind = StreamError::Kind::kUnknownRecord;
@@ -137,14 +140,20 @@ Result<void, StreamError> NodeStream::on_status(BusTime now, const StreamStatus&
     error.kind = StreamError::Kind::kCheckpoint;
   } else if ((status.flags & StreamStatus::kUnderrun) != 0) {
     error.kind = StreamError::Kind::kUnderrun;
-  } else if (accepted_ < sent_ && now - progress_ > options_.lost_after) {
-    error.kind = StreamError::Kind::kSilent;
-    error.amount = to_seconds(now - progress_) * 1e3;
   } else {
-    return {};
+    return silence(now, tau);
   }
   error.line = line_at(tau);
   return Error<StreamError>(error);
+}
+
+/// The node has taken nothing of what was sent for too long.
+Result<void, StreamError> NodeStream::silence(BusTime now, PathTime tau) const {
+  if (accepted_ == sent_ || now - progress_ <= options_.lost_after) return {};
+  return Error<StreamError>({.kind = StreamError::Kind::kSilent,
+                             .node_id = node_id_,
+                             .line = line_at(tau),
+                             .amount = to_seconds(now - progress_) * 1e3});
 }
 
 void NodeStream::forget_before(std::int64_t units) {

@@ -35,6 +35,9 @@ class NodeStream {
   struct Counters {
     std::uint64_t records = 0, checkpoints = 0, statuses = 0;
   };
+  /// A status that comes after one that was sent later may be so many records behind it. One so far ahead
+  /// instead would have taken more at once than a node's queue holds.
+  static constexpr int kMaxOvertaken = kSequenceModulus - 121;
   static constexpr std::size_t kCapacity = 1024;  ///< records kept: executed-not-confirmed, sent and waiting
 
   explicit NodeStream(std::uint8_t node_id) : NodeStream(node_id, Options{}) {}
@@ -90,6 +93,7 @@ class NodeStream {
   const Counters& counters() const { return counters_; }
 
  private:
+  Result<void, StreamError> silence(BusTime now, PathTime tau) const;
   struct Record {
     std::int64_t start_units = 0;  ///< absolute path time of its first knot
     std::int32_t duration = 0;     ///< 0: control record

@@ -17,7 +17,8 @@ CanFrame frame_of_bits(std::int64_t bits) {
 
 AbortCode verdict_code(SegmentStream::Verdict verdict) {
   using Verdict = SegmentStream::Verdict;
-  const bool good = verdict == Verdict::kAccepted || verdict == Verdict::kDuplicate;
+  const bool good =
+      verdict == Verdict::kAccepted || verdict == Verdict::kEarly || verdict == Verdict::kDuplicate;
   return good ? AbortCode::kNone : AbortCode::kInvalidValue;
 }
 
@@ -241,6 +242,8 @@ std::int64_t Node::counter_value(NodeCounter counter) const {
       return path.stops;
     case NodeCounter::kLateStops:
       return path.late_stops;
+    case NodeCounter::kRecordsReordered:
+      return path_.stream().reordered();
     case NodeCounter::kHomingErrors:
       return axes_[0].homing_errors() + axes_[1].homing_errors();
     default:

@@ -99,6 +99,10 @@ SegmentStream::Verdict PathMotion::on_record(std::uint64_t raw, LocalTime now) {
   advance_to(now);
   const Verdict verdict = stream_.push(raw, tau(now));
   judge(verdict, now);
+  if (!stream_.waits_for_order())
+    order_deadline_ = LocalTime::max();
+  else if (verdict == Verdict::kAccepted || order_deadline_ == LocalTime::max())
+    order_deadline_ = now + kOrderPatience;
   if (verdict == Verdict::kAccepted && starvation_check_ == LocalTime::max()) plan_starvation_check(now);
   return verdict;
 }
@@ -118,6 +122,7 @@ void PathMotion::judge(Verdict verdict, LocalTime now) {
   };
   switch (verdict) {
     case Verdict::kAccepted:
+    case Verdict::kEarly:
     case Verdict::kStaleCheckpoint:
       return;
     case Verdict::kDuplicate:
@@ -147,6 +152,7 @@ void PathMotion::judge(Verdict verdict, LocalTime now) {
 bool PathMotion::clear_stream(LocalTime now) {
   if (!at_rest(now) && !stream_.idle()) return false;
   stream_.clear(tau(now));
+  order_deadline_ = LocalTime::max();
   error_flags_ = 0;
   given_up_ = false;
   starvation_check_ = LocalTime::max();
@@ -225,10 +231,19 @@ void PathMotion::watch_sync(LocalTime now, bool moves) {
   raise(StopReason::kSyncLost, 0, emcy::kSyncController, BusTime{start.count() / 1000 * 1000}, now);
 }
 
+// A record did not come after all.
+void PathMotion::watch_order(LocalTime now) {
+  if (now < order_deadline_) return;
+  order_deadline_ = LocalTime::max();
+  stream_.forget_early();
+  judge(Verdict::kSequence, now);
+}
+
 void PathMotion::on_time(LocalTime now, bool moves) {
   advance_to(now);
   served_ = now;
   watch_sync(now, moves);
+  watch_order(now);
   if (now < starvation_check_) return;
   if (!path_.stop_latched() && starved(now)) {
     ++counters_.underruns;
@@ -239,7 +254,7 @@ void PathMotion::on_time(LocalTime now, bool moves) {
 }
 
 LocalTime PathMotion::next_deadline() const {
-  LocalTime deadline = starvation_check_;
+  LocalTime deadline = std::min(starvation_check_, order_deadline_);
   if (const auto change = path_.next_change(clock_.to_bus(served_)))
     deadline = std::min(deadline, clock_.to_local(*change) + LocalTime{1'000});
   if (const auto start = stop_start(); start && *start > served_) deadline = std::min(deadline, *start);
@@ -268,6 +283,7 @@ std::uint8_t PathMotion::status_flags() const {
   if (stream_.resting()) flags |= StreamStatus::kAtRest;
   if (path_.stop_latched()) flags |= StreamStatus::kStopped;
   if (clock_.synchronised() && !sync_lost_) flags |= StreamStatus::kSynchronised;
+  if (stream_.reordered() != 0) flags |= StreamStatus::kReordered;
   return static_cast<std::uint8_t>(flags);
 }
 

@@ -31,6 +31,9 @@ class PathMotion {
     std::uint32_t sync_lost = 0, clock_out_of_bound = 0, sequence_errors = 0, overflows = 0, underruns = 0,
                   checkpoint_errors = 0, late_rates = 0, late_stops = 0, duplicates = 0, stops = 0;
   };
+  /// A record that comes later than those sent after it is waited for so long. What exchanges frames on their
+  /// way does so within a USB frame of 1 ms or two; the reserve of queued motion is many times longer.
+  static constexpr LocalTime kOrderPatience = std::chrono::milliseconds{5};
 
   void set_options(const Options& options);
 
@@ -90,6 +93,7 @@ class PathMotion {
   bool starved(LocalTime now) const;
   void plan_starvation_check(LocalTime now);
   void watch_sync(LocalTime now, bool moves);
+  void watch_order(LocalTime now);
 
   Options options_;
   ClockEstimate clock_;
@@ -103,6 +107,7 @@ class PathMotion {
   bool out_of_bound_ = false;
   bool given_up_ = false;
   LocalTime starvation_check_ = LocalTime::max();
+  LocalTime order_deadline_ = LocalTime::max();  // max: no record is missed
   LocalTime served_ = LocalTime{0};
 };
 

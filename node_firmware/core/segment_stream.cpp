@@ -9,6 +9,14 @@ constexpr std::size_t index_of(int axis) {
   return static_cast<std::size_t>(axis);
 }
 
+constexpr unsigned sequence_of(std::uint64_t raw) {
+  return static_cast<unsigned>(raw & 0x7F);
+}
+
+constexpr unsigned early_bit(unsigned sequence) {
+  return 1U << (sequence % SegmentStream::kOrderWindow);
+}
+
 }  // namespace
 
 void SegmentStream::set_limits(int axis, const Limits& limits) {
@@ -38,11 +46,29 @@ void SegmentStream::set_rest_position(int axis, std::int64_t position) {
 }
 
 SegmentStream::Verdict SegmentStream::push(std::uint64_t raw, PathTime now) {
-  const auto sequence = static_cast<std::uint8_t>(raw & 0x7F);
-  if (sequence != next_sequence_) {
-    const bool again = any_accepted_ && raw == last_raw_;
-    return again ? Verdict::kDuplicate : Verdict::kSequence;
+  const unsigned ahead = (sequence_of(raw) - next_sequence_) & (kSequenceModulus - 1);
+  if (ahead != 0) return any_accepted_ && raw == last_raw_ ? Verdict::kDuplicate : keep_early(raw, ahead);
+  Verdict verdict = take(raw, now);
+  while (verdict == Verdict::kAccepted && (early_mask_ & early_bit(next_sequence_)) != 0) {
+    early_mask_ &= ~early_bit(next_sequence_);
+    ++reordered_;
+    verdict = take(early_[next_sequence_ % kOrderWindow], now);
   }
+  return verdict;
+}
+
+SegmentStream::Verdict SegmentStream::keep_early(std::uint64_t raw, unsigned ahead) {
+  if (ahead >= kOrderWindow) return Verdict::kSequence;
+  const unsigned sequence = sequence_of(raw);
+  std::uint64_t& place = early_[sequence % kOrderWindow];
+  if ((early_mask_ & early_bit(sequence)) != 0)
+    return place == raw ? Verdict::kDuplicate : Verdict::kSequence;
+  place = raw;
+  early_mask_ |= early_bit(sequence);
+  return Verdict::kEarly;
+}
+
+SegmentStream::Verdict SegmentStream::take(std::uint64_t raw, PathTime now) {
   if (run_.phase == Phase::kUnderrun) return Verdict::kNotStarted;
   if (run_.size == kCapacity) return Verdict::kOverflow;
   const auto record = decode_segment(raw);
@@ -127,6 +153,7 @@ void SegmentStream::clear(PathTime at) {
   run_.head = run_.size = 0;
   next_sequence_ = 0;
   any_accepted_ = false;
+  early_mask_ = 0;
   pending_ = {};
   run_.phase = Phase::kRest;
   run_.in_segment = false;

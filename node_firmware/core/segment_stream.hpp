@@ -17,10 +17,14 @@ class SegmentStream {
   static constexpr int kCapacity = 120;
   /// Checkpoints may run ahead of their record by so many: 128 sequence numbers less a full queue, less one.
   static constexpr int kMaxAhead = kSequenceModulus - kCapacity - 1;
+  /// So many records that come one after another may be in any order: adapters and drivers exchange
+  /// neighbours.
+  static constexpr unsigned kOrderWindow = 4;
 
   enum class Verdict : std::uint8_t {
     kAccepted,
-    kDuplicate,        ///< the record accepted last came again: ignored
+    kEarly,            ///< kept until the records before it have come
+    kDuplicate,        ///< the record accepted last, or one that is kept, came again: ignored
     kSequence,         ///< a record is missing
     kOverflow,         ///< more than the credit
     kUnknown,          ///< control record of unknown kind
@@ -50,8 +54,14 @@ class SegmentStream {
   void set_following(int axis, bool following);
   bool following(int axis) const { return following_[static_cast<std::size_t>(axis)]; }
 
-  /// A record from the bus; `now`: path time now. Only kAccepted changes the queue.
+  /// A record from the bus; `now`: path time now. Only kAccepted changes the queue; what was kept early
+  /// follows then, and the verdict is that of the last.
   Verdict push(std::uint64_t raw, PathTime now);
+  /// Records are kept for which an earlier one has not come.
+  bool waits_for_order() const { return early_mask_ != 0; }
+  void forget_early() { early_mask_ = 0; }
+  /// Records that came early and were put in their place, since power-up.
+  std::uint32_t reordered() const { return reordered_; }
   /// A checkpoint from the bus: kAccepted (agrees, or waits for its record), kCheckpoint or kStaleCheckpoint.
   /// A waiting one is compared by the push() of the record before its own, which then returns kCheckpoint.
   Verdict check(std::uint64_t raw);
@@ -110,6 +120,8 @@ class SegmentStream {
     Checkpoint checkpoint;
   };
 
+  Verdict keep_early(std::uint64_t raw, unsigned ahead);
+  Verdict take(std::uint64_t raw, PathTime now);
   Verdict admit(const Segment& record, PathTime now, Tail& next) const;
   bool pending_agree();
   void put(std::uint64_t raw);
@@ -125,6 +137,9 @@ class SegmentStream {
   std::uint8_t next_sequence_ = 0;
   bool any_accepted_ = false;
   std::uint64_t last_raw_ = 0;
+  std::array<std::uint64_t, kOrderWindow> early_{};  // by sequence; early_mask_: which are there
+  unsigned early_mask_ = 0;
+  std::uint32_t reordered_ = 0;
   Tail tail_;
   std::array<Pending, kAxesPerNode> pending_{};
   std::array<Limits, kAxesPerNode> limits_{};

@@ -97,7 +97,8 @@ enum class NodeCounter : std::uint8_t {
   kLateStops,
   kHomingErrors,
   kDriveFaults,
-  kLast = kDriveFaults,
+  kRecordsReordered,
+  kLast = kRecordsReordered,
 };
 
 }  // namespace kinebus

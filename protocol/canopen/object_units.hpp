@@ -60,7 +60,8 @@ inline constexpr std::array<std::string_view, static_cast<std::size_t>(NodeCount
     "Stops on the path",
     "Stops heard too late",
     "Homing errors",
-    "Drive faults"};
+    "Drive faults",
+    "Records put in order"};
 
 /// CiA 301: what every node has, but its PDOs.
 constexpr void communication(Rows& t, const BoardFacts& board) {

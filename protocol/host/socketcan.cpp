@@ -15,6 +15,7 @@
 #include <ctime>
 #include <utility>
 
+#include "protocol/host/can_interface.hpp"
 #include "protocol/host/kernel_frame.hpp"
 
 namespace kinebus {
@@ -66,6 +67,8 @@ std::string SocketCan::open(const std::string& interface, bool own_frames) {
 
   const unsigned index = if_nametoindex(interface.c_str());
   if (index == 0) return because("no such interface; for a virtual one: ip link add dev vcan0 type vcan");
+  if (const auto asked = ask_kernel(interface))
+    if (std::string words = obstacle(interface, *asked); !words.empty()) return words;
   const int on = 1;
   const int own = own_frames ? 1 : 0;
   const can_err_mask_t errors = CAN_ERR_BUSOFF | CAN_ERR_CRTL | CAN_ERR_RESTARTED;

@@ -190,6 +190,8 @@ struct StreamStatus {
   static constexpr std::uint8_t kUnderrun = 0x10;
   static constexpr std::uint8_t kCheckpointError = 0x20;
   static constexpr std::uint8_t kSynchronised = 0x40;
+  static constexpr std::uint8_t kReordered =
+      0x80;  ///< records came in another order than they were sent, since power-up
 };
 
 constexpr std::uint64_t encode(const StreamStatus& s) {

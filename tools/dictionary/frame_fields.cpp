@@ -62,10 +62,10 @@ std::vector<FrameField> segment_fields() {
 std::vector<FrameField> stream_status_fields() {
   std::vector<FrameField> fields{{"NextSequence", 0, 7}, {"FreeRecords", 8, 8}};
   const std::pair<const char*, std::uint8_t> flags[] = {
-      {"Running", StreamStatus::kRunning},          {"AtRest", StreamStatus::kAtRest},
-      {"Stopped", StreamStatus::kStopped},          {"SequenceError", StreamStatus::kSequenceError},
-      {"Underrun", StreamStatus::kUnderrun},        {"CheckpointError", StreamStatus::kCheckpointError},
-      {"Synchronised", StreamStatus::kSynchronised}};
+      {"Running", StreamStatus::kRunning},           {"AtRest", StreamStatus::kAtRest},
+      {"Stopped", StreamStatus::kStopped},           {"SequenceError", StreamStatus::kSequenceError},
+      {"Underrun", StreamStatus::kUnderrun},         {"CheckpointError", StreamStatus::kCheckpointError},
+      {"Synchronised", StreamStatus::kSynchronised}, {"Reordered", StreamStatus::kReordered}};
   for (const auto& [name, flag] : flags) {
     int bit = 0;
     while (flag >> bit != 1) ++bit;

@@ -4,7 +4,7 @@
 //   kinebus-can-relay FROM TO FAULT ID[,ID...] [FAULT ID...]
 // begins without a fault; each SIGUSR1 goes on to the next of them, after the last to none.
 //   delay    each frame later by up to 8 ms, in order
-//   swap     every second frame after the one that follows it
+//   shuffle  every four frames, or those of 20 ms, in any order
 //   flip     one bit of every fourth frame is wrong
 //   drop     every third frame is lost
 
@@ -16,7 +16,6 @@
 #include <csignal>
 #include <cstdio>
 #include <deque>
-#include <optional>
 #include <random>
 #include <string>
 #include <string_view>
@@ -58,7 +57,8 @@ class Relay {
     const int signals = ::signalfd(-1, &mask, SFD_CLOEXEC | SFD_NONBLOCK);
     for (;;) {
       pollfd fds[] = {{from_.fd(), POLLIN, 0}, {to_.fd(), POLLIN, 0}, {signals, POLLIN, 0}};
-      const LocalTime wait = late_.empty() ? 1s : late_.front().due - kinebus::monotonic_now();
+      const LocalTime due = std::min(late_.empty() ? LocalTime::max() : late_.front().due, shuffle_due_);
+      const LocalTime wait = due == LocalTime::max() ? 1s : due - kinebus::monotonic_now();
       const timespec limit{0, std::clamp<long>(static_cast<long>(wait.count()), 0, 999'999'999)};
       if (::ppoll(fds, 3, &limit, nullptr) < 0) continue;
       signalfd_siginfo info{};
@@ -68,6 +68,7 @@ class Relay {
       while (const auto got = from_.receive())
         if (got->kind == SocketCan::Kind::kFrame) pass(got->frame);
       while (!late_.empty() && late_.front().due <= kinebus::monotonic_now()) release();
+      if (shuffle_due_ <= kinebus::monotonic_now()) release_shuffled();
     }
   }
 
@@ -84,10 +85,15 @@ class Relay {
     send(to_, late_.front().frame);
     late_.pop_front();
   }
+  void release_shuffled() {
+    std::shuffle(kept_.begin(), kept_.end(), random_);
+    for (const CanFrame& frame : kept_) send(to_, frame);
+    kept_.clear();
+    shuffle_due_ = LocalTime::max();
+  }
   void next_fault() {
     while (!late_.empty()) release();
-    if (kept_) send(to_, *kept_);
-    kept_.reset();
+    release_shuffled();
     place_ = std::min(place_ + 1, faults_.size() + 1);
     std::printf("relay: %s; %u frames struck so far\n", std::string(fault().kind).c_str(), struck_);
     std::fflush(stdout);
@@ -105,13 +111,11 @@ class Relay {
           kinebus::monotonic_now() + LocalTime{static_cast<std::int64_t>(random_() % 8'000'000)};
       late_.push_back({late_.empty() ? due : std::max(due, late_.back().due), frame});
       ++struck_;
-    } else if (fault().kind == "swap" && !kept_) {
-      kept_ = frame;
+    } else if (fault().kind == "shuffle") {
+      if (kept_.empty()) shuffle_due_ = kinebus::monotonic_now() + 20ms;
+      kept_.push_back(frame);
       ++struck_;
-    } else if (fault().kind == "swap") {
-      send(to_, frame);
-      send(to_, *kept_);
-      kept_.reset();
+      if (kept_.size() == 4) release_shuffled();
     } else if (fault().kind == "drop" && seen_ % 3 == 0) {
       ++struck_;
     } else {
@@ -128,7 +132,8 @@ class Relay {
   SocketCan from_, to_;
   std::size_t place_ = 0;
   std::deque<Late> late_;
-  std::optional<CanFrame> kept_;
+  std::vector<CanFrame> kept_;
+  LocalTime shuffle_due_ = LocalTime::max();
   std::mt19937_64 random_{1};
   unsigned seen_ = 0, struck_ = 0;
 };

@@ -13,7 +13,7 @@
 namespace kinebus {
 namespace {
 
-using Step = JobPipeline::Step;
+using PipelineStep = JobPipeline::Step;
 using job_test::kinematics;
 using job_test::machine;
 
@@ -37,30 +37,30 @@ Trace trace(const std::string& job, Pose start = kinematics().bed_reference(), i
   for (int guard = 0; guard < 2'000'000; ++guard) {
     int left = budget;
     switch (pipeline.next(left)) {
-      case Step::kPhase:
+      case PipelineStep::kPhase:
         if (t.steps.empty() || t.steps.back() != 'p') t.steps += 'p';
         t.motion_s += pipeline.phase().duration_s;
         t.end = pipeline.phase().at(pipeline.phase().duration_s).x;
         t.frame = pipeline.phase().piece.frame;
         break;
-      case Step::kEvent:
+      case PipelineStep::kEvent:
         t.steps += 'e';
         t.event_s.push_back(pipeline.event_s());
         break;
-      case Step::kRunEnd:
+      case PipelineStep::kRunEnd:
         t.steps += 'r';
         break;
-      case Step::kBarrier:
+      case PipelineStep::kBarrier:
         t.steps += 'b';
         break;
-      case Step::kProblem:
+      case PipelineStep::kProblem:
         t.steps += 'x';
         t.problems.push_back(pipeline.problem());
         break;
-      case Step::kMore:
-      case Step::kStarved:
+      case PipelineStep::kMore:
+      case PipelineStep::kStarved:
         break;
-      case Step::kEnd:
+      case PipelineStep::kEnd:
         t.lines = pipeline.lines();
         return t;
     }
@@ -178,8 +178,8 @@ TEST(JobPipeline, ReadInPiecesOfOneByteGivesTheSameJob) {
   pipeline.start_job(source, kinematics().bed_reference());
   double motion_s = 0;
   int budget = 1 << 30;
-  for (Step step = pipeline.next(budget); step != Step::kEnd; step = pipeline.next(budget))
-    if (step == Step::kPhase) motion_s += pipeline.phase().duration_s;
+  for (PipelineStep step = pipeline.next(budget); step != PipelineStep::kEnd; step = pipeline.next(budget))
+    if (step == PipelineStep::kPhase) motion_s += pipeline.phase().duration_s;
   EXPECT_DOUBLE_EQ(motion_s, whole);
 }
 
@@ -190,8 +190,8 @@ TEST(JobPipeline, FeedScaleMakesAJobFaster) {
   pipeline.set_feed_scale(2);
   double motion_s = 0;
   int budget = 1000;
-  for (Step step = pipeline.next(budget); step != Step::kEnd; step = pipeline.next(budget))
-    if (step == Step::kPhase) motion_s += pipeline.phase().duration_s;
+  for (PipelineStep step = pipeline.next(budget); step != PipelineStep::kEnd; step = pipeline.next(budget))
+    if (step == PipelineStep::kPhase) motion_s += pipeline.phase().duration_s;
   EXPECT_NEAR(motion_s, 50 / 20.0, 0.1);
 }
 
@@ -202,10 +202,10 @@ std::pair<double, int> motion_of(const MachineDescription& shaped, const std::st
   pipeline.start_job(source, kinematics().bed_reference());
   double motion_s = 0;
   int runs = 0, budget = lines;
-  for (Step step = pipeline.next(budget); step != Step::kEnd; step = pipeline.next(budget)) {
-    if (step == Step::kMore) budget = lines;
-    if (step == Step::kRunEnd) ++runs;
-    if (step != Step::kPhase) continue;
+  for (PipelineStep step = pipeline.next(budget); step != PipelineStep::kEnd; step = pipeline.next(budget)) {
+    if (step == PipelineStep::kMore) budget = lines;
+    if (step == PipelineStep::kRunEnd) ++runs;
+    if (step != PipelineStep::kPhase) continue;
     EXPECT_TRUE(pipeline.phase().timed);
     motion_s += pipeline.phase().duration_s;
   }

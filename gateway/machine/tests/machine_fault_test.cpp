@@ -145,6 +145,31 @@ TEST(MachineFaults, LostRecordStopsOnThePathAndPositionsStayKnown) {
   EXPECT_NEAR(rig.gateway->status().machine_pose[kX], 10, 2e-3);
 }
 
+TEST(MachineFaults, RecordsThatAnAdapterExchangesArePutRightAndToldOnce) {
+  MachineRig rig;
+  ASSERT_TRUE(rig.make_ready()) << rig.story();
+  std::optional<CanFrame> kept;
+  int records = 0, exchanged = 0;
+  rig.lose_from_gateway = [&](const CanFrame& frame) {
+    if (frame.id != cob_id::rpdo(3, 2)) return false;
+    if (kept) {
+      rig.send_late(*std::exchange(kept, std::nullopt));
+      ++exchanged;
+      return false;
+    }
+    if (++records % 5 != 0) return false;
+    kept = frame;
+    return true;
+  };
+  ASSERT_TRUE(rig.run_job("G1 X20 Y5 F3000\nG2 X-20 Y5 I-20 J0\nG1 X0 Y0\n")) << rig.story();
+  EXPECT_GT(exchanged, 10);
+  int told = 0;
+  for (const MachineEvent& event : rig.events)
+    if (event.words.find("in another order") != std::string::npos) ++told;
+  EXPECT_EQ(told, 1) << rig.story();
+  EXPECT_NEAR(rig.gateway->status().machine_pose[kX], 0, 2e-3);
+}
+
 TEST(MachineFaults, SilentNodeStopsTheMachineAndAsksForBringUp) {
   Midway rig;
   ASSERT_TRUE(rig.begin()) << rig.story();

@@ -32,6 +32,8 @@ class MachineRig {
   /// Sees all frames of the bus.
   std::function<void(BusTime, const CanFrame&)> on_frame;
 
+  /// A frame that the gateway believes to be on the bus goes there after the present one.
+  void send_late(const CanFrame& frame) { late_.push_back(frame); }
   /// Another device on the bus sends this: nodes and gateway hear it.
   void stranger_sends(const CanFrame& frame) { strangers_.push_back(frame); }
 
@@ -129,6 +131,11 @@ class MachineRig {
   }
   void serve() {
     while (nodes.can_send()) {
+      if (!late_.empty()) {
+        nodes.send(now, late_.front());
+        late_.pop_front();
+        continue;
+      }
       if (!strangers_.empty()) {
         nodes.send(now, strangers_.front());
         sent_by_strangers_.push_back(strangers_.front());
@@ -168,7 +175,7 @@ class MachineRig {
     }
     if (stirred) serve();
   }
-  std::deque<CanFrame> strangers_, sent_by_strangers_;
+  std::deque<CanFrame> strangers_, sent_by_strangers_, late_;
 };
 
 }  // namespace kinebus

@@ -364,12 +364,7 @@ TEST(Planner, PhasesComeWhileTheJobIsStillFed) {
   Phase phase;
   const Lines lines = random_print(9, 3000);
   std::size_t out = 0, moves = 0;
-  double path = 0;
-  Pose at{};
   for (std::size_t i = 1; i < lines.size(); ++i) {
-    const auto& feed = std::get<canonical::Feed>(lines[i].command);
-    path += std::hypot(feed.target[kX] - at[kX], feed.target[kY] - at[kY], feed.target[kZ] - at[kZ]);
-    at = feed.target;
     ++moves;
     ASSERT_TRUE(planner.add(lines[i]));
     while (planner.next(phase)) {

@@ -123,6 +123,27 @@ TEST(NodeStream, CheckpointsComeRoundOnBothAxes) {
   EXPECT_GE(node.checkpoints, 30u);
 }
 
+TEST(NodeStream, AStatusThatWasOvertakenSaysNothing) {
+  NodeStream stream(1);
+  stream.reset({}, 0, 120);
+  push_run(stream, 10, 100);
+  stream.release(0);
+  while (stream.next_frame({}, path_units(0))) {
+  }
+  ASSERT_TRUE(stream.on_status({}, status(8, 112), path_units(0)));
+  ASSERT_TRUE(stream.on_status({}, status(5, 115), path_units(0)));
+  ASSERT_TRUE(stream.on_status({}, status(12, 108), path_units(0)));
+  EXPECT_TRUE(stream.all_sent());
+  // One that comes again and again, while what was sent is not taken, is a node that takes nothing.
+  push_run(stream, 10, 100);
+  stream.release(2000);
+  while (stream.next_frame({}, path_units(0))) {
+  }
+  const auto late = stream.on_status(milliseconds{400}, status(9, 111), path_units(0));
+  ASSERT_FALSE(late);
+  EXPECT_EQ(late.error().kind, StreamError::Kind::kSilent);
+}
+
 TEST(NodeStream, ReportsARecordThatTheNodeCannotKnow) {
   NodeStream stream(3);
   stream.reset({}, 0, 120);

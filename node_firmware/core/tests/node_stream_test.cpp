@@ -97,6 +97,28 @@ TEST_F(StreamTest, AMissingRecordStopsAllAndTheExpectedOneIsStillTaken) {
   EXPECT_FALSE(status(1).flags & StreamStatus::kSequenceError);
 }
 
+TEST_F(StreamTest, RecordsThatWereExchangedOnTheirWayMoveTheSame) {
+  start_all(1000);
+  wave(6, false);
+  bench.run(50ms);
+  bench.rate(1.0);
+  watch(150ms);
+  const CanFrame first = feeds[1].segment(1250, 50'000, 0);
+  const CanFrame second = feeds[1].segment(1250, -50'000, 0);
+  const CanFrame third = feeds[1].end();
+  bench.send(third);
+  bench.send(second);
+  watch(2ms);
+  bench.send(first);
+  for (Feed* other : {&feeds[0], &feeds[2]}) bench.send(other->end());
+  watch(900ms);
+  expect_at_feeds_end();
+  EXPECT_FALSE(status(1).flags & (StreamStatus::kStopped | StreamStatus::kSequenceError));
+  EXPECT_TRUE(status(1).flags & StreamStatus::kReordered);
+  EXPECT_FALSE(status(0).flags & StreamStatus::kReordered);
+  EXPECT_EQ(bench.read(2, 0x2120, static_cast<std::uint8_t>(NodeCounter::kRecordsReordered)), 2);
+}
+
 TEST_F(StreamTest, AWrongCheckpointStopsAll) {
   start_all(1000);
   wave(6);

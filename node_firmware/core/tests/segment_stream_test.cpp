@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <random>
 #include <vector>
@@ -112,15 +113,57 @@ TEST_F(SegmentStreamTest, StandsUntilStartAndAfterEnd) {
   EXPECT_EQ(stream.velocity(0), 0);
 }
 
-TEST_F(SegmentStreamTest, AMissingRecordIsRefusedAndTheExpectedOneStillAccepted) {
+TEST_F(SegmentStreamTest, ARecordThatComesEarlyWaitsForTheOneBeforeIt) {
   accept(source.start(10));
-  const std::uint64_t lost = source.segment(10, 1, 1);
-  const std::uint64_t after = source.segment(10, -1, -1);
-  EXPECT_EQ(stream.push(after, PathTime{0}), Verdict::kSequence);
-  accept(lost);
-  accept(after);
-  EXPECT_EQ(stream.push(after, PathTime{0}), Verdict::kDuplicate);
+  const std::uint64_t late = source.segment(10, 1, 1);
+  const std::uint64_t early = source.segment(10, -1, -1);
+  EXPECT_EQ(stream.push(early, PathTime{0}), Verdict::kEarly);
+  EXPECT_EQ(stream.push(early, PathTime{0}), Verdict::kDuplicate);
+  EXPECT_EQ(stream.push(early ^ (std::uint64_t{1} << 30), PathTime{0}), Verdict::kSequence);
+  EXPECT_TRUE(stream.waits_for_order());
+  EXPECT_EQ(stream.next_sequence(), 1);
+  accept(late);
+  EXPECT_FALSE(stream.waits_for_order());
+  EXPECT_EQ(stream.push(early, PathTime{0}), Verdict::kDuplicate);
   EXPECT_EQ(stream.next_sequence(), 3);
+  EXPECT_EQ(stream.reordered(), 1u);
+}
+
+TEST_F(SegmentStreamTest, ARecordBeyondTheWindowIsRefusedAndTheExpectedOneStillAccepted) {
+  accept(source.start(10));
+  std::array<std::uint64_t, SegmentStream::kOrderWindow + 1> records{};
+  for (std::uint64_t& record : records) record = source.segment(10, 1, 1);
+  EXPECT_EQ(stream.push(records[SegmentStream::kOrderWindow], PathTime{0}), Verdict::kSequence);
+  for (const std::uint64_t record : records) accept(record);
+  EXPECT_EQ(stream.reordered(), 0u);
+}
+
+TEST_F(SegmentStreamTest, AnyOrderWithinTheWindowIsTheSameMotion) {
+  for (unsigned seed = 1; seed <= 50; ++seed) {
+    std::mt19937 random(seed);
+    SegmentStream ordered = stream, shuffled = stream;
+    Source feed;
+    std::vector<std::uint64_t> records{feed.start(10)};
+    for (int i = 0; i < 60; ++i)
+      records.push_back(
+          feed.segment(100, static_cast<std::int32_t>(random() % 2001) - 1000, 500 - 1000 * (i & 1)));
+    for (const std::uint64_t record : records)
+      ASSERT_EQ(ordered.push(record, PathTime{0}), Verdict::kAccepted);
+    // Every group of a window's length in any order of its own.
+    for (std::size_t at = 0; at < records.size(); at += SegmentStream::kOrderWindow) {
+      const std::size_t end = std::min<std::size_t>(at + SegmentStream::kOrderWindow, records.size());
+      std::shuffle(records.begin() + static_cast<std::ptrdiff_t>(at),
+                   records.begin() + static_cast<std::ptrdiff_t>(end), random);
+    }
+    for (const std::uint64_t record : records) {
+      const Verdict verdict = shuffled.push(record, PathTime{0});
+      ASSERT_TRUE(verdict == Verdict::kAccepted || verdict == Verdict::kEarly) << "seed " << seed;
+    }
+    EXPECT_FALSE(shuffled.waits_for_order()) << "seed " << seed;
+    EXPECT_EQ(shuffled.size(), ordered.size()) << "seed " << seed;
+    for (const int axis : {0, 1})
+      EXPECT_EQ(shuffled.tail_state(axis), ordered.tail_state(axis)) << "seed " << seed;
+  }
 }
 
 TEST_F(SegmentStreamTest, EndInMotionAndMotionWithoutStartAreRefused) {
