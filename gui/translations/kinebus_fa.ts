@@ -3524,6 +3524,10 @@
         <source>%1: what was printed is taken to stand on the table until the next job begins, or the machine is homed with no job interrupted</source>
         <translation>%1: فرض بر این است که آنچه چاپ شده روی میز است، تا کار بعدی آغاز شود یا دستگاه بدون کار قطع‌شده خانه‌یابی شود</translation>
     </message>
+    <message>
+        <source>frames reach %1 in another order than they were sent; it puts them right. A USB adapter does that: gs_usb keeps the order from Linux 6.6 on, candleLight&apos;s firmware from 2.0 on</source>
+        <translation>فریم‌ها با ترتیبی جز ترتیب فرستادن به %1 می‌رسند؛ خودش آن‌ها را مرتب می‌کند. این کارِ یک مبدل USB است: gs_usb از لینوکس 6.6 و میان‌افزار candleLight از نسخهٔ 2.0 ترتیب را نگه می‌دارد</translation>
+    </message>
 </context>
 <context>
     <name>GatewayWords</name>

@@ -3524,6 +3524,10 @@
         <source>%1: what was printed is taken to stand on the table until the next job begins, or the machine is homed with no job interrupted</source>
         <translation>%1: basılanın, sonraki iş başlayana ya da kesilmiş iş yokken makine referansa gidene kadar tablada durduğu varsayılır</translation>
     </message>
+    <message>
+        <source>frames reach %1 in another order than they were sent; it puts them right. A USB adapter does that: gs_usb keeps the order from Linux 6.6 on, candleLight&apos;s firmware from 2.0 on</source>
+        <translation>çerçeveler %1 için gönderildiklerinden başka bir sırayla varıyor; sıralarını kendisi düzeltiyor. Bunu bir USB bağdaştırıcısı yapar: gs_usb sırayı Linux 6.6&apos;dan, candleLight yazılımı 2.0&apos;dan beri korur</translation>
+    </message>
 </context>
 <context>
     <name>GatewayWords</name>
