@@ -9,6 +9,7 @@
 #include <QFileInfo>
 #include <QLatin1Char>
 #include <QStandardPaths>
+#include <QStringList>
 #include <QTimer>
 
 namespace kinebus::gui {
@@ -48,7 +49,7 @@ QString DemoGateway::socket_path() const {
   return folder_.filePath(QStringLiteral("kinebus.sock"));
 }
 
-void DemoGateway::start() {
+void DemoGateway::start(const QString& machine_file) {
   const QString daemon = find_daemon();
   if (daemon.isEmpty() || !folder_.isValid()) {
     emit failed(daemon.isEmpty()
@@ -60,11 +61,16 @@ void DemoGateway::start() {
   // The demo never outlives the program, however that ends.
   process_.setChildProcessModifier([] { ::prctl(PR_SET_PDEATHSIG, SIGTERM); });
   process_.setWorkingDirectory(folder_.path());
+  const QStringList machine =
+      machine_file.isEmpty()
+          ? QStringList{QStringLiteral("--new-machine"), folder_.filePath(QStringLiteral("machine.toml"))}
+          : QStringList{QStringLiteral("--machine"), machine_file};
   // In real time where the user may: on a busy computer the machine would be slow otherwise.
-  process_.start(daemon, {QStringLiteral("--bus"), QStringLiteral("inproc"), QStringLiteral("--socket"),
+  process_.start(
+      daemon, QStringList{QStringLiteral("--bus"), QStringLiteral("inproc"), QStringLiteral("--socket"),
                           socket_path(), QStringLiteral("--jobs"), folder_.filePath(QStringLiteral("jobs")),
-                          QStringLiteral("--new-machine"), folder_.filePath(QStringLiteral("machine.toml")),
-                          QStringLiteral("--log-level"), QStringLiteral("warn")});
+                          QStringLiteral("--log-level"), QStringLiteral("warn")} +
+                  machine);
   look_for_socket();
 }
 

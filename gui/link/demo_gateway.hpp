@@ -13,8 +13,8 @@ class DemoGateway : public QObject {
  public:
   explicit DemoGateway(QObject* parent = nullptr);
   ~DemoGateway() override;
-  /// ready() or failed() follows.
-  void start();
+  /// ready() or failed() follows. `machine_file`: another than the machine that a new gateway has.
+  void start(const QString& machine_file = {});
   QString socket_path() const;
   /// Beside this program, then in PATH; empty: there is none.
   static QString find_daemon();

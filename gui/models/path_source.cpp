@@ -70,6 +70,7 @@ void PathSource::clear() {
 }
 
 void PathSource::show_file(const QString& path) {
+  emit chosen();
   name_ = QFileInfo(path).fileName();
   load(path);
 }
@@ -87,6 +88,7 @@ void PathSource::load(const QString& path) {
 }
 
 void PathSource::show_job(const QString& name) {
+  emit chosen();
   const joblink::Job* job = nullptr;
   for (const auto& j : session_.jobs().jobs())
     if (j.name() == name.toStdString()) job = &j;

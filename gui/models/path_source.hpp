@@ -33,6 +33,8 @@ class PathSource : public QObject {
 
  signals:
   void changed();
+  /// A job is to be shown, by the user's choice or because it runs.
+  void chosen();
 
  private:
   void load(const QString& path);

@@ -54,12 +54,13 @@ uniform int style;
 uniform vec3 ramp[9];
 uniform vec3 travel_colour;
 uniform vec3 remaining_colour;
+uniform vec4 near_colour;
 vec3 shade_colour(vec4 shade) {
   if (style == 1) return travel_colour;
   float t = (colouring == 0 ? shade.x : colouring == 1 ? shade.y : shade.z) * 8.0;
   int i = int(min(t, 7.0));
   vec3 c = mix(ramp[i], ramp[i + 1], clamp(t - float(i), 0.0, 1.0));
-  return style == 2 ? mix(remaining_colour, c, 0.16) : c;
+  return style == 2 ? mix(remaining_colour, c, 0.16) : mix(c, near_colour.rgb, near_colour.a);
 }
 )";
 

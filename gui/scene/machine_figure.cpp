@@ -85,7 +85,8 @@ void add_table(MachineFigure& figure, const Shape& table, double c_rad, bool tur
 
 }  // namespace
 
-MachineFigure pose_machine(const MachineModel& model, const PartPose& pose, bool hot) {
+MachineFigure pose_machine(const MachineModel& model, const PartPose& pose, bool hot,
+                           const PrintedBody* printed) {
   MachineFigure figure;
   if (model.solid == nullptr) return figure;
   const bodies::CollisionModel& solid = *model.solid;
@@ -96,14 +97,18 @@ MachineFigure pose_machine(const MachineModel& model, const PartPose& pose, bool
     const bodies::Clearance least = solid.clearance(scene);
     if (least.mm < solid.wanted_mm() + kClose_mm) figure.close = least;
   }
+  for (const bodies::CollisionModel::Body& body : solid.bodies())
+    if (body.id.kind == BodyKind::kTable && (placed || !body.moves()))
+      add_table(figure, scene.shapes[body.first_shape], pose.c_rad, model.turns);
+  if (placed && model.watched && printed != nullptr)
+    figure.close_to_print = printed->comes_close(solid, scene, figure.part_frame, kClose_mm);
   for (const bodies::CollisionModel::Body& body : solid.bodies()) {
     if (!placed && body.moves()) continue;
-    const Shape& first = scene.shapes[body.first_shape];
-    if (body.id.kind == BodyKind::kTable) add_table(figure, first, pose.c_rad, model.turns);
     auto finish = finish_of(body.id.kind, hot);
     if (!finish) continue;
     if (figure.close && (figure.close->first == body.id || figure.close->second == body.id))
       finish = Finish::kNear;
+    if (figure.close_to_print && figure.close_to_print->body == body.id) finish = Finish::kNear;
     for (std::size_t k = 0; k < body.shapes; ++k)
       add_shape(figure.parts, scene.shapes[body.first_shape + k], *finish);
   }

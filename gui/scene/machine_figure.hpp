@@ -8,6 +8,7 @@
 
 #include "gateway/bodies/collision_model.hpp"
 #include "gui/scene/machine_model.hpp"
+#include "gui/scene/printed_body.hpp"
 
 namespace kinebus::gui {
 
@@ -35,15 +36,17 @@ struct FigurePart {
 
 struct MachineFigure {
   std::vector<FigurePart> parts;
-  QMatrix4x4 part_frame;                   ///< table coordinates to machine frame
-  std::optional<bodies::Clearance> close;  ///< of the two that are nearest, when they come close
+  QMatrix4x4 part_frame;                            ///< table coordinates to machine frame
+  std::optional<bodies::Clearance> close;           ///< of the two that are nearest, when they come close
+  std::optional<PrintedBody::Near> close_to_print;  ///< what comes close to what is printed so far
 };
 
 /// Two bodies are close when less than this is left to the clearance that they must keep.
 inline constexpr double kClose_mm = 3;
 
 /// Without the floor, and without the room that is kept for a part. hot: the tool glows. What moves is left
-/// out where the pose is out of reach.
-MachineFigure pose_machine(const MachineModel& model, const PartPose& pose, bool hot);
+/// out where the pose is out of reach. `printed`: what stands on the table; nullptr: nothing.
+MachineFigure pose_machine(const MachineModel& model, const PartPose& pose, bool hot,
+                           const PrintedBody* printed = nullptr);
 
 }  // namespace kinebus::gui

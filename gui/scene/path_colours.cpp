@@ -41,6 +41,10 @@ constexpr Ramp kMarginRamp{{{0.80F, 0.13F, 0.15F},
                             {0.19F, 0.63F, 0.52F},
                             {0.14F, 0.57F, 0.56F}}};
 
+constexpr std::array<float, 3> kPartColour{0.30F, 0.58F, 0.78F};
+constexpr Ramp kPartRamp{kPartColour, kPartColour, kPartColour, kPartColour, kPartColour,
+                         kPartColour, kPartColour, kPartColour, kPartColour};
+
 /// Carriage speed at the programmed feed as a share of what the carriage may do; 1 or more: the gateway slows
 /// down.
 double speed_share(const MachineModel& model, const std::optional<std::array<double, 4>>& from,
@@ -113,6 +117,8 @@ const std::array<std::array<float, 3>, 9>& colour_ramp(PathColouring colouring) 
       return kLayerRamp;
     case PathColouring::kMargin:
       return kMarginRamp;
+    case PathColouring::kPart:
+      return kPartRamp;
     case PathColouring::kFeed:
       break;
   }

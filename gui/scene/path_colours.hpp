@@ -12,8 +12,9 @@
 
 namespace kinebus::gui {
 
-enum class PathColouring : std::uint8_t { kFeed, kLayer, kMargin };
-inline constexpr std::size_t kPathColourings = 3;
+/// kPart: as one body, in one colour.
+enum class PathColouring : std::uint8_t { kFeed, kLayer, kMargin, kPart };
+inline constexpr std::size_t kPathColourings = 4;
 
 struct PathVertex {
   std::array<float, 3> point_mm;

@@ -86,6 +86,7 @@ ToolPath PathReader::finish() {
     path_.bounds_mm.add(b);
     path_.work_length_mm += std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
   }
+  path_.extrudes = extrudes_;
   path_.layers = layers();
   return std::move(path_);
 }

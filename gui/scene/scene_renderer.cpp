@@ -241,6 +241,10 @@ void SceneRenderer::bind_path_program(QOpenGLShaderProgram& program, const DrawR
   program.setUniformValue("style", static_cast<int>(style));
   program.setUniformValue("travel_colour", content_.colours.travel);
   program.setUniformValue("remaining_colour", content_.colours.remaining);
+  // What is printed is a body as others are: red when one comes close to it.
+  const Look near = look_of(Finish::kNear);
+  program.setUniformValue("near_colour", QVector4D(content_.colours.dark ? near.dark : near.light,
+                                                   content_.figure.close_to_print ? 0.8F : 0.0F));
   program.setUniformValueArray("ramp", colour_ramp(content_.colouring)[0].data(), 9, 3);
 }
 

@@ -42,6 +42,7 @@ struct ToolPath {
   std::uint32_t refused_lines =
       0;  ///< lines that are no G-code for this machine; the path goes on behind them
   double work_length_mm = 0;
+  bool extrudes = false;  ///< what is worked is deposited, not cut
 
   std::size_t size() const { return points_mm.size(); }
   /// First vertex of `line` or of a later line; size() when none is.

@@ -12,7 +12,9 @@
 #include <QLatin1Char>
 #include <QLatin1String>
 #include <QTemporaryDir>
+#include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <stdexcept>
 
 #include "gui/screenshots/demo_job.hpp"
@@ -64,6 +66,14 @@ class Photographer {
         take(QStringLiteral("%1-%2-%3")
                  .arg(name, choice.code, dark ? QStringLiteral("dark") : QStringLiteral("light")));
       }
+  }
+
+  /// The scene alone is the same in every language.
+  void one(MainWindow::Page page, const QString& name) {
+    window_.set_theme(false);
+    window_.set_language(QStringLiteral("en"));
+    window_.show_page(page);
+    take(name);
   }
 
  private:
@@ -122,6 +132,30 @@ int run(int argc, char** argv) {
   wait("the machine is homed",
        [&] { return state() == joblink::STATE_READY && desk.session.status().positions_known(); });
   photographer.all(MainWindow::kJog, QStringLiteral("4-jog"));
+  const auto scene = [&](const char* name) {
+    window.view_page().scene().look(SceneView::Look::kDiagonal);
+    window.view_page().scene().fit_machine();
+    photographer.one(MainWindow::kView, QString::fromLatin1(name));
+  };
+  scene("11-scene-m1-home");
+  desk.session.go_to_reference();
+  wait("it is over the bed", [&] { return state() == joblink::STATE_MOVING; });
+  wait("it rests", [&] { return state() == joblink::STATE_READY; });
+  constexpr double kTilt_rad = std::numbers::pi / 4;
+  joblink::Pose tilt;
+  tilt.set_a_rad(kTilt_rad);
+  desk.session.jog(tilt, 0);
+  wait("it is tilted", [&] {
+    return state() == joblink::STATE_READY &&
+           std::abs(desk.session.status().tool().a_rad() - kTilt_rad) < 1e-3;
+  });
+  scene("11-scene-m1-tilted");
+  window.view_page().scene().fit_part();
+  photographer.one(MainWindow::kView, QStringLiteral("11-scene-m1-tilted-part"));
+  desk.session.go_to_reference();
+  wait("it is upright", [&] {
+    return state() == joblink::STATE_READY && std::abs(desk.session.status().tool().a_rad()) < 1e-3;
+  });
   for (const char* line : {"M115", "M114", "M105", "M119"}) {
     window.console_page().send(QString::fromLatin1(line));
     wait(line,
@@ -142,6 +176,8 @@ int run(int argc, char** argv) {
 
   window.machine_page().show_tab(3);
   photographer.all(MainWindow::kMachine, QStringLiteral("10-motors"));
+  window.machine_page().show_tab(4);
+  photographer.all(MainWindow::kMachine, QStringLiteral("12-heaters"));
 
   wait("still connected", [&] { return desk.session.connected(); });
   desk.session.start_job(QStringLiteral("vase.gcode"));
@@ -165,6 +201,11 @@ int run(int argc, char** argv) {
     window.view_page().set_colouring(PathColouring::kLayer);
     window.view_page().scene().fit_part();
   });
+  window.view_page().set_colouring(PathColouring::kPart);
+  photographer.one(MainWindow::kView, QStringLiteral("11-scene-m1-printed"));
+  // Faster than the slider goes.
+  desk.session.set_override(3);
+  wait("three times as fast", [&] { return desk.session.status().feed_override() > 2.9; });
   window.machine_page().show_tab(0);
   photographer.all(MainWindow::kMachine, QStringLiteral("7-machine"));
   window.machine_page().show_tab(1);
@@ -172,6 +213,15 @@ int run(int argc, char** argv) {
   desk.session.stop();
   wait("stopped", [&] { return state() == joblink::STATE_STOPPED || state() == joblink::STATE_ALARM; });
   photographer.all(MainWindow::kAlarms, QStringLiteral("6-alarms"));
+  for (const char* other : {"m4", "m5"}) {
+    desk.start_demo([](const QString& why) { std::fprintf(stderr, "%s\n", qPrintable(why)); },
+                    QStringLiteral(KINEBUS_MACHINES "/%1.toml").arg(QLatin1String(other)));
+    wait(other, [&] { return desk.session.connected() && desk.session.machine().joints_size() > 0; });
+    desk.session.home();
+    wait("it is homed",
+         [&] { return state() == joblink::STATE_READY && desk.session.status().positions_known(); });
+    scene(qPrintable(QStringLiteral("11-scene-%1-home").arg(QLatin1String(other))));
+  }
   desk.session.disconnect_from_gateway();
   desk.demo.reset();
   return 0;

@@ -314,6 +314,20 @@ void Session::set_temperature(bool bed, double celsius) {
     r.mutable_set_temperature()->set_celsius(celsius);
   }));
 }
+void Session::set_heater(joblink::HeaterKind kind, std::uint32_t index, double celsius) {
+  command(plain([&](auto& r) {
+    r.mutable_set_temperature()->set_kind(kind);
+    r.mutable_set_temperature()->set_index(index);
+    r.mutable_set_temperature()->set_celsius(celsius);
+  }));
+}
+void Session::tune_heater(joblink::HeaterKind kind, std::uint32_t index, double celsius) {
+  command(plain([&](auto& r) {
+    r.mutable_tune_heater()->set_kind(kind);
+    r.mutable_tune_heater()->set_index(index);
+    r.mutable_tune_heater()->set_celsius(celsius);
+  }));
+}
 void Session::set_fan(double ratio) {
   command(plain([&](auto& r) { r.mutable_set_fan()->set_ratio(ratio); }));
 }

@@ -76,6 +76,10 @@ class Session : public QObject {
   void jog_motor(int joint, double distance);
   void set_override(double ratio);
   void set_temperature(bool bed, double celsius);
+  /// 0 switches it off, and ends its measurement.
+  void set_heater(joblink::HeaterKind kind, std::uint32_t index, double celsius);
+  /// Its node measures it, to be good at `celsius`.
+  void tune_heater(joblink::HeaterKind kind, std::uint32_t index, double celsius);
   void set_fan(double ratio);
   void set_work_offset(std::uint32_t system, const joblink::Pose& offset, bool here);
   void console(const QString& line, AnswerHandler then);

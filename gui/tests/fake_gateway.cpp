@@ -46,6 +46,14 @@ joblink::MachineInfo m1_info() {
   m.mutable_reach()->mutable_z_mm()->set_max(250);
   m.set_hotend_max_celsius(300);
   m.set_bed_max_celsius(120);
+  const auto heater = [&](const char* name, joblink::HeaterKind kind, double max_celsius) {
+    auto& added = *m.add_heaters();
+    added.set_name(name);
+    added.set_kind(kind);
+    added.set_max_celsius(max_celsius);
+  };
+  heater("hotend", joblink::HEATER_HOTEND, 300);
+  heater("bed", joblink::HEATER_BED, 120);
   return m;
 }
 
@@ -54,10 +62,16 @@ FakeGateway::FakeGateway() : machine(m1_info()), server_(this), statuses_(this) 
   status.set_state(STATE_READY);
   allow({COMMAND_START_JOB, COMMAND_STOP, COMMAND_HOME, COMMAND_REFERENCE, COMMAND_JOG, COMMAND_SET_OVERRIDE,
          COMMAND_SET_TEMPERATURE, COMMAND_SET_FAN, COMMAND_MOTORS_OFF, COMMAND_SET_WORK_OFFSET,
-         COMMAND_SET_MOTOR_CURRENTS, COMMAND_TUNE_MOTOR, COMMAND_JOG_MOTOR});
+         COMMAND_SET_MOTOR_CURRENTS, COMMAND_TUNE_MOTOR, COMMAND_JOG_MOTOR, COMMAND_TUNE_HEATER});
   status.set_positions_known(true);
   status.mutable_tool()->set_z_mm(20);
   status.set_feed_override(1);
+  for (const auto& info : machine.heaters()) {
+    auto& heater = *status.add_heaters();
+    heater.set_name(info.name());
+    heater.set_kind(info.kind());
+    heater.set_actual_celsius(24);
+  }
   for (std::uint32_t i = 1; i <= 3; ++i) {
     auto& node = *status.add_nodes();
     node.set_id(i);

@@ -264,6 +264,38 @@ TEST_F(WindowTest, TheJobsLinesAreSeen) {
   EXPECT_GT(seen, with.width() * with.height() / 25);
 }
 
+TEST_F(WindowTest, WhatAJobHasPrintedStaysOnTheTableUntilItIsTakenOff) {
+  gateway.jobs["vase.gcode"] = vase_job(6, 1, 0.7).toStdString();
+  show_connected();
+  ASSERT_TRUE(wait_until([&] { return desk.jobs.rowCount() == 1; }));
+  const SceneContent& shown = window->view_page().scene().content();
+  const auto enter = [&](joblink::State state, const char* job, std::uint32_t line) {
+    gateway.status.set_state(state);
+    gateway.status.set_job(job);
+    gateway.status.set_line(line);
+    gateway.send_status();
+  };
+  const auto vertex = [&](std::uint32_t line) {
+    return static_cast<std::uint32_t>(desk.path.scene()->path.vertex_at_line(line));
+  };
+  enter(joblink::STATE_RUNNING, "vase.gcode", 200);
+  ASSERT_TRUE(wait_until([&] { return desk.path.scene() != nullptr && shown.done_vertex == vertex(200); }));
+  // Cancelled: the rest is not made, and will not be.
+  enter(joblink::STATE_CANCELLING, "vase.gcode", 230);
+  ASSERT_TRUE(wait_until([&] { return shown.done_vertex == vertex(230); }));
+  enter(joblink::STATE_READY, "", 0);
+  ASSERT_TRUE(wait_until([&] { return desk.session.status().job().empty(); }));
+  EXPECT_EQ(shown.done_vertex, vertex(230));
+  // Who homes has taken it off.
+  enter(joblink::STATE_HOMING, "", 0);
+  ASSERT_TRUE(wait_until([&] { return shown.done_vertex == UINT32_MAX; }));
+  // A job that comes to its end is made whole.
+  enter(joblink::STATE_RUNNING, "vase.gcode", 300);
+  ASSERT_TRUE(wait_until([&] { return shown.done_vertex == vertex(300); }));
+  enter(joblink::STATE_READY, "", 0);
+  ASSERT_TRUE(wait_until([&] { return shown.done_vertex == UINT32_MAX; }));
+}
+
 TEST_F(WindowTest, LeavingTheGatewayEmptiesEveryPage) {
   show_connected();
   ASSERT_TRUE(wait_until([&] { return desk.session.machine().joints_size() > 0; }));

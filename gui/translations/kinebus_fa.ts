@@ -3686,7 +3686,7 @@
     </message>
     <message>
         <source>%1 of %2 A</source>
-        <translation>%1 از %2 A</translation>
+        <translation>%1 / %2 A</translation>
     </message>
     <message>
         <source>Fault</source>
@@ -3862,6 +3862,141 @@
     <message>
         <source>Gateway on this computer</source>
         <translation>درگاه روی این رایانه</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::HeatPanel</name>
+    <message>
+        <source>Measure a heater</source>
+        <translation>اندازه‌گیری گرم‌کن</translation>
+    </message>
+    <message>
+        <source>Its node heats it with full power for half of the way, switches it off and follows its curve. What it finds makes the heater reach its target fast, without going beyond it.</source>
+        <translation>گرهٔ آن تا نیمهٔ راه با توان کامل گرمش می‌کند، خاموشش می‌کند و منحنی‌اش را دنبال می‌کند. با آنچه می‌یابد گرم‌کن زود و بی‌آنکه از هدف بگذرد به آن می‌رسد.</translation>
+    </message>
+    <message>
+        <source>Heater</source>
+        <translation>گرم‌کن</translation>
+    </message>
+    <message>
+        <source>Good at</source>
+        <translation>دمای کار</translation>
+    </message>
+    <message>
+        <source>Temperature that it shall be good at</source>
+        <translation>دمایی که باید در آن خوب کار کند</translation>
+    </message>
+    <message>
+        <source>It is at</source>
+        <translation>دمای اکنون</translation>
+    </message>
+    <message>
+        <source>Measure</source>
+        <translation>اندازه‌گیری</translation>
+    </message>
+    <message>
+        <source>End</source>
+        <translation>پایان</translation>
+    </message>
+    <message>
+        <source>Ends the measurement: the heater is switched off and stays as it was</source>
+        <translation>اندازه‌گیری را پایان می‌دهد: گرم‌کن خاموش می‌شود و همان‌گونه که بود می‌ماند</translation>
+    </message>
+    <message>
+        <source>Temperature while it is measured</source>
+        <translation>دما هنگام اندازه‌گیری</translation>
+    </message>
+    <message>
+        <source>Progress</source>
+        <translation>پیشرفت</translation>
+    </message>
+    <message>
+        <source>Power, by the machine file</source>
+        <translation>توان (از پروندهٔ ماشین)</translation>
+    </message>
+    <message>
+        <source>%1 W</source>
+        <translation>%1 W</translation>
+    </message>
+    <message>
+        <source>Heat capacity</source>
+        <translation>ظرفیت حرارتی</translation>
+    </message>
+    <message>
+        <source>%1 J/K</source>
+        <translation>%1 J/K</translation>
+    </message>
+    <message>
+        <source>Loss</source>
+        <translation>اتلاف</translation>
+    </message>
+    <message>
+        <source>%1 W/K</source>
+        <translation>%1 W/K</translation>
+    </message>
+    <message>
+        <source>Dead time</source>
+        <translation>زمان مرده</translation>
+    </message>
+    <message>
+        <source>%1 s</source>
+        <translation>%1 s</translation>
+    </message>
+    <message>
+        <source>Lag</source>
+        <translation>تأخیر</translation>
+    </message>
+    <message>
+        <source>What was found</source>
+        <translation>آنچه یافته شد</translation>
+    </message>
+    <message>
+        <source>The measurement begins</source>
+        <translation>اندازه‌گیری آغاز می‌شود</translation>
+    </message>
+    <message>
+        <source>It heats with full power</source>
+        <translation>با توان کامل گرم می‌شود</translation>
+    </message>
+    <message>
+        <source>The power is off, its curve is followed</source>
+        <translation>توان قطع است، منحنی‌اش دنبال می‌شود</translation>
+    </message>
+    <message>
+        <source>The node works out what it has seen, and stores it</source>
+        <translation>گره آنچه را دیده است حساب و ذخیره می‌کند</translation>
+    </message>
+    <message>
+        <source>Measured, to be good at %1</source>
+        <translation>برای کار در %1 اندازه‌گیری شد</translation>
+    </message>
+    <message>
+        <source>The heater&apos;s node works by these values from now on, and keeps them without power.</source>
+        <translation>گرهٔ گرم‌کن از این پس با این مقدارها کار می‌کند و بی‌برق هم نگهشان می‌دارد.</translation>
+    </message>
+    <message>
+        <source>The heater&apos;s node works by these values from now on. %1</source>
+        <translation>گرهٔ گرم‌کن از این پس با این مقدارها کار می‌کند. %1</translation>
+    </message>
+    <message>
+        <source>Not measured</source>
+        <translation>اندازه‌گیری نشد</translation>
+    </message>
+    <message>
+        <source>Not measured since the gateway was started</source>
+        <translation>از آغاز کار درگاه اندازه‌گیری نشده است</translation>
+    </message>
+    <message>
+        <source>This machine has no heater</source>
+        <translation>این ماشین گرم‌کن ندارد</translation>
+    </message>
+    <message>
+        <source>%1 gets full power until it is half of the way to %2. It is hot then, and the machine does nothing else for some minutes. Its fan should blow as it does in a print.</source>
+        <translation>%1 تا نیمهٔ راه به %2 توان کامل می‌گیرد. داغ می‌شود و ماشین چند دقیقه کار دیگری نمی‌کند. فن آن باید مانند هنگام چاپ بوزد.</translation>
+    </message>
+    <message>
+        <source>Not now</source>
+        <translation>اکنون نه</translation>
     </message>
 </context>
 <context>
@@ -4365,6 +4500,10 @@
         <source>Motors</source>
         <translation>موتورها</translation>
     </message>
+    <message>
+        <source>Heaters</source>
+        <translation>گرم‌کن‌ها</translation>
+    </message>
 </context>
 <context>
     <name>kinebus::gui::MainWindow</name>
@@ -4714,6 +4853,21 @@
     </message>
 </context>
 <context>
+    <name>kinebus::gui::TuningPlot</name>
+    <message>
+        <source>The curve is drawn here while a heater is measured.</source>
+        <translation>هنگام اندازه‌گیری یک گرم‌کن، منحنی‌اش اینجا کشیده می‌شود.</translation>
+    </message>
+    <message>
+        <source>Target</source>
+        <translation>هدف</translation>
+    </message>
+    <message>
+        <source>full power</source>
+        <translation>توان کامل</translation>
+    </message>
+</context>
+<context>
     <name>kinebus::gui::UsbLink</name>
     <message>
         <source>the USB cable was pulled</source>
@@ -4847,6 +5001,10 @@
     <message>
         <source>%1 mm</source>
         <translation>%1 mm</translation>
+    </message>
+    <message>
+        <source>As a body</source>
+        <translation>همچون جسم</translation>
     </message>
 </context>
 </TS>

@@ -3865,6 +3865,141 @@
     </message>
 </context>
 <context>
+    <name>kinebus::gui::HeatPanel</name>
+    <message>
+        <source>Measure a heater</source>
+        <translation>Isıtıcıyı ölç</translation>
+    </message>
+    <message>
+        <source>Its node heats it with full power for half of the way, switches it off and follows its curve. What it finds makes the heater reach its target fast, without going beyond it.</source>
+        <translation>Düğümü, yolun yarısına kadar tam güçle ısıtır, kapatır ve eğrisini izler. Bulduğu değerlerle ısıtıcı hedefine çabuk ve aşmadan ulaşır.</translation>
+    </message>
+    <message>
+        <source>Heater</source>
+        <translation>Isıtıcı</translation>
+    </message>
+    <message>
+        <source>Good at</source>
+        <translation>Çalışacağı sıcaklık</translation>
+    </message>
+    <message>
+        <source>Temperature that it shall be good at</source>
+        <translation>İyi çalışacağı sıcaklık</translation>
+    </message>
+    <message>
+        <source>It is at</source>
+        <translation>Şu anki sıcaklık</translation>
+    </message>
+    <message>
+        <source>Measure</source>
+        <translation>Ölç</translation>
+    </message>
+    <message>
+        <source>End</source>
+        <translation>Bitir</translation>
+    </message>
+    <message>
+        <source>Ends the measurement: the heater is switched off and stays as it was</source>
+        <translation>Ölçümü bitirir: ısıtıcı kapatılır ve eskisi gibi kalır</translation>
+    </message>
+    <message>
+        <source>Temperature while it is measured</source>
+        <translation>Ölçüm sırasındaki sıcaklık</translation>
+    </message>
+    <message>
+        <source>Progress</source>
+        <translation>İlerleme</translation>
+    </message>
+    <message>
+        <source>Power, by the machine file</source>
+        <translation>Güç (makine dosyasından)</translation>
+    </message>
+    <message>
+        <source>%1 W</source>
+        <translation>%1 W</translation>
+    </message>
+    <message>
+        <source>Heat capacity</source>
+        <translation>Isı kapasitesi</translation>
+    </message>
+    <message>
+        <source>%1 J/K</source>
+        <translation>%1 J/K</translation>
+    </message>
+    <message>
+        <source>Loss</source>
+        <translation>Kayıp</translation>
+    </message>
+    <message>
+        <source>%1 W/K</source>
+        <translation>%1 W/K</translation>
+    </message>
+    <message>
+        <source>Dead time</source>
+        <translation>Ölü zaman</translation>
+    </message>
+    <message>
+        <source>%1 s</source>
+        <translation>%1 s</translation>
+    </message>
+    <message>
+        <source>Lag</source>
+        <translation>Gecikme</translation>
+    </message>
+    <message>
+        <source>What was found</source>
+        <translation>Bulunan değerler</translation>
+    </message>
+    <message>
+        <source>The measurement begins</source>
+        <translation>Ölçüm başlıyor</translation>
+    </message>
+    <message>
+        <source>It heats with full power</source>
+        <translation>Tam güçle ısıtılıyor</translation>
+    </message>
+    <message>
+        <source>The power is off, its curve is followed</source>
+        <translation>Güç kapalı, eğrisi izleniyor</translation>
+    </message>
+    <message>
+        <source>The node works out what it has seen, and stores it</source>
+        <translation>Düğüm gördüklerini hesaplıyor ve saklıyor</translation>
+    </message>
+    <message>
+        <source>Measured, to be good at %1</source>
+        <translation>%1 için ölçüldü</translation>
+    </message>
+    <message>
+        <source>The heater&apos;s node works by these values from now on, and keeps them without power.</source>
+        <translation>Isıtıcının düğümü bundan sonra bu değerlerle çalışır ve onları elektrik kesilse de saklar.</translation>
+    </message>
+    <message>
+        <source>The heater&apos;s node works by these values from now on. %1</source>
+        <translation>Isıtıcının düğümü bundan sonra bu değerlerle çalışır. %1</translation>
+    </message>
+    <message>
+        <source>Not measured</source>
+        <translation>Ölçülmedi</translation>
+    </message>
+    <message>
+        <source>Not measured since the gateway was started</source>
+        <translation>Ağ geçidi başlatıldığından beri ölçülmedi</translation>
+    </message>
+    <message>
+        <source>This machine has no heater</source>
+        <translation>Bu makinede ısıtıcı yok</translation>
+    </message>
+    <message>
+        <source>%1 gets full power until it is half of the way to %2. It is hot then, and the machine does nothing else for some minutes. Its fan should blow as it does in a print.</source>
+        <translation>%1, %2 yolunun yarısına kadar tam güç alır. Isınır ve makine birkaç dakika başka bir şey yapmaz. Fanı, baskıdaki gibi çalışmalıdır.</translation>
+    </message>
+    <message>
+        <source>Not now</source>
+        <translation>Şimdi değil</translation>
+    </message>
+</context>
+<context>
     <name>kinebus::gui::JobPanel</name>
     <message>
         <source>Interrupted: resume goes on from its place.</source>
@@ -4365,6 +4500,10 @@
         <source>Motors</source>
         <translation>Motorlar</translation>
     </message>
+    <message>
+        <source>Heaters</source>
+        <translation>Isıtıcılar</translation>
+    </message>
 </context>
 <context>
     <name>kinebus::gui::MainWindow</name>
@@ -4714,6 +4853,21 @@
     </message>
 </context>
 <context>
+    <name>kinebus::gui::TuningPlot</name>
+    <message>
+        <source>The curve is drawn here while a heater is measured.</source>
+        <translation>Bir ısıtıcı ölçülürken eğrisi burada çizilir.</translation>
+    </message>
+    <message>
+        <source>Target</source>
+        <translation>Hedef</translation>
+    </message>
+    <message>
+        <source>full power</source>
+        <translation>tam güç</translation>
+    </message>
+</context>
+<context>
     <name>kinebus::gui::UsbLink</name>
     <message>
         <source>the USB cable was pulled</source>
@@ -4847,6 +5001,10 @@
     <message>
         <source>%1 mm</source>
         <translation>%1 mm</translation>
+    </message>
+    <message>
+        <source>As a body</source>
+        <translation>Cisim olarak</translation>
     </message>
 </context>
 </TS>

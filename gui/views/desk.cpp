@@ -13,7 +13,7 @@ void Desk::connect_to(const FoundGateway& gateway) {
   session.connect_to([this, gateway] { return finder.link_to(gateway); }, gateway.title);
 }
 
-void Desk::start_demo(const std::function<void(const QString&)>& failed) {
+void Desk::start_demo(const std::function<void(const QString&)>& failed, const QString& machine_file) {
   session.disconnect_from_gateway();
   demo = std::make_unique<DemoGateway>();
   QObject::connect(demo.get(), &DemoGateway::failed, &session, failed);
@@ -22,7 +22,7 @@ void Desk::start_demo(const std::function<void(const QString&)>& failed) {
     session.connect_to([socket] { return std::make_unique<SocketLink>(socket); },
                        QCoreApplication::translate("Desk", "Demo machine"));
   });
-  demo->start();
+  demo->start(machine_file);
 }
 
 }  // namespace kinebus::gui

@@ -12,6 +12,7 @@
 #include "gui/models/nodes_model.hpp"
 #include "gui/models/path_source.hpp"
 #include "gui/models/status_history.hpp"
+#include "gui/models/tuning_curves.hpp"
 #include "gui/session/session.hpp"
 #include "gui/views/language.hpp"
 #include "gui/views/theme.hpp"
@@ -28,14 +29,16 @@ struct Desk {
   AxesModel axes{session};
   NodesModel nodes{session};
   StatusHistory history{session};
+  TuningCurves tuning{session};
   PathSource path{session};
   Theme theme;
   Language language;
   std::unique_ptr<DemoGateway> demo;
 
   void connect_to(const FoundGateway& gateway);
-  /// Starts the demo machine and turns to it; `failed` hears why it does not work.
-  void start_demo(const std::function<void(const QString&)>& failed);
+  /// Starts the demo machine and turns to it; `failed` hears why it does not work. `machine_file`: another
+  /// machine than a new gateway has.
+  void start_demo(const std::function<void(const QString&)>& failed, const QString& machine_file = {});
 };
 
 }  // namespace kinebus::gui

@@ -20,6 +20,7 @@
 #include <QWidget>
 
 #include "gui/models/format.hpp"
+#include "gui/views/heat_panel.hpp"
 #include "gui/views/machine_file_editor.hpp"
 #include "gui/views/motors_panel.hpp"
 #include "gui/views/plot_widget.hpp"
@@ -124,6 +125,7 @@ MachinePage::MachinePage(Desk& desk, QWidget* parent) : SpeakingWidget(parent), 
   tabs_->addTab(make_numbers(), {});
   tabs_->addTab(editor_, {});
   tabs_->addTab(new MotorsPanel(desk_, this), {});
+  tabs_->addTab(new HeatPanel(desk_, this), {});
   column->addWidget(tabs_);
   connect(tabs_, &QTabWidget::currentChanged, this, [this](int tab) {
     if (tabs_->widget(tab) == editor_) editor_->read_if_empty();
@@ -135,6 +137,7 @@ MachinePage::MachinePage(Desk& desk, QWidget* parent) : SpeakingWidget(parent), 
     tabs_->setTabText(1, tr("Bus and time"));
     tabs_->setTabText(2, tr("Machine file"));
     tabs_->setTabText(3, tr("Motors"));
+    tabs_->setTabText(4, tr("Heaters"));
     take_status();
   });
 }

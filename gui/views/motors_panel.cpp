@@ -237,8 +237,8 @@ void MotorsPanel::take_status() {
   if (of != nullptr)
     for (const joblink::NodeStatus& node : session.status().nodes())
       for (unsigned i = 0; node.id() == of->node() && i < 7; ++i)
-        dots += QStringLiteral("%1 %2  ").arg(i + 1).arg((node.inputs() >> i & 1u) != 0 ? QChar(0x25CF)
-                                                                                        : QChar(0x25CB));
+        dots += QStringLiteral("%1 %2  ").arg(Format::number(i + 1, 0),
+                                              (node.inputs() >> i & 1u) != 0 ? QChar(0x25CF) : QChar(0x25CB));
   inputs_->setText(of == nullptr ? QString()
                                  : tr("Switches of node %1: %2")
                                        .arg(Format::number(of->node(), 0), Format::isolated(dots.trimmed())));

@@ -108,6 +108,13 @@ ViewPage::ViewPage(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(
     if (model) scene_->content().model = *model;
     fitted_ = false;
     seen_status_.clear();
+    forget_print();
+    take_status();
+  });
+  connect(&desk_.path, &PathSource::chosen, this, [this] {
+    // Who looks at a job is done with what the last one has left.
+    if (!desk_.session.status().job().empty()) return;
+    forget_print();
     take_status();
   });
   connect(&desk_.path, &PathSource::changed, this, &ViewPage::take_path);
@@ -131,7 +138,7 @@ QWidget* ViewPage::make_tools() {
   row->setSpacing(3);
   auto* colour_label = make_label("muted", bar);
   colouring_ = new QComboBox(bar);
-  colouring_->addItems({{}, {}, {}});
+  colouring_->addItems({{}, {}, {}, {}});
   row->addWidget(colour_label);
   row->addSpacing(4);
   row->addWidget(colouring_);
@@ -173,6 +180,7 @@ QWidget* ViewPage::make_tools() {
     colouring_->setItemText(0, tr("Feed"));
     colouring_->setItemText(1, tr("Layer"));
     colouring_->setItemText(2, tr("Limit margin"));
+    colouring_->setItemText(3, tr("As a body"));
     colouring_->setAccessibleName(tr("Colour of the tool path"));
     const auto name = [](QToolButton* tool, const QString& words) {
       tool->setToolTip(words);
@@ -219,8 +227,10 @@ void ViewPage::take_theme() {
 void ViewPage::take_status() {
   SceneContent& content = scene_->content();
   const joblink::Status& status = desk_.session.status();
+  follow_print();
   if (content.has_machine) {
-    content.figure = pose_machine(content.model, pose_of(status), status.hotend().actual_celsius() > 50);
+    content.figure =
+        pose_machine(content.model, pose_of(status), status.hotend().actual_celsius() > 50, &printed_);
     if (!fitted_ && status.has_tool()) {
       fitted_ = true;
       content.camera = {};
@@ -228,19 +238,40 @@ void ViewPage::take_status() {
       scene_->fit_machine();
     }
   }
-  const bool runs =
-      shown_ != nullptr && !status.job().empty() && desk_.path.name() == QString::fromStdString(status.job());
-  const std::uint32_t done =
-      runs ? static_cast<std::uint32_t>(shown_->path.vertex_at_line(std::max(1u, status.line())))
-           : UINT32_MAX;
-  content.done_vertex = done;
+  content.done_vertex = made_ != nullptr && made_ == shown_ ? made_to_ : UINT32_MAX;
   // A status that changes nothing to be seen lets the picture come to rest.
-  std::string seen = status.tool().SerializeAsString() + std::to_string(done);
+  std::string seen = status.tool().SerializeAsString() + std::to_string(content.done_vertex);
   for (const double joint : status.joints()) seen += ' ' + std::to_string(joint);
   seen += status.hotend().actual_celsius() > 50 ? 'h' : 'c';
+  seen += content.figure.close_to_print ? 'n' : 'f';
   if (seen == seen_status_) return;
   seen_status_ = std::move(seen);
   if (isVisible()) scene_->redraw();
+}
+
+void ViewPage::follow_print() {
+  const joblink::Status& status = desk_.session.status();
+  const bool of_shown = shown_ != nullptr && desk_.path.name() == QString::fromStdString(status.job());
+  if (!status.job().empty() && of_shown) {
+    made_ = shown_;
+    made_to_ = static_cast<std::uint32_t>(shown_->path.vertex_at_line(std::max(1u, status.line())));
+    // A job that ends from its run has come to its end.
+    runs_ = status.state() == joblink::STATE_RUNNING;
+  } else if (!status.job().empty() || status.state() == joblink::STATE_HOMING) {
+    forget_print();  // who begins another job, or homes, has taken it off the table
+  } else if (runs_) {
+    runs_ = false;
+    made_to_ = UINT32_MAX;
+  }
+  printed_.follow(made_ != nullptr ? std::shared_ptr<const ToolPath>(made_, &made_->path) : nullptr,
+                  made_to_);
+}
+
+void ViewPage::forget_print() {
+  made_.reset();
+  made_to_ = UINT32_MAX;
+  runs_ = false;
+  printed_.clear();
 }
 
 void ViewPage::take_path() {
@@ -264,8 +295,9 @@ void ViewPage::take_path() {
 
 void ViewPage::tell_legend() {
   const auto colouring = scene_->content().colouring;
-  legend_->setVisible(shown_ != nullptr);
-  if (shown_ == nullptr) return;
+  const bool scale = shown_ != nullptr && colouring != PathColouring::kPart;
+  legend_->setVisible(scale);
+  if (!scale) return;
   switch (colouring) {
     case PathColouring::kFeed:
       legend_->set(colouring, Format::number(shown_->shades.feed_min_mm_per_min / 60.0, 0),
@@ -277,6 +309,8 @@ void ViewPage::tell_legend() {
       break;
     case PathColouring::kMargin:
       legend_->set(colouring, tr("at a limit"), tr("free"));
+      break;
+    case PathColouring::kPart:
       break;
   }
 }
