@@ -7,6 +7,7 @@
 #include <QString>
 #include <QVariant>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -120,7 +121,8 @@ QVariant AxesModel::data(const QModelIndex& index, int role) const {
   if (role == kSwitchOn) return switch_on;
   if (role == kShare)
     return known && limited
-               ? (position - joint.travel().min()) / (joint.travel().max() - joint.travel().min())
+               ? std::clamp((position - joint.travel().min()) / (joint.travel().max() - joint.travel().min()),
+                            0.0, 1.0)
                : -1.0;
   if (role == Qt::TextAlignmentRole && is_number(index.column()))
     return QVariant(Qt::AlignTrailing | Qt::AlignVCenter);

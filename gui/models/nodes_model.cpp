@@ -93,13 +93,14 @@ QVariant NodesModel::data(const QModelIndex& index, int role) const {
   if (role != Qt::DisplayRole) return {};
   switch (index.column()) {
     case kNode:
-      return QString::number(node.id());
+      return Format::number(node.id(), 0);
     case kState:
       return state_of(node);
     case kSync:
       return Format::isolated(tr("%1 µs").arg(Format::number(node.sync_error_s() * 1e6, 1)));
     case kQueue:
-      return Format::isolated(QStringLiteral("%1 / %2").arg(node.queue_records()).arg(node.queue_capacity()));
+      return Format::isolated(QStringLiteral("%1 / %2").arg(Format::number(node.queue_records(), 0),
+                                                            Format::number(node.queue_capacity(), 0)));
     case kInputs: {
       QString dots;
       for (unsigned i = 0; i < 7; ++i) dots += (node.inputs() >> i & 1u) != 0 ? QChar(0x25CF) : QChar(0x25CB);

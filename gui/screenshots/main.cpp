@@ -20,6 +20,7 @@
 #include "gui/screenshots/demo_job.hpp"
 #include "gui/views/connect_page.hpp"
 #include "gui/views/console_page.hpp"
+#include "gui/views/heat_panel.hpp"
 #include "gui/views/jobs_page.hpp"
 #include "gui/views/machine_file_editor.hpp"
 #include "gui/views/machine_page.hpp"
@@ -176,8 +177,6 @@ int run(int argc, char** argv) {
 
   window.machine_page().show_tab(3);
   photographer.all(MainWindow::kMachine, QStringLiteral("10-motors"));
-  window.machine_page().show_tab(4);
-  photographer.all(MainWindow::kMachine, QStringLiteral("12-heaters"));
 
   wait("still connected", [&] { return desk.session.connected(); });
   desk.session.start_job(QStringLiteral("vase.gcode"));
@@ -213,15 +212,33 @@ int run(int argc, char** argv) {
   desk.session.stop();
   wait("stopped", [&] { return state() == joblink::STATE_STOPPED || state() == joblink::STATE_ALARM; });
   photographer.all(MainWindow::kAlarms, QStringLiteral("6-alarms"));
-  for (const char* other : {"m4", "m5"}) {
+  const auto turn_to = [&](const char* other) {
     desk.start_demo([](const QString& why) { std::fprintf(stderr, "%s\n", qPrintable(why)); },
                     QStringLiteral(KINEBUS_MACHINES "/%1.toml").arg(QLatin1String(other)));
     wait(other, [&] { return desk.session.connected() && desk.session.machine().joints_size() > 0; });
+  };
+  for (const char* other : {"m4", "m5"}) {
+    turn_to(other);
     desk.session.home();
     wait("it is homed",
          [&] { return state() == joblink::STATE_READY && desk.session.status().positions_known(); });
     scene(qPrintable(QStringLiteral("11-scene-%1-home").arg(QLatin1String(other))));
   }
+  turn_to("corexy_heat");
+  desk.session.bring_up();
+  wait("it is awake", [&] { return desk.session.allowed(joblink::COMMAND_TUNE_HEATER); });
+  desk.session.tune_heater(joblink::HEATER_HOTEND, 0, 0);
+  window.machine_page().show_tab(4);
+  window.machine_page().heat_panel().choose(QStringLiteral("hotend"));
+  const auto stage = [&] {
+    const TuningCurve* curve = desk.tuning.of("hotend");
+    return curve != nullptr ? curve->stage : joblink::TUNING_NONE;
+  };
+  wait("its power is off", [&] { return stage() == joblink::TUNING_COOLS; });
+  photographer.one(MainWindow::kMachine, QStringLiteral("12-heater-is-measured"));
+  wait("a heater is measured",
+       [&] { return stage() == joblink::TUNING_DONE || stage() == joblink::TUNING_FAILED; });
+  photographer.all(MainWindow::kMachine, QStringLiteral("12-heaters"));
   desk.session.disconnect_from_gateway();
   desk.demo.reset();
   return 0;

@@ -3,11 +3,13 @@
 
 #include <QAbstractButton>
 #include <QApplication>
+#include <QComboBox>
 #include <QKeyEvent>
 #include <QLabel>
 #include <QMessageBox>
 #include <QPoint>
 #include <QPushButton>
+#include <QSlider>
 #include <QStackedWidget>
 #include <QString>
 #include <QWheelEvent>
@@ -65,6 +67,29 @@ TEST_F(CalmTest, TheWheelOverAFieldWithoutFocusChangesNothing) {
   turn_wheel_over(field);
   EXPECT_EQ(field.value(), 0);
   EXPECT_EQ(temperatures_sent(), 0);
+}
+
+TEST_F(CalmTest, TheWheelOverTheOverrideOrAChoiceWithoutFocusChangesNothing) {
+  QSlider* speed = nullptr;
+  for (auto* slider : window->findChildren<QSlider*>())
+    if (slider->accessibleName() == QStringLiteral("Feed override in percent")) speed = slider;
+  ASSERT_NE(speed, nullptr);
+  ASSERT_TRUE(wait_until([&] { return speed->isEnabled(); }));
+  speed->clearFocus();
+  turn_wheel_over(*speed);
+  EXPECT_EQ(speed->value(), 100);
+  int choices = 0;
+  for (auto* choice : window->findChildren<QComboBox*>()) {
+    if (choice->focusPolicy() != Qt::StrongFocus || choice->count() < 2) continue;
+    choice->clearFocus();
+    choice->setCurrentIndex(1);
+    turn_wheel_over(*choice);
+    EXPECT_EQ(choice->currentIndex(), 1) << choice->accessibleName().toStdString();
+    ++choices;
+  }
+  EXPECT_GE(choices, 3) << "motor, heater, work coordinates";
+  QApplication::processEvents();
+  EXPECT_EQ(gateway.count(joblink::ClientMessage::kSetOverride), 0);
 }
 
 TEST_F(CalmTest, ANumberOutOfRangeIsRefusedAsAWhole) {

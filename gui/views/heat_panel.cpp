@@ -61,6 +61,7 @@ QWidget* HeatPanel::make_choice() {
     return label;
   };
   heater_ = new QComboBox(card);
+  turn_with_focus_only(*heater_);
   target_ = new NumberField(card);
   target_->setDecimals(0);
   target_->setSingleStep(5);

@@ -6,6 +6,7 @@
 #include <QLabel>
 #include <QProgressBar>
 #include <QPushButton>
+#include <QString>
 #include <QVector>
 #include <QWidget>
 #include <functional>
@@ -21,6 +22,8 @@ class HeatPanel : public SpeakingWidget {
   Q_OBJECT
  public:
   explicit HeatPanel(Desk& desk, QWidget* parent = nullptr);
+  /// By its name in the machine file.
+  void choose(const QString& heater) { heater_->setCurrentText(heater); }
 
  private:
   QWidget* make_choice();

@@ -68,6 +68,7 @@ JobPanel::JobPanel(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(
   override_->setRange(10, 200);
   override_->setPageStep(10);
   override_->setValue(100);
+  turn_with_focus_only(*override_);
   override_text_ = new QLabel(card);
   override_text_->setMinimumWidth(override_text_->fontMetrics().horizontalAdvance(QStringLiteral("%500")) +
                                   6);

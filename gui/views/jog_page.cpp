@@ -110,6 +110,7 @@ QWidget* JogPage::make_offsets() {
   active_offset_->setWordWrap(true);
   system_ = new QComboBox(card);
   for (const char* name : kSystems) system_->addItem(QString::fromLatin1(name));
+  turn_with_focus_only(*system_);
   auto* top = new QHBoxLayout;
   top->addWidget(heading);
   top->addStretch(1);

@@ -125,7 +125,8 @@ MachinePage::MachinePage(Desk& desk, QWidget* parent) : SpeakingWidget(parent), 
   tabs_->addTab(make_numbers(), {});
   tabs_->addTab(editor_, {});
   tabs_->addTab(new MotorsPanel(desk_, this), {});
-  tabs_->addTab(new HeatPanel(desk_, this), {});
+  heat_ = new HeatPanel(desk_, this);
+  tabs_->addTab(heat_, {});
   column->addWidget(tabs_);
   connect(tabs_, &QTabWidget::currentChanged, this, [this](int tab) {
     if (tabs_->widget(tab) == editor_) editor_->read_if_empty();

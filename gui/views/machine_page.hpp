@@ -12,6 +12,7 @@
 
 namespace kinebus::gui {
 
+class HeatPanel;
 class MachineFileEditor;
 
 class MachinePage : public SpeakingWidget {
@@ -20,6 +21,7 @@ class MachinePage : public SpeakingWidget {
   explicit MachinePage(Desk& desk, QWidget* parent = nullptr);
   void show_tab(int index) { tabs_->setCurrentIndex(index); }
   MachineFileEditor& editor() { return *editor_; }
+  HeatPanel& heat_panel() { return *heat_; }
 
  private:
   QWidget* make_live();
@@ -30,6 +32,7 @@ class MachinePage : public SpeakingWidget {
   QTableView* axes_ = nullptr;
   QTabWidget* tabs_;
   MachineFileEditor* editor_;
+  HeatPanel* heat_;
   QLabel* summary_;
   QVector<std::pair<QLabel*, std::function<QString()>>> numbers_;
 };

@@ -96,6 +96,7 @@ QWidget* MotorsPanel::make_currents() {
   auto* heading = make_label("heading", card);
   motor_ = new QComboBox(card);
   motor_->setLayoutDirection(Qt::LeftToRight);
+  turn_with_focus_only(*motor_);
   auto* top = new QHBoxLayout;
   top->addWidget(heading);
   top->addStretch(1);

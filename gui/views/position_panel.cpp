@@ -163,9 +163,11 @@ QWidget* PositionPanel::make_heaters() {
 
 void PositionPanel::rebuild_joints() {
   for (const JointRow& row : joints_)
-    for (QWidget* w :
-         {static_cast<QWidget*>(row.name), static_cast<QWidget*>(row.value), static_cast<QWidget*>(row.bar)})
+    for (QWidget* w : {static_cast<QWidget*>(row.name), static_cast<QWidget*>(row.value),
+                       static_cast<QWidget*>(row.bar)}) {
+      w->hide();  // at once: it goes when the event loop has its turn
       w->deleteLater();
+    }
   joints_.clear();
   const auto& machine = desk_.session.machine();
   int i = 0, number = -1;
@@ -221,7 +223,8 @@ void PositionPanel::take_status() {
              : QStringLiteral("—"));
     joints_[i].value->setEnabled(!lost);
     const double span = joint.travel().max() - joint.travel().min();
-    const double share = here && span > 0 ? (q - joint.travel().min()) / span : -1;
+    // At home a carriage may be a hair beyond its travel.
+    const double share = here && span > 0 ? std::clamp((q - joint.travel().min()) / span, 0.0, 1.0) : -1;
     const bool near = share >= 0 && (share < 0.04 || share > 0.96);
     joints_[i].bar->set(share, lost   ? palette().color(QPalette::Mid)
                                : near ? desk_.theme.colours().waiting

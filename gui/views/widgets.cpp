@@ -4,6 +4,7 @@
 #include <QEvent>
 #include <QIcon>
 #include <QLatin1String>
+#include <QObject>
 #include <QPaintEvent>
 #include <QPainter>
 #include <QRect>
@@ -17,6 +18,26 @@
 #include "gui/views/theme.hpp"
 
 namespace kinebus::gui {
+
+namespace {
+
+class WheelWithFocus : public QObject {
+ public:
+  using QObject::QObject;
+  bool eventFilter(QObject* watched, QEvent* event) override {
+    const auto* widget = qobject_cast<QWidget*>(watched);
+    if (event->type() != QEvent::Wheel || widget == nullptr || widget->hasFocus()) return false;
+    event->ignore();  // its parent has it
+    return true;
+  }
+};
+
+}  // namespace
+
+void turn_with_focus_only(QWidget& widget) {
+  widget.setFocusPolicy(Qt::StrongFocus);  // not by the wheel
+  widget.installEventFilter(new WheelWithFocus(&widget));
+}
 
 void SpeakingWidget::says(std::function<void()> say) {
   say();

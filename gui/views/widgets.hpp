@@ -66,6 +66,8 @@ class IconButton : public QPushButton {
 /// A push button whose icon follows the theme.
 QPushButton* make_button(const Theme& theme, const QString& icon, const char* kind = "",
                          QWidget* parent = nullptr);
+/// The wheel turns a slider or a choice only while it has the focus; else the page scrolls.
+void turn_with_focus_only(QWidget& widget);
 /// A button that can do nothing now tells why, instead of what it does; `why_not` may be empty.
 void set_usable(QAbstractButton& button, bool can, const QString& why_not);
 QToolButton* make_tool(const Theme& theme, const QString& icon, bool checkable, QWidget* parent = nullptr);
