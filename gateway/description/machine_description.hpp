@@ -262,9 +262,11 @@ struct GcodeDescription {
   double retract_mm_per_s = 35;
   double retract_lift_mm = 0;
   DwellUnit dwell_p_unit = DwellUnit::kByDialect;
-  std::vector<double> tool_length_mm;  ///< of T1, T2 ...: G43 takes it by H, or by T without H
-  bool optional_stop = false;          ///< M1 stops
-  bool block_delete = false;           ///< lines that begin with / are left out
+  std::vector<double> tool_length_mm;    ///< of T1, T2 ...: G43 takes it by H, or by T without H
+  std::vector<double> tool_diameter_mm;  ///< of T1, T2 ...: G41 and G42 take half of it by D, or by the tool
+                                         ///< in use; 0: not known
+  bool optional_stop = false;            ///< M1 stops
+  bool block_delete = false;             ///< lines that begin with / are left out
   friend bool operator==(const GcodeDescription&, const GcodeDescription&) = default;
 };
 

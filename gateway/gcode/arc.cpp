@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <numbers>
 
+#include "gateway/gcode/curve.hpp"
+
 namespace kinebus::gcode {
 namespace {
 
@@ -12,19 +14,6 @@ constexpr double kTurn = 2 * std::numbers::pi;
 constexpr double kSamePoint_mm = 1e-6;
 // Moving the centre by more than this many tolerances would bend the arc visibly.
 constexpr double kLargestShift = 10;
-
-Point2 minus(Point2 a, Point2 b) {
-  return {a[0] - b[0], a[1] - b[1]};
-}
-double length(Point2 a) {
-  return std::hypot(a[0], a[1]);
-}
-double dot(Point2 a, Point2 b) {
-  return a[0] * b[0] + a[1] * b[1];
-}
-double cross(Point2 a, Point2 b) {
-  return a[0] * b[1] - a[1] * b[0];
-}
 
 /// Angle from `from` to `to` in the turn's direction, 0 < angle <= 2 pi.
 double swept(Point2 from, Point2 to, bool clockwise) {
@@ -43,38 +32,37 @@ std::string millimetres(double value) {
 
 Result<ArcGeometry, Sentence> arc_by_centre(Point2 start, Point2 end, Point2 centre, bool clockwise,
                                             int turns, double tolerance_mm) {
-  const double start_radius = length(minus(start, centre));
-  const double end_radius = length(minus(end, centre));
+  const double start_radius = length_of(start - centre);
+  const double end_radius = length_of(end - centre);
   const double more_turns = kTurn * (turns - 1);
   if (start_radius < kSamePoint_mm) return Error<Sentence>(say("the centre of the arc is its start"));
   if (std::abs(start_radius - end_radius) > tolerance_mm)
     return Error<Sentence>(say("the arc's end is %1 from the centre, its start %2 (they may differ by %3)",
                                millimetres(end_radius), millimetres(start_radius),
                                millimetres(tolerance_mm)));
-  const Point2 chord = minus(end, start);
-  const double chord_length = length(chord);
+  const Point2 chord = end - start;
+  const double chord_length = length_of(chord);
   if (chord_length < kSamePoint_mm) return ArcGeometry{centre, start, kTurn + more_turns};
 
   // The centre's offset from the chord's perpendicular bisector, as a fraction of the chord.
   const Point2 middle = {start[0] + chord[0] / 2, start[1] + chord[1] / 2};
-  const double shift = dot(minus(middle, centre), chord) / (chord_length * chord_length);
+  const double shift = dot(middle - centre, chord) / (chord_length * chord_length);
   if (std::abs(shift) * chord_length <= kLargestShift * tolerance_mm) {
     const Point2 moved = {centre[0] + shift * chord[0], centre[1] + shift * chord[1]};
-    if (length(minus(start, moved)) < kSamePoint_mm)
+    if (length_of(start - moved) < kSamePoint_mm)
       return Error<Sentence>(say("the centre of the arc is its start"));
-    return ArcGeometry{moved, end, swept(minus(start, moved), minus(end, moved), clockwise) + more_turns};
+    return ArcGeometry{moved, end, swept(start - moved, end - moved, clockwise) + more_turns};
   }
   const double scale = start_radius / end_radius;
   const Point2 on_circle = {centre[0] + (end[0] - centre[0]) * scale,
                             centre[1] + (end[1] - centre[1]) * scale};
-  return ArcGeometry{centre, on_circle,
-                     swept(minus(start, centre), minus(on_circle, centre), clockwise) + more_turns};
+  return ArcGeometry{centre, on_circle, swept(start - centre, on_circle - centre, clockwise) + more_turns};
 }
 
 Result<ArcGeometry, Sentence> arc_by_radius(Point2 start, Point2 end, double radius_mm, bool clockwise,
                                             int turns, double tolerance_mm) {
-  const Point2 chord = minus(end, start);
-  const double half = length(chord) / 2;
+  const Point2 chord = end - start;
+  const double half = length_of(chord) / 2;
   const double radius = std::abs(radius_mm);
   if (half < kSamePoint_mm / 2)
     return Error<Sentence>(

@@ -70,17 +70,13 @@ struct Reason {
   int code;
   const char* text;
 };
-constexpr std::array<Reason, 18> kGReasons = {{
+constexpr std::array<Reason, 14> kGReasons = {{
     {52, phrase("NURBS (%1) are not supported: use G5 or G1")},
     {53, phrase("NURBS (%1) are not supported: use G5 or G1")},
     {62, phrase("NURBS (%1) are not supported: use G5 or G1")},
     {301, phrase("G30.1 is not supported: use G10 L2 or parameters")},
     {330, phrase("%1 turns with the spindle, which needs an encoder on it")},
     {331, phrase("%1 turns with the spindle, which needs an encoder on it")},
-    {410, phrase("cutter compensation (G41) is not supported: offset the path in CAM")},
-    {411, phrase("cutter compensation (G41) is not supported: offset the path in CAM")},
-    {420, phrase("cutter compensation (G42) is not supported: offset the path in CAM")},
-    {421, phrase("cutter compensation (G42) is not supported: offset the path in CAM")},
     {380, phrase("probing (G38) is not supported")},
     {382, phrase("probing (G38.2) is not supported")},
     {683, phrase("G68.3 is not supported: use G68.2 with I J K")},

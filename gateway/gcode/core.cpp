@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "gateway/gcode/parameters.hpp"
@@ -74,7 +75,8 @@ bool Core::execute(std::string_view line, std::uint32_t line_number, CommandBuff
   if (watches_comments_ && !line.empty() && line.front() == ';') [[unlikely]]
     return read_object_comment(line);
   if (block_.is_plain() && !announce_ && !state_.modal.away && !state_.modal.ended &&
-      (block_.present & ~kStraightWords) == 0 && block_.present != 0) {
+      state_.modal.cutter == CutterSide::kOff && (block_.present & ~kStraightWords) == 0 &&
+      block_.present != 0) {
     const int g = block_.has(GGroup::kMotion) ? block_.code(GGroup::kMotion).number : -1;
     const Motion motion = g == 10  ? Motion::kFeed
                           : g == 0 ? Motion::kTraverse
@@ -98,10 +100,14 @@ bool Core::run_careful() {
   const ModalState before = state_.modal;
   const bool announce_before = announce_;
   const std::size_t size_before = out_->size();
+  std::optional<CutterPath> cutter_before;
+  if (before.cutter != CutterSide::kOff) cutter_before = state_.cutter;
+  uncompensated_ = size_before;
   if (state_.modal.ended) begin_program();
   if (announce_) announce();
   if (run_block() && (!before.away || leave_out(size_before, before))) return true;
   state_.modal = before;
+  if (cutter_before) state_.cutter = std::move(*cutter_before);
   follow_dialect();
   announce_ = announce_before;
   call_ = {};
@@ -118,7 +124,7 @@ bool Core::run_block() {
       emit(canonical::End{});
       state_.modal.ended = true;
     }
-    return true;
+    return compensate();
   }
   if (block_.deleted && options_.block_delete) return true;
   const bool has_content = block_.groups != 0 || block_.m_count != 0 || block_.present != 0;
@@ -140,9 +146,12 @@ bool Core::run_block() {
   if (!spindle_speed()) return false;
   if (!run_motion()) return false;
   if (!check_leftovers()) return false;
+  for (int i = 0; i < block_.m_count; ++i)
+    if (ends_program(block_.m[static_cast<std::size_t>(i)]) && !cutter_off()) return false;
+  if (!compensate()) return false;
   // Last of what can be refused, so that a refused line assigns nothing.
   if (!assign_parameters()) return false;
-  return run_stop();
+  return run_stop() && compensate();
 }
 
 bool Core::run_nonmodal(Code code) {
@@ -194,26 +203,6 @@ bool Core::run_nonmodal(Code code) {
   }
 }
 
-bool Core::run_stop() {
-  for (int i = 0; i < block_.m_count; ++i) {
-    const Code code = block_.m[static_cast<std::size_t>(i)];
-    if (m_group(code.number) != MGroup::kStop) continue;
-    if ((code.number <= 1 && !rules_->m0_ends) || code.number == 60) {
-      if (code.number <= 1 && block_.has_text) emit(canonical::Message{std::string(block_.text)});
-      emit(canonical::Pause{code.number == 1});
-    } else if (code.number == 226 || code.number == 600 || code.number == 601) {
-      if (code.number == 600) emit(canonical::Message{say("change the filament, then go on").english()});
-      emit(canonical::Pause{false});
-    } else if (code.number == 30 && !block_.text.empty() && block_.text.front() != '(') {
-      emit(canonical::StoredJob{canonical::StoredJob::What::kDelete, std::string(block_.text), 0});
-    } else {
-      emit(canonical::End{});
-      state_.modal.ended = true;
-    }
-  }
-  return true;
-}
-
 bool Core::assign_parameters() {
   if (block_.assignments.empty()) return true;
   for (const Assignment& assignment : block_.assignments) {
@@ -223,6 +212,10 @@ bool Core::assign_parameters() {
       return fail(assignment.column, say("%1 can only be read", "#" + std::to_string(index)));
     if (is_offset_parameter(index) && state_.modal.tilted)
       return fail(assignment.column, say("offsets cannot change in a tilted plane: end it with G69 first"));
+    if (is_offset_parameter(index) && cutter_is_on())
+      return fail(assignment.column,
+                  say("%1 cannot stand while cutter compensation is on: end it with G40 first",
+                      "#" + std::to_string(index)));
     if (!(std::abs(assignment.value) <= 1e9) && is_offset_parameter(index))
       return fail(assignment.column, say("the offset is too large (10^9 at most)"));
   }
@@ -270,6 +263,8 @@ void Core::finish(std::uint32_t line_number, CommandBuffer& out) {
   line_ = line_number;
   if (state_.modal.ended) return;
   if (announce_) announce();
+  Sentence unheard;  // the reader ends compensation by G40 first, and hears
+  if (cutter_is_on()) static_cast<void>(state_.cutter.end(out, unheard));
   emit(canonical::End{});
   state_.modal.ended = true;
 }
@@ -278,6 +273,7 @@ void Core::begin_program() {
   // RS274/NGC, 3.6.1 (M2, M30): what the end of a program resets.
   ModalState& m = state_.modal;
   if (std::exchange(m.away, false)) m.position = m.real_position;
+  if (m.cutter != CutterSide::kOff) end_beside();
   m.ended = false;
   m.content_seen = false;
   m.motion = Motion::kNone;
@@ -323,6 +319,7 @@ void Core::set_position(const Pose& pose, Frame frame) {
     m.real_frame = m.frame;
   }
   m.lifted_mm = 0;
+  m.cutter = CutterSide::kOff;
   refresh();
   announce_ = true;
 }

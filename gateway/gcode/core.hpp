@@ -4,7 +4,7 @@
 // step would cost more than the step itself.
 //   core.cpp            lines, order of execution, errors      modes.cpp       modal codes, feed, dwell
 //   moves.cpp           G0-G3, G53, retraction                 offsets.cpp     coordinate systems, frames,
-//   G28 machine_codes.cpp   M codes
+//   G28 machine_codes.cpp   M codes                        cutter_codes.cpp G40-G42.1
 
 #include <cstdint>
 #include <string>
@@ -62,6 +62,7 @@ class Core {
   bool run_block();
   bool run_nonmodal(Code code);
   bool run_stop();
+  bool ends_program(Code code) const;
   bool assign_parameters();
   bool check_leftovers();
   void begin_program();
@@ -141,6 +142,17 @@ class Core {
   Pose canonical_pose(const Pose& program) const;
   void base_e_here(double program_e);  ///< the current point's E gets this number
 
+  // cutter_codes.cpp: cutter compensation
+  bool cutter_is_on() const {
+    return state_.modal.cutter == CutterSide::kLeft || state_.modal.cutter == CutterSide::kRight;
+  }
+  bool cutter_on(Code code);
+  bool cutter_off();
+  bool check_beside_cutter();
+  bool refuse_beside_cutter(Code code, const std::string& name);
+  bool compensate();  ///< what the line has given out since the last call
+  void end_beside();
+
   // machine_codes.cpp
   bool run_machine_code(Code code);
   bool spindle(Code code);
@@ -192,6 +204,7 @@ class Core {
   std::vector<int> noted_;
   ProgramCall call_;  ///< what the line at work asks for
   CommandBuffer* out_ = nullptr;
+  std::size_t uncompensated_ = 0;  ///< where in out_ the line's commands begin that compensate() has not seen
   std::uint32_t line_ = 0;
   std::uint32_t used_ = 0;  ///< words of the block that a code has taken
   Pose shift_{};            ///< canonical = program + shift for X Y Z A C, outside a tilted plane

@@ -22,6 +22,11 @@ void Interpreter::finish(std::uint32_t line_number, CommandBuffer& out) {
   core_->finish(line_number, out);
 }
 
+bool Interpreter::compensates() const {
+  const CutterSide side = state().modal.cutter;
+  return side == CutterSide::kLeft || side == CutterSide::kRight;
+}
+
 const State& Interpreter::state() const {
   return core_->state();
 }
@@ -94,6 +99,8 @@ std::string Interpreter::modal_codes() const {
     text += code;
   };
   add(kPlanes[static_cast<std::size_t>(m.plane)]);
+  if (m.cutter == CutterSide::kLeft) add("G41");
+  if (m.cutter == CutterSide::kRight) add("G42");
   add(m.inches ? "G20" : "G21");
   add(m.incremental ? "G91" : "G90");
   add(m.absolute_centre ? "G90.1" : "G91.1");

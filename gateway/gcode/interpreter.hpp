@@ -69,6 +69,7 @@ struct Options {
   int tools = 1;                                                           ///< T0 .. T(tools - 1)
   int hotends = 1;                                                         ///< M104 T0 .. T(hotends - 1)
   std::vector<double> tool_length_mm;                                      ///< G43 H1 is the first entry
+  std::vector<double> tool_diameter_mm;  ///< G41 D1 is the first entry; 0: not known
   double retract_length_mm = 1, retract_mm_per_s = 40, retract_lift_mm = 0;  ///< until M207
   double recover_extra_mm = 0, recover_mm_per_s = 40;                        ///< until M208
   std::vector<Macro> macros;
@@ -97,6 +98,9 @@ class Interpreter {
 
   /// M2, M30 or the closing % was read: the rest of a file is not part of the program.
   bool ended() const { return state().modal.ended; }
+
+  /// Cutter compensation is on: moves are held back.
+  bool compensates() const;
 
   const State& state() const;
   /// Goes on from a saved state; the next line appends SetPosition first.

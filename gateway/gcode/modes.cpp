@@ -9,6 +9,11 @@ namespace kinebus::gcode {
 
 bool Core::run_modes() {
   ModalState& m = state_.modal;
+  if (m.cutter != CutterSide::kOff) [[unlikely]] {
+    if (block_.has(GGroup::kCutter) && block_.code(GGroup::kCutter).number == 400 && !cutter_off())
+      return false;
+    if (!check_beside_cutter()) return false;
+  }
   if (block_.has(GGroup::kFeedMode)) {
     const bool inverse_time = block_.code(GGroup::kFeedMode).number == 930;
     // An F of the other mode means something else.
@@ -52,6 +57,8 @@ bool Core::run_modes() {
   if (block_.has(GGroup::kRetract)) m.retract_to_r = block_.code(GGroup::kRetract).number == 990;
   if (block_.has(GGroup::kCentre)) m.absolute_centre = block_.code(GGroup::kCentre).number == 901;
   if (block_.has(GGroup::kTilt) && !set_tilt(block_.code(GGroup::kTilt))) return false;
+  if (block_.has(GGroup::kCutter) && block_.code(GGroup::kCutter).number != 400)
+    return cutter_on(block_.code(GGroup::kCutter));
   return true;
 }
 

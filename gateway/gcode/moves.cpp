@@ -60,6 +60,7 @@ bool Core::run_motion() {
     const Code code = block_.code(GGroup::kMotion);
     m.motion = motion_of(code.number);
     if (code.number == 50 || code.number == 51) {
+      if (m.cutter != CutterSide::kOff) return refuse_beside_cutter(code, g_name(code.number));
       m.cycle = 0;
       m.spline = spline_before;
       return run_spline(code);
@@ -75,7 +76,13 @@ bool Core::run_motion() {
   if (m.cycle != 0 || (block_.has(GGroup::kMotion) && block_.code(GGroup::kMotion).number >= 730)) {
     if (machine_coordinates)
       return fail(block_.code(GGroup::kNonmodal).column, say("G53 needs G0 or G1, in this line or active"));
-    if (!block_.has(GGroup::kMotion) || block_.code(GGroup::kMotion).number != 800) return run_cycle();
+    if (!block_.has(GGroup::kMotion) || block_.code(GGroup::kMotion).number != 800) {
+      if (m.cutter != CutterSide::kOff &&
+          (block_.has(GGroup::kMotion) || (block_.present & ~used_ & kLinear) != 0))
+        return refuse_beside_cutter(block_.code(GGroup::kMotion),
+                                    g_name(m.cycle != 0 ? m.cycle : block_.code(GGroup::kMotion).number));
+      return run_cycle();
+    }
   }
   const bool clockwise = m.motion == Motion::kArcClockwise;
   const bool is_arc = clockwise || m.motion == Motion::kArcCounterclockwise;
@@ -152,7 +159,8 @@ bool Core::move_to(const Pose& program, const Pose& target, bool traverse) {
   const double extruded = std::abs(target[kAxisE] - m.position[kAxisE]);
   const double turned =
       std::max(std::abs(target[kAxisA] - m.position[kAxisA]), std::abs(target[kAxisC] - m.position[kAxisC]));
-  const bool moves = linear > kNoMotion || extruded > kNoMotion || turned > kNoMotion;
+  const bool comes_back = m.cutter == CutterSide::kBeside && (words & kLinear) != 0;
+  const bool moves = linear > kNoMotion || extruded > kNoMotion || turned > kNoMotion || comes_back;
   const bool turns_alone = linear <= kNoMotion && turned > kNoMotion && turned >= extruded;
   const bool limited = m.traverse_limited || (traverse && traverse_has_feed_ && block_.has('F'));
   if (moves && traverse && extruded <= kNoMotion) {

@@ -127,7 +127,12 @@ constexpr std::array kPredefined = {
     Predefined{"_absolute", [](const ModalState& m) { return m.incremental ? 0.0 : 1.0; }},
     Predefined{"_adaptive_feed", [](const ModalState&) { return 0.0; }},
     Predefined{"_c", program_axis<kAxisC>},
-    Predefined{"_ccomp", [](const ModalState&) { return 400.0; }},
+    Predefined{"_ccomp",
+               [](const ModalState& m) {
+                 return m.cutter == CutterSide::kLeft    ? 410.0
+                        : m.cutter == CutterSide::kRight ? 420.0
+                                                         : 400.0;
+               }},
     Predefined{"_coord_system",
                [](const ModalState& m) {
                  return m.coordinate_system < 6 ? 540.0 + 10 * m.coordinate_system

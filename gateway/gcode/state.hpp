@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gateway/gcode/canonical.hpp"
+#include "gateway/gcode/cutter.hpp"
 #include "gateway/gcode/dialects.hpp"
 
 namespace kinebus::gcode {
@@ -50,6 +51,8 @@ struct ModalState {
   double spindle_rpm = 0;         ///< the last S
   int tool = 0;
   int coordinate_system = 0;  ///< 0: G54
+
+  CutterSide cutter = CutterSide::kOff;  ///< G41, G42; not kOff: the tool is where State::cutter has it
 
   int tool_in_spindle = -1;  ///< by M6; -1: not known
   bool merge_lines = true;   ///< not G64 Q0
@@ -123,6 +126,7 @@ struct PrintObject {
 
 struct State {
   ModalState modal;
+  CutterPath cutter;
   std::vector<PrintObject> objects;
   ParameterState parameters;
 };

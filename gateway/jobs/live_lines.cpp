@@ -108,6 +108,11 @@ Result<void, Problem> LiveLines::take(std::string_view line, std::uint32_t numbe
     out.resize(first);
     return refuse(read.error().column, read.error().message);
   }
+  if (interpreter_.compensates()) {
+    interpreter_.restore(before);
+    out.resize(first);
+    return refuse(0, say("cutter compensation belongs to a job: it looks ahead, which single lines cannot"));
+  }
   for (std::size_t i = first; i < out.size(); ++i) {
     auto words = check(out[i].command);
     if (!words) continue;

@@ -113,6 +113,7 @@ gcode::Options interpreter_options(const MachineDescription& machine, const Pose
   // On a mill the operator puts in whatever tool is asked for.
   if (options.spindle) options.tools = 100'000;
   options.tool_length_mm = machine.gcode.tool_length_mm;
+  options.tool_diameter_mm = machine.gcode.tool_diameter_mm;
   options.retract_length_mm = machine.gcode.retract_mm;
   options.retract_mm_per_s = options.recover_mm_per_s = machine.gcode.retract_mm_per_s;
   options.retract_lift_mm = machine.gcode.retract_lift_mm;

@@ -277,14 +277,6 @@
         <translation>G30.1 پشتیبانی نمی‌شود: G10 L2 یا پارامتر به کار ببرید</translation>
     </message>
     <message>
-        <source>cutter compensation (G41) is not supported: offset the path in CAM</source>
-        <translation>جبران شعاع ابزار (G41) پشتیبانی نمی‌شود: مسیر را در CAM جابه‌جا کنید</translation>
-    </message>
-    <message>
-        <source>cutter compensation (G42) is not supported: offset the path in CAM</source>
-        <translation>جبران شعاع ابزار (G42) پشتیبانی نمی‌شود: مسیر را در CAM جابه‌جا کنید</translation>
-    </message>
-    <message>
         <source>probing (G38) is not supported</source>
         <translation>پروب (G38) پشتیبانی نمی‌شود</translation>
     </message>
@@ -3527,6 +3519,58 @@
     <message>
         <source>frames reach %1 in another order than they were sent; it puts them right. A USB adapter does that: gs_usb keeps the order from Linux 6.6 on, candleLight&apos;s firmware from 2.0 on</source>
         <translation>فریم‌ها با ترتیبی جز ترتیب فرستادن به %1 می‌رسند؛ خودش آن‌ها را مرتب می‌کند. این کارِ یک مبدل USB است: gs_usb از لینوکس 6.6 و میان‌افزار candleLight از نسخهٔ 2.0 ترتیب را نگه می‌دارد</translation>
+    </message>
+    <message>
+        <source>%1 cannot stand while cutter compensation is on: end it with G40 first</source>
+        <translation>هنگامی که جبران شعاع ابزار روشن است، %1 مجاز نیست: نخست آن را با G40 پایان دهید</translation>
+    </message>
+    <message>
+        <source>more than %1 lines without a move in the plane while cutter compensation is on</source>
+        <translation>بیش از %1 خط بدون حرکت در صفحه، هنگامی که جبران شعاع ابزار روشن است</translation>
+    </message>
+    <message>
+        <source>the arc&apos;s radius of %1 is not greater than the tool&apos;s, %2, on its inside</source>
+        <translation>شعاع کمان، %1، در سمت درون از شعاع ابزار، %2، بزرگ‌تر نیست</translation>
+    </message>
+    <message>
+        <source>the lead-in is too tight: the arc&apos;s radius of %1 is not greater than the tool&apos;s, %2</source>
+        <translation>حرکت ورود بیش از اندازه تنگ است: شعاع کمان، %1، از شعاع ابزار، %2، بزرگ‌تر نیست</translation>
+    </message>
+    <message>
+        <source>the lead-in is too short: the first move is %1 long, not more than the tool&apos;s radius, %2</source>
+        <translation>حرکت ورود بیش از اندازه کوتاه است: طول نخستین حرکت %1 است و از شعاع ابزار، %2، بیشتر نیست</translation>
+    </message>
+    <message>
+        <source>no lead-in arc of this direction leads from here to beside the path</source>
+        <translation>هیچ کمان ورودی در این جهت از اینجا به کنار مسیر نمی‌رسد</translation>
+    </message>
+    <message>
+        <source>the tool, of radius %1, does not come into the inside corner between line %2 and this one without cutting into them</source>
+        <translation>ابزار با شعاع %1 بدون بریدن مسیر به گوشهٔ درونی میان خط %2 و این خط نمی‌رسد</translation>
+    </message>
+    <message>
+        <source>the tool would cut into line %1 on its way along line %2</source>
+        <translation>ابزار در راه خود در امتداد خط %2 مسیر خط %1 را می‌برید</translation>
+    </message>
+    <message>
+        <source>after G40 a straight move (G0, G1) comes first: %1 cannot stand here</source>
+        <translation>پس از G40 نخست یک حرکت راست (G0، G1) می‌آید: %1 اینجا مجاز نیست</translation>
+    </message>
+    <message>
+        <source>%1 needs D, the tool&apos;s diameter</source>
+        <translation>%1 به D، قطر ابزار، نیاز دارد</translation>
+    </message>
+    <message>
+        <source>the diameter of T%1 is not known: write gcode.tool_diameter_mm in the machine file, or G41.1 D with the diameter</source>
+        <translation>قطر ابزار T%1 معلوم نیست: gcode.tool_diameter_mm را در پروندهٔ ماشین بنویسید، یا قطر را با G41.1 D بدهید</translation>
+    </message>
+    <message>
+        <source>the tool does not stand upright on the plane of %1: turn it with G53.1 first</source>
+        <translation>ابزار بر صفحهٔ %1 عمود نیست: نخست آن را با G53.1 بچرخانید</translation>
+    </message>
+    <message>
+        <source>cutter compensation belongs to a job: it looks ahead, which single lines cannot</source>
+        <translation>جبران شعاع ابزار از آن یک کار است: به جلو می‌نگرد، و خط‌های تکی نمی‌توانند</translation>
     </message>
 </context>
 <context>

@@ -277,14 +277,6 @@
         <translation>G30.1 desteklenmiyor: G10 L2 ya da parametre kullanın</translation>
     </message>
     <message>
-        <source>cutter compensation (G41) is not supported: offset the path in CAM</source>
-        <translation>kesici telafisi (G41) desteklenmiyor: yolu CAM&apos;de öteleyin</translation>
-    </message>
-    <message>
-        <source>cutter compensation (G42) is not supported: offset the path in CAM</source>
-        <translation>kesici telafisi (G42) desteklenmiyor: yolu CAM&apos;de öteleyin</translation>
-    </message>
-    <message>
         <source>probing (G38) is not supported</source>
         <translation>problama (G38) desteklenmiyor</translation>
     </message>
@@ -3527,6 +3519,58 @@
     <message>
         <source>frames reach %1 in another order than they were sent; it puts them right. A USB adapter does that: gs_usb keeps the order from Linux 6.6 on, candleLight&apos;s firmware from 2.0 on</source>
         <translation>çerçeveler %1 için gönderildiklerinden başka bir sırayla varıyor; sıralarını kendisi düzeltiyor. Bunu bir USB bağdaştırıcısı yapar: gs_usb sırayı Linux 6.6&apos;dan, candleLight yazılımı 2.0&apos;dan beri korur</translation>
+    </message>
+    <message>
+        <source>%1 cannot stand while cutter compensation is on: end it with G40 first</source>
+        <translation>kesici telafisi açıkken %1 kullanılamaz: önce G40 ile bitirin</translation>
+    </message>
+    <message>
+        <source>more than %1 lines without a move in the plane while cutter compensation is on</source>
+        <translation>kesici telafisi açıkken düzlemde hareketi olmayan %1 satırdan fazlası var</translation>
+    </message>
+    <message>
+        <source>the arc&apos;s radius of %1 is not greater than the tool&apos;s, %2, on its inside</source>
+        <translation>yayın %1 olan yarıçapı, iç tarafında takımın yarıçapından (%2) büyük değil</translation>
+    </message>
+    <message>
+        <source>the lead-in is too tight: the arc&apos;s radius of %1 is not greater than the tool&apos;s, %2</source>
+        <translation>giriş hareketi çok dar: yayın %1 olan yarıçapı takımınkinden (%2) büyük değil</translation>
+    </message>
+    <message>
+        <source>the lead-in is too short: the first move is %1 long, not more than the tool&apos;s radius, %2</source>
+        <translation>giriş hareketi çok kısa: ilk hareket %1 uzunluğunda, takımın yarıçapından (%2) uzun değil</translation>
+    </message>
+    <message>
+        <source>no lead-in arc of this direction leads from here to beside the path</source>
+        <translation>buradan yolun yanına bu yönde bir giriş yayı götürmüyor</translation>
+    </message>
+    <message>
+        <source>the tool, of radius %1, does not come into the inside corner between line %2 and this one without cutting into them</source>
+        <translation>yarıçapı %1 olan takım, satır %2 ile bu satır arasındaki iç köşeye onları kesmeden giremiyor</translation>
+    </message>
+    <message>
+        <source>the tool would cut into line %1 on its way along line %2</source>
+        <translation>takım, satır %2 boyunca giderken satır %1 yolunu keserdi</translation>
+    </message>
+    <message>
+        <source>after G40 a straight move (G0, G1) comes first: %1 cannot stand here</source>
+        <translation>G40&apos;tan sonra önce düz bir hareket (G0, G1) gelir: %1 burada kullanılamaz</translation>
+    </message>
+    <message>
+        <source>%1 needs D, the tool&apos;s diameter</source>
+        <translation>%1 için D, takımın çapı, gerekir</translation>
+    </message>
+    <message>
+        <source>the diameter of T%1 is not known: write gcode.tool_diameter_mm in the machine file, or G41.1 D with the diameter</source>
+        <translation>T%1 takımının çapı bilinmiyor: makine dosyasına gcode.tool_diameter_mm yazın, ya da çapı G41.1 D ile verin</translation>
+    </message>
+    <message>
+        <source>the tool does not stand upright on the plane of %1: turn it with G53.1 first</source>
+        <translation>takım %1 düzlemine dik durmuyor: önce G53.1 ile döndürün</translation>
+    </message>
+    <message>
+        <source>cutter compensation belongs to a job: it looks ahead, which single lines cannot</source>
+        <translation>kesici telafisi bir işe aittir: ileriye bakar, tek satırlarla bu olmaz</translation>
     </message>
 </context>
 <context>

@@ -7,13 +7,14 @@
 
 namespace kinebus::gcode {
 
-/// Home 200 mm above the table, one spare tool of 12.5 mm. A file changes it with "options: word word"
-/// anywhere in its text: block_delete, dwell_seconds, traverse_uses_feed, default_feed, two_tools,
+/// Home 200 mm above the table, one spare tool of 12.5 mm, 6 mm wide. A file changes it with "options: word
+/// word" anywhere in its text: block_delete, dwell_seconds, traverse_uses_feed, default_feed, two_tools,
 /// spindle, dialect=NAME, macros (prime LENGTH=, and square with an argument by number).
 inline Options golden_options(std::string_view text) {
   Options options;
   options.home = {0, 0, 200, 0, 0, 0};
   options.tool_length_mm = {12.5};
+  options.tool_diameter_mm = {6};
   options.most_recorded_steps = 10'000;
   options.dwell_p_unit = DwellUnit::kMilliseconds;
   const std::size_t at = text.find("options:");

@@ -161,7 +161,7 @@ TEST(JobReader, FilesThatAreNoTextAreNamedOnce) {
 }
 
 TEST(JobReader, OneUnknownCodeIsToldOnceAndWhatComesOfItToo) {
-  std::string text = "G17 G21 G90 G41 X1 Y1 Z-2 F100\n";
+  std::string text = "G17 G21 G90 G95 X1 Y1 Z-2 F100\n";
   for (int i = 0; i < 1192; ++i) text += "X" + std::to_string(i) + " Y2\n";
   for (int i = 0; i < 500; ++i) text += "M1234 P1\n";
   text += "G1 X1 Y\nG0 X7\n";
@@ -182,7 +182,7 @@ TEST(JobReader, OneUnknownCodeIsToldOnceAndWhatComesOfItToo) {
     }
     ASSERT_TRUE(reader.finish(out));
     const std::vector<std::string> expected = {
-        "1:13: cutter compensation (G41) is not supported: offset the path in CAM",
+        "1:13: feed for each turn (G95) needs a spindle, which this machine does not have",
         "2:1: X has no use in this line: no motion code is given or active", "1194:1: M1234 is unknown",
         "1694:7: Y needs a number"};
     EXPECT_EQ(told, expected);

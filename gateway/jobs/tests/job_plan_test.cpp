@@ -143,6 +143,19 @@ TEST(JobPlan, ToolLengthsOfTheMachineFileLiftTheTool) {
   EXPECT_EQ(plan("T1\n" + rise).problems.errors(), 1u);
 }
 
+TEST(JobPlan, CutterCompensationTakesToolDiametersOfTheMachineFile) {
+  MachineDescription tools = machine();
+  tools.gcode.tool_length_mm = {0, 0};
+  tools.gcode.tool_diameter_mm = {0, 6};
+  const std::string contour = "G42 G1 F600 X10\nY10\nX0\nY0\nG40 X-10\n";
+  EXPECT_EQ(plan("T2\n" + contour, 1000, tools).problems.errors(), 0u);
+  EXPECT_EQ(plan("G42 D2\n" + contour.substr(4), 1000, tools).problems.errors(), 0u);
+  // No diameter, and one that the way in is too short for.
+  EXPECT_GE(plan("T1\n" + contour, 1000, tools).problems.errors(), 1u);
+  tools.gcode.tool_diameter_mm = {0, 20};
+  EXPECT_GE(plan("T2\n" + contour, 1000, tools).problems.errors(), 1u);
+}
+
 TEST(JobPlan, ProblemsAreCollectedToTheEndOfTheJob) {
   const Planned p = plan("G1 X10 F3000\nG1 X5000\nG1 X0\nG1 X200\nG199\n");
   ASSERT_GE(p.problems.errors(), 3u);

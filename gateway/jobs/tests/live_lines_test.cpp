@@ -206,6 +206,14 @@ TEST_F(Lines, ProgramKeepsItsEWhenTheMachineWasMovedInBetween) {
   EXPECT_NEAR(feed.target[kX], 12, 1e-9);
 }
 
+TEST_F(Lines, CutterCompensationIsRefusedForItLooksAhead) {
+  EXPECT_EQ(refused("G1 X10 F600"), "");
+  EXPECT_EQ(refused("G41.1 D2"),
+            "cutter compensation belongs to a job: it looks ahead, which single lines cannot");
+  EXPECT_EQ(refused("G40 G1 X20"), "");
+  EXPECT_NEAR(std::get<canonical::Feed>(out.back().command).target[kX], 20, 1e-9);
+}
+
 TEST_F(Lines, AnObjectIsLeftOutWhileItsLinesCome) {
   for (const char* line : {"M83", "M486 S1", "G1 X10 E1 F600", "M486 P1", "G1 X20 E1"})
     EXPECT_EQ(refused(line), "");
