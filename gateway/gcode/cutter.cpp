@@ -129,7 +129,9 @@ bool CutterPath::take_move(canonical::Line& line, Pose& target, std::vector<cano
   std::optional<Curve> round;
   const bool good =
       has_last_ ? turn_corner(next, speed_of(line.command), round, out, error) : enter(next, error);
-  if (!good || !keep_wall(next, error) || (round && !keep_track(*round, true, error))) return false;
+  if (!good) return false;
+  keep_wall(next);
+  if (round && !keep_track(*round, true, error)) return false;
   last_ = next;
   has_last_ = true;
   programmed_ = target;

@@ -22,9 +22,8 @@ enum class CutterSide : std::uint8_t { kOff, kLeft, kRight, kBeside };
 /// First move (lead-in): a straight line from where the tool is to beside the end of the programmed one, or
 /// an arc that comes in along the programmed one's direction at its end. Outside corners: an arc about the
 /// corner, between traverses lines outside of it. Inside corners: where the paths meet. Post-condition for
-/// feed moves at one height, up to kWindow of them in a row: the tool's path beside one is nowhere nearer to
-/// another than the radius, less kTolerance_mm, but where the programmed path itself crosses or touches the
-/// other. Lead-in and lead-out are free.
+/// feed moves at one height, up to kWindow of them in a row: no two of them that do not meet are cut each by
+/// the tool beside the other (nearer than the radius, less kTolerance_mm). Lead-in and lead-out are free.
 class CutterPath {
  public:
   using Axis3 = std::array<double, 3>;  ///< a unit vector
@@ -69,10 +68,10 @@ class CutterPath {
   bool flush(const Point2& end, std::vector<canonical::Line>& out, Sentence& error);
   void go_round(const Point2& corner, double angle, const Piece& next, double speed_per_s,
                 std::vector<canonical::Line>& out);
-  bool keep_wall(const Piece& next, Sentence& error);
+  void keep_wall(const Piece& next);
   bool keep_track(const Curve& curve, bool corner, Sentence& error);
   static bool meet(const Wall& a, const Wall& b);
-  bool gouges(const Wall& wall, const Track& track) const;
+  bool cuts(const Track& track, const Wall& wall) const;
 
   Point2 plane(const Pose& pose) const;
   double height(const Pose& pose) const;

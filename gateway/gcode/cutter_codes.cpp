@@ -30,7 +30,6 @@ bool Core::cutter_on(Code code) {
   if (code.number == 411 || code.number == 421) {
     if (!has('D')) return fail(code.column, say("%1 needs D, the tool's diameter", g_name(code.number)));
     if (!take('D', diameter)) return false;
-    if (diameter < 0) return fail(block_.column_of('D'), say("the diameter of a tool cannot be negative"));
     diameter = length(diameter);
   } else {
     int tool = m.tool_in_spindle >= 0 ? m.tool_in_spindle : m.tool;
@@ -59,8 +58,9 @@ bool Core::cutter_on(Code code) {
                       g_name(code.number)));
   }
   if (!compensate()) return false;
-  m.cutter = code.number < 420 ? CutterSide::kLeft : CutterSide::kRight;
-  state_.cutter.begin(m.cutter, diameter / 2, axes[0], axes[1], axes[2], m.position, m.frame);
+  // A negative diameter is the other side, as LinuxCNC has it.
+  m.cutter = (code.number < 420) == (diameter >= 0) ? CutterSide::kLeft : CutterSide::kRight;
+  state_.cutter.begin(m.cutter, std::abs(diameter) / 2, axes[0], axes[1], axes[2], m.position, m.frame);
   return true;
 }
 

@@ -157,6 +157,7 @@ TEST(Cutter, TheToolKeepsItsRadiusFromTheProgrammedPath) {
     }
     ++accepted;
     const std::uint32_t last = contour.walls.rbegin()->first;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, double> nearest_to;
     for (const auto& [in_line, piece] : tool_path(commands, last)) {
       for (int i = 0; i <= 25; ++i) {
         const Point p = piece.at(i / 25.0);
@@ -164,15 +165,24 @@ TEST(Cutter, TheToolKeepsItsRadiusFromTheProgrammedPath) {
         for (const auto& [other, wall] : contour.walls) {
           const double distance = wall.distance(p);
           nearest = std::min(nearest, distance);
-          ASSERT_TRUE(distance > contour.radius - 1e-3 || meet(contour, in_line, other) ||
-                      meet(contour, in_line - 1, other))
-              << "seed " << seed << ": line " << in_line << " comes to " << distance << " mm from line "
-              << other << "\n"
-              << contour.text;
+          double& least = nearest_to.try_emplace({in_line, other}, 1e9).first->second;
+          least = std::min(least, distance);
         }
         ASSERT_LT(nearest, contour.radius + 1e-3) << "seed " << seed << ", line " << in_line << "\n"
                                                   << contour.text;
       }
+    }
+    const double too_near = contour.radius - 1e-3;
+    for (const auto& [lines, least] : nearest_to) {
+      const auto [a, b] = lines;
+      if (least >= too_near) continue;
+      ASSERT_NE(a, b) << "seed " << seed << ": " << least << " mm beside line " << a << "\n" << contour.text;
+      const auto other = nearest_to.find({b, a});
+      if (other == nearest_to.end() || other->second >= too_near) continue;
+      ASSERT_TRUE(meet(contour, a, b) || meet(contour, a - 1, b) || meet(contour, b - 1, a) ||
+                  meet(contour, a - 1, b - 1))
+          << "seed " << seed << ": lines " << a << " and " << b << " cut one another\n"
+          << contour.text;
     }
   }
   EXPECT_GT(accepted, 400);
@@ -194,6 +204,14 @@ TEST(Cutter, ARefusedLineLeavesTheHeldMoveAsItWas) {
   disturbed.number = plain.number - 2;
   disturbed.must(after);
   EXPECT_EQ(plain.texts(), disturbed.texts());
+}
+
+TEST(Cutter, ANegativeDiameterIsTheOtherSide) {
+  const char* const path = " G1 X20\nX40 Y10\nY-10\nG40 G1 X0\n";
+  Session left, right;
+  left.must("F600\nG41.1 D-6" + std::string(path));
+  right.must("F600\nG42.1 D6" + std::string(path));
+  EXPECT_EQ(left.texts(), right.texts());
 }
 
 TEST(Cutter, ATextMayEndWithoutG40) {
