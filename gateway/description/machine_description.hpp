@@ -15,6 +15,7 @@
 #include "gateway/description/device_description.hpp"
 #include "gateway/gcode/dialects.hpp"
 #include "gateway/kinematics/geometry.hpp"
+#include "gateway/shaping/advance_model.hpp"
 #include "gateway/shaping/input_shaper.hpp"
 
 namespace kinebus {
@@ -284,6 +285,7 @@ struct MachineDescription {
   std::vector<NodeDescription> nodes;    ///< ascending ids; every node that a joint or device names
   PathDescription path;
   VibrationDescription vibration;
+  AdvanceModel pressure_advance;  ///< until a job says another
   PathTolerances tolerances;
   StopDescription stop;
   ResumeDescription resume;

@@ -25,6 +25,7 @@ class Rules {
     times();
     speeds();
     vibration();
+    pressure_advance();
     judge_devices(d_, broken_);
     if (const auto kinematics = make_kinematics(d_); !kinematics)
       broken_.push_back({geometry_keys(), say("a machine that cannot work"), kinematics.error().what});
@@ -232,6 +233,15 @@ class Rules {
             {"vibration.x", "vibration.y", "vibration.z", "vibration.shaper"},
             say("different shapers on a machine that turns or tilts the part"),
             say("one shaper for X, Y and Z, in [vibration] itself"));
+  }
+
+  void pressure_advance() {
+    const AdvanceModel& a = d_.pressure_advance;
+    require((a.kind == AdvanceKind::kLinear) == (a.nonlinear_mm == 0),
+            {"pressure_advance.nonlinear_mm", "pressure_advance.model"},
+            Sentence::verbatim(number(a.nonlinear_mm)),
+            a.kind == AdvanceKind::kLinear ? say("no such key with a linear model")
+                                           : say("the filament that this model presses together at most"));
   }
 
   /// A pose's A or C moves something.

@@ -48,6 +48,9 @@ inline constexpr Choice kShapers[] = {
     {"MZV", static_cast<int>(ShaperKind::kMzv)},        {"ZVD", static_cast<int>(ShaperKind::kZvd)},
     {"EI", static_cast<int>(ShaperKind::kEi)},          {"2HUMP", static_cast<int>(ShaperKind::kTwoHump)},
     {"3HUMP", static_cast<int>(ShaperKind::kThreeHump)}};
+inline constexpr Choice kAdvanceKinds[] = {{"linear", static_cast<int>(AdvanceKind::kLinear)},
+                                           {"tanh", static_cast<int>(AdvanceKind::kTanh)},
+                                           {"reciprocal", static_cast<int>(AdvanceKind::kReciprocal)}};
 inline constexpr Choice kEncoders[] = {
     {"none", static_cast<int>(MotorDescription::Encoder::kNone)},
     {"watch", static_cast<int>(MotorDescription::Encoder::kWatch)},
@@ -243,6 +246,17 @@ void visit_vibration(V& v, VibrationDescription& d) {
 }
 
 template <class V>
+void visit_pressure_advance(V& v, AdvanceModel& a) {
+  v.choice("model", a.kind, kAdvanceKinds, Need::kOptional);
+  v.number("advance_s", a.advance_s, {0, AdvanceModel::kMost_s}, Need::kOptional);
+  v.unless_zero("nonlinear_mm", a.nonlinear_mm, {0.001, 5}, 1);
+  v.number("nonlinear_mm_per_s", a.nonlinear_mm_per_s, {0.01, 100}, Need::kOptional);
+  v.unless_zero("melt_ms", a.melt_s, {0.1, 1e3 * AdvanceModel::kMostMelt_s}, 1e-3);
+  v.number("smooth_ms", a.smooth_s, {1e3 * AdvanceModel::kLeastSmooth_s, 1e3 * AdvanceModel::kMostSmooth_s},
+           Need::kOptional, 1e-3);
+}
+
+template <class V>
 void visit_path(V& v, MachineDescription& d) {
   v.table("path", Need::kRequired, [&] {
     v.number("tool_speed_mm_per_s", d.path.tool_speed_mm_per_s, {0.1, 10000}, Need::kRequired);
@@ -264,6 +278,8 @@ void visit_path(V& v, MachineDescription& d) {
     }
   });
   v.table_unless_default("vibration", d.vibration, [&](VibrationDescription& s) { visit_vibration(v, s); });
+  v.table_unless_default("pressure_advance", d.pressure_advance,
+                         [&](AdvanceModel& a) { visit_pressure_advance(v, a); });
   v.table("tolerance", Need::kOptional, [&] {
     v.number("blend_mm", d.tolerances.blend_mm, {0, 1}, Need::kOptional);
     v.number("merge_mm", d.tolerances.merge_mm, {0, 1}, Need::kOptional);

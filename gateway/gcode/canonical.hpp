@@ -119,6 +119,11 @@ struct StoredJob {        ///< M20..M32
   std::string name;
   std::uint64_t position = 0;  ///< M26 S: byte of the job to go on from
 };
+/// M900 K, M572 S, SET_PRESSURE_ADVANCE: for the moves that follow. Below 0: unchanged.
+struct PressureAdvance {
+  double advance_s = -1;
+  double smooth_s = -1;
+};
 struct Settings {
   enum class What : std::uint8_t { kStore, kLoad, kReset, kReport } what{};
 };              ///< M500..M503
@@ -126,7 +131,7 @@ struct End {};  ///< M2 / M30, or the end of the text
 
 using Command = std::variant<Traverse, Feed, Arc, Dwell, PathMode, SetPosition, Limits, Thermal, Spindle,
                              Home, Pause, MotorsOff, MotorsOn, WaitIdle, Override, Message, Query,
-                             EmergencyStop, StoredJob, Settings, End>;
+                             EmergencyStop, StoredJob, Settings, End, PressureAdvance>;
 
 /// One command with the line of the job that it came from (1-based).
 struct Line {

@@ -132,6 +132,12 @@ struct Writer {
     return std::string("settings ").append(kNames[static_cast<std::size_t>(c.what)]);
   }
   std::string operator()(const End&) const { return "end"; }
+  std::string operator()(const PressureAdvance& c) const {
+    std::string text = "pressure_advance";
+    if (c.advance_s >= 0) text += " k" + number(c.advance_s);
+    if (c.smooth_s >= 0) text += " smooth" + number(c.smooth_s);
+    return text;
+  }
 };
 
 }  // namespace

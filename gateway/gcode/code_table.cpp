@@ -260,7 +260,7 @@ constexpr std::array kM = {
     m(569, M::kHarmless, true, "", "driver direction"),
     m(570, M::kHarmless, true, "", "heater fault"),
     m(571, M::kHarmless, true, "", "output on extrusion"),
-    m(572, M::kHarmless, true, "", "pressure advance"),
+    m(572, M::kOther, true, "D S", "pressure advance S in s, for the moves that follow"),
     m(573, M::kHarmless, true, "", "heater"),
     m(574, M::kHarmless, true, "", "end stops"),
     m(575, M::kHarmless, true, "", "serial port"),
@@ -307,7 +307,7 @@ constexpr std::array kM = {
     m(863, M::kHarmless, true, "", "tool mapping"),
     m(871, M::kHarmless, true, "", "probe temperature"),
     m(881, M::kHarmless, true, "", "filament"),
-    m(900, M::kHarmless, true, "", "pressure advance"),
+    m(900, M::kOther, false, "K", "pressure advance K in s, for the moves that follow; T, L and S are passed over"),
     m(906, M::kHarmless, true, "X Y Z A C E, or I S; H",
       "in a job; on the console and of a print host: run current in mA of an axis' motor, or S of joint I; H "
       "hold current; without words: tells them"),

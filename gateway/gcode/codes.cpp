@@ -13,7 +13,7 @@ namespace {
 
 // What Klipper and slicers write as words: it tells or tunes what other machines have, and leaves the job's
 // meaning as it is. In lower case, sorted.
-constexpr std::array<std::string_view, 31> kHarmlessCommands = {"bed_mesh_calibrate",
+constexpr std::array<std::string_view, 30> kHarmlessCommands = {"bed_mesh_calibrate",
                                                                 "bed_mesh_clear",
                                                                 "bed_mesh_output",
                                                                 "bed_mesh_profile",
@@ -36,7 +36,6 @@ constexpr std::array<std::string_view, 31> kHarmlessCommands = {"bed_mesh_calibr
                                                                 "set_input_shaper",
                                                                 "set_led",
                                                                 "set_pin",
-                                                                "set_pressure_advance",
                                                                 "set_print_stats_info",
                                                                 "set_retraction",
                                                                 "set_stepper_enable",
@@ -59,6 +58,8 @@ constexpr std::array<Command, 15> kCommands = {{
     {"respond", "MSG=", "message"},
     {"set_gcode_offset", "X= Y= Z=", "of 0: without effect; others are refused"},
     {"set_heater_temperature", "HEATER= TARGET=", "temperature of extruder, extruder1, heater_bed"},
+    {"set_pressure_advance", "ADVANCE= SMOOTH_TIME=",
+     "pressure advance in s, and the path time that it is averaged over; for the moves that follow"},
     {"set_velocity_limit", "ACCEL= VELOCITY=", "acceleration of printing and travel; the rest is noted"},
     {"t?", "", "asks for the filament and pauses"},
     {"tc", "", "without effect on this machine: filament unit"},

@@ -130,7 +130,9 @@ bool Core::run_command() {
              : say("%1 has no effect on this machine", command));
     return true;
   };
-  if (harmless_command(name)) return noted();
+  if (name == "set_pressure_advance" && !options_.spindle)
+    return set_pressure_advance(column, number_of(arguments, "advance"), number_of(arguments, "smooth_time"));
+  if (harmless_command(name) || name == "set_pressure_advance") return noted();
   if (name.starts_with("exclude_object")) {
     const Argument* const which = find_argument(arguments, "name");
     return object_command({name, which == nullptr ? std::string() : in_lower_case(which->text),

@@ -7,6 +7,7 @@
 //   G28 machine_codes.cpp   M codes                        cutter_codes.cpp G40-G42.1
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -175,6 +176,12 @@ class Core {
   bool wait_for_temperatures();
   void remember(const canonical::Thermal& thermal);
   bool program_call(Code code);
+
+  // pressure_advance.cpp
+  bool pressure_advance(Code code);
+  /// What is not given stays as it is.
+  bool set_pressure_advance(std::uint32_t column, std::optional<double> advance_s,
+                            std::optional<double> smooth_s);
 
   // objects.cpp: objects of a print that are left out
   struct ObjectCommand {

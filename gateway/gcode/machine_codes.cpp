@@ -167,6 +167,9 @@ bool Core::run_machine_code(Code code) {
     case 220:
     case 221:
       return override_ratio(code);
+    case 572:
+    case 900:
+      return pressure_advance(code);
     case 400:
       emit(canonical::WaitIdle{});
       return true;

@@ -49,7 +49,8 @@ JobPipeline::JobPipeline(const MachineDescription& machine, const Kinematics& ki
 
 void JobPipeline::begin(const Pose& start) {
   planner_.reset(start, Frame::kMachine);
-  shaper_.reset();
+  advance_ = machine_.pressure_advance;
+  begin_advance();
   over_limit_ = false;
   commands_.clear();
   next_command_ = 0;
@@ -186,11 +187,9 @@ JobPipeline::Step JobPipeline::next(int& budget) {
 
 /// The planner's next phase, shaped where the machine shapes.
 bool JobPipeline::pull_phase() {
-  if (!shaper_.active()) return planner_.next(phase_);
-  while (!shaper_.next(phase_)) {
-    if (!planner_.next(planned_)) return false;
-    shaper_.push(planned_);
-  }
+  if (!shaping_) return planner_.next(phase_);
+  while (!shaper_.next(phase_))
+    if (!push_planned()) return false;
   check_shaped();
   return true;
 }
@@ -253,6 +252,10 @@ std::optional<JobPipeline::Step> JobPipeline::settle() {
     stage_ = Stage::kFeeding;
     if (const auto* h = std::get_if<Home>(&command_.command)) {
       home(Home(*h), command_.line);
+      return std::nullopt;
+    }
+    if (std::holds_alternative<canonical::PressureAdvance>(command_.command)) {
+      begin_advance();
       return std::nullopt;
     }
     command_.line = line_of(command_.line);
@@ -337,7 +340,7 @@ void JobPipeline::take(const canonical::Line& line) {
                   say("a job cannot manage stored jobs: M20 to M32 belong to a session"));
   }
   if (is_barrier(command, machine_.gcode.optional_stop)) return drain(line);
-  if (std::holds_alternative<Pause>(command)) return;
+  if (std::holds_alternative<Pause>(command) || take_advance(line)) return;
   events_.push_back(line);
 }
 

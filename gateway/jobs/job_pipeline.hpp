@@ -99,6 +99,11 @@ class JobPipeline {
   void number_commands();
   std::uint32_t line_of(std::uint32_t place);
   bool pull_phase();
+  // pipeline_advance.cpp: pressure advance
+  void begin_advance();
+  bool take_advance(const canonical::Line& line);
+  void limit_filament(const AdvanceModel& model);
+  bool push_planned();
   void check_shaped();
   std::optional<Step> take_phase();
   std::optional<Step> settle();
@@ -115,8 +120,15 @@ class JobPipeline {
   Planner planner_;
   PathShaper shaper_;
   ShapedLimits shaped_limits_;
-  Phase planned_{};          ///< on its way from the planner to the shaper
-  bool over_limit_ = false;  ///< the last shaped phase was: one report for each time
+  AdvanceModel advance_;  ///< of the commands taken
+  bool shaping_ = false;  ///< phases go through the shaper
+  struct AdvanceFrom {
+    std::uint32_t line = 0;
+    AdvanceModel model;
+  };
+  std::deque<AdvanceFrom> advances_;  ///< for the phases of later lines
+  Phase planned_{};                   ///< on its way from the planner to the shaper
+  bool over_limit_ = false;           ///< the last shaped phase was: one report for each time
   std::unique_ptr<gcode::Interpreter> interpreter_;
   std::unique_ptr<gcode::JobReader> reader_;
   ByteSource* source_ = nullptr;

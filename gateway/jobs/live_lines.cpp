@@ -53,6 +53,7 @@ void LiveLines::restart(const gcode::WorkOffsets& offsets) {
   interpreter_ = gcode::Interpreter(std::move(options));
   limits_ = {};
   path_mode_.reset();
+  advance_ = {};
   cold_noted_ = fan_noted_ = false;
   end(say("no lines are open"));
 }
@@ -89,6 +90,7 @@ void LiveLines::begin(const Pose& pose, std::optional<double> hotend_celsius, gc
   still_.reset();
   if (path_mode_) out.push_back({0, *path_mode_});
   out.push_back({0, limits_});
+  if (advance_.advance_s >= 0 || advance_.smooth_s >= 0) out.push_back({0, advance_});
 }
 
 Result<void, Problem> LiveLines::take(std::string_view line, std::uint32_t number,
@@ -125,6 +127,10 @@ Result<void, Problem> LiveLines::take(std::string_view line, std::uint32_t numbe
   for (std::size_t i = first; i < out.size(); ++i) {
     if (const auto* mode = std::get_if<canonical::PathMode>(&out[i].command)) path_mode_ = *mode;
     if (const auto* limits = std::get_if<canonical::Limits>(&out[i].command)) merge_limits(limits_, *limits);
+    if (const auto* advance = std::get_if<canonical::PressureAdvance>(&out[i].command)) {
+      if (advance->advance_s >= 0) advance_.advance_s = advance->advance_s;
+      if (advance->smooth_s >= 0) advance_.smooth_s = advance->smooth_s;
+    }
   }
   for (const gcode::Note& note : interpreter_.notes()) notes_.push_back(note.text);
   interpreter_.clear_notes();

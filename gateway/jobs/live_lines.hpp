@@ -77,6 +77,7 @@ class LiveLines {
   double hot_e_mm_ = -1e300;  ///< the farthest that filament was fed hot
   bool cold_noted_ = false, fan_noted_ = false;
   canonical::Limits limits_{};  ///< in force
+  canonical::PressureAdvance advance_{};
   std::optional<canonical::PathMode> path_mode_;
   std::vector<Sentence> notes_;
 };

@@ -87,6 +87,38 @@ MotionLimits limits_before_shaping(const MachineDescription& machine, const Vibr
   return limits;
 }
 
+FilamentLimits limits_before_advance(const MachineDescription& machine, const AdvanceModel& model) {
+  // Of the extruder's speed and acceleration, for what the advance adds. Where a retraction follows a bead
+  // the two meet.
+  constexpr double kShare = 0.4;
+  FilamentLimits filament;
+  if (!model.acts()) return filament;
+  const MotionLimits limits = motion_limits(machine);
+  double speed = limits.axis_speed_per_s[kE], accel = limits.axis_accel_per_s2[kE];
+  for (std::size_t joint = 0; joint < machine.joints.size() && joint < kMaxJoints; ++joint) {
+    if (machine.joints[joint].name != "E") continue;
+    speed = std::min(speed, limits.joint_speed_per_s[joint]);
+    accel = std::min(accel, limits.joint_accel_per_s2[joint]);
+  }
+  // 2 %, as the planner leaves joints, for what comes after planning.
+  speed *= 0.98;
+  accel *= 0.98;
+  filament.speed_mm_per_s = (1 - kShare) * speed;
+  filament.accel_mm_per_s2 = (1 - kShare) * accel;
+  // While A'(0) = K is steepest and the flow accelerates by at most a, the mean over a window w moves by at
+  // most K a and accelerates by at most 2 K a / w, where the tool brakes and speeds up within the window; the
+  // melt's term by 2 K T a / w and 4 K T a / w^2.
+  const double steepest_s = model.steepest_s(), w = model.smooth_s, melt = model.melt_s / w;
+  filament.flow_accel_mm_per_s2 =
+      std::min({filament.accel_mm_per_s2, kShare * speed / (steepest_s * (1 + 2 * melt)),
+                kShare * accel * w / (steepest_s * (2 + 4 * melt))});
+  // With shapers of their own one axis still brakes while another speeds up.
+  const VibrationDescription& v = machine.vibration;
+  if (!(v.axis(0) == v.axis(1) && v.axis(1) == v.axis(2))) filament.flow_accel_mm_per_s2 *= 0.5;
+  filament.rests = true;
+  return filament;
+}
+
 double joint_jerk_limit(const MachineDescription& machine, const JointDescription& joint) {
   if (!(machine.path.tool_jerk_mm_per_s3 > 0)) return kUnlimited;
   if (joint.jerk_per_s3 > 0) return joint.jerk_per_s3;

@@ -14,6 +14,15 @@ inline constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 /// Half of the shortest segment on the wire, within which its acceleration is constant anyway.
 inline constexpr double kCurvatureJump_s = 0.5e-3;
 
+/// What filament may do besides the machine's limits, so that what is added to it later has room.
+struct FilamentLimits {
+  double speed_mm_per_s = kUnlimited, accel_mm_per_s2 = kUnlimited;
+  double flow_accel_mm_per_s2 = kUnlimited;  ///< while the tool moves
+  /// The path rests where the tool begins or ceases to move along with filament.
+  bool rests = false;
+  friend bool operator==(const FilamentLimits&, const FilamentLimits&) = default;
+};
+
 /// Defaults: machine M1 (four carriages, table C, extruder E as joints 0..5). Every value is > 0.
 struct MotionLimits {
   /// Tool tip relative to the frame of the move: length of its velocity and of its acceleration vector.
@@ -27,6 +36,8 @@ struct MotionLimits {
   /// Each pose axis by itself, X Y Z A C E. X Y Z are usually limited by the tool and the joints alone.
   Pose axis_speed_per_s{kUnlimited, kUnlimited, kUnlimited, 1.5707963267948966, 6.283185307179586, 60};
   Pose axis_accel_per_s2{kUnlimited, kUnlimited, kUnlimited, 31.41592653589793, 62.83185307179586, 3000};
+  /// E while the tool moves, too: what pressure advance adds to it grows with it.
+  double flow_accel_mm_per_s2 = kUnlimited;
   /// Each joint, in the kinematics' order; both terms of q'' count.
   JointVector joint_speed_per_s{450, 450, 450, 450, 6.283185307179586, 60, kUnlimited, kUnlimited};
   JointVector joint_accel_per_s2{5000, 5000, 5000, 5000, 62.83185307179586, 3000, kUnlimited, kUnlimited};

@@ -34,11 +34,12 @@ double lower(double machine, double asked) {
 }  // namespace
 
 struct Planner::Impl {
-  Impl(const Kinematics& machine, const MotionLimits& machine_limits, Options options)
-      : limits(machine_limits),
+  Impl(const Kinematics& kinematics, const MotionLimits& machine_limits, Options options)
+      : machine(machine_limits),
+        limits(machine_limits),
         current(machine_limits),
         lookahead(options.window_pieces, !machine_limits.limits_jerk()),
-        path_limits(machine, machine_limits, lookahead),
+        path_limits(kinematics, machine_limits, lookahead),
         builder(machine_limits, path_limits, lookahead),
         jerk_lookahead(lookahead) {
     reset_modes();
@@ -46,6 +47,7 @@ struct Planner::Impl {
 
   void reset_modes() {
     current = limits;
+    asked_speed_e = asked_accel_e = 0;
     path_limits.set_limits(current);
     builder.set_limits(current);
     exact = false;
@@ -78,8 +80,15 @@ struct Planner::Impl {
   Result<void, PlanError> set_position(const canonical::SetPosition& set);
   Result<void, PlanError> set_limits(const canonical::Limits& asked);
 
+  Result<void, PlanError> rest_between(bool tool_moves);
+  Result<void, PlanError> limit_filament(const FilamentLimits& asked);
+
+  MotionLimits machine;  ///< without what filament is limited to besides
   MotionLimits limits;   ///< the machine's
-  MotionLimits current;  ///< lowered by the job
+  FilamentLimits filament;
+  double asked_speed_e = 0, asked_accel_e = 0;  ///< of E, by the job; 0: nothing
+  bool tool_moved = false;                      ///< in the move added last
+  MotionLimits current;                         ///< lowered by the job
   Lookahead lookahead;
   PathLimits path_limits;
   PathBuilder builder;
@@ -119,6 +128,7 @@ Result<void, PlanError> Planner::Impl::add_straight(const Pose& target, Frame in
   }
   const bool tool_motion = tool >= kShortestMove;
   if (!tool_motion && others < kShortestMove) return {};
+  if (const auto rested = rest_between(tool_motion); !rested) return rested;
 
   Move& move = builder.new_move();
   move.length = tool_motion ? std::max(tool, kDwarfs * others) : others;
@@ -139,6 +149,7 @@ Result<void, PlanError> Planner::Impl::add_straight(const Pose& target, Frame in
 Result<void, PlanError> Planner::Impl::add_arc(const canonical::Arc& arc, std::uint32_t line) {
   if (!finite(arc.target)) return fail(PlanError::Kind::kBadNumber, line);
   if (arc.frame != frame) return fail(PlanError::Kind::kFrame, line);
+  if (const auto rested = rest_between(true); !rested) return rested;
   Move& move = builder.new_move();
   if (!shape_arc(arc, end, move)) {
     builder.discard_move();
@@ -180,6 +191,34 @@ Result<void, PlanError> Planner::Impl::complete(Move& move, double feed, double 
   return take(builder.move_added());
 }
 
+/// Before a move of the tool that comes after filament alone, or the other way round.
+Result<void, PlanError> Planner::Impl::rest_between(bool tool_moves) {
+  const bool same = std::exchange(tool_moved, tool_moves) == tool_moves;
+  if (!filament.rests || same || builder.empty()) return {};
+  return come_to_rest();
+}
+
+Result<void, PlanError> Planner::Impl::limit_filament(const FilamentLimits& asked) {
+  auto ok = come_to_rest();
+  if (asked == filament) return ok;
+  filament = asked;
+  const auto apply = [&](MotionLimits& to, const MotionLimits& from) {
+    to.axis_speed_per_s[kE] = std::min(from.axis_speed_per_s[kE], filament.speed_mm_per_s);
+    to.axis_accel_per_s2[kE] = std::min(from.axis_accel_per_s2[kE], filament.accel_mm_per_s2);
+    to.flow_accel_mm_per_s2 = std::min(from.flow_accel_mm_per_s2, filament.flow_accel_mm_per_s2);
+  };
+  limits = machine;
+  apply(limits, machine);
+  const double speed = asked_speed_e > 0 ? asked_speed_e : kUnlimited;
+  const double accel = asked_accel_e > 0 ? asked_accel_e : kUnlimited;
+  current.axis_speed_per_s[kE] = std::min(limits.axis_speed_per_s[kE], speed);
+  current.axis_accel_per_s2[kE] = std::min(limits.axis_accel_per_s2[kE], accel);
+  current.flow_accel_mm_per_s2 = limits.flow_accel_mm_per_s2;
+  path_limits.set_limits(current);
+  builder.set_limits(current);
+  return ok;
+}
+
 Result<void, PlanError> Planner::Impl::set_position(const canonical::SetPosition& set) {
   if (set.pose == end && set.frame == frame) return {};
   auto ok = come_to_rest();
@@ -197,6 +236,8 @@ Result<void, PlanError> Planner::Impl::set_limits(const canonical::Limits& asked
   if (asked.retract_accel_mm_per_s2 > 0) {
     retract_accel = lower(limits.tool_accel_mm_per_s2, asked.retract_accel_mm_per_s2);
   }
+  if (asked.axis_speed_per_s[kE] > 0) asked_speed_e = asked.axis_speed_per_s[kE];
+  if (asked.axis_accel_per_s2[kE] > 0) asked_accel_e = asked.axis_accel_per_s2[kE];
   MotionLimits changed = current;
   for (std::size_t i = 0; i < kPoseAxes; ++i) {
     if (asked.axis_speed_per_s[i] > 0) {
@@ -254,6 +295,11 @@ Result<void, PlanError> Planner::add(const canonical::Line& line) {
     if (ratio->feed > 0) d.feed_ratio = ratio->feed;
   }
   return {};
+}
+
+Result<void, PlanError> Planner::limit_filament(const FilamentLimits& limits) {
+  if (impl_->has_failed) return Error<PlanError>(impl_->failed);
+  return impl_->limit_filament(limits);
 }
 
 Result<void, PlanError> Planner::finish() {

@@ -63,6 +63,10 @@ class Planner {
   /// reset(). No allocation once the window has been filled once.
   Result<void, PlanError> add(const canonical::Line& line);
 
+  /// What filament may do in the moves added from here on, before which the path rests. Stays in force over
+  /// reset().
+  Result<void, PlanError> limit_filament(const FilamentLimits& limits);
+
   /// Plans all that was added to a stop at its end. The last phase carries `last`. More may be added
   /// afterwards (it starts from rest there), but only after all phases have been pulled.
   Result<void, PlanError> finish();

@@ -63,6 +63,7 @@ void PointLimits::set_limits(const MotionLimits& limits) {
     accel_[j] = limits.joint_accel_per_s2[j] * kJointShare;
     jerk_[j] = limits.joint_jerk_per_s3[j] * kJointShare;
   }
+  inverse_flow_accel_ = inverse_of(limits.flow_accel_mm_per_s2);
   limited_xyz_ = false;
   for (std::size_t i = 0; i < kPoseAxes; ++i) {
     inverse_axis_speed_[i] = inverse_of(limits.axis_speed_per_s[i]);
@@ -83,7 +84,7 @@ void PointLimits::axis_caps(const PosePoint& pose, PlanPiece& piece) const {
   double speed = 0, accel = 0;
   for (std::size_t i = limited_xyz_ ? 0 : 3; i < kPoseAxes; ++i) {
     speed = std::max(speed, std::abs(pose.x1[i]) * inverse_axis_speed_[i]);
-    accel = std::max(accel, std::abs(pose.x2[i]) * inverse_axis_accel_[i]);
+    accel = std::max(accel, std::abs(pose.x2[i]) * inverse_accel(i, pose.x1));
   }
   const double inverse_cap = std::max(speed * speed, accel);
   if (inverse_cap * piece.cap > 1) piece.cap = 1 / inverse_cap;
@@ -128,16 +129,17 @@ void PointLimits::joint_accels(const JointPoint& joints, PlanPiece& piece) const
 
 void PointLimits::limit_straight_accel(const PosePoint& direction, PlanPiece& piece) const {
   for (std::size_t i = limited_xyz_ ? 0 : 3; i < kPoseAxes; ++i) {
-    const double rate = std::abs(direction.x1[i]) * inverse_axis_accel_[i];
+    const double rate = std::abs(direction.x1[i]) * inverse_accel(i, direction.x1);
     if (rate * piece.accel > 1) piece.accel = 1 / rate;
   }
 }
 
 void PointLimits::axis_accels(const PosePoint& pose, PlanPiece& piece) const {
   for (std::size_t i = limited_xyz_ ? 0 : 3; i < kPoseAxes; ++i) {
-    if (inverse_axis_accel_[i] == 0) continue;
-    bound_accel(pose.x1[i], pose.x2[i], limits_.axis_accel_per_s2[i], 0, piece.up0, piece.down0);
-    bound_accel(pose.x1[i], pose.x2[i], limits_.axis_accel_per_s2[i], piece.cap, piece.up1, piece.down1);
+    if (inverse_accel(i, pose.x1) == 0) continue;
+    const double limit = accel_limit(i, pose.x1);
+    bound_accel(pose.x1[i], pose.x2[i], limit, 0, piece.up0, piece.down0);
+    bound_accel(pose.x1[i], pose.x2[i], limit, piece.cap, piece.up1, piece.down1);
   }
 }
 
@@ -178,7 +180,7 @@ void PointLimits::bound_curve(const PieceDemand& demand, const PathPiece& geomet
   for (const PosePoint& point : points) {
     for (std::size_t i = limited_xyz_ ? 0 : 3; i < kPoseAxes; ++i) {
       const double most = std::abs(point.x2[i]) * piece.cap + std::abs(point.x1[i]) * piece.accel;
-      ratio = std::max(ratio, most * inverse_axis_accel_[i]);
+      ratio = std::max(ratio, most * inverse_accel(i, point.x1));
     }
   }
   if (ratio <= kNear) return;

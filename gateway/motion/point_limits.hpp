@@ -2,6 +2,7 @@
 // What a piece of path may do by its limits, once its terms are known at points: speed, and acceleration at a
 // given speed, from the feed, the tool (as a vector), each pose axis and each joint (both terms of q'').
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -79,6 +80,16 @@ class PointLimits {
   void bound_curve(const PieceDemand& demand, const PathPiece& geometry, PlanPiece& piece) const;
 
  private:
+  /// Of axis i along x1.
+  double inverse_accel(std::size_t i, const Pose& x1) const {
+    return i == kE && inverse_flow_accel_ > inverse_axis_accel_[kE] && dot3(x1, x1) > 0
+               ? inverse_flow_accel_
+               : inverse_axis_accel_[i];
+  }
+  double accel_limit(std::size_t i, const Pose& x1) const {
+    return i == kE && dot3(x1, x1) > 0 ? std::min(limits_.axis_accel_per_s2[i], limits_.flow_accel_mm_per_s2)
+                                       : limits_.axis_accel_per_s2[i];
+  }
   PlanPiece::Even even(const JerkTerms& terms, const JointJerkTerms* joints, const PlanPiece& piece,
                        double x) const;
 
@@ -86,6 +97,7 @@ class PointLimits {
   std::size_t joints_;
   JointVector inverse_speed_{}, inverse_accel_{}, accel_{}, jerk_{};
   Pose inverse_axis_speed_{}, inverse_axis_accel_{};
+  double inverse_flow_accel_ = 0;
   bool limited_xyz_ = false;  ///< X, Y or Z have limits of their own
 };
 

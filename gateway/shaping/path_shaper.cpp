@@ -32,21 +32,34 @@ bool is_curved(const PathPiece& piece) {
 
 }  // namespace
 
-PathShaper::PathShaper(const Shapers& shapers) : sources_(kSources) {
+PathShaper::Tap& PathShaper::tap_at(double delay_s) {
+  const auto tap = std::find_if(taps_.begin(), taps_.end(),
+                                [&](const Tap& t) { return std::abs(t.delay_s - delay_s) < kSameTime_s; });
+  if (tap != taps_.end()) return *tap;
+  taps_.push_back({.delay_s = delay_s});
+  return taps_.back();
+}
+
+PathShaper::PathShaper(const Shapers& shapers, const AdvanceWindow& window)
+    : sources_(kSources), window_(window) {
+  const double reach_s = window_.reach_s(), w = window_.smooth_s;
   double mean_s = 0;
   for (const InputShaper& shaper : shapers) mean_s = std::max(mean_s, shaper.mean_s());
   for (std::size_t axis = 0; axis < shapers.size(); ++axis) {
     for (const InputShaper::Pulse& pulse : shapers[axis].all()) {
       const double delay_s = pulse.time_s + (mean_s - shapers[axis].mean_s());
-      auto tap = std::find_if(taps_.begin(), taps_.end(),
-                              [&](const Tap& t) { return std::abs(t.delay_s - delay_s) < kSameTime_s; });
-      if (tap == taps_.end()) {
-        taps_.push_back({.delay_s = delay_s});
-        tap = std::prev(taps_.end());
-      }
-      tap->weight[axis] += pulse.weight;
+      tap_at(delay_s + reach_s).weight[axis] += pulse.weight;
+      if (!window_.acts()) continue;
+      tap_at(delay_s + reach_s - 0.5 * w).advance_per_s[axis] += pulse.weight / w;
+      tap_at(delay_s + reach_s + 0.5 * w).advance_per_s[axis] -= pulse.weight / w;
+      if (window_.melt_s == 0) continue;
+      const double melt = pulse.weight * window_.melt_s / (w * w);
+      tap_at(delay_s + reach_s - w).advance_per_s[axis] += melt;
+      tap_at(delay_s + reach_s).advance_per_s[axis] -= 2 * melt;
+      tap_at(delay_s + reach_s + w).advance_per_s[axis] += melt;
     }
   }
+  mean_s += reach_s;
   std::sort(taps_.begin(), taps_.end(), [](const Tap& a, const Tap& b) { return a.delay_s < b.delay_s; });
   for (std::size_t i = 0; i < taps_.size(); ++i)
     if (std::abs(taps_[i].delay_s - mean_s) < std::abs(taps_[centre_].delay_s - mean_s)) centre_ = i;
@@ -79,7 +92,24 @@ void PathShaper::push(const Phase& phase) {
     return;
   }
   if (!moving_) begin(phase);
+  if (const auto pause = pause_before(phase)) append(*pause);
   append(phase);
+}
+
+/// Filament alone and a bead meet at rest, which shaping makes overlap: the tool would be on its way before a
+/// retraction is recovered. What was before comes to rest first.
+std::optional<Phase> PathShaper::pause_before(const Phase& phase) const {
+  const double shaper_s = duration_s() - 2 * window_.reach_s();
+  if (!window_.acts() || shaper_s < kSameTime_s || sources_.begin() == sources_.end()) return std::nullopt;
+  Phase rest = sources_[sources_.end() - 1].phase;
+  const bool after_tool = moves_tool(rest);
+  if (after_tool == moves_tool(phase)) return std::nullopt;
+  const Phase& tool = after_tool ? rest : phase;
+  if (!(tool.piece.evaluate(tool.s(0.5 * tool.duration_s)).x1[kE] > 0)) return std::nullopt;
+  rest.s0 = rest.s(rest.duration_s);
+  rest.v0 = rest.a = rest.jerk = 0;
+  rest.duration_s = shaper_s;
+  return rest;
 }
 
 void PathShaper::begin(const Phase& phase) {
@@ -91,6 +121,7 @@ void PathShaper::begin(const Phase& phase) {
   line_ = phase.line;
   start_ = stop_ = phase.piece.evaluate(phase.s(0)).x;
   filament_start_ = filament_stop_ = {start_[kE], 0, 0};
+  advance_stop_ = {};
   knot_ = {.x = start_};
   for (Tap& tap : taps_) {
     tap.at = sources_.begin();
@@ -102,14 +133,18 @@ void PathShaper::append(const Phase& phase) {
   Source& source = sources_.push();
   source.phase = phase;
   source.start_s = end_s_;
-  source.curved = is_curved(phase.piece);
+  source.advance = window_.acts() ? PhaseAdvance(phase, advance_) : PhaseAdvance();
+  source.curved = is_curved(phase.piece) || source.advance.curved();
   const Pose& along = phase.piece.evaluate(phase.s(0.5 * phase.duration_s)).x1;
   const double square = along[kX] * along[kX] + along[kY] * along[kY] + along[kZ] * along[kZ];
   source.before = filament_stop_;
+  source.advance_before = advance_stop_;
+  const double advance = source.advance.at(phase, phase.duration_s).x;
   const Pose end = phase.piece.evaluate(phase.s(phase.duration_s)).x;
   for (std::size_t i = 0; i < 3; ++i) {
     source.share[i] = square > 0 ? along[i] * along[i] / square : 1.0 / 3;
     filament_stop_[i] += source.share[i] * (end[kE] - stop_[kE]);
+    advance_stop_[i] += source.share[i] * advance;
   }
   stop_ = end;
   end_s_ += phase.duration_s;
@@ -138,6 +173,17 @@ void PathShaper::add(const Tap& tap, const PosePoint& point, const std::array<do
   }
 }
 
+void PathShaper::add_advance(const Tap& tap, const PhaseAdvance::Sum& sum,
+                             const std::array<double, 3>& before, const std::array<double, 3>& share,
+                             Knot& knot) const {
+  if (!window_.acts()) return;
+  for (std::size_t i = 0; i < 3; ++i) {
+    knot.x[kE] += tap.advance_per_s[i] * (before[i] + share[i] * sum.x);
+    knot.x1[kE] += tap.advance_per_s[i] * share[i] * sum.x1;
+    knot.x2[kE] += tap.advance_per_s[i] * share[i] * sum.x2;
+  }
+}
+
 PathShaper::Knot PathShaper::evaluate(double t) const {
   Knot knot;
   for (const Tap& tap : taps_) {
@@ -145,10 +191,14 @@ PathShaper::Knot PathShaper::evaluate(double t) const {
       add(tap, {.x = start_}, filament_start_, {}, 0, knot);
     } else if (tap.at == sources_.end()) {
       add(tap, {.x = stop_}, filament_stop_, {}, 0, knot);
+      add_advance(tap, {}, advance_stop_, {}, knot);
     } else {
       const Source& source = sources_[tap.at];
       const double e_start = source.before[0] + source.before[1] + source.before[2];
-      add(tap, source.phase.at(t - tap.delay_s - source.start_s), source.before, source.share, e_start, knot);
+      const double at_s = t - tap.delay_s - source.start_s;
+      add(tap, source.phase.at(at_s), source.before, source.share, e_start, knot);
+      if (window_.acts())
+        add_advance(tap, source.advance.at(source.phase, at_s), source.advance_before, source.share, knot);
     }
   }
   return knot;

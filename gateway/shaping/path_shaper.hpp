@@ -1,5 +1,6 @@
 #pragma once
-// Phases -> shaped phases: pose(tau) convolved with pulses, axis by axis.
+// Phases -> shaped phases: pose(tau) convolved with pulses, axis by axis, and pressure advance of the
+// filament along what comes out.
 
 #include <array>
 #include <cstdint>
@@ -8,6 +9,7 @@
 
 #include "gateway/motion/growing_ring.hpp"
 #include "gateway/motion/trajectory.hpp"
+#include "gateway/shaping/advance_model.hpp"
 #include "gateway/shaping/input_shaper.hpp"
 
 namespace kinebus {
@@ -24,12 +26,20 @@ namespace kinebus {
 /// A and C are shaped as X is: machines with rotations have one shaper for all axes, so that the tip keeps to
 /// the part. Filament: each stretch of it is shaped like the tip's motion along which it was planned, in
 /// proportion to the squares of the direction's components; with one shaper for all axes that is E itself.
+///
+/// Pressure advance adds to E what AdvanceWindow makes of A(v) about each instant, shaped in the same way: 0
+/// wherever nothing was printed for the length of window and shaper. It begins before the tool moves and ends
+/// after it: the run is longer by twice the window's reach.
 class PathShaper {
  public:
   using Shapers = std::array<InputShaper, 3>;  ///< X Y Z
 
   PathShaper() : PathShaper(Shapers{}) {}
-  explicit PathShaper(const Shapers& shapers);
+  explicit PathShaper(const Shapers& shapers, const AdvanceWindow& window = {});
+
+  /// Of the phases pushed from here on. Where it changes, no filament may be flowing: A is continuous then.
+  void set_advance(const AdvanceModel& model) { advance_ = model; }
+  const AdvanceWindow& advance_window() const { return window_; }
 
   /// Not all shapers are a single pulse at 0. Otherwise there is no reason to push anything.
   bool active() const { return taps_.size() > 1; }
@@ -54,20 +64,24 @@ class PathShaper {
     double start_s = 0;              ///< since `origin`
     std::array<double, 3> share{};   ///< of the filament, by axis
     std::array<double, 3> before{};  ///< filament by axis at its start
+    PhaseAdvance advance;
+    std::array<double, 3> advance_before{};  ///< the sum of the advance by axis at its start
     bool curved = false;
   };
   /// One delayed copy of the planned motion.
   struct Tap {
     double delay_s = 0;
-    std::array<double, 3> weight{};  ///< X Y Z
-    std::uint64_t at = 0;            ///< of sources_: what it looks at
-    bool begun = false;              ///< it has left the pose at the start
+    std::array<double, 3> weight{};         ///< X Y Z
+    std::array<double, 3> advance_per_s{};  ///< of the sum of the advance
+    std::uint64_t at = 0;                   ///< of sources_: what it looks at
+    bool begun = false;                     ///< it has left the pose at the start
   };
   struct Knot {
     Pose x{}, x1{}, x2{};
   };
 
   void begin(const Phase& phase);
+  std::optional<Phase> pause_before(const Phase& phase) const;
   void append(const Phase& phase);
   bool joins(const Phase& phase) const;
   double end_of(const Source& source) const { return source.start_s + source.phase.duration_s; }
@@ -77,6 +91,9 @@ class PathShaper {
   Knot evaluate(double t) const;
   void add(const Tap& tap, const PosePoint& point, const std::array<double, 3>& before,
            const std::array<double, 3>& share, double e_start, Knot& knot) const;
+  void add_advance(const Tap& tap, const PhaseAdvance::Sum& sum, const std::array<double, 3>& before,
+                   const std::array<double, 3>& share, Knot& knot) const;
+  Tap& tap_at(double delay_s);
   void advance();
   void rebase();
   std::uint32_t line() const;
@@ -93,6 +110,9 @@ class PathShaper {
   Knot knot_{};                   ///< at now_s_
   Pose start_{}, stop_{};
   std::array<double, 3> filament_start_{}, filament_stop_{};  ///< by axis
+  std::array<double, 3> advance_stop_{};                      ///< the same for the sum of the advance
+  AdvanceModel advance_;
+  AdvanceWindow window_;
   Frame frame_ = Frame::kPart;
   std::uint32_t line_ = 0;
 };

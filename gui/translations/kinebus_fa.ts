@@ -1757,6 +1757,22 @@
         <translation>بسامد ارتعاشی که شکل‌دهنده برای آن است</translation>
     </message>
     <message>
+        <source>pressure advance of %1 s; allowed are 0 to %2 s</source>
+        <translation>پیش‌فشار %1 ثانیه؛ مجاز 0 تا %2 ثانیه است</translation>
+    </message>
+    <message>
+        <source>pressure advance averaged over %1 s; allowed are 0 to %2 s</source>
+        <translation>میانگین پیش‌فشار در %1 ثانیه؛ مجاز 0 تا %2 ثانیه است</translation>
+    </message>
+    <message>
+        <source>no such key with a linear model</source>
+        <translation>با مدل خطی چنین کلیدی نیست</translation>
+    </message>
+    <message>
+        <source>the filament that this model presses together at most</source>
+        <translation>فیلامنتی که این مدل حداکثر فشرده می‌کند</translation>
+    </message>
+    <message>
         <source>a deviation without a shaper</source>
         <translation>انحراف بدون شکل‌دهنده</translation>
     </message>

@@ -1757,6 +1757,22 @@
         <translation>biçimlendiricinin giderdiği titreşimin frekansı</translation>
     </message>
     <message>
+        <source>pressure advance of %1 s; allowed are 0 to %2 s</source>
+        <translation>basınç öncülemesi %1 s; izin verilen 0 ile %2 s arası</translation>
+    </message>
+    <message>
+        <source>pressure advance averaged over %1 s; allowed are 0 to %2 s</source>
+        <translation>basınç öncülemesinin ortalaması %1 s üzerinden; izin verilen 0 ile %2 s arası</translation>
+    </message>
+    <message>
+        <source>no such key with a linear model</source>
+        <translation>doğrusal modelde böyle bir anahtar yok</translation>
+    </message>
+    <message>
+        <source>the filament that this model presses together at most</source>
+        <translation>bu modelin en çok sıkıştırdığı filament</translation>
+    </message>
+    <message>
         <source>a deviation without a shaper</source>
         <translation>biçimlendirici olmadan sapma</translation>
     </message>

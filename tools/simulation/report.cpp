@@ -58,6 +58,19 @@ std::string to_json_text(const SimulationReport& r) {
     json["shaping_deviation_um"] = r.vibration->plan_deviation_um;
     json["vibration_samples"] = r.vibration->samples;
   }
+  if (r.bead) {
+    json["bead_error_rms"] = r.bead->rms;
+    json["bead_error_worst"] = r.bead->worst;
+    json["bead_error_ratio"] = r.bead->ratio();
+    json["bead_error_ratio_worst"] = r.bead->ratio_worst();
+    json["bead_worst_line"] = r.bead->worst_line;
+    json["beads"] = r.bead->beads;
+    json["reference_bead_error_rms"] = r.bead->reference_rms;
+    json["reference_bead_error_worst"] = r.bead->reference_worst;
+    json["reference_motion_s"] = r.bead->reference_time_s;
+    json["plain_bead_error_rms"] = r.bead->plain_rms;
+    json["plain_bead_error_worst"] = r.bead->plain_worst;
+  }
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
@@ -110,6 +123,18 @@ std::string to_table(const SimulationReport& r) {
     row("shaping_deviation_um", fmt::format("{:.3f}", v.plan_deviation_um),
         fmt::format("of the plan from the path, blends included; job unshaped {:.3f} s",
                     v.unshaped_job_time_s));
+  }
+  if (r.bead) {
+    const BeadReport& b = *r.bead;
+    row("bead_error_rms", fmt::format("{:.4f}", b.rms),
+        fmt::format("of its width, {} beads; reference {:.4f}, without advance {:.4f}", b.beads,
+                    b.reference_rms, b.plain_rms));
+    row("bead_error_worst", fmt::format("{:.4f}", b.worst),
+        fmt::format("line {}; reference {:.4f}, without advance {:.4f}", b.worst_line, b.reference_worst,
+                    b.plain_worst));
+    row("bead_error_ratio", fmt::format("{:.4f}", b.ratio()),
+        fmt::format("to the reference, rms; worst {:.4f}; its motion {:.3f} s", b.ratio_worst(),
+                    b.reference_time_s));
   }
   row("trace_hash", fmt::format("{:016x}", r.trace_hash), "same seed, same hash");
   return text;

@@ -22,6 +22,18 @@ struct VibrationReport {
   static constexpr double kNothing_um = 0.05;
 };
 
+/// Width of the bead along the path, shares; see BeadMeter and BeadReference.
+struct BeadReport {
+  double rms = 0, worst = 0;
+  std::uint32_t worst_line = 0;
+  std::uint64_t beads = 0;
+  double reference_rms = 0, reference_worst = 0;  ///< by Klipper's formulas
+  double plain_rms = 0, plain_worst = 0;          ///< without pressure advance
+  double reference_time_s = 0;
+  double ratio() const { return reference_rms > 0 ? rms / reference_rms : 0; }
+  double ratio_worst() const { return reference_worst > 0 ? worst / reference_worst : 0; }
+};
+
 struct SimulationReport {
   bool finished = false;  ///< the job ran to its end
   bool trouble = false;   ///< an alarm, or an error in the job
@@ -53,6 +65,7 @@ struct SimulationReport {
   int queue_fullest = 0;  ///< records in one node's queue
   std::uint32_t queue_overruns = 0, records_out_of_sequence = 0;
   std::optional<VibrationReport> vibration;  ///< none: the machine was rigid
+  std::optional<BeadReport> bead;            ///< none: nothing was printed, or not looked at
   std::uint64_t trace_hash = 0;              ///< over all frames and their times: same seed, same hash
   double worst_tracking_s = 0, worst_path_s = 0, worst_joint_s = 0, worst_skew_s = 0, worst_step_s = 0,
          worst_jerk_s = 0;

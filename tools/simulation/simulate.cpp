@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <ctime>
 
@@ -28,6 +29,11 @@ double cpu_now() {
 
 // The nodes' power comes up before the gateway looks for them.
 constexpr BusTime kPowerUp = std::chrono::seconds{1};
+
+bool has_extruder(const MachineDescription& machine) {
+  return std::any_of(machine.joints.begin(), machine.joints.end(),
+                     [](const JointDescription& joint) { return joint.name == "E"; });
+}
 
 /// Nothing goes on by itself any more.
 bool settled(MachineState s) {
@@ -140,6 +146,8 @@ class Run {
       vibration_ = std::make_unique<VibrationChecker>(
           machine_, kinematics_, flexible->truth,
           [this](PathTime tau) { return simulation_.planned_pose(tau); }, flexible->text.get(), start);
+    if (const auto& nozzle = options_.nozzle)
+      bead_ = std::make_unique<BeadMeter>(nozzle->truth, nozzle->reference->lines);
     if (const auto run = gateway.carry_out(command::Run{std::move(job), "job"}); !run) {
       fail("the job was refused: " + run.error().words);
       return;
@@ -180,6 +188,9 @@ class Run {
     checkers_->jerk.on_sample(sample);
     checkers_->path.on_sample(sample);
     if (vibration_) vibration_->on_sample(sample);
+    if (bead_)
+      bead_->move_to({sample.pose[kX], sample.pose[kY], sample.pose[kZ]}, sample.pose[kE], sample.line,
+                     to_seconds(options_.simulation.sample_period));
     if (options_.on_sample)
       options_.on_sample(sample, checkers_->path.last_um(), checkers_->path.nearest_line());
     report_.lines = std::max(report_.lines, sample.line);
@@ -239,6 +250,18 @@ class Run {
                                           .plan_deviation_um = vibration_->plan_deviation_um(),
                                           .samples = vibration_->samples(),
                                           .peak_line = vibration_->peak_line()};
+    if (bead_ && bead_->beads() > 0) {
+      const BeadReference& reference = *options_.nozzle->reference;
+      report_.bead = BeadReport{.rms = bead_->rms(),
+                                .worst = bead_->worst(),
+                                .worst_line = bead_->worst_line(),
+                                .beads = bead_->beads(),
+                                .reference_rms = reference.klipper.rms,
+                                .reference_worst = reference.klipper.worst,
+                                .plain_rms = reference.plain.rms,
+                                .plain_worst = reference.plain.worst,
+                                .reference_time_s = reference.time_s};
+    }
     report_.max_node_time_skew_us = c.skew.max_us();
     report_.worst_skew_s = c.skew.worst_time_s() - to_seconds(begin_);
     report_.queue_fullest = c.queues.findings().fullest;
@@ -263,6 +286,7 @@ class Run {
   StepChecker steps_;
   std::unique_ptr<Checkers> checkers_;
   std::unique_ptr<VibrationChecker> vibration_;
+  std::unique_ptr<BeadMeter> bead_;
   SimulationReport report_;
   BusTime begin_{0}, last_time_{0};
   Pose last_pose_{};
@@ -289,6 +313,12 @@ SimulationReport simulate_flexible(const MachineDescription& machine,
   options.flexible->truth = FlexibleFrame::truth(machine.vibration, error, options.simulation.seed);
   SimulateOptions without = options;
   options.flexible->text = open();
+  if (has_extruder(machine)) {
+    const Nozzle::Truth truth =
+        Nozzle::truth(machine.pressure_advance, kNozzleError, options.simulation.seed);
+    options.nozzle = NozzlePhysics{
+        truth, std::make_shared<BeadReference>(bead_reference(machine, open, truth, options.limit_s))};
+  }
   const auto checkers_text = open();
   SimulationReport report = simulate(machine, open(), *checkers_text, options);
   if (!report.vibration) return report;

@@ -11,6 +11,7 @@
 
 #include "gateway/description/machine_description.hpp"
 #include "gateway/jobs/byte_source.hpp"
+#include "tools/simulation/bead_reference.hpp"
 #include "tools/simulation/flexible_frame.hpp"
 #include "tools/simulation/plot.hpp"
 #include "tools/simulation/report.hpp"
@@ -25,9 +26,16 @@ struct FlexiblePhysics {
   std::shared_ptr<ByteSource> text;
 };
 
+/// Melt in the nozzle, and what the job asks for.
+struct NozzlePhysics {
+  Nozzle::Truth truth;
+  std::shared_ptr<const BeadReference> reference;
+};
+
 struct SimulateOptions {
   SimulationOptions simulation;
   std::optional<FlexiblePhysics> flexible;  ///< none: a rigid machine
+  std::optional<NozzlePhysics> nozzle;      ///< none: nobody looks at beads
   /// Nodes of another make in the place of these virtual ones (firmware images on emulated boards).
   std::function<std::unique_ptr<NodeMachine>(const std::vector<VirtualNodeOptions>&)> make_nodes;
   double limit_s = 0;        ///< stop measuring after so much job time; 0: the whole job
@@ -45,9 +53,12 @@ struct SimulateOptions {
 SimulationReport simulate(const MachineDescription& machine, std::unique_ptr<ByteSource> job,
                           ByteSource& same_job, const SimulateOptions& options);
 
+inline constexpr double kNozzleError = 0.10;
+
 /// The same on a flexible frame whose parameters are off by `error` from what `machine` states, beside a run
 /// of the same job, machine and truth without shaping: SimulationReport::vibration has both and their ratios.
-/// `open`: the job's text from its beginning, each time it is asked for.
+/// Beads are laid by a nozzle whose melt is off by kNozzleError from what `machine` states. `open`: the job's
+/// text from its beginning, each time it is asked for.
 SimulationReport simulate_flexible(const MachineDescription& machine,
                                    const std::function<std::unique_ptr<ByteSource>()>& open,
                                    const FlexibleFrame::Error& error, SimulateOptions options);

@@ -100,6 +100,38 @@ TEST(MachineFile, VibrationSaysAShaperForAllDirectionsOrEach) {
   }
 }
 
+TEST(MachineFile, PressureAdvanceSaysAModelAndItsTimes) {
+  EXPECT_FALSE(parse_machine(edited("[tolerance]", "[tolerance]").text, "m")->pressure_advance.acts());
+  const auto machine = parse_machine(edited("[tolerance]",
+                                            "[pressure_advance]\nmodel = \"tanh\"\nadvance_s = "
+                                            "0.02\nnonlinear_mm = 0.05\nnonlinear_mm_per_s = 3\n"
+                                            "melt_ms = 6\nsmooth_ms = 12\n[tolerance]")
+                                         .text,
+                                     "m");
+  ASSERT_TRUE(machine) << to_string(machine.error());
+  EXPECT_EQ(machine->pressure_advance, (AdvanceModel{AdvanceKind::kTanh, 0.02, 0.05, 3, 0.006, 0.012}));
+  const auto again = parse_machine(write_machine(*machine), "written");
+  ASSERT_TRUE(again) << to_string(again.error());
+  EXPECT_TRUE(*again == *machine);
+
+  const std::pair<const char*, const char*> refused[] = {
+      {"advance_s = 3", "pressure_advance.advance_s: found 3; expected a number in 0 .. 2"},
+      {"smooth_ms = 1", "pressure_advance.smooth_ms: found 1; expected a number in 2 .. 200"},
+      {"melt_ms = 200", "pressure_advance.melt_ms: found 200; expected a number in 0.1 .. 100"},
+      {"model = \"cubic\"", "expected one of \"linear\" \"tanh\" \"reciprocal\""},
+      {"nonlinear_mm = 0.1", "found 0.1; expected no such key with a linear model"},
+      {"model = \"tanh\"\nadvance_s = 0.05",
+       "found 0; expected the filament that this model presses together at most"},
+      {"advance = 0.05", "pressure_advance.advance"},
+  };
+  for (const auto& [keys, message] : refused) {
+    const auto bad = parse_machine(
+        edited("[tolerance]", std::string("[pressure_advance]\n") + keys + "\n[tolerance]").text, "m");
+    ASSERT_FALSE(bad) << keys;
+    EXPECT_NE(to_string(bad.error()).find(message), std::string::npos) << to_string(bad.error());
+  }
+}
+
 TEST(MachineFile, ADirectionHasAShaperOfItsOwnWhereNothingTurns) {
   const auto corexy = load_machine(kMachines / "corexy.toml");
   ASSERT_TRUE(corexy) << to_string(corexy.error());

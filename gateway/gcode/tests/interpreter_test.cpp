@@ -209,7 +209,7 @@ TEST(Interpreter, NothingIsAllocatedForALine) {
 
 TEST(Interpreter, KnownButUselessCodesAreNotedOnce) {
   Session session;
-  session.must("M73 P1\nM73 P2\nG29\nM900 K.05\nG29 P1");
+  session.must("M73 P1\nM73 P2\nG29\nM302 P1\nG29 P1");
   ASSERT_EQ(session.interpreter.notes().size(), 3U);
   EXPECT_EQ(session.interpreter.notes()[0].line, 1U);
   EXPECT_EQ(session.interpreter.notes()[1].text, "G29 has no effect on this machine");

@@ -1,0 +1,70 @@
+// Pressure advance of a job: the machine file's, until the job says another.
+
+#include <algorithm>
+
+#include "gateway/jobs/job_pipeline.hpp"
+#include "gateway/jobs/machine_setup.hpp"
+
+namespace kinebus {
+namespace {
+
+bool has_extruder(const MachineDescription& machine) {
+  return std::any_of(machine.joints.begin(), machine.joints.end(),
+                     [](const JointDescription& joint) { return joint.name == "E"; });
+}
+
+}  // namespace
+
+/// At rest: what comes next goes through a shaper for the advance in force.
+void JobPipeline::begin_advance() {
+  advances_.clear();
+  const AdvanceWindow window = has_extruder(machine_) ? AdvanceWindow(advance_) : AdvanceWindow();
+  if (window == shaper_.advance_window())
+    shaper_.reset();
+  else
+    shaper_ = PathShaper(axis_shapers(machine_.vibration), window);
+  shaper_.set_advance(advance_);
+  shaping_ = shaper_.active();
+  limit_filament(advance_);
+}
+
+void JobPipeline::limit_filament(const AdvanceModel& model) {
+  const FilamentLimits limits =
+      has_extruder(machine_) ? limits_before_advance(machine_, model) : FilamentLimits{};
+  if (const auto limited = planner_.limit_filament(limits); !limited)
+    refuse(line_of(limited.error().line), 0, to_string(limited.error()));
+}
+
+/// Another advance holds from the next move on, before which the path rests. Where the window changes, or
+/// lines come one by one without numbers of their own, the run ends there.
+bool JobPipeline::take_advance(const canonical::Line& line) {
+  const auto* asked = std::get_if<canonical::PressureAdvance>(&line.command);
+  if (asked == nullptr) return false;
+  AdvanceModel next = advance_;
+  if (asked->advance_s >= 0) next.advance_s = asked->advance_s;
+  if (asked->smooth_s >= 0) next.smooth_s = std::max(asked->smooth_s, AdvanceModel::kLeastSmooth_s);
+  if (next == advance_ || !has_extruder(machine_)) return true;
+  const AdvanceWindow& window = shaper_.advance_window();
+  const bool same_window = window.acts() && window.smooth_s == next.smooth_s;
+  advance_ = next;
+  if (!window.acts() && !next.acts()) return true;
+  if (source_ == nullptr || !same_window) {
+    drain(line);
+    return true;
+  }
+  advances_.push_back({line.line, next});
+  limit_filament(next);
+  return true;
+}
+
+bool JobPipeline::push_planned() {
+  if (!planner_.next(planned_)) return false;
+  while (!advances_.empty() && advances_.front().line < planned_.line) {
+    shaper_.set_advance(advances_.front().model);
+    advances_.pop_front();
+  }
+  shaper_.push(planned_);
+  return true;
+}
+
+}  // namespace kinebus

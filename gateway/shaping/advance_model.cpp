@@ -1,0 +1,102 @@
+#include "gateway/shaping/advance_model.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace kinebus {
+namespace {
+
+/// dE/ds: circles add nothing to it.
+double filament_slope(const PathPiece& piece, double s) {
+  const auto& c = piece.coefficients[kE];
+  return c[1] + s * (2 * c[2] + s * 3 * c[3]);
+}
+
+double filament(const PathPiece& piece, double s) {
+  const auto& c = piece.coefficients[kE];
+  return c[0] + s * (c[1] + s * (c[2] + s * c[3]));
+}
+
+}  // namespace
+
+bool moves_tool(const Phase& phase) {
+  constexpr double kRounding = 1e-8;  // of moves of filament alone
+  for (const double t : {0.0, 0.5 * phase.duration_s, phase.duration_s}) {
+    const Pose along = phase.piece.evaluate(phase.s(t)).x1;
+    if (std::max({std::abs(along[kX]), std::abs(along[kY]), std::abs(along[kZ])}) > kRounding) return true;
+  }
+  return false;
+}
+
+double AdvanceModel::at(double v) const {
+  const double linear = advance_s * v;
+  switch (kind) {
+    case AdvanceKind::kLinear:
+      break;
+    case AdvanceKind::kTanh:
+      return linear + nonlinear_mm * std::tanh(v / nonlinear_mm_per_s);
+    case AdvanceKind::kReciprocal:
+      return linear + nonlinear_mm * (1 - 1 / (1 + v / nonlinear_mm_per_s));
+  }
+  return linear;
+}
+
+double AdvanceModel::slope_s(double v) const {
+  const double ratio = v / nonlinear_mm_per_s, steep = nonlinear_mm / nonlinear_mm_per_s;
+  switch (kind) {
+    case AdvanceKind::kLinear:
+      break;
+    case AdvanceKind::kTanh: {
+      const double t = std::tanh(ratio);
+      return advance_s + steep * (1 - t * t);
+    }
+    case AdvanceKind::kReciprocal:
+      return advance_s + steep / ((1 + ratio) * (1 + ratio));
+  }
+  return advance_s;
+}
+
+PhaseAdvance::PhaseAdvance(const Phase& phase, const AdvanceModel& model) : model_(model) {
+  if (!model.acts() || !moves_tool(phase)) return;
+  double least = 0, most = 0;
+  for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+    const double slope = filament_slope(phase.piece, phase.s(t * phase.duration_s));
+    least = std::min(least, slope);
+    most = std::max(most, slope);
+  }
+  if (!(most > 0)) return;
+  const auto& c = phase.piece.coefficients[kE];
+  const bool even = phase.a == 0 && phase.jerk == 0 && c[2] == 0 && c[3] == 0;
+  way_ = least < 0 || (model.kind != AdvanceKind::kLinear && !even) ? Way::kNumeric : Way::kProportional;
+}
+
+double PhaseAdvance::flow(const Phase& phase, double t) const {
+  return std::max(0.0, filament_slope(phase.piece, phase.s(t)) * phase.speed(t));
+}
+
+PhaseAdvance::Sum PhaseAdvance::at(const Phase& phase, double t) const {
+  if (way_ == Way::kNothing) return {};
+  const double v = flow(phase, t), s = phase.s(t), rate = phase.speed(t);
+  const auto& c = phase.piece.coefficients[kE];
+  const double change =
+      v > 0 ? (2 * c[2] + 6 * c[3] * s) * rate * rate + filament_slope(phase.piece, s) * phase.accel(t) : 0;
+  Sum sum{0, model_.at(v), model_.slope_s(v) * change};
+  if (way_ == Way::kProportional) {
+    // Of one flow, or in proportion to it.
+    sum.x = model_.kind == AdvanceKind::kLinear
+                ? model_.advance_s * (filament(phase.piece, s) - filament(phase.piece, phase.s0))
+                : sum.x1 * t;
+    return sum;
+  }
+  // Gauss and Legendre, five places.
+  constexpr std::array<std::array<double, 2>, 5> kPlaces = {{{0.046910077030668, 0.118463442528095},
+                                                             {0.230765344947158, 0.239314335249683},
+                                                             {0.5, 0.284444444444444},
+                                                             {0.769234655052842, 0.239314335249683},
+                                                             {0.953089922969332, 0.118463442528095}}};
+  for (const auto& [place, weight] : kPlaces) sum.x += weight * t * model_.at(flow(phase, place * t));
+  return sum;
+}
+
+}  // namespace kinebus
