@@ -14,7 +14,7 @@ namespace kinebus {
 
 class Rest {
  public:
-  enum class After : std::uint8_t { kBringUp, kHoming, kCancel, kJog, kClear, kHeatFault };
+  enum class After : std::uint8_t { kBringUp, kHoming, kCancel, kJog, kClear, kHeatFault, kProbe };
 
   Rest(const MachineDescription& machine, std::deque<NodeLink>& links, const PathRate& rate)
       : rate_(rate), standstill_(machine, links) {}

@@ -1,6 +1,7 @@
 #pragma once
 // What a machine has besides motion, and where each of it lives. Units in the names; temperatures in deg C.
 
+#include <array>
 #include <chrono>
 #include <compare>
 #include <cstddef>
@@ -135,6 +136,11 @@ struct SpindleDescription {
 struct ProbeDescription {
   bool present = false;
   DevicePlace place{};
+  double speed_mm_per_s = 10;         ///< no probing is faster
+  std::array<double, 3> offset_mm{};  ///< where it touches, from the tool's tip, with A and C at 0
+  /// What virtual nodes let it touch: a plane, in the part's frame.
+  double sim_z_mm = 0;                ///< at X0 Y0
+  std::array<double, 2> sim_slope{};  ///< mm of Z for each mm along X and Y
   friend bool operator==(const ProbeDescription&, const ProbeDescription&) = default;
 };
 

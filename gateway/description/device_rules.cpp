@@ -163,6 +163,8 @@ class DeviceRules {
     require(node->inputs[at.channel - 1u].function == InputFunction::kProbe,
             {"probe.channel", input + ".function"}, number(at.channel),
             say("an input of node %1 that has the probe function", at.node_id));
+    require(node->functions.has_axes(), {"probe.node", "node." + std::to_string(at.node_id) + ".axis_pairs"},
+            number(at.node_id), say("a node that has axes: it latches where they were"));
   }
 
   const MachineDescription& d_;

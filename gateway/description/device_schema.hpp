@@ -130,7 +130,14 @@ void visit_devices(V& v, MachineDescription& d) {
     v.number("sim_rpm_per_s", d.spindle.sim_rpm_per_s, {10, 1000000}, Need::kOptional);
     visit_place(v, d.spindle.place);
   });
-  v.present("probe", d.probe.present, [&] { visit_place(v, d.probe.place); });
+  v.present("probe", d.probe.present, [&] {
+    v.number("speed_mm_per_s", d.probe.speed_mm_per_s, {0.01, 50}, Need::kOptional);
+    v.vector3("offset_mm", d.probe.offset_mm, {-500, 500}, Need::kOptional);
+    v.number("sim_z_mm", d.probe.sim_z_mm, {-1000, 1000}, Need::kOptional);
+    v.number("sim_slope_x", d.probe.sim_slope[0], {-0.2, 0.2}, Need::kOptional);
+    v.number("sim_slope_y", d.probe.sim_slope[1], {-0.2, 0.2}, Need::kOptional);
+    visit_place(v, d.probe.place);
+  });
 }
 
 }  // namespace kinebus::machine_schema

@@ -9,6 +9,7 @@
 #include "gateway/description/device_description.hpp"
 #include "gateway/sentence.hpp"
 #include "protocol/can/frame.hpp"
+#include "protocol/canopen/object.hpp"
 #include "protocol/time.hpp"
 
 namespace kinebus {
@@ -109,9 +110,39 @@ class Sensor : public Device {
   virtual double celsius() const = 0;
 };
 
+/// A number of the probe's node, to be read or written by SDO.
+struct ProbeRequest {
+  ObjectAddress address;
+  bool read = true;
+  std::uint8_t size = 0;  ///< bytes
+  std::int64_t value = 0;
+};
+
 class ContactProbe : public Device {
  public:
+  /// How far it is with one contact.
+  enum class Watch : std::uint8_t {
+    kOff,
+    kArms,     ///< its node is told; touches() is not known for certain
+    kWaits,    ///< for the contact
+    kAsks,     ///< it has come, or may have: its time is asked for
+    kContact,  ///< contact() says when
+    kNone,     ///< asked for: it has not come
+    kFailed    ///< its node does not answer
+  };
   virtual bool touches() const = 0;
+  /// The next contact counts; with `away` the next time that it lets go.
+  virtual void arm(bool) {}
+  /// No more of the way is left: has it come?
+  virtual void ask() {}
+  virtual Watch watch() const { return Watch::kOff; }
+  /// On the clock of the bus.
+  virtual BusTime contact() const { return BusTime{0}; }
+
+  // Its node's objects, which the owner asks for: one after the other, in this order.
+  virtual std::optional<ProbeRequest> next_request() { return std::nullopt; }
+  /// nullopt: there was no answer, or a refusal.
+  virtual void on_reply(BusTime, std::optional<std::int64_t>) {}
 };
 
 }  // namespace kinebus

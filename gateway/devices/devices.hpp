@@ -65,6 +65,7 @@ class Devices {
   double fan(std::uint8_t index) const { return ratio(fans_, index); }
   double output(std::uint8_t index) const { return ratio(outputs_, index); }
   SpindleStatus spindle() const { return spindle_ ? spindle_->status() : SpindleStatus{}; }
+  ContactProbe* probe() { return probe_.get(); }  ///< nullptr: there is none
   bool probe_touches() const { return probe_ && probe_->touches(); }
   std::vector<NamedHeaterStatus> heaters() const;
   std::vector<OutputStatus> fans() const { return ratios(fans_); }

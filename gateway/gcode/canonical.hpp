@@ -40,6 +40,15 @@ struct Arc {  ///< G2/G3: circular or helical, in any plane (G68.2 tilts it); A,
   double inverse_time_s = 0;
 };
 
+/// G38.2 to G38.5: from rest, straight on until the probe touches (or no longer does), at most to the target.
+struct Probe {
+  Pose target{};
+  Frame frame{};
+  double feed_per_s = 0;
+  bool away = false;  ///< the probe is to let go
+  bool must = false;  ///< otherwise it is an error
+};
+
 struct Dwell {
   double seconds = 0;
 };                 ///< G4: after motion has come to rest
@@ -131,7 +140,7 @@ struct End {};  ///< M2 / M30, or the end of the text
 
 using Command = std::variant<Traverse, Feed, Arc, Dwell, PathMode, SetPosition, Limits, Thermal, Spindle,
                              Home, Pause, MotorsOff, MotorsOn, WaitIdle, Override, Message, Query,
-                             EmergencyStop, StoredJob, Settings, End, PressureAdvance>;
+                             EmergencyStop, StoredJob, Settings, End, PressureAdvance, Probe>;
 
 /// One command with the line of the job that it came from (1-based).
 struct Line {

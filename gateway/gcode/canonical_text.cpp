@@ -138,6 +138,10 @@ struct Writer {
     if (c.smooth_s >= 0) text += " smooth" + number(c.smooth_s);
     return text;
   }
+  std::string operator()(const Probe& c) const {
+    return "probe " + pose_text(c.target, c.frame) + feed_text(c.feed_per_s, 0) + (c.away ? " away" : "") +
+           (c.must ? " must" : "");
+  }
 };
 
 }  // namespace

@@ -71,15 +71,14 @@ struct Reason {
   int code;
   const char* text;
 };
-constexpr std::array<Reason, 14> kGReasons = {{
+constexpr std::array<Reason, 13> kGReasons = {{
     {52, phrase("NURBS (%1) are not supported: use G5 or G1")},
     {53, phrase("NURBS (%1) are not supported: use G5 or G1")},
     {62, phrase("NURBS (%1) are not supported: use G5 or G1")},
     {301, phrase("G30.1 is not supported: use G10 L2 or parameters")},
     {330, phrase("%1 turns with the spindle, which needs an encoder on it")},
     {331, phrase("%1 turns with the spindle, which needs an encoder on it")},
-    {380, phrase("probing (G38) is not supported")},
-    {382, phrase("probing (G38.2) is not supported")},
+    {380, phrase("%1 needs a decimal: G38.2 to G38.5")},
     {683, phrase("G68.3 is not supported: use G68.2 with I J K")},
     {760, phrase("G76 means threading to some and fine boring to others; both need a spindle that follows an "
                  "angle, which this machine does not have")},

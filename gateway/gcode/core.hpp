@@ -32,6 +32,7 @@ class Core {
   void restore(const State& state);
   void set_position(const Pose& pose, Frame frame);
 
+  void set_probed(const ProbeResult& result);
   bool set_work_offset(int system, const Pose& offset, bool here);
 
   const State& state() const { return state_; }
@@ -116,6 +117,11 @@ class Core {
   bool cycle_words(Code code, bool fresh);
   bool drill(std::size_t w, double r, double bottom, double clear);
   bool cycle_move(const Vector3& program, bool traverse);
+
+  // probing.cpp
+  bool probe(Code code);
+  bool probe_target(Code code, Pose& program, Pose& target);
+  void tell_probed(const Pose& program, bool contact);
 
   // splines.cpp
   bool run_spline(Code code);

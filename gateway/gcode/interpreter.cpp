@@ -37,6 +37,10 @@ void Interpreter::set_position(const Pose& pose, Frame frame) {
   core_->set_position(pose, frame);
 }
 
+void Interpreter::set_probed(const ProbeResult& result) {
+  core_->set_probed(result);
+}
+
 Result<void, Sentence> Interpreter::set_work_offset(int system, const Pose& offset, bool here) {
   if (core_->set_work_offset(system, offset, here)) return {};
   return Error<Sentence>(core_->error().message);

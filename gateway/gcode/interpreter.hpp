@@ -48,6 +48,16 @@ struct Locals {
 enum class DwellUnit : std::uint8_t { kByDialect, kMilliseconds, kSeconds };
 
 /// What the machine file says about the dialect.
+enum class ProbeFitted : std::uint8_t { kNone, kSimulated, kFitted };
+
+/// How a probing move has ended.
+struct ProbeResult {
+  bool contact = false;
+  Pose at{};     ///< the tool when the probe touched, or at the end of a move without contact
+  Pose stand{};  ///< where it has come to rest
+  Frame frame{};
+};
+
 struct Options {
   Pose start{};                ///< where the machine stands when the job begins, machine frame (mm, rad)
   Pose home{};                 ///< where it stands after G28, machine frame; E unused
@@ -72,6 +82,9 @@ struct Options {
   std::vector<double> tool_diameter_mm;  ///< G41 D1 is the first entry; 0: not known
   double retract_length_mm = 1, retract_mm_per_s = 40, retract_lift_mm = 0;  ///< until M207
   double recover_extra_mm = 0, recover_mm_per_s = 40;                        ///< until M208
+  ProbeFitted probe = ProbeFitted::kNone;
+  double probe_mm_per_s = 10;               ///< no probing is faster
+  std::array<double, 3> probe_offset_mm{};  ///< where the probe touches, from the tool's tip, A and C at 0
   std::vector<Macro> macros;
   /// Lines of loops and subroutines that a text carries out at most, so that one without end is an error.
   std::uint64_t most_recorded_steps = 10'000'000;
@@ -108,6 +121,10 @@ class Interpreter {
   /// The machine was moved by something else (jog, homing, reset) and stands here; E is kept. The next line
   /// appends SetPosition first.
   void set_position(const Pose& pose, Frame frame);
+
+  /// What a canonical::Probe has come to: #5061 to #5070 tell it, and the next line goes on from where the
+  /// tool stands. Until then lines are read as if it had touched at its target.
+  void set_probed(const ProbeResult& result);
 
   /// Sets a work zero (X Y Z A C; `system` 0 is G54) as G10 L2 does; with `here` as G10 L20: the current
   /// point gets these coordinates. Refused in a tilted plane.

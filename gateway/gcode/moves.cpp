@@ -66,6 +66,8 @@ bool Core::run_motion() {
       return run_spline(code);
     }
     if (code.number < 730 || code.number == 800) m.cycle = 0;
+    if (code.number >= 380 && code.number < 390)
+      return m.cutter == CutterSide::kOff ? probe(code) : refuse_beside_cutter(code, g_name(code.number));
     if (code.number == 800 && (block_.present & bits("WH")) != 0) {
       // Printers level the named part of the bed.
       used_ |= block_.present & bits("XYWHNPC");

@@ -101,6 +101,11 @@ void JobCheck::command(const canonical::Line& line) {
   if (const auto* spindle = std::get_if<canonical::Spindle>(&line.command))
     if (auto wrong = wrong_spindle_speed(machine_.spindle, spindle->rpm))
       add(Problem::Severity::kError, line.line, std::move(*wrong));
+  if (std::holds_alternative<canonical::Probe>(line.command) && !std::exchange(probes_, true))
+    add(Problem::Severity::kWarning, line.line,
+        say("the job probes here: what follows is checked as if the probe touched at the table, or at the "
+            "end of "
+            "its move, and again with what is measured, just before it moves"));
   if (std::holds_alternative<canonical::EmergencyStop>(line.command))
     add(Problem::Severity::kWarning, line.line, say("M112 stops the machine here"));
   if (std::holds_alternative<canonical::Settings>(line.command))

@@ -24,7 +24,7 @@ bool is_any(const Command& command) {
 bool is_barrier(const Command& command, bool optional_stop) {
   if (const auto* thermal = std::get_if<Thermal>(&command)) return thermal->wait;
   if (const auto* pause = std::get_if<Pause>(&command)) return !pause->optional || optional_stop;
-  return is_any<Dwell, Home, MotorsOff, MotorsOn, WaitIdle, canonical::Spindle>(command);
+  return is_any<Dwell, Home, MotorsOff, MotorsOn, WaitIdle, canonical::Spindle, canonical::Probe>(command);
 }
 
 /// Target of a motion command.
@@ -59,7 +59,7 @@ void JobPipeline::begin(const Pose& start) {
   path_mode_.reset();
   limits_ = {};
   stage_ = Stage::kFeeding;
-  in_run_ = ends_ = phase_waits_ = false;
+  in_run_ = ends_ = phase_waits_ = probing_ = false;
   barrier_.reset();
   refused_.reset();
   run_s_ = event_s_ = 0;
@@ -170,6 +170,11 @@ JobPipeline::Step JobPipeline::next(int& budget) {
       continue;
     }
     if (stage_ == Stage::kEnded) return Step::kEnd;
+    if (stage_ == Stage::kProbed) return Step::kProbed;
+    if (stage_ == Stage::kProbes) {
+      plan_probe();
+      continue;
+    }
     if (take_known()) continue;
     if (text_done_) {
       ends_ = true;
@@ -258,8 +263,17 @@ std::optional<JobPipeline::Step> JobPipeline::settle() {
       begin_advance();
       return std::nullopt;
     }
+    if (const auto* p = std::get_if<canonical::Probe>(&command_.command)) {
+      probe_ = *p;
+      probe_line_ = command_.line;
+      stage_ = Stage::kProbes;
+    }
     command_.line = line_of(command_.line);
     return Step::kBarrier;
+  }
+  if (std::exchange(probing_, false)) {
+    stage_ = Stage::kProbed;
+    return Step::kProbed;
   }
   stage_ = ends_ ? Stage::kEnded : Stage::kFeeding;
   return std::nullopt;
@@ -367,13 +381,10 @@ void JobPipeline::add_to_planner(const canonical::Line& line) {
   refuse(line_of(added.error().line), 0, to_string(added.error()));
   // The planner refuses everything now. It goes on behind the refused move, so that later problems are seen
   // too.
-  shaper_.reset();
   if (const auto target = target_of(line.command))
-    planner_.reset(target->pose, target->frame);
+    start_at(target->pose, target->frame, line.line);
   else
-    planner_.reset(planner_.end_pose(), planner_.end_frame());
-  if (path_mode_) static_cast<void>(planner_.add({line.line, *path_mode_}));
-  static_cast<void>(planner_.add({line.line, limits_}));
+    start_at(planner_.end_pose(), planner_.end_frame(), line.line);
 }
 
 void JobPipeline::drain(std::optional<canonical::Line> barrier) {
@@ -381,20 +392,6 @@ void JobPipeline::drain(std::optional<canonical::Line> barrier) {
   stage_ = Stage::kDraining;
   if (const auto finished = planner_.finish(); !finished)
     refuse(finished.error().line, 0, to_string(finished.error()));
-}
-
-/// G28 while positions are known: the machine goes where homing would leave it.
-void JobPipeline::home(const Home& home, std::uint32_t line) {
-  const Frame frame = home.frame;
-  if (planner_.end_frame() != frame) {
-    const auto pose = convert_pose(kinematics_, planner_.end_frame(), planner_.end_pose(), frame);
-    if (!pose) return refuse(line_of(line), 0, say("G28: %1", to_string(pose.error())));
-    first_.push_back({line, SetPosition{*pose, home.frame}});
-  }
-  Pose target = home.afterwards;
-  target[kE] = planner_.end_pose()[kE];
-  first_.push_back({line, Traverse{target, home.frame}});
-  first_.push_back({line, WaitIdle{}});
 }
 
 }  // namespace kinebus

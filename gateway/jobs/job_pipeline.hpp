@@ -31,6 +31,7 @@ class JobPipeline {
     kEvent,    ///< command() falls due at event_s() of the run; motion goes on
     kRunEnd,   ///< all phases of the run were given out (only after at least one); it ends at rest
     kBarrier,  ///< command() is to be carried out at rest, before the next step is asked for
+    kProbed,   ///< the move of a probe, begun at a barrier, ended at its target, if not before: probed()
     kEnd,      ///< the job is over
     kProblem,  ///< problem(): a line is refused. The next step goes on with the line after it.
     kMore,     ///< the budget is used up: call again
@@ -69,6 +70,14 @@ class JobPipeline {
   const canonical::Line& command() const { return command_; }
   double event_s() const { return event_s_; }
   const Problem& problem() const { return problem_; }
+  /// How the move of the probe has ended, before the next step is asked for; until kProbed it may be cut
+  /// short.
+  void probed(const gcode::ProbeResult& result);
+  /// What is taken for it where nobody can measure: contact at the table's surface if the move goes through
+  /// it, else at its target.
+  gcode::ProbeResult assumed_probe() const;
+  /// Where a probe's move ends, or would have.
+  const canonical::Probe& probe() const { return probe_; }
   /// What was accepted without effect since the last call, once for each code.
   std::vector<gcode::Note> take_notes();
 
@@ -91,6 +100,8 @@ class JobPipeline {
     kFeeding,   ///< commands go into the planner
     kDraining,  ///< a barrier or the end was met: the planner gives out what it holds
     kSettled,   ///< nothing is left in the planner: events, the run's end, the barrier
+    kProbes,    ///< a probe's move is to be planned
+    kProbed,    ///< and is given out: how it ended is to be told
     kEnded,
   };
 
@@ -113,6 +124,8 @@ class JobPipeline {
   void take_motion(const canonical::Line& line);
   void add_to_planner(const canonical::Line& line);
   void drain(std::optional<canonical::Line> barrier);
+  void plan_probe();
+  void start_at(const Pose& pose, Frame frame, std::uint32_t line);
   void home(const canonical::Home& home, std::uint32_t line);
 
   const MachineDescription& machine_;
@@ -155,6 +168,10 @@ class JobPipeline {
   bool ends_ = false;         ///< draining towards the job's end
   bool phase_waits_ = false;  ///< phase_ was pulled; events due before it go first
   std::optional<canonical::Line> barrier_;
+  canonical::Probe probe_;
+  std::uint32_t probe_line_ = 0;    ///< as a place
+  Pose probe_start_{};              ///< in its frame
+  bool probing_ = false;            ///< its move is on the way
   std::optional<Problem> refused_;  ///< waits to be given out
   Phase phase_{};
   canonical::Line command_;

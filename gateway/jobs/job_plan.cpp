@@ -180,6 +180,9 @@ bool JobPlan::take(JobPipeline::Step step) {
     case Step::kRunEnd:
       end_run();
       return false;
+    case Step::kProbed:
+      pipeline_.probed(pipeline_.assumed_probe());
+      return false;
     case Step::kProblem:
       streaming_ = false;
       tell_notes(pipeline_, check_);

@@ -88,6 +88,7 @@ void LiveLines::begin(const Pose& pose, std::optional<double> hotend_celsius, gc
   hot_e_mm_ = -1e300;
   hotend_celsius_ = hotend_celsius;
   still_.reset();
+  probes_ = false;
   if (path_mode_) out.push_back({0, *path_mode_});
   out.push_back({0, limits_});
   if (advance_.advance_s >= 0 || advance_.smooth_s >= 0) out.push_back({0, advance_});
@@ -100,6 +101,7 @@ Result<void, Problem> LiveLines::take(std::string_view line, std::uint32_t numbe
   };
   const gcode::State before = interpreter_.state();
   const Place place = place_;
+  const bool probing = probes_;
   const auto hotend = hotend_celsius_;
   const std::size_t first = out.size();
   gcode::Program program(interpreter_, gcode::Program::Use::kLines);
@@ -117,7 +119,16 @@ Result<void, Problem> LiveLines::take(std::string_view line, std::uint32_t numbe
   }
   for (std::size_t i = first; i < out.size(); ++i) {
     auto words = check(out[i].command);
-    if (!words) continue;
+    const bool probes = std::holds_alternative<canonical::Probe>(out[i].command);
+    if (probes && program.steps() > 0)
+      words =
+          say("a macro or loop that probes works in a job, not as a line: the lines behind G38 have to know "
+              "what it measures");
+    if (!words) {
+      probes_ = probes_ || probes;
+      continue;
+    }
+    probes_ = probing;
     interpreter_.restore(before);
     place_ = place;
     hotend_celsius_ = hotend;
@@ -135,6 +146,12 @@ Result<void, Problem> LiveLines::take(std::string_view line, std::uint32_t numbe
   for (const gcode::Note& note : interpreter_.notes()) notes_.push_back(note.text);
   interpreter_.clear_notes();
   return {};
+}
+
+void LiveLines::probed(const gcode::ProbeResult& result) {
+  probes_ = false;
+  interpreter_.set_probed(result);
+  place_ = {result.stand, result.frame};
 }
 
 std::vector<Sentence> LiveLines::take_notes() {
@@ -155,8 +172,10 @@ Refused LiveLines::check(const canonical::Command& command) {
   const auto* traverse = std::get_if<canonical::Traverse>(&command);
   const auto* arc = std::get_if<canonical::Arc>(&command);
   const auto* home = std::get_if<canonical::Home>(&command);
-  if (!feed && !traverse && !arc && !home) return std::nullopt;
+  const auto* probe = std::get_if<canonical::Probe>(&command);
+  if (!feed && !traverse && !arc && !home && !probe) return std::nullopt;
   if (still_) return *still_;
+  if (probe) return check_straight(probe->target, probe->frame);
   if (home) return check_home(*home);
   if (arc) return check_arc(*arc);
   return feed ? check_straight(feed->target, feed->frame) : check_straight(traverse->target, traverse->frame);

@@ -36,6 +36,10 @@ class LiveLines {
   /// Carries out one line (without its end). Refused: why, and nothing has changed.
   Result<void, Problem> take(std::string_view line, std::uint32_t number, gcode::CommandBuffer& out);
 
+  /// A line that was taken probes: none may be taken that moves or looks at what it measures until probed().
+  bool probes() const { return probes_; }
+  void probed(const gcode::ProbeResult& result);
+
   /// Sets a work zero as G10 L2 does, or with `here` as L20: `system` 0 is G54. `where`: the machine has been
   /// moved to there (Frame::kMachine) since the last line.
   Result<void, Sentence> set_work_offset(int system, const Pose& offset, bool here,
@@ -76,6 +80,7 @@ class LiveLines {
   std::optional<double> hotend_celsius_;
   double hot_e_mm_ = -1e300;  ///< the farthest that filament was fed hot
   bool cold_noted_ = false, fan_noted_ = false;
+  bool probes_ = false;
   canonical::Limits limits_{};  ///< in force
   canonical::PressureAdvance advance_{};
   std::optional<canonical::PathMode> path_mode_;

@@ -151,6 +151,11 @@ gcode::Options interpreter_options(const MachineDescription& machine, const Pose
   options.retract_lift_mm = machine.gcode.retract_lift_mm;
   for (const MacroDescription& macro : machine.macros)
     options.macros.push_back({gcode::in_lower_case(macro.name), macro.gcode});
+  if (machine.probe.present)
+    options.probe =
+        machine.probe.place.on_node() ? gcode::ProbeFitted::kFitted : gcode::ProbeFitted::kSimulated;
+  options.probe_mm_per_s = machine.probe.speed_mm_per_s;
+  options.probe_offset_mm = machine.probe.offset_mm;
   if (const PoseLimits* limits = pose_limits(machine.kinematics);
       limits != nullptr && limits->a_rad.limited()) {
     options.a_min_rad = limits->a_rad.min;

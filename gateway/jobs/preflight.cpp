@@ -42,6 +42,9 @@ bool Preflight::step(int lines) {
       case Step::kRunEnd:
         ++report_.runs;
         break;
+      case Step::kProbed:
+        pipeline_.probed(pipeline_.assumed_probe());
+        break;
       case Step::kProblem:
         tell_notes(pipeline_, check_);
         check_.problem(pipeline_.problem());

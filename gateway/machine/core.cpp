@@ -120,10 +120,12 @@ void Gateway::Core::on_frame(BusTime when, const CanFrame& frame) {
     if (!bring_up_.busy()) stop_all(false, NodeWatch::is_of_absence(request->reason));
   }
   const bool of_device = devices_.on_frame(when, frame);
+  if (of_device) runner_->look_at_probe(now_);
   tell_of_tuning();  // before anybody who waits for it sees that it is over
   for (NodeLink& link : links_) {
     if (!link.on_frame(when, frame)) continue;
     take_stream_status(link);
+    serve_probe();
     return;
   }
   if (of_device) return;
@@ -214,6 +216,7 @@ void Gateway::Core::on_time(BusTime now) {
   watch_devices();
   watch_idle_heat();
   tell_of_tuning();
+  serve_probe();
   feed_heat_ahead();
   note_progress();
   voice_.on_time(now_, bring_up_.busy());

@@ -6,6 +6,7 @@
 //   core_commands.cpp  one handler a command       core_lines.cpp      lines of print hosts and the console
 //   core_recovery.cpp  interrupted jobs            core_heat_hold.cpp  a heater's fault in a job
 //   core_heat_tuning.cpp  a heater that is measured
+//   core_probe.cpp     probing
 //   core_status.cpp    the snapshot
 
 #include <deque>
@@ -168,6 +169,12 @@ class Gateway::Core {
   void finish_lift();
   void step_mending();
 
+  // Probing (core_probe.cpp).
+  void serve_probe();
+  void step_probed();
+  void finish_probe();
+  void give_up_probing();
+
   // Interruption and resume (core_recovery.cpp).
   /// A job is interrupted: it can go on, or be cancelled.
   bool interrupted() const;
@@ -231,6 +238,8 @@ class Gateway::Core {
   BusTime served_{0};         ///< the last on_time()
   BusTime started_{0};        ///< of the move under way
   bool remote_told_ = false;  ///< a remote frame was passed over, since the last bring-up
+  bool probe_asked_ = false;  ///< its node is to answer
+  bool probe_rests_ = false;  ///< its move has come to rest where it touched
   bool fault_ = false;        ///< the stop under way ends in an alarm
   bool beds_stay_ = false;    ///< that alarm is of a device: a bed that is in order keeps the part on it
   BusTime heat_idle_since_{0}, next_flow_{0};

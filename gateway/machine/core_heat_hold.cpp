@@ -22,7 +22,7 @@ void Gateway::Core::watch_devices() {
 bool Gateway::Core::hold_for_heat(const DeviceFault& fault) {
   const bool of_job = print_.runner().active() &&
                       state_.is_one_of(MachineState::kRunning, MachineState::kHolding, MachineState::kHeld);
-  if (!fault.heater || !of_job) return false;
+  if (!fault.heater || !of_job || print_.runner().probing()) return false;
   heat_.note(journal_);
   heat_.keep();
   heat_.heaters_off(Heat::Beds::kStay);

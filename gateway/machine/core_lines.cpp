@@ -80,7 +80,7 @@ Done Gateway::Core::carry_out_at_rest(const canonical::Line& line) {
 }
 
 std::size_t Gateway::Core::line_room() {
-  return lines_open() ? print_.runner().live_room(now_, kLineRoom) : 0;
+  return lines_open() && !lines_.probes() ? print_.runner().live_room(now_, kLineRoom) : 0;
 }
 
 bool Gateway::Core::lines_idle() const {

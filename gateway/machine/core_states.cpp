@@ -106,15 +106,19 @@ void Gateway::Core::step_checking() {
 }
 
 void Gateway::Core::step_running() {
+  if (rest_.reading()) return step_standstill();
   if (runner_->live() && lines_.given_up(now_)) {
     events_.message(now_, say("the lines' host has gone: what is left of them is given up"));
     static_cast<void>(carry_out(command::Cancel{}));
     return;
   }
   if (state_.is(MachineState::kMoving) && hand_.let_go(now_)) return end_jog();
+  if (const auto probed = runner_->take_probed()) lines_.probed(*probed);
   switch (runner_->on_time(now_, options_.planning_budget)) {
     case Runner::Outcome::kBusy:
       return;
+    case Runner::Outcome::kProbed:
+      return step_probed();
     case Runner::Outcome::kPaused:
       held_from_ = state_.now();
       enter(MachineState::kHolding);
@@ -193,6 +197,7 @@ void Gateway::Core::stop_all(bool fault, bool by_absence) {
   stall_.on_stop(now_, by_absence);
   fault_ = fault_ || fault;
   recovery_.do_not_go_on();
+  give_up_probing();
   heat_hold_.abort();
   if (hand_.leads_to(ManualMotion::Then::kReturn) || hand_.leads_to(ManualMotion::Then::kHeld))
     hand_.forget_then();
@@ -307,6 +312,7 @@ void Gateway::Core::finish_standstill() {
     group_.set_state(links_[i].id(), found.node(i).position, found.node(i).stream);
   if (after == After::kHoming) group_.homed();
   position_.take(found);
+  if (after == After::kProbe) return finish_probe();
   const bool cancelled = after == After::kCancel, job_failed = recovery_.take_job_failed();
   fault_ = false;
   hand_.runner().drop();

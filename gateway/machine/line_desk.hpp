@@ -36,6 +36,8 @@ class LineDesk {
   /// What one line means, valid until the next one. `still`: why it may not move.
   Result<std::span<const canonical::Line>, Refusal> take(std::optional<Sentence> still, std::string_view line,
                                                          std::uint32_t number);
+  bool probes() const { return lines_.probes(); }
+  void probed(const gcode::ProbeResult& result) { lines_.probed(result); }
   std::vector<Sentence> take_notes() { return lines_.take_notes(); }
   void forget_modes() { lines_.forget(); }
 

@@ -57,6 +57,9 @@ class Heat {
   std::optional<DeviceFault> fault() const { return devices_.fault(); }
   std::optional<DeviceFault> new_fault() { return devices_.new_fault(); }
 
+  /// nullptr: the machine has none.
+  ContactProbe* probe() { return devices_.probe(); }
+
   // What the job under way wants. It is kept while the job is interrupted, whatever is switched off.
   void begin_job();
   /// As the gateway before has noted it.

@@ -177,6 +177,14 @@ void RunFeed::suspend(PathTime tau) {
   begun_.reset();
 }
 
+void RunFeed::cut() {
+  keep_from({added(), 0});
+  passed_.reset();
+  streaming_ = released_ = false;
+  ramp_s_ = 0;
+  begun_.reset();
+}
+
 void RunFeed::keep_from(const JobPlace& place) {
   while (!originals_.empty() && first_ < place.phase) drop_first();
   pieces_.clear();

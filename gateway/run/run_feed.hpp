@@ -62,6 +62,8 @@ class RunFeed {
   // Interruption.
   /// The run was lost at `tau`: what follows there is kept.
   void suspend(PathTime tau);
+  /// The run was ended at a place that is none of the job: what is left of what was added is dropped.
+  void cut();
   /// What was suspended goes on, from rest, as a run of its own.
   void go_on(double ramp_s) { ramp_s_ = ramp_s; }
   /// Where the tool is to stand before it goes on; false: the job has not moved yet.

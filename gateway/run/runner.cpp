@@ -44,6 +44,7 @@ Runner::Runner(const MachineDescription& machine, const Kinematics& kinematics, 
                PathRate& rate, Heat& heat, EventQueue& events, journal::Queue& journal,
                bodies::PrintedPart* printed)
     : machine_(machine),
+      kinematics_(kinematics),
       group_(group),
       rate_(rate),
       heat_(heat),
@@ -56,6 +57,10 @@ Runner::Runner(const MachineDescription& machine, const Kinematics& kinematics, 
 void Runner::begin() {
   active_ = true;
   held_ = still_ = suspended_ = started_ = finished_ = stop_asked_ = barrier_waits_ = live_ = false;
+  probing_ = probe_cut_ = false;
+  probe_wrong_.reset();
+  probed_.reset();
+  check_.reset();
   wait_ = Wait::kNone;
   waits_done_ = waits_replayed_ = 0;
   events_.clear();
@@ -152,7 +157,7 @@ void Runner::resume(BusTime now) {
 }
 
 void Runner::drop() {
-  active_ = suspended_ = false;
+  active_ = suspended_ = probing_ = probe_cut_ = false;
   feed_.reset();
   events_.clear();
   source_.reset();
@@ -205,6 +210,7 @@ std::uint32_t Runner::line(BusTime now) const {
 
 Runner::Outcome Runner::fail(std::uint32_t line, Sentence words, bool stream) {
   failure_ = {line, std::move(words), stream};
+  probing_ = false;
   return Outcome::kFailed;
 }
 
@@ -217,6 +223,9 @@ Runner::Outcome Runner::on_time(BusTime now, int budget) {
   execute_due(now);
   if (stop_asked_) return Outcome::kEmergencyStop;
   feed_.forget_before(group_.confirmed(rate_.tau(now)) - kPlannedMemory);
+  look_at_probe(now);
+  if (probe_wrong_) return fail(last_line_, *std::exchange(probe_wrong_, std::nullopt), false);
+  if (probe_cut_) return probe_outcome(now);
   Outcome outcome = Outcome::kBusy;
   if (!still_ && std::exchange(barrier_waits_, false)) outcome = barrier(now);
   if (outcome == Outcome::kBusy) outcome = stream(now);
@@ -250,89 +259,6 @@ Runner::Outcome Runner::stream(BusTime now) {
   return pumped ? Outcome::kBusy : fail(pumped.error().line, to_string(pumped.error()), true);
 }
 
-// Interruption
-// -------------------------------------------------------------------------------------------------
-
-void Runner::suspend(PathTime tau) {
-  if (!active_ || suspended_) return;
-  suspended_ = true;
-  feed_.suspend(tau);
-  // The run was over but for the waiting.
-  const bool over = wait_ == Wait::kRunDone || wait_ == Wait::kRest;
-  if (over && !feed_.pending()) wait_ = Wait::kNone;
-  if (noted_) journal_.push(journal::Interrupted{feed_.place(tau), feed_.extruder_shift_mm()});
-}
-
-void Runner::go_on(BusTime now) {
-  suspended_ = held_ = still_ = false;
-  if (wait_ == Wait::kPause) end_wait();
-  feed_.go_on(to_seconds(BusTime{machine_.stop.hold_ramp}));
-  heating_.restart();
-  doing_ = say("moving");
-  last_time_ = now;
-}
-
-PlannedPose Runner::rest_pose() const {
-  PlannedPose rest{start_, Frame::kMachine, 0};
-  static_cast<void>(feed_.rest_pose(rest.pose, rest.frame, rest.line));
-  return rest;
-}
-
-void Runner::shift_extruder(double by_mm) {
-  feed_.shift_extruder(by_mm);
-  start_[kE] += by_mm;
-}
-
-void Runner::start_replay(std::unique_ptr<ByteSource> source, const journal::State& state, PathTime tau) {
-  start_job(std::move(source), state.job->start, state.job->offsets);
-  pipeline_.replay_feed_scales(state.scales);
-  waits_replayed_ = state.waits_done;
-  doing_ = say("reading the job up to where it was");
-  if (state.run) {
-    const journal::RunBegin& run = *state.run;
-    feed_.replay_to(RunFeed::Run{run.start, run.from, run.ramp_s}, tau);
-    feed_.shift_extruder(run.extruder_shift_mm);
-  } else {
-    feed_.replay_to(state.interrupted ? state.interrupted->place : JobPlace{});
-    feed_.shift_extruder(state.interrupted ? state.interrupted->extruder_shift_mm : 0);
-  }
-}
-
-Runner::Outcome Runner::replay(int budget) {
-  using Step = JobPipeline::Step;
-  while (feed_.replaying()) {
-    switch (pipeline_.next(budget)) {
-      case Step::kMore:
-        return Outcome::kBusy;
-      case Step::kPhase:
-        take_phase();
-        break;
-      case Step::kBarrier:
-        last_line_ = pipeline_.command().line;
-        if (!waits(pipeline_.command())) break;
-        if (waits_done_ < waits_replayed_) {
-          ++waits_done_;
-          break;
-        }
-        barrier_waits_ = true;
-        feed_.end_replay();
-        break;
-      case Step::kEnd:
-        feed_.end_replay();
-        break;
-      case Step::kProblem:
-        return fail(pipeline_.problem().line, pipeline_.problem().words, false);
-      case Step::kEvent:  // what it set is in the journal
-      case Step::kRunEnd:
-      case Step::kStarved:
-        break;
-    }
-  }
-  suspended_ = true;
-  doing_ = say("interrupted");
-  return Outcome::kDone;
-}
-
 void Runner::take_phase() {
   const Phase& phase = pipeline_.phase();
   finished_ = phase.last;
@@ -343,6 +269,8 @@ void Runner::take_phase() {
 
 Runner::Outcome Runner::take(BusTime now, JobPipeline::Step step) {
   using Step = JobPipeline::Step;
+  if (check_)
+    if (auto wrong = wrong_after_probe(step)) return fail(wrong->line, std::move(wrong->words), false);
   switch (step) {
     case Step::kPhase:
       take_phase();
@@ -358,6 +286,10 @@ Runner::Outcome Runner::take(BusTime now, JobPipeline::Step step) {
     case Step::kBarrier:
       barrier_waits_ = still_;
       return still_ ? Outcome::kBusy : barrier(now);
+    case Step::kProbed:
+      if (ContactProbe* const probe = heat_.probe()) probe->ask();
+      wait_ = Wait::kProbeEnd;
+      return Outcome::kBusy;
     case Step::kEnd:
       return Outcome::kDone;
     case Step::kProblem:

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "gateway/bodies/printed_part.hpp"
+#include "gateway/jobs/job_check.hpp"
 #include "gateway/jobs/job_pipeline.hpp"
 #include "gateway/jobs/journal/journal_queue.hpp"
 #include "gateway/jobs/journal/journal_state.hpp"
@@ -26,7 +27,7 @@ namespace kinebus {
 
 class Runner {
  public:
-  enum class Outcome : std::uint8_t { kBusy, kPaused, kDone, kFailed, kEmergencyStop };
+  enum class Outcome : std::uint8_t { kBusy, kPaused, kDone, kFailed, kEmergencyStop, kProbed };
   struct Failure {
     std::uint32_t line = 0;
     Sentence words;
@@ -64,6 +65,16 @@ class Runner {
     return live() && !feed_.streaming() && !feed_.pending() && wait_ == Wait::kNone && pipeline_.live_idle();
   }
   bool active() const { return active_; }
+
+  // Probing: a move that ends where the probe touches. on_time() says kProbed when path time rests behind
+  // that: what the nodes hold is to be dropped, and probed() to be told where they stand.
+  bool probing() const { return probing_; }
+  /// As soon as the probe may have told something.
+  void look_at_probe(BusTime now);
+  /// `stand`: Frame::kMachine.
+  Outcome probed(const Pose& stand);
+  /// Of a live probe, once: how it has ended.
+  std::optional<gcode::ProbeResult> take_probed() { return std::exchange(probed_, std::nullopt); }
 
   // Interruption: the stream is lost, the job is not.
   /// What the job has left from path time `tau` on is kept; nothing happens until go_on().
@@ -121,7 +132,17 @@ class Runner {
  private:
   /// At rest no joint feels a ramp: path time is let go and caught at once.
   static constexpr std::chrono::milliseconds kRampAtRest{2};
-  enum class Wait : std::uint8_t { kNone, kRunDone, kRest, kDwell, kHeating, kSpindle, kPause };
+  enum class Wait : std::uint8_t {
+    kNone,
+    kRunDone,
+    kRest,
+    kDwell,
+    kHeating,
+    kSpindle,
+    kPause,
+    kProbeReady,
+    kProbeEnd
+  };
   struct Event {
     std::uint64_t phase;  ///< due when so many phases of the job are done
     canonical::Line line;
@@ -141,11 +162,18 @@ class Runner {
   Outcome take(BusTime now, JobPipeline::Step step);
   Outcome barrier(BusTime now);
   Outcome fail(std::uint32_t line, Sentence words, bool stream);
+  void begin_probe();
+  bool probe_has_answered();
+  std::chrono::milliseconds probe_ramp(BusTime now) const;
+  void end_probe(const gcode::ProbeResult& result);
+  Outcome probe_outcome(BusTime now);
+  std::optional<Failure> wrong_after_probe(JobPipeline::Step step);
   /// nullptr: nothing is to be waited for.
   const HeaterDescription* awaited(const canonical::Thermal& thermal) const;
   void begin_heating(const canonical::Thermal& thermal);
 
   const MachineDescription& machine_;
+  const Kinematics& kinematics_;
   StreamGroup& group_;
   PathRate& rate_;
   Heat& heat_;
@@ -171,6 +199,12 @@ class Runner {
   BusTime last_time_{0}, dwell_left_{0}, last_rate_change_{0}, run_noted_{0}, last_added_{0};
   double override_ = 1;
   std::uint32_t last_line_ = 0;
+  bool probing_ = false;                ///< from the command on, until its result is known
+  bool probe_cut_ = false;              ///< the probe has told: its move ends here
+  std::optional<PlannedPose> touched_;  ///< where the tool was
+  std::optional<Sentence> probe_wrong_;
+  std::optional<gcode::ProbeResult> probed_;
+  std::unique_ptr<JobCheck> check_;  ///< of what depends on what a probe has measured; nullptr: nothing does
   Sentence doing_;
   Failure failure_;
   Counters counters_;

@@ -29,6 +29,10 @@ bool Runner::wait_is_over(BusTime now) {
     case Wait::kSpindle:
       if (held_ || !heat_.spindle_at_speed()) return false;
       break;
+    case Wait::kProbeReady:
+    case Wait::kProbeEnd:
+      if (!probe_has_answered()) return false;
+      break;
     case Wait::kPause:
       return false;
   }
@@ -96,6 +100,8 @@ Runner::Outcome Runner::barrier(BusTime now) {
       wait_ = Wait::kSpindle;
       doing_ = say("waiting for the spindle");
     }
+  } else if (std::holds_alternative<canonical::Probe>(line.command)) {
+    begin_probe();
   } else if (std::holds_alternative<canonical::Pause>(line.command)) {
     wait_ = Wait::kPause;
     doing_ = say("paused by the job");

@@ -43,6 +43,7 @@ gcode::Options PathReader::any_machine() {
   options.a_max_rad = std::numbers::pi / 2;
   options.spindle = true;
   options.tools = 100'000;
+  options.probe = gcode::ProbeFitted::kFitted;
   options.retract_length_mm = 0.8;
   options.retract_mm_per_s = options.recover_mm_per_s = 35;
   return options;
@@ -119,6 +120,8 @@ void PathReader::take(const canonical::Line& line) {
     straight(traverse->target, 0);
   } else if (const auto* arc = std::get_if<canonical::Arc>(&line.command)) {
     turn(*arc);
+  } else if (const auto* probe = std::get_if<canonical::Probe>(&line.command)) {
+    straight(probe->target, 0);  // as far as it may go
   } else if (const auto* set = std::get_if<canonical::SetPosition>(&line.command)) {
     at_ = set->pose;
     frame_ = set->frame;

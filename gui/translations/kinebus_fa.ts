@@ -285,6 +285,14 @@
         <translation>پروب (G38.2) پشتیبانی نمی‌شود</translation>
     </message>
     <message>
+        <source>cutter compensation (G41) is not supported: offset the path in CAM</source>
+        <translation>جبران شعاع ابزار (G41) پشتیبانی نمی‌شود: مسیر را در CAM جابه‌جا کنید</translation>
+    </message>
+    <message>
+        <source>cutter compensation (G42) is not supported: offset the path in CAM</source>
+        <translation>جبران شعاع ابزار (G42) پشتیبانی نمی‌شود: مسیر را در CAM جابه‌جا کنید</translation>
+    </message>
+    <message>
         <source>G68.3 is not supported: use G68.2 with I J K</source>
         <translation>G68.3 پشتیبانی نمی‌شود: G68.2 با I J K به کار ببرید</translation>
     </message>
@@ -3587,6 +3595,106 @@
     <message>
         <source>cutter compensation belongs to a job: it looks ahead, which single lines cannot</source>
         <translation>جبران شعاع ابزار از آن یک کار است: به جلو می‌نگرد، و خط‌های تکی نمی‌توانند</translation>
+    </message>
+    <message>
+        <source>a node that has axes: it latches where they were</source>
+        <translation>گره‌ای که محور دارد: جای آن‌ها را ثبت می‌کند</translation>
+    </message>
+    <message>
+        <source>%1 needs a decimal: G38.2 to G38.5</source>
+        <translation>%1 رقم اعشار می‌خواهد: G38.2 تا G38.5</translation>
+    </message>
+    <message>
+        <source>%1 needs a probe: the machine file has no [probe]</source>
+        <translation>%1 پروب می‌خواهد: پروندهٔ ماشین [probe] ندارد</translation>
+    </message>
+    <message>
+        <source>%1 needs a probe that can touch: the machine file&apos;s has where = &quot;simulated&quot;; one on a node probes, on a virtual one, too</source>
+        <translation>%1 پروبی می‌خواهد که بتواند تماس بگیرد: در پروندهٔ ماشین where = &quot;simulated&quot; است؛ پروب روی یک گره، مجازی هم، می‌سنجد</translation>
+    </message>
+    <message>
+        <source>%1 needs a feed for each minute: G94</source>
+        <translation>%1 پیشروی در دقیقه می‌خواهد: G94</translation>
+    </message>
+    <message>
+        <source>%1 cannot be used in a tilted plane: end it with G69 first</source>
+        <translation>%1 در صفحهٔ کج به کار نمی‌رود: نخست با G69 پایانش دهید</translation>
+    </message>
+    <message>
+        <source>%1 cannot be used while an object is left out</source>
+        <translation>تا وقتی شیئی کنار گذاشته شده است %1 به کار نمی‌رود</translation>
+    </message>
+    <message>
+        <source>probing goes at %1 mm/s: faster is not allowed by probe.speed_mm_per_s</source>
+        <translation>پروب با %1 mm/s می‌رود: probe.speed_mm_per_s تندتر از آن را اجازه نمی‌دهد</translation>
+    </message>
+    <message>
+        <source>%1 moves X, Y and Z alone</source>
+        <translation>%1 تنها X، Y و Z را جابه‌جا می‌کند</translation>
+    </message>
+    <message>
+        <source>%1 with a probe beside the tool (probe.offset_mm) needs A and C at 0</source>
+        <translation>%1 با پروبی در کنار ابزار (probe.offset_mm) می‌خواهد A و C صفر باشند</translation>
+    </message>
+    <message>
+        <source>%1 needs X, Y or Z of a place that is not where the tool stands</source>
+        <translation>%1 به X، Y یا Z جایی نیاز دارد که ابزار آنجا نایستاده است</translation>
+    </message>
+    <message>
+        <source>the job probes here: what follows is checked as if the probe touched at the table, or at the end of its move, and again with what is measured, just before it moves</source>
+        <translation>کار اینجا پروب می‌کند: آنچه در پی می‌آید چنان بررسی می‌شود که گویی پروب روی میز یا در پایان حرکتش تماس گرفته است، و دوباره با آنچه سنجیده شد، درست پیش از حرکت</translation>
+    </message>
+    <message>
+        <source>a macro or loop that probes works in a job, not as a line: the lines behind G38 have to know what it measures</source>
+        <translation>ماکرو یا حلقه‌ای که پروب می‌کند در کار به کار می‌آید، نه به صورت خط: خط‌های پس از G38 باید بدانند چه سنجیده شد</translation>
+    </message>
+    <message>
+        <source>a node has lost its position</source>
+        <translation>گره‌ای موقعیت خود را از دست داده است</translation>
+    </message>
+    <message>
+        <source>the job ends: it was stopped while it probed</source>
+        <translation>کار پایان می‌یابد: هنگام پروب کردن متوقف شد</translation>
+    </message>
+    <message>
+        <source>the job probes, and what it has measured is not known any more: it cannot go on after a restart of the gateway</source>
+        <translation>کار پروب می‌کند و آنچه سنجیده بود دیگر معلوم نیست: پس از راه‌اندازی دوبارهٔ درگاه نمی‌تواند ادامه یابد</translation>
+    </message>
+    <message>
+        <source>probing</source>
+        <translation>در حال پروب کردن</translation>
+    </message>
+    <message>
+        <source>the machine has no probe</source>
+        <translation>ماشین پروب ندارد</translation>
+    </message>
+    <message>
+        <source>the probe touches nothing, so that it cannot let go: nothing has moved</source>
+        <translation>پروب با چیزی تماس ندارد، پس نمی‌تواند رها کند: چیزی جابه‌جا نشد</translation>
+    </message>
+    <message>
+        <source>the probe touches before its move: nothing has moved</source>
+        <translation>پروب پیش از حرکتش تماس دارد: چیزی جابه‌جا نشد</translation>
+    </message>
+    <message>
+        <source>the probe has not let go before the end of its move</source>
+        <translation>پروب تا پایان حرکتش رها نکرد</translation>
+    </message>
+    <message>
+        <source>the probe has not touched before the end of its move</source>
+        <translation>پروب تا پایان حرکتش تماس نگرفت</translation>
+    </message>
+    <message>
+        <source>the probe&apos;s node does not answer</source>
+        <translation>گرهٔ پروب پاسخ نمی‌دهد</translation>
+    </message>
+    <message>
+        <source>the probe has told of a contact, and its node knows of none</source>
+        <translation>پروب از تماسی خبر داد و گره‌اش هیچ تماسی نمی‌شناسد</translation>
+    </message>
+    <message>
+        <source>the probe has touched at a time that is not one of its move</source>
+        <translation>پروب در زمانی تماس گرفت که از آنِ حرکتش نیست</translation>
     </message>
 </context>
 <context>

@@ -285,6 +285,14 @@
         <translation>problama (G38.2) desteklenmiyor</translation>
     </message>
     <message>
+        <source>cutter compensation (G41) is not supported: offset the path in CAM</source>
+        <translation>kesici telafisi (G41) desteklenmiyor: yolu CAM&apos;de öteleyin</translation>
+    </message>
+    <message>
+        <source>cutter compensation (G42) is not supported: offset the path in CAM</source>
+        <translation>kesici telafisi (G42) desteklenmiyor: yolu CAM&apos;de öteleyin</translation>
+    </message>
+    <message>
         <source>G68.3 is not supported: use G68.2 with I J K</source>
         <translation>G68.3 desteklenmiyor: I J K ile G68.2 kullanın</translation>
     </message>
@@ -3587,6 +3595,106 @@
     <message>
         <source>cutter compensation belongs to a job: it looks ahead, which single lines cannot</source>
         <translation>kesici telafisi bir işe aittir: ileriye bakar, tek satırlarla bu olmaz</translation>
+    </message>
+    <message>
+        <source>a node that has axes: it latches where they were</source>
+        <translation>eksenleri olan bir düğüm: onların nerede olduğunu yakalar</translation>
+    </message>
+    <message>
+        <source>%1 needs a decimal: G38.2 to G38.5</source>
+        <translation>%1 ondalık ister: G38.2 ile G38.5 arası</translation>
+    </message>
+    <message>
+        <source>%1 needs a probe: the machine file has no [probe]</source>
+        <translation>%1 bir prob ister: makine dosyasında [probe] yok</translation>
+    </message>
+    <message>
+        <source>%1 needs a probe that can touch: the machine file&apos;s has where = &quot;simulated&quot;; one on a node probes, on a virtual one, too</source>
+        <translation>%1 dokunabilen bir prob ister: makine dosyasındaki where = &quot;simulated&quot;; bir düğümdeki prob ölçer, sanal düğümdeki de</translation>
+    </message>
+    <message>
+        <source>%1 needs a feed for each minute: G94</source>
+        <translation>%1 dakika başına ilerleme ister: G94</translation>
+    </message>
+    <message>
+        <source>%1 cannot be used in a tilted plane: end it with G69 first</source>
+        <translation>%1 eğik düzlemde kullanılamaz: önce G69 ile bitirin</translation>
+    </message>
+    <message>
+        <source>%1 cannot be used while an object is left out</source>
+        <translation>bir nesne atlanırken %1 kullanılamaz</translation>
+    </message>
+    <message>
+        <source>probing goes at %1 mm/s: faster is not allowed by probe.speed_mm_per_s</source>
+        <translation>problama %1 mm/s ile gider: probe.speed_mm_per_s daha hızlısına izin vermez</translation>
+    </message>
+    <message>
+        <source>%1 moves X, Y and Z alone</source>
+        <translation>%1 yalnız X, Y ve Z&apos;yi hareket ettirir</translation>
+    </message>
+    <message>
+        <source>%1 with a probe beside the tool (probe.offset_mm) needs A and C at 0</source>
+        <translation>takımın yanındaki probla (probe.offset_mm) %1, A ve C&apos;nin 0 olmasını ister</translation>
+    </message>
+    <message>
+        <source>%1 needs X, Y or Z of a place that is not where the tool stands</source>
+        <translation>%1, takımın durduğu yerden başka bir yerin X, Y ya da Z&apos;sini ister</translation>
+    </message>
+    <message>
+        <source>the job probes here: what follows is checked as if the probe touched at the table, or at the end of its move, and again with what is measured, just before it moves</source>
+        <translation>iş burada problama yapar: ardından gelen, prob tablada ya da hareketinin sonunda dokunmuş gibi kontrol edilir, ölçülenle de hareketten hemen önce yeniden</translation>
+    </message>
+    <message>
+        <source>a macro or loop that probes works in a job, not as a line: the lines behind G38 have to know what it measures</source>
+        <translation>problama yapan makro ya da döngü işte çalışır, tek satır olarak değil: G38&apos;den sonraki satırlar ölçüleni bilmelidir</translation>
+    </message>
+    <message>
+        <source>a node has lost its position</source>
+        <translation>bir düğüm konumunu yitirdi</translation>
+    </message>
+    <message>
+        <source>the job ends: it was stopped while it probed</source>
+        <translation>iş bitiyor: problama sırasında durduruldu</translation>
+    </message>
+    <message>
+        <source>the job probes, and what it has measured is not known any more: it cannot go on after a restart of the gateway</source>
+        <translation>iş problama yapıyor ve ölçtüğü artık bilinmiyor: ağ geçidi yeniden başladıktan sonra devam edemez</translation>
+    </message>
+    <message>
+        <source>probing</source>
+        <translation>problama</translation>
+    </message>
+    <message>
+        <source>the machine has no probe</source>
+        <translation>makinenin probu yok</translation>
+    </message>
+    <message>
+        <source>the probe touches nothing, so that it cannot let go: nothing has moved</source>
+        <translation>prob hiçbir şeye dokunmuyor, bu yüzden bırakamaz: hiçbir şey hareket etmedi</translation>
+    </message>
+    <message>
+        <source>the probe touches before its move: nothing has moved</source>
+        <translation>prob hareketinden önce dokunuyor: hiçbir şey hareket etmedi</translation>
+    </message>
+    <message>
+        <source>the probe has not let go before the end of its move</source>
+        <translation>prob hareketinin sonuna dek bırakmadı</translation>
+    </message>
+    <message>
+        <source>the probe has not touched before the end of its move</source>
+        <translation>prob hareketinin sonuna dek dokunmadı</translation>
+    </message>
+    <message>
+        <source>the probe&apos;s node does not answer</source>
+        <translation>probun düğümü yanıt vermiyor</translation>
+    </message>
+    <message>
+        <source>the probe has told of a contact, and its node knows of none</source>
+        <translation>prob bir temas bildirdi, düğümü ise hiçbirini bilmiyor</translation>
+    </message>
+    <message>
+        <source>the probe has touched at a time that is not one of its move</source>
+        <translation>prob, hareketine ait olmayan bir anda dokundu</translation>
     </message>
 </context>
 <context>

@@ -19,6 +19,7 @@
 #include "node_firmware/core/path_motion.hpp"
 #include "node_firmware/core/reset_report.hpp"
 #include "node_firmware/core/switch_inputs.hpp"
+#include "node_firmware/core/touch_probe.hpp"
 #include "protocol/can/frame.hpp"
 #include "protocol/canopen/emcy.hpp"
 #include "protocol/canopen/heartbeat.hpp"
@@ -227,6 +228,7 @@ class Node final : private ObjectOwner {
   friend class NodePreview;
   std::array<DriveFeedback, kAxesPerNode> feedback_{};
   ScaleCounts scale_counts_{};
+  std::array<TouchProbe, kAxesPerNode> probes_{};
   bool measures_ = false;  ///< the port has sensors
   std::array<bool, kAxesPerNode> tune_requested_{};
   std::optional<CanFrame> boot_up_;

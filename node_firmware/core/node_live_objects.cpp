@@ -144,7 +144,9 @@ ScaleCounts Node::directed_scales() const {
 }
 
 bool Node::read_axis_object(const DriveAxis& axis, ObjectAddress base, std::int64_t& value) {
-  const DriveFeedback& feedback = feedback_[&axis == &axes_[0] ? 0 : 1];
+  const std::size_t index = &axis == &axes_[0] ? 0 : 1;
+  const DriveFeedback& feedback = feedback_[index];
+  const TouchProbe& probe = probes_[index];
   switch (base.index) {
     case 0x2150:
       if (base == object::kAutoTune) value = feedback.tune_state;
@@ -184,6 +186,17 @@ bool Node::read_axis_object(const DriveAxis& axis, ObjectAddress base, std::int6
       return true;
     case 0x606C:
       value = axis.velocity(now_);
+      return true;
+    case 0x60B9:
+      value = probe.status();
+      return true;
+    case 0x60BA:
+    case 0x60BB:
+      value = probe.counts(base == object::kTouchProbePositive);
+      return true;
+    case 0x60D1:
+    case 0x60D2:
+      value = probe.bus_ns(base == object::kTouchProbePositiveTime);
       return true;
     case 0x60C4:
       value = base.subindex == object::kBufferPosition.subindex ? path_.stream().size()
@@ -326,6 +339,10 @@ AbortCode Node::write_axis_object(const ObjectEntry& entry, std::int64_t value) 
   }
   if (base == object::kModeOfOperation) {
     axis.on_mode(now_, static_cast<int>(value));
+    return AbortCode::kNone;
+  }
+  if (base == object::kTouchProbeFunction) {
+    probes_[entry.axis == 1 ? 1 : 0].set_function(static_cast<std::uint16_t>(value));
     return AbortCode::kNone;
   }
   if (base == object::kHomingMethod)

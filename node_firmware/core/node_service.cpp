@@ -59,9 +59,12 @@ void Node::serve_pdo_problems() {
 
 void Node::serve_switches() {
   while (const auto event = inputs_.next_event(now_)) {
+    const auto bus_ns = static_cast<std::uint32_t>(path_.clock().to_bus(event->at).count());
     for (std::size_t i = 0; i < axes_.size(); ++i) {
       axes_[i].on_switch(now_, *event);
-      if (event->function == SwitchFunction::kProbe && event->active) axes_[i].set_probe(event->latched[i]);
+      if (event->function != SwitchFunction::kProbe) continue;
+      if (event->active) axes_[i].set_probe(event->latched[i]);
+      probes_[i].on_edge(event->active, whole_counts(event->latched[i]), bus_ns);
     }
   }
 }

@@ -30,7 +30,7 @@ enum class SwitchFunction : std::uint8_t {
   kNegativeLimitA = 5,
   kNegativeLimitB = 6,
   kEmergencyStop = 7,
-  kProbe = 8,  ///< latches the positions of both axes (2140h:8), stops nothing
+  kProbe = 8,  ///< latches the positions of both axes (2140h:8, 60B8h ff.), stops nothing
 };
 
 /// Addresses that code names; axis objects at their base (first axis).
@@ -65,12 +65,21 @@ inline constexpr ObjectAddress kErrorCode{0x603F, 0}, kControlword{0x6040, 0}, k
     kProfileVelocity{0x6081, 0}, kProfileAcceleration{0x6083, 0}, kProfileDeceleration{0x6084, 0},
     kQuickStopDeceleration{0x6085, 0}, kHomingMethod{0x6098, 0}, kHomingFastSpeed{0x6099, 1},
     kHomingSlowSpeed{0x6099, 2}, kHomingAcceleration{0x609A, 0}, kPositionOffset{0x60B0, 0},
-    kVelocityOffset{0x60B1, 0}, kInterpolationSubMode{0x60C0, 0}, kInterpolationData{0x60C1, 1},
+    kVelocityOffset{0x60B1, 0}, kTouchProbeFunction{0x60B8, 0}, kTouchProbeStatus{0x60B9, 0},
+    kTouchProbePositive{0x60BA, 0}, kTouchProbeNegative{0x60BB, 0}, kTouchProbePositiveTime{0x60D1, 0},
+    kTouchProbeNegativeTime{0x60D2, 0}, kInterpolationSubMode{0x60C0, 0}, kInterpolationData{0x60C1, 1},
     kInterpolationPeriod{0x60C2, 1}, kInterpolationIndex{0x60C2, 2}, kBufferMaximum{0x60C4, 1},
     kBufferActual{0x60C4, 2}, kBufferPosition{0x60C4, 4}, kBufferClear{0x60C4, 6},
     kMaxAcceleration{0x60C5, 0}, kMaxDeceleration{0x60C6, 0}, kFollowingError{0x60F4, 0},
     kDigitalInputs{0x60FD, 0}, kDigitalOutputs{0x60FE, 1}, kSupportedModes{0x6502, 0};
 }  // namespace object
+
+/// 60B8h: switches touch probe 1 on, for every edge or the first of each kind since then.
+namespace touch_probe {
+inline constexpr std::uint16_t kOn = 0x01, kEveryEdge = 0x02, kPositiveEdge = 0x10, kNegativeEdge = 0x20;
+// 60B9h.
+inline constexpr std::uint16_t kPositiveStored = 0x02, kNegativeStored = 0x04;
+}  // namespace touch_probe
 
 /// Counters of 2120h: everything that can go wrong, by subindex.
 enum class NodeCounter : std::uint8_t {

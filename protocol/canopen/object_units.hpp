@@ -348,6 +348,23 @@ constexpr void linear_scales(Rows& t) {
   t.for_both_axes(from);
 }
 
+/// Touch probe 1 of each axis: the switch inputs that have the probe function. Edges count from when they
+/// happened, in bus time, so that a master knows where every other axis was.
+constexpr void touch_probes(Rows& t) {
+  const std::size_t from = t.count;
+  t.var(0x60B8, "Touch probe function", kU16, kReadWrite, kVariable);
+  t.var(0x60B9, "Touch probe status", kU16, kReadOnly, kLive).maps(Mapping::kTpdo);
+  t.var(0x60BA, "Touch probe 1 positive edge", kI32, kReadOnly, kLive).maps(Mapping::kTpdo).in("counts");
+  t.var(0x60BB, "Touch probe 1 negative edge", kI32, kReadOnly, kLive).maps(Mapping::kTpdo).in("counts");
+  t.var(0x60D1, "Touch probe 1 positive edge time stamp", kU32, kReadOnly, kLive)
+      .maps(Mapping::kTpdo)
+      .in("ns");
+  t.var(0x60D2, "Touch probe 1 negative edge time stamp", kU32, kReadOnly, kLive)
+      .maps(Mapping::kTpdo)
+      .in("ns");
+  t.for_both_axes(from);
+}
+
 // The PDOs of an axis pair.
 inline constexpr std::array<PdoDefault, kRpdoCount> kAxisPairRpdos{{
     {"Control",

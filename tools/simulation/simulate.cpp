@@ -45,9 +45,8 @@ std::unique_ptr<NodeMachine> make_nodes(const MachineDescription& machine, const
   const std::uint64_t seed = options.simulation.seed;
   // Switches stand where the machine really has them, not where its description says.
   const MachineDescription& real = options.simulation.plant ? *options.simulation.plant : machine;
-  const auto nodes = virtual_nodes_of(real, options.simulation.clocks, seed);
-  if (options.make_nodes) return options.make_nodes(nodes);
-  return std::make_unique<VirtualMachine>(nodes, seed);
+  if (options.make_nodes) return options.make_nodes(virtual_nodes_of(real, options.simulation.clocks, seed));
+  return virtual_machine_of(real, options.simulation.clocks, seed);
 }
 
 /// All checkers together, fed by one simulation.

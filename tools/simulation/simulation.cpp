@@ -11,9 +11,8 @@ constexpr BusTime kShortestTurn = std::chrono::microseconds{20};
 Simulation::Simulation(const MachineDescription& machine, const Kinematics& kinematics,
                        const SimulationOptions& options)
     : Simulation(machine, kinematics, options,
-                 std::make_unique<VirtualMachine>(
-                     virtual_nodes_of(options.plant ? *options.plant : machine, options.clocks, options.seed),
-                     options.seed)) {}
+                 virtual_machine_of(options.plant ? *options.plant : machine, options.clocks, options.seed)) {
+}
 
 Simulation::Simulation(const MachineDescription& machine, const Kinematics& kinematics,
                        const SimulationOptions& options, std::unique_ptr<NodeMachine> nodes)

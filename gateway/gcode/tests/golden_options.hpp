@@ -9,7 +9,7 @@ namespace kinebus::gcode {
 
 /// Home 200 mm above the table, one spare tool of 12.5 mm, 6 mm wide. A file changes it with "options: word
 /// word" anywhere in its text: block_delete, dwell_seconds, traverse_uses_feed, default_feed, two_tools,
-/// spindle, dialect=NAME, macros (prime LENGTH=, and square with an argument by number).
+/// spindle, probe, dialect=NAME, macros (prime LENGTH=, and square with an argument by number).
 inline Options golden_options(std::string_view text) {
   Options options;
   options.home = {0, 0, 200, 0, 0, 0};
@@ -30,6 +30,7 @@ inline Options golden_options(std::string_view text) {
   }
   if (says("dwell_seconds")) options.dwell_p_unit = DwellUnit::kSeconds;
   if (says("default_feed")) options.default_feed_mm_per_s = 25;
+  if (says("probe")) options.probe = ProbeFitted::kFitted;
   options.spindle = says("spindle");
   if (options.spindle) options.tools = 100'000;
   if (says("macros"))

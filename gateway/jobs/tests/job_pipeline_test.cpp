@@ -53,6 +53,10 @@ Trace trace(const std::string& job, Pose start = kinematics().bed_reference(), i
       case PipelineStep::kBarrier:
         t.steps += 'b';
         break;
+      case PipelineStep::kProbed:
+        t.steps += 'q';
+        pipeline.probed(pipeline.assumed_probe());
+        break;
       case PipelineStep::kProblem:
         t.steps += 'x';
         t.problems.push_back(pipeline.problem());
@@ -71,6 +75,40 @@ Trace trace(const std::string& job, Pose start = kinematics().bed_reference(), i
 
 TEST(JobPipeline, EmptyJobEndsAtOnce) {
   EXPECT_EQ(trace("").steps, "");
+}
+
+TEST(JobPipeline, AProbesMoveIsARunOfItsOwnAndTheTextGoesOnFromItsResult) {
+  MachineDescription probing = machine();
+  probing.probe.present = true;
+  probing.probe.place.where = DevicePlace::Where::kNode;
+  StringSource source("G0 X5\nG38.2 Z-5 F300\nG1 Z[#5063 + 7] F600\n");
+  JobPipeline pipeline(probing, kinematics());
+  pipeline.start_job(source, kinematics().bed_reference());
+  std::string steps;
+  Pose end{};
+  for (int budget = 1000;;) {
+    const PipelineStep step = pipeline.next(budget);
+    if (step == PipelineStep::kEnd) break;
+    ASSERT_NE(step, PipelineStep::kProblem) << pipeline.problem().words;
+    if (step == PipelineStep::kPhase) {
+      end = pipeline.phase().at(pipeline.phase().duration_s).x;
+      if (steps.empty() || steps.back() != 'p') steps += 'p';
+    } else if (step == PipelineStep::kProbed) {
+      // Until it is told how the move ended nothing is read.
+      EXPECT_EQ(pipeline.next(budget), PipelineStep::kProbed);
+      steps += 'q';
+      const gcode::ProbeResult assumed = pipeline.assumed_probe();
+      EXPECT_NEAR(assumed.at[kZ], 0, 1e-9) << "the table's surface is on the way";
+      gcode::ProbeResult result = assumed;
+      result.at[kZ] = 2;
+      result.stand[kZ] = 1.9;
+      pipeline.probed(result);
+    } else {
+      steps += step == PipelineStep::kBarrier ? 'b' : 'r';
+    }
+  }
+  EXPECT_EQ(steps, "prbprqpr");
+  EXPECT_NEAR(end[kZ], 9, 1e-9);
 }
 
 TEST(JobPipeline, EventsOfALoopFallDueInEachTurn) {

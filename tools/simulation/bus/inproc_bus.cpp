@@ -11,12 +11,12 @@ constexpr VirtualClocks kClocks{.drift_ppm = 25,
 }  // namespace
 
 InprocBus::InprocBus(const MachineDescription& machine, LocalTime now, std::uint64_t seed)
-    : start_(now), machine_(virtual_nodes_of(machine, kClocks, seed), seed) {}
+    : start_(now), machine_(virtual_machine_of(machine, kClocks, seed)) {}
 
 void InprocBus::advance(LocalTime now) {
   for (bool done = false; !done;) {
-    done = machine_.advance(now - start_);
-    while (const auto got = machine_.receive())
+    done = machine_->advance(now - start_);
+    while (const auto got = machine_->receive())
       received_.push_back(
           {got->own ? Received::Kind::kSent : Received::Kind::kFrame, start_ + got->when, got->frame, {}});
   }
@@ -24,17 +24,17 @@ void InprocBus::advance(LocalTime now) {
 
 LocalTime InprocBus::next_deadline() const {
   if (!received_.empty()) return LocalTime{0};
-  const BusTime next = machine_.next_event();
+  const BusTime next = machine_->next_event();
   return next == BusTime::max() ? LocalTime::max() : start_ + next;
 }
 
 bool InprocBus::can_send(LocalTime now) {
   advance(now);
-  return machine_.can_send();
+  return machine_->can_send();
 }
 
 void InprocBus::send(LocalTime now, const CanFrame& frame) {
-  machine_.send(now - start_, frame);
+  machine_->send(now - start_, frame);
 }
 
 std::optional<BusPort::Received> InprocBus::receive(LocalTime now) {

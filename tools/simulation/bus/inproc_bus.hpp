@@ -26,7 +26,7 @@ class InprocBus : public BusPort {
   void advance(LocalTime now);
 
   LocalTime start_;  // the bus's own time begins here
-  VirtualMachine machine_;
+  std::unique_ptr<VirtualMachine> machine_;
   std::deque<Received> received_;
 };
 

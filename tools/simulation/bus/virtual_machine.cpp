@@ -144,6 +144,10 @@ std::optional<VirtualMachine::Received> VirtualMachine::receive() {
 }
 
 BusTime VirtualMachine::next_event() const {
+  return std::min(next_besides_probe(), next_probe_check_);
+}
+
+BusTime VirtualMachine::next_besides_probe() const {
   BusTime next = bus_.next_event();
   for (const auto& node : nodes_) next = std::min(next, node->next_due());
   if (!gateway_pending_.empty()) next = std::min(next, gateway_pending_.front().at);
@@ -239,6 +243,7 @@ void VirtualMachine::set_power(int node, BusTime now, bool on) {
   n.switch_on(now);
   n.switch_level = {-1, -1};
   n.next_check = now;
+  probe_touches_.reset();
   serve(n, now);
 }
 
@@ -325,8 +330,35 @@ void VirtualMachine::check_switches(VirtualNode& node, BusTime now) {
   node.next_check = next;
 }
 
+void VirtualMachine::set_probe(VirtualProbe probe) {
+  probe_ = std::move(probe);
+  next_probe_check_ = BusTime{0};
+  probe_touches_.reset();
+}
+
+void VirtualMachine::check_probe(BusTime now) {
+  probe_counts_.clear();
+  for (const auto& node : nodes_) probe_counts_.push_back({node->counts(0, now), node->counts(1, now)});
+  const double gap = probe_->gap_mm(probe_counts_);
+  const bool touches = gap <= 0;
+  if (touches != probe_touches_) {
+    probe_touches_ = touches;
+    auto& edges = nodes_[static_cast<std::size_t>(probe_->node)]->edges;
+    const auto place =
+        std::upper_bound(edges.begin(), edges.end(), now,
+                         [](BusTime at, const VirtualNode::RawEdge& edge) { return at < edge.at; });
+    edges.insert(place, {now, probe_->input, touches != probe_->active_low});
+  }
+  const BusTime nearest{static_cast<std::int64_t>(1e9 * std::abs(gap) / probe_->max_mm_per_s)};
+  next_probe_check_ = now + std::clamp(nearest, kFinestCheck, kCoarsestCheck);
+}
+
 bool VirtualMachine::advance(BusTime now) {
   for (;;) {
+    if (next_probe_check_ <= std::min(now, next_besides_probe())) {
+      check_probe(next_probe_check_);
+      continue;
+    }
     VirtualNode* due = nullptr;
     BusTime next = bus_.next_event();
     for (const auto& node : nodes_)

@@ -33,6 +33,17 @@ struct VirtualAxis {
   double max_counts_per_s = 1e6;  ///< bound used to find the edge without fine ticks
 };
 
+/// Something that a probe touches.
+struct VirtualProbe {
+  int node = 0;             ///< its place
+  int input = 1;            ///< 1..7
+  bool active_low = false;  ///< electrically
+  /// By how many mm the probe is clear of it, < 0: it touches, with the motors at these true counts, by node;
+  /// asked in the order of time.
+  std::function<double(const std::vector<std::array<double, 2>>& counts)> gap_mm;
+  double max_mm_per_s = 500;  ///< bound used to find the edge without fine ticks
+};
+
 struct VirtualNodeOptions {
   NodeOptions node;
   bool heat = false;  ///< a heat node, with a HeatPlant behind it and no axes
@@ -62,6 +73,8 @@ class VirtualMachine final : public NodeMachine {
 
   VirtualMachine(const std::vector<VirtualNodeOptions>& nodes, std::uint64_t seed, int gateway_mailboxes = 1);
   ~VirtualMachine() override;
+
+  void set_probe(VirtualProbe probe);
 
   // The gateway's side of the bus.
   bool can_send() const override { return bus_.has_room(gateway_); }
@@ -126,6 +139,8 @@ class VirtualMachine final : public NodeMachine {
   void deliver(const BusModel::Delivery& delivery);
   void serve(VirtualNode& node, BusTime now);
   void check_switches(VirtualNode& node, BusTime now);
+  void check_probe(BusTime now);
+  BusTime next_besides_probe() const;
 
   static constexpr std::size_t kStallQueue = 64;
 
@@ -141,6 +156,10 @@ class VirtualMachine final : public NodeMachine {
   std::vector<Arrival> gateway_pending_;
   ArrivalHook arrival_hook_;
   SwitchHook switch_hook_;
+  std::optional<VirtualProbe> probe_;
+  std::vector<std::array<double, 2>> probe_counts_;
+  BusTime next_probe_check_{BusTime::max()};
+  std::optional<bool> probe_touches_;
   std::mt19937_64 random_;
 };
 

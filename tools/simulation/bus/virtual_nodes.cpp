@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <random>
 
@@ -86,6 +87,51 @@ std::vector<VirtualNodeOptions> virtual_nodes_of(const MachineDescription& machi
     nodes.push_back(options);
   }
   return nodes;
+}
+
+std::optional<VirtualProbe> virtual_probe_of(const MachineDescription& machine) {
+  const ProbeDescription& probe = machine.probe;
+  if (!probe.present || !probe.place.on_node()) return std::nullopt;
+  auto made = make_kinematics(machine);
+  if (!made) return std::nullopt;
+  VirtualProbe found;
+  struct Motor {
+    std::size_t node, axis;
+    JointPlant plant;
+  };
+  std::vector<Motor> motors;
+  for (const JointDescription& joint : machine.joints)
+    for (std::size_t n = 0; n < machine.nodes.size(); ++n)
+      if (machine.nodes[n].id == joint.node_id) motors.push_back({n, joint.axis, JointPlant(joint)});
+  for (std::size_t n = 0; n < machine.nodes.size(); ++n)
+    if (machine.nodes[n].id == probe.place.node_id) found.node = static_cast<int>(n);
+  found.input = probe.place.channel;
+  const auto input = static_cast<std::size_t>(found.input - 1);
+  found.active_low = machine.nodes[static_cast<std::size_t>(found.node)].inputs[input].active_low;
+  std::shared_ptr<const Kinematics> kinematics = std::move(*made);
+  const Pose reference = kinematics->bed_reference();
+  found.gap_mm = [probe, motors, kinematics, reference,
+                  pose = reference](const std::vector<std::array<double, 2>>& counts) mutable {
+    JointVector joints{};
+    for (std::size_t j = 0; j < motors.size(); ++j)
+      joints[j] = motors[j].plant.at(counts[motors[j].node][motors[j].axis]);
+    // As before homing, when carriages stand anywhere.
+    constexpr double kNoPose_mm = 100;
+    if (!kinematics->forward(Frame::kPart, joints, pose)) {
+      pose = reference;
+      return kNoPose_mm;
+    }
+    const double x = pose[kX] + probe.offset_mm[0], y = pose[kY] + probe.offset_mm[1];
+    return pose[kZ] + probe.offset_mm[2] - (probe.sim_z_mm + probe.sim_slope[0] * x + probe.sim_slope[1] * y);
+  };
+  return found;
+}
+
+std::unique_ptr<VirtualMachine> virtual_machine_of(const MachineDescription& machine,
+                                                   const VirtualClocks& clocks, std::uint64_t seed) {
+  auto virtual_machine = std::make_unique<VirtualMachine>(virtual_nodes_of(machine, clocks, seed), seed);
+  if (auto probe = virtual_probe_of(machine)) virtual_machine->set_probe(std::move(*probe));
+  return virtual_machine;
 }
 
 double JointPlant::at(double counts) {

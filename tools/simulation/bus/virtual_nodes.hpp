@@ -2,6 +2,8 @@
 // The nodes that a machine description names, as virtual nodes with motors and switches behind them.
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "gateway/calibration/joint_map.hpp"
@@ -37,6 +39,14 @@ class JointPlant {
   double contact_ = 0;
   bool met_ = false;
 };
+
+/// The probe of a machine that has one on a node, over the plane that its file states; the tool is where the
+/// description's kinematics has it with the joints as JointPlant knows them. nullopt: none is on a node.
+std::optional<VirtualProbe> virtual_probe_of(const MachineDescription& machine);
+
+/// All of them together, with that probe.
+std::unique_ptr<VirtualMachine> virtual_machine_of(const MachineDescription& machine,
+                                                   const VirtualClocks& clocks, std::uint64_t seed);
 
 /// The joint position, mm or rad, that true counts of its axis mean (drive train only, no calibration).
 double joint_from_counts(const JointDescription& joint, double counts);

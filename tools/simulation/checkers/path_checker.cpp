@@ -22,6 +22,9 @@ void PathChecker::take(const canonical::Line& line) {
   if (const auto* home = std::get_if<canonical::Home>(&line.command)) {
     distance_.add({line.line, canonical::Traverse{home->afterwards, home->frame}});
     frame = home->frame;
+  } else if (const auto* probe = std::get_if<canonical::Probe>(&line.command)) {
+    distance_.add({line.line, canonical::Feed{probe->target, probe->frame, probe->feed_per_s, 0}});
+    if (probe_line_ == 0) probe_line_ = line.line;
   } else {
     distance_.add(line);
     if (const auto* set = std::get_if<canonical::SetPosition>(&line.command)) frame = set->frame;
@@ -54,6 +57,7 @@ void PathChecker::read_ahead(std::uint32_t line) {
 void PathChecker::on_sample(const Sample& sample) {
   if (!sample.planned || sample.line == 0) return;
   read_ahead(sample.line);
+  if (probe_line_ != 0 && sample.line > probe_line_) return;
   while (frames_.size() > 1 && frames_[1].first <= sample.line) frames_.pop_front();
   Pose pose = sample.pose;
   if (!frames_.empty() && frames_.front().second == Frame::kMachine && (pose[kA] != 0 || pose[kC] != 0))

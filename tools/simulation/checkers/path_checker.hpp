@@ -16,6 +16,7 @@
 
 namespace kinebus {
 
+/// Up to the first line that probes: where those behind it lead follows from what it measures.
 class PathChecker {
  public:
   /// `source`: the job's text from its beginning; must outlive this. The job starts at `start`
@@ -50,6 +51,7 @@ class PathChecker {
   std::uint64_t samples_ = 0;
   double max_um_ = 0, last_um_ = 0, worst_time_s_ = 0;
   std::uint32_t worst_line_ = 0;
+  std::uint32_t probe_line_ = 0;  ///< 0: none
 };
 
 }  // namespace kinebus

@@ -1,0 +1,95 @@
+// A job whose stream is lost, and one that another gateway reads again: what is left of it, and from where.
+
+#include <utility>
+
+#include "gateway/run/runner.hpp"
+
+namespace kinebus {
+
+void Runner::suspend(PathTime tau) {
+  if (!active_ || suspended_) return;
+  suspended_ = true;
+  feed_.suspend(tau);
+  // The run was over but for the waiting.
+  const bool over = wait_ == Wait::kRunDone || wait_ == Wait::kRest;
+  if (over && !feed_.pending()) wait_ = Wait::kNone;
+  if (noted_) journal_.push(journal::Interrupted{feed_.place(tau), feed_.extruder_shift_mm()});
+}
+
+void Runner::go_on(BusTime now) {
+  suspended_ = held_ = still_ = false;
+  if (wait_ == Wait::kPause) end_wait();
+  feed_.go_on(to_seconds(BusTime{machine_.stop.hold_ramp}));
+  heating_.restart();
+  doing_ = say("moving");
+  last_time_ = now;
+}
+
+PlannedPose Runner::rest_pose() const {
+  PlannedPose rest{start_, Frame::kMachine, 0};
+  static_cast<void>(feed_.rest_pose(rest.pose, rest.frame, rest.line));
+  return rest;
+}
+
+void Runner::shift_extruder(double by_mm) {
+  feed_.shift_extruder(by_mm);
+  start_[kE] += by_mm;
+}
+
+void Runner::start_replay(std::unique_ptr<ByteSource> source, const journal::State& state, PathTime tau) {
+  start_job(std::move(source), state.job->start, state.job->offsets);
+  pipeline_.replay_feed_scales(state.scales);
+  waits_replayed_ = state.waits_done;
+  doing_ = say("reading the job up to where it was");
+  if (state.run) {
+    const journal::RunBegin& run = *state.run;
+    feed_.replay_to(RunFeed::Run{run.start, run.from, run.ramp_s}, tau);
+    feed_.shift_extruder(run.extruder_shift_mm);
+  } else {
+    feed_.replay_to(state.interrupted ? state.interrupted->place : JobPlace{});
+    feed_.shift_extruder(state.interrupted ? state.interrupted->extruder_shift_mm : 0);
+  }
+}
+
+Runner::Outcome Runner::replay(int budget) {
+  using Step = JobPipeline::Step;
+  while (feed_.replaying()) {
+    switch (pipeline_.next(budget)) {
+      case Step::kMore:
+        return Outcome::kBusy;
+      case Step::kPhase:
+        take_phase();
+        break;
+      case Step::kBarrier:
+        last_line_ = pipeline_.command().line;
+        if (std::holds_alternative<canonical::Probe>(pipeline_.command().command))
+          return fail(last_line_,
+                      say("the job probes, and what it has measured is not known any more: it cannot go on "
+                          "after a restart of the gateway"),
+                      false);
+        if (!waits(pipeline_.command())) break;
+        if (waits_done_ < waits_replayed_) {
+          ++waits_done_;
+          break;
+        }
+        barrier_waits_ = true;
+        feed_.end_replay();
+        break;
+      case Step::kEnd:
+        feed_.end_replay();
+        break;
+      case Step::kProblem:
+        return fail(pipeline_.problem().line, pipeline_.problem().words, false);
+      case Step::kEvent:  // what it set is in the journal
+      case Step::kRunEnd:
+      case Step::kProbed:
+      case Step::kStarved:
+        break;
+    }
+  }
+  suspended_ = true;
+  doing_ = say("interrupted");
+  return Outcome::kDone;
+}
+
+}  // namespace kinebus
