@@ -26,6 +26,7 @@ struct Stm32f446OctopusBoard {
     object_table::axis_pair(t);
     object_table::motors(t);
     object_table::linear_scales(t);
+    object_table::touch_probes(t);
     object_table::last_reset(t);
   }
 };
