@@ -5,8 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "protocol/bytes.hpp"
-#include "protocol/canopen/cob_id.hpp"
+#include "tools/simulation/bus/virtual_machine_node.hpp"
 
 namespace kinebus {
 namespace {
@@ -19,110 +18,6 @@ constexpr BusTime kStalledCheck{1'000'000};
 constexpr int kMailboxes = 3;
 
 }  // namespace
-
-struct VirtualMachine::VirtualNode {
-  VirtualNode(const VirtualNodeOptions& o, BusModel::Port p, int i) : options(o), port(p), index(i) {
-    switch_on(BusTime{0});
-  }
-  void switch_on(BusTime now) {
-    const LocalTime local = to_local(now);
-    if (!options.heat) {
-      core.emplace(options.node, local);
-      return;
-    }
-    if (!plant) plant = std::make_unique<heat::HeatPlant>(static_cast<std::uint32_t>(index) + 1);
-    heat.emplace(heat::HeatNodeOptions{options.node.node_id, options.node.identity.serial}, local, stored);
-    next_sample = local;
-  }
-  bool powered() const { return core || heat; }
-
-  void count_scales(BusTime now) {
-    if (!core) return;
-    for (int axis = 0; axis < 2; ++axis)
-      if (const auto& scale = options.axes[static_cast<std::size_t>(axis)].scale)
-        core->set_scale(axis, scale(counts(axis, now)));
-  }
-
-  LocalTime to_local(BusTime t) const {
-    return t + options.clock_offset +
-           LocalTime{std::llround(static_cast<double>(t.count()) * options.clock_drift_ppm * 1e-6)};
-  }
-  BusTime to_true(LocalTime t) const {
-    if (t == LocalTime::max()) return BusTime::max();
-    const double since = static_cast<double>((t - options.clock_offset).count());
-    // Rounded up, so that a deadline is never served a nanosecond early.
-    return BusTime{static_cast<std::int64_t>(std::ceil(since / (1 + options.clock_drift_ppm * 1e-6))) + 1};
-  }
-  double counts(int axis, BusTime at) {
-    const double start = options.axes[static_cast<std::size_t>(axis)].start_counts;
-    return core ? start + static_cast<double>(core->position(to_local(at), axis)) / 4294967296.0 : start;
-  }
-  /// Samples come in their time, before what came later.
-  void sample_until(LocalTime now) {
-    for (; heat && next_sample <= now; next_sample += heat::HeatPlant::kPeriod) {
-      heat->on_time(next_sample);
-      plant->step(*heat, next_sample);
-    }
-  }
-  void on_frame(LocalTime at, const CanFrame& frame) {
-    sample_until(at);
-    if (core)
-      core->on_frame(at, frame);
-    else if (heat)
-      heat->on_frame(at, frame);
-  }
-  void on_time(LocalTime now) {
-    sample_until(now);
-    if (core)
-      core->on_time(now);
-    else if (heat)
-      heat->on_time(now);
-  }
-  template <typename Core>
-  BusTime put_out(Core& of, BusModel& bus, BusTime now) {
-    // Parameters are stored at once; a node with axes powers up with its defaults all the same.
-    if (const auto image = of.image_to_store(); !image.empty()) {
-      if (heat) stored.assign(image.begin(), image.end());
-      of.on_image_stored(true);
-    }
-    while (bus.has_room(port)) {
-      const auto frame = of.next_frame();
-      if (!frame) break;
-      bus.send(port, now, *frame);
-    }
-    return to_true(of.next_deadline());
-  }
-  BusTime next_due() const {
-    if (options.heat)
-      return !heat ? BusTime::max()
-                   : std::min({deadline, to_true(next_sample),
-                               pending.empty() ? BusTime::max() : pending.front().at});
-    if (!core || stalled) return next_check;
-    return std::min({deadline, next_check, pending.empty() ? BusTime::max() : pending.front().at,
-                     edges.empty() ? BusTime::max() : edges.front().at});
-  }
-
-  VirtualNodeOptions options;
-  BusModel::Port port;
-  int index;
-  std::optional<Node> core;            // none: without power, or a heat node
-  std::optional<heat::HeatNode> heat;  // none: without power, or a node with axes
-  std::unique_ptr<heat::HeatPlant> plant;
-  std::vector<std::uint8_t> stored;  // parameters of a heat node
-  LocalTime next_sample{0};
-  bool stalled = false;
-  std::uint32_t lost_while_stalled = 0;  // frames that its full queue refused: it finds out when it goes on
-  std::vector<Pending> pending;
-  struct RawEdge {
-    BusTime at{0};
-    int input = 0;
-    bool level = false;
-  };
-  std::vector<RawEdge> edges;  // raw levels to come, by time
-  BusTime deadline{0};
-  BusTime next_check{0};
-  std::array<int, 2> switch_level{-1, -1};
-};
 
 VirtualMachine::VirtualMachine(const std::vector<VirtualNodeOptions>& nodes, std::uint64_t seed,
                                int gateway_mailboxes)
@@ -222,79 +117,6 @@ BusModel::Port VirtualMachine::node_port(int node) const {
 
 bool VirtualMachine::powered(int node) const {
   return nodes_[static_cast<std::size_t>(node)]->powered();
-}
-
-void VirtualMachine::set_power(int node, BusTime now, bool on) {
-  VirtualNode& n = *nodes_[static_cast<std::size_t>(node)];
-  if (on == n.powered()) return;
-  n.pending.clear();
-  n.edges.clear();
-  n.stalled = false;
-  n.lost_while_stalled = 0;
-  if (!on) {
-    for (int axis = 0; axis < 2; ++axis)
-      n.options.axes[static_cast<std::size_t>(axis)].start_counts = n.counts(axis, now);
-    n.core.reset();
-    n.heat.reset();
-    bus_.clear(n.port);
-    n.next_check = BusTime::max();
-    return;
-  }
-  n.switch_on(now);
-  n.switch_level = {-1, -1};
-  n.next_check = now;
-  probe_touches_.reset();
-  serve(n, now);
-}
-
-void VirtualMachine::set_stalled(int node, BusTime now, bool stalled) {
-  VirtualNode& n = *nodes_[static_cast<std::size_t>(node)];
-  if (!n.core || n.stalled == stalled) return;
-  n.stalled = stalled;
-  // Its receive interrupts went on: the time stamps are right.
-  if (!stalled) {
-    for (Pending& p : n.pending) p.at = std::max(p.at, now);
-    n.core->on_time(n.to_local(now));
-  }
-  if (stalled) return;
-  n.deadline = std::max(n.deadline, now);
-  count_overruns(node, now, std::exchange(n.lost_while_stalled, 0u));
-}
-
-void VirtualMachine::set_drive_fault(int node, BusTime now, int axis, bool present) {
-  VirtualNode& n = *nodes_[static_cast<std::size_t>(node)];
-  if (!n.core) return;
-  if (present)
-    n.core->on_drive_fault(n.to_local(now), axis, 0x2310);
-  else
-    n.core->on_drive_fault_gone(n.to_local(now), axis);
-  serve(n, now);
-}
-
-void VirtualMachine::count_overruns(int node, BusTime now, std::uint32_t times) {
-  VirtualNode& n = *nodes_[static_cast<std::size_t>(node)];
-  if (!n.core || times == 0) return;
-  n.core->on_receive_overrun(n.to_local(now), times);
-  serve(n, now);
-}
-
-void VirtualMachine::write_parameter(int node, BusTime now, ObjectAddress address, int size,
-                                     std::uint32_t value) {
-  VirtualNode& n = *nodes_[static_cast<std::size_t>(node)];
-  if (!n.core) return;
-  CanFrame request{.id = cob_id::kSdoRequest + n.core->node_id(), .length = 8};
-  request.data[0] = static_cast<std::uint8_t>(0x23 | ((4 - size) << 2));
-  put_u16_le(std::span(request.data).subspan(1), address.index);
-  request.data[3] = address.subindex;
-  put_u32_le(std::span(request.data).subspan(4), value);
-  n.core->on_frame(n.to_local(now), request);
-  // Its answer was for another gateway.
-  while (n.core->next_frame()) {
-  }
-}
-
-void VirtualMachine::lose_steps(int node, int axis, double counts) {
-  nodes_[static_cast<std::size_t>(node)]->options.axes[static_cast<std::size_t>(axis)].start_counts += counts;
 }
 
 void VirtualMachine::serve(VirtualNode& node, BusTime now) {
