@@ -47,10 +47,10 @@ bool Core::run_modes() {
     return false;
   if (block_.has(GGroup::kPathMode) && !set_path_mode(block_.code(GGroup::kPathMode))) return false;
   if (block_.has(GGroup::kDistance)) {
-    using Extruder = DialectRules::Extruder;
+    using Given = DialectRules::Extruder;
     m.incremental = block_.code(GGroup::kDistance).number == 910;
-    if (rules_->extruder == Extruder::kG91Takes) m.incremental_e = m.incremental || m.relative_extruder;
-    if (rules_->extruder == Extruder::kG90Sets) m.incremental_e = m.relative_extruder = m.incremental;
+    if (rules_->extruder == Given::kG91Takes) m.incremental_e = m.incremental || m.relative_extruder;
+    if (rules_->extruder == Given::kG90Sets) m.incremental_e = m.relative_extruder = m.incremental;
   }
   if (block_.has_m(82)) m.incremental_e = m.relative_extruder = false;
   if (block_.has_m(83)) m.incremental_e = m.relative_extruder = true;

@@ -109,8 +109,11 @@ struct Nearest {
   std::size_t at = 0;
 };
 
-/// The nearest place of the path from `from` on, at most `ahead` points farther. Where the tool stands and
-/// only filament moves, the filament decides.
+/// A square of filament beside one of the path: what a micrometre or two of the tool leave open, the filament
+/// decides, as where the tool stands and filament alone moves.
+constexpr double kFilamentWeight = 0.2;
+
+/// The nearest place of the path from `from` on, at most `ahead` points farther.
 Nearest nearest(const std::vector<Pose>& path, std::size_t from, std::size_t ahead, const Pose& p) {
   Nearest best;
   double best_score = 1e9;
@@ -118,7 +121,7 @@ Nearest nearest(const std::vector<Pose>& path, std::size_t from, std::size_t ahe
     const Pose &a = path[i], &b = path[i + 1];
     double way = 0, along = 0;
     for (const std::size_t k : std::array<std::size_t, 4>{0, 1, 2, 5}) {
-      const double weight = k == 5 ? 0.2 : 1;
+      const double weight = k == 5 ? kFilamentWeight : 1;
       way += weight * (b[k] - a[k]) * (b[k] - a[k]);
       along += weight * (b[k] - a[k]) * (p[k] - a[k]);
     }
@@ -129,7 +132,7 @@ Nearest nearest(const std::vector<Pose>& path, std::size_t from, std::size_t ahe
       square += off * off;
     }
     const double filament = p[kE] - (a[kE] + t * (b[kE] - a[kE]));
-    const double score = square + 0.01 * filament * filament;
+    const double score = square + kFilamentWeight * filament * filament;
     if (score >= best_score) continue;
     best_score = score;
     best = {std::sqrt(square), filament, i};
