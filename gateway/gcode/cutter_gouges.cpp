@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "gateway/gcode/cutter.hpp"
 
@@ -68,7 +67,7 @@ bool CutterPath::keep_track(const Curve& curve, bool corner, Sentence& error) {
     return false;
   }
   if (tracks_.size() == 2 * kWindow) tracks_.erase(tracks_.begin());
-  tracks_.push_back(std::move(track));
+  tracks_.push_back(track);
   return true;
 }
 
