@@ -120,7 +120,6 @@ class Session : public ByteSession, public Requester {
   void begin_request();
   void next_request();
   bool work_waits() const;
-  /// Why the request is not let in; 0: it is.
   void put_head(const Answer& answer, std::uint64_t length);
   void end_exchange();
   std::uint32_t expect(Then then);
