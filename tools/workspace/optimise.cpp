@@ -1,12 +1,14 @@
 #include "tools/workspace/optimise.hpp"
 
+#include <nlopt.h>
+
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <mutex>
-#include <nlopt.hpp>
 #include <random>
 #include <thread>
 #include <utility>
@@ -95,25 +97,25 @@ struct Found {
 /// Subplex: simplices in a few unknowns at a time, which neither needs derivatives nor minds the kinks that
 /// the worst pose makes.
 Found search(Trial& trial, const Unknowns& from, int most_tries) {
-  nlopt::opt subplex(nlopt::LN_SBPLX, kUnknowns);
-  subplex.set_min_objective(cost_of, &trial);
-  subplex.set_lower_bounds({kLeast.begin(), kLeast.end()});
-  subplex.set_upper_bounds({kMost.begin(), kMost.end()});
-  subplex.set_initial_step({kStep.begin(), kStep.end()});
-  subplex.set_xtol_abs(0.25);
+  // The C interface: the one that libnlopt-dev brings.
+  const std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)> subplex(
+      nlopt_create(NLOPT_LN_SBPLX, kUnknowns), nlopt_destroy);
+  nlopt_set_min_objective(subplex.get(), cost_of, &trial);
+  nlopt_set_lower_bounds(subplex.get(), kLeast.data());
+  nlopt_set_upper_bounds(subplex.get(), kMost.data());
+  nlopt_set_initial_step(subplex.get(), kStep.data());
+  nlopt_set_xtol_abs1(subplex.get(), 0.25);
   std::vector<double> x(from.begin(), from.end());
   Found found{from};
   // A search that has stalled on the ridge of two rules goes on when its steps begin anew.
   constexpr int kRounds = 3;
   for (int round = 0; round < kRounds; ++round) {
     const double before = found.cost;
-    subplex.set_maxeval(most_tries / kRounds);
+    nlopt_set_maxeval(subplex.get(), most_tries / kRounds);
     double cost = before;
-    try {
-      subplex.optimize(x, cost);
-    } catch (const nlopt::roundoff_limited&) {
-      // x is the best found until the steps drowned in rounding.
-    }
+    // Where steps drown in rounding, x is the best found until then.
+    const nlopt_result ended = nlopt_optimize(subplex.get(), x.data(), &cost);
+    if (ended < 0 && ended != NLOPT_ROUNDOFF_LIMITED) break;
     if (cost < found.cost) {
       found.cost = cost;
       std::copy(x.begin(), x.end(), found.at.begin());
