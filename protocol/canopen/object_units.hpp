@@ -365,56 +365,5 @@ constexpr void touch_probes(Rows& t) {
   t.for_both_axes(from);
 }
 
-// The PDOs of an axis pair.
-inline constexpr std::array<PdoDefault, kRpdoCount> kAxisPairRpdos{{
-    {"Control",
-     0x200,
-     true,
-     255,
-     0,
-     0,
-     {mapped(object::kControlword, 16), mapped(object::kControlword, 16, 1),
-      mapped(object::kModeOfOperation, 8), mapped(object::kModeOfOperation, 8, 1)}},
-    {"Targets",
-     0x300,
-     true,
-     1,
-     0,
-     0,
-     {mapped(object::kTargetPosition, 32), mapped(object::kTargetPosition, 32, 1)}},
-    {"Segment", 0x400, true, 255, 0, 0, {mapped(object::kSegmentRecord, 64)}},
-    {"Checkpoint", 0x500, true, 255, 0, 0, {mapped(object::kCheckpoint, 64)}},
-    {"Rate", kRateCobId, false, 255, 0, 0, {mapped(object::kRateCommand, 64)}},
-    {"SyncStamp", kSyncStampCobId, false, 255, 0, 0, {mapped(object::kSyncStamp, 64)}},
-}};
-// TPDO1 and TPDO3 go by the device profile's event (a mapped value changed) or timer; TPDO2 when the stream
-// says so.
-inline constexpr std::array<PdoDefault, kTpdoCount> kAxisPairTpdos{{
-    {"Status",
-     0x180 | kNoRtr,
-     true,
-     255,
-     100,
-     1000,
-     {mapped(object::kStatusword, 16), mapped(object::kStatusword, 16, 1), mapped(object::kModeDisplay, 8),
-      mapped(object::kModeDisplay, 8, 1), mapped(object::kSwitchLevels, 8)}},
-    {"Stream", 0x280 | kNoRtr, true, 254, 20, 0, {mapped(object::kStreamStatus, 64)}},
-    {"Positions",
-     0x380 | kNoRtr,
-     true,
-     254,
-     100,
-     0,
-     {mapped(object::kPositionActual, 32), mapped(object::kPositionActual, 32, 1)}},
-    {"FollowingErrors",
-     0x480 | kNoRtr | kPdoOff,
-     true,
-     254,
-     100,
-     0,
-     {mapped(object::kFollowingError, 32), mapped(object::kFollowingError, 32, 1)}},
-}};
-inline constexpr PdoSet kAxisPairPdos{kAxisPairRpdos, kAxisPairTpdos};
-
 }  // namespace object_table
 }  // namespace kinebus

@@ -56,4 +56,18 @@ constexpr bool lines_differ(const std::array<SwitchPin, kCount>& pins) {
   return true;
 }
 
+/// What a board's table is written in.
+namespace pin_words {
+using stm32::InputPin;
+using stm32::Mode;
+using stm32::OutputPin;
+using stm32::Pin;
+using stm32::Port;
+using stm32::Pull;
+using stm32::SwitchPin;
+using enum Port;
+using enum Mode;
+using enum Pull;
+}  // namespace pin_words
+
 }  // namespace kinebus::stm32

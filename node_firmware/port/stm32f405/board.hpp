@@ -15,16 +15,7 @@ inline constexpr std::uint32_t kCrystalHz = 8'000'000;
 using stm32::kApb2Hz;
 using stm32::kCoreHz;
 
-using stm32::InputPin;
-using stm32::Mode;
-using stm32::OutputPin;
-using stm32::Pin;
-using stm32::Port;
-using stm32::Pull;
-using stm32::SwitchPin;
-using enum Port;
-using enum Mode;
-using enum Pull;
+using namespace stm32::pin_words;
 
 // clang-format off
 inline constexpr std::array kPins = {

@@ -4,10 +4,9 @@
 #include <utility>
 
 #include "node_firmware/board/identity.hpp"
-#include "node_firmware/board/node_program.hpp"
+#include "node_firmware/board/node_pass.hpp"
 #include "node_firmware/board/runtime.hpp"
 #include "node_firmware/board/status_led.hpp"
-#include "node_firmware/board/upkeep.hpp"
 #include "node_firmware/boot/image_header.hpp"
 #include "node_firmware/port/stm32f4/can_port.hpp"
 #include "node_firmware/port/stm32f4/clock_tree.hpp"
@@ -108,13 +107,7 @@ int main() {
   usb.start();
   dog.start();
   for (;;) {
-    program->pass();
-    // A stop for a drive's sake is named from this very moment, and told before anything else is done.
-    if (motors_good ? motors.serve(node, program->read_time()) : program->refuse_power()) {
-      program->send();
-      program->touch();
-    }
-    if (motors.dark()) store_parameters(node, parameters, dog);
+    pass(*program, motors, motors_good, parameters, dog);
     const Console::Subject subject{.node = node,
                                    .motors = motors.supervision(),
                                    .cycles = motors.cycles(),

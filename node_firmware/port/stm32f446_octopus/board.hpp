@@ -19,16 +19,7 @@ inline constexpr std::uint32_t kCrystalHz = 12'000'000;
 #endif
 static_assert(kCrystalHz == 12'000'000 || kCrystalHz == 8'000'000);
 
-using stm32::InputPin;
-using stm32::Mode;
-using stm32::OutputPin;
-using stm32::Pin;
-using stm32::Port;
-using stm32::Pull;
-using stm32::SwitchPin;
-using enum Port;
-using enum Mode;
-using enum Pull;
+using namespace stm32::pin_words;
 
 // clang-format off
 /// The bus, by which the board tells who it is, also to an image that is for another chip.

@@ -3,9 +3,8 @@
 #include <optional>
 
 #include "node_firmware/board/identity.hpp"
-#include "node_firmware/board/node_program.hpp"
+#include "node_firmware/board/node_pass.hpp"
 #include "node_firmware/board/runtime.hpp"
-#include "node_firmware/board/upkeep.hpp"
 #include "node_firmware/boot/image_header.hpp"
 #include "node_firmware/port/stm32f4/can_port.hpp"
 #include "node_firmware/port/stm32f4/clock_tree.hpp"
@@ -91,13 +90,7 @@ int main() {
   if (good) motors.start();
   dog.start();
   for (;;) {
-    program->pass();
-    // A stop for a drive's sake is named from this very moment, and told before anything else is done.
-    if (good ? motors.serve(node, program->read_time()) : program->refuse_power()) {
-      program->send();
-      program->touch();
-    }
-    if (motors.dark()) store_parameters(node, parameters, dog);
+    pass(*program, motors, good, parameters, dog);
     // There is no boot loader of ours to give way to: the program begins anew, under its id.
     if (node.program_stop_requested() && can_port.queue().idle()) {
       handover_ram = Handover{.node_id = node.node_id()};
