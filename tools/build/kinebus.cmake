@@ -16,6 +16,11 @@ else()
   set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O1 -g1")
 endif()
 
+# Compiled once by Debian: as headers alone it would be compiled again with every file that prints.
+if(NOT KINEBUS_FIRMWARE)
+  find_library(FMT_LIBRARY fmt REQUIRED)
+endif()
+
 find_program(CCACHE ccache)
 if(CCACHE)
   # Every clone and build folder shares the compiler's results: paths count from the clone's own root.
@@ -83,10 +88,10 @@ endif()
 
 # Not run on arm64, where an emulator stands in for the board: Debian 12's qemu-aarch64 hangs when a program begins a
 # thread, fits of the calibration take it minutes, and so do the job store's power cuts, hundreds of killed forks, and the
-# prints that are broken off and go on.
-set(KINEBUS_NOT_UNDER_EMULATION streams_test kinebus_workspace_test kinebus_calibrate_test)
+# prints that are broken off and go on, as well as heat that falls for minutes, and the survey of homing.
+set(KINEBUS_NOT_UNDER_EMULATION streams_test kinebus_workspace_test kinebus_calibrate_test kinebus_homing_test)
+set(KINEBUS_EMULATION_ARGUMENTS_machine_test --gtest_filter=-Resume.*:HeatOnTheBus.*:HeldByHeat.*:HeatTuningOnTheBus.*:Stranger.*)
 set(KINEBUS_EMULATION_ARGUMENTS_job_store_test --gtest_filter=-PowerCut.*)
-set(KINEBUS_EMULATION_ARGUMENTS_machine_test --gtest_filter=-Resume.*)
 
 # Tests of what has threads, labelled so: what the thread sanitizer builds and runs, with the daemon itself under printcore.
 set(KINEBUS_THREADED_TESTS streams_test job_link_test kinebus_workspace_test kinebus_campaign_test)

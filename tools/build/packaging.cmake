@@ -38,7 +38,7 @@ if(CMAKE_CROSSCOMPILING)
   set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS OFF)
   # What dpkg-shlibdeps cannot find out of a foreign build: the libraries that the programs name (readelf -d).
   set(CPACK_DEBIAN_PACKAGE_DEPENDS
-    "libc6, libdeflate0, libedit2, libgcc-s1, libnlopt0, libprotobuf32, libsqlite3-0, libssl3, libstdc++6, libsystemd0, libxxhash0")
+    "libc6, libdeflate0, libedit2, libfmt9, libgcc-s1, libnlopt0, libprotobuf32, libspdlog1.10, libsqlite3-0, libssl3, libstdc++6, libsystemd0, libxxhash0")
 endif()
 set(CPACK_DEBIAN_DAEMON_PACKAGE_NAME kinebus-daemon)
 set(CPACK_COMPONENT_DAEMON_DESCRIPTION
