@@ -135,6 +135,15 @@ bool VibrationDescription::shapes() const {
   return false;
 }
 
+bool turns_part(const Kinematics& kinematics) {
+  JointVector joints{};
+  std::vector<double> matrix(static_cast<std::size_t>(kinematics.joint_count()) * kPoseAxes);
+  if (!kinematics.jacobian(Frame::kMachine, kinematics.bed_reference(), joints, matrix)) return false;
+  for (std::size_t row = 0; row < matrix.size(); row += kPoseAxes)
+    if (matrix[row + kA] != 0 || matrix[row + kC] != 0) return true;
+  return false;
+}
+
 Result<std::unique_ptr<Kinematics>, GeometryError> make_kinematics(const MachineDescription& description) {
   struct Make {
     const std::optional<M1Correction>& correction;

@@ -348,6 +348,8 @@ std::vector<JointName> joint_names(const KinematicsGeometry& geometry);
 
 /// The kinematics that the description states, calibration of the geometry included. Error: see geometry.hpp.
 Result<std::unique_ptr<Kinematics>, GeometryError> make_kinematics(const MachineDescription& description);
+/// A pose's A or C moves a joint: X of the part is not always X of the machine.
+bool turns_part(const Kinematics& kinematics);
 
 namespace bodies {
 class CollisionModel;

@@ -244,17 +244,9 @@ class Rules {
                                            : say("the filament that this model presses together at most"));
   }
 
-  /// A pose's A or C moves something.
   bool turns() const {
     const auto kinematics = make_kinematics(d_);
-    if (!kinematics) return false;
-    const Kinematics& k = **kinematics;
-    JointVector joints{};
-    std::vector<double> matrix(static_cast<std::size_t>(k.joint_count()) * kPoseAxes);
-    if (!k.jacobian(Frame::kMachine, k.bed_reference(), joints, matrix)) return false;
-    for (std::size_t row = 0; row < matrix.size(); row += kPoseAxes)
-      if (matrix[row + kA] != 0 || matrix[row + kC] != 0) return true;
-    return false;
+    return kinematics && turns_part(**kinematics);
   }
 
   /// A geometry may fail through any of its keys or the joints' travel: only judged when all of them could be

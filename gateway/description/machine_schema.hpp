@@ -44,10 +44,11 @@ inline std::span<const Choice> dialect_choices() {
   return choices;
 }
 inline constexpr Choice kShapers[] = {
-    {"none", static_cast<int>(ShaperKind::kNone)},      {"ZV", static_cast<int>(ShaperKind::kZv)},
-    {"MZV", static_cast<int>(ShaperKind::kMzv)},        {"ZVD", static_cast<int>(ShaperKind::kZvd)},
-    {"EI", static_cast<int>(ShaperKind::kEi)},          {"2HUMP", static_cast<int>(ShaperKind::kTwoHump)},
-    {"3HUMP", static_cast<int>(ShaperKind::kThreeHump)}};
+    {"none", static_cast<int>(ShaperKind::kNone)},       {"ZV", static_cast<int>(ShaperKind::kZv)},
+    {"MZV", static_cast<int>(ShaperKind::kMzv)},         {"ZVD", static_cast<int>(ShaperKind::kZvd)},
+    {"EI", static_cast<int>(ShaperKind::kEi)},           {"2HUMP", static_cast<int>(ShaperKind::kTwoHump)},
+    {"3HUMP", static_cast<int>(ShaperKind::kThreeHump)}, {"ZVDD", static_cast<int>(ShaperKind::kZvdd)},
+    {"ZVDDD", static_cast<int>(ShaperKind::kZvddd)}};
 inline constexpr Choice kAdvanceKinds[] = {{"linear", static_cast<int>(AdvanceKind::kLinear)},
                                            {"tanh", static_cast<int>(AdvanceKind::kTanh)},
                                            {"reciprocal", static_cast<int>(AdvanceKind::kReciprocal)}};

@@ -6,10 +6,12 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 
 #include "gateway/pose.hpp"
+#include "gateway/shaper_kind.hpp"
 
 namespace kinebus::canonical {
 
@@ -133,6 +135,19 @@ struct PressureAdvance {
   double advance_s = -1;
   double smooth_s = -1;
 };
+/// M593, SET_INPUT_SHAPER: how X, Y and Z are shaped in the moves that follow, from rest. Below 0, or no
+/// shaper: unchanged; a frequency of 0: not shaped.
+struct InputShaping {
+  struct Axis {
+    std::optional<ShaperKind> shaper;
+    /// Where no shaper was named, and none is in force.
+    ShaperKind usual = ShaperKind::kZv;
+    double frequency_hz = -1;
+    double damping_ratio = -1;
+    bool asks() const { return shaper || frequency_hz >= 0 || damping_ratio >= 0; }
+  };
+  std::array<Axis, 3> axes;
+};
 struct Settings {
   enum class What : std::uint8_t { kStore, kLoad, kReset, kReport } what{};
 };              ///< M500..M503
@@ -140,7 +155,7 @@ struct End {};  ///< M2 / M30, or the end of the text
 
 using Command = std::variant<Traverse, Feed, Arc, Dwell, PathMode, SetPosition, Limits, Thermal, Spindle,
                              Home, Pause, MotorsOff, MotorsOn, WaitIdle, Override, Message, Query,
-                             EmergencyStop, StoredJob, Settings, End, PressureAdvance, Probe>;
+                             EmergencyStop, StoredJob, Settings, End, PressureAdvance, Probe, InputShaping>;
 
 /// One command with the line of the job that it came from (1-based).
 struct Line {

@@ -138,6 +138,20 @@ struct Writer {
     if (c.smooth_s >= 0) text += " smooth" + number(c.smooth_s);
     return text;
   }
+  std::string operator()(const InputShaping& c) const {
+    static constexpr std::array<std::string_view, 9> kNames = {"none",  "zv",    "mzv",  "zvd",  "ei",
+                                                               "2hump", "3hump", "zvdd", "zvddd"};
+    std::string text = "input_shaping";
+    for (std::size_t i = 0; i < c.axes.size(); ++i) {
+      const InputShaping::Axis& axis = c.axes[i];
+      if (!axis.asks()) continue;
+      (text += ' ') += "xyz"[i];
+      if (axis.shaper) text.append(" ").append(kNames[static_cast<std::size_t>(*axis.shaper)]);
+      if (axis.frequency_hz >= 0) text += " f" + number(axis.frequency_hz);
+      if (axis.damping_ratio >= 0) text += " d" + number(axis.damping_ratio);
+    }
+    return text;
+  }
   std::string operator()(const Probe& c) const {
     return "probe " + pose_text(c.target, c.frame) + feed_text(c.feed_per_s, 0) + (c.away ? " away" : "") +
            (c.must ? " must" : "");

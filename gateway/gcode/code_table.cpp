@@ -281,7 +281,7 @@ constexpr std::array kM = {
     m(589, M::kHarmless, true, "", "network"),
     m(591, M::kHarmless, true, "", "filament monitor"),
     m(592, M::kHarmless, true, "", "nonlinear extrusion"),
-    m(593, M::kHarmless, true, "", "input shaping: [vibration] of the machine file says it"),
+    m(593, M::kOther, true, "X Y Z F D S P", "input shaping, for the moves that follow: frequency F in Hz (0: off), damping ratio D or S, shaper P\"zvd\", of X, Y, Z or all"),
     m(594, M::kHarmless, true, "", "following"),
     m(595, M::kHarmless, true, "", "queue"),
     m(600, M::kStop, true, "", "pause for a change of filament"),

@@ -13,7 +13,7 @@ namespace {
 
 // What Klipper and slicers write as words: it tells or tunes what other machines have, and leaves the job's
 // meaning as it is. In lower case, sorted.
-constexpr std::array<std::string_view, 30> kHarmlessCommands = {"bed_mesh_calibrate",
+constexpr std::array<std::string_view, 29> kHarmlessCommands = {"bed_mesh_calibrate",
                                                                 "bed_mesh_clear",
                                                                 "bed_mesh_output",
                                                                 "bed_mesh_profile",
@@ -33,7 +33,6 @@ constexpr std::array<std::string_view, 30> kHarmlessCommands = {"bed_mesh_calibr
                                                                 "set_fan_speed",
                                                                 "set_filament_sensor",
                                                                 "set_idle_timeout",
-                                                                "set_input_shaper",
                                                                 "set_led",
                                                                 "set_pin",
                                                                 "set_print_stats_info",
@@ -48,7 +47,7 @@ static_assert(std::is_sorted(kHarmlessCommands.begin(), kHarmlessCommands.end())
 struct Command {
   std::string_view name, words, meaning;
 };
-constexpr std::array<Command, 15> kCommands = {{
+constexpr std::array<Command, 16> kCommands = {{
     {"cancel_print", "", "end of the program"},
     {"exclude_object", "NAME= | CURRENT=1 | RESET=1", "the moves of this object are left out from here on"},
     {"exclude_object_define", "NAME= RESET=", "names an object; the rest is passed over"},
@@ -58,6 +57,8 @@ constexpr std::array<Command, 15> kCommands = {{
     {"respond", "MSG=", "message"},
     {"set_gcode_offset", "X= Y= Z=", "of 0: without effect; others are refused"},
     {"set_heater_temperature", "HEATER= TARGET=", "temperature of extruder, extruder1, heater_bed"},
+    {"set_input_shaper", "SHAPER_TYPE= SHAPER_FREQ_X= DAMPING_RATIO_X=",
+     "input shaping, also with _X, _Y, _Z; a frequency of 0 turns it off; for the moves that follow"},
     {"set_pressure_advance", "ADVANCE= SMOOTH_TIME=",
      "pressure advance in s, and the path time that it is averaged over; for the moves that follow"},
     {"set_velocity_limit", "ACCEL= VELOCITY=", "acceleration of printing and travel; the rest is noted"},

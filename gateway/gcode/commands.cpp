@@ -124,14 +124,17 @@ bool Core::run_command() {
     for (const char c : name) key = key * 31 + static_cast<unsigned char>(c);
     const std::string command(block_.command);
     note(static_cast<int>(key % 1'000'000'000U) + kNoteForCommands,
-         name == "set_input_shaper"
-             ? say("%1 has no effect in a job: [vibration] in the machine file says how motion is shaped",
-                   command)
-             : say("%1 has no effect on this machine", command));
+         say("%1 has no effect on this machine", command));
     return true;
   };
   if (name == "set_pressure_advance" && !options_.spindle)
     return set_pressure_advance(column, number_of(arguments, "advance"), number_of(arguments, "smooth_time"));
+  if (name == "set_input_shaper") {
+    std::vector<ShaperWord> words;
+    for (const Argument& argument : arguments)
+      words.push_back({argument.name, argument.text, argument.value});
+    return set_input_shaper(column, words);
+  }
   if (harmless_command(name) || name == "set_pressure_advance") return noted();
   if (name.starts_with("exclude_object")) {
     const Argument* const which = find_argument(arguments, "name");

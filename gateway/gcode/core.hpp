@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -188,6 +189,15 @@ class Core {
   /// What is not given stays as it is.
   bool set_pressure_advance(std::uint32_t column, std::optional<double> advance_s,
                             std::optional<double> smooth_s);
+
+  // input_shaping.cpp
+  bool input_shaping();
+  /// SET_INPUT_SHAPER: a word and what stands behind its =.
+  struct ShaperWord {
+    std::string_view name, text;
+    std::optional<double> value;
+  };
+  bool set_input_shaper(std::uint32_t column, std::span<const ShaperWord> words);
 
   // objects.cpp: objects of a print that are left out
   struct ObjectCommand {

@@ -167,6 +167,8 @@ bool Core::run_machine_code(Code code) {
     case 572:
     case 900:
       return pressure_advance(code);
+    case 593:
+      return input_shaping();
     case 400:
       emit(canonical::WaitIdle{});
       return true;
@@ -187,11 +189,6 @@ bool Core::run_machine_code(Code code) {
       break;
   }
   if (m_group(code.number) == MGroup::kJobs) return stored_job(code);
-  if (code.number == 593) {
-    note(593, say("%1 has no effect in a job: [vibration] in the machine file says how motion is shaped",
-                  m_name(593)));
-    return true;
-  }
   note(code.number, say("%1 has no effect on this machine", m_name(code.number)));
   return true;
 }

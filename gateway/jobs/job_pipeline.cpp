@@ -45,9 +45,15 @@ JobPipeline::JobPipeline(const MachineDescription& machine, const Kinematics& ki
       shaper_(axis_shapers(machine.vibration)),
       shaped_limits_(kinematics, motion_limits(machine).joint_speed_per_s,
                      motion_limits(machine).joint_accel_per_s2),
+      vibration_(machine.vibration),
       text_(kTextBytes) {}
 
 void JobPipeline::begin(const Pose& start) {
+  if (!(vibration_ == machine_.vibration)) {
+    vibration_ = machine_.vibration;
+    planner_.limit_machine(limits_before_shaping(machine_, vibration_));
+  }
+  asked_shaping_ = {};
   planner_.reset(start, Frame::kMachine);
   advance_ = machine_.pressure_advance;
   begin_advance();
@@ -259,6 +265,10 @@ std::optional<JobPipeline::Step> JobPipeline::settle() {
       home(Home(*h), command_.line);
       return std::nullopt;
     }
+    if (std::holds_alternative<canonical::InputShaping>(command_.command)) {
+      begin_shaping(command_.line);
+      return std::nullopt;
+    }
     if (std::holds_alternative<canonical::PressureAdvance>(command_.command)) {
       begin_advance();
       return std::nullopt;
@@ -354,7 +364,7 @@ void JobPipeline::take(const canonical::Line& line) {
                   say("a job cannot manage stored jobs: M20 to M32 belong to a session"));
   }
   if (is_barrier(command, machine_.gcode.optional_stop)) return drain(line);
-  if (std::holds_alternative<Pause>(command) || take_advance(line)) return;
+  if (std::holds_alternative<Pause>(command) || take_advance(line) || take_shaping(line)) return;
   events_.push_back(line);
 }
 

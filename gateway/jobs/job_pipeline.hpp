@@ -110,10 +110,12 @@ class JobPipeline {
   void number_commands();
   std::uint32_t line_of(std::uint32_t place);
   bool pull_phase();
-  // pipeline_advance.cpp: pressure advance
+  // pipeline_advance.cpp: pressure advance, input shaping
   void begin_advance();
   bool take_advance(const canonical::Line& line);
   void limit_filament(const AdvanceModel& model);
+  bool take_shaping(const canonical::Line& line);
+  void begin_shaping(std::uint32_t line);
   bool push_planned();
   void check_shaped();
   std::optional<Step> take_phase();
@@ -133,7 +135,9 @@ class JobPipeline {
   Planner planner_;
   PathShaper shaper_;
   ShapedLimits shaped_limits_;
-  AdvanceModel advance_;  ///< of the commands taken
+  AdvanceModel advance_;            ///< of the commands taken
+  VibrationDescription vibration_;  ///< the same
+  canonical::InputShaping asked_shaping_;
   bool shaping_ = false;  ///< phases go through the shaper
   struct AdvanceFrom {
     std::uint32_t line = 0;

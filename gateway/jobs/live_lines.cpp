@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "gateway/gcode/program.hpp"
+#include "gateway/jobs/job_shaping.hpp"
 #include "gateway/jobs/machine_setup.hpp"
 #include "gateway/motion/arc_piece.hpp"
 
@@ -54,6 +55,7 @@ void LiveLines::restart(const gcode::WorkOffsets& offsets) {
   limits_ = {};
   path_mode_.reset();
   advance_ = {};
+  shaping_ = {};
   cold_noted_ = fan_noted_ = false;
   end(say("no lines are open"));
 }
@@ -92,6 +94,8 @@ void LiveLines::begin(const Pose& pose, std::optional<double> hotend_celsius, gc
   if (path_mode_) out.push_back({0, *path_mode_});
   out.push_back({0, limits_});
   if (advance_.advance_s >= 0 || advance_.smooth_s >= 0) out.push_back({0, advance_});
+  if (std::any_of(shaping_.axes.begin(), shaping_.axes.end(), [](const auto& axis) { return axis.asks(); }))
+    out.push_back({0, shaping_});
 }
 
 Result<void, Problem> LiveLines::take(std::string_view line, std::uint32_t number,
@@ -142,6 +146,8 @@ Result<void, Problem> LiveLines::take(std::string_view line, std::uint32_t numbe
       if (advance->advance_s >= 0) advance_.advance_s = advance->advance_s;
       if (advance->smooth_s >= 0) advance_.smooth_s = advance->smooth_s;
     }
+    if (const auto* shaping = std::get_if<canonical::InputShaping>(&out[i].command))
+      merge_shaping(shaping_, *shaping);
   }
   for (const gcode::Note& note : interpreter_.notes()) notes_.push_back(note.text);
   interpreter_.clear_notes();
@@ -164,6 +170,12 @@ Refused LiveLines::check(const canonical::Command& command) {
     return std::nullopt;
   }
   if (const auto* thermal = std::get_if<canonical::Thermal>(&command)) return check_thermal(*thermal);
+  if (const auto* shaping = std::get_if<canonical::InputShaping>(&command)) {
+    canonical::InputShaping all = shaping_;
+    merge_shaping(all, *shaping);
+    const auto shaped = shaped_by_job(kinematics_, machine_.vibration, all);
+    return shaped ? std::nullopt : std::optional(shaped.error());
+  }
   if (const auto* spindle = std::get_if<canonical::Spindle>(&command))
     return wrong_spindle_speed(machine_.spindle, spindle->rpm);
   if (std::holds_alternative<canonical::StoredJob>(command))

@@ -83,6 +83,7 @@ class LiveLines {
   bool probes_ = false;
   canonical::Limits limits_{};  ///< in force
   canonical::PressureAdvance advance_{};
+  canonical::InputShaping shaping_{};
   std::optional<canonical::PathMode> path_mode_;
   std::vector<Sentence> notes_;
 };

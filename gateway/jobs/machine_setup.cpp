@@ -87,7 +87,8 @@ MotionLimits limits_before_shaping(const MachineDescription& machine, const Vibr
   return limits;
 }
 
-FilamentLimits limits_before_advance(const MachineDescription& machine, const AdvanceModel& model) {
+FilamentLimits limits_before_advance(const MachineDescription& machine, const VibrationDescription& vibration,
+                                     const AdvanceModel& model) {
   // Of the extruder's speed and acceleration, for what the advance adds. Where a retraction follows a bead
   // the two meet.
   constexpr double kShare = 0.4;
@@ -113,7 +114,7 @@ FilamentLimits limits_before_advance(const MachineDescription& machine, const Ad
       std::min({filament.accel_mm_per_s2, kShare * speed / (steepest_s * (1 + 2 * melt)),
                 kShare * accel * w / (steepest_s * (2 + 4 * melt))});
   // With shapers of their own one axis still brakes while another speeds up.
-  const VibrationDescription& v = machine.vibration;
+  const VibrationDescription& v = vibration;
   if (!(v.axis(0) == v.axis(1) && v.axis(1) == v.axis(2))) filament.flow_accel_mm_per_s2 *= 0.5;
   filament.rests = true;
   return filament;

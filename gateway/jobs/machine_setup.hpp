@@ -21,7 +21,8 @@ MotionLimits motion_limits(const MachineDescription& machine);
 MotionLimits limits_before_shaping(const MachineDescription& machine, const VibrationDescription& vibration);
 PathShaper::Shapers axis_shapers(const VibrationDescription& vibration);
 /// What leaves room for pressure advance within the limits of the extruder; unlimited where it does not act.
-FilamentLimits limits_before_advance(const MachineDescription& machine, const AdvanceModel& model);
+FilamentLimits limits_before_advance(const MachineDescription& machine, const VibrationDescription& vibration,
+                                     const AdvanceModel& model);
 /// Of one joint, mm or rad a s^3: its own limit, or the tool's in proportion to their accelerations; infinite
 /// where the tool's jerk is not limited.
 double joint_jerk_limit(const MachineDescription& machine, const JointDescription& joint);

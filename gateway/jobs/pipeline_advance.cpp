@@ -1,8 +1,9 @@
-// Pressure advance of a job: the machine file's, until the job says another.
+// Pressure advance and input shaping of a job: the machine file's, until the job says others.
 
 #include <algorithm>
 
 #include "gateway/jobs/job_pipeline.hpp"
+#include "gateway/jobs/job_shaping.hpp"
 #include "gateway/jobs/machine_setup.hpp"
 
 namespace kinebus {
@@ -19,10 +20,7 @@ bool has_extruder(const MachineDescription& machine) {
 void JobPipeline::begin_advance() {
   advances_.clear();
   const AdvanceWindow window = has_extruder(machine_) ? AdvanceWindow(advance_) : AdvanceWindow();
-  if (window == shaper_.advance_window())
-    shaper_.reset();
-  else
-    shaper_ = PathShaper(axis_shapers(machine_.vibration), window);
+  shaper_ = PathShaper(axis_shapers(vibration_), window);
   shaper_.set_advance(advance_);
   shaping_ = shaper_.active();
   limit_filament(advance_);
@@ -30,7 +28,7 @@ void JobPipeline::begin_advance() {
 
 void JobPipeline::limit_filament(const AdvanceModel& model) {
   const FilamentLimits limits =
-      has_extruder(machine_) ? limits_before_advance(machine_, model) : FilamentLimits{};
+      has_extruder(machine_) ? limits_before_advance(machine_, vibration_, model) : FilamentLimits{};
   if (const auto limited = planner_.limit_filament(limits); !limited)
     refuse(line_of(limited.error().line), 0, to_string(limited.error()));
 }
@@ -55,6 +53,31 @@ bool JobPipeline::take_advance(const canonical::Line& line) {
   advances_.push_back({line.line, next});
   limit_filament(next);
   return true;
+}
+
+/// Shaped in another way from the next move on: the run ends there.
+bool JobPipeline::take_shaping(const canonical::Line& line) {
+  const auto* asked = std::get_if<canonical::InputShaping>(&line.command);
+  if (asked == nullptr) return false;
+  canonical::InputShaping all = asked_shaping_;
+  merge_shaping(all, *asked);
+  const auto next = shaped_by_job(kinematics_, machine_.vibration, all);
+  if (!next) {
+    refuse(line_of(line.line), 0, next.error());
+    return true;
+  }
+  asked_shaping_ = all;
+  const bool other = axis_shapers(*next) != axis_shapers(vibration_);
+  vibration_ = *next;
+  if (other) drain(line);
+  return true;
+}
+
+/// At rest: the planner leaves what comes next the reserve of the shaper in force.
+void JobPipeline::begin_shaping(std::uint32_t line) {
+  planner_.limit_machine(limits_before_shaping(machine_, vibration_));
+  start_at(planner_.end_pose(), planner_.end_frame(), line);
+  begin_advance();
 }
 
 bool JobPipeline::push_planned() {

@@ -357,6 +357,11 @@ Frame Planner::end_frame() const {
   return impl_->frame;
 }
 
+void Planner::limit_machine(const MotionLimits& limits) {
+  impl_->machine = impl_->limits = limits;
+  impl_->filament = {};
+}
+
 void Planner::reset(const Pose& pose, Frame frame) {
   impl_->lookahead.clear();
   impl_->jerk_lookahead.clear();

@@ -66,6 +66,9 @@ class Planner {
   /// What filament may do in the moves added from here on, before which the path rests. Stays in force over
   /// reset().
   Result<void, PlanError> limit_filament(const FilamentLimits& limits);
+  /// Other limits of the machine (the same ones of jerk stay), from the reset() on that must follow. What
+  /// filament was limited to besides is forgotten.
+  void limit_machine(const MotionLimits& limits);
 
   /// Plans all that was added to a stop at its end. The last phase carries `last`. More may be added
   /// afterwards (it starts from rest there), but only after all phases have been pulled.

@@ -55,6 +55,10 @@ InputShaper make_shaper(ShaperKind kind, double frequency_hz, double damping_rat
       return of(std::array{1.0, std::numbers::sqrt2, 1.0}, 0.375);
     case ShaperKind::kZvd:
       return of(std::array{1.0, 2.0, 1.0}, 0.5);
+    case ShaperKind::kZvdd:
+      return of(std::array{1.0, 3.0, 3.0, 1.0}, 0.5);
+    case ShaperKind::kZvddd:
+      return of(std::array{1.0, 4.0, 6.0, 4.0, 1.0}, 0.5);
     case ShaperKind::kEi:
       return of(std::array{(1 + v) / 4, (1 - v) / 2, (1 + v) / 4}, 0.5);
     case ShaperKind::kTwoHump: {

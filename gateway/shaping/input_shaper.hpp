@@ -4,14 +4,11 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <span>
 
-namespace kinebus {
+#include "gateway/shaper_kind.hpp"
 
-/// Singer and Seering 1990 (ZV, ZVD); Singhose, Seering and Singer 1994 (EI); Singhose, Porter and Seering
-/// 1997 (2HUMP, 3HUMP); MZV: three pulses within three quarters of a period.
-enum class ShaperKind : std::uint8_t { kNone, kZv, kMzv, kZvd, kEi, kTwoHump, kThreeHump };
+namespace kinebus {
 
 /// Pulses at times from 0 on, s; weights > 0 whose sum is 1. One pulse at 0: the motion stays as it is.
 struct InputShaper {

@@ -82,7 +82,7 @@ TEST(MachineFile, VibrationSaysAShaperForAllDirectionsOrEach) {
   const std::pair<const char*, const char*> refused[] = {
       {"[vibration]\nshaper = \"ei\"\nfrequency_hz = 40",
        "vibration.shaper: found 'ei'; expected one of \"none\" \"ZV\" \"MZV\" \"ZVD\" \"EI\" \"2HUMP\" "
-       "\"3HUMP\""},
+       "\"3HUMP\" \"ZVDD\" \"ZVDDD\""},
       {"[vibration]\nshaper = \"ZV\"",
        "found no frequency; expected the frequency of the vibration that the shaper is for"},
       {"[vibration]\nshaper = \"ZV\"\nfrequency_hz = 0.5", "expected a number in 1 .. 500"},

@@ -264,6 +264,57 @@ TEST(JobPipeline, ShapingMakesEachRunLongerByTheShaper) {
   }
 }
 
+TEST(JobPipeline, AJobShapesItsMotionFromALineOn) {
+  const std::string move = "G1 X50 F3000\nG1 X20 Y20\n", half = "M593 P\"zvd\" F40 S0\n";
+  const double plain_s = trace(move).motion_s;
+  StringSource source(move + half + "G1 X50 Y0\nG1 X20 Y20\nM593 F0\nG1 X50\n");
+  JobPipeline pipeline(machine(), kinematics());
+  pipeline.start_job(source, kinematics().bed_reference());
+  std::vector<double> runs_s{0};
+  std::vector<bool> timed;
+  int budget = 1'000'000;
+  for (PipelineStep step = pipeline.next(budget); step != PipelineStep::kEnd; step = pipeline.next(budget)) {
+    ASSERT_NE(step, PipelineStep::kProblem) << pipeline.problem().words.english();
+    if (step == PipelineStep::kRunEnd) runs_s.push_back(0);
+    if (step != PipelineStep::kPhase) continue;
+    if (runs_s.back() == 0) timed.push_back(pipeline.phase().timed);
+    runs_s.back() += pipeline.phase().duration_s;
+  }
+  ASSERT_EQ(timed, (std::vector<bool>{false, true, false}));
+  EXPECT_NEAR(runs_s[0], plain_s, 1e-9);
+  // The same as on a machine that says so in its file.
+  MachineDescription shaped = machine();
+  shaped.vibration.every = {ShaperKind::kZvd, 40, 0};
+  const std::string before = "G1 X50 F3000\nG1 X20 Y20\nG4 P1\n";
+  EXPECT_NEAR(motion_of(shaped, before + "G1 X50 Y0\nG1 X20 Y20\n", 1000).first -
+                  motion_of(shaped, before, 1000).first,
+              runs_s[1], 1e-9);
+  // The next job knows nothing of it.
+  StringSource again(move);
+  pipeline.start_job(again, kinematics().bed_reference());
+  double next_s = 0;
+  for (PipelineStep step = pipeline.next(budget); step != PipelineStep::kEnd; step = pipeline.next(budget))
+    if (step == PipelineStep::kPhase) next_s += pipeline.phase().duration_s;
+  EXPECT_NEAR(next_s, plain_s, 1e-9);
+}
+
+TEST(JobPipeline, AShaperThatTheMachineCannotTakeIsRefusedWithItsLine) {
+  for (const char* line : {"M593 X F40\n", "SET_INPUT_SHAPER SHAPER_TYPE=zv\n",
+                           "SET_INPUT_SHAPER SHAPER_FREQ_X=40 SHAPER_FREQ_Y=50\n"}) {
+    StringSource source(std::string("G1 X50 F3000\n") + line + "G1 X0\n");
+    JobPipeline pipeline(machine(), kinematics());
+    pipeline.start_job(source, kinematics().bed_reference());
+    int budget = 1000, problems = 0;
+    for (PipelineStep step = pipeline.next(budget); step != PipelineStep::kEnd;
+         step = pipeline.next(budget)) {
+      if (step != PipelineStep::kProblem) continue;
+      ++problems;
+      EXPECT_EQ(pipeline.problem().line, 2U) << line;
+    }
+    EXPECT_EQ(problems, 1) << line;
+  }
+}
+
 TEST(JobPipeline, AStatedDeviationLowersTheAcceleration) {
   const std::string job = "G1 X50 F12000\nG1 X0\n";
   MachineDescription shaped = machine();

@@ -11,8 +11,9 @@
 namespace kinebus {
 namespace {
 
-constexpr ShaperKind kAll[] = {ShaperKind::kZv, ShaperKind::kMzv,     ShaperKind::kZvd,
-                               ShaperKind::kEi, ShaperKind::kTwoHump, ShaperKind::kThreeHump};
+constexpr ShaperKind kAll[] = {ShaperKind::kZv,   ShaperKind::kMzv,     ShaperKind::kZvd,
+                               ShaperKind::kEi,   ShaperKind::kTwoHump, ShaperKind::kThreeHump,
+                               ShaperKind::kZvdd, ShaperKind::kZvddd};
 
 /// Largest residual over frequencies within `share` of the shaper's own.
 double worst_within(ShaperKind kind, double share, double damping) {
@@ -46,7 +47,8 @@ TEST(InputShaper, WeightsArePositiveWithSumOneAndTimesRise) {
 TEST(InputShaper, DurationsAreThePublishedShareOfThePeriod) {
   const std::pair<ShaperKind, double> table[] = {{ShaperKind::kZv, 0.5},      {ShaperKind::kMzv, 0.75},
                                                  {ShaperKind::kZvd, 1},       {ShaperKind::kEi, 1},
-                                                 {ShaperKind::kTwoHump, 1.5}, {ShaperKind::kThreeHump, 2}};
+                                                 {ShaperKind::kTwoHump, 1.5}, {ShaperKind::kThreeHump, 2},
+                                                 {ShaperKind::kZvdd, 1.5},    {ShaperKind::kZvddd, 2}};
   for (const auto& [kind, periods] : table) {
     EXPECT_NEAR(make_shaper(kind, 40, 0).duration_s(), periods / 40, 1e-12);
     EXPECT_NEAR(make_shaper(kind, 40, 0.2).duration_s(), periods / (40 * std::sqrt(0.96)), 1e-12);
@@ -55,7 +57,8 @@ TEST(InputShaper, DurationsAreThePublishedShareOfThePeriod) {
 
 TEST(InputShaper, NothingIsLeftAtTheirOwnFrequencyOrTheToleranceThatTheyGive) {
   for (const double damping : {0.0, 0.05, 0.1, 0.2}) {
-    for (const ShaperKind kind : {ShaperKind::kZv, ShaperKind::kMzv, ShaperKind::kZvd})
+    for (const ShaperKind kind :
+         {ShaperKind::kZv, ShaperKind::kMzv, ShaperKind::kZvd, ShaperKind::kZvdd, ShaperKind::kZvddd})
       EXPECT_NEAR(residual_vibration(make_shaper(kind, 50, damping), 50, damping), 0, 1e-12);
     for (const ShaperKind kind : {ShaperKind::kEi, ShaperKind::kTwoHump, ShaperKind::kThreeHump})
       EXPECT_LE(residual_vibration(make_shaper(kind, 50, damping), 50, damping), kShaperTolerance + 1e-12);
@@ -69,6 +72,10 @@ TEST(InputShaper, UndampedCurvesAreTheClosedForms) {
     const double zv = std::abs(std::cos(0.5 * pi * ratio));
     EXPECT_NEAR(residual_vibration(make_shaper(ShaperKind::kZv, 50, 0), 50 * ratio, 0), zv, 1e-12);
     EXPECT_NEAR(residual_vibration(make_shaper(ShaperKind::kZvd, 50, 0), 50 * ratio, 0), zv * zv, 1e-12);
+    EXPECT_NEAR(residual_vibration(make_shaper(ShaperKind::kZvdd, 50, 0), 50 * ratio, 0), std::pow(zv, 3),
+                1e-12);
+    EXPECT_NEAR(residual_vibration(make_shaper(ShaperKind::kZvddd, 50, 0), 50 * ratio, 0), std::pow(zv, 4),
+                1e-12);
     const double ei = std::abs(0.5 * 1.05 * std::cos(pi * ratio) + 0.5 * 0.95);
     EXPECT_NEAR(residual_vibration(make_shaper(ShaperKind::kEi, 50, 0), 50 * ratio, 0), ei, 1e-12);
   }
