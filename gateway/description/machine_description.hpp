@@ -149,6 +149,8 @@ struct VibrationDescription {
   std::optional<AxisVibration> x, y, z;  ///< in the place of that
   /// Shaping may move the tool so far off its path, mm; 0: as far as the tool's acceleration makes it.
   double deviation_mm = 0;
+  /// Shapers are made for all rates of path time from here to 1; 0: for 1.
+  double slowest_rate = 0;
 
   const AxisVibration& axis(std::size_t pose_axis) const;
   /// Motion is shaped at all.

@@ -241,6 +241,7 @@ template <class V>
 void visit_vibration(V& v, VibrationDescription& d) {
   visit_axis_vibration(v, d.every);
   v.unless_zero("deviation_um", d.deviation_mm, {1, 10000}, 1e-3);
+  v.unless_zero("override_from_percent", d.slowest_rate, {30, 100}, 0.01);
   v.optional_table("x", d.x, [&](AxisVibration& a) { visit_axis_vibration(v, a); });
   v.optional_table("y", d.y, [&](AxisVibration& a) { visit_axis_vibration(v, a); });
   v.optional_table("z", d.z, [&](AxisVibration& a) { visit_axis_vibration(v, a); });

@@ -11,7 +11,7 @@ namespace {
 using canonical::InputShaping;
 
 constexpr double kLeast_hz = 1, kMost_hz = 500, kMostDamping = 0.5;
-constexpr std::string_view kAxes = "xyz";
+constexpr std::string_view kShapedAxes = "xyz";
 
 struct ShaperName {
   std::string_view name;  ///< lower case
@@ -88,15 +88,16 @@ std::optional<LineWord> next_word(std::string_view text, std::size_t& at) {
 
 /// Without a value it tells the one in force to those who ask: nothing to carry out.
 bool Core::input_shaping() {
-  InputShaping::Axis asked{.usual = rules_->dialect == Dialect::kMarlin ? ShaperKind::kZv : ShaperKind::kMzv};
-  std::array<bool, kAxes.size()> named{};
+  InputShaping::Axis asked;
+  asked.usual = rules_->dialect == Dialect::kMarlin ? ShaperKind::kZv : ShaperKind::kMzv;
+  std::array<bool, kShapedAxes.size()> named{};
   const std::string_view text = block_.text;
   for (std::size_t at = 0;;) {
     const auto word = next_word(text, at);
     if (!word) break;
     const std::uint32_t column = block_.text_column;
     const std::string letter(1, static_cast<char>(word->letter - 'a' + 'A'));
-    if (const std::size_t axis = kAxes.find(word->letter); axis != std::string_view::npos) {
+    if (const std::size_t axis = kShapedAxes.find(word->letter); axis != std::string_view::npos) {
       named[axis] = true;
     } else if (word->letter == 'p') {
       asked.shaper = shaper_named(word->text);
@@ -112,7 +113,7 @@ bool Core::input_shaping() {
   }
   if (auto wrong = wrong_values(asked)) return fail(block_.text_column, std::move(*wrong));
   if (!asked.asks()) return true;
-  const bool all = named == std::array<bool, kAxes.size()>{};
+  const bool all = named == std::array<bool, kShapedAxes.size()>{};
   InputShaping shaping;
   for (std::size_t i = 0; i < named.size(); ++i)
     if (all || named[i]) shaping.axes[i] = asked;
@@ -129,7 +130,7 @@ bool Core::set_input_shaper(std::uint32_t column, std::span<const ShaperWord> wo
     std::string_view key = word.name;
     std::size_t first = 0, behind = 2;  // without an axis: X and Y
     if (key.size() > 2 && key[key.size() - 2] == '_') {
-      first = kAxes.find(key.back());
+      first = kShapedAxes.find(key.back());
       behind = first + 1;
       if (first != std::string_view::npos) key.remove_suffix(2);
     }

@@ -198,7 +198,10 @@ JobPipeline::Step JobPipeline::next(int& budget) {
 
 /// The planner's next phase, shaped where the machine shapes.
 bool JobPipeline::pull_phase() {
-  if (!shaping_) return planner_.next(phase_);
+  if (!shaping_) {
+    phase_.timed = false;  // a run before this one may have been shaped
+    return planner_.next(phase_);
+  }
   while (!shaper_.next(phase_))
     if (!push_planned()) return false;
   check_shaped();

@@ -37,7 +37,9 @@ PathShaper::Shapers axis_shapers(const VibrationDescription& vibration) {
   PathShaper::Shapers shapers;
   for (std::size_t i = 0; i < shapers.size(); ++i) {
     const AxisVibration& axis = vibration.axis(i);
-    shapers[i] = make_shaper(axis.shaper, axis.frequency_hz, axis.damping_ratio);
+    const double made_for_hz =
+        frequency_for_rates(axis.shaper, axis.frequency_hz, axis.damping_ratio, vibration.slowest_rate);
+    shapers[i] = make_shaper(axis.shaper, made_for_hz, axis.damping_ratio);
   }
   return shapers;
 }

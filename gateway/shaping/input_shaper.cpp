@@ -1,5 +1,6 @@
 #include "gateway/shaping/input_shaper.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <numbers>
@@ -85,6 +86,34 @@ double residual_vibration(const InputShaper& shaper, double frequency_hz, double
     sine += grown * std::sin(damped * p.time_s);
   }
   return std::exp(-damping_ratio * w * shaper.duration_s()) * std::hypot(cosine, sine);
+}
+
+double frequency_for_rates(ShaperKind kind, double frequency_hz, double damping_ratio, double slowest_rate) {
+  if (kind == ShaperKind::kNone || slowest_rate >= 1 || slowest_rate <= 0) return frequency_hz;
+  constexpr double kFrequencyError = 0.1, kCoarse = 0.04, kFine = 0.005, kMostScale = 1.5;
+  constexpr int kRates = 14;
+  const auto worst_at = [&](double scale) {
+    const InputShaper shaper = make_shaper(kind, scale * frequency_hz, damping_ratio);
+    double worst = 0;
+    for (int i = 0; i <= kRates; ++i) {
+      const double rate = slowest_rate + (1 - slowest_rate) * i / kRates;
+      for (const double error : {1 - kFrequencyError, 1.0, 1 + kFrequencyError})
+        worst = std::max(worst, residual_vibration(shaper, frequency_hz * error / rate, damping_ratio));
+    }
+    return worst;
+  };
+  const auto best_of = [&](double from, double to, double step) {
+    double best = from, least = worst_at(from);
+    for (double scale = from + step; scale <= to; scale += step) {
+      const double worst = worst_at(scale);
+      if (worst >= least) continue;
+      least = worst;
+      best = scale;
+    }
+    return best;
+  };
+  const double coarse = best_of(1, kMostScale / slowest_rate, kCoarse);
+  return frequency_hz * best_of(std::max(1.0, coarse - kCoarse), coarse + kCoarse, kFine);
 }
 
 }  // namespace kinebus

@@ -36,6 +36,11 @@ inline constexpr double kShaperTolerance = 0.05;
 /// `frequency_hz`: of the vibration as it swings undamped, > 0; `damping_ratio` 0 .. 0.9.
 InputShaper make_shaper(ShaperKind kind, double frequency_hz, double damping_ratio);
 
+/// For which frequency a shaper is to be made so that it leaves least of a vibration of `frequency_hz`, known
+/// to 10 %, at every rate of path time from `slowest_rate` (0.3 .. 1) to 1, which stretches its pulses: to
+/// unshaped at the same rate. At slowest_rate 1 or 0 the frequency itself. Cost: about 0.3 ms.
+double frequency_for_rates(ShaperKind kind, double frequency_hz, double damping_ratio, double slowest_rate);
+
 /// What a shaped step of acceleration leaves of a vibration: its amplitude at the last pulse, to the one that
 /// the unshaped step begins with.
 double residual_vibration(const InputShaper& shaper, double frequency_hz, double damping_ratio);

@@ -341,8 +341,36 @@
         <translation>%1 در این ماشین اثری ندارد</translation>
     </message>
     <message>
-        <source>%1 has no effect in a job: [vibration] in the machine file says how motion is shaped</source>
-        <translation>%1 در کار اثری ندارد: [vibration] در پروندهٔ ماشین می‌گوید حرکت چگونه شکل داده می‌شود</translation>
+        <source>there is no shaper %1; known are none, zv, mzv, zvd, zvdd, zvddd, ei, ei2 (2hump_ei), ei3 (3hump_ei)</source>
+        <translation>شکل‌دهنده‌ای به نام %1 نیست؛ شناخته‌شده‌ها none، zv، mzv، zvd، zvdd، zvddd، ei، ei2 (2hump_ei)، ei3 (3hump_ei) هستند</translation>
+    </message>
+    <message>
+        <source>a shaper for %1 Hz; allowed are %2 to %3 Hz, or 0 for none</source>
+        <translation>شکل‌دهنده برای %1 هرتز؛ مجاز %2 تا %3 هرتز است، یا 0 برای هیچ</translation>
+    </message>
+    <message>
+        <source>a shaper for a damping ratio of %1; allowed are 0 to %2</source>
+        <translation>شکل‌دهنده برای نسبت میرایی %1؛ مجاز 0 تا %2 است</translation>
+    </message>
+    <message>
+        <source>%1 with %2 is not supported: X Y Z, F in Hz, D or S for the damping, P&quot;shaper&quot;</source>
+        <translation>%1 با %2 پشتیبانی نمی‌شود: X Y Z، F به هرتز، D یا S برای میرایی، P&quot;شکل‌دهنده&quot;</translation>
+    </message>
+    <message>
+        <source>%1 knows no %2: SHAPER_TYPE, SHAPER_FREQ and DAMPING_RATIO, with _X, _Y or _Z behind them</source>
+        <translation>%1 واژهٔ %2 را نمی‌شناسد: SHAPER_TYPE، SHAPER_FREQ و DAMPING_RATIO، با _X، _Y یا _Z پشت آن‌ها</translation>
+    </message>
+    <message>
+        <source>K%1 is on the scale of linear advance 1.0 (Marlin before 1.1.9), which says nothing in seconds: write K in s, 0 to %2, or leave it to advance_s in [pressure_advance]</source>
+        <translation>K%1 در مقیاس linear advance 1.0 است (مارلین پیش از 1.1.9) که به ثانیه معنایی ندارد: K را به ثانیه، 0 تا %2، بنویسید یا آن را به advance_s در [pressure_advance] بسپارید</translation>
+    </message>
+    <message>
+        <source>a shaper without a frequency: neither the job nor [vibration] has said one</source>
+        <translation>شکل‌دهنده‌ای بدون بسامد: نه کار و نه [vibration] بسامدی گفته است</translation>
+    </message>
+    <message>
+        <source>different shapers on a machine that turns or tilts the part: one shaper for X, Y and Z is needed</source>
+        <translation>شکل‌دهنده‌های متفاوت در ماشینی که قطعه را می‌چرخاند یا کج می‌کند: یک شکل‌دهنده برای X، Y و Z لازم است</translation>
     </message>
     <message>
         <source>%1 and %2 would both use the line&apos;s axis words: write them in two lines</source>

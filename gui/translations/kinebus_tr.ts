@@ -341,8 +341,36 @@
         <translation>%1 bu makinede etkisiz</translation>
     </message>
     <message>
-        <source>%1 has no effect in a job: [vibration] in the machine file says how motion is shaped</source>
-        <translation>%1 bir işte etkisiz: hareketin nasıl biçimlendirileceğini makine dosyasındaki [vibration] söyler</translation>
+        <source>there is no shaper %1; known are none, zv, mzv, zvd, zvdd, zvddd, ei, ei2 (2hump_ei), ei3 (3hump_ei)</source>
+        <translation>%1 adında bir biçimlendirici yok; bilinenler none, zv, mzv, zvd, zvdd, zvddd, ei, ei2 (2hump_ei), ei3 (3hump_ei)</translation>
+    </message>
+    <message>
+        <source>a shaper for %1 Hz; allowed are %2 to %3 Hz, or 0 for none</source>
+        <translation>%1 Hz için biçimlendirici; izin verilen %2 ile %3 Hz arası, ya da kapatmak için 0</translation>
+    </message>
+    <message>
+        <source>a shaper for a damping ratio of %1; allowed are 0 to %2</source>
+        <translation>%1 sönüm oranı için biçimlendirici; izin verilen 0 ile %2 arası</translation>
+    </message>
+    <message>
+        <source>%1 with %2 is not supported: X Y Z, F in Hz, D or S for the damping, P&quot;shaper&quot;</source>
+        <translation>%1, %2 ile desteklenmiyor: X Y Z, Hz olarak F, sönüm için D ya da S, P&quot;biçimlendirici&quot;</translation>
+    </message>
+    <message>
+        <source>%1 knows no %2: SHAPER_TYPE, SHAPER_FREQ and DAMPING_RATIO, with _X, _Y or _Z behind them</source>
+        <translation>%1, %2 sözcüğünü bilmez: SHAPER_TYPE, SHAPER_FREQ ve DAMPING_RATIO, arkalarında _X, _Y ya da _Z ile</translation>
+    </message>
+    <message>
+        <source>K%1 is on the scale of linear advance 1.0 (Marlin before 1.1.9), which says nothing in seconds: write K in s, 0 to %2, or leave it to advance_s in [pressure_advance]</source>
+        <translation>K%1, linear advance 1.0 ölçeğindedir (1.1.9 öncesi Marlin) ve saniye olarak bir anlamı yoktur: K değerini s olarak, 0 ile %2 arasında yazın ya da [pressure_advance] içindeki advance_s değerine bırakın</translation>
+    </message>
+    <message>
+        <source>a shaper without a frequency: neither the job nor [vibration] has said one</source>
+        <translation>frekansı olmayan biçimlendirici: ne iş ne de [vibration] bir frekans söyledi</translation>
+    </message>
+    <message>
+        <source>different shapers on a machine that turns or tilts the part: one shaper for X, Y and Z is needed</source>
+        <translation>parçayı döndüren ya da eğen bir makinede farklı biçimlendiriciler: X, Y ve Z için tek biçimlendirici gerekir</translation>
     </message>
     <message>
         <source>%1 and %2 would both use the line&apos;s axis words: write them in two lines</source>

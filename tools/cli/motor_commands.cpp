@@ -15,6 +15,7 @@
 #include "tools/cli/heat_command.hpp"
 #include "tools/cli/job_watch.hpp"
 #include "tools/cli/message_json.hpp"
+#include "tools/cli/tune_command.hpp"
 
 namespace kinebus {
 namespace {
@@ -118,11 +119,15 @@ void add_motor_commands(CLI::App& app, const std::shared_ptr<MachineOptions>& op
   auto celsius = std::make_shared<std::optional<double>>();
   auto* tune = app.add_subcommand(
       "tune", "Let a node measure a motor's winding while it stands, or a heater: kinebus tune hotend");
-  tune->add_option("name", *tuned, "A joint's or a heater's name in the machine file")->required();
+  tune->require_subcommand(0, 1);
+  add_tune_commands(*tune, options, exit_code);
+  tune->add_option("name", *tuned, "A joint's or a heater's name in the machine file");
   tune->add_option("--temperature", *celsius,
                    "C that a heater shall be good at (default: 200 a hot end, 80 a bed, 70 a chamber)")
       ->check(CLI::Range(1.0, 1000.0));
   tune->callback([=, &exit_code] {
+    if (!tune->get_subcommands().empty()) return;
+    if (tuned->empty()) throw CLI::RequiredError("name");
     Client client(options->reach, kMotorStatusHz, true);
     const joblink::MachineInfo machine = machine_of(client);
     if (const joblink::HeaterInfo* heater = heater_called(machine, *tuned)) {

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "gateway/jobs/job_pipeline.hpp"
+#include "tools/simulation/planned_phases.hpp"
 
 namespace kinebus {
 namespace {
@@ -27,23 +27,6 @@ double tool_path(const Phase& phase) {
     return std::hypot(q[kX] - p[kX], q[kY] - p[kY], q[kZ] - p[kZ]);
   };
   return far(a, m) + far(m, b);
-}
-
-/// All phases of the job as a machine without shaping and advance would run it.
-void plan(const MachineDescription& machine, const Kinematics& kinematics, ByteSource& text, double limit_s,
-          const std::function<void(const Phase&)>& take) {
-  JobPipeline pipeline(machine, kinematics);
-  pipeline.start_job(text, kinematics.bed_reference());
-  double time_s = 0;
-  for (;;) {
-    int budget = 1000;
-    const JobPipeline::Step step = pipeline.next(budget);
-    if (step == JobPipeline::Step::kEnd) return;
-    if (step != JobPipeline::Step::kPhase) continue;
-    take(pipeline.phase());
-    time_s += pipeline.phase().duration_s;
-    if (limit_s > 0 && time_s > limit_s) return;
-  }
 }
 
 class Klipper {
@@ -132,7 +115,7 @@ BeadReference bead_reference(const MachineDescription& machine,
   const auto kinematics = make_kinematics(plain);
   if (!kinematics) return reference;
   auto text = open();
-  plan(plain, **kinematics, *text, limit_s, [&](const Phase& phase) {
+  for_each_phase(plain, **kinematics, *text, limit_s, [&](const Phase& phase) {
     const double length = tool_path(phase);
     const double filament = phase.at(phase.duration_s).x[kE] - phase.at(0).x[kE];
     if (length > 0) reference.lines.add(phase.line, length, std::max(0.0, filament));
@@ -145,7 +128,7 @@ BeadReference bead_reference(const MachineDescription& machine,
   text = open();
   double start_s = 0;
   std::uint64_t ticks = 0;
-  plan(plain, **kinematics, *text, limit_s, [&](const Phase& phase) {
+  for_each_phase(plain, **kinematics, *text, limit_s, [&](const Phase& phase) {
     for (; static_cast<double>(ticks) * kTick_s < start_s + phase.duration_s; ++ticks) {
       const PosePoint p = phase.at(static_cast<double>(ticks) * kTick_s - start_s);
       const bool prints = p.x1[kE] > 0 && std::hypot(p.x1[kX], p.x1[kY]) > 0;

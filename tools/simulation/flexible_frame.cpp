@@ -29,6 +29,19 @@ std::array<FlexibleFrame::Modes, 3> FlexibleFrame::truth(const VibrationDescript
   return modes;
 }
 
+std::array<FlexibleFrame::Modes, 3> FlexibleFrame::hidden(std::uint64_t seed) {
+  std::array<Modes, 3> modes;
+  std::mt19937_64 random(seed ^ 0x3C6EF372FE94F82BULL);
+  const auto between = [&random](double low, double high) {
+    return low + (high - low) * (static_cast<double>(random() >> 11) * 0x1p-53);
+  };
+  for (Modes& m : modes) {
+    const double frequency = between(28, 75), damping = between(0.03, 0.15), share = between(0.05, 0.15);
+    m = {{{frequency, damping, 1 - share}, {between(2.1, 3.1) * frequency, between(0.03, 0.1), share}}};
+  }
+  return modes;
+}
+
 void FlexibleFrame::move_to(const Vector& rigid_mm, double dt_s) {
   if (!placed_) {
     rigid_ = rigid_mm;
@@ -58,6 +71,17 @@ void FlexibleFrame::move_to(const Vector& rigid_mm, double dt_s) {
       deflection_[i] += mode.share * s.x;
     }
   }
+}
+
+FlexibleFrame::Vector FlexibleFrame::acceleration_mm_per_s2() const {
+  Vector accel{};
+  for (std::size_t i = 0; i < accel.size(); ++i)
+    for (std::size_t m = 0; m < modes_[i].size(); ++m) {
+      const Mode& mode = modes_[i][m];
+      const double w = 2 * std::numbers::pi * mode.frequency_hz;
+      accel[i] -= mode.share * (w * w * states_[i][m].x + 2 * mode.damping_ratio * w * states_[i][m].v);
+    }
+  return accel;
 }
 
 FlexibleFrame::Vector FlexibleFrame::static_deflection_mm(const Vector& accel) const {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 namespace kinebus {
 
@@ -14,6 +15,25 @@ Nozzle::Truth Nozzle::truth(const AdvanceModel& assumed, double error, std::uint
   truth.press_s = press_s * (1 + (seed % 2 == 0 ? -error : error));
   truth.melt_s = melt_s * (1 + (seed / 2 % 2 == 0 ? -3 * error : 3 * error));
   return truth;
+}
+
+Nozzle::Truth Nozzle::hidden(std::uint64_t seed) {
+  std::mt19937_64 random(seed ^ 0xA54FF53A5F1D36F1ULL);
+  const auto between = [&random](double low, double high) {
+    return low + (high - low) * (static_cast<double>(random() >> 11) * 0x1p-53);
+  };
+  Truth truth;
+  truth.press_s = between(0.025, 0.085);
+  truth.melt_s = between(0.08, 0.2) * truth.press_s;
+  truth.power = between(0.82, 0.98);
+  return truth;
+}
+
+double Nozzle::secant_s(const Truth& truth, double from, double to) {
+  const auto pressed = [&truth](double flow) {
+    return truth.press_s * Truth::kUsual_mm_per_s * std::pow(flow / Truth::kUsual_mm_per_s, truth.power);
+  };
+  return (pressed(to) - pressed(from)) / (to - from);
 }
 
 double Nozzle::feed(double fed_mm, double dt_s) {

@@ -24,6 +24,11 @@ class Nozzle {
   /// seed; melt that flows the easier the faster it is pushed, and that oozes, nobody has told of.
   static Truth truth(const AdvanceModel& assumed, double error, std::uint64_t seed);
 
+  /// Melt that nobody has measured: pressed together by 0.025 to 0.085 s.
+  static Truth hidden(std::uint64_t seed);
+  /// The advance that would take a step from one flow to another at once, mm over mm/s.
+  static double secant_s(const Truth& truth, double from_mm_per_s, double to_mm_per_s);
+
   explicit Nozzle(const Truth& truth) : truth_(truth) {}
   /// Filament goes on by `fed_mm` evenly over dt_s. Returns what came out, mm of filament.
   double feed(double fed_mm, double dt_s);

@@ -66,15 +66,16 @@ TEST(MachineFile, AScaleSaysItsPulsesAndIsOnARailThatHomes) {
 
 TEST(MachineFile, VibrationSaysAShaperForAllDirectionsOrEach) {
   EXPECT_FALSE(parse_machine(edited("[tolerance]", "[tolerance]").text, "m")->vibration.shapes());
-  const auto machine = parse_machine(
-      edited("[tolerance]",
-             "[vibration]\nshaper = \"EI\"\nfrequency_hz = 48.5\ndeviation_um = 20\n[tolerance]")
-          .text,
-      "m");
+  const auto machine = parse_machine(edited("[tolerance]",
+                                            "[vibration]\nshaper = \"EI\"\nfrequency_hz = 48.5\ndeviation_um "
+                                            "= 20\noverride_from_percent = 50\n[tolerance]")
+                                         .text,
+                                     "m");
   ASSERT_TRUE(machine) << to_string(machine.error());
   EXPECT_TRUE(machine->vibration.shapes());
   EXPECT_EQ(machine->vibration.axis(2), (AxisVibration{ShaperKind::kEi, 48.5, 0.1}));
   EXPECT_NEAR(machine->vibration.deviation_mm, 0.020, 1e-12);
+  EXPECT_NEAR(machine->vibration.slowest_rate, 0.5, 1e-12);
   const auto again = parse_machine(write_machine(*machine), "written");
   ASSERT_TRUE(again) << to_string(again.error());
   EXPECT_TRUE(*again == *machine);

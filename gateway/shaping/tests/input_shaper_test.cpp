@@ -93,6 +93,28 @@ TEST(InputShaper, FrequencyMayBeWrongByThePublishedShareForTwentyTimesLessVibrat
   EXPECT_GT(worst_within(ShaperKind::kZvd, 0.20, 0), tolerance);
 }
 
+TEST(InputShaper, MadeForOverridesItLeavesLittleAtEachOfThem) {
+  EXPECT_EQ(frequency_for_rates(ShaperKind::kEi, 45, 0.1, 1), 45);
+  EXPECT_EQ(frequency_for_rates(ShaperKind::kEi, 45, 0.1, 0), 45);
+  const auto worst = [](ShaperKind kind, double made_for_hz, double slowest) {
+    const InputShaper shaper = make_shaper(kind, made_for_hz, 0.1);
+    double most = 0;
+    for (double rate = slowest; rate <= 1; rate += 0.01)
+      for (const double error : {0.9, 0.95, 1.0, 1.05, 1.1})
+        for (const double damping : {0.07, 0.13})
+          most = std::max(most, residual_vibration(shaper, 45 * error / rate, damping));
+    return most;
+  };
+  for (const ShaperKind kind : kAll) {
+    const double made_for_hz = frequency_for_rates(kind, 45, 0.1, 0.5);
+    EXPECT_GT(made_for_hz, 45);
+    EXPECT_LT(worst(kind, made_for_hz, 0.5), worst(kind, 45, 0.5));
+  }
+  EXPECT_LE(worst(ShaperKind::kThreeHump, frequency_for_rates(ShaperKind::kThreeHump, 45, 0.1, 0.5), 0.5),
+            0.05);
+  EXPECT_LE(worst(ShaperKind::kTwoHump, frequency_for_rates(ShaperKind::kTwoHump, 45, 0.1, 0.7), 0.7), 0.05);
+}
+
 TEST(InputShaper, CornersLeaveThePathByThePublishedDistances) {
   // At 5000 mm/s^2 and 50 Hz.
   const auto corner_um = [](ShaperKind kind) {

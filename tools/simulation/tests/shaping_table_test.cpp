@@ -29,9 +29,11 @@ const std::vector<Phase>& corners() {
   return phases;
 }
 
-std::vector<Phase> shaped(ShaperKind kind) {
+/// `slowest`: the rate from which on the shaper is made for.
+std::vector<Phase> shaped(ShaperKind kind, double slowest = 1) {
   if (kind == ShaperKind::kNone) return corners();
-  const InputShaper one = make_shaper(kind, kFrequency_hz, kDamping);
+  const InputShaper one =
+      make_shaper(kind, frequency_for_rates(kind, kFrequency_hz, kDamping, slowest), kDamping);
   PathShaper shaper({one, one, one});
   std::vector<Phase> out;
   Phase phase;
@@ -126,6 +128,35 @@ TEST(ShapingTable, WhatIsLeftByShaperFrequencyErrorAndRate) {
     }
   }
   fmt::print("vibration left, rms (peak), to unshaped at full rate\n{}\n", table);
+}
+
+TEST(ShapingTable, MadeForOverridesItLeavesNoMoreThanAtFullRate) {
+  // Sampled each millisecond a plan is not straight within: what swings of that.
+  constexpr double kSampling_um = 0.3;
+  std::string table =
+      "made for overrides from 50 %: vibration left, rms (peak), to unshaped at full rate [to unshaped at "
+      "the same]\n";
+  for (const Named& named : kShapers) {
+    if (!robust(named.kind)) continue;
+    const std::vector<Phase> phases = shaped(named.kind, 0.5);
+    for (const double error : {-0.10, 0.10}) {
+      table += fmt::format("{:8} {:+5.0f} % ", named.name, 100 * error);
+      const double full_um = vibration(corners(), error, 3 * error, full).rms_um;
+      for (const double rate : {1.0, 0.9, 0.8, 0.7, 0.6, 0.5}) {
+        const auto at = [rate](double) { return rate; };
+        const double unshaped_um = vibration(corners(), error, 3 * error, at).rms_um;
+        const Left left = vibration(phases, error, 3 * error, at);
+        table += fmt::format("  {:.3f} ({:.2f} um) [{:.3f}]", left.rms_um / full_um, left.peak_um,
+                             left.rms_um / unshaped_um);
+        if (named.kind == ShaperKind::kThreeHump) {
+          EXPECT_LE(left.rms_um, 0.05 * full_um) << error << " at rate " << rate;
+          EXPECT_LE(left.rms_um, std::max(0.05 * unshaped_um, kSampling_um)) << error << " at rate " << rate;
+        }
+      }
+      table += "\n";
+    }
+  }
+  fmt::print("{}", table);
 }
 
 TEST(ShapingTable, AHoldLeavesNoMoreThanItsOwnRamp) {
