@@ -26,7 +26,7 @@ struct Stretch {
 Result<std::vector<LineWidths>, std::string> print_simulated(const MachineDescription& machine,
                                                              const PressurePattern& pattern,
                                                              const Nozzle::Truth& truth, std::uint64_t seed) {
-  const std::string text = pattern_job(pattern);
+  const std::string text = (pattern.hotend_celsius > 0 ? "" : "M104 S210\n") + pattern_job(pattern);
   Nozzle nozzle(truth);
   std::vector<std::array<Stretch, 2>> lines(static_cast<std::size_t>(pattern.lines));
   for (auto& [faster, slower] : lines) {

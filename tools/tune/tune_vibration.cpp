@@ -174,9 +174,11 @@ std::string to_table(const VibrationTuning& tuning) {
       text += fmt::format("{}: {}\n", "XYZ"[i], axis.problem);
       continue;
     }
+    const double last_hz = axis.fit->bands.middle_hz(axis.fit->bands.count - 1);
     for (const FittedMode& m : axis.fit->modes)
-      text += fmt::format("{}: swings at {:.2f} Hz, damping ratio {:.3f}, {:.0f} % of the motion\n", "XYZ"[i],
-                          m.frequency_hz, m.damping_ratio, 100 * m.share);
+      text += fmt::format("{}: swings at {:.2f} Hz, damping ratio {:.3f}, {:.0f} % of the motion{}\n",
+                          "XYZ"[i], m.frequency_hz, m.damping_ratio, 100 * m.share,
+                          m.frequency_hz > last_hz ? " (a guess: beyond what was shaken)" : "");
     text += fmt::format("   the spectrum is within {:.1f} dB rms of that\n", axis.fit->error_db);
     last = &axis;
     if (!tuning.shared) shapers(axis);

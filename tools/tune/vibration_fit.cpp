@@ -2,25 +2,54 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 namespace kinebus {
 namespace {
 
 // A peak below this is no spring that a shaper could do something about.
 constexpr double kLeastPeak = 1.8;
-// A second mode is believed where it takes away so much of the squares of the one that is left.
-constexpr double kSecondGain = 0.15;
+// A second mode is believed where it takes away so much of the squares that one mode leaves. It may lie
+// beyond the bands: there it still lifts what is seen below it.
+constexpr double kSecondGain = 0.02, kMostSecond = 4;
 constexpr int kSteps = 60;
 
 /// ln of gain, noise, frequency and damping; of a second mode its share, as a logit, frequency and damping.
-using Parameters = Eigen::VectorXd;
-enum : int { kGain, kNoise, kFrequency, kDamping, kShare, kFrequency2, kDamping2 };
+using Vector = std::vector<double>;
+using Parameters = Vector;
+enum : std::size_t { kGain, kNoise, kFrequency, kDamping, kShare, kFrequency2, kDamping2 };
+
+double square_sum(const Vector& values) {
+  return std::inner_product(values.begin(), values.end(), values.begin(), 0.0);
+}
+
+/// Solves a x = b for a symmetric, positive definite a, by rows (Cholesky). Empty: it is not.
+Vector solved(std::vector<Vector> a, Vector b) {
+  const std::size_t n = b.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    for (std::size_t i = 0; i < k; ++i) a[k][k] -= a[k][i] * a[k][i];
+    if (!(a[k][k] > 0)) return {};
+    a[k][k] = std::sqrt(a[k][k]);
+    for (std::size_t r = k + 1; r < n; ++r) {
+      for (std::size_t i = 0; i < k; ++i) a[r][k] -= a[r][i] * a[k][i];
+      a[r][k] /= a[k][k];
+    }
+  }
+  for (std::size_t k = 0; k < n; ++k) {
+    for (std::size_t i = 0; i < k; ++i) b[k] -= a[k][i] * b[i];
+    b[k] /= a[k][k];
+  }
+  for (std::size_t k = n; k-- > 0;) {
+    for (std::size_t i = k + 1; i < n; ++i) b[k] -= a[i][k] * b[i];
+    b[k] /= a[k][k];
+  }
+  return b;
+}
 
 std::vector<FittedMode> modes_of(const Parameters& p) {
   std::vector<FittedMode> modes{{std::exp(p[kFrequency]), std::min(0.7, std::exp(p[kDamping])), 1}};
@@ -40,46 +69,62 @@ class Search {
 
   /// Returns the sum of squares; `p` is the best found.
   double minimise(Parameters& p) const {
-    Eigen::VectorXd r = residuals(p);
-    double cost = r.squaredNorm(), damping = 1e-2;
-    for (int step = 0; step < kSteps && damping < 1e8; ++step) {
-      constexpr double kStep = 1e-5;
-      Eigen::MatrixXd j(r.size(), p.size());
-      for (Eigen::Index k = 0; k < p.size(); ++k) {
-        Parameters moved = p;
-        moved[k] += kStep;
-        j.col(k) = (residuals(moved) - r) / kStep;
-      }
-      const Eigen::MatrixXd square = j.transpose() * j;
-      const Eigen::VectorXd slope = j.transpose() * r;
-      for (;;) {
-        Eigen::MatrixXd damped = square;
-        damped.diagonal() += damping * (square.diagonal().array() + 1e-9).matrix();
-        const Parameters next = p - damped.ldlt().solve(slope);
-        const Eigen::VectorXd at_next = residuals(next);
-        const double better = at_next.squaredNorm();
-        if (std::isfinite(better) && better < cost) {
-          const bool done = cost - better < 1e-9 * cost;
-          p = next, r = at_next, cost = better;
-          damping *= 0.3;
-          if (done) return cost;
-          break;
-        }
-        damping *= 4;
-        if (damping >= 1e8) return cost;
-      }
+    Vector r = residuals(p);
+    double cost = square_sum(r), damping = 1e-2;
+    for (int step = 0; step < kSteps && damping < kMostDamped; ++step) {
+      const double before = cost;
+      const std::vector<Vector> j = derivatives(p, r);
+      while (damping < kMostDamped && cost == before) try_step(j, damping, p, r, cost);
+      if (before - cost < 1e-9 * before) break;
     }
     return cost;
   }
 
  private:
-  Eigen::VectorXd residuals(const Parameters& p) const {
+  static constexpr double kMostDamped = 1e8;
+
+  std::vector<Vector> derivatives(const Parameters& p, const Vector& r) const {
+    constexpr double kStep = 1e-5;
+    std::vector<Vector> j;
+    for (std::size_t k = 0; k < p.size(); ++k) {
+      Parameters moved = p;
+      moved[k] += kStep;
+      j.push_back(residuals(moved));
+      for (std::size_t i = 0; i < r.size(); ++i) j[k][i] = (j[k][i] - r[i]) / kStep;
+    }
+    return j;
+  }
+
+  /// One step, taken where it makes the sum smaller.
+  void try_step(const std::vector<Vector>& j, double& damping, Parameters& p, Vector& r, double& cost) const {
+    std::vector<Vector> square(p.size(), Vector(p.size()));
+    Vector slope(p.size());
+    for (std::size_t a = 0; a < p.size(); ++a) {
+      for (std::size_t b = 0; b < p.size(); ++b)
+        square[a][b] = std::inner_product(j[a].begin(), j[a].end(), j[b].begin(), 0.0);
+      slope[a] = std::inner_product(j[a].begin(), j[a].end(), r.begin(), 0.0);
+    }
+    for (std::size_t a = 0; a < p.size(); ++a) square[a][a] += damping * (square[a][a] + 1e-9);
+    const Vector by = solved(std::move(square), std::move(slope));
+    Parameters next = p;
+    for (std::size_t a = 0; a < by.size(); ++a) next[a] -= by[a];
+    Vector at_next = residuals(next);
+    const double better = square_sum(at_next);
+    if (!(better < cost)) {
+      damping *= 4;
+      return;
+    }
+    p = std::move(next), r = std::move(at_next), cost = better;
+    damping *= 0.3;
+  }
+
+  Vector residuals(const Parameters& p) const {
     const std::vector<FittedMode> modes = modes_of(p);
-    Eigen::VectorXd r(static_cast<Eigen::Index>(bands_.count));
+    Vector r(bands_.count);
     for (std::size_t i = 0; i < bands_.count; ++i) {
       const double t = transmissibility(modes, bands_.middle_hz(i));
       const double modelled = std::exp(2 * p[kGain]) * t * t * planned_[i] + std::exp(p[kNoise]);
-      r[static_cast<Eigen::Index>(i)] = std::log(measured_[i] / modelled);
+      r[i] = std::log(measured_[i] / modelled);
     }
     return r;
   }
@@ -117,17 +162,13 @@ Result<VibrationFit, std::string> fit_vibration(const Bands& bands, const std::v
   };
   for (std::size_t i = 1; i + 1 < bands.count; ++i)
     if (near(i) > near(peak)) peak = i;
-  std::vector<double> sorted = fit.measured;
-  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 20),
-                   sorted.end());
   const Search search(bands, planned, measured);
   const double noise = std::log(1e-3 * std::accumulate(measured.begin(), measured.end(), 0.0) /
                                 static_cast<double>(measured.size()));
-  Parameters best(4);
+  Parameters best;
   double cost = -1;
   for (const double damping : {0.05, 0.12, 0.25}) {
-    Parameters p(4);
-    p << 0, noise, std::log(bands.middle_hz(peak)), std::log(damping);
+    Parameters p{0, noise, std::log(bands.middle_hz(peak)), std::log(damping)};
     const double found = search.minimise(p);
     if (cost >= 0 && found >= cost) continue;
     cost = found;
@@ -135,15 +176,15 @@ Result<VibrationFit, std::string> fit_vibration(const Bands& bands, const std::v
   }
   std::optional<Parameters> two;
   double cost_of_two = (1 - kSecondGain) * cost;
-  for (const double ratio : {0.5, 1.5, 2.0, 2.5, 3.0}) {
+  for (const double ratio : {0.5, 1.5, 1.9, 2.2, 2.5, 2.8, 3.2}) {
     const double second_hz = ratio * bands.middle_hz(peak);
-    if (second_hz < bands.from_hz || second_hz > bands.middle_hz(bands.count - 1)) continue;
-    Parameters p(7);
-    p << best, -1.5, std::log(second_hz), std::log(0.06);
+    if (second_hz < bands.from_hz) continue;
+    Parameters p = best;
+    p.insert(p.end(), {-1.5, std::log(second_hz), std::log(0.06)});
     const double found = search.minimise(p);
     if (found >= cost_of_two) continue;
     const double at_hz = std::exp(p[kFrequency2]);
-    if (at_hz < bands.from_hz || at_hz > 1.2 * bands.middle_hz(bands.count - 1)) continue;
+    if (at_hz < bands.from_hz || at_hz > kMostSecond * std::exp(p[kFrequency])) continue;
     cost_of_two = found;
     two = p;
   }
