@@ -2,6 +2,9 @@
 
 #include <QChar>
 #include <QCoreApplication>
+#include <QLocale>
+#include <QRegularExpression>
+#include <QRegularExpressionMatch>
 
 namespace kinebus::gui {
 namespace {
@@ -12,6 +15,16 @@ constexpr int kDeepest = 8;
 /// Numbers and names keep their order within a right-to-left sentence.
 QString isolated(const QString& text) {
   return QChar(0x2066) + text + QChar(0x2069);
+}
+
+/// "0.720" or "-12.5 mm", a measure that stands for itself, with the digits of the language.
+QString measure(const QString& text) {
+  static const QRegularExpression kMeasure(QStringLiteral("^([-+]?\\d+)\\.(\\d+)( \\D+)?$"));
+  const QRegularExpressionMatch match = kMeasure.match(text);
+  if (!match.hasMatch()) return text;
+  return QLocale().toString(text.left(match.capturedEnd(2)).toDouble(), 'f',
+                            static_cast<int>(match.capturedLength(2))) +
+         match.captured(3);
 }
 
 QString say(const joblink::Sentence& sentence, int depth) {
@@ -25,7 +38,11 @@ QString say(const joblink::Sentence& sentence, int depth) {
       text += pattern[i];
       continue;
     }
-    text += say(sentence.parts(place), depth + 1);
+    const joblink::Sentence& part = sentence.parts(place);
+    // The 38.2 of "G%1" is a name.
+    const bool stands_alone = text.isEmpty() || !(text.back().isLetterOrNumber() || text.back() == u'#');
+    text += part.verbatim() && stands_alone ? isolated(measure(QString::fromStdString(part.text())))
+                                            : say(part, depth + 1);
     ++i;
   }
   return text;

@@ -3,9 +3,11 @@
 
 #include <QAbstractButton>
 #include <QApplication>
+#include <QCheckBox>
 #include <QComboBox>
 #include <QKeyEvent>
 #include <QLabel>
+#include <QListView>
 #include <QMessageBox>
 #include <QPoint>
 #include <QPushButton>
@@ -90,6 +92,28 @@ TEST_F(CalmTest, TheWheelOverTheOverrideOrAChoiceWithoutFocusChangesNothing) {
   EXPECT_GE(choices, 3) << "motor, heater, work coordinates";
   QApplication::processEvents();
   EXPECT_EQ(gateway.count(joblink::ClientMessage::kSetOverride), 0);
+}
+
+TEST_F(CalmTest, AlarmsListsAlarmsAndMessagesWhereTheyAreAskedFor) {
+  joblink::Event event;
+  event.set_id(1);
+  event.set_kind(joblink::EVENT_MESSAGE);
+  event.set_words("first layer");
+  gateway.say(event);
+  event.set_id(2);
+  event.set_kind(joblink::EVENT_ALARM);
+  event.set_code(0xFF85);
+  gateway.say(event);
+  ASSERT_TRUE(wait_until([&] { return desk.events.rowCount() == 2; }));
+  QListView* list = nullptr;
+  for (auto* view : window->findChildren<QListView*>())
+    if (view->accessibleName() == QStringLiteral("What has happened, newest first")) list = view;
+  ASSERT_NE(list, nullptr);
+  EXPECT_EQ(list->model()->rowCount(), 1);
+  EXPECT_TRUE(list->model()->index(0, 0).data(EventsModel::kIsAlarm).toBool());
+  for (auto* box : window->findChildren<QCheckBox*>())
+    if (box->text() == QStringLiteral("Messages, too")) box->setChecked(true);
+  EXPECT_EQ(list->model()->rowCount(), 2);
 }
 
 TEST_F(CalmTest, ANumberOutOfRangeIsRefusedAsAWhole) {

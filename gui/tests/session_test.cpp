@@ -9,6 +9,7 @@
 #include <QDateTime>
 #include <QFile>
 #include <QIODevice>
+#include <QLocale>
 #include <QTemporaryDir>
 #include <QTranslator>
 
@@ -236,6 +237,20 @@ TEST_F(SessionTest, WhatTheGatewaySaysIsToldInTheUsersLanguage) {
   EXPECT_EQ(told(), QStringLiteral("line 4: the job does not go on: X is %1 mm outside the workspace"));
   QCoreApplication::installTranslator(&turkish);
   EXPECT_EQ(told(), QStringLiteral("line 4: iş sürmüyor: X çalışma alanının %1 mm dışında"));
+  const QLocale before;
+  QLocale::setDefault(QLocale(QStringLiteral("tr")));
+  verbatim(*why.mutable_parts(1), "0.720 mm");
+  EXPECT_EQ(told(), QStringLiteral("line 4: iş sürmüyor: X çalışma alanının 0,720 mm dışında"));
+  verbatim(*why.mutable_parts(0), "G38.2");
+  verbatim(*why.mutable_parts(1), "10.0.0.1");
+  EXPECT_EQ(told(), QStringLiteral("line 4: iş sürmüyor: G38.2 çalışma alanının 10.0.0.1 dışında"))
+      << "names are nobody's numbers";
+  why.set_text("G%1 is not for M%2");
+  verbatim(*why.mutable_parts(0), "38.2");
+  EXPECT_EQ(told(), QStringLiteral("line 4: iş sürmüyor: G38.2 is not for M10.0.0.1"));
+  QLocale::setDefault(before);
+  verbatim(*why.mutable_parts(0), "X");
+  verbatim(*why.mutable_parts(1), "%1 mm");
   why.set_text("%1 is %2 something that only a newer gateway says");
   EXPECT_EQ(told(),
             QStringLiteral("line 4: iş sürmüyor: X is %1 mm something that only a newer gateway says"));

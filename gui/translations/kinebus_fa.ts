@@ -277,22 +277,6 @@
         <translation>G30.1 پشتیبانی نمی‌شود: G10 L2 یا پارامتر به کار ببرید</translation>
     </message>
     <message>
-        <source>probing (G38) is not supported</source>
-        <translation>پروب (G38) پشتیبانی نمی‌شود</translation>
-    </message>
-    <message>
-        <source>probing (G38.2) is not supported</source>
-        <translation>پروب (G38.2) پشتیبانی نمی‌شود</translation>
-    </message>
-    <message>
-        <source>cutter compensation (G41) is not supported: offset the path in CAM</source>
-        <translation>جبران شعاع ابزار (G41) پشتیبانی نمی‌شود: مسیر را در CAM جابه‌جا کنید</translation>
-    </message>
-    <message>
-        <source>cutter compensation (G42) is not supported: offset the path in CAM</source>
-        <translation>جبران شعاع ابزار (G42) پشتیبانی نمی‌شود: مسیر را در CAM جابه‌جا کنید</translation>
-    </message>
-    <message>
         <source>G68.3 is not supported: use G68.2 with I J K</source>
         <translation>G68.3 پشتیبانی نمی‌شود: G68.2 با I J K به کار ببرید</translation>
     </message>
@@ -3832,6 +3816,10 @@
     <message>
         <source>What has happened, newest first</source>
         <translation>رویدادها، تازه‌ترین در آغاز</translation>
+    </message>
+    <message>
+        <source>Messages, too</source>
+        <translation>پیام‌ها هم</translation>
     </message>
 </context>
 <context>

@@ -277,22 +277,6 @@
         <translation>G30.1 desteklenmiyor: G10 L2 ya da parametre kullanın</translation>
     </message>
     <message>
-        <source>probing (G38) is not supported</source>
-        <translation>problama (G38) desteklenmiyor</translation>
-    </message>
-    <message>
-        <source>probing (G38.2) is not supported</source>
-        <translation>problama (G38.2) desteklenmiyor</translation>
-    </message>
-    <message>
-        <source>cutter compensation (G41) is not supported: offset the path in CAM</source>
-        <translation>kesici telafisi (G41) desteklenmiyor: yolu CAM&apos;de öteleyin</translation>
-    </message>
-    <message>
-        <source>cutter compensation (G42) is not supported: offset the path in CAM</source>
-        <translation>kesici telafisi (G42) desteklenmiyor: yolu CAM&apos;de öteleyin</translation>
-    </message>
-    <message>
         <source>G68.3 is not supported: use G68.2 with I J K</source>
         <translation>G68.3 desteklenmiyor: I J K ile G68.2 kullanın</translation>
     </message>
@@ -3832,6 +3816,10 @@
     <message>
         <source>What has happened, newest first</source>
         <translation>Olanlar, en yenisi önce</translation>
+    </message>
+    <message>
+        <source>Messages, too</source>
+        <translation>İletiler de</translation>
     </message>
 </context>
 <context>

@@ -2,6 +2,7 @@
 
 #include <QAbstractItemModel>
 #include <QAbstractItemView>
+#include <QCheckBox>
 #include <QColor>
 #include <QFont>
 #include <QFontMetrics>
@@ -12,6 +13,7 @@
 #include <QPushButton>
 #include <QRect>
 #include <QSize>
+#include <QSortFilterProxyModel>
 #include <QStyle>
 #include <QStyleOptionViewItem>
 #include <QStyledItemDelegate>
@@ -20,6 +22,24 @@
 
 namespace kinebus::gui {
 namespace {
+
+/// Of what has happened: alarms, or all of it.
+class AlarmsAlone : public QSortFilterProxyModel {
+ public:
+  using QSortFilterProxyModel::QSortFilterProxyModel;
+  void let_all_in(bool all) {
+    all_ = all;
+    invalidateFilter();
+  }
+
+ protected:
+  bool filterAcceptsRow(int row, const QModelIndex& parent) const override {
+    return all_ || sourceModel()->index(row, 0, parent).data(EventsModel::kIsAlarm).toBool();
+  }
+
+ private:
+  bool all_ = false;
+};
 
 class EventDelegate : public QStyledItemDelegate {
  public:
@@ -100,21 +120,31 @@ AlarmsPage::AlarmsPage(Desk& desk, QWidget* parent) : SpeakingWidget(parent), de
   row->addWidget(clear_, 0, Qt::AlignBottom);
   open_->column()->addLayout(row);
   fine_ = make_label("muted", this);
+  everything_ = new QCheckBox(this);
+  shown_ = new AlarmsAlone(this);
+  shown_->setSourceModel(&desk_.events);
   list_ = new QListView(this);
-  list_->setModel(&desk_.events);
+  list_->setModel(shown_);
   list_->setItemDelegate(new EventDelegate(desk_.theme, list_));
   list_->setVerticalScrollMode(QAbstractItemView::ScrollPerPixel);
   list_->setUniformItemSizes(false);
   column->addWidget(open_);
-  column->addWidget(fine_);
+  auto* head = new QHBoxLayout;
+  head->addWidget(fine_);
+  head->addStretch(1);
+  head->addWidget(everything_);
+  column->addLayout(head);
   column->addWidget(list_, 1);
   connect(clear_, &QPushButton::clicked, &desk_.session, &Session::clear);
+  connect(everything_, &QCheckBox::toggled, this,
+          [this](bool all) { static_cast<AlarmsAlone*>(shown_)->let_all_in(all); });
   connect(&desk_.events, &EventsModel::open_alarms_changed, this, &AlarmsPage::take);
   connect(&desk_.events, &QAbstractItemModel::rowsInserted, this, &AlarmsPage::take);
   connect(&desk_.session, &Session::status_changed, this, &AlarmsPage::take);
   says([this] {
     clear_->setText(tr("Clear"));
     fine_->setText(tr("No alarm is open."));
+    everything_->setText(tr("Messages, too"));
     list_->setAccessibleName(tr("What has happened, newest first"));
     desk_.events.retranslate();
     take();

@@ -1,9 +1,12 @@
 #pragma once
-// What has happened and what to do next. The newest open alarm stands on top, large.
+// Alarms and what to do next, and what else has happened where that is asked for. The newest open alarm
+// stands on top, large.
 
+#include <QCheckBox>
 #include <QLabel>
 #include <QListView>
 #include <QPushButton>
+#include <QSortFilterProxyModel>
 #include <QWidget>
 
 #include "gui/views/desk.hpp"
@@ -23,6 +26,8 @@ class AlarmsPage : public SpeakingWidget {
   Card* open_;
   QLabel *title_, *details_, *advice_, *fine_;
   QPushButton* clear_;
+  QCheckBox* everything_;
+  QSortFilterProxyModel* shown_;
   QListView* list_;
 };
 

@@ -191,7 +191,7 @@ void JogPage::take_status() {
   const auto system = static_cast<std::size_t>(s.work_system());
   if (connected && system >= 1 && system <= kSystems.size()) {
     const joblink::Pose& o = s.work_offset();
-    const auto mm = [](double v) { return QString::number(v, 'f', 3); };
+    const auto mm = [](double v) { return Format::number(v, 3); };
     active_offset_->setText(
         tr("Active: %1, zero at %2")
             .arg(Format::isolated(QString::fromLatin1(kSystems[system - 1])),

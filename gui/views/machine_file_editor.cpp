@@ -224,8 +224,11 @@ void MachineFileEditor::tell() {
   undo_->setEnabled(text_->document()->isUndoAvailable());
   save_->setEnabled(connected && read_once_ && file_.writable() && fresh && problems_.rowCount() == 0 &&
                     text_->document()->isModified());
-  QString place = QString::fromStdString(file_.path());
-  if (place.isEmpty()) place = read_once_ ? tr("The built-in machine file") : tr("Not read yet");
+  QString place;
+  if (!file_.path().empty())
+    place = Format::isolated(QString::fromStdString(file_.path()));
+  else
+    place = read_once_ ? tr("The built-in machine file") : tr("Not read yet");
   if (read_once_ && !file_.writable()) place += QStringLiteral(" · ") + tr("cannot be changed from here");
   if (read_once_ && file_.restart_needed())
     place += QStringLiteral(" · ") + tr("newer than what the gateway runs with");

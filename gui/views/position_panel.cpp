@@ -203,11 +203,9 @@ void PositionPanel::take_status() {
       t.x_mm(), t.y_mm(), t.z_mm(), t.a_rad() * kDegPerRad, t.c_rad() * kDegPerRad, t.e_mm()};
   for (int i = 0; i < 6; ++i) {
     const double v = values[static_cast<std::size_t>(i)];
-    // Coordinates keep the digits of G-code in every language.
     const double shown = std::abs(v) < 5e-4 ? 0 : v;
     axes_[i].value->setEnabled(!lost);
-    axes_[i].value->setText(known ? QString::number(shown, 'f', i == 3 || i == 4 ? 2 : 3)
-                                  : QStringLiteral("—"));
+    axes_[i].value->setText(known ? Format::number(shown, i == 3 || i == 4 ? 2 : 3) : QStringLiteral("—"));
   }
   frame_text_->setText(lost    ? tr("Last known position")
                        : known ? tr("Tool over the part")
@@ -219,7 +217,7 @@ void PositionPanel::take_status() {
     const bool here = known && number < s.joints_size();
     const double q = here ? s.joints(number) : 0;
     joints_[i].value->setText(
-        here ? QString::number(joint.rotary() ? q * kDegPerRad : q, 'f', joint.rotary() ? 2 : 3)
+        here ? Format::number(joint.rotary() ? q * kDegPerRad : q, joint.rotary() ? 2 : 3)
              : QStringLiteral("—"));
     joints_[i].value->setEnabled(!lost);
     const double span = joint.travel().max() - joint.travel().min();
