@@ -46,7 +46,7 @@ void main() {
   pixel = vec4(colour * mix(light, 1.15, glow) + shine, 1.0);
 })";
 
-// shade: feed, layer, margin in 0 .. 1. style 0: work, 1: travel, 2: not made yet.
+// shade: feed, layer, margin, feature in 0 .. 1. style 0: work, 1: travel, 2: not made yet.
 constexpr const char* kPathCommon = R"(
 uniform mat4 clip;
 uniform int colouring;
@@ -57,7 +57,7 @@ uniform vec3 remaining_colour;
 uniform vec4 near_colour;
 vec3 shade_colour(vec4 shade) {
   if (style == 1) return travel_colour;
-  float t = (colouring == 0 ? shade.x : colouring == 1 ? shade.y : shade.z) * 8.0;
+  float t = (colouring == 0 ? shade.x : colouring == 1 ? shade.y : colouring == 4 ? shade.w : shade.z) * 8.0;
   int i = int(min(t, 7.0));
   vec3 c = mix(ramp[i], ramp[i + 1], clamp(t - float(i), 0.0, 1.0));
   return style == 2 ? mix(remaining_colour, c, 0.16) : mix(c, near_colour.rgb, near_colour.a);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace kinebus::gui {
 namespace {
@@ -40,6 +41,18 @@ constexpr Ramp kMarginRamp{{{0.80F, 0.13F, 0.15F},
                             {0.32F, 0.69F, 0.48F},
                             {0.19F, 0.63F, 0.52F},
                             {0.14F, 0.57F, 0.56F}}};
+
+// Walls light and warm, what fills them dark, what is broken off green.
+constexpr Ramp kFeatureColours{{{0.52F, 0.55F, 0.58F},
+                                {0.90F, 0.45F, 0.15F},
+                                {0.94F, 0.72F, 0.27F},
+                                {0.72F, 0.25F, 0.27F},
+                                {0.56F, 0.36F, 0.72F},
+                                {0.24F, 0.50F, 0.82F},
+                                {0.30F, 0.67F, 0.38F},
+                                {0.16F, 0.55F, 0.55F},
+                                {0.85F, 0.52F, 0.68F}}};
+static_assert(kPathFeatures == std::tuple_size_v<Ramp>);
 
 constexpr std::array<float, 3> kPartColour{0.30F, 0.58F, 0.78F};
 constexpr Ramp kPartRamp{kPartColour, kPartColour, kPartColour, kPartColour, kPartColour,
@@ -83,10 +96,14 @@ PathShades shade_path(const ToolPath& path, const std::optional<MachineModel>& m
   const double feed_span = std::max(1, high - std::min(low, high));
   const double layer_span = static_cast<double>(std::max<std::size_t>(1, path.layers.size() - 1));
   std::size_t layer = 0;
+  auto feature = PathFeature::kOther;
+  auto change = path.features.begin();
   std::optional<std::array<double, 4>> before, now;
   for (std::size_t i = 0; i < path.size(); ++i) {
     if (i % 16384 == 0 && cancelled && cancelled()) return {};
     while (layer + 1 < path.layers.size() && i >= path.layers[layer].last) ++layer;
+    for (; change != path.features.end() && change->line <= path.lines[i]; ++change)
+      feature = change->feature;
     PathVertex& v = shades.vertices[i];
     v.point_mm = path.points_mm[i];
     double margin = 1;
@@ -106,7 +123,8 @@ PathShades shade_path(const ToolPath& path, const std::optional<MachineModel>& m
       }
     }
     v.shade = {byte((path.feeds_mm_per_min[i] - shades.feed_min_mm_per_min) / feed_span),
-               byte(static_cast<double>(layer) / layer_span), byte(margin), 255};
+               byte(static_cast<double>(layer) / layer_span), byte(margin),
+               byte(static_cast<double>(feature) / (kPathFeatures - 1))};
   }
   return shades;
 }
@@ -119,6 +137,8 @@ const std::array<std::array<float, 3>, 9>& colour_ramp(PathColouring colouring) 
       return kMarginRamp;
     case PathColouring::kPart:
       return kPartRamp;
+    case PathColouring::kFeature:
+      return kFeatureColours;
     case PathColouring::kFeed:
       break;
   }

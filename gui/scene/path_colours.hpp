@@ -13,12 +13,12 @@
 namespace kinebus::gui {
 
 /// kPart: as one body, in one colour.
-enum class PathColouring : std::uint8_t { kFeed, kLayer, kMargin, kPart };
-inline constexpr std::size_t kPathColourings = 4;
+enum class PathColouring : std::uint8_t { kFeed, kLayer, kMargin, kPart, kFeature };
+inline constexpr std::size_t kPathColourings = 5;
 
 struct PathVertex {
   std::array<float, 3> point_mm;
-  std::array<std::uint8_t, 4> shade;  ///< feed, layer, margin: 0 .. 255 along the ramp; the last is unused
+  std::array<std::uint8_t, 4> shade;  ///< feed, layer, margin, feature: 0 .. 255 along the ramp
 };
 
 struct PathShades {
@@ -31,7 +31,7 @@ struct PathShades {
 PathShades shade_path(const ToolPath& path, const std::optional<MachineModel>& model,
                       const std::function<bool()>& cancelled = {});
 
-/// Colours of a ramp, from 0 to 1, as sRGB.
+/// Colours of a ramp, from 0 to 1, as sRGB; of kFeature: those of PathFeature, in its order.
 const std::array<std::array<float, 3>, 9>& colour_ramp(PathColouring colouring);
 
 }  // namespace kinebus::gui

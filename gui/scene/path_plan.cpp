@@ -90,6 +90,7 @@ class Planner {
     for (const PathChunk& chunk : levels_.chunks) {
       if (chunk.layer < view_.first_layer || chunk.layer > view_.last_layer) continue;
       if (!view_.show_remaining && chunk.first_vertex >= view_.done_vertex) break;
+      if (chunk.first_vertex >= view_.end_vertex) break;
       if (chunk.bounds_mm.empty() || out_of_sight(chunk.bounds_mm, view_.clip)) continue;
       const float pixel_mm = distance_mm(chunk.bounds_mm, view_.eye_mm) * view_.mm_per_pixel_at_1mm;
       std::uint8_t level = 0;
@@ -125,12 +126,13 @@ class Planner {
     return lines;
   }
 
-  /// First line of a range whose end is not made yet.
-  std::uint32_t cut(const std::vector<std::uint32_t>& indices, IndexRange range) const {
+  /// First line of a range that ends at this vertex or behind it.
+  static std::uint32_t cut(const std::vector<std::uint32_t>& indices, IndexRange range,
+                           std::uint32_t vertex) {
     std::uint32_t low = range.first, high = range.last;
     while (low < high) {
       const std::uint32_t middle = low + (high - low) / 2;
-      if (indices[std::size_t{2} * middle + 1] < view_.done_vertex)
+      if (indices[std::size_t{2} * middle + 1] < vertex)
         low = middle + 1;
       else
         high = middle;
@@ -156,14 +158,19 @@ class Planner {
     const std::uint8_t level = raised(chosen.level, detail.coarser);
     const auto layers = static_cast<std::uint16_t>(whole(i) ? 1 : detail.layers);
     const IndexRange work = chosen.chunk->work[level];
-    const std::uint32_t done = cut(levels_.work[level], work);
+    const std::uint32_t end = cut(levels_.work[level], work, view_.end_vertex);
+    const std::uint32_t done = std::min(end, cut(levels_.work[level], work, view_.done_vertex));
     append(plan, {PathStyle::kWork, level, layers, {work.first, done}});
-    if (view_.show_remaining) append(plan, {PathStyle::kRemaining, level, layers, {done, work.last}});
+    if (view_.show_remaining) append(plan, {PathStyle::kRemaining, level, layers, {done, end}});
     if (!view_.show_travel) return;
     const auto travel_level = static_cast<std::uint8_t>(chosen.level + detail.coarser > 1 ? 1 : 0);
     const IndexRange travel = chosen.chunk->travel[travel_level];
-    const std::uint32_t end = view_.show_remaining ? travel.last : cut(levels_.travel[travel_level], travel);
-    append(plan, {PathStyle::kTravel, travel_level, 1, {travel.first, end}});
+    const std::uint32_t last =
+        view_.show_remaining ? view_.end_vertex : std::min(view_.end_vertex, view_.done_vertex);
+    append(plan, {PathStyle::kTravel,
+                  travel_level,
+                  1,
+                  {travel.first, cut(levels_.travel[travel_level], travel, last)}});
   }
 
   const PathLevels& levels_;

@@ -16,6 +16,7 @@ struct PathView {
   float mm_per_pixel_at_1mm = 0.001F;                      ///< size of a pixel for each mm of distance
   std::uint32_t first_layer = 0, last_layer = UINT32_MAX;  ///< both shown
   std::uint32_t done_vertex = UINT32_MAX;                  ///< vertices before it are made already
+  std::uint32_t end_vertex = UINT32_MAX;                   ///< from it on nothing is shown
   bool show_remaining = true;                              ///< what is not made yet, pale
   bool show_travel = false;
   std::size_t max_lines = SIZE_MAX;

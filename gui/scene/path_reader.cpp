@@ -55,6 +55,7 @@ PathReader::PathReader(Options options)
 }
 
 void PathReader::add(std::string_view text) {
+  features_.add(text);
   while (!text.empty() || reader_.busy()) {
     // Line by line, so that the interpreter's state is that of the commands. What ends the first is not known
     // yet.
@@ -75,6 +76,7 @@ ToolPath PathReader::finish() {
     drain();
   } while (reader_.busy());
   path_.line_count = reader_.lines();
+  path_.features = features_.finish();
   path_.refused_lines = reader_.refused();
   // A job that extrudes nothing is a cut: its feed moves are the work.
   if (!extrudes_)

@@ -11,6 +11,7 @@
 #include "gateway/gcode/interpreter.hpp"
 #include "gateway/gcode/job_reader.hpp"
 #include "gateway/pose.hpp"
+#include "gui/scene/path_features.hpp"
 #include "gui/scene/tool_path.hpp"
 
 namespace kinebus::gui {
@@ -50,6 +51,7 @@ class PathReader {
   Options options_;
   gcode::Interpreter interpreter_;
   gcode::JobReader reader_;
+  FeatureScanner features_;
   gcode::CommandBuffer commands_;
   ToolPath path_;
 

@@ -209,6 +209,7 @@ PathView SceneRenderer::path_view(std::size_t max_lines) const {
   view.mm_per_pixel_at_1mm = content_.camera.mm_per_pixel(pixels_) / content_.camera.distance_mm;
   view.first_layer = content_.first_layer;
   view.last_layer = content_.last_layer;
+  view.end_vertex = content_.end_vertex;
   view.done_vertex = content_.done_vertex;
   view.show_remaining = content_.show_remaining;
   view.show_travel = content_.show_travel;

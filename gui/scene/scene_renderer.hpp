@@ -43,6 +43,7 @@ struct SceneContent {
   PathColouring colouring = PathColouring::kFeed;
   std::uint32_t first_layer = 0, last_layer = UINT32_MAX;
   std::uint32_t done_vertex = UINT32_MAX;    ///< what is made so far; UINT32_MAX: no job runs
+  std::uint32_t end_vertex = UINT32_MAX;     ///< shown up to here
   std::uint32_t marked_vertex = UINT32_MAX;  ///< a place that the user asked for
   Camera camera;
   SceneColours colours;

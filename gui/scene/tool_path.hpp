@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "gui/scene/path_features.hpp"
+
 namespace kinebus::gui {
 
 struct Box {
@@ -32,12 +34,13 @@ struct PathLayer {
 
 struct ToolPath {
   std::vector<std::array<float, 3>> points_mm;
-  std::vector<std::uint32_t> lines;             ///< of the job, from 1; ascending
-  std::vector<std::uint16_t> feeds_mm_per_min;  ///< programmed; traverses 0
-  std::vector<PathKind> kinds;                  ///< of the move that ends at the vertex
-  std::vector<std::array<float, 2>> tilts_rad;  ///< A and C; empty: the job never turns anything
-  std::vector<PathLayer> layers;                ///< ascending, together all vertices
-  Box bounds_mm;                                ///< of what is worked
+  std::vector<std::uint32_t> lines;              ///< of the job, from 1; ascending
+  std::vector<std::uint16_t> feeds_mm_per_min;   ///< programmed; traverses 0
+  std::vector<PathKind> kinds;                   ///< of the move that ends at the vertex
+  std::vector<std::array<float, 2>> tilts_rad;   ///< A and C; empty: the job never turns anything
+  std::vector<FeatureScanner::Change> features;  ///< by line; none: the slicer does not say
+  std::vector<PathLayer> layers;                 ///< ascending, together all vertices
+  Box bounds_mm;                                 ///< of what is worked
   std::uint32_t line_count = 0;
   std::uint32_t refused_lines =
       0;  ///< lines that are no G-code for this machine; the path goes on behind them

@@ -15,11 +15,13 @@
 #include <QRgb>
 #include <QSettings>
 #include <QSize>
+#include <QSlider>
 #include <QStringList>
 #include <QTableView>
 #include <QTemporaryDir>
 #include <QWidget>
 #include <set>
+#include <stdexcept>
 
 #include "gui/screenshots/demo_job.hpp"
 #include "gui/tests/window_fixture.hpp"
@@ -191,6 +193,41 @@ TEST_F(WindowTest, FindingOfTheCheckLeadsToItsPlace) {
   ASSERT_TRUE(wait_until([&] { return window->view_page().scene().content().marked_vertex != UINT32_MAX; }));
   const auto vertex = window->view_page().scene().content().marked_vertex;
   EXPECT_EQ(desk.path.scene()->path.lines[vertex], 120u);
+}
+
+TEST_F(WindowTest, SlidersShowSomeLayersAndTheTopmostMoveByMove) {
+  gateway.jobs["part.gcode"] = vase_job(8, 3, 0.25).toStdString();
+  show_connected();
+  ASSERT_TRUE(wait_until([&] { return desk.jobs.rowCount() == 1; }));
+  window->show_page(MainWindow::kJobs);
+  window->jobs_page().select(QStringLiteral("part.gcode"));
+  window->jobs_page().check();
+  ASSERT_TRUE(wait_until([&] { return desk.path.scene() != nullptr; }));
+  const ToolPath& path = desk.path.scene()->path;
+  ASSERT_GT(path.layers.size(), 5u);
+  const auto slider = [&](const char* name) -> QSlider& {
+    for (auto* found : window->findChildren<QSlider*>())
+      if (found->accessibleName() == QLatin1String(name)) return *found;
+    throw std::runtime_error(name);
+  };
+  QSlider &top = slider("Show the layers up to here"), &bottom = slider("Show the layers from here on"),
+          &moves = slider("Show the topmost layer's moves up to here");
+  const SceneContent& content = window->view_page().scene().content();
+  ASSERT_TRUE(wait_until([&] { return top.isEnabled(); }));
+  EXPECT_EQ(content.end_vertex, UINT32_MAX);
+  top.setValue(3);
+  bottom.setValue(2);
+  EXPECT_EQ(content.first_layer, 2u);
+  EXPECT_EQ(content.last_layer, 3u);
+  EXPECT_EQ(moves.maximum(), static_cast<int>(path.layers[3].last - path.layers[3].first));
+  EXPECT_EQ(content.end_vertex, UINT32_MAX);
+  moves.setValue(4);
+  EXPECT_EQ(content.end_vertex, path.layers[3].first + 4);
+  bottom.setValue(4);
+  EXPECT_EQ(top.value(), 4) << "the bottom takes the top along";
+  EXPECT_EQ(content.end_vertex, UINT32_MAX) << "another layer is whole";
+  top.setValue(1);
+  EXPECT_EQ(bottom.value(), 1);
 }
 
 TEST_F(WindowTest, AnInterruptedJobOffersToGoOnOrToBeCancelled) {

@@ -5190,5 +5190,53 @@
         <source>As a body</source>
         <translation>همچون جسم</translation>
     </message>
+    <message>
+        <source>Show the layers from here on</source>
+        <translation>نمایش لایه‌ها از این‌جا به بعد</translation>
+    </message>
+    <message>
+        <source>Show the topmost layer&apos;s moves up to here</source>
+        <translation>نمایش حرکت‌های بالاترین لایه تا این‌جا</translation>
+    </message>
+    <message>
+        <source>Kind of line</source>
+        <translation>نوع خط</translation>
+    </message>
+    <message>
+        <source>other</source>
+        <translation>دیگر</translation>
+    </message>
+    <message>
+        <source>outer wall</source>
+        <translation>دیوارهٔ بیرونی</translation>
+    </message>
+    <message>
+        <source>inner wall</source>
+        <translation>دیوارهٔ درونی</translation>
+    </message>
+    <message>
+        <source>infill</source>
+        <translation>پُرکننده</translation>
+    </message>
+    <message>
+        <source>top and bottom</source>
+        <translation>رو و کف</translation>
+    </message>
+    <message>
+        <source>bridge</source>
+        <translation>پل</translation>
+    </message>
+    <message>
+        <source>support</source>
+        <translation>تکیه‌گاه</translation>
+    </message>
+    <message>
+        <source>skirt and brim</source>
+        <translation>دامن و لبه</translation>
+    </message>
+    <message>
+        <source>gap</source>
+        <translation>شکاف</translation>
+    </message>
 </context>
 </TS>

@@ -5190,5 +5190,53 @@
         <source>As a body</source>
         <translation>Cisim olarak</translation>
     </message>
+    <message>
+        <source>Show the layers from here on</source>
+        <translation>Katmanları buradan başlayarak göster</translation>
+    </message>
+    <message>
+        <source>Show the topmost layer&apos;s moves up to here</source>
+        <translation>En üst katmanın hareketlerini buraya kadar göster</translation>
+    </message>
+    <message>
+        <source>Kind of line</source>
+        <translation>Çizgi türü</translation>
+    </message>
+    <message>
+        <source>other</source>
+        <translation>diğer</translation>
+    </message>
+    <message>
+        <source>outer wall</source>
+        <translation>dış duvar</translation>
+    </message>
+    <message>
+        <source>inner wall</source>
+        <translation>iç duvar</translation>
+    </message>
+    <message>
+        <source>infill</source>
+        <translation>dolgu</translation>
+    </message>
+    <message>
+        <source>top and bottom</source>
+        <translation>üst ve alt</translation>
+    </message>
+    <message>
+        <source>bridge</source>
+        <translation>köprü</translation>
+    </message>
+    <message>
+        <source>support</source>
+        <translation>destek</translation>
+    </message>
+    <message>
+        <source>skirt and brim</source>
+        <translation>etek ve kenarlık</translation>
+    </message>
+    <message>
+        <source>gap</source>
+        <translation>boşluk</translation>
+    </message>
 </context>
 </TS>

@@ -23,6 +23,7 @@
 #include <QVBoxLayout>
 #include <QVector>
 #include <QWidget>
+#include "gui/models/format.hpp"
 
 namespace kinebus::gui {
 namespace {

@@ -1,71 +1,25 @@
 #include "gui/views/view_page.hpp"
 
-#include <QColor>
-#include <QFontMetrics>
 #include <QHBoxLayout>
-#include <QLinearGradient>
-#include <QPaintEvent>
-#include <QPainter>
-#include <QPainterPath>
-#include <QPalette>
-#include <QRect>
-#include <QRectF>
 #include <QSettings>
-#include <QSize>
+#include <QSignalBlocker>
 #include <QSizePolicy>
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <QWidget>
+#include <algorithm>
+#include <array>
 
 #include "gui/models/format.hpp"
 #include "gui/models/machine_picture.hpp"
 
 namespace kinebus::gui {
 
-RampLegend::RampLegend(QWidget* parent) : QWidget(parent) {
-  setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Fixed);
-}
-
-void RampLegend::set(PathColouring colouring, const QString& low, const QString& high) {
-  colouring_ = colouring;
-  low_ = low;
-  high_ = high;
-  updateGeometry();
-  update();
-}
-
-QSize RampLegend::sizeHint() const {
-  const QFontMetrics metrics = fontMetrics();
-  return {metrics.horizontalAdvance(low_) + metrics.horizontalAdvance(high_) + 150, metrics.height() + 4};
-}
-
-void RampLegend::paintEvent(QPaintEvent*) {
-  QPainter painter(this);
-  painter.setRenderHint(QPainter::Antialiasing);
-  const QFontMetrics metrics = fontMetrics();
-  const bool mirrored = layoutDirection() == Qt::RightToLeft;
-  const QString &first = mirrored ? high_ : low_, &last = mirrored ? low_ : high_;
-  const int before = metrics.horizontalAdvance(first) + 8, after = metrics.horizontalAdvance(last) + 8;
-  const QRectF bar(before, height() / 2.0 - 4, width() - before - after, 8);
-  QLinearGradient gradient(bar.topLeft(), bar.topRight());
-  const auto& ramp = colour_ramp(colouring_);
-  for (std::size_t i = 0; i < ramp.size(); ++i) {
-    const double at = static_cast<double>(i) / static_cast<double>(ramp.size() - 1);
-    gradient.setColorAt(mirrored ? 1 - at : at, QColor::fromRgbF(ramp[i][0], ramp[i][1], ramp[i][2]));
-  }
-  painter.setPen(Qt::NoPen);
-  painter.setBrush(gradient);
-  painter.drawRoundedRect(bar, 4, 4);
-  painter.setPen(palette().color(QPalette::PlaceholderText));
-  painter.drawText(QRect(0, 0, before, height()), Qt::AlignLeft | Qt::AlignVCenter | Qt::TextForceLeftToRight,
-                   first);
-  painter.drawText(QRect(width() - after, 0, after, height()),
-                   Qt::AlignRight | Qt::AlignVCenter | Qt::TextForceLeftToRight, last);
-}
-
 ViewPage::ViewPage(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(desk) {
   scene_ = new SceneView(this);
   layers_ = new QSlider(Qt::Vertical, this);
+  first_layer_ = new QSlider(Qt::Vertical, this);
+  moves_ = new QSlider(Qt::Horizontal, this);
   layer_text_ = make_label("small", this);
   broken_ = make_label("danger", this);
   broken_->setWordWrap(true);
@@ -73,14 +27,22 @@ ViewPage::ViewPage(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(
 
   auto* side = new QVBoxLayout;
   side->setSpacing(6);
-  side->addWidget(layers_, 1, Qt::AlignHCenter);
+  auto* handles = new QHBoxLayout;
+  handles->setSpacing(2);
+  handles->addWidget(first_layer_);
+  handles->addWidget(layers_);
+  side->addLayout(handles, 1);
   side->addWidget(layer_text_, 0, Qt::AlignHCenter);
   layer_text_->setAlignment(Qt::AlignCenter);
   layer_text_->setMinimumWidth(58);
 
   auto* middle = new QHBoxLayout;
   middle->setSpacing(8);
-  middle->addWidget(scene_, 1);
+  auto* seen = new QVBoxLayout;
+  seen->setSpacing(4);
+  seen->addWidget(scene_, 1);
+  seen->addWidget(moves_);
+  middle->addLayout(seen, 1);
   middle->addLayout(side);
 
   auto* column = new QVBoxLayout(this);
@@ -95,12 +57,16 @@ ViewPage::ViewPage(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(
     broken_->setText(tr("The 3D scene cannot be shown: %1").arg(why.trimmed()));
     broken_->show();
   });
-  connect(layers_, &QSlider::valueChanged, this, [this](int value) {
-    scene_->content().last_layer =
-        value >= layers_->maximum() ? UINT32_MAX : static_cast<std::uint32_t>(value);
-    tell_layer();
-    scene_->redraw();
+  connect(layers_, &QSlider::valueChanged, this, [this](int top) {
+    first_layer_->setValue(std::min(first_layer_->value(), top));
+    take_top_layer();
+    take_sliders();
   });
+  connect(first_layer_, &QSlider::valueChanged, this, [this](int bottom) {
+    layers_->setValue(std::max(layers_->value(), bottom));
+    take_sliders();
+  });
+  connect(moves_, &QSlider::valueChanged, this, &ViewPage::take_sliders);
   connect(&desk_.session, &Session::status_changed, this, &ViewPage::take_status);
   connect(&desk_.session, &Session::machine_changed, this, [this] {
     const auto model = model_of(desk_.session.machine());
@@ -125,6 +91,10 @@ ViewPage::ViewPage(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(
     scene_->setAccessibleName(tr("Scene: machine and tool path"));
     layers_->setToolTip(tr("Show the layers up to here"));
     layers_->setAccessibleName(layers_->toolTip());
+    first_layer_->setToolTip(tr("Show the layers from here on"));
+    first_layer_->setAccessibleName(first_layer_->toolTip());
+    moves_->setToolTip(tr("Show the topmost layer's moves up to here"));
+    moves_->setAccessibleName(moves_->toolTip());
     tell_legend();
     tell_job();
     tell_layer();
@@ -138,7 +108,7 @@ QWidget* ViewPage::make_tools() {
   row->setSpacing(3);
   auto* colour_label = make_label("muted", bar);
   colouring_ = new QComboBox(bar);
-  colouring_->addItems({{}, {}, {}, {}});
+  colouring_->addItems({{}, {}, {}, {}, {}});
   row->addWidget(colour_label);
   row->addSpacing(4);
   row->addWidget(colouring_);
@@ -181,6 +151,7 @@ QWidget* ViewPage::make_tools() {
     colouring_->setItemText(1, tr("Layer"));
     colouring_->setItemText(2, tr("Limit margin"));
     colouring_->setItemText(3, tr("As a body"));
+    colouring_->setItemText(4, tr("Kind of line"));
     colouring_->setAccessibleName(tr("Colour of the tool path"));
     const auto name = [](QToolButton* tool, const QString& words) {
       tool->setToolTip(words);
@@ -280,10 +251,14 @@ void ViewPage::take_path() {
   if (shown_ != desk_.path.scene()) {
     shown_ = desk_.path.scene();
     const int layers = shown_ == nullptr ? 0 : static_cast<int>(shown_->path.layers.size());
-    layers_->setRange(0, std::max(0, layers - 1));
+    for (QSlider* slider : {layers_, first_layer_}) {
+      slider->setRange(0, std::max(0, layers - 1));
+      slider->setEnabled(layers > 1);
+    }
     layers_->setValue(layers_->maximum());
-    layers_->setEnabled(layers > 1);
-    scene_->content().last_layer = UINT32_MAX;
+    first_layer_->setValue(0);
+    take_top_layer();
+    take_sliders();
     scene_->set_path(shown_);
     take_status();
     tell_legend();
@@ -310,6 +285,9 @@ void ViewPage::tell_legend() {
     case PathColouring::kMargin:
       legend_->set(colouring, tr("at a limit"), tr("free"));
       break;
+    case PathColouring::kFeature:
+      legend_->set(kinds_of(shown_->path));
+      break;
     case PathColouring::kPart:
       break;
   }
@@ -333,6 +311,46 @@ void ViewPage::tell_job() {
   } else {
     job_text_->set_text(tr("No job is shown. Choose one on the Jobs page."));
   }
+}
+
+void ViewPage::take_top_layer() {
+  const QSignalBlocker quiet(moves_);
+  int moves = 0;
+  if (shown_ != nullptr && !shown_->path.layers.empty()) {
+    const PathLayer& top = shown_->path.layers[static_cast<std::size_t>(layers_->value())];
+    moves = static_cast<int>(top.last - top.first);
+  }
+  moves_->setRange(0, moves);
+  moves_->setPageStep(std::max(1, moves / 20));
+  moves_->setValue(moves);
+  moves_->setEnabled(moves > 1);
+}
+
+void ViewPage::take_sliders() {
+  SceneContent& content = scene_->content();
+  const int top = layers_->value();
+  content.first_layer = static_cast<std::uint32_t>(first_layer_->value());
+  content.last_layer = top >= layers_->maximum() ? UINT32_MAX : static_cast<std::uint32_t>(top);
+  content.end_vertex = UINT32_MAX;
+  if (shown_ != nullptr && moves_->value() < moves_->maximum())
+    content.end_vertex = shown_->path.layers[static_cast<std::size_t>(top)].first +
+                         static_cast<std::uint32_t>(moves_->value());
+  tell_layer();
+  scene_->redraw();
+}
+
+std::vector<RampLegend::Kind> ViewPage::kinds_of(const ToolPath& path) {
+  const std::array<QString, kPathFeatures> names{tr("other"),   tr("outer wall"),     tr("inner wall"),
+                                                 tr("infill"),  tr("top and bottom"), tr("bridge"),
+                                                 tr("support"), tr("skirt and brim"), tr("gap")};
+  std::array<bool, kPathFeatures> there{};
+  for (const FeatureScanner::Change& change : path.features)
+    there[static_cast<std::size_t>(change.feature)] = true;
+  there[0] = there[0] || path.features.empty();
+  std::vector<RampLegend::Kind> kinds;
+  for (std::size_t i = 0; i < kPathFeatures; ++i)
+    if (there[i]) kinds.push_back({colour_ramp(PathColouring::kFeature)[i], names[i]});
+  return kinds;
 }
 
 void ViewPage::tell_layer() {

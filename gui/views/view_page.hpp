@@ -3,7 +3,6 @@
 
 #include <QComboBox>
 #include <QLabel>
-#include <QPaintEvent>
 #include <QProgressBar>
 #include <QSettings>
 #include <QSize>
@@ -11,29 +10,15 @@
 #include <QToolButton>
 #include <QWidget>
 #include <string>
+#include <vector>
 
 #include "gui/scene/printed_body.hpp"
 #include "gui/views/desk.hpp"
+#include "gui/views/ramp_legend.hpp"
 #include "gui/views/scene_view.hpp"
 #include "gui/views/widgets.hpp"
 
 namespace kinebus::gui {
-
-/// A bar in the colours of the path, with its two ends named.
-class RampLegend : public QWidget {
-  Q_OBJECT
- public:
-  explicit RampLegend(QWidget* parent = nullptr);
-  void set(PathColouring colouring, const QString& low, const QString& high);
-  QSize sizeHint() const override;
-
- protected:
-  void paintEvent(QPaintEvent* event) override;
-
- private:
-  PathColouring colouring_ = PathColouring::kFeed;
-  QString low_, high_;
-};
 
 class ViewPage : public SpeakingWidget {
   Q_OBJECT
@@ -58,10 +43,16 @@ class ViewPage : public SpeakingWidget {
   void tell_legend();
   void tell_job();
   void tell_layer();
+  /// Layers and moves as the sliders say.
+  void take_sliders();
+  /// The moves of the topmost layer shown, all of them.
+  void take_top_layer();
+
+  static std::vector<RampLegend::Kind> kinds_of(const ToolPath& path);
 
   Desk& desk_;
   SceneView* scene_;
-  QSlider* layers_;
+  QSlider *layers_, *first_layer_, *moves_;
   QLabel* layer_text_;
   QComboBox* colouring_;
   RampLegend* legend_;

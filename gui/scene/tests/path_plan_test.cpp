@@ -77,6 +77,26 @@ TEST(PathPlan, WhatIsAllowedIsKeptAndStacksReachFromLayerToLayer) {
   }
 }
 
+TEST(PathPlan, NothingIsDrawnFromTheChosenMoveOn) {
+  const PathLevels levels = tower();
+  PathView view = view_from(250);
+  view.show_travel = true;
+  for (const bool remaining : {false, true}) {
+    view.show_remaining = remaining;
+    view.done_vertex = remaining ? levels.chunks[50].first_vertex : UINT32_MAX;
+    view.end_vertex = levels.chunks[101].first_vertex + 300;
+    std::uint32_t last = 0;
+    for (const DrawRange& range : plan_drawing(levels, view).ranges) {
+      const auto& list =
+          range.style == PathStyle::kTravel ? levels.travel[range.level] : levels.work[range.level];
+      for (std::uint32_t i = range.lines.first; i < range.lines.last; ++i)
+        last = std::max(last, list[std::size_t{2} * i + 1]);
+    }
+    EXPECT_LT(last, view.end_vertex);
+    EXPECT_GT(last + 20, view.end_vertex);
+  }
+}
+
 TEST(PathPlan, TheLayerBeingMadeIsWhole) {
   const PathLevels levels = tower();
   PathView view = view_from(250);

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "gateway/gcode/rotation.hpp"
+#include "gui/scene/path_colours.hpp"
 
 namespace kinebus::gui {
 namespace {
@@ -31,6 +32,43 @@ TEST(PathReader, LinesBecomeVerticesWithTheirLineNumbers) {
   EXPECT_EQ(path.feeds_mm_per_min[2], 600);
   EXPECT_EQ(path.line_count, 5u);
   EXPECT_DOUBLE_EQ(path.work_length_mm, 20);
+}
+
+TEST(PathReader, CommentsOfSlicersSayWhatLinesAreFor) {
+  EXPECT_EQ(feature_named("External perimeter"), PathFeature::kOuterWall);
+  EXPECT_EQ(feature_named("Perimeter"), PathFeature::kInnerWall);
+  EXPECT_EQ(feature_named("WALL-OUTER"), PathFeature::kOuterWall);
+  EXPECT_EQ(feature_named("WALL-INNER"), PathFeature::kInnerWall);
+  EXPECT_EQ(feature_named("Internal infill"), PathFeature::kInfill);
+  EXPECT_EQ(feature_named("FILL"), PathFeature::kInfill);
+  EXPECT_EQ(feature_named("Solid infill"), PathFeature::kSolid);
+  EXPECT_EQ(feature_named("Top solid infill"), PathFeature::kSolid);
+  EXPECT_EQ(feature_named("SKIN"), PathFeature::kSolid);
+  EXPECT_EQ(feature_named("Bridge infill"), PathFeature::kBridge);
+  EXPECT_EQ(feature_named("Support material interface"), PathFeature::kSupport);
+  EXPECT_EQ(feature_named("Skirt/Brim"), PathFeature::kSkirt);
+  EXPECT_EQ(feature_named("Gap fill"), PathFeature::kGap);
+  EXPECT_EQ(feature_named("Custom"), PathFeature::kOther);
+  const std::string text =
+      "G1 X1 E1\n;TYPE:External perimeter\nG1 X2 E2\n; FEATURE: Sparse infill\r\nG1 X3 E3\n"
+      "; feature outer perimeter\nG1 X4 E4\n; words of TYPE:Perimeter\n;TYPE:";
+  for (std::size_t cut = 0; cut <= text.size(); ++cut) {
+    PathReader reader;
+    reader.add(std::string_view(text).substr(0, cut));
+    reader.add(std::string_view(text).substr(cut));
+    const ToolPath path = reader.finish();
+    ASSERT_EQ(path.features.size(), 4u) << cut;
+    EXPECT_EQ(path.features[0].line, 2u);
+    EXPECT_EQ(path.features[0].feature, PathFeature::kOuterWall);
+    EXPECT_EQ(path.features[1].line, 4u);
+    EXPECT_EQ(path.features[1].feature, PathFeature::kInfill);
+    EXPECT_EQ(path.features[2].feature, PathFeature::kOuterWall);
+    EXPECT_EQ(path.features[3].feature, PathFeature::kOther);
+    // The first vertex is where the tool starts.
+    const PathShades shades = shade_path(path, std::nullopt);
+    EXPECT_EQ(shades.vertices[2].shade[3], std::lround(255.0 / (kPathFeatures - 1)));
+    EXPECT_EQ(shades.vertices[3].shade[3], std::lround(3 * 255.0 / (kPathFeatures - 1)));
+  }
 }
 
 TEST(PathReader, TextCutAnywhereReadsTheSame) {
