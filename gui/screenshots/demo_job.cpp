@@ -61,9 +61,12 @@ QByteArray vase_job(int layers, int walls, double layer_mm) {
     w.line(text);
   for (int layer = 0; layer < layers; ++layer) {
     const double z = layer_mm * (layer + 1), height = z / 30;
-    for (int k = 1; k <= walls; ++k)
+    for (int k = 1; k <= walls; ++k) {
+      w.line(k == walls ? ";TYPE:External perimeter" : ";TYPE:Perimeter");
       ring(w, height, z, 0.45 * (walls - k), 80, k == walls && walls > 1 ? 3600 : 6600);
+    }
     if (z > 1) continue;
+    w.line(";TYPE:Solid infill");
     for (int row = 0; row <= 50; ++row) {
       const double y = -30 + 1.2 * row;
       const double x = std::sqrt(std::max(0.0, 31.0 * 31 - y * y)) * (row % 2 == 0 ? -1 : 1);

@@ -200,6 +200,8 @@ int run(int argc, char** argv) {
     window.view_page().set_colouring(PathColouring::kLayer);
     window.view_page().scene().fit_part();
   });
+  window.view_page().set_colouring(PathColouring::kFeature);
+  photographer.all(MainWindow::kView, QStringLiteral("2-view-kinds"));
   window.view_page().set_colouring(PathColouring::kPart);
   photographer.one(MainWindow::kView, QStringLiteral("11-scene-m1-printed"));
   // Faster than the slider goes.
