@@ -10,7 +10,8 @@ namespace {
 
 using namespace heat_object;
 
-static_assert(kHeatNodeHeaters == kHeaters && kHeatNodeSensors == kHeatSensors && kHeatNodeOutputs == kFans);
+static_assert(kHeatNodeHeaters == kHeaters && kHeatNodeSensors == kHeatSensors && kHeatNodeOutputs == kFans &&
+              kHeatNodeFilaments == kFilamentSensors);
 
 /// Colder, a sensor is not believed.
 constexpr double kColdest_c = -20;
@@ -60,6 +61,15 @@ void describe(Settings& settings, std::size_t n, const HeaterDescription& heater
   settings.set(kSafeTime, n, static_cast<double>(w.safe_time.count()));
 }
 
+void describe(Settings& settings, std::size_t n, const FilamentSensorDescription& filament) {
+  settings.set(kFilamentKind, n, static_cast<double>(filament.kind));
+  settings.set(kFilamentInverted, n, filament.inverted ? 1 : 0);
+  settings.set(kFilamentPerEdge, n, 1000 * filament.mm_per_edge);
+  settings.set(kFilamentStands, n, 1000 * filament.stands_mm);
+  settings.set(kFilamentSlips, n, 1000 * filament.slips_mm);
+  settings.set(kFilamentLeast, n, 100 * filament.least_share);
+}
+
 }  // namespace
 
 void add_heat_settings(const MachineDescription& machine, std::uint8_t node_id,
@@ -99,6 +109,15 @@ void add_heat_settings(const MachineDescription& machine, std::uint8_t node_id,
     describe(settings, n, sensor.wiring, 0);
     sensors[n] = &sensor.wiring;
   }
+  std::array<const FilamentSensorDescription*, kFilamentSensors> filaments{};
+  for (const FilamentSensorDescription& filament : machine.filament_sensors)
+    if (here(filament.place) && filament.place.channel <= kFilamentSensors)
+      filaments[filament.place.channel - 1u] = &filament;
+  for (std::size_t n = 0; n < kFilamentSensors; ++n)
+    if (filaments[n] != nullptr)
+      describe(settings, n, *filaments[n]);
+    else
+      settings.set(kFilamentKind, n, 0);
   for (std::size_t n = 0; n < kFans; ++n) {
     settings.set(kFanFunction, n, cools[n] != nullptr ? 1 : 0);
     if (cools[n] == nullptr) continue;

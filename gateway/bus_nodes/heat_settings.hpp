@@ -5,8 +5,8 @@
 
 namespace kinebus {
 
-/// Adds the settings of all heaters, sensors and fans of the node; those that the machine file does not name
-/// are switched off.
+/// Adds the settings of all heaters, sensors, those of filament too, and fans of the node; those that the
+/// machine file does not name are switched off.
 void add_heat_settings(const MachineDescription& machine, std::uint8_t node_id,
                        NodeConfiguration& configuration);
 

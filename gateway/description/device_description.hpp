@@ -36,7 +36,7 @@ struct HeaterId {
 inline constexpr HeaterId kFirstHotend{HeaterKind::kHotend, 0}, kFirstBed{HeaterKind::kBed, 0};
 
 /// What a heat node has, at most.
-inline constexpr int kHeatNodeHeaters = 4, kHeatNodeSensors = 6, kHeatNodeOutputs = 6;
+inline constexpr int kHeatNodeHeaters = 4, kHeatNodeSensors = 6, kHeatNodeOutputs = 6, kHeatNodeFilaments = 2;
 
 /// A temperature sensor on a heat node, with the number that 6110h has for it.
 enum class SensorElement : std::uint16_t {
@@ -122,6 +122,24 @@ struct SensorDescription {
   friend bool operator==(const SensorDescription&, const SensorDescription&) = default;
 };
 
+/// With the number that 2250h has for it.
+enum class FilamentSensorKind : std::uint8_t { kSwitch = 1, kMotion = 2 };
+
+/// What tells whether filament is there, or whether it goes where the extruder turns. Its node judges it.
+struct FilamentSensorDescription {
+  std::string name;
+  FilamentSensorKind kind = FilamentSensorKind::kSwitch;
+  DevicePlace place{};
+  bool inverted = false;      ///< of a switch: low with filament
+  double mm_per_edge = 2.88;  ///< of a wheel, both edges of its signal counted
+  double stands_mm = 7;       ///< fed without an edge: the filament stands
+  double slips_mm = 30;       ///< over so much fed it moves less than least_share of it: it slips
+  double least_share = 0.6;
+  /// Nearer together the wheel's own steps would be taken for a fault.
+  static constexpr double kLeastEdges = 2, kLeastSlipEdges = 5;
+  friend bool operator==(const FilamentSensorDescription&, const FilamentSensorDescription&) = default;
+};
+
 /// What a mill cuts with.
 struct SpindleDescription {
   bool present = false;
@@ -165,6 +183,7 @@ struct NodeFunctions {
   std::uint8_t heaters = 0;     ///< channels, each with its sensor
   std::uint8_t sensors = 0;     ///< channels that only measure
   std::uint8_t outputs = 0;     ///< channels for fans, outputs and a spindle
+  std::uint8_t filament_sensors = 0;
   bool has_axes() const { return axis_pairs > 0; }
   friend bool operator==(const NodeFunctions&, const NodeFunctions&) = default;
 };

@@ -28,6 +28,8 @@ class DeviceRules {
     indices("output", d_.outputs);
     for (const SensorDescription& s : d_.sensors)
       place(s.place, "sensor." + s.name + ".", Channels::kSensors);
+    for (const FilamentSensorDescription& f : d_.filament_sensors)
+      filament(f, "filament_sensor." + f.name + ".");
     if (d_.spindle.present) {
       place(d_.spindle.place, "spindle.", Channels::kOutputs);
       require(d_.spindle.min_rpm <= d_.spindle.max_rpm, {"spindle.min_rpm", "spindle.max_rpm"},
@@ -40,7 +42,7 @@ class DeviceRules {
   }
 
  private:
-  enum class Channels : std::uint8_t { kHeaters, kSensors, kOutputs, kInputs };
+  enum class Channels : std::uint8_t { kHeaters, kSensors, kOutputs, kInputs, kFilaments };
 
   void require(bool holds, std::vector<std::string> keys, Sentence found, Sentence expected) {
     if (!holds) broken_.push_back({std::move(keys), std::move(found), std::move(expected)});
@@ -57,6 +59,8 @@ class DeviceRules {
         return has.outputs;
       case Channels::kInputs:
         return has.inputs;
+      case Channels::kFilaments:
+        return has.filament_sensors;
     }
     return 0;
   }
@@ -70,6 +74,8 @@ class DeviceRules {
         return "outputs";
       case Channels::kInputs:
         return "inputs";
+      case Channels::kFilaments:
+        return "filament_sensors";
     }
     return "";
   }
@@ -117,6 +123,18 @@ class DeviceRules {
       place({h.place.where, h.place.node_id, h.wiring.fan_channel}, key + "fan_", Channels::kOutputs);
   }
 
+  void filament(const FilamentSensorDescription& f, const std::string& key) {
+    place(f.place, key, Channels::kFilaments);
+    if (f.kind != FilamentSensorKind::kMotion) return;
+    const auto least = [&](const char* which, double mm, double edges) {
+      require(mm >= edges * f.mm_per_edge, {key + which, key + "mm_per_edge"},
+              Sentence::verbatim(printed("%.6g", mm)),
+              say("at least %1, %2 edges", printed("%.6g", edges * f.mm_per_edge), printed("%.6g", edges)));
+    };
+    least("stands_mm", f.stands_mm, FilamentSensorDescription::kLeastEdges);
+    least("slips_mm", f.slips_mm, FilamentSensorDescription::kLeastSlipEdges);
+  }
+
   /// It has a node id of its own, also when it shares a chip with axes; its inputs are the heaters' first.
   void heat_node(const NodeDescription& node) {
     const std::string key = "node." + std::to_string(node.id) + ".";
@@ -129,6 +147,8 @@ class DeviceRules {
             say("at most %1 on a heat node, with those of the heaters", kHeatNodeSensors));
     require(has.outputs <= kHeatNodeOutputs, {key + "outputs"}, number(has.outputs),
             say("at most %1 on a heat node", kHeatNodeOutputs));
+    require(has.filament_sensors <= kHeatNodeFilaments, {key + "filament_sensors"},
+            number(has.filament_sensors), say("at most %1 on a heat node", kHeatNodeFilaments));
   }
 
   void inputs(const NodeDescription& node) {

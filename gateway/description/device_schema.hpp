@@ -101,6 +101,21 @@ void visit_device(V& v, SensorDescription& s) {
   if (s.place.on_node()) visit_sensor(v, s.wiring);
 }
 
+inline constexpr Choice kFilamentSensorKinds[] = {{"switch", static_cast<int>(FilamentSensorKind::kSwitch)},
+                                                  {"motion", static_cast<int>(FilamentSensorKind::kMotion)}};
+
+template <class V>
+void visit_device(V& v, FilamentSensorDescription& f) {
+  const bool known = v.choice("kind", f.kind, kFilamentSensorKinds, Need::kRequired);
+  visit_place(v, f.place);
+  if (!known) return v.leave_unjudged();
+  if (f.kind == FilamentSensorKind::kSwitch) return v.flag("inverted", f.inverted, Need::kOptional);
+  v.number("mm_per_edge", f.mm_per_edge, {0.01, 20}, Need::kOptional);
+  v.number("stands_mm", f.stands_mm, {0.5, 200}, Need::kOptional);
+  v.number("slips_mm", f.slips_mm, {2, 1000}, Need::kOptional);
+  v.number("least_share", f.least_share, {0.1, 0.95}, Need::kOptional);
+}
+
 template <class V>
 void visit_devices(V& v, MachineDescription& d) {
   v.table("thermal", Need::kOptional, [&] {
@@ -122,6 +137,8 @@ void visit_devices(V& v, MachineDescription& d) {
   v.named_tables("fan", d.fans, [&](FanDescription& f) { visit_device(v, f); });
   v.named_tables("output", d.outputs, [&](OutputDescription& o) { visit_device(v, o); });
   v.named_tables("sensor", d.sensors, [&](SensorDescription& s) { visit_device(v, s); });
+  v.named_tables("filament_sensor", d.filament_sensors,
+                 [&](FilamentSensorDescription& f) { visit_device(v, f); });
   v.present("spindle", d.spindle.present, [&] {
     v.retired("present", say("no such key: a machine without spindle has no table [spindle]"));
     v.number("min_rpm", d.spindle.min_rpm, {0, 100000}, Need::kOptional);

@@ -299,6 +299,7 @@ struct MachineDescription {
   std::vector<FanDescription> fans;
   std::vector<OutputDescription> outputs;
   std::vector<SensorDescription> sensors;
+  std::vector<FilamentSensorDescription> filament_sensors;
   SpindleDescription spindle;
   ProbeDescription probe;
   GcodeDescription gcode;
@@ -315,14 +316,14 @@ struct MachineDescription {
       if (n.id == id) return &n;
     return nullptr;
   }
-  /// A heat node: heaters, fans, outputs or sensors live on it.
+  /// A heat node: heaters, fans, outputs or sensors, those of filament too, live on it.
   bool carries_heat(std::uint8_t id) const {
     const auto there = [id](const auto& devices) {
       for (const auto& device : devices)
         if (device.place.on_node() && device.place.node_id == id) return true;
       return false;
     };
-    return there(heaters) || there(fans) || there(outputs) || there(sensors);
+    return there(heaters) || there(fans) || there(outputs) || there(sensors) || there(filament_sensors);
   }
   const HeaterDescription* heater(HeaterId id) const {
     for (const HeaterDescription& h : heaters)

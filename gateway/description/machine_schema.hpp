@@ -218,6 +218,7 @@ void visit_node(V& v, NodeDescription& n) {
   v.integer("heaters", n.functions.heaters, 0, 8, Need::kOptional);
   v.integer("sensors", n.functions.sensors, 0, 8, Need::kOptional);
   v.integer("outputs", n.functions.outputs, 0, 16, Need::kOptional);
+  v.integer("filament_sensors", n.functions.filament_sensors, 0, 8, Need::kOptional);
   v.optional_integer("vendor", n.vendor);
   v.optional_integer("product", n.product);
   v.optional_integer("serial", n.serial);

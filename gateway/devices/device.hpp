@@ -110,6 +110,17 @@ class Sensor : public Device {
   virtual double celsius() const = 0;
 };
 
+/// As its node judges it; the values are those of 2258h.
+enum class FilamentCondition : std::uint8_t { kInOrder, kOut, kStands, kSlips };
+
+/// Being out of order is no fault of the machine: it has nothing to print with.
+class FilamentSensor : public Device {
+ public:
+  virtual FilamentCondition condition() const = 0;
+  /// Where the extruder is to be now, mm; ten times a second.
+  virtual void follow(double) {}
+};
+
 /// A number of the probe's node, to be read or written by SDO.
 struct ProbeRequest {
   ObjectAddress address;

@@ -4,6 +4,20 @@
 
 namespace kinebus {
 
+Sentence sentence(FilamentCondition condition) {
+  switch (condition) {
+    case FilamentCondition::kOut:
+      return say("there is no filament any more");
+    case FilamentCondition::kStands:
+      return say("the extruder turns and the filament stands still");
+    case FilamentCondition::kSlips:
+      return say("less filament comes than the extruder turns for");
+    case FilamentCondition::kInOrder:
+      break;
+  }
+  return {};
+}
+
 void Devices::add(HeaterId id, std::string name, std::uint8_t node, std::unique_ptr<Heater> heater) {
   members_.push_back({"heater." + name, node, heater.get(), true});
   heaters_.push_back({id, std::move(name), std::move(heater)});
@@ -22,6 +36,12 @@ void Devices::add_output(DeviceName name, std::uint8_t node, std::unique_ptr<Out
 void Devices::add_sensor(std::string name, std::uint8_t node, std::unique_ptr<Sensor> sensor) {
   members_.push_back({"sensor." + name, node, sensor.get()});
   sensors_.push_back({std::move(name), std::move(sensor)});
+}
+
+void Devices::add_filament_sensor(std::string name, std::uint8_t node,
+                                  std::unique_ptr<FilamentSensor> sensor) {
+  members_.push_back({"filament_sensor." + name, node, sensor.get()});
+  filaments_.push_back({std::move(name), node, std::move(sensor)});
 }
 
 void Devices::add_node(std::uint8_t node, std::shared_ptr<Device> shared) {
@@ -89,6 +109,10 @@ void Devices::turn_spindle(double rpm) {
   if (spindle_) spindle_->set(rpm);
 }
 
+void Devices::follow_extruder(double mm) {
+  for (KnownFilament& known : filaments_) known.sensor->follow(mm);
+}
+
 HeaterStatus Devices::heater(HeaterId id) const {
   const Heater* known = find(id);
   return known != nullptr ? known->status() : HeaterStatus{};
@@ -118,6 +142,19 @@ std::vector<SensorStatus> Devices::sensors() const {
   std::vector<SensorStatus> all;
   for (const KnownSensor& known : sensors_) all.push_back({known.name, known.sensor->celsius()});
   return all;
+}
+
+std::vector<FilamentStatus> Devices::filaments() const {
+  std::vector<FilamentStatus> all;
+  for (const KnownFilament& known : filaments_) all.push_back({known.name, known.sensor->condition()});
+  return all;
+}
+
+std::optional<DeviceFault> Devices::filament_trouble() const {
+  for (const KnownFilament& known : filaments_)
+    if (const auto condition = known.sensor->condition(); condition != FilamentCondition::kInOrder)
+      return DeviceFault{"filament_sensor." + known.name, known.node, sentence(condition), false, true};
+  return std::nullopt;
 }
 
 std::optional<DeviceFault> Devices::fault() const {

@@ -30,11 +30,18 @@ struct SensorStatus {
   std::string name;
   double celsius = 0;
 };
+struct FilamentStatus {
+  std::string name;
+  FilamentCondition condition = FilamentCondition::kInOrder;
+};
+/// What is wrong; empty: nothing is.
+Sentence sentence(FilamentCondition condition);
 struct DeviceFault {
   std::string device;  ///< "heater.bed", as the machine file says
   std::uint8_t node = 0;
   Sentence words;
   bool heater = false;
+  bool filament = false;
 };
 
 class Devices {
@@ -43,6 +50,7 @@ class Devices {
   void add_fan(DeviceName name, std::uint8_t node, std::unique_ptr<Output> fan);
   void add_output(DeviceName name, std::uint8_t node, std::unique_ptr<Output> output);
   void add_sensor(std::string name, std::uint8_t node, std::unique_ptr<Sensor> sensor);
+  void add_filament_sensor(std::string name, std::uint8_t node, std::unique_ptr<FilamentSensor> sensor);
   /// What several of the others live on. Before them.
   void add_node(std::uint8_t node, std::shared_ptr<Device> shared);
   void set_spindle(std::uint8_t node, std::unique_ptr<SpindleDrive> spindle);
@@ -59,6 +67,7 @@ class Devices {
   void blow(std::uint8_t fan, double ratio);
   void put_out(std::uint8_t output, double ratio);
   void turn_spindle(double rpm);
+  void follow_extruder(double mm);
 
   // What they say. Cold, off and at rest when there is none.
   HeaterStatus heater(HeaterId id) const;
@@ -71,6 +80,9 @@ class Devices {
   std::vector<OutputStatus> fans() const { return ratios(fans_); }
   std::vector<OutputStatus> outputs() const { return ratios(outputs_); }
   std::vector<SensorStatus> sensors() const;
+  std::vector<FilamentStatus> filaments() const;
+  /// Of the first sensor that has something to say of its filament.
+  std::optional<DeviceFault> filament_trouble() const;
   /// Of the first that is out of order.
   std::optional<DeviceFault> fault() const;
   /// Of one that has come to be out of order: each is told once, until it is in order again.
@@ -108,6 +120,11 @@ class Devices {
     std::string name;
     std::unique_ptr<Sensor> sensor;
   };
+  struct KnownFilament {
+    std::string name;
+    std::uint8_t node;
+    std::unique_ptr<FilamentSensor> sensor;
+  };
   static std::vector<OutputStatus> ratios(const std::vector<KnownOutput>& all);
   static double ratio(const std::vector<KnownOutput>& all, std::uint8_t index);
   Heater* find(HeaterId id) const;
@@ -118,6 +135,7 @@ class Devices {
   std::vector<KnownHeater> heaters_;
   std::vector<KnownOutput> fans_, outputs_;
   std::vector<KnownSensor> sensors_;
+  std::vector<KnownFilament> filaments_;
   std::unique_ptr<SpindleDrive> spindle_;
   std::unique_ptr<ContactProbe> probe_;
 };

@@ -47,6 +47,22 @@ class NodeSensor : public Sensor {
   std::size_t input_;
 };
 
+class NodeFilament : public FilamentSensor {
+ public:
+  NodeFilament(std::shared_ptr<HeatNodeLink> node, std::size_t channel, bool follows)
+      : node_(std::move(node)), channel_(channel), follows_(follows) {}
+  FilamentCondition condition() const override { return node_->filament(channel_); }
+  void follow(double mm) override {
+    if (follows_) node_->follow_extruder(mm);
+  }
+  void clear_fault() override { node_->reset_filament(channel_); }
+
+ private:
+  std::shared_ptr<HeatNodeLink> node_;
+  std::size_t channel_;
+  bool follows_;
+};
+
 /// `first`: the number of the first channel on the node. `more`: what else it is made of.
 template <typename Made, typename Interface, typename... More>
 std::unique_ptr<Interface> make(const DevicePlace& place, std::size_t first, std::size_t count,
@@ -88,6 +104,12 @@ std::unique_ptr<Sensor> on_heat_node(const SensorDescription& sensor, const Mach
   const NodeDescription* node = machine.node(sensor.place.node_id);
   const std::size_t heaters = node != nullptr ? node->functions.heaters : 0;
   return make<NodeSensor, Sensor>(sensor.place, heaters, kHeatSensors, links);
+}
+
+std::unique_ptr<FilamentSensor> on_heat_node(const FilamentSensorDescription& sensor,
+                                             const MachineDescription&, const HeatNodeLinks& links) {
+  return make<NodeFilament, FilamentSensor>(sensor.place, 0, kFilamentSensors, links,
+                                            sensor.kind == FilamentSensorKind::kMotion);
 }
 
 }  // namespace kinebus

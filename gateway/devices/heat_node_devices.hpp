@@ -23,5 +23,7 @@ std::unique_ptr<Output> on_heat_node(const OutputDescription& output, const Mach
                                      const HeatNodeLinks& links);
 std::unique_ptr<Sensor> on_heat_node(const SensorDescription& sensor, const MachineDescription& machine,
                                      const HeatNodeLinks& links);
+std::unique_ptr<FilamentSensor> on_heat_node(const FilamentSensorDescription& sensor,
+                                             const MachineDescription& machine, const HeatNodeLinks& links);
 
 }  // namespace kinebus

@@ -22,6 +22,9 @@ constexpr BusTime kFlowNews = std::chrono::milliseconds{90};
 static_assert(std::tuple_size_v<FlowAhead> == kFlowSteps);
 static_assert(kFlowAheadStep == std::chrono::milliseconds{kFlowStepMs});
 
+/// Where the extruder is, is told so often while it turns.
+constexpr BusTime kExtruderNews = std::chrono::milliseconds{90};
+
 constexpr double kFullOutput = 32'767;  // 6411h
 
 /// Codes that say of a heater why it has no power.
@@ -86,6 +89,9 @@ void HeatNodeLink::on_states(std::span<const std::uint8_t> states) {
     const bool should = serves_ && set.wanted != 0 && !set.due && now_ - set.told > kStateTimeout;
     lost_[n] = should && states_[n] == State::kOff;
   }
+  constexpr std::size_t kFilaments = kHeaters + 1;  // the contactor is between them
+  for (std::size_t n = 0; n < kFilamentSensors && kFilaments + n < states.size(); ++n)
+    filaments_[n] = static_cast<FilamentCondition>(states[kFilaments + n]);
 }
 
 void HeatNodeLink::on_emergency(const CanFrame& frame) {
@@ -153,6 +159,24 @@ void HeatNodeLink::feed_ahead(const FlowAhead& watts) {
     flow_[i] = static_cast<std::int16_t>(std::lround(100 * std::clamp(watts[i], 0.0, kMost_w)));
 }
 
+void HeatNodeLink::follow_extruder(double mm) {
+  extruder_um_ = static_cast<std::uint32_t>(std::llround(1000 * mm));
+}
+
+void HeatNodeLink::reset_filament(std::size_t sensor) {
+  filament_due_[sensor] = filament_due_[sensor] || filaments_[sensor] != FilamentCondition::kInOrder;
+}
+
+std::optional<CanFrame> HeatNodeLink::extruder_frame(BusTime now) {
+  if (extruder_um_ == extruder_told_um_ || now - extruder_told_at_ < kExtruderNews) return std::nullopt;
+  extruder_told_um_ = extruder_um_;
+  extruder_told_at_ = now;
+  CanFrame frame{.id = cob_id::rpdo(3, id_), .length = 4 * kFilamentSensors};
+  for (std::size_t i = 0; i < kFilamentSensors; ++i)
+    put_u32_le(std::span(frame.data).subspan(4 * i), extruder_um_);
+  return frame;
+}
+
 std::optional<CanFrame> HeatNodeLink::flow_frame(BusTime now) {
   const bool flows = flow_ != Flow{};
   const BusTime since = now - flow_told_at_;
@@ -175,6 +199,8 @@ void HeatNodeLink::on_bring_up(BusTime now, bool done) {
   writing_ = Writing::kNothing;
   serves_ = done;
   reset_due_.fill(false);
+  filaments_.fill(FilamentCondition::kInOrder);
+  filament_due_.fill(false);
   lost_.fill(false);
   tuning_.end(say("its node was not in operation any more: measure it again"));
   if (!done) return;
@@ -194,6 +220,7 @@ void HeatNodeLink::on_time(BusTime now) {
 std::optional<CanFrame> HeatNodeLink::next_frame(BusTime now) {
   if (!serves_) return std::nullopt;
   if (const auto frame = flow_frame(now)) return frame;
+  if (const auto frame = extruder_frame(now)) return frame;
   if (writing_ == Writing::kNothing) begin_next(now);
   return sdo_.next_frame();
 }
@@ -229,6 +256,11 @@ void HeatNodeLink::begin_next(BusTime now) {
       begin(now, Writing::kOutput, n, kFanOutput, outputs_[n].wanted, 2);
       return;
     }
+  for (std::size_t n = 0; n < kFilamentSensors; ++n)
+    if (filament_due_[n]) {
+      begin(now, Writing::kFilament, n, kFilamentReset, 1, 1);
+      return;
+    }
   if (ask_for_tuning(now)) writing_ = Writing::kTuning;
 }
 
@@ -256,6 +288,10 @@ void HeatNodeLink::settle(BusTime now) {
     return;
   if (what == Writing::kReset) {
     reset_due_[channel_] = false;
+    return;
+  }
+  if (what == Writing::kFilament) {
+    filament_due_[channel_] = false;
     return;
   }
   Value& value = what == Writing::kSetPoint ? set_points_[channel_] : outputs_[channel_];

@@ -43,6 +43,10 @@ class HeatNodeLink : public Device {
   HeaterTuning tuning(std::size_t heater) const;
   /// For the heater that its settings name (2228h).
   void feed_ahead(const FlowAhead& watts);
+  FilamentCondition filament(std::size_t sensor) const { return filaments_[sensor]; }
+  /// Where the extruder is to be now; the node holds what its wheels see against it.
+  void follow_extruder(double mm);
+  void reset_filament(std::size_t sensor);
 
  private:
   enum class State : std::uint8_t { kOff = 0, kHeats = 1, kThere = 2, kTunes = 3, kFault = 4 };
@@ -58,7 +62,7 @@ class HeatNodeLink : public Device {
       wanted = value;
     }
   };
-  enum class Writing : std::uint8_t { kNothing, kReset, kSetPoint, kOutput, kTuning };
+  enum class Writing : std::uint8_t { kNothing, kReset, kSetPoint, kOutput, kFilament, kTuning };
 
   bool on_report(BusTime now, const CanFrame& frame);
   void on_states(std::span<const std::uint8_t> states);
@@ -67,6 +71,7 @@ class HeatNodeLink : public Device {
   void begin_next(BusTime now);
   bool ask_for_tuning(BusTime now);
   std::optional<CanFrame> flow_frame(BusTime now);
+  std::optional<CanFrame> extruder_frame(BusTime now);
   void settle(BusTime now);
 
   std::uint8_t id_;
@@ -88,6 +93,10 @@ class HeatNodeLink : public Device {
   std::array<std::uint16_t, kHeaters> reasons_{};  ///< EMCY codes; 0: none
   std::array<bool, kHeaters> lost_{};              ///< off, and not by this gateway
   std::array<std::int16_t, kHeatSensors> temperatures_{};
+  std::array<FilamentCondition, kFilamentSensors> filaments_{};
+  std::array<bool, kFilamentSensors> filament_due_{};
+  std::uint32_t extruder_um_ = 0, extruder_told_um_ = 0;
+  BusTime extruder_told_at_{0};
   BusTime heard_{0}, measured_{0}, now_{0};
 };
 

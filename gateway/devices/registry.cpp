@@ -34,6 +34,10 @@ constexpr Implementation<Sensor, SensorDescription> kSensors[] = {
     {Where::kSimulated, simulate},
     {Where::kNode, nullptr, on_heat_node},
 };
+constexpr Implementation<FilamentSensor, FilamentSensorDescription> kFilaments[] = {
+    {Where::kSimulated, simulate},
+    {Where::kNode, nullptr, on_heat_node},
+};
 constexpr Implementation<SpindleDrive, SpindleDescription> kSpindles[] = {{Where::kSimulated, simulate}};
 constexpr Implementation<ContactProbe, ProbeDescription> kProbes[] = {
     {Where::kSimulated, simulate},
@@ -90,6 +94,9 @@ Result<Devices, Sentence> make_devices(const MachineDescription& machine) {
   for (const SensorDescription& s : machine.sensors)
     if (auto sensor = maker.make(kSensors, s, "sensor." + s.name))
       devices.add_sensor(s.name, s.place.node_id, std::move(sensor));
+  for (const FilamentSensorDescription& f : machine.filament_sensors)
+    if (auto sensor = maker.make(kFilaments, f, "filament_sensor." + f.name))
+      devices.add_filament_sensor(f.name, f.place.node_id, std::move(sensor));
   if (machine.spindle.present)
     if (auto spindle = maker.make(kSpindles, machine.spindle, "spindle"))
       devices.set_spindle(machine.spindle.place.node_id, std::move(spindle));

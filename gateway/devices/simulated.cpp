@@ -69,6 +69,10 @@ std::unique_ptr<SpindleDrive> simulate(const SpindleDescription& spindle, const 
   return std::make_unique<SimulatedSpindle>(spindle.sim_rpm_per_s);
 }
 
+std::unique_ptr<FilamentSensor> simulate(const FilamentSensorDescription&, const MachineDescription&) {
+  return std::make_unique<SimulatedFilament>();
+}
+
 std::unique_ptr<ContactProbe> simulate(const ProbeDescription&, const MachineDescription&) {
   return std::make_unique<SimulatedProbe>();
 }

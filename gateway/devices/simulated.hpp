@@ -64,6 +64,12 @@ class SimulatedSensor : public Sensor {
   double celsius_;
 };
 
+/// Of a spool that never ends.
+class SimulatedFilament : public FilamentSensor {
+ public:
+  FilamentCondition condition() const override { return FilamentCondition::kInOrder; }
+};
+
 class SimulatedProbe : public ContactProbe {
  public:
   bool touches() const override { return false; }
@@ -74,6 +80,8 @@ std::unique_ptr<Heater> simulate(const HeaterDescription& heater, const MachineD
 std::unique_ptr<Output> simulate(const FanDescription& fan, const MachineDescription& machine);
 std::unique_ptr<Output> simulate(const OutputDescription& output, const MachineDescription& machine);
 std::unique_ptr<Sensor> simulate(const SensorDescription& sensor, const MachineDescription& machine);
+std::unique_ptr<FilamentSensor> simulate(const FilamentSensorDescription& sensor,
+                                         const MachineDescription& machine);
 std::unique_ptr<SpindleDrive> simulate(const SpindleDescription& spindle, const MachineDescription& machine);
 std::unique_ptr<ContactProbe> simulate(const ProbeDescription& probe, const MachineDescription& machine);
 

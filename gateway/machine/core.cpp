@@ -214,6 +214,7 @@ void Gateway::Core::on_time(BusTime now) {
   watch_parameters();
   watch_nodes();
   watch_devices();
+  watch_filament();
   watch_idle_heat();
   tell_of_tuning();
   serve_probe();
@@ -330,6 +331,13 @@ void Gateway::Core::feed_heat_ahead() {
   if (now_ < next_flow_) return;
   next_flow_ = now_ + kPeriod;
   heat_.feed_ahead(runner_->filament_ahead(now_));
+  follow_extruder();
+}
+
+/// By the plan, as far as it has run.
+void Gateway::Core::follow_extruder() {
+  if (machine_.filament_sensors.empty() || !position_.homed()) return;
+  if (const auto pose = machine_pose()) heat_.follow_extruder((*pose)[kE]);
 }
 
 void Gateway::Core::take_stream_status(NodeLink& link) {

@@ -4,7 +4,7 @@
 // done.
 //   core.cpp           frames, time                core_states.cpp     the steps of each state
 //   core_commands.cpp  one handler a command       core_lines.cpp      lines of print hosts and the console
-//   core_recovery.cpp  interrupted jobs            core_heat_hold.cpp  a heater's fault in a job
+//   core_recovery.cpp  interrupted jobs            core_heat_hold.cpp  a heater's fault in a job, no filament
 //   core_heat_tuning.cpp  a heater that is measured
 //   core_probe.cpp     probing
 //   core_status.cpp    the snapshot
@@ -156,6 +156,7 @@ class Gateway::Core {
   void watch_idle_heat();
   void tell_of_tuning();
   void feed_heat_ahead();
+  void follow_extruder();
   void watch_parameters();
   void on_foreign_stop(std::uint8_t node);
   void take_stream_status(NodeLink& link);
@@ -163,7 +164,12 @@ class Gateway::Core {
 
   // Faults of devices (core_heat_hold.cpp).
   void watch_devices();
+  void watch_filament();
   bool hold_for_heat(const DeviceFault& fault);
+  void hold_for(const DeviceFault& fault);
+  /// Why the job that is held cannot go on.
+  std::optional<DeviceFault> out_of_order() const;
+  void tell(const DeviceFault& fault);
   void step_heat_hold();
   void begin_lift();
   void finish_lift();

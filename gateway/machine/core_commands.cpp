@@ -188,7 +188,7 @@ Done Gateway::Core::on(command::Hold&) {
 
 Done Gateway::Core::on(command::Resume&) {
   recovery_.commanded();
-  if (state_.is(MachineState::kHeld) && !heat_hold_.why().empty() && heat_.fault()) {
+  if (state_.is(MachineState::kHeld) && !heat_hold_.why().empty() && out_of_order()) {
     heat_.clear_faults();
     heat_hold_.await_mended(now_);
     return {};

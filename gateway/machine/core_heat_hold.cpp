@@ -1,4 +1,5 @@
-// A heater's fault in a job: held on the path, lifted off the part, and gone on with when it is mended.
+// A heater's fault in a job, or filament that does not come: held on the path, lifted off the part, and gone
+// on with when it is mended.
 
 #include <utility>
 
@@ -11,7 +12,7 @@ using Stage = HeatHold::Stage;
 /// A device that is out of order has switched itself off; whatever it was needed for must not go on.
 void Gateway::Core::watch_devices() {
   while (const auto fault = heat_.new_fault()) {
-    events_.alarm(now_, AlarmCode::kThermal, say("%1: %2", fault->device, fault->words), fault->node);
+    tell(*fault);
     if (state_.is(MachineState::kOff) || hold_for_heat(*fault)) continue;
     beds_stay_ = true;
     stop_all(true);
@@ -26,9 +27,38 @@ bool Gateway::Core::hold_for_heat(const DeviceFault& fault) {
   heat_.note(journal_);
   heat_.keep();
   heat_.heaters_off(Heat::Beds::kStay);
+  hold_for(fault);
+  return true;
+}
+
+/// A job feeds nothing that is not there. Without one it is nobody's trouble yet. Heaters stay as they are:
+/// what is put in is to melt.
+void Gateway::Core::watch_filament() {
+  const bool of_job = state_.is(MachineState::kRunning) && runner_ == &print_.runner() && runner_->active();
+  if (!of_job || runner_->probing() || !heat_hold_.is(Stage::kNone)) return;
+  const auto trouble = heat_.filament_trouble();
+  if (!trouble) return;
+  tell(*trouble);
+  heat_.note(journal_);
+  heat_.keep();
+  hold_for(*trouble);
+}
+
+void Gateway::Core::tell(const DeviceFault& fault) {
+  events_.alarm(now_, fault.filament ? AlarmCode::kFilament : AlarmCode::kThermal,
+                say("%1: %2", fault.device, fault.words), fault.node,
+                fault.filament ? runner_->line(now_) : 0);
+}
+
+std::optional<DeviceFault> Gateway::Core::out_of_order() const {
+  auto fault = heat_.fault();
+  return fault ? fault : heat_.filament_trouble();
+}
+
+void Gateway::Core::hold_for(const DeviceFault& fault) {
   heat_hold_.note(fault);
   if (heat_hold_.is(Stage::kMends)) heat_hold_.holds();
-  if (!heat_hold_.is(Stage::kNone)) return true;
+  if (!heat_hold_.is(Stage::kNone)) return;
   recovery_.do_not_go_on();
   hand_.forget_then();
   hand_.end_jogs();
@@ -36,7 +66,6 @@ bool Gateway::Core::hold_for_heat(const DeviceFault& fault) {
   rest_.begin(now_);
   heat_hold_.begin();
   enter(MachineState::kHolding);
-  return true;
 }
 
 void Gateway::Core::step_heat_hold() {
@@ -74,21 +103,25 @@ void Gateway::Core::finish_lift() {
   runner_ = &print_.runner();
   heat_hold_.holds();
   heat_.stop_spindle();
-  events_.message(now_, say("the job is held: mend what is wrong, then resume heats and goes on"),
-                  runner_->rest_pose().line);
+  const PlannedPose place = runner_->rest_pose();
+  const auto on_part = convert_pose(*kinematics_, place.frame, place.pose, Frame::kPart);
+  const Pose& at = on_part ? *on_part : place.pose;
+  events_.message(now_,
+                  say("the job is held at X%1 Y%2 Z%3: mend what is wrong, then resume heats and goes on",
+                      printed("%.3f", at[kX]), printed("%.3f", at[kY]), printed("%.3f", at[kZ])),
+                  place.line);
   enter(MachineState::kHeld);
 }
 
 /// In kHeld, after resume.
 void Gateway::Core::step_mending() {
-  const auto fault = heat_.fault();
+  const auto fault = out_of_order();
   switch (heat_hold_.mended(now_, fault.has_value())) {
     case HeatHold::Mended::kNotYet:
       return;
     case HeatHold::Mended::kNo:
       heat_hold_.holds();
-      if (fault)
-        events_.alarm(now_, AlarmCode::kThermal, say("%1: %2", fault->device, fault->words), fault->node);
+      if (fault) tell(*fault);
       return;
     case HeatHold::Mended::kYes:
       break;

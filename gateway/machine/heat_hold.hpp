@@ -1,5 +1,6 @@
 #pragma once
-// A job that a heater's fault holds: how far that is, why, and when it is mended.
+// A job that a heater's fault holds, or filament that does not come: how far that is, why, and when it is
+// mended.
 
 #include <cstdint>
 #include <optional>

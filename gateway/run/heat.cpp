@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "gateway/description/usual_temperature.hpp"
 #include "gateway/jobs/machine_setup.hpp"
 
 namespace kinebus {
@@ -15,17 +16,6 @@ using What = canonical::Thermal::What;
 
 /// A node measures a rise of at least so much: K.
 constexpr double kLeastWay = 40;
-
-double usual_celsius(HeaterKind kind) {
-  switch (kind) {
-    case HeaterKind::kHotend:
-      return 200;
-    case HeaterKind::kBed:
-      return 80;
-    default:
-      return 70;
-  }
-}
 
 }  // namespace
 
@@ -57,7 +47,7 @@ Done Heat::tune(HeaterId heater, double celsius) {
   if (const HeaterDescription* measured = tuned(); measured != nullptr)
     return refused(say("heater.%1 is being measured: a target of 0 ends that", measured->name));
   if (heats()) return refused(say("a heater is measured while all are off: switch them off first"));
-  if (celsius == 0) celsius = std::min(usual_celsius(known->kind), known->max_c);
+  if (celsius == 0) celsius = usual_celsius(*known);
   if (!(celsius > 0 && celsius <= known->max_c))
     return refused(say("the temperature must be 0 to %1 C", std::lround(known->max_c)));
   const double actual = devices_.heater(heater).actual_celsius;
@@ -151,6 +141,7 @@ void Heat::report(MachineStatus& status) const {
   status.fans = devices_.fans();
   status.outputs = devices_.outputs();
   status.sensors = devices_.sensors();
+  status.filaments = devices_.filaments();
   status.spindle = devices_.spindle();
   if (machine_.probe.present) status.probe_touches = devices_.probe_touches();
 }

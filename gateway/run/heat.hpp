@@ -40,6 +40,8 @@ class Heat {
   /// The filament that will be fed, mm/s: means over steps of kFlowAheadStep, the first from now. Of the
   /// first hot end.
   void feed_ahead(const FlowAhead& mm_per_s);
+  /// Where the extruder is now, mm.
+  void follow_extruder(double mm) { devices_.follow_extruder(mm); }
   /// A heater has a target, or is measured.
   bool heats() const;
 
@@ -56,6 +58,8 @@ class Heat {
   /// Of a device that is out of order; the new one tells each once.
   std::optional<DeviceFault> fault() const { return devices_.fault(); }
   std::optional<DeviceFault> new_fault() { return devices_.new_fault(); }
+  /// There is nothing to print with, or it does not come.
+  std::optional<DeviceFault> filament_trouble() const { return devices_.filament_trouble(); }
 
   /// nullptr: the machine has none.
   ContactProbe* probe() { return devices_.probe(); }

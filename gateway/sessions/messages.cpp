@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "gateway/description/usual_temperature.hpp"
 #include "protocol/joblink/shown_text.hpp"
 
 namespace kinebus {
@@ -270,6 +271,13 @@ joblink::Status to_message(const MachineStatus& s) {
     told.set_name(shown(sensor.name));
     told.set_celsius(sensor.celsius);
   }
+  for (const FilamentStatus& filament : s.filaments) {
+    joblink::FilamentSensor& told = *m.add_filament_sensors();
+    told.set_name(shown(filament.name));
+    told.set_condition(static_cast<joblink::FilamentCondition>(filament.condition));
+    if (filament.condition != FilamentCondition::kInOrder)
+      *told.mutable_words() = to_message(sentence(filament.condition));
+  }
   if (s.probe_touches) m.set_probe_touches(*s.probe_touches);
   m.set_spindle_rpm(s.spindle.actual_rpm);
   m.set_spindle_target_rpm(s.spindle.target_rpm);
@@ -345,6 +353,7 @@ joblink::MachineInfo to_message(const MachineDescription& machine, const Pose& b
     h.set_kind(static_cast<joblink::HeaterKind>(heater.kind));
     h.set_index(heater.index);
     h.set_max_celsius(heater.max_c);
+    h.set_usual_celsius(usual_celsius(heater));
   }
   m.set_filament_diameter_mm(machine.gcode.filament_diameter_mm);
   m.set_bus(shown(machine.bus.interface));

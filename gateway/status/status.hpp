@@ -81,6 +81,7 @@ struct MachineStatus {
   std::vector<NamedHeaterStatus> heaters;
   std::vector<OutputStatus> fans, outputs;
   std::vector<SensorStatus> sensors;
+  std::vector<FilamentStatus> filaments;
   SpindleStatus spindle;
   std::optional<bool> probe_touches;  ///< empty: there is no probe
   /// Cold and off when there is none.

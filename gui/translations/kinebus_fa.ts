@@ -2281,8 +2281,32 @@
         <translation>ابزار به اندازهٔ لازم بالا برده نشد: %1</translation>
     </message>
     <message>
-        <source>the job is held: mend what is wrong, then resume heats and goes on</source>
-        <translation>کار مکث کرده است: خرابی را برطرف کنید، سپس ادامه دهید؛ نخست گرم می‌کند و بعد پیش می‌رود</translation>
+        <source>the job is held at X%1 Y%2 Z%3: mend what is wrong, then resume heats and goes on</source>
+        <translation>کار در X%1 Y%2 Z%3 مکث کرده است: خرابی را برطرف کنید، سپس ادامه دهید؛ نخست گرم می‌کند و بعد پیش می‌رود</translation>
+    </message>
+    <message>
+        <source>there is no filament any more</source>
+        <translation>دیگر فیلامنتی نیست</translation>
+    </message>
+    <message>
+        <source>the extruder turns and the filament stands still</source>
+        <translation>اکسترودر می‌چرخد ولی فیلامنت ایستاده است</translation>
+    </message>
+    <message>
+        <source>less filament comes than the extruder turns for</source>
+        <translation>فیلامنت کمتر از چرخش اکسترودر می‌آید</translation>
+    </message>
+    <message>
+        <source>at least %1, %2 edges</source>
+        <translation>دست‌کم %1، یعنی %2 لبه</translation>
+    </message>
+    <message>
+        <source>Filament does not come</source>
+        <translation>فیلامنت نمی‌آید</translation>
+    </message>
+    <message>
+        <source>put filament in, or free it on its way, then resume</source>
+        <translation>فیلامنت را جا بزنید یا مسیرش را آزاد کنید، سپس ادامه دهید</translation>
     </message>
     <message>
         <source>the job was cancelled</source>

@@ -2281,8 +2281,32 @@
         <translation>takım gerektiği kadar kaldırılmadı: %1</translation>
     </message>
     <message>
-        <source>the job is held: mend what is wrong, then resume heats and goes on</source>
-        <translation>iş duraklatıldı: bozuk olanı onarın, sonra sürdürün; iş önce ısıtır, sonra devam eder</translation>
+        <source>the job is held at X%1 Y%2 Z%3: mend what is wrong, then resume heats and goes on</source>
+        <translation>iş X%1 Y%2 Z%3 noktasında duraklatıldı: bozuk olanı onarın, sonra sürdürün; iş önce ısıtır, sonra devam eder</translation>
+    </message>
+    <message>
+        <source>there is no filament any more</source>
+        <translation>artık filament yok</translation>
+    </message>
+    <message>
+        <source>the extruder turns and the filament stands still</source>
+        <translation>ekstrüder dönüyor ama filament ilerlemiyor</translation>
+    </message>
+    <message>
+        <source>less filament comes than the extruder turns for</source>
+        <translation>ekstrüderin döndüğünden daha az filament geliyor</translation>
+    </message>
+    <message>
+        <source>at least %1, %2 edges</source>
+        <translation>en az %1, %2 darbe kenarı</translation>
+    </message>
+    <message>
+        <source>Filament does not come</source>
+        <translation>Filament gelmiyor</translation>
+    </message>
+    <message>
+        <source>put filament in, or free it on its way, then resume</source>
+        <translation>filament takın ya da yolunda serbest bırakın, sonra sürdürün</translation>
     </message>
     <message>
         <source>the job was cancelled</source>

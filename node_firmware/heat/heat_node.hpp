@@ -15,6 +15,7 @@
 
 #include "node_firmware/core/parameter_image.hpp"
 #include "node_firmware/heat/fan.hpp"
+#include "node_firmware/heat/filament_watch.hpp"
 #include "node_firmware/heat/flow_profile.hpp"
 #include "node_firmware/heat/heater.hpp"
 #include "protocol/canopen/emcy.hpp"
@@ -46,6 +47,11 @@ class HeatNode final : private ObjectOwner {
   /// Every SensorInput::kSamplePeriod; `ratio`: see Linearisation; `broken`: the converter says so.
   void on_sample(LocalTime at, int sensor, std::uint32_t ratio, bool broken = false);
   void on_tacho(int fan, std::uint32_t pulses);
+  /// Every SensorInput::kSamplePeriod: the level of a filament switch, the edges of a wheel since the last
+  /// call.
+  void on_filament(int sensor, bool level, std::uint32_t edges) {
+    filaments_[static_cast<std::size_t>(sensor)].on_sample(level, edges);
+  }
   /// 0: not measured.
   void set_supply(std::uint16_t mv) { supply_mv_ = mv; }
   /// Needed at next_deadline(); allowed at any time.
@@ -75,6 +81,10 @@ class HeatNode final : private ObjectOwner {
   std::int32_t temperature(int sensor) const {
     return sensors_[static_cast<std::size_t>(sensor)].temperature();
   }
+  /// What the master has told of the extruder, um.
+  std::int32_t filament_commanded(int sensor) const {
+    return filaments_[static_cast<std::size_t>(sensor)].commanded();
+  }
   HeaterFault fault(int heater) const { return heaters_[static_cast<std::size_t>(heater)].fault(); }
 
  private:
@@ -85,6 +95,7 @@ class HeatNode final : private ObjectOwner {
   AbortCode read_device(ObjectAddress address, std::int64_t& value) const;
   AbortCode read_sensor(std::uint16_t index, std::size_t n, std::int64_t& value) const;
   AbortCode read_heater(std::uint16_t index, std::size_t n, std::int64_t& value) const;
+  AbortCode read_filament(std::uint16_t index, std::size_t n, std::int64_t& value) const;
   AbortCode write_communication(const ObjectEntry& entry, std::int64_t value);
   AbortCode write_heater(std::uint16_t index, std::size_t n, std::int64_t value);
   AbortCode write_set_point(std::size_t n, std::int64_t value);
@@ -145,6 +156,7 @@ class HeatNode final : private ObjectOwner {
   std::array<SensorInput, kHeatSensors> sensors_;
   std::array<Heater, kHeaters> heaters_;
   std::array<Fan, kFans> fans_;
+  std::array<FilamentWatch, kFilamentSensors> filaments_;
   HeatTuning tuning_;
   int tuned_ = -1;  // the heater that tuning_ measures, or has measured
   bool tuning_taken_ = true;

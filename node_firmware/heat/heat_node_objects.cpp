@@ -29,7 +29,8 @@ bool is_sensor_setting(std::uint16_t index) {
 bool is_setting(std::uint16_t index) {
   return is_sensor_setting(index) || (index >= kHeaterSensor.index && index <= kSafeTime.index) ||
          index == kFlowHeater.index || index == kFlowLead.index ||
-         (index >= kFanFunction.index && index <= kFanPulses.index) || index == kMasterLost.index ||
+         (index >= kFanFunction.index && index <= kFanPulses.index) ||
+         (index >= kFilamentKind.index && index <= kFilamentLeast.index) || index == kMasterLost.index ||
          (index >= kProportionalBand.index && index <= kDerivativeTime.index);
 }
 
@@ -58,6 +59,10 @@ AbortCode HeatNode::read(const ObjectEntry& entry, std::int64_t& result) {
     case kFlowPower.index:
       result = flow_.step(n) / 10;
       return AbortCode::kNone;
+    case kFilamentCommanded.index:
+    case kFilamentSeen.index:
+    case kFilamentState.index:
+      return read_filament(index, n, result);
     default:
       break;
   }
@@ -123,6 +128,14 @@ AbortCode HeatNode::read_sensor(std::uint16_t index, std::size_t n, std::int64_t
   return AbortCode::kNone;
 }
 
+AbortCode HeatNode::read_filament(std::uint16_t index, std::size_t n, std::int64_t& result) const {
+  const FilamentWatch& filament = filaments_[n];
+  result = index == kFilamentCommanded.index ? filament.commanded()
+           : index == kFilamentSeen.index    ? filament.seen()
+                                             : static_cast<std::int64_t>(filament.state());
+  return AbortCode::kNone;
+}
+
 std::uint8_t HeatNode::heater_state(std::size_t n) const {
   const Heater& heater = heaters_[n];
   const SensorInput* sensor = sensor_of(n);
@@ -172,6 +185,14 @@ AbortCode HeatNode::write(const ObjectEntry& entry, std::int64_t to) {
   }
   if (index == kFlowPower.index) {
     flow_.set(place_of(entry.address), static_cast<std::int32_t>(to) * 10, now_);
+    return AbortCode::kNone;
+  }
+  if (index == kFilamentCommanded.index) {
+    filaments_[place_of(entry.address)].on_commanded(static_cast<std::int32_t>(to));
+    return AbortCode::kNone;
+  }
+  if (index == kFilamentReset.index) {
+    filaments_[place_of(entry.address)].reset();
     return AbortCode::kNone;
   }
   if (entry.binding == Binding::kLive) return write_heater(index, place_of(entry.address), to);

@@ -85,6 +85,14 @@ void HeatNode::apply_settings() {
                         .kick_ms = static_cast<std::uint16_t>(value(heat_slot_of(kFanKick), i)),
                         .least_duty = static_cast<std::uint8_t>(value(heat_slot_of(kFanLeast), i)),
                         .pulses_per_turn = static_cast<std::uint8_t>(value(heat_slot_of(kFanPulses), i))});
+  for (std::size_t i = 0; i < filaments_.size(); ++i)
+    filaments_[i].configure(
+        {.kind = static_cast<FilamentKind>(value(heat_slot_of(kFilamentKind), i)),
+         .inverted = value(heat_slot_of(kFilamentInverted), i) != 0,
+         .um_per_edge = static_cast<std::uint32_t>(value(heat_slot_of(kFilamentPerEdge), i)),
+         .stands_um = static_cast<std::uint32_t>(value(heat_slot_of(kFilamentStands), i)),
+         .slips_um = static_cast<std::uint32_t>(value(heat_slot_of(kFilamentSlips), i)),
+         .least_share = static_cast<std::uint8_t>(value(heat_slot_of(kFilamentLeast), i))});
 }
 
 int HeatNode::sensor_number(std::size_t heater) const {

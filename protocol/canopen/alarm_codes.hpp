@@ -50,6 +50,7 @@ enum class AlarmCode : std::uint16_t {
   kStopTimeout = 0xFF91,    ///< the nodes did not come to rest as they should
   kIdTaken = 0xFF92,        ///< two nodes answer to one id
   kNodeChanged = 0xFF93,    ///< another device has stopped, moved, switched or written to a node
+  kFilament = 0xFF94,       ///< a job has nothing to print with, or it does not come
 };
 
 }  // namespace kinebus

@@ -173,6 +173,8 @@ inline constexpr std::array kAlarms{
         "bring up again"),
     alarm_table::gateway(AlarmCode::kNodeChanged, "Another device has changed a node",
                          "look for another master or tool on the bus, then clear"),
+    alarm_table::gateway(AlarmCode::kFilament, "Filament does not come",
+                         "put filament in, or free it on its way, then resume"),
 };
 
 /// Codes of CiA 301 that no part of Kinebus sends, by their first digit.

@@ -9,6 +9,7 @@ namespace kinebus {
 inline constexpr int kHeatSensors = 6;
 inline constexpr int kHeaters = 4;
 inline constexpr int kFans = 6;
+inline constexpr int kFilamentSensors = 2;
 /// 2227h: so many steps of so long.
 inline constexpr int kFlowSteps = 4;
 inline constexpr int kFlowStepMs = 400;
@@ -36,6 +37,11 @@ inline constexpr ObjectAddress kHeaterSensor{0x2210, 1}, kLimit{0x2211, 1}, kHig
 // Fans.
 inline constexpr ObjectAddress kFanFunction{0x2230, 1}, kFanHeater{0x2231, 1}, kFanKick{0x2232, 1},
     kFanLeast{0x2233, 1}, kFanPulses{0x2234, 1}, kFanSpeed{0x2235, 1}, kFanOutput{0x6411, 1};
+// Filament sensors.
+inline constexpr ObjectAddress kFilamentKind{0x2250, 1}, kFilamentInverted{0x2251, 1},
+    kFilamentPerEdge{0x2252, 1}, kFilamentStands{0x2253, 1}, kFilamentSlips{0x2254, 1},
+    kFilamentLeast{0x2255, 1}, kFilamentCommanded{0x2256, 1}, kFilamentSeen{0x2257, 1},
+    kFilamentState{0x2258, 1}, kFilamentReset{0x2259, 1};
 inline constexpr ObjectAddress kContactor{0x2240, 0}, kSupply{0x2241, 0}, kMasterLost{0x2242, 0};
 }  // namespace heat_object
 
@@ -47,6 +53,8 @@ inline constexpr std::array<std::string_view, kHeaters> kHeaterNames = {"Heater 
                                                                         "Heater 4"};
 inline constexpr std::array<std::string_view, kFlowSteps> kFlowNames = {"0 to 0.4 s", "0.4 to 0.8 s",
                                                                         "0.8 to 1.2 s", "1.2 to 1.6 s"};
+inline constexpr std::array<std::string_view, kFilamentSensors> kFilamentNames = {"Filament sensor 1",
+                                                                                  "Filament sensor 2"};
 inline constexpr std::array<std::string_view, kFans> kFanNames = {"Fan 1", "Fan 2", "Fan 3",
                                                                   "Fan 4", "Fan 5", "Fan 6"};
 
@@ -172,6 +180,28 @@ constexpr void fans(Rows& t) {
            entry_of(kI16, kReadWrite, kLive).maps(Mapping::kRpdo));
 }
 
+/// What tells whether filament is there, and whether it goes where the extruder turns. Lengths are of
+/// filament.
+constexpr void filament_sensors(Rows& t) {
+  const std::span<const std::string_view> names = kFilamentNames;
+  array_of(t, 0x2250, "Filament sensor kind", names, setting(kU8, 0, 0, 2));  // 0: none, 1: switch, 2: motion
+  array_of(t, 0x2251, "Filament switch inverted", names, setting(kU8, 0, 0, 1));  // 1: low is filament
+  array_of(t, 0x2252, "Filament for an edge", names, setting(kU32, 2880, 10, 20'000).in("um"));
+  // So much commanded and no edge but the one that may be near: it stands.
+  array_of(t, 0x2253, "Filament stands after", names, setting(kU32, 7000, 500, 200'000).in("um"));
+  // Over so much commanded less than the share was seen: it slips.
+  array_of(t, 0x2254, "Filament slip window", names, setting(kU32, 30'000, 2000, 1'000'000).in("um"));
+  array_of(t, 0x2255, "Filament least share", names, setting(kU8, 60, 10, 95).in("%"));
+  // Where the extruder is by the master, every 0.1 s while it turns; it may begin and wrap anywhere.
+  array_of(t, 0x2256, "Filament commanded", names,
+           entry_of(kI32, kReadWrite, kLive).maps(Mapping::kRpdo).in("um"));
+  // Both ways: what is drawn back counts, too.
+  array_of(t, 0x2257, "Filament seen", names, state(kI32).in("um"));
+  // 0 in order, 1 no filament, 2 stands, 3 slips; 2 and 3 stay until 2259h.
+  array_of(t, 0x2258, "Filament state", names, state(kU8));
+  array_of(t, 0x2259, "Filament reset", names, entry_of(kU8, kWriteOnly, kLive).between(1, 1));
+}
+
 /// The node as a whole.
 constexpr void heat_supervision(Rows& t) {
   t.var(0x2116, "Configuration fingerprint", kU32, kReadOnly, kLive);
@@ -191,7 +221,14 @@ constexpr std::array<std::uint32_t, 8> four_of(ObjectAddress first, int bits) {
 inline constexpr std::array<PdoDefault, 4> kHeatRpdos{{
     {"SetPoints", 0x200, true, 255, 0, 0, four_of(heat_object::kSetPoint, 16)},
     {"Fans", 0x300, true, 255, 0, 0, four_of(heat_object::kFanOutput, 16)},
-    {"FeedForward", 0x400, true, 255, 0, 0, four_of(heat_object::kFeedForward, 16)},
+    {"Filament",
+     0x400,
+     true,
+     255,
+     0,
+     0,
+     {mapped_nth(heat_object::kFilamentCommanded, 32, 0),
+      mapped_nth(heat_object::kFilamentCommanded, 32, 1)}},
     {"FlowAhead", 0x500, true, 255, 0, 0, four_of(heat_object::kFlowPower, 16)},
 }};
 // The state at once when it changes; the rest four times a second.
@@ -204,7 +241,8 @@ inline constexpr std::array<PdoDefault, 4> kHeatTpdos{{
      1000,
      {mapped_nth(heat_object::kHeaterState, 8, 0), mapped_nth(heat_object::kHeaterState, 8, 1),
       mapped_nth(heat_object::kHeaterState, 8, 2), mapped_nth(heat_object::kHeaterState, 8, 3),
-      mapped(heat_object::kContactor, 8)}},
+      mapped(heat_object::kContactor, 8), mapped_nth(heat_object::kFilamentState, 8, 0),
+      mapped_nth(heat_object::kFilamentState, 8, 1)}},
     {"Temperatures", 0x280 | kNoRtr, true, 254, 0, 250, four_of(heat_object::kInputI16, 16)},
     {"Outputs", 0x380 | kNoRtr, true, 254, 0, 250, four_of(heat_object::kEffectiveOutput, 16)},
     {"MoreTemperatures",

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <map>
@@ -54,6 +55,10 @@ void print_devices(const Status& s) {
     words += fmt::format("{} {:.0f} %   ", output.name(), 100 * output.ratio());
   for (const joblink::Sensor& sensor : s.sensors())
     words += fmt::format("{} {:.1f} C   ", sensor.name(), sensor.celsius());
+  constexpr std::array kConditions{"in order", "out", "stands", "slips"};
+  for (const joblink::FilamentSensor& filament : s.filament_sensors())
+    words += fmt::format("filament {} {}   ", filament.name(),
+                         kConditions[std::min<std::size_t>(filament.condition(), kConditions.size() - 1)]);
   if (s.has_probe_touches()) words += s.probe_touches() ? "probe touches   " : "probe free   ";
   if (words.empty()) return;
   words.resize(words.find_last_not_of(' ') + 1);

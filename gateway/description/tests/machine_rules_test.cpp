@@ -202,6 +202,28 @@ TEST(MachineFile, ADeviceWhereNoneCanBeIsRefused) {
       {"axis_pairs = 0\nheaters = 2\noutputs = 1",
        "where = \"node\"\nnode = 4\nchannel = 1\nsensor = \"pt100\"\nfan_channel = 2",
        "heater.bed.fan_channel: found 2; expected a channel in 1 .. 1, as node.4.outputs says"},
+      {"axis_pairs = 0\nfilament_sensors = 1",
+       "where = \"simulated\"\n[filament_sensor.x]\nkind = \"switch\"\nwhere = \"node\"\nnode = 4\nchannel = "
+       "2",
+       "filament_sensor.x.channel: found 2; expected a channel in 1 .. 1, as node.4.filament_sensors says"},
+      {"axis_pairs = 0\nfilament_sensors = 3",
+       "where = \"simulated\"\n[filament_sensor.x]\nkind = \"switch\"\nwhere = \"node\"\nnode = 4\nchannel = "
+       "1",
+       "node.4.filament_sensors: found 3; expected at most 2 on a heat node"},
+      {"axis_pairs = 0\nfilament_sensors = 1",
+       "where = \"simulated\"\n[filament_sensor.x]\nkind = \"motion\"\nwhere = \"node\"\nnode = 4\nchannel = "
+       "1\n"
+       "stands_mm = 5",
+       "filament_sensor.x.stands_mm: found 5; expected at least 5.76, 2 edges"},
+      {"axis_pairs = 0\nfilament_sensors = 1",
+       "where = \"simulated\"\n[filament_sensor.x]\nkind = \"wheel\"\nwhere = \"node\"\nnode = 4\nchannel = "
+       "1",
+       "filament_sensor.x.kind: found \"wheel\"; expected one of \"switch\" \"motion\""},
+      {"axis_pairs = 0\nfilament_sensors = 1",
+       "where = \"simulated\"\n[filament_sensor.x]\nkind = \"switch\"\nwhere = \"node\"\nnode = 4\nchannel = "
+       "1\n"
+       "stands_mm = 7",
+       "filament_sensor.x.stands_mm: found a key that does not exist"},
       {"", "where = \"simulated\"\n[probe]\nwhere = \"node\"\nnode = 3\nchannel = 1",
        "probe.channel: found 1; expected an input of node 3 that has the probe function"},
       {"", "where = \"simulated\"\n[fan.\"two words\"]\nwhere = \"simulated\"",

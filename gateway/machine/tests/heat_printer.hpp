@@ -50,6 +50,7 @@ inline constexpr double kOnTheLine = 2e-3;
 
 class HeatPrinter : public testing::Test {
  protected:
+  explicit HeatPrinter(MachineDescription machine = printer_on_the_bus()) : rig(std::move(machine)) {}
   /// Where the motors have the tool, Frame::kMachine.
   Pose tool() {
     Pose pose = kinematics->bed_reference();
@@ -68,7 +69,7 @@ class HeatPrinter : public testing::Test {
            rig.gateway->carry_out(command::Run{std::make_unique<StringSource>(std::move(job)), "part"});
   }
 
-  MachineRig rig{printer_on_the_bus()};
+  MachineRig rig;
   std::unique_ptr<Kinematics> kinematics = std::move(*make_kinematics(rig.machine));
 };
 

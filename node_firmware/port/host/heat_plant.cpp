@@ -47,6 +47,9 @@ void HeatPlant::step(HeatNode& node, LocalTime now) {
     fan.turned -= pulses;
     node.on_tacho(static_cast<int>(i), pulses);
   }
+  filament_.step(extruder_mm_.value_or(1e-3 * node.filament_commanded(1)));
+  node.on_filament(0, filament_.level(), 0);
+  node.on_filament(1, false, filament_.take_edges());
   hot_end().fan = fans_[1].speed;
   for (std::size_t i = 0; i < places_.size(); ++i) {
     ThermalPlant& place = places_[i];
@@ -54,6 +57,15 @@ void HeatPlant::step(HeatNode& node, LocalTime now) {
     place.contactor = node.contactor();
     place.step(i < 2 ? node.heater_output(number) / static_cast<double>(kFullPower) : 0);
     if (!place.silent) node.on_sample(now, number, place.ratio());
+  }
+}
+
+void HeatPlant::rest() {
+  for (Turning& fan : fans_) fan.speed = 0;
+  hot_end().fan = 0;
+  for (ThermalPlant& place : places_) {
+    place.contactor = false;
+    place.step(0);
   }
 }
 
@@ -66,11 +78,12 @@ std::string HeatPlant::command(std::string_view text) {
   const bool done =
       rest.empty() &&
       ((what == "sensor" && break_sensor(number, how)) || (what == "heater" && break_heater(number, how)) ||
-       (what == "fan" && break_fan(number, how)) || (what == "flow" && how.empty() && set_flow(which)));
+       (what == "fan" && break_fan(number, how)) || (what == "flow" && how.empty() && set_flow(which)) ||
+       (what == "filament" && how.empty() && break_filament(which)));
   if (done) return {};
   return "\"" + std::string(text) +
          "\": expected sensor N open|short|loose|silent|frozen|ok, heater N loose|open|stuck|ok, fan N "
-         "stalled|ok, or flow MM3_PER_S";
+         "stalled|ok, flow MM3_PER_S, or filament out|jammed|slips|ok";
 }
 
 bool HeatPlant::break_sensor(int number, std::string_view how) {
@@ -108,6 +121,14 @@ bool HeatPlant::break_heater(int number, std::string_view how) {
 bool HeatPlant::break_fan(int number, std::string_view how) {
   if (number < 1 || number > 2 || (how != "stalled" && how != "ok")) return false;
   fans_[static_cast<std::size_t>(number - 1)].stalled = how == "stalled";
+  return true;
+}
+
+bool HeatPlant::break_filament(std::string_view how) {
+  constexpr double kSlips = 0.35;  // of what the extruder turns
+  if (how != "out" && how != "jammed" && how != "slips" && how != "ok") return false;
+  filament_.out = how == "out";
+  filament_.share = how == "jammed" ? 0 : how == "slips" ? kSlips : 1;
   return true;
 }
 

@@ -1,17 +1,21 @@
 #pragma once
-// What hangs on a simulated heat node: a hot end, a bed, a chamber's sensor, two fans, and what can break of
-// them. No clock and no input or output; the numbers are not those that the node assumes.
+// What hangs on a simulated heat node: a hot end, a bed, a chamber's sensor, two fans, filament and its
+// sensors, and what can break of them. No clock and no input or output; the numbers are not those that the
+// node assumes.
 //
 //   heater 1, sensor 1   hot end of 40 W          fan 1   the hot end's own, with tacho
 //   heater 2, sensor 2   bed of 250 W             fan 2   cools the print, and the hot end a little
-//             sensor 3   the chamber's air
+//             sensor 3   the chamber's air          filament sensor 1   a switch
+//                                                   filament sensor 2   a wheel, an edge every 2.93 mm
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "node_firmware/heat/heat_node.hpp"
+#include "node_firmware/port/host/filament_plant.hpp"
 #include "node_firmware/port/host/thermal_plant.hpp"
 
 namespace kinebus::heat {
@@ -25,6 +29,8 @@ class HeatPlant {
 
   /// One kPeriod goes by under what `node` puts out; then its sensors and tachos tell it.
   void step(HeatNode& node, LocalTime now);
+  /// The same without a node: nothing has power.
+  void rest();
 
   /// Breaks or mends something, one of:
   ///
@@ -32,12 +38,18 @@ class HeatPlant {
   ///     heater N loose | open | stuck | ok
   ///     fan N stalled | ok
   ///     flow MM3_PER_S
+  ///     filament out | jammed | slips | ok
   ///
   /// Sensors are 1 to 3, the chamber's can be open, short and ok; heaters and fans 1 and 2. A stuck heater's
   /// MOSFET is always on. Flow is that of filament through the hot end, 0 to 100.
   /// Empty: done. Otherwise what is wrong with the command, and what there is.
   std::string command(std::string_view text);
 
+  /// Where the extruder's gears have turned to, mm of filament; before step(). Without it the filament goes
+  /// as the master tells the node.
+  void turn_extruder(double mm) { extruder_mm_ = mm; }
+
+  FilamentPlant& filament() { return filament_; }
   ThermalPlant& hot_end() { return places_[0]; }
   ThermalPlant& bed() { return places_[1]; }
 
@@ -51,9 +63,12 @@ class HeatPlant {
   bool break_heater(int number, std::string_view how);
   bool break_fan(int number, std::string_view how);
   bool set_flow(std::string_view mm3_per_s);
+  bool break_filament(std::string_view how);
 
   std::array<ThermalPlant, 3> places_;
   std::array<Turning, 2> fans_;
+  FilamentPlant filament_;
+  std::optional<double> extruder_mm_;
 };
 
 }  // namespace kinebus::heat

@@ -24,6 +24,7 @@ struct HeatBoard {
     object_table::temperature_inputs(t);
     object_table::heaters(t);
     object_table::fans(t);
+    object_table::filament_sensors(t);
   }
 };
 

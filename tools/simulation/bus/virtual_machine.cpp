@@ -25,6 +25,12 @@ VirtualMachine::VirtualMachine(const std::vector<VirtualNodeOptions>& nodes, std
   for (const VirtualNodeOptions& options : nodes)
     nodes_.push_back(
         std::make_unique<VirtualNode>(options, bus_.add_port(kMailboxes), static_cast<int>(nodes_.size())));
+  for (const auto& node : nodes_)
+    if (const auto& extruder = node->options.extruder)
+      node->extruder = [&from = *nodes_[static_cast<std::size_t>(extruder->node)], to = node.get(),
+                        extruder = *extruder](LocalTime at) {
+        return from.counts(extruder.axis, to->to_true(at)) * extruder.mm_per_count;
+      };
 }
 
 VirtualMachine::~VirtualMachine() = default;

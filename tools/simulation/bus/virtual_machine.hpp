@@ -44,9 +44,16 @@ struct VirtualProbe {
   double max_mm_per_s = 500;  ///< bound used to find the edge without fine ticks
 };
 
+/// The motor that feeds filament.
+struct VirtualExtruder {
+  int node = 0, axis = 0;  ///< its place
+  double mm_per_count = 0;
+};
+
 struct VirtualNodeOptions {
   NodeOptions node;
-  bool heat = false;  ///< a heat node, with a HeatPlant behind it and no axes
+  bool heat = false;                          ///< a heat node, with a HeatPlant behind it and no axes
+  std::optional<VirtualExtruder> extruder{};  ///< what draws the filament past its sensors
   std::array<VirtualAxis, 2> axes{};
   BusTime clock_offset{0};
   double clock_drift_ppm = 0;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -26,6 +27,9 @@ struct VirtualMachine::VirtualNode {
     }
     if (!plant) plant = std::make_unique<heat::HeatPlant>(static_cast<std::uint32_t>(index) + 1);
     heat.emplace(heat::HeatNodeOptions{options.node.node_id, options.node.identity.serial}, local, stored);
+    // Blocks have cooled meanwhile, without their node.
+    for (; next_sample != LocalTime{0} && next_sample < local; next_sample += heat::HeatPlant::kPeriod)
+      plant->rest();
     next_sample = local;
   }
   bool powered() const { return core || heat; }
@@ -55,6 +59,7 @@ struct VirtualMachine::VirtualNode {
   void sample_until(LocalTime now) {
     for (; heat && next_sample <= now; next_sample += heat::HeatPlant::kPeriod) {
       heat->on_time(next_sample);
+      if (extruder) plant->turn_extruder(extruder(next_sample));
       plant->step(*heat, next_sample);
     }
   }
@@ -104,6 +109,7 @@ struct VirtualMachine::VirtualNode {
   std::unique_ptr<heat::HeatPlant> plant;
   std::vector<std::uint8_t> stored;  // parameters of a heat node
   LocalTime next_sample{0};
+  std::function<double(LocalTime)> extruder;  // mm of filament, by this node's clock
   bool stalled = false;
   std::uint32_t lost_while_stalled = 0;  // frames that its full queue refused: it finds out when it goes on
   std::vector<Pending> pending;

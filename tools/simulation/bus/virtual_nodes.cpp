@@ -54,6 +54,24 @@ VirtualAxis axis_of(const JointDescription& joint, const NodeDescription& node, 
   return axis;
 }
 
+/// The motor that alone moves when filament is fed.
+std::optional<VirtualExtruder> extruder_of(const MachineDescription& machine) {
+  const auto kinematics = make_kinematics(machine);
+  if (machine.filament_sensors.empty() || !kinematics) return std::nullopt;
+  Pose pose = (*kinematics)->bed_reference();
+  JointVector before{}, after{};
+  static_cast<void>((*kinematics)->inverse(Frame::kMachine, pose, before));
+  pose[kE] += 1;
+  static_cast<void>((*kinematics)->inverse(Frame::kMachine, pose, after));
+  for (std::size_t j = 0; j < machine.joints.size(); ++j)
+    for (std::size_t n = 0; n < machine.nodes.size(); ++n) {
+      const JointDescription& joint = machine.joints[j];
+      if (std::abs(after[j] - before[j]) > 0.5 && machine.nodes[n].id == joint.node_id)
+        return VirtualExtruder{static_cast<int>(n), joint.axis, 1 / joint.drive.counts_per_unit()};
+    }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::vector<VirtualNodeOptions> virtual_nodes_of(const MachineDescription& machine,
@@ -62,11 +80,13 @@ std::vector<VirtualNodeOptions> virtual_nodes_of(const MachineDescription& machi
   std::uniform_real_distribution<double> unit(0, 1);
   std::vector<VirtualNodeOptions> nodes;
   const auto count = machine.nodes.size();
+  const auto extruder = extruder_of(machine);
   for (std::size_t n = 0; n < count; ++n) {
     const NodeDescription& node = machine.nodes[n];
     VirtualNodeOptions options;
     options.node = {.identity = identity_of(node), .node_id = node.id, .scale_inputs = {true, true}};
     options.heat = !node.functions.has_axes() && machine.carries_heat(node.id);
+    if (options.heat) options.extruder = extruder;
     options.clock_drift_ppm =
         count > 1 ? clocks.drift_ppm * (2.0 * static_cast<double>(n) / static_cast<double>(count - 1) - 1)
                   : 0;
