@@ -21,7 +21,7 @@ double share_of(const Fault& fault) {
 
 bool ReceiverFaults::concerns(FaultKind kind) {
   return kind == kReceiveOverrun || (kind >= kFramesDropped && kind <= kFramesCorrupted) ||
-         kind == kLateStatus || kind == kWrongParameters;
+         kind == kLateStatus || kind == kWrongParameters || kind == kHeatNodeOffBus;
 }
 
 void ReceiverFaults::on_arrival(int station, std::vector<VirtualMachine::Arrival>& arrivals) {
@@ -41,6 +41,7 @@ void ReceiverFaults::on_arrival(int station, std::vector<VirtualMachine::Arrival
     return;
   }
   if (station != fault_.node) return;
+  if (fault_.kind == kHeatNodeOffBus) return arrivals.clear();
   if (fault_.kind == kReceiveOverrun) {
     overruns_ += static_cast<std::uint32_t>(arrivals.size());
     arrivals.clear();
@@ -85,11 +86,12 @@ std::uint32_t ReceiverFaults::take_overruns() {
 }
 
 bool WireFaults::concerns(FaultKind kind) {
-  return kind == kBitErrors || kind == kBusOff;
+  return kind == kBitErrors || kind == kBusOff || kind == kHeatNodeOffBus;
 }
 
 bool WireFaults::destroys(BusModel::Port from) {
-  if (fault_.kind == kBusOff) return from == victim_;  // its transmitter sends nonsense
+  if (fault_.kind == kBusOff || fault_.kind == kHeatNodeOffBus)
+    return from == victim_;  // its transmitter sends nonsense
   return unit(random_) < 0.0005 + 0.05 * fault_.strength;
 }
 

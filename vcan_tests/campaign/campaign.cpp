@@ -8,8 +8,6 @@
 #include <mutex>
 #include <thread>
 
-#include "gateway/description/machine_file.hpp"
-
 namespace kinebus {
 namespace {
 
@@ -25,6 +23,7 @@ void add(CampaignSummary& summary, const FaultResult& result) {
   row.ramp_ms = std::max(row.ramp_ms, result.ramp_ms);
   row.step_ratio = std::max(row.step_ratio, result.step_ratio);
   row.known_counts = std::max(row.known_counts, result.known_counts);
+  row.margin_k = std::min(row.margin_k, result.margin_k);
   ++summary.runs;
   summary.machine_s += result.machine_s;
   summary.cpu_s += result.cpu_s;
@@ -36,6 +35,7 @@ void add(CampaignSummary& summary, const FaultResult& result) {
 
 CampaignSummary run_campaign(const CampaignOptions& options) {
   const MachineDescription machine = campaign_machine();
+  const MachineDescription printer = campaign_machine(FaultKind::kSensorOpen);
   const auto made = make_kinematics(machine);
   if (!made) return {};
   const Kinematics& kinematics = **made;
@@ -52,9 +52,10 @@ CampaignSummary run_campaign(const CampaignOptions& options) {
       if (place >= options.seeds || (options.limit_s > 0 && past.count() > options.limit_s)) return;
       const std::uint64_t seed = options.first_seed + place;
       const FaultPlan plan = draw_faults(seed, nodes, options.only);
-      FaultResult result = run_faults(machine, kinematics, plan);
+      const MachineDescription& of = of_heat(plan.faults[0].kind) ? printer : machine;
+      FaultResult result = run_faults(of, kinematics, plan);
       const bool twice = options.repeat_every > 0 && place % options.repeat_every == 0;
-      if (twice && run_faults(machine, kinematics, plan).trace_hash != result.trace_hash)
+      if (twice && run_faults(of, kinematics, plan).trace_hash != result.trace_hash)
         result.violations.emplace_back("the same seed gave another trace");
       const std::lock_guard lock(mutex);
       summary.repeated += twice ? 1 : 0;
@@ -81,24 +82,26 @@ std::string to_table(const CampaignSummary& summary) {
   std::string text = fmt::format("{:<20}{:>6}", "fault", "runs");
   for (int i = 0; i < kFaultOutcomes; ++i)
     text += fmt::format("{:>12}", to_string(static_cast<FaultOutcome>(i)));
-  text += fmt::format("{:>8}{:>9}{:>10}{:>9}{:>9}{:>9}{:>7}{:>8}\n", "failed", "path um", "astray um",
-                      "skew us", "rest ms", "ramp ms", "step", "counts");
+  text += fmt::format("{:>8}{:>9}{:>10}{:>9}{:>9}{:>9}{:>7}{:>8}{:>9}\n", "failed", "path um", "astray um",
+                      "skew us", "rest ms", "ramp ms", "step", "counts", "margin K");
   for (int kind = 0; kind < kFaultKinds; ++kind) {
     const auto& row = summary.rows[static_cast<std::size_t>(kind)];
     if (row.runs == 0) continue;
     text += fmt::format("{:<20}{:>6}", to_string(static_cast<FaultKind>(kind)), row.runs);
     for (const std::uint64_t count : row.outcomes)
       text += count == 0 ? fmt::format("{:>12}", ".") : fmt::format("{:>12}", count);
-    text += fmt::format("{:>8}{:>9.2f}{:>10}{:>9.2f}{:>9.1f}{:>9.3f}{:>7.2f}{:>8.2f}\n", row.violations,
+    text += fmt::format("{:>8}{:>9.2f}{:>10}{:>9.2f}{:>9.1f}{:>9.3f}{:>7.2f}{:>8.2f}{:>9}\n", row.violations,
                         row.path_um, row.astray_um > 0 ? fmt::format("{:.0f}", row.astray_um) : ".",
-                        row.skew_us, row.rest_ms, row.ramp_ms, row.step_ratio, row.known_counts);
+                        row.skew_us, row.rest_ms, row.ramp_ms, row.step_ratio, row.known_counts,
+                        row.margin_k < 1000 ? fmt::format("{:.1f}", row.margin_k) : ".");
   }
   text +=
       "path: tool from plan while positions are known; astray: after lost steps, unseen until homing; skew: "
       "path "
       "time\nbetween nodes; rest: cause to all at rest; ramp: E-stop input to all ramping; step: change of "
       "velocity, "
-      "of the stop limit;\ncounts: a position said to be known, from the truth\n";
+      "of the stop limit;\ncounts: a position said to be known, from the truth; margin: the hottest block "
+      "below its limit\n";
   text += fmt::format(
       "{} runs, {} of them twice with the same trace, {:.0f} s of machine time at {:.0f} x real time a "
       "core\n",

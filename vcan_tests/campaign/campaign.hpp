@@ -26,7 +26,7 @@ struct CampaignSummary {
     std::uint64_t runs = 0, violations = 0;
     std::array<std::uint64_t, kFaultOutcomes> outcomes{};
     double path_um = 0, astray_um = 0, skew_us = 0, rest_ms = 0, ramp_ms = 0, step_ratio = 0,
-           known_counts = 0;
+           known_counts = 0, margin_k = 1000;
     std::uint64_t path_seed = 0;
   };
   std::array<Row, kFaultKinds> rows{};

@@ -27,7 +27,7 @@ bool number(std::string_view text, std::uint64_t& value) {
 }
 
 void tell(const kinebus::FaultPlan& plan) {
-  const kinebus::MachineDescription machine = kinebus::campaign_machine();
+  const kinebus::MachineDescription machine = kinebus::campaign_machine(plan.faults.at(0).kind);
   const auto kinematics = kinebus::make_kinematics(machine);
   if (!kinematics) return;
   const kinebus::FaultResult result = kinebus::run_faults(machine, **kinematics, plan, true);

@@ -49,6 +49,17 @@ constexpr std::array<Row, kFaultKinds> kRows{{
     {kHold, "hold", FaultPhase::kJob, 10ms, 600ms},
     {kCancel, "cancel", FaultPhase::kJob, 0s, 0s},
     {kOperatorStop, "operator-stop", FaultPhase::kJob, 10ms, 300ms},
+    {kSensorOpen, "sensor-open", FaultPhase::kPrint, 20ms, 10s},
+    {kSensorShorted, "sensor-shorted", FaultPhase::kPrint, 20ms, 10s},
+    {kSensorLoose, "sensor-loose", FaultPhase::kPrint, 500ms, 20s},
+    {kHeaterLoose, "heater-loose", FaultPhase::kPrint, 500ms, 20s},
+    {kHeaterStuck, "heater-stuck", FaultPhase::kPrint, 500ms, 20s},
+    {kHotEndFanStands, "hot-end-fan-stands", FaultPhase::kPrint, 500ms, 10s},
+    {kHeatNodeDies, "heat-node-dies", FaultPhase::kPrint, 20ms, 20s},
+    {kHeatNodeOffBus, "heat-node-off-bus", FaultPhase::kPrint, 20ms, 20s},
+    {kHotGatewayDies, "hot-gateway-dies", FaultPhase::kPrint, 20ms, 20s},
+    {kFilamentOut, "filament-out", FaultPhase::kPrint, 200ms, 5s},
+    {kFilamentJams, "filament-jams", FaultPhase::kPrint, 5s, 10s},
 }};
 
 constexpr bool in_order() {
@@ -78,6 +89,13 @@ Fault draw(std::mt19937_64& random, FaultKind kind, int nodes) {
       row.phase == FaultPhase::kJob && kind != kHold && kind != kCancel && kind != kLostSteps;
   if (anywhen && unit(random) < 0.2) fault.phase = FaultPhase::kHoming;
   fault.after = row.phase == FaultPhase::kFromPowerUp ? BusTime{0} : between(random, 50ms, 2500ms);
+  if (!of_heat(kind)) return fault;
+  fault.node = kHeatNode;
+  fault.strength = 1;
+  const bool of_filament = kind == kFilamentOut || kind == kFilamentJams;
+  if (of_filament || unit(random) < 0.7) return fault;
+  fault.phase = FaultPhase::kJob;  // while it heats
+  fault.after = between(random, 100ms, 30s);
   return fault;
 }
 

@@ -46,6 +46,18 @@ enum class FaultKind : std::uint8_t {
   kHold,  ///< no fault: the operator holds, resumes
   kCancel,
   kOperatorStop,
+  // Of heat: the machine has a heat node, and the job heats first.
+  kSensorOpen,  ///< the hot end's, or the bed's
+  kSensorShorted,
+  kSensorLoose,  ///< out of its hole
+  kHeaterLoose,
+  kHeaterStuck,  ///< its MOSFET does not open
+  kHotEndFanStands,
+  kHeatNodeDies,    ///< power lost, back later
+  kHeatNodeOffBus,  ///< its plug is out
+  kHotGatewayDies,  ///< kill -9 while it is hot, and a new one later
+  kFilamentOut,
+  kFilamentJams,
   kCount,
 };
 inline constexpr int kFaultKinds = static_cast<int>(FaultKind::kCount);
@@ -53,8 +65,14 @@ std::string_view to_string(FaultKind kind);
 /// By its name; kCount: none has it.
 FaultKind fault_kind_of(std::string_view name);
 
+constexpr bool of_heat(FaultKind kind) {
+  return kind >= FaultKind::kSensorOpen && kind < FaultKind::kCount;
+}
+/// The heat node's place, after those with axes.
+inline constexpr int kHeatNode = 3;
+
 /// When a fault comes.
-enum class FaultPhase : std::uint8_t { kFromPowerUp, kHoming, kJob };
+enum class FaultPhase : std::uint8_t { kFromPowerUp, kHoming, kJob, kPrint /**< the job has heated */ };
 
 struct Fault {
   FaultKind kind = FaultKind::kNone;
@@ -62,7 +80,7 @@ struct Fault {
   BusTime after{0};   ///< from the phase's begin
   BusTime length{0};  ///< how long its cause lasts
   int node = 0;
-  int axis = 0;
+  int axis = 0;         ///< of heat: 0 hot end, 1 bed
   double strength = 0;  ///< 0..1: how bad
 };
 

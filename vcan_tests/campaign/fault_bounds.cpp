@@ -99,6 +99,29 @@ FaultBounds bounds_of(const Fault& fault) {
       // Nobody can hear of a failing transmitter: a silent node or missing SYNCs tell.
       b.rest_ms = kNodeSilence_ms;
       break;
+    case kSensorOpen:
+    case kSensorShorted:
+    case kSensorLoose:
+    case kHeaterLoose:
+    case kHotEndFanStands:
+    case kFilamentOut:
+    case kFilamentJams:
+      // Held on the path and gone on with; some are over before they are known.
+      b.outcomes = kFinished | kContinued;
+      break;
+    case kHeaterStuck:
+      // Its heater has power again on a cold block only, which this run does not wait for.
+      b.outcomes = kReady | kFinished;
+      break;
+    case kHeatNodeDies:
+    case kHeatNodeOffBus:
+      b.outcomes = kFinished | kContinued | kBegunAgain;
+      b.rest_ms = kHeartbeatLoss_ms;
+      break;
+    case kHotGatewayDies:
+      b.outcomes = kContinued | kFinished | kBegunAgain;
+      b.rest_ms = kSyncLoss_ms;
+      break;
     case kLostSteps:
       // What no node can see before it homes again: the tool is astray from there on.
       b.outcomes = kFinished;

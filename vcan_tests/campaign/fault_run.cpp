@@ -7,7 +7,8 @@
 #include <ctime>
 #include <limits>
 
-#include "gateway/description/machine_file.hpp"
+#include "protocol/bytes.hpp"
+#include "protocol/canopen/cob_id.hpp"
 #include "tools/simulation/checkers/known_checker.hpp"
 #include "tools/simulation/checkers/patience_checker.hpp"
 #include "tools/simulation/checkers/queue_checker.hpp"
@@ -15,6 +16,7 @@
 #include "tools/simulation/checkers/together_checker.hpp"
 #include "tools/simulation/simulation.hpp"
 #include "vcan_tests/campaign/fault_bounds.hpp"
+#include "vcan_tests/campaign/heat_checker.hpp"
 #include "vcan_tests/campaign/injector.hpp"
 #include "vcan_tests/campaign/operator.hpp"
 
@@ -26,26 +28,10 @@ using namespace std::chrono_literals;
 constexpr BusTime kPowerUp = 1s;
 /// Bring-up, homing, print, a fault and all that follows it have passed by then, or somebody waits for ever.
 constexpr BusTime kLongest = 150s;
-
-/// Lines, arcs, tilts of all lengths and speeds within the workspace; some 3 s of motion.
-std::string job_of(std::uint64_t seed) {
-  std::mt19937_64 random(seed ^ 0xA5A5);
-  const auto in = [&](double low, double high) { return low + (high - low) * unit(random); };
-  std::string text = "G21 G90 M83\nG1 Z20 F9000\nG43.4\n";
-  double x = 0, y = 0, way = 0;
-  for (int i = 0; i < 60 && way < 260; ++i) {
-    const double length = std::exp(in(std::log(0.05), std::log(50))), angle = in(0, 6.2832);
-    x = std::clamp(x + length * std::cos(angle), -50.0, 50.0);
-    y = std::clamp(y + length * std::sin(angle), -50.0, 50.0);
-    way += length;
-    if (random() % 4 == 0)
-      text += fmt::format("G1 X{:.3f} Y{:.3f} Z{:.3f} A{:.2f} C{:.2f} E{:.4f} F{:.0f}\n", x, y, in(15, 40),
-                          in(-12, 12), in(-90, 90), 0.03 * length, in(3000, 12000));
-    else
-      text += fmt::format("G1 X{:.3f} Y{:.3f} E{:.4f} F{:.0f}\n", x, y, 0.03 * length, in(3000, 15000));
-  }
-  return text;
-}
+/// Heating and cooling take their time; a job rests meanwhile. What is hot is looked at for a while after it.
+constexpr BusTime kLongestHot = 600s, kHeating = 250s, kAfterwards = 15s;
+/// A switch that does not open: so long after it nothing more is waited for.
+constexpr BusTime kStuck = 90s;
 
 class FaultRun {
  public:
@@ -55,22 +41,31 @@ class FaultRun {
         bounds_(bounds_of(plan)),
         injector_(machine, plan),
         tell_(tell),
+        heats_(of_heat(plan.faults.at(0).kind)),
         simulation_(machine, kinematics, options_of(plan), injector_.make_nodes()),
-        operator_(job_of(plan.seed), plan.faults.at(0).kind != FaultKind::kCancel),
+        operator_(campaign_job(plan.seed, plan.faults.at(0).kind),
+                  plan.faults.at(0).kind != FaultKind::kCancel),
         steps_(machine),
         together_(machine, kinematics, [this](PathTime tau) { return simulation_.planned_pose(tau); }),
-        known_(machine) {
+        known_(machine),
+        patience_(heats_ ? PatienceChecker(kHeating) : PatienceChecker()),
+        heat_(machine) {
     result_.seed = plan.seed;
     result_.plan = plan;
     lives_.fill(true);
+    for (const NodeDescription& node : machine.nodes)
+      if (!node.functions.has_axes()) queues_.leave_out(node.id);
   }
 
   FaultResult go() {
     const double began = thread_cpu_s();
     connect();
+    if (heats_) measure_heaters();
     simulation_.run_until(kPowerUp);
-    while (!operator_.content() && !refused_ && simulation_.now() < kLongest && patience_.complaint().empty())
+    const BusTime longest = heats_ ? kLongestHot : kLongest;
+    while (!operator_.content() && !refused_ && simulation_.now() < longest && patience_.complaint().empty())
       simulation_.run_until(simulation_.now() + 1ms);
+    if (heats_) simulation_.run_until(simulation_.now() + kAfterwards);
     judge();
     result_.machine_s = to_seconds(simulation_.now());
     result_.cpu_s = thread_cpu_s() - began;
@@ -91,6 +86,25 @@ class FaultRun {
     timespec time{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
     return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+  }
+
+  /// The models that tuning finds for these heaters, as 1010h has kept them.
+  void measure_heaters() {
+    constexpr std::array<std::array<std::uint32_t, 4>, 2> kModels{
+        {{3006, 5340, 1423, 1998}, {234, 1527, 7806, 5202}}};
+    VirtualMachine& nodes = injector_.machine();
+    const BusModel::Port port = nodes.add_stranger(1);
+    for (std::uint8_t heater = 0; heater < kModels.size(); ++heater)
+      for (std::uint16_t i = 0; i < kModels[heater].size(); ++i) {
+        CanFrame write{.id = cob_id::kSdoRequest + machine_.nodes[kHeatNode].id, .length = 8};
+        write.data[0] = 0x23;
+        put_u16_le(std::span(write.data).subspan(1),
+                   static_cast<std::uint16_t>(heat_object::kModelRate.index + i));
+        write.data[3] = static_cast<std::uint8_t>(heater + 1);
+        put_u32_le(std::span(write.data).subspan(4), kModels[heater][i]);
+        simulation_.run_until(simulation_.now() + 20ms);
+        nodes.bus_for_faults().send(port, simulation_.now(), write);
+      }
   }
 
   void connect() {
@@ -130,6 +144,7 @@ class FaultRun {
       homing_seen_ = true, injector_.begin(FaultPhase::kHoming, now);
     if (alive && operator_.job_running() && !job_seen_)
       job_seen_ = true, injector_.begin(FaultPhase::kJob, now);
+    if (heats_) watch_heat(sample);
     injector_.on_time(now);
     // A node that was without power counts again when the machine has been brought up with it.
     if (alive && state == MachineState::kReady) lives_.fill(true);
@@ -156,6 +171,8 @@ class FaultRun {
     watch_stop(sample);
     if (!alive) return;
     patience_.on_sample(now, state, gateway.path_time(now));
+    if (heats_ && !print_seen_ && state == MachineState::kRunning && sample.line > kFirstPrinted)
+      print_seen_ = true, injector_.begin(FaultPhase::kPrint, now);
     print_begun_ = print_begun_ || (state == MachineState::kRunning && sample.line > 1);
     if (operator_.begun_again() > begun_again_) {
       ++begun_again_;
@@ -163,9 +180,17 @@ class FaultRun {
       print_begun_ = false;
     }
     operator_.on_time(now, gateway, injector_.cause_over(now));
+    const auto broken = injector_.begun();
+    const bool stuck = plan_.faults[0].kind == FaultKind::kHeaterStuck;
+    if (stuck && broken && now > *broken + kStuck && state == MachineState::kHeld) operator_.give_up();
     const bool gave_up = operator_.lifted() >= bounds_.attempts;
     refused_ = !job_seen_ && (state == MachineState::kAlarm || state == MachineState::kStopped) &&
                alarms_ > 0 && gave_up;
+  }
+
+  void watch_heat(const Sample& sample) {
+    heat_.on_sample(to_seconds(sample.time), injector_.machine().heat_plant(kHeatNode),
+                    sample.joints[kExtruder]);
   }
 
   /// Path time means something: on one node at least it runs, or motion waits for it. Else it is a number
@@ -211,6 +236,8 @@ class FaultRun {
   void violate(std::string words) { result_.violations.push_back(std::move(words)); }
 
   void judge() {
+    result_.margin_k = heat_.nearest_k();
+    if (!heat_.complaint().empty()) violate(heat_.complaint());
     result_.path_um = together_.path_um();
     result_.far_ms = together_.far_samples();
     result_.astray_um = together_.astray_um();
@@ -236,7 +263,7 @@ class FaultRun {
     if (!patience_.complaint().empty())
       violate("waits for ever: " + patience_.complaint() + ", " + simulation_.gateway().status().doing);
     else if (!operator_.content() && !refused_)
-      violate(fmt::format("not over after {} s, state {}", kLongest / 1s,
+      violate(fmt::format("not over after {} s, state {}", simulation_.now() / 1s,
                           to_string(simulation_.gateway().state())));
     if (lost_print_) violate("the job had begun, and was neither resumed nor given up");
     if (!bounds_.allows(result_.outcome))
@@ -272,20 +299,22 @@ class FaultRun {
   const FaultBounds bounds_;
   Injector injector_;
   bool tell_;
+  bool heats_;
   Simulation simulation_;
   Operator operator_;
   StepChecker steps_;
   TogetherChecker together_;
   KnownChecker known_;
   PatienceChecker patience_;
+  HeatChecker heat_;
   QueueChecker queues_;
   const Gateway* speaks_ = nullptr;
   TogetherChecker::Lives lives_{};
   JointVector last_joints_{};
   std::array<BusTime, std::tuple_size_v<JointVector>> still_since_{};
   BusTime rest_since_{0};
-  bool homing_seen_ = false, job_seen_ = false, print_begun_ = false, lost_print_ = false, measuring_ = false,
-       refused_ = false;
+  bool homing_seen_ = false, job_seen_ = false, print_seen_ = false, print_begun_ = false,
+       lost_print_ = false, measuring_ = false, refused_ = false;
   int alarms_ = 0, begun_again_ = 0;
   FaultResult result_;
 };
@@ -296,14 +325,6 @@ std::string_view to_string(FaultOutcome outcome) {
   constexpr std::array<std::string_view, kFaultOutcomes> kNames{"finished",    "continued", "homed again",
                                                                 "begun again", "ready",     "refused"};
   return kNames[static_cast<std::size_t>(outcome)];
-}
-
-MachineDescription campaign_machine() {
-  MachineDescription machine = default_m1();
-  for (NodeDescription& node : machine.nodes) node.product = 0x4B42;
-  for (NodeDescription& node : machine.nodes)
-    node.inputs[kEmergencyInput - 1].function = InputFunction::kEmergencyStop;
-  return machine;
 }
 
 FaultResult run_faults(const MachineDescription& machine, const Kinematics& kinematics, const FaultPlan& plan,

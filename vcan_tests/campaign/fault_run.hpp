@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "gateway/description/machine_description.hpp"
 #include "gateway/kinematics/kinematics.hpp"
+#include "vcan_tests/campaign/campaign_machine.hpp"
 #include "vcan_tests/campaign/fault.hpp"
 
 namespace kinebus {
@@ -37,13 +37,11 @@ struct FaultResult {
   double ramp_ms = 0;       ///< E-stop input to all live nodes ramping
   double step_ratio = 0;    ///< worst change of velocity against the stop limits
   double known_counts = 0;  ///< worst difference between a position said to be known and the true one
+  double margin_k = 1000;   ///< how near a block came to its limit, < 0: beyond it
   double machine_s = 0, cpu_s = 0;
   std::uint64_t trace_hash = 0;
   std::vector<std::string> story;  ///< what happened, when asked for
 };
-
-/// The machine of the campaign: M1 with an E-stop input on every node.
-MachineDescription campaign_machine();
 
 /// `tell`: fills FaultResult::story.
 FaultResult run_faults(const MachineDescription& machine, const Kinematics& kinematics, const FaultPlan& plan,

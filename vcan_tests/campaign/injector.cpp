@@ -179,6 +179,7 @@ void Injector::turn_on(Active& active, BusTime now) {
   Gateway& gateway = simulation_->gateway();
   switch (fault.kind) {
     case kGatewayDies:
+    case kHotGatewayDies:
       simulation_->kill_gateway();
       nodes_->bus_for_faults().clear(nodes_->gateway_port());
       stop_cause_ = now;
@@ -198,6 +199,19 @@ void Injector::turn_on(Active& active, BusTime now) {
     case kDriveFault:
       nodes_->set_drive_fault(fault.node, now, fault.axis, true);
       stop_cause_ = now;
+      break;
+    case kHeatNodeDies:
+      nodes_->set_power(fault.node, now, false);
+      break;
+    case kSensorOpen:
+    case kSensorShorted:
+    case kSensorLoose:
+    case kHeaterLoose:
+    case kHeaterStuck:
+    case kHotEndFanStands:
+    case kFilamentOut:
+    case kFilamentJams:
+      break_heat(fault, true);
       break;
     case kLostSteps: {
       const double counts = (fault.axis == 0 ? 1 : -1) * (20 + 2000 * fault.strength);
@@ -227,15 +241,55 @@ void Injector::turn_on(Active& active, BusTime now) {
   }
 }
 
+void Injector::break_heat(const Fault& fault, bool broken) {
+  const std::string place = fault.axis == 0 ? "1" : "2";
+  const auto what = [&]() -> std::string {
+    switch (fault.kind) {
+      case kSensorOpen:
+        return "sensor " + place + (broken ? " open" : " ok");
+      case kSensorShorted:
+        return "sensor " + place + (broken ? " short" : " ok");
+      case kSensorLoose:
+        return "sensor " + place + (broken ? " loose" : " ok");
+      case kHeaterLoose:
+        return "heater " + place + (broken ? " loose" : " ok");
+      case kHeaterStuck:
+        return "heater " + place + (broken ? " stuck" : " ok");
+      case kHotEndFanStands:
+        return std::string("fan 1 ") + (broken ? "stalled" : "ok");
+      case kFilamentOut:
+        return std::string("filament ") + (broken ? "out" : "ok");
+      default:
+        return std::string("filament ") + (broken ? "jammed" : "ok");
+    }
+  };
+  if (const std::string wrong = nodes_->heat_plant(fault.node).command(what()); !wrong.empty() && note)
+    note(wrong);
+}
+
 void Injector::turn_off(Active& active, BusTime now) {
   const Fault& fault = active.fault;
   switch (fault.kind) {
     case kGatewayDies:
+    case kHotGatewayDies:
       if (!simulation_->start_gateway(job ? job() : nullptr) && note) note("the journal was not taken up");
       break;
     case kNodeDies:
     case kNodeRestarts:
       nodes_->set_power(fault.node, now, true);
+      break;
+    case kHeatNodeDies:
+      nodes_->set_power(fault.node, now, true);
+      break;
+    case kSensorOpen:
+    case kSensorShorted:
+    case kSensorLoose:
+    case kHeaterLoose:
+    case kHeaterStuck:
+    case kHotEndFanStands:
+    case kFilamentOut:
+    case kFilamentJams:
+      break_heat(fault, false);
       break;
     case kNodeStalls:
       nodes_->set_stalled(fault.node, now, false);
@@ -255,13 +309,14 @@ void Injector::serve(Active& active, BusTime now) {
   if (active.on && active.stranger) active.stranger->on_time(now);
   if (active.on && active.second) active.second->on_time(now);
   if (active.receiver) nodes_->count_overruns(active.fault.node, now, active.receiver->take_overruns());
-  if (active.fault.kind != kBusOff) return;
+  const bool off_bus = active.fault.kind == kHeatNodeOffBus;
+  if (active.fault.kind != kBusOff && !off_bus) return;
   // A controller that was bus-off comes back by itself once its transmitter works again.
   BusModel& bus = nodes_->bus_for_faults();
   const bool of_gateway = active.fault.strength < 0.3;
   const BusModel::Port port = of_gateway ? nodes_->gateway_port() : nodes_->node_port(active.fault.node);
   if (!bus.errors(port).bus_off()) return;
-  if (!stop_cause_) {
+  if (!stop_cause_ && !off_bus) {
     stop_cause_ = now;
     if (of_gateway && simulation_->gateway_alive()) simulation_->gateway().on_bus_failure(now, "bus-off");
   }

@@ -32,6 +32,11 @@ class Injector {
   bool cause_over(BusTime now) const;
   /// When something happened that stops the machine; nullopt: nothing yet.
   std::optional<BusTime> stop_cause() const { return stop_cause_; }
+  /// When the fault that names the run has come; nullopt: not yet.
+  std::optional<BusTime> begun() const {
+    const Active& first = active_.front();
+    return first.on || first.over ? std::optional(first.from) : std::nullopt;
+  }
   /// E-stop input to the last node's ramp; 0: there was none.
   double ramp_ms() const { return ramp_ms_; }
   /// By so many counts motors have lost steps since they were homed.
@@ -53,6 +58,7 @@ class Injector {
   };
   void turn_on(Active& active, BusTime now);
   void turn_off(Active& active, BusTime now);
+  void break_heat(const Fault& fault, bool broken);
   void serve(Active& active, BusTime now);
   void measure_ramp(BusTime now);
   void exchange_switches(const Fault& fault, std::vector<VirtualNodeOptions>& nodes) const;

@@ -30,6 +30,8 @@ class Operator {
   /// Nothing left to do: the job is done, or it is lost and the machine is ready again.
   bool content() const { return content_; }
   void on_event(const MachineEvent& event);
+  /// The job is left as it is.
+  void give_up() { content_ = true; }
 
  private:
   bool go_on(Gateway& gateway);

@@ -218,7 +218,7 @@ TEST(MachineFile, ADeviceWhereNoneCanBeIsRefused) {
       {"axis_pairs = 0\nfilament_sensors = 1",
        "where = \"simulated\"\n[filament_sensor.x]\nkind = \"wheel\"\nwhere = \"node\"\nnode = 4\nchannel = "
        "1",
-       "filament_sensor.x.kind: found \"wheel\"; expected one of \"switch\" \"motion\""},
+       "filament_sensor.x.kind: found 'wheel'; expected one of \"switch\" \"motion\""},
       {"axis_pairs = 0\nfilament_sensors = 1",
        "where = \"simulated\"\n[filament_sensor.x]\nkind = \"switch\"\nwhere = \"node\"\nnode = 4\nchannel = "
        "1\n"

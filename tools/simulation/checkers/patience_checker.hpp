@@ -11,7 +11,10 @@ namespace kinebus {
 
 class PatienceChecker {
  public:
-  /// `tau`: path time; of a running job it must go on, unless it dwells or heats (`may_rest`).
+  /// `rest`: so long a job may stand still, for it dwells or heats.
+  explicit PatienceChecker(BusTime rest = kRest) : rest_(rest) {}
+
+  /// `tau`: path time; of a running job it must go on.
   void on_sample(BusTime now, MachineState state, PathTime tau) {
     if (state != state_ || (in_motion(state) && tau != tau_)) {
       state_ = state;
@@ -20,7 +23,8 @@ class PatienceChecker {
       return;
     }
     const BusTime waited = now - since_;
-    if (waited <= longest(state) || !complaint_.empty()) return;
+    const BusTime most = state == MachineState::kRunning ? rest_ : longest(state);
+    if (waited <= most || !complaint_.empty()) return;
     complaint_ = std::string(to_string(state)) + " for " + std::to_string(waited.count() / 1'000'000) + " ms";
   }
   /// Empty: all is well.
@@ -41,16 +45,18 @@ class PatienceChecker {
       case MachineState::kHolding:
       case MachineState::kCancelling:
       case MachineState::kStopping:
-        return 4s;
+        return kRest;
       default:
         return BusTime::max();
     }
   }
 
  private:
+  static constexpr BusTime kRest = std::chrono::seconds{4};
   static bool in_motion(MachineState state) {
     return state == MachineState::kRunning || state == MachineState::kMoving;
   }
+  BusTime rest_;
   MachineState state_ = MachineState::kOff;
   PathTime tau_{0};
   BusTime since_{0};

@@ -22,10 +22,13 @@ class QueueChecker {
     int fullest = 0;                    ///< most records in one queue
   };
 
+  /// A node without axes: what it sends and is sent by these identifiers is no stream.
+  void leave_out(std::uint8_t node) { nodes_[node & 0x7Fu].streams = false; }
+
   void on_frame(const CanFrame& frame) {
     if (frame.extended || frame.remote || frame.length != 8) return;
     const std::uint32_t node = frame.id & 0x7F;
-    if (node == 0) return;
+    if (node == 0 || !nodes_[node].streams) return;
     if (frame.id - node == kRecords)
       on_record(nodes_[node], frame);
     else if (frame.id - node == kStatus)
@@ -40,6 +43,7 @@ class QueueChecker {
  private:
   static constexpr std::uint32_t kRecords = 0x400, kStatus = 0x280;
   struct Node {
+    bool streams = true;
     int next = -1;  // the sequence number due; -1: not known yet
     StreamStatus status;
     int capacity = 0;
