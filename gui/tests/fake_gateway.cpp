@@ -46,14 +46,16 @@ joblink::MachineInfo m1_info() {
   m.mutable_reach()->mutable_z_mm()->set_max(250);
   m.set_hotend_max_celsius(300);
   m.set_bed_max_celsius(120);
-  const auto heater = [&](const char* name, joblink::HeaterKind kind, double max_celsius) {
+  const auto heater = [&](const char* name, joblink::HeaterKind kind, double max_celsius,
+                          double usual_celsius) {
     auto& added = *m.add_heaters();
     added.set_name(name);
     added.set_kind(kind);
     added.set_max_celsius(max_celsius);
+    added.set_usual_celsius(usual_celsius);
   };
-  heater("hotend", joblink::HEATER_HOTEND, 300);
-  heater("bed", joblink::HEATER_BED, 120);
+  heater("hotend", joblink::HEATER_HOTEND, 300, 200);
+  heater("bed", joblink::HEATER_BED, 120, 80);
   return m;
 }
 

@@ -15,17 +15,6 @@
 #include "gui/session/gateway_words.hpp"
 
 namespace kinebus::gui {
-namespace {
-
-/// Where its kind usually works.
-double usual_celsius(const joblink::HeaterInfo& heater) {
-  constexpr double kHotend = 210, kElsewhere = 60;
-  const double usual = heater.kind() == joblink::HEATER_HOTEND ? kHotend : kElsewhere;
-  return heater.max_celsius() > 0 ? std::min(usual, heater.max_celsius()) : usual;
-}
-
-}  // namespace
-
 HeatPanel::HeatPanel(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(desk) {
   auto* grid = new QGridLayout(this);
   grid->setContentsMargins(0, 10, 0, 0);
@@ -189,7 +178,7 @@ void HeatPanel::take_machine() {
 void HeatPanel::take_heater() {
   if (const joblink::HeaterInfo* info = chosen(); info != nullptr) {
     target_->setRange(0, info->max_celsius() > 0 ? info->max_celsius() : 300);
-    target_->setValue(usual_celsius(*info));
+    target_->setValue(info->usual_celsius());
   }
   take_status();
 }
@@ -200,12 +189,14 @@ void HeatPanel::take_status() {
   actual_->setText(of != nullptr && session.connected()
                        ? Format::isolated(Format::temperature(of->actual_celsius()))
                        : QStringLiteral("—"));
+  // Whoever began it: what is measured now is what is shown.
+  if (of != nullptr && measures(of->tuning().stage())) target_->setValue(of->tuning().celsius());
   set_usable(*measure_, chosen() != nullptr && session.allowed(joblink::COMMAND_TUNE_HEATER),
              session.why_not(joblink::COMMAND_TUNE_HEATER));
   give_up_->setEnabled(session.connected() && measured() != nullptr &&
                        session.allowed(joblink::COMMAND_SET_TEMPERATURE));
   heater_->setEnabled(chosen() != nullptr);
-  target_->setEnabled(chosen() != nullptr);
+  target_->setEnabled(chosen() != nullptr && measured() == nullptr);
   tell_stage(of);
 }
 
