@@ -32,7 +32,7 @@ struct BodiesDescription {
   double floor_mm = 50;  ///< below the lowest end of a rail, or below the table
   /// The greatest thing that stands on the table, around its axis; 0: the table is empty.
   double part_radius_mm = 0, part_height_mm = 0;
-  bool printed_part = true;      ///< what a job prints becomes a body that tool and holder keep out of
+  bool printed_part = true;      ///< what a job prints becomes a body that all others keep out of
   std::vector<FixedBody> fixed;  ///< in the order of their names
   friend bool operator==(const BodiesDescription&, const BodiesDescription&) = default;
 };

@@ -75,8 +75,9 @@ class CollisionModel {
   /// A pose as a place at which distances bound the bodies' motion: on the way from one place to another no
   /// body moves against another by more than gain() times apart_mm() of the two.
   struct Place {
-    Vec point{};         ///< of what carries all that moves
-    double turn_mm = 0;  ///< its tilt, times twice the longest lever
+    Vec point{};          ///< of what carries all that moves
+    double turn_mm = 0;   ///< its tilt, times twice the longest lever
+    double lever_mm = 0;  ///< that one
   };
   static double apart_mm(const Place& a, const Place& b) {
     return norm(a.point - b.point) + std::abs(a.turn_mm - b.turn_mm);

@@ -98,7 +98,7 @@ class LegMachine final : public CollisionModel {
 
   std::optional<Place> place_of(Frame frame, const Pose& pose) const override {
     const double tilt = platform_tilt(g_, pose);
-    return Place{vec(platform_at(g_, frame, pose, Turn(tilt))), 2 * longest_lever_ * tilt};
+    return Place{vec(platform_at(g_, frame, pose, Turn(tilt))), 2 * longest_lever_ * tilt, longest_lever_};
   }
 
   /// With p the joint at a leg's end, s of it aside from the rail: the carriage moves by p + p . s / h along

@@ -17,6 +17,9 @@ constexpr double kTip_mm = 2.5;
 /// The holder is looked for so much farther than it must, so as not to be looked for again at the next pose.
 constexpr double kReserve_mm = 8;
 
+/// By so much at a time the extent grows.
+constexpr double kGrows_mm = 4;
+
 /// Filament up to this height lies on the table. Elsewhere it is part of what is printed if there is some of
 /// that, this far along each axis or a block farther: what hangs in the air hangs from something, or falls.
 constexpr std::uint32_t kHolds_mm = 2;
@@ -55,6 +58,17 @@ void PrintedPart::clear() {
   last_ = ~std::uint64_t{0};
   low_ = {kInfinite, kInfinite, kInfinite};
   high_ = -low_;
+  extent_ = {low_, high_, 0};
+  ++extents_;
+}
+
+void PrintedPart::widen(const Vec& middle) {
+  const auto down = [](double x) { return kGrows_mm * std::floor(x / kGrows_mm); };
+  const auto up = [](double x) { return kGrows_mm * std::ceil(x / kGrows_mm); };
+  extent_.low = least(extent_.low, {down(middle.x), down(middle.y), down(middle.z)});
+  extent_.high = most(extent_.high, {up(middle.x), up(middle.y), up(middle.z)});
+  extent_.radius_mm = std::max(extent_.radius_mm, up(std::hypot(middle.x, middle.y)));
+  ++extents_;
 }
 
 void PrintedPart::add(const Vec& point) {
@@ -102,6 +116,11 @@ void PrintedPart::add(const Vec& point) {
   const Vec middle{ix + 0.5 - kMiddle_mm, iy + 0.5 - kMiddle_mm, iz + 0.5 - kBelow_mm};
   low_ = least(low_, middle);
   high_ = most(high_, middle);
+  const Extent& e = extent_;
+  if (!(middle.x >= e.low.x && middle.y >= e.low.y && middle.z >= e.low.z && middle.x <= e.high.x &&
+        middle.y <= e.high.y && middle.z <= e.high.z &&
+        middle.x * middle.x + middle.y * middle.y <= e.radius_mm * e.radius_mm))
+    widen(middle);
 }
 
 template <typename Distance>
@@ -163,6 +182,13 @@ bool PrintedPart::any_near(const Vec& low, const Vec& high, double near_mm, cons
           return true;
       }
   return false;
+}
+
+bool PrintedPart::comes_near(const Shape& solid, double near_mm) const {
+  const auto reach = [&](const Vec& axis) { return reach_along(solid, axis); };
+  const Vec low{-reach({-1, 0, 0}), -reach({0, -1, 0}), -reach({0, 0, -1})},
+      high{reach({1, 0, 0}), reach({0, 1, 0}), reach({0, 0, 1})};
+  return any_near(low, high, near_mm, [&](const Vec& point) { return distance_mm(solid, point); });
 }
 
 PrintWatch::PrintWatch(const BodiesDescription& b)

@@ -41,8 +41,24 @@ class PrintedPart {
   /// The highest cell's middle.
   double top_mm() const { return high_.z; }
 
+  /// Around the middles of all cells, and a little more, so that it seldom grows: a box, and how far it
+  /// reaches from the table's axis.
+  struct Extent {
+    Vec low{}, high{};
+    double radius_mm = 0;
+  };
+  /// Not when empty.
+  const Extent& extent() const { return extent_; }
+  /// Counts how often extent() has changed.
+  std::uint64_t extents() const { return extents_; }
+  /// A middle of a cell comes nearer than `near_mm` to the solid, which is in table coordinates. Allocates
+  /// nothing.
+  bool comes_near(const Shape& solid, double near_mm) const;
+
   /// Half of a cell: so near to a cell's middle is in the part.
   static constexpr double kSkin_mm = 0.5;
+  /// From a cell's middle to its corner: what was printed is not farther from the one it is in.
+  static constexpr double kCorner_mm = 0.87;
 
  private:
   // Cells in blocks of 4 x 4 x 4, a bit each; blocks in chunks of 8 x 8 x 8. A cube of 32 mm that has nothing
@@ -58,6 +74,10 @@ class PrintedPart {
   std::size_t used_ = 0;
   std::uint64_t last_ = ~std::uint64_t{0};  ///< cell taken last
   Vec low_{}, high_{};                      ///< around all middles of cells
+  Extent extent_{};
+  std::uint64_t extents_ = 0;
+
+  void widen(const Vec& middle);
 };
 
 /// Whether tool or holder would be in the printed part, pose after pose.

@@ -196,6 +196,28 @@ Parting part(const Shape& a, const Shape& b) {
   return cores;
 }
 
+double distance_mm(const Shape& s, const Vec& point) {
+  const Vec off = point - s.centre;
+  // Beyond the half along its direction, whose length is not 0.
+  const auto beyond = [&off](const Vec& half) {
+    const double length = norm(half);
+    return std::max(0.0, std::abs(dot(off, half)) / length - length);
+  };
+  switch (s.core) {
+    case Shape::Core::kSegment: {
+      const double length2 = dot(s.half[0], s.half[0]);
+      const double t = length2 > 0 ? std::clamp(dot(off, s.half[0]) / length2, -1.0, 1.0) : 0;
+      return norm(off - t * s.half[0]) - s.skin_mm;
+    }
+    case Shape::Core::kBox:
+      return norm({beyond(s.half[0]), beyond(s.half[1]), beyond(s.half[2])}) - s.skin_mm;
+    case Shape::Core::kCylinder:
+      break;
+  }
+  const double along = dot(off, s.axis), across = std::sqrt(std::max(0.0, dot(off, off) - along * along));
+  return std::hypot(beyond(s.half[0]), std::max(0.0, across - s.radius_mm)) - s.skin_mm;
+}
+
 double reach_along(const Shape& s, const Vec& axis) {
   double reach = dot(s.centre, axis) + std::abs(dot(s.half[0], axis)) + s.skin_mm;
   if (s.core == Shape::Core::kBox) reach += std::abs(dot(s.half[1], axis)) + std::abs(dot(s.half[2], axis));

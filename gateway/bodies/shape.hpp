@@ -65,6 +65,9 @@ inline double distance_mm(const Shape& a, const Shape& b) {
   return part(a, b).mm;
 }
 
+/// Distance of a point from the surface, mm; in the solid 0 or less, and not how deep. Exact.
+double distance_mm(const Shape& shape, const Vec& point);
+
 /// How far the solid reaches along `axis`, which has length 1. Two solids are at least as far apart as what
 /// is left between both along any axis.
 double reach_along(const Shape& shape, const Vec& axis);

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace kinebus::bodies {
 namespace {
@@ -16,12 +17,14 @@ constexpr float kRounding_mm = 1e-3F;
 // A pair that has less to spare than this is measured when others are: the room around a pose is that of the
 // pair that has least. By the time that plan takes with bodies.
 constexpr float kRefresh_mm = 18;
+// As far from a place pairs are left alone that cannot meet there: most of them, around what is printed.
+constexpr double kAround_mm = 100;
 // What an old plane may say less than the distance was before that is measured again.
 constexpr double kWorse_mm = 1;
 
 }  // namespace
 
-Sweep::Sweep(const CollisionModel& model, Occasion occasion)
+Sweep::Sweep(const CollisionModel& model, Occasion occasion, const PrintedPart* printed)
     : model_(model),
       occasion_(occasion),
       scenes_{model.at_rest(), model.at_rest()},
@@ -29,12 +32,22 @@ Sweep::Sweep(const CollisionModel& model, Occasion occasion)
       enough_mm_(static_cast<float>(model.wanted_mm()) + (has_places_ ? kRefresh_mm : 0)) {
   for (const CollisionModel::Pair& pair : model.pairs())
     if (occasion_ == Occasion::kHoming || !pair.homing_only) pairs_.push_back(pair);
+  own_pairs_ = pairs_.size();
+  if (printed != nullptr) {
+    print_.emplace(model, *printed);
+    for (std::size_t i = 0; i < model.bodies().size(); ++i)
+      if (print_->meets(i))
+        pairs_.push_back({static_cast<std::uint8_t>(print_->table()), static_cast<std::uint8_t>(i)});
+  }
   spare_.resize(pairs_.size());
   next_.resize(pairs_.size());
   parting_.resize(pairs_.size());
+  active_.reserve(pairs_.size());
+  unsettle();
 }
 
 void Sweep::jump() {
+  unsettle();
   placed_ = false;
   room_mm_ = 0;
   unmeasured_.reset();
@@ -57,62 +70,129 @@ void Sweep::measure_motion() {
 
 /// How far the two may have come together. Exact enough to tell whether that is more than `matters_mm`: what
 /// moves both alike does not bring them together.
-float Sweep::motion_over(const CollisionModel::Pair& pair, float matters_mm) const {
+float Sweep::motion_over(std::size_t i, float matters_mm) const {
+  const CollisionModel::Pair& pair = pairs_[i];
   const auto &a = model_.bodies()[pair.first], &b = model_.bodies()[pair.second];
-  const float sum = motion_[pair.first] + motion_[pair.second];
+  // Of what is printed the table's motion is measured, which has a shorter lever.
+  const auto higher = static_cast<float>(with_print(i) && a.moves() ? print_->lever_mm() - a.lever_mm : 0);
+  const float sum = motion_[pair.first] + motion_[pair.second] + turned_rad_ * std::max(0.0F, higher);
   if (sum <= matters_mm || !a.moves() || !b.moves()) return sum;
   double most = 0;
   for (const Vec& p : displaced_[pair.first])
     for (const Vec& q : displaced_[pair.second]) most = std::max(most, dot(p - q, p - q));
-  return static_cast<float>(std::sqrt(most)) + turned_rad_ * static_cast<float>(a.lever_mm + b.lever_mm) +
-         kRounding_mm;
+  return static_cast<float>(std::sqrt(most)) +
+         turned_rad_ * (static_cast<float>(a.lever_mm + b.lever_mm) + std::max(0.0F, higher)) + kRounding_mm;
+}
+
+/// How much more than the place says a turn moves what is printed: it may be higher than the lever that turns
+/// are counted with.
+double Sweep::turns_of(std::size_t i) const {
+  if (!with_print(i) || !(at_.lever_mm > 0)) return 1;
+  return std::max(1.0, print_->lever_mm() / at_.lever_mm);
+}
+
+/// Around the pose just measured pairs are left alone that have enough to spare for all ways there.
+void Sweep::settle(const Place& place) {
+  const double gain = model_.gain(place, kAround_mm);
+  if (!std::isfinite(gain)) return;
+  around_ = {place, gain};
+  active_.clear();
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    const auto enough =
+        static_cast<float>(model_.wanted_mm() + gain * turns_of(i) * kAround_mm) + 2 * kRounding_mm;
+    // Spheres around both, or an old plane, may have said less than is true.
+    if (!(spare_[i] >= enough) && !with_print(i)) {
+      const Scene& scene = scenes_[now_];
+      double mm = parting_[i].mm > 0 ? model_.gap_along(scene, pairs_[i], parting_[i].axis) : 0;
+      if (mm < enough + kRounding_mm && parting_[i].mm >= 0) {
+        parting_[i] = model_.part(scene, pairs_[i]);
+        mm = parting_[i].mm;
+      }
+      spare_[i] = std::max(spare_[i], static_cast<float>(mm) - kRounding_mm);
+    }
+    if (!(spare_[i] >= enough)) active_.push_back(i);
+  }
+  next_ = spare_;
+}
+
+/// All pairs count, with what they have to spare at the last pose measured.
+void Sweep::unsettle() {
+  if (around_) {
+    const double moved = around_->gain * CollisionModel::apart_mm(at_, around_->middle);
+    auto next = active_.begin();
+    for (std::size_t i = 0; i < pairs_.size(); ++i) {
+      if (next != active_.end() && *next == i)
+        ++next;
+      else
+        spare_[i] -= static_cast<float>(moved * turns_of(i)) + kRounding_mm;
+    }
+  }
+  around_.reset();
+  active_.resize(pairs_.size());
+  std::iota(active_.begin(), active_.end(), std::size_t{0});
+}
+
+/// What is printed has grown since the last pose. Its new cells were laid at the tool's tip, from which the
+/// bodies keep away as from any other: that they are clear of those is not in doubt, how far they are is.
+void Sweep::follow_print() {
+  const double grown = print_->grow();
+  if (grown == 0) return;
+  unsettle();
+  for (std::size_t i = own_pairs_; i < pairs_.size(); ++i) spare_[i] -= static_cast<float>(grown);
+  room_mm_ = 0;
 }
 
 Sweep::Step Sweep::to(Frame frame, const Pose& pose) {
-  if (room_mm_ > 0 && CollisionModel::apart_mm(*model_.place_of(frame, pose), middle_) < room_mm_) {
+  if (print_) follow_print();
+  const std::optional<Place> place = model_.place_of(frame, pose);
+  if (room_mm_ > 0 && CollisionModel::apart_mm(*place, middle_) < room_mm_) {
     unmeasured_ = {frame, pose};
     return Step::kClear;
   }
+  if (around_ && CollisionModel::apart_mm(*place, around_->middle) >= kAround_mm) unsettle();
   bool way_is_clear = false;
   if (unmeasured_) {
     // The way on begins at the last pose, not at the last that was measured. If it is so short that bodies
     // that keep their distance at both ends cannot touch on it, no more need be known of where it begins.
-    const CollisionModel::Place from = *model_.place_of(unmeasured_->frame, unmeasured_->pose),
-                                to = *model_.place_of(frame, pose);
-    const double apart = CollisionModel::apart_mm(from, to);
-    way_is_clear = apart * model_.gain(middle_, CollisionModel::apart_mm(to, middle_)) <
-                   2 * (model_.wanted_mm() - kRounding_mm);
-    if (!way_is_clear) carry_on();
+    const Place from = *model_.place_of(unmeasured_->frame, unmeasured_->pose);
+    const double apart = CollisionModel::apart_mm(from, *place);
+    const double coarse = print_ ? std::max(0.0, print_->coarse_mm()) : 0;
+    way_is_clear = apart * model_.gain(middle_, CollisionModel::apart_mm(*place, middle_)) <
+                   2 * (model_.wanted_mm() - coarse - kRounding_mm);
+    if (!way_is_clear) carry_on(from);
   }
-  return measure(frame, pose, way_is_clear);
+  return measure(frame, pose, place, way_is_clear);
 }
 
 /// From the last pose measured to the last pose, where the next way begins.
-void Sweep::carry_on() {
+void Sweep::carry_on(const Place& place) {
   const bool in_reach = model_.place(unmeasured_->frame, unmeasured_->pose, scenes_[1 - now_]);
   assert(in_reach);
   measure_motion();
   const auto wanted = static_cast<float>(model_.wanted_mm());
-  for (std::size_t i = 0; i < pairs_.size(); ++i)
+  for (const std::size_t i : active_)
     // Within the room nothing is nearer than wanted.
-    spare_[i] = std::max(wanted, spare_[i] - motion_over(pairs_[i], spare_[i] - enough_mm_));
+    spare_[i] = std::max(wanted, spare_[i] - motion_over(i, spare_[i] - enough_mm_));
   now_ = 1 - now_;
+  at_ = place;
   room_mm_ = 0;
   unmeasured_.reset();
 }
 
 /// After a pose at which every pair was clear.
-void Sweep::find_room(Frame frame, const Pose& pose) {
-  float least = std::numeric_limits<float>::infinity();
-  for (const float spare : spare_) least = std::min(least, spare);
-  const double radius = least - model_.wanted_mm() - kRounding_mm;
-  middle_ = *model_.place_of(frame, pose);
+void Sweep::find_room(const Place& place) {
+  double radius = std::numeric_limits<double>::infinity();
+  for (const std::size_t i : active_)
+    radius = std::min(radius, (spare_[i] - model_.wanted_mm() - kRounding_mm) / turns_of(i));
+  middle_ = place;
   room_mm_ = radius > 0 ? radius / model_.gain(middle_, radius) : 0;
+  if (around_) room_mm_ = std::min(room_mm_, kAround_mm - CollisionModel::apart_mm(place, around_->middle));
 }
 
 /// Distance of a pair, or somewhat less.
-double Sweep::look(const Scene& scene, std::size_t i) {
+double Sweep::look(const Scene& scene, const Pose& pose, std::size_t i) {
   const CollisionModel::Pair& pair = pairs_[i];
+  if (with_print(i)) return print_->distance(scene, pose, pair.second, parting_[i]);
   const double far = model_.least_distance(scene, pair);
   if (far >= model_.wanted_mm() + kFar_mm) return far;
   Parting& last = parting_[i];
@@ -128,7 +208,8 @@ double Sweep::look(const Scene& scene, std::size_t i) {
 }
 
 /// `way_is_clear`: no pair that keeps its distance here has touched since the last pose.
-Sweep::Step Sweep::measure(Frame frame, const Pose& pose, bool way_is_clear) {
+Sweep::Step Sweep::measure(Frame frame, const Pose& pose, const std::optional<Place>& place,
+                           bool way_is_clear) {
   const Scene& scene = scenes_[1 - now_];
   if (!model_.place(frame, pose, scenes_[1 - now_])) {
     jump();
@@ -136,23 +217,27 @@ Sweep::Step Sweep::measure(Frame frame, const Pose& pose, bool way_is_clear) {
   }
   if (placed_) measure_motion();
   const auto wanted = static_cast<float>(model_.wanted_mm());
+  const auto coarse = static_cast<float>(print_ ? print_->coarse_mm() : 0);
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+  for (const std::size_t i : active_) {
     float motion = 0;
     if (placed_) {
-      motion = motion_over(pairs_[i], spare_[i] - enough_mm_);
+      motion = motion_over(i, spare_[i] - enough_mm_);
       next_[i] = spare_[i] - motion;
       if (next_[i] >= enough_mm_) continue;
     }
-    const double mm = look(scene, i);
+    const double mm = look(scene, pose, i);
     next_[i] = static_cast<float>(mm) - kRounding_mm;
     if (mm < model_.wanted_mm()) {
       if (mm < least) {
         least = mm;
-        nearest_ = {mm, model_.bodies()[pairs_[i].first].id, model_.bodies()[pairs_[i].second].id};
+        met_print_ = with_print(i);
+        const BodyId second = model_.bodies()[pairs_[i].second].id;
+        nearest_ = met_print_ ? Clearance{mm, second, {BodyKind::kPart}}
+                              : Clearance{mm, model_.bodies()[pairs_[i].first].id, second};
       }
     } else if (placed_ && !way_is_clear && spare_[i] >= wanted - 2 * kRounding_mm &&
-               spare_[i] + next_[i] <= motion) {
+               spare_[i] + next_[i] <= motion + (with_print(i) ? 2 * coarse : 0)) {
       // Clear there and clear here, and moved so far between that both could have met.
       return Step::kCoarse;
     }
@@ -162,8 +247,12 @@ Sweep::Step Sweep::measure(Frame frame, const Pose& pose, bool way_is_clear) {
   placed_ = true;
   room_mm_ = 0;
   unmeasured_.reset();
+  if (has_places_) {
+    at_ = *place;
+    if (!around_) settle(at_);
+  }
   if (std::isfinite(least)) return Step::kNear;
-  if (has_places_) find_room(frame, pose);
+  if (has_places_) find_room(at_);
   return Step::kClear;
 }
 

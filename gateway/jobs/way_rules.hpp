@@ -1,7 +1,7 @@
 #pragma once
 // Whether the machine can go a way: pose after pose within the kinematics' limits, no two bodies nearer than
-// they may come, and tool and holder out of what has been printed. Between two poses bodies are looked at
-// where they could have met.
+// they may come, and all of them out of what has been printed. Between two poses bodies are looked at where
+// they could have met.
 
 #include <optional>
 
@@ -19,7 +19,7 @@ class WayRules {
            const bodies::PrintedPart* printed = nullptr)
       : kinematics_(kinematics), model_(make_collision_model(machine)), printed_(printed) {
     if (!model_) return;
-    sweep_.emplace(*model_);
+    sweep_.emplace(*model_, bodies::Occasion::kMotion, printed_);
     if (printed_ != nullptr) watch_.emplace(*machine.bodies);
   }
 
@@ -89,6 +89,7 @@ class WayRules {
       step = sweep_->to(frame, pose);
     }
     if (step != Step::kNear) return std::nullopt;
+    met_print_ = sweep_->met_print();
     return model_->words(sweep_->nearest());
   }
 

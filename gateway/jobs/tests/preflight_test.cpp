@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <string>
 
 #include "gateway/bodies/tests/legs_below.hpp"
+#include "gateway/description/machine_file.hpp"
 #include "gateway/jobs/tests/job_support.hpp"
 
 namespace kinebus {
@@ -122,11 +124,13 @@ TEST(Preflight, ACornerOfThePlatformAgainstTheNozzleIsNamedWithItsLineAndPasses2
   EXPECT_EQ(problems_on(default_m1(), past_the_corner("4")).errors(), 0u);
 }
 
-/// A wall along X that stands at `y`, in layers of 0.5 mm; the tool ends 20 mm above it. It is `layers` long.
-std::string wall(double y, int layers) {
-  std::string job = "G43.4\nM83\nG1 Z20 F6000\nG1 X-10 Y" + std::to_string(y) + "\n";
+/// A wall along X from -half to half that stands at `y`, in layers of 0.5 mm; the tool ends 20 mm above it.
+/// It is `layers` high.
+std::string wall(double y, int layers, int half = 10) {
+  const std::string x = std::to_string(half);
+  std::string job = "G43.4\nM83\nG1 Z20 F6000\nG1 X-" + x + " Y" + std::to_string(y) + "\n";
   for (int i = 1; i <= layers; ++i)
-    job += "G1 Z" + std::to_string(0.5 * i) + "\nG1 X" + (i % 2 == 0 ? "-10" : "10") + " E1\n";
+    job += "G1 Z" + std::to_string(0.5 * i) + "\nG1 X" + (i % 2 == 0 ? "-" : "") + x + " E1\n";
   return job + "G1 Z" + std::to_string(0.5 * layers + 20) + "\n";
 }
 
@@ -157,6 +161,41 @@ TEST(Preflight, ATiltThatLeansTheNozzleHolderAgainstWhatWasPrintedBeforeIsRefuse
   EXPECT_EQ(bad.all()[1].words, "nozzle holder and part on the table would touch");
   const ProblemList good = problems_on(legs_below(), printed + beside + "G1 A-40\n");
   EXPECT_EQ(good.errors(), 0u) << good.all()[1].words;
+}
+
+/// What is wrong with a job that prints a wall and then goes to `y` beside it, 2 mm above the table.
+void expect_met(const MachineDescription& d, const std::string& printed, double y, const char* first) {
+  const std::string job = printed + "G1 X0 Y-60\nG1 Z2\nG1 Y" + std::to_string(y) + "\n";
+  const ProblemList problems = problems_on(d, job);
+  if (first == nullptr) {
+    EXPECT_EQ(problems.errors(), 0u) << problems.all().back().words;
+    return;
+  }
+  ASSERT_EQ(problems.errors(), 1u);
+  EXPECT_EQ(problems.all().back().line, lines_in(job));
+  EXPECT_TRUE(problems.all().back().words.starts_with(std::string(first) + " and part on the table would"))
+      << problems.all().back().words;
+}
+
+TEST(Preflight, WhatTheMachineHasBesidesToolAndHolderKeepsOutOfWhatTheJobHasPrinted) {
+  const auto delta = load_machine(std::filesystem::path(KINEBUS_MACHINES) / "delta.toml");
+  ASSERT_TRUE(delta) << to_string(delta.error());
+  // 60 mm high at Y 60. The effector's edge, 30 mm from the tool's axis, is 32 mm above the table.
+  const std::string post = wall(60, 120);
+  expect_met(*delta, post, 29.8, "platform");
+  expect_met(*delta, post, 28, nullptr);
+  // Wider, and the rods of the third arm are at it before.
+  const std::string wide = wall(60, 120, 30);
+  expect_met(*delta, wide, 20, "leg 3");
+  expect_met(*delta, wide, 0, nullptr);
+  expect_met(*delta, wall(60, 40, 30), 20, nullptr);  // it is lower than the arms are
+  // The table carries it: towards a clamp in the frame, whose inner face is at Y 131, the tool at Y -71.
+  MachineDescription m1 = legs_below();
+  m1.bodies->fixed.push_back({"clamp", {-15, 131, 1310}, {15, 160, 1340}});
+  expect_met(m1, post, -70.9, "clamp");
+  expect_met(m1, post, -69, nullptr);
+  m1.bodies->printed_part = false;
+  expect_met(m1, post, -72, nullptr);
 }
 
 TEST(Preflight, WhatThePlatformCarriesIsCheckedAgainstATableThatStands) {
