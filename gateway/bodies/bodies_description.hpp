@@ -9,10 +9,12 @@
 
 namespace kinebus {
 
-/// Something that stands in the way and does not move: a box along the machine's axes.
+/// Something that stands in the way and does not move, as the machine's frame does: a box along the machine's
+/// axes, or a rod with round ends from one point to another.
 struct FixedBody {
   std::string name;  ///< of its table
   Vector3 from_mm{}, to_mm{};
+  double radius_mm = 0;  ///< of a rod; 0: a box
   friend bool operator==(const FixedBody&, const FixedBody&) = default;
 };
 

@@ -31,7 +31,8 @@ void CollisionModel::add_fixed(const BodiesDescription& bodies) {
         to{body.to_mm[0], body.to_mm[1], body.to_mm[2]}, half = 0.5 * (to - from);
     fixed_names_.push_back(body.name);
     add({BodyKind::kFixed, static_cast<std::uint8_t>(fixed_names_.size())}, kStill,
-        Shape::box(from + half, {half.x, 0, 0}, {0, half.y, 0}, {0, 0, half.z}));
+        body.radius_mm > 0 ? Shape::capsule(from, to, body.radius_mm)
+                           : Shape::box(from + half, {half.x, 0, 0}, {0, half.y, 0}, {0, 0, half.z}));
   }
 }
 

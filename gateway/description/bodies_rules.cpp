@@ -28,9 +28,14 @@ void judge_numbers(const BodiesDescription& b, std::vector<BrokenRule>& broken) 
   require(b.fixed.size() <= bodies::kMostFixed, {"bodies.fixed"}, say("%1 tables", b.fixed.size()),
           say("at most %1", bodies::kMostFixed));
   for (const FixedBody& body : b.fixed) {
+    const std::string key = "bodies.fixed." + body.name;
+    if (body.radius_mm > 0) {
+      require(body.from_mm != body.to_mm, {key + ".to_mm", key + ".from_mm"}, say("a rod without length"),
+              say("another point than from_mm"));
+      continue;
+    }
     bool grows = true;
     for (std::size_t k = 0; k < 3; ++k) grows = grows && body.from_mm[k] < body.to_mm[k];
-    const std::string key = "bodies.fixed." + body.name;
     require(grows, {key + ".to_mm", key + ".from_mm"}, say("a box turned inside out"),
             say("each of its three numbers above that of from_mm"));
   }

@@ -40,6 +40,7 @@ void visit_bodies(V& v, BodiesDescription& b, BodyKeys has) {
   v.named_tables("fixed", b.fixed, [&](FixedBody& body) {
     v.vector3("from_mm", body.from_mm, kPlace, Need::kRequired);
     v.vector3("to_mm", body.to_mm, kPlace, Need::kRequired);
+    v.unless_zero("radius_mm", body.radius_mm, kSizeOrNone, 1);
   });
 }
 

@@ -176,6 +176,7 @@ void set_bodies(joblink::Bodies& message, const BodiesDescription& b) {
     fixed.set_name(shown(body.name));
     set_vector(*fixed.mutable_from(), body.from_mm);
     set_vector(*fixed.mutable_to(), body.to_mm);
+    fixed.set_radius_mm(body.radius_mm);
   }
 }
 

@@ -150,8 +150,10 @@ BodiesDescription bodies_of(const joblink::Bodies& message) {
   b.part_height_mm = message.part_height_mm();
   for (const auto& fixed : message.fixed())
     if (b.fixed.size() < bodies::kMostFixed)
-      b.fixed.push_back(
-          {.name = fixed.name(), .from_mm = vector3(fixed.from()), .to_mm = vector3(fixed.to())});
+      b.fixed.push_back({.name = fixed.name(),
+                         .from_mm = vector3(fixed.from()),
+                         .to_mm = vector3(fixed.to()),
+                         .radius_mm = fixed.radius_mm()});
   return b;
 }
 

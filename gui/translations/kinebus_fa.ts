@@ -2961,6 +2961,14 @@
         <translation>هر یک از سه عدد آن بیشتر از عدد from_mm</translation>
     </message>
     <message>
+        <source>a rod without length</source>
+        <translation>میله‌ای بدون طول</translation>
+    </message>
+    <message>
+        <source>another point than from_mm</source>
+        <translation>نقطه‌ای غیر از from_mm</translation>
+    </message>
+    <message>
         <source>bodies that touch: at %1, %2</source>
         <translation>جسم‌هایی که به هم می‌خورند: در %1، %2</translation>
     </message>

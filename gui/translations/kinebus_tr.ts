@@ -2961,6 +2961,14 @@
         <translation>üç sayısının her biri from_mm değerinin üzerinde</translation>
     </message>
     <message>
+        <source>a rod without length</source>
+        <translation>uzunluğu olmayan bir çubuk</translation>
+    </message>
+    <message>
+        <source>another point than from_mm</source>
+        <translation>from_mm dışında bir nokta</translation>
+    </message>
+    <message>
         <source>bodies that touch: at %1, %2</source>
         <translation>değen cisimler: %1 konumunda %2</translation>
     </message>

@@ -172,8 +172,18 @@ int plan_homing(const MachineDescription& machine, const HomePlanArguments& argu
   print_plan(machine, study.plan());
   json report = to_json(machine, study.plan());
   json tried = json::array();
+  const double highest = study.machine().part_height_mm;
   const homing::Survey found = Search(study, arguments).run(stated || asked, tried);
   report["surveys"] = tried;
+  if (const double spared = study.machine().part_height_mm; study.machine().bodies && found.safe()) {
+    report["spared_part_height_mm"] = spared;
+    if (spared < highest)
+      fmt::print(
+          "  a part higher than {:.6g} mm may be touched: it must be off the table before the machine homes "
+          "with "
+          "its positions unknown, or the switches must be farther from the work\n",
+          spared);
+  }
   fmt::print("  largest difference of travels {:.1f} mm (homing.max_spread_mm {:.6g})\n", found.spread_mm,
              machine.homing.max_spread_mm);
   report["max_spread_mm"] = machine.homing.max_spread_mm;

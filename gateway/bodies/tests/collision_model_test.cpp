@@ -338,6 +338,12 @@ TEST(EveryMachine, FixedBodiesHaveTheNamesOfTheirTables) {
   const auto low = model->clearance(Frame::kPart, {0, 0, 0, 0, 0, 0});
   EXPECT_NEAR(low->mm, 1, 2e-3);
   EXPECT_EQ(model->words(*low), "table and duct would come as near as 1.00 mm; bodies keep 2 mm apart");
+  // A rod is round: its side is its radius from the line between its ends.
+  d.bodies->fixed.push_back({"brace", {-50, 60, 1306}, {50, 60, 1306}, 5.5});
+  const Model braced = make_collision_model(d);
+  const auto under = braced->clearance(Frame::kPart, {0, 0, 0, 0, 0, 0});
+  EXPECT_NEAR(under->mm, 0.5, 2e-3);
+  EXPECT_EQ(braced->words(*under), "table and brace would come as near as 0.50 mm; bodies keep 2 mm apart");
 }
 
 }  // namespace

@@ -23,7 +23,8 @@ TEST(MachineFile, BodiesReadBackAsTheyWereWritten) {
   d.bodies->part_radius_mm = 40;
   d.bodies->part_height_mm = 90;
   d.bodies->fixed = {{"camera", {300, -20, 1400}, {340, 20, 1440}},
-                     {"lamp", {-340, -20, 1400}, {-300, 20, 1440}}};
+                     {"lamp", {-340, -20, 1400}, {-300, 20, 1440}},
+                     {"post", {-420, 0, 0}, {-420, 0, 1500}, 20}};
   const auto machine = parse_machine(write_machine(d), "written");
   ASSERT_TRUE(machine) << to_string(machine.error());
   EXPECT_TRUE(*machine == d);
@@ -54,6 +55,10 @@ TEST(MachineFile, WrongBodiesAreRefusedWithTheirKeyAndRule) {
        "bodies.fixed.lamp.to_mm: found a box turned inside out; expected each of its three numbers above "
        "that of "
        "from_mm"},
+      {"[bodies.fixed.post]\nfrom_mm = [1, 2, 3]\nto_mm = [1, 2, 3]\nradius_mm = 5",
+       "bodies.fixed.post.to_mm: found a rod without length; expected another point than from_mm"},
+      {"[bodies.fixed.post]\nfrom_mm = [1, 2, 3]\nto_mm = [4, 5, 6]\nradius_mm = -1",
+       "bodies.fixed.post.radius_mm: found -1; expected a number in 0 .. 10000"},
       // A beam through the nozzle's axis that the table comes up against, at the bed reference as well.
       {"[bodies.fixed.beam]\nfrom_mm = [-10, -10, 1260]\nto_mm = [10, 10, 1290]",
        "bodies: found bodies that touch: at X 0 Y 0 Z 20 A 0, platform and beam would touch; expected room "
