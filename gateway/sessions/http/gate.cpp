@@ -7,11 +7,6 @@
 namespace kinebus::http {
 namespace {
 
-/// Takes as long for a wrong key as for the right one.
-bool same_key(std::string_view a, std::string_view b) {
-  return a.size() == b.size() && CRYPTO_memcmp(a.data(), b.data(), a.size()) == 0;
-}
-
 std::string_view without_port(std::string_view host) {
   if (host.starts_with('[')) return host.substr(0, std::min(host.find(']'), host.size() - 1) + 1);
   return host.substr(0, host.find(':'));
@@ -36,6 +31,12 @@ bool is_own_origin(std::string_view origin, std::string_view host) {
   return same_word(scheme, "http://") || same_word(scheme, "https://");
 }
 
+}  // namespace
+
+bool same_key(std::string_view a, std::string_view b) {
+  return a.size() == b.size() && CRYPTO_memcmp(a.data(), b.data(), a.size()) == 0;
+}
+
 bool shows_key(const Head& head, std::string_view key) {
   static constexpr std::string_view kBearer = "Bearer ";
   const std::string_view authorization = head.field("Authorization");
@@ -43,10 +44,7 @@ bool shows_key(const Head& head, std::string_view key) {
          (authorization.starts_with(kBearer) && same_key(authorization.substr(kBearer.size()), key));
 }
 
-}  // namespace
-
-std::optional<GateRefusal> refusal_at_gate(const Head& head, std::string_view key,
-                                           std::span<const std::string> names) {
+std::optional<GateRefusal> refusal_at_gate(const Head& head, std::span<const std::string> names) {
   static constexpr std::string_view kOtherPage = "pages of other servers may not ask this one";
   const std::string_view host = head.field("Host");
   if (head.count("Host") != 1 || host.empty()) return GateRefusal{400, "a request names one Host"};
@@ -55,8 +53,10 @@ std::optional<GateRefusal> refusal_at_gate(const Head& head, std::string_view ke
   const std::string_view origin = head.field("Origin");
   if (!origin.empty() && !is_own_origin(origin, host)) return GateRefusal{403, kOtherPage};
   const std::string_view site = head.field("Sec-Fetch-Site");
-  if (!site.empty() && site != "same-origin" && site != "none") return GateRefusal{403, kOtherPage};
-  if (!shows_key(head, key)) return GateRefusal{401, "X-Api-Key must be this gateway's key"};
+  // Who follows a link to the page gets the page, and nothing that needs the key.
+  const bool comes_by_link = head.field("Sec-Fetch-Mode") == "navigate" && head.method == "GET";
+  if (!site.empty() && site != "same-origin" && site != "none" && !comes_by_link)
+    return GateRefusal{403, kOtherPage};
   const std::string_view expected = head.field("Expect");
   if (!expected.empty() && !same_word(expected, "100-continue"))
     return GateRefusal{417, "the only expectation that can be met is 100-continue"};

@@ -15,8 +15,12 @@ struct GateRefusal {
   std::string_view why;
 };
 
-/// Why a request with this head is not carried out; nullopt: it may come in. `names`: Server::Options::names.
-std::optional<GateRefusal> refusal_at_gate(const Head& head, std::string_view key,
-                                           std::span<const std::string> names);
+/// Why a request with this head is not carried out, whoever sends it; nullopt: it may come in. `names`:
+/// Server::Options::names.
+std::optional<GateRefusal> refusal_at_gate(const Head& head, std::span<const std::string> names);
+/// X-Api-Key, or Authorization: Bearer.
+bool shows_key(const Head& head, std::string_view key);
+/// Takes as long for a wrong key as for the right one.
+bool same_key(std::string_view a, std::string_view b);
 
 }  // namespace kinebus::http

@@ -1,20 +1,44 @@
 #include "gateway/sessions/http/http_server.hpp"
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
 #include "gateway/sessions/http/http_session.hpp"
+#include "gateway/sessions/http/message_json.hpp"
 
 namespace kinebus::http {
+namespace {
+constexpr LocalTime kStatusShared = std::chrono::milliseconds{20};
+}  // namespace
 
 Server::Server(JobLinkServer& link, JobStore& store, Worker& worker, Control& control, Options options)
     : link_(link), store_(store), worker_(worker), control_(control), options_(std::move(options)) {}
 
 Server::~Server() = default;
 
-Session* Server::find(std::uint64_t session) {
-  const auto found = sessions_.find(session);
-  return found != sessions_.end() ? found->second : nullptr;
+bool Server::make_room_for_socket(LocalTime now) {
+  std::size_t sockets = 0;
+  Session* oldest = nullptr;  // of those that have not shown the key
+  for (const auto& [id, session] : sessions_) {
+    if (!session->is_socket() || session->ended()) continue;
+    ++sockets;
+    if (session->idle() && (oldest == nullptr || id < oldest->id())) oldest = session;
+  }
+  if (sockets < options_.max_sockets) return true;
+  if (oldest == nullptr) return false;
+  oldest->on_closed(now, "others wait for this place");
+  return true;
+}
+
+const std::string& Server::status_json(LocalTime now, Caller& by) {
+  if (!status_json_.empty() && now < status_until_) return status_json_;
+  joblink::ClientMessage message;
+  message.mutable_get_status();
+  status_json_.clear();
+  append_json(status_json_, by.ask_now(message).status());
+  status_until_ = now + kStatusShared;
+  return status_json_;
 }
 
 std::unique_ptr<ByteSession> Server::open(LocalTime now, std::string transport, std::string peer) {

@@ -22,6 +22,7 @@
 namespace kinebus::http {
 
 class Session;
+class Caller;
 
 class Server {
  public:
@@ -31,6 +32,7 @@ class Server {
     /// another name that leads here is refused.
     std::vector<std::string> names;
     std::size_t max_sessions = 32;
+    std::size_t max_sockets = 20;  ///< of these, so that there is room for requests
   };
 
   /// All must outlive it. `store` is touched by `worker` alone.
@@ -48,8 +50,12 @@ class Server {
   Worker& worker() { return worker_; }
   Control& control() { return control_; }
   const Options& options() const { return options_; }
-  Session* find(std::uint64_t session);
+  /// False: all are taken by who has shown the key.
+  bool make_room_for_socket(LocalTime now);
   std::size_t sessions() const { return sessions_.size(); }
+
+  /// The machine's status as the API of Kinebus tells it, made once for all who hear it about now.
+  const std::string& status_json(LocalTime now, Caller& by);
 
   /// What OctoPrint calls the selected file; empty: none.
   std::string selected;
@@ -68,6 +74,8 @@ class Server {
   Options options_;
   std::unordered_map<std::uint64_t, Session*> sessions_;
   std::uint32_t job_id_ = 0;
+  std::string status_json_;
+  LocalTime status_until_{0};
 };
 
 }  // namespace kinebus::http

@@ -1,13 +1,11 @@
 #include "gateway/sessions/http/http_session.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "gateway/sessions/http/gate.hpp"
 #include "gateway/sessions/http/routes.hpp"
-#include "protocol/joblink/shown_text.hpp"
 #include "protocol/joblink/upload_chunk.hpp"
 
 namespace kinebus::http {
@@ -17,11 +15,11 @@ namespace {
 constexpr std::size_t kMaxUnread = 64U << 10;
 /// Of a body in one turn of the loop.
 constexpr std::size_t kBytesPerTurn = 64U << 10;
-constexpr LocalTime kLookPeriod = std::chrono::milliseconds{50};
 constexpr std::string_view kContinue = "HTTP/1.1 100 Continue\r\n\r\n";
 
 std::string_view reason_of(int status) {
   static constexpr std::pair<int, std::string_view> kReasons[] = {
+      {101, "Switching Protocols"},
       {200, "OK"},
       {201, "Created"},
       {204, "No Content"},
@@ -36,6 +34,7 @@ std::string_view reason_of(int status) {
       {413, "Content Too Large"},
       {415, "Unsupported Media Type"},
       {417, "Expectation Failed"},
+      {426, "Upgrade Required"},
       {431, "Request Header Fields Too Large"},
       {500, "Internal Server Error"},
       {503, "Service Unavailable"},
@@ -70,25 +69,22 @@ int status_of(joblink::ErrorCode code) {
 }  // namespace
 
 Session::Session(Server& server, LocalTime now, std::string transport, std::string peer)
-    : Requester(server.store(), server.worker()),
-      server_(server),
-      id_(server.link().enter(*this)),
+    : Caller(server, now),
       transport_(std::move(transport)),
       peer_(std::move(peer)),
-      now_(now),
       since_(now),
       moved_(now) {
-  server_.sessions_[id_] = this;
+  server_.sessions_[id()] = this;
 }
 
 Session::~Session() {
   end_exchange();
-  server_.sessions_.erase(id_);
-  server_.link().leave(id_);
+  server_.sessions_.erase(id());
 }
 
-void Session::on_closed(LocalTime now, std::string_view) {
+void Session::on_closed(LocalTime now, std::string_view why) {
   now_ = now;
+  if (socket_) return socket_->on_closed(now, why);
   ended_ = true;
   out_.clear();
   sent_ = 0;
@@ -97,6 +93,7 @@ void Session::on_closed(LocalTime now, std::string_view) {
 
 void Session::on_bytes(LocalTime now, std::span<const std::uint8_t> bytes) {
   now_ = moved_ = now;
+  if (socket_) return socket_->on_bytes(now, bytes);
   if (lingers_ || ended_) return;
   // A head counts from its first byte.
   if (task_ == nullptr && in_.size() == at_) since_ = now;
@@ -106,13 +103,14 @@ void Session::on_bytes(LocalTime now, std::span<const std::uint8_t> bytes) {
 }
 
 bool Session::wants_bytes() const {
+  if (socket_) return socket_->wants_bytes();
   if (ended_) return false;
   if (lingers_) return true;
   return in_.size() - at_ < kMaxUnread && (task_ == nullptr || (!whole_ && task_->takes_body()));
 }
 
 bool Session::work_waits() const {
-  return !starved_ && !ended_ && !lingers_ && !answered_ &&
+  return !socket_ && !starved_ && !ended_ && !lingers_ && !answered_ &&
          (task_ == nullptr || (!whole_ && task_->takes_body()));
 }
 
@@ -138,6 +136,12 @@ void Session::work() {
       task_->on_end();
     }
   }
+  if (socket_) {
+    // What the client has sent without waiting for the answer.
+    const std::string_view rest = input();
+    socket_->on_bytes(now_, {reinterpret_cast<const std::uint8_t*>(rest.data()), rest.size()});
+    at_ = in_.size();
+  }
   if (at_ == in_.size() || at_ > kMaxUnread) {
     in_.erase(0, at_);
     at_ = 0;
@@ -148,74 +152,63 @@ void Session::begin_request() {
   no_body_ = head().method == "HEAD";
   keep_alive_ = head().keep_alive;
   whole_ = !head().has_body();
-  if (const auto no = refusal_at_gate(head(), server_.options().key, server_.options().names))
-    return refuse(no->status, no->why);
+  if (const auto no = refusal_at_gate(head(), server_.options().names)) return refuse(no->status, no->why);
   auto target = parse_target(head().target);
   if (!target) return refuse(400, "the target is no path of this server");
   target_ = std::move(*target);
   const Found found = find_route(no_body_ ? "GET" : head().method, target_.path);
+  if ((found.route == nullptr || !found.route->open) && !shows_key(head(), server_.options().key))
+    return refuse(401, "X-Api-Key must be this gateway's key");
   if (found.allowed.empty()) return refuse(404, "there is nothing under this path");
   if (found.route == nullptr) {
     const nlohmann::json body{{"error", "this path does not take the method " + head().method}};
     return answer({.status = 405, .body = body.dump(), .fields = {{"Allow", found.allowed}}});
   }
-  if (head().method != "GET" && !no_body_) {
-    const std::string_view agent = head().field("User-Agent");
-    const std::string name = shown(agent.substr(0, agent.find(' ')), kMaxNameBytes);
-    client_ = server_.control().attach(name.empty() ? "HTTP client" : name, transport_);
-  }
+  if (found.route->speak != nullptr) return become_socket(*found.route);
+  if (head().method != "GET" && !no_body_) attach(agent(), transport_);
   task_ = make_task(*found.route, *this);
   task_->begin();
   if (task_ != nullptr && !answered_ && !task_->holds_body()) let_body_come();
+}
+
+/// "PrusaSlicer/2.9.4" of what a client calls itself.
+std::string_view Session::agent() const {
+  const std::string_view words = head().field("User-Agent");
+  return words.substr(0, words.find(' '));
+}
+
+void Session::become_socket(const Route& route) {
+  if (!same_word(head().field("Upgrade"), "websocket") || head().field("Sec-WebSocket-Version") != "13")
+    return answer({.status = 426,
+                   .body = R"({"error":"under this path is a websocket of version 13"})",
+                   .fields = {{"Upgrade", "websocket"}, {"Sec-WebSocket-Version", "13"}}});
+  const std::string accepted = accept_of(head().field("Sec-WebSocket-Key"));
+  if (accepted.empty()) return refuse(400, "Sec-WebSocket-Key is 16 bytes in base64");
+  if (!server_.make_room_for_socket(now_)) return refuse(503, "all places for websockets are taken");
+  out_ += "HTTP/1.1 101 Switching Protocols\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n";
+  out_ += "Sec-WebSocket-Accept: " + accepted + "\r\n\r\n";
+  auto socket = std::make_unique<Socket>(server_, now_, transport_, std::string(agent()));
+  socket->speak(route.speak(*socket));
+  if (shows_key(head(), server_.options().key)) socket->let_in({});
+  socket_ = std::move(socket);
 }
 
 void Session::let_body_come() {
   if (head().has_body() && !head().field("Expect").empty()) out_ += kContinue;
 }
 
-void Session::ask(const joblink::ClientMessage& message, Then then) {
-  const JobLinkServer::Asker asker{id_, expect(std::move(then))};
-  server_.link().request(now_, *this, asker, message);
-}
-
-joblink::Reply Session::ask_now(const joblink::ClientMessage& message) {
-  joblink::Reply got;
-  const std::uint32_t before = last_request_;
-  ask(message, [&](const joblink::Reply& reply) { got = reply; });
-  assert(!expected_.contains(before + 1));
-  return got;
-}
-
 void Session::begin_open_ended(const std::string& name, std::uint64_t expected_bytes, bool replace,
                                Then then) {
   JobRequests(server_.link(), *this, now_)
-      .begin_open_ended({id_, expect(std::move(then))}, name, expected_bytes, replace);
+      .begin_open_ended({id(), expect(std::move(then))}, name, expected_bytes, replace);
 }
 
 void Session::send_chunk(std::uint32_t upload, std::uint64_t offset_bytes, std::string_view data, Then then) {
   const std::uint32_t request = expect(std::move(then));
   JobRequests(server_.link(), *this, now_)
       .chunk(
-          {id_, request},
+          {id(), request},
           {.head = {.request_id = request, .upload_id = upload, .offset_bytes = offset_bytes}, .data = data});
-}
-
-std::uint32_t Session::expect(Then then) {
-  expected_[++last_request_] = std::move(then);
-  return last_request_;
-}
-
-void Session::take_reply(joblink::Reply reply) {
-  const auto found = expected_.find(reply.request_id());
-  if (found == expected_.end()) return;
-  const Then then = std::move(found->second);
-  expected_.erase(found);
-  then(reply);
-}
-
-void Session::wait_for(std::function<bool(LocalTime)> look) {
-  look_ = std::move(look);
-  next_look_ = now_;
 }
 
 void Session::put_head(const Answer& answer, std::uint64_t length) {
@@ -262,13 +255,9 @@ void Session::finish() {
 
 /// Of the request that is answered, or never will be. The task may be the caller.
 void Session::end_exchange() {
-  ++exchange_;
-  expected_.clear();
-  look_ = nullptr;
-  next_look_ = LocalTime::max();
+  forget_asked();
   set_uploads_aside();
-  if (client_ != 0) server_.control().detach(client_);
-  client_ = 0;
+  detach();
   if (task_ != nullptr) done_task_ = std::move(task_);
 }
 
@@ -296,15 +285,9 @@ void Session::next_request() {
 
 void Session::on_time(LocalTime now) {
   now_ = now;
+  if (socket_) return socket_->on_time(now);
   if (ended_) return;
-  if (look_ && now >= next_look_) {
-    next_look_ = now + kLookPeriod;
-    // It may give the answer, which forgets it.
-    const auto look = look_;
-    if (look(now)) {
-      if (!answered_) look_ = nullptr;
-    }
-  }
+  look(now);
   if (sent_some_) moved_ = now;
   sent_some_ = false;
   if (answered_ && whole_ && out_.empty()) next_request();
@@ -327,10 +310,11 @@ void Session::on_time(LocalTime now) {
 }
 
 LocalTime Session::next_deadline() const {
+  if (socket_ && out_.empty()) return socket_->next_deadline();
   if (ended_) return LocalTime::max();
   if (lingers_) return linger_until_ == LocalTime::max() ? LocalTime{0} : linger_until_;
   if (work_waits() || (answered_ && out_.empty())) return LocalTime{0};
-  LocalTime next = next_look_;
+  LocalTime next = next_look();
   if (!out_.empty()) next = std::min(next, moved_ + kStall);
   if (task_ != nullptr && !whole_) next = std::min(next, moved_ + kStall);
   if (task_ == nullptr) next = std::min(next, since_ + (reader_.idle() ? kIdle : kHeadWithin));
@@ -338,12 +322,14 @@ LocalTime Session::next_deadline() const {
 }
 
 std::span<const std::uint8_t> Session::next_bytes() {
+  if (socket_ && out_.empty()) return socket_->next_bytes();
   if (out_.empty() && task_ != nullptr) task_->on_written();
   const std::string_view rest = std::string_view(out_).substr(sent_);
   return {reinterpret_cast<const std::uint8_t*>(rest.data()), rest.size()};
 }
 
 void Session::on_bytes_sent(std::size_t count) {
+  if (socket_ && out_.empty()) return socket_->on_bytes_sent(count);
   sent_ += count;
   sent_some_ = sent_some_ || count > 0;
   if (sent_ < out_.size()) return;

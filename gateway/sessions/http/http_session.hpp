@@ -1,11 +1,11 @@
 #pragma once
 // One connection: requests one after the other, each read, checked, carried out by its task and answered. How
-// slow, long or malformed a client may be is decided here, for all requests alike.
+// slow, long or malformed a client may be is decided here, for all requests alike. A request may turn it into
+// a websocket (socket.hpp), which has the connection from there on.
 
 #include <chrono>
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -13,11 +13,12 @@
 #include <vector>
 
 #include "gateway/sessions/byte_session.hpp"
+#include "gateway/sessions/http/caller.hpp"
 #include "gateway/sessions/http/http_reader.hpp"
 #include "gateway/sessions/http/http_server.hpp"
+#include "gateway/sessions/http/socket.hpp"
 #include "gateway/sessions/http/target.hpp"
 #include "gateway/sessions/job_requests.hpp"
-#include "gateway/sessions/requester.hpp"
 
 namespace kinebus::http {
 
@@ -27,6 +28,8 @@ struct Answer {
   std::string type = "application/json";
   std::vector<std::pair<std::string, std::string>> fields{};
 };
+
+struct Route;
 
 /// What one request asks for: takes its body, and answers by the session, then or later. Lives until the
 /// answer is given.
@@ -45,7 +48,7 @@ class Task {
   virtual bool holds_body() const { return false; }
 };
 
-class Session : public ByteSession, public Requester {
+class Session : public ByteSession, public Caller {
  public:
   static constexpr LocalTime kHeadWithin = std::chrono::seconds{10};
   static constexpr LocalTime kIdle = std::chrono::seconds{60};
@@ -62,46 +65,25 @@ class Session : public ByteSession, public Requester {
   std::span<const std::uint8_t> next_bytes() override;
   void on_bytes_sent(std::size_t count) override;
   bool wants_bytes() const override;
-  bool ended() const override { return ended_; }
+  bool ended() const override { return socket_ ? socket_->ended() : ended_; }
   void on_closed(LocalTime now, std::string_view why) override;
-  ClientId client() const override { return client_; }
-  void take_reply(joblink::Reply reply) override;
 
-  std::uint64_t id() const { return id_; }
   const std::string& peer() const { return peer_; }
-  /// Nobody waits for anything on it.
-  bool idle() const { return task_ == nullptr && out_.empty() && !ended_; }
+  /// Nobody waits for anything on it, or it may not wait.
+  bool idle() const { return socket_ ? !socket_->is_in() : task_ == nullptr && out_.empty() && !ended_; }
+  bool is_socket() const { return socket_ != nullptr; }
 
   /// No place for it.
   void turn_away() { refuse(503, "all places for connections are taken: come back in some seconds"); }
 
   // For tasks.
-  Server& server() { return server_; }
-  LocalTime now() const { return now_; }
   const Head& head() const { return reader_.head(); }
   const Target& target() const { return target_; }
   /// Bytes of an upload that the worker has not written yet are within their bound.
   bool has_window() const { return owed_bytes() < kUploadWindow; }
 
-  using Then = std::function<void(const joblink::Reply&)>;
-  /// A request as the job link knows it; `then` is called with its reply unless the answer is given before.
-  void ask(const joblink::ClientMessage& message, Then then);
-  /// The same of what is answered at once.
-  joblink::Reply ask_now(const joblink::ClientMessage& message);
   void begin_open_ended(const std::string& name, std::uint64_t expected_bytes, bool replace, Then then);
   void send_chunk(std::uint32_t upload, std::uint64_t offset_bytes, std::string_view data, Then then);
-  /// `work` beside the loop, with the store; `then` takes what it returns.
-  template <typename Work, typename Done>
-  void beside(Work work, Done then) {
-    server_.worker().ask(
-        [&store = server_.store(), work = std::move(work)] { return work(store); },
-        [&server = server_, id = id_, exchange = exchange_, then = std::move(then)](auto found) {
-          Session* session = server.find(id);
-          if (session != nullptr && session->exchange_ == exchange) then(std::move(found));
-        });
-  }
-  /// Asks `look` now and then until it answers true.
-  void wait_for(std::function<bool(LocalTime)> look);
   void let_body_come();
   bool unanswered() const { return !answered_ && !ended_; }
 
@@ -122,11 +104,10 @@ class Session : public ByteSession, public Requester {
   bool work_waits() const;
   void put_head(const Answer& answer, std::uint64_t length);
   void end_exchange();
-  std::uint32_t expect(Then then);
+  std::string_view agent() const;
+  void become_socket(const Route& route);
   std::string_view input() const { return std::string_view(in_).substr(at_); }
 
-  Server& server_;
-  std::uint64_t id_;
   std::string transport_, peer_;
   Reader reader_;
   std::string in_, out_;
@@ -141,14 +122,9 @@ class Session : public ByteSession, public Requester {
   bool starved_ = true;     ///< what has come is too little to go on
   bool lingers_ = false;    ///< what comes is thrown away, so that the client reads the answer
   bool ended_ = false;
-  std::uint64_t exchange_ = 0;
-  ClientId client_ = 0;
-  std::map<std::uint32_t, Then> expected_;
-  std::uint32_t last_request_ = 0;
-  std::function<bool(LocalTime)> look_;
-  LocalTime next_look_ = LocalTime::max();
+  std::unique_ptr<Socket> socket_;
 
-  LocalTime now_, since_, moved_;  ///< since_: of the connection or the last answer; moved_: the last byte
+  LocalTime since_, moved_;  ///< since_: of the connection or the last answer; moved_: the last byte
   LocalTime linger_until_ = LocalTime::max();  ///< max: it has not begun
   bool sent_some_ = false;                     ///< since moved_
 };

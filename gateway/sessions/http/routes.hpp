@@ -16,7 +16,9 @@ struct Route {
   const char* method;
   const char* path;  ///< pieces; "*" stands for any one, "**" at the end for one or more
   void (*carry_out)(Session& session, std::string_view body);
-  std::unique_ptr<Task> (*make)(Session& session) = nullptr;  ///< instead of carry_out
+  std::unique_ptr<Task> (*make)(Session& session) = nullptr;    ///< instead of carry_out
+  std::unique_ptr<Dialect> (*speak)(Socket& socket) = nullptr;  ///< instead of both: a websocket
+  bool open = false;                                            ///< for who has not shown the key, too
 };
 
 struct Found {
@@ -29,5 +31,6 @@ std::unique_ptr<Task> make_task(const Route& route, Session& session);
 std::span<const Route> octoprint_machine_routes();
 std::span<const Route> octoprint_job_routes();
 std::span<const Route> prusalink_routes();
+std::span<const Route> kinebus_routes();
 
 }  // namespace kinebus::http

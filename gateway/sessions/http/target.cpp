@@ -69,4 +69,19 @@ std::optional<Target> parse_target(std::string_view target) {
   return parsed;
 }
 
+std::optional<std::vector<std::pair<std::string, std::string>>> query_fields(std::string_view query) {
+  std::vector<std::pair<std::string, std::string>> fields;
+  while (!query.empty()) {
+    std::string field(query.substr(0, query.find('&')));
+    query.remove_prefix(std::min(field.size() + 1, query.size()));
+    std::replace(field.begin(), field.end(), '+', ' ');
+    const std::size_t equals = std::min(field.find('='), field.size());
+    const auto name = percent_decoded(std::string_view(field).substr(0, equals));
+    const auto value = percent_decoded(std::string_view(field).substr(std::min(equals + 1, field.size())));
+    if (!name || !value) return std::nullopt;
+    if (!field.empty()) fields.emplace_back(*name, *value);
+  }
+  return fields;
+}
+
 }  // namespace kinebus::http

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace kinebus::http {
@@ -17,6 +18,8 @@ struct Target {
 /// nullopt: no path of this server ("http://...", "*", a broken %, a NUL, a step upwards).
 std::optional<Target> parse_target(std::string_view target);
 
+/// "a=1&b=x%20y": names and values, decoded; '+' is a space. nullopt: a broken %, or a NUL.
+std::optional<std::vector<std::pair<std::string, std::string>>> query_fields(std::string_view query);
 /// "a%20b": "a b". nullopt: a % without two digits, or a NUL.
 std::optional<std::string> percent_decoded(std::string_view text);
 /// A piece of a path: what is not a letter, a digit or one of -._~ as %XX.
