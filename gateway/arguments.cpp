@@ -34,6 +34,8 @@ void add_options(CLI::App& app, Arguments& arguments) {
                  "File of the API key that HTTP clients must know (default: http-key beside the token)");
   app.add_option("--http-name", arguments.http_names,
                  "A name by which HTTP clients call this computer, besides its own and its addresses");
+  app.add_option("--web", arguments.web,
+                 "Folder of the web page that is served by HTTP (default: the installed one)");
   app.add_option("--quota", arguments.quota_gib, "GiB that stored jobs may take")
       ->check(CLI::Range(0.001, 1e6));
   app.add_option("--jobs", arguments.jobs, "Folder of stored jobs (default: the machine file's)");

@@ -16,6 +16,7 @@
 #include "gateway/io/bus_log.hpp"
 #include "gateway/io/daemon.hpp"
 #include "gateway/io/socketcan_bus.hpp"
+#include "gateway/io/web_folder.hpp"
 #include "protocol/host/can_interface.hpp"
 #include "protocol/host/realtime.hpp"
 #include "protocol/host/socketcan.hpp"
@@ -193,10 +194,18 @@ void Service::listen() {
 void Service::listen_http(const std::string& credentials) {
   std::filesystem::create_directories(credentials);
   const std::string file = arguments_.http_key.empty() ? credentials + "/http-key" : arguments_.http_key;
-  http_.emplace(server_, *store_, worker_, control_,
-                http::Server::Options{.key = must(token_of(file), "HTTP "),
-                                      .names = host_names(arguments_.http_names)});
+  const std::filesystem::path pages =
+      arguments_.web.empty() ? installed_pages() : std::filesystem::path(arguments_.web);
+  const std::filesystem::path kept = beside(jobs_folder_, "web-pages.json");
+  http_.emplace(
+      server_, *store_, worker_, control_,
+      http::Server::Options{.key = must(token_of(file), "HTTP "),
+                            .names = host_names(arguments_.http_names),
+                            .pages = pages.empty() ? http::Pages() : must(read_pages(pages), "web page "),
+                            .database = read_text(kept),
+                            .keep_database = text_keeper(kept)});
   must_be_empty(http_host_.listen(arguments_.http, credentials, *http_), "HTTP");
+  if (!pages.empty()) spdlog::info("web page from {}", pages.string());
   spdlog::info("{} port {}, API key in {}", http_host_.encrypted() ? "HTTPS" : "HTTP", http_host_.port(),
                file);
 }

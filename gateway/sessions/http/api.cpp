@@ -1,6 +1,7 @@
 #include "gateway/sessions/http/api.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <utility>
 
@@ -101,16 +102,16 @@ std::string word_in(const Json& object, const char* key) {
   return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
-joblink::Status machine_status(Session& session) {
+joblink::Status machine_status(Caller& caller) {
   joblink::ClientMessage message;
   message.mutable_get_status();
-  return session.ask_now(message).status();
+  return caller.ask_now(message).status();
 }
 
-joblink::MachineInfo machine_info(Session& session) {
+joblink::MachineInfo machine_info(Caller& caller) {
   joblink::ClientMessage message;
   message.mutable_get_machine();
-  return session.ask_now(message).machine();
+  return caller.ask_now(message).machine();
 }
 
 bool job_is_there(const joblink::Status& status) {
@@ -129,25 +130,49 @@ void command(Session& session, const joblink::ClientMessage& message) {
   });
 }
 
-void start_job(Session& session, const std::string& name, std::function<void()> started) {
-  const std::uint64_t before = session.server().link().events().newest();
+void begin_job(Caller& caller, const std::string& name, std::function<void(const joblink::Problem&)> then) {
+  const std::uint64_t before = caller.server().link().events().newest();
   joblink::ClientMessage message;
   message.mutable_start_job()->set_name(name);
-  session.ask(message, [&session, name, before, started = std::move(started)](const joblink::Reply& reply) {
-    if (reply.has_error()) return session.refuse(reply.error());
-    const LocalTime until = session.now() + kVerdictWithin;
-    session.wait_for([&session, before, until, started](LocalTime now) {
-      const bool checking = machine_status(session).state() == joblink::STATE_CHECKING;
+  caller.command(message, [&caller, before, then = std::move(then)](const joblink::Reply& reply) {
+    if (reply.has_error()) return then(reply.error());
+    const LocalTime until = caller.now() + kVerdictWithin;
+    caller.wait_for([&caller, before, until, then](LocalTime now) {
+      const bool checking = machine_status(caller).state() == joblink::STATE_CHECKING;
       if (checking && now < until) return false;
       const std::string wrong =
-          checking ? std::string() : first_error(session.server().link().events(), before);
-      if (wrong.empty())
-        started();
-      else
-        session.refuse(409, "the job is refused: " + wrong);
+          checking ? std::string() : first_error(caller.server().link().events(), before);
+      joblink::Problem problem;
+      if (!wrong.empty()) {
+        problem.set_code(joblink::ERROR_MACHINE_STATE);
+        problem.set_rule("the job is refused: " + wrong);
+      }
+      then(problem);
       return true;
     });
   });
+}
+
+std::string words_of(const joblink::Problem& problem) {
+  return problem.expected().empty() ? problem.rule() : problem.rule() + " (" + problem.expected() + ")";
+}
+
+void start_job(Session& session, const std::string& name, std::function<void()> started) {
+  begin_job(session, name, [&session, started = std::move(started)](const joblink::Problem& wrong) {
+    if (!wrong.rule().empty()) return session.refuse(wrong);
+    started();
+  });
+}
+
+Result<JobListing, StoreError> all_jobs(JobStore& store) {
+  auto all = store.list({});
+  while (all && all->more && !all->jobs.empty()) {
+    auto next = store.list(all->jobs.back().name);
+    if (!next) return next;
+    std::move(next->jobs.begin(), next->jobs.end(), std::back_inserter(all->jobs));
+    all->more = next->more && !next->jobs.empty();
+  }
+  return all;
 }
 
 void delete_job(Session& session, const std::string& name) {
@@ -169,15 +194,17 @@ std::unique_ptr<Task> download(Session& session, std::string name) {
   return std::make_unique<Download>(session, std::move(name));
 }
 
-void pause(Session& session, Pausing pausing) {
+joblink::ClientMessage pause_message(Pausing pausing, bool is_paused) {
   joblink::ClientMessage message;
-  const bool resume =
-      pausing == Pausing::kResume || (pausing == Pausing::kToggle && is_paused(machine_status(session)));
-  if (resume)
+  if (pausing == Pausing::kResume || (pausing == Pausing::kToggle && is_paused))
     message.mutable_resume();
   else
     message.mutable_hold();
-  command(session, message);
+  return message;
+}
+
+void pause(Session& session, Pausing pausing) {
+  command(session, pause_message(pausing, is_paused(machine_status(session))));
 }
 
 void cancel(Session& session) {

@@ -20,17 +20,24 @@ Answer json_answer(const Json& json, int status = 200);
 Answer no_content();
 /// nullopt: refused already.
 std::optional<Json> json_body(Session& session, std::string_view body);
+/// All stored jobs, as the worker reads them.
+Result<JobListing, StoreError> all_jobs(JobStore& store);
 /// The text under `key`; "": there is none.
 std::string word_in(const Json& object, const char* key);
 
-joblink::Status machine_status(Session& session);
-joblink::MachineInfo machine_info(Session& session);
+joblink::Status machine_status(Caller& caller);
+joblink::MachineInfo machine_info(Caller& caller);
 /// Progress of the job as a share, 0..1.
 bool job_is_there(const joblink::Status& status);
 bool is_paused(const joblink::Status& status);
 
 /// 204, or why not.
 void command(Session& session, const joblink::ClientMessage& message);
+/// Starts a stored job: `then` hears why not, or a problem without rule when it has passed its pre-flight or
+/// that takes longer than a client waits.
+void begin_job(Caller& caller, const std::string& name, std::function<void(const joblink::Problem&)> then);
+/// "the rule (what is expected)"
+std::string words_of(const joblink::Problem& problem);
 /// Starts a stored job, and tells how that went: `started` is called when it has passed its pre-flight, or
 /// when that takes longer than a client waits; what is wrong with it is the request's answer.
 void start_job(Session& session, const std::string& name, std::function<void()> started);
@@ -42,6 +49,7 @@ void with_job(Session& session, const std::string& name, std::function<void(cons
 std::unique_ptr<Task> download(Session& session, std::string name);
 
 enum class Pausing : std::uint8_t { kPause, kResume, kToggle };
+joblink::ClientMessage pause_message(Pausing pausing, bool is_paused);
 void pause(Session& session, Pausing pausing);
 void cancel(Session& session);
 

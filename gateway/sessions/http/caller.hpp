@@ -31,6 +31,8 @@ class Caller : public Requester {
   using Then = std::function<void(const joblink::Reply&)>;
   /// A request as the job link knows it; `then` is called with its reply unless it is not awaited any more.
   void ask(const joblink::ClientMessage& message, Then then);
+  /// The same of what may change the machine.
+  virtual void command(const joblink::ClientMessage& message, Then then) { ask(message, std::move(then)); }
   /// The same of what is answered at once.
   joblink::Reply ask_now(const joblink::ClientMessage& message);
   /// `work` beside the loop, with the store; `then` takes what it returns.

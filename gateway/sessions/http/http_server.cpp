@@ -13,7 +13,12 @@ constexpr LocalTime kStatusShared = std::chrono::milliseconds{20};
 }  // namespace
 
 Server::Server(JobLinkServer& link, JobStore& store, Worker& worker, Control& control, Options options)
-    : link_(link), store_(store), worker_(worker), control_(control), options_(std::move(options)) {}
+    : link_(link),
+      store_(store),
+      worker_(worker),
+      control_(control),
+      options_(std::move(options)),
+      database_(options_.database) {}
 
 Server::~Server() = default;
 
@@ -70,7 +75,31 @@ bool Server::make_room(LocalTime now) {
 }
 
 void Server::on_event(const MachineEvent& event) {
-  if (event.kind == MachineEvent::Kind::kState && event.state == MachineState::kChecking) ++job_id_;
+  if (event.kind != MachineEvent::Kind::kState) return;
+  switch (event.state) {
+    case MachineState::kChecking:
+      ++job_id_;
+      in_job_ = true;
+      ran_ = cancelled_ = false;
+      break;
+    case MachineState::kRunning:
+      ran_ = true;
+      break;
+    case MachineState::kCancelling:
+      cancelled_ = true;
+      break;
+    case MachineState::kReady:
+      if (in_job_) job_end_ = cancelled_ ? "cancelled" : ran_ ? "complete" : "error";
+      in_job_ = false;
+      break;
+    case MachineState::kStopped:
+    case MachineState::kAlarm:
+      if (in_job_) job_end_ = "error";
+      in_job_ = false;
+      break;
+    default:
+      break;
+  }
 }
 
 }  // namespace kinebus::http

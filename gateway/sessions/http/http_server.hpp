@@ -8,6 +8,8 @@
 // nothing give way to new ones.
 
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <unordered_map>
@@ -16,6 +18,7 @@
 #include "gateway/jobs/store/job_store.hpp"
 #include "gateway/sessions/byte_session.hpp"
 #include "gateway/sessions/control.hpp"
+#include "gateway/sessions/http/moonraker_database.hpp"
 #include "gateway/sessions/job_link_server.hpp"
 #include "gateway/sessions/worker.hpp"
 
@@ -23,6 +26,15 @@ namespace kinebus::http {
 
 class Session;
 class Caller;
+
+/// A file of the web page.
+struct Page {
+  std::string type;  ///< "text/html; charset=utf-8"
+  std::string bytes;
+  std::string gzip;  ///< the same, compressed; empty: that saves nothing
+  std::string mark;  ///< another one where the file has changed
+};
+using Pages = std::map<std::string, Page, std::less<>>;
 
 class Server {
  public:
@@ -32,6 +44,11 @@ class Server {
     /// another name that leads here is refused.
     std::vector<std::string> names;
     std::size_t max_sessions = 32;
+    /// The web page: files by their paths within its folder, all in memory.
+    Pages pages{};
+    /// What Moonraker's clients have kept here, as it was given to `keep_database`, which the worker calls.
+    std::string database{};
+    std::function<void(const std::string& text)> keep_database{};
     std::size_t max_sockets = 20;  ///< of these, so that there is room for requests
   };
 
@@ -61,6 +78,9 @@ class Server {
   std::string selected;
   /// Counts the jobs that were started, by whomever, since the gateway's start.
   std::uint32_t job_id() const { return job_id_; }
+  /// How the last job ended, as Klipper's print_stats say it: "standby" before any.
+  const char* job_end() const { return job_end_; }
+  MoonrakerDatabase& database() { return database_; }
 
  private:
   friend class Session;
@@ -74,6 +94,9 @@ class Server {
   Options options_;
   std::unordered_map<std::uint64_t, Session*> sessions_;
   std::uint32_t job_id_ = 0;
+  const char* job_end_ = "standby";
+  bool in_job_ = false, ran_ = false, cancelled_ = false;
+  MoonrakerDatabase database_;
   std::string status_json_;
   LocalTime status_until_{0};
 };

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "gateway/sessions/http/api.hpp"
 #include "gateway/sessions/http/gate.hpp"
 #include "gateway/sessions/http/routes.hpp"
 #include "protocol/joblink/upload_chunk.hpp"
@@ -23,6 +24,7 @@ std::string_view reason_of(int status) {
       {200, "OK"},
       {201, "Created"},
       {204, "No Content"},
+      {304, "Not Modified"},
       {400, "Bad Request"},
       {401, "Unauthorized"},
       {403, "Forbidden"},
@@ -215,19 +217,20 @@ void Session::put_head(const Answer& answer, std::uint64_t length) {
   // Who has not sent all of its request would send it to nobody.
   if (!whole_) keep_alive_ = false;
   out_ += "HTTP/1.1 " + std::to_string(answer.status) + " " + std::string(reason_of(answer.status)) + "\r\n";
-  if (answer.status != 204) {
+  if (answer.status != 204 && answer.status != 304) {
     out_ += "Content-Type: " + answer.type + "\r\n";
     out_ += "Content-Length: " + std::to_string(length) + "\r\n";
   }
   for (const auto& [name, value] : answer.fields) out_.append(name).append(": ").append(value).append("\r\n");
-  out_ += "Cache-Control: no-store\r\nX-Content-Type-Options: nosniff\r\nX-Robots-Tag: noindex\r\n";
+  out_ += answer.may_be_kept ? "Cache-Control: no-cache\r\n" : "Cache-Control: no-store\r\n";
+  out_ += "X-Content-Type-Options: nosniff\r\nX-Robots-Tag: noindex\r\n";
   out_ += keep_alive_ ? "Connection: keep-alive\r\n\r\n" : "Connection: close\r\n\r\n";
 }
 
 void Session::answer(const Answer& answer) {
   if (answered_ || ended_) return;
   put_head(answer, answer.body.size());
-  if (!no_body_ && answer.status != 204) out_ += answer.body;
+  if (!no_body_ && answer.status != 204 && answer.status != 304) out_ += answer.body;
   finish();
 }
 
@@ -270,9 +273,7 @@ void Session::refuse(int status, std::string_view why) {
 }
 
 void Session::refuse(const joblink::Problem& problem, int status) {
-  std::string why = problem.rule();
-  if (!problem.expected().empty()) why += " (" + problem.expected() + ")";
-  refuse(status != 0 ? status : status_of(problem.code()), why);
+  refuse(status != 0 ? status : status_of(problem.code()), words_of(problem));
 }
 
 /// The answer is on its way: the next request may be there already.

@@ -27,6 +27,7 @@ struct Answer {
   std::string body{};
   std::string type = "application/json";
   std::vector<std::pair<std::string, std::string>> fields{};
+  bool may_be_kept = false;  ///< by the client, who asks each time whether it has changed
 };
 
 struct Route;

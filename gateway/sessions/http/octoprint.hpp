@@ -12,5 +12,7 @@ namespace kinebus::http {
 const char* octoprint_state(const joblink::Status& status);
 /// POST /api/files/local
 std::unique_ptr<Task> octoprint_upload(Session& session);
+/// The same form for Moonraker: POST /server/files/upload
+std::unique_ptr<Task> moonraker_upload(Session& session);
 
 }  // namespace kinebus::http

@@ -38,18 +38,13 @@ Json file_json(const StoredJob& job) {
 void files(Session& session, std::string_view) {
   session.beside(
       [](JobStore& store) {
-        std::string after;
+        const auto listing = all_jobs(store);
+        if (!listing) return Result<std::string, StoreError>(Error<StoreError>(listing.error()));
         Json list = Json::array();
-        std::uint64_t free = 0, quota = 0;
-        for (bool more = true; more;) {
-          const auto listing = store.list(after);
-          if (!listing) return Result<std::string, StoreError>(Error<StoreError>(listing.error()));
-          for (const StoredJob& job : listing->jobs) list.push_back(file_json(job));
-          quota = listing->quota_bytes;
-          free = std::min(listing->free_bytes, quota - std::min(quota, listing->used_bytes));
-          more = listing->more && !listing->jobs.empty();
-          if (more) after = listing->jobs.back().name;
-        }
+        for (const StoredJob& job : listing->jobs) list.push_back(file_json(job));
+        const std::uint64_t quota = listing->quota_bytes;
+        const std::uint64_t free =
+            std::min(listing->free_bytes, quota - std::min(quota, listing->used_bytes));
         return Result<std::string, StoreError>(
             text_of({{"files", std::move(list)}, {"free", free}, {"total", quota}}));
       },

@@ -1,4 +1,4 @@
-// OctoPrint's REST API: the upload, a form with the file.
+// The upload of OctoPrint's and Moonraker's APIs: a form with the file.
 
 #include <utility>
 
@@ -10,11 +10,18 @@
 namespace kinebus::http {
 namespace {
 
-/// POST /api/files/local: a form with the file, and whether it is to be selected and printed.
+/// What a stored file is answered with.
+struct Uploaded {
+  const std::string& name;
+  bool selected = false, printed = false;
+};
+using Told = Answer (*)(const Uploaded& uploaded);
+
+/// A form with the file, and whether it is to be selected and printed.
 class FormUpload : public Task {
  public:
-  FormUpload(Session& session, const std::string& boundary)
-      : session_(session), form_(boundary), stream_(session) {}
+  FormUpload(Session& session, const std::string& boundary, Told told)
+      : session_(session), form_(boundary), stream_(session), told_(told) {}
   void on_body(std::string_view bytes) override {
     form_.add(bytes);
     read();
@@ -64,6 +71,9 @@ class FormUpload : public Task {
   }
   void end_part() {
     if (!in_file_ && form_.name() == "path") folder_ = field_;
+    // Moonraker's: its only root is where jobs are.
+    if (!in_file_ && form_.name() == "root" && field_ != "gcodes")
+      session_.refuse(400, "the only root is gcodes");
     if (!in_file_ && form_.name() == "print") print_ = field_ == "true";
     if (!in_file_ && form_.name() == "select") select_ = field_ == "true";
     if (!in_file_ && form_.name() == "foldername") session_.refuse(400, kNoFolders);
@@ -74,28 +84,12 @@ class FormUpload : public Task {
     if (!print_) return tell();
     start_job(session_, stream_.name(), [this] { tell(); });
   }
-  void tell() {
-    const std::string& name = stream_.name();
-    const std::string resource = "/api/files/local/" + percent_encoded(name);
-    Answer answer =
-        json_answer({{"files",
-                      {{"local",
-                        {{"name", name},
-                         {"display", name},
-                         {"path", name},
-                         {"origin", "local"},
-                         {"refs", {{"resource", resource}, {"download", download_path(name)}}}}}}},
-                     {"done", true},
-                     {"effectiveSelect", select_ || print_},
-                     {"effectivePrint", print_}},
-                    201);
-    answer.fields.emplace_back("Location", resource);
-    session_.answer(answer);
-  }
+  void tell() { session_.answer(told_({stream_.name(), select_ || print_, print_})); }
 
   Session& session_;
   Multipart form_;
   JobStream stream_;
+  Told told_;
   std::string field_, folder_;
   bool waits_ = false, in_file_ = false, print_ = false, select_ = false;
 };
@@ -114,14 +108,47 @@ class Refused : public Task {
   const char* why_;
 };
 
-}  // namespace
+Answer octoprint_told(const Uploaded& uploaded) {
+  const std::string& name = uploaded.name;
+  const std::string resource = "/api/files/local/" + percent_encoded(name);
+  Answer answer = json_answer({{"files",
+                                {{"local",
+                                  {{"name", name},
+                                   {"display", name},
+                                   {"path", name},
+                                   {"origin", "local"},
+                                   {"refs", {{"resource", resource}, {"download", download_path(name)}}}}}}},
+                               {"done", true},
+                               {"effectiveSelect", uploaded.selected},
+                               {"effectivePrint", uploaded.printed}},
+                              201);
+  answer.fields.emplace_back("Location", resource);
+  return answer;
+}
 
-std::unique_ptr<Task> octoprint_upload(Session& session) {
+Answer moonraker_told(const Uploaded& uploaded) {
+  return json_answer({{"item", {{"path", uploaded.name}, {"root", "gcodes"}}},
+                      {"print_started", uploaded.printed},
+                      {"print_queued", false},
+                      {"action", "create_file"}},
+                     201);
+}
+
+std::unique_ptr<Task> form_upload(Session& session, Told told) {
   const auto boundary = boundary_of(session.head().field("Content-Type"));
   if (!boundary)
     return std::make_unique<Refused>(session, 415,
                                      "an upload is a form: multipart/form-data with its boundary");
-  return std::make_unique<FormUpload>(session, *boundary);
+  return std::make_unique<FormUpload>(session, *boundary, told);
+}
+
+}  // namespace
+
+std::unique_ptr<Task> octoprint_upload(Session& session) {
+  return form_upload(session, octoprint_told);
+}
+std::unique_ptr<Task> moonraker_upload(Session& session) {
+  return form_upload(session, moonraker_told);
 }
 
 }  // namespace kinebus::http

@@ -163,15 +163,10 @@ void folder(Session& session, std::string_view) {
     return session.refuse(404, "no storage has this name: the one that is here is called local");
   session.beside(
       [](JobStore& store) {
-        std::string after;
+        const auto listing = all_jobs(store);
+        if (!listing) return Result<std::string, StoreError>(Error<StoreError>(listing.error()));
         Json list = Json::array();
-        for (bool more = true; more;) {
-          const auto listing = store.list(after);
-          if (!listing) return Result<std::string, StoreError>(Error<StoreError>(listing.error()));
-          for (const StoredJob& stored : listing->jobs) list.push_back(print_file_json(stored));
-          more = listing->more && !listing->jobs.empty();
-          if (more) after = listing->jobs.back().name;
-        }
+        for (const StoredJob& stored : listing->jobs) list.push_back(print_file_json(stored));
         return Result<std::string, StoreError>(text_of(
             {{"type", "FOLDER"}, {"name", kStorage}, {"read_only", false}, {"children", std::move(list)}}));
       },

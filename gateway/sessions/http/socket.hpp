@@ -51,7 +51,7 @@ class Socket : public ByteSession, public Caller {
   /// Whether a request that commands leaves control with this client: after take_control.
   bool keeps_control = false;
   /// As ask(); a client that has not asked for control has it for this request alone.
-  void command(const joblink::ClientMessage& message, Then then);
+  void command(const joblink::ClientMessage& message, Then then) override;
 
   void on_bytes(LocalTime now, std::span<const std::uint8_t> bytes) override;
   void on_time(LocalTime now) override;

@@ -1,7 +1,6 @@
 // Any bytes on websockets, in pieces of any length: as frames, and, when each line of the input is sent as
 // one message, as what is said in them. Frames are the same however they are cut.
 
-#include <array>
 #include <string>
 
 #include "gateway/sessions/http/tests/fuzz_machine.hpp"
@@ -58,7 +57,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     messages +=
         http::message(std::string(line) + std::string(line.size() < 126 ? 126 - line.size() : 0, ' '));
   }
-  for (const char* path : {"/kinebus/v1/socket"}) {
+  for (const char* path : {"/kinebus/v1/socket", "/websocket"}) {
     http::FuzzMachine machine;
     machine.talk(http::handshake(path) + std::string(bytes), 61);
     machine.talk(http::handshake(path) + messages, size + 1000);

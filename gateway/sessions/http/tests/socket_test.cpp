@@ -126,9 +126,9 @@ TEST(WebSocket, CommandsMoveTheMachineAndNewsAreHeard) {
   EXPECT_FALSE(reply->json()["reply"].contains("error")) << reply->payload;
   bool unhomed = false, told = false;
   for (const Heard& h : client.hear(10s)) {
-    const auto json = h.json();
-    if (json.contains("status")) unhomed = unhomed || json["status"]["state"] == "STATE_UNHOMED";
-    if (json.contains("event")) told = told || json["event"]["state"] == "STATE_UNHOMED";
+    const auto message = h.json();
+    if (message.contains("status")) unhomed = unhomed || message["status"]["state"] == "STATE_UNHOMED";
+    if (message.contains("event")) told = told || message["event"]["state"] == "STATE_UNHOMED";
   }
   EXPECT_TRUE(unhomed);
   EXPECT_TRUE(told);
