@@ -1,0 +1,144 @@
+// The page as a whole: the link, who is let in, and what the panels show.
+import { Link } from './link.js';
+import { choose_language, number, present_language, say_all, t } from './words.js';
+import { Console } from './console.js';
+import { Files } from './files.js';
+import { Heaters } from './heaters.js';
+import { Job } from './job.js';
+import { Motion } from './motion.js';
+
+const at = (id) => document.getElementById(id);
+let link = null;
+let machine = null;
+let scene = null;
+let status = null;
+
+/// Why something was refused stands on the page until something else is done.
+function tell(problem) {
+  const words = problem ? [problem.rule, problem.expected].filter(Boolean).join(' — ') : '';
+  at('problem').textContent = words;
+  at('problem').hidden = !words;
+}
+async function ask(name, fields) {
+  tell(null);
+  try {
+    return await link.request(name, fields);
+  } catch (problem) {
+    tell(problem);
+    return null;
+  }
+}
+
+const panels = { ask, tell, link: () => link };
+const all = [new Job(panels), new Heaters(panels), new Motion(panels), new Files(panels), new Console(panels)];
+
+const kKind = { STATE_READY: 'good', STATE_HELD: 'work', STATE_STOPPING: 'bad', STATE_STOPPED: 'bad', STATE_ALARM: 'bad', STATE_OFF: 'none', STATE_UNHOMED: 'none' };
+function show_state() {
+  if (!status) return;
+  const words = t(status.state);
+  if (at('state').textContent !== words) at('state').textContent = words;
+  at('state').dataset.state = kKind[status.state] ?? 'work';
+  at('doing').textContent = status.doing;
+  document.title = `${words} – ${machine?.name ?? 'Kinebus'}`;
+}
+function show_position() {
+  const pose = status.tool;
+  const axes = [['X', pose.x_mm, 2], ['Y', pose.y_mm, 2], ['Z', pose.z_mm, 2], ['A', (pose.a_rad * 180) / Math.PI, 2], ['C', (pose.c_rad * 180) / Math.PI, 2]];
+  at('position').replaceChildren(...axes.map(([name, value, digits]) => {
+    const group = document.createElement('div');
+    const term = document.createElement('dt');
+    const what = document.createElement('dd');
+    term.textContent = name;
+    what.textContent = status.positions_known ? number(value, digits) : '–';
+    group.append(term, what);
+    return group;
+  }));
+}
+
+function show(fresh) {
+  status = fresh;
+  const allowed = new Map(status.commands.map((command) => [command.command, command.allowed]));
+  show_state();
+  show_position();
+  for (const panel of all) panel.show?.(status, allowed);
+  scene?.show(status);
+}
+
+async function begin() {
+  machine = (await ask('get_machine'))?.machine;
+  if (!machine) return;
+  at('machine-name').textContent = machine.name;
+  for (const panel of all) panel.begin?.(machine);
+  if (scene) return scene.begin(machine);
+  // The greatest part of the page's bytes comes last, and where there is no WebGL it is missed alone.
+  try {
+    const { Scene } = await import('./scene.js');
+    scene = new Scene(at('scene'));
+    scene.begin(machine);
+  } catch (error) {
+    at('scene').textContent = String(error.message ?? error);
+  }
+}
+
+function connect(key) {
+  link?.close();
+  link = new Link(key);
+  link.addEventListener('open', () => {
+    localStorage.setItem('key', key);
+    if (at('login').open) at('login').close();
+    tell(null);
+    begin();
+  });
+  link.addEventListener('refused', (event) => {
+    link.close();
+    localStorage.removeItem('key');
+    ask_for_key(event.detail.code === 'ERROR_NOT_ALLOWED' ? t('wrong_key') : event.detail.rule);
+  });
+  link.addEventListener('closed', () => link.key && tell({ rule: t('link_lost') }));
+  link.addEventListener('status', (event) => show(event.detail));
+  link.addEventListener('event', (event) => all.forEach((panel) => panel.hear?.(event.detail)));
+  link.open();
+}
+
+function ask_for_key(problem = '') {
+  at('login-problem').textContent = problem;
+  if (!at('login').open) at('login').showModal();
+}
+
+function set_theme(theme) {
+  document.documentElement.dataset.theme = theme;
+  localStorage.setItem('theme', theme);
+  scene?.recolour();
+  all.forEach((panel) => panel.recolour?.());
+}
+
+at('stop').onclick = async () => {
+  tell(null);
+  try {
+    await link.stop();
+  } catch (problem) {
+    tell(problem);
+  }
+};
+at('theme').onclick = () => set_theme(document.documentElement.dataset.theme === 'dark' ? 'light' : 'dark');
+at('language').onchange = (event) => {
+  choose_language(event.target.value);
+  for (const panel of all) panel.say?.();
+  if (status) show(status);
+};
+at('login-form').onsubmit = (event) => {
+  event.preventDefault();
+  connect(at('key').value.trim());
+};
+at('login').addEventListener('cancel', (event) => event.preventDefault());
+
+set_theme(localStorage.getItem('theme') ?? (matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light'));
+say_all();
+at('language').value = present_language();
+
+// http://ADDRESS/#key=...: a link that lets in; the key does not stay in the address.
+const given = new URLSearchParams(location.hash.slice(1)).get('key');
+if (given) history.replaceState(null, '', location.pathname);
+const key = given ?? localStorage.getItem('key');
+if (key) connect(key);
+else ask_for_key();

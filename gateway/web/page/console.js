@@ -1,0 +1,45 @@
+// Lines to the machine, and what it says.
+const at = (id) => document.getElementById(id);
+const kMost = 300;
+
+export class Console {
+  #said = [];
+  #back = 0;
+
+  constructor(panels) {
+    at('console').onsubmit = async (event) => {
+      event.preventDefault();
+      const line = at('line').value.trim();
+      if (!line) return;
+      at('line').value = '';
+      this.#said.push(line);
+      this.#back = this.#said.length;
+      this.#add(`> ${line}`, 'said');
+      const reply = await panels.ask('console', { line });
+      if (reply?.console?.text) this.#add(reply.console.text);
+    };
+    at('line').onkeydown = (event) => {
+      const step = { ArrowUp: -1, ArrowDown: 1 }[event.key];
+      if (!step) return;
+      event.preventDefault();
+      this.#back = Math.min(Math.max(this.#back + step, 0), this.#said.length);
+      at('line').value = this.#said[this.#back] ?? '';
+    };
+  }
+
+  hear(event) {
+    if (event.kind === 'EVENT_ALARM') this.#add(`${event.words} ${event.advice}`, 'bad');
+    else if (event.words) this.#add(event.line ? `${event.line}: ${event.words}` : event.words);
+  }
+
+  #add(words, kind = '') {
+    const log = at('log');
+    const ends = log.scrollTop + log.clientHeight >= log.scrollHeight - 4;
+    const line = document.createElement('p');
+    line.textContent = words;
+    line.className = kind;
+    log.append(line);
+    while (log.children.length > kMost) log.firstChild.remove();
+    if (ends) log.scrollTop = log.scrollHeight;
+  }
+}

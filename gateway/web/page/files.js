@@ -1,0 +1,105 @@
+// Stored jobs and the history of those that ran.
+import { date, duration, number, t } from './words.js';
+
+const at = (id) => document.getElementById(id);
+const size = (bytes) => bytes < 1024 ? `${number(bytes)} B` : bytes < 1048576 ? `${number(bytes / 1024, 1)} KiB` : `${number(bytes / 1048576, 1)} MiB`;
+
+function cells(...contents) {
+  const row = document.createElement('tr');
+  for (const content of contents) {
+    const cell = document.createElement('td');
+    cell.append(content);
+    row.append(cell);
+  }
+  return row;
+}
+
+export class Files {
+  #jobs = [];
+  #runs = [];
+  #may_start = false;
+
+  constructor(panels) {
+    this.panels = panels;
+    at('upload').onchange = (event) => this.#upload(event.target);
+  }
+
+  begin() {
+    this.#read();
+  }
+  say() {
+    this.#draw();
+  }
+  hear(event) {
+    if (event.kind === 'EVENT_JOBS') this.#read();
+  }
+  show(status, allowed) {
+    const may = Boolean(allowed.get('COMMAND_START_JOB'));
+    if (may === this.#may_start) return;
+    this.#may_start = may;
+    for (const button of at('jobs').querySelectorAll('.start')) button.disabled = !may;
+  }
+
+  async #read() {
+    const jobs = [];
+    for (let after_name = '', more = true; more;) {
+      const list = (await this.panels.ask('list_jobs', { after_name }))?.jobs;
+      if (!list) return;
+      jobs.push(...list.jobs);
+      more = list.more && list.jobs.length > 0;
+      after_name = list.jobs.at(-1)?.name ?? '';
+    }
+    this.#jobs = jobs;
+    this.#runs = (await this.panels.ask('get_history', { max_runs: 50 }))?.history?.runs ?? [];
+    this.#draw();
+  }
+
+  #button(word, name, act, kind = '') {
+    const button = document.createElement('button');
+    Object.assign(button, { type: 'button', textContent: t(word), className: kind, onclick: act });
+    button.setAttribute('aria-label', t('of_job', t(word), name));
+    return button;
+  }
+
+  #draw() {
+    at('jobs').replaceChildren(...this.#jobs.map((job) => {
+      const actions = document.createElement('div');
+      actions.className = 'row';
+      const start = this.#button('start', job.name, () => this.panels.ask('start_job', { name: job.name }), 'start');
+      start.disabled = !this.#may_start;
+      actions.append(
+        start,
+        this.#button('download', job.name, () => this.#download(job.name), 'plain'),
+        this.#button('remove', job.name, () => confirm(t('really', job.name)) && this.panels.ask('delete_job', { name: job.name }), 'plain'));
+      const time = job.preflight ? duration(job.preflight.motion_s + job.preflight.dwell_s) : '–';
+      return cells(job.name, size(Number(job.size_bytes)), time, actions);
+    }));
+    at('runs').replaceChildren(...this.#runs.map((run) => cells(run.name, date(run.begun_unix_s), duration(run.duration_s), t(run.result))));
+  }
+
+  async #upload(input) {
+    const file = input.files[0];
+    if (!file) return;
+    this.panels.tell(null);
+    try {
+      await this.panels.link().upload(file, (share) => { at('upload-state').textContent = t('uploading', `${number(100 * share)} %`); });
+      at('upload-state').textContent = t('uploaded', file.name);
+    } catch (problem) {
+      at('upload-state').textContent = '';
+      this.panels.tell(problem);
+    }
+    input.value = '';
+  }
+
+  async #download(name) {
+    try {
+      const url = URL.createObjectURL(await this.panels.link().download(name));
+      const anchor = document.createElement('a');
+      Object.assign(anchor, { href: url, download: name });
+      anchor.click();
+      setTimeout(() => URL.revokeObjectURL(url), 60_000);
+    } catch (problem) {
+      this.panels.tell(problem);
+    }
+  }
+}

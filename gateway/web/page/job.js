@@ -1,0 +1,24 @@
+// What runs: its progress, and pause, resume, cancel, speed.
+import { duration, number, t } from './words.js';
+
+const at = (id) => document.getElementById(id);
+
+export class Job {
+  constructor({ ask }) {
+    at('pause').onclick = () => ask('hold');
+    at('resume').onclick = () => ask('resume');
+    at('cancel').onclick = () => ask('cancel');
+    at('override').onchange = (event) => ask('set_override', { ratio: Number(event.target.value) / 100 });
+  }
+
+  show(status, allowed) {
+    const runs = status.job !== '';
+    at('job-name').textContent = runs ? `${status.job} · ${t('line_of', number(status.line))}` : t('no_job');
+    at('progress').value = runs ? status.progress : 0;
+    at('job-time').textContent = runs ? `${number(100 * status.progress, 1)} % · ${t('elapsed', duration(status.elapsed_s), duration(status.remaining_s))}` : '';
+    at('pause').disabled = !allowed.get('COMMAND_HOLD');
+    at('resume').disabled = !allowed.get('COMMAND_RESUME');
+    at('cancel').disabled = !allowed.get('COMMAND_CANCEL');
+    if (document.activeElement !== at('override')) at('override').value = Math.round(100 * status.feed_override);
+  }
+}

@@ -1,0 +1,146 @@
+#!/usr/bin/env node
+// The web page in Chromium, against kinebusd with a simulated machine: a print from the key to the emergency stop, three
+// languages, dark and light, telephone and desktop; axe-core finds nothing.
+//   page_test.mjs BUILD [SCREENSHOTS]      Exit status 1: a claim does not hold; 77: skipped, and why
+import { spawn } from 'node:child_process';
+import fs from 'node:fs';
+import { createRequire } from 'node:module';
+import os from 'node:os';
+import path from 'node:path';
+
+const [build, shots = path.join(process.argv[2], 'web/screenshots')] = process.argv.slice(2);
+const skip = (why) => { console.log(`web_page: skipped: ${why}`); process.exit(77); };
+const chromium = ['/usr/bin/chromium', '/usr/bin/chromium-browser'].find((file) => fs.existsSync(file));
+if (!chromium) skip('Chromium is not installed (tools/setup web)');
+if (!fs.existsSync(path.join(build, 'share/kinebus/web/index.html'))) skip('the page was not built: npm or its registry is missing');
+const require = createRequire(path.join(path.resolve(build), 'web/'));
+const playwright = require('playwright-core');
+const axe = require.resolve('axe-core/axe.min.js');
+const kPatience = 60_000;
+
+const work = fs.mkdtempSync(path.join(os.tmpdir(), 'kinebus-web-'));
+fs.mkdirSync(shots, { recursive: true });
+const log = fs.openSync(path.join(work, 'log'), 'w');
+const daemon = spawn(path.join(build, 'bin/kinebusd'),
+  ['--bus', 'inproc', '--jobs', path.join(work, 'jobs'), '--socket', path.join(work, 'socket'), '--no-realtime', '--http', '127.0.0.1:0'],
+  { stdio: ['ignore', 'ignore', log] });
+const said = () => fs.readFileSync(path.join(work, 'log'), 'utf8');
+const sleep = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
+async function until(what, done) {
+  for (const end = Date.now() + kPatience; Date.now() < end; await sleep(100)) {
+    const found = await done();
+    if (found) return found;
+  }
+  throw new Error(`not within ${kPatience / 1000} s: ${what}`);
+}
+let claims = 0;
+function claim(holds, words) {
+  if (!holds) throw new Error(`does not hold: ${words}`);
+  ++claims;
+}
+
+async function main() {
+  const port = await until('the daemon listens', () => /HTTP port (\d+)/.exec(said())?.[1]);
+  const key = fs.readFileSync(path.join(work, 'jobs/.tls/http-key'), 'utf8').trim();
+  const address = `http://127.0.0.1:${port}`;
+  const browser = await playwright.chromium.launch({ executablePath: chromium, args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'] });
+  try {
+    const context = await browser.newContext({ viewport: { width: 1440, height: 1000 }, locale: 'en-GB', colorScheme: 'light' });
+    context.setDefaultTimeout(kPatience);
+    const page = await context.newPage();
+    const wrong = [];
+    let bytes = 0, bytes_of_scene = 0;
+    page.on('pageerror', (error) => wrong.push(String(error)));
+    page.on('console', (message) => message.type() === 'error' && wrong.push(message.text()));
+    page.on('response', async (response) => {
+      if (!response.url().startsWith(address)) wrong.push(`foreign request: ${response.url()}`);
+      const sizes = await response.request().sizes().catch(() => null);
+      if (/three|scene/.test(response.url())) bytes_of_scene += sizes?.responseBodySize ?? 0;
+      else bytes += sizes?.responseBodySize ?? 0;
+    });
+    const text = (id) => page.locator(`#${id}`).innerText();
+    const state = (words) => until(`the machine is ${words}`, async () => (await text('state')) === words);
+
+    // Who has no key gets a page that asks for it, and nothing else.
+    await page.goto(address);
+    await page.locator('#login').waitFor();
+    await page.fill('#key', 'wrong');
+    await page.click('#login-form button');
+    await until('the wrong key is refused', async () => (await text('login-problem')) !== '');
+    await page.screenshot({ path: path.join(shots, 'login.png') });
+    await page.goto(`${address}/#key=${key}`);
+    await page.reload();
+    await state('off');
+    claim(!page.url().includes(key), 'the key does not stay in the address');
+    claim(bytes < 500 * 1024, `the first view has at most 500 KB without the scene: ${bytes}`);
+
+    await page.click('#bring_up');
+    await state('not homed');
+    await page.click('#home');
+    await state('ready');
+    // Above the workspace a jog is refused, and the page says why.
+    await page.click('#jog button >> nth=1');
+    await until('the refusal is told', async () => (await text('problem')).includes('workspace'));
+    await page.click('#reference');
+    await state('moving');
+    await state('ready');
+    const before = await text('position');
+    await page.click('#jog button >> nth=1');
+    await until('the tool moves', async () => (await text('position')) !== before);
+    await state('ready');
+    let program = 'G21\nG90\nM82\nG92 E0\nM104 S200\n';
+    for (let i = 0; i < 400; ++i) program += `G1 X${(30 * Math.cos(i / 8)).toFixed(2)} Y${(30 * Math.sin(i / 8)).toFixed(2)} Z${(5 + i / 40).toFixed(2)} E${(i / 10).toFixed(2)} F1200\n`;
+    await page.setInputFiles('#upload', { name: 'ring <b>1.gcode', mimeType: 'text/x.gcode', buffer: Buffer.from(program) });
+    await page.locator('#jobs .start').first().waitFor();
+    claim((await page.locator('#jobs td').first().innerText()) === 'ring <b>1.gcode', 'names are text');
+    await page.locator('#jobs .start').first().click();
+    await state('running');
+    await until('the job moves on', async () => (await page.locator('#progress').evaluate((bar) => bar.value)) > 0.02);
+    await page.screenshot({ path: path.join(shots, 'desktop-light-en.png'), fullPage: true });
+    await page.click('#pause');
+    await state('paused');
+    await page.click('#resume');
+    await state('running');
+
+    // The page's policy lets no script in but its own: this one comes by the debugger.
+    await page.evaluate(fs.readFileSync(axe, 'utf8'));
+    for (const [language, theme] of [['en', 'light'], ['en', 'dark'], ['tr', 'light'], ['fa', 'dark']]) {
+      await page.selectOption('#language', language);
+      if ((await page.evaluate(() => document.documentElement.dataset.theme)) !== theme) await page.click('#theme');
+      for (const [name, width, height] of [['telephone', 390, 844], ['desktop', 1440, 1000], ['4k', 3840, 2160]]) {
+        if (name === '4k' && language !== 'en') continue;
+        await page.setViewportSize({ width, height });
+        await sleep(300);
+        await page.screenshot({ path: path.join(shots, `${name}-${theme}-${language}.png`), fullPage: name === 'telephone' });
+        const overflow = await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
+        claim(overflow <= 0, `nothing stands out at the side (${name}, ${language}): ${overflow} px`);
+      }
+      await page.setViewportSize({ width: 1440, height: 1000 });
+      claim((await page.evaluate(() => document.documentElement.dir)) === (language === 'fa' ? 'rtl' : 'ltr'), 'Persian goes from right to left');
+      const found = await page.evaluate(() => window.axe.run(document, { runOnly: ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa'] }));
+      claim(found.violations.length === 0, `axe is content (${language}, ${theme}): ${JSON.stringify(found.violations.map((v) => [v.id, v.nodes.map((n) => [n.html, n.failureSummary])]))}`);
+    }
+    await page.selectOption('#language', 'en');
+    // By the keyboard alone.
+    await page.focus('#stop');
+    await page.keyboard.press('Enter');
+    await state('stopped');
+    await until('the heaters are off', async () => (await page.locator('#heaters .now').first().innerText()).includes('/ 0'));
+    await page.locator('#clear').click();
+    claim(wrong.filter((words) => !/401|SwiftShader|GPU stall/.test(words)).length === 0, `no errors: ${wrong.join('; ')}`);
+    console.log(`web_page: ${claims} claims hold; ${Math.round(bytes / 1024)} KiB and ${Math.round(bytes_of_scene / 1024)} KiB of the scene came over the wire; screenshots in ${shots}`);
+  } finally {
+    await browser.close();
+  }
+}
+
+let failed = null;
+await main().catch((error) => { failed = error; });
+daemon.kill('SIGTERM');
+await Promise.race([new Promise((resolve) => daemon.on('exit', resolve)), sleep(20_000)]);
+if (failed) {
+  console.error(failed.stack ?? failed);
+  console.error(said().split('\n').slice(-15).join('\n'));
+}
+fs.rmSync(work, { recursive: true, force: true });
+process.exit(failed ? 1 : 0);
