@@ -66,10 +66,16 @@ export class Scene {
     else this.#build_frame(size, part, reach);
     this.#machine.add(part);
     this.#add_path(part);
+    this.#moving.fitted = false;
+    this.#resize();
+  }
+
+  /// All of the machine is in view, as it stands when it is first seen.
+  #fit() {
+    this.#moving.fitted = true;
     const box = new THREE.Box3().setFromObject(this.#machine);
     box.getCenter(this.#target);
     this.#angles.distance = 1.25 * box.getSize(new THREE.Vector3()).length();
-    this.#resize();
   }
 
   #add_box(from, to) {
@@ -102,8 +108,9 @@ export class Scene {
       const carriage = new THREE.Mesh(new THREE.BoxGeometry(size.wide, size.wide, size.carriage), this.#materials.carriage);
       carriage.quaternion.setFromUnitVectors(new THREE.Vector3(0, 0, 1), along);
       const bar = rod(foot, foot.clone().add(along), size.rod, this.#materials.leg);
-      this.#machine.add(carriage, bar);
-      return { leg, foot, along, attachment: V(leg.attachment), carriage, bar };
+      const connector = rod(foot, foot.clone().add(along), size.rod, this.#materials.platform);
+      this.#machine.add(carriage, bar, connector);
+      return { leg, foot, along, attachment: V(leg.attachment), carriage, bar, connector };
     });
     const platform = new THREE.Group();
     platform.add(this.#disc(size.platform, size.thick, this.#materials.platform));
@@ -137,8 +144,10 @@ export class Scene {
       legs.forEach((one, i) => {
         const carriage = one.foot.clone().addScaledVector(one.along, status.joints[i] ?? 0);
         one.carriage.position.copy(carriage);
-        const end = one.attachment.clone().applyEuler(platform.rotation).add(platform.position);
-        place_rod(one.bar, carriage, end.addScaledVector(one.along, (one.leg.carriage_above ? 1 : -1) * one.leg.connector_mm));
+        const attachment = one.attachment.clone().applyEuler(platform.rotation).add(platform.position);
+        const end = attachment.clone().addScaledVector(one.along, (one.leg.carriage_above ? 1 : -1) * one.leg.connector_mm);
+        place_rod(one.bar, carriage, end);
+        place_rod(one.connector, end, attachment);
       });
       return turned(at, -pose.a_rad);
     };
@@ -218,6 +227,7 @@ export class Scene {
   show(status) {
     if (!this.#moving?.place) return;
     const point = this.#moving.place(status);
+    if (!this.#moving.fitted) this.#fit();
     if (status.positions_known) this.#extend_path(point, status.tool.e_mm);
     else this.last = null;
     this.#draw();
