@@ -66,16 +66,16 @@ export class Scene {
     else this.#build_frame(size, part, reach);
     this.#machine.add(part);
     this.#add_path(part);
-    this.#moving.fitted = false;
+    this.#moving.fitted = null;
     this.#resize();
   }
 
-  /// All of the machine is in view, as it stands when it is first seen.
-  #fit() {
-    this.#moving.fitted = true;
+  /// All of the machine is in view, as it stands now.
+  #fit(known) {
+    this.#moving.fitted = known;
     const box = new THREE.Box3().setFromObject(this.#machine);
     box.getCenter(this.#target);
-    this.#angles.distance = 1.25 * box.getSize(new THREE.Vector3()).length();
+    this.#angles.distance = 1.6 * box.getSize(new THREE.Vector3()).length();
   }
 
   #add_box(from, to) {
@@ -114,6 +114,7 @@ export class Scene {
     });
     const platform = new THREE.Group();
     platform.add(this.#disc(size.platform, size.thick, this.#materials.platform));
+    for (const { attachment } of legs) platform.add(rod(new THREE.Vector3(), attachment, size.rod, this.#materials.platform));
     const tool = this.#tool();
     this.#machine.add(platform);
     if (geometry.tool_on_platform) {
@@ -227,7 +228,8 @@ export class Scene {
   show(status) {
     if (!this.#moving?.place) return;
     const point = this.#moving.place(status);
-    if (!this.#moving.fitted) this.#fit();
+    // Where all is, is known from the homing on.
+    if (this.#moving.fitted !== status.positions_known) this.#fit(status.positions_known);
     if (status.positions_known) this.#extend_path(point, status.tool.e_mm);
     else this.last = null;
     this.#draw();
