@@ -117,8 +117,10 @@ void add_motor_commands(CLI::App& app, const std::shared_ptr<MachineOptions>& op
 
   auto tuned = std::make_shared<std::string>();
   auto celsius = std::make_shared<std::optional<double>>();
-  auto* tune = app.add_subcommand(
-      "tune", "Let a node measure a motor's winding while it stands, or a heater: kinebus tune hotend");
+  auto* tune = app.add_subcommand("tune",
+                                  "Let a node measure a motor's winding while it stands, or a heater: "
+                                  "kinebus tune hotend; or measure what a machine "
+                                  "does with a print: kinebus tune vibration, kinebus tune pressure");
   tune->require_subcommand(0, 1);
   add_tune_commands(*tune, options, exit_code);
   tune->add_option("name", *tuned, "A joint's or a heater's name in the machine file");

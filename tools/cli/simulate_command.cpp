@@ -18,7 +18,7 @@ namespace kinebus {
 namespace {
 
 struct Arguments {
-  std::string job, machine, plant, json_path, plot_path, candump_path;
+  std::string job, machine, plant, json_path, plot_path, ringing_path, candump_path;
   std::uint64_t seed = 1;
   double limit_s = 0;
   bool json = false;
@@ -42,6 +42,11 @@ int run(const Arguments& arguments) {
   if (!arguments.plant.empty()) options.simulation.plant = &plant;
   options.limit_s = arguments.limit_s;
   if (!arguments.plot_path.empty()) options.plot = &plot;
+  RingingTraces ringing;
+  if (!arguments.ringing_path.empty()) {
+    if (arguments.physics != "flexible") throw CLI::ValidationError("--ringing needs --physics flexible");
+    options.ringing = &ringing;
+  }
   if (::isatty(STDERR_FILENO) != 0)
     options.on_progress = [](double progress, double job_s) {
       fmt::print(stderr, "\r{:5.1f} %  {} simulated\033[K", 100 * progress, time_words(job_s));
@@ -73,6 +78,11 @@ int run(const Arguments& arguments) {
                       "   seed {}",
                       report.lines, time_words(report.job_time_s), report.max_tracking_error_um,
                       report.max_path_error_um, 100 * report.bus_load_mean, report.seed)));
+  if (!arguments.ringing_path.empty())
+    write_text(arguments.ringing_path,
+               draw_ringing(ringing.unshaped, ringing.shaped,
+                            "Vibration of " + std::filesystem::path(arguments.job).filename().string() +
+                                " on " + machine.name));
   return report.finished || (arguments.limit_s > 0 && !report.trouble) ? 0 : 1;
 }
 
@@ -92,6 +102,10 @@ void add_simulate_command(CLI::App& app, const bool& json, int& exit_code) {
   command->add_option("--json", arguments->json_path, "Also write the report here");
   command->add_option("--plot", arguments->plot_path,
                       "Draw tool path, carriages, speed, error and bus load (SVG)");
+  command->add_option(
+      "--ringing", arguments->ringing_path,
+      "With --physics flexible: draw the corner where the tool swings most, without shaping and "
+      "with it (SVG)");
   command->add_option("--candump", arguments->candump_path, "Write all frames here, as candump -l does");
   command->add_option("--seed", arguments->seed, "Of clocks, latencies and start positions (default 1)");
   command->add_option("--limit-seconds", arguments->limit_s, "Measure only so much of the job, machine time");

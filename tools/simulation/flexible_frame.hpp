@@ -35,6 +35,7 @@ class FlexibleFrame {
   /// The tool as the motors have it, `dt_s` after the call before; between the two it moves in a straight
   /// line. The first call sets it down at rest.
   void move_to(const Vector& rigid_mm, double dt_s);
+  const Vector& rigid_mm() const { return rigid_; }
   /// How far the tool is from there.
   const Vector& deflection_mm() const { return deflection_; }
   /// Of the tool itself, as something on it would feel it.

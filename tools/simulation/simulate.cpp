@@ -189,7 +189,10 @@ class Run {
     checkers_->tracking.on_sample(sample);
     checkers_->jerk.on_sample(sample);
     checkers_->path.on_sample(sample);
-    if (vibration_) vibration_->on_sample(sample);
+    if (vibration_) {
+      vibration_->on_sample(sample);
+      trace(sample);
+    }
     if (bead_)
       bead_->move_to({sample.pose[kX], sample.pose[kY], sample.pose[kZ]}, sample.pose[kE], sample.line,
                      to_seconds(options_.simulation.sample_period));
@@ -202,6 +205,17 @@ class Run {
       since_progress_ = 0;
       options_.on_progress(simulation_.gateway().status().progress, to_seconds(sample.time - begin_));
     }
+  }
+
+  void trace(const Sample& sample) {
+    RingingTrace* const trace = options_.flexible->trace;
+    if (trace == nullptr || trace->points.size() >= kMostTraced) return;
+    trace->period_s = to_seconds(options_.simulation.sample_period);
+    const auto& at = vibration_->frame().rigid_mm();
+    const auto& off = vibration_->frame().deflection_mm();
+    const auto um = [](double mm) { return static_cast<float>(1000 * mm); };
+    trace->points.push_back({static_cast<float>(at[0]), static_cast<float>(at[1]), static_cast<float>(at[2]),
+                             um(off[0]), um(off[1]), um(off[2]), sample.line});
   }
 
   void plot(const Sample& sample) {
@@ -314,6 +328,11 @@ SimulationReport simulate_flexible(const MachineDescription& machine,
   options.flexible.emplace();
   options.flexible->truth = FlexibleFrame::truth(machine.vibration, error, options.simulation.seed);
   SimulateOptions without = options;
+  if (options.ringing != nullptr) {
+    without.flexible->trace = &options.ringing->unshaped;
+    const bool shapes = machine.vibration.shapes();
+    options.flexible->trace = shapes ? &options.ringing->shaped : &options.ringing->unshaped;
+  }
   options.flexible->text = open();
   if (has_extruder(machine)) {
     const Nozzle::Truth truth =

@@ -15,6 +15,7 @@
 #include "tools/simulation/flexible_frame.hpp"
 #include "tools/simulation/plot.hpp"
 #include "tools/simulation/report.hpp"
+#include "tools/simulation/ringing_plot.hpp"
 #include "tools/simulation/simulation.hpp"
 
 namespace kinebus {
@@ -24,6 +25,7 @@ struct FlexiblePhysics {
   std::array<FlexibleFrame::Modes, 3> truth{};
   /// The job's text once more, for how far the plan leaves it; may be nothing.
   std::shared_ptr<ByteSource> text;
+  RingingTrace* trace = nullptr;  ///< filled along the way, its first kMostTraced points
 };
 
 /// Melt in the nozzle, and what the job asks for.
@@ -32,14 +34,22 @@ struct NozzlePhysics {
   std::shared_ptr<const BeadReference> reference;
 };
 
+/// Twenty minutes.
+inline constexpr std::size_t kMostTraced = 1'200'000;
+/// Both runs of simulate_flexible.
+struct RingingTraces {
+  RingingTrace unshaped, shaped;  ///< shaped: empty where nothing is
+};
+
 struct SimulateOptions {
   SimulationOptions simulation;
   std::optional<FlexiblePhysics> flexible;  ///< none: a rigid machine
   std::optional<NozzlePhysics> nozzle;      ///< none: nobody looks at beads
   /// Nodes of another make in the place of these virtual ones (firmware images on emulated boards).
   std::function<std::unique_ptr<NodeMachine>(const std::vector<VirtualNodeOptions>&)> make_nodes;
-  double limit_s = 0;        ///< stop measuring after so much job time; 0: the whole job
-  PlotData* plot = nullptr;  ///< filled along the way
+  double limit_s = 0;                ///< stop measuring after so much job time; 0: the whole job
+  PlotData* plot = nullptr;          ///< filled along the way
+  RingingTraces* ringing = nullptr;  ///< the same, by simulate_flexible
   std::function<void(double progress, double job_s)> on_progress;
   /// Every sample of the job, with the distance from the programmed path and its line there.
   std::function<void(const Sample&, double path_um, std::uint32_t line)> on_sample;

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "tools/simulation/plot.hpp"
+#include "tools/simulation/ringing_plot.hpp"
 #include "tools/simulation/tests/simulated_job.hpp"
 
 namespace kinebus {
@@ -19,6 +20,20 @@ PlotData spiral(int points) {
               .joints = {800 + t, 810, 820, 830}});
   }
   return data;
+}
+
+TEST(RingingPlot, ShowsTheCornerThatSwungMostAndSaysWhatIsMissing) {
+  RingingTrace unshaped, shaped;
+  for (int i = 0; i < 2000; ++i) {
+    const auto x = static_cast<float>(0.02 * i), off = i > 900 && i < 950 ? 80.0f : 1.0f;
+    const auto line = static_cast<std::uint32_t>(1 + i / 500);
+    unshaped.points.push_back({x, 0, 5, off, 0, 0, line});
+    shaped.points.push_back({x, 0, 5, 0.5f, 0, 0, line});
+  }
+  EXPECT_NE(draw_ringing(unshaped, shaped, "t").find("line 2 "), std::string::npos);
+  EXPECT_EQ(draw_ringing(unshaped, shaped, "t").find("shapes nothing"), std::string::npos);
+  EXPECT_NE(draw_ringing(unshaped, {}, "t").find("shapes nothing"), std::string::npos);
+  EXPECT_NE(draw_ringing({}, {}, "t").find("nothing moved"), std::string::npos);
 }
 
 TEST(Plot, KeepsItsSizeWhateverTheJobsLength) {
