@@ -5,7 +5,6 @@
 #include <QGridLayout>
 #include <QHBoxLayout>
 #include <QLabel>
-#include <QLocale>
 #include <QMessageBox>
 #include <QPushButton>
 #include <QSignalBlocker>
@@ -116,8 +115,7 @@ JobPanel::JobPanel(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(
   says([this, speed_name] {
     speed_name->setText(tr("Speed"));
     override_->setAccessibleName(tr("Feed override in percent"));
-    set_role(override_, "mirrored",
-             QLocale().textDirection() == Qt::RightToLeft ? QStringLiteral("true") : QString());
+    speak_direction(*override_);
     pause_->setText(tr("Pause"));
     resume_->setText(tr("Resume"));
     cancel_->setText(tr("Cancel"));

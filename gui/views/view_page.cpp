@@ -95,6 +95,7 @@ ViewPage::ViewPage(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(
     first_layer_->setAccessibleName(first_layer_->toolTip());
     moves_->setToolTip(tr("Show the topmost layer's moves up to here"));
     moves_->setAccessibleName(moves_->toolTip());
+    speak_direction(*moves_);
     tell_legend();
     tell_job();
     tell_layer();

@@ -4,6 +4,7 @@
 #include <QEvent>
 #include <QIcon>
 #include <QLatin1String>
+#include <QLocale>
 #include <QObject>
 #include <QPaintEvent>
 #include <QPainter>
@@ -67,6 +68,11 @@ void set_role(QWidget* widget, const char* property, const QString& value) {
   widget->setProperty(property, value);
   widget->style()->unpolish(widget);
   widget->style()->polish(widget);
+}
+
+void speak_direction(QSlider& slider) {
+  set_role(&slider, "mirrored",
+           QLocale().textDirection() == Qt::RightToLeft ? QStringLiteral("true") : QString());
 }
 
 QPushButton* make_button(const Theme& theme, const QString& icon, const char* kind, QWidget* parent) {

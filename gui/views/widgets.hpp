@@ -10,6 +10,7 @@
 #include <QPaintEvent>
 #include <QPushButton>
 #include <QSize>
+#include <QSlider>
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <QWidget>
@@ -49,6 +50,8 @@ class Card : public QFrame {
 /// role: title, heading, muted, small, danger.
 QLabel* make_label(const char* role, QWidget* parent = nullptr);
 void set_role(QWidget* widget, const char* property, const QString& value);
+/// Fills a horizontal slider from the side where the language at work begins.
+void speak_direction(QSlider& slider);
 
 /// Draws its icon and words together in the middle, in the order of the language.
 class IconButton : public QPushButton {
