@@ -1,21 +1,40 @@
 #pragma once
-// What the main loop of every board does for its node in a pass, whatever drives the motors.
+// What the main loop of every board does for its nodes in a pass, whatever drives the motors.
 
 #include "node_firmware/board/node_program.hpp"
 #include "node_firmware/board/upkeep.hpp"
 
 namespace kinebus {
 
-/// `motors_good`: they may get power; where they are not, an axis that is switched on goes to fault.
-template <typename Program, typename Motors, WatchdogDriver Watchdog>
-void pass(Program& program, Motors& motors, bool motors_good, PageStore& parameters, Watchdog& dog) {
-  program.pass();
-  // A stop for a drive's sake is named from this very moment, and told before anything else is done.
-  if (motors_good ? motors.serve(program.node(), program.read_time()) : program.refuse_power()) {
-    program.send();
-    program.touch();
+/// The power stage does not work: an axis that is switched on has a fault. True: so it was.
+inline bool refuse_power(Node& node, LocalTime now) {
+  bool refused = false;
+  for (int axis = 0; axis < kAxesPerNode; ++axis) {
+    if (!node.drive(axis).power) continue;
+    node.on_drive_fault(now, axis, emcy::kControlHardware);
+    refused = true;
   }
-  if (motors.dark()) store_parameters(program.node(), parameters, dog);
+  return refused;
+}
+
+/// `motors_good`: they may get power. `save(number, image)`: into flash; false: it did not work.
+template <typename Program, typename Motors, typename Save, WatchdogDriver Watchdog>
+void pass(Program& program, Motors& motors, bool motors_good, Save&& save, Watchdog& dog) {
+  program.pass();
+  const auto serve = [&](std::size_t number, Node& node) {
+    // A stop for a drive's sake is named from this very moment, and told before anything else is done.
+    const LocalTime now = program.read_time();
+    if (!motors_good) return refuse_power(node, now);
+    if constexpr (requires { motors.serve(number, node, now); })
+      return motors.serve(number, node, now);
+    else
+      return motors.serve(node, now);
+  };
+  program.tell_each(serve);
+  if (!motors.dark()) return;
+  program.tell_each([&](std::size_t number, Node& node) {
+    return store_parameters(node, dog, [&](auto image) { return save(number, image); });
+  });
 }
 
 }  // namespace kinebus

@@ -1,177 +1,212 @@
 #pragma once
-// A node's core on a board: feeds it frames, edges and time in their order, and carries out what it says.
-// One pass of the main loop; interrupts come through the ports.
+// The nodes of a board between its drivers and their cores: feeds them frames, edges and time in their order,
+// and carries out what they say. One pass of the main loop; interrupts come through the ports.
+//
+// Several nodes share a CAN controller, which does not hear what it sends itself: what one of them says, the
+// others are told here.
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <utility>
 
+#include "node_firmware/board/board_node.hpp"
 #include "node_firmware/board/drivers.hpp"
-#include "node_firmware/board/local_clock.hpp"
-#include "node_firmware/core/motion_plan.hpp"
-#include "node_firmware/core/node.hpp"
 
 namespace kinebus {
 
-template <CanDriver Can, SwitchDriver Switches, LocalCounter Counter>
+template <CanDriver Can, SwitchDriver Switches, LocalCounter Counter, std::size_t kNodes = 1>
 class NodeProgram {
  public:
+  /// With its first node.
   NodeProgram(const NodeOptions& options, std::span<const std::uint8_t> stored, Can& can, Switches& switches,
-              MotionPlanExchange& plan)
-      : can_(can), switches_(switches), plan_(plan), now_(clock_.now()), node_(options, now_, stored) {
-    plan_.renew(node_, now_, Counter::counts());
+              MotionPlanExchange& plan, InputPlaces inputs = {})
+      : can_(can), switches_(switches), now_(clock_.now()) {
+    begin(0, options, stored, plan, inputs);
     filter();
   }
+  /// Another one, or one anew.
+  void begin(std::size_t number, const NodeOptions& options, std::span<const std::uint8_t> stored,
+             MotionPlanExchange& plan, InputPlaces inputs) {
+    nodes_[number].emplace(options, clock_, now_, stored, plan, grid_, inputs);
+    for (std::size_t i = 0; i < known_inputs_; ++i)
+      nodes_[number]->on_switch(now_, static_cast<std::uint8_t>(i), levels_[i]);
+  }
+  void end(std::size_t number) {
+    nodes_[number].reset();
+    fewer_ = true;
+  }
+
+  /// Plans begin so from now on.
+  void align_plans(const PlanGrid& grid) { grid_ = grid; }
 
   /// Everything that has come since the last pass. Call at least every millisecond.
   void pass();
-  /// The power stage does not measure: an axis that is switched on has a fault. True: so it was.
-  bool refuse_power();
-  /// Something was told to the node elsewhere: the next pass looks what follows from it.
-  void touch() { touched_ = true; }
-  Node& node() { return node_; }
+  /// f(number, node): true, when the node was told something; the next pass looks what follows from it, and
+  /// what it has to say is sent.
+  template <typename Tell>
+  void tell_each(Tell&& tell);
+  Node& node(std::size_t number = 0) { return nodes_[number]->node(); }
+  const Node& node(std::size_t number = 0) const { return nodes_[number]->node(); }
+  bool has(std::size_t number) const { return nodes_[number].has_value(); }
   LocalTime now() const { return now_; }
   /// now(), read afresh: a pass may have taken a while.
   LocalTime read_time() { return now_ = clock_.now(); }
-  /// Hands what the node has to say to the bus, as far as there is room.
-  void send();
-  PathTime path_time(std::uint32_t counts) const { return node_.path_time(clock_.at(counts)); }
+  bool healthy(LocalTime now) const {
+    return std::ranges::all_of(nodes_, [&](const auto& n) { return !n || n->node().healthy(now); });
+  }
+  /// A node's program is to give way (1F51h = 0), and with it all of them.
+  bool stop_requested() const {
+    return std::ranges::any_of(nodes_, [](const auto& n) { return n && n->node().program_stop_requested(); });
+  }
+  PathTime path_time(std::uint32_t counts, std::size_t number = 0) const {
+    return node(number).path_time(clock_.at(counts));
+  }
 
  private:
-  bool take_inputs();
+  using Place = std::optional<BoardNode<Counter>>;
+  void take_inputs();
+  void on_edge(const SwitchEdge& edge);
+  void send();
   void filter();
   void report_bus();
+  template <typename Do>
+  void each(Do&& do_it) {
+    for (Place& place : nodes_)
+      if (place) do_it(*place);
+  }
 
-  // Half of the plan's horizon: a main loop that is late by the other half harms nothing.
-  static constexpr LocalTime kPlanPeriod = kPlanCount * (MotionPlan::kHorizon / 2);
-  static constexpr LocalTime kFilterPeriod = std::chrono::milliseconds{10};
   // Frames of one pass; more wait for the next, so that what is due in between is served.
   static constexpr int kInputsPerPass = 8;
+  static constexpr std::size_t kMostInputs = 16;
 
   Can& can_;
   Switches& switches_;
-  MotionPlanExchange& plan_;
   LocalClock<Counter> clock_;
   LocalTime now_;
-  Node node_;
-  LocalTime due_{0}, plan_due_{0}, filter_due_{0};
-  bool touched_ = true;
-  std::array<CanAccept, kCanFilters> filters_{};
+  PlanGrid grid_;
+  std::array<Place, kNodes> nodes_;
+  std::size_t first_ = 0;  // to say something
+  std::array<bool, kMostInputs> levels_{};
+  std::size_t known_inputs_ = 0;  // a port tells all levels when it starts
+  bool fewer_ = false;
   CanEvents told_;
   bool was_off_ = false;
 };
 
-template <CanDriver Can, SwitchDriver Switches, LocalCounter Counter>
-void NodeProgram<Can, Switches, Counter>::pass() {
+template <CanDriver Can, SwitchDriver Switches, LocalCounter Counter, std::size_t kNodes>
+void NodeProgram<Can, Switches, Counter, kNodes>::pass() {
   now_ = clock_.now();
   const bool input = can_.front() != nullptr || switches_.front() != nullptr;
-  if (!input && !touched_ && now_ < due_) {
-    // Nothing to do for the node: most passes end here.
+  if (!input && std::ranges::none_of(nodes_, [&](const Place& n) { return n && n->due(now_); })) {
+    // Nothing to do for a node: most passes end here.
     if (!can_.queue().idle()) send();
     return;
   }
-  bool changed = take_inputs() || std::exchange(touched_, false);
-  if (now_ >= node_.next_deadline()) {
-    node_.on_time(now_);
-    changed = true;
-  }
-  // The plan begins now, and never before what the node knows.
-  const std::uint32_t counts = Counter::counts();
-  const LocalTime from = clock_.at(counts);
-  if (now_ >= plan_due_ || (changed && plan_.outdated(node_, from, counts))) {
-    plan_.renew(node_, from, counts);
-    plan_due_ = now_ + kPlanPeriod;
-  }
+  take_inputs();
+  each([&](auto& n) { n.serve(now_); });
   // Before the answer: who has it may send at once what was asked for.
-  if (now_ >= filter_due_) filter();
+  filter();
   send();
   report_bus();
-  due_ = std::min({node_.next_deadline(), plan_due_, filter_due_});
+  each([](auto& n) { n.find_due(); });
+}
+
+template <CanDriver Can, SwitchDriver Switches, LocalCounter Counter, std::size_t kNodes>
+template <typename Tell>
+void NodeProgram<Can, Switches, Counter, kNodes>::tell_each(Tell&& tell) {
+  bool told = false;
+  for (std::size_t i = 0; i < kNodes; ++i) {
+    if (!nodes_[i] || !tell(i, nodes_[i]->node())) continue;
+    nodes_[i]->touch();
+    told = true;
+  }
+  if (told) send();
 }
 
 // Frames and edges in the order in which they happened.
-template <CanDriver Can, SwitchDriver Switches, LocalCounter Counter>
-bool NodeProgram<Can, Switches, Counter>::take_inputs() {
-  int taken = 0;
-  for (; taken < kInputsPerPass; ++taken) {
+template <CanDriver Can, SwitchDriver Switches, LocalCounter Counter, std::size_t kNodes>
+void NodeProgram<Can, Switches, Counter, kNodes>::take_inputs() {
+  for (int taken = 0; taken < kInputsPerPass; ++taken) {
     const auto* frame = can_.front();
     const SwitchEdge* edge = switches_.front();
     const bool edge_first =
         edge != nullptr && (frame == nullptr || static_cast<std::int32_t>(edge->counts - frame->counts) < 0);
     if (edge_first) {
-      node_.on_switch(clock_.at(edge->counts), edge->input, edge->level);
+      on_edge(*edge);
       switches_.drop();
     } else if (frame != nullptr) {
       const CanFrame heard = frame->frame();
-      node_.on_frame(clock_.at(frame->counts), heard);
-      if (heard.id == cob_id::kSdoRequest + node_.node_id()) filter_due_ = now_;
+      const LocalTime at = clock_.at(frame->counts);
+      each([&](auto& n) { n.on_frame(at, heard); });
       can_.drop();
     } else {
       break;
     }
   }
-  return taken != 0;
 }
 
-template <CanDriver Can, SwitchDriver Switches, LocalCounter Counter>
-void NodeProgram<Can, Switches, Counter>::send() {
+template <CanDriver Can, SwitchDriver Switches, LocalCounter Counter, std::size_t kNodes>
+void NodeProgram<Can, Switches, Counter, kNodes>::on_edge(const SwitchEdge& edge) {
+  if (edge.input < kMostInputs) {
+    levels_[edge.input] = edge.level;
+    known_inputs_ = std::max<std::size_t>(known_inputs_, edge.input + 1u);
+  }
+  each([&](auto& n) { n.on_switch(clock_.at(edge.counts), edge.input, edge.level); });
+}
+
+// In turns, so that none keeps the others from the bus.
+template <CanDriver Can, SwitchDriver Switches, LocalCounter Counter, std::size_t kNodes>
+void NodeProgram<Can, Switches, Counter, kNodes>::send() {
   can_.serve_mailboxes();
-  while (can_.queue().has_room()) {
-    const auto frame = node_.next_frame();
-    if (!frame) return;
+  for (std::size_t silent = 0; silent < kNodes; first_ = (first_ + 1) % kNodes) {
+    if (!can_.queue().has_room()) return;
+    Place& speaker = nodes_[first_];
+    const auto frame = speaker ? speaker->node().next_frame() : std::nullopt;
+    if (!frame) {
+      ++silent;
+      continue;
+    }
+    silent = 0;
     can_.queue().push(*frame);
     can_.serve_mailboxes();
+    for (Place& place : nodes_)
+      if (place && &place != &speaker) place->on_frame(now_, *frame);
   }
 }
 
-template <CanDriver Can, SwitchDriver Switches, LocalCounter Counter>
-bool NodeProgram<Can, Switches, Counter>::refuse_power() {
-  bool refused = false;
-  for (int axis = 0; axis < kAxesPerNode; ++axis) {
-    if (!node_.drive(axis).power) continue;
-    node_.on_drive_fault(now_, axis, emcy::kControlHardware);
-    refused = true;
-  }
-  return refused;
-}
-
-// What this node has to hear: its own requests and PDOs, what all hear, and the heartbeats that it watches.
-template <CanDriver Can, SwitchDriver Switches, LocalCounter Counter>
-void NodeProgram<Can, Switches, Counter>::filter() {
-  filter_due_ = now_ + kFilterPeriod;
-  std::array<CanAccept, kCanFilters> wanted{};
+template <CanDriver Can, SwitchDriver Switches, LocalCounter Counter, std::size_t kNodes>
+void NodeProgram<Can, Switches, Counter, kNodes>::filter() {
+  bool changed = std::exchange(fewer_, false);
+  each([&](auto& n) { changed = n.renew_hearing(now_) || changed; });
+  if (!changed) return;
+  std::array<CanAccept, kCanFilters * kNodes> all{};
   std::size_t count = 0;
-  const auto add = [&](std::uint32_t value, std::uint32_t mask = 0x7FF) {
-    wanted[count++] = {static_cast<std::uint16_t>(value), static_cast<std::uint16_t>(mask)};
-  };
-  add(0x000);         // NMT
-  add(0x080, 0x780);  // SYNC, and the EMCYs of others: stop requests
-  add(0x7E5);         // LSS
-  if (node_.node_id() != 0) {
-    add(0x600u + node_.node_id());
-    for (const std::uint8_t id : node_.watched_nodes())
-      if (id != 0) add(0x700u + id);
-    for (const std::uint16_t id : node_.rpdo_cob_ids())
-      if (id != 0) add(id);
-  }
-  if (wanted == filters_) return;
-  filters_ = wanted;
-  can_.accept(std::span(wanted).first(count));
+  each([&](const auto& n) {
+    for (const CanAccept& accept : n.hearing().accepted()) {
+      const auto known = std::span(all).first(count);
+      if (std::find(known.begin(), known.end(), accept) == known.end()) all[count++] = accept;
+    }
+  });
+  can_.accept(std::span(all).first(count));
 }
 
-template <CanDriver Can, SwitchDriver Switches, LocalCounter Counter>
-void NodeProgram<Can, Switches, Counter>::report_bus() {
+template <CanDriver Can, SwitchDriver Switches, LocalCounter Counter, std::size_t kNodes>
+void NodeProgram<Can, Switches, Counter, kNodes>::report_bus() {
   const CanEvents events = can_.events();
-  if (events.overruns != told_.overruns) {
-    node_.on_receive_overrun(now_, events.overruns - told_.overruns);
-    node_.report(emcy::kCanOverrun);
-  }
-  if (events.passive != told_.passive) node_.report(emcy::kErrorPassive);
-  if (events.bus_off != told_.bus_off) node_.count(NodeCounter::kBusOff, events.bus_off - told_.bus_off);
   const bool off = can_.bus_off();
   // Told when the bus can hear it again.
-  if ((was_off_ && !off) || (!off && !was_off_ && events.bus_off != told_.bus_off))
-    node_.report(emcy::kBusOffRecovered);
+  const bool back = !off && (was_off_ || events.bus_off != told_.bus_off);
+  each([&](auto& n) {
+    Node& node = n.node();
+    if (events.overruns != told_.overruns) {
+      node.on_receive_overrun(now_, events.overruns - told_.overruns);
+      node.report(emcy::kCanOverrun);
+    }
+    if (events.passive != told_.passive) node.report(emcy::kErrorPassive);
+    if (events.bus_off != told_.bus_off) node.count(NodeCounter::kBusOff, events.bus_off - told_.bus_off);
+    if (back) node.report(emcy::kBusOffRecovered);
+  });
   was_off_ = off;
   told_ = events;
 }

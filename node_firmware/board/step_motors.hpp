@@ -1,7 +1,7 @@
 #pragma once
-// Two motors behind step and direction inputs: the control interrupt, from the plan to the words that a timer
-// puts out, and power and faults between the drivers and the node. The stage is the board's: registers and
-// pins.
+// Motors behind step and direction inputs, two for each node of a board: the control interrupt, from the plan
+// to the words that a timer puts out, and power and faults between the drivers and the nodes. The stage is
+// the board's: registers and pins.
 //
 // A frame is filled while the one before it is put out: what is planned anew shows 64 to 128 us later.
 
@@ -10,6 +10,7 @@
 #include <concepts>
 #include <cstdint>
 
+#include "node_firmware/board/board_node.hpp"
 #include "node_firmware/board/bridge_motors.hpp"
 #include "node_firmware/core/motion_plan.hpp"
 #include "node_firmware/core/node.hpp"
@@ -26,7 +27,8 @@ struct StepPins {
 
 template <typename T>
 concept StepStage = requires(T& stage, step::StepFrames<T::kPorts>& frames, int axis, bool on) {
-  { T::kPins } -> std::convertible_to<std::array<StepPins, kAxesPerNode>>;
+  { T::kPins.size() } -> std::convertible_to<std::size_t>;  // of StepPins: by node, and by its axis
+  requires T::kPins.size() % kAxesPerNode == 0;
   { T::kStepBits } -> std::convertible_to<int>;  // log2 of counts a step
   // Puts frames out from now on, the two halves in turn, a word each kSlotCounts of the same clock, and calls
   // the control interrupt at the last word of each. When the first has begun.
@@ -40,18 +42,32 @@ concept StepStage = requires(T& stage, step::StepFrames<T::kPorts>& frames, int 
 template <StepStage Stage>
 class StepMotors {
  public:
-  explicit constexpr StepMotors(const MotionPlanExchange& plan) : plan_(plan) {}
+  static constexpr std::size_t kAxes = Stage::kPins.size(), kNodes = kAxes / kAxesPerNode;
+  using Plans = std::array<MotionPlanExchange, kNodes>;
+
+  explicit constexpr StepMotors(const Plans& plans) : plans_(plans) {}
 
   /// Frames begin; no driver is enabled.
   void start() { start_ = stage_.start(frames_); }
 
+  /// After start(): where plans are to begin.
+  PlanGrid plan_grid() const { return {start_ + step::kSetUp * step::kSlotCounts, step::kFrameCounts}; }
+
   /// Main loop, each pass. True: the node was told something.
-  bool serve(Node& node, LocalTime now);
+  bool serve(std::size_t number, Node& node, LocalTime now);
   /// Control interrupts so far; the watchdog wants to see it move.
   std::uint32_t ticks() const { return ticks_.load(std::memory_order_relaxed); }
   ControlCycles cycles() const { return cycles_; }
   /// No driver is enabled: control interrupts may be missed.
-  bool dark() const { return !axes_[0].power.load() && !axes_[1].power.load(); }
+  bool dark() const { return !powered(0, kAxes); }
+  /// A driver of another node than this one is enabled.
+  bool others_powered(std::size_t number) const {
+    return powered(0, kAxesPerNode * number) || powered(kAxesPerNode * (number + 1), kAxes);
+  }
+  /// The node is gone: its drivers are disabled.
+  void release(std::size_t number) {
+    for (int axis = 0; axis < kAxesPerNode; ++axis) set_power(axis_of(number, axis), false);
+  }
   /// From power-up to the end of what is planned, where the motor had power.
   std::int32_t steps(int axis) const { return axes_[static_cast<std::size_t>(axis)].steps.steps(); }
 
@@ -59,6 +75,7 @@ class StepMotors {
   void on_control();
 
  private:
+  static constexpr LocalTime kServe = std::chrono::microseconds{250};
   // What a fault has left has gone by then.
   static constexpr LocalTime kFaultRest = std::chrono::milliseconds{100};
 
@@ -73,14 +90,23 @@ class StepMotors {
     LocalTime fault_at{0};
   };
 
-  bool serve_axis(Node& node, LocalTime now, int axis);
-  void set_power(int axis, bool on);
+  static constexpr std::size_t axis_of(std::size_t number, int axis) {
+    return kAxesPerNode * number + static_cast<std::size_t>(axis);
+  }
+  bool powered(std::size_t from, std::size_t to) const {
+    for (std::size_t i = from; i < to; ++i)
+      if (axes_[i].power.load(std::memory_order_relaxed)) return true;
+    return false;
+  }
+  bool serve_axis(std::size_t number, Node& node, LocalTime now, int axis);
+  void set_power(std::size_t axis, bool on);
   void fill(Axis& axis, const step::PlannedWay& way, const StepPins& pins);
 
-  const MotionPlanExchange& plan_;
+  const Plans& plans_;
   Stage stage_;
   step::StepFrames<Stage::kPorts> frames_;
-  std::array<Axis, kAxesPerNode> axes_{};
+  std::array<Axis, kAxes> axes_{};
+  std::array<LocalTime, kNodes> due_{};
   PlanCounts start_ = 0;     ///< when the first frame began
   std::uint32_t frame_ = 0;  ///< the number of the one that is put out
   std::atomic<std::uint32_t> ticks_{0};
@@ -88,19 +114,23 @@ class StepMotors {
 };
 
 template <StepStage Stage>
-bool StepMotors<Stage>::serve(Node& node, LocalTime now) {
+bool StepMotors<Stage>::serve(std::size_t number, Node& node, LocalTime now) {
+  if (now < due_[number]) return false;
+  due_[number] = now + kServe;
+  node.set_neighbours_powered(others_powered(number));
   bool told = false;
-  for (int axis = 0; axis < kAxesPerNode; ++axis) told = serve_axis(node, now, axis) || told;
+  for (int axis = 0; axis < kAxesPerNode; ++axis) told = serve_axis(number, node, now, axis) || told;
   return told;
 }
 
 template <StepStage Stage>
-bool StepMotors<Stage>::serve_axis(Node& node, LocalTime now, int index) {
-  Axis& axis = axes_[static_cast<std::size_t>(index)];
+bool StepMotors<Stage>::serve_axis(std::size_t number, Node& node, LocalTime now, int index) {
+  const std::size_t place = axis_of(number, index);
+  Axis& axis = axes_[place];
   if (!axis.fault_told && axis.lost.load(std::memory_order_relaxed)) {
     axis.fault_told = true;
     axis.fault_at = now;
-    set_power(index, false);
+    set_power(place, false);
     node.on_drive_fault(now, index, emcy::kSoftware);
     return true;
   }
@@ -113,22 +143,22 @@ bool StepMotors<Stage>::serve_axis(Node& node, LocalTime now, int index) {
     return true;
   }
   axis.inverted.store(drive.inverted, std::memory_order_relaxed);
-  if (drive.power != axis.power.load(std::memory_order_relaxed)) set_power(index, drive.power);
+  if (drive.power != axis.power.load(std::memory_order_relaxed)) set_power(place, drive.power);
   return false;
 }
 
 template <StepStage Stage>
-void StepMotors<Stage>::set_power(int axis, bool on) {
-  stage_.enable(axis, on);
-  axes_[static_cast<std::size_t>(axis)].power.store(on, std::memory_order_relaxed);
+void StepMotors<Stage>::set_power(std::size_t axis, bool on) {
+  stage_.enable(static_cast<int>(axis), on);
+  axes_[axis].power.store(on, std::memory_order_relaxed);
 }
 
 template <StepStage Stage>
 void StepMotors<Stage>::fill(Axis& axis, const step::PlannedWay& way, const StepPins& pins) {
   axis.moved_before = axis.moved;
-  axis.moved = false;
   if (!axis.power.load(std::memory_order_relaxed)) {
     // Frames that were put out twice may have left the pin either way.
+    axis.moved = false;
     axis.steps.forget_direction();
     axis.steps.follow(way);
     return;
@@ -138,17 +168,20 @@ void StepMotors<Stage>::fill(Axis& axis, const step::PlannedWay& way, const Step
     axis.steps_inverted = inverted;
     axis.steps.forget_direction();
   }
-  step::StepEvents events;
-  if (!axis.steps.fill(way, events)) axis.lost.store(true, std::memory_order_relaxed);
-  for (std::size_t i = 0; i < events.count; ++i) {
-    const auto& event = events.list[i];
-    if (event.turned)
-      frames_.put(pins.direction_port, event.slot,
-                  event.up != inverted ? pins.direction : pins.direction << 16);
-    frames_.put(pins.step_port, event.slot + step::kSetUp, pins.step);
-    frames_.put(pins.step_port, event.slot + step::kSetUp + step::kPulse, pins.step << 16);
-  }
-  axis.moved = events.count != 0;
+  struct {
+    typename step::StepFrames<Stage::kPorts>::Lane lane;
+    std::uint32_t pin;
+    step::StepFrames<Stage::kPorts>& frames;
+    const StepPins& pins;
+    bool inverted;
+    [[gnu::always_inline]] void step(int slot) { lane.pulse(slot, pin); }
+    void turn(int slot, bool up) {
+      frames.put(pins.direction_port, slot, up != inverted ? pins.direction : pins.direction << 16);
+    }
+  } put{frames_.lane(pins.step_port), pins.step, frames_, pins, inverted};
+  const bool good = axis.steps.fill(way, put);
+  axis.moved = axis.steps.moved();
+  if (!good) axis.lost.store(true, std::memory_order_relaxed);
 }
 
 template <StepStage Stage>
@@ -166,10 +199,12 @@ void StepMotors<Stage>::on_control() {
   frame_ = frame;
   frames_.begin((frame + 1) % 2);
   const PlanCounts next = start_ + (frame + 1) * step::kFrameCounts;
-  const MotionPlan& plan = plan_.current();
-  for (int axis = 0; axis < kAxesPerNode; ++axis) {
-    const auto i = static_cast<std::size_t>(axis);
-    fill(axes_[i], step::planned_way(plan, axis, next), Stage::kPins[i]);
+  for (std::size_t number = 0; number < kNodes; ++number) {
+    const MotionPlan& plan = plans_[number].current();
+    for (int axis = 0; axis < kAxesPerNode; ++axis) {
+      const std::size_t i = axis_of(number, axis);
+      fill(axes_[i], step::planned_way(plan, axis, next), Stage::kPins[i]);
+    }
   }
   std::atomic_signal_fence(std::memory_order_release);  // the words are there before the half's turn comes
   ticks_.store(ticks_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);

@@ -7,7 +7,6 @@
 #include "node_firmware/board/drivers.hpp"
 #include "node_firmware/boot/handover.hpp"
 #include "node_firmware/core/node.hpp"
-#include "node_firmware/core/page_store.hpp"
 
 namespace kinebus {
 
@@ -17,14 +16,15 @@ inline constexpr std::size_t kLargestParameterImage = 5000;
 inline constexpr LocalTime kProgramProved = std::chrono::seconds{5};
 
 /// Each pass: what the node wants kept is written. The processor stands still meanwhile: up to 0.5 s for an
-/// erase and 100 us a word. Only while no bridge is on.
-template <WatchdogDriver Watchdog>
-void store_parameters(Node& node, PageStore& parameters, Watchdog& dog) {
+/// erase and 100 us a word. Only while no motor of the board has power. True: it was told what came of it.
+template <WatchdogDriver Watchdog, typename Save>
+bool store_parameters(Node& node, Watchdog& dog, Save&& save) {
   const auto image = node.image_to_store();
-  if (image.empty()) return;
+  if (image.empty()) return false;
   dog.allow_flash();
-  node.on_image_stored(parameters.save(image));
+  node.on_image_stored(save(image));
   dog.back_to_normal();
+  return true;
 }
 
 /// The id under which the boot loader answered, which may have come by LSS and be stored nowhere; once. 0: as
@@ -38,12 +38,12 @@ inline std::uint8_t take_inherited_node_id(Handover& handover) {
 /// Feeds the watchdog, every 10 ms, only when the control goes on and the node's timed jobs are served.
 class WatchdogKeeper {
  public:
-  /// `ticks`: control interrupts so far.
-  template <WatchdogDriver Watchdog>
-  void serve(Watchdog& dog, LocalTime now, const Node& node, std::uint32_t ticks) {
+  /// `nodes`: one, or the program of several. `ticks`: control interrupts so far.
+  template <WatchdogDriver Watchdog, typename Nodes>
+  void serve(Watchdog& dog, LocalTime now, const Nodes& nodes, std::uint32_t ticks) {
     if (now < due_) return;
     due_ = now + std::chrono::milliseconds{10};
-    if (!node.healthy(now) || ticks == fed_at_) return;
+    if (!nodes.healthy(now) || ticks == fed_at_) return;
     fed_at_ = ticks;
     dog.feed();
   }

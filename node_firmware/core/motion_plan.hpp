@@ -1,5 +1,5 @@
 #pragma once
-// Where both motors are to be over the next milliseconds, as parabolas that a control interrupt evaluates
+// Where both motors are to be over the next 8 ms, as parabolas that a control interrupt evaluates
 // with a few multiplications: no division, nothing of Node touched. The main loop makes a new plan after
 // every input and now and then, and hands it over whole.
 //
@@ -23,10 +23,11 @@ using PlanCounts = std::uint32_t;
 inline constexpr LocalTime kPlanCount{250};
 
 struct MotionPlan {
-  static constexpr int kPieces = 8;
+  static constexpr int kPieces = 16;
   static constexpr int kPieceBits = 11;
   static constexpr PlanCounts kPiece = PlanCounts{1} << kPieceBits;
-  static constexpr PlanCounts kHorizon = kPiece * kPieces;  ///< 4.1 ms
+  static constexpr PlanCounts kHorizon =
+      kPiece * kPieces;  ///< 8.2 ms: the longest pass of a main loop, and as much again
   /// A plan that is not renewed in time fades to a standstill over this: 33 ms.
   static constexpr int kFadeBits = 17;
 

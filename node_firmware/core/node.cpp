@@ -15,9 +15,11 @@ LssIdentity lss_identity(const NodeIdentity& id) {
   return {id.vendor_id, id.product_code, id.revision, id.serial};
 }
 
-std::uint8_t usable_id(std::uint8_t wanted, std::uint8_t stored) {
-  if (wanted >= 1 && wanted <= 127) return wanted;
-  return stored;
+// 0: there is none, or none that leaves room for those that go with it.
+std::uint8_t first_id(const NodeOptions& options, std::uint8_t stored) {
+  const bool wanted = options.node_id >= 1 && options.node_id <= 127;
+  const std::uint8_t id = wanted || options.id_from_board ? options.node_id : stored;
+  return options.id_from_board || id + options.consecutive_ids <= 128 ? id : std::uint8_t{0};
 }
 
 }  // namespace
@@ -26,15 +28,17 @@ Node::Node(const NodeOptions& options, LocalTime now, std::span<const std::uint8
     : options_(options),
       now_(now),
       objects_(*this, 0, *options.table),
+      path_(options.clock),
       axes_{DriveAxis(0, objects_, path_, inputs_), DriveAxis(1, objects_, path_, inputs_)},
       sdo_(objects_),
       pdo_(objects_),
-      lss_(lss_identity(options.identity), kUnconfiguredNodeId) {
+      lss_(lss_identity(options.identity), kUnconfiguredNodeId, options.consecutive_ids) {
   axes_[0].set_neighbour(axes_[1]);
   axes_[1].set_neighbour(axes_[0]);
   const bool damaged = image_.adopt(stored_image) == ParameterImage::Load::kDamaged;
-  node_id_ = usable_id(options.node_id, image_.node_id());
-  lss_ = LssSlave(lss_identity(options.identity), node_id_ == 0 ? kUnconfiguredNodeId : node_id_);
+  node_id_ = first_id(options, image_.node_id());
+  lss_ = LssSlave(lss_identity(options.identity), node_id_ == 0 ? kUnconfiguredNodeId : node_id_,
+                  options.consecutive_ids);
   boot();
   tell_reset();
   if (!damaged) return;
@@ -115,7 +119,7 @@ void Node::on_frame(LocalTime at, const CanFrame& frame) {
   if (sync.is_sync) {
     if (!sync.length_error) path_.on_sync(sync.counter, at);
     on_sync(sync);
-  } else if (lss_.on_frame(frame)) {
+  } else if (!options_.id_from_board && lss_.on_frame(frame)) {
     on_lss();
   } else if (const auto command = nmt_.on_frame(frame)) {
     on_nmt(*command);
@@ -143,7 +147,7 @@ void Node::on_sync(const SyncReception& sync) {
 
 void Node::on_lss() {
   if (lss_.take_store_request()) {
-    if (powered()) return lss_.refuse_store();
+    if (board_powered()) return lss_.refuse_store();
     const std::uint8_t id = lss_.pending_node_id();
     image_.set_node_id(id == kUnconfiguredNodeId ? std::uint8_t{0} : id);
     storing_ = Storing::kWanted;
@@ -339,7 +343,7 @@ LocalTime Node::next_deadline() const {
 
 std::span<const std::uint8_t> Node::image_to_store() {
   if (storing_ != Storing::kWanted) return {};
-  if (powered()) {
+  if (board_powered()) {
     refuse_storing();
     return {};
   }

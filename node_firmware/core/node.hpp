@@ -50,6 +50,11 @@ struct NodeOptions {
   const ObjectTable* table = &kNodeTable;
   /// Axes whose linear scales the board can count (2160h).
   std::array<bool, kAxesPerNode> scale_inputs{};
+  // Of a board with several nodes:
+  BusClock* clock = nullptr;  ///< of all of them; nullptr: this node's own
+  /// The node has its id from its board, and LSS is another's business.
+  bool id_from_board = false;
+  std::uint8_t consecutive_ids = 1;  ///< that go with the id that LSS gives
 };
 
 /// What the power stage of one axis is to do. The currents are objects of the parameter set.
@@ -135,6 +140,8 @@ class Node final : private ObjectOwner {
   bool moving(LocalTime at) const;
   /// An axis has power: no flash is written then, for that holds up the control of the motors.
   bool powered() const { return axes_[0].powered() || axes_[1].powered(); }
+  /// Another node of the same board has power: this one's program does not end then, either.
+  void set_neighbours_powered(bool powered) { neighbours_powered_ = powered; }
   DriveOutput drive(int axis) const;
   /// COB-IDs of the receive PDOs that are on, for a port that filters; 0: off.
   std::array<std::uint16_t, kRpdoCount> rpdo_cob_ids() const;
@@ -205,6 +212,7 @@ class Node final : private ObjectOwner {
   bool in_motion() const;
   void end_stop();
   void refuse_storing();
+  bool board_powered() const { return powered() || neighbours_powered_; }
   void tell_reset();
 
   NodeOptions options_;
@@ -236,6 +244,7 @@ class Node final : private ObjectOwner {
   Storing storing_ = Storing::kNothing;
   bool storing_for_lss_ = false;
   bool parameters_changed_ = false;
+  bool neighbours_powered_ = false;
   bool reset_requested_ = false;
   bool program_stop_requested_ = false;
   bool clearing_ = false;  ///< 60C4h:6 was written, and axes creep to a whole count: the answer waits

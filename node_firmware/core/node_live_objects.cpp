@@ -306,7 +306,7 @@ AbortCode Node::write_node_object(const ObjectEntry& entry, std::int64_t value) 
     case 0x1F51:
       if (value == 1) return AbortCode::kNone;
       // Stop. A platform on vertical rails would fall without power; the boot loader has none to give.
-      if (value != 0 || options_.program_crc == 0 || powered()) return AbortCode::kDeviceState;
+      if (value != 0 || options_.program_crc == 0 || board_powered()) return AbortCode::kDeviceState;
       program_stop_requested_ = true;
       return AbortCode::kNone;
     case 0x2100:
@@ -379,7 +379,7 @@ AbortCode Node::command_storage(ObjectAddress address, std::int64_t value) {
   const bool save = address == object::kStoreParameters;
   if (value != (save ? kSaveSignature : kLoadSignature)) return AbortCode::kCannotStore;
   // Writing flash holds up the processor for longer than a motor with power can wait.
-  if (powered() || moving(now_) || storing_ != Storing::kNothing) return AbortCode::kDeviceState;
+  if (board_powered() || moving(now_) || storing_ != Storing::kNothing) return AbortCode::kDeviceState;
   if (save)
     image_.save(objects_, node_id_, image_.node_id());
   else

@@ -12,13 +12,15 @@ std::uint32_t word_at(std::span<const std::uint8_t> bytes, std::size_t offset) {
   return get_u32_le(bytes.subspan(offset));
 }
 
-std::uint32_t checksum(std::uint32_t sequence, std::uint32_t length, std::span<const std::uint8_t> data) {
+using Parts = std::span<const std::span<const std::uint8_t>>;
+
+std::uint32_t checksum(std::uint32_t sequence, std::uint32_t length, Parts parts) {
   std::array<std::uint8_t, 8> head{};
   put_u32_le(head, sequence);
   put_u32_le(std::span(head).subspan(4), length);
   Crc32 crc;
   crc.add(head);
-  crc.add(data);
+  for (const auto part : parts) crc.add(part);
   return crc.value();
 }
 
@@ -35,7 +37,8 @@ PageStore::Page PageStore::scan(std::span<const std::uint8_t> bytes) {
     const std::uint32_t sequence = word_at(bytes, at + 4);
     const std::uint32_t length = word_at(bytes, at + 8);
     if (length > bytes.size() - at - kHeader) continue;
-    if (word_at(bytes, at + 12) != checksum(sequence, length, bytes.subspan(at + kHeader, length))) continue;
+    const auto data = bytes.subspan(at + kHeader, length);
+    if (word_at(bytes, at + 12) != checksum(sequence, length, Parts(&data, 1))) continue;
     if (!page.has_record || sequence > page.newest_sequence) {
       page.has_record = true;
       page.newest_sequence = sequence;
@@ -81,13 +84,15 @@ bool PageStore::prepare(std::size_t bytes) {
   return good && pages_[to].free_from == 0;
 }
 
-bool PageStore::save(std::span<const std::uint8_t> image) {
-  if (record_size(image.size()) > flash_.page(0).size()) return false;
-  if (!prepare(image.size())) return false;
-  const std::size_t to = target(image.size());
+bool PageStore::save(Parts parts) {
+  std::size_t size = 0;
+  for (const auto part : parts) size += part.size();
+  if (record_size(size) > flash_.page(0).size()) return false;
+  if (!prepare(size)) return false;
+  const std::size_t to = target(size);
   const Page& newest = pages_[active_];
   const std::uint32_t sequence = newest.has_record ? newest.newest_sequence + 1 : 1;
-  const auto length = static_cast<std::uint32_t>(image.size());
+  const auto length = static_cast<std::uint32_t>(size);
   std::uint32_t offset = pages_[to].free_from;
   bool good = true;
   const auto put = [&](std::uint32_t word) {
@@ -97,13 +102,19 @@ bool PageStore::save(std::span<const std::uint8_t> image) {
   put(kMagic);
   put(sequence);
   put(length);
-  put(checksum(sequence, length, image));
-  for (std::size_t i = 0; i < image.size(); i += 4) {
-    std::array<std::uint8_t, 4> word{0xFF, 0xFF, 0xFF, 0xFF};
-    std::copy_n(image.begin() + static_cast<std::ptrdiff_t>(i), std::min<std::size_t>(4, image.size() - i),
-                word.begin());
-    put(get_u32_le(word));
-  }
+  put(checksum(sequence, length, parts));
+  constexpr std::array<std::uint8_t, 4> kBlank{0xFF, 0xFF, 0xFF, 0xFF};
+  std::array<std::uint8_t, 4> word = kBlank;
+  std::size_t filled = 0;
+  for (const auto part : parts)
+    for (const std::uint8_t byte : part) {
+      word[filled++] = byte;
+      if (filled < word.size()) continue;
+      put(get_u32_le(word));
+      word = kBlank;
+      filled = 0;
+    }
+  if (filled != 0) put(get_u32_le(word));
   look();
   return good && pages_[to].has_record && pages_[to].newest_sequence == sequence;
 }

@@ -36,7 +36,9 @@ class PageStore {
   /// Erases then, while there is time, so that the save need not. False: the flash does not take it.
   bool prepare(std::size_t bytes);
   /// False: not stored; what was stored before still is.
-  bool save(std::span<const std::uint8_t> image);
+  bool save(std::span<const std::uint8_t> image) { return save(std::span(&image, 1)); }
+  /// An image in parts, one behind the other; they may be parts of the one that is stored.
+  bool save(std::span<const std::span<const std::uint8_t>> parts);
 
  private:
   static constexpr std::uint32_t kMagic = 0x5442'4B31;

@@ -21,13 +21,11 @@ void PathMotion::set_options(const Options& options) {
 }
 
 void PathMotion::on_sync(std::uint8_t counter, LocalTime arrival) {
-  clock_.on_sync(counter, arrival);
+  bus_clock_.on_sync(counter, arrival);
 }
 
 void PathMotion::on_stamp(const CanFrame& frame, LocalTime now) {
-  const auto stamp = decode_sync_stamp(frame, clock_.to_bus(now));
-  if (!stamp) return;
-  const auto update = clock_.on_stamp(*stamp, now);
+  const auto update = bus_clock_.on_stamp(frame, now);
   if (update.epoch_joined) path_.shift(update.epoch_shift);
   if (update.used) sync_lost_ = false;
   path_.forget_before(clock_.to_bus(now));

@@ -9,7 +9,7 @@
 
 #include "node_firmware/core/segment_stream.hpp"
 #include "protocol/motion/broadcast.hpp"
-#include "protocol/motion/clock_estimate.hpp"
+#include "protocol/motion/bus_clock.hpp"
 #include "protocol/motion/path_clock.hpp"
 
 namespace kinebus {
@@ -34,6 +34,11 @@ class PathMotion {
   /// A record that comes later than those sent after it is waited for so long. What exchanges frames on their
   /// way does so within a USB frame of 1 ms or two; the reserve of queued motion is many times longer.
   static constexpr LocalTime kOrderPatience = std::chrono::milliseconds{5};
+
+  /// `shared`: of all nodes behind the same CAN controller; nullptr: this node has its own.
+  explicit PathMotion(BusClock* shared = nullptr) : bus_clock_(shared != nullptr ? *shared : own_clock_) {}
+  PathMotion(const PathMotion&) = delete;
+  PathMotion& operator=(const PathMotion&) = delete;
 
   void set_options(const Options& options);
 
@@ -96,7 +101,9 @@ class PathMotion {
   void watch_order(LocalTime now);
 
   Options options_;
-  ClockEstimate clock_;
+  BusClock own_clock_;
+  BusClock& bus_clock_;
+  const ClockEstimate& clock_ = bus_clock_.estimate();
   PathClock path_;
   SegmentStream stream_;
   Counters counters_;

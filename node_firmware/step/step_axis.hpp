@@ -1,10 +1,11 @@
 #pragma once
 // The steps of one axis: as many as bring the motor to the whole step that is nearest to the plan, in each
-// slot of a microsecond. The number is exact in every slot, but that two steps keep their distance
-// (kSpacing): where the plan crosses one place to and fro faster than that, the second step comes late by the
-// rest of it, and none is lost.
+// slot of a microsecond. The number is exact in every slot (to kTolerance), but that two steps keep their
+// distance (kSpacing): where the plan crosses one place to and fro faster than that, the second step comes
+// late by the rest of it, and none is lost.
 //
-// Within a frame the plan is the parabola through three of its points, walked in exact integers.
+// Within a frame the plan is a parabola, walked by its differences in words of 32 bits. Every frame begins
+// anew from the plan, so that what is rounded in one is not in the next.
 
 #include <array>
 #include <cstdint>
@@ -14,104 +15,227 @@
 
 namespace kinebus::step {
 
-/// The plan in counts with 32 fractional bits: kSetUp slots after the frame's first slot, half a frame
-/// later and a frame later.
+/// The plan over a frame, in counts with 32 fractional bits: from + slope * u + bend * u^2, where u goes from
+/// 0 to 1, and 0 is kSetUp slots after the frame's first slot.
 struct PlannedWay {
-  std::int64_t from = 0, middle = 0, to = 0;
+  std::int64_t from = 0, slope = 0, bend = 0;
+
+  std::int64_t to() const { return from + slope + bend; }
+  static PlannedWay through(std::int64_t from, std::int64_t middle, std::int64_t to) {
+    const MotionPlan::Parabola p = MotionPlan::through(from, middle, to);
+    return {p.position, p.first, p.second};
+  }
 };
 inline PlannedWay planned_way(const MotionPlan& plan, int axis, PlanCounts frame) {
-  constexpr PlanCounts kAhead = kSetUp * kSlotCounts;
-  return {plan.at(axis, frame + kAhead).position, plan.at(axis, frame + kAhead + kFrameCounts / 2).position,
-          plan.at(axis, frame + kAhead + kFrameCounts).position};
+  const PlanCounts begin = frame + kSetUp * kSlotCounts;
+  const PlanCounts elapsed = begin - plan.start, into = elapsed % MotionPlan::kPiece;
+  if (elapsed < MotionPlan::kHorizon && into + kFrameCounts <= MotionPlan::kPiece) [[likely]] {
+    // Within a piece: a part of its parabola is one, too.
+    constexpr int kFramesBits = MotionPlan::kPieceBits - kFrameBits;
+    const auto& piece =
+        plan.pieces[static_cast<std::size_t>(axis)][std::size_t{elapsed >> MotionPlan::kPieceBits}];
+    const MotionPlan::Point point = MotionPlan::evaluate(piece, into);
+    return {point.position, point.velocity >> kFramesBits, piece.second >> (2 * kFramesBits)};
+  }
+  return PlannedWay::through(plan.at(axis, begin).position, plan.at(axis, begin + kFrameCounts / 2).position,
+                             plan.at(axis, begin + kFrameCounts).position);
 }
-/// What happens in a frame, in slots of it; a step begins kSetUp after its slot.
-struct StepEvent {
-  std::uint8_t slot = 0;
-  bool up = false;      ///< towards positive counts
-  bool turned = false;  ///< the direction is to be set in this slot
-};
-struct StepEvents {
-  std::array<StepEvent, kSlots / kSpacing> list{};
-  std::size_t count = 0;
-};
 
 /// A step is 2^kStepBits counts: 4 where a full step of 256 counts is 16 microsteps.
 template <int kStepBits>
 class StepAxis {
  public:
-  /// The steps of the next frame. False: the plan is farther ahead than steps can follow; none are made then.
-  bool fill(const PlannedWay& way, StepEvents& events);
+  /// So far, in counts, what is walked may be from the parabola at a frame's end, where it is most: rounded
+  /// differences, 2^-17, and the 2^-24 of each of the 64 sums.
+  static constexpr double kTolerance = 1.6e-5 * (1 << kStepBits) / 16;
+
+  /// The steps of the next frame, in order: put.step(slot), each to begin kSetUp after its slot, and before
+  /// it put.turn(slot, up), if the direction is to be set in that slot; up: towards positive counts. False:
+  /// the plan is farther ahead than steps can follow; when a frame begins so, none are made.
+  template <typename Put>
+  bool fill(const PlannedWay& way, Put&& put);
   /// Without power: the number goes with the plan, and no step is made.
   void follow(const PlannedWay& way);
 
   /// Steps from where the motor was at power-up, those of the last frame included.
   std::int32_t steps() const { return steps_; }
+  /// In the last frame.
+  bool moved() const { return made_ != 0; }
   /// The next step sets its direction, whatever the last one was.
   void forget_direction() { direction_ = Direction::kUnknown; }
 
  private:
   static constexpr int kStepShift = 32 + kStepBits;
   static constexpr std::int64_t kStep = std::int64_t{1} << kStepShift;
-  // Within a frame: counts with 44 fractional bits, so that a 64th of the frame's first difference and a
-  // 4096th of its second are whole.
-  static constexpr int kFine = 12;
+  // Within a frame a step is 2^28, so that 8 of them fit into a word; differences have kFine bits more.
+  static constexpr int kPlaceBits = 28, kFine = 4;
+  static constexpr std::int32_t kWhole = std::int32_t{1} << kPlaceBits;
+  static constexpr int kPlaceShift = kStepShift - kPlaceBits;
+  static_assert(kSlots == 64 && kPlaceShift >= kFine);
   /// A plan that is so many steps ahead at the end of a frame is none that speed can explain.
-  static constexpr std::int64_t kMostBehind = 4;
+  static constexpr std::int32_t kMostBehind = 4;
+  // With these, no sum leaves its word: at most 6 steps to begin with and 4 more than can be made at the end,
+  // by a velocity of less than half a step in a slot.
+  static constexpr std::int64_t kMostAhead = kStep * (kMostBehind + 2);
+  static constexpr std::int64_t kMostWay = kStep * (kSlots / kSpacing + kMostBehind);
+  static constexpr std::int64_t kMostBend = kStep * 4;
   enum class Direction : std::uint8_t { kUnknown, kUp, kDown };
 
+  /// Through a frame: the place above the lower border of the present step, and its differences.
+  struct Walk {
+    std::int32_t place = 0, velocity = 0, change = 0;
+    int slot = 0;
+
+    [[gnu::always_inline]] void go_on(int slots) {
+      place += slots * (velocity >> kFine) + (slots * (slots - 1) / 2 * change >> kFine);
+      velocity += slots * change;
+      slot += slots;
+    }
+  };
+  /// Never turns. Upwards; the number of steps.
+  template <typename Put>
+  int one_way(Walk& walk, Direction direction, Put& put);
+  template <typename Put>
+  void to_and_fro(Walk& walk, Put& put);
+
+  static bool within(std::int64_t value, std::int64_t most) { return value <= most && value >= -most; }
+
   std::int32_t steps_ = 0;
+  int made_ = 0;
   int free_from_ = 0;  ///< the first slot of the next frame that may have a step
   Direction direction_ = Direction::kUnknown;
 };
 
 template <int kStepBits>
 void StepAxis<kStepBits>::follow(const PlannedWay& way) {
-  steps_ = static_cast<std::int32_t>((way.to + kStep / 2) >> kStepShift);
+  steps_ = static_cast<std::int32_t>((way.to() + kStep / 2) >> kStepShift);
+  free_from_ = made_ = 0;
+}
+
+// Inlined with what it calls: in a control interrupt all of it is to stay in registers.
+template <int kStepBits>
+template <typename Put>
+[[gnu::always_inline]] inline bool StepAxis<kStepBits>::fill(const PlannedWay& way, Put&& put) {
+  made_ = 0;
+  // The place above the lower border of the present step.
+  const std::int64_t from = way.from - (static_cast<std::int64_t>(steps_) * kStep - kStep / 2);
+  if ((way.slope | way.bend) == 0 && (from >> kStepShift) == 0) {
+    free_from_ = 0;
+    return true;  // at rest
+  }
+  const std::int64_t to = from + way.slope + way.bend;
+  if (!within(from, kMostAhead) || !within(to, kMostWay) || !within(way.bend, kMostBend)) return false;
+
+  Walk walk{
+      .place = static_cast<std::int32_t>(from >> kPlaceShift),
+      .velocity = static_cast<std::int32_t>((way.slope * kSlots + way.bend) >> (12 + kPlaceShift - kFine)),
+      .change = static_cast<std::int32_t>(((way.bend >> (10 + kPlaceShift - kFine)) + 1) >> 1)};
+  const int first = free_from_;
   free_from_ = 0;
+  if (within(way.slope, kStep) && within(way.bend, kStep)) {
+    // Off its chord the parabola is by a quarter of the bend at most.
+    const auto end = static_cast<std::int32_t>(to >> kPlaceShift);
+    const auto bend = static_cast<std::int32_t>(way.bend >> kPlaceShift);
+    const std::int32_t off = (bend < 0 ? -bend : bend) / 4 + 2;
+    if ((walk.place < end ? walk.place : end) >= off && (walk.place < end ? end : walk.place) + off < kWhole)
+      return true;
+  }
+  walk.go_on(first);
+  const std::int32_t last = walk.velocity + (kSlots - first) * walk.change;
+  if (walk.velocity >= 0 && last >= 0 && walk.place >= 0) {
+    steps_ += one_way(walk, Direction::kUp, put);
+  } else if (walk.velocity <= 0 && last <= 0 && walk.place < kWhole) {
+    // The same upside down.
+    walk.place = kWhole - 1 - walk.place;
+    walk.velocity = -walk.velocity;
+    walk.change = -walk.change;
+    steps_ -= one_way(walk, Direction::kDown, put);
+  } else {
+    to_and_fro(walk, put);
+  }
+  return walk.place < (kMostBehind + 1) * kWhole && walk.place >= -kMostBehind * kWhole;
 }
 
 template <int kStepBits>
-bool StepAxis<kStepBits>::fill(const PlannedWay& way, StepEvents& events) {
-  events.count = 0;
-  const auto magnitude = [](std::int64_t value) { return value < 0 ? -value : value; };
-  const std::int64_t origin = static_cast<std::int64_t>(steps_) * kStep - kStep / 2;
-  const std::int64_t from = way.from - origin, to = way.to - origin;
-  // Of a frame, all steps that fit into it, and those that it may leave to the next.
-  constexpr std::int64_t kMost = kStep * (kSlots / kSpacing + kMostBehind);
-  const std::int64_t bend = 2 * (way.from + way.to) - 4 * way.middle;
-  if (from > kMost || from < -kMost || to > kMost || to < -kMost || magnitude(bend) > kMost) return false;
-
-  int free = free_from_;
-  free_from_ = 0;
-  // Off its chord the parabola is by a quarter of the bend at most.
-  const std::int64_t off = magnitude(bend) / 4 + 1;
-  const std::int64_t low = (from < to ? from : to) - off, high = (from < to ? to : from) + off;
-  if (low >= 0 && high < kStep) return true;
-
-  const std::int64_t slope = 4 * (way.middle - way.from) - (way.to - way.from);
-  // The place above the lower border of the present step: at slot k from + slope * u + bend * u^2, u = k
-  // / 64. Borders have no fraction in the lower word: the upper one decides.
-  std::int64_t place = from << kFine;
-  std::int64_t velocity = slope * 64 + bend;
-  const std::int64_t acceleration = 2 * bend;
-  constexpr std::int64_t kWhole = kStep << kFine;
-  constexpr std::uint32_t kWidth = std::uint32_t{1} << (kStepBits + kFine);
-  for (int slot = 0; slot < kSlots; ++slot) {
-    if (static_cast<std::uint32_t>(place >> 32) >= kWidth && slot >= free) [[unlikely]] {
-      const bool up = place >= 0;
-      const Direction direction = up ? Direction::kUp : Direction::kDown;
-      events.list[events.count++] = {static_cast<std::uint8_t>(slot), up, direction != direction_};
-      direction_ = direction;
-      steps_ += up ? 1 : -1;
-      place -= up ? kWhole : -kWhole;
-      free = slot + kSpacing;
+template <typename Put>
+[[gnu::always_inline]] inline int StepAxis<kStepBits>::one_way(Walk& walk, Direction direction, Put& put) {
+  // A slow axis goes at once as far as it certainly makes no step: the way to the border by the fastest that
+  // it is in this frame. A division of words: 12 cycles at most.
+  const std::int32_t last = walk.velocity + (kSlots - walk.slot) * walk.change;
+  const std::int32_t fastest = ((walk.velocity > last ? walk.velocity : last) >> kFine) + 1;
+  // Of a faster one a step is so near that looking at each slot takes less.
+  constexpr std::int32_t kSlow = kWhole / 16, kEven = kWhole / 1024;
+  const bool slow = (fastest < kSlow) && (walk.change < kEven) && (walk.change > -kEven);
+  int made = 0;
+  std::int32_t place = walk.place, velocity = walk.velocity;
+  const std::int32_t change = walk.change,
+                     skipped = (kSpacing * (kSpacing - 1) / 2 * change >> kFine) - kWhole;
+  int slot = walk.slot;
+  const auto step = [&]() __attribute__((always_inline)) {
+    put.step(slot);
+    ++made;
+    place += kSpacing * (velocity >> kFine) + skipped;
+    velocity += kSpacing * change;
+    slot += kSpacing;
+  };
+  if (slow) {
+    while (slot < kSlots) {
+      if (place >= kWhole) {
+        if (made == 0 && direction_ != direction) put.turn(slot, direction == Direction::kUp);
+        step();
+        continue;
+      }
+      int slots = (kWhole - 1 - place) / fastest;
+      slots = slots > kSlots - slot ? kSlots - slot : slots < 1 ? 1 : slots;
+      place += slots * (velocity >> kFine) + (slots * (slots - 1) / 2 * change >> kFine);
+      velocity += slots * change;
+      slot += slots;
     }
-    place += velocity;
-    velocity += acceleration;
+  } else {
+    const auto look = [&]() __attribute__((always_inline)) {
+      while (place < kWhole && slot < kSlots) {
+        place += velocity >> kFine;
+        velocity += change;
+        ++slot;
+      }
+    };
+    look();
+    if (slot < kSlots && direction_ != direction) put.turn(slot, direction == Direction::kUp);
+    while (slot < kSlots) {
+      step();
+      look();
+    }
   }
-  free_from_ = free > kSlots ? free - kSlots : 0;
-  constexpr std::int64_t kBehind = kMostBehind * kWhole;
-  return place < kWhole + kBehind && place >= -kBehind;
+  if (made != 0) {
+    direction_ = direction;
+    made_ = made;
+    // Only a step leaves a frame behind; it was the last thing in it then.
+    if (slot > kSlots) free_from_ = slot - kSlots;
+  }
+  walk.place = place;
+  return made;
+}
+
+// Turning within the frame, or before it: step by step.
+template <int kStepBits>
+template <typename Put>
+[[gnu::noinline]] void StepAxis<kStepBits>::to_and_fro(Walk& walk, Put& put) {
+  while (walk.slot < kSlots) {
+    if (static_cast<std::uint32_t>(walk.place) < static_cast<std::uint32_t>(kWhole)) {
+      walk.go_on(1);
+      continue;
+    }
+    const bool up = walk.place >= 0;
+    const Direction wanted = up ? Direction::kUp : Direction::kDown;
+    if (wanted != direction_) put.turn(walk.slot, up);
+    put.step(walk.slot);
+    ++made_;
+    direction_ = wanted;
+    steps_ += up ? 1 : -1;
+    walk.place -= up ? kWhole : -kWhole;
+    walk.go_on(kSpacing);
+    if (walk.slot > kSlots) free_from_ = walk.slot - kSlots;
+  }
 }
 
 }  // namespace kinebus::step

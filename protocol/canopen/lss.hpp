@@ -28,9 +28,13 @@ inline constexpr std::uint8_t kSwitchGlobal = 4, kConfigureNodeId = 17, kConfigu
 
 class LssSlave {
  public:
-  /// `node_id`: that in use, or kUnconfiguredNodeId.
-  LssSlave(const LssIdentity& identity, std::uint8_t node_id)
-      : identity_(identity), active_(node_id), pending_(node_id) {}
+  /// `node_id`: that in use, or kUnconfiguredNodeId. `consecutive`: so many ids from the one that is given
+  /// are this device's; one that leaves no room for them is refused.
+  LssSlave(const LssIdentity& identity, std::uint8_t node_id, std::uint8_t consecutive = 1)
+      : identity_(identity),
+        active_(node_id),
+        pending_(node_id),
+        highest_(static_cast<std::uint8_t>(128 - consecutive)) {}
 
   /// True: the frame was an LSS request. Answers by next_frame().
   bool on_frame(const CanFrame& frame);
@@ -59,7 +63,7 @@ class LssSlave {
   void set_configuring(bool configuring);
 
   LssIdentity identity_;
-  std::uint8_t active_, pending_;
+  std::uint8_t active_, pending_, highest_;
   bool configuring_ = false;
   bool boot_due_ = false, store_due_ = false;
   std::uint8_t selected_ = 0;       // how many parts of "switch state selective" have matched

@@ -83,7 +83,7 @@ bool LssSlave::on_frame(const CanFrame& frame) {
   switch (command) {
     case lss::kConfigureNodeId: {
       const std::uint8_t id = frame.data[1];
-      const bool good = (id >= 1 && id <= 127) || id == kUnconfiguredNodeId;
+      const bool good = (id >= 1 && id <= highest_) || id == kUnconfiguredNodeId;
       if (good) pending_ = id;
       reply(command, good ? 0 : 1);
       break;

@@ -14,7 +14,8 @@ struct BoardOptions {
   std::array<std::uint32_t, 3> unique_id{};
   std::array<StepperParameters, 2> motors{};  ///< of boards that drive motors themselves
   PowerStageParameters stage{};
-  std::array<VirtualAxis, 2> axes{};             ///< where the carriages stand, and their switches
+  /// Where the carriages stand, and their switches: inputs of the board, from 1 on.
+  std::array<VirtualAxis, 8> axes{};
   std::array<double, 2> encoder_offset_turns{};  ///< how the magnet is glued on
   double supply_v = 24;
   double temperature_c = 30;

@@ -160,7 +160,7 @@ bool Chip::write_flash(std::uint32_t address, std::uint32_t value, int size, Cyc
 }
 
 void Chip::look_at_switches() {
-  for (std::size_t a = 0; a < 2; ++a) {
+  for (std::size_t a = 0; a < facts_.axes; ++a) {
     const VirtualAxis& axis = options_.axes[a];
     if (axis.switch_input == 0) continue;
     const double above = true_counts(static_cast<int>(a)) - axis.switch_counts;

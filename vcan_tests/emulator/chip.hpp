@@ -30,6 +30,7 @@ struct ChipFacts {
   bool core_coupled_memory = false;
   Rcc::Facts clocks{};
   std::uint32_t ports = 0;    ///< GPIO ports from A on
+  std::size_t axes = 2;       ///< motors on the board
   std::uint32_t program = 0;  ///< where the program's vectors are, when no boot loader of ours is there
 };
 
@@ -138,7 +139,7 @@ class Chip : public Devices {
 
   std::array<Place, 512> places_{};  // by KiB from 0x40000000
   std::deque<Incoming> incoming_;
-  std::array<int, 2> switch_level_{-1, -1};
+  std::array<int, 8> switch_level_{-1, -1, -1, -1, -1, -1, -1, -1};
   Cycle next_event_ = 0;
   std::uint32_t boot_ = 0;
   std::uint64_t resets_ = 0, watchdog_resets_ = 0;

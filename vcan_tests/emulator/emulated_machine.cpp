@@ -35,7 +35,7 @@ std::vector<EmulatedNodeOptions> boards_like(const std::vector<VirtualNodeOption
   std::vector<EmulatedNodeOptions> boards;
   for (const VirtualNodeOptions& node : nodes) {
     EmulatedNodeOptions board;
-    board.board.axes = node.axes;
+    std::ranges::copy(node.axes, board.board.axes.begin());
     board.board.unique_id = {0x00330045, 0x31365108, 0x36373800u + node.node.node_id};
     board.node_id = node.node.node_id;
     board.powered_before = node.clock_offset;

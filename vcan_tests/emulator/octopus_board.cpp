@@ -14,6 +14,7 @@ ChipFacts facts(std::uint32_t device_id) {
           .core_coupled_memory = false,
           .clocks = {.crystal_hz = octopus::kCrystalHz, .pll_r = true},
           .ports = 8,
+          .axes = octopus::kDrivers.size(),
           .program = octopus::kProgramAddress};
 }
 
@@ -56,11 +57,11 @@ OctopusBoard::OctopusBoard(const ElfImage& image, const BoardOptions& options, s
   map(0x40026400, 0x400, dma2_, ahb1(22));
   dma2_.fetch = [this](std::uint32_t address) { return cpu_.peek(address); };
   dma2_.put = [this](std::uint32_t address, std::uint32_t word, Cycle at) { write(address, word, 4, at); };
-  // RM0390, DMA2 request mapping: channel 6 of streams 1 and 3 is TIM1_CH1, of stream 2 TIM1_CH2.
-  tim1_.on_request = [this](int channel, Cycle at) {
-    if (channel == 1)
-      for (const int stream : {1, 3}) dma2_.on_request(stream, 6, at);
-    if (channel == 2) dma2_.on_request(2, 6, at);
+  // RM0390, DMA2 request mapping, channel 6: TIM1_UP is stream 5, CH1 streams 1 and 3, CH2 2, CH3 6, CH4 4. A
+  // request that two streams wait for is answered by the first of them.
+  tim1_.on_request = [this](int event, Cycle at) {
+    constexpr std::array kStreams{5, 1, 2, 6, 4};
+    dma2_.on_request(kStreams[static_cast<std::size_t>(event)], 6, at);
   };
   for (GpioPort& port : ports_) port.on_change = [this](Cycle at) { on_pins(at); };
   start();

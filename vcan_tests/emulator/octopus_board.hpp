@@ -73,7 +73,7 @@ class OctopusBoard final : public Chip {
 
   Timer tim1_;
   Dma dma2_;
-  std::array<StepDriver, 2> drivers_;
+  std::array<StepDriver, 8> drivers_;
 };
 
 }  // namespace kinebus::emulator

@@ -1,6 +1,6 @@
 // The program of a node between its drivers and its core.
 
-#include "node_firmware/board/node_program.hpp"
+#include "node_firmware/board/node_pass.hpp"
 
 #include <gtest/gtest.h>
 
@@ -83,31 +83,40 @@ TEST_F(Program, TellsOfTheBusWhatTheControllerSaw) {
   can.sent.clear();
   can.seen.overruns = 1;
   can.seen.passive = 1;
-  program.touch();
+  program.tell_each([](std::size_t, Node&) { return true; });
   program.pass();
   run(5ms);
   EXPECT_TRUE(can.told(0x8110));
   EXPECT_TRUE(can.told(0x8120));
   can.seen.bus_off = 1;
   can.off = true;
-  program.touch();
+  program.tell_each([](std::size_t, Node&) { return true; });
   program.pass();
   EXPECT_FALSE(can.told(0x8140)) << "nobody would hear it";
   can.off = false;
-  program.touch();
+  program.tell_each([](std::size_t, Node&) { return true; });
   program.pass();
   run(5ms);
   EXPECT_TRUE(can.told(0x8140));
 }
 
 TEST_F(Program, APowerStageThatDoesNotMeasureGetsNoPower) {
-  EXPECT_FALSE(program.refuse_power());
+  int refused = 0;
+  const auto refuse = [&] {
+    program.tell_each([&](std::size_t, Node& node) {
+      const bool did = refuse_power(node, program.read_time());
+      refused += did ? 1 : 0;
+      return did;
+    });
+  };
+  refuse();
+  EXPECT_EQ(refused, 0);
   LocalTime now = program.read_time();
   fake::enable(program.node(), now, 1);
   ASSERT_TRUE(program.node().drive(1).power);
-  EXPECT_TRUE(program.refuse_power());
+  refuse();
+  EXPECT_EQ(refused, 1);
   EXPECT_FALSE(program.node().drive(1).power);
-  program.touch();
   run(5ms);
   EXPECT_TRUE(can.told(0x5200));
 }

@@ -13,7 +13,7 @@ using namespace std::chrono_literals;
 
 struct FakeStepStage {
   static constexpr std::size_t kPorts = 1;
-  static constexpr std::array<StepPins, kAxesPerNode> kPins{{{0, 0, 1, 2}, {0, 0, 4, 8}}};
+  static constexpr std::array<StepPins, 2> kPins{{{0, 0, 1, 2}, {0, 0, 4, 8}}};
   static constexpr int kStepBits = 4;
   static inline const step::StepFrames<1>* frames = nullptr;
   static inline std::array<bool, 2> enabled{};
@@ -49,9 +49,9 @@ struct Steps : testing::Test {
   void run(LocalTime time) {
     for (const LocalTime end = now + time; now < end;) {
       node.on_time(now);
-      plan.renew(node, now, fake::Counter::now);
+      plans[0].renew(node, now, fake::Counter::now);
       frame();
-      motors.serve(node, now);
+      motors.serve(0, node, now);
     }
   }
   void enable(int axis) { fake::enable(node, now, axis); }
@@ -77,8 +77,8 @@ struct Steps : testing::Test {
     return found;
   }
 
-  MotionPlanExchange plan;
-  StepMotors<FakeStepStage> motors{plan};
+  StepMotors<FakeStepStage>::Plans plans;
+  StepMotors<FakeStepStage> motors{plans};
   LocalTime now{0};
   Node node{NodeOptions{.node_id = 5}, now};
   std::size_t half = 0;

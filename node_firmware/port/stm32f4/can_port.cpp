@@ -1,5 +1,6 @@
 #include "node_firmware/port/stm32f4/can_port.hpp"
 
+#include "node_firmware/port/stm32f4/can_filters.hpp"
 #include "node_firmware/port/stm32f4/registers.hpp"
 #include "protocol/bytes.hpp"
 
@@ -51,18 +52,17 @@ void CanPort::join() {
 
 void CanPort::accept(std::span<const CanAccept> filters) {
   Can& can = can1();
+  const CanBanks banks = pack_filters(filters);
   can.FMR = can.FMR | Can::kFilterInit;
   can.FA1R = 0;
-  can.FM1R = 0;       // identifier and mask
-  can.FS1R = 0x3FFF;  // 32 bits
-  can.FFA1R = 0;      // all to FIFO 0: one order of arrival
-  std::uint32_t active = 0;
-  for (std::size_t i = 0; i < filters.size() && i < kCanFilters; ++i) {
-    can.filter[i].R1 = identifier(filters[i].value);
-    can.filter[i].R2 = identifier(filters[i].mask) | Can::kExtended | Can::kRemote;
-    active |= bit(static_cast<int>(i));
+  can.FM1R = banks.lists;
+  can.FS1R = 0;   // 16 bits
+  can.FFA1R = 0;  // all to FIFO 0: one order of arrival
+  for (std::size_t i = 0; i < CanBanks::kBanks; ++i) {
+    can.filter[i].R1 = banks.words[i][0];
+    can.filter[i].R2 = banks.words[i][1];
   }
-  can.FA1R = active;
+  can.FA1R = banks.used;
   can.FMR = can.FMR & ~Can::kFilterInit;
 }
 

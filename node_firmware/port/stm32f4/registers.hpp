@@ -255,10 +255,11 @@ struct Dma {
                                  kPeripheralWords = 2u << 11, kMemoryWords = 2u << 13,
                                  kPriorityHigh = 3u << 16;
   static constexpr std::uint32_t channel(unsigned n) { return n << 25; }
-  /// All flags of streams 0 to 3, in LISR and LIFCR.
-  static constexpr std::uint32_t flags(unsigned stream) {
+  /// All flags of a stream, in the register of its four.
+  void clear(std::size_t number) {
     constexpr std::uint32_t kAt[4] = {0, 6, 16, 22};
-    return 0x3Du << kAt[stream];
+    Reg& flags = number < 4 ? LIFCR : HIFCR;
+    flags = 0x3Du << kAt[number % 4];
   }
 };
 inline Dma& dma2() {

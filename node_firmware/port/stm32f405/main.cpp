@@ -107,7 +107,8 @@ int main() {
   usb.start();
   dog.start();
   for (;;) {
-    pass(*program, motors, motors_good, parameters, dog);
+    pass(
+        *program, motors, motors_good, [](std::size_t, auto image) { return parameters.save(image); }, dog);
     const Console::Subject subject{.node = node,
                                    .motors = motors.supervision(),
                                    .cycles = motors.cycles(),
@@ -120,7 +121,7 @@ int main() {
     usart.serve(subject);
     usb.serve(subject);
     show(node);
-    if (node.program_stop_requested() && can_port.queue().idle()) give_way(node, Handover::kBootLoader);
+    if (program->stop_requested() && can_port.queue().idle()) give_way(node, Handover::kBootLoader);
     if (usart.console().system_boot_requested() || usb.console().system_boot_requested())
       give_way(node, Handover::kSystemBoot);
     // So long without a reset: this program is good.

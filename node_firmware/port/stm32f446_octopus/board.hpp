@@ -32,28 +32,41 @@ inline constexpr std::array kPins = {
   // port, pin, mode,       pull,  AF, high,  signal
   Pin{D,  0, kAlternate, kUp,    9, false, "CAN1_RX"},
   Pin{D,  1, kAlternate, kNone,  9, false, "CAN1_TX"},
-  // Drivers: step, direction, enable (active low). MOTOR0 is axis A, MOTOR1 axis B.
+  // Drivers: step, direction, enable (active low). Two for each node, its axes A and B, in order.
   Pin{F, 13, kOutput,    kNone,  0, false, "MOTOR0 step"},
   Pin{F, 12, kOutput,    kNone,  0, false, "MOTOR0 direction"},
   Pin{F, 14, kOutput,    kUp,    0, true,  "MOTOR0 enable, active low"},
   Pin{G,  0, kOutput,    kNone,  0, false, "MOTOR1 step"},
   Pin{G,  1, kOutput,    kNone,  0, false, "MOTOR1 direction"},
   Pin{F, 15, kOutput,    kUp,    0, true,  "MOTOR1 enable, active low"},
-  // Sockets that this image does not drive: off.
+  Pin{F, 11, kOutput,    kNone,  0, false, "MOTOR2 step"},
+  Pin{G,  3, kOutput,    kNone,  0, false, "MOTOR2 direction"},
   Pin{G,  5, kOutput,    kUp,    0, true,  "MOTOR2 enable, active low"},
+  Pin{G,  4, kOutput,    kNone,  0, false, "MOTOR3 step"},
+  Pin{C,  1, kOutput,    kNone,  0, false, "MOTOR3 direction"},
   Pin{A,  0, kOutput,    kUp,    0, true,  "MOTOR3 enable, active low"},
+  Pin{F,  9, kOutput,    kNone,  0, false, "MOTOR4 step"},
+  Pin{F, 10, kOutput,    kNone,  0, false, "MOTOR4 direction"},
   Pin{G,  2, kOutput,    kUp,    0, true,  "MOTOR4 enable, active low"},
+  Pin{C, 13, kOutput,    kNone,  0, false, "MOTOR5 step"},
+  Pin{F,  0, kOutput,    kNone,  0, false, "MOTOR5 direction"},
   Pin{F,  1, kOutput,    kUp,    0, true,  "MOTOR5 enable, active low"},
+  Pin{E,  2, kOutput,    kNone,  0, false, "MOTOR6 step"},
+  Pin{E,  3, kOutput,    kNone,  0, false, "MOTOR6 direction"},
   Pin{D,  4, kOutput,    kUp,    0, true,  "MOTOR6 enable, active low"},
+  Pin{E,  6, kOutput,    kNone,  0, false, "MOTOR7 step"},
+  Pin{A, 14, kOutput,    kNone,  0, false, "MOTOR7 direction (SWCLK: no debugger from here on)"},
   Pin{E,  0, kOutput,    kUp,    0, true,  "MOTOR7 enable, active low"},
-  // Switch inputs 1 to 7: a contact to ground, pulled up.
-  Pin{G,  6, kInput,     kUp,    0, false, "STOP0, switch input 1 (EXTI6)"},
-  Pin{G,  9, kInput,     kUp,    0, false, "STOP1, switch input 2 (EXTI9)"},
-  Pin{G, 10, kInput,     kUp,    0, false, "STOP2, switch input 3 (EXTI10)"},
-  Pin{G, 11, kInput,     kUp,    0, false, "STOP3, switch input 4 (EXTI11)"},
-  Pin{G, 12, kInput,     kUp,    0, false, "STOP4, switch input 5 (EXTI12)"},
-  Pin{G, 13, kInput,     kUp,    0, false, "STOP5, switch input 6 (EXTI13)"},
-  Pin{G, 14, kInput,     kUp,    0, false, "STOP6, switch input 7 (EXTI14)"},
+  // Switch inputs: a contact to ground, pulled up. Which node has which: kInputPlaces.
+  Pin{G,  6, kInput,     kUp,    0, false, "STOP0 (EXTI6)"},
+  Pin{G,  9, kInput,     kUp,    0, false, "STOP1 (EXTI9)"},
+  Pin{G, 10, kInput,     kUp,    0, false, "STOP2 (EXTI10)"},
+  Pin{G, 11, kInput,     kUp,    0, false, "STOP3 (EXTI11)"},
+  Pin{G, 12, kInput,     kUp,    0, false, "STOP4 (EXTI12)"},
+  Pin{G, 13, kInput,     kUp,    0, false, "STOP5 (EXTI13)"},
+  Pin{G, 14, kInput,     kUp,    0, false, "STOP6 (EXTI14)"},
+  Pin{G, 15, kInput,     kUp,    0, false, "STOP7 (EXTI15)"},
+  Pin{B,  7, kInput,     kUp,    0, false, "PROBE (EXTI7)"},
   // Heaters and fans: off, whatever hangs on them.
   Pin{A,  1, kOutput,    kDown,  0, false, "bed heater"},
   Pin{A,  2, kOutput,    kDown,  0, false, "HE0"},
@@ -70,14 +83,40 @@ inline constexpr std::array kPins = {
 // clang-format on
 static_assert(stm32::pins_differ(kPins));
 
-inline constexpr std::array<SwitchPin, 7> kSwitchPins{
-    {{G, 6}, {G, 9}, {G, 10}, {G, 11}, {G, 12}, {G, 13}, {G, 14}}};
+/// STOP0 to STOP7, and the probe.
+inline constexpr std::array<SwitchPin, 9> kSwitchPins{
+    {{G, 6}, {G, 9}, {G, 10}, {G, 11}, {G, 12}, {G, 13}, {G, 14}, {G, 15}, {B, 7}}};
 static_assert(stm32::lines_differ(kSwitchPins));
+
+/// Axis pairs, each a node: two drivers each, in order.
+inline constexpr std::size_t kNodes = 4;
+inline constexpr std::size_t kStops = 8, kProbe = 8;
+/// Which of a node's inputs (counted from 0; -1: none) each switch pin is. Inputs 1 and 2 are the stops
+/// beside the node's two drivers, where StallGuard's DIAG comes, too; 3 to 6 the next stops, round the board;
+/// 7 is the probe, for each node.
+inline constexpr auto kInputPlaces = [] {
+  std::array<std::array<std::int8_t, kSwitchPins.size()>, kNodes> places{};
+  for (std::size_t node = 0; node < kNodes; ++node) {
+    for (std::size_t stop = 0; stop < kStops; ++stop) {
+      const std::size_t input = (stop + kStops - 2 * node) % kStops;
+      places[node][stop] = input < 6 ? static_cast<std::int8_t>(input) : std::int8_t{-1};
+    }
+    places[node][kProbe] = 6;
+  }
+  return places;
+}();
 
 struct DriverPins {
   OutputPin step, direction, enable;
 };
-inline constexpr std::array<DriverPins, 2> kDrivers{{{{F, 13}, {F, 12}, {F, 14}}, {{G, 0}, {G, 1}, {F, 15}}}};
+inline constexpr std::array<DriverPins, 2 * kNodes> kDrivers{{{{F, 13}, {F, 12}, {F, 14}},
+                                                              {{G, 0}, {G, 1}, {F, 15}},
+                                                              {{F, 11}, {G, 3}, {G, 5}},
+                                                              {{G, 4}, {C, 1}, {A, 0}},
+                                                              {{F, 9}, {F, 10}, {G, 2}},
+                                                              {{C, 13}, {F, 0}, {F, 1}},
+                                                              {{E, 2}, {E, 3}, {D, 4}},
+                                                              {{E, 6}, {A, 14}, {E, 0}}}};
 /// Everything that gives power to something, and its level without.
 struct PowerPin {
   OutputPin pin;
@@ -95,6 +134,7 @@ inline constexpr int kStepBits = 4;
 // Flash: the maker's boot loader in sectors 0 and 1, the program from sector 2 on, parameters in 6 and 7.
 inline constexpr std::uint32_t kProgramAddress = 0x0800'8000, kProgramBytes = 0x3'8000;
 inline constexpr std::array<stm32::FlashSector, 2> kParameterSectors{{{0x0804'0000, 6}, {0x0806'0000, 7}}};
-inline constexpr std::uint32_t kParameterPageBytes = 0x4000;
+/// Room for the parameters of all nodes, twice.
+inline constexpr std::uint32_t kParameterPageBytes = 0x1'0000;
 
 }  // namespace kinebus::octopus

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "node_firmware/board/identity.hpp"
+#include "node_firmware/board/node_images.hpp"
 #include "node_firmware/board/node_pass.hpp"
 #include "node_firmware/board/runtime.hpp"
 #include "node_firmware/boot/image_header.hpp"
@@ -28,21 +29,53 @@ using namespace kinebus;
 using namespace kinebus::stm32;
 
 using Switches = SwitchPort<octopus::kSwitchPins>;
+constexpr std::size_t kNodes = octopus::kNodes;
+using Motors = StepMotors<StepPort>;
+static_assert(Motors::kNodes == kNodes);
+
 constinit CanPort can_port;
 constinit Switches switch_port;
-constinit MotionPlanExchange motion_plan;
-constinit StepMotors<StepPort> motors{motion_plan};
+constinit Motors::Plans plans;
+constinit Motors motors{plans};
 constinit ParameterFlash<octopus::kParameterSectors, octopus::kParameterPageBytes> parameter_flash;
-constinit PageStore parameters{parameter_flash};
+constinit PageStore store{parameter_flash};
+constinit NodeImages<kNodes> images{store};
 constinit WatchdogPort dog;
 constinit WatchdogKeeper keeper;
-constinit std::optional<NodeProgram<CanPort, Switches, LocalTimer>> program;
+// Of all nodes: they hear the same SYNC by the same counter.
+constinit std::optional<BusClock> bus_clock;
+constinit std::optional<NodeProgram<CanPort, Switches, LocalTimer, kNodes>> program;
 
 static_assert(shares_slots(kNodeTable, BoardObjects<Stm32f446OctopusBoard>::kTable));
 
-constexpr NodeIdentity identity() {
+/// The first node has its id from LSS or from flash; the others have those that follow.
+NodeOptions options_of(std::size_t number, std::uint8_t node_id) {
   constexpr const BoardFacts& kFacts = Stm32f446OctopusBoard::kFacts;
-  return {.product_code = kFacts.product_code, .revision = kFacts.revision};
+  return {.identity = {.product_code = kFacts.product_code,
+                       .revision = kFacts.revision,
+                       .serial = serial_number(unique_id()) + static_cast<std::uint32_t>(number)},
+          .node_id = node_id,
+          .program_crc = kImageHeader.crc,
+          .table = &BoardObjects<Stm32f446OctopusBoard>::kTable,
+          .clock = &*bus_clock,
+          .id_from_board = number != 0,
+          .consecutive_ids = kNodes};
+}
+
+// While no motor has power: a carriage must not lose its node.
+void follow_first_id() {
+  static std::uint8_t followed = 0;
+  const std::uint8_t first = program->node().node_id();
+  if (first == followed || !motors.dark()) return;
+  followed = first;
+  const auto stored = images.load();
+  for (std::size_t i = 1; i < kNodes; ++i) {
+    if (first == 0)
+      program->end(i);
+    else
+      program->begin(i, options_of(i, static_cast<std::uint8_t>(first + i)), stored[i], plans[i],
+                     octopus::kInputPlaces[i]);
+  }
 }
 
 }  // namespace
@@ -74,30 +107,31 @@ int main() {
   system_control().VTOR = octopus::kProgramAddress;
   start_local_time();
   can_port.start();
-  const auto stored = parameters.load();
-  static_cast<void>(parameters.prepare(kLargestParameterImage));
-  NodeOptions options{.identity = identity(),
-                      .node_id = take_inherited_node_id(handover_ram),
-                      .program_crc = kImageHeader.crc,
-                      .reset = take_reset_report(),
-                      .table = &BoardObjects<Stm32f446OctopusBoard>::kTable};
-  options.identity.serial = serial_number(unique_id());
-  program.emplace(options, stored, can_port, switch_port, motion_plan);
-  Node& node = program->node();
+  const auto stored = images.load();
+  static_cast<void>(store.prepare(kNodes * kLargestParameterImage));
+  bus_clock.emplace();
+  NodeOptions options = options_of(0, take_inherited_node_id(handover_ram));
+  options.reset = take_reset_report();
+  program.emplace(options, stored[0], can_port, switch_port, plans[0], octopus::kInputPlaces[0]);
   const bool good = own_chip && watch_supply();
   if (own_chip) switch_port.start(local_counts());
   enable_interrupts();
-  if (good) motors.start();
+  if (good) {
+    motors.start();
+    program->align_plans(motors.plan_grid());
+  }
   dog.start();
   for (;;) {
-    pass(*program, motors, good, parameters, dog);
+    pass(
+        *program, motors, good, [](std::size_t i, auto image) { return images.save(i, image); }, dog);
+    follow_first_id();
     // There is no boot loader of ours to give way to: the program begins anew, under its id.
-    if (node.program_stop_requested() && can_port.queue().idle()) {
-      handover_ram = Handover{.node_id = node.node_id()};
+    if (program->stop_requested() && can_port.queue().idle()) {
+      handover_ram = Handover{.node_id = program->node().node_id()};
       reset_processor();
     }
     // Without its own chip there is no control interrupt: only the bus is served.
-    keeper.serve(dog, program->now(), node, good ? motors.ticks() : local_counts());
+    keeper.serve(dog, program->now(), *program, good ? motors.ticks() : local_counts());
     if (good) wait_for_interrupt();  // 64 us at most
   }
 }
@@ -108,12 +142,9 @@ extern "C" {
 [[gnu::used, gnu::section(".kept.debug_calls")]] std::int64_t debug_path_time(std::uint32_t counts) {
   return program ? program->path_time(counts).count() : 0;
 }
-/// What the plan asks of a motor now: counts with 32 fractional bits.
+/// What the plan asks of a motor (0 to 7) now: counts with 32 fractional bits.
 [[gnu::used, gnu::section(".kept.debug_calls")]] std::int64_t debug_position(int axis) {
-  return motion_plan.current().at(axis, local_counts()).position;
-}
-/// Steps up to the end of the frame that was computed last.
-[[gnu::used, gnu::section(".kept.debug_calls")]] std::int64_t debug_steps(int axis) {
-  return motors.steps(axis);
+  const auto number = static_cast<std::size_t>(axis / kAxesPerNode);
+  return plans[number].current().at(axis % kAxesPerNode, local_counts()).position;
 }
 }

@@ -1,10 +1,19 @@
 #include "node_firmware/port/stm32f446_octopus/step_stage.hpp"
 
+#include <array>
+
 namespace kinebus::stm32 {
 namespace {
 
 constexpr std::uint32_t kTop = kApb2Hz * 2 / 1'000'000;  // counts of TIM1 in a slot
-constexpr unsigned kTim1 = 6;                            // DMA channel: stream 1 by CH1, stream 2 by CH2
+// RM0390, DMA2 request mapping: channel 6 is TIM1. By port: the stream, and the event that asks it.
+constexpr unsigned kTim1 = 6;
+constexpr unsigned kUpdate = 0;  // as Timer::request() counts
+struct Request {
+  std::size_t stream;
+  unsigned event;
+};
+constexpr std::array<Request, StepPort::kPorts> kRequests{{{1, 1}, {2, 2}, {6, 3}, {4, 4}, {5, kUpdate}}};
 
 std::uint32_t address_of(const volatile void* place) {
   return reinterpret_cast<std::uintptr_t>(place);
@@ -21,13 +30,14 @@ PlanCounts StepPort::start(const step::StepFrames<kPorts>& frames) {
   t.PSC = 0;
   t.ARR = kTop - 1;
   t.CCMR1 = 0;  // compare events, and no output
-  for (const std::size_t channel : {0, 1}) t.CCR[channel] = kTop / 2;
+  // A tick before the update: all ports change together.
+  for (Reg& compare : t.CCR) compare = kTop - 1;
   t.EGR = Timer::kGenerateUpdate;
   t.SR = 0;
-  t.DIER = Timer::request(1) | Timer::request(2);
-  dma2().LIFCR = Dma::flags(1) | Dma::flags(2);
   for (std::size_t port = 0; port < kPorts; ++port) {
-    Dma::Stream& s = dma2().stream[port + 1];
+    const Request& request = kRequests[port];
+    dma2().clear(request.stream);
+    Dma::Stream& s = dma2().stream[request.stream];
     s.NDTR = frames.words(port).size();
     s.PAR = address_of(&gpio(static_cast<unsigned>(kGpio[port])).BSRR);
     s.M0AR = address_of(frames.words(port).data());
@@ -36,15 +46,16 @@ PlanCounts StepPort::start(const step::StepFrames<kPorts>& frames) {
            Dma::kPeripheralWords | Dma::kMemoryWords | Dma::kPriorityHigh |
            (port == 0 ? Dma::kOnHalf | Dma::kOnComplete : 0);
     s.CR = s.CR | Dma::kEnable;
+    t.DIER = t.DIER | Timer::request(static_cast<int>(request.event));
   }
   enable_interrupt(Irq::kDma2Stream1, 3);
   disable_interrupts();
   const PlanCounts now = local_counts();
   t.CR1 = Timer::kEnable;
   enable_interrupts();
-  // The first word comes half a slot later. An edge comes up to a slot after its ideal time: half of that is
-  // taken off by saying that a frame begins half a slot later than it does.
-  return now + step::kSlotCounts;
+  // The first word comes a slot later. An edge comes up to a slot after its ideal time: half of that is taken
+  // off by saying that a frame begins half a slot later than it does.
+  return now + step::kSlotCounts + step::kSlotCounts / 2;
 }
 
 }  // namespace kinebus::stm32

@@ -1,8 +1,9 @@
 #pragma once
-// Step and direction pins of MOTOR0 and MOTOR1. TIM1 counts microseconds; its compare events 1 and 2 ask DMA2
-// for a word each: stream 1 writes those of port F, stream 2 those of port G, round and round two frames of
-// each. No instruction takes part in an edge.
+// Step and direction pins of the eight drivers. TIM1 counts microseconds; at the end of each its compare
+// events and its update ask DMA2 for a word for each GPIO port, round and round two frames of each. No
+// instruction takes part in an edge.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -15,12 +16,14 @@ namespace kinebus::stm32 {
 
 class StepPort {
  public:
-  static constexpr std::size_t kPorts = 2;
-  static constexpr std::array<Port, kPorts> kGpio{Port::F, Port::G};
+  static constexpr std::size_t kPorts = 5;
+  static constexpr std::array<Port, kPorts> kGpio{Port::F, Port::G, Port::C, Port::E, Port::A};
   static constexpr int kStepBits = octopus::kStepBits;
-  static constexpr std::array<StepPins, kAxesPerNode> kPins = [] {
-    std::array<StepPins, kAxesPerNode> pins{};
-    const auto index = [](Port port) { return static_cast<std::size_t>(port == kGpio[0] ? 0 : 1); };
+  static constexpr auto kPins = [] {
+    std::array<StepPins, octopus::kDrivers.size()> pins{};
+    const auto index = [](Port port) {
+      return static_cast<std::size_t>(std::find(kGpio.begin(), kGpio.end(), port) - kGpio.begin());
+    };
     for (std::size_t i = 0; i < pins.size(); ++i) {
       const octopus::DriverPins& driver = octopus::kDrivers[i];
       pins[i] = {index(driver.step.port), index(driver.direction.port), bit(driver.step.number),
@@ -28,11 +31,14 @@ class StepPort {
     }
     return pins;
   }();
+  static_assert(std::ranges::all_of(kPins, [](const StepPins& p) {
+    return p.step_port < kPorts && p.direction_port < kPorts;
+  }));
 
   PlanCounts start(const step::StepFrames<kPorts>& frames);
   static std::uint32_t cycles() { return dwt().CYCCNT; }
   static PlanCounts counts() { return local_counts(); }
-  static void acknowledge_control() { dma2().LIFCR = Dma::flags(1); }
+  static void acknowledge_control() { dma2().clear(1); }
   static void enable(int axis, bool on) {
     write(octopus::kDrivers[static_cast<std::size_t>(axis)].enable, !on);
   }

@@ -109,14 +109,12 @@ struct Line {
   bool frame(const PlannedWay& way) {
     const std::size_t half = static_cast<std::size_t>(slot / kSlots % 2);
     frames.begin(half);
-    StepEvents events;
-    const bool good = axis.fill(way, events);
-    for (std::size_t i = 0; i < events.count; ++i) {
-      const auto& e = events.list[i];
-      if (e.turned) frames.put(0, e.slot, e.up ? kDirectionPin : kDirectionPin << 16);
-      frames.put(0, e.slot + kSetUp, kStepPin);
-      frames.put(0, e.slot + kSetUp + kPulse, kStepPin << 16);
-    }
+    struct {
+      StepFrames<1>& frames;
+      void step(int at) { frames.lane(0).pulse(at, kStepPin); }
+      void turn(int at, bool up) { frames.put(0, at, up ? kDirectionPin : kDirectionPin << 16); }
+    } put{frames};
+    const bool good = axis.fill(way, put);
     for (std::size_t i = 0; i < kSlots; ++i)
       driver.on_word(slot + static_cast<std::int64_t>(i), frames.words(0)[half * kSlots + i]);
     slot += kSlots;
@@ -227,6 +225,7 @@ TEST(StepAxis, FollowsRandomMotionsStepByStepWithinTwoMicroseconds) {
 /// The number of steps in every slot against the parabola itself.
 TEST(StepAxis, IsExactInEverySlotOfAFrame) {
   std::mt19937_64 random(3);
+  int either = 0;
   for (int round = 0; round < 3'000; ++round) {
     Line line;
     // Up to 200,000 steps/s and 12.8 counts/ms^2 either way, in counts with 32 fractional bits.
@@ -234,31 +233,37 @@ TEST(StepAxis, IsExactInEverySlotOfAFrame) {
     const std::int64_t way =
         static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(2 * span)) - span;
     const std::int64_t bow = static_cast<std::int64_t>(random() % (1ULL << 26)) - (std::int64_t{1} << 25);
-    const PlannedWay points{0, way / 2 + bow, way};
-    ASSERT_TRUE(line.frame(points));
-    ASSERT_TRUE(line.frame(PlannedWay{way, way, way}));
+    const std::int64_t middle = way / 2 + bow;
+    ASSERT_TRUE(line.frame(PlannedWay::through(0, middle, way)));
+    ASSERT_TRUE(line.frame(PlannedWay::through(way, way, way)));
     std::size_t next = 0;
     std::int64_t steps = 0;
-    const std::int64_t second = 2 * way - 4 * points.middle, first = 4 * points.middle - way;
+    const std::int64_t second = 2 * way - 4 * middle, first = 4 * middle - way;
     for (std::int64_t slot = 0; slot < kSlots; ++slot) {
       while (next < line.driver.rises.size() && line.driver.rises[next].slot <= slot + kSetUp)
         steps = line.driver.rises[next++].after;
       // Exact: 4096 times the place.
       const __int128 place =
           static_cast<__int128>(first) * slot * 64 + static_cast<__int128>(second) * slot * slot;
-      const auto wanted =
-          static_cast<std::int64_t>((place + (__int128{1} << (43 + kStepBits))) >> (44 + kStepBits));
-      ASSERT_EQ(steps, wanted) << "round " << round << ", slot " << slot;
+      // Within the tolerance of a border either number is right.
+      const auto near = static_cast<__int128>(StepAxis<kStepBits>::kTolerance * kCount * 4096);
+      const auto nearest = [&](__int128 at) {
+        return static_cast<std::int64_t>((at + (__int128{1} << (43 + kStepBits))) >> (44 + kStepBits));
+      };
+      ASSERT_GE(steps, nearest(place - near)) << "round " << round << ", slot " << slot;
+      ASSERT_LE(steps, nearest(place + near)) << "round " << round << ", slot " << slot;
+      either += nearest(place - near) != nearest(place + near) ? 1 : 0;
     }
     ASSERT_EQ(line.driver.steps, nearest_step(way));
   }
+  EXPECT_LT(either, 20) << "slots of 192,000 in which the tolerance decides";
 }
 
 TEST(StepAxis, TwoHundredThousandStepsASecondAreEvenlySpaced) {
   Line line;
   const auto frame = static_cast<std::int64_t>(3.2 * kSlots * kCount);
   for (std::int64_t i = 0; i < 1'000; ++i)
-    ASSERT_TRUE(line.frame(PlannedWay{i * frame, i * frame + frame / 2, (i + 1) * frame}));
+    ASSERT_TRUE(line.frame(PlannedWay::through(i * frame, i * frame + frame / 2, (i + 1) * frame)));
   EXPECT_NEAR(static_cast<double>(line.driver.steps), 12'800, 1);
   for (std::size_t i = 1; i < line.driver.rises.size(); ++i) {
     const std::int64_t apart = line.driver.rises[i].slot - line.driver.rises[i - 1].slot;
@@ -274,8 +279,9 @@ TEST(StepAxis, ATurnJustBeyondABorderLosesNoStep) {
   for (std::int64_t beyond = -20; beyond < 4'000'000; beyond = beyond < 20 ? beyond + 1 : beyond * 3 / 2) {
     Line line;
     const std::int64_t top = border + beyond, depth = static_cast<std::int64_t>(0.02 * kCount);
-    ASSERT_TRUE(line.frame(PlannedWay{top - depth, top, top - depth}));
-    for (int i = 0; i < 3; ++i) ASSERT_TRUE(line.frame(PlannedWay{top - depth, top - depth, top - depth}));
+    ASSERT_TRUE(line.frame(PlannedWay::through(top - depth, top, top - depth)));
+    for (int i = 0; i < 3; ++i)
+      ASSERT_TRUE(line.frame(PlannedWay::through(top - depth, top - depth, top - depth)));
     EXPECT_EQ(line.driver.steps, 0);
     EXPECT_TRUE(line.driver.rises.empty() || line.driver.rises.size() == 2);
     made += line.driver.rises.size();
@@ -286,13 +292,13 @@ TEST(StepAxis, ATurnJustBeyondABorderLosesNoStep) {
 TEST(StepAxis, APlanThatJumpsIsToldAndNotFollowed) {
   Line line;
   const auto far = static_cast<std::int64_t>(1'000 * kCount);
-  EXPECT_FALSE(line.frame(PlannedWay{far, far, far}));
-  EXPECT_FALSE(line.frame(PlannedWay{0, 0, far}));
-  EXPECT_FALSE(line.frame(PlannedWay{0, far, 0}));
+  EXPECT_FALSE(line.frame(PlannedWay::through(far, far, far)));
+  EXPECT_FALSE(line.frame(PlannedWay::through(0, 0, far)));
+  EXPECT_FALSE(line.frame(PlannedWay::through(0, far, 0)));
   EXPECT_TRUE(line.driver.rises.empty());
-  line.axis.follow(PlannedWay{far, far, far});
+  line.axis.follow(PlannedWay::through(far, far, far));
   EXPECT_EQ(line.axis.steps(), nearest_step(far));
-  EXPECT_TRUE(line.frame(PlannedWay{far, far, far}));
+  EXPECT_TRUE(line.frame(PlannedWay::through(far, far, far)));
   EXPECT_TRUE(line.driver.rises.empty());
 }
 
@@ -301,7 +307,7 @@ TEST(StepAxis, MoreThanItsFastestIsToldAsSoonAsItFallsBehind) {
   const auto frame = static_cast<std::int64_t>(1.1 * 16 * 16 * kCount);  // 275,000 steps/s
   int good = 0;
   for (std::int64_t i = 0;
-       i < 20 && line.frame(PlannedWay{i * frame, i * frame + frame / 2, (i + 1) * frame}); ++i)
+       i < 20 && line.frame(PlannedWay::through(i * frame, i * frame + frame / 2, (i + 1) * frame)); ++i)
     ++good;
   EXPECT_GE(good, 1);
   EXPECT_LE(good, 4);

@@ -1,6 +1,6 @@
 #pragma once
-// The BTT Octopus with an STM32F446: what its axis pair is known by, and its objects. They are those of the
-// dual-stepper board; what this board cannot measure stays as it is by default.
+// The BTT Octopus with an STM32F446: what each of its four axis pairs is known by, and its objects. They are
+// those of the dual-stepper board; what this board cannot measure stays as it is by default.
 
 #include "protocol/canopen/two_axis_node.hpp"
 

@@ -100,6 +100,7 @@ void Timer::update_event(Cycle now, bool sets_flag) {
   if (sets_flag) {
     sr_ |= kUpdateFlag;
     update_lines();
+    if ((dier_ >> 8 & 1) != 0 && on_request) on_request(0, now);
   }
   if ((cr2_ >> 4 & 7) == 2 && on_trigger) on_trigger(now);
 }

@@ -41,8 +41,9 @@ class Timer final : public Peripheral {
   void set_break_level(bool high, Cycle now);
   bool break_armed() const { return (bdtr_ >> 12 & 1) != 0; }
 
-  std::function<void(Cycle)> on_trigger;               ///< TRGO by update
-  std::function<void(int channel, Cycle)> on_request;  ///< a compare event whose DMA request is on (DIER)
+  std::function<void(Cycle)> on_trigger;  ///< TRGO by update
+  /// A compare event of that channel, or 0: an update, whose DMA request is on (DIER).
+  std::function<void(int channel, Cycle)> on_request;
   std::function<void(Cycle)> before_change;  ///< outputs change at that time: whoever follows them catches up
 
  private:

@@ -1,0 +1,100 @@
+#pragma once
+// One of the nodes of a board: its core, what it wants to hear, and the plan of its motors.
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include "node_firmware/board/hearing.hpp"
+#include "node_firmware/board/local_clock.hpp"
+#include "node_firmware/core/motion_plan.hpp"
+#include "node_firmware/core/node.hpp"
+
+namespace kinebus {
+
+/// Which of a node's switch inputs a board's input is, counted from 0; -1: none. Empty: each its own.
+using InputPlaces = std::span<const std::int8_t>;
+
+/// Where plans begin: on counts that are `phase` modulo `spacing`, a power of two. Where motors are driven by
+/// frames, none of these then goes over from one piece of a plan into the next.
+struct PlanGrid {
+  PlanCounts phase = 0, spacing = 1;
+};
+
+template <LocalCounter Counter>
+class BoardNode {
+ public:
+  BoardNode(const NodeOptions& options, const LocalClock<Counter>& clock, LocalTime now,
+            std::span<const std::uint8_t> stored, MotionPlanExchange& plan, const PlanGrid& grid,
+            InputPlaces inputs)
+      : clock_(clock), plan_(plan), grid_(grid), inputs_(inputs), node_(options, now, stored) {
+    plan_.renew(node_, now, Counter::counts());
+  }
+
+  Node& node() { return node_; }
+  const Node& node() const { return node_; }
+  const Hearing& hearing() const { return hearing_; }
+  bool due(LocalTime now) const { return touched_ || now >= due_; }
+  /// Something was told to the node elsewhere.
+  void touch() { touched_ = true; }
+
+  /// From the bus, or from another node of the board.
+  void on_frame(LocalTime at, const CanFrame& frame) {
+    if (!hearing_.hears(frame) || asks_for_nothing(frame)) return;
+    node_.on_frame(at, frame);
+    touched_ = true;
+    if (frame.id == cob_id::kSdoRequest + node_.node_id()) hearing_due_ = at;
+  }
+  void on_switch(LocalTime at, std::uint8_t input, bool level) {
+    const int place = inputs_.empty() ? input : inputs_[input];
+    if (place < 0) return;
+    node_.on_switch(at, place, level);
+    touched_ = true;
+  }
+  /// What is due, and a new plan where it has become another one.
+  void serve(LocalTime now) {
+    bool changed = std::exchange(touched_, false);
+    if (now >= node_.next_deadline()) {
+      node_.on_time(now);
+      changed = true;
+    }
+    // The plan begins now, or where its next frame does, and never before what the node knows.
+    const PlanCounts at_once = Counter::counts();
+    const PlanCounts counts = at_once + ((grid_.phase - at_once) & (grid_.spacing - 1));
+    const LocalTime from = clock_.at(counts);
+    if (now >= plan_due_ || (changed && plan_.outdated(node_, from, counts))) {
+      plan_.renew(node_, from, counts);
+      plan_due_ = now + kPlanPeriod;
+    }
+  }
+  /// True: what is heard has changed.
+  bool renew_hearing(LocalTime now) {
+    if (now < hearing_due_) return false;
+    hearing_due_ = now + kHearingPeriod;
+    return hearing_.renew(node_);
+  }
+  /// After the frames that the node has to say were taken.
+  void find_due() { due_ = std::min({node_.next_deadline(), plan_due_, hearing_due_}); }
+
+ private:
+  /// An EMCY of another node that asks for no stop: most of them, and there may be as many as the bus
+  /// carries.
+  static bool asks_for_nothing(const CanFrame& frame) {
+    return frame.id > cob_id::kSync && frame.id <= cob_id::kSync + 127 && (frame.data[3] & 0x7F) == 0;
+  }
+
+  // Half of the plan's horizon: a main loop that is late by the other half harms nothing.
+  static constexpr LocalTime kPlanPeriod = kPlanCount * (MotionPlan::kHorizon / 2);
+  static constexpr LocalTime kHearingPeriod = std::chrono::milliseconds{10};
+
+  const LocalClock<Counter>& clock_;
+  MotionPlanExchange& plan_;
+  const PlanGrid& grid_;
+  InputPlaces inputs_;
+  Node node_;
+  Hearing hearing_;
+  LocalTime due_{0}, plan_due_{0}, hearing_due_{0};
+  bool touched_ = true;
+};
+
+}  // namespace kinebus

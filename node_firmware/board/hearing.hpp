@@ -1,0 +1,50 @@
+#pragma once
+// What a node has to hear of the bus.
+
+#include <array>
+#include <span>
+
+#include "node_firmware/board/drivers.hpp"
+#include "protocol/canopen/cob_id.hpp"
+
+namespace kinebus {
+
+class Hearing {
+ public:
+  /// Its own requests and PDOs, what all hear, and the heartbeats that it watches. True: that has changed.
+  template <typename Core>
+  bool renew(const Core& node) {
+    std::array<CanAccept, kCanFilters> wanted{};
+    std::size_t count = 0;
+    const auto add = [&](std::uint32_t value, std::uint32_t mask = 0x7FF) {
+      wanted[count++] = {static_cast<std::uint16_t>(value), static_cast<std::uint16_t>(mask)};
+    };
+    add(0x080, 0x780);  // SYNC, and the EMCYs of others: stop requests
+    add(0x000);         // NMT
+    add(0x7E5);         // LSS
+    if (node.node_id() != 0) {
+      add(0x600u + node.node_id());
+      for (const std::uint8_t id : node.watched_nodes())
+        if (id != 0) add(0x700u + id);
+      for (const std::uint16_t id : node.rpdo_cob_ids())
+        if (id != 0) add(id);
+    }
+    if (wanted == accepted_ && count == count_) return false;
+    accepted_ = wanted;
+    count_ = count;
+    return true;
+  }
+  bool hears(const CanFrame& frame) const {
+    if (frame.extended || frame.remote) return false;
+    for (const CanAccept& accept : accepted())
+      if ((frame.id & accept.mask) == accept.value) return true;
+    return false;
+  }
+  std::span<const CanAccept> accepted() const { return std::span(accepted_).first(count_); }
+
+ private:
+  std::array<CanAccept, kCanFilters> accepted_{};
+  std::size_t count_ = 0;
+};
+
+}  // namespace kinebus
