@@ -106,6 +106,7 @@ std::string machine_mark(MachineFileStore& file) {
 /// The epoch differs from the one before: nodes then join the new clock without a step.
 Gateway::Options gateway_options(const journal::State& noted) {
   return {.epoch = static_cast<std::uint8_t>(noted.epoch ? *noted.epoch + 1 : std::random_device{}()),
+          .unix_s_at_zero = unix_s_at_zero(),
           .journal = true};
 }
 

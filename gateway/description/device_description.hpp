@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <string>
 
+#include "gateway/kinematics/geometry.hpp"
+
 namespace kinebus {
 
 /// Where a device lives. Named in the machine file by `where`.
@@ -159,7 +161,24 @@ struct ProbeDescription {
   /// What virtual nodes let it touch: a plane, in the part's frame.
   double sim_z_mm = 0;                ///< at X0 Y0
   std::array<double, 2> sim_slope{};  ///< mm of Z for each mm along X and Y
+  double sim_bend_per_m = 0;          ///< curvature of a bowl, > 0, or a dome
+  /// What the probe touches there, mm.
+  double sim_surface_mm(double x_mm, double y_mm) const {
+    return sim_z_mm + sim_slope[0] * x_mm + sim_slope[1] * y_mm +
+           0.5e-3 * sim_bend_per_m * (x_mm * x_mm + y_mm * y_mm);
+  }
   friend bool operator==(const ProbeDescription&, const ProbeDescription&) = default;
+};
+
+/// Levelling of the bed: where G29 probes, and what a mesh may be like. In table coordinates.
+struct MeshDescription {
+  int points_x = 5, points_y = 5;
+  Interval x_mm{}, y_mm{};  ///< not limited: the square within the machine's reach
+  double lift_mm = 5;       ///< between two points
+  double depth_mm = 2;      ///< so far below the table the probe looks for the bed
+  double fade_mm = 10;      ///< the correction is gone from this height on; 0: never
+  double limit_mm = 2;      ///< a bed that is farther from the table than this is refused
+  friend bool operator==(const MeshDescription&, const MeshDescription&) = default;
 };
 
 /// What holds for all heat of the machine.

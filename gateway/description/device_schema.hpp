@@ -6,6 +6,7 @@
 
 #include "gateway/description/machine_description.hpp"
 #include "gateway/description/schema_words.hpp"
+#include "gateway/kinematics/bed_mesh.hpp"
 #include "gateway/sentence.hpp"
 
 namespace kinebus::machine_schema {
@@ -153,7 +154,18 @@ void visit_devices(V& v, MachineDescription& d) {
     v.number("sim_z_mm", d.probe.sim_z_mm, {-1000, 1000}, Need::kOptional);
     v.number("sim_slope_x", d.probe.sim_slope[0], {-0.2, 0.2}, Need::kOptional);
     v.number("sim_slope_y", d.probe.sim_slope[1], {-0.2, 0.2}, Need::kOptional);
+    v.number("sim_bend_per_m", d.probe.sim_bend_per_m, {-2, 2}, Need::kOptional);
     visit_place(v, d.probe.place);
+  });
+  v.table("mesh", Need::kOptional, [&] {
+    v.integer("points_x", d.mesh.points_x, 2, MeshGrid::kMostPoints, Need::kOptional);
+    v.integer("points_y", d.mesh.points_y, 2, MeshGrid::kMostPoints, Need::kOptional);
+    v.interval("x_mm", d.mesh.x_mm, {-5000, 5000}, Need::kOptional);
+    v.interval("y_mm", d.mesh.y_mm, {-5000, 5000}, Need::kOptional);
+    v.number("lift_mm", d.mesh.lift_mm, {0.1, 100}, Need::kOptional);
+    v.number("depth_mm", d.mesh.depth_mm, {0.01, 50}, Need::kOptional);
+    v.number("fade_mm", d.mesh.fade_mm, {0, 1000}, Need::kOptional);
+    v.number("limit_mm", d.mesh.limit_mm, {0.01, 50}, Need::kOptional);
   });
 }
 

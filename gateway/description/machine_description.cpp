@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "gateway/bodies/collision_model.hpp"
+#include "gateway/description/machine_file.hpp"
 #include "gateway/description/machine_schema.hpp"
 
 namespace kinebus {
@@ -97,6 +98,30 @@ std::string identity(const MachineDescription& description) {
   std::string text = description.name;
   for (const JointDescription& joint : description.joints) text += " " + joint.name;
   return text;
+}
+
+std::uint64_t geometry_mark(const MachineDescription& description) {
+  MachineDescription bare;
+  bare.kinematics = description.kinematics;
+  std::visit(
+      [](auto& geometry) {
+        if constexpr (requires { geometry.limits; }) geometry.limits = {};
+      },
+      bare.kinematics);
+  bare.geometry_calibration = description.geometry_calibration;
+  for (const JointDescription& joint : description.joints) {
+    JointDescription& kept = bare.joints.emplace_back();
+    kept.name = joint.name;
+    kept.rotary = joint.rotary;
+    kept.calibration = joint.calibration;
+    if (joint.homing) kept.homing.emplace().switch_position = joint.homing->switch_position;
+  }
+  bare.probe.present = true;
+  bare.probe.offset_mm = description.probe.offset_mm;
+  // FNV-1a, 64 bit.
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const char c : write_machine(bare)) hash = (hash ^ static_cast<std::uint8_t>(c)) * 0x100000001b3;
+  return hash;
 }
 
 std::vector<JointName> joint_names(const KinematicsGeometry& geometry) {

@@ -302,6 +302,7 @@ struct MachineDescription {
   std::vector<FilamentSensorDescription> filament_sensors;
   SpindleDescription spindle;
   ProbeDescription probe;
+  MeshDescription mesh;
   GcodeDescription gcode;
   std::vector<MacroDescription> macros;     ///< called by name from jobs and lines
   std::optional<BodiesDescription> bodies;  ///< none: nobody knows what is solid, and nothing is checked
@@ -341,6 +342,10 @@ MachineDescription default_m1();
 /// What is kept for a machine over restarts is found by this: its name and its joints' names. A file whose
 /// limits or currents were changed is still the same machine.
 std::string identity(const MachineDescription& description);
+
+/// Of the geometry alone, calibration included: what was measured in the machine's coordinates means
+/// something else when this is another.
+std::uint64_t geometry_mark(const MachineDescription& description);
 
 /// The names of the joints that this kind of kinematics has, in their order, and which of them turn.
 struct JointName {

@@ -240,7 +240,8 @@ class BlockReader {
     if (group != GGroup::kMotion) block_.plain = false;
     block_.groups |= 1U << static_cast<unsigned>(group);
     block_.g[static_cast<std::size_t>(group)] = {number, column};
-    return true;
+    // G29 S1 P"name" J: no words of which every one has a value.
+    return number != 290 || take_text();
   }
 
   bool add_m(double value, std::uint32_t column) {

@@ -51,6 +51,29 @@ struct Probe {
   bool must = false;  ///< otherwise it is an error
 };
 
+/// Levelling of the bed, for which motion has come to rest. A mesh measured from here on moves what follows.
+struct Mesh {
+  static constexpr int kMostPoints = 20;  ///< along an axis
+  enum class What : std::uint8_t {
+    kBegin,      ///< no mesh is in force; the probes that follow measure this grid
+    kEnd,        ///< they have: what they found is kept as `name`, and in force
+    kOn,         ///< the mesh of this name, or the last one, is in force
+    kOff,        ///< none is
+    kKeep,       ///< the one in force, as `name`, too
+    kForget,     ///< the one of this name
+    kFade,       ///< the one in force fades over fade_mm
+    kPoint,      ///< the height at `points`, counted from 0, of the one in force
+    kTell,       ///< says what is in force
+    kTellProbe,  ///< says where the last probe touched
+  } what{};
+  std::string name{};
+  std::array<int, 2> points{};               ///< along X and Y
+  std::array<double, 2> from_mm{}, to_mm{};  ///< in table coordinates
+  double fade_mm = -1;                       ///< kOn, kFade: below 0: as it is
+  double value_mm = 0;                       ///< kPoint
+  bool adds = false;                         ///< kPoint: value_mm is added
+};
+
 struct Dwell {
   double seconds = 0;
 };                 ///< G4: after motion has come to rest
@@ -153,9 +176,10 @@ struct Settings {
 };              ///< M500..M503
 struct End {};  ///< M2 / M30, or the end of the text
 
-using Command = std::variant<Traverse, Feed, Arc, Dwell, PathMode, SetPosition, Limits, Thermal, Spindle,
-                             Home, Pause, MotorsOff, MotorsOn, WaitIdle, Override, Message, Query,
-                             EmergencyStop, StoredJob, Settings, End, PressureAdvance, Probe, InputShaping>;
+using Command =
+    std::variant<Traverse, Feed, Arc, Dwell, PathMode, SetPosition, Limits, Thermal, Spindle, Home, Pause,
+                 MotorsOff, MotorsOn, WaitIdle, Override, Message, Query, EmergencyStop, StoredJob, Settings,
+                 End, PressureAdvance, Probe, InputShaping, Mesh>;
 
 /// One command with the line of the job that it came from (1-based).
 struct Line {

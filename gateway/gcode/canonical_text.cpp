@@ -156,6 +156,21 @@ struct Writer {
     return "probe " + pose_text(c.target, c.frame) + feed_text(c.feed_per_s, 0) + (c.away ? " away" : "") +
            (c.must ? " must" : "");
   }
+  std::string operator()(const Mesh& c) const {
+    static constexpr std::array<std::string_view, 10> kNames = {
+        "begin", "end", "on", "off", "keep", "forget", "fade", "point", "tell", "tell_probe"};
+    std::string text = "mesh ";
+    text += kNames[static_cast<std::size_t>(c.what)];
+    if (!c.name.empty()) text += " " + c.name;
+    if (c.what == Mesh::What::kBegin || c.what == Mesh::What::kEnd || c.what == Mesh::What::kPoint)
+      text += " " + std::to_string(c.points[0]) + "," + std::to_string(c.points[1]);
+    if (c.what == Mesh::What::kBegin || c.what == Mesh::What::kEnd)
+      text += " x" + number(c.from_mm[0]) + ".." + number(c.to_mm[0]) + " y" + number(c.from_mm[1]) + ".." +
+              number(c.to_mm[1]);
+    if (c.what == Mesh::What::kPoint) text += (c.adds ? " add" : " z") + number(c.value_mm);
+    if (c.fade_mm >= 0) text += " fade" + number(c.fade_mm);
+    return text;
+  }
 };
 
 }  // namespace

@@ -13,11 +13,7 @@ namespace {
 
 // What Klipper and slicers write as words: it tells or tunes what other machines have, and leaves the job's
 // meaning as it is. In lower case, sorted.
-constexpr std::array<std::string_view, 29> kHarmlessCommands = {"bed_mesh_calibrate",
-                                                                "bed_mesh_clear",
-                                                                "bed_mesh_output",
-                                                                "bed_mesh_profile",
-                                                                "bed_screws_adjust",
+constexpr std::array<std::string_view, 25> kHarmlessCommands = {"bed_screws_adjust",
                                                                 "bed_tilt_calibrate",
                                                                 "bltouch_debug",
                                                                 "delta_calibrate",
@@ -47,7 +43,13 @@ static_assert(std::is_sorted(kHarmlessCommands.begin(), kHarmlessCommands.end())
 struct Command {
   std::string_view name, words, meaning;
 };
-constexpr std::array<Command, 16> kCommands = {{
+constexpr std::array<Command, 21> kCommands = {{
+    {"bed_mesh_calibrate", "PROFILE= MESH_MIN= MESH_MAX= PROBE_COUNT= ADAPTIVE= ADAPTIVE_MARGIN=",
+     "probes the grid of [mesh] of the machine file, or the area given; ADAPTIVE=1: of the objects defined"},
+    {"bed_mesh_clear", "", "no bed mesh is in force"},
+    {"bed_mesh_map", "", "tells which mesh is in force"},
+    {"bed_mesh_output", "", "tells which mesh is in force"},
+    {"bed_mesh_profile", "LOAD= | SAVE= | REMOVE=", "a mesh that was kept: in force, kept, forgotten"},
     {"cancel_print", "", "end of the program"},
     {"exclude_object", "NAME= | CURRENT=1 | RESET=1", "the moves of this object are left out from here on"},
     {"exclude_object_define", "NAME= RESET=", "names an object; the rest is passed over"},

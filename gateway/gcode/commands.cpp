@@ -135,9 +135,16 @@ bool Core::run_command() {
       words.push_back({argument.name, argument.text, argument.value});
     return set_input_shaper(column, words);
   }
+  if (name == "bed_mesh_calibrate" || name == "bed_mesh_clear" || name == "bed_mesh_map" ||
+      name == "bed_mesh_output" || name == "bed_mesh_profile")
+    return mesh_word(name, [&](std::string_view key) -> std::optional<std::string_view> {
+      const Argument* const argument = find_argument(arguments, key);
+      return argument == nullptr ? std::nullopt : std::optional(argument->text);
+    });
   if (harmless_command(name) || name == "set_pressure_advance") return noted();
   if (name.starts_with("exclude_object")) {
     const Argument* const which = find_argument(arguments, "name");
+    if (const Argument* const shape = find_argument(arguments, "polygon")) add_to_print_area(shape->text);
     return object_command({name, which == nullptr ? std::string() : in_lower_case(which->text),
                            number_of(arguments, "current").value_or(0) != 0,
                            number_of(arguments, "reset").value_or(0) != 0});

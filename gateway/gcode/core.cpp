@@ -172,14 +172,9 @@ bool Core::run_nonmodal(Code code) {
       pass_over('S');
       return retract();
     case 300:
-      if (options_.spindle)
-        return fail(code.column,
-                    say("G30 means a probe to printers and a stored position to mills: use G53 G0 "
-                        "with coordinates"));
-      for (char letter = 'A'; letter <= 'Z'; ++letter)
-        if (letter != 'F') pass_over(letter);
-      note(kNoteForG + 300, say("%1 has no effect on this machine", g_name(300)));
-      return true;
+      return probe_once(code);
+    case 290:
+      return level_bed();
     case 520:
       return set_local_offset(code);
     case 110:

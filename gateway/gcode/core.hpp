@@ -7,6 +7,7 @@
 //   G28 machine_codes.cpp   M codes                        cutter_codes.cpp G40-G42.1
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -26,6 +27,15 @@ inline constexpr double kNoMotion = 1e-9;
 
 class Core {
  public:
+  /// Where G29 probes; what is not stated is the machine's.
+  struct MeshArea {
+    std::array<std::optional<double>, 2> from_mm{}, to_mm{};  ///< canonical X and Y
+    std::array<int, 2> points{};                              ///< 0: the machine's
+    bool adaptive = false;  ///< fewer points where the area is smaller than the machine's
+  };
+  /// A word of a Klipper command by its name, in lower case.
+  using WordOf = std::function<std::optional<std::string_view>(std::string_view)>;
+
   explicit Core(Options options);
 
   bool execute(std::string_view line, std::uint32_t line_number, CommandBuffer& out);
@@ -123,6 +133,19 @@ class Core {
   bool probe(Code code);
   bool probe_target(Code code, Pose& program, Pose& target);
   void tell_probed(const Pose& program, bool contact);
+
+  // levelling.cpp
+  static constexpr int kNoteForMesh = 150000;
+  bool level_bed();
+  bool probe_once(Code code);
+  bool mesh_code(Code code);
+  bool mesh_word(const std::string& name, const WordOf& word);
+  bool mesh_command(std::uint32_t column, canonical::Mesh command);
+  bool measure_mesh(std::uint32_t column, std::string name, const MeshArea& area);
+  void probe_down(Pose at, double clear);
+  void probe_within(const ProbeResult& result);
+  bool note_no_levelling(int code, const std::string& name);
+  void add_to_print_area(std::string_view points);
 
   // splines.cpp
   bool run_spline(Code code);
@@ -234,6 +257,8 @@ class Core {
   const DialectRules* rules_ = nullptr;  ///< of the dialect in force
   bool traverse_has_feed_ = false;
   bool watches_comments_ = false;  ///< an object is excluded
+  bool probe_goes_on_ = false;     ///< behind its probe the line at work has moves of its own
+  bool probe_sets_z_ = false;      ///< what it touches gets Z 0
   bool announce_ = true;           ///< SetPosition is due before the next command
 };
 

@@ -58,6 +58,14 @@ struct ProbeResult {
   Frame frame{};
 };
 
+/// What G29 probes, unless its words say less. In table coordinates.
+struct MeshOptions {
+  std::array<int, 2> points{5, 5};
+  std::array<double, 2> from_mm{-50, -50}, to_mm{50, 50};
+  double lift_mm = 5;   ///< of the probe over the table between two points
+  double depth_mm = 2;  ///< so far below the table it looks for the bed
+};
+
 struct Options {
   Pose start{};                ///< where the machine stands when the job begins, machine frame (mm, rad)
   Pose home{};                 ///< where it stands after G28, machine frame; E unused
@@ -85,6 +93,7 @@ struct Options {
   ProbeFitted probe = ProbeFitted::kNone;
   double probe_mm_per_s = 10;               ///< no probing is faster
   std::array<double, 3> probe_offset_mm{};  ///< where the probe touches, from the tool's tip, A and C at 0
+  MeshOptions mesh;
   std::vector<Macro> macros;
   /// Lines of loops and subroutines that a text carries out at most, so that one without end is an error.
   std::uint64_t most_recorded_steps = 10'000'000;

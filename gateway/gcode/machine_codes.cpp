@@ -79,6 +79,12 @@ bool Core::run_machine_code(Code code) {
       return program_call(code);
     case 486:
       return object_code(code);
+    case 374:
+    case 375:
+    case 420:
+    case 421:
+    case 561:
+      return mesh_code(code);
     case 116:
       return wait_for_temperatures();
     case 568:

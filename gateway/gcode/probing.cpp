@@ -45,6 +45,7 @@ bool Core::probe(Code code) {
   if (speed < wanted)
     note(kNoteForProbeSpeed, say("probing goes at %1 mm/s: faster is not allowed by probe.speed_mm_per_s",
                                  printed("%.6g", speed)));
+  probe_goes_on_ = false;
   emit(canonical::Probe{target, m.frame, speed, code.number >= 384, code.number % 2 == 0});
   m.position = target;
   m.program = program;
@@ -97,6 +98,7 @@ void Core::tell_probed(const Pose& program, bool contact) {
 }
 
 void Core::set_probed(const ProbeResult& result) {
+  if (probe_goes_on_) return probe_within(result);
   ModalState& m = state_.modal;
   const double e = m.position[kAxisE];
   m.position = in_frame(result.at, result.frame, m.frame);

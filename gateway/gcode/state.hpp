@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -128,6 +129,8 @@ struct State {
   ModalState modal;
   CutterPath cutter;
   std::vector<PrintObject> objects;
+  /// Of all objects that were defined with their shape: X Y least and greatest, as the text writes them.
+  std::optional<std::array<double, 4>> print_area{};
   ParameterState parameters;
 };
 

@@ -106,6 +106,11 @@ void JobCheck::command(const canonical::Line& line) {
         say("the job probes here: what follows is checked as if the probe touched at the table, or at the "
             "end of "
             "its move, and again with what is measured, just before it moves"));
+  if (const auto* mesh = std::get_if<canonical::Mesh>(&line.command);
+      mesh != nullptr && mesh->what == canonical::Mesh::What::kOn && !std::exchange(levels_, true))
+    add(Problem::Severity::kWarning, line.line,
+        say("a bed mesh is put in force here: what follows is checked with the one in force now, and again "
+            "just before it moves"));
   if (std::holds_alternative<canonical::EmergencyStop>(line.command))
     add(Problem::Severity::kWarning, line.line, say("M112 stops the machine here"));
   if (std::holds_alternative<canonical::Settings>(line.command))

@@ -24,7 +24,8 @@ bool is_any(const Command& command) {
 bool is_barrier(const Command& command, bool optional_stop) {
   if (const auto* thermal = std::get_if<Thermal>(&command)) return thermal->wait;
   if (const auto* pause = std::get_if<Pause>(&command)) return !pause->optional || optional_stop;
-  return is_any<Dwell, Home, MotorsOff, MotorsOn, WaitIdle, canonical::Spindle, canonical::Probe>(command);
+  return is_any<Dwell, Home, MotorsOff, MotorsOn, WaitIdle, canonical::Spindle, canonical::Probe,
+                canonical::Mesh>(command);
 }
 
 /// Target of a motion command.
@@ -69,13 +70,12 @@ void JobPipeline::begin(const Pose& start) {
   barrier_.reset();
   refused_.reset();
   run_s_ = event_s_ = 0;
-  lines_ = 0;
-  bytes_ = 0;
+  lines_ = 0, bytes_ = 0;
   text_at_ = text_end_ = 0;
-  feed_scale_ = 1;
-  moves_taken_ = 0;
+  feed_scale_ = 1, moves_taken_ = 0;
   scales_.clear();
   places_.clear();
+  touched_.clear();
 }
 
 void JobPipeline::start_job(ByteSource& source, const Pose& start, const gcode::WorkOffsets& offsets) {
@@ -281,6 +281,8 @@ std::optional<JobPipeline::Step> JobPipeline::settle() {
       probe_line_ = command_.line;
       stage_ = Stage::kProbes;
     }
+    const auto* mesh = std::get_if<canonical::Mesh>(&command_.command);
+    if (mesh != nullptr && mesh->what == canonical::Mesh::What::kBegin) touched_.clear();
     command_.line = line_of(command_.line);
     return Step::kBarrier;
   }

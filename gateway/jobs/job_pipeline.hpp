@@ -18,6 +18,7 @@
 #include "gateway/jobs/byte_source.hpp"
 #include "gateway/jobs/job_place.hpp"
 #include "gateway/jobs/problem.hpp"
+#include "gateway/kinematics/geometry.hpp"
 #include "gateway/motion/planner.hpp"
 #include "gateway/shaping/path_shaper.hpp"
 #include "gateway/shaping/shaped_limits.hpp"
@@ -76,6 +77,10 @@ class JobPipeline {
   /// What is taken for it where nobody can measure: contact at the table's surface if the move goes through
   /// it, else at its target.
   gcode::ProbeResult assumed_probe() const;
+  /// Where the probe touched since a mesh was begun, or since the job was: table coordinates.
+  const std::vector<Vector3>& touched() const { return touched_; }
+  /// At rest, behind a command: the tool's place is named so from here on.
+  void stands(const Pose& pose, Frame frame);
   /// Where a probe's move ends, or would have.
   const canonical::Probe& probe() const { return probe_; }
   /// What was accepted without effect since the last call, once for each code.
@@ -173,9 +178,10 @@ class JobPipeline {
   bool phase_waits_ = false;  ///< phase_ was pulled; events due before it go first
   std::optional<canonical::Line> barrier_;
   canonical::Probe probe_;
-  std::uint32_t probe_line_ = 0;    ///< as a place
-  Pose probe_start_{};              ///< in its frame
-  bool probing_ = false;            ///< its move is on the way
+  std::uint32_t probe_line_ = 0;  ///< as a place
+  Pose probe_start_{};            ///< in its frame
+  bool probing_ = false;          ///< its move is on the way
+  std::vector<Vector3> touched_;
   std::optional<Problem> refused_;  ///< waits to be given out
   Phase phase_{};
   canonical::Line command_;

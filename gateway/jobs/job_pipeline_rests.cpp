@@ -6,6 +6,9 @@
 #include "gateway/jobs/machine_setup.hpp"
 
 namespace kinebus {
+namespace {
+constexpr std::size_t kMostTouched = std::size_t{canonical::Mesh::kMostPoints} * canonical::Mesh::kMostPoints;
+}  // namespace
 
 /// The path begins anew, at rest, with the modes and limits in force.
 void JobPipeline::start_at(const Pose& pose, Frame frame, std::uint32_t line) {
@@ -38,6 +41,11 @@ void JobPipeline::plan_probe() {
   drain(std::nullopt);
 }
 
+void JobPipeline::stands(const Pose& pose, Frame frame) {
+  start_at(pose, frame, probe_line_);
+  if (interpreter_) interpreter_->set_position(pose, frame);
+}
+
 gcode::ProbeResult JobPipeline::assumed_probe() const {
   Pose at = probe_.target;
   const auto from = convert_pose(kinematics_, probe_.frame, probe_start_, Frame::kPart);
@@ -53,6 +61,12 @@ gcode::ProbeResult JobPipeline::assumed_probe() const {
 void JobPipeline::probed(const gcode::ProbeResult& result) {
   probing_ = in_run_ = phase_waits_ = false;
   stage_ = Stage::kFeeding;
+  // A and C are at 0, where both frames are the table's.
+  if (result.contact)
+    touched_.push_back({result.at[kX] + machine_.probe.offset_mm[0],
+                        result.at[kY] + machine_.probe.offset_mm[1],
+                        result.at[kZ] + machine_.probe.offset_mm[2]});
+  if (touched_.size() > kMostTouched) touched_.erase(touched_.begin());
   start_at(result.stand, result.frame, probe_line_);
   if (interpreter_) interpreter_->set_probed(result);
 }

@@ -90,7 +90,7 @@ void LiveLines::begin(const Pose& pose, std::optional<double> hotend_celsius, gc
   hot_e_mm_ = -1e300;
   hotend_celsius_ = hotend_celsius;
   still_.reset();
-  probes_ = false;
+  answers_due_ = 0;
   if (path_mode_) out.push_back({0, *path_mode_});
   out.push_back({0, limits_});
   if (advance_.advance_s >= 0 || advance_.smooth_s >= 0) out.push_back({0, advance_});
@@ -105,7 +105,7 @@ Result<void, Problem> LiveLines::take(std::string_view line, std::uint32_t numbe
   };
   const gcode::State before = interpreter_.state();
   const Place place = place_;
-  const bool probing = probes_;
+  const int answers_due = answers_due_;
   const auto hotend = hotend_celsius_;
   const std::size_t first = out.size();
   gcode::Program program(interpreter_, gcode::Program::Use::kLines);
@@ -123,16 +123,17 @@ Result<void, Problem> LiveLines::take(std::string_view line, std::uint32_t numbe
   }
   for (std::size_t i = first; i < out.size(); ++i) {
     auto words = check(out[i].command);
-    const bool probes = std::holds_alternative<canonical::Probe>(out[i].command);
+    const bool probes = std::holds_alternative<canonical::Probe>(out[i].command) ||
+                        std::holds_alternative<canonical::Mesh>(out[i].command);
     if (probes && program.steps() > 0)
       words =
           say("a macro or loop that probes works in a job, not as a line: the lines behind G38 have to know "
               "what it measures");
     if (!words) {
-      probes_ = probes_ || probes;
+      answers_due_ += probes ? 1 : 0;
       continue;
     }
-    probes_ = probing;
+    answers_due_ = answers_due;
     interpreter_.restore(before);
     place_ = place;
     hotend_celsius_ = hotend;
@@ -155,9 +156,18 @@ Result<void, Problem> LiveLines::take(std::string_view line, std::uint32_t numbe
 }
 
 void LiveLines::probed(const gcode::ProbeResult& result) {
-  probes_ = false;
+  answers_due_ = std::max(0, answers_due_ - 1);
   interpreter_.set_probed(result);
-  place_ = {result.stand, result.frame};
+  // Where the line goes on behind its probe, it was checked to its end.
+  const gcode::ModalState& m = interpreter_.state().modal;
+  place_ = {m.position, m.frame};
+}
+
+void LiveLines::levelled(const std::optional<Pose>& stand, Frame frame) {
+  answers_due_ = std::max(0, answers_due_ - 1);
+  if (!stand || answers_due_ > 0) return;
+  interpreter_.set_position(*stand, frame);
+  place_ = {*stand, frame};
 }
 
 std::vector<Sentence> LiveLines::take_notes() {

@@ -37,8 +37,10 @@ class LiveLines {
   Result<void, Problem> take(std::string_view line, std::uint32_t number, gcode::CommandBuffer& out);
 
   /// A line that was taken probes: none may be taken that moves or looks at what it measures until probed().
-  bool probes() const { return probes_; }
+  bool probes() const { return answers_due_ > 0; }
   void probed(const gcode::ProbeResult& result);
+  /// A levelling command of a line is carried out; the tool's place is named so from then on.
+  void levelled(const std::optional<Pose>& stand, Frame frame);
 
   /// Sets a work zero as G10 L2 does, or with `here` as L20: `system` 0 is G54. `where`: the machine has been
   /// moved to there (Frame::kMachine) since the last line.
@@ -80,7 +82,7 @@ class LiveLines {
   std::optional<double> hotend_celsius_;
   double hot_e_mm_ = -1e300;  ///< the farthest that filament was fed hot
   bool cold_noted_ = false, fan_noted_ = false;
-  bool probes_ = false;
+  int answers_due_ = 0;
   canonical::Limits limits_{};  ///< in force
   canonical::PressureAdvance advance_{};
   canonical::InputShaping shaping_{};

@@ -128,6 +128,47 @@ double joint_jerk_limit(const MachineDescription& machine, const JointDescriptio
   return machine.path.tool_jerk_mm_per_s3 * joint.accel_per_s2 / machine.path.tool_accel_mm_per_s2;
 }
 
+namespace {
+
+// Beside the square in a round reach, and its edges.
+constexpr double kMeshShare = 0.95;
+
+/// What the machine file leaves open follows from where the tool may be.
+gcode::MeshOptions mesh_options(const MachineDescription& machine) {
+  const MeshDescription& mesh = machine.mesh;
+  gcode::MeshOptions options;
+  options.points = {mesh.points_x, mesh.points_y};
+  options.lift_mm = mesh.lift_mm;
+  options.depth_mm = mesh.depth_mm;
+  PoseLimits reach;
+  if (const PoseLimits* limits = pose_limits(machine.kinematics)) reach = *limits;
+  std::visit(
+      [&](const auto& geometry) {
+        if constexpr (requires { geometry.x_mm; }) {
+          reach.x_mm = geometry.x_mm;
+          reach.y_mm = geometry.y_mm;
+          reach.z_mm = geometry.z_mm;
+        }
+      },
+      machine.kinematics);
+  const double half_mm = reach.radius_mm > 0 ? kMeshShare * reach.radius_mm * std::sqrt(0.5) : 0;
+  const auto side = [&](const Interval& stated, Interval limits, std::size_t axis) {
+    if (half_mm > 0 && (!limits.limited() || limits.max - limits.min > 2 * half_mm))
+      limits = {-half_mm, half_mm};
+    if (stated.limited()) limits = stated;
+    if (limits.limited()) {
+      options.from_mm[axis] = limits.min;
+      options.to_mm[axis] = limits.max;
+    }
+  };
+  side(mesh.x_mm, reach.x_mm, 0);
+  side(mesh.y_mm, reach.y_mm, 1);
+  if (reach.z_mm.limited()) options.depth_mm = std::min(options.depth_mm, -reach.z_mm.min);
+  return options;
+}
+
+}  // namespace
+
 gcode::Options interpreter_options(const MachineDescription& machine, const Pose& start, const Pose& home) {
   gcode::Options options;
   options.start = start;
@@ -159,6 +200,7 @@ gcode::Options interpreter_options(const MachineDescription& machine, const Pose
         machine.probe.place.on_node() ? gcode::ProbeFitted::kFitted : gcode::ProbeFitted::kSimulated;
   options.probe_mm_per_s = machine.probe.speed_mm_per_s;
   options.probe_offset_mm = machine.probe.offset_mm;
+  options.mesh = mesh_options(machine);
   if (const PoseLimits* limits = pose_limits(machine.kinematics);
       limits != nullptr && limits->a_rad.limited()) {
     options.a_min_rad = limits->a_rad.min;

@@ -8,6 +8,7 @@
 #include "gateway/bodies/printed_part.hpp"
 #include "gateway/bodies/sweep.hpp"
 #include "gateway/description/machine_description.hpp"
+#include "gateway/kinematics/levelled.hpp"
 
 namespace kinebus {
 
@@ -17,7 +18,10 @@ class WayRules {
   /// the table; nullptr: nothing does.
   WayRules(const MachineDescription& machine, const Kinematics& kinematics,
            const bodies::PrintedPart* printed = nullptr)
-      : kinematics_(kinematics), model_(make_collision_model(machine)), printed_(printed) {
+      : kinematics_(kinematics),
+        levelled_(dynamic_cast<const LevelledKinematics*>(&kinematics)),
+        model_(make_collision_model(machine)),
+        printed_(printed) {
     if (!model_) return;
     sweep_.emplace(*model_, bodies::Occasion::kMotion, printed_);
     if (printed_ != nullptr) watch_.emplace(*machine.bodies);
@@ -57,6 +61,11 @@ class WayRules {
   // an end.
   static constexpr int kHalvings = 8;
 
+  /// Where bodies are: they know nothing of the bed's mesh.
+  Pose over_even_bed(Frame frame, const Pose& pose) const {
+    return levelled_ == nullptr ? pose : levelled_->over_even_bed(frame, pose);
+  }
+
   /// `pose`: at(to).
   template <typename PoseAt>
   std::optional<Sentence> collision(Frame frame, const Pose& pose, double from, double to, PoseAt&& at) {
@@ -75,7 +84,7 @@ class WayRules {
   std::optional<Sentence> collision(Frame frame, const Pose& pose, double from, double to, PoseAt&& at,
                                     int halvings) {
     using Step = bodies::Sweep::Step;
-    Step step = sweep_->to(frame, pose);
+    Step step = sweep_->to(frame, over_even_bed(frame, pose));
     if (step == Step::kCoarse && halvings > 0) {
       const double middle = 0.5 * (from + to);
       if (auto words = collision(frame, at(middle), from, middle, at, halvings - 1)) {
@@ -86,7 +95,7 @@ class WayRules {
     }
     if (step == Step::kCoarse) {
       jump();
-      step = sweep_->to(frame, pose);
+      step = sweep_->to(frame, over_even_bed(frame, pose));
     }
     if (step != Step::kNear) return std::nullopt;
     met_print_ = sweep_->met_print();
@@ -94,6 +103,7 @@ class WayRules {
   }
 
   const Kinematics& kinematics_;
+  const LevelledKinematics* levelled_;  ///< nullptr: nothing levels the bed
   bodies::Model model_;
   std::optional<bodies::Sweep> sweep_;
   const bodies::PrintedPart* printed_;

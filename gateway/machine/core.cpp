@@ -31,11 +31,11 @@ std::deque<NodeLink> make_links(const MachineDescription& machine, const std::ve
 }
 
 /// A description whose geometry no machine can have leaves the default machine's kinematics, for show only.
-std::unique_ptr<Kinematics> machine_kinematics(const MachineDescription& machine, Sentence& defect) {
+std::unique_ptr<LevelledKinematics> machine_kinematics(const MachineDescription& machine, Sentence& defect) {
   auto made = make_kinematics(machine);
-  if (made) return std::move(*made);
+  if (made) return std::make_unique<LevelledKinematics>(std::move(*made));
   defect = say("the machine file's geometry cannot work: %1", made.error().what);
-  return std::move(*make_m1_kinematics(M1Geometry{}));
+  return std::make_unique<LevelledKinematics>(std::move(*make_m1_kinematics(M1Geometry{})));
 }
 
 /// Devices that nobody stands behind are a defect of the file, as a geometry that cannot work is.
@@ -59,6 +59,7 @@ Gateway::Core::Core(const MachineDescription& machine, Options options, std::opt
       group_(*kinematics_, axes_, stream_options(machine_)),
       devices_(machine_devices(machine_, std::move(devices), defect_)),
       heat_(machine_, devices_),
+      bed_(machine_, *kinematics_, journal_, events_, options.unix_s_at_zero),
       state_(events_),
       voice_(machine_, options.epoch),
       watch_(machine_, links_, rate_, group_, events_, counters_),
@@ -78,6 +79,7 @@ Gateway::Core::Core(const MachineDescription& machine, Options options, std::opt
       lines_(machine_, *kinematics_, journal_, printed_.get()),
       recovery_(machine_, *kinematics_, journal_),
       stall_(machine_, events_) {
+  print_.runner().set_bed(&bed_);
   if (!options_.journal) return;
   journal_.enable();
   journal_.push(journal::Epoch{options_.epoch});

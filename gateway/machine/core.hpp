@@ -37,6 +37,7 @@
 #include "gateway/motors/motor_settings.hpp"
 #include "gateway/motors/parameter_watch.hpp"
 #include "gateway/motors/scale_readings.hpp"
+#include "gateway/run/bed_level.hpp"
 #include "gateway/run/heat.hpp"
 #include "gateway/status/event_queue.hpp"
 #include "gateway/stream/path_rate.hpp"
@@ -69,6 +70,7 @@ class Gateway::Core {
   void skip_heating();
   void forget_line_modes();
   const gcode::WorkOffsets& work_offsets() const { return lines_.work_offsets(); }
+  const BedLevel& bed() const { return bed_; }
 
   // core_recovery.cpp
   Result<void, Refusal> recover(journal::State state, std::unique_ptr<ByteSource> job);
@@ -84,6 +86,7 @@ class Gateway::Core {
   Result<std::string, Refusal> text_line(std::string_view line);
   std::string position_text();
   std::string settings_text() const;
+  std::string mesh_text() const;
   std::string currents_text() const;
   /// The joint that moves for this axis of the pose and for no other; none on a mechanism that couples them.
   std::optional<std::size_t> motor_of_axis(std::size_t axis) const;
@@ -136,6 +139,7 @@ class Gateway::Core {
   /// stopped because they did not hear the gateway.
   void stop_all(bool fault, bool by_absence = false);
   Done carry_out_at_rest(const canonical::Line& command);
+  Done level_at_rest(const canonical::Mesh& command, std::uint32_t line);
 
   // What each state does as time passes (core.cpp).
   void step_bring_up();
@@ -207,7 +211,7 @@ class Gateway::Core {
   MachineDescription machine_;
   Options options_;
   Sentence defect_;  ///< why the description has no kinematics: every command is refused with it
-  std::unique_ptr<Kinematics> kinematics_;
+  std::unique_ptr<LevelledKinematics> kinematics_;
   MachineCounters counters_;
 
   std::vector<NodeAxes> axes_;
@@ -218,6 +222,7 @@ class Gateway::Core {
   Heat heat_;
   EventQueue events_;
   journal::Queue journal_;
+  BedLevel bed_;
 
   CurrentState state_;
   BusVoice voice_;

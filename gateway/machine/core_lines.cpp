@@ -76,7 +76,23 @@ Done Gateway::Core::carry_out_at_rest(const canonical::Line& line) {
     return carry_out(command::SetSpindle{spindle->rpm});
   if (const auto* message = std::get_if<canonical::Message>(&line.command))
     events_.message(now_, Sentence::verbatim(message->text), line.line);
+  if (const auto* mesh = std::get_if<canonical::Mesh>(&line.command)) return level_at_rest(*mesh, line.line);
   return {};
+}
+
+/// The machine stands; a job that is interrupted goes on as it was levelled.
+Done Gateway::Core::level_at_rest(const canonical::Mesh& command, std::uint32_t line) {
+  Done done;
+  if (command.what == canonical::Mesh::What::kEnd || command.what == canonical::Mesh::What::kBegin)
+    done = refused(say("the bed is measured when the machine is ready: bring up and home it first"));
+  else if (BedLevel::moves_poses(command) && (runner_->active() || interrupted()))
+    done = refused(say("a job is under way: the bed mesh stays as it is"));
+  else if (auto changed = bed_.carry_out(now_, command, {}, line); !changed)
+    done = refused(changed.error());
+  std::optional<PlannedPose> stand;
+  if (const auto pose = machine_pose()) stand = PlannedPose{*pose, Frame::kMachine, line};
+  lines_.levelled(stand);
+  return done;
 }
 
 std::size_t Gateway::Core::line_room() {

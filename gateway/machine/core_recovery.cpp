@@ -25,6 +25,7 @@ Done Gateway::Core::recover(journal::State state, std::unique_ptr<ByteSource> jo
   if (!state_.is(MachineState::kOff) || print_.runner().active())
     return refused(say("too late: the machine is in use already"));
   lines_.restart(state.offsets_of(identity(machine_)));
+  bed_.take_up(now_, state);
   if (!state.job) return {};
   if (!job) return refused(say("the interrupted job %1 is not there any more", state.job->name));
   print_.rename(state.job->name);
@@ -39,6 +40,9 @@ Done Gateway::Core::recover(journal::State state, std::unique_ptr<ByteSource> jo
 void Gateway::Core::begin_job(const Pose& start) {
   runner_ = &print_.runner();
   journal_.push(print_.record(start));
+  if (const MeshGrid* const mesh = bed_.in_force())
+    journal_.push(journal::Learned{
+        .what = journal::Learned::What::kBeginning, .at = start, .stand = start, .mesh = *mesh});
   heat_.begin_job();
   recovery_.job_begins();
   print_.start(start);
@@ -152,6 +156,7 @@ void Gateway::Core::step_recovery() {
       case Runner::Outcome::kFailed:
         events_.alarm(now_, AlarmCode::kJobError, job.failure().words, 0, job.failure().line);
         give_up_job();
+        bed_.put_back();
         return stop_all(false);
       default:
         break;

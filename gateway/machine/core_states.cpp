@@ -113,8 +113,13 @@ void Gateway::Core::step_running() {
     return;
   }
   if (state_.is(MachineState::kMoving) && hand_.let_go(now_)) return end_jog();
-  if (const auto probed = runner_->take_probed()) lines_.probed(*probed);
-  switch (runner_->on_time(now_, options_.planning_budget)) {
+  const Runner::Outcome outcome = runner_->on_time(now_, options_.planning_budget);
+  for (const Runner::Answer& answer : runner_->take_answers())
+    if (answer.probed)
+      lines_.probed(*answer.probed);
+    else
+      lines_.levelled(answer.stand);
+  switch (outcome) {
     case Runner::Outcome::kBusy:
       return;
     case Runner::Outcome::kProbed:

@@ -63,6 +63,9 @@ void Gateway::skip_heating() {
 const gcode::WorkOffsets& Gateway::work_offsets() const {
   return core_->work_offsets();
 }
+const BedLevel& Gateway::bed() const {
+  return core_->bed();
+}
 void Gateway::forget_line_modes() {
   core_->forget_line_modes();
 }

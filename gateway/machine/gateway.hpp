@@ -37,12 +37,14 @@
 namespace kinebus {
 
 struct MachineDescription;  // gateway/description
+class BedLevel;             // gateway/run
 
 class Gateway {
  public:
   struct Options {
     std::uint8_t epoch = 1;     ///< of the time stamps: another value after every start of the gateway
     int planning_budget = 400;  ///< G-code lines interpreted in one on_time() call, at most
+    double unix_s_at_zero = 0;  ///< wall time at time 0 of the bus clock, for what is kept with its date
     bool journal = false;       ///< somebody stores next_journal_record(); a run waits (briefly) for it
   };
 
@@ -94,6 +96,8 @@ class Gateway {
   void forget_line_modes();  ///< G-code modes and limits of lines are as after switching on
   /// Of G54 .. G59.3: lines set them, jobs begin with them, the journal keeps them.
   const gcode::WorkOffsets& work_offsets() const;
+  /// The bed's meshes.
+  const BedLevel& bed() const;
   static constexpr std::size_t kLineRoom = 32;
   /// One line of a text session (M105, M114, M115, M119, G28, M112, M24, M25 ...): the reply, without "ok".
   Result<std::string, Refusal> text_line(std::string_view line);

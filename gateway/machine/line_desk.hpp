@@ -12,6 +12,7 @@
 #include "gateway/jobs/journal/journal_queue.hpp"
 #include "gateway/jobs/live_lines.hpp"
 #include "gateway/result.hpp"
+#include "gateway/run/planned_pose.hpp"
 #include "gateway/status/refusal.hpp"
 #include "protocol/time.hpp"
 
@@ -38,6 +39,10 @@ class LineDesk {
                                                          std::uint32_t number);
   bool probes() const { return lines_.probes(); }
   void probed(const gcode::ProbeResult& result) { lines_.probed(result); }
+  void levelled(const std::optional<PlannedPose>& stand) {
+    lines_.levelled(stand ? std::optional(stand->pose) : std::nullopt,
+                    stand ? stand->frame : Frame::kMachine);
+  }
   std::vector<Sentence> take_notes() { return lines_.take_notes(); }
   void forget_modes() { lines_.forget(); }
 

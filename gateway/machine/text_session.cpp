@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 
 #include "gateway/machine/core.hpp"
 #include "gateway/status/temperature_text.hpp"
@@ -132,6 +133,37 @@ std::string Gateway::Core::settings_text() const {
   return text;
 }
 
+/// The heights as hosts read them: rows from Y's least, columns from X's least; then what is kept.
+std::string Gateway::Core::mesh_text() const {
+  const MeshGrid* const mesh = bed_.in_force();
+  std::string text = "echo:Bed Leveling ";
+  text += mesh != nullptr ? "ON" : "OFF";
+  if (mesh != nullptr) {
+    text += print("\necho:Fade Height %.2f\n", mesh->fade_mm) + "Mesh " + bed_.name();
+    text += print(": X %.3f to %.3f, Y %.3f to %.3f, %.3f to %.3f mm\nBilinear Leveling Grid:\n ",
+                  mesh->from_mm[0], mesh->to_mm[0], mesh->from_mm[1], mesh->to_mm[1], mesh->lowest_mm(),
+                  mesh->highest_mm());
+    for (int column = 0; column < mesh->points[0]; ++column) text += print("%9d", column);
+    for (int row = 0; row < mesh->points[1]; ++row) {
+      text += print("\n%2d", row);
+      for (int column = 0; column < mesh->points[0]; ++column)
+        text += print(
+            " %+8.3f",
+            static_cast<double>(mesh->height_mm[static_cast<std::size_t>(row * mesh->points[0] + column)]));
+    }
+  }
+  for (const journal::Mesh& kept : bed_.kept()) {
+    const auto when = static_cast<std::time_t>(kept.unix_s);
+    std::tm utc{};
+    std::array<char, 32> date{};
+    if (kept.unix_s > 0 && gmtime_r(&when, &utc) != nullptr)
+      std::strftime(date.data(), date.size(), ", %Y-%m-%d %H:%M UTC", &utc);
+    text += "\nkept: " + kept.name + print(", %d x %d points", kept.grid.points[0], kept.grid.points[1]) +
+            date.data() + (bed_.fits(kept) ? "" : ", of another geometry: not used");
+  }
+  return text;
+}
+
 Result<std::string, Refusal> Gateway::Core::text_line(std::string_view line) {
   const Words words(line);
   const auto index = [&](char letter) {
@@ -191,6 +223,10 @@ Result<std::string, Refusal> Gateway::Core::text_line(std::string_view line) {
         return reply(carry_out(command::SetFeedOverride{*words.word('S') / 100}));
       case 221:
         return print("echo:E0 Flow: %.0f%%", 100 * lines_.flow_ratio());
+      case 420:
+        // With S or Z it is a line like others.
+        if (words.word('S') || words.word('Z')) break;
+        return mesh_text();
       case 503:
         return settings_text();
       case 524:

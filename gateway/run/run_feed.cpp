@@ -248,6 +248,12 @@ void RunFeed::replay(const Phase& phase) {
     end_replay();
 }
 
+void RunFeed::skip_to(std::uint64_t phases) {
+  keep_from({added(), 0});
+  passed_.reset();
+  first_ = std::max(first_, phases);
+}
+
 void RunFeed::end_replay() {
   keep_from({added(), 0});
   replaying_ = streaming_ = released_ = false;

@@ -78,6 +78,8 @@ class RunFeed {
   /// The same, up to the place that `target` is in this run.
   void replay_to(const Run& run, PathTime target);
   bool replaying() const { return replaying_; }
+  /// The job goes on with this one of its phases: those before it were not all given out.
+  void skip_to(std::uint64_t phases);
   /// The job has no more phases: its end is the place.
   void end_replay();
 

@@ -59,7 +59,7 @@ void Runner::begin() {
   held_ = still_ = suspended_ = started_ = finished_ = stop_asked_ = barrier_waits_ = live_ = false;
   probing_ = probe_cut_ = false;
   probe_wrong_.reset();
-  probed_.reset();
+  answers_.clear();
   check_.reset();
   wait_ = Wait::kNone;
   waits_done_ = waits_replayed_ = 0;

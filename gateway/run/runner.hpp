@@ -15,6 +15,7 @@
 #include "gateway/jobs/job_pipeline.hpp"
 #include "gateway/jobs/journal/journal_queue.hpp"
 #include "gateway/jobs/journal/journal_state.hpp"
+#include "gateway/run/bed_level.hpp"
 #include "gateway/run/heat.hpp"
 #include "gateway/run/planned_pose.hpp"
 #include "gateway/run/run_feed.hpp"
@@ -69,12 +70,19 @@ class Runner {
   // Probing: a move that ends where the probe touches. on_time() says kProbed when path time rests behind
   // that: what the nodes hold is to be dropped, and probed() to be told where they stand.
   bool probing() const { return probing_; }
+  /// Where levelling commands go; none: they are refused.
+  void set_bed(BedLevel* bed) { bed_ = bed; }
   /// As soon as the probe may have told something.
   void look_at_probe(BusTime now);
   /// `stand`: Frame::kMachine.
   Outcome probed(const Pose& stand);
-  /// Of a live probe, once: how it has ended.
-  std::optional<gcode::ProbeResult> take_probed() { return std::exchange(probed_, std::nullopt); }
+  /// What live lines have to know before the next one is read, for each of their probes and levelling
+  /// commands, once: how the probe has ended, or where the tool stands by another name.
+  struct Answer {
+    std::optional<gcode::ProbeResult> probed{};
+    std::optional<PlannedPose> stand{};
+  };
+  std::vector<Answer> take_answers() { return std::exchange(answers_, {}); }
 
   // Interruption: the stream is lost, the job is not.
   /// What the job has left from path time `tau` on is kept; nothing happens until go_on().
@@ -166,6 +174,12 @@ class Runner {
   bool probe_has_answered();
   std::chrono::milliseconds probe_ramp(BusTime now) const;
   void end_probe(const gcode::ProbeResult& result);
+  // runner_levelling.cpp
+  Outcome level(BusTime now, const canonical::Mesh& mesh, std::uint32_t line);
+  void learn(journal::Learned learned);
+  bool stand_at(Frame frame, const Pose& pose);
+  void check_what_follows();
+  bool replay_learned(journal::Learned::What what);
   Outcome probe_outcome(BusTime now);
   std::optional<Failure> wrong_after_probe(JobPipeline::Step step);
   /// nullptr: nothing is to be waited for.
@@ -203,7 +217,10 @@ class Runner {
   bool probe_cut_ = false;              ///< the probe has told: its move ends here
   std::optional<PlannedPose> touched_;  ///< where the tool was
   std::optional<Sentence> probe_wrong_;
-  std::optional<gcode::ProbeResult> probed_;
+  std::vector<Answer> answers_;
+  std::vector<journal::Learned> learned_;  ///< of the job that is read again
+  std::size_t next_learned_ = 0;
+  BedLevel* bed_ = nullptr;
   std::unique_ptr<JobCheck> check_;  ///< of what depends on what a probe has measured; nullptr: nothing does
   Sentence doing_;
   Failure failure_;

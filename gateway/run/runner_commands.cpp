@@ -102,6 +102,8 @@ Runner::Outcome Runner::barrier(BusTime now) {
     }
   } else if (std::holds_alternative<canonical::Probe>(line.command)) {
     begin_probe();
+  } else if (const auto* mesh = std::get_if<canonical::Mesh>(&line.command)) {
+    return level(now, canonical::Mesh(*mesh), line.line);
   } else if (std::holds_alternative<canonical::Pause>(line.command)) {
     wait_ = Wait::kPause;
     doing_ = say("paused by the job");

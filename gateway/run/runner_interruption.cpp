@@ -5,6 +5,17 @@
 #include "gateway/run/runner.hpp"
 
 namespace kinebus {
+namespace {
+
+/// What a command behind which a job's text depends on what is found leaves in the journal.
+std::optional<journal::Learned::What> learns(const canonical::Command& command) {
+  if (std::holds_alternative<canonical::Probe>(command)) return journal::Learned::What::kProbed;
+  const auto* mesh = std::get_if<canonical::Mesh>(&command);
+  if (mesh == nullptr || !BedLevel::moves_poses(*mesh)) return std::nullopt;
+  return journal::Learned::What::kMesh;
+}
+
+}  // namespace
 
 void Runner::suspend(PathTime tau) {
   if (!active_ || suspended_) return;
@@ -39,6 +50,11 @@ void Runner::shift_extruder(double by_mm) {
 void Runner::start_replay(std::unique_ptr<ByteSource> source, const journal::State& state, PathTime tau) {
   start_job(std::move(source), state.job->start, state.job->offsets);
   pipeline_.replay_feed_scales(state.scales);
+  learned_ = state.learned;
+  next_learned_ = 0;
+  const bool had_mesh = !learned_.empty() && learned_.front().what == journal::Learned::What::kBeginning;
+  if (bed_ != nullptr) bed_->put(had_mesh ? learned_.front().mesh : MeshGrid{});
+  if (had_mesh) ++next_learned_;
   waits_replayed_ = state.waits_done;
   doing_ = say("reading the job up to where it was");
   if (state.run) {
@@ -62,11 +78,13 @@ Runner::Outcome Runner::replay(int budget) {
         break;
       case Step::kBarrier:
         last_line_ = pipeline_.command().line;
-        if (std::holds_alternative<canonical::Probe>(pipeline_.command().command))
-          return fail(last_line_,
-                      say("the job probes, and what it has measured is not known any more: it cannot go on "
-                          "after a restart of the gateway"),
-                      false);
+        if (const auto what = learns(pipeline_.command().command)) {
+          if (replay_learned(*what)) break;
+          // The place is before it: it is done, or done again.
+          barrier_waits_ = true;
+          feed_.end_replay();
+          break;
+        }
         if (!waits(pipeline_.command())) break;
         if (waits_done_ < waits_replayed_) {
           ++waits_done_;

@@ -122,13 +122,14 @@ void Runner::end_probe(const gcode::ProbeResult& result) {
   probing_ = probe_cut_ = false;
   started_ = finished_ = false;
   doing_ = say("moving");
+  learn({.what = journal::Learned::What::kProbed,
+         .contact = result.contact,
+         .frame = result.frame,
+         .at = result.at,
+         .stand = result.stand});
   pipeline_.probed(result);
-  // A live line's is checked before it is taken.
-  if (live_)
-    probed_ = result;
-  else if (!check_)
-    check_ = std::make_unique<JobCheck>(machine_, kinematics_,
-                                        JobCheck::Options{.hotend_celsius = heat_.hotend_target()});
+  if (live_) answers_.push_back({.probed = result});
+  check_what_follows();
 }
 
 /// What the pre-flight could not know: the phase or command that the pipeline has given out.

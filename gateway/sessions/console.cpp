@@ -36,19 +36,27 @@ bool contains(const std::array<int, n>& codes, int code) {
   return std::find(codes.begin(), codes.end(), code) != codes.end();
 }
 
+/// Changes nothing. M420 without S and Z tells the bed's mesh.
+bool asks(const Code& code, std::string_view line) {
+  if (code.letter != 'M') return false;
+  return contains(kQueries, code.number) ||
+         (code.number == 420 &&
+          line.substr(0, line.find(';')).find_first_of("SsZz") == std::string_view::npos);
+}
+
 }  // namespace
 
 bool needs_control(std::string_view line) {
   const Code code = code_of(line);
-  return code.letter != 0 && !(code.letter == 'M' && contains(kQueries, code.number));
+  return code.letter != 0 && !asks(code, line);
 }
 
 Result<std::string, Refusal> console_line(Gateway& gateway, std::string_view line) {
   const Code code = code_of(line);
   if (code.letter == 0) return std::string();
   const bool home = code.letter == 'G' && code.number == 28;
-  const bool session = code.letter == 'M' && (contains(kQueries, code.number) ||
-                                              (contains(kSessionCommands, code.number) && code.number != 28));
+  const bool session = asks(code, line) ||
+                       (code.letter == 'M' && contains(kSessionCommands, code.number) && code.number != 28);
   if (home || session) return gateway.text_line(line);
   if (const auto done = run_line(gateway, line); !done) return Error<Refusal>(done.error());
   return std::string("ok");

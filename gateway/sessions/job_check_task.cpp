@@ -12,12 +12,13 @@ constexpr int kLinesPerSlice = 2000;
 }  // namespace
 
 JobCheckTask::JobCheckTask(JobStore& store, const MachineDescription& machine, std::string machine_mark,
-                           std::string name, const gcode::WorkOffsets& offsets)
+                           std::string name, const gcode::WorkOffsets& offsets, const MeshGrid* mesh)
     : store_(store),
       machine_(machine),
       machine_mark_(std::move(machine_mark)),
       name_(std::move(name)),
-      offsets_(offsets) {}
+      offsets_(offsets),
+      mesh_(mesh != nullptr ? std::optional(*mesh) : std::nullopt) {}
 
 void JobCheckTask::run(Worker& worker, std::function<void(double)> progress,
                        std::function<void(const Found&)> done) {
@@ -53,7 +54,8 @@ void JobCheckTask::slice() {
     }
     hash_ = job->hash;
     source_ = std::move(*source);
-    kinematics_ = std::move(*kinematics);
+    kinematics_ = std::make_unique<LevelledKinematics>(std::move(*kinematics));
+    if (mesh_) kinematics_->set_mesh(std::make_shared<const BedMesh>(*mesh_));
     preflight_ = std::make_unique<Preflight>(machine_, *kinematics_, *source_, kinematics_->bed_reference(),
                                              JobCheck::Options(), offsets_);
   }
@@ -66,7 +68,7 @@ void JobCheckTask::slice() {
   joblink::PreflightResult result = to_message(report, problems);
   result.set_name(name_);
   result.set_hash(hash_);
-  if (offsets_ == gcode::WorkOffsets{})
+  if (offsets_ == gcode::WorkOffsets{} && !mesh_)
     static_cast<void>(store_.save_preflight(hash_, machine_mark_,
                                             {.errors = result.summary().errors(),
                                              .warnings = result.summary().warnings(),

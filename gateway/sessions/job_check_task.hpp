@@ -7,6 +7,7 @@
 
 #include "gateway/jobs/preflight.hpp"
 #include "gateway/jobs/store/job_store.hpp"
+#include "gateway/kinematics/levelled.hpp"
 #include "gateway/sessions/worker.hpp"
 #include "protocol/joblink/kinebus.pb.h"
 
@@ -15,9 +16,10 @@ namespace kinebus {
 class JobCheckTask : public std::enable_shared_from_this<JobCheckTask> {
  public:
   using Found = Result<joblink::PreflightResult, StoreError>;
-  /// `offsets`: the machine's as they are now. Only what was found with all of them 0 is kept in the store.
+  /// `offsets`, `mesh`: the machine's as they are now (nullptr: none). Only what was found with all offsets 0
+  /// and without a mesh is kept in the store.
   JobCheckTask(JobStore& store, const MachineDescription& machine, std::string machine_mark, std::string name,
-               const gcode::WorkOffsets& offsets);
+               const gcode::WorkOffsets& offsets, const MeshGrid* mesh);
   /// `progress` (0..1, some times a second of work) and `done` are called within the loop.
   void run(Worker& worker, std::function<void(double)> progress, std::function<void(const Found&)> done);
 
@@ -29,11 +31,12 @@ class JobCheckTask : public std::enable_shared_from_this<JobCheckTask> {
   const MachineDescription& machine_;
   std::string machine_mark_, name_, hash_;
   gcode::WorkOffsets offsets_;
+  std::optional<MeshGrid> mesh_;
   std::function<void(double)> progress_;
   std::function<void(const Found&)> done_;
 
   // The worker's, between post and done.
-  std::unique_ptr<Kinematics> kinematics_;
+  std::unique_ptr<LevelledKinematics> kinematics_;
   std::unique_ptr<ByteSource> source_;
   std::unique_ptr<Preflight> preflight_;
   std::optional<Found> found_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "gateway/run/bed_level.hpp"
 #include "gateway/sessions/job_check_task.hpp"
 #include "gateway/sessions/messages.hpp"
 #include "protocol/joblink/frame_codec.hpp"
@@ -229,8 +230,9 @@ void JobRequests::check(const Asker& asker, const std::string& name) {
   if (server_.checks_.size() >= kMaxChecks)
     return server_.refuse(
         asker, problem(joblink::ERROR_BUSY, name, say("too many jobs are being checked: ask again later")));
-  auto task = std::make_shared<JobCheckTask>(server_.store_, server_.machine_, server_.options_.machine_mark,
-                                             name, server_.gateway_.work_offsets());
+  auto task =
+      std::make_shared<JobCheckTask>(server_.store_, server_.machine_, server_.options_.machine_mark, name,
+                                     server_.gateway_.work_offsets(), server_.gateway_.bed().in_force());
   server_.checks_.push_back(task);
   task->run(
       server_.worker_,

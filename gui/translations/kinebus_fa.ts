@@ -3740,6 +3740,98 @@
         <source>the probe has touched at a time that is not one of its move</source>
         <translation>پروب در زمانی تماس گرفت که از آنِ حرکتش نیست</translation>
     </message>
+    <message>
+        <source>%1 has no effect: the machine file has no [probe]</source>
+        <translation>%1 اثری ندارد: پروندهٔ ماشین [probe] ندارد</translation>
+    </message>
+    <message>
+        <source>%1 has no effect: a probe with where = &quot;simulated&quot; cannot touch</source>
+        <translation>%1 اثری ندارد: پروب با where = &quot;simulated&quot; نمی‌تواند تماس بگیرد</translation>
+    </message>
+    <message>
+        <source>a mesh&apos;s name has %1 letters at most</source>
+        <translation>نام مش حداکثر %1 حرف دارد</translation>
+    </message>
+    <message>
+        <source>%1 needs A and C at 0</source>
+        <translation>%1 می‌خواهد A و C روی 0 باشند</translation>
+    </message>
+    <message>
+        <source>the area to be probed lies outside of [mesh] of the machine file: %1 is %2 to %3 mm</source>
+        <translation>ناحیهٔ پروب بیرون از [mesh] پروندهٔ ماشین است: %1 از %2 تا %3 mm است</translation>
+    </message>
+    <message>
+        <source>a mesh has 2 to %1 points along an axis</source>
+        <translation>مش در راستای هر محور 2 تا %1 نقطه دارد</translation>
+    </message>
+    <message>
+        <source>%1 of this form has no effect: G29 alone, or P1, probes the whole bed</source>
+        <translation>%1 به این شکل اثری ندارد: G29 تنها، یا P1، همهٔ بستر را می‌سنجد</translation>
+    </message>
+    <message>
+        <source>M421 needs the point I J, counted from 0, and its height Z, or Q to add to it</source>
+        <translation>M421 نقطهٔ I J را که از 0 شمرده می‌شود و ارتفاع Z، یا Q برای افزودن، می‌خواهد</translation>
+    </message>
+    <message>
+        <source>the height over which a mesh fades cannot be negative</source>
+        <translation>ارتفاعی که مش در آن محو می‌شود نمی‌تواند منفی باشد</translation>
+    </message>
+    <message>
+        <source>a bed mesh is put in force here: what follows is checked with the one in force now, and again just before it moves</source>
+        <translation>اینجا یک مش بستر به کار می‌افتد: آنچه می‌آید با مش کنونی بررسی می‌شود و درست پیش از حرکت دوباره</translation>
+    </message>
+    <message>
+        <source>the bed is measured when the machine is ready: bring up and home it first</source>
+        <translation>بستر وقتی سنجیده می‌شود که ماشین آماده است: نخست آن را راه‌اندازی و خانه‌یابی کنید</translation>
+    </message>
+    <message>
+        <source>a job is under way: the bed mesh stays as it is</source>
+        <translation>کاری در جریان است: مش بستر همان که هست می‌ماند</translation>
+    </message>
+    <message>
+        <source>the bed mesh %1 was measured with another geometry of the machine: it is not used, measure the bed again</source>
+        <translation>مش بستر %1 با هندسهٔ دیگری از ماشین سنجیده شده است: به کار نمی‌رود، بستر را دوباره بسنجید</translation>
+    </message>
+    <message>
+        <source>the bed is %1 to %2 mm from the table of the machine file; mesh.limit_mm allows %3 mm: level it, or correct the machine file</source>
+        <translation>بستر %1 تا %2 mm از میزِ پروندهٔ ماشین فاصله دارد؛ mesh.limit_mm تا %3 mm اجازه می‌دهد: بستر را تراز کنید یا پروندهٔ ماشین را درست کنید</translation>
+    </message>
+    <message>
+        <source>a mesh of up to %1 mm has to fade over at least %2 mm: found %3</source>
+        <translation>مشی تا %1 mm باید دست‌کم در %2 mm محو شود: یافته %3</translation>
+    </message>
+    <message>
+        <source>there is no mesh %1</source>
+        <translation>مش %1 وجود ندارد</translation>
+    </message>
+    <message>
+        <source>Bed X: %1 Y: %2 Z: %3</source>
+        <translation>بستر X: %1 Y: %2 Z: %3</translation>
+    </message>
+    <message>
+        <source>no bed mesh is in force</source>
+        <translation>هیچ مش بستری در کار نیست</translation>
+    </message>
+    <message>
+        <source>the mesh in force has %1 x %2 points</source>
+        <translation>مشی که در کار است %1 در %2 نقطه دارد</translation>
+    </message>
+    <message>
+        <source>no bed mesh is kept: the bed is taken as even</source>
+        <translation>هیچ مش بستری نگه داشته نشده است: بستر هموار گرفته می‌شود</translation>
+    </message>
+    <message>
+        <source>the bed was not measured as a whole</source>
+        <translation>همهٔ بستر سنجیده نشد</translation>
+    </message>
+    <message>
+        <source>bed mesh %1: %2 x %3 points, %4 to %5 mm</source>
+        <translation>مش بستر %1: %2 در %3 نقطه، %4 تا %5 mm</translation>
+    </message>
+    <message>
+        <source>the tool&apos;s place cannot be named</source>
+        <translation>جای ابزار را نمی‌توان نامید</translation>
+    </message>
 </context>
 <context>
     <name>GatewayWords</name>

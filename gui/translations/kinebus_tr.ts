@@ -3740,6 +3740,98 @@
         <source>the probe has touched at a time that is not one of its move</source>
         <translation>prob, hareketine ait olmayan bir anda dokundu</translation>
     </message>
+    <message>
+        <source>%1 has no effect: the machine file has no [probe]</source>
+        <translation>%1 etkisiz: makine dosyasında [probe] yok</translation>
+    </message>
+    <message>
+        <source>%1 has no effect: a probe with where = &quot;simulated&quot; cannot touch</source>
+        <translation>%1 etkisiz: where = &quot;simulated&quot; olan prob dokunamaz</translation>
+    </message>
+    <message>
+        <source>a mesh&apos;s name has %1 letters at most</source>
+        <translation>bir tabla ağının adı en çok %1 harftir</translation>
+    </message>
+    <message>
+        <source>%1 needs A and C at 0</source>
+        <translation>%1 için A ve C 0 olmalı</translation>
+    </message>
+    <message>
+        <source>the area to be probed lies outside of [mesh] of the machine file: %1 is %2 to %3 mm</source>
+        <translation>ölçülecek alan makine dosyasındaki [mesh] dışında: %1, %2 ile %3 mm arası</translation>
+    </message>
+    <message>
+        <source>a mesh has 2 to %1 points along an axis</source>
+        <translation>bir tabla ağının bir eksen boyunca 2 ile %1 arası noktası olur</translation>
+    </message>
+    <message>
+        <source>%1 of this form has no effect: G29 alone, or P1, probes the whole bed</source>
+        <translation>%1 bu biçimde etkisiz: yalnız G29 ya da P1 bütün tablayı ölçer</translation>
+    </message>
+    <message>
+        <source>M421 needs the point I J, counted from 0, and its height Z, or Q to add to it</source>
+        <translation>M421, 0&apos;dan sayılan I J noktasını ve yüksekliği Z&apos;yi ya da eklenecek Q&apos;yu ister</translation>
+    </message>
+    <message>
+        <source>the height over which a mesh fades cannot be negative</source>
+        <translation>bir tabla ağının söndüğü yükseklik eksi olamaz</translation>
+    </message>
+    <message>
+        <source>a bed mesh is put in force here: what follows is checked with the one in force now, and again just before it moves</source>
+        <translation>burada bir tabla ağı yürürlüğe girer: sonrası şimdi yürürlükte olanla kontrol edilir, hareketten hemen önce de yeniden</translation>
+    </message>
+    <message>
+        <source>the bed is measured when the machine is ready: bring up and home it first</source>
+        <translation>tabla, makine hazırken ölçülür: önce makineyi devreye alın ve referansa götürün</translation>
+    </message>
+    <message>
+        <source>a job is under way: the bed mesh stays as it is</source>
+        <translation>bir iş sürüyor: tabla ağı olduğu gibi kalır</translation>
+    </message>
+    <message>
+        <source>the bed mesh %1 was measured with another geometry of the machine: it is not used, measure the bed again</source>
+        <translation>%1 tabla ağı makinenin başka bir geometrisiyle ölçülmüş: kullanılmıyor, tablayı yeniden ölçün</translation>
+    </message>
+    <message>
+        <source>the bed is %1 to %2 mm from the table of the machine file; mesh.limit_mm allows %3 mm: level it, or correct the machine file</source>
+        <translation>tabla, makine dosyasındaki tabladan %1 ile %2 mm arası sapıyor; mesh.limit_mm %3 mm&apos;ye izin verir: tablayı tesviye edin ya da makine dosyasını düzeltin</translation>
+    </message>
+    <message>
+        <source>a mesh of up to %1 mm has to fade over at least %2 mm: found %3</source>
+        <translation>%1 mm&apos;ye varan bir tabla ağı en az %2 mm boyunca sönmeli: bulunan %3</translation>
+    </message>
+    <message>
+        <source>there is no mesh %1</source>
+        <translation>%1 adlı tabla ağı yok</translation>
+    </message>
+    <message>
+        <source>Bed X: %1 Y: %2 Z: %3</source>
+        <translation>Tabla X: %1 Y: %2 Z: %3</translation>
+    </message>
+    <message>
+        <source>no bed mesh is in force</source>
+        <translation>yürürlükte tabla ağı yok</translation>
+    </message>
+    <message>
+        <source>the mesh in force has %1 x %2 points</source>
+        <translation>yürürlükteki tabla ağının %1 x %2 noktası var</translation>
+    </message>
+    <message>
+        <source>no bed mesh is kept: the bed is taken as even</source>
+        <translation>saklanmış tabla ağı yok: tabla düz sayılıyor</translation>
+    </message>
+    <message>
+        <source>the bed was not measured as a whole</source>
+        <translation>tablanın tamamı ölçülmedi</translation>
+    </message>
+    <message>
+        <source>bed mesh %1: %2 x %3 points, %4 to %5 mm</source>
+        <translation>tabla ağı %1: %2 x %3 nokta, %4 ile %5 mm arası</translation>
+    </message>
+    <message>
+        <source>the tool&apos;s place cannot be named</source>
+        <translation>takımın yeri adlandırılamıyor</translation>
+    </message>
 </context>
 <context>
     <name>GatewayWords</name>

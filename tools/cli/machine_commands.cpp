@@ -271,6 +271,33 @@ void add_values(CLI::App& app, const Options& options, int& exit_code) {
     client.ask(std::move(request));
   });
 
+  auto* mesh = app.add_subcommand("mesh", "The bed's mesh: what is in force and kept, with its heights");
+  const auto levels = [=, &exit_code](CLI::App* command, auto line, bool wait) {
+    command->callback([=, &exit_code] {
+      Client client(options->reach, kStatusHz, true);
+      take_control(client, *options);
+      exit_code = console_line(client, line(), wait);
+    });
+  };
+  auto mesh_name = std::make_shared<std::string>("default");
+  levels(
+      mesh->add_subcommand("show", "Heights and meshes kept"), [] { return "M420 V"; }, false);
+  levels(
+      mesh->add_subcommand("measure", "Probe the grid of [mesh] of the machine file: as G29"),
+      [] { return "G29"; }, true);
+  levels(
+      mesh->add_subcommand("off", "No mesh is in force: as M420 S0"), [] { return "M420 S0"; }, false);
+  const auto named = [=](const char* name, const char* what, const char* word) {
+    auto* command = mesh->add_subcommand(name, what);
+    command->add_option("name", *mesh_name, "Of the mesh");
+    levels(
+        command, [=] { return fmt::format("BED_MESH_PROFILE {}=\"{}\"", word, *mesh_name); }, false);
+  };
+  named("use", "The mesh of this name is in force", "LOAD");
+  named("keep", "Keep the mesh in force under this name, too", "SAVE");
+  named("forget", "Forget the mesh of this name", "REMOVE");
+  mesh->require_subcommand(1);
+
   auto* console = app.add_subcommand("console",
                                      "Send one G-code or M-code line and print the answer; without a "
                                      "line: a session with history, or lines from a pipe");

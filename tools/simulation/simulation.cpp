@@ -47,7 +47,9 @@ bool Simulation::start_gateway(std::unique_ptr<ByteSource> job) {
   asked_ = BusTime::max();
   journal_records_ = 0;
   gateway().on_time(now_);
-  return !job || static_cast<bool>(gateway().recover(journal_, std::move(job)));
+  // Without its job's text what is the machine's own is taken up alone.
+  if (!job && (journal_.job || !options_.journal)) return true;
+  return static_cast<bool>(gateway().recover(journal_, std::move(job)));
 }
 
 std::optional<PlannedPose> Simulation::planned_pose(PathTime tau) const {

@@ -212,7 +212,7 @@ TEST(Interpreter, KnownButUselessCodesAreNotedOnce) {
   session.must("M73 P1\nM73 P2\nG29\nM302 P1\nG29 P1");
   ASSERT_EQ(session.interpreter.notes().size(), 3U);
   EXPECT_EQ(session.interpreter.notes()[0].line, 1U);
-  EXPECT_EQ(session.interpreter.notes()[1].text, "G29 has no effect on this machine");
+  EXPECT_EQ(session.interpreter.notes()[1].text, "G29 has no effect: the machine file has no [probe]");
   session.interpreter.clear_notes();
   session.must("M73 P3");
   EXPECT_TRUE(session.interpreter.notes().empty());

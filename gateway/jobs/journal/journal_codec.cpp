@@ -103,6 +103,40 @@ void fields(Io& io, JobTime& r) {
   io.f64(r.motion_s);
 }
 
+template <class Io>
+void fields(Io& io, MeshGrid& r) {
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    io.count(r.points[axis]);
+    io.f64(r.from_mm[axis]);
+    io.f64(r.to_mm[axis]);
+  }
+  io.f64(r.fade_mm);
+  io.heights(r.height_mm);
+}
+template <class Io>
+void fields(Io& io, Learned& r) {
+  io.choice(r.what, Learned::What::kBeginning);
+  io.u64(r.phases);
+  io.flag(r.contact);
+  io.choice(r.frame, Frame::kMachine);
+  for (double& value : r.at) io.f64(value);
+  for (double& value : r.stand) io.f64(value);
+  fields(io, r.mesh);
+}
+template <class Io>
+void fields(Io& io, Mesh& r) {
+  io.text(r.machine);
+  io.u64(r.geometry);
+  io.text(r.name);
+  io.f64(r.unix_s);
+  fields(io, r.grid);
+}
+template <class Io>
+void fields(Io& io, MeshInForce& r) {
+  io.text(r.machine);
+  io.text(r.name);
+}
+
 struct Writer {
   std::vector<std::uint8_t>& out;
   void bits(std::uint64_t value, int bytes) {
@@ -113,6 +147,16 @@ struct Writer {
   void u64(std::uint64_t value) { bits(value, 8); }
   void f64(double value) { bits(std::bit_cast<std::uint64_t>(value), 8); }
   void time(PathTime value) { bits(static_cast<std::uint64_t>(value.count()), 8); }
+  void count(int value) { u8(static_cast<std::uint8_t>(value)); }
+  void flag(bool value) { u8(value ? 1 : 0); }
+  template <class E>
+  void choice(E value, E /*last*/) {
+    u8(static_cast<std::uint8_t>(value));
+  }
+  void heights(const std::vector<float>& values) {
+    bits(values.size(), 2);
+    for (const float value : values) bits(std::bit_cast<std::uint32_t>(value), 4);
+  }
   /// Those that are not 0, each with its number.
   void stated(std::span<const double> values) {
     const auto is_stated = [](double value) { return value != 0; };
@@ -151,6 +195,25 @@ struct Reader {
     good = good && std::isfinite(value);
   }
   void time(PathTime& value) { value = PathTime{static_cast<std::int64_t>(bits(8))}; }
+  void count(int& value) { value = static_cast<int>(bits(1)); }
+  void flag(bool& value) { value = bits(1) != 0; }
+  template <class E>
+  void choice(E& value, E last) {
+    const std::uint64_t read = bits(1);
+    good = good && read <= static_cast<std::uint64_t>(last);
+    if (good) value = static_cast<E>(read);
+  }
+  void heights(std::vector<float>& values) {
+    constexpr std::size_t kMost = std::size_t{MeshGrid::kMostPoints} * MeshGrid::kMostPoints;
+    const auto size = static_cast<std::size_t>(bits(2));
+    good = good && size <= kMost && size * 4 <= in.size();
+    if (!good) return;
+    values.resize(size);
+    for (float& value : values) {
+      value = std::bit_cast<float>(static_cast<std::uint32_t>(bits(4)));
+      good = good && std::isfinite(value);
+    }
+  }
   void stated(std::span<double> values) {
     std::uint8_t count = 0, number = 0;
     for (u8(count); count > 0 && good; --count) {

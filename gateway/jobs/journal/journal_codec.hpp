@@ -14,7 +14,7 @@
 namespace kinebus::journal {
 
 /// Longest record: a job's name is cut to 1000 bytes.
-inline constexpr std::size_t kMaxRecordBytes = 1600;
+inline constexpr std::size_t kMaxRecordBytes = 2800;
 
 /// Appends `record`, with `number` (counted from 0 in each file).
 void encode(const Record& record, std::uint32_t number, std::vector<std::uint8_t>& out);

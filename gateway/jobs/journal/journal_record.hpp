@@ -11,6 +11,7 @@
 #include "gateway/description/device_description.hpp"
 #include "gateway/gcode/state.hpp"
 #include "gateway/jobs/job_place.hpp"
+#include "gateway/kinematics/bed_mesh.hpp"
 #include "gateway/kinematics/kinematics.hpp"
 #include "protocol/time.hpp"
 
@@ -114,7 +115,37 @@ struct JobTime {
   friend bool operator==(const JobTime&, const JobTime&) = default;
 };
 
+/// What the job under way has found out: its text cannot be read again without it.
+struct Learned {
+  enum class What : std::uint8_t {
+    kProbed,     ///< how a probe's move has ended
+    kMesh,       ///< the mesh in force from a levelling command on
+    kBeginning,  ///< the mesh in force when the job began
+  } what{};
+  std::uint64_t phases = 0;  ///< of the job, given out until then; it goes on behind them, from rest
+  bool contact = false;
+  Frame frame{};
+  Pose at{},
+      stand{};      ///< of a probe as in ProbeResult; else `stand` is the tool, as it is named from then on
+  MeshGrid mesh{};  ///< without heights: none
+  friend bool operator==(const Learned&, const Learned&) = default;
+};
+/// A mesh of the machine's bed, kept under its name.
+struct Mesh {
+  std::string machine;         ///< identity() of its description
+  std::uint64_t geometry = 0;  ///< geometry_mark()
+  std::string name;
+  double unix_s = 0;  ///< when it was measured
+  MeshGrid grid;      ///< without heights: it is forgotten
+  friend bool operator==(const Mesh&, const Mesh&) = default;
+};
+/// Which of them is in force from now on; empty: none.
+struct MeshInForce {
+  std::string machine, name;
+  friend bool operator==(const MeshInForce&, const MeshInForce&) = default;
+};
+
 using Record = std::variant<Epoch, JobBegin, RunBegin, WaitsDone, Scale, Override, Thermal, Progress,
-                            Interrupted, Found, JobEnd, Offsets, Heat, JobTime>;
+                            Interrupted, Found, JobEnd, Offsets, Heat, JobTime, Learned, Mesh, MeshInForce>;
 
 }  // namespace kinebus::journal

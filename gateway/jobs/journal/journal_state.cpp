@@ -43,9 +43,35 @@ struct Taker {
     s.offsets.push_back(r);
   }
 
+  /// It rests there: no path time before means anything to the job.
+  void operator()(const Learned& r) const {
+    s.learned.push_back(r);
+    const double shift_mm = s.run           ? s.run->extruder_shift_mm
+                            : s.interrupted ? s.interrupted->extruder_shift_mm
+                                            : 0;
+    s.interrupted = Interrupted{{r.phases, 0}, shift_mm};
+    s.run.reset();
+    s.progress.reset();
+    s.found.reset();
+  }
+  void operator()(const Mesh& r) const {
+    std::erase_if(s.meshes, [&](const Mesh& old) { return old.machine == r.machine && old.name == r.name; });
+    if (r.grid.height_mm.empty()) return;
+    if (s.meshes.size() == State::kMeshes) s.meshes.erase(s.meshes.begin());
+    s.meshes.push_back(r);
+  }
+  void operator()(const MeshInForce& r) const {
+    std::erase_if(s.meshes_in_force, [&](const MeshInForce& old) { return old.machine == r.machine; });
+    if (r.name.empty()) return;
+    if (s.meshes_in_force.size() == State::kMachines) s.meshes_in_force.erase(s.meshes_in_force.begin());
+    s.meshes_in_force.push_back(r);
+  }
+
   void forget_job() const {
     State kept;
     kept.epoch = s.epoch;
+    kept.meshes = std::move(s.meshes);
+    kept.meshes_in_force = std::move(s.meshes_in_force);
     kept.offsets = std::move(s.offsets);
     s = std::move(kept);
   }
@@ -56,7 +82,8 @@ struct Taker {
 void State::take(const Record& record) {
   // Without a job's beginning the rest means nothing.
   const bool always = std::holds_alternative<Epoch>(record) || std::holds_alternative<JobBegin>(record) ||
-                      std::holds_alternative<Offsets>(record);
+                      std::holds_alternative<Offsets>(record) || std::holds_alternative<Mesh>(record) ||
+                      std::holds_alternative<MeshInForce>(record);
   if (always || job) std::visit(Taker{*this}, record);
 }
 
@@ -70,8 +97,11 @@ std::vector<Record> State::records() const {
   std::vector<Record> all;
   if (epoch) all.emplace_back(Epoch{*epoch});
   for (const Offsets& machine : offsets) all.emplace_back(machine);
+  for (const Mesh& mesh : meshes) all.emplace_back(mesh);
+  for (const MeshInForce& machine : meshes_in_force) all.emplace_back(machine);
   if (!job) return all;
   all.emplace_back(*job);
+  for (const Learned& each : learned) all.emplace_back(each);
   for (const FeedScale& scale : scales) all.emplace_back(Scale{scale});
   if (waits_done > 0) all.emplace_back(WaitsDone{waits_done});
   if (override_ratio) all.emplace_back(Override{*override_ratio});

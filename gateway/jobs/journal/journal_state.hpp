@@ -21,10 +21,14 @@ struct State {
   std::vector<FeedScale> scales;
   std::optional<double> override_ratio;
   std::optional<Heat> heat;
+  std::vector<Learned> learned;  ///< in the order of the job
+  std::vector<Mesh> meshes;      ///< of the machines, the one measured last at the end
+  std::vector<MeshInForce> meshes_in_force;
   std::optional<Progress> progress;
   std::optional<JobTime> time;
   friend bool operator==(const State&, const State&) = default;
 
+  static constexpr std::size_t kMeshes = 32;    ///< kept
   static constexpr std::size_t kMachines = 16;  ///< whose offsets are kept
 
   void take(const Record& record);

@@ -273,7 +273,7 @@ TEST(Preflight, WhatHasNoEffectHereIsWarnedOfOnce) {
   EXPECT_EQ(c.problems.errors(), 0u);
   ASSERT_EQ(c.problems.warnings(), 2u);
   EXPECT_EQ(c.problems.all()[0].line, 1u);
-  EXPECT_EQ(c.problems.all()[0].words, "G29 has no effect on this machine");
+  EXPECT_EQ(c.problems.all()[0].words, "G29 has no effect: the machine file has no [probe]");
   EXPECT_EQ(c.problems.all()[1].line, 4u);
 }
 

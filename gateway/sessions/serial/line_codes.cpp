@@ -152,6 +152,8 @@ MarlinSession::Done MarlinSession::carry_out_m(const Line& line, int number) {
     case 503:
     case 906:
       return query(line);
+    case 420:
+      return serial::word(line.text, 'S') || serial::word(line.text, 'Z') ? to_machine(line) : query(line);
     case 220:
     case 221:
       return serial::word(line.text, 'S') ? to_machine(line) : query(line);

@@ -142,7 +142,7 @@ std::optional<VirtualProbe> virtual_probe_of(const MachineDescription& machine) 
       return kNoPose_mm;
     }
     const double x = pose[kX] + probe.offset_mm[0], y = pose[kY] + probe.offset_mm[1];
-    return pose[kZ] + probe.offset_mm[2] - (probe.sim_z_mm + probe.sim_slope[0] * x + probe.sim_slope[1] * y);
+    return pose[kZ] + probe.offset_mm[2] - probe.sim_surface_mm(x, y);
   };
   return found;
 }
