@@ -311,7 +311,7 @@ void Session::on_time(LocalTime now) {
 }
 
 LocalTime Session::next_deadline() const {
-  if (socket_ && out_.empty()) return socket_->next_deadline();
+  if (socket_) return socket_->next_deadline();
   if (ended_) return LocalTime::max();
   if (lingers_) return linger_until_ == LocalTime::max() ? LocalTime{0} : linger_until_;
   if (work_waits() || (answered_ && out_.empty())) return LocalTime{0};
