@@ -208,24 +208,6 @@ bool JobPipeline::pull_phase() {
   return true;
 }
 
-void JobPipeline::check_shaped() {
-  const auto excess = shaped_limits_.excess(phase_);
-  if (excess && !over_limit_) {
-    const JointDescription& joint = machine_.joints[static_cast<std::size_t>(excess->joint)];
-    const std::string ratio = printed("%.3f", excess->ratio);
-    refuse(
-        line_of(phase_.line), 0,
-        excess->acceleration
-            ? say("shaped, this move asks %1 for %2 times its acceleration: lower the tool's acceleration, "
-                  "or take a shorter shaper",
-                  joint.name, ratio)
-            : say("shaped, this move asks %1 for %2 times its speed: lower the tool's speed, or take a "
-                  "shorter shaper",
-                  joint.name, ratio));
-  }
-  over_limit_ = excess.has_value();
-}
-
 /// The next phase, or an event that falls due before it.
 std::optional<JobPipeline::Step> JobPipeline::take_phase() {
   if (!phase_waits_) phase_waits_ = pull_phase();

@@ -74,9 +74,11 @@ std::string draw_ringing(const RingingTrace& unshaped, const RingingTrace& shape
     return document.svg();
   }
   const auto at = static_cast<std::size_t>(worst - unshaped.points.begin());
-  document.heading(40, title,
-                   fmt::format("The corner at line {} where the tool swung most; deviations {:.0f} times enlarged, {:g} mm across",
-                               worst->line, kEnlarged, 2 * kHalf_mm));
+  document.heading(
+      40, title,
+      fmt::format(
+          "The corner at line {} where the tool swung most; deviations {:.0f} times enlarged, {:g} mm across",
+          worst->line, kEnlarged, 2 * kHalf_mm));
   const auto before = around(unshaped, at);
   draw_corner(document, {60, 140, 460, 460}, before, *worst, "without shaping", kBefore);
   std::span<const TracePoint> after;
@@ -89,8 +91,9 @@ std::string draw_ringing(const RingingTrace& unshaped, const RingingTrace& shape
                              .x_high = 1e3 * unshaped.period_s * static_cast<double>(before.size()),
                              .y_low = 0,
                              .y_high = step * std::ceil(highest / step)};
-  drawing::draw_frame(document, chart,
-                      {.x_step = 50, .y_step = step, .title = "off the motors' path", .x_name = "ms", .y_name = "um"});
+  drawing::draw_frame(
+      document, chart,
+      {.x_step = 50, .y_step = step, .title = "off the motors' path", .x_name = "ms", .y_name = "um"});
   const auto curve = [&](std::span<const TracePoint> points, double period_s, std::string_view colour) {
     std::vector<Point> values;
     for (std::size_t i = 0; i < points.size() && 1e3 * period_s * static_cast<double>(i) <= chart.x_high; ++i)

@@ -1,6 +1,6 @@
 #pragma once
-// What a person sees of vibration: the tool's path about the corner where it swung most without shaping, and the same
-// corner with it, deviations enlarged.
+// What a person sees of vibration: the tool's path about the corner where it swung most without shaping, and
+// the same corner with it, deviations enlarged.
 
 #include <array>
 #include <cstdint>
