@@ -27,12 +27,13 @@ int run(int argc, char** argv) {
   const auto log = std::make_shared<kinebus::LogQueue>(STDERR_FILENO);
   spdlog::set_default_logger(std::make_shared<spdlog::logger>("kinebusd", log));
   spdlog::set_level(spdlog::level::from_str(arguments.log_level));
+  // From here on: who asks it to end while it begins has it begun and ended.
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
   std::signal(SIGPIPE, SIG_IGN);
   try {
     kinebus::make_machine_file(arguments);
     kinebus::Service service(arguments);
-    std::signal(SIGINT, on_signal);
-    std::signal(SIGTERM, on_signal);
     service.run(&quit);
   } catch (const std::exception& error) {
     spdlog::critical("{}", error.what());

@@ -51,7 +51,11 @@ class StepMotors {
   void start() { start_ = stage_.start(frames_); }
 
   /// After start(): where plans are to begin.
-  PlanGrid plan_grid() const { return {start_ + step::kSetUp * step::kSlotCounts, step::kFrameCounts}; }
+  PlanGrid plan_grid() const {
+    // With several nodes a pass of the main loop takes longer.
+    return {start_ + step::kSetUp * step::kSlotCounts, step::kFrameCounts,
+            kNodes > 1 ? MotionPlan::kPieces : MotionPlan::kUsualPieces};
+  }
 
   /// Main loop, each pass. True: the node was told something.
   bool serve(std::size_t number, Node& node, LocalTime now);

@@ -8,8 +8,8 @@ bool MotionPlanExchange::outdated(const Node& node, LocalTime now, PlanCounts co
   constexpr std::int64_t kSame = std::int64_t{1} << 26;  // 1/64 count
   const MotionPlan& plan = current();
   const PlanCounts elapsed = counts - plan.start;
-  if (elapsed >= MotionPlan::kHorizon) return true;
-  const PlanCounts left = MotionPlan::kHorizon - elapsed;
+  if (elapsed >= plan.horizon()) return true;
+  const PlanCounts left = plan.horizon() - elapsed;
   NodePreview preview(node);
   for (const PlanCounts ahead : {left / 2, left}) {
     const LatchedPositions positions = preview.positions(now + kPlanCount * ahead);
@@ -22,14 +22,15 @@ bool MotionPlanExchange::outdated(const Node& node, LocalTime now, PlanCounts co
   return false;
 }
 
-void MotionPlanExchange::renew(const Node& node, LocalTime now, PlanCounts counts) {
+void MotionPlanExchange::renew(const Node& node, LocalTime now, PlanCounts counts, std::uint32_t pieces) {
   const std::uint32_t next = 1 - current_.load(std::memory_order_relaxed);
   MotionPlan& plan = plans_[next];
   plan.start = counts;
+  plan.count = pieces;
   NodePreview preview(node);
   constexpr LocalTime kHalf = kPlanCount * (MotionPlan::kPiece / 2);
   LatchedPositions from = preview.positions(now);
-  for (std::size_t piece = 0; piece < MotionPlan::kPieces; ++piece) {
+  for (std::size_t piece = 0; piece < pieces; ++piece) {
     const LatchedPositions middle = preview.positions(now += kHalf);
     const LatchedPositions to = preview.positions(now += kHalf);
     for (std::size_t axis = 0; axis < from.size(); ++axis)

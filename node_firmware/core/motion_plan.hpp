@@ -1,5 +1,5 @@
 #pragma once
-// Where both motors are to be over the next 8 ms, as parabolas that a control interrupt evaluates
+// Where both motors are to be over the next milliseconds, as parabolas that a control interrupt evaluates
 // with a few multiplications: no division, nothing of Node touched. The main loop makes a new plan after
 // every input and now and then, and hands it over whole.
 //
@@ -23,11 +23,10 @@ using PlanCounts = std::uint32_t;
 inline constexpr LocalTime kPlanCount{250};
 
 struct MotionPlan {
-  static constexpr int kPieces = 16;
+  static constexpr int kPieces = 16;      ///< at most
+  static constexpr int kUsualPieces = 8;  ///< 4.1 ms
   static constexpr int kPieceBits = 11;
   static constexpr PlanCounts kPiece = PlanCounts{1} << kPieceBits;
-  static constexpr PlanCounts kHorizon =
-      kPiece * kPieces;  ///< 8.2 ms: the longest pass of a main loop, and as much again
   /// A plan that is not renewed in time fades to a standstill over this: 33 ms.
   static constexpr int kFadeBits = 17;
 
@@ -42,6 +41,10 @@ struct MotionPlan {
   };
 
   PlanCounts start = 0;
+  std::uint32_t count = kUsualPieces;  ///< of the pieces
+  /// The longest pass of a main loop, and as much again.
+  static constexpr PlanCounts horizon(std::uint32_t pieces) { return kPiece * pieces; }
+  PlanCounts horizon() const { return horizon(count); }
   std::array<std::array<Parabola, kPieces>, kAxesPerNode> pieces{};
 
   /// At or after `start`.
@@ -50,11 +53,11 @@ struct MotionPlan {
     const auto elapsed = static_cast<std::int32_t>(now - start);
     if (elapsed < 0) return evaluate(mine[0], 0);
     const auto index = static_cast<std::uint32_t>(elapsed) >> kPieceBits;
-    if (index < kPieces) return evaluate(mine[index], static_cast<std::uint32_t>(elapsed) & (kPiece - 1));
-    return faded(evaluate(mine[kPieces - 1], kPiece), static_cast<std::uint32_t>(elapsed) - kHorizon);
+    if (index < count) return evaluate(mine[index], static_cast<std::uint32_t>(elapsed) & (kPiece - 1));
+    return faded(evaluate(mine[count - 1], kPiece), static_cast<std::uint32_t>(elapsed) - horizon());
   }
   bool late(PlanCounts now) const {
-    return static_cast<std::int32_t>(now - start) >= static_cast<std::int32_t>(kHorizon);
+    return static_cast<std::int32_t>(now - start) >= static_cast<std::int32_t>(horizon());
   }
 
   static Point evaluate(const Parabola& p, std::uint32_t into) {
@@ -81,7 +84,8 @@ class MotionPlanExchange {
  public:
   const MotionPlan& current() const { return plans_[current_.load(std::memory_order_acquire)]; }
   /// A new plan from `now` on. `counts`: the same instant as the interrupt counts it.
-  void renew(const Node& node, LocalTime now, PlanCounts counts);
+  void renew(const Node& node, LocalTime now, PlanCounts counts,
+             std::uint32_t pieces = MotionPlan::kUsualPieces);
   /// The node would give another plan by now: looked at in the middle and at the end of what is left. Much
   /// cheaper than a new plan after every frame that changes nothing.
   bool outdated(const Node& node, LocalTime now, PlanCounts counts) const;

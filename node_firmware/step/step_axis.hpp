@@ -29,7 +29,7 @@ struct PlannedWay {
 inline PlannedWay planned_way(const MotionPlan& plan, int axis, PlanCounts frame) {
   const PlanCounts begin = frame + kSetUp * kSlotCounts;
   const PlanCounts elapsed = begin - plan.start, into = elapsed % MotionPlan::kPiece;
-  if (elapsed < MotionPlan::kHorizon && into + kFrameCounts <= MotionPlan::kPiece) [[likely]] {
+  if (elapsed < plan.horizon() && into + kFrameCounts <= MotionPlan::kPiece) [[likely]] {
     // Within a piece: a part of its parabola is one, too.
     constexpr int kFramesBits = MotionPlan::kPieceBits - kFrameBits;
     const auto& piece =

@@ -136,7 +136,7 @@ TEST(MotionPlan, IsOutdatedWhenAMotionBeginsAndNotBefore) {
 TEST(MotionPlan, ALatePlanFadesToAStandstill) {
   MotionPlan plan;
   for (auto& pieces : plan.pieces)
-    for (int i = 0; i < MotionPlan::kPieces; ++i)
+    for (int i = 0; i < MotionPlan::kUsualPieces; ++i)
       pieces[static_cast<std::size_t>(i)] = {i * kOneCount * 100, kOneCount * 100, 0};
   std::int64_t last = 0, last_step = 100 * kOneCount / 64;
   for (PlanCounts t = 0; t < 300'000; t += 32) {
@@ -150,8 +150,8 @@ TEST(MotionPlan, ALatePlanFadesToAStandstill) {
   }
   EXPECT_EQ(last_step, 0);
   EXPECT_EQ(plan.at(0, 299'000).velocity, 0);
-  EXPECT_TRUE(plan.late(MotionPlan::kHorizon));
-  EXPECT_FALSE(plan.late(MotionPlan::kHorizon - 1));
+  EXPECT_TRUE(plan.late(MotionPlan::horizon(MotionPlan::kUsualPieces)));
+  EXPECT_FALSE(plan.late(MotionPlan::horizon(MotionPlan::kUsualPieces) - 1));
 }
 
 }  // namespace

@@ -59,6 +59,7 @@ std::vector<CanFrame> heat_frames() {
   frames.push_back(set_points);
   frames.push_back(fans);
   frames.push_back(CanFrame::make(0x400 + bench.kId, {10, 0, 0, 0, 0, 0, 0, 0}));
+  frames.push_back(CanFrame::make(0x500 + bench.kId, {10, 0, 0, 0, 0, 0, 0, 0}));
   return frames;
 }
 
@@ -96,7 +97,8 @@ TEST(Wireshark, LeavesNothingOfAPrintOpaque) {
                               "TPDO3 Positions",
                               "RPDO1 SetPoints",
                               "RPDO2 Fans",
-                              "RPDO3 FeedForward",
+                              "RPDO3 Filament",
+                              "RPDO4 FlowAhead",
                               "TPDO1 State",
                               "TPDO2 Temperatures",
                               "TPDO3 Outputs",
@@ -251,8 +253,8 @@ TEST(Wireshark, FollowsMappingsIdentitiesAndShiftsThatTheBusTells) {
       frame_of("605#2F40210103000000"),
       frame_of("585#6040210100000000"),
       record_frame(0x405, encode(Segment{.sequence = 1, .duration = 1, .acceleration = {1000, 1000}})),
-      // An unknown node whose TPDO1 has the length of one board only.
-      frame_of("18D#0102030401"),
+      // An unknown node whose TPDO4 has the length of one board only.
+      frame_of("48D#C800FFFF6009"),
   };
   const Tshark tshark;
   const auto told = tshark.read(tshark.capture(frames),
@@ -267,7 +269,9 @@ TEST(Wireshark, FollowsMappingsIdentitiesAndShiftsThatTheBusTells) {
   EXPECT_NEAR(std::stod(told[12].at("kinebus.segment.acceleration_a")), unit, 1e-6);
   EXPECT_NEAR(std::stod(told[15].at("kinebus.segment.acceleration_a")), 2 * unit, 1e-6);
   EXPECT_NEAR(std::stod(told[15].at("kinebus.segment.acceleration_b")), unit, 1e-6);
-  EXPECT_NE(info(16).find("TPDO1 State Heater state: Heater 1 1"), std::string::npos) << info(16);
+  EXPECT_NE(info(16).find("TPDO4 MoreTemperatures AI input PV: Sensor 5 20 C; AI input PV: Sensor 6 -0.1 C"),
+            std::string::npos)
+      << info(16);
   // Frames that are looked at again are still what they were when they came.
   const auto again = tshark.read(tshark.capture(frames), {}, "-2 -d can.subdissector,kinebus");
   ASSERT_EQ(again.size(), told.size());
