@@ -15,8 +15,8 @@ namespace kinebus {
 /// Which of a node's switch inputs a board's input is, counted from 0; -1: none. Empty: each its own.
 using InputPlaces = std::span<const std::int8_t>;
 
-/// How long plans are, and where they begin: on counts that are `phase` modulo `spacing`, a power of two. Where motors are driven by
-/// frames, none of these then goes over from one piece of a plan into the next.
+/// How long plans are, and where they begin: on counts that are `phase` modulo `spacing`, a power of two.
+/// Where motors are driven by frames, none of these then goes over from one piece of a plan into the next.
 struct PlanGrid {
   PlanCounts phase = 0, spacing = 1;
   std::uint32_t pieces = MotionPlan::kUsualPieces;
