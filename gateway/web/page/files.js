@@ -1,5 +1,5 @@
 // Stored jobs and the history of those that ran.
-import { date, duration, number, t } from './words.js';
+import { date, duration, number, percent, t } from './words.js';
 
 const at = (id) => document.getElementById(id);
 const size = (bytes) => bytes < 1024 ? `${number(bytes)} B` : bytes < 1048576 ? `${number(bytes / 1024, 1)} KiB` : `${number(bytes / 1048576, 1)} MiB`;
@@ -18,6 +18,7 @@ export class Files {
   #jobs = [];
   #runs = [];
   #may_start = false;
+  #upload_words = () => '';
 
   constructor(panels) {
     this.panels = panels;
@@ -29,6 +30,7 @@ export class Files {
   }
   say() {
     this.#draw();
+    this.#say_upload(this.#upload_words);
   }
   hear(event) {
     if (event.kind === 'EVENT_JOBS') this.#read();
@@ -77,15 +79,20 @@ export class Files {
     at('runs').replaceChildren(...this.#runs.map((run) => cells(run.name, date(run.begun_unix_s), duration(run.duration_s), t(run.result))));
   }
 
+  #say_upload(words) {
+    this.#upload_words = words;
+    at('upload-state').textContent = words();
+  }
+
   async #upload(input) {
     const file = input.files[0];
     if (!file) return;
     this.panels.tell(null);
     try {
-      await this.panels.link().upload(file, (share) => { at('upload-state').textContent = t('uploading', `${number(100 * share)} %`); });
-      at('upload-state').textContent = t('uploaded', file.name);
+      await this.panels.link().upload(file, (share) => this.#say_upload(() => t('uploading', percent(share))));
+      this.#say_upload(() => t('uploaded', file.name));
     } catch (problem) {
-      at('upload-state').textContent = '';
+      this.#say_upload(() => '');
       this.panels.tell(problem);
     }
     input.value = '';

@@ -1,5 +1,5 @@
 // What runs: its progress, and pause, resume, cancel, speed.
-import { duration, number, t } from './words.js';
+import { duration, number, percent, t } from './words.js';
 
 const at = (id) => document.getElementById(id);
 
@@ -15,7 +15,7 @@ export class Job {
     const runs = status.job !== '';
     at('job-name').textContent = runs ? `${status.job} · ${t('line_of', number(status.line))}` : t('no_job');
     at('progress').value = runs ? status.progress : 0;
-    at('job-time').textContent = runs ? `${number(100 * status.progress, 1)} % · ${t('elapsed', duration(status.elapsed_s), duration(status.remaining_s))}` : '';
+    at('job-time').textContent = runs ? `${percent(status.progress, 1)} · ${t('elapsed', duration(status.elapsed_s), duration(status.remaining_s))}` : '';
     at('pause').disabled = !allowed.get('COMMAND_HOLD');
     at('resume').disabled = !allowed.get('COMMAND_RESUME');
     at('cancel').disabled = !allowed.get('COMMAND_CANCEL');

@@ -55,6 +55,7 @@ let language = known(localStorage.getItem('language') ?? navigator.language.slic
 
 export const t = (word, ...parts) => parts.reduce((text, part, i) => text.replace(`%${i + 1}`, part), kWords[language][word] ?? kWords.en[word] ?? word);
 export const number = (value, digits = 0) => value.toLocaleString(language, { minimumFractionDigits: digits, maximumFractionDigits: digits });
+export const percent = (share, digits = 0) => share.toLocaleString(language, { style: 'percent', minimumFractionDigits: digits, maximumFractionDigits: digits });
 export const date = (unix_s) => new Date(unix_s * 1000).toLocaleString(language, { dateStyle: 'short', timeStyle: 'short' });
 export const present_language = () => language;
 
