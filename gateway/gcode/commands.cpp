@@ -131,6 +131,7 @@ bool Core::run_command() {
     return set_pressure_advance(column, number_of(arguments, "advance"), number_of(arguments, "smooth_time"));
   if (name == "set_input_shaper") {
     std::vector<ShaperWord> words;
+    words.reserve(arguments.size());
     for (const Argument& argument : arguments)
       words.push_back({argument.name, argument.text, argument.value});
     return set_input_shaper(column, words);

@@ -19,14 +19,15 @@ Result<VibrationDescription, Sentence> shaped_by_job(const Kinematics& kinematic
       axis.shaper = a.usual;
     if (a.frequency_hz == 0) axis.shaper = ShaperKind::kNone;
     if (axis.shaper != ShaperKind::kNone && !(axis.frequency_hz > 0))
-      return Error(say("a shaper without a frequency: neither the job nor [vibration] has said one"));
+      return Error<Sentence>(
+          say("a shaper without a frequency: neither the job nor [vibration] has said one"));
     *axes[i] = axis;
   }
   const bool z_asks = asked.axes[2].asks();
   if (turns_part(kinematics)) {
     if (!z_asks) after.z = after.x;
     if (!(after.axis(0) == after.axis(1) && after.axis(1) == after.axis(2)))
-      return Error(
+      return Error<Sentence>(
           say("different shapers on a machine that turns or tilts the part: one shaper for X, Y and Z is "
               "needed"));
   }

@@ -4,6 +4,7 @@
 // line of the grid. (Bilinear, the speed of Z itself would jump there.)
 
 #include <array>
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
@@ -20,6 +21,12 @@ struct MeshGrid {
   std::vector<float> height_mm;
   friend bool operator==(const MeshGrid&, const MeshGrid&) = default;
 
+  /// Of height_mm.
+  std::size_t place(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(points[0]) +
+           static_cast<std::size_t>(column);
+  }
+  double at_mm(int column, int row) const { return double{height_mm[place(column, row)]}; }
   bool complete() const;  ///< sizes agree, all numbers are finite
   double lowest_mm() const;
   double highest_mm() const;

@@ -147,9 +147,7 @@ std::string Gateway::Core::mesh_text() const {
     for (int row = 0; row < mesh->points[1]; ++row) {
       text += print("\n%2d", row);
       for (int column = 0; column < mesh->points[0]; ++column)
-        text += print(
-            " %+8.3f",
-            static_cast<double>(mesh->height_mm[static_cast<std::size_t>(row * mesh->points[0] + column)]));
+        text += print(" %+8.3f", static_cast<double>(mesh->at_mm(column, row)));
     }
   }
   for (const journal::Mesh& kept : bed_.kept()) {

@@ -144,8 +144,7 @@ Result<void, Sentence> BedLevel::carry_out(BusTime now, const canonical::Mesh& c
   }
   if (command.points[0] >= grid.points[0] || command.points[1] >= grid.points[1])
     return Error<Sentence>(say("the mesh in force has %1 x %2 points", grid.points[0], grid.points[1]));
-  float& height =
-      grid.height_mm[static_cast<std::size_t>(command.points[1] * grid.points[0] + command.points[0])];
+  float& height = grid.height_mm[grid.place(command.points[0], command.points[1])];
   height = static_cast<float>(command.value_mm + (command.adds ? double{height} : 0.0));
   return change(std::move(grid));
 }

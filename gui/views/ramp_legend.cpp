@@ -84,7 +84,9 @@ void RampLegend::paint_kinds(QPainter& painter) {
     painter.setPen(palette().color(QPalette::PlaceholderText));
     const QRect words(mirrored ? left : left + kChip + kChipGap, 0, room - kChip - kChipGap, height());
     painter.drawText(
-        words, Qt::AlignAbsolute | Qt::AlignVCenter | (mirrored ? Qt::AlignRight : Qt::AlignLeft), kind.name);
+        words,
+        static_cast<int>(Qt::AlignAbsolute | Qt::AlignVCenter | (mirrored ? Qt::AlignRight : Qt::AlignLeft)),
+        kind.name);
     at += room;
   }
 }

@@ -57,8 +57,9 @@ void print_devices(const Status& s) {
     words += fmt::format("{} {:.1f} C   ", sensor.name(), sensor.celsius());
   constexpr std::array kConditions{"in order", "out", "stands", "slips"};
   for (const joblink::FilamentSensor& filament : s.filament_sensors())
-    words += fmt::format("filament {} {}   ", filament.name(),
-                         kConditions[std::min<std::size_t>(filament.condition(), kConditions.size() - 1)]);
+    words += fmt::format(
+        "filament {} {}   ", filament.name(),
+        kConditions[std::min(static_cast<std::size_t>(filament.condition()), kConditions.size() - 1)]);
   if (s.has_probe_touches()) words += s.probe_touches() ? "probe touches   " : "probe free   ";
   if (words.empty()) return;
   words.resize(words.find_last_not_of(' ') + 1);

@@ -94,8 +94,8 @@ class FaultRun {
         {{3006, 5340, 1423, 1998}, {234, 1527, 7806, 5202}}};
     VirtualMachine& nodes = injector_.machine();
     const BusModel::Port port = nodes.add_stranger(1);
-    for (std::uint8_t heater = 0; heater < kModels.size(); ++heater)
-      for (std::uint16_t i = 0; i < kModels[heater].size(); ++i) {
+    for (std::size_t heater = 0; heater < kModels.size(); ++heater)
+      for (std::size_t i = 0; i < kModels[heater].size(); ++i) {
         CanFrame write{.id = cob_id::kSdoRequest + machine_.nodes[kHeatNode].id, .length = 8};
         write.data[0] = 0x23;
         put_u16_le(std::span(write.data).subspan(1),

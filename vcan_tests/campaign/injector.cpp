@@ -276,8 +276,6 @@ void Injector::turn_off(Active& active, BusTime now) {
       break;
     case kNodeDies:
     case kNodeRestarts:
-      nodes_->set_power(fault.node, now, true);
-      break;
     case kHeatNodeDies:
       nodes_->set_power(fault.node, now, true);
       break;

@@ -32,9 +32,10 @@ void append_text(std::string& out, std::string_view text) {
       out.append(1, '\\').append(1, c);
     else if (c == '\n')
       out += "\\n";
-    else if (static_cast<unsigned char>(c) < 0x20)
-      out.append("\\u00").append(1, kHex[c >> 4]).append(1, kHex[c & 15]);
-    else
+    else if (static_cast<unsigned char>(c) < 0x20) {
+      const auto code = static_cast<std::size_t>(c);
+      out.append("\\u00").append(1, kHex[code >> 4U]).append(1, kHex[code & 15U]);
+    } else
       out += c;
   }
   out += '"';

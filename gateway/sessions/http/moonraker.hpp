@@ -45,7 +45,7 @@ struct Method {
   const char* name;  ///< "server.info"
   const char* verb;  ///< of HTTP; nullptr: over the websocket alone
   const char* path;  ///< "server/info"
-  void (*carry_out)(Call call);
+  void (*carry_out)(const Call& call);
   bool open = false;  ///< for who has not shown the key, too
 };
 std::span<const Method> moonraker_server_methods();

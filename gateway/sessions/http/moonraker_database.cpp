@@ -5,7 +5,6 @@
 namespace kinebus::http {
 namespace {
 
-using Json = MoonrakerDatabase::Json;
 constexpr std::size_t kMaxDepth = 32;
 
 /// "a.b.c": a, b, c.
@@ -32,11 +31,16 @@ std::vector<std::string> MoonrakerDatabase::namespaces() const {
   return names;
 }
 
-Result<Json, std::string> MoonrakerDatabase::get(const std::string& space, const std::string& key) const {
+Result<MoonrakerDatabase::Json, std::string> MoonrakerDatabase::get(const std::string& space,
+                                                                    const std::string& key) const {
   const Json* at = &all_;
   for (const std::string& piece : pieces_of(space, key)) {
     if (!at->is_object() || !at->contains(piece))
-      return Error<std::string>("nothing is kept under '" + piece + "' of namespace '" + space + "'");
+      return Error<std::string>(std::string("nothing is kept under '")
+                                    .append(piece)
+                                    .append("' of namespace '")
+                                    .append(space)
+                                    .append("'"));
     at = &(*at)[piece];
   }
   return *at;
@@ -60,7 +64,8 @@ Result<void, std::string> MoonrakerDatabase::set(const std::string& space, const
   return Error<std::string>("there is no room: all namespaces together have at most 512 KiB");
 }
 
-Result<Json, std::string> MoonrakerDatabase::remove(const std::string& space, const std::string& key) {
+Result<MoonrakerDatabase::Json, std::string> MoonrakerDatabase::remove(const std::string& space,
+                                                                       const std::string& key) {
   auto pieces = pieces_of(space, key);
   auto value = get(space, key);
   if (!value) return value;

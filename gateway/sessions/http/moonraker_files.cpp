@@ -33,13 +33,14 @@ void with_jobs(const Call& call, Json (*make)(const JobListing&)) {
   call.caller.beside(
       [make](JobStore& store) {
         const auto listing = all_jobs(store);
-        if (!listing) return Result<Json, RpcError>(Error<RpcError>(RpcError{500, listing.error().words}));
+        if (!listing)
+          return Result<Json, RpcError>(Error<RpcError>(RpcError{500, listing.error().words.english()}));
         return Result<Json, RpcError>(make(*listing));
       },
       [call](Result<Json, RpcError> made) { call.then(std::move(made)); });
 }
 
-void list_files(Call call) {
+void list_files(const Call& call) {
   const std::string root = call.text("root");
   if (!root.empty() && root != kRoot) return call.done(Json::array());
   with_jobs(call, [](const JobListing& listing) {
@@ -49,7 +50,7 @@ void list_files(Call call) {
   });
 }
 
-void directory(Call call) {
+void directory(const Call& call) {
   const std::string path = call.text("path");
   if (!path.empty() && path != kRoot) return call.fail(404, "there is one folder: gcodes");
   with_jobs(call, [](const JobListing& listing) {
@@ -66,11 +67,11 @@ void directory(Call call) {
   });
 }
 
-void roots(Call call) {
+void roots(const Call& call) {
   call.done(Json::array({{{"name", kRoot}, {"path", kRoot}, {"permissions", "rw"}}}));
 }
 
-void metadata(Call call) {
+void metadata(const Call& call) {
   call.caller.beside([name = name_of(call.text("filename"))](JobStore& store) { return store.find(name); },
                      [call](const std::optional<StoredJob>& job) {
                        if (!job) return call.fail(404, "no stored job has this name");
@@ -78,7 +79,7 @@ void metadata(Call call) {
                      });
 }
 
-void delete_file(Call call) {
+void delete_file(const Call& call) {
   const std::string name = name_of(call.text("path"));
   joblink::ClientMessage message;
   message.mutable_delete_job()->set_name(name);
@@ -125,13 +126,14 @@ void with_runs(const Call& call, std::function<Json(const std::vector<StoredRun>
   call.caller.beside(
       [make = std::move(make)](JobStore& store) {
         const auto runs = store.history(0, kMost);
-        if (!runs) return Result<Json, RpcError>(Error<RpcError>(RpcError{500, runs.error().words}));
+        if (!runs)
+          return Result<Json, RpcError>(Error<RpcError>(RpcError{500, runs.error().words.english()}));
         return Result<Json, RpcError>(make(*runs));
       },
       [call](Result<Json, RpcError> made) { call.then(std::move(made)); });
 }
 
-void list_history(Call call) {
+void list_history(const Call& call) {
   const double limit = call.number("limit", 50), start = call.number("start", 0);
   const double since = call.number("since", 0), before = call.number("before", 1e18);
   const bool ascending = call.text("order") == "asc";
@@ -148,7 +150,7 @@ void list_history(Call call) {
   });
 }
 
-void totals(Call call) {
+void totals(const Call& call) {
   with_runs(call, [](const std::vector<StoredRun>& runs) {
     double time = 0, longest = 0;
     for (const StoredRun& run : runs) {
@@ -165,10 +167,10 @@ void totals(Call call) {
   });
 }
 
-void job_queue(Call call) {
+void job_queue(const Call& call) {
   call.done({{"queued_jobs", Json::array()}, {"queue_state", "paused"}});
 }
-void no_queue(Call call) {
+void no_queue(const Call& call) {
   call.fail(501, "Kinebus has no queue of its own: start stored jobs one by one");
 }
 

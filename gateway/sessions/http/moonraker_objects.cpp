@@ -198,6 +198,7 @@ const char* klippy_state(const joblink::Status& status) {
 
 std::vector<std::string> moonraker_object_names(Caller& caller) {
   std::vector<std::string> names;
+  names.reserve(kObjects.size());
   for (const Object& object : kObjects) names.emplace_back(object.name);
   const Json named = named_objects(machine_status(caller));
   for (const auto& [name, object] : named.items()) names.push_back(name);

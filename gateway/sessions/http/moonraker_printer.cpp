@@ -14,7 +14,7 @@ namespace {
 
 using joblink::ClientMessage;
 
-void printer_info(Call call) {
+void printer_info(const Call& call) {
   const joblink::Status status = machine_status(call.caller);
   call.done({{"state", klippy_state(status)},
              {"state_message", status.doing()},
@@ -24,7 +24,7 @@ void printer_info(Call call) {
              {"cpu_info", ""}});
 }
 
-void list_objects(Call call) {
+void list_objects(const Call& call) {
   call.done({{"objects", moonraker_object_names(call.caller)}});
 }
 
@@ -33,14 +33,14 @@ double event_time(Caller& caller) {
   return to_seconds(caller.now());
 }
 
-void query_objects(Call call) {
+void query_objects(const Call& call) {
   const auto objects = call.params.find("objects");
   if (objects == call.params.end() || !objects->is_object())
     return call.fail(400, "the parameter 'objects' names the objects that are asked for");
   call.done({{"eventtime", event_time(call.caller)}, {"status", moonraker_objects(call.caller, *objects)}});
 }
 
-void subscribe_objects(Call call) {
+void subscribe_objects(const Call& call) {
   if (call.socket == nullptr) return call.fail(400, "only a websocket can be told of changes");
   const auto objects = call.params.find("objects");
   if (objects == call.params.end() || !objects->is_object())
@@ -49,23 +49,23 @@ void subscribe_objects(Call call) {
   call.done({{"eventtime", event_time(call.caller)}, {"status", moonraker_objects(call.caller, *objects)}});
 }
 
-void emergency_stop(Call call) {
+void emergency_stop(const Call& call) {
   ClientMessage message;
   message.mutable_stop();
   call.command(message);
 }
-void restart(Call call) {
+void restart(const Call& call) {
   ClientMessage message;
   message.mutable_clear();
   call.command(message);
 }
-void pause_print(Call call) {
+void pause_print(const Call& call) {
   call.command(pause_message(Pausing::kPause, false));
 }
-void resume_print(Call call) {
+void resume_print(const Call& call) {
   call.command(pause_message(Pausing::kResume, true));
 }
-void cancel_print(Call call) {
+void cancel_print(const Call& call) {
   ClientMessage message;
   message.mutable_cancel();
   call.command(message);
@@ -77,12 +77,12 @@ void start_file(const Call& call, const std::string& name) {
     call.done("ok");
   });
 }
-void start_print(Call call) {
+void start_print(const Call& call) {
   start_file(call, call.text("filename"));
 }
 
 /// Home switches by the joints that they are of, as the nodes report them.
-void endstops(Call call) {
+void endstops(const Call& call) {
   const joblink::Status status = machine_status(call.caller);
   Json switches = Json::object();
   const joblink::MachineInfo info = machine_info(call.caller);
@@ -201,15 +201,15 @@ class Script : public std::enable_shared_from_this<Script> {
   std::size_t at_ = 0;
 };
 
-void run_script(Call call) {
+void run_script(const Call& call) {
   static constexpr std::size_t kMaxScript = 4096;
   std::string text = call.text("script");
   if (text.empty() || text.size() > kMaxScript)
     return call.fail(400, "the parameter 'script' is 1 to 4096 bytes of G-code");
-  std::make_shared<Script>(std::move(call), std::move(text))->go_on();
+  std::make_shared<Script>(call, std::move(text))->go_on();
 }
 
-void gcode_help(Call call) {
+void gcode_help(const Call& call) {
   const Json objects = moonraker_objects(call.caller, {{"gcode", nullptr}});
   Json words = Json::object();
   for (const auto& [name, what] : objects["gcode"]["commands"].items()) words[name] = what["help"];

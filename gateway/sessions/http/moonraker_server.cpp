@@ -12,18 +12,18 @@ namespace {
 /// The version of Moonraker whose API this is, as far as it goes: clients compare it.
 constexpr const char* kMoonrakerApi = "v0.9.3-0-kinebus";
 
-void identify_client(Call call) {
+void identify_client(const Call& call) {
   if (call.socket == nullptr) return call.fail(400, "only a websocket identifies itself");
   if (!identify(*call.socket, call.text("client_name"), call.text("api_key")))
     return call.fail(401, "Unauthorized");
   call.done({{"connection_id", call.caller.id()}});
 }
 
-void websocket_id(Call call) {
+void websocket_id(const Call& call) {
   call.done({{"websocket_id", call.caller.id()}});
 }
 
-void server_info(Call call) {
+void server_info(const Call& call) {
   call.done({{"klippy_connected", true},
              {"klippy_state", klippy_state(machine_status(call.caller))},
              // Clients ask for what is named here, and for nothing else.
@@ -40,20 +40,20 @@ void server_info(Call call) {
              {"api_version_string", "1.5.0"}});
 }
 
-void server_config(Call call) {
+void server_config(const Call& call) {
   call.done({{"config", {{"server", Json::object()}, {"machine", {{"provider", "none"}}}}},
              {"orig", Json::object()},
              {"files", Json::array()}});
 }
 
-void access_info(Call call) {
+void access_info(const Call& call) {
   call.done({{"default_source", "moonraker"},
              {"available_sources", Json::array()},
              {"login_required", false},
              {"trusted", true}});
 }
 
-void system_info(Call call) {
+void system_info(const Call& call) {
   call.done({{"system_info",
               {{"provider", "none"},
                {"cpu_info", {{"cpu_count", std::thread::hardware_concurrency()}}},
@@ -65,7 +65,7 @@ void system_info(Call call) {
                {"service_state", Json::object()}}}});
 }
 
-void proc_stats(Call call) {
+void proc_stats(const Call& call) {
   call.done({{"moonraker_stats", Json::array()},
              {"throttled_state", nullptr},
              {"cpu_temp", nullptr},
@@ -75,7 +75,7 @@ void proc_stats(Call call) {
 }
 
 /// What the machine has said, oldest first.
-void gcode_store(Call call) {
+void gcode_store(const Call& call) {
   Json store = Json::array();
   call.caller.server().link().events().each(0, false, [&](const joblink::Event& event) {
     if (event.kind() == joblink::EVENT_MESSAGE || event.kind() == joblink::EVENT_ALARM ||
@@ -89,7 +89,7 @@ void gcode_store(Call call) {
 }
 
 /// The present alone: Kinebus keeps no course of temperatures.
-void temperature_store(Call call) {
+void temperature_store(const Call& call) {
   Json store = Json::object();
   const Json names = moonraker_objects(call.caller, {{"heaters", nullptr}})["heaters"]["available_sensors"];
   Json wanted = Json::object();
@@ -102,7 +102,7 @@ void temperature_store(Call call) {
   call.done(std::move(store));
 }
 
-void database_list(Call call) {
+void database_list(const Call& call) {
   call.done({{"namespaces", call.caller.server().database().namespaces()}, {"backups", Json::array()}});
 }
 
@@ -118,10 +118,10 @@ void keep(Caller& caller) {
   caller.server().worker().post([keep, text = caller.server().database().text()] { keep(text); }, [] {});
 }
 
-void database_get(Call call) {
+void database_get(const Call& call) {
   answer_item(call, call.caller.server().database().get(call.text("namespace"), call.text("key")));
 }
-void database_post(Call call) {
+void database_post(const Call& call) {
   const auto given = call.params.find("value");
   if (given == call.params.end()) return call.fail(400, "the parameter 'value' is missing");
   const auto set = call.caller.server().database().set(call.text("namespace"), call.text("key"), *given);
@@ -129,16 +129,16 @@ void database_post(Call call) {
   keep(call.caller);
   answer_item(call, Json(*given));
 }
-void database_delete(Call call) {
+void database_delete(const Call& call) {
   auto removed = call.caller.server().database().remove(call.text("namespace"), call.text("key"));
   if (removed) keep(call.caller);
   answer_item(call, std::move(removed));
 }
 
-void announcements(Call call) {
+void announcements(const Call& call) {
   call.done({{"entries", Json::array()}, {"feeds", Json::array()}});
 }
-void webcams(Call call) {
+void webcams(const Call& call) {
   call.done({{"webcams", Json::array()}});
 }
 
