@@ -33,7 +33,7 @@ void append_text(std::string& out, std::string_view text) {
     else if (c == '\n')
       out += "\\n";
     else if (static_cast<unsigned char>(c) < 0x20) {
-      const auto code = static_cast<std::size_t>(c);
+      const std::size_t code = static_cast<unsigned char>(c);
       out.append("\\u00").append(1, kHex[code >> 4U]).append(1, kHex[code & 15U]);
     } else
       out += c;
