@@ -15,7 +15,7 @@
 #include "gateway/description/machine_file.hpp"
 #include "gateway/description/machine_rules.hpp"
 #include "gateway/description/machine_schema.hpp"
-#include "gateway/gcode/recording.hpp"
+#include "gateway/gcode/programs/recording.hpp"
 #include "gateway/near_word.hpp"
 
 namespace kinebus {

@@ -3,7 +3,7 @@
 #include <numbers>
 #include <utility>
 
-#include "gateway/gcode/core.hpp"
+#include "gateway/gcode/core/core.hpp"
 
 namespace kinebus::gcode {
 

@@ -12,8 +12,8 @@
 
 #include "gateway/gcode/canonical.hpp"
 #include "gateway/gcode/error.hpp"
-#include "gateway/gcode/expression.hpp"
-#include "gateway/gcode/state.hpp"
+#include "gateway/gcode/words/expression.hpp"
+#include "gateway/gcode/words/state.hpp"
 #include "gateway/result.hpp"
 
 namespace kinebus::gcode {

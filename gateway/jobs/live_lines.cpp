@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "gateway/gcode/program.hpp"
+#include "gateway/gcode/programs/program.hpp"
 #include "gateway/jobs/job_shaping.hpp"
 #include "gateway/jobs/machine_setup.hpp"
 #include "gateway/motion/arc_piece.hpp"

@@ -26,7 +26,7 @@
 #include "gateway/machine/current_state.hpp"
 #include "gateway/machine/gateway.hpp"
 #include "gateway/machine/heat_hold.hpp"
-#include "gateway/machine/line_desk.hpp"
+#include "gateway/machine/lines/line_desk.hpp"
 #include "gateway/machine/manual_motion.hpp"
 #include "gateway/machine/node_watch.hpp"
 #include "gateway/machine/position.hpp"

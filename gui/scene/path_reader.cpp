@@ -5,7 +5,7 @@
 #include <numbers>
 #include <utility>
 
-#include "gateway/gcode/rotation.hpp"
+#include "gateway/gcode/words/rotation.hpp"
 
 namespace kinebus::gui {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "gateway/gcode/interpreter.hpp"
-#include "gateway/gcode/job_reader.hpp"
+#include "gateway/gcode/programs/job_reader.hpp"
 #include "gateway/pose.hpp"
 #include "gui/scene/path_features.hpp"
 #include "gui/scene/tool_path.hpp"

@@ -1,4 +1,4 @@
-# Who can include whom, as the compiler sees it. Headers are named from the repository's root ("gateway/gcode/block.hpp"),
+# Who can include whom, as the compiler sees it. Headers are named from the repository's root ("gateway/gcode/words/block.hpp"),
 # but that root is on nobody's search path: every folder that makes targets has a root of its own in the build folder, with
 # links to its headers alone, and a target sees the roots of what it links. So an include of a layer that is not linked
 # does not compile. What tools/check/layers forbids is narrower still, and says why.

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "gateway/gcode/codes.hpp"
+#include "gateway/gcode/words/codes.hpp"
 
 namespace kinebus {
 

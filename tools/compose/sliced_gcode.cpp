@@ -7,8 +7,8 @@
 #include <set>
 #include <stdexcept>
 
-#include "gateway/gcode/codes.hpp"
-#include "gateway/gcode/job_reader.hpp"
+#include "gateway/gcode/programs/job_reader.hpp"
+#include "gateway/gcode/words/codes.hpp"
 #include "gateway/pose.hpp"
 
 namespace kinebus::compose {

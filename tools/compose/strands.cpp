@@ -7,7 +7,7 @@
 #include <string_view>
 #include <variant>
 
-#include "gateway/gcode/job_reader.hpp"
+#include "gateway/gcode/programs/job_reader.hpp"
 #include "gateway/jobs/machine_setup.hpp"
 #include "gateway/kinematics/kinematics.hpp"
 #include "tools/compose/tool_path.hpp"

@@ -9,7 +9,7 @@
 #include <variant>
 
 #include "gateway/description/machine_description.hpp"
-#include "gateway/gcode/job_reader.hpp"
+#include "gateway/gcode/programs/job_reader.hpp"
 #include "gateway/jobs/job_plan.hpp"
 #include "gateway/jobs/machine_setup.hpp"
 #include "gateway/kinematics/kinematics.hpp"

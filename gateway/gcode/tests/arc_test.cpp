@@ -1,4 +1,4 @@
-#include "gateway/gcode/arc.hpp"
+#include "gateway/gcode/curves/arc.hpp"
 
 #include <gtest/gtest.h>
 

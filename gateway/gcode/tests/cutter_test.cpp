@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include "gateway/gcode/job_reader.hpp"
+#include "gateway/gcode/programs/job_reader.hpp"
 #include "gateway/gcode/tests/test_support.hpp"
 
 namespace kinebus::gcode {

@@ -1,6 +1,6 @@
 // Expressions against a reference that computes the same random tree while it writes the text.
 
-#include "gateway/gcode/expression.hpp"
+#include "gateway/gcode/words/expression.hpp"
 
 #include <gtest/gtest.h>
 

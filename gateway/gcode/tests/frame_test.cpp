@@ -4,8 +4,8 @@
 #include <numbers>
 #include <random>
 
-#include "gateway/gcode/rotation.hpp"
 #include "gateway/gcode/tests/test_support.hpp"
+#include "gateway/gcode/words/rotation.hpp"
 
 namespace kinebus::gcode {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <string>
 
-#include "gateway/gcode/job_reader.hpp"
+#include "gateway/gcode/programs/job_reader.hpp"
 
 using namespace kinebus;
 

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "gateway/gcode/canonical_text.hpp"
-#include "gateway/gcode/job_reader.hpp"
+#include "gateway/gcode/programs/job_reader.hpp"
 
 using namespace kinebus;
 

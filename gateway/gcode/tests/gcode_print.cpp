@@ -6,7 +6,7 @@
 #include <string>
 
 #include "gateway/gcode/canonical_text.hpp"
-#include "gateway/gcode/job_reader.hpp"
+#include "gateway/gcode/programs/job_reader.hpp"
 #include "gateway/gcode/tests/golden_options.hpp"
 
 int main(int argc, char** argv) {

@@ -9,7 +9,7 @@
 #include <iterator>
 
 #include "gateway/gcode/canonical_text.hpp"
-#include "gateway/gcode/job_reader.hpp"
+#include "gateway/gcode/programs/job_reader.hpp"
 #include "gateway/gcode/tests/golden_options.hpp"
 
 namespace kinebus::gcode {

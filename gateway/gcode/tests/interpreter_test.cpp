@@ -5,9 +5,9 @@
 #include <numbers>
 #include <random>
 
-#include "gateway/gcode/codes.hpp"
-#include "gateway/gcode/job_reader.hpp"
+#include "gateway/gcode/programs/job_reader.hpp"
 #include "gateway/gcode/tests/test_support.hpp"
+#include "gateway/gcode/words/codes.hpp"
 
 namespace {
 std::size_t allocations = 0;

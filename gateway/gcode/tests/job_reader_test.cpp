@@ -1,4 +1,4 @@
-#include "gateway/gcode/job_reader.hpp"
+#include "gateway/gcode/programs/job_reader.hpp"
 
 #include <algorithm>
 #include <random>

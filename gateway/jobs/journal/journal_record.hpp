@@ -9,7 +9,7 @@
 #include <variant>
 
 #include "gateway/description/device_description.hpp"
-#include "gateway/gcode/state.hpp"
+#include "gateway/gcode/words/state.hpp"
 #include "gateway/jobs/job_place.hpp"
 #include "gateway/kinematics/bed_mesh.hpp"
 #include "gateway/kinematics/kinematics.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "gateway/sessions/http/http_reader.hpp"
+#include "gateway/sessions/http/wire/http_reader.hpp"
 
 namespace kinebus::http {
 

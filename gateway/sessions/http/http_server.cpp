@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "gateway/sessions/http/http_session.hpp"
-#include "gateway/sessions/http/message_json.hpp"
+#include "gateway/sessions/http/kinebus/message_json.hpp"
 
 namespace kinebus::http {
 namespace {

@@ -18,7 +18,7 @@
 #include "gateway/jobs/store/job_store.hpp"
 #include "gateway/sessions/byte_session.hpp"
 #include "gateway/sessions/control.hpp"
-#include "gateway/sessions/http/moonraker_database.hpp"
+#include "gateway/sessions/http/moonraker/moonraker_database.hpp"
 #include "gateway/sessions/job_link_server.hpp"
 #include "gateway/sessions/worker.hpp"
 

@@ -14,10 +14,10 @@
 
 #include "gateway/sessions/byte_session.hpp"
 #include "gateway/sessions/http/caller.hpp"
-#include "gateway/sessions/http/http_reader.hpp"
 #include "gateway/sessions/http/http_server.hpp"
 #include "gateway/sessions/http/socket.hpp"
-#include "gateway/sessions/http/target.hpp"
+#include "gateway/sessions/http/wire/http_reader.hpp"
+#include "gateway/sessions/http/wire/target.hpp"
 #include "gateway/sessions/job_requests.hpp"
 
 namespace kinebus::http {

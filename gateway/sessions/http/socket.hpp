@@ -11,7 +11,7 @@
 
 #include "gateway/sessions/byte_session.hpp"
 #include "gateway/sessions/http/caller.hpp"
-#include "gateway/sessions/http/websocket.hpp"
+#include "gateway/sessions/http/wire/websocket.hpp"
 
 namespace kinebus::http {
 

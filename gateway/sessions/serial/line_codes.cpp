@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "gateway/gcode/codes.hpp"
+#include "gateway/gcode/words/codes.hpp"
 #include "gateway/sessions/serial/line_control.hpp"
 #include "gateway/sessions/serial/marlin_session.hpp"
 #include "gateway/status/temperature_text.hpp"

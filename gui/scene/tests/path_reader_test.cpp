@@ -7,7 +7,7 @@
 #include <map>
 #include <numbers>
 
-#include "gateway/gcode/rotation.hpp"
+#include "gateway/gcode/words/rotation.hpp"
 #include "gui/scene/path_colours.hpp"
 
 namespace kinebus::gui {

@@ -9,7 +9,7 @@
 
 #include "gateway/description/machine_description.hpp"
 #include "gateway/gcode/interpreter.hpp"
-#include "gateway/gcode/job_reader.hpp"
+#include "gateway/gcode/programs/job_reader.hpp"
 #include "gateway/jobs/byte_source.hpp"
 #include "gateway/motion/path_distance.hpp"
 #include "tools/simulation/sample.hpp"

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "gateway/sessions/http/multipart.hpp"
 #include "gateway/sessions/http/tests/fuzz_machine.hpp"
+#include "gateway/sessions/http/wire/multipart.hpp"
 
 namespace kinebus::http {
 namespace {

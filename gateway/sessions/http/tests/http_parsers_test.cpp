@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "gateway/sessions/http/http_reader.hpp"
-#include "gateway/sessions/http/multipart.hpp"
-#include "gateway/sessions/http/target.hpp"
+#include "gateway/sessions/http/wire/http_reader.hpp"
+#include "gateway/sessions/http/wire/multipart.hpp"
+#include "gateway/sessions/http/wire/target.hpp"
 
 namespace kinebus::http {
 namespace {

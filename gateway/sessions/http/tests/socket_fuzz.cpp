@@ -4,7 +4,7 @@
 #include <string>
 
 #include "gateway/sessions/http/tests/fuzz_machine.hpp"
-#include "gateway/sessions/http/websocket.hpp"
+#include "gateway/sessions/http/wire/websocket.hpp"
 
 namespace kinebus::http {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "gateway/sessions/http/tests/http_rig.hpp"
-#include "gateway/sessions/http/websocket.hpp"
+#include "gateway/sessions/http/wire/websocket.hpp"
 
 namespace kinebus::http {
 

@@ -1,0 +1,268 @@
+#pragma once
+// Inside of the interpreter. One block is carried out step by step in the order of RS274/NGC, table 8; each
+// step is a function that returns false after fail(). One bool, because an expected<void, ParseError> per
+// step would cost more than the step itself.
+//   core.cpp            lines, order of execution, errors      modes.cpp       modal codes, feed, dwell
+//   moves.cpp           G0-G3, G53, retraction                 offsets.cpp     coordinate systems, frames,
+//   G28 machine_codes.cpp   M codes                        cutter_codes.cpp G40-G42.1
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "gateway/gcode/dialects.hpp"
+#include "gateway/gcode/interpreter.hpp"
+#include "gateway/gcode/words/block.hpp"
+#include "gateway/gcode/words/rotation.hpp"
+
+namespace kinebus::gcode {
+
+/// Changes smaller than this (mm, rad) are rounding, not motion.
+inline constexpr double kNoMotion = 1e-9;
+
+class Core {
+ public:
+  /// Where G29 probes; what is not stated is the machine's.
+  struct MeshArea {
+    std::array<std::optional<double>, 2> from_mm{}, to_mm{};  ///< canonical X and Y
+    std::array<int, 2> points{};                              ///< 0: the machine's
+    bool adaptive = false;  ///< fewer points where the area is smaller than the machine's
+  };
+  /// A word of a Klipper command by its name, in lower case.
+  using WordOf = std::function<std::optional<std::string_view>(std::string_view)>;
+
+  explicit Core(Options options);
+
+  bool execute(std::string_view line, std::uint32_t line_number, CommandBuffer& out);
+  void finish(std::uint32_t line_number, CommandBuffer& out);
+  void restore(const State& state);
+  void set_position(const Pose& pose, Frame frame);
+
+  void set_probed(const ProbeResult& result);
+  bool set_work_offset(int system, const Pose& offset, bool here);
+
+  const State& state() const { return state_; }
+  const ParseError& error() const { return error_; }
+  std::vector<Note>& notes() { return notes_; }
+  const Options& options() const { return options_; }
+
+  void swap_locals(Locals& locals);
+  void set_returned(double value, bool given);
+  bool read_header(std::string_view comment, std::uint32_t line_number);
+  const Macro* find_macro(std::string_view name) const;
+  const ProgramCall& call() const { return call_; }
+  ProgramCall take_call() { return std::exchange(call_, {}); }
+
+ private:
+  struct FeedRate {
+    bool known = false;
+    double mm_per_s = 0, rad_per_s = 0;
+  };
+
+  // core.cpp
+  bool fail(std::uint32_t column, Sentence message);
+  /// The axes of the plane: counterclockwise is from u to v, seen from the positive end of w.
+  struct PlaneAxes {
+    std::size_t u, v, w;
+  };
+  PlaneAxes plane_axes() const;
+  bool run_careful();  ///< any block; state and output are put back on an error
+  bool run_block();
+  bool run_nonmodal(Code code);
+  bool run_stop();
+  bool ends_program(Code code) const;
+  bool assign_parameters();
+  bool check_leftovers();
+  void begin_program();
+  void announce();
+  canonical::Command& emit(canonical::Command command);
+  void note(int key, Sentence text);
+
+  void set_dialect(Dialect dialect);
+  void follow_dialect();  ///< the state's
+  bool call_code_macro(std::string_view line);
+
+  // Words. take(): the word belongs to the code at work; refused when it has no number or another code took
+  // it.
+  bool has(char letter) const { return block_.has(letter) && (used_ & Block::bit(letter)) == 0; }
+  bool take(char letter, double& value);
+  bool take_if_given(char letter, double& value);
+  bool take_integer(char letter, int lowest, int highest, int& value);
+  void pass_over(char letter) { used_ |= Block::bit(letter) & block_.present; }
+  double length(double value) const { return state_.modal.inches ? value * 25.4 : value; }
+  /// A word's value for an axis, in mm or rad.
+  double axis_value(int axis, double value) const;
+
+  // modes.cpp
+  bool run_modes();
+  bool run_feed_word();
+  bool feed_from(double value, FeedRate& feed);
+  bool dwell();
+  /// P of G4 and of canned cycles.
+  double dwell_s(double p) const;
+  bool change_tool();
+  canonical::PathMode path_mode() const;
+  bool set_path_mode(Code code);
+
+  // moves.cpp
+  bool run_motion();
+  bool run_straight(bool traverse);
+  bool run_arc(bool clockwise);
+  bool run_machine_coordinates();
+  void program_target(Pose& program) const;
+  bool move_to(const Pose& program, const Pose& target, bool traverse);
+  bool check_turning();
+  bool speed_for(bool turns_alone, const FeedRate& feed, double& feed_per_s, double& inverse_time_s);
+  bool arc_words(const Pose& start, bool& by_radius, double& radius_mm, std::array<double, 2>& centre,
+                 int& turns);
+  bool retract();
+  bool recover();
+
+  // cycles.cpp
+  bool run_cycle();
+  bool cycle_words(Code code, bool fresh);
+  bool drill(std::size_t w, double r, double bottom, double clear);
+  bool cycle_move(const Vector3& program, bool traverse);
+
+  // probing.cpp
+  bool probe(Code code);
+  bool probe_target(Code code, Pose& program, Pose& target);
+  void tell_probed(const Pose& program, bool contact);
+
+  // levelling.cpp
+  static constexpr int kNoteForMesh = 150000;
+  bool level_bed();
+  bool probe_once(Code code);
+  bool mesh_code(Code code);
+  bool mesh_word(const std::string& name, const WordOf& word);
+  bool mesh_command(std::uint32_t column, canonical::Mesh command);
+  bool measure_mesh(std::uint32_t column, std::string name, const MeshArea& area);
+  void probe_down(Pose at, double clear);
+  void probe_within(const ProbeResult& result);
+  bool note_no_levelling(int code, const std::string& name);
+  void add_to_print_area(std::string_view points);
+
+  // splines.cpp
+  bool run_spline(Code code);
+  void move_lift(double height_mm);
+
+  // offsets.cpp
+  bool select_coordinate_system(Code code);
+  bool set_coordinate_system();
+  void set_offset(std::size_t system, std::size_t axis, double value, bool here);
+  bool set_g92(Code code);
+  bool set_tool_length(Code code);
+  bool set_tilt(Code code);
+  bool rotate_plane(Code code);
+  bool set_local_offset(Code code);
+  bool orient_tool();
+  bool home();
+  bool refuse_in_tilt(Code code);
+  Frame wanted_frame() const;
+  void change_frame();
+  void refresh_shift();
+  void refresh();  ///< after any change of an offset: shift_ and the program's current point
+  Vector3 offset_xyz() const;
+  Vector3 to_canonical_xyz(const Vector3& program) const;
+  double canonical_e(double program_e) const;
+  Pose canonical_pose(const Pose& program) const;
+  void base_e_here(double program_e);  ///< the current point's E gets this number
+
+  // cutter_codes.cpp: cutter compensation
+  bool cutter_is_on() const {
+    return state_.modal.cutter == CutterSide::kLeft || state_.modal.cutter == CutterSide::kRight;
+  }
+  bool cutter_on(Code code);
+  bool cutter_off();
+  bool check_beside_cutter();
+  bool refuse_beside_cutter(Code code, const std::string& name);
+  bool compensate();  ///< what the line has given out since the last call
+  void end_beside();
+
+  // machine_codes.cpp
+  bool run_machine_code(Code code);
+  bool spindle(Code code);
+  /// An S that no code of the line owns: the spindle's speed.
+  bool spindle_speed();
+  bool thermal(Code code);
+  bool value_by_p(Code code);
+  double target_of(const canonical::Thermal& thermal) const;
+  bool fan(Code code);
+  bool motors(Code code);
+  bool axis_limits(Code code);
+  bool axis_acceleration(Code code);
+  bool acceleration_limits();
+  bool jerk();
+  bool firmware_setting(Code code);
+  bool retract_settings(Code code);
+  bool override_ratio(Code code);
+  bool stored_job(Code code);
+  bool tool_temperature(char tool_letter);
+  bool wait_for_temperatures();
+  void remember(const canonical::Thermal& thermal);
+  bool program_call(Code code);
+
+  // pressure_advance.cpp
+  bool pressure_advance(Code code);
+  /// What is not given stays as it is.
+  bool set_pressure_advance(std::uint32_t column, std::optional<double> advance_s,
+                            std::optional<double> smooth_s);
+
+  // input_shaping.cpp
+  bool input_shaping();
+  /// SET_INPUT_SHAPER: a word and what stands behind its =.
+  struct ShaperWord {
+    std::string_view name, text;
+    std::optional<double> value;
+  };
+  bool set_input_shaper(std::uint32_t column, std::span<const ShaperWord> words);
+
+  // objects.cpp: objects of a print that are left out
+  struct ObjectCommand {
+    std::string_view word;  ///< "exclude_object_start", lower case
+    std::string name;
+    bool current = false, reset = false;
+  };
+  bool object_command(const ObjectCommand& command);
+  bool object_code(Code code);
+  std::size_t object_named(std::string_view name);
+  std::size_t object_numbered(int number);
+  bool read_object_comment(std::string_view comment);
+  void begin_object(std::size_t object);
+  void exclude(std::size_t object, bool out);
+  void look_whether_left_out();
+  bool leave_out(std::size_t from, const ModalState& before);
+  void come_back(const Pose& goal, double shift_e, std::uint32_t line);
+
+  // commands.cpp: words of Klipper and macros
+  bool run_command();
+
+  Options options_;
+  State state_;
+  Block block_;
+  ParseError error_;
+  std::vector<Note> notes_;
+  std::vector<int> noted_;
+  ProgramCall call_;  ///< what the line at work asks for
+  CommandBuffer* out_ = nullptr;
+  std::size_t uncompensated_ = 0;  ///< where in out_ the line's commands begin that compensate() has not seen
+  std::uint32_t line_ = 0;
+  std::uint32_t used_ = 0;  ///< words of the block that a code has taken
+  Pose shift_{};            ///< canonical = program + shift for X Y Z A C, outside a tilted plane
+  const DialectRules* rules_ = nullptr;  ///< of the dialect in force
+  bool traverse_has_feed_ = false;
+  bool watches_comments_ = false;  ///< an object is excluded
+  bool probe_goes_on_ = false;     ///< behind its probe the line at work has moves of its own
+  bool probe_sets_z_ = false;      ///< what it touches gets Z 0
+  bool announce_ = true;           ///< SetPosition is due before the next command
+};
+
+/// The letters of the axes, in the order of Pose.
+inline constexpr std::array<char, kAxes> kAxisLetters = {'X', 'Y', 'Z', 'A', 'C', 'E'};
+
+}  // namespace kinebus::gcode

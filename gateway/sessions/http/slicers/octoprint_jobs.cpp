@@ -1,0 +1,169 @@
+// OctoPrint's REST API: files and the job.
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "gateway/sessions/http/api.hpp"
+#include "gateway/sessions/http/routes.hpp"
+#include "gateway/sessions/http/slicers/octoprint.hpp"
+
+namespace kinebus::http {
+namespace {
+
+Json file_json(const StoredJob& job) {
+  Json file = {{"name", job.name},
+               {"display", job.name},
+               {"path", job.name},
+               {"origin", "local"},
+               {"type", "machinecode"},
+               {"typePath", {"machinecode", "gcode"}},
+               {"size", job.size_bytes},
+               {"date", static_cast<std::int64_t>(job.stored_unix_s)},
+               {"refs",
+                {{"resource", "/api/files/local/" + percent_encoded(job.name)},
+                 {"download", download_path(job.name)}}}};
+  if (job.preflight)
+    file["gcodeAnalysis"] = {{"estimatedPrintTime", job.preflight->motion_s + job.preflight->dwell_s}};
+  if (job.last_run) {
+    const bool success = job.last_run->result == RunResult::kComplete;
+    file["prints"] = {{"last",
+                       {{"date", job.last_run->begun_unix_s},
+                        {"printTime", job.last_run->duration_s},
+                        {"success", success}}}};
+  }
+  return file;
+}
+
+void files(Session& session, std::string_view) {
+  session.beside(
+      [](JobStore& store) {
+        const auto listing = all_jobs(store);
+        if (!listing) return Result<std::string, StoreError>(Error<StoreError>(listing.error()));
+        Json list = Json::array();
+        for (const StoredJob& job : listing->jobs) list.push_back(file_json(job));
+        const std::uint64_t quota = listing->quota_bytes;
+        const std::uint64_t free =
+            std::min(listing->free_bytes, quota - std::min(quota, listing->used_bytes));
+        return Result<std::string, StoreError>(
+            text_of({{"files", std::move(list)}, {"free", free}, {"total", quota}}));
+      },
+      [&session](Result<std::string, StoreError> text) {
+        if (!text) return session.refuse(500, text.error().words);
+        session.answer({.body = std::move(*text)});
+      });
+}
+
+const std::string& file_name(Session& session) {
+  return session.target().path.back();
+}
+
+void file(Session& session, std::string_view) {
+  with_job(session, file_name(session),
+           [&session](const StoredJob& job) { session.answer(json_answer(file_json(job))); });
+}
+
+void remove(Session& session, std::string_view) {
+  delete_job(session, file_name(session));
+}
+
+void file_command(Session& session, std::string_view body) {
+  const auto asked = json_body(session, body);
+  if (!asked) return;
+  if (word_in(*asked, "command") != "select")
+    return session.refuse(400, "the commands of a file are: select");
+  const auto print = asked->find("print");
+  const bool prints = print != asked->end() && print->is_boolean() && print->get<bool>();
+  with_job(session, file_name(session), [&session, prints](const StoredJob& job) {
+    session.server().selected = job.name;
+    if (!prints) return session.answer(no_content());
+    start_job(session, job.name, [&session] { session.answer(no_content()); });
+  });
+}
+
+void tell_job(Session& session, const joblink::Status& status, const StoredJob* job) {
+  const bool runs = job_is_there(status);
+  Json file = {{"name", nullptr},   {"path", nullptr}, {"display", nullptr},
+               {"origin", nullptr}, {"size", nullptr}, {"date", nullptr}};
+  const std::string& name = runs ? status.job() : session.server().selected;
+  if (!name.empty()) {
+    file["name"] = file["path"] = file["display"] = name;
+    file["origin"] = "local";
+  }
+  Json estimate = nullptr;
+  if (job != nullptr) {
+    file["size"] = job->size_bytes;
+    file["date"] = static_cast<std::int64_t>(job->stored_unix_s);
+  }
+  if (runs) estimate = status.elapsed_s() + status.remaining_s();
+  Json progress = {{"completion", nullptr},
+                   {"filepos", nullptr},
+                   {"printTime", nullptr},
+                   {"printTimeLeft", nullptr},
+                   {"printTimeLeftOrigin", nullptr}};
+  if (runs)
+    progress = {{"completion", 100 * status.progress()},
+                {"filepos", job != nullptr ? Json(static_cast<std::uint64_t>(
+                                                 status.progress() * static_cast<double>(job->size_bytes)))
+                                           : Json(nullptr)},
+                {"printTime", static_cast<std::int64_t>(status.elapsed_s())},
+                {"printTimeLeft", static_cast<std::int64_t>(status.remaining_s())},
+                {"printTimeLeftOrigin", "estimate"}};
+  session.answer(json_answer({{"job",
+                               {{"file", file},
+                                {"estimatedPrintTime", estimate},
+                                {"lastPrintTime", nullptr},
+                                {"filament", nullptr}}},
+                              {"progress", progress},
+                              {"state", octoprint_state(status)}}));
+}
+
+void job(Session& session, std::string_view) {
+  joblink::Status status = machine_status(session);
+  const std::string name = job_is_there(status) ? status.job() : session.server().selected;
+  if (name.empty()) return tell_job(session, status, nullptr);
+  session.beside([name](JobStore& store) { return store.find(name); },
+                 [&session, status = std::move(status)](const std::optional<StoredJob>& found) {
+                   tell_job(session, status, found ? &*found : nullptr);
+                 });
+}
+
+void job_command(Session& session, std::string_view body) {
+  const auto asked = json_body(session, body);
+  if (!asked) return;
+  const std::string what = word_in(*asked, "command");
+  const std::string action = word_in(*asked, "action");
+  if (what == "cancel") return cancel(session);
+  if (what == "pause") {
+    if (action == "pause") return pause(session, Pausing::kPause);
+    if (action == "resume") return pause(session, Pausing::kResume);
+    if (action.empty() || action == "toggle") return pause(session, Pausing::kToggle);
+    return session.refuse(400, "the actions of pause are: pause, resume, toggle");
+  }
+  if (what != "start") return session.refuse(400, "the commands of a job are: start, pause, cancel");
+  if (session.server().selected.empty()) return session.refuse(409, "no file is selected");
+  start_job(session, session.server().selected, [&session] { session.answer(no_content()); });
+}
+
+std::unique_ptr<Task> download_file(Session& session) {
+  return download(session, session.target().path.back());
+}
+
+}  // namespace
+
+std::span<const Route> octoprint_job_routes() {
+  static constexpr std::array kRoutes{
+      Route{"GET", "api/job", job},
+      Route{"POST", "api/job", job_command},
+      Route{"GET", "api/files", files},
+      Route{"GET", "api/files/local", files},
+      Route{"POST", "api/files/local", nullptr, octoprint_upload},
+      Route{"GET", "api/files/local/*", file},
+      Route{"POST", "api/files/local/*", file_command},
+      Route{"DELETE", "api/files/local/*", remove},
+      Route{"GET", "downloads/files/local/*", nullptr, download_file},
+  };
+  return kRoutes;
+}
+
+}  // namespace kinebus::http

@@ -1,0 +1,201 @@
+// OctoPrint's REST API: the server, the printer and its state.
+
+#include <algorithm>
+#include <array>
+
+#include "gateway/sessions/http/api.hpp"
+#include "gateway/sessions/http/routes.hpp"
+#include "gateway/sessions/http/slicers/octoprint.hpp"
+
+namespace kinebus::http {
+namespace {
+
+struct Flags {
+  const char* text;  ///< as OctoPrint's clients know it
+  bool operational = true, printing = false, pausing = false, cancelling = false, ready = false,
+       error = false;
+};
+
+Flags flags_of(joblink::State state) {
+  switch (state) {
+    case joblink::STATE_OFF:
+      return {.text = "Offline", .operational = false};
+    case joblink::STATE_BRING_UP:
+      return {.text = "Connecting", .operational = false};
+    case joblink::STATE_READY:
+      return {.text = "Operational", .ready = true};
+    case joblink::STATE_CHECKING:
+      return {.text = "Starting", .printing = true};
+    case joblink::STATE_RUNNING:
+      return {.text = "Printing", .printing = true};
+    case joblink::STATE_HOLDING:
+      return {.text = "Pausing", .printing = true, .pausing = true};
+    case joblink::STATE_HELD:
+      return {.text = "Paused"};
+    case joblink::STATE_CANCELLING:
+      return {.text = "Cancelling", .cancelling = true};
+    case joblink::STATE_STOPPING:
+    case joblink::STATE_STOPPED:
+    case joblink::STATE_ALARM:
+      return {.text = "Error", .operational = false, .error = true};
+    default:
+      return {.text = "Operational"};
+  }
+}
+
+Json state_json(const joblink::Status& status) {
+  const Flags flags = flags_of(status.state());
+  return {{"text", octoprint_state(status)},
+          {"flags",
+           {{"operational", flags.operational},
+            {"paused", is_paused(status)},
+            {"printing", flags.printing},
+            {"pausing", flags.pausing},
+            {"cancelling", flags.cancelling},
+            {"resuming", false},
+            {"finishing", false},
+            {"sdReady", false},
+            {"error", flags.error},
+            {"ready", flags.ready},
+            {"closedOrError", !flags.operational}}},
+          // In Kinebus's own words, for whoever reads them.
+          {"kinebus", {{"state", status.state_words()}, {"doing", status.doing()}}}};
+}
+
+/// "tool0", "bed", "chamber", as OctoPrint names heaters.
+std::string heater_name(const joblink::Heater& heater) {
+  const std::string number = std::to_string(heater.index());
+  if (heater.kind() == joblink::HEATER_HOTEND) return "tool" + number;
+  const std::string kind = heater.kind() == joblink::HEATER_BED ? "bed" : "chamber";
+  return heater.index() == 0 ? kind : kind + number;
+}
+
+void version(Session& session, std::string_view) {
+  const auto& options = session.server().link().options();
+  session.answer(
+      json_answer({{"api", "0.1"},
+                   {"server", kOctoPrintApi},
+                   {"text", "OctoPrint " + std::string(kOctoPrintApi) + " (Kinebus " + options.version + ")"},
+                   {"capabilities", {{"upload-by-put", true}}}}));
+}
+
+void server(Session& session, std::string_view) {
+  session.answer(json_answer({{"version", kOctoPrintApi}, {"safemode", nullptr}}));
+}
+
+Json user() {
+  return {{"name", "kinebus"},
+          {"active", true},
+          {"user", true},
+          {"admin", true},
+          {"apikey", nullptr},
+          {"groups", {"admins", "users"}},
+          {"permissions",
+           {"STATUS", "CONNECTION", "FILES_LIST", "FILES_UPLOAD", "FILES_DOWNLOAD", "FILES_DELETE",
+            "FILES_SELECT", "PRINT"}}};
+}
+
+/// Whoever asks has shown the key: nobody logs in by a name.
+void login(Session& session, std::string_view body) {
+  const auto asked = json_body(session, body);
+  if (!asked) return;
+  if (!asked->value("passive", Json(false)).is_boolean() || !asked->value("passive", Json(false)).get<bool>())
+    return session.refuse(403, "there are no names and passwords: clients are let in by X-Api-Key");
+  Json answer = user();
+  // A key is shown with every request; this tells nothing and opens nothing.
+  answer["session"] = std::to_string(session.id());
+  answer["_is_external_client"] = false;
+  session.answer(json_answer(answer));
+}
+
+void current_user(Session& session, std::string_view) {
+  session.answer(json_answer(user()));
+}
+
+void settings(Session& session, std::string_view) {
+  session.answer(json_answer({{"api", {{"allowCrossOrigin", false}}},
+                              {"appearance", {{"name", machine_info(session).name()}, {"color", "default"}}},
+                              {"feature", {{"sdSupport", false}, {"temperatureGraph", true}}},
+                              {"webcam", {{"webcamEnabled", false}, {"streamUrl", ""}, {"snapshotUrl", ""}}},
+                              {"plugins", Json::object()}}));
+}
+
+void connection(Session& session, std::string_view) {
+  const joblink::Status status = machine_status(session);
+  session.answer(
+      json_answer({{"current",
+                    {{"state", octoprint_state(status)},
+                     {"port", "kinebus"},
+                     {"baudrate", nullptr},
+                     {"printerProfile", "_default"}}},
+                   {"options",
+                    {{"ports", {"kinebus"}},
+                     {"baudrates", Json::array()},
+                     {"printerProfiles", {{{"id", "_default"}, {"name", machine_info(session).name()}}}},
+                     {"portPreference", "kinebus"},
+                     {"printerProfilePreference", "_default"}}}}));
+}
+
+void printer(Session& session, std::string_view) {
+  const joblink::Status status = machine_status(session);
+  Json temperature = Json::object();
+  for (const joblink::Heater& heater : status.heaters())
+    temperature[heater_name(heater)] = {
+        {"actual", heater.actual_celsius()}, {"target", heater.target_celsius()}, {"offset", 0}};
+  session.answer(
+      json_answer({{"temperature", temperature}, {"sd", {{"ready", false}}}, {"state", state_json(status)}}));
+}
+
+Json range(const joblink::Range& range) {
+  return range.max() - range.min();
+}
+
+void printer_profiles(Session& session, std::string_view) {
+  const joblink::MachineInfo info = machine_info(session);
+  int hotends = 0;
+  bool bed = false, chamber = false;
+  for (const joblink::HeaterInfo& heater : info.heaters()) {
+    hotends += heater.kind() == joblink::HEATER_HOTEND ? 1 : 0;
+    bed = bed || heater.kind() == joblink::HEATER_BED;
+    chamber = chamber || heater.kind() == joblink::HEATER_CHAMBER;
+  }
+  const joblink::Reach& reach = info.reach();
+  const bool round = reach.radius_mm() > 0;
+  Json offsets = Json::array();
+  for (int i = 0; i < std::max(hotends, 1); ++i) offsets.push_back({0.0, 0.0});
+  Json profile = {
+      {"id", "_default"},
+      {"name", info.name()},
+      {"model", "Kinebus " + info.kinematics()},
+      {"default", true},
+      {"current", true},
+      {"resource", "/api/printerprofiles/_default"},
+      {"volume",
+       {{"formFactor", round ? "circular" : "rectangular"},
+        {"origin", reach.x_mm().min() < 0 ? "center" : "lowerleft"},
+        {"width", round ? Json(2 * reach.radius_mm()) : range(reach.x_mm())},
+        {"depth", round ? Json(2 * reach.radius_mm()) : range(reach.y_mm())},
+        {"height", range(reach.z_mm())}}},
+      {"heatedBed", bed},
+      {"heatedChamber", chamber},
+      {"extruder", {{"count", std::max(hotends, 1)}, {"offsets", offsets}, {"sharedNozzle", false}}}};
+  session.answer(json_answer({{"profiles", {{"_default", profile}}}}));
+}
+
+}  // namespace
+
+const char* octoprint_state(const joblink::Status& status) {
+  return is_paused(status) ? "Paused" : flags_of(status.state()).text;
+}
+
+std::span<const Route> octoprint_machine_routes() {
+  static constexpr std::array kRoutes{
+      Route{"GET", "api/version", version},   Route{"GET", "api/server", server},
+      Route{"POST", "api/login", login},      Route{"GET", "api/currentuser", current_user},
+      Route{"GET", "api/settings", settings}, Route{"GET", "api/connection", connection},
+      Route{"GET", "api/printer", printer},   Route{"GET", "api/printerprofiles", printer_profiles},
+  };
+  return kRoutes;
+}
+
+}  // namespace kinebus::http
