@@ -8,14 +8,14 @@ namespace {
 
 constexpr std::string_view kName = "Kinebus boot loader";
 constexpr std::chrono::milliseconds kHeartbeat{500};
-// An erase of 128 kB takes up to 2 s, in which nothing else happens.
+// An erase of 256 kB takes up to 4 s, in which nothing else happens.
 constexpr SdoServer::Options kSlowFlash{.timeout = std::chrono::seconds{10}};
+
+}  // namespace
 
 bool is_blank(std::span<const std::uint8_t> bytes) {
   return std::all_of(bytes.begin(), bytes.end(), [](std::uint8_t b) { return b == 0xFF; });
 }
-
-}  // namespace
 
 BootLoader::BootLoader(const ImageTarget& board, const LssIdentity& identity, std::uint8_t node_id,
                        ProgramFlash& flash, LocalTime now)
@@ -126,6 +126,9 @@ AbortCode BootLoader::sdo_read(ObjectAddress address, std::uint32_t offset, std:
     case 0x2122'00:
       value = flash_.unprotected();
       total = 1;
+      break;
+    case 0x2123'00:
+      value = static_cast<std::uint32_t>(flash_.bytes().size());
       break;
     default:
       return AbortCode::kNoObject;

@@ -17,6 +17,9 @@
 
 namespace kinebus {
 
+/// Whether nothing was written there since the last erase.
+bool is_blank(std::span<const std::uint8_t> bytes);
+
 /// The flash that holds the program: one erase for all of it. And what the chip can keep from being lost for
 /// good.
 class ProgramFlash {
@@ -49,6 +52,11 @@ enum class ProgramStatus : std::uint8_t {
 /// 2122h, chip protection: what is missing (ProgramFlash); writing the signature sets it.
 inline constexpr ObjectAddress kChipProtection{0x2122, 0};
 inline constexpr std::uint32_t kProtectSignature = 0x746F'7270;  // "prot"
+
+/// 2123h, for how many bytes of program there is room. A boot loader that does not have it was built for
+/// kFirstProgramRoom.
+inline constexpr ObjectAddress kProgramRoom{0x2123, 0};
+inline constexpr std::uint32_t kFirstProgramRoom = 0x2'0000;
 
 /// 1F51h.
 namespace program_control {

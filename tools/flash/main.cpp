@@ -175,7 +175,7 @@ int run(int argc, char** argv) {
   auto* all = app.add_flag("-a,--all", arguments.all, "Every node that answers")->excludes(node);
   app.add_flag("-f,--force", arguments.force, "Also when the node runs this program already");
   app.add_option("--answer", arguments.answer_s,
-                 "Seconds to wait for an answer: an erase takes up to 2, emulated boards may be slow")
+                 "Seconds to wait for an answer: an erase takes up to 4, emulated boards may be slow")
       ->check(CLI::Range(0.5, 600.0))
       ->capture_default_str();
   auto* protect =

@@ -98,6 +98,8 @@ void ProgramUpdate::go(LocalTime now, Step step) {
     case Step::kAwaitProgram:
       boot_due_ = now + options_.boot;
       return;
+    case Step::kReadRoom:
+      return upload(now, kProgramRoom);
     case Step::kClear:
       message_ = "erasing";
       return control(program_control::kClear);
@@ -130,7 +132,7 @@ void ProgramUpdate::on_transfer(LocalTime now) {
     case Step::kReadIdentity:
       if (get_u32_le(value_) != decode_image_header(image_).product_code)
         return fail("is not the node that this image is for: product code differs (1018h:2)");
-      return go(now, !in_boot_loader_ ? Step::kReadProgram : same_ ? Step::kReadProtection : Step::kClear);
+      return go(now, !in_boot_loader_ ? Step::kReadProgram : same_ ? Step::kReadProtection : Step::kReadRoom);
     case Step::kReadProgram:
       same_ = get_u32_le(value_) == crc_ && !options_.even_if_same;
       if (same_ && !options_.protect) {
@@ -141,6 +143,8 @@ void ProgramUpdate::on_transfer(LocalTime now) {
       return go(now, Step::kStop);
     case Step::kStop:
       return go(now, Step::kAwaitBootLoader);
+    case Step::kReadRoom:
+      return on_room(now, get_u32_le(value_));
     case Step::kClear:
       return go(now, Step::kDownload);
     case Step::kDownload:
@@ -157,6 +161,7 @@ void ProgramUpdate::on_transfer(LocalTime now) {
     case Step::kStart:
       return go(now, Step::kAwaitProgram);
     case Step::kVerify:
+      if (!refused_.empty()) return fail(refused_);
       if (get_u32_le(value_) != crc_) return fail("another program came up than was written");
       status_ = Status::kDone;
       message_ = same_ ? "protected" : "updated";
@@ -165,6 +170,15 @@ void ProgramUpdate::on_transfer(LocalTime now) {
     case Step::kAwaitProgram:
       return;
   }
+}
+
+// Before anything is erased: what does not fit leaves the node with the program that it has.
+void ProgramUpdate::on_room(LocalTime now, std::uint32_t bytes) {
+  if (image_.size() <= bytes) return go(now, Step::kClear);
+  refused_ = "its boot loader has room for programs of " + std::to_string(bytes) +
+             " bytes and this one has " + std::to_string(image_.size()) +
+             ": write kinebus-boot.hex of the same release by SWD or DFU first; nothing was written";
+  go(now, Step::kStart);
 }
 
 void ProgramUpdate::on_failed_transfer(LocalTime now) {
@@ -177,6 +191,9 @@ void ProgramUpdate::on_failed_transfer(LocalTime now) {
     --attempts_left_;
     return go(now, Step::kReadControl);
   }
+  if (step_ == Step::kReadRoom && code == AbortCode::kNoObject) return on_room(now, kFirstProgramRoom);
+  // The program that was there cannot be started either: there was none.
+  if (!refused_.empty()) return fail(refused_);
   // A boot loader of before protection: nothing is known of the chip.
   if (step_ == Step::kReadProtection && code == AbortCode::kNoObject)
     return options_.protect ? fail("its boot loader cannot protect the chip: write a new one by SWD or DFU")
@@ -195,7 +212,7 @@ void ProgramUpdate::on_frame(LocalTime now, const CanFrame& frame) {
   if (heartbeat && heartbeat->node == node_ && heartbeat->state == NmtState::kInitialising &&
       boot_due_ != LocalTime::max()) {
     boot_due_ = LocalTime::max();
-    go(now, step_ == Step::kAwaitProgram ? Step::kVerify : same_ ? Step::kReadProtection : Step::kClear);
+    go(now, step_ == Step::kAwaitProgram ? Step::kVerify : same_ ? Step::kReadProtection : Step::kReadRoom);
   }
   on_time(now);
 }

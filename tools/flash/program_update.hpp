@@ -25,7 +25,7 @@ class ProgramUpdate {
  public:
   enum class Status : std::uint8_t { kBusy, kDone, kFailed };
   struct Options {
-    /// An erase of 128 kB takes up to 2 s, in which a node says nothing.
+    /// An erase of 256 kB takes up to 4 s, in which a node says nothing.
     LocalTime answer = std::chrono::seconds{6};
     LocalTime boot = std::chrono::seconds{3};  ///< from a reset to the boot-up message
     int attempts = 3;  ///< downloads that fail by a timeout or a wrong CRC are repeated
@@ -59,6 +59,7 @@ class ProgramUpdate {
     kReadProgram,
     kStop,
     kAwaitBootLoader,
+    kReadRoom,
     kClear,
     kDownload,
     kReadStatus,
@@ -74,6 +75,7 @@ class ProgramUpdate {
   void download(LocalTime now, ObjectAddress address, std::span<const std::uint8_t> bytes);
   void on_transfer(LocalTime now);
   void on_failed_transfer(LocalTime now);
+  void on_room(LocalTime now, std::uint32_t bytes);
   void fail(std::string message);
 
   Options options_;
@@ -84,6 +86,7 @@ class ProgramUpdate {
   Step step_ = Step::kReadControl;
   Status status_ = Status::kBusy;
   std::string message_;
+  std::string refused_;  ///< why nothing is written: the program that was there runs on
   std::array<std::uint8_t, 8> value_{};
   std::array<std::uint8_t, 1> command_{};
   std::optional<CanFrame> before_;  ///< goes ahead of the transfer that was begun

@@ -119,12 +119,12 @@ inline constexpr std::uint32_t kPwmRepetition = 2 * (kPwmHz / kControlHz) - 1;
 /// TIM8 lags so many counts, a conversion's time: motor B's quiet moment is when its slot samples.
 inline constexpr std::uint32_t kMotorBLag = 216;
 
-// Flash: boot loader in sectors 0 and 1, parameters in 2 and 3, program in 5.
+// Flash: boot loader in sectors 0 and 1, parameters in 2 and 3, program in 5 and 6.
 inline constexpr std::uint32_t kBootAddress = 0x0800'0000, kBootBytes = 0x8000;
 inline constexpr std::array<stm32::FlashSector, 2> kParameterSectors{{{0x0800'8000, 2}, {0x0800'C000, 3}}};
 inline constexpr std::uint32_t kParameterPageBytes = 0x4000;
-inline constexpr std::uint32_t kProgramAddress = 0x0802'0000, kProgramBytes = 0x2'0000;
-inline constexpr std::uint8_t kProgramSector = 5;
+inline constexpr std::uint32_t kProgramAddress = 0x0802'0000, kProgramBytes = 0x4'0000;
+inline constexpr std::array<stm32::FlashSector, 2> kProgramSectors{{{0x0802'0000, 5}, {0x0804'0000, 6}}};
 /// The chip's own boot loader (DFU over PA11, PA12, and others): its vectors.
 inline constexpr std::uint32_t kSystemBootAddress = 0x1FFF'0000;
 

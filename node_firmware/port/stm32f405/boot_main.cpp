@@ -24,12 +24,19 @@ namespace {
 using namespace kinebus;
 using namespace kinebus::stm32;
 
-class ProgramSector final : public ProgramFlash {
+class ProgramSectors final : public ProgramFlash {
  public:
   std::span<const std::uint8_t> bytes() const override {
     return flash::bytes(board::kProgramAddress, board::kProgramBytes);
   }
-  bool erase() override { return flash::erase(board::kProgramSector); }
+  // The header goes first: what a cut leaves of the rest is then no program. Sectors that are blank are not
+  // waited for.
+  bool erase() override {
+    constexpr std::uint32_t kEach = board::kProgramBytes / board::kProgramSectors.size();
+    for (const FlashSector& sector : board::kProgramSectors)
+      if (!is_blank(flash::bytes(sector.address, kEach)) && !flash::erase(sector.number)) return false;
+    return true;
+  }
   bool program(std::uint32_t offset, std::uint32_t word) override {
     return flash::program(board::kProgramAddress + offset, word);
   }
@@ -37,7 +44,7 @@ class ProgramSector final : public ProgramFlash {
   bool protect() override { return options::protect(); }
 };
 
-constinit ProgramSector program_sector;
+constinit ProgramSectors program_sectors;
 constinit CanPort can_port;
 constinit ParameterFlash<board::kParameterSectors, board::kParameterPageBytes> parameter_flash;
 constinit PageStore parameters{parameter_flash};
@@ -100,7 +107,7 @@ void isr_can_state() {
 
 int main() {
   if (start_system_boot(handover_ram)) jump_to_system_boot();
-  if (start_program(handover_ram, check_image(program_sector.bytes(), kBoard))) jump_to_program();
+  if (start_program(handover_ram, check_image(program_sectors.bytes(), kBoard))) jump_to_program();
   configure_pins<board::kPins>();
   if (!start_clocks<board::kCrystalHz>()) power_off_and_reset(fault_reason::kNoClock, nullptr);
   start_local_time();
@@ -108,7 +115,7 @@ int main() {
   start_tick();
   const LssIdentity identity{kVendorId, kBoard.product_code, kBoard.revision, serial_number(unique_id())};
   boot.emplace(kBoard, identity, boot_node_id(handover_ram, parameter_image, parameters.load()),
-               program_sector, can_port);
+               program_sectors, can_port);
   for (;;) {
     if (boot->pass()) {
       handover_ram = Handover{.node_id = boot->node_id()};

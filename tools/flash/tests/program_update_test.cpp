@@ -22,6 +22,8 @@ struct Board {
   LocalTime now{0};
   std::uint32_t downloads = 0;
   std::uint8_t unprotected = 0;
+  bool knows_room = true;  ///< else its boot loader is of before 2123h
+  std::optional<CanFrame> answer;
 
   void reset() {
     boot.reset();
@@ -38,8 +40,15 @@ struct Board {
     handover.magic = 0;
     reset();
   }
-  void on_frame(const CanFrame& frame) { boot ? boot->on_frame(now, frame) : node->on_frame(now, frame); }
+  void on_frame(const CanFrame& frame) {
+    if (boot && !knows_room && frame == CanFrame::make(0x603, {0x40, 0x23, 0x21, 0, 0, 0, 0, 0})) {
+      answer = sdo::abort_frame(0x583, kProgramRoom, AbortCode::kNoObject);
+      return;
+    }
+    boot ? boot->on_frame(now, frame) : node->on_frame(now, frame);
+  }
   std::optional<CanFrame> next_frame() {
+    if (answer) return std::exchange(answer, std::nullopt);
     if (boot) {
       boot->on_time(now);
       if (auto frame = boot->next_frame()) return frame;
@@ -135,6 +144,25 @@ TEST(ProgramUpdate, WrongFilesAndPoweredDrivesAreRefusedWithTheReason) {
   ASSERT_TRUE(board.node->drive(0).power);
   EXPECT_EQ(board.update(make_image(9000, 2), &message), Status::kFailed);
   EXPECT_TRUE(board.node) << "the program goes on";
+}
+
+TEST(ProgramUpdate, WhatDoesNotFitIsRefusedBeforeAnythingIsErased) {
+  Board board;
+  board.reset();
+  std::string message;
+  ASSERT_EQ(board.update(make_image(9000, 1)), Status::kDone);
+  const int erasures = board.flash.erasures;
+  EXPECT_EQ(board.update(make_image(kRoom + 4, 2), &message), Status::kFailed);
+  EXPECT_EQ(message.rfind("its boot loader has room for programs of 16384 bytes and this one has 16388: ", 0),
+            0u)
+      << message;
+  board.knows_room = false;
+  EXPECT_EQ(board.update(make_image(140'000, 2), &message), Status::kFailed);
+  EXPECT_EQ(message.rfind("its boot loader has room for programs of 131072 bytes", 0), 0u) << message;
+  EXPECT_EQ(board.flash.erasures, erasures);
+  EXPECT_TRUE(board.node) << "the program goes on";
+  EXPECT_EQ(board.update(make_image(12'000, 3), &message), Status::kDone)
+      << message << " (an old boot loader takes what it has room for)";
 }
 
 TEST(ProgramUpdate, LostFramesAreRepeated) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "node_firmware/boot/boot_loader.hpp"
 #include "node_firmware/boot/image_header.hpp"
 #include "node_firmware/port/stm32f405/board.hpp"
 #include "protocol/canopen/lss.hpp"
@@ -60,7 +61,7 @@ struct EmulatedUpdate : testing::Test {
   bool update(std::uint8_t node, std::span<const std::uint8_t> bytes, int cut_at = 101,
               bool protect = false) {
     ProgramUpdate work(node, bytes, now,
-                       {.answer = 3s, .attempts = cut_at > 100 ? 3 : 1, .protect = protect});
+                       {.answer = 6s, .attempts = cut_at > 100 ? 3 : 1, .protect = protect});
     std::optional<CanFrame> unsent;
     while (work.status() == ProgramUpdate::Status::kBusy) {
       while (machine.can_send() && (unsent || (unsent = work.next_frame()))) {
@@ -128,6 +129,42 @@ TEST_F(EmulatedUpdate, AllNodesGetTheNewProgramAndACutIsRepairedByRunningItAgain
     EXPECT_EQ(machine.board(node).watchdog_resets(), 0u);
     EXPECT_TRUE(machine.board(node).strange_accesses().empty());
   }
+}
+
+// Both of the program's sectors hold something, as after a larger program: each takes 2 s to erase.
+TEST_F(EmulatedUpdate, AProgramOfTwoSectorsGoesInIsCutOffAndGoesInAgain) {
+  Board& board = machine.board(0);
+  const std::vector<std::uint8_t> small = program_in(board);
+  const auto padded_to = [&](std::size_t bytes) {
+    std::vector<std::uint8_t> padded = small;
+    for (std::size_t i = padded.size(); i < bytes; ++i)
+      padded.push_back(static_cast<std::uint8_t>(i * i / 7));
+    ImageHeader header = decode_image_header(padded);
+    header.length = static_cast<std::uint32_t>(bytes);
+    encode_image_header(header, padded);
+    header.crc = image_crc(padded);
+    encode_image_header(header, padded);
+    return padded;
+  };
+  keep_id(1);
+  const std::vector<std::uint8_t> large = padded_to(150'000);
+  ASSERT_GT(large.size(), kFirstProgramRoom);
+  const std::uint64_t erases = board.flash().erases();
+  EXPECT_TRUE(update(1, large));
+  EXPECT_EQ(board.flash().erases() - erases, 1u + (small.size() > kFirstProgramRoom ? 1 : 0))
+      << "what is blank is not erased";
+  EXPECT_EQ(program_in(board), large);
+  EXPECT_FALSE(update(1, padded_to(150'004), 95)) << "its power went in the second sector";
+  EXPECT_TRUE(update(1, large));
+  EXPECT_EQ(program_in(board), large);
+  EXPECT_FALSE(update(1, padded_to(board::kProgramBytes + 4))) << "more than there is room for";
+  EXPECT_EQ(program_in(board), large) << "and nothing was erased";
+  EXPECT_TRUE(update(1, small));
+  const auto flash =
+      board.cpu().flash().subspan(board::kProgramAddress - board::kBootAddress, board::kProgramBytes);
+  EXPECT_TRUE(is_blank(flash.subspan(small.size()))) << "nothing is left of the larger one";
+  EXPECT_EQ(board.watchdog_resets(), 0u);
+  EXPECT_TRUE(board.strange_accesses().empty());
 }
 
 TEST_F(EmulatedUpdate, TheChipIsProtectedAndTakesProgramsAllTheSame) {
