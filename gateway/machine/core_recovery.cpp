@@ -131,9 +131,12 @@ Done Gateway::Core::begin_return() {
   if (!from) return Error<Refusal>(from.error());
   const auto moves = recovery_.way_back(print_.runner().rest_pose(), *from, position_);
   if (!moves) return Error<Refusal>(moves.error());
-  if (auto meet = hand_.in_the_way(*from, *moves))
+  if (auto meet = hand_.in_the_way(*from, *moves)) {
+    // What is held cannot be moved by hand: the job stays interrupted, motors and positions as they are.
+    if (state_.is(MachineState::kHeld)) enter(MachineState::kReady);
     return refused(say("on the way back to the job's place %1: move the tool clear by hand, then resume",
                        std::move(*meet)));
+  }
   std::vector<canonical::Line> commands = heat_.lead_back();
   commands.insert(commands.end(), moves->begin(), moves->end());
   if (commands.empty()) {

@@ -71,7 +71,8 @@ class Gateway {
   /// The bus controller reported bus-off or lost its carrier: motion cannot be commanded any more.
   void on_bus_failure(BusTime now, std::string_view what);
 
-  /// Carries a command out, or begins to. Refused: why, and nothing has changed.
+  /// Carries a command out, or begins to. Refused: why, and nothing has changed; but a machine that is held
+  /// and cannot go back to its job is ready then, to be moved by hand.
   Result<void, Refusal> carry_out(Command command);
   /// Whether such a command may be given now (command::kind<command::Jog>), and if not, why. What it asks for
   /// in particular may be refused all the same.

@@ -73,6 +73,39 @@ TEST_F(WayBack, ThroughWhatIsPrintedIsRefusedAndAroundItIsGone) {
   EXPECT_NEAR(at(kZ), 20, 0.01);
 }
 
+// A stop in a move by hand leaves the job held, the wall between the tool and its place.
+TEST_F(WayBack, RefusedWhileItIsHeldLeavesAMachineThatCanBeMovedByHand) {
+  jog({0, 0, 50, 0, 0, 0});
+  jog({0, -120, 0, 0, 0, 0});
+  ASSERT_TRUE(rig.gateway->carry_out(command::Jog{.delta = {0, 0, -50, 0, 0, 0}, .speed_per_s = 20}));
+  ASSERT_TRUE(rig.run_until([&] { return at(kZ) < 15; }, 20s)) << rig.story();
+  ASSERT_TRUE(rig.gateway->carry_out(command::Stop{}));
+  ASSERT_TRUE(rig.reach(MachineState::kStopped, 10s)) << rig.story();
+  ASSERT_TRUE(rig.gateway->carry_out(command::Clear{}));
+  ASSERT_TRUE(rig.reach(MachineState::kHeld, 10s)) << rig.story();
+  ASSERT_FALSE(rig.gateway->may(command::kind<command::Jog>));
+
+  const auto through = rig.gateway->carry_out(command::Resume{});
+  ASSERT_FALSE(through);
+  EXPECT_NE(through.error().words.find("move the tool clear by hand"), std::string::npos)
+      << through.error().words;
+  EXPECT_EQ(rig.gateway->state(), MachineState::kReady);
+  MachineStatus s = rig.gateway->status();
+  EXPECT_TRUE(s.interrupted);
+  EXPECT_TRUE(s.positions_known);
+  for (std::size_t n = 0; n < 2; ++n) EXPECT_EQ(s.nodes[n].statusword[0] & 0x6F, 0x27) << "drives hold";
+  ASSERT_FALSE(rig.gateway->carry_out(command::Resume{})) << "the wall is there still";
+
+  jog({0, 0, 45, 0, 0, 0});
+  ASSERT_TRUE(rig.gateway->carry_out(command::Resume{}));
+  ASSERT_TRUE(rig.run_until(
+      [&] { return rig.gateway->state() == MachineState::kReady && !rig.gateway->status().interrupted; },
+      120s))
+      << rig.story();
+  EXPECT_NEAR(at(kX), 20, 0.01);
+  EXPECT_NEAR(at(kZ), 20, 0.01);
+}
+
 TEST_F(WayBack, FromItsOwnPlaceAndFromAboveItGoesOn) {
   ASSERT_TRUE(rig.gateway->carry_out(command::Resume{}));
   ASSERT_TRUE(rig.reach(MachineState::kRunning, 10s)) << rig.story();
