@@ -17,9 +17,6 @@
 
 namespace kinebus {
 
-/// Whether nothing was written there since the last erase.
-bool is_blank(std::span<const std::uint8_t> bytes);
-
 /// The flash that holds the program: one erase for all of it. And what the chip can keep from being lost for
 /// good.
 class ProgramFlash {

@@ -29,12 +29,10 @@ class ProgramSectors final : public ProgramFlash {
   std::span<const std::uint8_t> bytes() const override {
     return flash::bytes(board::kProgramAddress, board::kProgramBytes);
   }
-  // The header goes first: what a cut leaves of the rest is then no program. Sectors that are blank are not
-  // waited for.
+  // The header goes first: what a cut leaves of the rest is then no program.
   bool erase() override {
-    constexpr std::uint32_t kEach = board::kProgramBytes / board::kProgramSectors.size();
     for (const FlashSector& sector : board::kProgramSectors)
-      if (!is_blank(flash::bytes(sector.address, kEach)) && !flash::erase(sector.number)) return false;
+      if (!flash::erase(sector.number)) return false;
     return true;
   }
   bool program(std::uint32_t offset, std::uint32_t word) override {
