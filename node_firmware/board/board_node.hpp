@@ -25,10 +25,10 @@ struct PlanGrid {
 template <LocalCounter Counter>
 class BoardNode {
  public:
-  BoardNode(const NodeOptions& options, const LocalClock<Counter>& clock, LocalTime now,
+  BoardNode(const NodeOptions& options, BusClock& bus_clock, const LocalClock<Counter>& clock, LocalTime now,
             std::span<const std::uint8_t> stored, MotionPlanExchange& plan, const PlanGrid& grid,
             InputPlaces inputs)
-      : clock_(clock), plan_(plan), grid_(grid), inputs_(inputs), node_(options, now, stored) {
+      : clock_(clock), plan_(plan), grid_(grid), inputs_(inputs), node_(options, bus_clock, now, stored) {
     plan_.renew(node_, now, Counter::counts(), grid.pieces);
   }
 

@@ -28,7 +28,7 @@ class NodeProgram {
   /// Another one, or one anew.
   void begin(std::size_t number, const NodeOptions& options, std::span<const std::uint8_t> stored,
              MotionPlanExchange& plan, InputPlaces inputs) {
-    nodes_[number].emplace(options, clock_, now_, stored, plan, grid_, inputs);
+    nodes_[number].emplace(options, bus_clock_, clock_, now_, stored, plan, grid_, inputs);
     for (std::size_t i = 0; i < known_inputs_; ++i)
       nodes_[number]->on_switch(now_, static_cast<std::uint8_t>(i), levels_[i]);
   }
@@ -83,6 +83,8 @@ class NodeProgram {
   Can& can_;
   Switches& switches_;
   LocalClock<Counter> clock_;
+  // Of all nodes: they hear the same SYNC by the same counter.
+  BusClock bus_clock_;
   LocalTime now_;
   PlanGrid grid_;
   std::array<Place, kNodes> nodes_;

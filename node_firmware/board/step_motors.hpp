@@ -179,12 +179,14 @@ void StepMotors<Stage>::fill(Axis& axis, const step::PlannedWay& way, const Step
     const StepPins& pins;
     bool inverted;
     [[gnu::always_inline]] void step(int slot) { lane.pulse(slot, pin); }
+    [[gnu::always_inline]] void early_step(int slot) { lane.early_pulse(slot, pin); }
     void turn(int slot, bool up) {
       frames.put(pins.direction_port, slot, up != inverted ? pins.direction : pins.direction << 16);
     }
   } put{frames_.lane(pins.step_port), pins.step, frames_, pins, inverted};
   const bool good = axis.steps.fill(way, put);
   axis.moved = axis.steps.moved();
+  if (axis.moved) frames_.mark(pins.step_port);
   if (!good) axis.lost.store(true, std::memory_order_relaxed);
 }
 

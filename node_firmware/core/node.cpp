@@ -24,11 +24,12 @@ std::uint8_t first_id(const NodeOptions& options, std::uint8_t stored) {
 
 }  // namespace
 
-Node::Node(const NodeOptions& options, LocalTime now, std::span<const std::uint8_t> stored_image)
+Node::Node(const NodeOptions& options, BusClock& clock, LocalTime now,
+           std::span<const std::uint8_t> stored_image)
     : options_(options),
       now_(now),
       objects_(*this, 0, *options.table),
-      path_(options.clock),
+      path_(clock),
       axes_{DriveAxis(0, objects_, path_, inputs_), DriveAxis(1, objects_, path_, inputs_)},
       sdo_(objects_),
       pdo_(objects_),

@@ -51,7 +51,6 @@ struct NodeOptions {
   /// Axes whose linear scales the board can count (2160h).
   std::array<bool, kAxesPerNode> scale_inputs{};
   // Of a board with several nodes:
-  BusClock* clock = nullptr;  ///< of all of them; nullptr: this node's own
   /// The node has its id from its board, and LSS is another's business.
   bool id_from_board = false;
   std::uint8_t consecutive_ids = 1;  ///< that go with the id that LSS gives
@@ -73,13 +72,15 @@ struct DriveFeedback {
   std::uint8_t tune_state = 0;      ///< 0 idle, 1 runs, 2 done, 3 failed
 };
 
-class Node final : private ObjectOwner {
+class Node : private ObjectOwner {
  public:
   static constexpr int kSwitchInputs = kinebus::kSwitchInputs;
 
+  /// `clock`: of all nodes behind the same CAN controller; it outlives them.
   /// `stored_image`: what image_to_store() gave once, as the port's memory returns it; empty: nothing stored.
   /// A damaged image leaves the defaults in force and is told by EMCY 5530h.
-  Node(const NodeOptions& options, LocalTime now, std::span<const std::uint8_t> stored_image = {});
+  Node(const NodeOptions& options, BusClock& clock, LocalTime now,
+       std::span<const std::uint8_t> stored_image = {});
   Node(const Node&) = delete;
   Node& operator=(const Node&) = delete;
 
@@ -256,6 +257,18 @@ class Node final : private ObjectOwner {
   LocalTime status_look_ = LocalTime::max();
   LocalTime status_told_at_{0};
   std::array<std::int64_t, 2> watched_entries_{};
+};
+
+/// A base, so that it is there before the node that uses it.
+struct OwnBusClock {
+  BusClock own_clock;
+};
+/// The only node behind its CAN controller.
+class LoneNode final : private OwnBusClock, public Node {
+ public:
+  explicit LoneNode(const NodeOptions& options, LocalTime now,
+                    std::span<const std::uint8_t> stored_image = {})
+      : Node(options, own_clock, now, stored_image) {}
 };
 
 /// Looks ahead of a node without changing it: where the motors will be if nothing more comes. Valid until the

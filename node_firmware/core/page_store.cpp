@@ -57,10 +57,11 @@ void PageStore::look() {
   const bool second = pages_[1].has_record &&
                       (!pages_[0].has_record || pages_[1].newest_sequence > pages_[0].newest_sequence);
   active_ = second ? 1 : 0;
+  looked_ = true;
 }
 
 std::span<const std::uint8_t> PageStore::load() {
-  look();
+  if (!looked_) look();
   const Page& page = pages_[active_];
   if (!page.has_record) return {};
   return flash_.page(active_).subspan(page.newest_offset, page.newest_length);

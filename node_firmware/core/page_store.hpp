@@ -29,7 +29,7 @@ class PageStore {
  public:
   explicit constexpr PageStore(FlashPages& flash) : flash_(flash) {}
 
-  /// Looks through both pages. The newest whole image; empty: none.
+  /// Looks through both pages, once: milliseconds where they are large. The newest whole image; empty: none.
   std::span<const std::uint8_t> load();
   /// The next save() of so many bytes has to erase a page first, which takes its time.
   bool save_erases(std::size_t bytes) const;
@@ -58,6 +58,7 @@ class PageStore {
   FlashPages& flash_;
   std::array<Page, 2> pages_{};
   std::size_t active_ = 0;  // holds the newest image
+  bool looked_ = false;     // into the pages, since the last change
 };
 
 }  // namespace kinebus

@@ -35,8 +35,8 @@ class PathMotion {
   /// way does so within a USB frame of 1 ms or two; the reserve of queued motion is many times longer.
   static constexpr LocalTime kOrderPatience = std::chrono::milliseconds{5};
 
-  /// `shared`: of all nodes behind the same CAN controller; nullptr: this node has its own.
-  explicit PathMotion(BusClock* shared = nullptr) : bus_clock_(shared != nullptr ? *shared : own_clock_) {}
+  /// `clock`: of all nodes behind the same CAN controller.
+  explicit PathMotion(BusClock& clock) : bus_clock_(clock) {}
   PathMotion(const PathMotion&) = delete;
   PathMotion& operator=(const PathMotion&) = delete;
 
@@ -101,7 +101,6 @@ class PathMotion {
   void watch_order(LocalTime now);
 
   Options options_;
-  BusClock own_clock_;
   BusClock& bus_clock_;
   const ClockEstimate& clock_ = bus_clock_.estimate();
   PathClock path_;

@@ -49,9 +49,10 @@ class StepAxis {
   /// differences, 2^-17, and the 2^-24 of each of the 64 sums.
   static constexpr double kTolerance = 1.6e-5 * (1 << kStepBits) / 16;
 
-  /// The steps of the next frame, in order: put.step(slot), each to begin kSetUp after its slot, and before
-  /// it put.turn(slot, up), if the direction is to be set in that slot; up: towards positive counts. False:
-  /// the plan is farther ahead than steps can follow; when a frame begins so, none are made.
+  /// The steps of the next frame, in order: put.step(slot), or put.early_step(slot) where the slot is before
+  /// kEarly, each to begin kSetUp after its slot, and before it put.turn(slot, up), if the direction is to be
+  /// set in that slot; up: towards positive counts. False: the plan is farther ahead than steps can follow;
+  /// when a frame begins so, none are made.
   template <typename Put>
   bool fill(const PlannedWay& way, Put&& put);
   /// Without power: the number goes with the plan, and no step is made.
@@ -171,8 +172,8 @@ template <typename Put>
   const std::int32_t change = walk.change,
                      skipped = (kSpacing * (kSpacing - 1) / 2 * change >> kFine) - kWhole;
   int slot = walk.slot;
-  const auto step = [&]() __attribute__((always_inline)) {
-    put.step(slot);
+  const auto step = [&](bool early) __attribute__((always_inline)) {
+    early ? put.early_step(slot) : put.step(slot);
     ++made;
     place += kSpacing * (velocity >> kFine) + skipped;
     velocity += kSpacing * change;
@@ -182,7 +183,7 @@ template <typename Put>
     while (slot < kSlots) {
       if (place >= kWhole) {
         if (made == 0 && direction_ != direction) put.turn(slot, direction == Direction::kUp);
-        step();
+        step(false);
         continue;
       }
       int slots = (kWhole - 1 - place) / fastest;
@@ -201,8 +202,12 @@ template <typename Put>
     };
     look();
     if (slot < kSlots && direction_ != direction) put.turn(slot, direction == Direction::kUp);
+    while (slot < kEarly) {
+      step(true);
+      look();
+    }
     while (slot < kSlots) {
-      step();
+      step(false);
       look();
     }
   }

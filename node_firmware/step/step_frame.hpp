@@ -24,49 +24,73 @@ inline constexpr int kSetUp = 2, kPulse = 2;
 /// are kPulse at least, and a direction stays for as long after its last step. 250,000 steps/s.
 inline constexpr int kSpacing = 4;
 
+/// What reaches beyond a frame: a step of the last slot begins kSetUp later and ends kPulse after that.
+inline constexpr int kTail = kSetUp + kPulse;
+/// Steps of slots before this one end within the frame.
+inline constexpr int kEarly = kSlots - kTail;
+
 /// Two frames of every port: one is put out while the other is filled.
 template <std::size_t kPorts>
 class StepFrames {
  public:
-  /// What reaches beyond a frame: a step of the last slot begins kSetUp later and ends kPulse after that.
-  static constexpr int kTail = kSetUp + kPulse;
-
   /// Empties the half that is to be filled; what the frame before has begun goes on in it.
   void begin(std::size_t half) {
     half_ = half;
+    bool* used = used_.data();
     for (Port& port : ports_) {
       std::uint32_t* words = port.words.data() + half * kSlots;
-      // Not by memset(), which takes twice as long.
-      for (std::uint32_t* word = words; word != words + kSlots; word += 8) {
-        word[0] = word[1] = word[2] = word[3] = word[4] = word[5] = word[6] = word[7] = 0;
-        asm volatile("" ::: "memory");
+      if (used[half]) {
+        used[half] = false;
+        // Not by memset(), which takes twice as long.
+        for (std::uint32_t* word = words; word != words + kSlots; word += 16) {
+          word[0] = word[1] = word[2] = word[3] = word[4] = word[5] = word[6] = word[7] = 0;
+          word[8] = word[9] = word[10] = word[11] = word[12] = word[13] = word[14] = word[15] = 0;
+          asm volatile("" ::: "memory");
+        }
       }
-      for (std::size_t i = 0; i < kTail; ++i) words[i] = port.tail[i];
-      port.tail = {};
+      if (used[kTailUsed]) {
+        used[kTailUsed] = false;
+        used[half] = true;
+        for (std::size_t i = 0; i < kTail; ++i) words[i] = port.tail[i];
+        port.tail = {};
+      }
+      used += kParts;
     }
   }
   /// slot: below kSlots + kTail.
   void put(std::size_t port, int slot, std::uint32_t bits) {
     Port& p = ports_[port];
-    if (slot < kSlots)
+    if (slot < kSlots) {
       p.words[half_ * kSlots + static_cast<std::size_t>(slot)] |= bits;
-    else
+      used_[port * kParts + half_] = true;
+    } else {
       p.tail[static_cast<std::size_t>(slot - kSlots)] |= bits;
+      used_[port * kParts + kTailUsed] = true;
+    }
   }
+  /// After pulses of a port's lane: it is emptied only then.
+  void mark(std::size_t port) { used_[port * kParts + half_] = true; }
   /// The words of a port in the half that is filled.
   class Lane {
    public:
     explicit Lane(StepFrames& frames, std::size_t port)
         : frames_(frames), port_(port), words_(frames.ports_[port].words.data() + frames.half_ * kSlots) {}
-    /// A pulse that begins kSetUp after `slot`; pins: in the lower half.
+    /// A pulse that begins kSetUp after `slot`; pins: in the lower half. mark() has to follow.
     [[gnu::always_inline]] void pulse(int slot, std::uint32_t pins) {
-      if (slot < kSlots - kTail) [[likely]] {
-        words_[slot + kSetUp] |= pins;
-        words_[slot + kSetUp + kPulse] |= pins << 16;
+      if (slot < kEarly) [[likely]] {
+        early_pulse(slot, pins);
       } else {
         frames_.put(port_, slot + kSetUp, pins);
         frames_.put(port_, slot + kSetUp + kPulse, pins << 16);
       }
+    }
+
+    /// The same, of a slot before kEarly.
+    [[gnu::always_inline]] void early_pulse(int slot, std::uint32_t pins) {
+      std::uint32_t* word = words_ + slot;
+      asm("" : "+r"(word));  // one address for both: the compiler would reckon two
+      word[kSetUp] |= pins;
+      word[kSetUp + kPulse] |= pins << 16;
     }
 
    private:
@@ -87,6 +111,9 @@ class StepFrames {
   };
   std::array<Port, kPorts> ports_{};
   std::size_t half_ = 0;
+  // Not empty, by port: the two halves, and the tail.
+  static constexpr std::size_t kTailUsed = 2, kParts = 4;
+  std::array<bool, kParts * kPorts> used_{};
 };
 
 }  // namespace kinebus::step

@@ -17,6 +17,8 @@ struct BoardFacts {
   std::uint32_t product_code = 0;        ///< 1018h:2
   std::uint32_t revision = 0x0001'0000;  ///< 1018h:3
   std::uint32_t hardware = 0;            ///< chip and pin map, as a program's image names them
+  /// A board of several nodes: so many ids in a row, from the one that LSS gives; serial numbers likewise.
+  std::uint8_t consecutive_ids = 1;
 };
 
 }  // namespace kinebus

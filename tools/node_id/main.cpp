@@ -37,8 +37,13 @@ void print(const std::vector<Board>& boards) {
       fmt::print("node {:<3}", board.node_id);
     else
       fmt::print("no id   ");
-    fmt::print("  {}, vendor {:08X}h, product {:08X}h, revision {:08X}h\n", name_of(board), board.identity[0],
+    fmt::print("  {}, vendor {:08X}h, product {:08X}h, revision {:08X}h", name_of(board), board.identity[0],
                board.identity[1], board.identity[2]);
+    if (const Board* first = NodeIds::board_of(boards, board); first != nullptr)
+      fmt::print(", of the board of node {}", first->node_id);
+    else if (const int count = NodeIds::ids_of(board); count > 1)
+      fmt::print(", a board of {} nodes with ids in a row", count);
+    fmt::print("\n");
   }
 }
 
@@ -65,12 +70,14 @@ int give(NodeIds& ids, const Arguments& arguments) {
   const auto node_id = static_cast<std::uint8_t>(arguments.node_id);
   const Board* board = choose(boards, arguments);
   if (board == nullptr) return 1;
-  for (const Board& other : boards)
-    if (other.node_id == node_id && &other != board)
-      return fmt::print(stderr, "node {} is there already: {}\n", node_id, name_of(other)), 1;
+  if (const std::string why = NodeIds::refused(boards, *board, node_id); !why.empty())
+    return fmt::print(stderr, "{}: {}\n", name_of(*board), why), 1;
   if (const std::string failed = ids.give(*board, node_id); !failed.empty())
     return fmt::print(stderr, "{}: {}\n", name_of(*board), failed), 1;
-  fmt::print("node {}: {}\n", node_id, name_of(*board));
+  if (const int last = node_id + NodeIds::ids_of(*board) - 1; last > node_id)
+    fmt::print("nodes {} to {}: {}\n", node_id, last, name_of(*board));
+  else
+    fmt::print("node {}: {}\n", node_id, name_of(*board));
   return 0;
 }
 
@@ -81,6 +88,10 @@ int forget(NodeIds& ids, const Arguments& arguments) {
     return fmt::print(stderr, "several boards have this id: give others to them, by --serial\n"), 1;
   const auto board = std::find_if(boards.begin(), boards.end(), is_meant);
   if (board == boards.end()) return fmt::print(stderr, "there is no node {}\n", arguments.node_id), 1;
+  if (const Board* first = NodeIds::board_of(boards, *board); first != nullptr)
+    return fmt::print(stderr, "node {} is of the board of node {}: forget that one\n", arguments.node_id,
+                      first->node_id),
+           1;
   if (const std::string failed = ids.forget(*board); !failed.empty())
     return fmt::print(stderr, "node {}: {}\n", arguments.node_id, failed), 1;
   fmt::print("no id: {}\n", name_of(*board));

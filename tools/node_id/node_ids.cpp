@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "protocol/bytes.hpp"
+#include "protocol/canopen/boards/all.hpp"
 #include "protocol/canopen/cob_id.hpp"
 #include "protocol/canopen/nmt.hpp"
 #include "protocol/canopen/sdo.hpp"
@@ -37,6 +38,49 @@ std::string words(LssMaster::Status status, std::uint8_t error) {
 }
 
 }  // namespace
+
+std::uint8_t NodeIds::ids_of(const Board& board) {
+  for (const BoardDescription& known : kBoards)
+    if (board.identity[0] == kVendorId && known.facts.product_code == board.identity[1])
+      return known.facts.consecutive_ids;
+  return 1;
+}
+
+const NodeIds::Board* NodeIds::board_of(const std::vector<Board>& all, const Board& node) {
+  if (node.node_id == 0) return nullptr;
+  const Board* found = nullptr;
+  for (const Board& board : all) {
+    const std::uint32_t further = node.serial() - board.serial();
+    if (board.node_id == 0 || further == 0 || further >= ids_of(board) ||
+        node.node_id != board.node_id + further)
+      continue;
+    // All axis pairs of a board say that they are of such a board: it is the first that has the others.
+    if (found == nullptr || board.node_id < found->node_id) found = &board;
+  }
+  return found;
+}
+
+std::string NodeIds::refused(const std::vector<Board>& all, const Board& board, std::uint8_t node_id) {
+  if (const Board* first = board_of(all, board); first != nullptr)
+    return fmt::format(
+        "it is one of the {} nodes of the board with serial number {}, whose id it follows: "
+        "give that one another id",
+        ids_of(*first), first->serial());
+  const int last = node_id + ids_of(board) - 1;
+  if (last > kHighestId)
+    return fmt::format("it is {} nodes with ids in a row: {} at most, not {} ({} is the gateway's)",
+                       ids_of(board), kHighestId + 1 - ids_of(board), node_id, kGatewayId);
+  const auto is_same_board = [&](const Board& other) {
+    const Board* first = board_of(all, other);
+    return other.identity == board.identity ||
+           (first != nullptr && first->identity == board.identity && first->node_id == board.node_id);
+  };
+  for (const Board& other : all)
+    if (other.node_id >= node_id && other.node_id <= last && !is_same_board(other))
+      return fmt::format("node {} is there already: serial number {}{}", other.node_id, other.serial(),
+                         last > node_id ? fmt::format("; the board takes {} to {}", node_id, last) : "");
+  return {};
+}
 
 bool NodeIds::gateway_speaks() {
   for (const LocalTime end = bus_.now() + kListen; bus_.now() < end;)

@@ -28,6 +28,13 @@ class NodeIds {
     std::uint8_t node_id = 0;  ///< 0: none yet
     std::uint32_t serial() const { return identity[3]; }
   };
+  /// So many ids a board takes from its own on: it may be several nodes.
+  static std::uint8_t ids_of(const Board& board);
+  /// The board of which `node` is a further node, whose id goes with the board's; nullptr: it is no such.
+  static const Board* board_of(const std::vector<Board>& all, const Board& node);
+  /// Why `board` cannot have the id, and those that go with it; empty: it can. `all`: as find() gives them.
+  static std::string refused(const std::vector<Board>& all, const Board& board, std::uint8_t node_id);
+
   struct Options {
     LocalTime answer = std::chrono::milliseconds{200};    ///< of a node to a question
     LocalTime scan_wait = std::chrono::milliseconds{10};  ///< silence this long means "no node"

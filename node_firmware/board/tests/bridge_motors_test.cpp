@@ -39,7 +39,7 @@ struct Motors : testing::Test {
   MotionPlanExchange plan;
   BridgeMotors<fake::Stage> motors{plan};
   LocalTime now{0};
-  Node node{NodeOptions{.node_id = 5}, now};
+  LoneNode node{NodeOptions{.node_id = 5}, now};
 };
 
 TEST_F(Motors, TheAmplifiersZeroIsTakenAtStart) {

@@ -25,7 +25,7 @@ struct Talk : testing::Test {
     return text;
   }
   LocalTime now{0};
-  Node node{NodeOptions{.node_id = 5}, now};
+  LoneNode node{NodeOptions{.node_id = 5}, now};
   MotorSupervision motors{BridgeFacts{0, 20'000}};
   CanEvents events{1, 2, 3};
   Console console;
@@ -50,15 +50,15 @@ TEST_F(Talk, ABusThatIsNotThereIsSaid) {
 
 TEST_F(Talk, WhyTheProgramBeganAnew) {
   EXPECT_EQ(say("r"), "reset by power-on\r\n");
-  const Node again{NodeOptions{.node_id = 5,
-                               .reset = {.cause = ResetCause::kSoftware,
-                                         .reason = 3,
-                                         .pc = 0x0802'1234,
-                                         .lr = 0x0802'5679,
-                                         .cfsr = 0x8200,
-                                         .hfsr = 0x4000'0000,
-                                         .address = 0x2002'0000}},
-                   now};
+  const LoneNode again{NodeOptions{.node_id = 5,
+                                   .reset = {.cause = ResetCause::kSoftware,
+                                             .reason = 3,
+                                             .pc = 0x0802'1234,
+                                             .lr = 0x0802'5679,
+                                             .cfsr = 0x8200,
+                                             .hfsr = 0x4000'0000,
+                                             .address = 0x2002'0000}},
+                       now};
   const Console::Subject subject{.node = again, .motors = motors, .cycles = {}, .can = events};
   console.hear('r', subject);
   const std::string text(console.waiting().begin(), console.waiting().end());
@@ -87,7 +87,7 @@ TEST_F(Talk, TheChipsBootLoaderIsAskedForInFullAndOnlyWithoutPower) {
   fake::enable(node, now, 1);
   EXPECT_EQ(say("DFU"), "refused: an axis has power\r\n");
   EXPECT_FALSE(console.system_boot_requested());
-  Node idle{NodeOptions{.node_id = 6}, now};
+  LoneNode idle{NodeOptions{.node_id = 6}, now};
   const Console::Subject subject{.node = idle, .motors = motors, .cycles = {}, .can = events};
   for (const char letter : {'D', 'F', 'U'}) console.hear(letter, subject);
   EXPECT_TRUE(console.system_boot_requested());

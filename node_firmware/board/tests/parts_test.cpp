@@ -67,7 +67,7 @@ TEST(StatusLed, EachStateHasItsOwnPattern) {
 
 TEST(WatchdogKeeper, FeedsOnlyWhileTheControlGoesOnAndTheNodeIsServed) {
   LocalTime now{0};
-  Node node{NodeOptions{.node_id = 5}, now};
+  LoneNode node{NodeOptions{.node_id = 5}, now};
   fake::Watchdog dog;
   WatchdogKeeper keeper;
   std::uint32_t ticks = 0;

@@ -20,7 +20,7 @@ struct SeveralNodes : testing::Test {
     program.begin(1, options(6), {}, plans[1], kPlaces);
     run(20ms);
   }
-  NodeOptions options(std::uint8_t id) { return {.node_id = id, .clock = &clock, .id_from_board = id != 5}; }
+  NodeOptions options(std::uint8_t id) { return {.node_id = id, .id_from_board = id != 5}; }
   void run(LocalTime time) {
     for (LocalTime t{0}; t < time; t += 500us) {
       fake::pass_time(500us);
@@ -35,7 +35,6 @@ struct SeveralNodes : testing::Test {
   static constexpr std::array<std::int8_t, 2> kPlaces{-1, 0};
   fake::Can can;
   fake::Switches switches;
-  BusClock clock;
   std::array<MotionPlanExchange, 2> plans;
   NodeProgram<fake::Can, fake::Switches, fake::Counter, 2> program{options(5), {}, can, switches, plans[0]};
 };
@@ -102,9 +101,11 @@ TEST_F(SeveralNodes, TheirCommonClockCountsASyncAndAStampOnce) {
     can.arrive(encode(SyncStamp{.counter = n, .epoch = 1, .time = at}), fake::Counter::now + 400);
     run(20ms);
   }
-  EXPECT_EQ(clock.estimate().counters().stamps_used, 40u);
-  EXPECT_EQ(clock.estimate().counters().stamps_unmatched, 0u);
-  EXPECT_EQ(clock.estimate().counters().syncs_doubled, 0u);
+  const ClockEstimate& clock = program.node(0).path().clock();
+  EXPECT_EQ(clock.counters().stamps_used, 40u);
+  EXPECT_EQ(clock.counters().stamps_unmatched, 0u);
+  EXPECT_EQ(clock.counters().syncs_doubled, 0u);
+  EXPECT_EQ(&program.node(1).path().clock(), &clock);
   for (const std::size_t i : {0, 1}) EXPECT_TRUE(program.node(i).path().clock().synchronised());
 }
 

@@ -80,7 +80,7 @@ struct Steps : testing::Test {
   StepMotors<FakeStepStage>::Plans plans;
   StepMotors<FakeStepStage> motors{plans};
   LocalTime now{0};
-  Node node{NodeOptions{.node_id = 5}, now};
+  LoneNode node{NodeOptions{.node_id = 5}, now};
   std::size_t half = 0;
   std::uint32_t pins = 0;
   std::array<int, 2> made{};

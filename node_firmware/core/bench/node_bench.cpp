@@ -64,7 +64,7 @@ class Streaming {
   }
 
   LocalTime now_{0}, next_sync_{0};
-  Node node_{{.node_id = 1}, LocalTime{0}};
+  LoneNode node_{{.node_id = 1}, LocalTime{0}};
   std::uint8_t next_ = 1, counter_ = 0;
   std::int32_t sign_ = -1;
 };

@@ -204,7 +204,7 @@ class Bench {
     }
     NodeSetup setup;
     std::array<AxisPlant, 2> plant;
-    Node core;
+    LoneNode core;
     std::deque<Wire> inbox;
     BusTime deadline{0};
     BusTime next_plant{0};

@@ -34,7 +34,7 @@ struct OneNode : testing::Test {
     }
   }
   LocalTime now{1s};
-  Node node;
+  LoneNode node;
 };
 
 TEST(NodeBoot, TellsWhyTheProgramBeforeItEnded) {
@@ -49,7 +49,7 @@ TEST(NodeBoot, TellsWhyTheProgramBeforeItEnded) {
         Case{{.cause = ResetCause::kBrownOut}, "081#2032050002000000"},
         Case{{.cause = ResetCause::kPowerOn}, ""}, Case{{.cause = ResetCause::kSoftware}, ""},
         Case{{.cause = ResetCause::kResetPin}, ""}}) {
-    Node node({.node_id = 1, .reset = c.reset}, now);
+    LoneNode node({.node_id = 1, .reset = c.reset}, now);
     EXPECT_EQ(text_of(*node.next_frame()), "701#00");
     const auto next = node.next_frame();  // else the first heartbeat
     const bool told = next && next->id == 0x081;
@@ -67,7 +67,7 @@ TEST(NodeBoot, TellsWhyTheProgramBeforeItEnded) {
 
 TEST(NodeBoot, TellsBootUpThenHeartbeats) {
   LocalTime now{0};
-  Node node({.node_id = 5}, now);
+  LoneNode node({.node_id = 5}, now);
   EXPECT_EQ(text_of(*node.next_frame()), "705#00");
   EXPECT_EQ(text_of(*node.next_frame()), "705#7F");
   EXPECT_FALSE(node.next_frame());
@@ -160,7 +160,7 @@ TEST_F(OneNode, StoresParametersAndLoadsThemWhenItStartsAgain) {
   node.on_image_stored(true);
   EXPECT_EQ(text_of(*node.next_frame()), "581#6010100100000000");
 
-  Node again({.node_id = 1}, now, kept);
+  LoneNode again({.node_id = 1}, now, kept);
   while (again.next_frame()) {
   }
   again.on_frame(now, frame_of("601#4081600000000000"));
@@ -184,7 +184,7 @@ TEST_F(OneNode, DamagedStorageMeansDefaultsAndAnEmergency) {
   for (const std::size_t place : {std::size_t{0}, std::size_t{6}, kept.size() / 2, kept.size() - 1}) {
     std::vector<std::uint8_t> damaged = kept;
     damaged[place] ^= 0x10;
-    Node again({.node_id = 1}, now, damaged);
+    LoneNode again({.node_id = 1}, now, damaged);
     bool told = false;
     while (const auto frame = again.next_frame()) told = told || text_of(*frame).substr(0, 8) == "081#3055";
     EXPECT_TRUE(told) << place;
@@ -192,7 +192,7 @@ TEST_F(OneNode, DamagedStorageMeansDefaultsAndAnEmergency) {
     EXPECT_EQ(text_of(*again.next_frame()), "581#4381600000F40100") << place;
   }
   for (std::size_t length = 0; length < kept.size(); length += 7)
-    Node(NodeOptions{.node_id = 1}, now, std::span(kept).first(length));
+    LoneNode(NodeOptions{.node_id = 1}, now, std::span(kept).first(length));
 }
 
 TEST_F(OneNode, RestoreBringsTheDefaultsBackAtTheNextReset) {
@@ -242,7 +242,7 @@ TEST_F(OneNode, PowerThatComesBeforeTheMemoryIsWrittenComesFirst) {
 
 TEST(NodeLss, AnUnconfiguredNodeGetsItsIdOverTheBusAndKeepsIt) {
   LocalTime now{0};
-  Node node({.identity = {.serial = 0x1234}}, now);
+  LoneNode node({.identity = {.serial = 0x1234}}, now);
   EXPECT_FALSE(node.next_frame());
   node.on_frame(now, frame_of("7E5#0401000000000000"));  // all to configuration
   node.on_frame(now, frame_of("7E5#1104000000000000"));  // node id 4
@@ -258,12 +258,12 @@ TEST(NodeLss, AnUnconfiguredNodeGetsItsIdOverTheBusAndKeepsIt) {
   EXPECT_EQ(text_of(*node.next_frame()), "704#00");
   EXPECT_EQ(node.node_id(), 4);
 
-  Node again({.identity = {.serial = 0x1234}}, now, kept);
+  LoneNode again({.identity = {.serial = 0x1234}}, now, kept);
   EXPECT_EQ(text_of(*again.next_frame()), "704#00");
 }
 
 TEST_F(OneNode, EqualConfigurationsHaveEqualFingerprintsWhateverTheNodeId) {
-  Node other({.node_id = 9}, now);
+  LoneNode other({.node_id = 9}, now);
   while (other.next_frame()) {
   }
   node.on_frame(now, frame_of("601#4016210000000000"));

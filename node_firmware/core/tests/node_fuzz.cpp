@@ -136,7 +136,7 @@ class Session {
 
   LocalTime now_{0};
   LocalTime looked_{0};
-  Node node_{{.node_id = 1}, LocalTime{0}};
+  LoneNode node_{{.node_id = 1}, LocalTime{0}};
   std::array<std::int64_t, 2> last_{};
 };
 

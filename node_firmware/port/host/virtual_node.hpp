@@ -41,7 +41,7 @@ class VirtualNodeProcess final : public BusProcess {
   void look_at_switches(LocalTime now);
 
   VirtualNodeProcessOptions options_;
-  std::optional<Node> node_;
+  std::optional<LoneNode> node_;
   std::array<AxisPlant, 2> plant_;
   PositionTrace trace_;
   LocalTime next_look_{0};

@@ -31,7 +31,7 @@ using namespace kinebus::stm32;
 using Switches = SwitchPort<octopus::kSwitchPins>;
 constexpr std::size_t kNodes = octopus::kNodes;
 using Motors = StepMotors<StepPort>;
-static_assert(Motors::kNodes == kNodes);
+static_assert(Motors::kNodes == kNodes && Stm32f446OctopusBoard::kFacts.consecutive_ids == kNodes);
 
 constinit CanPort can_port;
 constinit Switches switch_port;
@@ -42,8 +42,6 @@ constinit PageStore store{parameter_flash};
 constinit NodeImages<kNodes> images{store};
 constinit WatchdogPort dog;
 constinit WatchdogKeeper keeper;
-// Of all nodes: they hear the same SYNC by the same counter.
-constinit std::optional<BusClock> bus_clock;
 constinit std::optional<NodeProgram<CanPort, Switches, LocalTimer, kNodes>> program;
 
 static_assert(shares_slots(kNodeTable, BoardObjects<Stm32f446OctopusBoard>::kTable));
@@ -57,25 +55,27 @@ NodeOptions options_of(std::size_t number, std::uint8_t node_id) {
           .node_id = node_id,
           .program_crc = kImageHeader.crc,
           .table = &BoardObjects<Stm32f446OctopusBoard>::kTable,
-          .clock = &*bus_clock,
           .id_from_board = number != 0,
           .consecutive_ids = kNodes};
 }
 
-// While no motor has power: a carriage must not lose its node.
+// While no motor has power: a carriage must not lose its node. One node a pass: each takes milliseconds.
 void follow_first_id() {
   static std::uint8_t followed = 0;
+  static std::size_t next = kNodes;
   const std::uint8_t first = program->node().node_id();
-  if (first == followed || !motors.dark()) return;
-  followed = first;
-  const auto stored = images.load();
-  for (std::size_t i = 1; i < kNodes; ++i) {
-    if (first == 0)
-      program->end(i);
-    else
-      program->begin(i, options_of(i, static_cast<std::uint8_t>(first + i)), stored[i], plans[i],
-                     octopus::kInputPlaces[i]);
+  if (!motors.dark()) return;
+  if (first != followed) {
+    followed = first;
+    next = 1;
   }
+  if (next == kNodes) return;
+  if (first == 0)
+    program->end(next);
+  else
+    program->begin(next, options_of(next, static_cast<std::uint8_t>(first + next)), images.load()[next],
+                   plans[next], octopus::kInputPlaces[next]);
+  ++next;
 }
 
 }  // namespace
@@ -109,7 +109,6 @@ int main() {
   can_port.start();
   const auto stored = images.load();
   static_cast<void>(store.prepare(kNodes * kLargestParameterImage));
-  bus_clock.emplace();
   NodeOptions options = options_of(0, take_inherited_node_id(handover_ram));
   options.reset = take_reset_report();
   program.emplace(options, stored[0], can_port, switch_port, plans[0], octopus::kInputPlaces[0]);

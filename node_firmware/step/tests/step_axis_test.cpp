@@ -111,7 +111,14 @@ struct Line {
     frames.begin(half);
     struct {
       StepFrames<1>& frames;
-      void step(int at) { frames.lane(0).pulse(at, kStepPin); }
+      void step(int at) {
+        frames.lane(0).pulse(at, kStepPin);
+        frames.mark(0);
+      }
+      void early_step(int at) {
+        frames.lane(0).early_pulse(at, kStepPin);
+        frames.mark(0);
+      }
       void turn(int at, bool up) { frames.put(0, at, up ? kDirectionPin : kDirectionPin << 16); }
     } put{frames};
     const bool good = axis.fill(way, put);

@@ -14,7 +14,8 @@ struct Stm32f446OctopusBoard : TwoAxisNode<Stm32f446OctopusBoard> {
                                      .description = "Kinebus two-axis CAN node on a BTT Octopus",
                                      .device_type = kDeviceType,
                                      .product_code = 0x0000'0446,
-                                     .hardware = 0x0446'0001};
+                                     .hardware = 0x0446'0001,
+                                     .consecutive_ids = 4};
 };
 
 }  // namespace kinebus

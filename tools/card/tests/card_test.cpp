@@ -38,7 +38,7 @@ class OneCard : public ::testing::Test {
 
   std::function<void()> each_ms;
   LocalTime now_{1s};
-  std::optional<Node> node_;
+  std::optional<LoneNode> node_;
   std::vector<std::uint8_t> flash_;
 };
 
@@ -76,7 +76,7 @@ TEST_F(OneCard, CurrentsCountAtOnceAndAreKeptWhenAsked) {
   EXPECT_TRUE(flash_.empty());
   card().power(1, false);
   card().store();
-  Node again({.identity = {.serial = 77}, .node_id = 5}, now_, flash_);
+  LoneNode again({.identity = {.serial = 77}, .node_id = 5}, now_, flash_);
   EXPECT_EQ(again.axis_parameter(slot_of_axes(object::kRunCurrent), 1), 2200);
   EXPECT_FALSE(node_->drive(1).power);
 }

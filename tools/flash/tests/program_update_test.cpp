@@ -18,7 +18,7 @@ struct Board {
   ModelFlash flash{kRoom, 11};
   Handover handover{.magic = 0};
   std::unique_ptr<BootLoader> boot;
-  std::unique_ptr<Node> node;
+  std::unique_ptr<LoneNode> node;
   LocalTime now{0};
   std::uint32_t downloads = 0;
   std::uint8_t unprotected = 0;
@@ -31,7 +31,7 @@ struct Board {
     if (start_program(handover, check_image(flash.bytes(), kBootBoard))) {
       const NodeOptions options{
           .identity = {.serial = 9}, .node_id = 3, .program_crc = decode_image_header(flash.bytes()).crc};
-      node = std::make_unique<Node>(options, now);
+      node = std::make_unique<LoneNode>(options, now);
     } else {
       boot = std::make_unique<BootLoader>(kBootBoard, kBootIdentity, 3, flash, now);
     }

@@ -6,6 +6,8 @@
 #include <memory>
 
 #include "node_firmware/core/node.hpp"
+#include "protocol/canopen/boards/heat.hpp"
+#include "protocol/canopen/boards/stm32f446_octopus.hpp"
 
 namespace kinebus {
 namespace {
@@ -22,7 +24,7 @@ class Bus {
   void power_cycle() {
     for (Board& board : boards_)
       board.node =
-          std::make_unique<Node>(NodeOptions{.identity = {.serial = board.serial}}, now_, board.flash);
+          std::make_unique<LoneNode>(NodeOptions{.identity = {.serial = board.serial}}, now_, board.flash);
   }
   NodeIds ids() {
     return {{.send = [this](const CanFrame& frame) { tell_all(frame, nullptr); },
@@ -40,7 +42,7 @@ class Bus {
  private:
   struct Board {
     std::uint32_t serial = 0;
-    std::unique_ptr<Node> node{};
+    std::unique_ptr<LoneNode> node{};
     std::vector<std::uint8_t> flash{};
   };
   void tell_all(const CanFrame& frame, const Board* but) {
@@ -123,6 +125,43 @@ TEST(NodeIds, TwoBoardsWithOneIdAreToldApart) {
   EXPECT_EQ(ids.give(boards[1], 3), "");
   EXPECT_EQ(bus.id_of(5), 2);
   EXPECT_EQ(bus.id_of(6), 3);
+}
+
+NodeIds::Board octopus(std::uint32_t serial, std::uint8_t id, std::uint8_t further = 0) {
+  constexpr std::uint8_t kHeat = Stm32f446OctopusBoard::kFacts.consecutive_ids - 1;
+  const std::uint32_t product =
+      further == kHeat ? HeatBoard::kFacts.product_code : Stm32f446OctopusBoard::kFacts.product_code;
+  return {.identity = {kVendorId, product, kRevisionNumber, serial + further},
+          .node_id = static_cast<std::uint8_t>(id == 0 ? 0 : id + further)};
+}
+
+TEST(NodeIds, ABoardOfSeveralNodesWantsAllItsIdsFree) {
+  constexpr std::uint8_t kIds = Stm32f446OctopusBoard::kFacts.consecutive_ids;
+  const NodeIds::Board other{.identity = {kVendorId, kProductCode, kRevisionNumber, 9}, .node_id = 14};
+  std::vector<NodeIds::Board> all{other, octopus(1000, 0)};
+  EXPECT_EQ(NodeIds::ids_of(other), 1);
+  EXPECT_EQ(NodeIds::ids_of(all[1]), kIds);
+  EXPECT_EQ(NodeIds::refused(all, all[1], 14 - kIds), "");
+  EXPECT_NE(NodeIds::refused(all, all[1], 14 - kIds + 1).find("node 14 is there already"), std::string::npos);
+  EXPECT_NE(NodeIds::refused(all, all[1], 14), "");
+  EXPECT_EQ(NodeIds::refused(all, all[1], 15), "");
+  EXPECT_EQ(NodeIds::refused(all, all[1], 127 - kIds), "");
+  EXPECT_NE(NodeIds::refused(all, all[1], 128 - kIds).find("ids in a row"), std::string::npos);
+}
+
+TEST(NodeIds, FurtherNodesOfABoardFollowItAndAreNotInItsWay) {
+  std::vector<NodeIds::Board> all;
+  for (std::uint8_t i = 0; i < Stm32f446OctopusBoard::kFacts.consecutive_ids; ++i)
+    all.push_back(octopus(1000, 7, i));
+  EXPECT_EQ(NodeIds::board_of(all, all[0]), nullptr);
+  for (std::size_t i = 1; i < all.size(); ++i) EXPECT_EQ(NodeIds::board_of(all, all[i]), all.data());
+  EXPECT_EQ(NodeIds::refused(all, all[0], 9), "") << "its own are no hindrance";
+  EXPECT_NE(NodeIds::refused(all, all[2], 60).find("serial number 1000"), std::string::npos);
+  // A second board with the same ids is one of its own.
+  all.push_back(octopus(5000, 7));
+  EXPECT_EQ(NodeIds::board_of(all, all.back()), nullptr);
+  EXPECT_NE(NodeIds::refused(all, all.back(), 10), "");
+  EXPECT_EQ(NodeIds::refused(all, all.back(), 30), "");
 }
 
 TEST(NodeIds, ABoardThatHasGoneIsSaidSo) {

@@ -104,7 +104,7 @@ struct VirtualMachine::VirtualNode {
   VirtualNodeOptions options;
   BusModel::Port port;
   int index;
-  std::optional<Node> core;            // none: without power, or a heat node
+  std::optional<LoneNode> core;        // none: without power, or a heat node
   std::optional<heat::HeatNode> heat;  // none: without power, or a node with axes
   std::unique_ptr<heat::HeatPlant> plant;
   std::vector<std::uint8_t> stored;  // parameters of a heat node

@@ -65,6 +65,35 @@ TEST(OctopusNodes, AllFollowTheIdThatTheFirstIsGiven) {
   EXPECT_EQ(heard, (std::set<std::uint32_t>{0x77C, 0x77D, 0x77E, 0x77F}));
 }
 
+// Plans reach 8.2 ms and are made anew at half of it: no pass of the main loop, whatever it is told, takes so
+// long. What is before the first plan does not count: nothing can move then.
+TEST(OctopusNodes, NoPassOfTheMainLoopTakesHalfAPlan) {
+  OneOctopus octopus;
+  const auto longest_ms = [&] {
+    const double ms = seconds_of(octopus.board.cpu().longest_pass()) * 1e3;
+    octopus.board.cpu().clear_costs();
+    return ms;
+  };
+  const auto lss = [&](std::uint8_t command, std::uint8_t value) {
+    octopus.bench.send({.id = 0x7E5, .length = 8, .data = {command, value}});
+    octopus.bench.run(5ms);
+  };
+  longest_ms();
+  lss(lss::kSwitchGlobal, 1);
+  lss(lss::kConfigureNodeId, 40);
+  lss(lss::kSwitchGlobal, 0);
+  octopus.bench.send(nmt_frame(NmtCommand::kResetCommunication, kId));
+  octopus.bench.run(100ms);
+  const double moved = longest_ms();
+  octopus.bench.bring_up({40, 41, 42, 43});
+  const double brought_up = longest_ms();
+  octopus.bench.send(nmt_frame(NmtCommand::kResetNode, kAllNodes));
+  octopus.bench.run(100ms);
+  const double reset = longest_ms();
+  fmt::print("new id {:.1f} ms, bring-up {:.1f} ms, reset of all {:.1f} ms\n", moved, brought_up, reset);
+  for (const double ms : {moved, brought_up, reset}) EXPECT_LT(ms, 4);
+}
+
 // The switch beside each driver is one of its node's first two inputs.
 TEST(OctopusNodes, AllEightAxesHomeByTheirSwitchesAndMove) {
   BoardOptions options;
@@ -120,6 +149,7 @@ struct Streamed {
       node.enable(axis, 7);
     }
     debug_path_time = octopus_image().symbol("debug_path_time").value_or(0);
+    node.board.cpu().clear_costs();
   }
   StreamFeed& feed(int axis) { return feeds[static_cast<std::size_t>(axis / 2)]; }
   std::int64_t path_ticks(Cycle at) {
@@ -280,7 +310,7 @@ TEST(OctopusNodes, SixAxesMakeTwoHundredThousandStepsASecondEach) {
       100 * control.worst_cycles / kControlPeriod, 100 * awake, longest_pass_ms);
   EXPECT_GT(most, 1'150'000);
   EXPECT_LE(average, 0.6 * kControlPeriod);
-  EXPECT_LE(control.worst_cycles, 0.66 * kControlPeriod);
+  EXPECT_LE(control.worst_cycles, 0.6 * kControlPeriod);
   EXPECT_LT(longest_pass_ms, 4) << "half of a plan";
   octopus.expect_good_drivers();
   for (std::uint8_t n = 0; n < kNodes; ++n) {
