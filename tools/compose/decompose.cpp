@@ -9,28 +9,17 @@
 #include <optional>
 #include <stdexcept>
 
-#include "tools/compose/arms.hpp"
-#include "tools/compose/mesh_kernel.hpp"
-#include "tools/compose/support.hpp"
+#include "tools/compose/arm_cut.hpp"
+#include "tools/compose/cuts.hpp"
 
 namespace kinebus::compose {
 namespace {
 
 constexpr double kRad = std::numbers::pi / 180;
-/// A plane is laid this far under the corner that it is to cut at: no sliver is left hanging.
-constexpr double kUnderCornerMm = 0.02;
-constexpr double kSmallestPieceMm3 = 10;
-constexpr double kCleanMm2 = 1;  ///< a piece with less of it prints as it is
-constexpr std::size_t kHeightsPerDirection = 40;
 constexpr std::size_t kCutsTried = 60;
 /// How much of a cut's own area counts like area that hangs.
 constexpr double kSectionWeight = 0.6;
 constexpr double kSliversMm2 = 20;
-constexpr std::size_t kArmsTried = 8;
-/// An arm's own section is this much larger at most where a plane cuts it and nothing else.
-constexpr double kPure = 1.15;
-constexpr int kHeightsOfArm = 24;  ///< to either side of the place where an arm's stretch begins
-constexpr double kRootReachOfWidth = 1, kBendReachOfWidth = 0.3;
 
 /// What is left at the root of an arm is printed along with it, where that leaves not much more hanging.
 constexpr double kLikeArm = 5;  ///< percent of what hangs
@@ -78,44 +67,6 @@ std::vector<Vector> directions(const Overhang& overhang, const std::vector<bool>
   return out;
 }
 
-/// What nothing holds along a direction, for any height at which a cut begins: sums from the top down.
-class UnheldAbove {
- public:
-  UnheldAbove(const TriangleMesh& mesh, const Vector& n, double limit_rad)
-      : body_(mesh, n, lowest(mesh, n), limit_rad) {
-    for (const LayeredBody::Place& place : body_.unheld()) heights_.push_back(place.height_mm);
-    std::sort(heights_.begin(), heights_.end());
-  }
-  double mm2(double height) const {
-    const auto from = std::lower_bound(heights_.begin(), heights_.end(), height);
-    return LayeredBody::cell_mm2() * static_cast<double>(heights_.end() - from);
-  }
-  double section_mm2(double height) const { return body_.section_mm2(height); }
-
- private:
-  static double lowest(const TriangleMesh& mesh, const Vector& n) {
-    double out = 1e300;
-    for (const Vector& p : mesh.points) out = std::min(out, n.dot(p));
-    return out;
-  }
-  LayeredBody body_;
-  std::vector<double> heights_;
-};
-
-/// Heights worth a cut: just under the corners of what hangs.
-std::vector<double> heights(const TriangleMesh& mesh, const std::vector<bool>& hanging, const Vector& n) {
-  std::vector<double> all;
-  for (std::size_t i = 0; i < hanging.size(); ++i)
-    if (hanging[i])
-      for (const std::uint32_t corner : mesh.faces[i]) all.push_back(n.dot(mesh.points[corner]));
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end(), [](double a, double b) { return b - a < 0.01; }), all.end());
-  std::vector<double> out;
-  const std::size_t step = all.size() / kHeightsPerDirection + 1;
-  for (std::size_t i = 0; i < all.size(); i += step) out.push_back(all[i] - kUnderCornerMm);
-  return out;
-}
-
 std::vector<Candidate> candidates(const Solid& solid, const std::vector<Vector>& arms,
                                   const DecomposeOptions& options) {
   const Overhang overhang(solid.mesh, options.max_overhang_rad);
@@ -158,36 +109,6 @@ std::vector<Candidate> candidates(const Solid& solid, const std::vector<Vector>&
   return out;
 }
 
-/// Every body of the mesh reaches down to the base: nothing would be printed into the air.
-bool stands(const TriangleMesh& mesh, const Plane& base) {
-  for (const TriangleMesh& body : bodies(mesh)) {
-    double lowest = 1e300;
-    for (const Vector& p : body.points) lowest = std::min(lowest, base.over(p));
-    if (lowest > 0.05) return false;
-  }
-  return true;
-}
-
-struct Parts {
-  Solid rest, piece;
-};
-
-std::optional<Parts> take_off(const Solid& solid, const Plane& plane) {
-  Halves halves = cut(solid.mesh, plane);
-  if (volume_mm3(halves.above) < kSmallestPieceMm3 || volume_mm3(halves.below) < kSmallestPieceMm3) return {};
-  if (!stands(halves.above, plane) || !stands(halves.below, solid.base)) return {};
-  return Parts{{std::move(halves.below), solid.base}, {std::move(halves.above), plane}};
-}
-
-/// The nozzle has room over the tilted table wherever the piece has a corner.
-bool has_room(const Solid& piece, const DecomposeOptions& options) {
-  const Obstacles table({}, options.table_radius_mm, piece.base.normal, piece.base.height);
-  return table.empty() ||
-         std::all_of(piece.mesh.points.begin(), piece.mesh.points.end(), [&](const Vector& p) {
-           return table.overlap_mm(options.nozzle, p + 0.1 * piece.base.normal) <= -1;
-         });
-}
-
 std::optional<Parts> best_cut(const Solid& solid, const std::vector<Vector>& arms,
                               const DecomposeOptions& options) {
   const std::vector<Candidate> list = candidates(solid, arms, options);
@@ -202,140 +123,6 @@ std::optional<Parts> best_cut(const Solid& solid, const std::vector<Vector>& arm
     if (!otherwise) otherwise = std::move(parts);
   }
   return otherwise;
-}
-
-/// What hangs on the part of a solid that a cut leaves.
-class LeftBelow {
- public:
-  LeftBelow(const Solid& solid, const DecomposeOptions& options)
-      : overhang_(solid.mesh, options.max_overhang_rad),
-        hanging_(overhang_.hanging(solid.base.normal, &solid.base)),
-        now_mm2_(overhang_.area_mm2(hanging_)),
-        unheld_(LayeredBody(solid.mesh, solid.base.normal, solid.base.height, options.max_overhang_rad)
-                    .unheld()) {}
-  double mm2(const Plane& plane) const {
-    const auto below = std::count_if(unheld_.begin(), unheld_.end(),
-                                     [&](const LayeredBody::Place& p) { return plane.over(p.at) < 0; });
-    return now_mm2_ - overhang_.area_over(hanging_, plane) +
-           LayeredBody::cell_mm2() * static_cast<double>(below);
-  }
-  const Overhang& overhang() const { return overhang_; }
-  const std::vector<bool>& hanging() const { return hanging_; }
-
- private:
-  Overhang overhang_;
-  std::vector<bool> hanging_;
-  double now_mm2_;
-  std::vector<LayeredBody::Place> unheld_;
-};
-
-/// Heights along `n` near `middle`, and those just under corners of what hangs.
-std::vector<double> heights_near(const TriangleMesh& mesh, const LeftBelow& left, const Vector& n,
-                                 double middle, double reach_mm) {
-  std::vector<double> out;
-  for (int k = -kHeightsOfArm; k <= kHeightsOfArm; ++k) out.push_back(middle + reach_mm * k / kHeightsOfArm);
-  for (const double height : heights(mesh, left.hanging(), n))
-    if (std::abs(height - middle) < reach_mm) out.push_back(height);
-  std::sort(out.begin(), out.end());
-  return out;
-}
-
-/// Takes off what an arm has from one stretch on, where the cut leaves least hanging: across the arm alone.
-std::optional<Parts> arm_cut(const Solid& solid, const Arm& arm, const Stretch& stretch, std::size_t end,
-                             const DecomposeOptions& options) {
-  const LeftBelow left(solid, options);
-  const Sections sections(solid.mesh);
-  const Vector& n = stretch.normal;
-  const ArmPoint& usual = arm.line[(stretch.first + end) / 2];
-  const double cosine = std::max(0.1, n.dot(usual.along));
-  const auto pure = [&](double height) {
-    const Plane plane{n, height};
-    const auto section = sections.at(plane, arm.where(plane));
-    return section && section->parts == 1 && section->area_mm2 * cosine <= kPure * usual.area_mm2;
-  };
-  const double middle = n.dot(arm.line[stretch.first].at);
-  const double reach_mm = (stretch.first == 0 ? kRootReachOfWidth : kBendReachOfWidth) * arm.width_mm();
-  std::vector<double> tried = heights_near(solid.mesh, left, n, middle, reach_mm);
-  // Where the arm just comes out of the body.
-  for (std::size_t i = 1, count = tried.size(); i < count; ++i) {
-    double low = tried[i - 1], high = tried[i];
-    if (pure(low) || !pure(high)) continue;
-    while (high - low > 0.005) (pure((low + high) / 2) ? high : low) = (low + high) / 2;
-    tried.push_back(high);
-  }
-  constexpr double kFar_mm2_per_mm = 0.05;  // of equals the nearest
-  std::optional<Plane> best;
-  double best_mm2 = 0;
-  for (const double height : tried) {
-    const double mm2 = left.mm2({n, height}) + kFar_mm2_per_mm * std::abs(height - middle);
-    if ((best && mm2 >= best_mm2) || !pure(height)) continue;
-    best = Plane{n, height}, best_mm2 = mm2;
-  }
-  if (!best) return {};
-  const double hangs_on_piece = left.overhang().area_over(left.overhang().hanging(n, nullptr), *best) +
-                                UnheldAbove(solid.mesh, n, options.max_overhang_rad).mm2(best->height);
-  const double taken_mm2 = left.mm2({n, HUGE_VAL}) - left.mm2(*best);
-  if (hangs_on_piece > std::max(kCleanMm2, taken_mm2 / 2)) return {};
-  auto parts = take_off(solid, *best);
-  return parts && has_room(parts->piece, options) ? std::move(parts) : std::nullopt;
-}
-
-/// The middle of the wall behind a face.
-Vector behind(const TriangleMesh& mesh, const Overhang& overhang, std::size_t face) {
-  const auto corner = [&](std::size_t f, std::size_t k) -> const Vector& {
-    return mesh.points[mesh.faces[f][k]];
-  };
-  const Vector from = (corner(face, 0) + corner(face, 1) + corner(face, 2)) / 3;
-  const Vector inward = -overhang.normals()[face];
-  double depth = HUGE_VAL;
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-    const Vector& m = overhang.normals()[f];
-    const double slope = m.dot(inward);
-    if (slope <= 1e-9) continue;
-    const double t = m.dot(corner(f, 0) - from) / slope;
-    if (t <= 1e-6 || t >= depth) continue;
-    const Vector hit = from + t * inward;
-    bool inside = true;
-    for (std::size_t k = 0; k < 3; ++k)
-      inside = inside && (corner(f, (k + 1) % 3) - corner(f, k)).cross(hit - corner(f, k)).dot(m) >= -1e-9;
-    if (inside) depth = t;
-  }
-  return from + (std::isfinite(depth) ? depth / 2 : 0) * inward;
-}
-
-/// Takes the stretches of one arm that hangs off the solid, the tip's first. Empty: there is none that comes
-/// off.
-std::vector<Solid> take_arm_off(Solid& solid, const DecomposeOptions& options) {
-  const Overhang overhang(solid.mesh, options.max_overhang_rad);
-  const std::vector<bool> hanging = overhang.hanging(solid.base.normal, &solid.base);
-  std::vector<std::size_t> faces;
-  for (std::size_t i = 0; i < hanging.size(); ++i)
-    if (hanging[i]) faces.push_back(i);
-  std::stable_sort(faces.begin(), faces.end(),
-                   [&](std::size_t a, std::size_t b) { return overhang.areas()[a] > overhang.areas()[b]; });
-  const Sections sections(solid.mesh);
-  for (std::size_t i = 0; i < std::min(faces.size(), kArmsTried); ++i) {
-    const auto arm = arm_around(solid, sections, behind(solid.mesh, overhang, faces[i]));
-    if (!arm) continue;
-    std::vector<Solid> pieces;
-    Solid rest = solid;
-    for (const double share : {1.0, 0.85, 0.7, 0.5}) {  // less where the nozzle has no room over the table
-      const auto along =
-          stretches(*arm, solid.base.normal, options.max_bend_rad, share * options.max_tilt_rad);
-      std::size_t end = arm->line.size() - 1;
-      for (std::size_t k = along.size(); k-- > (arm->from_base ? 1U : 0U);) {
-        auto parts = arm_cut(rest, *arm, along[k], end, options);
-        if (!parts) continue;
-        pieces.push_back(std::move(parts->piece));
-        rest = std::move(parts->rest);
-        end = along[k].first;
-      }
-      if (pieces.empty()) continue;
-      solid = std::move(rest);
-      return pieces;
-    }
-  }
-  return {};
 }
 
 bool prints_as_it_is(const Solid& solid, const DecomposeOptions& options) {
