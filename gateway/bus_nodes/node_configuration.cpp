@@ -41,8 +41,8 @@ class Writer {
     double low = is_signed(entry.type) ? -std::ldexp(1.0, 8 * entry.size() - 1) : 0;
     double high = std::ldexp(1.0, 8 * entry.size() - (is_signed(entry.type) ? 1 : 0)) - 1;
     if (entry.limited) {
-      low = static_cast<double>(entry.low);
-      high = static_cast<double>(entry.high);
+      low = static_cast<double>(entry.low());
+      high = static_cast<double>(entry.high());
     }
     dictionary_.set_value(entry.value_slot(), std::llround(std::clamp(value, low, high)));
   }

@@ -1,5 +1,5 @@
 #pragma once
-// Bit timing of bxCAN, found at compile time.
+// Bit timing of bxCAN and FDCAN, found at compile time.
 
 #include <cstdint>
 

@@ -19,7 +19,7 @@
 
 namespace kinebus {
 
-/// Bits of a port's word for an axis.
+/// Bits of a port's word for an axis. No step: the board has only the first axis.
 struct StepPins {
   std::size_t step_port = 0, direction_port = 0;  ///< as the stage numbers its ports
   std::uint32_t step = 0, direction = 0;
@@ -80,6 +80,7 @@ class StepMotors {
 
  private:
   static constexpr LocalTime kServe = std::chrono::microseconds{250};
+  static constexpr bool has_driver(std::size_t axis) { return Stage::kPins[axis].step != 0; }
   // What a fault has left has gone by then.
   static constexpr LocalTime kFaultRest = std::chrono::milliseconds{100};
 
@@ -123,7 +124,14 @@ bool StepMotors<Stage>::serve(std::size_t number, Node& node, LocalTime now) {
   due_[number] = now + kServe;
   node.set_neighbours_powered(others_powered(number));
   bool told = false;
-  for (int axis = 0; axis < kAxesPerNode; ++axis) told = serve_axis(number, node, now, axis) || told;
+  for (int axis = 0; axis < kAxesPerNode; ++axis) {
+    if (has_driver(axis_of(number, axis))) {
+      told = serve_axis(number, node, now, axis) || told;
+    } else if (node.drive(axis).power) {
+      node.on_drive_fault(now, axis, emcy::kControlHardware);
+      told = true;
+    }
+  }
   return told;
 }
 
@@ -209,7 +217,7 @@ void StepMotors<Stage>::on_control() {
     const MotionPlan& plan = plans_[number].current();
     for (int axis = 0; axis < kAxesPerNode; ++axis) {
       const std::size_t i = axis_of(number, axis);
-      fill(axes_[i], step::planned_way(plan, axis, next), Stage::kPins[i]);
+      if (has_driver(i)) fill(axes_[i], step::planned_way(plan, axis, next), Stage::kPins[i]);
     }
   }
   std::atomic_signal_fence(std::memory_order_release);  // the words are there before the half's turn comes

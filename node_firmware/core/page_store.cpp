@@ -26,11 +26,12 @@ std::uint32_t checksum(std::uint32_t sequence, std::uint32_t length, Parts parts
 
 }  // namespace
 
-PageStore::Page PageStore::scan(std::span<const std::uint8_t> bytes) {
+PageStore::Page PageStore::scan(std::span<const std::uint8_t> bytes) const {
   Page page;
   // Behind the last byte that is not blank: what a cut left half programmed is never programmed again.
   std::size_t end = bytes.size();
   while (end >= 4 && word_at(bytes, end - 4) == 0xFFFF'FFFF) end -= 4;
+  end = std::min(whole_units(end), bytes.size());
   page.free_from = static_cast<std::uint32_t>(end);
   for (std::size_t at = 0; at + kHeader <= end; at += 4) {
     if (word_at(bytes, at) != kMagic) continue;
@@ -116,6 +117,7 @@ bool PageStore::save(Parts parts) {
       filled = 0;
     }
   if (filled != 0) put(get_u32_le(word));
+  while (offset % flash_.unit() != 0) put(0xFFFF'FFFF);
   look();
   return good && pages_[to].has_record && pages_[to].newest_sequence == sequence;
 }

@@ -4,7 +4,7 @@
 // CRC does, so the last whole one is in force.
 //
 // Record, in words: kMagic | sequence number | length in bytes | CRC-32 of those two and the data | data,
-// with bytes FFh to the whole word.
+// with bytes FFh to the whole word, and to the whole unit that the flash programs at once.
 
 #include <array>
 #include <cstddef>
@@ -16,6 +16,8 @@ namespace kinebus {
 /// Flash as the store needs it. Erased bytes are FFh; a word is programmed once after an erase.
 class FlashPages {
  public:
+  /// Bytes that are programmed at once, 4 or more: all words of a unit come one after the other.
+  virtual std::size_t unit() const { return 4; }
   virtual std::span<const std::uint8_t> page(std::size_t which) const = 0;
   /// False: it did not work.
   virtual bool erase(std::size_t which) = 0;
@@ -50,8 +52,11 @@ class PageStore {
     std::uint32_t newest_sequence = 0;
     bool has_record = false;
   };
-  static Page scan(std::span<const std::uint8_t> bytes);
-  static std::size_t record_size(std::size_t bytes) { return kHeader + (bytes + 3) / 4 * 4; }
+  Page scan(std::span<const std::uint8_t> bytes) const;
+  std::size_t whole_units(std::size_t bytes) const {
+    return (bytes + flash_.unit() - 1) / flash_.unit() * flash_.unit();
+  }
+  std::size_t record_size(std::size_t bytes) const { return whole_units(kHeader + (bytes + 3) / 4 * 4); }
   std::size_t target(std::size_t bytes) const;
   void look();
 

@@ -48,7 +48,7 @@ void ParameterBytes::save(const ObjectDictionary& objects, std::uint8_t node_id,
   for (const ObjectEntry& entry : objects.table().entries) {
     if (entry.binding != Binding::kParameter) continue;
     const std::int64_t value = objects.value(entry.value_slot()) - relative_part(entry, node_id);
-    if (value == entry.initial) continue;
+    if (value == entry.initial()) continue;
     const auto place = room_.subspan(kHeader + entries * kEntry);
     put_u32_le(place, entry.address.key());
     put_u64_le(place.subspan(4), static_cast<std::uint64_t>(value));
@@ -67,7 +67,7 @@ void ParameterBytes::apply(ObjectDictionary& objects, std::uint8_t node_id, std:
         objects.place_of({static_cast<std::uint16_t>(key >> 8), static_cast<std::uint8_t>(key & 0xFF)});
     if (place < 0 || key >> 8 >= end_index) continue;
     const ObjectEntry& entry = objects.table()[place];
-    const bool allowed = !entry.limited || (value >= entry.low && value <= entry.high);
+    const bool allowed = !entry.limited || (value >= entry.low() && value <= entry.high());
     if (entry.binding == Binding::kParameter && allowed)
       objects.set_value(entry.value_slot(), value + relative_part(entry, node_id));
   }

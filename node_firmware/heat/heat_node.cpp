@@ -58,7 +58,7 @@ void HeatNode::boot() {
 void HeatNode::reset_communication() {
   for (const ObjectEntry& entry : objects_.table().entries)
     if (entry.address.index < 0x2000)
-      objects_.set_value(entry.value_slot(), entry.initial + (entry.node_id_relative ? node_id_ : 0));
+      objects_.set_value(entry.value_slot(), entry.initial() + (entry.node_id_relative ? node_id_ : 0));
   image_.apply(objects_, node_id_, 0x2000);
   apply_node_id();
 }

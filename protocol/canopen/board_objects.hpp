@@ -16,8 +16,11 @@ constexpr bool is_sorted(std::span<const ObjectEntry> entries) {
     if (!(entries[i - 1].address < entries[i].address)) return false;
   return true;
 }
-constexpr bool limits_hold(std::span<const ObjectEntry> entries) {
-  for (const ObjectEntry& e : entries) {
+constexpr bool limits_hold(std::span<const ObjectRow> rows) {
+  for (const ObjectRow& e : rows) {
+    const ObjectEntry kept = static_cast<ObjectEntry>(e);
+    if (kept.initial() != e.initial || kept.size() != (e.type == DataType::kString ? e.text.size() : size_of(e.type))) return false;
+    if (e.limited && (kept.low() != e.low || kept.high() != e.high)) return false;
     const auto fits = [&](std::int64_t value) {
       return value_of(e.type, static_cast<std::uint64_t>(value)) == value;
     };
@@ -50,7 +53,7 @@ class BoardObjects {
   static constexpr auto part_of_rows() {
     std::array<Part, kRows.count> parts;
     const auto order = kRows.order();
-    for (std::size_t i = 0; i < parts.size(); ++i) parts[i] = kRows.rows[order[i]];
+    for (std::size_t i = 0; i < parts.size(); ++i) parts[i] = static_cast<Part>(kRows.rows[order[i]]);
     return parts;
   }
 
@@ -61,7 +64,7 @@ class BoardObjects {
   static constexpr ObjectTable kTable{kEntries};
 
   static_assert(object_table::is_sorted(kEntries), "two rows of a board's object table have one address");
-  static_assert(object_table::limits_hold(kEntries),
+  static_assert(object_table::limits_hold(std::span(kRows.rows).first(kRows.count)),
                 "a default or limit does not fit its row's type or limits");
   static_assert(object_table::has_all_heads(kEntries), "an object of a board's table has no subindex 0");
 };

@@ -27,7 +27,7 @@ struct ObjectAddress {
 inline constexpr std::uint16_t kAxisOffset = 0x800;
 
 /// Numbers are those of CiA 301, as EDS files and dummy mapping use them.
-enum class DataType : std::uint16_t {
+enum class DataType : std::uint8_t {
   kBoolean = 0x01,
   kI8 = 0x02,
   kI16 = 0x03,
@@ -96,21 +96,38 @@ struct ObjectSlot {
   std::uint16_t value = 0;
 };
 
-/// One (index, subindex).
+/// One (index, subindex), as small as a node keeps it: boards with two nodes have little flash.
 struct ObjectEntry {
   ObjectAddress address{};
-  ObjectCode code = ObjectCode::kVar;
+  std::uint16_t slot = 0;  ///< of its value: the objects' order in the board's units
   DataType type = DataType::kU32;
-  Access access = Access::kReadOnly;
-  Mapping mapping = Mapping::kNone;
-  Binding binding = Binding::kConstant;
-  std::int8_t axis = -1;          ///< 0, 1; -1: belongs to the node as a whole
-  bool node_id_relative = false;  ///< the value at reset is `initial` + node id
-  bool limited = false;           ///< low and high are narrower than the type
-  std::uint16_t slot = 0;         ///< of its value: the objects' order in the board's units
-  std::int64_t initial = 0;
-  std::int64_t low = 0, high = 0;
-  std::string_view text{};  ///< strings only
+  std::uint8_t text_length = 0;
+  ObjectCode code : 4 = ObjectCode::kVar;
+  Access access : 2 = Access::kReadOnly;
+  Mapping mapping : 2 = Mapping::kNone;
+  std::int8_t axis = -1;  ///< 0, 1; -1: belongs to the node as a whole
+  Binding binding : 2 = Binding::kConstant;
+  bool node_id_relative : 1 = false;  ///< the value at reset is `initial` + node id
+  bool limited : 1 = false;           ///< low and high are narrower than the type
+  std::uint32_t initial_bits = 0;
+  union {
+    struct {
+      std::uint32_t low, high;
+    } limit_bits{};
+    const char* text_begin;  ///< of a string
+  };
+
+  /// The lower half of a value of this type, and the value again: none of a table needs more.
+  static constexpr std::uint32_t bits(std::int64_t value) { return static_cast<std::uint32_t>(value); }
+  constexpr std::int64_t value(std::uint32_t bits) const {
+    return is_signed(type) ? std::int64_t{static_cast<std::int32_t>(bits)} : std::int64_t{bits};
+  }
+  constexpr std::int64_t initial() const { return value(initial_bits); }
+  // When limited.
+  constexpr std::int64_t low() const { return value(limit_bits.low); }
+  constexpr std::int64_t high() const { return value(limit_bits.high); }
+  /// Of a string.
+  constexpr std::string_view text() const { return {text_begin, text_length}; }
 
   /// The address with the second axis' offset taken off: what code for either axis switches on.
   constexpr ObjectAddress base() const {
@@ -124,7 +141,7 @@ struct ObjectEntry {
     return (static_cast<unsigned>(mapping) & static_cast<unsigned>(kind)) != 0;
   }
   constexpr std::uint8_t size() const {
-    return type == DataType::kString ? static_cast<std::uint8_t>(text.size()) : size_of(type);
+    return type == DataType::kString ? text_length : size_of(type);
   }
 };
 

@@ -18,7 +18,7 @@ ObjectDictionary::ObjectDictionary(ObjectOwner& owner, const ObjectTable& table,
 void ObjectDictionary::restore(std::uint8_t node_id) {
   node_id_ = node_id;
   for (const ObjectEntry& entry : table_.entries)
-    values_[entry.slot] = entry.initial + (entry.node_id_relative ? node_id : 0);
+    values_[entry.slot] = entry.initial() + (entry.node_id_relative ? node_id : 0);
 }
 
 AbortCode ObjectDictionary::read_value(int place, std::int64_t& value) {
@@ -30,8 +30,8 @@ AbortCode ObjectDictionary::read_value(int place, std::int64_t& value) {
 
 AbortCode ObjectDictionary::check_value(int place, std::int64_t value) const {
   const ObjectEntry& entry = table_[place];
-  if (entry.limited && value > entry.high) return AbortCode::kTooHigh;
-  if (entry.limited && value < entry.low) return AbortCode::kTooLow;
+  if (entry.limited && value > entry.high()) return AbortCode::kTooHigh;
+  if (entry.limited && value < entry.low()) return AbortCode::kTooLow;
   return owner_.check(entry, value);
 }
 
@@ -51,7 +51,7 @@ AbortCode ObjectDictionary::read(ObjectAddress address, std::span<std::uint8_t> 
   length = entry.size();
   if (length > bytes.size()) return AbortCode::kOutOfMemory;
   if (entry.type == DataType::kString) {
-    std::copy(entry.text.begin(), entry.text.end(), bytes.begin());
+    std::ranges::copy(entry.text(), bytes.begin());
     return AbortCode::kNone;
   }
   std::int64_t value = 0;

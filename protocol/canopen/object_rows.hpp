@@ -14,8 +14,47 @@ namespace kinebus {
 
 namespace object_table {
 
+/// What a row says of its object.
+struct ObjectDefinition {
+  ObjectAddress address{};
+  ObjectCode code = ObjectCode::kVar;
+  DataType type = DataType::kU32;
+  Access access = Access::kReadOnly;
+  Mapping mapping = Mapping::kNone;
+  Binding binding = Binding::kConstant;
+  std::int8_t axis = -1;
+  bool node_id_relative = false;
+  bool limited = false;
+  std::uint16_t slot = 0;
+  std::int64_t initial = 0;
+  std::int64_t low = 0, high = 0;
+  std::string_view text{};
+
+  /// What does not come out as it went in fails BoardObjects' checks.
+  constexpr explicit operator ObjectEntry() const {
+    ObjectEntry entry;
+    entry.address = address;
+    entry.slot = slot;
+    entry.type = type;
+    entry.text_length = static_cast<std::uint8_t>(text.size());
+    entry.code = code;
+    entry.access = access;
+    entry.mapping = mapping;
+    entry.axis = axis;
+    entry.binding = binding;
+    entry.node_id_relative = node_id_relative;
+    entry.limited = limited;
+    entry.initial_bits = ObjectEntry::bits(initial);
+    if (type == DataType::kString)
+      entry.text_begin = text.data();
+    else
+      entry.limit_bits = {ObjectEntry::bits(low), ObjectEntry::bits(high)};
+    return entry;
+  }
+};
+
 /// One row of the table; reads as one sentence.
-struct ObjectRow : ObjectEntry, ObjectNames {
+struct ObjectRow : ObjectDefinition, ObjectNames {
   constexpr ObjectRow& between(std::int64_t lowest, std::int64_t highest) {
     limited = true;
     low = lowest;

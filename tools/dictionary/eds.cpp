@@ -56,12 +56,12 @@ void add_value(Ini& ini, const ObjectEntry& entry) {
   ini.set("DataType", hex(static_cast<unsigned>(entry.type), 4));
   ini.set("AccessType", access_name(entry));
   if (entry.type == DataType::kString)
-    ini.set("DefaultValue", entry.text);
-  else if (entry.binding != Binding::kLive || entry.initial != 0)
-    ini.set("DefaultValue", (entry.node_id_relative ? "$NODEID+" : "") + number(entry, entry.initial));
+    ini.set("DefaultValue", entry.text());
+  else if (entry.binding != Binding::kLive || entry.initial() != 0)
+    ini.set("DefaultValue", (entry.node_id_relative ? "$NODEID+" : "") + number(entry, entry.initial()));
   if (entry.limited) {
-    ini.set("LowLimit", number(entry, entry.low));
-    ini.set("HighLimit", number(entry, entry.high));
+    ini.set("LowLimit", number(entry, entry.low()));
+    ini.set("HighLimit", number(entry, entry.high()));
   }
   ini.set("PDOMapping", entry.mapping == Mapping::kNone ? "0" : "1");
 }

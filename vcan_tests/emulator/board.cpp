@@ -22,13 +22,13 @@ double turns_of(double counts) {
 }  // namespace
 
 Board::Board(const ElfImage& image, const BoardOptions& options)
-    : Chip(image, options,
-           {.device_id = 0x1007'0413,
-            .flash_bytes = CortexM4::kFlashSize,
-            .core_coupled_memory = true,
-            .clocks = {.crystal_hz = board::kCrystalHz},
-            .ports = 4,
-            .program = board::kProgramAddress}),
+    : Stm32f4Chip(image, options,
+                  {.device_id = 0x1007'0413,
+                   .flash_bytes = CortexM4::kFlashSize,
+                   .core_coupled_memory = true,
+                   .clocks = {.crystal_hz = board::kCrystalHz},
+                   .ports = 4,
+                   .program = board::kProgramAddress}),
       tim1_(cpu_.nvic(), {.update_irq = 25, .break_irq = 24}),
       tim8_(cpu_.nvic(), {.update_irq = 44, .break_irq = 43}),
       adc_(cpu_.nvic()),

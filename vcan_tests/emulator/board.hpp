@@ -6,16 +6,16 @@
 #include <cstdint>
 #include <memory>
 
-#include "vcan_tests/emulator/chip.hpp"
 #include "vcan_tests/emulator/peripherals/adc.hpp"
 #include "vcan_tests/emulator/peripherals/as5047.hpp"
 #include "vcan_tests/emulator/peripherals/otg_hs.hpp"
 #include "vcan_tests/emulator/peripherals/spi.hpp"
 #include "vcan_tests/emulator/peripherals/usart.hpp"
+#include "vcan_tests/emulator/stm32f4_chip.hpp"
 
 namespace kinebus::emulator {
 
-class Board final : public Chip {
+class Board final : public Stm32f4Chip {
  public:
   Board(const ElfImage& image, const BoardOptions& options);
   ~Board() override;

@@ -1,48 +1,24 @@
 #include "vcan_tests/emulator/chip.hpp"
 
 #include <algorithm>
-#include <cstring>
 
 namespace kinebus::emulator {
 namespace {
 
-constexpr std::uint32_t kPeripherals = 0x40000000;
-constexpr std::uint32_t kUniqueIdOffset = 0x7A10 - 0x7800;
+constexpr std::uint32_t kPeripherals = 0x40000000, kIoPorts = 0x50000000;
 
 }  // namespace
 
-Chip::Chip(const ElfImage& image, const BoardOptions& options, const ChipFacts& facts)
-    : image_(image),
-      options_(options),
-      facts_(facts),
-      cpu_(*this, facts.core_coupled_memory),
-      rcc_(facts.clocks),
-      flash_(cpu_.flash().first(facts.flash_bytes)),
-      exti_(cpu_.nvic()),
-      sysconfig_(exti_),
-      tim2_(cpu_.nvic(), {.update_irq = 28, .cycles_per_tick = 2, .advanced = false}),
-      can_(cpu_.nvic()) {
-  cpu_.nvic().set_device_id(facts.device_id);
-  map(0x40000000, 0x400, tim2_, apb1(0));
-  map(0x40003000, 0x400, watchdog_);
-  map(0x40006400, 0x400, can_, apb1(25));
-  map(0x40007000, 0x400, power_control_, apb1(28));
-  map(0x40013800, 0x400, sysconfig_, apb2(14));
-  map(0x40013C00, 0x400, exti_);
-  for (std::uint32_t port = 0; port < facts.ports; ++port)
-    map(0x40020000 + 0x400 * port, 0x400, ports_[port], ahb1(static_cast<int>(port)));
-  map(0x40023800, 0x400, rcc_);
-  map(0x40023C00, 0x400, flash_);
-}
+Chip::Chip(const ElfImage& image, const BoardOptions& options, const CoreFacts& core)
+    : image_(image), options_(options), cpu_(*this, core) {}
 
 Chip::~Chip() = default;
 
-void Chip::start() {
-  std::memcpy(cpu_.system_memory().data() + kUniqueIdOffset, options_.unique_id.data(),
-              sizeof options_.unique_id);
+void Chip::start(std::uint32_t program, std::size_t axes) {
+  axes_ = axes;
   cpu_.load(image_);
   // A boot loader begins at the start of flash; without one the program begins by itself.
-  boot_ = cpu_.peek(CortexM4::kFlash) != 0xFFFFFFFF ? CortexM4::kFlash : facts_.program;
+  boot_ = cpu_.peek(CortexM4::kFlash) != 0xFFFFFFFF ? CortexM4::kFlash : program;
   power_cycle();
   resets_ = 0;
 }
@@ -54,7 +30,8 @@ int Chip::clock_offset(std::uint32_t, std::uint32_t) const {
 void Chip::map(std::uint32_t base, std::uint32_t size, Peripheral& peripheral,
                std::optional<Rcc::Clock> clock) {
   for (std::uint32_t at = base; at < base + size; at += 0x400)
-    places_[(at - kPeripherals) / 0x400] = {&peripheral, base, clock};
+    (at < kIoPorts ? places_[(at - kPeripherals) / 0x400] : io_places_[(at - kIoPorts) / 0x400]) = {
+        &peripheral, base, clock};
 }
 
 // As on the chip: without its clock a peripheral takes nothing and says 0.
@@ -63,7 +40,7 @@ bool Chip::reached(const Place& place, std::uint32_t address, Cycle now) {
   if (!place.clock) return true;
   Rcc::Clock clock = *place.clock;
   clock.bit += clock_offset(place.base, address);
-  if (rcc_.live(clock, now)) return true;
+  if (live(clock, now)) return true;
   if (lost_.size() < 100) lost_.push_back(address);
   return false;
 }
@@ -76,13 +53,7 @@ void Chip::power_cycle() {
 void Chip::reset(Rcc::ResetCause cause) {
   const Cycle now = cpu_.now();
   ++resets_;
-  rcc_.reset(cause);
-  power_control_.reset();
-  flash_.reset();
-  for (GpioPort& port : ports_) port.reset();
-  exti_.reset();
-  tim2_.reset(now);
-  can_.reset();
+  reset_chip(cause, now);
   watchdog_.reset();
   reset_devices(now);
   cpu_.reset(boot_);
@@ -110,12 +81,11 @@ void Chip::advance(Cycle now) {
     const Incoming in = incoming_.front();
     incoming_.pop_front();
     if (in.sent_mailbox >= 0)
-      can_.on_sent(in.sent_mailbox);
+      can().on_sent(in.sent_mailbox);
     else
-      can_.on_frame(in.frame, now);
+      can().on_frame(in.frame, now);
   }
-  tim2_.advance(now);
-  can_.advance(now);
+  advance_chip(now);
   advance_devices(now);
   if (watchdog_.expired(now)) cpu_.stop();
   look_at_switches();
@@ -123,13 +93,14 @@ void Chip::advance(Cycle now) {
 }
 
 void Chip::schedule() {
-  next_event_ = std::min({tim2_.next_event(), can_.next_event(), watchdog_.next_event(), next_of_devices(),
+  next_event_ = std::min({next_of_chip(), watchdog_.next_event(), next_of_devices(),
                           incoming_.empty() ? kNever : incoming_.front().at});
 }
 
 Chip::Place Chip::find(std::uint32_t address) {
-  const std::uint32_t page = (address - kPeripherals) / 0x400;
-  if (page < places_.size() && places_[page].peripheral != nullptr) return places_[page];
+  const auto& places = address < kIoPorts ? places_ : io_places_;
+  const std::uint32_t page = (address - (address < kIoPorts ? kPeripherals : kIoPorts)) / 0x400;
+  if (page < places.size() && places[page].peripheral != nullptr) return places[page];
   if (strange_.size() < 100) strange_.push_back(address);
   return {};
 }
@@ -146,21 +117,12 @@ void Chip::write(std::uint32_t address, std::uint32_t value, int size, Cycle now
   if (!reached(place, address, now)) return;
   const std::uint32_t kept = size == 4 ? value : value & ((1u << (8 * size)) - 1);
   place.peripheral->write((address - place.base) & ~3u, kept << (8 * (address & 3)), now);
-  if (place.peripheral == &flash_ && flash_.take_erased()) {
-    cpu_.forget_code();
-    cpu_.stall_until(flash_.busy_until());
-  }
+  after_write(*place.peripheral);
   schedule();
 }
 
-bool Chip::write_flash(std::uint32_t address, std::uint32_t value, int size, Cycle now) {
-  const bool changed = flash_.program(address, value, size, now);
-  if (changed) cpu_.stall_until(flash_.busy_until());
-  return changed;
-}
-
 void Chip::look_at_switches() {
-  for (std::size_t a = 0; a < facts_.axes; ++a) {
+  for (std::size_t a = 0; a < axes_; ++a) {
     const VirtualAxis& axis = options_.axes[a];
     if (axis.switch_input == 0) continue;
     const double above = true_counts(static_cast<int>(a)) - axis.switch_counts;
@@ -170,16 +132,6 @@ void Chip::look_at_switches() {
     switch_level_[a] = level;
     set_input(axis.switch_input - 1, level == 1);
   }
-}
-
-void Chip::set_chip_supply(double volts) {
-  power_control_.set_supply(volts);
-  exti_.on_inner_level(PowerControl::kDetectorLine, power_control_.supply_low());
-  if (volts < flash_.brown_out_volts()) reset(Rcc::ResetCause::kBrownOut);
-}
-
-void Chip::set_crystal(bool swings) {
-  if (rcc_.set_crystal(swings)) cpu_.nvic().pend(kNmi);
 }
 
 }  // namespace kinebus::emulator

@@ -1,9 +1,8 @@
 #pragma once
-// An emulated STM32F4 with what every board needs of it: processor, clocks, flash, pins, local time, CAN,
-// watchdog. A board adds its other peripherals and what is wired to them. One crystal: time is the
-// processor's cycles.
+// An emulated microcontroller as its board and the bus see it: processor, the places of its peripherals,
+// their clocks, CAN, watchdog, resets. A kind of chip adds its peripherals (stm32f4_chip, stm32g0b1_chip), a
+// board what is wired to them. One crystal: time is Cycles, whatever the core's clock.
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <deque>
@@ -13,26 +12,11 @@
 #include "protocol/can/frame.hpp"
 #include "vcan_tests/emulator/board_options.hpp"
 #include "vcan_tests/emulator/cpu/cortex_m4.hpp"
-#include "vcan_tests/emulator/peripherals/bxcan.hpp"
-#include "vcan_tests/emulator/peripherals/flash.hpp"
-#include "vcan_tests/emulator/peripherals/gpio.hpp"
-#include "vcan_tests/emulator/peripherals/power_control.hpp"
+#include "vcan_tests/emulator/peripherals/can_controller.hpp"
 #include "vcan_tests/emulator/peripherals/rcc.hpp"
-#include "vcan_tests/emulator/peripherals/timer.hpp"
 #include "vcan_tests/emulator/peripherals/watchdog.hpp"
 
 namespace kinebus::emulator {
-
-/// How one STM32F4 differs from another.
-struct ChipFacts {
-  std::uint32_t device_id = 0;  ///< DBGMCU_IDCODE
-  std::uint32_t flash_bytes = 0;
-  bool core_coupled_memory = false;
-  Rcc::Facts clocks{};
-  std::uint32_t ports = 0;    ///< GPIO ports from A on
-  std::size_t axes = 2;       ///< motors on the board
-  std::uint32_t program = 0;  ///< where the program's vectors are, when no boot loader of ours is there
-};
 
 class Chip : public Devices {
  public:
@@ -45,7 +29,7 @@ class Chip : public Devices {
   void power_cycle();
 
   // CAN, for who joins boards to a bus.
-  BxCan& can() { return can_; }
+  virtual CanController& can() = 0;
   /// A frame ends on the bus at `at`, not before now().
   void deliver(Cycle at, const CanFrame& frame) { incoming_.push_back({at, frame}); }
   void sent(Cycle at, int mailbox) { incoming_.push_back({at, {}, mailbox}); }
@@ -57,18 +41,11 @@ class Chip : public Devices {
   /// The level on switch input 0..6 from outside; inputs that an axis drives follow it.
   virtual void set_input(int input, bool level) = 0;
   double start_counts(int axis) const { return options_.axes[static_cast<std::size_t>(axis)].start_counts; }
-  /// TIM2's count at a time not long after now().
-  std::uint32_t local_counts(Cycle at) { return tim2_.read(0x24, std::max(at, cpu_.now())); }
-
-  /// The chip's own supply, 3.3 V by itself: what the detector (PVD) makes of it, and a reset below the
-  /// brown-out level of the option bytes; RAM keeps. Not what flash and core do below 2.7 V.
-  void set_chip_supply(double volts);
-  void set_crystal(bool swings);
+  /// The count of local time at a time not long after now().
+  virtual std::uint32_t local_counts(Cycle at) = 0;
 
   CortexM4& cpu() { return cpu_; }
   const CortexM4& cpu() const { return cpu_; }
-  Rcc& rcc() { return rcc_; }
-  FlashController& flash() { return flash_; }
   const ElfImage& image() const { return image_; }
   std::uint64_t resets() const { return resets_; }
   std::uint64_t watchdog_resets() const { return watchdog_resets_; }
@@ -81,21 +58,26 @@ class Chip : public Devices {
   // Devices.
   std::uint32_t read(std::uint32_t address, int size, Cycle now) override;
   void write(std::uint32_t address, std::uint32_t value, int size, Cycle now) override;
-  bool write_flash(std::uint32_t address, std::uint32_t value, int size, Cycle now) override;
   Cycle next_event() const override { return next_event_; }
   void advance(Cycle now) override;
 
  protected:
-  /// A board calls start() when its own parts are there.
-  Chip(const ElfImage& image, const BoardOptions& options, const ChipFacts& facts);
-  void start();
+  Chip(const ElfImage& image, const BoardOptions& options, const CoreFacts& core);
+  /// A board calls this when its own parts are there. program: where the program's vectors are, when no boot
+  /// loader begins at the start of flash. axes: motors on the board.
+  void start(std::uint32_t program, std::size_t axes);
 
   void map(std::uint32_t base, std::uint32_t size, Peripheral& peripheral,
            std::optional<Rcc::Clock> clock = std::nullopt);
-  static constexpr Rcc::Clock ahb1(int bit) { return {0x30, bit}; }
-  static constexpr Rcc::Clock apb1(int bit) { return {0x40, bit}; }
-  static constexpr Rcc::Clock apb2(int bit) { return {0x44, bit}; }
+  void reset(Rcc::ResetCause cause);
+  void schedule();
 
+  // What a kind of chip adds.
+  virtual void reset_chip(Rcc::ResetCause cause, Cycle now) = 0;
+  virtual void advance_chip(Cycle now) = 0;
+  virtual Cycle next_of_chip() const = 0;
+  virtual bool live(const Rcc::Clock& clock, Cycle now) = 0;
+  virtual void after_write(Peripheral&) {}
   // What a board adds.
   virtual void reset_devices(Cycle now) = 0;
   virtual void advance_devices(Cycle now) = 0;
@@ -109,16 +91,7 @@ class Chip : public Devices {
 
   const ElfImage& image_;
   BoardOptions options_;
-  ChipFacts facts_;
   CortexM4 cpu_;
-  Rcc rcc_;
-  FlashController flash_;
-  PowerControl power_control_;
-  std::array<GpioPort, 8> ports_;
-  Exti exti_;
-  SysConfig sysconfig_;
-  Timer tim2_;
-  BxCan can_;
   Watchdog watchdog_;
 
  private:
@@ -134,12 +107,12 @@ class Chip : public Devices {
   };
   bool reached(const Place& place, std::uint32_t address, Cycle now);
   Place find(std::uint32_t address);
-  void reset(Rcc::ResetCause cause);
-  void schedule();
 
-  std::array<Place, 512> places_{};  // by KiB from 0x40000000
+  std::array<Place, 512> places_{};     // by KiB from 0x40000000
+  std::array<Place, 512> io_places_{};  // and from 0x50000000
   std::deque<Incoming> incoming_;
   std::array<int, 8> switch_level_{-1, -1, -1, -1, -1, -1, -1, -1};
+  std::size_t axes_ = 0;
   Cycle next_event_ = 0;
   std::uint32_t boot_ = 0;
   std::uint64_t resets_ = 0, watchdog_resets_ = 0;

@@ -64,7 +64,7 @@ EmulatedMachine::EmulatedMachine(const ElfImage& image, const std::vector<Emulat
   for (const EmulatedNodeOptions& options : nodes) {
     auto node = std::make_unique<Node>();
     node->board = options.make(image, options.board);
-    node->port = bus_.add_port(BxCan::kMailboxes);
+    node->port = bus_.add_port(CanController::kMailboxes);
     node->powered = longest - options.powered_before;
     node->drift_ppm = options.clock_drift_ppm;
     nodes_.push_back(std::move(node));
@@ -157,11 +157,11 @@ void EmulatedMachine::collect(BusTime now) {
   struct Asked {
     BusTime at{0};
     Node* node = nullptr;
-    BxCan::Request request;
+    CanController::Request request;
   };
   std::vector<Asked> asked;
   for (const auto& node : nodes_)
-    for (const BxCan::Request& request : node->board->can().take_requests())
+    for (const CanController::Request& request : node->board->can().take_requests())
       asked.push_back({std::min(node->time_of(request.at), now), node.get(), request});
   std::stable_sort(asked.begin(), asked.end(), [](const Asked& a, const Asked& b) { return a.at < b.at; });
   for (const Asked& a : asked) {
@@ -201,7 +201,7 @@ void EmulatedMachine::deliver(const BusModel::Delivery& delivery) {
       if (delivery.end >= node->powered) node->board->deliver(node->cycle_at(delivery.end), delivery.frame);
       continue;
     }
-    for (int mailbox = 0; mailbox < BxCan::kMailboxes; ++mailbox) {
+    for (int mailbox = 0; mailbox < CanController::kMailboxes; ++mailbox) {
       const auto m = static_cast<std::size_t>(mailbox);
       if (!node->waiting[m] || node->in_mailbox[m] != delivery.frame) continue;
       node->waiting[m] = false;

@@ -81,8 +81,8 @@ class EmulatedMachine final : public NodeMachine {
     BusModel::Port port = 0;
     BusTime powered{0};
     double drift_ppm = 0;
-    std::array<CanFrame, BxCan::kMailboxes> in_mailbox{};
-    std::array<bool, BxCan::kMailboxes> waiting{};
+    std::array<CanFrame, CanController::kMailboxes> in_mailbox{};
+    std::array<bool, CanController::kMailboxes> waiting{};
     int disturbed = 0;
     PathTime last_path{0};
 

@@ -50,7 +50,7 @@ OctopusBoard::OctopusBoard(const ElfImage& image, const BoardOptions& options)
     : OctopusBoard(image, options, kF446) {}
 
 OctopusBoard::OctopusBoard(const ElfImage& image, const BoardOptions& options, std::uint32_t device_id)
-    : Chip(image, options, facts(device_id)),
+    : Stm32f4Chip(image, options, facts(device_id)),
       tim1_(cpu_.nvic(), {.update_irq = 25, .break_irq = 24}),
       dma2_(cpu_.nvic(), {56, 57, 58, 59, 60, 68, 69, 70}) {
   map(0x40010000, 0x400, tim1_, apb2(0));

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "vcan_tests/emulator/chip.hpp"
 #include "vcan_tests/emulator/peripherals/dma.hpp"
+#include "vcan_tests/emulator/stm32f4_chip.hpp"
 
 namespace kinebus::emulator {
 
@@ -42,7 +42,7 @@ class StepDriver {
   Shortest shortest_;
 };
 
-class OctopusBoard final : public Chip {
+class OctopusBoard final : public Stm32f4Chip {
  public:
   static constexpr double kCountsPerStep = 16;
 

@@ -94,7 +94,7 @@ class FakeNode final : private SdoObjects {
                      std::uint32_t& total) override {
     const int slot = find_object(address);
     if (slot < 0) return AbortCode::kNoObject;
-    std::int64_t value = kNodeObjects[static_cast<std::size_t>(slot)].initial;
+    std::int64_t value = kNodeObjects[static_cast<std::size_t>(slot)].initial();
     const std::uint32_t base =
         address.key() & ~(address.index >= 0x2940 ? std::uint32_t{kAxisOffset} << 8 : 0u);
     if (address == object::kFingerprint) value = fingerprint_;

@@ -106,5 +106,45 @@ TEST(PageStore, PowerMayGoAtAnyByte) {
   }
 }
 
+// Flash that is programmed by double words, each once after an erase.
+struct PairedPages final : FlashPages {
+  std::span<const std::uint8_t> page(std::size_t which) const override {
+    return std::span(bytes).subspan(which * kPage, kPage);
+  }
+  std::size_t unit() const override { return 8; }
+  bool erase(std::size_t which) override {
+    std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(which * kPage), kPage, std::uint8_t{0xFF});
+    std::fill_n(written.begin() + static_cast<std::ptrdiff_t>(which * kPage / 8), kPage / 8, false);
+    return true;
+  }
+  bool program(std::size_t which, std::uint32_t offset, std::uint32_t word) override {
+    const std::size_t at = which * kPage + offset;
+    EXPECT_EQ(offset % 8 == 4, pending == at) << "the upper word follows the lower one";
+    pending = offset % 8 == 0 ? at + 4 : kNone;
+    if (offset % 8 == 4) {
+      EXPECT_FALSE(written[at / 8]) << "a double word is programmed once";
+      written[at / 8] = true;
+    }
+    for (std::size_t i = 0; i < 4; ++i) bytes[at + i] = static_cast<std::uint8_t>(word >> (8 * i));
+    return true;
+  }
+  std::vector<std::uint8_t> bytes = std::vector<std::uint8_t>(2 * kPage, 0xFF);
+  std::vector<bool> written = std::vector<bool>(2 * kPage / 8, false);
+  static constexpr std::size_t kNone = 2 * kPage;
+  std::size_t pending = kNone;
+};
+
+TEST(PageStore, ProgramsWholeUnitsAndNoneTwice) {
+  PairedPages pages;
+  PageStore store(pages);
+  static_cast<void>(store.load());
+  for (std::uint32_t number = 0; number < 200; ++number) {
+    const auto wanted = image(number, 1 + number * 37 % 300);
+    ASSERT_TRUE(store.save(wanted)) << number;
+    EXPECT_EQ(pages.pending, PairedPages::kNone) << "no half of a unit is left";
+    EXPECT_EQ(loaded(pages), wanted) << number;
+  }
+}
+
 }  // namespace
 }  // namespace kinebus

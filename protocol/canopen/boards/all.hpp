@@ -5,6 +5,7 @@
 #include "protocol/canopen/boards/heat.hpp"
 #include "protocol/canopen/boards/stm32f405.hpp"
 #include "protocol/canopen/boards/stm32f446_octopus.hpp"
+#include "protocol/canopen/boards/stm32g0b1_ebb.hpp"
 
 namespace kinebus {
 
@@ -20,7 +21,8 @@ inline constexpr BoardDescription kBoardDescription{Board::kFacts, BoardObjects<
                                                     BoardObjects<Board>::kNames, Board::kPdos};
 
 inline constexpr std::array kBoards{kBoardDescription<Stm32f405Board>,
-                                    kBoardDescription<Stm32f446OctopusBoard>, kBoardDescription<HeatBoard>};
+                                    kBoardDescription<Stm32f446OctopusBoard>,
+                                    kBoardDescription<Stm32g0b1EbbBoard>, kBoardDescription<HeatBoard>};
 
 /// nullptr: no board is called so.
 constexpr const BoardDescription* find_board(std::string_view name) {

@@ -10,7 +10,7 @@ namespace {
 TEST(HeatTable, HasItsProfileAndEveryHeadIsTrue) {
   const int type = kHeatTable.find({0x1000, 0});
   ASSERT_GE(type, 0);
-  EXPECT_EQ(kHeatTable[type].initial & 0xFFFF, 0x0194) << "CiA 404";
+  EXPECT_EQ(kHeatTable[type].initial() & 0xFFFF, 0x0194) << "CiA 404";
   EXPECT_LT(kHeatTable.find({0x6040, 0}), 0) << "no axis";
   for (const ObjectEntry& head : kHeatObjects) {
     EXPECT_TRUE(head.binding != Binding::kParameter || head.writable()) << head.address.index;
@@ -18,7 +18,7 @@ TEST(HeatTable, HasItsProfileAndEveryHeadIsTrue) {
     int highest = 0;
     for (const ObjectEntry& e : kHeatObjects)
       if (e.address.index == head.address.index) highest = e.address.subindex;
-    EXPECT_EQ(head.initial, highest) << std::hex << head.address.index;
+    EXPECT_EQ(head.initial(), highest) << std::hex << head.address.index;
   }
 }
 

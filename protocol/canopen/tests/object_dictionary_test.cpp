@@ -41,8 +41,8 @@ TEST(ObjectTable, IsConsistent) {
               kNodeObjectNames[static_cast<std::size_t>(find_object({e.address.index, 0}))].object)
         << where;
     if (e.limited) {
-      EXPECT_LE(e.low, e.high) << where;
-      EXPECT_TRUE(e.binding == Binding::kLive || (e.initial >= e.low && e.initial <= e.high)) << where;
+      EXPECT_LE(e.low(), e.high()) << where;
+      EXPECT_TRUE(e.binding == Binding::kLive || (e.initial() >= e.low() && e.initial() <= e.high())) << where;
     }
     EXPECT_TRUE(e.binding != Binding::kConstant || !e.writable()) << where;
     EXPECT_TRUE(e.binding != Binding::kParameter || e.writable()) << where;
@@ -50,7 +50,7 @@ TEST(ObjectTable, IsConsistent) {
     EXPECT_TRUE(!e.maps_to(Mapping::kTpdo) || e.readable()) << where;
     EXPECT_TRUE(e.mapping == Mapping::kNone || e.type != DataType::kString) << where;
     EXPECT_TRUE(e.type == DataType::kString ||
-                value_of(e.type, static_cast<std::uint64_t>(e.initial)) == e.initial)
+                value_of(e.type, static_cast<std::uint64_t>(e.initial())) == e.initial())
         << where;
     if (e.axis == 0) {
       const int twin =
@@ -86,7 +86,7 @@ TEST(ObjectTable, IsComposedOfUnitsByBoard) {
   EXPECT_EQ(wider.entries.size(), kNodeObjectCount + 2);
   static_assert(shares_slots(kNodeTable, wider), "the axis pair's core serves it");
   static_assert(!shares_slots(kNodeTable, bare));
-  EXPECT_EQ(wider[wider.find({0x2300, 1})].high, 5);
+  EXPECT_EQ(wider[wider.find({0x2300, 1})].high(), 5);
   EXPECT_EQ(BoardObjects<WiderBoard>::kNames[static_cast<std::size_t>(wider.find({0x2300, 1}))].name,
             "Lamp 1");
   EXPECT_LT(wider.find({0x2300, 1}), wider.find({0x6040, 0})) << "by address";
@@ -115,7 +115,7 @@ TEST(ObjectTable, HighestSubindexIsTrue) {
     int highest = 0;
     for (const ObjectEntry& e : kNodeObjects)
       if (e.address.index == head.address.index) highest = e.address.subindex;
-    EXPECT_EQ(head.initial, highest) << names_of(head).object;
+    EXPECT_EQ(head.initial(), highest) << names_of(head).object;
   }
 }
 

@@ -73,17 +73,17 @@ TEST(Eds, SaysOfEveryObjectWhatTheTableSays) {
     EXPECT_EQ(s["PDOMapping"] == "1", entry.mapping != Mapping::kNone) << name;
     std::string initial = s["DefaultValue"];
     if (entry.type == DataType::kString) {
-      EXPECT_EQ(initial, entry.text);
+      EXPECT_EQ(initial, entry.text());
     } else {
       const bool relative = initial.rfind("$NODEID+", 0) == 0;
       EXPECT_EQ(relative, entry.node_id_relative) << name;
       if (relative) initial = initial.substr(8);
-      EXPECT_EQ(initial.empty() ? 0 : number(initial), entry.initial) << name;
+      EXPECT_EQ(initial.empty() ? 0 : number(initial), entry.initial()) << name;
     }
     EXPECT_EQ(s.count("LowLimit") == 1, entry.limited) << name;
     if (entry.limited) {
-      EXPECT_EQ(number(s["LowLimit"]), entry.low) << name;
-      EXPECT_EQ(number(s["HighLimit"]), entry.high) << name;
+      EXPECT_EQ(number(s["LowLimit"]), entry.low()) << name;
+      EXPECT_EQ(number(s["HighLimit"]), entry.high()) << name;
     }
     if (!var && entry.address.subindex == 0) {
       Section& whole = sections[section_name(entry.address, false)];
@@ -136,7 +136,7 @@ TEST(Eds, OfEveryBoardHasEveryObjectWithItsTypeAndLimits) {
       EXPECT_EQ(number(s["DataType"]), static_cast<std::int64_t>(entry.type)) << name;
       EXPECT_EQ(s.count("LowLimit") == 1, entry.limited) << name;
       if (entry.limited) {
-        EXPECT_EQ(number(s["HighLimit"]), entry.high) << name;
+        EXPECT_EQ(number(s["HighLimit"]), entry.high()) << name;
       }
     }
     std::int64_t listed = 0;

@@ -89,12 +89,15 @@ struct CortexM4::Hooks {
   }
 };
 
-CortexM4::CortexM4(Devices& devices, bool core_coupled_memory)
-    : devices_(devices), flash_(kFlashSize + kPage, 0xFF), block_costs_(kFlashSize / 2) {
+CortexM4::CortexM4(Devices& devices, const CoreFacts& facts)
+    : devices_(devices), facts_(facts), flash_(kFlashSize + kPage, 0xFF), block_costs_(kFlashSize / 2) {
   uc_engine* uc = nullptr;
   check(uc_open(UC_ARCH_ARM, UC_MODE_THUMB, &uc), "uc_open");
   uc_ = uc;
+  // Also for the Cortex-M0+: Unicorn's Cortex-M0 does not return from exceptions. code_cost() looks that only
+  // instructions of the smaller core run.
   check(uc_ctl_set_cpu_model(uc, UC_CPU_ARM_CORTEX_M4), "cpu model");
+  nvic_.set_small(facts.small);
   sram_ = page_aligned(kSramSize);
   ccm_ = page_aligned(kCcmSize);
   system_memory_ = page_aligned(kSystemMemorySize);
@@ -103,9 +106,10 @@ CortexM4::CortexM4(Devices& devices, bool core_coupled_memory)
                                                0xE7FEE7FE};  // stack, entry, b .
   std::memcpy(system_boot_, kLoop.data(), sizeof kLoop);
   check(uc_mem_map_ptr(uc, kSram, kSramSize, UC_PROT_ALL, sram_), "SRAM");
-  if (core_coupled_memory)
+  if (facts.core_coupled_memory)
     check(uc_mem_map_ptr(uc, kCcm, kCcmSize, UC_PROT_READ | UC_PROT_WRITE, ccm_), "CCM");
-  check(uc_mem_map_ptr(uc, kSystemMemory, kSystemMemorySize, UC_PROT_READ, system_memory_), "system memory");
+  check(uc_mem_map_ptr(uc, facts.system_memory, kSystemMemorySize, UC_PROT_READ, system_memory_),
+        "system memory");
   check(uc_mem_map_ptr(uc, kSystemBoot, kSystemBootSize, UC_PROT_READ | UC_PROT_EXEC, system_boot_),
         "system boot loader");
   check(uc_mem_map_ptr(uc, kFlash, kFlashSize, UC_PROT_READ | UC_PROT_EXEC, flash_.data()), "flash");
@@ -167,7 +171,8 @@ std::uint8_t* CortexM4::host(std::uint32_t address, std::uint32_t size) {
   if (within(kSram, kSramSize)) return sram_ + (address - kSram);
   if (within(kCcm, kCcmSize)) return ccm_ + (address - kCcm);
   if (within(kFlash, kFlashSize)) return flash_.data() + (address - kFlash);
-  if (within(kSystemMemory, kSystemMemorySize)) return system_memory_ + (address - kSystemMemory);
+  if (within(facts_.system_memory, kSystemMemorySize))
+    return system_memory_ + (address - facts_.system_memory);
   return nullptr;
 }
 
@@ -186,7 +191,14 @@ std::uint32_t CortexM4::code_cost(std::uint32_t address, std::uint32_t size) {
   std::array<std::uint16_t, 1024> half_words{};
   const std::size_t count = std::min<std::size_t>(size / 2, half_words.size());
   std::memcpy(half_words.data(), code, count * 2);
-  const CodeCost cost = estimate_cost(std::span(half_words).first(count));
+  const auto words = std::span(half_words).first(count);
+  const CodeCost cost =
+      facts_.small ? estimate_small_cost(words, address - kFlash < kFlashSize) : estimate_cost(words);
+  if (facts_.small && !small_core_runs(words) && failure_.empty()) {
+    pc_ = address;
+    failure_ = "an instruction that a Cortex-M0+ does not have";
+    next_stop_ = 0;
+  }
   return cost.instructions << 16 | cost.cycles;
 }
 
@@ -196,15 +208,23 @@ void CortexM4::note_code(std::uint32_t address, std::uint32_t size) {
     if (page < code_pages_.size()) code_pages_.set(page);
 }
 
-void CortexM4::count(std::uint32_t instructions, std::uint32_t cycles) {
+Cycle CortexM4::elapse(std::uint32_t clocks) {
+  const Cycle parts = clocks * facts_.cycles + rest_;
+  rest_ = parts % facts_.clocks;
+  now_ += parts / facts_.clocks;
+  return parts / facts_.clocks;
+}
+
+Cycle CortexM4::count(std::uint32_t instructions, std::uint32_t cycles) {
   instructions_ += instructions;
-  now_ += cycles;
+  const Cycle elapsed = elapse(cycles);
   if (!running_.empty()) {
     running_.back().instructions += instructions;
     running_.back().cycles += cycles;
   } else {
     own_cycles_ += cycles;
   }
+  return elapsed;
 }
 
 void CortexM4::on_block(std::uint32_t address, std::uint32_t size) {
@@ -214,6 +234,7 @@ void CortexM4::on_block(std::uint32_t address, std::uint32_t size) {
     return;
   }
   std::uint32_t cost = 0;
+  Cycle elapsed = 0;
   if (address == skip_block_) {
     skip_block_ = 1;
   } else {
@@ -227,7 +248,7 @@ void CortexM4::on_block(std::uint32_t address, std::uint32_t size) {
     } else {
       cost = code_cost(address, size);  // in RAM: may change, and is rare
     }
-    count(cost >> 16, cost & 0xFFFF);
+    elapsed = count(cost >> 16, cost & 0xFFFF);
     if (!profile_.empty() && index < profile_.size()) profile_[index] += cost & 0xFFFF;
     if (address == watch_at_) on_watched();
   }
@@ -239,7 +260,7 @@ void CortexM4::on_block(std::uint32_t address, std::uint32_t size) {
   if (!stop_asked_ && nvic_.any_pending() && take_exception(address)) {
     // The block has not run: it is counted when it does.
     instructions_ -= cost >> 16;
-    now_ -= cost & 0xFFFF;
+    now_ -= elapsed;
     if (running_.size() > 1) {
       running_[running_.size() - 2].instructions -= cost >> 16;
       running_[running_.size() - 2].cycles -= cost & 0xFFFF;

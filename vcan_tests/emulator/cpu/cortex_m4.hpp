@@ -36,7 +36,7 @@ class Devices {
 /// What an interrupt cost; preemption by others is not counted.
 struct ExceptionCost {
   std::uint64_t calls = 0;
-  std::uint64_t instructions = 0, cycles = 0;
+  std::uint64_t instructions = 0, cycles = 0;  ///< clocks of the core
   std::uint32_t worst_instructions = 0, worst_cycles = 0;
   Cycle worst_latency = 0;  ///< from pending (as the processor saw it) to the first instruction
 };
@@ -48,17 +48,26 @@ struct CallCost {
   Cycle worst_own = 0;  ///< without them
 };
 
+/// How a core differs from that of the F405. The other one that is modelled is the Cortex-M0+, whose
+/// instructions, exceptions and registers are a part of the Cortex-M4's.
+struct CoreFacts {
+  bool core_coupled_memory = true;  ///< the F405 has it, the F446 has not
+  bool small = false;               ///< a Cortex-M0+
+  Cycle cycles = 1, clocks = 1;     ///< so many Cycles are so many clocks of this core
+  std::uint32_t system_memory = 0x1FFF7800;
+};
+
 class CortexM4 {
  public:
   static constexpr std::uint32_t kFlash = 0x08000000, kFlashSize = 1024 * 1024;
   static constexpr std::uint32_t kSram = 0x20000000, kSramSize = 128 * 1024;
   static constexpr std::uint32_t kCcm = 0x10000000, kCcmSize = 64 * 1024;
-  static constexpr std::uint32_t kSystemMemory = 0x1FFF7800, kSystemMemorySize = 1024;
+  static constexpr std::uint32_t kSystemMemorySize = 1024;
   /// Where the chip's own boot loader begins. Not its code: an endless loop, to see who arrives there.
   static constexpr std::uint32_t kSystemBoot = 0x1FFF0000, kSystemBootSize = 1024;
 
-  /// core_coupled_memory: the F405 has it, the F446 has not.
-  explicit CortexM4(Devices& devices, bool core_coupled_memory = true);
+  explicit CortexM4(Devices& devices) : CortexM4(devices, CoreFacts{}) {}
+  CortexM4(Devices& devices, const CoreFacts& facts);
   ~CortexM4();
   CortexM4(const CortexM4&) = delete;
   CortexM4& operator=(const CortexM4&) = delete;
@@ -148,7 +157,9 @@ class CortexM4 {
   void enter(int exception, std::uint32_t return_address);
   void begin_count(int exception);
   void end_count();
-  void count(std::uint32_t instructions, std::uint32_t cycles);
+  /// Returns the time that goes by.
+  Cycle count(std::uint32_t instructions, std::uint32_t clocks);
+  Cycle elapse(std::uint32_t clocks);
   void on_watched();
   bool wakes() const;
   std::uint8_t* host(std::uint32_t address, std::uint32_t size);
@@ -158,6 +169,8 @@ class CortexM4 {
 
   void* uc_ = nullptr;
   Devices& devices_;
+  CoreFacts facts_;
+  Cycle rest_ = 0;  // of elapse(), in parts of a Cycle
   Nvic nvic_;
   std::vector<std::uint8_t> flash_;
   std::uint8_t *sram_ = nullptr, *ccm_ = nullptr, *system_memory_ = nullptr, *system_boot_ = nullptr;

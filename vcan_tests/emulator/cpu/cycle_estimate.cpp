@@ -61,7 +61,55 @@ Cost wide(std::uint16_t first, std::uint16_t second) {
   return {1};
 }
 
+// Cortex-M0+: two stages, no divider, single-cycle multiplier.
+constexpr std::uint32_t kFlashWaits = 2;
+std::uint32_t small(std::uint16_t op, std::uint32_t waits) {
+  const auto registers = [&](unsigned mask) { return static_cast<std::uint32_t>(std::popcount(op & mask)); };
+  if ((op & 0xFE00) == 0xB400) return 1 + registers(0x1FF);                                        // PUSH
+  if ((op & 0xFE00) == 0xBC00) return 1 + registers(0x1FF) + ((op & 0x100) != 0 ? 2 + waits : 0);  // POP
+  if ((op & 0xF000) == 0xC000) return 1 + registers(0xFF);                                         // LDM, STM
+  if ((op & 0xFF00) == 0x4700 || (op & 0xF800) == 0xE000) return 2 + waits;                        // BX, B
+  if ((op & 0xFF87) == 0x4687) return 2 + waits;                                                   // MOV PC
+  if ((op & 0xF000) == 0xD000 && (op & 0xF00) < 0xE00)
+    return waits == 0 ? 2 : 3;                    // Bcc: 1, or 2 and the wait states when taken
+  if ((op & 0xF800) == 0x4800) return 2 + waits;  // LDR literal
+  if ((op & 0xF000) == 0x5000 || (op & 0xE000) == 0x6000) return 2;
+  if ((op & 0xF000) == 0x8000 || (op & 0xF000) == 0x9000) return 2;
+  return 1;
+}
+
 }  // namespace
+
+bool small_core_runs(std::span<const std::uint16_t> code) {
+  for (std::size_t i = 0; i < code.size();) {
+    const std::uint16_t op = code[i];
+    if (thumb_length(op) == 1) {
+      const bool compare_branch = (op & 0xF500) == 0xB100;              // CBZ, CBNZ
+      const bool if_then = (op & 0xFF00) == 0xBF00 && (op & 0xF) != 0;  // IT
+      if (compare_branch || if_then) return false;
+      ++i;
+      continue;
+    }
+    if (i + 1 == code.size()) return true;
+    const std::uint16_t second = code[i + 1];
+    const bool link = (op & 0xF800) == 0xF000 && (second & 0xD000) == 0xD000;                 // BL
+    const bool special = (op & 0xFFE0) == 0xF380 || (op & 0xFFF0) == 0xF3B0 || op == 0xF3EF;  // MSR, DSB, MRS
+    if (!link && !special) return false;
+    i += 2;
+  }
+  return true;
+}
+
+CodeCost estimate_small_cost(std::span<const std::uint16_t> code, bool in_flash) {
+  const std::uint32_t waits = in_flash ? kFlashWaits : 0;
+  CodeCost total;
+  for (std::size_t i = 0; i < code.size(); ++total.instructions) {
+    const bool two = thumb_length(code[i]) == 2 && i + 1 < code.size();
+    total.cycles += two ? 3 + waits : small(code[i], waits);  // BL; barriers and special registers take 3
+    i += two ? 2 : 1;
+  }
+  return total;
+}
 
 CodeCost estimate_cost(std::span<const std::uint16_t> code) {
   CodeCost total;

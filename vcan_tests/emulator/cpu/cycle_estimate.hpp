@@ -15,6 +15,13 @@ struct CodeCost {
 
 /// `code`: the half-words of one basic block.
 CodeCost estimate_cost(std::span<const std::uint16_t> code);
+/// On a Cortex-M0+ of 64 MHz with two wait states: its manual's timings, and both wait states for each
+/// jump and each literal, since lines of 8 bytes are fetched ahead in a straight line only.
+/// in_flash: false for RAM, which has no wait states.
+CodeCost estimate_small_cost(std::span<const std::uint16_t> code, bool in_flash);
+
+/// All of it are instructions of the ARMv6-M.
+bool small_core_runs(std::span<const std::uint16_t> code);
 
 /// 1 or 2 half-words.
 constexpr int thumb_length(std::uint16_t first) {

@@ -10,6 +10,7 @@ namespace kinebus::emulator {
 namespace {
 
 constexpr std::uint32_t kEntryCycles = 12, kReturnCycles = 10;
+constexpr std::uint32_t kSmallEntryCycles = 15, kSmallReturnCycles = 13;
 constexpr std::uint32_t kControlFpca = 4, kControlSpsel = 2;
 constexpr std::uint32_t kXpsrException = 0x1FF, kXpsrAligned = 1u << 9, kXpsrThumb = 1u << 24,
                         kXpsrFlags = 0xF80F0000u;
@@ -37,7 +38,7 @@ bool CortexM4::take_exception(std::uint32_t return_address) {
 }
 
 void CortexM4::begin_count(int exception) {
-  running_.push_back({exception, 0, kEntryCycles});
+  running_.push_back({exception, 0, facts_.small ? kSmallEntryCycles : kEntryCycles});
   ExceptionCost& cost = costs_[static_cast<std::size_t>(exception)];
   if (pending_since_ != kNever) cost.worst_latency = std::max(cost.worst_latency, now_ - pending_since_);
 }
@@ -90,7 +91,7 @@ void CortexM4::enter(int exception, std::uint32_t return_address) {
   begin_count(exception);
   nvic_.enter(exception);
   pending_since_ = nvic_.any_pending() ? now_ : kNever;
-  now_ += kEntryCycles;
+  elapse(facts_.small ? kSmallEntryCycles : kEntryCycles);
 
   const std::uint8_t* vector = host(nvic_.vector_table() + 4 * static_cast<std::uint32_t>(exception), 4);
   std::uint32_t handler = 0;
@@ -113,7 +114,7 @@ void CortexM4::return_from_exception(std::uint32_t exc_return) {
   }
   const int exception = nvic_.active_exception();
   nvic_.leave(exception);
-  count(0, kReturnCycles);
+  count(0, facts_.small ? kSmallReturnCycles : kReturnCycles);
   end_count();
 
   const bool with_float = (exc_return & 0x10) == 0;

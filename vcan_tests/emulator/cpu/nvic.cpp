@@ -10,6 +10,15 @@ constexpr std::size_t at(int exception) {
   return static_cast<std::size_t>(exception);
 }
 
+// Of what a Cortex-M4 has, not in a Cortex-M0+.
+constexpr bool missing_in_small(std::uint32_t offset) {
+  const bool timer = offset >= 0xE010 && offset < 0xE020;
+  const bool interrupts = offset == 0xE100 || offset == 0xE180 || offset == 0xE200 || offset == 0xE280 ||
+                          (offset >= 0xE400 && offset < 0xE420);
+  const bool control = offset >= 0xED00 && offset < 0xED28 && offset != 0xED18;
+  return !timer && !interrupts && !control;
+}
+
 }  // namespace
 
 int Nvic::priority(int exception) const {
@@ -147,6 +156,8 @@ std::uint32_t Nvic::read(std::uint32_t offset, Cycle now) {
       if (first + i < kExceptions) word |= static_cast<std::uint32_t>(priority_[first + i]) << (8 * i);
     return word;
   };
+  if (small_ && missing_in_small(offset)) return 0;
+  if (small_ && offset == 0xED00) return 0x410CC601;  // CPUID: Cortex-M0+ r0p1
   if (offset >= 0xE100 && offset < 0xE10C) return bits(enabled_, (offset - 0xE100) * 8);
   if (offset >= 0xE180 && offset < 0xE18C) return bits(enabled_, (offset - 0xE180) * 8);
   if (offset >= 0xE200 && offset < 0xE20C) return bits(pending_, (offset - 0xE200) * 8);
@@ -209,6 +220,7 @@ std::uint32_t Nvic::read(std::uint32_t offset, Cycle now) {
 }
 
 void Nvic::write(std::uint32_t offset, std::uint32_t value, Cycle now) {
+  if (small_ && missing_in_small(offset)) return;
   const auto each = [&](std::uint32_t base, auto&& action) {
     for (std::uint32_t bit = 0; bit < 32; ++bit) {
       const std::uint32_t irq = (offset - base) * 8 + bit;
@@ -227,8 +239,8 @@ void Nvic::write(std::uint32_t offset, std::uint32_t value, Cycle now) {
   if (offset >= 0xE280 && offset < 0xE28C)
     return each(0xE280, [&](int e) { set_pending(e, line_[at(e)] && !active_[at(e)]); });
   if ((offset >= 0xE400 && offset < 0xE400 + kInterrupts) || (offset >= 0xED18 && offset < 0xED24)) {
-    for (std::uint32_t i = 0; i < 4; ++i) write_part(offset + i, value >> (8 * i) & 0xFF, 1, now);
-    return;
+    for (std::uint32_t i = 0; i < 4; ++i) set_priority(offset + i, value >> (8 * i) & 0xFF);
+    return find_best();
   }
   switch (offset) {
     case 0x1000:
@@ -303,16 +315,17 @@ void Nvic::write(std::uint32_t offset, std::uint32_t value, Cycle now) {
   }
 }
 
+void Nvic::set_priority(std::uint32_t offset, std::uint32_t byte) {
+  const std::uint32_t index = offset >= 0xE400 ? kFirstInterrupt + offset - 0xE400 : 4 + offset - 0xED18;
+  if (offset >= 0xE400 ? offset >= 0xE400 + kInterrupts : offset >= 0xED24) return;
+  if (index < kExceptions) priority_[index] = static_cast<std::uint8_t>(byte & (small_ ? 0xC0 : 0xF0));
+}
+
 void Nvic::write_part(std::uint32_t offset, std::uint32_t value, int size, Cycle now) {
-  const auto set = [&](std::uint32_t index, std::uint32_t byte) {
-    if (index < kExceptions)
-      priority_[index] = static_cast<std::uint8_t>(byte & 0xF0);  // four bits are there
-  };
+  if (small_) return;
   for (int i = 0; i < size; ++i, ++offset, value >>= 8) {
-    if (offset >= 0xE400 && offset < 0xE400 + kInterrupts)
-      set(kFirstInterrupt + offset - 0xE400, value);
-    else if (offset >= 0xED18 && offset < 0xED24)
-      set(4 + offset - 0xED18, value);
+    if ((offset >= 0xE400 && offset < 0xE400 + kInterrupts) || (offset >= 0xED18 && offset < 0xED24))
+      set_priority(offset, value);
     else
       return write(offset, value, now);
   }

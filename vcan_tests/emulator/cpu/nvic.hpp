@@ -48,6 +48,9 @@ class Nvic final : public Peripheral, public InterruptLines {
     bfar_ = address;
   }
 
+  /// A Cortex-M0+ is less: two bits of priority, 32 interrupts, registers by whole words only, and none of
+  /// the fault status, floating point and cycle counter.
+  void set_small(bool small) { small_ = small; }
   /// DBGMCU_IDCODE, which lies among the core's registers.
   void set_device_id(std::uint32_t id) { device_id_ = id; }
 
@@ -73,6 +76,7 @@ class Nvic final : public Peripheral, public InterruptLines {
  private:
   static constexpr int kNoPriority = 256;
   void find_best();
+  void set_priority(std::uint32_t offset, std::uint32_t byte);
   int priority(int exception) const;
   int group_priority(int value) const;
   int running_priority() const;
@@ -98,6 +102,7 @@ class Nvic final : public Peripheral, public InterruptLines {
   Cycle systick_event_ = kNever;
   bool reset_requested_ = false;
   std::uint32_t device_id_ = 0;
+  bool small_ = false;
 };
 
 }  // namespace kinebus::emulator

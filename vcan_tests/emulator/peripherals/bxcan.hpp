@@ -9,24 +9,14 @@
 #include <vector>
 
 #include "protocol/can/frame.hpp"
+#include "vcan_tests/emulator/peripherals/can_controller.hpp"
 #include "vcan_tests/emulator/peripherals/peripheral.hpp"
 
 namespace kinebus::emulator {
 
-class BxCan final : public Peripheral {
+class BxCan final : public Peripheral, public CanController {
  public:
   static constexpr int kTransmitIrq = 19, kFifo0Irq = 20, kFifo1Irq = 21, kStateIrq = 22;
-  static constexpr int kMailboxes = 3;
-
-  struct Request {  // from the program to the bus
-    Cycle at = 0;
-    int mailbox = 0;
-    bool abort = false;
-    CanFrame frame;
-  };
-  struct Counters {
-    std::uint64_t sent = 0, received = 0, accepted = 0, overruns = 0, bus_offs = 0;
-  };
 
   explicit BxCan(InterruptLines& lines) : lines_(lines) {}
   std::uint32_t read(std::uint32_t offset, Cycle now) override;
@@ -36,18 +26,15 @@ class BxCan final : public Peripheral {
   void reset();
 
   // The bus.
-  /// What the program has asked for since the last call, in order.
-  std::vector<Request> take_requests();
+  std::vector<Request> take_requests() override;
   /// It takes part: out of its initialisation, and 11 recessive bits were seen since.
   bool listening() const { return (mcr_ & 3) == 0 && joined_ && !bus_off_; }
   /// The bus is held dominant, as by a broken transceiver or a short, or let go.
   void set_dominant(bool dominant, Cycle now);
-  void on_sent(int mailbox);
-  void on_aborted(int mailbox);
-  /// A frame ends on the bus.
-  void on_frame(const CanFrame& frame, Cycle now);
-  /// An error frame while sending or receiving (ISO 11898-1's counting, its special cases left out).
-  void on_error(bool sending, Cycle now);
+  void on_sent(int mailbox) override;
+  void on_aborted(int mailbox) override;
+  void on_frame(const CanFrame& frame, Cycle now) override;
+  void on_error(bool sending, Cycle now) override;
 
   /// Bits a second as the registers say; 0: not set up.
   std::uint32_t bit_rate() const;
@@ -55,7 +42,7 @@ class BxCan final : public Peripheral {
   const Counters& counters() const { return counters_; }
   std::uint32_t transmit_errors() const { return tec_; }
   std::uint32_t receive_errors() const { return rec_; }
-  bool bus_off() const { return bus_off_; }
+  bool bus_off() const override { return bus_off_; }
 
  private:
   struct Mailbox {

@@ -2,8 +2,9 @@
 
 namespace kinebus::emulator {
 
-void GpioPort::reset() {
-  moder_ = otyper_ = ospeedr_ = pupdr_ = odr_ = 0;
+void GpioPort::reset(std::uint32_t modes) {
+  moder_ = modes;
+  otyper_ = ospeedr_ = pupdr_ = odr_ = 0;
   afr_ = {};
 }
 

@@ -12,7 +12,8 @@ class GpioPort final : public Peripheral {
  public:
   std::uint32_t read(std::uint32_t offset, Cycle now) override;
   void write(std::uint32_t offset, std::uint32_t value, Cycle now) override;
-  void reset();
+  /// `modes`: MODER after a reset.
+  void reset(std::uint32_t modes = 0);
 
   /// What is outside drives the pin. Pins nobody drives follow their pull resistor.
   void drive(int pin, bool level);

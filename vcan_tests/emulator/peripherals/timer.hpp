@@ -3,6 +3,7 @@
 // TIM2 as a free-running time base. The count is a formula of time; only updates are events, and compares of
 // a counter upwards that ask a DMA controller for a word.
 
+#include <algorithm>
 #include <array>
 #include <functional>
 
@@ -14,6 +15,7 @@ struct TimerSetup {
   int update_irq = -1, break_irq = -1;
   Cycle cycles_per_tick = 1;  ///< 168 MHz timers: 1; those on APB1: 2
   bool advanced = true;
+  Cycle ticks = 1;  ///< in cycles_per_tick; more than 1 only with prescalers that make whole cycles of it
 };
 
 class Timer final : public Peripheral {
@@ -48,7 +50,9 @@ class Timer final : public Peripheral {
 
  private:
   bool centre_aligned() const { return (cr1_ >> 5 & 3) != 0; }
-  Cycle tick() const { return setup_.cycles_per_tick * (psc_in_force_ + 1ULL); }
+  Cycle tick() const {
+    return std::max<Cycle>(1, setup_.cycles_per_tick * (psc_in_force_ + 1ULL) / setup_.ticks);
+  }
   Cycle sweep_length() const;
   std::uint32_t count(Cycle now) const;
   void begin_sweep(Cycle at, bool up);

@@ -1,0 +1,58 @@
+#include "vcan_tests/emulator/ebb_board.hpp"
+
+#include <algorithm>
+
+#include "node_firmware/port/stm32g0b1_ebb/board.hpp"
+#include "protocol/canopen/boards/stm32g0b1_ebb.hpp"
+
+namespace kinebus::emulator {
+namespace {
+
+constexpr std::uint32_t kCrystalHz = 8'000'000;
+}  // namespace
+
+EbbBoard::EbbBoard(const ElfImage& image, const BoardOptions& options, std::uint32_t device_id)
+    : Stm32g0b1Chip(image, options, kCrystalHz, device_id) {
+  for (GpioPort& port : ports_) port.on_change = [this](Cycle at) { on_pins(at); };
+  start();
+}
+
+EbbBoard::~EbbBoard() = default;
+
+std::uint32_t EbbBoard::product_code() const {
+  return Stm32g0b1EbbBoard::kFacts.product_code;
+}
+
+double EbbBoard::true_counts(int axis) const {
+  return axis == 0 ? static_cast<double>(driver_.steps()) * kCountsPerStep + start_counts(0) : 0;
+}
+
+void EbbBoard::set_input(int input, bool level) {
+  const stm32::SwitchPin pin = ebb::kSwitchPins[static_cast<std::size_t>(input)];
+  ports_[static_cast<std::size_t>(pin.port)].drive(pin.line, level);
+  exti_.on_level(static_cast<int>(pin.port), pin.line, level);
+}
+
+bool EbbBoard::anything_on() const {
+  return std::ranges::any_of(ebb::kPowerPins, [&](const ebb::PowerPin& power) {
+    const GpioPort& port = ports_[static_cast<std::size_t>(power.pin.port)];
+    return port.mode(power.pin.number) == GpioPort::Mode::kOutput &&
+           port.output_high(power.pin.number) != power.off;
+  });
+}
+
+void EbbBoard::reset_devices(Cycle now) {
+  on_pins(now);
+}
+
+void EbbBoard::on_pins(Cycle now) {
+  const auto high = [&](const stm32::OutputPin& pin) {
+    return ports_[static_cast<std::size_t>(pin.port)].output_high(pin.number);
+  };
+  // A pin that nobody drives leaves the driver disabled: pulled up on the board.
+  const GpioPort& port = ports_[static_cast<std::size_t>(ebb::kEnable.port)];
+  const bool enabled = port.mode(ebb::kEnable.number) == GpioPort::Mode::kOutput && !high(ebb::kEnable);
+  driver_.on_pins(high(ebb::kStep), high(ebb::kDirection), enabled, now);
+}
+
+}  // namespace kinebus::emulator

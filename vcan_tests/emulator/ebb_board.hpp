@@ -1,0 +1,40 @@
+#pragma once
+// The BTT EBB36 or EBB42 v1.2, emulated: one stepper driver that counts steps, and switches,
+// wired as node_firmware/port/stm32g0b1_ebb/board.hpp says.
+
+#include <array>
+#include <cstdint>
+
+#include "vcan_tests/emulator/octopus_board.hpp"
+#include "vcan_tests/emulator/stm32g0b1_chip.hpp"
+
+namespace kinebus::emulator {
+
+class EbbBoard final : public Stm32g0b1Chip {
+ public:
+  static constexpr double kCountsPerStep = 16;
+
+  EbbBoard(const ElfImage& image, const BoardOptions& options) : EbbBoard(image, options, kG0B1) {}
+  /// With another chip in the G0B1's place.
+  EbbBoard(const ElfImage& image, const BoardOptions& options, std::uint32_t device_id);
+  ~EbbBoard() override;
+
+  std::uint32_t product_code() const override;
+  double true_counts(int axis) const override;
+  /// 0: probe, 1: filament (PB4), 2: PB3.
+  void set_input(int input, bool level) override;
+  const StepDriver& driver() const { return driver_; }
+  void clear_edges() { driver_.clear_edges(); }
+  /// A pin that gives power to something is driven, and not to its level without.
+  bool anything_on() const;
+
+ private:
+  void reset_devices(Cycle now) override;
+  void advance_devices(Cycle) override {}
+  Cycle next_of_devices() const override { return kNever; }
+  void on_pins(Cycle now);
+
+  StepDriver driver_;
+};
+
+}  // namespace kinebus::emulator

@@ -1,0 +1,191 @@
+// The EBB's image on its emulated board: comes up, joins the bus, moves; its steps are judged at the driver's
+// pins.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "protocol/canopen/alarm_codes.hpp"
+#include "vcan_tests/emulator/ebb_board.hpp"
+#include "vcan_tests/emulator/emulated_machine.hpp"
+#include "vcan_tests/emulator/tests/gateway_bench.hpp"
+
+namespace kinebus::emulator {
+namespace {
+
+constexpr std::uint8_t kId = 9;
+constexpr Cycle kMicrosecond = kCoreHz / 1'000'000;
+constexpr int kControl = kFirstInterrupt + 9, kReceive = kFirstInterrupt + 21;
+constexpr double kControlClocks = 64.0 * 64;  // of the core, in 64 us
+
+const ElfImage& ebb_image() {
+  static const ElfImage loaded = load_elf(KINEBUS_EBB_IMAGE);
+  return loaded;
+}
+
+struct OneEbb {
+  explicit OneEbb(const BoardOptions& options = {}, BoardMaker make = &make_board<EbbBoard>,
+                  bool keeps_id = false)
+      : machine(ebb_image(), {EmulatedNodeOptions{
+                                 .board = options, .node_id = kId, .keeps_node_id = keeps_id, .make = make}}),
+        bench(machine),
+        board(machine.board<EbbBoard>(0)) {
+    bench.send(nmt_frame(NmtCommand::kStart, kId));
+    bench.run(20ms);
+  }
+  void write(int index, std::uint8_t sub, int size, std::int64_t value) {
+    bench.write(kId, static_cast<std::uint16_t>(index), sub, size, value);
+  }
+  std::int64_t read(int index, std::uint8_t sub = 0) {
+    return bench.read(kId, static_cast<std::uint16_t>(index), sub);
+  }
+  void expect_good_driver() {
+    const auto& shortest = board.driver().shortest();
+    EXPECT_GE(shortest.high, 19 * kMicrosecond / 10);
+    EXPECT_GE(shortest.low, 19 * kMicrosecond / 10);
+    EXPECT_GE(shortest.set_up, 19 * kMicrosecond / 10);
+    EXPECT_GE(shortest.hold, 19 * kMicrosecond / 10);
+    EXPECT_EQ(board.driver().while_disabled(), 0u);
+  }
+  EmulatedMachine machine;
+  GatewayBench bench;
+  EbbBoard& board;
+};
+
+TEST(Ebb, SetsItsClockTreeAndTouchesNothingWithoutItsClock) {
+  OneEbb node;
+  EXPECT_EQ(node.board.rcc().system_hz(), 64'000'000u);
+  EXPECT_EQ(node.board.flash().wait_states(), 2u);
+  EXPECT_EQ(node.board.can().bit_rate(), 1'000'000u);
+  EXPECT_GE(node.board.can().sample_point(), 0.75);
+  EXPECT_LE(node.board.can().sample_point(), 0.88);
+  EXPECT_TRUE(node.board.strange_accesses().empty()) << std::hex << node.board.strange_accesses().front();
+  EXPECT_TRUE(node.board.lost_accesses().empty()) << std::hex << node.board.lost_accesses().front();
+  EXPECT_FALSE(node.board.anything_on());
+  EXPECT_EQ(node.board.resets(), 0u);
+  EXPECT_EQ(node.board.can().counters().overruns, 0u);
+}
+
+// The pins of another chip may be wired to anything, a heater among them.
+TEST(Ebb, OnAnotherChipItDrivesNothingAndSaysSo) {
+  OneEbb node({}, [](const ElfImage& image, const BoardOptions& options) -> std::unique_ptr<Chip> {
+    return std::make_unique<EbbBoard>(image, options, EbbBoard::kG071);
+  });
+  EXPECT_EQ(node.board.outputs(), 0);
+  node.write(0x6060, 0, 1, 1);
+  for (const int word : {0x06, 0x07}) node.write(0x6040, 0, 2, word);
+  node.bench.run(50ms);
+  EXPECT_EQ(node.bench.statusword(kId, 0) & 0x4F, 0x08) << "fault";
+  const auto codes = node.bench.emergencies(kId);
+  ASSERT_EQ(codes.size(), 1u);
+  EXPECT_EQ(codes[0], emcy::kControlHardware);
+  node.bench.run(300ms);
+  EXPECT_EQ(node.board.outputs(), 0);
+  EXPECT_EQ(node.board.resets(), 0u);
+}
+
+TEST(Ebb, TheSecondAxisIsNotThere) {
+  OneEbb node;
+  node.write(0x6860, 0, 1, 1);
+  for (const int word : {0x06, 0x07}) node.write(0x6840, 0, 2, word);
+  node.bench.run(50ms);
+  EXPECT_EQ(node.bench.statusword(kId, 1) & 0x4F, 0x08) << "fault";
+  const auto codes = node.bench.emergencies(kId);
+  ASSERT_EQ(codes.size(), 1u);
+  EXPECT_EQ(codes[0], emcy::kControlHardware);
+  EXPECT_FALSE(node.board.anything_on());
+}
+
+TEST(Ebb, MovesToTheStepAndPowerIsTheDrivers) {
+  OneEbb node;
+  node.bench.enable(kId, 0, 1);
+  EXPECT_TRUE(node.board.driver().enabled());
+  for (const int target : {48'000, -32'000}) {
+    node.bench.move(kId, 0, target, 400'000, 6'400'000);
+    node.bench.run(400ms);
+    EXPECT_TRUE(node.bench.reached(kId, 0));
+    EXPECT_EQ(node.read(0x6064), target);
+    EXPECT_EQ(node.board.driver().steps(), target / 16);
+  }
+  node.expect_good_driver();
+  EXPECT_TRUE(node.bench.emergencies(kId).empty());
+  node.write(0x6040, 0, 2, 0);
+  node.bench.run(20ms);
+  EXPECT_FALSE(node.board.driver().enabled());
+}
+
+// Profile position. What the interrupt takes is told, and more than the 60 % that it may (README.md).
+TEST(Ebb, TwentyFiveThousandStepsASecondByProfile) {
+  OneEbb node;
+  node.write(0x607F, 0, 4, 3'200'000);
+  node.bench.enable(kId, 0, 1);
+  node.board.cpu().clear_costs();
+  node.bench.move(kId, 0, 400'000, 400'000, 6'400'000);
+  node.bench.run(1400ms);
+  double fastest = 0;
+  const auto& edges = node.board.driver().edges();
+  for (std::size_t i = 1000; i < edges.size(); ++i)
+    fastest = std::max(fastest, 1e3 / seconds_of(edges[i].at - edges[i - 1000].at));
+  const ExceptionCost& control = node.board.cpu().cost(kControl);
+  const ExceptionCost& receive = node.board.cpu().cost(kReceive);
+  fmt::print(
+      "{:.0f} steps/s; control interrupt {} calls, {} cycles at most of {:.0f} ({:.1f} %); CAN receive {} "
+      "cycles "
+      "at most; main loop {:.0f} us at most\n",
+      fastest, control.calls, control.worst_cycles, kControlClocks,
+      100 * control.worst_cycles / kControlClocks, receive.worst_cycles,
+      1e6 * seconds_of(node.board.cpu().longest_pass()));
+  EXPECT_NEAR(fastest, 25'000, 250);
+  EXPECT_EQ(node.board.driver().steps(), 25'000);
+  node.expect_good_driver();
+  EXPECT_TRUE(node.bench.emergencies(kId).empty());
+}
+
+TEST(Ebb, StoresItsParametersOverAPowerCycle) {
+  OneEbb node({}, &make_board<EbbBoard>, true);
+  for (const int value : {12'345, 23'456, 34'567}) {
+    node.write(0x6081, 0, 4, value);
+    node.bench.send(CanFrame::make(0x600u + kId, {0x23, 0x10, 0x10, 1, 's', 'a', 'v', 'e'}));
+    node.bench.run(1s);
+  }
+  EXPECT_EQ(node.board.flash().errors(), 0u);
+  node.machine.power_cycle(0);
+  node.bench.run(100ms);
+  EXPECT_EQ(node.board.watchdog_resets(), 0u);
+  node.bench.enable(kId, 0, 1);
+  EXPECT_EQ(node.read(0x6081), 34'567);
+}
+
+TEST(Ebb, ComesBackFromBusOffAndTellsIt) {
+  OneEbb node;
+  node.machine.disturb(0, 32);
+  node.write(0x1802, 5, 2, 10);  // it speaks often
+  node.bench.run(200ms);
+  EXPECT_EQ(node.board.can().counters().bus_offs, 1u);
+  EXPECT_FALSE(node.board.can().bus_off());
+  const auto codes = node.bench.emergencies(kId);
+  EXPECT_NE(std::ranges::find(codes, emcy::kBusOffRecovered), codes.end());
+}
+
+// The probe is input 1, the filament sensor input 2: their levels are in 60FDh as the switches' polarity
+// says.
+TEST(Ebb, TellsItsProbeAndItsFilamentSensor) {
+  OneEbb node;
+  const auto inputs = [&] {
+    node.bench.run(30ms);
+    return node.read(0x60FD);
+  };
+  for (int input = 0; input < 3; ++input) node.board.set_input(input, true);
+  const std::int64_t all_open = inputs();
+  for (int input = 0; input < 3; ++input) {
+    node.board.set_input(input, false);
+    EXPECT_NE(inputs(), all_open) << "input " << input + 1;
+    node.board.set_input(input, true);
+    EXPECT_EQ(inputs(), all_open);
+  }
+}
+
+}  // namespace
+}  // namespace kinebus::emulator

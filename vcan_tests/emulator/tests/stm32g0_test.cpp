@@ -1,0 +1,103 @@
+// The STM32G0B1's own peripherals, without a processor: what a program must not count on.
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "vcan_tests/emulator/peripherals/fdcan.hpp"
+#include "vcan_tests/emulator/peripherals/stm32g0.hpp"
+
+namespace kinebus::emulator {
+namespace {
+
+struct G0Lines final : InterruptLines {
+  std::map<int, bool> level;
+  void set_line(int irq, bool high) override { level[irq] = high; }
+};
+
+struct FdcanOnABus : testing::Test {
+  static constexpr std::uint32_t kCccr = 0x18, kIr = 0x50, kIe = 0x54, kIle = 0x5C, kRxgfc = 0x80,
+                                 kRxf0s = 0x90, kTxfqs = 0xC4, kTxbar = 0xCC, kTxbrp = 0xC8;
+  void join() {
+    can.write(kCccr, 1, 0);
+    can.write(kCccr, 3, 0);
+    can.write(kRxgfc, 1u << 16 | 2u << 4 | 2u << 2, 0);
+    can.write_memory(0, 2u << 30 | 1u << 27 | 0x123u << 16 | 0x7FF);
+    can.write(kIe, 1 | 1u << 19, 0);
+    can.write(kIle, 3, 0);
+    can.write(kCccr, 0, 0);
+    now = 12 * kCoreHz / 1'000'000;
+    can.advance(now);
+    ASSERT_TRUE(can.listening());
+  }
+  G0Lines lines;
+  Fdcan can{lines, 21, 22};
+  Cycle now = 0;
+};
+
+TEST_F(FdcanOnABus, TakesPartWhenTheBusWasRecessiveForElevenBits) {
+  can.write(kCccr, 0, 0);
+  can.advance(10 * kCoreHz / 1'000'000);
+  EXPECT_FALSE(can.listening());
+  can.advance(11 * kCoreHz / 1'000'000);
+  EXPECT_TRUE(can.listening());
+}
+
+TEST_F(FdcanOnABus, FiltersAndLosesTheFourthFrameThatNobodyFetches) {
+  join();
+  can.on_frame(CanFrame::make(0x124, {1}), now);
+  EXPECT_EQ(can.read(kRxf0s, now) & 0xF, 0u);
+  for (int i = 0; i < 4; ++i) can.on_frame(CanFrame::make(0x123, {1}), now);
+  EXPECT_EQ(can.read(kRxf0s, now) & 0xF, 3u);
+  EXPECT_TRUE(lines.level[21]);
+  EXPECT_EQ(can.counters().overruns, 1u);
+}
+
+TEST_F(FdcanOnABus, SendsTheBufferOfThePutIndexOnly) {
+  join();
+  static_cast<void>(can.take_requests());
+  can.write(kTxbar, 2, now);
+  EXPECT_TRUE(can.take_requests().empty());
+  can.write(kTxbar, 1, now);
+  EXPECT_EQ(can.take_requests().size(), 1u);
+  EXPECT_EQ(can.read(kTxfqs, now) >> 16 & 3, 1u);
+  can.on_sent(0);
+  EXPECT_EQ(can.read(kTxbrp, now), 0u);
+}
+
+TEST_F(FdcanOnABus, StaysOffTheBusUntilTheProgramLetsItGo) {
+  join();
+  for (int i = 0; i < 32; ++i) can.on_error(true, now);
+  ASSERT_TRUE(can.bus_off());
+  EXPECT_EQ(can.read(kCccr, now) & 1, 1u);
+  can.advance(now + kCoreHz);
+  EXPECT_TRUE(can.bus_off());
+  can.write(kCccr, 0, now + kCoreHz);
+  can.advance(now + kCoreHz + 128 * 11 * kCoreHz / 1'000'000);
+  EXPECT_TRUE(can.bus_off()) << "129 times 11 bits";
+  can.advance(now + kCoreHz + 129 * 11 * kCoreHz / 1'000'000);
+  EXPECT_FALSE(can.bus_off());
+}
+
+TEST(G0Flash, TakesDoubleWordsOnceAndTheLowerWordFirst) {
+  std::vector<std::uint8_t> memory(4096, 0xFF);
+  g0::Flash flash(memory);
+  constexpr std::uint32_t kAt = g0::Flash::kBase;
+  EXPECT_FALSE(flash.program(kAt, 1, 4, 0)) << "locked";
+  flash.write(0x10, 0xFFFFFFFF, 0);
+  flash.write(0x08, 0x45670123, 0);
+  flash.write(0x08, 0xCDEF89AB, 0);
+  flash.write(0x14, 1, 0);
+  EXPECT_FALSE(flash.program(kAt + 4, 1, 4, 0)) << "the upper word alone";
+  flash.write(0x10, 0xFFFFFFFF, 0);
+  EXPECT_FALSE(flash.program(kAt, 1, 4, 0)) << "not before its other half";
+  EXPECT_TRUE(flash.program(kAt + 4, 2, 4, 0));
+  EXPECT_EQ(memory[0] + 256 * memory[4], 1 + 256 * 2);
+  const std::uint64_t errors = flash.errors();
+  static_cast<void>(flash.program(kAt, 0, 4, 0));
+  EXPECT_FALSE(flash.program(kAt + 4, 2, 4, 0)) << "a second time";
+  EXPECT_EQ(flash.errors(), errors + 1);
+}
+
+}  // namespace
+}  // namespace kinebus::emulator
