@@ -15,11 +15,11 @@ namespace kinebus {
 /// Which of a node's switch inputs a board's input is, counted from 0; -1: none. Empty: each its own.
 using InputPlaces = std::span<const std::int8_t>;
 
-/// How long plans are, and where they begin: on counts that are `phase` modulo `spacing`, a power of two.
+/// What plans are like, and where they begin: on counts that are `phase` modulo `spacing`, a power of two.
 /// Where motors are driven by frames, none of these then goes over from one piece of a plan into the next.
 struct PlanGrid {
   PlanCounts phase = 0, spacing = 1;
-  std::uint32_t pieces = MotionPlan::kUsualPieces;
+  PlanSize size{};
 };
 
 template <LocalCounter Counter>
@@ -29,7 +29,7 @@ class BoardNode {
             std::span<const std::uint8_t> stored, MotionPlanExchange& plan, const PlanGrid& grid,
             InputPlaces inputs)
       : clock_(clock), plan_(plan), grid_(grid), inputs_(inputs), node_(options, bus_clock, now, stored) {
-    plan_.renew(node_, now, Counter::counts(), grid.pieces);
+    plan_.renew(node_, now, Counter::counts(), grid.size);
   }
 
   Node& node() { return node_; }
@@ -64,9 +64,8 @@ class BoardNode {
     const PlanCounts counts = at_once + ((grid_.phase - at_once) & (grid_.spacing - 1));
     const LocalTime from = clock_.at(counts);
     if (now >= plan_due_ || (changed && plan_.outdated(node_, from, counts))) {
-      plan_.renew(node_, from, counts, grid_.pieces);
-      // Half of the plan's horizon: a main loop that is late by the other half harms nothing.
-      plan_due_ = now + kPlanCount * (MotionPlan::horizon(grid_.pieces) / 2);
+      plan_.renew(node_, from, counts, grid_.size);
+      plan_due_ = now + kPlanCount * MotionPlan::horizon(grid_.size.fresh);
     }
   }
   /// True: what is heard has changed.

@@ -77,14 +77,20 @@ class NodeProgram {
   }
 
   // Frames of one pass; more wait for the next, so that what is due in between is served.
-  static constexpr int kInputsPerPass = 8;
+  static constexpr int kInputsPerPass = [] {
+    if constexpr (requires { Can::kInputsPerPass; }) return Can::kInputsPerPass;
+    return 8;
+  }();
   static constexpr std::size_t kMostInputs = 16;
 
   Can& can_;
   Switches& switches_;
   LocalClock<Counter> clock_;
   // Of all nodes: they hear the same SYNC by the same counter.
-  BusClock bus_clock_;
+  BusClock bus_clock_{[] {
+    if constexpr (requires { Counter::kClockWindow; }) return Counter::kClockWindow;
+    return ClockEstimate::kWindow;
+  }()};
   LocalTime now_;
   PlanGrid grid_;
   std::array<Place, kNodes> nodes_;

@@ -30,6 +30,7 @@ concept StepStage = requires(T& stage, step::StepFrames<T::kPorts>& frames, int 
   { T::kPins.size() } -> std::convertible_to<std::size_t>;  // of StepPins: by node, and by its axis
   requires T::kPins.size() % kAxesPerNode == 0;
   { T::kStepBits } -> std::convertible_to<int>;  // log2 of counts a step
+  { T::kPlan } -> std::convertible_to<PlanSize>;  // by how long a pass of the main loop takes
   // Puts frames out from now on, the two halves in turn, a word each kSlotCounts of the same clock, and calls
   // the control interrupt at the last word of each. When the first has begun.
   { stage.start(frames) } -> std::same_as<PlanCounts>;
@@ -52,9 +53,7 @@ class StepMotors {
 
   /// After start(): where plans are to begin.
   PlanGrid plan_grid() const {
-    // With several nodes a pass of the main loop takes longer.
-    return {start_ + step::kSetUp * step::kSlotCounts, step::kFrameCounts,
-            kNodes > 1 ? MotionPlan::kPieces : MotionPlan::kUsualPieces};
+    return {start_ + step::kSetUp * step::kSlotCounts, step::kFrameCounts, Stage::kPlan};
   }
 
   /// Main loop, each pass. True: the node was told something.

@@ -42,7 +42,7 @@ struct MotionPlan {
 
   PlanCounts start = 0;
   std::uint32_t count = kUsualPieces;  ///< of the pieces
-  /// The longest pass of a main loop, and as much again.
+  std::uint32_t axes = kAxesPerNode;   ///< from the first on; another one rests at 0
   static constexpr PlanCounts horizon(std::uint32_t pieces) { return kPiece * pieces; }
   PlanCounts horizon() const { return horizon(count); }
   std::array<std::array<Parabola, kPieces>, kAxesPerNode> pieces{};
@@ -79,13 +79,21 @@ struct MotionPlan {
   }
 };
 
+/// How far a plan reaches, after how much of it the next one is due, and for how many axes. A pass of the main
+/// loop may be late by what is left then: that harms nothing.
+struct PlanSize {
+  std::uint32_t pieces = MotionPlan::kUsualPieces;
+  std::uint32_t fresh = MotionPlan::kUsualPieces / 2;
+  std::uint32_t axes = kAxesPerNode;
+};
+
 /// Two plans, one in use. The maker is interrupted by the user, never the other way round.
 class MotionPlanExchange {
  public:
   const MotionPlan& current() const { return plans_[current_.load(std::memory_order_acquire)]; }
   /// A new plan from `now` on. `counts`: the same instant as the interrupt counts it.
   void renew(const Node& node, LocalTime now, PlanCounts counts,
-             std::uint32_t pieces = MotionPlan::kUsualPieces);
+             const PlanSize& size = {});
   /// The node would give another plan by now: looked at in the middle and at the end of what is left. Much
   /// cheaper than a new plan after every frame that changes nothing.
   bool outdated(const Node& node, LocalTime now, PlanCounts counts) const;

@@ -277,7 +277,7 @@ std::int64_t Node::user_position(LocalTime at, int axis) {
 LatchedPositions NodePreview::positions(LocalTime at) {
   stream_.advance_to(node_.path_.tau(at));
   LatchedPositions motor{};
-  for (std::size_t i = 0; i < motor.size(); ++i) {
+  for (std::size_t i = 0; i < axes_; ++i) {
     const DriveAxis& axis = node_.axes_[i];
     motor[i] = static_cast<std::int64_t>(static_cast<std::uint64_t>(axis.position_ahead(at, stream_)) -
                                          static_cast<std::uint64_t>(axis.origin()));

@@ -275,13 +275,16 @@ class LoneNode final : private OwnBusClock, public Node {
 /// node's next input.
 class NodePreview {
  public:
-  explicit NodePreview(const Node& node) : node_(node), stream_(node.path_.stream()) {}
+  /// `axes`: of interest; where the others will be is not told.
+  explicit NodePreview(const Node& node, std::size_t axes = kAxesPerNode)
+      : node_(node), stream_(node.path_.stream()), axes_(axes) {}
   /// In order of time, from the node's last input on. As Node::position().
   LatchedPositions positions(LocalTime at);
 
  private:
   const Node& node_;
   SegmentStream::Preview stream_;
+  std::size_t axes_;
 };
 
 }  // namespace kinebus

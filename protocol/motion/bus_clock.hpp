@@ -9,6 +9,8 @@ namespace kinebus {
 
 class BusClock {
  public:
+  explicit BusClock(int window = ClockEstimate::kWindow) : estimate_(window) {}
+
   /// `counter` 0: the node that tells it does not count SYNCs.
   void on_sync(std::uint8_t counter, LocalTime arrival) {
     if (counter == 0 || arrival == sync_) return;

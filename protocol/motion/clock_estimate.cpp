@@ -40,7 +40,7 @@ std::int64_t ClockEstimate::Line::to_bus(std::int64_t local) const {
 
 void ClockEstimate::reset() {
   const Counters counters = counters_;
-  *this = ClockEstimate{};
+  *this = ClockEstimate{window_};
   counters_ = counters;
 }
 
@@ -122,7 +122,7 @@ ClockEstimate::Update ClockEstimate::on_stamp(const SyncStamp& stamp, LocalTime 
 }
 
 void ClockEstimate::add(const Sample& sample) {
-  if (count_ == kWindow) {
+  if (count_ == window_) {
     first_ = (first_ + 1) % kWindow;
     --count_;
   }

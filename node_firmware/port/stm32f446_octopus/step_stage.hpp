@@ -19,6 +19,7 @@ class StepPort {
   static constexpr std::size_t kPorts = 5;
   static constexpr std::array<Port, kPorts> kGpio{Port::F, Port::G, Port::C, Port::E, Port::A};
   static constexpr int kStepBits = octopus::kStepBits;
+  static constexpr PlanSize kPlan{.pieces = MotionPlan::kPieces, .fresh = MotionPlan::kPieces / 2};
   static constexpr auto kPins = [] {
     std::array<StepPins, octopus::kDrivers.size()> pins{};
     const auto index = [](Port port) {

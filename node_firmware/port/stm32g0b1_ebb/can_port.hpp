@@ -62,6 +62,8 @@ class CanPort {
 /// One program's share of the controller.
 class CanTap {
  public:
+  /// A frame takes the node 0.5 ms.
+  static constexpr int kInputsPerPass = 2;
   constexpr CanTap(CanPort& port, std::size_t number) : port_(port), number_(number) {}
   const CanPort::Received* front() const { return port_.front(number_); }
   void drop() { port_.drop(number_); }

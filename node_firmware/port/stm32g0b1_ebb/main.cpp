@@ -24,6 +24,7 @@ using namespace kinebus;
 using namespace kinebus::g0b1;
 
 struct LocalTimer {
+  static constexpr int kClockWindow = ClockEstimate::kShortWindow;  // 64-bit arithmetic is software here
   static PlanCounts counts() { return local_counts(); }
 };
 static_assert(1'000'000'000 / kLocalHz == kPlanCount.count());

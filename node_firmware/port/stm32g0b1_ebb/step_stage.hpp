@@ -17,6 +17,8 @@ class StepPort {
  public:
   static constexpr std::size_t kPorts = 1;
   static constexpr int kStepBits = ebb::kStepBits;
+  /// A pass of the main loop may take 5.6 ms.
+  static constexpr PlanSize kPlan{.pieces = MotionPlan::kPieces, .fresh = 5, .axes = 1};
   /// Axis B is not there.
   static constexpr std::array<StepPins, kAxesPerNode> kPins{
       {{0, 0, bit(ebb::kStep.number), bit(ebb::kDirection.number)}, {}}};

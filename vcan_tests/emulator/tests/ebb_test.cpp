@@ -16,9 +16,12 @@ namespace kinebus::emulator {
 namespace {
 
 constexpr std::uint8_t kId = 9;
-constexpr Cycle kMicrosecond = kCoreHz / 1'000'000;
+constexpr double kCount = 4294967296.0;
+constexpr Cycle kMicrosecond = kCoreHz / 1'000'000, kCyclesPerLocalCount = kMicrosecond / 4;
 constexpr int kControl = kFirstInterrupt + 9, kReceive = kFirstInterrupt + 21;
 constexpr double kControlClocks = 64.0 * 64;  // of the core, in 64 us
+// What a plan has left when the next one is due (StepPort::kPlan).
+constexpr double kLongestPass = 5.6e-3;
 
 const ElfImage& ebb_image() {
   static const ElfImage loaded = load_elf(KINEBUS_EBB_IMAGE);
@@ -53,6 +56,10 @@ struct OneEbb {
   GatewayBench bench;
   EbbBoard& board;
 };
+
+std::int64_t nearest_step(double counts) {
+  return static_cast<std::int64_t>(std::floor(counts / EbbBoard::kCountsPerStep + 0.5));
+}
 
 TEST(Ebb, SetsItsClockTreeAndTouchesNothingWithoutItsClock) {
   OneEbb node;
@@ -116,7 +123,7 @@ TEST(Ebb, MovesToTheStepAndPowerIsTheDrivers) {
   EXPECT_FALSE(node.board.driver().enabled());
 }
 
-// Profile position. What the interrupt takes is told, and more than the 60 % that it may (README.md).
+// Profile position.
 TEST(Ebb, TwentyFiveThousandStepsASecondByProfile) {
   OneEbb node;
   node.write(0x607F, 0, 4, 3'200'000);
@@ -138,7 +145,98 @@ TEST(Ebb, TwentyFiveThousandStepsASecondByProfile) {
       100 * control.worst_cycles / kControlClocks, receive.worst_cycles,
       1e6 * seconds_of(node.board.cpu().longest_pass()));
   EXPECT_NEAR(fastest, 25'000, 250);
+  EXPECT_LE(control.worst_cycles, 0.6 * kControlClocks);
   EXPECT_EQ(node.board.driver().steps(), 25'000);
+  node.expect_good_driver();
+  EXPECT_TRUE(node.bench.emergencies(kId).empty());
+}
+
+TEST(Ebb, StreamedMotionIsExactToTheStepAndItsEdgesWithinTwoMicroseconds) {
+  OneEbb node;
+  StreamFeed feed{.id = kId};
+  node.board.cpu().watch(ebb_image().symbol("_ZN7kinebus13ClockEstimate3fitEv").value_or(0));
+  node.bench.bring_up({kId});
+  node.write(0x2115, 0, 2, 5);
+  node.write(0x607F, 0, 4, 3'200'000);
+  node.bench.enable(kId, 0, 7);
+  const std::uint32_t debug_path_time = ebb_image().symbol("debug_path_time").value_or(0);
+  const auto place = [&](Cycle at) {
+    const Cycle now = node.board.now();
+    const auto counts =
+        node.board.local_counts(now) - static_cast<std::uint32_t>((now - at) / kCyclesPerLocalCount);
+    const auto ticks = static_cast<std::int64_t>(node.board.cpu().call(debug_path_time, counts).value_or(0));
+    return static_cast<double>(feed.position(0, ticks)) / kCount;
+  };
+  node.bench.rate(1);
+  node.bench.run(300ms);
+  node.board.cpu().clear_costs();
+  node.bench.send(feed.start(node.bench.read_long(kId, 0x2112) / kPathTicksPerUnit + 62'500));
+  for (int i = 0; i < 8; ++i)
+    for (const int sign : {1, -1, -1, 1}) node.bench.send(feed.segment(1250, sign * 1'912'345, 0));
+  node.bench.send(feed.end());
+  double worst_us = 0;
+  std::size_t edges = 0, turns = 0;
+  bool up = false;
+  node.bench.run(1800ms, 1ms, [&] {
+    const StepDriver& driver = node.board.driver();
+    const Cycle now = node.board.now();
+    const double early = place(now - 2 * kMicrosecond), late = place(now);
+    EXPECT_GE(driver.steps(), std::min(nearest_step(early - 0.1), nearest_step(late - 0.1)));
+    EXPECT_LE(driver.steps(), std::max(nearest_step(early + 0.1), nearest_step(late + 0.1)));
+    for (const StepDriver::Edge& edge : driver.edges()) {
+      ++edges;
+      turns += edge.up != up ? 1 : 0;
+      up = edge.up;
+      const double border =
+          (static_cast<double>(edge.after) + (edge.up ? -0.5 : 0.5)) * EbbBoard::kCountsPerStep;
+      // The plan's parabolas are within a tenth of a count of the motion.
+      double off_us = 99;
+      for (int quarter = 0; quarter < 8 && off_us > 2; ++quarter) {
+        const Cycle away = static_cast<Cycle>(quarter + 1) * kCyclesPerLocalCount;
+        const double a = place(edge.at - away), b = place(edge.at + away);
+        if (std::min(a, b) - 0.1 <= border && border <= std::max(a, b) + 0.1) off_us = 0.25 * (quarter + 1);
+      }
+      EXPECT_LE(off_us, 2) << "step " << edge.after;
+      worst_us = std::max(worst_us, off_us);
+    }
+    node.board.clear_edges();
+  });
+  EXPECT_EQ(node.board.driver().steps(), nearest_step(static_cast<double>(feed.state[0].position) / kCount));
+  fmt::print("{} steps, {} turns: each within {:.2f} us of its time; main loop {:.0f} us at most\n", edges,
+             turns, worst_us, 1e6 * seconds_of(node.board.cpu().longest_pass()));
+  const CallCost& fit = node.board.cpu().watched();
+  fmt::print("clock fit: {} calls, {} cycles at most, {:.0f} us with interrupts\n", fit.calls, fit.worst_own,
+             1e6 * seconds_of(fit.worst));
+  EXPECT_LE(seconds_of(node.board.cpu().longest_pass()), kLongestPass);
+  EXPECT_GT(edges, 2'500u);
+  EXPECT_GT(turns, 4u);
+  node.expect_good_driver();
+  EXPECT_TRUE(node.bench.emergencies(kId).empty());
+}
+
+TEST(Ebb, TwoHundredThousandStepsASecond) {
+  OneEbb node;
+  node.write(0x607F, 0, 4, 3'200'000);
+  node.bench.enable(kId, 0, 1);
+  node.board.cpu().clear_costs();
+  node.bench.move(kId, 0, 1'600'000, 3'200'000, 32'000'000);
+  node.bench.run(1200ms);
+  double fastest = 0;
+  const auto& edges = node.board.driver().edges();
+  for (std::size_t i = 1000; i < edges.size(); ++i)
+    fastest = std::max(fastest, 1e3 / seconds_of(edges[i].at - edges[i - 1000].at));
+  const ExceptionCost& control = node.board.cpu().cost(kControl);
+  const ExceptionCost& receive = node.board.cpu().cost(kReceive);
+  fmt::print(
+      "{:.0f} steps/s; control interrupt {} calls, {} cycles at most of {:.0f} ({:.1f} %); CAN receive {} "
+      "cycles "
+      "at most; main loop {:.0f} us at most\n",
+      fastest, control.calls, control.worst_cycles, kControlClocks,
+      100 * control.worst_cycles / kControlClocks, receive.worst_cycles,
+      1e6 * seconds_of(node.board.cpu().longest_pass()));
+  EXPECT_NEAR(fastest, 200'000, 1'000);
+  EXPECT_LE(control.worst_cycles, 0.6 * kControlClocks);
+  EXPECT_EQ(node.board.driver().steps(), 100'000);
   node.expect_good_driver();
   EXPECT_TRUE(node.bench.emergencies(kId).empty());
 }
