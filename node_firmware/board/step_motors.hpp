@@ -29,7 +29,7 @@ template <typename T>
 concept StepStage = requires(T& stage, step::StepFrames<T::kPorts>& frames, int axis, bool on) {
   { T::kPins.size() } -> std::convertible_to<std::size_t>;  // of StepPins: by node, and by its axis
   requires T::kPins.size() % kAxesPerNode == 0;
-  { T::kStepBits } -> std::convertible_to<int>;  // log2 of counts a step
+  { T::kStepBits } -> std::convertible_to<int>;   // log2 of counts a step
   { T::kPlan } -> std::convertible_to<PlanSize>;  // by how long a pass of the main loop takes
   // Puts frames out from now on, the two halves in turn, a word each kSlotCounts of the same clock, and calls
   // the control interrupt at the last word of each. When the first has begun.

@@ -79,8 +79,8 @@ struct MotionPlan {
   }
 };
 
-/// How far a plan reaches, after how much of it the next one is due, and for how many axes. A pass of the main
-/// loop may be late by what is left then: that harms nothing.
+/// How far a plan reaches, after how much of it the next one is due, and for how many axes. A pass of the
+/// main loop may be late by what is left then: that harms nothing.
 struct PlanSize {
   std::uint32_t pieces = MotionPlan::kUsualPieces;
   std::uint32_t fresh = MotionPlan::kUsualPieces / 2;
@@ -92,8 +92,7 @@ class MotionPlanExchange {
  public:
   const MotionPlan& current() const { return plans_[current_.load(std::memory_order_acquire)]; }
   /// A new plan from `now` on. `counts`: the same instant as the interrupt counts it.
-  void renew(const Node& node, LocalTime now, PlanCounts counts,
-             const PlanSize& size = {});
+  void renew(const Node& node, LocalTime now, PlanCounts counts, const PlanSize& size = {});
   /// The node would give another plan by now: looked at in the middle and at the end of what is left. Much
   /// cheaper than a new plan after every frame that changes nothing.
   bool outdated(const Node& node, LocalTime now, PlanCounts counts) const;

@@ -19,7 +19,9 @@ constexpr bool is_sorted(std::span<const ObjectEntry> entries) {
 constexpr bool limits_hold(std::span<const ObjectRow> rows) {
   for (const ObjectRow& e : rows) {
     const ObjectEntry kept = static_cast<ObjectEntry>(e);
-    if (kept.initial() != e.initial || kept.size() != (e.type == DataType::kString ? e.text.size() : size_of(e.type))) return false;
+    if (kept.initial() != e.initial ||
+        kept.size() != (e.type == DataType::kString ? e.text.size() : size_of(e.type)))
+      return false;
     if (e.limited && (kept.low() != e.low || kept.high() != e.high)) return false;
     const auto fits = [&](std::int64_t value) {
       return value_of(e.type, static_cast<std::uint64_t>(value)) == value;

@@ -140,9 +140,7 @@ struct ObjectEntry {
   constexpr bool maps_to(Mapping kind) const {
     return (static_cast<unsigned>(mapping) & static_cast<unsigned>(kind)) != 0;
   }
-  constexpr std::uint8_t size() const {
-    return type == DataType::kString ? text_length : size_of(type);
-  }
+  constexpr std::uint8_t size() const { return type == DataType::kString ? text_length : size_of(type); }
 };
 
 /// The objects of one kind of node, in the order of their addresses, each once.

@@ -1,6 +1,6 @@
 // Products of 64 bits, which are most of what this core does in the main loop, in half of the time that the
-// compiler's own take; and memcpy and memset by words: those of the small C library go byte by byte, and without unaligned access that
-// is what this core's programs spend most of their time with.
+// compiler's own take; and memcpy and memset by words: those of the small C library go byte by byte, and
+// without unaligned access that is what this core's programs spend most of their time with.
 
 #include <cstddef>
 #include <cstdint>

@@ -42,7 +42,8 @@ TEST(ObjectTable, IsConsistent) {
         << where;
     if (e.limited) {
       EXPECT_LE(e.low(), e.high()) << where;
-      EXPECT_TRUE(e.binding == Binding::kLive || (e.initial() >= e.low() && e.initial() <= e.high())) << where;
+      EXPECT_TRUE(e.binding == Binding::kLive || (e.initial() >= e.low() && e.initial() <= e.high()))
+          << where;
     }
     EXPECT_TRUE(e.binding != Binding::kConstant || !e.writable()) << where;
     EXPECT_TRUE(e.binding != Binding::kParameter || e.writable()) << where;

@@ -208,6 +208,9 @@ TEST(Ebb, StreamedMotionIsExactToTheStepAndItsEdgesWithinTwoMicroseconds) {
   fmt::print("clock fit: {} calls, {} cycles at most, {:.0f} us with interrupts\n", fit.calls, fit.worst_own,
              1e6 * seconds_of(fit.worst));
   EXPECT_LE(seconds_of(node.board.cpu().longest_pass()), kLongestPass);
+  const double late_us = 1e6 * seconds_of(node.board.cpu().cost(kReceive).worst_latency);
+  fmt::print("CAN receive interrupt late by {:.1f} us at most\n", late_us);
+  EXPECT_LE(late_us, 5) << "what a short window of the clock estimate is sized for";
   EXPECT_GT(edges, 2'500u);
   EXPECT_GT(turns, 4u);
   node.expect_good_driver();
