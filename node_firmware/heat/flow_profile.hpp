@@ -15,13 +15,20 @@ namespace kinebus::heat {
 class FlowProfile {
  public:
   static constexpr LocalTime kStep = std::chrono::milliseconds{kFlowStepMs};
+  static constexpr LocalTime kTold = std::chrono::seconds{3};
 
   void set(std::size_t step, std::int32_t mw, LocalTime now) {
     steps_[step] = mw;
     told_ = now;
+    ever_told_ = true;
   }
   std::int32_t step(std::size_t n) const { return steps_[n]; }
-  void clear() { steps_.fill(0); }
+  void clear() {
+    steps_.fill(0);
+    ever_told_ = false;
+  }
+  /// The master tells, of no flow, too.
+  bool told(LocalTime now) const { return ever_told_ && now - told_ < kTold; }
 
   /// mW at that time: straight between the middles of the steps.
   std::int32_t power(LocalTime at) const {
@@ -39,6 +46,7 @@ class FlowProfile {
  private:
   std::array<std::int32_t, kFlowSteps> steps_{};  // mW
   LocalTime told_{0};
+  bool ever_told_ = false;
 };
 
 }  // namespace kinebus::heat

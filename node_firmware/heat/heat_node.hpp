@@ -165,6 +165,7 @@ class HeatNode final : private ObjectOwner {
   std::array<bool, kHeaters> on_{};
   std::array<std::int16_t, kHeaters> feed_forward_{};
   FlowProfile flow_;
+  bool fans_change_ = false;
   LocalTime master_seen_{0};
   bool master_lost_ = false;
   LocalTime lost_at_{0};

@@ -166,11 +166,14 @@ void HeatNode::tick() {
 }
 
 void HeatNode::step_fans() {
+  fans_change_ = false;
   for (Fan& fan : fans_) {
     const std::size_t of = fan.settings().heater - 1u;
     const SensorInput* sensor = of < heaters_.size() ? sensor_of(of) : nullptr;
+    const std::uint16_t was = fan.output();
     const bool faulty = sensor != nullptr && heaters_[of].fault() != HeaterFault::kNone;
     fan.step(now_, sensor == nullptr ? 0 : sensor->temperature(), faulty);
+    fans_change_ = fans_change_ || fan.output() != was;
     // Without its fan a hot end melts what holds it.
     if (fan.stalled() && fan.settings().function == FanFunction::kHotEnd && sensor != nullptr)
       heaters_[of].trip(HeaterFault::kFan);
@@ -225,7 +228,8 @@ void HeatNode::apply_targets() {
     heaters_[i].set_target(heats ? wanted * kMcPerTenth : 0);
     const bool fed = static_cast<std::int64_t>(i) + 1 == value(heat_slot_of(kFlowHeater));
     const std::int32_t taken = feed_forward_[i] * 10 + (fed ? flow_.power(now_ + lead) : 0);
-    heaters_[i].set_feed_forward(heaters_[i].target() != 0 ? taken : 0);
+    heaters_[i].set_feed_forward(heaters_[i].target() != 0 ? taken : 0,
+                                 fed && flow_.told(now_) && !fans_change_);
   }
 }
 

@@ -38,13 +38,14 @@ void Heater::configure(const HeaterSettings& settings) {
     by_model_.configure(settings.model);
   }
   by_pid_.configure(settings.pid);
-  watch_.configure(settings.watch);
+  watch_.configure(settings.watch, has_model_ ? &model_ : nullptr);
   most_ = kFullPower * std::min<std::uint32_t>(settings.most_power, 100) / 100;
   supply_mv_ = 0;
   started_ = false;
 }
 
-void Heater::set_feed_forward(std::int32_t mw) {
+void Heater::set_feed_forward(std::int32_t mw, bool quiet) {
+  quiet_ = quiet;
   const auto nominal = static_cast<std::int32_t>(std::max<std::uint32_t>(settings_.nominal_mw, 1));
   const std::int32_t limited = std::clamp(mw, -nominal, nominal);
   feed_forward_ = static_cast<std::int32_t>(static_cast<std::int64_t>(limited) * kFullPower / nominal);
@@ -97,7 +98,8 @@ void Heater::step(const SensorInput& sensor, std::uint32_t supply_mv) {
   given_forward_ = feed_forward_;
   const bool modelled = has_model_ && tuning_ == nullptr;
   // The model's watch goes on after a fault, too: heat that does not end is another one.
-  HeaterFault found = watch_.step(measured, given_, target_, modelled ? &model_ : nullptr, feed_forward_);
+  HeaterFault found =
+      watch_.step(measured, given_, target_, modelled ? &model_ : nullptr, feed_forward_, quiet_);
   // A loose sensor that is put back warms without power, to what the block was heated to.
   const bool put_back = fault_ == HeaterFault::kHeatMissing && measured < asked_ + kPutBack;
   if (found == HeaterFault::kHeatUnasked && put_back) found = HeaterFault::kNone;

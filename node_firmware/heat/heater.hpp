@@ -35,8 +35,8 @@ class Heater {
   void set_target(std::int32_t mc) { target_ = mc; }
   std::int32_t target() const { return target_; }
   /// Power that something takes which the model does not know, such as filament: mW, signed. It is given on
-  /// top, and the model counts both as one: no heat.
-  void set_feed_forward(std::int32_t mw);
+  /// top, and the model counts both as one: no heat. `quiet`: see HeaterWatch::step().
+  void set_feed_forward(std::int32_t mw, bool quiet = false);
   /// The tuning is lent by the node: one runs at a time.
   void begin_tuning(HeatTuning& tuning, const SensorInput& sensor, std::int32_t target);
   bool tuning() const { return tuning_ != nullptr; }
@@ -66,7 +66,8 @@ class Heater {
   bool has_model_ = false, started_ = false;
   std::int32_t target_ = 0;
   std::int32_t feed_forward_ = 0, given_forward_ = 0;  // parts of kFullPower: now, and in the last tick
-  std::int32_t asked_ = 0;                             // the target before the fault
+  bool quiet_ = false;
+  std::int32_t asked_ = 0;  // the target before the fault
   std::uint32_t most_ = kFullPower;
   HeaterFault fault_ = HeaterFault::kNone;
   ThermalModel model_;

@@ -1,13 +1,21 @@
 #include "node_firmware/heat/heater_watch.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <utility>
 
 namespace kinebus::heat {
 namespace {
 
-constexpr std::uint32_t kHotTicks = 3;      // the noise of a mean of 8 samples is far below
-constexpr std::uint32_t kModelTicks = 8;    // the observer has its own patience
+constexpr std::uint32_t kHotTicks = 3;    // the noise of a mean of 8 samples is far below
+constexpr std::uint32_t kModelTicks = 8;  // the observer has its own patience
+constexpr std::uint32_t kBalanceSteps = 2;
+constexpr std::uint32_t kQuiet = 3;  // responses of the sensor: then the observer knows what a fan takes
+constexpr std::int32_t kUsualTicks = 64;
+/// A part of what it gave may still come, and a part of what changed meanwhile be counted at a wrong time.
+constexpr std::int32_t kOneIn = 4;
+constexpr auto kLeastGiven = static_cast<std::int32_t>(kFullPower / 8);
+constexpr auto kUnsure = static_cast<std::int32_t>(kFullPower / 8);
 constexpr std::int32_t kTakenTicks = 100;   // to be forgotten
 constexpr std::int32_t kLeastRise = 2'000;  // mC
 constexpr std::int32_t kAway = 15'000;      // mC
@@ -28,42 +36,52 @@ bool lasts(std::uint32_t& ticks, bool now, std::uint32_t limit) {
 
 }  // namespace
 
+void HeaterWatch::configure(const WatchSettings& settings, const ThermalModel* model) {
+  settings_ = settings;
+  if (model != nullptr) balance_.configure(*model);
+}
+
 void HeaterWatch::start() {
   const WatchSettings kept = settings_;
+  const HeatBalance balance = balance_;
   *this = {};
   settings_ = kept;
+  balance_ = balance;
+  balance_.start();
 }
 
 HeaterFault HeaterWatch::step(std::int32_t measured, std::uint32_t power, std::int32_t target,
-                              const ThermalModel* model, std::int32_t taken) {
+                              const ThermalModel* model, std::int32_t taken, bool quiet) {
   if (lasts(hot_, measured > settings_.limit_mc, kHotTicks)) return HeaterFault::kTooHot;
-  return model != nullptr ? by_model(measured, *model, taken) : by_rules(measured, power, target);
-}
-
-// Parts of full power by which the sensor rose more than it should have over the last ticks; 0 as long as
-// there is no telling. The observer follows what is missing only after its own lag; this sees a heater that
-// came loose as soon as the sensor can, and needs a model that is right about dead time and lag, as a
-// measured one is.
-std::int32_t HeaterWatch::rise_unexplained(std::int32_t measured, const ThermalModel& model) {
-  const std::int32_t gained = measured - measured_[at_];
-  if (seen_ == 0) expected_sum_ = 0;
-  if (seen_ < kRiseTicks) expected_[at_] = 0;
-  expected_sum_ += model.expected_rise() - expected_[at_];
-  measured_[at_] = measured;
-  expected_[at_] = model.expected_rise();
-  at_ = (at_ + 1) & (kRiseTicks - 1);
-  ++seen_;
-  // Until the heat from before the start has come through, it is not known.
-  if (++known_ <= model.response_ticks() || seen_ <= kRiseTicks) return 0;
-  const std::int64_t unexplained = static_cast<std::int64_t>(gained) * 256 - expected_sum_;
-  return model.share_of_rise(unexplained / static_cast<std::int64_t>(kRiseTicks));
-}
-
-HeaterFault HeaterWatch::by_model(std::int32_t measured, const ThermalModel& model, std::int32_t taken) {
   // What was told to be taken shows as long as the observer remembers it.
   taken_ = std::max({taken, taken_ - taken_ / kTakenTicks - 1, std::int32_t{0}});
-  const bool less = rise_unexplained(measured, model) < -per_cent(settings_.most_missing);
-  if (lasts(rising_less_, less, kModelTicks)) return HeaterFault::kHeatMissing;
+  // What was told may be wrong by half of what has changed.
+  usual_ += (taken * 256 - usual_) / kUsualTicks;
+  doubt_ = std::max(std::abs(taken - usual_ / 256) / 2, doubt_ - doubt_ / kUsualTicks);
+  quiet_ = quiet ? quiet_ + 1 : 0;
+  return model != nullptr ? by_model(measured, *model) : by_rules(measured, power, target);
+}
+
+// What a loose heater takes away at once is all that it gave. Where fans and filament are known to be as they
+// were, nothing else takes so much.
+HeaterFault HeaterWatch::by_balance(const HeatBalance::Share& share, std::uint32_t response) {
+  const std::int32_t given = share.power - share.power / kOneIn, unsure = share.spread / kOneIn / 2;
+  const bool quiet = quiet_ > kQuiet * response;
+  const std::int32_t fresh = share.unexplained - std::min(share.before, 0);
+  const bool less = share.unexplained < -per_cent(settings_.most_missing) - unsure ||
+                    (quiet && share.power > kLeastGiven && fresh < -given - unsure - doubt_);
+  if (lasts(less_, less, kBalanceSteps)) return HeaterFault::kHeatMissing;
+  const bool more = share.unexplained > per_cent(settings_.most_unasked) + kUnsure + taken_ + unsure;
+  return lasts(more_, more, kBalanceSteps) ? HeaterFault::kHeatUnasked : HeaterFault::kNone;
+}
+
+HeaterFault HeaterWatch::by_model(std::int32_t measured, const ThermalModel& model) {
+  // Until the heat from before the start has come through, it is not known.
+  if (known_ <= model.response_ticks()) ++known_;
+  if (balance_.step(measured, model) && known_ > model.response_ticks()) {
+    const HeaterFault found = by_balance(balance_.share(), model.response_ticks());
+    if (found != HeaterFault::kNone) return found;
+  }
   const std::int32_t share = model.disturbance();
   if (lasts(missing_, share < -per_cent(settings_.most_missing), kModelTicks))
     return HeaterFault::kHeatMissing;

@@ -3,9 +3,9 @@
 // measure: heat that is missing or comes unasked, as a share of full power. A heater that was never measured
 // is watched by plain rules until it is.
 
-#include <array>
 #include <cstdint>
 
+#include "node_firmware/heat/heat_balance.hpp"
 #include "node_firmware/heat/thermal_model.hpp"
 
 namespace kinebus::heat {
@@ -34,34 +34,36 @@ struct WatchSettings {
 
 class HeaterWatch {
  public:
-  void configure(const WatchSettings& settings) { settings_ = settings; }
+  /// `model`: nullptr, not measured.
+  void configure(const WatchSettings& settings, const ThermalModel* model);
   void start();
   /// Measurements are missing: what was seen before and what comes after are no rise.
-  void interrupt() { seen_ = 0; }
+  void interrupt() { balance_.start(); }
   /// Once a tick. `power`: given since the last one. `target`: 0, off. `model`: nullptr, not measured.
   /// `taken`: parts of kFullPower that the model was told are taken; they may be not, without a fault.
+  /// `quiet`: fans are as they were, and filament flows as it was told: what goes missing then is the
+  /// heater's.
   HeaterFault step(std::int32_t measured, std::uint32_t power, std::int32_t target, const ThermalModel* model,
-                   std::int32_t taken = 0);
+                   std::int32_t taken = 0, bool quiet = false);
 
  private:
-  HeaterFault by_model(std::int32_t measured, const ThermalModel& model, std::int32_t taken);
-  std::int32_t rise_unexplained(std::int32_t measured, const ThermalModel& model);
+  HeaterFault by_model(std::int32_t measured, const ThermalModel& model);
+  HeaterFault by_balance(const HeatBalance::Share& share, std::uint32_t response);
   HeaterFault by_rules(std::int32_t measured, std::uint32_t power, std::int32_t target);
 
   WatchSettings settings_{};
   std::uint32_t hot_ = 0, missing_ = 0, unasked_ = 0;  // ticks in which it was so, or mC s
   std::int32_t rise_from_ = 0, lowest_off_ = 0;
   std::int32_t taken_ = 0;  // the most of late
+  std::int32_t usual_ = 0,
+               doubt_ = 0;   // of what is taken: its mean with 8 fractional bits, what it may be wrong by
+  std::uint32_t quiet_ = 0;  // ticks
   std::uint32_t rise_ticks_ = 0, away_ticks_ = 0, off_ticks_ = 0;
   bool reached_ = false;
 
-  /// The sensor's rise over so many ticks is held against the expected one: long against noise, short against
-  /// any lag.
-  static constexpr std::size_t kRiseTicks = 16;
-  std::array<std::int32_t, kRiseTicks> measured_{}, expected_{};
-  std::int64_t expected_sum_ = 0;
-  std::size_t at_ = 0;
-  std::uint32_t seen_ = 0, known_ = 0, rising_less_ = 0;
+  HeatBalance balance_;
+  std::uint32_t known_ = 0;            // ticks
+  std::uint32_t less_ = 0, more_ = 0;  // of the balance's steps in a row
   std::int32_t last_target_ = 0;
 };
 

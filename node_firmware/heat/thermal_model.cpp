@@ -37,7 +37,7 @@ void ThermalModel::configure(const ModelParameters& p) {
 
 void ThermalModel::start(std::int32_t measured) {
   block_ = sensor_ = static_cast<std::int64_t>(measured) << 16;
-  disturbance_ = rise_ = 0;
+  disturbance_ = known_ = 0;
   history_.fill(0);
 }
 
@@ -53,9 +53,8 @@ std::int64_t ThermalModel::lost_at(std::int64_t block) const {
 void ThermalModel::step_blind(std::int32_t power) {
   at_ = (at_ + 1) & (kHistory - 1);
   history_[at_] = power;
-  const std::int64_t known = heat_of(delayed()) - lost_at(block_);
-  const std::int64_t block = block_ + known + disturbance_;
-  rise_ += times_q32(known - rise_, lag_);
+  known_ = heat_of(delayed()) - lost_at(block_);
+  const std::int64_t block = block_ + known_ + disturbance_;
   sensor_ += times_q32((block_ + block) / 2 - sensor_, lag_);
   block_ = block;
 }

@@ -55,9 +55,11 @@ class ThermalModel {
   std::int32_t block_ahead() const;
   /// Parts of kFullPower (signed): so much more heat comes than the model knows; negative: is missing.
   std::int32_t disturbance() const;
-  /// What the sensor should have gained in the last tick by what is known alone, without the disturbance: mC
+  /// What the block should have gained in the last tick by what is known alone, without the disturbance: mC
   /// with 8 fractional bits.
-  std::int32_t expected_rise() const { return static_cast<std::int32_t>(rise_ >> 8); }
+  std::int32_t expected_gain() const { return static_cast<std::int32_t>(known_ >> 8); }
+  /// The power that has come through the dead time now: parts of kFullPower.
+  std::int32_t arriving_power() const { return delayed(); }
   /// A rise of so much a tick (mC with 8 fractional bits) as parts of kFullPower, signed.
   std::int32_t share_of_rise(std::int64_t rise) const {
     return static_cast<std::int32_t>(share_of(rise * 256));
@@ -86,7 +88,7 @@ class ThermalModel {
   std::uint32_t dead_ = 0;                                                // ticks
   std::int32_t dead_part_ = 0;                                            // 1/256 of one
 
-  std::int64_t block_ = 0, sensor_ = 0, disturbance_ = 0, rise_ = 0;
+  std::int64_t block_ = 0, sensor_ = 0, disturbance_ = 0, known_ = 0;
   std::array<std::int32_t, kHistory> history_{};
   std::size_t at_ = 0;  // of the newest
 };
