@@ -1,5 +1,6 @@
 #include "gateway/devices/heat_node_devices.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace kinebus {
@@ -79,7 +80,10 @@ HeatNodeLinks heat_node_links(const MachineDescription& machine) {
   HeatNodeLinks links;
   for (const NodeDescription& node : machine.nodes)
     if (!node.functions.has_axes() && machine.carries_heat(node.id))
-      links[node.id] = std::make_shared<HeatNodeLink>(node.id);
+      links[node.id] = std::make_shared<HeatNodeLink>(
+          node.id, std::all_of(machine.fans.begin(), machine.fans.end(), [&](const FanDescription& fan) {
+            return fan.place.where == DevicePlace::Where::kNode && fan.place.node_id == node.id;
+          }));
   return links;
 }
 

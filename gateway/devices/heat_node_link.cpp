@@ -19,6 +19,7 @@ using namespace heat_object;
 /// counts for little, and the bus has other things to carry.
 constexpr BusTime kFlowAgain = std::chrono::milliseconds{250};
 constexpr BusTime kFlowNews = std::chrono::milliseconds{90};
+constexpr BusTime kNoFlowAgain = std::chrono::seconds{1};
 static_assert(std::tuple_size_v<FlowAhead> == kFlowSteps);
 static_assert(kFlowAheadStep == std::chrono::milliseconds{kFlowStepMs});
 
@@ -180,7 +181,8 @@ std::optional<CanFrame> HeatNodeLink::extruder_frame(BusTime now) {
 std::optional<CanFrame> HeatNodeLink::flow_frame(BusTime now) {
   const bool flows = flow_ != Flow{};
   const BusTime since = now - flow_told_at_;
-  if (!(flow_ != flow_told_ && since >= kFlowNews) && !(flows && since >= kFlowAgain)) return std::nullopt;
+  const bool again = since >= (flows ? kFlowAgain : kNoFlowAgain) && (flows || all_fans_);
+  if (!(flow_ != flow_told_ && since >= kFlowNews) && !again) return std::nullopt;
   flow_told_ = flow_;
   flow_told_at_ = now;
   CanFrame frame{.id = cob_id::rpdo(4, id_), .length = 8};

@@ -20,7 +20,9 @@ class HeatNodeLink : public Device {
   static constexpr BusTime kTemperatureTimeout = std::chrono::seconds{2};
   static constexpr BusTime kStateTimeout = std::chrono::milliseconds{2500};
 
-  explicit HeatNodeLink(std::uint8_t id) : id_(id) {}
+  /// `all_fans`: every fan of the machine is the node's own. Then it is told that nothing flows, too, and
+  /// knows of everything that takes heat away.
+  HeatNodeLink(std::uint8_t id, bool all_fans) : id_(id), all_fans_(all_fans) {}
 
   bool on_frame(BusTime now, const CanFrame& frame) override;
   void on_time(BusTime now) override;
@@ -75,6 +77,7 @@ class HeatNodeLink : public Device {
   void settle(BusTime now);
 
   std::uint8_t id_;
+  bool all_fans_;
   bool serves_ = false;
   SdoClient sdo_;
   Writing writing_ = Writing::kNothing;
