@@ -170,6 +170,7 @@ class Gateway::Core {
   void watch_devices();
   void watch_filament();
   bool hold_for_heat(const DeviceFault& fault);
+  bool homes_without(const DeviceFault& fault);
   void hold_for(const DeviceFault& fault);
   /// Why the job that is held cannot go on.
   std::optional<DeviceFault> out_of_order() const;

@@ -193,6 +193,8 @@ Done Gateway::Core::on(command::Resume&) {
     heat_hold_.await_mended(now_);
     return {};
   }
+  // What is still broken says so again, on the way back.
+  if (out_of_order()) heat_.clear_faults();
   return resume();
 }
 

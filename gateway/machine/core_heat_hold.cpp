@@ -13,21 +13,41 @@ using Stage = HeatHold::Stage;
 void Gateway::Core::watch_devices() {
   while (const auto fault = heat_.new_fault()) {
     tell(*fault);
-    if (state_.is(MachineState::kOff) || hold_for_heat(*fault)) continue;
+    if (state_.is(MachineState::kOff) || hold_for_heat(*fault) || homes_without(*fault)) continue;
     beds_stay_ = true;
     stop_all(true);
   }
+  if (!heat_hold_.is_put_off()) return;
+  Runner& job = print_.runner();
+  if (!job.active() || !state_.is_one_of(MachineState::kRunning, MachineState::kHolding, MachineState::kHeld))
+    return heat_hold_.abort();
+  if (job.probing()) return job.keep_still();
+  const DeviceFault fault = *heat_hold_.is_put_off();
+  heat_hold_.abort();
+  hold_for(fault);
+}
+
+/// What is homed feeds nothing: it comes to where positions are known, and a job that waits for it says why
+/// it does not go on.
+bool Gateway::Core::homes_without(const DeviceFault& fault) {
+  if (!fault.heater || !state_.is(MachineState::kHoming)) return false;
+  if (print_.runner().active()) heat_.keep();
+  heat_.heaters_off(Heat::Beds::kStay);
+  return true;
 }
 
 /// False: no job is under way that could be held.
 bool Gateway::Core::hold_for_heat(const DeviceFault& fault) {
   const bool of_job = print_.runner().active() &&
                       state_.is_one_of(MachineState::kRunning, MachineState::kHolding, MachineState::kHeld);
-  if (!fault.heater || !of_job || print_.runner().probing()) return false;
+  if (!fault.heater || !of_job) return false;
   heat_.note(journal_);
   heat_.keep();
   heat_.heaters_off(Heat::Beds::kStay);
-  hold_for(fault);
+  if (print_.runner().probing())
+    heat_hold_.put_off(fault);
+  else
+    hold_for(fault);
   return true;
 }
 

@@ -109,7 +109,8 @@ void Gateway::Core::finish_recovery() {
                            say("the nodes have lost their positions: resume homes the machine and goes on"));
   }
   if (!position_.homed()) return begin_homing();
-  const Done begun = begin_return();
+  const auto broken = out_of_order();
+  const Done begun = broken ? Done(refused(say("%1: %2", broken->device, broken->words))) : begin_return();
   if (begun) return;
   recovery_.do_not_go_on();
   events_.push({.kind = MachineEvent::Kind::kFinished,

@@ -28,7 +28,13 @@ class HeatHold {
   void lifts() { stage_ = Stage::kLifts; }
   void holds() { stage_ = Stage::kHolds; }
   /// Something else has stopped the machine; the reason stays.
-  void abort() { stage_ = Stage::kNone; }
+  void abort() {
+    stage_ = Stage::kNone;
+    put_off_.reset();
+  }
+  /// The tool is on its way to a contact, which is a rest of its own: held from there.
+  void put_off(const DeviceFault& fault) { put_off_ = fault; }
+  const std::optional<DeviceFault>& is_put_off() const { return put_off_; }
 
   /// Of the job; empty: none.
   const Sentence& why() const { return why_; }
@@ -57,6 +63,7 @@ class HeatHold {
 
   Stage stage_ = Stage::kNone;
   Sentence why_;
+  std::optional<DeviceFault> put_off_;
   BusTime asked_{0}, faulty_{0};
 };
 

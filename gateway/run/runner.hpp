@@ -114,8 +114,10 @@ class Runner {
   /// The same, and what the job commands besides motion waits for go_on(), too.
   void hold_still(BusTime now) {
     hold(now);
-    still_ = true;
+    keep_still();
   }
+  /// The move under way goes on, and nothing else is commanded until go_on().
+  void keep_still() { still_ = true; }
   /// Goes on after hold() and after a pause of the job.
   void resume(BusTime now);
   /// Above 1: what is planned from now on is planned faster; at most 1: the rate of path time.
