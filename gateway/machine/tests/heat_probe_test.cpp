@@ -10,7 +10,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr double kLift = 5;  // mm
+constexpr double kLiftedBy = 5;  // mm
 
 MachineDescription with_a_probe() {
   MachineDescription machine = printer_on_the_bus();
@@ -46,7 +46,7 @@ TEST_F(HeatWhileProbing, AFaultTakesTheHeatAndTheJobIsHeldAtTheContact) {
   ASSERT_TRUE(rig.reach(MachineState::kHeld, 5s)) << rig.story();
   EXPECT_TRUE(rig.gateway->status().positions_known);
   EXPECT_NEAR(tool()[kX], 10, kOnTheLine);
-  EXPECT_NEAR(tool()[kZ], contact + kLift, 0.05);
+  EXPECT_NEAR(tool()[kZ], contact + kLiftedBy, 0.05);
   EXPECT_EQ(rig.gateway->status().doing.english(), "heater.hotend: a temperature sensor or its wire is open");
   touches(false);
   rig.run_for(20s);
