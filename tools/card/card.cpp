@@ -6,10 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "protocol/bytes.hpp"
-#include "protocol/canopen/abort_code.hpp"
-#include "protocol/canopen/sdo_client.hpp"
-
 namespace kinebus {
 namespace {
 
@@ -20,12 +16,6 @@ constexpr LocalTime kPoll = 20ms;
 constexpr LocalTime kTransition = 2s;
 /// A node without current control of its own never begins; one that has takes about a second.
 constexpr LocalTime kTuneBegins = 2s, kTuneEnds = 20s;
-
-const ObjectEntry& entry_of(ObjectAddress address) {
-  const int place = find_object(address);
-  if (place < 0) throw CardError(fmt::format("no object {:04X}h:{}", address.index, address.subindex));
-  return kNodeObjects[static_cast<std::size_t>(place)];
-}
 
 }  // namespace
 
@@ -54,60 +44,13 @@ ObjectAddress Card::on(int axis, ObjectAddress base) {
   return {static_cast<std::uint16_t>(base.index + (axis & 1) * kAxisOffset), base.subindex};
 }
 
-template <typename Begin>
-std::size_t Card::transfer(ObjectAddress address, const Begin& begin) {
-  SdoClient client;
-  begin(client);
-  while (client.status() == SdoClient::Status::kBusy) {
-    while (const auto frame = client.next_frame()) bus_.send(*frame);
-    if (const auto frame = bus_.receive(std::min(client.next_deadline(), bus_.now() + kPoll)))
-      client.on_frame(bus_.now(), *frame);
-    client.on_time(bus_.now());
-  }
-  if (client.status() == SdoClient::Status::kDone) return client.received();
-  if (client.abort_code() == AbortCode::kTimeout)
-    throw CardError(fmt::format("node {} does not answer", node_));
-  throw CardError(fmt::format("node {}, object {:04X}h:{}: {}", node_, address.index, address.subindex,
-                              text(client.abort_code())));
-}
-
-std::int64_t Card::read(ObjectAddress address) {
-  std::array<std::uint8_t, 8> room{};
-  const std::size_t length =
-      transfer(address, [&](SdoClient& client) { client.upload(bus_.now(), node_, address, room); });
-  return value_of(entry_of(address).type, get_le(room, std::min(length, room.size())));
-}
-
-std::string Card::read_text(ObjectAddress address) {
-  std::array<std::uint8_t, 64> room{};
-  const std::size_t length =
-      transfer(address, [&](SdoClient& client) { client.upload(bus_.now(), node_, address, room); });
-  std::string words;
-  for (std::size_t i = 0; i < std::min(length, room.size()); ++i)
-    words += room[i] >= ' ' && room[i] < 0x7F ? static_cast<char>(room[i]) : '?';
-  return words;
-}
-
-void Card::write(ObjectAddress address, std::int64_t value) {
-  std::array<std::uint8_t, 8> bytes{};
-  const std::size_t size = entry_of(address).size();
-  put_le(bytes, static_cast<std::uint64_t>(value), size);
-  transfer(address, [&](SdoClient& client) {
-    client.download(bus_.now(), node_, address, std::span(bytes).first(size));
-  });
-}
-
-void Card::pause(LocalTime time) {
-  for (const LocalTime end = bus_.now() + time; bus_.now() < end;) static_cast<void>(bus_.receive(end));
-}
-
 cia402::State Card::drive_state(int axis) {
   return cia402::state_of(static_cast<std::uint16_t>(read(axis, object::kStatusword)));
 }
 
 Card::State Card::state() {
   State s;
-  s.name = read_text({0x1008, 0});
+  s.name = node_.read_text({0x1008, 0});
   s.serial = static_cast<std::uint32_t>(read(object::kSerialIdentity));
   for (int i = 0; i < 2; ++i) {
     Axis& axis = s.axes[static_cast<std::size_t>(i)];
@@ -155,12 +98,12 @@ void Card::power(int axis, bool on) {
   write(axis, object::kControlword, control::kFaultReset);
   for (const std::uint16_t word : {control::kShutdown, control::kSwitchedOn, control::kOperation})
     write(axis, object::kControlword, word);
-  for (const LocalTime end = bus_.now() + kTransition; drive_state(axis) != kOn;) {
-    if (bus_.now() >= end)
+  for (const LocalTime end = node_.now() + kTransition; drive_state(axis) != kOn;) {
+    if (node_.now() >= end)
       throw CardError(fmt::format("axis {} does not switch on: {}, error {:04X}h", "AB"[axis & 1],
                                   words_of(drive_state(axis)),
                                   static_cast<unsigned>(read(axis, object::kErrorCode))));
-    pause(kPoll);
+    node_.pause(kPoll);
   }
 }
 
@@ -191,7 +134,7 @@ std::int32_t Card::jog(int axis, std::int64_t counts, double counts_per_s,
       stopping = true;
       write(axis, object::kControlword, control::kOperation | control::kHalt);
     }
-    pause(kPoll);
+    node_.pause(kPoll);
   }
   // A halt that ends would go on to the target: the target is where the motor stands.
   if (stopping) {
@@ -205,18 +148,18 @@ std::int32_t Card::jog(int axis, std::int64_t counts, double counts_per_s,
 Card::Tuned Card::tune(int axis) {
   power(axis, true);
   write(axis, object::kAutoTune, 1);
-  const LocalTime begun = bus_.now();
+  const LocalTime begun = node_.now();
   for (;;) {
     const std::int64_t state = read(axis, object::kAutoTune);
     if (state == 2) break;
     if (state == 3)
       throw CardError(
           fmt::format("auto-tune of axis {} failed: is a motor connected, and is it free?", "AB"[axis & 1]));
-    if (state == 0 && bus_.now() - begun > kTuneBegins)
+    if (state == 0 && node_.now() - begun > kTuneBegins)
       throw CardError(
           fmt::format("axis {} does not begin to tune: this node measures no currents", "AB"[axis & 1]));
-    if (bus_.now() - begun > kTuneEnds) throw CardError("auto-tune does not end");
-    pause(kPoll);
+    if (node_.now() - begun > kTuneEnds) throw CardError("auto-tune does not end");
+    node_.pause(kPoll);
   }
   return {static_cast<int>(read(axis, object::kPhaseResistance)),
           static_cast<int>(read(axis, object::kPhaseInductance)),

@@ -6,20 +6,14 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "protocol/canopen/cia402.hpp"
 #include "protocol/canopen/node_objects.hpp"
-#include "tools/node_id/node_ids.hpp"
+#include "tools/card/node_sdo.hpp"
 
 namespace kinebus {
-
-/// What the card refused or did not answer, in words for the user.
-struct CardError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
 
 class Card {
  public:
@@ -50,7 +44,7 @@ class Card {
   };
 
   /// All may throw CardError.
-  Card(BusAccess bus, std::uint8_t node) : bus_(std::move(bus)), node_(node) {}
+  Card(BusAccess bus, std::uint8_t node) : node_(std::move(bus), node) {}
 
   State state();
   /// Peak of a phase, mA; count at once, also under power. What is not given stays.
@@ -67,19 +61,14 @@ class Card {
   void store();
 
  private:
-  std::int64_t read(ObjectAddress address);
+  std::int64_t read(ObjectAddress address) { return node_.read(address); }
   std::int64_t read(int axis, ObjectAddress base) { return read(on(axis, base)); }
-  std::string read_text(ObjectAddress address);
-  void write(ObjectAddress address, std::int64_t value);
+  void write(ObjectAddress address, std::int64_t value) { node_.write(address, value); }
   void write(int axis, ObjectAddress base, std::int64_t value) { write(on(axis, base), value); }
-  template <typename Begin>
-  std::size_t transfer(ObjectAddress address, const Begin& begin);
   static ObjectAddress on(int axis, ObjectAddress base);
   cia402::State drive_state(int axis);
-  void pause(LocalTime time);
 
-  BusAccess bus_;
-  std::uint8_t node_;
+  NodeSdo node_;
 };
 
 /// "operation enabled", as CiA 402 calls it.

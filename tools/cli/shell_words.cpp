@@ -161,9 +161,12 @@ std::string man_page(const CLI::App& app, const std::string& version) {
                         roff_options(*command, false));
   text +=
       ".SH EXIT STATUS\n0: done. 1: refused, or the machine did not come to where it should. 2: wrong "
-      "arguments.\n"
-      ".SH ENVIRONMENT\n.TP\n.B KINEBUS_SOCKET\nThe daemon's local socket, when \\fB\\-\\-socket\\fR is not "
-      "given.\n";
+      "arguments.\n";
+  if (app.get_option_no_throw("--socket") != nullptr)
+    text +=
+        ".SH ENVIRONMENT\n.TP\n.B KINEBUS_SOCKET\nThe daemon's local socket, when \\fB\\-\\-socket\\fR is "
+        "not "
+        "given.\n";
   return text;
 }
 
