@@ -24,14 +24,11 @@ const BusBoard* holder(const Boards& boards, const BoardRole& role) {
   return nullptr;
 }
 
-/// The further nodes of a board that carries several, which have their ids from its first one.
+/// Of a board that carries several nodes, one that has its id from the first.
 bool follows(const Boards& boards, const BusBoard& one) {
-  return std::any_of(boards.begin(), boards.end(), [&](const BusBoard& other) {
-    return other.board.node_id != 0 && one.board.node_id > other.board.node_id && one.kind == other.kind &&
-           one.board.node_id - other.board.node_id < 8 &&
-           one.board.serial() - other.board.serial() ==
-               static_cast<std::uint32_t>(one.board.node_id - other.board.node_id);
-  });
+  std::vector<NodeIds::Board> all;
+  for (const BusBoard& each : boards) all.push_back(each.board);
+  return NodeIds::board_of(all, one.board) != nullptr;
 }
 
 /// Boards that could be given the role.

@@ -27,7 +27,7 @@ class SetupRig {
  public:
   struct AxisBoard {
     NodeOptions options{};
-    std::unique_ptr<Node> node{};
+    std::unique_ptr<LoneNode> node{};
     std::vector<std::uint8_t> flash{};
     std::array<double, 2> first_move{};  ///< counts: where each motor went first, since it was looked at
     std::array<std::uint32_t, 2> moves{};
@@ -54,7 +54,7 @@ class SetupRig {
     board.options = {.identity = {.product_code = facts.product_code, .serial = serial},
                      .node_id = node_id,
                      .consecutive_ids = consecutive};
-    board.node = std::make_unique<Node>(board.options, now_);
+    board.node = std::make_unique<LoneNode>(board.options, now_);
     boards.push_back(std::move(board));
   }
   void add_heat(std::uint8_t node_id) {
