@@ -67,7 +67,7 @@ HeaterFault HeaterWatch::step(std::int32_t measured, std::uint32_t power, std::i
 HeaterFault HeaterWatch::by_balance(const HeatBalance::Share& share, std::uint32_t response) {
   const std::int32_t given = share.power - share.power / kOneIn, unsure = share.spread / kOneIn / 2;
   const bool quiet = quiet_ > kQuiet * response;
-  const std::int32_t fresh = share.unexplained - std::min(share.before, 0);
+  const std::int32_t fresh = share.unexplained - std::min(share.before, std::int32_t{0});
   const bool less = share.unexplained < -per_cent(settings_.most_missing) - unsure ||
                     (quiet && share.power > kLeastGiven && fresh < -given - unsure - doubt_);
   if (lasts(less_, less, kBalanceSteps)) return HeaterFault::kHeatMissing;
