@@ -1,7 +1,6 @@
 #include "gateway/service.hpp"
 
 #include <spdlog/spdlog.h>
-#include <systemd/sd-daemon.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -15,6 +14,7 @@
 #include "gateway/description/machine_file.hpp"
 #include "gateway/io/bus_log.hpp"
 #include "gateway/io/daemon.hpp"
+#include "gateway/io/service_manager.hpp"
 #include "gateway/io/socketcan_bus.hpp"
 #include "gateway/io/web_folder.hpp"
 #include "protocol/host/can_interface.hpp"
@@ -81,10 +81,16 @@ std::filesystem::path beside(const std::string& jobs_folder, const char* name) {
 }
 
 /// In systemd's folder for this service, which is memory and stays when the daemon is started again by
-/// itself.
-std::filesystem::path flight_memory() {
-  const char* runtime = std::getenv("RUNTIME_DIRECTORY");
-  return runtime != nullptr ? std::filesystem::path(runtime) / "flight-memory" : std::filesystem::path();
+/// itself; else in the user's folder in memory, or everybody's. Nothing: there is none.
+std::filesystem::path flight_memory(const std::string& jobs_folder) {
+  if (const char* runtime = std::getenv("RUNTIME_DIRECTORY"))
+    return std::filesystem::path(runtime) / "flight-memory";
+  const char* own = std::getenv("XDG_RUNTIME_DIR");
+  const std::filesystem::path memory = own != nullptr ? own : "/dev/shm";
+  std::error_code error;
+  if (!std::filesystem::is_directory(memory, error)) return {};
+  const std::string place = std::filesystem::absolute(jobs_folder).string() + std::to_string(::geteuid());
+  return memory / ("kinebus-flight-" + joblink::to_hex(joblink::sha256_of(place)).substr(0, 16));
 }
 
 /// The machine's id of this installation, or the place of its jobs where the system has none.
@@ -131,7 +137,8 @@ Service::Service(const Arguments& arguments)
       loop_(bus_name_ == kInproc ? LoopClock::Kind::kOwn : LoopClock::Kind::kMonotonic),
       bus_((lock(), open_bus(bus_name_, machine_, arguments.bus_log, loop_.now()))),
       store_(JobStore::open({.folder = jobs_folder_,
-                             .quota_bytes = static_cast<std::uint64_t>(arguments.quota_gib * kBytesPerGib)},
+                             .quota_bytes = static_cast<std::uint64_t>(arguments.quota_gib * kBytesPerGib),
+                             .reads_ahead = true},
                             unix_now())),
       noted_(JournalFile::read(journal_path_)),
       gateway_(machine_, gateway_options(noted_)),
@@ -151,7 +158,7 @@ Service::Service(const Arguments& arguments)
            }),
       recorder_({.folder = arguments.flight.empty() ? journal_path_.parent_path() / "flight"
                                                     : std::filesystem::path(arguments.flight),
-                 .memory = flight_memory(),
+                 .memory = flight_memory(jobs_folder_),
                  .machine = machine_.name,
                  .interface = bus_name_},
                 gateway_) {
@@ -212,9 +219,10 @@ void Service::listen_http(const std::string& credentials) {
 }
 
 void Service::run(const volatile std::sig_atomic_t* quit) {
-  sd_notify(0, "READY=1");
   RecordedBus recorded(std::move(bus_), recorder_);
-  Daemon daemon(loop_, recorded, gateway_);
+  const ServiceManager manager;
+  manager.tell("READY=1");
+  Daemon daemon(loop_, recorded, gateway_, manager);
   daemon.add(recorder_);
   daemon.add(host_);
   daemon.add(http_host_);

@@ -2,7 +2,6 @@
 
 #include <spdlog/spdlog.h>
 #include <sys/epoll.h>
-#include <systemd/sd-daemon.h>
 
 #include <algorithm>
 
@@ -40,7 +39,8 @@ void log_event(const MachineEvent& event) {
 }
 }  // namespace
 
-Daemon::Daemon(EventLoop& loop, BusPort& bus, Gateway& gateway) : loop_(loop), bus_(bus), gateway_(gateway) {
+Daemon::Daemon(EventLoop& loop, BusPort& bus, Gateway& gateway, const ServiceManager& manager)
+    : loop_(loop), bus_(bus), gateway_(gateway), manager_(manager) {
   if (bus_.fd() >= 0) loop_.watch(bus_.fd(), EPOLLIN, [](std::uint32_t) {});
 }
 
@@ -94,12 +94,12 @@ void Daemon::run(const volatile std::sig_atomic_t* quit) {
     const LocalTime now = loop_.now();
     for (DaemonPart* part : parts_) part->on_time(now);
     if (now >= next_watchdog) {
-      sd_notify(0, "WATCHDOG=1");
+      manager_.tell("WATCHDOG=1");
       next_watchdog = now + kWatchdogPeriod;
     }
     if (*quit != 0 && quit_at == LocalTime::max()) {
       spdlog::info("asked to end: bringing the machine to rest on its path");
-      sd_notify(0, "STOPPING=1");
+      manager_.tell("STOPPING=1");
       quit_at = now + kQuitWithin;
       if (!may_leave(gateway_.state()))
         if (const auto held = gateway_.carry_out(command::Hold{}); !held)

@@ -7,6 +7,7 @@
 #include "gateway/io/bus_port.hpp"
 #include "gateway/io/daemon_part.hpp"
 #include "gateway/io/event_loop.hpp"
+#include "gateway/io/service_manager.hpp"
 #include "gateway/io/stall_watch.hpp"
 #include "gateway/machine/gateway.hpp"
 
@@ -14,7 +15,7 @@ namespace kinebus {
 
 class Daemon {
  public:
-  Daemon(EventLoop& loop, BusPort& bus, Gateway& gateway);
+  Daemon(EventLoop& loop, BusPort& bus, Gateway& gateway, const ServiceManager& manager);
 
   /// One more part that lives on the loop; must outlive run().
   void add(DaemonPart& part) { parts_.push_back(&part); }
@@ -31,6 +32,7 @@ class Daemon {
   EventLoop& loop_;
   BusPort& bus_;
   Gateway& gateway_;
+  const ServiceManager& manager_;
   std::vector<DaemonPart*> parts_;
   StallWatch stalls_;
 };

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <spdlog/spdlog.h>
 #include <sys/mman.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -18,6 +19,7 @@
 
 #include "gateway/machine/gateway.hpp"
 #include "gateway/recorder/flight_report.hpp"
+#include "protocol/host/quiet_thread.hpp"
 #include "protocol/host/socketcan.hpp"
 
 namespace kinebus {
@@ -54,6 +56,14 @@ void write_report(const FlightRing& ring, const std::filesystem::path& folder, c
   }
 }
 
+/// Writes to every page what is there: the first write to one enters the kernel, and none is to be left to
+/// the loop.
+void touch(FlightRing& ring) {
+  constexpr std::size_t kPage = 4096;
+  auto* const bytes = reinterpret_cast<volatile std::uint8_t*>(&ring);
+  for (std::size_t at = 0; at < sizeof ring; at += kPage) bytes[at] = bytes[at];
+}
+
 }  // namespace
 
 struct FlightRecorder::Impl {
@@ -74,7 +84,7 @@ struct FlightRecorder::Impl {
   void write(Work work) {
     if (writer.joinable()) writer.join();
     writing = true;
-    writer = std::thread([this, work = std::move(work)] {
+    writer = quiet_thread([this, work = std::move(work)] {
       work();
       writing = false;
     });
@@ -101,6 +111,8 @@ FlightRecorder::~FlightRecorder() {
   if (impl_->writer.joinable()) impl_->writer.join();
   if (impl_->ring == nullptr) return;
   impl_->ring->running = 0;
+  // What is no file of the reports' folder takes memory: only who died has something to tell.
+  if (!impl_->options.memory.empty()) ::unlink(impl_->options.memory.c_str());
   ::munmap(impl_->ring, sizeof(FlightRing));
 }
 
@@ -110,8 +122,14 @@ std::string FlightRecorder::open() {
   const std::filesystem::path path =
       impl_->options.memory.empty() ? impl_->options.folder / "memory" : impl_->options.memory;
   const auto failed = [&] { return path.string() + ": " + std::strerror(errno); };
-  const int fd = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0640);
+  const int fd = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0640);
   if (fd < 0) return failed();
+  // A folder of everybody's may hold a file of somebody else's under this name.
+  struct stat found {};
+  if (::fstat(fd, &found) != 0 || found.st_uid != ::geteuid() || !S_ISREG(found.st_mode)) {
+    ::close(fd);
+    return path.string() + ": belongs to somebody else";
+  }
   // Reserved, so that a full disk cannot end the process when a page is first written.
   const bool sized = ::posix_fallocate(fd, 0, sizeof(FlightRing)) == 0;
   void* memory =
@@ -120,6 +138,7 @@ std::string FlightRecorder::open() {
   if (memory == MAP_FAILED) return sized ? failed() : path.string() + ": no room on the disk";
   impl_->ring = static_cast<FlightRing*>(memory);
   FlightRing& ring = *impl_->ring;
+  touch(ring);
   if (ring.magic == FlightRing::kMagic && ring.running != 0) {
     impl_->report_death(std::make_unique<FlightRing>(ring));
     spdlog::warn("the gateway before this one died: kinebus explain reads {}/flight-*.json",

@@ -19,7 +19,7 @@ class FlightRecorder final : public DaemonPart {
   struct Options {
     std::filesystem::path folder;  ///< of the reports
     /// The mapped file. On a file system of memory (/run) no page of it is ever written back, so the loop's
-    /// writes never wait for a disk, and it outlives the process all the same. Empty: in `folder`.
+    /// writes never wait for a disk, and it outlives a process that dies all the same. Empty: in `folder`.
     std::filesystem::path memory{};
     std::string machine;
     std::string interface;

@@ -7,7 +7,6 @@
 #include <atomic>
 #include <cerrno>
 #include <chrono>
-#include <condition_variable>
 #include <cstring>
 #include <deque>
 #include <fstream>
@@ -20,6 +19,9 @@
 
 #include "gateway/jobs/journal/journal_codec.hpp"
 #include "gateway/machine/gateway.hpp"
+#include "protocol/host/inheriting_mutex.hpp"
+#include "protocol/host/quiet_thread.hpp"
+#include "protocol/host/wake_up.hpp"
 
 namespace kinebus {
 namespace {
@@ -54,14 +56,14 @@ class JournalFile::Writer {
   Writer(std::filesystem::path path, const journal::State& state) : path_(std::move(path)), state_(state) {
     // The first file before anything moves; the rest beside the loop.
     if (!begin_file()) problem_ = problem_words();
-    thread_ = std::thread([this] { work(); });
+    thread_ = quiet_thread([this] { work(); });
   }
   ~Writer() {
     {
       const std::lock_guard lock(mutex_);
       ends_ = true;
     }
-    wake_.notify_one();
+    wake_.wake();
     thread_.join();
     if (fd_ >= 0) ::close(fd_);
   }
@@ -73,7 +75,7 @@ class JournalFile::Writer {
       const std::lock_guard lock(mutex_);
       waiting_.push_back(std::move(record));
     }
-    wake_.notify_one();
+    wake_.wake();
   }
   std::uint64_t stored() const { return stored_.load(std::memory_order_acquire); }
   std::optional<std::string> take_problem() {
@@ -118,8 +120,11 @@ class JournalFile::Writer {
   void work() {
     std::unique_lock lock(mutex_);
     for (;;) {
-      wake_.wait_for(lock, dirty_ || fd_ < 0 ? kSyncPeriod : 3600s,
-                     [&] { return ends_ || !waiting_.empty(); });
+      if (!ends_ && waiting_.empty()) {
+        lock.unlock();
+        wake_.wait(dirty_ || fd_ < 0 ? kSyncPeriod : 3600s);
+        lock.lock();
+      }
       std::deque<journal::Record> batch = std::exchange(waiting_, {});
       const bool ends = ends_;
       lock.unlock();
@@ -175,8 +180,8 @@ class JournalFile::Writer {
   std::chrono::steady_clock::time_point synced_{}, tried_{};
   std::atomic<std::uint64_t> stored_{0};
 
-  std::mutex mutex_;
-  std::condition_variable wake_;
+  InheritingMutex mutex_;
+  WakeUp wake_;
   std::deque<journal::Record> waiting_;
   std::optional<std::string> problem_;
   bool ends_ = false;

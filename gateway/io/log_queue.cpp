@@ -9,7 +9,7 @@
 #include <climits>
 #include <utility>
 
-#include "gateway/io/quiet_thread.hpp"
+#include "protocol/host/quiet_thread.hpp"
 
 namespace kinebus {
 namespace {
@@ -32,7 +32,7 @@ LogQueue::~LogQueue() {
     ends_ = true;
     give_up_ = std::chrono::steady_clock::now() + kFarewell;
   }
-  wake_.notify_one();
+  wake_.wake();
   thread_.join();
 }
 
@@ -47,7 +47,7 @@ void LogQueue::log(const spdlog::details::log_msg& message) {
     formatter_->format(message, text);
     lines_.emplace_back(text.data(), text.size());
   }
-  wake_.notify_one();
+  wake_.wake();
 }
 
 void LogQueue::set_pattern(const std::string& pattern) {
@@ -67,7 +67,11 @@ std::uint64_t LogQueue::dropped() const {
 void LogQueue::run() {
   std::unique_lock lock(mutex_);
   for (;;) {
-    wake_.wait(lock, [this] { return ends_ || !lines_.empty(); });
+    while (!ends_ && lines_.empty()) {
+      lock.unlock();
+      wake_.wait();
+      lock.lock();
+    }
     if (lines_.empty()) return;
     std::string text = std::move(lines_.front());
     lines_.pop_front();

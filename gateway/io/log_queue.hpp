@@ -5,14 +5,14 @@
 #include <spdlog/sinks/base_sink.h>
 
 #include <chrono>
-#include <condition_variable>
 #include <cstdint>
 #include <deque>
 #include <mutex>
 #include <string>
 #include <thread>
 
-#include "gateway/io/inheriting_mutex.hpp"
+#include "protocol/host/inheriting_mutex.hpp"
+#include "protocol/host/wake_up.hpp"
 
 namespace kinebus {
 
@@ -39,7 +39,7 @@ class LogQueue : public spdlog::sinks::sink {
 
   const int fd_;
   mutable InheritingMutex mutex_;
-  std::condition_variable_any wake_;
+  WakeUp wake_;
   std::unique_ptr<spdlog::formatter> formatter_;  // by mutex_, like all that follows
   std::deque<std::string> lines_;
   std::uint64_t dropped_ = 0, told_dropped_ = 0;

@@ -75,14 +75,20 @@ void StoreFiles::list(const Asked& answer) {
 }
 
 void StoreFiles::size(const Asked& answer, std::string_view name) {
-  worker_.ask([&store = store_, name = std::string(name)] { return store.open_job(name); },
-              [answer, name = std::string(name)](const Result<std::unique_ptr<ByteSource>, StoreError>& job) {
-                if (!job)
-                  answer->refused = job.error().words.english();
-                else
-                  answer->entries.push_back({name, (*job)->size().value_or(0)});
-                answer->done = true;
-              });
+  using Size = Result<std::uint64_t, StoreError>;
+  worker_.ask(
+      [&store = store_, name = std::string(name)]() -> Size {
+        const auto job = store.open_job(name);
+        if (!job) return Error<StoreError>(job.error());
+        return (*job)->size().value_or(0);
+      },
+      [answer, name = std::string(name)](const Size& size) {
+        if (!size)
+          answer->refused = size.error().words.english();
+        else
+          answer->entries.push_back({name, *size});
+        answer->done = true;
+      });
 }
 
 void StoreFiles::run(const Asked& asker, std::string_view name) {

@@ -9,7 +9,7 @@
 #include <system_error>
 #include <utility>
 
-#include "gateway/io/quiet_thread.hpp"
+#include "protocol/host/quiet_thread.hpp"
 
 namespace kinebus {
 
@@ -24,7 +24,7 @@ WorkerThread::~WorkerThread() {
     const std::lock_guard lock(mutex_);
     ends_ = true;
   }
-  wake_.notify_one();
+  wake_.wake();
   thread_.join();
   loop_.forget(event_);
   ::close(event_);
@@ -35,13 +35,17 @@ void WorkerThread::post(std::function<void()> work, std::function<void()> done) 
     const std::lock_guard lock(mutex_);
     waiting_.push_back({std::move(work), std::move(done)});
   }
-  wake_.notify_one();
+  wake_.wake();
 }
 
 void WorkerThread::run() {
   std::unique_lock lock(mutex_);
   for (;;) {
-    wake_.wait(lock, [this] { return ends_ || !waiting_.empty(); });
+    while (!ends_ && waiting_.empty()) {
+      lock.unlock();
+      wake_.wait();
+      lock.lock();
+    }
     if (waiting_.empty()) return;
     Piece piece = std::move(waiting_.front());
     waiting_.pop_front();

@@ -1,14 +1,14 @@
 #pragma once
 // The one thread beside the control loop: a disk may keep it waiting for seconds, never the loop.
 
-#include <condition_variable>
 #include <deque>
 #include <functional>
 #include <thread>
 
 #include "gateway/io/event_loop.hpp"
-#include "gateway/io/inheriting_mutex.hpp"
 #include "gateway/sessions/worker.hpp"
+#include "protocol/host/inheriting_mutex.hpp"
+#include "protocol/host/wake_up.hpp"
 
 namespace kinebus {
 
@@ -33,7 +33,7 @@ class WorkerThread : public Worker {
   EventLoop& loop_;
   int event_ = -1;
   InheritingMutex mutex_;
-  std::condition_variable_any wake_;
+  WakeUp wake_;
   std::deque<Piece> waiting_;               // by mutex_
   std::deque<std::function<void()>> done_;  // by mutex_
   bool ends_ = false;                       // by mutex_

@@ -18,6 +18,8 @@ class ByteSource {
   virtual ~ByteSource() = default;
   /// Fills the front of `buffer`; returns the bytes filled. 0: the end.
   virtual std::size_t read(std::span<char> buffer) = 0;
+  /// What follows is on its way: to read() now would wait for it.
+  virtual bool waits() { return false; }
   /// Back to the first byte. False: the source cannot be read again.
   virtual bool rewind() = 0;
   /// Total length where it is known (for the progress display).

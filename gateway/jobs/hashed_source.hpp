@@ -18,6 +18,7 @@ class HashedSource : public ByteSource {
     bytes_ += n;
     return n;
   }
+  bool waits() override { return source_->waits(); }
   bool rewind() override {
     hash_ = journal::kHashStart;
     bytes_ = 0;

@@ -299,7 +299,9 @@ void JobPipeline::read_text(int& budget) {
     text_at_ += reader_->taken();
     bytes_ += reader_->taken();
   }
-  if (!end_of_line && read) {
+  if (!end_of_line && read && source_->waits()) {
+    budget = 0;
+  } else if (!end_of_line && read) {
     text_at_ = 0;
     text_end_ = source_->read(text_);
     if (text_end_ == 0) {

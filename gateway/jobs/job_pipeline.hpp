@@ -35,7 +35,7 @@ class JobPipeline {
     kProbed,   ///< the move of a probe, begun at a barrier, ended at its target, if not before: probed()
     kEnd,      ///< the job is over
     kProblem,  ///< problem(): a line is refused. The next step goes on with the line after it.
-    kMore,     ///< the budget is used up: call again
+    kMore,     ///< the budget is used up, or the text is on its way: call again
     kStarved,  ///< live commands only: all that was added is used, and what follows is not known yet
   };
 

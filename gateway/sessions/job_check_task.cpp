@@ -76,6 +76,9 @@ void JobCheckTask::slice() {
                                              .motion_s = report.motion_s,
                                              .dwell_s = report.dwell_s}));
   found_ = std::move(result);
+  // The file is closed here, not by the loop that lets this go.
+  preflight_.reset();
+  source_.reset();
 }
 
 }  // namespace kinebus

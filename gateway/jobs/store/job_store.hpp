@@ -92,6 +92,8 @@ class JobStore {
     /// Left free on the disk for everything else.
     std::uint64_t margin_bytes = 16ULL << 20;
     double forget_uploads_after_s = 7.0 * 24 * 3600;
+    /// Texts that are to run are read by a thread of their own (ReadAhead).
+    bool reads_ahead = false;
   };
 
   /// Never fails for what the disk holds: a damaged database is set aside and made anew from the files, a
@@ -159,7 +161,10 @@ class JobStore {
 
  private:
   struct Upload;
+  using Opened = Result<std::unique_ptr<ByteSource>, StoreError>;
   explicit JobStore(Options options);
+
+  Opened read_ahead(Opened source) const;
 
   void open_database();
   Result<void, StoreError> make_tables();

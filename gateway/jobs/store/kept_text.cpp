@@ -10,6 +10,7 @@
 
 #include "gateway/jobs/store/file_source.hpp"
 #include "gateway/jobs/store/job_store.hpp"
+#include "gateway/jobs/store/read_ahead.hpp"
 #include "gateway/jobs/store/upload_file.hpp"
 #include "protocol/joblink/sha256.hpp"
 
@@ -28,9 +29,14 @@ fs::path JobStore::kept_of(std::string_view name) const {
          (std::string(kKeptPrefix) + joblink::to_hex(joblink::sha256_of(std::string(name))).substr(0, 32));
 }
 
+JobStore::Opened JobStore::read_ahead(Opened source) const {
+  if (!source || !options_.reads_ahead) return source;
+  return std::make_unique<ReadAhead>(std::move(*source));
+}
+
 Result<std::unique_ptr<ByteSource>, StoreError> JobStore::open_to_run(std::string_view name) {
   auto source = open_job(name);
-  if (!source || !writable_) return source;
+  if (!source || !writable_) return read_ahead(std::move(source));
   const fs::path next = options_.folder / kNext, job = options_.folder / name;
   std::error_code error;
   fs::remove(next, error);
@@ -38,7 +44,7 @@ Result<std::unique_ptr<ByteSource>, StoreError> JobStore::open_to_run(std::strin
   if (::link(job.c_str(), next.c_str()) != 0 && errno != ENOENT)
     fs::copy_file(job, next, fs::copy_options::overwrite_existing, error);
   if (error) fs::remove(next, error);
-  return source;
+  return read_ahead(std::move(source));
 }
 
 void JobStore::keep_what_runs(std::string_view name) {
@@ -51,8 +57,9 @@ void JobStore::keep_what_runs(std::string_view name) {
 }
 
 Result<std::unique_ptr<ByteSource>, StoreError> JobStore::open_kept(std::string_view name) {
-  if (auto source = FileSource::open(kept_of(name))) return std::unique_ptr<ByteSource>(std::move(*source));
-  return open_job(name);
+  if (auto source = FileSource::open(kept_of(name)))
+    return read_ahead(std::unique_ptr<ByteSource>(std::move(*source)));
+  return read_ahead(open_job(name));
 }
 
 void JobStore::forget_kept() {
