@@ -13,323 +13,10 @@
 #include <fstream>
 #include <sstream>
 
+#include "vcan_tests/loop_watch/call_table.hpp"
+
 namespace kinebus {
 namespace {
-
-enum class Rule : std::uint8_t {
-  kNever,     ///< waits, or may
-  kQuick,     ///< never waits for anything outside of the processor
-  kTransfer,  ///< of a descriptor that does not wait; not of a file
-  kClose,
-  kMap,
-  kFutex,
-};
-
-struct Row {
-  const char* name;
-  Rule rule;
-  /// Which argument has the MSG_ flags; -1: none.
-  int flags = -1;
-};
-
-#define KINEBUS_CALL(name) \
-  SYS_##name, Row {        \
-#name
-const std::map<std::uint64_t, Row>&rows(){static const std::map<std::uint64_t, Row> table =
-                                              {// The loop's own place to wait.
-                                               {KINEBUS_CALL(epoll_pwait), Rule::kQuick}},
-#ifdef SYS_epoll_wait
-                                          {KINEBUS_CALL(epoll_wait), Rule::kQuick}},
-#endif
-{
-  KINEBUS_CALL(epoll_ctl), Rule::kQuick
-}
-}
-, {
-  KINEBUS_CALL(timerfd_settime), Rule::kQuick
-}
-}
-, {
-  KINEBUS_CALL(clock_gettime), Rule::kQuick
-}
-}
-, {
-  KINEBUS_CALL(getrusage), Rule::kQuick
-}
-}
-, {
-  KINEBUS_CALL(getrandom), Rule::kQuick
-}
-}
-, {
-  KINEBUS_CALL(getpid), Rule::kQuick
-}
-}
-, {
-  KINEBUS_CALL(gettid), Rule::kQuick
-}
-}
-, {
-  KINEBUS_CALL(getuid), Rule::kQuick
-}
-}
-, {
-  KINEBUS_CALL(geteuid), Rule::kQuick
-}
-}
-, {
-  KINEBUS_CALL(getgid), Rule::kQuick
-}
-}
-, {
-  KINEBUS_CALL(getegid), Rule::kQuick
-}
-}
-, {
-  KINEBUS_CALL(sched_getscheduler), Rule::kQuick
-}
-}
-, {
-  KINEBUS_CALL(sched_getaffinity), Rule::kQuick
-}
-}
-, {
-  KINEBUS_CALL(rt_sigprocmask), Rule::kQuick
-}
-}
-, {
-  KINEBUS_CALL(rt_sigaction), Rule::kQuick
-}
-}
-, {
-  KINEBUS_CALL(rt_sigreturn), Rule::kQuick
-}
-}
-, {
-  KINEBUS_CALL(restart_syscall), Rule::kQuick
-}
-}
-, {
-  KINEBUS_CALL(fcntl), Rule::kQuick
-}
-}
-, {
-  KINEBUS_CALL(socket), Rule::kQuick
-}
-}
-, {
-  KINEBUS_CALL(setsockopt), Rule::kQuick
-}
-}
-, {
-  KINEBUS_CALL(getsockopt), Rule::kQuick
-}
-}
-, {
-  KINEBUS_CALL(getsockname), Rule::kQuick
-}
-}
-, {
-  KINEBUS_CALL(getpeername), Rule::kQuick
-}
-}
-, {
-  KINEBUS_CALL(shutdown), Rule::kQuick
-}
-}
-, {
-  KINEBUS_CALL(eventfd2), Rule::kQuick
-}
-}
-, {
-  KINEBUS_CALL(io_submit), Rule::kQuick
-}
-}
-, {
-  KINEBUS_CALL(ioctl), Rule::kQuick
-}
-}
-, {
-  KINEBUS_CALL(brk), Rule::kQuick
-}
-}
-, {
-  KINEBUS_CALL(munmap), Rule::kQuick
-}
-}
-, {
-  KINEBUS_CALL(mremap), Rule::kQuick
-}
-}
-, {
-  KINEBUS_CALL(mprotect), Rule::kQuick
-}
-}
-, {
-  KINEBUS_CALL(madvise), Rule::kQuick
-}
-}
-,
-// A thread for what may wait.
-{
-  KINEBUS_CALL(clone), Rule::kQuick
-}
-}
-, {
-  KINEBUS_CALL(clone3), Rule::kQuick
-}
-}
-, {
-  KINEBUS_CALL(mmap), Rule::kMap
-}
-}
-, {
-  KINEBUS_CALL(futex), Rule::kFutex
-}
-}
-, {
-  KINEBUS_CALL(close), Rule::kClose
-}
-}
-, {
-  KINEBUS_CALL(read), Rule::kTransfer
-}
-}
-, {
-  KINEBUS_CALL(write), Rule::kTransfer
-}
-}
-, {
-  KINEBUS_CALL(readv), Rule::kTransfer
-}
-}
-, {
-  KINEBUS_CALL(writev), Rule::kTransfer
-}
-}
-, {
-  KINEBUS_CALL(accept), Rule::kTransfer
-}
-}
-, {
-  KINEBUS_CALL(accept4), Rule::kTransfer
-}
-}
-, {
-  KINEBUS_CALL(connect), Rule::kTransfer
-}
-}
-, {
-  KINEBUS_CALL(sendto), Rule::kTransfer, 3
-}
-}
-, {
-  KINEBUS_CALL(recvfrom), Rule::kTransfer, 3
-}
-}
-, {
-  KINEBUS_CALL(sendmsg), Rule::kTransfer, 2
-}
-}
-, {
-  KINEBUS_CALL(recvmsg), Rule::kTransfer, 2
-}
-}
-, {
-  KINEBUS_CALL(sendmmsg), Rule::kTransfer, 3
-}
-}
-, {
-  KINEBUS_CALL(recvmmsg), Rule::kTransfer, 3
-}
-}
-,
-// What is met most often where something is wrong, by name; all others are refused by number.
-{
-  KINEBUS_CALL(openat), Rule::kNever
-}
-}
-, {
-  KINEBUS_CALL(newfstatat), Rule::kNever
-}
-}
-, {
-  KINEBUS_CALL(fstat), Rule::kNever
-}
-}
-, {
-  KINEBUS_CALL(lseek), Rule::kNever
-}
-}
-, {
-  KINEBUS_CALL(fsync), Rule::kNever
-}
-}
-, {
-  KINEBUS_CALL(fdatasync), Rule::kNever
-}
-}
-, {
-  KINEBUS_CALL(unlinkat), Rule::kNever
-}
-}
-, {
-  KINEBUS_CALL(getdents64), Rule::kNever
-}
-}
-, {
-  KINEBUS_CALL(ppoll), Rule::kNever
-}
-}
-, {
-  KINEBUS_CALL(nanosleep), Rule::kNever
-}
-}
-, {
-  KINEBUS_CALL(clock_nanosleep), Rule::kNever
-}
-}
-, {
-  KINEBUS_CALL(wait4), Rule::kNever
-}
-}
-,
-#ifdef SYS_open
-{
-  KINEBUS_CALL(open), Rule::kNever
-}
-}
-, {
-  KINEBUS_CALL(poll), Rule::kNever
-}
-}
-, {
-  KINEBUS_CALL(unlink), Rule::kNever
-}
-}
-, {
-  KINEBUS_CALL(rename), Rule::kNever
-}
-}
-, {
-  KINEBUS_CALL(mkdir), Rule::kNever
-}
-}
-, {
-  KINEBUS_CALL(access), Rule::kNever
-}
-}
-, {
-  KINEBUS_CALL(readlink), Rule::kNever
-}
-}
-,
-#endif
-}
-;
-return table;
-}
-#undef KINEBUS_CALL
 
 /// glibc places an arena's lock at the begin of a heap, which is aligned to this size.
 constexpr std::uint64_t kHeapAlignment = 64 << 20;
@@ -354,33 +41,33 @@ CallRules::CallRules(pid_t process) : process_(process) {
 }
 
 std::string CallRules::name_of(std::uint64_t number) {
-  const auto row = rows().find(number);
-  return row == rows().end() ? "system call " + std::to_string(number) : row->second.name;
+  const CallRow* row = call_row(number);
+  return row == nullptr ? "system call " + std::to_string(number) : row->name;
 }
 
 CallRules::Verdict CallRules::judge(const SystemCall& call) {
-  const auto found = rows().find(call.number);
-  const Row row = found == rows().end() ? Row{"", Rule::kNever} : found->second;
+  const CallRow* found = call_row(call.number);
+  const CallRow row = found == nullptr ? CallRow{call.number, "", CallRule::kNever} : *found;
   const int fd = static_cast<int>(call.arguments[0]);
   switch (row.rule) {
-    case Rule::kQuick:
+    case CallRule::kQuick:
       if (call.number == SYS_fcntl || call.number == SYS_ioctl) known_.erase(fd);
       return {};
-    case Rule::kTransfer: {
+    case CallRule::kTransfer: {
       const bool says =
           row.flags >= 0 && (call.arguments[static_cast<std::size_t>(row.flags)] & MSG_DONTWAIT) != 0;
       return {.refused = judge_transfer(fd, says)};
     }
-    case Rule::kClose: {
+    case CallRule::kClose: {
       const Descriptor closed = descriptor(fd);
       known_.erase(fd);
       return {.refused = closed.file ? "of a file: " + closed.path : ""};
     }
-    case Rule::kMap:
+    case CallRule::kMap:
       return {.refused = (call.arguments[3] & MAP_ANONYMOUS) != 0 ? "" : "of a file"};
-    case Rule::kFutex:
+    case CallRule::kFutex:
       return judge_futex(call);
-    case Rule::kNever:
+    case CallRule::kNever:
       break;
   }
   std::string why = "may wait";
