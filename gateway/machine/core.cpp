@@ -8,6 +8,7 @@
 #include "gateway/description/machine_homing.hpp"
 #include "gateway/devices/registry.hpp"
 #include "gateway/jobs/machine_setup.hpp"
+#include "gateway/machine/foreign_frames.hpp"
 #include "protocol/canopen/cob_id.hpp"
 
 namespace kinebus {
@@ -15,11 +16,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Frames that only a gateway sends.
-bool is_of_a_gateway(const CanFrame& frame) {
-  return !frame.extended && (frame.id == cob_id::kSync || frame.id == kRateCobId ||
-                             frame.id == kSyncStampCobId || frame.id == cob_id::kHeartbeat + kGatewayNodeId);
-}
+/// A download in segments begins once; a device that writes all the time is told of so often.
+constexpr BusTime kTellOfWritesEvery = 1s;
 
 /// Nodes with axes first, in the order of the streams: the one is at the same place as the other.
 std::deque<NodeLink> make_links(const MachineDescription& machine, const std::vector<NodeAxes>& axes) {
@@ -101,7 +99,10 @@ void Gateway::Core::on_frame(BusTime when, const CanFrame& frame) {
     return;
   }
   parameters_.on_frame(when, frame);
-  if (is_of_a_gateway(frame)) {
+  const ForeignFrame foreign = look_at_foreign(frame, links_);
+  if (foreign.kind == ForeignFrame::Kind::kRecord || foreign.kind == ForeignFrame::Kind::kWrite)
+    return on_foreign_command(foreign);
+  if (foreign.kind == ForeignFrame::Kind::kGateway) {
     ++counters_.foreign_frames;
     if (bring_up_.busy()) {
       bring_up_.on_foreign_gateway();
@@ -135,6 +136,21 @@ void Gateway::Core::on_frame(BusTime when, const CanFrame& frame) {
     ++counters_.foreign_frames;
   else
     ++counters_.malformed_frames;
+}
+
+/// The bus has heard it already. A record can only be wrong; an object that makes the machine unsafe is
+/// refused by the node in motion, and at rest its parameters are compared.
+void Gateway::Core::on_foreign_command(const ForeignFrame& foreign) {
+  ++counters_.foreign_frames;
+  const bool stands = state_.is_one_of(MachineState::kStopping, MachineState::kStopped, MachineState::kAlarm);
+  if (!voice_.speaks() || bring_up_.busy() || stands) return;
+  if (foreign.kind == ForeignFrame::Kind::kRecord) {
+    events_.alarm(now_, AlarmCode::kNodeChanged, foreign.words, foreign.node);
+    stop_all(false);
+  } else if (!state_.idle() && now_ >= write_told_ + kTellOfWritesEvery) {
+    write_told_ = now_;
+    events_.message(now_, foreign.words);
+  }
 }
 
 /// What the machine's own nodes ask for has words of its own.

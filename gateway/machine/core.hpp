@@ -45,6 +45,8 @@
 
 namespace kinebus {
 
+struct ForeignFrame;
+
 class Gateway::Core {
  public:
   Core(const MachineDescription& machine, Options options, std::optional<Devices> devices);
@@ -163,6 +165,7 @@ class Gateway::Core {
   void follow_extruder();
   void watch_parameters();
   void on_foreign_stop(std::uint8_t node);
+  void on_foreign_command(const ForeignFrame& foreign);
   void take_stream_status(NodeLink& link);
   void follow(const NodeWatch::Verdict& verdict);
 
@@ -247,13 +250,14 @@ class Gateway::Core {
 
   Runner* runner_ = &hand_.runner();  ///< whose motion it is
   BusTime now_{0};
-  BusTime served_{0};         ///< the last on_time()
-  BusTime started_{0};        ///< of the move under way
-  bool remote_told_ = false;  ///< a remote frame was passed over, since the last bring-up
-  bool probe_asked_ = false;  ///< its node is to answer
-  bool probe_rests_ = false;  ///< its move has come to rest where it touched
-  bool fault_ = false;        ///< the stop under way ends in an alarm
-  bool beds_stay_ = false;    ///< that alarm is of a device: a bed that is in order keeps the part on it
+  BusTime served_{0};                           ///< the last on_time()
+  BusTime started_{0};                          ///< of the move under way
+  BusTime write_told_{-std::chrono::hours{1}};  ///< of an object that another device writes in motion
+  bool remote_told_ = false;                    ///< a remote frame was passed over, since the last bring-up
+  bool probe_asked_ = false;                    ///< its node is to answer
+  bool probe_rests_ = false;                    ///< its move has come to rest where it touched
+  bool fault_ = false;                          ///< the stop under way ends in an alarm
+  bool beds_stay_ = false;  ///< that alarm is of a device: a bed that is in order keeps the part on it
   BusTime heat_idle_since_{0}, next_flow_{0};
   std::optional<HeaterId> tuned_;  ///< whose measurement is told of
   TuningStage tuning_told_ = TuningStage::kNone;

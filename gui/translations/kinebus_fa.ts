@@ -1505,6 +1505,14 @@
         <translation>دستگاهی دیگر قاب‌های درخواست (remote) می‌فرستد (COB-ID %1): کسی پاسخ نمی‌دهد</translation>
     </message>
     <message>
+        <source>another device has sent node %1 a record of motion (COB-ID %2)</source>
+        <translation>دستگاهی دیگر به گره %1 یک رکورد حرکت فرستاده است (COB-ID %2)</translation>
+    </message>
+    <message>
+        <source>another device writes object %2 of node %1 while the machine moves</source>
+        <translation>هنگامی که ماشین حرکت می‌کند، دستگاهی دیگر در شیء %2 گره %1 می‌نویسد</translation>
+    </message>
+    <message>
         <source>Another device has changed a node</source>
         <translation>دستگاهی دیگر گره‌ای را تغییر داده است</translation>
     </message>

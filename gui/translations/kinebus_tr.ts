@@ -1505,6 +1505,14 @@
         <translation>başka bir aygıt uzak çerçeveler gönderiyor (COB-ID %1): kimse yanıtlamaz</translation>
     </message>
     <message>
+        <source>another device has sent node %1 a record of motion (COB-ID %2)</source>
+        <translation>başka bir aygıt düğüm %1 için bir hareket kaydı gönderdi (COB-ID %2)</translation>
+    </message>
+    <message>
+        <source>another device writes object %2 of node %1 while the machine moves</source>
+        <translation>makine hareket ederken başka bir aygıt düğüm %1 üzerindeki %2 nesnesine yazıyor</translation>
+    </message>
+    <message>
         <source>Another device has changed a node</source>
         <translation>Başka bir aygıt bir düğümü değiştirdi</translation>
     </message>

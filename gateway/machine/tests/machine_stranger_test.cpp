@@ -227,8 +227,28 @@ TEST(Stranger, ParametersAreNotChangedInMotionAndTheJobGoesOn) {
     rig.run_for(20ms);
   }
   EXPECT_EQ(refused, 3);
+  EXPECT_TRUE(rig.says("another device writes object 2113h:0 of node 2 while the machine moves"))
+      << rig.story();
   ASSERT_TRUE(rig.reach(MachineState::kReady, 60s)) << rig.story();
   EXPECT_FALSE(rig.told(MachineEvent::Kind::kAlarm)) << rig.story();
+}
+
+TEST(Stranger, ARecordThatTheGatewayHasNotSentStopsAllAndIsNamed) {
+  Stranger rig;
+  ASSERT_TRUE(rig.make_ready()) << rig.story();
+  ASSERT_TRUE(rig.begin());
+  rig.run_for(300ms);
+  rig.stranger_sends(text_frame("402#4001000000000000"));
+  rig.run_for(20ms);
+  EXPECT_TRUE(rig.told(AlarmCode::kNodeChanged)) << rig.story();
+  EXPECT_TRUE(rig.says("another device has sent node 2 a record of motion (COB-ID 402h)")) << rig.story();
+  ASSERT_TRUE(rig.reach(MachineState::kStopped, 10s)) << rig.story();
+  EXPECT_TRUE(rig.rests());
+  ASSERT_TRUE(rig.gateway->carry_out(command::Clear{}));
+  ASSERT_TRUE(
+      rig.run_until([&] { return static_cast<bool>(rig.gateway->carry_out(command::Resume{})); }, 20s))
+      << rig.story();
+  ASSERT_TRUE(rig.reach(MachineState::kReady, 60s)) << rig.story();
 }
 
 TEST(Stranger, RemoteFramesStopNobodyAndAreToldOnce) {
