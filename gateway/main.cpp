@@ -10,6 +10,7 @@
 #include "gateway/io/log_queue.hpp"
 #include "gateway/service.hpp"
 #include "protocol/host/guarded_main.hpp"
+#include "protocol/host/realtime.hpp"
 #include "protocol/host/usage.hpp"
 
 namespace {
@@ -24,6 +25,7 @@ int run(int argc, char** argv) {
   CLI::App app("kinebusd: the Kinebus gateway. Plans G-code and moves the machine's CAN nodes.");
   kinebus::add_options(app, arguments);
   if (const auto end = kinebus::parse_arguments(app, argc, argv)) return *end;
+  kinebus::keep_stacks_small();
   const auto log = std::make_shared<kinebus::LogQueue>(STDERR_FILENO);
   spdlog::set_default_logger(std::make_shared<spdlog::logger>("kinebusd", log));
   spdlog::set_level(spdlog::level::from_str(arguments.log_level));

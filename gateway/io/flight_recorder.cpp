@@ -12,6 +12,7 @@
 #include <chrono>
 #include <cstring>
 #include <fstream>
+#include <functional>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -21,6 +22,7 @@
 #include "gateway/recorder/flight_report.hpp"
 #include "protocol/host/quiet_thread.hpp"
 #include "protocol/host/socketcan.hpp"
+#include "protocol/host/wake_up.hpp"
 
 namespace kinebus {
 namespace {
@@ -74,23 +76,42 @@ struct FlightRecorder::Impl {
   const Gateway& gateway;
   FlightRing* ring = nullptr;
   std::thread writer;
+  WakeUp wake;
+  std::function<void()> work;        ///< the writer's while it is writing
   std::atomic<bool> writing{false};  ///< the writer is at work
-  std::atomic<bool> frozen{false};   ///< it copies the ring
+  std::atomic<bool> ends{false};
+  std::atomic<bool> frozen{false};  ///< it copies the ring
   LocalTime next_sample{0}, report_at = LocalTime::max(), last_report{-kBetweenReports};
   std::string cause;
 
-  /// On a thread of its own: a slow disk holds nothing up.
-  template <typename Work>
-  void write(Work work) {
-    if (writer.joinable()) writer.join();
-    writing = true;
-    writer = quiet_thread([this, work = std::move(work)] {
-      work();
-      writing = false;
+  /// A thread of its own, made before anything moves: a slow disk holds nothing up.
+  void start_writer() {
+    writer = quiet_thread([this] {
+      while (!ends || writing) {
+        if (writing) {
+          work();
+          work = nullptr;
+          writing = false;
+        } else {
+          wake.wait();
+        }
+      }
     });
   }
+  void end_writer() {
+    if (!writer.joinable()) return;
+    ends = true;
+    wake.wake();
+    writer.join();
+  }
+  /// Only while it is not writing.
+  void write(std::function<void()> next) {
+    work = std::move(next);
+    writing = true;
+    wake.wake();
+  }
   void report_death(std::unique_ptr<FlightRing> died) {
-    write([this, died = std::move(died)] {
+    write([this, died = std::shared_ptr<FlightRing>(std::move(died))] {
       write_report(*died, options.folder, options.interface, "the gateway died");
     });
   }
@@ -108,7 +129,7 @@ FlightRecorder::FlightRecorder(Options options, const Gateway& gateway)
     : impl_(std::make_unique<Impl>(std::move(options), gateway)) {}
 
 FlightRecorder::~FlightRecorder() {
-  if (impl_->writer.joinable()) impl_->writer.join();
+  impl_->end_writer();
   if (impl_->ring == nullptr) return;
   impl_->ring->running = 0;
   // What is no file of the reports' folder takes memory: only who died has something to tell.
@@ -139,6 +160,7 @@ std::string FlightRecorder::open() {
   impl_->ring = static_cast<FlightRing*>(memory);
   FlightRing& ring = *impl_->ring;
   touch(ring);
+  impl_->start_writer();
   if (ring.magic == FlightRing::kMagic && ring.running != 0) {
     impl_->report_death(std::make_unique<FlightRing>(ring));
     spdlog::warn("the gateway before this one died: kinebus explain reads {}/flight-*.json",

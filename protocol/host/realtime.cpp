@@ -1,6 +1,8 @@
 #include "protocol/host/realtime.hpp"
 
 #include <linux/capability.h>
+#include <malloc.h>
+#include <pthread.h>
 #include <sched.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
@@ -8,7 +10,9 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
+#include <vector>
 
 namespace kinebus {
 
@@ -24,7 +28,28 @@ bool may_lock_without_limit() {
   return ::syscall(SYS_capget, &header, data) == 0 && (data[0].effective & (1U << CAP_IPC_LOCK)) != 0;
 }
 
+constexpr std::size_t kStackBytes = 2 << 20;
+/// Larger pieces get memory of their own. The most that glibc takes for it.
+constexpr int kOwnMemoryFrom = 32 << 20;
+constexpr int kKeep = 512 << 20;
+
 }  // namespace
+
+void keep_stacks_small() {
+  pthread_attr_t attributes;
+  pthread_attr_init(&attributes);
+  pthread_attr_setstacksize(&attributes, kStackBytes);
+  pthread_setattr_default_np(&attributes);
+  pthread_attr_destroy(&attributes);
+}
+
+void keep_heap(std::size_t bytes) {
+  ::mallopt(M_MMAP_THRESHOLD, kOwnMemoryFrom);
+  ::mallopt(M_TRIM_THRESHOLD, kKeep);
+  std::vector<std::uint8_t> memory(bytes, 1);
+  // Or the compiler sees that nobody reads it.
+  asm volatile("" : : "r"(memory.data()) : "memory");
+}
 
 std::string become_realtime(int priority) {
   // Memory first: to fetch all of it takes long, and must not keep others from the processor.

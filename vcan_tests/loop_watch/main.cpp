@@ -35,6 +35,9 @@ long trace(__ptrace_request request, pid_t thread, long data = 0) {
 /// The allocator's lock is held for some list operations.
 constexpr Milliseconds kAllocatorWaits{1.0};
 
+/// Memory that the loop had to ask for: a page of locked memory is cleared while it waits. 1 MiB.
+constexpr long kPages = 256;
+
 volatile std::sig_atomic_t ended = 0;
 void on_end(int) {
   ended = 1;
@@ -96,12 +99,15 @@ class Watch {
     std::printf("allocator's lock     %8ld  longest %9.3f ms\n", allocator_.count,
                 allocator_.longest.count());
     const long major = now.major - before_.major;
-    std::printf("page faults: %ld minor, %ld major\n", now.minor - before_.minor, major);
+    const long minor = now.minor - before_.minor;
+    std::printf("page faults: %ld minor, %ld major\n", minor, major);
     for (const auto& [words, row] : refused_)
       std::printf("REFUSED %s, %ld times, first after %.3f s\n", words.c_str(), row.count,
                   row.longest.count() / 1e3);
     if (major > 0) std::printf("REFUSED page faults that wait for a disk\n");
-    const bool bad = !refused_.empty() || major > 0 || rows_.empty();
+    if (minor > kPages)
+      std::printf("REFUSED more than %ld pages of memory that were not there before\n", kPages);
+    const bool bad = !refused_.empty() || major > 0 || minor > kPages || rows_.empty();
     std::printf("%s\n", rows_.empty() ? "nothing was seen"
                         : bad         ? "the thread may wait"
                                       : "the thread waits nowhere else");
