@@ -82,6 +82,14 @@ struct HeaterWiring {
   friend bool operator==(const HeaterWiring&, const HeaterWiring&) = default;
 };
 
+/// What people heat to for a filament, to be chosen by its name; no job reads it. 0: that kind stays as it
+/// is.
+struct MaterialDescription {
+  std::string name;  ///< of its table
+  double hotend_c = 0, bed_c = 0, chamber_c = 0;
+  friend bool operator==(const MaterialDescription&, const MaterialDescription&) = default;
+};
+
 /// Its limits, and the heat model that the simulated one uses.
 struct HeaterDescription {
   std::string name;  ///< of its table

@@ -24,6 +24,7 @@ class DeviceRules {
       place(h.place, key, Channels::kHeaters);
       if (h.place.on_node()) wiring(h, key);
     }
+    for (const MaterialDescription& m : d_.materials) material(m);
     indices("fan", d_.fans);
     indices("output", d_.outputs);
     for (const SensorDescription& s : d_.sensors)
@@ -42,6 +43,25 @@ class DeviceRules {
   }
 
  private:
+  /// Every heater of the kind can have it: any of them may be told.
+  void material(const MaterialDescription& m) {
+    const auto within = [&](HeaterKind kind, const char* key, double celsius) {
+      const auto words = [](double c) { return Sentence::verbatim(printed("%.6g", c)); };
+      const std::string name = "material." + m.name + "." + key;
+      bool any = false;
+      for (const HeaterDescription& h : d_.heaters) {
+        if (h.kind != kind) continue;
+        any = true;
+        require(celsius <= h.max_c, {name, "heater." + h.name + ".max_c"}, words(celsius),
+                say("at most max_c of [heater.%1], %2", h.name, words(h.max_c)));
+      }
+      require(any || celsius == 0, {name}, words(celsius), say("0, or a heater of this kind"));
+    };
+    within(HeaterKind::kHotend, "hotend_c", m.hotend_c);
+    within(HeaterKind::kBed, "bed_c", m.bed_c);
+    within(HeaterKind::kChamber, "chamber_c", m.chamber_c);
+  }
+
   enum class Channels : std::uint8_t { kHeaters, kSensors, kOutputs, kInputs, kFilaments };
 
   void require(bool holds, std::vector<std::string> keys, Sentence found, Sentence expected) {

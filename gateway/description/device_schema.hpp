@@ -135,6 +135,11 @@ void visit_devices(V& v, MachineDescription& d) {
                   "without heated bed has no such table"));
   });
   v.named_tables("heater", d.heaters, [&](HeaterDescription& h) { visit_device(v, h); });
+  v.named_tables("material", d.materials, [&](MaterialDescription& m) {
+    v.number("hotend_c", m.hotend_c, {0, 600}, Need::kOptional);
+    v.number("bed_c", m.bed_c, {0, 600}, Need::kOptional);
+    v.number("chamber_c", m.chamber_c, {0, 600}, Need::kOptional);
+  });
   v.named_tables("fan", d.fans, [&](FanDescription& f) { visit_device(v, f); });
   v.named_tables("output", d.outputs, [&](OutputDescription& o) { visit_device(v, o); });
   v.named_tables("sensor", d.sensors, [&](SensorDescription& s) { visit_device(v, s); });

@@ -296,6 +296,7 @@ struct MachineDescription {
   ThermalDescription thermal;
   // Devices, each in the order of its name.
   std::vector<HeaterDescription> heaters;
+  std::vector<MaterialDescription> materials;
   std::vector<FanDescription> fans;
   std::vector<OutputDescription> outputs;
   std::vector<SensorDescription> sensors;

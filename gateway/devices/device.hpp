@@ -41,7 +41,8 @@ class Device {
 
 struct HeaterStatus {
   double actual_celsius = 0;
-  double target_celsius = 0;  ///< 0: off
+  double target_celsius = 0;      ///< 0: off
+  std::optional<double> power{};  ///< of full, 0..1; none: not told
 };
 
 /// How far a heater's node is with measuring it, or how that ended last.

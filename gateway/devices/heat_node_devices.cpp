@@ -11,7 +11,7 @@ class NodeHeater : public Heater {
   NodeHeater(std::shared_ptr<HeatNodeLink> node, std::size_t channel, double power_w)
       : node_(std::move(node)), channel_(channel), power_w_(power_w) {}
   void set_target(double celsius) override { node_->set_target(channel_, celsius); }
-  HeaterStatus status() const override { return {node_->celsius(channel_), node_->target(channel_)}; }
+  HeaterStatus status() const override { return node_->status(channel_); }
   std::optional<Sentence> fault() const override { return node_->heater_fault(channel_); }
   std::optional<Sentence> absent() const override { return node_->absent(); }
   void clear_fault() override { node_->reset_fault(channel_); }

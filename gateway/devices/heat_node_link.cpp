@@ -74,8 +74,12 @@ bool HeatNodeLink::on_report(BusTime now, const CanFrame& frame) {
     measured_ = now;
   } else if (frame.id == cob_id::tpdo(4, id_) && frame.length >= 2 * kInTheOther) {
     take(kInOnePdo, kInTheOther);
+  } else if (frame.id == cob_id::tpdo(3, id_) && frame.length >= 2 * kHeaters) {
+    for (std::size_t n = 0; n < kHeaters; ++n)
+      powers_[n] = static_cast<std::int16_t>(get_u16_le(data.subspan(2 * n)));
+    powers_told_ = true;
   } else {
-    return frame.id == cob_id::tpdo(3, id_);
+    return false;
   }
   heard_ = now;
   return true;
@@ -138,6 +142,12 @@ void HeatNodeLink::set_output(std::size_t output, double ratio) {
 
 double HeatNodeLink::output(std::size_t output) const {
   return outputs_[output].wanted / kFullOutput;
+}
+
+HeaterStatus HeatNodeLink::status(std::size_t heater) const {
+  HeaterStatus status{celsius(heater), target(heater), std::nullopt};
+  if (powers_told_ && serves_) status.power = powers_[heater] / 1000.0;
+  return status;
 }
 
 void HeatNodeLink::reset_fault(std::size_t heater) {

@@ -37,6 +37,7 @@ class HeatNodeLink : public Device {
   double target(std::size_t heater) const { return set_points_[heater].wanted / 10.0; }
   double output(std::size_t output) const;
   double celsius(std::size_t input) const { return temperatures_[input] / 10.0; }
+  HeaterStatus status(std::size_t heater) const;
   std::optional<Sentence> heater_fault(std::size_t heater) const;
   /// The node is asked to try again.
   void reset_fault(std::size_t heater);
@@ -96,6 +97,8 @@ class HeatNodeLink : public Device {
   std::array<std::uint16_t, kHeaters> reasons_{};  ///< EMCY codes; 0: none
   std::array<bool, kHeaters> lost_{};              ///< off, and not by this gateway
   std::array<std::int16_t, kHeatSensors> temperatures_{};
+  std::array<std::int16_t, kHeaters> powers_{};  ///< 0.1 %
+  bool powers_told_ = false;
   std::array<FilamentCondition, kFilamentSensors> filaments_{};
   std::array<bool, kFilamentSensors> filament_due_{};
   std::uint32_t extruder_um_ = 0, extruder_told_um_ = 0;

@@ -29,6 +29,7 @@ void SimulatedHeater::on_time(BusTime now) {
         s.target_celsius <= 0
             ? 0
             : std::clamp(hold + (s.target_celsius - s.actual_celsius) / model_.band_celsius, 0.0, 1.0);
+    s.power = power;
     const double end = ambient + model_.rise_celsius * power;
     s.actual_celsius = end + (s.actual_celsius - end) * std::exp(-dt / model_.time_constant_s);
     seconds -= dt;

@@ -21,6 +21,7 @@ void set_vector(joblink::Vector& message, const Vector3& v) {
 void set_heater(joblink::Heater& message, const HeaterStatus& heater) {
   message.set_actual_celsius(heater.actual_celsius);
   message.set_target_celsius(heater.target_celsius);
+  if (heater.power) message.set_power(*heater.power);
 }
 
 static_assert(static_cast<int>(TuningStage::kFailed) == joblink::TUNING_FAILED);
@@ -355,6 +356,13 @@ joblink::MachineInfo to_message(const MachineDescription& machine, const Pose& b
     h.set_index(heater.index);
     h.set_max_celsius(heater.max_c);
     h.set_usual_celsius(usual_celsius(heater));
+  }
+  for (const MaterialDescription& material : machine.materials) {
+    joblink::Material& told = *m.add_materials();
+    told.set_name(shown(material.name));
+    told.set_hotend_celsius(material.hotend_c);
+    told.set_bed_celsius(material.bed_c);
+    told.set_chamber_celsius(material.chamber_c);
   }
   m.set_filament_diameter_mm(machine.gcode.filament_diameter_mm);
   m.set_bus(shown(machine.bus.interface));

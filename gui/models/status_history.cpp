@@ -19,9 +19,7 @@ StatusHistory::StatusHistory(Session& session, QObject* parent) : QObject(parent
     }
     if (s.nodes_size() == 0) queue = 0;
     const auto f = [](double v) { return static_cast<float>(v); };
-    samples_.push_back({s.time_s(),
-                        {f(s.bus_load()), f(sync), f(queue), f(s.rate()), f(s.hotend().actual_celsius()),
-                         f(s.bed().actual_celsius())}});
+    samples_.push_back({s.time_s(), {f(s.bus_load()), f(sync), f(queue), f(s.rate())}});
     while (samples_.front().time_s < s.time_s() - kKept_s) samples_.pop_front();
     emit changed();
   });

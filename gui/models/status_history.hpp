@@ -1,5 +1,5 @@
 #pragma once
-// The last two minutes of what is plotted: bus load, sync error, queue, path rate, temperatures.
+// The last two minutes of what is plotted: bus load, sync error, queue, path rate.
 
 #include <QObject>
 #include <array>
@@ -12,7 +12,7 @@ class Session;
 class StatusHistory : public QObject {
   Q_OBJECT
  public:
-  enum Series { kBusLoad, kSyncError_us, kQueue, kRate, kHotend_celsius, kBed_celsius, kSeries };
+  enum Series { kBusLoad, kSyncError_us, kQueue, kRate, kSeries };
   struct Sample {
     double time_s = 0;
     std::array<float, kSeries> values{};

@@ -1905,6 +1905,14 @@
         <translation>ورودی‌ای از گره %1 با کارکرد حد برای محور %2</translation>
     </message>
     <message>
+        <source>at most max_c of [heater.%1], %2</source>
+        <translation>حداکثر max_c در [heater.%1]، یعنی %2</translation>
+    </message>
+    <message>
+        <source>0, or a heater of this kind</source>
+        <translation>0، یا گرم‌کنی از این نوع</translation>
+    </message>
+    <message>
         <source>an index that no other heater of the kind has: [heater.%1] has it</source>
         <translation>شماره‌ای که هیچ گرم‌کن دیگری از این نوع ندارد: [heater.%1] آن را دارد</translation>
     </message>
@@ -4316,6 +4324,41 @@
     </message>
 </context>
 <context>
+    <name>kinebus::gui::HeatPlot</name>
+    <message>
+        <source>Temperatures</source>
+        <translation>دماها</translation>
+    </message>
+    <message>
+        <source>Time that is shown</source>
+        <translation>زمانی که نمایش داده می‌شود</translation>
+    </message>
+    <message>
+        <source>10 minutes</source>
+        <translation>۱۰ دقیقه</translation>
+    </message>
+    <message>
+        <source>Whole job</source>
+        <translation>کل کار</translation>
+    </message>
+    <message>
+        <source>Temperatures, power and fans</source>
+        <translation>دماها، توان و فن‌ها</translation>
+    </message>
+    <message>
+        <source>begin</source>
+        <translation>آغاز</translation>
+    </message>
+    <message>
+        <source>10 minutes ago</source>
+        <translation>۱۰ دقیقه پیش</translation>
+    </message>
+    <message>
+        <source>now</source>
+        <translation>اکنون</translation>
+    </message>
+</context>
+<context>
     <name>kinebus::gui::JobPanel</name>
     <message>
         <source>Interrupted: resume goes on from its place.</source>
@@ -4761,14 +4804,6 @@
         <translation>نرخ مسیر</translation>
     </message>
     <message>
-        <source>Nozzle temperature</source>
-        <translation>دمای نازل</translation>
-    </message>
-    <message>
-        <source>Bed temperature</source>
-        <translation>دمای بستر</translation>
-    </message>
-    <message>
         <source>Frames sent</source>
         <translation>قاب‌های فرستاده</translation>
     </message>
@@ -5018,6 +5053,14 @@
 </context>
 <context>
     <name>kinebus::gui::PositionPanel</name>
+    <message>
+        <source>Heat for a material</source>
+        <translation>گرم کردن برای یک ماده</translation>
+    </message>
+    <message>
+        <source>Temperatures by the machine file: tables [material.NAME]</source>
+        <translation>دماها از پروندهٔ ماشین: جدول‌های [material.NAME]</translation>
+    </message>
     <message>
         <source>Carriages and axes</source>
         <translation>حامل‌ها و محورها</translation>

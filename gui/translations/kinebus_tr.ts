@@ -1905,6 +1905,14 @@
         <translation>düğüm %1 üzerinde %2 ekseninin sınır işlevli girişi</translation>
     </message>
     <message>
+        <source>at most max_c of [heater.%1], %2</source>
+        <translation>en çok [heater.%1] tablosundaki max_c, %2</translation>
+    </message>
+    <message>
+        <source>0, or a heater of this kind</source>
+        <translation>0, ya da bu türden bir ısıtıcı</translation>
+    </message>
+    <message>
         <source>an index that no other heater of the kind has: [heater.%1] has it</source>
         <translation>aynı türden başka ısıtıcının taşımadığı bir sıra numarası: [heater.%1] taşıyor</translation>
     </message>
@@ -4316,6 +4324,41 @@
     </message>
 </context>
 <context>
+    <name>kinebus::gui::HeatPlot</name>
+    <message>
+        <source>Temperatures</source>
+        <translation>Sıcaklıklar</translation>
+    </message>
+    <message>
+        <source>Time that is shown</source>
+        <translation>Gösterilen süre</translation>
+    </message>
+    <message>
+        <source>10 minutes</source>
+        <translation>10 dakika</translation>
+    </message>
+    <message>
+        <source>Whole job</source>
+        <translation>Tüm iş</translation>
+    </message>
+    <message>
+        <source>Temperatures, power and fans</source>
+        <translation>Sıcaklıklar, güç ve fanlar</translation>
+    </message>
+    <message>
+        <source>begin</source>
+        <translation>başlangıç</translation>
+    </message>
+    <message>
+        <source>10 minutes ago</source>
+        <translation>10 dakika önce</translation>
+    </message>
+    <message>
+        <source>now</source>
+        <translation>şimdi</translation>
+    </message>
+</context>
+<context>
     <name>kinebus::gui::JobPanel</name>
     <message>
         <source>Interrupted: resume goes on from its place.</source>
@@ -4761,14 +4804,6 @@
         <translation>Yol hızı oranı</translation>
     </message>
     <message>
-        <source>Nozzle temperature</source>
-        <translation>Nozul sıcaklığı</translation>
-    </message>
-    <message>
-        <source>Bed temperature</source>
-        <translation>Tabla sıcaklığı</translation>
-    </message>
-    <message>
         <source>Frames sent</source>
         <translation>Gönderilen çerçeve</translation>
     </message>
@@ -5018,6 +5053,14 @@
 </context>
 <context>
     <name>kinebus::gui::PositionPanel</name>
+    <message>
+        <source>Heat for a material</source>
+        <translation>Malzemeye göre ısıt</translation>
+    </message>
+    <message>
+        <source>Temperatures by the machine file: tables [material.NAME]</source>
+        <translation>Sıcaklıklar makine dosyasından: [material.NAME] tabloları</translation>
+    </message>
     <message>
         <source>Carriages and axes</source>
         <translation>Taşıyıcılar ve eksenler</translation>

@@ -8,6 +8,7 @@
 #include "gui/link/gateway_finder.hpp"
 #include "gui/models/axes_model.hpp"
 #include "gui/models/events_model.hpp"
+#include "gui/models/heat_history.hpp"
 #include "gui/models/jobs_model.hpp"
 #include "gui/models/nodes_model.hpp"
 #include "gui/models/path_source.hpp"
@@ -29,6 +30,7 @@ struct Desk {
   AxesModel axes{session};
   NodesModel nodes{session};
   StatusHistory history{session};
+  HeatHistory heat{session};
   TuningCurves tuning{session};
   PathSource path{session};
   Theme theme;

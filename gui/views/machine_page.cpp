@@ -21,6 +21,7 @@
 
 #include "gui/models/format.hpp"
 #include "gui/views/heat_panel.hpp"
+#include "gui/views/heat_plot.hpp"
 #include "gui/views/machine_file_editor.hpp"
 #include "gui/views/motors_panel.hpp"
 #include "gui/views/plot_widget.hpp"
@@ -213,9 +214,7 @@ QWidget* MachinePage::make_numbers() {
       [] { return tr("Largest clock error"); });
   plot(StatusHistory::kQueue, 1, percent, 1, 0, [] { return tr("Emptiest queue"); });
   plot(StatusHistory::kRate, 1, percent, 1, 1, [] { return tr("Path rate"); });
-  const auto heat = [](double v) { return Format::isolated(Format::temperature(v)); };
-  plot(StatusHistory::kHotend_celsius, 250, heat, 2, 0, [] { return tr("Nozzle temperature"); });
-  plot(StatusHistory::kBed_celsius, 100, heat, 2, 1, [] { return tr("Bed temperature"); });
+  grid->addWidget(new HeatPlot(desk_.heat, desk_.theme, body), 2, 0, 1, 2);
   auto* card = new Card(body);
   auto* counters = new QGridLayout;
   counters->setHorizontalSpacing(14);

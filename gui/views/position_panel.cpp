@@ -4,10 +4,13 @@
 #include <QFont>
 #include <QGridLayout>
 #include <QLabel>
+#include <QMenu>
 #include <QPaintEvent>
 #include <QPainter>
 #include <QPalette>
 #include <QRectF>
+#include <QStringList>
+#include <QToolButton>
 #include <QVBoxLayout>
 #include <QWidget>
 #include <algorithm>
@@ -158,7 +161,50 @@ QWidget* PositionPanel::make_heaters() {
   grid->addWidget(fan_, 2, 2, Qt::AlignTrailing);
   says([fan_name] { fan_name->setText(tr("Fan")); });
   card->column()->addLayout(grid);
+  card->column()->addWidget(make_materials());
   return card;
+}
+
+QWidget* PositionPanel::make_materials() {
+  materials_ = new QToolButton(this);
+  materials_->setPopupMode(QToolButton::InstantPopup);
+  materials_->setToolButtonStyle(Qt::ToolButtonTextOnly);
+  materials_->setMenu(new QMenu(materials_));
+  says([this] {
+    materials_->setText(tr("Heat for a material"));
+    materials_->setToolTip(tr("Temperatures by the machine file: tables [material.NAME]"));
+    take_materials();
+  });
+  return materials_;
+}
+
+void PositionPanel::take_materials() {
+  const auto& all = desk_.session.machine().materials();
+  QMenu* menu = materials_->menu();
+  menu->clear();
+  for (const joblink::Material& each : all) {
+    QStringList degrees;
+    for (const double celsius : {each.hotend_celsius(), each.bed_celsius(), each.chamber_celsius()})
+      if (celsius > 0) degrees << Format::isolated(Format::temperature(celsius));
+    menu->addAction(
+        QString::fromStdString(each.name()) + QStringLiteral("   ") + degrees.join(QStringLiteral(" / ")),
+        this, [this, each] { heat_for(each); });
+  }
+  menu->addAction(tr("off"), this, [this] {
+    for (const auto& heater : desk_.session.machine().heaters())
+      desk_.session.set_heater(heater.kind(), heater.index(), 0);
+  });
+  materials_->setVisible(!all.empty());
+}
+
+/// The first of each kind: others are for other filament.
+void PositionPanel::heat_for(const joblink::Material& material) {
+  const auto heat = [&](joblink::HeaterKind kind, double celsius) {
+    if (celsius > 0) desk_.session.set_heater(kind, 0, celsius);
+  };
+  heat(joblink::HEATER_BED, material.bed_celsius());
+  heat(joblink::HEATER_CHAMBER, material.chamber_celsius());
+  heat(joblink::HEATER_HOTEND, material.hotend_celsius());
 }
 
 void PositionPanel::rebuild_joints() {
@@ -190,6 +236,7 @@ void PositionPanel::rebuild_joints() {
   joints_card_->setVisible(!joints_.isEmpty());
   hotend_target_->setMaximum(machine.hotend_max_celsius() > 0 ? machine.hotend_max_celsius() : 300);
   bed_target_->setMaximum(machine.bed_max_celsius() > 0 ? machine.bed_max_celsius() : 120);
+  take_materials();
   take_status();
 }
 
@@ -238,6 +285,8 @@ void PositionPanel::take_status() {
   };
   heat(hotend_, hotend_target_, s.hotend());
   heat(bed_, bed_target_, s.bed());
+  materials_->setEnabled(desk_.session.connected() &&
+                         desk_.session.allowed(joblink::COMMAND_SET_TEMPERATURE));
   fan_->setText(desk_.session.connected() ? Format::percent(s.fan()) : QStringLiteral("—"));
 }
 

@@ -6,6 +6,7 @@
 #include <QGridLayout>
 #include <QLabel>
 #include <QPaintEvent>
+#include <QToolButton>
 #include <QVector>
 #include <QWidget>
 
@@ -46,6 +47,9 @@ class PositionPanel : public SpeakingWidget {
   };
   QWidget* make_axes();
   QWidget* make_heaters();
+  QWidget* make_materials();
+  void heat_for(const joblink::Material& material);
+  void take_materials();
   void rebuild_joints();
   void take_status();
 
@@ -55,6 +59,7 @@ class PositionPanel : public SpeakingWidget {
   QGridLayout* joints_grid_;
   QLabel *frame_text_, *joints_heading_, *heat_heading_, *hotend_, *bed_, *fan_;
   NumberField *hotend_target_, *bed_target_;
+  QToolButton* materials_ = nullptr;
   QVector<JointRow> joints_;
 };
 

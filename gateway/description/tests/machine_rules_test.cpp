@@ -206,6 +206,10 @@ TEST(MachineFile, ADeviceWhereNoneCanBeIsRefused) {
        "where = \"simulated\"\n[filament_sensor.x]\nkind = \"switch\"\nwhere = \"node\"\nnode = 4\nchannel = "
        "2",
        "filament_sensor.x.channel: found 2; expected a channel in 1 .. 1, as node.4.filament_sensors says"},
+      {"axis_pairs = 0\nheaters = 2", "where = \"simulated\"\n[material.x]\nbed_c = 130",
+       "material.x.bed_c: found 130; expected at most max_c of [heater.bed], 120"},
+      {"axis_pairs = 0\nheaters = 2", "where = \"simulated\"\n[material.x]\nchamber_c = 50",
+       "material.x.chamber_c: found 50; expected 0, or a heater of this kind"},
       {"axis_pairs = 0\nfilament_sensors = 3",
        "where = \"simulated\"\n[filament_sensor.x]\nkind = \"switch\"\nwhere = \"node\"\nnode = 4\nchannel = "
        "1",
