@@ -10,12 +10,15 @@
 #include <optional>
 #include <utility>
 
+#include "node_firmware/board/board_heat.hpp"
 #include "node_firmware/board/board_node.hpp"
 #include "node_firmware/board/drivers.hpp"
 
 namespace kinebus {
 
-template <CanDriver Can, SwitchDriver Switches, LocalCounter Counter, std::size_t kNodes = 1>
+/// kNodes: axis pairs; Heat: the board's heat node, a BoardHeat.
+template <CanDriver Can, SwitchDriver Switches, LocalCounter Counter, std::size_t kNodes = 1,
+          typename Heat = NoHeat>
 class NodeProgram {
  public:
   /// With its first node.
@@ -53,12 +56,14 @@ class NodeProgram {
   /// now(), read afresh: a pass may have taken a while.
   LocalTime read_time() { return now_ = clock_.now(); }
   bool healthy(LocalTime now) const {
-    return std::ranges::all_of(nodes_, [&](const auto& n) { return !n || n->node().healthy(now); });
+    return heat_.healthy(now) &&
+           std::ranges::all_of(nodes_, [&](const auto& n) { return !n || n->node().healthy(now); });
   }
   /// A node's program is to give way (1F51h = 0), and with it all of them.
   bool stop_requested() const {
     return std::ranges::any_of(nodes_, [](const auto& n) { return n && n->node().program_stop_requested(); });
   }
+  Heat& heat() { return heat_; }
   PathTime path_time(std::uint32_t counts, std::size_t number = 0) const {
     return node(number).path_time(clock_.at(counts));
   }
@@ -94,6 +99,7 @@ class NodeProgram {
   LocalTime now_;
   PlanGrid grid_;
   std::array<Place, kNodes> nodes_;
+  Heat heat_;
   std::size_t first_ = 0;  // to say something
   std::array<bool, kMostInputs> levels_{};
   std::size_t known_inputs_ = 0;  // a port tells all levels when it starts
@@ -102,27 +108,31 @@ class NodeProgram {
   bool was_off_ = false;
 };
 
-template <CanDriver Can, SwitchDriver Switches, LocalCounter Counter, std::size_t kNodes>
-void NodeProgram<Can, Switches, Counter, kNodes>::pass() {
+template <CanDriver Can, SwitchDriver Switches, LocalCounter Counter, std::size_t kNodes, typename Heat>
+void NodeProgram<Can, Switches, Counter, kNodes, Heat>::pass() {
   now_ = clock_.now();
+  heat_.drive(now_);
   const bool input = can_.front() != nullptr || switches_.front() != nullptr;
-  if (!input && std::ranges::none_of(nodes_, [&](const Place& n) { return n && n->due(now_); })) {
+  if (!input && !heat_.due(now_) &&
+      std::ranges::none_of(nodes_, [&](const Place& n) { return n && n->due(now_); })) {
     // Nothing to do for a node: most passes end here.
     if (!can_.queue().idle()) send();
     return;
   }
   take_inputs();
   each([&](auto& n) { n.serve(now_); });
+  heat_.serve(now_);
   // Before the answer: who has it may send at once what was asked for.
   filter();
   send();
   report_bus();
   each([](auto& n) { n.find_due(); });
+  heat_.find_due();
 }
 
-template <CanDriver Can, SwitchDriver Switches, LocalCounter Counter, std::size_t kNodes>
+template <CanDriver Can, SwitchDriver Switches, LocalCounter Counter, std::size_t kNodes, typename Heat>
 template <typename Tell>
-void NodeProgram<Can, Switches, Counter, kNodes>::tell_each(Tell&& tell) {
+void NodeProgram<Can, Switches, Counter, kNodes, Heat>::tell_each(Tell&& tell) {
   bool told = false;
   for (std::size_t i = 0; i < kNodes; ++i) {
     if (!nodes_[i] || !tell(i, nodes_[i]->node())) continue;
@@ -133,8 +143,8 @@ void NodeProgram<Can, Switches, Counter, kNodes>::tell_each(Tell&& tell) {
 }
 
 // Frames and edges in the order in which they happened.
-template <CanDriver Can, SwitchDriver Switches, LocalCounter Counter, std::size_t kNodes>
-void NodeProgram<Can, Switches, Counter, kNodes>::take_inputs() {
+template <CanDriver Can, SwitchDriver Switches, LocalCounter Counter, std::size_t kNodes, typename Heat>
+void NodeProgram<Can, Switches, Counter, kNodes, Heat>::take_inputs() {
   for (int taken = 0; taken < kInputsPerPass; ++taken) {
     const auto* frame = can_.front();
     const SwitchEdge* edge = switches_.front();
@@ -147,6 +157,7 @@ void NodeProgram<Can, Switches, Counter, kNodes>::take_inputs() {
       const CanFrame heard = frame->frame();
       const LocalTime at = clock_.at(frame->counts);
       each([&](auto& n) { n.on_frame(at, heard); });
+      heat_.on_frame(at, heard);
       can_.drop();
     } else {
       break;
@@ -154,23 +165,26 @@ void NodeProgram<Can, Switches, Counter, kNodes>::take_inputs() {
   }
 }
 
-template <CanDriver Can, SwitchDriver Switches, LocalCounter Counter, std::size_t kNodes>
-void NodeProgram<Can, Switches, Counter, kNodes>::on_edge(const SwitchEdge& edge) {
+template <CanDriver Can, SwitchDriver Switches, LocalCounter Counter, std::size_t kNodes, typename Heat>
+void NodeProgram<Can, Switches, Counter, kNodes, Heat>::on_edge(const SwitchEdge& edge) {
   if (edge.input < kMostInputs) {
     levels_[edge.input] = edge.level;
     known_inputs_ = std::max<std::size_t>(known_inputs_, edge.input + 1u);
   }
   each([&](auto& n) { n.on_switch(clock_.at(edge.counts), edge.input, edge.level); });
+  heat_.on_edge(edge.input, edge.level);
 }
 
 // In turns, so that none keeps the others from the bus.
-template <CanDriver Can, SwitchDriver Switches, LocalCounter Counter, std::size_t kNodes>
-void NodeProgram<Can, Switches, Counter, kNodes>::send() {
+template <CanDriver Can, SwitchDriver Switches, LocalCounter Counter, std::size_t kNodes, typename Heat>
+void NodeProgram<Can, Switches, Counter, kNodes, Heat>::send() {
   can_.serve_mailboxes();
-  for (std::size_t silent = 0; silent < kNodes; first_ = (first_ + 1) % kNodes) {
+  constexpr std::size_t kSpeakers = kNodes + Heat::kNodes;
+  for (std::size_t silent = 0; silent < kSpeakers; first_ = (first_ + 1) % kSpeakers) {
     if (!can_.queue().has_room()) return;
-    Place& speaker = nodes_[first_];
-    const auto frame = speaker ? speaker->node().next_frame() : std::nullopt;
+    const bool heat = first_ == kNodes;
+    Place* const speaker = heat ? nullptr : &nodes_[first_];
+    const auto frame = heat ? heat_.next_frame() : *speaker ? (*speaker)->node().next_frame() : std::nullopt;
     if (!frame) {
       ++silent;
       continue;
@@ -179,28 +193,32 @@ void NodeProgram<Can, Switches, Counter, kNodes>::send() {
     can_.queue().push(*frame);
     can_.serve_mailboxes();
     for (Place& place : nodes_)
-      if (place && &place != &speaker) place->on_frame(now_, *frame);
+      if (place && &place != speaker) place->on_frame(now_, *frame);
+    if (!heat) heat_.on_frame(now_, *frame);
   }
 }
 
-template <CanDriver Can, SwitchDriver Switches, LocalCounter Counter, std::size_t kNodes>
-void NodeProgram<Can, Switches, Counter, kNodes>::filter() {
+template <CanDriver Can, SwitchDriver Switches, LocalCounter Counter, std::size_t kNodes, typename Heat>
+void NodeProgram<Can, Switches, Counter, kNodes, Heat>::filter() {
   bool changed = std::exchange(fewer_, false);
   each([&](auto& n) { changed = n.renew_hearing(now_) || changed; });
+  changed = heat_.renew_hearing(now_) || changed;
   if (!changed) return;
-  std::array<CanAccept, kCanFilters * kNodes> all{};
+  std::array<CanAccept, kCanFilters*(kNodes + Heat::kNodes)> all{};
   std::size_t count = 0;
-  each([&](const auto& n) {
-    for (const CanAccept& accept : n.hearing().accepted()) {
+  const auto add = [&](std::span<const CanAccept> wanted) {
+    for (const CanAccept& accept : wanted) {
       const auto known = std::span(all).first(count);
       if (std::find(known.begin(), known.end(), accept) == known.end()) all[count++] = accept;
     }
-  });
+  };
+  each([&](const auto& n) { add(n.hearing().accepted()); });
+  add(heat_.accepted());
   can_.accept(std::span(all).first(count));
 }
 
-template <CanDriver Can, SwitchDriver Switches, LocalCounter Counter, std::size_t kNodes>
-void NodeProgram<Can, Switches, Counter, kNodes>::report_bus() {
+template <CanDriver Can, SwitchDriver Switches, LocalCounter Counter, std::size_t kNodes, typename Heat>
+void NodeProgram<Can, Switches, Counter, kNodes, Heat>::report_bus() {
   const CanEvents events = can_.events();
   const bool off = can_.bus_off();
   // Told when the bus can hear it again.

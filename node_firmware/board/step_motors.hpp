@@ -67,6 +67,9 @@ class StepMotors {
   bool others_powered(std::size_t number) const {
     return powered(0, kAxesPerNode * number) || powered(kAxesPerNode * (number + 1), kAxes);
   }
+  /// Something else of the board has power that must not be held up by flash that is written, as if another
+  /// node's driver were enabled.
+  void set_other_power(bool on) { other_power_ = on; }
   /// The node is gone: its drivers are disabled.
   void release(std::size_t number) {
     for (int axis = 0; axis < kAxesPerNode; ++axis) set_power(axis_of(number, axis), false);
@@ -111,6 +114,7 @@ class StepMotors {
   step::StepFrames<Stage::kPorts> frames_;
   std::array<Axis, kAxes> axes_{};
   std::array<LocalTime, kNodes> due_{};
+  bool other_power_ = false;
   PlanCounts start_ = 0;     ///< when the first frame began
   std::uint32_t frame_ = 0;  ///< the number of the one that is put out
   std::atomic<std::uint32_t> ticks_{0};
@@ -121,7 +125,7 @@ template <StepStage Stage>
 bool StepMotors<Stage>::serve(std::size_t number, Node& node, LocalTime now) {
   if (now < due_[number]) return false;
   due_[number] = now + kServe;
-  node.set_neighbours_powered(others_powered(number));
+  node.set_neighbours_powered(other_power_ || others_powered(number));
   bool told = false;
   for (int axis = 0; axis < kAxesPerNode; ++axis) {
     if (has_driver(axis_of(number, axis))) {

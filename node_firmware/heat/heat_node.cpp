@@ -29,7 +29,8 @@ HeatNode::HeatNode(const HeatNodeOptions& options, LocalTime now, std::span<cons
       master_seen_(now),
       next_tick_(now + kControlTick) {
   const bool damaged = image_.adopt(stored_image) == ParameterBytes::Load::kDamaged;
-  node_id_ = options.node_id >= 1 && options.node_id <= 127 ? options.node_id : image_.node_id();
+  const bool told = options.node_id >= 1 && options.node_id <= 127;
+  node_id_ = told || options.id_from_board ? options.node_id : image_.node_id();
   lss_ = LssSlave(identity_of(options), node_id_ == 0 ? kUnconfiguredNodeId : node_id_);
   boot();
   if (damaged) emcy_.raise(emcy::kStorage);
@@ -90,7 +91,7 @@ void HeatNode::on_frame(LocalTime at, const CanFrame& frame) {
       frame, cob_id::kSync, static_cast<std::uint8_t>(value(heat_slot_of(object::kSyncCounterOverflow))));
   if (sync.is_sync) {
     on_sync(sync);
-  } else if (lss_.on_frame(frame)) {
+  } else if (!options_.id_from_board && lss_.on_frame(frame)) {
     on_lss();
   } else if (const auto stop = decode_stop_request(frame, BusTime{0});
              stop && stop->reason == StopReason::kEmergencyStopInput) {
@@ -195,6 +196,7 @@ std::optional<CanFrame> HeatNode::next_frame() {
 }
 
 LocalTime HeatNode::next_deadline() const {
+  if (sensors_changed_) return now_;
   LocalTime deadline = std::min(next_tick_, sdo_.next_deadline());
   // A frame that is due waits for the bus, not for on_time().
   for (const LocalTime due : {pdo_.next_deadline(), emcy_.next_deadline(),
@@ -222,6 +224,13 @@ std::array<std::uint8_t, 2> HeatNode::watched_nodes() const {
 
 std::span<const std::uint8_t> HeatNode::image_to_store() {
   if (storing_ != Storing::kWanted) return {};
+  // Power has come since it was asked for.
+  if (neighbours_powered_) {
+    storing_ = Storing::kNothing;
+    if (std::exchange(storing_for_lss_, false)) lss_.finish_store(false);
+    if (sdo_.deferred()) sdo_.finish(AbortCode::kDeviceState);
+    return {};
+  }
   storing_ = Storing::kWriting;
   return image_.bytes();
 }

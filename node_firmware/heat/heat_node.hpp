@@ -32,6 +32,8 @@ namespace kinebus::heat {
 struct HeatNodeOptions {
   std::uint8_t node_id = 0;  ///< 1..127; 0: as stored, and without that the node waits for LSS
   std::uint32_t serial = 0;
+  /// The node has its id from its board, and LSS is another's business.
+  bool id_from_board = false;
 };
 
 class HeatNode final : private ObjectOwner {
@@ -52,6 +54,8 @@ class HeatNode final : private ObjectOwner {
   void on_filament(int sensor, bool level, std::uint32_t edges) {
     filaments_[static_cast<std::size_t>(sensor)].on_sample(level, edges);
   }
+  /// Another node of the same board has power: flash is not written then.
+  void set_neighbours_powered(bool powered) { neighbours_powered_ = powered; }
   /// 0: not measured.
   void set_supply(std::uint16_t mv) { supply_mv_ = mv; }
   /// Needed at next_deadline(); allowed at any time.
@@ -85,6 +89,8 @@ class HeatNode final : private ObjectOwner {
   std::int32_t filament_commanded(int sensor) const {
     return filaments_[static_cast<std::size_t>(sensor)].commanded();
   }
+  /// Something heats, or is to: what holds the processor up has to wait.
+  bool heats() const { return any_heat(); }
   HeaterFault fault(int heater) const { return heaters_[static_cast<std::size_t>(heater)].fault(); }
 
  private:
@@ -126,6 +132,7 @@ class HeatNode final : private ObjectOwner {
   void apply_node_id();
   void apply_communication();
   void apply_settings();
+  void configure_sensors();
   void on_nmt(NmtCommand command);
   void on_sync(const SyncReception& sync);
   void on_lss();
@@ -173,7 +180,7 @@ class HeatNode final : private ObjectOwner {
 
   LocalTime next_tick_{0};
   std::uint16_t supply_mv_ = 0;
-  bool communication_changed_ = false, settings_changed_ = false;
+  bool communication_changed_ = false, settings_changed_ = false, sensors_changed_ = false;
   /// Where a fault is, a bit a channel.
   struct Places {
     std::uint8_t heaters = 0, sensors = 0, fans = 0;
@@ -182,6 +189,7 @@ class HeatNode final : private ObjectOwner {
   Storing storing_ = Storing::kNothing;
   bool storing_for_lss_ = false;
   bool reset_requested_ = false;
+  bool neighbours_powered_ = false;
 };
 
 }  // namespace kinebus::heat

@@ -247,8 +247,7 @@ AbortCode HeatNode::inconsistent(const ObjectEntry& entry) const {
   // A sensor is described first; its type, last, switches it on.
   if (const SensorSetup setup = sensor_setup(is_sensor_setting(index) ? place_of(entry.address) : 0);
       is_sensor_setting(index) && setup.kind != SensorKind::kNone) {
-    Linearisation trial;
-    if (trial.configure(setup) != SetupError::kNone) return AbortCode::kInvalidValue;
+    if (Linearisation::check(setup) != SetupError::kNone) return AbortCode::kInvalidValue;
   }
   for (std::size_t i = 0; i < heaters_.size(); ++i) {
     const int sensor = sensor_number(i);
@@ -332,7 +331,7 @@ AbortCode HeatNode::command_storage(ObjectAddress address, std::int64_t to) {
   const bool save = address == object::kStoreParameters;
   if (to != (save ? kSaveSignature : kLoadSignature)) return AbortCode::kCannotStore;
   // Writing flash holds up control.
-  if (any_heat() || storing_ != Storing::kNothing) return AbortCode::kDeviceState;
+  if (any_heat() || neighbours_powered_ || storing_ != Storing::kNothing) return AbortCode::kDeviceState;
   if (save)
     image_.save(objects_, node_id_, image_.node_id());
   else

@@ -76,8 +76,8 @@ HeaterSettings HeatNode::heater_settings(std::size_t n) const {
 
 void HeatNode::apply_settings() {
   settings_changed_ = false;
-  for (std::size_t i = 0; i < sensors_.size(); ++i)
-    static_cast<void>(sensors_[i].configure(sensor_setup(i), now_));  // on an error it measures nothing
+  for (SensorInput& sensor : sensors_) sensor.clear(now_);
+  sensors_changed_ = true;
   for (std::size_t i = 0; i < heaters_.size(); ++i) heaters_[i].configure(heater_settings(i));
   for (std::size_t i = 0; i < fans_.size(); ++i)
     fans_[i].configure({.function = static_cast<FanFunction>(value(heat_slot_of(kFanFunction), i)),
@@ -93,6 +93,17 @@ void HeatNode::apply_settings() {
          .stands_um = static_cast<std::uint32_t>(value(heat_slot_of(kFilamentStands), i)),
          .slips_um = static_cast<std::uint32_t>(value(heat_slot_of(kFilamentSlips), i)),
          .least_share = static_cast<std::uint8_t>(value(heat_slot_of(kFilamentLeast), i))});
+}
+
+// One table a call, and none with a frame: each takes a while on a chip that does more than this.
+void HeatNode::configure_sensors() {
+  for (std::size_t i = 0; i < sensors_.size(); ++i) {
+    const SensorSetup setup = sensor_setup(i);
+    if (sensors_[i].is(setup)) continue;
+    static_cast<void>(sensors_[i].configure(setup, now_));  // on an error it measures nothing
+    return;
+  }
+  sensors_changed_ = false;
 }
 
 int HeatNode::sensor_number(std::size_t heater) const {
@@ -138,6 +149,7 @@ void HeatNode::on_time(LocalTime now) {
     if (now_ >= next_tick_) next_tick_ = now_ + kControlTick;
     tick();
   }
+  if (sensors_changed_) configure_sensors();
   serve();
 }
 

@@ -5,6 +5,7 @@
 namespace kinebus::heat {
 
 SetupError SensorInput::configure(const SensorSetup& setup, LocalTime now) {
+  setup_ = setup;
   const SetupError error = table_.configure(setup);
   clear(now);
   return error;

@@ -34,6 +34,8 @@ class SensorInput {
   static constexpr LocalTime kFrozen = std::chrono::seconds{5};
 
   SetupError configure(const SensorSetup& setup, LocalTime now);
+  /// Configured so already, or refused.
+  bool is(const SensorSetup& setup) const { return setup_ == setup; }
   bool configured() const { return table_.kind() != SensorKind::kNone; }
 
   /// `ratio`: see Linearisation. `broken`: the converter itself says so.
@@ -56,6 +58,7 @@ class SensorInput {
   void start_over(LocalTime now);
 
   Linearisation table_;
+  SensorSetup setup_;
   std::array<std::int32_t, 1 << kMeanBits> window_{};
   std::uint8_t filled_ = 0, at_ = 0;
   std::int32_t sum_ = 0, mean_ = 0;

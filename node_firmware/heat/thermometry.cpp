@@ -55,10 +55,11 @@ double ohm(std::uint32_t milli) {
   return milli / 1000.0;
 }
 
-// Celsius of a resistance thermometer: Newton's steps on a curve that is nearly straight.
-double rtd_celsius(double nominal_ohm, double resistance) {
-  double t = (resistance / nominal_ohm - 1) / 3.85e-3;
-  for (int i = 0; i < 8; ++i) {
+// Celsius of a resistance thermometer: Newton's steps, from somewhere near, on a curve that is nearly
+// straight.
+double rtd_celsius(double nominal_ohm, double resistance, double near) {
+  double t = near;
+  for (int i = 0; i < 4; ++i) {
     const double slope =
         (callendar_van_dusen(nominal_ohm, t + 0.01) - callendar_van_dusen(nominal_ohm, t - 0.01)) / 0.02;
     t -= (callendar_van_dusen(nominal_ohm, t) - resistance) / slope;
@@ -80,7 +81,7 @@ double SteinhartHart::kelvin(double log_ohm_value) const {
 
 double SteinhartHart::log_ohm(double at_kelvin) const {
   double low = -6.9, high = 20.7;
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < 44; ++i) {
     const double middle = (low + high) / 2;
     (kelvin(middle) > at_kelvin ? low : high) = middle;
   }
@@ -131,8 +132,30 @@ std::optional<SteinhartHart> thermistor_curve(const SensorSetup& setup) {
                             : steinhart_hart(known->points);
 }
 
+struct Linearisation::Curve {
+  bool rtd = false;
+  double reference = 0, nominal = 0;  ///< Ohm
+  SteinhartHart thermistor{};
+};
+
+SetupError Linearisation::check(const SensorSetup& setup) {
+  Linearisation trial;
+  Curve curve;
+  return trial.prepare(setup, curve);
+}
+
 SetupError Linearisation::configure(const SensorSetup& setup) {
   kind_ = SensorKind::kNone;
+  Curve curve;
+  const SetupError error = prepare(setup, curve);
+  if (error != SetupError::kNone) return error;
+  fill(curve);
+  kind_ = setup.kind;
+  return SetupError::kNone;
+}
+
+// All but the points.
+SetupError Linearisation::prepare(const SensorSetup& setup, Curve& curve) {
   const bool rtd = setup.kind == SensorKind::kPt100 || setup.kind == SensorKind::kPt1000;
   const bool named =
       std::any_of(kNamed.begin(), kNamed.end(), [&](const Named& each) { return each.kind == setup.kind; });
@@ -144,10 +167,11 @@ SetupError Linearisation::configure(const SensorSetup& setup) {
     return SetupError::kRange;
   const double reference = ohm(setup.reference_mohm);
   const double nominal = setup.kind == SensorKind::kPt100 ? 100 : 1000;
-  std::optional<SteinhartHart> curve;
+  curve = {.rtd = rtd, .reference = reference, .nominal = nominal};
   if (!rtd) {
-    curve = thermistor_curve(setup);
-    if (!curve) return SetupError::kNotMonotonic;
+    const auto thermistor = thermistor_curve(setup);
+    if (!thermistor) return SetupError::kNotMonotonic;
+    curve.thermistor = *thermistor;
   }
   logarithmic_ = setup.path == SensorPath::kDivider;
   if (!logarithmic_) {
@@ -164,15 +188,9 @@ SetupError Linearisation::configure(const SensorSetup& setup) {
     start_ = -8 * (1 << 20);
     shift_ = 17;
   }
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    const double u = (start_ + static_cast<double>(i) * (1 << shift_)) / kCoordinateOne;
-    const double resistance = logarithmic_ ? reference * exponential(u * kLn2) : reference * u;
-    points_[i] =
-        milli(rtd ? rtd_celsius(nominal, resistance) : curve->kelvin(natural_log(resistance)) - kZeroCelsius);
-  }
   const auto ratio_at = [&](std::int32_t mc) {
     const double resistance = rtd ? callendar_van_dusen(nominal, celsius(mc))
-                                  : exponential(curve->log_ohm(celsius(mc) + kZeroCelsius));
+                                  : exponential(curve.thermistor.log_ohm(celsius(mc) + kZeroCelsius));
     const double share = logarithmic_ ? resistance / (resistance + reference) : resistance / reference;
     return nearest_whole(std::clamp(share, 0.0, 1.0) * kFullRatio);
   };
@@ -184,8 +202,27 @@ SetupError Linearisation::configure(const SensorSetup& setup) {
     return SetupError::kReference;
   if (coordinate(low_ratio_) < start_ || coordinate(high_ratio_) >= start_ + (kLines << shift_))
     return SetupError::kReference;
-  kind_ = setup.kind;
   return SetupError::kNone;
+}
+
+// Of each point only what needs a division or two: the logarithm of a thermistor's resistance goes evenly
+// along the table, and a resistance thermometer's points lead from one to the next.
+void Linearisation::fill(const Curve& curve) {
+  const double width = (1 << shift_) / kCoordinateOne, from = start_ / kCoordinateOne;
+  const double log_reference = natural_log(curve.reference), growth = exponential(width * kLn2);
+  double resistance = logarithmic_ ? curve.reference * exponential(from * kLn2) : 0;
+  double near = (resistance / curve.nominal - 1) / 3.85e-3;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const double u = from + static_cast<double>(i) * width;
+    if (curve.rtd) {
+      if (!logarithmic_) resistance = curve.reference * u;
+      near = rtd_celsius(curve.nominal, resistance, near);
+      if (logarithmic_) resistance *= growth;
+      points_[i] = milli(near);
+    } else {
+      points_[i] = milli(curve.thermistor.kelvin(log_reference + u * kLn2) - kZeroCelsius);
+    }
+  }
 }
 
 std::int32_t Linearisation::coordinate(std::uint32_t ratio) const {

@@ -11,8 +11,6 @@
 namespace kinebus::emulator {
 namespace {
 
-// ADC1, ADC2, ADC3 and what they share, 100h each: clocks in this order.
-constexpr std::uint32_t kAdcs = 0x40012000, kAdcBytes = 0x100;
 constexpr double kCountsPerTurn = 51200;
 
 double turns_of(double counts) {
@@ -42,7 +40,7 @@ Board::Board(const ElfImage& image, const BoardOptions& options)
   map(0x40010000, 0x400, tim1_, apb2(0));
   map(0x40010400, 0x400, tim8_, apb2(1));
   map(0x40011000, 0x400, usart_, apb2(4));
-  map(kAdcs, 0x400, adc_, apb2(8));
+  map(AdcBlock::kAddress, 0x400, adc_, apb2(8));
   map(0x40013000, 0x400, spi1_, apb2(12));
   map(0x40040000, 0x40000, usb_, ahb1(29));
 
@@ -73,8 +71,7 @@ std::uint32_t Board::product_code() const {
 }
 
 int Board::clock_offset(std::uint32_t base, std::uint32_t address) const {
-  const bool converter = base == kAdcs && address < kAdcs + 3 * kAdcBytes;
-  return converter ? static_cast<int>((address - kAdcs) / kAdcBytes) : 0;
+  return base == AdcBlock::kAddress ? AdcBlock::clock_offset(address) : 0;
 }
 
 void Board::reset_devices(Cycle now) {

@@ -52,11 +52,24 @@ OctopusBoard::OctopusBoard(const ElfImage& image, const BoardOptions& options)
 OctopusBoard::OctopusBoard(const ElfImage& image, const BoardOptions& options, std::uint32_t device_id)
     : Stm32f4Chip(image, options, facts(device_id)),
       tim1_(cpu_.nvic(), {.update_irq = 25, .break_irq = 24}),
-      dma2_(cpu_.nvic(), {56, 57, 58, 59, 60, 68, 69, 70}) {
+      dma2_(cpu_.nvic(), {56, 57, 58, 59, 60, 68, 69, 70}),
+      adc_(cpu_.nvic()) {
   map(0x40010000, 0x400, tim1_, apb2(0));
+  map(AdcBlock::kAddress, 0x400, adc_, apb2(8));
   map(0x40026400, 0x400, dma2_, ahb1(22));
   dma2_.fetch = [this](std::uint32_t address) { return cpu_.peek(address); };
   dma2_.put = [this](std::uint32_t address, std::uint32_t word, Cycle at) { write(address, word, 4, at); };
+  dma2_.take = [this](std::uint32_t address, Cycle at) { return read(address, 4, at); };
+  dma2_.keep = [this](std::uint32_t address, std::uint32_t half) {
+    const unsigned shift = (address & 2) * 8;
+    const std::uint32_t word = cpu_.peek(address & ~3u);
+    cpu_.poke(address & ~3u, (word & ~(0xFFFFu << shift)) | half << shift);
+  };
+  // ADC3 is channel 2 of stream 0.
+  adc_.on_request = [this](int converter, Cycle at) {
+    if (converter == 3) dma2_.on_request(0, 2, at);
+  };
+  adc_.sample = [this](int channel, Cycle) { return analogue(channel); };
   // RM0390, DMA2 request mapping, channel 6: TIM1_UP is stream 5, CH1 streams 1 and 3, CH2 2, CH3 6, CH4 4. A
   // request that two streams wait for is answered by the first of them.
   tim1_.on_request = [this](int event, Cycle at) {
@@ -83,6 +96,11 @@ void OctopusBoard::set_input(int input, bool level) {
   exti_.on_level(static_cast<int>(pin.port), pin.line, level);
 }
 
+bool OctopusBoard::heater_on(int heater) const {
+  const stm32::OutputPin pin = octopus::kHeaterPins[static_cast<std::size_t>(heater)];
+  return ports_[static_cast<std::size_t>(pin.port)].output_high(pin.number);
+}
+
 bool OctopusBoard::anything_on() const {
   return std::ranges::any_of(octopus::kPowerPins, [&](const octopus::PowerPin& power) {
     const GpioPort& port = ports_[static_cast<std::size_t>(power.pin.port)];
@@ -98,18 +116,32 @@ int OctopusBoard::outputs() const {
   return count;
 }
 
+int OctopusBoard::clock_offset(std::uint32_t base, std::uint32_t address) const {
+  return base == AdcBlock::kAddress ? AdcBlock::clock_offset(address) : 0;
+}
+
+// Dividers to 3.3 V: what is not plugged in is open.
+double OctopusBoard::analogue(int channel) {
+  if (channel == octopus::kThermistors[0].channel) return heated_.hot_end().voltage();
+  if (channel == octopus::kThermistors[1].channel) return heated_.bed().voltage();
+  return 1;
+}
+
 void OctopusBoard::reset_devices(Cycle now) {
   tim1_.reset(now);
   dma2_.reset();
+  adc_.reset();
   on_pins(now);
 }
 
 void OctopusBoard::advance_devices(Cycle now) {
   tim1_.advance(now);
+  adc_.advance(now);
+  heated_.advance(now);
 }
 
 Cycle OctopusBoard::next_of_devices() const {
-  return tim1_.next_event();
+  return std::min({tim1_.next_event(), adc_.next_event(), heated_.next_event()});
 }
 
 void OctopusBoard::on_pins(Cycle now) {
@@ -123,6 +155,9 @@ void OctopusBoard::on_pins(Cycle now) {
     const bool enabled = port.mode(pins.enable.number) == GpioPort::Mode::kOutput && !high(pins.enable);
     drivers_[axis].on_pins(high(pins.step), high(pins.direction), enabled, now);
   }
+  // MOSFETs with a pull-down: a pin that nobody drives is off.
+  heated_.set_power(high(octopus::kHeaterPins[0]), high(octopus::kHeaterPins[1]), now);
+  heated_.set_contactor(high(octopus::kContactorPin));
 }
 
 }  // namespace kinebus::emulator

@@ -1,13 +1,15 @@
 #pragma once
-// The BTT Octopus with an STM32F446, emulated: stepper drivers that count steps, and switches, wired as
-// node_firmware/port/stm32f446_octopus/board.hpp says. The drivers are judges: they note when each edge came,
-// and what of a driver's needs was not kept.
+// The BTT Octopus with an STM32F446, emulated: stepper drivers that count steps, a hot end and a bed, and
+// switches, wired as node_firmware/port/stm32f446_octopus/board.hpp says. The drivers are judges: they note
+// when each edge came, and what of a driver's needs was not kept.
 
 #include <array>
 #include <cstdint>
 #include <vector>
 
+#include "vcan_tests/emulator/peripherals/adc.hpp"
 #include "vcan_tests/emulator/peripherals/dma.hpp"
+#include "vcan_tests/emulator/physics/heated_places.hpp"
 #include "vcan_tests/emulator/stm32f4_chip.hpp"
 
 namespace kinebus::emulator {
@@ -60,6 +62,10 @@ class OctopusBoard final : public Stm32f4Chip {
   void clear_edges() {
     for (StepDriver& driver : drivers_) driver.clear_edges();
   }
+  /// On HE0 and T0 a hot end, on the bed's clamps a bed; nothing else is plugged in.
+  HeatedPlaces& heated() { return heated_; }
+  /// The pin of one of the heat node's heaters is high now.
+  bool heater_on(int heater) const;
   /// A pin that gives power to something is driven, and not to its level without.
   bool anything_on() const;
   /// Pins that the program has made outputs.
@@ -69,10 +75,14 @@ class OctopusBoard final : public Stm32f4Chip {
   void reset_devices(Cycle now) override;
   void advance_devices(Cycle now) override;
   Cycle next_of_devices() const override;
+  int clock_offset(std::uint32_t base, std::uint32_t address) const override;
+  double analogue(int channel);
   void on_pins(Cycle now);
 
   Timer tim1_;
   Dma dma2_;
+  AdcBlock adc_;
+  HeatedPlaces heated_;
   std::array<StepDriver, 8> drivers_;
 };
 

@@ -79,17 +79,17 @@ class ThermalPlant {
   /// The converter's word for a thermistor of 100 kOhm, beta 3950, with 4.7 kOhm: 16 conversions of 12 bits.
   std::uint32_t ratio() {
     if (frozen) return last_ratio_;
-    const double noisy = sensor_ + p.noise_k * normal_(random_);
-    double r = 100e3 * std::exp(3950 * (1 / (noisy + 273.15) - 1 / 298.15)) + series_ohm;
-    if (sensor_open) r = 1e9;
-    if (sensor_short) r = 0.1;
+    const double divided = divider();
     double sum = 0;
     for (int i = 0; i < 16; ++i) {
-      const double steps = r / (r + 4700) * 4095 + normal_(random_) * 0.6;
+      const double steps = divided * 4095 + normal_(random_) * kNoiseSteps;
       sum += std::clamp(std::round(steps), 0.0, 4095.0);
     }
     return last_ratio_ = static_cast<std::uint32_t>(std::lround(sum / 16 / 4095 * kFullRatio));
   }
+
+  /// What a converter outside is given, as a share of its reference: with noise, not yet in steps.
+  double voltage() { return divider() + normal_(random_) * kNoiseSteps / 4095; }
 
   double block() const { return block_; }
   double sensor() const { return sensor_; }
@@ -100,6 +100,16 @@ class ThermalPlant {
   PlantParameters p;
 
  private:
+  static constexpr double kNoiseSteps = 0.6;
+
+  double divider() {
+    const double noisy = sensor_ + p.noise_k * normal_(random_);
+    double r = 100e3 * std::exp(3950 * (1 / (noisy + 273.15) - 1 / 298.15)) + series_ohm;
+    if (sensor_open) r = 1e9;
+    if (sensor_short) r = 0.1;
+    return r / (r + 4700);
+  }
+
   double heater_ = 0, block_ = 0, sensor_ = 0, hottest_ = 0;
   std::deque<double> past_;
   std::mt19937 random_;

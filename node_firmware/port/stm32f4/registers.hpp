@@ -132,9 +132,10 @@ inline Timer& tim2() {
 
 struct Adc {
   Reg SR, CR1, CR2, SMPR1, SMPR2, JOFR[4], HTR, LTR, SQR1, SQR2, SQR3, JSQR, JDR[4], DR;
-  static constexpr std::uint32_t kEndOfConversion = bit(1), kInjectedEnd = bit(2);                  // SR
-  static constexpr std::uint32_t kInjectedInterrupt = bit(7), kScan = bit(8);                       // CR1
-  static constexpr std::uint32_t kOn = bit(0), kSoftwareStart = bit(30);                            // CR2
+  static constexpr std::uint32_t kEndOfConversion = bit(1), kInjectedEnd = bit(2);  // SR
+  static constexpr std::uint32_t kInjectedInterrupt = bit(7), kScan = bit(8);       // CR1
+  static constexpr std::uint32_t kOn = bit(0), kContinuous = bit(1), kDma = bit(8), kDmaGoesOn = bit(9),
+                                 kSoftwareStart = bit(30);                                          // CR2
   static constexpr std::uint32_t kInjectedByTim1Update = 1u << 16, kInjectedRisingEdge = 1u << 20;  // CR2
 };
 inline Adc& adc(int n) {
@@ -145,6 +146,7 @@ struct AdcCommon {
   static constexpr std::uint32_t kInjectedSimultaneous =
       5;                                                  // MULTI: ADC1 master, ADC2 slave; ADC3 for itself
   static constexpr std::uint32_t kPrescaler4 = 1u << 16;  // 84 MHz / 4 = 21 MHz
+  static constexpr std::uint32_t kPrescaler8 = 3u << 16;  // 10.5 MHz
 };
 inline AdcCommon& adc_common() {
   return peripheral<AdcCommon>(0x4001'2300);
@@ -253,6 +255,7 @@ struct Dma {
   static constexpr std::uint32_t kEnable = bit(0), kOnHalf = bit(3), kOnComplete = bit(4),
                                  kFromMemory = 1u << 6, kCircular = bit(8), kMemoryIncrement = bit(10),
                                  kPeripheralWords = 2u << 11, kMemoryWords = 2u << 13,
+                                 kPeripheralHalfWords = 1u << 11, kMemoryHalfWords = 1u << 13,
                                  kPriorityHigh = 3u << 16;
   static constexpr std::uint32_t channel(unsigned n) { return n << 25; }
   /// All flags of a stream, in the register of its four.

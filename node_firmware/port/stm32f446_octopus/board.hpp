@@ -67,7 +67,13 @@ inline constexpr std::array kPins = {
   Pin{G, 14, kInput,     kUp,    0, false, "STOP6 (EXTI14)"},
   Pin{G, 15, kInput,     kUp,    0, false, "STOP7 (EXTI15)"},
   Pin{B,  7, kInput,     kUp,    0, false, "PROBE (EXTI7)"},
-  // Heaters and fans: off, whatever hangs on them.
+  // Thermistors to ground, 4.7 kOhm to 3.3 V.
+  Pin{F,  3, kAnalogue,  kNone,  0, false, "TB, bed (ADC3_IN9)"},
+  Pin{F,  4, kAnalogue,  kNone,  0, false, "T0 (ADC3_IN14)"},
+  Pin{F,  5, kAnalogue,  kNone,  0, false, "T1 (ADC3_IN15)"},
+  Pin{F,  6, kAnalogue,  kNone,  0, false, "T2 (ADC3_IN4)"},
+  Pin{F,  7, kAnalogue,  kNone,  0, false, "T3 (ADC3_IN5)"},
+  // Heaters and fans.
   Pin{A,  1, kOutput,    kDown,  0, false, "bed heater"},
   Pin{A,  2, kOutput,    kDown,  0, false, "HE0"},
   Pin{A,  3, kOutput,    kDown,  0, false, "HE1"},
@@ -79,6 +85,7 @@ inline constexpr std::array kPins = {
   Pin{D, 13, kOutput,    kDown,  0, false, "FAN3"},
   Pin{D, 14, kOutput,    kDown,  0, false, "FAN4"},
   Pin{D, 15, kOutput,    kDown,  0, false, "FAN5"},
+  Pin{E, 11, kOutput,    kDown,  0, false, "PS-ON: the heaters' supply, high: on"},
 };
 // clang-format on
 static_assert(stm32::pins_differ(kPins));
@@ -88,8 +95,8 @@ inline constexpr std::array<SwitchPin, 9> kSwitchPins{
     {{G, 6}, {G, 9}, {G, 10}, {G, 11}, {G, 12}, {G, 13}, {G, 14}, {G, 15}, {B, 7}}};
 static_assert(stm32::lines_differ(kSwitchPins));
 
-/// Axis pairs, each a node: two drivers each, in order.
-inline constexpr std::size_t kNodes = 4;
+/// Axis pairs, each a node: two drivers each, in order. The heat node comes behind them.
+inline constexpr std::size_t kNodes = 4, kHeatNode = kNodes;
 inline constexpr std::size_t kStops = 8, kProbe = 8;
 /// Which of a node's inputs (counted from 0; -1: none) each switch pin is. Inputs 1 and 2 are the stops
 /// beside the node's two drivers, where StallGuard's DIAG comes, too; 3 to 6 the next stops, round the board;
@@ -127,6 +134,22 @@ inline constexpr std::array kPowerPins{
     PowerPin{{G, 2}, true},  PowerPin{{F, 1}, true},  PowerPin{{D, 4}, true},  PowerPin{{E, 0}, true},
     PowerPin{{A, 1}, false}, PowerPin{{A, 2}, false}, PowerPin{{A, 3}, false}, PowerPin{{B, 10}, false},
     PowerPin{{B, 11}, false}};
+
+// The heat node's channels in order, the node's numbers from 1 on. HE3 has none: it stays off.
+struct ThermistorPin {
+  InputPin pin;
+  std::uint8_t channel;  ///< of ADC3
+};
+/// T0, TB, T1, T2, T3.
+inline constexpr std::array<ThermistorPin, 5> kThermistors{
+    {{{F, 4}, 14}, {{F, 3}, 9}, {{F, 5}, 15}, {{F, 6}, 4}, {{F, 7}, 5}}};
+/// HE0, bed, HE1, HE2.
+inline constexpr std::array<OutputPin, 4> kHeaterPins{{{A, 2}, {A, 1}, {A, 3}, {B, 10}}};
+/// FAN0 to FAN5.
+inline constexpr std::array<OutputPin, 6> kFanPins{{{A, 8}, {E, 5}, {D, 12}, {D, 13}, {D, 14}, {D, 15}}};
+inline constexpr OutputPin kContactorPin{E, 11};
+/// Switch pins that are the filament sensors, too: STOP4 and STOP5.
+inline constexpr std::array<std::uint8_t, 2> kFilamentInputs{4, 5};
 
 /// 16 microsteps a full step of 256 counts, as both MS jumpers of a TMC2209 choose: log2 of counts a step.
 inline constexpr int kStepBits = 4;

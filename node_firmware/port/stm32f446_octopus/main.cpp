@@ -19,6 +19,7 @@
 #include "node_firmware/port/stm32f4/switch_port.hpp"
 #include "node_firmware/port/stm32f4/watchdog_port.hpp"
 #include "node_firmware/port/stm32f446_octopus/board.hpp"
+#include "node_firmware/port/stm32f446_octopus/heat_stage.hpp"
 #include "node_firmware/port/stm32f446_octopus/loader_port.hpp"
 #include "node_firmware/port/stm32f446_octopus/step_stage.hpp"
 #include "protocol/canopen/boards/stm32f446_octopus.hpp"
@@ -31,7 +32,10 @@ using namespace kinebus::stm32;
 using Switches = SwitchPort<octopus::kSwitchPins>;
 constexpr std::size_t kNodes = octopus::kNodes;
 using Motors = StepMotors<StepPort>;
-static_assert(Motors::kNodes == kNodes && Stm32f446OctopusBoard::kFacts.consecutive_ids == kNodes);
+// The axis pairs, and the heat node.
+constexpr std::size_t kBoardIds = kNodes + 1;
+static_assert(Motors::kNodes == kNodes && Stm32f446OctopusBoard::kFacts.consecutive_ids == kBoardIds);
+using Heat = BoardHeat<HeatPort>;
 
 constinit CanPort can_port;
 constinit Switches switch_port;
@@ -39,10 +43,10 @@ constinit Motors::Plans plans;
 constinit Motors motors{plans};
 constinit ParameterFlash<octopus::kParameterSectors, octopus::kParameterPageBytes> parameter_flash;
 constinit PageStore store{parameter_flash};
-constinit NodeImages<kNodes> images{store};
+constinit NodeImages<kBoardIds> images{store};
 constinit WatchdogPort dog;
 constinit WatchdogKeeper keeper;
-constinit std::optional<NodeProgram<CanPort, Switches, LocalTimer, kNodes>> program;
+constinit std::optional<NodeProgram<CanPort, Switches, LocalTimer, kNodes, Heat>> program;
 
 static_assert(shares_slots(kNodeTable, BoardObjects<Stm32f446OctopusBoard>::kTable));
 
@@ -56,26 +60,44 @@ NodeOptions options_of(std::size_t number, std::uint8_t node_id) {
           .program_crc = kImageHeader.crc,
           .table = &BoardObjects<Stm32f446OctopusBoard>::kTable,
           .id_from_board = number != 0,
-          .consecutive_ids = kNodes};
+          .consecutive_ids = kBoardIds};
+}
+
+void begin_node(std::size_t number, std::uint8_t first_id) {
+  const auto id = static_cast<std::uint8_t>(first_id + number);
+  const auto stored = images.load()[number];
+  if (number == octopus::kHeatNode)
+    program->heat().begin(
+        {.node_id = id, .serial = options_of(number, id).identity.serial, .id_from_board = true},
+        program->now(), stored);
+  else
+    program->begin(number, options_of(number, id), stored, plans[number], octopus::kInputPlaces[number]);
+}
+void end_node(std::size_t number) {
+  number == octopus::kHeatNode ? program->heat().end() : program->end(number);
 }
 
 // While no motor has power: a carriage must not lose its node. One node a pass: each takes milliseconds.
 void follow_first_id() {
   static std::uint8_t followed = 0;
-  static std::size_t next = kNodes;
+  static std::size_t next = kBoardIds;
   const std::uint8_t first = program->node().node_id();
   if (!motors.dark()) return;
   if (first != followed) {
     followed = first;
     next = 1;
   }
-  if (next == kNodes) return;
-  if (first == 0)
-    program->end(next);
-  else
-    program->begin(next, options_of(next, static_cast<std::uint8_t>(first + next)), images.load()[next],
-                   plans[next], octopus::kInputPlaces[next]);
+  if (next == kBoardIds) return;
+  first == 0 ? end_node(next) : begin_node(next, first);
   ++next;
+}
+
+// Flash is written while nothing of the board has power: the processor stands still then.
+void serve_heat() {
+  Heat& heat = program->heat();
+  motors.set_other_power(heat.heats());
+  heat.set_neighbours_powered(!motors.dark());
+  if (motors.dark()) heat.store(dog, [](auto image) { return images.save(octopus::kHeatNode, image); });
 }
 
 }  // namespace
@@ -108,7 +130,7 @@ int main() {
   start_local_time();
   can_port.start();
   const auto stored = images.load();
-  static_cast<void>(store.prepare(kNodes * kLargestParameterImage));
+  static_cast<void>(store.prepare(kBoardIds * kLargestParameterImage));
   NodeOptions options = options_of(0, take_inherited_node_id(handover_ram));
   options.reset = take_reset_report();
   program.emplace(options, stored[0], can_port, switch_port, plans[0], octopus::kInputPlaces[0]);
@@ -118,12 +140,14 @@ int main() {
   if (good) {
     motors.start();
     program->align_plans(motors.plan_grid());
+    program->heat().driver().start();
   }
   dog.start();
   for (;;) {
     pass(
         *program, motors, good, [](std::size_t i, auto image) { return images.save(i, image); }, dog);
     follow_first_id();
+    if (good) serve_heat();
     // There is no boot loader of ours to give way to: the program begins anew, under its id.
     if (program->stop_requested() && can_port.queue().idle()) {
       handover_ram = Handover{.node_id = program->node().node_id()};

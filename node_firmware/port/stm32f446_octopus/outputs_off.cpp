@@ -8,6 +8,7 @@ namespace kinebus::stm32 {
 void outputs_off() {
   disable_interrupts();
   for (const octopus::PowerPin& power : octopus::kPowerPins) write(power.pin, power.off);
+  write(octopus::kContactorPin, false);
   barrier();
 }
 

@@ -5,7 +5,9 @@
 
 namespace kinebus::emulator {
 namespace {
-constexpr std::uint32_t kEndOfConversion = 2, kInjectedEnd = 4, kInjectedStarted = 8, kRegularStarted = 16;
+constexpr std::uint32_t kEndOfConversion = 2, kInjectedEnd = 4, kInjectedStarted = 8, kRegularStarted = 16,
+                        kRegularLost = 32;
+constexpr std::uint32_t kByDma = 1u << 8, kOverrunInterrupt = 1u << 26;
 constexpr std::uint32_t kOn = 1, kContinuous = 2, kLeft = 1u << 11, kInjectedStart = 1u << 22,
                         kRegularStart = 1u << 30;
 constexpr std::uint32_t kEndInterrupt = 1u << 5, kInjectedInterrupt = 1u << 7, kScan = 1u << 8;
@@ -95,18 +97,31 @@ void AdcBlock::convert(Converter& c, Cycle now) {
     c.sr |= kInjectedEnd;
   }
   while (c.regular_ready <= now) {
-    c.dr = quantised(regular_channel(c, c.regular_rank), c.regular_ready - kConversionClocks * clock());
-    if ((c.cr2 & kLeft) != 0) c.dr <<= 4;
+    const std::uint32_t result =
+        quantised(regular_channel(c, c.regular_rank), c.regular_ready - kConversionClocks * clock());
     const int count = (c.cr1 & kScan) != 0 ? static_cast<int>(c.sqr[0] >> 20 & 0xF) + 1 : 1;
     ++c.regular_rank;
-    c.sr |= kEndOfConversion;
+    const Cycle at = c.regular_ready;
     if (c.regular_rank >= count) {
       c.regular_rank = (c.cr2 & kContinuous) != 0 ? 0 : -1;
     }
     c.regular_ready = c.regular_rank < 0 ? kNever
                                          : c.regular_ready + sampling(c, regular_channel(c, c.regular_rank)) +
                                                kConversionClocks * clock();
+    hand_over(c, result, at);  // last: who takes it reads a register
   }
+}
+
+// With DMA a result that nobody has taken is not written over: no more are handed over then (OVR).
+void AdcBlock::hand_over(Converter& c, std::uint32_t result, Cycle at) {
+  const bool by_dma = (c.cr2 & kByDma) != 0;
+  if (by_dma && ((c.sr & (kEndOfConversion | kRegularLost)) != 0)) {
+    c.sr |= kRegularLost;
+    return;
+  }
+  c.dr = (c.cr2 & kLeft) != 0 ? result << 4 : result;
+  c.sr |= kEndOfConversion;
+  if (by_dma && on_request) on_request(static_cast<int>(&c - converters_.data()) + 1, at);
 }
 
 void AdcBlock::advance(Cycle now) {
@@ -126,7 +141,8 @@ void AdcBlock::update_line() {
   bool level = false;
   for (const Converter& c : converters_)
     level = level || ((c.sr & kInjectedEnd) != 0 && (c.cr1 & kInjectedInterrupt) != 0) ||
-            ((c.sr & kEndOfConversion) != 0 && (c.cr1 & kEndInterrupt) != 0);
+            ((c.sr & kEndOfConversion) != 0 && (c.cr1 & kEndInterrupt) != 0) ||
+            ((c.sr & kRegularLost) != 0 && (c.cr1 & kOverrunInterrupt) != 0);
   lines_.set_line(kIrq, level);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // ADC1 to ADC3: injected groups by trigger, regular groups by software, both conversions one after another in
-// the time that sampling and clock settings give, simultaneous injected mode of ADC1 and ADC2.
+// the time that sampling and clock settings give, simultaneous injected mode of ADC1 and ADC2, results of
+// regular groups by DMA.
 
 #include <array>
 #include <functional>
@@ -12,7 +13,14 @@ namespace kinebus::emulator {
 class AdcBlock final : public Peripheral {
  public:
   static constexpr int kIrq = 18;
+  static constexpr std::uint32_t kAddress = 0x40012000;
   explicit AdcBlock(InterruptLines& lines) : lines_(lines) {}
+
+  /// The three have clocks of their own, one after another in APB2ENR, and share those of ADC1.
+  static int clock_offset(std::uint32_t address) {
+    const std::uint32_t offset = address - kAddress;
+    return offset < 0x300 ? static_cast<int>(offset / 0x100) : 0;
+  }
 
   // ADC1 at 0x000, ADC2 at 0x100, ADC3 at 0x200, common at 0x300.
   std::uint32_t read(std::uint32_t offset, Cycle now) override;
@@ -26,6 +34,8 @@ class AdcBlock final : public Peripheral {
 
   /// Voltage of `channel` as a fraction of the reference, 0..1 (clipped), at time `at`.
   std::function<double(int channel, Cycle at)> sample;
+  /// ADC 1 to 3 asks its DMA stream to take the result.
+  std::function<void(int converter, Cycle at)> on_request;
 
  private:
   struct Converter {
@@ -48,6 +58,7 @@ class AdcBlock final : public Peripheral {
   void start_injected(Converter& c, Cycle now);
   void start_regular(Converter& c, Cycle now);
   void convert(Converter& c, Cycle now);
+  void hand_over(Converter& c, std::uint32_t result, Cycle at);
   std::uint32_t quantised(int channel, Cycle at) const;
   void schedule();
   void update_line();

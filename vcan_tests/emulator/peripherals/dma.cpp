@@ -8,6 +8,7 @@ constexpr std::uint32_t kRoundAndRound = 0x100;
 // Direction, widths, increments, double buffer: memory to peripheral, words, through memory alone.
 constexpr std::uint32_t kStreamKind = 3u << 6 | 1u << 9 | 1u << 10 | 3u << 11 | 3u << 13 | 1u << 18;
 constexpr std::uint32_t kWordsToPeripheral = 1u << 6 | 1u << 10 | 2u << 11 | 2u << 13;
+constexpr std::uint32_t kHalfWordsToMemory = 1u << 10 | 1u << 11 | 1u << 13;
 constexpr std::uint32_t kStreamError = 8, kHalfDone = 0x10, kAllDone = 0x20;
 constexpr std::array<unsigned, 4> kFlagsAt{0, 6, 16, 22};
 
@@ -21,19 +22,23 @@ void Dma::reset() {
 
 void Dma::begin(int stream) {
   Stream& s = streams_[static_cast<std::size_t>(stream)];
-  if ((s.cr & kStreamKind) != kWordsToPeripheral || (s.fcr & 4) != 0 || s.ndtr == 0 || (s.par & 3) != 0 ||
-      (s.m0ar & 3) != 0) {
+  const std::uint32_t kind = s.cr & kStreamKind, odd = to_memory(s) ? 1 : 3;
+  if ((kind != kWordsToPeripheral && kind != kHalfWordsToMemory) || (s.fcr & 4) != 0 || s.ndtr == 0 ||
+      (s.par & odd) != 0 || (s.m0ar & odd) != 0) {
     s.cr &= ~kStreamOn;
     return raise(stream, kStreamError);
   }
   s.left = s.ndtr;
-  s.word = fetch(s.m0ar);
+  if (!to_memory(s)) s.word = fetch(s.m0ar);
 }
 
 void Dma::on_request(int stream, int channel, Cycle at) {
   Stream& s = streams_[static_cast<std::size_t>(stream)];
   if ((s.cr & kStreamOn) == 0 || static_cast<int>(s.cr >> 25 & 7) != channel) return;
-  put(s.par, s.word, at);
+  if (to_memory(s))
+    keep(s.m0ar + 2 * (s.ndtr - s.left), take(s.par, at) & 0xFFFF);
+  else
+    put(s.par, s.word, at);
   if (--s.left == s.ndtr / 2) raise(stream, kHalfDone);
   if (s.left == 0) {
     raise(stream, kAllDone);
@@ -43,7 +48,7 @@ void Dma::on_request(int stream, int channel, Cycle at) {
     }
     s.left = s.ndtr;
   }
-  s.word = fetch(s.m0ar + 4 * (s.ndtr - s.left));
+  if (!to_memory(s)) s.word = fetch(s.m0ar + 4 * (s.ndtr - s.left));
 }
 
 void Dma::raise(int stream, std::uint32_t flag) {

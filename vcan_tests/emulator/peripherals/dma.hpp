@@ -1,7 +1,7 @@
 #pragma once
-// A DMA controller of the STM32F4: streams that carry words from memory to a peripheral, one for each
-// request, in direct mode: the next word is fetched as soon as one has been written. Other kinds of transfer
-// are refused with an error flag.
+// A DMA controller of the STM32F4: streams that carry words from memory to a peripheral, or half-words from a
+// peripheral to memory, one for each request, in direct mode: the next word is fetched from memory as soon as
+// one has been written. Other kinds of transfer are refused with an error flag.
 
 #include <array>
 #include <functional>
@@ -25,6 +25,8 @@ class Dma final : public Peripheral {
 
   std::function<std::uint32_t(std::uint32_t address)> fetch;                     ///< from memory
   std::function<void(std::uint32_t address, std::uint32_t word, Cycle at)> put;  ///< to a peripheral
+  std::function<std::uint32_t(std::uint32_t address, Cycle at)> take;            ///< from a peripheral
+  std::function<void(std::uint32_t address, std::uint32_t half_word)> keep;      ///< in memory
 
  private:
   struct Stream {
@@ -32,6 +34,7 @@ class Dma final : public Peripheral {
     std::uint32_t left = 0;  ///< of the transfers in progress
     std::uint32_t word = 0;  ///< fetched, and not yet written
   };
+  static bool to_memory(const Stream& s) { return (s.cr >> 6 & 3) == 0; }
   void begin(int stream);
   void raise(int stream, std::uint32_t flag);
   void update_line(int stream);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "protocol/canopen/alarm_codes.hpp"
+#include "protocol/canopen/boards/heat.hpp"
 #include "protocol/canopen/boards/stm32f446_octopus.hpp"
 #include "protocol/canopen/lss.hpp"
 #include "vcan_tests/emulator/tests/octopus_bench.hpp"
@@ -19,7 +20,7 @@ namespace {
 
 constexpr int kAxes = 8, kNodes = 4;
 
-TEST(OctopusNodes, FourAnswerByIdsInARowAndSayWhoTheyAre) {
+TEST(OctopusNodes, FiveAnswerByIdsInARowAndSayWhoTheyAre) {
   OneOctopus octopus;
   octopus.bench.run(1s);
   std::array<std::int64_t, kNodes> serial{};
@@ -30,7 +31,10 @@ TEST(OctopusNodes, FourAnswerByIdsInARowAndSayWhoTheyAre) {
     EXPECT_EQ(serial[static_cast<std::size_t>(n)], serial[0] + n);
     EXPECT_NE(octopus.bench.last(0x700u + id), nullptr) << "heartbeat of node " << int{id};
   }
-  EXPECT_EQ(octopus.bench.last(0x700u + kId + kNodes), nullptr);
+  const auto heat = static_cast<std::uint8_t>(kId + kNodes);
+  EXPECT_EQ(octopus.bench.read(heat, 0x1018, 2), HeatBoard::kFacts.product_code);
+  EXPECT_EQ(octopus.bench.read(heat, 0x1018, 4), serial[0] + kNodes);
+  EXPECT_EQ(octopus.bench.last(0x700u + heat + 1u), nullptr);
 }
 
 // An id that leaves no room for the others is refused; a new one takes them along.
@@ -48,10 +52,10 @@ TEST(OctopusNodes, AllFollowTheIdThatTheFirstIsGiven) {
     return replies;
   };
   EXPECT_TRUE(ask({lss::kSwitchGlobal, 1}).empty());
-  auto reply = ask({lss::kConfigureNodeId, 125});
+  auto reply = ask({lss::kConfigureNodeId, 124});
   ASSERT_EQ(reply.size(), 1u) << "one LSS slave on the board";
-  EXPECT_EQ(reply[0].data[1], 1) << "refused: 125 to 128";
-  reply = ask({lss::kConfigureNodeId, 124});
+  EXPECT_EQ(reply[0].data[1], 1) << "refused: 124 to 128";
+  reply = ask({lss::kConfigureNodeId, 123});
   ASSERT_EQ(reply.size(), 1u);
   EXPECT_EQ(reply[0].data[1], 0);
   EXPECT_TRUE(ask({lss::kSwitchGlobal, 0}).empty());
@@ -62,7 +66,7 @@ TEST(OctopusNodes, AllFollowTheIdThatTheFirstIsGiven) {
   std::set<std::uint32_t> heard;
   for (std::size_t i = from; i < octopus.bench.seen.size(); ++i)
     if ((octopus.bench.seen[i].frame.id & 0x780) == 0x700) heard.insert(octopus.bench.seen[i].frame.id);
-  EXPECT_EQ(heard, (std::set<std::uint32_t>{0x77C, 0x77D, 0x77E, 0x77F}));
+  EXPECT_EQ(heard, (std::set<std::uint32_t>{0x77B, 0x77C, 0x77D, 0x77E, 0x77F}));
 }
 
 // Plans reach 8.2 ms and are made anew at half of it: no pass of the main loop, whatever it is told, takes so
