@@ -13,7 +13,7 @@ constexpr unsigned kChannel = 2;
 
 void HeatPort::start() {
   enable_clock(rcc().AHB1ENR, Rcc::kDma2);
-  enable_clock(rcc().APB2ENR, Rcc::kAdc3);
+  enable_clock(rcc().APB2ENR, Rcc::kAdc1 | Rcc::kAdc3);  // the common registers go by ADC1's
   for (volatile std::uint16_t& word : words_) word = kTaken;
   Adc& a = adc(3);
   adc_common().CCR = AdcCommon::kPrescaler8;
