@@ -51,7 +51,9 @@ std::size_t Dialogue::choose(std::string_view place, std::string_view question,
   std::string words;
   std::vector<std::string_view> known;
   for (std::size_t i = 0; i < choices.size(); ++i) {
-    say(fmt::format("  {}  {:<12} {}", i + 1, choices[i].word, choices[i].description));
+    say(choices[i].description.empty()
+            ? fmt::format("  {}  {}", i + 1, choices[i].word)
+            : fmt::format("  {}  {:<12} {}", i + 1, choices[i].word, choices[i].description));
     words += (i == 0 ? "" : ", ") + std::string(choices[i].word);
     known.push_back(choices[i].word);
   }

@@ -143,6 +143,8 @@ void give_ids(SetupState& s) {
     }
   }
   const Boards boards = find_bus_boards(s.host.bus, ids);
+  for (const BusBoard& one : boards)
+    if (one.board.node_id != 0 && !one.shares_id) s.serials[one.board.node_id] = one.board.serial();
   for (const HeatNodePlace& heat : plan.heat_nodes)
     if (std::none_of(boards.begin(), boards.end(), [&](const BusBoard& one) {
           return one.board.node_id == heat.node && one.function == BoardFunction::kHeat;

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,7 @@ struct SetupState {
   std::filesystem::path file;
   FirstMachine first{};
   MachineDescription machine{};
+  std::map<std::uint8_t, std::uint32_t> serials{};  ///< of the nodes that were found, by id
 
   /// The machine as it is known now, in its file. Throws std::runtime_error when it cannot be written.
   void save() const;

@@ -75,24 +75,28 @@ void ask_for_machine(SetupState& s) {
   s.first.probe = kept_yes(s, "probe", "Is there a probe that touches the bed?", false);
 }
 
-/// Made anew, or as an earlier, interrupted set-up has left it.
+/// Made anew, or as an earlier, interrupted set-up has left it. The boards' serial numbers are in it: the
+/// gateway takes no other board in their place, and gives no heat to one.
 void begin_file(SetupState& s) {
   std::error_code ignored;
   const bool there = std::filesystem::exists(s.file, ignored);
-  if (there && s.answers.get("file_written")) {
+  const bool ours = s.answers.get("file_written").has_value();
+  if (there && !ours)
+    throw std::runtime_error(fmt::format(
+        "{} is there already and was not written by this set-up: --file another name", s.file.string()));
+  if (there) {
     auto machine = load_machine(s.file);
     if (!machine) throw std::runtime_error(to_string(machine.error()));
     s.machine = std::move(*machine);
     s.dialogue.say(fmt::format("Going on with {}.", s.file.string()));
-    return;
+  } else {
+    s.machine = make_description(s.first);
   }
-  if (there)
-    throw std::runtime_error(fmt::format(
-        "{} is there already and was not written by this set-up: --file another name", s.file.string()));
-  s.machine = make_description(s.first);
+  for (NodeDescription& node : s.machine.nodes)
+    if (const auto known = s.serials.find(node.id); known != s.serials.end()) node.serial = known->second;
   s.save();
   s.answers.set("file_written", "yes");
-  s.dialogue.say(fmt::format("Written: {}", s.file.string()));
+  if (!there) s.dialogue.say(fmt::format("Written: {}", s.file.string()));
 }
 
 /// What the daemon will read, by its own reader.

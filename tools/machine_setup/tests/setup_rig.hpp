@@ -89,8 +89,10 @@ class SetupRig {
     return all.str();
   }
 
-  /// All motors without power, all heaters off.
-  bool dark() const {
+  /// All motors without power, all heaters off, a control period of the heaters later.
+  bool dark() {
+    constexpr LocalTime kPeriod = std::chrono::milliseconds{200};
+    for (const LocalTime end = now_ + kPeriod; now_ < end;) static_cast<void>(receive(end));
     for (const AxisBoard& board : boards)
       for (const int axis : {0, 1})
         if (board.node->drive(axis).power) return false;

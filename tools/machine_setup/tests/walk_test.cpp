@@ -45,6 +45,8 @@ TEST_F(TwoCards, FromBoardsWithoutIdsToAMachineFile) {
   EXPECT_EQ(rig.boards[1].node->node_id(), 2);
   const MachineDescription d = machine();
   EXPECT_EQ(d.joints.size(), 4u);
+  EXPECT_EQ(d.node(1)->serial, 501u) << "no other board takes its place";
+  EXPECT_EQ(d.node(2)->serial, 502u);
   EXPECT_TRUE(d.heaters.empty()) << "nothing that is not there seems to be";
   for (const JointDescription& j : d.joints) EXPECT_FALSE(j.drive.inverted) << j.name;
   EXPECT_TRUE(said("Switch of Z: input 1 of node 2"));
