@@ -18,7 +18,7 @@ using stm32::Mode;
 using stm32::Pin;
 using stm32::Pull;
 
-constexpr double kRow = 22, kTop = 78, kMargin = 24, kColumn = 470, kPinWidth = 52, kWireLength = 46;
+constexpr double kRow = 22, kTop = 104, kMargin = 24, kColumn = 470, kPinWidth = 52, kWireLength = 46;
 constexpr double kBottom = 56;
 
 struct Kind {
@@ -85,9 +85,9 @@ void draw_legend(Document& svg, double y) {
 
 constexpr std::array kPages{
     WiringPage{"f405", "node_firmware/port/stm32f405", "The dual-stepper board: STM32F405RG",
-               "From board.hpp.  Arrows point out of the chip or into it.", board::kPins},
+               "From board.hpp  Arrows point out of the chip or into it.", board::kPins},
     WiringPage{"octopus", "node_firmware/port/stm32f446_octopus", "BTT Octopus v1.0, v1.1: STM32F446ZE",
-               "From board.hpp.  Arrows point out of the chip or into it.", octopus::kPins},
+               "From board.hpp  Arrows point out of the chip or into it.", octopus::kPins},
 };
 
 }  // namespace
