@@ -18,7 +18,7 @@ using stm32::Mode;
 using stm32::Pin;
 using stm32::Pull;
 
-constexpr double kRow = 22, kTop = 104, kMargin = 24, kColumn = 470, kPinWidth = 52, kWireLength = 46;
+constexpr double kRow = 22, kTop = 104, kMargin = 24, kColumn = 570, kPinWidth = 52, kWireLength = 46;
 constexpr double kBottom = 56;
 
 struct Kind {
