@@ -9,6 +9,7 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QModelIndex>
+#include <QPaintEvent>
 #include <QPainter>
 #include <QPushButton>
 #include <QRect>
@@ -98,6 +99,30 @@ class EventDelegate : public QStyledItemDelegate {
   const Theme& theme_;
 };
 
+/// Says so where there is nothing to list.
+class EventList : public QListView {
+ public:
+  EventList(const Theme& theme, QWidget* parent) : QListView(parent), theme_(theme) {}
+  void say_of_nothing(const QString& words) {
+    nothing_ = words;
+    viewport()->update();
+  }
+
+ protected:
+  void paintEvent(QPaintEvent* event) override {
+    QListView::paintEvent(event);
+    if (model() == nullptr || model()->rowCount() > 0) return;
+    QPainter painter(viewport());
+    painter.setPen(theme_.colours().muted);
+    painter.drawText(viewport()->rect().adjusted(14, 14, -14, -14),
+                     static_cast<int>(Qt::AlignHCenter | Qt::AlignTop | Qt::TextWordWrap), nothing_);
+  }
+
+ private:
+  const Theme& theme_;
+  QString nothing_;
+};
+
 }  // namespace
 
 AlarmsPage::AlarmsPage(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(desk) {
@@ -123,7 +148,8 @@ AlarmsPage::AlarmsPage(Desk& desk, QWidget* parent) : SpeakingWidget(parent), de
   everything_ = new QCheckBox(this);
   shown_ = new AlarmsAlone(this);
   shown_->setSourceModel(&desk_.events);
-  list_ = new QListView(this);
+  auto* list = new EventList(desk_.theme, this);
+  list_ = list;
   list_->setModel(shown_);
   list_->setItemDelegate(new EventDelegate(desk_.theme, list_));
   list_->setVerticalScrollMode(QAbstractItemView::ScrollPerPixel);
@@ -141,11 +167,12 @@ AlarmsPage::AlarmsPage(Desk& desk, QWidget* parent) : SpeakingWidget(parent), de
   connect(&desk_.events, &EventsModel::open_alarms_changed, this, &AlarmsPage::take);
   connect(&desk_.events, &QAbstractItemModel::rowsInserted, this, &AlarmsPage::take);
   connect(&desk_.session, &Session::status_changed, this, &AlarmsPage::take);
-  says([this] {
+  says([this, list] {
     clear_->setText(tr("Clear"));
     fine_->setText(tr("No alarm is open."));
     everything_->setText(tr("Messages, too"));
     list_->setAccessibleName(tr("What has happened, newest first"));
+    list->say_of_nothing(tr("No alarms so far."));
     desk_.events.retranslate();
     take();
   });
