@@ -16,7 +16,7 @@ HomingDescription tower_homing(std::uint8_t input) {
           .slow_per_s = 4,
           .accel_per_s2 = 500,
           .back_off = 5,
-          .switch_position = 40,
+          .switch_position = 10,
           .max_search = 600};
 }
 
@@ -26,7 +26,7 @@ JointDescription tower(int number) {
   j.node_id = static_cast<std::uint8_t>((number + 1) / 2);
   j.axis = static_cast<std::uint8_t>((number - 1) % 2);
   j.drive.travel_per_turn = 40;
-  j.travel = {40, 540};
+  j.travel = {10, 540};  // below 40 it homes only: a tall part beside the nozzle then has room
   j.speed_per_s = 450;
   j.accel_per_s2 = 5000;
   j.stop_accel_per_s2 = 10000;
@@ -45,6 +45,8 @@ MachineDescription default_m1() {
   d.gcode.traverse_mm_per_s = 300;
   // Upright legs pass a carriage's error on up to 3.6 times: 0.3 microsteps keep the tool within 1.5 um.
   d.tolerances.segment_counts = 0.3;
+  d.homing.max_spread_mm = 270;
+  d.homing.spared_part_mm = 250;
   for (int number = 1; number <= 4; ++number) d.joints.push_back(tower(number));
   JointDescription c;
   c.name = "C";
@@ -84,6 +86,7 @@ MachineDescription default_m1() {
                {.name = "hotend"}};
   d.fans = {{.name = "part"}};
   d.bodies.emplace().table_radius_mm = 100;
+  machine_schema::connect_travel(d);
   return d;
 }
 

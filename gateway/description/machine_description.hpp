@@ -99,6 +99,10 @@ struct MotorDescription {
 struct ScaleDescription {
   double pulses_per_mm = 0;  ///< counts of the node a millimetre, every edge counted
   bool inverted = false;     ///< it counts down when the joint's value grows
+  /// The motor is led to where the scale has the joint, slowly: drift, not dynamics. By so much at most, mm;
+  /// 0: it is not. More, or a scale that stands while the joint moves, stops the machine on the path.
+  double correction_mm = 0;
+  double correction_mm_per_s = 0.05;
   friend bool operator==(const ScaleDescription&, const ScaleDescription&) = default;
 };
 
@@ -241,6 +245,8 @@ struct HomingRun {
   /// legs, condition number. With one carriage on its switch already, moved by hand, they differ by up to
   /// 248 mm.
   double max_spread_mm = 260;
+  /// Height of the tallest part on the table that homing leaves alone wherever it begins; 0: not stated.
+  double spared_part_mm = 0;
   std::chrono::seconds timeout{120};
   friend bool operator==(const HomingRun&, const HomingRun&) = default;
 };

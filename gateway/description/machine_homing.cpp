@@ -143,15 +143,25 @@ void judge_homing(const MachineDescription& description, std::vector<BrokenRule>
   }
   if (!description.bodies || !moves) return;
   HomingStudy study(description);
-  if (!(description.bodies->part_height_mm > 0)) study.set_part(0, 0);
-  constexpr int kStarts = 8, kAttempts = 12;
-  // It is a part that corners are about.
-  const std::size_t corners = study.machine().part_height_mm > 0 ? 32 : 0;
-  constexpr homing::Walker::Density kCoarse{.least_mm = 2, .most_mm = 25, .most_poses = 100};
-  const homing::Survey found =
-      homing::survey(study.machine(), study.plan(), 1, kStarts, kCoarse, kAttempts, corners);
+  const double stated_mm = description.bodies->part_height_mm;
+  if (!(stated_mm > 0)) study.set_part(study.machine().part_radius_mm, 0);
+  const auto look = [&] {
+    constexpr int kStarts = 8, kAttempts = 12;
+    // It is a part that corners are about.
+    const std::size_t corners = study.machine().part_height_mm > 0 ? 32 : 0;
+    constexpr homing::Walker::Density kCoarse{.least_mm = 2, .most_mm = 25, .most_poses = 100};
+    return homing::survey(study.machine(), study.plan(), 1, kStarts, kCoarse, kAttempts, corners);
+  };
+  homing::Survey found = look();
+  const double spared_mm = description.homing.spared_part_mm;
+  const bool about_spared = !found.failure && !(stated_mm > 0) && spared_mm > 0;
+  if (about_spared) {
+    study.set_part(study.machine().part_radius_mm, spared_mm);
+    found = look();
+  }
   if (!found.failure) return;
   const auto& [start, way] = *found.failure;
+  if (about_spared) keys = {"homing.spared_part_mm"};
   keys.insert(keys.end(), {"bodies", "kinematics"});
   Sentence words = way.end == homing::Way::End::kTouches
                        ? say("homing that is not safe: begun at %1, at %2 %3", pose_text(start.pose),
@@ -159,7 +169,9 @@ void judge_homing(const MachineDescription& description, std::vector<BrokenRule>
                        : say("homing that is not safe: begun at %1, from %2 on the mechanism cannot follow",
                              pose_text(start.pose), pose_text(way.at));
   broken.push_back({std::move(keys), std::move(words),
-                    say("switches that can be reached from everywhere: see kinebus plan --home")});
+                    about_spared
+                        ? say("a lower part than %1 mm: see kinebus plan --home", printed("%.6g", spared_mm))
+                        : say("switches that can be reached from everywhere: see kinebus plan --home")});
 }
 
 }  // namespace kinebus

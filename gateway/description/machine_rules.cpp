@@ -85,6 +85,12 @@ class Rules {
       require(j.homing && j.homing->method != 37, {key + "scale.pulses_per_mm", key + "homing.method"},
               say("a scale on a joint that does not home at a switch"),
               say("[%1homing] with a method of 17..22: the switch's edge is where the scale begins", key));
+      // These are commanded on purpose, and the scale would take them for drift.
+      require(j.scale->correction_mm == 0 || j.calibration.linear(),
+              {key + "scale.correction_mm", key + "calibration.backlash_mm", key + "calibration.table_mm",
+               key + "calibration.pitch_mm"},
+              say("a joint that is led by its scale and has an error that is not linear"),
+              say("correction_mm = 0, or scale and offset alone in the calibration"));
     }
     if (j.homing) homing(j, *j.homing, key + "homing.");
     calibration(j, key + "calibration.");

@@ -185,6 +185,8 @@ void visit_joint(V& v, JointDescription& j, bool own_travel) {
   v.optional_table("scale", j.scale, [&](ScaleDescription& s) {
     v.number("pulses_per_mm", s.pulses_per_mm, {1, 100000}, Need::kRequired);
     v.flag("inverted", s.inverted, Need::kOptional);
+    v.number("correction_mm", s.correction_mm, {0, 5}, Need::kOptional);
+    v.number("correction_mm_per_s", s.correction_mm_per_s, {0.001, 1}, Need::kOptional);
   });
   v.optional_table("homing", j.homing, [&](HomingDescription& h) {
     v.integer("method", h.method, 17, 37, Need::kRequired);
@@ -372,6 +374,7 @@ void visit_machine(V& v, MachineDescription& d) {
   visit_bus(v, d.bus);
   v.table("homing", Need::kOptional, [&] {
     v.number("max_spread_mm", d.homing.max_spread_mm, {0.01, 1000}, Need::kOptional);
+    v.number("spared_part_mm", d.homing.spared_part_mm, {0, 10000}, Need::kOptional);
     v.duration("timeout_s", d.homing.timeout, 1, 3600, Need::kOptional);
   });
   v.table("joint", Need::kRequired, [&] {

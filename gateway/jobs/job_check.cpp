@@ -22,6 +22,8 @@ double turning_speed(const PosePoint& point) {
 }
 // Corners are rounded in filament too: the last move that was hot may end this much before its E.
 constexpr double kFedBack_mm = 0.1;
+// Layers end anywhere in a cell of what is printed.
+constexpr double kCell_mm = 1;
 
 }  // namespace
 
@@ -42,7 +44,16 @@ void JobCheck::add(Problem::Severity severity, std::uint32_t line, Sentence word
 void JobCheck::phase(const Phase& phase) {
   const PosePoint end = phase.piece.evaluate(phase.s(phase.duration_s));
   check_way(phase, end);
-  if (printed_) trace_print(phase, end, *printed_);
+  if (!printed_) return;
+  trace_print(phase, end, *printed_);
+  const double spared_mm = machine_.homing.spared_part_mm;
+  if (spared_mm == 0 || tall_reported_ || printed_->empty() || printed_->top_mm() <= spared_mm + kCell_mm)
+    return;
+  tall_reported_ = true;
+  add(Problem::Severity::kWarning, phase.line,
+      say("the part becomes higher than the %1 mm that homing spares: it must be off the table before the "
+          "machine homes with its positions unknown",
+          printed("%.6g", spared_mm)));
 }
 
 void JobCheck::check_way(const Phase& phase, const PosePoint& end) {

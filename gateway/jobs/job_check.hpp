@@ -50,7 +50,8 @@ class JobCheck {
   double since_mm_ = 1e9, since_rad_ = 1e9;  ///< travelled since the last check
   std::optional<double> hotend_celsius_;
   double hot_e_mm_ = -1e300;  ///< the farthest that filament was fed hot
-  bool cold_reported_ = false, fan_reported_ = false, probes_ = false, levels_ = false;
+  bool cold_reported_ = false, fan_reported_ = false, tall_reported_ = false, probes_ = false,
+       levels_ = false;
 };
 
 }  // namespace kinebus

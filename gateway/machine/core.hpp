@@ -133,6 +133,8 @@ class Gateway::Core {
   void enter(MachineState state) { state_.enter(now_, state); }
   void begin_bring_up();
   void begin_homing();
+  /// Refused: the part of the interrupted job is higher than homing spares.
+  Done may_home() const;
   void begin_move(canonical::Command move, const Pose& from);
   Done jog_on(const command::Jog& asked);
   void end_jog();

@@ -77,6 +77,7 @@ Done Gateway::Core::on(command::BringUp&) {
 }
 
 Done Gateway::Core::on(command::Home&) {
+  if (auto ok = may_home(); !ok) return ok;
   recovery_.do_not_go_on();
   // So the operator says that the table is empty; an interrupted job's part stays on it.
   if (printed_ && !interrupted()) printed_->clear();

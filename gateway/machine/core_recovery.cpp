@@ -94,11 +94,30 @@ Done Gateway::Core::go_on() {
   if (state_.is(MachineState::kOff))
     begin_bring_up();
   else if (state_.is(MachineState::kUnhomed))
-    begin_homing();
+    done = may_home();
   else
     done = begin_return();
+  if (done && state_.is(MachineState::kUnhomed)) begin_homing();
   if (!done) recovery_.do_not_go_on();
   return done;
+}
+
+/// Nobody takes a part that is to be gone on with off the table: of an interrupted job it stands there. Of
+/// one that a gateway before has left its tool's place tells the height.
+Done Gateway::Core::may_home() const {
+  const double spared_mm = machine_.homing.spared_part_mm;
+  if (spared_mm == 0 || !interrupted()) return {};
+  double height_mm = printed_ && !printed_->empty() ? printed_->top_mm() : 0;
+  if (const auto& left = recovery_.left(); left && left->state.progress) {
+    Pose pose = kinematics_->bed_reference();
+    if (kinematics_->forward(Frame::kPart, left->state.progress->joints, pose)) height_mm = pose[kZ];
+  }
+  constexpr double kCell_mm = 1;  // of what is printed
+  if (height_mm <= spared_mm + kCell_mm) return {};
+  return refused(
+      say("the part of the interrupted job is %1 mm high and homing spares %2 mm: cancel the job and take "
+          "the part off the table, then home",
+          printed("%.0f", height_mm), printed("%.6g", spared_mm)));
 }
 
 /// After bring-up or homing, on the way to the job's place.
@@ -108,9 +127,11 @@ void Gateway::Core::finish_recovery() {
     return events_.message(now_,
                            say("the nodes have lost their positions: resume homes the machine and goes on"));
   }
-  if (!position_.homed()) return begin_homing();
+  if (!position_.homed() && may_home()) return begin_homing();
   const auto broken = out_of_order();
-  const Done begun = broken ? Done(refused(say("%1: %2", broken->device, broken->words))) : begin_return();
+  const Done begun = !position_.homed() ? may_home()
+                     : broken           ? Done(refused(say("%1: %2", broken->device, broken->words)))
+                                        : begin_return();
   if (begun) return;
   recovery_.do_not_go_on();
   events_.push({.kind = MachineEvent::Kind::kFinished,

@@ -3017,6 +3017,26 @@
         <translation>کلیدهایی که از هر جا دست‌یافتنی باشند: kinebus plan --home را ببینید</translation>
     </message>
     <message>
+        <source>a lower part than %1 mm: see kinebus plan --home</source>
+        <translation>قطعه‌ای کوتاه‌تر از %1 mm: kinebus plan --home را ببینید</translation>
+    </message>
+    <message>
+        <source>a joint that is led by its scale and has an error that is not linear</source>
+        <translation>مفصلی که با خط‌کش خود تصحیح می‌شود و خطایش خطی نیست</translation>
+    </message>
+    <message>
+        <source>correction_mm = 0, or scale and offset alone in the calibration</source>
+        <translation>correction_mm = 0، یا در کالیبراسیون تنها scale و offset</translation>
+    </message>
+    <message>
+        <source>the part becomes higher than the %1 mm that homing spares: it must be off the table before the machine homes with its positions unknown</source>
+        <translation>قطعه از %1 mm که خانه‌یابی به آن نمی‌خورد بلندتر می‌شود: پیش از خانه‌یابی با موقعیت‌های نامعلوم باید از روی میز برداشته شود</translation>
+    </message>
+    <message>
+        <source>the part of the interrupted job is %1 mm high and homing spares %2 mm: cancel the job and take the part off the table, then home</source>
+        <translation>قطعهٔ کار قطع‌شده %1 mm بلندی دارد و خانه‌یابی تا %2 mm به قطعه نمی‌خورد: کار را لغو کنید، قطعه را از روی میز بردارید، سپس خانه‌یابی کنید</translation>
+    </message>
+    <message>
         <source>the job was not begun: on the way to the bed reference %1</source>
         <translation>کار آغاز نشد: در راه مرجع بستر %1</translation>
     </message>

@@ -3017,6 +3017,26 @@
         <translation>her yerden ulaşılabilen anahtarlar: kinebus plan --home gösterir</translation>
     </message>
     <message>
+        <source>a lower part than %1 mm: see kinebus plan --home</source>
+        <translation>%1 mm'den alçak bir parça: kinebus plan --home gösterir</translation>
+    </message>
+    <message>
+        <source>a joint that is led by its scale and has an error that is not linear</source>
+        <translation>cetveline göre düzeltilen ve hatası doğrusal olmayan bir eklem</translation>
+    </message>
+    <message>
+        <source>correction_mm = 0, or scale and offset alone in the calibration</source>
+        <translation>correction_mm = 0 ya da kalibrasyonda yalnız scale ve offset</translation>
+    </message>
+    <message>
+        <source>the part becomes higher than the %1 mm that homing spares: it must be off the table before the machine homes with its positions unknown</source>
+        <translation>parça, referansa gitmenin dokunmadığı %1 mm'den yüksek oluyor: makine konumları bilinmeden referansa gitmeden önce parça tabladan alınmalıdır</translation>
+    </message>
+    <message>
+        <source>the part of the interrupted job is %1 mm high and homing spares %2 mm: cancel the job and take the part off the table, then home</source>
+        <translation>kesilmiş işin parçası %1 mm yüksek, referansa gitme ise %2 mm'ye kadar dokunmaz: işi iptal edin, parçayı tabladan alın, sonra referansa gönderin</translation>
+    </message>
+    <message>
         <source>the job was not begun: on the way to the bed reference %1</source>
         <translation>iş başlatılmadı: tabla referansına giderken %1</translation>
     </message>

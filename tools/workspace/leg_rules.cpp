@@ -220,7 +220,9 @@ Judgement judge(const M1Geometry& geometry, const std::optional<BodiesDescriptio
 }
 
 M1Geometry fitted(const M1Geometry& geometry, const Judgement& judged, const Room& room) {
-  constexpr double kSpare_mm = 10, kLowest_mm = 40;
+  // Homing goes down: with so much more room below, the tool is above a tall part beside it before the first
+  // carriage has come to its switch and the platform turns level.
+  constexpr double kSpare_mm = 10, kLowest_mm = 40, kHomingRoom_mm = 30;
   M1Geometry g = geometry;
   Interval used = judged.travel_mm;
   if (upright(g) && g.tool == ToolPlacement::kFrame) {
@@ -229,7 +231,7 @@ M1Geometry fitted(const M1Geometry& geometry, const Judgement& judged, const Roo
     g.nozzle_mm[2] += lift;
     used = {used.min + lift, used.max + lift};
   }
-  const Interval travel{std::floor((used.min - kSpare_mm) / 10) * 10,
+  const Interval travel{std::floor((used.min - kSpare_mm) / 10) * 10 - kHomingRoom_mm,
                         std::ceil((used.max + kSpare_mm) / 10) * 10};
   for (M1Leg& leg : g.legs) leg.travel_mm = travel;
   g.limits = {.z_mm = {room.z_min_mm, room.z_max_mm},

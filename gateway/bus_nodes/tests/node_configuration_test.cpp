@@ -22,7 +22,7 @@ ObjectAddress second(ObjectAddress base) {
 TEST(NodeConfiguration, TowersHaveTheirHomeSwitchAndItsPositionInCounts) {
   const NodeConfiguration c = configure_node(default_m1(), 1);
   EXPECT_EQ(written(c, object::kHomingMethod), 22);
-  EXPECT_EQ(written(c, object::kHomeOffset), -40 * 1280);
+  EXPECT_EQ(written(c, object::kHomeOffset), -10 * 1280);
   EXPECT_EQ(written(c, object::kInterpolationSubMode), -1);
   EXPECT_EQ(written(c, object::kSyncCounterOverflow), 240);
   EXPECT_EQ(written(c, object::kSyncPeriod), 0);
@@ -95,7 +95,7 @@ TEST(NodeConfiguration, InvertedDriveHomesTheMirroredWay) {
   m1.joints[0].drive.inverted = true;
   const NodeConfiguration c = configure_node(m1, 1);
   EXPECT_EQ(written(c, object::kHomingMethod), 20);
-  EXPECT_EQ(written(c, object::kHomeOffset), 40 * 1280);
+  EXPECT_EQ(written(c, object::kHomeOffset), 10 * 1280);
   EXPECT_LT(*written(c, object::kMinPositionLimit), *written(c, object::kMaxPositionLimit));
 }
 

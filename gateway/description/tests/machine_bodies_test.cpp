@@ -96,11 +96,35 @@ TEST(MachineFile, HomingThatRunsIntoSomethingIsRefusedWithThePairAndThePose) {
   EXPECT_NE(words.find("platform and lamp would"), std::string::npos) << words;
 }
 
+/// M1 with its switches where its work ends: no room for tall parts.
+std::string near_switches(std::string text) {
+  for (const auto& [from, to] : {std::pair{"travel_mm = [10, 540]", "travel_mm = [40, 540]"},
+                                 std::pair{"switch_position_mm = 10", "switch_position_mm = 40"}})
+    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + 1))
+      text.replace(at, std::string_view(from).size(), to);
+  return text;
+}
+
+TEST(MachineFile, APartIsStatedToBeSparedOnlyWhereHomingSparesIt) {
+  const std::string text = near_switches(with_lines("m1.toml", "table_radius_mm = 100\n"));
+  const auto machine = parse_machine(text, "m1");
+  ASSERT_FALSE(machine);
+  const std::string words = to_string(machine.error());
+  EXPECT_NE(words.find("homing.spared_part_mm: found homing that is not safe: begun at X "),
+            std::string::npos)
+      << words;
+  EXPECT_NE(words.find("part on the table and nozzle"), std::string::npos) << words;
+  EXPECT_NE(words.find("a lower part than 250 mm"), std::string::npos) << words;
+  std::string lower = text;
+  lower.replace(lower.find("spared_part_mm = 250"), 20, "spared_part_mm = 200");
+  EXPECT_TRUE(parse_machine(lower, "m1"));
+}
+
 TEST(MachineFile, APartThatHomingCannotSpareIsRefusedWithThePairAndThePose) {
   const auto with_part = [](int height) {
     return parse_machine(
-        with_lines("m1.toml", "table_radius_mm = 100\npart_radius_mm = 100\npart_height_mm = " +
-                                  std::to_string(height) + "\n"),
+        near_switches(with_lines("m1.toml", "table_radius_mm = 100\npart_radius_mm = 100\npart_height_mm = " +
+                                                std::to_string(height) + "\n")),
         "m1");
   };
   EXPECT_TRUE(with_part(200));

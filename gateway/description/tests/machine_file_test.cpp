@@ -77,7 +77,7 @@ TEST(MachineFile, AWrongKeyIsRefusedWithItsLineWhatWasFoundAndWhatIsAllowed) {
        "centre is the platform's zero"},
       {"nozzle_mm = [0, 0, 1340]", "nozzle_mm = 300",
        "kinematics.nozzle_mm: found 300; expected three numbers, each in -10000 .. 10000"},
-      {"travel_mm = [40, 540]", "travel_mm = [540, 40]",
+      {"travel_mm = [10, 540]", "travel_mm = [540, 10]",
        "joint.tower1.travel_mm: found an array of 2; expected [least, most], least below most, in -100000 .. "
        "100000"},
       {"inverted = false ", "inverted = 0 ", "joint.tower1.inverted: found 0; expected true or false"},
@@ -103,8 +103,8 @@ TEST(MachineFile, AWrongKeyIsRefusedWithItsLineWhatWasFoundAndWhatIsAllowed) {
       {"switch_input = 1 ", "switch_input = 3 ",
        "joint.tower1.homing.switch_input: found 3; expected an input of node 1 that has the home function "
        "for axis A"},
-      {"switch_position_mm = 40 ", "switch_position_mm = 39 ",
-       "joint.tower1.homing.switch_position_mm: found 39; expected within the joint's travel, 40 .. 540"},
+      {"switch_position_mm = 10 ", "switch_position_mm = 9 ",
+       "joint.tower1.homing.switch_position_mm: found 9; expected within the joint's travel, 10 .. 540"},
       {"method = 22 ", "method = 20 ",
        "joint.tower1.homing.method: found 20, which homes towards the nozzle; expected homing away from the "
        "nozzle: method 22, with the switch at the rail's other end"},

@@ -87,7 +87,7 @@ TEST(MachineFaults, CarriageWithoutSwitchStopsAllCarriages) {
   EXPECT_EQ(rig.joints(), still);
   EXPECT_FALSE(rig.gateway->status().positions_known);
   // The other carriages are not dragged on by it beyond the spread.
-  const double lowest = 40 - default_m1().homing.max_spread_mm - 10;
+  const double lowest = rig.machine.joints[0].homing->switch_position - rig.machine.homing.max_spread_mm - 10;
   for (std::size_t tower = 0; tower < 4; ++tower) EXPECT_GT(rig.joints()[tower], lowest);
 }
 

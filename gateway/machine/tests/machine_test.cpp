@@ -65,7 +65,7 @@ TEST(Machine, HomingTakesAllCarriagesToTheirSwitches) {
   const JointVector joints = rig.joints();
   const JointVector told = rig.gateway->status().joints;
   for (std::size_t tower = 0; tower < 4; ++tower) {
-    EXPECT_NEAR(joints[tower], 40, 0.1);
+    EXPECT_NEAR(joints[tower], rig.machine.joints[tower].homing->switch_position, 0.1);
     EXPECT_NEAR(told[tower], joints[tower], 0.002);
   }
   EXPECT_TRUE(rig.gateway->status().positions_known);

@@ -19,8 +19,16 @@ std::string wall_and_line() {
   return job + "G1 Z60\nG1 X0 Y60\nG1 Z10\nG1 X20 F300\nG1 Z20 F6000\n";
 }
 
+/// Homing spares parts of up to `mm`.
+MachineDescription sparing(double mm) {
+  MachineDescription machine = default_m1();
+  machine.homing.spared_part_mm = mm;
+  return machine;
+}
+
 class WayBack : public ::testing::Test {
  protected:
+  explicit WayBack(double spared_mm = 250) : rig(sparing(spared_mm)) {}
   /// The job is interrupted at Y 60, Z 10, and the machine may be moved.
   void SetUp() override {
     ASSERT_TRUE(rig.make_ready()) << rig.story();
@@ -117,6 +125,27 @@ TEST_F(WayBack, FromItsOwnPlaceAndFromAboveItGoesOn) {
   jog({0, 0, 80, 0, 0, 0});
   ASSERT_TRUE(rig.gateway->carry_out(command::Resume{})) << rig.story();
   ASSERT_TRUE(rig.reach(MachineState::kRunning, 10s)) << rig.story();
+}
+
+class PartTooHighToHome : public WayBack {
+ protected:
+  PartTooHighToHome() : WayBack(30) {}
+};
+
+TEST_F(PartTooHighToHome, IsNamedInTheCheckAndKeepsTheMachineFromHomingUntilTheJobIsGivenUp) {
+  EXPECT_NE(rig.story().find("warning: the part becomes higher than the 30 mm that homing spares"),
+            std::string::npos)
+      << rig.story();
+  const auto home = rig.gateway->carry_out(command::Home{});
+  ASSERT_FALSE(home);
+  EXPECT_EQ(
+      home.error().words,
+      "the part of the interrupted job is 40 mm high and homing spares 30 mm: cancel the job and take the "
+      "part off the table, then home");
+  EXPECT_EQ(rig.gateway->state(), MachineState::kReady);
+  ASSERT_TRUE(rig.gateway->carry_out(command::Cancel{})) << rig.story();
+  ASSERT_TRUE(rig.gateway->carry_out(command::Home{}));
+  EXPECT_TRUE(rig.reach(MachineState::kReady, 60s)) << rig.story();
 }
 
 // What the sentence says: the way that is refused is free when the job is given up and the machine homed.
