@@ -153,19 +153,29 @@ void set_joint(Writer& writer, const JointDescription& joint) {
 
 /// Both axes of a node that has a scale.
 std::vector<ParameterWrite> scale_settings(const MachineDescription& machine, std::uint8_t node_id) {
-  std::array<const ScaleDescription*, 2> scales{};
+  std::array<const JointDescription*, 2> scales{};
   for (const JointDescription& joint : machine.joints)
-    if (joint.node_id == node_id && joint.scale) scales[joint.axis & 1u] = &*joint.scale;
+    if (joint.node_id == node_id && joint.scale) scales[joint.axis & 1u] = &joint;
   if (scales[0] == nullptr && scales[1] == nullptr) return {};
   std::vector<ParameterWrite> writes;
   for (std::size_t axis = 0; axis < scales.size(); ++axis) {
     const auto write = [&](ObjectAddress base, std::uint8_t size, std::int64_t value) {
       writes.push_back({on_axis(base, axis), size, value});
     };
-    const ScaleDescription scale = scales[axis] == nullptr ? ScaleDescription{} : *scales[axis];
+    const ScaleDescription scale = scales[axis] == nullptr ? ScaleDescription{} : *scales[axis]->scale;
     write(object::kScaleCountsPerUnit, 4, std::llround(1000 * scale.pulses_per_mm));
     write(object::kScaleInverted, 1, scale.inverted ? 1 : 0);
     write(object::kScaleFitted, 1, scales[axis] == nullptr ? 0 : 1);
+    if (scales[axis] == nullptr || scale.correction_mm == 0) {
+      write(object::kScaleCorrectionMost, 4, 0);
+      continue;
+    }
+    // What calibration knows of the screw already is in the command.
+    const double counts_per_mm =
+        scales[axis]->drive.counts_per_unit() / (1 + scales[axis]->calibration.scale);
+    write(object::kScaleMotorRatio, 4, std::llround(65536 * counts_per_mm / scale.pulses_per_mm));
+    write(object::kScaleCorrectionRate, 4, std::llround(std::abs(counts_per_mm) * scale.correction_mm_per_s));
+    write(object::kScaleCorrectionMost, 4, std::llround(std::abs(counts_per_mm) * scale.correction_mm));
   }
   return writes;
 }

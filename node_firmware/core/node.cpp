@@ -263,7 +263,8 @@ std::int64_t Node::position(LocalTime at, int axis) {
   const std::int64_t user = user_position(at, axis);
   const DriveAxis& mine = axes_[static_cast<std::size_t>(axis & 1)];
   return static_cast<std::int64_t>(static_cast<std::uint64_t>(user) -
-                                   static_cast<std::uint64_t>(mine.origin()));
+                                   static_cast<std::uint64_t>(mine.origin()) +
+                                   static_cast<std::uint64_t>(correction(at, axis)));
 }
 
 std::int64_t Node::user_position(LocalTime at, int axis) {
@@ -279,8 +280,10 @@ LatchedPositions NodePreview::positions(LocalTime at) {
   LatchedPositions motor{};
   for (std::size_t i = 0; i < axes_; ++i) {
     const DriveAxis& axis = node_.axes_[i];
-    motor[i] = static_cast<std::int64_t>(static_cast<std::uint64_t>(axis.position_ahead(at, stream_)) -
-                                         static_cast<std::uint64_t>(axis.origin()));
+    motor[i] =
+        static_cast<std::int64_t>(static_cast<std::uint64_t>(axis.position_ahead(at, stream_)) -
+                                  static_cast<std::uint64_t>(axis.origin()) +
+                                  static_cast<std::uint64_t>(node_.correction(at, static_cast<int>(i))));
   }
   return motor;
 }
@@ -329,9 +332,9 @@ std::optional<CanFrame> Node::next_frame() {
 }
 
 LocalTime Node::next_deadline() const {
-  LocalTime deadline =
-      std::min({path_.next_deadline(), inputs_.next_deadline(), axes_[0].next_deadline(),
-                axes_[1].next_deadline(), watched_.next_deadline(), sdo_.next_deadline(), status_look_});
+  LocalTime deadline = std::min({path_.next_deadline(), inputs_.next_deadline(), axes_[0].next_deadline(),
+                                 axes_[1].next_deadline(), watched_.next_deadline(), sdo_.next_deadline(),
+                                 status_look_, scale_look_});
   // A frame that is due waits for the bus, not for on_time().
   const auto if_ahead = [&](LocalTime due) {
     if (due > now_) deadline = std::min(deadline, due);

@@ -18,6 +18,7 @@
 #include "node_firmware/core/parameter_image.hpp"
 #include "node_firmware/core/path_motion.hpp"
 #include "node_firmware/core/reset_report.hpp"
+#include "node_firmware/core/scale_correction.hpp"
 #include "node_firmware/core/switch_inputs.hpp"
 #include "node_firmware/core/touch_probe.hpp"
 #include "protocol/can/frame.hpp"
@@ -50,6 +51,8 @@ struct NodeOptions {
   const ObjectTable* table = &kNodeTable;
   /// Axes whose linear scales the board can count (2160h).
   std::array<bool, kAxesPerNode> scale_inputs{};
+  /// A scale of this axis has the pins of its motor's encoder (2150h:6): one or the other.
+  std::array<bool, kAxesPerNode> scale_is_encoder{};
   // Of a board with several nodes:
   /// The node has its id from its board, and LSS is another's business.
   bool id_from_board = false;
@@ -136,7 +139,11 @@ class Node : private ObjectOwner {
   /// continuous in time whatever happens to the coordinates (homing gives 6064h a new zero, not this).
   /// Calls in order of time are O(1) on average; `at` before the last input gives the position at that input.
   std::int64_t position(LocalTime at, int axis);
-  /// The same in the coordinates of 6064h and of the stream.
+  /// What of it leads the axis to where its linear scale has it (2160h:7).
+  std::int64_t correction(LocalTime at, int axis) const {
+    return scale_corrections_[static_cast<std::size_t>(axis & 1)].at(at);
+  }
+  /// The same in the coordinates of 6064h and of the stream, without that.
   std::int64_t user_position(LocalTime at, int axis);
   bool moving(LocalTime at) const;
   /// An axis has power: no flash is written then, for that holds up the control of the motors.
@@ -187,6 +194,7 @@ class Node : private ObjectOwner {
   bool read_axis_object(const DriveAxis& axis, ObjectAddress base, std::int64_t& value);
   /// In the direction of 2160h:3.
   ScaleCounts directed_scales() const;
+  bool encoder_takes_scale(int axis) const;
   std::int64_t told_current(const DriveAxis& axis) const;
   bool follows_badly(const DriveAxis& axis) const;
   AbortCode write_node_object(const ObjectEntry& entry, std::int64_t value);
@@ -207,6 +215,8 @@ class Node : private ObjectOwner {
   void serve_emergencies();
   void serve_stream_status();
   void serve_clearing();
+  void serve_scales();
+  void follow_scale(int axis);
   void serve_pdo_problems();
   void watch_levels();
   bool clear_allowed() const;
@@ -237,6 +247,9 @@ class Node : private ObjectOwner {
   friend class NodePreview;
   std::array<DriveFeedback, kAxesPerNode> feedback_{};
   ScaleCounts scale_counts_{};
+  std::array<ScaleCorrection, kAxesPerNode> scale_corrections_{};
+  std::array<std::optional<std::int32_t>, kAxesPerNode> corrected_from_{};  ///< the scale at home
+  LocalTime scale_look_ = LocalTime::max();
   std::array<TouchProbe, kAxesPerNode> probes_{};
   bool measures_ = false;  ///< the port has sensors
   std::array<bool, kAxesPerNode> tune_requested_{};

@@ -133,6 +133,12 @@ bool Node::follows_badly(const DriveAxis& axis) const {
   return window != kUnwatched && (error < 0 ? -error : error) > window;
 }
 
+/// Their pins are the same, and the encoder is in use.
+bool Node::encoder_takes_scale(int axis) const {
+  return options_.scale_is_encoder[static_cast<std::size_t>(axis)] &&
+         axis_parameter(slot_of_axes(object::kEncoderMode), axis) != 0;
+}
+
 ScaleCounts Node::directed_scales() const {
   ScaleCounts directed{};
   for (std::size_t i = 0; i < directed.size(); ++i) {
@@ -155,6 +161,10 @@ bool Node::read_axis_object(const DriveAxis& axis, ObjectAddress base, std::int6
       return true;
     case 0x2160: {
       const int i = &axis == &axes_[0] ? 0 : 1;
+      if (base == object::kScaleCorrection) {
+        value = whole_counts(correction(now_, i));
+        return true;
+      }
       const auto home = axis.scale_at_home();
       const bool at_home = base == object::kScaleHomeLatch;
       if (!scale_fitted(i) || (at_home && !home)) return false;
@@ -357,6 +367,8 @@ AbortCode Node::write_axis_object(const ObjectEntry& entry, std::int64_t value) 
   if (base == object::kScaleFitted || base == object::kScaleInverted) {
     if (base == object::kScaleFitted && value != 0 && !options_.scale_inputs[entry.axis == 1 ? 1 : 0])
       return AbortCode::kHardware;
+    if (base == object::kScaleFitted && value != 0 && encoder_takes_scale(entry.axis == 1 ? 1 : 0))
+      return AbortCode::kDeviceState;
     // The same again, as a gateway says that has been started anew, does not lose where home is.
     if (value != objects_.value(entry.value_slot())) axis.forget_scale();
     return AbortCode::kNone;

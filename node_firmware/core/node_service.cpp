@@ -35,6 +35,7 @@ void Node::serve() {
   watch_levels();
   serve_stops();
   for (DriveAxis& axis : axes_) axis.on_time(now_);
+  serve_scales();
   serve_emergencies();
   serve_stops();
   serve_clearing();
@@ -55,6 +56,44 @@ void Node::serve_pdo_problems() {
                                        static_cast<std::uint8_t>(index >> 8), problem->object.subindex});
   }
   if (!pdo_.rpdo_missing()) emcy_.clear(emcy::kRpdoTimeout);
+}
+
+void Node::serve_scales() {
+  if (now_ < scale_look_ && scale_look_ != LocalTime::max()) return;
+  bool any = false;
+  for (int axis = 0; axis < kAxesPerNode; ++axis) {
+    if (!scale_fitted(axis) || axis_parameter(slot_of_axes(object::kScaleCorrectionMost), axis) == 0) {
+      scale_corrections_[static_cast<std::size_t>(axis)].hold(now_);
+      continue;
+    }
+    any = true;
+    follow_scale(axis);
+  }
+  scale_look_ = any ? now_ + ScaleCorrection::kPeriod : LocalTime::max();
+}
+
+/// A scale that is broken, or farther away than may be corrected, stops all on the path; nothing loses power.
+void Node::follow_scale(int axis) {
+  const auto i = static_cast<std::size_t>(axis);
+  ScaleCorrection& correction = scale_corrections_[i];
+  const auto home = axes_[i].scale_at_home();
+  if (home != corrected_from_[i]) correction.hold(now_);
+  corrected_from_[i] = home;
+  if (!home) return;
+  // The edge has the negative of the home offset.
+  const std::int64_t edge = -axis_parameter(slot_of_axes(object::kHomeOffset), axis);
+  const auto counted = static_cast<std::uint32_t>(directed_scales()[i]) - static_cast<std::uint32_t>(*home);
+  const ScaleCorrection::Settings settings{
+      .ratio_q16 = static_cast<std::int32_t>(axis_parameter(slot_of_axes(object::kScaleMotorRatio), axis)),
+      .most_counts = axis_parameter(slot_of_axes(object::kScaleCorrectionMost), axis),
+      .counts_per_s = axis_parameter(slot_of_axes(object::kScaleCorrectionRate), axis)};
+  const auto finding = correction.look(
+      settings, {now_, whole_counts(axes_[i].position(now_)) - edge, static_cast<std::int32_t>(counted)});
+  if (finding == ScaleCorrection::Finding::kGood || path_.stop_latched()) return;
+  const bool stands = finding == ScaleCorrection::Finding::kStands;
+  count(NodeCounter::kDriveFaults);
+  path_.request_stop(StopReason::kAxisFault, axis, stands ? emcy::kIncrementalEncoder : emcy::kFollowingError,
+                     now_);
 }
 
 void Node::serve_switches() {

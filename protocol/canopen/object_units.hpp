@@ -337,7 +337,7 @@ constexpr void motors(Rows& t) {
 /// What a scale is like is told by the master at every start and not stored: 2116h does not cover it.
 constexpr void linear_scales(Rows& t) {
   const std::size_t from = t.count;
-  t.head(0x2160, "Linear scale", ObjectCode::kRecord, 5);
+  t.head(0x2160, "Linear scale", ObjectCode::kRecord, 9);
   t.sub(1, "Scale fitted", kU8, kReadWrite, kVariable).between(0, 1);
   t.sub(2, "Scale counts per unit x1000", kU32, kReadWrite, kVariable)
       .in("1/1000");  // for people: the node does not use it
@@ -345,6 +345,11 @@ constexpr void linear_scales(Rows& t) {
   // From wherever it stood at power-up; by 5 both can be compared with the axis' coordinates.
   t.sub(4, "Position by scale", kI32, kReadOnly, kLive).maps(Mapping::kTpdo).in("counts");
   t.sub(5, "Position by scale at home", kI32, kReadOnly, kLive).maps(Mapping::kTpdo).in("counts");
+  // The motor is led to where the scale has the axis; 7 = 0: it is not.
+  t.sub(6, "Motor counts per scale count x65536", kI32, kReadWrite, kVariable);
+  t.sub(7, "Correction by scale at most", kU32, kReadWrite, kVariable).in("counts");
+  t.sub(8, "Correction by scale rate", kU32, kReadWrite, kVariable).in("counts/s");
+  t.sub(9, "Correction by scale", kI32, kReadOnly, kLive).maps(Mapping::kTpdo).in("counts");
   t.for_both_axes(from);
 }
 

@@ -36,6 +36,8 @@ Board::Board(const ElfImage& image, const BoardOptions& options)
       usb_(cpu_.nvic()),
       motors_{StepperMotor(options.motors[0]), StepperMotor(options.motors[1])},
       temperature_c_{options.temperature_c, options.temperature_c} {
+  map(0x40000400, 0x400, scales_[0], apb1(1));
+  map(0x40000800, 0x400, scales_[1], apb1(2));
   map(0x40003C00, 0x400, spi3_, apb1(15));
   map(0x40010000, 0x400, tim1_, apb2(0));
   map(0x40010400, 0x400, tim8_, apb2(1));
@@ -58,6 +60,20 @@ Board::Board(const ElfImage& image, const BoardOptions& options)
       return motors_[a].angle_rad() / (2 * std::numbers::pi) + options_.encoder_offset_turns[a];
     };
   }
+  for (std::size_t a = 0; a < scales_.size(); ++a) {
+    const board::ScalePins& pins = board::kScalePins[a];
+    scales_[a].wired = [this, pins] {
+      const GpioPort& port = ports_[static_cast<std::size_t>(pins.port)];
+      return std::ranges::all_of(std::array{pins.first, pins.second}, [&](int pin) {
+        return port.mode(pin) == GpioPort::Mode::kAlternate && port.alternate(pin) == pins.timer;
+      });
+    };
+    if (!options.axes[a].scale) continue;
+    scales_[a].scale = [this, a](Cycle at) {
+      stages_[a]->advance(at);
+      return options_.axes[a].scale(true_counts(static_cast<int>(a)));
+    };
+  }
   tim1_.on_trigger = [this](Cycle at) { adc_.on_trigger(1, at); };
   adc_.sample = [this](int channel, Cycle at) { return analogue(channel, at); };
   for (GpioPort& port : ports_) port.on_change = [this](Cycle at) { on_pins(at); };
@@ -77,6 +93,7 @@ int Board::clock_offset(std::uint32_t base, std::uint32_t address) const {
 void Board::reset_devices(Cycle now) {
   tim1_.reset(now);
   tim8_.reset(now);
+  for (QuadratureCounter& scale : scales_) scale.reset();
   adc_.reset();
   spi1_.reset();
   spi3_.reset();

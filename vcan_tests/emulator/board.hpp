@@ -9,6 +9,7 @@
 #include "vcan_tests/emulator/peripherals/adc.hpp"
 #include "vcan_tests/emulator/peripherals/as5047.hpp"
 #include "vcan_tests/emulator/peripherals/otg_hs.hpp"
+#include "vcan_tests/emulator/peripherals/quadrature_counter.hpp"
 #include "vcan_tests/emulator/peripherals/spi.hpp"
 #include "vcan_tests/emulator/peripherals/usart.hpp"
 #include "vcan_tests/emulator/stm32f4_chip.hpp"
@@ -52,6 +53,7 @@ class Board final : public Stm32f4Chip {
   double analogue(int channel, Cycle at);
 
   Timer tim1_, tim8_;
+  std::array<QuadratureCounter, 2> scales_;  ///< TIM3, TIM4
   AdcBlock adc_;
   std::array<As5047, 2> encoders_;
   Spi spi1_, spi3_;

@@ -1,6 +1,7 @@
 // Linear scales on the carriages (2160h): counted beside the axis, and what they said at the home switch.
 
 #include "node_firmware/core/tests/node_bench.hpp"
+#include "protocol/canopen/alarm_codes.hpp"
 
 namespace kinebus::testing_bench {
 namespace {
@@ -77,6 +78,88 @@ TEST(NodeScale, IsNoPartOfWhatIsStoredOrOfTheFingerprint) {
   bench.write(kScaleNode, kScaleA, 2, 4, 100'000);
   EXPECT_EQ(bench.read(kScaleNode, 0x2116, 0), before);
   EXPECT_EQ(bench.read(kScaleNode, kScaleA, 2), 100'000);
+}
+
+/// Homed, and the loop closed: 1 mm at most, 5 mm/s, which is fast.
+void close_loop(Bench& bench, std::int64_t most_counts) {
+  bench.write(kScaleNode, kScaleA, 1, 1, 1);
+  bench.write(kScaleNode, kScaleA, 6, 4, kCountsAMm * 65536 / 100);
+  bench.write(kScaleNode, kScaleA, 8, 4, 5 * kCountsAMm);
+  bench.write(kScaleNode, kScaleA, 7, 4, most_counts);
+  bench.write(kScaleNode, 0x2130, 1, 1, 1);
+  bench.write(kScaleNode, 0x6098, 0, 1, 22);
+  bench.write(kScaleNode, 0x607C, 0, 4, 0);
+  bench.enable(kScaleNode, 0, 6);
+  bench.write(kScaleNode, 0x6040, 0, 2, 0x1F);
+  bench.run(20s);
+  ASSERT_EQ(bench.statusword(kScaleNode, 0) & 0x3400, 0x1400) << "homed";
+  bench.write(kScaleNode, 0x6060, 0, 1, 1);
+}
+void go_to(Bench& bench, std::int64_t counts, std::chrono::seconds span = 20s) {
+  bench.write(kScaleNode, 0x607A, 0, 4, counts);
+  bench.write(kScaleNode, 0x6040, 0, 2, 0x0F);
+  bench.write(kScaleNode, 0x6040, 0, 2, 0x1F);
+  bench.run(span);
+}
+
+TEST(NodeScale, ClosedTheLoopLeadsTheMotorToWhereTheScaleHasTheAxisAndTheCommandStays) {
+  Bench bench(one_scale());
+  close_loop(bench, kCountsAMm);
+  const std::int64_t home = bench.read(kScaleNode, kScaleA, 5);
+  go_to(bench, 150 * kCountsAMm);
+  EXPECT_EQ(bench.read(kScaleNode, 0x6064, 0), 150 * kCountsAMm) << "told as commanded";
+  EXPECT_NEAR(static_cast<double>(bench.read(kScaleNode, kScaleA, 4) - home), 15'000, 2)
+      << "0.21 mm of the screw are taken back";
+  EXPECT_NEAR(static_cast<double>(bench.read(kScaleNode, kScaleA, 9)), -0.0014 * 150 * kCountsAMm, 15);
+  EXPECT_FALSE(bench.node(0).path().stop_latched());
+  // Opened, the motor stays where it is: no step.
+  const std::int64_t there = bench.position(0, 0);
+  bench.write(kScaleNode, kScaleA, 7, 4, 0);
+  bench.run(2s);
+  EXPECT_EQ(bench.position(0, 0), there);
+}
+
+TEST(NodeScale, LedByItTheMotorIsNeverFasterThanItsRateAndHasNoStep) {
+  Bench bench(one_scale());
+  close_loop(bench, kCountsAMm);
+  bench.write(kScaleNode, kScaleA, 8, 4, kCountsAMm / 20);
+  std::int64_t last = bench.node(0).correction(bench.local(0), 0);
+  double fastest = 0;
+  bench.write(kScaleNode, 0x607A, 0, 4, 150 * kCountsAMm);
+  bench.write(kScaleNode, 0x6040, 0, 2, 0x0F);
+  bench.write(kScaleNode, 0x6040, 0, 2, 0x1F);
+  bench.run(20s, 1ms, [&] {
+    const std::int64_t now = bench.node(0).correction(bench.local(0), 0);
+    fastest = std::max(fastest, std::abs(static_cast<double>(now - last)) / 4294967296.0 * 1000);
+    last = now;
+  });
+  EXPECT_GT(fastest, 0);
+  EXPECT_LT(fastest, 1.1 * static_cast<double>(kCountsAMm) / 20) << "counts a second";
+}
+
+TEST(NodeScale, OneThatStandsWhileTheAxisMovesStopsItOnThePathAndNothingLosesPower) {
+  auto setup = one_scale();
+  setup[0].plant[0].scale_pulses = 1e-9;  // it never counts
+  Bench bench(setup);
+  close_loop(bench, kCountsAMm / 2);
+  const std::size_t from = bench.seen.size();
+  go_to(bench, 150 * kCountsAMm, 8s);
+  EXPECT_TRUE(bench.node(0).path().stop_latched());
+  EXPECT_TRUE(bench.was_seen(0x083, from));
+  EXPECT_EQ(get_u16_le(bench.last(0x083)->data), emcy::kIncrementalEncoder);
+  EXPECT_LT(bench.read(kScaleNode, 0x6064, 0), 10 * kCountsAMm) << "0.7 mm and the way of the stop";
+  EXPECT_EQ(bench.statusword(kScaleNode, 0) & 0x6F, 0x27) << "it holds";
+}
+
+TEST(NodeScale, FartherAwayThanMayBeCorrectedStopsToo) {
+  auto setup = one_scale();
+  setup[0].plant[0].screw_error = 0.05;
+  Bench bench(setup);
+  close_loop(bench, kCountsAMm / 2);
+  go_to(bench, 50 * kCountsAMm, 15s);
+  EXPECT_TRUE(bench.node(0).path().stop_latched());
+  EXPECT_EQ(get_u16_le(bench.last(0x083)->data), emcy::kFollowingError);
+  EXPECT_EQ(bench.statusword(kScaleNode, 0) & 0x6F, 0x27);
 }
 
 }  // namespace

@@ -42,7 +42,8 @@ struct Rcc {
   static constexpr std::uint32_t kDma2 = bit(22), kUsbHs = bit(29);
   static constexpr std::uint32_t kUsbUlpi = bit(30);  // AHB1LPENR: clock of an external PHY, in sleep
   // APB1ENR
-  static constexpr std::uint32_t kTim2 = bit(0), kSpi3 = bit(15), kCan1 = bit(25), kPower = bit(28);
+  static constexpr std::uint32_t kTim2 = bit(0), kTim3 = bit(1), kTim4 = bit(2), kSpi3 = bit(15),
+                                 kCan1 = bit(25), kPower = bit(28);
   // APB2ENR
   static constexpr std::uint32_t kTim1 = bit(0), kTim8 = bit(1), kUsart1 = bit(4), kAdc1 = bit(8),
                                  kAdc2 = bit(9), kAdc3 = bit(10), kSpi1 = bit(12), kSysConfig = bit(14);
@@ -116,7 +117,10 @@ struct Timer {
   static constexpr std::uint32_t kGenerateUpdate = bit(0), kGenerateBreak = bit(7);  // EGR
   // CCMR: PWM mode 1 with preload on both channels of the register.
   static constexpr std::uint32_t kPwm1Preload = (6u << 4 | bit(3)) | (6u << 12 | bit(11));
-  static constexpr std::uint32_t kAllOutputs = bit(0) | bit(4) | bit(8) | bit(12);  // CCER CC1E..CC4E
+  // Encoder mode: both edges of both channels count, each level held for 8 periods of the clock.
+  static constexpr std::uint32_t kBothEdges = 3;                                          // SMCR SMS
+  static constexpr std::uint32_t kInputsFiltered = (1u | 3u << 4) | (1u | 3u << 4) << 8;  // CCMR1
+  static constexpr std::uint32_t kAllOutputs = bit(0) | bit(4) | bit(8) | bit(12);        // CCER CC1E..CC4E
   // BDTR. OSSI and OSSR stay 0: with MOE = 0 the pins float, which the gate drivers take as "both off".
   static constexpr std::uint32_t kBreakEnable = bit(12), kBreakActiveHigh = bit(13), kMainOutput = bit(15);
 };
@@ -128,6 +132,12 @@ inline Timer& tim8() {
 }
 inline Timer& tim2() {
   return peripheral<Timer>(0x4000'0000);
+}
+inline Timer& tim3() {
+  return peripheral<Timer>(0x4000'0400);
+}
+inline Timer& tim4() {
+  return peripheral<Timer>(0x4000'0800);
 }
 
 struct Adc {

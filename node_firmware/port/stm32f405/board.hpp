@@ -45,8 +45,8 @@ inline constexpr std::array kPins = {
   Pin{C,  2, kAnalogue,  kNone,  0, false, "ADC123_IN12 temperature of motor B's MOSFETs"},
   // Encoders: AS5047-type, one SPI each.
   Pin{B,  3, kAlternate, kNone,  5, false, "SPI1_SCK  encoder A"},
-  Pin{B,  4, kAlternate, kUp,    5, false, "SPI1_MISO encoder A; pulled up: no encoder reads as parity error"},
-  Pin{B,  5, kAlternate, kNone,  5, false, "SPI1_MOSI encoder A"},
+  Pin{B,  4, kAlternate, kUp,    5, false, "SPI1_MISO encoder A; pulled up: no encoder reads as parity error; or scale A"},
+  Pin{B,  5, kAlternate, kNone,  5, false, "SPI1_MOSI encoder A; or scale A"},
   Pin{A, 15, kOutput,    kUp,    0, true,  "encoder A select, active low"},
   Pin{C, 10, kAlternate, kNone,  6, false, "SPI3_SCK  encoder B"},
   Pin{C, 11, kAlternate, kUp,    6, false, "SPI3_MISO encoder B"},
@@ -63,8 +63,8 @@ inline constexpr std::array kPins = {
   // Communication.
   Pin{B,  8, kAlternate, kUp,    9, false, "CAN1_RX"},
   Pin{B,  9, kAlternate, kNone,  9, false, "CAN1_TX"},
-  Pin{B,  6, kAlternate, kNone,  7, false, "USART1_TX console, 115200 8N1"},
-  Pin{B,  7, kAlternate, kUp,    7, false, "USART1_RX console"},
+  Pin{B,  6, kAlternate, kNone,  7, false, "USART1_TX console, 115200 8N1; or scale B"},
+  Pin{B,  7, kAlternate, kUp,    7, false, "USART1_RX console; or scale B"},
   Pin{B, 13, kInput,     kDown,  0, false, "VBUS of the USB connector, divided"},
   Pin{B, 14, kAlternate, kNone, 12, false, "OTG_HS_DM USB, full speed"},
   Pin{B, 15, kAlternate, kNone, 12, false, "OTG_HS_DP USB, full speed"},
@@ -84,6 +84,16 @@ inline constexpr OutputPin kStatusLed{C, 13};
 inline constexpr OutputPin kSystemBoot{C, 14};
 
 inline constexpr InputPin kUsbVbus{B, 13};
+
+/// A quadrature scale in the place of what the table has there, when 2160h:1 says so: channels 1 and 2 of a
+/// timer. A: encoder A's MISO and MOSI (TIM3), so that motor A has no encoder then; B: the console's TX and
+/// RX (TIM4), so that the console is on USB alone.
+struct ScalePins {
+  Port port;
+  std::uint8_t first, second;
+  std::uint8_t timer, usual;  ///< alternate functions
+};
+inline constexpr std::array<ScalePins, 2> kScalePins{{{B, 4, 5, 2, 5}, {B, 6, 7, 2, 7}}};
 
 // Analogue: 12 bits at 3.3 V.
 inline constexpr float kReferenceV = 3.3F;

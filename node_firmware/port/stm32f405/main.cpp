@@ -21,6 +21,7 @@
 #include "node_firmware/port/stm32f4/watchdog_port.hpp"
 #include "node_firmware/port/stm32f405/board.hpp"
 #include "node_firmware/port/stm32f405/power_stage.hpp"
+#include "node_firmware/port/stm32f405/scale_port.hpp"
 #include "node_firmware/port/stm32f405/usart_port.hpp"
 #include "node_firmware/port/stm32f405/usb_port.hpp"
 
@@ -39,6 +40,7 @@ constinit PageStore parameters{parameter_flash};
 constinit WatchdogPort dog;
 constinit WatchdogKeeper keeper;
 constinit UsartPort usart;
+constinit ScalePort scales;
 constinit UsbPort usb;
 constinit std::optional<NodeProgram<CanPort, Switches, LocalTimer>> program;
 
@@ -97,7 +99,9 @@ int main() {
   program.emplace(NodeOptions{.identity = {.serial = serial},
                               .node_id = take_inherited_node_id(handover_ram),
                               .program_crc = kImageHeader.crc,
-                              .reset = take_reset_report()},
+                              .reset = take_reset_report(),
+                              .scale_inputs = {true, true},
+                              .scale_is_encoder = {true, false}},
                   stored, can_port, switch_port, motion_plan);
   Node& node = program->node();
   switch_port.start(local_counts());
@@ -107,6 +111,7 @@ int main() {
   usb.start();
   dog.start();
   for (;;) {
+    scales.serve(node);
     pass(
         *program, motors, motors_good, [](std::size_t, auto image) { return parameters.save(image); }, dog);
     const Console::Subject subject{.node = node,
