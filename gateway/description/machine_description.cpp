@@ -86,6 +86,14 @@ MachineDescription default_m1() {
                {.name = "hotend"}};
   d.fans = {{.name = "part"}};
   d.bodies.emplace().table_radius_mm = 100;
+  // Columns behind the rails, and what joins them above the tallest part.
+  d.bodies->fixed = {
+      {.name = "bridge", .from_mm = {-335, -20, 1760}, .to_mm = {340, 20, 1800}},
+      {.name = "bridge_left", .from_mm = {-375, -266, 1760}, .to_mm = {-335, 266, 1800}},
+      {.name = "column_left_back", .from_mm = {-375, 266, -70}, .to_mm = {-335, 306, 1800}},
+      {.name = "column_left_front", .from_mm = {-375, -306, -70}, .to_mm = {-335, -266, 1800}},
+      {.name = "column_right", .from_mm = {340, -110, -70}, .to_mm = {380, 110, 1800}},
+  };
   machine_schema::connect_travel(d);
   return d;
 }

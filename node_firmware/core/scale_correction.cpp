@@ -11,7 +11,8 @@ constexpr std::int64_t kOne = std::int64_t{1} << 32;
 constexpr std::int64_t kQ32PerUs = 4295;
 /// An error is followed with a time constant of 128 looks: 1.3 s.
 constexpr std::int64_t kLooks = 128;
-/// Faster than this many counts of the scale in a look (10 mm/s at 0.01 mm), what is read is the motion's lag.
+/// Faster than this many counts of the scale in a look (10 mm/s at 0.01 mm), what is read is the motion's
+/// lag.
 constexpr std::int64_t kSlowPulses = 10;
 /// A scale stands when it has not counted on a way of so many of its counts, the play of the drive included.
 constexpr std::int64_t kStandsPulses = 20;

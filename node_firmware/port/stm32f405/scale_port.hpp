@@ -14,8 +14,8 @@ namespace kinebus::stm32 {
 class ScalePort {
  public:
   /// Main loop, each pass, before the node is given its inputs: a timer has 16 bits, of which half are gone
-  /// through in 0.7 s at 450 mm/s and 0.01 mm. What an edge of a switch is seen with is a pass younger at most:
-  /// at the slow speed of homing less than a count.
+  /// through in 0.7 s at 450 mm/s and 0.01 mm. What an edge of a switch is seen with is a pass younger at
+  /// most: at the slow speed of homing less than a count.
   void serve(Node& node) {
     for (int axis = 0; axis < 2; ++axis) {
       Scale& scale = scales_[static_cast<std::size_t>(axis)];

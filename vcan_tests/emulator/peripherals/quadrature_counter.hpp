@@ -1,6 +1,7 @@
 #pragma once
-// A timer in encoder mode: 16 bits that follow a scale's two channels. It counts only when it is set up as the
-// reference manual says, inputs filtered, clock and pins included; what passes while it is not set up is lost.
+// A timer in encoder mode: 16 bits that follow a scale's two channels. It counts only when it is set up as
+// the reference manual says, inputs filtered, clock and pins included; what passes while it is not set up is
+// lost.
 
 #include <functional>
 

@@ -18,10 +18,13 @@ BoardOptions with_scales(const bool* broken = nullptr) {
   BoardOptions options;
   options.axes[0] = {.switch_input = 1, .switch_counts = -2 * kCountsPerMm, .active_above = false};
   options.axes[0].scale = [broken, last = 0](double counts) mutable {
-    if (broken == nullptr || !*broken) last = static_cast<int>(std::floor(counts / kCountsPerMm * 100 * 1.005));
+    if (broken == nullptr || !*broken)
+      last = static_cast<int>(std::floor(counts / kCountsPerMm * 100 * 1.005));
     return last;
   };
-  options.axes[1].scale = [](double counts) { return static_cast<int>(std::floor(-counts / kCountsPerMm * 100)); };
+  options.axes[1].scale = [](double counts) {
+    return static_cast<int>(std::floor(-counts / kCountsPerMm * 100));
+  };
   return options;
 }
 
@@ -75,6 +78,7 @@ void close_loop(OneBoard& node) {
   node.bench.write(OneBoard::kId, 0x6040, 0, 2, 0x1F);
   node.bench.run(6s);
   ASSERT_EQ(node.bench.read(OneBoard::kId, 0x6041, 0) & 0x3400, 0x1400) << "homed";
+  node.bench.write(OneBoard::kId, 0x6040, 0, 2, 0x0F);
   node.bench.write(OneBoard::kId, 0x6060, 0, 1, 1);
   node.bench.run(20ms);
 }
