@@ -158,11 +158,17 @@ TEST(HomingSurvey, TheSameSeedGivesTheSameStarts) {
 
 // A tall part swings about the tilted table's axis while the first carriages stand on their switches.
 TEST(HomingSurvey, CornersFindAPartThatIsTooTall) {
-  HomingStudy study(m1_with_bodies());
-  const auto corners_with = [&study](double radius, double height) {
+  const auto corners_of = [](const MachineDescription& machine, double radius, double height) {
+    HomingStudy study(machine);
     study.set_part(radius, height);
     return survey(study.machine(), study.plan(), 1, 0, {}, 1, 32);
   };
+  const Survey room_below = corners_of(m1_with_bodies(), 100, 250);
+  EXPECT_TRUE(room_below.safe()) << told(room_below);
+  // Its switches where its work ends.
+  MachineDescription near = m1_with_bodies();
+  for (std::size_t j = 0; j < 4; ++j) near.joints[j].travel.min = near.joints[j].homing->switch_position = 40;
+  const auto corners_with = [&](double radius, double height) { return corners_of(near, radius, height); };
   const Survey promised = corners_with(100, 200);
   EXPECT_GT(promised.corners, 16);
   EXPECT_EQ(promised.starts, promised.corners);
