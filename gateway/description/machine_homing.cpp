@@ -144,21 +144,22 @@ void judge_homing(const MachineDescription& description, std::vector<BrokenRule>
   if (!description.bodies || !moves) return;
   HomingStudy study(description);
   const double stated_mm = description.bodies->part_height_mm;
-  if (!(stated_mm > 0)) study.set_part(study.machine().part_radius_mm, 0);
-  const auto look = [&] {
-    constexpr int kStarts = 8, kAttempts = 12;
-    // It is a part that corners are about.
-    const std::size_t corners = study.machine().part_height_mm > 0 ? 32 : 0;
-    constexpr homing::Walker::Density kCoarse{.least_mm = 2, .most_mm = 25, .most_poses = 100};
-    return homing::survey(study.machine(), study.plan(), 1, kStarts, kCoarse, kAttempts, corners);
-  };
-  homing::Survey found = look();
   const double spared_mm = description.homing.spared_part_mm;
-  const bool about_spared = !found.failure && !(stated_mm > 0) && spared_mm > 0;
-  if (about_spared) {
-    study.set_part(study.machine().part_radius_mm, spared_mm);
-    found = look();
-  }
+  const auto look = [&](double height_mm, std::size_t corners) {
+    constexpr int kStarts = 8, kAttempts = 12;
+    study.set_part(study.machine().part_radius_mm, height_mm);
+    constexpr homing::Walker::Density kCoarse{.least_mm = 2, .most_mm = 25, .most_poses = 100};
+    return homing::survey(study.machine(), study.plan(), 1, kStarts, kCoarse, kAttempts,
+                          height_mm > 0 ? corners : 0);  // it is a part that corners are about
+  };
+  // Fewer corners for what is only stated: this is done whenever a file is read.
+  homing::Survey found = stated_mm > 0 ? look(stated_mm, 32) : look(spared_mm, 8);
+  bool about_spared = found.failure && !(stated_mm > 0) && spared_mm > 0;
+  if (about_spared)
+    if (homing::Survey without = look(0, 0); without.failure) {
+      found = std::move(without);
+      about_spared = false;
+    }
   if (!found.failure) return;
   const auto& [start, way] = *found.failure;
   if (about_spared) keys = {"homing.spared_part_mm"};

@@ -3737,10 +3737,6 @@
         <translation>کار پایان می‌یابد: هنگام پروب کردن متوقف شد</translation>
     </message>
     <message>
-        <source>the job probes, and what it has measured is not known any more: it cannot go on after a restart of the gateway</source>
-        <translation>کار پروب می‌کند و آنچه سنجیده بود دیگر معلوم نیست: پس از راه‌اندازی دوبارهٔ درگاه نمی‌تواند ادامه یابد</translation>
-    </message>
-    <message>
         <source>probing</source>
         <translation>در حال پروب کردن</translation>
     </message>
@@ -3980,6 +3976,10 @@
     <message>
         <source>Messages, too</source>
         <translation>پیام‌ها هم</translation>
+    </message>
+    <message>
+        <source>No alarms so far.</source>
+        <translation>تاکنون هشداری نبوده است.</translation>
     </message>
 </context>
 <context>

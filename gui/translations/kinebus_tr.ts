@@ -3018,7 +3018,7 @@
     </message>
     <message>
         <source>a lower part than %1 mm: see kinebus plan --home</source>
-        <translation>%1 mm'den alçak bir parça: kinebus plan --home gösterir</translation>
+        <translation>%1 mm&apos;den alçak bir parça: kinebus plan --home gösterir</translation>
     </message>
     <message>
         <source>a joint that is led by its scale and has an error that is not linear</source>
@@ -3030,11 +3030,11 @@
     </message>
     <message>
         <source>the part becomes higher than the %1 mm that homing spares: it must be off the table before the machine homes with its positions unknown</source>
-        <translation>parça, referansa gitmenin dokunmadığı %1 mm'den yüksek oluyor: makine konumları bilinmeden referansa gitmeden önce parça tabladan alınmalıdır</translation>
+        <translation>parça, referansa gitmenin dokunmadığı %1 mm&apos;den yüksek oluyor: makine konumları bilinmeden referansa gitmeden önce parça tabladan alınmalıdır</translation>
     </message>
     <message>
         <source>the part of the interrupted job is %1 mm high and homing spares %2 mm: cancel the job and take the part off the table, then home</source>
-        <translation>kesilmiş işin parçası %1 mm yüksek, referansa gitme ise %2 mm'ye kadar dokunmaz: işi iptal edin, parçayı tabladan alın, sonra referansa gönderin</translation>
+        <translation>kesilmiş işin parçası %1 mm yüksek, referansa gitme ise %2 mm&apos;ye kadar dokunmaz: işi iptal edin, parçayı tabladan alın, sonra referansa gönderin</translation>
     </message>
     <message>
         <source>the job was not begun: on the way to the bed reference %1</source>
@@ -3737,10 +3737,6 @@
         <translation>iş bitiyor: problama sırasında durduruldu</translation>
     </message>
     <message>
-        <source>the job probes, and what it has measured is not known any more: it cannot go on after a restart of the gateway</source>
-        <translation>iş problama yapıyor ve ölçtüğü artık bilinmiyor: ağ geçidi yeniden başladıktan sonra devam edemez</translation>
-    </message>
-    <message>
         <source>probing</source>
         <translation>problama</translation>
     </message>
@@ -3980,6 +3976,10 @@
     <message>
         <source>Messages, too</source>
         <translation>İletiler de</translation>
+    </message>
+    <message>
+        <source>No alarms so far.</source>
+        <translation>Şimdiye kadar alarm yok.</translation>
     </message>
 </context>
 <context>

@@ -11,8 +11,7 @@ namespace {
 // port/stm32f446_octopus.
 constexpr std::uint8_t kOctopusFirst = 1, kOctopusPairs = 4, kOctopusHeat = 5;
 constexpr std::uint8_t kOctopusStops = 8;
-// The EBB's: its extruder, and its heat.
-constexpr std::uint8_t kEbbAxis = 6, kEbbHeat = 7;
+constexpr std::uint8_t kEbbAxis = 6;  // its extruder
 
 /// nullptr: this build knows no such board.
 const BoardFacts* facts_of(std::string_view name) {
@@ -34,10 +33,10 @@ MotorPlace card_motor(std::size_t motor) {
 }
 
 void add_octopus(BoardPlan& plan, std::size_t motors) {
-  plan.roles.push_back({"Octopus", facts_of("stm32f446_octopus"), kOctopusFirst, kOctopusPairs});
+  plan.roles.push_back({"Octopus", facts_of("stm32f446_octopus"), kOctopusFirst, kOctopusPairs + 1});
   for (std::size_t driver = 0; driver < motors; ++driver) plan.motors.push_back(octopus_motor(driver));
   plan.heat_nodes.push_back({kOctopusHeat, 4, 1, 6, "Octopus"});
-  plan.bed = {kOctopusHeat, 4, "bed heater and TB of the Octopus"};
+  plan.bed = {kOctopusHeat, 2, "bed heater and TB of the Octopus"};
   plan.hotend = {kOctopusHeat, 1, "HE0 and T0 of the Octopus"};
   plan.hotend_fan = {kOctopusHeat, 1, "FAN0 of the Octopus"};
   plan.part_fan = {kOctopusHeat, 2, "FAN1 of the Octopus"};
@@ -73,10 +72,7 @@ BoardPlan plan_boards(BoardSet set, std::size_t joints, std::uint8_t heat_node) 
       add_octopus(plan, joints - 1);
       plan.roles.push_back({"EBB", facts_of("stm32g0b1_ebb"), kEbbAxis, 1});
       plan.motors.push_back({kEbbAxis, 0, "the extruder's driver of the EBB", "PROBE of the EBB"});
-      plan.heat_nodes.push_back({kEbbHeat, 1, 0, 2, "EBB"});
-      plan.hotend = {kEbbHeat, 1, "heater and TH0 of the EBB"};
-      plan.hotend_fan = {kEbbHeat, 1, "FAN1 of the EBB"};
-      plan.part_fan = {kEbbHeat, 2, "FAN2 of the EBB"};
+      // Its image has no heat node: the hot end and its fans are the Octopus'.
       plan.probe = {kEbbAxis, 1, "PROBE of the EBB"};
       break;
     case BoardSet::kCards:
