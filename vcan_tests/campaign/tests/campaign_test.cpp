@@ -101,8 +101,8 @@ TEST(Campaign, AnEmergencyStopRampsAllNodesWithinTwoMillisecondsAndAFrame) {
 }
 
 TEST(Campaign, AStopAtAnyMomentAroundTheEndOfAMoveGoesOn) {
-  // The way to the bed reference takes some 1.1 s, then the print's first records go out.
-  for (BusTime after = 1010ms; after < 1310ms; after += 20ms) {
+  // The way to the bed reference takes some 1.3 s, then the print's first records go out.
+  for (BusTime after = 1210ms; after < 1510ms; after += 20ms) {
     const FaultResult result = run_one(3, {.kind = FaultKind::kOperatorStop, .after = after, .length = 20ms});
     EXPECT_TRUE(result.violations.empty()) << after / 1ms << " ms: " << words_of(result);
     EXPECT_EQ(result.outcome, FaultOutcome::kContinued) << after / 1ms << " ms";
@@ -123,7 +123,7 @@ TEST(Campaign, ANewGatewayGoesOnThroughTheBacklashOfTheCarriages) {
   const FaultResult clean = run({});
   EXPECT_GT(clean.path_um, 40);
   EXPECT_LE(clean.path_um, gap_um + 1);
-  for (BusTime after = 1600ms; after < 3500ms; after += 190ms) {
+  for (BusTime after = 1800ms; after < 3700ms; after += 190ms) {
     const FaultResult result = run({.kind = FaultKind::kGatewayDies, .after = after, .length = 400ms});
     EXPECT_EQ(result.outcome, FaultOutcome::kContinued) << after / 1ms << " ms";
     // Nothing jumps, and the gap is not lost: a carriage on its wrong side would be off by it all the way. A
