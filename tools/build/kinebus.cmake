@@ -97,9 +97,10 @@ set(KINEBUS_EMULATION_ARGUMENTS_job_store_test --gtest_filter=-PowerCut.*:ReadAh
 set(KINEBUS_EMULATION_ARGUMENTS_heat_test --gtest_filter=-Watch.*)
 
 # Tests of what has threads, labelled so: what the thread sanitizer builds and runs, with the daemon itself under printcore.
-set(KINEBUS_THREADED_TESTS streams_test job_link_test kinebus_workspace_test kinebus_campaign_test)
+set(KINEBUS_THREADED_TESTS streams_test job_store_test job_link_test kinebus_workspace_test kinebus_campaign_test)
 # Of the campaign one kind of fault is enough: its seeds share the work as all others do, and each has a machine of its own.
 set(KINEBUS_TSAN_ARGUMENTS_kinebus_campaign_test --gtest_filter=*frames_dropped)
+set(KINEBUS_TSAN_ARGUMENTS_job_store_test --gtest_filter=ReadAhead.*)
 add_custom_target(kinebus_threaded_tests)
 
 # With the address sanitizer and what counts for fuzzing this one takes ten minutes: several processes share its tests.
