@@ -17,8 +17,8 @@ namespace {
 constexpr double kEdge = 14;
 constexpr double kLeastTop = 100;  // C
 constexpr double kStrip = 0.22;    // of the height: power and fans
-constexpr int kLeft = Qt::AlignAbsolute | Qt::AlignLeft | Qt::AlignVCenter;
-constexpr int kRight = Qt::AlignAbsolute | Qt::AlignRight | Qt::AlignVCenter;
+constexpr int kLeading = Qt::AlignAbsolute | Qt::AlignLeft | Qt::AlignVCenter;
+constexpr int kTrailing = Qt::AlignAbsolute | Qt::AlignRight | Qt::AlignVCenter;
 
 QString words_of(double celsius) {
   return Format::isolated(Format::temperature(celsius));
@@ -98,7 +98,7 @@ double HeatPlot::draw_legend(QPainter& painter, double top) const {
     painter.setPen(QPen(of, 3));
     painter.drawLine(QPointF(x, top + line / 2), QPointF(x + 10, top + line / 2));
     painter.setPen(theme_.colours().text);
-    painter.drawText(QRectF(x + 14, top, wide, line), kLeft, text);
+    painter.drawText(QRectF(x + 14, top, wide, line), kLeading, text);
     x += wide + 8;
   };
   for (std::size_t i = 0; i < history_.heaters().size(); ++i) {
@@ -132,7 +132,7 @@ void HeatPlot::paintEvent(QPaintEvent*) {
   span_->move(mirrored ? static_cast<int>(kEdge) : width() - span_->width() - static_cast<int>(kEdge), 8);
   const QRectF head(kEdge, 8, width() - 2 * kEdge, span_->height());
   painter.setPen(colours.muted);
-  painter.drawText(head, (mirrored ? kRight : kLeft), tr("Temperatures, power and fans"));
+  painter.drawText(head, (mirrored ? kTrailing : kLeading), tr("Temperatures, power and fans"));
   QFont small = font();
   small.setPointSizeF(small.pointSizeF() * 0.85);
   painter.setFont(small);
@@ -156,16 +156,16 @@ void HeatPlot::paintEvent(QPaintEvent*) {
     painter.setPen(QPen(colours.border, 1));
     painter.drawLine(QPointF(warm.left(), y), QPointF(warm.right(), y));
     painter.setPen(colours.muted);
-    painter.drawText(QRectF(kEdge, y - line / 2, scale, line), kRight, words_of(top * i / 2));
+    painter.drawText(QRectF(kEdge, y - line / 2, scale, line), kTrailing, words_of(top * i / 2));
   }
   painter.setPen(QPen(colours.border, 1));
   painter.drawRect(strip);
   painter.setPen(colours.muted);
-  painter.drawText(QRectF(kEdge, strip.top(), scale, line), kRight, Format::isolated(Format::percent(1)));
+  painter.drawText(QRectF(kEdge, strip.top(), scale, line), kTrailing, Format::isolated(Format::percent(1)));
   const QRectF times(all.left(), all.bottom() + 3, all.width(), line);
   const bool job = span() == HeatHistory::Span::kJob;
-  painter.drawText(times, kLeft, job ? tr("begin") : tr("10 minutes ago"));
-  painter.drawText(times, kRight, job ? Format::isolated(Format::duration(length_s())) : tr("now"));
+  painter.drawText(times, kLeading, job ? tr("begin") : tr("10 minutes ago"));
+  painter.drawText(times, kTrailing, job ? Format::isolated(Format::duration(length_s())) : tr("now"));
   painter.setClipRect(all.adjusted(-1, -1, 1, 1));
   for (std::size_t i = 0; i < history_.fans().size(); ++i)
     draw_curve(

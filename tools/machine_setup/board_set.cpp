@@ -93,7 +93,7 @@ BoardPlan plan_boards(BoardSet set, std::size_t joints, std::uint8_t heat_node) 
 }
 
 std::string switch_words(BoardSet set, std::uint8_t node, int input) {
-  const std::string plain = fmt::format("input {} of node {}", input, node);
+  std::string plain = fmt::format("input {} of node {}", input, node);
   if (set == BoardSet::kCards) return plain;
   if (node >= kOctopusFirst && node < kOctopusFirst + kOctopusPairs) {
     if (input == 7) return "PROBE (" + plain + ")";

@@ -22,8 +22,6 @@
 #include "tools/machine_setup/boards_report.hpp"
 #include "tools/machine_setup/walk.hpp"
 
-extern char** environ;
-
 namespace {
 
 using namespace kinebus;
@@ -99,6 +97,7 @@ bool flash(const std::string& interface, const std::string& image, const std::ve
                                  image, "-i", interface};
   for (const std::uint8_t node : nodes) words.insert(words.end(), {"-n", std::to_string(node)});
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   std::fflush(stdout);

@@ -126,7 +126,7 @@ class SwitchTest {
       return false;
     }
     if (pressed->input != wanted && !take_other(joint, *pressed)) return false;
-    note(node_of(joint.node_id).inputs[pressed->input - 1U], *pressed);
+    note(node_of(joint.node_id).inputs[static_cast<std::size_t>(pressed->input) - 1], *pressed);
     s_.answers.set(key, fmt::format("seen at {}, {} when pressed", words(pressed->node, pressed->input),
                                     pressed->high ? "high" : "low"));
     s_.dialogue.say("Seen.");

@@ -152,7 +152,7 @@ bool SetupState::done(const std::string& key, const std::string& what) const {
 }
 
 std::string SetupState::connector_of(const JointDescription& joint) const {
-  const std::string node = fmt::format("node {}, axis {}", joint.node_id, "AB"[joint.axis & 1]);
+  std::string node = fmt::format("node {}, axis {}", joint.node_id, "AB"[joint.axis & 1]);
   for (const MotorPlace& place : plan_of(first).motors)
     if (place.node == joint.node_id && place.axis == joint.axis)
       return fmt::format("{} ({})", place.connector, node);

@@ -16,7 +16,7 @@ namespace kinebus::emulator {
 class Stm32g0b1Chip : public Chip {
  public:
   static constexpr std::uint32_t kG0B1 = 0x1000'0467, kG071 = 0x2000'0460;  ///< DBG_IDCODE
-  static constexpr std::size_t kFlashBytes = 128 * 1024;
+  static constexpr std::size_t kFlashBytes = std::size_t{128} * 1024;
   ~Stm32g0b1Chip() override;
 
   Fdcan& can() override { return can_; }

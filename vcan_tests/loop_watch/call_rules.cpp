@@ -84,7 +84,7 @@ std::string CallRules::judge_transfer(int fd, bool says_dont_wait) {
 }
 
 CallRules::Verdict CallRules::judge_futex(const SystemCall& call) const {
-  const std::uint64_t operation = call.arguments[1] & FUTEX_CMD_MASK;
+  const std::uint64_t operation = call.arguments[1] & static_cast<std::uint64_t>(FUTEX_CMD_MASK);
   if (operation != FUTEX_WAIT && operation != FUTEX_WAIT_BITSET) return {};
   const std::uint64_t address = call.arguments[0];
   if (address >= library_begin_ && address < library_end_) return {.allocator = true};

@@ -196,7 +196,7 @@ void Flash::write(std::uint32_t offset, std::uint32_t value, Cycle now) {
         break;
       }
       const std::uint32_t page = value >> 3 & 0x3FF;
-      if ((value & 1) != 0 || (page + 1) * kPage > memory_.size()) {
+      if ((value & 1) != 0 || (std::size_t{page} + 1) * kPage > memory_.size()) {
         fail(kSequenceError);
         break;
       }
