@@ -7,18 +7,10 @@
 
 #include "vcan_tests/emulator/physics/power_stage.hpp"
 #include "vcan_tests/emulator/physics/stepper_motor.hpp"
+#include "vcan_tests/emulator/tests/fake_lines.hpp"
 
 namespace kinebus::emulator {
 namespace {
-
-class Lines final : public InterruptLines {
- public:
-  void set_line(int irq, bool level) override { level_[static_cast<std::size_t>(irq)] = level; }
-  bool level(int irq) const { return level_[static_cast<std::size_t>(irq)]; }
-
- private:
-  std::array<bool, 96> level_{};
-};
 
 StepperParameters frictionless() {
   StepperParameters p;
@@ -190,7 +182,7 @@ TEST(PowerStage, AShortedMotorIsCutOffInHardwareWithinAMicrosecondOfTheThreshold
   EXPECT_LT(s.motor.peak_current_a(), 8.0);
   EXPECT_GT(s.motor.peak_current_a(), 7.0);
   EXPECT_FALSE(s.timer.sweep().main_output);
-  EXPECT_TRUE(s.lines.level(24));
+  EXPECT_TRUE(s.lines[24]);
   EXPECT_EQ(s.stage.current_a(0), 0);
 }
 
