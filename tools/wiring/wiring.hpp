@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "node_firmware/port/stm32f4/pin_table.hpp"
+#include "node_firmware/port/stm32/pin_table.hpp"
 
 namespace kinebus {
 

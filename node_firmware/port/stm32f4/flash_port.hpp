@@ -5,7 +5,7 @@
 #include <span>
 
 #include "node_firmware/core/page_store.hpp"
-#include "node_firmware/port/stm32f4/pin_table.hpp"
+#include "node_firmware/port/stm32/pin_table.hpp"
 #include "node_firmware/port/stm32f4/registers.hpp"
 
 namespace kinebus::stm32 {

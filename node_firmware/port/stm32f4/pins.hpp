@@ -1,7 +1,7 @@
 #pragma once
 // Carries out the table of a board.
 
-#include "node_firmware/port/stm32f4/pin_table.hpp"
+#include "node_firmware/port/stm32/pin_table.hpp"
 #include "node_firmware/port/stm32f4/registers.hpp"
 
 namespace kinebus::stm32 {

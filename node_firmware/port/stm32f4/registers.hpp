@@ -6,21 +6,11 @@
 #include <cstdint>
 #include <span>
 
-#include "node_firmware/port/stm32f4/pin_table.hpp"
+#include "node_firmware/port/stm32/instructions.hpp"
+#include "node_firmware/port/stm32/peripheral.hpp"
+#include "node_firmware/port/stm32/pin_table.hpp"
 
 namespace kinebus::stm32 {
-
-using Reg = volatile std::uint32_t;
-
-/// The one place where a number becomes a peripheral.
-template <typename T>
-inline T& peripheral(std::uint32_t address) {
-  return *reinterpret_cast<T*>(address);  // NOLINT(performance-no-int-to-ptr): hardware is at fixed addresses
-}
-
-constexpr std::uint32_t bit(int n) {
-  return std::uint32_t{1} << n;
-}
 
 struct Rcc {
   Reg CR, PLLCFGR, CFGR, CIR;
@@ -310,8 +300,7 @@ inline Nvic& nvic() {
 struct SystemControl {
   Reg CPUID, ICSR, VTOR, AIRCR, SCR, CCR, SHPR[3], SHCSR, CFSR, HFSR, DFSR, MMFAR, BFAR, AFSR, reserved0[18],
       CPACR;
-  static constexpr std::uint32_t kFloatingPoint = 0xFu << 20;           // CPACR: CP10 and CP11
-  static constexpr std::uint32_t kResetRequest = 0x05FA'0000 | bit(2);  // AIRCR
+  static constexpr std::uint32_t kFloatingPoint = 0xFu << 20;  // CPACR: CP10 and CP11
 };
 static_assert(offsetof(SystemControl, CPACR) == 0x88);
 inline SystemControl& system_control() {
@@ -359,36 +348,6 @@ inline void enable_interrupt(Irq irq, unsigned priority) {
   const auto n = static_cast<unsigned>(irq);
   nvic().IPR[n] = static_cast<std::uint8_t>(priority << 4);
   nvic().ISER[n / 32] = std::uint32_t{1} << (n % 32);
-}
-
-inline void wait_for_interrupt() {
-  asm volatile("wfi" ::: "memory");
-}
-inline void disable_interrupts() {
-  asm volatile("cpsid i" ::: "memory");
-}
-inline void enable_interrupts() {
-  asm volatile("cpsie i" ::: "memory");
-}
-inline void barrier() {
-  asm volatile("dsb\n isb" ::: "memory");
-}
-
-/// Clocks of peripherals on. ES0182, "delay after an RCC peripheral clock enabling": what is written to a
-/// peripheral in the bus cycles after that may be lost. The read back takes longer, and the barrier waits for
-/// it.
-inline void enable_clock(Reg& enable, std::uint32_t peripherals) {
-  enable = enable | peripherals;
-  [[maybe_unused]] const std::uint32_t seen = enable;
-  barrier();
-}
-
-/// Waits for a register bit, so many looks at most. False: it never came.
-template <typename Condition>
-bool wait_until(Condition condition, std::uint32_t looks = 2'000'000) {
-  while (looks-- != 0)
-    if (condition()) return true;
-  return false;
 }
 
 }  // namespace kinebus::stm32

@@ -1,32 +1,24 @@
-// From reset to main: memory, floating point. Runs before any constructor; touches no peripheral.
+// The first instructions after a reset, and what the core tells of a fault.
 
-#include <cstdint>
+#include "node_firmware/port/stm32/startup.hpp"
 
-#include "node_firmware/board/runtime.hpp"
-#include "node_firmware/core/reset_report.hpp"
-#include "node_firmware/port/stm32f4/handlers.hpp"
+#include "node_firmware/port/stm32/exceptions.hpp"
+#include "node_firmware/port/stm32/handlers.hpp"
 #include "node_firmware/port/stm32f4/registers.hpp"
 
-extern "C" {
-
-// Set by the linker script.
-extern std::uint32_t data_start, data_end, data_load, bss_start, bss_end;
-extern void (*init_array_start[])();
-extern void (*init_array_end[])();
-
-int main();
-
-[[noreturn]] void reset_handler() {
+extern "C" [[noreturn]] void reset_handler() {
   using namespace kinebus::stm32;
   system_control().CPACR = system_control().CPACR | SystemControl::kFloatingPoint;
   barrier();
-  const std::uint32_t* from = &data_load;
-  for (std::uint32_t* to = &data_start; to != &data_end;) *to++ = *from++;
-  for (std::uint32_t* to = &bss_start; to != &bss_end;) *to++ = 0;
-  for (auto* init = init_array_start; init != init_array_end; ++init) (*init)();
-  main();
-  kinebus::power_off_and_reset(kinebus::fault_reason::kMainEnded, nullptr);
+  run_program();
 }
+
+void kinebus::stm32::record_core(FaultRecord& record) {
+  const SystemControl& core = system_control();
+  record.reason = core.ICSR & 0x1FF;
+  record.cfsr = core.CFSR;
+  record.hfsr = core.HFSR;
+  record.address = core.BFAR;
 }
 
 // What a program does not use falls back to these: a branch, so that the stack is as the exception left it.

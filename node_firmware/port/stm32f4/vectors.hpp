@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "node_firmware/port/stm32f4/handlers.hpp"
+#include "node_firmware/port/stm32/handlers.hpp"
 #include "node_firmware/port/stm32f4/registers.hpp"
 
 extern "C" {

@@ -1,4 +1,4 @@
-#include "node_firmware/port/stm32f4/outputs_off.hpp"
+#include "node_firmware/port/stm32/outputs_off.hpp"
 
 #include "node_firmware/port/stm32f4/pins.hpp"
 #include "node_firmware/port/stm32f405/board.hpp"

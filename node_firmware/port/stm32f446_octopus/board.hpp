@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "node_firmware/port/stm32/pin_table.hpp"
 #include "node_firmware/port/stm32f4/clocks.hpp"
-#include "node_firmware/port/stm32f4/pin_table.hpp"
 
 namespace kinebus::octopus {
 

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "node_firmware/port/stm32f4/pin_table.hpp"
+#include "node_firmware/port/stm32/pin_table.hpp"
 
 namespace kinebus::ebb {
 

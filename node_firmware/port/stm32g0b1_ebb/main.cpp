@@ -6,7 +6,7 @@
 #include "node_firmware/board/node_pass.hpp"
 #include "node_firmware/board/runtime.hpp"
 #include "node_firmware/boot/image_header.hpp"
-#include "node_firmware/port/stm32f4/handlers.hpp"
+#include "node_firmware/port/stm32/handlers.hpp"
 #include "node_firmware/port/stm32g0b1_ebb/board.hpp"
 #include "node_firmware/port/stm32g0b1_ebb/can_port.hpp"
 #include "node_firmware/port/stm32g0b1_ebb/clock_tree.hpp"

@@ -1,4 +1,4 @@
-#include "node_firmware/port/stm32f4/outputs_off.hpp"
+#include "node_firmware/port/stm32/outputs_off.hpp"
 
 #include "node_firmware/port/stm32g0b1_ebb/board.hpp"
 #include "node_firmware/port/stm32g0b1_ebb/pins.hpp"

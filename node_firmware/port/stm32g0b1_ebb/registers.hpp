@@ -6,21 +6,22 @@
 #include <cstdint>
 #include <span>
 
-#include "node_firmware/port/stm32f4/pin_table.hpp"
+#include "node_firmware/port/stm32/instructions.hpp"
+#include "node_firmware/port/stm32/peripheral.hpp"
+#include "node_firmware/port/stm32/pin_table.hpp"
 
 namespace kinebus::g0b1 {
 
-using Reg = volatile std::uint32_t;
-
-/// The one place where a number becomes a peripheral.
-template <typename T>
-inline T& peripheral(std::uint32_t address) {
-  return *reinterpret_cast<T*>(address);  // NOLINT(performance-no-int-to-ptr): hardware is at fixed addresses
-}
-
-constexpr std::uint32_t bit(int n) {
-  return std::uint32_t{1} << n;
-}
+using stm32::barrier;
+using stm32::bit;
+using stm32::disable_interrupts;
+using stm32::enable_clock;
+using stm32::enable_interrupts;
+using stm32::peripheral;
+using stm32::Reg;
+using stm32::reset_processor;
+using stm32::wait_for_interrupt;
+using stm32::wait_until;
 
 struct Rcc {
   Reg CR, ICSCR, CFGR, PLLCFGR, reserved0, CRRCR, CIER, CIFR, CICR;
@@ -187,7 +188,6 @@ inline Nvic& nvic() {
 }
 struct SystemControl {
   Reg CPUID, ICSR, VTOR, AIRCR, SCR, CCR;
-  static constexpr std::uint32_t kResetRequest = 0x05FA'0000 | bit(2);  // AIRCR
 };
 inline SystemControl& system_control() {
   return peripheral<SystemControl>(0xE000'ED00);
@@ -208,35 +208,6 @@ inline void enable_interrupt(Irq irq, unsigned priority) {
   const unsigned at = n % 4 * 8;
   nvic().IPR[n / 4] = (nvic().IPR[n / 4] & ~(0xFFu << at)) | priority << 6 << at;
   nvic().ISER = bit(static_cast<int>(n));
-}
-
-inline void wait_for_interrupt() {
-  asm volatile("wfi" ::: "memory");
-}
-inline void disable_interrupts() {
-  asm volatile("cpsid i" ::: "memory");
-}
-inline void enable_interrupts() {
-  asm volatile("cpsie i" ::: "memory");
-}
-inline void barrier() {
-  asm volatile("dsb\n isb" ::: "memory");
-}
-
-/// Clocks of peripherals on. RM0444: two cycles of the bus go by before a register can be reached; the read
-/// back takes longer, and the barrier waits for it.
-inline void enable_clock(Reg& enable, std::uint32_t peripherals) {
-  enable = enable | peripherals;
-  [[maybe_unused]] const std::uint32_t seen = enable;
-  barrier();
-}
-
-/// Waits for a register bit, so many looks at most. False: it never came.
-template <typename Condition>
-bool wait_until(Condition condition, std::uint32_t looks = 1'000'000) {
-  while (looks-- != 0)
-    if (condition()) return true;
-  return false;
 }
 
 }  // namespace kinebus::g0b1

@@ -1,6 +1,6 @@
 #pragma once
 // Why this chip has begun anew: the flags of RCC_CSR, and what lies in the RAM that a reset keeps
-// (sections.ld). And how it begins anew.
+// (sections.ld).
 
 #include "node_firmware/board/fault_record.hpp"
 #include "node_firmware/boot/handover.hpp"
@@ -25,13 +25,6 @@ inline ResetReport take_reset_report() {
   report.cause = reset_cause(rcc().CSR);
   rcc().CSR = rcc().CSR | Rcc::kClearResetFlags;
   return report;
-}
-
-[[noreturn]] inline void reset_processor() {
-  disable_interrupts();
-  barrier();
-  system_control().AIRCR = SystemControl::kResetRequest;
-  for (;;) wait_for_interrupt();
 }
 
 }  // namespace kinebus::g0b1

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "node_firmware/port/stm32f4/handlers.hpp"
+#include "node_firmware/port/stm32/handlers.hpp"
 #include "node_firmware/port/stm32g0b1_ebb/registers.hpp"
 
 extern "C" {

@@ -1,14 +1,16 @@
-// What ends in a reset: exceptions of the core, interrupts that nobody handles, failed asserts. First no
-// motor has power, then the reason is recorded.
+// What ends in a reset: exceptions of the core, interrupts that nobody handles, failed asserts. First nothing
+// has power, then the reason is recorded.
+
+#include "node_firmware/port/stm32/exceptions.hpp"
 
 #include "node_firmware/board/runtime.hpp"
-#include "node_firmware/port/stm32f4/handlers.hpp"
-#include "node_firmware/port/stm32f4/handover_port.hpp"
-#include "node_firmware/port/stm32f4/outputs_off.hpp"
-#include "node_firmware/port/stm32f4/reset_port.hpp"
+#include "node_firmware/port/stm32/handlers.hpp"
+#include "node_firmware/port/stm32/instructions.hpp"
+#include "node_firmware/port/stm32/outputs_off.hpp"
 
 extern "C" {
 extern std::uint32_t stack_bottom, stack_top;  // set by the linker script
+extern kinebus::FaultRecord fault_ram;
 }
 
 namespace kinebus {
@@ -39,12 +41,8 @@ extern "C" {
 [[noreturn, gnu::used]] void record_exception(const std::uint32_t* frame) {
   using namespace kinebus;
   stm32::outputs_off();
-  const stm32::SystemControl& core = stm32::system_control();
-  FaultRecord record{.reason = core.ICSR & 0x1FF,
-                     .sp = address_of(frame),
-                     .cfsr = core.CFSR,
-                     .hfsr = core.HFSR,
-                     .address = core.BFAR};
+  FaultRecord record{.sp = address_of(frame)};
+  stm32::record_core(record);
   if (frame >= &stack_bottom && frame + 8 <= &stack_top) {
     record.r = {frame[0], frame[1], frame[2], frame[3]};
     record.r12 = frame[4];
@@ -55,7 +53,7 @@ extern "C" {
   leave(record);
 }
 
-// A stack that has run over is none to stand on.
+// A stack that has run over is none to stand on. Far branches by a register: a Cortex-M0+ has no others.
 [[gnu::naked]] void isr_fault() {
   asm volatile(
       "mov r0, sp\n"
@@ -64,9 +62,10 @@ extern "C" {
       "bhs 1f\n"
       "ldr r1, =stack_top\n"
       "mov sp, r1\n"
-      "1: b record_exception\n");
+      "1: ldr r1, =record_exception\n"
+      "bx r1\n");
 }
 [[gnu::naked]] void isr_unexpected() {
-  asm volatile("b isr_fault");
+  asm volatile("ldr r0, =isr_fault\n bx r0\n");
 }
 }
