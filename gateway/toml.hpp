@@ -3,6 +3,11 @@
 // cases where it asks whether they are white space or part of a key, which is undefined behaviour on
 // malformed files. There the case is answered "no", and the parser then refuses the character with its place.
 
+#define TOML_EXCEPTIONS 0
+#define TOML_HEADER_ONLY 1
+// The library asserts on texts that it then refuses well: bad input must not end the program.
+#define TOML_ASSERT(expression) static_cast<void>(0)
+
 // The tables below use the integer types.
 #include <cstdint>
 

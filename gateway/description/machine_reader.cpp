@@ -1,11 +1,5 @@
 // TOML to MachineDescription.
 
-#define TOML_EXCEPTIONS 0
-#define TOML_HEADER_ONLY 1
-// The library asserts on texts that it then refuses well: bad input must not end the program.
-#define TOML_ASSERT(expression) static_cast<void>(0)
-#include "gateway/toml.hpp"
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -15,6 +9,7 @@
 #include "gateway/description/machine_file.hpp"
 #include "gateway/description/machine_rules.hpp"
 #include "gateway/description/machine_schema.hpp"
+#include "gateway/description/toml_values.hpp"
 #include "gateway/gcode/programs/recording.hpp"
 #include "gateway/near_word.hpp"
 
@@ -24,28 +19,6 @@ namespace {
 using machine_schema::Choice;
 using machine_schema::Need;
 using machine_schema::Range;
-
-std::string short_number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
-}
-
-/// What stands there, cut to one readable line.
-Sentence shown(const toml::node& node) {
-  if (node.is_table()) return say("a table");
-  if (const auto* array = node.as_array()) return say("an array of %1", array->size());
-  std::ostringstream out;
-  node.visit([&](const auto& n) {
-    using T = std::decay_t<decltype(n)>;
-    if constexpr (!std::is_same_v<T, toml::table> && !std::is_same_v<T, toml::array>) out << n;
-  });
-  std::string text = std::move(out).str();
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  constexpr std::size_t kLongest = 80;
-  if (text.size() > kLongest) text = text.substr(0, kLongest) + "...";
-  return Sentence::verbatim(std::move(text));
-}
 
 class Reader {
  public:
@@ -282,7 +255,6 @@ class Reader {
   std::string path(std::string_view key) {
     return level().path.empty() ? std::string(key) : level().path + "." + std::string(key);
   }
-  static std::string interval_text(Range r) { return short_number(r.min) + " .. " + short_number(r.max); }
 
   const toml::node* find(std::string_view key, Need need, const Sentence& expected) {
     level().known.insert(std::string(key));
@@ -300,30 +272,6 @@ class Reader {
   void wrong(std::string_view key, const toml::node& node, const Sentence& expected) {
     failed_.insert(path(key));
     errors_.push_back({file_, node.source().begin.line, path(key), shown(node), expected});
-  }
-
-  static bool take_number(const toml::node& node, Range range, double unit, double& value) {
-    double v = 0;
-    if (const auto* f = node.as_floating_point())
-      v = f->get();
-    else if (const auto* i = node.as_integer())
-      v = static_cast<double>(i->get());
-    else
-      return false;
-    if (!(v >= range.min && v <= range.max)) return false;
-    value = v * unit;
-    return true;
-  }
-
-  template <std::size_t N>
-  static bool take_numbers(const toml::node& node, Range range, double unit, std::array<double, N>& values) {
-    const auto* array = node.as_array();
-    if (array == nullptr || array->size() != N) return false;
-    std::array<double, N> read{};
-    for (std::size_t k = 0; k < N; ++k)
-      if (!take_number((*array)[k], range, unit, read[k])) return false;
-    values = read;
-    return true;
   }
 
   /// Where a key is, or the nearest table around it that is in the file.

@@ -1,8 +1,5 @@
 #include "tools/compose/job_description.hpp"
 
-// As the machine file's reader has it: of both kinds in one program the linker would keep one.
-#define TOML_EXCEPTIONS 0
-
 #include <fmt/format.h>
 
 #include <cmath>

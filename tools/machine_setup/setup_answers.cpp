@@ -1,7 +1,4 @@
 // As the reader of machine files has it.
-#define TOML_EXCEPTIONS 0
-#define TOML_HEADER_ONLY 1
-#define TOML_ASSERT(expression) static_cast<void>(0)
 #include "gateway/toml.hpp"
 
 #include "tools/machine_setup/setup_answers.hpp"

@@ -11,21 +11,12 @@ constexpr std::uint32_t kInitRequest = 1, kSleepRequest = 2, kLocked = 8, kAutoB
                         kSoftwareReset = 0x8000;
 constexpr std::uint32_t kErrorInterrupt = 4;  // MSR
 constexpr std::uint32_t kRelease = 0x20, kOverrun = 0x10, kFull = 8;
-constexpr std::uint32_t kTransmitRequest = 1, kRemote = 2, kExtended = 4;
+constexpr std::uint32_t kTransmitRequest = 1, kRemote = CanFilterBanks::kRemote,
+                        kExtended = CanFilterBanks::kExtended;
 constexpr std::uint32_t kWarning = 1, kPassive = 2, kOff = 4;
 constexpr Cycle kRecovery =
     Cycle{128} * 11 * (kCoreHz / 1'000'000);  // 128 times 11 recessive bits at 1 Mbit/s
 constexpr Cycle kJoin = 11 * (kCoreHz / 1'000'000);
-
-std::uint32_t identifier(const CanFrame& frame) {
-  return frame.extended ? frame.id << 3 | kExtended : frame.id << 21;
-}
-// The identifier as a 16-bit filter has it: STDID, RTR, IDE, EXID[17:15].
-std::uint32_t short_identifier(const CanFrame& frame) {
-  const std::uint32_t rtr = frame.remote ? 1u << 4 : 0;
-  if (!frame.extended) return frame.id << 5 | rtr;
-  return (frame.id >> 18) << 5 | rtr | 1u << 3 | (frame.id >> 15 & 7);
-}
 
 }  // namespace
 
@@ -35,9 +26,7 @@ void BxCan::reset() {
   btr_ = 0x01230000;
   mailboxes_ = {};
   fifos_ = {};
-  fmr_ = 0x2A1C0E01;
-  fm1r_ = fs1r_ = ffa1r_ = fa1r_ = 0;
-  banks_ = {};
+  filters_ = {};
   tec_ = rec_ = last_state_ = lec_ = 0;
   bus_off_ = false;
   recovers_ = joins_ = kNever;
@@ -87,51 +76,9 @@ void BxCan::on_aborted(int mailbox) {
   update_lines();
 }
 
-std::optional<BxCan::Match> BxCan::match(const CanFrame& frame) const {
-  if ((fmr_ & 1) != 0) return std::nullopt;
-  const std::uint32_t banks = fmr_ >> 8 & 0x3F;  // the rest belongs to CAN2
-  std::array<int, 2> index{};
-  std::optional<Match> found;
-  int best_rank = 4;  // 32 bits before 16, list before mask
-  const std::uint32_t wide = identifier(frame) | (frame.remote ? kRemote : 0);
-  const std::uint32_t narrow = short_identifier(frame);
-  for (std::uint32_t b = 0; b < banks && b < banks_.size(); ++b) {
-    const Bank& bank = banks_[b];
-    const bool is_wide = (fs1r_ >> b & 1) != 0, list = (fm1r_ >> b & 1) != 0, active = (fa1r_ >> b & 1) != 0;
-    const std::size_t fifo = ffa1r_ >> b & 1;
-    std::array<bool, 4> hits{};
-    int filters = 0;
-    if (is_wide && !list) {
-      filters = 1;
-      hits[0] = ((wide ^ bank.r1) & bank.r2 & ~1u) == 0;
-    } else if (is_wide) {
-      filters = 2;
-      hits[0] = ((wide ^ bank.r1) & ~1u) == 0;
-      hits[1] = ((wide ^ bank.r2) & ~1u) == 0;
-    } else if (!list) {
-      filters = 2;
-      hits[0] = ((narrow ^ bank.r1) & (bank.r1 >> 16) & 0xFFFF) == 0;
-      hits[1] = ((narrow ^ bank.r2) & (bank.r2 >> 16) & 0xFFFF) == 0;
-    } else {
-      filters = 4;
-      hits = {narrow == (bank.r1 & 0xFFFF), narrow == bank.r1 >> 16, narrow == (bank.r2 & 0xFFFF),
-              narrow == bank.r2 >> 16};
-    }
-    const int rank = (is_wide ? 0 : 2) + (list ? 0 : 1);
-    for (int i = 0; i < filters; ++i)
-      if (active && hits[static_cast<std::size_t>(i)] && rank < best_rank) {
-        best_rank = rank;
-        found = Match{static_cast<int>(fifo), index[fifo] + i};
-      }
-    index[fifo] += filters;
-  }
-  return found;
-}
-
 void BxCan::store(Fifo& fifo, const CanFrame& frame, int index) {
-  Stored stored{identifier(frame) | (frame.remote ? kRemote : 0),
-                frame.length | static_cast<std::uint32_t>(index) << 8, get_u32_le(frame.data),
-                get_u32_le(std::span(frame.data).subspan(4))};
+  Stored stored{CanFilterBanks::identifier(frame), frame.length | static_cast<std::uint32_t>(index) << 8,
+                get_u32_le(frame.data), get_u32_le(std::span(frame.data).subspan(4))};
   if (fifo.count == 3) {
     fifo.overrun = true;
     ++counters_.overruns;
@@ -155,7 +102,7 @@ void BxCan::on_frame(const CanFrame& frame, Cycle now) {
   ++counters_.received;
   if (rec_ > 0) rec_ = rec_ > 127 ? 120 : rec_ - 1;
   watch_errors();
-  if (const auto found = match(frame))
+  if (const auto found = filters_.match(frame))
     store(fifos_[static_cast<std::size_t>(found->fifo)], frame, found->index);
   update_lines();
 }
@@ -264,10 +211,7 @@ std::uint32_t BxCan::read(std::uint32_t offset, Cycle now) {
     const std::array words{s.rir, s.rdtr, s.low, s.high};
     return words[offset / 4 % 4];
   }
-  if (offset >= 0x240 && offset < 0x240 + 28 * 8) {
-    const Bank& bank = banks_[(offset - 0x240) / 8];
-    return (offset & 4) == 0 ? bank.r1 : bank.r2;
-  }
+  if (offset >= CanFilterBanks::kFrom) return filters_.read(offset);
   switch (offset) {
     case 0x00:
       return mcr_;
@@ -287,16 +231,6 @@ std::uint32_t BxCan::read(std::uint32_t offset, Cycle now) {
       return esr();
     case 0x1C:
       return btr_;
-    case 0x200:
-      return fmr_;
-    case 0x204:
-      return fm1r_;
-    case 0x20C:
-      return fs1r_;
-    case 0x214:
-      return ffa1r_;
-    case 0x21C:
-      return fa1r_;
     default:
       return 0;
   }
@@ -304,7 +238,6 @@ std::uint32_t BxCan::read(std::uint32_t offset, Cycle now) {
 
 void BxCan::write(std::uint32_t offset, std::uint32_t value, Cycle now) {
   advance(now);
-  const bool filters_open = (fmr_ & 1) != 0;
   if (offset >= 0x180 && offset < 0x1B0) {
     const auto number = static_cast<int>((offset - 0x180) / 16);
     Mailbox& m = mailboxes_[static_cast<std::size_t>(number)];
@@ -331,11 +264,8 @@ void BxCan::write(std::uint32_t offset, std::uint32_t value, Cycle now) {
     update_lines();
     return;
   }
-  if (offset >= 0x240 && offset < 0x240 + 28 * 8) {
-    const std::uint32_t number = (offset - 0x240) / 8;
-    if (!filters_open && (fa1r_ >> number & 1) != 0) return;  // only inactive banks may change
-    Bank& bank = banks_[number];
-    ((offset & 4) == 0 ? bank.r1 : bank.r2) = value;
+  if (offset >= CanFilterBanks::kFrom) {
+    filters_.write(offset, value);
     return;
   }
   switch (offset) {
@@ -389,21 +319,6 @@ void BxCan::write(std::uint32_t offset, std::uint32_t value, Cycle now) {
       break;
     case 0x1C:
       if ((mcr_ & kInitRequest) != 0) btr_ = value;
-      break;
-    case 0x200:
-      fmr_ = value;
-      break;
-    case 0x204:
-      if (filters_open) fm1r_ = value;
-      break;
-    case 0x20C:
-      if (filters_open) fs1r_ = value;
-      break;
-    case 0x214:
-      if (filters_open) ffa1r_ = value;
-      break;
-    case 0x21C:
-      fa1r_ = value;
       break;
     default:
       return;

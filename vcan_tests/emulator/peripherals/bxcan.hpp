@@ -5,10 +5,10 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "protocol/can/frame.hpp"
+#include "vcan_tests/emulator/peripherals/bxcan_filters.hpp"
 #include "vcan_tests/emulator/peripherals/can_controller.hpp"
 #include "vcan_tests/emulator/peripherals/peripheral.hpp"
 
@@ -57,15 +57,8 @@ class BxCan final : public Peripheral, public CanController {
     int count = 0;
     bool overrun = false, full_flag = false;
   };
-  struct Bank {
-    std::uint32_t r1 = 0, r2 = 0;
-  };
 
   static CanFrame frame_of(const Mailbox& mailbox);
-  struct Match {
-    int fifo = 0, index = 0;
-  };
-  std::optional<Match> match(const CanFrame& frame) const;
   void store(Fifo& fifo, const CanFrame& frame, int index);
   void enter_bus_off(Cycle now);
   void send_pending(Cycle now);
@@ -78,8 +71,7 @@ class BxCan final : public Peripheral, public CanController {
   std::uint32_t mcr_ = 0x10002, msr_flags_ = 0, ier_ = 0, btr_ = 0x01230000, done_flags_ = 0;
   std::array<Mailbox, kMailboxes> mailboxes_{};
   std::array<Fifo, 2> fifos_{};
-  std::uint32_t fmr_ = 0x2A1C0E01, fm1r_ = 0, fs1r_ = 0, ffa1r_ = 0, fa1r_ = 0;
-  std::array<Bank, 28> banks_{};
+  CanFilterBanks filters_;
   std::uint32_t tec_ = 0, rec_ = 0;
   std::uint32_t last_state_ = 0, lec_ = 0;
   bool bus_off_ = false;
