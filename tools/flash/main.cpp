@@ -18,10 +18,12 @@
 #include "node_firmware/boot/boot_loader.hpp"
 #include "node_firmware/boot/image_header.hpp"
 #include "protocol/host/guarded_main.hpp"
+#include "protocol/host/patient_can.hpp"
 #include "protocol/host/socketcan.hpp"
 #include "protocol/host/usage.hpp"
 #include "tools/flash/console_request.hpp"
 #include "tools/flash/program_update.hpp"
+#include "tools/node_id/node_ids.hpp"
 
 namespace {
 
@@ -51,7 +53,21 @@ void receive_until(SocketCan& can, LocalTime end, OnFrame on_frame, Done done) {
   }
 }
 
-/// Whoever sends a heartbeat, or answers to a question for its program.
+/// By which nodes the boards of these take their programs.
+std::set<std::uint8_t> boards_of(SocketCan& can, const std::set<std::uint8_t>& nodes, LocalTime answer) {
+  NodeIds ids({.send = [&](const CanFrame& frame) { send_or_throw(can, frame); },
+               .receive = [&](LocalTime until) { return receive_until(can, until); },
+               .now = monotonic_now},
+              {.answer = answer});
+  const std::set<std::uint8_t> boards = NodeIds::boards_of(ids.find_configured(), nodes);
+  for (const std::uint8_t node : nodes)
+    if (!boards.contains(node))
+      fmt::print("node {} is of a board with several nodes: the first of them takes the program for all\n",
+                 node);
+  return boards;
+}
+
+/// Whoever answers to a question for its program.
 std::set<std::uint8_t> find_nodes(SocketCan& can, LocalTime within) {
   std::set<std::uint8_t> found;
   for (std::uint8_t id = 1; id < 127; ++id) {
@@ -158,17 +174,19 @@ int flash(const Arguments& arguments) {
   std::set<std::uint8_t> nodes(arguments.nodes.begin(), arguments.nodes.end());
   if (arguments.all) nodes = find_nodes(can, answer_time(arguments) / 12);
   if (nodes.empty()) return fmt::print(stderr, "no node answers on {}\n", arguments.interface), 1;
+  nodes = boards_of(can, nodes, answer_time(arguments) / 12);
   int failed = 0;
   // One after another: a bus has room for one download, and the others stay what they are meanwhile.
   for (const std::uint8_t node : nodes) failed += update(can, node, image, arguments) ? 0 : 1;
-  if (failed != 0) fmt::print(stderr, "{} of {} nodes not updated: run it again\n", failed, nodes.size());
+  if (failed != 0) fmt::print(stderr, "{} of {} boards not updated: run it again\n", failed, nodes.size());
   return failed == 0 ? 0 : 1;
 }
 
 int run(int argc, char** argv) {
   CLI::App app("kinebus-flash: writes a program into nodes, over CAN, USB (DFU) or SWD");
   Arguments arguments;
-  app.add_option("image", arguments.image, "kinebus-node.bin of the firmware preset")->required();
+  app.add_option("image", arguments.image, "The board's program, as kinebus-node.bin of the firmware preset")
+      ->required();
   app.add_option("-i,--interface", arguments.interface, "SocketCAN interface")->capture_default_str();
   auto* node =
       app.add_option("-n,--node", arguments.nodes, "Node id; may be given again")->check(CLI::Range(1, 126));

@@ -14,6 +14,12 @@ namespace {
 constexpr ObjectAddress kProgramData{0x1F50, 1}, kProgramControl{0x1F51, 1}, kProgramId{0x1F56, 1},
     kFlashStatus{0x1F57, 1}, kProduct{0x1018, 2};
 
+std::string device_with(std::uint32_t product_code) {
+  for (const BoardDescription& board : kBoards)
+    if (board.facts.product_code == product_code) return "a " + std::string(board.facts.device_name);
+  return "a device with product code " + std::to_string(product_code);
+}
+
 std::string what_is_wrong(ImageCheck check) {
   switch (check) {
     case ImageCheck::kNone:
@@ -131,7 +137,9 @@ void ProgramUpdate::on_transfer(LocalTime now) {
       return go(now, Step::kReadIdentity);
     case Step::kReadIdentity:
       if (get_u32_le(value_) != decode_image_header(image_).product_code)
-        return fail("is not the node that this image is for: product code differs (1018h:2)");
+        return fail("it is " + device_with(get_u32_le(value_)) + ", and the image is for " +
+                    device_with(decode_image_header(image_).product_code) +
+                    " (1018h:2): nothing was written");
       return go(now, !in_boot_loader_ ? Step::kReadProgram : same_ ? Step::kReadProtection : Step::kReadRoom);
     case Step::kReadProgram:
       same_ = get_u32_le(value_) == crc_ && !options_.even_if_same;
@@ -184,6 +192,8 @@ void ProgramUpdate::on_room(LocalTime now, std::uint32_t bytes) {
 void ProgramUpdate::on_failed_transfer(LocalTime now) {
   const AbortCode code = client_.abort_code();
   const std::string reason(text(code));
+  if (step_ == Step::kDownload && code == AbortCode::kCannotStore)
+    return fail("its boot loader refuses the image: it is for another board or chip");
   const bool written = step_ == Step::kClear || step_ == Step::kDownload || step_ == Step::kReadStatus;
   // After a timeout an answer may come late, to a question that was asked since.
   const bool asked_again = step_ == Step::kReadControl && attempts_left_ < options_.attempts;

@@ -60,6 +60,18 @@ const NodeIds::Board* NodeIds::board_of(const std::vector<Board>& all, const Boa
   return found;
 }
 
+std::set<std::uint8_t> NodeIds::boards_of(const std::vector<Board>& all,
+                                          const std::set<std::uint8_t>& nodes) {
+  std::set<std::uint8_t> firsts;
+  for (const std::uint8_t node : nodes) {
+    const auto named =
+        std::find_if(all.begin(), all.end(), [&](const Board& board) { return board.node_id == node; });
+    const Board* first = named == all.end() ? nullptr : board_of(all, *named);
+    firsts.insert(first == nullptr ? node : first->node_id);
+  }
+  return firsts;
+}
+
 std::string NodeIds::refused(const std::vector<Board>& all, const Board& board, std::uint8_t node_id) {
   if (const Board* first = board_of(all, board); first != nullptr)
     return fmt::format(

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,8 @@ class NodeIds {
   static std::uint8_t ids_of(const Board& board);
   /// The board of which `node` is a further node, whose id goes with the board's; nullptr: it is no such.
   static const Board* board_of(const std::vector<Board>& all, const Board& node);
+  /// Of each of these nodes' boards its first node, which answers for the board.
+  static std::set<std::uint8_t> boards_of(const std::vector<Board>& all, const std::set<std::uint8_t>& nodes);
   /// Why `board` cannot have the id, and those that go with it; empty: it can. `all`: as find() gives them.
   static std::string refused(const std::vector<Board>& all, const Board& board, std::uint8_t node_id);
 
@@ -47,6 +50,8 @@ class NodeIds {
   bool gateway_speaks();
   /// All boards: those with ids by their ids, then those without one by their identities.
   std::vector<Board> find();
+  /// Those with ids alone: by questions that every node may be asked at any time.
+  std::vector<Board> find_configured();
   /// The board keeps the id through power-off and is there with it at once. Empty: done; else what went
   /// wrong.
   std::string give(const Board& board, std::uint8_t node_id);
@@ -58,7 +63,6 @@ class NodeIds {
   /// `wanted`: answers of another node with the same id do not count.
   std::optional<std::uint32_t> read(std::uint8_t node_id, ObjectAddress address,
                                     std::optional<std::uint32_t> wanted = std::nullopt);
-  std::vector<Board> find_configured();
   std::string configure(const Board& board, std::uint8_t node_id);
 
   BusAccess bus_;

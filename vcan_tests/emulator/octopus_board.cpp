@@ -8,14 +8,19 @@
 namespace kinebus::emulator {
 namespace {
 
-ChipFacts facts(std::uint32_t device_id) {
+// The maker's boot loader, where the start of flash is left to it, starts what comes first behind it.
+std::uint32_t first_address(const ElfImage& image) {
+  return std::ranges::min(image.pieces, {}, &ElfImage::Piece::address).address;
+}
+
+ChipFacts facts(const ElfImage& image, std::uint32_t device_id) {
   return {.device_id = device_id,
           .flash_bytes = 512 * 1024,
           .core_coupled_memory = false,
           .clocks = {.crystal_hz = octopus::kCrystalHz, .pll_r = true},
           .ports = 8,
           .axes = octopus::kDrivers.size(),
-          .program = octopus::kProgramAddress};
+          .program = first_address(image)};
 }
 
 }  // namespace
@@ -50,10 +55,11 @@ OctopusBoard::OctopusBoard(const ElfImage& image, const BoardOptions& options)
     : OctopusBoard(image, options, kF446) {}
 
 OctopusBoard::OctopusBoard(const ElfImage& image, const BoardOptions& options, std::uint32_t device_id)
-    : Stm32f4Chip(image, options, facts(device_id)),
+    : Stm32f4Chip(image, options, facts(image, device_id)),
       tim1_(cpu_.nvic(), {.update_irq = 25, .break_irq = 24}),
       dma2_(cpu_.nvic(), {56, 57, 58, 59, 60, 68, 69, 70}),
-      adc_(cpu_.nvic()) {
+      adc_(cpu_.nvic()),
+      makers_loader_(first_address(image) != CortexM4::kFlash) {
   map(0x40010000, 0x400, tim1_, apb2(0));
   map(AdcBlock::kAddress, 0x400, adc_, apb2(8));
   map(0x40026400, 0x400, dma2_, ahb1(22));
@@ -128,6 +134,7 @@ double OctopusBoard::analogue(int channel) {
 }
 
 void OctopusBoard::reset_devices(Cycle now) {
+  if (makers_loader_) std::ranges::fill(cpu_.sram(), std::uint8_t{0x5A});
   tim1_.reset(now);
   dma2_.reset();
   adc_.reset();

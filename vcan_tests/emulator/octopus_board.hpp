@@ -83,6 +83,7 @@ class OctopusBoard final : public Stm32f4Chip {
   Dma dma2_;
   AdcBlock adc_;
   HeatedPlaces heated_;
+  bool makers_loader_;  ///< runs first after every reset, and takes the RAM for itself
   std::array<StepDriver, 8> drivers_;
 };
 

@@ -20,6 +20,7 @@ Stm32f4Chip::Stm32f4Chip(const ElfImage& image, const BoardOptions& options, con
       facts_(facts) {
   cpu_.nvic().set_device_id(facts.device_id);
   map(0x40000000, 0x400, tim2_, apb1(0));
+  map(0x40002800, 0x400, backup_);
   map(0x40003000, 0x400, watchdog_);
   map(0x40006400, 0x400, can_, apb1(25));
   map(0x40007000, 0x400, power_control_, apb1(28));
@@ -42,6 +43,7 @@ void Stm32f4Chip::start() {
 void Stm32f4Chip::reset_chip(Rcc::ResetCause cause, Cycle now) {
   rcc_.reset(cause);
   power_control_.reset();
+  if (cause == Rcc::ResetCause::kPowerOn) backup_.lose_power();
   flash_.reset();
   for (GpioPort& port : ports_) port.reset();
   exti_.reset();

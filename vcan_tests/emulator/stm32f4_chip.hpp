@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "vcan_tests/emulator/chip.hpp"
+#include "vcan_tests/emulator/peripherals/backup_registers.hpp"
 #include "vcan_tests/emulator/peripherals/bxcan.hpp"
 #include "vcan_tests/emulator/peripherals/flash.hpp"
 #include "vcan_tests/emulator/peripherals/gpio.hpp"
@@ -22,7 +23,7 @@ struct ChipFacts {
   Rcc::Facts clocks{};
   std::uint32_t ports = 0;    ///< GPIO ports from A on
   std::size_t axes = 2;       ///< motors on the board
-  std::uint32_t program = 0;  ///< where the program's vectors are, when no boot loader of ours is there
+  std::uint32_t program = 0;  ///< where the first vectors are, when there are none at the start of flash
 };
 
 class Stm32f4Chip : public Chip {
@@ -54,6 +55,7 @@ class Stm32f4Chip : public Chip {
   Rcc rcc_;
   FlashController flash_;
   PowerControl power_control_;
+  BackupRegisters backup_{power_control_};
   std::array<GpioPort, 8> ports_;
   Exti exti_;
   SysConfig sysconfig_;

@@ -19,6 +19,7 @@ namespace {
 [[noreturn]] void leave(FaultRecord& record) {
   record.seal();
   fault_ram = record;
+  stm32::keep_records();
   stm32::reset_processor();
 }
 

@@ -46,11 +46,17 @@ struct Pwr {
   Reg CR, CSR;
   static constexpr std::uint32_t kScale1 =
       bit(14);  // CR VOS: 168 MHz; the F446 has bit 15, too, set by reset
+  static constexpr std::uint32_t kBackupWritable = bit(8);                    // CR DBP
   static constexpr std::uint32_t kDetectorOn = bit(4), kDetect2V9 = 7u << 5;  // CR PVDE, PLS
   static constexpr std::uint32_t kSupplyLow = bit(2);                         // CSR PVDO
 };
 inline Pwr& pwr() {
   return peripheral<Pwr>(0x4000'7000);
+}
+
+/// RTC_BKP0R to RTC_BKP19R: no reset changes them, and no program that does not mean to.
+inline std::span<Reg, 20> backup_registers() {
+  return std::span<Reg, 20>(&peripheral<Reg>(0x4000'2850), 20);
 }
 
 struct FlashInterface {

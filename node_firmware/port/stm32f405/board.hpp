@@ -135,7 +135,5 @@ inline constexpr std::array<stm32::FlashSector, 2> kParameterSectors{{{0x0800'80
 inline constexpr std::uint32_t kParameterPageBytes = 0x4000;
 inline constexpr std::uint32_t kProgramAddress = 0x0802'0000, kProgramBytes = 0x4'0000;
 inline constexpr std::array<stm32::FlashSector, 2> kProgramSectors{{{0x0802'0000, 5}, {0x0804'0000, 6}}};
-/// The chip's own boot loader (DFU over PA11, PA12, and others): its vectors.
-inline constexpr std::uint32_t kSystemBootAddress = 0x1FFF'0000;
 
 }  // namespace kinebus::board

@@ -154,10 +154,14 @@ inline constexpr std::array<std::uint8_t, 2> kFilamentInputs{4, 5};
 /// 16 microsteps a full step of 256 counts, as both MS jumpers of a TMC2209 choose: log2 of counts a step.
 inline constexpr int kStepBits = 4;
 
-// Flash: the maker's boot loader in sectors 0 and 1, the program from sector 2 on, parameters in 6 and 7.
-inline constexpr std::uint32_t kProgramAddress = 0x0800'8000, kProgramBytes = 0x3'8000;
-inline constexpr std::array<stm32::FlashSector, 2> kParameterSectors{{{0x0804'0000, 6}, {0x0806'0000, 7}}};
+// Flash: the maker's boot loader in sectors 0 and 1, or a copy of the vectors of ours; ours in 2 and 3; the
+// program in 5 and 6; parameters in 7 and 4. What comes by the SD card ends with the program and erases 4:
+// the page in which the newest parameters are later.
+inline constexpr std::uint32_t kBootAddress = 0x0800'8000, kBootBytes = 0x8000;
+inline constexpr std::array<stm32::FlashSector, 2> kParameterSectors{{{0x0806'0000, 7}, {0x0801'0000, 4}}};
 /// Room for the parameters of all nodes, twice.
 inline constexpr std::uint32_t kParameterPageBytes = 0x1'0000;
+inline constexpr std::uint32_t kProgramAddress = 0x0802'0000, kProgramBytes = 0x4'0000;
+inline constexpr std::array<stm32::FlashSector, 2> kProgramSectors{{{0x0802'0000, 5}, {0x0804'0000, 6}}};
 
 }  // namespace kinebus::octopus

@@ -8,6 +8,8 @@
 #include "node_firmware/board/runtime.hpp"
 #include "node_firmware/boot/image_header.hpp"
 #include "node_firmware/port/stm32/handlers.hpp"
+#include "node_firmware/port/stm32/outputs_off.hpp"
+#include "node_firmware/port/stm32f4/backup_port.hpp"
 #include "node_firmware/port/stm32f4/can_port.hpp"
 #include "node_firmware/port/stm32f4/clock_tree.hpp"
 #include "node_firmware/port/stm32f4/flash_port.hpp"
@@ -119,6 +121,7 @@ void isr_switches() {
 
 int main() {
   const bool alone = end_loader();
+  backup::load();
   // On another chip the same pins may be wired to anything: nothing but the bus is touched there.
   const bool own_chip = device_id() == kDeviceF446;
   if (own_chip)
@@ -133,6 +136,7 @@ int main() {
   static_cast<void>(store.prepare(kBoardIds * kLargestParameterImage));
   NodeOptions options = options_of(0, take_inherited_node_id(handover_ram));
   options.reset = take_reset_report();
+  keep_records();  // without what was taken
   program.emplace(options, stored[0], can_port, switch_port, plans[0], octopus::kInputPlaces[0]);
   const bool good = own_chip && watch_supply();
   if (own_chip) switch_port.start(local_counts());
@@ -148,10 +152,16 @@ int main() {
         *program, motors, good, [](std::size_t i, auto image) { return images.save(i, image); }, dog);
     follow_first_id();
     if (good) serve_heat();
-    // There is no boot loader of ours to give way to: the program begins anew, under its id.
+    // Asked for by 1F51h, when the answer is on the bus. Nothing has power then (the nodes refuse otherwise).
     if (program->stop_requested() && can_port.queue().idle()) {
-      handover_ram = Handover{.node_id = program->node().node_id()};
+      handover_ram = Handover{.stay = Handover::kBootLoader, .node_id = program->node().node_id()};
+      keep_records();
       reset_processor();
+    }
+    // So long without a reset: this program is good.
+    if (handover_ram.starts != 0 && program->now() > kProgramProved) {
+      handover_ram.starts = 0;
+      keep_records();
     }
     // Without its own chip there is no control interrupt: only the bus is served.
     keeper.serve(dog, program->now(), *program, good ? motors.ticks() : local_counts());

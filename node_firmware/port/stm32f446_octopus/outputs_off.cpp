@@ -1,5 +1,6 @@
 #include "node_firmware/port/stm32/outputs_off.hpp"
 
+#include "node_firmware/port/stm32f4/backup_port.hpp"
 #include "node_firmware/port/stm32f4/pins.hpp"
 #include "node_firmware/port/stm32f446_octopus/board.hpp"
 
@@ -10,6 +11,10 @@ void outputs_off() {
   for (const octopus::PowerPin& power : octopus::kPowerPins) write(power.pin, power.off);
   write(octopus::kContactorPin, false);
   barrier();
+}
+
+void keep_records() {
+  backup::save();
 }
 
 }  // namespace kinebus::stm32

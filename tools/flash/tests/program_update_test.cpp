@@ -6,6 +6,7 @@
 
 #include "node_firmware/boot/tests/boot_bench.hpp"
 #include "node_firmware/core/node.hpp"
+#include "protocol/canopen/boards/stm32f446_octopus.hpp"
 
 namespace kinebus {
 namespace {
@@ -16,6 +17,7 @@ constexpr std::size_t kRoom = 16'384;
 // 130 us.
 struct Board {
   ModelFlash flash{kRoom, 11};
+  ImageTarget takes = kBootBoard;
   Handover handover{.magic = 0};
   std::unique_ptr<BootLoader> boot;
   std::unique_ptr<LoneNode> node;
@@ -28,12 +30,12 @@ struct Board {
   void reset() {
     boot.reset();
     node.reset();
-    if (start_program(handover, check_image(flash.bytes(), kBootBoard))) {
+    if (start_program(handover, check_image(flash.bytes(), takes))) {
       const NodeOptions options{
           .identity = {.serial = 9}, .node_id = 3, .program_crc = decode_image_header(flash.bytes()).crc};
       node = std::make_unique<LoneNode>(options, now);
     } else {
-      boot = std::make_unique<BootLoader>(kBootBoard, kBootIdentity, 3, flash, now);
+      boot = std::make_unique<BootLoader>(takes, kBootIdentity, 3, flash, now);
     }
   }
   void power_cycle() {
@@ -163,6 +165,17 @@ TEST(ProgramUpdate, WhatDoesNotFitIsRefusedBeforeAnythingIsErased) {
   EXPECT_TRUE(board.node) << "the program goes on";
   EXPECT_EQ(board.update(make_image(12'000, 3), &message), Status::kDone)
       << message << " (an old boot loader takes what it has room for)";
+}
+
+// The loader looks for itself: same product, but another chip or pin map.
+TEST(ProgramUpdate, ABootLoaderThatRefusesAnImageIsQuotedInWords) {
+  Board board;
+  board.takes = image_target(Stm32f446OctopusBoard::kFacts);
+  board.takes.product_code = kBootBoard.product_code;
+  board.reset();
+  std::string message;
+  EXPECT_EQ(board.update(make_image(9000, 2), &message), Status::kFailed);
+  EXPECT_EQ(message, "its boot loader refuses the image: it is for another board or chip");
 }
 
 TEST(ProgramUpdate, LostFramesAreRepeated) {

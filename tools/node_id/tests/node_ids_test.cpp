@@ -155,6 +155,8 @@ TEST(NodeIds, FurtherNodesOfABoardFollowItAndAreNotInItsWay) {
     all.push_back(octopus(1000, 7, i));
   EXPECT_EQ(NodeIds::board_of(all, all[0]), nullptr);
   for (std::size_t i = 1; i < all.size(); ++i) EXPECT_EQ(NodeIds::board_of(all, all[i]), all.data());
+  EXPECT_EQ(NodeIds::boards_of(all, {7, 9, 10, 33}), (std::set<std::uint8_t>{7, 33}))
+      << "one board, and who did not answer";
   EXPECT_EQ(NodeIds::refused(all, all[0], 9), "") << "its own are no hindrance";
   EXPECT_NE(NodeIds::refused(all, all[2], 60).find("serial number 1000"), std::string::npos);
   // A second board with the same ids is one of its own.

@@ -1,45 +1,24 @@
-// Three emulated boards with boot loader and program get a new program over the modelled bus, while a fourth
-// device talks.
+// Three emulated boards get a new program over the modelled bus, while a fourth device talks.
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "node_firmware/boot/boot_loader.hpp"
-#include "node_firmware/boot/image_header.hpp"
 #include "node_firmware/port/stm32f405/board.hpp"
-#include "protocol/canopen/lss.hpp"
-#include "protocol/canopen/object_addresses.hpp"
-#include "tools/flash/program_update.hpp"
-#include "vcan_tests/emulator/emulated_machine.hpp"
+#include "vcan_tests/emulator/tests/update_bench.hpp"
 
 namespace kinebus::emulator {
 namespace {
 
 using namespace std::chrono_literals;
 
-/// Boot loader and program, as they lie in flash.
-ElfImage both() {
-  ElfImage program = load_elf(KINEBUS_FIRMWARE_IMAGE);
-  const std::string path = KINEBUS_FIRMWARE_IMAGE;
-  const ElfImage boot = load_elf(path.substr(0, path.rfind('/')) + "/kinebus-boot.elf");
-  program.pieces.insert(program.pieces.end(), boot.pieces.begin(), boot.pieces.end());
-  return program;
-}
-
 std::vector<std::uint8_t> program_in(Board& board) {
-  const auto room =
-      board.cpu().flash().subspan(board::kProgramAddress - board::kBootAddress, board::kProgramBytes);
-  const std::size_t length = decode_image_header(room).length;
-  return {room.begin(), room.begin() + static_cast<std::ptrdiff_t>(length)};
+  return program_at(board, board::kProgramAddress, board::kProgramBytes);
 }
 
-struct EmulatedUpdate : testing::Test {
-  ElfImage image = both();
-  EmulatedMachine machine{image, nodes(), 3};
-  BusTime now{0};
-  std::uint32_t spoken = 0;
+struct EmulatedUpdate : testing::Test, UpdateBench {
+  EmulatedUpdate() : UpdateBench(with_boot_loader(KINEBUS_FIRMWARE_IMAGE, "kinebus-boot.elf"), nodes()) {}
 
   static std::vector<EmulatedNodeOptions> nodes() {
     std::vector<EmulatedNodeOptions> options;
@@ -47,60 +26,14 @@ struct EmulatedUpdate : testing::Test {
       options.push_back({.board = {.unique_id = {id, 2, 3}}, .node_id = id});
     return options;
   }
-  template <typename OnFrame>
-  void pass(OnFrame on_frame) {
-    // The fourth device: 200 frames a second, urgent ones too.
-    if (now.count() / 5'000'000 > spoken && machine.can_send())
-      machine.send(now, CanFrame::make(0x0C0 + (++spoken % 2) * 0x300, {1, 2, 3, 0, 5, 6, 7, 8}));
-    now += 200us;
-    for (bool done = false; !done;) {
-      done = machine.advance(now);
-      while (const auto got = machine.receive())
-        if (!got->own) on_frame(got->frame);
-    }
+  bool update(std::uint8_t node, std::span<const std::uint8_t> bytes, bool protect = false) {
+    return UpdateBench::update(node - 1, node, bytes, protect);
   }
-  /// False: it failed. `cut_at`: at so many percent the node's power goes.
-  bool update(std::uint8_t node, std::span<const std::uint8_t> bytes, int cut_at = 101,
-              bool protect = false) {
-    ProgramUpdate work(node, bytes, now,
-                       {.answer = 6s, .attempts = cut_at > 100 ? 3 : 1, .protect = protect});
-    std::optional<CanFrame> unsent;
-    while (work.status() == ProgramUpdate::Status::kBusy) {
-      while (machine.can_send() && (unsent || (unsent = work.next_frame()))) {
-        machine.send(now, *unsent);
-        unsent.reset();
-      }
-      pass([&](const CanFrame& frame) { work.on_frame(now, frame); });
-      work.on_time(now);
-      if (work.percent() >= cut_at && work.percent() < 100) {
-        machine.board(node - 1).power_cycle();
-        cut_at = 101;
-      }
-    }
-    fmt::print("node {}: {} at {} s\n", node, work.message(), to_seconds(now));
-    return work.status() == ProgramUpdate::Status::kDone;
+  bool cut_update(std::uint8_t node, std::span<const std::uint8_t> bytes, int percent) {
+    return UpdateBench::cut_update(node - 1, node, bytes, percent);
   }
-  /// The node keeps its id through power-off.
   void keep_id(std::uint8_t id) {
-    LssMaster master;
-    const auto finish = [&] {
-      while (master.status() == LssMaster::Status::kBusy) {
-        while (machine.can_send()) {
-          const auto frame = master.next_frame();
-          if (!frame) break;
-          machine.send(now, *frame);
-        }
-        pass([&](const CanFrame& frame) { master.on_frame(frame); });
-        master.on_time(now);
-      }
-      EXPECT_EQ(master.status(), LssMaster::Status::kDone);
-    };
-    master.select(now, {kVendorId, kProductCode, kRevisionNumber, serial(id)});
-    finish();
-    master.store(now);
-    finish();
-    master.switch_all(now, false);
-    finish();
+    UpdateBench::keep_id({kVendorId, kProductCode, kRevisionNumber, serial(id)});
   }
   static std::uint32_t serial(std::uint8_t id) {
     Crc32 crc;
@@ -114,16 +47,11 @@ struct EmulatedUpdate : testing::Test {
 };
 
 TEST_F(EmulatedUpdate, AllNodesGetTheNewProgramAndACutIsRepairedByRunningItAgain) {
-  std::vector<std::uint8_t> next = program_in(machine.board(0));
-  ImageHeader header = decode_image_header(next);
-  header.reserved = 0x0000'0002;  // another image that does the same
-  encode_image_header(header, next);
-  header.crc = image_crc(next);
-  encode_image_header(header, next);
+  const std::vector<std::uint8_t> next = another(program_in(machine.board(0)));
 
   keep_id(2);
   EXPECT_TRUE(update(1, next));
-  EXPECT_FALSE(update(2, next, 40)) << "its power went";
+  EXPECT_FALSE(cut_update(2, next, 40)) << "its power went";
   EXPECT_TRUE(update(2, next)) << "run again";
   EXPECT_TRUE(update(3, next));
   for (int node = 0; node < 3; ++node) {
@@ -155,7 +83,7 @@ TEST_F(EmulatedUpdate, AProgramOfTwoSectorsGoesInIsCutOffAndGoesInAgain) {
   EXPECT_TRUE(update(1, large));
   EXPECT_EQ(board.flash().erases() - erases, 2u) << "once each, also what reads as blank";
   EXPECT_EQ(program_in(board), large);
-  EXPECT_FALSE(update(1, padded_to(150'004), 95)) << "its power went in the second sector";
+  EXPECT_FALSE(cut_update(1, padded_to(150'004), 95)) << "its power went in the second sector";
   EXPECT_TRUE(update(1, large));
   EXPECT_EQ(program_in(board), large);
   EXPECT_FALSE(update(1, padded_to(board::kProgramBytes + 4))) << "more than there is room for";
@@ -174,14 +102,14 @@ TEST_F(EmulatedUpdate, TheChipIsProtectedAndTakesProgramsAllTheSame) {
   const std::vector<std::uint8_t> program = program_in(board);
   constexpr std::uint32_t kBefore = 0x0FFFAAEC, kAfter = 0x0FFCAAE0;
   ASSERT_EQ(board.flash().options(), kBefore);
-  EXPECT_TRUE(update(1, program, 101, true));
+  EXPECT_TRUE(update(1, program, true));
   EXPECT_EQ(board.flash().options(), kAfter) << "brown-out level 3, sectors 0 and 1, and nothing else";
   keep_id(1);
   machine.power_cycle(0);
-  for (const BusTime end = now + 100ms; now < end;) pass([](const CanFrame&) {});
+  wait(100ms);
   EXPECT_EQ(board.flash().options(), kAfter);
   const std::uint64_t erases = board.flash().erases();
-  EXPECT_TRUE(update(1, program, 101, true)) << "again: nothing to do";
+  EXPECT_TRUE(update(1, program, true)) << "again: nothing to do";
   EXPECT_EQ(board.flash().erases(), erases);
   EXPECT_EQ(machine.board(1).flash().options(), kBefore) << "who was not asked";
   EXPECT_EQ(board.watchdog_resets(), 0u);
