@@ -46,6 +46,11 @@ Result<void, Sentence> Interpreter::set_work_offset(int system, const Pose& offs
   return Error<Sentence>(core_->error().message);
 }
 
+Result<void, Sentence> Interpreter::exclude_object(std::string_view name) {
+  if (core_->exclude_object(name)) return {};
+  return Error<Sentence>(core_->error().message);
+}
+
 std::span<const Note> Interpreter::notes() const {
   return core_->notes();
 }
@@ -63,6 +68,22 @@ bool Interpreter::evaluate(std::string_view line, std::size_t& at, double& value
 
 void Interpreter::swap_locals(Locals& locals) {
   core_->swap_locals(locals);
+}
+Result<void, ParseError> Interpreter::run_meta(const MetaLine& line, CommandBuffer& out) {
+  if (core_->meta_command(line, out)) return {};
+  return Error<ParseError>(core_->error());
+}
+Result<bool, ParseError> Interpreter::meta_condition(const MetaLine& line) {
+  bool holds = false;
+  if (core_->meta_condition(line, holds)) return holds;
+  return Error<ParseError>(core_->error());
+}
+void Interpreter::set_iterations(double done) {
+  core_->set_iterations(done);
+}
+bool Interpreter::takes_meta() const {
+  const Dialect dialect = state().modal.dialect;
+  return dialect == Dialect::kGeneral || dialect == Dialect::kRepRapFirmware;
 }
 void Interpreter::set_returned(double value, bool given) {
   core_->set_returned(value, given);

@@ -39,10 +39,19 @@ struct ProgramCall {
   std::vector<double> numbered;  ///< #1 ...
 };
 
+/// A line of a meta command, to be carried out.
+struct MetaLine {
+  std::string_view text, word;  ///< "set"
+  std::size_t rest_at = 0;      ///< what follows the word
+  std::size_t indent = 0;
+  std::uint32_t number = 0, column = 1;
+};
+
 /// What belongs to one subroutine at work alone.
 struct Locals {
   std::array<double, ParameterState::kLocals> numbers{};
   NamedValues names;
+  std::vector<MetaVariable> variables;
 };
 
 enum class DwellUnit : std::uint8_t { kByDialect, kMilliseconds, kSeconds };
@@ -135,6 +144,11 @@ class Interpreter {
   /// tool stands. Until then lines are read as if it had touched at its target.
   void set_probed(const ProbeResult& result);
 
+  /// From the next line on an object of the print is left out, as by EXCLUDE_OBJECT NAME= in the text.
+  /// `name`: in any case, or the number that M486 gave it. Refused while cutter compensation holds moves
+  /// back.
+  Result<void, Sentence> exclude_object(std::string_view name);
+
   /// Sets a work zero (X Y Z A C; `system` 0 is G54) as G10 L2 does; with `here` as G10 L20: the current
   /// point gets these coordinates. Refused in a tilted plane.
   Result<void, Sentence> set_work_offset(int system, const Pose& offset, bool here);
@@ -143,6 +157,14 @@ class Interpreter {
   /// Reads the value at line[at] and leaves `at` behind it.
   bool evaluate(std::string_view line, std::size_t& at, double& value, SyntaxError& error) const;
   void swap_locals(Locals& locals);
+  /// var, global, set, echo, abort.
+  Result<void, ParseError> run_meta(const MetaLine& line, CommandBuffer& out);
+  /// What stands behind if, elif and while.
+  Result<bool, ParseError> meta_condition(const MetaLine& line);
+  /// Of the meta while at work, that are done; below 0: none is at work.
+  void set_iterations(double done);
+  /// The text may hold meta commands: its dialect is RepRapFirmware's, or not stated.
+  bool takes_meta() const;
   /// endsub, return: #<_value> and #<_value_returned>.
   void set_returned(double value, bool given);
   const Options& options() const;

@@ -73,8 +73,7 @@ void JobPipeline::begin(const Pose& start) {
   lines_ = 0, bytes_ = 0;
   text_at_ = text_end_ = 0;
   feed_scale_ = 1, moves_taken_ = 0;
-  scales_.clear();
-  places_.clear();
+  scales_.clear(), left_out_.clear(), places_.clear();
   touched_.clear();
 }
 
@@ -279,6 +278,7 @@ std::optional<JobPipeline::Step> JobPipeline::settle() {
 void JobPipeline::read_text(int& budget) {
   commands_.clear();
   next_command_ = 0;
+  leave_out_again();
   if (reader_->busy()) {
     const auto read = reader_->read({}, commands_);
     number_commands();
@@ -324,7 +324,7 @@ void JobPipeline::read_text(int& budget) {
 /// Gives the commands of one line the place of that line.
 void JobPipeline::number_commands() {
   if (reader_->steps() == 0 || commands_.empty()) return;
-  const auto place = static_cast<std::uint32_t>(reader_->lines() + reader_->steps());
+  const auto place = static_cast<std::uint32_t>(steps_read());
   places_.push_back({place, commands_.back().line});
   for (canonical::Line& command : commands_) command.line = place;
 }

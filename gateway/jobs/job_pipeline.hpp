@@ -10,6 +10,8 @@
 #include <deque>
 #include <memory>
 #include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "gateway/description/machine_description.hpp"
@@ -100,6 +102,13 @@ class JobPipeline {
   /// Changes of the scale that a reading of this job before this one had, in their order.
   void replay_feed_scales(std::vector<FeedScale> scales) { scales_.assign(scales.begin(), scales.end()); }
 
+  // Objects of the print (pipeline_objects.cpp).
+  /// Those that the text has named so far.
+  std::span<const gcode::PrintObject> objects() const;
+  /// What is not read yet of an object is left out. The place tells where, for another reading of the job.
+  Result<LeftOut, Sentence> leave_out(const std::string& name);
+  void replay_left_out(const std::vector<LeftOut>& all) { left_out_.assign(all.begin(), all.end()); }
+
  private:
   enum class Stage : std::uint8_t {
     kFeeding,   ///< commands go into the planner
@@ -127,6 +136,8 @@ class JobPipeline {
   std::optional<Step> settle();
   bool take_known();
   void read_text(int& budget);
+  std::uint64_t steps_read() const { return reader_->lines() + reader_->steps(); }
+  void leave_out_again();
   void take(const canonical::Line& line);
   void take_motion(const canonical::Line& line);
   void add_to_planner(const canonical::Line& line);
@@ -188,6 +199,7 @@ class JobPipeline {
   double event_s_ = 0, run_s_ = 0, feed_scale_ = 1;
   std::uint64_t moves_taken_ = 0;
   std::deque<FeedScale> scales_;
+  std::deque<LeftOut> left_out_;  ///< by a reading before this one, to come
   Problem problem_;
   std::uint32_t lines_ = 0;
   std::uint64_t bytes_ = 0;

@@ -3,6 +3,7 @@
 // same place, to the last bit.
 
 #include <cstdint>
+#include <string>
 
 namespace kinebus {
 
@@ -18,6 +19,13 @@ struct FeedScale {
   std::uint64_t move = 0;  ///< motion commands planned before
   double scale = 1;
   friend bool operator==(const FeedScale&, const FeedScale&) = default;
+};
+
+/// An object of the print that was left out while the job ran.
+struct LeftOut {
+  std::uint64_t step = 0;  ///< lines and recorded lines carried out before
+  std::string name;
+  friend bool operator==(const LeftOut&, const LeftOut&) = default;
 };
 
 }  // namespace kinebus

@@ -16,6 +16,10 @@ void tell_notes(JobPipeline& pipeline, JobCheck& check) {
     check.problem({Problem::Severity::kWarning, note.line, 0, std::move(note.text)});
 }
 
+std::string shown_name(const gcode::PrintObject& object) {
+  return object.name.empty() ? std::to_string(object.number) : object.name;
+}
+
 Preflight::Preflight(const MachineDescription& machine, const Kinematics& kinematics, ByteSource& source,
                      const Pose& start)
     : Preflight(machine, kinematics, source, start, JobCheck::Options{}) {}
@@ -57,6 +61,8 @@ bool Preflight::step(int lines) {
         tell_notes(pipeline_, check_);
         report_.lines = pipeline_.lines();
         report_.moves = pipeline_.planner().counters().moves;
+        for (const gcode::PrintObject& object : pipeline_.objects())
+          report_.objects.push_back(shown_name(object));
         return true;
     }
   }

@@ -3,6 +3,8 @@
 // checked instead of streamed. One pass, bounded memory.
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "gateway/jobs/byte_source.hpp"
 #include "gateway/jobs/job_check.hpp"
@@ -19,6 +21,7 @@ struct JobReport {
   std::uint32_t runs = 0;    ///< stretches of motion from rest to rest
   std::uint32_t pauses = 0;  ///< M0, M1
   std::uint32_t heat_waits = 0;
+  std::vector<std::string> objects;  ///< of the print, as the text names them
 };
 
 /// Takes what a command adds to the report.
@@ -26,6 +29,9 @@ void count_command(const canonical::Command& command, JobReport& report);
 
 /// What the job has no effect with here is told as warnings.
 void tell_notes(JobPipeline& pipeline, JobCheck& check);
+
+/// "cube_1", or the number that M486 gave it.
+std::string shown_name(const gcode::PrintObject& object);
 
 class Preflight {
  public:

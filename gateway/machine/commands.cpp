@@ -47,6 +47,8 @@ constexpr std::array<Row, kCommandKinds> kTable{{
     {command::kind<command::TuneMotor>, phrase("measure a motor"), in(S::kUnhomed, S::kReady)},
     {command::kind<command::JogMotor>, phrase("jog"), in(S::kReady)},
     {command::kind<command::TuneHeater>, phrase("measure a heater"), in(S::kUnhomed, S::kReady)},
+    {command::kind<command::ExcludeObject>, phrase("leave an object out"),
+     in(S::kRunning, S::kHolding, S::kHeld)},
 }};
 
 constexpr bool table_is_in_order() {

@@ -100,6 +100,10 @@ struct JogMotor {
   double distance = 0;     ///< mm or rad
   double speed_per_s = 0;  ///< of the joint; 0: slow
 };
+/// An object of the print under way is left out, from what is not planned yet on.
+struct ExcludeObject {
+  std::string name;  ///< in any case, or M486's number
+};
 
 }  // namespace command
 
@@ -108,7 +112,8 @@ using Command =
                  command::OpenLines, command::Hold, command::Resume, command::Cancel, command::Stop,
                  command::Clear, command::SetFeedOverride, command::MotorsOff, command::SetTemperature,
                  command::SetFan, command::SetOutput, command::SetSpindle, command::SetWorkOffset,
-                 command::SetMotorCurrents, command::TuneMotor, command::JogMotor, command::TuneHeater>;
+                 command::SetMotorCurrents, command::TuneMotor, command::JogMotor, command::TuneHeater,
+                 command::ExcludeObject>;
 
 /// A kind of command: its place in Command.
 using CommandKind = std::size_t;

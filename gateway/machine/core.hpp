@@ -89,6 +89,8 @@ class Gateway::Core {
   std::string position_text();
   std::string settings_text() const;
   std::string mesh_text() const;
+  /// EXCLUDE_OBJECT and M486 of a session, of the job that runs; nullopt: the line is none of them.
+  std::optional<Result<void, Refusal>> object_line(std::string_view line);
   std::string currents_text() const;
   /// The joint that moves for this axis of the pose and for no other; none on a mechanism that couples them.
   std::optional<std::size_t> motor_of_axis(std::size_t axis) const;
@@ -129,6 +131,7 @@ class Gateway::Core {
   Done on(command::TuneMotor& asked) { return motors_.tune(asked.joint); }
   Done on(command::JogMotor& asked);
   Done on(command::TuneHeater& asked);
+  Done on(command::ExcludeObject& asked);
 
   void enter(MachineState state) { state_.enter(now_, state); }
   void begin_bring_up();
@@ -204,6 +207,7 @@ class Gateway::Core {
   void give_up_job();
   void end_override();
   void report_progress(MachineStatus& s) const;
+  void report_objects(MachineStatus& s) const;
   void begin_job(const Pose& start);
   void note_progress();
 

@@ -51,6 +51,7 @@ MachineStatus Gateway::Core::status() const {
   s.job = print_.name();
   s.interrupted = interrupted() && s.state != MachineState::kRunning;
   report_progress(s);
+  report_objects(s);
   s.work_system = static_cast<std::uint32_t>(lines_.work_system());
   s.work_offset = lines_.work_offset();
   heat_.report(s);

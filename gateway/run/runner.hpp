@@ -7,6 +7,7 @@
 #include <deque>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -122,6 +123,10 @@ class Runner {
   void resume(BusTime now);
   /// Above 1: what is planned from now on is planned faster; at most 1: the rate of path time.
   void set_override(double ratio);
+  /// What is not planned yet of an object of the print is left out; the journal keeps it.
+  Result<void, Sentence> leave_out(const std::string& name);
+  std::uint32_t lines_read() const { return pipeline_.lines(); }
+  std::span<const gcode::PrintObject> objects() const { return pipeline_.objects(); }
   /// The job is over (done, cancelled, lost); what is queued is the caller's to clear.
   void drop();
 

@@ -50,6 +50,8 @@ void Runner::shift_extruder(double by_mm) {
 void Runner::start_replay(std::unique_ptr<ByteSource> source, const journal::State& state, PathTime tau) {
   start_job(std::move(source), state.job->start, state.job->offsets);
   pipeline_.replay_feed_scales(state.scales);
+  pipeline_.replay_left_out(state.left_out);
+  if (!state.left_out.empty()) check_what_follows();
   learned_ = state.learned;
   next_learned_ = 0;
   const bool had_mesh = !learned_.empty() && learned_.front().what == journal::Learned::What::kBeginning;
@@ -65,6 +67,16 @@ void Runner::start_replay(std::unique_ptr<ByteSource> source, const journal::Sta
     feed_.replay_to(state.interrupted ? state.interrupted->place : JobPlace{});
     feed_.shift_extruder(state.interrupted ? state.interrupted->extruder_shift_mm : 0);
   }
+}
+
+Result<void, Sentence> Runner::leave_out(const std::string& name) {
+  if (!active_ || !noted_ || feed_.replaying())
+    return Error<Sentence>(say("no job runs of which an object could be left out"));
+  const auto from = pipeline_.leave_out(name);
+  if (!from) return Error<Sentence>(from.error());
+  journal_.push(journal::ObjectLeftOut{*from});
+  check_what_follows();
+  return {};
 }
 
 Runner::Outcome Runner::replay(int budget) {

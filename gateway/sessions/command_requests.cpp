@@ -33,6 +33,8 @@ constexpr Row plain(joblink::Command request) {
 }
 
 const Row kTable[] = {
+    {joblink::COMMAND_EXCLUDE_OBJECT, command::kind<command::ExcludeObject>,
+     [](const ClientMessage& m) -> Command { return command::ExcludeObject{m.exclude_object().name()}; }},
     {joblink::COMMAND_START_JOB, command::kind<command::Run>, nullptr},
     plain<command::Hold>(joblink::COMMAND_HOLD),
     plain<command::Resume>(joblink::COMMAND_RESUME),

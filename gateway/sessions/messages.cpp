@@ -280,6 +280,13 @@ joblink::Status to_message(const MachineStatus& s) {
     if (filament.condition != FilamentCondition::kInOrder)
       *told.mutable_words() = to_message(sentence(filament.condition));
   }
+  for (const ObjectStatus& object : s.objects) {
+    constexpr int kListed = 100;
+    if (m.objects_size() == kListed) break;
+    joblink::PrintObject& told = *m.add_objects();
+    told.set_name(shown(object.name));
+    told.set_left_out(object.left_out);
+  }
   if (s.probe_touches) m.set_probe_touches(*s.probe_touches);
   m.set_spindle_rpm(s.spindle.actual_rpm);
   m.set_spindle_target_rpm(s.spindle.target_rpm);

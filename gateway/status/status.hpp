@@ -53,6 +53,12 @@ struct MachineCounters {
   std::uint32_t starvation_holds = 0;  ///< times planning did not keep up and the path was held
 };
 
+/// An object of the print under way.
+struct ObjectStatus {
+  std::string name;
+  bool left_out = false;
+};
+
 struct MachineStatus {
   MachineState state = MachineState::kOff;
   Sentence doing;  ///< plain words: what the machine does now
@@ -73,7 +79,8 @@ struct MachineStatus {
   std::uint32_t line = 0;    ///< in motion now
   double progress = 0;       ///< 0..1, by path time
   double elapsed_s = 0;
-  double remaining_s = 0;  ///< estimate at the present override
+  std::vector<ObjectStatus> objects;  ///< of the job, in its order
+  double remaining_s = 0;             ///< estimate at the present override
 
   std::uint32_t work_system = 1;  ///< of lines from outside: 1 (G54) .. 9 (G59.3)
   Pose work_offset{};             ///< of it: work zero in table coordinates, mm and rad

@@ -305,6 +305,9 @@ void Session::jog_motor(int joint, double distance) {
     r.mutable_jog_motor()->set_distance(distance);
   }));
 }
+void Session::exclude_object(const std::string& name) {
+  command(plain([&](auto& r) { r.mutable_exclude_object()->set_name(name); }));
+}
 void Session::set_override(double ratio) {
   command(plain([&](auto& r) { r.mutable_set_override()->set_ratio(ratio); }));
 }

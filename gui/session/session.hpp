@@ -79,6 +79,8 @@ class Session : public QObject {
   /// 0 switches it off, and ends its measurement.
   void set_heater(joblink::HeaterKind kind, std::uint32_t index, double celsius);
   /// Its node measures it, to be good at `celsius`.
+  /// Of the print under way; it cannot be taken back.
+  void exclude_object(const std::string& name);
   void tune_heater(joblink::HeaterKind kind, std::uint32_t index, double celsius);
   void set_fan(double ratio);
   void set_work_offset(std::uint32_t system, const joblink::Pose& offset, bool here);

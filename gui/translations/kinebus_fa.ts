@@ -3864,6 +3864,150 @@
         <source>the tool&apos;s place cannot be named</source>
         <translation>جای ابزار را نمی‌توان نامید</translation>
     </message>
+    <message>
+        <source>echo writes no files here: it tells the operator</source>
+        <translation>echo اینجا پرونده نمی‌نویسد: به کاربر می‌گوید</translation>
+    </message>
+    <message>
+        <source>the text is too long (500 letters at most)</source>
+        <translation>متن بسیار دراز است (حداکثر 500 حرف)</translation>
+    </message>
+    <message>
+        <source>expected an operator or %1</source>
+        <translation>عملگر یا %1 انتظار می‌رفت</translation>
+    </message>
+    <message>
+        <source>the job aborts itself here</source>
+        <translation>کار اینجا خود را متوقف می‌کند</translation>
+    </message>
+    <message>
+        <source>the job aborts itself here: %1</source>
+        <translation>کار اینجا خود را متوقف می‌کند: %1</translation>
+    </message>
+    <message>
+        <source>set changes var.NAME or global.NAME</source>
+        <translation>set مقدار var.NAME یا global.NAME را تغییر می‌دهد</translation>
+    </message>
+    <message>
+        <source>expected %1</source>
+        <translation>مورد انتظار: %1</translation>
+    </message>
+    <message>
+        <source>nothing can follow the value</source>
+        <translation>پس از مقدار چیزی نمی‌تواند بیاید</translation>
+    </message>
+    <message>
+        <source>%1 has no value yet</source>
+        <translation>%1 هنوز مقداری ندارد</translation>
+    </message>
+    <message>
+        <source>%1 exists already: set changes it</source>
+        <translation>%1 از پیش هست: set آن را تغییر می‌دهد</translation>
+    </message>
+    <message>
+        <source>too many variables (%1 at most)</source>
+        <translation>متغیرها زیادند (حداکثر %1)</translation>
+    </message>
+    <message>
+        <source>the arguments of a macro are letters with numbers</source>
+        <translation>آرگومان‌های ماکرو حرف‌هایی با عدد هستند</translation>
+    </message>
+    <message>
+        <source>no object can be left out while cutter compensation is on</source>
+        <translation>هنگامی که جبران شعاع ابزار روشن است، هیچ جسمی را نمی‌توان کنار گذاشت</translation>
+    </message>
+    <message>
+        <source>if and while belong to a job: a single line can only call a macro</source>
+        <translation>if و while از آنِ کارند: یک سطر تنها می‌تواند ماکرو فراخواند</translation>
+    </message>
+    <message>
+        <source>%1 is in no loop</source>
+        <translation>%1 در حلقه‌ای نیست</translation>
+    </message>
+    <message>
+        <source>expected a number, not %1</source>
+        <translation>عدد انتظار می‌رفت، نه %1</translation>
+    </message>
+    <message>
+        <source>expected a condition (true or false), not %1</source>
+        <translation>شرط (true یا false) انتظار می‌رفت، نه %1</translation>
+    </message>
+    <message>
+        <source>the index %1 is too large: there are %2</source>
+        <translation>نمایهٔ %1 بسیار بزرگ است: %2 تا هست</translation>
+    </message>
+    <message>
+        <source>%1 cannot be known when the text is read; what can: %2</source>
+        <translation>%1 هنگام خواندن متن دانستنی نیست؛ دانستنی‌ها: %2</translation>
+    </message>
+    <message>
+        <source>expected a value</source>
+        <translation>مقدار انتظار می‌رفت</translation>
+    </message>
+    <message>
+        <source># counts the letters of a text, or a list of the object model</source>
+        <translation># حرف‌های یک متن یا فهرستی از مدل اشیا را می‌شمارد</translation>
+    </message>
+    <message>
+        <source>the text needs a closing quotation mark</source>
+        <translation>متن گیومهٔ پایانی ندارد</translation>
+    </message>
+    <message>
+        <source>expected a name: letters, digits and _</source>
+        <translation>نام انتظار می‌رفت: حرف، رقم و _</translation>
+    </message>
+    <message>
+        <source>the name is too long (64 letters at most)</source>
+        <translation>نام بسیار دراز است (حداکثر 64 حرف)</translation>
+    </message>
+    <message>
+        <source>an index is a whole number from 0</source>
+        <translation>نمایه عددی صحیح از 0 به بالا است</translation>
+    </message>
+    <message>
+        <source>a function has 16 arguments at most</source>
+        <translation>تابع حداکثر 16 آرگومان دارد</translation>
+    </message>
+    <message>
+        <source>there is no function %1 of %2 values</source>
+        <translation>تابع %1 با %2 مقدار وجود ندارد</translation>
+    </message>
+    <message>
+        <source>iterations has a value in a loop alone</source>
+        <translation>iterations تنها در حلقه مقدار دارد</translation>
+    </message>
+    <message>
+        <source>the call gives no %1</source>
+        <translation>فراخوانی %1 را نمی‌دهد</translation>
+    </message>
+    <message>
+        <source>no job is read</source>
+        <translation>هیچ کاری خوانده نمی‌شود</translation>
+    </message>
+    <message>
+        <source>leave an object out</source>
+        <translation>کنار گذاشتن یک جسم</translation>
+    </message>
+    <message>
+        <source>the job names no objects</source>
+        <translation>کار نام هیچ جسمی را نمی‌برد</translation>
+    </message>
+    <message>
+        <source>the job has no object %1; it has %2</source>
+        <translation>کار جسم %1 را ندارد؛ دارد: %2</translation>
+    </message>
+    <message>
+        <source>the object %1 is left out from line %2 on: what is before it is planned already</source>
+        <translation>جسم %1 از سطر %2 به بعد کنار گذاشته می‌شود: آنچه پیش از آن است برنامه‌ریزی شده</translation>
+    </message>
+    <message>
+        <source>while a job runs M486 takes P with the number of an object</source>
+        <translation>هنگام اجرای کار، M486 تنها P با شمارهٔ یک جسم می‌پذیرد</translation>
+    </message>
+    <message>
+        <source>no job runs of which an object could be left out</source>
+        <translation>کاری در حال اجرا نیست که بتوان جسمی از آن را کنار گذاشت</translation>
+    </message>
 </context>
 <context>
     <name>GatewayWords</name>
@@ -4439,6 +4583,14 @@
     <message>
         <source>Last known: what the job does now is not.</source>
         <translation>آخرین وضعیت دانسته: اکنونِ کار دانسته نیست.</translation>
+    </message>
+    <message>
+        <source>Leave an object out</source>
+        <translation>کنار گذاشتن یک جسم</translation>
+    </message>
+    <message>
+        <source>Print no more of %1? It cannot be taken back.</source>
+        <translation>%1 دیگر چاپ نشود؟ این کار برگشت‌پذیر نیست.</translation>
     </message>
 </context>
 <context>

@@ -3864,6 +3864,150 @@
         <source>the tool&apos;s place cannot be named</source>
         <translation>takımın yeri adlandırılamıyor</translation>
     </message>
+    <message>
+        <source>echo writes no files here: it tells the operator</source>
+        <translation>echo burada dosya yazmaz: operatöre bildirir</translation>
+    </message>
+    <message>
+        <source>the text is too long (500 letters at most)</source>
+        <translation>metin çok uzun (en çok 500 harf)</translation>
+    </message>
+    <message>
+        <source>expected an operator or %1</source>
+        <translation>işleç ya da %1 bekleniyordu</translation>
+    </message>
+    <message>
+        <source>the job aborts itself here</source>
+        <translation>iş burada kendini durduruyor</translation>
+    </message>
+    <message>
+        <source>the job aborts itself here: %1</source>
+        <translation>iş burada kendini durduruyor: %1</translation>
+    </message>
+    <message>
+        <source>set changes var.NAME or global.NAME</source>
+        <translation>set, var.NAME ya da global.NAME değerini değiştirir</translation>
+    </message>
+    <message>
+        <source>expected %1</source>
+        <translation>beklenen: %1</translation>
+    </message>
+    <message>
+        <source>nothing can follow the value</source>
+        <translation>değerden sonra bir şey gelemez</translation>
+    </message>
+    <message>
+        <source>%1 has no value yet</source>
+        <translation>%1 henüz değer almadı</translation>
+    </message>
+    <message>
+        <source>%1 exists already: set changes it</source>
+        <translation>%1 zaten var: set onu değiştirir</translation>
+    </message>
+    <message>
+        <source>too many variables (%1 at most)</source>
+        <translation>çok fazla değişken var (en çok %1)</translation>
+    </message>
+    <message>
+        <source>the arguments of a macro are letters with numbers</source>
+        <translation>makro bağımsız değişkenleri sayılı harflerdir</translation>
+    </message>
+    <message>
+        <source>no object can be left out while cutter compensation is on</source>
+        <translation>kesici telafisi açıkken hiçbir nesne atlanamaz</translation>
+    </message>
+    <message>
+        <source>if and while belong to a job: a single line can only call a macro</source>
+        <translation>if ve while işe aittir: tek satır yalnız makro çağırabilir</translation>
+    </message>
+    <message>
+        <source>%1 is in no loop</source>
+        <translation>%1 bir döngüde değil</translation>
+    </message>
+    <message>
+        <source>expected a number, not %1</source>
+        <translation>sayı bekleniyordu, %1 değil</translation>
+    </message>
+    <message>
+        <source>expected a condition (true or false), not %1</source>
+        <translation>koşul (true ya da false) bekleniyordu, %1 değil</translation>
+    </message>
+    <message>
+        <source>the index %1 is too large: there are %2</source>
+        <translation>%1 dizini çok büyük: %2 tane var</translation>
+    </message>
+    <message>
+        <source>%1 cannot be known when the text is read; what can: %2</source>
+        <translation>metin okunurken %1 bilinemez; bilinebilenler: %2</translation>
+    </message>
+    <message>
+        <source>expected a value</source>
+        <translation>değer bekleniyordu</translation>
+    </message>
+    <message>
+        <source># counts the letters of a text, or a list of the object model</source>
+        <translation># bir metnin harflerini ya da nesne modelinin bir listesini sayar</translation>
+    </message>
+    <message>
+        <source>the text needs a closing quotation mark</source>
+        <translation>metnin kapanış tırnağı eksik</translation>
+    </message>
+    <message>
+        <source>expected a name: letters, digits and _</source>
+        <translation>ad bekleniyordu: harf, rakam ve _</translation>
+    </message>
+    <message>
+        <source>the name is too long (64 letters at most)</source>
+        <translation>ad çok uzun (en çok 64 harf)</translation>
+    </message>
+    <message>
+        <source>an index is a whole number from 0</source>
+        <translation>dizin 0 ya da daha büyük bir tam sayıdır</translation>
+    </message>
+    <message>
+        <source>a function has 16 arguments at most</source>
+        <translation>bir fonksiyonun en çok 16 bağımsız değişkeni olur</translation>
+    </message>
+    <message>
+        <source>there is no function %1 of %2 values</source>
+        <translation>%2 değerli bir %1 fonksiyonu yok</translation>
+    </message>
+    <message>
+        <source>iterations has a value in a loop alone</source>
+        <translation>iterations yalnız bir döngüde değer alır</translation>
+    </message>
+    <message>
+        <source>the call gives no %1</source>
+        <translation>çağrı %1 vermiyor</translation>
+    </message>
+    <message>
+        <source>no job is read</source>
+        <translation>okunan bir iş yok</translation>
+    </message>
+    <message>
+        <source>leave an object out</source>
+        <translation>bir nesneyi atlama</translation>
+    </message>
+    <message>
+        <source>the job names no objects</source>
+        <translation>iş hiçbir nesnenin adını vermiyor</translation>
+    </message>
+    <message>
+        <source>the job has no object %1; it has %2</source>
+        <translation>işte %1 nesnesi yok; olanlar: %2</translation>
+    </message>
+    <message>
+        <source>the object %1 is left out from line %2 on: what is before it is planned already</source>
+        <translation>%1 nesnesi %2. satırdan itibaren atlanıyor: öncesi zaten planlandı</translation>
+    </message>
+    <message>
+        <source>while a job runs M486 takes P with the number of an object</source>
+        <translation>iş çalışırken M486, bir nesnenin numarasıyla P alır</translation>
+    </message>
+    <message>
+        <source>no job runs of which an object could be left out</source>
+        <translation>nesnesi atlanabilecek çalışan bir iş yok</translation>
+    </message>
 </context>
 <context>
     <name>GatewayWords</name>
@@ -4439,6 +4583,14 @@
     <message>
         <source>Last known: what the job does now is not.</source>
         <translation>Son bilinen durum: işin şu anda ne yaptığı bilinmiyor.</translation>
+    </message>
+    <message>
+        <source>Leave an object out</source>
+        <translation>Bir nesneyi atla</translation>
+    </message>
+    <message>
+        <source>Print no more of %1? It cannot be taken back.</source>
+        <translation>%1 artık basılmasın mı? Bu geri alınamaz.</translation>
     </message>
 </context>
 <context>

@@ -5,6 +5,7 @@
 #include <QGridLayout>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QMenu>
 #include <QMessageBox>
 #include <QPushButton>
 #include <QSignalBlocker>
@@ -110,6 +111,9 @@ JobPanel::JobPanel(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(
     connect(yes, &QAbstractButton::clicked, &desk_.session, &Session::cancel);
     question->open();
   });
+  objects_ = make_button(desk_.theme, QStringLiteral("cancel"), "", card);
+  card->column()->addWidget(objects_);
+  connect(objects_, &QPushButton::clicked, this, &JobPanel::choose_object);
   connect(&desk_.session, &Session::status_changed, this, &JobPanel::take_status);
   connect(&desk_.session, &Session::link_changed, this, &JobPanel::take_status);
   says([this, speed_name] {
@@ -119,9 +123,36 @@ JobPanel::JobPanel(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(
     pause_->setText(tr("Pause"));
     resume_->setText(tr("Resume"));
     cancel_->setText(tr("Cancel"));
+    objects_->setText(tr("Leave an object out"));
     override_text_->setText(Format::percent(override_->value() / 100.0));
     take_status();
   });
+}
+
+/// Which one; and whether it is meant, for it cannot be taken back.
+void JobPanel::choose_object() {
+  auto* menu = new QMenu(this);
+  menu->setAttribute(Qt::WA_DeleteOnClose);
+  for (const joblink::PrintObject& object : desk_.session.status().objects()) {
+    QString shown = QString::fromStdString(object.name());
+    QAction* const one = menu->addAction(shown.replace(QLatin1Char('&'), QStringLiteral("&&")));
+    one->setEnabled(!object.left_out());
+    connect(one, &QAction::triggered, this, [this, name = object.name()] {
+      auto* question = new QMessageBox(
+          QMessageBox::Question, tr("Leave an object out"),
+          tr("Print no more of %1? It cannot be taken back.").arg(QString::fromStdString(name)),
+          QMessageBox::NoButton, window());
+      question->setAttribute(Qt::WA_DeleteOnClose);
+      auto* yes = question->addButton(tr("Leave an object out"), QMessageBox::DestructiveRole);
+      auto* no = question->addButton(tr("Go on"), QMessageBox::RejectRole);
+      question->setDefaultButton(no);
+      question->setEscapeButton(no);
+      connect(yes, &QAbstractButton::clicked, &desk_.session,
+              [this, name] { desk_.session.exclude_object(name); });
+      question->open();
+    });
+  }
+  menu->popup(objects_->mapToGlobal(QPoint(0, objects_->height())));
 }
 
 void JobPanel::take_status() {
@@ -162,6 +193,9 @@ void JobPanel::take_status() {
   set_usable(*cancel_, desk_.session.allowed(joblink::COMMAND_CANCEL),
              desk_.session.why_not(joblink::COMMAND_CANCEL));
   override_->setEnabled(connected);
+  objects_->setVisible(s.objects_size() > 0);
+  set_usable(*objects_, desk_.session.allowed(joblink::COMMAND_EXCLUDE_OBJECT),
+             desk_.session.why_not(joblink::COMMAND_EXCLUDE_OBJECT));
 }
 
 }  // namespace kinebus::gui

@@ -19,6 +19,7 @@ class JobPanel : public SpeakingWidget {
 
  private:
   void take_status();
+  void choose_object();
 
   Desk& desk_;
   ElidedLabel* name_;
@@ -26,7 +27,7 @@ class JobPanel : public SpeakingWidget {
   QProgressBar* progress_;
   QLabel *percent_, *elapsed_, *remaining_, *line_, *override_text_;
   QSlider* override_;
-  QPushButton *pause_, *resume_, *cancel_;
+  QPushButton *pause_, *resume_, *cancel_, *objects_;
 };
 
 }  // namespace kinebus::gui

@@ -106,6 +106,27 @@ void add_run(CLI::App& app, const Options& options, int& exit_code) {
   });
 }
 
+void add_exclude(CLI::App& app, const Options& options) {
+  auto* exclude = app.add_subcommand(
+      "exclude", "Leave an object of the running print out, or list them: kinebus exclude cube_1");
+  auto name = std::make_shared<std::string>();
+  exclude->add_option("name", *name, "Of the object; without it all are listed");
+  exclude->callback([=] {
+    Client client(options->reach);
+    if (name->empty()) {
+      const joblink::Status status = client.status();
+      if (options->json) return fmt::print("{}", to_json_text(status, {"objects"}));
+      for (const joblink::PrintObject& object : status.objects())
+        fmt::print("{}{}\n", object.name(), object.left_out() ? "  left out" : "");
+      return;
+    }
+    take_control(client, *options);
+    ClientMessage request;
+    request.mutable_exclude_object()->set_name(*name);
+    client.ask(std::move(request));
+  });
+}
+
 void add_store(CLI::App& app, const Options& options, int& exit_code) {
   auto* upload = app.add_subcommand("upload", "Send a G-code file to the gateway's store");
   const auto file = named(upload, "file", "G-code file");
@@ -233,6 +254,7 @@ void add_machine_file(CLI::App& app, const Options& options, int& exit_code) {
 
 void add_job_commands(CLI::App& app, const Options& options, int& exit_code) {
   add_run(app, options, exit_code);
+  add_exclude(app, options);
   add_store(app, options, exit_code);
   add_events(app, options);
   add_machine_file(app, options, exit_code);

@@ -30,6 +30,7 @@ Core::Core(Options options) : options_(std::move(options)) {
   m.recover_extra_mm = options_.recover_extra_mm;
   m.recover_mm_per_s = options_.recover_mm_per_s;
   m.coordinate_offsets = options_.work_offsets;
+  m.tools = options_.tools, m.hotends = options_.hotends;
   set_dialect(options_.dialect);
   m.e_canonical_base_mm = m.position[kAxisE];
   refresh();
@@ -69,8 +70,8 @@ bool Core::execute(std::string_view line, std::uint32_t line_number, CommandBuff
          rules_->a_extrudes
              ? say("A is taken for extrusion (E), as slicers write it for %1", std::string(rules_->name))
              : say("A is taken for extrusion (E), as the slicer in the file's header writes it"));
-  if (watches_comments_ && !line.empty() && line.front() == ';') [[unlikely]]
-    return read_object_comment(line);
+  if (!line.empty() && line.front() == ';' && read_object_comment(line)) [[unlikely]]
+    return true;
   if (block_.is_plain() && !announce_ && !state_.modal.away && !state_.modal.ended &&
       state_.modal.cutter == CutterSide::kOff && (block_.present & ~kStraightWords) == 0 &&
       block_.present != 0) {
@@ -136,8 +137,6 @@ void Core::begin_program() {
 void Core::restore(const State& state) {
   state_ = state;
   follow_dialect();
-  watches_comments_ = std::any_of(state_.objects.begin(), state_.objects.end(),
-                                  [](const PrintObject& object) { return object.excluded; });
   announce_ = true;
   refresh_shift();
 }
@@ -162,6 +161,7 @@ void Core::set_position(const Pose& pose, Frame frame) {
 void Core::swap_locals(Locals& locals) {
   std::swap_ranges(locals.numbers.begin(), locals.numbers.end(), state_.parameters.numbered.begin() + 1);
   std::swap(locals.names, state_.parameters.locals);
+  std::swap(locals.variables, state_.parameters.meta_locals);
 }
 
 void Core::set_returned(double value, bool given) {

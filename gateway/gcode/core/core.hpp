@@ -45,6 +45,7 @@ class Core {
 
   void set_probed(const ProbeResult& result);
   bool set_work_offset(int system, const Pose& offset, bool here);
+  bool exclude_object(std::string_view name);
 
   const State& state() const { return state_; }
   const ParseError& error() const { return error_; }
@@ -52,6 +53,9 @@ class Core {
   const Options& options() const { return options_; }
 
   void swap_locals(Locals& locals);
+  bool meta_command(const MetaLine& line, CommandBuffer& out);
+  bool meta_condition(const MetaLine& line, bool& holds);
+  void set_iterations(double done) { state_.parameters.iterations = done; }
   void set_returned(double value, bool given);
   bool read_header(std::string_view comment, std::uint32_t line_number);
   const Macro* find_macro(std::string_view name) const;
@@ -232,12 +236,17 @@ class Core {
   bool object_code(Code code);
   std::size_t object_named(std::string_view name);
   std::size_t object_numbered(int number);
+  /// True: it says where an object begins or ends.
   bool read_object_comment(std::string_view comment);
   void begin_object(std::size_t object);
   void exclude(std::size_t object, bool out);
   void look_whether_left_out();
   bool leave_out(std::size_t from, const ModalState& before);
   void come_back(const Pose& goal, double shift_e, std::uint32_t line);
+
+  // meta_commands.cpp
+  bool macro_file_call();
+  void leave_meta_blocks(std::size_t indent);
 
   // commands.cpp: words of Klipper and macros
   bool run_command();
@@ -256,10 +265,9 @@ class Core {
   Pose shift_{};            ///< canonical = program + shift for X Y Z A C, outside a tilted plane
   const DialectRules* rules_ = nullptr;  ///< of the dialect in force
   bool traverse_has_feed_ = false;
-  bool watches_comments_ = false;  ///< an object is excluded
-  bool probe_goes_on_ = false;     ///< behind its probe the line at work has moves of its own
-  bool probe_sets_z_ = false;      ///< what it touches gets Z 0
-  bool announce_ = true;           ///< SetPosition is due before the next command
+  bool probe_goes_on_ = false;  ///< behind its probe the line at work has moves of its own
+  bool probe_sets_z_ = false;   ///< what it touches gets Z 0
+  bool announce_ = true;        ///< SetPosition is due before the next command
 };
 
 /// The letters of the axes, in the order of Pose.

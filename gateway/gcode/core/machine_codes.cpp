@@ -206,19 +206,7 @@ bool Core::program_call(Code code) {
     call_.what = ProgramCall::What::kReturn;
     return !has('P') || fail(block_.column_of('P'), say("M99 P is not supported: M99 goes back to the call"));
   }
-  if (block_.has_text) {
-    // P"name": RepRapFirmware's macros
-    std::string_view name = block_.text;
-    if (name.starts_with('P') || name.starts_with('p')) name.remove_prefix(1);
-    const std::size_t end = name.find('"', 1);
-    name = name.substr(1, end == std::string_view::npos ? end : end - 1);
-    const std::string small = in_lower_case(name);
-    if (find_macro(small) == nullptr)
-      return fail(block_.text_column, say("there is no macro %1", std::string(name)));
-    call_.what = ProgramCall::What::kMacro;
-    call_.name = small;
-    return true;
-  }
+  if (block_.has_text) return macro_file_call();
   call_.what = ProgramCall::What::kProgram;
   if (!has('P')) return fail(code.column, say("M98 needs the program P"));
   return take_integer('P', 0, 99'999'999, call_.number) && take_integer('L', 0, 9999, call_.times);

@@ -59,7 +59,6 @@ void Core::begin_object(std::size_t object) {
 
 void Core::exclude(std::size_t object, bool out) {
   state_.objects[object].excluded = out;
-  watches_comments_ |= out;
   if (out) {
     const PrintObject& which = state_.objects[object];
     note(kNoteForExcluded + 1'000'000 + static_cast<int>(object),
@@ -103,8 +102,27 @@ bool Core::object_command(const ObjectCommand& command) {
   const std::size_t object = object_named(command.name);
   if (object == kNoObject)
     return fail(column, say("too many objects, or too long a name (1000 of 200 letters at most)"));
+  if (word != "exclude_object") state_.modal.objects_by_code = true;
   if (word == "exclude_object_start") begin_object(object);
   if (word == "exclude_object") exclude(object, true);
+  return true;
+}
+
+/// Between two lines of the text.
+bool Core::exclude_object(std::string_view name) {
+  if (state_.modal.cutter != CutterSide::kOff)
+    return fail(0, say("no object can be left out while cutter compensation is on"));
+  const std::string small = in_lower_case(name);
+  const auto known =
+      std::find_if(state_.objects.begin(), state_.objects.end(), [&](const PrintObject& object) {
+        return object.name.empty() ? std::to_string(object.number) == small : object.name == small;
+      });
+  const std::size_t object = known != state_.objects.end()
+                                 ? static_cast<std::size_t>(known - state_.objects.begin())
+                                 : object_named(small);
+  if (object == kNoObject)
+    return fail(0, say("too many objects, or too long a name (1000 of 200 letters at most)"));
+  exclude(object, true);
   return true;
 }
 
@@ -154,6 +172,7 @@ bool Core::object_code(Code code) {
     const std::size_t object = value < 0 ? kNoObject : object_numbered(static_cast<int>(value));
     if (object == kNoObject && value >= 0)
       return wrong(say("too many objects, or too long a name (1000 of 200 letters at most)"));
+    state_.modal.objects_by_code |= letter == 's';
     if (letter == 's') begin_object(object);
     if (letter != 's' && object != kNoObject) exclude(object, letter == 'p');
   }
@@ -163,12 +182,11 @@ bool Core::object_code(Code code) {
 /// What PrusaSlicer and its heirs write about a move's object when they write no commands.
 bool Core::read_object_comment(std::string_view comment) {
   constexpr std::string_view kBegin = "; printing object ", kEnd = "; stop printing object ";
-  if (comment.starts_with(kEnd)) begin_object(kNoObject);
-  if (comment.starts_with(kBegin)) {
-    std::string name = in_lower_case(comment.substr(kBegin.size()));
-    while (!name.empty() && (name.back() == ' ' || name.back() == '\r')) name.pop_back();
-    begin_object(object_named(name));
-  }
+  const bool begins = comment.starts_with(kBegin);
+  if ((!begins && !comment.starts_with(kEnd)) || state_.modal.objects_by_code) return false;
+  std::string name = begins ? in_lower_case(comment.substr(kBegin.size())) : std::string();
+  while (!name.empty() && (name.back() == ' ' || name.back() == '\r')) name.pop_back();
+  begin_object(begins ? object_named(name) : kNoObject);
   return true;
 }
 

@@ -7,6 +7,7 @@
 namespace kinebus::gcode {
 
 void Program::leave_all() {
+  interpreter_.set_iterations(-1);
   while (!frames_.empty()) {
     if (frames_.back().own_locals) interpreter_.swap_locals(frames_.back().locals);
     frames_.pop_back();
@@ -33,6 +34,11 @@ std::uint32_t Program::shown_line(std::uint32_t number) const {
 
 Result<void, ParseError> Program::line(std::string_view text, std::uint32_t number, CommandBuffer& out) {
   const bool records = recording_.is_open() || rest_;
+  if (blocks_.is_open() || may_be_meta(text)) [[unlikely]] {
+    if (passes_over_ || is_empty_line(text)) return {};
+    if (blocks_.is_open() || (interpreter_.takes_meta() && read_meta_word(text).meta))
+      return meta_line(text, number, out);
+  }
   if (!may_be_o_word(text)) [[likely]] {
     if (passes_over_) return {};
     if (!records) [[likely]]
@@ -82,12 +88,17 @@ Result<void, ParseError> Program::record(std::string_view text, std::uint32_t nu
     recording_.keep();
     return {};
   }
+  begin_block();
+  return {};
+}
+
+/// What is recorded since the last of its kind is carried out.
+void Program::begin_block() {
   Frame frame;
   frame.kind = FrameKind::kBlock;
   frame.at = frame.begin = recording_.kept();
   frame.end = recording_.size();
   frames_.push_back(std::move(frame));
-  return {};
 }
 
 Result<void, ParseError> Program::give_up(ParseError error) {
@@ -97,6 +108,10 @@ Result<void, ParseError> Program::give_up(ParseError error) {
 }
 
 Result<void, ParseError> Program::finish() {
+  if (blocks_.is_open() && !passes_over_) {
+    if (auto ended = add_ends(blocks_.close(), 0); !ended) return ended;
+    if (!recording_.is_open() && !rest_) begin_block();
+  }
   if (auto closed = recording_.close(); !closed) return give_up(std::move(closed.error()));
   if (!std::exchange(rest_, false)) return {};
   Frame frame;
@@ -126,7 +141,13 @@ Result<void, ParseError> Program::step(CommandBuffer& out) {
   if (++steps_ > limit)
     return abandon({recording_[index].number, 1,
                     say("loops and calls carry out more than %1 lines: one of them does not end", limit)});
-  if (auto result = run(index, out); !result) return abandon(std::move(result.error()));
+  tell_iterations();
+  const bool in_macro = frame.as_line != 0;
+  if (auto result = run(index, out); !result) {
+    // A macro's lines go by the line that called; what is wrong goes by its own.
+    if (in_macro) result.error().line = recording_[index].number;
+    return abandon(std::move(result.error()));
+  }
   if (interpreter_.ended()) leave_all();
   return {};
 }
@@ -142,6 +163,7 @@ Result<double, ParseError> Program::value_of(const Recording::Line& line) {
 }
 
 Result<bool, ParseError> Program::condition(const Recording::Line& line) {
+  if (line.meta) return meta_condition(line);
   const auto value = value_of(line);
   if (!value) return Error<ParseError>(value.error());
   return *value != 0;
@@ -206,13 +228,20 @@ Result<void, ParseError> Program::run(std::uint32_t index, CommandBuffer& out) {
       return {};
     case OKind::kWhile:
     case OKind::kDoWhile: {
+      if (line.meta && (frame.counters.empty() || frame.counters.back().loop != index))
+        frame.counters.push_back({index, 0});
+      tell_iterations();
       const auto holds = condition(line);
       if (!holds) return Error<ParseError>(holds.error());
-      if (line.kind == OKind::kWhile && !*holds) frame.at = line.next + 1;
+      if (line.kind == OKind::kWhile && !*holds) {
+        frame.at = line.next + 1;
+        if (line.meta) frame.counters.pop_back();
+      }
       if (line.kind == OKind::kDoWhile && *holds) frame.at = line.next + 1;
       return {};
     }
     case OKind::kEndwhile:
+      if (line.meta) ++frame.counters.back().left;
       frame.at = line.next;
       return {};
     case OKind::kRepeat:
@@ -229,8 +258,11 @@ Result<void, ParseError> Program::run(std::uint32_t index, CommandBuffer& out) {
       return {};
     case OKind::kContinue:
       leave_loops(line.end + 1);
+      if (line.meta) ++frame.counters.back().left;
       frame.at = recording_[line.end].kind == OKind::kWhile ? line.end : recording_[line.end].next;
       return {};
+    case OKind::kMeta:
+      return run_meta(line, out);
     case OKind::kEndif:
     case OKind::kDo:
       return {};

@@ -12,6 +12,7 @@
 #include "gateway/gcode/error.hpp"
 #include "gateway/gcode/interpreter.hpp"
 #include "gateway/gcode/programs/recording.hpp"
+#include "gateway/gcode/words/meta_word.hpp"
 #include "gateway/gcode/words/o_word.hpp"
 #include "gateway/result.hpp"
 
@@ -50,7 +51,7 @@ class Program {
 
   struct Counter {
     std::uint32_t loop = 0;
-    double left = 0;
+    double left = 0;  ///< repetitions; of a meta while: how often it was done
   };
   enum class FrameKind : std::uint8_t { kBlock, kSub, kProgram, kMacro, kRest };
   struct Frame {
@@ -67,6 +68,15 @@ class Program {
 
   /// An error of a recorded line at work: leaves everything that was called.
   Result<void, ParseError> abandon(ParseError error);
+
+  // program_meta.cpp: RepRapFirmware's meta commands
+  Result<void, ParseError> meta_line(std::string_view text, std::uint32_t number, CommandBuffer& out);
+  void tell_iterations();
+  MetaLine meta_of(std::string_view text, std::uint32_t number, std::size_t rest_at) const;
+  Result<bool, ParseError> meta_condition(const Recording::Line& line);
+  Result<void, ParseError> run_meta(const Recording::Line& line, CommandBuffer& out);
+  Result<void, ParseError> add_ends(const std::vector<OWord>& ends, std::uint32_t number);
+  void begin_block();
 
   Result<void, ParseError> record(std::string_view text, std::uint32_t number, const OWord& word);
   /// An error in what is recorded: the text's rest has no meaning.
@@ -93,6 +103,7 @@ class Program {
   Interpreter& interpreter_;
   Use use_;
   Recording recording_;
+  MetaBlocks blocks_;                                         ///< of the text
   std::unordered_map<std::string, Recording::Range> macros_;  ///< by name
   std::vector<Frame> frames_;
   bool passes_over_ = false;  ///< a block is wrong: the text's rest has no meaning

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "gateway/gcode/words/meta_word.hpp"
+
 namespace kinebus::gcode {
 namespace {
 
@@ -10,6 +12,8 @@ bool is_loop(OKind kind) {
 }
 
 std::string spelled(OKind kind, std::string_view label) {
+  // A meta command goes by its word alone.
+  if (label.starts_with('{')) return std::string(kind == OKind::kElseif ? "elif" : o_keyword(kind));
   std::string text = o_name(label);
   text += ' ';
   text += o_keyword(kind);
@@ -52,6 +56,7 @@ Result<void, ParseError> Recording::add(std::string_view text, std::uint32_t num
   line.kind = word.kind;
   line.rest_at = static_cast<std::uint32_t>(word.rest_at);
   line.label = word.label;
+  line.meta = word.meta;
   text_ += text;
   lines_.push_back(std::move(line));
   if (word.kind == OKind::kNone) return {};
@@ -75,17 +80,28 @@ Result<Recording::Range, ParseError> Recording::add_macro(std::string_view text)
     cut(before);
     return Error<ParseError>(std::move(error));
   };
-  for (std::uint32_t number = 1; !text.empty(); ++number) {
-    const std::size_t end = text.find('\n');
-    std::string_view line = text.substr(0, end);
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  MetaBlocks blocks;
+  const auto end = [&](const std::vector<OWord>& ends, std::uint32_t number) -> Result<void, ParseError> {
+    for (const OWord& each : ends)
+      if (auto added = add({}, number, each); !added) return added;
+    return {};
+  };
+  std::uint32_t number = 1;
+  for (; !text.empty(); ++number) {
+    const std::size_t stop = text.find('\n');
+    std::string_view line = text.substr(0, stop);
+    text.remove_prefix(stop == std::string_view::npos ? text.size() : stop + 1);
     if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
     if (is_empty_line(line)) continue;
-    OWord word;
+    OWord word = read_meta_word(line);
     SyntaxError error;
-    if (!read_o_word(line, word, error)) return refuse({number, error.column, std::move(error.message)});
+    if (auto ended = end(blocks.take(indent_of(line), word), number); !ended)
+      return refuse(std::move(ended.error()));
+    if (!word.meta && !read_o_word(line, word, error))
+      return refuse({number, error.column, std::move(error.message)});
     if (auto added = add(line, number, word); !added) return refuse(std::move(added.error()));
   }
+  if (auto ended = end(blocks.close(), number); !ended) return refuse(std::move(ended.error()));
   if (auto closed = close(); !closed) return refuse(std::move(closed.error()));
   return Range{before.lines, size(), 0};
 }
@@ -183,6 +199,8 @@ Result<void, ParseError> Recording::nest(const OWord& word, std::uint32_t number
         lines_[index].end = open->index;
         return {};
       }
+      if (word.meta)
+        return wrong(number, word.column, say("%1 is in no loop", spelled(word.kind, word.label)));
       return wrong(number, word.column,
                    say("%1 is in no loop of this label", spelled(word.kind, word.label)));
     default:

@@ -32,6 +32,7 @@ class Recording {
     std::uint32_t next = kNowhere;
     std::uint32_t end = kNowhere;  ///< branches: endif. break, continue: the loop's begin
     std::string label;             ///< of lines with an O word
+    bool meta = false;             ///< RepRapFirmware's
   };
   /// Lines [begin, end).
   struct Range {

@@ -28,7 +28,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   options.spindle = (data[0] & 4U) != 0;
   options.most_recorded_steps = 20'000;
   options.dialect = static_cast<gcode::Dialect>((data[0] >> 3U) % gcode::dialects().size());
-  options.macros = {{"start_print", "o1 if [exists[#<bed>]]\nM190 S[#<bed>]\no1 endif\nG28\n"}};
+  options.macros = {
+      {"start_print", "o1 if [exists[#<bed>]]\nM190 S[#<bed>]\no1 endif\nG28\n"},
+      {"wipe", "while iterations < param.S\n  G1 X{iterations}\n  if iterations > 2\n    M99\n"}};
   options.block_delete = (data[0] & 1U) != 0;
   options.default_feed_mm_per_s = (data[0] & 2U) != 0 ? 10 : 0;
   gcode::Interpreter interpreter(options);

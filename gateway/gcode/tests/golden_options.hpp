@@ -9,7 +9,7 @@ namespace kinebus::gcode {
 
 /// Home 200 mm above the table, one spare tool of 12.5 mm, 6 mm wide. A file changes it with "options: word
 /// word" anywhere in its text: block_delete, dwell_seconds, traverse_uses_feed, default_feed, two_tools,
-/// spindle, probe, dialect=NAME, macros (prime LENGTH=, and square with an argument by number).
+/// spindle, probe, dialect=NAME, macros (prime LENGTH=, square with an argument by number, wipe, wrong).
 inline Options golden_options(std::string_view text) {
   Options options;
   options.home = {0, 0, 200, 0, 0, 0};
@@ -42,7 +42,16 @@ inline Options golden_options(std::string_view text) {
                        "  (MSG, no length)\n"
                        "o1 endif\n"},
                       {"square", "G1 X#1 F600\nY#1\nX0\nY0\n"},
-                      {"g1009", "G1 E#<p> F300\n"}};
+                      {"g1009", "G1 E#<p> F300\n"},
+                      {"wipe",
+                       "; as RepRapFirmware has it\n"
+                       "var times = exists(param.S) ? param.S : 1\n"
+                       "while iterations < var.times\n"
+                       "  G1 X{10 + iterations} F600\n"
+                       "  if iterations == 3\n"
+                       "    M99\n"
+                       "G1 X0\n"},
+                      {"wrong", "if true\n  G1 X{var.none}\n"}};
   if (says("two_tools")) options.tools = options.hotends = 2;
   return options;
 }

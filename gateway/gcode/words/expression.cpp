@@ -7,6 +7,7 @@
 
 #include "gateway/gcode/letters.hpp"
 #include "gateway/gcode/number.hpp"
+#include "gateway/gcode/words/meta_expression.hpp"
 #include "gateway/gcode/words/parameters.hpp"
 
 namespace kinebus::gcode {
@@ -196,7 +197,7 @@ bool ValueReader::starts_value() {
   cursor_.skip_blanks();
   if (cursor_.at_end()) return false;
   const char c = *cursor_.p;
-  return (c >= '0' && c <= '9') || c == '.' || c == '+' || c == '-' || c == '#' || c == '[' ||
+  return (c >= '0' && c <= '9') || c == '.' || c == '+' || c == '-' || c == '#' || c == '[' || c == '{' ||
          function_at(cursor_) != nullptr;
 }
 
@@ -222,6 +223,8 @@ bool ValueReader::read_value(double& value) {
     good = read_parameter(value);
   } else if (cursor_.accept('[')) {
     good = read_bracket(value);
+  } else if (cursor_.accept('{')) {
+    good = read_meta(value);
   } else if (function_at(cursor_) != nullptr) {
     good = read_function(value);
   } else {
@@ -238,6 +241,12 @@ bool ValueReader::read_bracket(double& value) {
   if (!cursor_.accept(']')) return fail(cursor_.p, say("expected an operator or ]"));
   if (!std::isfinite(value)) return fail(start, say("the expression has no finite value"));
   return true;
+}
+
+/// {...}: an expression of RepRapFirmware.
+bool ValueReader::read_meta(double& value) {
+  if (!MetaReader(state_, cursor_, error_).read_number(value)) return false;
+  return cursor_.accept('}') || fail(cursor_.p, say("expected an operator or %1", "}"));
 }
 
 bool ValueReader::read_expression(int lowest_level, double& value) {

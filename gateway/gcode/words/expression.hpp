@@ -62,6 +62,7 @@ class ValueReader {
 
   bool fail(const char* at, Sentence message);
   bool read_bracket(double& value);
+  bool read_meta(double& value);
   bool read_expression(int lowest_level, double& value);
   bool read_function(double& value);
   bool read_arc_tangent(const char* start, double& value);

@@ -28,7 +28,8 @@ enum class OKind : std::uint8_t {
   kRepeat,
   kEndrepeat,
   kBreak,
-  kContinue
+  kContinue,
+  kMeta,  ///< var, global, set, echo, abort
 };
 
 struct OWord {
@@ -40,6 +41,7 @@ struct OWord {
   std::size_t rest_at = 0;  ///< what follows the keyword
   std::uint32_t column = 1;
   bool deleted = false;  ///< the line begins with /
+  bool meta = false;     ///< RepRapFirmware's, or the end of what it has indented
 };
 
 /// Whether the line may hold an O word or a call; false for the lines that jobs are made of. Costs a glance.

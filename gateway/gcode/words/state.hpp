@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "gateway/gcode/canonical.hpp"
@@ -51,7 +52,8 @@ struct ModalState {
   int spindle_turns = 0;          ///< M3 1, M4 -1, M5 0
   double spindle_rpm = 0;         ///< the last S
   int tool = 0;
-  int coordinate_system = 0;  ///< 0: G54
+  int tools = 1, hotends = 1;  ///< the machine has
+  int coordinate_system = 0;   ///< 0: G54
 
   CutterSide cutter = CutterSide::kOff;  ///< G41, G42; not kOff: the tool is where State::cutter has it
 
@@ -71,10 +73,11 @@ struct ModalState {
   std::array<double, 8> hotend_celsius{};  ///< targets, for M116
   double bed_celsius = 0, chamber_celsius = 0;
 
-  int object = -1;        ///< of the print, at work; -1: none
-  bool left_out = false;  ///< it is excluded: its moves are not given out
-  bool away = false;      ///< moves were left out: the machine stands at real_position
-  Pose real_position{};   ///< while away; position is where the text has the tool
+  int object = -1;               ///< of the print, at work; -1: none
+  bool objects_by_code = false;  ///< codes say where objects begin: comments of slicers do not count
+  bool left_out = false;         ///< it is excluded: its moves are not given out
+  bool away = false;             ///< moves were left out: the machine stands at real_position
+  Pose real_position{};          ///< while away; position is where the text has the tool
   Frame real_frame = Frame::kMachine;
   double e_max_mm = 0;       ///< the farthest that canonical E has been: behind it filament is retracted
   double real_e_max_mm = 0;  ///< while away
@@ -104,6 +107,15 @@ struct ModalState {
   Pose position{};  ///< the same point as the last canonical command left it
 };
 
+/// Of RepRapFirmware's expressions; monostate: null.
+using MetaValue = std::variant<std::monostate, bool, double, std::string>;
+struct MetaVariable {
+  static constexpr std::size_t kMost = 200;
+  std::string name;
+  MetaValue value;
+  std::size_t indent = 0;  ///< of the line that made it: it is gone where a line stands farther out
+};
+
 using NamedValues = std::vector<std::pair<std::string, double>>;
 
 /// #1 .. #5602 and #<name>.
@@ -113,8 +125,10 @@ struct ParameterState {
   static constexpr std::size_t kMaxNamed = 1000;
   static constexpr std::size_t kMaxNameLength = 64;
   std::array<double, kCount> numbered{};
-  NamedValues named;   ///< those that begin with _: everybody's; sorted by name
-  NamedValues locals;  ///< the others: of the subroutine at work; sorted by name
+  NamedValues named;       ///< those that begin with _: everybody's; sorted by name
+  NamedValues locals;      ///< the others: of the subroutine at work; sorted by name
+  double iterations = -1;  ///< of the meta while at work, that are done; below 0: none is at work
+  std::vector<MetaVariable> meta_locals, meta_globals;  ///< var. (of the text or macro at work), global.
 };
 
 /// An object of a print, as EXCLUDE_OBJECT_DEFINE or M486 name it.

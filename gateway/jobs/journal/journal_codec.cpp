@@ -137,6 +137,12 @@ void fields(Io& io, MeshInForce& r) {
   io.text(r.name);
 }
 
+template <class Io>
+void fields(Io& io, ObjectLeftOut& r) {
+  io.u64(r.object.step);
+  io.text(r.object.name);
+}
+
 struct Writer {
   std::vector<std::uint8_t>& out;
   void bits(std::uint64_t value, int bytes) {

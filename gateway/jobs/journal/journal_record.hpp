@@ -145,7 +145,14 @@ struct MeshInForce {
   friend bool operator==(const MeshInForce&, const MeshInForce&) = default;
 };
 
-using Record = std::variant<Epoch, JobBegin, RunBegin, WaitsDone, Scale, Override, Thermal, Progress,
-                            Interrupted, Found, JobEnd, Offsets, Heat, JobTime, Learned, Mesh, MeshInForce>;
+/// While the job ran.
+struct ObjectLeftOut {
+  LeftOut object;
+  friend bool operator==(const ObjectLeftOut&, const ObjectLeftOut&) = default;
+};
+
+using Record =
+    std::variant<Epoch, JobBegin, RunBegin, WaitsDone, Scale, Override, Thermal, Progress, Interrupted, Found,
+                 JobEnd, Offsets, Heat, JobTime, Learned, Mesh, MeshInForce, ObjectLeftOut>;
 
 }  // namespace kinebus::journal

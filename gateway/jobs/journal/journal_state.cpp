@@ -20,6 +20,7 @@ struct Taker {
   }
   void operator()(const WaitsDone& r) const { s.waits_done = r.count; }
   void operator()(const Scale& r) const { s.scales.push_back(r.scale); }
+  void operator()(const ObjectLeftOut& r) const { s.left_out.push_back(r.object); }
   void operator()(const Override& r) const { s.override_ratio = r.ratio; }
   void operator()(const Thermal& r) const {
     Heat& heat = s.heat.emplace();
@@ -103,6 +104,7 @@ std::vector<Record> State::records() const {
   all.emplace_back(*job);
   for (const Learned& each : learned) all.emplace_back(each);
   for (const FeedScale& scale : scales) all.emplace_back(Scale{scale});
+  for (const LeftOut& object : left_out) all.emplace_back(ObjectLeftOut{object});
   if (waits_done > 0) all.emplace_back(WaitsDone{waits_done});
   if (override_ratio) all.emplace_back(Override{*override_ratio});
   if (heat) all.emplace_back(*heat);

@@ -19,6 +19,7 @@ struct State {
   std::optional<PathTime> found;  ///< counts for `run`
   std::uint64_t waits_done = 0;
   std::vector<FeedScale> scales;
+  std::vector<LeftOut> left_out;  ///< in the order of the job
   std::optional<double> override_ratio;
   std::optional<Heat> heat;
   std::vector<Learned> learned;  ///< in the order of the job

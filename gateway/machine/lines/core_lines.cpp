@@ -42,6 +42,8 @@ Done Gateway::Core::on(command::OpenLines& asked) {
 
 Done Gateway::Core::take_line(std::string_view line, std::uint32_t number) {
   const bool open = lines_open();
+  if (!open && print_.runner().active())
+    if (auto done = object_line(line)) return *std::move(done);
   std::optional<Sentence> still;
   if (!open) {
     const auto may_open = may(command::kind<command::OpenLines>);

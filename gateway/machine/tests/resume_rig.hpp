@@ -46,7 +46,7 @@ class ResumeRig : public MachineRig {
   bool begin(double at_s) {
     if (!make_ready()) return false;
     gateway->carry_out(command::SetTemperature{kFirstHotend, 0});
-    if (!gateway->carry_out(command::Run{std::make_unique<StringSource>(kResumeJob), "part"})) return false;
+    if (!gateway->carry_out(command::Run{std::make_unique<StringSource>(job_text), "part"})) return false;
     if (!reach(MachineState::kRunning, 5s)) return false;
     if (!run_until([&] { return gateway->status().line >= 2; }, 30s)) return false;
     run_for(BusTime{static_cast<std::int64_t>(at_s * 1e9)});
@@ -72,7 +72,7 @@ class ResumeRig : public MachineRig {
     number_ = 0;
     for (const journal::Record& record : decoded.state.records()) journal::encode(record, number_++, file_);
     job_noted = decoded.state.job.has_value();
-    const auto recovered = gateway->recover(decoded.state, std::make_unique<StringSource>(kResumeJob));
+    const auto recovered = gateway->recover(decoded.state, std::make_unique<StringSource>(job_text));
     ASSERT_TRUE(recovered) << recovered.error().words;
     run_for(10ms);
   }
@@ -115,6 +115,7 @@ class ResumeRig : public MachineRig {
     return pose;
   }
 
+  std::string job_text = kResumeJob;
   double filament_mm = 0, worst_step = 0, lowest_mm = 1e9;
   bool job_noted = false;
   std::vector<Pose>* track_ = nullptr;

@@ -83,6 +83,15 @@ Json pause_resume(const Machine& m) {
 Json display_status(const Machine& m) {
   return {{"progress", m.status.progress()}, {"message", m.status.doing()}};
 }
+/// Names as Klipper's clients send them back: EXCLUDE_OBJECT NAME=.
+Json exclude_object(const Machine& m) {
+  Json objects = Json::array(), excluded = Json::array();
+  for (const joblink::PrintObject& object : m.status.objects()) {
+    objects.push_back({{"name", object.name()}});
+    if (object.left_out()) excluded.push_back(object.name());
+  }
+  return {{"objects", objects}, {"excluded_objects", excluded}, {"current_object", nullptr}};
+}
 Json idle_timeout(const Machine& m) {
   const bool idle = m.status.state() == joblink::STATE_OFF;
   return {{"state", prints(m.status) ? "Printing"
@@ -104,6 +113,7 @@ Json gcode(const Machine&) {
            {{"PAUSE", {{"help", "Holds the job on its path"}}},
             {"RESUME", {{"help", "Goes on with the job"}}},
             {"CANCEL_PRINT", {{"help", "Ends the job"}}},
+            {"EXCLUDE_OBJECT", {{"help", "NAME=: leaves an object of the print out"}}},
             {"SDCARD_PRINT_FILE", {{"help", "FILENAME=: starts a stored job"}}},
             {"SET_HEATER_TEMPERATURE", {{"help", "HEATER= TARGET="}}},
             {"TURN_OFF_HEATERS", {{"help", "All heaters off"}}},
@@ -119,6 +129,7 @@ Json configfile(const Machine& m) {
                      {"max_accel", m.info.tool_accel_mm_per_s2()}}},
                    {"virtual_sdcard", Json::object()},
                    {"pause_resume", Json::object()},
+                   {"exclude_object", Json::object()},
                    {"display_status", Json::object()},
                    {"gcode_macro pause", Json::object()},
                    {"gcode_macro resume", Json::object()},
@@ -155,6 +166,7 @@ constexpr std::array kObjects{
     Object{"pause_resume", pause_resume},
     Object{"display_status", display_status},
     Object{"idle_timeout", idle_timeout},
+    Object{"exclude_object", exclude_object},
     Object{"gcode_macro PAUSE", macro},
     Object{"gcode_macro RESUME", macro},
     Object{"gcode_macro CANCEL_PRINT", macro},

@@ -166,6 +166,8 @@ class Script : public std::enable_shared_from_this<Script> {
       message.mutable_stop();
     } else if (said.word == "FIRMWARE_RESTART" || said.word == "RESTART") {
       message.mutable_clear();
+    } else if (said.word == "EXCLUDE_OBJECT" && said.values.contains("NAME")) {
+      message.mutable_exclude_object()->set_name(value(said, "NAME"));
     } else if (said.word == "SDCARD_PRINT_FILE") {
       return start_file(call_, value(said, "FILENAME"));
     } else if (said.word == "TURN_OFF_HEATERS") {

@@ -157,6 +157,34 @@ TEST(Moonraker, APrintIsUploadedStartedAndSeenToItsEnd) {
   EXPECT_EQ(page.result("server.files.delete_file", {{"path", "gcodes/a.gcode"}})["action"], "delete_file");
 }
 
+TEST(Moonraker, AnObjectOfThePrintIsLeftOut) {
+  HttpRig rig;
+  rig.link.machine.make_ready();
+  WebPage page(rig);
+  const std::string form =
+      "--B\r\nContent-Disposition: form-data; name=\"file\"; filename=\"two.gcode\"\r\n\r\n"
+      "G21\nG90\nEXCLUDE_OBJECT_DEFINE NAME=Cube_1\nEXCLUDE_OBJECT_DEFINE NAME=cube_2\nG1 X10 F600\nG4 S20\n"
+      "\r\n--B--\r\n";
+  ASSERT_EQ(rig.ask(HttpRig::head("POST", "/server/files/upload") +
+                    "Content-Type: multipart/form-data; boundary=B\r\n" + HttpRig::with_body(form))
+                .status,
+            201);
+  const json leave_out = {{"script", "EXCLUDE_OBJECT NAME=CUBE_1"}};
+  EXPECT_EQ(page.ask("printer.gcode.script", leave_out)["error"]["code"], 400) << "nothing is printed yet";
+  EXPECT_EQ(page.result("printer.print.start", {{"filename", "two.gcode"}}), "ok");
+  page.run(5s);
+  const auto objects = [&] {
+    return page.result("printer.objects.query",
+                       {{"objects", {{"exclude_object", nullptr}}}})["status"]["exclude_object"];
+  };
+  ASSERT_EQ(objects()["objects"].size(), 2U);
+  EXPECT_TRUE(objects()["excluded_objects"].empty());
+  EXPECT_EQ(page.result("printer.gcode.script", leave_out), "ok");
+  EXPECT_EQ(objects()["excluded_objects"], json::array({"cube_1"}));
+  const json wrong = page.ask("printer.gcode.script", {{"script", "EXCLUDE_OBJECT NAME=sphere"}})["error"];
+  EXPECT_NE(wrong["message"].get<std::string>().find("it has cube_1, cube_2"), std::string::npos);
+}
+
 TEST(Moonraker, ScriptsAreCarriedOutLineByLine) {
   HttpRig rig;
   rig.link.machine.make_ready();
