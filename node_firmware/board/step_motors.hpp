@@ -12,6 +12,7 @@
 
 #include "node_firmware/board/board_node.hpp"
 #include "node_firmware/board/bridge_motors.hpp"
+#include "node_firmware/board/driver_supervision.hpp"
 #include "node_firmware/core/motion_plan.hpp"
 #include "node_firmware/core/node.hpp"
 #include "node_firmware/step/step_axis.hpp"
@@ -34,19 +35,20 @@ concept StepStage = requires(T& stage, step::StepFrames<T::kPorts>& frames, int 
   // Puts frames out from now on, the two halves in turn, a word each kSlotCounts of the same clock, and calls
   // the control interrupt at the last word of each. When the first has begun.
   { stage.start(frames) } -> std::same_as<PlanCounts>;
-  { T::cycles() } -> std::same_as<std::uint32_t>;  // of the processor, for measuring
   { T::counts() } -> std::same_as<PlanCounts>;
   T::acknowledge_control();
   stage.enable(axis, on);  // of the driver
 };
 
-template <StepStage Stage>
+/// `Drivers`: what speaks to them, if anything does.
+template <StepStage Stage, typename Drivers = NoDrivers>
 class StepMotors {
  public:
   static constexpr std::size_t kAxes = Stage::kPins.size(), kNodes = kAxes / kAxesPerNode;
   using Plans = std::array<MotionPlanExchange, kNodes>;
 
   explicit constexpr StepMotors(const Plans& plans) : plans_(plans) {}
+  constexpr StepMotors(const Plans& plans, Drivers& drivers) : plans_(plans), drivers_(drivers) {}
 
   /// Frames begin; no driver is enabled.
   void start() { start_ = stage_.start(frames_); }
@@ -60,7 +62,6 @@ class StepMotors {
   bool serve(std::size_t number, Node& node, LocalTime now);
   /// Control interrupts so far; the watchdog wants to see it move.
   std::uint32_t ticks() const { return ticks_.load(std::memory_order_relaxed); }
-  ControlCycles cycles() const { return cycles_; }
   /// No driver is enabled: control interrupts may be missed.
   bool dark() const { return !powered(0, kAxes); }
   /// A driver of another node than this one is enabled.
@@ -82,6 +83,7 @@ class StepMotors {
 
  private:
   static constexpr LocalTime kServe = std::chrono::microseconds{250};
+  static constexpr LocalTime kDrivers = std::chrono::milliseconds{4};
   static constexpr bool has_driver(std::size_t axis) { return Stage::kPins[axis].step != 0; }
   // What a fault has left has gone by then.
   static constexpr LocalTime kFaultRest = std::chrono::milliseconds{100};
@@ -106,6 +108,7 @@ class StepMotors {
     return false;
   }
   bool serve_axis(std::size_t number, Node& node, LocalTime now, int axis);
+  std::uint16_t fault_of(std::size_t place, bool power_wanted);
   void set_power(std::size_t axis, bool on);
   void fill(Axis& axis, const step::PlannedWay& way, const StepPins& pins);
 
@@ -113,22 +116,26 @@ class StepMotors {
   Stage stage_;
   step::StepFrames<Stage::kPorts> frames_;
   std::array<Axis, kAxes> axes_{};
-  std::array<LocalTime, kNodes> due_{};
+  std::array<LocalTime, kNodes> due_{}, drivers_due_{};
   bool other_power_ = false;
   PlanCounts start_ = 0;     ///< when the first frame began
   std::uint32_t frame_ = 0;  ///< the number of the one that is put out
   std::atomic<std::uint32_t> ticks_{0};
-  ControlCycles cycles_;
+  DriverSupervision<Drivers> drivers_;
 };
 
-template <StepStage Stage>
-bool StepMotors<Stage>::serve(std::size_t number, Node& node, LocalTime now) {
+template <StepStage Stage, typename Drivers>
+bool StepMotors<Stage, Drivers>::serve(std::size_t number, Node& node, LocalTime now) {
   if (now < due_[number]) return false;
   due_[number] = now + kServe;
   node.set_neighbours_powered(other_power_ || others_powered(number));
+  const bool asks_drivers = now >= drivers_due_[number];
+  if (asks_drivers) drivers_due_[number] = now + kDrivers;
   bool told = false;
   for (int axis = 0; axis < kAxesPerNode; ++axis) {
-    if (has_driver(axis_of(number, axis))) {
+    const std::size_t place = axis_of(number, axis);
+    if (has_driver(place)) {
+      if (asks_drivers) told = drivers_.serve(node, now, place, axis, powered(place, place + 1)) || told;
       told = serve_axis(number, node, now, axis) || told;
     } else if (node.drive(axis).power) {
       node.on_drive_fault(now, axis, emcy::kControlHardware);
@@ -138,20 +145,23 @@ bool StepMotors<Stage>::serve(std::size_t number, Node& node, LocalTime now) {
   return told;
 }
 
-template <StepStage Stage>
-bool StepMotors<Stage>::serve_axis(std::size_t number, Node& node, LocalTime now, int index) {
+template <StepStage Stage, typename Drivers>
+bool StepMotors<Stage, Drivers>::serve_axis(std::size_t number, Node& node, LocalTime now, int index) {
   const std::size_t place = axis_of(number, index);
   Axis& axis = axes_[place];
-  if (!axis.fault_told && axis.lost.load(std::memory_order_relaxed)) {
+  const DriveOutput drive = node.drive(index);
+  const std::uint16_t fault = axis.fault_told ? emcy::kNoError : fault_of(place, drive.power);
+  if (fault != emcy::kNoError) {
     axis.fault_told = true;
     axis.fault_at = now;
     set_power(place, false);
-    node.on_drive_fault(now, index, emcy::kSoftware);
+    node.on_drive_fault(now, index, fault);
     return true;
   }
-  const DriveOutput drive = node.drive(index);
   if (axis.fault_told) {
     if (drive.power || now - axis.fault_at < kFaultRest) return false;
+    drivers_.forget(place);
+    if (drivers_.refusal(place) != emcy::kNoError) return false;
     axis.fault_told = false;
     axis.lost.store(false, std::memory_order_relaxed);
     node.on_drive_fault_gone(now, index);
@@ -162,14 +172,24 @@ bool StepMotors<Stage>::serve_axis(std::size_t number, Node& node, LocalTime now
   return false;
 }
 
-template <StepStage Stage>
-void StepMotors<Stage>::set_power(std::size_t axis, bool on) {
+template <StepStage Stage, typename Drivers>
+std::uint16_t StepMotors<Stage, Drivers>::fault_of(std::size_t place, bool power_wanted) {
+  const Axis& axis = axes_[place];
+  if (axis.lost.load(std::memory_order_relaxed)) return emcy::kSoftware;
+  if (axis.power.load(std::memory_order_relaxed)) return drivers_.fault(place);
+  if (!power_wanted) return emcy::kNoError;
+  drivers_.forget(place);
+  return drivers_.refusal(place);
+}
+
+template <StepStage Stage, typename Drivers>
+void StepMotors<Stage, Drivers>::set_power(std::size_t axis, bool on) {
   stage_.enable(static_cast<int>(axis), on);
   axes_[axis].power.store(on, std::memory_order_relaxed);
 }
 
-template <StepStage Stage>
-void StepMotors<Stage>::fill(Axis& axis, const step::PlannedWay& way, const StepPins& pins) {
+template <StepStage Stage, typename Drivers>
+void StepMotors<Stage, Drivers>::fill(Axis& axis, const step::PlannedWay& way, const StepPins& pins) {
   axis.moved_before = axis.moved;
   if (!axis.power.load(std::memory_order_relaxed)) {
     // Frames that were put out twice may have left the pin either way.
@@ -201,9 +221,8 @@ void StepMotors<Stage>::fill(Axis& axis, const step::PlannedWay& way, const Step
   if (!good) axis.lost.store(true, std::memory_order_relaxed);
 }
 
-template <StepStage Stage>
-void StepMotors<Stage>::on_control() {
-  const std::uint32_t began = Stage::cycles();
+template <StepStage Stage, typename Drivers>
+void StepMotors<Stage, Drivers>::on_control() {
   Stage::acknowledge_control();
   // It comes with the last word of the frame before: a slot early, and half a slot for how start() may round.
   const PlanCounts elapsed = Stage::counts() + 2 * step::kSlotCounts - start_;
@@ -225,8 +244,6 @@ void StepMotors<Stage>::on_control() {
   }
   std::atomic_signal_fence(std::memory_order_release);  // the words are there before the half's turn comes
   ticks_.store(ticks_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
-  cycles_.last = Stage::cycles() - began;
-  if (cycles_.last > cycles_.worst) cycles_.worst = cycles_.last;
 }
 
 }  // namespace kinebus

@@ -75,6 +75,13 @@ struct DriveFeedback {
   std::uint8_t tune_state = 0;      ///< 0 idle, 1 runs, 2 done, 3 failed
 };
 
+/// What a port with stepper drivers that can be asked knows of one (2170h).
+struct DriverReport {
+  std::uint8_t state = 0;
+  std::uint32_t status = 0;
+  std::uint16_t stall_guard = 0;
+};
+
 class Node : private ObjectOwner {
  public:
   static constexpr int kSwitchInputs = kinebus::kSwitchInputs;
@@ -114,6 +121,9 @@ class Node : private ObjectOwner {
   void set_feedback(int axis, const DriveFeedback& feedback) {
     feedback_[static_cast<std::size_t>(axis & 1)] = feedback;
     measures_ = true;
+  }
+  void set_driver(int axis, const DriverReport& report) {
+    drivers_[static_cast<std::size_t>(axis & 1)] = report;
   }
   /// What an axis' linear scale counts now, wrapping around; told before the inputs that it is to be seen
   /// with.
@@ -246,6 +256,7 @@ class Node : private ObjectOwner {
 
   friend class NodePreview;
   std::array<DriveFeedback, kAxesPerNode> feedback_{};
+  std::array<DriverReport, kAxesPerNode> drivers_{};
   ScaleCounts scale_counts_{};
   std::array<ScaleCorrection, kAxesPerNode> scale_corrections_{};
   std::array<std::optional<std::int32_t>, kAxesPerNode> corrected_from_{};  ///< the scale at home

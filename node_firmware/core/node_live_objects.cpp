@@ -136,6 +136,11 @@ bool Node::read_axis_object(const DriveAxis& axis, ObjectAddress base, std::int6
       value = at_home ? *home : directed_scales()[static_cast<std::size_t>(i)];
       return true;
     }
+    case 0x2170:
+      if (base == object::kDriverState) value = drivers_[index].state;
+      if (base == object::kDriverStatus) value = drivers_[index].status;
+      if (base == object::kStallGuard) value = drivers_[index].stall_guard;
+      return true;
     case 0x6079:
       value = feedback.supply_mv;
       return true;

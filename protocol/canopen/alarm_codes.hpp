@@ -8,17 +8,19 @@ namespace kinebus {
 
 namespace emcy {
 inline constexpr std::uint16_t kNoError = 0x0000;
-inline constexpr std::uint16_t kOverCurrent = 0x2310, kShortCircuit = 0x2320, kPhaseOpen = 0x3130,
-                               kOverVoltage = 0x3210, kUnderVoltage = 0x3220, kHeaterTooHot = 0x4201,
-                               kDeviceTemperature = 0x4210, kDriveTemperature = 0x4310, kSensorOpen = 0x5001,
-                               kSensorShort = 0x5002, kSensorJump = 0x5003, kSensorSilent = 0x5004,
-                               kHeatMissing = 0x5005, kHeatUnasked = 0x5006, kFanStalled = 0x5007,
-                               kControlHardware = 0x5200, kStorage = 0x5530, kSoftware = 0x6100,
-                               kEncoder = 0x7300, kIncrementalEncoder = 0x7305, kCanOverrun = 0x8110,
-                               kErrorPassive = 0x8120, kHeartbeat = 0x8130, kBusOffRecovered = 0x8140,
-                               kIdCollision = 0x8150, kPdoRefused = 0x8200, kPdoTooShort = 0x8210,
-                               kPdoTooLong = 0x8220, kSyncLength = 0x8240, kRpdoTimeout = 0x8250,
-                               kFollowingError = 0x8611, kPositionLimit = 0x8612, kSyncController = 0x8700;
+inline constexpr std::uint16_t kOverCurrent = 0x2310, kShortCircuit = 0x2320, kShortToGround = 0x2330,
+                               kShortToSupply = 0x2340, kPhaseOpen = 0x3130, kOverVoltage = 0x3210,
+                               kUnderVoltage = 0x3220, kHeaterTooHot = 0x4201, kDeviceTemperature = 0x4210,
+                               kDriveTemperature = 0x4310, kSensorOpen = 0x5001, kSensorShort = 0x5002,
+                               kSensorJump = 0x5003, kSensorSilent = 0x5004, kHeatMissing = 0x5005,
+                               kHeatUnasked = 0x5006, kFanStalled = 0x5007, kControlHardware = 0x5200,
+                               kDriverReset = 0x5400, kStorage = 0x5530, kSoftware = 0x6100,
+                               kEncoder = 0x7300, kIncrementalEncoder = 0x7305, kDriverSilent = 0x7510,
+                               kCanOverrun = 0x8110, kErrorPassive = 0x8120, kHeartbeat = 0x8130,
+                               kBusOffRecovered = 0x8140, kIdCollision = 0x8150, kPdoRefused = 0x8200,
+                               kPdoTooShort = 0x8210, kPdoTooLong = 0x8220, kSyncLength = 0x8240,
+                               kRpdoTimeout = 0x8250, kFollowingError = 0x8611, kPositionLimit = 0x8612,
+                               kSyncController = 0x8700;
 }  // namespace emcy
 
 /// The node's own. What a code stops is in the vendor bytes: StopRequest (protocol/motion/broadcast.hpp).

@@ -353,6 +353,24 @@ constexpr void linear_scales(Rows& t) {
   t.for_both_axes(from);
 }
 
+/// Stepper drivers that are chips of their own, behind step and direction pins, and are spoken to (TMC2209);
+/// on boards without them nothing comes of it.
+constexpr void stepper_drivers(Rows& t) {
+  const std::size_t from = t.count;
+  t.head(0x2170, "Stepper driver", ObjectCode::kRecord, 7);
+  t.sub(1, "Driver", kU8, kReadWrite, kParameter, 1).between(0, 1);  // 0: stands alone; 1: TMC2209 by UART
+  // StealthChop below, SpreadCycle above; 0: always SpreadCycle.
+  t.sub(2, "SpreadCycle above", kU32, kReadWrite, kParameter).in("counts/s");
+  // Homing (mode 6) by StallGuard: load at which DIAG says stall, 255 the lightest; 0: not. From 4 on.
+  t.sub(3, "StallGuard threshold", kU8, kReadWrite, kParameter);
+  t.sub(4, "StallGuard above", kU32, kReadWrite, kParameter).in("counts/s");
+  // 0 stands alone, 1 not asked yet, 2 has its settings, 3 is being told, 4 does not answer.
+  t.sub(5, "Driver state", kU8, kReadOnly, kLive).maps(Mapping::kTpdo);
+  t.sub(6, "Driver status", kU32, kReadOnly, kLive).maps(Mapping::kTpdo);  // DRV_STATUS
+  t.sub(7, "StallGuard result", kU16, kReadOnly, kLive).maps(Mapping::kTpdo);
+  t.for_both_axes(from);
+}
+
 /// Touch probe 1 of each axis: the switch inputs that have the probe function. Edges count from when they
 /// happened, in bus time, so that a master knows where every other axis was.
 constexpr void touch_probes(Rows& t) {

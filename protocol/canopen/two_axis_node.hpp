@@ -78,6 +78,7 @@ struct TwoAxisNode {
     object_table::linear_scales(t);
     object_table::touch_probes(t);
     object_table::last_reset(t);
+    object_table::stepper_drivers(t);
   }
 };
 

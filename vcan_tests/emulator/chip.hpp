@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "protocol/can/frame.hpp"
+#include "protocol/time.hpp"
 #include "vcan_tests/emulator/board_options.hpp"
 #include "vcan_tests/emulator/cpu/cortex_m4.hpp"
 #include "vcan_tests/emulator/peripherals/can_controller.hpp"
@@ -34,6 +35,8 @@ class Chip : public Devices {
   void deliver(Cycle at, const CanFrame& frame) { incoming_.push_back({at, frame}); }
   void sent(Cycle at, int mailbox) { incoming_.push_back({at, {}, mailbox}); }
 
+  /// From power to its boot-up message, at most.
+  virtual BusTime boot_time() const { return std::chrono::milliseconds{30}; }
   /// 1018h:2 of the program that is for this board.
   virtual std::uint32_t product_code() const = 0;
   /// True carriage position at the last run(), counts (51200 a turn) from the joint's zero.

@@ -16,7 +16,6 @@ using namespace std::chrono_literals;
 
 // Shorter than the shortest frame (47 us): nothing that begins in a quantum ends in it.
 constexpr BusTime kQuantum = 40us;
-constexpr BusTime kBootTime = 30ms;
 constexpr BusTime kErrorFrame = 20us;  // flags and delimiter, about
 
 std::uint32_t serial_of(const std::array<std::uint32_t, 3>& unique_id) {
@@ -69,7 +68,9 @@ EmulatedMachine::EmulatedMachine(const ElfImage& image, const std::vector<Emulat
     node->drift_ppm = options.clock_drift_ppm;
     nodes_.push_back(std::move(node));
   }
-  while (!advance_to(longest + kBootTime)) {
+  BusTime boot{0};
+  for (const auto& node : nodes_) boot = std::max(boot, node->board->boot_time());
+  while (!advance_to(longest + boot)) {
   }
   commission(nodes);
   epoch_ = time_;

@@ -48,6 +48,7 @@ void StepDriver::on_pins(bool step, bool direction, bool enabled, Cycle now) {
     return;
   }
   steps_ += direction ? 1 : -1;
+  if (on_step) on_step(direction, now);
   edges_.push_back({now, steps_, direction});
 }
 
@@ -57,10 +58,12 @@ OctopusBoard::OctopusBoard(const ElfImage& image, const BoardOptions& options)
 OctopusBoard::OctopusBoard(const ElfImage& image, const BoardOptions& options, std::uint32_t device_id)
     : Stm32f4Chip(image, options, facts(image, device_id)),
       tim1_(cpu_.nvic(), {.update_irq = 25, .break_irq = 24}),
+      tim8_(cpu_.nvic(), {.update_irq = 44, .break_irq = 43}),
       dma2_(cpu_.nvic(), {56, 57, 58, 59, 60, 68, 69, 70}),
       adc_(cpu_.nvic()),
       makers_loader_(first_address(image) != CortexM4::kFlash) {
   map(0x40010000, 0x400, tim1_, apb2(0));
+  map(0x40010400, 0x400, tim8_, apb2(1));
   map(AdcBlock::kAddress, 0x400, adc_, apb2(8));
   map(0x40026400, 0x400, dma2_, ahb1(22));
   dma2_.fetch = [this](std::uint32_t address) { return cpu_.peek(address); };
@@ -82,6 +85,13 @@ OctopusBoard::OctopusBoard(const ElfImage& image, const BoardOptions& options, s
     constexpr std::array kStreams{5, 1, 2, 6, 4};
     dma2_.on_request(kStreams[static_cast<std::size_t>(event)], 6, at);
   };
+  // Channel 7: TIM8_UP is stream 1, CH1 2, CH2 3, CH3 4, CH4 7.
+  tim8_.on_request = [this](int event, Cycle at) {
+    constexpr std::array kStreams{1, 2, 3, 4, 7};
+    dma2_.on_request(kStreams[static_cast<std::size_t>(event)], 7, at);
+  };
+  for (std::size_t axis = 0; axis < drivers_.size(); ++axis)
+    drivers_[axis].on_step = [this, axis](bool direction, Cycle at) { chips_[axis].on_step(direction, at); };
   for (GpioPort& port : ports_) port.on_change = [this](Cycle at) { on_pins(at); };
   start();
 }
@@ -93,7 +103,7 @@ std::uint32_t OctopusBoard::product_code() const {
 }
 
 double OctopusBoard::true_counts(int axis) const {
-  return static_cast<double>(driver(axis).steps()) * kCountsPerStep + start_counts(axis);
+  return chips_[static_cast<std::size_t>(axis)].rotor_counts() + start_counts(axis);
 }
 
 void OctopusBoard::set_input(int input, bool level) {
@@ -136,6 +146,7 @@ double OctopusBoard::analogue(int channel) {
 void OctopusBoard::reset_devices(Cycle now) {
   if (makers_loader_) std::ranges::fill(cpu_.sram(), std::uint8_t{0x5A});
   tim1_.reset(now);
+  tim8_.reset(now);
   dma2_.reset();
   adc_.reset();
   on_pins(now);
@@ -143,12 +154,21 @@ void OctopusBoard::reset_devices(Cycle now) {
 
 void OctopusBoard::advance_devices(Cycle now) {
   tim1_.advance(now);
+  tim8_.advance(now);
+  for (std::size_t axis = 0; axis < chips_.size(); ++axis) {
+    if (chips_[axis].next_event() <= now) chips_[axis].advance(now);
+    look_at_wire(axis, now);
+  }
+  look_at_diag();
   adc_.advance(now);
   heated_.advance(now);
 }
 
 Cycle OctopusBoard::next_of_devices() const {
-  return std::min({tim1_.next_event(), adc_.next_event(), heated_.next_event()});
+  Cycle next = std::min({tim1_.next_event(), tim8_.next_event(), adc_.next_event(), heated_.next_event()});
+  for (const Tmc2209& chip : chips_) next = std::min(next, chip.next_event());
+  for (const Wire& wire : wires_) next = std::min(next, wire.rises);
+  return next;
 }
 
 void OctopusBoard::on_pins(Cycle now) {
@@ -160,11 +180,44 @@ void OctopusBoard::on_pins(Cycle now) {
     // A pin that nobody drives leaves the driver disabled: pulled up on the board.
     const GpioPort& port = ports_[static_cast<std::size_t>(pins.enable.port)];
     const bool enabled = port.mode(pins.enable.number) == GpioPort::Mode::kOutput && !high(pins.enable);
+    chips_[axis].on_enable(enabled);
+    look_at_wire(axis, now);
     drivers_[axis].on_pins(high(pins.step), high(pins.direction), enabled, now);
   }
   // MOSFETs with a pull-down: a pin that nobody drives is off.
   heated_.set_power(high(octopus::kHeaterPins[0]), high(octopus::kHeaterPins[1]), now);
   heated_.set_contactor(high(octopus::kContactorPin));
+}
+
+// Open drain at both ends, and a resistor: the lower one wins, and a rise takes its time.
+void OctopusBoard::look_at_wire(std::size_t axis, Cycle now) {
+  const stm32::OutputPin& pin = octopus::kDrivers[axis].uart;
+  GpioPort& port = ports_[static_cast<std::size_t>(pin.port)];
+  Wire& wire = wires_[axis];
+  const bool output = port.mode(pin.number) == GpioPort::Mode::kOutput, high = port.output_high(pin.number);
+  const bool forced = output && high && !port.open_drain(pin.number);
+  const bool chip_low = chips_[axis].pulls_low();
+  const bool low = chip_low || (output && !high);
+  if (forced && chip_low && !wire.low) ++wire_fights_;
+  if (low != wire.low) {
+    wire.low = low;
+    wire.rises = low ? kNever : forced ? now : now + kRise;
+  }
+  const bool level = !low && (wire.rises == kNever ? wire.high : now >= wire.rises);
+  if (!low && now >= wire.rises) wire.rises = kNever;
+  if (level == wire.high) return;
+  wire.high = level;
+  port.drive(pin.number, level);
+  chips_[axis].on_wire(level, now);
+}
+
+void OctopusBoard::look_at_diag() {
+  for (std::size_t axis = 0; axis < chips_.size(); ++axis) {
+    const bool level = chips_[axis].diag();
+    if (!diag_wired_[axis] || level == diag_level_[axis]) continue;
+    diag_level_[axis] = level;
+    set_input(static_cast<int>(axis), level);
+  }
 }
 
 }  // namespace kinebus::emulator

@@ -5,11 +5,13 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "vcan_tests/emulator/peripherals/adc.hpp"
 #include "vcan_tests/emulator/peripherals/dma.hpp"
 #include "vcan_tests/emulator/physics/heated_places.hpp"
+#include "vcan_tests/emulator/physics/tmc2209.hpp"
 #include "vcan_tests/emulator/stm32f4_chip.hpp"
 
 namespace kinebus::emulator {
@@ -29,6 +31,8 @@ class StepDriver {
   void on_pins(bool step, bool direction, bool enabled, Cycle now);
   std::int64_t steps() const { return steps_; }
   bool enabled() const { return enabled_; }
+  /// For a chip behind the pins: a rising edge on STEP.
+  std::function<void(bool direction, Cycle now)> on_step;
   std::uint64_t while_disabled() const { return while_disabled_; }
   const std::vector<Edge>& edges() const { return edges_; }
   void clear_edges() { edges_.clear(); }
@@ -56,9 +60,16 @@ class OctopusBoard final : public Stm32f4Chip {
   ~OctopusBoard() override;
 
   std::uint32_t product_code() const override;
+  BusTime boot_time() const override { return std::chrono::milliseconds{350}; }
+  /// Where the rotor is.
   double true_counts(int axis) const override;
   void set_input(int input, bool level) override;
   const StepDriver& driver(int axis) const { return drivers_[static_cast<std::size_t>(axis)]; }
+  Tmc2209& tmc(int axis) { return chips_[static_cast<std::size_t>(axis)]; }
+  /// A jumper leads DIAG to the stop beside the driver.
+  void wire_diag(int axis) { diag_wired_[static_cast<std::size_t>(axis)] = true; }
+  /// Times that a driver and the processor held a wire at different levels, each with force.
+  std::uint64_t wire_fights() const { return wire_fights_; }
   void clear_edges() {
     for (StepDriver& driver : drivers_) driver.clear_edges();
   }
@@ -78,13 +89,25 @@ class OctopusBoard final : public Stm32f4Chip {
   int clock_offset(std::uint32_t base, std::uint32_t address) const override;
   double analogue(int channel);
   void on_pins(Cycle now);
+  void look_at_wire(std::size_t axis, Cycle now);
+  void look_at_diag();
 
-  Timer tim1_;
+  Timer tim1_, tim8_;
   Dma dma2_;
   AdcBlock adc_;
   HeatedPlaces heated_;
   bool makers_loader_;  ///< runs first after every reset, and takes the RAM for itself
   std::array<StepDriver, 8> drivers_;
+  std::array<Tmc2209, 8> chips_{};
+  // A wire is let go of and rises by a resistor: not at once.
+  static constexpr Cycle kRise = 4 * kCoreHz / 1'000'000;
+  struct Wire {
+    bool low = false, high = true;
+    Cycle rises = kNever;
+  };
+  std::array<Wire, 8> wires_{};
+  std::array<bool, 8> diag_wired_{}, diag_level_{};
+  std::uint64_t wire_fights_ = 0;
 };
 
 }  // namespace kinebus::emulator

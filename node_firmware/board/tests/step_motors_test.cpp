@@ -23,7 +23,6 @@ struct FakeStepStage {
     frames = &given;
     return fake::Counter::now;
   }
-  static std::uint32_t cycles() { return 0; }
   static PlanCounts counts() { return fake::Counter::now; }
   static void acknowledge_control() {}
   void enable(int axis, bool on) { enabled[static_cast<std::size_t>(axis)] = on; }

@@ -32,31 +32,39 @@ inline constexpr std::array kPins = {
   // port, pin, mode,       pull,  AF, high,  signal
   Pin{D,  0, kAlternate, kUp,    9, false, "CAN1_RX"},
   Pin{D,  1, kAlternate, kNone,  9, false, "CAN1_TX"},
-  // Drivers: step, direction, enable (active low). Two for each node, its axes A and B, in order.
+  // Drivers: step, direction, enable (active low), UART. Two for each node, its axes A and B, in order.
   Pin{F, 13, kOutput,    kNone,  0, false, "MOTOR0 step"},
   Pin{F, 12, kOutput,    kNone,  0, false, "MOTOR0 direction"},
   Pin{F, 14, kOutput,    kUp,    0, true,  "MOTOR0 enable, active low"},
+  Pin{C,  4, kOutput,    kUp,    0, true,  "MOTOR0 UART, open drain"},
   Pin{G,  0, kOutput,    kNone,  0, false, "MOTOR1 step"},
   Pin{G,  1, kOutput,    kNone,  0, false, "MOTOR1 direction"},
   Pin{F, 15, kOutput,    kUp,    0, true,  "MOTOR1 enable, active low"},
+  Pin{D, 11, kOutput,    kUp,    0, true,  "MOTOR1 UART, open drain"},
   Pin{F, 11, kOutput,    kNone,  0, false, "MOTOR2 step"},
   Pin{G,  3, kOutput,    kNone,  0, false, "MOTOR2 direction"},
   Pin{G,  5, kOutput,    kUp,    0, true,  "MOTOR2 enable, active low"},
+  Pin{C,  6, kOutput,    kUp,    0, true,  "MOTOR2 UART, open drain"},
   Pin{G,  4, kOutput,    kNone,  0, false, "MOTOR3 step"},
   Pin{C,  1, kOutput,    kNone,  0, false, "MOTOR3 direction"},
   Pin{A,  0, kOutput,    kUp,    0, true,  "MOTOR3 enable, active low"},
+  Pin{C,  7, kOutput,    kUp,    0, true,  "MOTOR3 UART, open drain"},
   Pin{F,  9, kOutput,    kNone,  0, false, "MOTOR4 step"},
   Pin{F, 10, kOutput,    kNone,  0, false, "MOTOR4 direction"},
   Pin{G,  2, kOutput,    kUp,    0, true,  "MOTOR4 enable, active low"},
+  Pin{F,  2, kOutput,    kUp,    0, true,  "MOTOR4 UART, open drain"},
   Pin{C, 13, kOutput,    kNone,  0, false, "MOTOR5 step"},
   Pin{F,  0, kOutput,    kNone,  0, false, "MOTOR5 direction"},
   Pin{F,  1, kOutput,    kUp,    0, true,  "MOTOR5 enable, active low"},
+  Pin{E,  4, kOutput,    kUp,    0, true,  "MOTOR5 UART, open drain"},
   Pin{E,  2, kOutput,    kNone,  0, false, "MOTOR6 step"},
   Pin{E,  3, kOutput,    kNone,  0, false, "MOTOR6 direction"},
   Pin{D,  4, kOutput,    kUp,    0, true,  "MOTOR6 enable, active low"},
+  Pin{E,  1, kOutput,    kUp,    0, true,  "MOTOR6 UART, open drain"},
   Pin{E,  6, kOutput,    kNone,  0, false, "MOTOR7 step"},
   Pin{A, 14, kOutput,    kNone,  0, false, "MOTOR7 direction (SWCLK: no debugger from here on)"},
   Pin{E,  0, kOutput,    kUp,    0, true,  "MOTOR7 enable, active low"},
+  Pin{D,  3, kOutput,    kUp,    0, true,  "MOTOR7 UART, open drain"},
   // Switch inputs: a contact to ground, pulled up. Which node has which: kInputPlaces.
   Pin{G,  6, kInput,     kUp,    0, false, "STOP0 (EXTI6)"},
   Pin{G,  9, kInput,     kUp,    0, false, "STOP1 (EXTI9)"},
@@ -114,16 +122,16 @@ inline constexpr auto kInputPlaces = [] {
 }();
 
 struct DriverPins {
-  OutputPin step, direction, enable;
+  OutputPin step, direction, enable, uart;
 };
-inline constexpr std::array<DriverPins, 2 * kNodes> kDrivers{{{{F, 13}, {F, 12}, {F, 14}},
-                                                              {{G, 0}, {G, 1}, {F, 15}},
-                                                              {{F, 11}, {G, 3}, {G, 5}},
-                                                              {{G, 4}, {C, 1}, {A, 0}},
-                                                              {{F, 9}, {F, 10}, {G, 2}},
-                                                              {{C, 13}, {F, 0}, {F, 1}},
-                                                              {{E, 2}, {E, 3}, {D, 4}},
-                                                              {{E, 6}, {A, 14}, {E, 0}}}};
+inline constexpr std::array<DriverPins, 2 * kNodes> kDrivers{{{{F, 13}, {F, 12}, {F, 14}, {C, 4}},
+                                                              {{G, 0}, {G, 1}, {F, 15}, {D, 11}},
+                                                              {{F, 11}, {G, 3}, {G, 5}, {C, 6}},
+                                                              {{G, 4}, {C, 1}, {A, 0}, {C, 7}},
+                                                              {{F, 9}, {F, 10}, {G, 2}, {F, 2}},
+                                                              {{C, 13}, {F, 0}, {F, 1}, {E, 4}},
+                                                              {{E, 2}, {E, 3}, {D, 4}, {E, 1}},
+                                                              {{E, 6}, {A, 14}, {E, 0}, {D, 3}}}};
 /// Everything that gives power to something, and its level without.
 struct PowerPin {
   OutputPin pin;
@@ -151,7 +159,8 @@ inline constexpr OutputPin kContactorPin{E, 11};
 /// Switch pins that are the filament sensors, too: STOP4 and STOP5.
 inline constexpr std::array<std::uint8_t, 2> kFilamentInputs{4, 5};
 
-/// 16 microsteps a full step of 256 counts, as both MS jumpers of a TMC2209 choose: log2 of counts a step.
+/// 16 microsteps a full step of 256 counts, as drivers are told, and as both MS jumpers of a TMC2209 that
+/// stands alone choose: log2 of counts a step.
 inline constexpr int kStepBits = 4;
 
 // Flash: the maker's boot loader in sectors 0 and 1, or a copy of the vectors of ours; ours in 2 and 3; the

@@ -21,6 +21,7 @@
 #include "node_firmware/port/stm32f4/switch_port.hpp"
 #include "node_firmware/port/stm32f4/watchdog_port.hpp"
 #include "node_firmware/port/stm32f446_octopus/board.hpp"
+#include "node_firmware/port/stm32f446_octopus/driver_wire.hpp"
 #include "node_firmware/port/stm32f446_octopus/heat_stage.hpp"
 #include "node_firmware/port/stm32f446_octopus/loader_port.hpp"
 #include "node_firmware/port/stm32f446_octopus/step_stage.hpp"
@@ -33,7 +34,7 @@ using namespace kinebus::stm32;
 
 using Switches = SwitchPort<octopus::kSwitchPins>;
 constexpr std::size_t kNodes = octopus::kNodes;
-using Motors = StepMotors<StepPort>;
+using Motors = StepMotors<StepPort, OctopusDrivers>;
 // The axis pairs, and the heat node.
 constexpr std::size_t kBoardIds = kNodes + 1;
 static_assert(Motors::kNodes == kNodes && Stm32f446OctopusBoard::kFacts.consecutive_ids == kBoardIds);
@@ -42,7 +43,9 @@ using Heat = BoardHeat<HeatPort>;
 constinit CanPort can_port;
 constinit Switches switch_port;
 constinit Motors::Plans plans;
-constinit Motors motors{plans};
+constinit DriverWire driver_wire;
+constinit OctopusDrivers drivers{driver_wire};
+constinit Motors motors{plans, drivers};
 constinit ParameterFlash<octopus::kParameterSectors, octopus::kParameterPageBytes> parameter_flash;
 constinit PageStore store{parameter_flash};
 constinit NodeImages<kBoardIds> images{store};
@@ -77,6 +80,14 @@ void begin_node(std::size_t number, std::uint8_t first_id) {
 }
 void end_node(std::size_t number) {
   number == octopus::kHeatNode ? program->heat().end() : program->end(number);
+}
+
+// The drivers have their settings before the bus hears of the board: 0.25 s; less where they do not answer.
+void settle_drivers() {
+  DriverWire::start();
+  LocalClock<LocalTimer> clock;
+  constexpr LocalTime kLongest = std::chrono::seconds{1};
+  while (!drivers.settled() && clock.now() < kLongest) drivers.serve(clock.now());
 }
 
 // While no motor has power: a carriage must not lose its node. One node a pass: each takes milliseconds.
@@ -131,6 +142,7 @@ int main() {
   if (!alone || !start_clocks<octopus::kCrystalHz>()) power_off_and_reset(fault_reason::kNoClock, nullptr);
   system_control().VTOR = octopus::kProgramAddress;
   start_local_time();
+  if (own_chip) settle_drivers();
   can_port.start();
   const auto stored = images.load();
   static_cast<void>(store.prepare(kBoardIds * kLargestParameterImage));
@@ -151,7 +163,10 @@ int main() {
     pass(
         *program, motors, good, [](std::size_t i, auto image) { return images.save(i, image); }, dog);
     follow_first_id();
-    if (good) serve_heat();
+    if (good) {
+      drivers.serve(program->now());
+      serve_heat();
+    }
     // Asked for by 1F51h, when the answer is on the bus. Nothing has power then (the nodes refuse otherwise).
     if (program->stop_requested() && can_port.queue().idle()) {
       handover_ram = Handover{.stay = Handover::kBootLoader, .node_id = program->node().node_id()};

@@ -22,8 +22,6 @@ std::uint32_t address_of(const volatile void* place) {
 }  // namespace
 
 PlanCounts StepPort::start(const step::StepFrames<kPorts>& frames) {
-  debug_control() = debug_control() | bit(24);
-  dwt().CTRL = dwt().CTRL | bit(0);
   enable_clock(rcc().AHB1ENR, Rcc::kDma2);
   enable_clock(rcc().APB2ENR, Rcc::kTim1);
   Timer& t = tim1();

@@ -37,7 +37,6 @@ class StepPort {
   }));
 
   PlanCounts start(const step::StepFrames<kPorts>& frames);
-  static std::uint32_t cycles() { return dwt().CYCCNT; }
   static PlanCounts counts() { return local_counts(); }
   static void acknowledge_control() { dma2().clear(1); }
   static void enable(int axis, bool on) {

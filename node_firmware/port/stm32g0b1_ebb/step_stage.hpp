@@ -25,8 +25,6 @@ class StepPort {
   static_assert(ebb::kStep.port == stm32::Port::D && ebb::kDirection.port == stm32::Port::D);
 
   PlanCounts start(const step::StepFrames<kPorts>& frames);
-  /// The core has no cycle counter: to 16 cycles.
-  static std::uint32_t cycles() { return local_counts() * (kCoreHz / kLocalHz); }
   static PlanCounts counts() { return local_counts(); }
   static void acknowledge_control() { dma1().IFCR = Dma::kAllOfChannel1; }
   static void enable(int axis, bool on) {

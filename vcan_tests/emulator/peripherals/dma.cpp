@@ -76,7 +76,7 @@ std::uint32_t Dma::read(std::uint32_t offset, Cycle) {
     case 0x00:
       return s.cr;
     case 0x04:
-      return (s.cr & kStreamOn) != 0 ? s.left : s.ndtr;
+      return s.left;
     case 0x08:
       return s.par;
     case 0x0C:
@@ -114,7 +114,7 @@ void Dma::write(std::uint32_t offset, std::uint32_t value, Cycle) {
       if ((value & kStreamOn) != 0) begin(static_cast<int>(stream));
       break;
     case 0x04:
-      s.ndtr = value & 0xFFFF;
+      s.ndtr = s.left = value & 0xFFFF;
       break;
     case 0x08:
       s.par = value;

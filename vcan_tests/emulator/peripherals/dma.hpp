@@ -31,7 +31,7 @@ class Dma final : public Peripheral {
  private:
   struct Stream {
     std::uint32_t cr = 0, ndtr = 0, par = 0, m0ar = 0, m1ar = 0, fcr = 0x21;
-    std::uint32_t left = 0;  ///< of the transfers in progress
+    std::uint32_t left = 0;  ///< of the transfers; 0 when all were made
     std::uint32_t word = 0;  ///< fetched, and not yet written
   };
   static bool to_memory(const Stream& s) { return (s.cr >> 6 & 3) == 0; }

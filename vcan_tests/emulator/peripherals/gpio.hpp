@@ -24,6 +24,7 @@ class GpioPort final : public Peripheral {
   bool output_high(int pin) const;
   enum class Mode : std::uint8_t { kInput, kOutput, kAlternate, kAnalogue };
   Mode mode(int pin) const { return static_cast<Mode>(moder_ >> (2 * pin) & 3); }
+  bool open_drain(int pin) const { return (otyper_ >> pin & 1) != 0; }
   int alternate(int pin) const {
     return static_cast<int>(afr_[static_cast<std::size_t>(pin / 8)] >> (4 * (pin % 8)) & 0xF);
   }

@@ -338,7 +338,7 @@ TEST(OctopusNodes, EachKeepsItsParametersAndNoneIsWrittenWhileAnotherHasPower) {
     octopus.bench.run(3s);
   }
   octopus.machine.power_cycle(0);
-  octopus.bench.run(200ms);
+  octopus.bench.run(octopus.board.boot_time() + 200ms);
   EXPECT_EQ(octopus.board.watchdog_resets(), 0u);
   EXPECT_EQ(octopus.read(0, 0x6081), 11'111);
   EXPECT_EQ(octopus.read(5, 0x6081), 22'222);

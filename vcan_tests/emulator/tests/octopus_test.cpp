@@ -100,7 +100,7 @@ TEST(Octopus, StoresItsParametersWhileNoDriverIsEnabled) {
   node.bench.send(CanFrame::make(0x600u + kId, {0x23, 0x10, 0x10, 1, 's', 'a', 'v', 'e'}));
   node.bench.run(5s);
   node.machine.power_cycle(0);
-  node.bench.run(100ms);
+  node.bench.run(node.board.boot_time() + 100ms);
   EXPECT_EQ(node.board.watchdog_resets(), 0u);
   node.bench.enable(kId, 0, 1);
   EXPECT_EQ(node.read(0, 0x6081), 12'345);
