@@ -95,7 +95,8 @@ class DriverSupervision {
     was = present;
     return true;
   }
-  // One that does not answer from the start on is told once: its socket may be empty. Nobody hears a node without id.
+  // One that does not answer from the start on is told once: its socket may be empty. Nobody hears a node
+  // without id.
   bool tell_silence(Node& node, std::size_t place, bool powered) {
     const bool silent = drivers_.driver(place).state() == tmc2209::State::kSilent;
     if (node.node_id() == 0) return false;
