@@ -4007,6 +4007,44 @@
     <message>
         <source>no job runs of which an object could be left out</source>
         <translation>کاری در حال اجرا نیست که بتوان جسمی از آن را کنار گذاشت</translation>
+        <source>A motor phase is shorted to ground</source>
+        <translation>یک فاز موتور به زمین اتصال کوتاه است</translation>
+    </message>
+    <message>
+        <source>a motor phase is shorted to ground</source>
+        <translation>یک فاز موتور به زمین اتصال کوتاه است</translation>
+    </message>
+    <message>
+        <source>A motor phase is shorted to the supply</source>
+        <translation>یک فاز موتور به تغذیه اتصال کوتاه است</translation>
+    </message>
+    <message>
+        <source>a motor phase is shorted to the supply</source>
+        <translation>یک فاز موتور به تغذیه اتصال کوتاه است</translation>
+    </message>
+    <message>
+        <source>A motor driver has lost its settings</source>
+        <translation>یک راه‌انداز موتور تنظیماتش را از دست داده است</translation>
+    </message>
+    <message>
+        <source>a motor driver has lost its settings: its supply was gone</source>
+        <translation>یک راه‌انداز موتور تنظیماتش را از دست داده است: تغذیهٔ آن قطع شده بود</translation>
+    </message>
+    <message>
+        <source>check the motor supply, then clear and home again</source>
+        <translation>تغذیهٔ موتورها را بررسی کنید، سپس هشدار را رفع کنید و دوباره خانه‌یابی کنید</translation>
+    </message>
+    <message>
+        <source>A motor driver does not answer</source>
+        <translation>یک راه‌انداز موتور پاسخ نمی‌دهد</translation>
+    </message>
+    <message>
+        <source>a motor driver does not answer on its UART</source>
+        <translation>یک راه‌انداز موتور از راه UART پاسخ نمی‌دهد</translation>
+    </message>
+    <message>
+        <source>check the motor supply, the driver&apos;s seat and its UART jumper, then clear</source>
+        <translation>تغذیهٔ موتورها، نشستن راه‌انداز در جایش و جامپر UART آن را بررسی کنید، سپس هشدار را رفع کنید</translation>
     </message>
 </context>
 <context>

@@ -4007,6 +4007,44 @@
     <message>
         <source>no job runs of which an object could be left out</source>
         <translation>nesnesi atlanabilecek çalışan bir iş yok</translation>
+        <source>A motor phase is shorted to ground</source>
+        <translation>Bir motor fazı toprağa kısa devre</translation>
+    </message>
+    <message>
+        <source>a motor phase is shorted to ground</source>
+        <translation>bir motor fazı toprağa kısa devre</translation>
+    </message>
+    <message>
+        <source>A motor phase is shorted to the supply</source>
+        <translation>Bir motor fazı beslemeye kısa devre</translation>
+    </message>
+    <message>
+        <source>a motor phase is shorted to the supply</source>
+        <translation>bir motor fazı beslemeye kısa devre</translation>
+    </message>
+    <message>
+        <source>A motor driver has lost its settings</source>
+        <translation>Bir motor sürücüsü ayarlarını kaybetti</translation>
+    </message>
+    <message>
+        <source>a motor driver has lost its settings: its supply was gone</source>
+        <translation>bir motor sürücüsü ayarlarını kaybetti: beslemesi kesilmişti</translation>
+    </message>
+    <message>
+        <source>check the motor supply, then clear and home again</source>
+        <translation>motor beslemesini kontrol edin, sonra alarmı kaldırıp yeniden referansa gönderin</translation>
+    </message>
+    <message>
+        <source>A motor driver does not answer</source>
+        <translation>Bir motor sürücüsü yanıt vermiyor</translation>
+    </message>
+    <message>
+        <source>a motor driver does not answer on its UART</source>
+        <translation>bir motor sürücüsü UART üzerinden yanıt vermiyor</translation>
+    </message>
+    <message>
+        <source>check the motor supply, the driver&apos;s seat and its UART jumper, then clear</source>
+        <translation>motor beslemesini, sürücünün yuvasına oturuşunu ve UART atlama telini kontrol edin, sonra alarmı kaldırın</translation>
     </message>
 </context>
 <context>
