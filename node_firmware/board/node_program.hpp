@@ -122,6 +122,7 @@ void NodeProgram<Can, Switches, Counter, kNodes, Heat>::pass() {
   take_inputs();
   each([&](auto& n) { n.serve(now_); });
   heat_.serve(now_);
+  heat_.drive(now_);  // power that was taken does not wait for the next pass
   // Before the answer: who has it may send at once what was asked for.
   filter();
   send();

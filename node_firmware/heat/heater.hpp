@@ -48,9 +48,11 @@ class Heater {
   void clear_fault();
   HeaterFault fault() const { return fault_; }
 
-  /// What the output is to do now: parts of kFullPower; at every sample, for a suspect one takes it at once.
+  /// What the output is to do now: parts of kFullPower; at every sample, for a suspect one takes it at once,
+  /// and so does a target of 0.
   std::uint32_t output(const SensorInput& sensor) const {
-    return fault_ == HeaterFault::kNone && sensor.good() ? duty_ : 0;
+    const bool asked = target_ != 0 || tuning_ != nullptr;
+    return asked && fault_ == HeaterFault::kNone && sensor.good() ? duty_ : 0;
   }
   /// The same as effective share of full power in the last tick.
   std::uint32_t power() const { return given_; }

@@ -93,7 +93,7 @@ void Driver::on_answer(std::uint32_t value) {
       break;
     case kAsk:
       charge_pump_low_ = (value & gstat::kChargePumpLow) != 0;
-      driver_error_ = driver_error_ || (value & gstat::kDriverError) != 0;
+      error_seen_ = (value & gstat::kDriverError) != 0;
       begin(kAskStatus);
       if ((value & gstat::kReset) != 0) {
         lost_settings_ = true;
@@ -105,6 +105,8 @@ void Driver::on_answer(std::uint32_t value) {
       break;
     case kAskStatus: {
       status_ = value;
+      driver_error_ = driver_error_ || error_seen_;  // now that it is known why
+      error_seen_ = false;
       const bool told = slow_motion_ && (value & drv_status::kStandstill) == 0;
       if (!told || (value & drv_status::kOpenLoad) == 0)
         open_looks_ = open_load() ? open_looks_ : std::uint8_t{0};

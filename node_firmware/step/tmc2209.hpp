@@ -76,7 +76,7 @@ class Driver {
   std::size_t place_ = 0;   ///< that is being written
   std::uint32_t said_ = 0;  ///< into it
   bool configured_ = false, lost_settings_ = false, driver_error_ = false, charge_pump_low_ = false;
-  bool slow_motion_ = false;
+  bool slow_motion_ = false, error_seen_ = false;
   std::uint32_t status_ = 0;
   std::uint16_t stall_guard_ = 0;
   LocalTime now_{0}, due_{0};
