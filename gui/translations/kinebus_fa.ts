@@ -4007,6 +4007,8 @@
     <message>
         <source>no job runs of which an object could be left out</source>
         <translation>کاری در حال اجرا نیست که بتوان جسمی از آن را کنار گذاشت</translation>
+    </message>
+    <message>
         <source>A motor phase is shorted to ground</source>
         <translation>یک فاز موتور به زمین اتصال کوتاه است</translation>
     </message>

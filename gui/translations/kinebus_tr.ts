@@ -4007,6 +4007,8 @@
     <message>
         <source>no job runs of which an object could be left out</source>
         <translation>nesnesi atlanabilecek çalışan bir iş yok</translation>
+    </message>
+    <message>
         <source>A motor phase is shorted to ground</source>
         <translation>Bir motor fazı toprağa kısa devre</translation>
     </message>
