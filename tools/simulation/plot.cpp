@@ -228,6 +228,28 @@ void draw_series(Document& document, double top, const PlotData& data, const std
   }
 }
 
+/// Every heater has a colour, its target a lighter one.
+void draw_heat(Document& document, double top, const PlotData& data, const MachineDescription& machine) {
+  static constexpr std::array<std::array<const char*, 2>, PlotData::kHeaters> kColours{
+      {{"#cf222e", "#ffaba8"}, {"#0969da", "#80ccff"}, {"#1a7f37", "#8ddb9d"}, {"#8250df", "#d8b9ff"}}};
+  static constexpr std::array<const char*, PlotData::kFans> kFanColours{"#57606a", "#bf8700"};
+  std::vector<Series> temperatures, powers;
+  for (std::size_t h = 0; h < std::min(machine.heaters.size(), kColours.size()); ++h) {
+    const std::string& name = machine.heaters[h].name;
+    temperatures.push_back({name + ", target", kColours[h][1],
+                            [h](const PlotData::Point& p) { return p.heat.target_c[h]; }});
+    temperatures.push_back(
+        {name, kColours[h][0], [h](const PlotData::Point& p) { return p.heat.measured_c[h]; }});
+    powers.push_back({name, kColours[h][0],
+                      [h](const PlotData::Point& p) { return 100.0 * static_cast<double>(p.heat.power[h]); }});
+  }
+  for (std::size_t f = 0; f < std::min(machine.fans.size(), kFanColours.size()); ++f)
+    powers.push_back({"fan " + machine.fans[f].name, kFanColours[f],
+                      [f](const PlotData::Point& p) { return 100.0 * static_cast<double>(p.heat.fan[f]); }});
+  draw_series(document, top, data, "Temperatures, C: target and measured", temperatures, true);
+  draw_series(document, top + kChartHeight + kGap, data, "Heaters' power and fans, % of full", powers, true);
+}
+
 }  // namespace
 
 std::string draw_plot(const PlotData& data, const MachineDescription& machine, const std::string& title,
@@ -235,7 +257,8 @@ std::string draw_plot(const PlotData& data, const MachineDescription& machine, c
   const int linear = static_cast<int>(
       std::count_if(machine.joints.begin(), machine.joints.end(),
                     [](const JointDescription& j) { return !j.rotary && j.travel.min < j.travel.max; }));
-  Document document(kWidth, kTop + kSceneHeight + 4 * (kChartHeight + kGap) + 10);
+  const int charts = data.heated ? 6 : 4;
+  Document document(kWidth, kTop + kSceneHeight + charts * (kChartHeight + kGap) + 10);
   document.heading(kMargin, title, summary);
   const drawing::TextStyle heading{.size = 15, .bold = true};
   if (data.points().size() < 2) {
@@ -276,6 +299,7 @@ std::string draw_plot(const PlotData& data, const MachineDescription& machine, c
               {{"load", "#8250df",
                 [](const PlotData::Point& p) { return 100.0 * static_cast<double>(p.bus_load); }, true}},
               true);
+  if (data.heated) draw_heat(document, top + 4 * pitch, data, machine);
   return document.svg();
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// The picture of a simulated job: the tool's path in space, and carriages, speed, error and bus load over
-// time.
+// The picture of a simulated job: the tool's path in space, and carriages, speed, error, bus load
+// and heat over time.
 
 #include <array>
 #include <string>
@@ -14,11 +14,18 @@ namespace kinebus {
 /// Samples thinned while they come, so that memory and picture stay small whatever the job's length.
 class PlotData {
  public:
+  static constexpr std::size_t kHeaters = 4, kFans = 2;  // drawn at most
+  /// Heaters and fans in the order of the machine; power and fans 0..1.
+  struct Heat {
+    std::array<float, kHeaters> target_c{}, measured_c{}, power{};
+    std::array<float, kFans> fan{};
+  };
   struct Point {
     float time_s = 0, speed_mm_per_s = 0, error_um = 0, bus_load = 0;
     std::array<float, 3> tool_mm{};
     float e_mm = 0;
     std::array<float, 8> joints{};
+    Heat heat{};
   };
   static constexpr std::size_t kCapacity = 40'000;
 
@@ -37,6 +44,7 @@ class PlotData {
   const std::vector<Stretch>& path() const { return path_; }
   std::size_t drawn_stretch() const { return keep_; }
   int joint_count = 0;
+  bool heated = false;  ///< a heater had a target: temperatures are drawn
 
  private:
   void add_to_path(const PathPoint& point);
@@ -56,7 +64,7 @@ class PlotData {
   float largest_error_ = 0;  // of the points passed over: peaks are not thinned away
 };
 
-/// An SVG of about 1200 x 1500. `title`: the job's name.
+/// An SVG of about 1200 x 1500, higher by two charts when something was heated. `title`: the job's name.
 std::string draw_plot(const PlotData& data, const MachineDescription& machine, const std::string& title,
                       const std::string& summary);
 

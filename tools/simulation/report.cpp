@@ -71,6 +71,16 @@ std::string to_json_text(const SimulationReport& r) {
     json["plain_bead_error_rms"] = r.bead->plain_rms;
     json["plain_bead_error_worst"] = r.bead->plain_worst;
   }
+  if (r.heat) {
+    json["hottest_c"] = r.heat->hottest_c;
+    json["nearest_to_limit_k"] = r.heat->nearest_k;
+    if (r.heat->fed) {
+      json["coldest_fed_c"] = r.heat->coldest_fed_c;
+      json["fed_off_target_k"] = r.heat->worst_k;
+      json["fed_from_s"] = r.heat->fed_from_s;
+      json["bed_c"] = r.heat->bed_c;
+    }
+  }
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
@@ -135,6 +145,17 @@ std::string to_table(const SimulationReport& r) {
     row("bead_error_ratio", fmt::format("{:.4f}", b.ratio()),
         fmt::format("to the reference, rms; worst {:.4f}; its motion {:.3f} s", b.ratio_worst(),
                     b.reference_time_s));
+  }
+  if (r.heat) {
+    const HeatReport& h = *r.heat;
+    row("hottest_c", fmt::format("{:.1f}", h.hottest_c),
+        fmt::format("hot end's block; hot end and bed stay {:.1f} K below their limits", h.nearest_k));
+    if (h.fed) {
+      row("coldest_fed_c", fmt::format("{:.1f}", h.coldest_fed_c),
+          fmt::format("hot end's block while filament is fed, from {:.1f} s on; bed then {:.1f} C",
+                      h.fed_from_s, h.bed_c));
+      row("fed_off_target_k", fmt::format("{:.2f}", h.worst_k), "the same block, worst");
+    }
   }
   row("trace_hash", fmt::format("{:016x}", r.trace_hash), "same seed, same hash");
   return text;

@@ -34,6 +34,17 @@ struct BeadReport {
   double ratio_worst() const { return reference_worst > 0 ? worst / reference_worst : 0; }
 };
 
+/// Of the blocks themselves, by the plant behind the heat node.
+struct HeatReport {
+  double hottest_c = 0;      ///< the hot end
+  double nearest_k = 0;      ///< that hot end or bed came to its limit
+  bool fed = false;          ///< filament was; what follows is of that time
+  double coldest_fed_c = 0;  ///< the hot end
+  double worst_k = 0;        ///< of the hot end from its target
+  double fed_from_s = 0;     ///< how long the job heated before
+  double bed_c = 0;          ///< then
+};
+
 struct SimulationReport {
   bool finished = false;  ///< the job ran to its end
   bool trouble = false;   ///< an alarm, or an error in the job
@@ -66,6 +77,7 @@ struct SimulationReport {
   std::uint32_t queue_overruns = 0, records_out_of_sequence = 0;
   std::optional<VibrationReport> vibration;  ///< none: the machine was rigid
   std::optional<BeadReport> bead;            ///< none: nothing was printed, or not looked at
+  std::optional<HeatReport> heat;            ///< none: no heater is on a virtual node
   std::uint64_t trace_hash = 0;              ///< over all frames and their times: same seed, same hash
   double worst_tracking_s = 0, worst_path_s = 0, worst_joint_s = 0, worst_skew_s = 0, worst_step_s = 0,
          worst_jerk_s = 0;

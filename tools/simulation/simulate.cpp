@@ -16,6 +16,7 @@
 #include "tools/simulation/checkers/step_checker.hpp"
 #include "tools/simulation/checkers/tracking_checker.hpp"
 #include "tools/simulation/checkers/vibration_checker.hpp"
+#include "tools/simulation/heat_record.hpp"
 
 namespace kinebus {
 namespace {
@@ -76,7 +77,8 @@ class Run {
         kinematics_(kinematics),
         options_(options),
         simulation_(machine, kinematics, options.simulation, make_nodes(machine, options)),
-        steps_(machine) {
+        steps_(machine),
+        heat_(machine, simulation_.machine()) {
     simulation_.on_sample = [this](const Sample& sample) { take(sample); };
     simulation_.on_probe = [this](const Probe& probe) {
       if (simulation_.in_job) checkers_->skew.on_probe(probe);
@@ -199,6 +201,7 @@ class Run {
     if (options_.on_sample)
       options_.on_sample(sample, checkers_->path.last_um(), checkers_->path.nearest_line());
     report_.lines = std::max(report_.lines, sample.line);
+    heat_.on_sample(to_seconds(sample.time - begin_), sample, simulation_.gateway());
     if (options_.plot != nullptr) plot(sample);
     if (options_.operate) options_.operate(simulation_.gateway(), to_seconds(sample.time - begin_));
     if (options_.on_progress && ++since_progress_ >= 2000) {
@@ -233,6 +236,7 @@ class Run {
     point.bus_load = static_cast<float>(checkers_->bus.last_100ms());
     for (std::size_t j = 0; j < machine_.joints.size() && j < point.joints.size(); ++j)
       point.joints[j] = static_cast<float>(sample.joints[j]);
+    point.heat = heat_.heat();
     last_pose_ = sample.pose;
     last_time_ = sample.time;
     options_.plot->joint_count = static_cast<int>(machine_.joints.size());
@@ -285,6 +289,12 @@ class Run {
     report_.records_out_of_sequence = c.queues.findings().out_of_sequence;
     report_.bus_load_mean = c.bus.mean();
     report_.bus_load_peak_1s = c.bus.peak_1s();
+    report_.heat = heat_.report();
+    if (!heat_.complaint().empty()) {
+      report_.trouble = true;
+      report_.finished = false;
+      report_.messages.push_back(heat_.complaint());
+    }
     report_.frames = c.bus.frames();
     report_.segments = c.joints.segments();
     const MachineCounters counters = simulation_.gateway().status().counters;
@@ -300,6 +310,7 @@ class Run {
   const SimulateOptions& options_;
   Simulation simulation_;
   StepChecker steps_;
+  HeatRecord heat_;
   std::unique_ptr<Checkers> checkers_;
   std::unique_ptr<VibrationChecker> vibration_;
   std::unique_ptr<BeadMeter> bead_;

@@ -9,6 +9,7 @@
 
 #include "protocol/bytes.hpp"
 #include "protocol/canopen/cob_id.hpp"
+#include "tools/simulation/checkers/heat_checker.hpp"
 #include "tools/simulation/checkers/known_checker.hpp"
 #include "tools/simulation/checkers/patience_checker.hpp"
 #include "tools/simulation/checkers/queue_checker.hpp"
@@ -16,7 +17,6 @@
 #include "tools/simulation/checkers/together_checker.hpp"
 #include "tools/simulation/simulation.hpp"
 #include "vcan_tests/campaign/fault_bounds.hpp"
-#include "vcan_tests/campaign/heat_checker.hpp"
 #include "vcan_tests/campaign/injector.hpp"
 #include "vcan_tests/campaign/operator.hpp"
 
@@ -189,7 +189,8 @@ class FaultRun {
   }
 
   void watch_heat(const Sample& sample) {
-    heat_.on_sample(to_seconds(sample.time), injector_.machine().heat_plant(kHeatNode),
+    heat::HeatPlant& plant = injector_.machine().heat_plant(kHeatNode);
+    heat_.on_sample(to_seconds(sample.time), {plant.hot_end().block(), plant.bed().block()},
                     sample.joints[kExtruder]);
   }
 
