@@ -236,12 +236,13 @@ void draw_heat(Document& document, double top, const PlotData& data, const Machi
   std::vector<Series> temperatures, powers;
   for (std::size_t h = 0; h < std::min(machine.heaters.size(), kColours.size()); ++h) {
     const std::string& name = machine.heaters[h].name;
-    temperatures.push_back({name + ", target", kColours[h][1],
-                            [h](const PlotData::Point& p) { return p.heat.target_c[h]; }});
+    temperatures.push_back(
+        {name + ", target", kColours[h][1], [h](const PlotData::Point& p) { return p.heat.target_c[h]; }});
     temperatures.push_back(
         {name, kColours[h][0], [h](const PlotData::Point& p) { return p.heat.measured_c[h]; }});
-    powers.push_back({name, kColours[h][0],
-                      [h](const PlotData::Point& p) { return 100.0 * static_cast<double>(p.heat.power[h]); }});
+    powers.push_back({name, kColours[h][0], [h](const PlotData::Point& p) {
+                        return 100.0 * static_cast<double>(p.heat.power[h]);
+                      }});
   }
   for (std::size_t f = 0; f < std::min(machine.fans.size(), kFanColours.size()); ++f)
     powers.push_back({"fan " + machine.fans[f].name, kFanColours[f],

@@ -106,8 +106,9 @@ FaultBounds bounds_of(const Fault& fault) {
     case kHotEndFanStands:
     case kFilamentOut:
     case kFilamentJams:
-      // Held on the path and gone on with; some are over before they are known.
-      b.outcomes = kFinished | kContinued;
+      // Held on the path and gone on with; some are over before they are known. On the machine's own way to
+      // where the job begins there is no job yet that could be held.
+      b.outcomes = kFinished | kContinued | kBegunAgain;
       break;
     case kHeaterStuck:
       // Its heater has power again on a cold block only, which this run does not wait for.

@@ -1,24 +1,30 @@
 // Compares what the motors of the default machine really did, by the traces of its kinebus-vnode processes,
 // with what the job plans: the tool's distance from the planned path, and the filament at every place of it.
-//   kinebus-track-check JOB TRACE1 TRACE2 TRACE3 [--path-um 5] [--filament-mm 0.01] [--cut-at X Y Z]
+//   kinebus-track-check JOB TRACE1 TRACE2 TRACE3 [--path-um 5] [--filament-mm 0.01] [--cut-at X Y Z] [--heat
+//   TRACE --machine FILE]
 // With --cut-at the traces begin after a power cut that came shortly after the tool was there: it must come
-// back from above, not far behind that place, and go on to the path's end.
+// back from above, not far behind that place, and go on to the path's end. With --heat the trace of a heat
+// node beside it: whenever filament was fed the hot end was hot, and nothing was ever hotter than FILE's
+// limits allow.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "gateway/description/machine_description.hpp"
+#include "gateway/description/machine_file.hpp"
 #include "gateway/gcode/interpreter.hpp"
 #include "gateway/jobs/job_pipeline.hpp"
 #include "gateway/jobs/machine_setup.hpp"
 #include "gateway/jobs/store/file_source.hpp"
 #include "protocol/host/guarded_main.hpp"
+#include "tools/simulation/checkers/heat_checker.hpp"
 
 namespace {
 
@@ -27,6 +33,7 @@ using namespace kinebus;
 struct Arguments {
   std::string job;
   std::vector<std::string> traces;
+  std::string heat, heat_machine;
   double path_um = 5, filament_mm = 0.01;
   std::vector<double> cut_at;
   double repeat_mm = 60, ahead_mm = 20, lift_mm = 5;
@@ -194,6 +201,28 @@ int check_resumed(const Arguments& arguments, const std::vector<Pose>& path, con
   return good ? 0 : 1;
 }
 
+/// `feeder`: of the node that turns the extruder, its axis B.
+bool check_heat(const Arguments& arguments, const Samples& feeder, double slope) {
+  const auto machine = load_machine(arguments.heat_machine);
+  if (!machine) return std::printf("%s\n", to_string(machine.error()).c_str()), false;
+  HeatChecker checker(*machine);
+  // Milli-degrees; the last sample before each of the motors'.
+  const Samples heat = read_trace(arguments.heat);
+  for (const auto& [time, positions] : feeder) {
+    const auto next = heat.upper_bound(time);
+    if (next == heat.begin()) continue;
+    const auto& [hot_end, bed] = std::prev(next)->second;
+    checker.on_sample(1e-9 * static_cast<double>(time),
+                      {1e-3 * static_cast<double>(hot_end), 1e-3 * static_cast<double>(bed)},
+                      to_counts(positions[1]) / slope);
+  }
+  if (!checker.has_fed()) return std::printf("no filament was fed\n"), false;
+  std::printf("hot end at %.1f C or more while filament was fed, at most %.1f C; %.1f K below the limits\n",
+              checker.coldest_c(), checker.hottest_c(), checker.nearest_k());
+  if (!checker.complaint().empty()) std::printf("%s\n", checker.complaint().c_str());
+  return checker.complaint().empty();
+}
+
 int check(const Arguments& arguments) {
   const MachineDescription machine = default_m1();
   const auto kinematics = make_kinematics(machine);
@@ -202,6 +231,8 @@ int check(const Arguments& arguments) {
   const std::vector<Pose> path = planned(machine, **kinematics, **job);
   std::array<Samples, 3> traces;
   for (std::size_t i = 0; i < traces.size(); ++i) traces[i] = read_trace(arguments.traces[i]);
+  if (!arguments.heat.empty() && !check_heat(arguments, traces[2], node_axes(machine)[2].axes[1].slope()))
+    return 1;
   const std::vector<Pose> track = tool_track(machine, **kinematics, traces, path.back());
   if (track.empty()) return std::printf("no samples of all three nodes\n"), 2;
 
@@ -244,6 +275,9 @@ int main(int argc, char** argv) {
     app.add_option("--filament-mm", arguments.filament_mm)->capture_default_str();
     app.add_option("--cut-at", arguments.cut_at, "Where the tool was when the power was cut, mm")
         ->expected(3);
+    CLI::Option* limits =
+        app.add_option("--machine", arguments.heat_machine, "Machine file with the heaters' limits");
+    app.add_option("--heat", arguments.heat, "Trace of the heat node")->needs(limits);
     app.add_option("--repeat-mm", arguments.repeat_mm, "So much of the path is done again at most")
         ->capture_default_str();
     CLI11_PARSE(app, argc, argv);

@@ -19,6 +19,7 @@ export class Heaters {
 
   begin(machine) {
     this.heaters = machine.heaters;
+    this.materials = machine.materials ?? [];
     this.#times = [];
     this.#values = machine.heaters.map(() => []);
     this.say();
@@ -54,6 +55,20 @@ export class Heaters {
       return row;
     });
     at('heaters').replaceChildren(...this.#rows);
+    at('materials').replaceChildren(...this.materials.map((material) => this.#preset(material)));
+    at('materials').hidden = this.materials.length === 0;
+  }
+
+  // By the machine file; the first heater of each kind: others are for other filament.
+  #preset(material) {
+    const degrees = [['HEATER_BED', material.bed_celsius], ['HEATER_CHAMBER', material.chamber_celsius], ['HEATER_HOTEND', material.hotend_celsius]]
+      .filter(([, celsius]) => celsius > 0);
+    const button = document.createElement('button');
+    const words = `${degrees.map(([, celsius]) => number(celsius)).reverse().join(' / ')} °C`;
+    Object.assign(button, { type: 'button', textContent: material.name, className: 'plain', title: words });
+    button.setAttribute('aria-label', t('heat_for', material.name, words));
+    button.onclick = () => { for (const [kind, celsius] of degrees) this.ask('set_temperature', { kind, index: 0, celsius }); };
+    return button;
   }
 
   #size() {

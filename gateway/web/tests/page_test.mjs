@@ -21,8 +21,11 @@ const kPatience = 60_000;
 const work = fs.mkdtempSync(path.join(os.tmpdir(), 'kinebus-web-'));
 fs.mkdirSync(shots, { recursive: true });
 const log = fs.openSync(path.join(work, 'log'), 'w');
+const machine = path.join(work, 'machine.toml');
+fs.writeFileSync(machine, fs.readFileSync(new URL('../../description/machines/m1.toml', import.meta.url), 'utf8') +
+  '\n[material.PLA]\nhotend_c = 210\nbed_c = 60\n');
 const daemon = spawn(path.join(build, 'bin/kinebusd'),
-  ['--bus', 'inproc', '--jobs', path.join(work, 'jobs'), '--socket', path.join(work, 'socket'), '--no-realtime', '--http', '127.0.0.1:0'],
+  ['--bus', 'inproc', '--machine', machine, '--jobs', path.join(work, 'jobs'), '--socket', path.join(work, 'socket'), '--no-realtime', '--http', '127.0.0.1:0'],
   { stdio: ['ignore', 'ignore', log] });
 const said = () => fs.readFileSync(path.join(work, 'log'), 'utf8');
 const sleep = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
@@ -88,6 +91,12 @@ async function main() {
     await page.click('#jog button >> nth=1');
     await until('the tool moves', async () => (await text('position')) !== before);
     await state('ready');
+    await page.getByRole('button', { name: 'Heat for PLA: 210 / 60 °C' }).click();
+    await until('hot end and bed heat for the material', async () => {
+      const targets = (await page.locator('#heaters .now').allInnerTexts()).map((words) => words.split('/').at(-1).trim());
+      return targets.includes('210 °C') && targets.includes('60 °C');
+    });
+    claim((await page.locator('#materials button').count()) === 1, 'a preset for each material');
     let program = 'G21\nG90\nM82\nG92 E0\nM104 S200\n';
     for (let i = 0; i < 400; ++i) program += `G1 X${(30 * Math.cos(i / 8)).toFixed(2)} Y${(30 * Math.sin(i / 8)).toFixed(2)} Z${(5 + i / 40).toFixed(2)} E${(i / 10).toFixed(2)} F1200\n`;
     await page.setInputFiles('#upload', { name: 'ring <b>1.gcode', mimeType: 'text/x.gcode', buffer: Buffer.from(program) });

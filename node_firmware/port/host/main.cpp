@@ -56,7 +56,10 @@ int run(int argc, char** argv) {
   app.add_option("--estop-input", options.emergency_input, "Input of the E-stop button")
       ->check(CLI::Range(1, 7))
       ->capture_default_str();
-  app.add_option("--trace", options.trace_path, "File for the true positions of both motors, every 2 ms");
+  app.add_option(
+      "--trace", options.trace_path,
+      "File for the true positions of both motors, every 2 ms; with --heat for the true temperatures of "
+      "hot end and bed, every 100 ms");
   app.add_option("--start-a", start[0], "Carriage A at power-up, counts");
   app.add_option("--start-b", start[1], "Carriage B at power-up, counts");
   app.add_option("--switch-a", edge[0], "Edge of switch A (input 1), counts; active below");
@@ -83,8 +86,8 @@ int run(int argc, char** argv) {
          "as a real node has its own")
       ->check(CLI::Range(1, 99));
   for (const char* of_motors :
-       {"--estop-input", "--trace", "--start-a", "--start-b", "--switch-a", "--switch-b", "--counts-per-mm",
-        "--scale-a", "--scale-b", "--screw-error-a", "--screw-error-b", "--play-a", "--play-b"})
+       {"--estop-input", "--start-a", "--start-b", "--switch-a", "--switch-b", "--counts-per-mm", "--scale-a",
+        "--scale-b", "--screw-error-a", "--screw-error-b", "--play-a", "--play-b"})
     as_heat->excludes(app.get_option(of_motors));
   if (const auto end = kinebus::parse_arguments(app, argc, argv)) return *end;
 
@@ -94,7 +97,8 @@ int run(int argc, char** argv) {
     kinebus::VirtualHeatNodeProcess process(
         {.interface = options.interface,
          .node = {.node_id = options.node.node_id, .serial = options.node.identity.serial},
-         .image_path = options.image_path});
+         .image_path = options.image_path,
+         .trace_path = options.trace_path});
     return serve(process, node, options.interface, priority);
   }
   set_default_plant(options);

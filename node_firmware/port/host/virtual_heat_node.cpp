@@ -1,12 +1,15 @@
 #include "node_firmware/port/host/virtual_heat_node.hpp"
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 
 namespace kinebus {
 VirtualHeatNodeProcess::VirtualHeatNodeProcess(const VirtualHeatNodeOptions& options)
     : BusProcess(options.interface, options.image_path), options_(options) {}
 
 std::string VirtualHeatNodeProcess::start(LocalTime now, std::span<const std::uint8_t> stored) {
+  if (!trace_.open(options_.trace_path)) return "trace " + options_.trace_path + ": " + std::strerror(errno);
   node_.emplace(options_.node, now, stored);
   next_sample_ = now;
   listen();
@@ -19,6 +22,7 @@ void VirtualHeatNodeProcess::sample_until(LocalTime now) {
   for (; next_sample_ <= now; next_sample_ += heat::HeatPlant::kPeriod) {
     node_->on_time(next_sample_);
     plant_.step(*node_, next_sample_);
+    trace_.sample(plant_, next_sample_);
   }
 }
 

@@ -8,6 +8,7 @@
 #include "node_firmware/heat/heat_node.hpp"
 #include "node_firmware/port/host/bus_process.hpp"
 #include "node_firmware/port/host/heat_plant.hpp"
+#include "node_firmware/port/host/heat_trace.hpp"
 
 namespace kinebus {
 
@@ -15,6 +16,7 @@ struct VirtualHeatNodeOptions {
   std::string interface;
   heat::HeatNodeOptions node;
   std::string image_path;
+  std::string trace_path;
 };
 
 class VirtualHeatNodeProcess final : public BusProcess {
@@ -37,6 +39,7 @@ class VirtualHeatNodeProcess final : public BusProcess {
   VirtualHeatNodeOptions options_;
   std::optional<heat::HeatNode> node_;
   heat::HeatPlant plant_;
+  HeatTrace trace_;
   LocalTime next_sample_{0};
 };
 
