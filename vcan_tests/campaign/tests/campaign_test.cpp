@@ -22,7 +22,7 @@ std::string complaints(const CampaignSummary& summary, FaultKind only = FaultKin
 
 /// One fault, and no second one.
 FaultResult run_one(std::uint64_t seed, const Fault& fault) {
-  const MachineDescription machine = campaign_machine();
+  const MachineDescription machine = campaign_machine(fault.kind);
   const auto kinematics = make_kinematics(machine);
   return run_faults(machine, **kinematics, {.seed = seed, .faults = {fault}});
 }
@@ -66,7 +66,9 @@ TEST(Campaign, SeedsThatOnceFailedAreGood) {
       {FaultKind::kEmergencyStop, 3001610},   // few samples after the jump from frequent to rare SYNC
       {FaultKind::kGatewayDies, 7004562},     // motion began before the clocks were close
       {FaultKind::kFramesDropped, 7005638},   // a lost controlword of homing did not come again
-      {FaultKind::kFramesDoubled, 7015024}};  // three SDO transfers broken off, one after another
+      {FaultKind::kFramesDoubled, 7015024},   // three SDO transfers broken off, one after another
+      {FaultKind::kSensorShorted, 1334081},   // on the way to where the job begins
+      {FaultKind::kSensorShorted, 4135174}};
   for (const auto& [kind, seed] : kOnceWrong) {
     const CampaignSummary summary =
         run_campaign({.first_seed = seed, .seeds = 1, .only = kind, .repeat_every = 0});
@@ -134,6 +136,24 @@ TEST(Campaign, ANewGatewayGoesOnThroughTheBacklashOfTheCarriages) {
     EXPECT_LE(result.step_ratio, clean.step_ratio * 1.01) << after / 1ms << " ms";
     EXPECT_LE(result.known_counts, 1) << after / 1ms << " ms";
   }
+}
+
+TEST(Campaign, AHotPrintGoesOnWithoutItsGatewayOrItsHeatNode) {
+  // Back at once, after a while, and when hot end and bed have become cold.
+  for (const FaultKind kind : {FaultKind::kHotGatewayDies, FaultKind::kHeatNodeDies})
+    for (const BusTime length : {BusTime{200ms}, BusTime{6s}, BusTime{90s}})
+      for (const BusTime after : {BusTime{300ms}, BusTime{1100ms}, BusTime{2300ms}}) {
+        const FaultResult result = run_one(
+            11,
+            {.kind = kind, .phase = FaultPhase::kPrint, .after = after, .length = length, .node = kHeatNode});
+        const auto what = ::testing::Message()
+                          << to_string(kind) << " at " << after / 1ms << " ms for " << length / 1ms << " ms";
+        // Nothing hotter than it may be and no filament through a cold hot end, by the plant, are among
+        // these.
+        EXPECT_TRUE(result.violations.empty()) << what << ": " << words_of(result);
+        EXPECT_EQ(result.outcome, FaultOutcome::kContinued) << what;
+        EXPECT_LE(result.path_um, 5) << what;
+      }
 }
 
 TEST(Campaign, ASeedIsOnePlanWhateverTheOrder) {
