@@ -18,7 +18,9 @@ HeatRecord::HeatRecord(const MachineDescription& machine, NodeMachine& nodes) : 
   for (std::size_t n = 0; n < machine.nodes.size(); ++n) {
     const NodeDescription& node = machine.nodes[n];
     if (virtual_nodes != nullptr && !node.functions.has_axes() && machine.carries_heat(node.id))
-      plant_ = &virtual_nodes->heat_plant(static_cast<int>(n));
+      blocks_ = [&plant = virtual_nodes->heat_plant(static_cast<int>(n))] {
+        return Blocks{plant.hot_end().block(), plant.bed().block()};
+      };
   }
 }
 
@@ -36,8 +38,8 @@ void HeatRecord::on_sample(double job_s, const Sample& sample, const Gateway& ga
     for (std::size_t i = 0; i < std::min(status.fans.size(), PlotData::kFans); ++i)
       heat_.fan[i] = static_cast<float>(status.fans[i].ratio);
   }
-  if (plant_ == nullptr) return;
-  const Blocks blocks{plant_->hot_end().block(), plant_->bed().block()};
+  if (!blocks_) return;
+  const Blocks blocks = blocks_();
   const bool fed_before = checker_.has_fed();
   checker_.on_sample(job_s, blocks, extruder_ ? sample.joints[*extruder_] : 0);
   if (!checker_.feeds()) return;
@@ -49,7 +51,7 @@ void HeatRecord::on_sample(double job_s, const Sample& sample, const Gateway& ga
 }
 
 std::optional<HeatReport> HeatRecord::report() const {
-  if (plant_ == nullptr) return std::nullopt;
+  if (!blocks_) return std::nullopt;
   HeatReport report = report_;
   report.hottest_c = checker_.hottest_c();
   report.nearest_k = checker_.nearest_k();

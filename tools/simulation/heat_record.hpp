@@ -1,11 +1,11 @@
 #pragma once
 // What a simulated job does with heat: by the status for the picture, by the plant for the report.
 
+#include <functional>
 #include <optional>
 #include <string>
 
 #include "gateway/machine/gateway.hpp"
-#include "node_firmware/port/host/heat_plant.hpp"
 #include "tools/simulation/bus/node_machine.hpp"
 #include "tools/simulation/checkers/heat_checker.hpp"
 #include "tools/simulation/plot.hpp"
@@ -25,7 +25,7 @@ class HeatRecord {
   const std::string& complaint() const { return checker_.complaint(); }
 
  private:
-  heat::HeatPlant* plant_ = nullptr;
+  std::function<Blocks()> blocks_;       // as they are; empty: nobody knows
   std::optional<std::size_t> extruder_;  // its joint
   HeatChecker checker_;
   PlotData::Heat heat_;
