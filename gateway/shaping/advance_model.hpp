@@ -2,6 +2,7 @@
 // Pressure advance: how far filament is pressed together in front of the nozzle, so that it flows out as
 // planned.
 
+#include <array>
 #include <cstdint>
 
 #include "gateway/motion/trajectory.hpp"
@@ -56,16 +57,17 @@ class PhaseAdvance {
     double x = 0, x1 = 0, x2 = 0;  ///< integral of A, mm s; A, mm; dA/dt, mm/s
   };
   PhaseAdvance() = default;
-  /// `phase`: the planner's, not timed. It must stay while at() is asked.
-  PhaseAdvance(const Phase& phase, const AdvanceModel& model);
-  /// At t seconds after the phase's start.
-  Sum at(const Phase& phase, double t) const;
+  /// Filament that beads take along a phase, a polynomial of its s.
+  using Filament = std::array<double, 4>;
+  PhaseAdvance(const Phase& phase, const Filament& filament, const AdvanceModel& model);
+  /// At t seconds after the phase's start; both as they were.
+  Sum at(const Phase& phase, const Filament& filament, double t) const;
   /// No cubic in time.
   bool curved() const { return way_ == Way::kNumeric; }
 
  private:
   enum class Way : std::uint8_t { kNothing, kProportional, kNumeric };
-  double flow(const Phase& phase, double t) const;
+  static double flow(const Phase& phase, const Filament& filament, double t);
   AdvanceModel model_;
   Way way_ = Way::kNothing;
 };

@@ -1,0 +1,23 @@
+#pragma once
+// Filament along the tip's way, as a vector: where several directions are averaged, what is left of the way is
+// what filament is laid on.
+
+#include <array>
+
+#include "gateway/motion/trajectory.hpp"
+
+namespace kinebus {
+
+/// The tip moves somewhere on the phase.
+bool moves_tip(const Phase& phase);
+
+/// Filament fed (mm/s) in the direction of the tip's motion, and its change.
+struct TipFlow {
+  std::array<double, 3> v{}, v1{};
+  /// The planned flow t seconds after the phase's start, by the axes' weights. The tip moves on the phase.
+  void add(const std::array<double, 3>& weight, const Phase& phase, double t);
+  double rate() const;    ///< mm/s
+  double change() const;  ///< of that, mm/s^2; 0 where nothing flows
+};
+
+}  // namespace kinebus
