@@ -64,7 +64,7 @@ struct OctopusUpdate : UpdateBench {
   }
   /// All five nodes are there, with what they are.
   void expect_all_run() {
-    wait(300ms);
+    wait(board().boot_time() + 300ms);
     for (std::uint8_t n = 0; n < 4; ++n)
       EXPECT_EQ(read(kId + n, {0x1018, 2}), Stm32f446OctopusBoard::kFacts.product_code) << int{n};
     EXPECT_EQ(read(kId + 4, {0x1018, 2}), HeatBoard::kFacts.product_code);
@@ -150,7 +150,7 @@ TEST(OctopusUpdateTest, OnAnotherChipNothingButTheBusIsTouched) {
 TEST(OctopusUpdateTest, AProgramThatKeepsFailingIsNotStartedForEver) {
   OctopusUpdate octopus;
   for (std::uint32_t start = 1; start <= Handover::kMostStarts; ++start) {
-    octopus.wait(150ms);
+    octopus.wait(octopus.board().boot_time() + 50ms);
     ASSERT_EQ(octopus.read(kId, {0x1F51, 1}), 1u) << "start " << start << ": the program runs";
     octopus.board().set_crystal(false);
     octopus.wait(1ms);
