@@ -40,9 +40,13 @@ CanFrame any_frame(Script& script) {
 }
 
 void give_command(Gateway& gateway, Script& script) {
-  static constexpr const char* kJobs[] = {"G1 X10 F3000\nG1 X0\n", "M109 S60\nG1 X5\n", "G1 X900\n",
-                                          "G4 P100\nM0\nG28\n", "G2 X10 Y0 I5 F1200\nM104 S0\n"};
-  switch (script.byte() % 14) {
+  static constexpr const char* kJobs[] = {"G1 X10 F3000\nG1 X0\n",
+                                          "M109 S60\nG1 X5\n",
+                                          "G1 X900\n",
+                                          "G4 P100\nM0\nG28\n",
+                                          "G2 X10 Y0 I5 F1200\nM104 S0\n",
+                                          "M486 S0\nG1 X10 F3000\nM486 S1\nG1 X0\nM486 S-1\nG1 Y5\n"};
+  switch (script.byte() % 15) {
     case 0:
       static_cast<void>(gateway.carry_out(command::BringUp{}));
       break;
@@ -58,7 +62,7 @@ void give_command(Gateway& gateway, Script& script) {
       break;
     case 4:
       static_cast<void>(
-          gateway.carry_out(command::Run{std::make_unique<StringSource>(kJobs[script.byte() % 5]), "fuzz"}));
+          gateway.carry_out(command::Run{std::make_unique<StringSource>(kJobs[script.byte() % 6]), "fuzz"}));
       break;
     case 5:
       static_cast<void>(gateway.carry_out(command::Hold{}));
@@ -87,6 +91,9 @@ void give_command(Gateway& gateway, Script& script) {
     case 13:
       static_cast<void>(gateway.carry_out(
           command::SetTemperature{{static_cast<HeaterKind>(script.byte() % 3), 0}, 1.0 * script.byte()}));
+      break;
+    case 14:
+      static_cast<void>(gateway.carry_out(command::ExcludeObject{std::to_string(script.byte() % 3)}));
       break;
   }
 }
