@@ -111,8 +111,8 @@ FilamentLimits limits_before_advance(const MachineDescription& machine, const Vi
   // most K a and accelerates by at most 2 K a / w, where the tool brakes and speeds up within the window; the
   // melt's term by 2 K T a / w and 4 K T a / w^2. Filament alone is not under way then (`pause_before`).
   const double steepest_s = model.steepest_s(), w = model.smooth_s, melt = model.melt_s / w;
-  filament.flow_accel_mm_per_s2 = std::min(kShare * speed / (steepest_s * (1 + 2 * melt)),
-                                           accel / (1 + steepest_s / w * (2 + 4 * melt)));
+  filament.flow_accel_mm_per_s2 =
+      std::min(kShare * speed / (steepest_s * (1 + 2 * melt)), accel / (1 + steepest_s / w * (2 + 4 * melt)));
   // With shapers of their own one axis still brakes while another speeds up.
   const VibrationDescription& v = vibration;
   if (!(v.axis(0) == v.axis(1) && v.axis(1) == v.axis(2))) filament.flow_accel_mm_per_s2 *= 0.5;

@@ -161,7 +161,8 @@ void PointLimits::bound_curve(const PieceDemand& demand, const PathPiece& geomet
   if (inverse_flow_accel_ > 0)
     for (const PosePoint& p : points) {
       const double per_mm2 = p.x1[kE] * p.x1[kE], way2 = dot3(p.x1, p.x1);
-      if (per_mm2 * piece.accel * piece.accel > way2 * limits_.flow_accel_mm_per_s2 * limits_.flow_accel_mm_per_s2 &&
+      if (per_mm2 * piece.accel * piece.accel >
+              way2 * limits_.flow_accel_mm_per_s2 * limits_.flow_accel_mm_per_s2 &&
           way2 > 0)
         piece.accel = limits_.flow_accel_mm_per_s2 * std::sqrt(way2 / per_mm2);
     }

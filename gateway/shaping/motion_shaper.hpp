@@ -12,7 +12,8 @@ class MotionShaper {
   using Shapers = PathShaper::Shapers;
   MotionShaper() : MotionShaper(Shapers{}) {}
   /// filament_offset_mm: what corners have left out before (`PathShaper::filament_offset_mm`).
-  explicit MotionShaper(const Shapers& shapers, const AdvanceWindow& window = {}, double filament_offset_mm = 0)
+  explicit MotionShaper(const Shapers& shapers, const AdvanceWindow& window = {},
+                        double filament_offset_mm = 0)
       : tip_(shapers, {}, window.acts(), filament_offset_mm), advance_({}, window) {
     const double settles_s = window.acts() ? window.reach_s() : 0;
     if (tip_.active() && window.acts())

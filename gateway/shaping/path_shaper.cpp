@@ -154,8 +154,7 @@ void PathShaper::append(const Phase& phase, const PhaseAdvance::Filament& beads)
   source.along_tip = along_tip_ && along[kE] > 0 && moves_tip(phase);
   const double square = along[kX] * along[kX] + along[kY] * along[kY] + along[kZ] * along[kZ];
   source.before = filament_stop_;
-  source.e_start =
-      along_tip_ ? stop_[kE] : filament_stop_[0] + filament_stop_[1] + filament_stop_[2];
+  source.e_start = along_tip_ ? stop_[kE] : filament_stop_[0] + filament_stop_[1] + filament_stop_[2];
   source.advance_before = advance_stop_;
   const double advance = source.advance.at(phase, beads, phase.duration_s).x;
   const Pose end = phase.piece.evaluate(phase.s(phase.duration_s)).x;
@@ -291,7 +290,8 @@ TipFlow PathShaper::flow_at(double t) const {
   return flow;
 }
 
-/// What evaluate() left open of filament h after now_s_; returns what beads took until then. Gauss and Legendre, three places: exact on straights.
+/// What evaluate() left open of filament h after now_s_; returns what beads took until then. Gauss and
+/// Legendre, three places: exact on straights.
 double PathShaper::follow_tip(double h, Knot& end) const {
   constexpr double kAside = 0.387298334620742;
   const double middle = flow_at(now_s_ + 0.5 * h).rate();

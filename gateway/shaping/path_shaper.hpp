@@ -28,8 +28,8 @@ namespace kinebus {
 /// the part. Filament: each stretch of it is shaped like the tip's motion along which it was planned, in
 /// proportion to the squares of the direction's components; with one shaper for all axes that is E itself.
 ///
-/// `along_tip`: filament that is fed forward while the tool moves follows the shaped tip's own way instead, so
-/// that a bead is as wide as planned where shaping cuts a corner off:
+/// `along_tip`: filament that is fed forward while the tool moves follows the shaped tip's own way instead,
+/// so that a bead is as wide as planned where shaping cuts a corner off:
 ///
 ///   E' = |sum over pulses: weight * planned E' * direction|
 ///

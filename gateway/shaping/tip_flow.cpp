@@ -21,7 +21,8 @@ void TipFlow::add(const std::array<double, 3>& weight, const Phase& phase, doubl
   const double per_mm = p.x1[kE] / length, per_mm1 = (p.x2[kE] - p.x1[kE] * along / square) / length;
   for (std::size_t i = 0; i < 3; ++i) {
     v[i] += weight[i] * per_mm * p.x1[i] * rate;
-    v1[i] += weight[i] * (per_mm * (p.x2[i] * rate * rate + p.x1[i] * accel) + per_mm1 * p.x1[i] * rate * rate);
+    v1[i] +=
+        weight[i] * (per_mm * (p.x2[i] * rate * rate + p.x1[i] * accel) + per_mm1 * p.x1[i] * rate * rate);
   }
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// Filament along the tip's way, as a vector: where several directions are averaged, what is left of the way is
-// what filament is laid on.
+// Filament along the tip's way, as a vector: where several directions are averaged, what is left of the way
+// is what filament is laid on.
 
 #include <array>
 

@@ -145,8 +145,8 @@ struct Worst {
   double off_mm = 0, speed = 0, accel = 0;
 };
 
-/// The published formulas, summed up in steps of 50 us: beads' filament as a vector along the tip, averaged by
-/// the pulses; its length is what flows, and A of that what is asked for.
+/// The published formulas, summed up in steps of 50 us: beads' filament as a vector along the tip, averaged
+/// by the pulses; its length is what flows, and A of that what is asked for.
 class Expected {
  public:
   Expected(const std::vector<Phase>& phases, const std::vector<Change>& changes, const InputShaper& shaper)
