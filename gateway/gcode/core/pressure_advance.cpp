@@ -48,11 +48,13 @@ bool Core::pressure_advance(Code code) {
     }
     for (const char letter : {'T', 'L', 'S'}) pass_over(letter);
   }
-  if (code.number == 900 && advance_s && *advance_s > kMostAdvance_s && !options_.spindle)
-    return fail(column,
-                say("K%1 is on the scale of linear advance 1.0 (Marlin before 1.1.9), which says nothing in "
-                    "seconds: write K in s, 0 to %2, or leave it to advance_s in [pressure_advance]",
-                    printed("%.6g", *advance_s), printed("%.6g", kMostAdvance_s)));
+  if (code.number == 900 && advance_s && *advance_s > kMostAdvance_s && !options_.spindle) {
+    note(code.number,
+         say("K%1 is on the scale of linear advance 1.0 (Marlin before 1.1.9), which says nothing in "
+             "seconds: write K in s, 0 to %2, or leave it to advance_s in [pressure_advance]",
+             printed("%.6g", *advance_s), printed("%.6g", kMostAdvance_s)));
+    return true;
+  }
   if (advance_s && !options_.spindle) return set_pressure_advance(column, advance_s, std::nullopt);
   note(code.number, say("%1 has no effect on this machine", m_name(code.number)));
   return true;

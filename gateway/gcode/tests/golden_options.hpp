@@ -9,7 +9,8 @@ namespace kinebus::gcode {
 
 /// Home 200 mm above the table, one spare tool of 12.5 mm, 6 mm wide. A file changes it with "options: word
 /// word" anywhere in its text: block_delete, dwell_seconds, traverse_uses_feed, default_feed, two_tools,
-/// spindle, probe, dialect=NAME, macros (prime LENGTH=, square with an argument by number, wipe, wrong).
+/// five_tools, spindle, probe, dialect=NAME, macros (prime LENGTH=, square with an argument by number, wipe,
+/// wrong).
 inline Options golden_options(std::string_view text) {
   Options options;
   options.home = {0, 0, 200, 0, 0, 0};
@@ -53,6 +54,7 @@ inline Options golden_options(std::string_view text) {
                        "G1 X0\n"},
                       {"wrong", "if true\n  G1 X{var.none}\n"}};
   if (says("two_tools")) options.tools = options.hotends = 2;
+  if (says("five_tools")) options.tools = options.hotends = 5;
   return options;
 }
 
