@@ -8,6 +8,7 @@ namespace {
 // In full, so that nothing that is typed or sent by mistake is it.
 constexpr std::string_view kSystemBoot = "DFU";
 constexpr std::string_view kOffTheBus = " OFF THE BUS", kNoBus = " NO BUS";
+constexpr std::string_view kOtherBoard = " THE IMAGE IS FOR ANOTHER BOARD: NOTHING IS DRIVEN";
 /// By ResetCause.
 constexpr std::array<std::string_view, 6> kCauses{"power-on", "reset pin", "brown-out",
                                                   "watchdog", "program",   "other"};
@@ -70,6 +71,7 @@ void Console::answer(char letter, const Subject& subject) {
       put("node ").put(node.node_id()).put(" NMT ").put(static_cast<int>(node.nmt_state()));
       put(" supply mV ")
           .put(static_cast<std::int32_t>(subject.motors.readings().supply_v * 1e3F))
+          .put(subject.own_board ? std::string_view() : kOtherBoard)
           .put("\r\n");
       axis(0, subject);
       axis(1, subject);

@@ -22,7 +22,8 @@ class Console {
     std::uint32_t control_interrupts = 0;
     const CanEvents& can;
     bool off_the_bus = false;
-    bool no_bus = false;  ///< none was found since the start
+    bool no_bus = false;    ///< none was found since the start
+    bool own_board = true;  ///< else the image is for another one, and drives nothing
     std::uint32_t serial = 0, image_bytes = 0;
   };
   /// Only when nothing is waiting: who does not read is not heard.

@@ -130,6 +130,17 @@ AbortCode BootLoader::sdo_read(ObjectAddress address, std::uint32_t offset, std:
     case 0x2123'00:
       value = static_cast<std::uint32_t>(flash_.bytes().size());
       break;
+    case 0x2124'00:
+      value = 3;
+      total = 1;
+      break;
+    case 0x2124'01:
+    case 0x2124'02:
+    case 0x2124'03: {
+      const BoardRecord own = board_record::find(flash_.records()).value_or(BoardRecord{});
+      value = std::array{own.hardware, own.revision, own.serial}[address.subindex - 1u];
+      break;
+    }
     default:
       return AbortCode::kNoObject;
   }
@@ -145,6 +156,8 @@ AbortCode BootLoader::sdo_write(ObjectAddress address, std::uint32_t offset,
   if (address == ObjectAddress{0x1F51, 1})
     return bytes.size() == 1 && last ? control(bytes[0]) : AbortCode::kLength;
   if (address == kChipProtection) return bytes.size() == 4 && last ? protect(bytes) : AbortCode::kLength;
+  if (address == kRecordedRevision)
+    return bytes.size() == 4 && last ? record(get_u32_le(bytes)) : AbortCode::kLength;
   std::uint32_t total = 0;
   std::array<std::uint8_t, 4> unused{};
   return sdo_read(address, 0, unused, total) == AbortCode::kNoObject ? AbortCode::kNoObject
@@ -154,6 +167,12 @@ AbortCode BootLoader::sdo_write(ObjectAddress address, std::uint32_t offset,
 AbortCode BootLoader::protect(std::span<const std::uint8_t> signature) {
   if (get_u32_le(signature) != kProtectSignature) return AbortCode::kCannotStore;
   return flash_.protect() && flash_.unprotected() == 0 ? AbortCode::kNone : AbortCode::kHardware;
+}
+
+AbortCode BootLoader::record(std::uint32_t revision) {
+  if (revision == 0 || revision > kHighestRevision) return AbortCode::kInvalidValue;
+  return flash_.add_record({board_.hardware, revision, identity_[3]}) ? AbortCode::kNone
+                                                                      : AbortCode::kHardware;
 }
 
 AbortCode BootLoader::control(std::uint8_t command) {

@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 
+#include "node_firmware/boot/board_record.hpp"
 #include "node_firmware/boot/image_header.hpp"
 #include "protocol/canopen/heartbeat.hpp"
 #include "protocol/canopen/lss.hpp"
@@ -27,6 +28,9 @@ class ProgramFlash {
   virtual std::uint8_t unprotected() const { return 0; }
   /// Sets both, for good: the boot loader itself is not changed over CAN any more (nor ever was).
   virtual bool protect() { return true; }
+  /// The board's records (board_record), and another one, which stays for good.
+  virtual std::span<const std::uint8_t> records() const { return {}; }
+  virtual bool add_record(const BoardRecord&) { return false; }
   virtual std::span<const std::uint8_t> bytes() const = 0;
   virtual bool erase() = 0;
   virtual bool program(std::uint32_t offset, std::uint32_t word) = 0;
@@ -54,6 +58,12 @@ inline constexpr std::uint32_t kProtectSignature = 0x746F'7270;  // "prot"
 /// kFirstProgramRoom.
 inline constexpr ObjectAddress kProgramRoom{0x2123, 0};
 inline constexpr std::uint32_t kFirstProgramRoom = 0x2'0000;
+
+/// 2124h, the board's record: 1 hardware, 2 revision, 3 serial number; all 0: it has none. Writing the
+/// revision, 1 to 999 tenths, adds one with this boot loader's hardware and the chip's serial number: for
+/// good.
+inline constexpr ObjectAddress kRecordedHardware{0x2124, 1}, kRecordedRevision{0x2124, 2};
+inline constexpr std::uint32_t kHighestRevision = 999;
 
 /// 1F51h.
 namespace program_control {
@@ -84,6 +94,7 @@ class BootLoader final : private SdoObjects {
                       bool last) override;
   AbortCode control(std::uint8_t command);
   AbortCode protect(std::span<const std::uint8_t> signature);
+  AbortCode record(std::uint32_t revision);
   AbortCode write_program(std::uint32_t offset, std::span<const std::uint8_t> bytes, bool last);
   AbortCode put(std::uint8_t byte);
   AbortCode fail(ProgramStatus status, AbortCode code);

@@ -34,7 +34,7 @@ struct Arguments {
   std::string image, interface = "can0", console;
   std::vector<int> nodes;
   bool all = false, force = false, protect = false, yes = false, dfu = false, swd = false;
-  double answer_s = 6;
+  double answer_s = 6, revision = 0;
 };
 
 LocalTime answer_time(const Arguments& arguments) {
@@ -93,6 +93,7 @@ bool update(SocketCan& can, std::uint8_t node, const std::vector<std::uint8_t>& 
   ProgramUpdate::Options options;
   options.even_if_same = arguments.force;
   options.protect = arguments.protect;
+  options.record_revision = static_cast<std::uint32_t>(std::lround(10 * arguments.revision));
   options.answer = answer_time(arguments);
   options.boot = std::max(options.boot, options.answer / 2);
   ProgramUpdate work(node, image, began, options);
@@ -125,12 +126,21 @@ bool update(SocketCan& can, std::uint8_t node, const std::vector<std::uint8_t>& 
 }
 
 /// For good, as far as CAN goes: asked for twice.
-bool protection_confirmed(const Arguments& arguments) {
-  if (!arguments.protect || arguments.yes) return true;
-  fmt::print(
-      "Option bytes will be written: brown-out reset at 2.7 V, boot loader write protected. Only SWD or DFU "
-      "undo that.\n"
-      "The nodes' power must stay on meanwhile. Type yes to go on: ");
+bool confirmed(const Arguments& arguments) {
+  if ((!arguments.protect && arguments.revision == 0) || arguments.yes) return true;
+  if (arguments.revision != 0)
+    fmt::print(
+        "Each board will be recorded, for good, as the one that this image is for, revision {:.1f}: look at "
+        "the\n"
+        "print on the board. It has room for 16 records, of which the last counts.\n",
+        arguments.revision);
+  if (arguments.protect)
+    fmt::print(
+        "Option bytes will be written: brown-out reset at 2.7 V, boot loader write protected. Only SWD or "
+        "DFU "
+        "undo that.\n"
+        "The nodes' power must stay on meanwhile.\n");
+  fmt::print("Type yes to go on: ");
   std::fflush(stdout);
   std::string answer;
   return static_cast<bool>(std::getline(std::cin, answer)) && answer == "yes";
@@ -167,7 +177,7 @@ int flash(const Arguments& arguments) {
     ProgramUpdate refused(1, image, LocalTime{0}, {});
     return fmt::print(stderr, "{}: {}\n", arguments.image, refused.message()), 1;
   }
-  if (!protection_confirmed(arguments)) return fmt::print(stderr, "not confirmed: nothing was done\n"), 1;
+  if (!confirmed(arguments)) return fmt::print(stderr, "not confirmed: nothing was done\n"), 1;
   SocketCan can;
   if (const std::string error = can.open(arguments.interface, false); !error.empty())
     return fmt::print(stderr, "{}\n", error), 1;
@@ -199,7 +209,12 @@ int run(int argc, char** argv) {
   auto* protect =
       app.add_flag("--protect", arguments.protect,
                    "Sets the chip's brown-out reset and write protects its boot loader; asks first");
-  app.add_flag("--yes", arguments.yes, "Does not ask")->needs(protect);
+  auto* record =
+      app.add_option("--record", arguments.revision,
+                     "Records in the chip, for good, which board it is on: the one that the image is "
+                     "for, of this revision (1.1); asks first")
+          ->check(CLI::Range(0.1, 99.9));
+  app.add_flag("--yes", arguments.yes, "Does not ask");
   auto* dfu = app.add_flag("--dfu", arguments.dfu,
                            "By USB: the chip's own boot loader (BOOT0 or --console), with dfu-util");
   app.add_option("--console", arguments.console,
@@ -207,6 +222,7 @@ int run(int argc, char** argv) {
       ->needs(dfu);
   auto* swd = app.add_flag("--swd", arguments.swd, "By a debug probe, with openocd");
   protect->excludes(dfu)->excludes(swd);
+  record->excludes(dfu)->excludes(swd);
   if (const auto end = parse_arguments(app, argc, argv)) return *end;
   if (*dfu || *swd || *node || *all) return flash(arguments);
   fmt::print(stderr, "say which: --node ID, --all, --dfu or --swd\n");

@@ -20,6 +20,12 @@ std::string device_with(std::uint32_t product_code) {
   return "a device with product code " + std::to_string(product_code);
 }
 
+std::string board_with(std::uint32_t hardware) {
+  for (const BoardDescription& board : kBoards)
+    if (board.facts.hardware == hardware) return std::string(board.facts.hardware_version);
+  return "a board with number " + std::to_string(hardware);
+}
+
 std::string what_is_wrong(ImageCheck check) {
   switch (check) {
     case ImageCheck::kNone:
@@ -104,6 +110,14 @@ void ProgramUpdate::go(LocalTime now, Step step) {
     case Step::kAwaitProgram:
       boot_due_ = now + options_.boot;
       return;
+    case Step::kReadRecord:
+      return upload(now, kRecordedHardware);
+    case Step::kReadRevision:
+      return upload(now, kRecordedRevision);
+    case Step::kRecord:
+      message_ = "recording";
+      put_u32_le(revision_, options_.record_revision);
+      return download(now, kRecordedRevision, revision_);
     case Step::kReadRoom:
       return upload(now, kProgramRoom);
     case Step::kClear:
@@ -140,10 +154,10 @@ void ProgramUpdate::on_transfer(LocalTime now) {
         return fail("it is " + device_with(get_u32_le(value_)) + ", and the image is for " +
                     device_with(decode_image_header(image_).product_code) +
                     " (1018h:2): nothing was written");
-      return go(now, !in_boot_loader_ ? Step::kReadProgram : same_ ? Step::kReadProtection : Step::kReadRoom);
+      return go(now, in_boot_loader_ ? Step::kReadRecord : Step::kReadProgram);
     case Step::kReadProgram:
       same_ = get_u32_le(value_) == crc_ && !options_.even_if_same;
-      if (same_ && !options_.protect) {
+      if (same_ && !options_.protect && options_.record_revision == 0) {
         status_ = Status::kDone;
         message_ = "runs this program already";
         return;
@@ -151,6 +165,13 @@ void ProgramUpdate::on_transfer(LocalTime now) {
       return go(now, Step::kStop);
     case Step::kStop:
       return go(now, Step::kAwaitBootLoader);
+    case Step::kReadRecord:
+      return on_record(now, get_u32_le(value_));
+    case Step::kReadRevision:
+      if (get_u32_le(value_) == options_.record_revision) return on_boot_loader(now);
+      return go(now, Step::kRecord);
+    case Step::kRecord:
+      return on_boot_loader(now);
     case Step::kReadRoom:
       return on_room(now, get_u32_le(value_));
     case Step::kClear:
@@ -172,12 +193,26 @@ void ProgramUpdate::on_transfer(LocalTime now) {
       if (!refused_.empty()) return fail(refused_);
       if (get_u32_le(value_) != crc_) return fail("another program came up than was written");
       status_ = Status::kDone;
-      message_ = same_ ? "protected" : "updated";
+      message_ = !same_ ? "updated" : options_.protect ? "protected" : "recorded";
       return;
     case Step::kAwaitBootLoader:
     case Step::kAwaitProgram:
       return;
   }
+}
+
+void ProgramUpdate::on_boot_loader(LocalTime now) {
+  go(now, same_ ? Step::kReadProtection : Step::kReadRoom);
+}
+
+// What a board says of itself counts for more than the boot loader that was written to it.
+void ProgramUpdate::on_record(LocalTime now, std::uint32_t hardware) {
+  const std::uint32_t wanted = decode_image_header(image_).hardware;
+  if (options_.record_revision != 0) return go(now, hardware == wanted ? Step::kReadRevision : Step::kRecord);
+  if (hardware == 0 || hardware == wanted) return on_boot_loader(now);
+  refused_ = "the board is recorded as " + board_with(hardware) + ", and the image is for " +
+             board_with(wanted) + " (2124h): nothing was written";
+  go(now, Step::kStart);
 }
 
 // Before anything is erased: what does not fit leaves the node with the program that it has.
@@ -201,6 +236,11 @@ void ProgramUpdate::on_failed_transfer(LocalTime now) {
     --attempts_left_;
     return go(now, Step::kReadControl);
   }
+  // A boot loader of before 2124h.
+  if (step_ == Step::kReadRecord && code == AbortCode::kNoObject)
+    return options_.record_revision != 0
+               ? fail("its boot loader keeps no record of the board: write a new one by SWD or DFU")
+               : on_boot_loader(now);
   if (step_ == Step::kReadRoom && code == AbortCode::kNoObject) return on_room(now, kFirstProgramRoom);
   // The program that was there cannot be started either: there was none.
   if (!refused_.empty()) return fail(refused_);
@@ -222,7 +262,7 @@ void ProgramUpdate::on_frame(LocalTime now, const CanFrame& frame) {
   if (heartbeat && heartbeat->node == node_ && heartbeat->state == NmtState::kInitialising &&
       boot_due_ != LocalTime::max()) {
     boot_due_ = LocalTime::max();
-    go(now, step_ == Step::kAwaitProgram ? Step::kVerify : same_ ? Step::kReadProtection : Step::kReadRoom);
+    go(now, step_ == Step::kAwaitProgram ? Step::kVerify : Step::kReadRecord);
   }
   on_time(now);
 }

@@ -31,6 +31,9 @@ class ProgramUpdate {
     int attempts = 3;  ///< downloads that fail by a timeout or a wrong CRC are repeated
     bool even_if_same = false;
     bool protect = false;  ///< set what the boot loader finds unprotected (2122h)
+    /// The board is recorded (2124h) as the one that the image is for, of this revision in tenths; 0: its
+    /// record is only compared.
+    std::uint32_t record_revision = 0;
   };
 
   /// `image`: as kinebus-node.bin; must stay. Failed at once when it is no image for a board.
@@ -59,6 +62,9 @@ class ProgramUpdate {
     kReadProgram,
     kStop,
     kAwaitBootLoader,
+    kReadRecord,
+    kReadRevision,
+    kRecord,
     kReadRoom,
     kClear,
     kDownload,
@@ -75,6 +81,8 @@ class ProgramUpdate {
   void download(LocalTime now, ObjectAddress address, std::span<const std::uint8_t> bytes);
   void on_transfer(LocalTime now);
   void on_failed_transfer(LocalTime now);
+  void on_boot_loader(LocalTime now);
+  void on_record(LocalTime now, std::uint32_t hardware);
   void on_room(LocalTime now, std::uint32_t bytes);
   void fail(std::string message);
 
@@ -94,7 +102,7 @@ class ProgramUpdate {
   bool in_boot_loader_ = false;
   bool same_ = false;  ///< the program is there: only protection is wanted
   std::uint8_t unprotected_ = 0;
-  std::array<std::uint8_t, 4> signature_{};
+  std::array<std::uint8_t, 4> signature_{}, revision_{};
   int attempts_left_;
 };
 

@@ -12,7 +12,7 @@ constexpr std::uint32_t kUniqueIdOffset = 0x7A10 - 0x7800;
 Stm32f4Chip::Stm32f4Chip(const ElfImage& image, const BoardOptions& options, const ChipFacts& facts)
     : Chip(image, options, {.core_coupled_memory = facts.core_coupled_memory}),
       rcc_(facts.clocks),
-      flash_(cpu_.flash().first(facts.flash_bytes)),
+      flash_(cpu_.flash().first(facts.flash_bytes), cpu_.system_memory().first(CortexM4::kOneTimeMemorySize)),
       exti_(cpu_.nvic()),
       sysconfig_(exti_),
       tim2_(cpu_.nvic(), {.update_irq = 28, .cycles_per_tick = 2, .advanced = false}),
@@ -35,6 +35,7 @@ Stm32f4Chip::Stm32f4Chip(const ElfImage& image, const BoardOptions& options, con
 Stm32f4Chip::~Stm32f4Chip() = default;
 
 void Stm32f4Chip::start() {
+  std::ranges::fill(cpu_.system_memory().first(CortexM4::kOneTimeMemorySize), std::uint8_t{0xFF});
   std::memcpy(cpu_.system_memory().data() + kUniqueIdOffset, options_.unique_id.data(),
               sizeof options_.unique_id);
   Chip::start(facts_.program, facts_.axes);

@@ -35,12 +35,22 @@ struct ModelFlash final : ProgramFlash {
     return true;
   }
   bool program(std::uint32_t offset, std::uint32_t word) override { return model.program(offset, word); }
+  std::span<const std::uint8_t> records() const override { return record_memory; }
+  bool add_record(const BoardRecord& record) override {
+    const auto slot = board_record::free_slot(record_memory);
+    if (!slot) return false;
+    const auto words = board_record::encode(record);
+    for (std::size_t i = 0; i < words.size(); ++i)
+      put_u32_le(std::span(record_memory).subspan(*slot + 4 * i), words[i]);
+    return true;
+  }
   std::uint8_t unprotected() const override { return missing; }
   bool protect() override {
     if (locks) missing = 0;
     return locks;
   }
   FlashModel model;
+  std::vector<std::uint8_t> record_memory = std::vector<std::uint8_t>(64, 0xFF);  ///< two slots
   int erasures = 0;
   std::uint8_t missing = kNoBrownOut | kBootLoaderOpen;
   bool locks = true;

@@ -49,6 +49,30 @@ struct BootTest : testing::Test {
   }
 };
 
+TEST_F(BootTest, TheBoardIsRecordedForGoodAndTheLastWholeRecordCounts) {
+  ASSERT_FALSE(reset());
+  const auto record = [&](std::uint32_t revision) {
+    std::array<std::uint8_t, 4> bytes{};
+    put_u32_le(bytes, revision);
+    return transfer([&](SdoClient& c) { c.download(now, 7, kRecordedRevision, bytes); });
+  };
+  EXPECT_EQ(read(0x2124, 1), 0u) << "blank";
+  EXPECT_TRUE(board_record::is_own(flash.record_memory, kBootBoard.hardware)) << "a board that says nothing";
+  EXPECT_EQ(record(0), AbortCode::kInvalidValue);
+  EXPECT_EQ(record(1000), AbortCode::kInvalidValue);
+  // The power went in the middle of the first slot: it is lost, and read by nobody.
+  put_u32_le(flash.record_memory, board_record::kMagic);
+  EXPECT_EQ(read(0x2124, 1), 0u);
+  EXPECT_EQ(record(12), AbortCode::kNone);
+  EXPECT_EQ(read(0x2124, 1), kBootBoard.hardware);
+  EXPECT_EQ(read(0x2124, 2), 12u);
+  EXPECT_EQ(read(0x2124, 3), kBootIdentity[3]);
+  EXPECT_TRUE(board_record::is_own(flash.record_memory, kBootBoard.hardware));
+  EXPECT_FALSE(board_record::is_own(flash.record_memory, kBootBoard.hardware + 1));
+  EXPECT_EQ(record(13), AbortCode::kHardware) << "no slot is left";
+  EXPECT_EQ(read(0x2124, 2), 12u);
+}
+
 TEST_F(BootTest, TheChipIsProtectedByASignatureAndNothingElse) {
   ASSERT_FALSE(reset());
   const auto protect = [&](std::uint32_t signature, std::size_t length = 4) {

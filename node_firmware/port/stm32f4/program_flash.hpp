@@ -4,6 +4,7 @@
 #include "node_firmware/boot/boot_loader.hpp"
 #include "node_firmware/port/stm32f4/flash_port.hpp"
 #include "node_firmware/port/stm32f4/option_port.hpp"
+#include "node_firmware/port/stm32f4/record_port.hpp"
 
 namespace kinebus::stm32 {
 
@@ -25,6 +26,8 @@ class ProgramSectors final : public ProgramFlash {
     return flash::program(kSectors.front().address + offset, word);
   }
   std::uint8_t unprotected() const override { return options::missing(kProtected); }
+  std::span<const std::uint8_t> records() const override { return record::memory(); }
+  bool add_record(const BoardRecord& record) override { return record::add(record); }
   bool protect() override { return options::protect(kProtected); }
 };
 

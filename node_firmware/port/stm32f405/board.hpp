@@ -18,6 +18,13 @@ using stm32::kCoreHz;
 using namespace stm32::pin_words;
 
 // clang-format off
+/// Where the board tells who it is, also to an image that is for another one: bus and console.
+inline constexpr std::array kTalkingPins = {
+  Pin{B,  8, kAlternate, kUp,    9, false, "CAN1_RX"},
+  Pin{B,  9, kAlternate, kNone,  9, false, "CAN1_TX"},
+  Pin{B,  6, kAlternate, kNone,  7, false, "USART1_TX console, 115200 8N1"},
+  Pin{B,  7, kAlternate, kUp,    7, false, "USART1_RX console"},
+};
 inline constexpr std::array kPins = {
   // port, pin, mode,       pull,  AF, high,  signal
   // Motor A. One timer output per half-bridge; its gate driver has a three-state input (high: upper MOSFET on,

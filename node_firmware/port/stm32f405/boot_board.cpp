@@ -27,8 +27,12 @@ extern constexpr std::uint32_t kVectors = board::kBootAddress, kProgram = board:
 // The chip comes here from its reset, and RAM keeps its content.
 void begin() {}
 
+// Another board may be wired to anything.
 void configure_pins() {
-  stm32::configure_pins<board::kPins>();
+  if (device_id() == kDeviceF405 && board_record::is_own(record::memory(), Stm32f405Board::kFacts.hardware))
+    stm32::configure_pins<board::kPins>();
+  else
+    stm32::configure_pins<board::kTalkingPins>();
 }
 bool start_clocks() {
   return stm32::start_clocks<board::kCrystalHz>();

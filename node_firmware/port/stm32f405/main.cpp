@@ -15,6 +15,7 @@
 #include "node_firmware/port/stm32f4/handover_port.hpp"
 #include "node_firmware/port/stm32f4/local_time.hpp"
 #include "node_firmware/port/stm32f4/pins.hpp"
+#include "node_firmware/port/stm32f4/record_port.hpp"
 #include "node_firmware/port/stm32f4/reset_port.hpp"
 #include "node_firmware/port/stm32f4/supply_port.hpp"
 #include "node_firmware/port/stm32f4/switch_port.hpp"
@@ -24,6 +25,7 @@
 #include "node_firmware/port/stm32f405/scale_port.hpp"
 #include "node_firmware/port/stm32f405/usart_port.hpp"
 #include "node_firmware/port/stm32f405/usb_port.hpp"
+#include "protocol/canopen/boards/stm32f405.hpp"
 
 namespace {
 
@@ -88,7 +90,13 @@ void isr_switches() {
 }
 
 int main() {
-  configure_pins<board::kPins>();
+  // On another chip, or a board that says that it is another, nothing is driven.
+  const bool own_board =
+      device_id() == kDeviceF405 && board_record::is_own(record::memory(), Stm32f405Board::kFacts.hardware);
+  if (own_board)
+    configure_pins<board::kPins>();
+  else
+    configure_pins<board::kTalkingPins>();
   if (!start_clocks<board::kCrystalHz>()) power_off_and_reset(fault_reason::kNoClock, nullptr);
   system_control().VTOR = board::kProgramAddress;
   start_local_time();
@@ -104,11 +112,11 @@ int main() {
                               .scale_is_encoder = {true, false}},
                   stored, can_port, switch_port, motion_plan);
   Node& node = program->node();
-  switch_port.start(local_counts());
+  if (own_board) switch_port.start(local_counts());
   enable_interrupts();
-  const bool motors_good = watch_supply() && motors.start();
+  const bool motors_good = own_board && watch_supply() && motors.start();
   usart.start();
-  usb.start();
+  if (own_board) usb.start();
   dog.start();
   for (;;) {
     scales.serve(node);
@@ -121,6 +129,7 @@ int main() {
                                    .can = can_port.events(),
                                    .off_the_bus = can_port.bus_off(),
                                    .no_bus = !can_port.joined(),
+                                   .own_board = own_board,
                                    .serial = serial,
                                    .image_bytes = kImageHeader.length};
     usart.serve(subject);

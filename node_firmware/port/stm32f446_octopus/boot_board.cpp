@@ -31,9 +31,9 @@ void begin() {
   if (!end_loader()) reset_processor();
   backup::load();
 }
-// On another chip the same pins may be wired to anything: nothing but the bus is touched there.
+// On another chip or board the same pins may be wired to anything: nothing but the bus is touched there.
 void configure_pins() {
-  if (device_id() == kDeviceF446)
+  if (device_id() == kDeviceF446 && board_record::is_own(record::memory(), kFacts.hardware))
     stm32::configure_pins<octopus::kPins>();
   else
     stm32::configure_pins<octopus::kBusPins>();

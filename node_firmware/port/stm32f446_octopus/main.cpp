@@ -16,6 +16,7 @@
 #include "node_firmware/port/stm32f4/handover_port.hpp"
 #include "node_firmware/port/stm32f4/local_time.hpp"
 #include "node_firmware/port/stm32f4/pins.hpp"
+#include "node_firmware/port/stm32f4/record_port.hpp"
 #include "node_firmware/port/stm32f4/reset_port.hpp"
 #include "node_firmware/port/stm32f4/supply_port.hpp"
 #include "node_firmware/port/stm32f4/switch_port.hpp"
@@ -133,16 +134,18 @@ void isr_switches() {
 int main() {
   const bool alone = end_loader();
   backup::load();
-  // On another chip the same pins may be wired to anything: nothing but the bus is touched there.
-  const bool own_chip = device_id() == kDeviceF446;
-  if (own_chip)
+  // On another chip, or a board that says that it is another, the same pins may be wired to anything: nothing
+  // but the bus is touched there.
+  const bool own_board = device_id() == kDeviceF446 &&
+                         board_record::is_own(record::memory(), Stm32f446OctopusBoard::kFacts.hardware);
+  if (own_board)
     configure_pins<octopus::kPins>();
   else
     configure_pins<octopus::kBusPins>();
   if (!alone || !start_clocks<octopus::kCrystalHz>()) power_off_and_reset(fault_reason::kNoClock, nullptr);
   system_control().VTOR = octopus::kProgramAddress;
   start_local_time();
-  if (own_chip) settle_drivers();
+  if (own_board) settle_drivers();
   can_port.start();
   const auto stored = images.load();
   static_cast<void>(store.prepare(kBoardIds * kLargestParameterImage));
@@ -150,8 +153,8 @@ int main() {
   options.reset = take_reset_report();
   keep_records();  // without what was taken
   program.emplace(options, stored[0], can_port, switch_port, plans[0], octopus::kInputPlaces[0]);
-  const bool good = own_chip && watch_supply();
-  if (own_chip) switch_port.start(local_counts());
+  const bool good = own_board && watch_supply();
+  if (own_board) switch_port.start(local_counts());
   enable_interrupts();
   if (good) {
     motors.start();

@@ -49,8 +49,12 @@ struct CortexM4::Hooks {
                           void* self) {
     auto& cpu = *static_cast<CortexM4*>(self);
     const auto at = static_cast<std::uint32_t>(address);
-    if (at < kFlash || at >= kFlash + kFlashSize) return false;
-    if (cpu.devices_.write_flash(at, static_cast<std::uint32_t>(value), size, cpu.now_) && cpu.has_run(at))
+    const bool once = at >= kOneTimeMemory && at < kOneTimeMemory + kOneTimeMemorySize && !cpu.facts_.small;
+    if (!once && (at < kFlash || at >= kFlash + kFlashSize)) return false;
+    if (once)
+      static_cast<void>(cpu.devices_.write_flash(at, static_cast<std::uint32_t>(value), size, cpu.now_));
+    else if (cpu.devices_.write_flash(at, static_cast<std::uint32_t>(value), size, cpu.now_) &&
+             cpu.has_run(at))
       cpu.flash_changed_ = true;
     cpu.next_stop_ = 0;
     return true;

@@ -63,6 +63,8 @@ class CortexM4 {
   static constexpr std::uint32_t kSram = 0x20000000, kSramSize = 128 * 1024;
   static constexpr std::uint32_t kCcm = 0x10000000, kCcmSize = 64 * 1024;
   static constexpr std::uint32_t kSystemMemorySize = 1024;
+  /// Of an STM32F4, at the start of its system memory: programmed once, never erased.
+  static constexpr std::uint32_t kOneTimeMemory = 0x1FFF7800, kOneTimeMemorySize = 512;
   /// Where the chip's own boot loader begins. Not its code: an endless loop, to see who arrives there.
   static constexpr std::uint32_t kSystemBoot = 0x1FFF0000, kSystemBootSize = 1024;
 

@@ -119,6 +119,15 @@ double FlashController::brown_out_volts() const {
   return kLevels[options_ >> 2 & 3];
 }
 
+bool FlashController::program_once(std::uint32_t at, std::uint32_t value, int size, Cycle now) {
+  if (at + static_cast<std::uint32_t>(size) > one_time_.size()) return false;
+  for (int i = 0; i < size; ++i)
+    one_time_[at + static_cast<std::uint32_t>(i)] &= static_cast<std::uint8_t>(value >> (8 * i));
+  busy_until_ = std::max(busy_until_, now) + kProgramTime;
+  ++programs_;
+  return true;
+}
+
 bool FlashController::program(std::uint32_t address, std::uint32_t value, int size, Cycle now) {
   if ((cr_ & kLock) != 0 || (cr_ & kProgram) == 0) {
     sr_ |= kSequenceError;
@@ -128,6 +137,7 @@ bool FlashController::program(std::uint32_t address, std::uint32_t value, int si
     sr_ |= kSizeError;
     return false;
   }
+  if (address >= kOneTimeBase) return program_once(address - kOneTimeBase, value, size, now);
   const std::uint32_t at = address - kBase;
   if (at + static_cast<std::uint32_t>(size) > memory_.size()) return false;
   for (unsigned number = 0; number < 12; ++number)

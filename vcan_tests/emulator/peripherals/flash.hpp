@@ -11,7 +11,10 @@ namespace kinebus::emulator {
 class FlashController final : public Peripheral {
  public:
   static constexpr std::uint32_t kBase = 0x08000000;
-  explicit FlashController(std::span<std::uint8_t> memory) : memory_(memory) {}
+  static constexpr std::uint32_t kOneTimeBase = 0x1FFF7800;
+  /// `one_time`: memory that no erase reaches; blank.
+  explicit FlashController(std::span<std::uint8_t> memory, std::span<std::uint8_t> one_time = {})
+      : memory_(memory), one_time_(one_time) {}
 
   void reset();
   std::uint32_t read(std::uint32_t offset, Cycle now) override;
@@ -41,9 +44,10 @@ class FlashController final : public Peripheral {
 
  private:
   bool write_protected(unsigned sector) const { return (options_ >> (16 + sector) & 1) == 0; }
+  bool program_once(std::uint32_t at, std::uint32_t value, int size, Cycle now);
   void write_options(std::uint32_t value, Cycle now);
 
-  std::span<std::uint8_t> memory_;
+  std::span<std::uint8_t> memory_, one_time_;
   std::uint32_t acr_ = 0, sr_ = 0, cr_ = 1u << 31;
   int key_step_ = 0, option_key_step_ = 0;
   std::uint32_t options_ = 0x0FFFAAEC;  ///< as delivered

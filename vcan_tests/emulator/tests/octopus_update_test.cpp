@@ -8,6 +8,7 @@
 #include <iterator>
 #include <random>
 
+#include "node_firmware/boot/board_record.hpp"
 #include "node_firmware/boot/handover.hpp"
 #include "node_firmware/port/stm32f446_octopus/board.hpp"
 #include "protocol/canopen/boards/heat.hpp"
@@ -132,6 +133,43 @@ TEST(OctopusUpdateTest, AnImageForAnotherBoardIsRefusedByToolAndLoaderAndTheProg
       << octopus.message;
   EXPECT_EQ(octopus.program(), before);
   octopus.expect_all_run();
+}
+
+// The record is in memory that nothing erases: whatever is written to the board later finds it.
+TEST(OctopusUpdateTest, ABoardThatIsRecordedAsAnotherIsNotDriven) {
+  OctopusUpdate octopus;
+  const auto program = octopus.program();
+  EXPECT_GT(octopus.board().outputs(), 0);
+  const auto none = [](const ProgramUpdate&) { return false; };
+  EXPECT_TRUE(octopus.update(0, kId, program, {.record_revision = 11}, none)) << octopus.message;
+  EXPECT_EQ(octopus.message, "recorded");
+  octopus.expect_all_run();
+  const auto memory = octopus.board().cpu().system_memory().first(CortexM4::kOneTimeMemorySize);
+  const auto own = board_record::find(memory);
+  ASSERT_TRUE(own);
+  EXPECT_EQ(own->hardware, Stm32f446OctopusBoard::kFacts.hardware);
+  EXPECT_EQ(own->revision, 11u);
+  EXPECT_EQ(own->serial, octopus.read(kId, {0x1018, 4}));
+  EXPECT_EQ(board_record::free_slot(memory), BoardRecord::kSlot) << "one slot is taken";
+  EXPECT_TRUE(octopus.update(0, kId, program, {.record_revision = 11}, none));
+  EXPECT_EQ(board_record::free_slot(memory), BoardRecord::kSlot) << "it says so already";
+
+  // Another board with the same chip, recorded by its own loader; this one's loader and program came by DFU.
+  const auto words = board_record::encode({Stm32f405Board::kFacts.hardware, 10, 1});
+  for (std::size_t i = 0; i < words.size(); ++i)
+    put_u32_le(memory.subspan(BoardRecord::kSlot + 4 * i), words[i]);
+  octopus.machine.power_cycle(0);
+  octopus.wait(300ms);
+  EXPECT_EQ(octopus.read(kId, {0x1018, 2}), Stm32f446OctopusBoard::kFacts.product_code) << "it speaks";
+  EXPECT_EQ(octopus.board().outputs(), 0) << "and drives nothing";
+  EXPECT_FALSE(octopus.update(0, kId, another(program)));
+  EXPECT_NE(octopus.message.find("recorded as STM32F405, and the image is for Octopus STM32F446"),
+            std::string::npos)
+      << octopus.message;
+  EXPECT_EQ(octopus.program(), program) << "nothing was written";
+  octopus.wait(300ms);
+  EXPECT_EQ(octopus.read(kId, {0x1F51, 1}), 1u) << "the program that was there goes on";
+  EXPECT_EQ(octopus.board().outputs(), 0);
 }
 
 // The loader of the F446 on another chip: it speaks, and drives nothing.
