@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "protocol/canopen/heat_objects.hpp"
 #include "protocol/canopen/node_objects.hpp"
 
 namespace kinebus {
@@ -232,6 +233,9 @@ void BringUp::identify(BusTime now, NodeLink& link, Node& node) {
                       printed("%08Xh", static_cast<unsigned>(node.identity[k])),
                       printed("%08Xh", static_cast<unsigned>(*rules[k]))));
     }
+    // Heaters stay off until the node was named by its number: this is the one that is meant.
+    if (node.identity[1] == HeatBoard::kFacts.product_code)
+      node.configuration.settings.push_back({heat_object::kConfirmedSerial, 4, node.identity[3]});
     node.done = true;
   }
 }

@@ -37,11 +37,7 @@ void BringUp::compare(NodeLink& link, Node& node) {
   }
   if (failed_ || node.compared < wanted.size()) return;
   node.requested = false;
-  if (!node.differs) {
-    node.config = Config::kDone;
-    node.done = true;
-    return;
-  }
+  if (!node.differs) return parameters_are_right(node);
   out_.push_back(nmt_frame(NmtCommand::kEnterPreOperational, link.id()));
   for (const ParameterWrite& write : node.configuration.before) link.sdo().write(write);
   node.config = Config::kWriting;

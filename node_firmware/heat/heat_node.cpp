@@ -40,6 +40,7 @@ HeatNode::HeatNode(const HeatNodeOptions& options, LocalTime now, std::span<cons
 void HeatNode::boot() {
   objects_.restore(node_id_);
   image_.apply(objects_, node_id_);
+  confirmed_ = false;
   switch_off();
   for (Heater& heater : heaters_) {
     // A switch that does not open is no better for a reset, which is routine to a master: see reset_fault().

@@ -107,6 +107,7 @@ class HeatNode final : private ObjectOwner {
   AbortCode write_set_point(std::size_t n, std::int64_t value);
   AbortCode begin_tuning(std::size_t n, std::int64_t value);
   AbortCode reset_fault(std::size_t n);
+  AbortCode confirm(std::int64_t serial);
   AbortCode check_setting(const ObjectEntry& entry, std::int64_t value);
   AbortCode inconsistent(const ObjectEntry& entry) const;
   AbortCode command_storage(ObjectAddress address, std::int64_t value);
@@ -180,6 +181,7 @@ class HeatNode final : private ObjectOwner {
 
   LocalTime next_tick_{0};
   std::uint16_t supply_mv_ = 0;
+  bool confirmed_ = false;  ///< the master has named this node by its serial number (2243h)
   bool communication_changed_ = false, settings_changed_ = false, sensors_changed_ = false;
   /// Where a fault is, a bit a channel.
   struct Places {

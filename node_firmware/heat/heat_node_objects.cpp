@@ -106,6 +106,9 @@ AbortCode HeatNode::read_device(ObjectAddress address, std::int64_t& result) con
     case kSupply.index:
       result = supply_mv_;
       return AbortCode::kNone;
+    case kConfirmedSerial.index:
+      result = confirmed_ ? options_.serial : 0;
+      return AbortCode::kNone;
     default:
       return AbortCode::kNoData;
   }
@@ -195,6 +198,7 @@ AbortCode HeatNode::write(const ObjectEntry& entry, std::int64_t to) {
     filaments_[place_of(entry.address)].reset();
     return AbortCode::kNone;
   }
+  if (index == kConfirmedSerial.index) return confirm(to);
   if (entry.binding == Binding::kLive) return write_heater(index, place_of(entry.address), to);
   return check_setting(entry, to);
 }
@@ -286,8 +290,8 @@ AbortCode HeatNode::write_set_point(std::size_t n, std::int64_t to) {
   Heater& heater = heaters_[n];
   if (to > highest_set_point(n)) return AbortCode::kTooHigh;
   if (to < 0) return AbortCode::kTooLow;
-  const bool ready =
-      sensor_of(n) != nullptr && heater.fault() == HeaterFault::kNone && contactor() && !master_lost_;
+  const bool ready = confirmed_ && sensor_of(n) != nullptr && heater.fault() == HeaterFault::kNone &&
+                     contactor() && !master_lost_;
   if (to != 0 && (!ready || heater.tuning())) return AbortCode::kDeviceState;
   if (to == 0 && heater.tuning()) heater.trip(HeaterFault::kNone);
   set_points_[n] = static_cast<std::int16_t>(to);
@@ -300,13 +304,21 @@ AbortCode HeatNode::begin_tuning(std::size_t n, std::int64_t to) {
   const SensorInput* sensor = sensor_of(n);
   if (to > highest_set_point(n)) return AbortCode::kTooHigh;
   if (to <= 0) return AbortCode::kTooLow;
-  if (sensor == nullptr || !sensor->good() || heater.fault() != HeaterFault::kNone || !contactor() ||
-      master_lost_ || tuning_.running() || set_points_[n] != 0 || !on_[n])
+  if (!confirmed_ || sensor == nullptr || !sensor->good() || heater.fault() != HeaterFault::kNone ||
+      !contactor() || master_lost_ || tuning_.running() || set_points_[n] != 0 || !on_[n])
     return AbortCode::kDeviceState;
   heater.begin_tuning(tuning_, *sensor, milli(to));
   tuned_ = static_cast<int>(n);
   tuning_taken_ = !heater.tuning();
   return heater.tuning() ? AbortCode::kNone : AbortCode::kTooLow;  // the way is too short to measure anything
+}
+
+// Two boards whose ids were exchanged have other heaters behind the same numbers: who means another one must
+// not heat this.
+AbortCode HeatNode::confirm(std::int64_t serial) {
+  confirmed_ = serial == options_.serial;
+  if (!confirmed_) switch_off();
+  return confirmed_ ? AbortCode::kNone : AbortCode::kInvalidValue;
 }
 
 AbortCode HeatNode::reset_fault(std::size_t n) {

@@ -137,7 +137,7 @@ bool HeatNode::contactor() const {
 std::uint32_t HeatNode::heater_output(int heater) const {
   const auto n = static_cast<std::size_t>(heater);
   const SensorInput* sensor = sensor_of(n);
-  return sensor == nullptr || !contactor() ? 0 : heaters_[n].output(*sensor);
+  return !confirmed_ || sensor == nullptr || !contactor() ? 0 : heaters_[n].output(*sensor);
 }
 
 void HeatNode::on_time(LocalTime now) {

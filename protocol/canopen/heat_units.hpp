@@ -42,7 +42,8 @@ inline constexpr ObjectAddress kFilamentKind{0x2250, 1}, kFilamentInverted{0x225
     kFilamentPerEdge{0x2252, 1}, kFilamentStands{0x2253, 1}, kFilamentSlips{0x2254, 1},
     kFilamentLeast{0x2255, 1}, kFilamentCommanded{0x2256, 1}, kFilamentSeen{0x2257, 1},
     kFilamentState{0x2258, 1}, kFilamentReset{0x2259, 1};
-inline constexpr ObjectAddress kContactor{0x2240, 0}, kSupply{0x2241, 0}, kMasterLost{0x2242, 0};
+inline constexpr ObjectAddress kContactor{0x2240, 0}, kSupply{0x2241, 0}, kMasterLost{0x2242, 0},
+    kConfirmedSerial{0x2243, 0};
 }  // namespace heat_object
 
 namespace object_table {
@@ -209,6 +210,9 @@ constexpr void heat_supervision(Rows& t) {
   t.var(0x2241, "Supply voltage", kU16, kReadOnly, kLive).maps(Mapping::kTpdo).in("mV");
   // After so long without a sign of life of the master, set points become the safe ones.
   t.var(0x2242, "Master lost time", kU16, kReadWrite, kParameter, 5000).between(500, 60'000).in("ms");
+  // Nothing heats before the master has written the serial number of the node that it means, 1018h:4: after
+  // every start and NMT reset node. Another number is refused, and what heats goes off. 0: not confirmed.
+  t.var(0x2243, "Confirmed serial number", kU32, kReadWrite, kLive);
 }
 
 inline constexpr std::uint32_t mapped_nth(ObjectAddress first, int bits, int nth) {

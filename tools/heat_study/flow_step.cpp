@@ -135,6 +135,7 @@ Run flow_step(const Scene& scene, Control control) {
   bench.write(kSensorType, 10'100, 2);  // by beta: the plant's thermistor
   bench.write(kNominalPower, std::lround(1000 * kPower_w), 4);
   bench.write({kHeaterSensor.index, 2}, 0, 1);
+  bench.write(kConfirmedSerial, bench.read({object::kVendorIdentity.index, 4}), 4);
   bench.run(0.3);
   measure(bench, scene.target_c);
   bench.write(kControlKind, control == Control::kPid ? 0 : 1, 1);

@@ -39,6 +39,7 @@ void HeatBench::describe(const MachineDescription& machine, bool fans_free) {
       if (one.address.index >= kFirstOfManufacturer) node_.write(one.address, one.value);
   if (fans_free)
     for (int fan = 0; fan < kFans; ++fan) write(heat_object::kFanFunction, fan, 0);
+  node_.write(heat_object::kConfirmedSerial, node_.read({object::kVendorIdentity.index, 4}));
   node_.send(nmt_frame(NmtCommand::kStart, node_.node()));
   node_.pause(kFirstMeasurement);
 }

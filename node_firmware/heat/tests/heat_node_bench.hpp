@@ -17,9 +17,10 @@ using namespace std::chrono_literals;
 class HeatNodeBench {
  public:
   static constexpr std::uint8_t kId = 20;
+  static constexpr std::uint32_t kSerial = 4711;
 
   explicit HeatNodeBench(std::span<const std::uint8_t> image = {})
-      : node({.node_id = kId, .serial = 4711}, LocalTime{1s}, image) {
+      : node({.node_id = kId, .serial = kSerial}, LocalTime{1s}, image) {
     run(0.2);
   }
 
@@ -42,9 +43,13 @@ class HeatNodeBench {
     EXPECT_EQ(write({0x2211, 2}, 1300, 2), 0u);
     EXPECT_EQ(write({0x221E, 2}, 60, 2), 0u);  // a bed is slow
     EXPECT_EQ(write({0x2210, 3}, 0, 1), 0u);   // the chamber's air has no heater
+    confirm();
     run(0.3);
     nmt(NmtCommand::kStart);
   }
+
+  /// The master means this node.
+  void confirm() { EXPECT_EQ(write({0x2243, 0}, kSerial, 4), 0u); }
 
   /// A master that lives asks something every second.
   void run(double seconds, bool master = true) {

@@ -118,6 +118,33 @@ TEST(HeatNode, HeatsHoldsAndTellsIt) {
   EXPECT_EQ(bench.node.heater_output(1), 0u) << "switched off, its set point kept";
 }
 
+TEST(HeatNode, HeatsNothingBeforeTheMasterHasNamedItBySerialNumber) {
+  HeatNodeBench bench;
+  bench.set_up();
+  EXPECT_EQ(bench.read({0x2243, 0}), HeatNodeBench::kSerial);
+  ASSERT_EQ(bench.write_set_point(1, 600), 0u);
+  bench.run(2);
+  EXPECT_GT(bench.node.heater_output(0), 0u);
+  // Another one is meant: what heats goes off.
+  EXPECT_EQ(bench.write({0x2243, 0}, HeatNodeBench::kSerial + 1, 4), kInvalid);
+  EXPECT_EQ(bench.node.heater_output(0), 0u);
+  EXPECT_EQ(bench.read({0x2243, 0}), 0u);
+  EXPECT_EQ(bench.write_set_point(1, 600), kState);
+  EXPECT_EQ(bench.write({0x2224, 1}, 2000, 2), kState) << "nor is it measured";
+  EXPECT_EQ(bench.write_set_point(1, 0), 0u) << "off is always taken";
+  bench.send({.id = 0x200u + HeatNodeBench::kId, .length = 8, .data = {0x58, 2}});
+  bench.run(1);
+  EXPECT_EQ(bench.node.heater_output(0), 0u) << "nor by PDO";
+  bench.confirm();
+  EXPECT_EQ(bench.write_set_point(1, 600), 0u);
+  bench.nmt(NmtCommand::kResetCommunication);
+  EXPECT_EQ(bench.read({0x2243, 0}), HeatNodeBench::kSerial)
+      << "communication begins anew, the node is the same";
+  bench.nmt(NmtCommand::kResetNode);
+  EXPECT_EQ(bench.read({0x2243, 0}), 0u);
+  bench.confirm();
+}
+
 TEST(HeatNode, LimitsAreItsOwn) {
   HeatNodeBench bench;
   EXPECT_EQ(bench.write_set_point(1, 500), kState) << "a heater without a sensor";

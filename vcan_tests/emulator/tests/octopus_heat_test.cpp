@@ -29,6 +29,7 @@ struct HeatedOctopus : OneOctopus {
     for (std::size_t i = 0; i < model.size(); ++i)
       bench.write(kHeat, static_cast<std::uint16_t>(0x2218 + i), 1, 4, model[i]);
     bench.write(kHeat, 0x2211, 2, 2, 1300);
+    bench.write(kHeat, 0x2243, 0, 4, raw(0x1018, 4));
     bench.run(300ms);
     bench.send(nmt_frame(NmtCommand::kStart, kHeat));
     bench.run(5ms);
