@@ -3,10 +3,13 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <random>
+#include <span>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -17,6 +20,7 @@
 #include "gateway/io/service_manager.hpp"
 #include "gateway/io/socketcan_bus.hpp"
 #include "gateway/io/web_folder.hpp"
+#include "protocol/bytes.hpp"
 #include "protocol/host/can_interface.hpp"
 #include "protocol/host/realtime.hpp"
 #include "protocol/host/socketcan.hpp"
@@ -112,10 +116,18 @@ std::string machine_mark(MachineFileStore& file) {
   return text ? joblink::to_hex(joblink::sha256_of(text->text)) : std::string();
 }
 
+SipHashKey random_key() {
+  const std::string bytes = random_bytes(16);
+  std::array<std::uint8_t, 16> key{};
+  std::copy_n(bytes.begin(), key.size(), key.begin());
+  return {get_u64_le(key), get_u64_le(std::span(key).subspan(8))};
+}
+
 /// The epoch differs from the one before: nodes then join the new clock without a step.
 Gateway::Options gateway_options(const journal::State& noted) {
   return {.epoch = static_cast<std::uint8_t>(noted.epoch ? *noted.epoch + 1 : std::random_device{}()),
           .unix_s_at_zero = unix_s_at_zero(),
+          .bus_secret = random_key(),
           .journal = true};
 }
 

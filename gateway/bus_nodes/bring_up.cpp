@@ -36,11 +36,13 @@ BringUp::BringUp(const MachineDescription& machine, std::deque<NodeLink>& links,
   }
 }
 
-void BringUp::start(BusTime now, bool alone) {
+void BringUp::start(BusTime now, bool alone, const std::vector<ParameterWrite>& key) {
   for (NodeLink& link : links_) link.forget();
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     // The description's currents may be others than at the last one.
     nodes_[i].configuration = configure_node(machine_, links_[i].id());
+    std::vector<ParameterWrite>& settings = nodes_[i].configuration.settings;
+    if (links_[i].functions().has_axes()) settings.insert(settings.end(), key.begin(), key.end());
     nodes_[i].config = Config::kCheck;
     nodes_[i].rewritten = nodes_[i].differs = false;
   }

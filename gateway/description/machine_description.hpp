@@ -198,6 +198,12 @@ struct ResumeDescription {
   friend bool operator==(const ResumeDescription&, const ResumeDescription&) = default;
 };
 
+/// Whose orders nodes obey (protocol/README.md, "Trust on the bus").
+enum class BusTrust : std::uint8_t {
+  kOpen,     ///< everybody's: any CANopen master may speak beside the gateway
+  kSession,  ///< in motion only what carries the session's check value
+};
+
 struct BusDescription {
   std::string interface = "can0";
   double budget = 0.60;  ///< share of the bus that streaming may use
@@ -205,6 +211,7 @@ struct BusDescription {
   std::chrono::milliseconds sync_timeout{175};  ///< without SYNC for so long a node stops on the path
   std::chrono::milliseconds heartbeat_period{500};
   std::chrono::milliseconds heartbeat_timeout{1500};
+  BusTrust trust = BusTrust::kOpen;
   friend bool operator==(const BusDescription&, const BusDescription&) = default;
 };
 

@@ -24,6 +24,8 @@ inline constexpr Choice kAfterStall[] = {{"ask", static_cast<int>(StopDescriptio
                                          {"go_on", static_cast<int>(StopDescription::AfterStall::kGoOn)}};
 inline constexpr Choice kResumeThen[] = {{"ask", static_cast<int>(ResumeDescription::Then::kAsk)},
                                          {"go_on", static_cast<int>(ResumeDescription::Then::kGoOn)}};
+inline constexpr Choice kBusTrust[] = {{"open", static_cast<int>(BusTrust::kOpen)},
+                                       {"session", static_cast<int>(BusTrust::kSession)}};
 inline constexpr Choice kDwellUnits[] = {
     {"dialect", static_cast<int>(GcodeDescription::DwellUnit::kByDialect)},
     {"ms", static_cast<int>(GcodeDescription::DwellUnit::kMilliseconds)},
@@ -230,6 +232,7 @@ void visit_bus(V& v, BusDescription& b) {
     v.duration("sync_timeout_ms", b.sync_timeout, 10, 10000, Need::kOptional);
     v.duration("heartbeat_period_ms", b.heartbeat_period, 10, 10000, Need::kOptional);
     v.duration("heartbeat_timeout_ms", b.heartbeat_timeout, 20, 60000, Need::kOptional);
+    v.choice("trust", b.trust, kBusTrust, Need::kOptional);
   });
 }
 

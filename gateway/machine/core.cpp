@@ -60,6 +60,7 @@ Gateway::Core::Core(const MachineDescription& machine, Options options, std::opt
       bed_(machine_, *kinematics_, journal_, events_, options.unix_s_at_zero),
       state_(events_),
       voice_(machine_, options.epoch),
+      session_(machine_.bus.trust, options.bus_secret),
       watch_(machine_, links_, rate_, group_, events_, counters_),
       parameters_(machine_, links_),
       bring_up_(machine_, links_, rate_),
@@ -172,6 +173,10 @@ void Gateway::Core::on_frame_sent(BusTime when, const CanFrame& frame) {
 
 std::optional<CanFrame> Gateway::Core::next_frame(BusTime now) {
   now_ = std::max(now_, now);
+  return session_.next_frame([&] { return next_plain_frame(now); });
+}
+
+std::optional<CanFrame> Gateway::Core::next_plain_frame(BusTime now) {
   if (const auto frame = rate_.next_frame(now)) return frame;
   if (const auto frame = rate_.next_repeat(now)) return frame;
   if (const auto frame = voice_.next_frame(now)) return frame;
@@ -301,13 +306,15 @@ void Gateway::Core::watch_nodes() {
     const bool follows =
         state_.streams() || state_.is_one_of(MachineState::kUnhomed, MachineState::kReady,
                                              MachineState::kChecking, MachineState::kCancelling);
+    // A drive that was switched off in motion is seen while all stop; what goes on then needs it.
+    const bool stops_in_run = state_.is(MachineState::kStopping) && runner_->active() && !fault_;
     const bool rests = state_.is_one_of(MachineState::kUnhomed, MachineState::kReady);
     follow(watch_.look(
         now_, i,
         {.state = state_.now(),
          .bringing_up = bring_up_.busy(),
          .homes = state_.is(MachineState::kHoming) && homing_.reports(i, now_ - NodeWatch::kStatusTimeout),
-         .enabled = follows || state_.is(MachineState::kHoming),
+         .enabled = follows || stops_in_run || state_.is(MachineState::kHoming),
          .follows = follows,
          .rests_since = rests ? std::optional(state_.since()) : std::nullopt}));
   }

@@ -22,6 +22,7 @@
 #include "gateway/bus_nodes/rest.hpp"
 #include "gateway/devices/devices.hpp"
 #include "gateway/jobs/journal/journal_queue.hpp"
+#include "gateway/machine/bus_session.hpp"
 #include "gateway/machine/bus_voice.hpp"
 #include "gateway/machine/current_state.hpp"
 #include "gateway/machine/gateway.hpp"
@@ -55,6 +56,7 @@ class Gateway::Core {
   void on_frame(BusTime when, const CanFrame& frame);
   void on_frame_sent(BusTime when, const CanFrame& frame);
   std::optional<CanFrame> next_frame(BusTime now);
+  std::optional<CanFrame> next_plain_frame(BusTime now);  ///< without the session's vouchers
   BusTime next_deadline() const;
   void on_time(BusTime now);
   void on_stall(BusTime now, BusTime length, const Sentence& why);
@@ -236,6 +238,7 @@ class Gateway::Core {
 
   CurrentState state_;
   BusVoice voice_;
+  BusSession session_;
   NodeWatch watch_;
   ParameterWatch parameters_;
   BringUp bring_up_;

@@ -28,7 +28,8 @@ void Gateway::Core::begin_bring_up() {
   hand_.runner().drop();
   recovery_.bring_up_begins(rate_.tau(now_));
   devices_.on_bring_up(now_, false);
-  bring_up_.start(now_, voice_.speaks());
+  session_.begin();
+  bring_up_.start(now_, voice_.speaks(), session_.key_writes());
   enter(MachineState::kBringUp);
 }
 

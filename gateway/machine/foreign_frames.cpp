@@ -4,25 +4,19 @@
 
 #include "protocol/bytes.hpp"
 #include "protocol/canopen/cob_id.hpp"
+#include "protocol/canopen/sdo.hpp"
 #include "protocol/motion/broadcast.hpp"
+#include "protocol/motion/voucher.hpp"
 
 namespace kinebus {
 namespace {
 
 /// RPDO3 of node n.
 constexpr std::uint32_t kRecordCobId = cob_id::rpdo(3, 0);
-/// SDO requests that begin to write, by their command specifier (CiA 301): download, block download.
-constexpr unsigned kDownload = 1, kBlockDownload = 6;
 
 bool is_of_a_gateway(std::uint32_t id) {
-  return id == cob_id::kSync || id == kRateCobId || id == kSyncStampCobId ||
+  return id == cob_id::kSync || id == kRateCobId || id == kSyncStampCobId || id == kVoucherCobId ||
          id == cob_id::kHeartbeat + kGatewayNodeId;
-}
-
-bool begins_to_write(const CanFrame& frame) {
-  const unsigned specifier = frame.data[0] >> 5;
-  return frame.length == 8 &&
-         (specifier == kDownload || (specifier == kBlockDownload && (frame.data[0] & 1) == 0));
 }
 
 }  // namespace
@@ -40,7 +34,7 @@ ForeignFrame look_at_foreign(const CanFrame& frame, const std::deque<NodeLink>& 
             say("another device has sent node %1 a record of motion (COB-ID %2)", static_cast<int>(node),
                 printed("%03Xh", static_cast<unsigned>(frame.id)))};
   if (const std::uint8_t node = cob_id::node_of(frame.id, cob_id::kSdoRequest);
-      known(node) && begins_to_write(frame))
+      known(node) && sdo::begins_to_write(frame))
     return {Kind::kWrite, node,
             say("another device writes object %2 of node %1 while the machine moves", static_cast<int>(node),
                 printed("%04Xh:%u", static_cast<unsigned>(get_u16_le(std::span(frame.data).subspan(1))),

@@ -32,6 +32,7 @@
 #include "gateway/status/state.hpp"
 #include "gateway/status/status.hpp"
 #include "protocol/can/frame.hpp"
+#include "protocol/motion/siphash.hpp"
 #include "protocol/time.hpp"
 
 namespace kinebus {
@@ -45,7 +46,9 @@ class Gateway {
     std::uint8_t epoch = 1;     ///< of the time stamps: another value after every start of the gateway
     int planning_budget = 400;  ///< G-code lines interpreted in one on_time() call, at most
     double unix_s_at_zero = 0;  ///< wall time at time 0 of the bus clock, for what is kept with its date
-    bool journal = false;       ///< somebody stores next_journal_record(); a run waits (briefly) for it
+    /// Random, of this start: sessions on the bus derive their keys from it (bus.trust of the machine file).
+    SipHashKey bus_secret{};
+    bool journal = false;  ///< somebody stores next_journal_record(); a run waits (briefly) for it
   };
 
   explicit Gateway(const MachineDescription& machine);

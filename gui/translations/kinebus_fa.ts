@@ -4048,6 +4048,34 @@
         <source>check the motor supply, the driver&apos;s seat and its UART jumper, then clear</source>
         <translation>تغذیهٔ موتورها، نشستن راه‌انداز در جایش و جامپر UART آن را بررسی کنید، سپس هشدار را رفع کنید</translation>
     </message>
+    <message>
+        <source>an NMT command that does not carry the session&apos;s check value was refused (%1)</source>
+        <translation>دستور NMT بدون مقدار بررسی نشست رد شد (%1)</translation>
+    </message>
+    <message>
+        <source>a write of object %1 that does not carry the session&apos;s check value was refused</source>
+        <translation>نوشتن شیء %1 بدون مقدار بررسی نشست رد شد</translation>
+    </message>
+    <message>
+        <source>a change of the rate that does not carry the session&apos;s check value was refused</source>
+        <translation>تغییر نرخ بدون مقدار بررسی نشست رد شد</translation>
+    </message>
+    <message>
+        <source>a controlword that does not carry the session&apos;s check value was refused</source>
+        <translation>کلمهٔ کنترل بدون مقدار بررسی نشست رد شد</translation>
+    </message>
+    <message>
+        <source>a time stamp of SYNC that does not carry the session&apos;s check value was refused</source>
+        <translation>مهر زمانی SYNC بدون مقدار بررسی نشست رد شد</translation>
+    </message>
+    <message>
+        <source>A node has refused a frame of another device</source>
+        <translation>گره‌ای قاب دستگاهی دیگر را رد کرد</translation>
+    </message>
+    <message>
+        <source>a frame without the session&apos;s check value was refused</source>
+        <translation>قابی بدون مقدار بررسی نشست رد شد</translation>
+    </message>
 </context>
 <context>
     <name>GatewayWords</name>

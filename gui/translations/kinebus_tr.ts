@@ -4048,6 +4048,34 @@
         <source>check the motor supply, the driver&apos;s seat and its UART jumper, then clear</source>
         <translation>motor beslemesini, sürücünün yuvasına oturuşunu ve UART atlama telini kontrol edin, sonra alarmı kaldırın</translation>
     </message>
+    <message>
+        <source>an NMT command that does not carry the session&apos;s check value was refused (%1)</source>
+        <translation>oturumun kontrol değerini taşımayan bir NMT komutu reddedildi (%1)</translation>
+    </message>
+    <message>
+        <source>a write of object %1 that does not carry the session&apos;s check value was refused</source>
+        <translation>%1 nesnesine oturumun kontrol değerini taşımayan bir yazma reddedildi</translation>
+    </message>
+    <message>
+        <source>a change of the rate that does not carry the session&apos;s check value was refused</source>
+        <translation>oturumun kontrol değerini taşımayan bir hız oranı değişikliği reddedildi</translation>
+    </message>
+    <message>
+        <source>a controlword that does not carry the session&apos;s check value was refused</source>
+        <translation>oturumun kontrol değerini taşımayan bir kontrol sözcüğü reddedildi</translation>
+    </message>
+    <message>
+        <source>a time stamp of SYNC that does not carry the session&apos;s check value was refused</source>
+        <translation>oturumun kontrol değerini taşımayan bir SYNC zaman damgası reddedildi</translation>
+    </message>
+    <message>
+        <source>A node has refused a frame of another device</source>
+        <translation>Bir düğüm başka bir aygıtın çerçevesini reddetti</translation>
+    </message>
+    <message>
+        <source>a frame without the session&apos;s check value was refused</source>
+        <translation>oturumun kontrol değeri olmayan bir çerçeve reddedildi</translation>
+    </message>
 </context>
 <context>
     <name>GatewayWords</name>

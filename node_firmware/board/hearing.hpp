@@ -6,6 +6,7 @@
 
 #include "node_firmware/board/drivers.hpp"
 #include "protocol/canopen/cob_id.hpp"
+#include "protocol/motion/voucher.hpp"
 
 namespace kinebus {
 
@@ -22,6 +23,7 @@ class Hearing {
     add(0x080, 0x780);  // SYNC, and the EMCYs of others: stop requests
     add(0x000);         // NMT
     add(0x7E5);         // LSS
+    add(kVoucherCobId);
     if (node.node_id() != 0) {
       add(0x600u + node.node_id());
       for (const std::uint8_t id : node.watched_nodes())

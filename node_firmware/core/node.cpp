@@ -115,6 +115,7 @@ void Node::apply_parameters() {
 void Node::on_frame(LocalTime at, const CanFrame& frame) {
   now_ = std::max(now_, at);
   serve();
+  if (!obeys(frame)) return serve();
   const SyncReception sync = decode_sync(
       frame, cob_id::kSync, static_cast<std::uint8_t>(objects_.value(slot_of(object::kSyncCounterOverflow))));
   if (sync.is_sync) {
@@ -131,6 +132,13 @@ void Node::on_frame(LocalTime at, const CanFrame& frame) {
     static_cast<void>(pdo_.on_frame(now_, frame));
   }
   serve();
+}
+
+bool Node::obeys(const CanFrame& frame) {
+  const auto answer = session_.judge(frame, node_id_, in_motion());
+  if (answer == SessionGuard::Answer::kObey) return true;
+  if (answer == SessionGuard::Answer::kRefuse && nmt_.allows_sdo()) sdo_.refuse(frame);
+  return false;
 }
 
 void Node::on_sync(const SyncReception& sync) {
@@ -182,6 +190,7 @@ void Node::on_nmt(NmtCommand command) {
       reset_requested_ = true;
       [[fallthrough]];
     case NmtCommand::kResetCommunication:
+      session_.end();
       serve_emergencies();
       lss_.activate();
       node_id_ = lss_.active_node_id() == kUnconfiguredNodeId ? std::uint8_t{0} : lss_.active_node_id();

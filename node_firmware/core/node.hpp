@@ -30,6 +30,7 @@
 #include "protocol/canopen/pdo_engine.hpp"
 #include "protocol/canopen/sdo_server.hpp"
 #include "protocol/canopen/sync.hpp"
+#include "protocol/motion/session_guard.hpp"
 #include "protocol/time.hpp"
 
 namespace kinebus {
@@ -217,6 +218,8 @@ class Node : private ObjectOwner {
   void apply_parameters();
   void apply_node_id();
   void on_nmt(NmtCommand command);
+  /// false: the session's check value is missing, or it is a voucher itself.
+  bool obeys(const CanFrame& frame);
   void on_sync(const SyncReception& sync);
   void on_lss();
   void serve();
@@ -253,6 +256,7 @@ class Node : private ObjectOwner {
   SdoServer sdo_;
   PdoEngine pdo_;
   LssSlave lss_;
+  SessionGuard session_;
 
   friend class NodePreview;
   std::array<DriveFeedback, kAxesPerNode> feedback_{};

@@ -96,6 +96,8 @@ AbortCode Node::write_node_object(const ObjectEntry& entry, std::int64_t value) 
     case 0x2112:
       return value >= 0 && path_.set_path_time(PathTime{value}, now_) ? AbortCode::kNone
                                                                       : AbortCode::kDeviceState;
+    case object::kSessionKey.index:
+      return session_.write(address.subindex, static_cast<std::uint32_t>(value), in_motion());
     default:
       return AbortCode::kNone;
   }

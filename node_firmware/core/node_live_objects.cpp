@@ -54,6 +54,9 @@ bool Node::read_node_object(ObjectAddress address, std::int64_t& value) {
     case 0x2116:
       value = objects_.fingerprint();
       return true;
+    case object::kSessionKey.index:
+      value = session_.in_force() ? 1 : 0;
+      return true;
     case 0x2120:
       value = counter_value(static_cast<NodeCounter>(address.subindex));
       return true;
@@ -235,6 +238,8 @@ std::int64_t Node::counter_value(NodeCounter counter) const {
       return path.stops;
     case NodeCounter::kLateStops:
       return path.late_stops;
+    case NodeCounter::kFramesRefused:
+      return session_.refused();
     case NodeCounter::kRecordsReordered:
       return path_.stream().reordered();
     case NodeCounter::kHomingErrors:

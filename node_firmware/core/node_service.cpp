@@ -176,6 +176,10 @@ void Node::serve_emergencies() {
            HeartbeatConsumer::Health::kLost;
   });
   if (!missing) emcy_.clear(emcy::kHeartbeat);
+  while (const auto refusal = session_.next_refusal()) {
+    emcy_.raise(node_emcy::kNotVouched, *refusal);
+    emcy_.clear(node_emcy::kNotVouched);  // it is over: in the history
+  }
   while (const auto alarm = path_.next_alarm()) emcy_.raise(alarm->emcy_code, encode(alarm->stop), true);
 }
 

@@ -27,7 +27,7 @@ inline constexpr std::uint16_t kOverCurrent = 0x2310, kShortCircuit = 0x2320, kS
 namespace node_emcy {
 inline constexpr std::uint16_t kStarved = 0xFF01, kSequence = 0xFF02, kCheckpoint = 0xFF03, kStream = 0xFF04,
                                kCommand = 0xFF05, kEmergencyStop = 0xFF06, kLimitSwitch = 0xFF07,
-                               kHoming = 0xFF10;
+                               kNotVouched = 0xFF08, kHoming = 0xFF10;
 }  // namespace node_emcy
 
 /// The gateway's own.

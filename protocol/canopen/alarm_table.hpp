@@ -138,6 +138,8 @@ inline constexpr std::array kAlarms{
     alarm_table::stop(node_emcy::kCommand, 10, "Drives were switched off in motion"),
     alarm_table::stop(node_emcy::kEmergencyStop, 5, "Emergency stop"),
     alarm_table::stop(node_emcy::kLimitSwitch, 6, "A limit switch was reached"),
+    AlarmRow{node_emcy::kNotVouched, "A node has refused a frame of another device",
+             "a frame without the session's check value was refused", alarm_table::kLookForMaster},
     AlarmRow{node_emcy::kHoming, "Homing has failed", "homing did not find the switch's edge",
              "check switch and wiring, then clear and home again"},
 

@@ -61,7 +61,8 @@ inline constexpr std::array<std::string_view, static_cast<std::size_t>(NodeCount
     "Stops heard too late",
     "Homing errors",
     "Drive faults",
-    "Records put in order"};
+    "Records put in order",
+    "Frames that nobody vouched for"};
 
 /// CiA 301: what every node has, but its PDOs.
 constexpr void communication(Rows& t, const BoardFacts& board) {
@@ -160,6 +161,15 @@ constexpr void program_download(Rows& t) {
   t.sub(1, "Flash status identification 1", kU32, kReadOnly, kLive);
 }
 
+/// The session's check value: protocol/motion/session_guard.hpp.
+constexpr void session_key(Rows& t) {
+  constexpr std::array<std::string_view, 4> kParts = {"Key 1", "Key 2", "Key 3", "Key 4"};
+  t.head(0x2117, "Session key", ObjectCode::kRecord, 5);
+  for (std::uint8_t i = 0; i < kParts.size(); ++i)
+    t.sub(static_cast<std::uint8_t>(i + 1), kParts[i], kU32, kWriteOnly, kLive);
+  t.sub(5, "Session in force", kU8, kReadWrite, kLive).between(0, 1);
+}
+
 /// Path time, the stream along it, and the stops that all nodes make together.
 constexpr void stream(Rows& t) {
   // Packed records: protocol/motion/segment.hpp and broadcast.hpp say what their bits are.
@@ -174,6 +184,7 @@ constexpr void stream(Rows& t) {
   t.var(0x2114, "SYNC loss timeout", kU16, kReadWrite, kParameter, 175).between(20, 5000).in("ms");
   t.var(0x2115, "Starvation margin", kU16, kReadWrite, kParameter, 50).between(0, 1000).in("ms");
   t.var(0x2116, "Configuration fingerprint", kU32, kReadOnly, kLive);
+  session_key(t);
 }
 
 /// What can go wrong, counted.

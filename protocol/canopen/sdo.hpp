@@ -50,6 +50,11 @@ constexpr std::uint8_t specifier(const CanFrame& frame) {
 constexpr ObjectAddress address_in(const CanFrame& frame) {
   return {get_u16_le(std::span(frame.data).subspan(1)), frame.data[3]};
 }
+/// A request that begins to write: download, block download.
+constexpr bool begins_to_write(const CanFrame& frame) {
+  return frame.length == 8 && (specifier(frame) == kInitiateDownload ||
+                               (specifier(frame) == kBlockDownload && (frame.data[0] & 1) == 0));
+}
 constexpr CanFrame frame_of(std::uint32_t id, unsigned command) {
   CanFrame frame{.id = id, .length = 8};
   frame.data[0] = static_cast<std::uint8_t>(command);

@@ -53,6 +53,12 @@ void SdoServer::on_frame(LocalTime now, const CanFrame& frame) {
   }
 }
 
+void SdoServer::refuse(const CanFrame& frame) {
+  if (node_ == 0 || frame.id != cob_id::kSdoRequest + node_ || !sdo::begins_to_write(frame)) return;
+  ++counters_.aborts_sent;
+  reply(sdo::abort_frame(reply_id(), sdo::address_in(frame), AbortCode::kDeviceState));
+}
+
 void SdoServer::on_time(LocalTime now) {
   if (!busy() || now < due_) return;
   ++counters_.timeouts;

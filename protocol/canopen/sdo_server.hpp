@@ -29,6 +29,9 @@ class SdoServer {
 
   /// Frames that are not a request to this node are passed over.
   void on_frame(LocalTime now, const CanFrame& frame);
+  /// Answers a request to write that is not to be obeyed now; others are passed over. A transfer that is
+  /// under way goes on.
+  void refuse(const CanFrame& frame);
   void on_time(LocalTime now);
   /// Pull until empty. While a block is uploaded there is always a next frame until its last segment.
   std::optional<CanFrame> next_frame();

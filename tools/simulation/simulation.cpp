@@ -42,7 +42,9 @@ void Simulation::kill_gateway() {
 
 bool Simulation::start_gateway(std::unique_ptr<ByteSource> job) {
   gateways_.push_back(std::make_unique<Gateway>(
-      description_, Gateway::Options{.epoch = next_epoch(), .journal = options_.journal}));
+      description_, Gateway::Options{.epoch = next_epoch(),
+                                     .bus_secret = {.low = options_.seed + 1, .high = gateways_.size()},
+                                     .journal = options_.journal}));
   alive_ = true;
   asked_ = BusTime::max();
   journal_records_ = 0;

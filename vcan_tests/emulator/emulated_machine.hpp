@@ -36,7 +36,7 @@ struct EmulatedNodeOptions {
 /// The boards that stand for these virtual nodes: same places, switches, crystals, power-up times.
 std::vector<EmulatedNodeOptions> boards_like(const std::vector<VirtualNodeOptions>& nodes);
 
-class EmulatedMachine final : public NodeMachine {
+class EmulatedMachine : public NodeMachine {
  public:
   /// Powers the boards up and gives them their node ids. Throws std::runtime_error when one does not answer.
   EmulatedMachine(const ElfImage& image, const std::vector<EmulatedNodeOptions>& nodes,

@@ -15,14 +15,16 @@
 
 namespace kinebus {
 
-class MachineRig {
+/// `Machine`: what stands for the nodes (NodeMachine), made of virtual nodes' options and a seed.
+template <typename Machine>
+class RigOf {
  public:
   using Nodes = std::vector<VirtualNodeOptions>;
   /// `alter`: changes the virtual nodes before they are built.
-  explicit MachineRig(MachineDescription description = default_m1(),
-                      const std::function<void(Nodes&)>& alter = {}, std::uint64_t seed = 1)
+  explicit RigOf(MachineDescription description = default_m1(), const std::function<void(Nodes&)>& alter = {},
+                 std::uint64_t seed = 1)
       : machine(std::move(description)),
-        gateway(std::make_unique<Gateway>(machine)),
+        gateway(std::make_unique<Gateway>(machine, Gateway::Options{.bus_secret = {.low = seed, .high = 1}})),
         nodes(make_nodes(machine, alter, seed), seed) {}
 
   /// Frames on their way to the gateway for which this is true are lost.
@@ -55,7 +57,7 @@ class MachineRig {
   }
   /// The gateway is not run for `duration`; what came meanwhile waits for it.
   void stall(BusTime duration) {
-    std::vector<VirtualMachine::Received> waiting;
+    std::vector<NodeMachine::Received> waiting;
     const BusTime from = now;
     for (bool done = false; !done;) {
       done = nodes.advance(from + duration);
@@ -117,7 +119,7 @@ class MachineRig {
 
   MachineDescription machine;
   std::unique_ptr<Gateway> gateway;
-  VirtualMachine nodes;
+  Machine nodes;
   BusTime now{0};
   std::vector<MachineEvent> events;
 
@@ -177,5 +179,6 @@ class MachineRig {
   }
   std::deque<CanFrame> strangers_, sent_by_strangers_, late_;
 };
+using MachineRig = RigOf<VirtualMachine>;
 
 }  // namespace kinebus

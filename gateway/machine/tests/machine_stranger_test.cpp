@@ -3,10 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <random>
-
-#include "gateway/machine/tests/machine_rig.hpp"
+#include "gateway/machine/tests/stranger_rig.hpp"
 #include "protocol/bytes.hpp"
 #include "protocol/can/candump.hpp"
 #include "protocol/canopen/cob_id.hpp"
@@ -23,80 +20,16 @@ CanFrame text_frame(std::string_view text) {
   return frame.value_or(CanFrame{});
 }
 
-/// KINEBUS_ROUNDS: as often as wanted by hand.
-int rounds(int usual) {
-  const char* text = std::getenv("KINEBUS_ROUNDS");
-  return text != nullptr ? std::atoi(text) : usual;
-}
-
-/// A rig in the midst of a job whose lines bend, so that no axis stands at a whole count.
-struct Stranger : MachineRig {
-  bool begin() {
-    return gateway->carry_out(command::Run{
-               std::make_unique<StringSource>("G1 X60 Y13 F1200\nG1 X7 Y-21\nG1 X55 Y5\nG1 X0 Y0\n"),
-               "line"}) &&
-           run_until(
-               [&] { return gateway->state() == MachineState::kRunning && gateway->status().line >= 1; },
-               30s);
-  }
-  bool told_code(std::uint16_t code) const {
-    return std::any_of(events.begin(), events.end(), [&](const MachineEvent& e) {
-      return e.kind == MachineEvent::Kind::kAlarm && e.code == code;
-    });
-  }
-  bool says(std::string_view part) const { return story().find(part) != std::string::npos; }
-  /// Bits that differ from how far anything moves: all carriages stand.
-  bool rests() {
-    run_for(300ms);
-    const JointVector still = joints();
-    run_for(300ms);
-    return joints() == still;
-  }
-};
+using Stranger = StrangerOf<VirtualMachine>;
 
 TEST(Stranger, CancelAndReferenceAgainAndAgainFindsEveryNodeWhereTheGatewayBelieves) {
   Stranger rig;
-  ASSERT_TRUE(rig.make_ready()) << rig.story();
-  std::mt19937 random(11);
-  const int wanted = rounds(60);
-  for (int i = 0; i < wanted; ++i) {
-    ASSERT_TRUE(rig.begin()) << i << rig.story();
-    rig.run_for(BusTime{100'000'000 + static_cast<std::int64_t>(random() % 900'000'000)});
-    ASSERT_TRUE(rig.gateway->carry_out(command::Cancel{})) << i;
-    ASSERT_TRUE(rig.reach(MachineState::kReady, 5s)) << i << rig.story();
-    ASSERT_TRUE(rig.gateway->carry_out(command::GoToReference{})) << i;
-    ASSERT_TRUE(rig.reach(MachineState::kReady, 30s)) << i << rig.story();
-    ASSERT_FALSE(rig.told_code(node_emcy::kCheckpoint)) << i << rig.story();
-    rig.events.clear();
-  }
+  cancel_and_reference(rig, rounds(60));
 }
 
 TEST(Stranger, LostRecordAndResumeAgainAndAgainFindsEveryNodeWhereTheGatewayBelieves) {
   Stranger rig;
-  ASSERT_TRUE(rig.make_ready()) << rig.story();
-  std::mt19937 random(12);
-  const int wanted = rounds(40);
-  for (int i = 0; i < wanted; ++i) {
-    rig.lose_from_gateway = {};
-    if (rig.gateway->state() == MachineState::kReady) {
-      ASSERT_TRUE(rig.begin()) << i << rig.story();
-    }
-    rig.run_for(BusTime{static_cast<std::int64_t>(random() % 700'000'000)});
-    bool lost = false;
-    const std::uint8_t node = static_cast<std::uint8_t>(1 + i % 3);
-    rig.lose_from_gateway = [&](const CanFrame& frame) {
-      return frame.id == cob_id::rpdo(3, node) && !std::exchange(lost, true);
-    };
-    rig.run_until([&] { return !rig.gateway->may(command::kind<command::Hold>); }, 60s);
-    if (rig.gateway->state() == MachineState::kReady) continue;  // the job had ended
-    ASSERT_TRUE(rig.reach(MachineState::kStopped, 10s)) << i << rig.story();
-    ASSERT_TRUE(rig.gateway->carry_out(command::Clear{})) << i;
-    ASSERT_TRUE(rig.reach(MachineState::kHeld, 5s)) << i << rig.story();
-    ASSERT_TRUE(rig.gateway->carry_out(command::Resume{})) << i;
-    ASSERT_TRUE(rig.reach(MachineState::kRunning, 30s)) << i << rig.story();
-    ASSERT_FALSE(rig.told_code(node_emcy::kCheckpoint)) << i << rig.story();
-    rig.events.clear();
-  }
+  lose_record_and_resume(rig, rounds(40));
 }
 
 TEST(Stranger, AHomingThatWasStoppedIsNoChangeOfParameters) {

@@ -10,6 +10,7 @@
 #include <deque>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "node_firmware/port/host/axis_plant.hpp"
 #include "protocol/bytes.hpp"
 #include "protocol/can/candump.hpp"
+#include "protocol/motion/voucher.hpp"
 
 namespace kinebus::testing_bench {
 
@@ -83,12 +85,29 @@ class Bench {
     }
   }
 
+  /// Of the master, who vouches for it in a session.
   void send(const CanFrame& frame) {
+    if (vouches && wants_voucher(frame)) stranger_sends(vouches->vouch_for(frame));
+    stranger_sends(frame);
+  }
+  void stranger_sends(const CanFrame& frame) {
     BusTime start = std::max(now, bus_free_);
     bus_free_ = start + 130us;
     wire_.push_back({bus_free_, frame, -1});
   }
+  const CanFrame& last_sent() const { return wire_.back().frame; }
   void send(std::string_view text) { send(frame_of(text)); }
+  /// Gives all nodes a session's key.
+  void begin_session() {
+    const SipHashKey key{0x0706050403020100, 0x0f0e0d0c0b0a0908};
+    for (std::uint8_t id = 1; id <= nodes_.size(); ++id) {
+      for (std::uint8_t i = 0; i < 4; ++i)
+        write(id, 0x2117, static_cast<std::uint8_t>(i + 1), 4,
+              static_cast<std::uint32_t>((i < 2 ? key.low : key.high) >> (i % 2 * 32)));
+      write(id, 0x2117, 5, 1, 1);
+    }
+    vouches.emplace(key);
+  }
   void start_sync(BusTime period = 50ms) {
     sync_period_ = period;
     next_sync_ = now + 1ms;
@@ -178,6 +197,7 @@ class Bench {
   bool plant_on = true;
   /// Frames to this COB-ID do not arrive at this node (a lost SYNC, for example).
   std::function<bool(std::size_t node, const CanFrame&)> lose;
+  std::optional<VoucherWriter> vouches;  ///< the master is in a session
 
  private:
   struct Wire {

@@ -1,0 +1,207 @@
+// What a device on the bus can do to a machine in the midst of a job, with and without a session: a table of
+// what happened, who was named, how far the carriages were from the path, and how the operator goes on.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "gateway/jobs/machine_setup.hpp"
+#include "gateway/machine/tests/stranger_rig.hpp"
+#include "protocol/bytes.hpp"
+#include "protocol/canopen/emcy.hpp"
+#include "protocol/motion/broadcast.hpp"
+#include "protocol/motion/segment.hpp"
+#include "protocol/motion/voucher.hpp"
+
+namespace kinebus {
+namespace {
+
+using namespace std::chrono_literals;
+
+// What corners and quantisation leave between the plan and the carriages, and the 2 us that nodes may differ.
+constexpr double kOnThePath_um = 5;
+// A record that comes before the gateway's own in its place runs until the gateway, which has not sent it,
+// has stopped all.
+constexpr double kForgedRecord_um = 100;
+// A drive whose power is switched off on an open bus stands at once; the others stop on the path.
+constexpr double kDriveOff_um = 300;
+
+struct Attacked : StrangerOf<VirtualMachine> {
+  explicit Attacked(BusTrust trust) : StrangerOf(with(trust)), kinematics(*make_kinematics(machine)) {
+    on_frame = [this](BusTime, const CanFrame& frame) {
+      if (frame.id == cob_id::rpdo(3, 2)) record = frame;
+      if (frame.id == kRateCobId) rate = frame;
+      if (frame.id == kVoucherCobId && !voucher) before_rate = frame;
+      if (frame.id == kRateCobId && !voucher) voucher = before_rate;
+    };
+  }
+  static MachineDescription with(BusTrust trust) {
+    MachineDescription machine = default_m1();
+    machine.bus.trust = trust;
+    return machine;
+  }
+  void sends(std::string_view text) { stranger_sends(text_frame(text)); }
+  /// Runs, and looks each millisecond how far a carriage is from the plan at its node's path time.
+  void watch(BusTime span) {
+    for (const BusTime until = now + span; now < until;) {
+      run_for(1ms);
+      const auto planned = gateway->planned_pose(nodes.path_time(0, now));
+      JointVector wanted{};
+      if (!planned || !kinematics->inverse(planned->frame, planned->pose, wanted)) continue;
+      const JointVector here = joints();
+      for (std::size_t j = 0; j < machine.joints.size(); ++j)
+        if (machine.joints[j].homing) off_um = std::max(off_um, 1e3 * std::abs(here[j] - wanted[j]));
+    }
+  }
+  /// The next record that node 2 waits for, but with another acceleration.
+  CanFrame next_record() const {
+    CanFrame forged{.id = cob_id::rpdo(3, 2), .length = 8};
+    const auto sequence = static_cast<std::uint8_t>((record.data[0] + 1) % kSequenceModulus);
+    put_u64_le(forged.data,
+               encode(Segment{.sequence = sequence, .duration = 200, .acceleration = {40'000, -40'000}}));
+    return forged;
+  }
+  /// Until the job is done: what the operator does for it.
+  std::string go_on() {
+    std::string how;
+    const auto settled = [&] {
+      return gateway->state() == MachineState::kStopped || gateway->state() == MachineState::kAlarm ||
+             gateway->state() == MachineState::kReady;
+    };
+    if (!run_until(settled, 120s)) return "does not end";
+    if (gateway->state() == MachineState::kReady) return "nothing to do";
+    if (!run_until([&] { return static_cast<bool>(gateway->carry_out(command::Clear{})); }, 5s))
+      return "no clear";
+    how = "clear";
+    const auto resumes = [&] { return static_cast<bool>(gateway->carry_out(command::Resume{})); };
+    if (!run_until(resumes, 20s)) return how + ", no resume";
+    return reach(MachineState::kReady, 180s) ? how + ", resume" : how + ", resume, and not to the end";
+  }
+  std::string named() const {
+    for (const MachineEvent& e : events)
+      if (e.kind == MachineEvent::Kind::kAlarm || e.words.find("another device") != std::string::npos)
+        return e.words;
+    return "-";
+  }
+
+  std::unique_ptr<Kinematics> kinematics;
+  CanFrame record, rate, before_rate;
+  std::optional<CanFrame> voucher;
+  double off_um = 0;
+};
+
+struct Attack {
+  const char* name;
+  std::function<void(Attacked&)> make;
+  double most_um = kOnThePath_um;
+  bool session_goes_on = false;  ///< with a session the job is not even interrupted
+};
+
+CanFrame forged_rate(const Attacked& rig, RateCommand::Kind kind, std::uint16_t q15) {
+  return encode(RateCommand{.kind = kind,
+                            .counter = 11,
+                            .rate_q15 = q15,
+                            .full_ramp_2ms = 5,
+                            .start = BusTime{(rig.now + 5ms).count() / 1000 * 1000}});
+}
+CanFrame forged_stop_request(const Attacked& rig, std::uint8_t node) {
+  CanFrame forged = encode(Emergency{.node = node, .code = 0x1000, .error_register = 1});
+  const auto stop = encode(StopRequest{StopReason::kCommand, 0, rig.now});
+  std::copy(stop.begin(), stop.end(), forged.data.begin() + 3);
+  return forged;
+}
+
+const std::vector<Attack>& attacks() {
+  static const std::vector<Attack> all{
+      {"record out of its order", [](Attacked& rig) { rig.sends("402#4001000000000000"); }},
+      {"the record that node 2 waits for, before the gateway's",
+       [](Attacked& rig) { rig.stranger_sends(rig.next_record()); }, kForgedRecord_um},
+      {"SYNC", [](Attacked& rig) { rig.sends("080#C8"); }},
+      {"SYNC's stamp, 300 us off",
+       [](Attacked& rig) {
+         rig.stranger_sends(encode(SyncStamp{.counter = 7, .epoch = 1, .time = rig.now + 300us}));
+       }},
+      {"rate 3 %",
+       [](Attacked& rig) { rig.stranger_sends(forged_rate(rig, RateCommand::Kind::kRate, 1000)); }},
+      {"rate, a recorded one with its voucher",
+       [](Attacked& rig) {
+         if (rig.voucher) rig.stranger_sends(*rig.voucher);
+         rig.stranger_sends(rig.rate);
+       }},
+      {"stop on the rate's COB-ID",
+       [](Attacked& rig) { rig.stranger_sends(forged_rate(rig, RateCommand::Kind::kStop, 0)); }},
+      {"RPDO1: drive of axis 1 off", [](Attacked& rig) { rig.sends("202#00000F000707"); }, kDriveOff_um,
+       true},
+      {"NMT stop of all", [](Attacked& rig) { rig.sends("000#0200"); }, kOnThePath_um, true},
+      {"NMT reset of node 3", [](Attacked& rig) { rig.sends("000#8103"); }, kOnThePath_um, true},
+      {"EMCY: stop, of node 2", [](Attacked& rig) { rig.stranger_sends(forged_stop_request(rig, 2)); }},
+      {"EMCY: stop, of a node that is not there",
+       [](Attacked& rig) { rig.stranger_sends(forged_stop_request(rig, 44)); }},
+      {"TPDO1 of node 2: switched off", [](Attacked& rig) { rig.sends("182#50025002070700"); }},
+      {"TPDO2 of node 2: another record", [](Attacked& rig) { rig.sends("282#2278410100000000"); }},
+      {"RTR on 77Fh, 1FFh, 080h",
+       [](Attacked& rig) {
+         for (const char* poll : {"77F#R", "1FF#R8", "080#R"}) rig.sends(poll);
+       },
+       kOnThePath_um, true},
+      {"flood of 2000 frames 001h",
+       [](Attacked& rig) {
+         for (int i = 0; i < 2000; ++i) rig.sends("001#FFFFFFFFFFFFFFFF");
+       }},
+      {"flood of 2000 frames 7FFh, one each ms",
+       [](Attacked& rig) {
+         for (int i = 0; i < 2000; ++i) {
+           rig.sends("7FF#5555555555555555");
+           rig.run_for(1ms);
+         }
+       },
+       kOnThePath_um, true},
+      {"SDO: stop ramp 2 ms", [](Attacked& rig) { rig.sends("602#2B13210002000000"); }, kOnThePath_um, true},
+      {"SDO: direction of axis 1", [](Attacked& rig) { rig.sends("602#2F40210401000000"); }, kOnThePath_um,
+       true},
+      {"SDO: drive of axis 1 off", [](Attacked& rig) { rig.sends("602#2B40600000000000"); }, kDriveOff_um,
+       true},
+      {"SDO: mode of axis 1", [](Attacked& rig) { rig.sends("602#2F60600001000000"); }, kOnThePath_um, true},
+      {"SDO: program stop (1F51h)", [](Attacked& rig) { rig.sends("602#2F511F0100000000"); }, kOnThePath_um,
+       true},
+      {"SDO: another key (2117h)", [](Attacked& rig) { rig.sends("602#2F17210500000000"); }, kOnThePath_um,
+       true},
+  };
+  return all;
+}
+
+class BusAttack : public testing::TestWithParam<BusTrust> {};
+
+TEST_P(BusAttack, NothingMovesApartSomebodyIsNamedAndTheJobIsFinished) {
+  const bool session = GetParam() == BusTrust::kSession;
+  std::printf("\n### trust = \"%s\"\n\n| attack | off the path | named | then |\n|---|---|---|---|\n",
+              session ? "session" : "open");
+  for (const Attack& attack : attacks()) {
+    SCOPED_TRACE(attack.name);
+    Attacked rig(GetParam());
+    ASSERT_TRUE(rig.make_ready()) << rig.story();
+    ASSERT_TRUE(rig.begin());
+    rig.run_for(300ms);
+    rig.events.clear();
+    attack.make(rig);
+    rig.watch(1500ms);
+    const std::string named = rig.named(), then = rig.go_on();
+    std::printf("| %s | %.1f um | %s | %s |\n", attack.name, rig.off_um, named.c_str(), then.c_str());
+    const bool untouched = session && attack.session_goes_on;
+    EXPECT_LE(rig.off_um, untouched ? kOnThePath_um : attack.most_um) << rig.story();
+    EXPECT_TRUE(then == "nothing to do" || then == "clear, resume") << then << "\n" << rig.story();
+    EXPECT_TRUE(named != "-" || then == "nothing to do") << rig.story();
+    if (!untouched) continue;
+    EXPECT_EQ(then, "nothing to do") << rig.story();
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Trust, BusAttack, testing::Values(BusTrust::kOpen, BusTrust::kSession));
+
+}  // namespace
+}  // namespace kinebus
