@@ -20,6 +20,9 @@ class Ring {
     end_.store(end + 1, std::memory_order_release);
     return true;
   }
+  std::uint32_t size() const {
+    return end_.load(std::memory_order_relaxed) - begin_.load(std::memory_order_acquire);
+  }
   /// nullptr: empty. Valid until drop().
   const T* front() const {
     const std::uint32_t begin = begin_.load(std::memory_order_relaxed);

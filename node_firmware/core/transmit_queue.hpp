@@ -23,6 +23,8 @@ class TransmitQueue {
     CanFrame frame{};  ///< kLoad
   };
 
+  /// A controller gives it `mailboxes` of them, the first ones.
+  explicit constexpr TransmitQueue(int mailboxes = kMailboxes) : given_(mailboxes) {}
   /// Room for one more, even when all mailboxes are taken back.
   bool has_room() const { return count_ + kMailboxes < kWaiting; }
   /// Only with has_room().
@@ -41,6 +43,7 @@ class TransmitQueue {
   void insert(const CanFrame& frame, bool before_equals);
   bool in_mailbox(std::uint32_t id) const;
 
+  int given_;
   std::array<Mailbox, kMailboxes> mailboxes_{};
   std::array<CanFrame, kWaiting> waiting_{};  // most urgent first
   std::size_t count_ = 0;

@@ -6,9 +6,12 @@
 #include <cstdint>
 #include <string_view>
 
+#include "node_firmware/usb/usb_control.hpp"
+
 namespace kinebus::cdc {
 
-inline constexpr std::size_t kPacketBytes = 64;
+using namespace usb;
+
 inline constexpr std::size_t kNotificationBytes = 16;
 
 // Endpoint addresses, as the descriptors and requests name them.
@@ -18,16 +21,6 @@ inline constexpr std::uint8_t kDataOut = 0x01, kDataIn = 0x81, kNotifyIn = 0x82;
 // 0483:df11.
 inline constexpr std::uint16_t kVendor = 0x0483, kProduct = 0x5740;
 inline constexpr std::string_view kManufacturerName = "Kinebus", kProductName = "Kinebus node";
-
-enum Descriptor : std::uint8_t {
-  kDevice = 1,
-  kConfiguration,
-  kString,
-  kInterface,
-  kEndpoint,
-  kFunctional = 0x24
-};
-enum StringIndex : std::uint8_t { kLanguages, kManufacturerString, kProductString, kSerialString };
 
 // clang-format off
 inline constexpr std::array<std::uint8_t, 18> kDeviceDescriptor{
@@ -60,6 +53,14 @@ inline constexpr std::array<std::uint8_t, 7> kDefaultLineCoding{0x00, 0xC2, 0x01
 
 /// SERIAL_STATE: carrier and data set are there.
 inline constexpr std::array<std::uint8_t, 10> kSerialState{0xA1, 0x20, 0, 0, 0, 0, 2, 0, 3, 0};
+
+inline constexpr std::array<std::uint8_t, 3> kEndpoints{kDataOut, kDataIn, kNotifyIn};
+inline constexpr Facts kFacts{.device = kDeviceDescriptor,
+                              .configuration = kConfigurationDescriptor,
+                              .manufacturer = kManufacturerName,
+                              .product = kProductName,
+                              .interfaces = 2,
+                              .endpoints = kEndpoints};
 
 // A reply that ends with a full packet, and is shorter than asked for, would need an empty one after it.
 static_assert(kDeviceDescriptor.size() % kPacketBytes != 0 &&

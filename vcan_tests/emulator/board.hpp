@@ -8,15 +8,15 @@
 
 #include "vcan_tests/emulator/peripherals/adc.hpp"
 #include "vcan_tests/emulator/peripherals/as5047.hpp"
-#include "vcan_tests/emulator/peripherals/otg_hs.hpp"
 #include "vcan_tests/emulator/peripherals/quadrature_counter.hpp"
 #include "vcan_tests/emulator/peripherals/spi.hpp"
 #include "vcan_tests/emulator/peripherals/usart.hpp"
 #include "vcan_tests/emulator/stm32f4_chip.hpp"
+#include "vcan_tests/emulator/usb_socket.hpp"
 
 namespace kinebus::emulator {
 
-class Board final : public Stm32f4Chip {
+class Board final : public Stm32f4Chip, public UsbSocket {
  public:
   Board(const ElfImage& image, const BoardOptions& options);
   ~Board() override;
@@ -35,11 +35,9 @@ class Board final : public Stm32f4Chip {
   Timer& pwm(int axis) { return axis == 0 ? tim1_ : tim8_; }
   PowerStage& stage(int axis) { return *stages_[static_cast<std::size_t>(axis)]; }
   Usart& console() { return usart_; }
-  OtgHs& usb() { return usb_; }
-  /// A cable with a host at its other end: VBUS comes or goes.
-  void set_usb_cable(bool plugged);
-  /// A host finds a full-speed device at the cable: pins, clocks and the core are as they must be for that.
-  bool usb_device_seen();
+  OtgHs& usb() override { return usb_; }
+  void set_usb_cable(bool plugged) override;
+  bool usb_device_seen() override;
   /// As an output drives it: the chip's own boot loader is given USB, and the gate drivers are held off.
   bool system_boot_selected() const;
 

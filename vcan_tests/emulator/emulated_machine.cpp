@@ -16,6 +16,8 @@ using namespace std::chrono_literals;
 
 // Shorter than the shortest frame (47 us): nothing that begins in a quantum ends in it.
 constexpr BusTime kQuantum = 40us;
+// ISO 11898-1: receivers have a frame at the last but one bit of its end, its sender a bit later.
+constexpr BusTime kSenderLater = 1us;
 constexpr BusTime kErrorFrame = 20us;  // flags and delimiter, about
 
 std::uint32_t serial_of(const std::array<std::uint32_t, 3>& unique_id) {
@@ -57,7 +59,7 @@ BusTime EmulatedMachine::Node::time_of(Cycle cycle) const {
 
 EmulatedMachine::EmulatedMachine(const ElfImage& image, const std::vector<EmulatedNodeOptions>& nodes,
                                  int gateway_mailboxes)
-    : image_(image), gateway_(bus_.add_port(gateway_mailboxes)) {
+    : gateway_(bus_.add_port(gateway_mailboxes)) {
   BusTime longest{0};
   for (const EmulatedNodeOptions& options : nodes) longest = std::max(longest, options.powered_before);
   for (const EmulatedNodeOptions& options : nodes) {
@@ -168,16 +170,38 @@ void EmulatedMachine::collect(BusTime now) {
   for (const Asked& a : asked) {
     const auto mailbox = static_cast<std::size_t>(a.request.mailbox);
     if (a.request.abort) {
-      if (!a.node->waiting[mailbox] || !bus_.withdraw(a.node->port, a.node->in_mailbox[mailbox])) continue;
+      if (!a.node->waiting[mailbox]) continue;
+      if (!bus_.withdraw(a.node->port, a.node->in_mailbox[mailbox])) {
+        a.node->abort_asked[mailbox] = true;  // it is on the wire: in force if it fails there
+        continue;
+      }
       a.node->waiting[mailbox] = false;
       a.node->board->can().on_aborted(a.request.mailbox);
     } else {
       assert(!a.node->waiting[mailbox] && bus_.has_room(a.node->port));
       a.node->in_mailbox[mailbox] = a.request.frame;
       a.node->waiting[mailbox] = true;
+      a.node->abort_asked[mailbox] = false;
       bus_.send(a.node->port, std::max(a.at, BusTime{0}), a.request.frame);
     }
   }
+}
+
+bool EmulatedMachine::acknowledged(const Node* sender) const {
+  if (sender == nullptr) return true;
+  return gateway_there_ || std::ranges::any_of(nodes_, [&](const auto& node) {
+           return node.get() != sender && node->board->can().listening();
+         });
+}
+
+// What was destroyed, or not acknowledged, is sent again, unless the program has called it back.
+void EmulatedMachine::repeat(Node& sender, const BusModel::Delivery& delivery) {
+  for (std::size_t m = 0; m < sender.waiting.size(); ++m) {
+    if (!sender.waiting[m] || sender.in_mailbox[m] != delivery.frame || !sender.abort_asked[m]) continue;
+    sender.waiting[m] = sender.abort_asked[m] = false;
+    return sender.board->can().on_aborted(static_cast<int>(m));
+  }
+  bus_.send(sender.port, delivery.end + kErrorFrame, delivery.frame);
 }
 
 void EmulatedMachine::deliver(const BusModel::Delivery& delivery) {
@@ -192,9 +216,13 @@ void EmulatedMachine::deliver(const BusModel::Delivery& delivery) {
       sender->waiting = {};  // its controller leaves the bus with all it wanted to say
       for (const CanFrame& frame : sender->in_mailbox) bus_.withdraw(sender->port, frame);
     } else {
-      bus_.send(sender->port, delivery.end + kErrorFrame, delivery.frame);
+      repeat(*sender, delivery);
     }
     return;
+  }
+  if (!acknowledged(sender)) {
+    sender->board->can().on_no_acknowledge(sender->cycle_at(delivery.end));
+    return repeat(*sender, delivery);
   }
   received_.push_back({delivery.end - epoch_, delivery.from == gateway_, delivery.frame});
   for (const auto& node : nodes_) {
@@ -206,7 +234,8 @@ void EmulatedMachine::deliver(const BusModel::Delivery& delivery) {
       const auto m = static_cast<std::size_t>(mailbox);
       if (!node->waiting[m] || node->in_mailbox[m] != delivery.frame) continue;
       node->waiting[m] = false;
-      node->board->sent(node->cycle_at(delivery.end), mailbox);
+      node->abort_asked[m] = false;
+      node->board->sent(node->cycle_at(delivery.end + kSenderLater), mailbox);
       break;
     }
   }
@@ -218,7 +247,7 @@ double EmulatedMachine::true_counts(int node, int axis, BusTime) {
 
 PathTime EmulatedMachine::path_time(int node, BusTime at) {
   Node& n = *nodes_[static_cast<std::size_t>(node)];
-  const auto function = image_.symbol("debug_path_time");
+  const auto function = n.board->image().symbol("debug_path_time");
   if (!function) return n.last_path;
   // Local time as the program counts it: 4 MHz from its own start on; asked for by cycles, which the
   // program's own clock translates.
@@ -229,7 +258,7 @@ PathTime EmulatedMachine::path_time(int node, BusTime at) {
 }
 
 std::optional<std::int64_t> EmulatedMachine::commanded(int node, int axis) {
-  const auto function = image_.symbol("debug_position");
+  const auto function = chip(node).image().symbol("debug_position");
   if (!function) return std::nullopt;
   const auto position = chip(node).cpu().call(*function, static_cast<std::uint64_t>(axis));
   if (!position) return std::nullopt;

@@ -74,6 +74,8 @@ class EmulatedMachine : public NodeMachine {
   void power_cycle(int node);
   /// The next frames of this node are destroyed on the wire: error frames, counters, repeats.
   void disturb(int node, int frames) { nodes_[static_cast<std::size_t>(node)]->disturbed = frames; }
+  /// Whether the gateway is on the wire and acknowledges. What is said there is received in any case.
+  void set_gateway_on_wire(bool there) { gateway_there_ = there; }
 
  private:
   struct Node {
@@ -83,6 +85,7 @@ class EmulatedMachine : public NodeMachine {
     double drift_ppm = 0;
     std::array<CanFrame, CanController::kMailboxes> in_mailbox{};
     std::array<bool, CanController::kMailboxes> waiting{};
+    std::array<bool, CanController::kMailboxes> abort_asked{};
     int disturbed = 0;
     PathTime last_path{0};
 
@@ -90,13 +93,15 @@ class EmulatedMachine : public NodeMachine {
     BusTime time_of(Cycle cycle) const;
   };
   bool advance_to(BusTime until);
+  bool acknowledged(const Node* sender) const;
+  void repeat(Node& sender, const BusModel::Delivery& delivery);
   void collect(BusTime now);
   void deliver(const BusModel::Delivery& delivery);
   void commission(const std::vector<EmulatedNodeOptions>& options);
 
-  const ElfImage& image_;
   BusModel bus_;
   BusModel::Port gateway_;
+  bool gateway_there_ = true;
   std::vector<std::unique_ptr<Node>> nodes_;
   std::vector<Received> received_;
   std::size_t next_received_ = 0;

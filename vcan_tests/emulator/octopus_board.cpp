@@ -61,7 +61,9 @@ OctopusBoard::OctopusBoard(const ElfImage& image, const BoardOptions& options, s
       tim8_(cpu_.nvic(), {.update_irq = 44, .break_irq = 43}),
       dma2_(cpu_.nvic(), {56, 57, 58, 59, 60, 68, 69, 70}),
       adc_(cpu_.nvic()),
-      makers_loader_(first_address(image) != CortexM4::kFlash) {
+      makers_loader_(first_address(image) != CortexM4::kFlash),
+      usb_(cpu_.nvic(), {.irq = 67, .memory_words = 320, .endpoints = 6, .later_core = true}) {
+  map(0x50000000, 0x40000, usb_, ahb2(7));
   map(0x40010000, 0x400, tim1_, apb2(0));
   map(0x40010400, 0x400, tim8_, apb2(1));
   map(AdcBlock::kAddress, 0x400, adc_, apb2(8));
@@ -132,6 +134,23 @@ int OctopusBoard::outputs() const {
   return count;
 }
 
+void OctopusBoard::set_usb_cable(bool plugged) {
+  constexpr Cycle kUntilAsleep = 3 * kCoreHz / 1000;
+  cable_ = plugged;
+  sleeps_ = plugged ? kNever : cpu_.now() + kUntilAsleep;
+  schedule();
+}
+
+bool OctopusBoard::usb_device_seen() {
+  constexpr std::uint32_t kAhb2Enable = 0x34;
+  constexpr int kUsb = 7, kUsbFunction = 10;
+  const GpioPort& a = ports_[0];
+  const bool pins = a.mode(11) == GpioPort::Mode::kAlternate && a.alternate(11) == kUsbFunction &&
+                    a.mode(12) == GpioPort::Mode::kAlternate && a.alternate(12) == kUsbFunction;
+  return cable_ && pins && rcc_.clock_enabled(kAhb2Enable, kUsb) && rcc_.usb_hz() == 48'000'000u &&
+         usb_.pulled_up(cpu_.now());
+}
+
 int OctopusBoard::clock_offset(std::uint32_t base, std::uint32_t address) const {
   return base == AdcBlock::kAddress ? AdcBlock::clock_offset(address) : 0;
 }
@@ -149,6 +168,7 @@ void OctopusBoard::reset_devices(Cycle now) {
   tim8_.reset(now);
   dma2_.reset();
   adc_.reset();
+  usb_.reset();
   on_pins(now);
 }
 
@@ -162,10 +182,13 @@ void OctopusBoard::advance_devices(Cycle now) {
   look_at_diag();
   adc_.advance(now);
   heated_.advance(now);
+  if (sleeps_ > now) return;
+  sleeps_ = kNever;
+  usb_.suspend();
 }
 
 Cycle OctopusBoard::next_of_devices() const {
-  Cycle next = std::min({tim1_.next_event(), tim8_.next_event(), adc_.next_event(), heated_.next_event()});
+  Cycle next = std::min({tim1_.next_event(), tim8_.next_event(), adc_.next_event(), heated_.next_event(), sleeps_});
   for (const Tmc2209& chip : chips_) next = std::min(next, chip.next_event());
   for (const Wire& wire : wires_) next = std::min(next, wire.rises);
   return next;

@@ -13,6 +13,7 @@
 #include "vcan_tests/emulator/physics/heated_places.hpp"
 #include "vcan_tests/emulator/physics/tmc2209.hpp"
 #include "vcan_tests/emulator/stm32f4_chip.hpp"
+#include "vcan_tests/emulator/usb_socket.hpp"
 
 namespace kinebus::emulator {
 
@@ -48,7 +49,7 @@ class StepDriver {
   Shortest shortest_;
 };
 
-class OctopusBoard final : public Stm32f4Chip {
+class OctopusBoard final : public Stm32f4Chip, public UsbSocket {
  public:
   static constexpr double kCountsPerStep = 16;
 
@@ -81,6 +82,10 @@ class OctopusBoard final : public Stm32f4Chip {
   bool anything_on() const;
   /// Pins that the program has made outputs.
   int outputs() const;
+  OtgHs& usb() override { return usb_; }
+  /// VBUS leads to no pin: without a host the bus just sleeps.
+  void set_usb_cable(bool plugged) override;
+  bool usb_device_seen() override;
 
  private:
   void reset_devices(Cycle now) override;
@@ -97,6 +102,9 @@ class OctopusBoard final : public Stm32f4Chip {
   AdcBlock adc_;
   HeatedPlaces heated_;
   bool makers_loader_;  ///< runs first after every reset, and takes the RAM for itself
+  OtgHs usb_;
+  bool cable_ = false;
+  Cycle sleeps_ = kNever;
   std::array<StepDriver, 8> drivers_;
   std::array<Tmc2209, 8> chips_{};
   // A wire is let go of and rises by a resistor: not at once.

@@ -49,6 +49,7 @@ class Stm32f4Chip : public Chip {
   void start();
 
   static constexpr Rcc::Clock ahb1(int bit) { return {0x30, bit}; }
+  static constexpr Rcc::Clock ahb2(int bit) { return {0x34, bit}; }
   static constexpr Rcc::Clock apb1(int bit) { return {0x40, bit}; }
   static constexpr Rcc::Clock apb2(int bit) { return {0x44, bit}; }
 

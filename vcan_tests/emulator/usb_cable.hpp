@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "vcan_tests/emulator/board.hpp"
+#include "vcan_tests/emulator/usb_socket.hpp"
 
 namespace kinebus::emulator {
 
 class UsbCable {
  public:
-  explicit UsbCable(Board& board) : board_(board) {}
+  explicit UsbCable(UsbSocket& board) : board_(board) {}
   ~UsbCable() { pull(); }
   UsbCable(const UsbCable&) = delete;
   UsbCable& operator=(const UsbCable&) = delete;
@@ -52,7 +52,7 @@ class UsbCable {
   void note_toggles(const Urb& urb);
   void send(const std::vector<std::uint8_t>& bytes);
 
-  Board& board_;
+  UsbSocket& board_;
   std::string error_;
   int fd_ = -1;
   bool addressed_ = false;

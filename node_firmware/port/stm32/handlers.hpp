@@ -17,4 +17,5 @@ void isr_can_state();     ///< error passive, bus-off
 void isr_break_a();       ///< over-current comparator of motor A
 void isr_break_b();       ///< of motor B
 void isr_console();
+void isr_usb();  ///< OTG_FS
 }

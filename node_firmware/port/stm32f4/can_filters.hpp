@@ -16,12 +16,14 @@ struct CanBanks {
   std::uint32_t used = 0, lists = 0;  ///< FA1R, FM1R
 };
 
+/// Whatever the bus carries.
+inline constexpr CanBanks kEveryFrame{.words = {}, .used = 1, .lists = 0};
+
 /// Data frames with standard identifiers alone. More than there is room for: everything is heard, and sorted
 /// out later.
 constexpr CanBanks pack_filters(std::span<const CanAccept> filters) {
   // Identifier, RTR, IDE, three bits of an extended identifier.
   constexpr std::uint32_t kKinds = 3u << 3;
-  constexpr CanBanks kEverything{.words = {}, .used = 1, .lists = 0};
   CanBanks banks;
   std::size_t bank = 0;
   for (const bool list : {false, true}) {
@@ -29,7 +31,7 @@ constexpr CanBanks pack_filters(std::span<const CanAccept> filters) {
     std::size_t held = 0;
     for (const CanAccept& accept : filters) {
       if ((accept.mask == 0x7FF) != list) continue;
-      if (bank == CanBanks::kBanks) return kEverything;
+      if (bank == CanBanks::kBanks) return kEveryFrame;
       auto& words = banks.words[bank];
       const std::uint32_t id = std::uint32_t{accept.value} << 5;
       const std::uint32_t word = list ? id << 16 | id : (std::uint32_t{accept.mask} << 5 | kKinds) << 16 | id;

@@ -1,15 +1,11 @@
 #include "node_firmware/port/stm32f4/can_port.hpp"
 
-#include "node_firmware/port/stm32f4/can_filters.hpp"
 #include "node_firmware/port/stm32f4/registers.hpp"
 #include "protocol/bytes.hpp"
 
 namespace kinebus::stm32 {
 namespace {
 
-constexpr std::uint32_t identifier(std::uint32_t id) {
-  return id << 21;
-}
 constexpr std::uint32_t kBitTiming = (kCanTiming.jump - 1) << 24 | (kCanTiming.segment2 - 1) << 20 |
                                      (kCanTiming.segment1 - 1) << 16 | (kCanTiming.prescaler - 1);
 
@@ -42,7 +38,8 @@ void CanPort::join() {
   if (progress_ == Progress::kAsked && initialising) {
     can.MCR = Can::kInitRequest | Can::kAutoBusOff;
     can.BTR = kBitTiming;
-    can.IER = Can::kOnFifo0 | Can::kOnOverrun0 | Can::kOnPassive | Can::kOnBusOff | Can::kOnError;
+    can.IER =
+        interrupts_ | Can::kOnFifo0 | Can::kOnOverrun0 | Can::kOnPassive | Can::kOnBusOff | Can::kOnError;
     can.MCR = Can::kAutoBusOff;
     progress_ = Progress::kSetUp;
   } else if (progress_ == Progress::kSetUp && !initialising) {
@@ -51,8 +48,11 @@ void CanPort::join() {
 }
 
 void CanPort::accept(std::span<const CanAccept> filters) {
+  apply(pack_filters(filters));
+}
+
+void CanPort::apply(const CanBanks& banks) {
   Can& can = can1();
-  const CanBanks banks = pack_filters(filters);
   can.FMR = can.FMR | Can::kFilterInit;
   can.FA1R = 0;
   can.FM1R = banks.lists;
@@ -66,19 +66,28 @@ void CanPort::accept(std::span<const CanAccept> filters) {
   can.FMR = can.FMR & ~Can::kFilterInit;
 }
 
-void CanPort::on_receive(std::uint32_t counts) {
+std::optional<CanPort::Received> CanPort::take(std::uint32_t counts) {
   Can& can = can1();
-  while ((can.RFR[0] & Can::kFifoCount) != 0) {
-    const Can::RxFifo& fifo = can.rx[0];
-    if (!received_.push({fifo.RIR, fifo.RDTR, fifo.RDLR, fifo.RDHR, counts})) ++events_.overruns;
-    can.RFR[0] = Can::kFifoRelease;
-    // The hardware needs a moment before the count shows the release; the flag clears by itself.
-    if (!wait_until([&] { return (can.RFR[0] & Can::kFifoRelease) == 0; }, 100)) break;
-  }
-  if ((can.RFR[0] & Can::kFifoOverrun) != 0) {
-    can.RFR[0] = Can::kFifoOverrun;
-    ++events_.overruns;
-  }
+  if ((can.RFR[0] & Can::kFifoCount) == 0) return std::nullopt;
+  const Can::RxFifo& fifo = can.rx[0];
+  const Received item{fifo.RIR, fifo.RDTR, fifo.RDLR, fifo.RDHR, counts};
+  can.RFR[0] = Can::kFifoRelease;
+  // The hardware needs a moment before the count shows the release; the flag clears by itself.
+  static_cast<void>(wait_until([&] { return (can.RFR[0] & Can::kFifoRelease) == 0; }, 100));
+  return item;
+}
+
+void CanPort::count_overruns() {
+  Can& can = can1();
+  if ((can.RFR[0] & Can::kFifoOverrun) == 0) return;
+  can.RFR[0] = Can::kFifoOverrun;
+  ++events_.overruns;
+}
+
+void CanPort::on_receive(std::uint32_t counts) {
+  while (const auto item = take(counts))
+    if (!received_.push(*item)) ++events_.overruns;
+  count_overruns();
 }
 
 void CanPort::on_state() {
@@ -112,12 +121,21 @@ void CanPort::serve_mailboxes() {
       can.TSR = Can::kAbort[action.mailbox];
       return;
     }
-    Can::TxMailbox& mailbox = can.tx[action.mailbox];
-    mailbox.TDTR = action.frame.length;
-    mailbox.TDLR = get_u32_le(action.frame.data);
-    mailbox.TDHR = get_u32_le(std::span(action.frame.data).subspan(4));
-    mailbox.TIR = identifier(action.frame.id) | Can::kTransmit;
+    load(action.mailbox, action.frame);
   }
+}
+
+std::uint32_t CanPort::identifier_register(const CanFrame& frame) {
+  return (frame.extended ? frame.id << 3 | Can::kExtended : frame.id << 21) |
+         (frame.remote ? Can::kRemote : 0);
+}
+
+void CanPort::load(int mailbox, const CanFrame& frame) {
+  Can::TxMailbox& registers = can1().tx[mailbox];
+  registers.TDTR = frame.length;
+  registers.TDLR = get_u32_le(frame.data);
+  registers.TDHR = get_u32_le(std::span(frame.data).subspan(4));
+  registers.TIR = identifier_register(frame) | Can::kTransmit;
 }
 
 }  // namespace kinebus::stm32

@@ -4,12 +4,14 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "node_firmware/board/can_timing.hpp"
 #include "node_firmware/board/drivers.hpp"
 #include "node_firmware/board/ring.hpp"
 #include "node_firmware/core/transmit_queue.hpp"
+#include "node_firmware/port/stm32f4/can_filters.hpp"
 #include "node_firmware/port/stm32f4/clocks.hpp"
 #include "protocol/can/frame.hpp"
 
@@ -28,6 +30,7 @@ class CanPort {
     std::uint32_t counts = 0;  ///< local time at interrupt entry
     CanFrame frame() const;
   };
+  constexpr CanPort() = default;
 
   /// Sets the controller up. It joins the bus when that has been recessive for 11 bits: soon, or when there
   /// is one.
@@ -48,14 +51,23 @@ class CanPort {
   void on_receive(std::uint32_t counts);
   void on_state();
 
- private:
+ protected:
+  /// Only the first mailboxes are the queue's; further interrupts (IER).
+  constexpr CanPort(int mailboxes, std::uint32_t interrupts) : queue_(mailboxes), interrupts_(interrupts) {}
   void join();
+  void apply(const CanBanks& banks);
+  /// The oldest frame of the controller's FIFO, which it then has no more.
+  std::optional<Received> take(std::uint32_t counts);
+  void count_overruns();
+  static std::uint32_t identifier_register(const CanFrame& frame);
+  static void load(int mailbox, const CanFrame& frame);
 
   TransmitQueue queue_;
   // The longest pass of the main loop, 3.2 ms, is 68 of the shortest frames.
   Ring<Received, 128> received_;
   CanEvents events_;
   bool was_off_ = false, was_passive_ = false;
+  std::uint32_t interrupts_ = 0;
   enum class Progress : std::uint8_t { kAsked, kSetUp, kJoined } progress_ = Progress::kAsked;
 };
 static_assert(CanDriver<CanPort>);

@@ -31,6 +31,7 @@ struct Rcc {
   static constexpr std::uint32_t gpio_clock(Port port) { return bit(static_cast<int>(port)); }
   static constexpr std::uint32_t kDma2 = bit(22), kUsbHs = bit(29);
   static constexpr std::uint32_t kUsbUlpi = bit(30);  // AHB1LPENR: clock of an external PHY, in sleep
+  static constexpr std::uint32_t kUsbFs = bit(7);     // AHB2ENR
   // APB1ENR
   static constexpr std::uint32_t kTim2 = bit(0), kTim3 = bit(1), kTim4 = bit(2), kSpi3 = bit(15),
                                  kCan1 = bit(25), kPower = bit(28);
@@ -215,7 +216,7 @@ inline Can& can1() {
   return peripheral<Can>(0x4000'6400);
 }
 
-/// OTG_HS as a full-speed device with its own transceiver.
+/// OTG_HS or OTG_FS as a full-speed device with its own transceiver.
 struct Otg {
   Reg GOTGCTL, GOTGINT, GAHBCFG, GUSBCFG, GRSTCTL, GINTSTS, GINTMSK, GRXSTSR, GRXSTSP, GRXFSIZ, DIEPTXF0,
       reserved0[3], GCCFG, CID, reserved1[49], DIEPTXF[7], reserved2[440];
@@ -230,25 +231,32 @@ struct Otg {
   static constexpr std::uint32_t kInternalPhy = bit(6), kForceDevice = bit(30);        // GUSBCFG
   static constexpr std::uint32_t turnaround(unsigned clocks) { return clocks << 10; }  // GUSBCFG
   static constexpr std::uint32_t kCoreReset = bit(0), kFlushReceive = bit(4), kFlushSend = bit(5),
-                                 kBusIdle = bit(31);                                // GRSTCTL
-  static constexpr std::uint32_t fifo_number(unsigned n) { return n << 6; }         // GRSTCTL, 16: all
-  static constexpr std::uint32_t kReceived = bit(4), kReset = bit(12);              // GINTSTS
+                                 kBusIdle = bit(31);                         // GRSTCTL
+  static constexpr std::uint32_t fifo_number(unsigned n) { return n << 6; }  // GRSTCTL, 16: all
+  static constexpr std::uint32_t kReceived = bit(4), kSuspend = bit(11), kReset = bit(12),
+                                 kSendEvent = bit(18);                              // GINTSTS, GINTMSK
+  static constexpr std::uint32_t kInterruptOn = bit(0);                             // GAHBCFG
   static constexpr std::uint32_t kTransceiver = bit(16), kNoVbusSensing = bit(21);  // GCCFG
-  static constexpr std::uint32_t kFullSpeed = 3, kAddressMask = 0x7Fu << 4;         // DCFG
-  static constexpr std::uint32_t address(unsigned a) { return a << 4; }             // DCFG
-  static constexpr std::uint32_t kDetach = bit(1);                                  // DCTL
+  // GOTGCTL of the F446, whose GCCFG has another bit 21: VBUS is taken to be there.
+  static constexpr std::uint32_t kVbusOverride = bit(6) | bit(7);
+  static constexpr std::uint32_t kFullSpeed = 3, kAddressMask = 0x7Fu << 4;  // DCFG
+  static constexpr std::uint32_t address(unsigned a) { return a << 4; }      // DCFG
+  static constexpr std::uint32_t kDetach = bit(1);                           // DCTL
   static constexpr std::uint32_t kActive = bit(15), kStall = bit(21), kClearNak = bit(26), kSetNak = bit(27),
-                                 kDataZero = bit(28), kDisable = bit(30), kEnable = bit(31);  // CTL
-  static constexpr std::uint32_t kBulk = 2u << 18, kInterrupt = 3u << 18;                     // CTL
-  static constexpr std::uint32_t fifo_of(unsigned n) { return n << 22; }                      // CTL
-  static constexpr std::uint32_t kDisabled = bit(1), kNakInForce = bit(6);                    // INT
-  static constexpr std::uint32_t kOnePacket = bit(19), kThreeSetups = 3u << 29;               // TSIZ
+                                 kDataZero = bit(28), kDisable = bit(30), kEnable = bit(31);    // CTL
+  static constexpr std::uint32_t kBulk = 2u << 18, kInterrupt = 3u << 18;                       // CTL
+  static constexpr std::uint32_t fifo_of(unsigned n) { return n << 22; }                        // CTL
+  static constexpr std::uint32_t kComplete = bit(0), kDisabled = bit(1), kNakInForce = bit(6);  // INT
+  static constexpr std::uint32_t kOnePacket = bit(19), kThreeSetups = 3u << 29;                 // TSIZ
 };
 static_assert(offsetof(Otg, GCCFG) == 0x38 && offsetof(Otg, DIEPTXF) == 0x104 &&
               offsetof(Otg, DCFG) == 0x800 && offsetof(Otg, in) == 0x900 && offsetof(Otg, out) == 0xB00 &&
               offsetof(Otg, PCGCCTL) == 0xE00 && offsetof(Otg, fifo) == 0x1000);
-inline Otg& otg() {
+inline Otg& otg_hs() {
   return peripheral<Otg>(0x4004'0000);
+}
+inline Otg& otg_fs() {
+  return peripheral<Otg>(0x5000'0000);
 }
 
 /// DMA2, the controller that reaches the GPIO ports: its eight streams.
@@ -348,12 +356,19 @@ enum class Irq : int {
   kExti15To10 = 40,
   kTim8Break = 43,
   kDma2Stream1 = 57,
+  kOtgFs = 67,
 };
 /// priority: 0 (most urgent) to 15.
 inline void enable_interrupt(Irq irq, unsigned priority) {
   const auto n = static_cast<unsigned>(irq);
   nvic().IPR[n] = static_cast<std::uint8_t>(priority << 4);
   nvic().ISER[n / 32] = std::uint32_t{1} << (n % 32);
+}
+
+/// As if the peripheral had asked for it.
+inline void pend_interrupt(Irq irq) {
+  const auto n = static_cast<unsigned>(irq);
+  nvic().ISPR[n / 32] = std::uint32_t{1} << (n % 32);
 }
 
 }  // namespace kinebus::stm32

@@ -50,4 +50,7 @@ extern "C" {
 [[gnu::weak, gnu::naked]] void isr_console() {
   asm volatile("b isr_unexpected");
 }
+[[gnu::weak, gnu::naked]] void isr_usb() {
+  asm volatile("b isr_unexpected");
+}
 }

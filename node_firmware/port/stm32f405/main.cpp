@@ -43,7 +43,7 @@ constinit WatchdogPort dog;
 constinit WatchdogKeeper keeper;
 constinit UsartPort usart;
 constinit ScalePort scales;
-constinit UsbPort usb;
+constinit UsbPort usb_port;
 constinit std::optional<NodeProgram<CanPort, Switches, LocalTimer>> program;
 
 // Asked for by 1F51h, when the answer is on the bus, or by a console. Motors have no power then (Node and
@@ -116,7 +116,7 @@ int main() {
   enable_interrupts();
   const bool motors_good = own_board && watch_supply() && motors.start();
   usart.start();
-  if (own_board) usb.start();
+  if (own_board) usb_port.start();
   dog.start();
   for (;;) {
     scales.serve(node);
@@ -133,10 +133,10 @@ int main() {
                                    .serial = serial,
                                    .image_bytes = kImageHeader.length};
     usart.serve(subject);
-    usb.serve(subject);
+    usb_port.serve(subject);
     show(node);
     if (program->stop_requested() && can_port.queue().idle()) give_way(node, Handover::kBootLoader);
-    if (usart.console().system_boot_requested() || usb.console().system_boot_requested())
+    if (usart.console().system_boot_requested() || usb_port.console().system_boot_requested())
       give_way(node, Handover::kSystemBoot);
     // So long without a reset: this program is good.
     if (program->now() > kProgramProved) handover_ram.starts = 0;

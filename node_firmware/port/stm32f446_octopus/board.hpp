@@ -94,6 +94,9 @@ inline constexpr std::array kPins = {
   Pin{D, 14, kOutput,    kDown,  0, false, "FAN4"},
   Pin{D, 15, kOutput,    kDown,  0, false, "FAN5"},
   Pin{E, 11, kOutput,    kDown,  0, false, "PS-ON: the heaters' supply, high: on"},
+  // USB-C socket; its VBUS leads to no pin.
+  Pin{A, 11, kAlternate, kNone, 10, false, "OTG_FS_DM"},
+  Pin{A, 12, kAlternate, kNone, 10, false, "OTG_FS_DP"},
 };
 // clang-format on
 static_assert(stm32::pins_differ(kPins));

@@ -10,7 +10,7 @@
 #include "node_firmware/port/stm32/handlers.hpp"
 #include "node_firmware/port/stm32/outputs_off.hpp"
 #include "node_firmware/port/stm32f4/backup_port.hpp"
-#include "node_firmware/port/stm32f4/can_port.hpp"
+#include "node_firmware/port/stm32f4/bridged_can.hpp"
 #include "node_firmware/port/stm32f4/clock_tree.hpp"
 #include "node_firmware/port/stm32f4/flash_port.hpp"
 #include "node_firmware/port/stm32f4/handover_port.hpp"
@@ -22,6 +22,7 @@
 #include "node_firmware/port/stm32f4/switch_port.hpp"
 #include "node_firmware/port/stm32f4/watchdog_port.hpp"
 #include "node_firmware/port/stm32f446_octopus/board.hpp"
+#include "node_firmware/port/stm32f446_octopus/bridge_port.hpp"
 #include "node_firmware/port/stm32f446_octopus/driver_wire.hpp"
 #include "node_firmware/port/stm32f446_octopus/heat_stage.hpp"
 #include "node_firmware/port/stm32f446_octopus/loader_port.hpp"
@@ -41,7 +42,10 @@ constexpr std::size_t kBoardIds = kNodes + 1;
 static_assert(Motors::kNodes == kNodes && Stm32f446OctopusBoard::kFacts.consecutive_ids == kBoardIds);
 using Heat = BoardHeat<HeatPort>;
 
-constinit CanPort can_port;
+constexpr GsUsbFacts kCanFacts{.clock_hz = kApb1Hz, .bit_rate = 1'000'000};
+constinit GsUsbDevice gs_usb_device{kCanFacts};
+constinit BridgedCan can_port{gs_usb_device};
+constinit BridgePort usb_port{gs_usb_device, can_port};
 constinit Switches switch_port;
 constinit Motors::Plans plans;
 constinit DriverWire driver_wire;
@@ -52,7 +56,7 @@ constinit PageStore store{parameter_flash};
 constinit NodeImages<kBoardIds> images{store};
 constinit WatchdogPort dog;
 constinit WatchdogKeeper keeper;
-constinit std::optional<NodeProgram<CanPort, Switches, LocalTimer, kNodes, Heat>> program;
+constinit std::optional<NodeProgram<BridgedCan, Switches, LocalTimer, kNodes, Heat>> program;
 
 static_assert(shares_slots(kNodeTable, BoardObjects<Stm32f446OctopusBoard>::kTable));
 
@@ -123,6 +127,12 @@ void isr_control() {
 void isr_can_receive() {
   can_port.on_receive(local_counts());
 }
+void isr_can_transmit() {
+  can_port.on_transmit(local_counts());
+}
+void isr_usb() {
+  usb_port.on_event();
+}
 void isr_can_state() {
   can_port.on_state();
 }
@@ -154,7 +164,10 @@ int main() {
   keep_records();  // without what was taken
   program.emplace(options, stored[0], can_port, switch_port, plans[0], octopus::kInputPlaces[0]);
   const bool good = own_board && watch_supply();
-  if (own_board) switch_port.start(local_counts());
+  if (own_board) {
+    switch_port.start(local_counts());
+    usb_port.start();
+  }
   enable_interrupts();
   if (good) {
     motors.start();
@@ -163,6 +176,8 @@ int main() {
   }
   dog.start();
   for (;;) {
+    can_port.serve();
+    usb_port.serve();
     pass(
         *program, motors, good, [](std::size_t i, auto image) { return images.save(i, image); }, dog);
     follow_first_id();

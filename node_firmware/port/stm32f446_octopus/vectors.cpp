@@ -10,6 +10,7 @@ constexpr VectorTable<97> make_vectors() {
   table.at(Irq::kExti9To5) = isr_switches;
   table.at(Irq::kExti15To10) = isr_switches;
   table.at(Irq::kDma2Stream1) = isr_control;
+  table.at(Irq::kOtgFs) = isr_usb;
   return table;
 }
 

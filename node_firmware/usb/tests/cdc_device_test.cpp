@@ -15,7 +15,7 @@ using Bytes = std::vector<std::uint8_t>;
 
 /// The control endpoint as a host uses it.
 struct Host {
-  Host() { device.identify({0x0123'4567, 0x89AB'CDEF, 0x0F1E'2D3C}); }
+  Host() { device.control().identify({0x0123'4567, 0x89AB'CDEF, 0x0F1E'2D3C}); }
 
   void setup(std::uint8_t type, std::uint8_t request, unsigned value, unsigned index, unsigned length) {
     std::array<std::uint8_t, 8> bytes{type, request};
@@ -30,12 +30,12 @@ struct Host {
     setup(type, request, value, index, length);
     Bytes all;
     packets = 0;
-    while (const auto packet = device.next_control_packet()) {
+    while (const auto packet = device.control().next_packet()) {
       EXPECT_LE(packet->size(), cdc::kPacketBytes);
       all.insert(all.end(), packet->begin(), packet->end());
       ++packets;
     }
-    if (device.stalled()) return std::nullopt;
+    if (device.control().stalled()) return std::nullopt;
     return all;
   }
   /// A request without data: true: its status came.
@@ -47,7 +47,7 @@ struct Host {
     device.on_reset();
     EXPECT_TRUE(command(0x00, 5, 42));
     EXPECT_TRUE(command(0x00, 9, 1));
-    device.take_changes();
+    device.control().take_changes();
     device.take_hang_up();
   }
   std::string text(unsigned index, unsigned length = 255) {
@@ -66,11 +66,11 @@ struct Host {
 TEST(CdcDevice, EnumeratesAsAHostAsksIt) {
   Host host;
   host.device.on_reset();
-  EXPECT_EQ(host.device.address(), 0);
+  EXPECT_EQ(host.device.control().address(), 0);
   // A host asks for eight bytes first: the packet size is the last of them.
   EXPECT_EQ(host.read(0x80, 6, 0x0100, 0, 8), (Bytes{18, 1, 0, 2, 2, 0, 0, 64}));
   EXPECT_TRUE(host.command(0x00, 5, 42));
-  EXPECT_EQ(host.device.address(), 42);
+  EXPECT_EQ(host.device.control().address(), 42);
   EXPECT_EQ(host.read(0x80, 6, 0x0100, 0, 64)->size(), 18u);
   EXPECT_EQ(host.read(0x80, 6, 0x0200, 0, 9)->at(2), 67);
   EXPECT_EQ(host.read(0x80, 6, 0x0200, 0, 67)->size(), 67u);
@@ -80,11 +80,11 @@ TEST(CdcDevice, EnumeratesAsAHostAsksIt) {
   EXPECT_EQ(host.text(3), "0123456789ABCDEF0F1E2D3C");
   EXPECT_EQ(host.read(0x80, 6, 0x0300, 0, 255), (Bytes{4, 3, 0x09, 0x04}));
   EXPECT_EQ(host.read(0x80, 8, 0, 0, 1), Bytes{0});
-  EXPECT_FALSE(host.device.open());
+  EXPECT_FALSE(host.device.control().open());
   EXPECT_TRUE(host.command(0x00, 9, 1));
   EXPECT_EQ(host.read(0x80, 8, 0, 0, 1), Bytes{1});
-  EXPECT_TRUE(host.device.open());
-  EXPECT_EQ(host.device.take_changes(), 7);
+  EXPECT_TRUE(host.device.control().open());
+  EXPECT_EQ(host.device.control().take_changes(), 7);
   ASSERT_TRUE(host.device.next_notification());
   EXPECT_FALSE(host.device.next_notification());
 }
@@ -149,8 +149,8 @@ TEST(CdcDevice, StallsWhatItDoesNotKnow) {
         << std::hex << int{w.type} << " " << int{w.request} << " " << w.value;
     EXPECT_TRUE(host.command(0x21, 0x22, 1)) << "the next request is answered";
   }
-  EXPECT_EQ(host.device.address(), 42);
-  EXPECT_TRUE(host.device.open());
+  EXPECT_EQ(host.device.control().address(), 42);
+  EXPECT_TRUE(host.device.control().open());
 }
 
 TEST(CdcDevice, KeepsTheLineCodingThatItGets) {
@@ -159,13 +159,13 @@ TEST(CdcDevice, KeepsTheLineCodingThatItGets) {
   EXPECT_EQ(host.read(0xA1, 0x21, 0, 0, 7), (Bytes{0x00, 0xC2, 0x01, 0, 0, 0, 8}));
   const Bytes coding{0x80, 0x25, 0, 0, 2, 1, 7};
   host.setup(0x21, 0x20, 0, 0, 7);
-  EXPECT_FALSE(host.device.next_control_packet()) << "no status before the data";
+  EXPECT_FALSE(host.device.control().next_packet()) << "no status before the data";
   host.device.on_control_data(coding);
-  ASSERT_TRUE(host.device.next_control_packet());
+  ASSERT_TRUE(host.device.control().next_packet());
   EXPECT_EQ(host.read(0xA1, 0x21, 0, 0, 7), coding);
   host.setup(0x21, 0x20, 0, 0, 7);
   host.device.on_control_data(std::span(coding).first(3));
-  EXPECT_TRUE(host.device.stalled());
+  EXPECT_TRUE(host.device.control().stalled());
   EXPECT_EQ(host.read(0xA1, 0x21, 0, 0, 7), coding);
 }
 
@@ -173,12 +173,12 @@ TEST(CdcDevice, ASetupPacketEndsWhateverWasUnderWay) {
   Host host;
   host.open();
   host.setup(0x80, 6, 0x0200, 0, 67);
-  EXPECT_EQ(host.device.next_control_packet()->size(), 64u);
+  EXPECT_EQ(host.device.control().next_packet()->size(), 64u);
   EXPECT_EQ(host.read(0x80, 0, 0, 0, 2), (Bytes{1, 0}));
   host.setup(0x21, 0x20, 0, 0, 7);
   EXPECT_TRUE(host.command(0x21, 0x22, 1));
   host.device.on_control_data(Bytes(7));
-  EXPECT_FALSE(host.device.next_control_packet()) << "data of a request that is over";
+  EXPECT_FALSE(host.device.control().next_packet()) << "data of a request that is over";
   EXPECT_EQ(host.read(0xA1, 0x21, 0, 0, 7)->at(1), 0xC2);
 }
 
@@ -186,13 +186,13 @@ TEST(CdcDevice, HaltsAndReleasesAnEndpoint) {
   Host host;
   host.open();
   EXPECT_TRUE(host.command(0x02, 3, 0, 0x81));
-  EXPECT_TRUE(host.device.halted(CdcDevice::kDataIn));
-  EXPECT_FALSE(host.device.halted(CdcDevice::kDataOut));
-  EXPECT_EQ(host.device.take_changes(), 1 << CdcDevice::kDataIn);
+  EXPECT_TRUE(host.device.control().halted(CdcDevice::kDataIn));
+  EXPECT_FALSE(host.device.control().halted(CdcDevice::kDataOut));
+  EXPECT_EQ(host.device.control().take_changes(), 1 << CdcDevice::kDataIn);
   EXPECT_EQ(host.read(0x82, 0, 0, 0x81, 2), (Bytes{1, 0}));
   EXPECT_EQ(host.read(0x82, 0, 0, 0x01, 2), (Bytes{0, 0}));
   EXPECT_TRUE(host.command(0x02, 1, 0, 0x81));
-  EXPECT_EQ(host.device.take_changes(), 1 << CdcDevice::kDataIn);
+  EXPECT_EQ(host.device.control().take_changes(), 1 << CdcDevice::kDataIn);
   EXPECT_EQ(host.read(0x82, 0, 0, 0x81, 2), (Bytes{0, 0}));
   EXPECT_EQ(host.read(0x82, 0, 0, 0, 2), (Bytes{0, 0}));
 }
@@ -224,8 +224,8 @@ TEST(CdcDevice, HangsUpWhenTheTerminalOrTheBusGoes) {
   EXPECT_FALSE(host.device.take_hang_up());
   host.device.on_reset();
   EXPECT_TRUE(host.device.take_hang_up());
-  EXPECT_FALSE(host.device.open());
-  EXPECT_EQ(host.device.address(), 0);
+  EXPECT_FALSE(host.device.control().open());
+  EXPECT_EQ(host.device.control().address(), 0);
 }
 
 }  // namespace

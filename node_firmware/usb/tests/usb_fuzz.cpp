@@ -45,7 +45,8 @@ class Session {
       case 5:
         if (kind == 0xFB) {
           device_.on_reset();
-          check(device_.address() == 0 && !device_.open() && device_.take_changes() == 7);
+          check(device_.control().address() == 0 && !device_.control().open() &&
+                device_.control().take_changes() == 7);
           allowed_ = 0;
         } else {
           drain_data();
@@ -59,12 +60,12 @@ class Session {
   void begin_anew() {
     device_.on_reset();
     setup(std::array<std::uint8_t, 8>{0x80, 6, 0, 1, 0, 0, 18, 0});
-    const auto packet = device_.next_control_packet();
-    check(packet && packet->size() == 18 && !device_.next_control_packet());
+    const auto packet = device_.control().next_packet();
+    check(packet && packet->size() == 18 && !device_.control().next_packet());
     setup(std::array<std::uint8_t, 8>{0x00, 5, 9, 0, 0, 0, 0, 0});
-    check(device_.next_control_packet().has_value() && device_.address() == 9);
+    check(device_.control().next_packet().has_value() && device_.control().address() == 9);
     setup(std::array<std::uint8_t, 8>{0x00, 9, 1, 0, 0, 0, 0, 0});
-    check(device_.next_control_packet().has_value() && device_.open() && device_.takes_data());
+    check(device_.control().next_packet().has_value() && device_.control().open() && device_.takes_data());
   }
 
  private:
@@ -73,7 +74,7 @@ class Session {
     allowed_ = get_u16_le(bytes.subspan(6));
   }
   void drain_control() {
-    for (int packets = 0; const auto packet = device_.next_control_packet(); ++packets) {
+    for (int packets = 0; const auto packet = device_.control().next_packet(); ++packets) {
       check(packets < 3 && packet->size() <= cdc::kPacketBytes && packet->size() <= allowed_);
       // Read it all: nothing points outside.
       for (const std::uint8_t byte : *packet) sum_ = static_cast<std::uint8_t>(sum_ + byte);
@@ -84,15 +85,16 @@ class Session {
     int count = 0;
     while (device_.next_char()) check(++count <= 64);
     device_.take_hang_up();
-    if (const auto packet = device_.next_notification()) check(packet->size() == 10 && device_.open());
+    if (const auto packet = device_.next_notification())
+      check(packet->size() == 10 && device_.control().open());
   }
   void look() {
-    check(device_.address() <= 127);
-    check(device_.take_changes() <= 7);
-    check(!device_.stalled() || !device_.next_control_packet());
-    if (!device_.open())
+    check(device_.control().address() <= 127);
+    check(device_.control().take_changes() <= 7);
+    check(!device_.control().stalled() || !device_.control().next_packet());
+    if (!device_.control().open())
       for (int slot = 0; slot < CdcDevice::kSlots; ++slot)
-        check(!device_.halted(static_cast<CdcDevice::Slot>(slot)) && !device_.takes_data());
+        check(!device_.control().halted(static_cast<CdcDevice::Slot>(slot)) && !device_.takes_data());
   }
 
   CdcDevice device_;

@@ -119,6 +119,14 @@ void BxCan::on_error(bool sending, Cycle now) {
   update_lines();
 }
 
+void BxCan::on_no_acknowledge(Cycle) {
+  if (!listening()) return;
+  lec_ = 3;
+  if (tec_ <= 127) tec_ += 8;
+  watch_errors();
+  update_lines();
+}
+
 void BxCan::enter_bus_off(Cycle now) {
   bus_off_ = true;
   ++counters_.bus_offs;

@@ -28,13 +28,14 @@ class BxCan final : public Peripheral, public CanController {
   // The bus.
   std::vector<Request> take_requests() override;
   /// It takes part: out of its initialisation, and 11 recessive bits were seen since.
-  bool listening() const { return (mcr_ & 3) == 0 && joined_ && !bus_off_; }
+  bool listening() const override { return (mcr_ & 3) == 0 && joined_ && !bus_off_; }
   /// The bus is held dominant, as by a broken transceiver or a short, or let go.
   void set_dominant(bool dominant, Cycle now);
   void on_sent(int mailbox) override;
   void on_aborted(int mailbox) override;
   void on_frame(const CanFrame& frame, Cycle now) override;
   void on_error(bool sending, Cycle now) override;
+  void on_no_acknowledge(Cycle now) override;
 
   /// Bits a second as the registers say; 0: not set up.
   std::uint32_t bit_rate() const;

@@ -33,7 +33,11 @@ class CanController {
   virtual void on_frame(const CanFrame& frame, Cycle now) = 0;
   /// An error frame while sending or receiving (ISO 11898-1's counting, its special cases left out).
   virtual void on_error(bool sending, Cycle now) = 0;
+  /// Nobody has acknowledged what it sent: an error, which a passive sender does not count.
+  virtual void on_no_acknowledge(Cycle now) = 0;
   virtual bool bus_off() const = 0;
+  /// It takes part in the bus, and acknowledges what others send.
+  virtual bool listening() const = 0;
 };
 
 }  // namespace kinebus::emulator

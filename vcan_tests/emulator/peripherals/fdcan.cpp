@@ -151,6 +151,13 @@ void Fdcan::on_error(bool sending, Cycle) {
   update_lines();
 }
 
+void Fdcan::on_no_acknowledge(Cycle) {
+  if (!listening()) return;
+  if (tec_ <= 127) tec_ += 8;
+  watch_errors();
+  update_lines();
+}
+
 void Fdcan::leave_init(Cycle now) {
   joins_ = now + (bus_off_ ? kRecoveryTime : kJoinTime);
 }

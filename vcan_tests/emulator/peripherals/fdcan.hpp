@@ -36,8 +36,9 @@ class Fdcan final : public Peripheral, public CanController {
   void on_aborted(int buffer) override;
   void on_frame(const CanFrame& frame, Cycle now) override;
   void on_error(bool sending, Cycle now) override;
+  void on_no_acknowledge(Cycle now) override;
   bool bus_off() const override { return bus_off_; }
-  bool listening() const { return (cccr_ & 1) == 0 && joined_ && !bus_off_; }
+  bool listening() const override { return (cccr_ & 1) == 0 && joined_ && !bus_off_; }
 
   /// Bits a second and sample point as the registers say, at 64 MHz.
   std::uint32_t bit_rate() const;

@@ -5,9 +5,9 @@
 namespace kinebus::emulator {
 namespace {
 
-constexpr std::uint32_t kGahbcfg = 0x08, kGusbcfg = 0x0C, kGrstctl = 0x10, kGintsts = 0x14, kGintmsk = 0x18,
-                        kGrxstsr = 0x1C, kGrxstsp = 0x20, kGrxfsiz = 0x24, kDieptxf0 = 0x28, kGccfg = 0x38,
-                        kDieptxf1 = 0x104;
+constexpr std::uint32_t kGotgctl = 0x00, kGahbcfg = 0x08, kGusbcfg = 0x0C, kGrstctl = 0x10, kGintsts = 0x14,
+                        kGintmsk = 0x18, kGrxstsr = 0x1C, kGrxstsp = 0x20, kGrxfsiz = 0x24, kDieptxf0 = 0x28,
+                        kGccfg = 0x38, kDieptxf1 = 0x104;
 constexpr std::uint32_t kDcfg = 0x800, kDctl = 0x804, kDsts = 0x808, kDiepmsk = 0x810, kDoepmsk = 0x814,
                         kIn = 0x900, kOut = 0xB00, kBehindEndpoints = 0xD00, kFifos = 0x1000;
 constexpr std::uint32_t kReceiveLevel = 1u << 4, kStartOfFrame = 1u << 3, kSuspend = 1u << 11,
@@ -19,7 +19,6 @@ constexpr std::uint32_t kActive = 1u << 15, kNakStatus = 1u << 17, kStall = 1u <
 constexpr std::uint32_t kComplete = 1u << 0, kDisabled = 1u << 1, kSetupPhase = 1u << 3,
                         kNakInForce = 1u << 6;
 constexpr std::uint32_t kOutData = 2, kOutDone = 3, kSetupDone = 4, kSetupData = 6;
-constexpr std::uint32_t kMemoryWords = 1024;
 constexpr Cycle kForcedModeTakes = kCoreHz / 1000 * 25;
 
 std::uint32_t packets(std::uint32_t tsiz) {
@@ -41,6 +40,7 @@ void OtgHs::reset() {
   flags_ = address_ = 0;
   writing_ = -1;
   forced_at_ = kNever;
+  if (facts_.later_core) plain_[kDctl / 4] = 2;
   update_line();
 }
 
@@ -59,7 +59,7 @@ std::uint32_t OtgHs::status() const {
 }
 
 void OtgHs::update_line() {
-  lines_.set_line(kIrq, (plain_[kGahbcfg / 4] & 1) != 0 && (status() & plain_[kGintmsk / 4]) != 0);
+  lines_.set_line(facts_.irq, (plain_[kGahbcfg / 4] & 1) != 0 && (status() & plain_[kGintmsk / 4]) != 0);
 }
 
 std::uint32_t OtgHs::read(std::uint32_t offset, Cycle) {
@@ -250,8 +250,11 @@ void OtgHs::write_control(Endpoint& e, bool is_in, int number, std::uint32_t val
 bool OtgHs::pulled_up(Cycle now) const {
   const std::uint32_t usb = plain_[kGusbcfg / 4], pads = plain_[kGccfg / 4];
   const bool device = forced_at_ != kNever && now >= forced_at_ + kForcedModeTakes;
-  return device && (usb & 1u << 6) != 0 && (usb >> 10 & 0xF) == 6 && (pads & 1u << 16) != 0 &&
-         (pads & 1u << 21) != 0 && (plain_[kDcfg / 4] & 3) == 3 && (plain_[kDctl / 4] & 2) == 0;
+  // The later core's bit 21 of GCCFG switches sensing on.
+  const bool vbus = facts_.later_core ? (pads & 1u << 21) == 0 && (plain_[kGotgctl / 4] & 0xC0) == 0xC0
+                                      : (pads & 1u << 21) != 0;
+  return device && (usb & 1u << 6) != 0 && (usb >> 10 & 0xF) == 6 && (pads & 1u << 16) != 0 && vbus &&
+         (plain_[kDcfg / 4] & 3) == 3 && (plain_[kDctl / 4] & 2) == 0;
 }
 
 void OtgHs::bus_reset() {
@@ -263,7 +266,7 @@ void OtgHs::bus_reset() {
     if ((place & 0xFFFF) < end) violation("FIFOs overlap");
     end = (place & 0xFFFF) + (place >> 16);
   }
-  if (end > kMemoryWords) violation("FIFOs larger than the memory");
+  if (end > facts_.memory_words) violation("FIFOs larger than the memory");
   for (std::size_t n = 1; n < in_.size(); ++n) {
     in_[n].ctl &= ~kActive;
     out_[n].ctl &= ~kActive;

@@ -1,6 +1,7 @@
 #pragma once
-// OTG_HS in device mode with its own full-speed transceiver, as RM0090 tells it: registers on one side, a
-// host's transactions on the other. It is strict: what the manual forbids, or the errata, is noted.
+// OTG_HS or OTG_FS in device mode with its own full-speed transceiver, as RM0090 and RM0390 tell it:
+// registers on one side, a host's transactions on the other. It is strict: what the manuals forbid, or the
+// errata, is noted.
 
 #include <array>
 #include <deque>
@@ -11,9 +12,18 @@
 
 namespace kinebus::emulator {
 
+/// How one such core differs from another.
+struct OtgFacts {
+  int irq = 77;
+  std::uint32_t memory_words = 1024;
+  int endpoints = 6;
+  /// Its GCCFG and GOTGCTL are the F446's: whether VBUS is there is said elsewhere, and DCTL begins detached.
+  bool later_core = false;
+};
+
 class OtgHs final : public Peripheral {
  public:
-  static constexpr int kIrq = 77;
+  static constexpr int kIrq = OtgFacts{}.irq;
   using Bytes = std::vector<std::uint8_t>;
   enum class Answer : std::uint8_t { kNothing, kAck, kNak, kStall };
   struct Received {
@@ -22,7 +32,9 @@ class OtgHs final : public Peripheral {
     int toggle = 0;
   };
 
-  explicit OtgHs(InterruptLines& lines) : lines_(lines) { reset(); }
+  explicit OtgHs(InterruptLines& lines, const OtgFacts& facts = {}) : lines_(lines), facts_(facts) {
+    reset();
+  }
 
   std::uint32_t read(std::uint32_t offset, Cycle now) override;
   void write(std::uint32_t offset, std::uint32_t value, Cycle now) override;
@@ -73,6 +85,7 @@ class OtgHs final : public Peripheral {
   void update_line();
 
   InterruptLines& lines_;
+  OtgFacts facts_;
   std::array<std::uint32_t, 0x1000 / 4> plain_{};
   std::array<Endpoint, kEndpoints> in_, out_;
   std::deque<Entry> receive_;

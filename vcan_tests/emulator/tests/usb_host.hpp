@@ -12,7 +12,7 @@
 
 #include "protocol/bytes.hpp"
 #include "protocol/time.hpp"
-#include "vcan_tests/emulator/board.hpp"
+#include "vcan_tests/emulator/usb_socket.hpp"
 
 namespace kinebus::emulator {
 
@@ -27,7 +27,7 @@ class UsbHost {
     std::uint16_t value = 0, index = 0, length = 0;
   };
 
-  UsbHost(Board& board, std::function<void(BusTime)> pass) : board_(board), pass_(std::move(pass)) {}
+  UsbHost(UsbSocket& board, std::function<void(BusTime)> pass) : board_(board), pass_(std::move(pass)) {}
 
   void plug() { board_.set_usb_cable(true); }
   void unplug() { board_.set_usb_cable(false); }
@@ -43,8 +43,10 @@ class UsbHost {
     address_ = 0;
     toggles_ = {};
   }
-  /// What a computer does with a new device; false: it gives up.
-  bool enumerate(int address = 7) {
+  /// What a computer does with a new serial port; false: it gives up.
+  bool enumerate(int address = 7) { return configure(address) && command({0x21, 0x22, 3}); }
+  /// With any new device.
+  bool configure(int address = 7) {
     if (!wait_for_device()) return false;
     reset();
     const auto first = read({0x80, 6, 0x0100, 0, 64});
@@ -59,7 +61,7 @@ class UsbHost {
     const auto all = read({0x80, 6, 0x0200, 0, get_u16_le(std::span(*head).subspan(2))});
     if (!all || all->size() != get_u16_le(std::span(*head).subspan(2))) return false;
     if (read({0x80, 6, 0x0600, 0, 10})) return false;  // no high speed: stalled
-    return command({0x00, 9, 1}) && command({0x21, 0x22, 3});
+    return command({0x00, 9, 1});
   }
   std::string text(std::uint16_t index) {
     const auto got = read({0x80, 6, static_cast<std::uint16_t>(0x0300 + index), 0x0409, 255});
@@ -119,6 +121,8 @@ class UsbHost {
   /// An endpoint's toggle after CLEAR_FEATURE(ENDPOINT_HALT): 0 OUT, 1 IN, 2 notify.
   void forget_toggle(std::size_t which) { toggles_[which] = 0; }
 
+  int address() const { return address_; }
+
   Answer setup(const Request& r) {
     std::array<std::uint8_t, 8> bytes{r.type, r.request};
     put_u16_le(std::span(bytes).subspan(2), r.value);
@@ -156,7 +160,7 @@ class UsbHost {
     return false;
   }
 
-  Board& board_;
+  UsbSocket& board_;
   std::function<void(BusTime)> pass_;
   int address_ = 0;
   std::array<int, 3> toggles_{};
