@@ -10,7 +10,7 @@ endif()
 
 # Asserts stay on in release: a program that is wrong must stop, not go on. (CMake's own defaults define NDEBUG.)
 if(KINEBUS_FIRMWARE AND KINEBUS_CORE)  # small chips, where size counts
-  set(CMAKE_CXX_FLAGS_RELEASE "-Os -g1 -fstack-usage -fcallgraph-info=su")
+  set(CMAKE_CXX_FLAGS_RELEASE "-Os -fno-move-loop-invariants -fno-tree-ch -g1 -fstack-usage -fcallgraph-info=su")
 elseif(KINEBUS_FIRMWARE)
   set(CMAKE_CXX_FLAGS_RELEASE "-O2 -g1 -fstack-usage -fcallgraph-info=su")
 else()
