@@ -5,9 +5,9 @@
 namespace kinebus {
 
 bool moves_tip(const Phase& phase) {
-  constexpr double kRounding = 1e-8;  // of moves without the tip
+  constexpr double kNoTipMotion = 1e-8;  // of moves without the tip
   const Pose along = phase.piece.evaluate(phase.s(0.5 * phase.duration_s)).x1;
-  return std::hypot(along[kX], along[kY], along[kZ]) > kRounding;
+  return std::hypot(along[kX], along[kY], along[kZ]) > kNoTipMotion;
 }
 
 void TipFlow::add(const std::array<double, 3>& weight, const Phase& phase, double t) {

@@ -188,7 +188,8 @@ void OctopusBoard::advance_devices(Cycle now) {
 }
 
 Cycle OctopusBoard::next_of_devices() const {
-  Cycle next = std::min({tim1_.next_event(), tim8_.next_event(), adc_.next_event(), heated_.next_event(), sleeps_});
+  Cycle next =
+      std::min({tim1_.next_event(), tim8_.next_event(), adc_.next_event(), heated_.next_event(), sleeps_});
   for (const Tmc2209& chip : chips_) next = std::min(next, chip.next_event());
   for (const Wire& wire : wires_) next = std::min(next, wire.rises);
   return next;
