@@ -143,8 +143,9 @@ FaultBounds bounds_of(const Fault& fault) {
       break;
     case kNodeIdCollision:
       // A boot-up message of the other node while the gateway waits for this one's is refused; the next
-      // bring-up may then be good.
-      b.outcomes = kRefused | kFinished | kContinued;
+      // bring-up may then be good. One that is found out while the job is looked at, too: the job begins
+      // after it.
+      b.outcomes = kRefused | kFinished | kContinued | kBegunAgain;
       break;
     case kCount:
       break;
