@@ -91,7 +91,8 @@ MotionLimits limits_before_shaping(const MachineDescription& machine, const Vibr
 
 FilamentLimits limits_before_advance(const MachineDescription& machine, const VibrationDescription& vibration,
                                      const AdvanceModel& model) {
-  // Of the extruder's speed, for what the advance adds.
+  // Of the extruder's speed and acceleration, for what the advance adds. Where a retraction follows a bead
+  // the two meet.
   constexpr double kShare = 0.4;
   FilamentLimits filament;
   if (!model.acts()) return filament;
@@ -106,13 +107,14 @@ FilamentLimits limits_before_advance(const MachineDescription& machine, const Vi
   speed *= 0.98;
   accel *= 0.98;
   filament.speed_mm_per_s = (1 - kShare) * speed;
-  filament.accel_mm_per_s2 = accel;
+  filament.accel_mm_per_s2 = (1 - kShare) * accel;
   // While A'(0) = K is steepest and the flow accelerates by at most a, the mean over a window w moves by at
   // most K a and accelerates by at most 2 K a / w, where the tool brakes and speeds up within the window; the
-  // melt's term by 2 K T a / w and 4 K T a / w^2. Filament alone is not under way then (`pause_before`).
+  // melt's term by 2 K T a / w and 4 K T a / w^2.
   const double steepest_s = model.steepest_s(), w = model.smooth_s, melt = model.melt_s / w;
   filament.flow_accel_mm_per_s2 =
-      std::min(kShare * speed / (steepest_s * (1 + 2 * melt)), accel / (1 + steepest_s / w * (2 + 4 * melt)));
+      std::min({filament.accel_mm_per_s2, kShare * speed / (steepest_s * (1 + 2 * melt)),
+                kShare * accel * w / (steepest_s * (2 + 4 * melt))});
   // With shapers of their own one axis still brakes while another speeds up.
   const VibrationDescription& v = vibration;
   if (!(v.axis(0) == v.axis(1) && v.axis(1) == v.axis(2))) filament.flow_accel_mm_per_s2 *= 0.5;

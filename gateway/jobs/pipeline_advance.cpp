@@ -20,7 +20,7 @@ bool has_extruder(const MachineDescription& machine) {
 void JobPipeline::begin_advance() {
   advances_.clear();
   const AdvanceWindow window = has_extruder(machine_) ? AdvanceWindow(advance_) : AdvanceWindow();
-  shaper_ = MotionShaper(axis_shapers(vibration_), window, shaper_.filament_offset_mm());
+  shaper_ = PathShaper(axis_shapers(vibration_), window);
   shaper_.set_advance(advance_);
   shaping_ = shaper_.active();
   limit_filament(advance_);

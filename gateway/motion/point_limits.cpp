@@ -157,15 +157,6 @@ void PointLimits::bound_curve(const PieceDemand& demand, const PathPiece& geomet
   set_cap(demand, std::sqrt(w2) * kBetweenSamples, piece);
   piece.curved = true;
   piece.accel = demand.accel_mm_per_s2;
-  // What follows the tip's way across its bends, too.
-  if (inverse_flow_accel_ > 0)
-    for (const PosePoint& p : points) {
-      const double per_mm2 = p.x1[kE] * p.x1[kE], way2 = dot3(p.x1, p.x1);
-      if (per_mm2 * piece.accel * piece.accel >
-              way2 * limits_.flow_accel_mm_per_s2 * limits_.flow_accel_mm_per_s2 &&
-          way2 > 0)
-        piece.accel = limits_.flow_accel_mm_per_s2 * std::sqrt(way2 / per_mm2);
-    }
   piece.k2 = k2 * kBetweenSamples * kBetweenSamples;
   piece.c = c;
   piece.w2 = std::max(w2 * kBetweenSamples * kBetweenSamples, 1e-12);

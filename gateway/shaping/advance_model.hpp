@@ -2,7 +2,6 @@
 // Pressure advance: how far filament is pressed together in front of the nozzle, so that it flows out as
 // planned.
 
-#include <array>
 #include <cstdint>
 
 #include "gateway/motion/trajectory.hpp"
@@ -57,17 +56,16 @@ class PhaseAdvance {
     double x = 0, x1 = 0, x2 = 0;  ///< integral of A, mm s; A, mm; dA/dt, mm/s
   };
   PhaseAdvance() = default;
-  /// Filament that beads take along a phase, a polynomial of its s.
-  using Filament = std::array<double, 4>;
-  PhaseAdvance(const Phase& phase, const Filament& filament, const AdvanceModel& model);
-  /// At t seconds after the phase's start; both as they were.
-  Sum at(const Phase& phase, const Filament& filament, double t) const;
+  /// `phase`: the planner's, not timed. It must stay while at() is asked.
+  PhaseAdvance(const Phase& phase, const AdvanceModel& model);
+  /// At t seconds after the phase's start.
+  Sum at(const Phase& phase, double t) const;
   /// No cubic in time.
   bool curved() const { return way_ == Way::kNumeric; }
 
  private:
   enum class Way : std::uint8_t { kNothing, kProportional, kNumeric };
-  static double flow(const Phase& phase, const Filament& filament, double t);
+  double flow(const Phase& phase, double t) const;
   AdvanceModel model_;
   Way way_ = Way::kNothing;
 };

@@ -72,7 +72,8 @@ struct HeatBesideAxes : testing::Test {
                           static_cast<std::uint8_t>(value), static_cast<std::uint8_t>(value >> 8), 0, 0}));
       run(20ms);
     }
-    run(200ms);
+    can.arrive(CanFrame::make(0x600 + kHeat, {0x23, 0x43, 0x22, 0, 7, 0, 0, 0}));  // its own serial number
+    run(220ms);
     can.arrive(CanFrame::make(0x000, {1, 0}));
     run(20ms);
   }
