@@ -165,8 +165,8 @@ constexpr void program_download(Rows& t) {
 constexpr void session_key(Rows& t) {
   constexpr std::array<std::string_view, 4> kParts = {"Key 1", "Key 2", "Key 3", "Key 4"};
   t.head(0x2117, "Session key", ObjectCode::kRecord, 5);
-  for (std::uint8_t i = 0; i < kParts.size(); ++i)
-    t.sub(static_cast<std::uint8_t>(i + 1), kParts[i], kU32, kWriteOnly, kLive);
+  std::uint8_t sub = 0;
+  for (const std::string_view part : kParts) t.sub(++sub, part, kU32, kWriteOnly, kLive);
   t.sub(5, "Session in force", kU8, kReadWrite, kLive).between(0, 1);
 }
 

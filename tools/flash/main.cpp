@@ -59,7 +59,7 @@ std::set<std::uint8_t> boards_of(SocketCan& can, const std::set<std::uint8_t>& n
                .receive = [&](LocalTime until) { return receive_until(can, until); },
                .now = monotonic_now},
               {.answer = answer});
-  const std::set<std::uint8_t> boards = NodeIds::boards_of(ids.find_configured(), nodes);
+  std::set<std::uint8_t> boards = NodeIds::boards_of(ids.find_configured(), nodes);
   for (const std::uint8_t node : nodes)
     if (!boards.contains(node))
       fmt::print("node {} is of a board with several nodes: the first of them takes the program for all\n",

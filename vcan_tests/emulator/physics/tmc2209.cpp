@@ -95,13 +95,13 @@ void Tmc2209::advance(Cycle now) {
     switch (hears_) {
       case Hears::kSync:
       case Hears::kByte:
-        if (bit_ == 0 || (hears_ == Hears::kSync && bits_ == 0)) {
+        if (const bool not_timed = bit_ == 0 || (hears_ == Hears::kSync && bits_ == 0),
+            no_stop_bit = bits_ == 8 && !wire_high_;
+            not_timed || no_stop_bit) {
           reject(at);
         } else if (bits_ < 8) {
           byte_ |= (wire_high_ ? 1u : 0u) << bits_++;
           sample_at_ = start_ + (static_cast<Cycle>(bits_) + 1) * bit_ + bit_ / 2;
-        } else if (!wire_high_) {
-          reject(at);  // no stop bit
         } else {
           byte_done(byte_, at);
         }
@@ -184,7 +184,7 @@ void Tmc2209::answer(std::uint8_t address, Cycle end) {
   hears_ = Hears::kAnswers;
   // SENDDELAY: 0 and 1 are 8 bits, 2 and 3 three times as many.
   const std::uint32_t delay = std::max(registers_[kNodeConf] >> 8 & 0xF, 1u) | 1u;
-  sample_at_ = end + delay * 8 * bit_;
+  sample_at_ = end + static_cast<Cycle>(delay) * 8 * bit_;
 }
 
 std::uint32_t Tmc2209::read_register(std::uint8_t address) const {
