@@ -125,57 +125,73 @@ TEST(Resume, CutBusGoesOnThoughTheNodesStoppedElsewhereThanTheGateway) {
   expect_same_part(rig, track);
 }
 
-TEST(Resume, AnotherGatewayTakesUpTheJobFromTheJournal) {
-  for (const double at_s : {0.02, 0.4, 0.83, 1.3, 1.71, 2.2, 2.9, 3.4}) {
-    SCOPED_TRACE("killed " + std::to_string(at_s) + " s into the job");
-    ResumeRig rig;
-    ASSERT_TRUE(rig.begin(at_s)) << rig.story();
-    std::vector<Pose> track;
-    rig.track_ = &track;
-    rig.store();
-    // The gateway is gone: its frames stop, and nobody hears the nodes.
-    rig.lose_from_gateway = rig.lose_to_gateway = [](const CanFrame&) { return true; };
-    rig.run_for(1200ms);
-    rig.lose_from_gateway = rig.lose_to_gateway = {};
-    rig.replace_gateway();
-    ASSERT_TRUE(rig.job_noted);
-    ASSERT_TRUE(rig.gateway->carry_out(command::Resume{}));
-    ASSERT_TRUE(rig.finish()) << rig.story();
-    expect_same_part(rig, track);
-  }
+// Each moment, in seconds into the job, is a test of its own: a sanitizer needs fewer of them.
+class InterruptedAt : public testing::TestWithParam<double> {};
+
+TEST_P(InterruptedAt, AnotherGatewayTakesUpTheJobFromTheJournal) {
+  ResumeRig rig;
+  ASSERT_TRUE(rig.begin(GetParam())) << rig.story();
+  std::vector<Pose> track;
+  rig.track_ = &track;
+  rig.store();
+  // The gateway is gone: its frames stop, and nobody hears the nodes.
+  rig.lose_from_gateway = rig.lose_to_gateway = [](const CanFrame&) { return true; };
+  rig.run_for(1200ms);
+  rig.lose_from_gateway = rig.lose_to_gateway = {};
+  rig.replace_gateway();
+  ASSERT_TRUE(rig.job_noted);
+  ASSERT_TRUE(rig.gateway->carry_out(command::Resume{}));
+  ASSERT_TRUE(rig.finish()) << rig.story();
+  expect_same_part(rig, track);
 }
 
-TEST(Resume, ShapedMotionGoesOnFromTheExactPlace) {
-  MachineDescription machine = default_m1();
-  machine.vibration.every = {ShaperKind::kZvd, 40, 0.1};
-  const Undisturbed clean = undisturbed_on(machine);
-  for (const double at_s : {0.4, 1.1, 2.9}) {
-    SCOPED_TRACE("interrupted " + std::to_string(at_s) + " s into the job");
-    ResumeRig stopped(machine), killed(machine);
-    std::vector<Pose> track;
-    ASSERT_TRUE(stopped.begin(at_s)) << stopped.story();
-    stopped.track_ = &track;
-    ASSERT_TRUE(stopped.gateway->carry_out(command::Stop{}));
-    ASSERT_TRUE(stopped.reach(MachineState::kStopped, 5s));
-    ASSERT_TRUE(stopped.gateway->carry_out(command::Clear{}));
-    ASSERT_TRUE(stopped.reach(MachineState::kHeld, 5s)) << stopped.story();
-    ASSERT_TRUE(stopped.gateway->carry_out(command::Resume{}));
-    ASSERT_TRUE(stopped.finish()) << stopped.story();
-    expect_same_part(stopped, track, 5, clean);
+INSTANTIATE_TEST_SUITE_P(Seconds, InterruptedAt, testing::Values(0.02, 0.4, 0.83, 1.3, 1.71, 2.2, 2.9, 3.4));
 
-    track.clear();
-    ASSERT_TRUE(killed.begin(at_s)) << killed.story();
-    killed.track_ = &track;
-    killed.store();
-    killed.lose_from_gateway = killed.lose_to_gateway = [](const CanFrame&) { return true; };
-    killed.run_for(1200ms);
-    killed.lose_from_gateway = killed.lose_to_gateway = {};
-    killed.replace_gateway();
-    ASSERT_TRUE(killed.gateway->carry_out(command::Resume{}));
-    ASSERT_TRUE(killed.finish()) << killed.story();
-    expect_same_part(killed, track, 5, clean);
+class ShapedInterruptedAt : public testing::TestWithParam<double> {
+ protected:
+  static const MachineDescription& shaped() {
+    static const MachineDescription machine = [] {
+      MachineDescription m = default_m1();
+      m.vibration.every = {ShaperKind::kZvd, 40, 0.1};
+      return m;
+    }();
+    return machine;
   }
+  static const Undisturbed& clean() {
+    static const Undisturbed undisturbed = undisturbed_on(shaped());
+    return undisturbed;
+  }
+
+  ResumeRig rig_{shaped()};
+  std::vector<Pose> track_;
+};
+
+TEST_P(ShapedInterruptedAt, StoppedMotionGoesOnFromTheExactPlace) {
+  ASSERT_TRUE(rig_.begin(GetParam())) << rig_.story();
+  rig_.track_ = &track_;
+  ASSERT_TRUE(rig_.gateway->carry_out(command::Stop{}));
+  ASSERT_TRUE(rig_.reach(MachineState::kStopped, 5s));
+  ASSERT_TRUE(rig_.gateway->carry_out(command::Clear{}));
+  ASSERT_TRUE(rig_.reach(MachineState::kHeld, 5s)) << rig_.story();
+  ASSERT_TRUE(rig_.gateway->carry_out(command::Resume{}));
+  ASSERT_TRUE(rig_.finish()) << rig_.story();
+  expect_same_part(rig_, track_, 5, clean());
 }
+
+TEST_P(ShapedInterruptedAt, AnotherGatewayGoesOnFromTheExactPlace) {
+  ASSERT_TRUE(rig_.begin(GetParam())) << rig_.story();
+  rig_.track_ = &track_;
+  rig_.store();
+  rig_.lose_from_gateway = rig_.lose_to_gateway = [](const CanFrame&) { return true; };
+  rig_.run_for(1200ms);
+  rig_.lose_from_gateway = rig_.lose_to_gateway = {};
+  rig_.replace_gateway();
+  ASSERT_TRUE(rig_.gateway->carry_out(command::Resume{}));
+  ASSERT_TRUE(rig_.finish()) << rig_.story();
+  expect_same_part(rig_, track_, 5, clean());
+}
+
+INSTANTIATE_TEST_SUITE_P(Seconds, ShapedInterruptedAt, testing::Values(0.4, 1.1, 2.9));
 
 TEST(Resume, AnotherGatewayKnowsHowFarTheJobIs) {
   ResumeRig rig;

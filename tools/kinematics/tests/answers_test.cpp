@@ -97,13 +97,14 @@ TEST(KinematicsTool, AccelerationAndJacobianMatchDifferencesOfInverse) {
     const std::string name(shipped.name);
     const Subject s = subject(name);
     const std::size_t n = s.pose_axes().size(), joints = s.joints().size();
-    for (const auto& pose : allowed_poses(s, 3, 23)) {
+    const auto poses = allowed_poses(s, 3, 23);
+    // Of each pose a parabola through it, and q(t) of that by inverse at five places.
+    constexpr double h = 0.02;
+    std::vector<std::vector<double>> paths, places;
+    for (const auto& pose : poses) {
       std::vector<double> path = pose;
       for (std::size_t k = 0; k < n; ++k) path.push_back(20.0 - 9.0 * static_cast<double>(k));
       for (std::size_t k = 0; k < n; ++k) path.push_back(7.0 * static_cast<double>(k) - 11.0);
-      // q(t) of the parabola by inverse, five places.
-      constexpr double h = 0.02;
-      std::vector<std::vector<double>> places;
       for (int k = -2; k <= 2; ++k) {
         std::vector<double> place;
         for (std::size_t i = 0; i < n; ++i) {
@@ -112,23 +113,26 @@ TEST(KinematicsTool, AccelerationAndJacobianMatchDifferencesOfInverse) {
         }
         places.push_back(place);
       }
-      const Json q = call({"inverse", "--json", "--machine", name}, table_of(places)).json()["rows"];
-      const Said said = call({"acceleration", "--json", "--machine", name}, table_of({path}));
-      ASSERT_EQ(said.code, 0) << said.err;
-      const Json row = said.json()["rows"][0];
-      const Json matrix =
-          call({"jacobian", "--json", "--machine", name}, table_of({pose})).json()["rows"][0]["jacobian"];
+      paths.push_back(path);
+    }
+    const Json q = call({"inverse", "--json", "--machine", name}, table_of(places)).json()["rows"];
+    const Said said = call({"acceleration", "--json", "--machine", name}, table_of(paths));
+    ASSERT_EQ(said.code, 0) << said.err;
+    const Json rows = said.json()["rows"];
+    const Json matrices = call({"jacobian", "--json", "--machine", name}, table_of(poses)).json()["rows"];
+    for (std::size_t p = 0; p < poses.size(); ++p) {
       for (std::size_t j = 0; j < joints; ++j) {
         const std::string joint = s.joints()[j].column();
-        const auto at = [&](std::size_t k) { return q[k]["joints"][joint].get<double>(); };
+        const auto at = [&](std::size_t k) { return q[5 * p + k]["joints"][joint].get<double>(); };
         const double speed = (8 * (at(3) - at(1)) - (at(4) - at(0))) / (12 * h);
         const double acceleration = (16 * (at(3) + at(1)) - (at(4) + at(0)) - 30 * at(2)) / (12 * h * h);
-        EXPECT_NEAR(row["speed"][joint + "_per_s"].get<double>(), speed, 1e-3) << name << joint;
-        EXPECT_NEAR(row["acceleration"][joint + "_per_s2"].get<double>(), acceleration, 1e-2)
+        EXPECT_NEAR(rows[p]["speed"][joint + "_per_s"].get<double>(), speed, 1e-3) << name << joint;
+        EXPECT_NEAR(rows[p]["acceleration"][joint + "_per_s2"].get<double>(), acceleration, 1e-2)
             << name << joint;
         double by_matrix = 0;
         for (std::size_t k = 0; k < n; ++k)
-          by_matrix += matrix[joint]["per_" + s.pose_axes()[k].column()].get<double>() * path[n + k];
+          by_matrix += matrices[p]["jacobian"][joint]["per_" + s.pose_axes()[k].column()].get<double>() *
+                       paths[p][n + k];
         EXPECT_NEAR(by_matrix, speed, 1e-3) << name << joint;
       }
     }
