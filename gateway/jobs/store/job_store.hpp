@@ -13,6 +13,7 @@
 // Calls block on the disk: one thread beside the control loop owns the store. Times are given by the caller,
 // in s since 1970.
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -58,6 +59,17 @@ struct StoredRun {
   std::uint32_t line = 0;  ///< reached
   std::string first_error{};
   std::string said{};  ///< the same as its owner writes it, to be said in another language
+};
+
+/// What the history holds, by result.
+struct RunTotals {
+  struct Total {
+    std::uint64_t count = 0;
+    double duration_s = 0;
+  };
+  std::array<Total, 6> by_result{};
+  std::uint64_t begun = 0;  ///< since the store was made; the history forgets the oldest
+  const Total& of(RunResult result) const { return by_result[static_cast<std::size_t>(result)]; }
 };
 
 struct StoredJob {
@@ -158,6 +170,7 @@ class JobStore {
                                    std::string_view said = {});
   /// Newest first, with ids below `before` (0: all).
   Result<std::vector<StoredRun>, StoreError> history(std::int64_t before, std::size_t max);
+  Result<RunTotals, StoreError> run_totals();
 
  private:
   struct Upload;

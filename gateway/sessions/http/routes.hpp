@@ -33,6 +33,7 @@ std::span<const Route> octoprint_job_routes();
 std::span<const Route> prusalink_routes();
 std::span<const Route> kinebus_routes();
 std::span<const Route> moonraker_routes();
+std::span<const Route> metrics_routes();
 std::span<const Route> page_routes();
 
 }  // namespace kinebus::http
