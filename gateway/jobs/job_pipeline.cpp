@@ -57,6 +57,7 @@ void JobPipeline::begin(const Pose& start) {
   asked_shaping_ = {};
   planner_.reset(start, Frame::kMachine);
   advance_ = machine_.pressure_advance;
+  shaper_ = {};
   begin_advance();
   over_limit_ = false;
   commands_.clear();
@@ -199,7 +200,9 @@ JobPipeline::Step JobPipeline::next(int& budget) {
 bool JobPipeline::pull_phase() {
   if (!shaping_) {
     phase_.timed = false;  // a run before this one may have been shaped
-    return planner_.next(phase_);
+    if (!planner_.next(phase_)) return false;
+    phase_.piece.coefficients[kE][0] += shaper_.filament_offset_mm();
+    return true;
   }
   while (!shaper_.next(phase_))
     if (!push_planned()) return false;

@@ -22,7 +22,7 @@
 #include "gateway/jobs/problem.hpp"
 #include "gateway/kinematics/geometry.hpp"
 #include "gateway/motion/planner.hpp"
-#include "gateway/shaping/path_shaper.hpp"
+#include "gateway/shaping/motion_shaper.hpp"
 #include "gateway/shaping/shaped_limits.hpp"
 
 namespace kinebus {
@@ -93,6 +93,8 @@ class JobPipeline {
   std::uint32_t lines() const { return lines_; }  ///< lines read so far
   std::uint64_t bytes() const { return bytes_; }  ///< bytes read so far
   const Planner& planner() const { return planner_; }
+  /// Of E in phases given out to E as planned, at rest: what shaping has cut off corners was not fed.
+  double filament_offset_mm() const { return shaper_.filament_offset_mm(); }
   /// Feed override above 1, for motion that is not planned yet. 1 and below is a matter of path time, not of
   /// planning.
   void set_feed_scale(double scale) { feed_scale_ = scale; }
@@ -149,7 +151,7 @@ class JobPipeline {
   const MachineDescription& machine_;
   const Kinematics& kinematics_;
   Planner planner_;
-  PathShaper shaper_;
+  MotionShaper shaper_;
   ShapedLimits shaped_limits_;
   AdvanceModel advance_;            ///< of the commands taken
   VibrationDescription vibration_;  ///< the same

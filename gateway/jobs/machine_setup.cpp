@@ -90,12 +90,11 @@ MotionLimits limits_before_shaping(const MachineDescription& machine, const Vibr
 }
 
 FilamentLimits limits_before_advance(const MachineDescription& machine, const VibrationDescription& vibration,
-                                     const AdvanceModel& model) {
-  // Of the extruder's speed and acceleration, for what the advance adds. Where a retraction follows a bead
-  // the two meet.
+                                     const AdvanceModel& model, const AdvanceWindow& window) {
+  // Of the extruder's speed, for what the advance adds.
   constexpr double kShare = 0.4;
   FilamentLimits filament;
-  if (!model.acts()) return filament;
+  if (!window.acts()) return filament;
   const MotionLimits limits = motion_limits(machine);
   double speed = limits.axis_speed_per_s[kE], accel = limits.axis_accel_per_s2[kE];
   for (std::size_t joint = 0; joint < machine.joints.size() && joint < kMaxJoints; ++joint) {
@@ -103,18 +102,17 @@ FilamentLimits limits_before_advance(const MachineDescription& machine, const Vi
     speed = std::min(speed, limits.joint_speed_per_s[joint]);
     accel = std::min(accel, limits.joint_accel_per_s2[joint]);
   }
-  // 2 %, as the planner leaves joints, for what comes after planning.
+  // 2 %, as the planner leaves joints, for what comes after planning; and what cubics may be off: of the
+  // flow, its advance, and at both ends of the window.
   speed *= 0.98;
-  accel *= 0.98;
+  accel = std::max(0.98 * accel - 3 * PathShaper::kAccelTolerance, 0.5 * accel);
   filament.speed_mm_per_s = (1 - kShare) * speed;
-  filament.accel_mm_per_s2 = (1 - kShare) * accel;
+  filament.accel_mm_per_s2 = accel;
   // While A'(0) = K is steepest and the flow accelerates by at most a, the mean over a window w moves by at
-  // most K a and accelerates by at most 2 K a / w, where the tool brakes and speeds up within the window; the
-  // melt's term by 2 K T a / w and 4 K T a / w^2.
-  const double steepest_s = model.steepest_s(), w = model.smooth_s, melt = model.melt_s / w;
+  // most K a, and the melt's term by 2 K T a / w. Filament alone is not under way then (`pause_before`).
+  const double steepest_s = model.steepest_s(), melt = window.melt_s / window.smooth_s;
   filament.flow_accel_mm_per_s2 =
-      std::min({filament.accel_mm_per_s2, kShare * speed / (steepest_s * (1 + 2 * melt)),
-                kShare * accel * w / (steepest_s * (2 + 4 * melt))});
+      std::min(kShare * speed / (steepest_s * (1 + 2 * melt)), accel / model.most_gain());
   // With shapers of their own one axis still brakes while another speeds up.
   const VibrationDescription& v = vibration;
   if (!(v.axis(0) == v.axis(1) && v.axis(1) == v.axis(2))) filament.flow_accel_mm_per_s2 *= 0.5;

@@ -20,9 +20,10 @@ MotionLimits motion_limits(const MachineDescription& machine);
 /// Those to plan with, so that the machine's own hold after shaping. Equal where nothing is shaped.
 MotionLimits limits_before_shaping(const MachineDescription& machine, const VibrationDescription& vibration);
 PathShaper::Shapers axis_shapers(const VibrationDescription& vibration);
-/// What leaves room for pressure advance within the limits of the extruder; unlimited where it does not act.
+/// What leaves room for pressure advance within the limits of the extruder; unlimited without a window. In a
+/// window beads and filament alone rest between each other, whatever the advance: 0, too.
 FilamentLimits limits_before_advance(const MachineDescription& machine, const VibrationDescription& vibration,
-                                     const AdvanceModel& model);
+                                     const AdvanceModel& model, const AdvanceWindow& window);
 /// Of one joint, mm or rad a s^3: its own limit, or the tool's in proportion to their accelerations; infinite
 /// where the tool's jerk is not limited.
 double joint_jerk_limit(const MachineDescription& machine, const JointDescription& joint);

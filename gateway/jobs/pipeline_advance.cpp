@@ -20,15 +20,14 @@ bool has_extruder(const MachineDescription& machine) {
 void JobPipeline::begin_advance() {
   advances_.clear();
   const AdvanceWindow window = has_extruder(machine_) ? AdvanceWindow(advance_) : AdvanceWindow();
-  shaper_ = PathShaper(axis_shapers(vibration_), window);
+  shaper_ = MotionShaper(axis_shapers(vibration_), window, shaper_.filament_offset_mm());
   shaper_.set_advance(advance_);
   shaping_ = shaper_.active();
   limit_filament(advance_);
 }
 
 void JobPipeline::limit_filament(const AdvanceModel& model) {
-  const FilamentLimits limits =
-      has_extruder(machine_) ? limits_before_advance(machine_, vibration_, model) : FilamentLimits{};
+  const FilamentLimits limits = limits_before_advance(machine_, vibration_, model, shaper_.advance_window());
   if (const auto limited = planner_.limit_filament(limits); !limited)
     refuse(line_of(limited.error().line), 0, to_string(limited.error()));
 }

@@ -210,13 +210,15 @@ Result<void, PoseError> PathLimits::add_parabola(const PieceDemand& demand) {
   limits_.set_cap(demand, w, piece);
   piece.curved = true;
   piece.accel = demand.accel_mm_per_s2;
+  PosePoint first = start, last = end.pose;
+  first.x2 = last.x2 = bend;
+  limits_.bound_flow(first, piece);
+  limits_.bound_flow(last, piece);
   piece.k2 = dot3(bend, bend);
   piece.c = std::max(std::abs(dot3(bend, start.x1)), std::abs(dot3(bend, end.pose.x1)));
   piece.w2 = std::max(w * w, 1e-12);
   if (piece.k2 * piece.cap * piece.cap > piece.accel * piece.accel)
     piece.cap = piece.accel / std::sqrt(piece.k2);
-  PosePoint first = start, last = end.pose;
-  first.x2 = last.x2 = bend;
   limits_.axis_caps(first, piece);
   limits_.axis_caps(last, piece);
   limits_.tip_cap(demand, first, piece);

@@ -143,6 +143,15 @@ void PointLimits::axis_accels(const PosePoint& pose, PlanPiece& piece) const {
   }
 }
 
+void PointLimits::bound_flow(const PosePoint& pose, PlanPiece& piece) const {
+  if (inverse_flow_accel_ == 0) return;
+  // Where what is fed changes along the way, half of its acceleration is for that.
+  const double changes = std::abs(pose.x2[kE]) * std::sqrt(dot3(pose.x1, pose.x1));
+  const double most = (changes > 0 ? 0.5 : 1) * limits_.flow_accel_mm_per_s2;
+  if (changes * piece.cap > most) piece.cap = most / changes;
+  if (std::abs(pose.x1[kE]) * piece.accel > most) piece.accel = most / std::abs(pose.x1[kE]);
+}
+
 void PointLimits::bound_curve(const PieceDemand& demand, const PathPiece& geometry, PlanPiece& piece) const {
   constexpr int kPoints = 5;
   std::array<PosePoint, kPoints> points;
@@ -157,6 +166,7 @@ void PointLimits::bound_curve(const PieceDemand& demand, const PathPiece& geomet
   set_cap(demand, std::sqrt(w2) * kBetweenSamples, piece);
   piece.curved = true;
   piece.accel = demand.accel_mm_per_s2;
+  for (const PosePoint& p : points) bound_flow(p, piece);
   piece.k2 = k2 * kBetweenSamples * kBetweenSamples;
   piece.c = c;
   piece.w2 = std::max(w2 * kBetweenSamples * kBetweenSamples, 1e-12);

@@ -59,6 +59,8 @@ class PointLimits {
   void axis_caps(const PosePoint& pose, PlanPiece& piece) const;
   /// Feed of the tip over a part that turns under it.
   void tip_cap(const PieceDemand& demand, const PosePoint& pose, PlanPiece& piece) const;
+  /// Filament that follows the tip across its bends, at a point of a curve; before the bend's own cap.
+  void bound_flow(const PosePoint& pose, PlanPiece& piece) const;
   void joint_caps(const JointPoint& joints, PlanPiece& piece) const;
   /// How near the joints come to their limits at the piece's cap and acceleration; 1: at one.
   double joint_ratio(const JointPoint& joints, const PlanPiece& piece) const;

@@ -48,7 +48,7 @@ bool Runner::stand_at(Frame frame, const Pose& pose) {
   const auto in_machine = convert_pose(kinematics_, frame, pose, Frame::kMachine);
   if (!in_machine) return false;
   start_ = *in_machine;
-  start_[kE] += feed_.extruder_shift_mm();
+  start_[kE] += feed_.extruder_shift_mm() + pipeline_.filament_offset_mm();
   pipeline_.stands(pose, frame);
   check_what_follows();
   return true;

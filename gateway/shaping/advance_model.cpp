@@ -8,13 +8,11 @@ namespace kinebus {
 namespace {
 
 /// dE/ds: circles add nothing to it.
-double filament_slope(const PathPiece& piece, double s) {
-  const auto& c = piece.coefficients[kE];
+double filament_slope(const PhaseAdvance::Filament& c, double s) {
   return c[1] + s * (2 * c[2] + s * 3 * c[3]);
 }
 
-double filament(const PathPiece& piece, double s) {
-  const auto& c = piece.coefficients[kE];
+double filament_at(const PhaseAdvance::Filament& c, double s) {
   return c[0] + s * (c[1] + s * (c[2] + s * c[3]));
 }
 
@@ -57,35 +55,33 @@ double AdvanceModel::slope_s(double v) const {
   return advance_s;
 }
 
-PhaseAdvance::PhaseAdvance(const Phase& phase, const AdvanceModel& model) : model_(model) {
-  if (!model.acts() || !moves_tool(phase)) return;
+PhaseAdvance::PhaseAdvance(const Phase& phase, const Filament& c, const AdvanceModel& model) : model_(model) {
+  if (!model.acts()) return;
   double least = 0, most = 0;
   for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) {
-    const double slope = filament_slope(phase.piece, phase.s(t * phase.duration_s));
+    const double slope = filament_slope(c, phase.s(t * phase.duration_s));
     least = std::min(least, slope);
     most = std::max(most, slope);
   }
   if (!(most > 0)) return;
-  const auto& c = phase.piece.coefficients[kE];
   const bool even = phase.a == 0 && phase.jerk == 0 && c[2] == 0 && c[3] == 0;
   way_ = least < 0 || (model.kind != AdvanceKind::kLinear && !even) ? Way::kNumeric : Way::kProportional;
 }
 
-double PhaseAdvance::flow(const Phase& phase, double t) const {
-  return std::max(0.0, filament_slope(phase.piece, phase.s(t)) * phase.speed(t));
+double PhaseAdvance::flow(const Phase& phase, const Filament& c, double t) {
+  return std::max(0.0, filament_slope(c, phase.s(t)) * phase.speed(t));
 }
 
-PhaseAdvance::Sum PhaseAdvance::at(const Phase& phase, double t) const {
+PhaseAdvance::Sum PhaseAdvance::at(const Phase& phase, const Filament& c, double t) const {
   if (way_ == Way::kNothing) return {};
-  const double v = flow(phase, t), s = phase.s(t), rate = phase.speed(t);
-  const auto& c = phase.piece.coefficients[kE];
+  const double v = flow(phase, c, t), s = phase.s(t), rate = phase.speed(t);
   const double change =
-      v > 0 ? (2 * c[2] + 6 * c[3] * s) * rate * rate + filament_slope(phase.piece, s) * phase.accel(t) : 0;
+      v > 0 ? (2 * c[2] + 6 * c[3] * s) * rate * rate + filament_slope(c, s) * phase.accel(t) : 0;
   Sum sum{0, model_.at(v), model_.slope_s(v) * change};
   if (way_ == Way::kProportional) {
     // Of one flow, or in proportion to it.
     sum.x = model_.kind == AdvanceKind::kLinear
-                ? model_.advance_s * (filament(phase.piece, s) - filament(phase.piece, phase.s0))
+                ? model_.advance_s * (filament_at(c, s) - filament_at(c, phase.s0))
                 : sum.x1 * t;
     return sum;
   }
@@ -95,7 +91,7 @@ PhaseAdvance::Sum PhaseAdvance::at(const Phase& phase, double t) const {
                                                              {0.5, 0.284444444444444},
                                                              {0.769234655052842, 0.239314335249683},
                                                              {0.953089922969332, 0.118463442528095}}};
-  for (const auto& [place, weight] : kPlaces) sum.x += weight * t * model_.at(flow(phase, place * t));
+  for (const auto& [place, weight] : kPlaces) sum.x += weight * t * model_.at(flow(phase, c, place * t));
   return sum;
 }
 

@@ -2,6 +2,7 @@
 // Pressure advance: how far filament is pressed together in front of the nozzle, so that it flows out as
 // planned.
 
+#include <array>
 #include <cstdint>
 
 #include "gateway/motion/trajectory.hpp"
@@ -28,6 +29,10 @@ struct AdvanceModel {
   double at(double flow_mm_per_s) const;       ///< A(v), mm
   double slope_s(double flow_mm_per_s) const;  ///< dA/dv
   double steepest_s() const { return slope_s(0); }
+  /// E accelerates at most so many times as the flow: while that accelerates by at most a, the mean of A over
+  /// a window w accelerates by at most 2 K a / w, where the tool brakes and speeds up within it, and the
+  /// melt's term by 4 K T a / w^2.
+  double most_gain() const { return 1 + steepest_s() / smooth_s * (2 + 4 * melt_s / smooth_s); }
   friend bool operator==(const AdvanceModel&, const AdvanceModel&) = default;
 };
 
@@ -56,16 +61,17 @@ class PhaseAdvance {
     double x = 0, x1 = 0, x2 = 0;  ///< integral of A, mm s; A, mm; dA/dt, mm/s
   };
   PhaseAdvance() = default;
-  /// `phase`: the planner's, not timed. It must stay while at() is asked.
-  PhaseAdvance(const Phase& phase, const AdvanceModel& model);
-  /// At t seconds after the phase's start.
-  Sum at(const Phase& phase, double t) const;
+  /// Filament that beads take along a phase, a polynomial of its s.
+  using Filament = std::array<double, 4>;
+  PhaseAdvance(const Phase& phase, const Filament& filament, const AdvanceModel& model);
+  /// At t seconds after the phase's start; both as they were.
+  Sum at(const Phase& phase, const Filament& filament, double t) const;
   /// No cubic in time.
   bool curved() const { return way_ == Way::kNumeric; }
 
  private:
   enum class Way : std::uint8_t { kNothing, kProportional, kNumeric };
-  double flow(const Phase& phase, double t) const;
+  static double flow(const Phase& phase, const Filament& filament, double t);
   AdvanceModel model_;
   Way way_ = Way::kNothing;
 };

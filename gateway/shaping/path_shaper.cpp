@@ -14,9 +14,8 @@ namespace {
 constexpr double kSameTime_s = 1e-7;
 /// Poses farther apart do not join, mm or rad: the planner's rounding is far below.
 constexpr double kJoin = 1e-6;
-/// Where copies are curved, the cubics keep within 10 nm (or 10 nrad) of them, and within 1 % of a gentle
-/// printer's acceleration.
-constexpr double kTolerance = 1e-5, kAccelTolerance = 10;
+/// Where copies are curved, the cubics keep within 10 nm (or 10 nrad) of them.
+constexpr double kTolerance = 1e-5;
 /// The check at the end of a cubic holds as long as the fourth derivative is about constant.
 constexpr double kLongestCurved_s = 0.01;
 /// Shorter cubics are not divided: what is missed in so short a time no joint can follow.
@@ -24,6 +23,8 @@ constexpr double kShortestCurved_s = 0.25e-3;
 /// Times are kept small, so that their rounding is: 2^-51 s.
 constexpr double kRebase_s = 2;
 constexpr std::size_t kSources = 256;
+/// Of the path's parameter, /s: the planner's rounding.
+constexpr double kAtRest = 1e-6;
 
 bool is_curved(const PathPiece& piece) {
   return piece.arc || std::any_of(piece.coefficients.begin(), piece.coefficients.end(),
@@ -40,8 +41,9 @@ PathShaper::Tap& PathShaper::tap_at(double delay_s) {
   return taps_.back();
 }
 
-PathShaper::PathShaper(const Shapers& shapers, const AdvanceWindow& window)
-    : sources_(kSources), window_(window) {
+PathShaper::PathShaper(const Shapers& shapers, const AdvanceWindow& window, bool along_tip,
+                       double filament_offset_mm)
+    : sources_(kSources), window_(window), along_tip_(along_tip), offset_(filament_offset_mm) {
   const double reach_s = window_.reach_s(), w = window_.smooth_s;
   double mean_s = 0;
   for (const InputShaper& shaper : shapers) mean_s = std::max(mean_s, shaper.mean_s());
@@ -84,31 +86,51 @@ bool PathShaper::joins(const Phase& phase) const {
   return true;
 }
 
-void PathShaper::push(const Phase& phase) {
+void PathShaper::push(const Phase& phase, const PhaseAdvance::Filament* given) {
   assert(!waiting_);
+  PhaseAdvance::Filament beads{};
+  if (given != nullptr)
+    beads = *given;
+  else if (window_.acts() && moves_tool(phase))
+    beads = phase.piece.coefficients[kE];
   if (moving_ && (ended_ || !joins(phase))) {
     ended_ = true;
     waiting_ = phase;
+    waiting_beads_ = beads;
     return;
   }
   if (!moving_) begin(phase);
-  if (const auto pause = pause_before(phase)) append(*pause);
-  append(phase);
+  if (const auto pause = pause_before(phase)) {
+    // What flows there yet is of the model before.
+    const AdvanceModel next = std::exchange(advance_, sources_[sources_.end() - 1].model);
+    append(*pause, {});
+    advance_ = next;
+  }
+  append(phase, beads);
 }
 
-/// Filament alone and a bead meet at rest, which shaping makes overlap: the tool would be on its way before a
-/// retraction is recovered. What was before comes to rest first.
+/// Filament alone and a bead meet at rest, or with a short travel between them, which shaping makes overlap:
+/// the tool would be on its way before a retraction is recovered. What was before comes to rest first, and
+/// its advance to 0, so that each has the extruder for itself; the same where the advance changes.
 std::optional<Phase> PathShaper::pause_before(const Phase& phase) const {
-  const double shaper_s = duration_s() - 2 * window_.reach_s();
-  if (!window_.acts() || shaper_s < kSameTime_s || sources_.begin() == sources_.end()) return std::nullopt;
-  Phase rest = sources_[sources_.end() - 1].phase;
-  const bool after_tool = moves_tool(rest);
-  if (after_tool == moves_tool(phase)) return std::nullopt;
-  const Phase& tool = after_tool ? rest : phase;
-  if (!(tool.piece.evaluate(tool.s(0.5 * tool.duration_s)).x1[kE] > 0)) return std::nullopt;
+  if (pause_s_ < kSameTime_s || sources_.empty()) return std::nullopt;
+  const Source& last = sources_[sources_.end() - 1];
+  Phase rest = last.phase;
+  // A rest in the midst of motion would be a step.
+  if (std::abs(rest.speed(rest.duration_s)) > kAtRest) return std::nullopt;
+  double pause_s = pause_s_;
+  if (!along_tip_ || last.model == advance_) {
+    const bool after_tool = moves_tool(rest);
+    if (after_tool == moves_tool(phase)) return std::nullopt;
+    if (after_tool)
+      pause_s -= since_fed_s_;
+    else if (!feeds_along_tip(phase))
+      pause_s -= phase.duration_s;
+    if (pause_s < kSameTime_s) return std::nullopt;
+  }
   rest.s0 = rest.s(rest.duration_s);
   rest.v0 = rest.a = rest.jerk = 0;
-  rest.duration_s = shaper_s;
+  rest.duration_s = pause_s;
   return rest;
 }
 
@@ -117,37 +139,49 @@ void PathShaper::begin(const Phase& phase) {
   moving_ = true;
   ended_ = last_ = false;
   now_s_ = end_s_ = 0;
+  since_fed_s_ = pause_s_;
   frame_ = phase.piece.frame;
   line_ = phase.line;
   start_ = stop_ = phase.piece.evaluate(phase.s(0)).x;
   filament_start_ = filament_stop_ = {start_[kE], 0, 0};
   advance_stop_ = {};
   knot_ = {.x = start_};
+  knot_.x[kE] += offset_;
+  plain_ = start_[kE];
   for (Tap& tap : taps_) {
     tap.at = sources_.begin();
     tap.begun = tap.delay_s < kSameTime_s;
   }
 }
 
-void PathShaper::append(const Phase& phase) {
+void PathShaper::append(const Phase& phase, const PhaseAdvance::Filament& beads) {
   Source& source = sources_.push();
   source.phase = phase;
   source.start_s = end_s_;
-  source.advance = window_.acts() ? PhaseAdvance(phase, advance_) : PhaseAdvance();
-  source.curved = is_curved(phase.piece) || source.advance.curved();
+  source.beads = beads;
+  source.advance = window_.acts() ? PhaseAdvance(phase, beads, advance_) : PhaseAdvance();
+  // What is timed is a cubic in time already.
+  source.curved = (!phase.timed && is_curved(phase.piece)) || source.advance.curved();
   const Pose& along = phase.piece.evaluate(phase.s(0.5 * phase.duration_s)).x1;
+  source.model = advance_;
+  source.along_tip = along_tip_ && feeds_along_tip(phase);
   const double square = along[kX] * along[kX] + along[kY] * along[kY] + along[kZ] * along[kZ];
   source.before = filament_stop_;
+  source.e_start = along_tip_ ? stop_[kE] : filament_stop_[0] + filament_stop_[1] + filament_stop_[2];
   source.advance_before = advance_stop_;
-  const double advance = source.advance.at(phase, phase.duration_s).x;
+  const double advance = source.advance.at(phase, beads, phase.duration_s).x;
   const Pose end = phase.piece.evaluate(phase.s(phase.duration_s)).x;
   for (std::size_t i = 0; i < 3; ++i) {
-    source.share[i] = square > 0 ? along[i] * along[i] / square : 1.0 / 3;
-    filament_stop_[i] += source.share[i] * (end[kE] - stop_[kE]);
+    source.share[i] = square > 0 && !along_tip_ ? along[i] * along[i] / square : 1.0 / 3;
+    source.direction[i] = square > 0 ? along[i] / std::sqrt(square) : 0;
+    if (!source.along_tip) filament_stop_[i] += source.share[i] * (end[kE] - stop_[kE]);
     advance_stop_[i] += source.share[i] * advance;
   }
   stop_ = end;
   end_s_ += phase.duration_s;
+  since_fed_s_ = feeds_along_tip(phase) && phase.speed(0.5 * phase.duration_s) > kAtRest
+                     ? 0
+                     : since_fed_s_ + phase.duration_s;
   if (phase.last) ended_ = last_ = true;
 }
 
@@ -194,11 +228,17 @@ PathShaper::Knot PathShaper::evaluate(double t) const {
       add_advance(tap, {}, advance_stop_, {}, knot);
     } else {
       const Source& source = sources_[tap.at];
-      const double e_start = source.before[0] + source.before[1] + source.before[2];
       const double at_s = t - tap.delay_s - source.start_s;
-      add(tap, source.phase.at(at_s), source.before, source.share, e_start, knot);
+      PosePoint point = source.phase.at(at_s);
+      if (source.along_tip) {
+        knot.flow.add(tap.weight, source.phase, at_s);
+        point.x[kE] = source.e_start;
+        point.x1[kE] = point.x2[kE] = 0;
+      }
+      add(tap, point, source.before, source.share, source.e_start, knot);
       if (window_.acts())
-        add_advance(tap, source.advance.at(source.phase, at_s), source.advance_before, source.share, knot);
+        add_advance(tap, source.advance.at(source.phase, source.beads, at_s), source.advance_before,
+                    source.share, knot);
     }
   }
   return knot;
@@ -219,7 +259,7 @@ std::uint32_t PathShaper::line() const {
 }
 
 /// Taps go on to the sources that begin at now_s_; what no tap looks at any more is dropped.
-void PathShaper::advance() {
+void PathShaper::go_on() {
   std::uint64_t first = sources_.end();
   for (Tap& tap : taps_) {
     if (!tap.begun) tap.begun = now_s_ > tap.delay_s - kSameTime_s;
@@ -241,14 +281,53 @@ void PathShaper::rebase() {
   now_s_ = 0;
 }
 
+/// Filament that follows the tip does so in more than one direction, or along a curve.
+bool PathShaper::bent() const {
+  constexpr double kStraight = 1 - 1e-12;
+  const Source* first = nullptr;
+  for (const Tap& tap : taps_) {
+    if (!tap.begun || tap.at == sources_.end() || !sources_[tap.at].along_tip) continue;
+    const Source& source = sources_[tap.at];
+    if (first == nullptr) first = &source;
+    double cosine = 0;
+    for (std::size_t i = 0; i < 3; ++i) cosine += first->direction[i] * source.direction[i];
+    if (cosine < kStraight) return true;
+  }
+  return false;
+}
+
+TipFlow PathShaper::flow_at(double t) const {
+  TipFlow flow;
+  for (const Tap& tap : taps_) {
+    if (!tap.begun || tap.at == sources_.end() || !sources_[tap.at].along_tip) continue;
+    const Source& source = sources_[tap.at];
+    flow.add(tap.weight, source.phase, t - tap.delay_s - source.start_s);
+  }
+  return flow;
+}
+
+/// What evaluate() left open of filament h after now_s_; returns what beads took until then. Gauss and
+/// Legendre, three places: exact on straights.
+double PathShaper::follow_tip(double h, Knot& end) const {
+  constexpr double kAside = 0.387298334620742;
+  const TipFlow before = flow_at(now_s_ + (0.5 - kAside) * h), middle = flow_at(now_s_ + 0.5 * h),
+                after = flow_at(now_s_ + (0.5 + kAside) * h);
+  const double fed = h * (8 * middle.rate() + 5 * (before.rate() + after.rate())) / 18;
+  const double apart = h * (8 * middle.apart + 5 * (before.apart + after.apart)) / 18;
+  end.x[kE] += knot_.x[kE] - plain_ + fed + apart;
+  end.x1[kE] += end.flow.rate() + end.flow.apart;
+  end.x2[kE] += end.flow.change() + end.flow.apart1;
+  return fed;
+}
+
 bool PathShaper::next(Phase& out) {
   if (!moving_) {
     if (!waiting_) return false;
     const Phase first = *std::exchange(waiting_, std::nullopt);
     begin(first);
-    append(first);
+    append(first, waiting_beads_);
   }
-  advance();
+  go_on();
   bool unknown = false, curved = false;
   double turn = std::numeric_limits<double>::infinity();
   for (const Tap& tap : taps_) {
@@ -256,6 +335,9 @@ bool PathShaper::next(Phase& out) {
     curved = curved || (tap.begun && tap.at != sources_.end() && sources_[tap.at].curved);
   }
   if (unknown || !(turn < std::numeric_limits<double>::infinity())) return false;
+  curved = curved || (along_tip_ && bent());
+  const Tap& earliest = taps_.front();
+  if (earliest.begun && earliest.at != sources_.end()) advance_out_ = sources_[earliest.at].model;
 
   out = Phase{};
   out.timed = true;
@@ -265,19 +347,36 @@ bool PathShaper::next(Phase& out) {
   double h = turn - now_s_;
   if (curved) h /= std::ceil(h / kLongestCurved_s);
   for (;;) {
-    const Knot end = evaluate(now_s_ + h);
+    Knot end = evaluate(now_s_ + h);
+    const double plain = end.x[kE];
+    const double from = knot_.flow.rate(), to = end.flow.rate();
+    const double fed = along_tip_ ? follow_tip(h, end) : 0, mean = fed / h;
     hermite(knot_, end, h, out.piece);
-    double missed = 0;
-    if (curved && h > kShortestCurved_s)
-      for (std::size_t i = 0; i < kPoseAxes; ++i)
-        missed = std::max(missed, std::abs(end.x2[i] - 2 * out.piece.coefficients[i][2] -
-                                           6 * h * out.piece.coefficients[i][3]));
+    double missed = 0, missed_flow = 0;
+    if (curved)
+      for (std::size_t i = 0; i < kPoseAxes; ++i) {
+        const double off =
+            std::abs(end.x2[i] - 2 * out.piece.coefficients[i][2] - 6 * h * out.piece.coefficients[i][3]);
+        missed = std::max(missed, off);
+        if (i == kE && along_tip_) missed_flow = off;
+      }
     // A cubic Hermite that misses the second derivative at its end by d is off by d h^2 / 32 in the middle.
-    if (missed <= kAccelTolerance && missed * h * h <= 32 * kTolerance) {
-      knot_ = end;
-      break;
+    const bool holds = missed <= kAccelTolerance && missed * h * h <= 32 * kTolerance &&
+                       missed_flow * advance_out_.most_gain() <= kAccelTolerance;
+    if (!holds && h > kShortestCurved_s) {
+      h /= 2;
+      continue;
     }
-    h /= 2;
+    beads_out_ = {0, from, (3 * mean - 2 * from - to) / h, (from + to - 2 * mean) / (h * h)};
+    if (!holds && along_tip_) {
+      // The flow turns about within: one acceleration keeps it within those before and behind.
+      end.x[kE] = knot_.x[kE] + 0.5 * h * (knot_.x1[kE] + end.x1[kE]);
+      hermite(knot_, end, h, out.piece);
+      beads_out_ = {0, from, (to - from) / (2 * h), 0};
+    }
+    knot_ = end;
+    plain_ = plain;
+    break;
   }
   out.piece.length = out.duration_s = h;
   now_s_ += h;
@@ -285,6 +384,7 @@ bool PathShaper::next(Phase& out) {
   if (done) {
     out.last = last_;
     moving_ = false;
+    if (along_tip_) offset_ = knot_.x[kE] - stop_[kE];
   }
   return true;
 }

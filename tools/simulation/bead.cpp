@@ -11,14 +11,17 @@ constexpr std::uint64_t kSkirt = 50;
 }  // namespace
 
 void BeadLines::add(std::uint32_t line, double length_mm, double filament_mm) {
+  constexpr double kNoWay_mm = 1e-6;
   Line& known = lines_[line];
-  if (length_mm <= known.length_mm) return;
-  known = {length_mm, filament_mm / length_mm};
+  if (length_mm < kNoWay_mm) known.alone = known.alone || filament_mm > 0;
+  if (length_mm <= known.length_mm || length_mm < kNoWay_mm) return;
+  known.length_mm = length_mm;
+  known.per_mm = filament_mm / length_mm;
 }
 
 double BeadLines::filament_per_mm(std::uint32_t line) const {
   const auto found = lines_.find(line);
-  return found == lines_.end() ? 0 : found->second.per_mm;
+  return found == lines_.end() || found->second.alone ? 0 : found->second.per_mm;
 }
 
 void BeadMeter::move_to(const std::array<double, 3>& tip_mm, double filament_mm, std::uint32_t line,

@@ -13,13 +13,15 @@ namespace kinebus {
 /// Filament for a millimetre of path, by the job's lines that print.
 class BeadLines {
  public:
-  /// A stretch of line's path. The longest of its stretches counts: the others lead into corners.
+  /// A stretch of line's path. The longest of its stretches counts: the others lead into corners. A line with
+  /// a stretch of filament alone (a recovery) lays no bead, though a corner leads into it, too.
   void add(std::uint32_t line, double length_mm, double filament_mm);
   double filament_per_mm(std::uint32_t line) const;
 
  private:
   struct Line {
     double length_mm = 0, per_mm = 0;
+    bool alone = false;
   };
   std::unordered_map<std::uint32_t, Line> lines_;
 };

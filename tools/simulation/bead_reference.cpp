@@ -118,7 +118,7 @@ BeadReference bead_reference(const MachineDescription& machine,
   for_each_phase(plain, **kinematics, *text, limit_s, [&](const Phase& phase) {
     const double length = tool_path(phase);
     const double filament = phase.at(phase.duration_s).x[kE] - phase.at(0).x[kE];
-    if (length > 0) reference.lines.add(phase.line, length, std::max(0.0, filament));
+    reference.lines.add(phase.line, length, std::max(0.0, filament));
     reference.time_s += phase.duration_s;
   });
   const AdvanceModel& known = machine.pressure_advance;
