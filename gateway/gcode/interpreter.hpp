@@ -132,6 +132,8 @@ class Interpreter {
 
   /// Cutter compensation is on: moves are held back.
   bool compensates() const;
+  /// A NURBS has begun: its end has still to come.
+  bool in_nurbs() const { return state().modal.nurbs != 0; }
 
   const State& state() const;
   /// Goes on from a saved state; the next line appends SetPosition first.

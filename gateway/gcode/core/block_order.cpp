@@ -20,12 +20,18 @@ bool Core::run_careful() {
   const std::size_t size_before = out_->size();
   std::optional<CutterPath> cutter_before;
   if (before.cutter != CutterSide::kOff) cutter_before = state_.cutter;
+  const std::size_t points_before = state_.nurbs.points.size(), knots_before = state_.nurbs.knots.size();
   uncompensated_ = size_before;
   if (state_.modal.ended) begin_program();
   if (announce_) announce();
   if (run_block() && (!before.away || leave_out(size_before, before))) return true;
   state_.modal = before;
   if (cutter_before) state_.cutter = std::move(*cutter_before);
+  if (before.nurbs != 0) {
+    state_.nurbs.points.resize(points_before);
+    state_.nurbs.weights.resize(points_before);
+    state_.nurbs.knots.resize(knots_before);
+  }
   follow_dialect();
   announce_ = announce_before;
   call_ = {};
@@ -45,6 +51,8 @@ bool Core::run_block() {
     return compensate();
   }
   if (block_.deleted && options_.block_delete) return true;
+  if (state_.modal.nurbs != 0 && !check_beside_nurbs()) [[unlikely]]
+    return false;
   const bool has_content = block_.groups != 0 || block_.m_count != 0 || block_.present != 0;
   if (has_content) state_.modal.content_seen = true;
   for (const std::string_view text : block_.messages) emit(canonical::Message{std::string(text)});

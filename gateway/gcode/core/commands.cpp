@@ -12,6 +12,7 @@
 namespace kinebus::gcode {
 namespace {
 
+constexpr int kNoteForProse = 199999;
 constexpr int kNoteForCommands = 200000;  // keys of notes: behind those of codes
 
 struct Argument {
@@ -56,6 +57,19 @@ const Argument* find_argument(const std::vector<Argument>& all, std::string_view
 std::optional<double> number_of(const std::vector<Argument>& all, std::string_view name) {
   const Argument* const argument = find_argument(all, name);
   return argument == nullptr ? std::nullopt : argument->value;
+}
+
+/// "Start GCode begin": a comment that lacks its semicolon, which printers' firmware tells of and passes
+/// over. What may be meant as a macro (NAME, NAME WORD=1) is not.
+bool is_prose(std::string_view word, std::string_view rest) {
+  const auto letters = [](std::string_view text) {
+    return std::all_of(text.begin(), text.end(), [](char c) {
+      const char small = in_lower_case(c);
+      return (small >= 'a' && small <= 'z') || c == ' ';
+    });
+  };
+  const bool has_small = std::any_of(word.begin(), word.end(), [](char c) { return c >= 'a' && c <= 'z'; });
+  return has_small && letters(word) && !rest.empty() && letters(rest);
 }
 
 }  // namespace
@@ -218,6 +232,11 @@ bool Core::run_command() {
     return true;
   }
   const std::string word(block_.command);
+  if (!options_.spindle && rules_->dialect != Dialect::kKlipper && is_prose(word, block_.text)) {
+    note(kNoteForProse,
+         say("the line begins with no code and is passed over: %1", word + " " + std::string(block_.text)));
+    return true;
+  }
   return fail(
       column,
       say("%1 is unknown; a macro of the printer is written as [macro.%1] in the machine file", word));

@@ -73,8 +73,8 @@ bool Core::execute(std::string_view line, std::uint32_t line_number, CommandBuff
   if (!line.empty() && line.front() == ';' && read_object_comment(line)) [[unlikely]]
     return true;
   if (block_.is_plain() && !announce_ && !state_.modal.away && !state_.modal.ended &&
-      state_.modal.cutter == CutterSide::kOff && (block_.present & ~kStraightWords) == 0 &&
-      block_.present != 0) {
+      state_.modal.cutter == CutterSide::kOff && state_.modal.nurbs == 0 &&
+      (block_.present & ~kStraightWords) == 0 && block_.present != 0) {
     const int g = block_.has(GGroup::kMotion) ? block_.code(GGroup::kMotion).number : -1;
     const Motion motion = g == 10  ? Motion::kFeed
                           : g == 0 ? Motion::kTraverse
@@ -110,6 +110,7 @@ void Core::begin_program() {
   ModalState& m = state_.modal;
   if (std::exchange(m.away, false)) m.position = m.real_position;
   if (m.cutter != CutterSide::kOff) end_beside();
+  m.nurbs = 0;
   m.ended = false;
   m.content_seen = false;
   m.motion = Motion::kNone;
@@ -154,6 +155,7 @@ void Core::set_position(const Pose& pose, Frame frame) {
   }
   m.lifted_mm = 0;
   m.cutter = CutterSide::kOff;
+  m.nurbs = 0;
   refresh();
   announce_ = true;
 }

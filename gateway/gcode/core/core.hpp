@@ -153,6 +153,16 @@ class Core {
 
   // splines.cpp
   bool run_spline(Code code);
+
+  // nurbs_codes.cpp
+  bool run_nurbs();
+  bool begin_nurbs(Code code);
+  bool end_nurbs(Code code);
+  bool nurbs_order(char letter);
+  void add_nurbs_point(double weight);
+  bool check_beside_nurbs();
+
+  // moves.cpp
   void move_lift(double height_mm);
 
   // offsets.cpp

@@ -102,7 +102,8 @@ bool Core::run_cycle() {
     }
     ++at;
   }
-  const double r = m.incremental ? m.program[plane.w] + m.cycle_r_mm : m.cycle_r_mm;
+  // From where the row began, wherever the hole before has left the tool: with G99 that is R.
+  const double r = m.incremental ? m.cycle_initial_mm + m.cycle_r_mm : m.cycle_r_mm;
   const double bottom = m.incremental ? r + m.cycle_bottom_mm : m.cycle_bottom_mm;
   if (bottom > r)
     return fail(code.column,
@@ -153,7 +154,7 @@ bool Core::drill(std::size_t w, double r, double bottom, double clear) {
   const double rpm = m.spindle_turns * m.spindle_rpm;
   if (m.cycle == 860) emit(canonical::Spindle{0});
   if (m.cycle == 840 || m.cycle == 740) emit(canonical::Spindle{-rpm});
-  if (feeds_out(m.cycle) && !go(m.cycle == 840 || m.cycle == 740 ? r : clear, false)) return false;
+  if (feeds_out(m.cycle) && !go(clear, false)) return false;
   if (m.cycle == 840 || m.cycle == 740) emit(canonical::Spindle{rpm});
   if (!go(clear, true)) return false;
   if (m.cycle == 860) emit(canonical::Spindle{rpm});

@@ -102,9 +102,10 @@ double Core::dwell_s(double p) const {
 
 bool Core::dwell() {
   double p = 0, s = 0;
-  const bool has_p = block_.has('P'), has_s = block_.has('S');
+  // Of a machine with a spindle an S beside P is its speed.
+  const bool has_p = block_.has('P'), has_s = block_.has('S') && !(has_p && options_.spindle);
   if (has_p && has_s) return fail(block_.column_of('S'), say("G4 takes P or S, not both"));
-  if (!take_if_given('P', p) || !take_if_given('S', s)) return false;
+  if (!take_if_given('P', p) || (has_s && !take('S', s))) return false;
   const double seconds = has_s ? s : dwell_s(p);
   if (seconds < 0)
     return fail(block_.column_of(has_s ? 'S' : 'P'), say("G4 cannot wait for a negative time"));

@@ -54,11 +54,13 @@ Core::PlaneAxes Core::plane_axes() const {
 bool Core::run_motion() {
   ModalState& m = state_.modal;
   const bool spline_before = std::exchange(m.spline, false);
+  if (m.nurbs != 0) return run_nurbs();
   const bool machine_coordinates =
       block_.has(GGroup::kNonmodal) && block_.code(GGroup::kNonmodal).number == 530;
   if (block_.has(GGroup::kMotion)) {
     const Code code = block_.code(GGroup::kMotion);
     m.motion = motion_of(code.number);
+    if (code.number == 52 || code.number == 53 || code.number == 62) return run_nurbs();
     if (code.number == 50 || code.number == 51) {
       if (m.cutter != CutterSide::kOff) return refuse_beside_cutter(code, g_name(code.number));
       m.cycle = 0;

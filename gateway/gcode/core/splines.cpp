@@ -5,13 +5,11 @@
 
 #include "gateway/gcode/core/core.hpp"
 #include "gateway/gcode/curves/arc.hpp"
+#include "gateway/gcode/curves/nurbs.hpp"
 
 namespace kinebus::gcode {
 namespace {
 
-// How far the lines may leave the curve: below the blending tolerance of every machine, which rounds their
-// corners again.
-constexpr double kFlatness_mm = 0.002;
 constexpr double kMaxPieces = 20'000;
 constexpr int kNoteForSpline = 101000;
 
@@ -63,7 +61,7 @@ bool Core::run_spline(Code code) {
   const auto bend = [&](std::size_t k) {
     return 6 * std::hypot(b[k][0] - 2 * b[k + 1][0] + b[k + 2][0], b[k][1] - 2 * b[k + 1][1] + b[k + 2][1]);
   };
-  const double pieces = std::ceil(std::sqrt(std::max(bend(0), bend(1)) / (8 * kFlatness_mm)));
+  const double pieces = std::ceil(std::sqrt(std::max(bend(0), bend(1)) / (8 * kSplineFlatness_mm)));
   if (!(pieces <= kMaxPieces)) return fail(code.column, say("the spline is too large"));
   const int n = std::max(1, static_cast<int>(pieces));
   for (int piece = 1; piece <= n; ++piece) {

@@ -192,8 +192,8 @@ Result<void, ParseError> JobReader::finish(CommandBuffer& out) {
   if (program_.busy()) {
     if (auto result = run_recorded(steps_a_call_, out); !result || program_.busy()) return result;
   }
-  if (interpreter_.compensates()) {
-    // The text's end is G40's place, and may be refused as that.
+  if (interpreter_.compensates() || interpreter_.in_nurbs()) {
+    // The text's end is G40's place, and may be refused as that; a NURBS without end is.
     if (auto ended = interpreter_.execute("G40", line_, out); !ended) {
       if (auto refused = refuse(std::move(ended.error())); !refused) return refused;
     }

@@ -107,6 +107,14 @@ Result<void, ParseError> Program::give_up(ParseError error) {
   return Error<ParseError>(std::move(error));
 }
 
+Result<void, ParseError> Program::call_waiting_o() {
+  const std::string text = std::exchange(waiting_o_, {});
+  OWord word;
+  SyntaxError error;
+  if (!read_o_word(text, word, error)) return wrong(waiting_line_, error.column, std::move(error.message));
+  return call_o(text, word, waiting_line_);
+}
+
 Result<void, ParseError> Program::finish() {
   if (blocks_.is_open() && !passes_over_) {
     if (auto ended = add_ends(blocks_.close(), 0); !ended) return ended;
@@ -119,9 +127,9 @@ Result<void, ParseError> Program::finish() {
   frame.at = frame.begin = rest_begin_;
   frame.end = recording_.size();
   frames_.push_back(std::move(frame));
-  if (auto called = call_program(std::exchange(waiting_, {}), waiting_line_); !called)
-    return abandon(std::move(called.error()));
-  return {};
+  auto called =
+      waiting_o_.empty() ? call_program(std::exchange(waiting_, {}), waiting_line_) : call_waiting_o();
+  return called ? Result<void, ParseError>{} : abandon(std::move(called.error()));
 }
 
 // Carrying out.

@@ -82,6 +82,7 @@ class Program {
   /// An error in what is recorded: the text's rest has no meaning.
   Result<void, ParseError> give_up(ParseError error);
   Result<void, ParseError> begin_rest(std::uint32_t number);
+  Result<void, ParseError> call_waiting_o();
   void leave_all();
 
   Result<double, ParseError> value_of(const Recording::Line& line);
@@ -110,6 +111,7 @@ class Program {
   bool named_ = false;        ///< the main program's O number came
   bool rest_ = false;         ///< all that comes is recorded: a program is looked for
   ProgramCall waiting_;       ///< for that program
+  std::string waiting_o_;     ///< the line that calls it, when an O word does
   std::uint32_t waiting_line_ = 0;
   std::uint32_t rest_begin_ = 0;
   std::uint64_t steps_ = 0;

@@ -6,6 +6,15 @@
 #include "gateway/gcode/programs/program.hpp"
 
 namespace kinebus::gcode {
+namespace {
+
+/// As the O word of a macro's own subroutine has it: o100, o<name>.
+std::string macro_label(const std::string& name) {
+  const bool number = name.find_first_not_of("0123456789") == std::string::npos;
+  return number ? name : "<" + name + ">";
+}
+
+}  // namespace
 
 void Program::leave_frame() {
   Frame& frame = frames_.back();
@@ -64,7 +73,13 @@ Result<void, ParseError> Program::call_o(std::string_view text, const OWord& wor
   std::size_t at = word.rest_at;
   for (;;) {
     at = text.find_first_not_of(" \t\r", at);
-    if (at == std::string_view::npos || text[at] == ';' || text[at] == '(') break;
+    if (at == std::string_view::npos || text[at] == ';') break;
+    if (text[at] == '(') {
+      at = text.find(')', at);
+      if (at == std::string_view::npos) break;
+      ++at;
+      continue;
+    }
     const auto column = static_cast<std::uint32_t>(at) + 1;
     if (text[at] != '[') return wrong(number, column, say("the arguments of a call stand in [ ]"));
     if (arguments.size() == kLocals) return wrong(number, column, say("a call has 30 arguments at most"));
@@ -81,14 +96,22 @@ Result<void, ParseError> Program::call_o(std::string_view text, const OWord& wor
     frame.at = frame.begin = sub->begin;
     frame.end = sub->end;
     frame.as_line = frames_.empty() ? 0 : frames_.back().as_line;
-  } else if (label.front() == '<' && interpreter_.has_macro(label.substr(1, label.size() - 2))) {
+  } else if (const std::string name = label.front() == '<' ? label.substr(1, label.size() - 2) : label;
+             interpreter_.has_macro(name)) {
     ProgramCall call;
     call.what = ProgramCall::What::kMacro;
-    call.name = label.substr(1, label.size() - 2);
+    call.name = name;
     call.numbered = std::move(arguments);
     return call_macro(call, number);
+  } else if (use_ == Use::kText && frames_.empty() && !rest_) {
+    // It may stand below, behind the main program's end.
+    waiting_o_ = text;
+    return begin_rest(number);
   } else {
-    return wrong(number, word.column, say("%1 is not defined above this call", frame.name));
+    const bool in_rest = !frames_.empty() && frames_.front().kind == FrameKind::kRest;
+    return wrong(number, word.column,
+                 in_rest ? say("there is no %1 in this text", frame.name)
+                         : say("%1 is not defined above this call", frame.name));
   }
   frame.own_locals = true;
   std::copy(arguments.begin(), arguments.end(), frame.locals.numbers.begin());
@@ -172,7 +195,9 @@ Result<void, ParseError> Program::call_macro(const ProgramCall& call, std::uint3
       return wrong(number, 1,
                    say("in the macro %1, line %2: %3", call.name, range.error().line, range.error().message));
     recording_.keep();
-    known = macros_.emplace(call.name, *range).first;
+    // A file of LinuxCNC's: the subroutine of its name, between others that it calls.
+    const auto* own = recording_.subroutine(macro_label(call.name));
+    known = macros_.emplace(call.name, own != nullptr && own->begin >= range->begin ? *own : *range).first;
   }
   Frame frame;
   frame.kind = FrameKind::kMacro;

@@ -1,17 +1,21 @@
-// Prints the canonical commands of a job: gcode_print FILE
+// Prints the canonical commands of a job: gcode_print FILE [FOLDER]
+// FOLDER: each NAME.ngc of it is the macro NAME.
 
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <utility>
 
 #include "gateway/gcode/canonical_text.hpp"
+#include "gateway/gcode/letters.hpp"
 #include "gateway/gcode/programs/job_reader.hpp"
 #include "gateway/gcode/tests/golden_options.hpp"
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
-    std::fputs("usage: gcode_print FILE\n", stderr);
+  if (argc != 2 && argc != 3) {
+    std::fputs("usage: gcode_print FILE [FOLDER]\n", stderr);
     return 2;
   }
   std::ifstream file(argv[1], std::ios::binary);
@@ -21,7 +25,16 @@ int main(int argc, char** argv) {
     return 2;
   }
   using namespace kinebus;
-  gcode::Interpreter interpreter(gcode::golden_options(text));
+  gcode::Options options = gcode::golden_options(text);
+  if (argc == 3) {
+    for (const auto& entry : std::filesystem::directory_iterator(argv[2])) {
+      if (entry.path().extension() != ".ngc") continue;
+      std::ifstream macro(entry.path(), std::ios::binary);
+      options.macros.push_back({gcode::in_lower_case(entry.path().stem().string()),
+                                std::string{std::istreambuf_iterator<char>(macro), {}}});
+    }
+  }
+  gcode::Interpreter interpreter(std::move(options));
   gcode::JobReader reader(interpreter);
   gcode::CommandBuffer commands;
   auto result = reader.read(text, commands);

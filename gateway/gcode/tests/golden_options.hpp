@@ -10,7 +10,7 @@ namespace kinebus::gcode {
 /// Home 200 mm above the table, one spare tool of 12.5 mm, 6 mm wide. A file changes it with "options: word
 /// word" anywhere in its text: block_delete, dwell_seconds, traverse_uses_feed, default_feed, two_tools,
 /// five_tools, spindle, probe, dialect=NAME, macros (prime LENGTH=, square with an argument by number, wipe,
-/// wrong).
+/// wrong), linuxcnc, printer (macros that profiles of printers call).
 inline Options golden_options(std::string_view text) {
   Options options;
   options.home = {0, 0, 200, 0, 0, 0};
@@ -53,6 +53,29 @@ inline Options golden_options(std::string_view text) {
                        "    M99\n"
                        "G1 X0\n"},
                       {"wrong", "if true\n  G1 X{var.none}\n"}};
+  if (says("linuxcnc")) {  // as tests/linuxcnc_corpus has its peer: T7 is 0.7 mm long and 0.35 mm wide
+    options.dialect = Dialect::kLinuxCnc;
+    options.spindle = true;
+    options.tools = 100'000;
+    options.probe = ProbeFitted::kFitted;
+    options.probe_mm_per_s = 1e6;
+    options.home = {};
+    options.dwell_p_unit = DwellUnit::kByDialect;
+    options.most_recorded_steps = 1'000'000;
+    options.tool_length_mm.clear();
+    options.tool_diameter_mm.clear();
+    for (int tool = 1; tool < 100; ++tool) {
+      options.tool_length_mm.push_back(tool / 10.0);
+      options.tool_diameter_mm.push_back(tool / 20.0);
+    }
+  }
+  if (says("printer")) {  // what printers' own firmware has under these names
+    options.macros = {{"start_print",
+                       "M140 S#<bed_temp>\nM104 S#<extruder_temp>\nG28\nM190 S#<bed_temp>\n"
+                       "M109 S#<extruder_temp>\n"},
+                      {"end_print", "M104 S0\nM140 S0\nM107\n"},
+                      {"g1009", "G1 E10 F300\n"}};
+  }
   if (says("two_tools")) options.tools = options.hotends = 2;
   if (says("five_tools")) options.tools = options.hotends = 5;
   return options;

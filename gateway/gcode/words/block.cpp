@@ -111,7 +111,8 @@ class BlockReader {
     cursor_.skip_blanks();
     double number = 0;
     const char* const after = parse_decimal(cursor_.p, cursor_.end, number);
-    if (after == nullptr || number < 0 || number > 4294967295.0 || number != std::floor(number))
+    if (after == nullptr || number < 0 || number > 4294967295.0 ||
+        (number != std::floor(number) && state_.modal.dialect != Dialect::kLinuxCnc))
       return fail(column, say("N needs a whole number from 0 to 4294967295"));
     cursor_.p = after;
     block_.has_line_number = true;

@@ -292,13 +292,16 @@ bool ValueReader::read_arc_tangent(const char* start, double& value) {
 bool ValueReader::read_exists(double& value) {
   ParameterRef ref;
   if (!cursor_.accept('#')) return fail(cursor_.p, say("exists is written exists[#<name>]"));
-  if (!read_parameter_ref(ref)) return false;
+  if (!read_parameter_ref(ref, true)) return false;
   if (!cursor_.accept(']')) return fail(cursor_.p, say("expected ]"));
-  value = ref.index != 0 || read_named(state_, ref.name).has_value() ? 1 : 0;
+  value = (ref.index != 0 && parameter_use(ref.index) != ParameterUse::kNone) ||
+                  read_named(state_, ref.name).has_value()
+              ? 1
+              : 0;
   return true;
 }
 
-bool ValueReader::read_parameter_ref(ParameterRef& ref) {
+bool ValueReader::read_parameter_ref(ParameterRef& ref, bool may_be_none) {
   cursor_.skip_blanks();
   const char* const start = cursor_.p;
   if (cursor_.accept('<')) {
@@ -320,7 +323,7 @@ bool ValueReader::read_parameter_ref(ParameterRef& ref) {
   if (std::abs(number) > 1e6 || std::abs(number - std::round(number)) > kEqualTolerance)
     return fail(start, say("a parameter's number must be a whole number from 1 to 5602"));
   ref.index = static_cast<int>(std::lround(number));
-  if (parameter_use(ref.index) == ParameterUse::kNone)
+  if (!may_be_none && parameter_use(ref.index) == ParameterUse::kNone)
     return fail(start, say("there is no parameter #%1; they are #1 to #5602", ref.index));
   return true;
 }

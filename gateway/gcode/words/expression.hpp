@@ -55,7 +55,7 @@ class ValueReader {
   bool starts_value();
   bool read_value(double& value);
   /// The cursor stands after the #.
-  bool read_parameter_ref(ParameterRef& ref);
+  bool read_parameter_ref(ParameterRef& ref, bool may_be_none = false);
 
  private:
   static constexpr int kMaxDepth = 40;

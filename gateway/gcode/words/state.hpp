@@ -12,6 +12,7 @@
 
 #include "gateway/gcode/canonical.hpp"
 #include "gateway/gcode/curves/cutter.hpp"
+#include "gateway/gcode/curves/nurbs.hpp"
 #include "gateway/gcode/dialects.hpp"
 
 namespace kinebus::gcode {
@@ -68,6 +69,8 @@ struct ModalState {
   double cycle_r_mm = 0, cycle_bottom_mm = 0, cycle_peck_mm = 0, cycle_dwell_s = 0;  ///< G91: as increments
   std::array<double, 2> spline_end_mm{};  ///< G5 P Q of the line before
   bool spline = false;                    ///< the line before was a G5
+  int nurbs = 0;                          ///< 52, 62: G5.2 or G6.2 has begun State::nurbs; 0: neither
+  Pose nurbs_start{};                     ///< where it begins, as the job would write it
   bool plane_rotation = false;            ///< `tilted` by G68: the tool does not turn with the plane
 
   std::array<double, 8> hotend_celsius{};  ///< targets, for M116
@@ -142,6 +145,7 @@ struct PrintObject {
 struct State {
   ModalState modal;
   CutterPath cutter;
+  Nurbs nurbs;  ///< of the lines since ModalState::nurbs was set
   std::vector<PrintObject> objects;
   /// Of all objects that were defined with their shape: X Y least and greatest, as the text writes them.
   std::optional<std::array<double, 4>> print_area{};
