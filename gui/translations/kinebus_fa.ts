@@ -3049,10 +3049,6 @@
         <translation>واژهٔ O در آغاز سطر خود می‌ایستد</translation>
     </message>
     <message>
-        <source>NURBS (%1) are not supported: use G5 or G1</source>
-        <translation>NURBS (%1) پشتیبانی نمی‌شود: G5 یا G1 به کار ببرید</translation>
-    </message>
-    <message>
         <source>%1 turns with the spindle, which needs an encoder on it</source>
         <translation>%1 با اسپیندل می‌چرخد و به انکودر روی آن نیاز دارد</translation>
     </message>
@@ -3367,6 +3363,70 @@
     <message>
         <source>%1 needs P and Q</source>
         <translation>%1 به P و Q نیاز دارد</translation>
+    </message>
+    <message>
+        <source>%1 ends a NURBS, and none has begun</source>
+        <translation>%1 یک NURBS را پایان می‌دهد، ولی هیچ‌کدام آغاز نشده است</translation>
+    </message>
+    <message>
+        <source>%1 needs its order P</source>
+        <translation>%1 به مرتبه‌ی خود P نیاز دارد</translation>
+    </message>
+    <message>
+        <source>%1 stands in a line of its own</source>
+        <translation>%1 در سطری جداگانه می‌آید</translation>
+    </message>
+    <message>
+        <source>P without X Y Z is the weight of the first control point</source>
+        <translation>P بدون X Y Z وزن نخستین نقطه‌ی کنترل است</translation>
+    </message>
+    <message>
+        <source>a NURBS has %1 control points at most</source>
+        <translation>یک NURBS حداکثر %1 نقطه‌ی کنترل دارد</translation>
+    </message>
+    <message>
+        <source>a NURBS of order %1 needs as many points, and has %2</source>
+        <translation>یک NURBS از مرتبه‌ی %1 به همان تعداد نقطه نیاز دارد و %2 نقطه دارد</translation>
+    </message>
+    <message>
+        <source>a line with K alone came before: no more points can follow</source>
+        <translation>پیش از این سطری تنها با K آمد: نقطه‌ی دیگری نمی‌تواند بیاید</translation>
+    </message>
+    <message>
+        <source>each line of G6.2 needs its knot K</source>
+        <translation>هر سطر G6.2 به گره‌ی خود K نیاز دارد</translation>
+    </message>
+    <message>
+        <source>the NURBS that G5.2 began has no end: write G5.3 before this line</source>
+        <translation>NURBS آغازشده با G5.2 پایان ندارد: پیش از این سطر G5.3 بنویسید</translation>
+    </message>
+    <message>
+        <source>the NURBS that G6.2 began has no end: as many lines with K alone as its order P come behind its points</source>
+        <translation>NURBS آغازشده با G6.2 پایان ندارد: پس از نقطه‌هایش به تعداد مرتبه‌ی P سطرهایی تنها با K می‌آید</translation>
+    </message>
+    <message>
+        <source>the first control point of G6.2 must be where the tool stands</source>
+        <translation>نخستین نقطه‌ی کنترل G6.2 باید جایی باشد که ابزار ایستاده است</translation>
+    </message>
+    <message>
+        <source>the knots K have to begin and end with as many equal ones as the order P, and to have fewer equal ones between</source>
+        <translation>گره‌های K باید با تعداد برابر مرتبه‌ی P از مقدارهای یکسان آغاز و پایان یابند و در میان کمتر از آن یکسان باشند</translation>
+    </message>
+    <message>
+        <source>the knots K of a NURBS cannot fall</source>
+        <translation>گره‌های K یک NURBS نمی‌توانند کاهش یابند</translation>
+    </message>
+    <message>
+        <source>the line begins with no code and is passed over: %1</source>
+        <translation>سطر با کدی آغاز نمی‌شود و نادیده گرفته می‌شود: %1</translation>
+    </message>
+    <message>
+        <source>the weight %1 of a control point is 0.000001 to 1000000</source>
+        <translation>وزن %1 یک نقطه‌ی کنترل از 0.000001 تا 1000000 است</translation>
+    </message>
+    <message>
+        <source>there is no %1 in this text</source>
+        <translation>در این متن %1 وجود ندارد</translation>
     </message>
     <message>
         <source>the spline is too large</source>

@@ -3049,10 +3049,6 @@
         <translation>bir O sözcüğü satırının başında durur</translation>
     </message>
     <message>
-        <source>NURBS (%1) are not supported: use G5 or G1</source>
-        <translation>NURBS (%1) desteklenmiyor: G5 ya da G1 kullanın</translation>
-    </message>
-    <message>
         <source>%1 turns with the spindle, which needs an encoder on it</source>
         <translation>%1 iş mili ile birlikte döner; bunun için mil üzerinde kodlayıcı gerekir</translation>
     </message>
@@ -3367,6 +3363,70 @@
     <message>
         <source>%1 needs P and Q</source>
         <translation>%1 P ve Q ister</translation>
+    </message>
+    <message>
+        <source>%1 ends a NURBS, and none has begun</source>
+        <translation>%1 bir NURBS&apos;ü bitirir, ama başlamış olan yok</translation>
+    </message>
+    <message>
+        <source>%1 needs its order P</source>
+        <translation>%1 için derecesi P gerekir</translation>
+    </message>
+    <message>
+        <source>%1 stands in a line of its own</source>
+        <translation>%1 kendi satırında yer alır</translation>
+    </message>
+    <message>
+        <source>P without X Y Z is the weight of the first control point</source>
+        <translation>X Y Z olmadan P ilk kontrol noktasının ağırlığıdır</translation>
+    </message>
+    <message>
+        <source>a NURBS has %1 control points at most</source>
+        <translation>bir NURBS&apos;ün en çok %1 kontrol noktası olur</translation>
+    </message>
+    <message>
+        <source>a NURBS of order %1 needs as many points, and has %2</source>
+        <translation>%1. dereceden bir NURBS o kadar nokta ister, %2 noktası var</translation>
+    </message>
+    <message>
+        <source>a line with K alone came before: no more points can follow</source>
+        <translation>önce yalnız K olan bir satır geldi: artık nokta gelemez</translation>
+    </message>
+    <message>
+        <source>each line of G6.2 needs its knot K</source>
+        <translation>G6.2&apos;nin her satırı düğümü K&apos;yi ister</translation>
+    </message>
+    <message>
+        <source>the NURBS that G5.2 began has no end: write G5.3 before this line</source>
+        <translation>G5.2 ile başlayan NURBS&apos;ün sonu yok: bu satırdan önce G5.3 yazın</translation>
+    </message>
+    <message>
+        <source>the NURBS that G6.2 began has no end: as many lines with K alone as its order P come behind its points</source>
+        <translation>G6.2 ile başlayan NURBS&apos;ün sonu yok: noktalarının ardından derecesi P kadar yalnız K olan satır gelir</translation>
+    </message>
+    <message>
+        <source>the first control point of G6.2 must be where the tool stands</source>
+        <translation>G6.2&apos;nin ilk kontrol noktası takımın durduğu yer olmalı</translation>
+    </message>
+    <message>
+        <source>the knots K have to begin and end with as many equal ones as the order P, and to have fewer equal ones between</source>
+        <translation>düğümler K derecesi P kadar eşit değerle başlayıp bitmeli, arada daha azı eşit olmalı</translation>
+    </message>
+    <message>
+        <source>the knots K of a NURBS cannot fall</source>
+        <translation>bir NURBS&apos;ün düğümleri K azalamaz</translation>
+    </message>
+    <message>
+        <source>the line begins with no code and is passed over: %1</source>
+        <translation>satır bir kodla başlamıyor ve atlanıyor: %1</translation>
+    </message>
+    <message>
+        <source>the weight %1 of a control point is 0.000001 to 1000000</source>
+        <translation>bir kontrol noktasının ağırlığı %1 0.000001 ile 1000000 arasındadır</translation>
+    </message>
+    <message>
+        <source>there is no %1 in this text</source>
+        <translation>bu metinde %1 yok</translation>
     </message>
     <message>
         <source>the spline is too large</source>

@@ -74,10 +74,7 @@ struct Reason {
   int code;
   const char* text;
 };
-constexpr std::array<Reason, 13> kGReasons = {{
-    {52, phrase("NURBS (%1) are not supported: use G5 or G1")},
-    {53, phrase("NURBS (%1) are not supported: use G5 or G1")},
-    {62, phrase("NURBS (%1) are not supported: use G5 or G1")},
+constexpr std::array<Reason, 10> kGReasons = {{
     {301, phrase("G30.1 is not supported: use G10 L2 or parameters")},
     {330, phrase("%1 turns with the spindle, which needs an encoder on it")},
     {331, phrase("%1 turns with the spindle, which needs an encoder on it")},
