@@ -2,6 +2,9 @@
 
 #include <fstream>
 #include <sstream>
+#include <utility>
+
+#include "gateway/description/macro_files.hpp"
 
 namespace kinebus {
 
@@ -19,7 +22,12 @@ Result<MachineDescription, MachineFileErrors> load_machine(const std::filesystem
   std::ostringstream text;
   text << in.rdbuf();
   if (!in) return unreadable(say("a file that cannot be read"), say("a readable TOML file"));
-  return parse_machine(text.view(), path.string());
+  auto machine = parse_machine(text.view(), path.string());
+  if (!machine) return machine;
+  MachineFileErrors errors;
+  add_macro_files(path.parent_path() / "macros", machine->macros, errors);
+  if (!errors.empty()) return Error<MachineFileErrors>(std::move(errors));
+  return machine;
 }
 
 std::string to_string(const MachineFileError& error) {

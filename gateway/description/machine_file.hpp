@@ -26,6 +26,7 @@ std::string to_string(const std::vector<MachineFileError>& errors);  ///< a line
 
 using MachineFileErrors = std::vector<MachineFileError>;
 
+/// With the macros of the folder `macros` beside it.
 Result<MachineDescription, MachineFileErrors> load_machine(const std::filesystem::path& path);
 /// `name`: what stands for the file in messages.
 Result<MachineDescription, MachineFileErrors> parse_machine(std::string_view text, std::string_view name);

@@ -69,6 +69,10 @@ bool Interpreter::evaluate(std::string_view line, std::size_t& at, double& value
 void Interpreter::swap_locals(Locals& locals) {
   core_->swap_locals(locals);
 }
+
+void Interpreter::end_subroutine() {
+  core_->end_subroutine();
+}
 Result<void, ParseError> Interpreter::run_meta(const MetaLine& line, CommandBuffer& out) {
   if (core_->meta_command(line, out)) return {};
   return Error<ParseError>(core_->error());

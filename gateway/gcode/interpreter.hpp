@@ -52,6 +52,7 @@ struct Locals {
   std::array<double, ParameterState::kLocals> numbers{};
   NamedValues names;
   std::vector<MetaVariable> variables;
+  SavedModes saved;
 };
 
 enum class DwellUnit : std::uint8_t { kByDialect, kMilliseconds, kSeconds };
@@ -159,6 +160,8 @@ class Interpreter {
   /// Reads the value at line[at] and leaves `at` behind it.
   bool evaluate(std::string_view line, std::size_t& at, double& value, SyntaxError& error) const;
   void swap_locals(Locals& locals);
+  /// A subroutine ends, its locals still there: what M73 kept is in force from the next line on.
+  void end_subroutine();
   /// var, global, set, echo, abort.
   Result<void, ParseError> run_meta(const MetaLine& line, CommandBuffer& out);
   /// What stands behind if, elif and while.

@@ -59,6 +59,8 @@ bool Core::fail(std::uint32_t column, Sentence message) {
 bool Core::execute(std::string_view line, std::uint32_t line_number, CommandBuffer& out) {
   out_ = &out;
   line_ = line_number;
+  if (modes_due_.modes && !restore_due_modes()) [[unlikely]]
+    return false;
   SyntaxError error;
   if (!read_block(line, state_, block_, error)) {
     if (!options_.macros.empty() && call_code_macro(line)) return true;
@@ -91,6 +93,7 @@ bool Core::execute(std::string_view line, std::uint32_t line_number, CommandBuff
   }
   if (line.size() > kMaxLine && !block_.is_plain())
     return fail(kMaxLine + 1, say("the line is longer than 4096 bytes"));
+  if (!options_.macros.empty() && is_harmless() && call_code_macro(line)) return true;
   return run_careful();
 }
 
@@ -115,7 +118,8 @@ void Core::begin_program() {
   m.content_seen = false;
   m.motion = Motion::kNone;
   m.plane = Plane::kXy;
-  m.incremental = m.incremental_e = m.relative_extruder = m.absolute_centre = m.inverse_time = false;
+  m.incremental = m.incremental_e = m.relative_extruder = m.absolute_centre = false;
+  m.inverse_time = m.feed_per_turn = false;
   m.coordinate_system = 0;
   m.g92_active = false;
   m.tool_centre_point = m.tilted = false;
@@ -164,6 +168,15 @@ void Core::swap_locals(Locals& locals) {
   std::swap_ranges(locals.numbers.begin(), locals.numbers.end(), state_.parameters.numbered.begin() + 1);
   std::swap(locals.names, state_.parameters.locals);
   std::swap(locals.variables, state_.parameters.meta_locals);
+  std::swap(locals.saved, state_.saved);
+}
+
+void Core::end_subroutine() {
+  if (state_.saved.modes && state_.saved.at_return) modes_due_ = state_.saved;
+}
+
+bool Core::is_harmless() const {
+  return block_.harmless_g >= 0 || (block_.m_count > 0 && m_group(block_.m[0].number) == MGroup::kHarmless);
 }
 
 void Core::set_returned(double value, bool given) {

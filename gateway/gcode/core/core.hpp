@@ -57,6 +57,7 @@ class Core {
   bool meta_condition(const MetaLine& line, bool& holds);
   void set_iterations(double done) { state_.parameters.iterations = done; }
   void set_returned(double value, bool given);
+  void end_subroutine();
   bool read_header(std::string_view comment, std::uint32_t line_number);
   const Macro* find_macro(std::string_view name) const;
   const ProgramCall& call() const { return call_; }
@@ -90,6 +91,7 @@ class Core {
   void set_dialect(Dialect dialect);
   void follow_dialect();  ///< the state's
   bool call_code_macro(std::string_view line);
+  bool is_harmless() const;  ///< the line's first code has no effect here, so that a macro may have its name
 
   // Words. take(): the word belongs to the code at work; refused when it has no number or another code took
   // it.
@@ -198,6 +200,11 @@ class Core {
   bool compensate();  ///< what the line has given out since the last call
   void end_beside();
 
+  // saved_modes.cpp
+  bool saved_modes(Code code);
+  bool restore_modes(std::uint32_t column);
+  bool restore_due_modes();
+
   // machine_codes.cpp
   bool run_machine_code(Code code);
   bool spindle(Code code);
@@ -267,7 +274,8 @@ class Core {
   ParseError error_;
   std::vector<Note> notes_;
   std::vector<int> noted_;
-  ProgramCall call_;  ///< what the line at work asks for
+  ProgramCall call_;      ///< what the line at work asks for
+  SavedModes modes_due_;  ///< before the next line: of the subroutine that has ended
   CommandBuffer* out_ = nullptr;
   std::size_t uncompensated_ = 0;  ///< where in out_ the line's commands begin that compensate() has not seen
   std::uint32_t line_ = 0;

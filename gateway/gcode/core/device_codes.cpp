@@ -87,7 +87,16 @@ bool Core::spindle_speed() {
   double rpm = 0;
   if (!take('S', rpm)) return false;
   if (!(rpm >= 0)) return fail(block_.column_of('S'), say("the spindle's speed S cannot be below 0"));
-  state_.modal.spindle_rpm = rpm;
+  ModalState& m = state_.modal;
+  if (m.feed_per_turn && m.feed_known && !has('F') && (block_.present & Block::bit('F')) == 0) {
+    if (rpm > 0 && m.spindle_rpm > 0) {
+      m.feed_mm_per_s *= rpm / m.spindle_rpm;
+      m.feed_rad_per_s *= rpm / m.spindle_rpm;
+    } else {
+      m.feed_known = false;
+    }
+  }
+  m.spindle_rpm = rpm;
   if (state_.modal.spindle_turns != 0) emit(canonical::Spindle{state_.modal.spindle_turns * rpm});
   return true;
 }

@@ -74,6 +74,13 @@ bool Core::run_machine_code(Code code) {
       emit(output);
       return true;
     }
+    case 70:
+    case 71:
+    case 72:
+      return saved_modes(code);
+    case 73:
+      if (options_.spindle && (block_.text.empty() || block_.text.front() == '(')) return saved_modes(code);
+      break;  // of printers: progress
     case 98:
     case 99:
       return program_call(code);

@@ -15,10 +15,15 @@ bool Core::run_modes() {
     if (!check_beside_cutter()) return false;
   }
   if (block_.has(GGroup::kFeedMode)) {
-    const bool inverse_time = block_.code(GGroup::kFeedMode).number == 930;
+    const Code mode = block_.code(GGroup::kFeedMode);
+    const bool inverse_time = mode.number == 930, per_turn = mode.number == 950;
+    if (per_turn && !options_.spindle)
+      return fail(mode.column,
+                  say("feed for each turn (G95) needs a spindle, which this machine does not have"));
     // An F of the other mode means something else.
-    if (inverse_time != m.inverse_time) m.feed_known = false;
+    if (inverse_time != m.inverse_time || per_turn != m.feed_per_turn) m.feed_known = false;
     m.inverse_time = inverse_time;
+    m.feed_per_turn = per_turn;
   }
   if (has('F') && !m.inverse_time && !run_feed_word()) return false;
   if (has('T')) {
@@ -75,9 +80,17 @@ bool Core::change_tool() {
 
 bool Core::feed_from(double value, FeedRate& feed) {
   if (!(value > 0)) return fail(block_.column_of('F'), say("F must be greater than 0"));
+  double per_minute = value;
+  if (state_.modal.feed_per_turn) {
+    // The S of this line counts: its turn comes later.
+    const bool given = has('S') && !block_.is_bare('S') && block_['S'] >= 0;
+    per_minute *= given ? block_['S'] : state_.modal.spindle_rpm;
+    if (!(per_minute > 0))
+      return fail(block_.column_of('F'), say("with G95 the spindle's speed S comes before F"));
+  }
   feed.known = true;
-  feed.mm_per_s = length(value) / 60;
-  feed.rad_per_s = value * (std::numbers::pi / 180 / 60);
+  feed.mm_per_s = length(per_minute) / 60;
+  feed.rad_per_s = per_minute * (std::numbers::pi / 180 / 60);
   return true;
 }
 

@@ -24,7 +24,10 @@ void Program::leave_frame() {
     frame.counters.clear();
     return;
   }
-  if (frame.own_locals) interpreter_.swap_locals(frame.locals);
+  if (frame.own_locals) {
+    interpreter_.end_subroutine();
+    interpreter_.swap_locals(frame.locals);
+  }
   frames_.pop_back();
   if (frames_.empty()) leave_all();
 }

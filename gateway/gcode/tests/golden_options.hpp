@@ -44,6 +44,7 @@ inline Options golden_options(std::string_view text) {
                        "o1 endif\n"},
                       {"square", "G1 X#1 F600\nY#1\nX0\nY0\n"},
                       {"g1009", "G1 E#<p> F300\n"},
+                      {"m701", "G1 E[#<z> * 10] F300\n"},
                       {"wipe",
                        "; as RepRapFirmware has it\n"
                        "var times = exists(param.S) ? param.S : 1\n"

@@ -74,7 +74,7 @@ struct Reason {
   int code;
   const char* text;
 };
-constexpr std::array<Reason, 10> kGReasons = {{
+constexpr std::array<Reason, 9> kGReasons = {{
     {301, phrase("G30.1 is not supported: use G10 L2 or parameters")},
     {330, phrase("%1 turns with the spindle, which needs an encoder on it")},
     {331, phrase("%1 turns with the spindle, which needs an encoder on it")},
@@ -84,7 +84,6 @@ constexpr std::array<Reason, 10> kGReasons = {{
                  "angle, which this machine does not have")},
     {870, phrase("G87 needs a spindle that stops at an angle, which this machine does not have")},
     {880, phrase("G88 needs an operator who moves the axes by hand: use G82 or G86")},
-    {950, phrase("feed for each turn (G95) needs a spindle, which this machine does not have")},
     {960, phrase("constant surface speed (G96) needs a lathe")},
 }};
 constexpr std::array<Reason, 3> kMReasons = {{

@@ -41,6 +41,7 @@ struct ModalState {
   bool relative_extruder = false;  ///< M83: what G90 goes back to
   bool absolute_centre = false;    ///< G90.1
   bool inverse_time = false;       ///< G93
+  bool feed_per_turn = false;      ///< G95: feed_mm_per_s follows from F and the last S
   bool tool_centre_point = false;  ///< G43.4
   bool exact_path = false;         ///< G61, G61.1
   bool g92_active = false;
@@ -142,6 +143,12 @@ struct PrintObject {
   bool excluded = false;
 };
 
+/// Of M70 and M73; without modes nothing is kept.
+struct SavedModes {
+  std::optional<ModalState> modes;
+  bool at_return = false;  ///< M73: taken back where the subroutine ends
+};
+
 struct State {
   ModalState modal;
   CutterPath cutter;
@@ -150,6 +157,7 @@ struct State {
   /// Of all objects that were defined with their shape: X Y least and greatest, as the text writes them.
   std::optional<std::array<double, 4>> print_area{};
   ParameterState parameters;
+  SavedModes saved;  ///< of the subroutine at work
 };
 
 }  // namespace kinebus::gcode
