@@ -90,7 +90,8 @@ class Surroundings {
     float under_v = 10.0F, over_v = 30.0F, hysteresis_v = 1.0F;
     float hot_c = 90.0F, hysteresis_c = 10.0F;
   };
-  /// Beyond these nothing may stay on: the MOSFETs are for 40 V, and a second later for 150 C inside.
+  /// Beyond these nothing may stay on: above it the supply's suppressor burns, and a second later MOSFETs are
+  /// at 150 C inside.
   static constexpr float kDeadlyV = 34.0F, kDeadlyC = 110.0F;
   /// No supply on which a board would run at all: what measures it is broken.
   static constexpr float kNoSupplyV = 5.0F;

@@ -27,8 +27,8 @@ inline constexpr std::array kTalkingPins = {
 };
 inline constexpr std::array kPins = {
   // port, pin, mode,       pull,  AF, high,  signal
-  // Motor A. One timer output per half-bridge; its gate driver has a three-state input (high: upper MOSFET on,
-  // low: lower MOSFET on, floating: both off) and makes the dead time.
+  // Motor A. One timer output per half-bridge: high is the upper MOSFET on, low the lower; the gate driver makes the
+  // dead time. While the outputs float, which the card sees at CH1, all of the motor's MOSFETs are off.
   Pin{A,  8, kAlternate, kNone,  1, false, "TIM1_CH1  motor A phase A, half-bridge +"},
   Pin{A,  9, kAlternate, kNone,  1, false, "TIM1_CH2  motor A phase A, half-bridge -"},
   Pin{A, 10, kAlternate, kNone,  1, false, "TIM1_CH3  motor A phase B, half-bridge +"},
