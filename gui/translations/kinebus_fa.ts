@@ -3429,6 +3429,38 @@
         <translation>در این متن %1 وجود ندارد</translation>
     </message>
     <message>
+        <source>G-code, a line each</source>
+        <translation>جی‌کد، هر سطر یکی</translation>
+    </message>
+    <message>
+        <source>a folder that cannot be read</source>
+        <translation>پوشه‌ای که خوانده نمی‌شود</translation>
+    </message>
+    <message>
+        <source>a name of 1 .. %1 letters, digits, -, . and _</source>
+        <translation>نامی از 1 تا %1 حرف، رقم، -، . و _</translation>
+    </message>
+    <message>
+        <source>macros, a file each</source>
+        <translation>ماکروها، هر کدام یک فایل</translation>
+    </message>
+    <message>
+        <source>more than %1 files</source>
+        <translation>بیش از %1 فایل</translation>
+    </message>
+    <message>
+        <source>more than 1 MiB of macros</source>
+        <translation>بیش از 1 MiB ماکرو</translation>
+    </message>
+    <message>
+        <source>no modal state is kept here: M70 or M73 keeps it, M71 forgets it</source>
+        <translation>در اینجا وضعیت مودالی نگه داشته نشده است: M70 یا M73 آن را نگه می‌دارد و M71 فراموش می‌کند</translation>
+    </message>
+    <message>
+        <source>with G95 the spindle&apos;s speed S comes before F</source>
+        <translation>با G95 سرعت اسپیندل S پیش از F می‌آید</translation>
+    </message>
+    <message>
         <source>the spline is too large</source>
         <translation>اسپلاین بسیار بزرگ است</translation>
     </message>

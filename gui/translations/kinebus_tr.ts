@@ -3429,6 +3429,38 @@
         <translation>bu metinde %1 yok</translation>
     </message>
     <message>
+        <source>G-code, a line each</source>
+        <translation>G-code, her satırda bir tane</translation>
+    </message>
+    <message>
+        <source>a folder that cannot be read</source>
+        <translation>okunamayan bir klasör</translation>
+    </message>
+    <message>
+        <source>a name of 1 .. %1 letters, digits, -, . and _</source>
+        <translation>1 .. %1 harf, rakam, -, . ve _ içeren bir ad</translation>
+    </message>
+    <message>
+        <source>macros, a file each</source>
+        <translation>makrolar, her biri bir dosya</translation>
+    </message>
+    <message>
+        <source>more than %1 files</source>
+        <translation>%1 dosyadan fazlası</translation>
+    </message>
+    <message>
+        <source>more than 1 MiB of macros</source>
+        <translation>1 MiB&apos;den fazla makro</translation>
+    </message>
+    <message>
+        <source>no modal state is kept here: M70 or M73 keeps it, M71 forgets it</source>
+        <translation>burada saklanan modal durum yok: M70 ya da M73 saklar, M71 unutur</translation>
+    </message>
+    <message>
+        <source>with G95 the spindle&apos;s speed S comes before F</source>
+        <translation>G95 ile iş milinin hızı S, F&apos;den önce gelir</translation>
+    </message>
+    <message>
         <source>the spline is too large</source>
         <translation>spline çok büyük</translation>
     </message>

@@ -12,6 +12,11 @@ namespace {
 
 constexpr int kNoteForG = 100000;  // keys of notes: tenths of G numbers above this
 
+/// Calibration and its like on printers; on mills pockets and threads, which are not left out in silence.
+bool moves_on_mills(int g_tenths) {
+  return g_tenths == 120 || g_tenths == 320 || g_tenths == 330 || g_tenths == 340;
+}
+
 }  // namespace
 
 bool Core::run_careful() {
@@ -57,6 +62,7 @@ bool Core::run_block() {
   if (has_content) state_.modal.content_seen = true;
   for (const std::string_view text : block_.messages) emit(canonical::Message{std::string(text)});
   if (!block_.command.empty() && !run_command()) return false;
+  if (options_.spindle && moves_on_mills(block_.harmless_g)) return fail(1, unknown_g(block_.harmless_g));
   if (block_.harmless_g >= 0)
     note(kNoteForG + block_.harmless_g, say("%1 has no effect on this machine", g_name(block_.harmless_g)));
 
