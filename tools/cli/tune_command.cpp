@@ -8,6 +8,7 @@
 
 #include "tools/calibrate/machine_edit.hpp"
 #include "tools/cli/offline.hpp"
+#include "tools/tune/melt_fit.hpp"
 #include "tools/tune/tune_pressure.hpp"
 #include "tools/tune/tune_vibration.hpp"
 
@@ -166,20 +167,39 @@ int pressure(const PressureArguments& a, bool as_json) {
   const PressureChoice choice = or_throw(choose_advance(widths));
   nlohmann::json lines = nlohmann::json::array();
   std::string table = a.simulate ? write_widths(widths) : "";
-  for (const LineWidths& w : widths)
+  bool near = false;
+  for (const LineWidths& w : widths) {
     lines.push_back({{"advance_s", w.advance_s}, {"faster_mm", w.faster_mm}, {"slower_mm", w.slower_mm}});
+    if (!w.near()) continue;
+    near = true;
+    lines.back()["faster_near_mm"] = w.faster_near_mm;
+    lines.back()["slower_near_mm"] = w.slower_near_mm;
+  }
   nlohmann::json found = {{"advance_s", choice.advance_s}, {"sigma_s", choice.sigma_s}, {"lines", lines}};
   table += fmt::format("advance_s {:.4f} +- {:.4f}\n", choice.advance_s, choice.sigma_s);
+  MachineDescription better = machine;
+  better.pressure_advance.advance_s = std::round(1e4 * choice.advance_s) / 1e4;
+  if (near) {
+    const MeltChoice melt = or_throw(choose_melt(machine, a.pattern, widths, choice.advance_s));
+    better.pressure_advance.advance_s = std::round(1e4 * melt.advance_s) / 1e4;
+    better.pressure_advance.melt_s = melt.melt_s > 0 ? std::round(1e4 * melt.melt_s) / 1e4 : 0;
+    better.pressure_advance.smooth_s = shortest_window_s(better, a.pattern);
+    found["advance_s"] = melt.advance_s;
+    found["melt_ms"] = 1e3 * melt.melt_s;
+    found["melt_sigma_ms"] = 1e3 * melt.sigma_s;
+    found["smooth_ms"] = 1e3 * better.pressure_advance.smooth_s;
+    table += fmt::format("with the melt: advance_s {:.4f}\nmelt_ms {:.1f} +- {:.1f}\nsmooth_ms {:.0f}\n",
+                         melt.advance_s, 1e3 * melt.melt_s, 1e3 * melt.sigma_s,
+                         1e3 * better.pressure_advance.smooth_s);
+  }
   if (a.simulate) {
     const double per_mm = a.pattern.filament_per_mm();
     const double secant_s =
         Nozzle::secant_s(truth, a.pattern.slow_mm_per_s * per_mm, a.pattern.fast_mm_per_s * per_mm);
-    found["truth"] = {{"advance_s", secant_s}};
-    table += fmt::format("truth {:.4f}\n", secant_s);
+    found["truth"] = {{"advance_s", secant_s}, {"melt_ms", 1e3 * truth.melt_s}};
+    table += fmt::format("truth {:.4f} s, {:.1f} ms\n", secant_s, 1e3 * truth.melt_s);
   }
   tell(a, found, table, as_json);
-  MachineDescription better = machine;
-  better.pressure_advance.advance_s = std::round(1e4 * choice.advance_s) / 1e4;
   finish(
       a, better, [](std::string_view name) { return name == "pressure_advance"; },
       "Pressure advance, found by measurement (kinebus tune pressure).");
@@ -229,7 +249,10 @@ void add_tune_commands(CLI::App& tune, const std::shared_ptr<MachineOptions>& op
   add_common(*lines, *p);
   PressurePattern& pattern = p->pattern;
   lines->add_option("--job", p->job, "Write the G-code here");
-  lines->add_option("--widths", p->widths, "CSV: advance_s, faster_mm, slower_mm")->check(CLI::ExistingFile);
+  lines
+      ->add_option("--widths", p->widths,
+                   "CSV: advance_s, faster_mm, slower_mm; with faster_near_mm, slower_near_mm the melt, too")
+      ->check(CLI::ExistingFile);
   lines->add_option("--from", pattern.from_s, "The first line's advance, s (default 0)");
   lines->add_option("--to", pattern.to_s, "The last line's, s (default 0.1)");
   lines->add_option("--lines", pattern.lines, "How many (default 11)");

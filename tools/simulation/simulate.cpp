@@ -347,7 +347,8 @@ SimulationReport simulate_flexible(const MachineDescription& machine,
   options.flexible->text = open();
   if (has_extruder(machine)) {
     const Nozzle::Truth truth =
-        Nozzle::truth(machine.pressure_advance, kNozzleError, options.simulation.seed);
+        options.nozzle ? options.nozzle->truth
+                       : Nozzle::truth(machine.pressure_advance, kNozzleError, options.simulation.seed);
     options.nozzle = NozzlePhysics{
         truth, std::make_shared<BeadReference>(bead_reference(machine, open, truth, options.limit_s))};
   }
@@ -362,6 +363,7 @@ SimulationReport simulate_flexible(const MachineDescription& machine,
   MachineDescription plain = machine;
   plain.vibration = {};
   without.plot = nullptr;
+  without.nozzle.reset();
   without.on_frame = nullptr;
   without.on_sample = nullptr;
   const auto text = open();

@@ -67,7 +67,8 @@ inline constexpr double kNozzleError = 0.10;
 
 /// The same on a flexible frame whose parameters are off by `error` from what `machine` states, beside a run
 /// of the same job, machine and truth without shaping: SimulationReport::vibration has both and their ratios.
-/// Beads are laid by a nozzle whose melt is off by kNozzleError from what `machine` states. `open`: the job's
+/// Beads are laid by a nozzle whose melt is off by kNozzleError from what `machine` states, or by that of
+/// `options`. `open`: the job's
 /// text from its beginning, each time it is asked for.
 SimulationReport simulate_flexible(const MachineDescription& machine,
                                    const std::function<std::unique_ptr<ByteSource>()>& open,

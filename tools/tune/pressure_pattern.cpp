@@ -121,6 +121,13 @@ std::string draw_pattern(const PressurePattern& p) {
   };
   place(p.speeds_up_mm(), "faster_mm: mean width here");
   place(p.slows_down_mm() - kBrakes_mm, "slower_mm: mean width here");
+  const auto place_near = [&](double from_mm, const std::string& name) {
+    const double x = kLeft + scale * (from_mm - p.left_mm());
+    document.rectangle({x, low + 50, scale * kNear_mm, 5}, {.fill = kBead});
+    document.text({x, low + 84}, name, {.size = 12, .fill = kBead});
+  };
+  place_near(p.speeds_up_mm() + kNearBehind_mm, "faster_near_mm: for the melt");
+  place_near(p.slows_down_mm() - kNearBefore_mm, "slower_near_mm: for the melt");
   document.text({kLeft, low + 104},
                 "By eye: take the advance of the evenest line. By measuring: a table "
                 "advance_s,faster_mm,slower_mm of all lines;",

@@ -29,6 +29,9 @@ struct PressurePattern {
 
 /// Over this length behind the start of a change of speed a width is a mean.
 inline constexpr double kWidthOver_mm = 8;
+/// Over this length where the speed itself changes, as melt that follows late shows: behind the end of the
+/// slow part, in which the corner of two lines in one direction is passed, and before that of the fast one.
+inline constexpr double kNear_mm = 3, kNearBehind_mm = 1.5, kNearBefore_mm = 4;
 /// Before the end of the fast part, where the tool already brakes.
 inline constexpr double kBrakes_mm = 2;
 

@@ -26,19 +26,27 @@ Result<std::vector<LineWidths>, std::string> read_widths(std::string_view text) 
   for (std::size_t row = 0; row < csv->rows(); ++row) {
     const auto advance = csv->plain(row, "advance_s");
     const auto faster = csv->quantity(row, "faster"), slower = csv->quantity(row, "slower");
-    for (const auto* number : {&advance, &faster, &slower})
+    const bool near = csv->has("faster_near") || csv->has("slower_near");
+    const auto faster_near = near ? csv->quantity(row, "faster_near") : faster;
+    const auto slower_near = near ? csv->quantity(row, "slower_near") : slower;
+    for (const auto* number : {&advance, &faster, &slower, &faster_near, &slower_near})
       if (!*number) return Error<std::string>(to_string(number->error(), "widths"));
-    if (!(*advance >= 0 && *faster >= 0 && *slower >= 0))
+    if (!(*advance >= 0 && *faster >= 0 && *slower >= 0 && *faster_near >= 0 && *slower_near >= 0))
       return Error<std::string>(fmt::format("widths:{}: no value can be below 0", csv->line(row)));
-    widths.push_back({*advance, *faster, *slower});
+    widths.push_back({*advance, *faster, *slower, near ? *faster_near : 0, near ? *slower_near : 0});
   }
   return widths;
 }
 
 std::string write_widths(const std::vector<LineWidths>& widths) {
-  std::string text = "advance_s,faster_mm,slower_mm\n";
-  for (const LineWidths& w : widths)
-    text += fmt::format("{:.5f},{:.3f},{:.3f}\n", w.advance_s, w.faster_mm, w.slower_mm);
+  const bool near = std::any_of(widths.begin(), widths.end(), [](const LineWidths& w) { return w.near(); });
+  std::string text =
+      fmt::format("advance_s,faster_mm,slower_mm{}\n", near ? ",faster_near_mm,slower_near_mm" : "");
+  for (const LineWidths& w : widths) {
+    text += fmt::format("{:.5f},{:.3f},{:.3f}", w.advance_s, w.faster_mm, w.slower_mm);
+    if (near) text += fmt::format(",{:.3f},{:.3f}", w.faster_near_mm, w.slower_near_mm);
+    text += "\n";
+  }
   return text;
 }
 

@@ -12,9 +12,12 @@ namespace kinebus {
 /// Of one line of the pattern: its mean widths behind the speeding up and the slowing down.
 struct LineWidths {
   double advance_s = 0, faster_mm = 0, slower_mm = 0;
+  double faster_near_mm = 0, slower_near_mm = 0;  ///< right behind them; 0: not measured
+  bool near() const { return faster_near_mm > 0 && slower_near_mm > 0; }
 };
 
-/// A table with the columns advance_s, faster_mm, slower_mm (or _um). Error: the line, and what is wrong.
+/// A table with the columns advance_s, faster_mm, slower_mm (or _um), and, where the melt is to be found too,
+/// faster_near_mm and slower_near_mm. Error: the line, and what is wrong.
 Result<std::vector<LineWidths>, std::string> read_widths(std::string_view csv);
 std::string write_widths(const std::vector<LineWidths>& widths);
 

@@ -52,6 +52,11 @@ TEST(PressureWidths, SaysWhatIsWrongWithATable) {
   ASSERT_TRUE(table) << table.error();
   EXPECT_NEAR((*table)[0].faster_mm, 0.43, 1e-12);
   EXPECT_FALSE(read_widths("advance_s,faster_mm\n0.02,0.43\n"));
+  EXPECT_FALSE(read_widths("advance_s,faster_mm,slower_mm,slower_near_mm\n0.02,0.43,0.45,0.5\n"));
+  const auto near =
+      read_widths("advance_s,faster_mm,slower_mm,faster_near_mm,slower_near_mm\n0.02,0.43,0.45,0.4,0.5\n");
+  ASSERT_TRUE(near);
+  EXPECT_TRUE(near->front().near());
   EXPECT_FALSE(read_widths("advance_s,faster_mm,slower_mm\n0.02,wide,0.43\n"));
   EXPECT_FALSE(read_widths("advance_s,faster_mm,slower_mm\n0.02,-1,0.43\n"));
   const auto again = read_widths(write_widths(widths_for(0.05, 0, 1)));

@@ -3,8 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 
 #include "gateway/description/machine_file.hpp"
+#include "tools/simulation/simulate.hpp"
+#include "tools/simulation/tests/bead_benchmark.hpp"
+#include "tools/tune/melt_fit.hpp"
 #include "tools/tune/tune_pressure.hpp"
 #include "tools/tune/tune_vibration.hpp"
 
@@ -56,8 +60,26 @@ TEST(TunedMachine, VibrationIsFoundFromWrongStartValues) {
   }
 }
 
+/// Printed with what was found, against the same advance by Klipper's formulas, in the same melt.
+void expect_even_beads(MachineDescription machine, const Nozzle::Truth& truth, std::uint64_t seed) {
+  machine.vibration.every = {ShaperKind::kMzv, 45, 0.1};
+  SimulateOptions options;
+  options.simulation.seed = seed;
+  options.nozzle.emplace();
+  options.nozzle->truth = truth;
+  static const BeadBenchmark job;
+  const SimulationReport r = simulate_flexible(
+      machine, [] { return std::make_unique<StringSource>(job.text()); }, {}, options);
+  ASSERT_TRUE(r.finished && r.bead) << to_table(r);
+  EXPECT_FALSE(r.trouble);
+  EXPECT_GT(r.bead->beads, 1000u);
+  EXPECT_LE(r.bead->ratio(), 1.0 / 3) << to_table(r);
+  EXPECT_LE(r.bead->ratio_worst(), 1.0 / 3) << to_table(r);
+  EXPECT_LE(r.job_time_s, 1.15 * r.bead->reference_time_s);
+}
+
 TEST(TunedMachine, PressureIsFoundFromWrongStartValues) {
-  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+  for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
     const Nozzle::Truth truth = Nozzle::hidden(seed);
     MachineDescription machine = default_m1();
     machine.pressure_advance.advance_s = 0.01;
@@ -70,6 +92,14 @@ TEST(TunedMachine, PressureIsFoundFromWrongStartValues) {
     const double secant_s =
         Nozzle::secant_s(truth, pattern.slow_mm_per_s * per_mm, pattern.fast_mm_per_s * per_mm);
     EXPECT_NEAR(choice->advance_s, secant_s, 0.1 * secant_s) << write_widths(*widths);
+    const auto melt = choose_melt(machine, pattern, *widths, choice->advance_s);
+    ASSERT_TRUE(melt) << melt.error() << "\n" << write_widths(*widths);
+    EXPECT_NEAR(melt->advance_s, secant_s, 0.05 * secant_s) << write_widths(*widths);
+    EXPECT_NEAR(melt->melt_s, truth.melt_s, 0.002) << write_widths(*widths);
+    machine.pressure_advance.advance_s = melt->advance_s;
+    machine.pressure_advance.melt_s = melt->melt_s;
+    machine.pressure_advance.smooth_s = shortest_window_s(machine, pattern);
+    expect_even_beads(machine, truth, seed);
   }
 }
 
