@@ -118,6 +118,7 @@ void add_heat_settings(const MachineDescription& machine, std::uint8_t node_id,
       describe(settings, n, *filaments[n]);
     else
       settings.set(kFilamentKind, n, 0);
+  settings.set(kPinProbe, 0, machine.probe.bltouch && machine.probe.servo_node == node_id ? 1 : 0);
   for (std::size_t n = 0; n < kFans; ++n) {
     settings.set(kFanFunction, n, cools[n] != nullptr ? 1 : 0);
     if (cools[n] == nullptr) continue;

@@ -165,6 +165,8 @@ struct ProbeDescription {
   bool present = false;
   DevicePlace place{};
   double speed_mm_per_s = 10;         ///< no probing is faster
+  bool bltouch = false;               ///< a pin that the servo output of a heat node moves
+  std::uint8_t servo_node = 0;        ///< that node
   std::array<double, 3> offset_mm{};  ///< where it touches, from the tool's tip, with A and C at 0
   /// What virtual nodes let it touch: a plane, in the part's frame.
   double sim_z_mm = 0;                ///< at X0 Y0

@@ -38,6 +38,7 @@ class DeviceRules {
               say("at most the largest speed, %1", printed("%.6g", d_.spindle.max_rpm)));
     }
     if (d_.probe.present) probe();
+    if (d_.probe.bltouch) bltouch();
     for (const NodeDescription& node : d_.nodes)
       if (d_.carries_heat(node.id)) heat_node(node);
   }
@@ -205,6 +206,15 @@ class DeviceRules {
             say("an input of node %1 that has the probe function", at.node_id));
     require(node->functions.has_axes(), {"probe.node", "node." + std::to_string(at.node_id) + ".axis_pairs"},
             number(at.node_id), say("a node that has axes: it latches where they were"));
+  }
+
+  void bltouch() {
+    require(d_.probe.present && d_.probe.place.on_node(), {"bltouch", "probe.where"}, say("a pin"),
+            say("a probe on an input of a node, [probe] with where = \"node\": its line"));
+    const std::uint8_t id = d_.probe.servo_node;
+    const NodeDescription* node = d_.node(id);
+    require(node != nullptr && !node->functions.has_axes(), {"bltouch.node"}, number(id),
+            say("a heat node that has its table, [node.%1], with axis_pairs = 0", id));
   }
 
   const MachineDescription& d_;

@@ -162,6 +162,8 @@ void visit_devices(V& v, MachineDescription& d) {
     v.number("sim_bend_per_m", d.probe.sim_bend_per_m, {-2, 2}, Need::kOptional);
     visit_place(v, d.probe.place);
   });
+  v.present("bltouch", d.probe.bltouch,
+            [&] { v.integer("node", d.probe.servo_node, 1, 126, Need::kRequired); });
   v.table("mesh", Need::kOptional, [&] {
     v.integer("points_x", d.mesh.points_x, 2, MeshGrid::kMostPoints, Need::kOptional);
     v.integer("points_y", d.mesh.points_y, 2, MeshGrid::kMostPoints, Need::kOptional);

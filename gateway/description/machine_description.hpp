@@ -331,14 +331,16 @@ struct MachineDescription {
       if (n.id == id) return &n;
     return nullptr;
   }
-  /// A heat node: heaters, fans, outputs or sensors, those of filament too, live on it.
+  /// A heat node: heaters, fans, outputs or sensors, those of filament too, or the servo of a probe live on
+  /// it.
   bool carries_heat(std::uint8_t id) const {
     const auto there = [id](const auto& devices) {
       for (const auto& device : devices)
         if (device.place.on_node() && device.place.node_id == id) return true;
       return false;
     };
-    return there(heaters) || there(fans) || there(outputs) || there(sensors) || there(filament_sensors);
+    return there(heaters) || there(fans) || there(outputs) || there(sensors) || there(filament_sensors) ||
+           (probe.bltouch && probe.servo_node == id);
   }
   const HeaterDescription* heater(HeaterId id) const {
     for (const HeaterDescription& h : heaters)

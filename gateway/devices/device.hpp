@@ -151,6 +151,13 @@ class ContactProbe : public Device {
   /// On the clock of the bus.
   virtual BusTime contact() const { return BusTime{0}; }
 
+  /// Where the pin is of a probe that has one: out for a contact, in before all other motion.
+  enum class Pin : std::uint8_t { kNone, kMoves, kIn, kOut, kFailed };
+  virtual Pin pin() const { return Pin::kNone; }
+  virtual void move_pin(bool) {}  ///< true: out
+  /// After kFailed: why it is not where it should be.
+  virtual Sentence pin_words() const { return {}; }
+
   // Its node's objects, which the owner asks for: one after the other, in this order.
   virtual std::optional<ProbeRequest> next_request() { return std::nullopt; }
   /// nullopt: there was no answer, or a refusal.

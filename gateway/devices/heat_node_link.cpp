@@ -28,6 +28,10 @@ constexpr BusTime kExtruderNews = std::chrono::milliseconds{90};
 
 constexpr double kFullOutput = 32'767;  // 6411h
 
+/// A pin that is tried twice with a reset between has said how that ended long before.
+constexpr BusTime kPinTimeout = std::chrono::seconds{8};
+constexpr std::int16_t kPinDeploy = 1, kPinStow = 2;  // 2261h
+
 /// Codes that say of a heater why it has no power.
 bool is_of_a_heater(std::uint16_t code) {
   return code == emcy::kHeaterTooHot || (code >= emcy::kSensorOpen && code <= emcy::kFanStalled);
@@ -97,6 +101,8 @@ void HeatNodeLink::on_states(std::span<const std::uint8_t> states) {
   constexpr std::size_t kFilaments = kHeaters + 1;  // the contactor is between them
   for (std::size_t n = 0; n < kFilamentSensors && kFilaments + n < states.size(); ++n)
     filaments_[n] = static_cast<FilamentCondition>(states[kFilaments + n]);
+  constexpr std::size_t kPin = kFilaments + kFilamentSensors;
+  if (kPin < states.size()) pin_.told = static_cast<PinTold>(states[kPin]);
 }
 
 void HeatNodeLink::on_emergency(const CanFrame& frame) {
@@ -178,6 +184,38 @@ void HeatNodeLink::reset_filament(std::size_t sensor) {
   filament_due_[sensor] = filament_due_[sensor] || filaments_[sensor] != FilamentCondition::kInOrder;
 }
 
+void HeatNodeLink::move_pin(bool out) {
+  pin_ = {.told = PinTold::kMoves, .out = out, .asked = true, .due = true, .since = now_};
+}
+
+ContactProbe::Pin HeatNodeLink::pin() const {
+  using Pin = ContactProbe::Pin;
+  if (!serves_ || pin_.refused != AbortCode::kNone) return Pin::kFailed;
+  const bool settled = !pin_.due && writing_ != Writing::kPin;
+  if (settled &&
+      (pin_.told == PinTold::kNotOut || pin_.told == PinTold::kNotIn || pin_.told == PinTold::kAlarm))
+    return Pin::kFailed;
+  if (settled && pin_.told == (pin_.out ? PinTold::kOut : PinTold::kIn))
+    return pin_.out ? Pin::kOut : Pin::kIn;
+  return pin_.asked && now_ - pin_.since <= kPinTimeout ? Pin::kMoves : Pin::kFailed;
+}
+
+Sentence HeatNodeLink::pin_words() const {
+  if (!serves_) return say("node %1, which moves the probe's pin, is not in operation", id_);
+  if (pin_.refused != AbortCode::kNone)
+    return say("node %1 refuses to move the probe's pin: %2", id_, text(pin_.refused));
+  switch (pin_.told) {
+    case PinTold::kNotOut:
+      return say("the probe's pin has not come out");
+    case PinTold::kNotIn:
+      return say("the probe's pin has not gone in: look at it before anything moves");
+    case PinTold::kAlarm:
+      return say("the probe is in alarm, after a reset, too: look at its pin before anything moves");
+    default:
+      return say("node %1 does not say where the probe's pin is", id_);
+  }
+}
+
 std::optional<CanFrame> HeatNodeLink::extruder_frame(BusTime now) {
   if (extruder_um_ == extruder_told_um_ || now - extruder_told_at_ < kExtruderNews) return std::nullopt;
   extruder_told_um_ = extruder_um_;
@@ -214,6 +252,7 @@ void HeatNodeLink::on_bring_up(BusTime now, bool done) {
   filaments_.fill(FilamentCondition::kInOrder);
   filament_due_.fill(false);
   lost_.fill(false);
+  pin_ = {};
   tuning_.end(say("its node was not in operation any more: measure it again"));
   if (!done) return;
   heard_ = measured_ = now_ = std::max(now_, now);
@@ -273,6 +312,10 @@ void HeatNodeLink::begin_next(BusTime now) {
       begin(now, Writing::kFilament, n, kFilamentReset, 1, 1);
       return;
     }
+  if (pin_.due && begin(now, Writing::kPin, 0, kPinCommand, pin_.out ? kPinDeploy : kPinStow, 1)) {
+    pin_.due = false;
+    return;
+  }
   if (ask_for_tuning(now)) writing_ = Writing::kTuning;
 }
 
@@ -296,8 +339,14 @@ void HeatNodeLink::settle(BusTime now) {
   }
   // No answer, or a disturbed one: again. A node that is gone is missed by its heartbeat.
   const AbortCode code = failed ? sdo_.abort_code() : AbortCode::kNone;
-  if (code == AbortCode::kTimeout || code == AbortCode::kToggleBit || code == AbortCode::kCommandSpecifier)
+  if (code == AbortCode::kTimeout || code == AbortCode::kToggleBit || code == AbortCode::kCommandSpecifier) {
+    if (what == Writing::kPin) pin_.due = true;
     return;
+  }
+  if (what == Writing::kPin) {
+    if (!pin_.due) pin_.refused = code;
+    return;
+  }
   if (what == Writing::kReset) {
     reset_due_[channel_] = false;
     return;

@@ -50,6 +50,10 @@ class HeatNodeLink : public Device {
   /// Where the extruder is to be now; the node holds what its wheels see against it.
   void follow_extruder(double mm);
   void reset_filament(std::size_t sensor);
+  /// Of the probe whose servo the node drives.
+  void move_pin(bool out);
+  ContactProbe::Pin pin() const;
+  Sentence pin_words() const;
 
  private:
   enum class State : std::uint8_t { kOff = 0, kHeats = 1, kThere = 2, kTunes = 3, kFault = 4 };
@@ -65,7 +69,7 @@ class HeatNodeLink : public Device {
       wanted = value;
     }
   };
-  enum class Writing : std::uint8_t { kNothing, kReset, kSetPoint, kOutput, kFilament, kTuning };
+  enum class Writing : std::uint8_t { kNothing, kReset, kSetPoint, kOutput, kFilament, kPin, kTuning };
 
   bool on_report(BusTime now, const CanFrame& frame);
   void on_states(std::span<const std::uint8_t> states);
@@ -101,6 +105,14 @@ class HeatNodeLink : public Device {
   bool powers_told_ = false;
   std::array<FilamentCondition, kFilamentSensors> filaments_{};
   std::array<bool, kFilamentSensors> filament_due_{};
+  /// The values are those of 2262h.
+  enum class PinTold : std::uint8_t { kUnknown, kIn, kOut, kMoves, kNotOut, kNotIn, kAlarm, kSelfTest };
+  struct PinLink {
+    PinTold told = PinTold::kUnknown;
+    bool out = false, asked = false, due = false;
+    BusTime since{0};
+    AbortCode refused = AbortCode::kNone;
+  } pin_;
   std::uint32_t extruder_um_ = 0, extruder_told_um_ = 0;
   BusTime extruder_told_at_{0};
   BusTime heard_{0}, measured_{0}, now_{0};

@@ -1,5 +1,8 @@
 #include "gateway/devices/registry.hpp"
 
+#include <utility>
+
+#include "gateway/devices/bltouch.hpp"
 #include "gateway/devices/heat_node_devices.hpp"
 #include "gateway/devices/node_probe.hpp"
 #include "gateway/devices/simulated.hpp"
@@ -39,9 +42,19 @@ constexpr Implementation<FilamentSensor, FilamentSensorDescription> kFilaments[]
     {Where::kNode, nullptr, on_heat_node},
 };
 constexpr Implementation<SpindleDrive, SpindleDescription> kSpindles[] = {{Where::kSimulated, simulate}};
+/// nullptr: it has a pin, and what moves that is no heat node.
+std::unique_ptr<ContactProbe> contact_probe(const ProbeDescription& probe, const MachineDescription& machine,
+                                            const HeatNodeLinks& links) {
+  auto contact = node_probe(probe, machine);
+  if (!probe.bltouch) return contact;
+  const auto link = links.find(probe.servo_node);
+  if (link == links.end()) return nullptr;
+  return std::make_unique<BltouchProbe>(std::move(contact), link->second);
+}
+
 constexpr Implementation<ContactProbe, ProbeDescription> kProbes[] = {
     {Where::kSimulated, simulate},
-    {Where::kNode, node_probe},
+    {Where::kNode, nullptr, contact_probe},
 };
 
 class Maker {

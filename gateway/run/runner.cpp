@@ -157,7 +157,8 @@ void Runner::resume(BusTime now) {
 }
 
 void Runner::drop() {
-  active_ = suspended_ = probing_ = probe_cut_ = false;
+  give_up_probe();
+  active_ = suspended_ = probe_cut_ = false;
   feed_.reset();
   events_.clear();
   source_.reset();
@@ -210,7 +211,7 @@ std::uint32_t Runner::line(BusTime now) const {
 
 Runner::Outcome Runner::fail(std::uint32_t line, Sentence words, bool stream) {
   failure_ = {line, std::move(words), stream};
-  probing_ = false;
+  give_up_probe();
   return Outcome::kFailed;
 }
 

@@ -155,8 +155,10 @@ class Runner {
     kHeating,
     kSpindle,
     kPause,
+    kPinOut,
     kProbeReady,
-    kProbeEnd
+    kProbeEnd,
+    kPinIn
   };
   struct Event {
     std::uint64_t phase;  ///< due when so many phases of the job are done
@@ -179,6 +181,10 @@ class Runner {
   Outcome fail(std::uint32_t line, Sentence words, bool stream);
   void begin_probe();
   bool probe_has_answered();
+  void arm_probe();
+  bool pin_is(ContactProbe::Pin where);
+  bool draw_pin_in();
+  void give_up_probe();
   std::chrono::milliseconds probe_ramp(BusTime now) const;
   void end_probe(const gcode::ProbeResult& result);
   // runner_levelling.cpp

@@ -29,9 +29,18 @@ bool Runner::wait_is_over(BusTime now) {
     case Wait::kSpindle:
       if (held_ || !heat_.spindle_at_speed()) return false;
       break;
+    case Wait::kPinOut:
+      if (pin_is(ContactProbe::Pin::kOut)) arm_probe();
+      return false;
     case Wait::kProbeReady:
+      if (!probe_has_answered()) return false;
+      break;
     case Wait::kProbeEnd:
       if (!probe_has_answered()) return false;
+      end_wait();
+      return !draw_pin_in();
+    case Wait::kPinIn:
+      if (!pin_is(ContactProbe::Pin::kIn)) return false;
       break;
     case Wait::kPause:
       return false;

@@ -28,8 +28,39 @@ void Runner::begin_probe() {
     probe_wrong_ = say("the machine has no probe");
     return;
   }
-  probe->arm(pipeline_.probe().away);
+  if (probe->pin() == ContactProbe::Pin::kNone) return arm_probe();
+  probe->move_pin(true);
+  wait_ = Wait::kPinOut;
+  doing_ = say("putting the probe's pin out");
+}
+
+void Runner::arm_probe() {
+  heat_.probe()->arm(pipeline_.probe().away);
   wait_ = Wait::kProbeReady;
+  doing_ = say("probing");
+}
+
+/// false: not yet, or never, and probe_wrong_ says why.
+bool Runner::pin_is(ContactProbe::Pin where) {
+  const ContactProbe& probe = *heat_.probe();
+  if (probe.pin() == ContactProbe::Pin::kFailed) probe_wrong_ = probe.pin_words();
+  return probe.pin() == where;
+}
+
+/// Nothing moves before it is in. false: it has none.
+bool Runner::draw_pin_in() {
+  ContactProbe& probe = *heat_.probe();
+  if (probe.pin() == ContactProbe::Pin::kNone) return false;
+  probe.move_pin(false);
+  wait_ = Wait::kPinIn;
+  doing_ = say("drawing the probe's pin in");
+  return true;
+}
+
+void Runner::give_up_probe() {
+  ContactProbe* const probe = heat_.probe();
+  if (std::exchange(probing_, false) && probe != nullptr && probe->pin() != ContactProbe::Pin::kNone)
+    probe->move_pin(false);
 }
 
 /// Before the move: the probe is ready. Behind it: it has said whether it touched.
@@ -64,7 +95,7 @@ bool Runner::probe_has_answered() {
 }
 
 void Runner::look_at_probe(BusTime now) {
-  if (!probing_ || !active_ || suspended_ || wait_ == Wait::kProbeReady) return;
+  if (!probing_ || !active_ || suspended_ || wait_ == Wait::kProbeReady || wait_ == Wait::kPinOut) return;
   const ContactProbe* const probe = heat_.probe();
   if (probe == nullptr) return;
   // What is asked for at the end of the way may be that nothing came.
@@ -115,6 +146,7 @@ Runner::Outcome Runner::probed(const Pose& stand) {
   start_ = stand;
   end_probe(result);
   wait_ = Wait::kNone;
+  draw_pin_in();
   return Outcome::kBusy;
 }
 

@@ -3857,6 +3857,50 @@
         <translation>گرهٔ پروب پاسخ نمی‌دهد</translation>
     </message>
     <message>
+        <source>a pin</source>
+        <translation>یک پین</translation>
+    </message>
+    <message>
+        <source>a probe on an input of a node, [probe] with where = &quot;node&quot;: its line</source>
+        <translation>پروبی روی ورودی یک گره، [probe] با where = &quot;node&quot;: خط آن</translation>
+    </message>
+    <message>
+        <source>a heat node that has its table, [node.%1], with axis_pairs = 0</source>
+        <translation>یک گرهٔ حرارتی که جدول خود را دارد، [node.%1]، با axis_pairs = 0</translation>
+    </message>
+    <message>
+        <source>node %1, which moves the probe&apos;s pin, is not in operation</source>
+        <translation>گرهٔ %1 که پین پروب را حرکت می‌دهد در حال کار نیست</translation>
+    </message>
+    <message>
+        <source>node %1 refuses to move the probe&apos;s pin: %2</source>
+        <translation>گرهٔ %1 از حرکت دادن پین پروب خودداری می‌کند: %2</translation>
+    </message>
+    <message>
+        <source>the probe&apos;s pin has not come out</source>
+        <translation>پین پروب بیرون نیامد</translation>
+    </message>
+    <message>
+        <source>the probe&apos;s pin has not gone in: look at it before anything moves</source>
+        <translation>پین پروب داخل نرفت: پیش از هر حرکتی آن را بررسی کنید</translation>
+    </message>
+    <message>
+        <source>the probe is in alarm, after a reset, too: look at its pin before anything moves</source>
+        <translation>پروب پس از بازنشانی هم در هشدار است: پیش از هر حرکتی پین آن را بررسی کنید</translation>
+    </message>
+    <message>
+        <source>node %1 does not say where the probe&apos;s pin is</source>
+        <translation>گرهٔ %1 نمی‌گوید پین پروب کجاست</translation>
+    </message>
+    <message>
+        <source>putting the probe&apos;s pin out</source>
+        <translation>بیرون آوردن پین پروب</translation>
+    </message>
+    <message>
+        <source>drawing the probe&apos;s pin in</source>
+        <translation>داخل بردن پین پروب</translation>
+    </message>
+    <message>
         <source>the probe has told of a contact, and its node knows of none</source>
         <translation>پروب از تماسی خبر داد و گره‌اش هیچ تماسی نمی‌شناسد</translation>
     </message>

@@ -3857,6 +3857,50 @@
         <translation>probun düğümü yanıt vermiyor</translation>
     </message>
     <message>
+        <source>a pin</source>
+        <translation>bir pim</translation>
+    </message>
+    <message>
+        <source>a probe on an input of a node, [probe] with where = &quot;node&quot;: its line</source>
+        <translation>bir düğümün girişindeki bir prob, where = &quot;node&quot; olan [probe]: onun hattı</translation>
+    </message>
+    <message>
+        <source>a heat node that has its table, [node.%1], with axis_pairs = 0</source>
+        <translation>tablosu olan bir ısı düğümü, axis_pairs = 0 ile [node.%1]</translation>
+    </message>
+    <message>
+        <source>node %1, which moves the probe&apos;s pin, is not in operation</source>
+        <translation>probun pimini hareket ettiren düğüm %1 çalışmıyor</translation>
+    </message>
+    <message>
+        <source>node %1 refuses to move the probe&apos;s pin: %2</source>
+        <translation>düğüm %1 probun pimini hareket ettirmeyi reddediyor: %2</translation>
+    </message>
+    <message>
+        <source>the probe&apos;s pin has not come out</source>
+        <translation>probun pimi dışarı çıkmadı</translation>
+    </message>
+    <message>
+        <source>the probe&apos;s pin has not gone in: look at it before anything moves</source>
+        <translation>probun pimi içeri girmedi: herhangi bir şey hareket etmeden önce ona bakın</translation>
+    </message>
+    <message>
+        <source>the probe is in alarm, after a reset, too: look at its pin before anything moves</source>
+        <translation>prob sıfırlamadan sonra da alarmda: herhangi bir şey hareket etmeden önce pimine bakın</translation>
+    </message>
+    <message>
+        <source>node %1 does not say where the probe&apos;s pin is</source>
+        <translation>düğüm %1 probun piminin nerede olduğunu bildirmiyor</translation>
+    </message>
+    <message>
+        <source>putting the probe&apos;s pin out</source>
+        <translation>probun pimi çıkarılıyor</translation>
+    </message>
+    <message>
+        <source>drawing the probe&apos;s pin in</source>
+        <translation>probun pimi içeri çekiliyor</translation>
+    </message>
+    <message>
         <source>the probe has told of a contact, and its node knows of none</source>
         <translation>prob bir temas bildirdi, düğümü ise hiçbirini bilmiyor</translation>
     </message>

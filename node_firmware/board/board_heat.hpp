@@ -25,12 +25,15 @@ concept HeatDriver = requires(T& driver, int number, bool on) {
   requires T::kSensors <= kHeatSensors&& T::kHeaters <= kHeaters&& T::kFans <= kFans;
   // Inputs of the board (SwitchEdge) that are the node's filament sensors.
   { T::kFilamentInputs } -> std::convertible_to<std::array<std::uint8_t, kFilamentSensors>>;
+  // The input that is the line of a probe with a pin, too.
+  { T::kProbeInput } -> std::convertible_to<std::uint8_t>;
   // The sum of several conversions since the last call, as parts of kFullRatio; nullopt: the converter
   // stands.
   { driver.take_ratio(number) } -> std::same_as<std::optional<std::uint32_t>>;
   driver.set_heater(number, on);
   driver.set_fan(number, on);
   driver.set_contactor(on);
+  driver.set_servo(std::uint16_t{});
 };
 
 /// A board without.
@@ -83,6 +86,7 @@ class BoardHeat {
   }
   /// Of an input of the board.
   void on_edge(std::uint8_t input, bool level) {
+    if (input == Driver::kProbeInput) probe_line_ = level;
     for (std::size_t i = 0; i < Driver::kFilamentInputs.size(); ++i) {
       if (Driver::kFilamentInputs[i] != input) continue;
       filament_[i].level = level;
@@ -106,6 +110,7 @@ class BoardHeat {
     for (int i = 0; i < Driver::kFans; ++i)
       driver_.set_fan(i, fans_[static_cast<std::size_t>(i)].step(now, node_->fan_output(i), heat::kFullFan));
     driver_.set_contactor(node_->contactor());
+    driver_.set_servo(node_->servo_pulse());
   }
   bool renew_hearing(LocalTime now) {
     if (!node_ || now < hearing_due_) return false;
@@ -142,10 +147,12 @@ class BoardHeat {
       if (const auto ratio = driver_.take_ratio(i)) node_->on_sample(now, i, *ratio);
     for (std::size_t i = 0; i < filament_.size(); ++i)
       node_->on_filament(static_cast<int>(i), filament_[i].level, std::exchange(filament_[i].edges, 0));
+    node_->on_probe_line(now, probe_line_);
   }
   void all_off() {
     for (int i = 0; i < Driver::kHeaters; ++i) driver_.set_heater(i, false);
     for (int i = 0; i < Driver::kFans; ++i) driver_.set_fan(i, false);
+    driver_.set_servo(0);
   }
 
   static constexpr LocalTime kHearingPeriod = std::chrono::milliseconds{10};
@@ -171,6 +178,7 @@ class BoardHeat {
   std::array<PulsedOutput, Driver::kHeaters> heaters_ = several<Driver::kHeaters>(kHeaterPulse);
   std::array<PulsedOutput, Driver::kFans> fans_ = several<Driver::kFans>(kFanPulse);
   std::array<Filament, kFilamentSensors> filament_{};
+  bool probe_line_ = false;
   LocalTime due_{0}, next_sample_{0}, hearing_due_{0};
   bool touched_ = true;
 };

@@ -18,6 +18,7 @@
 #include "node_firmware/heat/filament_watch.hpp"
 #include "node_firmware/heat/flow_profile.hpp"
 #include "node_firmware/heat/heater.hpp"
+#include "node_firmware/heat/pin_probe.hpp"
 #include "protocol/canopen/emcy.hpp"
 #include "protocol/canopen/heartbeat.hpp"
 #include "protocol/canopen/heat_objects.hpp"
@@ -54,6 +55,8 @@ class HeatNode final : private ObjectOwner {
   void on_filament(int sensor, bool level, std::uint32_t edges) {
     filaments_[static_cast<std::size_t>(sensor)].on_sample(level, edges);
   }
+  /// Every SensorInput::kSamplePeriod: the level of the pin probe's line.
+  void on_probe_line(LocalTime at, bool level) { pin_probe_.on_sample(at, level); }
   /// Another node of the same board has power: flash is not written then.
   void set_neighbours_powered(bool powered) { neighbours_powered_ = powered; }
   /// 0: not measured.
@@ -68,6 +71,8 @@ class HeatNode final : private ObjectOwner {
   std::uint32_t heater_output(int heater) const;
   /// 0..kFullFan.
   std::uint16_t fan_output(int fan) const { return fans_[static_cast<std::size_t>(fan)].output(); }
+  /// Width of the servo's pulses, us, one every PinProbe::kPeriod; 0: none.
+  std::uint16_t servo_pulse() const { return pin_probe_.pulse(); }
   /// False: the supply of all heaters is to be cut, since one of them heats without being told to.
   bool contactor() const;
   /// As Node's, for a port that filters; 0: off.
@@ -102,6 +107,7 @@ class HeatNode final : private ObjectOwner {
   AbortCode read_sensor(std::uint16_t index, std::size_t n, std::int64_t& value) const;
   AbortCode read_heater(std::uint16_t index, std::size_t n, std::int64_t& value) const;
   AbortCode read_filament(std::uint16_t index, std::size_t n, std::int64_t& value) const;
+  AbortCode write_pin_probe(std::uint16_t index, std::int64_t value);
   AbortCode write_communication(const ObjectEntry& entry, std::int64_t value);
   AbortCode write_heater(std::uint16_t index, std::size_t n, std::int64_t value);
   AbortCode write_set_point(std::size_t n, std::int64_t value);
@@ -165,6 +171,7 @@ class HeatNode final : private ObjectOwner {
   std::array<Heater, kHeaters> heaters_;
   std::array<Fan, kFans> fans_;
   std::array<FilamentWatch, kFilamentSensors> filaments_;
+  PinProbe pin_probe_;
   HeatTuning tuning_;
   int tuned_ = -1;  // the heater that tuning_ measures, or has measured
   bool tuning_taken_ = true;

@@ -31,7 +31,7 @@ bool is_setting(std::uint16_t index) {
          index == kFlowHeater.index || index == kFlowLead.index ||
          (index >= kFanFunction.index && index <= kFanPulses.index) ||
          (index >= kFilamentKind.index && index <= kFilamentLeast.index) || index == kMasterLost.index ||
-         (index >= kProportionalBand.index && index <= kDerivativeTime.index);
+         index == kPinProbe.index || (index >= kProportionalBand.index && index <= kDerivativeTime.index);
 }
 
 /// Of a subindex of an array.
@@ -102,6 +102,15 @@ AbortCode HeatNode::read_device(ObjectAddress address, std::int64_t& result) con
       return AbortCode::kNone;
     case kContactor.index:
       result = contactor() ? 1 : 0;
+      return AbortCode::kNone;
+    case kPinState.index:
+      result = static_cast<std::int64_t>(pin_probe_.state());
+      return AbortCode::kNone;
+    case kServoPulse.index:
+      result = pin_probe_.pulse();
+      return AbortCode::kNone;
+    case kProbeLine.index:
+      result = pin_probe_.level() ? 1 : 0;
       return AbortCode::kNone;
     case kSupply.index:
       result = supply_mv_;
@@ -198,9 +207,21 @@ AbortCode HeatNode::write(const ObjectEntry& entry, std::int64_t to) {
     filaments_[place_of(entry.address)].reset();
     return AbortCode::kNone;
   }
+  if (index == kPinCommand.index || index == kServoPulse.index) return write_pin_probe(index, to);
   if (index == kConfirmedSerial.index) return confirm(to);
   if (entry.binding == Binding::kLive) return write_heater(index, place_of(entry.address), to);
   return check_setting(entry, to);
+}
+
+AbortCode HeatNode::write_pin_probe(std::uint16_t index, std::int64_t to) {
+  if (!pin_probe_.fitted()) return AbortCode::kDeviceState;
+  if (index == kPinCommand.index)
+    return pin_probe_.command(now_, static_cast<PinCommand>(to)) ? AbortCode::kNone
+                                                                 : AbortCode::kInvalidValue;
+  constexpr std::int64_t kShortest = 500;
+  if (to != 0 && to < kShortest) return AbortCode::kTooLow;
+  pin_probe_.set_pulse(static_cast<std::uint16_t>(to));
+  return AbortCode::kNone;
 }
 
 AbortCode HeatNode::write_communication(const ObjectEntry& entry, std::int64_t to) {

@@ -85,6 +85,7 @@ void HeatNode::apply_settings() {
                         .kick_ms = static_cast<std::uint16_t>(value(heat_slot_of(kFanKick), i)),
                         .least_duty = static_cast<std::uint8_t>(value(heat_slot_of(kFanLeast), i)),
                         .pulses_per_turn = static_cast<std::uint8_t>(value(heat_slot_of(kFanPulses), i))});
+  pin_probe_.fit(value(heat_slot_of(kPinProbe)) != 0);
   for (std::size_t i = 0; i < filaments_.size(); ++i)
     filaments_[i].configure(
         {.kind = static_cast<FilamentKind>(value(heat_slot_of(kFilamentKind), i)),

@@ -42,6 +42,9 @@ inline constexpr ObjectAddress kFilamentKind{0x2250, 1}, kFilamentInverted{0x225
     kFilamentPerEdge{0x2252, 1}, kFilamentStands{0x2253, 1}, kFilamentSlips{0x2254, 1},
     kFilamentLeast{0x2255, 1}, kFilamentCommanded{0x2256, 1}, kFilamentSeen{0x2257, 1},
     kFilamentState{0x2258, 1}, kFilamentReset{0x2259, 1};
+// A probe with a pin.
+inline constexpr ObjectAddress kPinProbe{0x2260, 0}, kPinCommand{0x2261, 0}, kPinState{0x2262, 0},
+    kServoPulse{0x2263, 0}, kProbeLine{0x2264, 0};
 inline constexpr ObjectAddress kContactor{0x2240, 0}, kSupply{0x2241, 0}, kMasterLost{0x2242, 0},
     kConfirmedSerial{0x2243, 0};
 }  // namespace heat_object
@@ -203,6 +206,18 @@ constexpr void filament_sensors(Rows& t) {
   array_of(t, 0x2259, "Filament reset", names, entry_of(kU8, kWriteOnly, kLive).between(1, 1));
 }
 
+/// A probe with a pin, which pulses of a servo's signal move (BLTouch), and whose line the node reads.
+constexpr void pin_probe(Rows& t) {
+  t.var(0x2260, "Pin probe", kU8, kReadWrite, kParameter, 0).between(0, 1);  // 1: fitted
+  // 1 deploy, 2 stow, 3 self test, 4 reset and stow.
+  t.var(0x2261, "Pin probe command", kU8, kWriteOnly, kLive).between(1, 4);
+  // 0 unknown, 1 stowed, 2 deployed, 3 moves, 4 has not come out, 5 has not come in, 6 alarm, 7 self test.
+  t.var(0x2262, "Pin probe state", kU8, kReadOnly, kLive).maps(Mapping::kTpdo);
+  // What is written is put out until the next command; 0: no pulses.
+  t.var(0x2263, "Servo pulse", kU16, kReadWrite, kLive).between(0, 2500).in("us");
+  t.var(0x2264, "Pin probe line", kU8, kReadOnly, kLive).maps(Mapping::kTpdo);
+}
+
 /// The node as a whole.
 constexpr void heat_supervision(Rows& t) {
   t.var(0x2116, "Configuration fingerprint", kU32, kReadOnly, kLive);
@@ -246,7 +261,7 @@ inline constexpr std::array<PdoDefault, 4> kHeatTpdos{{
      {mapped_nth(heat_object::kHeaterState, 8, 0), mapped_nth(heat_object::kHeaterState, 8, 1),
       mapped_nth(heat_object::kHeaterState, 8, 2), mapped_nth(heat_object::kHeaterState, 8, 3),
       mapped(heat_object::kContactor, 8), mapped_nth(heat_object::kFilamentState, 8, 0),
-      mapped_nth(heat_object::kFilamentState, 8, 1)}},
+      mapped_nth(heat_object::kFilamentState, 8, 1), mapped(heat_object::kPinState, 8)}},
     {"Temperatures", 0x280 | kNoRtr, true, 254, 0, 250, four_of(heat_object::kInputI16, 16)},
     {"Outputs", 0x380 | kNoRtr, true, 254, 0, 250, four_of(heat_object::kEffectiveOutput, 16)},
     {"MoreTemperatures",

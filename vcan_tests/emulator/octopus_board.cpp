@@ -58,12 +58,14 @@ OctopusBoard::OctopusBoard(const ElfImage& image, const BoardOptions& options)
 OctopusBoard::OctopusBoard(const ElfImage& image, const BoardOptions& options, std::uint32_t device_id)
     : Stm32f4Chip(image, options, facts(image, device_id)),
       tim1_(cpu_.nvic(), {.update_irq = 25, .break_irq = 24}),
+      tim4_(cpu_.nvic(), {.cycles_per_tick = 2, .advanced = false}),
       tim8_(cpu_.nvic(), {.update_irq = 44, .break_irq = 43}),
       dma2_(cpu_.nvic(), {56, 57, 58, 59, 60, 68, 69, 70}),
       adc_(cpu_.nvic()),
       makers_loader_(first_address(image) != CortexM4::kFlash),
       usb_(cpu_.nvic(), {.irq = 67, .memory_words = 320, .endpoints = 6, .later_core = true}) {
   map(0x50000000, 0x40000, usb_, ahb2(7));
+  map(0x40000800, 0x400, tim4_, apb1(2));
   map(0x40010000, 0x400, tim1_, apb2(0));
   map(0x40010400, 0x400, tim8_, apb2(1));
   map(AdcBlock::kAddress, 0x400, adc_, apb2(8));
@@ -119,6 +121,17 @@ bool OctopusBoard::heater_on(int heater) const {
   return ports_[static_cast<std::size_t>(pin.port)].output_high(pin.number);
 }
 
+OctopusBoard::Pulses OctopusBoard::servo() {
+  constexpr int kServoPort = 1, kServoPin = 6, kTim4 = 2;
+  constexpr std::uint32_t kReload = 0x2C;
+  const GpioPort& port = ports_[kServoPort];
+  const Timer::Sweep sweep = tim4_.sweep();
+  const bool out = port.mode(kServoPin) == GpioPort::Mode::kAlternate && port.alternate(kServoPin) == kTim4;
+  if (!tim4_.running() || !out || !sweep.enabled[0]) return {};
+  const double period_us = 1e6 * seconds_of(sweep.end - sweep.begin);
+  return {period_us * sweep.compare[0] / (tim4_.read(kReload, cpu_.now()) + 1.0), period_us};
+}
+
 bool OctopusBoard::anything_on() const {
   return std::ranges::any_of(octopus::kPowerPins, [&](const octopus::PowerPin& power) {
     const GpioPort& port = ports_[static_cast<std::size_t>(power.pin.port)];
@@ -165,6 +178,7 @@ double OctopusBoard::analogue(int channel) {
 void OctopusBoard::reset_devices(Cycle now) {
   if (makers_loader_) std::ranges::fill(cpu_.sram(), std::uint8_t{0x5A});
   tim1_.reset(now);
+  tim4_.reset(now);
   tim8_.reset(now);
   dma2_.reset();
   adc_.reset();
@@ -174,6 +188,7 @@ void OctopusBoard::reset_devices(Cycle now) {
 
 void OctopusBoard::advance_devices(Cycle now) {
   tim1_.advance(now);
+  tim4_.advance(now);
   tim8_.advance(now);
   for (std::size_t axis = 0; axis < chips_.size(); ++axis) {
     if (chips_[axis].next_event() <= now) chips_[axis].advance(now);
@@ -188,8 +203,8 @@ void OctopusBoard::advance_devices(Cycle now) {
 }
 
 Cycle OctopusBoard::next_of_devices() const {
-  Cycle next =
-      std::min({tim1_.next_event(), tim8_.next_event(), adc_.next_event(), heated_.next_event(), sleeps_});
+  Cycle next = std::min({tim1_.next_event(), tim4_.next_event(), tim8_.next_event(), adc_.next_event(),
+                         heated_.next_event(), sleeps_});
   for (const Tmc2209& chip : chips_) next = std::min(next, chip.next_event());
   for (const Wire& wire : wires_) next = std::min(next, wire.rises);
   return next;

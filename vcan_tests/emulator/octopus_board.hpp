@@ -78,6 +78,11 @@ class OctopusBoard final : public Stm32f4Chip, public UsbSocket {
   HeatedPlaces& heated() { return heated_; }
   /// The pin of one of the heat node's heaters is high now.
   bool heater_on(int heater) const;
+  /// Of the servo output; 0: none come.
+  struct Pulses {
+    double width_us = 0, period_us = 0;
+  };
+  Pulses servo();
   /// A pin that gives power to something is driven, and not to its level without.
   bool anything_on() const;
   /// Pins that the program has made outputs.
@@ -97,7 +102,7 @@ class OctopusBoard final : public Stm32f4Chip, public UsbSocket {
   void look_at_wire(std::size_t axis, Cycle now);
   void look_at_diag();
 
-  Timer tim1_, tim8_;
+  Timer tim1_, tim4_, tim8_;
   Dma dma2_;
   AdcBlock adc_;
   HeatedPlaces heated_;

@@ -230,6 +230,12 @@ TEST(MachineFile, ADeviceWhereNoneCanBeIsRefused) {
        "filament_sensor.x.stands_mm: found a key that does not exist"},
       {"", "where = \"simulated\"\n[probe]\nwhere = \"node\"\nnode = 3\nchannel = 1",
        "probe.channel: found 1; expected an input of node 3 that has the probe function"},
+      {"axis_pairs = 0\ninputs = 0", "where = \"simulated\"\n[bltouch]\nnode = 4",
+       "bltouch: found a pin; expected a probe on an input of a node, [probe] with where = "
+       "\"node\": its line"},
+      {"inputs = 1\n[node.4.input1]\nfunction = \"probe\"",
+       "where = \"simulated\"\n[probe]\nwhere = \"node\"\nnode = 4\nchannel = 1\n[bltouch]\nnode = 3",
+       "bltouch.node: found 3; expected a heat node that has its table, [node.3], with axis_pairs = 0"},
       {"", "where = \"simulated\"\n[fan.\"two words\"]\nwhere = \"simulated\"",
        "fan.two words: found a key that does not exist; expected at most 32 tables with names of 1 .. 32 "
        "letters, "

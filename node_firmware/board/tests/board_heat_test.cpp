@@ -44,6 +44,7 @@ TEST(PulsedOutput, IsOffAtOnceAndOnAtOnce) {
 struct FakeHeat {
   static constexpr int kSensors = 2, kHeaters = 2, kFans = 1;
   static constexpr std::array<std::uint8_t, 2> kFilamentInputs{0, 1};
+  static constexpr std::uint8_t kProbeInput = 2;
   std::optional<std::uint32_t> take_ratio(int sensor) {
     if (silent) return std::nullopt;
     noise = noise * 1664525 + 1013904223;
@@ -52,11 +53,13 @@ struct FakeHeat {
   void set_heater(int heater, bool on) { heaters[static_cast<std::size_t>(heater)] = on; }
   void set_fan(int, bool on) { fan = on; }
   void set_contactor(bool closed) { contactor = closed; }
+  void set_servo(std::uint16_t us) { servo = us; }
   // 100 kOhm at 25 C on 4.7 kOhm.
   std::array<std::uint32_t, 2> ratio{1'001'500, 1'001'500};
   std::array<bool, 2> heaters{};
   bool fan = false, contactor = false, silent = false;
   std::uint32_t noise = 1;
+  std::uint16_t servo = 0;
 };
 
 struct HeatBesideAxes : testing::Test {

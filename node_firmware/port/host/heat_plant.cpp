@@ -50,6 +50,8 @@ void HeatPlant::step(HeatNode& node, LocalTime now) {
   filament_.step(extruder_mm_.value_or(1e-3 * node.filament_commanded(1)));
   node.on_filament(0, filament_.level(), 0);
   node.on_filament(1, false, filament_.take_edges());
+  pin_probe_.step(node.servo_pulse());
+  node.on_probe_line(now, pin_probe_.line());
   hot_end().fan = fans_[1].speed;
   for (std::size_t i = 0; i < places_.size(); ++i) {
     ThermalPlant& place = places_[i];
@@ -79,11 +81,12 @@ std::string HeatPlant::command(std::string_view text) {
       rest.empty() &&
       ((what == "sensor" && break_sensor(number, how)) || (what == "heater" && break_heater(number, how)) ||
        (what == "fan" && break_fan(number, how)) || (what == "flow" && how.empty() && set_flow(which)) ||
-       (what == "filament" && how.empty() && break_filament(which)));
+       (what == "filament" && how.empty() && break_filament(which)) ||
+       (what == "probe" && how.empty() && break_probe(which)));
   if (done) return {};
   return "\"" + std::string(text) +
          "\": expected sensor N open|short|loose|silent|frozen|ok, heater N loose|open|stuck|ok, fan N "
-         "stalled|ok, flow MM3_PER_S, or filament out|jammed|slips|ok";
+         "stalled|ok, flow MM3_PER_S, filament out|jammed|slips|ok, or probe in|out|alarm|ok";
 }
 
 bool HeatPlant::break_sensor(int number, std::string_view how) {
@@ -129,6 +132,15 @@ bool HeatPlant::break_filament(std::string_view how) {
   if (how != "out" && how != "jammed" && how != "slips" && how != "ok") return false;
   filament_.out = how == "out";
   filament_.share = how == "jammed" ? 0 : how == "slips" ? kSlips : 1;
+  return true;
+}
+
+bool HeatPlant::break_probe(std::string_view how) {
+  if (how != "in" && how != "out" && how != "alarm" && how != "ok") return false;
+  pin_probe_.mend();
+  pin_probe_.stays_in = how == "in";
+  pin_probe_.hangs_out = how == "out";
+  if (how == "alarm") pin_probe_.alarm(true);
   return true;
 }
 

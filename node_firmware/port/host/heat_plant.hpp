@@ -16,6 +16,7 @@
 
 #include "node_firmware/heat/heat_node.hpp"
 #include "node_firmware/port/host/filament_plant.hpp"
+#include "node_firmware/port/host/pin_probe_plant.hpp"
 #include "node_firmware/port/host/thermal_plant.hpp"
 
 namespace kinebus::heat {
@@ -39,9 +40,11 @@ class HeatPlant {
   ///     fan N stalled | ok
   ///     flow MM3_PER_S
   ///     filament out | jammed | slips | ok
+  ///     probe in | out | alarm | ok
   ///
   /// Sensors are 1 to 3, the chamber's can be open, short and ok; heaters and fans 1 and 2. A stuck heater's
-  /// MOSFET is always on. Flow is that of filament through the hot end, 0 to 100.
+  /// MOSFET is always on. A probe's pin
+  /// stays in, or out. Flow is that of filament through the hot end, 0 to 100.
   /// Empty: done. Otherwise what is wrong with the command, and what there is.
   std::string command(std::string_view text);
 
@@ -50,6 +53,7 @@ class HeatPlant {
   void turn_extruder(double mm) { extruder_mm_ = mm; }
 
   FilamentPlant& filament() { return filament_; }
+  PinProbePlant& pin_probe() { return pin_probe_; }
   ThermalPlant& hot_end() { return places_[0]; }
   ThermalPlant& bed() { return places_[1]; }
 
@@ -64,10 +68,12 @@ class HeatPlant {
   bool break_fan(int number, std::string_view how);
   bool set_flow(std::string_view mm3_per_s);
   bool break_filament(std::string_view how);
+  bool break_probe(std::string_view how);
 
   std::array<ThermalPlant, 3> places_;
   std::array<Turning, 2> fans_;
   FilamentPlant filament_;
+  PinProbePlant pin_probe_;
   std::optional<double> extruder_mm_;
 };
 

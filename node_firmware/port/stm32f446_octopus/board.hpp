@@ -93,6 +93,8 @@ inline constexpr std::array kPins = {
   Pin{D, 13, kOutput,    kDown,  0, false, "FAN3"},
   Pin{D, 14, kOutput,    kDown,  0, false, "FAN4"},
   Pin{D, 15, kOutput,    kDown,  0, false, "FAN5"},
+  // The servo of a BLTouch; its line comes to PROBE.
+  Pin{B,  6, kAlternate, kDown,  2, false, "servo (TIM4_CH1)"},
   Pin{E, 11, kOutput,    kDown,  0, false, "PS-ON: the heaters' supply, high: on"},
   // USB-C socket; its VBUS leads to no pin.
   Pin{A, 11, kAlternate, kNone, 10, false, "OTG_FS_DM"},

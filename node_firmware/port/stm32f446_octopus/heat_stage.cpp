@@ -12,6 +12,16 @@ constexpr unsigned kChannel = 2;
 }  // namespace
 
 void HeatPort::start() {
+  enable_clock(rcc().APB1ENR, Rcc::kTim4);
+  Timer& servo = tim4();
+  servo.PSC = 2 * kApb1Hz / 1'000'000 - 1;  // us
+  servo.ARR = heat::PinProbe::kPeriod / std::chrono::microseconds{1} - 1;
+  servo.CCMR1 = Timer::kPwm1Preload;
+  servo.CCR[0] = 0;
+  servo.CCER = bit(0);
+  servo.EGR = Timer::kGenerateUpdate;
+  servo.CR1 = Timer::kEnable | Timer::kAutoReloadPreload;
+
   enable_clock(rcc().AHB1ENR, Rcc::kDma2);
   enable_clock(rcc().APB2ENR, Rcc::kAdc1 | Rcc::kAdc3);  // the common registers go by ADC1's
   for (volatile std::uint16_t& word : words_) word = kTaken;

@@ -17,8 +17,9 @@ class HeatPort {
   static constexpr int kSensors = octopus::kThermistors.size(), kHeaters = octopus::kHeaterPins.size(),
                        kFans = octopus::kFanPins.size();
   static constexpr std::array<std::uint8_t, 2> kFilamentInputs = octopus::kFilamentInputs;
+  static constexpr std::uint8_t kProbeInput = octopus::kProbe;
 
-  /// Conversions begin.
+  /// Conversions begin, and the servo's timer, without pulses.
   void start();
   std::optional<std::uint32_t> take_ratio(int sensor);
   static void set_heater(int heater, bool on) {
@@ -26,6 +27,8 @@ class HeatPort {
   }
   static void set_fan(int fan, bool on) { write(octopus::kFanPins[static_cast<std::size_t>(fan)], on); }
   static void set_contactor(bool on) { write(octopus::kContactorPin, on); }
+  /// Width of the pulses, us; 0: none. In force from the next on.
+  static void set_servo(std::uint16_t us) { tim4().CCR[0] = us; }
 
  private:
   // 480 clocks to sample and 12 to convert, at 10.5 MHz: 47 us. 16 rounds of 5 inputs take 3.8 ms, within a

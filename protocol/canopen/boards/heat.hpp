@@ -25,6 +25,7 @@ struct HeatBoard {
     object_table::heaters(t);
     object_table::fans(t);
     object_table::filament_sensors(t);
+    object_table::pin_probe(t);
   }
 };
 

@@ -168,7 +168,12 @@ void VirtualMachine::check_probe(BusTime now) {
   probe_counts_.clear();
   for (const auto& node : nodes_) probe_counts_.push_back({node->counts(0, now), node->counts(1, now)});
   const double gap = probe_->gap_mm(probe_counts_);
-  const bool touches = gap <= 0;
+  bool touches = gap <= 0;
+  if (probe_->pin_node >= 0) {
+    heat::PinProbePlant& pin = heat_plant(probe_->pin_node).pin_probe();
+    pin.meet(gap);
+    touches = pin.line();
+  }
   if (touches != probe_touches_) {
     probe_touches_ = touches;
     auto& edges = nodes_[static_cast<std::size_t>(probe_->node)]->edges;

@@ -38,6 +38,7 @@ struct VirtualProbe {
   int node = 0;             ///< its place
   int input = 1;            ///< 1..7
   bool active_low = false;  ///< electrically
+  int pin_node = -1;        ///< the heat node whose plant has the pin; none: it touches as it is
   /// By how many mm the probe is clear of it, < 0: it touches, with the motors at these true counts, by node;
   /// asked in the order of time.
   std::function<double(const std::vector<std::array<double, 2>>& counts)> gap_mm;

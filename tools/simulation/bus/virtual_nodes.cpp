@@ -126,6 +126,8 @@ std::optional<VirtualProbe> virtual_probe_of(const MachineDescription& machine) 
   for (std::size_t n = 0; n < machine.nodes.size(); ++n)
     if (machine.nodes[n].id == probe.place.node_id) found.node = static_cast<int>(n);
   found.input = probe.place.channel;
+  for (std::size_t n = 0; n < machine.nodes.size(); ++n)
+    if (probe.bltouch && machine.nodes[n].id == probe.servo_node) found.pin_node = static_cast<int>(n);
   const auto input = static_cast<std::size_t>(found.input - 1);
   found.active_low = machine.nodes[static_cast<std::size_t>(found.node)].inputs[input].active_low;
   std::shared_ptr<const Kinematics> kinematics = std::move(*made);

@@ -147,6 +147,38 @@ TEST(OctopusHeat, NobodyIsLeftHeatingAlone) {
   EXPECT_EQ(octopus.raw(0x7402, 1) & 0xFFFF, 0u);
 }
 
+// A BLTouch's servo and its line, by CANopen alone.
+TEST(OctopusHeat, ServoPulsesMoveAProbesPinAndItsLineIsRead) {
+  OneOctopus octopus;
+  OctopusBoard& board = octopus.board;
+  const auto read = [&](std::uint16_t index) {
+    return get_u32_le(octopus.bench.upload(kHeat, index, 0).bytes().subspan(4)) & 0xFFFF;
+  };
+  board.set_input(8, false);
+  octopus.bench.send(nmt_frame(NmtCommand::kEnterPreOperational, kHeat));
+  octopus.bench.run(5ms);
+  EXPECT_EQ(octopus.bench.try_write(kHeat, 0x2261, 0, 1, 1), kDeviceState) << "none is fitted";
+  octopus.bench.write(kHeat, 0x2260, 0, 1, 1);
+  octopus.bench.run(100ms);
+  EXPECT_EQ(board.servo().width_us, 0) << "nothing moves before a command";
+  octopus.bench.write(kHeat, 0x2261, 0, 1, 1);
+  octopus.bench.run(60ms);
+  // The maker's 10 degrees: 647 us, and 50 Hz.
+  EXPECT_NEAR(board.servo().width_us, 647, 10);
+  EXPECT_NEAR(board.servo().period_us, 20'000, 1);
+  EXPECT_EQ(read(0x2262), 3u);
+  octopus.bench.run(1s);
+  EXPECT_NEAR(board.servo().width_us, 1162, 10);
+  EXPECT_EQ(read(0x2262), 2u) << "the line is low: it is out";
+  board.set_input(8, true);
+  octopus.bench.run(50ms);
+  EXPECT_EQ(read(0x2264), 1u);
+  octopus.bench.write(kHeat, 0x2261, 0, 1, 2);
+  octopus.bench.run(4s);
+  EXPECT_EQ(read(0x2262), 6u) << "the line stays high: an alarm";
+  EXPECT_NEAR(board.servo().width_us, 1472, 10);
+}
+
 // What was described stays, and nothing heats by itself.
 TEST(OctopusHeat, KeepsItsSettingsThroughAPowerCut) {
   OneOctopus octopus({}, &make_board<OctopusBoard>, true);

@@ -1,0 +1,111 @@
+// A BLTouch on a printer: its pin is out for the contact and in before anything else moves; and what happens
+// when it is not.
+
+#include <gtest/gtest.h>
+
+#include "gateway/machine/tests/heat_printer.hpp"
+
+namespace kinebus {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr double kTip_mm = 2.6;  // of the pin, out, below the nozzle
+
+MachineDescription with_a_bltouch() {
+  MachineDescription machine = printer_on_the_bus();
+  machine.probe.present = machine.probe.bltouch = true;
+  machine.probe.place = {DevicePlace::Where::kNode, machine.nodes[2].id, 5};
+  machine.probe.servo_node = kHeatId;
+  machine.probe.offset_mm = {24, -7, -kTip_mm};
+  machine.probe.sim_z_mm = 0.15;
+  machine.nodes[2].inputs[4].function = InputFunction::kProbe;
+  machine.mesh.points_x = 3;
+  machine.mesh.points_y = 2;
+  machine.mesh.x_mm = {-30, 30};
+  machine.mesh.y_mm = {-20, 20};
+  return machine;
+}
+
+class Bltouch : public HeatPrinter {
+ protected:
+  Bltouch() : HeatPrinter(with_a_bltouch()) { rig.nodes.set_probe(*virtual_probe_of(rig.machine)); }
+  heat::PinProbePlant& pin() { return rig.nodes.heat_plant(kHeat).pin_probe(); }
+  /// Until the job is over, and the pin was never out while the tool went aside.
+  bool ends(MachineState state, BusTime limit = 600s) {
+    return rig.run_until(
+        [&] {
+          const Pose at = tool();
+          const double aside = std::hypot(at[kX] - last_[kX], at[kY] - last_[kY]);
+          if (pin().out() && aside > kOnTheLine) went_aside_with_it_out_ = true;
+          if (!pin().out() || aside > kOnTheLine) last_ = at;
+          return rig.gateway->state() == state;
+        },
+        limit);
+  }
+  bool told(const std::string& words) { return rig.story().find(words) != std::string::npos; }
+  Pose last_{};
+  bool went_aside_with_it_out_ = false;
+};
+
+TEST_F(Bltouch, IsOutForTheContactAndInBehindIt) {
+  ASSERT_TRUE(begin("G0 X10 Z15\nG38.2 Z1 F300\nG1 X30 F600\n")) << rig.story();
+  ASSERT_TRUE(rig.reach(MachineState::kRunning, 60s));
+  ASSERT_TRUE(ends(MachineState::kReady)) << rig.story();
+  EXPECT_TRUE(rig.told(MachineEvent::Kind::kFinished)) << rig.story();
+  EXPECT_EQ(pin().deployed(), 1u);
+  EXPECT_FALSE(pin().out());
+  EXPECT_FALSE(went_aside_with_it_out_);
+  EXPECT_NEAR(tool()[kX], 30, kOnTheLine);
+  EXPECT_NEAR(tool()[kZ], kTip_mm + 0.15, 0.2) << "where it touched, and as far on as it took to stop";
+}
+
+TEST_F(Bltouch, MeasuresAMeshWithAPinOutForEveryPoint) {
+  ASSERT_TRUE(begin("G29\n")) << rig.story();
+  ASSERT_TRUE(rig.reach(MachineState::kRunning, 60s));
+  ASSERT_TRUE(ends(MachineState::kReady)) << rig.story();
+  EXPECT_EQ(pin().deployed(), 6u) << rig.story();
+  EXPECT_FALSE(pin().out());
+  EXPECT_FALSE(went_aside_with_it_out_);
+  ASSERT_TRUE(rig.gateway->status().positions_known);
+}
+
+TEST_F(Bltouch, APinThatStaysInStopsBeforeAnythingMoves) {
+  ASSERT_EQ(breaks("probe in"), "");
+  ASSERT_TRUE(begin("G0 X10 Z15\nG38.2 Z1 F300\nG1 X30 F600\n")) << rig.story();
+  ASSERT_TRUE(rig.run_until([&] { return told("the probe"); }, 600s)) << rig.story();
+  rig.run_for(5s);
+  EXPECT_TRUE(told("the probe is in alarm, after a reset, too") || told("the probe's pin has not come out"))
+      << rig.story();
+  EXPECT_NEAR(tool()[kZ], 15, 0.01);
+  EXPECT_NEAR(tool()[kX], 10, 0.01);
+}
+
+TEST_F(Bltouch, APinThatHangsOutBehindTheContactStopsWhereItIs) {
+  ASSERT_TRUE(begin("G0 X10 Z15\nG38.2 Z1 F300\nG1 X30 F600\n")) << rig.story();
+  ASSERT_TRUE(rig.run_until([&] { return pin().out(); }, 600s)) << rig.story();
+  ASSERT_EQ(breaks("probe out"), "");
+  ASSERT_TRUE(rig.run_until([&] { return told("the probe"); }, 600s)) << rig.story();
+  rig.run_for(5s);
+  EXPECT_NEAR(tool()[kX], 10, 0.01) << rig.story();
+  EXPECT_FALSE(rig.told(MachineEvent::Kind::kFinished)) << rig.story();
+}
+
+TEST_F(Bltouch, AnAlarmThatComesBackStopsBeforeAnythingMoves) {
+  ASSERT_EQ(breaks("probe alarm"), "");
+  ASSERT_TRUE(begin("G0 X10 Z15\nG38.2 Z1 F300\nG1 X30 F600\n")) << rig.story();
+  ASSERT_TRUE(rig.run_until([&] { return told("the probe is in alarm, after a reset, too"); }, 600s))
+      << rig.story();
+  EXPECT_NEAR(tool()[kZ], 15, 0.01);
+}
+
+TEST_F(Bltouch, AStopWhileItProbesDrawsThePinIn) {
+  ASSERT_TRUE(begin("G0 X10 Z15\nG38.2 Z1 F60\nG1 X30 F600\n")) << rig.story();
+  ASSERT_TRUE(rig.run_until([&] { return pin().out() && tool()[kZ] < 12; }, 600s)) << rig.story();
+  ASSERT_TRUE(rig.gateway->carry_out(command::Cancel{}));
+  rig.run_for(5s);
+  EXPECT_FALSE(pin().out()) << rig.story();
+}
+
+}  // namespace
+}  // namespace kinebus
