@@ -81,14 +81,24 @@ TEST_F(Bltouch, APinThatStaysInStopsBeforeAnythingMoves) {
   EXPECT_NEAR(tool()[kX], 10, 0.01);
 }
 
-TEST_F(Bltouch, APinThatHangsOutBehindTheContactStopsWhereItIs) {
+TEST_F(Bltouch, APinThatIsJammedOutEndsTheJobAboveTheBed) {
   ASSERT_TRUE(begin("G0 X10 Z15\nG38.2 Z1 F300\nG1 X30 F600\n")) << rig.story();
   ASSERT_TRUE(rig.run_until([&] { return pin().out(); }, 600s)) << rig.story();
   ASSERT_EQ(breaks("probe out"), "");
-  ASSERT_TRUE(rig.run_until([&] { return told("the probe"); }, 600s)) << rig.story();
-  rig.run_for(5s);
-  EXPECT_NEAR(tool()[kX], 10, 0.01) << rig.story();
-  EXPECT_FALSE(rig.told(MachineEvent::Kind::kFinished)) << rig.story();
+  ASSERT_TRUE(rig.reach(MachineState::kStopped, 600s)) << rig.story();
+  EXPECT_TRUE(told("the probe has not touched before the end of its move")) << rig.story();
+  EXPECT_NEAR(tool()[kX], 10, 0.01);
+  EXPECT_GT(tool()[kZ], 0.9);
+}
+
+TEST_F(Bltouch, AnAlarmBehindTheContactStopsBeforeAnythingMovesOn) {
+  ASSERT_TRUE(begin("G0 X10 Z15\nG38.2 Z1 F300\nG1 X30 F600\n")) << rig.story();
+  ASSERT_TRUE(rig.run_until([&] { return pin().out(); }, 600s)) << rig.story();
+  ASSERT_TRUE(rig.run_until([&] { return !pin().out(); }, 60s)) << rig.story();
+  ASSERT_EQ(breaks("probe alarm"), "");
+  ASSERT_TRUE(rig.reach(MachineState::kStopped, 60s)) << rig.story();
+  EXPECT_TRUE(told("the probe is in alarm, after a reset, too")) << rig.story();
+  EXPECT_NEAR(tool()[kX], 10, 0.01);
 }
 
 TEST_F(Bltouch, AnAlarmThatComesBackStopsBeforeAnythingMoves) {
