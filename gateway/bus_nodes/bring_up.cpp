@@ -42,7 +42,8 @@ void BringUp::start(BusTime now, bool alone, const std::vector<ParameterWrite>& 
     // The description's currents may be others than at the last one.
     nodes_[i].configuration = configure_node(machine_, links_[i].id());
     std::vector<ParameterWrite>& settings = nodes_[i].configuration.settings;
-    if (links_[i].functions().has_axes()) settings.insert(settings.end(), key.begin(), key.end());
+    if (links_[i].functions().has_axes() || machine_.carries_heat(links_[i].id()))
+      settings.insert(settings.end(), key.begin(), key.end());
     nodes_[i].config = Config::kCheck;
     nodes_[i].rewritten = nodes_[i].differs = false;
   }

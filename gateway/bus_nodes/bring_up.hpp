@@ -33,7 +33,7 @@ class BringUp {
   BringUp(const MachineDescription& machine, std::deque<NodeLink>& links, PathRate& rate);
 
   /// `alone`: this gateway speaks on the bus already, so there is no other to listen for. `key`: tells nodes
-  /// with axes the session's key; empty: there is none.
+  /// with axes or heaters the session's key; empty: there is none.
   void start(BusTime now, bool alone, const std::vector<ParameterWrite>& key = {});
   Outcome on_time(BusTime now);
   /// Ends it: drives stay as they are.

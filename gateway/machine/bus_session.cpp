@@ -23,11 +23,21 @@ SipHashKey BusSession::derived(std::uint64_t number) const {
 void BusSession::begin() {
   if (trust_ == BusTrust::kOpen) return;
   key_ = derived(++sessions_);
-  writer_.emplace(key_);
+  if (writers_.size() == VoucherReader::kKept) writers_.erase(writers_.begin());
+  writers_.emplace_back(key_);
+}
+
+void BusSession::settle() {
+  if (writers_.size() > 1) writers_.erase(writers_.begin(), writers_.end() - 1);
+}
+
+void BusSession::vouch_for(const CanFrame& frame) {
+  for (VoucherWriter& writer : writers_) held_.push_back(writer.vouch_for(frame));
+  held_.push_back(frame);
 }
 
 std::vector<ParameterWrite> BusSession::key_writes() const {
-  if (!writer_) return {};
+  if (writers_.empty()) return {};
   std::vector<ParameterWrite> writes;
   const std::array<std::uint64_t, 4> parts{key_.low & 0xFFFF'FFFF, key_.low >> 32, key_.high & 0xFFFF'FFFF,
                                            key_.high >> 32};

@@ -3,8 +3,8 @@
 // nodes with that key want vouched for (protocol/motion/voucher.hpp).
 
 #include <cstdint>
+#include <deque>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "gateway/bus_nodes/node_configuration.hpp"
@@ -22,26 +22,33 @@ class BusSession {
 
   /// Another key: nodes are about to be brought up.
   void begin();
+  /// Every node holds the last key. Until then frames are vouched for with those before it, too: what heats
+  /// takes a new key only of who holds the old one.
+  void settle();
   /// What tells a node the key; empty: the bus is open.
   std::vector<ParameterWrite> key_writes() const;
   /// What is to be sent now. `next()`: the next frame without vouchers.
   template <typename Next>
   std::optional<CanFrame> next_frame(Next next) {
-    if (held_) return std::exchange(held_, std::nullopt);
-    std::optional<CanFrame> frame = next();
-    if (!frame || !writer_ || !wants_voucher(*frame)) return frame;
-    held_ = frame;
-    return writer_->vouch_for(*frame);
+    if (held_.empty()) {
+      std::optional<CanFrame> frame = next();
+      if (!frame || writers_.empty() || !wants_voucher(*frame)) return frame;
+      vouch_for(*frame);
+    }
+    const CanFrame frame = held_.front();
+    held_.pop_front();
+    return frame;
   }
 
  private:
   SipHashKey derived(std::uint64_t number) const;
+  void vouch_for(const CanFrame& frame);
 
   BusTrust trust_;
   SipHashKey secret_, key_;
   std::uint64_t sessions_ = 0;
-  std::optional<VoucherWriter> writer_;
-  std::optional<CanFrame> held_;  ///< its voucher was sent
+  std::vector<VoucherWriter> writers_;  ///< the last key's is the last
+  std::deque<CanFrame> held_;           ///< vouchers, and their frame
 };
 
 }  // namespace kinebus

@@ -41,6 +41,7 @@ void Gateway::Core::step_bring_up() {
   recovery_.note_found(now_, bring_up_);
   if (outcome == BringUp::Outcome::kBusy) return;
   if (outcome == BringUp::Outcome::kDone) {
+    session_.settle();
     voice_.nodes_are_new(now_);
     devices_.on_bring_up(now_, true);
     return rest_.read(now_, Rest::After::kBringUp);

@@ -23,7 +23,7 @@ Sentence refused_words(const Emergency& emergency) {
   if (id == kRateCobId)
     return say("a change of the rate that does not carry the session's check value was refused");
   if (cob_id::node_of(id, cob_id::rpdo(1, 0)) != 0)
-    return say("a controlword that does not carry the session's check value was refused");
+    return say("a controlword or set point that does not carry the session's check value was refused");
   return say("a time stamp of SYNC that does not carry the session's check value was refused");
 }
 

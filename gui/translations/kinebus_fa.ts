@@ -4197,8 +4197,8 @@
         <translation>تغییر نرخ بدون مقدار بررسی نشست رد شد</translation>
     </message>
     <message>
-        <source>a controlword that does not carry the session&apos;s check value was refused</source>
-        <translation>کلمهٔ کنترل بدون مقدار بررسی نشست رد شد</translation>
+        <source>a controlword or set point that does not carry the session&apos;s check value was refused</source>
+        <translation>کلمهٔ کنترل یا مقدار تنظیم بدون مقدار بررسی نشست رد شد</translation>
     </message>
     <message>
         <source>a time stamp of SYNC that does not carry the session&apos;s check value was refused</source>

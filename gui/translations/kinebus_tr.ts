@@ -4197,8 +4197,8 @@
         <translation>oturumun kontrol değerini taşımayan bir hız oranı değişikliği reddedildi</translation>
     </message>
     <message>
-        <source>a controlword that does not carry the session&apos;s check value was refused</source>
-        <translation>oturumun kontrol değerini taşımayan bir kontrol sözcüğü reddedildi</translation>
+        <source>a controlword or set point that does not carry the session&apos;s check value was refused</source>
+        <translation>oturumun kontrol değerini taşımayan bir kontrol sözcüğü veya ayar değeri reddedildi</translation>
     </message>
     <message>
         <source>a time stamp of SYNC that does not carry the session&apos;s check value was refused</source>

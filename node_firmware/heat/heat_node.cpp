@@ -88,6 +88,7 @@ void HeatNode::apply_communication() {
 
 void HeatNode::on_frame(LocalTime at, const CanFrame& frame) {
   on_time(at);
+  if (!obeys(frame)) return serve();
   const SyncReception sync = decode_sync(
       frame, cob_id::kSync, static_cast<std::uint8_t>(value(heat_slot_of(object::kSyncCounterOverflow))));
   if (sync.is_sync) {
@@ -131,6 +132,7 @@ bool HeatNode::is_sign_of_life(const CanFrame& frame) const {
 }
 
 void HeatNode::on_sync(const SyncReception& sync) {
+  sync_seen_ = now_;
   if (!nmt_.allows_sync()) return;
   if (!sync.length_error)
     pdo_.on_sync(now_, sync.counter);
@@ -165,6 +167,7 @@ void HeatNode::on_nmt(NmtCommand command) {
       break;
     case NmtCommand::kResetNode:
     case NmtCommand::kResetCommunication:
+      session_.end();
       lss_.activate();
       node_id_ = lss_.active_node_id() == kUnconfiguredNodeId ? std::uint8_t{0} : lss_.active_node_id();
       reset_requested_ = reset_requested_ || command == NmtCommand::kResetNode;

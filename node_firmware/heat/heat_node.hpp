@@ -27,6 +27,7 @@
 #include "protocol/canopen/pdo_engine.hpp"
 #include "protocol/canopen/sdo_server.hpp"
 #include "protocol/canopen/sync.hpp"
+#include "protocol/motion/session_guard.hpp"
 
 namespace kinebus::heat {
 
@@ -140,6 +141,9 @@ class HeatNode final : private ObjectOwner {
   void apply_communication();
   void apply_settings();
   void configure_sensors();
+  /// In a session: not what nobody vouches for while anything heats, nor what lets it heat.
+  bool obeys(const CanFrame& frame);
+  void serve_session();
   void on_nmt(NmtCommand command);
   void on_sync(const SyncReception& sync);
   void on_lss();
@@ -165,6 +169,8 @@ class HeatNode final : private ObjectOwner {
   SdoServer sdo_;
   PdoEngine pdo_;
   LssSlave lss_;
+  SessionGuard session_;
+  LocalTime sync_seen_{0};
   std::optional<CanFrame> boot_up_;
 
   std::array<SensorInput, kHeatSensors> sensors_;

@@ -115,6 +115,12 @@ AbortCode HeatNode::read_device(ObjectAddress address, std::int64_t& result) con
     case kSupply.index:
       result = supply_mv_;
       return AbortCode::kNone;
+    case object::kSessionKey.index:
+      result = session_.in_force() ? 1 : 0;
+      return AbortCode::kNone;
+    case kFramesRefused.index:
+      result = session_.refused();
+      return AbortCode::kNone;
     case kConfirmedSerial.index:
       result = confirmed_ ? options_.serial : 0;
       return AbortCode::kNone;
@@ -209,6 +215,11 @@ AbortCode HeatNode::write(const ObjectEntry& entry, std::int64_t to) {
   }
   if (index == kPinCommand.index || index == kServoPulse.index) return write_pin_probe(index, to);
   if (index == kConfirmedSerial.index) return confirm(to);
+  if (index == object::kSessionKey.index) {
+    sync_seen_ = now_;
+    // A key that comes while anything heats was vouched for with the last one: see obeys().
+    return session_.write(entry.address.subindex, static_cast<std::uint32_t>(to), false);
+  }
   if (entry.binding == Binding::kLive) return write_heater(index, place_of(entry.address), to);
   return check_setting(entry, to);
 }

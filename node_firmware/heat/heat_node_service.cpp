@@ -159,6 +159,7 @@ void HeatNode::serve() {
   if (settings_changed_) apply_settings();
   while (const auto problem = pdo_.next_problem())
     if (!emcy_.active(problem->emcy_code)) emcy_.raise(problem->emcy_code, {0, problem->rpdo, 0, 0, 0});
+  serve_session();
   sdo_.on_time(now_);
   pdo_.on_time(now_);
 }

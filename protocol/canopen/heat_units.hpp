@@ -46,7 +46,7 @@ inline constexpr ObjectAddress kFilamentKind{0x2250, 1}, kFilamentInverted{0x225
 inline constexpr ObjectAddress kPinProbe{0x2260, 0}, kPinCommand{0x2261, 0}, kPinState{0x2262, 0},
     kServoPulse{0x2263, 0}, kProbeLine{0x2264, 0};
 inline constexpr ObjectAddress kContactor{0x2240, 0}, kSupply{0x2241, 0}, kMasterLost{0x2242, 0},
-    kConfirmedSerial{0x2243, 0};
+    kConfirmedSerial{0x2243, 0}, kFramesRefused{0x2244, 0};
 }  // namespace heat_object
 
 namespace object_table {
@@ -221,6 +221,7 @@ constexpr void pin_probe(Rows& t) {
 /// The node as a whole.
 constexpr void heat_supervision(Rows& t) {
   t.var(0x2116, "Configuration fingerprint", kU32, kReadOnly, kLive);
+  session_key(t);
   t.var(0x2240, "Contactor", kU8, kReadOnly, kLive).maps(Mapping::kTpdo);
   t.var(0x2241, "Supply voltage", kU16, kReadOnly, kLive).maps(Mapping::kTpdo).in("mV");
   // After so long without a sign of life of the master, set points become the safe ones.
@@ -228,6 +229,7 @@ constexpr void heat_supervision(Rows& t) {
   // Nothing heats before the master has written the serial number of the node that it means, 1018h:4: after
   // every start and NMT reset node. Another number is refused, and what heats goes off. 0: not confirmed.
   t.var(0x2243, "Confirmed serial number", kU32, kReadWrite, kLive);
+  t.var(0x2244, "Frames that nobody vouched for", kU32, kReadOnly, kLive);
 }
 
 inline constexpr std::uint32_t mapped_nth(ObjectAddress first, int bits, int nth) {

@@ -47,6 +47,9 @@ class VoucherReader {
   };
 
   static constexpr std::size_t kKinds = 5;
+  /// The gateway sends a frame right behind its voucher, or those of several keys; others may have sent false
+  /// ones between.
+  static constexpr std::size_t kKept = 4;
   /// NMT 0, rate 1, stamp 2, SDO 3, RPDO1 4.
   static std::size_t kind_of(const CanFrame& frame);
 
@@ -59,9 +62,6 @@ class VoucherReader {
   Verdict look(const CanFrame& frame);
 
  private:
-  // The gateway sends a frame right behind its voucher; others may have sent false ones between.
-  static constexpr std::size_t kKept = 4;
-
   std::uint64_t full_number(std::uint16_t low) const;
 
   SipHashKey key_;

@@ -6,6 +6,7 @@
 #include "protocol/canopen/cob_id.hpp"
 #include "protocol/canopen/object_addresses.hpp"
 #include "protocol/motion/broadcast.hpp"
+#include "protocol/motion/voucher.hpp"
 #include "tools/dictionary/frame_fields.hpp"
 
 namespace kinebus {
@@ -147,6 +148,7 @@ std::string dbc_text(std::span<const DbcNode> nodes) {
   for (const DbcNode& node : nodes) add_node(messages, node);
   messages.push_back({cob_id::kHeartbeat + kGatewayNodeId, "GATEWAY_Heartbeat", 1, "GATEWAY", all_nodes,
                       heartbeat_fields()});
+  messages.push_back({kVoucherCobId, "GATEWAY_Voucher", 8, "GATEWAY", all_nodes, voucher_fields()});
   messages.push_back({cob_id::kLssReply, "NODE_LssReply", 8, "Vector__XXX", "GATEWAY", lss_fields()});
   messages.push_back({cob_id::kLssRequest, "GATEWAY_LssRequest", 8, "GATEWAY", all_nodes, lss_fields()});
 

@@ -155,6 +155,14 @@ std::vector<FrameField> heartbeat_fields() {
                       {number(NmtState::kPreOperational), "pre-operational"}}}};
 }
 
+std::vector<FrameField> voucher_fields() {
+  return {{.name = "Number", .start = 0, .bits = 16, .comment = "its low 16 bits; it only rises"},
+          {.name = "CheckValue",
+           .start = 16,
+           .bits = 48,
+           .comment = "SipHash-2-4 over number and the frame that follows"}};
+}
+
 std::vector<FrameField> lss_fields() {
   return {
       {.name = "Command",

@@ -40,6 +40,8 @@ std::vector<FrameField> emcy_fields();
 std::vector<FrameField> nmt_fields();
 std::vector<FrameField> heartbeat_fields();
 std::vector<FrameField> lss_fields();
+/// Of 3FFh, protocol/motion/voucher.hpp.
+std::vector<FrameField> voucher_fields();
 /// Of 6060h and 6061h.
 const ValueNames& mode_names();
 

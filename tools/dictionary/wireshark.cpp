@@ -12,6 +12,7 @@
 #include "protocol/canopen/boards/all.hpp"
 #include "protocol/canopen/cia402.hpp"
 #include "protocol/canopen/object_addresses.hpp"
+#include "protocol/motion/voucher.hpp"
 #include "tools/dictionary/frame_fields.hpp"
 #include "tools/dictionary/wireshark/dissector_text.hpp"
 
@@ -248,6 +249,8 @@ std::string wireshark_text() {
   text += "local emcy_fields = " + field_rows(emcy_fields(), "") + "\n";
   text += "local nmt_fields = " + field_rows(nmt_fields(), "") + "\n";
   text += "local heartbeat_fields = " + field_rows(heartbeat_fields(), "") + "\n";
+  text += "local voucher_id = " + hex_number(kVoucherCobId) + "\n";
+  text += "local voucher_fields = " + field_rows(voucher_fields(), "") + "\n";
   text += "local lss_fields = " + field_rows(lss_fields(), "") + "\n";
   text += "local mode_names = " + value_names(mode_names()) + "\n";
   text += "local mode_objects = {[" + hex_number(object::kModeOfOperation.key()) + "] = true, [" +

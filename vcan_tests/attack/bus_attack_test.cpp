@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "gateway/jobs/machine_setup.hpp"
+#include "gateway/machine/tests/heat_printer.hpp"
 #include "gateway/machine/tests/stranger_rig.hpp"
 #include "protocol/bytes.hpp"
 #include "protocol/canopen/emcy.hpp"
@@ -198,6 +199,84 @@ TEST_P(BusAttack, NothingMovesApartSomebodyIsNamedAndTheJobIsFinished) {
     EXPECT_TRUE(named != "-" || then == "nothing to do") << rig.story();
     if (!untouched) continue;
     EXPECT_EQ(then, "nothing to do") << rig.story();
+  }
+}
+
+// Another device and the heat node of a printer whose hot end is at 200 C and whose bed warms up.
+struct HeatAttack {
+  const char* name;
+  const char* frame;
+};
+constexpr HeatAttack kHeatAttacks[] = {
+    {"RPDO1: set point 290 C", "214#540B580200000000"},
+    {"SDO: set point 290 C (7402h)", "614#2B027401540B0000"},
+    {"SDO: limit 300 C (2211h)", "614#2B112201B80B0000"},
+    {"SDO: heater's switch off (6422h)", "614#2F22640100000000"},
+    {"SDO: another serial number (2243h)", "614#2343220001000000"},
+    {"SDO: RPDO1 off (1400h)", "614#2300140114020080"},
+    {"SDO: another key (2117h)", "614#2F17210500000000"},
+    {"NMT stop of the heat node", "000#0214"},
+    {"NMT reset of the heat node", "000#8114"},
+};
+
+MachineDescription printer_in_a_session() {
+  MachineDescription machine = printer_on_the_bus();
+  machine.bus.trust = BusTrust::kSession;
+  return machine;
+}
+
+TEST(BusAttackOnHeat, WithASessionTheHeatNodeKeepsItsTargetAndTheJobGoesOn) {
+  std::printf("\n| attack on heat, trust = \"session\" | hot end | named | then |\n|---|---|---|---|\n");
+  for (const HeatAttack& attack : kHeatAttacks) {
+    SCOPED_TRACE(attack.name);
+    StrangerOf<VirtualMachine> rig(printer_in_a_session());
+    ASSERT_TRUE(rig.make_ready()) << rig.story();
+    ASSERT_TRUE(rig.gateway->carry_out(
+        command::Run{std::make_unique<StringSource>("M109 S200\nG4 P9000\nG1 X20 F1200\nG1 X0\n"), "heat"}));
+    const auto hot = [&] { return rig.gateway->status().heater(kFirstHotend).actual_celsius > 195; };
+    ASSERT_TRUE(rig.run_until(hot, 300s)) << rig.story();
+    rig.run_for(5s);
+    rig.events.clear();
+    rig.stranger_sends(text_frame(attack.frame));
+    rig.run_for(2500ms);
+    const double celsius = rig.gateway->status().heater(kFirstHotend).actual_celsius;
+    std::printf("| %s | %.0f C | %s |", attack.name, celsius, rig.story().c_str());
+    EXPECT_TRUE(rig.says("check value was refused")) << rig.story();
+    EXPECT_NEAR(celsius, 200, 6);
+    EXPECT_EQ(rig.nodes.heat_node(kHeat).fault(0), heat::HeaterFault::kNone);
+    const bool ends = rig.reach(MachineState::kReady, 120s);
+    std::printf(" %s |\n", ends ? "nothing to do" : "does not end");
+    EXPECT_TRUE(ends) << rig.story();
+  }
+}
+
+// The gateway's own bring-up while the hot end stays hot: it gives the node another key.
+TEST(BusAttackOnHeat, ABringUpWithAHotBlockGivesTheNodeAnotherKey) {
+  StrangerOf<VirtualMachine> rig(printer_in_a_session());
+  ASSERT_TRUE(rig.make_ready()) << rig.story();
+  ASSERT_TRUE(rig.gateway->carry_out(command::SetTemperature{kFirstBed, 60}));
+  rig.run_for(20s);
+  const auto& node = rig.nodes.heat_node(kHeat);
+  ASSERT_TRUE(node.heats());
+  for (int i = 0; i < 3; ++i) {
+    rig.stranger_sends(text_frame("000#8102"));  // at rest everybody may
+    ASSERT_TRUE(rig.reach(MachineState::kAlarm, 5s)) << rig.story();
+    ASSERT_TRUE(rig.gateway->carry_out(command::Clear{})) << rig.story();
+    ASSERT_TRUE(rig.gateway->carry_out(command::SetTemperature{kFirstBed, 60})) << rig.story();
+    rig.run_for(1s);
+    ASSERT_TRUE(node.heats()) << rig.story();
+    ASSERT_TRUE(rig.gateway->carry_out(command::BringUp{})) << rig.story();
+    ASSERT_TRUE(rig.run_until([&] { return rig.gateway->state() == MachineState::kUnhomed; }, 30s))
+        << rig.story();
+    ASSERT_TRUE(rig.gateway->carry_out(command::SetTemperature{kFirstBed, 60.0 + i})) << rig.story();
+    rig.run_for(5s);
+    EXPECT_TRUE(node.heats());
+    // The key is the gateway's, and nobody else's.
+    rig.stranger_sends(text_frame("614#2F17210500000000"));
+    rig.run_for(1s);
+    EXPECT_FALSE(rig.says("08000022h")) << rig.story();
+    EXPECT_TRUE(rig.says("2117h that does not carry")) << rig.story();
+    rig.events.clear();
   }
 }
 

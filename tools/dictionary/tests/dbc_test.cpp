@@ -14,6 +14,7 @@
 #include "protocol/canopen/node_objects.hpp"
 #include "protocol/motion/broadcast.hpp"
 #include "protocol/motion/segment.hpp"
+#include "protocol/motion/voucher.hpp"
 #include "tools/dictionary/dbc.hpp"
 #include "tools/dictionary/frame_fields.hpp"
 
@@ -229,6 +230,9 @@ TEST(Dbc, HasTheNodesThatAreNamed) {
   EXPECT_NEAR(decode(temperatures, "Sensor1", frame), 200.5, 1e-9);
   EXPECT_EQ(messages.count(0x181), 0u);
   EXPECT_EQ(messages.count(kRateCobId), 1u);
+  const Message& voucher = messages.at(kVoucherCobId);
+  EXPECT_EQ(voucher.name, "GATEWAY_Voucher");
+  EXPECT_EQ(decode(voucher, "Number", CanFrame::make(kVoucherCobId, {2, 1, 0, 0, 0, 0, 0, 0})), 0x102);
 
   for (const char* wrong : {"", "0", "127", "1-", "3-1", "1,,2", "a", "1,1", "1-3,2:heat", "4:oven", "1:"})
     EXPECT_FALSE(read_nodes(wrong, kBoards[0]).error.empty()) << wrong;

@@ -9,6 +9,7 @@
 #include "protocol/canopen/nmt.hpp"
 #include "protocol/motion/broadcast.hpp"
 #include "protocol/motion/segment.hpp"
+#include "protocol/motion/voucher.hpp"
 #include "tools/dictionary/tests/tshark.hpp"
 #include "tools/simulation/tests/simulated_job.hpp"
 
@@ -27,18 +28,23 @@ CanFrame record_frame(std::uint32_t id, std::uint64_t record) {
 }
 
 /// Bring-up, homing and a short print of the simulated machine.
+std::vector<CanFrame> print_with(BusTrust trust) {
+  std::vector<CanFrame> all;
+  MachineDescription machine = default_m1();
+  machine.bus.trust = trust;
+  SimulateOptions options;
+  options.on_frame = [&all](BusTime, const CanFrame& frame) { all.push_back(frame); };
+  const SimulationReport report = simulate_on(
+      machine,
+      "G21 G90 M83\nM104 S200\nG1 Z10 F6000\nG1 X20 Y0 E0.5 F3000\nG1 X20 Y20 E0.5\nG2 X0 Y20 I-10 J0 E1\n"
+      "G1 X0 Y0 E1\nM106 S100\nG1 X5 Y5 Z12 F9000\nG4 P200\nG1 X0 Y0\n",
+      1, options);
+  EXPECT_TRUE(report.finished) << report.outcome;
+  return all;
+}
+
 const std::vector<CanFrame>& print_frames() {
-  static const std::vector<CanFrame> frames = [] {
-    std::vector<CanFrame> all;
-    SimulateOptions options;
-    options.on_frame = [&all](BusTime, const CanFrame& frame) { all.push_back(frame); };
-    const SimulationReport report = simulate_text(
-        "G21 G90 M83\nM104 S200\nG1 Z10 F6000\nG1 X20 Y0 E0.5 F3000\nG1 X20 Y20 E0.5\nG2 X0 Y20 I-10 J0 E1\n"
-        "G1 X0 Y0 E1\nM106 S100\nG1 X5 Y5 Z12 F9000\nG4 P200\nG1 X0 Y0\n",
-        1, options);
-    EXPECT_TRUE(report.finished) << report.outcome;
-    return all;
-  }();
+  static const std::vector<CanFrame> frames = print_with(BusTrust::kOpen);
   return frames;
 }
 
@@ -106,6 +112,27 @@ TEST(Wireshark, LeavesNothingOfAPrintOpaque) {
     EXPECT_GT(services[service], 0) << service;
 }
 
+TEST(Wireshark, LeavesNothingOfASessionOpaque) {
+  const std::vector<CanFrame> frames = print_with(BusTrust::kSession);
+  const Tshark tshark;
+  const auto told =
+      tshark.read(tshark.capture(frames), {"kinebus.service", "kinebus.voucher.number", "data"});
+  ASSERT_EQ(told.size(), frames.size());
+  int vouchers = 0, keys = 0;
+  for (std::size_t i = 0; i < told.size(); ++i) {
+    DissectedFrame frame = told[i];
+    EXPECT_TRUE(frame["_ws.expert.message"].empty() || frames[i].id < 0x100 || frames[i].data[0] == 0x80)
+        << to_text(frames[i]).view() << ": " << frame["_ws.expert.message"];
+    EXPECT_TRUE(frame["kinebus.rest"].empty() && frame["data"].empty()) << to_text(frames[i]).view();
+    keys += frame["_ws.col.Info"].find("write 2117h") != std::string::npos ? 1 : 0;
+    if (frames[i].id != kVoucherCobId) continue;
+    EXPECT_EQ(frame["kinebus.voucher.number"], std::to_string(get_u16_le(frames[i].data)));
+    ++vouchers;
+  }
+  EXPECT_GT(vouchers, 100);
+  EXPECT_EQ(keys, 5 * 3);
+}
+
 TEST(Wireshark, ReadsEveryRecordOfAPrintAsTheCodec) {
   const Tshark tshark;
   const auto told =
@@ -166,6 +193,9 @@ TEST(Wireshark, NamesEveryKindOfFrame) {
       {nmt_frame(NmtCommand::kStart, 2), "Gateway: NMT Command start, Node 2"},
       {heartbeat_frame(NmtState::kInitialising, 3), "Node 3: Heartbeat Nmt state boot-up"},
       {heartbeat_frame(NmtState::kPreOperational, 127), "Gateway: Heartbeat Nmt state pre-operational"},
+      {frame_of("3FF#0201123456789ABC"), "Gateway: Voucher for the next frame, number ..0102h"},
+      {frame_of("601#2F17210501000000"),
+       "Gateway to Node 1: SDO request write 2117h:5 Session key: Session in force = 1"},
       {frame_of("080#F0"), "Gateway: SYNC 240"},
       {frame_of("080#"), "Gateway: SYNC without counter"},
       {frame_of("100#01000000.0500"), "Gateway: TIME 1 ms, day 5"},
@@ -313,6 +343,7 @@ TEST(Wireshark, NotesWhatIsWrongWithAFrame) {
       {frame_of("181#0102"), "Shorter than its mapping"},
       {frame_of("381#"), "Shorter than its mapping"},
       {frame_of("181#0102030405060708"), "Longer than its mapping"},
+      {frame_of("3FF#00"), "Voucher has 1 bytes, not 8"},
       {frame_of("1FF#00"), "Shorter than its mapping"},
       {frame_of("7E5#0000000000000000"), "No such service of LSS"},
       {frame_of("050#"), "No identifier of Kinebus"},

@@ -76,6 +76,7 @@ add_fields("emcy", emcy_fields)
 add_fields("nmt", nmt_fields)
 add_fields("heartbeat", heartbeat_fields)
 add_fields("lss", lss_fields)
+add_fields("voucher", voucher_fields)
 
 local type_bits = {bool = 8, i8 = 8, u8 = 8, i16 = 16, u16 = 16, i32 = 32, u32 = 32, i64 = 64, u64 = 64}
 for place, board in ipairs(boards) do
@@ -665,6 +666,7 @@ local function frame_of(id, bytes)
   if id == 0x000 then return {service = "NMT", length = 2, kind = "nmt", sender = "Gateway"} end
   if id == 0x080 then return {service = "SYNC", kind = "sync", sender = "Gateway"} end
   if id == 0x100 then return {service = "TIME", length = 6, kind = "time", sender = "Gateway"} end
+  if id == voucher_id then return {service = "Voucher", length = 8, kind = "voucher", sender = "Gateway"} end
   if id == 0x7E4 then return {service = "LSS reply", length = 8, kind = "lss", sender = "Node"} end
   if id == 0x7E5 then return {service = "LSS request", length = 8, kind = "lss", sender = "Gateway"} end
   if id > 0x080 and id < 0x100 then
@@ -721,6 +723,10 @@ local show = {
       tree:add_proto_expert_info(malformed, "No such NMT state")
     end
     return words[1]
+  end,
+  voucher = function(tree, tvb, bytes)
+    local raw = show_fields(tree, tvb, bytes, voucher_fields, 0)
+    return "for the next frame, number .." .. string.format("%04Xh", raw.number)
   end,
   lss = function(tree, tvb, bytes)
     local raw, words = show_fields(tree, tvb, bytes, {lss_fields[1], lss_fields[2]}, 0)
