@@ -15,7 +15,8 @@ namespace kinebus::schematic {
 
 struct Place {
   std::int64_t x = 0, y = 0;
-  auto operator<=>(const Place&) const = default;
+  friend bool operator==(const Place&, const Place&) = default;
+  friend bool operator<(const Place& a, const Place& b) { return std::pair(a.x, a.y) < std::pair(b.x, b.y); }
 };
 
 struct DrawnPin {

@@ -12,7 +12,7 @@
 namespace kinebus::gcode {
 namespace {
 
-constexpr int kFirst = 52, kEnd = 53;  // G5.2, G5.3
+constexpr int kBegins = 52, kEnds = 53;  // G5.2, G5.3
 constexpr std::size_t kMostPieces = 200'000;
 constexpr double kLeastWeight = 1e-6, kMostWeight = 1e6;
 
@@ -23,20 +23,20 @@ bool Core::check_beside_nurbs() {
   const int open = state_.modal.nurbs;
   const bool motion = block_.has(GGroup::kMotion);
   const int number = motion ? block_.code(GGroup::kMotion).number : open;
-  const bool goes_on = number == open || (number == kEnd && open == kFirst);
+  const bool goes_on = number == open || (number == kEnds && open == kBegins);
   if (goes_on && (block_.groups & ~kMotionBit) == 0 && block_.m_count == 0 && block_.command.empty() &&
       !block_.percent)
     return true;
   return fail(motion ? block_.code(GGroup::kMotion).column : 1,
-              open == kFirst ? say("the NURBS that G5.2 began has no end: write G5.3 before this line")
-                             : say("the NURBS that G6.2 began has no end: as many lines with K alone as its "
-                                   "order P come behind its points"));
+              open == kBegins ? say("the NURBS that G5.2 began has no end: write G5.3 before this line")
+                              : say("the NURBS that G6.2 began has no end: as many lines with K alone as its "
+                                    "order P come behind its points"));
 }
 
 bool Core::begin_nurbs(Code code) {
   ModalState& m = state_.modal;
   const std::string name = g_name(code.number);
-  if (code.number == kEnd) return fail(code.column, say("%1 ends a NURBS, and none has begun", name));
+  if (code.number == kEnds) return fail(code.column, say("%1 ends a NURBS, and none has begun", name));
   if (m.cutter != CutterSide::kOff) return refuse_beside_cutter(code, name);
   if (m.inverse_time) return fail(code.column, say("%1 needs feed per minute (G94)", name));
   if (!m.feed_known) return fail(code.column, say("no feed rate is set: this move needs F"));
@@ -46,7 +46,7 @@ bool Core::begin_nurbs(Code code) {
   m.nurbs = code.number;
   m.nurbs_start = m.program;
   state_.nurbs = {};
-  if (code.number == kFirst) add_nurbs_point(1);
+  if (code.number == kBegins) add_nurbs_point(1);
   return true;
 }
 
@@ -70,7 +70,7 @@ bool Core::run_nurbs() {
   const bool named = block_.has(GGroup::kMotion);
   const Code code = named ? block_.code(GGroup::kMotion) : Code{m.nurbs, 1};
   const std::string name = g_name(code.number);
-  if (code.number == kEnd && m.nurbs == kFirst) {
+  if (code.number == kEnds && m.nurbs == kBegins) {
     if (curve.points.size() < curve.order)
       return fail(code.column, say("a NURBS of order %1 needs as many points, and has %2",
                                    static_cast<int>(curve.order), static_cast<int>(curve.points.size())));
@@ -94,7 +94,7 @@ bool Core::run_nurbs() {
     return fail(code.column,
                 say("a NURBS has %1 control points at most", static_cast<int>(Nurbs::kMostPoints)));
 
-  const bool fanuc = m.nurbs != kFirst;
+  const bool fanuc = m.nurbs != kBegins;
   double weight = 1;
   const char weight_letter = fanuc ? 'R' : 'P';
   if (fanuc && begins && !has('P')) return fail(code.column, say("%1 needs its order P", name));
