@@ -212,8 +212,8 @@ class DeviceRules {
     require(d_.probe.present && d_.probe.place.on_node(), {"bltouch", "probe.where"}, say("a pin"),
             say("a probe on an input of a node, [probe] with where = \"node\": its line"));
     const std::uint8_t id = d_.probe.servo_node;
-    const NodeDescription* node = d_.node(id);
-    require(node != nullptr && !node->functions.has_axes(), {"bltouch.node"}, number(id),
+    // That it has no axes is a rule of every heat node.
+    require(d_.node(id) != nullptr, {"bltouch.node"}, number(id),
             say("a heat node that has its table, [node.%1], with axis_pairs = 0", id));
   }
 

@@ -24,7 +24,8 @@ class Hearing {
     add(0x000);         // NMT
     add(0x7E5);         // LSS
     add(kVoucherCobId);
-    add(kSyncStampCobId);  // by its vouchers the number of a session is followed
+    // By its vouchers the number of a session is followed; an axis pair has it among its PDOs.
+    if constexpr (requires { Core::kHearsSyncStamps; }) add(kSyncStampCobId);
     if (node.node_id() != 0) {
       add(0x600u + node.node_id());
       for (const std::uint8_t id : node.watched_nodes())

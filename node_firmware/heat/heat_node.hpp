@@ -40,6 +40,7 @@ struct HeatNodeOptions {
 
 class HeatNode final : private ObjectOwner {
  public:
+  static constexpr bool kHearsSyncStamps = true;  ///< Hearing
   /// `stored_image`: what image_to_store() gave once; damaged, the defaults are in force, by which nothing
   /// heats.
   HeatNode(const HeatNodeOptions& options, LocalTime now, std::span<const std::uint8_t> stored_image = {});

@@ -70,6 +70,9 @@ OctopusBoard::OctopusBoard(const ElfImage& image, const BoardOptions& options, s
   map(0x40010400, 0x400, tim8_, apb2(1));
   map(AdcBlock::kAddress, 0x400, adc_, apb2(8));
   map(0x40026400, 0x400, dma2_, ahb1(22));
+  // Nothing is connected: the inputs are pulled up.
+  for (const stm32::SwitchPin& pin : octopus::kSwitchPins)
+    exti_.on_level(static_cast<int>(pin.port), pin.line, true);
   dma2_.fetch = [this](std::uint32_t address) { return cpu_.peek(address); };
   dma2_.put = [this](std::uint32_t address, std::uint32_t word, Cycle at) { write(address, word, 4, at); };
   dma2_.take = [this](std::uint32_t address, Cycle at) { return read(address, 4, at); };

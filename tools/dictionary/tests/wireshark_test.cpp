@@ -342,7 +342,7 @@ TEST(Wireshark, NotesWhatIsWrongWithAFrame) {
       {frame_of("601#2B60600008000000"), "2 bytes where the object has 1"},
       {frame_of("181#0102"), "Shorter than its mapping"},
       {frame_of("381#"), "Shorter than its mapping"},
-      {frame_of("181#0102030405060708"), "Longer than its mapping"},
+      {frame_of("401#01020304050607"), "Longer than its mapping"},
       {frame_of("3FF#00"), "Voucher has 1 bytes, not 8"},
       {frame_of("1FF#00"), "Shorter than its mapping"},
       {frame_of("7E5#0000000000000000"), "No such service of LSS"},
