@@ -138,6 +138,7 @@ class Gateway::Core {
   void enter(MachineState state) { state_.enter(now_, state); }
   void begin_bring_up();
   void begin_homing();
+  double printed_top_mm() const;
   /// Refused: the part of the interrupted job is higher than homing spares.
   Done may_home() const;
   void begin_move(canonical::Command move, const Pose& from);

@@ -77,6 +77,8 @@ void Gateway::Core::end_override() {
 void Gateway::Core::note_progress() {
   if (!print_.runner().active() || heat_.kept()) return;
   heat_.note(journal_);
+  if (const double top_mm = printed_top_mm(); printed_ && print_.growth_is_due(top_mm))
+    journal_.push(journal::Printed{top_mm});
   if (!print_.progress_is_due(now_, rate_.rate(now_) != 0)) return;
   const Runner& job = print_.runner();
   journal_.push(journal::Progress{group_.confirmed(rate_.tau(now_)), job.line(now_), joints_now()});
@@ -102,13 +104,20 @@ Done Gateway::Core::go_on() {
   return done;
 }
 
+/// 0: nothing is printed, or nobody looks.
+double Gateway::Core::printed_top_mm() const {
+  return printed_ && !printed_->empty() ? printed_->top_mm() : 0;
+}
+
 /// Nobody takes a part that is to be gone on with off the table: of an interrupted job it stands there. Of
-/// one that a gateway before has left its tool's place tells the height.
+/// one that a gateway before has left the journal tells the height, or else the tool's place.
 Done Gateway::Core::may_home() const {
   const double spared_mm = machine_.homing.spared_part_mm;
   if (spared_mm == 0 || !interrupted()) return {};
-  double height_mm = printed_ && !printed_->empty() ? printed_->top_mm() : 0;
-  if (const auto& left = recovery_.left(); left && left->state.progress) {
+  double height_mm = printed_top_mm();
+  if (const auto& left = recovery_.left(); left && left->state.printed) {
+    height_mm = left->state.printed->top_mm;
+  } else if (left && left->state.progress) {
     Pose pose = kinematics_->bed_reference();
     if (kinematics_->forward(Frame::kPart, left->state.progress->joints, pose)) height_mm = pose[kZ];
   }

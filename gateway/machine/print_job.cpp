@@ -51,6 +51,13 @@ bool PrintJob::progress_is_due(BusTime now, bool moving) {
   return true;
 }
 
+bool PrintJob::growth_is_due(double top_mm) {
+  constexpr double kCell_mm = 1;  // of what is printed
+  if (noted_top_mm_ && top_mm < *noted_top_mm_ + kCell_mm) return false;
+  noted_top_mm_ = top_mm;
+  return true;
+}
+
 journal::JobBegin PrintJob::record(const Pose& start) const {
   return {name_, bytes_, hash_, start, offsets_};
 }

@@ -70,9 +70,14 @@ class PrintJob {
   // The run.
   /// What the journal has to know when it begins at `start`, Frame::kMachine.
   journal::JobBegin record(const Pose& start) const;
-  void start(const Pose& start) { runner_.start_job(std::move(source_), start, offsets_); }
+  void start(const Pose& start) {
+    noted_top_mm_.reset();
+    runner_.start_job(std::move(source_), start, offsets_);
+  }
   /// Now and then in motion (`moving`: path time runs) its place is noted.
   bool progress_is_due(BusTime now, bool moving);
+  /// The part is higher than was noted, by as much as it is known to; then it counts as noted.
+  bool growth_is_due(double top_mm);
 
  private:
   void tell_problems(BusTime now);
@@ -90,6 +95,7 @@ class PrintJob {
   gcode::WorkOffsets offsets_{};
   std::uint64_t bytes_ = 0, hash_ = 0;  ///< of the text that was checked
   BusTime progress_due_{0};
+  std::optional<double> noted_top_mm_;  ///< none: nothing was noted of this job
   std::optional<BusTime> clock_from_;
   double elapsed_before_s_ = 0;
 };

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <string>
 
 #include "gateway/description/machine_file.hpp"
@@ -130,6 +132,25 @@ TEST(HomingSurvey, NothingTouchesOnM4WithAPartOnTheTable) {
   EXPECT_GT(found.under_tool, 40);
   EXPECT_TRUE(found.safe()) << told(found);
   EXPECT_LE(found.worst_condition, 20) << "of its work";
+}
+
+// All of its workspace, too: beside a tower a carriage stands highest.
+TEST(HomingSurvey, NothingTouchesOnADeltaWithAPartAsHighAsItsWorkspace) {
+  const MachineDescription delta = shipped("delta");
+  HomingStudy study(delta);
+  study.set_part(140, 290);
+  const Survey found = survey(study.machine(), study.plan(), 1, 300, {}, 200, Starts::corner_count());
+  EXPECT_GT(found.starts, 300);
+  EXPECT_GT(found.under_tool, 30);
+  EXPECT_TRUE(found.safe()) << told(found);
+  EXPECT_GE(found.nearest.mm, 1.9);
+  EXPECT_LE(found.spread_mm, delta.homing.max_spread_mm);
+  for (int ray = 0; ray < 12; ++ray) {
+    const double angle = ray * std::numbers::pi / 6;
+    EXPECT_TRUE(study.machine().kinematics->check(
+        Frame::kPart, Pose{140 * std::cos(angle), 140 * std::sin(angle), 290, 0, 0, 0}))
+        << ray;
+  }
 }
 
 TEST(HomingSurvey, TheOthersCloseAllTheWay) {

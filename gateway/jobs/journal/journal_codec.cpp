@@ -143,6 +143,11 @@ void fields(Io& io, ObjectLeftOut& r) {
   io.text(r.object.name);
 }
 
+template <class Io>
+void fields(Io& io, Printed& r) {
+  io.f64(r.top_mm);
+}
+
 struct Writer {
   std::vector<std::uint8_t>& out;
   void bits(std::uint64_t value, int bytes) {

@@ -151,8 +151,15 @@ struct ObjectLeftOut {
   friend bool operator==(const ObjectLeftOut&, const ObjectLeftOut&) = default;
 };
 
+/// How high the job has printed so far, table coordinates: after power loss a part of this height stands
+/// there, wherever the tool does.
+struct Printed {
+  double top_mm = 0;
+  friend bool operator==(const Printed&, const Printed&) = default;
+};
+
 using Record =
     std::variant<Epoch, JobBegin, RunBegin, WaitsDone, Scale, Override, Thermal, Progress, Interrupted, Found,
-                 JobEnd, Offsets, Heat, JobTime, Learned, Mesh, MeshInForce, ObjectLeftOut>;
+                 JobEnd, Offsets, Heat, JobTime, Learned, Mesh, MeshInForce, ObjectLeftOut, Printed>;
 
 }  // namespace kinebus::journal

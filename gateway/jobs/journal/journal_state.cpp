@@ -32,6 +32,10 @@ struct Taker {
   void operator()(const Heat& r) const { s.heat = r; }
   void operator()(const Progress& r) const { s.progress = r; }
   void operator()(const JobTime& r) const { s.time = r; }
+  /// A part only grows: who reads its job again notes it again from below.
+  void operator()(const Printed& r) const {
+    if (!s.printed || s.printed->top_mm < r.top_mm) s.printed = r;
+  }
   void operator()(const Interrupted& r) const {
     s.interrupted = r;
     s.run.reset();
@@ -109,6 +113,7 @@ std::vector<Record> State::records() const {
   if (override_ratio) all.emplace_back(Override{*override_ratio});
   if (heat) all.emplace_back(*heat);
   if (time) all.emplace_back(*time);
+  if (printed) all.emplace_back(*printed);
   if (run) all.emplace_back(*run);
   if (progress) all.emplace_back(*progress);
   if (found) all.emplace_back(Found{*found});

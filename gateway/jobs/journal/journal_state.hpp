@@ -26,6 +26,7 @@ struct State {
   std::vector<Mesh> meshes;      ///< of the machines, the one measured last at the end
   std::vector<MeshInForce> meshes_in_force;
   std::optional<Progress> progress;
+  std::optional<Printed> printed;  ///< none: not known, or nothing
   std::optional<JobTime> time;
   friend bool operator==(const State&, const State&) = default;
 

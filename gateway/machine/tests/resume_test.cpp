@@ -346,6 +346,8 @@ TEST(Journal, ACutAtAnyByteLeavesAnEarlierState) {
       journal::Thermal{200, 60, 0.5},
       heat,
       journal::JobTime{7, 12.5, 5, 60},
+      journal::Printed{3.5},
+      journal::Printed{0},
       journal::RunBegin{PathTime{9000}, {12, 0.25}, 0.2, 0.1},
       journal::Found{PathTime{9500}},
       journal::Interrupted{{14, 0.125}, 0.1},

@@ -4,7 +4,8 @@
 
 #include <string>
 
-#include "gateway/machine/tests/machine_rig.hpp"
+#include "gateway/machine/tests/resume_rig.hpp"
+#include "protocol/canopen/nmt.hpp"
 
 namespace kinebus {
 namespace {
@@ -146,6 +147,45 @@ TEST_F(PartTooHighToHome, IsNamedInTheCheckAndKeepsTheMachineFromHomingUntilTheJ
   ASSERT_TRUE(rig.gateway->carry_out(command::Cancel{})) << rig.story();
   ASSERT_TRUE(rig.gateway->carry_out(command::Home{}));
   EXPECT_TRUE(rig.reach(MachineState::kReady, 60s)) << rig.story();
+}
+
+// The tool is at Z 10 when the power goes, and the wall 40 mm high.
+TEST(WayBackAfterPowerLoss, APartThatIsHigherThanTheToolsPlaceIsNotHomedOver) {
+  for (const double spared_mm : {30.0, 60.0}) {
+    ResumeRig rig(sparing(spared_mm));
+    rig.job_text = wall_and_line();
+    ASSERT_TRUE(rig.begin(0)) << rig.story();
+    ASSERT_TRUE(rig.run_until(
+        [&] {
+          rig.store();
+          const Pose at = rig.gateway->status().machine_pose;
+          return at[kY] > 59.9 && at[kZ] < 10.1 && at[kX] > 2;
+        },
+        120s))
+        << rig.story();
+    rig.lose_from_gateway = rig.lose_to_gateway = [](const CanFrame&) { return true; };
+    rig.run_for(1s);
+    rig.nodes.send(rig.now, nmt_frame(NmtCommand::kResetNode, 0));
+    rig.run_for(100ms);
+    rig.lose_from_gateway = rig.lose_to_gateway = {};
+    // The second gateway has only what the first one that came after the power loss has written down.
+    rig.replace_gateway();
+    rig.replace_gateway();
+    ASSERT_TRUE(rig.gateway->carry_out(command::BringUp{}));
+    ASSERT_TRUE(rig.reach(MachineState::kUnhomed, 30s)) << rig.story();
+    const auto home = rig.gateway->carry_out(command::Home{});
+    if (spared_mm > 40) {
+      EXPECT_TRUE(home) << home.error().words;
+      continue;
+    }
+    ASSERT_FALSE(home);
+    EXPECT_EQ(home.error().words,
+              "the part of the interrupted job is 40 mm high and homing spares 30 mm: cancel the job and "
+              "take the part off the table, then home");
+    ASSERT_FALSE(rig.gateway->carry_out(command::Resume{}));
+    ASSERT_TRUE(rig.gateway->carry_out(command::Cancel{})) << rig.story();
+    EXPECT_TRUE(rig.gateway->carry_out(command::Home{}));
+  }
 }
 
 // What the sentence says: the way that is refused is free when the job is given up and the machine homed.
