@@ -93,6 +93,7 @@ MachineDescription default_m1() {
       {.name = "column_left_back", .from_mm = {-375, 266, -70}, .to_mm = {-335, 306, 1800}},
       {.name = "column_left_front", .from_mm = {-375, -306, -70}, .to_mm = {-335, -266, 1800}},
       {.name = "column_right", .from_mm = {340, -110, -70}, .to_mm = {380, 110, 1800}},
+      {.name = "stem", .from_mm = {-17, -17, 1420}, .to_mm = {17, 17, 1760}},
   };
   machine_schema::connect_travel(d);
   return d;
