@@ -46,7 +46,7 @@ class ChangedCard {
     std::ofstream(folder / file, std::ios::binary) << text;
     const auto netlist = read_netlist(folder / "kinebus-card.kicad_sch");
     EXPECT_TRUE(netlist) << netlist.error().text();
-    const auto found = all_complaints(*netlist);
+    auto found = all_complaints(*netlist);
     std::filesystem::remove_all(folder);
     return found;
   }
