@@ -7,6 +7,8 @@
 namespace kinebus::bodies {
 namespace {
 
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
 /// Pairs whose bodies may touch at work.
 bool at_work(BodyKind a, BodyKind b) {
   if (a > b) std::swap(a, b);
@@ -58,12 +60,13 @@ void CollisionModel::pair_up() {
     }
 }
 
-Parting CollisionModel::part(const Scene& scene, const Pair& pair) const {
+Parting CollisionModel::part(const Scene& scene, const Pair& pair, double enough_mm) const {
   const Body &a = bodies_[pair.first], &b = bodies_[pair.second];
-  Parting least{.mm = std::numeric_limits<double>::infinity()};
+  Parting least{.mm = kInfinite};
   for (std::size_t i = a.first_shape; i < std::size_t{a.first_shape} + a.shapes; ++i)
     for (std::size_t j = b.first_shape; j < std::size_t{b.first_shape} + b.shapes; ++j)
-      if (const Parting found = bodies::part(scene.shapes[i], scene.shapes[j]); found.mm < least.mm)
+      if (const Parting found = bodies::part(scene.shapes[i], scene.shapes[j], std::min(enough_mm, least.mm));
+          found.mm < least.mm)
         least = found;
   return least;
 }
@@ -93,14 +96,26 @@ std::optional<Clearance> CollisionModel::clearance(Frame frame, const Pose& pose
   return clearance(scene, occasion);
 }
 
-Clearance CollisionModel::clearance(const Scene& scene, Occasion occasion) const {
-  Clearance best{.mm = std::numeric_limits<double>::infinity()};
-  for (const Pair& pair : pairs_) {
-    if (pair.homing_only && occasion != Occasion::kHoming) continue;
-    if (least_distance(scene, pair) >= best.mm) continue;
-    const double mm = distance(scene, pair);
-    if (mm < best.mm) best = {mm, bodies_[pair.first].id, bodies_[pair.second].id};
-  }
+Clearance CollisionModel::clearance(const Scene& scene, Occasion occasion, std::size_t* likely) const {
+  Clearance best{.mm = kInfinite};
+  std::size_t nearest = pairs_.size();
+  const auto look = [&](std::size_t k) {
+    const Pair& pair = pairs_[k];
+    if (pair.homing_only && occasion != Occasion::kHoming) return;
+    // Of pairs as near as each other the first counts, in whatever order they are looked at.
+    const auto farther = [&](double mm) { return mm > best.mm || (mm == best.mm && k >= nearest); };
+    if (farther(least_distance(scene, pair))) return;
+    double mm = part(scene, pair, best.mm).mm;
+    if (mm == best.mm) mm = distance(scene, pair);
+    if (farther(mm)) return;
+    best = {mm, bodies_[pair.first].id, bodies_[pair.second].id};
+    nearest = k;
+  };
+  const std::size_t first = likely != nullptr ? *likely : pairs_.size();
+  if (first < pairs_.size()) look(first);
+  for (std::size_t k = 0; k < pairs_.size(); ++k)
+    if (k != first) look(k);
+  if (likely != nullptr) *likely = nearest;
   return best;
 }
 

@@ -93,7 +93,11 @@ class CollisionModel {
   std::optional<Clearance> clearance(Frame frame, const Pose& pose,
                                      Occasion occasion = Occasion::kMotion) const;
   /// The same for bodies that are placed already.
-  Clearance clearance(const Scene& scene, Occasion occasion = Occasion::kMotion) const;
+  /// `likely`: index in pairs() of the pair to look at first, and then of the nearest one; pose after pose it
+  /// is mostly the same, and of the others no more is measured than that they are farther. Any number is
+  /// right.
+  Clearance clearance(const Scene& scene, Occasion occasion = Occasion::kMotion,
+                      std::size_t* likely = nullptr) const;
 
   /// "leg 2", "spindle", or the name of a fixed body's table.
   Sentence name(BodyId body) const;
@@ -117,8 +121,9 @@ class CollisionModel {
   const std::vector<Body>& bodies() const { return bodies_; }
   const std::vector<Pair>& pairs() const { return pairs_; }
   double distance(const Scene& scene, const Pair& pair) const { return part(scene, pair).mm; }
-  /// With the axis of the two solids that are nearest.
-  Parting part(const Scene& scene, const Pair& pair) const;
+  /// With the axis of the two solids that are nearest. At least `enough_mm` apart: measured no further.
+  Parting part(const Scene& scene, const Pair& pair,
+               double enough_mm = std::numeric_limits<double>::infinity()) const;
   /// Not more than distance(): what is left between both along `axis`, which has length 1.
   double gap_along(const Scene& scene, const Pair& pair, const Vec& axis) const;
   /// Not more than distance(), and cheap.

@@ -159,8 +159,9 @@ Vec nearest(Simplex& s) {
 }
 
 /// Gilbert, Johnson and Keerthi: walks over the difference of both cores towards the origin. What it returns
-/// is the distance of a plane that parts the two, so never more than the truth.
-Parting part_cores(const Shape& a, const Shape& b) {
+/// is the distance of a plane that parts the two, so never more than the truth. Ends as soon as it is
+/// `enough_mm`.
+Parting part_cores(const Shape& a, const Shape& b, double enough_mm) {
   constexpr double kGood_mm = 1e-3;
   constexpr int kMost = 64;
   Vec v = a.centre - b.centre;
@@ -173,7 +174,7 @@ Parting part_cores(const Shape& a, const Shape& b) {
     const Vec w = farthest(a, -v) - farthest(b, v);
     const double parted = dot(v, w) / length;
     if (parted > best.mm) best = {parted, (1 / length) * v};
-    if (simplex.count > 0 && length - best.mm <= kGood_mm) break;
+    if ((simplex.count > 0 && length - best.mm <= kGood_mm) || best.mm >= enough_mm) break;
     simplex.point[static_cast<std::size_t>(simplex.count++)] = w;
     v = nearest(simplex);
     if (simplex.count == 4) return {};
@@ -183,14 +184,14 @@ Parting part_cores(const Shape& a, const Shape& b) {
 
 }  // namespace
 
-Parting part(const Shape& a, const Shape& b) {
+Parting part(const Shape& a, const Shape& b, double enough_mm) {
   Parting cores;
   if (a.core == Shape::Core::kSegment && b.core == Shape::Core::kSegment) {
     const Vec between = between_segments(a, b);
     cores.mm = norm(between);
     if (cores.mm > 0) cores.axis = (1 / cores.mm) * between;
   } else {
-    cores = part_cores(a, b);
+    cores = part_cores(a, b, enough_mm + a.skin_mm + b.skin_mm);
   }
   cores.mm -= a.skin_mm + b.skin_mm;
   return cores;

@@ -59,8 +59,9 @@ struct Parting {
 };
 /// Smallest distance of the two surfaces, mm. Two capsules: to rounding; else never more than the truth and
 /// at most 1 um less, for solids up to some metres. Solids that overlap: 0 or less, which says that they do
-/// and not how far. Allocates nothing.
-Parting part(const Shape& a, const Shape& b);
+/// and not how far. Those that are at least `enough_mm` apart: measured no further, the answer lies between
+/// `enough_mm` and the truth. Allocates nothing.
+Parting part(const Shape& a, const Shape& b, double enough_mm = HUGE_VAL);
 inline double distance_mm(const Shape& a, const Shape& b) {
   return part(a, b).mm;
 }

@@ -73,7 +73,8 @@ class Walker {
   Density density_;
   bodies::Scene scene_{};
   Pose pose_{};
-  double near_mm_ = 0;  ///< of the pose looked at last
+  double near_mm_ = 0;      ///< of the pose looked at last
+  std::size_t likely_ = 0;  ///< pair that was nearest there
   /// Tool to part or table: how near they were at the start, until they have room.
   struct Parting {
     bodies::CollisionModel::Pair pair;

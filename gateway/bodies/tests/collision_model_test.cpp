@@ -228,6 +228,40 @@ MachineDescription shipped(const std::string& name) {
   return *machine;
 }
 
+/// Each pair measured by itself, and the first of the nearest.
+TEST(EveryMachine, WhicheverPairIsLookedAtFirstTheNearestIsTheSame) {
+  std::mt19937 random(11);
+  const auto in = [&random](double a, double b) {
+    return std::uniform_real_distribution<double>(a, b)(random);
+  };
+  for (const char* name : {"m1.toml", "m4.toml", "m5.toml", "delta.toml", "cartesian.toml", "corexy.toml"}) {
+    const Model model = make_collision_model(shipped(name));
+    Scene scene = model->at_rest();
+    int seen = 0;
+    for (int n = 0; n < 60; ++n) {
+      const Pose pose{in(-80, 80), in(-80, 80), in(0, 150), n % 2 == 0 ? 0 : in(-0.3, 0.3), 0, 0};
+      if (!model->place(Frame::kPart, pose, scene)) continue;
+      ++seen;
+      double least = HUGE_VAL;
+      const CollisionModel::Pair* nearest = nullptr;
+      for (const CollisionModel::Pair& pair : model->pairs())
+        if (const double mm = model->distance(scene, pair); !pair.homing_only && mm < least) {
+          least = mm;
+          nearest = &pair;
+        }
+      ASSERT_NE(nearest, nullptr) << name;
+      for (const std::size_t begin :
+           {std::size_t{0}, model->pairs().size() / 2, model->pairs().size() - 1, std::size_t{100'000}}) {
+        std::size_t likely = begin;
+        const Clearance c = model->clearance(scene, Occasion::kMotion, &likely);
+        EXPECT_EQ(c.mm, least) << name << " pose " << n << " from pair " << begin;
+        EXPECT_EQ(&model->pairs()[likely], nearest) << name << " pose " << n << " from pair " << begin;
+      }
+    }
+    EXPECT_GT(seen, 10) << name;
+  }
+}
+
 /// The tool's tip against the table: what the pose says.
 TEST(EveryMachine, TipAndTableAreAsFarApartAsThePoseSays) {
   for (const char* name : {"m4.toml", "m5.toml", "delta.toml", "cartesian.toml", "corexy.toml"}) {

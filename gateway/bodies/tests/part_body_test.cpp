@@ -31,11 +31,11 @@ std::vector<Vec> print_tower(PrintedPart& part, const Vec& foot, double half_mm,
   return points;
 }
 
-/// Smallest distance of a point to a body other than table, tool and holder. The tool does not tilt: a point
-/// is where it is beside the tip.
+/// Smallest distance of a point to a body other than table, tool and holder; `enough_mm` where it is more.
+/// The tool does not tilt: a point is where it is beside the tip.
 double nearest_body(const CollisionModel& model, const Scene& scene, const Vec& tip, const Pose& pose,
-                    const std::vector<Vec>& points, std::uint8_t table_group) {
-  double least = HUGE_VAL;
+                    const std::vector<Vec>& points, std::uint8_t table_group, double enough_mm) {
+  double least = enough_mm;
   for (const Vec& p : points) {
     const Vector3 t =
         turn_x(Turn(pose[kA]), turn_z(Turn(pose[kC]), {p.x - pose[kX], p.y - pose[kY], p.z - pose[kZ]}));
@@ -98,7 +98,7 @@ Seen expect_what_points_say(const MachineDescription& machine, std::optional<Vec
         continue;
       }
       const Vec at = tip.value_or(Vec{pose[kX], pose[kY], pose[kZ]});
-      const double mm = nearest_body(*model, scene, at, pose, points, table_group);
+      const double mm = nearest_body(*model, scene, at, pose, points, table_group, never);
       const bool met = step == Sweep::Step::kNear && sweep.met_print();
       if (mm < always) {
         EXPECT_EQ(step, Sweep::Step::kNear) << "seed " << seed << ", pose " << n << ": " << mm;

@@ -148,6 +148,27 @@ TEST(ShapeDistance, IsSymmetric) {
   }
 }
 
+TEST(ShapeDistance, MeasuredNoFurtherThanEnoughIsBetweenThatAndTheTruth) {
+  int cut = 0;
+  for (std::uint32_t seed = 1; seed <= 2000; ++seed) {
+    Random random(seed);
+    const Shape a = random.shape(static_cast<Core>(seed % 3)),
+                b = random.shape(static_cast<Core>(seed / 3 % 3));
+    const double d = distance_mm(a, b);
+    for (const double share : {0.3, 0.9, 1.5}) {
+      const double enough = std::abs(d) * share, found = part(a, b, enough).mm;
+      if (d < enough) {
+        EXPECT_DOUBLE_EQ(found, d) << "seed " << seed;
+        continue;
+      }
+      EXPECT_GE(found, enough) << "seed " << seed;
+      EXPECT_LE(found, d + 1e-9) << "seed " << seed;
+      cut += found < 0.95 * d ? 1 : 0;
+    }
+  }
+  EXPECT_GT(cut, 100) << "it never ended early";
+}
+
 TEST(ShapeDistance, OfKnownPlacements) {
   const Shape rod = Shape::capsule({0, 0, 0}, {0, 0, 100}, 5),
               other = Shape::capsule({30, 0, 0}, {30, 0, 100}, 5);
