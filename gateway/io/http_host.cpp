@@ -34,6 +34,14 @@ void HttpHost::on_event(const MachineEvent& event) {
   if (server_ != nullptr) server_->on_event(event);
 }
 
+void HttpHost::on_time(LocalTime now) {
+  if (server_ != nullptr) server_->on_time(now);
+}
+
+LocalTime HttpHost::next_deadline() const {
+  return server_ != nullptr ? server_->next_deadline() : LocalTime::max();
+}
+
 std::vector<std::string> host_names(std::vector<std::string> more) {
   std::array<char, 256> name{};
   if (::gethostname(name.data(), name.size() - 1) != 0) return more;

@@ -26,8 +26,8 @@ class HttpHost : public DaemonPart {
   bool encrypted() const { return tls_.has_value(); }
 
   void on_event(const MachineEvent& event) override;
-  void on_time(LocalTime) override {}
-  LocalTime next_deadline() const override { return LocalTime::max(); }
+  void on_time(LocalTime now) override;
+  LocalTime next_deadline() const override;
 
  private:
   EventLoop& loop_;

@@ -88,12 +88,12 @@ Result<std::vector<StoredRun>, StoreError> JobStore::history(std::int64_t before
 
 Result<RunTotals, StoreError> JobStore::run_totals() {
   RunTotals totals;
-  Database::Statement rows(*database_,
-                           "SELECT result, COUNT(*), SUM(duration), MAX(id) FROM runs GROUP BY result");
+  Database::Statement rows(
+      *database_, "SELECT result, COUNT(*), SUM(duration), MAX(id), MAX(duration) FROM runs GROUP BY result");
   while (rows.step()) {
     const auto result = std::clamp<std::int64_t>(rows.integer(0), 0, 5);
     totals.by_result[static_cast<std::size_t>(result)] = {static_cast<std::uint64_t>(rows.integer(1)),
-                                                          rows.real(2)};
+                                                          rows.real(2), rows.real(4)};
     totals.begun = std::max(totals.begun, static_cast<std::uint64_t>(rows.integer(3)));
   }
   if (const auto ok = rows.error(); !ok) return Error<StoreError>(ok.error());

@@ -66,6 +66,7 @@ struct RunTotals {
   struct Total {
     std::uint64_t count = 0;
     double duration_s = 0;
+    double longest_s = 0;
   };
   std::array<Total, 6> by_result{};
   std::uint64_t begun = 0;  ///< since the store was made; the history forgets the oldest

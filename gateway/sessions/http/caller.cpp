@@ -67,7 +67,7 @@ void Caller::look(LocalTime now) {
   // One that is answered may end all, or begin another.
   auto looks = std::move(looks_);
   looks_.clear();
-  const std::weak_ptr<char> awaited = awaited_;
+  const std::weak_ptr<int> awaited = awaited_;
   for (auto& one : looks) {
     if (awaited.expired()) return;
     if (!one(now) && !awaited.expired()) looks_.push_back(std::move(one));
@@ -77,7 +77,7 @@ void Caller::look(LocalTime now) {
 void Caller::forget_asked() {
   expected_.clear();
   looks_.clear();
-  awaited_ = std::make_shared<char>();
+  awaited_ = std::make_shared<int>(0);
 }
 
 }  // namespace kinebus::http

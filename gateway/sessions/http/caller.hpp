@@ -39,9 +39,13 @@ class Caller : public Requester {
   template <typename Work, typename Done>
   void beside(Work work, Done then) {
     server_.worker().ask([&store = server_.store(), work = std::move(work)] { return work(store); },
-                         [awaited = std::weak_ptr<char>(awaited_), then = std::move(then)](auto found) {
-                           if (!awaited.expired()) then(std::move(found));
+                         [awaited = std::weak_ptr<int>(awaited_), then = std::move(then)](auto found) {
+                           if (const auto count = awaited.lock()) {
+                             --*count;
+                             then(std::move(found));
+                           }
                          });
+    ++*awaited_;
   }
   /// Asks `look` now and then until it answers true.
   void wait_for(std::function<bool(LocalTime)> look);
@@ -52,6 +56,8 @@ class Caller : public Requester {
   void detach();
   /// The number of a request that `then` is to hear of.
   std::uint32_t expect(Then then);
+  /// What is asked for beside the loop now.
+  int asked_beside() const { return *awaited_; }
   /// Nothing that was asked for is awaited any more.
   void forget_asked();
   void look(LocalTime now);
@@ -67,7 +73,7 @@ class Caller : public Requester {
   std::uint32_t last_request_ = 0;
   std::vector<std::function<bool(LocalTime)>> looks_;
   LocalTime next_look_{0};
-  std::shared_ptr<char> awaited_ = std::make_shared<char>();
+  std::shared_ptr<int> awaited_ = std::make_shared<int>(0);
 };
 
 }  // namespace kinebus::http

@@ -6,10 +6,12 @@
 
 #include "gateway/sessions/http/http_session.hpp"
 #include "gateway/sessions/http/kinebus/message_json.hpp"
+#include "gateway/sessions/http/moonraker/moonraker.hpp"
 
 namespace kinebus::http {
 namespace {
 constexpr LocalTime kStatusShared = std::chrono::milliseconds{20};
+constexpr LocalTime kNotePeriod = std::chrono::seconds{1};
 }  // namespace
 
 Server::Server(JobLinkServer& link, JobStore& store, Worker& worker, Control& control, Options options)
@@ -18,9 +20,26 @@ Server::Server(JobLinkServer& link, JobStore& store, Worker& worker, Control& co
       worker_(worker),
       control_(control),
       options_(std::move(options)),
-      database_(options_.database) {}
+      database_(options_.database),
+      noter_(std::make_unique<Caller>(*this, LocalTime{0})) {}
 
 Server::~Server() = default;
+
+void Server::on_time(LocalTime now) {
+  if (now < next_note_) return;
+  // However late: no second is noted twice to catch up.
+  next_note_ += kNotePeriod;
+  if (next_note_ <= now) next_note_ = now + kNotePeriod;
+  note_temperatures(*noter_, temperatures_);
+}
+
+double Server::unix_s(LocalTime now) const {
+  return link_.options().unix_s_at_zero + to_seconds(now);
+}
+
+void Server::note_line(LocalTime now, bool is_command, std::string_view text) {
+  console_.add(is_command, unix_s(now), text);
+}
 
 bool Server::make_room_for_socket(LocalTime now) {
   std::size_t sockets = 0;

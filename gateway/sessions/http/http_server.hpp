@@ -3,6 +3,7 @@
 // requests, each carried out by the handlers of the job link.
 //
 //   open() -> a session for each connection (byte_session.hpp)      on_event: news of the machine
+//   on_time: what is noted for clients that come later
 //
 // Who has the key may do all; who has not, nothing. Nobody can lock others out: connections that wait for
 // nothing give way to new ones.
@@ -18,6 +19,7 @@
 #include "gateway/jobs/store/job_store.hpp"
 #include "gateway/sessions/byte_session.hpp"
 #include "gateway/sessions/control.hpp"
+#include "gateway/sessions/http/moonraker/course.hpp"
 #include "gateway/sessions/http/moonraker/moonraker_database.hpp"
 #include "gateway/sessions/job_link_server.hpp"
 #include "gateway/sessions/worker.hpp"
@@ -61,6 +63,8 @@ class Server {
   /// `peer`: whose places it takes.
   std::unique_ptr<ByteSession> open(LocalTime now, std::string transport, std::string peer);
   void on_event(const MachineEvent& event);
+  void on_time(LocalTime now);
+  LocalTime next_deadline() const { return next_note_; }
 
   JobLinkServer& link() { return link_; }
   JobStore& store() { return store_; }
@@ -76,11 +80,19 @@ class Server {
 
   /// What OctoPrint calls the selected file; empty: none.
   std::string selected;
+  /// Counts the changes of the cameras that pages have entered.
+  std::uint32_t webcams_revision = 0;
   /// Counts the jobs that were started, by whomever, since the gateway's start.
   std::uint32_t job_id() const { return job_id_; }
   /// How the last job ended, as Klipper's print_stats say it: "standby" before any.
   const char* job_end() const { return job_end_; }
+  bool in_job() const { return in_job_; }
   MoonrakerDatabase& database() { return database_; }
+  const TemperatureCourse& temperatures() const { return temperatures_; }
+  const ConsoleCourse& console() const { return console_; }
+  /// A line that a client sent, or what it was answered.
+  void note_line(LocalTime now, bool is_command, std::string_view text);
+  double unix_s(LocalTime now) const;
 
  private:
   friend class Session;
@@ -97,6 +109,10 @@ class Server {
   const char* job_end_ = "standby";
   bool in_job_ = false, ran_ = false, cancelled_ = false;
   MoonrakerDatabase database_;
+  TemperatureCourse temperatures_;
+  ConsoleCourse console_;
+  std::unique_ptr<Caller> noter_;
+  LocalTime next_note_{0};
   std::string status_json_;
   LocalTime status_until_{0};
 };

@@ -67,7 +67,9 @@ class Socket : public ByteSession, public Caller {
 
   void work();
   bool work_waits() const;
-  bool full() const { return out_.size() - sent_ > kMaxBacklog || open_requests_ >= kMaxOpenRequests; }
+  bool full() const {
+    return out_.size() - sent_ > kMaxBacklog || open_requests_ + asked_beside() >= kMaxOpenRequests;
+  }
 
   std::string transport_, agent_;
   std::unique_ptr<Dialect> dialect_;

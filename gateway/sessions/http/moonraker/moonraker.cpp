@@ -1,6 +1,7 @@
 #include "gateway/sessions/http/moonraker/moonraker.hpp"
 
 #include <charconv>
+#include <cmath>
 #include <utility>
 
 #include "gateway/sessions/http/gate.hpp"
@@ -40,15 +41,25 @@ double Call::number(const char* name, double otherwise) const {
   const std::string text = found->is_string() ? found->get<std::string>() : std::string();
   double value = 0;
   const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
-  return read.ec == std::errc() ? value : otherwise;
+  // "nan" and "inf" are read, too, and are no numbers of anything.
+  return read.ec == std::errc() && std::isfinite(value) ? value : otherwise;
 }
 
 const Method* moonraker_method(std::string_view name) {
-  for (const auto methods :
-       {moonraker_server_methods(), moonraker_printer_methods(), moonraker_file_methods()})
-    for (const Method& method : methods)
-      if (name == method.name) return &method;
+  static const std::vector<Method> methods = moonraker_methods();
+  for (const Method& method : methods)
+    if (name == method.name) return &method;
   return nullptr;
+}
+
+std::vector<Method> moonraker_methods() {
+  std::vector<Method> all;
+  for (const auto methods :
+       {moonraker_server_methods(), moonraker_store_methods(), moonraker_printer_methods(),
+        moonraker_file_methods(), moonraker_history_methods(), moonraker_webcam_methods(),
+        moonraker_refused_methods()})
+    all.insert(all.end(), methods.begin(), methods.end());
+  return all;
 }
 
 class MoonrakerDialect : public Dialect {
@@ -66,6 +77,9 @@ class MoonrakerDialect : public Dialect {
 
   void on_room(LocalTime now) override {
     tell_events();
+    tell_lines();
+    if (std::exchange(webcams_, socket_.server().webcams_revision) != socket_.server().webcams_revision)
+      tell_webcams();
     if (now < next_update_ || !socket_.has_room()) return;
     next_update_ = now + kUpdatePeriod;
     // A slow reader hears the sum of what has changed since it last heard.
@@ -75,7 +89,9 @@ class MoonrakerDialect : public Dialect {
     if (!changed.empty()) notify("notify_status_update", {changed, to_seconds(now)});
   }
   LocalTime next_news() const override {
-    if (socket_.server().link().events().newest() > told_event_) return LocalTime{0};
+    if (socket_.server().link().events().newest() > told_event_ ||
+        socket_.server().console().newest() > told_line_)
+      return LocalTime{0};
     return next_update_;
   }
 
@@ -121,18 +137,29 @@ class MoonrakerDialect : public Dialect {
       tell(*event);
     }
   }
+  /// What lines of any client were answered.
+  void tell_lines() {
+    if (socket_.server().console().newest() == told_line_) return;
+    for (const ConsoleCourse::Line& line : socket_.server().console().lines()) {
+      if (line.id <= told_line_) continue;
+      if (!socket_.has_room()) return;
+      told_line_ = line.id;
+      if (!line.is_command) notify("notify_gcode_response", Json::array({line.text}));
+    }
+  }
   void tell(const joblink::Event& event) {
     switch (event.kind()) {
       case joblink::EVENT_ALARM:
-        notify("notify_gcode_response", {"!! " + event.words() + " " + event.advice()});
+        notify("notify_gcode_response", Json::array({"!! " + event.words() + " " + event.advice()}));
         break;
       case joblink::EVENT_MESSAGE:
       case joblink::EVENT_PROBLEM:
-        notify("notify_gcode_response", {"// " + event.words()});
+        notify("notify_gcode_response", Json::array({"// " + event.words()}));
         break;
       case joblink::EVENT_JOBS:
         notify("notify_filelist_changed",
-               {{{"action", "create_file"}, {"item", {{"path", event.job()}, {"root", "gcodes"}}}}});
+               Json::array({Json::object({{"action", "create_file"},
+                                          {"item", {{"path", event.job()}, {"root", "gcodes"}}}})}));
         break;
       case joblink::EVENT_STATE:
         tell_state();
@@ -142,12 +169,29 @@ class MoonrakerDialect : public Dialect {
     }
   }
   void tell_state() {
+    const bool in_job = socket_.server().in_job();
+    if (std::exchange(in_job_, in_job) != in_job)
+      newest_run(socket_, [this, in_job](Json run) {
+        if (run.is_null()) return;
+        notify("notify_history_changed",
+               Json::array({Json::object(
+                   {{"action", in_job ? "added" : "finished"}, {"job", std::move(run)}})}));
+      });
     const std::string state = klippy_state(machine_status(socket_));
     if (state == klippy_) return;
     klippy_ = state;
     notify(state == "ready" ? "notify_klippy_ready" : "notify_klippy_shutdown", Json::array());
   }
 
+  void tell_webcams() {
+    moonraker_method("server.webcams.list")
+        ->carry_out(
+            {.caller = socket_, .params = Json::object(), .then = [this](Result<Json, RpcError> list) {
+               if (list) notify("notify_webcams_changed", Json::array({std::move(*list)}));
+             }});
+  }
+
+  /// `params`: an array. To be made by Json::array: of one value in braces some compilers make a copy of it.
   void notify(const char* method, Json params) {
     say({{"jsonrpc", "2.0"}, {"method", method}, {"params", std::move(params)}});
   }
@@ -160,6 +204,9 @@ class MoonrakerDialect : public Dialect {
   Json wanted_ = Json::object(), told_ = Json::object();
   LocalTime next_update_ = LocalTime::max();
   std::uint64_t told_event_ = socket_.server().link().events().newest();
+  std::uint64_t told_line_ = socket_.server().console().newest();
+  std::uint32_t webcams_ = socket_.server().webcams_revision;
+  bool in_job_ = socket_.server().in_job();
   std::string klippy_ = "ready";
 };
 

@@ -49,14 +49,30 @@ struct Method {
   bool open = false;  ///< for who has not shown the key, too
 };
 std::span<const Method> moonraker_server_methods();
+std::span<const Method> moonraker_store_methods();
 std::span<const Method> moonraker_printer_methods();
 std::span<const Method> moonraker_file_methods();
+std::span<const Method> moonraker_history_methods();
+std::span<const Method> moonraker_webcam_methods();
+/// Those that are refused: what Kinebus has not, said in words.
+std::span<const Method> moonraker_refused_methods();
+/// All of these.
+std::vector<Method> moonraker_methods();
 const Method* moonraker_method(std::string_view name);
 
 /// Klipper's objects with what the machine is and does; `wanted` as of printer.objects.query: an object of
 /// names, each null or a list of fields. Unknown names are left out.
 Json moonraker_objects(Caller& caller, const Json& wanted);
 std::vector<std::string> moonraker_object_names(Caller& caller);
+/// What pages have changed in the database is written down.
+void keep_database(Caller& caller);
+/// "extruder", "heater_bed", "heater_generic NAME"; "temperature_sensor NAME"
+std::string klipper_heater(const joblink::Heater& heater);
+std::string klipper_sensor(const joblink::Sensor& sensor);
+/// What all sensors read now.
+void note_temperatures(Caller& caller, TemperatureCourse& course);
+/// The newest run of the history is given to `then`; null: there is none.
+void newest_run(Caller& caller, std::function<void(Json)> then);
 /// "ready" or "shutdown", as Klipper's clients know it, and why.
 const char* klippy_state(const joblink::Status& status);
 

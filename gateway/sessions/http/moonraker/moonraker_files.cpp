@@ -1,4 +1,4 @@
-// Moonraker's API: files, the history of jobs, and the queue that Kinebus does not have.
+// Moonraker's API: files.
 
 #include <algorithm>
 #include <array>
@@ -89,91 +89,6 @@ void delete_file(const Call& call) {
   });
 }
 
-const char* result_word(RunResult result) {
-  switch (result) {
-    case RunResult::kRunning:
-      return "in_progress";
-    case RunResult::kComplete:
-      return "completed";
-    case RunResult::kCancelled:
-      return "cancelled";
-    case RunResult::kInterrupted:
-      return "interrupted";
-    case RunResult::kRefused:
-    case RunResult::kFailed:
-      return "error";
-  }
-  return "error";
-}
-
-Json run_json(const StoredRun& run) {
-  const bool runs = run.result == RunResult::kRunning;
-  return {{"job_id", std::to_string(run.id)},
-          {"exists", true},
-          {"filename", run.name},
-          {"start_time", run.begun_unix_s},
-          {"end_time", runs ? Json(nullptr) : Json(run.begun_unix_s + run.duration_s)},
-          {"total_duration", run.duration_s},
-          {"print_duration", run.duration_s},
-          {"status", result_word(run.result)},
-          {"metadata", Json::object()},
-          {"auxiliary_data", Json::array()},
-          {"user", nullptr}};
-}
-
-void with_runs(const Call& call, std::function<Json(const std::vector<StoredRun>&)> make) {
-  static constexpr std::size_t kMost = 2000;
-  call.caller.beside(
-      [make = std::move(make)](JobStore& store) {
-        const auto runs = store.history(0, kMost);
-        if (!runs)
-          return Result<Json, RpcError>(Error<RpcError>(RpcError{500, runs.error().words.english()}));
-        return Result<Json, RpcError>(make(*runs));
-      },
-      [call](Result<Json, RpcError> made) { call.then(std::move(made)); });
-}
-
-void list_history(const Call& call) {
-  const double limit = call.number("limit", 50), start = call.number("start", 0);
-  const double since = call.number("since", 0), before = call.number("before", 1e18);
-  const bool ascending = call.text("order") == "asc";
-  with_runs(call, [=](std::vector<StoredRun> runs) {
-    if (ascending) std::reverse(runs.begin(), runs.end());
-    Json jobs = Json::array();
-    double count = 0;
-    for (const StoredRun& run : runs) {
-      if (run.begun_unix_s <= since || run.begun_unix_s >= before) continue;
-      if (count >= start && static_cast<double>(jobs.size()) < limit) jobs.push_back(run_json(run));
-      ++count;
-    }
-    return Json{{"count", static_cast<std::uint64_t>(count)}, {"jobs", std::move(jobs)}};
-  });
-}
-
-void totals(const Call& call) {
-  with_runs(call, [](const std::vector<StoredRun>& runs) {
-    double time = 0, longest = 0;
-    for (const StoredRun& run : runs) {
-      time += run.duration_s;
-      longest = std::max(longest, run.duration_s);
-    }
-    return Json{{"job_totals",
-                 {{"total_jobs", runs.size()},
-                  {"total_time", time},
-                  {"total_print_time", time},
-                  {"longest_job", longest},
-                  {"longest_print", longest}}},
-                {"auxiliary_totals", Json::array()}};
-  });
-}
-
-void job_queue(const Call& call) {
-  call.done({{"queued_jobs", Json::array()}, {"queue_state", "paused"}});
-}
-void no_queue(const Call& call) {
-  call.fail(501, "Kinebus has no queue of its own: start stored jobs one by one");
-}
-
 }  // namespace
 
 std::span<const Method> moonraker_file_methods() {
@@ -182,12 +97,9 @@ std::span<const Method> moonraker_file_methods() {
       Method{"server.files.get_directory", "GET", "server/files/directory", directory},
       Method{"server.files.roots", "GET", "server/files/roots", roots},
       Method{"server.files.metadata", "GET", "server/files/metadata", metadata},
+      // What is known of a job is read when it is stored.
+      Method{"server.files.metascan", "POST", "server/files/metascan", metadata},
       Method{"server.files.delete_file", nullptr, nullptr, delete_file},
-      Method{"server.history.list", "GET", "server/history/list", list_history},
-      Method{"server.history.totals", "GET", "server/history/totals", totals},
-      Method{"server.job_queue.status", "GET", "server/job_queue/status", job_queue},
-      Method{"server.job_queue.post_job", "POST", "server/job_queue/job", no_queue},
-      Method{"server.job_queue.start", "POST", "server/job_queue/start", no_queue},
   };
   return kMethods;
 }

@@ -54,16 +54,15 @@ void carry_out_method(Session& session, std::string_view body) {
     params["objects"] = objects_of(*fields);
   else
     for (const auto& [name, value] : *fields) params[name] = value;
-  for (const auto methods :
-       {moonraker_server_methods(), moonraker_printer_methods(), moonraker_file_methods()})
-    for (const Method& method : methods) {
-      if (method.path == nullptr || method.path != path || method.verb != verb) continue;
-      return method.carry_out(
-          {.caller = session, .params = std::move(params), .then = [&session](Result<Json, RpcError> result) {
-             if (!result) return answer_error(session, result.error().code, result.error().message);
-             session.answer(json_answer({{"result", std::move(*result)}}));
-           }});
-    }
+  static const std::vector<Method> methods = moonraker_methods();
+  for (const Method& method : methods) {
+    if (method.path == nullptr || method.path != path || method.verb != verb) continue;
+    return method.carry_out(
+        {.caller = session, .params = std::move(params), .then = [&session](Result<Json, RpcError> result) {
+           if (!result) return answer_error(session, result.error().code, result.error().message);
+           session.answer(json_answer({{"result", std::move(*result)}}));
+         }});
+  }
 }
 
 std::unique_ptr<Task> download_gcode(Session& session) {
@@ -86,11 +85,9 @@ std::span<const Route> moonraker_routes() {
         {.method = "POST", .path = "server/files/upload", .carry_out = nullptr, .make = moonraker_upload},
         {.method = "GET", .path = "server/files/gcodes/*", .carry_out = nullptr, .make = download_gcode},
         {.method = "DELETE", .path = "server/files/gcodes/*", .carry_out = remove_gcode}};
-    for (const auto methods :
-         {moonraker_server_methods(), moonraker_printer_methods(), moonraker_file_methods()})
-      for (const Method& method : methods)
-        if (method.path != nullptr)
-          all.push_back({.method = method.verb, .path = method.path, .carry_out = carry_out_method});
+    for (const Method& method : moonraker_methods())
+      if (method.path != nullptr)
+        all.push_back({.method = method.verb, .path = method.path, .carry_out = carry_out_method});
     return all;
   }();
   return routes;

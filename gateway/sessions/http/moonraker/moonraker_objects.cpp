@@ -13,12 +13,6 @@ struct Machine {
   Server& server;
 };
 
-std::string klipper_heater(const joblink::Heater& heater) {
-  if (heater.kind() == joblink::HEATER_HOTEND)
-    return heater.index() == 0 ? "extruder" : "extruder" + std::to_string(heater.index());
-  if (heater.kind() == joblink::HEATER_BED && heater.index() == 0) return "heater_bed";
-  return "heater_generic " + heater.name();
-}
 std::string fan_name(const joblink::Output& fan) {
   return fan.index() == 0 ? "fan" : "fan_generic " + fan.name();
 }
@@ -103,8 +97,7 @@ Json heaters(const Machine& m) {
   Json heaters = Json::array(), sensors = Json::array();
   for (const joblink::Heater& heater : m.status.heaters()) heaters.push_back(klipper_heater(heater));
   sensors = heaters;
-  for (const joblink::Sensor& sensor : m.status.sensors())
-    sensors.push_back("temperature_sensor " + sensor.name());
+  for (const joblink::Sensor& sensor : m.status.sensors()) sensors.push_back(klipper_sensor(sensor));
   return {{"available_heaters", heaters}, {"available_sensors", sensors}};
 }
 /// What the lines of printer.gcode.script may be beside G-code (moonraker_printer.cpp).
@@ -175,14 +168,16 @@ constexpr std::array kObjects{
 /// Those whose names are the machine's.
 Json named_objects(const joblink::Status& status) {
   Json objects = Json::object();
-  for (const joblink::Heater& heater : status.heaters())
-    objects[klipper_heater(heater)] = {{"temperature", heater.actual_celsius()},
-                                       {"target", heater.target_celsius()}};
+  for (const joblink::Heater& heater : status.heaters()) {
+    Json& object = objects[klipper_heater(heater)];
+    object = {{"temperature", heater.actual_celsius()}, {"target", heater.target_celsius()}};
+    if (heater.has_power()) object["power"] = heater.power();
+  }
   for (const joblink::Output& fan : status.fans()) objects[fan_name(fan)] = {{"speed", fan.ratio()}};
   for (const joblink::Output& pin : status.outputs())
     objects["output_pin " + pin.name()] = {{"value", pin.ratio()}};
   for (const joblink::Sensor& sensor : status.sensors())
-    objects["temperature_sensor " + sensor.name()] = {{"temperature", sensor.celsius()}};
+    objects[klipper_sensor(sensor)] = {{"temperature", sensor.celsius()}};
   return objects;
 }
 
@@ -196,6 +191,16 @@ Json fields_of(Json object, const Json& wanted) {
 }
 
 }  // namespace
+
+std::string klipper_heater(const joblink::Heater& heater) {
+  if (heater.kind() == joblink::HEATER_HOTEND)
+    return heater.index() == 0 ? "extruder" : "extruder" + std::to_string(heater.index());
+  if (heater.kind() == joblink::HEATER_BED && heater.index() == 0) return "heater_bed";
+  return "heater_generic " + heater.name();
+}
+std::string klipper_sensor(const joblink::Sensor& sensor) {
+  return "temperature_sensor " + sensor.name();
+}
 
 const char* klippy_state(const joblink::Status& status) {
   switch (status.state()) {

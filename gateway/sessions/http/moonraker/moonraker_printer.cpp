@@ -154,6 +154,7 @@ class Script : public std::enable_shared_from_this<Script> {
 
  private:
   void carry_out(const std::string& line) {
+    call_.caller.server().note_line(call_.caller.now(), true, line);
     const KlipperLine said = klipper_line(line);
     ClientMessage message;
     if (said.word == "PAUSE") {
@@ -183,15 +184,21 @@ class Script : public std::enable_shared_from_this<Script> {
       const auto read = std::from_chars(target.data(), target.data() + target.size(), celsius);
       const auto set = temperature_message(call_.caller, value(said, "HEATER"), celsius);
       if (read.ec != std::errc() || read.ptr != target.data() + target.size() || !set)
-        return call_.fail(400, "SET_HEATER_TEMPERATURE names a heater of this machine and a temperature");
+        return refuse("SET_HEATER_TEMPERATURE names a heater of this machine and a temperature");
       message = *set;
     } else {
       message.mutable_console()->set_line(line);
     }
     call_.caller.command(message, [self = shared_from_this(), line](const joblink::Reply& reply) {
-      if (reply.has_error()) return self->call_.fail(400, line + ": " + words_of(reply.error()));
+      if (reply.has_error()) return self->refuse(line + ": " + words_of(reply.error()));
+      if (!reply.console().text().empty()) self->note(reply.console().text());
       self->go_on();
     });
+  }
+  void note(const std::string& answer) { call_.caller.server().note_line(call_.caller.now(), false, answer); }
+  void refuse(std::string why) {
+    note("!! " + why);
+    call_.fail(400, std::move(why));
   }
   static std::string value(const KlipperLine& line, const char* name) {
     const auto found = line.values.find(name);

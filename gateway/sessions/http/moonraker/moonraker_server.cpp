@@ -1,4 +1,4 @@
-// Moonraker's API: the server, the computer, what clients keep with it, announcements.
+// Moonraker's API: the server, the computer, what clients keep with it.
 
 #include <array>
 #include <thread>
@@ -29,7 +29,7 @@ void server_info(const Call& call) {
              // Clients ask for what is named here, and for nothing else.
              {"components",
               {"klippy_connection", "database", "file_manager", "data_store", "history", "announcements",
-               "job_queue", "webcam"}},
+               "webcam"}},
              {"failed_components", Json::array()},
              {"registered_directories", {"gcodes"}},
              {"warnings", Json::array()},
@@ -74,34 +74,6 @@ void proc_stats(const Call& call) {
              {"websocket_connections", call.caller.server().sessions()}});
 }
 
-/// What the machine has said, oldest first.
-void gcode_store(const Call& call) {
-  Json store = Json::array();
-  call.caller.server().link().events().each(0, false, [&](const joblink::Event& event) {
-    if (event.kind() == joblink::EVENT_MESSAGE || event.kind() == joblink::EVENT_ALARM ||
-        event.kind() == joblink::EVENT_PROBLEM)
-      store.push_back({{"message", (event.kind() == joblink::EVENT_ALARM ? "!! " : "// ") + event.words()},
-                       {"time", event.unix_s()},
-                       {"type", "response"}});
-    return true;
-  });
-  call.done({{"gcode_store", std::move(store)}});
-}
-
-/// The present alone: Kinebus keeps no course of temperatures.
-void temperature_store(const Call& call) {
-  Json store = Json::object();
-  const Json names = moonraker_objects(call.caller, {{"heaters", nullptr}})["heaters"]["available_sensors"];
-  Json wanted = Json::object();
-  for (const Json& name : names) wanted[name.get<std::string>()] = nullptr;
-  const Json objects = moonraker_objects(call.caller, wanted);
-  for (const auto& [name, object] : objects.items()) {
-    store[name] = {{"temperatures", {object["temperature"]}}};
-    if (object.contains("target")) store[name]["targets"] = {object["target"]};
-  }
-  call.done(std::move(store));
-}
-
 void database_list(const Call& call) {
   call.done({{"namespaces", call.caller.server().database().namespaces()}, {"backups", Json::array()}});
 }
@@ -112,12 +84,6 @@ void answer_item(const Call& call, Result<Json, std::string> value) {
              {"key", call.text("key").empty() ? Json(nullptr) : Json(call.text("key"))},
              {"value", std::move(*value)}});
 }
-void keep(Caller& caller) {
-  const auto& keep = caller.server().options().keep_database;
-  if (!keep) return;
-  caller.server().worker().post([keep, text = caller.server().database().text()] { keep(text); }, [] {});
-}
-
 void database_get(const Call& call) {
   answer_item(call, call.caller.server().database().get(call.text("namespace"), call.text("key")));
 }
@@ -126,23 +92,22 @@ void database_post(const Call& call) {
   if (given == call.params.end()) return call.fail(400, "the parameter 'value' is missing");
   const auto set = call.caller.server().database().set(call.text("namespace"), call.text("key"), *given);
   if (!set) return call.fail(400, set.error());
-  keep(call.caller);
+  keep_database(call.caller);
   answer_item(call, Json(*given));
 }
 void database_delete(const Call& call) {
   auto removed = call.caller.server().database().remove(call.text("namespace"), call.text("key"));
-  if (removed) keep(call.caller);
+  if (removed) keep_database(call.caller);
   answer_item(call, std::move(removed));
 }
 
-void announcements(const Call& call) {
-  call.done({{"entries", Json::array()}, {"feeds", Json::array()}});
-}
-void webcams(const Call& call) {
-  call.done({{"webcams", Json::array()}});
-}
-
 }  // namespace
+
+void keep_database(Caller& caller) {
+  const auto& keep = caller.server().options().keep_database;
+  if (!keep) return;
+  caller.server().worker().post([keep, text = caller.server().database().text()] { keep(text); }, [] {});
+}
 
 std::span<const Method> moonraker_server_methods() {
   static constexpr std::array kMethods{
@@ -153,14 +118,10 @@ std::span<const Method> moonraker_server_methods() {
       Method{"access.info", "GET", "access/info", access_info},
       Method{"machine.system_info", "GET", "machine/system_info", system_info},
       Method{"machine.proc_stats", "GET", "machine/proc_stats", proc_stats},
-      Method{"server.gcode_store", "GET", "server/gcode_store", gcode_store},
-      Method{"server.temperature_store", "GET", "server/temperature_store", temperature_store},
       Method{"server.database.list", "GET", "server/database/list", database_list},
       Method{"server.database.get_item", "GET", "server/database/item", database_get},
       Method{"server.database.post_item", "POST", "server/database/item", database_post},
       Method{"server.database.delete_item", "DELETE", "server/database/item", database_delete},
-      Method{"server.announcements.list", "GET", "server/announcements/list", announcements},
-      Method{"server.webcams.list", "GET", "server/webcams/list", webcams},
   };
   return kMethods;
 }

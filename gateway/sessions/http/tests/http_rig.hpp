@@ -75,6 +75,7 @@ class HttpRig {
       for (const auto& connection : connections) stirred = serve(*connection, piece) || stirred;
       stirred = link.worker.run_one() || stirred;
       for (; told < link.machine.events.size(); ++told) server.on_event(link.machine.events[told]);
+      if (link.machine.now >= server.next_deadline()) server.on_time(link.machine.now);
       link.pump();
     }
   }

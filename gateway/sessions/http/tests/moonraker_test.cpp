@@ -3,56 +3,13 @@
 
 #include <algorithm>
 
-#include "gateway/sessions/http/tests/socket_rig.hpp"
+#include "gateway/sessions/http/tests/moonraker_page.hpp"
 
 namespace kinebus::http {
 namespace {
 
 using namespace std::chrono_literals;
 using nlohmann::json;
-
-class WebPage {
- public:
-  explicit WebPage(HttpRig& rig, bool with_key = true) : rig_(rig), client_(rig, "/websocket", with_key) {}
-  /// The whole answer.
-  json ask(const std::string& method, const json& params = json::object()) {
-    const int id = ++id_;
-    json answer;
-    collect(client_.say(json{{"jsonrpc", "2.0"}, {"method", method}, {"params", params}, {"id", id}}.dump()),
-            id, answer);
-    rig_.run_until(
-        [&] {
-          collect(frames_of(client_.wire.heard), id, answer);
-          return !answer.is_null();
-        },
-        20s);
-    return answer;
-  }
-  json result(const std::string& method, const json& params = json::object()) {
-    const json answer = ask(method, params);
-    EXPECT_TRUE(answer.contains("result")) << method << ": " << answer.dump();
-    return answer.value("result", json::object());
-  }
-  void run(BusTime time) {
-    json none;
-    collect(client_.hear(time), -1, none);
-  }
-  std::vector<json> notified;
-
- private:
-  void collect(const std::vector<Heard>& frames, int id, json& answer) {
-    for (const Heard& frame : frames) {
-      const json said = frame.json();
-      if (said.contains("method"))
-        notified.push_back(said);
-      else if (said.contains("id") && said["id"] == id)
-        answer = said;
-    }
-  }
-  HttpRig& rig_;
-  SocketClient client_;
-  int id_ = 0;
-};
 
 const json kIdentity = {{"client_name", "page"}, {"version", "1"}, {"type", "web"}, {"url", "-"}};
 
@@ -91,7 +48,7 @@ TEST(Moonraker, MainsailsFirstCallsAreAnswered) {
   EXPECT_EQ(status.size(), wanted.size());
   EXPECT_EQ(status["toolhead"]["homed_axes"], "");
   EXPECT_EQ(status["print_stats"]["state"], "standby");
-  EXPECT_TRUE(page.result("server.temperature_store").contains("extruder"));
+  EXPECT_TRUE(page.result("server.temperature_store", {{"include_monitors", true}}).contains("extruder"));
   EXPECT_TRUE(page.result("server.files.get_directory", {{"path", "gcodes"}})["files"].is_array());
   EXPECT_EQ(page.result("server.history.list")["count"], 0);
   EXPECT_TRUE(page.result("server.history.totals").contains("job_totals"));
@@ -154,7 +111,22 @@ TEST(Moonraker, APrintIsUploadedStartedAndSeenToItsEnd) {
   const json jobs = page.result("server.history.list")["jobs"];
   ASSERT_EQ(jobs.size(), 1U);
   EXPECT_EQ(jobs[0]["status"], "completed");
+  EXPECT_EQ(jobs[0]["exists"], true);
+  const json totals = page.result("server.history.totals")["job_totals"];
+  EXPECT_EQ(totals["total_jobs"], 1);
+  EXPECT_EQ(totals["longest_job"], jobs[0]["total_duration"]);
+  EXPECT_EQ(totals["total_time"], jobs[0]["total_duration"]);
+  EXPECT_EQ(page.result("server.history.get_job", {{"uid", jobs[0]["job_id"]}})["job"], jobs[0]);
+  EXPECT_EQ(page.ask("server.history.get_job", {{"uid", "99"}})["error"]["code"], 404);
+  std::vector<std::string> actions;
+  for (const json& said : page.notified)
+    if (said["method"] == "notify_history_changed") {
+      actions.push_back(said["params"][0]["action"]);
+      EXPECT_EQ(said["params"][0]["job"]["job_id"], jobs[0]["job_id"]);
+    }
+  EXPECT_EQ(actions, (std::vector<std::string>{"added", "finished"}));
   EXPECT_EQ(page.result("server.files.delete_file", {{"path", "gcodes/a.gcode"}})["action"], "delete_file");
+  EXPECT_EQ(page.result("server.history.list")["jobs"][0]["exists"], false);
 }
 
 TEST(Moonraker, AnObjectOfThePrintIsLeftOut) {
