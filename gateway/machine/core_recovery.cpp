@@ -61,6 +61,7 @@ void Gateway::Core::give_up_job() {
   // Nobody has to clear before the next job: what is still out of order says so again.
   if (!heat_hold_.why().empty()) heat_.clear_faults();
   heat_hold_.forget();
+  recovery_.do_not_go_on();  // nor what is cancelled on its way back
   print_.forget_name();
   if (had_one) end_override();
 }
@@ -100,7 +101,12 @@ Done Gateway::Core::go_on() {
   else
     done = begin_return();
   if (done && state_.is(MachineState::kUnhomed)) begin_homing();
-  if (!done) recovery_.do_not_go_on();
+  if (!done) {
+    recovery_.do_not_go_on();
+  } else if (!print_.clock_runs()) {
+    // Homing and heating again are time of the job.
+    print_.begin_clock(now_, print_.elapsed_s(now_));
+  }
   return done;
 }
 
@@ -176,6 +182,7 @@ Done Gateway::Core::begin_return() {
   }
   runner_ = &hand_.runner();
   hand_.start(std::move(commands), *from, 1, ManualMotion::Then::kReturn);
+  started_ = now_;
   enter(MachineState::kRunning);
   return {};
 }
@@ -210,7 +217,6 @@ void Gateway::Core::step_recovery() {
          .advice = say("run it from its beginning")});
     print_.drop_source();
     give_up_job();
-    recovery_.do_not_go_on();
     return enter(MachineState::kReady);
   }
   left->replaying = true;
@@ -227,7 +233,6 @@ void Gateway::Core::finish_return() {
     job.shift_extruder(by_mm);
   heat_.finish_return();
   heat_hold_.forget();
-  if (!print_.clock_runs()) print_.begin_clock(now_, print_.elapsed_s(now_));
   runner_ = &job;
   job.set_override(override_);
   job.go_on(now_);

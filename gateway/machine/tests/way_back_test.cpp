@@ -128,6 +128,23 @@ TEST_F(WayBack, FromItsOwnPlaceAndFromAboveItGoesOn) {
   ASSERT_TRUE(rig.reach(MachineState::kRunning, 10s)) << rig.story();
 }
 
+TEST_F(WayBack, CancelledOnItItEndsThereAndNothingGoesOn) {
+  jog({0, 0, 80, 0, 0, 0});
+  ASSERT_TRUE(rig.gateway->carry_out(command::Resume{})) << rig.story();
+  ASSERT_TRUE(rig.reach(MachineState::kRunning, 10s)) << rig.story();
+  ASSERT_TRUE(rig.run_until([&] { return at(kZ) < 80; }, 20s)) << rig.story();
+  EXPECT_LT(rig.gateway->status().elapsed_s, 200) << "the job's time, not the computer's";
+  ASSERT_TRUE(rig.gateway->carry_out(command::Cancel{})) << rig.story();
+  ASSERT_TRUE(rig.reach(MachineState::kReady, 10s)) << rig.story();
+  const double z_mm = at(kZ);
+  rig.run_for(20s);
+  EXPECT_EQ(rig.gateway->state(), MachineState::kReady) << rig.story();
+  EXPECT_NEAR(at(kZ), z_mm, 1e-6);
+  EXPECT_FALSE(rig.gateway->status().interrupted);
+  EXPECT_EQ(rig.gateway->status().job, "");
+  EXPECT_EQ(rig.story().find("goes on"), std::string::npos) << rig.story();
+}
+
 class PartTooHighToHome : public WayBack {
  protected:
   PartTooHighToHome() : WayBack(30) {}
