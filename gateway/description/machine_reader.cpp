@@ -12,6 +12,7 @@
 #include "gateway/description/toml_values.hpp"
 #include "gateway/gcode/programs/recording.hpp"
 #include "gateway/near_word.hpp"
+#include "protocol/joblink/shown_text.hpp"
 
 namespace kinebus {
 namespace {
@@ -294,7 +295,7 @@ class Reader {
   }
 
   void unknown(const toml::key& key, const Level& l) {
-    const std::string_view name = key.str().substr(0, 100);
+    const std::string_view name = cut_text(key.str(), kMaxNameBytes);
     std::vector<std::string_view> keys;
     std::string all;
     for (const std::string& k : l.known) {

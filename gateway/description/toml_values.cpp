@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <sstream>
 
+#include "protocol/joblink/shown_text.hpp"
+
 namespace kinebus {
 namespace {
 
@@ -26,11 +28,7 @@ Sentence shown(const toml::node& node) {
   std::string text = std::move(out).str();
   std::replace(text.begin(), text.end(), '\n', ' ');
   constexpr std::size_t kLongest = 80;
-  if (text.size() > kLongest) {
-    std::size_t end = kLongest;
-    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // a whole character
-    text = text.substr(0, end) + "...";
-  }
+  if (text.size() > kLongest) text = std::string(cut_text(text, kLongest)) + "...";
   return Sentence::verbatim(std::move(text));
 }
 

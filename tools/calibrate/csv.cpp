@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "protocol/joblink/shown_text.hpp"
+
 namespace kinebus {
 namespace {
 
@@ -87,8 +89,8 @@ Result<double, CsvError> Csv::number(std::size_t row, std::size_t column) const 
   const auto [end, code] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
   if (code != std::errc{} || end != cell.data() + cell.size() || !std::isfinite(value) ||
       std::abs(value) > 1e7)
-    return Error<CsvError>(
-        {lines_[row], columns_[column].name + ": found \"" + cell.substr(0, 40) + "\"; expected a number"});
+    return Error<CsvError>({lines_[row], columns_[column].name + ": found \"" +
+                                             std::string(cut_text(cell, 40)) + "\"; expected a number"});
   return value;
 }
 

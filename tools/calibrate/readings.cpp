@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "protocol/joblink/shown_text.hpp"
 #include "tools/calibrate/hidden.hpp"
 
 namespace kinebus {
@@ -17,7 +18,7 @@ Result<std::map<std::string, std::vector<RailSample>>, CsvError> rail_samples(
       if (machine.joints[i].name == name || std::to_string(i + 1) == name) joint = &machine.joints[i];
     if (joint == nullptr)
       return Error<CsvError>(
-          {csv.line(row), "joint \"" + name.substr(0, 40) + "\" is none of the machine's"});
+          {csv.line(row), "joint \"" + std::string(cut_text(name, 40)) + "\" is none of the machine's"});
     const auto commanded = csv.quantity(row, "commanded"), measured = csv.quantity(row, "measured");
     if (!commanded) return Error<CsvError>(commanded.error());
     if (!measured) return Error<CsvError>(measured.error());

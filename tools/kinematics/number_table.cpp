@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "protocol/joblink/shown_text.hpp"
+
 namespace kinebus {
 namespace {
 
@@ -29,7 +31,7 @@ Result<double, std::string> number_of(const std::string& word) {
   if (word.size() > 1 && *begin == '+' && word[1] != '-') ++begin;
   double value = 0;
   const auto [stop, code] = std::from_chars(begin, end, value);
-  const std::string found = "found \"" + word.substr(0, 40) + "\"; expected a number";
+  const std::string found = "found \"" + std::string(cut_text(word, 40)) + "\"; expected a number";
   if (code != std::errc{} || stop != end || !std::isfinite(value)) return Error<std::string>(found);
   if (std::abs(value) > kLargest) return Error<std::string>(found + " in -1e7 .. 1e7");
   return value;

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <type_traits>
 
+#include "protocol/joblink/shown_text.hpp"
+
 namespace kinebus::journal {
 namespace {
 
@@ -179,7 +181,7 @@ struct Writer {
     }
   }
   void text(const std::string& value) {
-    const std::string_view kept = std::string_view(value).substr(0, kMaxName);
+    const std::string_view kept = cut_text(value, kMaxName);
     bits(kept.size(), 2);
     out.insert(out.end(), kept.begin(), kept.end());
   }

@@ -4,6 +4,7 @@
 
 #include "gateway/gcode/letters.hpp"
 #include "gateway/machine/core.hpp"
+#include "protocol/joblink/shown_text.hpp"
 
 namespace kinebus {
 namespace {
@@ -44,7 +45,7 @@ Result<void, Refusal> Gateway::Core::on(command::ExcludeObject& asked) {
       all += (all.empty() ? "" : ", ") + object;
     }
     if (known.empty()) return refused(say("the job names no objects"));
-    return refused(say("the job has no object %1; it has %2", asked.name.substr(0, 200), all));
+    return refused(say("the job has no object %1; it has %2", cut_text(asked.name, 200), all));
   }
   if (auto done = print_.runner().leave_out(name); !done) return refused(done.error());
   events_.message(now_, say("the object %1 is left out from line %2 on: what is before it is planned already",

@@ -8,6 +8,7 @@
 
 #include "gateway/machine/core.hpp"
 #include "gateway/status/temperature_text.hpp"
+#include "protocol/joblink/shown_text.hpp"
 
 namespace kinebus {
 namespace {
@@ -240,7 +241,7 @@ Result<std::string, Refusal> Gateway::Core::text_line(std::string_view line) {
     }
   }
   return Error<Refusal>(
-      Refusal{say("not a command of a session: %1; send motion as a job", line.substr(0, 60))});
+      Refusal{say("not a command of a session: %1; send motion as a job", cut_text(line, 60))});
 }
 
 }  // namespace kinebus
