@@ -5,7 +5,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "gateway/description/machine_file.hpp"
+#include "gateway/description/default_machine_file.hpp"
 
 namespace kinebus {
 
@@ -14,7 +14,9 @@ void add_options(CLI::App& app, Arguments& arguments) {
                  "Machine file (TOML); without it the built-in default machine M1")
       ->check(CLI::ExistingFile);
   app.add_option("--new-machine", arguments.new_machine,
-                 "Like --machine; where the file is not there, the default machine is written to it first")
+                 "Like --machine; where the file is not there, the default machine is written to it first, "
+                 "with a comment "
+                 "at each key")
       ->excludes("--machine");
   app.add_option(
       "--bus", arguments.bus,
@@ -69,7 +71,7 @@ void make_machine_file(Arguments& arguments) {
   arguments.machine = arguments.new_machine;
   if (std::filesystem::exists(arguments.machine)) return;
   std::ofstream out(arguments.machine);
-  out << write_machine(default_m1()) << std::flush;
+  out << default_machine_file() << std::flush;
   if (!out) throw std::runtime_error(arguments.machine + " cannot be written");
 }
 

@@ -87,6 +87,7 @@ void judge_bodies(const MachineDescription& d, const Kinematics& kinematics,
   bodies::Clearance widest{.mm = -HUGE_VAL};
   Pose widest_pose{};
   visit_workspace(d, kinematics, [&](const Pose& pose) {
+    if (widest.mm >= model->wanted_mm()) return;  // one such pose is enough
     const auto c = model->clearance(Frame::kPart, pose);
     if (!c || c->mm <= widest.mm) return;
     widest = *c;

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <fstream>
 
+#include "gateway/description/shipped_machines.hpp"
 #include "tools/kinematics/commands.hpp"
-#include "tools/kinematics/shipped_machines.hpp"
 
 namespace kinebus::kinematics_tool {
 namespace {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gateway/near_word.hpp"
+#include "protocol/joblink/shown_text.hpp"
 
 namespace kinebus {
 namespace {
@@ -68,7 +69,7 @@ std::size_t Dialogue::choose(std::string_view place, std::string_view question,
     if (const auto n = whole(text); n && *n >= 1 && *n <= static_cast<int>(choices.size()))
       return static_cast<std::size_t>(*n - 1);
     const std::string_view near = near_word(known, text);
-    say(fmt::format("{}: found '{}'; expected 1 .. {} or one of {}{}", place, text.substr(0, kMostShown),
+    say(fmt::format("{}: found '{}'; expected 1 .. {} or one of {}{}", place, cut_text(text, kMostShown),
                     choices.size(), words, near.empty() ? "" : fmt::format(" (did you mean {}?)", near)));
   }
 }
@@ -79,7 +80,7 @@ bool Dialogue::yes(std::string_view place, std::string_view question, bool usual
     if (text.empty()) return usual;
     if (text == "y" || text == "yes") return true;
     if (text == "n" || text == "no") return false;
-    say(fmt::format("{}: found '{}'; expected y or n", place, text.substr(0, kMostShown)));
+    say(fmt::format("{}: found '{}'; expected y or n", place, cut_text(text, kMostShown)));
   }
 }
 
@@ -88,7 +89,7 @@ int Dialogue::number(std::string_view place, std::string_view question, int leas
     const std::string text = answer(fmt::format("{} [{}] > ", question, usual));
     if (text.empty()) return usual;
     if (const auto n = whole(text); n && *n >= least && *n <= most) return *n;
-    say(fmt::format("{}: found '{}'; expected a whole number in {} .. {}", place, text.substr(0, kMostShown),
+    say(fmt::format("{}: found '{}'; expected a whole number in {} .. {}", place, cut_text(text, kMostShown),
                     least, most));
   }
 }

@@ -7,8 +7,9 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "gateway/description/commented_file.hpp"
 #include "gateway/description/machine_file.hpp"
-#include "tools/kinematics/shipped_machines.hpp"
+#include "gateway/description/shipped_machines.hpp"
 
 namespace kinebus {
 namespace {
@@ -169,8 +170,8 @@ std::string file_text(const FirstMachine& first, const MachineDescription& descr
   remark("fan.part", plan.part_fan);
   remarks.tables["probe"] = plan.probe.connector;
   const std::string heat = heat_tables(shipped_text(kHeatExample));
-  const std::array<std::string_view, 3> examples{heat, shipped_text(word_of(first.machine)),
-                                                 shipped_text("m1")};
+  const std::array<std::string_view, 4> examples{heat, shipped_text(word_of(first.machine)),
+                                                 shipped_text("m1"), key_remarks()};
   return with_comments(write_machine(description), examples, remarks);
 }
 

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "tools/kinematics/shipped_machines.hpp"
+#include "gateway/description/shipped_machines.hpp"
 #include "tools/paper_numbers/numbers.hpp"
 
 namespace kinebus::papers {

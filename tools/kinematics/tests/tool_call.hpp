@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "gateway/description/shipped_machines.hpp"
 #include "tools/kinematics/commands.hpp"
-#include "tools/kinematics/shipped_machines.hpp"
 
 namespace kinebus::kinematics_tool {
 

@@ -7,9 +7,9 @@
 #include <set>
 
 #include "gateway/description/machine_file.hpp"
+#include "gateway/description/shipped_machines.hpp"
+#include "gateway/description/tests/uncommented_keys.hpp"
 #include "gateway/jobs/job_plan.hpp"
-#include "tools/kinematics/shipped_machines.hpp"
-#include "tools/machine_setup/commented_file.hpp"
 
 namespace kinebus {
 namespace {
@@ -67,6 +67,7 @@ TEST(FirstMachine, EveryMachineOnEverySetLoadsIsTheSameAndPassesAJob) {
         const auto read = parse_machine(file_text(first, d), "written.toml");
         ASSERT_TRUE(read) << d.name << "\n" << to_string(read.error());
         EXPECT_TRUE(*read == d) << d.name;
+        EXPECT_EQ(uncommented_keys(file_text(first, d)), "") << d.name;
         EXPECT_EQ(d.heaters.size(), 2u) << d.name;
         for (const HeaterDescription& heater : d.heaters) EXPECT_TRUE(heater.place.on_node()) << d.name;
         EXPECT_EQ(problems_of(d), "") << d.name;
@@ -85,21 +86,6 @@ TEST(FirstMachine, EachPartIsAtAConnectorOfItsOwn) {
       for (int i = 0; i < role.ids; ++i) EXPECT_TRUE(ids.insert(role.first_id + i).second) << each.name;
     for (const MotorPlace& motor : plan.motors) EXPECT_TRUE(ids.contains(motor.node)) << each.name;
   }
-}
-
-TEST(CommentedFile, CommentsComeOnceAndOnlyOutsideOfStrings) {
-  const std::string_view example =
-      "name = \"a # b\"  # what it is called\n\n# Above.\n[joint.X]  # behind\nspeed = 3  # "
-      "fast\n[joint.X.homing]\nspeed = 1 # slow\n";
-  const std::string text = with_comments(
-      "name = \"c # d\"\n\n[joint.Y]\nspeed = 5\n\n[joint.Y.homing]\nspeed = 2\n\n[joint.Z]\nspeed = 6\n",
-      std::span(&example, 1), {.header = "# H\n", .tables = {{"joint.Z", "MOTOR2"}}});
-  EXPECT_EQ(text,
-            "# H\nname = \"c # d\"                  # what it is called\n\n# Above.\n[joint.Y]               "
-            "        # behind\n"
-            "speed = 5                       # fast\n\n[joint.Y.homing]\nspeed = 2                       # "
-            "slow\n\n# MOTOR2\n"
-            "[joint.Z]\nspeed = 6\n");
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "tools/kinematics/shipped_machines.hpp"
+#include "gateway/description/shipped_machines.hpp"
 
 namespace kinebus::papers {
 namespace {

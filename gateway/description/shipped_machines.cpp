@@ -1,8 +1,10 @@
-#include "tools/kinematics/shipped_machines.hpp"
+#include "gateway/description/shipped_machines.hpp"
 
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+
+#include "protocol/joblink/shown_text.hpp"
 
 namespace kinebus {
 
@@ -23,7 +25,7 @@ Result<MachineDescription, std::string> machine_of(const std::string& file_or_na
     if (!machine) return Error<std::string>(to_string(machine.error()));
     return std::move(*machine);
   }
-  return Error<std::string>("unknown machine \"" + file_or_name.substr(0, 200) +
+  return Error<std::string>("unknown machine \"" + std::string(cut_text(file_or_name, 200)) +
                             "\"; expected a machine file, or one of " + names);
 }
 

@@ -1,4 +1,4 @@
-#include "tools/machine_setup/commented_file.hpp"
+#include "gateway/description/commented_file.hpp"
 
 #include <cctype>
 #include <set>
@@ -42,6 +42,11 @@ std::string kind_of(const std::string& table) {
   return kind;
 }
 
+/// Of tables whose keys mean the same though more is said of each: parts of the frame.
+std::string kind_of_keys(const std::string& kind) {
+  return kind.starts_with("bodies.*.") ? "bodies.*.*" : kind;
+}
+
 /// "speed_mm_per_s" of "speed_mm_per_s = 3  # ..."; empty: no key's line.
 std::string key_of(const std::string& line) {
   const std::size_t equals = line.find(" = ");
@@ -74,7 +79,8 @@ void collect(std::string_view example, Comments& comments) {
       comments.emplace(std::pair(kind, "["), above);
       comments.emplace(std::pair(kind, "]"), comment_of(line));
     } else if (const std::string key = key_of(line); !key.empty()) {
-      comments.emplace(std::pair(kind, key), comment_of(line));
+      if (const std::string comment = comment_of(line); !comment.empty())
+        comments.emplace(std::pair(kind_of_keys(kind), key), comment);
     }
     above.clear();
   }
@@ -105,7 +111,7 @@ std::string with_comments(std::string_view written, std::span<const std::string_
       text += own == remarks.tables.end() ? above : "# " + own->second + "\n";
       comment = take(kind, "]");
     } else if (const std::string key = key_of(line); !key.empty()) {
-      comment = take(kind, key);
+      comment = take(kind_of_keys(kind), key);
     }
     text += line;
     if (!comment.empty()) {

@@ -14,6 +14,8 @@ struct ShippedMachine {
 };
 /// In the order of their names.
 std::span<const ShippedMachine> shipped_machines();
+/// Comments for keys that none of them says anything of, as with_comments() takes them.
+std::string_view key_remarks();
 
 /// A machine file, or the name of a shipped machine in either case. The error: words with the file's place
 /// and rule, or the names there are.
