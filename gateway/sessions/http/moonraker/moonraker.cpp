@@ -158,8 +158,8 @@ class MoonrakerDialect : public Dialect {
         break;
       case joblink::EVENT_JOBS:
         notify("notify_filelist_changed",
-               Json::array({Json::object({{"action", "create_file"},
-                                          {"item", {{"path", event.job()}, {"root", "gcodes"}}}})}));
+               Json::array({Json::object(
+                   {{"action", "create_file"}, {"item", {{"path", event.job()}, {"root", "gcodes"}}}})}));
         break;
       case joblink::EVENT_STATE:
         tell_state();
@@ -173,9 +173,8 @@ class MoonrakerDialect : public Dialect {
     if (std::exchange(in_job_, in_job) != in_job)
       newest_run(socket_, [this, in_job](Json run) {
         if (run.is_null()) return;
-        notify("notify_history_changed",
-               Json::array({Json::object(
-                   {{"action", in_job ? "added" : "finished"}, {"job", std::move(run)}})}));
+        notify("notify_history_changed", Json::array({Json::object({{"action", in_job ? "added" : "finished"},
+                                                                    {"job", std::move(run)}})}));
       });
     const std::string state = klippy_state(machine_status(socket_));
     if (state == klippy_) return;
