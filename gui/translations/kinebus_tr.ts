@@ -213,6 +213,62 @@
         <translation>parametreden sonra = bekleniyordu</translation>
     </message>
     <message>
+        <source>%1 cannot be used in a turned coordinate system (G10 R)</source>
+        <translation>%1 döndürülmüş koordinat sisteminde (G10 R) kullanılamaz</translation>
+    </message>
+    <message>
+        <source>G30 means a probe to printers and a stored position to mills: keep one with G30.1 before it, or use G53 G0 with coordinates</source>
+        <translation>G30 yazıcılarda prob, frezelerde kayıtlı konum demektir: önce G30.1 ile bir konum kaydedin, ya da koordinatlarla G53 G0 kullanın</translation>
+    </message>
+    <message>
+        <source>%1 needs G49 and G69: machine coordinates do not turn with the part</source>
+        <translation>%1, G49 ve G69 ister: makine koordinatları parçayla dönmez</translation>
+    </message>
+    <message>
+        <source>G10 needs L1, L2, L10, L11 or L20 (or no L: retract)</source>
+        <translation>G10 L1, L2, L10, L11 ya da L20 ister (L&apos;siz: geri çekme)</translation>
+    </message>
+    <message>
+        <source>G10 L%1 needs the tool P</source>
+        <translation>G10 L%1 takımı (P) ister</translation>
+    </message>
+    <message>
+        <source>too many tools are changed by G10 (1000 at most)</source>
+        <translation>G10 çok fazla takımı değiştiriyor (en çok 1000)</translation>
+    </message>
+    <message>
+        <source>@ and ^ cannot stand beside X and Y</source>
+        <translation>@ ve ^, X ve Y ile birlikte yazılamaz</translation>
+    </message>
+    <message>
+        <source>@ and ^ cannot stand beside %1</source>
+        <translation>@ ve ^, %1 ile birlikte yazılamaz</translation>
+    </message>
+    <message>
+        <source>@ and ^ need the plane of X and Y (G17)</source>
+        <translation>@ ve ^, X ve Y düzlemini (G17) ister</translation>
+    </message>
+    <message>
+        <source>under G91 @ and ^ cannot start at the zero point, where there is no angle</source>
+        <translation>G91 altında @ ve ^, açısı olmayan sıfır noktasından başlayamaz</translation>
+    </message>
+    <message>
+        <source>constant surface speed (G96) needs a spindle, which this machine does not have</source>
+        <translation>sabit kesme hızı (G96) iş mili ister, bu makinede yok</translation>
+    </message>
+    <message>
+        <source>G96 needs S, the surface speed</source>
+        <translation>G96, kesme hızını (S) ister</translation>
+    </message>
+    <message>
+        <source>the highest speed D of G96 must be greater than 0</source>
+        <translation>G96&apos;nın en yüksek devri (D) 0&apos;dan büyük olmalıdır</translation>
+    </message>
+    <message>
+        <source>%1 stands twice in the line</source>
+        <translation>%1 satırda iki kez geçiyor</translation>
+    </message>
+    <message>
         <source>too many assignments in one line (32 at most)</source>
         <translation>bir satırda çok fazla atama var (en çok 32)</translation>
     </message>
@@ -267,14 +323,6 @@
     <message>
         <source>too many M codes in one line (8 at most)</source>
         <translation>bir satırda çok fazla M kodu var (en çok 8)</translation>
-    </message>
-    <message>
-        <source>G30 means a probe to printers and a stored position to mills: use G53 G0 with coordinates</source>
-        <translation>G30 yazıcılarda prob, frezelerde kayıtlı konum demektir: koordinatlarla G53 G0 kullanın</translation>
-    </message>
-    <message>
-        <source>G30.1 is not supported: use G10 L2 or parameters</source>
-        <translation>G30.1 desteklenmiyor: G10 L2 ya da parametre kullanın</translation>
     </message>
     <message>
         <source>G68.3 is not supported: use G68.2 with I J K</source>
@@ -625,20 +673,12 @@
         <translation>G53, bu satırda ya da etkin olarak G0 ya da G1 ister</translation>
     </message>
     <message>
-        <source>G53 needs G49 and G69: machine coordinates do not turn with the part</source>
-        <translation>G53, G49 ve G69 ister: makine koordinatları parçayla dönmez</translation>
-    </message>
-    <message>
         <source>G53 needs absolute distances (G90)</source>
         <translation>G53 mutlak uzaklık (G90) ister</translation>
     </message>
     <message>
         <source>%1 cannot change offsets in a tilted plane: end it with G69 first</source>
         <translation>%1 eğik düzlemde ofset değiştiremez: önce G69 ile bitirin</translation>
-    </message>
-    <message>
-        <source>G10 needs L2 or L20 (or no L: retract)</source>
-        <translation>G10 L2 ya da L20 ister (L&apos;siz: geri çekme)</translation>
     </message>
     <message>
         <source>G10 needs P: 1 for G54 ... 9 for G59.3, 0 for the active one</source>
@@ -3063,10 +3103,6 @@
     <message>
         <source>G88 needs an operator who moves the axes by hand: use G82 or G86</source>
         <translation>G88 eksenleri elle hareket ettiren bir operatör ister: G82 ya da G86 kullanın</translation>
-    </message>
-    <message>
-        <source>constant surface speed (G96) needs a lathe</source>
-        <translation>sabit kesme hızı (G96) torna ister</translation>
     </message>
     <message>
         <source>A is taken for extrusion (E), as the slicer in the file&apos;s header writes it</source>
