@@ -216,7 +216,8 @@ BusTime Gateway::Core::next_deadline() const {
   BusTime due = voice_.next_deadline(now_, std::max(served_ + wait, now_ + BusTime{1}));
   if (!voice_.speaks()) return due;
   // What is due already waits for the bus, not for time: it is pulled when a frame can be sent.
-  for (const BusTime deadline : {rate_.next_deadline(), devices_.next_deadline()})
+  for (const BusTime deadline :
+       {rate_.next_deadline(), devices_.next_deadline(), print_.runner().next_output(now_)})
     if (deadline > now_) due = std::min(due, deadline);
   return due;
 }

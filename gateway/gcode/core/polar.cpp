@@ -12,8 +12,7 @@ namespace kinebus::gcode {
 bool Core::polar_words() {
   const ModalState& m = state_.modal;
   const std::uint32_t column = block_.polar_column;
-  if (block_.has('X') || block_.has('Y'))
-    return fail(column, say("@ and ^ cannot stand beside X and Y"));
+  if (block_.has('X') || block_.has('Y')) return fail(column, say("@ and ^ cannot stand beside X and Y"));
   if (block_.has(GGroup::kNonmodal) && block_.code(GGroup::kNonmodal).number != 40)
     return fail(column, say("@ and ^ cannot stand beside %1", g_name(block_.code(GGroup::kNonmodal).number)));
   if (m.plane != Plane::kXy) return fail(column, say("@ and ^ need the plane of X and Y (G17)"));
@@ -24,7 +23,9 @@ bool Core::polar_words() {
   if (m.incremental && radius < kNoMotion)
     return fail(column, say("under G91 @ and ^ cannot start at the zero point, where there is no angle"));
   polar_step_ = {given_radius, given_angle};
-  const double to_radius = m.incremental ? radius + given_radius : block_.polar_radius ? given_radius : radius;
+  const double to_radius = m.incremental         ? radius + given_radius
+                           : block_.polar_radius ? given_radius
+                                                 : radius;
   const double to_angle = m.incremental ? angle + given_angle : block_.polar_angle ? given_angle : angle;
   const double unit = m.inches ? 25.4 : 1;
   const std::array<double, 2> to = {to_radius * std::cos(to_angle), to_radius * std::sin(to_angle)};

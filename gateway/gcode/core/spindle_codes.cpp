@@ -55,8 +55,7 @@ double Core::surface_rpm() const {
   const ModalState& m = state_.modal;
   const double around_m = 2 * std::numbers::pi * std::abs(m.program[kAxisX]) / 1000;
   double rpm = around_m > 0 ? m.surface_m_per_min / around_m : HUGE_VAL;
-  if (options_.spindle_min_rpm > 0 && m.surface_m_per_min > 0)
-    rpm = std::fmax(rpm, options_.spindle_min_rpm);
+  if (options_.spindle_min_rpm > 0 && m.surface_m_per_min > 0) rpm = std::fmax(rpm, options_.spindle_min_rpm);
   if (options_.spindle_max_rpm > 0) rpm = std::fmin(rpm, options_.spindle_max_rpm);
   if (m.surface_most_rpm > 0) rpm = std::fmin(rpm, m.surface_most_rpm);
   return std::isfinite(rpm) ? rpm : 0;

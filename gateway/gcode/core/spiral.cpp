@@ -1,5 +1,6 @@
 // Arcs that end on another radius than they began on, as LinuxCNC takes them: programs whose centres are
-// rounded. Within the machine's own tolerance they are made round (curves/arc.cpp), beyond it they are spirals.
+// rounded. Within the machine's own tolerance they are made round (curves/arc.cpp), beyond it they are
+// spirals.
 
 #include <algorithm>
 #include <cmath>
@@ -13,8 +14,8 @@
 namespace kinebus::gcode {
 namespace {
 
-// LinuxCNC takes radii that differ by two roundings of 0.01 mm or 0.001 inch across the diagonal, and 0.1 % up
-// to a hundred times as much.
+// LinuxCNC takes radii that differ by two roundings of 0.01 mm or 0.001 inch across the diagonal, and 0.1 %
+// up to a hundred times as much.
 constexpr double kRounding_mm = 0.0283, kRounding_inch = 0.00283, kMostRoundings = 100;
 constexpr double kRelative = 1e-3;
 constexpr double kMostPieces = 100'000;
@@ -50,8 +51,7 @@ bool Core::run_spiral(const Pose& program, const Point2& centre, bool clockwise,
   if (pieces > kMostPieces) return fail(column, say("the spline is too large"));
   double feed = 0, time = 0;
   if (!speed_for(false, {m.feed_known, m.feed_mm_per_s, m.feed_rad_per_s}, feed, time)) return false;
-  if (m.inverse_time)
-    feed = std::hypot((first + last) / 2 * sweep, program[plane.w] - start[plane.w]) / time;
+  if (m.inverse_time) feed = std::hypot((first + last) / 2 * sweep, program[plane.w] - start[plane.w]) / time;
   const auto count = static_cast<int>(pieces);
   for (int i = 1; i <= count; ++i) {
     const double part = static_cast<double>(i) / count;

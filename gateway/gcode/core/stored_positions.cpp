@@ -1,5 +1,5 @@
-// G28 and G30 as mills have them: back to the position that G28.1 or G30.1 has kept. Without one G28 is homing
-// (offsets.cpp), and on printers G30 probes (levelling.cpp).
+// G28 and G30 as mills have them: back to the position that G28.1 or G30.1 has kept. Without one G28 is
+// homing (offsets.cpp), and on printers G30 probes (levelling.cpp).
 
 #include <numbers>
 
