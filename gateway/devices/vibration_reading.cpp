@@ -9,8 +9,8 @@ namespace {
 using namespace heat_object;
 
 constexpr BusTime kLookAgain = std::chrono::seconds{1};
-constexpr std::uint32_t kBegin = 1, kEnd = 2;         // 2271h
-constexpr std::uint32_t kMeasures = 2, kSilent = 3;   // 2270h
+constexpr std::uint32_t kBegin = 1, kEnd = 2;        // 2271h
+constexpr std::uint32_t kMeasures = 2, kSilent = 3;  // 2270h
 
 constexpr ObjectAddress nth(ObjectAddress first, std::size_t n) {
   return {first.index, static_cast<std::uint8_t>(first.subindex + n)};
@@ -87,8 +87,7 @@ void VibrationReading::on_answer(BusTime now, AbortCode code, std::uint32_t valu
   else
     take_energy(value);
   ++read_;
-  if (read_ == kFacts.size() && found_.windows == 0)
-    return fail(say("it was too short: %1 s at least", 4));
+  if (read_ == kFacts.size() && found_.windows == 0) return fail(say("it was too short: %1 s at least", 4));
   if (read_ == kFacts.size() + kForBands) found_.stage = Stage::kDone;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 // An accelerometer on a heat node, seen from the gateway: 2271h begins and ends a measurement, 2272h to 2278h
-// are read when it has ended, a band after the other. Who asks the node is the link; what it asks next and what
-// the answers mean is here.
+// are read when it has ended, a band after the other. Who asks the node is the link; what it asks next and
+// what the answers mean is here.
 
 #include <array>
 #include <cstddef>

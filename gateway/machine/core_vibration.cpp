@@ -9,7 +9,8 @@ Result<std::string, Refusal> Gateway::Core::vibration(std::optional<double> what
   using Found = VibrationFound::Stage;
   VibrationSensor* const sensor = devices_.accelerometer();
   if (sensor == nullptr)
-    return refused(say("the machine has no accelerometer: [accelerometer] of the machine file names its node"));
+    return refused(
+        say("the machine has no accelerometer: [accelerometer] of the machine file names its node"));
   if (auto absent = sensor->absent()) return refused(std::move(*absent));
   const VibrationFound& found = sensor->found();
   if (what && *what != 0 && *what != 1) return refused(say("M956 S1 begins to measure, S0 ends it"));

@@ -35,7 +35,8 @@ std::int32_t scaled(std::int32_t value, std::int32_t by) {
 std::int32_t FixedFft::sine(int i) {
   const int at = i & (kPoints - 1);
   const int within = at & (2 * kQuarter - 1);
-  const std::int32_t value = kSines[static_cast<std::size_t>(within <= kQuarter ? within : 2 * kQuarter - within)];
+  const std::int32_t value =
+      kSines[static_cast<std::size_t>(within <= kQuarter ? within : 2 * kQuarter - within)];
   return at < 2 * kQuarter ? value : -value;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
-// What an accelerometer of the tool feels, as energy over frequency: decimated to 400 Hz, in windows of 2.56 s
-// that overlap by three quarters, transformed and summed on the node. A raw recording of a minute would take a
-// third of the bus; this takes some kilobytes, whenever the master likes.
+// What an accelerometer of the tool feels, as energy over frequency: decimated to 400 Hz, in windows of 2.56
+// s that overlap by three quarters, transformed and summed on the node. A raw recording of a minute would
+// take a third of the bus; this takes some kilobytes, whenever the master likes.
 //
 // The windows are Hann's: at this overlap their squares add up to the same everywhere, so that it does not
 // matter when a frequency comes by. Decimation is by a triangle of 15 readings, whose gain is known:
@@ -66,7 +66,7 @@ class VibrationMeter final : public VibrationUnit {
   std::int16_t range_;
   VibrationState state_ = VibrationState::kReady;
   LocalTime now_{0}, began_{0}, heard_{0};
-  LocalTime counted_{0};      ///< when readings_ were counted last
+  LocalTime counted_{0};  ///< when readings_ were counted last
   std::uint32_t readings_ = 0;
   std::uint16_t windows_ = 0, clipped_ = 0, band_ = 0;
   Reading last_{};

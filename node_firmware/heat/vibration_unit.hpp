@@ -1,6 +1,6 @@
 #pragma once
-// What a heat node asks of its accelerometer, 2270h ff. A board that has none gives none, and links nothing of
-// it.
+// What a heat node asks of its accelerometer, 2270h ff. A board that has none gives none, and links nothing
+// of it.
 
 #include <cstdint>
 

@@ -1,5 +1,5 @@
-// Energy over frequency as a heat node finds it in whole numbers, against the same in doubles and against what
-// really swings.
+// Energy over frequency as a heat node finds it in whole numbers, against the same in doubles and against
+// what really swings.
 
 #include <gtest/gtest.h>
 

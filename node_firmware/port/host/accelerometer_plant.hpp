@@ -17,7 +17,7 @@ namespace kinebus::heat {
 
 class AccelerometerPlant {
  public:
-  using Vector = std::array<double, 3>;  ///< X Y Z, mm/s^2
+  using Vector = std::array<double, 3>;                                 ///< X Y Z, mm/s^2
   static constexpr double kRate = 3200, kCount = 38.246, kNoise = 1.1;  // Hz, mm/s^2, counts
   static constexpr std::int16_t kRange = 4095;
   static constexpr std::size_t kQueue = 32;
@@ -38,8 +38,8 @@ class AccelerometerPlant {
       VibrationMeter::Reading reading{};
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const double counts = (accel[axis] + kOffset[axis]) / kCount + kNoise * normal_(random_);
-        reading[axis] =
-            static_cast<std::int16_t>(std::clamp(std::lround(counts), -std::lround(kRange), std::lround(kRange)));
+        reading[axis] = static_cast<std::int16_t>(
+            std::clamp(std::lround(counts), -std::lround(kRange), std::lround(kRange)));
       }
       queue_.push_back(reading);
       if (queue_.size() > kQueue) queue_.erase(queue_.begin());
