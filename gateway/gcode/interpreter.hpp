@@ -102,6 +102,7 @@ struct Options {
   double retract_length_mm = 1, retract_mm_per_s = 40, retract_lift_mm = 0;  ///< until M207
   double recover_extra_mm = 0, recover_mm_per_s = 40;                        ///< until M208
   ProbeFitted probe = ProbeFitted::kNone;
+  bool probe_pin = false;                   ///< it has a pin that M401, M402 and M280 move
   double probe_mm_per_s = 10;               ///< no probing is faster
   std::array<double, 3> probe_offset_mm{};  ///< where the probe touches, from the tool's tip, A and C at 0
   MeshOptions mesh;

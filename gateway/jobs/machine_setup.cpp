@@ -198,6 +198,7 @@ gcode::Options interpreter_options(const MachineDescription& machine, const Pose
   if (machine.probe.present)
     options.probe =
         machine.probe.place.on_node() ? gcode::ProbeFitted::kFitted : gcode::ProbeFitted::kSimulated;
+  options.probe_pin = machine.probe.bltouch;
   options.probe_mm_per_s = machine.probe.speed_mm_per_s;
   options.probe_offset_mm = machine.probe.offset_mm;
   options.mesh = mesh_options(machine);

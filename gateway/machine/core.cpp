@@ -241,6 +241,7 @@ void Gateway::Core::on_time(BusTime now) {
   watch_filament();
   watch_idle_heat();
   tell_of_tuning();
+  tell_of_pin();
   serve_probe();
   feed_heat_ahead();
   note_progress();

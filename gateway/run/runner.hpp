@@ -159,6 +159,7 @@ class Runner {
     kSpindle,
     kPause,
     kPinOut,
+    kPinStays,  ///< out, by a word of the job
     kProbeReady,
     kProbeEnd,
     kPinIn
@@ -187,6 +188,7 @@ class Runner {
   void arm_probe();
   bool pin_is(ContactProbe::Pin where);
   bool draw_pin_in();
+  void move_pin(const canonical::ProbePin& asked);
   void give_up_probe();
   std::chrono::milliseconds probe_ramp(BusTime now) const;
   void end_probe(const gcode::ProbeResult& result);

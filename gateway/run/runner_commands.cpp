@@ -34,6 +34,13 @@ bool Runner::wait_is_over(BusTime now) {
     case Wait::kPinOut:
       if (pin_is(ContactProbe::Pin::kOut)) arm_probe();
       return false;
+    case Wait::kPinStays:
+      if (!pin_is(ContactProbe::Pin::kOut)) {
+        // A bring-up in between has drawn it in.
+        if (pin_is(ContactProbe::Pin::kIn)) heat_.probe()->move_pin(ContactProbe::PinOrder::kOut);
+        return false;
+      }
+      break;
     case Wait::kProbeReady:
       if (!probe_has_answered()) return false;
       break;
@@ -129,6 +136,8 @@ Runner::Outcome Runner::barrier(BusTime now) {
     }
   } else if (std::holds_alternative<canonical::Probe>(line.command)) {
     begin_probe();
+  } else if (const auto* pin = std::get_if<canonical::ProbePin>(&line.command)) {
+    move_pin(*pin);
   } else if (const auto* mesh = std::get_if<canonical::Mesh>(&line.command)) {
     return level(now, canonical::Mesh(*mesh), line.line);
   } else if (std::holds_alternative<canonical::Pause>(line.command)) {

@@ -81,6 +81,7 @@ class Session : public QObject {
   /// Its node measures it, to be good at `celsius`.
   /// Of the print under way; it cannot be taken back.
   void exclude_object(const std::string& name);
+  void move_probe_pin(joblink::MoveProbePin::Order order);
   void tune_heater(joblink::HeaterKind kind, std::uint32_t index, double celsius);
   void set_fan(double ratio);
   void set_work_offset(std::uint32_t system, const joblink::Pose& offset, bool here);

@@ -4248,6 +4248,54 @@
         <source>a frame without the session&apos;s check value was refused</source>
         <translation>قابی بدون مقدار بررسی نشست رد شد</translation>
     </message>
+    <message>
+        <source>the probe&apos;s pin is out</source>
+        <translation>پین پروب بیرون است</translation>
+    </message>
+    <message>
+        <source>the probe&apos;s pin is in</source>
+        <translation>پین پروب داخل است</translation>
+    </message>
+    <message>
+        <source>the machine has no probe with a pin</source>
+        <translation>ماشین پروبی با پین ندارد</translation>
+    </message>
+    <message>
+        <source>move the probe&apos;s pin</source>
+        <translation>حرکت دادن پین پروب</translation>
+    </message>
+    <message>
+        <source>M280 moves the probe&apos;s pin: S10 out, S90 in, S120 self test, S160 ends an alarm</source>
+        <translation>M280 پین پروب را حرکت می‌دهد: S10 بیرون، S90 داخل، S120 خودآزمایی، S160 پایان هشدار</translation>
+    </message>
+    <message>
+        <source>the machine has no accelerometer: [accelerometer] of the machine file names its node</source>
+        <translation>ماشین شتاب‌سنج ندارد: [accelerometer] پروندهٔ ماشین گرهٔ آن را نام می‌برد</translation>
+    </message>
+    <message>
+        <source>M956 S1 begins to measure, S0 ends it</source>
+        <translation>M956 S1 اندازه‌گیری را آغاز می‌کند، S0 آن را پایان می‌دهد</translation>
+    </message>
+    <message>
+        <source>a measurement begins while nothing runs</source>
+        <translation>اندازه‌گیری هنگامی آغاز می‌شود که چیزی در حال اجرا نیست</translation>
+    </message>
+    <message>
+        <source>nothing is measured: M956 S1 begins it</source>
+        <translation>چیزی اندازه‌گیری نمی‌شود: M956 S1 آن را آغاز می‌کند</translation>
+    </message>
+    <message>
+        <source>its node has no accelerometer</source>
+        <translation>گرهٔ آن شتاب‌سنج ندارد</translation>
+    </message>
+    <message>
+        <source>the accelerometer does not answer its node</source>
+        <translation>شتاب‌سنج به گرهٔ خود پاسخ نمی‌دهد</translation>
+    </message>
+    <message>
+        <source>it was too short: %1 s at least</source>
+        <translation>بسیار کوتاه بود: دست‌کم %1 ثانیه</translation>
+    </message>
 </context>
 <context>
     <name>GatewayWords</name>
@@ -5110,6 +5158,50 @@
     <message>
         <source>Zeros of the work coordinates</source>
         <translation>صفرهای مختصات کاری</translation>
+    </message>
+    <message>
+        <source>Pin out</source>
+        <translation>پین بیرون</translation>
+    </message>
+    <message>
+        <source>Pin in</source>
+        <translation>پین داخل</translation>
+    </message>
+    <message>
+        <source>Self test</source>
+        <translation>خودآزمایی</translation>
+    </message>
+    <message>
+        <source>The pin goes out and in by itself, until it is told something else</source>
+        <translation>پین تا دستور دیگر خودبه‌خود بیرون و داخل می‌رود</translation>
+    </message>
+    <message>
+        <source>End alarm</source>
+        <translation>پایان هشدار</translation>
+    </message>
+    <message>
+        <source>The probe forgets its alarm, and the pin goes in</source>
+        <translation>پروب هشدارش را فراموش می‌کند و پین داخل می‌رود</translation>
+    </message>
+    <message>
+        <source>The probe&apos;s pin is out</source>
+        <translation>پین پروب بیرون است</translation>
+    </message>
+    <message>
+        <source>The probe&apos;s pin is in</source>
+        <translation>پین پروب داخل است</translation>
+    </message>
+    <message>
+        <source>The probe&apos;s pin moves</source>
+        <translation>پین پروب حرکت می‌کند</translation>
+    </message>
+    <message>
+        <source>The probe tests itself</source>
+        <translation>پروب خودش را می‌آزماید</translation>
+    </message>
+    <message>
+        <source>The probe&apos;s pin is not where it should be</source>
+        <translation>پین پروب جایی که باید باشد نیست</translation>
     </message>
 </context>
 <context>

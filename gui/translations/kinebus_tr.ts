@@ -4248,6 +4248,54 @@
         <source>a frame without the session&apos;s check value was refused</source>
         <translation>oturumun kontrol değeri olmayan bir çerçeve reddedildi</translation>
     </message>
+    <message>
+        <source>the probe&apos;s pin is out</source>
+        <translation>probun pimi dışarıda</translation>
+    </message>
+    <message>
+        <source>the probe&apos;s pin is in</source>
+        <translation>probun pimi içeride</translation>
+    </message>
+    <message>
+        <source>the machine has no probe with a pin</source>
+        <translation>makinede pimli prob yok</translation>
+    </message>
+    <message>
+        <source>move the probe&apos;s pin</source>
+        <translation>probun pimini hareket ettirme</translation>
+    </message>
+    <message>
+        <source>M280 moves the probe&apos;s pin: S10 out, S90 in, S120 self test, S160 ends an alarm</source>
+        <translation>M280 probun pimini hareket ettirir: S10 dışarı, S90 içeri, S120 kendini sınama, S160 bir alarmı bitirir</translation>
+    </message>
+    <message>
+        <source>the machine has no accelerometer: [accelerometer] of the machine file names its node</source>
+        <translation>makinede ivmeölçer yok: düğümünü makine dosyasının [accelerometer] tablosu belirtir</translation>
+    </message>
+    <message>
+        <source>M956 S1 begins to measure, S0 ends it</source>
+        <translation>M956 S1 ölçmeye başlar, S0 bitirir</translation>
+    </message>
+    <message>
+        <source>a measurement begins while nothing runs</source>
+        <translation>ölçüm, hiçbir şey çalışmıyorken başlar</translation>
+    </message>
+    <message>
+        <source>nothing is measured: M956 S1 begins it</source>
+        <translation>hiçbir şey ölçülmüyor: M956 S1 başlatır</translation>
+    </message>
+    <message>
+        <source>its node has no accelerometer</source>
+        <translation>düğümünde ivmeölçer yok</translation>
+    </message>
+    <message>
+        <source>the accelerometer does not answer its node</source>
+        <translation>ivmeölçer düğümüne yanıt vermiyor</translation>
+    </message>
+    <message>
+        <source>it was too short: %1 s at least</source>
+        <translation>çok kısaydı: en az %1 s</translation>
+    </message>
 </context>
 <context>
     <name>GatewayWords</name>
@@ -5110,6 +5158,50 @@
     <message>
         <source>Zeros of the work coordinates</source>
         <translation>İş koordinatlarının sıfırları</translation>
+    </message>
+    <message>
+        <source>Pin out</source>
+        <translation>Pimi çıkar</translation>
+    </message>
+    <message>
+        <source>Pin in</source>
+        <translation>Pimi içeri çek</translation>
+    </message>
+    <message>
+        <source>Self test</source>
+        <translation>Kendini sınama</translation>
+    </message>
+    <message>
+        <source>The pin goes out and in by itself, until it is told something else</source>
+        <translation>Pim, başka bir şey istenene kadar kendiliğinden çıkar ve girer</translation>
+    </message>
+    <message>
+        <source>End alarm</source>
+        <translation>Alarmı bitir</translation>
+    </message>
+    <message>
+        <source>The probe forgets its alarm, and the pin goes in</source>
+        <translation>Prob alarmını unutur ve pim içeri girer</translation>
+    </message>
+    <message>
+        <source>The probe&apos;s pin is out</source>
+        <translation>Probun pimi dışarıda</translation>
+    </message>
+    <message>
+        <source>The probe&apos;s pin is in</source>
+        <translation>Probun pimi içeride</translation>
+    </message>
+    <message>
+        <source>The probe&apos;s pin moves</source>
+        <translation>Probun pimi hareket ediyor</translation>
+    </message>
+    <message>
+        <source>The probe tests itself</source>
+        <translation>Prob kendini sınıyor</translation>
+    </message>
+    <message>
+        <source>The probe&apos;s pin is not where it should be</source>
+        <translation>Probun pimi olması gereken yerde değil</translation>
     </message>
 </context>
 <context>

@@ -152,6 +152,7 @@ class Core {
   bool mesh_word(const std::string& name, const WordOf& word);
   bool mesh_command(std::uint32_t column, canonical::Mesh command);
   bool measure_mesh(std::uint32_t column, std::string name, const MeshArea& area);
+  void see_pin_in();
   void probe_down(Pose at, double clear);
   void probe_within(const ProbeResult& result);
   bool note_no_levelling(int code, const std::string& name);
@@ -248,6 +249,7 @@ class Core {
   bool firmware_setting(Code code);
   bool retract_settings(Code code);
   bool override_ratio(Code code);
+  bool probe_pin(Code code);
   bool stored_job(Code code);
   bool tool_temperature(char tool_letter);
   bool wait_for_temperatures();

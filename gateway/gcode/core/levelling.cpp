@@ -119,6 +119,7 @@ bool Core::measure_mesh(std::uint32_t column, std::string name, const MeshArea& 
       probe_down(at, clear);
       at[kAxisZ] = clear;
     }
+  see_pin_in();
   mesh.what = Mesh::What::kEnd;
   emit(mesh);
   m.position = at;
@@ -140,6 +141,11 @@ void Core::probe_down(Pose at, double clear) {
   emit(canonical::Probe{down, frame, options_.probe_mm_per_s, false, true});
   at[kAxisZ] = clear;
   emit(canonical::Traverse{at, frame});
+}
+
+/// Lifted: what was drawn in on the bed may have been held in by the bed.
+void Core::see_pin_in() {
+  if (options_.probe_pin) emit(canonical::ProbePin{canonical::ProbePin::What::kIn});
 }
 
 bool Core::level_bed() {
@@ -219,6 +225,7 @@ bool Core::probe_once(Code code) {
   }
   at[kAxisZ] = std::max(at[kAxisZ], clear);
   probe_down(at, clear);
+  see_pin_in();
   emit(Mesh{.what = Mesh::What::kTellProbe});
   at[kAxisZ] = clear;
   m.position = at;

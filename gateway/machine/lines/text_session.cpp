@@ -236,6 +236,8 @@ Result<std::string, Refusal> Gateway::Core::text_line(std::string_view line) {
         return measure_heater(words.rest);
       case 906:
         return set_currents(words.rest);
+      case 956:
+        return vibration(words.word('S'));
       case 999:
         return reply(carry_out(command::Clear{}));
       default:
