@@ -265,7 +265,9 @@ void Node::on_receive_overrun(LocalTime at, std::uint32_t frames) {
 
 void Node::on_time(LocalTime now) {
   now_ = std::max(now_, now);
+  may_brake_ = true;
   serve();
+  may_brake_ = false;
 }
 
 std::int64_t Node::position(LocalTime at, int axis) {

@@ -58,6 +58,9 @@ struct NodeOptions {
   /// The node has its id from its board, and LSS is another's business.
   bool id_from_board = false;
   std::uint8_t consecutive_ids = 1;  ///< that go with the id that LSS gives
+  /// The motors are told what follows from an input only later, after on_time(): a motion of an axis' own
+  /// that has to stop brakes from the time given there on. From that of the input it would step back.
+  bool stops_on_time = false;
 };
 
 /// What the power stage of one axis is to do. The currents are objects of the parameter set.
@@ -140,6 +143,8 @@ class Node : private ObjectOwner {
   void count(NodeCounter counter, std::uint32_t times = 1);
   /// Needed at next_deadline(); allowed at any time.
   void on_time(LocalTime now);
+  /// With stops_on_time: motions wait for on_time() to stop.
+  bool stop_waits() const { return !stop_served_ && path_.stop_latched(); }
 
   // Out.
   /// Most urgent first; pull when the bus can take a frame.
@@ -277,7 +282,8 @@ class Node : private ObjectOwner {
   bool reset_requested_ = false;
   bool program_stop_requested_ = false;
   bool clearing_ = false;  ///< 60C4h:6 was written, and axes creep to a whole count: the answer waits
-  bool stop_served_ = false;
+  bool stop_known_ = false, stop_served_ = false;
+  bool may_brake_ = false;  ///< the time is one at which motors are told
   bool emergency_stop_ = false;
   std::array<bool, 4> limit_active_{};
   std::uint8_t told_flags_ = 0, told_sequence_ = 0;

@@ -134,11 +134,14 @@ bool Node::clear_allowed() const {
 // nodes a frame later.
 void Node::serve_stops() {
   const auto start = path_.stop_start();
-  if (start && !stop_served_) {
+  if (start) stop_known_ = true;
+  if (start && !stop_served_ && (may_brake_ || !options_.stops_on_time)) {
     stop_served_ = true;
     for (DriveAxis& axis : axes_) axis.on_path_stop(now_);
   }
-  if (!start && std::exchange(stop_served_, false)) end_stop();
+  if (start || !std::exchange(stop_known_, false)) return;
+  stop_served_ = false;
+  end_stop();
 }
 
 void Node::end_stop() {

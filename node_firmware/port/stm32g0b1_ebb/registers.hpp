@@ -186,6 +186,13 @@ static_assert(offsetof(Nvic, ICER) == 0x80 && offsetof(Nvic, ICPR) == 0x180 && o
 inline Nvic& nvic() {
   return peripheral<Nvic>(0xE000'E100);
 }
+struct SysTick {
+  Reg CTRL, LOAD, VAL;
+  static constexpr std::uint32_t kEnable = bit(0), kInterrupt = bit(1), kCoreClock = bit(2);
+};
+inline SysTick& sys_tick() {
+  return peripheral<SysTick>(0xE000'E010);
+}
 struct SystemControl {
   Reg CPUID, ICSR, VTOR, AIRCR, SCR, CCR;
 };
