@@ -26,6 +26,7 @@
 #include "protocol/canopen/heartbeat.hpp"
 #include "protocol/canopen/lss.hpp"
 #include "protocol/canopen/nmt.hpp"
+#include "protocol/canopen/node_guard.hpp"
 #include "protocol/canopen/object_dictionary.hpp"
 #include "protocol/canopen/pdo_engine.hpp"
 #include "protocol/canopen/sdo_server.hpp"
@@ -171,6 +172,8 @@ class Node : private ObjectOwner {
   std::array<std::uint16_t, kRpdoCount> rpdo_cob_ids() const;
   /// Nodes whose heartbeat is watched (1016h); 0: none.
   std::array<std::uint8_t, 2> watched_nodes() const;
+  /// It answers remote frames of node guarding.
+  bool answers_guarding() const { return heartbeat_.period().count() == 0; }
   /// A parameter of an axis, by its slot: currents, windows and what else the port's control needs.
   std::int64_t axis_parameter(AxisSlots slots, int axis) const {
     return objects_.value(slots[static_cast<std::size_t>(axis & 1)]);
@@ -231,6 +234,7 @@ class Node : private ObjectOwner {
   void serve_switches();
   void serve_stops();
   void serve_emergencies();
+  void serve_lost_masters();
   void serve_stream_status();
   void serve_clearing();
   void serve_scales();
@@ -257,6 +261,7 @@ class Node : private ObjectOwner {
   NmtSlave nmt_;
   HeartbeatProducer heartbeat_;
   HeartbeatConsumer watched_;
+  NodeGuard guard_;
   EmcyProducer emcy_;
   SdoServer sdo_;
   PdoEngine pdo_;

@@ -126,7 +126,8 @@ struct Fdcan {
                                  kBusOffChanged = bit(19);          // IR, IE
   static constexpr std::uint32_t kErrorsToLine1 = bit(5) | bit(6);  // ILS
   static constexpr std::uint32_t kBothLines = 3;                    // ILE
-  static constexpr std::uint32_t kRejectRemote = 3, kRejectExtended = 2u << 2, kRejectStandard = 2u << 4;
+  static constexpr std::uint32_t kRejectExtendedRemote = 1, kRejectExtended = 2u << 2,
+                                 kRejectStandard = 2u << 4;
   static constexpr std::uint32_t standard_filters(unsigned n) { return n << 16; }  // RXGFC
   static constexpr std::uint32_t kQueue = bit(24);                                 // TXBC: not a FIFO
 };
