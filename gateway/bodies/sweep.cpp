@@ -16,7 +16,7 @@ constexpr float kRounding_mm = 1e-3F;
 
 // A pair that has less to spare than this is measured when others are: the room around a pose is that of the
 // pair that has least. By the time that plan takes with bodies.
-constexpr float kRefresh_mm = 18;
+constexpr float kRefresh_mm = 8;
 // As far from a place pairs are left alone that cannot meet there: most of them, around what is printed.
 constexpr double kAround_mm = 100;
 // What an old plane may say less than the distance was before that is measured again.
@@ -193,8 +193,6 @@ void Sweep::find_room(const Place& place) {
 double Sweep::look(const Scene& scene, const Pose& pose, std::size_t i) {
   const CollisionModel::Pair& pair = pairs_[i];
   if (with_print(i)) return print_->distance(scene, pose, pair.second, parting_[i]);
-  const double far = model_.least_distance(scene, pair);
-  if (far >= model_.wanted_mm() + kFar_mm) return far;
   Parting& last = parting_[i];
   // The plane that parted both when they were measured parts them still, as a rule.
   if (last.mm > model_.wanted_mm()) {
@@ -203,6 +201,8 @@ double Sweep::look(const Scene& scene, const Pose& pose, std::size_t i) {
         gap >= model_.wanted_mm() + kWorse_mm)
       return gap;
   }
+  const double far = model_.least_distance(scene, pair);
+  if (far >= model_.wanted_mm() + kFar_mm) return far;
   last = model_.part(scene, pair);
   return last.mm;
 }

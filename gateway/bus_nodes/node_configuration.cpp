@@ -151,6 +151,12 @@ void set_joint(Writer& writer, const JointDescription& joint) {
   writer.set_axis(axis, kHomingBackOff, 10 * homing.back_off * counts);
 }
 
+/// As 2160h:1 counts them.
+int kind_of(const ScaleDescription& scale) {
+  if (!scale.absolute_bits) return 1;
+  return static_cast<int>(*scale.absolute_bits) + (scale.gray_code ? 32 : 0);
+}
+
 /// Both axes of a node that has a scale.
 std::vector<ParameterWrite> scale_settings(const MachineDescription& machine, std::uint8_t node_id) {
   std::array<const JointDescription*, 2> scales{};
@@ -165,7 +171,7 @@ std::vector<ParameterWrite> scale_settings(const MachineDescription& machine, st
     const ScaleDescription scale = scales[axis] == nullptr ? ScaleDescription{} : *scales[axis]->scale;
     write(object::kScaleCountsPerUnit, 4, std::llround(1000 * scale.pulses_per_mm));
     write(object::kScaleInverted, 1, scale.inverted ? 1 : 0);
-    write(object::kScaleFitted, 1, scales[axis] == nullptr ? 0 : 1);
+    write(object::kScaleFitted, 1, scales[axis] == nullptr ? 0 : kind_of(scale));
     if (scales[axis] == nullptr || scale.correction_mm == 0) {
       write(object::kScaleCorrectionMost, 4, 0);
       continue;

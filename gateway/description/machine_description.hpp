@@ -97,12 +97,15 @@ struct MotorDescription {
 
 /// A linear scale beside the rail, that measures the carriage itself and not its motor.
 struct ScaleDescription {
-  double pulses_per_mm = 0;  ///< counts of the node a millimetre, every edge counted
+  double pulses_per_mm = 0;  ///< counts a millimetre: every edge of a quadrature, steps of an absolute one
   bool inverted = false;     ///< it counts down when the joint's value grows
   /// The motor is led to where the scale has the joint, slowly: drift, not dynamics. By so much at most, mm;
   /// 0: it is not. More, or a scale that stands while the joint moves, stops the machine on the path.
   double correction_mm = 0;
   double correction_mm_per_s = 0.05;
+  /// It tells where it is, by SSI on the motor's encoder port, in so many bits; none: pulses (quadrature).
+  std::optional<std::uint32_t> absolute_bits{};
+  bool gray_code = false;  ///< of an absolute one; else binary
   friend bool operator==(const ScaleDescription&, const ScaleDescription&) = default;
 };
 

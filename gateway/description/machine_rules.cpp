@@ -92,8 +92,27 @@ class Rules {
               say("a joint that is led by its scale and has an error that is not linear"),
               say("correction_mm = 0, or scale and offset alone in the calibration"));
     }
+    if (j.scale) absolute_scale(j, *j.scale, key);
     if (j.homing) homing(j, *j.homing, key + "homing.");
     calibration(j, key + "calibration.");
+  }
+
+  void absolute_scale(const JointDescription& j, const ScaleDescription& scale, const std::string& key) {
+    require(!scale.gray_code || scale.absolute_bits, {key + "scale.gray_code"},
+            say("a code of a scale that tells no place"), say("absolute_bits, or no gray_code"));
+    if (!scale.absolute_bits) return;
+    const std::uint32_t bits = *scale.absolute_bits;
+    require(bits >= 8 && bits <= 30, {key + "scale.absolute_bits"}, Sentence::verbatim(std::to_string(bits)),
+            say("8 to 30 bits"));
+    require(!j.has_encoder(), {key + "motor.encoder", key + "scale.absolute_bits"},
+            say("an encoder and an absolute scale on one port"),
+            say("encoder = \"none\", or a scale of pulses"));
+    // A node that was busy for so long still knows which way round the scale has gone.
+    constexpr double kUnread_s = 0.05;
+    const double half_mm = std::exp2(static_cast<double>(bits)) / 2 / scale.pulses_per_mm;
+    require(half_mm >= j.speed_per_s * kUnread_s, {key + "scale.absolute_bits", key + "speed_mm_per_s"},
+            say("a scale that begins anew every %1 mm", number(2 * half_mm)),
+            say("one that is at least %1 mm long at this speed", number(2 * j.speed_per_s * kUnread_s)));
   }
 
   void calibration(const JointDescription& j, const std::string& key) {

@@ -103,6 +103,8 @@ void visit_joint(V& v, JointDescription& j, bool own_travel) {
     v.flag("inverted", s.inverted, Need::kOptional);
     v.number("correction_mm", s.correction_mm, {0, 5}, Need::kOptional);
     v.number("correction_mm_per_s", s.correction_mm_per_s, {0.001, 1}, Need::kOptional);
+    v.optional_integer("absolute_bits", s.absolute_bits);
+    v.flag("gray_code", s.gray_code, Need::kOptional);
   });
   v.optional_table("homing", j.homing, [&](HomingDescription& h) {
     v.integer("method", h.method, 17, 37, Need::kRequired);

@@ -1,5 +1,7 @@
 #include "gateway/motors/scale_readings.hpp"
 
+#include <optional>
+
 #include "protocol/canopen/node_objects.hpp"
 
 namespace kinebus {
@@ -31,8 +33,12 @@ void ScaleReadings::take(std::size_t node, const SdoResult& answer) {
   for (Scale& scale : scales_) {
     const ObjectAddress wanted = on_axis(home ? object::kScaleHomeLatch : object::kScalePosition, scale.axis);
     // One that was asked for before a motion says nothing of the place after it.
-    if (scale.node == node && wanted == answer.address && scale.asked && answer.abort == AbortCode::kNone)
-      (home ? scale.home : scale.counts) = answer.value;
+    if (scale.node != node || wanted != answer.address || !scale.asked) continue;
+    std::optional<std::int64_t>& reading = home ? scale.home : scale.counts;
+    if (answer.abort == AbortCode::kNone)
+      reading = answer.value;
+    else
+      scale.home.reset(), scale.counts.reset();  // it has fallen silent, and knows no more where home was
   }
 }
 

@@ -18,6 +18,7 @@
 #include <stdexcept>
 
 #include "gui/screenshots/demo_job.hpp"
+#include "gui/views/bench_window.hpp"
 #include "gui/views/connect_page.hpp"
 #include "gui/views/console_page.hpp"
 #include "gui/views/heat_panel.hpp"
@@ -69,6 +70,17 @@ class Photographer {
       }
   }
 
+  /// The window of a card on a bench, before one is opened.
+  void bench(BenchWindow& bench) {
+    for (const auto& choice : Language::choices()) {
+      window_.set_theme(false);
+      window_.set_language(choice.code);
+      for (int round = 0; round < 12; ++round) QCoreApplication::processEvents(QEventLoop::AllEvents, 20);
+      save(bench, QStringLiteral("13-bench-%1").arg(choice.code));
+    }
+    bench.close();
+  }
+
   /// The scene alone is the same in every language.
   void one(MainWindow::Page page, const QString& name) {
     window_.set_theme(false);
@@ -88,8 +100,11 @@ class Photographer {
                          (desk_.session.connected() && desk_.session.status().time_s() > from + 0.4);
       if (round >= 12 && fresh && !desk_.path.loading()) break;
     }
+    save(window_, name);
+  }
+  void save(QWidget& widget, const QString& name) {
     const QString path = QStringLiteral("%1/%2.png").arg(folder_, name);
-    if (!window_.grab().save(path)) throw std::runtime_error("cannot write " + path.toStdString());
+    if (!widget.grab().save(path)) throw std::runtime_error("cannot write " + path.toStdString());
     std::printf("  %s\n", qPrintable(path));
   }
 
@@ -114,6 +129,7 @@ int run(int argc, char** argv) {
   window.show();
   Photographer photographer(desk, window, folder);
   photographer.all(MainWindow::kConnect, QStringLiteral("1-connect"));
+  photographer.bench(window.connect_page().show_bench());
 
   QObject::connect(&desk.session, &Session::refused, &window,
                    [](const QString& words) { std::fprintf(stderr, "refused: %s\n", qPrintable(words)); });
@@ -153,15 +169,25 @@ int run(int argc, char** argv) {
   scene("11-scene-m1-tilted");
   window.view_page().scene().fit_part();
   photographer.one(MainWindow::kView, QStringLiteral("11-scene-m1-tilted-part"));
+  const auto say = [&](const char* line) {
+    window.console_page().send(QString::fromLatin1(line));
+    wait(line,
+         [&, from = desk.session.status().time_s()] { return desk.session.status().time_s() > from + 0.3; });
+  };
+  // Past the corner where leg 3 carries the platform, which comes within 4 mm of the nozzle there.
+  for (const char* line : {"G90", "G43.4", "G1 Z60 F3000", "G1 A45", "G1 X-124 Y-40", "G1 Z4", "G1 Y-60"})
+    say(line);
+  wait("leg and nozzle are close", [&] { return state() == joblink::STATE_READY; });
+  scene("11-scene-m1-close");
+  window.view_page().scene().fit_part();
+  photographer.one(MainWindow::kView, QStringLiteral("11-scene-m1-close-part"));
+  for (const char* line : {"G1 Z60", "G1 A0", "G49"}) say(line);
+  wait("it rests again", [&] { return state() == joblink::STATE_READY; });
   desk.session.go_to_reference();
   wait("it is upright", [&] {
     return state() == joblink::STATE_READY && std::abs(desk.session.status().tool().a_rad()) < 1e-3;
   });
-  for (const char* line : {"M115", "M114", "M105", "M119"}) {
-    window.console_page().send(QString::fromLatin1(line));
-    wait(line,
-         [&, from = desk.session.status().time_s()] { return desk.session.status().time_s() > from + 0.3; });
-  }
+  for (const char* line : {"M115", "M114", "M105", "M119"}) say(line);
   photographer.all(MainWindow::kConsole, QStringLiteral("5-console"));
   wait("still connected", [&] { return desk.session.connected(); });
   window.show_page(MainWindow::kJobs);
@@ -219,7 +245,7 @@ int run(int argc, char** argv) {
                     QStringLiteral(KINEBUS_MACHINES "/%1.toml").arg(QLatin1String(other)));
     wait(other, [&] { return desk.session.connected() && desk.session.machine().joints_size() > 0; });
   };
-  for (const char* other : {"m4", "m5"}) {
+  for (const char* other : {"m2", "m3", "m4", "m5", "delta"}) {
     turn_to(other);
     desk.session.home();
     wait("it is homed",

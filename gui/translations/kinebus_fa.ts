@@ -4296,6 +4296,34 @@
         <source>it was too short: %1 s at least</source>
         <translation>بسیار کوتاه بود: دست‌کم %1 ثانیه</translation>
     </message>
+    <message>
+        <source>a code of a scale that tells no place</source>
+        <translation>کد خط‌کشی که مکان نمی‌گوید</translation>
+    </message>
+    <message>
+        <source>absolute_bits, or no gray_code</source>
+        <translation>absolute_bits، یا بدون gray_code</translation>
+    </message>
+    <message>
+        <source>8 to 30 bits</source>
+        <translation>۸ تا ۳۰ بیت</translation>
+    </message>
+    <message>
+        <source>an encoder and an absolute scale on one port</source>
+        <translation>انکودر و خط‌کش مطلق روی یک پورت</translation>
+    </message>
+    <message>
+        <source>encoder = &quot;none&quot;, or a scale of pulses</source>
+        <translation>encoder = &quot;none&quot;، یا خط‌کش پالسی</translation>
+    </message>
+    <message>
+        <source>a scale that begins anew every %1 mm</source>
+        <translation>خط‌کشی که هر %1 mm از نو آغاز می‌شود</translation>
+    </message>
+    <message>
+        <source>one that is at least %1 mm long at this speed</source>
+        <translation>خط‌کشی که با این سرعت دست‌کم %1 mm باشد</translation>
+    </message>
 </context>
 <context>
     <name>GatewayWords</name>
@@ -4506,6 +4534,168 @@
     </message>
 </context>
 <context>
+    <name>kinebus::gui::BenchCard</name>
+    <message>
+        <source>kinebus-card has ended</source>
+        <translation>kinebus-card پایان یافت</translation>
+    </message>
+    <message>
+        <source>the program kinebus-card was not found: install the package kinebus-cli</source>
+        <translation>برنامهٔ kinebus-card یافت نشد: بستهٔ kinebus-cli را نصب کنید</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::BenchWindow</name>
+    <message>
+        <source>Refused: %1</source>
+        <translation>رد شد: %1</translation>
+    </message>
+    <message>
+        <source>The card is silent: %1. It is asked again by itself.</source>
+        <translation>کارت پاسخ نمی‌دهد: %1. خودکار دوباره پرسیده می‌شود.</translation>
+    </message>
+    <message>
+        <source>Closed. A motor that has power holds on.</source>
+        <translation>بسته شد. موتوری که برق دارد همچنان نگه می‌دارد.</translation>
+    </message>
+    <message>
+        <source>A driver card on a bench</source>
+        <translation>کارت راه‌انداز روی میز کار</translation>
+    </message>
+    <message>
+        <source>CAN interface</source>
+        <translation>رابط CAN</translation>
+    </message>
+    <message>
+        <source>Node id</source>
+        <translation>شناسهٔ گره</translation>
+    </message>
+    <message>
+        <source>Stop the motor</source>
+        <translation>توقف موتور</translation>
+    </message>
+    <message>
+        <source>Keep</source>
+        <translation>ذخیره</translation>
+    </message>
+    <message>
+        <source>Currents and what was measured are kept through power-off; no motor has power then</source>
+        <translation>جریان‌ها و آنچه اندازه گرفته شد با قطع برق می‌مانند؛ در آن هنگام هیچ موتوری برق ندارد</translation>
+    </message>
+    <message>
+        <source>Motor %1</source>
+        <translation>موتور %1</translation>
+    </message>
+    <message>
+        <source>Run current</source>
+        <translation>جریان حرکت</translation>
+    </message>
+    <message>
+        <source>Hold current</source>
+        <translation>جریان نگهداری</translation>
+    </message>
+    <message>
+        <source>Turns</source>
+        <translation>دور</translation>
+    </message>
+    <message>
+        <source>Turns a second</source>
+        <translation>دور در ثانیه</translation>
+    </message>
+    <message>
+        <source>Of a motor with 200 steps a turn</source>
+        <translation>برای موتوری با ۲۰۰ گام در دور</translation>
+    </message>
+    <message>
+        <source>Set currents</source>
+        <translation>تنظیم جریان‌ها</translation>
+    </message>
+    <message>
+        <source>Back</source>
+        <translation>عقب</translation>
+    </message>
+    <message>
+        <source>On</source>
+        <translation>جلو</translation>
+    </message>
+    <message>
+        <source>Turn motor %1 back</source>
+        <translation>چرخاندن موتور %1 به عقب</translation>
+    </message>
+    <message>
+        <source>Turn motor %1 on</source>
+        <translation>چرخاندن موتور %1 به جلو</translation>
+    </message>
+    <message>
+        <source>Measure the motor</source>
+        <translation>اندازه‌گیری موتور</translation>
+    </message>
+    <message>
+        <source>The node measures resistance, inductance and the encoder&apos;s offset while the motor stands</source>
+        <translation>گره هنگام ایست موتور مقاومت، القاوری و انحراف انکودر را اندازه می‌گیرد</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>بستن</translation>
+    </message>
+    <message>
+        <source>Open</source>
+        <translation>باز کردن</translation>
+    </message>
+    <message>
+        <source>Let go</source>
+        <translation>رها کردن</translation>
+    </message>
+    <message>
+        <source>Hold</source>
+        <translation>نگه داشتن</translation>
+    </message>
+    <message>
+        <source>Without gateway and machine file: this computer&apos;s CAN interface, and the node&apos;s id.</source>
+        <translation>بدون درگاه و پروندهٔ ماشین: رابط CAN این رایانه و شناسهٔ گره.</translation>
+    </message>
+    <message>
+        <source>%1, serial number %2</source>
+        <translation>%1، شمارهٔ سریال %2</translation>
+    </message>
+    <message>
+        <source>Switches: %1</source>
+        <translation>کلیدها: %1</translation>
+    </message>
+    <message>
+        <source>Errors that it has told: %1</source>
+        <translation>خطاهایی که اعلام کرده است: %1</translation>
+    </message>
+    <message>
+        <source>%1, error %2</source>
+        <translation>%1، خطای %2</translation>
+    </message>
+    <message>
+        <source>%1 counts, %2 turns</source>
+        <translation>%1 شمارش، %2 دور</translation>
+    </message>
+    <message>
+        <source>%1 measured, stage at %2, supply %3</source>
+        <translation>%1 اندازه‌گیری شد، طبقهٔ توان %2، تغذیه %3</translation>
+    </message>
+    <message>
+        <source>Measured: %1, no encoder</source>
+        <translation>اندازه‌گیری شد: %1، بدون انکودر</translation>
+    </message>
+    <message>
+        <source>Measured: %1, encoder offset %2</source>
+        <translation>اندازه‌گیری شد: %1، انحراف انکودر %2</translation>
+    </message>
+    <message>
+        <source>The card keeps its settings through power-off.</source>
+        <translation>کارت تنظیم‌هایش را با قطع برق نگه می‌دارد.</translation>
+    </message>
+    <message>
+        <source>Stopped by its ramp; the motor holds.</source>
+        <translation>با رمپ خود ایستاد؛ موتور نگه می‌دارد.</translation>
+    </message>
+</context>
+<context>
     <name>kinebus::gui::ConnectPage</name>
     <message>
         <source>Connect to a machine</source>
@@ -4566,6 +4756,18 @@
     <message>
         <source>The connection is lost: %1. It is tried again by itself. Jobs run on the gateway: a pulled cable does not end them.</source>
         <translation>اتصال قطع شد: %1. خودش دوباره تلاش می‌کند. کارها روی درگاه اجرا می‌شوند: کشیدن کابل آن‌ها را پایان نمی‌دهد.</translation>
+    </message>
+    <message>
+        <source>A driver card on a bench</source>
+        <translation>کارت راه‌انداز روی میز کار</translation>
+    </message>
+    <message>
+        <source>One node on this computer&apos;s CAN interface, without gateway and machine file: its motors&apos; currents, jogged and measured, and its switches.</source>
+        <translation>یک گره روی رابط CAN این رایانه، بدون درگاه و پروندهٔ ماشین: جریان موتورها، حرکت دستی، اندازه‌گیری و کلیدهایش.</translation>
+    </message>
+    <message>
+        <source>Open the card</source>
+        <translation>باز کردن کارت</translation>
     </message>
 </context>
 <context>
@@ -5418,10 +5620,6 @@
 <context>
     <name>kinebus::gui::MotorsPanel</name>
     <message>
-        <source>One node on a bench, without a machine file: stop the gateway, then %1 on the computer with the bus shows, sets, jogs and measures its motors.</source>
-        <translation>یک گره روی میز کار، بدون پروندهٔ ماشین: درگاه را متوقف کنید؛ سپس %1 در رایانه‌ای که گذرگاه به آن وصل است موتورهایش را نشان می‌دهد، تنظیم می‌کند، دستی حرکت می‌دهد و اندازه می‌گیرد.</translation>
-    </message>
-    <message>
         <source>Motors</source>
         <translation>موتورها</translation>
     </message>
@@ -5472,6 +5670,10 @@
     <message>
         <source>Switches of node %1: %2</source>
         <translation>کلیدهای گره %1: %2</translation>
+    </message>
+    <message>
+        <source>One node on a bench, without a machine file: stop the gateway, then the page Gateways, or %1 on the computer with the bus, shows, sets, jogs and measures its motors.</source>
+        <translation>یک گره روی میز کار، بدون پروندهٔ ماشین: درگاه را متوقف کنید؛ صفحهٔ درگاه‌ها یا %1 روی رایانه‌ای که گذرگاه به آن وصل است، موتورهایش را نشان می‌دهد، تنظیم می‌کند، دستی حرکت می‌دهد و اندازه می‌گیرد.</translation>
     </message>
 </context>
 <context>

@@ -4296,6 +4296,34 @@
         <source>it was too short: %1 s at least</source>
         <translation>çok kısaydı: en az %1 s</translation>
     </message>
+    <message>
+        <source>a code of a scale that tells no place</source>
+        <translation>yer bildirmeyen bir cetvelin kodu</translation>
+    </message>
+    <message>
+        <source>absolute_bits, or no gray_code</source>
+        <translation>absolute_bits ya da gray_code yok</translation>
+    </message>
+    <message>
+        <source>8 to 30 bits</source>
+        <translation>8 ile 30 bit arası</translation>
+    </message>
+    <message>
+        <source>an encoder and an absolute scale on one port</source>
+        <translation>bir bağlantıda hem kodlayıcı hem mutlak cetvel</translation>
+    </message>
+    <message>
+        <source>encoder = &quot;none&quot;, or a scale of pulses</source>
+        <translation>encoder = &quot;none&quot; ya da darbe veren bir cetvel</translation>
+    </message>
+    <message>
+        <source>a scale that begins anew every %1 mm</source>
+        <translation>her %1 mm&apos;de yeniden başlayan bir cetvel</translation>
+    </message>
+    <message>
+        <source>one that is at least %1 mm long at this speed</source>
+        <translation>bu hızda en az %1 mm uzunluğunda olanı</translation>
+    </message>
 </context>
 <context>
     <name>GatewayWords</name>
@@ -4506,6 +4534,168 @@
     </message>
 </context>
 <context>
+    <name>kinebus::gui::BenchCard</name>
+    <message>
+        <source>kinebus-card has ended</source>
+        <translation>kinebus-card sona erdi</translation>
+    </message>
+    <message>
+        <source>the program kinebus-card was not found: install the package kinebus-cli</source>
+        <translation>kinebus-card programı bulunamadı: kinebus-cli paketini kurun</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::BenchWindow</name>
+    <message>
+        <source>Refused: %1</source>
+        <translation>Reddedildi: %1</translation>
+    </message>
+    <message>
+        <source>The card is silent: %1. It is asked again by itself.</source>
+        <translation>Kart yanıt vermiyor: %1. Kendiliğinden yeniden sorulur.</translation>
+    </message>
+    <message>
+        <source>Closed. A motor that has power holds on.</source>
+        <translation>Kapatıldı. Güç alan motor tutmaya devam eder.</translation>
+    </message>
+    <message>
+        <source>A driver card on a bench</source>
+        <translation>Tezgâhta bir sürücü kartı</translation>
+    </message>
+    <message>
+        <source>CAN interface</source>
+        <translation>CAN arayüzü</translation>
+    </message>
+    <message>
+        <source>Node id</source>
+        <translation>Düğüm kimliği</translation>
+    </message>
+    <message>
+        <source>Stop the motor</source>
+        <translation>Motoru durdur</translation>
+    </message>
+    <message>
+        <source>Keep</source>
+        <translation>Sakla</translation>
+    </message>
+    <message>
+        <source>Currents and what was measured are kept through power-off; no motor has power then</source>
+        <translation>Akımlar ve ölçülenler güç kesilince de saklanır; bunun için hiçbir motorda güç olmamalı</translation>
+    </message>
+    <message>
+        <source>Motor %1</source>
+        <translation>Motor %1</translation>
+    </message>
+    <message>
+        <source>Run current</source>
+        <translation>Çalışma akımı</translation>
+    </message>
+    <message>
+        <source>Hold current</source>
+        <translation>Tutma akımı</translation>
+    </message>
+    <message>
+        <source>Turns</source>
+        <translation>Tur</translation>
+    </message>
+    <message>
+        <source>Turns a second</source>
+        <translation>Saniyede tur</translation>
+    </message>
+    <message>
+        <source>Of a motor with 200 steps a turn</source>
+        <translation>Turda 200 adımlı bir motor için</translation>
+    </message>
+    <message>
+        <source>Set currents</source>
+        <translation>Akımları ayarla</translation>
+    </message>
+    <message>
+        <source>Back</source>
+        <translation>Geri</translation>
+    </message>
+    <message>
+        <source>On</source>
+        <translation>İleri</translation>
+    </message>
+    <message>
+        <source>Turn motor %1 back</source>
+        <translation>Motor %1&apos;i geri döndür</translation>
+    </message>
+    <message>
+        <source>Turn motor %1 on</source>
+        <translation>Motor %1&apos;i ileri döndür</translation>
+    </message>
+    <message>
+        <source>Measure the motor</source>
+        <translation>Motoru ölç</translation>
+    </message>
+    <message>
+        <source>The node measures resistance, inductance and the encoder&apos;s offset while the motor stands</source>
+        <translation>Motor dururken düğüm direnci, endüktansı ve kodlayıcı kaymasını ölçer</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>Kapat</translation>
+    </message>
+    <message>
+        <source>Open</source>
+        <translation>Aç</translation>
+    </message>
+    <message>
+        <source>Let go</source>
+        <translation>Bırak</translation>
+    </message>
+    <message>
+        <source>Hold</source>
+        <translation>Tut</translation>
+    </message>
+    <message>
+        <source>Without gateway and machine file: this computer&apos;s CAN interface, and the node&apos;s id.</source>
+        <translation>Ağ geçidi ve makine dosyası olmadan: bu bilgisayarın CAN arayüzü ve düğümün kimliği.</translation>
+    </message>
+    <message>
+        <source>%1, serial number %2</source>
+        <translation>%1, seri numarası %2</translation>
+    </message>
+    <message>
+        <source>Switches: %1</source>
+        <translation>Anahtarlar: %1</translation>
+    </message>
+    <message>
+        <source>Errors that it has told: %1</source>
+        <translation>Bildirdiği hatalar: %1</translation>
+    </message>
+    <message>
+        <source>%1, error %2</source>
+        <translation>%1, hata %2</translation>
+    </message>
+    <message>
+        <source>%1 counts, %2 turns</source>
+        <translation>%1 sayım, %2 tur</translation>
+    </message>
+    <message>
+        <source>%1 measured, stage at %2, supply %3</source>
+        <translation>%1 ölçüldü, güç katı %2, besleme %3</translation>
+    </message>
+    <message>
+        <source>Measured: %1, no encoder</source>
+        <translation>Ölçüldü: %1, kodlayıcı yok</translation>
+    </message>
+    <message>
+        <source>Measured: %1, encoder offset %2</source>
+        <translation>Ölçüldü: %1, kodlayıcı kayması %2</translation>
+    </message>
+    <message>
+        <source>The card keeps its settings through power-off.</source>
+        <translation>Kart ayarlarını güç kesilince de saklar.</translation>
+    </message>
+    <message>
+        <source>Stopped by its ramp; the motor holds.</source>
+        <translation>Rampasıyla durdu; motor tutuyor.</translation>
+    </message>
+</context>
+<context>
     <name>kinebus::gui::ConnectPage</name>
     <message>
         <source>Connect to a machine</source>
@@ -4566,6 +4756,18 @@
     <message>
         <source>The connection is lost: %1. It is tried again by itself. Jobs run on the gateway: a pulled cable does not end them.</source>
         <translation>Bağlantı koptu: %1. Kendiliğinden yeniden denenir. İşler ağ geçidinde çalışır: çekilen kablo onları bitirmez.</translation>
+    </message>
+    <message>
+        <source>A driver card on a bench</source>
+        <translation>Tezgâhta bir sürücü kartı</translation>
+    </message>
+    <message>
+        <source>One node on this computer&apos;s CAN interface, without gateway and machine file: its motors&apos; currents, jogged and measured, and its switches.</source>
+        <translation>Bu bilgisayarın CAN arayüzündeki tek düğüm, ağ geçidi ve makine dosyası olmadan: motor akımları, manuel hareket, ölçüm ve anahtarları.</translation>
+    </message>
+    <message>
+        <source>Open the card</source>
+        <translation>Kartı aç</translation>
     </message>
 </context>
 <context>
@@ -5418,10 +5620,6 @@
 <context>
     <name>kinebus::gui::MotorsPanel</name>
     <message>
-        <source>One node on a bench, without a machine file: stop the gateway, then %1 on the computer with the bus shows, sets, jogs and measures its motors.</source>
-        <translation>Masa üzerinde, makine dosyası olmadan tek bir düğüm: ağ geçidini durdurun; veri yolunun bağlı olduğu bilgisayarda %1 motorlarını gösterir, ayarlar, manuel hareket ettirir ve ölçer.</translation>
-    </message>
-    <message>
         <source>Motors</source>
         <translation>Motorlar</translation>
     </message>
@@ -5472,6 +5670,10 @@
     <message>
         <source>Switches of node %1: %2</source>
         <translation>Düğüm %1 anahtarları: %2</translation>
+    </message>
+    <message>
+        <source>One node on a bench, without a machine file: stop the gateway, then the page Gateways, or %1 on the computer with the bus, shows, sets, jogs and measures its motors.</source>
+        <translation>Tezgâhta tek düğüm, makine dosyası olmadan: ağ geçidini durdurun; Ağ geçitleri sayfası ya da veri yolunun bağlı olduğu bilgisayarda %1 motorlarını gösterir, ayarlar, manuel hareket ettirir ve ölçer.</translation>
     </message>
 </context>
 <context>

@@ -61,20 +61,26 @@ ConnectPage::ConnectPage(Desk& desk, QWidget* parent) : SpeakingWidget(parent), 
   found_card->column()->addLayout(found_);
   column->addWidget(found_card);
 
-  auto* demo_card = new Card(frame);
-  auto* demo_row = new QHBoxLayout;
-  auto* demo_column = new QVBoxLayout;
-  demo_heading_ = make_label("heading", demo_card);
-  demo_words_ = make_label("muted", demo_card);
-  demo_words_->setWordWrap(true);
-  demo_column->addWidget(demo_heading_);
-  demo_column->addWidget(demo_words_);
-  demo_ = make_button(desk_.theme, QStringLiteral("demo"), "primary", demo_card);
-  demo_row->addLayout(demo_column, 1);
-  demo_row->addSpacing(12);
-  demo_row->addWidget(demo_);
-  demo_card->column()->addLayout(demo_row);
-  column->addWidget(demo_card);
+  // Words at the left, what they speak of at the right.
+  const auto offer = [&](const QString& icon, const char* kind, QLabel*& heading, QLabel*& detail) {
+    auto* card = new Card(frame);
+    auto* row = new QHBoxLayout;
+    auto* lines = new QVBoxLayout;
+    heading = make_label("heading", card);
+    detail = make_label("muted", card);
+    detail->setWordWrap(true);
+    lines->addWidget(heading);
+    lines->addWidget(detail);
+    QPushButton* button = make_button(desk_.theme, icon, kind, card);
+    row->addLayout(lines, 1);
+    row->addSpacing(12);
+    row->addWidget(button);
+    card->column()->addLayout(row);
+    column->addWidget(card);
+    return button;
+  };
+  demo_ = offer(QStringLiteral("demo"), "primary", demo_heading_, demo_words_);
+  bench_ = offer(QStringLiteral("machine"), "", bench_heading_, bench_words_);
   problem_ = make_label("danger", frame);
   problem_->setWordWrap(true);
   problem_->hide();
@@ -90,6 +96,7 @@ ConnectPage::ConnectPage(Desk& desk, QWidget* parent) : SpeakingWidget(parent), 
   outer->addWidget(scroll);
 
   connect(demo_, &QPushButton::clicked, this, &ConnectPage::start_demo);
+  connect(bench_, &QPushButton::clicked, this, [this] { show_bench(); });
   connect(leave_, &QPushButton::clicked, this, [this] {
     desk_.session.disconnect_from_gateway();
     desk_.demo.reset();
@@ -107,6 +114,11 @@ ConnectPage::ConnectPage(Desk& desk, QWidget* parent) : SpeakingWidget(parent), 
     demo_words_->setText(
         tr("The whole machine, simulated on this computer: upload, home and print without hardware."));
     demo_->setText(tr("Try the demo"));
+    bench_heading_->setText(tr("A driver card on a bench"));
+    bench_words_->setText(tr(
+        "One node on this computer's CAN interface, without gateway and machine file: its motors' currents, "
+        "jogged and measured, and its switches."));
+    bench_->setText(tr("Open the card"));
     leave_->setText(tr("Disconnect"));
     rebuild();
     tell();
@@ -120,6 +132,14 @@ void ConnectPage::start_demo() {
     self->problem_->setText(tr("The demo machine does not run: %1").arg(why));
     self->problem_->show();
   });
+}
+
+BenchWindow& ConnectPage::show_bench() {
+  if (bench_window_ == nullptr) bench_window_ = new BenchWindow(desk_.theme, BenchCard::find_program(), this);
+  bench_window_->show();
+  bench_window_->raise();
+  bench_window_->activateWindow();
+  return *bench_window_;
 }
 
 void ConnectPage::rebuild() {

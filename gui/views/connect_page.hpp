@@ -7,6 +7,7 @@
 #include <QVector>
 #include <QWidget>
 
+#include "gui/views/bench_window.hpp"
 #include "gui/views/desk.hpp"
 #include "gui/views/widgets.hpp"
 
@@ -17,6 +18,7 @@ class ConnectPage : public SpeakingWidget {
  public:
   explicit ConnectPage(Desk& desk, QWidget* parent = nullptr);
   void start_demo();
+  BenchWindow& show_bench();
 
  private:
   void rebuild();
@@ -24,9 +26,11 @@ class ConnectPage : public SpeakingWidget {
 
   Desk& desk_;
   QVBoxLayout* found_;
-  QLabel *title_, *subtitle_, *found_heading_, *none_, *demo_heading_, *demo_words_, *problem_, *link_words_;
-  QPushButton *demo_, *leave_;
+  QLabel *title_, *subtitle_, *found_heading_, *none_, *demo_heading_, *demo_words_, *bench_heading_,
+      *bench_words_, *problem_, *link_words_;
+  QPushButton *demo_, *bench_, *leave_;
   Card* link_card_;
+  BenchWindow* bench_window_ = nullptr;
   QVector<QWidget*> rows_;
 };
 

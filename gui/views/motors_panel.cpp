@@ -63,8 +63,8 @@ MotorsPanel::MotorsPanel(Desk& desk, QWidget* parent) : SpeakingWidget(parent), 
   connect(motor_, &QComboBox::currentIndexChanged, this, &MotorsPanel::take_motor);
   says([this] {
     bench_->setText(
-        tr("One node on a bench, without a machine file: stop the gateway, then %1 on the computer "
-           "with the bus shows, sets, jogs and measures its motors.")
+        tr("One node on a bench, without a machine file: stop the gateway, then the page Gateways, or %1 on "
+           "the computer with the bus, shows, sets, jogs and measures its motors.")
             .arg(Format::isolated(QStringLiteral("kinebus-card"))));
     take_machine();
   });

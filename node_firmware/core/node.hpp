@@ -44,6 +44,21 @@ struct NodeIdentity {
   std::uint32_t serial = 0;
 };
 
+/// Linear scales that an axis' inputs can take, added together.
+enum class ScaleInput : std::uint8_t {
+  kNone = 0,
+  kQuadrature = 1,
+  kAbsolute = 2,
+  // They have the pins of its motor's encoder (2150h:6): one or the other.
+  kQuadratureOrEncoder = kQuadrature << 2 | kQuadrature,
+  kAbsoluteOrEncoder = kAbsolute << 2 | kAbsolute,
+};
+constexpr ScaleInput operator+(ScaleInput a, ScaleInput b) {
+  return static_cast<ScaleInput>(static_cast<int>(a) | static_cast<int>(b));
+}
+
+class Node;
+
 struct NodeOptions {
   NodeIdentity identity{};
   std::uint8_t node_id = 0;       ///< 1..127; 0: as stored, and without that the node waits for LSS
@@ -51,10 +66,10 @@ struct NodeOptions {
   ResetReport reset{};            ///< 2121h
   /// The board's objects: those of kNodeTable, which this core serves, at the same places, and perhaps more.
   const ObjectTable* table = &kNodeTable;
-  /// Axes whose linear scales the board can count (2160h).
-  std::array<bool, kAxesPerNode> scale_inputs{};
-  /// A scale of this axis has the pins of its motor's encoder (2150h:6): one or the other.
-  std::array<bool, kAxesPerNode> scale_is_encoder{};
+  /// What scales the board can count at each axis (2160h), and Node::may_fit_scale where there are any:
+  /// others have no room for what they never need.
+  std::array<ScaleInput, kAxesPerNode> scale_inputs{};
+  AbortCode (*may_fit_scale)(const Node& node, int axis, std::uint8_t kind) = nullptr;
   // Of a board with several nodes:
   /// The node has its id from its board, and LSS is another's business.
   bool id_from_board = false;
@@ -132,10 +147,24 @@ class Node : private ObjectOwner {
   }
   /// What an axis' linear scale counts now, wrapping around; told before the inputs that it is to be seen
   /// with.
-  void set_scale(int axis, std::int32_t counts) {
-    scale_counts_[static_cast<std::size_t>(axis & 1)] = counts;
-  }
-  /// The scale of this axis is to be counted (2160h:1).
+  void set_scale(int axis, std::int32_t counts);
+  /// It does not answer, told again and again: until it does nobody knows what it counts, and until the axis
+  /// has homed anew, where home is by it. An axis that it leads stops with all others.
+  void lose_scale(int axis);
+  struct Scale {
+    std::uint8_t kind = 0;           ///< 2160h:1
+    std::uint32_t counts_per_m = 0;  ///< 0: not told
+    static constexpr int kQuadrature = 1, kFewestBits = 8, kMostBits = 30, kGray = 32;
+    constexpr bool quadrature() const { return kind == kQuadrature; }
+    /// Of an absolute one.
+    constexpr unsigned bits() const { return kind % kGray; }
+    constexpr bool gray() const { return kind > kGray; }
+    constexpr bool absolute() const { return bits() >= kFewestBits && bits() <= kMostBits; }
+    friend bool operator==(const Scale&, const Scale&) = default;
+  };
+  static AbortCode may_fit_scale(const Node& node, int axis, std::uint8_t kind);
+  /// The scale of this axis that is to be counted.
+  Scale scale(int axis) const;
   bool scale_fitted(int axis) const { return axis_parameter(slot_of_axes(object::kScaleFitted), axis) != 0; }
   /// Frames were lost in the receiver. One of them may have been a hold or a start that all others obey: when
   /// motion is queued or under way, all nodes stop together. As soon as the port knows.
@@ -213,7 +242,6 @@ class Node : private ObjectOwner {
   bool read_axis_object(const DriveAxis& axis, ObjectAddress base, std::int64_t& value);
   /// In the direction of 2160h:3.
   ScaleCounts directed_scales() const;
-  bool encoder_takes_scale(int axis) const;
   std::int64_t told_current(const DriveAxis& axis) const;
   bool follows_badly(const DriveAxis& axis) const;
   AbortCode write_node_object(const ObjectEntry& entry, std::int64_t value);
@@ -272,6 +300,7 @@ class Node : private ObjectOwner {
   std::array<DriveFeedback, kAxesPerNode> feedback_{};
   std::array<DriverReport, kAxesPerNode> drivers_{};
   ScaleCounts scale_counts_{};
+  std::array<bool, kAxesPerNode> scale_lost_{};
   std::array<ScaleCorrection, kAxesPerNode> scale_corrections_{};
   std::array<std::optional<std::int32_t>, kAxesPerNode> corrected_from_{};  ///< the scale at home
   LocalTime scale_look_ = LocalTime::max();

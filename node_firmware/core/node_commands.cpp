@@ -135,10 +135,12 @@ AbortCode Node::write_axis_object(const ObjectEntry& entry, std::int64_t value) 
     return AbortCode::kNone;
   }
   if (base == object::kScaleFitted || base == object::kScaleInverted) {
-    if (base == object::kScaleFitted && value != 0 && !options_.scale_inputs[entry.axis == 1 ? 1 : 0])
-      return AbortCode::kHardware;
-    if (base == object::kScaleFitted && value != 0 && encoder_takes_scale(entry.axis == 1 ? 1 : 0))
-      return AbortCode::kDeviceState;
+    if (base == object::kScaleFitted && value != 0) {
+      if (options_.may_fit_scale == nullptr) return AbortCode::kHardware;
+      const AbortCode no =
+          options_.may_fit_scale(*this, entry.axis == 1 ? 1 : 0, static_cast<std::uint8_t>(value));
+      if (no != AbortCode::kNone) return no;
+    }
     // The same again, as a gateway says that has been started anew, does not lose where home is.
     if (value != objects_.value(entry.value_slot())) axis.forget_scale();
     return AbortCode::kNone;

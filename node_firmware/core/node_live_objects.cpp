@@ -1,5 +1,8 @@
 // Node: the objects whose values are the node's own state.
 
+#include <utility>
+
+#include "node_firmware/core/emergency_codes.hpp"
 #include "node_firmware/core/node.hpp"
 
 namespace kinebus {
@@ -101,10 +104,41 @@ bool Node::follows_badly(const DriveAxis& axis) const {
   return window != kUnwatched && (error < 0 ? -error : error) > window;
 }
 
-/// Their pins are the same, and the encoder is in use.
-bool Node::encoder_takes_scale(int axis) const {
-  return options_.scale_is_encoder[static_cast<std::size_t>(axis)] &&
-         axis_parameter(slot_of_axes(object::kEncoderMode), axis) != 0;
+AbortCode Node::may_fit_scale(const Node& node, int axis, std::uint8_t kind) {
+  const Scale asked{.kind = kind};
+  if (!asked.quadrature() && !asked.absolute()) return AbortCode::kInvalidValue;
+  const auto inputs = static_cast<unsigned>(node.options_.scale_inputs[static_cast<std::size_t>(axis)]);
+  const auto wanted =
+      static_cast<unsigned>(asked.quadrature() ? ScaleInput::kQuadrature : ScaleInput::kAbsolute);
+  if ((inputs & wanted) == 0) return AbortCode::kHardware;
+  if ((inputs & wanted << 2) == 0) return AbortCode::kNone;
+  return node.axis_parameter(slot_of_axes(object::kEncoderMode), axis) == 0 ? AbortCode::kNone
+                                                                            : AbortCode::kDeviceState;
+}
+
+Node::Scale Node::scale(int axis) const {
+  return {.kind = static_cast<std::uint8_t>(axis_parameter(slot_of_axes(object::kScaleFitted), axis)),
+          .counts_per_m =
+              static_cast<std::uint32_t>(axis_parameter(slot_of_axes(object::kScaleCountsPerUnit), axis))};
+}
+
+void Node::set_scale(int axis, std::int32_t counts) {
+  const auto i = static_cast<std::size_t>(axis & 1);
+  scale_counts_[i] = counts;
+  // What an edge has met meanwhile was not what the scale said there.
+  if (std::exchange(scale_lost_[i], false)) axes_[i].forget_scale();
+}
+
+void Node::lose_scale(int axis) {
+  const auto i = static_cast<std::size_t>(axis & 1);
+  scale_lost_[i] = true;
+  axes_[i].forget_scale();
+  // What it was to lead may be anywhere.
+  if (axis_parameter(slot_of_axes(object::kScaleCorrectionMost), axis) == 0 || !axes_[i].moving(now_) ||
+      path_.stop_latched())
+    return;
+  count(NodeCounter::kDriveFaults);
+  path_.request_stop(StopReason::kAxisFault, axis, emcy::kIncrementalEncoder, now_);
 }
 
 ScaleCounts Node::directed_scales() const {
@@ -135,7 +169,7 @@ bool Node::read_axis_object(const DriveAxis& axis, ObjectAddress base, std::int6
       }
       const auto home = axis.scale_at_home();
       const bool at_home = base == object::kScaleHomeLatch;
-      if (!scale_fitted(i) || (at_home && !home)) return false;
+      if (!scale_fitted(i) || scale_lost_[index] || (at_home && !home)) return false;
       value = at_home ? *home : directed_scales()[static_cast<std::size_t>(i)];
       return true;
     }

@@ -350,14 +350,16 @@ constexpr void motors(Rows& t) {
   t.for_both_axes(from);
 }
 
-/// Linear scales on what the motors move: quadrature counters, apart from the encoders on the motors' shafts.
+/// Linear scales on what the motors move, apart from the encoders on the motors' shafts: counters of
+/// quadrature, or scales that tell where they are (SSI).
 /// What a scale is like is told by the master at every start and not stored: 2116h does not cover it.
 constexpr void linear_scales(Rows& t) {
   const std::size_t from = t.count;
   t.head(0x2160, "Linear scale", ObjectCode::kRecord, 9);
-  t.sub(1, "Scale fitted", kU8, kReadWrite, kVariable).between(0, 1);
-  t.sub(2, "Scale counts per unit x1000", kU32, kReadWrite, kVariable)
-      .in("1/1000");  // for people: the node does not use it
+  // 0: none; 1: quadrature; 8 to 30: absolute, by SSI, with so many bits. Plus 32: in Gray code.
+  t.sub(1, "Scale fitted", kU8, kReadWrite, kVariable).between(0, 62);
+  // By it the node knows how far an absolute scale can have gone between two readings.
+  t.sub(2, "Scale counts per unit x1000", kU32, kReadWrite, kVariable).in("1/1000");
   t.sub(3, "Scale direction inverted", kU8, kReadWrite, kVariable).between(0, 1);
   // From wherever it stood at power-up; by 5 both can be compared with the axis' coordinates.
   t.sub(4, "Position by scale", kI32, kReadOnly, kLive).maps(Mapping::kTpdo).in("counts");

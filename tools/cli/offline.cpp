@@ -3,12 +3,14 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "gateway/description/shipped_machines.hpp"
+
 namespace kinebus {
 
 MachineDescription read_machine(const std::string& path) {
   if (path.empty()) return default_m1();
-  auto machine = load_machine(path);
-  if (!machine) throw std::runtime_error(to_string(machine.error()));
+  auto machine = machine_of(path);
+  if (!machine) throw std::runtime_error(machine.error());
   return *machine;
 }
 

@@ -8,7 +8,8 @@
 
 namespace kinebus {
 
-/// The machine of `path`; the default M1 for an empty path. Throws std::runtime_error with all that is wrong.
+/// The machine of `path`, or the shipped one of this name; the default M1 for an empty path. Throws
+/// std::runtime_error with all that is wrong.
 MachineDescription read_machine(const std::string& path);
 
 /// Throws std::runtime_error when the file cannot be written.

@@ -111,8 +111,8 @@ void add_plan_command(CLI::App& app, const bool& json, int& exit_code) {
                          "homes; nothing moves");
   auto arguments = std::make_shared<PlanArguments>();
   command->add_option("job", arguments->job, "G-code file")->check(CLI::ExistingFile);
-  command->add_option("--machine", arguments->machine, "Machine file; without it the default machine M1")
-      ->check(CLI::ExistingFile);
+  command->add_option("--machine", arguments->machine,
+                      "Machine file, or the name of a shipped one; without it the default machine M1");
   command->add_option("--json", arguments->json_path, "Also write the report here");
   auto* home =
       command->add_flag("--home", arguments->home,

@@ -93,8 +93,8 @@ void add_simulate_command(CLI::App& app, const bool& json, int& exit_code) {
       app.add_subcommand("simulate", "Run a job on the whole simulated machine and measure it from outside");
   auto arguments = std::make_shared<Arguments>();
   command->add_option("job", arguments->job, "G-code file")->required()->check(CLI::ExistingFile);
-  command->add_option("--machine", arguments->machine, "Machine file; without it the default machine M1")
-      ->check(CLI::ExistingFile);
+  command->add_option("--machine", arguments->machine,
+                      "Machine file, or the name of a shipped one; without it the default machine M1");
   command
       ->add_option("--plant", arguments->plant,
                    "Machine file of the machine as it really is (kinebus-calibrate spoil)")

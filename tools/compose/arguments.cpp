@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "gateway/description/machine_file.hpp"
+#include "gateway/description/shipped_machines.hpp"
 
 namespace kinebus::compose {
 namespace {
@@ -76,8 +77,8 @@ double tilt_deg_of(const MachineDescription& machine) {
 
 MachineDescription machine_of(const Arguments& arguments) {
   if (arguments.machine.empty()) return default_m1();
-  auto machine = load_machine(arguments.machine);
-  if (!machine) throw std::runtime_error(to_string(machine.error()));
+  auto machine = kinebus::machine_of(arguments.machine);
+  if (!machine) throw std::runtime_error(machine.error());
   return *machine;
 }
 

@@ -271,7 +271,8 @@ int join_pieces(const Arguments& arguments) {
 
 void common_options(CLI::App& command, Arguments& arguments) {
   command.add_option("-o,--output", arguments.output, "The job to write")->required();
-  command.add_option("--machine", arguments.machine, "Machine file (default: M1)")->check(CLI::ExistingFile);
+  command.add_option("--machine", arguments.machine,
+                     "Machine file, or the name of a shipped one (default: m1)");
   command.add_option("--clearance-mm", arguments.clearance_mm, "Tool over everything while the table turns")
       ->check(CLI::Range(1.0, 200.0))
       ->capture_default_str();
@@ -324,8 +325,8 @@ int run(int argc, char** argv) {
   common_options(*joined, arguments);
   joined->callback([&] { exit_code = join_pieces(arguments); });
   auto* examples = app.add_subcommand("examples", "All example parts: tilt, layers to the arm, and time");
-  examples->add_option("--machine", arguments.machine, "Machine file (default: M1)")
-      ->check(CLI::ExistingFile);
+  examples->add_option("--machine", arguments.machine,
+                       "Machine file, or the name of a shipped one (default: m1)");
   examples->add_option("--layer-mm", arguments.layer_mm, "Layer height")
       ->check(CLI::Range(0.05, 1.0))
       ->capture_default_str();

@@ -9,6 +9,7 @@
 
 #include "gateway/bodies/collision_model.hpp"
 #include "gateway/description/machine_file.hpp"
+#include "gateway/description/shipped_machines.hpp"
 #include "protocol/host/guarded_main.hpp"
 #include "protocol/host/step_line.hpp"
 #include "protocol/host/usage.hpp"
@@ -22,7 +23,7 @@ namespace {
 
 struct Arguments {
   std::string machine, output, svg, bodies_svg, stl, ply;
-  double step_mm = 2, tilt_step_deg = 2, dexterous = 8, legs_apart_mm = 40;
+  double step_mm = 4, tilt_step_deg = 3, dexterous = 8, legs_apart_mm = 40;
   int threads = 2;
   std::vector<double> wanted;  // radius, height, tilt from, tilt to
   bool optimise = false;
@@ -30,8 +31,8 @@ struct Arguments {
 
 MachineDescription read_machine(const std::string& path) {
   if (path.empty()) return default_m1();
-  auto machine = load_machine(path);
-  if (!machine) throw std::runtime_error(to_string(machine.error()));
+  auto machine = machine_of(path);
+  if (!machine) throw std::runtime_error(machine.error());
   return std::move(*machine);
 }
 
@@ -256,10 +257,10 @@ int main(int argc, char** argv) {
   return kinebus::guarded_main("kinebus-workspace", [&] {
     kinebus::workspace::Arguments a;
     CLI::App app("What a machine can reach: volume, cylinders, dexterity, picture and mesh");
-    app.add_option("--machine", a.machine, "Machine file; without it the default machine M1")
-        ->check(CLI::ExistingFile);
-    app.add_option("--step", a.step_mm, "mm between places (default 2)")->check(CLI::Range(0.2, 50.0));
-    app.add_option("--tilt-step", a.tilt_step_deg, "deg between tilts (default 2)")
+    app.add_option("--machine", a.machine,
+                   "Machine file, or the name of a shipped one; without it the default machine M1");
+    app.add_option("--step", a.step_mm, "mm between places (default 4)")->check(CLI::Range(0.2, 50.0));
+    app.add_option("--tilt-step", a.tilt_step_deg, "deg between tilts (default 3)")
         ->check(CLI::Range(0.5, 90.0));
     app.add_option("--threads", a.threads, "Default 2")->check(CLI::Range(1, 64));
     app.add_option("--dexterous", a.dexterous,

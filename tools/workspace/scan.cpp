@@ -87,8 +87,24 @@ void scan_plane(const Kinematics& kinematics, Scan& s, int plane, std::array<std
   std::vector<int> stride(static_cast<std::size_t>(s.radii));
   for (int radius = 0; radius < s.radii; ++radius)
     stride[static_cast<std::size_t>(radius)] = s.stride(radius);
+  std::vector<std::uint64_t> allowed_at(static_cast<std::size_t>(s.radii));
   for (int ray = 0; ray < s.rays; ++ray) {
     const double c = std::cos(s.angle_rad(ray)), sn = std::sin(s.angle_rad(ray));
+    std::fill(allowed_at.begin(), allowed_at.end(), 0);
+    for (int tilt = 0; tilt < s.tilts; ++tilt)
+      for (int i = 0; i < s.radii; ++i) {
+        // To and fro along the ray: each pose is next to the one before, and bodies have hardly moved. A step
+        // of the tilt moves the platform's rim by several of the ray's.
+        const int radius = tilt % 2 == 0 ? i : s.radii - 1 - i;
+        if (ray % stride[static_cast<std::size_t>(radius)] != 0) continue;
+        const double r = s.radius_mm(radius);
+        const Pose pose{r * c, r * sn, s.z_mm(plane), s.tilt_rad(tilt), 0, 0};
+        ++poses;
+        if (const auto ok = kinematics.check(Frame::kPart, pose); !ok)
+          ++refused[static_cast<std::size_t>(ok.error().kind)];
+        else if (watch.clear(pose))
+          allowed_at[static_cast<std::size_t>(radius)] |= std::uint64_t{1} << tilt;
+      }
     for (int radius = 0; radius < s.radii; ++radius) {
       const double r = s.radius_mm(radius);
       const std::size_t cell = s.cell(plane, ray, radius);
@@ -97,18 +113,8 @@ void scan_plane(const Kinematics& kinematics, Scan& s, int plane, std::array<std
         s.worst_condition[cell] = s.worst_condition[s.cell(plane, ray - shared, radius)];
         continue;
       }
-      poses += static_cast<std::uint64_t>(s.tilts);
-      std::uint64_t allowed = 0;
+      const std::uint64_t allowed = allowed_at[static_cast<std::size_t>(radius)];
       double worst = 0;
-      for (int k = 0; k < s.tilts; ++k) {
-        // To and fro: each pose is next to the one before, and bodies have hardly moved.
-        const int tilt = radius % 2 == 0 ? k : s.tilts - 1 - k;
-        const Pose pose{r * c, r * sn, s.z_mm(plane), s.tilt_rad(tilt), 0, 0};
-        if (const auto ok = kinematics.check(Frame::kPart, pose); !ok)
-          ++refused[static_cast<std::size_t>(ok.error().kind)];
-        else if (watch.clear(pose))
-          allowed |= std::uint64_t{1} << tilt;
-      }
       // Conditioning is dear: at the middle and the outermost of the tilts that are allowed.
       const bool looked_at =
           plane % kConditionEvery == 0 && ray % kConditionEvery == 0 && radius % kConditionEvery == 0;

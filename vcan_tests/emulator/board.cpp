@@ -30,12 +30,17 @@ Board::Board(const ElfImage& image, const BoardOptions& options)
       tim1_(cpu_.nvic(), {.update_irq = 25, .break_irq = 24}),
       tim8_(cpu_.nvic(), {.update_irq = 44, .break_irq = 43}),
       adc_(cpu_.nvic()),
-      spi1_(cpu_.nvic(), 35, kApb2Divider, encoders_[0]),
-      spi3_(cpu_.nvic(), 51, kApb1Divider, encoders_[1]),
+      absolute_scales_{
+          SsiScale(options.absolute_scales[0], [this](Cycle at) { return absolute_position(0, at); }),
+          SsiScale(options.absolute_scales[1], [this](Cycle at) { return absolute_position(1, at); })},
+      spi1_(cpu_.nvic(), 35, kApb2Divider, on_encoder_port(0)),
+      spi3_(cpu_.nvic(), 51, kApb1Divider, on_encoder_port(1)),
       usart_(cpu_.nvic(), 37, kApb2Divider),
       usb_(cpu_.nvic()),
       motors_{StepperMotor(options.motors[0]), StepperMotor(options.motors[1])},
       temperature_c_{options.temperature_c, options.temperature_c} {
+  absolute_scales_[0].on_clock(spi1_);
+  absolute_scales_[1].on_clock(spi3_);
   map(0x40000400, 0x400, scales_[0], apb1(1));
   map(0x40000800, 0x400, scales_[1], apb1(2));
   map(0x40003C00, 0x400, spi3_, apb1(15));
@@ -68,7 +73,7 @@ Board::Board(const ElfImage& image, const BoardOptions& options)
         return port.mode(pin) == GpioPort::Mode::kAlternate && port.alternate(pin) == pins.timer;
       });
     };
-    if (!options.axes[a].scale) continue;
+    if (!options.axes[a].scale || options.absolute_scales[a].bits != 0) continue;
     scales_[a].scale = [this, a](Cycle at) {
       stages_[a]->advance(at);
       return options_.axes[a].scale(true_counts(static_cast<int>(a)));
@@ -81,6 +86,18 @@ Board::Board(const ElfImage& image, const BoardOptions& options)
 }
 
 Board::~Board() = default;
+
+SpiDevice& Board::on_encoder_port(std::size_t axis) {
+  if (options_.absolute_scales[axis].bits != 0) return absolute_scales_[axis];
+  return encoders_[axis];
+}
+
+std::uint32_t Board::absolute_position(std::size_t axis, Cycle at) {
+  // Its zero lies within the travel: beyond it is the highest number.
+  constexpr std::int32_t kWhere = 100;
+  stages_[axis]->advance(at);
+  return static_cast<std::uint32_t>(kWhere + options_.axes[axis].scale(true_counts(static_cast<int>(axis))));
+}
 
 std::uint32_t Board::product_code() const {
   return kProductCode;

@@ -10,6 +10,7 @@
 #include "vcan_tests/emulator/peripherals/as5047.hpp"
 #include "vcan_tests/emulator/peripherals/quadrature_counter.hpp"
 #include "vcan_tests/emulator/peripherals/spi.hpp"
+#include "vcan_tests/emulator/peripherals/ssi_scale.hpp"
 #include "vcan_tests/emulator/peripherals/usart.hpp"
 #include "vcan_tests/emulator/stm32f4_chip.hpp"
 #include "vcan_tests/emulator/usb_socket.hpp"
@@ -47,6 +48,8 @@ class Board final : public Stm32f4Chip, public UsbSocket {
   Cycle next_of_devices() const override;
   void after_run() override;
   int clock_offset(std::uint32_t base, std::uint32_t address) const override;
+  SpiDevice& on_encoder_port(std::size_t axis);
+  std::uint32_t absolute_position(std::size_t axis, Cycle at);
   void on_pins(Cycle now);
   double analogue(int channel, Cycle at);
 
@@ -54,6 +57,7 @@ class Board final : public Stm32f4Chip, public UsbSocket {
   std::array<QuadratureCounter, 2> scales_;  ///< TIM3, TIM4
   AdcBlock adc_;
   std::array<As5047, 2> encoders_;
+  std::array<SsiScale, 2> absolute_scales_;
   Spi spi1_, spi3_;
   Usart usart_;
   OtgHs usb_;

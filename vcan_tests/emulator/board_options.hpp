@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "tools/simulation/bus/virtual_machine.hpp"
+#include "vcan_tests/emulator/peripherals/ssi_scale.hpp"
 #include "vcan_tests/emulator/physics/power_stage.hpp"
 #include "vcan_tests/emulator/physics/stepper_motor.hpp"
 
@@ -16,6 +17,8 @@ struct BoardOptions {
   PowerStageParameters stage{};
   /// Where the carriages stand, and their switches: inputs of the board, from 1 on.
   std::array<VirtualAxis, 8> axes{};
+  /// On encoder ports, in the place of the encoder: they tell where axes' `scale` is, from their own zero on.
+  std::array<SsiScale::Options, 2> absolute_scales{};
   std::array<double, 2> encoder_offset_turns{};  ///< how the magnet is glued on
   double supply_v = 24;
   double temperature_c = 30;

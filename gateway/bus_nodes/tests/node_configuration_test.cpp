@@ -65,6 +65,21 @@ TEST(NodeConfiguration, AScaleIsToldAtEveryStartAndChangesNoFingerprint) {
   EXPECT_TRUE(configure_node(m1, 2).settings.empty());
 }
 
+TEST(NodeConfiguration, AnAbsoluteScaleSaysItsCodeAndBits) {
+  for (const bool gray : {false, true}) {
+    MachineDescription m1 = default_m1();
+    m1.joints[0].scale = ScaleDescription{.pulses_per_mm = 1000, .absolute_bits = 26, .gray_code = gray};
+    const NodeConfiguration c = configure_node(m1, 1);
+    const auto place = [&](ObjectAddress address) {
+      return std::find_if(c.settings.begin(), c.settings.end(),
+                          [&](const ParameterWrite& write) { return write.address == address; });
+    };
+    ASSERT_NE(place(object::kScaleFitted), c.settings.end());
+    EXPECT_LT(place(object::kScaleCountsPerUnit), place(object::kScaleFitted));
+    EXPECT_EQ(place(object::kScaleFitted)->value, gray ? 58 : 26);
+  }
+}
+
 TEST(NodeConfiguration, AMotorsDataAndItsEncoderReachTheNode) {
   constexpr ObjectAddress kTpdo4{0x1803, 1}, kTpdo4Timer{0x1803, 5};
   MachineDescription m1 = default_m1();

@@ -41,6 +41,14 @@ TEST(MachineFile, AScaleSaysItsPulsesAndIsOnARailThatHomes) {
   ASSERT_TRUE(machine) << to_string(machine.error());
   EXPECT_EQ(machine->joints[0].scale, (ScaleDescription{100, true}));
   EXPECT_FALSE(machine->joints[1].scale);
+  const auto absolute =
+      with("[joint.tower1.scale]\npulses_per_mm = 1000\nabsolute_bits = 26\ngray_code = true");
+  ASSERT_TRUE(absolute) << to_string(absolute.error());
+  EXPECT_EQ(absolute->joints[0].scale,
+            (ScaleDescription{.pulses_per_mm = 1000, .absolute_bits = 26, .gray_code = true}));
+  const auto read_again = parse_machine(write_machine(*absolute), "written");
+  ASSERT_TRUE(read_again) << to_string(read_again.error());
+  EXPECT_TRUE(*read_again == *absolute);
   const auto again = parse_machine(write_machine(*machine), "written");
   ASSERT_TRUE(again) << to_string(again.error());
   EXPECT_TRUE(*again == *machine);
@@ -56,6 +64,20 @@ TEST(MachineFile, AScaleSaysItsPulsesAndIsOnARailThatHomes) {
       {"[joint.E.scale]\npulses_per_mm = 100",
        "joint.E.scale.pulses_per_mm: found a scale on a joint that does not home at a switch; expected "
        "[joint.E.homing] with a method of 17..22: the switch's edge is where the scale begins"},
+      {"[joint.tower1.scale]\npulses_per_mm = 100\ngray_code = true",
+       "joint.tower1.scale.gray_code: found a code of a scale that tells no place; expected absolute_bits, "
+       "or "
+       "no gray_code"},
+      {"[joint.tower1.scale]\npulses_per_mm = 1000\nabsolute_bits = 31",
+       "joint.tower1.scale.absolute_bits: found 31; expected 8 to 30 bits"},
+      {"[joint.tower1.scale]\npulses_per_mm = 1000\nabsolute_bits = 12",
+       "joint.tower1.scale.absolute_bits: found a scale that begins anew every 4.096 mm; expected one that "
+       "is at "
+       "least 45 mm long at this speed"},
+      {"[joint.tower1.motor]\nencoder = \"watch\"\n[joint.tower1.scale]\npulses_per_mm = 1000\nabsolute_bits "
+       "= 26",
+       "joint.tower1.motor.encoder: found an encoder and an absolute scale on one port; expected encoder = "
+       "\"none\", or a scale of pulses"},
   };
   for (const auto& [table, message] : refused) {
     const auto bad = with(table);

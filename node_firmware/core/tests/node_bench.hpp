@@ -211,7 +211,9 @@ class Bench {
           plant{AxisPlant(s.plant[0]), AxisPlant(s.plant[1])},
           core({.identity = {.serial = s.id},
                 .node_id = s.id,
-                .scale_inputs = {plant[0].has_scale(), plant[1].has_scale()}},
+                .scale_inputs = {plant[0].has_scale() ? ScaleInput::kQuadrature : ScaleInput::kNone,
+                                 plant[1].has_scale() ? ScaleInput::kQuadrature : ScaleInput::kNone},
+                .may_fit_scale = &Node::may_fit_scale},
                local(BusTime{0}), s.stored) {}
     LocalTime local(BusTime t) const {
       return t + setup.offset +

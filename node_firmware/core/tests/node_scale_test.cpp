@@ -21,10 +21,39 @@ std::vector<NodeSetup> one_scale() {
   return {setup};
 }
 
+/// Homed, and the loop closed: 1 mm at most, 5 mm/s, which is fast.
+void close_loop(Bench& bench, std::int64_t most_counts) {
+  bench.write(kScaleNode, kScaleA, 1, 1, 1);
+  bench.write(kScaleNode, kScaleA, 6, 4, kCountsAMm * 65536 / 100);
+  bench.write(kScaleNode, kScaleA, 8, 4, 5 * kCountsAMm);
+  bench.write(kScaleNode, kScaleA, 7, 4, most_counts);
+  bench.write(kScaleNode, 0x2130, 1, 1, 1);
+  bench.write(kScaleNode, 0x6098, 0, 1, 22);
+  bench.write(kScaleNode, 0x607C, 0, 4, 0);
+  bench.enable(kScaleNode, 0, 6);
+  bench.write(kScaleNode, 0x6040, 0, 2, 0x1F);
+  bench.run(20s);
+  ASSERT_EQ(bench.statusword(kScaleNode, 0) & 0x3400, 0x1400) << "homed";
+  bench.write(kScaleNode, 0x6060, 0, 1, 1);
+}
+void go_to(Bench& bench, std::int64_t counts, std::chrono::seconds span = 20s) {
+  bench.write(kScaleNode, 0x607A, 0, 4, counts);
+  bench.write(kScaleNode, 0x6040, 0, 2, 0x0F);
+  bench.write(kScaleNode, 0x6040, 0, 2, 0x1F);
+  bench.run(span);
+}
+
 TEST(NodeScale, ABoardWithoutTheInputRefusesAScaleAndTellsNothingOfIt) {
   Bench bench(one_scale());
   EXPECT_EQ(bench.try_write(kScaleNode, kScaleB, 1, 1, 1), static_cast<std::uint32_t>(AbortCode::kHardware));
   bench.write(kScaleNode, kScaleB, 1, 1, 0);
+  for (const int kind : {24, 32 + 24})
+    EXPECT_EQ(bench.try_write(kScaleNode, kScaleB, 1, 1, kind),
+              static_cast<std::uint32_t>(AbortCode::kHardware));
+  for (const int kind : {2, 7, 31, 32, 33, 39})
+    EXPECT_EQ(bench.try_write(kScaleNode, kScaleB, 1, 1, kind),
+              static_cast<std::uint32_t>(AbortCode::kInvalidValue))
+        << kind;
   bench.send("603#4060210400000000");
   bench.run(5ms);
   EXPECT_EQ(text_of(*bench.last(0x583)), "583#8060210424000008") << "not fitted yet: no data";
@@ -71,6 +100,35 @@ TEST(NodeScale, CountsTheCarriageAndKeepsWhatItWasAtTheEdgeOfTheHomeSwitch) {
   }
 }
 
+TEST(NodeScale, OneThatWasSilentForAWhileKnowsNoMoreWhereHomeIs) {
+  Bench bench(one_scale());
+  close_loop(bench, 0);
+  EXPECT_NE(bench.read(kScaleNode, kScaleA, 5), 0);
+  bench.node(0).lose_scale(0);
+  bench.run(10ms);  // it counts again
+  bench.send("603#4060210500000000");
+  bench.run(5ms);
+  EXPECT_EQ(text_of(*bench.last(0x583)), "583#8060210524000008");
+  bench.send("603#4060210400000000");
+  bench.run(5ms);
+  EXPECT_EQ(text_of(*bench.last(0x583)).substr(0, 6), "583#43");
+}
+
+TEST(NodeScale, SilentWhileItLeadsTheAxisItStopsWhatMoves) {
+  Bench bench(one_scale());
+  close_loop(bench, kCountsAMm / 2);
+  bench.write(kScaleNode, 0x607A, 0, 4, 150 * kCountsAMm);
+  bench.write(kScaleNode, 0x6040, 0, 2, 0x0F);
+  bench.write(kScaleNode, 0x6040, 0, 2, 0x1F);
+  bench.run(300ms);
+  EXPECT_FALSE(bench.node(0).path().stop_latched());
+  bench.plant_on = false;  // nobody counts any more
+  bench.node(0).lose_scale(0);
+  bench.run(100ms);
+  EXPECT_TRUE(bench.node(0).path().stop_latched());
+  EXPECT_EQ(get_u16_le(bench.last(0x083)->data), emcy::kIncrementalEncoder);
+}
+
 TEST(NodeScale, IsNoPartOfWhatIsStoredOrOfTheFingerprint) {
   Bench bench(one_scale());
   const auto before = bench.read(kScaleNode, 0x2116, 0);
@@ -78,28 +136,6 @@ TEST(NodeScale, IsNoPartOfWhatIsStoredOrOfTheFingerprint) {
   bench.write(kScaleNode, kScaleA, 2, 4, 100'000);
   EXPECT_EQ(bench.read(kScaleNode, 0x2116, 0), before);
   EXPECT_EQ(bench.read(kScaleNode, kScaleA, 2), 100'000);
-}
-
-/// Homed, and the loop closed: 1 mm at most, 5 mm/s, which is fast.
-void close_loop(Bench& bench, std::int64_t most_counts) {
-  bench.write(kScaleNode, kScaleA, 1, 1, 1);
-  bench.write(kScaleNode, kScaleA, 6, 4, kCountsAMm * 65536 / 100);
-  bench.write(kScaleNode, kScaleA, 8, 4, 5 * kCountsAMm);
-  bench.write(kScaleNode, kScaleA, 7, 4, most_counts);
-  bench.write(kScaleNode, 0x2130, 1, 1, 1);
-  bench.write(kScaleNode, 0x6098, 0, 1, 22);
-  bench.write(kScaleNode, 0x607C, 0, 4, 0);
-  bench.enable(kScaleNode, 0, 6);
-  bench.write(kScaleNode, 0x6040, 0, 2, 0x1F);
-  bench.run(20s);
-  ASSERT_EQ(bench.statusword(kScaleNode, 0) & 0x3400, 0x1400) << "homed";
-  bench.write(kScaleNode, 0x6060, 0, 1, 1);
-}
-void go_to(Bench& bench, std::int64_t counts, std::chrono::seconds span = 20s) {
-  bench.write(kScaleNode, 0x607A, 0, 4, counts);
-  bench.write(kScaleNode, 0x6040, 0, 2, 0x0F);
-  bench.write(kScaleNode, 0x6040, 0, 2, 0x1F);
-  bench.run(span);
 }
 
 TEST(NodeScale, ClosedTheLoopLeadsTheMotorToWhereTheScaleHasTheAxisAndTheCommandStays) {

@@ -17,7 +17,10 @@ VirtualNodeProcess::VirtualNodeProcess(const VirtualNodeProcessOptions& options)
     : BusProcess(options.interface, options.image_path),
       options_(options),
       plant_{AxisPlant(options.plant[0]), AxisPlant(options.plant[1])} {
-  options_.node.scale_inputs = {plant_[0].has_scale(), plant_[1].has_scale()};
+  options_.node.may_fit_scale = &Node::may_fit_scale;
+  for (std::size_t axis = 0; axis < plant_.size(); ++axis)
+    if (plant_[axis].has_scale())
+      options_.node.scale_inputs[axis] = ScaleInput::kQuadrature + ScaleInput::kAbsolute;
 }
 
 std::string VirtualNodeProcess::start(LocalTime now, std::span<const std::uint8_t> stored) {

@@ -162,10 +162,11 @@ inline AdcCommon& adc_common() {
 struct Spi {
   Reg CR1, CR2, SR, DR;
   // AS5047: 16 bits, clock low at rest, data taken at the second edge (CPOL 0, CPHA 1).
-  static constexpr std::uint32_t kSecondEdge = bit(0), kMaster = bit(2), kEnable = bit(6),
-                                 kInternalSelect = bit(8), kSoftwareSelect = bit(9), kFrame16 = bit(11);
+  static constexpr std::uint32_t kSecondEdge = bit(0), kRestsHigh = bit(1), kMaster = bit(2),
+                                 kEnable = bit(6), kInternalSelect = bit(8), kSoftwareSelect = bit(9),
+                                 kFrame16 = bit(11);
   static constexpr std::uint32_t divide(unsigned log2) { return (log2 - 1u) << 3; }
-  static constexpr std::uint32_t kReceived = bit(0), kSendEmpty = bit(1), kBusy = bit(7);
+  static constexpr std::uint32_t kReceived = bit(0), kSendEmpty = bit(1), kOverrun = bit(6), kBusy = bit(7);
 };
 inline Spi& spi1() {
   return peripheral<Spi>(0x4001'3000);

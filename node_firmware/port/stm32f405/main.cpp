@@ -104,13 +104,15 @@ int main() {
   const auto stored = parameters.load();
   static_cast<void>(parameters.prepare(kLargestParameterImage));
   const std::uint32_t serial = serial_number(unique_id());
-  program.emplace(NodeOptions{.identity = {.serial = serial},
-                              .node_id = take_inherited_node_id(handover_ram),
-                              .program_crc = kImageHeader.crc,
-                              .reset = take_reset_report(),
-                              .scale_inputs = {true, true},
-                              .scale_is_encoder = {true, false}},
-                  stored, can_port, switch_port, motion_plan);
+  program.emplace(
+      NodeOptions{.identity = {.serial = serial},
+                  .node_id = take_inherited_node_id(handover_ram),
+                  .program_crc = kImageHeader.crc,
+                  .reset = take_reset_report(),
+                  .scale_inputs = {ScaleInput::kQuadratureOrEncoder + ScaleInput::kAbsoluteOrEncoder,
+                                   ScaleInput::kQuadrature + ScaleInput::kAbsoluteOrEncoder},
+                  .may_fit_scale = &Node::may_fit_scale},
+      stored, can_port, switch_port, motion_plan);
   Node& node = program->node();
   if (own_board) switch_port.start(local_counts());
   enable_interrupts();

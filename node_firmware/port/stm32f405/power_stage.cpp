@@ -57,11 +57,11 @@ void start_converters() {
   adc(3).CR2 = Adc::kOn;
 }
 
-void start_encoders() {
+void start_encoder(int axis) {
   constexpr std::uint32_t kSetting =
       Spi::kSecondEdge | Spi::kMaster | Spi::kInternalSelect | Spi::kSoftwareSelect | Spi::kFrame16;
-  spi1().CR1 = kSetting | Spi::divide(4) | Spi::kEnable;  // 84 MHz / 16 = 5.25 MHz
-  spi3().CR1 = kSetting | Spi::divide(3) | Spi::kEnable;  // 42 MHz / 8
+  // 84 MHz / 16, 42 MHz / 8: 5.25 MHz.
+  spi(axis).CR1 = kSetting | Spi::divide(axis == 0 ? 4 : 3) | Spi::kEnable;
 }
 
 }  // namespace
@@ -72,7 +72,7 @@ void PowerStage::start() {
   enable_clock(rcc().APB2ENR, Rcc::kTim1 | Rcc::kTim8 | Rcc::kAdc1 | Rcc::kAdc2 | Rcc::kAdc3 | Rcc::kSpi1);
   enable_clock(rcc().APB1ENR, Rcc::kSpi3);
   start_converters();
-  start_encoders();
+  for (int axis = 0; axis < 2; ++axis) start_encoder(axis);
   start_timer(tim1());
   start_timer(tim8());
   tim1().CR2 = Timer::kMasterUpdate;
@@ -159,6 +159,7 @@ void PowerStage::serve_slow() {
 }
 
 std::uint16_t PowerStage::take_encoder(int axis) {
+  if (lent_[static_cast<std::size_t>(axis)].load(std::memory_order_relaxed)) return 0xFFFF;
   Spi& s = spi(axis);
   const board::OutputPin select = board::kEncoderSelect[static_cast<std::size_t>(axis)];
   const bool answered = (s.SR & Spi::kReceived) != 0;
@@ -168,8 +169,25 @@ std::uint16_t PowerStage::take_encoder(int axis) {
 }
 
 void PowerStage::begin_encoder(int axis) {
+  if (lent_[static_cast<std::size_t>(axis)].load(std::memory_order_relaxed)) return;
   write(board::kEncoderSelect[static_cast<std::size_t>(axis)], false);
   spi(axis).DR = motor::kReadAngle;
+}
+
+void PowerStage::lend_encoder_port(int axis) {
+  lent_[static_cast<std::size_t>(axis)].store(true, std::memory_order_relaxed);
+  // The control interrupt's last frame takes 3 us.
+  for (int i = 0; i < 10'000 && (spi(axis).SR & Spi::kBusy) != 0; ++i) {
+  }
+  write(board::kEncoderSelect[static_cast<std::size_t>(axis)], true);
+  spi(axis).CR1 = 0;
+}
+
+void PowerStage::return_encoder_port(int axis) {
+  spi(axis).CR1 = 0;
+  start_encoder(axis);
+  static_cast<void>(spi(axis).DR);
+  lent_[static_cast<std::size_t>(axis)].store(false, std::memory_order_relaxed);
 }
 
 }  // namespace kinebus::stm32

@@ -48,6 +48,9 @@ class PowerStage {
   static std::uint16_t take_encoder(int axis);
   /// The next reading; at least 350 ns after take_encoder(), ready 3 us later.
   static void begin_encoder(int axis);
+  /// Main loop: an axis' encoder port is an absolute scale's from now on; there is no encoder then.
+  static void lend_encoder_port(int axis);
+  static void return_encoder_port(int axis);
 
   /// Break interrupt: the hardware has switched the outputs off; the drivers are disabled too.
   void on_break(int axis);
@@ -65,6 +68,7 @@ class PowerStage {
  private:
   std::array<motor::Vector, 2> zero_{motor::Vector{board::kCurrentZero, board::kCurrentZero},
                                      motor::Vector{board::kCurrentZero, board::kCurrentZero}};
+  static inline constinit std::array<std::atomic<bool>, 2> lent_{};
   std::array<std::atomic<bool>, 2> on_{};
   std::array<std::atomic<bool>, 2> broken_{};
   BridgeReadings readings_{.supply_v = 0, .temperature_c = {25, 25}};

@@ -88,6 +88,12 @@ TEST(SpoiledScrew, IsFoundWithScalesAndCertifiedWithoutThem) {
   MachineDescription scaled = *m5;
   for (std::size_t rail = 0; rail < 4; ++rail)
     scaled.joints[rail].scale = ScaleDescription{.pulses_per_mm = 100, .inverted = rail == 1};
+  // Two tell their places, in the encoders' place.
+  for (const std::size_t rail : {2u, 3u}) {
+    scaled.joints[rail].scale->absolute_bits = 24;
+    scaled.joints[rail].scale->gray_code = rail == 3;
+    scaled.joints[rail].motor->encoder = MotorDescription::Encoder::kNone;
+  }
   const Measured with = measure(scaled);
   ASSERT_EQ(with.scale.size(), 4u);
   for (const auto& [name, scale] : with.scale)

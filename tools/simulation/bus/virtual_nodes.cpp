@@ -84,7 +84,11 @@ std::vector<VirtualNodeOptions> virtual_nodes_of(const MachineDescription& machi
   for (std::size_t n = 0; n < count; ++n) {
     const NodeDescription& node = machine.nodes[n];
     VirtualNodeOptions options;
-    options.node = {.identity = identity_of(node), .node_id = node.id, .scale_inputs = {true, true}};
+    options.node = {.identity = identity_of(node),
+                    .node_id = node.id,
+                    .scale_inputs = {ScaleInput::kQuadrature + ScaleInput::kAbsolute,
+                                     ScaleInput::kQuadrature + ScaleInput::kAbsolute},
+                    .may_fit_scale = &Node::may_fit_scale};
     options.heat = !node.functions.has_axes() && machine.carries_heat(node.id);
     if (options.heat) options.extruder = extruder;
     options.clock_drift_ppm =

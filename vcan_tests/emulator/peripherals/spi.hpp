@@ -28,6 +28,9 @@ class Spi final : public Peripheral {
 
   /// Clock of SCK in Hz as set.
   double clock_hz() const { return static_cast<double>(kCoreHz) / static_cast<double>(bit_time()); }
+  /// CPOL and CPHA, as SPI modes are counted.
+  int mode() const { return static_cast<int>((cr1_ & 2) | (cr1_ & 1)); }
+  int frame_bits() const { return (cr1_ & 0x800) != 0 ? 16 : 8; }
 
  private:
   Cycle bit_time() const { return bus_divider_ << ((cr1_ >> 3 & 7) + 1); }

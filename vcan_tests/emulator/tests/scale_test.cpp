@@ -50,6 +50,51 @@ TEST(Scale, BothAreCountedOnceTheyAreFittedInTheirDirection) {
   EXPECT_TRUE(node.board.lost_accesses().empty());
 }
 
+/// The same scales, read by SSI on the encoder ports: A's 24 bits in Gray code, B's 12 in binary, which begin
+/// anew every 41 mm.
+BoardOptions with_absolute_scales(const bool* broken = nullptr) {
+  BoardOptions options = with_scales();
+  for (std::size_t axis = 0; axis < 2; ++axis)
+    options.absolute_scales[axis] = {.bits = axis == 0 ? 24u : 12u, .gray = axis == 0};
+  if (broken != nullptr) options.absolute_scales[0].unplugged = [broken] { return *broken; };
+  return options;
+}
+void fit_absolute(OneBoard& node, int axis) {
+  node.write(axis, kScale, 2, 4, 100'000);
+  node.write(axis, kScale, 1, 1, axis == 0 ? 32 + 24 : 12);
+}
+
+TEST(Scale, AbsoluteOnesAreReadOnTheEncoderPortsInBothCodesAndAcrossTheirEnds) {
+  OneBoard node(with_absolute_scales());
+  node.configure(2000, 0);
+  node.enable(1);
+  for (int axis = 0; axis < 2; ++axis) fit_absolute(node, axis);
+  node.write(1, kScale, 3, 1, 1);
+  node.bench.run(20ms);
+  const std::int64_t a = scale_counts(node, 0), b = scale_counts(node, 1);
+  for (int axis = 0; axis < 2; ++axis)
+    node.bench.move(OneBoard::kId, axis, std::lround(400 * kCountsPerMm), 400'000, 4'000'000);
+  node.bench.run(2s);
+  EXPECT_NEAR(static_cast<double>(scale_counts(node, 0) - a), 40'200, 3);
+  EXPECT_NEAR(static_cast<double>(scale_counts(node, 1) - b), 40'000, 3);
+  // The port is the encoder's again: one that is not there is told.
+  node.write(1, kScale, 1, 1, 0);
+  node.bench.run(20ms);
+  EXPECT_TRUE(node.bench.emergencies(OneBoard::kId).empty());
+  EXPECT_TRUE(node.board.strange_accesses().empty());
+  EXPECT_TRUE(node.board.lost_accesses().empty());
+}
+
+TEST(Scale, AnAbsoluteOneAndAnEncoderExcludeEachOtherOnBothPorts) {
+  OneBoard node(with_absolute_scales());
+  for (int axis = 0; axis < 2; ++axis) {
+    node.write(axis, 0x2150, 6, 1, 1);
+    EXPECT_EQ(
+        node.bench.try_write(OneBoard::kId, static_cast<std::uint16_t>(kScale + 0x800 * axis), 1, 1, 24),
+        static_cast<std::uint32_t>(AbortCode::kDeviceState));
+  }
+}
+
 TEST(Scale, HasThePinsOfEncoderASoThatOneOfBothIsRefused) {
   OneBoard node(with_scales());
   node.write(0, 0x2150, 6, 1, 1);
@@ -65,13 +110,16 @@ TEST(Scale, HasThePinsOfEncoderASoThatOneOfBothIsRefused) {
 }
 
 /// Homed, the loop closed: 0.5 mm at most, 1 mm/s.
-void close_loop(OneBoard& node) {
+void close_loop(OneBoard& node, bool absolute = false) {
   node.configure(2000, 0);
   node.write(0, kInputFunction, 1, 1, 1);
   node.write(0, kScale, 6, 4, std::lround(kCountsPerMm * 65536 / 100));
   node.write(0, kScale, 8, 4, std::lround(kCountsPerMm));
   node.write(0, kScale, 7, 4, std::lround(kCountsPerMm / 2));
-  node.write(0, kScale, 1, 1, 1);
+  if (absolute)
+    fit_absolute(node, 0);
+  else
+    node.write(0, kScale, 1, 1, 1);
   node.write(0, 0x6098, 0, 1, 22);
   node.write(0, 0x607C, 0, 4, 0);
   node.enable(6);
@@ -83,9 +131,13 @@ void close_loop(OneBoard& node) {
   node.bench.run(20ms);
 }
 
-TEST(Scale, LeadsTheRotorToWhereTheCarriageIsToBe) {
-  OneBoard node(with_scales());
-  close_loop(node);
+class LedScale : public testing::TestWithParam<bool> {};
+INSTANTIATE_TEST_SUITE_P(Scale, LedScale, testing::Bool(),
+                         [](const auto& kind) { return kind.param ? "Absolute" : "Quadrature"; });
+
+TEST_P(LedScale, LeadsTheRotorToWhereTheCarriageIsToBe) {
+  OneBoard node(GetParam() ? with_absolute_scales() : with_scales());
+  close_loop(node, GetParam());
   const double home = node.board.true_counts(0);
   node.bench.move(OneBoard::kId, 0, std::lround(40 * kCountsPerMm), 40'000, 400'000);
   node.bench.run(6s);
@@ -95,10 +147,10 @@ TEST(Scale, LeadsTheRotorToWhereTheCarriageIsToBe) {
   EXPECT_TRUE(node.bench.emergencies(OneBoard::kId).empty());
 }
 
-TEST(Scale, WhoseCableComesOffStopsTheMotionAndTheMotorHolds) {
+TEST_P(LedScale, WhoseCableComesOffStopsTheMotionAndTheMotorHolds) {
   bool broken = false;
-  OneBoard node(with_scales(&broken));
-  close_loop(node);
+  OneBoard node(GetParam() ? with_absolute_scales(&broken) : with_scales(&broken));
+  close_loop(node, GetParam());
   node.bench.move(OneBoard::kId, 0, std::lround(100 * kCountsPerMm), 20'000, 400'000);
   node.bench.run(500ms);
   broken = true;
@@ -107,6 +159,12 @@ TEST(Scale, WhoseCableComesOffStopsTheMotionAndTheMotorHolds) {
   EXPECT_TRUE(node.told(emcy::kIncrementalEncoder));
   EXPECT_LT(node.board.true_counts(0) - there, 4 * kCountsPerMm);
   EXPECT_EQ(node.bench.read(OneBoard::kId, 0x6041, 0) & 0x6F, 0x27) << "it holds";
+  // What does not answer is not told as it was; a counter cannot know.
+  if (GetParam()) {
+    const CanFrame answer = node.bench.upload(OneBoard::kId, kScale, 4);
+    EXPECT_EQ(answer.data[0], 0x80);
+    EXPECT_EQ(get_u32_le(std::span(answer.data).subspan(4)), static_cast<std::uint32_t>(AbortCode::kNoData));
+  }
 }
 
 }  // namespace
