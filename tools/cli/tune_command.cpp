@@ -100,6 +100,7 @@ NodeSpectrum record_on_the_machine(const MachineOptions& options, const MachineD
   };
   console("M956 S1");
   if (run_job(client, path + ".gcode", false) != 0) throw std::runtime_error("the machine was not shaken");
+  take_control(client, options);  // which a job that runs by itself has given away
   console("M956 S0");
   std::string told = console("M956");
   for (; told.starts_with("reading"); told = console("M956")) std::this_thread::sleep_for(kReadingAgain);
