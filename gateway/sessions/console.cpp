@@ -36,11 +36,11 @@ bool contains(const std::array<int, n>& codes, int code) {
   return std::find(codes.begin(), codes.end(), code) != codes.end();
 }
 
-/// Changes nothing. M420 without S and Z tells the bed's mesh.
+/// Changes nothing. M420 without S and Z tells the bed's mesh, M956 without S what was felt.
 bool asks(const Code& code, std::string_view line) {
   if (code.letter != 'M') return false;
   return contains(kQueries, code.number) ||
-         (code.number == 420 &&
+         ((code.number == 420 || code.number == 956) &&
           line.substr(0, line.find(';')).find_first_of("SsZz") == std::string_view::npos);
 }
 

@@ -2,11 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+#include <thread>
 
 #include "tools/calibrate/machine_edit.hpp"
+#include "tools/cli/client.hpp"
+#include "tools/cli/job_watch.hpp"
 #include "tools/cli/offline.hpp"
 #include "tools/tune/melt_fit.hpp"
 #include "tools/tune/tune_pressure.hpp"
@@ -16,6 +20,9 @@ namespace kinebus {
 namespace {
 
 constexpr std::string_view kAxisNames = "xyz";
+constexpr std::string_view kNodeSpectrum = "rate_hz ";
+constexpr double kWatchHz = 10;
+constexpr std::chrono::milliseconds kReadingAgain{200};
 
 struct Common {
   std::string machine, job, plot_path, json_path;
@@ -26,6 +33,7 @@ struct Common {
 struct VibrationArguments : Common {
   std::string axes = "xyz";
   std::vector<std::string> readings;
+  std::string record;
   TuneVibration how;
   double single_hz = 0, deviation_um = 0, override_from_percent = 0;
 };
@@ -79,8 +87,35 @@ void only_one_of(const Common& a, bool measured, const char* measured_option) {
     throw CLI::ValidationError(fmt::format("one of --job, {} and --simulate is needed", measured_option));
 }
 
-int vibration(VibrationArguments a, bool as_json) {
-  only_one_of(a, !a.readings.empty(), "--readings");
+/// Shakes the machine while the accelerometer of its heat node listens; what it tells is kept as PATH.txt.
+NodeSpectrum record_on_the_machine(const MachineOptions& options, const MachineDescription& machine,
+                                   const Excitation& excitation, const std::string& path) {
+  write_text(path + ".gcode", excitation_job(machine, excitation));
+  Client client(options.reach, kWatchHz, true);
+  take_control(client, options);
+  const auto console = [&client](const char* line) {
+    joblink::ClientMessage request;
+    request.mutable_console()->set_line(line);
+    return client.ask(std::move(request)).console().text();
+  };
+  console("M956 S1");
+  if (run_job(client, path + ".gcode", false) != 0) throw std::runtime_error("the machine was not shaken");
+  take_control(client, options);  // which a job that runs by itself has given away
+  console("M956 S0");
+  std::string told = console("M956");
+  for (; told.starts_with("reading"); told = console("M956")) std::this_thread::sleep_for(kReadingAgain);
+  write_text(path + ".txt", told + "\n");
+  fmt::print("wrote {}.txt\n", path);
+  auto spectrum = read_node_spectrum(told);
+  if (!spectrum) throw std::runtime_error(path + ".txt:" + spectrum.error());
+  return std::move(*spectrum);
+}
+
+int vibration(VibrationArguments a, const MachineOptions& options) {
+  const bool as_json = options.json;
+  only_one_of(a, !a.readings.empty() || !a.record.empty(), "--readings, --record");
+  if (!a.readings.empty() && !a.record.empty())
+    throw CLI::ValidationError("--readings and --record are two ways to the same: give one");
   const MachineDescription machine = read_machine(a.machine);
   a.how.deviation_mm = 1e-3 * a.deviation_um;
   a.how.slowest_rate = 0.01 * a.override_from_percent;
@@ -96,15 +131,28 @@ int vibration(VibrationArguments a, bool as_json) {
     return 0;
   }
   const auto truth = FlexibleFrame::hidden(a.seed);
-  std::array<std::optional<AccelerationReadings>, 3> readings;
+  std::array<std::optional<VibrationRecording>, 3> readings;
   for (const std::string& given : a.readings) {
     const std::size_t axis =
         given.size() > 2 && given[1] == '=' ? kAxisNames.find(given[0]) : std::string::npos;
     if (axis == std::string::npos) throw CLI::ValidationError("--readings wants x=FILE, y=FILE or z=FILE");
-    auto read = read_acceleration(read_file(given.substr(2)));
+    const std::string text = read_file(given.substr(2));
+    if (text.starts_with(kNodeSpectrum)) {
+      auto read = read_node_spectrum(text);
+      if (!read) throw std::runtime_error(given.substr(2) + ":" + read.error());
+      readings[axis] = std::move(*read);
+      continue;
+    }
+    auto read = read_acceleration(text);
     if (!read) throw std::runtime_error(given.substr(2) + ":" + read.error());
     readings[axis] = std::move(*read);
   }
+  if (!a.record.empty())
+    for (const char name : a.axes) {
+      Excitation e = a.how.excitation;
+      e.axis = kAxisNames.find(name);
+      readings[e.axis] = record_on_the_machine(options, machine, e, fmt::format("{}-{}", a.record, name));
+    }
   if (a.simulate)
     for (const char name : a.axes) {
       Excitation e = a.how.excitation;
@@ -219,6 +267,10 @@ void add_tune_commands(CLI::App& tune, const std::shared_ptr<MachineOptions>& op
   shake->add_option("--job", v->job, "Write NAME-x.gcode, NAME-y.gcode, NAME-z.gcode");
   shake->add_option("--readings", v->readings, "x=FILE y=FILE z=FILE: lines of time_s,x,y,z with mm/s^2")
       ->take_all();
+  shake->add_option(
+      "--record", v->record,
+      "Shake the machine and record by its heat node's accelerometer ([accelerometer] of the machine "
+      "file); writes NAME-x.gcode and NAME-x.txt, which --readings takes, too");
   shake->add_option("--axes", v->axes, "Which to shake (default xyz)")->check([](const std::string& axes) {
     return !axes.empty() && axes.find_first_not_of(kAxisNames) == std::string::npos ? std::string()
                                                                                     : "axes are x, y and z";
@@ -239,7 +291,7 @@ void add_tune_commands(CLI::App& tune, const std::shared_ptr<MachineOptions>& op
       ->check(CLI::Range(1.0, 10000.0));
   shake->add_option("--override-from", v->override_from_percent, "Shapers for all overrides from here on, %")
       ->check(CLI::Range(30.0, 100.0));
-  shake->callback([=, &exit_code] { exit_code = vibration(*v, options->json); });
+  shake->callback([=, &exit_code] { exit_code = vibration(*v, *options); });
 
   auto p = std::make_shared<PressureArguments>();
   auto* lines = tune.add_subcommand(

@@ -33,6 +33,12 @@ std::vector<double> column(const AccelerationReadings& readings, std::size_t axi
   return values;
 }
 
+Result<VibrationFit, std::string> fit_recording(const Bands& bands, std::vector<double> planned,
+                                                const AccelerationReadings& readings, std::size_t axis) {
+  return fit_vibration(bands, energy_spectrum(std::move(planned), kPlanned_s, bands),
+                       energy_spectrum(column(readings, axis), readings.period_s, bands));
+}
+
 AxisVibration found(const ShaperRating& r) {
   // As many digits as a person would write.
   return {r.kind, std::round(10 * r.frequency_hz) / 10, std::round(1000 * r.damping_ratio) / 1000};
@@ -49,7 +55,7 @@ json json_of(const ShaperRating& r) {
 
 Result<VibrationTuning, std::string> tune_vibration(
     const MachineDescription& machine, const TuneVibration& how,
-    const std::array<std::optional<AccelerationReadings>, 3>& readings) {
+    const std::array<std::optional<VibrationRecording>, 3>& readings) {
   const auto kinematics = make_kinematics(machine);
   if (!kinematics) return Error<std::string>(kinematics.error().what.english());
   VibrationTuning tuning;
@@ -67,12 +73,18 @@ Result<VibrationTuning, std::string> tune_vibration(
     }
     Excitation excitation = how.excitation;
     excitation.axis = i;
-    const Bands bands = bands_of(excitation);
+    const NodeSpectrum* const summed = std::get_if<NodeSpectrum>(&*readings[i]);
+    Bands bands = bands_of(excitation);
+    if (summed != nullptr)
+      bands = summed->bands(bands.from_hz, bands.from_hz + bands.width_hz * static_cast<double>(bands.count));
     if (bands.count < 10) return Error<std::string>("a sweep over at least 10 Hz is needed");
-    std::vector<double> planned = planned_acceleration(machine, **kinematics, excitation, kPlanned_s);
+    const double period_s = summed != nullptr ? summed->period_s() : kPlanned_s;
+    std::vector<double> planned = planned_acceleration(machine, **kinematics, excitation, period_s);
     if (planned.empty()) return Error<std::string>("this machine cannot plan the excitation");
-    auto fit = fit_vibration(bands, energy_spectrum(std::move(planned), kPlanned_s, bands),
-                             energy_spectrum(column(*readings[i], i), readings[i]->period_s, bands));
+    auto fit =
+        summed != nullptr
+            ? fit_vibration(bands, as_the_node(planned, *summed, bands), summed->of(i, bands))
+            : fit_recording(bands, std::move(planned), std::get<AccelerationReadings>(*readings[i]), i);
     if (!fit) {
       axis.problem = fit.error();
       continue;

@@ -6,11 +6,13 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "gateway/description/machine_description.hpp"
 #include "tools/simulation/flexible_frame.hpp"
 #include "tools/tune/acceleration_readings.hpp"
+#include "tools/tune/node_spectrum.hpp"
 #include "tools/tune/shaper_choice.hpp"
 #include "tools/tune/vibration_excitation.hpp"
 
@@ -21,6 +23,9 @@ struct TuneVibration {
   double deviation_mm = 0;  ///< ShaperQuestion; 0: what the machine file says
   double slowest_rate = 0;  ///< the same
 };
+
+/// Of a tool that was shaken along one direction.
+using VibrationRecording = std::variant<AccelerationReadings, NodeSpectrum>;
 
 struct AxisTuning {
   std::optional<VibrationFit> fit;  ///< none: not measured, or nothing swings
@@ -39,7 +44,7 @@ struct VibrationTuning {
 /// others where they share a shaper. Error: the excitation cannot be planned on this machine.
 Result<VibrationTuning, std::string> tune_vibration(
     const MachineDescription& machine, const TuneVibration& how,
-    const std::array<std::optional<AccelerationReadings>, 3>& readings);
+    const std::array<std::optional<VibrationRecording>, 3>& readings);
 
 /// Shakes the simulated machine, whose frame is `truth`, and records the tool with an accelerometer. Error:
 /// the job came to no good end.
