@@ -53,25 +53,23 @@ struct ModalState {
   bool retracted = false;         ///< G10
   bool ended = false;             ///< M2, M30 or the closing % was read
   bool g28_stored = false, g30_stored = false;  ///< by G28.1, G30.1
-  bool content_seen = false;                    ///< a block came before: a % now is the closing one
-  int spindle_turns = 0;                        ///< M3 1, M4 -1, M5 0
-  double spindle_rpm = 0;                       ///< the last S, or what G96 has made of it
   bool surface_speed = false;                   ///< G96
-  double surface_m_per_min = 0;                 ///< the last S under G96
-  double surface_most_rpm = 0;                  ///< D of G96; 0: the spindle's own limit
+  bool content_seen = false;                    ///< a block came before: a % now is the closing one
+  bool merge_lines = true;                      ///< not G64 Q0
+  bool a_extrudes = false;                      ///< A of this text is E (Mach3, Machinekit)
+  int spindle_turns = 0;                        ///< M3 1, M4 -1, M5 0
   int tool = 0;
-  int tools = 1, hotends = 1;  ///< the machine has
-  int coordinate_system = 0;   ///< 0: G54
-
+  double spindle_rpm = 0;                ///< the last S, or what G96 has made of it
+  double surface_m_per_min = 0;          ///< the last S under G96
+  double surface_most_rpm = 0;           ///< D of G96; 0: the spindle's own limit
+  int tools = 1, hotends = 1;            ///< the machine has
+  int coordinate_system = 0;             ///< 0: G54
+  int tool_in_spindle = -1;              ///< by M6; -1: not known
   CutterSide cutter = CutterSide::kOff;  ///< G41, G42; not kOff: the tool is where State::cutter has it
-
-  int tool_in_spindle = -1;  ///< by M6; -1: not known
-  bool merge_lines = true;   ///< not G64 Q0
-  bool a_extrudes = false;   ///< A of this text is E (Mach3, Machinekit)
   Dialect dialect = Dialect::kGeneral;
+  bool retract_to_r = false;  ///< G99
+  int cycle = 0;              ///< canned cycle in force, in tenths (810); 0: none
 
-  int cycle = 0;                ///< canned cycle in force, in tenths (810); 0: none
-  bool retract_to_r = false;    ///< G99
   double cycle_initial_mm = 0;  ///< where the first of its row began
   double cycle_r_mm = 0, cycle_bottom_mm = 0, cycle_peck_mm = 0, cycle_dwell_s = 0;  ///< G91: as increments
   std::array<double, 2> spline_end_mm{};  ///< G5 P Q of the line before
