@@ -16,9 +16,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// A download in segments begins once; a device that writes all the time is told of so often.
-constexpr BusTime kTellOfWritesEvery = 1s;
-
 /// Nodes with axes first, in the order of the streams: the one is at the same place as the other.
 std::deque<NodeLink> make_links(const MachineDescription& machine, const std::vector<NodeAxes>& axes) {
   std::deque<NodeLink> links;
@@ -101,7 +98,7 @@ void Gateway::Core::on_frame(BusTime when, const CanFrame& frame) {
   }
   parameters_.on_frame(when, frame);
   const ForeignFrame foreign = look_at_foreign(frame, links_);
-  if (foreign.kind == ForeignFrame::Kind::kRecord || foreign.kind == ForeignFrame::Kind::kWrite)
+  if (foreign.kind == ForeignFrame::Kind::kRecord || foreign.kind == ForeignFrame::Kind::kOrder)
     return on_foreign_command(foreign);
   if (foreign.kind == ForeignFrame::Kind::kGateway) {
     ++counters_.foreign_frames;
@@ -148,8 +145,7 @@ void Gateway::Core::on_foreign_command(const ForeignFrame& foreign) {
   if (foreign.kind == ForeignFrame::Kind::kRecord) {
     events_.alarm(now_, AlarmCode::kNodeChanged, foreign.words, foreign.node);
     stop_all(false);
-  } else if (!state_.idle() && now_ >= write_told_ + kTellOfWritesEvery) {
-    write_told_ = now_;
+  } else if (!state_.idle() && orders_.is_news(now_, foreign.order)) {
     events_.message(now_, foreign.words);
   }
 }

@@ -25,6 +25,7 @@
 #include "gateway/machine/bus_session.hpp"
 #include "gateway/machine/bus_voice.hpp"
 #include "gateway/machine/current_state.hpp"
+#include "gateway/machine/foreign_frames.hpp"
 #include "gateway/machine/gateway.hpp"
 #include "gateway/machine/heat_hold.hpp"
 #include "gateway/machine/lines/line_desk.hpp"
@@ -45,8 +46,6 @@
 #include "gateway/stream/stream_group.hpp"
 
 namespace kinebus {
-
-struct ForeignFrame;
 
 class Gateway::Core {
  public:
@@ -264,13 +263,13 @@ class Gateway::Core {
 
   Runner* runner_ = &hand_.runner();  ///< whose motion it is
   BusTime now_{0};
-  BusTime served_{0};                           ///< the last on_time()
-  BusTime started_{0};                          ///< of the move under way
-  BusTime write_told_{-std::chrono::hours{1}};  ///< of an object that another device writes in motion
-  bool remote_told_ = false;                    ///< a remote frame was passed over, since the last bring-up
-  bool probe_asked_ = false;                    ///< its node is to answer
-  bool probe_rests_ = false;                    ///< its move has come to rest where it touched
-  bool pin_by_hand_ = false;                    ///< its pin moves, and no job looks at it
+  BusTime served_{0};         ///< the last on_time()
+  BusTime started_{0};        ///< of the move under way
+  ForeignOrders orders_;      ///< of other devices in motion
+  bool remote_told_ = false;  ///< a remote frame was passed over, since the last bring-up
+  bool probe_asked_ = false;  ///< its node is to answer
+  bool probe_rests_ = false;  ///< its move has come to rest where it touched
+  bool pin_by_hand_ = false;  ///< its pin moves, and no job looks at it
   ContactProbe::Pin pin_told_ = ContactProbe::Pin::kNone;
   bool fault_ = false;      ///< the stop under way ends in an alarm
   bool beds_stay_ = false;  ///< that alarm is of a device: a bed that is in order keeps the part on it

@@ -4,6 +4,7 @@
 
 #include "protocol/bytes.hpp"
 #include "protocol/canopen/cob_id.hpp"
+#include "protocol/canopen/nmt.hpp"
 #include "protocol/canopen/sdo.hpp"
 #include "protocol/motion/broadcast.hpp"
 #include "protocol/motion/voucher.hpp"
@@ -35,11 +36,36 @@ ForeignFrame look_at_foreign(const CanFrame& frame, const std::deque<NodeLink>& 
                 printed("%03Xh", static_cast<unsigned>(frame.id)))};
   if (const std::uint8_t node = cob_id::node_of(frame.id, cob_id::kSdoRequest);
       known(node) && sdo::begins_to_write(frame))
-    return {Kind::kWrite, node,
+    return {Kind::kOrder, node,
             say("another device writes object %2 of node %1 while the machine moves", static_cast<int>(node),
                 printed("%04Xh:%u", static_cast<unsigned>(get_u16_le(std::span(frame.data).subspan(1))),
-                        static_cast<unsigned>(frame.data[3])))};
+                        static_cast<unsigned>(frame.data[3]))),
+            std::uint64_t{frame.id} << 32 | (get_u32_le(frame.data) >> 8)};
+  if (frame.id == cob_id::kNmt && frame.length == 2 && (frame.data[1] == kAllNodes || known(frame.data[1])))
+    return {Kind::kOrder, frame.data[1],
+            frame.data[1] == kAllNodes
+                ? say("another device has sent all nodes an NMT command (%1)",
+                      printed("%02Xh", static_cast<unsigned>(frame.data[0])))
+                : say("another device has sent node %1 an NMT command (%2)", static_cast<int>(frame.data[1]),
+                      printed("%02Xh", static_cast<unsigned>(frame.data[0]))),
+            get_u16_le(frame.data)};
+  if (const std::uint8_t node = cob_id::node_of(frame.id, cob_id::rpdo(1, 0)); known(node))
+    return {Kind::kOrder, node,
+            say("another device has sent node %1 a controlword or set point (COB-ID %2)",
+                static_cast<int>(node), printed("%03Xh", static_cast<unsigned>(frame.id))),
+            std::uint64_t{frame.id} << 32};
   return {};
+}
+
+bool ForeignOrders::is_news(BusTime now, std::uint64_t order) {
+  if (now >= since_ + kPeriod) {
+    since_ = now;
+    count_ = 0;
+  }
+  const auto end = told_.begin() + static_cast<std::ptrdiff_t>(count_);
+  if (count_ == told_.size() || std::find(told_.begin(), end, order) != end) return false;
+  told_[count_++] = order;
+  return true;
 }
 
 }  // namespace kinebus

@@ -2,12 +2,16 @@
 // Frames that only this gateway sends, heard from another device. The bus itself does not tell who speaks;
 // but the gateway knows what it has sent.
 
+#include <array>
+#include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 
 #include "gateway/bus_nodes/node_link.hpp"
 #include "gateway/sentence.hpp"
 #include "protocol/can/frame.hpp"
+#include "protocol/time.hpp"
 
 namespace kinebus {
 
@@ -16,14 +20,28 @@ struct ForeignFrame {
     kNone,     ///< it may come from others
     kGateway,  ///< SYNC, its stamp, a change of the rate, the gateway's heartbeat: a second gateway speaks
     kRecord,   ///< a record of motion for one of the machine's nodes
-    kWrite,    ///< writes an object of a node: nodes refuse in motion what would make it unsafe
+    kOrder,    ///< a write of an object, NMT, a controlword: nodes refuse in motion what would make it unsafe
   };
   Kind kind = Kind::kNone;
-  std::uint8_t node = 0;  ///< whom it is for
-  Sentence words{};       ///< kRecord, kWrite
+  std::uint8_t node = 0;    ///< whom it is for
+  Sentence words{};         ///< kRecord, kOrder
+  std::uint64_t order = 0;  ///< kOrder: the same for the same order
 };
 
 /// What a frame is that this gateway has not sent. `links`: the machine's nodes.
 ForeignFrame look_at_foreign(const CanFrame& frame, const std::deque<NodeLink>& links);
+
+/// Which orders of others are told: each once a second, and no more than a person reads.
+class ForeignOrders {
+ public:
+  bool is_news(BusTime now, std::uint64_t order);
+
+ private:
+  static constexpr BusTime kPeriod = std::chrono::seconds{1};
+
+  std::array<std::uint64_t, 6> told_{};
+  std::size_t count_ = 0;
+  BusTime since_{-std::chrono::hours{1}};
+};
 
 }  // namespace kinebus

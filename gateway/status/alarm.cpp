@@ -24,6 +24,11 @@ Sentence refused_words(const Emergency& emergency) {
     return say("a change of the rate that does not carry the session's check value was refused");
   if (cob_id::node_of(id, cob_id::rpdo(1, 0)) != 0)
     return say("a controlword or set point that does not carry the session's check value was refused");
+  if (id == cob_id::kSync)
+    return say(
+        "while SYNC was silent its session was open, and a frame that nobody vouched for was obeyed (COB-ID "
+        "%1)",
+        printed("%03Xh", static_cast<unsigned>(get_u16_le(std::span(emergency.vendor).subspan(3)))));
   return say("a time stamp of SYNC that does not carry the session's check value was refused");
 }
 

@@ -1549,6 +1549,18 @@
         <translation>دستگاهی دیگر به گره %1 یک رکورد حرکت فرستاده است (COB-ID %2)</translation>
     </message>
     <message>
+        <source>another device has sent all nodes an NMT command (%1)</source>
+        <translation>دستگاهی دیگر به همهٔ گره‌ها یک فرمان NMT فرستاده است (%1)</translation>
+    </message>
+    <message>
+        <source>another device has sent node %1 an NMT command (%2)</source>
+        <translation>دستگاهی دیگر به گره %1 یک فرمان NMT فرستاده است (%2)</translation>
+    </message>
+    <message>
+        <source>another device has sent node %1 a controlword or set point (COB-ID %2)</source>
+        <translation>دستگاهی دیگر به گره %1 کلمهٔ کنترل یا مقدار تنظیم فرستاده است (COB-ID %2)</translation>
+    </message>
+    <message>
         <source>another device writes object %2 of node %1 while the machine moves</source>
         <translation>هنگامی که ماشین حرکت می‌کند، دستگاهی دیگر در شیء %2 گره %1 می‌نویسد</translation>
     </message>
@@ -4239,6 +4251,10 @@
     <message>
         <source>a time stamp of SYNC that does not carry the session&apos;s check value was refused</source>
         <translation>مهر زمانی SYNC بدون مقدار بررسی نشست رد شد</translation>
+    </message>
+    <message>
+        <source>while SYNC was silent its session was open, and a frame that nobody vouched for was obeyed (COB-ID %1)</source>
+        <translation>تا SYNC ساکت بود نشستش باز بود و از قابی که کسی آن را تأیید نکرده بود پیروی شد (COB-ID %1)</translation>
     </message>
     <message>
         <source>A node has refused a frame of another device</source>

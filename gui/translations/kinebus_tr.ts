@@ -1549,6 +1549,18 @@
         <translation>başka bir aygıt düğüm %1 için bir hareket kaydı gönderdi (COB-ID %2)</translation>
     </message>
     <message>
+        <source>another device has sent all nodes an NMT command (%1)</source>
+        <translation>başka bir aygıt tüm düğümlere bir NMT komutu gönderdi (%1)</translation>
+    </message>
+    <message>
+        <source>another device has sent node %1 an NMT command (%2)</source>
+        <translation>başka bir aygıt düğüm %1 için bir NMT komutu gönderdi (%2)</translation>
+    </message>
+    <message>
+        <source>another device has sent node %1 a controlword or set point (COB-ID %2)</source>
+        <translation>başka bir aygıt düğüm %1 için bir kontrol sözcüğü veya ayar değeri gönderdi (COB-ID %2)</translation>
+    </message>
+    <message>
         <source>another device writes object %2 of node %1 while the machine moves</source>
         <translation>makine hareket ederken başka bir aygıt düğüm %1 üzerindeki %2 nesnesine yazıyor</translation>
     </message>
@@ -4239,6 +4251,10 @@
     <message>
         <source>a time stamp of SYNC that does not carry the session&apos;s check value was refused</source>
         <translation>oturumun kontrol değerini taşımayan bir SYNC zaman damgası reddedildi</translation>
+    </message>
+    <message>
+        <source>while SYNC was silent its session was open, and a frame that nobody vouched for was obeyed (COB-ID %1)</source>
+        <translation>SYNC sustuğu sürece oturumu açıktı ve kimsenin kefil olmadığı bir çerçeveye uyuldu (COB-ID %1)</translation>
     </message>
     <message>
         <source>A node has refused a frame of another device</source>

@@ -93,7 +93,8 @@ void SocketCan::accept(std::span<const Accept> filters) {
   std::array<can_filter, 32> kernel{};
   std::size_t count = 0;
   for (const Accept& filter : filters.first(std::min(filters.size(), kernel.size())))
-    kernel[count++] = {filter.value, filter.mask | CAN_EFF_FLAG | CAN_RTR_FLAG};
+    kernel[count++] = {filter.value | (filter.remote ? CAN_RTR_FLAG : 0u),
+                       filter.mask | CAN_EFF_FLAG | CAN_RTR_FLAG};
   ::setsockopt(fd_, SOL_CAN_RAW, CAN_RAW_FILTER, kernel.data(),
                static_cast<socklen_t>(count * sizeof kernel[0]));
 }

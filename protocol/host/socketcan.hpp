@@ -45,9 +45,10 @@ class SocketCan {
   /// Empty string: open. Otherwise what is wrong and what to do. `own_frames`: report own frames when sent.
   std::string open(const std::string& interface, bool own_frames);
 
-  /// Standard data frames whose identifier is `value` where `mask` has ones.
+  /// Standard frames, data or remote, whose identifier is `value` where `mask` has ones.
   struct Accept {
     std::uint16_t value = 0, mask = 0x7FF;
+    bool remote = false;
     friend constexpr bool operator==(const Accept&, const Accept&) = default;
   };
   /// From now on the kernel passes on these alone, as a controller's filters do.

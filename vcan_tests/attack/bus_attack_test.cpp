@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -117,6 +118,18 @@ CanFrame forged_stop_request(const Attacked& rig, std::uint8_t node) {
   return forged;
 }
 
+/// Identifiers, lengths and bytes by chance: what a program that has gone wrong may send.
+void random_frames(Attacked& rig) {
+  std::mt19937 random(19);
+  for (int i = 0; i < 3000; ++i) {
+    CanFrame frame{.id = static_cast<std::uint32_t>(random() & 0x7FF),
+                   .length = static_cast<std::uint8_t>(random() % 9)};
+    for (std::size_t k = 0; k < frame.length; ++k) frame.data[k] = static_cast<std::uint8_t>(random());
+    rig.stranger_sends(frame);
+    if (i % 2 == 1) rig.watch(1ms);
+  }
+}
+
 const std::vector<Attack>& attacks() {
   static const std::vector<Attack> all{
       {"record out of its order", [](Attacked& rig) { rig.sends("402#4001000000000000"); }},
@@ -138,6 +151,15 @@ const std::vector<Attack>& attacks() {
        [](Attacked& rig) { rig.stranger_sends(forged_rate(rig, RateCommand::Kind::kStop, 0)); }},
       {"RPDO1: drive of axis 1 off", [](Attacked& rig) { rig.sends("202#00000F000707"); }, kDriveOff_um,
        true},
+      {"SDO: direction, current and switches of node 2, NMT",
+       [](Attacked& rig) {
+         for (const char* order :
+              {"602#2F40210401000000", "602#2B40210200000000", "602#2F30210107000000", "000#8002"}) {
+           rig.sends(order);
+           rig.run_for(5ms);
+         }
+       },
+       kOnThePath_um, true},
       {"NMT stop of all", [](Attacked& rig) { rig.sends("000#0200"); }, kOnThePath_um, true},
       {"NMT reset of node 3", [](Attacked& rig) { rig.sends("000#8103"); }, kOnThePath_um, true},
       {"EMCY: stop, of node 2", [](Attacked& rig) { rig.stranger_sends(forged_stop_request(rig, 2)); }},
@@ -162,6 +184,7 @@ const std::vector<Attack>& attacks() {
          }
        },
        kOnThePath_um, true},
+      {"3000 random frames, two each ms", &random_frames, kDriveOff_um},
       {"SDO: stop ramp 2 ms", [](Attacked& rig) { rig.sends("602#2B13210002000000"); }, kOnThePath_um, true},
       {"SDO: direction of axis 1", [](Attacked& rig) { rig.sends("602#2F40210401000000"); }, kOnThePath_um,
        true},
@@ -278,6 +301,44 @@ TEST(BusAttackOnHeat, ABringUpWithAHotBlockGivesTheNodeAnotherKey) {
     EXPECT_TRUE(rig.says("2117h that does not carry")) << rig.story();
     rig.events.clear();
   }
+}
+
+// A gateway that did not run, or a bus that was full: the node is closed again by the next voucher, without
+// another bring-up.
+TEST(BusAttackOnHeat, ASilenceOfSyncOpensTheNodeForNoLongerThanItLastsAndWhatWasObeyedIsTold) {
+  StrangerOf<VirtualMachine> rig(printer_in_a_session());
+  ASSERT_TRUE(rig.make_ready()) << rig.story();
+  ASSERT_TRUE(rig.gateway->carry_out(command::SetTemperature{kFirstBed, 60}));
+  rig.run_for(20s);
+  const auto& node = rig.nodes.heat_node(kHeat);
+  ASSERT_TRUE(node.heats());
+  const auto is_refused = [&](const char* write, const char* object) {
+    rig.events.clear();
+    rig.stranger_sends(text_frame(write));
+    rig.run_for(200ms);
+    return rig.says(object + std::string(" that does not carry"));
+  };
+  rig.stall(600ms);
+  rig.run_for(200ms);
+  EXPECT_TRUE(is_refused("614#2F17210500000000", "2117h")) << rig.story();
+  EXPECT_FALSE(rig.says("while SYNC was silent")) << rig.story();
+
+  rig.lose_from_gateway = [](const CanFrame& frame) {
+    return frame.id == cob_id::kSync || frame.id == kSyncStampCobId;
+  };
+  rig.run_for(600ms);
+  rig.stranger_sends(text_frame("614#2B02740258020000"));  // the bed, 60 C
+  rig.run_for(50ms);
+  rig.lose_from_gateway = {};
+  rig.events.clear();
+  rig.run_for(300ms);
+  EXPECT_TRUE(
+      rig.says("while SYNC was silent its session was open, and a frame that nobody vouched for was "
+               "obeyed (COB-ID 614h)"))
+      << rig.story();
+  // An order is told once while it heats: another one.
+  EXPECT_TRUE(is_refused("614#2343220001000000", "2243h")) << rig.story();
+  EXPECT_TRUE(node.heats());
 }
 
 INSTANTIATE_TEST_SUITE_P(Trust, BusAttack, testing::Values(BusTrust::kOpen, BusTrust::kSession));

@@ -85,6 +85,7 @@ TEST(Stranger, NmtStopInMotionStopsAllOnThePathAndTheMachineComesUpAgain) {
   rig.run_for(300ms);
   rig.stranger_sends(text_frame("000#0200"));
   ASSERT_TRUE(rig.run_until([&] { return rig.told(AlarmCode::kNodeChanged); }, 5s)) << rig.story();
+  EXPECT_TRUE(rig.says("another device has sent all nodes an NMT command (02h)")) << rig.story();
   EXPECT_TRUE(rig.says("taken out of operation by an NMT command")) << rig.story();
   EXPECT_TRUE(rig.rests());
   ASSERT_TRUE(rig.gateway->carry_out(command::Clear{}));
@@ -160,10 +161,33 @@ TEST(Stranger, ParametersAreNotChangedInMotionAndTheJobGoesOn) {
     rig.run_for(20ms);
   }
   EXPECT_EQ(refused, 3);
-  EXPECT_TRUE(rig.says("another device writes object 2113h:0 of node 2 while the machine moves"))
-      << rig.story();
+  for (const char* object : {"2113h:0", "2140h:4", "2140h:2"})
+    EXPECT_TRUE(rig.says("another device writes object " + std::string(object) +
+                         " of node 2 while the machine moves"))
+        << rig.story();
   ASSERT_TRUE(rig.reach(MachineState::kReady, 60s)) << rig.story();
   EXPECT_FALSE(rig.told(MachineEvent::Kind::kAlarm)) << rig.story();
+}
+
+// A device that writes to everything, all the time: the log stays one that a person reads.
+TEST(Stranger, ManyWritesInMotionAreNotToldOneByOne) {
+  Stranger rig;
+  ASSERT_TRUE(rig.make_ready()) << rig.story();
+  ASSERT_TRUE(rig.begin());
+  rig.run_for(300ms);
+  rig.events.clear();
+  for (int i = 0; i < 200; ++i) {
+    CanFrame write = text_frame("602#2B13210002000000");
+    write.data[1] = static_cast<std::uint8_t>(i);
+    rig.stranger_sends(write);
+    rig.run_for(10ms);
+  }
+  const auto told = std::count_if(rig.events.begin(), rig.events.end(), [](const MachineEvent& e) {
+    return e.words.find("another device writes") != std::string::npos;
+  });
+  EXPECT_GE(told, 12);
+  EXPECT_LE(told, 18);
+  ASSERT_TRUE(rig.reach(MachineState::kReady, 60s)) << rig.story();
 }
 
 TEST(Stranger, ARecordThatTheGatewayHasNotSentStopsAllAndIsNamed) {

@@ -12,6 +12,9 @@
 #include <cstring>
 #include <vector>
 
+#include "protocol/motion/broadcast.hpp"
+#include "protocol/motion/voucher.hpp"
+
 namespace kinebus {
 namespace {
 
@@ -92,19 +95,21 @@ void BusProcess::receive() {
 // What the board's controller passes on, too: requests and PDOs of this node, what all hear, and the
 // heartbeats that it watches. NMT, SDO and LSS may change it.
 void BusProcess::filter() {
-  std::array<SocketCan::Accept, 16> wanted{};
+  std::array<SocketCan::Accept, 16> filters{};
   std::size_t count = 0;
-  const auto add = [&](std::uint16_t value, std::uint16_t mask = 0x7FF) {
-    if (count < wanted.size()) wanted[count++] = {value, mask};
+  const auto add = [&](const SocketCan::Accept& accept) {
+    if (count < filters.size()) filters[count++] = accept;
   };
-  add(cob_id::kNmt);
-  add(cob_id::kSync, 0x780);  // and the EMCYs of others: stop requests
-  add(cob_id::kLssRequest);
-  for (const std::uint16_t id : wanted_ids())
-    if (id != 0) add(id);
-  if (wanted == filters_) return;
-  filters_ = wanted;
-  can_.accept(std::span(wanted).first(count));
+  add({.value = cob_id::kNmt});
+  add({.value = cob_id::kSync, .mask = 0x780});  // and the EMCYs of others: stop requests
+  add({.value = cob_id::kLssRequest});
+  add({.value = kVoucherCobId});
+  add({.value = kSyncStampCobId});  // by its vouchers the number of a session is followed
+  for (const SocketCan::Accept& accept : wanted())
+    if (accept.value != 0) add(accept);
+  if (filters == filters_) return;
+  filters_ = filters;
+  can_.accept(std::span(filters).first(count));
 }
 
 void BusProcess::send() {

@@ -28,18 +28,23 @@ class BusProcess {
   std::string run();
 
  protected:
-  using Ids = std::array<std::uint16_t, 1 + 2 + kRpdoCount>;
-  /// Requests and PDOs of a node, and the heartbeats that it watches.
+  /// Identifier 0: none.
+  using Wanted = std::array<SocketCan::Accept, 1 + 1 + 2 + kRpdoCount>;
+  /// Requests and PDOs of a node, remote frames of node guarding, and the heartbeats that it watches.
   template <typename AnyNode>
-  static Ids ids_of(const AnyNode& node) {
-    Ids ids{};
-    if (node.node_id() == 0) return ids;
+  static Wanted wanted_of(const AnyNode& node) {
+    Wanted wanted{};
+    if (node.node_id() == 0) return wanted;
     std::size_t count = 0;
-    ids[count++] = static_cast<std::uint16_t>(cob_id::kSdoRequest + node.node_id());
-    for (const std::uint8_t id : node.watched_nodes())
-      ids[count++] = id == 0 ? std::uint16_t{0} : static_cast<std::uint16_t>(cob_id::kHeartbeat + id);
-    for (const std::uint16_t id : node.rpdo_cob_ids()) ids[count++] = id;
-    return ids;
+    const auto add = [&](std::uint32_t id, bool remote = false) {
+      wanted[count++] = {.value = static_cast<std::uint16_t>(id), .remote = remote};
+    };
+    add(cob_id::kSdoRequest + node.node_id());
+    if constexpr (requires { node.answers_guarding(); })
+      if (node.answers_guarding()) add(cob_id::kHeartbeat + node.node_id(), true);
+    for (const std::uint8_t id : node.watched_nodes()) add(id == 0 ? 0 : cob_id::kHeartbeat + id);
+    for (const std::uint16_t id : node.rpdo_cob_ids()) add(id);
+    return wanted;
   }
 
   // What a node is to its process; called with CLOCK_MONOTONIC as its local time.
@@ -52,8 +57,8 @@ class BusProcess {
   virtual std::span<const std::uint8_t> image_to_store() = 0;
   virtual void on_image_stored(bool good) = 0;
   virtual bool take_reset_request() = 0;
-  /// What the board's controller passes on besides NMT, LSS, SYNC and EMCY; 0: none.
-  virtual Ids wanted_ids() = 0;
+  /// What the board's controller passes on besides NMT, LSS, SYNC, EMCY and a session's vouchers.
+  virtual Wanted wanted() = 0;
   virtual void on_user_signal() {}
   /// A line of standard input, as far as the node listens to it (see listen()).
   virtual void on_line(std::string_view) {}

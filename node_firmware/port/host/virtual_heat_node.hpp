@@ -32,7 +32,7 @@ class VirtualHeatNodeProcess final : public BusProcess {
   std::span<const std::uint8_t> image_to_store() override { return node_->image_to_store(); }
   void on_image_stored(bool good) override { node_->on_image_stored(good); }
   bool take_reset_request() override { return node_->take_reset_request(); }
-  Ids wanted_ids() override { return ids_of(*node_); }
+  Wanted wanted() override { return wanted_of(*node_); }
   void on_line(std::string_view line) override;
   void sample_until(LocalTime now);
 

@@ -35,7 +35,7 @@ class VirtualNodeProcess final : public BusProcess {
   std::span<const std::uint8_t> image_to_store() override { return node_->image_to_store(); }
   void on_image_stored(bool good) override { node_->on_image_stored(good); }
   bool take_reset_request() override { return node_->take_reset_request(); }
-  Ids wanted_ids() override { return ids_of(*node_); }
+  Wanted wanted() override { return wanted_of(*node_); }
   void on_user_signal() override;
 
   void look_at_switches(LocalTime now);
