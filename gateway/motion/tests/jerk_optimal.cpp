@@ -10,8 +10,8 @@ namespace {
 // Of the jerk limits and the joints'; the planner leaves as much to quantisation.
 constexpr double kJerkShare = 0.98;
 constexpr double kNoBound = 1e12;
-constexpr int kLeastSteps = 6;     // of a piece
-constexpr double kGrowth = 1.5;    // from step to step on the grid
+constexpr int kLeastSteps = 6;   // of a piece
+constexpr double kGrowth = 1.5;  // from step to step on the grid
 constexpr double kBarrierFall = 0.25;
 constexpr int kMostSteps = 400;
 
@@ -38,7 +38,8 @@ bool one_piece(const PathPiece& a, const PathPiece& b) {
 
 class JerkProblem {
  public:
-  JerkProblem(const Kinematics& kinematics, const MotionLimits& limits) : kinematics_(&kinematics), limits_(&limits) {}
+  JerkProblem(const Kinematics& kinematics, const MotionLimits& limits)
+      : kinematics_(&kinematics), limits_(&limits) {}
 
   void add(const PathPiece& piece, double feed, double grid_mm, bool jumps) {
     std::vector<double> steps;
@@ -57,8 +58,10 @@ class JerkProblem {
     last_step_ = std::max(steps.back(), fine);
     at = 0;
     const PosePoint start = piece.evaluate(0);
-    if (!nodes_.empty()) merge_into_last(piece, start, feed, jumps);
-    else nodes_.push_back(node(piece, 0, feed, 0));
+    if (!nodes_.empty())
+      merge_into_last(piece, start, feed, jumps);
+    else
+      nodes_.push_back(node(piece, 0, feed, 0));
     const double s0 = nodes_.back().s;
     for (const double step : steps) {
       at += step;
@@ -110,6 +113,7 @@ class JerkProblem {
     result.time_s = time(x_);
     return result;
   }
+
  private:
   GridNode node(const PathPiece& piece, double at, double feed, double s) {
     GridNode node;

@@ -20,8 +20,8 @@ struct JerkOptimum {
   double gap = 0;  ///< what is left to gain at most by its own bound, share of time_s
 };
 
-/// Least time for the path on which `phases` run, resting where they do. feed_mm_per_s: programmed tool speed of
-/// a line of the job. grid_mm: longest step. jumps: the acceleration may jump where curvature does, as
+/// Least time for the path on which `phases` run, resting where they do. feed_mm_per_s: programmed tool speed
+/// of a line of the job. grid_mm: longest step. jumps: the acceleration may jump where curvature does, as
 /// kCurvatureJump_s says; false: as if curvature never jumped, a bound for smoother paths.
 JerkOptimum jerk_optimal(const Kinematics& kinematics, const MotionLimits& limits,
                          const std::vector<Phase>& phases,

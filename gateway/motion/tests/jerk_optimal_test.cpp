@@ -32,8 +32,8 @@ Compared compare(Lines lines, double feed) {
   const MotionLimits limits = limits_of_jerk();
   const Measured m = measure(m1(), limits, lines, 4, true);
   EXPECT_TRUE(m.planned) << m.error;
-  const JerkOptimum best =
-      jerk_optimal(m1(), limits, m.all, [feed](std::uint32_t) { return feed; }, 0.05);
+  const JerkOptimum best = jerk_optimal(
+      m1(), limits, m.all, [feed](std::uint32_t) { return feed; }, 0.05);
   EXPECT_LE(best.gap, 2e-3);
   const Compared compared{m.duration_s / best.time_s,
                           best.time_s / time_optimal_s(m1(), limits, m.all, feed, 0.05)};
@@ -46,7 +46,8 @@ Compared compare(Lines lines, double feed) {
 TEST(JerkOptimal, ReferenceFindsTheFormulaOfALineFromRestToRest) {
   const MotionLimits limits = limits_of_jerk();
   const Measured m = measure(m1(), limits, Job().feed(100).to({50, 0, 0, 0, 0, 0}).lines(), 8, true);
-  const JerkOptimum best = jerk_optimal(m1(), limits, m.all, [](std::uint32_t) { return 100.0; }, 0.01);
+  const JerkOptimum best = jerk_optimal(
+      m1(), limits, m.all, [](std::uint32_t) { return 100.0; }, 0.01);
   EXPECT_NEAR(best.time_s, 50.0 / 100 + 100.0 / 3000 + 3000 / 98'000.0, 3e-3);
 }
 
