@@ -64,8 +64,8 @@ void JobRecord::take(const joblink::Status& status) {
   for (const auto& node : status.nodes()) {
     figures_.clock_error_us = std::max(figures_.clock_error_us, node.sync_error_s() * 1e6);
     if (node.queue_capacity() > 0 && status.rate() > 0.99)
-      figures_.emptiest_queue = std::min(
-          figures_.emptiest_queue, static_cast<double>(node.queue_records()) / node.queue_capacity());
+      figures_.emptiest_queue = std::min(figures_.emptiest_queue,
+                                         static_cast<double>(node.queue_records()) / node.queue_capacity());
   }
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// What the job under way, or the last one, has taken: time, filament, and its worst figures; and how it ended.
-// As far as this program was there to see it.
+// What the job under way, or the last one, has taken: time, filament, and its worst figures; and how it
+// ended. As far as this program was there to see it.
 
 #include <QObject>
 #include <QVector>
@@ -20,10 +20,10 @@ class JobRecord : public QObject {
   struct Figures {
     double elapsed_s = 0;
     double filament_mm = 0;
-    double clock_error_us = 0;    ///< largest
-    double bus_load = 0;          ///< largest
-    double emptiest_queue = 1;    ///< share of a node's room
-    std::uint32_t stalls = 0;     ///< holds for planning, slowed for the bus, underruns
+    double clock_error_us = 0;  ///< largest
+    double bus_load = 0;        ///< largest
+    double emptiest_queue = 1;  ///< share of a node's room
+    std::uint32_t stalls = 0;   ///< holds for planning, slowed for the bus, underruns
   };
 
   explicit JobRecord(Session& session, QObject* parent = nullptr);

@@ -40,7 +40,8 @@ std::optional<JogDrive::Way> JogDrive::way_of(const JogDevice::Deflection& defle
   for (int axis = 1; axis < JogDevice::kAxes; ++axis)
     if (size(axis) > size(most)) most = axis;
   // A hand is never quite straight.
-  if (wanted_ && size(wanted_->axis) > kDead && size(most) < size(wanted_->axis) + kOther) most = wanted_->axis;
+  if (wanted_ && size(wanted_->axis) > kDead && size(most) < size(wanted_->axis) + kOther)
+    most = wanted_->axis;
   if (size(most) < kDead) return std::nullopt;
   return Way{most, deflection[static_cast<std::size_t>(most)] > 0 ? 1 : -1, size(most) >= kFast};
 }

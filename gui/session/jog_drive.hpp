@@ -1,6 +1,6 @@
 #pragma once
-// Deflections of a jog device as jogs that are held: along one axis at a time, slow or fast. What is not asked
-// for again ends at the gateway by itself, within 200 ms.
+// Deflections of a jog device as jogs that are held: along one axis at a time, slow or fast. What is not
+// asked for again ends at the gateway by itself, within 200 ms.
 
 #include <QObject>
 #include <QTimer>

@@ -128,10 +128,9 @@ TEST_F(DeviceTest, AnotherAxisEndsTheOneBeforeAndAShakyHandDoesNot) {
   device.push(JogDevice::kY, 0.9F);
   ASSERT_TRUE(wait_until([&] { return jogs().back().delta().y_mm() > 100; }));
   const auto all = jogs();
-  const bool ended_between =
-      std::any_of(all.begin(), all.end(), [](const joblink::Jog& jog) {
-        return jog.while_held() && jog.delta().x_mm() == 0 && jog.delta().y_mm() == 0;
-      });
+  const bool ended_between = std::any_of(all.begin(), all.end(), [](const joblink::Jog& jog) {
+    return jog.while_held() && jog.delta().x_mm() == 0 && jog.delta().y_mm() == 0;
+  });
   EXPECT_TRUE(ended_between);
   device.push(JogDevice::kY, 0);
   ASSERT_TRUE(ended());
@@ -185,7 +184,8 @@ class PaperDriver {
  public:
   PaperDriver() {
     server.listen(path());
-    QObject::connect(&server, &QLocalServer::newConnection, &server, [this] { client = server.nextPendingConnection(); });
+    QObject::connect(&server, &QLocalServer::newConnection, &server,
+                     [this] { client = server.nextPendingConnection(); });
   }
   QString path() const { return folder.filePath(QStringLiteral("spnav.sock")); }
   void tell(std::array<std::int32_t, 8> packet) {
@@ -201,7 +201,8 @@ TEST(SpaceMouse, PushedAwayIsYUpIsZAndSilenceIsRest) {
   PaperDriver driver;
   SpaceMouse mouse(driver.path());
   std::vector<JogDevice::Deflection> all;
-  QObject::connect(&mouse, &JogDevice::deflected, &mouse, [&](const JogDevice::Deflection& d) { all.push_back(d); });
+  QObject::connect(&mouse, &JogDevice::deflected, &mouse,
+                   [&](const JogDevice::Deflection& d) { all.push_back(d); });
   EXPECT_TRUE(mouse.name().isEmpty());
   mouse.listen(true);
   ASSERT_TRUE(wait_until([&] { return driver.client != nullptr && !mouse.name().isEmpty(); }));

@@ -31,7 +31,8 @@ class Keyboard : public testing::Test {
   }
   void press(Qt::Key key, Qt::KeyboardModifiers modifiers = Qt::NoModifier) {
     QWidget* focus = QApplication::focusWidget();
-    if (QWidget* modal = QApplication::activeModalWidget(); modal != nullptr && focus == nullptr) focus = modal;
+    if (QWidget* modal = QApplication::activeModalWidget(); modal != nullptr && focus == nullptr)
+      focus = modal;
     QTest::keyClick(focus != nullptr ? focus : window.get(), key, modifiers);
     QCoreApplication::processEvents();
   }
@@ -50,8 +51,8 @@ class Keyboard : public testing::Test {
       seen << here;
       press(Qt::Key_Tab);
     }
-    return ::testing::AssertionFailure() << name.toStdString() << " is not among "
-                                         << seen.join(QStringLiteral(", ")).toStdString();
+    return ::testing::AssertionFailure()
+           << name.toStdString() << " is not among " << seen.join(QStringLiteral(", ")).toStdString();
   }
   joblink::State state() const { return desk.session.status().state(); }
 
@@ -69,8 +70,9 @@ TEST_F(Keyboard, PrintsFromStartToEnd) {
   ASSERT_EQ(window->page(), MainWindow::kJog);
   ASSERT_TRUE(tab_to(QStringLiteral("Home")));
   press(Qt::Key_Space);
-  ASSERT_TRUE(wait_until([&] { return state() == joblink::STATE_READY && desk.session.status().positions_known(); },
-                         kPatience_ms));
+  ASSERT_TRUE(
+      wait_until([&] { return state() == joblink::STATE_READY && desk.session.status().positions_known(); },
+                 kPatience_ms));
 
   QTemporaryDir folder;
   QFile file(folder.filePath(QStringLiteral("square.gcode")));
@@ -82,12 +84,14 @@ TEST_F(Keyboard, PrintsFromStartToEnd) {
   ASSERT_TRUE(tab_to(QStringLiteral("Choose a file…")));
   press(Qt::Key_Space);
   QFileDialog* dialog = nullptr;
-  ASSERT_TRUE(wait_until([&] { return (dialog = window->findChild<QFileDialog*>()) != nullptr && dialog->isVisible(); }));
+  ASSERT_TRUE(wait_until(
+      [&] { return (dialog = window->findChild<QFileDialog*>()) != nullptr && dialog->isVisible(); }));
   ASSERT_TRUE(wait_until([&] { return qobject_cast<QLineEdit*>(QApplication::focusWidget()) != nullptr; }))
       << name_of(QApplication::focusWidget()).toStdString();
   QTest::keyClicks(QApplication::focusWidget(), file.fileName());
   press(Qt::Key_Return);
-  ASSERT_TRUE(wait_until([&] { return desk.jobs.rowCount() == 1 && desk.session.jobs().jobs_size() == 1; }, kPatience_ms));
+  ASSERT_TRUE(wait_until([&] { return desk.jobs.rowCount() == 1 && desk.session.jobs().jobs_size() == 1; },
+                         kPatience_ms));
   window->activateWindow();
   ASSERT_TRUE(wait_until([&] { return window->isActiveWindow(); }));
   ASSERT_TRUE(tab_to(QStringLiteral("Jobs on the gateway")));

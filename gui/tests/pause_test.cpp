@@ -26,9 +26,8 @@ class PauseTest : public WindowTest {
     gateway.jobs["a.gcode"] = "G1 X1 F600\n";
     gateway.jobs["b.gcode"] = "G1 X2 F600\n";
     show_connected();
-    ASSERT_TRUE(wait_until([&] {
-      return desk.jobs.rowCount() == 2 && desk.session.machine().has_filament_ways();
-    }));
+    ASSERT_TRUE(
+        wait_until([&] { return desk.jobs.rowCount() == 2 && desk.session.machine().has_filament_ways(); }));
   }
   QPushButton* button(const char* text) const {
     for (auto* found : window->findChildren<QPushButton*>())
@@ -55,9 +54,14 @@ class PauseTest : public WindowTest {
 TEST_F(PauseTest, AHeldJobIsSetAsideAndItsFilamentChanged) {
   gateway.allow({joblink::COMMAND_HOLD, joblink::COMMAND_CANCEL});
   enter(joblink::STATE_RUNNING, "a.gcode");
-  EXPECT_EQ(button("Set aside"), nullptr);
+  ASSERT_NE(button("Set aside"), nullptr);
+  EXPECT_FALSE(button("Set aside")->isEnabled());
+  QPushButton* cancel = button("Cancel");
+  ASSERT_NE(cancel, nullptr);
+  const QPoint place = cancel->mapTo(window.get(), QPoint());
   gateway.allow({joblink::COMMAND_RESUME, joblink::COMMAND_CANCEL, joblink::COMMAND_STEP_ASIDE});
   enter(joblink::STATE_HELD, "a.gcode");
+  EXPECT_EQ(cancel->mapTo(window.get(), QPoint()), place) << "nothing moves under the pointer";
   QPushButton* aside = button("Set aside");
   ASSERT_NE(aside, nullptr);
   aside->click();
@@ -135,7 +139,8 @@ TEST_F(PauseTest, AJobThatIsRefusedAtItsStartSaysWhyAndShowsItsOwnFindings) {
   gateway.say(event);
   enter(joblink::STATE_READY, "");
   EXPECT_TRUE(window->notice().isVisible());
-  EXPECT_TRUE(window->notice().words().contains(QStringLiteral("not begun"))) << window->notice().words().toStdString();
+  EXPECT_TRUE(window->notice().words().contains(QStringLiteral("not begun")))
+      << window->notice().words().toStdString();
   EXPECT_TRUE(shows(QStringLiteral("Not begun")));
   window->show_page(MainWindow::kJobs);
   QTableView* findings = nullptr;

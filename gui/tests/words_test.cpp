@@ -59,10 +59,12 @@ class WordsTest : public WindowTest {
     window->jobs_page().select(QStringLiteral("vase.gcode"));
     window->jobs_page().check();
     window->machine_page().editor().read_if_empty();
-    ASSERT_TRUE(wait_until(
-        [&] { return !window->jobs_page().checking() && !window->machine_page().editor().text().document()->isEmpty(); }));
+    ASSERT_TRUE(wait_until([&] {
+      return !window->jobs_page().checking() && !window->machine_page().editor().text().document()->isEmpty();
+    }));
     joblink::Event event;
-    for (const auto kind : {joblink::EVENT_MESSAGE, joblink::EVENT_PROBLEM, joblink::EVENT_CONTROL, joblink::EVENT_ALARM}) {
+    for (const auto kind :
+         {joblink::EVENT_MESSAGE, joblink::EVENT_PROBLEM, joblink::EVENT_CONTROL, joblink::EVENT_ALARM}) {
       event.set_id(event.id() + 1);
       event.set_kind(kind);
       event.set_code(kind == joblink::EVENT_ALARM ? 0x8130 : 0);
@@ -98,17 +100,21 @@ class WordsTest : public WindowTest {
       add(*widget, "tip", widget->toolTip());
       add(*widget, "name", widget->accessibleName());
       if (const auto* label = qobject_cast<const QLabel*>(widget)) add(*label, "text", label->text());
-      if (const auto* button = qobject_cast<const QAbstractButton*>(widget)) add(*button, "text", button->text());
+      if (const auto* button = qobject_cast<const QAbstractButton*>(widget))
+        add(*button, "text", button->text());
       if (const auto* box = qobject_cast<const QComboBox*>(widget))
         for (int i = 0; i < box->count(); ++i) add(*box, "item", box->itemText(i));
       if (const auto* spin = qobject_cast<const QAbstractSpinBox*>(widget)) add(*spin, "text", spin->text());
-      if (const auto* line = qobject_cast<const QLineEdit*>(widget)) add(*line, "hint", line->placeholderText());
-      if (const auto* text = qobject_cast<const QPlainTextEdit*>(widget)) add(*text, "hint", text->placeholderText());
+      if (const auto* line = qobject_cast<const QLineEdit*>(widget))
+        add(*line, "hint", line->placeholderText());
+      if (const auto* text = qobject_cast<const QPlainTextEdit*>(widget))
+        add(*text, "hint", text->placeholderText());
       if (const auto* tabs = qobject_cast<const QTabBar*>(widget))
         for (int i = 0; i < tabs->count(); ++i) add(*tabs, "tab", tabs->tabText(i));
       if (const auto* menu = qobject_cast<const QMenu*>(widget))
         for (const QAction* action : menu->actions()) add(*menu, "action", action->text());
-      if (const auto* view = qobject_cast<const QAbstractItemView*>(widget); view != nullptr && view->model() != nullptr) {
+      if (const auto* view = qobject_cast<const QAbstractItemView*>(widget);
+          view != nullptr && view->model() != nullptr) {
         if (qobject_cast<const QHeaderView*>(view) != nullptr) continue;
         const QAbstractItemModel& model = *view->model();
         for (int column = 0; column < model.columnCount(); ++column) {
@@ -154,7 +160,8 @@ TEST_F(WordsTest, ALanguageThatIsSwitchedLiveLeavesNoForeignLine) {
       for (const QString& text : other->second)
         EXPECT_TRUE(list.contains(text)) << code << " after a switch, " << key << ": " << text.toStdString();
       for (const QString& text : list)
-        EXPECT_TRUE(other->second.contains(text)) << code << " made so, " << key << ": " << text.toStdString();
+        EXPECT_TRUE(other->second.contains(text))
+            << code << " made so, " << key << ": " << text.toStdString();
     }
   }
 }
@@ -188,27 +195,26 @@ TEST_F(WordsTest, EverythingAScreenReaderReadsHasAName) {
   if (HasFatalFailure()) return;
   int named = 0;
   each_page([&](const std::string& page) {
-    std::function<void(QAccessibleInterface*, const std::string&)> look =
-        [&](QAccessibleInterface* about, const std::string& way) {
-          if (about == nullptr || about->state().invisible != 0) return;
-          const auto* object = about->object();
-          const std::string here =
-              way + "/" + (object != nullptr ? object->metaObject()->className() : "?");
-          const QString name = about->text(QAccessible::Name);
-          if (needs_a_name(*about)) {
-            ++named;
-            EXPECT_FALSE(name.trimmed().isEmpty())
-                << page << ": " << here << " role " << static_cast<int>(about->role());
-          }
-          for (int i = 0; i < about->childCount(); ++i) {
-            // Parts of a field or a list are read with it.
-            const auto role = about->role();
-            if (role == QAccessible::SpinBox || role == QAccessible::ComboBox || role == QAccessible::ScrollBar ||
-                role == QAccessible::Table || role == QAccessible::List)
-              break;
-            look(about->child(i), here);
-          }
-        };
+    std::function<void(QAccessibleInterface*, const std::string&)> look = [&](QAccessibleInterface* about,
+                                                                              const std::string& way) {
+      if (about == nullptr || about->state().invisible != 0) return;
+      const auto* object = about->object();
+      const std::string here = way + "/" + (object != nullptr ? object->metaObject()->className() : "?");
+      const QString name = about->text(QAccessible::Name);
+      if (needs_a_name(*about)) {
+        ++named;
+        EXPECT_FALSE(name.trimmed().isEmpty())
+            << page << ": " << here << " role " << static_cast<int>(about->role());
+      }
+      for (int i = 0; i < about->childCount(); ++i) {
+        // Parts of a field or a list are read with it.
+        const auto role = about->role();
+        if (role == QAccessible::SpinBox || role == QAccessible::ComboBox || role == QAccessible::ScrollBar ||
+            role == QAccessible::Table || role == QAccessible::List)
+          break;
+        look(about->child(i), here);
+      }
+    };
     look(QAccessible::queryAccessibleInterface(window.get()), "");
   });
   EXPECT_GT(named, 200);
@@ -226,16 +232,19 @@ TEST_F(WordsTest, NoButtonAndNoNameIsCutAt1024By640) {
       const std::string where = language.code.toStdString() + ", " + page + ": ";
       for (const auto* button : window->findChildren<QAbstractButton*>()) {
         if (!button->isVisible() || button->text().isEmpty()) continue;
-        EXPECT_GE(button->width() + 1, button->minimumSizeHint().width()) << where << button->text().toStdString();
+        EXPECT_GE(button->width() + 1, button->minimumSizeHint().width())
+            << where << button->text().toStdString();
         const int words = button->fontMetrics().size(Qt::TextShowMnemonic, button->text()).width();
         EXPECT_GE(button->width(), words + 4) << where << button->text().toStdString();
-        EXPECT_GE(button->height() + 1, button->fontMetrics().height()) << where << button->text().toStdString();
+        EXPECT_GE(button->height() + 1, button->fontMetrics().height())
+            << where << button->text().toStdString();
       }
       for (const auto* label : window->findChildren<QLabel*>()) {
         if (!label->isVisible() || label->text().isEmpty()) continue;
         if (qobject_cast<const ElidedLabel*>(label) != nullptr) continue;  // cut with dots, whole in its tip
         if (label->wordWrap()) {
-          EXPECT_GE(label->height() + 1, label->heightForWidth(label->width())) << where << label->text().toStdString();
+          EXPECT_GE(label->height() + 1, label->heightForWidth(label->width()))
+              << where << label->text().toStdString();
         } else {
           EXPECT_GE(label->width() + 1, label->sizeHint().width()) << where << label->text().toStdString();
         }

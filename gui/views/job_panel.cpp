@@ -114,10 +114,14 @@ JobPanel::JobPanel(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(
     question->open();
   });
   aside_ = make_button(desk_.theme, QStringLiteral("up"), "", card);
-  card->column()->addWidget(aside_);
   connect(aside_, &QPushButton::clicked, &desk_.session, &Session::step_aside);
   filament_ = new FilamentKeys(desk_, card);
-  card->column()->addWidget(filament_);
+  // The row is always there: nothing above it moves when a job is held.
+  auto* row = new QWidget(card);
+  aside_or_filament_ = new QStackedLayout(row);
+  aside_or_filament_->addWidget(aside_);
+  aside_or_filament_->addWidget(filament_);
+  card->column()->addWidget(row);
   objects_ = make_button(desk_.theme, QStringLiteral("cancel"), "", card);
   card->column()->addWidget(objects_);
   connect(objects_, &QPushButton::clicked, this, &JobPanel::choose_object);
@@ -247,9 +251,11 @@ void JobPanel::take_status() {
   set_usable(*cancel_, desk_.session.allowed(joblink::COMMAND_CANCEL),
              desk_.session.why_not(joblink::COMMAND_CANCEL));
   override_->setEnabled(connected);
-  aside_->setVisible(connected && desk_.session.allowed(joblink::COMMAND_STEP_ASIDE) && job);
-  filament_->setVisible(connected && job && s.interrupted() && s.state() != joblink::STATE_HELD &&
-                        filament_->is_of_use());
+  set_usable(*aside_, job && desk_.session.allowed(joblink::COMMAND_STEP_ASIDE),
+             desk_.session.why_not(joblink::COMMAND_STEP_ASIDE));
+  const bool is_aside = connected && job && s.interrupted() && s.state() != joblink::STATE_HELD;
+  aside_or_filament_->setCurrentWidget(is_aside && filament_->is_of_use() ? static_cast<QWidget*>(filament_)
+                                                                          : aside_);
   objects_->setVisible(s.objects_size() > 0);
   set_usable(*objects_, desk_.session.allowed(joblink::COMMAND_EXCLUDE_OBJECT),
              desk_.session.why_not(joblink::COMMAND_EXCLUDE_OBJECT));

@@ -43,7 +43,7 @@ class JobPanel : public SpeakingWidget {
   QLabel* override_text_;
   QSlider* override_;
   QPushButton *pause_, *resume_, *cancel_, *aside_, *objects_;
-  QStackedLayout* pause_or_resume_;
+  QStackedLayout *pause_or_resume_, *aside_or_filament_;
   FilamentKeys* filament_;
 };
 

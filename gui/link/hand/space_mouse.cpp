@@ -16,7 +16,7 @@ constexpr auto kSilence = 150ms;
 constexpr float kFull = 350;
 
 struct Packet {
-  std::int32_t type = 0;  ///< 0: motion, 1: a button is pressed, 2: it is released
+  std::int32_t type = 0;             ///< 0: motion, 1: a button is pressed, 2: it is released
   std::int32_t x = 0, y = 0, z = 0;  ///< right, up, towards the user
   std::int32_t around_x = 0, around_y = 0, around_z = 0;
   std::int32_t period_ms = 0;
@@ -83,8 +83,8 @@ void SpaceMouse::read() {
     std::memcpy(&packet, bytes_.constData(), sizeof packet);
     if (packet.type != 0) continue;
     moved = true;
-    newest = {share(packet.x), share(-packet.z), share(packet.y), share(packet.around_x),
-              share(packet.around_y), 0};
+    newest = {share(packet.x),        share(-packet.z),       share(packet.y),
+              share(packet.around_x), share(packet.around_y), 0};
   }
   if (!moved) return;
   silence_.start();
