@@ -93,7 +93,8 @@ int run(int argc, char** argv) {
   } else if (arguments.isSet(socket)) {
     kinebus::gui::FoundGateway gateway;
     gateway.way = kinebus::gui::FoundGateway::Way::kSocket;
-    gateway.title = gateway.socket_path = QFileInfo(arguments.value(socket)).absoluteFilePath();
+    gateway.socket_path = QFileInfo(arguments.value(socket)).absoluteFilePath();
+    gateway.title = kinebus::gui::Phrase(gateway.socket_path);
     desk.connect_to(gateway);
   }
   QStringList files = arguments.positionalArguments();

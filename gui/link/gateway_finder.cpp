@@ -49,20 +49,24 @@ void GatewayFinder::look() {
   for (const UsbGateway& usb : usb_.gateways()) {
     const QString serial = usb.serial.isEmpty() ? usb.place : usb.serial;
     found.push_back({.way = FoundGateway::Way::kUsb,
-                     .title = usb.product,
-                     .detail = tr("USB %1 · serial number %2").arg(usb.place, serial),
+                     .title = Phrase(usb.product),
+                     .detail = {"kinebus::gui::GatewayFinder",
+                                QT_TRANSLATE_NOOP("kinebus::gui::GatewayFinder", "USB %1 · serial number %2"),
+                                {usb.place, serial}},
                      .key = QStringLiteral("usb:") + serial,
                      .usb = usb,
                      .socket_path = {}});
   }
   for (const QString& path : std::as_const(sockets_))
     if (is_socket(path))
-      found.push_back({.way = FoundGateway::Way::kSocket,
-                       .title = tr("Gateway on this computer"),
-                       .detail = path,
-                       .key = QStringLiteral("socket:") + path,
-                       .usb = {},
-                       .socket_path = path});
+      found.push_back(
+          {.way = FoundGateway::Way::kSocket,
+           .title = {"kinebus::gui::GatewayFinder",
+                     QT_TRANSLATE_NOOP("kinebus::gui::GatewayFinder", "Gateway on this computer")},
+           .detail = Phrase(path),
+           .key = QStringLiteral("socket:") + path,
+           .usb = {},
+           .socket_path = path});
   if (found == gateways_) return;
   gateways_ = std::move(found);
   emit changed();

@@ -8,6 +8,7 @@
 #include <QVector>
 #include <memory>
 
+#include "gui/link/phrase.hpp"
 #include "gui/link/usb/usb_watch.hpp"
 
 namespace kinebus::gui {
@@ -16,9 +17,9 @@ class Link;
 
 struct FoundGateway {
   enum class Way { kUsb, kSocket } way{};
-  QString title;   ///< what the user reads
-  QString detail;  ///< serial number or path
-  QString key;     ///< the same when it is found again
+  Phrase title;   ///< what the user reads
+  Phrase detail;  ///< serial number or path
+  QString key;    ///< the same when it is found again
   UsbGateway usb;
   QString socket_path;
   friend bool operator==(const FoundGateway&, const FoundGateway&) = default;

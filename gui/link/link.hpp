@@ -5,6 +5,8 @@
 #include <QByteArray>
 #include <QObject>
 
+#include "gui/link/phrase.hpp"
+
 namespace kinebus::gui {
 
 class Link : public QObject {
@@ -16,11 +18,11 @@ class Link : public QObject {
   /// Takes at most `size` bytes; returns how many were taken. Fewer: drained() tells when to go on.
   virtual qint64 write(const char* data, qint64 size) = 0;
   /// What the user sees: "local", "USB 1-2".
-  virtual QString description() const = 0;
+  virtual Phrase description() const = 0;
 
  signals:
   void opened();
-  void closed(const QString& why);
+  void closed(const kinebus::gui::Phrase& why);
   void received(const QByteArray& bytes);
   void drained();
 };

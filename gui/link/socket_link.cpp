@@ -6,23 +6,30 @@
 #include <algorithm>
 
 namespace kinebus::gui {
+namespace {
+constexpr const char* kSocketWords = "kinebus::gui::SocketLink";
+}  // namespace
 
-QString SocketLink::words_of(QLocalSocket::LocalSocketError error) {
+Phrase SocketLink::words_of(QLocalSocket::LocalSocketError error) {
   switch (error) {
     case QLocalSocket::ServerNotFoundError:
     case QLocalSocket::ConnectionRefusedError:
-      return tr("no gateway runs there");
+      return {kSocketWords, QT_TRANSLATE_NOOP("kinebus::gui::SocketLink", "no gateway runs there")};
     case QLocalSocket::SocketAccessError:
-      return tr("this user may not use the gateway's socket");
+      return {kSocketWords,
+              QT_TRANSLATE_NOOP("kinebus::gui::SocketLink", "this user may not use the gateway's socket")};
     default:
-      return tr("the connection on this computer has failed");
+      return {kSocketWords,
+              QT_TRANSLATE_NOOP("kinebus::gui::SocketLink", "the connection on this computer has failed")};
   }
 }
 
 SocketLink::SocketLink(QString path, QObject* parent) : Link(parent), path_(std::move(path)), socket_(this) {
   connect(&socket_, &QLocalSocket::connected, this, &Link::opened);
-  connect(&socket_, &QLocalSocket::disconnected, this,
-          [this] { emit closed(tr("the gateway closed the connection")); });
+  connect(&socket_, &QLocalSocket::disconnected, this, [this] {
+    emit closed(
+        {kSocketWords, QT_TRANSLATE_NOOP("kinebus::gui::SocketLink", "the gateway closed the connection")});
+  });
   connect(&socket_, &QLocalSocket::errorOccurred, this, [this](QLocalSocket::LocalSocketError error) {
     if (error != QLocalSocket::PeerClosedError) emit closed(words_of(error));
   });
@@ -50,8 +57,8 @@ qint64 SocketLink::write(const char* data, qint64 size) {
   return std::max<qint64>(0, taken);
 }
 
-QString SocketLink::description() const {
-  return tr("on this computer");
+Phrase SocketLink::description() const {
+  return {kSocketWords, QT_TRANSLATE_NOOP("kinebus::gui::SocketLink", "on this computer")};
 }
 
 }  // namespace kinebus::gui

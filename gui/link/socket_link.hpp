@@ -15,10 +15,10 @@ class SocketLink : public Link {
   ~SocketLink() override;
   void open() override;
   qint64 write(const char* data, qint64 size) override;
-  QString description() const override;
+  Phrase description() const override;
 
  private:
-  static QString words_of(QLocalSocket::LocalSocketError error);
+  static Phrase words_of(QLocalSocket::LocalSocketError error);
   /// More than this waits in the socket's own buffer: the caller has to wait, so that urgent commands stay
   /// quick.
   static constexpr qint64 kMaxWaiting_bytes = qint64{512} * 1024;

@@ -149,6 +149,7 @@ void SceneRenderer::draw_quick(const SceneContent& content, QSize pixels) {
   lines_drawn_ = plan.lines;
   refined_ = whole;
   draw_reach();
+  draw_trail();
   draw_mark();
   quick_.buffer->release();
 }
@@ -182,6 +183,7 @@ bool SceneRenderer::refine() {
   }
   if (rest_range_ == rest_plan_.ranges.size()) {
     draw_reach();
+    draw_trail();
     draw_mark();
     lines_drawn_ = rest_plan_.lines;
     refined_ = true;
@@ -337,6 +339,15 @@ void SceneRenderer::draw_reach() {
   }
   draw_plain(uprights, GL_LINES, clip, QVector4D(content_.colours.reach, 0.22F));
   gl_.glDisable(GL_BLEND);
+}
+
+/// Over the beads, which are wider than it.
+void SceneRenderer::draw_trail() {
+  if (content_.trail == nullptr) return;
+  gl_.glDisable(GL_DEPTH_TEST);
+  draw_plain(*content_.trail, GL_LINES, world_clip_ * content_.figure.part_frame,
+             QVector4D(0.86F, 0.10F, 0.72F, 1));
+  gl_.glEnable(GL_DEPTH_TEST);
 }
 
 /// A pin over the place the user asked for, always in front.

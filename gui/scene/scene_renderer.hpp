@@ -15,6 +15,7 @@
 #include <QVector4D>
 #include <memory>
 #include <string_view>
+#include <vector>
 
 #include "gui/scene/camera.hpp"
 #include "gui/scene/gl_bodies.hpp"
@@ -31,8 +32,6 @@ struct SceneColours {
 
 /// All that is seen, but the path itself.
 struct SceneContent {
-  /// From the path's coordinates to the machine frame.
-
   MachineFigure figure;
   MachineModel model;
   bool has_machine = false;
@@ -45,6 +44,8 @@ struct SceneContent {
   std::uint32_t done_vertex = UINT32_MAX;    ///< what is made so far; UINT32_MAX: no job runs
   std::uint32_t end_vertex = UINT32_MAX;     ///< shown up to here
   std::uint32_t marked_vertex = UINT32_MAX;  ///< a place that the user asked for
+  /// Where the tool went, relative to the part: ends of lines, two and two; nullptr: it is not shown.
+  std::shared_ptr<const std::vector<QVector3D>> trail;
   Camera camera;
   SceneColours colours;
   float bead_mm = 0.42F;
@@ -91,6 +92,7 @@ class SceneRenderer {
   void draw_surroundings();
   void draw_figure();
   void draw_reach();
+  void draw_trail();
   void draw_mark();
   void draw_plain(const std::vector<QVector3D>& points, GLenum mode, const QMatrix4x4& clip,
                   QVector4D colour);

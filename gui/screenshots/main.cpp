@@ -1,15 +1,10 @@
 // kinebus-gui-screenshots DIR: every page of the program in every language, light and dark, against a real
-// demo daemon that prints. tools/screenshots runs it under Xvfb.
+// demo daemon that prints. tools/screenshots runs it under Xvfb. DIR killed: the gateway that is killed,
+// alone.
 
 #include <QApplication>
-#include <QByteArray>
-#include <QCoreApplication>
 #include <QDeadlineTimer>
 #include <QDir>
-#include <QEventLoop>
-#include <QFile>
-#include <QIODevice>
-#include <QLatin1Char>
 #include <QLatin1String>
 #include <QTemporaryDir>
 #include <cmath>
@@ -18,7 +13,8 @@
 #include <stdexcept>
 
 #include "gui/screenshots/demo_job.hpp"
-#include "gui/views/bench_window.hpp"
+#include "gui/screenshots/killed_gateway.hpp"
+#include "gui/screenshots/photographer.hpp"
 #include "gui/views/connect_page.hpp"
 #include "gui/views/console_page.hpp"
 #include "gui/views/heat_panel.hpp"
@@ -31,94 +27,13 @@
 namespace kinebus::gui {
 namespace {
 
-constexpr int kPatience_ms = 300'000;
-
-void wait(const char* what, const std::function<bool()>& holds) {
-  std::printf("%s\n", what);
-  std::fflush(stdout);
-  const QDeadlineTimer deadline(kPatience_ms);
-  while (!holds()) {
-    if (deadline.hasExpired()) throw std::runtime_error(std::string("waited in vain: ") + what);
-    QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents | QEventLoop::AllEvents, 50);
-  }
-}
-
-QString write_file(const QString& folder, const QString& name, const QByteArray& text) {
-  QFile file(folder + QLatin1Char('/') + name);
-  if (!file.open(QIODevice::WriteOnly))
-    throw std::runtime_error("cannot write " + file.fileName().toStdString());
-  file.write(text);
-  return file.fileName();
-}
-
-class Photographer {
- public:
-  Photographer(Desk& desk, MainWindow& window, QString folder)
-      : desk_(desk), window_(window), folder_(std::move(folder)) {}
-
-  void all(MainWindow::Page page, const QString& name, const std::function<void()>& prepare = {}) {
-    for (const auto& choice : Language::choices())
-      for (const bool dark : {false, true}) {
-        // The dark theme does not depend on the language: one that reads from the left, one from the right.
-        if (dark && choice.code == QLatin1String("tr")) continue;
-        window_.set_theme(dark);
-        window_.set_language(choice.code);
-        window_.show_page(page);
-        if (prepare) prepare();
-        take(QStringLiteral("%1-%2-%3")
-                 .arg(name, choice.code, dark ? QStringLiteral("dark") : QStringLiteral("light")));
-      }
-  }
-
-  /// The window of a card on a bench, before one is opened.
-  void bench(BenchWindow& bench) {
-    for (const auto& choice : Language::choices()) {
-      window_.set_theme(false);
-      window_.set_language(choice.code);
-      for (int round = 0; round < 12; ++round) QCoreApplication::processEvents(QEventLoop::AllEvents, 20);
-      save(bench, QStringLiteral("13-bench-%1").arg(choice.code));
-    }
-    bench.close();
-  }
-
-  /// The scene alone is the same in every language.
-  void one(MainWindow::Page page, const QString& name) {
-    window_.set_theme(false);
-    window_.set_language(QStringLiteral("en"));
-    window_.show_page(page);
-    take(name);
-  }
-
- private:
-  /// When a few statuses have come in the new language.
-  void take(const QString& name) {
-    const double from = desk_.session.status().time_s();
-    const QDeadlineTimer deadline(20'000);
-    for (int round = 0; !deadline.hasExpired(); ++round) {
-      QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents | QEventLoop::AllEvents, 20);
-      const bool fresh = desk_.demo == nullptr ||
-                         (desk_.session.connected() && desk_.session.status().time_s() > from + 0.4);
-      if (round >= 12 && fresh && !desk_.path.loading()) break;
-    }
-    save(window_, name);
-  }
-  void save(QWidget& widget, const QString& name) {
-    const QString path = QStringLiteral("%1/%2.png").arg(folder_, name);
-    if (!widget.grab().save(path)) throw std::runtime_error("cannot write " + path.toStdString());
-    std::printf("  %s\n", qPrintable(path));
-  }
-
-  Desk& desk_;
-  MainWindow& window_;
-  QString folder_;
-};
-
 int run(int argc, char** argv) {
   SceneView::choose_format();
   QApplication app(argc, argv);
   QApplication::setOrganizationName(QStringLiteral("kinebus"));
   QApplication::setApplicationName(QStringLiteral("kinebus-gui-screenshots"));
   const QString folder = argc > 1 ? QString::fromLocal8Bit(argv[1]) : QStringLiteral("screenshots");
+  const bool killed_alone = argc > 2 && QLatin1String(argv[2]) == QLatin1String("killed");
   QDir().mkpath(folder);
   QTemporaryDir scratch;
 
@@ -128,8 +43,13 @@ int run(int argc, char** argv) {
   MainWindow window(desk);
   window.show();
   Photographer photographer(desk, window, folder);
+  if (killed_alone) {
+    photograph_killed_gateway(desk, window, photographer);
+    return 0;
+  }
   photographer.all(MainWindow::kConnect, QStringLiteral("1-connect"));
   photographer.bench(window.connect_page().show_bench());
+  photographer.small(MainWindow::kConnect, QStringLiteral("connect"));
 
   QObject::connect(&desk.session, &Session::refused, &window,
                    [](const QString& words) { std::fprintf(stderr, "refused: %s\n", qPrintable(words)); });
@@ -140,8 +60,9 @@ int run(int argc, char** argv) {
   window.jobs_page().upload(
       {write_file(scratch.path(), QStringLiteral("vase.gcode"), vase_job(44, 1, 0.7)),
        write_file(scratch.path(), QStringLiteral("bracket-v2.gcode"), vase_job(24, 3, 0.25)),
+       write_file(scratch.path(), QStringLiteral("short.gcode"), vase_job(1, 1, 0.7)),
        write_file(scratch.path(), QStringLiteral("too-wide.gcode"), wrong_job())});
-  wait("three jobs are stored", [&] { return desk.session.jobs().jobs_size() == 3; });
+  wait("four jobs are stored", [&] { return desk.session.jobs().jobs_size() == 4; });
   bool checked = false;
   desk.session.check_job(QStringLiteral("bracket-v2.gcode"), [&](const auto&) { checked = true; });
   wait("a job is checked", [&] { return checked; });
@@ -149,6 +70,7 @@ int run(int argc, char** argv) {
   wait("the machine is homed",
        [&] { return state() == joblink::STATE_READY && desk.session.status().positions_known(); });
   photographer.all(MainWindow::kJog, QStringLiteral("4-jog"));
+  photographer.small(MainWindow::kJog, QStringLiteral("jog"));
   const auto scene = [&](const char* name) {
     window.view_page().scene().look(SceneView::Look::kDiagonal);
     window.view_page().scene().fit_machine();
@@ -189,20 +111,24 @@ int run(int argc, char** argv) {
   });
   for (const char* line : {"M115", "M114", "M105", "M119"}) say(line);
   photographer.all(MainWindow::kConsole, QStringLiteral("5-console"));
+  photographer.small(MainWindow::kConsole, QStringLiteral("console"));
   wait("still connected", [&] { return desk.session.connected(); });
   window.show_page(MainWindow::kJobs);
   window.jobs_page().select(QStringLiteral("too-wide.gcode"));
   window.jobs_page().check();
   wait("the wrong job is checked", [&] { return !window.jobs_page().checking() && !desk.path.loading(); });
   photographer.all(MainWindow::kJobs, QStringLiteral("3-jobs"));
+  photographer.small(MainWindow::kJobs, QStringLiteral("jobs"));
   window.machine_page().show_tab(2);
   window.machine_page().editor().read_if_empty();
   wait("the machine file is here",
        [&] { return !window.machine_page().editor().text().document()->isEmpty(); });
   photographer.all(MainWindow::kMachine, QStringLiteral("9-machine-file"));
+  photographer.small(MainWindow::kMachine, QStringLiteral("machine-file"));
 
   window.machine_page().show_tab(3);
   photographer.all(MainWindow::kMachine, QStringLiteral("10-motors"));
+  photographer.small(MainWindow::kMachine, QStringLiteral("motors"));
 
   wait("still connected", [&] { return desk.session.connected(); });
   desk.session.start_job(QStringLiteral("vase.gcode"));
@@ -230,6 +156,7 @@ int run(int argc, char** argv) {
   photographer.all(MainWindow::kView, QStringLiteral("2-view-kinds"));
   window.view_page().set_colouring(PathColouring::kPart);
   photographer.one(MainWindow::kView, QStringLiteral("11-scene-m1-printed"));
+  photographer.small(MainWindow::kView, QStringLiteral("view"));
   // Faster than the slider goes.
   desk.session.set_override(3);
   wait("three times as fast", [&] { return desk.session.status().feed_override() > 2.9; });
@@ -237,9 +164,32 @@ int run(int argc, char** argv) {
   photographer.all(MainWindow::kMachine, QStringLiteral("7-machine"));
   window.machine_page().show_tab(1);
   photographer.all(MainWindow::kMachine, QStringLiteral("8-machine-bus"));
+  photographer.small(MainWindow::kMachine, QStringLiteral("machine-bus"));
+  window.machine_page().show_tab(0);
+  photographer.small(MainWindow::kMachine, QStringLiteral("machine"));
+  desk.session.hold();
+  wait("the job is held", [&] { return state() == joblink::STATE_HELD; });
+  photographer.small(MainWindow::kView, QStringLiteral("held"));
+  desk.session.step_aside();
+  wait("it is set aside",
+       [&] { return state() == joblink::STATE_READY && desk.session.status().interrupted(); });
+  photographer.all(MainWindow::kJog, QStringLiteral("15-aside"));
+  photographer.small(MainWindow::kJog, QStringLiteral("aside"));
+  desk.session.resume();
+  wait("the job goes on", [&] { return state() == joblink::STATE_RUNNING; });
   desk.session.stop();
   wait("stopped", [&] { return state() == joblink::STATE_STOPPED || state() == joblink::STATE_ALARM; });
   photographer.all(MainWindow::kAlarms, QStringLiteral("6-alarms"));
+  photographer.small(MainWindow::kAlarms, QStringLiteral("alarms"));
+  desk.session.clear();
+  wait("the stop is lifted",
+       [&] { return state() != joblink::STATE_STOPPED && desk.session.allowed(joblink::COMMAND_CANCEL); });
+  desk.session.cancel();
+  wait("the job is cancelled",
+       [&] { return state() == joblink::STATE_READY && desk.session.status().job().empty(); });
+  desk.session.start_job(QStringLiteral("short.gcode"));
+  wait("a short job is over", [&] { return desk.record.end() == JobRecord::End::kComplete; });
+  photographer.all(MainWindow::kView, QStringLiteral("16-finished"));
   const auto turn_to = [&](const char* other) {
     desk.start_demo([](const QString& why) { std::fprintf(stderr, "%s\n", qPrintable(why)); },
                     QStringLiteral(KINEBUS_MACHINES "/%1.toml").arg(QLatin1String(other)));
@@ -267,8 +217,11 @@ int run(int argc, char** argv) {
   wait("a heater is measured",
        [&] { return stage() == joblink::TUNING_DONE || stage() == joblink::TUNING_FAILED; });
   photographer.all(MainWindow::kMachine, QStringLiteral("12-heaters"));
+  window.machine_page().show_tab(4);
+  photographer.small(MainWindow::kMachine, QStringLiteral("heaters"));
   desk.session.disconnect_from_gateway();
   desk.demo.reset();
+  photograph_killed_gateway(desk, window, photographer);
   return 0;
 }
 

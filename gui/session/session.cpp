@@ -52,7 +52,7 @@ kinebus::LocalTime Session::now() const {
   return kinebus::LocalTime(clock_.nsecsElapsed());
 }
 
-void Session::connect_to(LinkMaker maker, const QString& title) {
+void Session::connect_to(LinkMaker maker, const Phrase& title) {
   disconnect_from_gateway();
   client_ = make_client();
   maker_ = std::move(maker);
@@ -73,7 +73,7 @@ void Session::disconnect_from_gateway() {
   status_.Clear();
   machine_.Clear();
   jobs_.Clear();
-  title_.clear();
+  title_ = {};
   set_link_state(LinkState::kNone, {});
   emit status_changed();
   emit machine_changed();
@@ -98,11 +98,11 @@ void Session::open_link() {
   link_->open();
 }
 
-void Session::on_link_closed(const QString& why) {
+void Session::on_link_closed(const Phrase& why) {
   if (link_ == nullptr) return;
   link_->disconnect(this);
   link_.release()->deleteLater();
-  client_->on_disconnected(now(), why.toStdString());
+  client_->on_disconnected(now(), why.said().toStdString());
   pump();
   set_link_state(had_gateway_ ? LinkState::kLost : LinkState::kConnecting, why);
   again_.start();
@@ -132,7 +132,7 @@ void Session::arm() {
   timer_.start(std::max(std::chrono::milliseconds{0}, wait));
 }
 
-void Session::set_link_state(LinkState state, const QString& words) {
+void Session::set_link_state(LinkState state, const Phrase& words) {
   if (state == link_state_ && words == link_words_) return;
   link_state_ = state;
   link_words_ = words;
@@ -166,13 +166,13 @@ void Session::take(joblink::News& news) {
   } else if (std::holds_alternative<joblink::Connected>(news)) {
     on_connected();
   } else if (const auto* lost = std::get_if<joblink::Disconnected>(&news)) {
-    set_link_state(LinkState::kLost, QString::fromStdString(lost->why));
+    set_link_state(LinkState::kLost, Phrase(QString::fromStdString(lost->why)));
   }
 }
 
 void Session::on_connected() {
   had_gateway_ = true;
-  set_link_state(LinkState::kConnected, link_ != nullptr ? link_->description() : QString());
+  set_link_state(LinkState::kConnected, link_ != nullptr ? link_->description() : Phrase());
   joblink::ClientMessage machine;
   machine.mutable_get_machine();
   send(std::move(machine), [this](const joblink::Reply& reply) {
@@ -282,12 +282,13 @@ void Session::go_to_reference() {
 void Session::motors_off() {
   command(plain([](auto& r) { r.mutable_motors_off(); }));
 }
-void Session::jog(const joblink::Pose& delta, double speed_per_s, bool held) {
+void Session::jog(const joblink::Pose& delta, double speed_per_s, bool held, AnswerHandler then) {
   command(plain([&](auto& r) {
-    *r.mutable_jog()->mutable_delta() = delta;
-    r.mutable_jog()->set_speed_per_s(speed_per_s);
-    r.mutable_jog()->set_while_held(held);
-  }));
+            *r.mutable_jog()->mutable_delta() = delta;
+            r.mutable_jog()->set_speed_per_s(speed_per_s);
+            r.mutable_jog()->set_while_held(held);
+          }),
+          std::move(then));
 }
 void Session::set_motor_currents(int joint, double run_a, double hold_a) {
   command(plain([&](auto& r) {
@@ -333,6 +334,15 @@ void Session::tune_heater(joblink::HeaterKind kind, std::uint32_t index, double 
     r.mutable_tune_heater()->set_index(index);
     r.mutable_tune_heater()->set_celsius(celsius);
   }));
+}
+void Session::step_aside() {
+  command(plain([](auto& r) { r.mutable_step_aside(); }));
+}
+void Session::move_filament(joblink::MoveFilament::What what) {
+  command(plain([&](auto& r) { r.mutable_move_filament()->set_what(what); }));
+}
+void Session::restart_gateway(AnswerHandler then) {
+  command(plain([](auto& r) { r.mutable_restart_gateway(); }), std::move(then));
 }
 void Session::set_fan(double ratio) {
   command(plain([&](auto& r) { r.mutable_set_fan()->set_ratio(ratio); }));

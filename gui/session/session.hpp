@@ -9,6 +9,7 @@
 #include <memory>
 #include <unordered_map>
 
+#include "gui/link/phrase.hpp"
 #include "protocol/joblink/client.hpp"
 
 namespace kinebus::gui {
@@ -28,12 +29,12 @@ class Session : public QObject {
   ~Session() override;
 
   /// Leaves the gateway before and turns to another. `title`: what the user calls it.
-  void connect_to(LinkMaker maker, const QString& title);
+  void connect_to(LinkMaker maker, const Phrase& title);
   void disconnect_from_gateway();
 
   LinkState link_state() const { return link_state_; }
-  const QString& gateway_title() const { return title_; }
-  const QString& link_words() const { return link_words_; }  ///< why it is lost, or how it is connected
+  QString gateway_title() const { return title_.said(); }
+  QString link_words() const { return link_words_.said(); }  ///< why it is lost, or how it is connected
   /// How long ago the newest status came: while the link is lost, status() is what was known then.
   double status_age_s() const { return static_cast<double>(clock_.nsecsElapsed() - status_at_ns_) * 1e-9; }
   const joblink::HelloReply& hello() const { return client_->hello(); }
@@ -68,7 +69,7 @@ class Session : public QObject {
   void go_to_reference();
   void motors_off();
   /// `held`: as long as this is asked for again (joblink::Jog).
-  void jog(const joblink::Pose& delta, double speed_per_s, bool held = false);
+  void jog(const joblink::Pose& delta, double speed_per_s, bool held = false, AnswerHandler then = {});
   /// Of the joint at this place of the machine's list, A.
   void set_motor_currents(int joint, double run_a, double hold_a);
   void tune_motor(int joint);
@@ -78,11 +79,15 @@ class Session : public QObject {
   void set_temperature(bool bed, double celsius);
   /// 0 switches it off, and ends its measurement.
   void set_heater(joblink::HeaterKind kind, std::uint32_t index, double celsius);
-  /// Its node measures it, to be good at `celsius`.
   /// Of the print under way; it cannot be taken back.
   void exclude_object(const std::string& name);
   void move_probe_pin(joblink::MoveProbePin::Order order);
+  /// Its node measures it, to be good at `celsius`.
   void tune_heater(joblink::HeaterKind kind, std::uint32_t index, double celsius);
+  /// The job that is held, so that the machine may be moved meanwhile.
+  void step_aside();
+  void move_filament(joblink::MoveFilament::What what);
+  void restart_gateway(AnswerHandler then);
   void set_fan(double ratio);
   void set_work_offset(std::uint32_t system, const joblink::Pose& offset, bool here);
   void console(const QString& line, AnswerHandler then);
@@ -114,10 +119,10 @@ class Session : public QObject {
  private:
   void list_jobs_after(joblink::JobList so_far);
   void open_link();
-  void on_link_closed(const QString& why);
+  void on_link_closed(const Phrase& why);
   void on_connected();
   void take(joblink::News& news);
-  void set_link_state(LinkState state, const QString& words);
+  void set_link_state(LinkState state, const Phrase& words);
   const joblink::CommandStatus* find(joblink::Command command) const;
   kinebus::LocalTime now() const;
   void arm();
@@ -125,7 +130,7 @@ class Session : public QObject {
   std::unique_ptr<joblink::Client> client_;
   std::unique_ptr<Link> link_;
   LinkMaker maker_;
-  QString title_, link_words_;
+  Phrase title_, link_words_;
   LinkState link_state_ = LinkState::kNone;
   bool had_gateway_ = false;
   bool home_wanted_ = false;  ///< as soon as the nodes are awake

@@ -244,6 +244,7 @@ void FakeGateway::answer(const joblink::ClientMessage& message, joblink::Reply& 
     case M::kReadMachineFile:
       reply.mutable_machine_file()->set_text(machine_file);
       reply.mutable_machine_file()->set_writable(true);
+      reply.mutable_machine_file()->set_restart_needed(machine_file_newer);
       break;
     case M::kCheckMachineFile: {
       auto& check = *reply.mutable_machine_file_check();

@@ -26,6 +26,7 @@ class FakeGateway : public QObject {
   std::map<std::string, std::string> jobs;  ///< name to text
   joblink::PreflightResult preflight;
   std::string machine_file = "name = \"M1\"\n";
+  bool machine_file_newer = false;  ///< than what it runs with
   std::vector<joblink::ClientMessage> heard;
   QString refuse;  ///< the next command is refused so
   int connections = 0;

@@ -4340,6 +4340,54 @@
         <source>one that is at least %1 mm long at this speed</source>
         <translation>خط‌کشی که با این سرعت دست‌کم %1 mm باشد</translation>
     </message>
+    <message>
+        <source>set the job aside</source>
+        <translation>کنار گذاشتن کار</translation>
+    </message>
+    <message>
+        <source>move the filament</source>
+        <translation>راندن فیلامنت</translation>
+    </message>
+    <message>
+        <source>no job is held that could be set aside</source>
+        <translation>کار مکث‌کرده‌ای نیست که کنار گذاشته شود</translation>
+    </message>
+    <message>
+        <source>the tool is on its way: resume or cancel first</source>
+        <translation>ابزار در راه است: نخست ادامه دهید یا لغو کنید</translation>
+    </message>
+    <message>
+        <source>the probe is on its way: resume or cancel first</source>
+        <translation>پراب در راه است: نخست ادامه دهید یا لغو کنید</translation>
+    </message>
+    <message>
+        <source>the tool is not parked: %1</source>
+        <translation>ابزار پارک نشد: %1</translation>
+    </message>
+    <message>
+        <source>change the filament: load, purge, then resume goes on with the job</source>
+        <translation>فیلامنت را عوض کنید: بارگذاری، تخلیه، سپس ادامه دهید تا کار پیش برود</translation>
+    </message>
+    <message>
+        <source>the job is set aside: jog, heat and extrude, then resume goes on with it</source>
+        <translation>کار کنار گذاشته شد: حرکت دستی، گرم کردن و اکستروژن آزاد است؛ سپس ادامه دهید تا کار پیش برود</translation>
+    </message>
+    <message>
+        <source>nothing here feeds filament</source>
+        <translation>اینجا چیزی فیلامنت نمی‌راند</translation>
+    </message>
+    <message>
+        <source>%1 is 0 in the machine file</source>
+        <translation>%1 در پروندهٔ ماشین 0 است</translation>
+    </message>
+    <message>
+        <source>this gateway cannot be started anew from here</source>
+        <translation>این درگاه از اینجا از نو آغاز نمی‌شود</translation>
+    </message>
+    <message>
+        <source>the gateway starts anew when the machine rests and no job is under way or interrupted</source>
+        <translation>درگاه هنگامی از نو آغاز می‌شود که ماشین ایستاده باشد و هیچ کاری در جریان یا قطع‌شده نباشد</translation>
+    </message>
 </context>
 <context>
     <name>GatewayWords</name>
@@ -4848,6 +4896,36 @@
     </message>
 </context>
 <context>
+    <name>kinebus::gui::FilamentKeys</name>
+    <message>
+        <source>Unload</source>
+        <translation>بیرون کشیدن</translation>
+    </message>
+    <message>
+        <source>Load</source>
+        <translation>بارگذاری</translation>
+    </message>
+    <message>
+        <source>Purge</source>
+        <translation>تخلیه</translation>
+    </message>
+    <message>
+        <source>%1 mm of filament</source>
+        <translation>%1 mm فیلامنت</translation>
+    </message>
+    <message>
+        <source>[pause] of the machine file says no length</source>
+        <translation>[pause] در پروندهٔ ماشین طولی نمی‌گوید</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::Gamepad</name>
+    <message>
+        <source>gamepad</source>
+        <translation>دستهٔ بازی</translation>
+    </message>
+</context>
+<context>
     <name>kinebus::gui::GatewayFinder</name>
     <message>
         <source>USB %1 · serial number %2</source>
@@ -5098,6 +5176,62 @@
         <source>Print no more of %1? It cannot be taken back.</source>
         <translation>%1 دیگر چاپ نشود؟ این کار برگشت‌پذیر نیست.</translation>
     </message>
+    <message>
+        <source>Set aside</source>
+        <translation>کنار گذاشتن</translation>
+    </message>
+    <message>
+        <source>The tool rises and parks: then jog, heat, extrude or change the filament. Resume goes on from the job&apos;s place.</source>
+        <translation>ابزار بالا می‌رود و پارک می‌کند: سپس حرکت دستی، گرم کردن، اکستروژن یا تعویض فیلامنت ممکن است. ادامه، کار را از همان جا پیش می‌برد.</translation>
+    </message>
+    <message>
+        <source>Finished.</source>
+        <translation>پایان یافت.</translation>
+    </message>
+    <message>
+        <source>Cancelled.</source>
+        <translation>لغو شد.</translation>
+    </message>
+    <message>
+        <source>Not begun: the Jobs page says what is wrong.</source>
+        <translation>آغاز نشد: صفحهٔ کارها می‌گوید مشکل چیست.</translation>
+    </message>
+    <message>
+        <source>Ended by a stop.</source>
+        <translation>با یک ایست پایان یافت.</translation>
+    </message>
+    <message>
+        <source>Change the filament: load, purge, then resume.</source>
+        <translation>فیلامنت را عوض کنید: بارگذاری، تخلیه، سپس ادامه.</translation>
+    </message>
+    <message>
+        <source>Filament</source>
+        <translation>فیلامنت</translation>
+    </message>
+    <message>
+        <source>%1 m</source>
+        <translation>%1 m</translation>
+    </message>
+    <message>
+        <source>Clock error</source>
+        <translation>خطای ساعت</translation>
+    </message>
+    <message>
+        <source>%1 µs</source>
+        <translation>%1 µs</translation>
+    </message>
+    <message>
+        <source>Bus load</source>
+        <translation>بار گذرگاه</translation>
+    </message>
+    <message>
+        <source>Least queue</source>
+        <translation>کمترین صف</translation>
+    </message>
+    <message>
+        <source>Slowed</source>
+        <translation>کندشده</translation>
+    </message>
 </context>
 <context>
     <name>kinebus::gui::JobUpload</name>
@@ -5306,9 +5440,25 @@
         <source>mm/s</source>
         <translation>mm/s</translation>
     </message>
+    <message>
+        <source>Move by %1</source>
+        <translation>حرکت با %1</translation>
+    </message>
+    <message>
+        <source>It moves while it is deflected and its left shoulder key is held: left stick X and Y, right stick Z and C; a little is slow.</source>
+        <translation>تا وقتی دسته خم است و کلید شانهٔ چپ نگه داشته شده حرکت می‌کند: اهرم چپ X و Y، اهرم راست Z و C؛ کمی خم کردن یعنی آهسته.</translation>
+    </message>
+    <message>
+        <source>It moves while it is deflected, along one axis at a time; a little is slow.</source>
+        <translation>تا وقتی خم است حرکت می‌کند، هر بار در راستای یک محور؛ کمی خم کردن یعنی آهسته.</translation>
+    </message>
 </context>
 <context>
     <name>kinebus::gui::JogPage</name>
+    <message>
+        <source>Jog</source>
+        <translation>حرکت دستی</translation>
+    </message>
     <message>
         <source>Machine</source>
         <translation>ماشین</translation>
@@ -5421,6 +5571,10 @@
         <source>The probe&apos;s pin is not where it should be</source>
         <translation>پین پروب جایی که باید باشد نیست</translation>
     </message>
+    <message>
+        <source>Filament</source>
+        <translation>فیلامنت</translation>
+    </message>
 </context>
 <context>
     <name>kinebus::gui::MachineFileEditor</name>
@@ -5482,9 +5636,33 @@
             <numerusform>%Ln اشتباه: ذخیره نمی‌شود.</numerusform>
         </translation>
     </message>
+    <message>
+        <source>Restart the gateway</source>
+        <translation>آغاز دوبارهٔ درگاه</translation>
+    </message>
+    <message>
+        <source>It begins anew with the file as it is saved, and keeps positions</source>
+        <translation>با پروندهٔ ذخیره‌شده از نو آغاز می‌شود و موقعیت‌ها را نگه می‌دارد</translation>
+    </message>
+    <message>
+        <source>What you have changed here is not saved. Read the gateway&apos;s file over it?</source>
+        <translation>تغییرات شما اینجا ذخیره نشده است. پروندهٔ درگاه روی آن خوانده شود؟</translation>
+    </message>
+    <message>
+        <source>Keep my changes</source>
+        <translation>نگه داشتن تغییرات من</translation>
+    </message>
+    <message>
+        <source>The gateway begins anew.</source>
+        <translation>درگاه از نو آغاز می‌شود.</translation>
+    </message>
 </context>
 <context>
     <name>kinebus::gui::MachinePage</name>
+    <message>
+        <source>Machine</source>
+        <translation>ماشین</translation>
+    </message>
     <message>
         <source>Axes and nodes</source>
         <translation>محورها و گره‌ها</translation>
@@ -5756,6 +5934,13 @@
     </message>
 </context>
 <context>
+    <name>kinebus::gui::Notice</name>
+    <message>
+        <source>Close</source>
+        <translation>بستن</translation>
+    </message>
+</context>
+<context>
     <name>kinebus::gui::NumberField</name>
     <message>
         <source>%1 is not within %2 to %3</source>
@@ -5872,6 +6057,13 @@
     <message>
         <source>the connection on this computer has failed</source>
         <translation>اتصال روی این رایانه شکست خورد</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::SpaceMouse</name>
+    <message>
+        <source>3D mouse</source>
+        <translation>ماوس سه‌بعدی</translation>
     </message>
 </context>
 <context>
@@ -6134,6 +6326,18 @@
     <message>
         <source>gap</source>
         <translation>شکاف</translation>
+    </message>
+    <message>
+        <source>Where the tool went in the last five minutes</source>
+        <translation>راهی که ابزار در پنج دقیقهٔ گذشته رفته است</translation>
+    </message>
+    <message>
+        <source>%1, by the encoders: at most %2 mm from where it should have been</source>
+        <translation>%1، از روی انکودرها: حداکثر %2 mm دور از جایی که باید می‌بود</translation>
+    </message>
+    <message>
+        <source>%1, as commanded: no axis has an encoder</source>
+        <translation>%1، بنا بر فرمان: هیچ محوری انکودر ندارد</translation>
     </message>
 </context>
 </TS>

@@ -4340,6 +4340,54 @@
         <source>one that is at least %1 mm long at this speed</source>
         <translation>bu hızda en az %1 mm uzunluğunda olanı</translation>
     </message>
+    <message>
+        <source>set the job aside</source>
+        <translation>işi kenara alma</translation>
+    </message>
+    <message>
+        <source>move the filament</source>
+        <translation>filamenti sürme</translation>
+    </message>
+    <message>
+        <source>no job is held that could be set aside</source>
+        <translation>kenara alınabilecek duraklatılmış bir iş yok</translation>
+    </message>
+    <message>
+        <source>the tool is on its way: resume or cancel first</source>
+        <translation>takım yolda: önce sürdürün ya da iptal edin</translation>
+    </message>
+    <message>
+        <source>the probe is on its way: resume or cancel first</source>
+        <translation>prob yolda: önce sürdürün ya da iptal edin</translation>
+    </message>
+    <message>
+        <source>the tool is not parked: %1</source>
+        <translation>takım park edilmedi: %1</translation>
+    </message>
+    <message>
+        <source>change the filament: load, purge, then resume goes on with the job</source>
+        <translation>filamenti değiştirin: yükleyin, akıtın, sonra sürdürün; iş devam eder</translation>
+    </message>
+    <message>
+        <source>the job is set aside: jog, heat and extrude, then resume goes on with it</source>
+        <translation>iş kenara alındı: manuel hareket, ısıtma ve ekstrüzyon serbest; sonra sürdürün, iş devam eder</translation>
+    </message>
+    <message>
+        <source>nothing here feeds filament</source>
+        <translation>burada filament süren bir şey yok</translation>
+    </message>
+    <message>
+        <source>%1 is 0 in the machine file</source>
+        <translation>%1 makine dosyasında 0</translation>
+    </message>
+    <message>
+        <source>this gateway cannot be started anew from here</source>
+        <translation>bu ağ geçidi buradan yeniden başlatılamaz</translation>
+    </message>
+    <message>
+        <source>the gateway starts anew when the machine rests and no job is under way or interrupted</source>
+        <translation>ağ geçidi, makine dururken ve süren ya da kesilmiş bir iş yokken yeniden başlar</translation>
+    </message>
 </context>
 <context>
     <name>GatewayWords</name>
@@ -4848,6 +4896,36 @@
     </message>
 </context>
 <context>
+    <name>kinebus::gui::FilamentKeys</name>
+    <message>
+        <source>Unload</source>
+        <translation>Boşalt</translation>
+    </message>
+    <message>
+        <source>Load</source>
+        <translation>Yükle</translation>
+    </message>
+    <message>
+        <source>Purge</source>
+        <translation>Akıt</translation>
+    </message>
+    <message>
+        <source>%1 mm of filament</source>
+        <translation>%1 mm filament</translation>
+    </message>
+    <message>
+        <source>[pause] of the machine file says no length</source>
+        <translation>makine dosyasının [pause] tablosunda uzunluk yok</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::Gamepad</name>
+    <message>
+        <source>gamepad</source>
+        <translation>oyun kolu</translation>
+    </message>
+</context>
+<context>
     <name>kinebus::gui::GatewayFinder</name>
     <message>
         <source>USB %1 · serial number %2</source>
@@ -5098,6 +5176,62 @@
         <source>Print no more of %1? It cannot be taken back.</source>
         <translation>%1 artık basılmasın mı? Bu geri alınamaz.</translation>
     </message>
+    <message>
+        <source>Set aside</source>
+        <translation>Kenara al</translation>
+    </message>
+    <message>
+        <source>The tool rises and parks: then jog, heat, extrude or change the filament. Resume goes on from the job&apos;s place.</source>
+        <translation>Takım yükselir ve park eder: ardından manuel hareket, ısıtma, ekstrüzyon ya da filament değişimi yapılabilir. Sürdürünce iş kaldığı yerden devam eder.</translation>
+    </message>
+    <message>
+        <source>Finished.</source>
+        <translation>Bitti.</translation>
+    </message>
+    <message>
+        <source>Cancelled.</source>
+        <translation>İptal edildi.</translation>
+    </message>
+    <message>
+        <source>Not begun: the Jobs page says what is wrong.</source>
+        <translation>Başlamadı: sorunu İşler sayfası söyler.</translation>
+    </message>
+    <message>
+        <source>Ended by a stop.</source>
+        <translation>Bir durdurmayla sona erdi.</translation>
+    </message>
+    <message>
+        <source>Change the filament: load, purge, then resume.</source>
+        <translation>Filamenti değiştirin: yükleyin, akıtın, sonra sürdürün.</translation>
+    </message>
+    <message>
+        <source>Filament</source>
+        <translation>Filament</translation>
+    </message>
+    <message>
+        <source>%1 m</source>
+        <translation>%1 m</translation>
+    </message>
+    <message>
+        <source>Clock error</source>
+        <translation>Saat hatası</translation>
+    </message>
+    <message>
+        <source>%1 µs</source>
+        <translation>%1 µs</translation>
+    </message>
+    <message>
+        <source>Bus load</source>
+        <translation>Veri yolu yükü</translation>
+    </message>
+    <message>
+        <source>Least queue</source>
+        <translation>En az kuyruk</translation>
+    </message>
+    <message>
+        <source>Slowed</source>
+        <translation>Yavaşlama</translation>
+    </message>
 </context>
 <context>
     <name>kinebus::gui::JobUpload</name>
@@ -5306,9 +5440,25 @@
         <source>mm/s</source>
         <translation>mm/sn</translation>
     </message>
+    <message>
+        <source>Move by %1</source>
+        <translation>%1 ile hareket ettir</translation>
+    </message>
+    <message>
+        <source>It moves while it is deflected and its left shoulder key is held: left stick X and Y, right stick Z and C; a little is slow.</source>
+        <translation>Kol itilirken ve sol omuz tuşu basılıyken hareket eder: sol çubuk X ve Y, sağ çubuk Z ve C; az itilince yavaştır.</translation>
+    </message>
+    <message>
+        <source>It moves while it is deflected, along one axis at a time; a little is slow.</source>
+        <translation>İtilirken hareket eder, her seferinde bir eksen boyunca; az itilince yavaştır.</translation>
+    </message>
 </context>
 <context>
     <name>kinebus::gui::JogPage</name>
+    <message>
+        <source>Jog</source>
+        <translation>Manuel hareket</translation>
+    </message>
     <message>
         <source>Machine</source>
         <translation>Makine</translation>
@@ -5421,6 +5571,10 @@
         <source>The probe&apos;s pin is not where it should be</source>
         <translation>Probun pimi olması gereken yerde değil</translation>
     </message>
+    <message>
+        <source>Filament</source>
+        <translation>Filament</translation>
+    </message>
 </context>
 <context>
     <name>kinebus::gui::MachineFileEditor</name>
@@ -5482,9 +5636,33 @@
             <numerusform>%Ln yanlış: kaydedilemez.</numerusform>
         </translation>
     </message>
+    <message>
+        <source>Restart the gateway</source>
+        <translation>Ağ geçidini yeniden başlat</translation>
+    </message>
+    <message>
+        <source>It begins anew with the file as it is saved, and keeps positions</source>
+        <translation>Kaydedilen dosyayla yeniden başlar ve konumları korur</translation>
+    </message>
+    <message>
+        <source>What you have changed here is not saved. Read the gateway&apos;s file over it?</source>
+        <translation>Burada yaptığınız değişiklikler kaydedilmedi. Ağ geçidinin dosyası üzerlerine okunsun mu?</translation>
+    </message>
+    <message>
+        <source>Keep my changes</source>
+        <translation>Değişikliklerim kalsın</translation>
+    </message>
+    <message>
+        <source>The gateway begins anew.</source>
+        <translation>Ağ geçidi yeniden başlıyor.</translation>
+    </message>
 </context>
 <context>
     <name>kinebus::gui::MachinePage</name>
+    <message>
+        <source>Machine</source>
+        <translation>Makine</translation>
+    </message>
     <message>
         <source>Axes and nodes</source>
         <translation>Eksenler ve düğümler</translation>
@@ -5756,6 +5934,13 @@
     </message>
 </context>
 <context>
+    <name>kinebus::gui::Notice</name>
+    <message>
+        <source>Close</source>
+        <translation>Kapat</translation>
+    </message>
+</context>
+<context>
     <name>kinebus::gui::NumberField</name>
     <message>
         <source>%1 is not within %2 to %3</source>
@@ -5872,6 +6057,13 @@
     <message>
         <source>the connection on this computer has failed</source>
         <translation>bu bilgisayardaki bağlantı kurulamadı</translation>
+    </message>
+</context>
+<context>
+    <name>kinebus::gui::SpaceMouse</name>
+    <message>
+        <source>3D mouse</source>
+        <translation>3B fare</translation>
     </message>
 </context>
 <context>
@@ -6134,6 +6326,18 @@
     <message>
         <source>gap</source>
         <translation>boşluk</translation>
+    </message>
+    <message>
+        <source>Where the tool went in the last five minutes</source>
+        <translation>Takımın son beş dakikada gittiği yol</translation>
+    </message>
+    <message>
+        <source>%1, by the encoders: at most %2 mm from where it should have been</source>
+        <translation>%1, kodlayıcılara göre: olması gereken yerden en çok %2 mm uzakta</translation>
+    </message>
+    <message>
+        <source>%1, as commanded: no axis has an encoder</source>
+        <translation>%1, komuta göre: hiçbir eksende kodlayıcı yok</translation>
     </message>
 </context>
 </TS>

@@ -151,15 +151,15 @@ void ConnectPage::rebuild() {
     line->setContentsMargins(0, 2, 0, 2);
     auto* words = new QVBoxLayout;
     words->setSpacing(1);
-    auto* title = new QLabel(gateway.title, row);
+    auto* title = new QLabel(gateway.title.said(), row);
     auto* detail = new ElidedLabel(row);
     detail->setProperty("role", "small");
-    detail->set_text(gateway.detail);
+    detail->set_text(gateway.detail.said());
     words->addWidget(title);
     words->addWidget(detail);
     auto* go = make_button(desk_.theme, QStringLiteral("gateway"), "", row);
     go->setText(tr("Connect"));
-    go->setAccessibleName(tr("Connect to %1").arg(gateway.detail));
+    go->setAccessibleName(tr("Connect to %1").arg(gateway.detail.said()));
     connect(go, &QPushButton::clicked, this, [this, gateway] { desk_.connect_to(gateway); });
     line->addLayout(words, 1);
     line->addWidget(go);

@@ -1,6 +1,5 @@
 #include "gui/views/desk.hpp"
 
-#include <QCoreApplication>
 #include <QObject>
 #include <QString>
 
@@ -20,7 +19,7 @@ void Desk::start_demo(const std::function<void(const QString&)>& failed, const Q
   QObject::connect(demo.get(), &DemoGateway::ready, &session, [this] {
     const QString socket = demo->socket_path();
     session.connect_to([socket] { return std::make_unique<SocketLink>(socket); },
-                       QCoreApplication::translate("Desk", "Demo machine"));
+                       Phrase("Desk", QT_TRANSLATE_NOOP("Desk", "Demo machine")));
   });
   demo->start(machine_file);
 }

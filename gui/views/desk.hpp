@@ -9,10 +9,12 @@
 #include "gui/models/axes_model.hpp"
 #include "gui/models/events_model.hpp"
 #include "gui/models/heat_history.hpp"
+#include "gui/models/job_record.hpp"
 #include "gui/models/jobs_model.hpp"
 #include "gui/models/nodes_model.hpp"
 #include "gui/models/path_source.hpp"
 #include "gui/models/status_history.hpp"
+#include "gui/models/trail.hpp"
 #include "gui/models/tuning_curves.hpp"
 #include "gui/session/session.hpp"
 #include "gui/views/language.hpp"
@@ -32,6 +34,8 @@ struct Desk {
   StatusHistory history{session};
   HeatHistory heat{session};
   TuningCurves tuning{session};
+  JobRecord record{session};
+  Trail trail{session};
   PathSource path{session};
   Theme theme;
   Language language;

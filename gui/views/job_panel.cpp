@@ -10,6 +10,7 @@
 #include <QPushButton>
 #include <QSignalBlocker>
 #include <QSizePolicy>
+#include <QStackedLayout>
 #include <QTimer>
 #include <QVBoxLayout>
 #include <QWidget>
@@ -48,21 +49,18 @@ JobPanel::JobPanel(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(
   facts->setHorizontalSpacing(8);
   facts->setColumnStretch(1, 1);
   facts->setColumnStretch(3, 1);
-  const auto fact = [&](int row, QLabel*& value, auto words) {
-    auto* name = make_label("muted", card);
-    value = new QLabel(card);
-    value->setAlignment(Qt::AlignTrailing);
-    facts->addWidget(name, row / 2, row % 2 * 2);
-    facts->addWidget(value, row / 2, row % 2 * 2 + 1);
-    says([name, words] { name->setText(words()); });
-  };
-  fact(1, percent_, [] { return tr("Progress"); });
-  fact(0, elapsed_, [] { return tr("Elapsed"); });
-  fact(2, remaining_, [] { return tr("Remaining"); });
-  fact(3, line_, [] { return tr("Line"); });
+  for (std::size_t i = 0; i < facts_.size(); ++i) {
+    const int row = static_cast<int>(i) / 2, column = static_cast<int>(i) % 2 * 2;
+    facts_[i] = {make_label("muted", card), new QLabel(card)};
+    facts_[i].value->setAlignment(Qt::AlignTrailing);
+    facts->addWidget(facts_[i].name, row, column);
+    facts->addWidget(facts_[i].value, row, column + 1);
+  }
   card->column()->addLayout(facts);
 
-  auto* speed = new QHBoxLayout;
+  speed_row_ = new QWidget(card);
+  auto* speed = new QHBoxLayout(speed_row_);
+  speed->setContentsMargins(0, 0, 0, 0);
   auto* speed_name = make_label("muted", card);
   override_ = new QSlider(Qt::Horizontal, card);
   override_->setRange(10, 200);
@@ -76,7 +74,7 @@ JobPanel::JobPanel(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(
   speed->addWidget(speed_name);
   speed->addWidget(override_, 1);
   speed->addWidget(override_text_);
-  card->column()->addLayout(speed);
+  card->column()->addWidget(speed_row_);
   connect(override_, &QSlider::valueChanged, this,
           [this](int percent) { override_text_->setText(Format::percent(percent / 100.0)); });
   const auto send = [this] {
@@ -92,8 +90,12 @@ JobPanel::JobPanel(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(
   cancel_ = make_button(desk_.theme, QStringLiteral("cancel"), "danger", card);
   auto* buttons = new QHBoxLayout;
   buttons->setSpacing(8);
-  buttons->addWidget(pause_, 1);
-  buttons->addWidget(resume_, 1);
+  // One takes the other's place, and nothing beside it moves.
+  auto* slot = new QWidget(card);
+  pause_or_resume_ = new QStackedLayout(slot);
+  pause_or_resume_->addWidget(pause_);
+  pause_or_resume_->addWidget(resume_);
+  buttons->addWidget(slot, 1);
   buttons->addWidget(cancel_, 1);
   card->column()->addSpacing(2);
   card->column()->addLayout(buttons);
@@ -111,18 +113,33 @@ JobPanel::JobPanel(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(
     connect(yes, &QAbstractButton::clicked, &desk_.session, &Session::cancel);
     question->open();
   });
+  aside_ = make_button(desk_.theme, QStringLiteral("up"), "", card);
+  connect(aside_, &QPushButton::clicked, &desk_.session, &Session::step_aside);
+  filament_ = new FilamentKeys(desk_, card);
+  // The row is always there: nothing above it moves when a job is held.
+  auto* row = new QWidget(card);
+  aside_or_filament_ = new QStackedLayout(row);
+  aside_or_filament_->addWidget(aside_);
+  aside_or_filament_->addWidget(filament_);
+  card->column()->addWidget(row);
   objects_ = make_button(desk_.theme, QStringLiteral("cancel"), "", card);
   card->column()->addWidget(objects_);
   connect(objects_, &QPushButton::clicked, this, &JobPanel::choose_object);
   connect(&desk_.session, &Session::status_changed, this, &JobPanel::take_status);
   connect(&desk_.session, &Session::link_changed, this, &JobPanel::take_status);
+  connect(&desk_.record, &JobRecord::ended, this, &JobPanel::take_status);
   says([this, speed_name] {
     speed_name->setText(tr("Speed"));
+    progress_->setAccessibleName(tr("Progress"));
     override_->setAccessibleName(tr("Feed override in percent"));
     speak_direction(*override_);
     pause_->setText(tr("Pause"));
     resume_->setText(tr("Resume"));
     cancel_->setText(tr("Cancel"));
+    aside_->setText(tr("Set aside"));
+    aside_->setToolTip(
+        tr("The tool rises and parks: then jog, heat, extrude or change the filament. Resume goes "
+           "on from the job's place."));
     objects_->setText(tr("Leave an object out"));
     override_text_->setText(Format::percent(override_->value() / 100.0));
     take_status();
@@ -155,30 +172,72 @@ void JobPanel::choose_object() {
   menu->popup(objects_->mapToGlobal(QPoint(0, objects_->height())));
 }
 
+QString JobPanel::doing(bool job, bool report, bool lost) const {
+  const joblink::Status& s = desk_.session.status();
+  if (lost && job) return tr("Last known: what the job does now is not.");
+  if (report) switch (desk_.record.end()) {
+      case JobRecord::End::kComplete:
+        return tr("Finished.");
+      case JobRecord::End::kCancelled:
+        return tr("Cancelled.");
+      case JobRecord::End::kRefused:
+        return tr("Not begun: the Jobs page says what is wrong.");
+      default:
+        return tr("Ended by a stop.");
+    }
+  const bool interrupted = job && s.interrupted() && s.state() != joblink::STATE_HELD;
+  if (interrupted && s.state() == joblink::STATE_READY && s.filament_change())
+    return tr("Change the filament: load, purge, then resume.");
+  if (interrupted) return tr("Interrupted: resume goes on from its place.");
+  // What a job waits for, while nothing moves, is the gateway's to say.
+  const bool busy = job && (s.state() == joblink::STATE_RUNNING || s.state() == joblink::STATE_CHECKING);
+  return busy ? GatewayWords::said(s.doing_said(), s.doing()) : QString();
+}
+
+std::array<JobPanel::Fact, 6> JobPanel::facts(bool job, bool report) const {
+  const joblink::Status& s = desk_.session.status();
+  const QString none = QStringLiteral("—");
+  if (!report)
+    return {{{tr("Elapsed"), job ? Format::duration(s.elapsed_s()) : none},
+             {tr("Progress"), job ? Format::percent(s.progress(), 1) : none},
+             {tr("Remaining"), job ? Format::duration(s.remaining_s()) : none},
+             {tr("Line"), job && s.line() > 0 ? Format::number(s.line(), 0) : none},
+             {},
+             {}}};
+  const JobRecord::Figures& f = desk_.record.figures();
+  return {{{tr("Elapsed"), Format::duration(f.elapsed_s)},
+           {tr("Filament"), Format::isolated(tr("%1 m").arg(Format::number(f.filament_mm * 1e-3, 2)))},
+           {tr("Clock error"), Format::isolated(tr("%1 µs").arg(Format::number(f.clock_error_us, 1)))},
+           {tr("Bus load"), Format::percent(f.bus_load, 0)},
+           {tr("Least queue"), Format::percent(f.emptiest_queue, 0)},
+           {tr("Slowed"), Format::number(f.stalls, 0)}}};
+}
+
 void JobPanel::take_status() {
   const joblink::Status& s = desk_.session.status();
   const bool connected = desk_.session.connected();
   // What was known when the link broke stays on the screen and is called so.
   const bool lost = desk_.session.link_state() == Session::LinkState::kLost;
   const bool job = (connected || lost) && !s.job().empty();
-  name_->set_text(job ? QString::fromStdString(s.job()) : tr("No job is running"));
-  const bool interrupted = job && s.interrupted() && s.state() != joblink::STATE_HELD;
-  // What a job waits for, while nothing moves, is the gateway's to say.
-  const bool busy = job && (s.state() == joblink::STATE_RUNNING || s.state() == joblink::STATE_CHECKING);
-  doing_->setText(lost && job   ? tr("Last known: what the job does now is not.")
-                  : interrupted ? tr("Interrupted: resume goes on from its place.")
-                  : busy        ? GatewayWords::said(s.doing_said(), s.doing())
-                                : QString());
-  for (QWidget* known :
-       {static_cast<QWidget*>(progress_), static_cast<QWidget*>(percent_), static_cast<QWidget*>(elapsed_),
-        static_cast<QWidget*>(remaining_), static_cast<QWidget*>(line_)})
-    known->setEnabled(!lost);
-  progress_->setValue(job ? static_cast<int>(std::lround(s.progress() * 1000)) : 0);
-  const QString none = QStringLiteral("—");
-  percent_->setText(job ? Format::percent(s.progress(), 1) : none);
-  elapsed_->setText(job ? Format::duration(s.elapsed_s()) : none);
-  remaining_->setText(job ? Format::duration(s.remaining_s()) : none);
-  line_->setText(job && s.line() > 0 ? Format::number(s.line(), 0) : none);
+  const bool report = (connected || lost) && !job && desk_.record.end() != JobRecord::End::kNone;
+  name_->set_text(job      ? QString::fromStdString(s.job())
+                  : report ? QString::fromStdString(desk_.record.name())
+                           : tr("No job is running"));
+  const QString words = doing(job, report, lost);
+  if (doing_->text() != words) doing_->setText(words);
+  const auto all = facts(job, report);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    facts_[i].name->setVisible(!all[i].name.isEmpty());
+    facts_[i].value->setVisible(!all[i].name.isEmpty());
+    if (facts_[i].name->text() != all[i].name) facts_[i].name->setText(all[i].name);
+    if (facts_[i].value->text() != all[i].value) facts_[i].value->setText(all[i].value);
+    facts_[i].value->setEnabled(!lost);
+  }
+  // The report's last line is where the speed was.
+  speed_row_->setVisible(!report);
+  progress_->setEnabled(!lost);
+  const bool whole = report && desk_.record.end() == JobRecord::End::kComplete;
+  progress_->setValue(job ? static_cast<int>(std::lround(s.progress() * 1000)) : whole ? 1000 : 0);
   if (!override_->isSliderDown() && connected && s.feed_override() > 0) {
     const QSignalBlocker quiet(override_);
     override_->setValue(static_cast<int>(std::lround(s.feed_override() * 100)));
@@ -186,13 +245,17 @@ void JobPanel::take_status() {
     override_text_->setText(Format::percent(s.feed_override()));
   }
   const bool resume = desk_.session.allowed(joblink::COMMAND_RESUME);
-  pause_->setVisible(!resume);
+  pause_or_resume_->setCurrentWidget(resume ? resume_ : pause_);
   set_usable(*pause_, desk_.session.allowed(joblink::COMMAND_HOLD),
              desk_.session.why_not(joblink::COMMAND_HOLD));
-  resume_->setVisible(resume);
   set_usable(*cancel_, desk_.session.allowed(joblink::COMMAND_CANCEL),
              desk_.session.why_not(joblink::COMMAND_CANCEL));
   override_->setEnabled(connected);
+  set_usable(*aside_, job && desk_.session.allowed(joblink::COMMAND_STEP_ASIDE),
+             desk_.session.why_not(joblink::COMMAND_STEP_ASIDE));
+  const bool is_aside = connected && job && s.interrupted() && s.state() != joblink::STATE_HELD;
+  aside_or_filament_->setCurrentWidget(is_aside && filament_->is_of_use() ? static_cast<QWidget*>(filament_)
+                                                                          : aside_);
   objects_->setVisible(s.objects_size() > 0);
   set_usable(*objects_, desk_.session.allowed(joblink::COMMAND_EXCLUDE_OBJECT),
              desk_.session.why_not(joblink::COMMAND_EXCLUDE_OBJECT));

@@ -90,6 +90,10 @@ JobsPage::JobsPage(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(
   connect(&desk_.session, &Session::jobs_changed, this, &JobsPage::tell_store);
   connect(&desk_.session, &Session::status_changed, this, &JobsPage::take_selection);
   connect(&desk_.session, &Session::link_changed, this, &JobsPage::take_selection);
+  connect(&desk_.record, &JobRecord::checked, this, &JobsPage::take_start);
+  connect(&desk_.record, &JobRecord::ended, this, [this] {
+    if (desk_.record.end() == JobRecord::End::kRefused) take_start();
+  });
   take_selection();
 }
 
@@ -146,6 +150,7 @@ QWidget* JobsPage::make_table() {
   connect(start_, &QPushButton::clicked, this, [this] {
     if (const QString job = selected_job(); !job.isEmpty()) {
       desk_.session.start_job(job);
+      desk_.path.show_job(job);
       emit show_view();
     }
   });
@@ -209,8 +214,7 @@ QWidget* JobsPage::make_result() {
     if (!index.isValid()) return;
     const ShownProblem& problem = problems_.at(index.row());
     if (problem.line == 0) return;
-    if (desk_.path.name() != result_job_ || desk_.path.file_path().isEmpty())
-      desk_.path.show_job(result_job_);
+    if (desk_.path.name() != shown_job_ || desk_.path.file_path().isEmpty()) desk_.path.show_job(shown_job_);
     if (!desk_.path.file_path().isEmpty())
       lines_->show_line(desk_.path.file_path(), problem.line, problem.column);
     emit show_place(static_cast<std::uint32_t>(problem.line));
@@ -251,31 +255,50 @@ void JobsPage::take_selection() {
   check_->setEnabled(chosen && !checking_);
   show_->setEnabled(chosen);
   delete_->setEnabled((chosen && desk_.session.status().job() != job.toStdString()) || upload);
-  if (checking_) {
-    result_text_->setText(tr("Checking %1…").arg(Format::isolated(result_job_)));
-  } else if (has_result_) {
-    const QString time = Format::duration(summary_.motion_s() + summary_.dwell_s());
-    result_text_->setText(
-        summary_.errors() > 0
-            ? tr("%1: %Ln error(s). It will not start.", nullptr, static_cast<int>(summary_.errors()))
-                  .arg(Format::isolated(result_job_))
-        : summary_.warnings() > 0
-            ? tr("%1: it can be printed, with %Ln warning(s). It takes %2.", nullptr,
-                 static_cast<int>(summary_.warnings()))
-                  .arg(Format::isolated(result_job_), time)
-            : tr("%1: nothing is wrong. It takes %2.").arg(Format::isolated(result_job_), time));
+  if (job != shown_job_) show_result();
+  const joblink::Job* stored = desk_.jobs.find(job);
+  const auto found = results_.constFind(job);
+  // A check of before this program was begun has left its sum alone.
+  const joblink::PreflightSummary* summary =
+      found != results_.cend() && found->checked                                 ? &found->summary
+      : stored != nullptr && stored->has_preflight() && found == results_.cend() ? &stored->preflight()
+                                                                                 : nullptr;
+  if (checking_ && job == checked_job_) {
+    result_text_->setText(tr("Checking %1…").arg(Format::isolated(checked_job_)));
+  } else if (summary != nullptr) {
+    const QString time = Format::duration(summary->motion_s() + summary->dwell_s());
+    result_text_->setText(summary->errors() > 0 ? tr("%1: %Ln error(s). It will not start.", nullptr,
+                                                     static_cast<int>(summary->errors()))
+                                                      .arg(Format::isolated(job))
+                          : summary->warnings() > 0
+                              ? tr("%1: it can be printed, with %Ln warning(s). It takes %2.", nullptr,
+                                   static_cast<int>(summary->warnings()))
+                                    .arg(Format::isolated(job), time)
+                              : tr("%1: nothing is wrong. It takes %2.").arg(Format::isolated(job), time));
   } else {
     result_text_->setText(tr("The gateway checks a whole job against every limit before anything moves."));
   }
+}
+
+/// Of the job that is selected.
+void JobsPage::show_result() {
+  shown_job_ = selected_job();
+  const joblink::Job* job = desk_.jobs.find(shown_job_);
+  // Another text under the same name was never checked.
+  if (const auto found = results_.constFind(shown_job_);
+      found != results_.cend() && (job == nullptr || job->hash() != found->hash))
+    results_.remove(shown_job_);
+  problems_.set(results_.value(shown_job_).problems);
+  lines_->show_nothing();
 }
 
 void JobsPage::check() {
   const QString job = selected_job();
   if (job.isEmpty()) return;
   checking_ = true;
-  result_job_ = job;
-  problems_.set({});
-  lines_->show_nothing();
+  checked_job_ = job;
+  results_.remove(job);
+  show_result();
   desk_.session.check_job(job, [self = QPointer<JobsPage>(this), job](const joblink::Reply& reply) {
     if (!self.isNull()) self->take_result(job, reply);
   });
@@ -283,19 +306,55 @@ void JobsPage::check() {
 }
 
 void JobsPage::take_result(const QString& name, const joblink::Reply& reply) {
-  if (name != result_job_) return;
+  if (name != checked_job_) return;
   checking_ = false;
-  has_result_ = reply.has_preflight();
-  if (has_result_) {
-    summary_ = reply.preflight().summary();
-    problems_.set(ProblemsModel::of(reply.preflight()));
+  const joblink::Job* job = desk_.jobs.find(name);
+  Result result{.hash = job != nullptr ? job->hash() : std::string(),
+                .problems = {},
+                .summary = reply.preflight().summary(),
+                .checked = reply.has_preflight()};
+  if (result.checked)
+    result.problems = ProblemsModel::of(reply.preflight());
+  else
+    result.problems = {{true, static_cast<int>(reply.error().line()), 0, reply.error()}};
+  const bool checked = result.checked;
+  results_[name] = std::move(result);
+  if (checked) {
     desk_.path.show_job(name);
     desk_.session.list_jobs();
-    if (problems_.rowCount() > 0 && problems_.at(0).line > 0)
-      QTimer::singleShot(0, this, [this] { problems_table_->setCurrentIndex(problems_.index(0, 0)); });
-  } else {
-    problems_.set({{true, static_cast<int>(reply.error().line()), 0, reply.error()}});
   }
+  if (name == selected_job()) {
+    show_result();
+    if (checked && problems_.rowCount() > 0 && problems_.at(0).line > 0)
+      QTimer::singleShot(0, this, [this] {
+        if (problems_.rowCount() > 0) problems_table_->setCurrentIndex(problems_.index(0, 0));
+      });
+  }
+  take_selection();
+}
+
+void JobsPage::take_start() {
+  const JobRecord& record = desk_.record;
+  if (record.problems().isEmpty()) return;
+  const QString name = QString::fromStdString(record.name());
+  const joblink::Job* job = desk_.jobs.find(name);
+  Result result{.hash = job != nullptr ? job->hash() : std::string(),
+                .problems = record.problems(),
+                .summary = {},
+                .checked = true};
+  for (const ShownProblem& problem : record.problems())
+    problem.error ? result.summary.set_errors(result.summary.errors() + 1)
+                  : result.summary.set_warnings(result.summary.warnings() + 1);
+  const auto known = results_.constFind(name);
+  // The check by itself tells more: time, and how much there is beyond what events say.
+  if (result.summary.errors() == 0 && known != results_.cend() && known->checked) return;
+  if (job != nullptr && job->has_preflight()) {
+    result.summary.set_motion_s(job->preflight().motion_s());
+    result.summary.set_dwell_s(job->preflight().dwell_s());
+  }
+  results_[name] = std::move(result);
+  shown_job_.clear();
+  select(name);
   take_selection();
 }
 

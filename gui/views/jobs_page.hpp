@@ -6,6 +6,7 @@
 #include <QDragLeaveEvent>
 #include <QDropEvent>
 #include <QLabel>
+#include <QMap>
 #include <QPushButton>
 #include <QStringList>
 #include <QTableView>
@@ -46,6 +47,8 @@ class JobsPage : public SpeakingWidget {
   QString selected_job() const;
   void take_selection();
   void take_result(const QString& name, const joblink::Reply& reply);
+  /// The job that was started was checked once more: what was found is shown, whether it begins or not.
+  void take_start();
   void ask_to_delete();
   void choose_file();
   void tell_store();
@@ -58,9 +61,17 @@ class JobsPage : public SpeakingWidget {
   QPushButton *start_, *check_, *show_, *delete_;
   QLabel *store_text_, *result_text_, *result_heading_;
   QSplitter* splitter_;
-  QString result_job_;
-  joblink::PreflightSummary summary_;
-  bool has_result_ = false, checking_ = false;
+  /// What the newest check of a job has found; of the text that had this hash.
+  struct Result {
+    std::string hash;
+    QVector<ShownProblem> problems;
+    joblink::PreflightSummary summary;
+    bool checked = false;  ///< false: the check itself was refused
+  };
+  void show_result();
+  QMap<QString, Result> results_;
+  QString shown_job_, checked_job_;
+  bool checking_ = false;
 };
 
 }  // namespace kinebus::gui

@@ -9,6 +9,7 @@
 #include <QLatin1Char>
 #include <QLocale>
 #include <QPushButton>
+#include <QStringList>
 #include <QVBoxLayout>
 #include <QVector>
 #include <QWidget>
@@ -34,7 +35,7 @@ constexpr double kFar = 1000;
 constexpr double kFarTurn = 360;
 }  // namespace
 
-JogPad::JogPad(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(desk) {
+JogPad::JogPad(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(desk), drive_(desk.session) {
   auto* card = new Card(this);
   auto* all = new QVBoxLayout(this);
   all->setContentsMargins(0, 0, 0, 0);
@@ -50,13 +51,25 @@ JogPad::JogPad(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(desk
   hint_ = make_label("small", card);
   hint_->setWordWrap(true);
   card->column()->addWidget(hint_);
+  by_hand_ = new QCheckBox(card);
+  by_hand_hint_ = make_label("small", card);
+  by_hand_hint_->setWordWrap(true);
+  card->column()->addWidget(by_hand_);
+  card->column()->addWidget(by_hand_hint_);
   card->column()->addStretch(1);
+  connect(by_hand_, &QCheckBox::toggled, this, [this](bool on) {
+    if (!on) drive_.take({});
+  });
+  connect(speed_, &NumberField::valueChanged, &drive_, &JogDrive::set_full_speed);
+  drive_.set_full_speed(speed_->value());
+  for (auto& device : make_jog_devices()) follow(std::move(device));
   says([this, heading] {
     heading->setText(tr("Jog"));
     hint_->setText(
         tr("A click is a step; a button or key that is held moves until it is let go. Keys: arrows move X "
            "and Y, "
            "Page Up and Page Down move Z, A and D tilt, Q and W turn the table, 1 to 5 choose the step."));
+    tell_devices();
   });
   long_enough_.setSingleShot(true);
   long_enough_.setInterval(kLongEnough);
@@ -160,11 +173,58 @@ QWidget* JogPad::make_steps() {
   says([this, step_name, speed_name, buttons] {
     step_name->setText(tr("Step, mm or °"));
     speed_name->setText(tr("Speed"));
+    speed_->setAccessibleName(tr("Speed"));
     speed_->setSuffix(QStringLiteral(" ") + tr("mm/s"));
     for (std::size_t i = 0; i < kSteps.size(); ++i)
       buttons[static_cast<int>(i)]->setText(QLocale().toString(kSteps[i], 'g', 4));
   });
   return box;
+}
+
+void JogPad::follow(std::unique_ptr<JogDevice> device) {
+  JogDevice* const added = device.get();
+  devices_.push_back(std::move(device));
+  connect(added, &JogDevice::name_changed, this, &JogPad::tell_devices);
+  connect(added, &JogDevice::deflected, this,
+          [this, added](const JogDevice::Deflection& deflection) { take_deflection(*added, deflection); });
+  added->listen(isVisible());
+  tell_devices();
+}
+
+void JogPad::tell_devices() {
+  QStringList names;
+  bool dead_man = false;
+  for (const auto& device : devices_) {
+    if (device->name().isEmpty()) continue;
+    names << Format::isolated(device->name());
+    dead_man = dead_man || device->has_dead_man();
+  }
+  by_hand_->setVisible(!names.isEmpty());
+  by_hand_hint_->setVisible(!names.isEmpty());
+  // What comes back is switched on anew.
+  if (names.isEmpty()) by_hand_->setChecked(false);
+  by_hand_->setText(tr("Move by %1").arg(names.join(QStringLiteral(", "))));
+  by_hand_hint_->setText(
+      dead_man ? tr("It moves while it is deflected and its left shoulder key is held: left stick X and Y, "
+                    "right stick Z and C; a little is slow.")
+               : tr("It moves while it is deflected, along one axis at a time; a little is slow."));
+}
+
+void JogPad::take_deflection(const JogDevice& device, const JogDevice::Deflection& deflection) {
+  const bool listens = by_hand_->isChecked() && isVisible() && window()->isActiveWindow() && !pressed_ &&
+                       !device.name().isEmpty();
+  drive_.take(listens ? deflection : JogDevice::Deflection{});
+}
+
+void JogPad::showEvent(QShowEvent* event) {
+  for (const auto& device : devices_) device->listen(true);
+  SpeakingWidget::showEvent(event);
+}
+
+void JogPad::hideEvent(QHideEvent* event) {
+  drive_.take({});
+  for (const auto& device : devices_) device->listen(false);
+  SpeakingWidget::hideEvent(event);
 }
 
 void JogPad::take_machine() {
@@ -196,6 +256,7 @@ void JogPad::release(Way way) {
 }
 
 void JogPad::let_go() {
+  drive_.let_go();
   long_enough_.stop();
   again_.stop();
   const std::optional<Way> way = std::exchange(pressed_, std::nullopt);

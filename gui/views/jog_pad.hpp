@@ -1,8 +1,9 @@
 #pragma once
 // The keys of moving by hand, on the screen and on the keyboard: a click is a step, a key that is held moves
-// until it is let go.
+// until it is let go. And gamepad and 3D mouse, once they are switched on here, while the page is in front.
 
 #include <QButtonGroup>
+#include <QCheckBox>
 #include <QEvent>
 #include <QKeyEvent>
 #include <QLabel>
@@ -10,8 +11,12 @@
 #include <QTimer>
 #include <QVector>
 #include <QWidget>
+#include <memory>
 #include <optional>
+#include <vector>
 
+#include "gui/link/hand/jog_device.hpp"
+#include "gui/session/jog_drive.hpp"
 #include "gui/views/desk.hpp"
 #include "gui/views/number_field.hpp"
 #include "gui/views/widgets.hpp"
@@ -27,6 +32,12 @@ class JogPad : public SpeakingWidget {
   bool key(const QKeyEvent& event);
   /// Whatever is held is let go: the keyboard or the window is somebody else's now.
   void let_go();
+  /// One more thing in the user's hand.
+  void follow(std::unique_ptr<JogDevice> device);
+
+ protected:
+  void showEvent(QShowEvent* event) override;
+  void hideEvent(QHideEvent* event) override;
 
  private:
   enum class Axis { kX, kY, kZ, kA, kC, kE };
@@ -45,6 +56,8 @@ class JogPad : public SpeakingWidget {
   void send(Way way, double distance, bool held);
   void take_status();
   void take_machine();
+  void tell_devices();
+  void take_deflection(const JogDevice& device, const JogDevice::Deflection& deflection);
 
   Desk& desk_;
   QButtonGroup* steps_;
@@ -54,6 +67,10 @@ class JogPad : public SpeakingWidget {
   std::optional<Way> pressed_;
   bool moving_ = false;  ///< what is pressed has been held long enough
   QTimer long_enough_, again_;
+  QCheckBox* by_hand_;  ///< gamepad and 3D mouse move the machine
+  QLabel* by_hand_hint_;
+  JogDrive drive_;
+  std::vector<std::unique_ptr<JogDevice>> devices_;
 };
 
 }  // namespace kinebus::gui

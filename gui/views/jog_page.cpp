@@ -9,15 +9,18 @@
 #include <QLabel>
 #include <QLatin1Char>
 #include <QLocale>
+#include <QMargins>
 #include <QPushButton>
 #include <QScrollArea>
 #include <QVBoxLayout>
 #include <QVector>
 #include <QWidget>
+#include <algorithm>
 #include <array>
 #include <numbers>
 
 #include "gui/models/format.hpp"
+#include "gui/views/filament_keys.hpp"
 
 namespace kinebus::gui {
 namespace {
@@ -29,16 +32,13 @@ constexpr std::array<const char*, 9> kSystems{"G54", "G55",   "G56",   "G57",  "
 JogPage::JogPage(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(desk) {
   setFocusPolicy(Qt::StrongFocus);
   auto* body = new QWidget;
-  auto* grid = new QGridLayout(body);
-  grid->setContentsMargins(14, 12, 14, 12);
-  grid->setSpacing(12);
+  grid_ = new QGridLayout(body);
+  grid_->setContentsMargins(14, 12, 14, 12);
+  grid_->setSpacing(12);
   pad_ = new JogPad(desk_, body);
-  grid->addWidget(pad_, 0, 0, 2, 1);
-  grid->addWidget(make_actions(), 0, 1);
-  grid->addWidget(make_offsets(), 1, 1);
-  grid->setColumnStretch(0, 3);
-  grid->setColumnStretch(1, 2);
-  grid->setRowStretch(1, 1);
+  actions_ = make_actions();
+  offsets_ = make_offsets();
+  arrange();
   auto* scroll = new QScrollArea(this);
   scroll->setWidgetResizable(true);
   scroll->setFocusPolicy(Qt::NoFocus);
@@ -53,6 +53,29 @@ JogPage::JogPage(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(de
     button->setFocusPolicy(Qt::TabFocus);  // the page keeps the keys when a button is clicked
   }
   take_status();
+}
+
+/// Beside one another, or where there is too little room below.
+void JogPage::arrange() {
+  const QMargins margins = grid_->contentsMargins();
+  const int wanted = pad_->minimumSizeHint().width() + grid_->spacing() + margins.left() + margins.right() +
+                     std::max(actions_->minimumSizeHint().width(), offsets_->minimumSizeHint().width());
+  const Shape shape = width() >= wanted ? Shape::kBeside : Shape::kBelow;
+  if (shape == shape_) return;
+  shape_ = shape;
+  for (QWidget* card : {static_cast<QWidget*>(pad_), actions_, offsets_}) grid_->removeWidget(card);
+  const bool beside = shape == Shape::kBeside;
+  grid_->addWidget(pad_, 0, 0, beside ? 2 : 1, 1);
+  grid_->addWidget(actions_, beside ? 0 : 1, beside ? 1 : 0);
+  grid_->addWidget(offsets_, beside ? 1 : 2, beside ? 1 : 0);
+  grid_->setColumnStretch(0, 3);
+  grid_->setColumnStretch(1, beside ? 2 : 0);
+  grid_->setRowStretch(1, beside ? 1 : 0);
+}
+
+void JogPage::resizeEvent(QResizeEvent* event) {
+  SpeakingWidget::resizeEvent(event);
+  arrange();
 }
 
 /// A button that has the focus would take arrows for a way to the next button: they jog.
@@ -85,12 +108,23 @@ QWidget* JogPage::make_actions() {
   grid->addWidget(motors_off_, 2, 0, 1, 2);
   card->column()->addLayout(grid);
   card->column()->addWidget(make_pin(card));
+  auto* filament_heading = make_label("muted", card);
+  auto* filament = new FilamentKeys(desk_, card);
+  card->column()->addWidget(filament_heading);
+  card->column()->addWidget(filament);
+  const auto take_filament = [filament_heading, filament] {
+    filament_heading->setVisible(filament->is_of_use());
+    filament->setVisible(filament->is_of_use());
+  };
+  connect(&desk_.session, &Session::machine_changed, filament, take_filament);
+  take_filament();
   connect(home_, &QPushButton::clicked, &desk_.session, &Session::home);
   connect(reference_, &QPushButton::clicked, &desk_.session, &Session::go_to_reference);
   connect(hold_, &QPushButton::clicked, &desk_.session, &Session::hold);
   connect(clear_, &QPushButton::clicked, &desk_.session, &Session::clear);
   connect(motors_off_, &QPushButton::clicked, &desk_.session, &Session::motors_off);
-  says([this, heading] {
+  says([this, heading, filament_heading] {
+    filament_heading->setText(tr("Filament"));
     heading->setText(tr("Machine"));
     home_->setText(tr("Home"));
     home_->setToolTip(tr("Wakes the nodes and brings all carriages to their switches"));
@@ -208,6 +242,8 @@ QWidget* JogPage::make_offsets() {
           [this, pose, system] { desk_.session.set_work_offset(system(), pose(), false); });
   says([this, heading] {
     heading->setText(tr("Work offsets"));
+    setAccessibleName(tr("Jog"));
+    if (offsets_ != nullptr) arrange();  // words are wider in another language
     system_->setAccessibleName(tr("Coordinate system"));
     zero_here_->setText(tr("Zero here"));
     zero_here_->setToolTip(tr("The tool's position becomes the zero of this system"));

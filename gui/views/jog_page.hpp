@@ -4,9 +4,11 @@
 #include <QComboBox>
 #include <QEvent>
 #include <QFocusEvent>
+#include <QGridLayout>
 #include <QKeyEvent>
 #include <QLabel>
 #include <QPushButton>
+#include <QResizeEvent>
 #include <QVector>
 #include <QWidget>
 
@@ -27,6 +29,7 @@ class JogPage : public SpeakingWidget {
   void keyReleaseEvent(QKeyEvent* event) override;
   void focusOutEvent(QFocusEvent* event) override;
   bool eventFilter(QObject* watched, QEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
 
  private:
   QWidget* make_actions();
@@ -34,9 +37,14 @@ class JogPage : public SpeakingWidget {
   QWidget* make_offsets();
   void take_status();
   void show_pin();
+  void arrange();
 
+  enum class Shape { kNone, kBeside, kBelow };
   Desk& desk_;
+  QGridLayout* grid_;
+  Shape shape_ = Shape::kNone;
   JogPad* pad_;
+  QWidget *actions_ = nullptr, *offsets_ = nullptr;
   QPushButton *home_, *reference_, *motors_off_, *clear_, *hold_;
   QWidget* pin_ = nullptr;
   QLabel* pin_state_ = nullptr;

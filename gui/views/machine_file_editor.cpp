@@ -1,5 +1,6 @@
 #include "gui/views/machine_file_editor.hpp"
 
+#include <QAbstractButton>
 #include <QAbstractItemView>
 #include <QColor>
 #include <QFont>
@@ -8,6 +9,7 @@
 #include <QItemSelectionModel>
 #include <QLabel>
 #include <QLatin1Char>
+#include <QMessageBox>
 #include <QModelIndex>
 #include <QPlainTextEdit>
 #include <QPointer>
@@ -79,12 +81,14 @@ MachineFileEditor::MachineFileEditor(Desk& desk, QWidget* parent)
   read_ = make_button(desk_.theme, QStringLiteral("refresh"), "", this);
   undo_ = make_button(desk_.theme, QStringLiteral("turn-left"), "", this);
   save_ = make_button(desk_.theme, QStringLiteral("save"), "primary", this);
+  restart_ = make_button(desk_.theme, QStringLiteral("power"), "", this);
   auto* row = new QHBoxLayout;
   row->setSpacing(8);
   row->addWidget(place_, 1);
   row->addWidget(undo_);
   row->addWidget(read_);
   row->addWidget(save_);
+  row->addWidget(restart_);
   column->addLayout(row);
   auto* parts = new QSplitter(Qt::Vertical, this);
   text_ = new NumberedText(desk_.theme, parts);
@@ -120,7 +124,7 @@ MachineFileEditor::MachineFileEditor(Desk& desk, QWidget* parent)
   check_soon_.setInterval(kCheckAfter_ms);
   connect(&check_soon_, &QTimer::timeout, this, &MachineFileEditor::check);
   connect(text_->document(), &QTextDocument::contentsChanged, this, [this] {
-    save_words_.clear();
+    say(Said::kNothing);
     // Colouring changes the document too, but not its text.
     if (text_->document()->revision() != checked_revision_) check_soon_.start();
     tell();
@@ -131,7 +135,8 @@ MachineFileEditor::MachineFileEditor(Desk& desk, QWidget* parent)
   };
   connect(table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this, go);
   connect(table_, &QTableView::clicked, this, go);
-  connect(read_, &QPushButton::clicked, this, &MachineFileEditor::read);
+  connect(read_, &QPushButton::clicked, this, &MachineFileEditor::ask_to_read);
+  connect(restart_, &QPushButton::clicked, this, &MachineFileEditor::restart);
   connect(undo_, &QPushButton::clicked, text_, &QPlainTextEdit::undo);
   connect(save_, &QPushButton::clicked, this, &MachineFileEditor::save);
   connect(&desk_.session, &Session::link_changed, this, [this] {
@@ -139,12 +144,19 @@ MachineFileEditor::MachineFileEditor(Desk& desk, QWidget* parent)
       read_once_ = false;
       text_->clear();
     }
+    // It is back, with another file than before.
+    if (desk_.session.connected() && said_ == Said::kRestarts) {
+      say(Said::kNothing);
+      if (!text_->document()->isModified()) read();
+    }
     tell();
   });
   says([this] {
     read_->setText(tr("Read again"));
     undo_->setText(tr("Undo"));
     save_->setText(tr("Save on the gateway"));
+    restart_->setText(tr("Restart the gateway"));
+    restart_->setToolTip(tr("It begins anew with the file as it is saved, and keeps positions"));
     text_->setAccessibleName(tr("Machine file"));
     table_->setAccessibleName(tr("What is wrong in the machine file"));
     emit problems_.headerDataChanged(Qt::Horizontal, 0, ProblemsModel::kColumns - 1);
@@ -163,7 +175,7 @@ void MachineFileEditor::read() {
                      [self = QPointer<MachineFileEditor>(this)](const joblink::Reply& reply) {
                        if (self.isNull()) return;
                        if (!reply.has_machine_file()) {
-                         self->save_words_ = to_words(reply.error());
+                         self->say(Said::kNothing, reply.error());
                          self->tell();
                          return;
                        }
@@ -208,20 +220,64 @@ void MachineFileEditor::save() {
                         [self = QPointer<MachineFileEditor>(this)](const joblink::Reply& reply) {
                           if (self.isNull()) return;
                           if (reply.has_error()) {
-                            self->save_words_ = to_words(reply.error());
-                          } else {
-                            if (reply.has_machine_file()) self->file_ = reply.machine_file();
-                            self->text_->document()->setModified(false);
-                            self->save_words_ = tr("Saved. The gateway uses it from its next start.");
+                            self->say(Said::kNothing, reply.error());
+                            return self->tell();
                           }
-                          self->tell();
+                          self->text_->document()->setModified(false);
+                          self->say(Said::kSaved);
+                          self->look_at_file();
                         });
+}
+
+/// What the gateway says of its file now; the text stays as it is.
+void MachineFileEditor::look_at_file() {
+  joblink::ClientMessage request;
+  request.mutable_read_machine_file();
+  desk_.session.send(std::move(request),
+                     [self = QPointer<MachineFileEditor>(this)](const joblink::Reply& reply) {
+                       if (self.isNull()) return;
+                       if (reply.has_machine_file()) self->file_ = reply.machine_file();
+                       self->tell();
+                     });
+}
+
+void MachineFileEditor::ask_to_read() {
+  if (!text_->document()->isModified()) return read();
+  auto* question =
+      new QMessageBox(QMessageBox::Question, tr("Read again"),
+                      tr("What you have changed here is not saved. Read the gateway's file over it?"),
+                      QMessageBox::NoButton, window());
+  question->setAttribute(Qt::WA_DeleteOnClose);
+  auto* yes = question->addButton(tr("Read again"), QMessageBox::DestructiveRole);
+  auto* no = question->addButton(tr("Keep my changes"), QMessageBox::RejectRole);
+  question->setDefaultButton(no);
+  question->setEscapeButton(no);
+  connect(yes, &QAbstractButton::clicked, this, &MachineFileEditor::read);
+  question->open();
+}
+
+void MachineFileEditor::restart() {
+  desk_.session.restart_gateway([self = QPointer<MachineFileEditor>(this)](const joblink::Reply& reply) {
+    if (self.isNull()) return;
+    if (reply.has_error())
+      self->say(Said::kNothing, reply.error());
+    else
+      self->say(Said::kRestarts);
+    self->tell();
+  });
+}
+
+void MachineFileEditor::say(Said said, const joblink::Problem& refusal) {
+  said_ = said;
+  refusal_ = refusal;
 }
 
 void MachineFileEditor::tell() {
   const bool connected = desk_.session.connected();
   const bool fresh = checked_ && checked_revision_ == text_->document()->revision();
   read_->setEnabled(connected);
+  // A file that is newer than what runs is of no use before.
+  restart_->setVisible(connected && read_once_ && file_.restart_needed());
   undo_->setEnabled(text_->document()->isUndoAvailable());
   save_->setEnabled(connected && read_once_ && file_.writable() && fresh && problems_.rowCount() == 0 &&
                     text_->document()->isModified());
@@ -235,8 +291,12 @@ void MachineFileEditor::tell() {
     place += QStringLiteral(" · ") + tr("newer than what the gateway runs with");
   place_->set_text(place);
   table_->setVisible(problems_.rowCount() > 0);
-  if (!save_words_.isEmpty())
-    verdict_->setText(save_words_);
+  if (!refusal_.rule().empty())
+    verdict_->setText(to_words(refusal_));
+  else if (said_ == Said::kSaved)
+    verdict_->setText(tr("Saved. The gateway uses it from its next start."));
+  else if (said_ == Said::kRestarts)
+    verdict_->setText(tr("The gateway begins anew."));
   else if (!read_once_)
     verdict_->setText(tr("The machine file says what the machine is: kinematics, axes, limits, nodes."));
   else if (!fresh)

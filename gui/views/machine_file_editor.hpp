@@ -41,22 +41,29 @@ class MachineFileEditor : public SpeakingWidget {
   int problems() const { return problems_.rowCount(); }
 
  private:
+  enum class Said { kNothing, kSaved, kRestarts };
+  void say(Said said, const joblink::Problem& refusal = {});
   void check();
   void save();
   void tell();
+  /// Reads again; first asks when that would lose what was typed.
+  void ask_to_read();
+  void restart();
+  void look_at_file();
 
   Desk& desk_;
   NumberedText* text_;
   ProblemsModel problems_;
   QTableView* table_;
-  QPushButton *read_, *save_, *undo_;
+  QPushButton *read_, *save_, *undo_, *restart_;
   ElidedLabel* place_;
   QLabel* verdict_;
   QTimer check_soon_;
   joblink::MachineFile file_;
   bool read_once_ = false, checked_ = false, checking_ = false;
   int checked_revision_ = -1;
-  QString save_words_;
+  Said said_ = Said::kNothing;
+  joblink::Problem refusal_;  ///< of the last save or restart; without words: none
 };
 
 }  // namespace kinebus::gui

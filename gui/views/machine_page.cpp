@@ -135,6 +135,7 @@ MachinePage::MachinePage(Desk& desk, QWidget* parent) : SpeakingWidget(parent), 
   connect(&desk_.session, &Session::status_changed, this, &MachinePage::take_status);
   connect(&desk_.session, &Session::machine_changed, this, &MachinePage::take_status);
   says([this] {
+    tabs_->setAccessibleName(tr("Machine"));
     tabs_->setTabText(0, tr("Axes and nodes"));
     tabs_->setTabText(1, tr("Bus and time"));
     tabs_->setTabText(2, tr("Machine file"));

@@ -11,6 +11,7 @@
 #include <QLatin1String>
 #include <QLocale>
 #include <QMessageBox>
+#include <QModelIndex>
 #include <QScrollArea>
 #include <QSettings>
 #include <QShortcut>
@@ -19,6 +20,7 @@
 #include <QVBoxLayout>
 #include <QWidget>
 
+#include "gui/session/gateway_words.hpp"
 #include "gui/views/alarms_page.hpp"
 #include "gui/views/connect_page.hpp"
 #include "gui/views/console_page.hpp"
@@ -85,9 +87,12 @@ MainWindow::MainWindow(Desk& desk) : desk_(desk) {
   connect(&desk_.events, &EventsModel::open_alarms_changed, this, [this] {
     if (desk_.events.open_alarms() == 0) notice_->end_alarm();
   });
-  connect(&desk_.events, &EventsModel::alarm_arrived, this, [this] {
-    notice_->tell_alarm(desk_.events.index(0).data(EventsModel::kTitle).toString() + QStringLiteral(" — ") +
-                        desk_.events.index(0).data(EventsModel::kAdvice).toString());
+  connect(&desk_.events, &EventsModel::alarm_arrived, this, &MainWindow::tell_alarm);
+  // What does not begin or go on says why, and what to do.
+  connect(&desk_.session, &Session::event_arrived, this, [this](const joblink::Event& event) {
+    if (event.kind() != joblink::EVENT_FINISHED || event.advice().empty()) return;
+    notice_->tell(GatewayWords::said(event.said(), event.words()) + QStringLiteral(" — ") +
+                  GatewayWords::said(event.advice_said(), event.advice()));
   });
   for (int i = 0; i < kPages; ++i) {
     auto* shortcut = new QShortcut(QKeySequence(Qt::CTRL | static_cast<Qt::Key>(Qt::Key_1 + i)), this);
@@ -156,6 +161,15 @@ void MainWindow::retranslate() {
   job_dock_->setWindowTitle(tr("Job"));
 }
 
+void MainWindow::tell_alarm() {
+  for (int row = 0; row < desk_.events.rowCount(); ++row) {
+    const QModelIndex newest = desk_.events.index(row);
+    if (!newest.data(EventsModel::kIsAlarm).toBool()) continue;
+    return notice_->tell_alarm(newest.data(EventsModel::kTitle).toString() + QStringLiteral(" — ") +
+                               newest.data(EventsModel::kAdvice).toString());
+  }
+}
+
 void MainWindow::mirror_docks() {
   const bool mirrored = layoutDirection() == Qt::RightToLeft;
   if (mirrored == docks_mirrored_) return;
@@ -171,7 +185,10 @@ void MainWindow::mirror_docks() {
 }
 
 void MainWindow::changeEvent(QEvent* event) {
-  if (event->type() == QEvent::LanguageChange) retranslate();
+  if (event->type() == QEvent::LanguageChange) {
+    retranslate();
+    if (notice_->of_alarm()) tell_alarm();
+  }
   if (event->type() == QEvent::LayoutDirectionChange) mirror_docks();
   QMainWindow::changeEvent(event);
 }

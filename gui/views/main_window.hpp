@@ -58,6 +58,7 @@ class MainWindow : public QMainWindow {
   void retranslate();
   /// The panels stand where a line of text ends: right, or left when one reads from right to left.
   void mirror_docks();
+  void tell_alarm();
   void take_link();
   /// A demo machine ends with this window: a print on it is not ended by a slip.
   void ask_before_the_demo_ends();

@@ -4,15 +4,13 @@
 #include <QToolButton>
 #include <algorithm>
 
-#include "gui/views/widgets.hpp"
-
 namespace kinebus::gui {
 namespace {
 constexpr int kStays_ms = 15'000;
 constexpr int kMargin = 12;
 }  // namespace
 
-Notice::Notice(const Theme& theme, QWidget* room) : QWidget(room), timer_(this) {
+Notice::Notice(const Theme& theme, QWidget* room) : SpeakingWidget(room), timer_(this) {
   setObjectName(QStringLiteral("banner"));
   setProperty("kind", "danger");
   setAttribute(Qt::WA_StyledBackground);
@@ -21,14 +19,20 @@ Notice::Notice(const Theme& theme, QWidget* room) : QWidget(room), timer_(this) 
   text_ = new QLabel(this);
   text_->setWordWrap(true);
   auto* close = make_tool(theme, QStringLiteral("cancel"), false, this);
+  // What was told once is not told again in another language.
+  says([this, close] {
+    close->setAccessibleName(tr("Close"));
+    close->setToolTip(close->accessibleName());
+    if (!alarm_) go();
+  });
   row->addWidget(text_, 1);
   row->addWidget(close);
   timer_.setSingleShot(true);
   timer_.setInterval(kStays_ms);
-  connect(&timer_, &QTimer::timeout, this, &QWidget::hide);
+  connect(&timer_, &QTimer::timeout, this, &Notice::go);
   connect(close, &QToolButton::clicked, this, [this] {
     alarm_ = false;
-    hide();
+    go();
   });
   room->installEventFilter(this);
   hide();
@@ -54,12 +58,18 @@ void Notice::tell_alarm(const QString& words) {
 void Notice::end_alarm() {
   if (!alarm_) return;
   alarm_ = false;
+  go();
+}
+
+/// Its words were of then, and of the language then.
+void Notice::go() {
   hide();
+  text_->clear();
 }
 
 bool Notice::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() == QEvent::Resize && isVisible()) place();
-  return QWidget::eventFilter(watched, event);
+  return SpeakingWidget::eventFilter(watched, event);
 }
 
 void Notice::appear(const QString& words) {

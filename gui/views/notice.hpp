@@ -9,11 +9,11 @@
 #include <QTimer>
 #include <QWidget>
 
+#include "gui/views/widgets.hpp"
+
 namespace kinebus::gui {
 
-class Theme;
-
-class Notice : public QWidget {
+class Notice : public SpeakingWidget {
   Q_OBJECT
  public:
   /// Stands at the upper edge of `room`, as wide as it.
@@ -23,12 +23,14 @@ class Notice : public QWidget {
   /// Stays until end_alarm() or until the user closes it.
   void tell_alarm(const QString& words);
   void end_alarm();
+  bool of_alarm() const { return alarm_ && isVisible(); }
   QString words() const { return text_->text(); }
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
+  void go();
   void appear(const QString& words);
   void place();
 

@@ -128,6 +128,8 @@ QWidget* ViewPage::make_tools() {
   reach_ = toggle("reach", true, [](SceneContent& c, bool on) { c.show_reach = on; });
   travel_ = toggle("travel", false, [](SceneContent& c, bool on) { c.show_travel = on; });
   remaining_ = toggle("remaining", true, [](SceneContent& c, bool on) { c.show_remaining = on; });
+  trail_ = toggle("trail", false,
+                  [this](SceneContent& c, bool on) { c.trail = on ? desk_.trail.lines() : nullptr; });
   row->addStretch(1);
   const auto look = [&](const char* icon, auto action) {
     QToolButton* tool = make_tool(desk_.theme, QString::fromLatin1(icon), false, bar);
@@ -162,6 +164,7 @@ QWidget* ViewPage::make_tools() {
     name(reach_, tr("Reach of the tool"));
     name(travel_, tr("Moves without extrusion"));
     name(remaining_, tr("What is not printed yet"));
+    tell_trail();
     name(diagonal, tr("From a corner"));
     name(top, tr("From above"));
     name(front, tr("From the front"));
@@ -218,7 +221,21 @@ void ViewPage::take_status() {
   seen += content.figure.close_to_print ? 'n' : 'f';
   if (seen == seen_status_) return;
   seen_status_ = std::move(seen);
-  if (isVisible()) scene_->redraw();
+  if (!isVisible()) return;
+  if (trail_->isChecked()) {
+    content.trail = desk_.trail.lines();
+    tell_trail();
+  }
+  scene_->redraw();
+}
+
+void ViewPage::tell_trail() {
+  const QString name = tr("Where the tool went in the last five minutes");
+  trail_->setAccessibleName(name);
+  trail_->setToolTip(desk_.trail.measured()
+                         ? tr("%1, by the encoders: at most %2 mm from where it should have been")
+                               .arg(name, Format::isolated(Format::number(desk_.trail.farthest_off_mm(), 3)))
+                         : tr("%1, as commanded: no axis has an encoder").arg(name));
 }
 
 void ViewPage::follow_print() {
@@ -387,6 +404,7 @@ void ViewPage::save(QSettings& settings) const {
   settings.setValue(QStringLiteral("view/reach"), reach_->isChecked());
   settings.setValue(QStringLiteral("view/travel"), travel_->isChecked());
   settings.setValue(QStringLiteral("view/remaining"), remaining_->isChecked());
+  settings.setValue(QStringLiteral("view/trail"), trail_->isChecked());
 }
 
 void ViewPage::restore(QSettings& settings) {
@@ -395,6 +413,7 @@ void ViewPage::restore(QSettings& settings) {
   reach_->setChecked(settings.value(QStringLiteral("view/reach"), true).toBool());
   travel_->setChecked(settings.value(QStringLiteral("view/travel"), false).toBool());
   remaining_->setChecked(settings.value(QStringLiteral("view/remaining"), true).toBool());
+  trail_->setChecked(settings.value(QStringLiteral("view/trail"), false).toBool());
 }
 
 }  // namespace kinebus::gui

@@ -43,6 +43,7 @@ class ViewPage : public SpeakingWidget {
   void tell_legend();
   void tell_job();
   void tell_layer();
+  void tell_trail();
   /// Layers and moves as the sliders say.
   void take_sliders();
   /// The moves of the topmost layer shown, all of them.
@@ -59,7 +60,7 @@ class ViewPage : public SpeakingWidget {
   ElidedLabel* job_text_;
   QProgressBar* loading_;
   QLabel* broken_;
-  QToolButton *machine_, *reach_, *travel_, *remaining_;
+  QToolButton *machine_, *reach_, *travel_, *remaining_, *trail_;
   std::shared_ptr<const ScenePath> shown_;
   std::shared_ptr<const ScenePath> made_;  ///< of which something stands on the table
   std::uint32_t made_to_ = UINT32_MAX;     ///< vertex

@@ -86,7 +86,7 @@ int rails(const Arguments& a) {
     if (!fit.has_both_directions)
       std::printf("         measured in one direction only: says nothing about backlash\n");
     if (fit.outliers > 0) std::printf("         %zu readings lie far off and count little\n", fit.outliers);
-    ResidualPanel panel{joint.name + ": measured less commanded", "travel, mm", {}, fit.before, fit.after};
+    ResidualPanel panel{joint.name + ": measured minus commanded", "travel, mm", {}, fit.before, fit.after};
     for (const RailSample& s : own->second) panel.x.push_back(s.commanded);
     panels.push_back(std::move(panel));
     apply(fit, joint.calibration);
@@ -94,7 +94,7 @@ int rails(const Arguments& a) {
   if (!a.plot.empty())
     write_text(a.plot, draw_residuals(
                            "Rail travel of " + machine.name,
-                           "Measured less commanded, forth and back. Right: what is left after calibration.",
+                           "Measured minus commanded, forth and back. Right: what is left after calibration.",
                            panels));
   finish(a, machine);
   return 0;
@@ -137,7 +137,7 @@ int geometry(const Arguments& a) {
     }
     panels.push_back(tilt);
     write_text(a.plot, draw_residuals("Geometry of " + machine.name,
-                                      "Measured less predicted, before and after the fit.", panels));
+                                      "Measured minus predicted, before and after the fit.", panels));
   }
   apply(fit.deviation, machine);
   finish(a, machine);

@@ -8,6 +8,7 @@
 
 #include "gateway/jobs/job_plan.hpp"
 #include "gateway/jobs/store/file_source.hpp"
+#include "protocol/host/step_line.hpp"
 #include "tools/cli/home_plan.hpp"
 #include "tools/cli/job_watch.hpp"
 #include "tools/cli/offline.hpp"
@@ -84,8 +85,10 @@ int plan(const PlanArguments& arguments) {
   rusage before{}, after{};
   ::getrusage(RUSAGE_SELF, &before);
   JobPlan job(machine, **kinematics, **source);
-  while (!job.step(10'000)) {
-  }
+  StepLine steps;
+  std::uint64_t read = 0;
+  while (!job.step(10'000)) steps.show(fmt::format("{} lines planned", read += 10'000));
+  steps.clear();
   ::getrusage(RUSAGE_SELF, &after);
   PlanReport report = job.report();
   report.cpu_s = cpu_seconds(after) - cpu_seconds(before);

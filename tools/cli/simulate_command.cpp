@@ -1,7 +1,6 @@
 #include "tools/cli/simulate_command.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -10,6 +9,7 @@
 
 #include "gateway/jobs/store/file_source.hpp"
 #include "protocol/can/candump.hpp"
+#include "protocol/host/step_line.hpp"
 #include "tools/cli/job_watch.hpp"
 #include "tools/cli/offline.hpp"
 #include "tools/simulation/simulate.hpp"
@@ -47,10 +47,10 @@ int run(const Arguments& arguments) {
     if (arguments.physics != "flexible") throw CLI::ValidationError("--ringing needs --physics flexible");
     options.ringing = &ringing;
   }
-  if (::isatty(STDERR_FILENO) != 0)
-    options.on_progress = [](double progress, double job_s) {
-      fmt::print(stderr, "\r{:5.1f} %  {} simulated\033[K", 100 * progress, time_words(job_s));
-    };
+  StepLine steps;
+  options.on_progress = [&steps](double progress, double job_s) {
+    steps.show(fmt::format("{:5.1f} %  {} simulated", 100 * progress, time_words(job_s)));
+  };
   std::ofstream candump;
   if (!arguments.candump_path.empty()) {
     candump.open(arguments.candump_path);
@@ -65,7 +65,7 @@ int run(const Arguments& arguments) {
                 machine, [&] { return open_job(arguments.job); },
                 {arguments.frequency_error_percent / 100, arguments.damping_error_percent / 100}, options)
           : simulate(machine, open_job(arguments.job), *checkers_text, options);
-  if (options.on_progress) fmt::print(stderr, "\r\033[K");
+  steps.clear();
   fmt::print("{}", arguments.json ? to_json_text(report) : to_table(report));
   if (!arguments.json_path.empty()) write_text(arguments.json_path, to_json_text(report));
   if (!arguments.plot_path.empty())

@@ -63,12 +63,12 @@ void rails(Table& t, const std::string& folder) {
   }
   t.ours("rails spoiled so, 10 um of noise: the fit is off by", worst, 2e-5, "");
   if (!folder.empty())
-    write_picture(
-        folder, "m5-rails.svg",
-        draw_residuals("Rail errors of M5, forth and back",
-                       "Measured less commanded, synthesised with the paper's factors, 30 µm of backlash and "
-                       "10 µm of noise; and what one fit leaves.",
-                       panels));
+    write_picture(folder, "m5-rails.svg",
+                  draw_residuals(
+                      "Rail errors of M5, forth and back",
+                      "Measured minus commanded, synthesised with the paper's factors, 30 µm of backlash and "
+                      "10 µm of noise; and what one fit leaves.",
+                      panels));
 }
 
 void straightness(Table& t, const std::string& folder) {

@@ -213,7 +213,12 @@ int run(const Arguments& a) {
   options.threads = a.threads;
   options.dexterous_condition = a.dexterous;
   const bodies::Model model = make_collision_model(machine);
-  const Scan fine = scan(**kinematics, room, options, model.get());
+  StepLine steps;
+  const auto tell = [&](double share) {
+    steps.show("looking at poses: " + std::to_string(std::lround(100 * share)) + " %");
+  };
+  const Scan fine = scan(**kinematics, room, options, model.get(), tell);
+  steps.clear();
   std::printf("%s: radius %.0f mm, z %.0f .. %.0f mm, tilt %.0f .. %.0f deg; %g mm and %g deg\n",
               machine.name.c_str(), room.radius_mm, room.z_min_mm, room.z_max_mm,
               room.tilt_min_rad / kRadPerDeg, room.tilt_max_rad / kRadPerDeg, a.step_mm, a.tilt_step_deg);
@@ -223,17 +228,19 @@ int run(const Arguments& a) {
     ScanOptions wide = options;
     wide.step_mm = std::max(a.step_mm, room.radius_mm / 36);
     wide.ray_step_mm = 1.6 * wide.step_mm;
-    const Scan coarse = scan(**kinematics, room, wide, model.get());
+    const Scan coarse = scan(**kinematics, room, wide, model.get(), tell);
+    steps.clear();
     char subtitle[256];
-    const Cylinder always = largest_cylinder(fine, -1);
+    const double table_mm = model != nullptr ? table_radius_mm(*model) : room.radius_mm;
+    const Cylinder standing = standing_cylinder(fine, table_mm);
     std::snprintf(
         subtitle, sizeof subtitle,
-        "%g mm and %g deg: %.1f million poses. Colour: share of the tilts allowed. Allowed at every "
+        "%g mm and %g deg: %.1f million poses. Colour: share of the tilts allowed. On the table, at every "
         "tilt: a cylinder of %.0f mm by %.0f mm (white).",
-        a.step_mm, a.tilt_step_deg, static_cast<double>(fine.poses) * 1e-6, 2 * always.radius_mm,
-        always.z_max_mm - always.z_min_mm);
+        a.step_mm, a.tilt_step_deg, static_cast<double>(fine.poses) * 1e-6, 2 * standing.radius_mm,
+        standing.z_max_mm - standing.z_min_mm);
     write(a.svg, [&](std::ostream& out) {
-      out << draw_workspace(fine, coarse, {"Workspace of " + machine.name, subtitle});
+      out << draw_workspace(fine, coarse, {"Workspace of " + machine.name, subtitle, table_mm});
     });
   }
   if (!a.bodies_svg.empty()) {

@@ -91,7 +91,7 @@ void axes(Document& document, const View& view, const Scan& s) {
 }
 
 /// Section through the axis: the share of tilts that each place allows.
-void section(Document& document, const Scan& s, const drawing::Box& room) {
+void section(Document& document, const Scan& s, const drawing::Box& room, const Cylinder& always) {
   const double radius = s.room.radius_mm, span = s.room.z_max_mm - s.room.z_min_mm;
   const double scale = std::min(room.width / (2 * radius), room.height / span);
   const drawing::Chart chart{.area = {room.x + room.width / 2 - scale * radius, room.bottom() - scale * span,
@@ -119,7 +119,6 @@ void section(Document& document, const Scan& s, const drawing::Box& room) {
           from = to;
         }
   }
-  const Cylinder always = largest_cylinder(s, -1);
   if (always.radius_mm > 0) {
     const drawing::Point corner = chart.at(-always.radius_mm, always.z_max_mm);
     document.rectangle(
@@ -181,7 +180,8 @@ std::string draw_workspace(const Scan& fine, const Scan& coarse, const PictureTe
       -35 * kRadPerDeg, 28 * kRadPerDeg, 560 / size, 355, 440, (room.z_min_mm + room.z_max_mm) / 2};
   axes(document, view, coarse);
   body(document, coarse, view);
-  const Cylinder always = largest_cylinder(fine, -1);
+  const Cylinder always =
+      standing_cylinder(fine, text.table_radius_mm > 0 ? text.table_radius_mm : fine.room.radius_mm);
   if (always.radius_mm > 0)
     for (const double z : {always.z_min_mm, always.z_max_mm})
       ring(document, view, always.radius_mm, z, {.stroke = "white", .width = 1.4});
@@ -190,7 +190,7 @@ std::string draw_workspace(const Scan& fine, const Scan& coarse, const PictureTe
   document.text({bar.x, bar.bottom() + 16}, "one tilt", {.size = 12});
   document.text({bar.right(), bar.bottom() + 16}, words("all %d tilts", fine.tilts),
                 {.size = 12, .anchor = Anchor::kEnd});
-  section(document, fine, {810, 150, 420, 270});
+  section(document, fine, {810, 150, 420, 270}, always);
   curves(document, fine, {810, 530, 420, 190});
   return document.svg();
 }

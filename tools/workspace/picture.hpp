@@ -9,6 +9,7 @@ namespace kinebus::workspace {
 
 struct PictureText {
   std::string title, subtitle;
+  double table_radius_mm = 0;  ///< that the cylinder shown stands on; 0: as wide as the room
 };
 
 /// `fine`: for section and curves; `coarse`: the same room with larger cells, for the body.

@@ -135,7 +135,7 @@ void scan_plane(const Kinematics& kinematics, Scan& s, int plane, std::array<std
 }  // namespace
 
 Scan scan(const Kinematics& kinematics, const Room& room, const ScanOptions& options,
-          const bodies::CollisionModel* model) {
+          const bodies::CollisionModel* model, const std::function<void(double share)>& progress) {
   const auto began = std::chrono::steady_clock::now();
   const std::clock_t cpu_began = std::clock();
   Scan s;
@@ -160,8 +160,10 @@ Scan scan(const Kinematics& kinematics, const Room& room, const ScanOptions& opt
   std::vector<std::thread> workers;
   for (std::size_t n = 0; n < refused.size(); ++n)
     workers.emplace_back([&, n] {
-      for (int plane = next++; plane < s.planes; plane = next++)
+      for (int plane = next++; plane < s.planes; plane = next++) {
         scan_plane(kinematics, s, plane, refused[n], poses[n], *watches[n]);
+        if (n == 0 && progress) progress(static_cast<double>(plane + 1) / s.planes);
+      }
     });
   for (std::thread& worker : workers) worker.join();
   for (const std::uint64_t own : poses) s.poses += own;

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "gateway/bodies/collision_model.hpp"
@@ -66,9 +67,11 @@ struct Scan {
 };
 
 /// At most 64 tilts: the tilt step is widened if it must be. Positions are those of the tool at C = 0.
-/// `model`: bodies that must keep their clearance; nullptr: none.
+/// `model`: bodies that must keep their clearance; nullptr: none. `progress`: share done so far, now and
+/// then, from a thread of the scan.
 Scan scan(const Kinematics& kinematics, const Room& room, const ScanOptions& options,
-          const bodies::CollisionModel* model = nullptr);
+          const bodies::CollisionModel* model = nullptr,
+          const std::function<void(double share)>& progress = {});
 
 /// Reachable at this tilt, mm^3; tilt < 0: at every tilt of the scan.
 double volume_mm3(const Scan& scan, int tilt);

@@ -18,6 +18,12 @@
 #include "protocol/joblink/usb_ids.hpp"
 
 namespace kinebus::gui {
+namespace {
+constexpr const char* kUsbWords = "kinebus::gui::UsbLink";
+Phrase usb_words(const char* source) {
+  return {kUsbWords, source};
+}
+}  // namespace
 
 /// Several transfers are always on their way, so that the bus never waits for the program. A transfer
 /// that is submitted holds a reference to the pipe: it is freed when the last one has come back.
@@ -129,7 +135,12 @@ class UsbLink::Pipe : public std::enable_shared_from_this<Pipe> {
         // The owner abandons the pipe before it goes, under the same lock: it is alive here.
         if (!well) {
           QMetaObject::invokeMethod(
-              owner, [owner] { owner->fail(UsbLink::tr("the USB cable was pulled")); }, Qt::QueuedConnection);
+              owner,
+              [owner] {
+                owner->fail(
+                    usb_words(QT_TRANSLATE_NOOP("kinebus::gui::UsbLink", "the USB cable was pulled")));
+              },
+              Qt::QueuedConnection);
         } else if (in) {
           QMetaObject::invokeMethod(
               owner, [owner, bytes] { emit owner->received(bytes); }, Qt::QueuedConnection);
@@ -166,7 +177,7 @@ UsbLink::~UsbLink() {
   if (pipe_ != nullptr) pipe_->abandon();
 }
 
-void UsbLink::fail(const QString& why) {
+void UsbLink::fail(const Phrase& why) {
   if (pipe_ == nullptr) return;
   pipe_->abandon();
   pipe_.reset();
@@ -174,7 +185,7 @@ void UsbLink::fail(const QString& why) {
 }
 
 void UsbLink::open() {
-  QString why = tr("the gateway is not plugged in");
+  Phrase why = usb_words(QT_TRANSLATE_NOOP("kinebus::gui::UsbLink", "the gateway is not plugged in"));
   for_each_usb_gateway(context_->get(), [&](libusb_device* device, const UsbLinkInterface& link) {
     const UsbGateway here = describe_usb_gateway(device);
     if (!gateway_.serial.isEmpty() ? here.serial != gateway_.serial : here.place != gateway_.place)
@@ -182,13 +193,17 @@ void UsbLink::open() {
     libusb_device_handle* handle = nullptr;
     if (const int error = libusb_open(device, &handle); error != 0) {
       why = error == LIBUSB_ERROR_ACCESS
-                ? tr("this user may not use the USB device: install the udev rule of the package")
-                : QString::fromUtf8(libusb_strerror(static_cast<libusb_error>(error)));
+                ? usb_words(QT_TRANSLATE_NOOP(
+                      "kinebus::gui::UsbLink",
+                      "this user may not use the USB device: install the udev rule of the package"))
+                : Phrase(QString::fromUtf8(libusb_strerror(static_cast<libusb_error>(error))));
       return false;
     }
     if (const int error = libusb_claim_interface(handle, link.number); error != 0) {
-      why = error == LIBUSB_ERROR_BUSY ? tr("another program uses the gateway's USB link")
-                                       : QString::fromUtf8(libusb_strerror(static_cast<libusb_error>(error)));
+      why = error == LIBUSB_ERROR_BUSY
+                ? usb_words(QT_TRANSLATE_NOOP("kinebus::gui::UsbLink",
+                                              "another program uses the gateway's USB link"))
+                : Phrase(QString::fromUtf8(libusb_strerror(static_cast<libusb_error>(error))));
       libusb_close(handle);
       return false;
     }
@@ -196,7 +211,7 @@ void UsbLink::open() {
     if (!pipe_->start()) {
       pipe_->abandon();
       pipe_.reset();
-      why = tr("the USB link does not start");
+      why = usb_words(QT_TRANSLATE_NOOP("kinebus::gui::UsbLink", "the USB link does not start"));
     }
     return false;
   });
@@ -210,8 +225,8 @@ qint64 UsbLink::write(const char* data, qint64 size) {
   return pipe_ == nullptr ? 0 : pipe_->write(data, size);
 }
 
-QString UsbLink::description() const {
-  return tr("USB %1").arg(gateway_.place);
+Phrase UsbLink::description() const {
+  return {kUsbWords, QT_TRANSLATE_NOOP("kinebus::gui::UsbLink", "USB %1"), {gateway_.place}};
 }
 
 }  // namespace kinebus::gui

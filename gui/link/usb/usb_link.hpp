@@ -19,12 +19,12 @@ class UsbLink : public Link {
   ~UsbLink() override;
   void open() override;
   qint64 write(const char* data, qint64 size) override;
-  QString description() const override;
+  Phrase description() const override;
 
   class Pipe;  ///< handle and transfers; outlives the link until the last transfer is back
 
  private:
-  void fail(const QString& why);
+  void fail(const Phrase& why);
 
   std::shared_ptr<UsbContext> context_;
   UsbGateway gateway_;
