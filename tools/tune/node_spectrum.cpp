@@ -41,7 +41,8 @@ double gain_of_mean(double hz, double period_s) {
 double gain_of_node(double hz, double rate_hz) {
   const double x = std::numbers::pi * hz / rate_hz;
   return x == 0 ? 1
-                : std::pow(std::sin(NodeSpectrum::kDecimation * x) / (NodeSpectrum::kDecimation * std::sin(x)), 4);
+                : std::pow(
+                      std::sin(NodeSpectrum::kDecimation * x) / (NodeSpectrum::kDecimation * std::sin(x)), 4);
 }
 
 }  // namespace
@@ -88,8 +89,7 @@ Result<NodeSpectrum, std::string> read_node_spectrum(std::string_view text) {
     s.energy.push_back(*numbers);
   }
   if (s.energy.size() < kLeastBands)
-    return Error<std::string>(
-        fmt::format("{} bands; expected at least {}", s.energy.size(), kLeastBands));
+    return Error<std::string>(fmt::format("{} bands; expected at least {}", s.energy.size(), kLeastBands));
   return s;
 }
 

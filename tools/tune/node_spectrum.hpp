@@ -27,12 +27,12 @@ struct NodeSpectrum {
   std::vector<double> of(std::size_t axis, const Bands& bands) const;
 };
 
-/// As M956 tells it: a line "rate_hz R windows W clipped C", then a line "x,y,z" for each band. Error: the line
-/// and what is wrong with it; fewer than 100 bands; a thousandth of the readings or more clipped.
+/// As M956 tells it: a line "rate_hz R windows W clipped C", then a line "x,y,z" for each band. Error: the
+/// line and what is wrong with it; fewer than 100 bands; a thousandth of the readings or more clipped.
 Result<NodeSpectrum, std::string> read_node_spectrum(std::string_view text);
 
-/// The same of values whose every one is the mean over `spectrum`'s period_s(), as that node would have summed
-/// them up: in `bands`, by its windows and its decimation.
+/// The same of values whose every one is the mean over `spectrum`'s period_s(), as that node would have
+/// summed them up: in `bands`, by its windows and its decimation.
 std::vector<double> as_the_node(const std::vector<double>& values, const NodeSpectrum& spectrum,
                                 const Bands& bands);
 
