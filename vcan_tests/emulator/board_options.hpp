@@ -17,6 +17,7 @@ struct BoardOptions {
   /// Where the carriages stand, and their switches: inputs of the board, from 1 on.
   std::array<VirtualAxis, 8> axes{};
   std::array<double, 2> encoder_offset_turns{};  ///< how the magnet is glued on
+  std::uint32_t crystal_hz = 0;                  ///< 0: the board's own
   double supply_v = 24;
   double temperature_c = 30;
 };
