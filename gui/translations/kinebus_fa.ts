@@ -2953,6 +2953,30 @@
         <translation>طبقهٔ توان جریان‌های موتور را اندازه نمی‌گیرد</translation>
     </message>
     <message>
+        <source>A node&apos;s program is for another board</source>
+        <translation>برنامهٔ یک گره برای برد دیگری است</translation>
+    </message>
+    <message>
+        <source>its program is for another board or chip: it drives nothing</source>
+        <translation>برنامهٔ آن برای برد یا تراشهٔ دیگری است: چیزی را راه نمی‌اندازد</translation>
+    </message>
+    <message>
+        <source>write the program for this board (kinebus-setup boards shows what it is)</source>
+        <translation>برنامهٔ همین برد را بنویسید (kinebus-setup boards نشان می‌دهد کدام است)</translation>
+    </message>
+    <message>
+        <source>A motor that a board does not have was switched on</source>
+        <translation>موتوری که برد آن را ندارد روشن شد</translation>
+    </message>
+    <message>
+        <source>this board has no motor driver for that axis</source>
+        <translation>این برد برای آن محور درایور موتور ندارد</translation>
+    </message>
+    <message>
+        <source>take the axis out of the machine file, or name the node that has it</source>
+        <translation>محور را از پروندهٔ ماشین بردارید، یا گره‌ای را که آن را دارد بنویسید</translation>
+    </message>
+    <message>
         <source>switch the node off and on; when it comes again, replace the board</source>
         <translation>گره را خاموش و روشن کنید؛ اگر باز پیش آمد برد را عوض کنید</translation>
     </message>

@@ -2953,6 +2953,30 @@
         <translation>güç katı motorun akımlarını ölçmüyor</translation>
     </message>
     <message>
+        <source>A node&apos;s program is for another board</source>
+        <translation>Bir düğümün programı başka bir kart için</translation>
+    </message>
+    <message>
+        <source>its program is for another board or chip: it drives nothing</source>
+        <translation>programı başka bir kart ya da yonga için: hiçbir şeyi sürmüyor</translation>
+    </message>
+    <message>
+        <source>write the program for this board (kinebus-setup boards shows what it is)</source>
+        <translation>bu kartın programını yazın (hangi kart olduğunu kinebus-setup boards gösterir)</translation>
+    </message>
+    <message>
+        <source>A motor that a board does not have was switched on</source>
+        <translation>Kartta bulunmayan bir motor açıldı</translation>
+    </message>
+    <message>
+        <source>this board has no motor driver for that axis</source>
+        <translation>bu kartta o eksenin motor sürücüsü yok</translation>
+    </message>
+    <message>
+        <source>take the axis out of the machine file, or name the node that has it</source>
+        <translation>ekseni makine dosyasından çıkarın ya da onun bulunduğu düğümü yazın</translation>
+    </message>
+    <message>
         <source>switch the node off and on; when it comes again, replace the board</source>
         <translation>düğümü kapatıp açın; yinelenirse kartı değiştirin</translation>
     </message>

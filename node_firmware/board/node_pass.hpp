@@ -6,25 +6,26 @@
 
 namespace kinebus {
 
-/// The power stage does not work: an axis that is switched on has a fault. True: so it was.
-inline bool refuse_power(Node& node, LocalTime now) {
+/// No motor may have power: an axis that is switched on has a fault, whose code says why. True: so it was.
+inline bool refuse_power(Node& node, LocalTime now, std::uint16_t reason) {
   bool refused = false;
   for (int axis = 0; axis < kAxesPerNode; ++axis) {
     if (!node.drive(axis).power) continue;
-    node.on_drive_fault(now, axis, emcy::kControlHardware);
+    node.on_drive_fault(now, axis, reason);
     refused = true;
   }
   return refused;
 }
 
-/// `motors_good`: they may get power. `save(number, image)`: into flash; false: it did not work.
+/// `refusal`: why no motor may get power, an EMCY code; kNoError: they may. `save(number, image)`: into
+/// flash; false: it did not work.
 template <typename Program, typename Motors, typename Save, WatchdogDriver Watchdog>
-void pass(Program& program, Motors& motors, bool motors_good, Save&& save, Watchdog& dog) {
+void pass(Program& program, Motors& motors, std::uint16_t refusal, Save&& save, Watchdog& dog) {
   program.pass();
   const auto serve = [&](std::size_t number, Node& node) {
     // A stop for a drive's sake is named from this very moment, and told before anything else is done.
     const LocalTime now = program.read_time();
-    if (!motors_good) return refuse_power(node, now);
+    if (refusal != emcy::kNoError) return refuse_power(node, now, refusal);
     if constexpr (requires { motors.serve(number, node, now); })
       return motors.serve(number, node, now);
     else

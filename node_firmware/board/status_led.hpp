@@ -14,6 +14,11 @@ struct LedState {
   NmtState nmt = NmtState::kInitialising;
 };
 
+/// Four flashes: no crystal, or another one than the board's.
+constexpr bool led_without_clock(std::uint32_t step) {
+  return (0b101'0101u >> step % 16 & 1) != 0;
+}
+
 /// On, at this time in steps of 65 ms, of which 16 are a round.
 constexpr bool led_on(const LedState& state, std::uint32_t step) {
   const auto pattern = [&]() -> std::uint32_t {

@@ -138,7 +138,7 @@ bool StepMotors<Stage, Drivers>::serve(std::size_t number, Node& node, LocalTime
       if (asks_drivers) told = drivers_.serve(node, now, place, axis, powered(place, place + 1)) || told;
       told = serve_axis(number, node, now, axis) || told;
     } else if (node.drive(axis).power) {
-      node.on_drive_fault(now, axis, emcy::kControlHardware);
+      node.on_drive_fault(now, axis, emcy::kNoMotor);
       told = true;
     }
   }

@@ -12,7 +12,7 @@ enum class ResetCause : std::uint8_t { kPowerOn, kResetPin, kBrownOut, kWatchdog
 /// + n an interrupt without handler: 17 the chip's supply is low).
 namespace fault_reason {
 inline constexpr std::uint16_t kNone = 0, kAssert = 0x100, kAbort = 0x101, kNoClock = 0x102,
-                               kMainEnded = 0x103;
+                               kMainEnded = 0x103, kOtherCrystal = 0x104;
 }
 
 struct ResetReport {

@@ -12,7 +12,7 @@
 
 namespace kinebus {
 
-inline constexpr int kMaxNodes = 4;
+inline constexpr int kMaxNodes = 8;
 
 /// Path time on all nodes at one instant.
 struct Probe {

@@ -20,6 +20,7 @@ struct BoardOptions {
   /// On encoder ports, in the place of the encoder: they tell where axes' `scale` is, from their own zero on.
   std::array<SsiScale::Options, 2> absolute_scales{};
   std::array<double, 2> encoder_offset_turns{};  ///< how the magnet is glued on
+  std::uint32_t crystal_hz = 0;                  ///< 0: the board's own
   double supply_v = 24;
   double temperature_c = 30;
 };

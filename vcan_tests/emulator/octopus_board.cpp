@@ -17,7 +17,7 @@ ChipFacts facts(const ElfImage& image, std::uint32_t device_id) {
   return {.device_id = device_id,
           .flash_bytes = 512 * 1024,
           .core_coupled_memory = false,
-          .clocks = {.crystal_hz = octopus::kCrystalHz, .pll_r = true},
+          .clocks = {.crystal_hz = octopus::kCrystals[0], .pll_r = true},
           .ports = 8,
           .axes = octopus::kDrivers.size(),
           .program = first_address(image)};

@@ -5,13 +5,18 @@
 namespace kinebus::emulator {
 namespace {
 
+Rcc::Facts with_crystal(Rcc::Facts facts, std::uint32_t hz) {
+  if (hz != 0) facts.crystal_hz = hz;
+  return facts;
+}
+
 constexpr std::uint32_t kUniqueIdOffset = 0x7A10 - 0x7800;
 
 }  // namespace
 
 Stm32f4Chip::Stm32f4Chip(const ElfImage& image, const BoardOptions& options, const ChipFacts& facts)
     : Chip(image, options, {.core_coupled_memory = facts.core_coupled_memory}),
-      rcc_(facts.clocks),
+      rcc_(with_crystal(facts.clocks, options.crystal_hz)),
       flash_(cpu_.flash().first(facts.flash_bytes), cpu_.system_memory().first(CortexM4::kOneTimeMemorySize)),
       exti_(cpu_.nvic()),
       sysconfig_(exti_),
@@ -25,6 +30,7 @@ Stm32f4Chip::Stm32f4Chip(const ElfImage& image, const BoardOptions& options, con
   map(0x40006400, 0x400, can_, apb1(25));
   map(0x40007000, 0x400, power_control_, apb1(28));
   map(0x40013800, 0x400, sysconfig_, apb2(14));
+  map(0x40014800, 0x400, tim11_, apb2(18));
   map(0x40013C00, 0x400, exti_);
   for (std::uint32_t port = 0; port < facts.ports; ++port)
     map(0x40020000 + 0x400 * port, 0x400, ports_[port], ahb1(static_cast<int>(port)));
@@ -49,6 +55,7 @@ void Stm32f4Chip::reset_chip(Rcc::ResetCause cause, Cycle now) {
   for (GpioPort& port : ports_) port.reset();
   exti_.reset();
   tim2_.reset(now);
+  tim11_.reset();
   can_.reset();
 }
 

@@ -8,6 +8,7 @@
 #include "vcan_tests/emulator/chip.hpp"
 #include "vcan_tests/emulator/peripherals/backup_registers.hpp"
 #include "vcan_tests/emulator/peripherals/bxcan.hpp"
+#include "vcan_tests/emulator/peripherals/crystal_meter.hpp"
 #include "vcan_tests/emulator/peripherals/flash.hpp"
 #include "vcan_tests/emulator/peripherals/gpio.hpp"
 #include "vcan_tests/emulator/peripherals/power_control.hpp"
@@ -61,6 +62,7 @@ class Stm32f4Chip : public Chip {
   Exti exti_;
   SysConfig sysconfig_;
   Timer tim2_;
+  CrystalMeter tim11_{rcc_};
   BxCan can_;
 
  private:

@@ -145,7 +145,7 @@ TEST_F(Program, APowerStageThatDoesNotMeasureGetsNoPower) {
   int refused = 0;
   const auto refuse = [&] {
     program.tell_each([&](std::size_t, Node& node) {
-      const bool did = refuse_power(node, program.read_time());
+      const bool did = refuse_power(node, program.read_time(), emcy::kOtherBoard);
       refused += did ? 1 : 0;
       return did;
     });
@@ -159,7 +159,7 @@ TEST_F(Program, APowerStageThatDoesNotMeasureGetsNoPower) {
   EXPECT_EQ(refused, 1);
   EXPECT_FALSE(program.node().drive(1).power);
   run(5ms);
-  EXPECT_TRUE(can.told(0x5200));
+  EXPECT_TRUE(can.told(0x5210));
 }
 
 }  // namespace

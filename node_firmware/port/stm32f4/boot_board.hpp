@@ -15,7 +15,8 @@ extern const std::uint32_t kVectors, kProgram;
 /// Before all else: the chip is as after a reset, and the handover as it was left.
 void begin();
 void configure_pins();
-bool start_clocks();
+/// fault_reason::kNone, or why it does not run.
+std::uint16_t start_clocks();
 ProgramFlash& program_flash();
 /// Of the board's first node; empty: none.
 std::span<const std::uint8_t> stored_parameters();

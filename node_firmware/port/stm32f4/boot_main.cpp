@@ -15,6 +15,7 @@
 #include "node_firmware/port/stm32f4/clocks.hpp"
 #include "node_firmware/port/stm32f4/handover_port.hpp"
 #include "node_firmware/port/stm32f4/local_time.hpp"
+#include "node_firmware/port/stm32f4/no_clock.hpp"
 #include "node_firmware/port/stm32f4/registers.hpp"
 
 namespace {
@@ -87,7 +88,8 @@ int main() {
   if (start_program(handover_ram, check_image(program_flash.bytes(), boot_board::kTarget))) jump_to_program();
   system_control().VTOR = boot_board::kVectors;
   boot_board::configure_pins();
-  if (!boot_board::start_clocks()) power_off_and_reset(fault_reason::kNoClock, nullptr);
+  if (const std::uint16_t reason = boot_board::start_clocks(); reason != fault_reason::kNone)
+    tell_no_clock(reason, boot_board::show);
   start_local_time();
   can_port.start();
   start_tick();

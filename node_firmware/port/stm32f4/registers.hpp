@@ -37,7 +37,11 @@ struct Rcc {
                                  kCan1 = bit(25), kPower = bit(28);
   // APB2ENR
   static constexpr std::uint32_t kTim1 = bit(0), kTim8 = bit(1), kUsart1 = bit(4), kAdc1 = bit(8),
-                                 kAdc2 = bit(9), kAdc3 = bit(10), kSpi1 = bit(12), kSysConfig = bit(14);
+                                 kAdc2 = bit(9), kAdc3 = bit(10), kSpi1 = bit(12), kSysConfig = bit(14),
+                                 kTim11 = bit(18);
+  // CFGR: HSE_RTC is the crystal's clock divided by so much, 2 to 31.
+  static constexpr std::uint32_t kCrystalDividerMask = 0x1Fu << 16;
+  static constexpr std::uint32_t crystal_divider(std::uint32_t by) { return by << 16; }
 };
 inline Rcc& rcc() {
   return peripheral<Rcc>(0x4002'3800);
@@ -105,7 +109,7 @@ inline Exti& exti() {
 }
 
 struct Timer {
-  Reg CR1, CR2, SMCR, DIER, SR, EGR, CCMR1, CCMR2, CCER, CNT, PSC, ARR, RCR, CCR[4], BDTR, DCR, DMAR;
+  Reg CR1, CR2, SMCR, DIER, SR, EGR, CCMR1, CCMR2, CCER, CNT, PSC, ARR, RCR, CCR[4], BDTR, DCR, DMAR, OR;
   static constexpr std::uint32_t kEnable = bit(0), kAutoReloadPreload = bit(7), kCentreAligned1 = 1u << 5;
   static constexpr std::uint32_t kMasterUpdate = 2u << 4;                            // CR2 MMS: TRGO = update
   static constexpr std::uint32_t kUpdateFlag = bit(0), kBreakFlag = bit(7);          // SR
@@ -118,6 +122,10 @@ struct Timer {
   static constexpr std::uint32_t kBothEdges = 3;                                          // SMCR SMS
   static constexpr std::uint32_t kInputsFiltered = (1u | 3u << 4) | (1u | 3u << 4) << 8;  // CCMR1
   static constexpr std::uint32_t kAllOutputs = bit(0) | bit(4) | bit(8) | bit(12);        // CCER CC1E..CC4E
+  // Channel 1 as an input: every eighth edge is captured.
+  static constexpr std::uint32_t kCaptureEighth = 1u | 3u << 2;            // CCMR1
+  static constexpr std::uint32_t kCapture1 = bit(0), kCaptured1 = bit(1);  // CCER, SR
+  static constexpr std::uint32_t kInputCrystal = 2;                        // OR of TIM11: HSE_RTC
   // BDTR. OSSI and OSSR stay 0: with MOE = 0 the pins float, which the gate drivers take as "both off".
   static constexpr std::uint32_t kBreakEnable = bit(12), kBreakActiveHigh = bit(13), kMainOutput = bit(15);
 };
@@ -126,6 +134,9 @@ inline Timer& tim1() {
 }
 inline Timer& tim8() {
   return peripheral<Timer>(0x4001'0400);
+}
+inline Timer& tim11() {
+  return peripheral<Timer>(0x4001'4800);
 }
 inline Timer& tim2() {
   return peripheral<Timer>(0x4000'0000);

@@ -12,6 +12,7 @@
 namespace kinebus::board {
 
 inline constexpr std::uint32_t kCrystalHz = 8'000'000;
+inline constexpr std::array kCrystals{kCrystalHz};
 using stm32::kApb2Hz;
 using stm32::kCoreHz;
 

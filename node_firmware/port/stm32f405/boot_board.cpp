@@ -34,8 +34,8 @@ void configure_pins() {
   else
     stm32::configure_pins<board::kTalkingPins>();
 }
-bool start_clocks() {
-  return stm32::start_clocks<board::kCrystalHz>();
+std::uint16_t start_clocks() {
+  return stm32::start_clocks<board::kCrystals>();
 }
 ProgramFlash& program_flash() {
   return program_sectors;

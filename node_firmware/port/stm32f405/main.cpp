@@ -14,6 +14,7 @@
 #include "node_firmware/port/stm32f4/flash_port.hpp"
 #include "node_firmware/port/stm32f4/handover_port.hpp"
 #include "node_firmware/port/stm32f4/local_time.hpp"
+#include "node_firmware/port/stm32f4/no_clock.hpp"
 #include "node_firmware/port/stm32f4/pins.hpp"
 #include "node_firmware/port/stm32f4/record_port.hpp"
 #include "node_firmware/port/stm32f4/reset_port.hpp"
@@ -97,7 +98,8 @@ int main() {
     configure_pins<board::kPins>();
   else
     configure_pins<board::kTalkingPins>();
-  if (!start_clocks<board::kCrystalHz>()) power_off_and_reset(fault_reason::kNoClock, nullptr);
+  if (const std::uint16_t reason = start_clocks<board::kCrystals>(); reason != fault_reason::kNone)
+    tell_no_clock(reason, [](bool lit) { write(board::kStatusLed, !lit); });
   system_control().VTOR = board::kProgramAddress;
   start_local_time();
   can_port.start();
@@ -117,13 +119,16 @@ int main() {
   if (own_board) switch_port.start(local_counts());
   enable_interrupts();
   const bool motors_good = own_board && watch_supply() && motors.start();
+  const std::uint16_t refusal = !own_board     ? emcy::kOtherBoard
+                                : !motors_good ? emcy::kControlHardware
+                                               : emcy::kNoError;
   usart.start();
   if (own_board) usb_port.start();
   dog.start();
   for (;;) {
     scales.serve(node);
     pass(
-        *program, motors, motors_good, [](std::size_t, auto image) { return parameters.save(image); }, dog);
+        *program, motors, refusal, [](std::size_t, auto image) { return parameters.save(image); }, dog);
     const Console::Subject subject{.node = node,
                                    .motors = motors.supervision(),
                                    .cycles = motors.cycles(),

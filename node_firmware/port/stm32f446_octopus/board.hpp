@@ -11,13 +11,8 @@
 
 namespace kinebus::octopus {
 
-/// Crystals of the boards: 12 MHz beside the F446; 8 MHz beside other chips of the same maker.
-#ifdef KINEBUS_OCTOPUS_CRYSTAL_HZ
-inline constexpr std::uint32_t kCrystalHz = KINEBUS_OCTOPUS_CRYSTAL_HZ;
-#else
-inline constexpr std::uint32_t kCrystalHz = 12'000'000;
-#endif
-static_assert(kCrystalHz == 12'000'000 || kCrystalHz == 8'000'000);
+/// Crystals of the boards: 12 MHz beside the F446, 8 MHz on some. The program finds out which.
+inline constexpr std::array<std::uint32_t, 2> kCrystals{12'000'000, 8'000'000};
 
 using namespace stm32::pin_words;
 

@@ -38,8 +38,8 @@ void configure_pins() {
   else
     stm32::configure_pins<octopus::kBusPins>();
 }
-bool start_clocks() {
-  return stm32::start_clocks<octopus::kCrystalHz>();
+std::uint16_t start_clocks() {
+  return stm32::start_clocks<octopus::kCrystals>();
 }
 ProgramFlash& program_flash() {
   return program_sectors;

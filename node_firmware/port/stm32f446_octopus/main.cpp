@@ -152,7 +152,8 @@ int main() {
     configure_pins<octopus::kPins>();
   else
     configure_pins<octopus::kBusPins>();
-  if (!alone || !start_clocks<octopus::kCrystalHz>()) power_off_and_reset(fault_reason::kNoClock, nullptr);
+  const std::uint16_t clock = alone ? start_clocks<octopus::kCrystals>() : fault_reason::kNoClock;
+  if (clock != fault_reason::kNone) power_off_and_reset(clock, nullptr);
   system_control().VTOR = octopus::kProgramAddress;
   start_local_time();
   if (own_board) settle_drivers();
@@ -164,6 +165,9 @@ int main() {
   keep_records();  // without what was taken
   program.emplace(options, stored[0], can_port, switch_port, plans[0], octopus::kInputPlaces[0]);
   const bool good = own_board && watch_supply();
+  const std::uint16_t refusal = !own_board ? emcy::kOtherBoard
+                                : !good    ? emcy::kControlHardware
+                                           : emcy::kNoError;
   if (own_board) {
     switch_port.start(local_counts());
     usb_port.start();
@@ -179,7 +183,7 @@ int main() {
     can_port.serve();
     usb_port.serve();
     pass(
-        *program, motors, good, [](std::size_t i, auto image) { return images.save(i, image); }, dog);
+        *program, motors, refusal, [](std::size_t i, auto image) { return images.save(i, image); }, dog);
     follow_first_id();
     if (good) {
       drivers.serve(program->now());

@@ -95,7 +95,7 @@ int main() {
   dog.start();
   for (;;) {
     pass(
-        *program, motors, own_chip,
+        *program, motors, own_chip ? emcy::kNoError : emcy::kOtherBoard,
         [](std::size_t, auto image) {
           return parameters.save(std::array{std::span<const std::uint8_t>(image)});
         },

@@ -38,7 +38,7 @@ void TrackingChecker::check_tool(const Sample& sample) {
 }
 
 void TrackingChecker::check_joints(const Sample& sample) {
-  for (std::size_t n = 0; n < machine_.nodes.size(); ++n) {
+  for (std::size_t n = 0; n < static_cast<std::size_t>(sample.node_count); ++n) {
     const auto planned = planned_(sample.node_tau[n]);
     JointVector q{};
     if (!planned || !kinematics_.inverse(planned->frame, planned->pose, q)) continue;

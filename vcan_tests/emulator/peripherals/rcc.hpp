@@ -24,6 +24,10 @@ class Rcc final : public PlainRegisters {
 
   /// The crystal stops, or swings again. True: the clock security system was on, and its NMI comes.
   bool set_crystal(bool swings);
+  /// It is there, and on.
+  bool crystal_swings() { return crystal_ && (word(0x00) & 1u << 16) != 0; }
+  std::uint32_t crystal_hz() const { return facts_.crystal_hz; }
+  std::uint32_t crystal_divider() { return word(0x08) >> 16 & 0x1F; }  ///< of HSE_RTC
   /// What the registers ask for, with the board's crystal; empty: settings outside the chip's limits.
   std::optional<std::uint32_t> system_hz();
   std::optional<std::uint32_t> apb1_hz();

@@ -87,7 +87,7 @@ TEST(Ebb, OnAnotherChipItDrivesNothingAndSaysSo) {
   EXPECT_EQ(node.bench.statusword(kId, 0) & 0x4F, 0x08) << "fault";
   const auto codes = node.bench.emergencies(kId);
   ASSERT_EQ(codes.size(), 1u);
-  EXPECT_EQ(codes[0], emcy::kControlHardware);
+  EXPECT_EQ(codes[0], emcy::kOtherBoard);
   node.bench.run(300ms);
   EXPECT_EQ(node.board.outputs(), 0);
   EXPECT_EQ(node.board.resets(), 0u);
@@ -101,7 +101,7 @@ TEST(Ebb, TheSecondAxisIsNotThere) {
   EXPECT_EQ(node.bench.statusword(kId, 1) & 0x4F, 0x08) << "fault";
   const auto codes = node.bench.emergencies(kId);
   ASSERT_EQ(codes.size(), 1u);
-  EXPECT_EQ(codes[0], emcy::kControlHardware);
+  EXPECT_EQ(codes[0], emcy::kNoMotor);
   EXPECT_FALSE(node.board.anything_on());
 }
 

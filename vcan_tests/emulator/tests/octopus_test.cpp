@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "node_firmware/port/stm32f446_octopus/board.hpp"
 #include "protocol/canopen/alarm_codes.hpp"
 #include "vcan_tests/emulator/tests/octopus_bench.hpp"
 
@@ -26,6 +27,20 @@ TEST(Octopus, SetsTheClockTreeOfItsCrystalAndTouchesNothingWithoutItsClock) {
   EXPECT_EQ(node.board.resets(), 0u);
 }
 
+TEST(Octopus, OneImageIsForCrystalsOf12And8Mhz) {
+  for (const std::uint32_t hz : octopus::kCrystals) {
+    OneOctopus node({.crystal_hz = hz});
+    EXPECT_EQ(node.board.rcc().system_hz(), 168'000'000u) << hz;
+    EXPECT_EQ(node.board.rcc().usb_hz(), 48'000'000u) << hz;
+    EXPECT_TRUE(node.board.lost_accesses().empty());
+  }
+  OctopusBoard other(octopus_image(), {.unique_id = {1, 2, 3}, .crystal_hz = 25'000'000});
+  other.run(kCoreHz / 2);
+  EXPECT_FALSE(other.can().listening());
+  for (const auto& request : other.can().take_requests()) EXPECT_TRUE(request.abort) << "it says nothing";
+  EXPECT_FALSE(other.anything_on());
+}
+
 // The pins of another chip may be wired to anything, a heater among them.
 TEST(Octopus, OnAnotherChipItDrivesNothingAndSaysSo) {
   OneOctopus node({}, [](const ElfImage& image, const BoardOptions& options) -> std::unique_ptr<Chip> {
@@ -40,7 +55,7 @@ TEST(Octopus, OnAnotherChipItDrivesNothingAndSaysSo) {
   }
   const auto codes = node.bench.emergencies(kId);
   ASSERT_EQ(codes.size(), 2u);
-  EXPECT_EQ(codes[0], emcy::kControlHardware);
+  EXPECT_EQ(codes[0], emcy::kOtherBoard);
   node.bench.run(500ms);
   EXPECT_EQ(node.board.outputs(), 0);
   EXPECT_EQ(node.board.resets(), 0u);

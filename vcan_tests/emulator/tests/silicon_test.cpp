@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "node_firmware/core/reset_report.hpp"
 #include "node_firmware/port/stm32f405/board.hpp"
 #include "vcan_tests/emulator/tests/one_board.hpp"
 
@@ -150,6 +151,35 @@ TEST_F(Trace, OfASupplyBelowTwoVoltsNineIsItsDetector) {
   node.bench.run(200ms);
   expect_told(0x6100);
   EXPECT_EQ(last_reset(2), kFirstInterrupt + 1);
+}
+
+// At another speed its bits would be of another length, and keep all others from the bus.
+TEST(Silicon, WithAnotherCrystalOrNoneItShowsSoAndStaysOffTheBus) {
+  constexpr std::uint32_t kRecordedReason = 0x2000'0044;  // behind the handover (sections.ld)
+  struct Case {
+    std::uint32_t crystal_hz;
+    bool swings;
+    std::uint32_t reason;
+  };
+  for (const Case& c : {Case{12'000'000, true, fault_reason::kOtherCrystal},
+                        Case{25'000'000, true, fault_reason::kOtherCrystal},
+                        Case{8'000'000, false, fault_reason::kNoClock}}) {
+    SCOPED_TRACE(c.crystal_hz);
+    Board board(firmware_image(), {.unique_id = {1, 2, 3}, .crystal_hz = c.crystal_hz});
+    board.set_crystal(c.swings);
+    int flashes = 0;
+    bool lit = board.led_lit();
+    for (int ms = 0; ms < 3000 && board.resets() == 0; ++ms) {
+      board.run(board.now() + kCoreHz / 1000);
+      if (!lit && board.led_lit()) ++flashes;
+      lit = board.led_lit();
+    }
+    EXPECT_EQ(flashes, 16) << "four rounds of four";
+    EXPECT_EQ(board.resets(), 1u);
+    EXPECT_EQ(board.cpu().peek(kRecordedReason), c.reason);
+    EXPECT_FALSE(board.can().listening());
+    for (const auto& request : board.can().take_requests()) EXPECT_TRUE(request.abort) << "it says nothing";
+  }
 }
 
 TEST(Silicon, WithoutABusANodeStartsAndSaysSoAndJoinsWhenItComes) {
