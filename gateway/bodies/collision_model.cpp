@@ -96,7 +96,9 @@ std::optional<Clearance> CollisionModel::clearance(Frame frame, const Pose& pose
   return clearance(scene, occasion);
 }
 
-Clearance CollisionModel::clearance(const Scene& scene, Occasion occasion, std::size_t* likely) const {
+Clearance CollisionModel::clearance(const Scene& scene, Occasion occasion, Memory* before) const {
+  constexpr double kRounding_mm = 1e-6;
+  if (before != nullptr) before->planes.resize(pairs_.size());
   Clearance best{.mm = kInfinite};
   std::size_t nearest = pairs_.size();
   const auto look = [&](std::size_t k) {
@@ -105,17 +107,20 @@ Clearance CollisionModel::clearance(const Scene& scene, Occasion occasion, std::
     // Of pairs as near as each other the first counts, in whatever order they are looked at.
     const auto farther = [&](double mm) { return mm > best.mm || (mm == best.mm && k >= nearest); };
     if (farther(least_distance(scene, pair))) return;
-    double mm = part(scene, pair, best.mm).mm;
+    if (before != nullptr && gap_along(scene, pair, before->planes[k]) > best.mm + kRounding_mm) return;
+    const Parting parting = part(scene, pair, best.mm);
+    if (before != nullptr) before->planes[k] = parting.axis;
+    double mm = parting.mm;
     if (mm == best.mm) mm = distance(scene, pair);
     if (farther(mm)) return;
     best = {mm, bodies_[pair.first].id, bodies_[pair.second].id};
     nearest = k;
   };
-  const std::size_t first = likely != nullptr ? *likely : pairs_.size();
+  const std::size_t first = before != nullptr ? before->likely : pairs_.size();
   if (first < pairs_.size()) look(first);
   for (std::size_t k = 0; k < pairs_.size(); ++k)
     if (k != first) look(k);
-  if (likely != nullptr) *likely = nearest;
+  if (before != nullptr) before->likely = nearest;
   return best;
 }
 

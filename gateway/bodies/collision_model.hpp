@@ -92,12 +92,16 @@ class CollisionModel {
   /// Smallest clearance of all pairs at a pose; nullopt: out of reach. Without heap.
   std::optional<Clearance> clearance(Frame frame, const Pose& pose,
                                      Occasion occasion = Occasion::kMotion) const;
+  /// Of the pose before, which says nothing wrong of any other: the index in pairs() of the nearest pair,
+  /// which is looked at first and mostly is it again, and for each pair a plane that parted both, which
+  /// mostly still says that they are farther. Empty: nothing is known yet.
+  struct Memory {
+    std::size_t likely = 0;
+    std::vector<Vec> planes{};
+  };
   /// The same for bodies that are placed already.
-  /// `likely`: index in pairs() of the pair to look at first, and then of the nearest one; pose after pose it
-  /// is mostly the same, and of the others no more is measured than that they are farther. Any number is
-  /// right.
   Clearance clearance(const Scene& scene, Occasion occasion = Occasion::kMotion,
-                      std::size_t* likely = nullptr) const;
+                      Memory* before = nullptr) const;
 
   /// "leg 2", "spindle", or the name of a fixed body's table.
   Sentence name(BodyId body) const;

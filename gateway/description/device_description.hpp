@@ -180,6 +180,20 @@ struct ProbeDescription {
   friend bool operator==(const ProbeDescription&, const ProbeDescription&) = default;
 };
 
+/// On the tool, on a heat node. Its directions: of the chip's, which lies along X, Y and Z; which way does
+/// not matter.
+struct AccelerometerDescription {
+  bool present = false;
+  std::uint8_t node = 0;
+  enum class Axes : std::uint8_t { kXyz, kXzy, kYxz, kYzx, kZxy, kZyx } axes = Axes::kXyz;
+  std::array<std::uint8_t, 3> directions() const {
+    constexpr std::array<std::array<std::uint8_t, 3>, 6> kAll{
+        {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
+    return kAll[static_cast<std::size_t>(axes)];
+  }
+  friend bool operator==(const AccelerometerDescription&, const AccelerometerDescription&) = default;
+};
+
 /// Levelling of the bed: where G29 probes, and what a mesh may be like. In table coordinates.
 struct MeshDescription {
   int points_x = 5, points_y = 5;

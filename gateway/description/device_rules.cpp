@@ -39,6 +39,10 @@ class DeviceRules {
     }
     if (d_.probe.present) probe();
     if (d_.probe.bltouch) bltouch();
+    if (d_.accelerometer.present)
+      require(d_.node(d_.accelerometer.node) != nullptr, {"accelerometer.node"},
+              number(d_.accelerometer.node),
+              say("a heat node that has its table, [node.%1], with axis_pairs = 0", d_.accelerometer.node));
     for (const NodeDescription& node : d_.nodes)
       if (d_.carries_heat(node.id)) heat_node(node);
   }

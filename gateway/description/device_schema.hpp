@@ -117,6 +117,9 @@ void visit_device(V& v, FilamentSensorDescription& f) {
   v.number("least_share", f.least_share, {0.1, 0.95}, Need::kOptional);
 }
 
+inline constexpr Choice kAccelerometerAxes[] = {{"xyz", 0}, {"xzy", 1}, {"yxz", 2},
+                                                {"yzx", 3}, {"zxy", 4}, {"zyx", 5}};
+
 template <class V>
 void visit_devices(V& v, MachineDescription& d) {
   v.table("thermal", Need::kOptional, [&] {
@@ -164,6 +167,10 @@ void visit_devices(V& v, MachineDescription& d) {
   });
   v.present("bltouch", d.probe.bltouch,
             [&] { v.integer("node", d.probe.servo_node, 1, 126, Need::kRequired); });
+  v.present("accelerometer", d.accelerometer.present, [&] {
+    v.integer("node", d.accelerometer.node, 1, 126, Need::kRequired);
+    v.choice("axes", d.accelerometer.axes, kAccelerometerAxes, Need::kOptional);
+  });
   v.table("mesh", Need::kOptional, [&] {
     v.integer("points_x", d.mesh.points_x, 2, MeshGrid::kMostPoints, Need::kOptional);
     v.integer("points_y", d.mesh.points_y, 2, MeshGrid::kMostPoints, Need::kOptional);

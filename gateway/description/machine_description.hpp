@@ -316,6 +316,7 @@ struct MachineDescription {
   std::vector<FilamentSensorDescription> filament_sensors;
   SpindleDescription spindle;
   ProbeDescription probe;
+  AccelerometerDescription accelerometer;
   MeshDescription mesh;
   GcodeDescription gcode;
   std::vector<MacroDescription> macros;     ///< called by name from jobs and lines
@@ -331,8 +332,8 @@ struct MachineDescription {
       if (n.id == id) return &n;
     return nullptr;
   }
-  /// A heat node: heaters, fans, outputs or sensors, those of filament too, or the servo of a probe live on
-  /// it.
+  /// A heat node: heaters, fans, outputs or sensors, those of filament too, the servo of a probe or an
+  /// accelerometer live on it.
   bool carries_heat(std::uint8_t id) const {
     const auto there = [id](const auto& devices) {
       for (const auto& device : devices)
@@ -340,7 +341,7 @@ struct MachineDescription {
       return false;
     };
     return there(heaters) || there(fans) || there(outputs) || there(sensors) || there(filament_sensors) ||
-           (probe.bltouch && probe.servo_node == id);
+           (probe.bltouch && probe.servo_node == id) || (accelerometer.present && accelerometer.node == id);
   }
   const HeaterDescription* heater(HeaterId id) const {
     for (const HeaterDescription& h : heaters)

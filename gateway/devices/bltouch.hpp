@@ -3,6 +3,7 @@
 // told to be; contacts are those of the probe's own input.
 
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "gateway/devices/heat_node_devices.hpp"
@@ -17,7 +18,7 @@ class BltouchProbe : public ContactProbe {
   /// Nobody knows how it was left: in.
   void on_bring_up(BusTime now, bool done) override {
     contact_->on_bring_up(now, done);
-    if (done) node_->move_pin(false);
+    if (done) node_->move_pin(PinOrder::kIn);
   }
   bool touches() const override { return contact_->touches(); }
   void arm(bool away) override { contact_->arm(away); }
@@ -26,7 +27,8 @@ class BltouchProbe : public ContactProbe {
   BusTime contact() const override { return contact_->contact(); }
   std::optional<ProbeRequest> next_request() override { return contact_->next_request(); }
   void on_reply(BusTime now, std::optional<std::int64_t> value) override { contact_->on_reply(now, value); }
-  void move_pin(bool out) override { node_->move_pin(out); }
+  void move_pin(PinOrder order) override { node_->move_pin(order); }
+  std::optional<Sentence> absent() const override { return node_->absent(); }
   Pin pin() const override { return node_->pin(); }
   Sentence pin_words() const override { return node_->pin_words(); }
 

@@ -4,7 +4,9 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "gateway/description/device_description.hpp"
 #include "gateway/sentence.hpp"
@@ -152,9 +154,11 @@ class ContactProbe : public Device {
   virtual BusTime contact() const { return BusTime{0}; }
 
   /// Where the pin is of a probe that has one: out for a contact, in before all other motion.
-  enum class Pin : std::uint8_t { kNone, kMoves, kIn, kOut, kFailed };
+  enum class Pin : std::uint8_t { kNone, kMoves, kIn, kOut, kFailed, kTests };
   virtual Pin pin() const { return Pin::kNone; }
-  virtual void move_pin(bool) {}  ///< true: out
+  /// kTest: in and out by itself, until it is told something else. kReset: ends its alarm, and draws it in.
+  enum class PinOrder : std::uint8_t { kOut, kIn, kTest, kReset };
+  virtual void move_pin(PinOrder) {}
   /// After kFailed: why it is not where it should be.
   virtual Sentence pin_words() const { return {}; }
 
@@ -162,6 +166,27 @@ class ContactProbe : public Device {
   virtual std::optional<ProbeRequest> next_request() { return std::nullopt; }
   /// nullopt: there was no answer, or a refusal.
   virtual void on_reply(BusTime, std::optional<std::int64_t>) {}
+};
+
+/// What an accelerometer has felt, as energy over frequency.
+struct VibrationFound {
+  enum class Stage : std::uint8_t { kNone, kMeasures, kReads, kDone, kFailed };
+  Stage stage = Stage::kNone;
+  Sentence failure;
+  // After kDone.
+  double rate_hz = 0;         ///< readings a second; a band is 1/8192 of it wide, the first around 0 Hz
+  std::uint32_t windows = 0;  ///< of 2.56 s, a quarter of that apart
+  std::uint32_t clipped = 0;  ///< readings at the end of its range
+  /// Along X, Y and Z in each band: squares of amplitudes, mm^2/s^4, over all windows.
+  std::vector<std::array<double, 3>> energy;
+};
+
+class VibrationSensor : public Device {
+ public:
+  virtual void begin() = 0;
+  /// What was found so far is read.
+  virtual void end() = 0;
+  virtual const VibrationFound& found() const = 0;
 };
 
 }  // namespace kinebus

@@ -59,6 +59,11 @@ void Devices::set_probe(std::uint8_t node, std::unique_ptr<ContactProbe> probe) 
   probe_ = std::move(probe);
 }
 
+void Devices::set_accelerometer(std::uint8_t node, std::unique_ptr<VibrationSensor> accelerometer) {
+  members_.push_back({"accelerometer", node, accelerometer.get()});
+  accelerometer_ = std::move(accelerometer);
+}
+
 Heater* Devices::find(HeaterId id) const {
   for (const KnownHeater& known : heaters_)
     if (known.id == id) return known.heater.get();

@@ -55,6 +55,7 @@ class Devices {
   void add_node(std::uint8_t node, std::shared_ptr<Device> shared);
   void set_spindle(std::uint8_t node, std::unique_ptr<SpindleDrive> spindle);
   void set_probe(std::uint8_t node, std::unique_ptr<ContactProbe> probe);
+  void set_accelerometer(std::uint8_t node, std::unique_ptr<VibrationSensor> accelerometer);
 
   // Commands. One for a device that is not there has no effect: whether it is, is asked of the description.
   void heat(HeaterId id, double celsius);  ///< 0: off
@@ -74,7 +75,8 @@ class Devices {
   double fan(std::uint8_t index) const { return ratio(fans_, index); }
   double output(std::uint8_t index) const { return ratio(outputs_, index); }
   SpindleStatus spindle() const { return spindle_ ? spindle_->status() : SpindleStatus{}; }
-  ContactProbe* probe() { return probe_.get(); }  ///< nullptr: there is none
+  ContactProbe* probe() { return probe_.get(); }                     ///< nullptr: there is none
+  VibrationSensor* accelerometer() { return accelerometer_.get(); }  ///< nullptr: there is none
   bool probe_touches() const { return probe_ && probe_->touches(); }
   std::vector<NamedHeaterStatus> heaters() const;
   std::vector<OutputStatus> fans() const { return ratios(fans_); }
@@ -138,6 +140,7 @@ class Devices {
   std::vector<KnownFilament> filaments_;
   std::unique_ptr<SpindleDrive> spindle_;
   std::unique_ptr<ContactProbe> probe_;
+  std::unique_ptr<VibrationSensor> accelerometer_;
 };
 
 }  // namespace kinebus

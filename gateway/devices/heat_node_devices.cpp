@@ -64,6 +64,18 @@ class NodeFilament : public FilamentSensor {
   bool follows_;
 };
 
+class NodeAccelerometer : public VibrationSensor {
+ public:
+  explicit NodeAccelerometer(std::shared_ptr<HeatNodeLink> node) : node_(std::move(node)) {}
+  std::optional<Sentence> absent() const override { return node_->absent(); }
+  void begin() override { node_->begin_vibration(); }
+  void end() override { node_->end_vibration(); }
+  const VibrationFound& found() const override { return node_->vibration(); }
+
+ private:
+  std::shared_ptr<HeatNodeLink> node_;
+};
+
 /// `first`: the number of the first channel on the node. `more`: what else it is made of.
 template <typename Made, typename Interface, typename... More>
 std::unique_ptr<Interface> make(const DevicePlace& place, std::size_t first, std::size_t count,
@@ -81,9 +93,12 @@ HeatNodeLinks heat_node_links(const MachineDescription& machine) {
   for (const NodeDescription& node : machine.nodes)
     if (!node.functions.has_axes() && machine.carries_heat(node.id))
       links[node.id] = std::make_shared<HeatNodeLink>(
-          node.id, std::all_of(machine.fans.begin(), machine.fans.end(), [&](const FanDescription& fan) {
-            return fan.place.where == DevicePlace::Where::kNode && fan.place.node_id == node.id;
-          }));
+          node.id,
+          std::all_of(machine.fans.begin(), machine.fans.end(),
+                      [&](const FanDescription& fan) {
+                        return fan.place.where == DevicePlace::Where::kNode && fan.place.node_id == node.id;
+                      }),
+          machine.accelerometer.directions());
   return links;
 }
 
@@ -114,6 +129,12 @@ std::unique_ptr<FilamentSensor> on_heat_node(const FilamentSensorDescription& se
                                              const MachineDescription&, const HeatNodeLinks& links) {
   return make<NodeFilament, FilamentSensor>(sensor.place, 0, kFilamentSensors, links,
                                             sensor.kind == FilamentSensorKind::kMotion);
+}
+
+std::unique_ptr<VibrationSensor> on_heat_node(const AccelerometerDescription& accelerometer,
+                                              const HeatNodeLinks& links) {
+  const auto link = links.find(accelerometer.node);
+  return link == links.end() ? nullptr : std::make_unique<NodeAccelerometer>(link->second);
 }
 
 }  // namespace kinebus

@@ -25,5 +25,7 @@ std::unique_ptr<Sensor> on_heat_node(const SensorDescription& sensor, const Mach
                                      const HeatNodeLinks& links);
 std::unique_ptr<FilamentSensor> on_heat_node(const FilamentSensorDescription& sensor,
                                              const MachineDescription& machine, const HeatNodeLinks& links);
+std::unique_ptr<VibrationSensor> on_heat_node(const AccelerometerDescription& accelerometer,
+                                              const HeatNodeLinks& links);
 
 }  // namespace kinebus

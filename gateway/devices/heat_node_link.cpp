@@ -30,7 +30,8 @@ constexpr double kFullOutput = 32'767;  // 6411h
 
 /// A pin that is tried twice with a reset between has said how that ended long before.
 constexpr BusTime kPinTimeout = std::chrono::seconds{8};
-constexpr std::int16_t kPinDeploy = 1, kPinStow = 2;  // 2261h
+/// Of 2261h, by PinOrder.
+constexpr std::array<std::int16_t, 4> kPinCommands{1, 2, 3, 4};
 
 /// Codes that say of a heater why it has no power.
 bool is_of_a_heater(std::uint16_t code) {
@@ -184,8 +185,8 @@ void HeatNodeLink::reset_filament(std::size_t sensor) {
   filament_due_[sensor] = filament_due_[sensor] || filaments_[sensor] != FilamentCondition::kInOrder;
 }
 
-void HeatNodeLink::move_pin(bool out) {
-  pin_ = {.told = PinTold::kMoves, .out = out, .asked = true, .due = true, .since = now_};
+void HeatNodeLink::move_pin(ContactProbe::PinOrder order) {
+  pin_ = {.told = PinTold::kMoves, .order = order, .asked = true, .due = true, .since = now_};
 }
 
 ContactProbe::Pin HeatNodeLink::pin() const {
@@ -195,8 +196,12 @@ ContactProbe::Pin HeatNodeLink::pin() const {
   if (settled &&
       (pin_.told == PinTold::kNotOut || pin_.told == PinTold::kNotIn || pin_.told == PinTold::kAlarm))
     return Pin::kFailed;
-  if (settled && pin_.told == (pin_.out ? PinTold::kOut : PinTold::kIn))
-    return pin_.out ? Pin::kOut : Pin::kIn;
+  using Order = ContactProbe::PinOrder;
+  const PinTold ends = pin_.order == Order::kOut    ? PinTold::kOut
+                       : pin_.order == Order::kTest ? PinTold::kSelfTest
+                                                    : PinTold::kIn;
+  if (settled && pin_.told == ends)
+    return ends == PinTold::kOut ? Pin::kOut : ends == PinTold::kIn ? Pin::kIn : Pin::kTests;
   return pin_.asked && now_ - pin_.since <= kPinTimeout ? Pin::kMoves : Pin::kFailed;
 }
 
@@ -254,6 +259,7 @@ void HeatNodeLink::on_bring_up(BusTime now, bool done) {
   lost_.fill(false);
   pin_ = {};
   tuning_.end(say("its node was not in operation any more: measure it again"));
+  vibration_.fail(say("its node was not in operation any more: measure it again"));
   if (!done) return;
   heard_ = measured_ = now_ = std::max(now_, now);
   for (Value& set : set_points_) set.due = true;
@@ -312,15 +318,18 @@ void HeatNodeLink::begin_next(BusTime now) {
       begin(now, Writing::kFilament, n, kFilamentReset, 1, 1);
       return;
     }
-  if (pin_.due && begin(now, Writing::kPin, 0, kPinCommand, pin_.out ? kPinDeploy : kPinStow, 1)) {
+  if (pin_.due &&
+      begin(now, Writing::kPin, 0, kPinCommand, kPinCommands[static_cast<std::size_t>(pin_.order)], 1)) {
     pin_.due = false;
     return;
   }
-  if (ask_for_tuning(now)) writing_ = Writing::kTuning;
+  if (ask(now, tuning_.next(now)))
+    writing_ = Writing::kTuning;
+  else if (ask(now, vibration_.next(now)))
+    writing_ = Writing::kVibration;
 }
 
-bool HeatNodeLink::ask_for_tuning(BusTime now) {
-  const auto question = tuning_.next(now);
+bool HeatNodeLink::ask(BusTime now, const std::optional<HeatNodeTuning::Question>& question) {
   if (!question) return false;
   const auto bytes = std::span(bytes_).first(question->bytes);
   if (!question->write) return sdo_.upload(now, id_, question->address, bytes);
@@ -332,10 +341,12 @@ void HeatNodeLink::settle(BusTime now) {
   if (sdo_.status() == SdoClient::Status::kBusy) return;
   const Writing what = std::exchange(writing_, Writing::kNothing);
   const bool failed = sdo_.status() == SdoClient::Status::kFailed;
-  if (what == Writing::kTuning) {
+  if (what == Writing::kTuning || what == Writing::kVibration) {
     const std::uint32_t value =
         failed ? 0 : static_cast<std::uint32_t>(get_le(bytes_, std::min(sdo_.received(), bytes_.size())));
-    return tuning_.on_answer(now, failed ? sdo_.abort_code() : AbortCode::kNone, value);
+    const AbortCode code = failed ? sdo_.abort_code() : AbortCode::kNone;
+    return what == Writing::kTuning ? tuning_.on_answer(now, code, value)
+                                    : vibration_.on_answer(now, code, value);
   }
   // No answer, or a disturbed one: again. A node that is gone is missed by its heartbeat.
   const AbortCode code = failed ? sdo_.abort_code() : AbortCode::kNone;

@@ -9,6 +9,7 @@
 
 #include "gateway/devices/device.hpp"
 #include "gateway/devices/heat_node_tuning.hpp"
+#include "gateway/devices/vibration_reading.hpp"
 #include "protocol/canopen/heat_units.hpp"
 #include "protocol/canopen/sdo_client.hpp"
 
@@ -22,7 +23,9 @@ class HeatNodeLink : public Device {
 
   /// `all_fans`: every fan of the machine is the node's own. Then it is told that nothing flows, too, and
   /// knows of everything that takes heat away.
-  HeatNodeLink(std::uint8_t id, bool all_fans) : id_(id), all_fans_(all_fans) {}
+  /// `axes`: VibrationReading.
+  HeatNodeLink(std::uint8_t id, bool all_fans, std::array<std::uint8_t, 3> axes = {0, 1, 2})
+      : id_(id), all_fans_(all_fans), vibration_(axes) {}
 
   bool on_frame(BusTime now, const CanFrame& frame) override;
   void on_time(BusTime now) override;
@@ -51,9 +54,12 @@ class HeatNodeLink : public Device {
   void follow_extruder(double mm);
   void reset_filament(std::size_t sensor);
   /// Of the probe whose servo the node drives.
-  void move_pin(bool out);
+  void move_pin(ContactProbe::PinOrder order);
   ContactProbe::Pin pin() const;
   Sentence pin_words() const;
+  void begin_vibration() { vibration_.begin(now_); }
+  void end_vibration() { vibration_.end(); }
+  const VibrationFound& vibration() const { return vibration_.found(); }
 
  private:
   enum class State : std::uint8_t { kOff = 0, kHeats = 1, kThere = 2, kTunes = 3, kFault = 4 };
@@ -69,14 +75,23 @@ class HeatNodeLink : public Device {
       wanted = value;
     }
   };
-  enum class Writing : std::uint8_t { kNothing, kReset, kSetPoint, kOutput, kFilament, kPin, kTuning };
+  enum class Writing : std::uint8_t {
+    kNothing,
+    kReset,
+    kSetPoint,
+    kOutput,
+    kFilament,
+    kPin,
+    kTuning,
+    kVibration
+  };
 
   bool on_report(BusTime now, const CanFrame& frame);
   void on_states(std::span<const std::uint8_t> states);
   void on_emergency(const CanFrame& frame);
   bool begin(BusTime now, Writing what, std::size_t n, ObjectAddress first, std::int16_t value, int bytes);
   void begin_next(BusTime now);
-  bool ask_for_tuning(BusTime now);
+  bool ask(BusTime now, const std::optional<HeatNodeTuning::Question>& question);
   std::optional<CanFrame> flow_frame(BusTime now);
   std::optional<CanFrame> extruder_frame(BusTime now);
   void settle(BusTime now);
@@ -90,6 +105,7 @@ class HeatNodeLink : public Device {
   std::int16_t written_ = 0;
   std::array<std::uint8_t, 4> bytes_{};
   HeatNodeTuning tuning_;
+  VibrationReading vibration_;
   using Flow = std::array<std::int16_t, std::tuple_size_v<FlowAhead>>;  ///< 10 mW
   Flow flow_{}, flow_told_{};
   BusTime flow_told_at_{0};
@@ -109,7 +125,8 @@ class HeatNodeLink : public Device {
   enum class PinTold : std::uint8_t { kUnknown, kIn, kOut, kMoves, kNotOut, kNotIn, kAlarm, kSelfTest };
   struct PinLink {
     PinTold told = PinTold::kUnknown;
-    bool out = false, asked = false, due = false;
+    ContactProbe::PinOrder order = ContactProbe::PinOrder::kIn;
+    bool asked = false, due = false;
     BusTime since{0};
     AbortCode refused = AbortCode::kNone;
   } pin_;

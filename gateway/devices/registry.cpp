@@ -116,6 +116,9 @@ Result<Devices, Sentence> make_devices(const MachineDescription& machine) {
   if (machine.probe.present)
     if (auto probe = maker.make(kProbes, machine.probe, "probe"))
       devices.set_probe(machine.probe.place.node_id, std::move(probe));
+  if (machine.accelerometer.present)
+    if (auto accelerometer = on_heat_node(machine.accelerometer, maker.heat_nodes()))
+      devices.set_accelerometer(machine.accelerometer.node, std::move(accelerometer));
   if (!maker.wrong().empty()) return Error<Sentence>(maker.wrong());
   return devices;
 }

@@ -108,6 +108,15 @@ struct Thermal {
 struct Spindle {
   double rpm = 0;
 };
+/// M401, M402, M280: of a probe that has a pin. Motion waits at rest until it is there.
+struct ProbePin {
+  enum class What : std::uint8_t {
+    kOut,
+    kIn,
+    kSelfTest,  ///< in and out by itself, until it is told something else
+    kReset,     ///< ends its alarm, and draws it in
+  } what{};
+};
 struct Home {             ///< G28
   std::uint8_t axes = 0;  ///< bit per axis in the order of Pose (X bit 0 ... C bit 4); 0: all
   Pose afterwards{};  ///< where the machine has to stand when homing is done (axes not named: as before; E:
@@ -179,7 +188,7 @@ struct End {};  ///< M2 / M30, or the end of the text
 using Command =
     std::variant<Traverse, Feed, Arc, Dwell, PathMode, SetPosition, Limits, Thermal, Spindle, Home, Pause,
                  MotorsOff, MotorsOn, WaitIdle, Override, Message, Query, EmergencyStop, StoredJob, Settings,
-                 End, PressureAdvance, Probe, InputShaping, Mesh>;
+                 End, PressureAdvance, Probe, InputShaping, Mesh, ProbePin>;
 
 /// One command with the line of the job that it came from (1-based).
 struct Line {

@@ -97,6 +97,10 @@ struct Writer {
     return text;
   }
   std::string operator()(const Spindle& c) const { return "spindle " + number(c.rpm); }
+  std::string operator()(const ProbePin& c) const {
+    static constexpr std::array<std::string_view, 4> kNames = {"out", "in", "self_test", "reset"};
+    return std::string("probe_pin ").append(kNames[static_cast<std::size_t>(c.what)]);
+  }
   std::string operator()(const Home& c) const {
     return "home " + axes_text(c.axes) + " to " + pose_text(c.afterwards, c.frame);
   }

@@ -87,13 +87,13 @@ bool Walker::passes(const JointVector& from, Pose pose, const JointVector& to, d
     if (!kinematics_.forward(Frame::kMachine, q, pose)) return false;
     if (model_ == nullptr) continue;
     if (!model_->place(Frame::kMachine, pose, scene_)) return false;
-    if (model_->clearance(scene_, bodies::Occasion::kMotion, &likely_).mm < model_->wanted_mm()) return false;
+    if (model_->clearance(scene_, bodies::Occasion::kMotion, &before_).mm < model_->wanted_mm()) return false;
   }
   return true;
 }
 
 bool Walker::judge(Way& way) {
-  bodies::Clearance least = model_->clearance(scene_, bodies::Occasion::kMotion, &likely_);
+  bodies::Clearance least = model_->clearance(scene_, bodies::Occasion::kMotion, &before_);
   bool nearer = false;  // tool and part come nearer before they have had room
   for (Parting& p : partings_) {
     if (p.apart && model_->least_distance(scene_, p.pair) >= least.mm) continue;

@@ -73,8 +73,8 @@ class Walker {
   Density density_;
   bodies::Scene scene_{};
   Pose pose_{};
-  double near_mm_ = 0;      ///< of the pose looked at last
-  std::size_t likely_ = 0;  ///< pair that was nearest there
+  double near_mm_ = 0;                       ///< of the pose looked at last
+  bodies::CollisionModel::Memory before_{};  ///< of the pose before
   /// Tool to part or table: how near they were at the start, until they have room.
   struct Parting {
     bodies::CollisionModel::Pair pair;

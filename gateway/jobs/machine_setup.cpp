@@ -186,6 +186,8 @@ gcode::Options interpreter_options(const MachineDescription& machine, const Pose
   options.tools = std::max(options.hotends, 1 + static_cast<int>(machine.gcode.tool_length_mm.size()));
   // On a mill the operator puts in whatever tool is asked for.
   if (options.spindle) options.tools = 100'000;
+  options.spindle_min_rpm = machine.spindle.min_rpm;
+  options.spindle_max_rpm = machine.spindle.max_rpm;
   options.tool_length_mm = machine.gcode.tool_length_mm;
   options.tool_diameter_mm = machine.gcode.tool_diameter_mm;
   options.retract_length_mm = machine.gcode.retract_mm;
@@ -196,6 +198,7 @@ gcode::Options interpreter_options(const MachineDescription& machine, const Pose
   if (machine.probe.present)
     options.probe =
         machine.probe.place.on_node() ? gcode::ProbeFitted::kFitted : gcode::ProbeFitted::kSimulated;
+  options.probe_pin = machine.probe.bltouch;
   options.probe_mm_per_s = machine.probe.speed_mm_per_s;
   options.probe_offset_mm = machine.probe.offset_mm;
   options.mesh = mesh_options(machine);

@@ -49,6 +49,9 @@ constexpr std::array<Row, kCommandKinds> kTable{{
     {command::kind<command::TuneHeater>, phrase("measure a heater"), in(S::kUnhomed, S::kReady)},
     {command::kind<command::ExcludeObject>, phrase("leave an object out"),
      in(S::kRunning, S::kHolding, S::kHeld)},
+    // Not in a job, which says itself where it needs it.
+    {command::kind<command::MovePin>, phrase("move the probe's pin"),
+     in(S::kUnhomed, S::kReady, S::kStopped, S::kAlarm)},
 }};
 
 constexpr bool table_is_in_order() {

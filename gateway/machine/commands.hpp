@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "gateway/description/device_description.hpp"
+#include "gateway/devices/device.hpp"
 #include "gateway/jobs/byte_source.hpp"
 #include "gateway/motors/motor_settings.hpp"
 #include "gateway/pose.hpp"
@@ -94,6 +95,10 @@ struct TuneHeater {
   HeaterId heater = kFirstHotend;
   double celsius = 0;  ///< it shall be good at; 0: where its kind usually works
 };
+/// The pin of a probe that has one. How it ends is told.
+struct MovePin {
+  ContactProbe::PinOrder order = ContactProbe::PinOrder::kIn;
+};
 /// One joint alone, all others end where they were.
 struct JogMotor {
   std::size_t joint = 0;
@@ -113,7 +118,7 @@ using Command =
                  command::Clear, command::SetFeedOverride, command::MotorsOff, command::SetTemperature,
                  command::SetFan, command::SetOutput, command::SetSpindle, command::SetWorkOffset,
                  command::SetMotorCurrents, command::TuneMotor, command::JogMotor, command::TuneHeater,
-                 command::ExcludeObject>;
+                 command::ExcludeObject, command::MovePin>;
 
 /// A kind of command: its place in Command.
 using CommandKind = std::size_t;

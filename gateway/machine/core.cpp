@@ -216,7 +216,8 @@ BusTime Gateway::Core::next_deadline() const {
   BusTime due = voice_.next_deadline(now_, std::max(served_ + wait, now_ + BusTime{1}));
   if (!voice_.speaks()) return due;
   // What is due already waits for the bus, not for time: it is pulled when a frame can be sent.
-  for (const BusTime deadline : {rate_.next_deadline(), devices_.next_deadline()})
+  for (const BusTime deadline :
+       {rate_.next_deadline(), devices_.next_deadline(), print_.runner().next_output(now_)})
     if (deadline > now_) due = std::min(due, deadline);
   return due;
 }
@@ -240,6 +241,7 @@ void Gateway::Core::on_time(BusTime now) {
   watch_filament();
   watch_idle_heat();
   tell_of_tuning();
+  tell_of_pin();
   serve_probe();
   feed_heat_ahead();
   note_progress();

@@ -99,6 +99,8 @@ class Gateway::Core {
   Result<std::string, Refusal> set_currents(std::string_view words);
   /// M303.
   Result<std::string, Refusal> measure_heater(std::string_view words);
+  /// M956 S1 begins, S0 ends; alone it tells what was found.
+  Result<std::string, Refusal> vibration(std::optional<double> what);
 
   MachineState state() const { return state_.now(); }
   std::optional<MachineEvent> next_event() { return events_.pop(); }
@@ -134,6 +136,7 @@ class Gateway::Core {
   Done on(command::JogMotor& asked);
   Done on(command::TuneHeater& asked);
   Done on(command::ExcludeObject& asked);
+  Done on(command::MovePin& asked);
 
   void enter(MachineState state) { state_.enter(now_, state); }
   void begin_bring_up();
@@ -169,6 +172,7 @@ class Gateway::Core {
   void watch_nodes();
   void watch_idle_heat();
   void tell_of_tuning();
+  void tell_of_pin();
   void feed_heat_ahead();
   void follow_extruder();
   void watch_parameters();
@@ -266,7 +270,9 @@ class Gateway::Core {
   bool remote_told_ = false;                    ///< a remote frame was passed over, since the last bring-up
   bool probe_asked_ = false;                    ///< its node is to answer
   bool probe_rests_ = false;                    ///< its move has come to rest where it touched
-  bool fault_ = false;                          ///< the stop under way ends in an alarm
+  bool pin_by_hand_ = false;                    ///< its pin moves, and no job looks at it
+  ContactProbe::Pin pin_told_ = ContactProbe::Pin::kNone;
+  bool fault_ = false;      ///< the stop under way ends in an alarm
   bool beds_stay_ = false;  ///< that alarm is of a device: a bed that is in order keeps the part on it
   BusTime heat_idle_since_{0}, next_flow_{0};
   std::optional<HeaterId> tuned_;  ///< whose measurement is told of

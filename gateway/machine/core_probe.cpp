@@ -37,6 +37,24 @@ void Gateway::Core::serve_probe() {
     sdo.write({request->address, request->size, request->value});
 }
 
+Result<void, Refusal> Gateway::Core::on(command::MovePin& asked) {
+  if (auto done = heat_.move_pin(asked.order); !done) return done;
+  pin_by_hand_ = true;
+  return {};
+}
+
+/// Where the pin has come to while no job looks at it: what was asked for by hand, and what has failed.
+void Gateway::Core::tell_of_pin() {
+  using Pin = ContactProbe::Pin;
+  const ContactProbe* const probe = devices_.probe();
+  const Pin pin = probe == nullptr || probe->absent() || runner_->active() ? Pin::kNone : probe->pin();
+  if (std::exchange(pin_told_, pin) == pin) return;
+  if (pin == Pin::kFailed) events_.message(now_, probe->pin_words());
+  if (pin == Pin::kOut && pin_by_hand_) events_.message(now_, say("the probe's pin is out"));
+  if (pin == Pin::kIn && pin_by_hand_) events_.message(now_, say("the probe's pin is in"));
+  if (pin != Pin::kMoves) pin_by_hand_ = false;
+}
+
 /// Path time rests behind a contact.
 void Gateway::Core::step_probed() {
   if (!std::exchange(probe_rests_, true)) rest_.begin(now_);

@@ -2,6 +2,7 @@
 // How far a pose is from the programmed path: the measure of checkers and tests, independent of the planner's
 // own idea of the path. Fed with the same canonical commands; a window moves along with the queries.
 
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 
@@ -20,6 +21,9 @@ class PathDistance {
   /// last query, looking ahead as far as `line`. Queries go along the path. Cost: < 0.5 us for queries of a
   /// millisecond.
   double distance_mm(const Pose& pose, std::uint32_t line);
+
+  /// Moves behind the one that the last query found nearest.
+  std::size_t ahead() const { return moves_.empty() ? 0 : moves_.size() - 1 - nearest_; }
 
   /// Job line of the move that the last query found nearest.
   std::uint32_t nearest_line() const { return nearest_line_; }

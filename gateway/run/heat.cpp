@@ -83,6 +83,15 @@ Done Heat::set_output(std::uint8_t index, double ratio) {
   return {};
 }
 
+Done Heat::move_pin(ContactProbe::PinOrder order) {
+  ContactProbe* const probe = devices_.probe();
+  if (probe == nullptr || probe->pin() == ContactProbe::Pin::kNone)
+    return refused(say("the machine has no probe with a pin"));
+  if (auto absent = probe->absent()) return refused(std::move(*absent));
+  probe->move_pin(order);
+  return {};
+}
+
 Done Heat::set_spindle(double rpm) {
   if (auto wrong = wrong_spindle_speed(machine_.spindle, rpm)) return refused(std::move(*wrong));
   devices_.turn_spindle(rpm);
@@ -144,6 +153,7 @@ void Heat::report(MachineStatus& status) const {
   status.filaments = devices_.filaments();
   status.spindle = devices_.spindle();
   if (machine_.probe.present) status.probe_touches = devices_.probe_touches();
+  if (const ContactProbe* const probe = devices_.probe()) status.probe_pin = probe->pin();
 }
 
 // The job under way

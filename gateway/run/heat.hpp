@@ -16,6 +16,15 @@
 
 namespace kinebus {
 
+constexpr ContactProbe::PinOrder pin_order(const canonical::ProbePin& asked) {
+  using What = canonical::ProbePin::What;
+  using Order = ContactProbe::PinOrder;
+  return asked.what == What::kOut        ? Order::kOut
+         : asked.what == What::kIn       ? Order::kIn
+         : asked.what == What::kSelfTest ? Order::kTest
+                                         : Order::kReset;
+}
+
 class Heat {
  public:
   Heat(const MachineDescription& machine, Devices& devices) : machine_(machine), devices_(devices) {}
@@ -60,6 +69,8 @@ class Heat {
   std::optional<DeviceFault> new_fault() { return devices_.new_fault(); }
   /// There is nothing to print with, or it does not come.
   std::optional<DeviceFault> filament_trouble() const { return devices_.filament_trouble(); }
+
+  Result<void, Refusal> move_pin(ContactProbe::PinOrder order);
 
   /// nullptr: the machine has none.
   ContactProbe* probe() { return devices_.probe(); }

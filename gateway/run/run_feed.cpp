@@ -137,6 +137,15 @@ JobPlace RunFeed::place(PathTime tau) const {
   return {piece->ordinal, original_time(*piece, std::clamp(into_s, 0.0, piece->phase.duration_s))};
 }
 
+std::optional<PathTime> RunFeed::start_of(std::uint64_t phase) const {
+  const auto end = pieces_.begin() + static_cast<std::ptrdiff_t>(at_piece_);
+  const auto found =
+      std::lower_bound(pieces_.begin(), end, phase,
+                       [](const Piece& piece, std::uint64_t wanted) { return piece.ordinal < wanted; });
+  if (!streaming_ || found == end || found->ordinal != phase) return std::nullopt;
+  return after(found->start, found->start_s);
+}
+
 double RunFeed::done_s(PathTime tau) const {
   const JobPlace here = place(tau);
   if (here.phase >= added() || here.phase < first_) return job_s_;

@@ -54,6 +54,8 @@ class RunFeed {
   JobPlace place(PathTime tau) const;
   /// Planned time of the job's motion up to there, s.
   double done_s(PathTime tau) const;
+  /// When a phase of the job begins in path time; nothing: the group does not have it yet, or not any more.
+  std::optional<PathTime> start_of(std::uint64_t phase) const;
   /// Forgets what lies before `tau`: no node will ask for it.
   void forget_before(PathTime tau);
   /// The planned pose at `tau`; for a while back and as far ahead as is planned.

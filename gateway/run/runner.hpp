@@ -62,6 +62,9 @@ class Runner {
   std::size_t live_room(BusTime now, std::size_t most);
   /// A wait for a temperature is over, as if it were reached.
   void skip_heating();
+  /// When the next output of the job (M62 to M68) is due by the present rate: it is switched within a
+  /// millisecond of its place on the path.
+  BusTime next_output(BusTime now) const;
   /// All that was added is carried out, at rest.
   bool live_idle() const {
     return live() && !feed_.streaming() && !feed_.pending() && wait_ == Wait::kNone && pipeline_.live_idle();
@@ -156,6 +159,7 @@ class Runner {
     kSpindle,
     kPause,
     kPinOut,
+    kPinStays,  ///< out, by a word of the job
     kProbeReady,
     kProbeEnd,
     kPinIn
@@ -184,6 +188,7 @@ class Runner {
   void arm_probe();
   bool pin_is(ContactProbe::Pin where);
   bool draw_pin_in();
+  void move_pin(const canonical::ProbePin& asked);
   void give_up_probe();
   std::chrono::milliseconds probe_ramp(BusTime now) const;
   void end_probe(const gcode::ProbeResult& result);

@@ -1,6 +1,8 @@
 // What a job commands besides motion: heaters, spindle, messages, and the waits for them, for time and for
 // the operator. Commands take effect when path time has passed the phase before them.
 
+#include <algorithm>
+
 #include "gateway/jobs/machine_setup.hpp"
 #include "gateway/run/runner.hpp"
 
@@ -32,6 +34,13 @@ bool Runner::wait_is_over(BusTime now) {
     case Wait::kPinOut:
       if (pin_is(ContactProbe::Pin::kOut)) arm_probe();
       return false;
+    case Wait::kPinStays:
+      if (!pin_is(ContactProbe::Pin::kOut)) {
+        // A bring-up in between has drawn it in.
+        if (pin_is(ContactProbe::Pin::kIn)) heat_.probe()->move_pin(ContactProbe::PinOrder::kOut);
+        return false;
+      }
+      break;
     case Wait::kProbeReady:
       if (!probe_has_answered()) return false;
       break;
@@ -70,6 +79,22 @@ void Runner::execute_due(BusTime now) {
     execute(now, events_.front().line);
     events_.pop_front();
   }
+}
+
+BusTime Runner::next_output(BusTime now) const {
+  if (still_) return BusTime::max();
+  const auto is_output = [](const Event& event) {
+    const auto* const thermal = std::get_if<canonical::Thermal>(&event.line.command);
+    return thermal != nullptr && thermal->what == canonical::Thermal::What::kOutput;
+  };
+  const auto event = std::find_if(events_.begin(), events_.end(), is_output);
+  const double rate = rate_.rate(now);
+  if (event == events_.end() || rate <= 0) return BusTime::max();
+  const auto start = feed_.start_of(event->phase);
+  if (!start) return BusTime::max();
+  const double left_s = std::max(0.0, to_seconds(*start - rate_.tau(now))) / rate;
+  constexpr double kFar_s = 1;
+  return left_s > kFar_s ? BusTime::max() : now + BusTime{static_cast<std::int64_t>(left_s * 1e9) + 1};
 }
 
 void Runner::execute(BusTime now, const canonical::Line& line) {
@@ -111,6 +136,8 @@ Runner::Outcome Runner::barrier(BusTime now) {
     }
   } else if (std::holds_alternative<canonical::Probe>(line.command)) {
     begin_probe();
+  } else if (const auto* pin = std::get_if<canonical::ProbePin>(&line.command)) {
+    move_pin(*pin);
   } else if (const auto* mesh = std::get_if<canonical::Mesh>(&line.command)) {
     return level(now, canonical::Mesh(*mesh), line.line);
   } else if (std::holds_alternative<canonical::Pause>(line.command)) {

@@ -29,7 +29,7 @@ void Runner::begin_probe() {
     return;
   }
   if (probe->pin() == ContactProbe::Pin::kNone) return arm_probe();
-  probe->move_pin(true);
+  probe->move_pin(ContactProbe::PinOrder::kOut);
   wait_ = Wait::kPinOut;
   doing_ = say("putting the probe's pin out");
 }
@@ -51,16 +51,30 @@ bool Runner::pin_is(ContactProbe::Pin where) {
 bool Runner::draw_pin_in() {
   ContactProbe& probe = *heat_.probe();
   if (probe.pin() == ContactProbe::Pin::kNone) return false;
-  probe.move_pin(false);
+  probe.move_pin(ContactProbe::PinOrder::kIn);
   wait_ = Wait::kPinIn;
   doing_ = say("drawing the probe's pin in");
   return true;
 }
 
+/// By a word of the job; nothing moves before it is there.
+void Runner::move_pin(const canonical::ProbePin& asked) {
+  using What = canonical::ProbePin::What;
+  ContactProbe* const probe = heat_.probe();
+  if (probe == nullptr || probe->pin() == ContactProbe::Pin::kNone) {
+    probe_wrong_ = say("the machine has no probe with a pin");
+    return;
+  }
+  probe->move_pin(pin_order(asked));
+  if (asked.what == What::kSelfTest) return;
+  wait_ = asked.what == What::kOut ? Wait::kPinStays : Wait::kPinIn;
+  doing_ = asked.what == What::kOut ? say("putting the probe's pin out") : say("drawing the probe's pin in");
+}
+
 void Runner::give_up_probe() {
   ContactProbe* const probe = heat_.probe();
   if (std::exchange(probing_, false) && probe != nullptr && probe->pin() != ContactProbe::Pin::kNone)
-    probe->move_pin(false);
+    probe->move_pin(ContactProbe::PinOrder::kIn);
 }
 
 /// Before the move: the probe is ready. Behind it: it has said whether it touched.

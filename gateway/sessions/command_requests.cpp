@@ -27,12 +27,31 @@ HeaterId heater_of(const joblink::SetTemperature& request) {
   return request.bed() ? kFirstBed : heater_of(request.kind(), request.index());
 }
 
+/// What is no order draws it in.
+ContactProbe::PinOrder order_of(joblink::MoveProbePin::Order order) {
+  using Order = ContactProbe::PinOrder;
+  switch (order) {
+    case joblink::MoveProbePin::OUT:
+      return Order::kOut;
+    case joblink::MoveProbePin::SELF_TEST:
+      return Order::kTest;
+    case joblink::MoveProbePin::RESET:
+      return Order::kReset;
+    default:
+      return Order::kIn;
+  }
+}
+
 template <typename C>
 constexpr Row plain(joblink::Command request) {
   return {request, command::kind<C>, [](const ClientMessage&) -> Command { return C{}; }};
 }
 
 const Row kTable[] = {
+    {joblink::COMMAND_MOVE_PROBE_PIN, command::kind<command::MovePin>,
+     [](const ClientMessage& m) -> Command {
+       return command::MovePin{order_of(m.move_probe_pin().order())};
+     }},
     {joblink::COMMAND_EXCLUDE_OBJECT, command::kind<command::ExcludeObject>,
      [](const ClientMessage& m) -> Command { return command::ExcludeObject{m.exclude_object().name()}; }},
     {joblink::COMMAND_START_JOB, command::kind<command::Run>, nullptr},

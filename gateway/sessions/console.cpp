@@ -28,8 +28,8 @@ Code code_of(std::string_view line) {
 }
 
 constexpr std::array<int, 8> kQueries{27, 105, 112, 114, 115, 119, 410, 503};
-constexpr std::array<int, 15> kSessionCommands{17,  18,  24,  25,  84,  104, 106, 107,
-                                               140, 220, 303, 524, 906, 999, 28};
+constexpr std::array<int, 16> kSessionCommands{17,  18,  24,  25,  84,  104, 106, 107,
+                                               140, 220, 303, 524, 906, 956, 999, 28};
 
 template <std::size_t n>
 bool contains(const std::array<int, n>& codes, int code) {

@@ -288,6 +288,7 @@ joblink::Status to_message(const MachineStatus& s) {
     told.set_left_out(object.left_out);
   }
   if (s.probe_touches) m.set_probe_touches(*s.probe_touches);
+  m.set_probe_pin(static_cast<joblink::ProbePin>(s.probe_pin));
   m.set_spindle_rpm(s.spindle.actual_rpm);
   m.set_spindle_target_rpm(s.spindle.target_rpm);
   m.set_bus_load(s.bus_load);

@@ -91,6 +91,7 @@ struct MachineStatus {
   std::vector<FilamentStatus> filaments;
   SpindleStatus spindle;
   std::optional<bool> probe_touches;  ///< empty: there is no probe
+  ContactProbe::Pin probe_pin = ContactProbe::Pin::kNone;
   /// Cold and off when there is none.
   HeaterStatus heater(HeaterId id) const {
     for (const NamedHeaterStatus& h : heaters)

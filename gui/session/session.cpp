@@ -325,6 +325,9 @@ void Session::set_heater(joblink::HeaterKind kind, std::uint32_t index, double c
     r.mutable_set_temperature()->set_celsius(celsius);
   }));
 }
+void Session::move_probe_pin(joblink::MoveProbePin::Order order) {
+  command(plain([&](auto& r) { r.mutable_move_probe_pin()->set_order(order); }));
+}
 void Session::tune_heater(joblink::HeaterKind kind, std::uint32_t index, double celsius) {
   command(plain([&](auto& r) {
     r.mutable_tune_heater()->set_kind(kind);

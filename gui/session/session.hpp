@@ -81,6 +81,7 @@ class Session : public QObject {
   void set_heater(joblink::HeaterKind kind, std::uint32_t index, double celsius);
   /// Of the print under way; it cannot be taken back.
   void exclude_object(const std::string& name);
+  void move_probe_pin(joblink::MoveProbePin::Order order);
   /// Its node measures it, to be good at `celsius`.
   void tune_heater(joblink::HeaterKind kind, std::uint32_t index, double celsius);
   /// The job that is held, so that the machine may be moved meanwhile.

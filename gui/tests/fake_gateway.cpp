@@ -64,7 +64,8 @@ FakeGateway::FakeGateway() : machine(m1_info()), server_(this), statuses_(this) 
   status.set_state(STATE_READY);
   allow({COMMAND_START_JOB, COMMAND_STOP, COMMAND_HOME, COMMAND_REFERENCE, COMMAND_JOG, COMMAND_SET_OVERRIDE,
          COMMAND_SET_TEMPERATURE, COMMAND_SET_FAN, COMMAND_MOTORS_OFF, COMMAND_SET_WORK_OFFSET,
-         COMMAND_SET_MOTOR_CURRENTS, COMMAND_TUNE_MOTOR, COMMAND_JOG_MOTOR, COMMAND_TUNE_HEATER});
+         COMMAND_SET_MOTOR_CURRENTS, COMMAND_TUNE_MOTOR, COMMAND_JOG_MOTOR, COMMAND_TUNE_HEATER,
+         COMMAND_MOVE_PROBE_PIN});
   status.set_positions_known(true);
   status.mutable_tool()->set_z_mm(20);
   status.set_feed_override(1);

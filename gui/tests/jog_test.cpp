@@ -71,6 +71,28 @@ TEST_F(JogTest, AButtonThatIsHeldMovesUntilItIsLetGo) {
   EXPECT_FALSE(jogs().back().while_held());
 }
 
+TEST_F(JogTest, TheProbesPinIsMovedWhereThereIsOne) {
+  const auto named = [this](const char* text) {
+    for (auto* found : window->findChildren<QPushButton*>())
+      if (found->text() == QString::fromUtf8(text)) return found;
+    throw std::runtime_error(text);
+  };
+  EXPECT_FALSE(named("Pin out")->isVisible());
+  gateway.status.set_probe_pin(joblink::PROBE_PIN_IN);
+  gateway.send_status();
+  ASSERT_TRUE(wait_until([&] { return named("Pin out")->isVisible() && named("Pin out")->isEnabled(); }));
+  named("Pin out")->click();
+  named("End alarm")->click();
+  const auto orders = [this] {
+    std::vector<joblink::MoveProbePin::Order> all;
+    for (const auto& message : gateway.heard)
+      if (message.has_move_probe_pin()) all.push_back(message.move_probe_pin().order());
+    return all;
+  };
+  ASSERT_TRUE(wait_until([&] { return orders().size() == 2; }));
+  EXPECT_EQ(orders(), (std::vector{joblink::MoveProbePin::OUT, joblink::MoveProbePin::RESET}));
+}
+
 TEST_F(JogTest, TheKeyboardsRepetitionIsNoClick) {
   key(QEvent::KeyPress);
   for (int i = 0; i < 20; ++i) {

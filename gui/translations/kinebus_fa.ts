@@ -213,6 +213,62 @@
         <translation>پس از پارامتر = انتظار می‌رفت</translation>
     </message>
     <message>
+        <source>%1 cannot be used in a turned coordinate system (G10 R)</source>
+        <translation>%1 در دستگاه مختصات چرخیده (G10 R) به کار نمی‌رود</translation>
+    </message>
+    <message>
+        <source>G30 means a probe to printers and a stored position to mills: keep one with G30.1 before it, or use G53 G0 with coordinates</source>
+        <translation>G30 در چاپگرها پروب و در فرزها موقعیت ذخیره‌شده است: پیش از آن با G30.1 موقعیتی نگه دارید، یا G53 G0 با مختصات به کار ببرید</translation>
+    </message>
+    <message>
+        <source>%1 needs G49 and G69: machine coordinates do not turn with the part</source>
+        <translation>%1 به G49 و G69 نیاز دارد: مختصات ماشین با قطعه نمی‌چرخد</translation>
+    </message>
+    <message>
+        <source>G10 needs L1, L2, L10, L11 or L20 (or no L: retract)</source>
+        <translation>G10 به L1، L2، L10، L11 یا L20 نیاز دارد (بدون L: عقب‌کشی)</translation>
+    </message>
+    <message>
+        <source>G10 L%1 needs the tool P</source>
+        <translation>G10 L%1 به ابزار P نیاز دارد</translation>
+    </message>
+    <message>
+        <source>too many tools are changed by G10 (1000 at most)</source>
+        <translation>G10 ابزارهای زیادی را عوض می‌کند (حداکثر 1000)</translation>
+    </message>
+    <message>
+        <source>@ and ^ cannot stand beside X and Y</source>
+        <translation>@ و ^ در کنار X و Y نمی‌آیند</translation>
+    </message>
+    <message>
+        <source>@ and ^ cannot stand beside %1</source>
+        <translation>@ و ^ در کنار %1 نمی‌آیند</translation>
+    </message>
+    <message>
+        <source>@ and ^ need the plane of X and Y (G17)</source>
+        <translation>@ و ^ به صفحهٔ X و Y (G17) نیاز دارند</translation>
+    </message>
+    <message>
+        <source>under G91 @ and ^ cannot start at the zero point, where there is no angle</source>
+        <translation>در G91، @ و ^ از نقطهٔ صفر که زاویه ندارد آغاز نمی‌شوند</translation>
+    </message>
+    <message>
+        <source>constant surface speed (G96) needs a spindle, which this machine does not have</source>
+        <translation>سرعت برشی ثابت (G96) اسپیندل می‌خواهد که این ماشین ندارد</translation>
+    </message>
+    <message>
+        <source>G96 needs S, the surface speed</source>
+        <translation>G96 به S، سرعت برشی، نیاز دارد</translation>
+    </message>
+    <message>
+        <source>the highest speed D of G96 must be greater than 0</source>
+        <translation>بیشترین سرعت D در G96 باید بزرگ‌تر از 0 باشد</translation>
+    </message>
+    <message>
+        <source>%1 stands twice in the line</source>
+        <translation>%1 در خط دو بار آمده است</translation>
+    </message>
+    <message>
         <source>too many assignments in one line (32 at most)</source>
         <translation>مقداردهی در یک خط زیاد است (حداکثر 32)</translation>
     </message>
@@ -267,14 +323,6 @@
     <message>
         <source>too many M codes in one line (8 at most)</source>
         <translation>کد M در یک خط زیاد است (حداکثر 8)</translation>
-    </message>
-    <message>
-        <source>G30 means a probe to printers and a stored position to mills: use G53 G0 with coordinates</source>
-        <translation>G30 در چاپگرها پروب و در فرزها موقعیت ذخیره‌شده است: G53 G0 با مختصات به کار ببرید</translation>
-    </message>
-    <message>
-        <source>G30.1 is not supported: use G10 L2 or parameters</source>
-        <translation>G30.1 پشتیبانی نمی‌شود: G10 L2 یا پارامتر به کار ببرید</translation>
     </message>
     <message>
         <source>G68.3 is not supported: use G68.2 with I J K</source>
@@ -625,20 +673,12 @@
         <translation>G53 به G0 یا G1 نیاز دارد، در همین خط یا فعال</translation>
     </message>
     <message>
-        <source>G53 needs G49 and G69: machine coordinates do not turn with the part</source>
-        <translation>G53 به G49 و G69 نیاز دارد: مختصات ماشین با قطعه نمی‌چرخد</translation>
-    </message>
-    <message>
         <source>G53 needs absolute distances (G90)</source>
         <translation>G53 فاصلهٔ مطلق (G90) می‌خواهد</translation>
     </message>
     <message>
         <source>%1 cannot change offsets in a tilted plane: end it with G69 first</source>
         <translation>%1 در صفحهٔ شیب‌دار مبدأ را عوض نمی‌کند: نخست با G69 پایانش دهید</translation>
-    </message>
-    <message>
-        <source>G10 needs L2 or L20 (or no L: retract)</source>
-        <translation>G10 به L2 یا L20 نیاز دارد (بدون L: عقب‌کشی)</translation>
     </message>
     <message>
         <source>G10 needs P: 1 for G54 ... 9 for G59.3, 0 for the active one</source>
@@ -3065,10 +3105,6 @@
         <translation>G88 کاربری می‌خواهد که محورها را با دست حرکت دهد: G82 یا G86 به کار ببرید</translation>
     </message>
     <message>
-        <source>constant surface speed (G96) needs a lathe</source>
-        <translation>سرعت برشی ثابت (G96) ماشین تراش می‌خواهد</translation>
-    </message>
-    <message>
         <source>A is taken for extrusion (E), as the slicer in the file&apos;s header writes it</source>
         <translation>A به جای اکستروژن (E) گرفته می‌شود، چنان که برش‌دهندهٔ سرآغاز پرونده می‌نویسد</translation>
     </message>
@@ -4260,6 +4296,54 @@
         <source>the gateway starts anew when the machine rests and no job is under way or interrupted</source>
         <translation>درگاه هنگامی از نو آغاز می‌شود که ماشین ایستاده باشد و هیچ کاری در جریان یا قطع‌شده نباشد</translation>
     </message>
+    <message>
+        <source>the probe&apos;s pin is out</source>
+        <translation>پین پروب بیرون است</translation>
+    </message>
+    <message>
+        <source>the probe&apos;s pin is in</source>
+        <translation>پین پروب داخل است</translation>
+    </message>
+    <message>
+        <source>the machine has no probe with a pin</source>
+        <translation>ماشین پروبی با پین ندارد</translation>
+    </message>
+    <message>
+        <source>move the probe&apos;s pin</source>
+        <translation>حرکت دادن پین پروب</translation>
+    </message>
+    <message>
+        <source>M280 moves the probe&apos;s pin: S10 out, S90 in, S120 self test, S160 ends an alarm</source>
+        <translation>M280 پین پروب را حرکت می‌دهد: S10 بیرون، S90 داخل، S120 خودآزمایی، S160 پایان هشدار</translation>
+    </message>
+    <message>
+        <source>the machine has no accelerometer: [accelerometer] of the machine file names its node</source>
+        <translation>ماشین شتاب‌سنج ندارد: [accelerometer] پروندهٔ ماشین گرهٔ آن را نام می‌برد</translation>
+    </message>
+    <message>
+        <source>M956 S1 begins to measure, S0 ends it</source>
+        <translation>M956 S1 اندازه‌گیری را آغاز می‌کند، S0 آن را پایان می‌دهد</translation>
+    </message>
+    <message>
+        <source>a measurement begins while nothing runs</source>
+        <translation>اندازه‌گیری هنگامی آغاز می‌شود که چیزی در حال اجرا نیست</translation>
+    </message>
+    <message>
+        <source>nothing is measured: M956 S1 begins it</source>
+        <translation>چیزی اندازه‌گیری نمی‌شود: M956 S1 آن را آغاز می‌کند</translation>
+    </message>
+    <message>
+        <source>its node has no accelerometer</source>
+        <translation>گرهٔ آن شتاب‌سنج ندارد</translation>
+    </message>
+    <message>
+        <source>the accelerometer does not answer its node</source>
+        <translation>شتاب‌سنج به گرهٔ خود پاسخ نمی‌دهد</translation>
+    </message>
+    <message>
+        <source>it was too short: %1 s at least</source>
+        <translation>بسیار کوتاه بود: دست‌کم %1 ثانیه</translation>
+    </message>
 </context>
 <context>
     <name>GatewayWords</name>
@@ -5228,6 +5312,50 @@
     <message>
         <source>Filament</source>
         <translation>فیلامنت</translation>
+    </message>
+    <message>
+        <source>Pin out</source>
+        <translation>پین بیرون</translation>
+    </message>
+    <message>
+        <source>Pin in</source>
+        <translation>پین داخل</translation>
+    </message>
+    <message>
+        <source>Self test</source>
+        <translation>خودآزمایی</translation>
+    </message>
+    <message>
+        <source>The pin goes out and in by itself, until it is told something else</source>
+        <translation>پین تا دستور دیگر خودبه‌خود بیرون و داخل می‌رود</translation>
+    </message>
+    <message>
+        <source>End alarm</source>
+        <translation>پایان هشدار</translation>
+    </message>
+    <message>
+        <source>The probe forgets its alarm, and the pin goes in</source>
+        <translation>پروب هشدارش را فراموش می‌کند و پین داخل می‌رود</translation>
+    </message>
+    <message>
+        <source>The probe&apos;s pin is out</source>
+        <translation>پین پروب بیرون است</translation>
+    </message>
+    <message>
+        <source>The probe&apos;s pin is in</source>
+        <translation>پین پروب داخل است</translation>
+    </message>
+    <message>
+        <source>The probe&apos;s pin moves</source>
+        <translation>پین پروب حرکت می‌کند</translation>
+    </message>
+    <message>
+        <source>The probe tests itself</source>
+        <translation>پروب خودش را می‌آزماید</translation>
+    </message>
+    <message>
+        <source>The probe&apos;s pin is not where it should be</source>
+        <translation>پین پروب جایی که باید باشد نیست</translation>
     </message>
 </context>
 <context>

@@ -213,6 +213,62 @@
         <translation>parametreden sonra = bekleniyordu</translation>
     </message>
     <message>
+        <source>%1 cannot be used in a turned coordinate system (G10 R)</source>
+        <translation>%1 döndürülmüş koordinat sisteminde (G10 R) kullanılamaz</translation>
+    </message>
+    <message>
+        <source>G30 means a probe to printers and a stored position to mills: keep one with G30.1 before it, or use G53 G0 with coordinates</source>
+        <translation>G30 yazıcılarda prob, frezelerde kayıtlı konum demektir: önce G30.1 ile bir konum kaydedin, ya da koordinatlarla G53 G0 kullanın</translation>
+    </message>
+    <message>
+        <source>%1 needs G49 and G69: machine coordinates do not turn with the part</source>
+        <translation>%1, G49 ve G69 ister: makine koordinatları parçayla dönmez</translation>
+    </message>
+    <message>
+        <source>G10 needs L1, L2, L10, L11 or L20 (or no L: retract)</source>
+        <translation>G10 L1, L2, L10, L11 ya da L20 ister (L&apos;siz: geri çekme)</translation>
+    </message>
+    <message>
+        <source>G10 L%1 needs the tool P</source>
+        <translation>G10 L%1 takımı (P) ister</translation>
+    </message>
+    <message>
+        <source>too many tools are changed by G10 (1000 at most)</source>
+        <translation>G10 çok fazla takımı değiştiriyor (en çok 1000)</translation>
+    </message>
+    <message>
+        <source>@ and ^ cannot stand beside X and Y</source>
+        <translation>@ ve ^, X ve Y ile birlikte yazılamaz</translation>
+    </message>
+    <message>
+        <source>@ and ^ cannot stand beside %1</source>
+        <translation>@ ve ^, %1 ile birlikte yazılamaz</translation>
+    </message>
+    <message>
+        <source>@ and ^ need the plane of X and Y (G17)</source>
+        <translation>@ ve ^, X ve Y düzlemini (G17) ister</translation>
+    </message>
+    <message>
+        <source>under G91 @ and ^ cannot start at the zero point, where there is no angle</source>
+        <translation>G91 altında @ ve ^, açısı olmayan sıfır noktasından başlayamaz</translation>
+    </message>
+    <message>
+        <source>constant surface speed (G96) needs a spindle, which this machine does not have</source>
+        <translation>sabit kesme hızı (G96) iş mili ister, bu makinede yok</translation>
+    </message>
+    <message>
+        <source>G96 needs S, the surface speed</source>
+        <translation>G96, kesme hızını (S) ister</translation>
+    </message>
+    <message>
+        <source>the highest speed D of G96 must be greater than 0</source>
+        <translation>G96&apos;nın en yüksek devri (D) 0&apos;dan büyük olmalıdır</translation>
+    </message>
+    <message>
+        <source>%1 stands twice in the line</source>
+        <translation>%1 satırda iki kez geçiyor</translation>
+    </message>
+    <message>
         <source>too many assignments in one line (32 at most)</source>
         <translation>bir satırda çok fazla atama var (en çok 32)</translation>
     </message>
@@ -267,14 +323,6 @@
     <message>
         <source>too many M codes in one line (8 at most)</source>
         <translation>bir satırda çok fazla M kodu var (en çok 8)</translation>
-    </message>
-    <message>
-        <source>G30 means a probe to printers and a stored position to mills: use G53 G0 with coordinates</source>
-        <translation>G30 yazıcılarda prob, frezelerde kayıtlı konum demektir: koordinatlarla G53 G0 kullanın</translation>
-    </message>
-    <message>
-        <source>G30.1 is not supported: use G10 L2 or parameters</source>
-        <translation>G30.1 desteklenmiyor: G10 L2 ya da parametre kullanın</translation>
     </message>
     <message>
         <source>G68.3 is not supported: use G68.2 with I J K</source>
@@ -625,20 +673,12 @@
         <translation>G53, bu satırda ya da etkin olarak G0 ya da G1 ister</translation>
     </message>
     <message>
-        <source>G53 needs G49 and G69: machine coordinates do not turn with the part</source>
-        <translation>G53, G49 ve G69 ister: makine koordinatları parçayla dönmez</translation>
-    </message>
-    <message>
         <source>G53 needs absolute distances (G90)</source>
         <translation>G53 mutlak uzaklık (G90) ister</translation>
     </message>
     <message>
         <source>%1 cannot change offsets in a tilted plane: end it with G69 first</source>
         <translation>%1 eğik düzlemde ofset değiştiremez: önce G69 ile bitirin</translation>
-    </message>
-    <message>
-        <source>G10 needs L2 or L20 (or no L: retract)</source>
-        <translation>G10 L2 ya da L20 ister (L&apos;siz: geri çekme)</translation>
     </message>
     <message>
         <source>G10 needs P: 1 for G54 ... 9 for G59.3, 0 for the active one</source>
@@ -3065,10 +3105,6 @@
         <translation>G88 eksenleri elle hareket ettiren bir operatör ister: G82 ya da G86 kullanın</translation>
     </message>
     <message>
-        <source>constant surface speed (G96) needs a lathe</source>
-        <translation>sabit kesme hızı (G96) torna ister</translation>
-    </message>
-    <message>
         <source>A is taken for extrusion (E), as the slicer in the file&apos;s header writes it</source>
         <translation>A, dosya başlığındaki dilimleyicinin yazdığı gibi ekstrüzyon (E) sayılıyor</translation>
     </message>
@@ -4260,6 +4296,54 @@
         <source>the gateway starts anew when the machine rests and no job is under way or interrupted</source>
         <translation>ağ geçidi, makine dururken ve süren ya da kesilmiş bir iş yokken yeniden başlar</translation>
     </message>
+    <message>
+        <source>the probe&apos;s pin is out</source>
+        <translation>probun pimi dışarıda</translation>
+    </message>
+    <message>
+        <source>the probe&apos;s pin is in</source>
+        <translation>probun pimi içeride</translation>
+    </message>
+    <message>
+        <source>the machine has no probe with a pin</source>
+        <translation>makinede pimli prob yok</translation>
+    </message>
+    <message>
+        <source>move the probe&apos;s pin</source>
+        <translation>probun pimini hareket ettirme</translation>
+    </message>
+    <message>
+        <source>M280 moves the probe&apos;s pin: S10 out, S90 in, S120 self test, S160 ends an alarm</source>
+        <translation>M280 probun pimini hareket ettirir: S10 dışarı, S90 içeri, S120 kendini sınama, S160 bir alarmı bitirir</translation>
+    </message>
+    <message>
+        <source>the machine has no accelerometer: [accelerometer] of the machine file names its node</source>
+        <translation>makinede ivmeölçer yok: düğümünü makine dosyasının [accelerometer] tablosu belirtir</translation>
+    </message>
+    <message>
+        <source>M956 S1 begins to measure, S0 ends it</source>
+        <translation>M956 S1 ölçmeye başlar, S0 bitirir</translation>
+    </message>
+    <message>
+        <source>a measurement begins while nothing runs</source>
+        <translation>ölçüm, hiçbir şey çalışmıyorken başlar</translation>
+    </message>
+    <message>
+        <source>nothing is measured: M956 S1 begins it</source>
+        <translation>hiçbir şey ölçülmüyor: M956 S1 başlatır</translation>
+    </message>
+    <message>
+        <source>its node has no accelerometer</source>
+        <translation>düğümünde ivmeölçer yok</translation>
+    </message>
+    <message>
+        <source>the accelerometer does not answer its node</source>
+        <translation>ivmeölçer düğümüne yanıt vermiyor</translation>
+    </message>
+    <message>
+        <source>it was too short: %1 s at least</source>
+        <translation>çok kısaydı: en az %1 s</translation>
+    </message>
 </context>
 <context>
     <name>GatewayWords</name>
@@ -5228,6 +5312,50 @@
     <message>
         <source>Filament</source>
         <translation>Filament</translation>
+    </message>
+    <message>
+        <source>Pin out</source>
+        <translation>Pimi çıkar</translation>
+    </message>
+    <message>
+        <source>Pin in</source>
+        <translation>Pimi içeri çek</translation>
+    </message>
+    <message>
+        <source>Self test</source>
+        <translation>Kendini sınama</translation>
+    </message>
+    <message>
+        <source>The pin goes out and in by itself, until it is told something else</source>
+        <translation>Pim, başka bir şey istenene kadar kendiliğinden çıkar ve girer</translation>
+    </message>
+    <message>
+        <source>End alarm</source>
+        <translation>Alarmı bitir</translation>
+    </message>
+    <message>
+        <source>The probe forgets its alarm, and the pin goes in</source>
+        <translation>Prob alarmını unutur ve pim içeri girer</translation>
+    </message>
+    <message>
+        <source>The probe&apos;s pin is out</source>
+        <translation>Probun pimi dışarıda</translation>
+    </message>
+    <message>
+        <source>The probe&apos;s pin is in</source>
+        <translation>Probun pimi içeride</translation>
+    </message>
+    <message>
+        <source>The probe&apos;s pin moves</source>
+        <translation>Probun pimi hareket ediyor</translation>
+    </message>
+    <message>
+        <source>The probe tests itself</source>
+        <translation>Prob kendini sınıyor</translation>
+    </message>
+    <message>
+        <source>The probe&apos;s pin is not where it should be</source>
+        <translation>Probun pimi olması gereken yerde değil</translation>
     </message>
 </context>
 <context>

@@ -107,6 +107,7 @@ QWidget* JogPage::make_actions() {
   grid->addWidget(clear_, 1, 1);
   grid->addWidget(motors_off_, 2, 0, 1, 2);
   card->column()->addLayout(grid);
+  card->column()->addWidget(make_pin(card));
   auto* filament_heading = make_label("muted", card);
   auto* filament = new FilamentKeys(desk_, card);
   card->column()->addWidget(filament_heading);
@@ -135,6 +136,54 @@ QWidget* JogPage::make_actions() {
     motors_off_->setToolTip(tr("Positions are lost: the machine must be homed again"));
   });
   return card;
+}
+
+/// Of machines whose probe has one.
+QWidget* JogPage::make_pin(QWidget* parent) {
+  using P = joblink::MoveProbePin;
+  pin_ = new QWidget(parent);
+  auto* grid = new QGridLayout(pin_);
+  grid->setContentsMargins(0, 8, 0, 0);
+  grid->setSpacing(8);
+  pin_state_ = make_label("muted", pin_);
+  grid->addWidget(pin_state_, 0, 0, 1, 2);
+  const auto button = [&](int row, int column, P::Order order) {
+    auto* made = make_button(desk_.theme, QStringLiteral("play"), "", pin_);
+    connect(made, &QPushButton::clicked, &desk_.session,
+            [this, order] { desk_.session.move_probe_pin(order); });
+    grid->addWidget(made, row, column);
+    pin_buttons_.push_back(made);
+    return made;
+  };
+  auto* out = button(1, 0, P::OUT);
+  auto* in = button(1, 1, P::IN);
+  auto* test = button(2, 0, P::SELF_TEST);
+  auto* reset = button(2, 1, P::RESET);
+  says([=, this] {
+    out->setText(tr("Pin out"));
+    in->setText(tr("Pin in"));
+    test->setText(tr("Self test"));
+    test->setToolTip(tr("The pin goes out and in by itself, until it is told something else"));
+    reset->setText(tr("End alarm"));
+    reset->setToolTip(tr("The probe forgets its alarm, and the pin goes in"));
+    show_pin();
+  });
+  return pin_;
+}
+
+void JogPage::show_pin() {
+  const auto where = desk_.session.status().probe_pin();
+  pin_->setVisible(where != joblink::PROBE_PIN_NONE);
+  pin_state_->setText(where == joblink::PROBE_PIN_OUT     ? tr("The probe's pin is out")
+                      : where == joblink::PROBE_PIN_IN    ? tr("The probe's pin is in")
+                      : where == joblink::PROBE_PIN_MOVES ? tr("The probe's pin moves")
+                      : where == joblink::PROBE_PIN_TESTS ? tr("The probe tests itself")
+                                                          : tr("The probe's pin is not where it should be"));
+  const bool can = desk_.session.allowed(joblink::COMMAND_MOVE_PROBE_PIN);
+  for (QPushButton* button : pin_buttons_) {
+    if (!can && button->hasFocus()) setFocus();
+    set_usable(*button, can, desk_.session.why_not(joblink::COMMAND_MOVE_PROBE_PIN));
+  }
 }
 
 QWidget* JogPage::make_offsets() {
@@ -222,6 +271,7 @@ void JogPage::take_status() {
   enable(hold_, joblink::COMMAND_HOLD);
   enable(clear_, joblink::COMMAND_CLEAR);
   enable(motors_off_, joblink::COMMAND_MOTORS_OFF);
+  show_pin();
   enable(zero_here_, joblink::COMMAND_JOG);
   enable(set_offset_, joblink::COMMAND_SET_WORK_OFFSET);
   const auto system = static_cast<std::size_t>(s.work_system());

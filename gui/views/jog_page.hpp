@@ -33,8 +33,10 @@ class JogPage : public SpeakingWidget {
 
  private:
   QWidget* make_actions();
+  QWidget* make_pin(QWidget* parent);
   QWidget* make_offsets();
   void take_status();
+  void show_pin();
   void arrange();
 
   enum class Shape { kNone, kBeside, kBelow };
@@ -44,6 +46,9 @@ class JogPage : public SpeakingWidget {
   JogPad* pad_;
   QWidget *actions_ = nullptr, *offsets_ = nullptr;
   QPushButton *home_, *reference_, *motors_off_, *clear_, *hold_;
+  QWidget* pin_ = nullptr;
+  QLabel* pin_state_ = nullptr;
+  QVector<QPushButton*> pin_buttons_;
   QComboBox* system_;
   QVector<NumberField*> offset_boxes_;
   QPushButton *zero_here_, *set_offset_;

@@ -28,7 +28,11 @@ class BoardNode {
   BoardNode(const NodeOptions& options, BusClock& bus_clock, const LocalClock<Counter>& clock, LocalTime now,
             std::span<const std::uint8_t> stored, MotionPlanExchange& plan, const PlanGrid& grid,
             InputPlaces inputs)
-      : clock_(clock), plan_(plan), grid_(grid), inputs_(inputs), node_(options, bus_clock, now, stored) {
+      : clock_(clock),
+        plan_(plan),
+        grid_(grid),
+        inputs_(inputs),
+        node_(told_by_plan(options), bus_clock, now, stored) {
     plan_.renew(node_, now, Counter::counts(), grid.size);
   }
 
@@ -55,15 +59,17 @@ class BoardNode {
   /// What is due, and a new plan where it has become another one.
   void serve(LocalTime now) {
     bool changed = std::exchange(touched_, false);
-    if (now >= node_.next_deadline()) {
-      node_.on_time(now);
+    // The inputs have taken a while, in which the motors have gone on.
+    const bool stops = node_.stop_waits();
+    if (stops || now >= node_.next_deadline()) {
+      node_.on_time(stops ? clock_.at(Counter::counts()) : now);
       changed = true;
     }
     // The plan begins now, or where its next frame does, and never before what the node knows.
     const PlanCounts at_once = Counter::counts();
     const PlanCounts counts = at_once + ((grid_.phase - at_once) & (grid_.spacing - 1));
     const LocalTime from = clock_.at(counts);
-    if (now >= plan_due_ || (changed && plan_.outdated(node_, from, counts))) {
+    if (now >= plan_due_ || stops || (changed && plan_.outdated(node_, from, counts))) {
       plan_.renew(node_, from, counts, grid_.size);
       plan_due_ = now + kPlanCount * MotionPlan::horizon(grid_.size.fresh);
     }
@@ -78,6 +84,10 @@ class BoardNode {
   void find_due() { due_ = std::min({node_.next_deadline(), plan_due_, hearing_due_}); }
 
  private:
+  static NodeOptions told_by_plan(NodeOptions options) {
+    options.stops_on_time = true;
+    return options;
+  }
   /// An EMCY of another node that asks for no stop: most of them, and there may be as many as the bus
   /// carries.
   static bool asks_for_nothing(const CanFrame& frame) {

@@ -14,6 +14,7 @@ namespace kinebus {
 /// Standard data frames with (id & mask) == value reach the processor.
 struct CanAccept {
   std::uint16_t value = 0, mask = 0x7FF;
+  bool remote = false;  ///< remote frames instead of data frames; the mask is 7FFh
   friend constexpr bool operator==(const CanAccept&, const CanAccept&) = default;
 };
 /// So many filters a program needs at most.

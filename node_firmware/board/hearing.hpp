@@ -28,6 +28,12 @@ class Hearing {
     if constexpr (requires { Core::kHearsSyncStamps; }) add(kSyncStampCobId);
     if (node.node_id() != 0) {
       add(0x600u + node.node_id());
+      if constexpr (requires { node.answers_guarding(); }) {
+        if (node.answers_guarding()) {
+          add(0x700u + node.node_id());
+          wanted[count - 1].remote = true;
+        }
+      }
       for (const std::uint8_t id : node.watched_nodes())
         if (id != 0) add(0x700u + id);
       for (const std::uint16_t id : node.rpdo_cob_ids())
@@ -39,9 +45,9 @@ class Hearing {
     return true;
   }
   bool hears(const CanFrame& frame) const {
-    if (frame.extended || frame.remote) return false;
+    if (frame.extended) return false;
     for (const CanAccept& accept : accepted())
-      if ((frame.id & accept.mask) == accept.value) return true;
+      if ((frame.id & accept.mask) == accept.value && frame.remote == accept.remote) return true;
     return false;
   }
   std::span<const CanAccept> accepted() const { return std::span(accepted_).first(count_); }

@@ -233,7 +233,7 @@ AbortCode BootLoader::write_program(std::uint32_t offset, std::span<const std::u
   for (const std::uint8_t byte : bytes)
     if (const AbortCode code = put(byte); code != AbortCode::kNone) return code;
   if (!last) return AbortCode::kNone;
-  while (written_ % 4 != 0)
+  while (written_ % ProgramFlash::kUnit != 0)
     if (const AbortCode code = put(0xFF); code != AbortCode::kNone) return code;
   look();
   return status_ == ProgramStatus::kGood ? AbortCode::kNone

@@ -33,6 +33,8 @@ class ProgramFlash {
   virtual bool add_record(const BoardRecord&) { return false; }
   virtual std::span<const std::uint8_t> bytes() const = 0;
   virtual bool erase() = 0;
+  /// Words come one behind the other, and whole units of them: what some flashes program at once.
+  static constexpr std::uint32_t kUnit = 8;
   virtual bool program(std::uint32_t offset, std::uint32_t word) = 0;
 
  protected:

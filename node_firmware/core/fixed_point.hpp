@@ -1,6 +1,7 @@
 #pragma once
 // The fixed-point arithmetic of profiles made on the node. Integers only, no 128-bit type (the Cortex-M4 has
-// none), so that every platform gives the same bits.
+// none), so that every platform gives the same bits. One copy of each longer function: a small chip's image
+// has no room for one at every call.
 //
 //   position      counts, 32 fractional bits, |position| <= kPositionBound
 //   velocity      counts per tick, 56 fractional bits
@@ -33,13 +34,13 @@ constexpr std::uint64_t divided_by_125(std::uint64_t value) {
 }
 
 /// Exact for the grid of both units: 1 ns = 2/125 ticks. Rounds down. Within +-36 years.
-constexpr ProfileTicks to_ticks(LocalTime t) {
+[[gnu::noinline]] constexpr ProfileTicks to_ticks(LocalTime t) {
   const std::int64_t ns = t.count();
   if (ns >= 0) return static_cast<ProfileTicks>(divided_by_125(static_cast<std::uint64_t>(ns) * 2));
   return -static_cast<ProfileTicks>(divided_by_125(static_cast<std::uint64_t>(-ns) * 2 + 124));
 }
 /// The first whole nanosecond that is not before `ticks`.
-constexpr LocalTime to_local(ProfileTicks ticks) {
+[[gnu::noinline]] constexpr LocalTime to_local(ProfileTicks ticks) {
   return LocalTime{(ticks >> 1) * 125 + ((ticks & 1) != 0 ? 63 : 0)};
 }
 
@@ -49,20 +50,20 @@ constexpr std::int64_t velocity_from(std::uint32_t counts_per_s) {
          kPerTick;
 }
 /// Rounds towards zero, at least 1.
-constexpr std::int64_t acceleration_from(std::uint32_t counts_per_s2) {
+[[gnu::noinline]] constexpr std::int64_t acceleration_from(std::uint32_t counts_per_s2) {
   // 2^60 / (16e6)^2 = 4503.599627
   const std::uint64_t a = static_cast<std::uint64_t>(counts_per_s2) * 4'503'599'627u / 1'000'000u;
   return a == 0 ? 1 : static_cast<std::int64_t>(a);
 }
 /// Counts per second, rounded to nearest.
-constexpr std::int32_t counts_per_second(std::int64_t velocity) {
+[[gnu::noinline]] constexpr std::int32_t counts_per_second(std::int64_t velocity) {
   // 16e6 / 2^56: in two shifts, to stay within 64 bits.
   const std::int64_t scaled = (velocity >> 24) * kTicksPerSecond;
   return static_cast<std::int32_t>((scaled + (std::int64_t{1} << 31)) >> 32);
 }
 
 /// velocity * ticks as a distance with 32 fractional bits, rounded down. ticks >= 0.
-constexpr std::int64_t distance_of(std::int64_t velocity, ProfileTicks ticks) {
+[[gnu::noinline]] constexpr std::int64_t distance_of(std::int64_t velocity, ProfileTicks ticks) {
   constexpr std::uint64_t kLow = (1u << 24) - 1;
   const auto high = static_cast<std::uint64_t>(velocity >> 24);
   const auto low = static_cast<std::uint64_t>(velocity) & kLow;
@@ -71,7 +72,7 @@ constexpr std::int64_t distance_of(std::int64_t velocity, ProfileTicks ticks) {
 }
 
 /// The velocity that covers `distance` (32 fractional bits, >= 0) in `ticks` (> 0); rounded down.
-constexpr std::int64_t velocity_over(std::uint64_t distance, ProfileTicks ticks) {
+[[gnu::noinline]] constexpr std::int64_t velocity_over(std::uint64_t distance, ProfileTicks ticks) {
   const auto divisor = static_cast<std::uint64_t>(ticks);
   std::uint64_t quotient = distance / divisor;
   std::uint64_t rest = distance % divisor;
@@ -87,7 +88,7 @@ constexpr std::int64_t velocity_over(std::uint64_t distance, ProfileTicks ticks)
 }
 
 /// Largest r with r*r <= value.
-constexpr std::uint64_t square_root(std::uint64_t value) {
+[[gnu::noinline]] constexpr std::uint64_t square_root(std::uint64_t value) {
   std::uint64_t root = 0;
   for (std::uint64_t bit = std::uint64_t{1} << 62; bit != 0; bit >>= 2) {
     if (value >= root + bit) {

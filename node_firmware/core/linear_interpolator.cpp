@@ -12,20 +12,22 @@ std::int64_t absolute(std::int64_t value) {
   return value < 0 ? -value : value;
 }
 
+// One copy of each of these: a small chip's image has no room for one at every call.
+
 /// By how much a speed changes in `ticks`.
-std::int64_t change_in(std::int64_t acceleration, ProfileTicks ticks) {
+[[gnu::noinline]] std::int64_t change_in(std::int64_t acceleration, ProfileTicks ticks) {
   return ticks >= (kMostChange << 4) / acceleration ? kMostChange : (acceleration * ticks) >> 4;
 }
 
 /// The way from `speed` to rest.
-std::int64_t way_to_rest(std::int64_t speed, std::int64_t deceleration) {
+[[gnu::noinline]] std::int64_t way_to_rest(std::int64_t speed, std::int64_t deceleration) {
   const std::int64_t ticks = (speed << 4) / deceleration;
   return ticks >= std::int64_t{1} << 28 ? kFar : distance_of(speed, ticks) / 2;
 }
 
 /// The highest speed, up to `fastest`, that leaves room to stop within `way` after `ticks` at it.
-std::int64_t speed_that_stops(std::int64_t way, ProfileTicks ticks, std::int64_t deceleration,
-                              std::int64_t fastest) {
+[[gnu::noinline]] std::int64_t speed_that_stops(std::int64_t way, ProfileTicks ticks,
+                                                std::int64_t deceleration, std::int64_t fastest) {
   std::int64_t low = 0, high = fastest;
   for (int i = 0; i < kSteps; ++i) {
     const std::int64_t middle = low + (high - low) / 2;

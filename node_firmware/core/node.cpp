@@ -79,6 +79,7 @@ void Node::reset_communication() {
 
 void Node::apply_node_id() {
   sdo_.reset(node_id_);
+  guard_.reset();
   clearing_ = false;
   pdo_.set_operational(false, now_);
   pdo_.configure();
@@ -102,6 +103,8 @@ void Node::apply_parameters() {
   }
   const std::chrono::milliseconds period{value(slot_of(object::kProducerHeartbeat))};
   if (period != heartbeat_.period()) heartbeat_.set_period(period, now_);
+  guard_.set_life_time(std::chrono::milliseconds{value(slot_of(object::kGuardTime)) *
+                                                 value(slot_of(object::kLifeTimeFactor))});
   for (std::size_t i = 0; i < watched_entries_.size(); ++i) {
     const std::int64_t entry =
         value({static_cast<std::uint16_t>(slot_of(object::kConsumerHeartbeat).value + i)});
@@ -116,6 +119,10 @@ void Node::on_frame(LocalTime at, const CanFrame& frame) {
   now_ = std::max(now_, at);
   serve();
   if (!obeys(frame)) return serve();
+  if (NodeGuard::asks(frame, node_id_) && answers_guarding()) {
+    guard_.on_request(now_);
+    return serve();
+  }
   const SyncReception sync = decode_sync(
       frame, cob_id::kSync, static_cast<std::uint8_t>(objects_.value(slot_of(object::kSyncCounterOverflow))));
   if (sync.is_sync) {
@@ -265,7 +272,9 @@ void Node::on_receive_overrun(LocalTime at, std::uint32_t frames) {
 
 void Node::on_time(LocalTime now) {
   now_ = std::max(now_, now);
+  may_brake_ = true;
   serve();
+  may_brake_ = false;
 }
 
 std::int64_t Node::position(LocalTime at, int axis) {
@@ -337,13 +346,14 @@ std::optional<CanFrame> Node::next_frame() {
     if (auto frame = emcy_.next_frame(now_, node_id_)) return frame;
   if (auto frame = pdo_.next_frame(now_)) return frame;
   if (auto frame = heartbeat_.next_frame(now_, nmt_.state(), node_id_)) return frame;
+  if (auto frame = guard_.next_frame(nmt_.state(), node_id_)) return frame;
   return nmt_.allows_sdo() ? sdo_.next_frame() : std::nullopt;
 }
 
 LocalTime Node::next_deadline() const {
   LocalTime deadline = std::min({path_.next_deadline(), inputs_.next_deadline(), axes_[0].next_deadline(),
-                                 axes_[1].next_deadline(), watched_.next_deadline(), sdo_.next_deadline(),
-                                 status_look_, scale_look_});
+                                 axes_[1].next_deadline(), watched_.next_deadline(), guard_.next_deadline(),
+                                 sdo_.next_deadline(), status_look_, scale_look_});
   // A frame that is due waits for the bus, not for on_time().
   const auto if_ahead = [&](LocalTime due) {
     if (due > now_) deadline = std::min(deadline, due);

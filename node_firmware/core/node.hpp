@@ -26,6 +26,7 @@
 #include "protocol/canopen/heartbeat.hpp"
 #include "protocol/canopen/lss.hpp"
 #include "protocol/canopen/nmt.hpp"
+#include "protocol/canopen/node_guard.hpp"
 #include "protocol/canopen/object_dictionary.hpp"
 #include "protocol/canopen/pdo_engine.hpp"
 #include "protocol/canopen/sdo_server.hpp"
@@ -58,6 +59,9 @@ struct NodeOptions {
   /// The node has its id from its board, and LSS is another's business.
   bool id_from_board = false;
   std::uint8_t consecutive_ids = 1;  ///< that go with the id that LSS gives
+  /// The motors are told what follows from an input only later, after on_time(): a motion of an axis' own
+  /// that has to stop brakes from the time given there on. From that of the input it would step back.
+  bool stops_on_time = false;
 };
 
 /// What the power stage of one axis is to do. The currents are objects of the parameter set.
@@ -140,6 +144,8 @@ class Node : private ObjectOwner {
   void count(NodeCounter counter, std::uint32_t times = 1);
   /// Needed at next_deadline(); allowed at any time.
   void on_time(LocalTime now);
+  /// With stops_on_time: motions wait for on_time() to stop.
+  bool stop_waits() const { return !stop_served_ && path_.stop_latched(); }
 
   // Out.
   /// Most urgent first; pull when the bus can take a frame.
@@ -166,6 +172,8 @@ class Node : private ObjectOwner {
   std::array<std::uint16_t, kRpdoCount> rpdo_cob_ids() const;
   /// Nodes whose heartbeat is watched (1016h); 0: none.
   std::array<std::uint8_t, 2> watched_nodes() const;
+  /// It answers remote frames of node guarding.
+  bool answers_guarding() const { return heartbeat_.period().count() == 0; }
   /// A parameter of an axis, by its slot: currents, windows and what else the port's control needs.
   std::int64_t axis_parameter(AxisSlots slots, int axis) const {
     return objects_.value(slots[static_cast<std::size_t>(axis & 1)]);
@@ -226,6 +234,7 @@ class Node : private ObjectOwner {
   void serve_switches();
   void serve_stops();
   void serve_emergencies();
+  void serve_lost_masters();
   void serve_stream_status();
   void serve_clearing();
   void serve_scales();
@@ -252,6 +261,7 @@ class Node : private ObjectOwner {
   NmtSlave nmt_;
   HeartbeatProducer heartbeat_;
   HeartbeatConsumer watched_;
+  NodeGuard guard_;
   EmcyProducer emcy_;
   SdoServer sdo_;
   PdoEngine pdo_;
@@ -277,7 +287,8 @@ class Node : private ObjectOwner {
   bool reset_requested_ = false;
   bool program_stop_requested_ = false;
   bool clearing_ = false;  ///< 60C4h:6 was written, and axes creep to a whole count: the answer waits
-  bool stop_served_ = false;
+  bool stop_known_ = false, stop_served_ = false;
+  bool may_brake_ = false;  ///< the time is one at which motors are told
   bool emergency_stop_ = false;
   std::array<bool, 4> limit_active_{};
   std::uint8_t told_flags_ = 0, told_sequence_ = 0;

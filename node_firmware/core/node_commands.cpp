@@ -74,6 +74,10 @@ AbortCode Node::write_node_object(const ObjectEntry& entry, std::int64_t value) 
     case 0x1019:
       return sync_counter_refused(value, objects_.value(entry.value_slot()),
                                   objects_.value(slot_of(object::kSyncPeriod)));
+    case 0x100C:
+    case 0x100D:
+      parameters_changed_ = true;
+      return AbortCode::kNone;
     case 0x1010:
     case 0x1011:
       return command_storage(address, value);

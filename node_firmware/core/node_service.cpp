@@ -134,11 +134,14 @@ bool Node::clear_allowed() const {
 // nodes a frame later.
 void Node::serve_stops() {
   const auto start = path_.stop_start();
-  if (start && !stop_served_) {
+  if (start) stop_known_ = true;
+  if (start && !stop_served_ && (may_brake_ || !options_.stops_on_time)) {
     stop_served_ = true;
     for (DriveAxis& axis : axes_) axis.on_path_stop(now_);
   }
-  if (!start && std::exchange(stop_served_, false)) end_stop();
+  if (start || !std::exchange(stop_known_, false)) return;
+  stop_served_ = false;
+  end_stop();
 }
 
 void Node::end_stop() {
@@ -162,7 +165,17 @@ void Node::serve_emergencies() {
       emcy_.raise(code);
   }
   if (!homing_error) emcy_.clear(node_emcy::kHoming);
-  while (const auto lost = watched_.on_time(now_)) {
+  serve_lost_masters();
+  while (const auto refusal = session_.next_refusal()) {
+    emcy_.raise(node_emcy::kNotVouched, *refusal);
+    emcy_.clear(node_emcy::kNotVouched);  // it is over: in the history
+  }
+  while (const auto alarm = path_.next_alarm()) emcy_.raise(alarm->emcy_code, encode(alarm->stop), true);
+}
+
+// By heartbeat or by life guarding.
+void Node::serve_lost_masters() {
+  while (watched_.on_time(now_) || guard_.take_lost(now_)) {
     const bool matters = path_.clock().synchronised() || moving(now_);
     if (matters)
       path_.request_stop(StopReason::kGatewayLost, 0, emcy::kHeartbeat, now_);
@@ -175,12 +188,7 @@ void Node::serve_emergencies() {
     return watched_.health(static_cast<std::uint8_t>((entry >> 16) & 0x7F)) ==
            HeartbeatConsumer::Health::kLost;
   });
-  if (!missing) emcy_.clear(emcy::kHeartbeat);
-  while (const auto refusal = session_.next_refusal()) {
-    emcy_.raise(node_emcy::kNotVouched, *refusal);
-    emcy_.clear(node_emcy::kNotVouched);  // it is over: in the history
-  }
-  while (const auto alarm = path_.next_alarm()) emcy_.raise(alarm->emcy_code, encode(alarm->stop), true);
+  if (!missing && !guard_.lost()) emcy_.clear(emcy::kHeartbeat);
 }
 
 void Node::serve_clearing() {

@@ -24,7 +24,7 @@ TransmitQueue::Action TransmitQueue::next() {
   if (first == count_) return {};
   const CanFrame frame = waiting_[first];
   int highest = 0;
-  for (int i = 0; i < given_; ++i) {
+  for (int i = 0; i < given(); ++i) {
     Mailbox& mailbox = mailboxes_[static_cast<std::size_t>(i)];
     if (mailbox.aborting) return {};  // there will be room in a moment
     if (!mailbox.frame) {

@@ -24,7 +24,7 @@ class TransmitQueue {
   };
 
   /// A controller gives it `mailboxes` of them, the first ones.
-  explicit constexpr TransmitQueue(int mailboxes = kMailboxes) : given_(mailboxes) {}
+  explicit constexpr TransmitQueue(int mailboxes = kMailboxes) : withheld_(kMailboxes - mailboxes) {}
   /// Room for one more, even when all mailboxes are taken back.
   bool has_room() const { return count_ + kMailboxes < kWaiting; }
   /// Only with has_room().
@@ -43,7 +43,9 @@ class TransmitQueue {
   void insert(const CanFrame& frame, bool before_equals);
   bool in_mailbox(std::uint32_t id) const;
 
-  int given_;
+  int given() const { return kMailboxes - withheld_; }
+
+  int withheld_;  // of the mailboxes: with all of them the queue is all zeros, which takes no flash
   std::array<Mailbox, kMailboxes> mailboxes_{};
   std::array<CanFrame, kWaiting> waiting_{};  // most urgent first
   std::size_t count_ = 0;

@@ -35,12 +35,12 @@ constexpr std::int64_t nominal(std::int64_t limit) {
   return std::max<std::int64_t>(limit - (limit >> 10), 1);
 }
 
-constexpr ProfileTicks ticks_for(std::int64_t change, std::int64_t acceleration) {
+[[gnu::noinline]] constexpr ProfileTicks ticks_for(std::int64_t change, std::int64_t acceleration) {
   return divide_up(change * 16, acceleration);  // 60 - 56 fractional bits
 }
 
 /// Peak velocity that makes the durations cover the distance exactly. False: not within the limits.
-bool solve_peak(const Problem& p, Durations& d) {
+[[gnu::noinline]] bool solve_peak(const Problem& p, Durations& d) {
   const auto fixed = static_cast<std::uint64_t>(distance_of(p.v0, d.first)) / 2;
   if (fixed >= p.distance) return false;
   // distance = (v0 + peak)/2 first + peak cruise + peak/2 last
@@ -53,7 +53,7 @@ bool solve_peak(const Problem& p, Durations& d) {
   return change_ok && last_ok && d.peak <= std::max(p.vmax, p.v0);
 }
 
-ProfileTicks last_for(const Problem& p, std::int64_t peak) {
+[[gnu::noinline]] ProfileTicks last_for(const Problem& p, std::int64_t peak) {
   return p.to_rest ? std::max(ticks_for(peak, nominal(p.deceleration)), kShortest) : 0;
 }
 

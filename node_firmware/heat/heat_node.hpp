@@ -19,6 +19,7 @@
 #include "node_firmware/heat/flow_profile.hpp"
 #include "node_firmware/heat/heater.hpp"
 #include "node_firmware/heat/pin_probe.hpp"
+#include "node_firmware/heat/vibration_unit.hpp"
 #include "protocol/canopen/emcy.hpp"
 #include "protocol/canopen/heartbeat.hpp"
 #include "protocol/canopen/heat_objects.hpp"
@@ -59,6 +60,8 @@ class HeatNode final : private ObjectOwner {
   }
   /// Every SensorInput::kSamplePeriod: the level of the pin probe's line.
   void on_probe_line(LocalTime at, bool level) { pin_probe_.on_sample(at, level); }
+  /// Its accelerometer, which the port feeds; nullptr: the board has none.
+  void set_vibration(VibrationUnit* unit) { vibration_ = unit; }
   /// Another node of the same board has power: flash is not written then.
   void set_neighbours_powered(bool powered) { neighbours_powered_ = powered; }
   /// 0: not measured.
@@ -179,6 +182,7 @@ class HeatNode final : private ObjectOwner {
   std::array<Fan, kFans> fans_;
   std::array<FilamentWatch, kFilamentSensors> filaments_;
   PinProbe pin_probe_;
+  VibrationUnit* vibration_ = nullptr;
   HeatTuning tuning_;
   int tuned_ = -1;  // the heater that tuning_ measures, or has measured
   bool tuning_taken_ = true;

@@ -34,6 +34,10 @@ bool is_setting(std::uint16_t index) {
          index == kPinProbe.index || (index >= kProportionalBand.index && index <= kDerivativeTime.index);
 }
 
+bool is_of_the_accelerometer(std::uint16_t index) {
+  return index >= kVibrationState.index && index <= kAcceleration.index;
+}
+
 /// Of a subindex of an array.
 std::size_t place_of(ObjectAddress address) {
   return address.subindex == 0 ? 0 : address.subindex - 1u;
@@ -73,6 +77,10 @@ AbortCode HeatNode::read(const ObjectEntry& entry, std::int64_t& result) {
 }
 
 AbortCode HeatNode::read_device(ObjectAddress address, std::int64_t& result) const {
+  if (is_of_the_accelerometer(address.index)) {
+    result = 0;
+    return vibration_ == nullptr ? AbortCode::kNone : vibration_->read(address, result);
+  }
   switch (address.index) {
     case 0x1001:
       result = emcy_.error_register();
@@ -213,6 +221,8 @@ AbortCode HeatNode::write(const ObjectEntry& entry, std::int64_t to) {
     filaments_[place_of(entry.address)].reset();
     return AbortCode::kNone;
   }
+  if (is_of_the_accelerometer(index))
+    return vibration_ == nullptr ? AbortCode::kDeviceState : vibration_->write(entry.address, to);
   if (index == kPinCommand.index || index == kServoPulse.index) return write_pin_probe(index, to);
   if (index == kConfirmedSerial.index) return confirm(to);
   if (index == object::kSessionKey.index) {

@@ -13,8 +13,8 @@ namespace {
 
 using namespace heat_object;
 
-/// A gateway that was started anew listens for longer before it speaks: what heats has no key then, and takes
-/// the next one.
+/// A gateway that was started anew listens for longer before it speaks: what heats obeys everybody then, and
+/// takes the next key. One that only stood still vouches for its next SYNC stamp, and all is as before.
 constexpr LocalTime kMasterSilent = std::chrono::milliseconds{400};
 
 /// Whether set points, tuning or the switch of a heater are to change, which is guarded also while all is
@@ -44,7 +44,7 @@ bool HeatNode::obeys(const CanFrame& frame) {
 }
 
 void HeatNode::serve_session() {
-  if (session_.in_force() && now_ - sync_seen_ > kMasterSilent) session_.end();
+  if (session_.in_force() && now_ - sync_seen_ > kMasterSilent) session_.lapse();
   while (const auto refusal = session_.next_refusal()) {
     emcy_.raise(node_emcy::kNotVouched, *refusal);
     emcy_.clear(node_emcy::kNotVouched);  // it is over: in the history

@@ -20,7 +20,8 @@ bool PinProbe::command(LocalTime now, PinCommand command) {
     state_ = PinState::kSelfTest;
     return true;
   }
-  begin(now, command == PinCommand::kReset ? Step::kReset : Step::kMove);
+  const bool was_in = state_ == PinState::kStowed && command == PinCommand::kDeploy;
+  begin(now, command == PinCommand::kReset ? Step::kReset : was_in ? Step::kCheck : Step::kMove);
   return true;
 }
 
@@ -40,6 +41,7 @@ void PinProbe::begin(LocalTime now, Step step) {
     case Step::kMove:
       pulse_ = command_ == PinCommand::kDeploy ? kDownPulse : kUpPulse;
       break;
+    case Step::kCheck:
     case Step::kLook:
       pulse_ = kTouchPulse;
       break;
@@ -66,6 +68,13 @@ void PinProbe::on_sample(LocalTime now, bool level) {
   if (step_ == Step::kIdle || now < until_) return;
   const bool out = command_ == PinCommand::kDeploy;
   switch (step_) {
+    case Step::kCheck:
+      if (level) return begin(now, Step::kMove);
+      // No second try: what falls out again by itself is not to be relied on.
+      step_ = Step::kIdle;
+      state_ = PinState::kNotIn;
+      pulse_ = kUpPulse;
+      return;
     case Step::kReset:
       return begin(now, Step::kMove);
     case Step::kMove:

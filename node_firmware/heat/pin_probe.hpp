@@ -2,7 +2,8 @@
 // A probe with a pin that a servo's signal puts out and draws in (BLTouch): pulses of 50 Hz whose width is
 // the command, and one line back that is read. It has no other voice, so both of its answers are asked for
 // after every command: without a touch the line is high in an alarm only; in touch mode it is high exactly as
-// long as the pin is in.
+// long as the pin is in. A bed holds a pin in that it has pushed in, whatever the pin's magnet does: so
+// before it is told to come out it is asked whether it has stayed in.
 
 #include <cstdint>
 
@@ -49,7 +50,7 @@ class PinProbe {
   std::uint16_t pulse() const { return pulse_; }
 
  private:
-  enum class Step : std::uint8_t { kIdle, kReset, kMove, kLook, kSettle };
+  enum class Step : std::uint8_t { kIdle, kCheck, kReset, kMove, kLook, kSettle };
   void begin(LocalTime now, Step step);
   void wrong(LocalTime now, PinState as);
 

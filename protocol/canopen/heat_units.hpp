@@ -10,6 +10,8 @@ inline constexpr int kHeatSensors = 6;
 inline constexpr int kHeaters = 4;
 inline constexpr int kFans = 6;
 inline constexpr int kFilamentSensors = 2;
+/// 2277h: so many bands of energy, from 0 Hz on.
+inline constexpr int kVibrationBands = 320;
 /// 2227h: so many steps of so long.
 inline constexpr int kFlowSteps = 4;
 inline constexpr int kFlowStepMs = 400;
@@ -45,6 +47,11 @@ inline constexpr ObjectAddress kFilamentKind{0x2250, 1}, kFilamentInverted{0x225
 // A probe with a pin.
 inline constexpr ObjectAddress kPinProbe{0x2260, 0}, kPinCommand{0x2261, 0}, kPinState{0x2262, 0},
     kServoPulse{0x2263, 0}, kProbeLine{0x2264, 0};
+// An accelerometer.
+inline constexpr ObjectAddress kVibrationState{0x2270, 0}, kVibrationCommand{0x2271, 0},
+    kVibrationRate{0x2272, 0}, kVibrationWindows{0x2273, 0}, kVibrationClipped{0x2274, 0},
+    kVibrationCount{0x2275, 0}, kVibrationBand{0x2276, 0}, kVibrationEnergy{0x2277, 1},
+    kVibrationExponent{0x2278, 1}, kAcceleration{0x2279, 1};
 inline constexpr ObjectAddress kContactor{0x2240, 0}, kSupply{0x2241, 0}, kMasterLost{0x2242, 0},
     kConfirmedSerial{0x2243, 0}, kFramesRefused{0x2244, 0};
 }  // namespace heat_object
@@ -59,6 +66,7 @@ inline constexpr std::array<std::string_view, kFlowSteps> kFlowNames = {"0 to 0.
                                                                         "0.8 to 1.2 s", "1.2 to 1.6 s"};
 inline constexpr std::array<std::string_view, kFilamentSensors> kFilamentNames = {"Filament sensor 1",
                                                                                   "Filament sensor 2"};
+inline constexpr std::array<std::string_view, 3> kDirectionNames = {"X", "Y", "Z"};
 inline constexpr std::array<std::string_view, kFans> kFanNames = {"Fan 1", "Fan 2", "Fan 3",
                                                                   "Fan 4", "Fan 5", "Fan 6"};
 
@@ -216,6 +224,25 @@ constexpr void pin_probe(Rows& t) {
   // What is written is put out until the next command; 0: no pulses.
   t.var(0x2263, "Servo pulse", kU16, kReadWrite, kLive).between(0, 2500).in("us");
   t.var(0x2264, "Pin probe line", kU8, kReadOnly, kLive).maps(Mapping::kTpdo);
+}
+
+/// An accelerometer of the tool, whose vibration the node sums up as energy over frequency. A band is 1/8192
+/// of the rate wide (0.39 Hz of 3200), the first is 0 Hz. Directions are the chip's.
+constexpr void accelerometer(Rows& t) {
+  // 0 none, 1 ready, 2 measures, 3 its chip does not answer.
+  t.var(0x2270, "Accelerometer state", kU8, kReadOnly, kLive);
+  // 1 forgets what was found and measures, 2 ends that.
+  t.var(0x2271, "Vibration command", kU8, kWriteOnly, kLive).between(1, 2);
+  // As the node has counted them; 0 within the first second.
+  t.var(0x2272, "Accelerometer readings", kU32, kReadOnly, kLive).in("mHz");
+  t.var(0x2273, "Vibration windows", kU16, kReadOnly, kLive);      // summed up so far
+  t.var(0x2274, "Accelerometer clipped", kU16, kReadOnly, kLive);  // readings at the end of its range
+  t.var(0x2275, "Accelerometer count", kU32, kReadOnly, kLive).in("um/s2");
+  t.var(0x2276, "Vibration band", kU16, kReadWrite, kLive).between(0, kVibrationBands - 1);
+  // Of that band, times 2 to the power of 2278h. A sine of one count gives 2^24 in each window.
+  array_of(t, 0x2277, "Vibration energy", kDirectionNames, entry_of(kU32, kReadOnly, kLive));
+  array_of(t, 0x2278, "Vibration exponent", kDirectionNames, entry_of(kU8, kReadOnly, kLive));
+  array_of(t, 0x2279, "Acceleration", kDirectionNames, entry_of(kI16, kReadOnly, kLive));
 }
 
 /// The node as a whole.

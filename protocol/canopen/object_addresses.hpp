@@ -36,11 +36,12 @@ enum class SwitchFunction : std::uint8_t {
 /// Addresses that code names; axis objects at their base (first axis).
 namespace object {
 inline constexpr ObjectAddress kDeviceType{0x1000, 0}, kErrorRegister{0x1001, 0}, kErrorHistory{0x1003, 0},
-    kSyncCobId{0x1005, 0}, kSyncPeriod{0x1006, 0}, kHighResolutionTime{0x1013, 0}, kEmcyCobId{0x1014, 0},
-    kEmcyInhibitTime{0x1015, 0}, kConsumerHeartbeat{0x1016, 1}, kProducerHeartbeat{0x1017, 0},
-    kVendorIdentity{0x1018, 1}, kProductIdentity{0x1018, 2}, kRevisionIdentity{0x1018, 3},
-    kSerialIdentity{0x1018, 4}, kSyncCounterOverflow{0x1019, 0}, kStoreParameters{0x1010, 1},
-    kRestoreParameters{0x1011, 1}, kErrorBehaviour{0x1029, 1};
+    kSyncCobId{0x1005, 0}, kSyncPeriod{0x1006, 0}, kGuardTime{0x100C, 0}, kLifeTimeFactor{0x100D, 0},
+    kHighResolutionTime{0x1013, 0}, kEmcyCobId{0x1014, 0}, kEmcyInhibitTime{0x1015, 0},
+    kConsumerHeartbeat{0x1016, 1}, kProducerHeartbeat{0x1017, 0}, kVendorIdentity{0x1018, 1},
+    kProductIdentity{0x1018, 2}, kRevisionIdentity{0x1018, 3}, kSerialIdentity{0x1018, 4},
+    kSyncCounterOverflow{0x1019, 0}, kStoreParameters{0x1010, 1}, kRestoreParameters{0x1011, 1},
+    kErrorBehaviour{0x1029, 1};
 inline constexpr ObjectAddress kSegmentRecord{0x2100, 0}, kCheckpoint{0x2101, 0}, kStreamStatus{0x2102, 0},
     kRateCommand{0x2110, 0}, kSyncStamp{0x2111, 0}, kPathTime{0x2112, 0}, kStopRamp{0x2113, 0},
     kSyncLossTimeout{0x2114, 0}, kStarvationMargin{0x2115, 0}, kFingerprint{0x2116, 0},

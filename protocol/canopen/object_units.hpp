@@ -151,6 +151,12 @@ constexpr void device(Rows& t, const BoardFacts& board, const PdoSet& set) {
   pdos(t, set);
 }
 
+/// CiA 301: what masters may rely on in place of heartbeats (1017h = 0).
+constexpr void node_guarding(Rows& t) {
+  t.var(0x100C, "Guard time", kU16, kReadWrite, kVariable).in("ms");
+  t.var(0x100D, "Life time factor", kU8, kReadWrite, kVariable);
+}
+
 /// CiA 302. 1F50h, the program itself, is the boot loader's: it answers on the same node id after 1F51h = 0.
 constexpr void program_download(Rows& t) {
   t.head(0x1F51, "Program control", ObjectCode::kArray, 1);

@@ -79,6 +79,7 @@ struct TwoAxisNode {
     object_table::touch_probes(t);
     object_table::last_reset(t);
     object_table::stepper_drivers(t);
+    object_table::node_guarding(t);
   }
 };
 

@@ -1,7 +1,7 @@
 #include "protocol/motion/session_guard.hpp"
 
-#include <algorithm>
 #include <span>
+#include <utility>
 
 #include "protocol/bytes.hpp"
 #include "protocol/canopen/cob_id.hpp"
@@ -13,6 +13,14 @@ namespace {
 
 bool is_sdo(const CanFrame& frame) {
   return cob_id::node_of(frame.id, cob_id::kSdoRequest) != 0;
+}
+
+/// Bytes 1 to 4 of next_refusal().
+std::uint32_t order_of(const CanFrame& frame) {
+  std::uint32_t what = 0;
+  if (frame.id == cob_id::kNmt) what = get_u16_le(frame.data);
+  if (is_sdo(frame)) what = sdo::address_in(frame).index;
+  return frame.id | what << 16;
 }
 
 bool concerns(const CanFrame& frame, std::uint8_t node_id) {
@@ -33,8 +41,9 @@ AbortCode SessionGuard::write(std::uint8_t subindex, std::uint32_t value, bool i
   key_ = {};
   if (value != 0 && key == SipHashKey{}) return AbortCode::kInvalidValue;
   vouchers_.begin(value != 0 ? key : SipHashKey{});
-  told_ = 0;
-  waiting_ = 0;
+  lapsed_ = false;
+  obeyed_in_lapse_ = 0;
+  told_count_ = taken_ = 0;
   return AbortCode::kNone;
 }
 
@@ -48,34 +57,44 @@ bool SessionGuard::needed(const CanFrame& frame, bool in_motion) {
 
 SessionGuard::Answer SessionGuard::judge(const CanFrame& frame, std::uint8_t node_id, bool in_motion) {
   if (vouchers_.on_frame(frame)) return Answer::kPass;
-  if (!in_force() || !wants_voucher(frame) || !concerns(frame, node_id)) return Answer::kObey;
-  if (!in_motion) told_ = 0;
+  if (!vouchers_.in_force() || !wants_voucher(frame) || !concerns(frame, node_id)) return Answer::kObey;
+  if (!in_motion && taken_ == told_count_) told_count_ = taken_ = 0;
   // Also where it is not needed: the number rises.
   const VoucherReader::Verdict verdict = vouchers_.look(frame);
+  if (verdict == VoucherReader::Verdict::kVouched) end_lapse();
   if (verdict == VoucherReader::Verdict::kVouched || !needed(frame, in_motion)) return Answer::kObey;
+  if (lapsed_) {
+    // The stamp of a gateway that was started anew is no order.
+    if (frame.id != kSyncStampCobId) obeyed_in_lapse_ = frame.id;
+    return Answer::kObey;
+  }
   if (verdict == VoucherReader::Verdict::kDoubled) return Answer::kPass;
   ++refused_;
   // A gateway that was started anew has SYNC before it has given the node its key.
-  if (in_motion || frame.id != kSyncStampCobId) tell(frame);
+  if (in_motion || frame.id != kSyncStampCobId) tell(order_of(frame));
   return Answer::kRefuse;
 }
 
-void SessionGuard::tell(const CanFrame& frame) {
-  const unsigned bit = 1u << VoucherReader::kind_of(frame);
-  if ((told_ & bit) != 0 || waiting_ == refusals_.size()) return;
-  told_ |= bit;
-  std::array<std::uint8_t, 5>& told = refusals_[waiting_++];
-  told = {};
-  put_u16_le(std::span(told).subspan(1), static_cast<std::uint16_t>(frame.id));
-  if (frame.id == cob_id::kNmt)
-    std::copy_n(frame.data.begin(), 2, told.begin() + 3);
-  else if (is_sdo(frame))
-    put_u16_le(std::span(told).subspan(3), sdo::address_in(frame).index);
+void SessionGuard::end_lapse() {
+  if (!std::exchange(lapsed_, false)) return;
+  const std::uint32_t obeyed = std::exchange(obeyed_in_lapse_, 0u);
+  if (obeyed != 0) tell(cob_id::kSync | obeyed << 16);
+}
+
+void SessionGuard::tell(std::uint32_t order) {
+  unsigned of_this_kind = 0;
+  for (std::uint32_t other : std::span(told_).first(told_count_)) {
+    if (other == order) return;
+    if ((other & 0xFFFF) == (order & 0xFFFF)) ++of_this_kind;
+  }
+  if (of_this_kind < kToldOfAKind && told_count_ < told_.size()) told_[told_count_++] = order;
 }
 
 std::optional<std::array<std::uint8_t, 5>> SessionGuard::next_refusal() {
-  if (waiting_ == 0) return std::nullopt;
-  return refusals_[--waiting_];
+  if (taken_ == told_count_) return std::nullopt;
+  std::array<std::uint8_t, 5> told{};
+  put_u32_le(std::span(told).subspan(1), told_[taken_++]);
+  return told;
 }
 
 }  // namespace kinebus

@@ -1,11 +1,13 @@
 // kinebus-card: one node on a bench, its motors, currents and switches.
 
 #include <fmt/format.h>
+#include <unistd.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <cstdio>
 #include <memory>
 
 #include "protocol/host/guarded_main.hpp"
@@ -13,6 +15,8 @@
 #include "protocol/host/socketcan.hpp"
 #include "protocol/host/usage.hpp"
 #include "tools/card/card.hpp"
+#include "tools/card/card_session.hpp"
+#include "tools/card/line_input.hpp"
 
 namespace {
 
@@ -82,6 +86,19 @@ void tune(Card& card, const Arguments& arguments) {
                                       : fmt::format("encoder offset {} counts", tuned.encoder_offset));
 }
 
+void serve(Card& card) {
+  LineInput input(STDIN_FILENO);
+  CardSession(card, {.next = [&](LocalTime until) { return input.next(until); },
+                     .ended = [&] { return interrupted != 0 || input.ended(); },
+                     .tell =
+                         [](const std::string& line) {
+                           fmt::print("{}\n", line);
+                           std::fflush(stdout);
+                         },
+                     .now = monotonic_now})
+      .run();
+}
+
 int run(int argc, char** argv) {
   CLI::App app(
       "kinebus-card: one node on a bench, without machine file and gateway.\n"
@@ -111,6 +128,8 @@ int run(int argc, char** argv) {
       ->capture_default_str();
   auto* tune_command =
       app.add_subcommand("tune", "Lets the node measure the motor: resistance, inductance, encoder offset");
+  auto* session_command = app.add_subcommand(
+      "session", "For programs: commands by lines on the standard input, news as JSON, a line each");
   for (auto* command : {current_command, on_command, off_command, jog_command, tune_command})
     command->add_option("motor", arguments.axis, "A or B")->required()->check(CLI::IsMember({"A", "B"}));
   for (auto* command : {current_command, tune_command})
@@ -134,6 +153,7 @@ int run(int argc, char** argv) {
   std::signal(SIGINT, [](int) { interrupted = 1; });
   Card card(bus, static_cast<std::uint8_t>(arguments.node));
   if (*show_command) show(card, arguments);
+  if (*session_command) serve(card);
   if (*current_command) card.set_currents(arguments.index(), arguments.run_ma, arguments.hold_ma);
   if (*on_command || *off_command) card.power(arguments.index(), bool(*on_command));
   if (*jog_command) jog(card, arguments);

@@ -61,6 +61,9 @@ void print_devices(const Status& s) {
         "filament {} {}   ", filament.name(),
         kConditions[std::min(static_cast<std::size_t>(filament.condition()), kConditions.size() - 1)]);
   if (s.has_probe_touches()) words += s.probe_touches() ? "probe touches   " : "probe free   ";
+  constexpr std::array kPins{"", "moves", "in", "out", "not where it should be", "tests itself"};
+  if (const auto pin = static_cast<std::size_t>(s.probe_pin()); pin > 0 && pin < kPins.size())
+    words += fmt::format("pin {}   ", kPins[pin]);
   if (words.empty()) return;
   words.resize(words.find_last_not_of(' ') + 1);
   fmt::print("devices   {}\n", words);
@@ -175,6 +178,52 @@ void add_view(CLI::App& app, const Options& options, const std::string& name, co
     ask_machine.mutable_get_machine();
     print_scales(status, client.ask(std::move(ask_machine)).machine());
   });
+}
+
+/// 0: the pin is where it was sent; 1: it is not, and an event has said why.
+int wait_for_pin(Client& client) {
+  std::string said = "it does not say where its pin is";
+  // What was reported before it was told is of no use.
+  const double told_s = client.status().time_s();
+  for (;;) {
+    const auto report = client.next(std::chrono::seconds{20});
+    if (!report) break;
+    if (const auto* event = std::get_if<joblink::Event>(&*report)) {
+      if (event->kind() == joblink::EVENT_MESSAGE) said = event->words();
+      continue;
+    }
+    const auto& status = std::get<Status>(*report);
+    const auto pin = status.probe_pin();
+    if (status.time_s() < told_s || pin == joblink::PROBE_PIN_MOVES) continue;
+    if (pin == joblink::PROBE_PIN_FAILED || pin == joblink::PROBE_PIN_NONE) break;
+    fmt::print("{}\n", pin == joblink::PROBE_PIN_OUT  ? "the probe's pin is out"
+                       : pin == joblink::PROBE_PIN_IN ? "the probe's pin is in"
+                                                      : "the probe tests itself, until it is told in or out");
+    return 0;
+  }
+  fmt::print(stderr, "{}\n", said);
+  return 1;
+}
+
+void add_pin(CLI::App& app, const std::shared_ptr<MachineOptions>& options, int& exit_code) {
+  auto* probe =
+      app.add_subcommand("probe", "The pin of a BLTouch: out, in, its self test, the end of an alarm");
+  using P = joblink::MoveProbePin;
+  const auto orders = [=, &exit_code](const char* name, const char* what, P::Order order) {
+    probe->add_subcommand(name, what)->callback([=, &exit_code] {
+      Client client(options->reach, 10, true);
+      take_control(client, *options);
+      ClientMessage request;
+      request.mutable_move_probe_pin()->set_order(order);
+      client.ask(std::move(request));
+      exit_code = wait_for_pin(client);
+    });
+  };
+  orders("out", "As M401", P::OUT);
+  orders("in", "As M402", P::IN);
+  orders("test", "In and out by itself, until it is told something else", P::SELF_TEST);
+  orders("reset", "End its alarm, and draw it in", P::RESET);
+  probe->require_subcommand(1);
 }
 
 /// 0: the stop is lifted; 1: the gateway has said why not, or says nothing.
@@ -298,6 +347,8 @@ void add_values(CLI::App& app, const Options& options, int& exit_code) {
   named("keep", "Keep the mesh in force under this name, too", "SAVE");
   named("forget", "Forget the mesh of this name", "REMOVE");
   mesh->require_subcommand(1);
+
+  add_pin(app, options, exit_code);
 
   auto* console = app.add_subcommand("console",
                                      "Send one G-code or M-code line and print the answer; without a "

@@ -55,6 +55,7 @@ class PlotData {
   std::size_t path_points_ = 0, keep_ = 1, stretches_ = 0, in_stretch_ = 0;
   bool keeping_ = false;
   PathPoint kept_{}, last_{};
+  std::vector<std::array<float, 3>> passed_;  // since kept_
   bool layer_known_ = false;
   float layer_mm_ = 0;  // where the stretch at hand prints
   float last_e_ = 0;

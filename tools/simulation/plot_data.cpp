@@ -10,6 +10,8 @@ namespace {
 
 // A point of the path is kept when leaving it out would move the line by more than this, or hide a speed.
 constexpr float kPathDetail_mm = 0.1f, kPathStep_mm = 30, kPathSpeedStep = 15;
+// Points passed over are remembered so far apart, and looked at again: a curve has no corner of its own.
+constexpr float kPassedStep_mm = 0.3f;
 // A stretch ends with its layer, if that is not very short or very long.
 constexpr std::size_t kShortStretch = 150, kLongStretch = 6'000;
 constexpr float kLayer_mm = 0.03f;
@@ -39,6 +41,7 @@ void PlotData::begin_stretch(const PathPoint& point) {
 
 void PlotData::store(const PathPoint& point) {
   kept_ = point;
+  passed_.clear();
   ++in_stretch_;
   if (!keeping_) return;
   path_.back().push_back(point);
@@ -53,8 +56,17 @@ void PlotData::store(const PathPoint& point) {
 }
 
 void PlotData::add_to_path(const PathPoint& point) {
-  if (stretches_ == 0) begin_stretch(point);
-  const bool corner = detour_height(kept_.mm, last_.mm, point.mm) > kPathDetail_mm ||
+  if (stretches_ == 0) {
+    begin_stretch(point);
+    last_ = point;
+    return;
+  }
+  bool curved = false;
+  if (distance(passed_.empty() ? kept_.mm : passed_.back(), last_.mm) > kPassedStep_mm) {
+    passed_.push_back(last_.mm);
+    for (const auto& mm : passed_) curved = curved || detour_height(kept_.mm, mm, point.mm) > kPathDetail_mm;
+  }
+  const bool corner = curved || detour_height(kept_.mm, last_.mm, point.mm) > kPathDetail_mm ||
                       distance(kept_.mm, point.mm) > kPathStep_mm ||
                       std::abs(point.speed_mm_per_s - kept_.speed_mm_per_s) > kPathSpeedStep ||
                       point.prints != last_.prints;

@@ -20,6 +20,8 @@ class EbbBoard final : public Stm32g0b1Chip {
   ~EbbBoard() override;
 
   std::uint32_t product_code() const override;
+  /// With a boot loader, which looks through the program first.
+  BusTime boot_time() const override { return std::chrono::milliseconds{350}; }
   double true_counts(int axis) const override;
   /// 0: probe, 1: filament (PB4), 2: PB3.
   void set_input(int input, bool level) override;

@@ -13,6 +13,7 @@
 #include "vcan_tests/emulator/cost_report.hpp"
 #include "vcan_tests/emulator/live_boards.hpp"
 #include "vcan_tests/emulator/live_usb.hpp"
+#include "vcan_tests/emulator/paced_boards.hpp"
 
 namespace {
 
@@ -106,6 +107,11 @@ int run(int argc, char** argv) {
          "Instead of an interface: a Unix socket, made here, of whose one guest the struct can_frames are "
          "the bus (kinebus-can-port)")
       ->excludes(on_interface);
+  bool paced = false;
+  app.add_flag("--paced", paced,
+               "Instead of an interface: the program that has started this one sends and reads frames on the "
+               "standard streams, and says how much time passes (paced_boards.hpp)")
+      ->excludes(on_interface);
   LiveOptions live;
   app.add_option("--power", live.power_file, "Live: the boards have power while this file exists");
   app.add_option("-n,--node", nodes, "Node id, given by LSS; once for each board")->check(CLI::Range(1, 126));
@@ -129,7 +135,7 @@ int run(int argc, char** argv) {
     if (!error.empty()) std::fprintf(stderr, "kinebus-emulate: %s\n", error.c_str());
     return error.empty() ? 0 : 1;
   }
-  if (interface.empty() && socket.empty()) {
+  if (interface.empty() && socket.empty() && !paced) {
     report(image, speed, seconds);
     return 0;
   }
@@ -140,6 +146,11 @@ int run(int argc, char** argv) {
   live.most_behind = BusTime{std::llround(late_ms * 1e6)};
   InterfacePort can;
   StreamPort stream;
+  if (paced) {
+    const std::string trouble = run_paced(image, boards);
+    if (!trouble.empty()) std::fprintf(stderr, "kinebus-emulate: %s\n", trouble.c_str());
+    return trouble.empty() ? 0 : 1;
+  }
   std::string error = socket.empty() ? can.open(interface) : stream.listen_at(socket);
   if (error.empty() && !socket.empty()) error = stream.wait();
   if (error.empty())

@@ -67,7 +67,8 @@ Stm32g0b1Chip::~Stm32g0b1Chip() = default;
 void Stm32g0b1Chip::start() {
   std::memcpy(cpu_.system_memory().data() + (kUniqueId - kSystemMemory), options_.unique_id.data(),
               sizeof options_.unique_id);
-  Chip::start(CortexM4::kFlash, 1);
+  // Of a program without its boot loader in front of it.
+  Chip::start(std::ranges::min(image_.pieces, {}, &ElfImage::Piece::address).address, 1);
 }
 
 int Stm32g0b1Chip::outputs() const {

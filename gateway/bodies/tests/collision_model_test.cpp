@@ -238,6 +238,7 @@ TEST(EveryMachine, WhicheverPairIsLookedAtFirstTheNearestIsTheSame) {
     const Model model = make_collision_model(shipped(name));
     Scene scene = model->at_rest();
     int seen = 0;
+    CollisionModel::Memory on_the_way;
     for (int n = 0; n < 60; ++n) {
       const Pose pose{in(-80, 80), in(-80, 80), in(0, 150), n % 2 == 0 ? 0 : in(-0.3, 0.3), 0, 0};
       if (!model->place(Frame::kPart, pose, scene)) continue;
@@ -252,11 +253,14 @@ TEST(EveryMachine, WhicheverPairIsLookedAtFirstTheNearestIsTheSame) {
       ASSERT_NE(nearest, nullptr) << name;
       for (const std::size_t begin :
            {std::size_t{0}, model->pairs().size() / 2, model->pairs().size() - 1, std::size_t{100'000}}) {
-        std::size_t likely = begin;
-        const Clearance c = model->clearance(scene, Occasion::kMotion, &likely);
+        CollisionModel::Memory before{.likely = begin};
+        const Clearance c = model->clearance(scene, Occasion::kMotion, &before);
         EXPECT_EQ(c.mm, least) << name << " pose " << n << " from pair " << begin;
-        EXPECT_EQ(&model->pairs()[likely], nearest) << name << " pose " << n << " from pair " << begin;
+        EXPECT_EQ(&model->pairs()[before.likely], nearest) << name << " pose " << n << " from pair " << begin;
       }
+      EXPECT_EQ(model->clearance(scene, Occasion::kMotion, &on_the_way).mm, least)
+          << name << " pose " << n << ", planes of the pose before";
+      EXPECT_EQ(&model->pairs()[on_the_way.likely], nearest) << name << " pose " << n;
     }
     EXPECT_GT(seen, 10) << name;
   }

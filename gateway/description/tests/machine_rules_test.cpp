@@ -239,6 +239,12 @@ TEST(MachineFile, ADeviceWhereNoneCanBeIsRefused) {
       {"inputs = 1\n[node.4.input1]\nfunction = \"probe\"",
        "where = \"simulated\"\n[probe]\nwhere = \"node\"\nnode = 4\nchannel = 1\n[bltouch]\nnode = 9",
        "bltouch.node: found 9; expected a heat node that has its table, [node.9], with axis_pairs = 0"},
+      {"", "where = \"simulated\"\n[accelerometer]\nnode = 9",
+       "accelerometer.node: found 9; expected a heat node that has its table, [node.9], with axis_pairs = 0"},
+      {"", "where = \"simulated\"\n[accelerometer]\nnode = 3",
+       "node.3.axis_pairs: found 1; expected 0 of a node that carries heat"},
+      {"axis_pairs = 0\nheaters = 1", "where = \"simulated\"\n[accelerometer]\nnode = 4\naxes = \"xxy\"",
+       "accelerometer.axes: found 'xxy'; expected one of"},
       {"", "where = \"simulated\"\n[fan.\"two words\"]\nwhere = \"simulated\"",
        "fan.two words: found a key that does not exist; expected at most 32 tables with names of 1 .. 32 "
        "letters, "

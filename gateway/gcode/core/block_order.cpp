@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "gateway/gcode/core/core.hpp"
 #include "gateway/gcode/words/parameters.hpp"
@@ -26,12 +27,16 @@ bool Core::run_careful() {
   std::optional<CutterPath> cutter_before;
   if (before.cutter != CutterSide::kOff) cutter_before = state_.cutter;
   const std::size_t points_before = state_.nurbs.points.size(), knots_before = state_.nurbs.knots.size();
+  std::optional<std::vector<ToolEntry>> tools_before;
+  if (block_.has(GGroup::kNonmodal) && block_.code(GGroup::kNonmodal).number == 100)
+    tools_before = state_.tools;
   uncompensated_ = size_before;
   if (state_.modal.ended) begin_program();
   if (announce_) announce();
   if (run_block() && (!before.away || leave_out(size_before, before))) return true;
   state_.modal = before;
   if (cutter_before) state_.cutter = std::move(*cutter_before);
+  if (tools_before) state_.tools = std::move(*tools_before);
   if (before.nurbs != 0) {
     state_.nurbs.points.resize(points_before);
     state_.nurbs.weights.resize(points_before);
@@ -69,6 +74,7 @@ bool Core::run_block() {
   // Units first: they hold for every length of the line. Then codes that own words (M207 F) before those
   // words' usual owners, modes, actions without motion, motion, and last what stops the program.
   if (block_.has(GGroup::kUnits)) state_.modal.inches = block_.code(GGroup::kUnits).number == 200;
+  if (block_.has(GGroup::kSpindleMode) && !spindle_mode()) return false;
   for (int i = 0; i < block_.m_count; ++i) {
     const Code code = block_.m[static_cast<std::size_t>(i)];
     if (m_group(code.number) != MGroup::kStop && !run_machine_code(code)) return false;
@@ -77,6 +83,7 @@ bool Core::run_block() {
   if (block_.has(GGroup::kNonmodal) && !run_nonmodal(block_.code(GGroup::kNonmodal))) return false;
   if (!spindle_speed()) return false;
   if (!run_motion()) return false;
+  follow_surface(false);
   if (!check_leftovers()) return false;
   for (int i = 0; i < block_.m_count; ++i)
     if (ends_program(block_.m[static_cast<std::size_t>(i)]) && !cutter_off()) return false;
@@ -87,8 +94,8 @@ bool Core::run_block() {
 }
 
 bool Core::run_nonmodal(Code code) {
-  const bool uses_axes =
-      code.number == 280 || code.number == 920 || code.number == 520 || (code.number == 100 && has('L'));
+  const bool uses_axes = code.number == 280 || (code.number == 300 && options_.spindle) ||
+                         code.number == 920 || code.number == 520 || (code.number == 100 && has('L'));
   const Code motion = block_.code(GGroup::kMotion);
   if (uses_axes && block_.has(GGroup::kMotion))
     return fail(code.column, say("%1 and %2 would both use the line's axis words: write them in two lines",
@@ -104,7 +111,7 @@ bool Core::run_nonmodal(Code code) {
       pass_over('S');
       return retract();
     case 300:
-      return probe_once(code);
+      return is_stored(code) ? go_to_stored(code) : probe_once(code);
     case 290:
       return level_bed();
     case 520:
@@ -120,7 +127,10 @@ bool Core::run_nonmodal(Code code) {
       note(kNoteForG + code.number, say("%1 has no effect on this machine", g_name(code.number)));
       return true;
     case 280:
-      return home();
+      return is_stored(code) ? go_to_stored(code) : home();
+    case 281:
+    case 301:
+      return store_position(code);
     case 531:
       return orient_tool();
     case 530:

@@ -75,7 +75,7 @@ bool Core::execute(std::string_view line, std::uint32_t line_number, CommandBuff
   if (!line.empty() && line.front() == ';' && read_object_comment(line)) [[unlikely]]
     return true;
   if (block_.is_plain() && !announce_ && !state_.modal.away && !state_.modal.ended &&
-      state_.modal.cutter == CutterSide::kOff && state_.modal.nurbs == 0 &&
+      state_.modal.cutter == CutterSide::kOff && state_.modal.nurbs == 0 && !state_.modal.surface_speed &&
       (block_.present & ~kStraightWords) == 0 && block_.present != 0) {
     const int g = block_.has(GGroup::kMotion) ? block_.code(GGroup::kMotion).number : -1;
     const Motion motion = g == 10  ? Motion::kFeed
@@ -124,7 +124,9 @@ void Core::begin_program() {
   m.g92_active = false;
   m.tool_centre_point = m.tilted = false;
   m.tool_length_mm = 0;
+  m.tool_xy_mm = {};
   m.spindle_turns = m.cycle = 0;
+  m.surface_speed = false;
   m.object = -1;
   m.left_out = false;
   m.retract_to_r = m.spline = m.plane_rotation = m.a_extrudes = false;

@@ -115,6 +115,10 @@ class Core {
   canonical::PathMode path_mode() const;
   bool set_path_mode(Code code);
 
+  // polar.cpp
+  bool has_polar() const { return block_.polar_radius || block_.polar_angle; }
+  bool polar_words();
+
   // moves.cpp
   bool run_motion();
   bool run_straight(bool traverse);
@@ -148,10 +152,21 @@ class Core {
   bool mesh_word(const std::string& name, const WordOf& word);
   bool mesh_command(std::uint32_t column, canonical::Mesh command);
   bool measure_mesh(std::uint32_t column, std::string name, const MeshArea& area);
+  void see_pin_in();
   void probe_down(Pose at, double clear);
   void probe_within(const ProbeResult& result);
   bool note_no_levelling(int code, const std::string& name);
   void add_to_print_area(std::string_view points);
+
+  // spiral.cpp
+  bool is_spiral(const std::array<double, 2>& from, const std::array<double, 2>& to,
+                 const std::array<double, 2>& centre) const;
+  bool run_spiral(const Pose& program, const std::array<double, 2>& centre, bool clockwise, int turns);
+
+  // stored_positions.cpp
+  bool is_stored(Code code) const;
+  bool store_position(Code code);
+  bool go_to_stored(Code code);
 
   // splines.cpp
   bool run_spline(Code code);
@@ -171,6 +186,14 @@ class Core {
   bool select_coordinate_system(Code code);
   bool set_coordinate_system();
   void set_offset(std::size_t system, std::size_t axis, double value, bool here);
+  /// A work zero in a turned system: those given, else as they are; program coordinates.
+  void set_turned_offset(std::size_t system, const std::array<std::optional<double>, 2>& xy);
+  bool set_tool_table(Code code, int l);
+  ToolEntry tool_entry(int tool) const;
+  bool is_turned() const { return turned_; }
+  Matrix3 turn_of(std::size_t system) const;
+  /// The directions of the program's axes (G68, G68.2, G10 R) in canonical coordinates.
+  Matrix3 program_axes() const;
   bool set_g92(Code code);
   bool set_tool_length(Code code);
   bool set_tilt(Code code);
@@ -210,6 +233,10 @@ class Core {
   bool spindle(Code code);
   /// An S that no code of the line owns: the spindle's speed.
   bool spindle_speed();
+  bool spindle_mode();
+  /// Under G96: the speed for where the tool is.
+  void follow_surface(bool now);
+  double surface_rpm() const;
   bool thermal(Code code);
   bool value_by_p(Code code);
   double target_of(const canonical::Thermal& thermal) const;
@@ -222,6 +249,7 @@ class Core {
   bool firmware_setting(Code code);
   bool retract_settings(Code code);
   bool override_ratio(Code code);
+  bool probe_pin(Code code);
   bool stored_job(Code code);
   bool tool_temperature(char tool_letter);
   bool wait_for_temperatures();
@@ -280,12 +308,14 @@ class Core {
   std::size_t uncompensated_ = 0;  ///< where in out_ the line's commands begin that compensate() has not seen
   std::uint32_t line_ = 0;
   std::uint32_t used_ = 0;  ///< words of the block that a code has taken
-  Pose shift_{};            ///< canonical = program + shift for X Y Z A C, outside a tilted plane
+  Pose shift_{};            ///< canonical = program + shift for X Y Z A C, where no plane is tilted or turned
   const DialectRules* rules_ = nullptr;  ///< of the dialect in force
   bool traverse_has_feed_ = false;
-  bool probe_goes_on_ = false;  ///< behind its probe the line at work has moves of its own
-  bool probe_sets_z_ = false;   ///< what it touches gets Z 0
-  bool announce_ = true;        ///< SetPosition is due before the next command
+  std::array<double, 2> polar_step_{};  ///< of the line at work under G91: radius, mm, and angle, rad
+  bool probe_goes_on_ = false;          ///< behind its probe the line at work has moves of its own
+  bool probe_sets_z_ = false;           ///< what it touches gets Z 0
+  bool turned_ = false;                 ///< the coordinate system in force is turned (G10 R)
+  bool announce_ = true;                ///< SetPosition is due before the next command
 };
 
 /// The letters of the axes, in the order of Pose.

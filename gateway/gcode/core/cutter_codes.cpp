@@ -25,7 +25,6 @@ bool Core::refuse_beside_cutter(Code code, const std::string& name) {
 bool Core::cutter_on(Code code) {
   ModalState& m = state_.modal;
   if (m.cutter != CutterSide::kOff) return refuse_beside_cutter(code, g_name(code.number));
-  if (m.inverse_time) return fail(code.column, say("%1 needs feed per minute (G94)", g_name(code.number)));
   double diameter = 0;
   if (code.number == 411 || code.number == 421) {
     if (!has('D')) return fail(code.column, say("%1 needs D, the tool's diameter", g_name(code.number)));
@@ -35,8 +34,7 @@ bool Core::cutter_on(Code code) {
     int tool = m.tool_in_spindle >= 0 ? m.tool_in_spindle : m.tool;
     const bool given = has('D');
     if (!take_integer('D', 0, 99'999, tool)) return false;
-    const auto tools = static_cast<int>(options_.tool_diameter_mm.size());
-    if (tool >= 1 && tool <= tools) diameter = options_.tool_diameter_mm[static_cast<std::size_t>(tool - 1)];
+    diameter = tool_entry(tool).diameter_mm;
     if (diameter == 0 && !(given && tool == 0))
       return fail(code.column,
                   say("the diameter of T%1 is not known: write gcode.tool_diameter_mm in the machine file, "
@@ -46,8 +44,9 @@ bool Core::cutter_on(Code code) {
   const PlaneAxes plane = plane_axes();
   std::array<Vector3, 3> axes{};
   std::size_t at = 0;
+  const Matrix3 directions = program_axes();
   for (const std::size_t axis : {plane.u, plane.v, plane.w}) {
-    for (std::size_t i = 0; i < 3; ++i) axes[at][i] = m.tilted ? m.tilt[i][axis] : i == axis ? 1 : 0;
+    for (std::size_t i = 0; i < 3; ++i) axes[at][i] = directions[i][axis];
     ++at;
   }
   if (m.frame == Frame::kPart) {
@@ -98,8 +97,9 @@ bool Core::check_beside_cutter() {
     return refuse(block_.code(GGroup::kToolLength));
   if (block_.has(GGroup::kNonmodal)) {
     const Code code = block_.code(GGroup::kNonmodal);
-    const bool offsets = (code.number == 100 && block_.has('L')) || code.number == 280 ||
-                         code.number == 520 || code.number == 530 ||
+    const bool offsets = (code.number == 100 && block_.has('L')) ||
+                         (code.number >= 280 && code.number < 290) || code.number == 300 ||
+                         code.number == 301 || code.number == 520 || code.number == 530 ||
                          (code.number >= 920 && code.number <= 923);
     if (code.number == 531 || (on && offsets)) return refuse(code);
   }
@@ -110,8 +110,6 @@ bool Core::check_beside_cutter() {
     if (plane != m.plane) return refuse(code);
   }
   if (block_.has(GGroup::kCoordinates)) return refuse(block_.code(GGroup::kCoordinates));
-  if (block_.has(GGroup::kFeedMode) && block_.code(GGroup::kFeedMode).number == 930)
-    return refuse(block_.code(GGroup::kFeedMode));
   if (block_.has_m(6)) return refuse_beside_cutter({0, 1}, "M6");
   // On a mill T only says what M6 will put in.
   if (block_.has('T') && !options_.spindle) return refuse_beside_cutter({0, block_.column_of('T')}, "T");

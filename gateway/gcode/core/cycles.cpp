@@ -120,7 +120,14 @@ bool Core::run_cycle() {
     here[plane.w] = r;
     if (!cycle_move(here, true)) return false;
   }
+  const bool polar = has_polar() && m.incremental;
   for (int i = 0; i < times; ++i) {
+    if (polar) {
+      const double radius = std::hypot(point[kAxisX], point[kAxisY]) + polar_step_[0];
+      const double angle = std::atan2(point[kAxisY], point[kAxisX]) + polar_step_[1];
+      steps[0] = radius * std::cos(angle) - point[kAxisX];
+      steps[1] = radius * std::sin(angle) - point[kAxisY];
+    }
     point[plane.u] += steps[0];
     point[plane.v] += steps[1];
     point[plane.w] = m.program[plane.w];

@@ -1,4 +1,4 @@
-// M codes of heaters, fans, outputs and the spindle.
+// M codes of heaters, fans and outputs.
 #include <algorithm>
 #include <cmath>
 
@@ -64,40 +64,6 @@ bool Core::wait_for_temperatures() {
   wait(What::kChamber, m.chamber_celsius, 0);
   for (int i = 0; i < std::min(options_.hotends, 8); ++i)
     wait(What::kHotend, m.hotend_celsius[static_cast<std::size_t>(i)], i);
-  return true;
-}
-
-bool Core::spindle(Code code) {
-  if (!options_.spindle) return code.number == 5 || fail(code.column, unknown_m(code.number));
-  ModalState& m = state_.modal;
-  if (code.number == 5) {
-    m.spindle_turns = 0;
-    emit(canonical::Spindle{0});
-    return true;
-  }
-  m.spindle_turns = code.number == 3 ? 1 : -1;
-  if (has('S')) return spindle_speed();
-  if (!(m.spindle_rpm > 0)) return fail(code.column, say("%1 needs a speed S", m_name(code.number)));
-  emit(canonical::Spindle{m.spindle_turns * m.spindle_rpm});
-  return true;
-}
-
-bool Core::spindle_speed() {
-  if (!options_.spindle || !has('S') || (used_ & Block::bit('S')) != 0) return true;
-  double rpm = 0;
-  if (!take('S', rpm)) return false;
-  if (!(rpm >= 0)) return fail(block_.column_of('S'), say("the spindle's speed S cannot be below 0"));
-  ModalState& m = state_.modal;
-  if (m.feed_per_turn && m.feed_known && !has('F') && (block_.present & Block::bit('F')) == 0) {
-    if (rpm > 0 && m.spindle_rpm > 0) {
-      m.feed_mm_per_s *= rpm / m.spindle_rpm;
-      m.feed_rad_per_s *= rpm / m.spindle_rpm;
-    } else {
-      m.feed_known = false;
-    }
-  }
-  m.spindle_rpm = rpm;
-  if (state_.modal.spindle_turns != 0) emit(canonical::Spindle{state_.modal.spindle_turns * rpm});
   return true;
 }
 

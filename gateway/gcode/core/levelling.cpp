@@ -80,6 +80,7 @@ bool Core::measure_mesh(std::uint32_t column, std::string name, const MeshArea& 
   if (name.size() > kLongestName)
     return fail(column, say("a mesh's name has %1 letters at most", kLongestName));
   if (m.tilted) return fail(column, say("%1 cannot be used in a tilted plane: end it with G69 first", code));
+  if (is_turned()) return fail(column, say("%1 cannot be used in a turned coordinate system (G10 R)", code));
   if (m.left_out || m.away) return fail(column, say("%1 cannot be used while an object is left out", code));
   if (std::abs(m.position[kAxisA]) > kNoMotion || std::abs(m.position[kAxisC]) > kNoMotion)
     return fail(column, say("%1 needs A and C at 0", code));
@@ -118,6 +119,7 @@ bool Core::measure_mesh(std::uint32_t column, std::string name, const MeshArea& 
       probe_down(at, clear);
       at[kAxisZ] = clear;
     }
+  see_pin_in();
   mesh.what = Mesh::What::kEnd;
   emit(mesh);
   m.position = at;
@@ -139,6 +141,11 @@ void Core::probe_down(Pose at, double clear) {
   emit(canonical::Probe{down, frame, options_.probe_mm_per_s, false, true});
   at[kAxisZ] = clear;
   emit(canonical::Traverse{at, frame});
+}
+
+/// Lifted: what was drawn in on the bed may have been held in by the bed.
+void Core::see_pin_in() {
+  if (options_.probe_pin) emit(canonical::ProbePin{canonical::ProbePin::What::kIn});
 }
 
 bool Core::level_bed() {
@@ -185,8 +192,9 @@ bool Core::level_bed() {
 bool Core::probe_once(Code code) {
   ModalState& m = state_.modal;
   if (options_.spindle)
-    return fail(code.column, say("G30 means a probe to printers and a stored position to mills: use G53 G0 "
-                                 "with coordinates"));
+    return fail(code.column,
+                say("G30 means a probe to printers and a stored position to mills: keep one with "
+                    "G30.1 before it, or use G53 G0 with coordinates"));
   const bool rrf = m.dialect == Dialect::kRepRapFirmware;
   Pose program = m.program;
   program_target(program);
@@ -200,6 +208,8 @@ bool Core::probe_once(Code code) {
     return true;
   }
   if (!refuse_in_tilt(code)) return false;
+  if (is_turned())
+    return fail(code.column, say("%1 cannot be used in a turned coordinate system (G10 R)", "G30"));
   if (m.left_out || m.away)
     return fail(code.column, say("%1 cannot be used while an object is left out", "G30"));
   if (std::abs(m.position[kAxisA]) > kNoMotion || std::abs(m.position[kAxisC]) > kNoMotion)
@@ -215,6 +225,7 @@ bool Core::probe_once(Code code) {
   }
   at[kAxisZ] = std::max(at[kAxisZ], clear);
   probe_down(at, clear);
+  see_pin_in();
   emit(Mesh{.what = Mesh::What::kTellProbe});
   at[kAxisZ] = clear;
   m.position = at;

@@ -2,6 +2,8 @@
 // printer_settings.cpp.
 
 #include <array>
+#include <string>
+#include <utility>
 
 #include "gateway/gcode/core/core.hpp"
 #include "gateway/gcode/letters.hpp"
@@ -182,6 +184,10 @@ bool Core::run_machine_code(Code code) {
       return pressure_advance(code);
     case 593:
       return input_shaping();
+    case 280:
+    case 401:
+    case 402:
+      return probe_pin(code);
     case 400:
       emit(canonical::WaitIdle{});
       return true;
@@ -237,6 +243,34 @@ bool Core::motors(Code code) {
   else
     emit(canonical::MotorsOff{static_cast<std::uint8_t>(axes)});
   return true;
+}
+
+/// A BLTouch. M280 tells it an angle of its servo: those that it knows, others would move it nowhere.
+bool Core::probe_pin(Code code) {
+  using What = canonical::ProbePin::What;
+  if (!options_.probe_pin) {
+    for (char letter = 'A'; letter <= 'Z'; ++letter) pass_over(letter);
+    note(code.number, say("%1 has no effect on this machine", m_name(code.number)));
+    return true;
+  }
+  if (code.number != 280) {
+    emit(canonical::ProbePin{code.number == 401 ? What::kOut : What::kIn});
+    return true;
+  }
+  constexpr int kTouchMode = 60;  // which a pin that is out is in
+  constexpr std::array<std::pair<int, What>, 4> kAngles{
+      {{10, What::kOut}, {90, What::kIn}, {120, What::kSelfTest}, {160, What::kReset}}};
+  int servo = 0, angle = -1;
+  if (!take_integer('P', 0, 255, servo) || !take_integer('S', 0, 10'000, angle)) return false;
+  if (servo != 0) note(280, say("%1 has no effect on this machine", "M280 P" + std::to_string(servo)));
+  if (servo != 0 || angle == kTouchMode) return true;
+  for (const auto& [known, what] : kAngles)
+    if (known == angle) {
+      emit(canonical::ProbePin{what});
+      return true;
+    }
+  return fail(code.column,
+              say("M280 moves the probe's pin: S10 out, S90 in, S120 self test, S160 ends an alarm"));
 }
 
 bool Core::stored_job(Code code) {

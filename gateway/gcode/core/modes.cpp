@@ -83,7 +83,7 @@ bool Core::feed_from(double value, FeedRate& feed) {
   double per_minute = value;
   if (state_.modal.feed_per_turn) {
     // The S of this line counts: its turn comes later.
-    const bool given = has('S') && !block_.is_bare('S') && block_['S'] >= 0;
+    const bool given = has('S') && !block_.is_bare('S') && block_['S'] >= 0 && !state_.modal.surface_speed;
     per_minute *= given ? block_['S'] : state_.modal.spindle_rpm;
     if (!(per_minute > 0))
       return fail(block_.column_of('F'), say("with G95 the spindle's speed S comes before F"));

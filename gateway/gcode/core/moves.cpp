@@ -53,6 +53,8 @@ Core::PlaneAxes Core::plane_axes() const {
 
 bool Core::run_motion() {
   ModalState& m = state_.modal;
+  if (has_polar() && !polar_words()) [[unlikely]]
+    return false;
   const bool spline_before = std::exchange(m.spline, false);
   if (m.nurbs != 0) return run_nurbs();
   const bool machine_coordinates =
@@ -138,7 +140,7 @@ bool Core::run_straight(bool traverse) {
   Pose target = m.position;
   // Axes without a word keep their very value: adding the shift again could change the last bit.
   const std::uint32_t words = block_.present & ~used_;
-  if (m.tilted) {
+  if (m.tilted || is_turned()) {
     if ((words & kLinear) != 0) set_xyz(target, to_canonical_xyz(xyz(program)));
   } else {
     if ((words & Block::bit('X')) != 0) target[kAxisX] = program[kAxisX] + shift_[kAxisX];
@@ -176,6 +178,11 @@ bool Core::move_to(const Pose& program, const Pose& target, bool traverse) {
   } else if (moves) {
     canonical::Feed command{target, m.frame, 0, 0};
     if (!speed_for(turns_alone, feed, command.feed_per_s, command.inverse_time_s)) return false;
+    if (m.inverse_time && cutter_is_on() && !turns_alone) {
+      // The tool's way beside the contour has another length: the contour's own says how fast.
+      const double way = norm(xyz(target) - xyz(m.position));
+      if (way > kNoMotion) command.feed_per_s = way / std::exchange(command.inverse_time_s, 0);
+    }
     out_->push_back({line_, command});
     m.position = target;
     m.e_max_mm = std::max(m.e_max_mm, target[kAxisE]);
@@ -257,6 +264,10 @@ bool Core::run_arc(bool clockwise) {
   program_target(program);
   const Point2 from = {start[plane.u], start[plane.v]}, to = {program[plane.u], program[plane.v]};
   const double tolerance = options_.arc_radius_tolerance_mm;
+  if (!by_radius && is_spiral(from, to, given_centre)) {
+    used_ |= block_.present & (kAllAxes | Block::bit('F'));
+    return run_spiral(program, given_centre, clockwise, turns);
+  }
   const auto geometry = by_radius ? arc_by_radius(from, to, radius_mm, clockwise, turns, tolerance)
                                   : arc_by_centre(from, to, given_centre, clockwise, turns, tolerance);
   if (!geometry) return fail(column, geometry.error());
@@ -264,6 +275,11 @@ bool Core::run_arc(bool clockwise) {
   canonical::Arc command;
   const FeedRate feed{m.feed_known, m.feed_mm_per_s, m.feed_rad_per_s};
   if (!speed_for(false, feed, command.feed_per_s, command.inverse_time_s)) return false;
+  if (m.inverse_time && cutter_is_on()) {
+    const double round = length_of(from - geometry->centre) * geometry->sweep_rad;
+    const double along = program[plane.w] - start[plane.w];
+    command.feed_per_s = std::hypot(round, along) / std::exchange(command.inverse_time_s, 0);
+  }
   used_ |= block_.present & (kAllAxes | Block::bit('F'));
 
   Vector3 centre = xyz(start), normal{};
@@ -276,7 +292,7 @@ bool Core::run_arc(bool clockwise) {
   command.target = canonical_pose(arc_end);
   command.frame = m.frame;
   command.centre_mm = to_canonical_xyz(centre);
-  command.normal = m.tilted ? m.tilt * normal : normal;
+  command.normal = m.tilted || is_turned() ? program_axes() * normal : normal;
   command.sweep_rad = geometry->sweep_rad;
   out_->push_back({line_, command});
   m.position = command.target;
@@ -301,7 +317,8 @@ bool Core::run_machine_coordinates() {
   if (m.motion != Motion::kTraverse && m.motion != Motion::kFeed)
     return fail(code.column, say("G53 needs G0 or G1, in this line or active"));
   if (m.frame != Frame::kMachine)
-    return fail(code.column, say("G53 needs G49 and G69: machine coordinates do not turn with the part"));
+    return fail(code.column,
+                say("%1 needs G49 and G69: machine coordinates do not turn with the part", "G53"));
   if (m.incremental) return fail(code.column, say("G53 needs absolute distances (G90)"));
   Pose target = m.position;
   Pose program = m.program;
@@ -321,7 +338,7 @@ bool Core::run_machine_coordinates() {
     target[kAxisE] = canonical_e(program[kAxisE]);
   }
   if (!move_to(program, target, m.motion == Motion::kTraverse)) return false;
-  if (m.tilted) refresh();  // G68: the point as the rotated plane has it
+  if (m.tilted || is_turned()) refresh();  // the point as the turned plane has it
   return true;
 }
 
@@ -359,7 +376,7 @@ bool Core::recover() {
 void Core::move_lift(double height_mm) {
   ModalState& m = state_.modal;
   if (height_mm == 0) return;
-  const Vector3 up = m.tilted ? m.tilt * Vector3{0, 0, height_mm} : Vector3{0, 0, height_mm};
+  const Vector3 up = m.tilted ? program_axes() * Vector3{0, 0, height_mm} : Vector3{0, 0, height_mm};
   set_xyz(m.position, xyz(m.position) + up);
   emit(canonical::Traverse{m.position, m.frame});
   refresh_shift();

@@ -1,7 +1,9 @@
 // Coordinate systems, tool length, frames, tilted plane, and G28.
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "gateway/gcode/core/core.hpp"
 
@@ -20,15 +22,29 @@ double nearest_turn(double angle_rad, double near_rad) {
 
 Vector3 Core::offset_xyz() const {
   const ModalState& m = state_.modal;
-  Vector3 offset = xyz(m.coordinate_offsets[static_cast<std::size_t>(m.coordinate_system)]);
-  if (m.g92_active) offset = offset + xyz(m.g92_offset);
+  const auto system = static_cast<std::size_t>(m.coordinate_system);
+  Vector3 offset = xyz(m.coordinate_offsets[system]);
+  // The turn is about the system's zero: G92 lies within it, the tool does not.
+  if (m.g92_active) offset = offset + (turned_ ? turn_of(system) * xyz(m.g92_offset) : xyz(m.g92_offset));
+  for (std::size_t axis = kAxisX; axis <= kAxisY; ++axis) offset[axis] += m.tool_xy_mm[axis];
   offset[2] += m.tool_length_mm;
   return offset;
+}
+
+Matrix3 Core::turn_of(std::size_t system) const {
+  return rotation_z(state_.modal.coordinate_offsets[system][kSystemTurn]);
+}
+
+Matrix3 Core::program_axes() const {
+  const ModalState& m = state_.modal;
+  const Matrix3 tilt = m.tilted ? m.tilt : kIdentity;
+  return turned_ ? turn_of(static_cast<std::size_t>(m.coordinate_system)) * tilt : tilt;
 }
 
 void Core::refresh_shift() {
   const ModalState& m = state_.modal;
   shift_ = m.coordinate_offsets[static_cast<std::size_t>(m.coordinate_system)];
+  turned_ = shift_[kSystemTurn] != 0;
   if (m.g92_active)
     for (std::size_t axis = kAxisA; axis <= kAxisC; ++axis) shift_[axis] += m.g92_offset[axis];
   set_xyz(shift_, offset_xyz());
@@ -39,19 +55,22 @@ void Core::refresh() {
   refresh_shift();
   ModalState& m = state_.modal;
   for (std::size_t axis = kAxisX; axis <= kAxisC; ++axis) m.program[axis] = m.position[axis] - shift_[axis];
-  if (m.tilted) {
-    Vector3 point = transposed(m.tilt) * (xyz(m.position) - offset_xyz() - m.tilt_origin_mm);
-    point[2] -= m.lifted_mm;
-    set_xyz(m.program, point);
-  }
+  if (!m.tilted && !turned_) return;
+  Vector3 point = xyz(m.position) - offset_xyz();
+  if (turned_) point = transposed(turn_of(static_cast<std::size_t>(m.coordinate_system))) * point;
+  if (m.tilted) point = transposed(m.tilt) * (point - m.tilt_origin_mm);
+  point[2] -= m.lifted_mm;
+  set_xyz(m.program, point);
 }
 
 Vector3 Core::to_canonical_xyz(const Vector3& program) const {
   const ModalState& m = state_.modal;
   Vector3 point = program;
-  if (!m.tilted) return point + xyz(shift_);
+  if (!m.tilted && !turned_) return point + xyz(shift_);
   point[2] += m.lifted_mm;
-  return m.tilt * point + m.tilt_origin_mm + offset_xyz();
+  if (m.tilted) point = m.tilt * point + m.tilt_origin_mm;
+  if (turned_) point = turn_of(static_cast<std::size_t>(m.coordinate_system)) * point;
+  return point + offset_xyz();
 }
 
 double Core::canonical_e(double program_e) const {
@@ -111,19 +130,32 @@ bool Core::set_coordinate_system() {
   if (!refuse_in_tilt(code)) return false;
   double l = 0;
   if (!take('L', l)) return false;
-  if (l != 2 && l != 20) return fail(block_.column_of('L'), say("G10 needs L2 or L20 (or no L: retract)"));
+  if (l == 1 || l == 10 || l == 11) return set_tool_table(code, static_cast<int>(l));
+  if (l != 2 && l != 20)
+    return fail(block_.column_of('L'), say("G10 needs L1, L2, L10, L11 or L20 (or no L: retract)"));
   if (!has('P'))
     return fail(code.column, say("G10 needs P: 1 for G54 ... 9 for G59.3, 0 for the active one"));
   int p = 0;
   if (!take_integer('P', 0, kCoordinateSystems, p)) return false;
   const auto system = static_cast<std::size_t>(p == 0 ? m.coordinate_system : p - 1);
+  if (l == 2 && has('R')) {
+    double degrees = 0;
+    if (!take('R', degrees)) return false;
+    m.coordinate_offsets[system][kSystemTurn] = std::fmod(degrees, 360.0) * kRadians;
+  }
+  std::array<std::optional<double>, 2> xy;
+  const bool turned = l == 20 && (turned_ || m.coordinate_offsets[system][kSystemTurn] != 0);
   for (int axis = kAxisX; axis <= kAxisC; ++axis) {
     const char letter = kAxisLetters[static_cast<std::size_t>(axis)];
     double value = 0;
     if (!has(letter)) continue;
     if (!take(letter, value)) return false;
-    set_offset(system, static_cast<std::size_t>(axis), axis_value(axis, value), l == 20);
+    if (turned && axis <= kAxisY)
+      xy[static_cast<std::size_t>(axis)] = length(value);
+    else
+      set_offset(system, static_cast<std::size_t>(axis), axis_value(axis, value), l == 20);
   }
+  if (turned) set_turned_offset(system, xy);
   refresh();
   return true;
 }
@@ -137,10 +169,27 @@ void Core::set_offset(std::size_t system, std::size_t axis, double value, bool h
   refresh_shift();
 }
 
+void Core::set_turned_offset(std::size_t system, const std::array<std::optional<double>, 2>& xy) {
+  ModalState& m = state_.modal;
+  const Vector3 g92 = m.g92_active ? xyz(m.g92_offset) : Vector3{};
+  Vector3 without = xyz(m.position);
+  for (std::size_t axis = kAxisX; axis <= kAxisY; ++axis) without[axis] -= m.tool_xy_mm[axis];
+  const Matrix3 turn = turn_of(system);
+  Vector3 wanted = transposed(turn) * (without - xyz(m.coordinate_offsets[system]));
+  for (std::size_t axis = kAxisX; axis <= kAxisY; ++axis)
+    if (xy[axis]) wanted[axis] = *xy[axis] + g92[axis];
+  const Vector3 zero = without - turn * wanted;
+  for (std::size_t axis = kAxisX; axis <= kAxisY; ++axis) m.coordinate_offsets[system][axis] = zero[axis];
+  refresh_shift();
+}
+
 bool Core::set_work_offset(int system, const Pose& offset, bool here) {
   if (!refuse_in_tilt(Code{.number = 100})) return false;
-  for (std::size_t axis = kAxisX; axis <= kAxisC; ++axis)
-    set_offset(static_cast<std::size_t>(system), axis, offset[axis], here);
+  const auto at = static_cast<std::size_t>(system);
+  const bool turned = here && (turned_ || state_.modal.coordinate_offsets[at][kSystemTurn] != 0);
+  for (std::size_t axis = turned ? kAxisZ : kAxisX; axis <= kAxisC; ++axis)
+    set_offset(at, axis, offset[axis], here);
+  if (turned) set_turned_offset(at, {offset[kAxisX], offset[kAxisY]});
   refresh();
   return true;
 }
@@ -182,11 +231,12 @@ bool Core::set_g92(Code code) {
 
 bool Core::set_tool_length(Code code) {
   ModalState& m = state_.modal;
-  const int tools = static_cast<int>(options_.tool_length_mm.size());
+  int tools = static_cast<int>(options_.tool_length_mm.size());
+  for (const ToolEntry& entry : state_.tools) tools = std::max(tools, entry.tool);
   int h = m.tool <= tools ? m.tool : 0;
   if (code.number != 490 && code.number != 431 && !take_integer('H', 0, tools, h)) return false;
-  double tool_length =
-      code.number == 490 || h == 0 ? 0 : options_.tool_length_mm[static_cast<std::size_t>(h - 1)];
+  const ToolEntry tool = code.number == 490 || code.number == 431 ? ToolEntry{} : tool_entry(h);
+  double tool_length = tool.offset_mm[2];
   if (code.number == 431) {
     if (block_.has(GGroup::kMotion) || !has('Z'))
       return fail(code.column, say("G43.1 needs the tool's length Z, and a line without motion"));
@@ -198,8 +248,62 @@ bool Core::set_tool_length(Code code) {
         code.column,
         say("G43.4 and G68.2 need a tool of length 0: the machine file says where the tool's tip is"));
   m.tool_length_mm = tool_length;
+  m.tool_xy_mm = {tool.offset_mm[0], tool.offset_mm[1]};
   m.tool_centre_point = code.number == 434;
   change_frame();
+  return true;
+}
+
+ToolEntry Core::tool_entry(int tool) const {
+  for (const ToolEntry& entry : state_.tools)
+    if (entry.tool == tool) return entry;
+  ToolEntry entry{tool, {}, 0};
+  const auto at = static_cast<std::size_t>(tool - 1);
+  if (tool >= 1 && at < options_.tool_length_mm.size()) entry.offset_mm[2] = options_.tool_length_mm[at];
+  if (tool >= 1 && at < options_.tool_diameter_mm.size()) entry.diameter_mm = options_.tool_diameter_mm[at];
+  return entry;
+}
+
+/// G10 L1: the tool's offsets; L10: those by which the current point gets these coordinates; L11: the same in
+/// G59.3, without G92. In force with the next G43.
+bool Core::set_tool_table(Code code, int l) {
+  const ModalState& m = state_.modal;
+  int tool = 0;
+  if (!has('P')) return fail(code.column, say("G10 L%1 needs the tool P", l));
+  if (!take_integer('P', 1, 99'999, tool)) return false;
+  ToolEntry entry = tool_entry(tool);
+  const auto system = static_cast<std::size_t>(l == 11 ? kCoordinateSystems - 1 : m.coordinate_system);
+  const Vector3 zero = xyz(m.coordinate_offsets[system]);
+  const Vector3 g92 = l == 10 && m.g92_active ? xyz(m.g92_offset) : Vector3{};
+  const Matrix3 turn = turn_of(system);
+  // Not turned, an axis that is not given stays as it is to the last bit.
+  const bool turned = m.coordinate_offsets[system][kSystemTurn] != 0;
+  Vector3 point = transposed(turn) * (xyz(m.position) - zero - entry.offset_mm);
+  std::array<bool, 3> given{};
+  for (std::size_t axis = kAxisX; axis <= kAxisZ; ++axis) {
+    double value = 0;
+    given[axis] = has(kAxisLetters[axis]);
+    if (!given[axis]) continue;
+    if (!take(kAxisLetters[axis], value)) return false;
+    if (l == 1) entry.offset_mm[axis] = length(value);
+    point[axis] = length(value) + g92[axis];
+  }
+  const Vector3 found = xyz(m.position) - zero - turn * point;
+  for (std::size_t axis = kAxisX; l != 1 && axis <= kAxisZ; ++axis)
+    if (given[axis] || (turned && axis != kAxisZ)) entry.offset_mm[axis] = found[axis];
+  double radius = entry.diameter_mm / 2;
+  const bool has_radius = has('R');
+  if (!take_if_given('R', radius)) return false;
+  if (has_radius) entry.diameter_mm = 2 * length(radius);
+  for (const char letter : {'I', 'J', 'Q'}) pass_over(letter);  // angles and orientation of lathe tools
+  for (ToolEntry& known : state_.tools) {
+    if (known.tool != tool) continue;
+    known = entry;
+    return true;
+  }
+  if (state_.tools.size() >= ToolEntry::kMost)
+    return fail(code.column, say("too many tools are changed by G10 (1000 at most)"));
+  state_.tools.push_back(entry);
   return true;
 }
 
@@ -287,7 +391,8 @@ bool Core::orient_tool() {
   int choice = 0;
   if (!take_integer('P', 0, 2, choice)) return false;
   // R_X(A) R_Z(C) turns the plane's normal (in the part) to the machine's +Z, where the tool comes from.
-  const Vector3 normal = {m.tilt[0][2], m.tilt[1][2], m.tilt[2][2]};
+  const Matrix3 axes = program_axes();
+  const Vector3 normal = {axes[0][2], axes[1][2], axes[2][2]};
   const double slope = std::hypot(normal[0], normal[1]);
   constexpr double kLevel = 1e-12;
   constexpr double kRounding = 1e-9;

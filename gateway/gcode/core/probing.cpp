@@ -76,8 +76,10 @@ bool Core::probe_target(Code code, Pose& program, Pose& target) {
     if (!has(letter)) continue;
     if (block_.is_bare(letter)) return fail(block_.column_of(letter), say("%1 needs a number", letter));
     target[axis] = program[axis] + shift_[axis];
-    farthest = std::max(farthest, std::abs(target[axis] - m.position[axis]));
   }
+  if (is_turned()) set_xyz(target, to_canonical_xyz(xyz(program)));
+  for (const Axis axis : {kAxisX, kAxisY, kAxisZ})
+    farthest = std::max(farthest, std::abs(target[axis] - m.position[axis]));
   if (farthest > kNoMotion) return true;
   return fail(code.column, say("%1 needs X, Y or Z of a place that is not where the tool stands", name));
 }

@@ -55,9 +55,13 @@ bool Core::restore_modes(std::uint32_t column) {
   const bool spindle = m.spindle_turns * m.spindle_rpm != kept.spindle_turns * kept.spindle_rpm;
   m.spindle_turns = kept.spindle_turns;
   m.spindle_rpm = kept.spindle_rpm;
+  m.surface_speed = kept.surface_speed;
+  m.surface_m_per_min = kept.surface_m_per_min;
+  m.surface_most_rpm = kept.surface_most_rpm;
   if (spindle) emit(canonical::Spindle{m.spindle_turns * m.spindle_rpm});
   m.coordinate_system = kept.coordinate_system;
   m.tool_length_mm = kept.tool_length_mm;
+  m.tool_xy_mm = kept.tool_xy_mm;
   m.tool_centre_point = kept.tool_centre_point;
   change_frame();
   return true;

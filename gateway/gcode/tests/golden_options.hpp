@@ -32,6 +32,7 @@ inline Options golden_options(std::string_view text) {
   if (says("dwell_seconds")) options.dwell_p_unit = DwellUnit::kSeconds;
   if (says("default_feed")) options.default_feed_mm_per_s = 25;
   if (says("probe")) options.probe = ProbeFitted::kFitted;
+  options.probe_pin = says("probe_pin");
   options.spindle = says("spindle");
   if (options.spindle) options.tools = 100'000;
   if (says("macros"))

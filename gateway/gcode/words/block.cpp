@@ -125,11 +125,29 @@ class BlockReader {
     if (c == '(') return read_comment();
     if (c == '#') return read_assignment();
     if (c == '*') return read_checksum();
+    if (c == '@' || c == '^') return read_polar(c);
     if (c == '/') return fail_here(say("/ (block delete) must be the first character of the line"));
     if (c == '%') return fail_here(say("% stands alone in its line"));
     if (static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) >= 0x7F)
       return fail_here(say("byte %1 is not G-code", static_cast<unsigned char>(c)));
     return fail_here(say("expected a letter before '%1'", c));
+  }
+
+  bool read_polar(char c) {
+    block_.polar_column = cursor_.column();
+    ++cursor_.p;
+    std::optional<double>& place = c == '@' ? block_.polar_radius : block_.polar_angle;
+    if (place) return fail(block_.polar_column, say("%1 stands twice in the line", std::string(1, c)));
+    double value = 0;
+    if (const char* after = parse_decimal(cursor_.p, cursor_.end, value)) {
+      cursor_.p = after;
+    } else if (ValueReader values(state_, cursor_, error_); !values.read_value(value)) {
+      return false;
+    }
+    if (!(std::abs(value) <= kLargestWord))
+      return fail(block_.polar_column, say("%1 is too large (10^9 at most)", std::string(1, c)));
+    place = value;
+    return true;
   }
 
   bool read_comment() {
@@ -322,6 +340,7 @@ void Block::clear() {
   present = bare = groups = 0;
   m_count = 0;
   harmless_g = -1;
+  if (!plain) polar_radius.reset(), polar_angle.reset();
   command = {};
   has_line_number = has_checksum = a_taken = deleted = percent = has_text = false;
   plain = true;

@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -35,6 +36,10 @@ struct Block {
   std::uint32_t bare = 0;     ///< letters without a number (G28 X)
   std::array<double, 26> value{};
   std::array<std::uint32_t, 26> column{};
+
+  /// @ and ^: distance from the zero point of X and Y, and angle in degrees.
+  std::optional<double> polar_radius, polar_angle;
+  std::uint32_t polar_column = 0;
 
   std::uint32_t groups = 0;  ///< bit per GGroup
   std::array<Code, kGGroups> g{};

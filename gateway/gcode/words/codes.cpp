@@ -74,8 +74,7 @@ struct Reason {
   int code;
   const char* text;
 };
-constexpr std::array<Reason, 9> kGReasons = {{
-    {301, phrase("G30.1 is not supported: use G10 L2 or parameters")},
+constexpr std::array<Reason, 7> kGReasons = {{
     {330, phrase("%1 turns with the spindle, which needs an encoder on it")},
     {331, phrase("%1 turns with the spindle, which needs an encoder on it")},
     {380, phrase("%1 needs a decimal: G38.2 to G38.5")},
@@ -84,7 +83,6 @@ constexpr std::array<Reason, 9> kGReasons = {{
                  "angle, which this machine does not have")},
     {870, phrase("G87 needs a spindle that stops at an angle, which this machine does not have")},
     {880, phrase("G88 needs an operator who moves the axes by hand: use G82 or G86")},
-    {960, phrase("constant surface speed (G96) needs a lathe")},
 }};
 constexpr std::array<Reason, 3> kMReasons = {{
     {66, phrase("M66 waits for an input, which machines of this kind do not have")},

@@ -27,6 +27,7 @@ enum class GGroup : std::uint8_t {
   kCentre,
   kTilt,
   kRetract,  ///< where canned cycles go back to
+  kSpindleMode,
   kUnknown,
   kHarmless = kUnknown + 1  ///< known elsewhere, without effect here
 };

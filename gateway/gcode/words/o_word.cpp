@@ -32,11 +32,15 @@ constexpr std::array<Keyword, 15> kKeywords = {{{"sub", OKind::kSub},
 bool is_number(char c) {
   return c >= '0' && c <= '9';
 }
-bool starts_as(std::string_view text, std::string_view word) {
-  if (text.size() < word.size()) return false;
-  for (std::size_t i = 0; i < word.size(); ++i)
-    if (in_lower_case(text[i]) != word[i]) return false;
-  return true;
+/// How much of `text` the word takes, with blanks within it as LinuxCNC has them (end sub); 0: it is another.
+std::size_t taken_by(std::string_view text, std::string_view word) {
+  std::size_t at = 0;
+  for (const char c : word) {
+    while (at < text.size() && at > 0 && (text[at] == ' ' || text[at] == '\t')) ++at;
+    if (at == text.size() || in_lower_case(text[at]) != c) return 0;
+    ++at;
+  }
+  return at;
 }
 
 class OReader {
@@ -129,11 +133,12 @@ class OReader {
     const std::size_t first = at_;
     const std::string_view text = line_.substr(at_);
     for (const Keyword& keyword : kKeywords) {
-      if (!starts_as(text, keyword.text)) continue;
-      const char after = text.size() > keyword.text.size() ? in_lower_case(text[keyword.text.size()]) : '\0';
+      const std::size_t taken = taken_by(text, keyword.text);
+      if (taken == 0) continue;
+      const char after = text.size() > taken ? in_lower_case(text[taken]) : '\0';
       if ((after >= 'a' && after <= 'z') || after == '_') continue;
       word_.kind = keyword.kind;
-      at_ += keyword.text.size();
+      at_ += taken;
       word_.rest_at = at_;
       if (word_.label.empty() && word_.kind != OKind::kCall)
         return fail(word_.label_at, say("only a call may compute its O number"));

@@ -12,6 +12,7 @@ namespace {
 constexpr int kG92Active = 5210, kG92First = 5211, kSystem = 5220, kSystemFirst = 5221, kSystemStep = 20;
 constexpr int kTool = 5400, kToolOffsetFirst = 5401, kPointFirst = 5420, kPointLast = 5428;
 constexpr int kSlots = 9;
+constexpr int kTurnSlot = 9;  // of a coordinate system: its angle
 // Parameters count axes as X Y Z A B C U V W; -1: an axis that the machine does not have.
 constexpr std::array<int, kSlots> kSlotAxis = {kAxisX, kAxisY, kAxisZ, kAxisA, -1, kAxisC, -1, -1, -1};
 
@@ -28,6 +29,8 @@ std::optional<OffsetPlace> offset_place(int index) {
     system = (index - kSystemFirst) / kSystemStep;
     slot = (index - kSystemFirst) % kSystemStep;
   }
+  if (slot == kTurnSlot && system >= 0 && system < kCoordinateSystems)
+    return OffsetPlace{system, kSystemTurn};
   if (slot < 0 || slot >= kSlots || system >= kCoordinateSystems) return std::nullopt;
   const int axis = kSlotAxis[static_cast<std::size_t>(slot)];
   if (axis < 0) return std::nullopt;
@@ -35,7 +38,7 @@ std::optional<OffsetPlace> offset_place(int index) {
 }
 
 double unit(std::size_t axis) {
-  return axis == kAxisA || axis == kAxisC ? std::numbers::pi / 180 : 1.0;
+  return axis == kAxisA || axis == kAxisC || axis == kSystemTurn ? std::numbers::pi / 180 : 1.0;
 }
 
 }  // namespace
@@ -50,7 +53,9 @@ ParameterUse parameter_use(int index) {
 double read_parameter(const State& state, int index) {
   const ModalState& m = state.modal;
   if (index == kToolOffsetFirst + 2) return m.tool_length_mm / (m.inches ? 25.4 : 1);
-  if (index >= kToolOffsetFirst && index < kPointFirst) return 0;  // the tool table has lengths alone
+  if (index == kToolOffsetFirst || index == kToolOffsetFirst + 1)
+    return m.tool_xy_mm[static_cast<std::size_t>(index - kToolOffsetFirst)] / (m.inches ? 25.4 : 1);
+  if (index >= kToolOffsetFirst && index < kPointFirst) return 0;
   if (index >= kPointFirst && index <= kPointLast) {
     const int axis = kSlotAxis[static_cast<std::size_t>(index - kPointFirst)];
     if (axis < 0) return 0;
@@ -158,10 +163,10 @@ constexpr std::array kPredefined = {
     Predefined{"_rpm", [](const ModalState& m) { return m.spindle_rpm; }},
     Predefined{"_selected_tool", [](const ModalState& m) { return static_cast<double>(m.tool); }},
     Predefined{"_speed_override", [](const ModalState&) { return 1.0; }},
-    Predefined{"_spindle_css_mode", [](const ModalState&) { return 0.0; }},
+    Predefined{"_spindle_css_mode", [](const ModalState& m) { return m.surface_speed ? 1.0 : 0.0; }},
     Predefined{"_spindle_cw", [](const ModalState& m) { return m.spindle_turns > 0 ? 1.0 : 0.0; }},
     Predefined{"_spindle_on", [](const ModalState& m) { return m.spindle_turns != 0 ? 1.0 : 0.0; }},
-    Predefined{"_spindle_rpm_mode", [](const ModalState&) { return 1.0; }},
+    Predefined{"_spindle_rpm_mode", [](const ModalState& m) { return m.surface_speed ? 0.0 : 1.0; }},
     Predefined{"_task", [](const ModalState&) { return 1.0; }},
     Predefined{"_tool_offset",
                [](const ModalState& m) { return m.tool_length_mm != 0 || m.tool_centre_point ? 1.0 : 0.0; }},

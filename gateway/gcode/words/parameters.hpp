@@ -15,9 +15,9 @@ enum class ParameterUse : std::uint8_t { kNone, kRead, kReadWrite };
 ParameterUse parameter_use(int index);
 
 /// Value of #index, which must be readable. #5211-#5219 are the G92 offsets, #5221-#5229 those of G54, and so
-/// on in steps of 20 to G59.3 (X Y Z A B C U V W: mm, degrees), #5210: G92 is active, #5220: 1 for G54 ... 9
-/// for G59.3, #5400: tool, #5403: its length, #5420-#5428: current
-/// point X Y Z A B C U V W in the units in force (mm or inches, degrees).
+/// on in steps of 20 to G59.3 (X Y Z A B C U V W: mm, degrees; behind them, #5230 ..., their angle), #5210:
+/// G92 is active, #5220: 1 for G54 ... 9 for G59.3, #5400: tool, #5401 to #5403: its offset, #5420-#5428:
+/// current point X Y Z A B C U V W in the units in force (mm or inches, degrees).
 double read_parameter(const State& state, int index);
 
 bool is_offset_parameter(int index);

@@ -20,8 +20,10 @@ namespace kinebus::gcode {
 enum Axis : std::uint8_t { kAxisX, kAxisY, kAxisZ, kAxisA, kAxisC, kAxisE };
 inline constexpr int kAxes = 6;
 inline constexpr int kCoordinateSystems = 9;  ///< G54 .. G59, G59.1 .. G59.3
-/// Work zeros of G54 .. G59.3 in the machine's coordinates: X Y Z A C; E unused.
+/// Work zeros of G54 .. G59.3 in the machine's coordinates: X Y Z A C, and at kSystemTurn the angle of G10 R.
 using WorkOffsets = std::array<Pose, kCoordinateSystems>;
+/// Where E of a pose would stand: how far a coordinate system is turned about Z, rad.
+inline constexpr std::size_t kSystemTurn = kAxisE;
 
 enum class Motion : std::uint8_t { kNone, kTraverse, kFeed, kArcClockwise, kArcCounterclockwise };
 enum class Plane : std::uint8_t { kXy, kZx, kYz };
@@ -50,9 +52,13 @@ struct ModalState {
   bool traverse_limited = false;  ///< an F stood with G0: it limits G0 (Options::traverse_uses_feed)
   bool retracted = false;         ///< G10
   bool ended = false;             ///< M2, M30 or the closing % was read
-  bool content_seen = false;      ///< a block came before: a % now is the closing one
-  int spindle_turns = 0;          ///< M3 1, M4 -1, M5 0
-  double spindle_rpm = 0;         ///< the last S
+  bool g28_stored = false, g30_stored = false;  ///< by G28.1, G30.1
+  bool content_seen = false;                    ///< a block came before: a % now is the closing one
+  int spindle_turns = 0;                        ///< M3 1, M4 -1, M5 0
+  double spindle_rpm = 0;                       ///< the last S, or what G96 has made of it
+  bool surface_speed = false;                   ///< G96
+  double surface_m_per_min = 0;                 ///< the last S under G96
+  double surface_most_rpm = 0;                  ///< D of G96; 0: the spindle's own limit
   int tool = 0;
   int tools = 1, hotends = 1;  ///< the machine has
   int coordinate_system = 0;   ///< 0: G54
@@ -86,9 +92,10 @@ struct ModalState {
   double e_max_mm = 0;       ///< the farthest that canonical E has been: behind it filament is retracted
   double real_e_max_mm = 0;  ///< while away
 
-  double path_tolerance_mm = 0;   ///< G64 P
-  double merge_tolerance_mm = 0;  ///< G64 Q
-  double tool_length_mm = 0;      ///< G43 H; 0 after G49
+  double path_tolerance_mm = 0;        ///< G64 P
+  double merge_tolerance_mm = 0;       ///< G64 Q
+  double tool_length_mm = 0;           ///< G43 H; 0 after G49
+  std::array<double, 2> tool_xy_mm{};  ///< G43 of a tool to which G10 L1, L10 or L11 gave X and Y
 
   double feed_mm_per_s = 0;   ///< the last F as a tool speed
   double feed_rad_per_s = 0;  ///< the same F for a move of only A and C
@@ -143,6 +150,14 @@ struct PrintObject {
   bool excluded = false;
 };
 
+/// A tool as G10 L1, L10 and L11 have written it.
+struct ToolEntry {
+  static constexpr std::size_t kMost = 1000;
+  int tool = 0;
+  std::array<double, 3> offset_mm{};
+  double diameter_mm = 0;
+};
+
 /// Of M70 and M73; without modes nothing is kept.
 struct SavedModes {
   std::optional<ModalState> modes;
@@ -157,7 +172,8 @@ struct State {
   /// Of all objects that were defined with their shape: X Y least and greatest, as the text writes them.
   std::optional<std::array<double, 4>> print_area{};
   ParameterState parameters;
-  SavedModes saved;  ///< of the subroutine at work
+  std::vector<ToolEntry> tools{};  ///< those that differ from the machine file's
+  SavedModes saved;                ///< of the subroutine at work
 };
 
 }  // namespace kinebus::gcode

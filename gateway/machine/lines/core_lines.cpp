@@ -76,6 +76,8 @@ Done Gateway::Core::carry_out_at_rest(const canonical::Line& line) {
   }
   if (const auto* spindle = std::get_if<canonical::Spindle>(&line.command))
     return carry_out(command::SetSpindle{spindle->rpm});
+  if (const auto* pin = std::get_if<canonical::ProbePin>(&line.command))
+    return carry_out(command::MovePin{pin_order(*pin)});
   if (const auto* message = std::get_if<canonical::Message>(&line.command))
     events_.message(now_, Sentence::verbatim(message->text), line.line);
   if (const auto* mesh = std::get_if<canonical::Mesh>(&line.command)) return level_at_rest(*mesh, line.line);

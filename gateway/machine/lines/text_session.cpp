@@ -130,6 +130,8 @@ std::string Gateway::Core::settings_text() const {
     if (offset == Pose{}) continue;
     text += print("\necho:  G10 L2 P%d X%.3f Y%.3f Z%.3f A%.4f C%.4f", static_cast<int>(system) + 1,
                   offset[kX], offset[kY], offset[kZ], offset[kA] * kDegrees, offset[kC] * kDegrees);
+    if (const double turn_rad = offset[gcode::kSystemTurn]; turn_rad != 0)
+      text += print(" R%.4f", turn_rad * kDegrees);
   }
   return text;
 }
@@ -234,6 +236,8 @@ Result<std::string, Refusal> Gateway::Core::text_line(std::string_view line) {
         return measure_heater(words.rest);
       case 906:
         return set_currents(words.rest);
+      case 956:
+        return vibration(words.word('S'));
       case 999:
         return reply(carry_out(command::Clear{}));
       default:

@@ -104,9 +104,68 @@ TEST_F(Bltouch, AnAlarmBehindTheContactStopsBeforeAnythingMovesOn) {
 TEST_F(Bltouch, AnAlarmThatComesBackStopsBeforeAnythingMoves) {
   ASSERT_EQ(breaks("probe alarm"), "");
   ASSERT_TRUE(begin("G0 X10 Z15\nG38.2 Z1 F300\nG1 X30 F600\n")) << rig.story();
-  ASSERT_TRUE(rig.run_until([&] { return told("the probe is in alarm, after a reset, too"); }, 600s))
-      << rig.story();
+  EXPECT_TRUE(told("the probe is in alarm, after a reset, too")) << "at bring-up already";
+  ASSERT_TRUE(rig.reach(MachineState::kStopped, 600s)) << rig.story();
   EXPECT_NEAR(tool()[kZ], 15, 0.01);
+}
+
+TEST_F(Bltouch, AMagnetThatHoldsNothingEndsTheJobBeforeTheNextPoint) {
+  ASSERT_TRUE(begin("G29\nG1 X30 F600\n")) << rig.story();
+  ASSERT_TRUE(rig.run_until([&] { return pin().deployed() == 2; }, 600s)) << rig.story();
+  ASSERT_EQ(breaks("probe falls"), "");
+  ASSERT_TRUE(rig.reach(MachineState::kStopped, 60s)) << rig.story();
+  EXPECT_TRUE(told("the probe's pin has not gone in")) << rig.story();
+  EXPECT_LE(pin().deployed(), 2u);
+  EXPECT_GT(tool()[kZ], kTip_mm + 1);
+}
+
+TEST_F(Bltouch, AMagnetThatHoldsNothingIsFoundBehindTheLastPointToo) {
+  ASSERT_TRUE(begin("G30\nG1 X30 F600\n")) << rig.story();
+  ASSERT_TRUE(rig.run_until([&] { return pin().deployed() == 1; }, 600s)) << rig.story();
+  ASSERT_EQ(breaks("probe falls"), "");
+  ASSERT_TRUE(rig.reach(MachineState::kStopped, 60s)) << rig.story();
+  EXPECT_TRUE(told("the probe's pin has not gone in")) << rig.story();
+  EXPECT_LT(tool()[kX], 1);
+}
+
+TEST_F(Bltouch, WordsOfAJobMoveThePinAtRest) {
+  ASSERT_TRUE(begin("G1 X10 Z30 F600\nM401\nG1 X20\nM280 P0 S90\nG1 X30\n")) << rig.story();
+  ASSERT_TRUE(rig.run_until([&] { return pin().out(); }, 600s)) << rig.story();
+  EXPECT_NEAR(tool()[kX], 10, kOnTheLine);
+  ASSERT_TRUE(rig.run_until([&] { return tool()[kX] > 19.9; }, 60s)) << rig.story();
+  EXPECT_TRUE(pin().out()) << "as long as the job leaves it out";
+  ASSERT_TRUE(rig.run_until([&] { return tool()[kX] > 20.5; }, 60s)) << rig.story();
+  EXPECT_FALSE(pin().out());
+  ASSERT_TRUE(rig.reach(MachineState::kReady, 60s)) << rig.story();
+  EXPECT_NEAR(tool()[kX], 30, kOnTheLine);
+}
+
+TEST_F(Bltouch, AWordThatThePinDoesNotFollowEndsTheJob) {
+  ASSERT_EQ(breaks("probe in"), "");
+  ASSERT_TRUE(begin("G1 X10 Z30 F600\nM401\nG1 X20\n")) << rig.story();
+  ASSERT_TRUE(rig.reach(MachineState::kStopped, 60s)) << rig.story();
+  EXPECT_TRUE(told("the probe")) << rig.story();
+  EXPECT_NEAR(tool()[kX], 10, kOnTheLine);
+}
+
+TEST_F(Bltouch, MovesByHandAndSaysWhereItIs) {
+  ASSERT_TRUE(rig.make_ready()) << rig.story();
+  ASSERT_TRUE(rig.gateway->take_line("M401", 1)) << rig.story();
+  ASSERT_TRUE(rig.run_until([&] { return told("the probe's pin is out"); }, 10s)) << rig.story();
+  EXPECT_TRUE(pin().out());
+  ASSERT_TRUE(rig.gateway->take_line("M280 P0 S90", 1));
+  ASSERT_TRUE(rig.run_until([&] { return told("the probe's pin is in"); }, 10s)) << rig.story();
+  EXPECT_FALSE(pin().out());
+  EXPECT_FALSE(rig.gateway->take_line("M280 P0 S30", 1)) << "no angle that it knows";
+  // In alarm, it says so; a reset ends it.
+  pin().alarm(false);
+  ASSERT_TRUE(rig.gateway->take_line("M280 P0 S160", 1));
+  ASSERT_TRUE(rig.run_until([&] { return rig.gateway->status().probe_pin == ContactProbe::Pin::kIn; }, 10s));
+  ASSERT_EQ(breaks("probe in"), "");
+  ASSERT_TRUE(rig.gateway->carry_out(command::MovePin{ContactProbe::PinOrder::kOut}));
+  ASSERT_TRUE(rig.run_until([&] { return told("the probe is in alarm") || told("has not come out"); }, 10s))
+      << rig.story();
+  EXPECT_EQ(rig.gateway->status().probe_pin, ContactProbe::Pin::kFailed);
 }
 
 TEST_F(Bltouch, AStopWhileItProbesDrawsThePinIn) {

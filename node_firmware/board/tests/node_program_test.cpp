@@ -7,6 +7,8 @@
 #include <algorithm>
 
 #include "node_firmware/board/tests/fake_drivers.hpp"
+#include "protocol/canopen/emcy.hpp"
+#include "protocol/motion/broadcast.hpp"
 
 namespace kinebus {
 namespace {
@@ -98,6 +100,45 @@ TEST_F(Program, TellsOfTheBusWhatTheControllerSaw) {
   program.pass();
   run(5ms);
   EXPECT_TRUE(can.told(0x8140));
+}
+
+// An axis that goes its own way, and a stop that was asked for 1.25 ms before the motors can be told.
+TEST_F(Program, AStopBeginsWhereTheMotorsAreNotWhereTheyWereWhenItCame) {
+  LocalTime now = program.read_time();
+  fake::enable(program.node(), now, 0);
+  const auto write = [&](std::uint16_t index, std::uint32_t value) {
+    can.arrive(
+        CanFrame::make(0x605, {0x23, static_cast<std::uint8_t>(index), static_cast<std::uint8_t>(index >> 8),
+                               0, static_cast<std::uint8_t>(value), static_cast<std::uint8_t>(value >> 8),
+                               static_cast<std::uint8_t>(value >> 16), 0}));
+    run(1ms);
+  };
+  write(0x607F, 400'000);
+  write(0x6081, 200'000);
+  write(0x6083, 6'400'000);
+  write(0x6084, 6'400'000);
+  write(0x6085, 6'400'000);
+  write(0x607A, 100'000);
+  can.arrive(CanFrame::make(0x605, {0x2B, 0x40, 0x60, 0, 0x1F, 0, 0, 0}));
+  run(200ms);
+  const auto commanded = [&] { return plan.current().at(0, fake::Counter::now); };
+  const double counts = 4294967296.0;
+  const double speed = static_cast<double>(commanded().velocity);
+  ASSERT_NEAR(speed / counts / 512e-6, 200'000, 2'000) << "it moves";
+  // EMCY of node 7: stop. The pass comes late.
+  const StopRequest stop{.reason = StopReason::kEmergencyStopInput,
+                         .start = BusTime{program.now() / 1us * 1us}};
+  can.arrive(encode(Emergency{.node = 7, .code = 0xFF01, .error_register = 1, .vendor = encode(stop)}));
+  fake::pass_time(1250us);
+  const MotionPlan::Point before = commanded();
+  program.pass();
+  const MotionPlan::Point after = commanded();
+  ASSERT_TRUE(program.node().path().stop_latched());
+  EXPECT_NEAR(static_cast<double>(after.position - before.position) / counts, 0, 0.05);
+  EXPECT_NEAR(static_cast<double>(after.velocity - before.velocity) / speed, 0, 0.01);
+  run(100ms);
+  EXPECT_EQ(commanded().velocity, 0);
+  EXPECT_LT(static_cast<double>(commanded().position - after.position) / counts, 3'300) << "v^2 / 2a = 3125";
 }
 
 TEST_F(Program, APowerStageThatDoesNotMeasureGetsNoPower) {

@@ -78,7 +78,7 @@ TEST_F(HeatSession, TheMasterHeatsAndNobodyElseAlsoFromCold) {
   EXPECT_NE(bench.node.heater_output(0), 0u);
 }
 
-TEST_F(HeatSession, WhileItHeatsNobodyElseWritesNorCommandsAndIsToldOnce) {
+TEST_F(HeatSession, WhileItHeatsNobodyElseWritesNorCommandsAndEachIsToldOnce) {
   heat();
   bench.forget();
   for (const CanFrame& order :
@@ -102,7 +102,7 @@ TEST_F(HeatSession, WhileItHeatsNobodyElseWritesNorCommandsAndIsToldOnce) {
   EXPECT_EQ(bench.read({0x7402, 1}), 2000u);
   EXPECT_NE(bench.node.heater_output(0), 0u);
   EXPECT_EQ(refused(), 11);
-  EXPECT_EQ(bench.emergencies(node_emcy::kNotVouched).size(), 3u) << "SDO, RPDO1, NMT";
+  EXPECT_EQ(bench.emergencies(node_emcy::kNotVouched).size(), 11u) << "6 by SDO, RPDO1, 4 by NMT";
 }
 
 TEST_F(HeatSession, RecordedOrdersAreRefusedAlsoWithTheirVouchers) {
@@ -134,6 +134,21 @@ TEST_F(HeatSession, ANewKeyWhileItHeatsIsTakenOfWhoHoldsTheOld) {
   vouched(writing({0x7402, 1}, 1900, 2));
   EXPECT_EQ(bench.read({0x7402, 1}), 1900u);
   EXPECT_EQ(refused(), 0);
+}
+
+// A gateway that stood still for a while need not be brought up again.
+TEST_F(HeatSession, AfterASilenceOfSyncTheMastersNextVoucherClosesItAndWhatWasObeyedIsTold) {
+  heat();
+  bench.run(0.5);
+  EXPECT_EQ(bench.read({0x2117, 5}), 0u);
+  EXPECT_EQ(bench.write_set_point(1, 1700), 0u);
+  bench.forget();
+  run(0.1);
+  vouched(encode(SyncStamp{.counter = 1, .epoch = 1, .time = BusTime{5}}));
+  EXPECT_EQ(bench.read({0x2117, 5}), 1u);
+  ASSERT_EQ(bench.emergencies(node_emcy::kNotVouched).size(), 1u);
+  EXPECT_EQ(bench.write_set_point(1, 1800), kDeviceState);
+  EXPECT_EQ(bench.read({0x7402, 1}), 1700u);
 }
 
 TEST_F(HeatSession, TheSilenceOfSyncAndAResetEndIt) {

@@ -64,6 +64,20 @@ TEST(PinProbe, APinThatHangsOutIsNotTakenForOneThatIsIn) {
   EXPECT_EQ(bench.after(PinCommand::kStow), PinState::kNotIn);
 }
 
+TEST(PinProbe, AMagnetThatHoldsNothingIsFoundWhenTheBedNoLongerDoes) {
+  for (const bool again : {false, true}) {
+    PinBench bench;
+    ASSERT_EQ(bench.after(PinCommand::kDeploy), PinState::kDeployed);
+    bench.plant.falls_out = true;
+    bench.plant.meet(-0.01);
+    EXPECT_EQ(bench.after(PinCommand::kStow), PinState::kStowed) << "the bed holds it in";
+    bench.plant.meet(3);
+    bench.run_for(1s);
+    EXPECT_TRUE(bench.plant.out());
+    EXPECT_EQ(bench.after(again ? PinCommand::kDeploy : PinCommand::kStow), PinState::kNotIn);
+  }
+}
+
 TEST(PinProbe, AnAlarmIsResetOnceAndThenBelieved) {
   PinBench bench;
   bench.plant.alarm(false);

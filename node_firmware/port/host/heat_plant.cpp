@@ -1,6 +1,8 @@
 #include "node_firmware/port/host/heat_plant.hpp"
 
 #include <charconv>
+#include <cmath>
+#include <numbers>
 #include <sstream>
 
 namespace kinebus::heat {
@@ -25,6 +27,14 @@ PlantParameters bed_of_250_w() {
 }
 PlantParameters chamber() {
   return {.power_w = 0, .sensor_lag_s = 5, .dead_s = 0, .ambient_c = 24};
+}
+
+/// From 0 to `most`; none: it is another, or no number.
+std::optional<double> number_in(std::string_view text, double most) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool good = error == std::errc{} && end == text.data() + text.size() && value >= 0 && value <= most;
+  return good ? std::optional(value) : std::nullopt;
 }
 
 }  // namespace
@@ -52,6 +62,12 @@ void HeatPlant::step(HeatNode& node, LocalTime now) {
   node.on_filament(1, false, filament_.take_edges());
   pin_probe_.step(node.servo_pulse());
   node.on_probe_line(now, pin_probe_.line());
+  node.set_vibration(&vibration_);
+  // Its queue would not hold what a fast one measures meanwhile.
+  for (const LocalTime at : {now - kPeriod / 2, now}) {
+    accelerometer_.step(dt / 2);
+    vibration_.on_readings(at, accelerometer_.take());
+  }
   hot_end().fan = fans_[1].speed;
   for (std::size_t i = 0; i < places_.size(); ++i) {
     ThermalPlant& place = places_[i];
@@ -82,11 +98,13 @@ std::string HeatPlant::command(std::string_view text) {
       ((what == "sensor" && break_sensor(number, how)) || (what == "heater" && break_heater(number, how)) ||
        (what == "fan" && break_fan(number, how)) || (what == "flow" && how.empty() && set_flow(which)) ||
        (what == "filament" && how.empty() && break_filament(which)) ||
-       (what == "probe" && how.empty() && break_probe(which)));
+       (what == "probe" && how.empty() && break_probe(which)) || (what == "shake" && shake(which, how)) ||
+       (what == "accelerometer" && how.empty() && break_accelerometer(which)));
   if (done) return {};
   return "\"" + std::string(text) +
          "\": expected sensor N open|short|loose|silent|frozen|ok, heater N loose|open|stuck|ok, fan N "
-         "stalled|ok, flow MM3_PER_S, filament out|jammed|slips|ok, or probe in|out|alarm|ok";
+         "stalled|ok, flow MM3_PER_S, filament out|jammed|slips|ok, probe in|out|falls|alarm|ok, shake HZ "
+         "MM_PER_S2, or accelerometer silent|ok";
 }
 
 bool HeatPlant::break_sensor(int number, std::string_view how) {
@@ -136,19 +154,34 @@ bool HeatPlant::break_filament(std::string_view how) {
 }
 
 bool HeatPlant::break_probe(std::string_view how) {
-  if (how != "in" && how != "out" && how != "alarm" && how != "ok") return false;
+  if (how != "in" && how != "out" && how != "falls" && how != "alarm" && how != "ok") return false;
   pin_probe_.mend();
   pin_probe_.stays_in = how == "in";
   pin_probe_.hangs_out = how == "out";
+  pin_probe_.falls_out = how == "falls";
   if (how == "alarm") pin_probe_.alarm(true);
   return true;
 }
 
 bool HeatPlant::set_flow(std::string_view text) {
-  double flow = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), flow);
-  if (error != std::errc{} || end != text.data() + text.size() || !(flow >= 0 && flow <= 100)) return false;
-  hot_end().flow_mm3_per_s = flow;
+  const auto flow = number_in(text, 100);
+  if (flow) hot_end().flow_mm3_per_s = *flow;
+  return flow.has_value();
+}
+
+bool HeatPlant::break_accelerometer(std::string_view how) {
+  if (how != "silent" && how != "ok") return false;
+  accelerometer_.silent = how == "silent";
+  return true;
+}
+
+bool HeatPlant::shake(std::string_view hz, std::string_view mm_per_s2) {
+  const auto frequency = number_in(hz, 1000), amplitude = number_in(mm_per_s2, 150'000);
+  if (!frequency || !amplitude) return false;
+  accelerometer_.feels = [f = *frequency, a = *amplitude](double t) {
+    const double now = a * std::sin(2 * std::numbers::pi * f * t);
+    return AccelerometerPlant::Vector{now, now, now};
+  };
   return true;
 }
 

@@ -7,6 +7,7 @@
 //   heater 2, sensor 2   bed of 250 W             fan 2   cools the print, and the hot end a little
 //             sensor 3   the chamber's air          filament sensor 1   a switch
 //                                                   filament sensor 2   a wheel, an edge every 2.93 mm
+//   an accelerometer on the tool
 
 #include <array>
 #include <cstdint>
@@ -15,6 +16,7 @@
 #include <string_view>
 
 #include "node_firmware/heat/heat_node.hpp"
+#include "node_firmware/port/host/accelerometer_plant.hpp"
 #include "node_firmware/port/host/filament_plant.hpp"
 #include "node_firmware/port/host/pin_probe_plant.hpp"
 #include "node_firmware/port/host/thermal_plant.hpp"
@@ -40,11 +42,13 @@ class HeatPlant {
   ///     fan N stalled | ok
   ///     flow MM3_PER_S
   ///     filament out | jammed | slips | ok
-  ///     probe in | out | alarm | ok
+  ///     probe in | out | falls | alarm | ok
+  ///     shake HZ MM_PER_S2
+  ///     accelerometer silent | ok
   ///
   /// Sensors are 1 to 3, the chamber's can be open, short and ok; heaters and fans 1 and 2. A stuck heater's
   /// MOSFET is always on. A probe's pin
-  /// stays in, or out. Flow is that of filament through the hot end, 0 to 100.
+  /// stays in, or out, or falls out by itself. Flow is that of filament through the hot end, 0 to 100.
   /// Empty: done. Otherwise what is wrong with the command, and what there is.
   std::string command(std::string_view text);
 
@@ -54,6 +58,7 @@ class HeatPlant {
 
   FilamentPlant& filament() { return filament_; }
   PinProbePlant& pin_probe() { return pin_probe_; }
+  AccelerometerPlant& accelerometer() { return accelerometer_; }
   ThermalPlant& hot_end() { return places_[0]; }
   ThermalPlant& bed() { return places_[1]; }
 
@@ -69,11 +74,15 @@ class HeatPlant {
   bool set_flow(std::string_view mm3_per_s);
   bool break_filament(std::string_view how);
   bool break_probe(std::string_view how);
+  bool break_accelerometer(std::string_view how);
+  bool shake(std::string_view hz, std::string_view mm_per_s2);
 
   std::array<ThermalPlant, 3> places_;
   std::array<Turning, 2> fans_;
   FilamentPlant filament_;
   PinProbePlant pin_probe_;
+  AccelerometerPlant accelerometer_;
+  VibrationMeter vibration_{38'246, AccelerometerPlant::kRange};
   std::optional<double> extruder_mm_;
 };
 

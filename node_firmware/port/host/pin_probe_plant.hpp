@@ -13,6 +13,7 @@ class PinProbePlant {
 
   // What can break, at any time.
   bool stays_in = false, hangs_out = false;
+  bool falls_out = false;  ///< its magnet holds nothing: out, unless the bed pushes it in
 
   /// One sample's time, 10 ms, under pulses of that width.
   void step(std::uint16_t pulse_us) {
@@ -26,13 +27,14 @@ class PinProbePlant {
   void meet(double gap_mm) {
     gap_mm_ = gap_mm;
     if (out_ && gap_mm <= 0) touch();
+    if (falls_out && gap_mm > 0) out_ = true;
   }
   /// Its own alarm: it blinks, the line is high, and only a reset ends it; unless it comes back.
   void alarm(bool lasting) {
     lasting_alarm_ = lasting;
     alarm_ = true;
   }
-  void mend() { stays_in = hangs_out = lasting_alarm_ = false; }
+  void mend() { stays_in = hangs_out = falls_out = lasting_alarm_ = false; }
 
   bool out() const { return out_; }
   bool alarmed() const { return alarm_; }
@@ -60,7 +62,7 @@ class PinProbePlant {
   void arrive() {
     if (wanted_ == out_) return;
     if (!wanted_) {
-      out_ = hangs_out;
+      out_ = hangs_out || (falls_out && gap_mm_ > 0);
       return;
     }
     // It feels that its pin has not come down.

@@ -48,7 +48,7 @@ void BridgedCan::find_wanted() {
 }
 
 bool BridgedCan::wanted(const Received& item) const {
-  if ((item.identifier & (Can::kExtended | Can::kRemote)) != 0) return false;
+  if ((item.identifier & Can::kExtended) != 0) return false;
   const std::uint32_t id = item.identifier >> 21;
   return (wanted_[id / 32] >> (id % 32) & 1) != 0;
 }

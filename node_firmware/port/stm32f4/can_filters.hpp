@@ -19,11 +19,11 @@ struct CanBanks {
 /// Whatever the bus carries.
 inline constexpr CanBanks kEveryFrame{.words = {}, .used = 1, .lists = 0};
 
-/// Data frames with standard identifiers alone. More than there is room for: everything is heard, and sorted
+/// Standard identifiers alone. More than there is room for: everything is heard, and sorted
 /// out later.
 constexpr CanBanks pack_filters(std::span<const CanAccept> filters) {
   // Identifier, RTR, IDE, three bits of an extended identifier.
-  constexpr std::uint32_t kKinds = 3u << 3;
+  constexpr std::uint32_t kKinds = 3u << 3, kRemote = 1u << 4;
   CanBanks banks;
   std::size_t bank = 0;
   for (const bool list : {false, true}) {
@@ -33,7 +33,7 @@ constexpr CanBanks pack_filters(std::span<const CanAccept> filters) {
       if ((accept.mask == 0x7FF) != list) continue;
       if (bank == CanBanks::kBanks) return kEveryFrame;
       auto& words = banks.words[bank];
-      const std::uint32_t id = std::uint32_t{accept.value} << 5;
+      const std::uint32_t id = std::uint32_t{accept.value} << 5 | (accept.remote ? kRemote : 0);
       const std::uint32_t word = list ? id << 16 | id : (std::uint32_t{accept.mask} << 5 | kKinds) << 16 | id;
       // What is left of a bank repeats its last one.
       if (held == 0) words = {word, word};

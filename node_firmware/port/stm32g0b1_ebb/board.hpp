@@ -72,14 +72,18 @@ inline constexpr std::array kPowerPins{PowerPin{kEnable, true}, PowerPin{kHeater
 /// 16 microsteps a full step of 256 counts: log2 of counts a step.
 inline constexpr int kStepBits = 4;
 
-// Flash of 128 KiB, one bank of 64 pages: the program from its start, then its parameters, two times 8
-// KiB, and 8 KiB that are free.
-inline constexpr std::uint32_t kFlashAddress = 0x0800'0000, kPageBytes = 2048;
-inline constexpr std::uint32_t kProgramBytes = 0x1'9000;  // 100 KiB
+// Flash of 128 KiB, one bank of 64 pages: the boot loader at its start, the program, then its parameters.
+inline constexpr std::uint32_t kFlashAddress = 0x0800'0000, kPageBytes = 2048, kFlashPages = 64;
 struct Pages {
   unsigned first = 0, count = 0;
+  constexpr std::uint32_t address() const { return kFlashAddress + first * kPageBytes; }
+  constexpr std::uint32_t bytes() const { return count * kPageBytes; }
+  constexpr unsigned end() const { return first + count; }
 };
-inline constexpr std::array<Pages, 2> kParameterPages{{{52, 4}, {56, 4}}};
-static_assert(kParameterPages[0].first * kPageBytes >= kProgramBytes);
+inline constexpr Pages kBootPages{0, 8}, kProgramPages{8, 50};
+inline constexpr std::array<Pages, 2> kParameterPages{{{58, 3}, {61, 3}}};
+static_assert(kProgramPages.first == kBootPages.end() && kParameterPages[0].first == kProgramPages.end() &&
+              kParameterPages[1].first == kParameterPages[0].end() &&
+              kParameterPages[1].end() == kFlashPages);
 
 }  // namespace kinebus::ebb

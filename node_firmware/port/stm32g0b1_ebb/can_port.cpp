@@ -32,7 +32,7 @@ void CanPort::start() {
   can.CCCR = Fdcan::kInit | Fdcan::kChange;
   can.NBTP = kBitTiming;
   can.RXGFC = Fdcan::standard_filters(kTaps * kCanFilters) | Fdcan::kRejectStandard | Fdcan::kRejectExtended |
-              Fdcan::kRejectRemote;
+              Fdcan::kRejectExtendedRemote;
   can.TXBC = Fdcan::kQueue;  // lowest identifier first; TransmitQueue has one frame of each in a buffer
   // After power-on the message RAM holds anything.
   for (Reg& filter : can_memory2().standard_filter) filter = 0;

@@ -42,4 +42,11 @@ inline std::uint32_t local_counts() {
   return tim2().CNT;
 }
 
+/// An interrupt every millisecond, for a program that has no other.
+inline void start_tick() {
+  sys_tick().LOAD = kCoreHz / 1000 - 1;
+  sys_tick().VAL = 0;
+  sys_tick().CTRL = SysTick::kEnable | SysTick::kInterrupt | SysTick::kCoreClock;
+}
+
 }  // namespace kinebus::g0b1

@@ -46,6 +46,12 @@ inline bool erase(unsigned page) {
   f.ACR = (f.ACR & ~FlashInterface::kInstructionCacheReset) | FlashInterface::kInstructionCache;
   return good;
 }
+/// From the first on; false: one of them does not take it.
+inline bool erase(const ebb::Pages& pages) {
+  bool good = true;
+  for (unsigned i = 0; i < pages.count; ++i) good = erase(pages.first + i) && good;
+  return good;
+}
 inline bool program(std::uint32_t address, std::uint32_t low, std::uint32_t high) {
   const bool good = operate(FlashInterface::kProgram, [&] {
     peripheral<Reg>(address) = low;
@@ -61,27 +67,20 @@ template <const auto& kPages>
 class ParameterFlash final : public FlashPages {
  public:
   std::span<const std::uint8_t> page(std::size_t which) const override {
-    return {&peripheral<const std::uint8_t>(address(which)), kPages[which].count * ebb::kPageBytes};
+    return {&peripheral<const std::uint8_t>(kPages[which].address()), kPages[which].bytes()};
   }
   std::size_t unit() const override { return 8; }
-  bool erase(std::size_t which) override {
-    bool good = true;
-    for (unsigned i = 0; i < kPages[which].count; ++i) good = flash::erase(kPages[which].first + i) && good;
-    return good;
-  }
+  bool erase(std::size_t which) override { return flash::erase(kPages[which]); }
   /// The lower word of a pair waits for the other one, which comes next.
   bool program(std::size_t which, std::uint32_t offset, std::uint32_t word) override {
     if (offset % 8 == 0) {
       low_ = word;
       return true;
     }
-    return flash::program(address(which) + offset - 4, low_, word);
+    return flash::program(kPages[which].address() + offset - 4, low_, word);
   }
 
  private:
-  static constexpr std::uint32_t address(std::size_t which) {
-    return ebb::kFlashAddress + kPages[which].first * ebb::kPageBytes;
-  }
   std::uint32_t low_ = 0xFFFF'FFFF;
 };
 

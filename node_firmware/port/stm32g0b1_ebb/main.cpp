@@ -73,7 +73,7 @@ int main() {
   else
     configure_pins<ebb::kBusPins>();
   if (!start_clocks()) power_off_and_reset(fault_reason::kNoClock, nullptr);
-  system_control().VTOR = ebb::kFlashAddress;
+  system_control().VTOR = ebb::kProgramPages.address();
   start_local_time();
   can_port.start();
   const auto stored = parameters.load();
@@ -100,11 +100,12 @@ int main() {
           return parameters.save(std::array{std::span<const std::uint8_t>(image)});
         },
         dog);
-    // There is no boot loader of ours to give way to: the program begins anew, under its id.
+    // Asked for by 1F51h, when the answer is on the bus. Nothing has power then (the node refuses otherwise).
     if (node.program_stop_requested() && can_port.queue().idle()) {
-      handover_ram = Handover{.node_id = node.node_id()};
+      handover_ram = Handover{.stay = Handover::kBootLoader, .node_id = node.node_id()};
       reset_processor();
     }
+    if (program->now() > kProgramProved) handover_ram.starts = 0;
     // Without its own chip there is no control interrupt: only the bus is served.
     keeper.serve(dog, program->now(), node, own_chip ? motors.ticks() : local_counts());
     if (own_chip) wait_for_interrupt();  // 64 us at most

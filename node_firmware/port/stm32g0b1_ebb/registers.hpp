@@ -126,7 +126,8 @@ struct Fdcan {
                                  kBusOffChanged = bit(19);          // IR, IE
   static constexpr std::uint32_t kErrorsToLine1 = bit(5) | bit(6);  // ILS
   static constexpr std::uint32_t kBothLines = 3;                    // ILE
-  static constexpr std::uint32_t kRejectRemote = 3, kRejectExtended = 2u << 2, kRejectStandard = 2u << 4;
+  static constexpr std::uint32_t kRejectExtendedRemote = 1, kRejectExtended = 2u << 2,
+                                 kRejectStandard = 2u << 4;
   static constexpr std::uint32_t standard_filters(unsigned n) { return n << 16; }  // RXGFC
   static constexpr std::uint32_t kQueue = bit(24);                                 // TXBC: not a FIFO
 };
@@ -185,6 +186,13 @@ struct Nvic {
 static_assert(offsetof(Nvic, ICER) == 0x80 && offsetof(Nvic, ICPR) == 0x180 && offsetof(Nvic, IPR) == 0x300);
 inline Nvic& nvic() {
   return peripheral<Nvic>(0xE000'E100);
+}
+struct SysTick {
+  Reg CTRL, LOAD, VAL;
+  static constexpr std::uint32_t kEnable = bit(0), kInterrupt = bit(1), kCoreClock = bit(2);
+};
+inline SysTick& sys_tick() {
+  return peripheral<SysTick>(0xE000'E010);
 }
 struct SystemControl {
   Reg CPUID, ICSR, VTOR, AIRCR, SCR, CCR;

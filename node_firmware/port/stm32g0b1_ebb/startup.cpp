@@ -15,6 +15,19 @@ void kinebus::stm32::record_core(FaultRecord& record) {
   record.reason = g0b1::system_control().ICSR & 0x3F;
 }
 
+// What a program has no handler for.
+extern "C" {
+[[gnu::weak, gnu::naked]] void isr_tick() {
+  asm("b isr_unexpected");
+}
+[[gnu::weak, gnu::naked]] void isr_switches() {
+  asm("b isr_unexpected");
+}
+[[gnu::weak, gnu::naked]] void isr_control() {
+  asm("b isr_unexpected");
+}
+}
+
 extern "C" {
 /// 1: a double word of flash that cannot be right, as a power cut leaves while it is written: whoever reads
 /// it has a CRC. 0: the crystal has stopped.

@@ -25,6 +25,7 @@ struct VectorTable {
     for (Handler& handler : interrupts) handler = isr_unexpected;
     core[0] = reset_handler;
     core[1] = isr_nmi;
+    core[14] = isr_tick;
     for (const Irq irq : {Irq::kExti0To1, Irq::kExti2To3, Irq::kExti4To15}) at(irq) = isr_switches;
     at(Irq::kDma1Channel1) = isr_control;
     at(Irq::kCan0) = isr_can_receive;

@@ -14,7 +14,7 @@ class WatchdogPort {
     watchdog().KR = IndependentWatchdog::kStart;
     set(3, 100);  // 32 kHz / 32 = 1 kHz
   }
-  /// Before flash is erased (4 pages of 40 ms) or written (630 double words of 125 us): 2 s.
+  /// Before flash is erased (3 pages of 40 ms) or written (630 double words of 125 us): 2 s.
   void allow_flash() { set(6, 250); }  // 125 Hz
   void back_to_normal() { set(3, 100); }
   void feed() { watchdog().KR = IndependentWatchdog::kFeed; }

@@ -26,6 +26,7 @@ struct HeatBoard {
     object_table::fans(t);
     object_table::filament_sensors(t);
     object_table::pin_probe(t);
+    object_table::accelerometer(t);
   }
 };
 

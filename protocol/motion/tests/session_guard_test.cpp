@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <span>
+#include <vector>
+
+#include "protocol/bytes.hpp"
 #include "protocol/canopen/nmt.hpp"
 #include "protocol/canopen/object_addresses.hpp"
 #include "protocol/canopen/sdo.hpp"
@@ -18,6 +23,8 @@ CanFrame rate_of(std::uint8_t counter, RateCommand::Kind kind = RateCommand::Kin
   return encode(RateCommand{.kind = kind, .counter = counter, .rate_q15 = 100, .start = BusTime{1'000'000}});
 }
 const CanFrame kStopped = nmt_frame(NmtCommand::kStop, kNode);
+const CanFrame kMode = sdo::frame_of(0x602, 0x2F, object::kModeOfOperation, 1);
+using Told = std::array<std::uint8_t, 5>;
 const CanFrame kRamp = sdo::frame_of(0x602, 0x2B, object::kStopRamp, 2);
 
 struct Bench {
@@ -106,19 +113,65 @@ TEST(SessionGuard, LostVouchersAndFalseOnesBetweenDoNotEndTheSession) {
   EXPECT_EQ(bench.alone(rate_of(2)), Answer::kObey);
 }
 
-TEST(SessionGuard, EachKindIsToldOnceInAMotion) {
+TEST(SessionGuard, EachOrderIsToldOnceInAMotion) {
   Bench bench;
   for (int i = 0; i < 3; ++i) {
     EXPECT_EQ(bench.alone(kStopped), Answer::kRefuse);
     EXPECT_EQ(bench.alone(kRamp), Answer::kRefuse);
+    EXPECT_EQ(bench.alone(kMode), Answer::kRefuse);
   }
-  EXPECT_EQ(bench.guard.next_refusal(), (std::array<std::uint8_t, 5>{0, 0x02, 0x06, 0x13, 0x21}));
-  EXPECT_EQ(bench.guard.next_refusal(), (std::array<std::uint8_t, 5>{0, 0x00, 0x00, 2, kNode}));
+  EXPECT_EQ(bench.guard.next_refusal(), (Told{0, 0x00, 0x00, 2, kNode}));
+  EXPECT_EQ(bench.guard.next_refusal(), (Told{0, 0x02, 0x06, 0x13, 0x21}));
+  EXPECT_EQ(bench.guard.next_refusal(), (Told{0, 0x02, 0x06, 0x60, 0x60}));
   EXPECT_EQ(bench.guard.next_refusal(), std::nullopt);
   EXPECT_EQ(bench.alone(kStopped, kRests), Answer::kObey);
   EXPECT_EQ(bench.alone(kStopped), Answer::kRefuse);
   EXPECT_TRUE(bench.guard.next_refusal());
-  EXPECT_EQ(bench.guard.refused(), 7u);
+  EXPECT_EQ(bench.guard.refused(), 10u);
+}
+
+// Whoever writes to many objects neither fills the bus with EMCYs nor hides another kind of order.
+TEST(SessionGuard, ManyOrdersOfAKindLeaveRoomForTheOthers) {
+  Bench bench;
+  for (std::uint16_t index = 0x6000; index < 0x6100; ++index)
+    EXPECT_EQ(bench.alone(sdo::frame_of(0x602, 0x2B, {index, 0}, 1)), Answer::kRefuse);
+  for (const CanFrame& frame : {kStopped, rate_of(1), CanFrame::make(0x202, {0, 0, 15, 0, 7, 7})})
+    EXPECT_EQ(bench.alone(frame), Answer::kRefuse);
+  std::vector<unsigned> told;
+  while (const auto refusal = bench.guard.next_refusal())
+    told.push_back(get_u16_le(std::span(*refusal).subspan(1)));
+  EXPECT_EQ(told,
+            (std::vector<unsigned>{0x602, 0x602, 0x602, 0x602, 0x602, 0x602, 0x000, kRateCobId, 0x202}));
+  EXPECT_EQ(bench.guard.refused(), 0x103u);
+}
+
+TEST(SessionGuard, AGatewayThatWasSilentIsBackWithItsNextVoucher) {
+  Bench bench;
+  const CanFrame recorded = bench.gateway.vouch_for(rate_of(1));
+  EXPECT_EQ(bench.alone(recorded), Answer::kPass);
+  EXPECT_EQ(bench.alone(rate_of(1)), Answer::kObey);
+  EXPECT_EQ(bench.vouched(rate_of(2)), Answer::kObey);
+  bench.guard.lapse();
+  EXPECT_FALSE(bench.guard.in_force());
+  EXPECT_EQ(bench.alone(encode(SyncStamp{1, 1, BusTime{5}})), Answer::kObey) << "of a new gateway, perhaps";
+  EXPECT_EQ(bench.alone(recorded), Answer::kPass);
+  EXPECT_EQ(bench.alone(rate_of(1)), Answer::kObey);
+  EXPECT_FALSE(bench.guard.in_force()) << "a recorded voucher is none";
+  EXPECT_EQ(bench.alone(kRamp), Answer::kObey);
+  EXPECT_EQ(bench.guard.next_refusal(), std::nullopt);
+  EXPECT_EQ(bench.vouched(encode(SyncStamp{2, 1, BusTime{6}})), Answer::kObey);
+  EXPECT_TRUE(bench.guard.in_force());
+  EXPECT_EQ(bench.guard.next_refusal(), (Told{0, 0x80, 0x00, 0x02, 0x06})) << "what was obeyed meanwhile";
+  EXPECT_EQ(bench.alone(kRamp), Answer::kRefuse);
+  EXPECT_EQ(bench.guard.next_refusal(), (Told{0, 0x02, 0x06, 0x13, 0x21}));
+  EXPECT_EQ(bench.guard.next_refusal(), std::nullopt);
+}
+
+TEST(SessionGuard, WithoutASessionNothingLapses) {
+  SessionGuard guard;
+  guard.lapse();
+  EXPECT_FALSE(guard.in_force());
+  EXPECT_EQ(guard.judge(kStopped, kNode, kMoves), Answer::kObey);
 }
 
 TEST(SessionGuard, TheKeyIsChangedAtRestOnly) {

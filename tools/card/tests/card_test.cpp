@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <deque>
+
 #include "node_firmware/core/node.hpp"
+#include "tools/card/card_session.hpp"
 
 namespace kinebus {
 namespace {
@@ -150,6 +154,98 @@ TEST_F(OneCard, ANodeThatIsNotThereIsNamed) {
   } catch (const CardError& error) {
     EXPECT_STREQ(error.what(), "node 9 does not answer");
   }
+}
+
+// Lines that come at their times; the session ends when nothing is left to come.
+class OneSession : public OneCard {
+ public:
+  void at(LocalTime when, const std::string& line) { lines_.emplace_back(now_ + when, line); }
+  void run(LocalTime span) {
+    const LocalTime end = now_ + span;
+    Card one = card(node_id);
+    CardSession(one, {.next = [this](LocalTime until) -> std::optional<std::string> {
+                        for (;;) {
+                          if (!lines_.empty() && now_ >= lines_.front().first) {
+                            std::string line = lines_.front().second;
+                            lines_.pop_front();
+                            return line;
+                          }
+                          if (now_ >= until) return std::nullopt;
+                          static_cast<void>(receive(now_ + 1ms));
+                        }
+                      },
+                      .ended = [this, end] { return now_ >= end; },
+                      .tell = [this](const std::string& line) { told.push_back(line); },
+                      .now = [this] { return now_; }})
+        .run();
+  }
+  int times(const std::string& words) const {
+    return static_cast<int>(std::count_if(told.begin(), told.end(), [&](const std::string& line) {
+      return line.find(words) != std::string::npos;
+    }));
+  }
+
+  std::uint8_t node_id = 5;
+  std::vector<std::string> told;
+
+ private:
+  std::deque<std::pair<LocalTime, std::string>> lines_;
+};
+
+TEST_F(OneSession, TellsTheStateTwiceASecondAndWhatBecomesOfEachLine) {
+  at(1s, "current A 1200 600");
+  at(2s, "jog A 51200 51200");
+  at(2500ms, "current B 900 300");
+  run(6s);
+  EXPECT_GE(times(R"({"state": {"name": "Kinebus two-axis node", "serial": 77, "motors": [)"), 8);
+  EXPECT_EQ(times(R"({"done": "current A"})"), 1);
+  EXPECT_GE(times(R"("run_ma": 1200, "hold_ma": 600)"), 1);
+  EXPECT_EQ(times(R"({"done": "jog A", "position_counts": 51200, "stopped": false})"), 1);
+  EXPECT_EQ(times(R"({"done": "current B"})"), 1) << "what comes while a motor moves waits";
+  EXPECT_EQ(motor(0), 51200);
+  EXPECT_GE(times(R"("drive": "operation enabled", "has_power": true)"), 1);
+}
+
+TEST_F(OneSession, StopEndsAJogByItsRampAndSoDoesTheEndOfTheOtherSide) {
+  at(1s, "jog A 5120000 51200");
+  at(2s, "stop");
+  run(5s);
+  EXPECT_EQ(times(R"("stopped": true})"), 1);
+  EXPECT_GT(motor(0), 20'000);
+  EXPECT_LT(motor(0), 120'000);
+  const double there = motor(0);
+  at(500ms, "jog A -5120000 51200");
+  run(2s);  // and nobody is there any more
+  EXPECT_LT(motor(0), there - 10'000);
+  EXPECT_GT(motor(0), there - 200'000);
+  const double here = motor(0);
+  static_cast<void>(receive(now_ + 2s));
+  EXPECT_EQ(motor(0), here);
+}
+
+TEST_F(OneSession, WhatIsWrongIsRefusedWithWhatWasExpected) {
+  const std::pair<const char*, const char*> wrong[] = {
+      {"fly A", "fly is no command; expected one of: current A|B RUN_MA HOLD_MA, on A|B"},
+      {"current A 1200", "expected: current A|B RUN_MA HOLD_MA"},
+      {"current C 1200 600", "motor C; expected A or B"},
+      {"current A 1200 6e2", "6e2 is no whole number"},
+      {"current A 5001 600", "5001 mA; expected 0 .. 5000"},
+      {"current A 500 600", "the hold current, 600 mA, would be above the run current, 500 mA"},
+      {"jog A 99999999999999999999 1", "99999999999999999999 is no whole number"},
+      {"jog A 512 0", "speed 0 counts/s; expected 1 .. "},
+  };
+  LocalTime when = 100ms;
+  for (const auto& [line, words] : wrong) at(when += 100ms, line);
+  run(3s);
+  for (const auto& [line, words] : wrong)
+    EXPECT_EQ(times(std::string(R"({"refused": ")") + words), 1) << line;
+  EXPECT_EQ(times("done"), 0);
+}
+
+TEST_F(OneSession, ANodeThatDoesNotAnswerIsToldAndTheSessionGoesOn) {
+  node_id = 6;
+  run(4s);
+  EXPECT_GE(times(R"({"silent": "node 6 does not answer"})"), 2);
 }
 
 }  // namespace

@@ -7,6 +7,13 @@
 #include "gateway/jobs/machine_setup.hpp"
 
 namespace kinebus {
+namespace {
+
+// The moves of a loop come when its last line is read, which is behind the one in motion.
+constexpr std::size_t kMovesAhead = 16;
+
+}  // namespace
+
 PathChecker::PathChecker(const MachineDescription& machine, const Kinematics& kinematics, ByteSource& source,
                          const Pose& start)
     : kinematics_(kinematics), source_(source), text_(std::size_t{64} * 1024) {
@@ -33,7 +40,7 @@ void PathChecker::take(const canonical::Line& line) {
 }
 
 void PathChecker::read_ahead(std::uint32_t line) {
-  while (!ended_ && reader_->lines() < line) {
+  while (!ended_ && (reader_->lines() < line || distance_.ahead() < kMovesAhead)) {
     if (text_at_ == text_end_) {
       text_at_ = 0;
       text_end_ = source_.read(text_);

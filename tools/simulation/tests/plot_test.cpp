@@ -50,6 +50,23 @@ TEST(Plot, ThinningKeepsPeaks) {
   EXPECT_EQ(peak, 1.25f);
 }
 
+TEST(Plot, CurvesStayRoundAndLinesStayShort) {
+  const PlotData round = spiral(7000);
+  float nearest = 30;
+  for (const PlotData::Stretch& stretch : round.path())
+    for (std::size_t i = 1; i < stretch.size(); ++i)
+      nearest = std::min(nearest, std::hypot((stretch[i - 1].mm[0] + stretch[i].mm[0]) / 2,
+                                             (stretch[i - 1].mm[1] + stretch[i].mm[1]) / 2));
+  EXPECT_GT(nearest, 29.85f);
+  PlotData straight;
+  for (int i = 0; i < 1000; ++i) {
+    const auto x = static_cast<float>(i) * 0.025f;
+    straight.add({.speed_mm_per_s = 25, .tool_mm = {x, 0, 0}, .e_mm = x});
+  }
+  ASSERT_EQ(straight.path().size(), 1u);
+  EXPECT_LE(straight.path().front().size(), 2u);
+}
+
 TEST(Plot, NamesWhatItShowsAndEscapesTheTitle) {
   const std::string svg = draw_plot(spiral(5000), default_m1(), "a<b&c.gcode", "12 lines");
   for (const char* words : {"a&lt;b&amp;c.gcode", "12 lines", "X mm", "Y mm", "Z mm", "tower1", "tower4",

@@ -44,5 +44,21 @@ TEST(CanFilters, LetThroughWhatIsWantedAndNothingElse) {
   }
 }
 
+// Of node guarding: remote frames of one identifier, and no data frames with it.
+TEST(CanFilters, LetARemoteFrameThroughWhereThatIsWanted) {
+  std::vector<CanAccept> wanted{{0x080, 0x780}, {0x000, 0x6FF}, {0x605, 0x7FF}, {0x705, 0x7FF, true}};
+  for (int more = 0; more < 4; ++more) {
+    const CanBanks banks = pack_filters(wanted);
+    for (std::uint32_t id = 0; id < 0x800; ++id) {
+      EXPECT_EQ(passes(banks, id, true, false), id == 0x705) << more << ", " << std::hex << id;
+      EXPECT_EQ(passes(banks, id, false, false),
+                std::ranges::any_of(
+                    wanted, [&](const CanAccept& a) { return !a.remote && (id & a.mask) == a.value; }))
+          << more << ", " << std::hex << id;
+    }
+    wanted.push_back({static_cast<std::uint16_t>(0x201 + more), 0x7FF});
+  }
+}
+
 }  // namespace
 }  // namespace kinebus::stm32
