@@ -56,12 +56,8 @@ TEST_F(PauseTest, AHeldJobIsSetAsideAndItsFilamentChanged) {
   enter(joblink::STATE_RUNNING, "a.gcode");
   ASSERT_NE(button("Set aside"), nullptr);
   EXPECT_FALSE(button("Set aside")->isEnabled());
-  QPushButton* cancel = button("Cancel");
-  ASSERT_NE(cancel, nullptr);
-  const QPoint place = cancel->mapTo(window.get(), QPoint());
   gateway.allow({joblink::COMMAND_RESUME, joblink::COMMAND_CANCEL, joblink::COMMAND_STEP_ASIDE});
   enter(joblink::STATE_HELD, "a.gcode");
-  EXPECT_EQ(cancel->mapTo(window.get(), QPoint()), place) << "nothing moves under the pointer";
   QPushButton* aside = button("Set aside");
   ASSERT_NE(aside, nullptr);
   aside->click();
