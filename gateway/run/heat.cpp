@@ -139,10 +139,10 @@ void Heat::feed_ahead(const FlowAhead& mm_per_s) {
 }
 
 void Heat::stand_by(double celsius) {
+  // Not what the job wants: that is kept.
   for (const HeaterDescription& heater : machine_.heaters)
-    if (heater.kind == HeaterKind::kHotend &&
-        devices_.heater({heater.kind, heater.index}).target_celsius > celsius)
-      static_cast<void>(set_temperature({heater.kind, heater.index}, celsius));
+    if (heater.kind == HeaterKind::kHotend && devices_.heater(heater.id()).target_celsius > celsius)
+      devices_.heat(heater.id(), celsius);
 }
 
 std::optional<Sentence> Heat::too_cold() const {

@@ -140,13 +140,12 @@ TEST_F(Aside, M600ParksUnloadsLoadsPurgesAndGoesOn) {
 }
 
 TEST_F(Aside, FilamentIsNotMovedColdAndNotByWhatTheFileDoesNotSay) {
+  rig.machine.pause.load_mm = 0;
+  rig.gateway = std::make_unique<Gateway>(rig.machine);
   ASSERT_TRUE(rig.make_ready());
   const auto cold = rig.gateway->carry_out(command::MoveFilament{});
   ASSERT_FALSE(cold);
   EXPECT_NE(cold.error().words.english().find("too cold"), std::string::npos);
-  rig.machine.pause.load_mm = 0;
-  rig.gateway = std::make_unique<Gateway>(rig.machine);
-  ASSERT_TRUE(rig.make_ready());
   ASSERT_TRUE(rig.gateway->carry_out(command::SetTemperature{kFirstHotend, 200}));
   ASSERT_TRUE(rig.run_until([&] { return hotend() > 195; }, 600s));
   const auto none = rig.gateway->carry_out(command::MoveFilament{command::MoveFilament::What::kLoad});
@@ -173,7 +172,7 @@ TEST_F(Aside, AHotEndThatWaitsStandsByAndIsHotAgainBeforeTheJobGoesOn) {
   rig.run_for(40s);
   EXPECT_EQ(rig.gateway->status().heater(kFirstHotend).target_celsius, 120);
   ASSERT_TRUE(goes_on_to_the_end(x_mm));
-  EXPECT_GT(hotend(), 190);
+  EXPECT_NEAR(hotend(), 180, 5) << "what the operator has set in the pause is the job's from there on";
 }
 
 TEST_F(Aside, AFaultOnTheWayAsideHoldsTheJobAsEver) {
