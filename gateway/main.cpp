@@ -4,7 +4,9 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <csignal>
+#include <cstring>
 #include <memory>
 
 #include "gateway/io/log_queue.hpp"
@@ -33,12 +35,21 @@ int run(int argc, char** argv) {
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
   std::signal(SIGPIPE, SIG_IGN);
+  bool anew = false;
   try {
     kinebus::make_machine_file(arguments);
     kinebus::Service service(arguments);
     service.run(&quit);
+    anew = service.begins_anew() && quit == 0;
   } catch (const std::exception& error) {
     spdlog::critical("{}", error.what());
+    return 1;
+  }
+  if (anew) {
+    spdlog::info("begins anew, as a client has asked");
+    // The same process to whoever watches it; nodes hold the machine meanwhile.
+    ::execv("/proc/self/exe", argv);
+    spdlog::critical("cannot begin anew: {}", std::strerror(errno));
     return 1;
   }
   spdlog::info("ended at rest");

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
+#include <functional>
 #include <random>
 #include <span>
 #include <stdexcept>
@@ -131,12 +132,14 @@ Gateway::Options gateway_options(const journal::State& noted) {
           .journal = true};
 }
 
-JobLinkServer::Options server_options(const std::string& jobs_folder, MachineFileStore& machine_file) {
+JobLinkServer::Options server_options(const std::string& jobs_folder, MachineFileStore& machine_file,
+                                      std::function<void()> restart) {
   return {.version = KINEBUS_VERSION,
           .gateway_id = gateway_id(jobs_folder),
           .secret = random_bytes(32),
           .machine_mark = machine_mark(machine_file),
-          .unix_s_at_zero = unix_s_at_zero()};
+          .unix_s_at_zero = unix_s_at_zero(),
+          .restart = std::move(restart)};
 }
 
 }  // namespace
@@ -161,7 +164,7 @@ Service::Service(const Arguments& arguments)
       machine_file_(arguments.machine, write_machine(machine_)),
       worker_(loop_),
       server_(gateway_, machine_, *store_, worker_, machine_file_, control_,
-              server_options(jobs_folder_, machine_file_)),
+              server_options(jobs_folder_, machine_file_, [this] { begins_anew_ = true; })),
       hub_(loop_),
       host_(loop_, hub_, server_),
       http_host_(loop_, hub_),
@@ -184,6 +187,11 @@ Service::Service(const Arguments& arguments)
 
 /// A daemon that is started twice by mistake must not open, read or write anything of the first one's.
 void Service::lock() {
+  // The usual place is there for everybody; one that was named by hand may be a slip.
+  if (arguments_.socket.empty()) {
+    std::error_code cannot;
+    std::filesystem::create_directories(std::filesystem::path(socket_).parent_path(), cannot);
+  }
   for (const std::string& taken :
        {lock_.take_file(socket_), lock_.take_folder(jobs_folder_), lock_.take_file(journal_path_)})
     if (!taken.empty()) throw std::runtime_error(taken);
@@ -249,7 +257,7 @@ void Service::run(const volatile std::sig_atomic_t* quit) {
   if (!arguments_.no_realtime)
     if (const std::string missing = become_realtime(arguments_.realtime_priority); !missing.empty())
       spdlog::warn("running without {}: expect more jitter", missing);
-  daemon.run(quit);
+  daemon.run(quit, begins_anew_);
 }
 
 }  // namespace kinebus

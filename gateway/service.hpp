@@ -36,6 +36,8 @@ class Service {
   explicit Service(const Arguments& arguments);
   /// Until *quit, then until the machine rests.
   void run(const volatile std::sig_atomic_t* quit);
+  /// A client wants it to begin anew, with the machine file as it is now.
+  bool begins_anew() const { return begins_anew_; }
 
  private:
   void lock();
@@ -44,6 +46,7 @@ class Service {
   void listen_http(const std::string& credentials);
 
   const Arguments& arguments_;
+  bool begins_anew_ = false;
   MachineDescription machine_;
   std::string bus_name_, jobs_folder_, socket_;
   std::filesystem::path journal_path_;

@@ -201,6 +201,20 @@ struct ResumeDescription {
   friend bool operator==(const ResumeDescription&, const ResumeDescription&) = default;
 };
 
+/// A job that is set aside in its middle: by its operator, for a change of filament (M600), or because
+/// nobody has gone on with it for long.
+struct PauseDescription {
+  double lift_mm = 10;                  ///< up from the part
+  bool park = false;                    ///< and then over to:
+  double park_x_mm = 0, park_y_mm = 0;  ///< machine coordinates
+  double standby_c = 0;                 ///< a hot end that waits; 0: stays as hot as it is
+  std::chrono::seconds standby_after{300};
+  double unload_mm = 0, load_mm = 0;  ///< filament between the hot end and the hand that changes it
+  double purge_mm = 20;
+  double unload_mm_per_s = 20, load_mm_per_s = 5, purge_mm_per_s = 2.5;
+  friend bool operator==(const PauseDescription&, const PauseDescription&) = default;
+};
+
 /// Whose orders nodes obey (protocol/README.md, "Trust on the bus").
 enum class BusTrust : std::uint8_t {
   kOpen,     ///< everybody's: any CANopen master may speak beside the gateway
@@ -307,6 +321,7 @@ struct MachineDescription {
   PathTolerances tolerances;
   StopDescription stop;
   ResumeDescription resume;
+  PauseDescription pause;
   BusDescription bus;
   HomingRun homing;
   ThermalDescription thermal;

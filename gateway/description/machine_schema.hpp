@@ -220,6 +220,20 @@ void visit_path(V& v, MachineDescription& d) {
     v.number("approach_mm_per_s", d.resume.approach_mm_per_s, {0.1, 1000}, Need::kOptional);
     v.number("prime_mm", d.resume.prime_mm, {0, 100}, Need::kOptional);
   });
+  v.table_unless_default("pause", d.pause, [&](PauseDescription& p) {
+    v.number("lift_mm", p.lift_mm, {0, 500}, Need::kOptional);
+    v.flag("park", p.park, Need::kOptional);
+    v.number("park_x_mm", p.park_x_mm, {-2000, 2000}, Need::kOptional);
+    v.number("park_y_mm", p.park_y_mm, {-2000, 2000}, Need::kOptional);
+    v.number("standby_c", p.standby_c, {0, 300}, Need::kOptional);
+    v.duration("standby_after_s", p.standby_after, 10, 86'400, Need::kOptional);
+    v.number("unload_mm", p.unload_mm, {0, 2000}, Need::kOptional);
+    v.number("load_mm", p.load_mm, {0, 2000}, Need::kOptional);
+    v.number("purge_mm", p.purge_mm, {0, 500}, Need::kOptional);
+    v.number("unload_mm_per_s", p.unload_mm_per_s, {0.1, 200}, Need::kOptional);
+    v.number("load_mm_per_s", p.load_mm_per_s, {0.1, 200}, Need::kOptional);
+    v.number("purge_mm_per_s", p.purge_mm_per_s, {0.1, 50}, Need::kOptional);
+  });
 }
 
 template <class V>

@@ -123,9 +123,10 @@ struct Home {             ///< G28
                       ///< unchanged)
   Frame frame{};
 };
-struct Pause {
+struct Pause {  ///< M0 / M1
   bool optional = false;
-};  ///< M0 / M1
+  bool filament_change = false;  ///< M600
+};
 struct MotorsOff {
   std::uint8_t axes = 0;
 };                   ///< M18 / M84: bit per axis in the order of Pose; 0: all

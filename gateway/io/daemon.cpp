@@ -83,7 +83,8 @@ LocalTime Daemon::next_deadline() const {
   return next;
 }
 
-void Daemon::run(const volatile std::sig_atomic_t* quit) {
+void Daemon::run(const volatile std::sig_atomic_t* quit, bool& anew) {
+  bool leaves = false;  // its last turn: answers go out
   LocalTime next_watchdog{0};
   LocalTime quit_at = LocalTime::max();
   for (;;) {
@@ -93,6 +94,10 @@ void Daemon::run(const volatile std::sig_atomic_t* quit) {
     report_events();
     const LocalTime now = loop_.now();
     for (DaemonPart* part : parts_) part->on_time(now);
+    // The first command that comes in between counts for more.
+    if (anew && !at_rest(gateway_.state())) anew = leaves = false;
+    if (leaves) return;
+    leaves = anew;
     if (now >= next_watchdog) {
       manager_.tell("WATCHDOG=1");
       next_watchdog = now + kWatchdogPeriod;
@@ -106,8 +111,9 @@ void Daemon::run(const volatile std::sig_atomic_t* quit) {
           static_cast<void>(gateway_.carry_out(command::Stop{}));
     }
     if (*quit != 0 && (may_leave(gateway_.state()) || now >= quit_at)) return;
-    const LocalTime until =
-        std::min({next_deadline(), next_watchdog, quit_at, *quit != 0 ? now + BusTime{1'000'000} : quit_at});
+    const LocalTime until = leaves ? now
+                                   : std::min({next_deadline(), next_watchdog, quit_at,
+                                               *quit != 0 ? now + BusTime{1'000'000} : quit_at});
     stalls_.sleeps(loop_.now(), until);
     loop_.wait(until);
   }

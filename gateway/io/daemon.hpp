@@ -22,7 +22,8 @@ class Daemon {
 
   /// Runs until `*quit` is not 0 (set by a signal handler) and the machine has come to rest, at most 2 s
   /// later.
-  void run(const volatile std::sig_atomic_t* quit);
+  /// Or until `anew` is set and the machine rests; in motion `anew` is taken back.
+  void run(const volatile std::sig_atomic_t* quit, bool& anew);
 
  private:
   void exchange_frames();

@@ -52,6 +52,8 @@ constexpr std::array<Row, kCommandKinds> kTable{{
     // Not in a job, which says itself where it needs it.
     {command::kind<command::MovePin>, phrase("move the probe's pin"),
      in(S::kUnhomed, S::kReady, S::kStopped, S::kAlarm)},
+    {command::kind<command::StepAside>, phrase("set the job aside"), in(S::kHeld)},
+    {command::kind<command::MoveFilament>, phrase("move the filament"), in(S::kReady)},
 }};
 
 constexpr bool table_is_in_order() {

@@ -109,6 +109,13 @@ struct JogMotor {
 struct ExcludeObject {
   std::string name;  ///< in any case, or M486's number
 };
+/// The job that is held is interrupted at its place: the tool rises and parks, and the machine is the
+/// operator's, to jog, to extrude, to heat, until Resume brings it back.
+struct StepAside {};
+/// As far and as fast as [pause] of the machine file says.
+struct MoveFilament {
+  enum class What : std::uint8_t { kUnload, kLoad, kPurge } what = What::kUnload;
+};
 
 }  // namespace command
 
@@ -118,7 +125,7 @@ using Command =
                  command::Clear, command::SetFeedOverride, command::MotorsOff, command::SetTemperature,
                  command::SetFan, command::SetOutput, command::SetSpindle, command::SetWorkOffset,
                  command::SetMotorCurrents, command::TuneMotor, command::JogMotor, command::TuneHeater,
-                 command::ExcludeObject, command::MovePin>;
+                 command::ExcludeObject, command::MovePin, command::StepAside, command::MoveFilament>;
 
 /// A kind of command: its place in Command.
 using CommandKind = std::size_t;

@@ -236,6 +236,7 @@ void Gateway::Core::on_time(BusTime now) {
   watch_devices();
   watch_filament();
   watch_idle_heat();
+  watch_standby();
   tell_of_tuning();
   tell_of_pin();
   serve_probe();

@@ -6,6 +6,7 @@
 //   core_commands.cpp  one handler a command       core_lines.cpp      lines of print hosts and the console
 //   core_recovery.cpp  interrupted jobs            core_heat_hold.cpp  a heater's fault in a job, no filament
 //   core_heat_tuning.cpp  a heater that is measured
+//   core_aside.cpp        a job that is set aside: parked, filament changed, standby
 //   core_probe.cpp     probing
 //   core_status.cpp    the snapshot
 
@@ -123,7 +124,8 @@ class Gateway::Core {
   Done on(command::SetFeedOverride& asked);
   Done on(command::MotorsOff& asked);
   Done on(command::SetTemperature& asked) {
-    heat_idle_since_ = now_;
+    heat_idle_since_ = waits_since_ = now_;
+    stands_by_ = false;
     return heat_.set_temperature(asked.heater, asked.celsius);
   }
   Done on(command::SetFan& asked) { return heat_.set_fan(asked.index, asked.ratio); }
@@ -136,6 +138,8 @@ class Gateway::Core {
   Done on(command::TuneHeater& asked);
   Done on(command::ExcludeObject& asked);
   Done on(command::MovePin& asked);
+  Done on(command::StepAside& asked);
+  Done on(command::MoveFilament& asked);
 
   void enter(MachineState state) { state_.enter(now_, state); }
   void begin_bring_up();
@@ -193,6 +197,12 @@ class Gateway::Core {
   void begin_lift();
   void finish_lift();
   void step_mending();
+
+  // A job that is set aside (core_aside.cpp).
+  Done step_aside(HeatHold::Aside why);
+  void add_parking(const Pose& from, std::vector<canonical::Line>& moves);
+  void finish_aside();
+  void watch_standby();
 
   // Probing (core_probe.cpp).
   void serve_probe();
@@ -274,6 +284,9 @@ class Gateway::Core {
   bool fault_ = false;      ///< the stop under way ends in an alarm
   bool beds_stay_ = false;  ///< that alarm is of a device: a bed that is in order keeps the part on it
   BusTime heat_idle_since_{0}, next_flow_{0};
+  BusTime waits_since_{0};         ///< the job that is held or set aside
+  bool stands_by_ = false;         ///< its hot ends are at pause.standby_c
+  bool standby_due_ = false;       ///< as soon as it is set aside
   std::optional<HeaterId> tuned_;  ///< whose measurement is told of
   TuningStage tuning_told_ = TuningStage::kNone;
   MachineState held_from_ = MachineState::kRunning;  ///< what resume goes back to

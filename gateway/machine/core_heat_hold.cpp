@@ -110,16 +110,21 @@ void Gateway::Core::begin_lift() {
   const auto from = machine_pose();
   std::optional<Sentence> kept_from;
   std::optional<canonical::Command> up;
-  if (on_part && from && machine_.thermal.lift_mm > 0)
-    up = hand_.lift(*from, (*on_part)[kZ] + machine_.thermal.lift_mm, kept_from);
+  const bool aside = heat_hold_.aside() != HeatHold::Aside::kNo;
+  const double lift_mm = aside ? machine_.pause.lift_mm : machine_.thermal.lift_mm;
+  if (on_part && from && lift_mm > 0) up = hand_.lift(*from, (*on_part)[kZ] + lift_mm, kept_from);
   if (kept_from) events_.message(now_, say("the tool is not lifted as far as it should be: %1", *kept_from));
-  if (!up) return finish_lift();
+  std::vector<canonical::Line> moves;
+  if (up) moves.push_back({0, std::move(*up)});
+  if (aside && from) add_parking(*from, moves);
+  if (moves.empty()) return finish_lift();
   heat_hold_.lifts();
   runner_ = &hand_.runner();
-  hand_.start({{0, std::move(*up)}}, *from, 1, ManualMotion::Then::kHeld);
+  hand_.start(std::move(moves), *from, 1, ManualMotion::Then::kHeld);
 }
 
 void Gateway::Core::finish_lift() {
+  if (heat_hold_.aside() != HeatHold::Aside::kNo) return finish_aside();
   runner_ = &print_.runner();
   heat_hold_.holds();
   heat_.stop_spindle();

@@ -129,7 +129,11 @@ void Gateway::Core::step_running() {
     case Runner::Outcome::kPaused:
       held_from_ = state_.now();
       enter(MachineState::kHolding);
-      return enter(MachineState::kHeld);
+      enter(MachineState::kHeld);
+      // Lines of a host are the host's to go on with.
+      if (runner_->changes_filament() && !runner_->live())
+        static_cast<void>(step_aside(HeatHold::Aside::kForFilament));
+      return;
     case Runner::Outcome::kDone:
       return finish_motion();
     case Runner::Outcome::kEmergencyStop:

@@ -50,6 +50,7 @@ MachineStatus Gateway::Core::status() const {
   s.feed_override = override_;
   s.job = print_.name();
   s.interrupted = interrupted() && s.state != MachineState::kRunning;
+  s.filament_change = print_.runner().changes_filament();
   report_progress(s);
   report_objects(s);
   s.work_system = static_cast<std::uint32_t>(lines_.work_system());

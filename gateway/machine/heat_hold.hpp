@@ -1,6 +1,6 @@
 #pragma once
 // A job that a heater's fault holds, or filament that does not come: how far that is, why, and when it is
-// mended.
+// mended. And one that is set aside, which is lifted the same way and then interrupted.
 
 #include <cstdint>
 #include <optional>
@@ -25,11 +25,19 @@ class HeatHold {
   Stage stage() const { return stage_; }
   bool is(Stage stage) const { return stage_ == stage; }
   void begin() { stage_ = Stage::kStops; }
+  enum class Aside : std::uint8_t { kNo, kByCommand, kForFilament };
+  /// Nothing is wrong: the machine is the operator's when the tool is off the part.
+  void begin_aside(Aside why) {
+    begin();
+    aside_ = why;
+  }
+  Aside aside() const { return aside_; }
   void lifts() { stage_ = Stage::kLifts; }
   void holds() { stage_ = Stage::kHolds; }
   /// Something else has stopped the machine; the reason stays.
   void abort() {
     stage_ = Stage::kNone;
+    aside_ = Aside::kNo;
     put_off_.reset();
   }
   /// The tool is on its way to a contact, which is a rest of its own: held from there.
@@ -38,7 +46,10 @@ class HeatHold {
 
   /// Of the job; empty: none.
   const Sentence& why() const { return why_; }
-  void note(const DeviceFault& fault) { why_ = say("%1: %2", fault.device, fault.words); }
+  void note(const DeviceFault& fault) {
+    why_ = say("%1: %2", fault.device, fault.words);
+    aside_ = Aside::kNo;
+  }
   /// The job goes on, or is no more.
   void forget() {
     abort();
@@ -62,6 +73,7 @@ class HeatHold {
   static constexpr BusTime kPatience = std::chrono::milliseconds{3500};
 
   Stage stage_ = Stage::kNone;
+  Aside aside_ = Aside::kNo;
   Sentence why_;
   std::optional<DeviceFault> put_off_;
   BusTime asked_{0}, faulty_{0};

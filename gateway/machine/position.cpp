@@ -80,6 +80,16 @@ void Position::report(MachineStatus& s, const JointVector& joints, const std::de
       node.off_course[axis] = s.off_course[joint] = (*counts)[axis] / scaling.slope();
     }
   }
+  JointVector measured = joints;
+  bool by_encoders = false;
+  for (std::size_t joint = 0; joint < machine_.joints.size(); ++joint) {
+    if (!s.off_course[joint]) continue;
+    by_encoders = true;
+    measured[joint] -= *s.off_course[joint];
+  }
+  if (!by_encoders || !homed_) return;
+  Pose pose = s.pose;
+  if (kinematics_.forward(Frame::kPart, measured, pose)) s.measured_pose = pose;
 }
 
 }  // namespace kinebus

@@ -138,6 +138,13 @@ void Heat::feed_ahead(const FlowAhead& mm_per_s) {
   devices_.feed_ahead(kFirstHotend, watts);
 }
 
+void Heat::stand_by(double celsius) {
+  // Not what the job wants: that is kept.
+  for (const HeaterDescription& heater : machine_.heaters)
+    if (heater.kind == HeaterKind::kHotend && devices_.heater(heater.id()).target_celsius > celsius)
+      devices_.heat(heater.id(), celsius);
+}
+
 std::optional<Sentence> Heat::too_cold() const {
   const double celsius = devices_.heater(kFirstHotend).actual_celsius;
   if (machine_.heater(kFirstHotend) == nullptr || celsius >= machine_.thermal.min_extrude_c)

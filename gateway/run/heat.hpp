@@ -59,6 +59,8 @@ class Heat {
   bool spindle_at_speed() const { return devices_.spindle().at_speed(); }
   /// Of the first hot end, deg C; none: off.
   std::optional<double> hotend_target() const;
+  /// Hot ends that are hotter are to be at `celsius`.
+  void stand_by(double celsius);
   /// Why no filament may be fed now; none: it may.
   std::optional<Sentence> too_cold() const;
   void report(MachineStatus& status) const;

@@ -92,6 +92,8 @@ class Runner {
   /// What the job has left from path time `tau` on is kept; nothing happens until go_on().
   void suspend(PathTime tau);
   bool suspended() const { return suspended_; }
+  /// The pause that it waits in is for a change of filament.
+  bool changes_filament() const { return active_ && wait_ == Wait::kPause && filament_change_; }
   /// From rest, with the tool at rest_pose().
   void go_on(BusTime now);
   /// Where the tool has to stand for go_on(), and the line of the job there.
@@ -225,6 +227,7 @@ class Runner {
   bool barrier_waits_ = false;  ///< the pipeline's command is to be carried out first
   std::uint64_t waits_done_ = 0, waits_replayed_ = 0;
   bool stop_asked_ = false;
+  bool filament_change_ = false;  ///< the last pause was for one
   Wait wait_ = Wait::kNone;
   std::deque<Event> events_;
   HeatWait heating_;

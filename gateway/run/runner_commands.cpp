@@ -140,8 +140,9 @@ Runner::Outcome Runner::barrier(BusTime now) {
     move_pin(*pin);
   } else if (const auto* mesh = std::get_if<canonical::Mesh>(&line.command)) {
     return level(now, canonical::Mesh(*mesh), line.line);
-  } else if (std::holds_alternative<canonical::Pause>(line.command)) {
+  } else if (const auto* pause = std::get_if<canonical::Pause>(&line.command)) {
     wait_ = Wait::kPause;
+    filament_change_ = pause->filament_change;
     doing_ = say("paused by the job");
     events_out_.message(now, say("the job pauses here: resume to go on"), line.line);
   } else if (std::holds_alternative<canonical::MotorsOff>(line.command)) {

@@ -52,6 +52,15 @@ const Row kTable[] = {
      [](const ClientMessage& m) -> Command {
        return command::MovePin{order_of(m.move_probe_pin().order())};
      }},
+    {joblink::COMMAND_MOVE_FILAMENT, command::kind<command::MoveFilament>,
+     [](const ClientMessage& m) -> Command {
+       using What = command::MoveFilament::What;
+       const auto what = m.move_filament().what();
+       return command::MoveFilament{what == joblink::MoveFilament::LOAD    ? What::kLoad
+                                    : what == joblink::MoveFilament::PURGE ? What::kPurge
+                                                                           : What::kUnload};
+     }},
+    plain<command::StepAside>(joblink::COMMAND_STEP_ASIDE),
     {joblink::COMMAND_EXCLUDE_OBJECT, command::kind<command::ExcludeObject>,
      [](const ClientMessage& m) -> Command { return command::ExcludeObject{m.exclude_object().name()}; }},
     {joblink::COMMAND_START_JOB, command::kind<command::Run>, nullptr},

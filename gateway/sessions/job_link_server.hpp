@@ -9,6 +9,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -63,6 +64,8 @@ class JobLinkServer {
     LocalTime hello_within = std::chrono::seconds{
         10};  ///< of the stream's begin, or of the last client's end; and a visit's length
     Places places{};
+    /// The daemon is to begin anew; empty: it cannot.
+    std::function<void()> restart{};
   };
 
   /// All of them must outlive the server and its sessions. `store` is touched by `worker` alone.

@@ -85,6 +85,9 @@ bool JobRequests::take(const Asker& asker, const ClientMessage& message) {
     case ClientMessage::kCheckMachineFile:
       check_machine_file(asker, message.check_machine_file().text());
       return true;
+    case ClientMessage::kRestartGateway:
+      restart(asker);
+      return true;
     case ClientMessage::kWriteMachineFile:
       write_machine_file(asker, message.write_machine_file());
       return true;
@@ -343,6 +346,34 @@ void JobRequests::write_machine_file(const Asker& asker, const joblink::WriteMac
         if (written.errors.problems_size() > 0)
           *reply.mutable_error() = reply.machine_file_check().problems(0);
         server.answer(asker, std::move(reply));
+      });
+}
+
+void JobRequests::restart(const Asker& asker) {
+  if (!server_.control_.may_command(requester_.client())) return server_.refuse(asker, server_.no_control());
+  if (!server_.options_.restart)
+    return server_.refuse(
+        asker, problem(joblink::ERROR_OTHER, {}, say("this gateway cannot be started anew from here")));
+  // A file that is wrong would leave no gateway at all.
+  server_.worker_.ask(
+      [&file = server_.machine_file_] {
+        const auto text = file.read();
+        joblink::MachineFileCheck errors;
+        if (!text) return errors;
+        if (const auto parsed = parse_machine(text->text, "machine file"); !parsed)
+          errors = to_message(parsed.error());
+        return errors;
+      },
+      [&server = server_, asker](const joblink::MachineFileCheck& errors) {
+        if (errors.problems_size() > 0) return server.refuse(asker, errors.problems(0));
+        const MachineStatus now = server.gateway_.status();
+        if (!at_rest(now.state) || !now.job.empty())
+          return server.refuse(
+              asker, problem(joblink::ERROR_MACHINE_STATE, {},
+                             say("the gateway starts anew when the machine rests and no job is under way or "
+                                 "interrupted")));
+        server.answer(asker, {});
+        server.options_.restart();
       });
 }
 

@@ -35,6 +35,7 @@ class JobRequests {
   void read_machine_file(const Asker& asker);
   void check_machine_file(const Asker& asker, const std::string& text);
   void write_machine_file(const Asker& asker, const joblink::WriteMachineFile& request);
+  void restart(const Asker& asker);
 
   JobLinkServer& server_;
   Requester& requester_;

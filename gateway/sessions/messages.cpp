@@ -240,12 +240,14 @@ joblink::Status to_message(const MachineStatus& s) {
   m.set_positions_known(s.positions_known);
   set_pose(*m.mutable_tool(), s.pose);
   set_pose(*m.mutable_machine(), s.machine_pose);
+  if (s.measured_pose) set_pose(*m.mutable_measured_tool(), *s.measured_pose);
   for (int i = 0; i < s.joint_count; ++i) m.add_joints(s.joints[static_cast<std::size_t>(i)]);
   m.set_path_time_s(s.path_time_s);
   m.set_rate(s.rate);
   m.set_feed_override(s.feed_override);
   m.set_job(shown(s.job));
   m.set_interrupted(s.interrupted);
+  m.set_filament_change(s.filament_change);
   m.set_line(s.line);
   m.set_progress(s.progress);
   m.set_elapsed_s(s.elapsed_s);
@@ -371,6 +373,12 @@ joblink::MachineInfo to_message(const MachineDescription& machine, const Pose& b
     told.set_hotend_celsius(material.hotend_c);
     told.set_bed_celsius(material.bed_c);
     told.set_chamber_celsius(material.chamber_c);
+  }
+  if (machine.heater(kFirstHotend) != nullptr) {
+    joblink::FilamentWays& ways = *m.mutable_filament_ways();
+    ways.set_unload_mm(machine.pause.unload_mm);
+    ways.set_load_mm(machine.pause.load_mm);
+    ways.set_purge_mm(machine.pause.purge_mm);
   }
   m.set_filament_diameter_mm(machine.gcode.filament_diameter_mm);
   m.set_bus(shown(machine.bus.interface));

@@ -64,9 +64,10 @@ struct MachineStatus {
   Sentence doing;  ///< plain words: what the machine does now
   BusTime now{0};
   bool positions_known = false;
-  Pose pose{};           ///< tool relative to the part (Frame::kPart), mm and rad
-  Pose machine_pose{};   ///< Frame::kMachine
-  JointVector joints{};  ///< mm or rad
+  Pose pose{};                        ///< tool relative to the part (Frame::kPart), mm and rad
+  Pose machine_pose{};                ///< Frame::kMachine
+  std::optional<Pose> measured_pose;  ///< as `pose`, by the axes' encoders; empty: none is there
+  JointVector joints{};               ///< mm or rad
   /// Commanded less measured by the joint's encoder, mm or rad; empty without one.
   std::array<std::optional<double>, kMaxJoints> off_course{};
   int joint_count = 0;
@@ -74,10 +75,11 @@ struct MachineStatus {
   double rate = 0;         ///< d tau / dt now
   double feed_override = 1;
 
-  std::string job;           ///< name; empty: none
-  bool interrupted = false;  ///< `job` waits for resume or cancel, wherever the machine is
-  std::uint32_t line = 0;    ///< in motion now
-  double progress = 0;       ///< 0..1, by path time
+  std::string job;               ///< name; empty: none
+  bool interrupted = false;      ///< `job` waits for resume or cancel, wherever the machine is
+  bool filament_change = false;  ///< the job waits for one
+  std::uint32_t line = 0;        ///< in motion now
+  double progress = 0;           ///< 0..1, by path time
   double elapsed_s = 0;
   std::vector<ObjectStatus> objects;  ///< of the job, in its order
   double remaining_s = 0;             ///< estimate at the present override

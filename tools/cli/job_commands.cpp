@@ -5,6 +5,8 @@
 
 #include <ctime>
 #include <fstream>
+#include <map>
+#include <memory>
 #include <sstream>
 #include <string>
 
@@ -123,6 +125,43 @@ void add_exclude(CLI::App& app, const Options& options) {
     take_control(client, *options);
     ClientMessage request;
     request.mutable_exclude_object()->set_name(*name);
+    client.ask(std::move(request));
+  });
+}
+
+void add_aside(CLI::App& app, const Options& options) {
+  app.add_subcommand(
+         "aside",
+         "Set the job that is held aside: the tool rises and parks, and the machine may be jogged, "
+         "heated and its filament changed; resume goes on")
+      ->callback([=] {
+        Client client(options->reach);
+        take_control(client, *options);
+        ClientMessage request;
+        request.mutable_step_aside();
+        client.ask(std::move(request));
+      });
+  app.add_subcommand("restart", "The gateway begins anew, with the machine file as it is now")->callback([=] {
+    Client client(options->reach);
+    take_control(client, *options);
+    ClientMessage request;
+    request.mutable_restart_gateway();
+    client.ask(std::move(request));
+  });
+  auto* filament = app.add_subcommand("filament", "Move the filament as [pause] of the machine file says");
+  auto what = std::make_shared<joblink::MoveFilament::What>();
+  static const std::map<std::string, joblink::MoveFilament::What> kWays{
+      {"unload", joblink::MoveFilament::UNLOAD},
+      {"load", joblink::MoveFilament::LOAD},
+      {"purge", joblink::MoveFilament::PURGE}};
+  filament->add_option("what", *what, "unload, load or purge")
+      ->required()
+      ->transform(CLI::CheckedTransformer(kWays).description(""));
+  filament->callback([=] {
+    Client client(options->reach);
+    take_control(client, *options);
+    ClientMessage request;
+    request.mutable_move_filament()->set_what(*what);
     client.ask(std::move(request));
   });
 }
@@ -255,6 +294,7 @@ void add_machine_file(CLI::App& app, const Options& options, int& exit_code) {
 void add_job_commands(CLI::App& app, const Options& options, int& exit_code) {
   add_run(app, options, exit_code);
   add_exclude(app, options);
+  add_aside(app, options);
   add_store(app, options, exit_code);
   add_events(app, options);
   add_machine_file(app, options, exit_code);

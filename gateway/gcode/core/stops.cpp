@@ -29,7 +29,7 @@ bool Core::run_stop() {
       emit(canonical::Pause{code.number == 1});
     } else if (code.number == 226 || code.number == 600 || code.number == 601) {
       if (code.number == 600) emit(canonical::Message{say("change the filament, then go on").english()});
-      emit(canonical::Pause{false});
+      emit(canonical::Pause{.filament_change = code.number == 600});
     } else {
       emit(canonical::StoredJob{canonical::StoredJob::What::kDelete, std::string(block_.text), 0});
     }
