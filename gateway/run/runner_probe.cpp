@@ -59,16 +59,16 @@ bool Runner::draw_pin_in() {
 
 /// By a word of the job; nothing moves before it is there.
 void Runner::move_pin(const canonical::ProbePin& asked) {
-  using What = canonical::ProbePin::What;
+  using Asked = canonical::ProbePin::What;
   ContactProbe* const probe = heat_.probe();
   if (probe == nullptr || probe->pin() == ContactProbe::Pin::kNone) {
     probe_wrong_ = say("the machine has no probe with a pin");
     return;
   }
   probe->move_pin(pin_order(asked));
-  if (asked.what == What::kSelfTest) return;
-  wait_ = asked.what == What::kOut ? Wait::kPinStays : Wait::kPinIn;
-  doing_ = asked.what == What::kOut ? say("putting the probe's pin out") : say("drawing the probe's pin in");
+  if (asked.what == Asked::kSelfTest) return;
+  wait_ = asked.what == Asked::kOut ? Wait::kPinStays : Wait::kPinIn;
+  doing_ = asked.what == Asked::kOut ? say("putting the probe's pin out") : say("drawing the probe's pin in");
 }
 
 void Runner::give_up_probe() {

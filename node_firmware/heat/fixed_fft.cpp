@@ -20,9 +20,11 @@ constexpr double sine_of(double x) {
 
 constexpr std::array<std::int16_t, kQuarter + 1> kSines = [] {
   std::array<std::int16_t, kQuarter + 1> table{};
-  for (int i = 0; i <= kQuarter; ++i)
-    table[static_cast<std::size_t>(i)] =
-        static_cast<std::int16_t>(32'767 * sine_of(kTurn * i / FixedFft::kPoints) + 0.5);
+  for (int i = 0; i <= kQuarter; ++i) {
+    const double sine = 32'767 * sine_of(kTurn * i / FixedFft::kPoints);
+    const int below = static_cast<int>(sine);
+    table[static_cast<std::size_t>(i)] = static_cast<std::int16_t>(sine - below < 0.5 ? below : below + 1);
+  }
   return table;
 }();
 
@@ -50,7 +52,8 @@ bool FixedFft::step(int butterflies) {
   for (; butterflies > 0 && stage_ < kBits; --butterflies) {
     const int half = 1 << stage_;
     const int within = next_ & (half - 1);
-    const auto low = static_cast<std::size_t>(((next_ >> stage_) << (stage_ + 1)) + within);
+    const int at = ((next_ >> stage_) << (stage_ + 1)) + within;
+    const auto low = static_cast<std::size_t>(at);
     Complex& a = points_[low];
     Complex& b = points_[low + static_cast<std::size_t>(half)];
     const int turn = within << (kBits - 1 - stage_);

@@ -68,7 +68,7 @@ Result<NodeSpectrum, std::string> read_node_spectrum(std::string_view text) {
   int used = 0;
   if (std::sscanf(head.c_str(), "rate_hz %lf windows %u clipped %u%n", &s.rate_hz, &s.windows, &s.clipped,
                   &used) != 3 ||
-      head.find_last_not_of("\r") + 1 != static_cast<std::size_t>(used))
+      head.find_last_not_of('\r') + 1 != static_cast<std::size_t>(used))
     return Error<std::string>("1: expected \"rate_hz R windows W clipped C\"");
   if (!(s.rate_hz >= kSlowestChip_hz && s.rate_hz <= kFastestChip_hz))
     return Error<std::string>(fmt::format("1: {:.0f} readings a second; expected {:.0f} to {:.0f}", s.rate_hz,

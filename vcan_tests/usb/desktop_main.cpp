@@ -46,7 +46,8 @@ class Desktop {
     const FoundGateway gateway = *usb();
     session_.connect_to([this, gateway] { return finder_.link_to(gateway); }, gateway.title);
     until("conversation", [this] { return session_.connected() && session_.machine().joints_size() > 0; });
-    std::printf("found by hot-plug: %s, %s\n", qPrintable(gateway.title.said()), qPrintable(gateway.detail.said()));
+    std::printf("found by hot-plug: %s, %s\n", qPrintable(gateway.title.said()),
+                qPrintable(gateway.detail.said()));
   }
 
   /// Uploads whose cables are pulled at random places; all of them must be bit-identical on the gateway.

@@ -6,7 +6,7 @@
 
 #include "gui/link/hand/jog_device.hpp"
 
-struct _SDL_GameController;
+struct _SDL_GameController;  // NOLINT(bugprone-reserved-identifier): SDL's own name
 
 namespace kinebus::gui {
 

@@ -40,7 +40,7 @@ class SsiScale final : public SpiDevice {
  private:
   static constexpr int kMode = 2, kWord = 16;
   static constexpr double kFastestHz = 1e6;
-  static constexpr Cycle kMonoflop = 168 * 15;
+  static constexpr Cycle kMonoflop = Cycle{168} * 15;
 
   void latch(Cycle at) {
     const std::uint32_t mask = (std::uint32_t{1} << options_.bits) - 1, value = position_(at) & mask;
