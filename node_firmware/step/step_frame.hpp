@@ -42,9 +42,11 @@ class StepFrames {
       if (used[half]) {
         used[half] = false;
         // Not by memset(), which takes twice as long.
-        for (std::uint32_t* word = words; word != words + kSlots; word += 16) {
+        for (std::uint32_t* word = words; word != words + kSlots; word += 32) {
           word[0] = word[1] = word[2] = word[3] = word[4] = word[5] = word[6] = word[7] = 0;
           word[8] = word[9] = word[10] = word[11] = word[12] = word[13] = word[14] = word[15] = 0;
+          word[16] = word[17] = word[18] = word[19] = word[20] = word[21] = word[22] = word[23] = 0;
+          word[24] = word[25] = word[26] = word[27] = word[28] = word[29] = word[30] = word[31] = 0;
           asm volatile("" ::: "memory");
         }
       }
