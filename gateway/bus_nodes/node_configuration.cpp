@@ -163,12 +163,13 @@ std::vector<ParameterWrite> scale_settings(const MachineDescription& machine, st
   for (const JointDescription& joint : machine.joints)
     if (joint.node_id == node_id && joint.scale) scales[joint.axis & 1u] = &joint;
   if (scales[0] == nullptr && scales[1] == nullptr) return {};
+  const ScaleDescription none{};
   std::vector<ParameterWrite> writes;
   for (std::size_t axis = 0; axis < scales.size(); ++axis) {
     const auto write = [&](ObjectAddress base, std::uint8_t size, std::int64_t value) {
       writes.push_back({on_axis(base, axis), size, value});
     };
-    const ScaleDescription scale = scales[axis] == nullptr ? ScaleDescription{} : *scales[axis]->scale;
+    const ScaleDescription& scale = scales[axis] == nullptr ? none : *scales[axis]->scale;
     write(object::kScaleCountsPerUnit, 4, std::llround(1000 * scale.pulses_per_mm));
     write(object::kScaleInverted, 1, scale.inverted ? 1 : 0);
     write(object::kScaleFitted, 1, scales[axis] == nullptr ? 0 : kind_of(scale));
