@@ -18,7 +18,7 @@ namespace {
 // up to a hundred times as much.
 constexpr double kRounding_mm = 0.0283, kRounding_inch = 0.00283, kMostRoundings = 100;
 constexpr double kRelative = 1e-3;
-constexpr double kMostPieces = 100'000;
+constexpr double kMostChords = 100'000;
 
 }  // namespace
 
@@ -48,7 +48,7 @@ bool Core::run_spiral(const Pose& program, const Point2& centre, bool clockwise,
   const double step = std::sqrt(8 * kSplineFlatness_mm / std::max(first, last));
   const double pieces = std::ceil(sweep / step);
   const std::uint32_t column = block_.has(GGroup::kMotion) ? block_.code(GGroup::kMotion).column : 1;
-  if (pieces > kMostPieces) return fail(column, say("the spline is too large"));
+  if (pieces > kMostChords) return fail(column, say("the spline is too large"));
   double feed = 0, time = 0;
   if (!speed_for(false, {m.feed_known, m.feed_mm_per_s, m.feed_rad_per_s}, feed, time)) return false;
   if (m.inverse_time) feed = std::hypot((first + last) / 2 * sweep, program[plane.w] - start[plane.w]) / time;

@@ -1,5 +1,5 @@
-// G28 and G30 as mills have them: back to the position that G28.1 or G30.1 has kept. Without one G28 is
-// homing (offsets.cpp), and on printers G30 probes (levelling.cpp).
+// G28 finds the switches. Where G28.1 or G30.1 has kept a position, G28 and G30 go back to it as on mills; on
+// printers G30 probes (printer/levelling.cpp).
 
 #include <numbers>
 
@@ -62,6 +62,33 @@ bool Core::go_to_stored(Code code) {
   if (target != over) emit(canonical::Traverse{target, m.frame});
   m.position = target;
   refresh();
+  return true;
+}
+
+bool Core::home() {
+  ModalState& m = state_.modal;
+  unsigned axes = 0;
+  for (std::size_t axis = kAxisX; axis <= kAxisC; ++axis) {
+    const char letter = kAxisLetters[axis];
+    if (!has(letter)) continue;
+    // G28 X0 is common; an intermediate point as in RS274/NGC has no meaning when home is a switch.
+    if (!block_.is_bare(letter) && block_[letter] != 0)
+      return fail(block_.column_of(letter), say("G28 finds the home switches: name axes without a number"));
+    pass_over(letter);
+    axes |= 1U << axis;
+  }
+  // G28 W: without bed levelling, which is never done here. G28 O: only where it is needed; a machine that
+  // knows its position goes to its reference without looking for switches, whatever the word says.
+  for (const char letter : {'W', 'O'})
+    if (block_.is_bare(letter)) pass_over(letter);
+  pass_over('R');  // how high other machines lift before it
+  Pose machine = in_frame(m.position, m.frame, Frame::kMachine);
+  for (std::size_t axis = kAxisX; axis <= kAxisC; ++axis)
+    if (axes == 0 || (axes >> axis & 1U) != 0) machine[axis] = options_.home[axis];
+  m.lifted_mm = 0;
+  m.position = in_frame(machine, Frame::kMachine, m.frame);
+  refresh();
+  emit(canonical::Home{static_cast<std::uint8_t>(axes), m.position, m.frame});
   return true;
 }
 
