@@ -13,14 +13,10 @@
 #include <QMessageBox>
 #include <QMimeData>
 #include <QModelIndex>
-#include <QPainter>
 #include <QPointer>
 #include <QPushButton>
-#include <QRectF>
 #include <QSplitter>
 #include <QStringList>
-#include <QStyleOptionViewItem>
-#include <QStyledItemDelegate>
 #include <QTimer>
 #include <QUrl>
 #include <QVBoxLayout>
@@ -28,36 +24,10 @@
 
 #include "gui/models/format.hpp"
 #include "gui/session/job_upload.hpp"
+#include "gui/views/job_delegate.hpp"
 
 namespace kinebus::gui {
 namespace {
-
-/// Draws an upload's progress under its row.
-class JobDelegate : public QStyledItemDelegate {
- public:
-  JobDelegate(const Theme& theme, QObject* parent) : QStyledItemDelegate(parent), theme_(theme) {}
-  void paint(QPainter* painter, const QStyleOptionViewItem& option, const QModelIndex& index) const override {
-    QStyledItemDelegate::paint(painter, option, index);
-    if (!index.data(JobsModel::kIsUpload).toBool() || index.column() != JobsModel::kStored) return;
-    const double share = index.data(JobsModel::kProgress).toDouble();
-    const QRectF groove(option.rect.left() + 6, option.rect.bottom() - 6, option.rect.width() - 12, 3);
-    painter->setRenderHint(QPainter::Antialiasing);
-    painter->setPen(Qt::NoPen);
-    painter->setBrush(theme_.colours().border);
-    painter->drawRoundedRect(groove, 1.5, 1.5);
-    QRectF done = groove;
-    if (option.direction == Qt::RightToLeft)
-      done.setLeft(groove.right() - groove.width() * share);
-    else
-      done.setWidth(groove.width() * share);
-    painter->setBrush(index.data(JobsModel::kUploadFailed).toBool() ? theme_.colours().danger
-                                                                    : theme_.colours().accent);
-    painter->drawRoundedRect(done, 1.5, 1.5);
-  }
-
- private:
-  const Theme& theme_;
-};
 
 void prepare(QTableView* table) {
   table->setSelectionBehavior(QAbstractItemView::SelectRows);

@@ -74,13 +74,13 @@ ViewPage::ViewPage(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(
     if (model) scene_->content().model = *model;
     fitted_ = false;
     seen_status_.clear();
-    forget_print();
+    printed_.forget();
     take_status();
   });
   connect(&desk_.path, &PathSource::chosen, this, [this] {
     // Who looks at a job is done with what the last one has left.
     if (!desk_.session.status().job().empty()) return;
-    forget_print();
+    printed_.forget();
     take_status();
   });
   connect(&desk_.path, &PathSource::changed, this, &ViewPage::take_path);
@@ -202,10 +202,11 @@ void ViewPage::take_theme() {
 void ViewPage::take_status() {
   SceneContent& content = scene_->content();
   const joblink::Status& status = desk_.session.status();
-  follow_print();
+  const bool of_shown = desk_.path.name() == QString::fromStdString(status.job());
+  printed_.follow(status, of_shown ? shown_ : nullptr);
   if (content.has_machine) {
     content.figure =
-        pose_machine(content.model, pose_of(status), status.hotend().actual_celsius() > 50, &printed_);
+        pose_machine(content.model, pose_of(status), status.hotend().actual_celsius() > 50, &printed_.body());
     if (!fitted_ && status.has_tool()) {
       fitted_ = true;
       content.camera = {};
@@ -213,7 +214,7 @@ void ViewPage::take_status() {
       scene_->fit_machine();
     }
   }
-  content.done_vertex = made_ != nullptr && made_ == shown_ ? made_to_ : UINT32_MAX;
+  content.done_vertex = printed_.done_vertex(shown_);
   // A status that changes nothing to be seen lets the picture come to rest.
   std::string seen = status.tool().SerializeAsString() + std::to_string(content.done_vertex);
   for (const double joint : status.joints()) seen += ' ' + std::to_string(joint);
@@ -236,31 +237,6 @@ void ViewPage::tell_trail() {
                          ? tr("%1, by the encoders: at most %2 mm from where it should have been")
                                .arg(name, Format::isolated(Format::number(desk_.trail.farthest_off_mm(), 3)))
                          : tr("%1, as commanded: no axis has an encoder").arg(name));
-}
-
-void ViewPage::follow_print() {
-  const joblink::Status& status = desk_.session.status();
-  const bool of_shown = shown_ != nullptr && desk_.path.name() == QString::fromStdString(status.job());
-  if (!status.job().empty() && of_shown) {
-    made_ = shown_;
-    made_to_ = static_cast<std::uint32_t>(shown_->path.vertex_at_line(std::max(1u, status.line())));
-    // A job that ends from its run has come to its end.
-    runs_ = status.state() == joblink::STATE_RUNNING;
-  } else if (!status.job().empty() || status.state() == joblink::STATE_HOMING) {
-    forget_print();  // who begins another job, or homes, has taken it off the table
-  } else if (runs_) {
-    runs_ = false;
-    made_to_ = UINT32_MAX;
-  }
-  printed_.follow(made_ != nullptr ? std::shared_ptr<const ToolPath>(made_, &made_->path) : nullptr,
-                  made_to_);
-}
-
-void ViewPage::forget_print() {
-  made_.reset();
-  made_to_ = UINT32_MAX;
-  runs_ = false;
-  printed_.clear();
 }
 
 void ViewPage::take_path() {

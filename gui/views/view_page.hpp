@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "gui/scene/printed_body.hpp"
+#include "gui/models/print_on_table.hpp"
 #include "gui/views/desk.hpp"
 #include "gui/views/ramp_legend.hpp"
 #include "gui/views/scene_view.hpp"
@@ -35,9 +35,6 @@ class ViewPage : public SpeakingWidget {
   QWidget* make_tools();
   QWidget* make_bottom();
   void take_status();
-  /// What the job has printed so far, and what the last one has left on the table.
-  void follow_print();
-  void forget_print();
   void take_path();
   void take_theme();
   void tell_legend();
@@ -62,10 +59,7 @@ class ViewPage : public SpeakingWidget {
   QLabel* broken_;
   QToolButton *machine_, *reach_, *travel_, *remaining_, *trail_;
   std::shared_ptr<const ScenePath> shown_;
-  std::shared_ptr<const ScenePath> made_;  ///< of which something stands on the table
-  std::uint32_t made_to_ = UINT32_MAX;     ///< vertex
-  bool runs_ = false;                      ///< the job, by the newest status that named it
-  PrintedBody printed_;
+  PrintOnTable printed_;
   std::string seen_status_;  ///< what the newest picture was made of
   std::uint32_t wanted_line_ = 0;
   bool fitted_ = false;

@@ -21,7 +21,4 @@ void take_control(Client& client, const MachineOptions& options);
 /// motors-off, heat, override, console, clients to `app`; each sets `exit_code` when it runs.
 void add_machine_commands(CLI::App& app, const std::shared_ptr<MachineOptions>& options, int& exit_code);
 
-/// The gateway reads currents while somebody looks: its first answer has none yet.
-joblink::Status with_currents(Client& client);
-
 }  // namespace kinebus

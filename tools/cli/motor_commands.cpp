@@ -15,6 +15,7 @@
 #include "tools/cli/heat_command.hpp"
 #include "tools/cli/job_watch.hpp"
 #include "tools/cli/message_json.hpp"
+#include "tools/cli/status_views.hpp"
 #include "tools/cli/tune_command.hpp"
 
 namespace kinebus {
