@@ -1,5 +1,6 @@
 #pragma once
-// What stands on the table as the scene draws it: what the job has printed so far, and what the last one has left.
+// What stands on the table as the scene draws it: what the job has printed so far, and what the last one has
+// left.
 
 #include <cstdint>
 #include <memory>
@@ -16,7 +17,8 @@ class PrintOnTable {
   void follow(const joblink::Status& status, const std::shared_ptr<const ScenePath>& shown);
   /// It was taken off.
   void forget();
-  /// The vertex of `shown` up to which it is printed; UINT32_MAX: wholly, or it is another one that was printed.
+  /// The vertex of `shown` up to which it is printed; UINT32_MAX: wholly, or it is another one that was
+  /// printed.
   std::uint32_t done_vertex(const std::shared_ptr<const ScenePath>& shown) const {
     return path_ != nullptr && path_ == shown ? done_ : UINT32_MAX;
   }

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <QAbstractButton>
+#include <QCoreApplication>
 #include <QLabel>
 #include <QMessageBox>
 #include <QPushButton>
@@ -56,8 +57,16 @@ TEST_F(PauseTest, AHeldJobIsSetAsideAndItsFilamentChanged) {
   enter(joblink::STATE_RUNNING, "a.gcode");
   ASSERT_NE(button("Set aside"), nullptr);
   EXPECT_FALSE(button("Set aside")->isEnabled());
+  ASSERT_NE(button("Cancel"), nullptr);
+  const auto cancel_stands = [&] {
+    QCoreApplication::sendPostedEvents();  // layouts that wait for their turn
+    QCoreApplication::processEvents();
+    return button("Cancel")->mapTo(window.get(), QPoint());
+  };
+  const QPoint place = cancel_stands();
   gateway.allow({joblink::COMMAND_RESUME, joblink::COMMAND_CANCEL, joblink::COMMAND_STEP_ASIDE});
   enter(joblink::STATE_HELD, "a.gcode");
+  EXPECT_EQ(cancel_stands(), place) << "nothing moves under the pointer";
   QPushButton* aside = button("Set aside");
   ASSERT_NE(aside, nullptr);
   aside->click();
@@ -68,6 +77,7 @@ TEST_F(PauseTest, AHeldJobIsSetAsideAndItsFilamentChanged) {
                  joblink::COMMAND_MOVE_FILAMENT});
   enter(joblink::STATE_READY, "a.gcode");
   EXPECT_TRUE(shows(QStringLiteral("Change the filament: load, purge, then resume.")));
+  EXPECT_EQ(cancel_stands(), place) << "nothing moves under the pointer";
   for (const char* way : {"Unload", "Load", "Purge"}) {
     ASSERT_NE(button(way), nullptr) << way;
     EXPECT_TRUE(button(way)->isEnabled()) << way;

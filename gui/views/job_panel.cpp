@@ -34,7 +34,8 @@ JobPanel::JobPanel(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(
   name_->setProperty("role", "heading");
   doing_ = make_label("small", card);
   doing_->setWordWrap(true);
-  // Buttons below stay where they are, whether there is something to say or not.
+  // Buttons below stay where they are, whether there is something to say or not: in the font that is shown.
+  doing_->ensurePolished();
   doing_->setMinimumHeight(2 * doing_->fontMetrics().lineSpacing());
   doing_->setAlignment(Qt::AlignTop | Qt::AlignLeading);
   progress_ = new QProgressBar(card);
