@@ -20,8 +20,12 @@ bool at_work(BodyKind a, BodyKind b) {
 std::size_t CollisionModel::add(BodyId id, std::uint8_t group, std::span<const Shape> shapes,
                                 double lever_mm) {
   assert(bodies_.size() < kMostBodies && shapes_ + shapes.size() <= kMostShapes);
-  bodies_.push_back(
-      {id, static_cast<std::uint8_t>(shapes_), static_cast<std::uint8_t>(shapes.size()), group, lever_mm});
+  bodies_.push_back({id,
+                     static_cast<std::uint8_t>(shapes_),
+                     static_cast<std::uint8_t>(shapes.size()),
+                     group,
+                     lever_mm,
+                     {}});
   for (const Shape& shape : shapes) rest_.shapes[shapes_++] = shape;
   return bodies_.size() - 1;
 }
@@ -43,6 +47,32 @@ void CollisionModel::add_floor(double z_mm) {
   add({BodyKind::kFloor, 0}, kStill,
       Shape::box({0, 0, z_mm - kHalfThickness_mm}, {kHalfWidth_mm, 0, 0}, {0, kHalfWidth_mm, 0},
                  {0, 0, kHalfThickness_mm}));
+}
+
+void CollisionModel::ride(std::size_t body, const Vec& centre, const Vec& line) {
+  assert(bodies_[body].shapes == 1 && rest_.shapes[shape_of(body)].core == Shape::Core::kBox);
+  rest_.shapes[shape_of(body)].centre = centre;
+  bodies_[body].line = line;
+}
+
+bool CollisionModel::always_parted(const Pair& pair) const {
+  const Body &a = bodies_[pair.first], &b = bodies_[pair.second];
+  const auto rides = [](const Body& body) { return dot(body.line, body.line) > 0; };
+  const Body &rider = rides(a) ? a : b, &other = rides(a) ? b : a;
+  constexpr double kParallel = 1e-9;
+  if (!rides(rider) || (other.moves() && !(rides(other) && norm(cross(rider.line, other.line)) < kParallel)))
+    return false;
+  // Against the other it moves along its line: the box is made as long as any machine is high.
+  constexpr double kLong_mm = 1e5;
+  Shape way = rest_.shapes[rider.first_shape];
+  for (Vec& half : way.half)
+    if (norm(cross(half, rider.line)) < kParallel * norm(half)) half = kLong_mm * rider.line;
+  way.core_reach_mm += kLong_mm;
+  const auto shapes = std::span(rest_.shapes).subspan(other.first_shape, other.shapes);
+  return std::all_of(shapes.begin(), shapes.end(), [&](const Shape& shape) {
+    constexpr double kRounding_mm = 0.01;
+    return bodies::part(way, shape).mm >= wanted_mm_ + kRounding_mm;
+  });
 }
 
 void CollisionModel::pair_up() {

@@ -116,6 +116,7 @@ class CollisionModel {
     std::uint8_t first_shape = 0, shapes = 0;
     std::uint8_t group = 0;  ///< those of one group do not move against each other; kStill: those that stand
     double lever_mm = 0;
+    Vec line{};  ///< of length 1: it moves along this alone, and does not turn; 0: it moves otherwise
     bool moves() const { return group != kStill; }
   };
   struct Pair {
@@ -125,6 +126,9 @@ class CollisionModel {
   const std::vector<Body>& bodies() const { return bodies_; }
   const std::vector<Pair>& pairs() const { return pairs_; }
   double distance(const Scene& scene, const Pair& pair) const { return part(scene, pair).mm; }
+  /// Both move along parallel lines, or one does and the other stands, and they keep wanted_mm() wherever
+  /// they are on these. Not for each pose.
+  bool always_parted(const Pair& pair) const;
   /// With the axis of the two solids that are nearest. At least `enough_mm` apart: measured no further.
   Parting part(const Scene& scene, const Pair& pair,
                double enough_mm = std::numeric_limits<double>::infinity()) const;
@@ -145,6 +149,8 @@ class CollisionModel {
   void add_fixed(const BodiesDescription& bodies);
   /// A plate below everything.
   void add_floor(double z_mm);
+  /// The box `body` moves along `line`, of length 1 and along one of its edges, and is at `centre` once.
+  void ride(std::size_t body, const Vec& centre, const Vec& line);
   /// They are no pair.
   void join(std::size_t first, std::size_t second) { joined_.push_back({first, second}); }
   /// When all bodies are there.

@@ -39,6 +39,7 @@ class DeltaMachine final : public CollisionModel {
                          Shape::box({}, {0, 0, 0.5 * b.carriage_length_mm}, (0.5 * offset) * arm.out,
                                     (b.carriage_width_mm / b.rod_spacing_mm) * arm.apart));
       arm.carriage_offset = (0.5 * offset) * arm.out;
+      ride(arm.carriage, arm.tower + effector_mm_ * arm.out + arm.carriage_offset, {0, 0, 1});
       const Vec foot = arm.tower + (effector_mm_ + offset) * arm.out;
       const double low = g.travel_mm[i].min + height_mm_ - 0.5 * b.carriage_length_mm;
       const std::size_t rail =

@@ -71,6 +71,7 @@ class LegMachine final : public CollisionModel {
       leg.carriage =
           add({BodyKind::kCarriage, number}, static_cast<std::uint8_t>(kFirstCarriageGroup + i),
               Shape::box({}, half_along, half_out, (0.5 * b.carriage_width_mm) * cross(leg.rail, out)));
+      ride(leg.carriage, leg.foot + half_out, leg.rail);
       const Interval travel = g.legs[i].travel_mm;
       const Vec low = leg.foot + offset * out + travel.min * leg.rail - half_along,
                 high = leg.foot + offset * out + travel.max * leg.rail + half_along;

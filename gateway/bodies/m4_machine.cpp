@@ -41,6 +41,7 @@ class M4Machine final : public CollisionModel {
       at.block = add({BodyKind::kCarriage, number}, static_cast<std::uint8_t>(kFirstBlockGroup + i),
                      Shape::box({}, {0.5 * b.carriage_width_mm, 0, 0}, at.block_offset,
                                 {0, 0, 0.5 * b.carriage_length_mm}));
+      ride(at.block, Vec{0, y, 0} + at.block_offset, {0, 0, 1});
       const double low = g.travel_mm[i].min - 0.5 * b.carriage_length_mm;
       const std::size_t rail =
           add({BodyKind::kRail, number}, kStill,

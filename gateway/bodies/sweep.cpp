@@ -31,7 +31,8 @@ Sweep::Sweep(const CollisionModel& model, Occasion occasion, const PrintedPart* 
       has_places_(model.place_of(Frame::kMachine, {}).has_value()),
       enough_mm_(static_cast<float>(model.wanted_mm()) + (has_places_ ? kRefresh_mm : 0)) {
   for (const CollisionModel::Pair& pair : model.pairs())
-    if (occasion_ == Occasion::kHoming || !pair.homing_only) pairs_.push_back(pair);
+    if ((occasion_ == Occasion::kHoming || !pair.homing_only) && !model.always_parted(pair))
+      pairs_.push_back(pair);
   own_pairs_ = pairs_.size();
   if (printed != nullptr) {
     print_.emplace(model, *printed);
@@ -49,7 +50,7 @@ Sweep::Sweep(const CollisionModel& model, Occasion occasion, const PrintedPart* 
 void Sweep::jump() {
   unsettle();
   placed_ = false;
-  room_mm_ = 0;
+  room_ = {};
   unmeasured_.reset();
 }
 
@@ -139,33 +140,42 @@ void Sweep::follow_print() {
   if (grown == 0) return;
   unsettle();
   for (std::size_t i = own_pairs_; i < pairs_.size(); ++i) spare_[i] -= static_cast<float>(grown);
-  room_mm_ = 0;
+  room_.mm = 0;
+  known_.forget();
 }
 
 Sweep::Step Sweep::to(Frame frame, const Pose& pose) {
   if (print_) follow_print();
   const std::optional<Place> place = model_.place_of(frame, pose);
-  if (room_mm_ > 0 && CollisionModel::apart_mm(*place, middle_) < room_mm_) {
-    unmeasured_ = {frame, pose};
-    return Step::kClear;
-  }
-  if (around_ && CollisionModel::apart_mm(*place, around_->middle) >= kAround_mm) unsettle();
   bool way_is_clear = false;
-  if (unmeasured_) {
+  if (room_.mm > 0 || unmeasured_) {
+    const double off = CollisionModel::apart_mm(*place, room_.middle);
+    if (off < room_.mm) {
+      unmeasured_ = {frame, pose, *place};
+      return Step::kClear;
+    }
     // The way on begins at the last pose, not at the last that was measured. If it is so short that bodies
     // that keep their distance at both ends cannot touch on it, no more need be known of where it begins.
-    const Place from = *model_.place_of(unmeasured_->frame, unmeasured_->pose);
-    const double apart = CollisionModel::apart_mm(from, *place);
+    const double apart = CollisionModel::apart_mm(unmeasured_ ? unmeasured_->place : room_.middle, *place);
     const double coarse = print_ ? std::max(0.0, print_->coarse_mm()) : 0;
-    way_is_clear = apart * model_.gain(middle_, CollisionModel::apart_mm(*place, middle_)) <
-                   2 * (model_.wanted_mm() - coarse - kRounding_mm);
-    if (!way_is_clear) carry_on(from);
+    way_is_clear =
+        apart * model_.gain(room_.middle, off + apart) < 2 * (model_.wanted_mm() - coarse - kRounding_mm);
+    if (const auto known = known_.around(*place); known && way_is_clear) {
+      room_ = *known;
+      unmeasured_ = {frame, pose, *place};
+      return Step::kClear;
+    }
   }
+  const auto away = [this](const Place& p) {
+    return CollisionModel::apart_mm(p, around_->middle) >= kAround_mm;
+  };
+  if (around_ && (away(*place) || (unmeasured_ && away(unmeasured_->place)))) unsettle();
+  if (unmeasured_ && !way_is_clear) carry_on();
   return measure(frame, pose, place, way_is_clear);
 }
 
 /// From the last pose measured to the last pose, where the next way begins.
-void Sweep::carry_on(const Place& place) {
+void Sweep::carry_on() {
   const bool in_reach = model_.place(unmeasured_->frame, unmeasured_->pose, scenes_[1 - now_]);
   assert(in_reach);
   measure_motion();
@@ -174,8 +184,8 @@ void Sweep::carry_on(const Place& place) {
     // Within the room nothing is nearer than wanted.
     spare_[i] = std::max(wanted, spare_[i] - motion_over(i, spare_[i] - enough_mm_));
   now_ = 1 - now_;
-  at_ = place;
-  room_mm_ = 0;
+  at_ = unmeasured_->place;
+  room_ = {};
   unmeasured_.reset();
 }
 
@@ -184,9 +194,9 @@ void Sweep::find_room(const Place& place) {
   double radius = std::numeric_limits<double>::infinity();
   for (const std::size_t i : active_)
     radius = std::min(radius, (spare_[i] - model_.wanted_mm() - kRounding_mm) / turns_of(i));
-  middle_ = place;
-  room_mm_ = radius > 0 ? radius / model_.gain(middle_, radius) : 0;
-  if (around_) room_mm_ = std::min(room_mm_, kAround_mm - CollisionModel::apart_mm(place, around_->middle));
+  room_ = {place, radius > 0 ? radius / model_.gain(place, radius) : 0};
+  if (around_) room_.mm = std::min(room_.mm, kAround_mm - CollisionModel::apart_mm(place, around_->middle));
+  if (room_.mm > 0) known_.keep(room_);
 }
 
 /// Distance of a pair, or somewhat less.
@@ -215,6 +225,7 @@ Sweep::Step Sweep::measure(Frame frame, const Pose& pose, const std::optional<Pl
     jump();
     return Step::kOutOfReach;
   }
+  ++measured_;
   if (placed_) measure_motion();
   const auto wanted = static_cast<float>(model_.wanted_mm());
   const auto coarse = static_cast<float>(print_ ? print_->coarse_mm() : 0);
@@ -245,7 +256,7 @@ Sweep::Step Sweep::measure(Frame frame, const Pose& pose, const std::optional<Pl
   now_ = 1 - now_;
   std::swap(spare_, next_);
   placed_ = true;
-  room_mm_ = 0;
+  room_ = {};
   unmeasured_.reset();
   if (has_places_) {
     at_ = *place;

@@ -1,11 +1,13 @@
 #pragma once
 // Bodies along a path, pose after pose. A pair that was far apart is not measured again until both bodies
 // have moved so far that they could have met; near a pose at which all pairs were clear nothing is looked at
-// but how near it is.
+// but how near it is, nor where the path comes back to one.
 
 #include <array>
+#include <cstdint>
 #include <optional>
 
+#include "gateway/bodies/clear_places.hpp"
 #include "gateway/bodies/collision_model.hpp"
 #include "gateway/bodies/part_body.hpp"
 
@@ -33,20 +35,23 @@ class Sweep {
   /// That is about what has been printed.
   bool met_print() const { return met_print_; }
   const CollisionModel& model() const { return model_; }
+  /// At how many poses pairs have been looked at.
+  std::uint64_t measured() const { return measured_; }
 
  private:
+  using Place = CollisionModel::Place;
   struct Stand {
     Frame frame{};
     Pose pose{};
+    Place place{};
   };
-  using Place = CollisionModel::Place;
   Step measure(Frame frame, const Pose& pose, const std::optional<Place>& place, bool way_is_clear);
   bool with_print(std::size_t pair) const { return pair >= own_pairs_; }
   void follow_print();
   double look(const Scene& scene, const Pose& pose, std::size_t pair);
   void measure_motion();
   float motion_over(std::size_t pair, float matters_mm) const;
-  void carry_on(const Place& place);
+  void carry_on();
   double turns_of(std::size_t pair) const;
   void settle(const Place& place);
   void unsettle();
@@ -74,14 +79,14 @@ class Sweep {
   std::optional<Around> around_;
   std::vector<std::size_t> active_;  ///< the other pairs; all of them when there is no such place
   Place at_{};                       ///< of the last pose measured
-  /// Around the last pose measured: what comes no farther than this from it is clear.
-  Place middle_{};
-  double room_mm_ = 0;
+  ClearPlaces::Room room_;           ///< in which the last pose is
+  ClearPlaces known_;
   std::optional<Stand> unmeasured_;  ///< the last pose, if it was clear for that reason
   bool has_places_;
   float enough_mm_;  ///< to spare: a pair that has it is not measured
   Clearance nearest_{};
   bool met_print_ = false;
+  std::uint64_t measured_ = 0;
 };
 
 }  // namespace kinebus::bodies

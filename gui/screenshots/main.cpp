@@ -93,8 +93,10 @@ int run(int argc, char** argv) {
   photographer.one(MainWindow::kView, QStringLiteral("11-scene-m1-tilted-part"));
   const auto say = [&](const char* line) {
     window.console_page().send(QString::fromLatin1(line));
-    wait(line,
-         [&, from = desk.session.status().time_s()] { return desk.session.status().time_s() > from + 0.3; });
+    // One that comes while the machine still moves may be refused.
+    wait(line, [&, from = desk.session.status().time_s()] {
+      return desk.session.status().time_s() > from + 0.3 && state() == joblink::STATE_READY;
+    });
   };
   // Past the corner where leg 3 carries the platform, which comes within 4 mm of the nozzle there.
   for (const char* line : {"G90", "G43.4", "G1 Z60 F3000", "G1 A45", "G1 X-124 Y-40", "G1 Z4", "G1 Y-60"})

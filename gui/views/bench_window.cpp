@@ -99,9 +99,9 @@ QWidget* BenchWindow::make_head() {
   interface_->addItems(BenchCard::interfaces());
   if (interface_->count() == 0) interface_->setEditText(QStringLiteral("can0"));
   turn_with_focus_only(*interface_);
-  node_ = new QSpinBox(box);
+  node_ = new NumberField(box);
+  node_->setDecimals(0);
   node_->setRange(1, 126);
-  turn_with_focus_only(*node_);
   open_ = make_button(theme_, QStringLiteral("gateway"), "primary", box);
   stop_ = make_button(theme_, QStringLiteral("stop"), "danger", box);
   store_ = make_button(theme_, QStringLiteral("save"), "", box);
@@ -224,7 +224,7 @@ void BenchWindow::open_or_close() {
     card_.end();
   } else {
     tell({});
-    card_.start(interface_->currentText().trimmed(), node_->value());
+    card_.start(interface_->currentText().trimmed(), static_cast<int>(std::lround(node_->value())));
   }
   say_buttons();
 }

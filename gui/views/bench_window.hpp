@@ -7,7 +7,6 @@
 #include <QJsonObject>
 #include <QLabel>
 #include <QPushButton>
-#include <QSpinBox>
 #include <QString>
 #include <QWidget>
 #include <array>
@@ -52,7 +51,7 @@ class BenchWindow : public SpeakingWidget {
   const Theme& theme_;
   BenchCard card_;
   QComboBox* interface_ = nullptr;
-  QSpinBox* node_ = nullptr;
+  NumberField* node_ = nullptr;
   QPushButton *open_ = nullptr, *stop_ = nullptr, *store_ = nullptr;
   QLabel *name_ = nullptr, *switches_ = nullptr, *news_ = nullptr;
   std::array<Motor, 2> motors_;

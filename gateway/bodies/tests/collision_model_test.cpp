@@ -9,6 +9,7 @@
 #include <numbers>
 #include <random>
 
+#include "gateway/bodies/sweep.hpp"
 #include "gateway/bodies/tests/legs_below.hpp"
 #include "gateway/description/machine_file.hpp"
 
@@ -264,6 +265,65 @@ TEST(EveryMachine, WhicheverPairIsLookedAtFirstTheNearestIsTheSame) {
     }
     EXPECT_GT(seen, 10) << name;
   }
+}
+
+TEST(EveryMachine, PairsThatAreAlwaysPartedKeepTheClearanceAtEveryPose) {
+  std::mt19937 random(12);
+  const auto in = [&random](double a, double b) {
+    return std::uniform_real_distribution<double>(a, b)(random);
+  };
+  // Carriages against each other and against each other's rails, at least.
+  const std::map<const char*, std::size_t> machines{{"m1.toml", 6 + 12},
+                                                    {"m4.toml", 1 + 2},
+                                                    {"m5.toml", 6 + 12},
+                                                    {"delta.toml", 3 + 6},
+                                                    {"cartesian.toml", 0}};
+  for (const auto& [name, least] : machines) {
+    const Model model = make_collision_model(shipped(name));
+    std::vector<CollisionModel::Pair> parted;
+    for (const CollisionModel::Pair& pair : model->pairs())
+      if (model->always_parted(pair)) parted.push_back(pair);
+    EXPECT_GE(parted.size(), least) << name;
+    Scene scene = model->at_rest();
+    for (int n = 0; n < 200; ++n) {
+      const Pose pose{in(-150, 150), in(-150, 150), in(-50, 300), in(-0.8, 0.8), 0, 0};
+      if (!model->place(Frame::kPart, pose, scene)) continue;
+      for (const CollisionModel::Pair& pair : parted)
+        EXPECT_GE(model->distance(scene, pair), model->wanted_mm())
+            << name << ": " << model->name(model->bodies()[pair.first].id) << " and "
+            << model->name(model->bodies()[pair.second].id);
+    }
+  }
+}
+
+TEST(LegMachine, ACarriageIsPartedFromAColumnBesideItUnlessItComesTooNear) {
+  MachineDescription d = legs_below();
+  const auto& foot = std::get<M1Geometry>(d.kinematics).legs[0].foot_mm;
+  d.bodies->fixed.push_back(
+      {"column", {foot[0] - 20, foot[1] + 55, -200}, {foot[0] + 20, foot[1] + 95, 2000}});
+  const auto between = [](const CollisionModel& model) {
+    const auto found = std::find_if(model.pairs().begin(), model.pairs().end(), [&](const auto& pair) {
+      return model.bodies()[pair.first].id == BodyId{BodyKind::kCarriage, 1} &&
+             model.bodies()[pair.second].id.kind == BodyKind::kFixed;
+    });
+    return *found;
+  };
+  Model model = make_collision_model(d);
+  Scene scene = model->at_rest();
+  ASSERT_TRUE(model->place(Frame::kPart, {0, 0, 100, 0, 0, 0}, scene));
+  const double mm = model->distance(scene, between(*model));
+  ASSERT_GT(mm, 2);
+  ASSERT_LT(mm, 30);
+  EXPECT_TRUE(model->always_parted(between(*model)));
+  d.bodies->clearance_mm = mm + 0.5;
+  model = make_collision_model(d);
+  EXPECT_FALSE(model->always_parted(between(*model)));
+  EXPECT_EQ(Sweep(*model).to(Frame::kPart, {0, 0, 100, 0, 0, 0}), Sweep::Step::kNear);
+  // One that stands above its carriage is in the way wherever that comes.
+  d.bodies->clearance_mm = 2;
+  d.bodies->fixed.back() = {"lamp", {foot[0] - 20, foot[1] - 20, 1500}, {foot[0] + 20, foot[1] + 20, 1600}};
+  model = make_collision_model(d);
+  EXPECT_FALSE(model->always_parted(between(*model)));
 }
 
 /// The tool's tip against the table: what the pose says.

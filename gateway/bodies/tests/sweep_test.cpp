@@ -65,6 +65,83 @@ TEST(Sweep, SaysAtEveryPoseWhatMeasuringAllPairsSays) {
   EXPECT_GT(clear, 2000);
 }
 
+/// Line beside line, as infill is, 2 mm apart in a square of 80 mm.
+template <typename See>
+void for_each_of_a_layer(double z_mm, double tilt_rad, const See& see) {
+  for (int line = 0; line <= 40; ++line)
+    for (int n = 0; n <= 80; ++n)
+      see(Pose{line % 2 == 0 ? n - 40.0 : 40.0 - n, 2.0 * line - 40, z_mm, tilt_rad, 0, 0});
+}
+
+TEST(Sweep, WhereAPathHasBeenClearItIsNotMeasuredAgain) {
+  const Model model = make_collision_model(legs_below());
+  for (const double tilt : {0.0, 0.5}) {
+    Sweep sweep(*model);
+    std::uint64_t first = 0;
+    for (int layer = 0; layer < 8; ++layer) {
+      sweep.jump();
+      for_each_of_a_layer(20 + 0.3 * layer, tilt,
+                          [&](const Pose& p) { ASSERT_EQ(sweep.to(Frame::kPart, p), Sweep::Step::kClear); });
+      if (layer == 0) first = sweep.measured();
+    }
+    EXPECT_GT(first, 0u) << "tilt " << tilt;
+    // Seven layers more, and cells of 4 mm are full after a while.
+    EXPECT_LT(sweep.measured(), 3 * first) << "tilt " << tilt;
+  }
+}
+
+TEST(Sweep, WhereItComesBackToItSaysWhatMeasuringAllPairsSays) {
+  MachineDescription d = legs_below();
+  // The table's rim comes to it in a part of each layer.
+  d.bodies->fixed.push_back({"lamp", {125, -20, 1200}, {135, 20, 1400}});
+  const Model model = make_collision_model(d);
+  for (const double tilt : {0.0, 0.3}) {
+    Sweep sweep(*model);
+    int near = 0, clear = 0;
+    for (int layer = 0; layer < 4; ++layer)
+      for_each_of_a_layer(20 + 0.3 * layer, tilt, [&](const Pose& pose) {
+        const auto all = model->clearance(Frame::kPart, pose);
+        ASSERT_TRUE(all);
+        Sweep::Step step = sweep.to(Frame::kPart, pose);
+        if (step == Sweep::Step::kCoarse) {
+          sweep.jump();
+          step = sweep.to(Frame::kPart, pose);
+        }
+        ASSERT_EQ(step == Sweep::Step::kNear, all->mm < model->wanted_mm())
+            << "tilt " << tilt << ", layer " << layer << ", X " << pose[kX] << " Y " << pose[kY] << ": "
+            << all->mm;
+        (step == Sweep::Step::kNear ? near : clear) += 1;
+      });
+    EXPECT_GT(near, 500) << "tilt " << tilt;
+    EXPECT_GT(clear, 5000) << "tilt " << tilt;
+    // Twice along the border between both, line by line, there is little room.
+    EXPECT_LT(sweep.measured(), static_cast<std::uint64_t>(near + clear / 2)) << "tilt " << tilt;
+  }
+}
+
+TEST(Sweep, WhatIsPrintedIsFoundWhereThePathWasClearBefore) {
+  MachineDescription d = legs_below();
+  // 20 mm over the nozzle's tip, beside it.
+  d.bodies->fixed.push_back({"beam", {30, -60, 1320}, {60, 60, 1340}});
+  const Model model = make_collision_model(d);
+  PrintedPart printed;
+  Sweep sweep(*model, Occasion::kMotion, &printed);
+  const auto met_at = [&](double x, double z) {
+    return sweep.to(Frame::kPart, {x, 0, z, 0, 0, 0}) == Sweep::Step::kNear && sweep.met_print();
+  };
+  for (double z = 45; z >= 1; --z) EXPECT_FALSE(met_at(0, z)) << "nothing is printed, Z " << z;
+  const std::uint64_t before = sweep.measured();
+  for (double z = 1; z <= 45; ++z) {
+    for (double x = -40; x <= 40; ++x) printed.add({x, 0, z});
+    EXPECT_FALSE(met_at(0, z)) << "the part ends at the tip, Z " << z;
+  }
+  EXPECT_GT(sweep.measured(), before);
+  // Back down the same way the part comes up to the beam: 45 mm less the 20, and what bodies keep.
+  double z = 45;
+  while (z > 0 && !met_at(0, z)) z -= 0.5;
+  EXPECT_NEAR(z, 45 - 20 + 2, 1.9);
+}
+
 void expect_witnesses(const MachineDescription& machine) {
   const Model model = make_collision_model(machine);
   Walk walk(11);
