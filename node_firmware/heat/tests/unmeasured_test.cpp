@@ -1,5 +1,5 @@
-// Hot ends that were never measured: default PID and plain rules. They come back after a break in seconds, not in
-// minutes, and one that holds by most of its power is not taken for loose.
+// Hot ends that were never measured: default PID and plain rules. They come back after a break in seconds,
+// not in minutes, and one that holds by most of its power is not taken for loose.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +26,8 @@ TEST(Unmeasured, HotEndsOfAllKindsAreBackAfterABreak) {
     bench.run(0.2);
     bench.heater.set_target(static_cast<std::int32_t>(kTarget * 1000));
     bench.run(300);
-    ASSERT_EQ(bench.heater.fault(), HeaterFault::kNone) << "hot end " << i << ", " << p.power_w << " W, from cold";
+    ASSERT_EQ(bench.heater.fault(), HeaterFault::kNone)
+        << "hot end " << i << ", " << p.power_w << " W, from cold";
     bench.heater.set_target(0);
     while (bench.plant.block() > kBroken) bench.run(0.1);
     bench.heater.clear_fault();
@@ -42,8 +43,10 @@ TEST(Unmeasured, HotEndsOfAllKindsAreBackAfterABreak) {
     slowest = std::max(slowest, back);
   }
   EXPECT_LE(hottest, kTarget + 8);
-  std::printf("50 hot ends, never measured, from %.0f C to within 2 K of %.0f: at most %.1f s, block at most %.1f C\n",
-              kBroken, kTarget, slowest, hottest);
+  std::printf(
+      "50 hot ends, never measured, from %.0f C to within 2 K of %.0f: at most %.1f s, block at most %.1f "
+      "C\n",
+      kBroken, kTarget, slowest, hottest);
 }
 
 // What the rule for heating lets pass next to the target is found when it has left it.
