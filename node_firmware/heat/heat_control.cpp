@@ -11,9 +11,11 @@ std::uint32_t limited(std::int64_t power, std::uint32_t most) {
 
 }  // namespace
 
-void PidControl::configure(const PidParameters& p) {
+void PidControl::configure(const PidParameters& p, std::uint32_t hold_ppm_per_k) {
+  hold_ = (static_cast<std::int64_t>(kFullPower) << 16) * hold_ppm_per_k / 1'000'000'000;
   proportional_ = (static_cast<std::int64_t>(kFullPower) << 16) / std::max<std::uint32_t>(p.band_mc, 100);
   integral_gain_ = p.integral_ms == 0 ? 0 : (kTickMs << 32) / p.integral_ms;
+  look_ = p.integral_ms / 2 / kTickMs;
   derivative_gain_ = static_cast<std::int64_t>(p.derivative_ms) * 256 / kTickMs;
 }
 
@@ -29,10 +31,14 @@ std::uint32_t PidControl::step(std::int32_t target, std::int32_t measured, std::
   slope_ += (static_cast<std::int64_t>(measured - last_) * 256 - slope_) / 8;
   last_ = measured;
   const std::int64_t straight = error * proportional_ - ((slope_ * derivative_gain_) >> 16) * proportional_;
-  const std::int64_t power = (straight + sum_) >> 16;
+  const std::int64_t hold = std::max(target - kRoom, 0) * hold_;
+  const std::int64_t power = (straight + hold + sum_) >> 16;
   const bool winds_up = (power >= most && error > 0) || (power <= 0 && error < 0);
-  if (!winds_up) sum_ += (error * proportional_ >> 16) * integral_gain_ >> 16;
-  sum_ = std::clamp(sum_, std::int64_t{0}, static_cast<std::int64_t>(kFullPower) << 16);
+  // What already comes by itself, within half of the integral's time, is not what the integral has to find.
+  const std::int64_t comes = slope_ * look_ / 256;
+  const bool comes_by_itself = (error > 0 && comes >= error) || (error < 0 && comes <= error);
+  if (!winds_up && !comes_by_itself) sum_ += (error * proportional_ >> 16) * integral_gain_ >> 16;
+  sum_ = std::clamp(sum_, -hold, static_cast<std::int64_t>(kFullPower) << 16);
   return limited(power, most);
 }
 

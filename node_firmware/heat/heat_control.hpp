@@ -16,7 +16,9 @@ struct PidParameters {
 
 class PidControl {
  public:
-  void configure(const PidParameters& parameters);
+  /// `hold_ppm_per_k`: a share of full power that a kelvin above the room is thought to take. The integral
+  /// then has the difference alone to find.
+  void configure(const PidParameters& parameters, std::uint32_t hold_ppm_per_k = 0);
   void start(std::int32_t measured);
   /// Parts of kFullPower. `most`: what the output is limited to; the integral waits while it is.
   std::uint32_t step(std::int32_t target, std::int32_t measured, std::uint32_t most);
@@ -25,6 +27,8 @@ class PidControl {
   std::int64_t proportional_ = 0;     // kFullPower a mC, 16 fractional bits
   std::int64_t integral_gain_ = 0;    // a tick, 32 fractional bits of the proportional part
   std::int64_t derivative_gain_ = 0;  // ticks, 8 fractional bits
+  std::int64_t look_ = 0;             // ticks
+  std::int64_t hold_ = 0;             // kFullPower a mC, 16 fractional bits
   std::int64_t sum_ = 0;              // 16 fractional bits
   std::int64_t slope_ = 0;            // mC a tick, smoothed, 8 fractional bits
   std::int32_t last_ = 0;

@@ -11,6 +11,10 @@ constexpr std::uint32_t kSupplyStep = 256;
 constexpr std::int32_t kPutBack = 10'000;  // mC
 /// A supply so far from nominal is not compensated further: the measurement may be wrong.
 constexpr std::uint32_t kLowestSupply = 2, kHighestSupply = 2;  // halves to doubles
+/// What a hot end loses to the air, uW a K: 0.04 to 0.08 W/K. A heater that was never measured begins with
+/// it; of a bed it is hardly a part.
+constexpr std::uint64_t kUsualLoss = 60'000;
+constexpr std::uint64_t kMostUsual = 4'000;  // ppm of full power a K
 
 }  // namespace
 
@@ -37,7 +41,8 @@ void Heater::configure(const HeaterSettings& settings) {
     model_.configure(settings.model);
     by_model_.configure(settings.model);
   }
-  by_pid_.configure(settings.pid);
+  const std::uint64_t usual = kUsualLoss * 1000 / std::max<std::uint32_t>(settings.nominal_mw, 1);
+  by_pid_.configure(settings.pid, has_model_ ? 0 : static_cast<std::uint32_t>(std::min(usual, kMostUsual)));
   watch_.configure(settings.watch, has_model_ ? &model_ : nullptr);
   most_ = kFullPower * std::min<std::uint32_t>(settings.most_power, 100) / 100;
   supply_mv_ = 0;

@@ -93,15 +93,20 @@ HeaterFault HeaterWatch::by_model(std::int32_t measured, const ThermalModel& mod
 HeaterFault HeaterWatch::by_rules(std::int32_t measured, std::uint32_t power, std::int32_t target) {
   if (target != std::exchange(last_target_, target)) {
     reached_ = false;
-    away_ticks_ = 0;
+    away_ticks_ = asked_ticks_ = 0;
   }
-  // Heating: full power that does not warm.
-  if (power < kFullPower / 2 || rise_ticks_ == 0 || measured >= rise_from_ + kLeastRise) {
+  ++asked_ticks_;
+  // Heating: power that does not warm. Next to the target it holds, and a weak heater does so by most of its
+  // power.
+  const bool near = measured >= target - kAway / 3;
+  if (near || power < kFullPower / 2 || rise_ticks_ == 0 || measured >= rise_from_ + kLeastRise) {
     rise_from_ = measured;
     rise_ticks_ = 1;
   } else if (++rise_ticks_ > settings_.rise_s * kTicksPerSecond) {
     return HeaterFault::kHeatMissing;
   }
+  // A block that was cooling goes on with it until the first heat has come.
+  if (asked_ticks_ < settings_.rise_s * kTicksPerSecond / 2) rise_from_ = std::min(rise_from_, measured);
   // Holding.
   if (target != 0 && measured > target - kAway / 3 && measured < target + kAway / 3) reached_ = true;
   if (lasts(away_ticks_, reached_ && target != 0 && measured < target - kAway, kAwayTicks))

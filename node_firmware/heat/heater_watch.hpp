@@ -59,6 +59,7 @@ class HeaterWatch {
                doubt_ = 0;   // of what is taken: its mean with 8 fractional bits, what it may be wrong by
   std::uint32_t quiet_ = 0;  // ticks
   std::uint32_t rise_ticks_ = 0, away_ticks_ = 0, off_ticks_ = 0;
+  std::uint32_t asked_ticks_ = 0;  // since the target changed
   bool reached_ = false;
 
   HeatBalance balance_;
