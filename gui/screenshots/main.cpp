@@ -1,22 +1,21 @@
 // kinebus-gui-screenshots DIR: every page of the program in every language, light and dark, against a real
-// demo daemon that prints. tools/screenshots runs it under Xvfb. DIR killed: the gateway that is killed,
-// alone.
+// demo daemon that prints. tools/screenshots runs it under Xvfb. DIR scenes, DIR bench, DIR killed: the
+// machines, the window of a driver card, the gateway that is killed, alone.
 
 #include <QApplication>
 #include <QDeadlineTimer>
 #include <QDir>
 #include <QLatin1String>
 #include <QTemporaryDir>
-#include <cmath>
 #include <cstdio>
-#include <numbers>
 #include <stdexcept>
 
+#include "gui/screenshots/bench_pictures.hpp"
 #include "gui/screenshots/demo_job.hpp"
 #include "gui/screenshots/killed_gateway.hpp"
 #include "gui/screenshots/photographer.hpp"
+#include "gui/screenshots/scenes.hpp"
 #include "gui/views/connect_page.hpp"
-#include "gui/views/console_page.hpp"
 #include "gui/views/heat_panel.hpp"
 #include "gui/views/jobs_page.hpp"
 #include "gui/views/machine_file_editor.hpp"
@@ -33,7 +32,7 @@ int run(int argc, char** argv) {
   QApplication::setOrganizationName(QStringLiteral("kinebus"));
   QApplication::setApplicationName(QStringLiteral("kinebus-gui-screenshots"));
   const QString folder = argc > 1 ? QString::fromLocal8Bit(argv[1]) : QStringLiteral("screenshots");
-  const bool killed_alone = argc > 2 && QLatin1String(argv[2]) == QLatin1String("killed");
+  const QString part = argc > 2 ? QString::fromLocal8Bit(argv[2]) : QString();
   QDir().mkpath(folder);
   QTemporaryDir scratch;
 
@@ -43,12 +42,26 @@ int run(int argc, char** argv) {
   MainWindow window(desk);
   window.show();
   Photographer photographer(desk, window, folder);
-  if (killed_alone) {
+  if (part == QLatin1String("killed")) {
     photograph_killed_gateway(desk, window, photographer);
     return 0;
   }
+  if (part == QLatin1String("bench")) {
+    photograph_bench(desk, window, photographer);
+    return 0;
+  }
+  if (part == QLatin1String("scenes")) {
+    turn_to(desk, "m1");
+    desk.session.home();
+    wait("the machine is homed", [&] {
+      return desk.session.status().state() == joblink::STATE_READY && desk.session.status().positions_known();
+    });
+    photograph_m1(desk, window, photographer);
+    photograph_other_machines(desk, window, photographer);
+    return 0;
+  }
   photographer.all(MainWindow::kConnect, QStringLiteral("1-connect"));
-  photographer.bench(window.connect_page().show_bench());
+  photograph_bench(desk, window, photographer);
   photographer.small(MainWindow::kConnect, QStringLiteral("connect"));
 
   QObject::connect(&desk.session, &Session::refused, &window,
@@ -71,47 +84,8 @@ int run(int argc, char** argv) {
        [&] { return state() == joblink::STATE_READY && desk.session.status().positions_known(); });
   photographer.all(MainWindow::kJog, QStringLiteral("4-jog"));
   photographer.small(MainWindow::kJog, QStringLiteral("jog"));
-  const auto scene = [&](const char* name) {
-    window.view_page().scene().look(SceneView::Look::kDiagonal);
-    window.view_page().scene().fit_machine();
-    photographer.one(MainWindow::kView, QString::fromLatin1(name));
-  };
-  scene("11-scene-m1-home");
-  desk.session.go_to_reference();
-  wait("it is over the bed", [&] { return state() == joblink::STATE_MOVING; });
-  wait("it rests", [&] { return state() == joblink::STATE_READY; });
-  constexpr double kTilt_rad = std::numbers::pi / 4;
-  joblink::Pose tilt;
-  tilt.set_a_rad(kTilt_rad);
-  desk.session.jog(tilt, 0);
-  wait("it is tilted", [&] {
-    return state() == joblink::STATE_READY &&
-           std::abs(desk.session.status().tool().a_rad() - kTilt_rad) < 1e-3;
-  });
-  scene("11-scene-m1-tilted");
-  window.view_page().scene().fit_part();
-  photographer.one(MainWindow::kView, QStringLiteral("11-scene-m1-tilted-part"));
-  const auto say = [&](const char* line) {
-    window.console_page().send(QString::fromLatin1(line));
-    // One that comes while the machine still moves may be refused.
-    wait(line, [&, from = desk.session.status().time_s()] {
-      return desk.session.status().time_s() > from + 0.3 && state() == joblink::STATE_READY;
-    });
-  };
-  // Past the corner where leg 3 carries the platform, which comes within 4 mm of the nozzle there.
-  for (const char* line : {"G90", "G43.4", "G1 Z60 F3000", "G1 A45", "G1 X-124 Y-40", "G1 Z4", "G1 Y-60"})
-    say(line);
-  wait("leg and nozzle are close", [&] { return state() == joblink::STATE_READY; });
-  scene("11-scene-m1-close");
-  window.view_page().scene().fit_part();
-  photographer.one(MainWindow::kView, QStringLiteral("11-scene-m1-close-part"));
-  for (const char* line : {"G1 Z60", "G1 A0", "G49"}) say(line);
-  wait("it rests again", [&] { return state() == joblink::STATE_READY; });
-  desk.session.go_to_reference();
-  wait("it is upright", [&] {
-    return state() == joblink::STATE_READY && std::abs(desk.session.status().tool().a_rad()) < 1e-3;
-  });
-  for (const char* line : {"M115", "M114", "M105", "M119"}) say(line);
+  photograph_m1(desk, window, photographer);
+  for (const char* line : {"M115", "M114", "M105", "M119"}) say_line(desk, window, line);
   photographer.all(MainWindow::kConsole, QStringLiteral("5-console"));
   photographer.small(MainWindow::kConsole, QStringLiteral("console"));
   wait("still connected", [&] { return desk.session.connected(); });
@@ -192,19 +166,8 @@ int run(int argc, char** argv) {
   desk.session.start_job(QStringLiteral("short.gcode"));
   wait("a short job is over", [&] { return desk.record.end() == JobRecord::End::kComplete; });
   photographer.all(MainWindow::kView, QStringLiteral("16-finished"));
-  const auto turn_to = [&](const char* other) {
-    desk.start_demo([](const QString& why) { std::fprintf(stderr, "%s\n", qPrintable(why)); },
-                    QStringLiteral(KINEBUS_MACHINES "/%1.toml").arg(QLatin1String(other)));
-    wait(other, [&] { return desk.session.connected() && desk.session.machine().joints_size() > 0; });
-  };
-  for (const char* other : {"m2", "m3", "m4", "m5", "delta"}) {
-    turn_to(other);
-    desk.session.home();
-    wait("it is homed",
-         [&] { return state() == joblink::STATE_READY && desk.session.status().positions_known(); });
-    scene(qPrintable(QStringLiteral("11-scene-%1-home").arg(QLatin1String(other))));
-  }
-  turn_to("corexy_heat");
+  photograph_other_machines(desk, window, photographer);
+  turn_to(desk, "corexy_heat");
   desk.session.bring_up();
   wait("it is awake", [&] { return desk.session.allowed(joblink::COMMAND_TUNE_HEATER); });
   desk.session.tune_heater(joblink::HEATER_HOTEND, 0, 0);

@@ -77,13 +77,13 @@ class Photographer {
     window_.resize(before);
   }
 
-  /// The window of a card on a bench, before one is opened.
-  void bench(BenchWindow& bench) {
+  /// A window of its own, in every language. It is closed then.
+  void bench(BenchWindow& bench, const QString& name) {
     for (const auto& choice : Language::choices()) {
       window_.set_theme(false);
       window_.set_language(choice.code);
       for (int round = 0; round < 12; ++round) QCoreApplication::processEvents(QEventLoop::AllEvents, 20);
-      save(bench, QStringLiteral("14-bench-%1").arg(choice.code));
+      save(bench, QStringLiteral("%1-%2").arg(name, choice.code));
     }
     bench.close();
   }

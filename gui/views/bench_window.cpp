@@ -287,10 +287,12 @@ void BenchWindow::take_motor(int axis, const QJsonObject& state) {
   const auto number = [&](const char* key) { return state.value(QLatin1String(key)).toDouble(); };
   const int error = state.value(QLatin1String("error_code")).toInt();
   const QString drive = Format::isolated(state.value(QLatin1String("drive")).toString());
-  m.drive->setText(error == 0 ? drive
-                              : tr("%1, error %2")
-                                    .arg(drive, Format::isolated(QStringLiteral("%1h").arg(
-                                                    error, 4, 16, QLatin1Char('0')))));
+  // States are English words: a mark before them makes a label begin where the language does.
+  const QChar begins(isRightToLeft() ? 0x200F : 0x200E);
+  m.drive->setText(begins + (error == 0 ? drive
+                                        : tr("%1, error %2")
+                                              .arg(drive, Format::isolated(QStringLiteral("%1h").arg(
+                                                              error, 4, 16, QLatin1Char('0'))))));
   const double counts = number("position_counts");
   m.place->setText(tr("%1 counts, %2 turns")
                        .arg(Format::isolated(Format::number(counts, 0)),
@@ -298,7 +300,7 @@ void BenchWindow::take_motor(int axis, const QJsonObject& state) {
   m.measured->setText(
       tr("%1 measured, stage at %2, supply %3")
           .arg(Format::isolated(Format::number(number("measured_ma") / 1000, 2) + QStringLiteral(" A")),
-               Format::temperature(number("stage_celsius")),
+               Format::isolated(Format::temperature(number("stage_celsius"))),
                Format::isolated(Format::number(number("supply_volts"), 1) + QStringLiteral(" V"))));
   // News stand in the fields; what is being edited stays.
   const int run = static_cast<int>(number("run_ma")), hold = static_cast<int>(number("hold_ma"));
