@@ -2961,6 +2961,18 @@
         <translation>برنامهٔ آن برای برد یا تراشهٔ دیگری است: چیزی را راه نمی‌اندازد</translation>
     </message>
     <message>
+        <source>A board cannot measure its crystal</source>
+        <translation>یک برد نمی‌تواند کریستال خود را اندازه بگیرد</translation>
+    </message>
+    <message>
+        <source>the crystal was not measured: the board runs as with its own one</source>
+        <translation>کریستال اندازه‌گیری نشد: برد مانند کریستال خودش کار می‌کند</translation>
+    </message>
+    <message>
+        <source>check that the board is the one that the image is for</source>
+        <translation>بررسی کنید که برد همان باشد که برنامه برای آن است</translation>
+    </message>
+    <message>
         <source>write the program for this board (kinebus-setup boards shows what it is)</source>
         <translation>برنامهٔ همین برد را بنویسید (kinebus-setup boards نشان می‌دهد کدام است)</translation>
     </message>

@@ -2961,6 +2961,18 @@
         <translation>programı başka bir kart ya da yonga için: hiçbir şeyi sürmüyor</translation>
     </message>
     <message>
+        <source>A board cannot measure its crystal</source>
+        <translation>Bir kart kristalini ölçemiyor</translation>
+    </message>
+    <message>
+        <source>the crystal was not measured: the board runs as with its own one</source>
+        <translation>kristal ölçülemedi: kart kendi kristaliyle gibi çalışıyor</translation>
+    </message>
+    <message>
+        <source>check that the board is the one that the image is for</source>
+        <translation>kartın, imajın yapıldığı kart olduğunu kontrol edin</translation>
+    </message>
+    <message>
         <source>write the program for this board (kinebus-setup boards shows what it is)</source>
         <translation>bu kartın programını yazın (hangi kart olduğunu kinebus-setup boards gösterir)</translation>
     </message>

@@ -52,9 +52,12 @@ void Node::tell_reset() {
   const ResetReport& reset = options_.reset;
   const bool by_watchdog = reset.cause == ResetCause::kWatchdog;
   if (by_watchdog) count(NodeCounter::kWatchdogResets);
-  const std::uint16_t code = by_watchdog || reset.reason != fault_reason::kNone ? emcy::kSoftware
-                             : reset.cause == ResetCause::kBrownOut             ? emcy::kUnderVoltage
-                                                                                : emcy::kNoError;
+  const bool unmeasured = reset.reason == fault_reason::kUnmeasuredCrystal;
+  const bool failed = by_watchdog || (reset.reason != fault_reason::kNone && !unmeasured);
+  const std::uint16_t code = failed                                 ? emcy::kSoftware
+                             : reset.cause == ResetCause::kBrownOut ? emcy::kUnderVoltage
+                             : unmeasured                           ? emcy::kCrystal
+                                                                    : emcy::kNoError;
   if (code == emcy::kNoError) return;
   emcy_.raise(code, {0, static_cast<std::uint8_t>(reset.cause), static_cast<std::uint8_t>(reset.reason),
                      static_cast<std::uint8_t>(reset.reason >> 8), 0});

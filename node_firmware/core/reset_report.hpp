@@ -13,6 +13,13 @@ enum class ResetCause : std::uint8_t { kPowerOn, kResetPin, kBrownOut, kWatchdog
 namespace fault_reason {
 inline constexpr std::uint16_t kNone = 0, kAssert = 0x100, kAbort = 0x101, kNoClock = 0x102,
                                kMainEnded = 0x103, kOtherCrystal = 0x104;
+/// No fault: the crystal could not be measured, and the board runs as with its own one.
+inline constexpr std::uint16_t kUnmeasuredCrystal = 0x105;
+}  // namespace fault_reason
+
+/// Of what a start of the clocks has returned: the core has its clock.
+constexpr bool clocks_run(std::uint16_t reason) {
+  return reason == fault_reason::kNone || reason == fault_reason::kUnmeasuredCrystal;
 }
 
 struct ResetReport {

@@ -14,13 +14,14 @@ inline constexpr std::uint16_t kOverCurrent = 0x2310, kShortCircuit = 0x2320, kS
                                kDriveTemperature = 0x4310, kSensorOpen = 0x5001, kSensorShort = 0x5002,
                                kSensorJump = 0x5003, kSensorSilent = 0x5004, kHeatMissing = 0x5005,
                                kHeatUnasked = 0x5006, kFanStalled = 0x5007, kControlHardware = 0x5200,
-                               kOtherBoard = 0x5210, kNoMotor = 0x5220, kDriverReset = 0x5400,
-                               kStorage = 0x5530, kSoftware = 0x6100, kEncoder = 0x7300,
-                               kIncrementalEncoder = 0x7305, kDriverSilent = 0x7510, kCanOverrun = 0x8110,
-                               kErrorPassive = 0x8120, kHeartbeat = 0x8130, kBusOffRecovered = 0x8140,
-                               kIdCollision = 0x8150, kPdoRefused = 0x8200, kPdoTooShort = 0x8210,
-                               kPdoTooLong = 0x8220, kSyncLength = 0x8240, kRpdoTimeout = 0x8250,
-                               kFollowingError = 0x8611, kPositionLimit = 0x8612, kSyncController = 0x8700;
+                               kOtherBoard = 0x5210, kNoMotor = 0x5220, kCrystal = 0x5230,
+                               kDriverReset = 0x5400, kStorage = 0x5530, kSoftware = 0x6100,
+                               kEncoder = 0x7300, kIncrementalEncoder = 0x7305, kDriverSilent = 0x7510,
+                               kCanOverrun = 0x8110, kErrorPassive = 0x8120, kHeartbeat = 0x8130,
+                               kBusOffRecovered = 0x8140, kIdCollision = 0x8150, kPdoRefused = 0x8200,
+                               kPdoTooShort = 0x8210, kPdoTooLong = 0x8220, kSyncLength = 0x8240,
+                               kRpdoTimeout = 0x8250, kFollowingError = 0x8611, kPositionLimit = 0x8612,
+                               kSyncController = 0x8700;
 }  // namespace emcy
 
 /// The node's own. What a code stops is in the vendor bytes: StopRequest (protocol/motion/broadcast.hpp).

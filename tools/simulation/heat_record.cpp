@@ -14,13 +14,11 @@ constexpr BusTime kLook = std::chrono::milliseconds{100};
 HeatRecord::HeatRecord(const MachineDescription& machine, NodeMachine& nodes) : checker_(machine) {
   for (std::size_t j = 0; j < machine.joints.size(); ++j)
     if (machine.joints[j].name == "E") extruder_ = j;
-  auto* const virtual_nodes = dynamic_cast<VirtualMachine*>(&nodes);
   for (std::size_t n = 0; n < machine.nodes.size(); ++n) {
     const NodeDescription& node = machine.nodes[n];
-    if (virtual_nodes != nullptr && !node.functions.has_axes() && machine.carries_heat(node.id))
-      blocks_ = [&plant = virtual_nodes->heat_plant(static_cast<int>(n))] {
-        return Blocks{plant.hot_end().block(), plant.bed().block()};
-      };
+    if (node.functions.has_axes() || !machine.carries_heat(node.id)) continue;
+    if (heat::HeatPlant* const plant = nodes.heated(static_cast<int>(n)))
+      blocks_ = [plant] { return Blocks{plant->hot_end().block(), plant->bed().block()}; };
   }
 }
 

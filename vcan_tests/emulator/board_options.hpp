@@ -21,6 +21,7 @@ struct BoardOptions {
   std::array<SsiScale::Options, 2> absolute_scales{};
   std::array<double, 2> encoder_offset_turns{};  ///< how the magnet is glued on
   std::uint32_t crystal_hz = 0;                  ///< 0: the board's own
+  bool measures_crystal = true;                  ///< false: no edge of it comes to TIM11
   double supply_v = 24;
   double temperature_c = 30;
 };

@@ -21,6 +21,7 @@ Stm32f4Chip::Stm32f4Chip(const ElfImage& image, const BoardOptions& options, con
       exti_(cpu_.nvic()),
       sysconfig_(exti_),
       tim2_(cpu_.nvic(), {.update_irq = 28, .cycles_per_tick = 2, .advanced = false}),
+      tim11_(rcc_, options.measures_crystal),
       can_(cpu_.nvic()),
       facts_(facts) {
   cpu_.nvic().set_device_id(facts.device_id);

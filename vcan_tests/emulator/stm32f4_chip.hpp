@@ -62,7 +62,7 @@ class Stm32f4Chip : public Chip {
   Exti exti_;
   SysConfig sysconfig_;
   Timer tim2_;
-  CrystalMeter tim11_{rcc_};
+  CrystalMeter tim11_;
   BxCan can_;
 
  private:

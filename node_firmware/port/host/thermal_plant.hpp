@@ -50,8 +50,12 @@ class ThermalPlant {
 
   explicit ThermalPlant(const PlantParameters& parameters, std::uint32_t seed = 1)
       : p(parameters), random_(seed) {
-    heater_ = block_ = sensor_ = p.ambient_c;
-    past_.assign(static_cast<std::size_t>(p.dead_s / kStep) + 1, p.ambient_c);
+    begin_at(p.ambient_c);
+  }
+  /// Warm all through, as after a print a moment ago.
+  void begin_at(double celsius) {
+    heater_ = block_ = sensor_ = celsius;
+    past_.assign(static_cast<std::size_t>(p.dead_s / kStep) + 1, celsius);
   }
 
   /// One sample's time with that share of power commanded.

@@ -88,7 +88,7 @@ int main() {
   if (start_program(handover_ram, check_image(program_flash.bytes(), boot_board::kTarget))) jump_to_program();
   system_control().VTOR = boot_board::kVectors;
   boot_board::configure_pins();
-  if (const std::uint16_t reason = boot_board::start_clocks(); reason != fault_reason::kNone)
+  if (const std::uint16_t reason = boot_board::start_clocks(); !clocks_run(reason))
     tell_no_clock(reason, boot_board::show);
   start_local_time();
   can_port.start();

@@ -15,8 +15,8 @@ namespace kinebus::stm32 {
 /// The chip's own oscillator, on which it begins: within 8 % at any temperature (data sheet).
 inline constexpr std::uint32_t kInternalHz = 16'000'000;
 
-/// Of the crystal, which must swing, by that oscillator: TIM11 sees every 128th of its periods. 0: none
-/// comes.
+/// Of the crystal, which must swing, by that oscillator: TIM11 sees every 128th of its periods, through
+/// HSE_RTC, which needs neither the RTC nor its clock selected. 0: none comes.
 inline std::uint32_t measured_crystal_hz() {
   constexpr std::uint32_t kDivider = 16, kPrescaler = 8, kPeriods = 16, kLooks = 100'000;
   enable_clock(rcc().APB2ENR, Rcc::kTim11);
@@ -40,6 +40,11 @@ inline std::uint32_t measured_crystal_hz() {
   return static_cast<std::uint32_t>(std::uint64_t{kInternalHz} * kDivider * kPrescaler * kPeriods / counts);
 }
 
+/// A measurement that may be true: the chip's crystals are of 4 to 26 MHz (data sheet).
+constexpr bool may_be_crystal(std::uint32_t hz) {
+  return hz > 4'000'000 / 8 * 7 && hz < 26'000'000 / 8 * 9;
+}
+
 /// The one that was measured, of those that a board may have; 0: another one.
 template <std::size_t kCount>
 constexpr std::uint32_t known_crystal(const std::array<std::uint32_t, kCount>& crystals, std::uint32_t hz) {
@@ -48,8 +53,9 @@ constexpr std::uint32_t known_crystal(const std::array<std::uint32_t, kCount>& c
   return 0;
 }
 
-/// fault_reason::kNone: it runs. Otherwise the core stays on its own oscillator: kNoClock, the crystal or the
-/// PLL does not start; kOtherCrystal, it is none of the board's.
+/// fault_reason::kNone: it runs. kUnmeasuredCrystal: too, as with the first of `kCrystals`, for a meter that
+/// fails must not keep a good board from its bus. Otherwise the core stays on its own oscillator: kNoClock,
+/// the crystal or the PLL does not start; kOtherCrystal, it is none of the board's.
 template <const auto& kCrystals>
 std::uint16_t start_clocks() {
   // The PLL's input should be 2 MHz for least jitter. R is the F446's, not used, and has no lesser value; on
@@ -64,7 +70,9 @@ std::uint16_t start_clocks() {
   pwr().CR = pwr().CR | Pwr::kScale1;
   r.CR = r.CR | Rcc::kHseOn;
   if (!wait_until([&] { return (r.CR & Rcc::kHseReady) != 0; })) return fault_reason::kNoClock;
-  const std::uint32_t crystal = known_crystal(kCrystals, measured_crystal_hz());
+  const std::uint32_t measured_hz = measured_crystal_hz();
+  const bool measured = may_be_crystal(measured_hz);
+  const std::uint32_t crystal = measured ? known_crystal(kCrystals, measured_hz) : kCrystals[0];
   if (crystal == 0) return fault_reason::kOtherCrystal;
   r.PLLCFGR = crystal / kInputHz | kN << 6 | (kP / 2 - 1) << 16 | Rcc::kPllFromHse | kQ << 24 | kR << 28;
   // A crystal that stops later is an NMI, and a break of both timers by hardware.
@@ -77,7 +85,8 @@ std::uint16_t start_clocks() {
   r.CFGR = r.CFGR | Rcc::kSwitchPll;
   const bool switched =
       wait_until([&] { return (r.CFGR & Rcc::kSwitchStatusMask) == Rcc::kSwitchStatusPll; });
-  return switched ? fault_reason::kNone : fault_reason::kNoClock;
+  if (!switched) return fault_reason::kNoClock;
+  return measured ? fault_reason::kNone : fault_reason::kUnmeasuredCrystal;
 }
 
 }  // namespace kinebus::stm32

@@ -20,9 +20,11 @@ constexpr ResetCause reset_cause(std::uint32_t csr) {
 }
 
 /// Once: the flags and the record are gone then.
-inline ResetReport take_reset_report() {
+/// `clock`: what start_clocks() has returned, which is told if nothing worse is to be.
+inline ResetReport take_reset_report(std::uint16_t clock) {
   ResetReport report = fault_ram.take();
   report.cause = reset_cause(rcc().CSR);
+  if (report.reason == fault_reason::kNone) report.reason = clock;
   rcc().CSR = rcc().CSR | Rcc::kClearResetFlags;
   return report;
 }

@@ -98,8 +98,8 @@ int main() {
     configure_pins<board::kPins>();
   else
     configure_pins<board::kTalkingPins>();
-  if (const std::uint16_t reason = start_clocks<board::kCrystals>(); reason != fault_reason::kNone)
-    tell_no_clock(reason, [](bool lit) { write(board::kStatusLed, !lit); });
+  const std::uint16_t clock = start_clocks<board::kCrystals>();
+  if (!clocks_run(clock)) tell_no_clock(clock, [](bool lit) { write(board::kStatusLed, !lit); });
   system_control().VTOR = board::kProgramAddress;
   start_local_time();
   can_port.start();
@@ -110,7 +110,7 @@ int main() {
       NodeOptions{.identity = {.serial = serial},
                   .node_id = take_inherited_node_id(handover_ram),
                   .program_crc = kImageHeader.crc,
-                  .reset = take_reset_report(),
+                  .reset = take_reset_report(clock),
                   .scale_inputs = {ScaleInput::kQuadratureOrEncoder + ScaleInput::kAbsoluteOrEncoder,
                                    ScaleInput::kQuadrature + ScaleInput::kAbsoluteOrEncoder},
                   .may_fit_scale = &Node::may_fit_scale},

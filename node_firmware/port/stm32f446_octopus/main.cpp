@@ -153,7 +153,7 @@ int main() {
   else
     configure_pins<octopus::kBusPins>();
   const std::uint16_t clock = alone ? start_clocks<octopus::kCrystals>() : fault_reason::kNoClock;
-  if (clock != fault_reason::kNone) power_off_and_reset(clock, nullptr);
+  if (!clocks_run(clock)) power_off_and_reset(clock, nullptr);
   system_control().VTOR = octopus::kProgramAddress;
   start_local_time();
   if (own_board) settle_drivers();
@@ -161,7 +161,7 @@ int main() {
   const auto stored = images.load();
   static_cast<void>(store.prepare(kBoardIds * kLargestParameterImage));
   NodeOptions options = options_of(0, take_inherited_node_id(handover_ram));
-  options.reset = take_reset_report();
+  options.reset = take_reset_report(clock);
   keep_records();  // without what was taken
   program.emplace(options, stored[0], can_port, switch_port, plans[0], octopus::kInputPlaces[0]);
   const bool good = own_board && watch_supply();

@@ -8,6 +8,10 @@
 #include "protocol/time.hpp"
 #include "tools/simulation/bus/bus_model.hpp"
 
+namespace kinebus::heat {
+class HeatPlant;
+}
+
 namespace kinebus {
 
 class NodeMachine {
@@ -42,6 +46,8 @@ class NodeMachine {
   virtual const BusModel& bus() const = 0;
   /// A raw level on an input that no axis drives (E-stop button).
   virtual void set_input(int node, BusTime at, int input, bool level) = 0;
+  /// What the heaters of this node heat; nullptr: it has none that is modelled.
+  virtual heat::HeatPlant* heated(int) { return nullptr; }
 };
 
 }  // namespace kinebus

@@ -273,6 +273,10 @@ heat::HeatPlant& VirtualMachine::heat_plant(int index) {
   return *nodes_[static_cast<std::size_t>(index)]->plant;
 }
 
+heat::HeatPlant* VirtualMachine::heated(int node) {
+  return nodes_[static_cast<std::size_t>(node)]->plant.get();
+}
+
 void VirtualMachine::set_input(int node, BusTime at, int input, bool level) {
   VirtualNode& n = *nodes_[static_cast<std::size_t>(node)];
   if (!n.core) return;

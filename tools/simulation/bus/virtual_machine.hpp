@@ -109,6 +109,7 @@ class VirtualMachine final : public NodeMachine {
   /// Of a heat node, which has power.
   heat::HeatNode& heat_node(int index);
   heat::HeatPlant& heat_plant(int index);
+  heat::HeatPlant* heated(int node) override;
   int node_count() const override { return static_cast<int>(nodes_.size()); }
   const BusModel& bus() const override { return bus_; }
 

@@ -9,7 +9,8 @@ namespace kinebus::emulator {
 
 class CrystalMeter final : public PlainRegisters {
  public:
-  explicit CrystalMeter(Rcc& rcc) : rcc_(rcc) {}
+  /// `hears`: the crystal's edges come to its input.
+  CrystalMeter(Rcc& rcc, bool hears) : rcc_(rcc), hears_(hears) {}
   void reset() {
     for (std::uint32_t offset = 0; offset <= kOption; offset += 4) word(offset) = 0;
     seen_ = 0;
@@ -36,12 +37,14 @@ class CrystalMeter final : public PlainRegisters {
     return static_cast<double>(edges * rcc_.crystal_divider()) / rcc_.crystal_hz();
   }
   std::uint64_t captures(Cycle now) {
-    const bool measures = (word(kControl) & 1) != 0 && (word(kEnable) & 1) != 0 && word(kOption) == 2 &&
-                          (word(kMode) & 3) == 1 && rcc_.crystal_divider() >= 2 && rcc_.crystal_swings();
+    const bool measures = hears_ && (word(kControl) & 1) != 0 && (word(kEnable) & 1) != 0 &&
+                          word(kOption) == 2 && (word(kMode) & 3) == 1 && rcc_.crystal_divider() >= 2 &&
+                          rcc_.crystal_swings();
     return measures ? static_cast<std::uint64_t>(seconds_of(now - began_) / period_s()) : 0;
   }
 
   Rcc& rcc_;
+  bool hears_;
   Cycle began_ = 0;
   std::uint64_t seen_ = 0;
 };

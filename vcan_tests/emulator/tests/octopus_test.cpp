@@ -41,6 +41,15 @@ TEST(Octopus, OneImageIsForCrystalsOf12And8Mhz) {
   EXPECT_FALSE(other.anything_on());
 }
 
+// No edge of the crystal comes to the meter: a mistake there must not keep a good board from the bus.
+TEST(Octopus, ACrystalThatCannotBeMeasuredIsToldAndTakenForItsOwn) {
+  OneOctopus node({.measures_crystal = false});
+  EXPECT_EQ(node.board.rcc().system_hz(), 168'000'000u);
+  EXPECT_EQ(node.board.resets(), 0u);
+  EXPECT_EQ(node.bench.read(kId, 0x2121, 2), fault_reason::kUnmeasuredCrystal);
+  EXPECT_EQ(node.bench.read(kId, 0x1003, 1) & 0xFFFF, emcy::kCrystal);
+}
+
 // The pins of another chip may be wired to anything, a heater among them.
 TEST(Octopus, OnAnotherChipItDrivesNothingAndSaysSo) {
   OneOctopus node({}, [](const ElfImage& image, const BoardOptions& options) -> std::unique_ptr<Chip> {

@@ -182,6 +182,15 @@ TEST(Silicon, WithAnotherCrystalOrNoneItShowsSoAndStaysOffTheBus) {
   }
 }
 
+// No edge of the crystal comes to the meter: a mistake there must not keep a good board from the bus.
+TEST(Silicon, ACrystalThatCannotBeMeasuredIsToldAndTakenForItsOwn) {
+  OneBoard node({.measures_crystal = false});
+  EXPECT_EQ(node.board.resets(), 0u);
+  EXPECT_TRUE(node.board.can().listening());
+  EXPECT_EQ(node.bench.read(OneBoard::kId, 0x2121, 2), fault_reason::kUnmeasuredCrystal);
+  EXPECT_EQ(node.bench.read(OneBoard::kId, 0x1003, 1) & 0xFFFF, emcy::kCrystal);
+}
+
 TEST(Silicon, WithoutABusANodeStartsAndSaysSoAndJoinsWhenItComes) {
   ElfImage image = firmware_image();
   const std::string path = KINEBUS_FIRMWARE_IMAGE;
