@@ -25,8 +25,8 @@ class ClearPlaces {
   void keep(const Room& room) {
     const Place& m = room.middle;
     const auto narrow = [](double x) { return static_cast<float>(x); };
-    rooms_[slot(m)] = {narrow(m.point.x), narrow(m.point.y),       narrow(m.point.z),
-                       narrow(m.turn_mm), narrow(room.mm - kRounding_mm)};
+    rooms_[slot(m)] = {narrow(m.point.x), narrow(m.point.y), narrow(m.point.z), narrow(m.turn_mm),
+                       narrow(room.mm - kRounding_mm)};
   }
   /// One that `place` is in.
   std::optional<Room> around(const Place& place) const {
