@@ -42,6 +42,7 @@ void JerkLookahead::load() {
   speeds_.resize(count);
   even_.resize(count);
   even_slow_.resize(count);
+  touch_jerk_.resize(count);
   lowest_.assign(2 * leaves_, std::numeric_limits<std::uint32_t>::max());
   starts_[0] = window_at_;
   for (std::size_t i = 0; i < count; ++i) {
@@ -50,6 +51,7 @@ void JerkLookahead::load() {
     speeds_[i] = std::sqrt(piece.cap);
     even_[i] = piece.even;
     even_slow_[i] = piece.even_slow;
+    touch_jerk_[i] = piece.touch_jerk;
     lowest_[leaves_ + i] = static_cast<std::uint32_t>(i);
   }
   for (std::size_t node = leaves_ - 1; node > 0; --node) {
@@ -88,11 +90,25 @@ void JerkLookahead::put(double from, double to, const SpeedRamp& ramp, bool capp
 }
 
 bool JerkLookahead::lower(std::size_t i, double speed, PlanPiece::Even& even) const {
-  if (!(starts_[i + 1] > starts_[i])) return false;
   const PlanPiece::Even& bound = speed <= PlanPiece::kSlow * speeds_[i] ? even_slow_[i] : even_[i];
   if (bound.accel >= even.accel && bound.jerk >= even.jerk) return false;
   even = {std::min(even.accel, bound.accel), std::min(even.jerk, bound.jerk)};
   return true;
+}
+
+// Ramps on both sides of a place would meet there, and each millisecond has one acceleration.
+PlanPiece::Even JerkLookahead::touching_from(const Stretch& stretch, std::size_t first) const {
+  PlanPiece::Even even = kUnbounded;
+  for (std::size_t i = first; i > 0 && starts_[i - 1] >= stretch.from - kShortest_mm; --i)
+    if (!(starts_[i] > starts_[i - 1])) even.jerk = std::min(even.jerk, touch_jerk_[i - 1]);
+  return even;
+}
+
+PlanPiece::Even JerkLookahead::touching_to(const Stretch& stretch, std::size_t last) const {
+  PlanPiece::Even even = kUnbounded;
+  for (std::size_t i = last + 1; i < speeds_.size() && starts_[i + 1] <= stretch.to + kShortest_mm; ++i)
+    if (!(starts_[i + 1] > starts_[i])) even.jerk = std::min(even.jerk, touch_jerk_[i]);
+  return even;
 }
 
 /// Ramps from both ends to `speed`, each by the bounds of the pieces that it passes.
@@ -102,23 +118,23 @@ JerkLookahead::Fit JerkLookahead::fit(const Stretch& stretch, std::size_t first,
   f.cruise_from = stretch.from;
   f.cruise_to = stretch.to;
   if (speed > stretch.v0) {
-    PlanPiece::Even even = kUnbounded;
+    PlanPiece::Even even = touching_from(stretch, first);
     for (std::size_t i = first;; ++i) {
       if (lower(i, speed, even)) {
         f.up = SpeedRamp(stretch.v0, speed, even.accel, even.jerk);
         f.cruise_from = stretch.from + f.up.length();
       }
-      if (i == last || starts_[i + 1] >= f.cruise_from) break;
+      if (i == last || starts_[i + 1] > f.cruise_from) break;
     }
   }
   if (speed > stretch.v1) {
-    PlanPiece::Even even = kUnbounded;
+    PlanPiece::Even even = touching_to(stretch, last);
     for (std::size_t i = last;; --i) {
       if (lower(i, speed, even)) {
         f.down = SpeedRamp(speed, stretch.v1, even.accel, even.jerk);
         f.cruise_to = stretch.to - f.down.length();
       }
-      if (i == first || starts_[i] <= f.cruise_to) break;
+      if (i == first || starts_[i] < f.cruise_to) break;
     }
   }
   f.fits = f.cruise_from <= f.cruise_to;

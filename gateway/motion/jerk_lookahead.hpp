@@ -67,6 +67,9 @@ class JerkLookahead {
   Fit fit(const Stretch& stretch, std::size_t first, std::size_t last, double speed) const;
   /// The lower of `even` and of what piece i allows at speeds up to `speed`; false: neither is lower.
   bool lower(std::size_t i, double speed, PlanPiece::Even& even) const;
+  /// What the places at both ends of a stretch allow a ramp that begins or ends there.
+  PlanPiece::Even touching_from(const Stretch& stretch, std::size_t first) const;
+  PlanPiece::Even touching_to(const Stretch& stretch, std::size_t last) const;
   bool keeps_caps(const Stretch& stretch, std::size_t first, std::size_t last, const Fit& fit) const;
   void solve_below_caps(const Stretch& stretch, std::size_t first, std::size_t last, double cap);
   std::size_t piece_after(double position) const;   ///< the first that ends behind `position`
@@ -80,6 +83,7 @@ class JerkLookahead {
   // The window, loaded for planning: piece i reaches from starts_[i] to starts_[i + 1].
   std::vector<double> starts_, speeds_;
   std::vector<PlanPiece::Even> even_, even_slow_;
+  std::vector<double> touch_jerk_;
   std::vector<std::uint32_t> lowest_;  ///< tournament over speeds_
   std::size_t leaves_ = 0;
   std::vector<Part> parts_, before_;

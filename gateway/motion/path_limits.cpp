@@ -21,6 +21,8 @@ constexpr double kBent = 0.3;
 constexpr double kCurvePart = 0.5;
 constexpr double kLeastPart_mm = 0.05;
 constexpr double kArcLook_rad = 0.35;
+// Stretch on either side of a jump of the curvature over which the joints' third derivative is taken.
+constexpr double kJumpLook_mm = 0.01;
 int parts_for(const PathPiece& piece, double part_mm, double part_rad) {
   const double turn = std::max(std::abs(piece.coefficients[kA][1]), std::abs(piece.coefficients[kC][1]));
   const double parts = piece.length * std::max(1 / part_mm, turn / part_rad);
@@ -74,14 +76,54 @@ Result<void, PoseError> PathLimits::start_of_line(const PathPiece& geometry) {
   return {};
 }
 
+/// Terms where newest geometry begins, of the pieces on both sides and of the jump between them. False: a
+/// pose cannot be reached.
+bool PathLimits::jump_terms(const PathPiece& geometry, JerkTerms& terms, JointJerkTerms& joints) const {
+  const JerkTerms one = jerk_terms(before_, before_.length, before_.length), two = jerk_terms(geometry, 0, 0);
+  terms = {std::max(one.x1, two.x1), std::max(one.x2, two.x2), std::max(one.x3, two.x3), 0};
+  const double back = std::min(kJumpLook_mm, before_.length), on = std::min(kJumpLook_mm, geometry.length);
+  Sample far_before, before, after, far_after;
+  far_before.pose = before_.evaluate(before_.length - back);
+  before.pose = before_.evaluate(before_.length);
+  after.pose = geometry.evaluate(0);
+  far_after.pose = geometry.evaluate(on);
+  for (Sample* sample : {&far_before, &before, &after, &far_after})
+    if (!evaluate(geometry.frame, *sample)) return false;
+  const JointJerkTerms left = joint_terms(far_before.joints, before.joints, back);
+  const JointJerkTerms right = joint_terms(after.joints, far_after.joints, on);
+  double jump2 = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double jump = after.pose.x2[i] - before.pose.x2[i];
+    jump2 += jump * jump;
+  }
+  terms.jump = std::sqrt(jump2);
+  for (std::size_t j = 0; j < joints_; ++j) {
+    joints.q1[j] = std::max(left.q1[j], right.q1[j]);
+    joints.q2[j] = std::max(left.q2[j], right.q2[j]);
+    joints.q3[j] = std::max(left.q3[j], right.q3[j]);
+    joints.jump[j] = std::abs(after.joints.q2[j] - before.joints.q2[j]);
+  }
+  return true;
+}
+
 /// Where jerk is limited: what a jump of the curvature at the start of newest geometry allows.
 void PathLimits::begin_jerk(const PieceDemand& demand, const PathPiece& geometry) {
   if (!limits_.limits_jerk()) return;
   PlanPiece place;
   place.line = demand.line;
-  place.cap = limits_.jump_cap(bend_, geometry.evaluate(0).x2);
-  bend_ = geometry.evaluate(geometry.length).x2;
-  if (place.cap < kNoAccel) lookahead_->add(place);
+  const Pose bend = before_.length > 0 ? before_.evaluate(before_.length).x2 : Pose{};
+  place.cap = limits_.jump_cap(bend, geometry.evaluate(0).x2);
+  if (place.cap < kNoAccel) {
+    JerkTerms terms;
+    JointJerkTerms joints;
+    place.accel = kNoAccel;
+    place.touch_jerk = kNoAccel * kNoAccel;
+    place.even = place.even_slow = {kNoAccel, place.touch_jerk};
+    if (before_.length > 0 && before_.frame == geometry.frame && jump_terms(geometry, terms, joints))
+      limits_.limit_jerk(terms, &joints, place);
+    lookahead_->add(place);
+  }
+  before_ = geometry;
 }
 
 void PathLimits::put(const JerkTerms& terms, const JointJerkTerms* joints, PlanPiece& piece) {

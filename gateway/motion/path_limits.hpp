@@ -24,7 +24,7 @@ class PathLimits {
   /// The next piece may begin anywhere (after a stop).
   void restart() {
     tail_valid_ = false;
-    bend_ = {};
+    before_ = {};
   }
   /// Limits for the pieces from here on.
   void set_limits(const MotionLimits& limits) { limits_.set_limits(limits); }
@@ -35,6 +35,7 @@ class PathLimits {
     JointPoint joints;
   };
   void begin_jerk(const PieceDemand& demand, const PathPiece& geometry);
+  bool jump_terms(const PathPiece& geometry, JerkTerms& terms, JointJerkTerms& joints) const;
   void put(const JerkTerms& terms, const JointJerkTerms* joints, PlanPiece& piece);
   Result<void, PoseError> evaluate(Frame frame, Sample& sample) const;
   Result<void, PoseError> start_of_line(const PathPiece& geometry);
@@ -50,7 +51,7 @@ class PathLimits {
   // Joints at the end of the newest piece, along its direction, with no bend of the path in q''.
   JointPoint tail_{};
   bool tail_valid_ = false;
-  Pose bend_{};  ///< d2x/ds2 at the end of the newest piece; kept where jerk is limited
+  PathPiece before_{};  ///< that before the newest; length 0: none. Kept where jerk is limited
 };
 
 }  // namespace kinebus

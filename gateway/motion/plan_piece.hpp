@@ -24,13 +24,14 @@ struct PlanPiece {
   double down0 = 0, down1 = 0;  ///< the same for -a
   double entry = 0;  ///< look-ahead: greatest x at the start from which the rest of the path is feasible
   /// Where jerk is limited: greatest path acceleration and jerk, at any speed up to the cap, and up to
-  /// kSlow of it, where the path's curvature takes a much smaller share. A piece without length only caps the
-  /// speed at its place.
+  /// kSlow of it, where the path's curvature takes a much smaller share. A piece without length caps the
+  /// speed at its place and bounds the ramps that touch it.
   static constexpr double kSlow = 0.7;
   struct Even {
     double accel = 0, jerk = 0;
   };
   Even even{}, even_slow{};
+  double touch_jerk = 0;  ///< of a piece without length: the same for a ramp that begins or ends just there
   std::uint64_t geometry = 0;
   std::uint32_t line = 0;
   bool curved = false;  ///< k2, c, w2 count

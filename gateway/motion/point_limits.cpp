@@ -18,6 +18,11 @@ constexpr double kToolJerkShare = 0.97;
 // for changing the speed.
 constexpr double kBendJerk = 0.7;
 constexpr double kBendAccel = 0.9;
+// A jump of the acceleration counts as a jerk, as what is sampled each millisecond sees it: third differences
+// weigh it by at most 0.75 / 1 ms. With it a bend may take less of a joint's: next to a ramp that ends just
+// before, half of the ramp's jerk is added, and 0.98 / 2 + 0.6 / 2 + 0.375 / 2 is within the limit.
+constexpr double kJump_per_s = 0.75 / (2 * kCurvatureJump_s);
+constexpr double kJumpJerk = 0.6;
 // Of what bends leave of the jerk, what the tangent's turning (3 x_ss v a) may take; across for the tool,
 // where a right angle leaves 0.6 for the jerk along the path, and in line for a joint.
 constexpr double kTurnJerk = 0.8, kTurnJointJerk = 0.5;
@@ -36,6 +41,17 @@ void bound_accel(double first, double second, double limit, double x, double& up
   const double bend = first > 0 ? second * x : -second * x;
   up = std::min(up, std::max(limit - bend, 0.0) / size);
   down = std::min(down, std::max(limit + bend, 0.0) / size);
+}
+
+/// Jerk by the path's shape alone, at a constant speed.
+double bend_jerk(double third, double jump, double speed) {
+  return speed * speed * (third * speed + kJump_per_s * jump);
+}
+
+/// Lowers `speed` to where the shape takes `share` of `jerk`; where there is a jump, to a little less.
+void lower_for_bend(double share, double third, double jump, double jerk, double& speed) {
+  const double most = share * jerk, size = bend_jerk(third, jump, speed);
+  if (size > most) speed *= jump > 0 ? std::sqrt(most / size) : std::cbrt(most / size);
 }
 
 /// Speed of the tip relative to the part per unit of s, for a path in the machine frame while A and C turn:
@@ -202,19 +218,22 @@ PlanPiece::Even PointLimits::even(const JerkTerms& terms, const JointJerkTerms* 
                                   const PlanPiece& piece, double x) const {
   const double v = std::sqrt(x);
   PlanPiece::Even even{std::min({piece.accel_between(0, x), piece.decel_between(0, x), kNoAccel}), kNoJerk};
-  const double left = limits_.tool_jerk_mm_per_s3 * kToolJerkShare - terms.x3 * x * v;
-  const double turn = 3 * terms.x2 * v;
-  if (turn * even.accel > kTurnJerk * left) even.accel = std::max(kTurnJerk * left, 0.0) / turn;
+  const double left = limits_.tool_jerk_mm_per_s3 * kToolJerkShare - bend_jerk(terms.x3, 0, v);
+  // What jumps is across the path, as its turning is.
+  const double turn = 3 * terms.x2 * v, jump = bend_jerk(0, terms.jump, v);
+  if (turn * even.accel > kTurnJerk * left - jump)
+    even.accel = std::max(kTurnJerk * left - jump, 0.0) / std::max(turn, 1e-300);
   for (std::size_t j = 0; j < joints_ && joints != nullptr; ++j) {
-    const double room = kTurnJointJerk * (jerk_[j] - joints->q3[j] * x * v);
+    const double room = kTurnJointJerk * (jerk_[j] - bend_jerk(joints->q3[j], joints->jump[j], v));
     const double joint_turn = 3 * joints->q2[j] * v;
     if (joint_turn * even.accel > room) even.accel = std::max(room, 0.0) / joint_turn;
   }
-  const double across = turn * even.accel;
+  const double across = turn * even.accel + jump;
   if (terms.x1 > 0)
     even.jerk = std::min(kNoJerk, std::sqrt(std::max(left * left - across * across, 0.0)) / terms.x1);
   for (std::size_t j = 0; j < joints_ && joints != nullptr; ++j) {
-    const double room = jerk_[j] - joints->q3[j] * x * v - 3 * joints->q2[j] * v * even.accel;
+    const double room =
+        jerk_[j] - bend_jerk(joints->q3[j], joints->jump[j], v) - 3 * joints->q2[j] * v * even.accel;
     if (joints->q1[j] * even.jerk > room) even.jerk = room / joints->q1[j];
   }
   return even;
@@ -224,10 +243,13 @@ void PointLimits::limit_jerk(const JerkTerms& terms, const JointJerkTerms* joint
   const double before = piece.cap;
   double speed = std::sqrt(piece.cap);
   const double jerk = limits_.tool_jerk_mm_per_s3 * kToolJerkShare;
-  if (terms.x3 * speed * speed * speed > kBendJerk * jerk) speed = std::cbrt(kBendJerk * jerk / terms.x3);
-  for (std::size_t j = 0; j < joints_ && joints != nullptr; ++j)
-    if (joints->q3[j] * speed * speed * speed > kBendJerk * jerk_[j])
-      speed = std::cbrt(kBendJerk * jerk_[j] / joints->q3[j]);
+  lower_for_bend(kBendJerk, terms.x3, terms.jump, jerk, speed);
+  for (std::size_t j = 0; j < joints_ && joints != nullptr; ++j) {
+    const double jump = kCurvatureJump_s * jerk_[j];
+    if (joints->jump[j] * speed * speed > jump) speed = std::sqrt(jump / joints->jump[j]);
+    lower_for_bend(joints->jump[j] > 0 ? kJumpJerk : kBendJerk, joints->q3[j], joints->jump[j], jerk_[j],
+                   speed);
+  }
   double cap = std::min(piece.cap, speed * speed);
   if (piece.curved && piece.k2 * cap * cap > kBendAccel * kBendAccel * piece.accel * piece.accel)
     cap = kBendAccel * piece.accel / std::sqrt(piece.k2);
@@ -238,6 +260,11 @@ void PointLimits::limit_jerk(const JerkTerms& terms, const JointJerkTerms* joint
   for (int i = 0; i < kLowerings && accel_at(cap) < least; ++i) cap *= kLower;
   piece.even = even(terms, joints, piece, cap);
   piece.even_slow = even(terms, joints, piece, cap * PlanPiece::kSlow * PlanPiece::kSlow);
+  if (piece.length == 0) {
+    PlanPiece unchanged = piece;
+    unchanged.accel = 0;
+    piece.touch_jerk = even(terms, joints, unchanged, cap).jerk;
+  }
   if (piece.linear) {
     const double down = cap / before;
     piece.up1 = piece.up0 + (piece.up1 - piece.up0) * down;

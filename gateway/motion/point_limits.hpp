@@ -36,13 +36,14 @@ inline void allow_any_acceleration(PlanPiece& piece) {
   piece.up0 = piece.up1 = piece.down0 = piece.down1 = kNoAccel;
 }
 
-/// What a stretch of path adds to the tool's jerk: the greatest |x_s|, |x_ss| and |x_sss| of X Y Z on it.
+/// What a stretch of path adds to the tool's jerk: the greatest |x_s|, |x_ss| and |x_sss| of X Y Z on it; of
+/// a place without length, the jump of x_ss there.
 struct JerkTerms {
-  double x1 = 1, x2 = 0, x3 = 0;
+  double x1 = 1, x2 = 0, x3 = 0, jump = 0;
 };
-/// Greatest magnitudes of the joints' derivatives by s on a stretch of path.
+/// Greatest magnitudes of the joints' derivatives by s on a stretch of path, and the jumps of the second.
 struct JointJerkTerms {
-  JointVector q1{}, q2{}, q3{};
+  JointVector q1{}, q2{}, q3{}, jump{};
 };
 
 /// Each call lowers what `piece` has by the terms at a point.

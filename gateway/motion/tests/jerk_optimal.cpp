@@ -130,6 +130,16 @@ class JerkProblem {
     for (std::size_t i = 0; i < 3; ++i) square += (start.x2[i] - bend_[i]) * (start.x2[i] - bend_[i]);
     if (square > 0)
       last.cap = std::min(last.cap, kCurvatureJump_s * limits_->tool_jerk_mm_per_s3 / std::sqrt(square));
+    PosePoint before = start;
+    before.x2 = bend_;
+    JointPoint q_before, q_after;
+    (void)kinematics_->inverse_along(piece.frame, before, q_before);
+    (void)kinematics_->inverse_along(piece.frame, start, q_after);
+    for (std::size_t j = 0; j < static_cast<std::size_t>(kinematics_->joint_count()); ++j) {
+      const double jump = std::abs(q_after.q2[j] - q_before.q2[j]);
+      if (jump > 1e-9)
+        last.cap = std::min(last.cap, kCurvatureJump_s * limits_->joint_jerk_per_s3[j] * kJerkShare / jump);
+    }
   }
 
   void add_bounds(const PathPiece& piece, double at, double feed, GridNode& node) {

@@ -21,8 +21,9 @@ struct JerkOptimum {
 };
 
 /// Least time for the path on which `phases` run, resting where they do. feed_mm_per_s: programmed tool speed
-/// of a line of the job. grid_mm: longest step. jumps: the acceleration may jump where curvature does, as
-/// kCurvatureJump_s says; false: as if curvature never jumped, a bound for smoother paths.
+/// of a line of the job. grid_mm: longest step. jumps: the acceleration may jump where curvature does, of
+/// the tool and of each joint as kCurvatureJump_s says; false: as if curvature never jumped, a bound for
+/// smoother paths.
 JerkOptimum jerk_optimal(const Kinematics& kinematics, const MotionLimits& limits,
                          const std::vector<Phase>& phases,
                          const std::function<double(std::uint32_t line)>& feed_mm_per_s, double grid_mm,

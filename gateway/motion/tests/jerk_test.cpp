@@ -4,9 +4,11 @@
 
 #include <cmath>
 #include <random>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "gateway/kinematics/geometry.hpp"
 #include "gateway/motion/planner.hpp"
 #include "gateway/motion/speed_ramp.hpp"
 #include "gateway/motion/start_ramp.hpp"
@@ -112,6 +114,31 @@ TEST(JerkLimit, DenseCurves) {
   const MotionLimits limits = jerk_limits();
   expect_smooth(measure(m1(), limits, dense_curve(3000, 40, 100, 0, 0)), limits, 0.005);
   expect_smooth(measure(m1(), limits, dense_curve(3000, 40, 60, 0.3, 1)), limits, 0.005);
+  expect_smooth(measure(m1(), limits, dense_curve(3000, 30, 100, 0.5, 1)), limits, 0.005);
+}
+
+/// The curvature of merged curves jumps where they join, and the joints' accelerations with it: ramps that
+/// meet there have to leave room for the jump.
+TEST(JerkLimit, RandomCurvesKeepTheJointsJerkOnEveryMachine) {
+  const auto delta = *make_linear_delta_kinematics({});
+  const auto table = *make_cartesian_kinematics({.has_table = true});
+  const std::vector<std::pair<const Kinematics*, double>> machines{
+      {&m1(), 0.5}, {table.get(), 0}, {delta.get(), 0}};
+  for (unsigned seed = 1; seed <= 24; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937_64 random(seed);
+    const auto draw = [&](double low, double high) {
+      return std::uniform_real_distribution<double>(low, high)(random);
+    };
+    const auto& [machine, tilt] = machines[seed % machines.size()];
+    const double turn = machine == delta.get() ? 0 : draw(0, 2);
+    const MotionLimits limits = jerk_limits(std::exp(draw(std::log(2e4), std::log(5e5))));
+    const double size_mm = draw(5, 40), feed = draw(40, 200);
+    const Measured m =
+        measure(*machine, limits,
+                dense_curve(static_cast<int>(draw(600, 1500)), size_mm, feed, tilt * draw(0, 1), turn));
+    expect_smooth(m, limits, 0.005);
+  }
 }
 
 TEST(JerkLimit, FiveAxes) {
