@@ -31,7 +31,7 @@ std::uint32_t PidControl::step(std::int32_t target, std::int32_t measured, std::
   slope_ += (static_cast<std::int64_t>(measured - last_) * 256 - slope_) / 8;
   last_ = measured;
   const std::int64_t straight = error * proportional_ - ((slope_ * derivative_gain_) >> 16) * proportional_;
-  const std::int64_t hold = std::max(target - kRoom, 0) * hold_;
+  const std::int64_t hold = std::max<std::int32_t>(target - kRoom, 0) * hold_;
   const std::int64_t power = (straight + hold + sum_) >> 16;
   const bool winds_up = (power >= most && error > 0) || (power <= 0 && error < 0);
   // What already comes by itself, within half of the integral's time, is not what the integral has to find.
