@@ -96,9 +96,9 @@ HeaterFault HeaterWatch::by_rules(std::int32_t measured, std::uint32_t power, st
     away_ticks_ = asked_ticks_ = 0;
   }
   ++asked_ticks_;
-  // Heating: power that does not warm. Next to the target it holds, and a weak heater does so by most of its
-  // power.
-  const bool near = measured >= target - kAway / 3;
+  // Heating: power that does not warm. Next to a target it holds, and a weak heater does so by most of its
+  // power. (Measuring a heater has none.)
+  const bool near = target != 0 && measured >= target - kAway / 3;
   if (near || power < kFullPower / 2 || rise_ticks_ == 0 || measured >= rise_from_ + kLeastRise) {
     rise_from_ = measured;
     rise_ticks_ = 1;
