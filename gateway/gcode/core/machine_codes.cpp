@@ -140,7 +140,7 @@ bool Core::run_machine_code(Code code) {
       emit(Query{Query::What::kPosition});
       return true;
     case 115:
-      if (block_.has_text) note(115, say("%1 has no effect on this machine", "M115 U"));
+      if (block_.text_of_m == 115) note(115, say("%1 has no effect on this machine", "M115 U"));
       emit(Query{Query::What::kFirmware});
       return true;
     case 119:
@@ -219,7 +219,7 @@ bool Core::program_call(Code code) {
     call_.what = ProgramCall::What::kReturn;
     return !has('P') || fail(block_.column_of('P'), say("M99 P is not supported: M99 goes back to the call"));
   }
-  if (block_.has_text) return macro_file_call();
+  if (block_.text_of_m == 98) return macro_file_call();
   call_.what = ProgramCall::What::kProgram;
   if (!has('P')) return fail(code.column, say("M98 needs the program P"));
   return take_integer('P', 0, 99'999'999, call_.number) && take_integer('L', 0, 9999, call_.times);

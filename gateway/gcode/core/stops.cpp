@@ -25,7 +25,8 @@ bool Core::run_stop() {
       emit(canonical::End{});
       state_.modal.ended = true;
     } else if (code.number <= 1 || code.number == 60) {
-      if (code.number <= 1 && block_.has_text) emit(canonical::Message{std::string(block_.text)});
+      if (block_.text_of_m == code.number && code.number <= 1)
+        emit(canonical::Message{std::string(block_.text)});
       emit(canonical::Pause{code.number == 1});
     } else if (code.number == 226 || code.number == 600 || code.number == 601) {
       if (code.number == 600) emit(canonical::Message{say("change the filament, then go on").english()});

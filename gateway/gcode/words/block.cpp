@@ -285,23 +285,25 @@ class BlockReader {
     if (code.number <= 1) {
       // M0 Press the button
       cursor_.skip_blanks();
-      if (cursor_.end - cursor_.p > 1 && is_letter(*cursor_.p) && is_letter(cursor_.p[1])) return take_text();
+      if (cursor_.end - cursor_.p > 1 && is_letter(*cursor_.p) && is_letter(cursor_.p[1]))
+        return take_text(code.number);
     }
     if (code.number == 115) {
       // U3.9.0, the firmware that the slicer expects, is no number.
       cursor_.skip_blanks();
-      if (!cursor_.at_end() && upper(*cursor_.p) == 'U') return take_text();
+      if (!cursor_.at_end() && upper(*cursor_.p) == 'U') return take_text(code.number);
     }
     if (code.number == 98) {
       // P"name" is a text, P1234 a word.
       cursor_.skip_blanks();
-      if (cursor_.end - cursor_.p > 1 && upper(*cursor_.p) == 'P' && cursor_.p[1] == '"') return take_text();
+      if (cursor_.end - cursor_.p > 1 && upper(*cursor_.p) == 'P' && cursor_.p[1] == '"')
+        return take_text(code.number);
     }
-    return takes_text(code.number) ? take_text() : true;
+    return takes_text(code.number) ? take_text(code.number) : true;
   }
 
-  /// The rest of the line, up to ; or the checksum, is text.
-  bool take_text() {
+  /// The rest of the line, up to ; or the checksum, is text (of this M code).
+  bool take_text(int m_number = -1) {
     block_.plain = false;
     cursor_.skip_blanks();
     const char* const start = cursor_.p;
@@ -314,7 +316,7 @@ class BlockReader {
         break;
       }
     }
-    block_.has_text = true;
+    block_.text_of_m = m_number;
     block_.text_column = cursor_.column();
     block_.text = trim({start, static_cast<std::size_t>(stop - start)});
     cursor_.p = stop;
@@ -342,7 +344,8 @@ void Block::clear() {
   harmless_g = -1;
   if (!plain) polar_radius.reset(), polar_angle.reset();
   command = {};
-  has_line_number = has_checksum = a_taken = deleted = percent = has_text = false;
+  has_line_number = has_checksum = a_taken = deleted = percent = false;
+  text_of_m = -1;
   plain = true;
   if (!messages.empty()) messages.clear();
   if (!assignments.empty()) assignments.clear();

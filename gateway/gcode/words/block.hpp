@@ -57,7 +57,7 @@ struct Block {
   std::string_view command;  ///< the word that begins the line (START_PRINT); text: what follows it
   std::uint32_t command_column = 0;
 
-  bool has_text = false;  ///< the line has a code of takes_text(); text may be empty
+  int text_of_m = -1;     ///< the M code that took the rest of the line as its text, which may be empty
   std::string_view text;  ///< trimmed
   std::uint32_t text_column = 0;
   std::vector<std::string_view> messages;  ///< (MSG, ...)
