@@ -30,12 +30,13 @@ constexpr std::uint8_t id_of(int axis) {
 
 struct OneOctopus {
   explicit OneOctopus(const BoardOptions& options = {}, BoardMaker make = &make_board<OctopusBoard>,
-                      bool keeps_id = false)
+                      bool keeps_id = false, double hot_end_c = 22)
       : machine(
             octopus_image(),
             {EmulatedNodeOptions{.board = options, .node_id = kId, .keeps_node_id = keeps_id, .make = make}}),
         bench(machine),
         board(machine.board<OctopusBoard>(0)) {
+    board.heated().hot_end().begin_at(hot_end_c);
     bench.send(nmt_frame(NmtCommand::kStart, kAllNodes));
     bench.run(20ms);
   }
