@@ -193,9 +193,14 @@ void OctopusBoard::advance_devices(Cycle now) {
   tim1_.advance(now);
   tim4_.advance(now);
   tim8_.advance(now);
+  wires_next_ = kNever;
   for (std::size_t axis = 0; axis < chips_.size(); ++axis) {
-    if (chips_[axis].next_event() <= now) chips_[axis].advance(now);
-    look_at_wire(axis, now);
+    Tmc2209& chip = chips_[axis];
+    const Wire& wire = wires_[axis];
+    const bool moves = chip.next_event() <= now;
+    if (moves) chip.advance(now);
+    if (moves || wire.rises <= now || chip.pulls_low() != wire.chip_low) look_at_wire(axis, now);
+    wires_next_ = std::min({wires_next_, chip.next_event(), wire.rises});
   }
   look_at_diag();
   adc_.advance(now);
@@ -206,11 +211,8 @@ void OctopusBoard::advance_devices(Cycle now) {
 }
 
 Cycle OctopusBoard::next_of_devices() const {
-  Cycle next = std::min({tim1_.next_event(), tim4_.next_event(), tim8_.next_event(), adc_.next_event(),
-                         heated_.next_event(), sleeps_});
-  for (const Tmc2209& chip : chips_) next = std::min(next, chip.next_event());
-  for (const Wire& wire : wires_) next = std::min(next, wire.rises);
-  return next;
+  return std::min({tim1_.next_event(), tim4_.next_event(), tim8_.next_event(), adc_.next_event(),
+                   heated_.next_event(), sleeps_, wires_next_});
 }
 
 void OctopusBoard::on_pins(Cycle now) {
@@ -225,6 +227,7 @@ void OctopusBoard::on_pins(Cycle now) {
     chips_[axis].on_enable(enabled);
     look_at_wire(axis, now);
     drivers_[axis].on_pins(high(pins.step), high(pins.direction), enabled, now);
+    wires_next_ = std::min({wires_next_, chips_[axis].next_event(), wires_[axis].rises});
   }
   // MOSFETs with a pull-down: a pin that nobody drives is off.
   heated_.set_power(high(octopus::kHeaterPins[0]), high(octopus::kHeaterPins[1]), now);
@@ -239,6 +242,7 @@ void OctopusBoard::look_at_wire(std::size_t axis, Cycle now) {
   const bool output = port.mode(pin.number) == GpioPort::Mode::kOutput, high = port.output_high(pin.number);
   const bool forced = output && high && !port.open_drain(pin.number);
   const bool chip_low = chips_[axis].pulls_low();
+  wire.chip_low = chip_low;
   const bool low = chip_low || (output && !high);
   if (forced && chip_low && !wire.low) ++wire_fights_;
   if (low != wire.low) {

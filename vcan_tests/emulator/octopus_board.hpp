@@ -116,9 +116,11 @@ class OctopusBoard final : public Stm32f4Chip, public UsbSocket {
   static constexpr Cycle kRise = 4 * kCoreHz / 1'000'000;
   struct Wire {
     bool low = false, high = true;
+    bool chip_low = false;  // the driver's part in it, when it was looked at
     Cycle rises = kNever;
   };
   std::array<Wire, 8> wires_{};
+  Cycle wires_next_ = kNever;  // of wires and drivers, or before it
   std::array<bool, 8> diag_wired_{}, diag_level_{};
   std::uint64_t wire_fights_ = 0;
 };

@@ -3,9 +3,16 @@
 namespace kinebus::emulator {
 
 void GpioPort::reset(std::uint32_t modes) {
-  moder_ = modes;
+  set_modes(modes);
   otyper_ = ospeedr_ = pupdr_ = odr_ = 0;
   afr_ = {};
+}
+
+void GpioPort::set_modes(std::uint32_t modes) {
+  moder_ = modes;
+  outputs_ = 0;
+  for (int pin = 0; pin < 16; ++pin)
+    if (mode(pin) == Mode::kOutput) outputs_ |= 1u << pin;
 }
 
 std::uint32_t GpioPort::levels() const {
@@ -19,10 +26,6 @@ std::uint32_t GpioPort::levels() const {
     if (high) word |= bit;
   }
   return word;
-}
-
-bool GpioPort::output_high(int pin) const {
-  return mode(pin) == Mode::kOutput && (odr_ >> pin & 1) != 0;
 }
 
 void GpioPort::drive(int pin, bool level) {
@@ -58,9 +61,10 @@ std::uint32_t GpioPort::read(std::uint32_t offset, Cycle) {
 }
 
 void GpioPort::write(std::uint32_t offset, std::uint32_t value, Cycle now) {
+  const std::array before{moder_, otyper_, odr_, afr_[0], afr_[1]};
   switch (offset) {
     case 0x00:
-      moder_ = value;
+      set_modes(value);
       break;
     case 0x04:
       otyper_ = value;
@@ -86,7 +90,8 @@ void GpioPort::write(std::uint32_t offset, std::uint32_t value, Cycle now) {
     default:
       return;
   }
-  if (on_change) on_change(now);
+  const std::array after{moder_, otyper_, odr_, afr_[0], afr_[1]};
+  if (after != before && on_change) on_change(now);
 }
 
 void Exti::reset() {

@@ -21,7 +21,7 @@ class GpioPort final : public Peripheral {
   /// The level on the pin.
   bool level(int pin) const { return (levels() >> pin & 1) != 0; }
   /// As an output drives it; an input or alternate function: false.
-  bool output_high(int pin) const;
+  bool output_high(int pin) const { return (odr_ & outputs_ & 1u << pin) != 0; }
   enum class Mode : std::uint8_t { kInput, kOutput, kAlternate, kAnalogue };
   Mode mode(int pin) const { return static_cast<Mode>(moder_ >> (2 * pin) & 3); }
   bool open_drain(int pin) const { return (otyper_ >> pin & 1) != 0; }
@@ -29,11 +29,13 @@ class GpioPort final : public Peripheral {
     return static_cast<int>(afr_[static_cast<std::size_t>(pin / 8)] >> (4 * (pin % 8)) & 0xF);
   }
 
-  std::function<void(Cycle)> on_change;  ///< an output or the level of an input may have changed
+  std::function<void(Cycle)> on_change;  ///< an output has changed, or what makes one
 
  private:
   std::uint32_t levels() const;
+  void set_modes(std::uint32_t modes);
   std::uint32_t moder_ = 0, otyper_ = 0, ospeedr_ = 0, pupdr_ = 0, odr_ = 0;
+  std::uint32_t outputs_ = 0;  // pins that moder_ makes outputs
   std::array<std::uint32_t, 2> afr_{};
   std::uint32_t driven_ = 0, driven_level_ = 0;
 };

@@ -18,6 +18,7 @@ void Timer::reset(Cycle now) {
   ccmr_ = {};
   ccr_ = ccr_in_force_ = {};
   psc_in_force_ = repetitions_left_ = frozen_count_ = 0;
+  find_next_event();
   update_lines();
 }
 
@@ -65,13 +66,15 @@ std::uint32_t Timer::count(Cycle now) const {
   return up_ ? count_at_begin_ + ticks : count_at_begin_ - ticks;
 }
 
-Cycle Timer::next_event() const {
-  if (!running() || arr_in_force_ == 0) return kNever;
-  const Cycle end = sweep_begin_ + sweep_length();
-  return requests() ? std::min(end, next_compare()) : end;
+void Timer::find_next_event() {
+  next_event_ = kNever;
+  if (!running() || arr_in_force_ == 0) return;
+  next_event_ = sweep_begin_ + sweep_length();
+  if (requests()) next_event_ = std::min(next_event_, next_compare());
 }
 
 void Timer::advance(Cycle now) {
+  if (now < next_event_) return;
   while (running() && arr_in_force_ != 0 && sweep_begin_ + sweep_length() <= now) {
     const Cycle end = sweep_begin_ + sweep_length();
     if (requests()) serve_compares(end);
@@ -88,6 +91,7 @@ void Timer::advance(Cycle now) {
     }
   }
   if (running() && requests()) serve_compares(now);
+  find_next_event();
 }
 
 void Timer::update_event(Cycle now, bool sets_flag) {
@@ -263,6 +267,7 @@ void Timer::write(std::uint32_t offset, std::uint32_t value, Cycle now) {
     default:
       return;
   }
+  find_next_event();
   update_lines();
 }
 

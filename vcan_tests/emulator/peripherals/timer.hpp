@@ -24,7 +24,7 @@ class Timer final : public Peripheral {
 
   std::uint32_t read(std::uint32_t offset, Cycle now) override;
   void write(std::uint32_t offset, std::uint32_t value, Cycle now) override;
-  Cycle next_event() const override;
+  Cycle next_event() const override { return next_event_; }
   void advance(Cycle now) override;
   void reset(Cycle now);
 
@@ -56,6 +56,7 @@ class Timer final : public Peripheral {
   Cycle sweep_length() const;
   std::uint32_t count(Cycle now) const;
   void begin_sweep(Cycle at, bool up);
+  void find_next_event();
   bool requests() const { return (dier_ >> 9 & 0xF) != 0 && !centre_aligned(); }
   Cycle compare_at(std::size_t channel) const;
   Cycle next_compare() const;
@@ -71,7 +72,7 @@ class Timer final : public Peripheral {
   std::array<std::uint32_t, 4> ccr_{};
   std::uint32_t psc_in_force_ = 0, arr_in_force_ = 0xFFFF, repetitions_left_ = 0;
   std::array<std::uint32_t, 4> ccr_in_force_{};
-  Cycle sweep_begin_ = 0;
+  Cycle sweep_begin_ = 0, next_event_ = kNever;
   std::array<bool, 4> compared_{};    // in this sweep
   std::uint32_t count_at_begin_ = 0;  // where this sweep started (CNT written, or 0)
   bool up_ = true;

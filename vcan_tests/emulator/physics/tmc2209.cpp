@@ -37,9 +37,12 @@ Tmc2209::Tmc2209(const Tmc2209Parameters& parameters) : p_(parameters) {
 }
 
 void Tmc2209::reset_registers() {
-  registers_ = {{kGconf, 0x101}, {kNodeConf, 0},          {kIholdIrun, 0x11F10}, {kTpowerdown, 20},
-                {kTpwmthrs, 0},  {kTcoolthrs, 0},         {kVactual, 0},         {kSgthrs, 0},
-                {kCoolconf, 0},  {kChopconf, 0x10000053}, {kPwmconf, 0xC10D0024}};
+  registers_ = {};
+  registers_[kGconf] = 0x101;
+  registers_[kIholdIrun] = 0x11F10;
+  registers_[kTpowerdown] = 20;
+  registers_[kChopconf] = 0x10000053;
+  registers_[kPwmconf] = 0xC10D0024;
   gstat_ = 1;
   ifcnt_ = 0;
   short_kept_ = false;
@@ -83,10 +86,6 @@ void Tmc2209::on_wire(bool high, Cycle now) {
     byte_ = 0;
     sample_at_ = start_ + bit_ + bit_ / 2;
   }
-}
-
-Cycle Tmc2209::next_event() const {
-  return sample_at_;
 }
 
 void Tmc2209::advance(Cycle now) {
@@ -222,8 +221,7 @@ void Tmc2209::write_register(std::uint8_t address, std::uint32_t value) {
     gstat_ &= ~(value & 3);
     return;
   }
-  const auto place = registers_.find(address);
-  if (place != registers_.end()) place->second = value;
+  if (address < registers_.size()) registers_[address] = value;
   short_found();
 }
 
@@ -251,6 +249,7 @@ double Tmc2209::amperes(std::uint32_t scale) const {
 }
 
 void Tmc2209::on_enable(bool enabled) {
+  if (enabled == enabled_) return;
   if (enabled_ && !enabled) short_kept_ = false;
   enabled_ = enabled;
   if (!enabled) tstep_cycles_ = kNever;
@@ -279,10 +278,12 @@ void Tmc2209::set_temperature(double celsius) {
 void Tmc2209::set_supply(bool on) {
   if (on && !supplied_) reset_registers();
   supplied_ = on;
-  if (on) return;
-  pulls_low_ = false;
-  hears_ = Hears::kNothing;
-  sample_at_ = kNever;
+  if (!on) {
+    pulls_low_ = false;
+    hears_ = Hears::kNothing;
+    sample_at_ = kNever;
+  }
+  update_diag();
 }
 
 void Tmc2209::on_step(bool direction, Cycle now) {
@@ -290,7 +291,7 @@ void Tmc2209::on_step(bool direction, Cycle now) {
   const Cycle since = now - last_step_;
   last_step_ = now;
   tstep_cycles_ = since > kCoreHz / 10 ? kNever : since / static_cast<Cycle>(std::abs(way));
-  if (!bridges_on()) return;
+  if (!bridges_on()) return update_diag();
   field_ += way;
   const double field = static_cast<double>(field_) - slipped_;
   const double torque = torque_nm();
@@ -314,13 +315,13 @@ void Tmc2209::on_step(bool direction, Cycle now) {
     steps_since_measure_ = 0;
     measure_load(load);
   }
+  update_diag();
 }
 
 // StallGuard4 sees the load in StealthChop only.
 void Tmc2209::measure_load(double nm) {
   const double share = torque_nm() <= 0 ? 1 : std::min(nm / torque_nm(), 1.0);
   stall_guard_ = stealth() ? static_cast<std::uint32_t>(std::lround(420 * (1 - share))) : 0;
-  update_diag();
 }
 
 void Tmc2209::update_diag() {

@@ -7,7 +7,6 @@
 #include <array>
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <vector>
 
 #include "vcan_tests/emulator/cycle.hpp"
@@ -30,7 +29,7 @@ class Tmc2209 {
   // Wire.
   void on_wire(bool high, Cycle now);
   bool pulls_low() const { return pulls_low_; }
-  Cycle next_event() const;
+  Cycle next_event() const { return sample_at_; }
   void advance(Cycle now);
 
   // Pins.
@@ -78,7 +77,7 @@ class Tmc2209 {
   void update_diag();
 
   Tmc2209Parameters p_;
-  std::map<std::uint8_t, std::uint32_t> registers_;
+  std::array<std::uint32_t, 128> registers_{};
   bool supplied_ = true, answers_ = true, enabled_ = false;
   int garbled_ = 0;
   std::uint32_t gstat_ = 1;

@@ -18,7 +18,8 @@ constexpr std::uint32_t kDeviceState = 0x0800'0022;
 
 struct HeatedOctopus : OneOctopus {
   /// Hot end and bed described, the hot end with the model that a tuning of it finds.
-  explicit HeatedOctopus(double hot_end_c = 22) : OneOctopus({}, &make_board<OctopusBoard>, false, hot_end_c) {
+  explicit HeatedOctopus(double hot_end_c = 22)
+      : OneOctopus({}, &make_board<OctopusBoard>, false, hot_end_c) {
     bench.send(nmt_frame(NmtCommand::kEnterPreOperational, kHeat));
     bench.run(5ms);
     for (const std::uint8_t n : {std::uint8_t{1}, std::uint8_t{2}}) {
