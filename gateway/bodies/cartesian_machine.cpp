@@ -38,30 +38,33 @@ class CartesianMachine final : public CollisionModel {
     const double swing = turns_ ? radius + std::abs(pivot_[2]) : 0;
     add_floor(-b.table_thickness_mm - swing - b.floor_mm);
     pair_up();
+    for (const Body& body : bodies()) longest_lever_ = std::max(longest_lever_, body.lever_mm);
   }
 
+  /// No bound where C takes the table's disc around with it.
+  std::optional<Place> place_of(Frame frame, const Pose& pose) const override {
+    const Vec tip = tip_of(frame, pose);
+    if (!turns_) return Place{tip, 0, 0};
+    if (pivot_[0] != 0 || pivot_[1] != 0) return std::nullopt;
+    return Place{tip, 2 * longest_lever_ * pose[kA], longest_lever_};
+  }
+  double gain(const Place&, double) const override { return 1; }
+
   bool place(Frame frame, const Pose& pose, Scene& scene) const override {
-    const Turn a(turns_ ? pose[kA] : 0), c(turns_ ? pose[kC] : 0);
-    const auto turned = [&](const Vec& v) {
-      const Vector3 t = turn_x(a, turn_z(c, {v.x, v.y, v.z}));
-      return Vec{t[0], t[1], t[2]};
-    };
-    const Vec pivot{pivot_[0], pivot_[1], pivot_[2]};
-    const auto carried = [&](const Vec& v) { return pivot + turned(v - pivot); };
-    Vec tip{pose[kX], pose[kY], pose[kZ]};
-    if (frame == Frame::kPart && turns_) tip = carried(tip);
+    const Vec tip = tip_of(frame, pose);
     for (const std::size_t body : {tool_, holder_}) {
       scene.shapes[shape_of(body)].centre = tip + at_rest().shapes[shape_of(body)].centre;
       scene.witness[body] = {tip, tip};
     }
     if (!turns_) return true;
     scene.tilt_rad = pose[kA];
+    const TableTurn turn(pose);
     const auto set_disc = [&](std::size_t body) {
       const Shape& home = at_rest().shapes[shape_of(body)];
       Shape& s = scene.shapes[shape_of(body)];
-      s.centre = carried(home.centre);
-      s.half[0] = turned(home.half[0]);
-      s.axis = turned(home.axis);
+      s.centre = carried(turn, home.centre);
+      s.half[0] = turn(home.half[0]);
+      s.axis = turn(home.axis);
       scene.witness[body] = {s.centre, s.centre};
     };
     set_disc(table_);
@@ -71,8 +74,26 @@ class CartesianMachine final : public CollisionModel {
 
  private:
   static constexpr std::uint8_t kTableGroup = 1, kToolGroup = 2;
+  struct TableTurn {
+    explicit TableTurn(const Pose& pose) : a(pose[kA]), c(pose[kC]) {}
+    Vec operator()(const Vec& v) const {
+      const Vector3 t = turn_x(a, turn_z(c, {v.x, v.y, v.z}));
+      return {t[0], t[1], t[2]};
+    }
+    Turn a, c;
+  };
+  Vec carried(const TableTurn& turn, const Vec& v) const {
+    const Vec pivot{pivot_[0], pivot_[1], pivot_[2]};
+    return pivot + turn(v - pivot);
+  }
+  Vec tip_of(Frame frame, const Pose& pose) const {
+    const Vec tip{pose[kX], pose[kY], pose[kZ]};
+    return frame == Frame::kPart && turns_ ? carried(TableTurn(pose), tip) : tip;
+  }
+
   bool turns_;
   Vector3 pivot_;
+  double longest_lever_ = 1;  ///< of what turns with the table
   std::size_t table_ = 0, tool_ = 0, holder_ = 0;
   std::optional<std::size_t> part_;
 };

@@ -70,19 +70,25 @@ bool CollisionModel::always_parted(const Pair& pair) const {
   way.core_reach_mm += kLong_mm;
   const auto shapes = std::span(rest_.shapes).subspan(other.first_shape, other.shapes);
   return std::all_of(shapes.begin(), shapes.end(), [&](const Shape& shape) {
-    constexpr double kRounding_mm = 0.01;
     return bodies::part(way, shape).mm >= wanted_mm_ + kRounding_mm;
   });
+}
+
+bool CollisionModel::among(const std::vector<Two>& list, std::size_t a, std::size_t b) {
+  return std::any_of(list.begin(), list.end(), [&](const Two& two) {
+    return (two[0] == a && two[1] == b) || (two[0] == b && two[1] == a);
+  });
+}
+
+bool CollisionModel::parted_at_work(const Pair& pair) const {
+  return among(parted_at_work_, pair.first, pair.second);
 }
 
 void CollisionModel::pair_up() {
   for (std::size_t a = 0; a < bodies_.size(); ++a)
     for (std::size_t b = a + 1; b < bodies_.size(); ++b) {
       if (bodies_[a].group == bodies_[b].group) continue;
-      const bool joined = std::any_of(joined_.begin(), joined_.end(), [&](const auto& j) {
-        return (j[0] == a && j[1] == b) || (j[0] == b && j[1] == a);
-      });
-      if (joined) continue;
+      if (among(joined_, a, b)) continue;
       const BodyKind kinds[] = {bodies_[a].id.kind, bodies_[b].id.kind};
       const auto is = [&](BodyKind k) { return kinds[0] == k || kinds[1] == k; };
       const bool homing_only = at_work(kinds[0], kinds[1]) || (is(BodyKind::kPart) && is(BodyKind::kHolder));
@@ -127,7 +133,7 @@ std::optional<Clearance> CollisionModel::clearance(Frame frame, const Pose& pose
 }
 
 Clearance CollisionModel::clearance(const Scene& scene, Occasion occasion, Memory* before) const {
-  constexpr double kRounding_mm = 1e-6;
+  constexpr double kAbove_mm = 1e-6;
   if (before != nullptr) before->planes.resize(pairs_.size());
   Clearance best{.mm = kInfinite};
   std::size_t nearest = pairs_.size();
@@ -137,7 +143,7 @@ Clearance CollisionModel::clearance(const Scene& scene, Occasion occasion, Memor
     // Of pairs as near as each other the first counts, in whatever order they are looked at.
     const auto farther = [&](double mm) { return mm > best.mm || (mm == best.mm && k >= nearest); };
     if (farther(least_distance(scene, pair))) return;
-    if (before != nullptr && gap_along(scene, pair, before->planes[k]) > best.mm + kRounding_mm) return;
+    if (before != nullptr && gap_along(scene, pair, before->planes[k]) > best.mm + kAbove_mm) return;
     const Parting parting = part(scene, pair, best.mm);
     if (before != nullptr) before->planes[k] = parting.axis;
     double mm = parting.mm;

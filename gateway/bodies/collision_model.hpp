@@ -129,6 +129,8 @@ class CollisionModel {
   /// Both move along parallel lines, or one does and the other stands, and they keep wanted_mm() wherever
   /// they are on these. Not for each pose.
   bool always_parted(const Pair& pair) const;
+  /// They keep wanted_mm() at every pose of the workspace.
+  bool parted_at_work(const Pair& pair) const;
   /// With the axis of the two solids that are nearest. At least `enough_mm` apart: measured no further.
   Parting part(const Scene& scene, const Pair& pair,
                double enough_mm = std::numeric_limits<double>::infinity()) const;
@@ -153,16 +155,24 @@ class CollisionModel {
   void ride(std::size_t body, const Vec& centre, const Vec& line);
   /// They are no pair.
   void join(std::size_t first, std::size_t second) { joined_.push_back({first, second}); }
+  /// That much is left between them wherever in the workspace the tool is.
+  void part_at_work(std::size_t first, std::size_t second, double least_mm) {
+    if (least_mm >= wanted_mm_ + kRounding_mm) parted_at_work_.push_back({first, second});
+  }
   /// When all bodies are there.
   void pair_up();
   std::size_t shape_of(std::size_t body) const { return bodies_[body].first_shape; }
 
  private:
+  static constexpr double kRounding_mm = 0.01;
+  using Two = std::array<std::size_t, 2>;
+  static bool among(const std::vector<Two>& list, std::size_t a, std::size_t b);
+
   Scene rest_{};
   std::size_t shapes_ = 0;
   std::vector<Body> bodies_;
   std::vector<Pair> pairs_;
-  std::vector<std::array<std::size_t, 2>> joined_;
+  std::vector<Two> joined_, parted_at_work_;
   std::vector<std::string> fixed_names_;
   double wanted_mm_;
   bool mill_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "gateway/bodies/collision_model.hpp"
 
@@ -62,9 +63,31 @@ class DeltaMachine final : public CollisionModel {
     holder_ = add({BodyKind::kHolder, 0}, kEffectorGroup,
                   Shape::cylinder({0, 0, 0}, {0, 0, b.holder_length_mm}, b.holder_radius_mm));
     holder_centre_ = Vec{0, 0, height_mm_ + 0.5 * b.holder_length_mm};
+    // While the tip is inside its tower an arm leans outwards: nothing of it is nearer to the tip than its
+    // lower end, seen along `out`. The holder is within its radius.
+    if (g.limits.radius_mm > 0 && g.limits.radius_mm <= g.radius_mm)
+      for (const Arm& arm : arms_)
+        part_at_work(arm.body, holder_, effector_mm_ - b.rod_radius_mm - b.holder_radius_mm);
     add_fixed(b);
     add_floor(lowest - b.floor_mm);
     pair_up();
+  }
+
+  std::optional<Place> place_of(Frame, const Pose& pose) const override {
+    return Place{{pose[kX], pose[kY], pose[kZ]}, 0, 0};
+  }
+
+  /// An arm that is h aside from its tower: its carriage moves by p - p . h / sqrt(length^2 - h^2) when the
+  /// tip moves by p. Against what the tip carries and against what stands that is at most length / sqrt(...)
+  /// of p; two carriages move against each other by what both fractions differ.
+  double gain(const Place& place, double radius_mm) const override {
+    double steepest = 0;
+    for (const Arm& arm : arms_) {
+      const Vec h = place.point - arm.tower;
+      steepest = std::max(steepest, (std::hypot(h.x, h.y) + radius_mm) / arm_length_);
+    }
+    if (!(steepest < 1)) return std::numeric_limits<double>::infinity();
+    return std::max(1.0, 2 * steepest) / std::sqrt(1 - steepest * steepest);
   }
 
   bool place(Frame, const Pose& pose, Scene& scene) const override {

@@ -31,7 +31,8 @@ Sweep::Sweep(const CollisionModel& model, Occasion occasion, const PrintedPart* 
       has_places_(model.place_of(Frame::kMachine, {}).has_value()),
       enough_mm_(static_cast<float>(model.wanted_mm()) + (has_places_ ? kRefresh_mm : 0)) {
   for (const CollisionModel::Pair& pair : model.pairs())
-    if ((occasion_ == Occasion::kHoming || !pair.homing_only) && !model.always_parted(pair))
+    if ((occasion_ == Occasion::kHoming || !(pair.homing_only || model.parted_at_work(pair))) &&
+        !model.always_parted(pair))
       pairs_.push_back(pair);
   own_pairs_ = pairs_.size();
   if (printed != nullptr) {

@@ -231,6 +231,70 @@ TEST(Sweep, NorWhereThePlatformCarriesTheTool) {
   EXPECT_GT(expect_places(*mill), 0.7);
 }
 
+MachineDescription machine_file(const std::string& name) {
+  auto machine = load_machine(std::filesystem::path(KINEBUS_MACHINES) / (name + ".toml"));
+  EXPECT_TRUE(machine) << name << ": " << to_string(machine.error());
+  return *machine;
+}
+
+TEST(Sweep, PlacesOfADeltaAndOfCartesianMachinesBoundTheirPairsToo) {
+  EXPECT_GT(expect_places(machine_file("delta")), 0.7);
+  EXPECT_GT(expect_places(machine_file("corexy")), 0.9);
+  MachineDescription turning = machine_file("cartesian");
+  auto& geometry = std::get<CartesianGeometry>(turning.kinematics);
+  geometry.has_table = true;
+  for (const double z : {0.0, -30.0, 50.0}) {
+    geometry.table.pivot_mm = {0, 0, z};
+    EXPECT_GT(expect_places(turning), 0.9) << "pivot at Z " << z;
+  }
+}
+
+TEST(Sweep, OnDeltaAndCoreXySaysWhatMeasuringAllPairsSaysLineAfterLine) {
+  for (const char* name : {"delta", "corexy"}) {
+    MachineDescription d = machine_file(name);
+    // The nozzle's holder comes to it in a part of each layer.
+    d.bodies->fixed.push_back({"lamp", {55, -20, 10}, {70, 20, 75}});
+    const Model model = make_collision_model(d);
+    Sweep sweep(*model);
+    int near = 0, clear = 0;
+    for (int layer = 0; layer < 4; ++layer)
+      for_each_of_a_layer(20 + 0.3 * layer, 0, [&](const Pose& pose) {
+        const auto all = model->clearance(Frame::kPart, pose);
+        ASSERT_TRUE(all);
+        Sweep::Step step = sweep.to(Frame::kPart, pose);
+        if (step == Sweep::Step::kCoarse) {
+          sweep.jump();
+          step = sweep.to(Frame::kPart, pose);
+        }
+        ASSERT_EQ(step == Sweep::Step::kNear, all->mm < model->wanted_mm())
+            << name << ", layer " << layer << ", X " << pose[kX] << " Y " << pose[kY] << ": " << all->mm;
+        (step == Sweep::Step::kNear ? near : clear) += 1;
+      });
+    EXPECT_GT(near, 500) << name;
+    EXPECT_GT(clear, 5000) << name;
+    EXPECT_LT(sweep.measured(), static_cast<std::uint64_t>(near + clear / 2)) << name;
+  }
+}
+
+TEST(Sweep, ADeltasArmsKeepFromItsHolderWhereTheSweepDoesNotLook) {
+  const MachineDescription d = machine_file("delta");
+  const Model model = make_collision_model(d);
+  Scene scene = model->at_rest();
+  int pairs = 0;
+  for (const CollisionModel::Pair& pair : model->pairs()) {
+    if (!model->parted_at_work(pair)) continue;
+    ++pairs;
+    for (int turn = 0; turn < 72; ++turn)
+      for (const double r : {0.0, 70.0, 140.0})
+        for (const double z : {-5.0, 290.0}) {
+          const double a = turn * 5 * kRadPerDeg;
+          ASSERT_TRUE(model->place(Frame::kPart, {r * std::cos(a), r * std::sin(a), z, 0, 0, 0}, scene));
+          EXPECT_GE(model->distance(scene, pair), model->wanted_mm()) << turn << ", radius " << r;
+        }
+  }
+  EXPECT_EQ(pairs, 3);
+}
+
 TEST(Sweep, AStepThatMayHaveJumpedOverSomethingIsCoarse) {
   MachineDescription d = legs_below();
   // A thin post that the table's edge would pass in one long step.
