@@ -262,6 +262,12 @@ TEST(Reference, TellsWhereDialectsDiffer) {
   EXPECT_EQ(reference_entry("G999"), "");
 }
 
+TEST(Reference, TellsWhyACodeIsRefused) {
+  for (const char* code : {"G33.1", "G76", "G87", "M66"})
+    EXPECT_GT(reference_entry(code).size(), 30U) << code;
+  EXPECT_NE(reference_entry("G33").find("refused"), std::string::npos);
+}
+
 TEST(Interpreter, BlankAndCommentLinesDoNothing) {
   Session session;
   session.must("G0 X1");

@@ -44,7 +44,7 @@ constexpr std::array kG = {
     g(300, G::kNonmodal, "X Y S", "probes one place and tells it; in RepRapFirmware, without S, it gets Z 0. On machines with a spindle: over the point given to the position that G30.1 kept"),
     g(301, G::kNonmodal, "", "keeps the position for G30, in #5181 to #5186"),
     g(320, G::kHarmless, "", "bed levelling"),
-    g(330, G::kHarmless, "", "calibration"),
+    g(330, G::kHarmless, "", "calibration. On machines with a spindle a thread, which is refused"),
     g(340, G::kHarmless, "", "levelling of Z motors"),
     g(382, G::kMotion, "X Y Z F", "probe towards the target until it touches; without contact the job ends. #5061 to #5063: where, #5070: 1"),
     g(383, G::kMotion, "X Y Z F", "probe towards the target until it touches; #5070 is 0 without contact"),

@@ -178,8 +178,11 @@ std::string entry_of(std::string_view code) {
         if (reason.code == tenths) return unknown_g(tenths).english();
       return {};
     }
-    const CodeEntry* const entry = find(m_codes(), tenths / 10);
-    return entry != nullptr ? text_of_m(*entry) : "";
+    const int m_number = tenths / 10;
+    if (const CodeEntry* entry = find(m_codes(), m_number)) return text_of_m(*entry);
+    for (const Reason& reason : kMReasons)
+      if (reason.code == m_number) return unknown_m(m_number).english();
+    return {};
   }
   for (const Command& command : kCommands)
     if (command.name == name) return entry_text(std::string(code), command.words, command.meaning, false);
