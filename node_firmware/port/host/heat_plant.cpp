@@ -101,15 +101,21 @@ std::string HeatPlant::command(std::string_view text) {
        (what == "probe" && how.empty() && break_probe(which)) || (what == "shake" && shake(which, how)) ||
        (what == "accelerometer" && how.empty() && break_accelerometer(which)));
   if (done) return {};
-  return "\"" + std::string(text) +
-         "\": expected sensor N open|short|loose|silent|frozen|ok, heater N loose|open|stuck|ok, fan N "
+  std::string parts;
+  for (const NamedSensorPart& part : kSensorParts) parts += "|" + std::string(part.name);
+  return "\"" + std::string(text) + "\": expected sensor N open|short|loose|silent|frozen|ok" + parts +
+         ", heater N loose|open|stuck|ok, fan N "
          "stalled|ok, flow MM3_PER_S, filament out|jammed|slips|ok, probe in|out|falls|alarm|ok, shake HZ "
          "MM_PER_S2, or accelerometer silent|ok";
 }
 
 bool HeatPlant::break_sensor(int number, std::string_view how) {
-  if (number < 1 || number > 3) return false;
+  if (number < 1 || number > kSensors) return false;
   ThermalPlant& place = places_[static_cast<std::size_t>(number - 1)];
+  if (const auto part = sensor_part(how)) {
+    plug(number - 1, *part);
+    return true;
+  }
   if (how == "open") return place.sensor_open = true;
   if (how == "short") return place.sensor_short = true;
   if (how == "silent") return place.silent = true;

@@ -37,7 +37,7 @@ class HeatPlant {
 
   /// Breaks or mends something, one of:
   ///
-  ///     sensor N open | short | loose | silent | frozen | ok
+  ///     sensor N open | short | loose | silent | frozen | ok | ELEMENT
   ///     heater N loose | open | stuck | ok
   ///     fan N stalled | ok
   ///     flow MM3_PER_S
@@ -47,8 +47,8 @@ class HeatPlant {
   ///     accelerometer silent | ok
   ///
   /// Sensors are 1 to 3, the chamber's can be open, short and ok; heaters and fans 1 and 2. A stuck heater's
-  /// MOSFET is always on. A probe's pin
-  /// stays in, or out, or falls out by itself. Flow is that of filament through the hot end, 0 to 100.
+  /// MOSFET is always on. ELEMENT plugs another sensor in, by its name in a machine file. A probe's pin stays
+  /// in, or out, or falls out by itself. Flow is that of filament through the hot end, 0 to 100.
   /// Empty: done. Otherwise what is wrong with the command, and what there is.
   std::string command(std::string_view text);
 
@@ -61,6 +61,9 @@ class HeatPlant {
   AccelerometerPlant& accelerometer() { return accelerometer_; }
   ThermalPlant& hot_end() { return places_[0]; }
   ThermalPlant& bed() { return places_[1]; }
+  static constexpr int kSensors = 3;
+  /// What is plugged into that input, from 0 on.
+  void plug(int input, const SensorPart& part) { places_[static_cast<std::size_t>(input)].part = part; }
 
  private:
   struct Turning {

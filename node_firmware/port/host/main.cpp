@@ -44,8 +44,9 @@ int run(int argc, char** argv) {
   CLI::App app{
       "One Kinebus node on a CAN interface, with simulated motors and switches; SIGUSR1 presses and\n"
       "releases the E-stop button. With --heat: one with a simulated hot end, bed and fans, which lines of\n"
-      "its standard input break and mend: sensor 1 open, heater 2 stuck, fan 1 stalled, flow 12, filament "
-      "jammed, sensor 1 ok.\n"
+      "its standard input break and mend: sensor 1 open, sensor 1 pt1000, heater 2 stuck, fan 1 stalled, "
+      "flow 12,\n"
+      "filament jammed, sensor 1 ok.\n"
       "SIGTERM ends it."};
   app.add_option("-i,--interface", options.interface, "SocketCAN interface, such as vcan0")->required();
   app.add_option("-n,--node", node, "Node id; 0: as stored, or given by LSS")->check(CLI::Range(0, 127));

@@ -12,6 +12,7 @@
 #include <random>
 
 #include "node_firmware/heat/thermometry.hpp"
+#include "node_firmware/port/host/sensor_part.hpp"
 
 namespace kinebus::heat {
 
@@ -47,6 +48,8 @@ class ThermalPlant {
   bool frozen = false;  // the converter repeats itself
   bool contactor = true;
   double fan = 0, flow_mm3_per_s = 0;
+  /// What is plugged in; as it comes a thermistor of 100 kOhm, beta 3950, on 4.7 kOhm.
+  SensorPart part{};
 
   explicit ThermalPlant(const PlantParameters& parameters, std::uint32_t seed = 1)
       : p(parameters), random_(seed) {
@@ -80,7 +83,7 @@ class ThermalPlant {
     hottest_ = std::max(hottest_, block_);
   }
 
-  /// The converter's word for a thermistor of 100 kOhm, beta 3950, with 4.7 kOhm: 16 conversions of 12 bits.
+  /// The converter's word for its sensor: 16 conversions of 12 bits.
   std::uint32_t ratio() {
     if (frozen) return last_ratio_;
     const double divided = divider();
@@ -108,10 +111,10 @@ class ThermalPlant {
 
   double divider() {
     const double noisy = sensor_ + p.noise_k * normal_(random_);
-    double r = 100e3 * std::exp(3950 * (1 / (noisy + 273.15) - 1 / 298.15)) + series_ohm;
+    double r = part.ohm(noisy) + series_ohm;
     if (sensor_open) r = 1e9;
     if (sensor_short) r = 0.1;
-    return r / (r + 4700);
+    return part.share(r);
   }
 
   double heater_ = 0, block_ = 0, sensor_ = 0, hottest_ = 0;

@@ -55,6 +55,7 @@ struct VirtualNodeOptions {
   NodeOptions node;
   bool heat = false;                          ///< a heat node, with a HeatPlant behind it and no axes
   std::optional<VirtualExtruder> extruder{};  ///< what draws the filament past its sensors
+  std::array<heat::SensorPart, heat::HeatPlant::kSensors> sensors{};  ///< of a heat node
   std::array<VirtualAxis, 2> axes{};
   BusTime clock_offset{0};
   double clock_drift_ppm = 0;

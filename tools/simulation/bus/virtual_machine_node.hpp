@@ -25,7 +25,11 @@ struct VirtualMachine::VirtualNode {
       core.emplace(options.node, local);
       return;
     }
-    if (!plant) plant = std::make_unique<heat::HeatPlant>(static_cast<std::uint32_t>(index) + 1);
+    if (!plant) {
+      plant = std::make_unique<heat::HeatPlant>(static_cast<std::uint32_t>(index) + 1);
+      for (int i = 0; i < heat::HeatPlant::kSensors; ++i)
+        plant->plug(i, options.sensors[static_cast<std::size_t>(i)]);
+    }
     heat.emplace(heat::HeatNodeOptions{options.node.node_id, options.node.identity.serial}, local, stored);
     // Blocks have cooled meanwhile, without their node.
     for (; next_sample != LocalTime{0} && next_sample < local; next_sample += heat::HeatPlant::kPeriod)

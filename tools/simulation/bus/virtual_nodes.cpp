@@ -72,6 +72,24 @@ std::optional<VirtualExtruder> extruder_of(const MachineDescription& machine) {
   return std::nullopt;
 }
 
+heat::SensorPart part_of(const SensorWiring& wiring) {
+  heat::SensorPart part{.ohm_25 = wiring.nominal_ohm, .beta = static_cast<double>(wiring.beta_k)};
+  if (const auto known = heat::sensor_part(static_cast<std::uint16_t>(wiring.element))) part = *known;
+  part.reference_ohm = wiring.reference_ohm;
+  part.max31865 = wiring.max31865;
+  return part;
+}
+
+/// What the builder has plugged into a heat node, by the file's word for it.
+void plug_sensors(const MachineDescription& machine, std::uint8_t node_id, VirtualNodeOptions& options) {
+  const auto plug = [&](const DevicePlace& place, const SensorWiring& wiring) {
+    if (place.on_node() && place.node_id == node_id && place.channel <= options.sensors.size())
+      options.sensors[place.channel - 1u] = part_of(wiring);
+  };
+  for (const HeaterDescription& heater : machine.heaters) plug(heater.place, heater.wiring.sensor);
+  for (const SensorDescription& sensor : machine.sensors) plug(sensor.place, sensor.wiring);
+}
+
 }  // namespace
 
 std::vector<VirtualNodeOptions> virtual_nodes_of(const MachineDescription& machine,
@@ -90,7 +108,10 @@ std::vector<VirtualNodeOptions> virtual_nodes_of(const MachineDescription& machi
                                      ScaleInput::kQuadrature + ScaleInput::kAbsolute},
                     .may_fit_scale = &Node::may_fit_scale};
     options.heat = !node.functions.has_axes() && machine.carries_heat(node.id);
-    if (options.heat) options.extruder = extruder;
+    if (options.heat) {
+      options.extruder = extruder;
+      plug_sensors(machine, node.id, options);
+    }
     options.clock_drift_ppm =
         count > 1 ? clocks.drift_ppm * (2.0 * static_cast<double>(n) / static_cast<double>(count - 1) - 1)
                   : 0;

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 
+#include "gateway/description/machine_file.hpp"
 #include "tools/simulation/bus/virtual_nodes.hpp"
 #include "tools/simulation/checkers/bus_checker.hpp"
 #include "tools/simulation/checkers/joint_checker.hpp"
@@ -76,6 +78,27 @@ TEST(SkewChecker, FindsTheNodeThatIsLate) {
   probe.tau = {PathTime{1000}, PathTime{1016}, PathTime{968}};  // 1/16 us each
   checker.on_probe(probe);
   EXPECT_DOUBLE_EQ(checker.max_us(), 3.0);
+}
+
+TEST(VirtualNodes, HaveTheSensorsOfTheFile) {
+  const auto machine = load_machine(std::filesystem::path(KINEBUS_MACHINES) / "m1_octopus_ebb.toml");
+  ASSERT_TRUE(machine) << to_string(machine.error());
+  MachineDescription changed = *machine;
+  changed.heaters.at(0).wiring.sensor = {
+      .element = SensorElement::kPt1000, .max31865 = true, .reference_ohm = 4300};
+  const std::uint8_t heated = changed.heaters.at(0).place.node_id,
+                     channel = changed.heaters.at(0).place.channel;
+  bool found = false;
+  for (const VirtualNodeOptions& node : virtual_nodes_of(changed, {}, 1)) {
+    if (!node.heat || node.node.node_id != heated) continue;
+    found = true;
+    const heat::SensorPart& part = node.sensors.at(channel - 1u);
+    EXPECT_EQ(part.ohm(0), 1000);
+    EXPECT_EQ(part.share(2150), 0.5);
+    // generic_3950 at 150 C is 1770 Ohm.
+    EXPECT_NEAR(node.sensors.at(2u - channel).ohm(150), 1770, 1e-6);
+  }
+  EXPECT_TRUE(found);
 }
 
 TEST(QueueChecker, FindsRecordsOutOfSequenceAndWithoutRoom) {

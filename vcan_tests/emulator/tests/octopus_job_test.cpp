@@ -66,6 +66,28 @@ TEST(OctopusJob, HomesHeatsAndPrintsOnAnOctopusAndAnEbbThroughOneCable) {
   std::uint64_t echoes = 0;
   options.operate = [&](Gateway&, double) { echoes = cable->host().heard.size(); };
   StringSource same(kJob);
+  // A joint against the plan, in counts: what homing left of it, and how it moves around that.
+  struct Span {
+    double least = 1e9, most = -1e9;
+    double middle() const { return (least + most) / 2; }
+    double half() const { return (most - least) / 2; }
+  };
+  std::array<Span, kMaxJoints> off{};
+  auto made = make_kinematics(machine);
+  ASSERT_TRUE(made);
+  const std::unique_ptr<const Kinematics> kinematics = std::move(*made);
+  options.on_sample = [&](const Sample& sample, double, std::uint32_t) {
+    JointVector planned{};
+    if (!sample.planned || !kinematics->inverse(sample.planned->frame, sample.planned->pose, planned)) return;
+    for (std::size_t j = 0; j < machine.joints.size(); ++j) {
+      const double counts = (sample.joints[j] - planned[j]) * machine.joints[j].drive.counts_per_unit();
+      off[j] = {std::min(off[j].least, counts), std::max(off[j].most, counts)};
+    }
+  };
+  double hottest_printing = 0;
+  options.on_frame = [&](BusTime, const CanFrame&) {
+    hottest_printing = std::max(hottest_printing, cable->octopus().heated().hot_end().block());
+  };
   const SimulationReport report = simulate(machine, std::make_unique<StringSource>(kJob), same, options);
   fmt::print("{}\n", to_table(report));
   ASSERT_TRUE(report.finished) << report.outcome;
@@ -73,11 +95,21 @@ TEST(OctopusJob, HomesHeatsAndPrintsOnAnOctopusAndAnEbbThroughOneCable) {
   EXPECT_LE(report.max_node_time_skew_us, 2.0);
   EXPECT_EQ(report.underruns, 0u);
   EXPECT_EQ(report.records_out_of_sequence, 0u);
-  // The plan is within half a microstep, the rotor within what load and friction turn it: less than one.
+  // The plan is within half a microstep of where homing has found the motor, which is within another half;
+  // the rotor within what load and friction turn it.
   EXPECT_LT(report.max_joint_error_counts, kStepCounts);
   EXPECT_LT(report.max_path_error_um, 80);
   ASSERT_TRUE(report.heat);
-  EXPECT_GT(report.heat->coldest_fed_c, 195);
+  for (std::size_t j = 0; j < machine.joints.size(); ++j) {
+    const JointDescription& joint = machine.joints[j];
+    fmt::print("joint {}: {:+.2f} counts off, +-{:.2f} around it\n", joint.name, off[j].middle(),
+               off[j].half());
+    EXPECT_LE(off[j].half(), kStepCounts / 2 + machine.tolerances.segment_counts) << joint.name;
+    EXPECT_LE(std::abs(off[j].middle()), joint.homing ? kStepCounts / 2 + 0.5 : 0.3) << joint.name;
+  }
+  fmt::print("block at most {:.1f} C, coldest fed {:.1f} C\n", hottest_printing, report.heat->coldest_fed_c);
+  EXPECT_GT(report.heat->coldest_fed_c, 203);
+  EXPECT_LT(hottest_printing, 208);
 }
 
 }  // namespace

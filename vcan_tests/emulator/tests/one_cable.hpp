@@ -30,9 +30,14 @@ class OneCableMachine final : public NodeMachine {
         host_(boards_, this->octopus()) {
     host_.by_device_clock = by_device_clock;
     this->octopus().heated().hot_end().begin_at(start_c);
+    for (const VirtualNodeOptions& node : nodes_)
+      for (int input = 0; node.heat && input < 2; ++input)
+        this->octopus().heated().plant().plug(input, node.sensors[static_cast<std::size_t>(input)]);
     host_.plug();
     EXPECT_TRUE(host_.probe());
     EXPECT_TRUE(host_.up());
+    for (const VirtualNodeOptions& node : nodes_)
+      if (node.heat) give_model(node.node.node_id);
     epoch_ = boards_.now();
   }
 
@@ -110,6 +115,26 @@ class OneCableMachine final : public NodeMachine {
       }
     }
     return all;
+  }
+  // What a tuning of this hot end finds, as 1010h would have kept it.
+  void give_model(std::uint8_t node_id) {
+    constexpr std::array<std::uint32_t, 4> kModel{3006, 5340, 1423, 1998};
+    for (std::uint16_t i = 0; i < kModel.size(); ++i) {
+      CanFrame write{.id = cob_id::kSdoRequest + node_id, .length = 8};
+      write.data[0] = 0x23;
+      put_u16_le(std::span(write.data).subspan(1), static_cast<std::uint16_t>(0x2218 + i));
+      write.data[3] = 1;
+      put_u32_le(std::span(write.data).subspan(4), kModel[i]);
+      host_.send(boards_.now(), write);
+      bool taken = false;
+      const BusTime until = boards_.now() + std::chrono::milliseconds{50};
+      while (boards_.now() < until) {
+        host_.advance(until);
+        while (const auto got = host_.receive())
+          taken = taken || (got->frame.id == cob_id::kSdoReply + node_id && got->frame.data[0] == 0x60);
+      }
+      EXPECT_TRUE(taken) << "the hot end's model, " << i;
+    }
   }
   // What the extruder pushes takes heat along.
   void feed() {
