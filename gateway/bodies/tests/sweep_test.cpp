@@ -73,6 +73,24 @@ void for_each_of_a_layer(double z_mm, double tilt_rad, const See& see) {
       see(Pose{line % 2 == 0 ? n - 40.0 : 40.0 - n, 2.0 * line - 40, z_mm, tilt_rad, 0, 0});
 }
 
+/// Whether something is too near at that pose: the sweep says so, and measuring all pairs says the same.
+bool near_by_both(const CollisionModel& model, Sweep& sweep, const Pose& pose) {
+  const auto all = model.clearance(Frame::kPart, pose);
+  if (!all) {
+    ADD_FAILURE() << "out of reach";
+    return false;
+  }
+  Sweep::Step step = sweep.to(Frame::kPart, pose);
+  if (step == Sweep::Step::kCoarse) {
+    sweep.jump();
+    step = sweep.to(Frame::kPart, pose);
+  }
+  const bool near = step == Sweep::Step::kNear;
+  EXPECT_EQ(near, all->mm < model.wanted_mm())
+      << "X " << pose[kX] << " Y " << pose[kY] << " Z " << pose[kZ] << ": " << all->mm;
+  return near;
+}
+
 TEST(Sweep, WhereAPathHasBeenClearItIsNotMeasuredAgain) {
   const Model model = make_collision_model(legs_below());
   for (const double tilt : {0.0, 0.5}) {
@@ -96,22 +114,12 @@ TEST(Sweep, WhereItComesBackToItSaysWhatMeasuringAllPairsSays) {
   d.bodies->fixed.push_back({"lamp", {125, -20, 1200}, {135, 20, 1400}});
   const Model model = make_collision_model(d);
   for (const double tilt : {0.0, 0.3}) {
+    SCOPED_TRACE(tilt);
     Sweep sweep(*model);
     int near = 0, clear = 0;
     for (int layer = 0; layer < 4; ++layer)
-      for_each_of_a_layer(20 + 0.3 * layer, tilt, [&](const Pose& pose) {
-        const auto all = model->clearance(Frame::kPart, pose);
-        ASSERT_TRUE(all);
-        Sweep::Step step = sweep.to(Frame::kPart, pose);
-        if (step == Sweep::Step::kCoarse) {
-          sweep.jump();
-          step = sweep.to(Frame::kPart, pose);
-        }
-        ASSERT_EQ(step == Sweep::Step::kNear, all->mm < model->wanted_mm())
-            << "tilt " << tilt << ", layer " << layer << ", X " << pose[kX] << " Y " << pose[kY] << ": "
-            << all->mm;
-        (step == Sweep::Step::kNear ? near : clear) += 1;
-      });
+      for_each_of_a_layer(20 + 0.3 * layer, tilt,
+                          [&](const Pose& pose) { ++(near_by_both(*model, sweep, pose) ? near : clear); });
     EXPECT_GT(near, 500) << "tilt " << tilt;
     EXPECT_GT(clear, 5000) << "tilt " << tilt;
     // Twice along the border between both, line by line, there is little room.
@@ -251,6 +259,7 @@ TEST(Sweep, PlacesOfADeltaAndOfCartesianMachinesBoundTheirPairsToo) {
 
 TEST(Sweep, OnDeltaAndCoreXySaysWhatMeasuringAllPairsSaysLineAfterLine) {
   for (const char* name : {"delta", "corexy"}) {
+    SCOPED_TRACE(name);
     MachineDescription d = machine_file(name);
     // The nozzle's holder comes to it in a part of each layer.
     d.bodies->fixed.push_back({"lamp", {55, -20, 10}, {70, 20, 75}});
@@ -258,18 +267,8 @@ TEST(Sweep, OnDeltaAndCoreXySaysWhatMeasuringAllPairsSaysLineAfterLine) {
     Sweep sweep(*model);
     int near = 0, clear = 0;
     for (int layer = 0; layer < 4; ++layer)
-      for_each_of_a_layer(20 + 0.3 * layer, 0, [&](const Pose& pose) {
-        const auto all = model->clearance(Frame::kPart, pose);
-        ASSERT_TRUE(all);
-        Sweep::Step step = sweep.to(Frame::kPart, pose);
-        if (step == Sweep::Step::kCoarse) {
-          sweep.jump();
-          step = sweep.to(Frame::kPart, pose);
-        }
-        ASSERT_EQ(step == Sweep::Step::kNear, all->mm < model->wanted_mm())
-            << name << ", layer " << layer << ", X " << pose[kX] << " Y " << pose[kY] << ": " << all->mm;
-        (step == Sweep::Step::kNear ? near : clear) += 1;
-      });
+      for_each_of_a_layer(20 + 0.3 * layer, 0,
+                          [&](const Pose& pose) { ++(near_by_both(*model, sweep, pose) ? near : clear); });
     EXPECT_GT(near, 500) << name;
     EXPECT_GT(clear, 5000) << name;
     EXPECT_LT(sweep.measured(), static_cast<std::uint64_t>(near + clear / 2)) << name;
