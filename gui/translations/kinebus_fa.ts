@@ -4561,6 +4561,14 @@
         <translation>خطا</translation>
     </message>
     <message>
+        <source>By scale</source>
+        <translation>با خط‌کش</translation>
+    </message>
+    <message>
+        <source>Error by scale</source>
+        <translation>خطا با خط‌کش</translation>
+    </message>
+    <message>
         <source>%1 µm</source>
         <translation>%1 µm</translation>
     </message>
@@ -6007,6 +6015,14 @@
     <message>
         <source>Carriages and axes</source>
         <translation>حامل‌ها و محورها</translation>
+    </message>
+    <message>
+        <source>By its scale %1 (%2)</source>
+        <translation>با خط‌کش آن %1 (%2)</translation>
+    </message>
+    <message>
+        <source>By its scale: read at rest</source>
+        <translation>خط‌کش آن در حال سکون خوانده می‌شود</translation>
     </message>
     <message>
         <source>Heat</source>

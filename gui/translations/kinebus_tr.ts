@@ -4561,6 +4561,14 @@
         <translation>Hata</translation>
     </message>
     <message>
+        <source>By scale</source>
+        <translation>Cetvelle</translation>
+    </message>
+    <message>
+        <source>Error by scale</source>
+        <translation>Cetvelle hata</translation>
+    </message>
+    <message>
         <source>%1 µm</source>
         <translation>%1 µm</translation>
     </message>
@@ -6007,6 +6015,14 @@
     <message>
         <source>Carriages and axes</source>
         <translation>Taşıyıcılar ve eksenler</translation>
+    </message>
+    <message>
+        <source>By its scale %1 (%2)</source>
+        <translation>Cetveline göre %1 (%2)</translation>
+    </message>
+    <message>
+        <source>By its scale: read at rest</source>
+        <translation>Cetveli dururken okunur</translation>
     </message>
     <message>
         <source>Heat</source>
