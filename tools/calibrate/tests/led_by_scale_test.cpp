@@ -17,7 +17,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr double kTooLong = 0.0014;  // paper M5's third rail
+constexpr double kTooLong = 0.0014;  // as far off as paper M5's third rail, which goes too short
 constexpr std::size_t kLongRail = 2;
 // A count of the scale where it is read, and one where home was latched; microsteps of 0.2 um.
 constexpr double kTwoPulses_mm = 0.021;
@@ -158,7 +158,8 @@ TEST(SignOfScale, AScrewThatGoesTooFarHasAPositiveOneAndTheCorrectionOfThePaperI
   const auto [unknown, error] = off_mm(0);
   EXPECT_NEAR(unknown, error, 1e-3);
   EXPECT_NEAR(off_mm(kTooLong).first, 0, 1e-3) << "measured travel over commanded, less 1";
-  EXPECT_NEAR(off_mm(-kTooLong).first, 2 * error, 2e-3) << "the paper's number: twice as wrong";
+  EXPECT_NEAR(off_mm(-kTooLong).first, 2 * error, 2e-3)
+      << "a correction, as the paper prints it, taken for the error";
 }
 
 }  // namespace
