@@ -1881,6 +1881,14 @@
         <translation>خط‌کش روی مفصلی که می‌چرخد</translation>
     </message>
     <message>
+        <source>a machine that can stand nowhere in its workspace: at its bed reference, %1: %2</source>
+        <translation>ماشینی که در هیچ جای فضای کاری خود نمی‌تواند بایستد: در مرجع بستر، %1: %2</translation>
+    </message>
+    <message>
+        <source>geometry, travel and workspace that fit each other</source>
+        <translation>هندسه، کورس و فضای کاری که با هم بخوانند</translation>
+    </message>
+    <message>
         <source>a joint that moves along a rail</source>
         <translation>مفصلی که روی ریل حرکت می‌کند</translation>
     </message>

@@ -1881,6 +1881,14 @@
         <translation>dönen bir eklemde cetvel</translation>
     </message>
     <message>
+        <source>a machine that can stand nowhere in its workspace: at its bed reference, %1: %2</source>
+        <translation>çalışma alanının hiçbir yerinde duramayan bir makine: tabla referansında, %1: %2</translation>
+    </message>
+    <message>
+        <source>geometry, travel and workspace that fit each other</source>
+        <translation>birbirine uyan geometri, strok ve çalışma alanı</translation>
+    </message>
+    <message>
         <source>a joint that moves along a rail</source>
         <translation>ray boyunca giden bir eklem</translation>
     </message>
