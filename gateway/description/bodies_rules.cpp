@@ -64,7 +64,28 @@ void visit_workspace(const MachineDescription& d, const Kinematics& kinematics, 
         }
 }
 
+/// What says where the machine can be, `first` before all.
+std::vector<std::string> keys_of_place(const MachineDescription& d, std::string first) {
+  std::vector<std::string> keys{std::move(first), "kinematics"};
+  for (const JointDescription& joint : d.joints)
+    keys.push_back("joint." + joint.name + ".travel_" + (joint.rotary ? "deg" : "mm"));
+  return keys;
+}
+
 }  // namespace
+
+void judge_reach(const MachineDescription& d, const Kinematics& kinematics, std::vector<BrokenRule>& broken) {
+  const Pose reference = kinematics.bed_reference();
+  const auto reached = kinematics.check(Frame::kMachine, reference);
+  if (reached) return;
+  bool stands = false;
+  visit_workspace(d, kinematics, [&stands](const Pose&) { stands = true; });
+  if (stands) return;
+  broken.push_back({keys_of_place(d, "kinematics.workspace"),
+                    say("a machine that can stand nowhere in its workspace: at its bed reference, %1: %2",
+                        pose_text(reference), to_string(reached.error(), kinematics)),
+                    say("geometry, travel and workspace that fit each other")});
+}
 
 std::string pose_text(const Pose& pose) {
   return printed("X %.4g Y %.4g Z %.4g A %.4g", pose[kX], pose[kY], pose[kZ], pose[kA] / kRadPerDeg);
@@ -77,9 +98,7 @@ void judge_bodies(const MachineDescription& d, const Kinematics& kinematics,
   judge_numbers(*d.bodies, broken);
   if (broken.size() > before) return;
   const bodies::Model model = make_collision_model(d);
-  std::vector<std::string> keys{"bodies", "kinematics"};
-  for (const JointDescription& joint : d.joints)
-    keys.push_back("joint." + joint.name + ".travel_" + (joint.rotary ? "deg" : "mm"));
+  const std::vector<std::string> keys = keys_of_place(d, "bodies");
   const auto refuse = [&](const bodies::Clearance& c, const Pose& pose, Sentence expected) {
     broken.push_back(
         {keys, say("bodies that touch: at %1, %2", pose_text(pose), model->words(c)), std::move(expected)});

@@ -27,10 +27,12 @@ class Rules {
     vibration();
     pressure_advance();
     judge_devices(d_, broken_);
-    if (const auto kinematics = make_kinematics(d_); !kinematics)
+    if (const auto kinematics = make_kinematics(d_); !kinematics) {
       broken_.push_back({geometry_keys(), say("a machine that cannot work"), kinematics.error().what});
-    else
+    } else {
+      judge_reach(d_, **kinematics, broken_);
       judge_bodies(d_, **kinematics, broken_);
+    }
     // A machine with something else wrong has no ways worth looking at.
     if (broken_.empty()) judge_homing(d_, broken_);
     return std::move(broken_);

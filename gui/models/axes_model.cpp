@@ -21,8 +21,9 @@ constexpr double kDegPerRad = 180 / std::numbers::pi;
 
 bool is_number(int column) {
   return column == AxesModel::kPosition || column == AxesModel::kMeasured || column == AxesModel::kError ||
-         column == AxesModel::kCurrent || column == AxesModel::kCounts || column == AxesModel::kRun ||
-         column == AxesModel::kHold || column == AxesModel::kStage;
+         column == AxesModel::kByScale || column == AxesModel::kScaleError || column == AxesModel::kCurrent ||
+         column == AxesModel::kCounts || column == AxesModel::kRun || column == AxesModel::kHold ||
+         column == AxesModel::kStage;
 }
 
 }  // namespace
@@ -63,6 +64,11 @@ bool AxesModel::measured() const {
   return false;
 }
 
+bool AxesModel::scaled() const {
+  const auto& joints = session_.machine().joints();
+  return std::any_of(joints.begin(), joints.end(), [](const joblink::Joint& j) { return j.has_scale(); });
+}
+
 QVariant AxesModel::headerData(int section, Qt::Orientation orientation, int role) const {
   if (orientation != Qt::Horizontal) return {};
   if (role == Qt::TextAlignmentRole && is_number(section))
@@ -77,6 +83,10 @@ QVariant AxesModel::headerData(int section, Qt::Orientation orientation, int rol
       return tr("Measured");
     case kError:
       return tr("Error");
+    case kByScale:
+      return tr("By scale");
+    case kScaleError:
+      return tr("Error by scale");
     case kTravel:
       return tr("Travel");
     case kCounts:
@@ -142,6 +152,15 @@ QVariant AxesModel::data(const QModelIndex& index, int role) const {
                  ? Format::isolated(Format::number(-axis->off_course() * kDegPerRad, 3) +
                                     QStringLiteral(" °"))
                  : Format::isolated(tr("%1 µm").arg(Format::number(-axis->off_course() * 1000, 0)));
+    case kByScale:
+      return axis != nullptr && axis->has_by_scale_mm() ? place_words(joint, axis->by_scale_mm())
+                                                        : QStringLiteral("–");
+    case kScaleError:
+      return known && axis != nullptr && axis->has_by_scale_mm()
+                 // + 0.0: no "-0 µm".
+                 ? Format::isolated(tr("%1 µm").arg(
+                       Format::number(std::round((axis->by_scale_mm() - position) * 1000) + 0.0, 0)))
+                 : QStringLiteral("–");
     case kCurrent:
       if (axis == nullptr) return QStringLiteral("–");
       return Format::isolated(

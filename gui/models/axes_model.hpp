@@ -19,6 +19,8 @@ class AxesModel : public QAbstractTableModel {
     kPosition,
     kMeasured,
     kError,
+    kByScale,
+    kScaleError,
     kTravel,
     kCounts,
     kRun,
@@ -37,6 +39,8 @@ class AxesModel : public QAbstractTableModel {
   QVariant data(const QModelIndex& index, int role) const override;
   /// Whether any axis is measured by an encoder: else kMeasured and kError have nothing to say.
   bool measured() const;
+  /// Whether any axis has a linear scale: else kByScale and kScaleError have nothing to say.
+  bool scaled() const;
   QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
 
  private:

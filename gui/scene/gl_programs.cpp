@@ -31,6 +31,7 @@ in vec3 to_eye;
 uniform vec3 colour;
 uniform float gloss;
 uniform float glow;
+uniform float cover;
 out vec4 pixel;
 const vec3 key = vec3(0.35221, -0.55347, 0.75473);
 void main() {
@@ -43,7 +44,7 @@ void main() {
   shine *= shine;
   float shine16 = shine * shine;
   shine = shine16 * shine16 * shine * gloss;
-  pixel = vec4(colour * mix(light, 1.15, glow) + shine, 1.0);
+  pixel = vec4(colour * mix(light, 1.15, glow) + shine, cover);
 })";
 
 // shade: feed, layer, margin, feature in 0 .. 1. style 0: work, 1: travel, 2: not made yet.

@@ -13,45 +13,15 @@
 #include <cmath>
 #include <numbers>
 
+#include "gui/scene/finish_look.hpp"
+
 namespace kinebus::gui {
 namespace {
 
 /// Stacks of layers overlap by so much, for walls that lean.
 constexpr float kStackOverlap = 1.35F;
-
-struct Look {
-  QVector3D light, dark;
-  float gloss = 0.1F;
-  float glow = 0;
-};
-
-Look look_of(Finish finish) {
-  switch (finish) {
-    case Finish::kFixed:
-      return {{0.72F, 0.74F, 0.77F}, {0.30F, 0.33F, 0.37F}, 0.10F, 0};
-    case Finish::kRail:
-      return {{0.82F, 0.84F, 0.87F}, {0.58F, 0.62F, 0.67F}, 0.45F, 0};
-    case Finish::kCarriage:
-      return {{0.06F, 0.52F, 0.62F}, {0.07F, 0.58F, 0.68F}, 0.25F, 0};
-    case Finish::kLeg:
-      return {{0.20F, 0.22F, 0.25F}, {0.42F, 0.46F, 0.51F}, 0.30F, 0};
-    case Finish::kHolder:
-      return {{0.48F, 0.51F, 0.55F}, {0.42F, 0.45F, 0.50F}, 0.40F, 0};
-    case Finish::kPlatform:
-      return {{0.62F, 0.65F, 0.69F}, {0.36F, 0.40F, 0.45F}, 0.15F, 0};
-    case Finish::kTable:
-      return {{0.28F, 0.31F, 0.35F}, {0.24F, 0.27F, 0.31F}, 0.12F, 0};
-    case Finish::kTool:
-      return {{0.86F, 0.68F, 0.30F}, {0.80F, 0.62F, 0.27F}, 0.60F, 0};
-    case Finish::kHot:
-      return {{0.93F, 0.42F, 0.16F}, {0.96F, 0.44F, 0.16F}, 0.20F, 0.35F};
-    case Finish::kMark:
-      return {{0.95F, 0.61F, 0.13F}, {0.95F, 0.61F, 0.13F}, 0.10F, 0.15F};
-    case Finish::kNear:
-      return {{0.86F, 0.13F, 0.17F}, {0.92F, 0.17F, 0.20F}, 0.20F, 0.25F};
-  }
-  return {};
-}
+/// Of what is behind the frame, that much is hidden.
+constexpr float kGlass = 0.35F;
 
 std::vector<QVector3D> circle(float radius_mm, float z_mm) {
   constexpr int kPieces = 96;
@@ -149,6 +119,7 @@ void SceneRenderer::draw_quick(const SceneContent& content, QSize pixels) {
   lines_drawn_ = plan.lines;
   refined_ = whole;
   draw_reach();
+  draw_frame();
   draw_trail();
   draw_mark();
   quick_.buffer->release();
@@ -183,6 +154,7 @@ bool SceneRenderer::refine() {
   }
   if (rest_range_ == rest_plan_.ranges.size()) {
     draw_reach();
+    draw_frame();
     draw_trail();
     draw_mark();
     lines_drawn_ = rest_plan_.lines;
@@ -273,16 +245,10 @@ void SceneRenderer::draw_figure() {
   program.bind();
   program.setUniformValue("clip", world_clip_);
   program.setUniformValue("eye", content_.camera.eye_mm());
-  for (const FigurePart& part : content_.figure.parts) {
-    if (!content_.show_machine && part.finish != Finish::kTable) continue;
-    const Look look = look_of(part.finish);
-    program.setUniformValue("place", part.place);
-    program.setUniformValue("normal_matrix", part.place.normalMatrix());
-    program.setUniformValue("colour", content_.colours.dark ? look.dark : look.light);
-    program.setUniformValue("gloss", look.gloss);
-    program.setUniformValue("glow", look.glow);
-    bodies_.draw(gl_, part.body);
-  }
+  program.setUniformValue("cover", 1.0F);
+  for (const FigurePart& part : content_.figure.parts)
+    if ((content_.show_machine && part.finish != Finish::kFixed) || part.finish == Finish::kTable)
+      draw_part(part);
   // The bed's grid, every 50 mm, just above the table.
   std::vector<QVector3D> grid;
   const MachineModel& m = content_.model;
@@ -310,6 +276,38 @@ void SceneRenderer::draw_figure() {
   draw_plain(grid, GL_LINES, clip, QVector4D(content_.colours.grid, 1));
   draw_plain({{0, 0, 0.4F}, {25, 0, 0.4F}}, GL_LINES, clip, {0.90F, 0.27F, 0.27F, 1});
   draw_plain({{0, 0, 0.4F}, {0, 25, 0.4F}}, GL_LINES, clip, {0.30F, 0.72F, 0.36F, 1});
+}
+
+/// With the program of bodies bound.
+void SceneRenderer::draw_part(const FigurePart& part) {
+  QOpenGLShaderProgram& program = *programs_.bodies;
+  const Look look = look_of(part.finish);
+  program.setUniformValue("place", part.place);
+  program.setUniformValue("normal_matrix", part.place.normalMatrix());
+  program.setUniformValue("colour", content_.colours.dark ? look.dark : look.light);
+  program.setUniformValue("gloss", look.gloss);
+  program.setUniformValue("glow", look.glow);
+  bodies_.draw(gl_, part.body);
+}
+
+/// The machine's frame is glass: its columns stand in front of legs, table and part. First its depth alone,
+/// so that one pane is seen and not a column's far side through its near one.
+void SceneRenderer::draw_frame() {
+  if (!content_.has_machine || !content_.show_machine) return;
+  QOpenGLShaderProgram& program = *programs_.bodies;
+  program.bind();
+  program.setUniformValue("clip", world_clip_);
+  program.setUniformValue("eye", content_.camera.eye_mm());
+  program.setUniformValue("cover", kGlass);
+  gl_.glEnable(GL_BLEND);
+  gl_.glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  for (const bool seen : {false, true}) {
+    const auto mask = static_cast<GLboolean>(seen ? GL_TRUE : GL_FALSE);
+    gl_.glColorMask(mask, mask, mask, mask);
+    for (const FigurePart& part : content_.figure.parts)
+      if (part.finish == Finish::kFixed) draw_part(part);
+  }
+  gl_.glDisable(GL_BLEND);
 }
 
 void SceneRenderer::draw_reach() {
@@ -364,6 +362,7 @@ void SceneRenderer::draw_mark() {
   program.setUniformValue("eye", content_.camera.eye_mm());
   program.setUniformValue("gloss", 0.3F);
   program.setUniformValue("glow", 0.4F);
+  program.setUniformValue("cover", 1.0F);
   program.setUniformValue("colour", QVector3D(0.93F, 0.20F, 0.42F));
   QMatrix4x4 pin;
   pin.translate(place + QVector3D(0, 0, size * 1.3F));

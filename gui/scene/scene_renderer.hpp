@@ -91,6 +91,8 @@ class SceneRenderer {
   void prepare(Picture& picture, int samples);
   void draw_surroundings();
   void draw_figure();
+  void draw_part(const FigurePart& part);
+  void draw_frame();
   void draw_reach();
   void draw_trail();
   void draw_mark();

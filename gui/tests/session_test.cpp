@@ -285,6 +285,34 @@ TEST_F(SessionTest, AnAxisWithAnEncoderSaysWhereItReallyIs) {
   EXPECT_EQ(said(1, AxesModel::kError), QStringLiteral("-12 µm"));
 }
 
+TEST_F(SessionTest, AJointWithALinearScaleIsShownByItBesideWhereItWasTold) {
+  AxesModel axes(session);
+  const auto said = [&](int row, AxesModel::Column column) {
+    return axes.index(row, column).data().toString().remove(QChar(0x2066)).remove(QChar(0x2069));
+  };
+  for (int i = 0; i < 6; ++i) gateway.status.add_joints(290);
+  gateway.status.set_positions_known(true);
+  connect();
+  ASSERT_TRUE(wait_until([&] { return session.status().joints_size() == 6; }));
+  EXPECT_FALSE(axes.scaled());
+  session.disconnect_from_gateway();
+  gateway.machine.mutable_joints(1)->set_has_scale(true);
+  connect();
+  ASSERT_TRUE(wait_until([&] { return axes.scaled(); }));
+  EXPECT_EQ(said(1, AxesModel::kByScale), QStringLiteral("–")) << "nothing is read before it rests";
+  gateway.status.mutable_nodes(0)->mutable_axes(1)->set_by_scale_mm(290.35);
+  ASSERT_TRUE(wait_until([&] { return said(1, AxesModel::kByScale) == QStringLiteral("290.350 mm"); }));
+  EXPECT_EQ(said(1, AxesModel::kPosition), QStringLiteral("290.000 mm"));
+  EXPECT_EQ(said(1, AxesModel::kScaleError), QStringLiteral("350 µm")) << "it went too far";
+  EXPECT_EQ(said(0, AxesModel::kByScale), QStringLiteral("–"));
+  EXPECT_EQ(said(0, AxesModel::kScaleError), QStringLiteral("–"));
+  gateway.status.mutable_nodes(0)->mutable_axes(1)->set_by_scale_mm(289.9999);
+  ASSERT_TRUE(wait_until([&] { return said(1, AxesModel::kScaleError) == QStringLiteral("0 µm"); }));
+  // It moves, and nothing is said of where it is now.
+  gateway.status.mutable_nodes(0)->mutable_axes(1)->clear_by_scale_mm();
+  ASSERT_TRUE(wait_until([&] { return said(1, AxesModel::kScaleError) == QStringLiteral("–"); }));
+}
+
 TEST_F(SessionTest, AxesAndNodesFollowTheStatus) {
   AxesModel axes(session);
   NodesModel nodes(session);

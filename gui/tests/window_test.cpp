@@ -10,6 +10,7 @@
 #include <QIODevice>
 #include <QImage>
 #include <QKeyEvent>
+#include <QLabel>
 #include <QLatin1String>
 #include <QPushButton>
 #include <QRgb>
@@ -23,6 +24,8 @@
 #include <set>
 #include <stdexcept>
 
+#include "gui/models/axes_model.hpp"
+#include "gui/models/format.hpp"
 #include "gui/screenshots/demo_job.hpp"
 #include "gui/tests/window_fixture.hpp"
 #include "gui/views/jobs_page.hpp"
@@ -39,6 +42,17 @@ int colours_in(const QImage& image) {
   for (int y = 0; y < image.height(); y += 3)
     for (int x = 0; x < image.width(); x += 3) colours.insert(image.pixel(x, y));
   return static_cast<int>(colours.size());
+}
+
+/// Four carriages at 290 mm, each 12 um farther by its linear scale.
+void give_scales(FakeGateway& gateway) {
+  gateway.status.set_positions_known(true);
+  gateway.status.clear_joints();
+  for (int i = 0; i < 6; ++i) gateway.status.add_joints(i < 4 ? 290 : 0);
+  for (int i = 0; i < 4; ++i) {
+    gateway.machine.mutable_joints(i)->set_has_scale(true);
+    gateway.status.mutable_nodes(i / 2)->mutable_axes(i % 2)->set_by_scale_mm(290.012);
+  }
 }
 
 TEST_F(WindowTest, EveryPageIsDrawnInEveryLanguageAndTheme) {
@@ -59,6 +73,7 @@ TEST_F(WindowTest, EveryPageIsDrawnInEveryLanguageAndTheme) {
 }
 
 TEST_F(WindowTest, NoCellOfTheMachinePageIsCutInAnyLanguage) {
+  give_scales(gateway);
   show_connected();
   window->resize(1280, 720);
   window->show_page(MainWindow::kMachine);
@@ -80,6 +95,36 @@ TEST_F(WindowTest, NoCellOfTheMachinePageIsCutInAnyLanguage) {
       }
     }
   }
+}
+
+TEST_F(WindowTest, JointsWithScalesAreShownByThemOnTheMachinePageAndBesideTheirPlaces) {
+  give_scales(gateway);
+  show_connected();
+  window->resize(1280, 720);
+  for (const auto& language : Language::choices()) {
+    window->set_language(language.code);
+    QCoreApplication::processEvents();
+    int shown = 0;
+    for (const QLabel* label : window->findChildren<QLabel*>())
+      if (label->isVisible() && label->text().contains(Format::number(290.012, 3)) &&
+          label->text().contains(Format::number(12, 0))) {
+        ++shown;
+        EXPECT_LE(label->fontMetrics().horizontalAdvance(label->text()), label->width())
+            << label->text().toStdString();
+      }
+    EXPECT_EQ(shown, 4) << "a label for each carriage, in " << language.code.toStdString();
+    EXPECT_LE(window->minimumSizeHint().height(), 720) << language.code.toStdString();
+  }
+  window->show_page(MainWindow::kMachine);
+  window->machine_page().show_tab(0);
+  const auto axes_columns = [&] {
+    QCoreApplication::processEvents();
+    for (const QTableView* table : window->findChildren<QTableView*>())
+      if (table->isVisible() && table->model() == &desk.axes)
+        return !table->isColumnHidden(AxesModel::kByScale) && !table->isColumnHidden(AxesModel::kScaleError);
+    return false;
+  };
+  EXPECT_TRUE(wait_until(axes_columns));
 }
 
 TEST_F(WindowTest, TheMotorsPageSetsCurrentsAndJogsOneMotor) {

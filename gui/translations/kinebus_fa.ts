@@ -1881,6 +1881,14 @@
         <translation>خط‌کش روی مفصلی که می‌چرخد</translation>
     </message>
     <message>
+        <source>a machine that can stand nowhere in its workspace: at its bed reference, %1: %2</source>
+        <translation>ماشینی که در هیچ جای فضای کاری خود نمی‌تواند بایستد: در مرجع بستر، %1: %2</translation>
+    </message>
+    <message>
+        <source>geometry, travel and workspace that fit each other</source>
+        <translation>هندسه، کورس و فضای کاری که با هم بخوانند</translation>
+    </message>
+    <message>
         <source>a joint that moves along a rail</source>
         <translation>مفصلی که روی ریل حرکت می‌کند</translation>
     </message>
@@ -4561,6 +4569,14 @@
         <translation>خطا</translation>
     </message>
     <message>
+        <source>By scale</source>
+        <translation>با خط‌کش</translation>
+    </message>
+    <message>
+        <source>Error by scale</source>
+        <translation>خطا با خط‌کش</translation>
+    </message>
+    <message>
         <source>%1 µm</source>
         <translation>%1 µm</translation>
     </message>
@@ -6007,6 +6023,14 @@
     <message>
         <source>Carriages and axes</source>
         <translation>حامل‌ها و محورها</translation>
+    </message>
+    <message>
+        <source>By its scale %1 (%2)</source>
+        <translation>با خط‌کش آن %1 (%2)</translation>
+    </message>
+    <message>
+        <source>By its scale: read at rest</source>
+        <translation>خط‌کش آن در حال سکون خوانده می‌شود</translation>
     </message>
     <message>
         <source>Heat</source>

@@ -1881,6 +1881,14 @@
         <translation>dönen bir eklemde cetvel</translation>
     </message>
     <message>
+        <source>a machine that can stand nowhere in its workspace: at its bed reference, %1: %2</source>
+        <translation>çalışma alanının hiçbir yerinde duramayan bir makine: tabla referansında, %1: %2</translation>
+    </message>
+    <message>
+        <source>geometry, travel and workspace that fit each other</source>
+        <translation>birbirine uyan geometri, strok ve çalışma alanı</translation>
+    </message>
+    <message>
         <source>a joint that moves along a rail</source>
         <translation>ray boyunca giden bir eklem</translation>
     </message>
@@ -4561,6 +4569,14 @@
         <translation>Hata</translation>
     </message>
     <message>
+        <source>By scale</source>
+        <translation>Cetvelle</translation>
+    </message>
+    <message>
+        <source>Error by scale</source>
+        <translation>Cetvelle hata</translation>
+    </message>
+    <message>
         <source>%1 µm</source>
         <translation>%1 µm</translation>
     </message>
@@ -6007,6 +6023,14 @@
     <message>
         <source>Carriages and axes</source>
         <translation>Taşıyıcılar ve eksenler</translation>
+    </message>
+    <message>
+        <source>By its scale %1 (%2)</source>
+        <translation>Cetveline göre %1 (%2)</translation>
+    </message>
+    <message>
+        <source>By its scale: read at rest</source>
+        <translation>Cetveli dururken okunur</translation>
     </message>
     <message>
         <source>Heat</source>

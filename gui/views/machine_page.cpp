@@ -265,6 +265,8 @@ void MachinePage::take_status() {
   }
   for (const int column : {AxesModel::kMeasured, AxesModel::kError})
     axes_->setColumnHidden(column, !desk_.axes.measured());
+  for (const int column : {AxesModel::kByScale, AxesModel::kScaleError})
+    axes_->setColumnHidden(column, !desk_.axes.scaled());
   if (tabs_->currentIndex() == 1)
     for (const auto& [label, value] : numbers_) label->setText(value());
 }

@@ -84,7 +84,8 @@ QWidget* MotorsPanel::make_table() {
   table_->horizontalHeader()->setDefaultAlignment(Qt::AlignLeading | Qt::AlignVCenter);
   table_->setMinimumHeight(38 + 32 * 6);
   table_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  for (const int column : {AxesModel::kMeasured, AxesModel::kError, AxesModel::kTravel, AxesModel::kDrive})
+  for (const int column : {AxesModel::kMeasured, AxesModel::kError, AxesModel::kByScale,
+                           AxesModel::kScaleError, AxesModel::kTravel, AxesModel::kDrive})
     table_->setColumnHidden(column, true);
   new TableColumns(table_);
   says([this] { table_->setAccessibleName(tr("Motors")); });

@@ -210,7 +210,8 @@ void PositionPanel::heat_for(const joblink::Material& material) {
 void PositionPanel::rebuild_joints() {
   for (const JointRow& row : joints_)
     for (QWidget* w : {static_cast<QWidget*>(row.name), static_cast<QWidget*>(row.value),
-                       static_cast<QWidget*>(row.bar)}) {
+                       static_cast<QWidget*>(row.bar), static_cast<QWidget*>(row.by_scale)}) {
+      if (w == nullptr) continue;
       w->hide();  // at once: it goes when the event loop has its turn
       w->deleteLater();
     }
@@ -220,7 +221,8 @@ void PositionPanel::rebuild_joints() {
   for (const auto& joint : machine.joints()) {
     ++number;
     if (!(joint.travel().min() < joint.travel().max())) continue;  // endless: already among the tool's axes
-    JointRow row{make_label("muted", joints_card_), new QLabel(joints_card_), new TravelBar(joints_card_), 0};
+    JointRow row{make_label("muted", joints_card_), new QLabel(joints_card_), new TravelBar(joints_card_),
+                 nullptr, number};
     row.name->setText(QString::fromStdString(joint.name()));
     row.value->setStyleSheet(QStringLiteral("font-family: 'DejaVu Sans Mono', 'Noto Sans Mono', monospace;"));
     row.value->setMinimumWidth(row.value->fontMetrics().horizontalAdvance(QStringLiteral("-00000.000")) + 8);
@@ -229,7 +231,11 @@ void PositionPanel::rebuild_joints() {
     joints_grid_->addWidget(row.name, i, 0);
     joints_grid_->addWidget(row.bar, i, 1);
     joints_grid_->addWidget(row.value, i, 2);
-    row.joint = number;
+    if (joint.has_scale()) {
+      row.by_scale = make_label("small", joints_card_);
+      row.by_scale->setAlignment(Qt::AlignRight | Qt::AlignAbsolute | Qt::AlignVCenter);
+      joints_grid_->addWidget(row.by_scale, ++i, 0, 1, 3);
+    }
     joints_.push_back(row);
     ++i;
   }
@@ -267,6 +273,15 @@ void PositionPanel::take_status() {
         here ? Format::number(joint.rotary() ? q * kDegPerRad : q, joint.rotary() ? 2 : 3)
              : QStringLiteral("—"));
     joints_[i].value->setEnabled(!lost);
+    if (QLabel* label = joints_[i].by_scale; label != nullptr) {
+      const auto words = [&](AxesModel::Column column) {
+        return desk_.axes.index(number, column).data().toString();
+      };
+      const QString there = words(AxesModel::kByScale), error = words(AxesModel::kScaleError);
+      label->setText(here && error != QStringLiteral("–") ? tr("By its scale %1 (%2)").arg(there, error)
+                                                          : tr("By its scale: read at rest"));
+      label->setEnabled(!lost);
+    }
     const double span = joint.travel().max() - joint.travel().min();
     // At home a carriage may be a hair beyond its travel.
     const double share = here && span > 0 ? std::clamp((q - joint.travel().min()) / span, 0.0, 1.0) : -1;

@@ -43,6 +43,7 @@ class PositionPanel : public SpeakingWidget {
   struct JointRow {
     QLabel *name, *value;
     TravelBar* bar;
+    QLabel* by_scale;  ///< below them; nullptr: the joint has no scale
     int joint;
   };
   QWidget* make_axes();

@@ -56,13 +56,16 @@ void print_currents(const Status& s, const joblink::MachineInfo& machine) {
 }
 
 /// What the gateway says until `done`; false: not in time.
-bool listen_until(Client& client, std::chrono::seconds time, const std::function<bool(const Status&)>& done) {
+/// `heard`: in what was said.
+bool listen_until(Client& client, std::chrono::seconds time, const std::function<bool(const Status&)>& done,
+                  const std::function<void(const joblink::Event&)>& heard = {}) {
   const auto end = std::chrono::steady_clock::now() + time;
   while (std::chrono::steady_clock::now() < end) {
     const auto report = client.next(std::chrono::seconds{1});
     if (!report) continue;
     if (const auto* event = std::get_if<joblink::Event>(&*report)) {
       if (event->kind() == joblink::EVENT_MESSAGE) fmt::print("{}\n", event->words());
+      if (heard) heard(*event);
       continue;
     }
     if (done(std::get<Status>(*report))) return true;
@@ -145,11 +148,17 @@ void add_motor_commands(CLI::App& app, const std::shared_ptr<MachineOptions>& op
     request.mutable_tune_motor()->set_joint(joint_named(machine, *tuned, heaters));
     const joblink::Joint& joint = machine.joints(static_cast<int>(request.tune_motor().joint()));
     client.ask(std::move(request));
-    const bool done = listen_until(client, kMeasuredWithin, [&](const Status& s) {
-      const joblink::AxisStatus* axis = axis_of(s, joint);
-      return axis != nullptr && !axis->measures();
-    });
-    if (!done) exit_code = 1;
+    bool found = false;
+    const bool done = listen_until(
+        client, kMeasuredWithin,
+        [&](const Status& s) {
+          const joblink::AxisStatus* axis = axis_of(s, joint);
+          return axis != nullptr && !axis->measures();
+        },
+        [&](const joblink::Event& event) {
+          found = found || event.words().starts_with(joint.name() + ": measured ");
+        });
+    if (!done || !found) exit_code = 1;
   });
 
   auto moved = std::make_shared<std::string>();

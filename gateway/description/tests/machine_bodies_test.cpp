@@ -196,5 +196,19 @@ TEST(MachineFile, LegsThatCrossAreRefusedWithThePairAndAPose) {
       << words;
 }
 
+TEST(MachineFile, AMachineThatCanStandNowhereIsRefusedWithWhatHindersIt) {
+  // Carriages above a platform whose rails and legs are made for carriages below it.
+  MachineDescription d = default_m1();
+  for (M1Leg& leg : std::get<M1Geometry>(d.kinematics).legs) leg.carriage_above = true;
+  const auto machine = parse_machine(write_machine(d), "m");
+  ASSERT_FALSE(machine);
+  const std::string words = to_string(machine.error());
+  EXPECT_NE(
+      words.find("kinematics.workspace: found a machine that can stand nowhere in its workspace: at its "
+                 "bed reference, X 0 Y 0 Z 20 A 0: tower1: would be "),
+      std::string::npos)
+      << words;
+}
+
 }  // namespace
 }  // namespace kinebus

@@ -124,6 +124,34 @@ TEST(Preflight, ACornerOfThePlatformAgainstTheNozzleIsNamedWithItsLineAndPasses2
   EXPECT_EQ(problems_on(default_m1(), past_the_corner("4")).errors(), 0u);
 }
 
+/// M1 with its left legs joined so near to each other that at 40 deg and the workspace's top one comes to the
+/// platform's corner at the other. On M1 itself the platform keeps 57 mm from every leg that it does not
+/// carry there (bodies/tests/platform_corner_test.cpp).
+MachineDescription near_left_legs() {
+  MachineDescription d = default_m1();
+  auto& g = std::get<M1Geometry>(d.kinematics);
+  for (const std::size_t leg : {2u, 3u}) {
+    const double side = leg == 2 ? -1 : 1;
+    g.legs[leg].attachment_mm[1] = 18 * side;
+    g.legs[leg].foot_mm[1] = 201 * side;
+  }
+  d.bodies->fixed.clear();  // the columns stand behind M1's own rails
+  return d;
+}
+
+TEST(Preflight, ACornerOfThePlatformAgainstALegIsNamedWithItsLineAndPasses2MmBesideIt) {
+  const auto to = [](const char* y) {
+    return "G43.4\nG1 Z200 F3000\nG1 A40\nG1 X10 Y-60\nG1 Y" + std::string(y) + "\nG1 Y0\n";
+  };
+  const ProblemList bad = problems_on(near_left_legs(), to("-86"));
+  ASSERT_EQ(bad.errors(), 1u);
+  EXPECT_EQ(bad.all()[0].line, 5u);
+  EXPECT_TRUE(bad.all()[0].words.starts_with("platform and leg 4 would come as near as "))
+      << bad.all()[0].words;
+  EXPECT_EQ(problems_on(near_left_legs(), to("-84")).errors(), 0u);
+  EXPECT_EQ(problems_on(default_m1(), to("-86")).errors(), 0u) << "M1 has room there";
+}
+
 /// A wall along X from -half to half that stands at `y`, in layers of 0.5 mm; the tool ends 20 mm above it.
 /// It is `layers` high.
 std::string wall(double y, int layers, int half = 10) {
