@@ -181,6 +181,10 @@ void JerkLookahead::solve_below_caps(const Stretch& stretch, std::size_t first, 
 void JerkLookahead::solve(const Stretch& stretch) {
   if (!(stretch.to > stretch.from)) return;
   if (stretch.plateau) return put(stretch.from, stretch.to, SpeedRamp(stretch.v0, stretch.v0, 1, 1), true);
+  // What rounding leaves between two pieces is in neither: a piece that is a little slower would be looked
+  // for in it without end.
+  if (stretch.to - stretch.from <= kShortest_mm && stretch.v0 > 0)
+    return put(stretch.from, stretch.to, SpeedRamp(stretch.v0, stretch.v0, 1, 1));
   const std::size_t first = piece_after(stretch.from), last = std::max(first, piece_before(stretch.to));
   std::size_t slowest = lowest(first, last);
   // Lower than v0: the path went on with slower pieces after v0 had been given out.

@@ -2,9 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <random>
 #include <string>
 
+#include "gateway/description/machine_file.hpp"
 #include "gateway/jobs/tests/job_support.hpp"
 
 namespace kinebus {
@@ -35,6 +40,36 @@ TEST(JobPlan, SpiralIsStreamedWholeAndInTime) {
   EXPECT_NEAR(p.report.job_time_s, p.report.motion_s, 0.5);
   EXPECT_GT(p.report.bus_load_mean, 0.01);
   EXPECT_LT(p.report.bus_load_peak_1s, 0.6);
+}
+
+// 100 m into the job rounding leaves 0.8 nm between a ramp and the piece that it leads to.
+TEST(JobPlan, WithLimitedJerkLongAndShortLinesOfAllAnglesComeToAnEnd) {
+  auto cartesian = load_machine(std::filesystem::path(KINEBUS_MACHINES) / "cartesian.toml");
+  ASSERT_TRUE(cartesian);
+  cartesian->path.tool_jerk_mm_per_s3 = 50'000;
+  const auto axes = make_kinematics(*cartesian);
+  ASSERT_TRUE(axes);
+  constexpr unsigned kSeed = 7;
+  SCOPED_TRACE(testing::Message() << "seed " << kSeed);
+  std::mt19937_64 random(kSeed);
+  const auto draw = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  std::string job = "G1 X0 Y0 Z30 F3000\nG1 F18000\n";
+  for (int i = 0; i < 3000; ++i) {
+    const double reach = draw(0, 1) < 0.5 ? 3 : 90;
+    // One after the other: arguments have no order.
+    const double x = draw(-reach, reach), y = draw(-reach, reach);
+    std::array<char, 48> line{};
+    std::snprintf(line.data(), line.size(), "G1 X%.3f Y%.3f\n", x, y);
+    job += line.data();
+  }
+  StringSource source(job);
+  JobPlan p(*cartesian, **axes, source);
+  while (!p.step(1000)) {
+  }
+  EXPECT_EQ(p.problems().errors(), 0u);
+  EXPECT_GT(p.report().motion_s, 1000);
 }
 
 TEST(JobPlan, DwellIsPartOfTheJobTime) {
