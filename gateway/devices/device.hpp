@@ -93,6 +93,18 @@ class Output : public Device {
   virtual double ratio() const = 0;
 };
 
+/// Something that a job may wait for.
+class Input : public Device {
+ public:
+  /// None: its node has not told yet.
+  virtual std::optional<bool> on() const = 0;
+  /// How often it has come on, and gone off: however short it was.
+  struct Changes {
+    std::uint32_t rises = 0, falls = 0;
+  };
+  virtual Changes changes() const = 0;
+};
+
 struct SpindleStatus {
   double actual_rpm = 0, target_rpm = 0;  ///< > 0 clockwise
   /// Under load it is a little slow.
