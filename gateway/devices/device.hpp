@@ -93,11 +93,13 @@ class Output : public Device {
   virtual double ratio() const = 0;
 };
 
+enum class InputLevel : std::uint8_t { kUnknown, kOff, kOn };
+
 /// Something that a job may wait for.
 class Input : public Device {
  public:
-  /// None: its node has not told yet.
-  virtual std::optional<bool> on() const = 0;
+  /// kUnknown: its node has not told yet.
+  virtual InputLevel level() const = 0;
   /// How often it has come on, and gone off: however short it was.
   struct Changes {
     std::uint32_t rises = 0, falls = 0;

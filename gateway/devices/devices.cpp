@@ -158,7 +158,7 @@ std::vector<InputStatus> Devices::inputs() const {
   std::vector<InputStatus> all;
   all.reserve(inputs_.size());
   for (const KnownInput& known : inputs_)
-    all.push_back({known.name.name, known.name.index, known.input->on()});
+    all.push_back({known.name.name, known.name.index, known.input->level()});
   return all;
 }
 

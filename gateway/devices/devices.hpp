@@ -29,7 +29,7 @@ struct OutputStatus {
 struct InputStatus {
   std::string name;
   std::uint8_t index = 0;
-  std::optional<bool> on{};  ///< none: not told
+  InputLevel level{};
 };
 struct SensorStatus {
   std::string name;

@@ -9,8 +9,9 @@ bool NodeInput::on_frame(BusTime, const CanFrame& frame) {
   if (frame.extended || frame.remote || frame.length <= kInputs) return false;
   if (frame.id != cob_id::tpdo(1, place_.node_id)) return false;
   const bool on = (static_cast<unsigned>(frame.bytes()[kInputs]) >> (place_.channel - 1U) & 1U) != 0;
-  if (on_ && *on_ != on) ++(on ? changes_.rises : changes_.falls);
-  on_ = on;
+  const InputLevel before = level_;
+  level_ = on ? InputLevel::kOn : InputLevel::kOff;
+  if (before != InputLevel::kUnknown && before != level_) ++(on ? changes_.rises : changes_.falls);
   return true;
 }
 

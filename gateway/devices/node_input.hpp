@@ -14,14 +14,14 @@ class NodeInput : public Input {
   bool on_frame(BusTime now, const CanFrame& frame) override;
   /// Until its node tells again, nobody knows.
   void on_bring_up(BusTime, bool done) override {
-    if (!done) on_.reset();
+    if (!done) level_ = InputLevel::kUnknown;
   }
-  std::optional<bool> on() const override { return on_; }
+  InputLevel level() const override { return level_; }
   Changes changes() const override { return changes_; }
 
  private:
   DevicePlace place_;
-  std::optional<bool> on_;
+  InputLevel level_ = InputLevel::kUnknown;
   Changes changes_;
 };
 

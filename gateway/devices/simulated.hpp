@@ -59,7 +59,7 @@ class SimulatedInput : public Input {
  public:
   /// `change_s`: it changes so often; 0: never.
   SimulatedInput(bool on, double change_s) : on_(on), left_s_(change_s), change_s_(change_s) {}
-  std::optional<bool> on() const override { return on_; }
+  InputLevel level() const override { return on_ ? InputLevel::kOn : InputLevel::kOff; }
   Changes changes() const override { return changes_; }
   void on_time(BusTime now) override;
 

@@ -1,5 +1,5 @@
-// M66: at rest until an input is as asked, or the time is over. A hold stops the time, and what the input does
-// meanwhile does not count.
+// M66: at rest until an input is as asked, or the time is over. A hold stops the time, and what the input
+// does meanwhile does not count.
 
 #include "gateway/gcode/interpreter.hpp"
 #include "gateway/run/runner.hpp"
@@ -24,13 +24,13 @@ void Runner::look_at_input_anew() {
 /// Or never will; then #5399 says so.
 bool Runner::input_has_come(BusTime now) {
   const Input* const input = heat_.input(awaited_input_.index);
-  const std::optional<bool> on = input != nullptr ? input->on() : std::nullopt;
+  const InputLevel level = input != nullptr ? input->level() : InputLevel::kUnknown;
   const Input::Changes changes = input != nullptr ? input->changes() : Input::Changes{};
   bool come = false;
   switch (awaited_input_.until) {
     case Until::kNow:
-      if (!on && input != nullptr) return false;  // its node tells soon
-      end_input(on ? (*on ? 1 : 0) : gcode::kNoInput);
+      if (level == InputLevel::kUnknown && input != nullptr) return false;  // its node tells soon
+      end_input(input == nullptr ? gcode::kNoInput : level == InputLevel::kOn ? 1 : 0);
       return true;
     case Until::kRises:
       come = changes.rises != input_before_.rises;
@@ -39,15 +39,16 @@ bool Runner::input_has_come(BusTime now) {
       come = changes.falls != input_before_.falls;
       break;
     case Until::kOn:
-      come = on == true;
+      come = level == InputLevel::kOn;
       break;
     case Until::kOff:
-      come = on == false;
+      come = level == InputLevel::kOff;
       break;
   }
   if (!come && dwell_left_ > BusTime{0}) return false;
   if (!come)
-    events_out_.message(now, say("input %1 has not come in time: #5399 is -1", awaited_input_.index), last_line_);
+    events_out_.message(now, say("input %1 has not come in time: #5399 is -1", awaited_input_.index),
+                        last_line_);
   const bool high = awaited_input_.until == Until::kRises || awaited_input_.until == Until::kOn;
   end_input(!come ? gcode::kNoInput : high ? 1 : 0);
   return true;

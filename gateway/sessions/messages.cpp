@@ -274,7 +274,7 @@ joblink::Status to_message(const MachineStatus& s) {
     joblink::Input& told = *m.add_inputs();
     told.set_name(shown(input.name));
     told.set_index(input.index);
-    if (input.on) told.set_on(*input.on);
+    if (input.level != InputLevel::kUnknown) told.set_on(input.level == InputLevel::kOn);
   }
   for (const SensorStatus& sensor : s.sensors) {
     joblink::Sensor& told = *m.add_sensors();

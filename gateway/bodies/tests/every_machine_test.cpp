@@ -1,4 +1,5 @@
-// Bodies of each shipped machine against its kinematics, and the models' shortcuts against measuring all pairs.
+// Bodies of each shipped machine against its kinematics, and the models' shortcuts against measuring all
+// pairs.
 
 #include <gtest/gtest.h>
 

@@ -46,11 +46,11 @@ TEST(SimulatedInput, ChangesAsOftenAsItsFileSays) {
     steady.on_time(t);
     changing.on_time(t);
   }
-  EXPECT_EQ(steady.on(), std::optional(true));
+  EXPECT_EQ(steady.level(), InputLevel::kOn);
   EXPECT_EQ(steady.changes().rises + steady.changes().falls, 0U);
   EXPECT_EQ(changing.changes().rises, 3U);
   EXPECT_EQ(changing.changes().falls, 2U);
-  EXPECT_EQ(changing.on(), std::optional(true));
+  EXPECT_EQ(changing.level(), InputLevel::kOn);
 }
 
 TEST(SimulatedFilament, RunsOutAtItsEndAndIsThereAgainWhenTheRestIsDrawnOut) {

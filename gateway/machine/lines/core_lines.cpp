@@ -80,8 +80,8 @@ Done Gateway::Core::carry_out_at_rest(const canonical::Line& line) {
     return carry_out(command::MovePin{pin_order(*pin)});
   if (const auto* wait = std::get_if<canonical::AwaitInput>(&line.command)) {
     const Input* const input = heat_.input(wait->index);
-    const std::optional<bool> on = input != nullptr ? input->on() : std::nullopt;
-    lines_.input_read(on ? (*on ? 1 : 0) : gcode::kNoInput);
+    const InputLevel level = input != nullptr ? input->level() : InputLevel::kUnknown;
+    lines_.input_read(level == InputLevel::kUnknown ? gcode::kNoInput : level == InputLevel::kOn ? 1 : 0);
   }
   if (const auto* message = std::get_if<canonical::Message>(&line.command))
     events_.message(now_, Sentence::verbatim(message->text), line.line);

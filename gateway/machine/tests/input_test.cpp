@@ -61,12 +61,12 @@ TEST_F(Inputs, AJobStandsUntilTheInputOfANodeIsOn) {
   ASSERT_TRUE(waits()) << rig.story();
   rig.run(5s);
   EXPECT_NEAR(x(), -20, 1e-2) << "it stands";
-  EXPECT_EQ(rig.gateway->status().inputs[0].on, std::optional(false));
+  EXPECT_EQ(rig.gateway->status().inputs[0].level, InputLevel::kOff);
   set(true);
   ASSERT_TRUE(rig.finish()) << rig.story();
   EXPECT_NEAR(x(), 20, 1e-2) << rig.story();
   EXPECT_EQ(rig.gateway->status().inputs[1].name, "always");
-  EXPECT_EQ(rig.gateway->status().inputs[1].on, std::optional(true));
+  EXPECT_EQ(rig.gateway->status().inputs[1].level, InputLevel::kOn);
 }
 
 TEST_F(Inputs, AnInputThatDoesNotComeIsMinusOneWhenTheTimeIsOver) {
@@ -120,7 +120,8 @@ TEST_F(Inputs, AHoldStopsTheTimeAndWhatTheInputDoesMeanwhile) {
 TEST_F(Inputs, AnotherGatewayGoesOnWithWhatWasRead) {
   set(true);
   rig.run(100ms);
-  ASSERT_TRUE(begin("G1 X-20 Y0 Z10 F3000\nM66 P2\n#1 = #5399\nM66 P0\nG1 X0 F1200\nG1 X[#1 * 20]\nG1 Y[5 * #5399]\n"))
+  ASSERT_TRUE(begin(
+      "G1 X-20 Y0 Z10 F3000\nM66 P2\n#1 = #5399\nM66 P0\nG1 X0 F1200\nG1 X[#1 * 20]\nG1 Y[5 * #5399]\n"))
       << rig.story();
   ASSERT_TRUE(rig.run_until(
       [&] {
