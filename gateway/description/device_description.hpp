@@ -24,7 +24,7 @@ struct DevicePlace {
 
 enum class HeaterKind : std::uint8_t { kHotend, kBed, kChamber };
 inline constexpr std::size_t kHeaterKinds = 3;
-inline constexpr std::uint8_t kMostOfAKind = 8;  ///< heaters of a kind; fans; outputs
+inline constexpr std::uint8_t kMostOfAKind = 8;  ///< heaters of a kind; fans; outputs; inputs
 
 /// Which heater: hot ends count as tools do (T0, T1, ...), beds and chambers among themselves.
 struct HeaterId {
@@ -123,6 +123,16 @@ struct OutputDescription {
   friend bool operator==(const OutputDescription&, const OutputDescription&) = default;
 };
 
+/// What M66 reads. On a node `channel` is a switch input without a function of its own.
+struct InputDescription {
+  std::string name;
+  std::uint8_t index = 0;
+  DevicePlace place{};
+  bool sim_on = false;
+  double sim_change_s = 0;  ///< the simulated one changes so often; 0: it stays as it is
+  friend bool operator==(const InputDescription&, const InputDescription&) = default;
+};
+
 /// A temperature that is measured and not controlled.
 struct SensorDescription {
   std::string name;
@@ -145,6 +155,7 @@ struct FilamentSensorDescription {
   double stands_mm = 7;       ///< fed without an edge: the filament stands
   double slips_mm = 30;       ///< over so much fed it moves less than least_share of it: it slips
   double least_share = 0.6;
+  double sim_length_mm = 0;  ///< of the simulated spool, a switch at its end; 0: it never ends
   /// Nearer together the wheel's own steps would be taken for a fault.
   static constexpr double kLeastEdges = 2, kLeastSlipEdges = 5;
   friend bool operator==(const FilamentSensorDescription&, const FilamentSensorDescription&) = default;

@@ -27,6 +27,8 @@ class DeviceRules {
     for (const MaterialDescription& m : d_.materials) material(m);
     indices("fan", d_.fans);
     indices("output", d_.outputs);
+    indices("input", d_.inputs, Channels::kInputs);
+    for (const InputDescription& i : d_.inputs) input(i);
     for (const SensorDescription& s : d_.sensors)
       place(s.place, "sensor." + s.name + ".", Channels::kSensors);
     for (const FilamentSensorDescription& f : d_.filament_sensors)
@@ -106,14 +108,15 @@ class DeviceRules {
   }
 
   template <typename Device>
-  void indices(const char* table, const std::vector<Device>& devices) {
+  void indices(const char* table, const std::vector<Device>& devices,
+               Channels channels = Channels::kOutputs) {
     std::map<int, std::string> known;
     for (const Device& device : devices) {
       const std::string key = std::string(table) + "." + device.name + ".";
       const auto [first, is_new] = known.emplace(device.index, device.name);
       require(is_new, {key + "index"}, number(device.index),
               say("an index that no other has: [%1] has it", std::string(table) + "." + first->second));
-      place(device.place, key, Channels::kOutputs);
+      place(device.place, key, channels);
     }
   }
 
@@ -197,6 +200,22 @@ class DeviceRules {
     require(node->functions.has_axes(),
             {"joint." + joint.name + ".node", "node." + std::to_string(joint.node_id) + ".axis_pairs"},
             number(joint.node_id), say("a node that has axes: node.%1.axis_pairs is 0", joint.node_id));
+  }
+
+  /// TPDO1 of a node with axes tells of it.
+  void input(const InputDescription& i) {
+    const NodeDescription* node = i.place.on_node() ? d_.node(i.place.node_id) : nullptr;
+    if (node == nullptr || i.place.channel > kNodeInputs) return;
+    const std::string key = "input." + i.name + ".";
+    const std::string of_node = "node." + std::to_string(i.place.node_id) + ".";
+    const std::string function = of_node + "input" + std::to_string(i.place.channel) + ".function";
+    require(node->functions.has_axes(), {key + "node", of_node + "axis_pairs"}, number(i.place.node_id),
+            say("a node that has axes: it tells when an input changes"));
+    require(
+        node->inputs[i.place.channel - 1u].function == InputFunction::kNone, {key + "channel", function},
+        number(i.place.channel),
+        say("an input of node %1 whose function is none: a switch, a stop or a probe is not a job's to read",
+            i.place.node_id));
   }
 
   void probe() {

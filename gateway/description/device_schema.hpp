@@ -96,6 +96,14 @@ void visit_device(V& v, OutputDescription& o) {
 }
 
 template <class V>
+void visit_device(V& v, InputDescription& i) {
+  v.integer("index", i.index, 0, kMostOfAKind - 1, Need::kOptional);
+  v.flag("sim_on", i.sim_on, Need::kOptional);
+  v.unless_zero("sim_change_s", i.sim_change_s, {0.01, 3600}, 1);
+  visit_place(v, i.place);
+}
+
+template <class V>
 void visit_device(V& v, SensorDescription& s) {
   v.number("sim_c", s.sim_c, {-50, 600}, Need::kOptional);
   visit_place(v, s.place);
@@ -110,6 +118,7 @@ void visit_device(V& v, FilamentSensorDescription& f) {
   const bool known = v.choice("kind", f.kind, kFilamentSensorKinds, Need::kRequired);
   visit_place(v, f.place);
   if (!known) return v.leave_unjudged();
+  v.unless_zero("sim_length_mm", f.sim_length_mm, {1, 1e6}, 1);
   if (f.kind == FilamentSensorKind::kSwitch) return v.flag("inverted", f.inverted, Need::kOptional);
   v.number("mm_per_edge", f.mm_per_edge, {0.01, 20}, Need::kOptional);
   v.number("stands_mm", f.stands_mm, {0.5, 200}, Need::kOptional);
@@ -145,6 +154,7 @@ void visit_devices(V& v, MachineDescription& d) {
   });
   v.named_tables("fan", d.fans, [&](FanDescription& f) { visit_device(v, f); });
   v.named_tables("output", d.outputs, [&](OutputDescription& o) { visit_device(v, o); });
+  v.named_tables("input", d.inputs, [&](InputDescription& i) { visit_device(v, i); });
   v.named_tables("sensor", d.sensors, [&](SensorDescription& s) { visit_device(v, s); });
   v.named_tables("filament_sensor", d.filament_sensors,
                  [&](FilamentSensorDescription& f) { visit_device(v, f); });

@@ -330,6 +330,7 @@ struct MachineDescription {
   std::vector<MaterialDescription> materials;
   std::vector<FanDescription> fans;
   std::vector<OutputDescription> outputs;
+  std::vector<InputDescription> inputs;
   std::vector<SensorDescription> sensors;
   std::vector<FilamentSensorDescription> filament_sensors;
   SpindleDescription spindle;

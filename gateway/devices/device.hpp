@@ -93,6 +93,20 @@ class Output : public Device {
   virtual double ratio() const = 0;
 };
 
+enum class InputLevel : std::uint8_t { kUnknown, kOff, kOn };
+
+/// Something that a job may wait for.
+class Input : public Device {
+ public:
+  /// kUnknown: its node has not told yet.
+  virtual InputLevel level() const = 0;
+  /// How often it has come on, and gone off: however short it was.
+  struct Changes {
+    std::uint32_t rises = 0, falls = 0;
+  };
+  virtual Changes changes() const = 0;
+};
+
 struct SpindleStatus {
   double actual_rpm = 0, target_rpm = 0;  ///< > 0 clockwise
   /// Under load it is a little slow.

@@ -33,6 +33,11 @@ void Devices::add_output(DeviceName name, std::uint8_t node, std::unique_ptr<Out
   outputs_.push_back({std::move(name), std::move(output)});
 }
 
+void Devices::add_input(DeviceName name, std::uint8_t node, std::unique_ptr<Input> input) {
+  members_.push_back({"input." + name.name, node, input.get()});
+  inputs_.push_back({std::move(name), std::move(input)});
+}
+
 void Devices::add_sensor(std::string name, std::uint8_t node, std::unique_ptr<Sensor> sensor) {
   members_.push_back({"sensor." + name, node, sensor.get()});
   sensors_.push_back({std::move(name), std::move(sensor)});
@@ -141,6 +146,20 @@ std::vector<OutputStatus> Devices::ratios(const std::vector<KnownOutput>& all) {
   for (const KnownOutput& known : all)
     told.push_back({known.name.name, known.name.index, known.output->ratio()});
   return told;
+}
+
+const Input* Devices::input(std::uint8_t index) const {
+  for (const KnownInput& known : inputs_)
+    if (known.name.index == index) return known.input.get();
+  return nullptr;
+}
+
+std::vector<InputStatus> Devices::inputs() const {
+  std::vector<InputStatus> all;
+  all.reserve(inputs_.size());
+  for (const KnownInput& known : inputs_)
+    all.push_back({known.name.name, known.name.index, known.input->level()});
+  return all;
 }
 
 std::vector<SensorStatus> Devices::sensors() const {

@@ -26,6 +26,11 @@ struct OutputStatus {
   std::uint8_t index = 0;
   double ratio = 0;  ///< 0..1
 };
+struct InputStatus {
+  std::string name;
+  std::uint8_t index = 0;
+  InputLevel level{};
+};
 struct SensorStatus {
   std::string name;
   double celsius = 0;
@@ -49,6 +54,7 @@ class Devices {
   void add(HeaterId id, std::string name, std::uint8_t node, std::unique_ptr<Heater> heater);
   void add_fan(DeviceName name, std::uint8_t node, std::unique_ptr<Output> fan);
   void add_output(DeviceName name, std::uint8_t node, std::unique_ptr<Output> output);
+  void add_input(DeviceName name, std::uint8_t node, std::unique_ptr<Input> input);
   void add_sensor(std::string name, std::uint8_t node, std::unique_ptr<Sensor> sensor);
   void add_filament_sensor(std::string name, std::uint8_t node, std::unique_ptr<FilamentSensor> sensor);
   /// What several of the others live on. Before them.
@@ -74,6 +80,7 @@ class Devices {
   HeaterStatus heater(HeaterId id) const;
   double fan(std::uint8_t index) const { return ratio(fans_, index); }
   double output(std::uint8_t index) const { return ratio(outputs_, index); }
+  const Input* input(std::uint8_t index) const;  ///< nullptr: there is none
   SpindleStatus spindle() const { return spindle_ ? spindle_->status() : SpindleStatus{}; }
   ContactProbe* probe() { return probe_.get(); }                     ///< nullptr: there is none
   VibrationSensor* accelerometer() { return accelerometer_.get(); }  ///< nullptr: there is none
@@ -81,6 +88,7 @@ class Devices {
   std::vector<NamedHeaterStatus> heaters() const;
   std::vector<OutputStatus> fans() const { return ratios(fans_); }
   std::vector<OutputStatus> outputs() const { return ratios(outputs_); }
+  std::vector<InputStatus> inputs() const;
   std::vector<SensorStatus> sensors() const;
   std::vector<FilamentStatus> filaments() const;
   /// Of the first sensor that has something to say of its filament.
@@ -118,6 +126,10 @@ class Devices {
     DeviceName name;
     std::unique_ptr<Output> output;
   };
+  struct KnownInput {
+    DeviceName name;
+    std::unique_ptr<Input> input;
+  };
   struct KnownSensor {
     std::string name;
     std::unique_ptr<Sensor> sensor;
@@ -136,6 +148,7 @@ class Devices {
   std::vector<std::shared_ptr<Device>> nodes_;
   std::vector<KnownHeater> heaters_;
   std::vector<KnownOutput> fans_, outputs_;
+  std::vector<KnownInput> inputs_;
   std::vector<KnownSensor> sensors_;
   std::vector<KnownFilament> filaments_;
   std::unique_ptr<SpindleDrive> spindle_;

@@ -4,6 +4,7 @@
 
 #include "gateway/devices/bltouch.hpp"
 #include "gateway/devices/heat_node_devices.hpp"
+#include "gateway/devices/node_input.hpp"
 #include "gateway/devices/node_probe.hpp"
 #include "gateway/devices/simulated.hpp"
 
@@ -32,6 +33,10 @@ constexpr Implementation<Output, FanDescription> kFanMakers[] = {
 constexpr Implementation<Output, OutputDescription> kOutputs[] = {
     {Where::kSimulated, simulate},
     {Where::kNode, nullptr, on_heat_node},
+};
+constexpr Implementation<Input, InputDescription> kInputs[] = {
+    {Where::kSimulated, simulate},
+    {Where::kNode, node_input},
 };
 constexpr Implementation<Sensor, SensorDescription> kSensors[] = {
     {Where::kSimulated, simulate},
@@ -104,6 +109,9 @@ Result<Devices, Sentence> make_devices(const MachineDescription& machine) {
   for (const OutputDescription& o : machine.outputs)
     if (auto output = maker.make(kOutputs, o, "output." + o.name))
       devices.add_output({o.name, o.index}, o.place.node_id, std::move(output));
+  for (const InputDescription& i : machine.inputs)
+    if (auto input = maker.make(kInputs, i, "input." + i.name))
+      devices.add_input({i.name, i.index}, i.place.node_id, std::move(input));
   for (const SensorDescription& s : machine.sensors)
     if (auto sensor = maker.make(kSensors, s, "sensor." + s.name))
       devices.add_sensor(s.name, s.place.node_id, std::move(sensor));

@@ -46,6 +46,30 @@ void SimulatedSpindle::on_time(BusTime now) {
   status_.actual_rpm += std::clamp(status_.target_rpm - status_.actual_rpm, -most, most);
 }
 
+void SimulatedInput::on_time(BusTime now) {
+  const double seconds = elapsed_s(last_, now);
+  if (change_s_ <= 0) return;
+  left_s_ -= seconds;
+  while (left_s_ <= 0) {
+    left_s_ += change_s_;
+    on_ = !on_;
+    ++(on_ ? changes_.rises : changes_.falls);
+  }
+}
+
+void SimulatedFilament::follow(double mm) {
+  constexpr double kDrawnOut_mm = 10;
+  constexpr double kCountsAnew_mm = 200;  // no extruder is as fast: the number has changed, not the filament
+  const double way = last_mm_ ? mm - *last_mm_ : 0;
+  last_mm_ = mm;
+  if (length_mm_ <= 0 || std::abs(way) > kCountsAnew_mm) return;
+  fed_mm_ += way;
+  if (!out_at_mm_ && fed_mm_ >= length_mm_) out_at_mm_ = fed_mm_;
+  if (!out_at_mm_ || fed_mm_ > *out_at_mm_ - kDrawnOut_mm) return;
+  out_at_mm_.reset();
+  fed_mm_ = 0;
+}
+
 std::unique_ptr<Heater> simulate(const HeaterDescription& heater, const MachineDescription& machine) {
   return std::make_unique<SimulatedHeater>(
       HeatModel{.ambient_celsius = machine.thermal.ambient_c,
@@ -62,6 +86,10 @@ std::unique_ptr<Output> simulate(const OutputDescription&, const MachineDescript
   return std::make_unique<SimulatedOutput>();
 }
 
+std::unique_ptr<Input> simulate(const InputDescription& input, const MachineDescription&) {
+  return std::make_unique<SimulatedInput>(input.sim_on, input.sim_change_s);
+}
+
 std::unique_ptr<Sensor> simulate(const SensorDescription& sensor, const MachineDescription&) {
   return std::make_unique<SimulatedSensor>(sensor.sim_c);
 }
@@ -70,8 +98,9 @@ std::unique_ptr<SpindleDrive> simulate(const SpindleDescription& spindle, const 
   return std::make_unique<SimulatedSpindle>(spindle.sim_rpm_per_s);
 }
 
-std::unique_ptr<FilamentSensor> simulate(const FilamentSensorDescription&, const MachineDescription&) {
-  return std::make_unique<SimulatedFilament>();
+std::unique_ptr<FilamentSensor> simulate(const FilamentSensorDescription& filament,
+                                         const MachineDescription&) {
+  return std::make_unique<SimulatedFilament>(filament.sim_length_mm);
 }
 
 std::unique_ptr<ContactProbe> simulate(const ProbeDescription&, const MachineDescription&) {

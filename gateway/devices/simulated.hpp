@@ -55,6 +55,21 @@ class SimulatedSpindle : public SpindleDrive {
   std::optional<BusTime> last_;
 };
 
+class SimulatedInput : public Input {
+ public:
+  /// `change_s`: it changes so often; 0: never.
+  SimulatedInput(bool on, double change_s) : on_(on), left_s_(change_s), change_s_(change_s) {}
+  InputLevel level() const override { return on_ ? InputLevel::kOn : InputLevel::kOff; }
+  Changes changes() const override { return changes_; }
+  void on_time(BusTime now) override;
+
+ private:
+  bool on_;
+  double left_s_, change_s_;
+  Changes changes_;
+  std::optional<BusTime> last_;
+};
+
 class SimulatedSensor : public Sensor {
  public:
   explicit SimulatedSensor(double celsius) : celsius_(celsius) {}
@@ -64,10 +79,20 @@ class SimulatedSensor : public Sensor {
   double celsius_;
 };
 
-/// Of a spool that never ends.
+/// Of spools of one length each: when one has run out, the next is put in as soon as the rest is drawn out.
 class SimulatedFilament : public FilamentSensor {
  public:
-  FilamentCondition condition() const override { return FilamentCondition::kInOrder; }
+  /// 0: it never ends.
+  explicit SimulatedFilament(double length_mm) : length_mm_(length_mm) {}
+  FilamentCondition condition() const override {
+    return out_at_mm_ ? FilamentCondition::kOut : FilamentCondition::kInOrder;
+  }
+  void follow(double mm) override;
+
+ private:
+  double length_mm_, fed_mm_ = 0;
+  std::optional<double> last_mm_;
+  std::optional<double> out_at_mm_;  ///< of the extruder, when it ran out
 };
 
 class SimulatedProbe : public ContactProbe {
@@ -79,6 +104,7 @@ class SimulatedProbe : public ContactProbe {
 std::unique_ptr<Heater> simulate(const HeaterDescription& heater, const MachineDescription& machine);
 std::unique_ptr<Output> simulate(const FanDescription& fan, const MachineDescription& machine);
 std::unique_ptr<Output> simulate(const OutputDescription& output, const MachineDescription& machine);
+std::unique_ptr<Input> simulate(const InputDescription& input, const MachineDescription& machine);
 std::unique_ptr<Sensor> simulate(const SensorDescription& sensor, const MachineDescription& machine);
 std::unique_ptr<FilamentSensor> simulate(const FilamentSensorDescription& sensor,
                                          const MachineDescription& machine);

@@ -117,6 +117,18 @@ struct ProbePin {
     kReset,     ///< ends its alarm, and draws it in
   } what{};
 };
+/// M66: at rest until the input is as asked, or the time is over. #5399 tells which.
+struct AwaitInput {
+  enum class Until : std::uint8_t {
+    kNow,    ///< nothing is waited for
+    kRises,  ///< comes on, after it was off
+    kFalls,
+    kOn,
+    kOff
+  } until{};
+  int index = 0;
+  double seconds = 0;  ///< at most
+};
 struct Home {             ///< G28
   std::uint8_t axes = 0;  ///< bit per axis in the order of Pose (X bit 0 ... C bit 4); 0: all
   Pose afterwards{};  ///< where the machine has to stand when homing is done (axes not named: as before; E:
@@ -189,7 +201,7 @@ struct End {};  ///< M2 / M30, or the end of the text
 using Command =
     std::variant<Traverse, Feed, Arc, Dwell, PathMode, SetPosition, Limits, Thermal, Spindle, Home, Pause,
                  MotorsOff, MotorsOn, WaitIdle, Override, Message, Query, EmergencyStop, StoredJob, Settings,
-                 End, PressureAdvance, Probe, InputShaping, Mesh, ProbePin>;
+                 End, PressureAdvance, Probe, InputShaping, Mesh, ProbePin, AwaitInput>;
 
 /// One command with the line of the job that it came from (1-based).
 struct Line {

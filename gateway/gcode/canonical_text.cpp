@@ -101,6 +101,13 @@ struct Writer {
     static constexpr std::array<std::string_view, 4> kNames = {"out", "in", "self_test", "reset"};
     return std::string("probe_pin ").append(kNames[static_cast<std::size_t>(c.what)]);
   }
+  std::string operator()(const AwaitInput& c) const {
+    static constexpr std::array<std::string_view, 5> kNames = {"read", "rises", "falls", "on", "off"};
+    std::string text = "input" + std::to_string(c.index) + " ";
+    text += kNames[static_cast<std::size_t>(c.until)];
+    if (c.until != AwaitInput::Until::kNow) text += " within" + number(c.seconds);
+    return text;
+  }
   std::string operator()(const Home& c) const {
     return "home " + axes_text(c.axes) + " to " + pose_text(c.afterwards, c.frame);
   }

@@ -37,6 +37,10 @@ void Interpreter::set_position(const Pose& pose, Frame frame) {
   core_->set_position(pose, frame);
 }
 
+void Interpreter::set_input(double value) {
+  core_->set_input(value);
+}
+
 void Interpreter::set_probed(const ProbeResult& result) {
   core_->set_probed(result);
 }

@@ -68,6 +68,9 @@ struct ProbeResult {
   Frame frame{};
 };
 
+/// #5399 behind M66 when the time is over.
+inline constexpr double kNoInput = -1;
+
 /// What G29 probes, unless its words say less. In table coordinates.
 struct MeshOptions {
   std::array<int, 2> points{5, 5};
@@ -148,6 +151,9 @@ class Interpreter {
   /// What a canonical::Probe has come to: #5061 to #5070 tell it, and the next line goes on from where the
   /// tool stands. Until then lines are read as if it had touched at its target.
   void set_probed(const ProbeResult& result);
+  /// What a canonical::AwaitInput has come to: #5399 tells it. 1 or 0: the input; kNoInput: it did not come.
+  /// Until then lines are read as if what was waited for had come.
+  void set_input(double value);
 
   /// From the next line on an object of the print is left out, as by EXCLUDE_OBJECT NAME= in the text.
   /// `name`: in any case, or the number that M486 gave it. Refused while cutter compensation holds moves

@@ -117,6 +117,15 @@ void JobCheck::command(const canonical::Line& line) {
         say("the job probes here: what follows is checked as if the probe touched at the table, or at the "
             "end of "
             "its move, and again with what is measured, just before it moves"));
+  if (const auto* wait = std::get_if<canonical::AwaitInput>(&line.command)) {
+    if (auto missing = missing_input(machine_, *wait))
+      add(Problem::Severity::kError, line.line, std::move(*missing));
+    else if (!std::exchange(awaits_, true))
+      add(Problem::Severity::kWarning, line.line,
+          say("the job reads an input here: what follows is checked as if what it waits for came (M66 "
+              "without L: "
+              "as if the input were off), and again with what is read, just before it moves"));
+  }
   if (const auto* mesh = std::get_if<canonical::Mesh>(&line.command);
       mesh != nullptr && mesh->what == canonical::Mesh::What::kOn && !std::exchange(levels_, true))
     add(Problem::Severity::kWarning, line.line,

@@ -51,7 +51,7 @@ class JobCheck {
   std::optional<double> hotend_celsius_;
   double hot_e_mm_ = -1e300;  ///< the farthest that filament was fed hot
   bool cold_reported_ = false, fan_reported_ = false, tall_reported_ = false, probes_ = false,
-       levels_ = false;
+       levels_ = false, awaits_ = false;
 };
 
 }  // namespace kinebus

@@ -25,7 +25,7 @@ bool is_barrier(const Command& command, bool optional_stop) {
   if (const auto* thermal = std::get_if<Thermal>(&command)) return thermal->wait;
   if (const auto* pause = std::get_if<Pause>(&command)) return !pause->optional || optional_stop;
   return is_any<Dwell, Home, MotorsOff, MotorsOn, WaitIdle, canonical::Spindle, canonical::Probe,
-                canonical::Mesh, ProbePin>(command);
+                canonical::Mesh, ProbePin, AwaitInput>(command);
 }
 
 /// Target of a motion command.

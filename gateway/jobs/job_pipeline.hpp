@@ -76,6 +76,9 @@ class JobPipeline {
   /// How the move of the probe has ended, before the next step is asked for; until kProbed it may be cut
   /// short.
   void probed(const gcode::ProbeResult& result);
+  /// What the input of an AwaitInput was, before the next step is asked for; otherwise the text goes on as if
+  /// it had come.
+  void input_read(double value);
   /// What is taken for it where nobody can measure: contact at the table's surface if the move goes through
   /// it, else at its target.
   gcode::ProbeResult assumed_probe() const;

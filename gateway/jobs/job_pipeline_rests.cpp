@@ -46,6 +46,10 @@ void JobPipeline::stands(const Pose& pose, Frame frame) {
   if (interpreter_) interpreter_->set_position(pose, frame);
 }
 
+void JobPipeline::input_read(double value) {
+  if (interpreter_) interpreter_->set_input(value);
+}
+
 gcode::ProbeResult JobPipeline::assumed_probe() const {
   Pose at = probe_.target;
   const auto from = convert_pose(kinematics_, probe_.frame, probe_start_, Frame::kPart);

@@ -123,9 +123,14 @@ Result<void, Problem> LiveLines::take(std::string_view line, std::uint32_t numbe
   }
   for (std::size_t i = first; i < out.size(); ++i) {
     auto words = check(out[i].command);
-    const bool probes = std::holds_alternative<canonical::Probe>(out[i].command) ||
+    const bool reads = std::holds_alternative<canonical::AwaitInput>(out[i].command);
+    const bool probes = reads || std::holds_alternative<canonical::Probe>(out[i].command) ||
                         std::holds_alternative<canonical::Mesh>(out[i].command);
-    if (probes && program.steps() > 0)
+    if (reads && program.steps() > 0)
+      words = say(
+          "a macro or loop with M66 works in a job, not as a line: the lines behind M66 have to know what "
+          "it reads");
+    else if (probes && program.steps() > 0)
       words =
           say("a macro or loop that probes works in a job, not as a line: the lines behind G38 have to know "
               "what it measures");
@@ -163,6 +168,11 @@ void LiveLines::probed(const gcode::ProbeResult& result) {
   place_ = {m.position, m.frame};
 }
 
+void LiveLines::input_read(double value) {
+  answers_due_ = std::max(0, answers_due_ - 1);
+  interpreter_.set_input(value);
+}
+
 void LiveLines::levelled(const std::optional<Pose>& stand, Frame frame) {
   answers_due_ = std::max(0, answers_due_ - 1);
   if (!stand || answers_due_ > 0) return;
@@ -188,6 +198,10 @@ Refused LiveLines::check(const canonical::Command& command) {
   }
   if (const auto* spindle = std::get_if<canonical::Spindle>(&command))
     return wrong_spindle_speed(machine_.spindle, spindle->rpm);
+  if (const auto* wait = std::get_if<canonical::AwaitInput>(&command)) {
+    if (auto missing = missing_input(machine_, *wait)) return missing;
+    return still_ && wait->until != canonical::AwaitInput::Until::kNow ? still_ : std::nullopt;
+  }
   if (std::holds_alternative<canonical::StoredJob>(command))
     return say("stored jobs are managed by the session: M20 to M32 stand alone in a line");
   const auto* feed = std::get_if<canonical::Feed>(&command);

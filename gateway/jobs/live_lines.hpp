@@ -39,6 +39,8 @@ class LiveLines {
   /// A line that was taken probes: none may be taken that moves or looks at what it measures until probed().
   bool probes() const { return answers_due_ > 0; }
   void probed(const gcode::ProbeResult& result);
+  /// The same of a line that reads an input.
+  void input_read(double value);
   /// A levelling command of a line is carried out; the tool's place is named so from then on.
   void levelled(const std::optional<Pose>& stand, Frame frame);
 

@@ -321,6 +321,13 @@ std::optional<Sentence> wrong_device_command(const MachineDescription& machine,
   return std::nullopt;
 }
 
+std::optional<Sentence> missing_input(const MachineDescription& machine, const canonical::AwaitInput& wait) {
+  const bool there = std::any_of(machine.inputs.begin(), machine.inputs.end(),
+                                 [&](const InputDescription& i) { return i.index == wait.index; });
+  if (there) return std::nullopt;
+  return say("this machine has no input %1: the machine file names inputs by [input.NAME]", wait.index);
+}
+
 std::optional<Sentence> missing_fan(const MachineDescription& machine, const canonical::Thermal& thermal) {
   if (thermal.what != canonical::Thermal::What::kFan || thermal.value == 0) return std::nullopt;
   for (const FanDescription& fan : machine.fans)

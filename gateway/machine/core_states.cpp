@@ -119,6 +119,8 @@ void Gateway::Core::step_running() {
   for (const Runner::Answer& answer : runner_->take_answers())
     if (answer.probed)
       lines_.probed(*answer.probed);
+    else if (answer.input)
+      lines_.input_read(*answer.input);
     else
       lines_.levelled(answer.stand);
   switch (outcome) {

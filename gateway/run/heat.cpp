@@ -156,6 +156,7 @@ void Heat::report(MachineStatus& status) const {
   status.heaters = devices_.heaters();
   status.fans = devices_.fans();
   status.outputs = devices_.outputs();
+  status.inputs = devices_.inputs();
   status.sensors = devices_.sensors();
   status.filaments = devices_.filaments();
   status.spindle = devices_.spindle();

@@ -74,6 +74,10 @@ class Heat {
 
   Result<void, Refusal> move_pin(ContactProbe::PinOrder order);
 
+  /// nullptr: the machine has none of this index.
+  const Input* input(int index) const {
+    return index >= 0 && index < kMostOfAKind ? devices_.input(static_cast<std::uint8_t>(index)) : nullptr;
+  }
   /// nullptr: the machine has none.
   ContactProbe* probe() { return devices_.probe(); }
 

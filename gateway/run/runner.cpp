@@ -153,6 +153,8 @@ void Runner::hold(BusTime now) {
 void Runner::resume(BusTime now) {
   held_ = still_ = false;
   if (wait_ == Wait::kPause) end_wait();
+  look_at_input_anew();
+  last_time_ = now;  // what a hold has taken is no time of a wait
   last_rate_change_ = now - kRaisePeriod;
 }
 
@@ -220,7 +222,8 @@ Runner::Outcome Runner::on_time(BusTime now, int budget) {
   const BusTime elapsed = std::max(BusTime{0}, now - last_time_);
   last_time_ = now;
   if (suspended_) return Outcome::kBusy;
-  if (wait_ == Wait::kDwell && !held_) dwell_left_ -= std::min(dwell_left_, elapsed);
+  if ((wait_ == Wait::kDwell || wait_ == Wait::kInput) && !held_)
+    dwell_left_ -= std::min(dwell_left_, elapsed);
   execute_due(now);
   if (stop_asked_) return Outcome::kEmergencyStop;
   feed_.forget_before(group_.confirmed(rate_.tau(now)) - kPlannedMemory);

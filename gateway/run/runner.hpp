@@ -85,6 +85,7 @@ class Runner {
   struct Answer {
     std::optional<gcode::ProbeResult> probed{};
     std::optional<PlannedPose> stand{};
+    std::optional<double> input{};
   };
   std::vector<Answer> take_answers() { return std::exchange(answers_, {}); }
 
@@ -164,7 +165,8 @@ class Runner {
     kPinStays,  ///< out, by a word of the job
     kProbeReady,
     kProbeEnd,
-    kPinIn
+    kPinIn,
+    kInput
   };
   struct Event {
     std::uint64_t phase;  ///< due when so many phases of the job are done
@@ -194,6 +196,11 @@ class Runner {
   void give_up_probe();
   std::chrono::milliseconds probe_ramp(BusTime now) const;
   void end_probe(const gcode::ProbeResult& result);
+  // runner_input.cpp
+  void begin_input(const canonical::AwaitInput& wait);
+  void look_at_input_anew();
+  bool input_has_come(BusTime now);
+  void end_input(double value);
   // runner_levelling.cpp
   Outcome level(BusTime now, const canonical::Mesh& mesh, std::uint32_t line);
   void learn(journal::Learned learned);
@@ -234,6 +241,8 @@ class Runner {
   BusTime last_time_{0}, dwell_left_{0}, last_rate_change_{0}, run_noted_{0}, last_added_{0};
   double override_ = 1;
   std::uint32_t last_line_ = 0;
+  canonical::AwaitInput awaited_input_;
+  Input::Changes input_before_;         ///< since when its changes count
   bool probing_ = false;                ///< from the command on, until its result is known
   bool probe_cut_ = false;              ///< the probe has told: its move ends here
   std::optional<PlannedPose> touched_;  ///< where the tool was

@@ -51,6 +51,9 @@ bool Runner::wait_is_over(BusTime now) {
     case Wait::kPinIn:
       if (!pin_is(ContactProbe::Pin::kIn)) return false;
       break;
+    case Wait::kInput:
+      if (held_ || !input_has_come(now)) return false;
+      break;
     case Wait::kPause:
       return false;
   }
@@ -138,6 +141,8 @@ Runner::Outcome Runner::barrier(BusTime now) {
     begin_probe();
   } else if (const auto* pin = std::get_if<canonical::ProbePin>(&line.command)) {
     move_pin(*pin);
+  } else if (const auto* wait = std::get_if<canonical::AwaitInput>(&line.command)) {
+    begin_input(*wait);
   } else if (const auto* mesh = std::get_if<canonical::Mesh>(&line.command)) {
     return level(now, canonical::Mesh(*mesh), line.line);
   } else if (const auto* pause = std::get_if<canonical::Pause>(&line.command)) {

@@ -10,6 +10,7 @@ namespace {
 /// What a command behind which a job's text depends on what is found leaves in the journal.
 std::optional<journal::Learned::What> learns(const canonical::Command& command) {
   if (std::holds_alternative<canonical::Probe>(command)) return journal::Learned::What::kProbed;
+  if (std::holds_alternative<canonical::AwaitInput>(command)) return journal::Learned::What::kInput;
   const auto* mesh = std::get_if<canonical::Mesh>(&command);
   if (mesh == nullptr || !BedLevel::moves_poses(*mesh)) return std::nullopt;
   return journal::Learned::What::kMesh;
@@ -30,6 +31,7 @@ void Runner::suspend(PathTime tau) {
 void Runner::go_on(BusTime now) {
   suspended_ = held_ = still_ = false;
   if (wait_ == Wait::kPause) end_wait();
+  look_at_input_anew();
   feed_.go_on(to_seconds(BusTime{machine_.stop.hold_ramp}));
   heating_.restart();
   doing_ = say("moving");

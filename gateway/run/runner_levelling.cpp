@@ -67,6 +67,11 @@ bool Runner::replay_learned(Learned::What what) {
   if (next_learned_ == learned_.size() || learned_[next_learned_].what != what) return false;
   const Learned& found = learned_[next_learned_++];
   feed_.skip_to(found.phases);
+  if (what == Learned::What::kInput) {
+    pipeline_.input_read(found.at[kX]);
+    check_what_follows();
+    return true;
+  }
   if (what == Learned::What::kProbed) {
     pipeline_.probed({found.contact, found.at, found.stand, found.frame});
     if (const auto stand = convert_pose(kinematics_, found.frame, found.stand, Frame::kMachine))

@@ -270,6 +270,12 @@ joblink::Status to_message(const MachineStatus& s) {
     if (fan.index == 0) m.set_fan(fan.ratio);
   }
   for (const OutputStatus& output : s.outputs) set_output(*m.add_outputs(), output);
+  for (const InputStatus& input : s.inputs) {
+    joblink::Input& told = *m.add_inputs();
+    told.set_name(shown(input.name));
+    told.set_index(input.index);
+    if (input.level != InputLevel::kUnknown) told.set_on(input.level == InputLevel::kOn);
+  }
   for (const SensorStatus& sensor : s.sensors) {
     joblink::Sensor& told = *m.add_sensors();
     told.set_name(shown(sensor.name));

@@ -89,6 +89,7 @@ struct MachineStatus {
 
   std::vector<NamedHeaterStatus> heaters;
   std::vector<OutputStatus> fans, outputs;
+  std::vector<InputStatus> inputs;
   std::vector<SensorStatus> sensors;
   std::vector<FilamentStatus> filaments;
   SpindleStatus spindle;

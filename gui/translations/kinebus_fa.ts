@@ -2073,6 +2073,46 @@
         <translation>محفظه %1</translation>
     </message>
     <message>
+        <source>a node that has axes: it tells when an input changes</source>
+        <translation>گره‌ای با محور: همان است که تغییر ورودی را خبر می‌دهد</translation>
+    </message>
+    <message>
+        <source>an input of node %1 whose function is none: a switch, a stop or a probe is not a job&apos;s to read</source>
+        <translation>یک ورودی گرهٔ %1 که کارکرد آن none باشد: کلید، توقف و پروب را کار نمی‌خواند</translation>
+    </message>
+    <message>
+        <source>M66 E reads an analogue input, which machines of this kind do not have: P reads a digital one</source>
+        <translation>M66 E ورودی آنالوگ را می‌خواند که این گونه ماشین ندارد: P ورودی دیجیتال را می‌خواند</translation>
+    </message>
+    <message>
+        <source>M66 needs the input P</source>
+        <translation>M66 به ورودی P نیاز دارد</translation>
+    </message>
+    <message>
+        <source>M66 L1 to L4 waits at most Q seconds: more than 0, at most %1</source>
+        <translation>M66 L1 تا L4 دست بالا Q ثانیه منتظر می‌ماند: بیشتر از 0 و دست بالا %1</translation>
+    </message>
+    <message>
+        <source>the job reads an input here: what follows is checked as if what it waits for came (M66 without L: as if the input were off), and again with what is read, just before it moves</source>
+        <translation>کار این‌جا یک ورودی را می‌خواند: آنچه پس از آن است چنان بررسی می‌شود که گویی آنچه منتظرش است آمده (M66 بدون L: گویی ورودی خاموش است) و پیش از حرکت دوباره با آنچه خوانده شده</translation>
+    </message>
+    <message>
+        <source>a macro or loop with M66 works in a job, not as a line: the lines behind M66 have to know what it reads</source>
+        <translation>ماکرو یا حلقهٔ دارای M66 در یک کار کار می‌کند، نه به شکل یک خط: خط‌های پس از M66 باید بدانند چه خوانده است</translation>
+    </message>
+    <message>
+        <source>this machine has no input %1: the machine file names inputs by [input.NAME]</source>
+        <translation>این ماشین ورودی %1 ندارد: پروندهٔ ماشین ورودی‌ها را با [input.NAME] نام می‌برد</translation>
+    </message>
+    <message>
+        <source>waiting for input %1</source>
+        <translation>در انتظار ورودی %1</translation>
+    </message>
+    <message>
+        <source>input %1 has not come in time: #5399 is -1</source>
+        <translation>ورودی %1 به‌موقع نیامد: #5399 برابر -1 است</translation>
+    </message>
+    <message>
         <source>this machine has no output %1</source>
         <translation>این ماشین خروجی %1 ندارد</translation>
     </message>
@@ -3163,10 +3203,6 @@
     <message>
         <source>A is taken for extrusion (E), as the slicer in the file&apos;s header writes it</source>
         <translation>A به جای اکستروژن (E) گرفته می‌شود، چنان که برش‌دهندهٔ سرآغاز پرونده می‌نویسد</translation>
-    </message>
-    <message>
-        <source>M66 waits for an input, which machines of this kind do not have</source>
-        <translation>M66 منتظر یک ورودی می‌ماند که این گونه ماشین ندارد</translation>
     </message>
     <message>
         <source>%1 is not supported: write G10 L2 P0 with the values</source>

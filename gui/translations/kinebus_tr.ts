@@ -2073,6 +2073,46 @@
         <translation>kabin %1</translation>
     </message>
     <message>
+        <source>a node that has axes: it tells when an input changes</source>
+        <translation>eksenleri olan bir düğüm: bir giriş değişince bunu o bildirir</translation>
+    </message>
+    <message>
+        <source>an input of node %1 whose function is none: a switch, a stop or a probe is not a job&apos;s to read</source>
+        <translation>düğüm %1 üzerinde işlevi none olan bir giriş: anahtarı, durdurmayı ve probu iş okuyamaz</translation>
+    </message>
+    <message>
+        <source>M66 E reads an analogue input, which machines of this kind do not have: P reads a digital one</source>
+        <translation>M66 E bir analog giriş okur; bu tür makinelerde analog giriş yok: P sayısal girişi okur</translation>
+    </message>
+    <message>
+        <source>M66 needs the input P</source>
+        <translation>M66 için giriş P gerekli</translation>
+    </message>
+    <message>
+        <source>M66 L1 to L4 waits at most Q seconds: more than 0, at most %1</source>
+        <translation>M66 L1 ile L4 en çok Q saniye bekler: 0&apos;dan büyük, en çok %1</translation>
+    </message>
+    <message>
+        <source>the job reads an input here: what follows is checked as if what it waits for came (M66 without L: as if the input were off), and again with what is read, just before it moves</source>
+        <translation>iş burada bir giriş okuyor: sonrası, beklenen gelmiş gibi (L&apos;siz M66: giriş kapalıymış gibi) kontrol edilir, okunan değerle de hareketten hemen önce bir kez daha</translation>
+    </message>
+    <message>
+        <source>a macro or loop with M66 works in a job, not as a line: the lines behind M66 have to know what it reads</source>
+        <translation>M66 içeren makro ya da döngü bir işte çalışır, tek satır olarak değil: M66&apos;dan sonraki satırlar okunanı bilmeli</translation>
+    </message>
+    <message>
+        <source>this machine has no input %1: the machine file names inputs by [input.NAME]</source>
+        <translation>bu makinede giriş %1 yok: makine dosyası girişleri [input.NAME] ile adlandırır</translation>
+    </message>
+    <message>
+        <source>waiting for input %1</source>
+        <translation>giriş %1 bekleniyor</translation>
+    </message>
+    <message>
+        <source>input %1 has not come in time: #5399 is -1</source>
+        <translation>giriş %1 zamanında gelmedi: #5399 = -1</translation>
+    </message>
+    <message>
         <source>this machine has no output %1</source>
         <translation>bu makinede çıkış %1 yok</translation>
     </message>
@@ -3163,10 +3203,6 @@
     <message>
         <source>A is taken for extrusion (E), as the slicer in the file&apos;s header writes it</source>
         <translation>A, dosya başlığındaki dilimleyicinin yazdığı gibi ekstrüzyon (E) sayılıyor</translation>
-    </message>
-    <message>
-        <source>M66 waits for an input, which machines of this kind do not have</source>
-        <translation>M66 bir girişi bekler; bu tür makinelerde giriş yok</translation>
     </message>
     <message>
         <source>%1 is not supported: write G10 L2 P0 with the values</source>

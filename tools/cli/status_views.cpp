@@ -38,6 +38,11 @@ void print_devices(const Status& s) {
     words += fmt::format("fan {} {:.0f} %   ", fan.name(), 100 * fan.ratio());
   for (const joblink::Output& output : s.outputs())
     words += fmt::format("{} {:.0f} %   ", output.name(), 100 * output.ratio());
+  for (const joblink::Input& input : s.inputs())
+    words += fmt::format("input {} {}   ", input.name(),
+                         !input.has_on() ? "unknown"
+                         : input.on()    ? "on"
+                                         : "off");
   for (const joblink::Sensor& sensor : s.sensors())
     words += fmt::format("{} {:.1f} C   ", sensor.name(), sensor.celsius());
   constexpr std::array kConditions{"in order", "out", "stands", "slips"};

@@ -170,6 +170,21 @@ TEST(MachineFile, ADeviceWhereNoneCanBeIsRefused) {
        "filament_sensor.x.stands_mm: found a key that does not exist"},
       {"", "where = \"simulated\"\n[probe]\nwhere = \"node\"\nnode = 3\nchannel = 1",
        "probe.channel: found 1; expected an input of node 3 that has the probe function"},
+      {"", "where = \"simulated\"\n[input.x]\nwhere = \"node\"\nnode = 1\nchannel = 1",
+       "input.x.channel: found 1; expected an input of node 1 whose function is none"},
+      {"axis_pairs = 0\ninputs = 2",
+       "where = \"simulated\"\n[input.x]\nwhere = \"node\"\nnode = 4\nchannel = 1",
+       "input.x.node: found 4; expected a node that has axes"},
+      {"", "where = \"simulated\"\n[input.x]\nwhere = \"node\"\nnode = 3\nchannel = 9",
+       "input.x.channel: found 9; expected a channel in 1 .. 7"},
+      {"",
+       "where = \"simulated\"\n[input.x]\nwhere = \"node\"\nnode = 3\nchannel = 5\n[input.y]\nindex = "
+       "1\nwhere = "
+       "\"node\"\nnode = 3\nchannel = 5",
+       "input.y.channel: found node 3 channel 5; expected a channel that no other device has: [input.x] has "
+       "it"},
+      {"", "where = \"simulated\"\n[input.x]\nwhere = \"simulated\"\n[input.y]\nwhere = \"simulated\"",
+       "input.y.index: found 0; expected an index that no other has: [input.x] has it"},
       {"axis_pairs = 0\ninputs = 0", "where = \"simulated\"\n[bltouch]\nnode = 4",
        "bltouch: found a pin; expected a probe on an input of a node, [probe] with where = "
        "\"node\": its line"},

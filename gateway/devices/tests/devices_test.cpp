@@ -40,6 +40,41 @@ TEST(SimulatedHeater, LongStepsGiveTheSameAsShortOnes) {
   EXPECT_NEAR(after(coarse, 10s, 90s, 10s), after(fine, 100ms, 99900ms, 100ms), 0.5);
 }
 
+TEST(SimulatedInput, ChangesAsOftenAsItsFileSays) {
+  SimulatedInput steady(true, 0), changing(false, 2);
+  for (BusTime t{0}; t <= 10s; t += 100ms) {
+    steady.on_time(t);
+    changing.on_time(t);
+  }
+  EXPECT_EQ(steady.level(), InputLevel::kOn);
+  EXPECT_EQ(steady.changes().rises + steady.changes().falls, 0U);
+  EXPECT_EQ(changing.changes().rises, 3U);
+  EXPECT_EQ(changing.changes().falls, 2U);
+  EXPECT_EQ(changing.level(), InputLevel::kOn);
+}
+
+TEST(SimulatedFilament, RunsOutAtItsEndAndIsThereAgainWhenTheRestIsDrawnOut) {
+  SimulatedFilament spool(100);
+  spool.follow(0);
+  for (double mm = 1; mm < 100; ++mm) spool.follow(mm);
+  EXPECT_EQ(spool.condition(), FilamentCondition::kInOrder);
+  spool.follow(100);
+  EXPECT_EQ(spool.condition(), FilamentCondition::kOut);
+  spool.follow(95);
+  EXPECT_EQ(spool.condition(), FilamentCondition::kOut) << "a retraction is no change of spools";
+  spool.follow(89);
+  EXPECT_EQ(spool.condition(), FilamentCondition::kInOrder);
+  for (double mm = 90; mm < 188; ++mm) spool.follow(mm);
+  EXPECT_EQ(spool.condition(), FilamentCondition::kInOrder);
+  spool.follow(5000);  // another number for where it is
+  EXPECT_EQ(spool.condition(), FilamentCondition::kInOrder);
+  spool.follow(5003);
+  EXPECT_EQ(spool.condition(), FilamentCondition::kOut);
+  SimulatedFilament endless(0);
+  for (double mm = 0; mm < 1e4; mm += 100) endless.follow(mm);
+  EXPECT_EQ(endless.condition(), FilamentCondition::kInOrder);
+}
+
 MachineDescription printer_of_two_tools() {
   MachineDescription machine = default_m1();
   machine.heaters.push_back({.name = "left", .index = 1});

@@ -44,6 +44,7 @@ class Core {
   void set_position(const Pose& pose, Frame frame);
 
   void set_probed(const ProbeResult& result);
+  void set_input(double value) { state_.parameters.numbered[kInputRead] = value; }
   bool set_work_offset(int system, const Pose& offset, bool here);
   bool exclude_object(std::string_view name);
 
@@ -64,6 +65,7 @@ class Core {
   ProgramCall take_call() { return std::exchange(call_, {}); }
 
  private:
+  static constexpr std::size_t kInputRead = 5399;
   struct FeedRate {
     bool known = false;
     double mm_per_s = 0, rad_per_s = 0;
@@ -241,6 +243,7 @@ class Core {
   bool value_by_p(Code code);
   double target_of(const canonical::Thermal& thermal) const;
   bool fan(Code code);
+  bool await_input(Code code);
   bool motors(Code code);
   bool axis_limits(Code code);
   bool axis_acceleration(Code code);

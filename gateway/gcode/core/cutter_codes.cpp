@@ -111,6 +111,7 @@ bool Core::check_beside_cutter() {
   }
   if (block_.has(GGroup::kCoordinates)) return refuse(block_.code(GGroup::kCoordinates));
   if (block_.has_m(6)) return refuse_beside_cutter({0, 1}, "M6");
+  if (block_.has_m(66)) return refuse_beside_cutter({0, 1}, "M66");
   // On a mill T only says what M6 will put in.
   if (block_.has('T') && !options_.spindle) return refuse_beside_cutter({0, block_.column_of('T')}, "T");
   return true;

@@ -64,6 +64,8 @@ bool Core::run_machine_code(Code code) {
       emit(output);
       return true;
     }
+    case 66:
+      return await_input(code);
     case 67:
     case 68: {
       canonical::Thermal output;

@@ -144,6 +144,7 @@ constexpr std::array kM = {
     m(63, M::kOther, false, "P", "output P off, in path time, where the next motion begins"),
     m(64, M::kOther, false, "P", "output P on"),
     m(65, M::kOther, false, "P", "output P off"),
+    m(66, M::kOther, false, "P L Q", "comes to rest and reads input P of the machine file ([input.NAME]); L1 waits until it comes on, L2 until it goes off, L3 until it is on, L4 until it is off, at most Q seconds. #5399: 1 on, 0 off, -1 when the time is over"),
     m(67, M::kOther, false, "E Q", "output E at Q of 1, in path time"),
     m(68, M::kOther, false, "E Q", "output E at Q of 1"),
     m(70, M::kOther, false, "", "keeps the modal state: units, plane, distances, feed, path, coordinate system, tool length, spindle"),

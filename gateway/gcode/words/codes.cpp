@@ -84,8 +84,7 @@ constexpr std::array<Reason, 7> kGReasons = {{
     {870, phrase("G87 needs a spindle that stops at an angle, which this machine does not have")},
     {880, phrase("G88 needs an operator who moves the axes by hand: use G82 or G86")},
 }};
-constexpr std::array<Reason, 3> kMReasons = {{
-    {66, phrase("M66 waits for an input, which machines of this kind do not have")},
+constexpr std::array<Reason, 2> kMReasons = {{
     {3, phrase("M3 turns a spindle, which this machine does not have")},
     {4, phrase("M4 turns a spindle, which this machine does not have")},
 }};

@@ -117,7 +117,7 @@ void fields(Io& io, MeshGrid& r) {
 }
 template <class Io>
 void fields(Io& io, Learned& r) {
-  io.choice(r.what, Learned::What::kBeginning);
+  io.choice(r.what, Learned::What::kInput);
   io.u64(r.phases);
   io.flag(r.contact);
   io.choice(r.frame, Frame::kMachine);

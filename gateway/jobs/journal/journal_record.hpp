@@ -121,6 +121,7 @@ struct Learned {
     kProbed,     ///< how a probe's move has ended
     kMesh,       ///< the mesh in force from a levelling command on
     kBeginning,  ///< the mesh in force when the job began
+    kInput,      ///< what M66 has read: X of `at` is #5399
   } what{};
   std::uint64_t phases = 0;  ///< of the job, given out until then; it goes on behind them, from rest
   bool contact = false;

@@ -78,6 +78,11 @@ Done Gateway::Core::carry_out_at_rest(const canonical::Line& line) {
     return carry_out(command::SetSpindle{spindle->rpm});
   if (const auto* pin = std::get_if<canonical::ProbePin>(&line.command))
     return carry_out(command::MovePin{pin_order(*pin)});
+  if (const auto* wait = std::get_if<canonical::AwaitInput>(&line.command)) {
+    const Input* const input = heat_.input(wait->index);
+    const InputLevel level = input != nullptr ? input->level() : InputLevel::kUnknown;
+    lines_.input_read(level == InputLevel::kUnknown ? gcode::kNoInput : level == InputLevel::kOn ? 1 : 0);
+  }
   if (const auto* message = std::get_if<canonical::Message>(&line.command))
     events_.message(now_, Sentence::verbatim(message->text), line.line);
   if (const auto* mesh = std::get_if<canonical::Mesh>(&line.command)) return level_at_rest(*mesh, line.line);

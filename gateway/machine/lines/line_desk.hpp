@@ -39,6 +39,7 @@ class LineDesk {
                                                          std::uint32_t number);
   bool probes() const { return lines_.probes(); }
   void probed(const gcode::ProbeResult& result) { lines_.probed(result); }
+  void input_read(double value) { lines_.input_read(value); }
   void levelled(const std::optional<PlannedPose>& stand) {
     lines_.levelled(stand ? std::optional(stand->pose) : std::nullopt,
                     stand ? stand->frame : Frame::kMachine);
