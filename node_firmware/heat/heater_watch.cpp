@@ -39,15 +39,18 @@ bool lasts(std::uint32_t& ticks, bool now, std::uint32_t limit) {
 void HeaterWatch::configure(const WatchSettings& settings, const ThermalModel* model) {
   settings_ = settings;
   if (model != nullptr) balance_.configure(*model);
+  pace_.configure(settings.rise_s);
 }
 
 void HeaterWatch::start() {
   const WatchSettings kept = settings_;
   const HeatBalance balance = balance_;
+  const HeatingPace pace = pace_;
   *this = {};
   settings_ = kept;
   balance_ = balance;
-  balance_.start();
+  pace_ = pace;
+  interrupt();
 }
 
 HeaterFault HeaterWatch::step(std::int32_t measured, std::uint32_t power, std::int32_t target,
@@ -96,6 +99,7 @@ HeaterFault HeaterWatch::by_rules(std::int32_t measured, std::uint32_t power, st
     away_ticks_ = asked_ticks_ = 0;
   }
   ++asked_ticks_;
+  if (pace_.step(measured, power)) return HeaterFault::kHeatMissing;
   // Heating: power that does not warm. Next to a target it holds, and a weak heater does so by most of its
   // power. (Measuring a heater has none.)
   const bool near = target != 0 && measured >= target - kAway / 3;

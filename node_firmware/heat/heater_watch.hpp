@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "node_firmware/heat/heat_balance.hpp"
+#include "node_firmware/heat/heating_pace.hpp"
 #include "node_firmware/heat/thermal_model.hpp"
 
 namespace kinebus::heat {
@@ -38,7 +39,10 @@ class HeaterWatch {
   void configure(const WatchSettings& settings, const ThermalModel* model);
   void start();
   /// Measurements are missing: what was seen before and what comes after are no rise.
-  void interrupt() { balance_.start(); }
+  void interrupt() {
+    balance_.start();
+    pace_.start();
+  }
   /// Once a tick. `power`: given since the last one. `target`: 0, off. `model`: nullptr, not measured.
   /// `taken`: parts of kFullPower that the model was told are taken; they may be not, without a fault.
   /// `quiet`: fans are as they were, and filament flows as it was told: what goes missing then is the
@@ -63,6 +67,7 @@ class HeaterWatch {
   bool reached_ = false;
 
   HeatBalance balance_;
+  HeatingPace pace_;
   std::uint32_t known_ = 0;            // ticks
   std::uint32_t less_ = 0, more_ = 0;  // of the balance's steps in a row
   std::int32_t last_target_ = 0;
