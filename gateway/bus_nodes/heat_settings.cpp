@@ -44,6 +44,14 @@ void describe(Settings& settings, std::size_t n, const SensorWiring& sensor, dou
   settings.set(kReference, n, 1000 * sensor.reference_ohm);
   settings.set(kNominalResistance, n, 1000 * sensor.nominal_ohm);
   settings.set(kBeta, n, sensor.beta_k);
+  if (sensor.element == SensorElement::kPoints) {
+    constexpr std::array kCelsius{kPointTemperature1, kPointTemperature2, kPointTemperature3};
+    constexpr std::array kResistance{kPointResistance1, kPointResistance2, kPointResistance3};
+    for (std::size_t i = 0; i < kCelsius.size(); ++i) {
+      settings.set(kCelsius[i], n, tenths(sensor.points_c[i]));
+      settings.set(kResistance[i], n, 1000 * sensor.points_ohm[i]);
+    }
+  }
   settings.set(kLowestPlausible, n, tenths(kColdest_c));
   settings.set(kHighestPlausible, n, tenths(std::max(kHottestSensor_c, limit_c + kSensorMargin_c)));
 }
@@ -119,7 +127,20 @@ void add_heat_settings(const MachineDescription& machine, std::uint8_t node_id,
     else
       settings.set(kFilamentKind, n, 0);
   settings.set(kPinProbe, 0, machine.probe.bltouch && machine.probe.servo_node == node_id ? 1 : 0);
+  // What is no fan is dimmed as it is told: it neither needs a kick nor stands below some power.
+  std::array<const FanDescription*, kFans> fans{};
+  for (const FanDescription& fan : machine.fans)
+    if (here(fan.place) && fan.place.channel <= kFans) fans[fan.place.channel - 1u] = &fan;
+  for (const OutputDescription& output : machine.outputs)
+    if (here(output.place) && output.place.channel <= kFans) {
+      settings.set(kFanKick, output.place.channel - 1u, 0);
+      settings.set(kFanLeast, output.place.channel - 1u, 0);
+    }
   for (std::size_t n = 0; n < kFans; ++n) {
+    if (fans[n] != nullptr) {
+      settings.set(kFanKick, n, static_cast<double>(fans[n]->kick.count()));
+      settings.set(kFanLeast, n, fans[n]->least_percent);
+    }
     settings.set(kFanFunction, n, cools[n] != nullptr ? 1 : 0);
     if (cools[n] == nullptr) continue;
     settings.set(kFanHeater, n, cools[n]->place.channel);

@@ -53,13 +53,33 @@ enum class SensorElement : std::uint16_t {
   kHoneywell100k = 10007,
   kTdkNtcg104 = 10008,
   kBeta = 10100,
+  kPoints = 10101,
 };
+/// What it is made for, by its data sheet, deg C. Custom ones: unless the file says.
+constexpr double made_for_c(SensorElement element) {
+  switch (element) {
+    case SensorElement::kPt100:
+    case SensorElement::kPt1000:
+      return 600;
+    case SensorElement::kSlice450:
+      return 450;
+    case SensorElement::kTdkNtcg104:
+      return 125;
+    default:
+      return 300;  // beads of glass
+  }
+}
 struct SensorWiring {
   SensorElement element = SensorElement::kGeneric3950;
   bool max31865 = false;         ///< measured by that converter; else by a divider
   double reference_ohm = 4700;   ///< pull-up, or the converter's reference resistor
   double nominal_ohm = 100'000;  ///< of kBeta, at 25 C
   int beta_k = 3950;             ///< of kBeta
+  /// Of kPoints: a thermistor by its resistance at three temperatures.
+  std::array<double, 3> points_c{25, 150, 250}, points_ohm{100'000, 1770, 230};
+  double highest_given_c = 0;  ///< what a custom one is made for; 0: as most are
+  double highest_c() const { return highest_given_c > 0 ? highest_given_c : made_for_c(element); }
+  bool is_thermistor() const { return element != SensorElement::kPt100 && element != SensorElement::kPt1000; }
   friend bool operator==(const SensorWiring&, const SensorWiring&) = default;
 };
 
@@ -112,6 +132,8 @@ struct FanDescription {
   std::string name;
   std::uint8_t index = 0;
   DevicePlace place{};
+  std::chrono::milliseconds kick{200};  ///< on a node: full power so long when it starts
+  int least_percent = 15;               ///< on a node: it turns from here on; less that is asked for is this
   friend bool operator==(const FanDescription&, const FanDescription&) = default;
 };
 

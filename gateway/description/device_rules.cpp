@@ -1,11 +1,36 @@
 #include "gateway/description/device_rules.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <map>
 #include <tuple>
 #include <utility>
 
 namespace kinebus {
 namespace {
+
+/// A thermistor's curve (Steinhart-Hart) through three points, as its node makes it: the hotter the less, at
+/// the points and between them.
+bool falls(const std::array<double, 3>& celsius, const std::array<double, 3>& ohm) {
+  std::array<double, 3> l{}, y{};  // ln R, 1/T
+  for (std::size_t i = 0; i < 3; ++i) {
+    l[i] = std::log(ohm[i]);
+    y[i] = 1 / (celsius[i] + 273.15);
+  }
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if ((l[i] - l[k]) * (y[i] - y[k]) < 1e-9) return false;
+  const double g2 = (y[1] - y[0]) / (l[1] - l[0]), g3 = (y[2] - y[0]) / (l[2] - l[0]);
+  const double c = (g3 - g2) / (l[2] - l[1]) / (l[0] + l[1] + l[2]);
+  const double b = g2 - c * (l[0] * l[0] + l[0] * l[1] + l[1] * l[1]);
+  constexpr double kHighestLog = 18.4;  // of 100 MOhm; at 1 Ohm it is 0
+  return b > 0 && b + 3 * c * kHighestLog * kHighestLog > 0;
+}
+
+std::string listed(const std::array<double, 3>& values) {
+  return printed("[%.6g, ", values[0]) + printed("%.6g, ", values[1]) + printed("%.6g]", values[2]);
+}
 
 class DeviceRules {
  public:
@@ -29,8 +54,11 @@ class DeviceRules {
     indices("output", d_.outputs);
     indices("input", d_.inputs, Channels::kInputs);
     for (const InputDescription& i : d_.inputs) input(i);
-    for (const SensorDescription& s : d_.sensors)
-      place(s.place, "sensor." + s.name + ".", Channels::kSensors);
+    for (const SensorDescription& s : d_.sensors) {
+      const std::string key = "sensor." + s.name + ".";
+      place(s.place, key, Channels::kSensors);
+      if (s.place.on_node()) sensor(s.wiring, key);
+    }
     for (const FilamentSensorDescription& f : d_.filament_sensors)
       filament(f, "filament_sensor." + f.name + ".");
     if (d_.spindle.present) {
@@ -137,9 +165,27 @@ class DeviceRules {
                 first->second.substr(0, first->second.size() - 1)));
   }
 
+  void sensor(const SensorWiring& s, const std::string& key) {
+    require(!s.max31865 || !s.is_thermistor(), {key + "sensor_max31865", key + "sensor"},
+            Sentence::verbatim("true"), say("false: that converter measures pt100 and pt1000"));
+    if (s.element == SensorElement::kPoints)
+      require(falls(s.points_c, s.points_ohm), {key + "sensor_points_ohm", key + "sensor_points_c"},
+              say("%1 at %2 C", listed(s.points_ohm), listed(s.points_c)),
+              say("a resistance that falls all the way as it gets hotter"));
+  }
+
   /// What a heat node can be told.
   void wiring(const HeaterDescription& h, const std::string& key) {
-    const double limit = h.wiring.limit_for(h.max_c);
+    const double limit = h.wiring.limit_for(h.max_c), highest = h.wiring.sensor.highest_c();
+    sensor(h.wiring.sensor, key);
+    // Hotter, what it tells is worth nothing: neither is a limit there.
+    require(limit <= highest, {key + (h.wiring.limit_c > 0 ? "limit_c" : "max_c"), key + "sensor"},
+            Sentence::verbatim(printed("%.6g", h.wiring.limit_c > 0 ? limit : h.max_c)),
+            h.wiring.limit_c > 0
+                ? say("at most %1, which its sensor is made for", printed("%.6g", highest))
+                : say("at most %1: with limit_c, %2 above it, its sensor is made for no more",
+                      printed("%.6g", highest - HeaterWiring::kDefaultMargin_c),
+                      printed("%.6g", HeaterWiring::kDefaultMargin_c)));
     constexpr double kHighestLimit_c = 550;
     require(h.max_c + HeaterWiring::kLeastMargin_c <= limit && limit <= kHighestLimit_c,
             {key + "max_c", key + "limit_c"}, Sentence::verbatim(printed("%.6g", h.max_c)),

@@ -40,15 +40,24 @@ inline constexpr Choice kSensorElements[] = {
     {"ntc100k_mgb18", static_cast<int>(SensorElement::kNtc100kMgb18)},
     {"honeywell_100k", static_cast<int>(SensorElement::kHoneywell100k)},
     {"tdk_ntcg104", static_cast<int>(SensorElement::kTdkNtcg104)},
-    {"beta", static_cast<int>(SensorElement::kBeta)}};
+    {"beta", static_cast<int>(SensorElement::kBeta)},
+    {"points", static_cast<int>(SensorElement::kPoints)}};
 
 template <class V>
 void visit_sensor(V& v, SensorWiring& s) {
   // The wrong sensor is the wrong temperature: stated, always.
   if (!v.choice("sensor", s.element, kSensorElements, Need::kRequired)) return;
   v.flag("sensor_max31865", s.max31865, Need::kOptional);
-  v.number("sensor_reference_ohm", s.reference_ohm, {10, 2e6}, Need::kOptional);
-  if (s.element != SensorElement::kBeta) return;
+  // A pull-up is usually 4700 Ohm; what the converter has, 430 or 4300, is on its board.
+  v.number("sensor_reference_ohm", s.reference_ohm, {10, 2e6},
+           s.max31865 ? Need::kRequired : Need::kOptional);
+  if (s.element != SensorElement::kBeta && s.element != SensorElement::kPoints) return;
+  v.unless_zero("sensor_highest_c", s.highest_given_c, {30, 600}, 1);
+  if (s.element == SensorElement::kPoints) {
+    v.vector3("sensor_points_c", s.points_c, {-50, 600}, Need::kRequired);
+    v.vector3("sensor_points_ohm", s.points_ohm, {0.001, 2e6}, Need::kRequired);
+    return;
+  }
   v.number("sensor_25c_ohm", s.nominal_ohm, {1, 2e6}, Need::kOptional);
   v.integer("sensor_beta_k", s.beta_k, 1000, 10'000, Need::kOptional);
 }
@@ -87,6 +96,9 @@ template <class V>
 void visit_device(V& v, FanDescription& f) {
   v.integer("index", f.index, 0, kMostOfAKind - 1, Need::kOptional);
   visit_place(v, f.place);
+  if (!f.place.on_node()) return;
+  v.duration("kick_ms", f.kick, 0, 5000, Need::kOptional);
+  v.integer("least_percent", f.least_percent, 0, 100, Need::kOptional);
 }
 
 template <class V>

@@ -41,10 +41,14 @@ class Device {
   virtual std::optional<Sentence> fault() const { return std::nullopt; }
 };
 
+/// Whether its node has measured a heater, and watches it by that.
+enum class Measured : std::uint8_t { kNotTold, kNotYet, kYes };
+
 struct HeaterStatus {
   double actual_celsius = 0;
   double target_celsius = 0;      ///< 0: off
   std::optional<double> power{};  ///< of full, 0..1; none: not told
+  Measured measured = Measured::kNotTold;
 };
 
 /// How far a heater's node is with measuring it, or how that ended last.

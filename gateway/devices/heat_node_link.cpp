@@ -152,8 +152,9 @@ double HeatNodeLink::output(std::size_t output) const {
 }
 
 HeaterStatus HeatNodeLink::status(std::size_t heater) const {
-  HeaterStatus status{celsius(heater), target(heater), std::nullopt};
+  HeaterStatus status{.actual_celsius = celsius(heater), .target_celsius = target(heater)};
   if (powers_told_ && serves_) status.power = powers_[heater] / 1000.0;
+  if (serves_) status.measured = has_model_[heater];
   return status;
 }
 
@@ -254,6 +255,8 @@ void HeatNodeLink::on_bring_up(BusTime now, bool done) {
   writing_ = Writing::kNothing;
   serves_ = done;
   reset_due_.fill(false);
+  model_due_.fill(done);
+  has_model_.fill(Measured::kNotTold);
   filaments_.fill(FilamentCondition::kInOrder);
   filament_due_.fill(false);
   lost_.fill(false);
@@ -323,6 +326,14 @@ void HeatNodeLink::begin_next(BusTime now) {
     pin_.due = false;
     return;
   }
+  for (std::size_t n = 0; n < kHeaters; ++n)
+    if (model_due_[n]) {
+      const ObjectAddress rate{kModelRate.index, static_cast<std::uint8_t>(kModelRate.subindex + n)};
+      if (!sdo_.upload(now, id_, rate, std::span(bytes_))) return;
+      writing_ = Writing::kModel;
+      channel_ = n;
+      return;
+    }
   if (ask(now, tuning_.next(now)))
     writing_ = Writing::kTuning;
   else if (ask(now, vibration_.next(now)))
@@ -345,8 +356,11 @@ void HeatNodeLink::settle(BusTime now) {
     const std::uint32_t value =
         failed ? 0 : static_cast<std::uint32_t>(get_le(bytes_, std::min(sdo_.received(), bytes_.size())));
     const AbortCode code = failed ? sdo_.abort_code() : AbortCode::kNone;
-    return what == Writing::kTuning ? tuning_.on_answer(now, code, value)
-                                    : vibration_.on_answer(now, code, value);
+    if (what == Writing::kVibration) return vibration_.on_answer(now, code, value);
+    tuning_.on_answer(now, code, value);
+    if (tuning_.told().stage >= TuningStage::kKeeps && tuning_.told().stage != TuningStage::kFailed)
+      has_model_[tuning_.heater()] = Measured::kYes;
+    return;
   }
   // No answer, or a disturbed one: again. A node that is gone is missed by its heartbeat.
   const AbortCode code = failed ? sdo_.abort_code() : AbortCode::kNone;
@@ -356,6 +370,13 @@ void HeatNodeLink::settle(BusTime now) {
   }
   if (what == Writing::kPin) {
     if (!pin_.due) pin_.refused = code;
+    return;
+  }
+  if (what == Writing::kModel) {
+    model_due_[channel_] = false;
+    if (failed) return;
+    const bool any = get_le(bytes_, std::min(sdo_.received(), bytes_.size())) != 0;
+    has_model_[channel_] = any ? Measured::kYes : Measured::kNotYet;
     return;
   }
   if (what == Writing::kReset) {

@@ -82,6 +82,7 @@ class HeatNodeLink : public Device {
     kOutput,
     kFilament,
     kPin,
+    kModel,
     kTuning,
     kVibration
   };
@@ -112,6 +113,8 @@ class HeatNodeLink : public Device {
 
   std::array<Value, kHeaters> set_points_{};
   std::array<bool, kHeaters> reset_due_{};
+  std::array<bool, kHeaters> model_due_{};  ///< whether the node has one is to be asked
+  std::array<Measured, kHeaters> has_model_{};
   std::array<Value, kFans> outputs_{};
   std::array<State, kHeaters> states_{};
   std::array<std::uint16_t, kHeaters> reasons_{};  ///< EMCY codes; 0: none

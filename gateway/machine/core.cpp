@@ -238,6 +238,7 @@ void Gateway::Core::on_time(BusTime now) {
   watch_idle_heat();
   watch_standby();
   tell_of_tuning();
+  tell_of_the_unmeasured();
   tell_of_pin();
   serve_probe();
   feed_heat_ahead();

@@ -175,6 +175,7 @@ class Gateway::Core {
   void watch_nodes();
   void watch_idle_heat();
   void tell_of_tuning();
+  void tell_of_the_unmeasured();
   void tell_of_pin();
   void feed_heat_ahead();
   void follow_extruder();
@@ -284,10 +285,11 @@ class Gateway::Core {
   bool fault_ = false;      ///< the stop under way ends in an alarm
   bool beds_stay_ = false;  ///< that alarm is of a device: a bed that is in order keeps the part on it
   BusTime heat_idle_since_{0}, next_flow_{0};
-  BusTime waits_since_{0};         ///< the job that is held or set aside
-  bool stands_by_ = false;         ///< its hot ends are at pause.standby_c
-  bool standby_due_ = false;       ///< as soon as it is set aside
-  std::optional<HeaterId> tuned_;  ///< whose measurement is told of
+  BusTime waits_since_{0};             ///< the job that is held or set aside
+  bool stands_by_ = false;             ///< its hot ends are at pause.standby_c
+  bool standby_due_ = false;           ///< as soon as it is set aside
+  std::optional<HeaterId> tuned_;      ///< whose measurement is told of
+  std::vector<bool> unmeasured_told_;  ///< of heaters that have a target, in the machine file's order
   TuningStage tuning_told_ = TuningStage::kNone;
   MachineState held_from_ = MachineState::kRunning;  ///< what resume goes back to
   double override_ = 1;

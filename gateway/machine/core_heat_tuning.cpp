@@ -71,6 +71,21 @@ void Gateway::Core::tell_of_tuning() {
   }
 }
 
+/// Each time that one is to heat: what its node knows of it is what it is watched by.
+void Gateway::Core::tell_of_the_unmeasured() {
+  unmeasured_told_.resize(machine_.heaters.size());
+  for (std::size_t i = 0; i < machine_.heaters.size(); ++i) {
+    const HeaterDescription& heater = machine_.heaters[i];
+    const HeaterStatus status = devices_.heater(heater.id());
+    const bool tell = status.target_celsius > 0 && status.measured == Measured::kNotYet;
+    if (tell && !unmeasured_told_[i])
+      events_.message(now_, say("%1 was never measured: a heater or sensor that has slipped half out of its "
+                                "hole may stay unseen. Measure it: tune, or M303",
+                                "heater." + heater.name));
+    unmeasured_told_[i] = tell;
+  }
+}
+
 /// Marlin: E, -1 the bed, -2 the chamber; RepRapFirmware: H, 0 the bed, then hot ends, or T; others: P, a hot
 /// end. S: the temperature. Cycles (C) and what to do with the result (U) need no word: one heating-up
 /// measures it, and it is kept.

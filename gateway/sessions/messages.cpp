@@ -22,6 +22,7 @@ void set_heater(joblink::Heater& message, const HeaterStatus& heater) {
   message.set_actual_celsius(heater.actual_celsius);
   message.set_target_celsius(heater.target_celsius);
   if (heater.power) message.set_power(*heater.power);
+  if (heater.measured != Measured::kNotTold) message.set_measured(heater.measured == Measured::kYes);
 }
 
 static_assert(static_cast<int>(TuningStage::kFailed) == joblink::TUNING_FAILED);

@@ -4468,6 +4468,30 @@
         <source>the gateway starts anew when the machine rests and no job is under way or interrupted</source>
         <translation>درگاه هنگامی از نو آغاز می‌شود که ماشین ایستاده باشد و هیچ کاری در جریان یا قطع‌شده نباشد</translation>
     </message>
+    <message>
+        <source>false: that converter measures pt100 and pt1000</source>
+        <translation>false: آن مبدل pt100 و pt1000 را اندازه می‌گیرد</translation>
+    </message>
+    <message>
+        <source>%1 at %2 C</source>
+        <translation>%1 در %2 C</translation>
+    </message>
+    <message>
+        <source>a resistance that falls all the way as it gets hotter</source>
+        <translation>مقاومتی که با گرم‌شدن پیوسته کم شود</translation>
+    </message>
+    <message>
+        <source>at most %1, which its sensor is made for</source>
+        <translation>حداکثر %1 که حسگرش برای آن ساخته شده است</translation>
+    </message>
+    <message>
+        <source>at most %1: with limit_c, %2 above it, its sensor is made for no more</source>
+        <translation>حداکثر %1: با limit_c که %2 بالاتر از آن است، حسگرش برای بیش از آن ساخته نشده است</translation>
+    </message>
+    <message>
+        <source>%1 was never measured: a heater or sensor that has slipped half out of its hole may stay unseen. Measure it: tune, or M303</source>
+        <translation>%1 هرگز اندازه‌گیری نشده است: گرم‌کن یا حسگری که نیمه از جای خود بیرون آمده شاید دیده نشود. آن را اندازه بگیرید: تنظیم، یا M303</translation>
+    </message>
 </context>
 <context>
     <name>GatewayWords</name>

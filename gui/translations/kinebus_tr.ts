@@ -4468,6 +4468,30 @@
         <source>the gateway starts anew when the machine rests and no job is under way or interrupted</source>
         <translation>ağ geçidi, makine dururken ve süren ya da kesilmiş bir iş yokken yeniden başlar</translation>
     </message>
+    <message>
+        <source>false: that converter measures pt100 and pt1000</source>
+        <translation>false: o çevirici pt100 ve pt1000 ölçer</translation>
+    </message>
+    <message>
+        <source>%1 at %2 C</source>
+        <translation>%2 C’de %1</translation>
+    </message>
+    <message>
+        <source>a resistance that falls all the way as it gets hotter</source>
+        <translation>ısındıkça baştan sona azalan bir direnç</translation>
+    </message>
+    <message>
+        <source>at most %1, which its sensor is made for</source>
+        <translation>en çok %1; algılayıcısı bunun için yapılmıştır</translation>
+    </message>
+    <message>
+        <source>at most %1: with limit_c, %2 above it, its sensor is made for no more</source>
+        <translation>en çok %1: onun %2 üstündeki limit_c ile birlikte algılayıcısı daha fazlası için yapılmamıştır</translation>
+    </message>
+    <message>
+        <source>%1 was never measured: a heater or sensor that has slipped half out of its hole may stay unseen. Measure it: tune, or M303</source>
+        <translation>%1 hiç ölçülmedi: yuvasından yarı çıkmış bir ısıtıcı ya da algılayıcı fark edilmeyebilir. Ölçün: ayarla, ya da M303</translation>
+    </message>
 </context>
 <context>
     <name>GatewayWords</name>

@@ -9,8 +9,9 @@ namespace {
 
 /// It has warmed by so much: then it has shown how fast it can. mC.
 constexpr std::int32_t kClimbed = 30'000;
-/// Slower, a slope is noise. mC.
-constexpr std::int32_t kLeastGain = 1'000;
+/// mC a tick. What is slower, a chamber, is warmed by others as well, which go on and off; a slope of it is
+/// noise, too.
+constexpr std::int32_t kLeastRate = 40;
 /// More than fan, filament and draught take together of a heater that can hold its target with them.
 constexpr auto kMissing = static_cast<std::int32_t>(kFullPower * 6 / 10);
 constexpr std::uint32_t kInARow = 2;
@@ -43,7 +44,8 @@ bool HeatingPace::judge() {
   const std::int32_t slope = before(0).measured - before(kSlope).measured;
   // A sensor that is moved in its hole jumps once.
   gain_ = std::max(gain_, std::min(slope, before(kSlope).measured - before(2 * kSlope).measured));
-  if (gain_ < kLeastGain || before(0).measured < lowest_ + kClimbed) {
+  const std::int32_t least = kLeastRate * static_cast<std::int32_t>(kSlope * step_ticks_);
+  if (gain_ < least || before(0).measured < lowest_ + kClimbed) {
     judged_ = 0;
     return false;
   }
@@ -56,8 +58,8 @@ bool HeatingPace::judge() {
   if (++judged_ <= kBack) return false;
   const std::int32_t earlier = before(kBack).taken;
   usual_ = judged_ == kBack + 1 || earlier > usual_ ? earlier : usual_ + (earlier - usual_) / kForget;
-  const bool missing = static_cast<std::int32_t>(given) > kMissing &&
-                       taken > std::max(usual_, std::int32_t{0}) + kMissing;
+  const bool missing =
+      static_cast<std::int32_t>(given) > kMissing && taken > std::max(usual_, std::int32_t{0}) + kMissing;
   missing_ = missing ? missing_ + 1 : 0;
   return missing_ >= kInARow;
 }

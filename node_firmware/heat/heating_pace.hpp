@@ -20,8 +20,8 @@ class HeatingPace {
 
  private:
   static constexpr std::size_t kSteps = 20;  // in rise_s
-  static constexpr std::size_t kSlope = 5;   // of them make a slope: noise and the converter's steps are small
-  static constexpr std::size_t kBack = 10;   // so long ago a fault that shows now had not begun to show
+  static constexpr std::size_t kSlope = 5;  // of them make a slope: noise and the converter's steps are small
+  static constexpr std::size_t kBack = 10;  // so long ago a fault that shows now had not begun to show
   struct Step {
     std::int32_t measured = 0;  // mC, a mean
     std::uint32_t least = 0;    // of the power
@@ -35,9 +35,9 @@ class HeatingPace {
   std::size_t at_ = 0, seen_ = 0, judged_ = 0;
   std::int64_t sum_ = 0;
   std::uint32_t ticks_ = 0, least_ = 0, missing_ = 0;
-  std::int32_t gain_ = 0;         // mC over a slope: the fastest so far
-  std::int32_t lowest_ = 0;       // mC
-  std::int32_t usual_ = 0;        // taken, the most of late
+  std::int32_t gain_ = 0;    // mC over a slope: the fastest so far
+  std::int32_t lowest_ = 0;  // mC
+  std::int32_t usual_ = 0;   // taken, the most of late
 };
 
 }  // namespace kinebus::heat

@@ -32,8 +32,9 @@ std::string pose_words(const joblink::Pose& pose) {
 void print_devices(const Status& s) {
   std::string words;
   for (const joblink::Heater& heater : s.heaters())
-    words += fmt::format("{} {:.1f} / {:.0f} C   ", heater.name(), heater.actual_celsius(),
-                         heater.target_celsius());
+    words += fmt::format("{} {:.1f} / {:.0f} C{}   ", heater.name(), heater.actual_celsius(),
+                         heater.target_celsius(),
+                         heater.has_measured() && !heater.measured() ? " (never measured)" : "");
   for (const joblink::Output& fan : s.fans())
     words += fmt::format("fan {} {:.0f} %   ", fan.name(), 100 * fan.ratio());
   for (const joblink::Output& output : s.outputs())

@@ -33,6 +33,22 @@ TEST(MachineFile, ADeviceLivesOnAChannelThatItsNodeHas) {
   EXPECT_TRUE(*again == *machine);
 }
 
+TEST(MachineFile, AThermistorOfItsOwnIsThreePointsOfItsDataSheet) {
+  const auto machine = parse_machine(
+      with_node_4("axis_pairs = 0\ninputs = 0\nheaters = 2",
+                  "where = \"node\"\nnode = 4\nchannel = 2\nsensor = \"points\"\nsensor_points_c = [20, 100, "
+                  "200]\nsensor_points_ohm = [126000, 5500, 500]\nsensor_highest_c = 220"),
+      "m");
+  ASSERT_TRUE(machine) << to_string(machine.error());
+  const SensorWiring& sensor = machine->heater(kFirstBed)->wiring.sensor;
+  EXPECT_EQ(sensor.points_c, (std::array<double, 3>{20, 100, 200}));
+  EXPECT_EQ(sensor.points_ohm, (std::array<double, 3>{126'000, 5500, 500}));
+  EXPECT_EQ(sensor.highest_c(), 220);
+  const auto again = parse_machine(write_machine(*machine), "written");
+  ASSERT_TRUE(again) << to_string(again.error());
+  EXPECT_TRUE(*again == *machine);
+}
+
 TEST(MachineFile, AScaleSaysItsPulsesAndIsOnARailThatHomes) {
   const auto with = [](const std::string& table) {
     return parse_machine(edited("[joint.tower2]", table + "\n[joint.tower2]").text, "m");
@@ -128,7 +144,46 @@ TEST(MachineFile, ADeviceWhereNoneCanBeIsRefused) {
       {"axis_pairs = 0\nheaters = 2", "where = \"node\"\nnode = 4\nchannel = 1",
        "heater.bed.sensor: missing; expected one of \"pt100\" \"pt1000\" \"epcos_100k\" \"semitec_104gt2\" "
        "\"semitec_104nt4\" \"generic_3950\" \"slice_450\" \"ntc100k_mgb18\" \"honeywell_100k\" "
-       "\"tdk_ntcg104\" \"beta\""},
+       "\"tdk_ntcg104\" \"beta\" \"points\""},
+      {"axis_pairs = 0\nheaters = 2", "where = \"node\"\nnode = 4\nchannel = 1\nsensor = \"ntc\"",
+       "heater.bed.sensor: found 'ntc'; expected one of \"pt100\""},
+      {"axis_pairs = 0\nheaters = 2",
+       "where = \"node\"\nnode = 4\nchannel = 1\nsensor = \"points\"\nsensor_points_c = [25, 150, 250]\n"
+       "sensor_points_ohm = [100000, 230, 1770]",
+       "heater.bed.sensor_points_ohm: found [100000, 230, 1770] at [25, 150, 250] C; expected a resistance "
+       "that falls all the way as it gets hotter"},
+      {"axis_pairs = 0\nheaters = 2",
+       "where = \"node\"\nnode = 4\nchannel = 1\nsensor = \"points\"\nsensor_points_c = [25, 26, 250]\n"
+       "sensor_points_ohm = [100000, 1770, 230]",
+       "heater.bed.sensor_points_ohm: found [100000, 1770, 230] at [25, 26, 250] C; expected a resistance "
+       "that falls all the way"},
+      {"axis_pairs = 0\nheaters = 2",
+       "where = \"node\"\nnode = 4\nchannel = 1\nsensor = \"points\"\nsensor_points_c = [25, 150, 250]",
+       "heater.bed.sensor_points_ohm: missing; expected three numbers, each in 0.001 .. 2e+06"},
+      {"axis_pairs = 0\nheaters = 2",
+       "where = \"node\"\nnode = 4\nchannel = 1\nsensor = \"tdk_ntcg104\"\nlimit_c = 140",
+       "heater.bed.limit_c: found 140; expected at most 125, which its sensor is made for"},
+      {"axis_pairs = 0\nheaters = 2", "where = \"node\"\nnode = 4\nchannel = 1\nsensor = \"tdk_ntcg104\"",
+       "heater.bed.max_c: found 120; expected at most 110: with limit_c, 15 above it, its sensor is made for "
+       "no more"},
+      {"axis_pairs = 0\nheaters = 2",
+       "where = \"node\"\nnode = 4\nchannel = 1\nsensor = \"beta\"\nsensor_highest_c = 130",
+       "heater.bed.max_c: found 120; expected at most 115: with limit_c"},
+      {"axis_pairs = 0\nheaters = 2",
+       "where = \"node\"\nnode = 4\nchannel = 1\nsensor = \"beta\"\nsensor_max31865 = true\n"
+       "sensor_reference_ohm = 430",
+       "heater.bed.sensor_max31865: found true; expected false: that converter measures pt100 and pt1000"},
+      {"axis_pairs = 0\nheaters = 2",
+       "where = \"node\"\nnode = 4\nchannel = 1\nsensor = \"pt100\"\nsensor_max31865 = true",
+       "heater.bed.sensor_reference_ohm: missing; expected a number in 10 .. 2e+06"},
+      {"axis_pairs = 0\nsensors = 1",
+       "where = \"simulated\"\n[sensor.x]\nwhere = \"node\"\nnode = 4\nchannel = 1\nsensor = \"points\"\n"
+       "sensor_points_c = [25, 25, 250]\nsensor_points_ohm = [100000, 1770, 230]",
+       "sensor.x.sensor_points_ohm: found [100000, 1770, 230] at [25, 25, 250] C; expected a resistance"},
+      {"axis_pairs = 0\noutputs = 1",
+       "where = \"simulated\"\n[fan.rear]\nindex = 1\nwhere = \"node\"\nnode = 4\nchannel = 1\nkick_ms = "
+       "9000",
+       "fan.rear.kick_ms: found 9000; expected a whole number in 0 .. 5000"},
       {"heaters = 2", "where = \"node\"\nnode = 4\nchannel = 1\nsensor = \"pt100\"",
        "node.4.axis_pairs: found 1; expected 0 of a node that carries heat"},
       {"axis_pairs = 0\nheaters = 5", "where = \"node\"\nnode = 4\nchannel = 1\nsensor = \"pt100\"",

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "gateway/machine/tests/heat_printer.hpp"
 #include "protocol/canopen/cob_id.hpp"
@@ -56,6 +57,56 @@ TEST_F(HeatOnTheBus, AJobHeatsWaitsAndPrintsAndTheBusHardlyNoticesIt) {
   rig.run_for(1s);
   EXPECT_NEAR(hotend(), 200, 5);
   EXPECT_LT(written, 20) << "targets and outputs, no settings";
+}
+
+class WiredOtherwise : public HeatPrinter {
+ protected:
+  /// The plant's thermistor by its resistance at three temperatures; a fan that needs half of its power to
+  /// turn; a lamp.
+  static MachineDescription machine() {
+    MachineDescription m = printer_on_the_bus();
+    const auto hotend = std::find_if(m.heaters.begin(), m.heaters.end(),
+                                     [](const HeaterDescription& h) { return h.id() == kFirstHotend; });
+    SensorWiring& sensor = hotend->wiring.sensor;
+    sensor = {.element = SensorElement::kPoints, .points_c = {25, 120, 220}};
+    for (std::size_t i = 0; i < 3; ++i)
+      sensor.points_ohm[i] = 100e3 * std::exp(3950 * (1 / (sensor.points_c[i] + 273.15) - 1 / 298.15));
+    m.fans[0].kick = 0ms;
+    m.fans[0].least_percent = 50;
+    m.nodes[kHeat].functions.outputs = 3;
+    m.outputs = {{.name = "lamp", .place = {DevicePlace::Where::kNode, kHeatId, 3}}};
+    return m;
+  }
+  WiredOtherwise() : HeatPrinter(machine()) {}
+  /// Of full power.
+  double output(int channel) {
+    return rig.nodes.heat_node(kHeat).fan_output(channel) / static_cast<double>(heat::kFullFan);
+  }
+};
+
+TEST_F(WiredOtherwise, TheNodeMeasuresWithAThermistorOfThreePoints) {
+  ASSERT_TRUE(rig.make_ready()) << rig.story();
+  for (const double celsius : {60.0, 200.0}) {
+    ASSERT_TRUE(rig.gateway->carry_out(command::SetTemperature{kFirstHotend, celsius}));
+    ASSERT_TRUE(rig.run_until([&] { return hotend() > celsius - 1; }, 300s)) << rig.story();
+    rig.run_for(60s);
+    EXPECT_NEAR(hotend(), rig.nodes.heat_plant(kHeat).hot_end().sensor(), 0.3);
+  }
+}
+
+TEST_F(WiredOtherwise, AFanHasItsLeastPowerAndALampIsDimmedAsItIsTold) {
+  ASSERT_TRUE(rig.make_ready()) << rig.story();
+  ASSERT_TRUE(rig.gateway->carry_out(command::SetFan{.ratio = 0.1}));
+  ASSERT_TRUE(rig.gateway->carry_out(command::SetOutput{.ratio = 0.1}));
+  double brightest = 0, strongest = 0;
+  for (int i = 0; i < 20; ++i) {
+    rig.run_for(100ms);
+    strongest = std::max(strongest, output(1));
+    brightest = std::max(brightest, output(2));
+  }
+  EXPECT_NEAR(output(1), 0.5, 0.001);
+  EXPECT_NEAR(strongest, 0.5, 0.001) << "no kick was asked for";
+  EXPECT_NEAR(brightest, 0.1, 0.001) << "neither a kick nor a least power";
 }
 
 TEST_F(HeatOnTheBus, BeforeBringUpAHeaterIsRefusedWithWhatToDo) {

@@ -19,7 +19,9 @@ class HeatTuningOnTheBus : public HeatPrinter {
  protected:
   HeatTuningOnTheBus() {
     rig.on_frame = [this](BusTime, const CanFrame& frame) {
-      if (frame.id == cob_id::kSdoReply + kHeatId && (frame.data[0] & 0xE0) == 0x40)
+      // The gateway asks the node, too.
+      if (frame.id == cob_id::kSdoReply + kHeatId && (frame.data[0] & 0xE0) == 0x40 &&
+          get_u16_le(std::span(frame.data).subspan(1)) == asked.index && frame.data[3] == asked.subindex)
         answer = get_u32_le(std::span(frame.data).subspan(4));
     };
   }
@@ -41,11 +43,13 @@ class HeatTuningOnTheBus : public HeatPrinter {
     request.data[0] = 0x40;
     put_u16_le(std::span(request.data).subspan(1), address.index);
     request.data[3] = address.subindex;
+    asked = address;
     rig.stranger_sends(request);
     rig.run_for(50ms);
     return answer;
   }
 
+  ObjectAddress asked{};
   std::uint32_t answer = 0;
 };
 
@@ -87,6 +91,42 @@ TEST_F(HeatTuningOnTheBus, AHotEndIsMeasuredKeptAndReachedWithoutOvershoot) {
   rig.run_for(120s);
   EXPECT_NEAR(rig.nodes.heat_plant(kHeat).hot_end().block(), 210, 1);
   EXPECT_LE(rig.nodes.heat_plant(kHeat).hot_end().hottest(), 212);
+}
+
+TEST_F(HeatTuningOnTheBus, AHeaterThatWasNeverMeasuredIsToldWhenItIsToHeat) {
+  const auto times = [&] {
+    int count = 0;
+    const std::string story = rig.story(), words = "heater.hotend was never measured";
+    for (std::size_t at = story.find(words); at != std::string::npos; at = story.find(words, at + 1)) ++count;
+    return count;
+  };
+  const auto measured = [&] { return rig.gateway->status().heater(kFirstHotend).measured; };
+  EXPECT_EQ(measured(), Measured::kNotTold);
+  ASSERT_TRUE(rig.make_ready()) << rig.story();
+  rig.run_for(1s);
+  EXPECT_EQ(measured(), Measured::kNotYet);
+  EXPECT_EQ(times(), 0) << "nothing heats yet";
+  for (int i = 1; i <= 2; ++i) {
+    ASSERT_TRUE(rig.gateway->carry_out(command::SetTemperature{kFirstHotend, 60}));
+    rig.run_for(3s);
+    ASSERT_TRUE(rig.gateway->carry_out(command::SetTemperature{kFirstHotend, 70}));
+    rig.run_for(3s);
+    ASSERT_TRUE(rig.gateway->carry_out(command::SetTemperature{kFirstHotend, 0}));
+    rig.run_for(1s);
+    EXPECT_EQ(times(), i) << rig.story();
+  }
+  ASSERT_TRUE(rig.gateway->carry_out(command::TuneHeater{kFirstHotend, 210}));
+  ASSERT_TRUE(over(400s)) << rig.story();
+  ASSERT_EQ(tuning().stage, TuningStage::kDone) << rig.story();
+  EXPECT_EQ(measured(), Measured::kYes);
+  // Another gateway reads it from the node.
+  rig.gateway = std::make_unique<Gateway>(rig.machine);
+  ASSERT_TRUE(rig.gateway->carry_out(command::BringUp{}));
+  ASSERT_TRUE(rig.reach(MachineState::kReady, 30s)) << rig.story();
+  ASSERT_TRUE(rig.gateway->carry_out(command::SetTemperature{kFirstHotend, 60}));
+  rig.run_for(3s);
+  EXPECT_EQ(measured(), Measured::kYes);
+  EXPECT_EQ(times(), 2) << rig.story();
 }
 
 TEST_F(HeatTuningOnTheBus, TheBedIsMeasuredByMarlinsWords) {

@@ -44,6 +44,20 @@ struct SensorPart {
     part.beta = slope[0] - part.bend * x[0];
     return part;
   }
+  /// Through any three points.
+  static SensorPart thermistor(const std::array<double, 3>& celsius, const std::array<double, 3>& ohm) {
+    std::array<double, 3> x{}, l{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      x[i] = 1 / (celsius[i] + kKelvin) - 1 / kKelvin25;
+      l[i] = std::log(ohm[i]);
+    }
+    const double first = (l[1] - l[0]) / (x[1] - x[0]), second = (l[2] - l[0]) / (x[2] - x[0]);
+    SensorPart part;
+    part.bend = (second - first) / (x[2] - x[1]);
+    part.beta = first - part.bend * (x[0] + x[1]);
+    part.ohm_25 = std::exp(l[0] - (part.beta + part.bend * x[0]) * x[0]);
+    return part;
+  }
 };
 
 struct NamedSensorPart {

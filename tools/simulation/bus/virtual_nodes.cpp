@@ -75,6 +75,8 @@ std::optional<VirtualExtruder> extruder_of(const MachineDescription& machine) {
 heat::SensorPart part_of(const SensorWiring& wiring) {
   heat::SensorPart part{.ohm_25 = wiring.nominal_ohm, .beta = static_cast<double>(wiring.beta_k)};
   if (const auto known = heat::sensor_part(static_cast<std::uint16_t>(wiring.element))) part = *known;
+  if (wiring.element == SensorElement::kPoints)
+    part = heat::SensorPart::thermistor(wiring.points_c, wiring.points_ohm);
   part.reference_ohm = wiring.reference_ohm;
   part.max31865 = wiring.max31865;
   return part;
