@@ -84,12 +84,16 @@ heat::SensorPart part_of(const SensorWiring& wiring) {
 
 /// What the builder has plugged into a heat node, by the file's word for it.
 void plug_sensors(const MachineDescription& machine, std::uint8_t node_id, VirtualNodeOptions& options) {
-  const auto plug = [&](const DevicePlace& place, const SensorWiring& wiring) {
-    if (place.on_node() && place.node_id == node_id && place.channel <= options.sensors.size())
-      options.sensors[place.channel - 1u] = part_of(wiring);
+  const NodeDescription* node = machine.node(node_id);
+  // Inputs are the heaters' first.
+  const std::size_t heaters = node != nullptr ? node->functions.heaters : 0;
+  const auto plug = [&](const DevicePlace& place, std::size_t first, const SensorWiring& wiring) {
+    const std::size_t input = first + place.channel - 1u;
+    if (place.on_node() && place.node_id == node_id && input < options.sensors.size())
+      options.sensors[input] = part_of(wiring);
   };
-  for (const HeaterDescription& heater : machine.heaters) plug(heater.place, heater.wiring.sensor);
-  for (const SensorDescription& sensor : machine.sensors) plug(sensor.place, sensor.wiring);
+  for (const HeaterDescription& heater : machine.heaters) plug(heater.place, 0, heater.wiring.sensor);
+  for (const SensorDescription& sensor : machine.sensors) plug(sensor.place, heaters, sensor.wiring);
 }
 
 }  // namespace
