@@ -61,16 +61,15 @@ TEST_F(HeatOnTheBus, AJobHeatsWaitsAndPrintsAndTheBusHardlyNoticesIt) {
 
 class WiredOtherwise : public HeatPrinter {
  protected:
-  /// The plant's thermistor by its resistance at three temperatures; a fan that needs half of its power to
+  /// A thermistor by its resistance at three temperatures; a fan that needs half of its power to
   /// turn; a lamp.
   static MachineDescription machine() {
     MachineDescription m = printer_on_the_bus();
     const auto hotend = std::find_if(m.heaters.begin(), m.heaters.end(),
                                      [](const HeaterDescription& h) { return h.id() == kFirstHotend; });
     SensorWiring& sensor = hotend->wiring.sensor;
-    sensor = {.element = SensorElement::kPoints, .points_c = {25, 120, 220}};
-    for (std::size_t i = 0; i < 3; ++i)
-      sensor.points_ohm[i] = 100e3 * std::exp(3950 * (1 / (sensor.points_c[i] + 273.15) - 1 / 298.15));
+    sensor = {
+        .element = SensorElement::kPoints, .points_c = {20, 100, 200}, .points_ohm = {126e3, 5500, 500}};
     m.fans[0].kick = 0ms;
     m.fans[0].least_percent = 50;
     m.nodes[kHeat].functions.outputs = 3;
@@ -90,7 +89,7 @@ TEST_F(WiredOtherwise, TheNodeMeasuresWithAThermistorOfThreePoints) {
     ASSERT_TRUE(rig.gateway->carry_out(command::SetTemperature{kFirstHotend, celsius}));
     ASSERT_TRUE(rig.run_until([&] { return hotend() > celsius - 1; }, 300s)) << rig.story();
     rig.run_for(60s);
-    EXPECT_NEAR(hotend(), rig.nodes.heat_plant(kHeat).hot_end().sensor(), 0.3);
+    EXPECT_NEAR(hotend(), rig.nodes.heat_plant(kHeat).hot_end().sensor(), 0.6);
   }
 }
 
