@@ -48,10 +48,10 @@ Sentence heater_words(HeaterId id);
 /// Why this machine cannot do what is asked of its heaters and outputs; none: it can.
 std::optional<Sentence> wrong_device_command(const MachineDescription& machine,
                                              const canonical::Thermal& thermal);
-/// What is asked of a fan that the machine does not have: sliced for another machine, and no reason to refuse
-/// a job.
 /// Why M66 cannot read it; none: it can.
 std::optional<Sentence> missing_input(const MachineDescription& machine, const canonical::AwaitInput& wait);
+/// What is asked of a fan that the machine does not have: sliced for another machine, and no reason to refuse
+/// a job.
 std::optional<Sentence> missing_fan(const MachineDescription& machine, const canonical::Thermal& thermal);
 
 /// The same place in the other frame, by way of the joints.
