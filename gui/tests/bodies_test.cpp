@@ -6,6 +6,7 @@
 #include <random>
 
 #include "gateway/description/machine_file.hpp"
+#include "gateway/description/machines_folder.hpp"
 #include "gateway/sessions/messages.hpp"
 #include "gui/models/machine_picture.hpp"
 #include "gui/scene/machine_figure.hpp"
@@ -34,7 +35,7 @@ std::size_t near_parts(const MachineFigure& figure) {
 }
 
 TEST(SceneBodies, AreThoseOfTheGatewayForEveryShippedMachine) {
-  for (const auto& entry : std::filesystem::directory_iterator(KINEBUS_MACHINES)) {
+  for (const auto& entry : std::filesystem::directory_iterator(kinebus::machines_folder())) {
     const MachineDescription machine = shipped(entry.path());
     const auto expected = make_collision_model(machine);
     const auto model = model_of_file(machine);

@@ -144,6 +144,8 @@ function(kinebus_test name)
   add_executable(${name} ${arg_SOURCES})
   kinebus_batches(${name} 6)
   target_link_libraries(${name} PRIVATE ${arg_LINK} kinebus_options GTest::gtest GTest::gtest_main)
+  # What fails is named from the clone's root, so that each clone can share what another has compiled.
+  target_compile_options(${name} PRIVATE -fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=)
   if(KINEBUS_FUZZ)
     # Half of what this build takes is tests: they need not guide a fuzzer, and gtest names their lines.
     set_target_properties(${name} PROPERTIES KINEBUS_TEST ON)

@@ -12,12 +12,13 @@
 #include "gateway/bodies/tests/legs_below.hpp"
 #include "gateway/bodies/tests/model_poses.hpp"
 #include "gateway/description/machine_file.hpp"
+#include "gateway/description/machines_folder.hpp"
 
 namespace kinebus::bodies {
 namespace {
 
 MachineDescription shipped(const std::string& name) {
-  auto machine = load_machine(std::filesystem::path(KINEBUS_MACHINES) / name);
+  auto machine = load_machine(machines_folder() / name);
   EXPECT_TRUE(machine) << to_string(machine.error());
   machine->bodies.emplace();
   return *machine;

@@ -11,13 +11,14 @@
 #include "gateway/bodies/sweep.hpp"
 #include "gateway/bodies/tests/legs_below.hpp"
 #include "gateway/description/machine_file.hpp"
+#include "gateway/description/machines_folder.hpp"
 #include "gateway/kinematics/table_rotation.hpp"
 
 namespace kinebus::bodies {
 namespace {
 
 MachineDescription shipped(const char* file) {
-  return std::move(*load_machine(std::filesystem::path(KINEBUS_MACHINES) / file));
+  return std::move(*load_machine(machines_folder() / file));
 }
 
 /// A tower of single points, each also given to `part`.

@@ -6,6 +6,7 @@
 
 #include "gateway/bodies/tests/legs_below.hpp"
 #include "gateway/description/machine_file.hpp"
+#include "gateway/description/machines_folder.hpp"
 
 namespace kinebus::bodies {
 namespace {
@@ -232,7 +233,7 @@ TEST(Sweep, NoPairComesFartherThanItsWitnessesSay) {
 }
 
 TEST(Sweep, NorWhereThePlatformCarriesTheTool) {
-  auto mill = load_machine(std::filesystem::path(KINEBUS_MACHINES) / "m5.toml");
+  auto mill = load_machine(machines_folder() / "m5.toml");
   ASSERT_TRUE(mill) << to_string(mill.error());
   mill->bodies.emplace();
   expect_witnesses(*mill);
@@ -240,7 +241,7 @@ TEST(Sweep, NorWhereThePlatformCarriesTheTool) {
 }
 
 MachineDescription machine_file(const std::string& name) {
-  auto machine = load_machine(std::filesystem::path(KINEBUS_MACHINES) / (name + ".toml"));
+  auto machine = load_machine(machines_folder() / (name + ".toml"));
   EXPECT_TRUE(machine) << name << ": " << to_string(machine.error());
   return *machine;
 }

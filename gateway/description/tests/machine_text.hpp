@@ -9,9 +9,11 @@
 #include <sstream>
 #include <string>
 
+#include "gateway/description/machines_folder.hpp"
+
 namespace kinebus {
 
-inline const std::filesystem::path kMachines = KINEBUS_MACHINES;
+inline const std::filesystem::path kMachines = machines_folder();
 
 inline std::string file_text(const std::string& name) {
   std::ifstream in(kMachines / name);

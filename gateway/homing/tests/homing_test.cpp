@@ -9,12 +9,13 @@
 
 #include "gateway/description/machine_file.hpp"
 #include "gateway/description/machine_homing.hpp"
+#include "gateway/description/machines_folder.hpp"
 
 namespace kinebus::homing {
 namespace {
 
 MachineDescription shipped(const std::string& name) {
-  auto machine = load_machine(std::string(KINEBUS_MACHINES) + "/" + name + ".toml");
+  auto machine = load_machine(machines_folder() / (name + ".toml"));
   if (!machine) throw std::runtime_error(to_string(machine.error()));
   return *machine;
 }

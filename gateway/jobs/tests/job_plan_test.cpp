@@ -1,4 +1,5 @@
 #include "gateway/jobs/job_plan.hpp"
+#include "gateway/description/machines_folder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -44,7 +45,7 @@ TEST(JobPlan, SpiralIsStreamedWholeAndInTime) {
 
 // 100 m into the job rounding leaves 0.8 nm between a ramp and the piece that it leads to.
 TEST(JobPlan, WithLimitedJerkLongAndShortLinesOfAllAnglesComeToAnEnd) {
-  auto cartesian = load_machine(std::filesystem::path(KINEBUS_MACHINES) / "cartesian.toml");
+  auto cartesian = load_machine(machines_folder() / "cartesian.toml");
   ASSERT_TRUE(cartesian);
   cartesian->path.tool_jerk_mm_per_s3 = 50'000;
   const auto axes = make_kinematics(*cartesian);

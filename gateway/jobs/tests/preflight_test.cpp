@@ -1,4 +1,5 @@
 #include "gateway/jobs/preflight.hpp"
+#include "gateway/description/machines_folder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -206,7 +207,7 @@ void expect_met(const MachineDescription& d, const std::string& printed, double 
 }
 
 TEST(Preflight, WhatTheMachineHasBesidesToolAndHolderKeepsOutOfWhatTheJobHasPrinted) {
-  const auto delta = load_machine(std::filesystem::path(KINEBUS_MACHINES) / "delta.toml");
+  const auto delta = load_machine(machines_folder() / "delta.toml");
   ASSERT_TRUE(delta) << to_string(delta.error());
   // 60 mm high at Y 60. The effector's edge, 30 mm from the tool's axis, is 32 mm above the table.
   const std::string post = wall(60, 120);

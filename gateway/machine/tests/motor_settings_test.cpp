@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "gateway/description/machine_file.hpp"
+#include "gateway/description/machines_folder.hpp"
 #include "gateway/machine/tests/machine_rig.hpp"
 #include "protocol/can/candump.hpp"
 #include "protocol/canopen/node_objects.hpp"
@@ -240,7 +241,7 @@ TEST_F(MotorSettingsTest, StageTemperaturesAndCountsAreInTheStatus) {
 }
 
 TEST(MotorLetters, AnAxisWithAMotorOfItsOwnIsNamedByItsLetter) {
-  const auto machine = load_machine(std::string(KINEBUS_MACHINES) + "/cartesian.toml");
+  const auto machine = load_machine(machines_folder() / "cartesian.toml");
   ASSERT_TRUE(machine);
   MachineRig rig(*machine);
   ASSERT_TRUE(rig.gateway->carry_out(command::BringUp{}));
@@ -249,7 +250,7 @@ TEST(MotorLetters, AnAxisWithAMotorOfItsOwnIsNamedByItsLetter) {
   ASSERT_TRUE(rig.gateway->text_line("M906 X" + std::to_string(run / 2) + " I0 E300"));
   rig.run_for(1s);
   EXPECT_DOUBLE_EQ(rig.gateway->status().nodes[0].run_current_a[0] * 2000, run) << rig.story();
-  const auto belts = load_machine(std::string(KINEBUS_MACHINES) + "/corexy.toml");
+  const auto belts = load_machine(machines_folder() / "corexy.toml");
   ASSERT_TRUE(belts);
   MachineRig corexy(*belts);
   ASSERT_TRUE(corexy.gateway->carry_out(command::BringUp{}));

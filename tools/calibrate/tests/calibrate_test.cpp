@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "gateway/description/machine_file.hpp"
+#include "gateway/description/machines_folder.hpp"
 #include "tools/calibrate/hidden.hpp"
 #include "tools/calibrate/machine_edit.hpp"
 #include "tools/calibrate/readings.hpp"
@@ -65,7 +66,7 @@ TEST(CalibrationLoop, FromAMillimetreTo25Micrometres) {
 }
 
 TEST(CalibrationLoop, AScrewsPeriodicErrorGoesToo) {
-  const auto nominal = load_machine(std::filesystem::path(KINEBUS_MACHINES) / "m5.toml");
+  const auto nominal = load_machine(machines_folder() / "m5.toml");
   ASSERT_TRUE(nominal) << to_string(nominal.error());
   HiddenErrors errors;
   errors.periodic_mm = 0.02;
@@ -75,7 +76,7 @@ TEST(CalibrationLoop, AScrewsPeriodicErrorGoesToo) {
 }
 
 TEST(CalibrationLoop, FindsAMachineWhosePlatformCarriesTheToolAndItsTwinThatCarriesTheTable) {
-  auto mill = load_machine(std::filesystem::path(KINEBUS_MACHINES) / "m5.toml");
+  auto mill = load_machine(machines_folder() / "m5.toml");
   ASSERT_TRUE(mill) << to_string(mill.error());
   ASSERT_EQ(std::get<M5Geometry>(mill->kinematics).tool, ToolPlacement::kPlatform);
   MachineDescription twin = *mill;
@@ -108,7 +109,7 @@ TEST(MachineEdit, TheFileKeepsItsWordsAndTakesTheCalibration) {
   std::filesystem::remove_all(folder);
   std::filesystem::create_directory(folder);
   const auto file = folder / "m1.toml";
-  std::filesystem::copy_file(std::filesystem::path(KINEBUS_MACHINES) / "m1.toml", file);
+  std::filesystem::copy_file(machines_folder() / "m1.toml", file);
   MachineDescription machine = with_hidden_errors(*load_machine(file), {}, 5);
   machine.joints[1].calibration.table_step = 50;
   machine.joints[1].calibration.table = {0.01, -0.02, 0.03};

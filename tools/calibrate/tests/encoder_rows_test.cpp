@@ -1,5 +1,6 @@
 // What `kinebus measure` writes is what the rails' calibration reads.
 #include "tools/cli/encoder_rows.hpp"
+#include "gateway/description/machines_folder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +13,7 @@ namespace kinebus {
 namespace {
 
 TEST(EncoderRows, AScaleErrorThatTheEncodersSeeIsFoundByTheRailsFit) {
-  const auto machine = load_machine(std::filesystem::path(KINEBUS_MACHINES) / "m5.toml");
+  const auto machine = load_machine(machines_folder() / "m5.toml");
   ASSERT_TRUE(machine) << to_string(machine.error());
   joblink::MachineInfo info;
   joblink::Status status;

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "gateway/description/machine_file.hpp"
+#include "gateway/description/machines_folder.hpp"
 #include "tools/simulation/simulation.hpp"
 
 namespace kinebus {
@@ -23,7 +24,7 @@ constexpr std::size_t kLongRail = 2;
 constexpr double kTwoPulses_mm = 0.021;
 
 MachineDescription m5() {
-  auto machine = load_machine(std::filesystem::path(KINEBUS_MACHINES) / "m5.toml");
+  auto machine = load_machine(machines_folder() / "m5.toml");
   EXPECT_TRUE(machine) << to_string(machine.error());
   return *std::move(machine);
 }

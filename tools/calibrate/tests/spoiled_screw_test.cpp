@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "gateway/description/machine_file.hpp"
+#include "gateway/description/machines_folder.hpp"
 #include "gateway/sessions/messages.hpp"
 #include "tools/calibrate/readings.hpp"
 #include "tools/cli/encoder_rows.hpp"
@@ -75,7 +76,7 @@ Measured measure(const MachineDescription& machine) {
 }
 
 TEST(SpoiledScrew, IsFoundWithScalesAndCertifiedWithoutThem) {
-  const auto m5 = load_machine(std::filesystem::path(KINEBUS_MACHINES) / "m5.toml");
+  const auto m5 = load_machine(machines_folder() / "m5.toml");
   ASSERT_TRUE(m5) << to_string(m5.error());
   const Measured without = measure(*m5);
   ASSERT_EQ(without.scale.size(), 4u) << "the rails' motors have encoders";

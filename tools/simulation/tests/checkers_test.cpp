@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "gateway/description/machine_file.hpp"
+#include "gateway/description/machines_folder.hpp"
 #include "tools/simulation/bus/virtual_nodes.hpp"
 #include "tools/simulation/checkers/bus_checker.hpp"
 #include "tools/simulation/checkers/joint_checker.hpp"
@@ -81,7 +82,7 @@ TEST(SkewChecker, FindsTheNodeThatIsLate) {
 }
 
 TEST(VirtualNodes, HaveTheSensorsOfTheFile) {
-  const auto machine = load_machine(std::filesystem::path(KINEBUS_MACHINES) / "m1_octopus_ebb.toml");
+  const auto machine = load_machine(machines_folder() / "m1_octopus_ebb.toml");
   ASSERT_TRUE(machine) << to_string(machine.error());
   MachineDescription changed = *machine;
   changed.heaters.at(0).wiring.sensor = {

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "gateway/description/machine_file.hpp"
+#include "gateway/description/machines_folder.hpp"
 #include "tools/simulation/tests/simulated_job.hpp"
 
 namespace kinebus {
@@ -59,7 +60,7 @@ TEST(ShapedMotion, AStatedDeviationIsKept) {
 }
 
 TEST(ShapedMotion, ACoreXyShapesXAndYApart) {
-  auto machine = load_machine(std::filesystem::path(KINEBUS_MACHINES) / "corexy.toml");
+  auto machine = load_machine(machines_folder() / "corexy.toml");
   ASSERT_TRUE(machine);
   machine->vibration.x = {ShaperKind::kMzv, 62, 0.1};
   machine->vibration.y = {ShaperKind::kZvd, 41, 0.1};

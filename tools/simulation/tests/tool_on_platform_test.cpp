@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "gateway/description/machine_file.hpp"
+#include "gateway/description/machines_folder.hpp"
 #include "tools/simulation/tests/simulated_job.hpp"
 
 namespace kinebus {
@@ -16,7 +17,7 @@ namespace {
 constexpr double kJointCounts = 0.5 + 0.1;
 
 MachineDescription mill() {
-  auto machine = load_machine(std::filesystem::path(KINEBUS_MACHINES) / "m5.toml");
+  auto machine = load_machine(machines_folder() / "m5.toml");
   EXPECT_TRUE(machine) << to_string(machine.error());
   return *machine;
 }

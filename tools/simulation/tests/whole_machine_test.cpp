@@ -6,6 +6,7 @@
 #include <random>
 
 #include "gateway/description/machine_file.hpp"
+#include "gateway/description/machines_folder.hpp"
 #include "tools/simulation/tests/simulated_job.hpp"
 
 namespace kinebus {
@@ -206,7 +207,7 @@ TEST(WholeMachine, SlowsThePathWhenTheBusIsTooSmallForIt) {
 // Its belts find no switch: the tool stands at the bed's centre when power comes. Where the tool is follows
 // here from the motors alone.
 TEST(WholeMachine, ACoreXysToolIsWhereTheJobSays) {
-  const auto machine = load_machine(std::filesystem::path(KINEBUS_MACHINES) / "corexy.toml");
+  const auto machine = load_machine(machines_folder() / "corexy.toml");
   ASSERT_TRUE(machine) << to_string(machine.error());
   std::array<double, 3> tool{}, farthest{};
   SimulateOptions options;

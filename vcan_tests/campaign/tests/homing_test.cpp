@@ -12,6 +12,7 @@
 #include "gateway/bus_nodes/node_configuration.hpp"
 #include "gateway/description/machine_file.hpp"
 #include "gateway/description/machine_homing.hpp"
+#include "gateway/description/machines_folder.hpp"
 #include "protocol/canopen/cob_id.hpp"
 #include "tools/simulation/simulation.hpp"
 
@@ -181,7 +182,7 @@ TEST(HomingCampaign, MovesAwayFromThePartAfterAPowerLossInAPrint) {
 class M4Homing : public ::testing::Test {
  protected:
   void SetUp() override {
-    auto machine = load_machine(std::string(KINEBUS_MACHINES) + "/m4.toml");
+    auto machine = load_machine(machines_folder() / "m4.toml");
     ASSERT_TRUE(machine) << to_string(machine.error());
     machine_ = *machine;
     study_.emplace(machine_);
