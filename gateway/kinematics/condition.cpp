@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include "gateway/kinematics/pose_limits.hpp"
@@ -47,9 +48,12 @@ bool condition_is_within_4(const double* matrix, double most) {
   const double determinant = upper[0] * lower[5] - upper[1] * lower[4] + upper[2] * lower[3] +
                              upper[3] * lower[2] - upper[4] * lower[1] + upper[5] * lower[0];
   const double g00 = dot(r0, r0), g11 = dot(r1, r1), g22 = dot(r2, r2), g33 = dot(r3, r3);
+  const double trace = g00 + g11 + g22 + g33;
+  // Most matrices are nowhere near: 2 / |det| times the squared quarter of the trace is never below the
+  // number (Guggenheimer).
+  if (trace * trace <= 8 * most * std::abs(determinant)) return true;
   const double g01 = dot(r0, r1), g02 = dot(r0, r2), g03 = dot(r0, r3), g12 = dot(r1, r2);
   const double g13 = dot(r1, r3), g23 = dot(r2, r3);
-  const double trace = g00 + g11 + g22 + g33;
   const double per_trace = 1 / trace, per_trace2 = per_trace * per_trace;
   double e2 = (g00 * g11 + g00 * g22 + g00 * g33 + g11 * g22 + g11 * g33 + g22 * g33 - g01 * g01 - g02 * g02 -
                g03 * g03 - g12 * g12 - g13 * g13 - g23 * g23) *
