@@ -86,8 +86,8 @@ TEST_F(BenchTest, ShowsACardAndSendsWhatIsAskedOfIt) {
   EXPECT_TRUE(log().startsWith(QStringLiteral("started --interface ")));
   EXPECT_TRUE(log().contains(QStringLiteral("--node 1 session")));
   const QString shown = words(window);
-  for (const char* expected : {"operation enabled", "fault", "error", "2310h", "1.500", "0.79 A", "\u00B0C",
-                               "24.1 V", "1 \u25CF", "2 \u25CB"})
+  for (const char* expected :
+       {"holds", "fault", "error", "2310h", "1.500", "0.79 A", "\u00B0C", "24.1 V", "1 \u25CF", "2 \u25CB"})
     EXPECT_TRUE(shown.contains(QString::fromUtf8(expected))) << expected << '\n' << shown.toStdString();
 
   button(window, QStringLiteral("Set currents"))->click();

@@ -90,6 +90,45 @@ class WordsTest : public WindowTest {
       }
     }
   }
+  void nothing_is_cut() {
+    window->resize(1024, 640);
+    for (const auto& language : Language::choices()) {
+      window->set_language(language.code);
+      settle();
+      ASSERT_EQ(window->size(), QSize(1024, 640)) << language.code.toStdString();
+      each_page([&](const std::string& page) {
+        const std::string where = language.code.toStdString() + ", " + page + ": ";
+        for (const auto* button : window->findChildren<QAbstractButton*>()) {
+          if (!button->isVisible() || button->text().isEmpty()) continue;
+          EXPECT_GE(button->width() + 1, button->minimumSizeHint().width())
+              << where << button->text().toStdString();
+          const int words = button->fontMetrics().size(Qt::TextShowMnemonic, button->text()).width();
+          EXPECT_GE(button->width(), words + 4) << where << button->text().toStdString();
+          EXPECT_GE(button->height() + 1, button->fontMetrics().height())
+              << where << button->text().toStdString();
+        }
+        for (const auto* label : window->findChildren<QLabel*>()) {
+          if (!label->isVisible() || label->text().isEmpty()) continue;
+          if (qobject_cast<const ElidedLabel*>(label) != nullptr)
+            continue;  // cut with dots, whole in its tip
+          if (label->wordWrap()) {
+            EXPECT_GE(label->height() + 1, label->heightForWidth(label->width()))
+                << where << label->text().toStdString();
+          } else {
+            EXPECT_GE(label->width() + 1, label->sizeHint().width()) << where << label->text().toStdString();
+          }
+        }
+        // Nothing lies beside the window, or under what scrolls down alone.
+        for (const auto* widget : window->findChildren<QWidget*>()) {
+          if (!widget->isVisible() || qobject_cast<const QAbstractButton*>(widget) == nullptr) continue;
+          const QRect seen = widget->visibleRegion().boundingRect();
+          const bool scrolled = seen.isEmpty() || seen.height() < widget->height();
+          EXPECT_TRUE(scrolled || seen.width() == widget->width())
+              << where << qobject_cast<const QAbstractButton*>(widget)->text().toStdString();
+        }
+      });
+    }
+  }
   std::map<std::string, QStringList> words() {
     std::map<std::string, QStringList> all;
     const auto add = [&](const QWidget& of, const char* what, const QString& text) {
@@ -223,42 +262,24 @@ TEST_F(WordsTest, EverythingAScreenReaderReadsHasAName) {
 TEST_F(WordsTest, NoButtonAndNoNameIsCutAt1024By640) {
   fill();
   if (HasFatalFailure()) return;
-  window->resize(1024, 640);
-  for (const auto& language : Language::choices()) {
-    window->set_language(language.code);
+  nothing_is_cut();
+}
+
+TEST_F(WordsTest, NothingIsCutWhenAJobTellsWhatItTook) {
+  fill();
+  if (HasFatalFailure()) return;
+  gateway.status.mutable_nodes(0)->set_sync_error_s(17.25e-6);
+  gateway.status.set_bus_load(0.42);
+  gateway.status.mutable_counters()->set_starvation_holds(2);
+  gateway.status.mutable_machine()->set_e_mm(123456);
+  for (const auto state : {joblink::STATE_CHECKING, joblink::STATE_RUNNING, joblink::STATE_READY}) {
+    gateway.status.set_state(state);
+    gateway.status.set_job(state == joblink::STATE_READY ? "" : "a.gcode");
+    gateway.status.set_elapsed_s(state == joblink::STATE_READY ? 0 : 45296);
     settle();
-    ASSERT_EQ(window->size(), QSize(1024, 640)) << language.code.toStdString();
-    each_page([&](const std::string& page) {
-      const std::string where = language.code.toStdString() + ", " + page + ": ";
-      for (const auto* button : window->findChildren<QAbstractButton*>()) {
-        if (!button->isVisible() || button->text().isEmpty()) continue;
-        EXPECT_GE(button->width() + 1, button->minimumSizeHint().width())
-            << where << button->text().toStdString();
-        const int words = button->fontMetrics().size(Qt::TextShowMnemonic, button->text()).width();
-        EXPECT_GE(button->width(), words + 4) << where << button->text().toStdString();
-        EXPECT_GE(button->height() + 1, button->fontMetrics().height())
-            << where << button->text().toStdString();
-      }
-      for (const auto* label : window->findChildren<QLabel*>()) {
-        if (!label->isVisible() || label->text().isEmpty()) continue;
-        if (qobject_cast<const ElidedLabel*>(label) != nullptr) continue;  // cut with dots, whole in its tip
-        if (label->wordWrap()) {
-          EXPECT_GE(label->height() + 1, label->heightForWidth(label->width()))
-              << where << label->text().toStdString();
-        } else {
-          EXPECT_GE(label->width() + 1, label->sizeHint().width()) << where << label->text().toStdString();
-        }
-      }
-      // Nothing lies beside the window, or under what scrolls down alone.
-      for (const auto* widget : window->findChildren<QWidget*>()) {
-        if (!widget->isVisible() || qobject_cast<const QAbstractButton*>(widget) == nullptr) continue;
-        const QRect seen = widget->visibleRegion().boundingRect();
-        const bool scrolled = seen.isEmpty() || seen.height() < widget->height();
-        EXPECT_TRUE(scrolled || seen.width() == widget->width())
-            << where << qobject_cast<const QAbstractButton*>(widget)->text().toStdString();
-      }
-    });
   }
+  ASSERT_EQ(desk.record.end(), JobRecord::End::kComplete);
+  nothing_is_cut();
 }
 
 }  // namespace

@@ -4723,6 +4723,38 @@
 <context>
     <name>kinebus::gui::BenchWindow</name>
     <message>
+        <source>not ready</source>
+        <translation>آماده نیست</translation>
+    </message>
+    <message>
+        <source>switched off</source>
+        <translation>خاموش</translation>
+    </message>
+    <message>
+        <source>ready to switch on</source>
+        <translation>آمادهٔ روشن شدن</translation>
+    </message>
+    <message>
+        <source>switched on, without current</source>
+        <translation>روشن، بدون جریان</translation>
+    </message>
+    <message>
+        <source>holds</source>
+        <translation>نگه می‌دارد</translation>
+    </message>
+    <message>
+        <source>stopped</source>
+        <translation>ایستاده</translation>
+    </message>
+    <message>
+        <source>stops with a fault</source>
+        <translation>با خرابی می‌ایستد</translation>
+    </message>
+    <message>
+        <source>fault</source>
+        <translation>خرابی</translation>
+    </message>
+    <message>
         <source>Refused: %1</source>
         <translation>رد شد: %1</translation>
     </message>

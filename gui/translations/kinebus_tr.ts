@@ -4723,6 +4723,38 @@
 <context>
     <name>kinebus::gui::BenchWindow</name>
     <message>
+        <source>not ready</source>
+        <translation>hazır değil</translation>
+    </message>
+    <message>
+        <source>switched off</source>
+        <translation>kapalı</translation>
+    </message>
+    <message>
+        <source>ready to switch on</source>
+        <translation>açılmaya hazır</translation>
+    </message>
+    <message>
+        <source>switched on, without current</source>
+        <translation>açık, akımsız</translation>
+    </message>
+    <message>
+        <source>holds</source>
+        <translation>tutuyor</translation>
+    </message>
+    <message>
+        <source>stopped</source>
+        <translation>durdu</translation>
+    </message>
+    <message>
+        <source>stops with a fault</source>
+        <translation>arızayla duruyor</translation>
+    </message>
+    <message>
+        <source>fault</source>
+        <translation>arıza</translation>
+    </message>
+    <message>
         <source>Refused: %1</source>
         <translation>Reddedildi: %1</translation>
     </message>
@@ -5334,7 +5366,7 @@
     </message>
     <message>
         <source>Bus load</source>
-        <translation>Veri yolu yükü</translation>
+        <translation>Veri yolu</translation>
     </message>
     <message>
         <source>Least queue</source>

@@ -8,7 +8,9 @@
 #include <QLatin1String>
 #include <QLocale>
 #include <QVBoxLayout>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "gui/models/format.hpp"
 
@@ -274,6 +276,22 @@ void BenchWindow::take_state(const QJsonObject& state) {
   say_buttons();
 }
 
+QString BenchWindow::drive_state(const QString& word) {
+  // As CiA 402 names them.
+  const std::array<std::pair<const char*, QString>, 8> states{
+      {{"not ready to switch on", tr("not ready")},
+       {"switch on disabled", tr("switched off")},
+       {"ready to switch on", tr("ready to switch on")},
+       {"switched on", tr("switched on, without current")},
+       {"operation enabled", tr("holds")},
+       {"quick stop active", tr("stopped")},
+       {"fault reaction active", tr("stops with a fault")},
+       {"fault", tr("fault")}}};
+  for (const auto& [name, said] : states)
+    if (word == QLatin1String(name)) return said;
+  return Format::isolated(word);
+}
+
 void BenchWindow::take_motor(int axis, const QJsonObject& state) {
   Motor& m = motors_[static_cast<std::size_t>(axis)];
   m.has_power = state.value(QLatin1String("has_power")).toBool();
@@ -286,13 +304,11 @@ void BenchWindow::take_motor(int axis, const QJsonObject& state) {
   }
   const auto number = [&](const char* key) { return state.value(QLatin1String(key)).toDouble(); };
   const int error = state.value(QLatin1String("error_code")).toInt();
-  const QString drive = Format::isolated(state.value(QLatin1String("drive")).toString());
-  // States are English words: a mark before them makes a label begin where the language does.
-  const QChar begins(isRightToLeft() ? 0x200F : 0x200E);
-  m.drive->setText(begins + (error == 0 ? drive
-                                        : tr("%1, error %2")
-                                              .arg(drive, Format::isolated(QStringLiteral("%1h").arg(
-                                                              error, 4, 16, QLatin1Char('0'))))));
+  const QString drive = drive_state(state.value(QLatin1String("drive")).toString());
+  m.drive->setText(error == 0 ? drive
+                              : tr("%1, error %2")
+                                    .arg(drive, Format::isolated(QStringLiteral("%1h").arg(
+                                                    error, 4, 16, QLatin1Char('0')))));
   const double counts = number("position_counts");
   m.place->setText(tr("%1 counts, %2 turns")
                        .arg(Format::isolated(Format::number(counts, 0)),

@@ -42,6 +42,7 @@ class BenchWindow : public SpeakingWidget {
   void open_or_close();
   void say_buttons();
   void take_state(const QJsonObject& state);
+  static QString drive_state(const QString& word);
   void take_motor(int axis, const QJsonObject& state);
   void take_done(const QString& what, const QJsonObject& found);
   void tell(const QString& words);

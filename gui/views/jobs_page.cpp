@@ -74,7 +74,8 @@ QWidget* JobsPage::make_drop_zone() {
   auto* row = new QHBoxLayout(drop_zone_);
   row->setContentsMargins(18, 13, 14, 13);
   row->setSpacing(14);
-  auto* words = make_label("muted", drop_zone_);
+  auto* words = new ElidedLabel(drop_zone_);
+  words->setProperty("role", "muted");
   auto* choose = make_button(desk_.theme, QStringLiteral("upload"), "", drop_zone_);
   store_text_ = make_label("small", drop_zone_);
   row->addWidget(words, 1);
@@ -82,7 +83,7 @@ QWidget* JobsPage::make_drop_zone() {
   row->addWidget(choose);
   connect(choose, &QPushButton::clicked, this, &JobsPage::choose_file);
   says([this, words, choose] {
-    words->setText(tr("Drop G-code files here to send them to the gateway"));
+    words->set_text(tr("Drop G-code files here to send them to the gateway"));
     choose->setText(tr("Choose a file…"));
     tell_store();
   });

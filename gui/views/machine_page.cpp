@@ -109,7 +109,6 @@ QTableView* make_table(QAbstractItemModel* model, QWidget* parent, int rows) {
   table->horizontalHeader()->setHighlightSections(false);
   table->horizontalHeader()->setDefaultAlignment(Qt::AlignLeading | Qt::AlignVCenter);
   table->setMinimumHeight(38 + 32 * rows);
-  table->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   new TableColumns(table);
   return table;
 }

@@ -83,7 +83,6 @@ QWidget* MotorsPanel::make_table() {
   table_->horizontalHeader()->setHighlightSections(false);
   table_->horizontalHeader()->setDefaultAlignment(Qt::AlignLeading | Qt::AlignVCenter);
   table_->setMinimumHeight(38 + 32 * 6);
-  table_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   for (const int column : {AxesModel::kMeasured, AxesModel::kError, AxesModel::kByScale,
                            AxesModel::kScaleError, AxesModel::kTravel, AxesModel::kDrive})
     table_->setColumnHidden(column, true);

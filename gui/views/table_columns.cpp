@@ -22,6 +22,7 @@ class Sizes : public QTableView {
 }  // namespace
 
 TableColumns::TableColumns(QTableView* table, int least) : QObject(table), table_(table), least_(least) {
+  table->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
   table->horizontalHeader()->setSectionResizeMode(QHeaderView::Fixed);
   table->horizontalHeader()->setMinimumSectionSize(least);
   table->viewport()->installEventFilter(this);
@@ -50,13 +51,13 @@ void TableColumns::fit() {
     ++shown;
   }
   if (shown == 0) return;
-  // Too much for the room: all give the same share of what they have.
-  const int room = table_->viewport()->width();
+  // Too much for the room: it is scrolled sideways, no value is cut.
+  const int room = std::max(table_->viewport()->width(), sum);
   int left = room;
   for (int c = 0, i = 0; c < columns; ++c) {
     if (table_->isColumnHidden(c)) continue;
     ++i;
-    const int width = sum > room ? needed_[c] * room / sum : needed_[c] + (room - sum) / shown;
+    const int width = needed_[c] + (room - sum) / shown;
     const int given = i == shown ? left : width;
     left -= given;
     if (table_->columnWidth(c) != given) table_->setColumnWidth(c, given);

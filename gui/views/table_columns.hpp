@@ -1,7 +1,7 @@
 #pragma once
-// The columns of a table that is never scrolled sideways: each as wide as the widest that it has had to show
-// in the language at work, and what room is left shared out. Values that change never make columns jump to
-// and fro.
+// The columns of a table: each as wide as the widest that it has had to show in the language at work, and
+// what room is left shared out; where there is too little, the table is scrolled sideways. Values that change
+// never make columns jump to and fro.
 
 #include <QEvent>
 #include <QObject>
