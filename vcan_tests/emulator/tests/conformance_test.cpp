@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "protocol/canopen/boards/stm32f446_octopus.hpp"
 #include "protocol/canopen/boards/stm32g0b1_ebb.hpp"
 #include "tools/simulation/bus/virtual_machine.hpp"
@@ -178,6 +180,38 @@ TYPED_TEST(Conformance, StreamedPositionsAreThoseOfTheirPathTimeToTheBit) {
   for (int axis = 0; axis < TypeParam::kAxes; ++axis)
     EXPECT_EQ(this->bench.read(kId, static_cast<std::uint16_t>(0x6064 + 0x800 * axis), 0),
               feed.state[static_cast<std::size_t>(axis)].position >> 32);
+  EXPECT_TRUE(this->bench.emergencies(kId).empty());
+}
+
+// Also where one cuts another short, and with the longest that the wire carries.
+TYPED_TEST(Conformance, PathTimeAlongSmoothRampsIsThatOfTheGatewayToTheTick) {
+  this->bench.bring_up({kId});
+  EXPECT_EQ(this->bench.read(kId, 0x2118, 0) & kFollowsSmoothRamps, kFollowsSmoothRamps);
+  PathClock clock;
+  ASSERT_TRUE(clock.set_tau(PathTime{this->bench.read_long(kId, 0x2112)}, this->bench.now));
+  struct Change {
+    double rate;
+    std::uint8_t ramp_2ms;
+    BusTime until_next;
+  };
+  for (const Change& change : {Change{1, 100, 500ms},
+                               {0.3, 40, 50ms},
+                               {0, 90, 400ms},
+                               {0.7, 255, 300ms},
+                               {0, 30, 900ms},
+                               {1, 255, 1100ms},
+                               {0, 255, 1100ms}}) {
+    const RateCommand command =
+        this->bench.command({.kind = RateCommand::Kind::kSmooth,
+                             .rate_q15 = static_cast<std::uint16_t>(std::lround(change.rate * 32768)),
+                             .full_ramp_2ms = change.ramp_2ms},
+                            5ms);
+    clock.apply(command, this->bench.now);
+    this->bench.run(change.until_next);
+    if (!clock.at_rest(this->bench.now)) continue;
+    EXPECT_EQ(this->bench.read_long(kId, 0x2112), clock.tau(this->bench.now).count());
+  }
+  EXPECT_TRUE(clock.at_rest(this->bench.now));
   EXPECT_TRUE(this->bench.emergencies(kId).empty());
 }
 
