@@ -48,6 +48,7 @@ void BringUp::start(BusTime now, bool alone, const std::vector<ParameterWrite>& 
     nodes_[i].rewritten = nodes_[i].differs = false;
   }
   foreign_ = failed_ = equalising_ = false;
+  without_smooth_.reset();
   out_.clear();
   found_.clear();
   enter(alone ? Stage::kIdentify : Stage::kListen, now);
@@ -158,6 +159,7 @@ BringUp::Outcome BringUp::on_time(BusTime now) {
       enter(Stage::kPathTime, now);
       return Outcome::kBusy;
     }
+    rate_.set_smooth(machine_.path.tool_jerk_mm_per_s3 > 0 && !without_smooth_);
     rate_.set_tau(PathTime{most}, now);
     rate_.clear(now);
   }
@@ -195,9 +197,21 @@ void BringUp::step(BusTime now, std::size_t i) {
 std::optional<SdoResult> BringUp::result(NodeLink& link, AlarmCode code) {
   const auto answer = link.sdo().next_result();
   if (!answer || answer->abort == AbortCode::kNone) return answer;
+  // An older program does not have it.
+  if (answer->address == object::kStreamFunctions && answer->abort == AbortCode::kNoObject) return answer;
   if (answer->abort == AbortCode::kTimeout) code = AlarmCode::kNodeMissing;
   fail(code, link.id(), to_string(link.id(), *answer));
   return std::nullopt;
+}
+
+bool BringUp::asks_for_functions(const NodeLink& link) const {
+  return machine_.path.tool_jerk_mm_per_s3 > 0 && link.functions().has_axes();
+}
+
+void BringUp::note_functions(const NodeLink& link, const SdoResult& answer) {
+  const bool told = answer.abort == AbortCode::kNone;
+  if (told && (static_cast<std::uint64_t>(answer.value) & kFollowsSmoothRamps) != 0) return;
+  if (!without_smooth_) without_smooth_ = link.id();
 }
 
 /// A node that NMT has stopped answers no SDO.
@@ -217,9 +231,15 @@ void BringUp::identify(BusTime now, NodeLink& link, Node& node) {
   if (!node.requested) {
     node.requested = true;
     for (std::uint8_t sub = 1; sub <= 4; ++sub) link.sdo().read({object::kVendorIdentity.index, sub});
+    if (asks_for_functions(link)) link.sdo().read(object::kStreamFunctions);
     return;
   }
   while (const auto answer = result(link, AlarmCode::kWrongIdentity)) {
+    if (answer->address == object::kStreamFunctions) {
+      note_functions(link, *answer);
+      node.done = true;
+      continue;
+    }
     node.identity[answer->address.subindex - 1u] = static_cast<std::uint32_t>(answer->value);
     if (answer->address.subindex < 4) continue;
     const NodeDescription* wanted = machine_.node(link.id());
@@ -239,7 +259,7 @@ void BringUp::identify(BusTime now, NodeLink& link, Node& node) {
     // Heaters stay off until the node was named by its number: this is the one that is meant.
     if (node.identity[1] == HeatBoard::kFacts.product_code)
       node.configuration.settings.push_back({heat_object::kConfirmedSerial, 4, node.identity[3]});
-    node.done = true;
+    node.done = !asks_for_functions(link);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,9 @@ class BringUp {
   /// Where the nodes' path time stood, before it was made equal; empty: not read yet.
   const std::vector<PathTime>& found_path_times() const { return found_; }
   bool busy() const { return stage_ != Stage::kIdle; }
+  /// Of the nodes with axes, one that does not follow smooth ramps of path time; only asked of machines with
+  /// limits of jerk. Empty: all do.
+  std::optional<std::uint8_t> node_without_smooth_ramps() const { return without_smooth_; }
 
  private:
   enum class Stage : std::uint8_t {
@@ -95,6 +99,8 @@ class BringUp {
   void fail(AlarmCode code, std::uint8_t node, Sentence words);
   void step(BusTime now, std::size_t i);
   void identify(BusTime now, NodeLink& link, Node& node);
+  bool asks_for_functions(const NodeLink& link) const;
+  void note_functions(const NodeLink& link, const SdoResult& answer);
   void wake(BusTime now, NodeLink& link, Node& node);
   void configure(BusTime now, NodeLink& link, Node& node);
   void settle(BusTime now, NodeLink& link, Node& node);
@@ -118,6 +124,7 @@ class BringUp {
   Stage stage_ = Stage::kIdle;
   BusTime entered_{0};
   bool foreign_ = false, failed_ = false, equalising_ = false;
+  std::optional<std::uint8_t> without_smooth_;
   StepFailure failure_;
 };
 

@@ -44,6 +44,11 @@ void Gateway::Core::step_bring_up() {
     session_.settle();
     voice_.nodes_are_new(now_);
     devices_.on_bring_up(now_, true);
+    if (const auto node = bring_up_.node_without_smooth_ramps())
+      events_.message(now_,
+                      say("the program of node %1 does not know smooth ramps: holds, resumes and changes "
+                          "of the override exceed the limits of jerk until it is updated",
+                          *node));
     return rest_.read(now_, Rest::After::kBringUp);
   }
   const StepFailure& failure = bring_up_.failure();

@@ -12,8 +12,9 @@ namespace {
 constexpr double kJointShare = 0.98;
 // The bounds of a cubic's slope are taken at five points; between them it is greater by less than this.
 constexpr double kBetweenSamples = 1 + 1e-4;
-// Jerk: the same for the tool, whose tangent and curvature are not quite perpendicular on cubics.
-constexpr double kToolJerkShare = 0.97;
+// Jerk: the same, and room for a smooth ramp of path time; the tool's tangent and curvature are not quite
+// perpendicular on cubics, either.
+constexpr double kJerkShare = 0.96;
 // Of a jerk limit, what a bend may take at the cap; of an acceleration, what it may take there. The rest is
 // for changing the speed.
 constexpr double kBendJerk = 0.7;
@@ -77,7 +78,7 @@ void PointLimits::set_limits(const MotionLimits& limits) {
     inverse_speed_[j] = inverse_of(limits.joint_speed_per_s[j] * kJointShare);
     inverse_accel_[j] = inverse_of(limits.joint_accel_per_s2[j] * kJointShare);
     accel_[j] = limits.joint_accel_per_s2[j] * kJointShare;
-    jerk_[j] = limits.joint_jerk_per_s3[j] * kJointShare;
+    jerk_[j] = limits.joint_jerk_per_s3[j] * kJerkShare;
   }
   inverse_flow_accel_ = inverse_of(limits.flow_accel_mm_per_s2);
   limited_xyz_ = false;
@@ -218,7 +219,7 @@ PlanPiece::Even PointLimits::even(const JerkTerms& terms, const JointJerkTerms* 
                                   const PlanPiece& piece, double x) const {
   const double v = std::sqrt(x);
   PlanPiece::Even even{std::min({piece.accel_between(0, x), piece.decel_between(0, x), kNoAccel}), kNoJerk};
-  const double left = limits_.tool_jerk_mm_per_s3 * kToolJerkShare - bend_jerk(terms.x3, 0, v);
+  const double left = limits_.tool_jerk_mm_per_s3 * kJerkShare - bend_jerk(terms.x3, 0, v);
   // What jumps is across the path, as its turning is.
   const double turn = 3 * terms.x2 * v, jump = bend_jerk(0, terms.jump, v);
   if (turn * even.accel > kTurnJerk * left - jump)
@@ -242,7 +243,7 @@ PlanPiece::Even PointLimits::even(const JerkTerms& terms, const JointJerkTerms* 
 void PointLimits::limit_jerk(const JerkTerms& terms, const JointJerkTerms* joints, PlanPiece& piece) const {
   const double before = piece.cap;
   double speed = std::sqrt(piece.cap);
-  const double jerk = limits_.tool_jerk_mm_per_s3 * kToolJerkShare;
+  const double jerk = limits_.tool_jerk_mm_per_s3 * kJerkShare;
   lower_for_bend(kBendJerk, terms.x3, terms.jump, jerk, speed);
   for (std::size_t j = 0; j < joints_ && joints != nullptr; ++j) {
     const double jump = kCurvatureJump_s * jerk_[j];

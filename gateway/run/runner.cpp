@@ -52,7 +52,8 @@ Runner::Runner(const MachineDescription& machine, const Kinematics& kinematics, 
       journal_(journal),
       printed_(printed),
       pipeline_(machine, kinematics),
-      feed_(group) {}
+      feed_(group),
+      smooth_ramp_(machine, kinematics) {}
 
 void Runner::begin() {
   active_ = true;
@@ -147,7 +148,24 @@ void Runner::set_override(double ratio) {
 
 void Runner::hold(BusTime now) {
   held_ = true;
-  rate_.request(0, feed_.streaming() ? machine_.stop.hold_ramp : kRampAtRest, now);
+  if (feed_.streaming())
+    change_rate(0, now);
+  else
+    rate_.request(0, kRampAtRest, now);
+}
+
+void Runner::change_rate(double rate, BusTime now) {
+  if (!rate_.smooth()) return rate_.request(rate, machine_.stop.hold_ramp, now);
+  if (rate_.is_target(rate)) return;
+  // In the mean no steeper than a straight one.
+  const double change = std::abs(rate - rate_.rate(now));
+  const auto least = std::chrono::milliseconds{
+      std::llround(change / 2 * static_cast<double>(machine_.stop.hold_ramp.count()))};
+  const auto ramp = smooth_ramp_.full_ramp(
+      [this](PathTime tau) { return planned_pose(tau); },
+      [&](std::chrono::milliseconds full_ramp) { return rate_.with_smooth(rate, full_ramp, now); }, least,
+      rate_.tau(now), now);
+  rate_.request_smooth(rate, ramp, now);
 }
 
 void Runner::resume(BusTime now) {
@@ -335,7 +353,9 @@ void Runner::control_rate(BusTime now) {
   // After starvation the queues fill up first.
   if (raise && present <= 0 && !group_.primed(tau)) return;
   last_rate_change_ = now;
-  rate_.request(wanted, machine_.stop.hold_ramp, now);
+  // A queue that runs empty is not waited for.
+  if (lower && allowed < override_) return rate_.request(wanted, machine_.stop.hold_ramp, now);
+  change_rate(wanted, now);
 }
 
 }  // namespace kinebus

@@ -20,6 +20,7 @@
 #include "gateway/run/heat.hpp"
 #include "gateway/run/planned_pose.hpp"
 #include "gateway/run/run_feed.hpp"
+#include "gateway/run/smooth_ramp.hpp"
 #include "gateway/sentence.hpp"
 #include "gateway/status/event_queue.hpp"
 #include "gateway/stream/path_rate.hpp"
@@ -179,6 +180,8 @@ class Runner {
   bool waits(const canonical::Line& line) const;
   void end_wait();
   void control_rate(BusTime now);
+  /// In motion, as gently as the joints have to be treated.
+  void change_rate(double rate, BusTime now);
   void settle_when_late(BusTime now);
   double live_left_s(BusTime now) const;
   bool wait_is_over(BusTime now);
@@ -223,6 +226,7 @@ class Runner {
   bodies::PrintedPart* printed_;
   JobPipeline pipeline_;
   RunFeed feed_;
+  SmoothRamp smooth_ramp_;
   std::unique_ptr<ByteSource> source_;
   Pose start_{};
 

@@ -15,12 +15,20 @@ std::uint8_t ramp_2ms(std::chrono::milliseconds ramp) {
 
 }  // namespace
 
+std::uint16_t PathRate::q15(double rate) {
+  return static_cast<std::uint16_t>(std::lround(std::clamp(rate, 0.0, 1.0) * kFullRateQ15));
+}
+
+/// Whole microseconds travel; commands take effect in the order in which they were given.
+BusTime PathRate::start(BusTime lead, BusTime now) const {
+  const BusTime start = std::max(now + lead, last_start_ + BusTime{1});
+  return BusTime{(start.count() + 999) / 1000 * 1000};
+}
+
 void PathRate::send(RateCommand command, BusTime lead, BusTime now) {
   counter_ = (counter_ + 1) & 0xF;
   command.counter = counter_;
-  // Whole microseconds travel; commands take effect in the order in which they were given.
-  const BusTime start = std::max(now + lead, last_start_ + BusTime{1});
-  command.start = BusTime{(start.count() + 999) / 1000 * 1000};
+  command.start = start(lead, now);
   last_start_ = command.start;
   clock_.apply(command, now);
   put_out(command, now);
@@ -35,6 +43,17 @@ void PathRate::put_out(const RateCommand& command, BusTime now) {
                    [](const Repeat& a, const Repeat& b) { return a.due < b.due; });
 }
 
+/// Behind a stop it means nothing, and a node that hears of it then, be it once more, takes it for an error.
+void PathRate::withdraw_from(BusTime stop_start, BusTime now) {
+  const auto means_nothing = [&](const CanFrame& frame) {
+    const auto command = decode_rate_command(frame, now);
+    return command && command->sets_rate() && command->start >= stop_start;
+  };
+  std::erase_if(out_, means_nothing);
+  std::erase_if(unsent_, means_nothing);
+  std::erase_if(repeats_, [&](const Repeat& repeat) { return means_nothing(repeat.frame); });
+}
+
 std::optional<CanFrame> PathRate::next_repeat(BusTime now) {
   if (repeats_.empty() || repeats_.front().due > now) return std::nullopt;
   const CanFrame frame = repeats_.front().frame;
@@ -43,12 +62,34 @@ std::optional<CanFrame> PathRate::next_repeat(BusTime now) {
 }
 
 void PathRate::request(double rate, std::chrono::milliseconds full_ramp, BusTime now, bool hurry) {
-  if (clock_.stop_latched()) return;
-  const auto q15 = static_cast<std::uint16_t>(std::lround(std::clamp(rate, 0.0, 1.0) * kFullRateQ15));
-  if (q15 == target_q15_) return;
-  target_q15_ = q15;
-  send({.kind = RateCommand::Kind::kRate, .rate_q15 = q15, .full_ramp_2ms = ramp_2ms(full_ramp)},
-       hurry && !clock_.at_rest(now) ? options_.lead : options_.start_lead, now);
+  request({.kind = RateCommand::Kind::kRate, .rate_q15 = q15(rate), .full_ramp_2ms = ramp_2ms(full_ramp)},
+          hurry && !clock_.at_rest(now) ? options_.lead : options_.start_lead, now);
+}
+
+/// Finding the ramp takes some of it.
+BusTime PathRate::smooth_lead(BusTime now) const {
+  return clock_.at_rest(now) ? options_.start_lead : 2 * options_.lead;
+}
+
+void PathRate::request_smooth(double rate, std::chrono::milliseconds full_ramp, BusTime now) {
+  request({.kind = RateCommand::Kind::kSmooth, .rate_q15 = q15(rate), .full_ramp_2ms = ramp_2ms(full_ramp)},
+          smooth_lead(now), now);
+}
+
+PathClock PathRate::with_smooth(double rate, std::chrono::milliseconds full_ramp, BusTime now) const {
+  PathClock clock = clock_;
+  clock.apply({.kind = RateCommand::Kind::kSmooth,
+               .rate_q15 = q15(rate),
+               .full_ramp_2ms = ramp_2ms(full_ramp),
+               .start = start(smooth_lead(now), now)},
+              now);
+  return clock;
+}
+
+void PathRate::request(RateCommand command, BusTime lead, BusTime now) {
+  if (clock_.stop_latched() || command.rate_q15 == target_q15_) return;
+  target_q15_ = command.rate_q15;
+  send(command, lead, now);
 }
 
 void PathRate::stop(BusTime now) {
@@ -56,6 +97,7 @@ void PathRate::stop(BusTime now) {
   // A stop does not queue up behind a rate command that is still ahead.
   last_start_ = BusTime{0};
   send({.kind = RateCommand::Kind::kStop, .rate_q15 = 0, .full_ramp_2ms = ramp_2ms(options_.stop_ramp)}, now);
+  withdraw_from(last_start_, now);
 }
 
 void PathRate::on_stop_request(const StopRequest& request, BusTime now) {
@@ -69,6 +111,7 @@ void PathRate::on_stop_request(const StopRequest& request, BusTime now) {
            .full_ramp_2ms = ramp_2ms(options_.stop_ramp),
            .start = request.start},
           now);
+  withdraw_from(request.start, now);
 }
 
 void PathRate::clear(BusTime now) {

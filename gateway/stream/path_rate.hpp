@@ -44,6 +44,16 @@ class PathRate {
   /// target already, or while a stop is latched.
   /// `hurry`: false where no joint moves, and so nobody minds a start that is farther ahead.
   void request(double rate, std::chrono::milliseconds full_ramp, BusTime now, bool hurry = true);
+  /// The same, along a smooth ramp that takes twice `full_ramp` whatever the change is; named twice as far
+  /// ahead.
+  void request_smooth(double rate, std::chrono::milliseconds full_ramp, BusTime now);
+  /// The clock as it would be after that.
+  PathClock with_smooth(double rate, std::chrono::milliseconds full_ramp, BusTime now) const;
+  /// request() to it would do nothing.
+  bool is_target(double rate) const { return q15(rate) == target_q15_; }
+  /// All nodes follow smooth ramps, and the machine asks for them.
+  void set_smooth(bool smooth) { smooth_ = smooth; }
+  bool smooth() const { return smooth_; }
   /// Stop of all nodes, latched.
   void stop(BusTime now);
   /// A node's stop request was heard on the bus.
@@ -79,9 +89,14 @@ class PathRate {
     BusTime due{0};
     CanFrame frame;
   };
+  static std::uint16_t q15(double rate);
+  void request(RateCommand command, BusTime lead, BusTime now);
+  BusTime smooth_lead(BusTime now) const;
+  BusTime start(BusTime lead, BusTime now) const;
   void send(RateCommand command, BusTime now) { send(command, options_.lead, now); }
   void send(RateCommand command, BusTime lead, BusTime now);
   void put_out(const RateCommand& command, BusTime now);
+  void withdraw_from(BusTime stop_start, BusTime now);
 
   Options options_;
   Counters counters_;
@@ -89,6 +104,7 @@ class PathRate {
   // are.
   PathClock clock_{{.rewind = std::chrono::seconds{2}, .most_step = PathTime::max()}};
   std::uint16_t target_q15_ = 0;
+  bool smooth_ = false;
   std::uint8_t counter_ = 0;
   std::deque<CanFrame> out_;
   std::deque<CanFrame> unsent_;  // commands that were given, of which no copy was on the bus yet

@@ -1433,6 +1433,10 @@
         <translation>گره %1 ساعتش را همزمان نمی‌کند</translation>
     </message>
     <message>
+        <source>the program of node %1 does not know smooth ramps: holds, resumes and changes of the override exceed the limits of jerk until it is updated</source>
+        <translation>برنامهٔ گره %1 شیب‌های نرم را نمی‌شناسد: مکث، ازسرگیری و تغییر ضریب سرعت تا به‌روزرسانی آن از حدود جرک فراتر می‌روند</translation>
+    </message>
+    <message>
         <source>node %1 keeps its stop latched: an emergency stop or limit switch is active</source>
         <translation>گره %1 توقف را نگه می‌دارد: توقف اضطراری یا کلید حد فعال است</translation>
     </message>

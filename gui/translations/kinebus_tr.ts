@@ -1433,6 +1433,10 @@
         <translation>düğüm %1 saatini eşlemiyor</translation>
     </message>
     <message>
+        <source>the program of node %1 does not know smooth ramps: holds, resumes and changes of the override exceed the limits of jerk until it is updated</source>
+        <translation>düğüm %1 programı yumuşak rampaları bilmiyor: güncellenene kadar duraklatma, sürdürme ve hız ayarı değişiklikleri silkinme sınırlarını aşar</translation>
+    </message>
+    <message>
         <source>node %1 keeps its stop latched: an emergency stop or limit switch is active</source>
         <translation>düğüm %1 durdurmayı bırakmıyor: acil durdurma ya da sınır anahtarı etkin</translation>
     </message>

@@ -40,7 +40,7 @@ bool PathMotion::on_rate_command(const CanFrame& frame, LocalTime now, bool clea
   if (!command) return false;
   using Kind = RateCommand::Kind;
   if (command->kind == Kind::kClear && !clear_allowed) return false;
-  const bool starts = command->kind == Kind::kRate && command->rate_q15 != 0;
+  const bool starts = command->sets_rate() && command->rate_q15 != 0;
   // All nodes run or none: one that cannot says so, and the stop comes before the start that was named.
   // Without bus time it must not move either: the estimate still steps.
   if (starts && !clock_.synchronised()) {

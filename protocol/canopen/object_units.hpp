@@ -62,6 +62,8 @@ constexpr void stream(Rows& t) {
   t.var(0x2115, "Starvation margin", kU16, kReadWrite, kParameter, 50).between(0, 1000).in("ms");
   t.var(0x2116, "Configuration fingerprint", kU32, kReadOnly, kLive);
   session_key(t);
+  // Bit 0: follows rate commands of smooth ramps.
+  t.var(0x2118, "Stream functions", kU32, kConst, kConstant, kFollowsSmoothRamps);
 }
 
 /// What can go wrong, counted.

@@ -83,11 +83,16 @@ constexpr std::optional<SyncStamp> decode_sync_stamp(const CanFrame& frame, BusT
 /// d tau/dt goes from what it is to `rate` along a straight ramp that starts at bus time `start`.
 /// The ramp takes `full_ramp` for a change of 1.0, and in proportion less for a smaller one, so that its
 /// slope, which is what the joints feel, is the stated one.
+/// A smooth ramp takes twice `full_ramp` whatever the change is: for one its slope grows evenly, for the
+/// other it falls, so that the joints' acceleration does not jump; at its steepest it has the slope of a
+/// straight one. One that is under way comes to a slope of 0 in the same way first. Only nodes that say so
+/// follow it (2118h): others take its frame for a malformed one.
 struct RateCommand {
   enum class Kind : std::uint8_t {
-    kRate = 1,   ///< feed hold (rate 0), resume, override
-    kStop = 2,   ///< to rate 0 and latched: only kClear lets kRate work again
-    kClear = 3,  ///< lifts the latch; accepted only at rest
+    kRate = 1,    ///< feed hold (rate 0), resume, override
+    kStop = 2,    ///< to rate 0 and latched: only kClear lets kRate and kSmooth work again
+    kClear = 3,   ///< lifts the latch; accepted only at rest
+    kSmooth = 4,  ///< as kRate, along a smooth ramp
   };
   Kind kind = Kind::kRate;
   std::uint8_t counter = 0;         ///< 0..15, a doubled frame is no second command
@@ -95,9 +100,12 @@ struct RateCommand {
   std::uint8_t full_ramp_2ms = 50;  ///< 2 ms units, 1..255
   BusTime start{0};                 ///< whole microseconds
 
+  constexpr bool sets_rate() const { return kind == Kind::kRate || kind == Kind::kSmooth; }
   friend constexpr bool operator==(const RateCommand&, const RateCommand&) = default;
 };
 inline constexpr std::uint16_t kFullRateQ15 = 32768;
+/// 2118h: the node knows Kind::kSmooth.
+inline constexpr std::uint32_t kFollowsSmoothRamps = 1;
 
 /// Byte 0: counter and kind; 1, 2: rate; 3: ramp; 4 to 6: start in us, low 24 bits; 7: check bits.
 constexpr CanFrame encode(const RateCommand& c) {
@@ -118,7 +126,7 @@ constexpr std::optional<RateCommand> decode_rate_command(const CanFrame& frame, 
     return std::nullopt;
   const unsigned kind = frame.data[0] >> 4;
   const std::uint16_t rate = get_u16_le(std::span(frame.data).subspan(1));
-  if (kind < 1 || kind > 3 || rate > kFullRateQ15 || frame.data[3] == 0) return std::nullopt;
+  if (kind < 1 || kind > 4 || rate > kFullRateQ15 || frame.data[3] == 0) return std::nullopt;
   return RateCommand{static_cast<RateCommand::Kind>(kind), static_cast<std::uint8_t>(frame.data[0] & 0xF),
                      rate, frame.data[3],
                      unwrap_us24(get_u32_le(std::span(frame.data).subspan(4)) & 0xFF'FFFFu, reference)};

@@ -3,33 +3,15 @@
 #include <algorithm>
 #include <limits>
 
+#include "protocol/motion/wide_integer.hpp"
+
 namespace kinebus {
 namespace {
 
 constexpr int kScaleBits = 50;
+// Legs for a rate's change, four at most, and three of a stop's: that is never refused.
+constexpr int kRoom = 4 + 3;
 constexpr std::int64_t kLongAgo = std::numeric_limits<std::int64_t>::min() / 4;
-
-// 128-bit unsigned, for processors and compilers without one: just what a leg needs.
-struct U128 {
-  std::uint64_t high = 0, low = 0;
-};
-constexpr U128 multiply(std::uint64_t x, std::uint64_t y) {
-  const std::uint64_t x0 = x & 0xFFFF'FFFFu, x1 = x >> 32, y0 = y & 0xFFFF'FFFFu, y1 = y >> 32;
-  const std::uint64_t low = x0 * y0;
-  const std::uint64_t middle = x1 * y0 + (low >> 32);
-  const std::uint64_t middle2 = x0 * y1 + (middle & 0xFFFF'FFFFu);
-  return {x1 * y1 + (middle >> 32) + (middle2 >> 32), (middle2 << 32) | (low & 0xFFFF'FFFFu)};
-}
-constexpr U128 add(U128 x, U128 y) {
-  const std::uint64_t low = x.low + y.low;
-  return {x.high + y.high + (low < x.low ? 1u : 0u), low};
-}
-constexpr U128 subtract(U128 x, U128 y) {
-  return {x.high - y.high - (x.low < y.low ? 1u : 0u), x.low - y.low};
-}
-constexpr std::uint64_t shift_right(U128 x, int bits) {  // 0 < bits < 64; the result fits
-  return (x.high << (64 - bits)) | (x.low >> bits);
-}
 
 // 16 ticks a microsecond: 0.016 ticks for each nanosecond at rate 1, with 64 fractional bits (rounded down).
 constexpr std::uint64_t kTicksPerNsQ64 = 295'147'905'179'352'825u;
@@ -37,23 +19,50 @@ constexpr std::uint64_t full_ramp_ns(std::uint8_t full_ramp_2ms) {
   return full_ramp_2ms * std::uint64_t{2'000'000};
 }
 
+// Of a cubic: c / 2^86 * dt^3 is the way of w / 2^96 * dt^2, so c = w * 0.016 * 2^12 / (3 * 2^10).
+constexpr int kCubicBits = 86;
+constexpr std::uint64_t kCubicOfSquare = kTicksPerNsQ64 / 3 * 4;
+// w of a change by 2^-32 in two halves of 2 ms: 2^63 / (2 ms in ns)^2, with 8 more bits.
+constexpr std::uint64_t kSquareBits = 8, kSquareOfChange = 590'295'810u;
+
 }  // namespace
 
-std::int64_t PathClock::Leg::tau_at(std::int64_t t) const {
-  if (a == 0 && b == 0) return tau0;
-  const auto dt = static_cast<std::uint64_t>(std::max<std::int64_t>(t - start, 0));
+/// From `t` to the end.
+std::uint64_t PathClock::Leg::to_end(std::int64_t t) const {
+  return static_cast<std::uint64_t>(std::clamp<std::int64_t>(end() - t, 0, length));
+}
+
+/// In `dt` from `start`, or to the end where it lands.
+std::int64_t PathClock::Leg::way(std::uint64_t dt) const {
   U128 sum = multiply(a, dt);
-  if (b != 0) {
-    // A ramp lasts 510 ms at most, so dt^2 is below 2^58. One rounding, at the end: tau cannot run back.
+  // A leg that bends lasts 510 ms at most, so dt^2 is below 2^58. One rounding, at the end: tau cannot run
+  // back.
+  if (smooth()) {
+    U128 bend = multiply(multiply(c, dt * dt), dt);
+    constexpr int kMore = kCubicBits - kScaleBits;
+    bend = {bend.high >> kMore, shift_right(bend, kMore)};
+    sum = rising != lands ? add(sum, bend) : subtract(sum, bend);
+  } else if (b != 0) {
     const U128 bend = multiply(b, dt * dt);
     sum = rising ? add(sum, bend) : subtract(sum, bend);
   }
-  return tau0 + static_cast<std::int64_t>(shift_right(sum, kScaleBits));
+  return static_cast<std::int64_t>(shift_right(sum, kScaleBits));
+}
+
+std::int64_t PathClock::Leg::tau_at(std::int64_t t) const {
+  if (lands) return tau_end - way(to_end(t));
+  if (a == 0 && b == 0 && c == 0) return tau0;
+  return tau0 + way(static_cast<std::uint64_t>(std::max<std::int64_t>(t - start, 0)));
 }
 
 std::uint64_t PathClock::Leg::rate_at(std::int64_t t) const {
-  if (full_ramp_ns == 0) return rate_q32;
   const auto dt = static_cast<std::uint64_t>(std::max<std::int64_t>(t - start, 0));
+  if (smooth()) {
+    const std::uint64_t from_still = lands ? to_end(t) : dt;
+    const std::uint64_t change = multiply(w, from_still * from_still).high;
+    return rising != lands ? rate_q32 + change : rate_q32 - std::min(rate_q32, change);
+  }
+  if (full_ramp_ns == 0) return rate_q32;
   const std::uint64_t change = (dt << 32) / full_ramp_ns;
   return rising ? rate_q32 + change : rate_q32 - std::min(rate_q32, change);
 }
@@ -86,17 +95,81 @@ PathClock::Leg PathClock::make_leg(std::int64_t start, std::int64_t tau0, std::u
   return fresh;
 }
 
-/// A ramp to `target_q32` from `start` on, from what is in force then.
-PathClock::Change PathClock::planned(std::int64_t start, std::uint64_t target_q32, std::uint64_t ramp) const {
+/// A smooth ramp's first half, from where its slope is 0.
+PathClock::Leg PathClock::leave(std::int64_t start, std::int64_t tau0, std::uint64_t rate_q32,
+                                std::uint32_t length, std::uint64_t w, bool rising) {
+  Leg fresh = make_leg(start, tau0, rate_q32, 0, rising);
+  fresh.length = length;
+  fresh.w = w;
+  fresh.c = multiply(w, kCubicOfSquare).high;
+  return fresh;
+}
+
+/// The half that brings the slope of `before`, which it is bent as, to 0 at rate_q32.
+PathClock::Leg PathClock::land(const Leg& before, std::int64_t start, std::uint64_t rate_q32,
+                               std::uint32_t length) {
+  Leg fresh = leave(start, before.tau_at(start), rate_q32, length, before.w, before.rising);
+  fresh.lands = true;
+  fresh.tau_end = fresh.tau0 + fresh.way(length);
+  return fresh;
+}
+
+const PathClock::Leg* PathClock::Change::at(std::int64_t t) const {
+  const Leg* found = nullptr;
+  for (int i = 0; i < count; ++i)
+    if (const Leg& leg = legs[static_cast<std::size_t>(i)]; leg.start <= t) found = &leg;
+  return found;
+}
+
+/// A ramp from `start` on, from what is in force then.
+PathClock::Change PathClock::straight(const Wanted& wanted) const {
+  const std::int64_t start = wanted.start;
+  const std::uint64_t ramp = full_ramp_ns(wanted.full_ramp_2ms);
   const Leg& base = leg_at(start);
   const std::uint64_t from_q32 = base.rate_at(start);
   const std::int64_t tau0 = base.tau_at(start);
-  const bool rising = target_q32 > from_q32;
-  const std::uint64_t difference = rising ? target_q32 - from_q32 : from_q32 - target_q32;
+  const bool rising = wanted.target_q32 > from_q32;
+  const std::uint64_t difference = rising ? wanted.target_q32 - from_q32 : from_q32 - wanted.target_q32;
   const auto duration = static_cast<std::int64_t>((difference * ramp) >> 32);
-  Change result{.ramp = make_leg(start, tau0, from_q32, ramp, rising), .middle = {}, .after = {}};
-  const std::int64_t end_tau = duration > 0 ? result.ramp.tau_at(start + duration) : tau0;
-  result.after = make_leg(start + duration, end_tau, target_q32, 0, false);
+  Change result;
+  std::int64_t end_tau = tau0;
+  if (duration > 0) {
+    result.add(make_leg(start, tau0, from_q32, ramp, rising));
+    end_tau = result.after().tau_at(start + duration);
+  }
+  result.add(make_leg(start + duration, end_tau, wanted.target_q32, 0, false));
+  return result;
+}
+
+/// The same, smooth: in two halves, after what brings a smooth ramp that is under way to a slope of 0.
+PathClock::Change PathClock::smooth(const Wanted& wanted) const {
+  const Leg& base = leg_at(wanted.start);
+  Change result;
+  std::int64_t at = wanted.start, tau0 = base.tau_at(at);
+  std::uint64_t from_q32 = base.rate_at(at);
+  if (base.smooth() && base.lands && base.end() > at) {
+    at = base.end();
+    tau0 = base.tau_end;
+    from_q32 = base.rate_q32;
+  } else if (base.smooth() && !base.lands && at > base.start) {
+    const auto gone = static_cast<std::uint32_t>(std::min(at, base.end()) - base.start);
+    const std::uint64_t change = multiply(base.w, std::uint64_t{gone} * gone).high * 2;
+    from_q32 = base.rising ? base.rate_q32 + change : base.rate_q32 - std::min(base.rate_q32, change);
+    result.add(land(base, at, from_q32, gone));
+    at = result.after().end();
+    tau0 = result.after().tau_end;
+  }
+  const bool rising = wanted.target_q32 > from_q32;
+  const std::uint64_t difference = rising ? wanted.target_q32 - from_q32 : from_q32 - wanted.target_q32;
+  if (difference != 0) {
+    const std::uint32_t n = wanted.full_ramp_2ms, half = n * 2'000'000u, square = n * n;
+    const std::uint64_t w = (difference * kSquareOfChange / square) >> kSquareBits;
+    result.add(leave(at, tau0, from_q32, half, w, rising));
+    result.add(land(result.after(), at + half, wanted.target_q32, half));
+    at = result.after().end();
+    tau0 = result.after().tau_end;
+  }
+  result.add(make_leg(at, tau0, wanted.target_q32, 0, false));
   return result;
 }
 
@@ -105,15 +178,15 @@ PathClock::Change PathClock::planned(std::int64_t start, std::uint64_t target_q3
 std::optional<PathClock::Change> PathClock::caught_up(const Change& in_time, std::int64_t now,
                                                       std::uint64_t ramp) const {
   const Leg& base = leg_at(now);
-  const std::uint64_t from = base.rate_at(now), target = in_time.after.rate_q32;
-  if (from == target || in_time.after.start <= now) return std::nullopt;
+  const std::uint64_t from = base.rate_at(now), target = in_time.after().rate_q32;
+  if (from == target || in_time.after().start <= now) return std::nullopt;
   const bool rising = target > from;
   const std::uint64_t difference = rising ? target - from : from - target;
   const Leg carried = make_leg(now, 0, target, 0, false);
-  const std::int64_t after_now = in_time.after.tau0 - carried.tau_at(in_time.after.start);
+  const std::int64_t after_now = in_time.after().tau0 - carried.tau_at(in_time.after().start);
   const std::int64_t gap = rising ? base.tau_at(now) - after_now : after_now - base.tau_at(now);
   if (gap <= 0) return std::nullopt;
-  // Ramps end after half a second: the gap is below 2^36, in 1/4096 ticks of 62.5 ns. 2 * 62.5 ns = 125 ns.
+  // Ramps end after 1.53 s: the gap is below 2^36, in 1/4096 ticks of 62.5 ns. 2 * 62.5 ns = 125 ns.
   const auto gap_ns = (static_cast<std::uint64_t>(gap) * 125) >> kTauBits;  // twice the gap
   if (gap_ns >= std::uint64_t{1} << 31) return std::nullopt;
   // 8 ns to the side on which rounding leaves tau going forward by some ns, never back.
@@ -122,37 +195,45 @@ std::optional<PathClock::Change> PathClock::caught_up(const Change& in_time, std
   const std::uint64_t steeper = (duration << 32) / std::max<std::uint64_t>(difference, 1);
   if (duration >= std::uint64_t{1} << 31 || steeper < ramp - ramp / 4 || steeper > ramp) return std::nullopt;
   const auto end = now + static_cast<std::int64_t>(duration);
-  if (end > in_time.after.start) return std::nullopt;
+  if (end > in_time.after().start) return std::nullopt;
   // Then along the line that in_time.after goes on with, to the bit from there on.
   const Leg line = make_leg(end, 0, target, 0, false);
-  const std::int64_t tau_end = in_time.after.tau0 - line.tau_at(in_time.after.start);
-  return Change{.ramp = make_leg(now, base.tau_at(now), from, steeper, rising),
-                .middle = make_leg(end, tau_end, target, 0, false),
-                .after = in_time.after};
+  const std::int64_t tau_end = in_time.after().tau0 - line.tau_at(in_time.after().start);
+  Change result;
+  result.add(make_leg(now, base.tau_at(now), from, steeper, rising));
+  result.add(make_leg(end, tau_end, target, 0, false));
+  result.add(in_time.after());
+  return result;
 }
 
 /// In place of all that came after its start.
 void PathClock::put(const Change& change) {
-  while (count_ > 1 && leg(count_ - 1).start >= change.ramp.start) --count_;
-  if (change.ramp.start < change.after.start) leg(count_++) = change.ramp;
-  if (change.middle) leg(count_++) = *change.middle;
-  leg(count_++) = change.after;
+  while (count_ > 1 && leg(count_ - 1).start >= change.legs[0].start) --count_;
+  for (int i = 0; i < change.count; ++i) leg(count_++) = change.legs[static_cast<std::size_t>(i)];
 }
 
-std::optional<PathClock::Outcome> PathClock::change(std::int64_t start, std::uint64_t target_q32,
-                                                    std::uint8_t full_ramp_2ms, std::int64_t now) {
-  const std::uint64_t ramp = full_ramp_ns(std::max(full_ramp_2ms, options_.least_full_ramp_2ms));
-  const Change in_time = planned(start, target_q32, ramp);
+std::optional<PathClock::Outcome> PathClock::change(Wanted wanted, std::int64_t now) {
+  wanted.full_ramp_2ms = std::max(wanted.full_ramp_2ms, options_.least_full_ramp_2ms);
+  const std::int64_t start = wanted.start;
+  const Change in_time = wanted.smooth ? smooth(wanted) : straight(wanted);
   if (start >= now) {
     put(in_time);
     return Outcome::kScheduled;
   }
   if (now - start > options_.rewind.count() || start < legs_[0].start) return std::nullopt;
-  const Leg& then = now < in_time.after.start ? in_time.ramp : in_time.after;
-  const std::int64_t step = then.tau_at(now) - leg_at(now).tau_at(now);
+  const Leg& present = leg_at(now);
+  const Leg* const then = in_time.at(now);
+  const std::int64_t step = then == nullptr ? 0 : then->tau_at(now) - present.tau_at(now);
   if ((step < 0 ? -step : step) >> kTauBits <= options_.most_step.count()) {
     put(in_time);
     return Outcome::kLateRewound;
+  }
+  std::uint64_t ramp = full_ramp_ns(wanted.full_ramp_2ms);
+  if (wanted.smooth) {
+    // As steep as a smooth one is in the mean.
+    const std::uint64_t from = leg_at(start).rate_at(start), target = wanted.target_q32;
+    const auto lasts = static_cast<std::uint64_t>(in_time.after().start - start);
+    ramp = (lasts << 32) / std::max<std::uint64_t>(from > target ? from - target : target - from, 1);
   }
   const auto catching = caught_up(in_time, now, ramp);
   if (!catching) return std::nullopt;
@@ -174,16 +255,20 @@ PathClock::Outcome PathClock::apply(const RateCommand& command, BusTime now) {
       cleared_ = command.start.count();
       newest_ = kLongAgo;
       break;
-    case RateCommand::Kind::kRate: {
+    case RateCommand::Kind::kRate:
+    case RateCommand::Kind::kSmooth: {
       const bool in_time = command.start >= now - options_.rewind;
       const std::int64_t earliest = in_time ? command.start.count() : now.count();
       if (command.start.count() < cleared_ || (stop_ && earliest >= stop_->start)) return Outcome::kLatched;
       if (command.start.count() < newest_) return Outcome::kDuplicate;
       make_room(now.count());
-      if (count_ + 6 > kMaxLegs) return Outcome::kFull;  // the other three are a stop's: it is never refused
+      if (count_ + kRoom > kMaxLegs) return Outcome::kFull;
       newest_ = command.start.count();
-      const auto changed = change(command.start.count(), static_cast<std::uint64_t>(command.rate_q15) << 17,
-                                  command.full_ramp_2ms, now.count());
+      const auto changed = change({.start = command.start.count(),
+                                   .target_q32 = static_cast<std::uint64_t>(command.rate_q15) << 17,
+                                   .full_ramp_2ms = command.full_ramp_2ms,
+                                   .smooth = command.kind == RateCommand::Kind::kSmooth},
+                                  now.count());
       outcome = changed.value_or(Outcome::kTooLate);
       if (changed && stop_) begin_stop(now.count());
       break;
@@ -202,9 +287,10 @@ PathClock::Outcome PathClock::stop_at(BusTime start, std::uint8_t full_ramp_2ms,
 
 /// A stop is never refused: too late for the common ramp, it begins now.
 PathClock::Outcome PathClock::begin_stop(std::int64_t now) {
-  if (const auto changed = change(stop_->start, 0, stop_->full_ramp_2ms, now)) return *changed;
+  if (const auto changed = change({.start = stop_->start, .full_ramp_2ms = stop_->full_ramp_2ms}, now))
+    return *changed;
   stop_->start = now;
-  static_cast<void>(change(now, 0, stop_->full_ramp_2ms, now));
+  static_cast<void>(change({.start = now, .full_ramp_2ms = stop_->full_ramp_2ms}, now));
   return Outcome::kLateStarted;
 }
 
@@ -241,7 +327,7 @@ bool PathClock::at_rest(BusTime t) const {
     const Leg& here = leg(i);
     if (here.start > t.count() && (here.rate_q32 != 0 || here.rising)) return false;
   }
-  return !leg_at(t.count()).rising;
+  return !leg_at(t.count()).rising && !leg_at(t.count()).smooth();
 }
 
 std::optional<BusTime> PathClock::stop_start() const {
@@ -276,7 +362,7 @@ void PathClock::shift(BusTime by) {
 /// Rather the oldest of what could be rewound than a change that all others make.
 void PathClock::make_room(std::int64_t now) {
   int old = 0;
-  while (count_ - old + 6 > kMaxLegs && old + 1 < count_ && leg(old + 1).start <= now) ++old;
+  while (count_ - old + kRoom > kMaxLegs && old + 1 < count_ && leg(old + 1).start <= now) ++old;
   drop(old);
 }
 

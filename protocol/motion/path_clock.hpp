@@ -1,8 +1,8 @@
 #pragma once
-// Path time tau as a function of bus time: d tau/dt (the rate) follows straight ramps named by rate commands
-// and stop requests. Every node and the gateway run this class; for equal commands they give the same tau at
-// the same bus time to the last bit: integers only, and each command takes effect at the bus time that it
-// names, whenever it arrives.
+// Path time tau as a function of bus time: d tau/dt (the rate) follows straight and smooth ramps named by
+// rate commands, and straight ones of stop requests. Every node and the gateway run this class; for equal
+// commands they give the same tau at the same bus time to the last bit: integers only, and each command takes
+// effect at the bus time that it names, whenever it arrives.
 
 #include <array>
 #include <cstdint>
@@ -49,6 +49,8 @@ class PathClock {
 
   /// Never decreases in `t` (a rewinding command excepted). Cost: about 10 ns; no division.
   PathTime tau(BusTime t) const;
+  /// The same in 1/4096 ticks, for who differences it.
+  std::int64_t fine_tau(BusTime t) const { return leg_at(t.count()).tau_at(t.count()); }
   /// 0 .. 2^32 = 0 .. 1.0.
   std::uint64_t rate_q32(BusTime t) const;
   /// Earliest bus time at which tau >= `path`; nullopt: never, as commanded so far. Cost: some 40 tau().
@@ -75,15 +77,26 @@ class PathClock {
   static constexpr int kTauBits = 12;
   static constexpr int kMaxLegs = 24;
 
-  // From `start` on, until the next leg: tau = tau0 + (a * dt -/+ b * dt^2) / 2^50.
+  // From `start` on, until the next leg. Straight: tau = tau0 + (a * dt -/+ b * dt^2) / 2^50. Half of a
+  // smooth ramp is cubic about the end where its slope is 0, of which rate_q32 and a are: its start, or,
+  // where it lands, its end, at `length`, with dt counted back from there. c: of dt^3, / 2^86; w: of the
+  // rate, / 2^64.
   struct Leg {
     std::int64_t start = 0;          // ns
     std::int64_t tau0 = 0;           // 1/4096 ticks
     std::uint64_t rate_q32 = 0;      // at the start
-    std::uint64_t full_ramp_ns = 0;  // 0: constant rate
+    std::uint64_t full_ramp_ns = 0;  // 0: constant rate, or smooth
     bool rising = false;
+    bool lands = false;
     std::uint64_t a = 0, b = 0;
+    std::uint64_t c = 0, w = 0;
+    std::int64_t tau_end = 0;  // where it lands
+    std::uint32_t length = 0;  // ns, of a smooth one
 
+    bool smooth() const { return length != 0; }
+    std::int64_t end() const { return start + length; }
+    std::uint64_t to_end(std::int64_t t) const;
+    std::int64_t way(std::uint64_t dt) const;
     std::int64_t tau_at(std::int64_t t) const;
     std::uint64_t rate_at(std::int64_t t) const;
   };
@@ -95,25 +108,38 @@ class PathClock {
   Leg& leg(int i) { return legs_[static_cast<std::size_t>(i)]; }
   const Leg& leg(int i) const { return legs_[static_cast<std::size_t>(i)]; }
   const Leg& leg_at(std::int64_t t) const;
-  /// A ramp and what comes after it; a ramp that was made steeper waits on `middle` for `after`.
+  /// A ramp's legs and what comes after it; a ramp that was made steeper waits before that.
   struct Change {
-    Leg ramp;
-    std::optional<Leg> middle;
-    Leg after;
+    std::array<Leg, 4> legs{};
+    int count = 0;
+    void add(const Leg& leg) { legs[static_cast<std::size_t>(count++)] = leg; }
+    const Leg& after() const { return legs[static_cast<std::size_t>(count - 1)]; }
+    /// nullptr: before the first of them.
+    const Leg* at(std::int64_t t) const;
+  };
+  /// What a change is asked to be.
+  struct Wanted {
+    std::int64_t start = 0;
+    std::uint64_t target_q32 = 0;
+    std::uint8_t full_ramp_2ms = 0;
+    bool smooth = false;
   };
 
-  Change planned(std::int64_t start, std::uint64_t target_q32, std::uint64_t full_ramp_ns) const;
+  Change straight(const Wanted& wanted) const;
+  Change smooth(const Wanted& wanted) const;
   std::optional<Change> caught_up(const Change& in_time, std::int64_t now, std::uint64_t full_ramp_ns) const;
   /// The change as it would have been in time, as far as that can still be had; nullopt: too late, nothing
   /// done.
-  std::optional<Outcome> change(std::int64_t start, std::uint64_t target_q32, std::uint8_t full_ramp_2ms,
-                                std::int64_t now);
+  std::optional<Outcome> change(Wanted wanted, std::int64_t now);
   Outcome begin_stop(std::int64_t now);
   void put(const Change& change);
   void make_room(std::int64_t now);
   void drop(int old);
   static Leg make_leg(std::int64_t start, std::int64_t tau0, std::uint64_t rate_q32,
                       std::uint64_t full_ramp_ns, bool rising);
+  static Leg leave(std::int64_t start, std::int64_t tau0, std::uint64_t rate_q32, std::uint32_t length,
+                   std::uint64_t w, bool rising);
+  static Leg land(const Leg& before, std::int64_t start, std::uint64_t rate_q32, std::uint32_t length);
 
   Options options_;
   std::array<Leg, kMaxLegs> legs_{};

@@ -97,14 +97,15 @@ std::vector<FrameField> record_fields(ObjectAddress address) {
                .bits = 4,
                .values = {{static_cast<int>(RateCommand::Kind::kRate), "rate"},
                           {static_cast<int>(RateCommand::Kind::kStop), "stop"},
-                          {static_cast<int>(RateCommand::Kind::kClear), "clear"}}},
+                          {static_cast<int>(RateCommand::Kind::kClear), "clear"},
+                          {static_cast<int>(RateCommand::Kind::kSmooth), "smooth"}}},
               {.name = "Rate", .start = 8, .bits = 16, .factor = 1.0 / kFullRateQ15},
               {.name = "FullRamp",
                .start = 24,
                .bits = 8,
                .factor = 2,
                .unit = "ms",
-               .comment = "for a change of the rate by 1.0"},
+               .comment = "for a change of the rate by 1.0; smooth: each half of it, for any"},
               {.name = "Start", .start = 32, .bits = 24, .unit = "us", .comment = "bus time, low 24 bits"},
               {.name = "Check", .start = 56, .bits = 8, .comment = check}};
     case object::kSyncStamp.key():

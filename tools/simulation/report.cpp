@@ -23,6 +23,7 @@ std::string to_json_text(const SimulationReport& r) {
                       {"max_joint_acceleration_ratio", r.max_joint_acceleration_ratio},
                       {"max_measured_acceleration_ratio", r.max_measured_acceleration_ratio},
                       {"max_joint_jerk_ratio", r.max_joint_jerk_ratio},
+                      {"max_ramp_jerk_ratio", r.max_ramp_jerk_ratio},
                       {"max_velocity_step_ratio", r.max_velocity_step_ratio},
                       {"max_node_time_skew_us", r.max_node_time_skew_us},
                       {"bus_load_mean", r.bus_load_mean},
@@ -106,8 +107,8 @@ std::string to_table(const SimulationReport& r) {
       fmt::format("of the limit; by 1 ms differences {:.4f}", r.max_measured_acceleration_ratio));
   if (r.max_joint_jerk_ratio > 0)
     row("max_joint_jerk_ratio", fmt::format("{:.4f}", r.max_joint_jerk_ratio),
-        fmt::format("of the limit, by 1 ms differences of the plan at full rate; {}, {:.3f} s",
-                    r.worst_jerk_joint, r.worst_jerk_s));
+        fmt::format("of the limit, by 1 ms differences of the plan; {}, {:.3f} s; {:.4f} below full rate",
+                    r.worst_jerk_joint, r.worst_jerk_s, r.max_ramp_jerk_ratio));
   row("max_velocity_step_ratio", fmt::format("{:.4f}", r.max_velocity_step_ratio),
       fmt::format("in 1 ms, of the stop limit, from power-up on; {}, {:.3f} s", r.worst_step_joint,
                   r.worst_step_s));

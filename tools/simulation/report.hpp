@@ -61,7 +61,8 @@ struct SimulationReport {
   double max_joint_velocity_ratio = 0;
   double max_joint_acceleration_ratio = 0;
   double max_measured_acceleration_ratio = 0;
-  double max_joint_jerk_ratio = 0;  ///< of the plan, at full rate; 0: the machine has no limit
+  double max_joint_jerk_ratio = 0;  ///< of the plan; 0: the machine has no limit
+  double max_ramp_jerk_ratio = 0;   ///< the same while path time does not run at its full rate
   double max_velocity_step_ratio =
       0;  ///< in a millisecond, to what the stop acceleration allows; from power-up on
   double max_node_time_skew_us = 0;

@@ -87,6 +87,7 @@ class Run {
     simulation_.on_frame = [this](BusTime when, const CanFrame& frame) {
       if (options_.on_frame) options_.on_frame(when, frame);
       if (!checkers_) return;
+      checkers_->jerk.on_frame(when, frame);
       checkers_->joints.on_frame(frame);
       checkers_->queues.on_frame(frame);
     };
@@ -262,6 +263,7 @@ class Run {
     report_.max_joint_acceleration_ratio = c.joints.max_acceleration_ratio();
     report_.max_measured_acceleration_ratio = c.joints.max_measured_acceleration_ratio();
     report_.max_joint_jerk_ratio = c.jerk.max_ratio();
+    report_.max_ramp_jerk_ratio = c.jerk.max_ramp_ratio();
     report_.worst_jerk_s = std::max(0.0, c.jerk.worst_time_s() - to_seconds(begin_));
     report_.worst_jerk_joint = c.jerk.worst_joint();
     if (vibration_)

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace kinebus {
 namespace {
 
@@ -68,6 +70,45 @@ TEST(PathRate, StopOvertakesARateThatIsStillAhead) {
   EXPECT_LE(stop.start, first + 5ms);
 }
 
+// A node that heard of the stop would answer a rate behind it with a stop of its own, each time.
+TEST(PathRate, ARateBehindAStopIsNotRepeated) {
+  for (const bool by_node : {false, true}) {
+    for (const bool first_was_out : {false, true}) {
+      PathRate rate;
+      rate.request(1, 2ms, 1s);
+      if (first_was_out) {
+        EXPECT_EQ(sent(rate, 1s).start, 1s + 50ms);
+      }
+      if (by_node)
+        rate.on_stop_request({StopReason::kStarved, 0, 1s + 6ms}, 1s + 1ms);
+      else
+        rate.stop(1s + 1ms);
+      int stops = 0;
+      for (BusTime t = 1s + 1ms; t < 1s + 60ms; t += 100us)
+        for (auto frame = rate.next_frame(t); frame; frame = rate.next_frame(t)) {
+          rate.on_frame_sent(t, *frame);
+          EXPECT_EQ(decode_rate_command(*frame, t)->kind, RateCommand::Kind::kStop);
+          ++stops;
+        }
+      EXPECT_EQ(stops, 1);
+      for (auto frame = rate.next_repeat(2s); frame; frame = rate.next_repeat(2s), ++stops)
+        EXPECT_EQ(decode_rate_command(*frame, 1s)->kind, RateCommand::Kind::kStop);
+      EXPECT_EQ(stops, 8);
+      EXPECT_TRUE(rate.all_sent());
+    }
+  }
+  // One that begins before the stop is what the stop begins from.
+  PathRate rate;
+  rate.request(1, 200ms, 1s);
+  for (BusTime t = 1s; t < 1s + 100ms; t += 1ms)
+    while (rate.next_frame(t) || rate.next_repeat(t)) {
+    }
+  rate.request(0.5, 200ms, 2s);
+  rate.stop(2s + 1ms);
+  EXPECT_EQ(sent(rate, 2s + 1ms).kind, RateCommand::Kind::kRate);
+  EXPECT_EQ(sent(rate, 2s + 1ms).kind, RateCommand::Kind::kStop);
+}
+
 TEST(PathRate, NodesStopRequestStopsTheGatewaysClockToo) {
   PathRate rate;
   rate.request(1, 2ms, 1s);
@@ -100,6 +141,26 @@ TEST(PathRate, AMotionFromRestIsNamedFartherAheadThanAHold) {
   EXPECT_EQ(sent(rate, 1s).start, 1s + 50ms);
   rate.request(0, 200ms, 2s);
   EXPECT_EQ(sent(rate, 2s).start, 2s + 5ms);
+}
+
+TEST(PathRate, ASmoothRampThatIsTriedIsTheOneThatIsAskedForAndTakesTwiceItsTime) {
+  PathRate rate;
+  for (const double target : {1.0, 0.25}) {
+    const BusTime now = target == 1 ? 1s : 3s, start = now + (target == 1 ? 50ms : 10ms);
+    const double before = rate.target();
+    const PathClock tried = rate.with_smooth(target, 300ms, now);
+    EXPECT_EQ(rate.target(), before);
+    EXPECT_FALSE(rate.is_target(target));
+    rate.request_smooth(target, 300ms, now);
+    EXPECT_TRUE(rate.is_target(target));
+    const RateCommand command = sent(rate, now);
+    EXPECT_EQ(command.kind, RateCommand::Kind::kSmooth);
+    EXPECT_EQ(command.start, start);
+    EXPECT_NEAR(rate.rate(start + 300ms), (before + target) / 2, 1e-4);
+    EXPECT_LT(std::abs(rate.rate(start + 590ms) - target), 1e-3);
+    EXPECT_EQ(rate.rate(start + 600ms), target);
+    for (BusTime t = start; t < start + 700ms; t += 7ms) ASSERT_EQ(rate.tau(t), tried.tau(t));
+  }
 }
 
 TEST(PathRate, ACommandIsSentWhenItWasOnTheBus) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <random>
+#include <tuple>
 #include <vector>
 
 namespace kinebus {
@@ -24,6 +25,14 @@ RateCommand stop(BusTime start, int counter = 0, int ramp_ms = 100) {
 }
 RateCommand clear(BusTime start, int counter = 0) {
   return {RateCommand::Kind::kClear, static_cast<std::uint8_t>(counter), 0, 50, start};
+}
+RateCommand smooth(double value, BusTime start, int counter = 0, int ramp_ms = 200) {
+  RateCommand command = rate(value, start, counter, ramp_ms / 2);
+  command.kind = RateCommand::Kind::kSmooth;
+  return command;
+}
+double rate_of(const PathClock& clock, BusTime t) {
+  return static_cast<double>(clock.rate_q32(t)) / 4294967296.0;
 }
 double seconds_of(PathTime t) {
   return to_seconds(t);
@@ -139,6 +148,82 @@ TEST(PathClock, ALateCommandCatchesUpWithoutAStep) {
   }
 }
 
+TEST(PathClock, ASmoothRampTakesItsTimeAndHalfOfTheWay) {
+  PathClock clock;
+  clock.apply(smooth(1.0, seconds{1}), seconds{0});
+  EXPECT_FALSE(clock.at_rest(seconds{1}));
+  EXPECT_NEAR(rate_of(clock, seconds{1} + milliseconds{50}), 0.125, 1e-8);
+  EXPECT_NEAR(rate_of(clock, seconds{1} + milliseconds{100}), 0.5, 1e-8);
+  EXPECT_NEAR(seconds_of(clock.tau(seconds{1} + milliseconds{50})), 0.05 * 0.125 / 3, 1e-7);
+  EXPECT_NEAR(seconds_of(clock.tau(seconds{1} + milliseconds{200})), 0.1, 1e-7);
+  clock.apply(smooth(0.2, seconds{2}, 1, 100), seconds{2});
+  EXPECT_EQ(rate_of(clock, seconds{2} + milliseconds{100}), 6553.0 / 32768);
+  clock.apply(smooth(0, seconds{3}, 2), seconds{2});
+  EXPECT_FALSE(clock.at_rest(seconds{3} + milliseconds{199}));
+  EXPECT_TRUE(clock.at_rest(seconds{3} + milliseconds{200}));
+}
+
+// A hold while the machine speeds up, a resume while it holds, one upon another: the rate's slope never
+// jumps, and tau never runs back.
+TEST(PathClock, SmoothRampsThatCutEachOtherShortJoinWithoutAJump) {
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    std::mt19937_64 random(seed);
+    const auto below = [&](std::int64_t limit) {
+      return static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(limit));
+    };
+    PathClock clock;
+    BusTime t = seconds{1};
+    double steepest = 0;  // change of the slope, per s^2
+    constexpr BusTime kStep = microseconds{100};
+    constexpr double kStep_s = 1e-4;
+    double last = 0, slope = 0;
+    PathTime tau{0};
+    for (int i = 0; i < 40; ++i) {
+      const int ramp_ms = static_cast<int>(4 * (5 + below(251)));
+      steepest = std::max(steepest, 4e6 / ramp_ms / ramp_ms);
+      const BusTime start = t + microseconds{below(5000)};
+      ASSERT_EQ(clock.apply(smooth(static_cast<double>(below(5)) / 4, start, i % 16, ramp_ms), t),
+                Outcome::kScheduled);
+      const BusTime until = start + milliseconds{1 + below(i % 3 == 0 ? 1800 : 400)};
+      for (; t < until; t += kStep) {
+        const double now = rate_of(clock, t), slope_now = (now - last) / kStep_s;
+        ASSERT_LE(std::abs(slope_now - slope), steepest * kStep_s * 1.001 + 1e-4) << to_seconds(t);
+        ASSERT_GE(clock.tau(t), tau);
+        ASSERT_NEAR(seconds_of(clock.tau(t) - tau), 0.5 * (now + last) * kStep_s, 1.3e-7) << to_seconds(t);
+        tau = clock.tau(t);
+        last = now;
+        slope = slope_now;
+      }
+      clock.forget_before(t);
+    }
+  }
+}
+
+TEST(PathClock, AStopCutsASmoothRampShort) {
+  PathClock clock;
+  clock.apply(smooth(1.0, seconds{1}), seconds{0});
+  clock.stop_at(seconds{1} + milliseconds{100}, 50, seconds{1});
+  EXPECT_NEAR(rate_of(clock, seconds{1} + milliseconds{125}), 0.25, 1e-6);
+  EXPECT_TRUE(clock.at_rest(seconds{1} + milliseconds{151}));
+}
+
+TEST(PathClock, ALateSmoothRampCatchesUpWithoutAStep) {
+  for (const auto& [from, to, late_us] :
+       {std::tuple{1.0, 0.0, 8000}, {0.0, 1.0, 9000}, {1.0, 0.5, 11000}, {0.25, 1.0, 11900}}) {
+    SCOPED_TRACE(testing::Message() << from << " to " << to << ", late by " << late_us << " us");
+    PathClock in_time, late;
+    for (PathClock* clock : {&in_time, &late}) clock->apply(rate(from, seconds{1}), seconds{0});
+    const BusTime heard = seconds{2} + microseconds{late_us};
+    const PathTime before = late.tau(heard);
+    in_time.apply(smooth(to, seconds{2}, 1), seconds{2});
+    EXPECT_EQ(late.apply(smooth(to, seconds{2}, 1), heard), Outcome::kLateCaughtUp);
+    EXPECT_EQ(late.tau(heard), before);
+    for (BusTime t = seconds{2} + milliseconds{200}; t < seconds{3}; t += microseconds{500})
+      ASSERT_EQ(in_time.tau(t), late.tau(t));
+  }
+}
+
 TEST(PathClock, AVeryLateRateIsVoid) {
   PathClock clock;
   clock.apply(rate(1.0, seconds{1}), seconds{0});
@@ -209,6 +294,7 @@ TEST(PathClock, IsMonotoneExactAndInvertibleUnderRandomCommands) {
       const BusTime start = BusTime{(t.count() / 1000 + 2000 + below(300'000)) * 1000};
       RateCommand command = rate(static_cast<double>(below(32769)) / 32768, start, step % 16,
                                  static_cast<int>(2 + 2 * below(255)));
+      if (random() % 2 == 0) command.kind = RateCommand::Kind::kSmooth;
       if (step % 13 == 7) command.kind = RateCommand::Kind::kStop;
       early.apply(command, t);
       const BusTime heard = t + BusTime{below(2'000'000)};
@@ -223,7 +309,7 @@ TEST(PathClock, IsMonotoneExactAndInvertibleUnderRandomCommands) {
       const PathTime before = late.tau(heard);
       const Outcome outcome = late.apply(command, heard);
       ASSERT_LE(std::abs((late.tau(heard) - before).count()), PathClock::Options{}.most_step.count());
-      const BusTime same = outcome == Outcome::kLateCaughtUp ? start + milliseconds{510} : start;
+      const BusTime same = outcome == Outcome::kLateCaughtUp ? start + milliseconds{1530} : start;
       for (int i = 0; i < 20; ++i) {
         const BusTime u = same + BusTime{below(1'000'000'000)};
         ASSERT_EQ(early.tau(u), late.tau(u)) << "seed " << seed << " step " << step;
@@ -265,6 +351,13 @@ TEST(PathClock, EveryNanosecondOfARampIsMonotone) {
   const BusTime end = seconds{2} + milliseconds{510};
   for (BusTime t = end - microseconds{300}; t < end + microseconds{2}; ++t)
     ASSERT_LE(clock.tau(t), clock.tau(t + BusTime{1}));
+  PathClock gentle;
+  gentle.apply(smooth(1.0, seconds{1}, 0, 1020), seconds{0});
+  gentle.apply(smooth(0.0, seconds{3}, 1, 1020), seconds{1});
+  for (const BusTime from : {BusTime{seconds{1}}, BusTime{seconds{3} + milliseconds{510} - microseconds{100}},
+                             BusTime{seconds{3} + milliseconds{1020} - microseconds{300}}})
+    for (BusTime t = from; t < from + microseconds{310}; ++t)
+      ASSERT_LE(gentle.tau(t), gentle.tau(t + BusTime{1}));
 }
 
 }  // namespace

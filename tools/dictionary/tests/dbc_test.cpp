@@ -184,6 +184,9 @@ TEST(Dbc, PackedRecordsDecodeAsTheCodecPacks) {
   EXPECT_EQ(decode(messages.at(rate.id), "Rate", rate), 0.5);
   EXPECT_EQ(decode(messages.at(rate.id), "FullRamp", rate), 100);
   EXPECT_EQ(decode(messages.at(rate.id), "Start", rate), 123'456'000 / 1000 % 0x1000000);
+  const CanFrame smooth = encode(RateCommand{RateCommand::Kind::kSmooth, 7, 16384, 255, BusTime{0}});
+  EXPECT_EQ(decode(messages.at(smooth.id), "Kind", smooth), 4);
+  EXPECT_EQ(decode(messages.at(smooth.id), "FullRamp", smooth), 510);
 
   const CanFrame stamp = encode(SyncStamp{240, 3, BusTime{5'000'789}});
   EXPECT_EQ(decode(messages.at(stamp.id), "Counter", stamp), 240);

@@ -314,6 +314,8 @@ TEST(Wireshark, FollowsMappingsIdentitiesAndShiftsThatTheBusTells) {
 TEST(Wireshark, NotesWhatIsWrongWithAFrame) {
   CanFrame rate = encode(RateCommand{RateCommand::Kind::kStop, 7, 16384, 50, BusTime{123'456'000}});
   rate.data[1] ^= 4;
+  CanFrame unknown =
+      encode(RateCommand{static_cast<RateCommand::Kind>(5), 7, 16384, 50, BusTime{123'456'000}});
   CanFrame stamp = encode(SyncStamp{240, 3, BusTime{5'000'789}});
   stamp.data[5] ^= 1;
   auto stop = encode(StopRequest{StopReason::kLimitSwitch, 1, BusTime{10'000'000}});
@@ -326,6 +328,7 @@ TEST(Wireshark, NotesWhatIsWrongWithAFrame) {
   CanFrame remote{.id = 0x701, .remote = true};
   const std::vector<std::pair<CanFrame, std::string>> table{
       {rate, "Check bits are wrong"},
+      {unknown, "Kind, rate or ramp is out of its range"},
       {stamp, "Check bits are wrong"},
       {encode(Emergency{2, node_emcy::kLimitSwitch, 0x81, stop}), "Check bits are wrong"},
       {record_frame(0x401, start ^ (1u << 25)), "Check bits are wrong"},

@@ -506,7 +506,7 @@ local record_checks = {
     if raw.recordcheck ~= control_check(bytes) then item:add_proto_expert_info(wrong_check) end
   end,
   rate = function(raw, bytes, item)
-    if raw.kind < 1 or raw.kind > 3 or raw.rate > 32768 or raw.fullramp == 0 then
+    if raw.kind < 1 or raw.kind > 4 or raw.rate > 32768 or raw.fullramp == 0 then
       item:add_proto_expert_info(malformed, "Kind, rate or ramp is out of its range")
     end
     if raw.check ~= check_bits(bytes, 8, 0x2F, 56, 8) then item:add_proto_expert_info(wrong_check) end

@@ -90,6 +90,14 @@ class GatewayBench {
             ahead);
   }
   void command(RateCommand::Kind kind, BusTime ahead = 5ms) { command(RateCommand{.kind = kind}, ahead); }
+  /// As it was sent, with its counter and start.
+  RateCommand command(RateCommand rate_command, BusTime ahead) {
+    counter_ = static_cast<std::uint8_t>((counter_ + 1) & 0xF);
+    rate_command.counter = counter_;
+    rate_command.start = BusTime{(now + ahead).count() / 1000 * 1000};
+    send(encode(rate_command));
+    return rate_command;
+  }
 
   /// The abort code, 0: good, 1: no answer.
   std::uint32_t try_write(std::uint8_t id, std::uint16_t index, std::uint8_t sub, int size,
@@ -179,12 +187,6 @@ class GatewayBench {
   BusTime now{0};
 
  private:
-  void command(RateCommand rate_command, BusTime ahead) {
-    counter_ = static_cast<std::uint8_t>((counter_ + 1) & 0xF);
-    rate_command.counter = counter_;
-    rate_command.start = BusTime{(now + ahead).count() / 1000 * 1000};
-    send(encode(rate_command));
-  }
   void push() {
     while (!waiting_.empty() && nodes_.can_send()) {
       nodes_.send(now, waiting_.front());
