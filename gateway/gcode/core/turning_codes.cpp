@@ -16,9 +16,9 @@ constexpr int kNoteForProfile = 100700;
 
 bool Core::turning_words(Code code, Turning& turning) {
   const bool finishes = code.number < 710;
-  static constexpr std::array kKinds = {Turning::What::kAll, Turning::What::kOutside, Turning::What::kPockets};
-  turning.what =
-      finishes ? Turning::What::kFinish : kKinds[static_cast<std::size_t>(code.number % 10)];
+  static constexpr std::array kKinds = {Turning::What::kAll, Turning::What::kOutside,
+                                        Turning::What::kPockets};
+  turning.what = finishes ? Turning::What::kFinish : kKinds[static_cast<std::size_t>(code.number % 10)];
   turning.facing = code.number >= 720;
   const auto take_length = [this](char letter, double& value) {
     if (!has(letter)) return true;

@@ -29,8 +29,12 @@ class Axes {
     given[1 - along_] = up_sign_ * p[kUp];
     return given;
   }
-  Curve in(Curve curve) const { return mapped(curve, [this](const Point2& p) { return in(p); }); }
-  Curve out(Curve curve) const { return mapped(curve, [this](const Point2& p) { return out(p); }); }
+  Curve in(Curve curve) const {
+    return mapped(curve, [this](const Point2& p) { return in(p); });
+  }
+  Curve out(Curve curve) const {
+    return mapped(curve, [this](const Point2& p) { return out(p); });
+  }
 
  private:
   template <class Map>
@@ -51,7 +55,8 @@ Curve line(const Point2& from, const Point2& to) {
 }
 
 bool has_length(const Curve& curve) {
-  return length_of(curve.to - curve.from) > kRounding_mm || (curve.arc && curve.radius * curve.sweep > kRounding_mm);
+  return length_of(curve.to - curve.from) > kRounding_mm ||
+         (curve.arc && curve.radius * curve.sweep > kRounding_mm);
 }
 
 /// How far along an arc a point is that rounding may have put beside its ends.
@@ -304,7 +309,8 @@ Result<std::vector<TurningMove>, Sentence> rough(const std::vector<Curve>& profi
     round.turn = -1;
     round.centre = corner;
     round.radius = turning.allowance_mm;
-    round.sweep = -std::atan2(direction_at_start(contour.front())[kUp], direction_at_start(contour.front())[kAlong]);
+    round.sweep =
+        -std::atan2(direction_at_start(contour.front())[kUp], direction_at_start(contour.front())[kAlong]);
     moved->insert(moved->begin(), round);
   }
   Contour pieces = split(*moved);
@@ -353,7 +359,8 @@ Result<std::vector<TurningMove>, Sentence> finish(const std::vector<Curve>& prof
   std::vector<TurningMove> moves;
   Cutter cutter(turning, start, moves);
   for (int pass = 1; pass <= turning.passes; ++pass) {
-    const double left = turning.allowance_mm - pass * (turning.allowance_mm - turning.last_mm) / turning.passes;
+    const double left =
+        turning.allowance_mm - pass * (turning.allowance_mm - turning.last_mm) / turning.passes;
     const auto moved = beside(contour, side * left);
     if (!moved) return Error<Sentence>(no_room());
     cutter.go(start, true);

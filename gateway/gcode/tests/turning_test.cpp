@@ -124,7 +124,8 @@ double profile_height(const Part& part, double along) {
     if (!curve.arc) {
       const double wide = curve.to[0] - curve.from[0];
       if (wide > 0)
-        height = std::max(height, curve.from[1] + (curve.to[1] - curve.from[1]) * (along - curve.from[0]) / wide);
+        height =
+            std::max(height, curve.from[1] + (curve.to[1] - curve.from[1]) * (along - curve.from[0]) / wide);
       continue;
     }
     const double x = along - curve.centre[0];
@@ -225,7 +226,8 @@ TEST(Turning, PocketsAreBridgedOrCutAloneAndTogetherLeaveThePart) {
       const auto moves = turn(part.profile, part.start, turning);
       ASSERT_TRUE(moves) << moves.error().english();
       for (const TurningMove& move : *moves)
-        ASSERT_LE(stock.cut(move.curve), (move.traverse ? 0 : turning.depth_mm) + kTolerance_mm) << "round " << round;
+        ASSERT_LE(stock.cut(move.curve), (move.traverse ? 0 : turning.depth_mm) + kTolerance_mm)
+            << "round " << round;
     }
     for (int column = 0; column < kColumns; ++column)
       ASSERT_NEAR(stock.height(column), profile_height(part, stock.place(column)), 0.01);
@@ -233,7 +235,8 @@ TEST(Turning, PocketsAreBridgedOrCutAloneAndTogetherLeaveThePart) {
 }
 
 TEST(Turning, FinishingKeepsItsDistanceInEachPass) {
-  const std::vector<Curve> profile = {line({5, 20}, {0, 10}), line({0, 10}, {-5, 10}), line({-5, 10}, {-9, 15})};
+  const std::vector<Curve> profile = {line({5, 20}, {0, 10}), line({0, 10}, {-5, 10}),
+                                      line({-5, 10}, {-9, 15})};
   Turning turning;
   turning.what = Turning::What::kFinish;
   turning.allowance_mm = 1, turning.last_mm = 0.25, turning.passes = 3;
