@@ -14,9 +14,9 @@ Interpreter& Interpreter::operator=(Interpreter&&) noexcept = default;
 
 Result<void, ParseError> Interpreter::execute(std::string_view line, std::uint32_t line_number,
                                               CommandBuffer& out) {
-  const bool in_profile = core_->in_profile();
-  const std::size_t from = out.size();
-  if (core_->execute(line, line_number, out) && (!in_profile || core_->take_profile(from, out))) return {};
+  const bool done = core_->in_profile() ? core_->execute_in_profile(line, line_number, out)
+                                        : core_->execute(line, line_number, out);
+  if (done) return {};
   return Error<ParseError>(core_->error());
 }
 

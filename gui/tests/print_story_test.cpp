@@ -1,5 +1,5 @@
-// A print as people have them, in the window and against the real daemon: an object is left out, the colour is
-// changed, the filament runs out, and the rest is printed to its end. With KINEBUS_PICTURES=FOLDER in the
+// A print as people have them, in the window and against the real daemon: an object is left out, the colour
+// is changed, the filament runs out, and the rest is printed to its end. With KINEBUS_PICTURES=FOLDER in the
 // environment each moment is a picture there.
 #include <gtest/gtest.h>
 
@@ -18,6 +18,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "gateway/description/machines_folder.hpp"
 #include "gui/link/demo_gateway.hpp"
 #include "gui/link/socket_link.hpp"
 #include "gui/tests/wait.hpp"
@@ -35,7 +36,9 @@ constexpr double kLayer_mm = 0.3, kFirst_mm = 0.3, kAside_mm = 20;
 /// Two squares of 10 mm, layer by layer, 4 mm of filament each; in lines so short that the planner does not
 /// hold the whole job. The colour is changed behind a layer.
 QByteArray two_squares() {
-  QByteArray text = "G21 G90 M83 G64 P0.005 Q0\nM109 S200\nEXCLUDE_OBJECT_DEFINE NAME=left\nEXCLUDE_OBJECT_DEFINE NAME=right\n";
+  QByteArray text =
+      "G21 G90 M83 G64 P0.005 Q0\nM109 S200\nEXCLUDE_OBJECT_DEFINE NAME=left\nEXCLUDE_OBJECT_DEFINE "
+      "NAME=right\n";
   for (int layer = 0; layer < kLayers; ++layer) {
     for (const int side : {-1, 1}) {
       text += QByteArray("EXCLUDE_OBJECT_START NAME=") + (side < 0 ? "left\n" : "right\n");
@@ -52,7 +55,7 @@ QByteArray two_squares() {
 
 /// M1 with a spool that ends within the print, and a hot end that is hot soon.
 QByteArray machine_file() {
-  QFile file(QStringLiteral(KINEBUS_MACHINES "/m1.toml"));
+  QFile file(QString::fromStdString((machines_folder() / "m1.toml").string()));
   EXPECT_TRUE(file.open(QIODevice::ReadOnly));
   QByteArray text = file.readAll();
   const QByteArray slow = "sim_power_w = 40 ";
@@ -71,7 +74,8 @@ class PrintStory : public testing::Test {
     window = std::make_unique<MainWindow>(desk);
     window->show();
     QObject::connect(&demo, &DemoGateway::failed, &desk.session, [&](const QString& why) { trouble = why; });
-    QObject::connect(&desk.session, &Session::refused, &desk.session, [&](const QString& why) { refusals << why; });
+    QObject::connect(&desk.session, &Session::refused, &desk.session,
+                     [&](const QString& why) { refusals << why; });
     QObject::connect(&demo, &DemoGateway::ready, &desk.session, [&] {
       desk.session.connect_to([path = demo.socket_path()] { return std::make_unique<SocketLink>(path); },
                               QStringLiteral("demo"));
@@ -91,7 +95,8 @@ class PrintStory : public testing::Test {
     // While it prints the height stays from one status to the next.
     const bool prints = std::abs(s.tool().z_mm() - std::exchange(height_mm, s.tool().z_mm())) < 1e-3;
     double& top_mm = s.tool().x_mm() < 0 ? left_top_mm : right_top_mm;
-    if (prints && std::abs(std::abs(s.tool().x_mm()) - kAside_mm) < 5.1) top_mm = std::max(top_mm, s.tool().z_mm());
+    if (prints && std::abs(std::abs(s.tool().x_mm()) - kAside_mm) < 5.1)
+      top_mm = std::max(top_mm, s.tool().z_mm());
   }
   joblink::State state() const { return desk.session.status().state(); }
   QPushButton* button(const char* text) const {
@@ -134,7 +139,8 @@ class PrintStory : public testing::Test {
     QDir().mkpath(where);
     for (int i = 0; i < 12; ++i) QCoreApplication::processEvents(QEventLoop::AllEvents, 20);
     // The screen: menus and questions are windows of their own.
-    EXPECT_TRUE(window->screen()->grabWindow(0).save(where + QLatin1Char('/') + QLatin1String(name) + QStringLiteral(".png")));
+    EXPECT_TRUE(window->screen()->grabWindow(0).save(where + QLatin1Char('/') + QLatin1String(name) +
+                                                     QStringLiteral(".png")));
   }
 
   QTemporaryDir folder;
@@ -155,8 +161,9 @@ TEST_F(PrintStory, AnObjectLeftOutAColourAndAnEmptySpoolEndInAWholePrint) {
   window->jobs_page().upload({write("squares.gcode", two_squares())});
   ASSERT_TRUE(wait_until([&] { return desk.session.jobs().jobs_size() == 1; }, kPatience_ms)) << said();
   desk.session.home();
-  ASSERT_TRUE(wait_until([&] { return state() == joblink::STATE_READY && desk.session.status().positions_known(); },
-                         kPatience_ms))
+  ASSERT_TRUE(
+      wait_until([&] { return state() == joblink::STATE_READY && desk.session.status().positions_known(); },
+                 kPatience_ms))
       << said();
   window->show_page(MainWindow::kJobs);
   window->jobs_page().select(QStringLiteral("squares.gcode"));
@@ -164,8 +171,7 @@ TEST_F(PrintStory, AnObjectLeftOutAColourAndAnEmptySpoolEndInAWholePrint) {
   window->show_page(MainWindow::kView);
 
   // One object is left out.
-  ASSERT_TRUE(wait_until(
-      [&] { return state() == joblink::STATE_RUNNING && right_top_mm > 0; }, kPatience_ms))
+  ASSERT_TRUE(wait_until([&] { return state() == joblink::STATE_RUNNING && right_top_mm > 0; }, kPatience_ms))
       << said();
   ASSERT_EQ(desk.session.status().objects_size(), 2) << said();
   ASSERT_TRUE(press("Leave an object out"));
@@ -183,11 +189,13 @@ TEST_F(PrintStory, AnObjectLeftOutAColourAndAnEmptySpoolEndInAWholePrint) {
   picture("1-leave-out");
   for (QAbstractButton* answer : question->buttons())
     if (question->buttonRole(answer) == QMessageBox::DestructiveRole) answer->click();
-  ASSERT_TRUE(wait_until([&] { return desk.session.status().objects(1).left_out(); }, kPatience_ms)) << said();
+  ASSERT_TRUE(wait_until([&] { return desk.session.status().objects(1).left_out(); }, kPatience_ms))
+      << said();
 
   // The colour is changed.
-  ASSERT_TRUE(wait_until(
-      [&] { return state() == joblink::STATE_READY && desk.session.status().filament_change(); }, kPatience_ms))
+  ASSERT_TRUE(
+      wait_until([&] { return state() == joblink::STATE_READY && desk.session.status().filament_change(); },
+                 kPatience_ms))
       << said();
   const double left_at_change_mm = left_top_mm;
   EXPECT_TRUE(shows("Change the filament: load, purge, then resume."));
@@ -215,13 +223,14 @@ TEST_F(PrintStory, AnObjectLeftOutAColourAndAnEmptySpoolEndInAWholePrint) {
   ASSERT_TRUE(moves_filament("Purge"));
   EXPECT_EQ(desk.session.status().filament_sensors(0).condition(), joblink::FILAMENT_IN_ORDER);
   ASSERT_TRUE(press("Resume"));
-  ASSERT_TRUE(wait_until([&] { return desk.record.end() == JobRecord::End::kComplete; }, kPatience_ms)) << said();
+  ASSERT_TRUE(wait_until([&] { return desk.record.end() == JobRecord::End::kComplete; }, kPatience_ms))
+      << said();
   EXPECT_TRUE(shows("Finished."));
   picture("5-finished");
 
   const double top_mm = kFirst_mm + kLayer_mm * (kLayers - 1);
-  std::printf("left to %.2f mm of %.2f, right to %.2f; changed at %.2f, spool empty at %.2f\n", left_top_mm, top_mm,
-              right_top_mm, left_at_change_mm, left_at_end_of_spool_mm);
+  std::printf("left to %.2f mm of %.2f, right to %.2f; changed at %.2f, spool empty at %.2f\n", left_top_mm,
+              top_mm, right_top_mm, left_at_change_mm, left_at_end_of_spool_mm);
   EXPECT_NEAR(left_top_mm, top_mm, 0.05);
   EXPECT_LT(right_top_mm, left_at_change_mm);
   EXPECT_LT(left_at_end_of_spool_mm, top_mm);

@@ -64,7 +64,7 @@ class Core {
   const Macro* find_macro(std::string_view name) const;
   /// The lines that come are the profile of G70 to G72.
   bool in_profile() const { return profile_.open; }
-  bool take_profile(std::size_t from, CommandBuffer& out);
+  bool execute_in_profile(std::string_view line, std::uint32_t line_number, CommandBuffer& out);
   bool cut_profile(CommandBuffer& out);
   void drop_profile();
   const ProgramCall& call() const { return call_; }
@@ -159,6 +159,7 @@ class Core {
   // turning_codes.cpp
   bool begin_turning(Code code);
   bool turning_words(Code code, Turning& turning);
+  bool take_profile(std::size_t from, CommandBuffer& out);
 
   // probing.cpp
   bool probe(Code code);

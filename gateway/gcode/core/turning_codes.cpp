@@ -108,6 +108,22 @@ bool Core::take_profile(std::size_t from, CommandBuffer& out) {
   return true;
 }
 
+bool Core::execute_in_profile(std::string_view line, std::uint32_t line_number, CommandBuffer& out) {
+  const ModalState before = state_.modal;
+  const std::size_t from = out.size(), moves = profile_.moves.size();
+  const Point2 here = profile_.here;
+  if (!execute(line, line_number, out)) return false;
+  if (take_profile(from, out)) return true;
+  state_.modal = before;
+  follow_dialect();
+  refresh_shift();
+  call_ = {};
+  out.resize(from);
+  profile_.moves.resize(moves);
+  profile_.here = here;
+  return false;
+}
+
 void Core::drop_profile() {
   if (!profile_.open) return;
   state_.modal = profile_.before;
