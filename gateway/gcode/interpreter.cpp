@@ -14,8 +14,19 @@ Interpreter& Interpreter::operator=(Interpreter&&) noexcept = default;
 
 Result<void, ParseError> Interpreter::execute(std::string_view line, std::uint32_t line_number,
                                               CommandBuffer& out) {
-  if (core_->execute(line, line_number, out)) return {};
+  const bool done = core_->in_profile() ? core_->execute_in_profile(line, line_number, out)
+                                        : core_->execute(line, line_number, out);
+  if (done) return {};
   return Error<ParseError>(core_->error());
+}
+
+Result<void, ParseError> Interpreter::cut_profile(CommandBuffer& out) {
+  if (core_->cut_profile(out)) return {};
+  return Error<ParseError>(core_->error());
+}
+
+void Interpreter::drop_profile() {
+  core_->drop_profile();
 }
 
 void Interpreter::finish(std::uint32_t line_number, CommandBuffer& out) {

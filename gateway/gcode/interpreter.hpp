@@ -30,9 +30,9 @@ struct Macro {
 
 /// What a line asks of whoever gives the interpreter its lines (Program).
 struct ProgramCall {
-  enum class What : std::uint8_t { kNone, kProgram, kReturn, kMacro } what = What::kNone;
+  enum class What : std::uint8_t { kNone, kProgram, kReturn, kMacro, kProfile } what = What::kNone;
   std::uint32_t column = 0;
-  int number = 0;                ///< M98 P
+  int number = 0;                ///< M98 P, G71 Q
   int times = 1;                 ///< M98 L
   std::string name;              ///< of the macro
   NamedValues arguments;         ///< sorted by name
@@ -178,6 +178,10 @@ class Interpreter {
   void set_iterations(double done);
   /// The text may hold meta commands: its dialect is RepRapFirmware's, or not stated.
   bool takes_meta() const;
+  /// The subroutine that G70, G71 or G72 asked for has ended: the cycle's moves. Without it nothing of its
+  /// line is done.
+  Result<void, ParseError> cut_profile(CommandBuffer& out);
+  void drop_profile();
   /// endsub, return: #<_value> and #<_value_returned>.
   void set_returned(double value, bool given);
   const Options& options() const;

@@ -112,7 +112,7 @@ Result<void, Problem> LiveLines::take(std::string_view line, std::uint32_t numbe
   auto read = program.line(line, number, out);
   while (read && program.busy()) read = program.step(out);
   if (!read) {
-    if (program.steps() > 0) interpreter_.restore(before);
+    if (program.steps() > 0 || out.size() > first) interpreter_.restore(before);
     out.resize(first);
     return refuse(read.error().column, read.error().message);
   }

@@ -19,7 +19,7 @@ bool MachineRequests::take(const Asker& asker, const ClientMessage& message) {
     console(asker, message.console().line());
     return true;
   }
-  if (message.request_case() < ClientMessage::kStepAside ||
+  if (message.request_case() < ClientMessage::kMoveProbePin ||
       message.request_case() > ClientMessage::kTuneHeater)
     return false;
   if (!server_.control_.may_command(requester_.client())) {

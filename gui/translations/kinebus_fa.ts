@@ -3317,6 +3317,70 @@
         <translation>عمق هر گام Q برای این سوراخ بسیار کوچک است</translation>
     </message>
     <message>
+        <source>%1 cannot be below 0</source>
+        <translation>%1 نمی‌تواند کمتر از ۰ باشد</translation>
+    </message>
+    <message>
+        <source>the depth of a cut I must be greater than 0</source>
+        <translation>عمق هر برش I باید بزرگ‌تر از ۰ باشد</translation>
+    </message>
+    <message>
+        <source>%1 cannot stand in the profile of a cycle</source>
+        <translation>%1 نمی‌تواند در نیم‌رخ یک چرخه بیاید</translation>
+    </message>
+    <message>
+        <source>%1 works in the plane of G18, which is not tilted or turned</source>
+        <translation>%1 در صفحهٔ G18 کار می‌کند که نه کج شده و نه چرخانده شده است</translation>
+    </message>
+    <message>
+        <source>%1 cannot stand in an object that is left out</source>
+        <translation>%1 نمی‌تواند در جسمی بیاید که کنار گذاشته شده است</translation>
+    </message>
+    <message>
+        <source>%1 needs Q, the number of the subroutine that has the profile</source>
+        <translation>%1 به Q نیاز دارد: شمارهٔ زیربرنامه‌ای که نیم‌رخ را دارد</translation>
+    </message>
+    <message>
+        <source>the profile of a cycle lies in the plane of X and Z</source>
+        <translation>نیم‌رخ یک چرخه در صفحهٔ X و Z است</translation>
+    </message>
+    <message>
+        <source>A, C and E do not move in the profile of a cycle</source>
+        <translation>‏A و C و E در نیم‌رخ یک چرخه حرکت نمی‌کنند</translation>
+    </message>
+    <message>
+        <source>the profile of a cycle has %1 moves at most</source>
+        <translation>نیم‌رخ یک چرخه حداکثر %1 حرکت دارد</translation>
+    </message>
+    <message>
+        <source>only G0 to G3 can stand in the profile of a cycle</source>
+        <translation>در نیم‌رخ یک چرخه فقط G0 تا G3 می‌تواند بیاید</translation>
+    </message>
+    <message>
+        <source>the allowance D does not fit into this profile: an inside corner or arc is too narrow for it</source>
+        <translation>اضافهٔ D در این نیم‌رخ جا نمی‌شود: یک گوشه یا کمان درونی برای آن تنگ است</translation>
+    </message>
+    <message>
+        <source>the profile has no move behind the one that goes to it</source>
+        <translation>نیم‌رخ پس از حرکتی که به آن می‌رسد حرکتی ندارد</translation>
+    </message>
+    <message>
+        <source>the profile turns back along X: G72 cannot cut it</source>
+        <translation>نیم‌رخ در راستای X برمی‌گردد: G72 نمی‌تواند آن را ببرد</translation>
+    </message>
+    <message>
+        <source>the profile turns back along Z: G71 cannot cut it</source>
+        <translation>نیم‌رخ در راستای Z برمی‌گردد: G71 نمی‌تواند آن را ببرد</translation>
+    </message>
+    <message>
+        <source>the depth of a cut I is far too small for this profile</source>
+        <translation>عمق هر برش I برای این نیم‌رخ بسیار کوچک است</translation>
+    </message>
+    <message>
+        <source>G70 has too many passes P for this profile</source>
+        <translation>‏G70 برای این نیم‌رخ گذرهای P بسیار زیادی دارد</translation>
+    </message>
+    <message>
         <source>a parameter&apos;s number must be a whole number from 1 to 5602</source>
         <translation>شمارهٔ پارامتر باید عددی صحیح از 1 تا 5602 باشد</translation>
     </message>

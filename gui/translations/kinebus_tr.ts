@@ -3317,6 +3317,70 @@
         <translation>gagalama derinliği Q bu delik için çok küçük</translation>
     </message>
     <message>
+        <source>%1 cannot be below 0</source>
+        <translation>%1 0&apos;ın altında olamaz</translation>
+    </message>
+    <message>
+        <source>the depth of a cut I must be greater than 0</source>
+        <translation>paso derinliği I 0&apos;dan büyük olmalı</translation>
+    </message>
+    <message>
+        <source>%1 cannot stand in the profile of a cycle</source>
+        <translation>%1 bir çevrimin profilinde bulunamaz</translation>
+    </message>
+    <message>
+        <source>%1 works in the plane of G18, which is not tilted or turned</source>
+        <translation>%1 eğilmemiş ve döndürülmemiş G18 düzleminde çalışır</translation>
+    </message>
+    <message>
+        <source>%1 cannot stand in an object that is left out</source>
+        <translation>%1 atlanan bir nesnede bulunamaz</translation>
+    </message>
+    <message>
+        <source>%1 needs Q, the number of the subroutine that has the profile</source>
+        <translation>%1 için Q gerekir: profili içeren alt programın numarası</translation>
+    </message>
+    <message>
+        <source>the profile of a cycle lies in the plane of X and Z</source>
+        <translation>bir çevrimin profili X ve Z düzlemindedir</translation>
+    </message>
+    <message>
+        <source>A, C and E do not move in the profile of a cycle</source>
+        <translation>A, C ve E bir çevrimin profilinde hareket etmez</translation>
+    </message>
+    <message>
+        <source>the profile of a cycle has %1 moves at most</source>
+        <translation>bir çevrimin profilinde en çok %1 hareket olur</translation>
+    </message>
+    <message>
+        <source>only G0 to G3 can stand in the profile of a cycle</source>
+        <translation>bir çevrimin profilinde yalnızca G0 ile G3 arası bulunabilir</translation>
+    </message>
+    <message>
+        <source>the allowance D does not fit into this profile: an inside corner or arc is too narrow for it</source>
+        <translation>pay D bu profile sığmıyor: bir iç köşe ya da yay onun için çok dar</translation>
+    </message>
+    <message>
+        <source>the profile has no move behind the one that goes to it</source>
+        <translation>profilde, ona giden hareketten sonra hareket yok</translation>
+    </message>
+    <message>
+        <source>the profile turns back along X: G72 cannot cut it</source>
+        <translation>profil X boyunca geri dönüyor: G72 onu kesemez</translation>
+    </message>
+    <message>
+        <source>the profile turns back along Z: G71 cannot cut it</source>
+        <translation>profil Z boyunca geri dönüyor: G71 onu kesemez</translation>
+    </message>
+    <message>
+        <source>the depth of a cut I is far too small for this profile</source>
+        <translation>paso derinliği I bu profil için çok küçük</translation>
+    </message>
+    <message>
+        <source>G70 has too many passes P for this profile</source>
+        <translation>G70&apos;te bu profil için çok fazla paso P var</translation>
+    </message>
+    <message>
         <source>a parameter&apos;s number must be a whole number from 1 to 5602</source>
         <translation>bir parametrenin numarası 1 ile 5602 arasında tam sayı olmalı</translation>
     </message>

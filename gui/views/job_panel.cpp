@@ -189,6 +189,10 @@ QString JobPanel::doing(bool job, bool report, bool lost) const {
   const bool interrupted = job && s.interrupted() && s.state() != joblink::STATE_HELD;
   if (interrupted && s.state() == joblink::STATE_READY && s.filament_change())
     return tr("Change the filament: load, purge, then resume.");
+  // Why it was held, and until when it does not go on.
+  if (job && (interrupted || s.state() == joblink::STATE_HELD))
+    for (const joblink::FilamentSensor& sensor : s.filament_sensors())
+      if (sensor.has_words()) return GatewayWords::said(sensor.words(), {});
   if (interrupted) return tr("Interrupted: resume goes on from its place.");
   // What a job waits for, while nothing moves, is the gateway's to say.
   const bool busy = job && (s.state() == joblink::STATE_RUNNING || s.state() == joblink::STATE_CHECKING);

@@ -143,6 +143,7 @@ void Core::begin_program() {
 
 void Core::restore(const State& state) {
   state_ = state;
+  profile_ = {};
   follow_dialect();
   announce_ = true;
   refresh_shift();
@@ -162,6 +163,7 @@ void Core::set_position(const Pose& pose, Frame frame) {
   m.lifted_mm = 0;
   m.cutter = CutterSide::kOff;
   m.nurbs = 0;
+  profile_ = {};
   refresh();
   announce_ = true;
 }

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "gateway/gcode/curves/turning.hpp"
 #include "gateway/gcode/dialects.hpp"
 #include "gateway/gcode/interpreter.hpp"
 #include "gateway/gcode/words/block.hpp"
@@ -61,11 +62,25 @@ class Core {
   void end_subroutine();
   bool read_header(std::string_view comment, std::uint32_t line_number);
   const Macro* find_macro(std::string_view name) const;
+  /// The lines that come are the profile of G70 to G72.
+  bool in_profile() const { return profile_.open; }
+  bool execute_in_profile(std::string_view line, std::uint32_t line_number, CommandBuffer& out);
+  bool cut_profile(CommandBuffer& out);
+  void drop_profile();
   const ProgramCall& call() const { return call_; }
   ProgramCall take_call() { return std::exchange(call_, {}); }
 
  private:
   static constexpr std::size_t kInputRead = 5399;
+  /// Of G70 to G72, while its lines come.
+  struct Profile {
+    bool open = false;
+    std::uint32_t column = 0, line = 0;
+    ModalState before, after;  ///< of the cycle's line
+    Turning turning;
+    Point2 start{}, here{};  ///< Z and X, canonical
+    std::vector<Curve> moves;
+  };
   struct FeedRate {
     bool known = false;
     double mm_per_s = 0, rad_per_s = 0;
@@ -140,6 +155,11 @@ class Core {
   bool cycle_words(Code code, bool fresh);
   bool drill(std::size_t w, double r, double bottom, double clear);
   bool cycle_move(const Vector3& program, bool traverse);
+
+  // turning_codes.cpp
+  bool begin_turning(Code code);
+  bool turning_words(Code code, Turning& turning);
+  bool take_profile(std::size_t from, CommandBuffer& out);
 
   // probing.cpp
   bool probe(Code code);
@@ -305,7 +325,8 @@ class Core {
   ParseError error_;
   std::vector<Note> notes_;
   std::vector<int> noted_;
-  ProgramCall call_;      ///< what the line at work asks for
+  ProgramCall call_;  ///< what the line at work asks for
+  Profile profile_;
   SavedModes modes_due_;  ///< before the next line: of the subroutine that has ended
   CommandBuffer* out_ = nullptr;
   std::size_t uncompensated_ = 0;  ///< where in out_ the line's commands begin that compensate() has not seen

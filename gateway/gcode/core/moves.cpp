@@ -69,6 +69,7 @@ bool Core::run_motion() {
       m.spline = spline_before;
       return run_spline(code);
     }
+    if (code.number >= 700 && code.number < 730) return begin_turning(code);
     if (code.number < 730 || code.number == 800) m.cycle = 0;
     if (code.number >= 380 && code.number < 390)
       return m.cutter == CutterSide::kOff ? probe(code) : refuse_beside_cutter(code, g_name(code.number));

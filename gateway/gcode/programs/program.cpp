@@ -25,6 +25,8 @@ Result<void, ParseError> Program::abandon(ParseError error) {
     error.message = say("%1 (called in line %2)", error.message, frame.called_from);
   }
   leave_all();
+  profile_depth_ = 0;
+  interpreter_.drop_profile();
   return Error<ParseError>(std::move(error));
 }
 
@@ -141,7 +143,7 @@ Result<void, ParseError> Program::step(CommandBuffer& out) {
       return abandon(
           {recording_[frame.end - 1].number, 1, say("the program %1 has no M99 at its end", frame.name)});
     leave_frame();
-    return {};
+    return cut_profile(out);
   }
   const std::uint32_t index = frame.at++;
   const std::uint64_t limit =
@@ -157,7 +159,7 @@ Result<void, ParseError> Program::step(CommandBuffer& out) {
     return abandon(std::move(result.error()));
   }
   if (interpreter_.ended()) leave_all();
-  return {};
+  return cut_profile(out);
 }
 
 Result<double, ParseError> Program::value_of(const Recording::Line& line) {

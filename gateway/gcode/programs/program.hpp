@@ -92,6 +92,8 @@ class Program {
   Result<void, ParseError> call_o(std::string_view text, const OWord& word, std::uint32_t number);
   Result<void, ParseError> follow_call(std::uint32_t number);
   Result<void, ParseError> call_program(const ProgramCall& call, std::uint32_t number);
+  Result<void, ParseError> call_profile(const ProgramCall& call, std::uint32_t number);
+  Result<void, ParseError> cut_profile(CommandBuffer& out);
   Result<void, ParseError> call_macro(const ProgramCall& call, std::uint32_t number);
   Result<void, ParseError> push(Frame frame, std::uint32_t column);
   Result<void, ParseError> give_back(const Recording::Line& line);
@@ -107,11 +109,12 @@ class Program {
   MetaBlocks blocks_;                                         ///< of the text
   std::unordered_map<std::string, Recording::Range> macros_;  ///< by name
   std::vector<Frame> frames_;
-  bool passes_over_ = false;  ///< a block is wrong: the text's rest has no meaning
-  bool named_ = false;        ///< the main program's O number came
-  bool rest_ = false;         ///< all that comes is recorded: a program is looked for
-  ProgramCall waiting_;       ///< for that program
-  std::string waiting_o_;     ///< the line that calls it, when an O word does
+  std::size_t profile_depth_ = 0;  ///< of frames with the profile of G71 at work; 0: none is
+  bool passes_over_ = false;       ///< a block is wrong: the text's rest has no meaning
+  bool named_ = false;             ///< the main program's O number came
+  bool rest_ = false;              ///< all that comes is recorded: a program is looked for
+  ProgramCall waiting_;            ///< for that program
+  std::string waiting_o_;          ///< the line that calls it, when an O word does
   std::uint32_t waiting_line_ = 0;
   std::uint32_t rest_begin_ = 0;
   std::uint64_t steps_ = 0;

@@ -131,6 +131,8 @@ Result<void, ParseError> Program::follow_call(std::uint32_t number) {
       return call_macro(call, number);
     case ProgramCall::What::kProgram:
       return call_program(call, number);
+    case ProgramCall::What::kProfile:
+      return call_profile(call, number);
     case ProgramCall::What::kReturn:
       break;
   }
@@ -139,6 +141,39 @@ Result<void, ParseError> Program::follow_call(std::uint32_t number) {
                  say("M99 ends a subprogram: a main program that begins again for ever is not run"));
   leave_frame();
   return {};
+}
+
+Result<void, ParseError> Program::call_profile(const ProgramCall& call, std::uint32_t number) {
+  Frame frame;
+  frame.kind = FrameKind::kSub;
+  frame.name = o_name(std::to_string(call.number));
+  frame.called_from = number;
+  const auto* sub = recording_.subroutine(std::to_string(call.number));
+  if (sub == nullptr) {
+    interpreter_.drop_profile();
+    return wrong(number, call.column, say("%1 is not defined above this call", frame.name));
+  }
+  frame.at = frame.begin = sub->begin;
+  frame.end = sub->end;
+  frame.as_line = frames_.empty() ? 0 : frames_.back().as_line;
+  frame.own_locals = true;
+  interpreter_.swap_locals(frame.locals);
+  auto pushed = push(std::move(frame), call.column);
+  if (pushed)
+    profile_depth_ = frames_.size();
+  else
+    interpreter_.drop_profile();
+  return pushed;
+}
+
+/// When the profile's subroutine has ended: what it is for. Its moves count as lines carried out.
+Result<void, ParseError> Program::cut_profile(CommandBuffer& out) {
+  if (profile_depth_ == 0 || frames_.size() >= profile_depth_) return {};
+  profile_depth_ = 0;
+  const std::size_t from = out.size();
+  auto cut = interpreter_.cut_profile(out);
+  steps_ += out.size() - from;
+  return cut || frames_.empty() ? cut : abandon(std::move(cut.error()));
 }
 
 Result<void, ParseError> Program::begin_rest(std::uint32_t number) {

@@ -35,6 +35,27 @@ class LinkMachineTest : public ::testing::Test {
   }
 };
 
+/// A request without anything in it, by its number.
+ClientMessage empty_request(int number) {
+  std::string bytes;
+  for (unsigned tag = static_cast<unsigned>(number) << 3 | 2; tag != 0; tag >>= 7)
+    bytes += static_cast<char>((tag & 0x7F) | (tag > 0x7F ? 0x80U : 0U));
+  bytes += '\0';
+  ClientMessage message;
+  EXPECT_TRUE(message.ParseFromString(bytes));
+  EXPECT_EQ(static_cast<int>(message.request_case()), number);
+  return message;
+}
+
+TEST_F(LinkMachineTest, EveryCommandThatTheStatusListsIsKnown) {
+  const auto status = rig_.ask(*anna_, plain(&ClientMessage::mutable_get_status)).status();
+  ASSERT_GT(status.commands_size(), 15);
+  for (const auto& command : status.commands()) {
+    const auto reply = rig_.ask(*anna_, empty_request(static_cast<int>(command.command())));
+    EXPECT_NE(reply.error().code(), joblink::ERROR_NOT_UNDERSTOOD) << command.command();
+  }
+}
+
 TEST_F(LinkMachineTest, AJobIsWatchedToItsEndAndKeptInTheHistory) {
   LinkedClient& bert = rig_.connect("bert", 20);
   ASSERT_FALSE(rig_.ask(*anna_, start_job("square.gcode")).has_error());

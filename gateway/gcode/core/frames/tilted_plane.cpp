@@ -8,7 +8,7 @@
 namespace kinebus::gcode {
 namespace {
 
-constexpr double kRadians = std::numbers::pi / 180;
+constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kTurn = 2 * std::numbers::pi;
 
 /// The angle nearest to `near_rad` that differs from `angle_rad` by whole turns.
@@ -38,7 +38,7 @@ bool Core::set_tilt(Code code) {
       !take_if_given('J', j) || !take_if_given('K', k))
     return false;
   m.tilt_origin_mm = {length(x), length(y), length(z)};
-  m.tilt = euler_zxz(i * kRadians, j * kRadians, k * kRadians);
+  m.tilt = euler_zxz(i * kDegree, j * kDegree, k * kDegree);
   m.tilted = true;
   change_frame();
   return true;
@@ -64,7 +64,7 @@ bool Core::rotate_plane(Code code) {
     centre[axis] = length(value);
   }
   if (!take('R', value)) return false;
-  const double cosine = std::cos(value * kRadians), sine = std::sin(value * kRadians);
+  const double cosine = std::cos(value * kDegree), sine = std::sin(value * kDegree);
   m.tilt = kIdentity;
   m.tilt[plane.u][plane.u] = m.tilt[plane.v][plane.v] = cosine;
   m.tilt[plane.v][plane.u] = sine;
