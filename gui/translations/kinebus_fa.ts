@@ -581,6 +581,22 @@
         <translation>M92 اثری ندارد: mm_per_turn، full_steps_per_turn و microsteps زیر [joint.NAME] در پروندهٔ ماشین می‌گویند که یک گام چقدر می‌رود</translation>
     </message>
     <message>
+        <source>%1 has no effect: max_c of [heater.NAME] in the machine file says what a job may ask for</source>
+        <translation>%1 اثری ندارد: max_c زیر [heater.NAME] در پروندهٔ ماشین می‌گوید که یک کار چه می‌تواند بخواهد</translation>
+    </message>
+    <message>
+        <source>%1 has no effect: min_extrude_c of [thermal] in the machine file says below what nothing is fed</source>
+        <translation>%1 اثری ندارد: min_extrude_c زیر [thermal] در پروندهٔ ماشین می‌گوید که زیر چه دمایی چیزی رانده نمی‌شود</translation>
+    </message>
+    <message>
+        <source>%1 has no effect: sensor of [heater.NAME] in the machine file says what a heater is measured by</source>
+        <translation>%1 اثری ندارد: sensor زیر [heater.NAME] در پروندهٔ ماشین می‌گوید که گرم‌کن با کدام حسگر اندازه‌گیری می‌شود</translation>
+    </message>
+    <message>
+        <source>%1 has no effect: a heater&apos;s node measures its model: kinebus tune NAME, or M303</source>
+        <translation>%1 اثری ندارد: مدل گرم‌کن را گره‌اش اندازه می‌گیرد: kinebus tune NAME یا M303</translation>
+    </message>
+    <message>
         <source>%1 has no effect: a heater&apos;s control belongs to its node and to [heater.NAME] in the machine file</source>
         <translation>%1 اثری ندارد: کنترل گرم‌کن کار گره‌اش و [heater.NAME] در پروندهٔ ماشین است</translation>
     </message>

@@ -581,6 +581,22 @@
         <translation>M92 etkisiz: bir adımın ne kadar gittiğini makine dosyasındaki [joint.NAME] altında mm_per_turn, full_steps_per_turn ve microsteps söyler</translation>
     </message>
     <message>
+        <source>%1 has no effect: max_c of [heater.NAME] in the machine file says what a job may ask for</source>
+        <translation>%1 etkisiz: bir işin ne isteyebileceğini makine dosyasındaki [heater.NAME] altında max_c söyler</translation>
+    </message>
+    <message>
+        <source>%1 has no effect: min_extrude_c of [thermal] in the machine file says below what nothing is fed</source>
+        <translation>%1 etkisiz: hangi sıcaklığın altında besleme yapılmayacağını makine dosyasındaki [thermal] altında min_extrude_c söyler</translation>
+    </message>
+    <message>
+        <source>%1 has no effect: sensor of [heater.NAME] in the machine file says what a heater is measured by</source>
+        <translation>%1 etkisiz: bir ısıtıcının hangi algılayıcıyla ölçüldüğünü makine dosyasındaki [heater.NAME] altında sensor söyler</translation>
+    </message>
+    <message>
+        <source>%1 has no effect: a heater&apos;s node measures its model: kinebus tune NAME, or M303</source>
+        <translation>%1 etkisiz: ısıtıcının modelini düğümü ölçer: kinebus tune NAME ya da M303</translation>
+    </message>
+    <message>
         <source>%1 has no effect: a heater&apos;s control belongs to its node and to [heater.NAME] in the machine file</source>
         <translation>%1 etkisiz: ısıtıcının kontrolü düğümünün ve makine dosyasındaki [heater.NAME] tablosunun işidir</translation>
     </message>

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <utility>
 
 namespace kinebus::heat {
 namespace {
@@ -16,13 +15,7 @@ constexpr std::int32_t kUsualTicks = 64;
 constexpr std::int32_t kOneIn = 4;
 constexpr auto kLeastGiven = static_cast<std::int32_t>(kFullPower / 8);
 constexpr auto kUnsure = static_cast<std::int32_t>(kFullPower / 8);
-constexpr std::int32_t kTakenTicks = 100;   // to be forgotten
-constexpr std::int32_t kLeastRise = 2'000;  // mC
-constexpr std::int32_t kAway = 15'000;      // mC
-constexpr std::uint32_t kAwayTicks = 50;
-constexpr std::uint32_t kTicksPerSecond = 10;
-/// A block that was switched off goes on warming by what is on its way.
-constexpr std::uint32_t kStillWarming = 60 * kTicksPerSecond;
+constexpr std::int32_t kTakenTicks = 100;  // to be forgotten
 
 std::int32_t per_cent(std::uint8_t share) {
   return static_cast<std::int32_t>(kFullPower) * share / 100;
@@ -39,18 +32,19 @@ bool lasts(std::uint32_t& ticks, bool now, std::uint32_t limit) {
 void HeaterWatch::configure(const WatchSettings& settings, const ThermalModel* model) {
   settings_ = settings;
   if (model != nullptr) balance_.configure(*model);
-  pace_.configure(settings.rise_s);
+  plain_.configure(settings.rise_s);
 }
 
 void HeaterWatch::start() {
   const WatchSettings kept = settings_;
   const HeatBalance balance = balance_;
-  const HeatingPace pace = pace_;
+  const PlainWatch plain = plain_;
   *this = {};
   settings_ = kept;
   balance_ = balance;
-  pace_ = pace;
-  interrupt();
+  plain_ = plain;
+  balance_.start();
+  plain_.start();
 }
 
 HeaterFault HeaterWatch::step(std::int32_t measured, std::uint32_t power, std::int32_t target,
@@ -62,7 +56,15 @@ HeaterFault HeaterWatch::step(std::int32_t measured, std::uint32_t power, std::i
   usual_ += (taken * 256 - usual_) / kUsualTicks;
   doubt_ = std::max(std::abs(taken - usual_ / 256) / 2, doubt_ - doubt_ / kUsualTicks);
   quiet_ = quiet ? quiet_ + 1 : 0;
-  return model != nullptr ? by_model(measured, *model) : by_rules(measured, power, target);
+  if (model != nullptr) return by_model(measured, *model);
+  switch (plain_.step({measured, power, target, taken_ + doubt_, quiet_})) {
+    case PlainWatch::Found::kMissing:
+      return HeaterFault::kHeatMissing;
+    case PlainWatch::Found::kUnasked:
+      return HeaterFault::kHeatUnasked;
+    default:
+      return HeaterFault::kNone;
+  }
 }
 
 // What a loose heater takes away at once is all that it gave. Where fans and filament are known to be as they
@@ -90,35 +92,6 @@ HeaterFault HeaterWatch::by_model(std::int32_t measured, const ThermalModel& mod
     return HeaterFault::kHeatMissing;
   if (lasts(unasked_, share > per_cent(settings_.most_unasked) + taken_, kModelTicks))
     return HeaterFault::kHeatUnasked;
-  return HeaterFault::kNone;
-}
-
-HeaterFault HeaterWatch::by_rules(std::int32_t measured, std::uint32_t power, std::int32_t target) {
-  if (target != std::exchange(last_target_, target)) {
-    reached_ = false;
-    away_ticks_ = asked_ticks_ = 0;
-  }
-  ++asked_ticks_;
-  if (pace_.step(measured, power)) return HeaterFault::kHeatMissing;
-  // Heating: power that does not warm. Next to a target it holds, and a weak heater does so by most of its
-  // power. (Measuring a heater has none.)
-  const bool near = target != 0 && measured >= target - kAway / 3;
-  if (near || power < kFullPower / 2 || rise_ticks_ == 0 || measured >= rise_from_ + kLeastRise) {
-    rise_from_ = measured;
-    rise_ticks_ = 1;
-  } else if (++rise_ticks_ > settings_.rise_s * kTicksPerSecond) {
-    return HeaterFault::kHeatMissing;
-  }
-  // A block that was cooling goes on with it until the first heat has come.
-  if (asked_ticks_ < settings_.rise_s * kTicksPerSecond / 2) rise_from_ = std::min(rise_from_, measured);
-  // Holding.
-  if (target != 0 && measured > target - kAway / 3 && measured < target + kAway / 3) reached_ = true;
-  if (lasts(away_ticks_, reached_ && target != 0 && measured < target - kAway, kAwayTicks))
-    return HeaterFault::kHeatMissing;
-  // Off: what was on its way has long come, and it warms.
-  off_ticks_ = power == 0 ? off_ticks_ + 1 : 0;
-  if (off_ticks_ <= kStillWarming || measured < lowest_off_) lowest_off_ = measured;
-  if (off_ticks_ > kStillWarming && measured > lowest_off_ + kAway) return HeaterFault::kHeatUnasked;
   return HeaterFault::kNone;
 }
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "node_firmware/heat/heat_balance.hpp"
-#include "node_firmware/heat/heating_pace.hpp"
+#include "node_firmware/heat/plain_watch.hpp"
 #include "node_firmware/heat/thermal_model.hpp"
 
 namespace kinebus::heat {
@@ -29,7 +29,8 @@ struct WatchSettings {
   /// The most that fan and filament may take, and the most that may come from elsewhere: per cent of full
   /// power.
   std::uint8_t most_missing = 50, most_unasked = 25;
-  /// Without a model: at full power it must gain 2 K in so long, and must not leave its target by 15 K.
+  /// Without a model: far below its target it must gain 2 K in so long, and half as long it may be 15 K
+  /// below one that it had reached. Longer than dead time and lag.
   std::uint16_t rise_s = 20;
 };
 
@@ -41,7 +42,7 @@ class HeaterWatch {
   /// Measurements are missing: what was seen before and what comes after are no rise.
   void interrupt() {
     balance_.start();
-    pace_.start();
+    plain_.interrupt();
   }
   /// Once a tick. `power`: given since the last one. `target`: 0, off. `model`: nullptr, not measured.
   /// `taken`: parts of kFullPower that the model was told are taken; they may be not, without a fault.
@@ -53,24 +54,18 @@ class HeaterWatch {
  private:
   HeaterFault by_model(std::int32_t measured, const ThermalModel& model);
   HeaterFault by_balance(const HeatBalance::Share& share, std::uint32_t response);
-  HeaterFault by_rules(std::int32_t measured, std::uint32_t power, std::int32_t target);
 
   WatchSettings settings_{};
   std::uint32_t hot_ = 0, missing_ = 0, unasked_ = 0;  // ticks in which it was so, or mC s
-  std::int32_t rise_from_ = 0, lowest_off_ = 0;
-  std::int32_t taken_ = 0;  // the most of late
+  std::int32_t taken_ = 0;                             // the most of late
   std::int32_t usual_ = 0,
                doubt_ = 0;   // of what is taken: its mean with 8 fractional bits, what it may be wrong by
   std::uint32_t quiet_ = 0;  // ticks
-  std::uint32_t rise_ticks_ = 0, away_ticks_ = 0, off_ticks_ = 0;
-  std::uint32_t asked_ticks_ = 0;  // since the target changed
-  bool reached_ = false;
 
   HeatBalance balance_;
-  HeatingPace pace_;
+  PlainWatch plain_;
   std::uint32_t known_ = 0;            // ticks
   std::uint32_t less_ = 0, more_ = 0;  // of the balance's steps in a row
-  std::int32_t last_target_ = 0;
 };
 
 }  // namespace kinebus::heat

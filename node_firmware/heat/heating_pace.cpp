@@ -12,8 +12,6 @@ constexpr std::int32_t kClimbed = 30'000;
 /// mC a tick. What is slower, a chamber, is warmed by others as well, which go on and off; a slope of it is
 /// noise, too.
 constexpr std::int32_t kLeastRate = 40;
-/// More than fan, filament and draught take together of a heater that can hold its target with them.
-constexpr auto kMissing = static_cast<std::int32_t>(kFullPower * 6 / 10);
 constexpr std::uint32_t kInARow = 2;
 /// Losses that a fan has shown are remembered for minutes.
 constexpr std::int32_t kForget = 256;
@@ -26,7 +24,7 @@ void HeatingPace::start() {
   step_ticks_ = step_ticks;
 }
 
-bool HeatingPace::step(std::int32_t measured, std::uint32_t power) {
+bool HeatingPace::step(std::int32_t measured, std::uint32_t power, std::int32_t most) {
   least_ = ticks_ == 0 ? power : std::min(least_, power);
   sum_ += measured;
   if (++ticks_ < step_ticks_) return false;
@@ -36,10 +34,10 @@ bool HeatingPace::step(std::int32_t measured, std::uint32_t power) {
   seen_ = std::min(seen_ + 1, kSteps);
   sum_ = 0;
   ticks_ = 0;
-  return judge();
+  return judge(most);
 }
 
-bool HeatingPace::judge() {
+bool HeatingPace::judge(std::int32_t most) {
   if (seen_ <= 2 * kSlope) return false;
   const std::int32_t slope = before(0).measured - before(kSlope).measured;
   // A sensor that is moved in its hole jumps once.
@@ -59,7 +57,7 @@ bool HeatingPace::judge() {
   const std::int32_t earlier = before(kBack).taken;
   usual_ = judged_ == kBack + 1 || earlier > usual_ ? earlier : usual_ + (earlier - usual_) / kForget;
   const bool missing =
-      static_cast<std::int32_t>(given) > kMissing && taken > std::max(usual_, std::int32_t{0}) + kMissing;
+      static_cast<std::int32_t>(given) > most && taken > std::max(usual_, std::int32_t{0}) + most;
   missing_ = missing ? missing_ + 1 : 0;
   return missing_ >= kInARow;
 }

@@ -15,8 +15,9 @@ class HeatingPace {
   void configure(std::uint16_t rise_s) { step_ticks_ = rise_s < 4 ? 2u : rise_s / 2u; }
   /// Nothing is known of what was before.
   void start();
-  /// Once a tick. `power`: given since the last one. True: heat is missing.
-  bool step(std::int32_t measured, std::uint32_t power);
+  /// Once a tick. `power`: given since the last one. `most`: parts of kFullPower that what is around it may
+  /// begin to take. True: more than that is missing.
+  bool step(std::int32_t measured, std::uint32_t power, std::int32_t most);
 
  private:
   static constexpr std::size_t kSteps = 20;  // in rise_s
@@ -28,7 +29,7 @@ class HeatingPace {
     std::int32_t taken = 0;     // parts of kFullPower that warmed nothing
   };
   const Step& before(std::size_t steps) const { return steps_[(at_ + kSteps - steps) % kSteps]; }
-  bool judge();
+  bool judge(std::int32_t most);
 
   std::uint32_t step_ticks_ = 10;
   std::array<Step, kSteps> steps_{};

@@ -153,9 +153,15 @@ bool Core::run_machine_code(Code code) {
       emit(canonical::Message{std::string(block_.text)});
       return true;
     case 92:
+    case 143:
     case 206:
     case 301:
+    case 302:
     case 304:
+    case 305:
+    case 306:
+    case 307:
+    case 308:
     case 665:
     case 666:
     case 906:

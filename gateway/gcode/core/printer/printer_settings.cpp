@@ -44,6 +44,29 @@ bool Core::firmware_setting(Code code) {
            say("M92 has no effect: mm_per_turn, full_steps_per_turn and microsteps of [joint.NAME] in the "
                "machine file say how far a step goes"));
       return true;
+    case 143:
+      note(143,
+           say("%1 has no effect: max_c of [heater.NAME] in the machine file says what a job may ask for",
+               name));
+      return true;
+    case 302:
+      note(302,
+           say("%1 has no effect: min_extrude_c of [thermal] in the machine file says below what nothing "
+               "is fed",
+               name));
+      return true;
+    case 305:
+    case 308:
+      note(code.number,
+           say("%1 has no effect: sensor of [heater.NAME] in the machine file says what a heater "
+               "is measured by",
+               name));
+      return true;
+    case 306:
+    case 307:
+      note(code.number,
+           say("%1 has no effect: a heater's node measures its model: kinebus tune NAME, or M303", name));
+      return true;
     default:
       note(code.number, say("%1 has no effect: a heater's control belongs to its node and to [heater.NAME] "
                             "in the machine file",
