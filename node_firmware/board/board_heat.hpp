@@ -1,7 +1,7 @@
 #pragma once
-// The heat node of a board that has axes, too: its core, what it wants to hear, samples in and power out. It
-// has a place of its own in the board's program, behind the same CAN controller, and the id that follows the
-// axis pairs'.
+// A board's heat node: its core, what it wants to hear, samples in and power out. It has a place of its own
+// in the board's program, behind the same CAN controller as the axis pairs, if there are any, and the id that
+// follows theirs.
 
 #include <algorithm>
 #include <array>
@@ -48,6 +48,7 @@ struct NoHeat {
   static std::optional<CanFrame> next_frame() { return std::nullopt; }
   static std::span<const CanAccept> accepted() { return {}; }
   static bool healthy(LocalTime) { return true; }
+  static bool stop_requested() { return false; }
   static constexpr std::size_t kNodes = 0;
 };
 
@@ -67,6 +68,8 @@ class BoardHeat {
     all_off();
   }
   bool there() const { return node_.has_value(); }
+  std::uint8_t node_id() const { return node_ ? node_->node_id() : std::uint8_t{0}; }
+  bool stop_requested() const { return node_ && node_->program_stop_requested(); }
   /// Something has power or is to have it: the processor must not stand still.
   bool heats() const { return node_ && node_->heats(); }
   /// Another node of the board has power: flash is not written then.

@@ -51,6 +51,10 @@ inline constexpr std::array kPins = {
   Pin{B, 12, kOutput,    kUp,    0, true,  "ADXL345 select, active low"},
   Pin{D,  3, kOutput,    kDown,  0, false, "RGB"},
 };
+// What the program of the heat node has otherwise.
+inline constexpr std::array kHeatPins = {
+  Pin{B,  9, kAlternate, kDown,  2, false, "PROBE servo (TIM17_CH1)"},
+};
 // clang-format on
 static_assert(stm32::pins_differ(kPins));
 
@@ -59,6 +63,12 @@ static_assert(stm32::lines_differ(kSwitchPins));
 
 inline constexpr OutputPin kStep{D, 0}, kDirection{D, 1}, kEnable{D, 2};
 inline constexpr std::array<OutputPin, 2> kFans{{{A, 0}, {A, 1}}};
+
+/// ADC input of the thermistor.
+inline constexpr unsigned kThermistor = 3;
+/// Which of kSwitchPins: the line of a probe with a pin, and the heat node's filament sensors.
+inline constexpr std::uint8_t kProbe = 0;
+inline constexpr std::array<std::uint8_t, 2> kFilamentInputs{1, 2};
 
 /// Everything that gives power to something, and its level without.
 struct PowerPin {
