@@ -60,6 +60,8 @@ class BoardHeat {
   /// With this id from now on; set points and faults begin anew.
   void begin(const heat::HeatNodeOptions& options, LocalTime now, std::span<const std::uint8_t> stored) {
     node_.emplace(options, now, stored);
+    if constexpr (kMeasuresVibration)
+      if (auto* chip = driver_.accelerometer()) node_->set_vibration(&chip->unit());
     next_sample_ = hearing_due_ = now;
     touched_ = true;
   }
@@ -79,7 +81,7 @@ class BoardHeat {
   Driver& driver() { return driver_; }
 
   bool due(LocalTime now) const {
-    return node_ && (touched_ || now >= due_ || now >= next_sample_ || now >= hearing_due_);
+    return node_ && (touched_ || now >= due_ || now >= next_sample_ || now >= hearing_due_ || feels(now));
   }
   void on_frame(LocalTime at, const CanFrame& frame) {
     if (!node_ || !hearing_.hears(frame)) return;
@@ -100,6 +102,8 @@ class BoardHeat {
     if (!node_) return;
     // Before the node looks at the time: a loop that was held up has not lost a sensor.
     if (now >= next_sample_) sample(now);
+    if constexpr (kMeasuresVibration)
+      if (feels(now)) driver_.accelerometer()->serve(now);
     // A frame has seen to what was due, and what it has left to do may take a while.
     if (!std::exchange(touched_, false) && now >= node_->next_deadline()) node_->on_time(now);
   }
@@ -143,6 +147,17 @@ class BoardHeat {
   }
 
  private:
+  /// A board's driver may have an Adxl345.
+  static constexpr bool kMeasuresVibration = requires(Driver & driver) { driver.accelerometer(); };
+  /// Its accelerometer is due.
+  bool feels(LocalTime now) const {
+    if constexpr (kMeasuresVibration) {
+      const auto* chip = driver_.accelerometer();
+      return chip != nullptr && chip->due(now);
+    } else {
+      return false;
+    }
+  }
   void sample(LocalTime now) {
     next_sample_ += heat::SensorInput::kSamplePeriod;
     if (next_sample_ <= now) next_sample_ = now + heat::SensorInput::kSamplePeriod;

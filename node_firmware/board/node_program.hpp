@@ -80,6 +80,12 @@ class NodeProgram {
   void send();
   void filter();
   void report_bus();
+  static std::optional<CanFrame> next_frame_of([[maybe_unused]] Place& place) {
+    // A board without axes has no code of theirs.
+    if constexpr (kNodes != 0)
+      if (place) return place->node().next_frame();
+    return std::nullopt;
+  }
   template <typename Do>
   void each(Do&& do_it) {
     for (Place& place : nodes_)
@@ -190,7 +196,7 @@ void NodeProgram<Can, Switches, Counter, kNodes, Heat>::send() {
     if (!can_.queue().has_room()) return;
     const bool heat = first_ == kNodes;
     Place* const speaker = heat ? nullptr : nodes_.data() + first_;
-    const auto frame = heat ? heat_.next_frame() : *speaker ? (*speaker)->node().next_frame() : std::nullopt;
+    const auto frame = heat ? heat_.next_frame() : next_frame_of(*speaker);
     if (!frame) {
       ++silent;
       continue;

@@ -10,10 +10,16 @@ namespace kinebus::emulator {
 namespace {
 
 constexpr std::uint32_t kCrystalHz = 8'000'000;
+// 64 MHz on the time base of all boards: 21 cycles are 8 clocks.
+constexpr Cycle kClockCycles = 21, kClockParts = 8;
+constexpr Rcc::Clock kSpi2Clock{0x3C, 14};
+
 }  // namespace
 
 EbbBoard::EbbBoard(const ElfImage& image, const BoardOptions& options, std::uint32_t device_id)
-    : Stm32g0b1Chip(image, options, kCrystalHz, device_id) {
+    : Stm32g0b1Chip(image, options, kCrystalHz, device_id),
+      spi2_(cpu_.nvic(), 26, kClockCycles, accelerometer_, true, kClockParts) {
+  map(0x40003800, 0x400, spi2_, kSpi2Clock);
   for (GpioPort& port : ports_) port.on_change = [this](Cycle at) { on_pins(at); };
   // A divider to 3.3 V.
   adc_.sample = [this](int channel, Cycle) {
@@ -65,7 +71,13 @@ bool EbbBoard::anything_on() const {
   });
 }
 
+void EbbBoard::advance_devices(Cycle now) {
+  spi2_.advance(now);
+  heated_.advance(now);
+}
+
 void EbbBoard::reset_devices(Cycle now) {
+  spi2_.reset();
   on_pins(now);
 }
 
@@ -76,6 +88,9 @@ void EbbBoard::on_pins(Cycle now) {
   // A pin that nobody drives leaves the driver disabled: pulled up on the board.
   const GpioPort& port = ports_[static_cast<std::size_t>(ebb::kEnable.port)];
   const bool enabled = port.mode(ebb::kEnable.number) == GpioPort::Mode::kOutput && !high(ebb::kEnable);
+  const GpioPort& select = ports_[static_cast<std::size_t>(ebb::kAccelerometer.port)];
+  accelerometer_.select(
+      select.mode(ebb::kAccelerometer.number) == GpioPort::Mode::kOutput && !high(ebb::kAccelerometer), now);
   // A MOSFET with a pull-down: a pin that nobody drives is off.
   heated_.set_power(high(ebb::kHeater), false, now);
   driver_.on_pins(high(ebb::kStep), high(ebb::kDirection), enabled, now);

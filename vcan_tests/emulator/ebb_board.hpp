@@ -2,10 +2,13 @@
 // The BTT EBB36 or EBB42 v1.2, emulated: one stepper driver that counts steps, a hot end, and switches, wired
 // as node_firmware/port/stm32g0b1_ebb/board.hpp says.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
 #include "vcan_tests/emulator/octopus_board.hpp"
+#include "vcan_tests/emulator/peripherals/spi.hpp"
+#include "vcan_tests/emulator/physics/adxl345.hpp"
 #include "vcan_tests/emulator/physics/heated_places.hpp"
 #include "vcan_tests/emulator/servo_pulses.hpp"
 #include "vcan_tests/emulator/stm32g0b1_chip.hpp"
@@ -32,6 +35,8 @@ class EbbBoard : public Stm32g0b1Chip {
   /// The hot end at its clamps and TH0.
   HeatedPlaces& heated() { return heated_; }
   bool heater_on() const;
+  Adxl345Chip& accelerometer() { return accelerometer_; }
+  const Spi& spi() const { return spi2_; }
   bool fan_on(int fan) const;
   ServoPulses servo();
   /// A pin that gives power to something is driven, and not to its level without.
@@ -39,12 +44,14 @@ class EbbBoard : public Stm32g0b1Chip {
 
  private:
   void reset_devices(Cycle now) override;
-  void advance_devices(Cycle now) override { heated_.advance(now); }
-  Cycle next_of_devices() const override { return heated_.next_event(); }
+  void advance_devices(Cycle now) override;
+  Cycle next_of_devices() const override { return std::min(heated_.next_event(), spi2_.next_event()); }
   void on_pins(Cycle now);
 
   StepDriver driver_;
   HeatedPlaces heated_;
+  Adxl345Chip accelerometer_;
+  Spi spi2_;
 };
 
 /// With the program of a heat node.

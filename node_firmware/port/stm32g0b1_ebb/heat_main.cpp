@@ -83,9 +83,8 @@ int main() {
   dog.start();
   for (;;) {
     program->pass();
-    heat.store(dog, [](auto image) {
-      return parameters.save(std::array{std::span<const std::uint8_t>(image)});
-    });
+    heat.store(dog,
+               [](auto image) { return parameters.save(std::array{std::span<const std::uint8_t>(image)}); });
     // Asked for by 1F51h, when the answer is on the bus. Nothing heats then (the node refuses otherwise).
     if (program->stop_requested() && can_port.queue().idle()) {
       handover_ram = Handover{.stay = Handover::kBootLoader, .node_id = heat.node_id()};

@@ -54,6 +54,7 @@ bool start_converter() {
 
 bool HeatPort::start() {
   start_servo();
+  SpiPort::start();
   return started_ = start_converter();
 }
 

@@ -37,8 +37,9 @@ struct Rcc {
                                  kSoftwareReset = bit(28), kWatchdogReset = bit(29),
                                  kWindowWatchdogReset = bit(30);  // CSR
   static constexpr std::uint32_t gpio_clock(stm32::Port port) { return bit(static_cast<int>(port)); }
-  static constexpr std::uint32_t kDma1 = bit(0);                                     // AHBENR
-  static constexpr std::uint32_t kTim2 = bit(0), kCan = bit(12), kDebug = bit(27);   // APBENR1
+  static constexpr std::uint32_t kDma1 = bit(0);  // AHBENR
+  static constexpr std::uint32_t kTim2 = bit(0), kCan = bit(12), kSpi2 = bit(14),
+                                 kDebug = bit(27);                                   // APBENR1
   static constexpr std::uint32_t kTim1 = bit(11), kTim17 = bit(18), kAdc = bit(20);  // APBENR2
 };
 static_assert(offsetof(Rcc, IOPENR) == 0x34 && offsetof(Rcc, APBENR1) == 0x3C &&
@@ -94,6 +95,17 @@ inline Timer& tim2() {
 }
 inline Timer& tim17() {
   return peripheral<Timer>(0x4001'4800);
+}
+
+struct Spi {
+  Reg CR1, CR2, SR, DR;
+  static constexpr std::uint32_t kMode3 = 3, kMaster = bit(2), kDividedBy16 = 3u << 3, kEnable = bit(6),
+                                 kSelected = bit(8) | bit(9);                // CR1: by software
+  static constexpr std::uint32_t kBytes = 7u << 8, kByteReceived = bit(12);  // CR2: told for each byte
+  static constexpr std::uint32_t kReceived = bit(0);                         // SR
+};
+inline Spi& spi2() {
+  return peripheral<Spi>(0x4000'3800);
 }
 
 struct Adc {

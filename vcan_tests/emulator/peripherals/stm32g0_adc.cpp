@@ -8,8 +8,8 @@
 namespace kinebus::emulator::g0 {
 namespace {
 
-constexpr std::uint32_t kStatus = 0x00, kControl = 0x08, kSettings = 0x0C, kClocking = 0x10, kSampling = 0x14, kChannels = 0x28,
-                        kResult = 0x40;
+constexpr std::uint32_t kStatus = 0x00, kControl = 0x08, kSettings = 0x0C, kClocking = 0x10, kSampling = 0x14,
+                        kChannels = 0x28, kResult = 0x40;
 constexpr std::uint32_t kReady = 1, kEndOfConversion = 4, kLost = 16, kTaken = 1u << 13;
 constexpr std::uint32_t kEnable = 1, kStart = 4, kRegulator = 1u << 28, kCalibrate = 1u << 31;
 constexpr std::uint32_t kOverwrite = 1u << 12, kContinuous = 1u << 13, kClock = 3u << 30;

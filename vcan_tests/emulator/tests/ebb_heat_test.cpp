@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "protocol/canopen/alarm_codes.hpp"
 #include "vcan_tests/emulator/ebb_board.hpp"
 #include "vcan_tests/emulator/emulated_machine.hpp"
@@ -156,6 +159,52 @@ TEST(EbbHeat, AProbesServoItsLineAndTheFilamentsSwitch) {
   ebb.bench.run(50ms);
   EXPECT_EQ(ebb.master.raw(0x2264) & 0xFF, 1u);
   EXPECT_EQ(ebb.master.raw(0x2258, 1) & 0xFF, 1u) << "no filament";
+  ebb.expect_good_chip();
+}
+
+// What the tool feels, as energy over frequency, while it heats.
+TEST(EbbHeat, ItsAccelerometerIsReadWithoutALossAndSumsUpWhatTheToolFeels) {
+  constexpr double kHz = 53, kAmplitude = 2000, kTurn = 2 * std::numbers::pi;
+  HeatedEbb ebb(170);
+  ebb.board.accelerometer().plant().feels = [](double t) {
+    return heat::AccelerometerPlant::Vector{0, kAmplitude * std::sin(kTurn * kHz * t), 0};
+  };
+  ebb.master.describe(1);
+  ebb.master.start();
+  ebb.board.cpu().clear_costs();
+  ebb.master.write(0x7402, 1, 2, 2100);
+  EXPECT_EQ(ebb.board.spi().clock_hz(), 4e6);
+  EXPECT_EQ(ebb.board.spi().mode(), 3);
+  EXPECT_EQ(ebb.master.raw(0x2270) & 0xFF, 1u) << "ready";
+  const std::uint64_t lost_before = ebb.board.accelerometer().lost();
+  ebb.master.write(0x2271, 0, 1, 1);
+  ebb.master.heat_for(6s);
+  EXPECT_EQ(ebb.board.accelerometer().lost(), lost_before);
+  EXPECT_EQ(ebb.board.accelerometer().mistakes(), 0u);
+  EXPECT_EQ(ebb.master.raw(0x2270) & 0xFF, 2u) << "measures";
+  EXPECT_GE(ebb.master.raw(0x2273) & 0xFFFF, 5u);
+  EXPECT_NEAR(ebb.master.raw(0x2272) / 1e3, ebb.board.accelerometer().plant().rate(), 4);
+  ebb.master.write(0x2271, 0, 1, 2);
+  const double band_hz = ebb.board.accelerometer().plant().rate() / 8192;
+  const auto energy = [&](double hz, std::uint8_t axis) {
+    ebb.master.write(0x2276, 0, 2, std::lround(hz / band_hz));
+    return std::ldexp(static_cast<double>(ebb.master.raw(0x2277, axis)),
+                      static_cast<int>(ebb.master.raw(0x2278, axis) & 0xFF));
+  };
+  const double there = energy(kHz, 2);
+  EXPECT_GT(there, 1000 * energy(kHz + 5, 2));
+  EXPECT_GT(there, 1000 * energy(kHz, 1)) << "the other direction";
+  const double longest_pass_ms = seconds_of(ebb.board.cpu().longest_pass()) * 1e3;
+  fmt::print("EBB as a heat node, accelerometer too: main loop {:.1f} ms at most\n", longest_pass_ms);
+  EXPECT_LT(longest_pass_ms, 6);
+  EXPECT_TRUE(ebb.master.emergencies().empty());
+
+  ebb.board.accelerometer().plant().silent = true;
+  ebb.master.heat_for(1s);
+  EXPECT_EQ(ebb.master.raw(0x2270) & 0xFF, 3u) << "silent";
+  ebb.board.accelerometer().plant().silent = false;
+  ebb.master.heat_for(2s);
+  EXPECT_EQ(ebb.master.raw(0x2270) & 0xFF, 1u) << "found again";
   ebb.expect_good_chip();
 }
 
