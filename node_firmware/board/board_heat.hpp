@@ -1,7 +1,7 @@
 #pragma once
-// The heat node of a board that has axes, too: its core, what it wants to hear, samples in and power out. It
-// has a place of its own in the board's program, behind the same CAN controller, and the id that follows the
-// axis pairs'.
+// A board's heat node: its core, what it wants to hear, samples in and power out. It has a place of its own
+// in the board's program, behind the same CAN controller as the axis pairs, if there are any, and the id that
+// follows theirs.
 
 #include <algorithm>
 #include <array>
@@ -48,6 +48,7 @@ struct NoHeat {
   static std::optional<CanFrame> next_frame() { return std::nullopt; }
   static std::span<const CanAccept> accepted() { return {}; }
   static bool healthy(LocalTime) { return true; }
+  static bool stop_requested() { return false; }
   static constexpr std::size_t kNodes = 0;
 };
 
@@ -59,6 +60,8 @@ class BoardHeat {
   /// With this id from now on; set points and faults begin anew.
   void begin(const heat::HeatNodeOptions& options, LocalTime now, std::span<const std::uint8_t> stored) {
     node_.emplace(options, now, stored);
+    if constexpr (kMeasuresVibration)
+      if (auto* chip = driver_.accelerometer()) node_->set_vibration(&chip->unit());
     next_sample_ = hearing_due_ = now;
     touched_ = true;
   }
@@ -67,6 +70,8 @@ class BoardHeat {
     all_off();
   }
   bool there() const { return node_.has_value(); }
+  std::uint8_t node_id() const { return node_ ? node_->node_id() : std::uint8_t{0}; }
+  bool stop_requested() const { return node_ && node_->program_stop_requested(); }
   /// Something has power or is to have it: the processor must not stand still.
   bool heats() const { return node_ && node_->heats(); }
   /// Another node of the board has power: flash is not written then.
@@ -76,7 +81,7 @@ class BoardHeat {
   Driver& driver() { return driver_; }
 
   bool due(LocalTime now) const {
-    return node_ && (touched_ || now >= due_ || now >= next_sample_ || now >= hearing_due_);
+    return node_ && (touched_ || now >= due_ || now >= next_sample_ || now >= hearing_due_ || feels(now));
   }
   void on_frame(LocalTime at, const CanFrame& frame) {
     if (!node_ || !hearing_.hears(frame)) return;
@@ -97,6 +102,8 @@ class BoardHeat {
     if (!node_) return;
     // Before the node looks at the time: a loop that was held up has not lost a sensor.
     if (now >= next_sample_) sample(now);
+    if constexpr (kMeasuresVibration)
+      if (feels(now)) driver_.accelerometer()->serve(now);
     // A frame has seen to what was due, and what it has left to do may take a while.
     if (!std::exchange(touched_, false) && now >= node_->next_deadline()) node_->on_time(now);
   }
@@ -140,6 +147,17 @@ class BoardHeat {
   }
 
  private:
+  /// A board's driver may have an Adxl345.
+  static constexpr bool kMeasuresVibration = requires(Driver & driver) { driver.accelerometer(); };
+  /// Its accelerometer is due.
+  bool feels(LocalTime now) const {
+    if constexpr (kMeasuresVibration) {
+      const auto* chip = driver_.accelerometer();
+      return chip != nullptr && chip->due(now);
+    } else {
+      return false;
+    }
+  }
   void sample(LocalTime now) {
     next_sample_ += heat::SensorInput::kSamplePeriod;
     if (next_sample_ <= now) next_sample_ = now + heat::SensorInput::kSamplePeriod;

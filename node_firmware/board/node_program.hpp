@@ -16,7 +16,8 @@
 
 namespace kinebus {
 
-/// kNodes: axis pairs; Heat: the board's heat node, a BoardHeat.
+/// kNodes: axis pairs; 0: none, and of the controller's troubles nobody tells but by their ends. Heat: the
+/// board's heat node, a BoardHeat.
 template <CanDriver Can, SwitchDriver Switches, LocalCounter Counter, std::size_t kNodes = 1,
           typename Heat = NoHeat>
 class NodeProgram {
@@ -28,6 +29,9 @@ class NodeProgram {
     begin(0, options, stored, plan, inputs);
     filter();
   }
+  /// Of a board that has a heat node only.
+  NodeProgram(Can& can, Switches& switches) requires(kNodes == 0)
+      : can_(can), switches_(switches), now_(clock_.now()) {}
   /// Another one, or one anew.
   void begin(std::size_t number, const NodeOptions& options, std::span<const std::uint8_t> stored,
              MotionPlanExchange& plan, InputPlaces inputs) {
@@ -61,7 +65,8 @@ class NodeProgram {
   }
   /// A node's program is to give way (1F51h = 0), and with it all of them.
   bool stop_requested() const {
-    return std::ranges::any_of(nodes_, [](const auto& n) { return n && n->node().program_stop_requested(); });
+    return heat_.stop_requested() ||
+           std::ranges::any_of(nodes_, [](const auto& n) { return n && n->node().program_stop_requested(); });
   }
   Heat& heat() { return heat_; }
   PathTime path_time(std::uint32_t counts, std::size_t number = 0) const {
@@ -75,6 +80,12 @@ class NodeProgram {
   void send();
   void filter();
   void report_bus();
+  static std::optional<CanFrame> next_frame_of([[maybe_unused]] Place& place) {
+    // A board without axes has no code of theirs.
+    if constexpr (kNodes != 0)
+      if (place) return place->node().next_frame();
+    return std::nullopt;
+  }
   template <typename Do>
   void each(Do&& do_it) {
     for (Place& place : nodes_)
@@ -184,8 +195,8 @@ void NodeProgram<Can, Switches, Counter, kNodes, Heat>::send() {
   for (std::size_t silent = 0; silent < kSpeakers; first_ = (first_ + 1) % kSpeakers) {
     if (!can_.queue().has_room()) return;
     const bool heat = first_ == kNodes;
-    Place* const speaker = heat ? nullptr : &nodes_[first_];
-    const auto frame = heat ? heat_.next_frame() : *speaker ? (*speaker)->node().next_frame() : std::nullopt;
+    Place* const speaker = heat ? nullptr : nodes_.data() + first_;
+    const auto frame = heat ? heat_.next_frame() : next_frame_of(*speaker);
     if (!frame) {
       ++silent;
       continue;

@@ -34,14 +34,23 @@ struct ImageHeader {
   std::uint32_t revision = 0;
   std::uint32_t length = 0;  ///< bytes from the first vector on, a multiple of 4
   std::uint32_t crc = 0;
-  std::uint32_t reserved = 0xFFFF'FFFF;
+  /// 1018h:2 of the node that the program is, where that is not the board's own: kAsBoard: it is.
+  std::uint32_t node_product = kAsBoard;
+  static constexpr std::uint32_t kAsBoard = 0xFFFF'FFFF;
+  constexpr std::uint32_t node_product_code() const {
+    return node_product == kAsBoard ? product_code : node_product;
+  }
 };
 static_assert(sizeof(ImageHeader) == ImageHeader::kBytes);
 inline constexpr std::size_t kCrcOffset = ImageHeader::kOffset + 24;
 
 /// Of a program that is not sealed yet.
-constexpr ImageHeader image_header_for(const ImageTarget& target) {
-  return {.product_code = target.product_code, .hardware = target.hardware, .revision = target.revision};
+constexpr ImageHeader image_header_for(const ImageTarget& target,
+                                       std::uint32_t node_product = ImageHeader::kAsBoard) {
+  return {.product_code = target.product_code,
+          .hardware = target.hardware,
+          .revision = target.revision,
+          .node_product = node_product};
 }
 
 /// That of the program that runs; sealed after linking.
@@ -53,7 +62,7 @@ constexpr ImageHeader decode_image_header(std::span<const std::uint8_t> image) {
 }
 constexpr void encode_image_header(const ImageHeader& h, std::span<std::uint8_t> image) {
   const std::array<std::uint32_t, 8> words{h.magic,    h.format, h.product_code, h.hardware,
-                                           h.revision, h.length, h.crc,          h.reserved};
+                                           h.revision, h.length, h.crc,          h.node_product};
   for (std::size_t i = 0; i < words.size(); ++i)
     put_u32_le(image.subspan(ImageHeader::kOffset + 4 * i), words[i]);
 }

@@ -37,6 +37,7 @@ struct HeatNodeOptions {
   std::uint32_t serial = 0;
   /// The node has its id from its board, and LSS is another's business.
   bool id_from_board = false;
+  std::uint32_t program_crc = 0;  ///< 1F56h; 0: a program that no boot loader has started for this node alone
 };
 
 class HeatNode final : private ObjectOwner {
@@ -101,6 +102,8 @@ class HeatNode final : private ObjectOwner {
   }
   /// Something heats, or is to: what holds the processor up has to wait.
   bool heats() const { return any_heat(); }
+  /// 1F51h = 0: the program is to give way to the boot loader when its answer is on the bus. Nothing heats.
+  bool program_stop_requested() const { return program_stop_requested_; }
   HeaterFault fault(int heater) const { return heaters_[static_cast<std::size_t>(heater)].fault(); }
 
  private:
@@ -122,6 +125,7 @@ class HeatNode final : private ObjectOwner {
   AbortCode check_setting(const ObjectEntry& entry, std::int64_t value);
   AbortCode inconsistent(const ObjectEntry& entry) const;
   AbortCode command_storage(ObjectAddress address, std::int64_t value);
+  AbortCode command_program(std::int64_t value);
   std::uint8_t heater_state(std::size_t n) const;
 
   std::int64_t value(ObjectSlot first, std::size_t n = 0) const {
@@ -209,6 +213,7 @@ class HeatNode final : private ObjectOwner {
   Storing storing_ = Storing::kNothing;
   bool storing_for_lss_ = false;
   bool reset_requested_ = false;
+  bool program_stop_requested_ = false;
   bool neighbours_powered_ = false;
 };
 

@@ -105,6 +105,15 @@ AbortCode HeatNode::read_device(ObjectAddress address, std::int64_t& result) con
       result = fields[place_of(address) & 3u];
       return AbortCode::kNone;
     }
+    case 0x1F51:
+      result = 1;  // a program runs: this one
+      return AbortCode::kNone;
+    case 0x1F56:
+      result = options_.program_crc;
+      return AbortCode::kNone;
+    case 0x1F57:
+      result = 0;
+      return AbortCode::kNone;
     case kFingerprint.index:
       result = objects_.fingerprint();
       return AbortCode::kNone;
@@ -269,6 +278,8 @@ AbortCode HeatNode::write_communication(const ObjectEntry& entry, std::int64_t t
     case 0x1010:
     case 0x1011:
       return command_storage(entry.address, to);
+    case 0x1F51:
+      return command_program(to);
     default:
       communication_changed_ = true;
       return AbortCode::kNone;
@@ -392,6 +403,14 @@ AbortCode HeatNode::command_storage(ObjectAddress address, std::int64_t to) {
     image_.clear(image_.node_id());  // the defaults come into force at the next reset
   storing_ = Storing::kWanted;
   sdo_.defer();
+  return AbortCode::kNone;
+}
+
+AbortCode HeatNode::command_program(std::int64_t to) {
+  if (to == 1) return AbortCode::kNone;
+  if (to != 0 || options_.program_crc == 0 || any_heat() || neighbours_powered_)
+    return AbortCode::kDeviceState;
+  program_stop_requested_ = true;
   return AbortCode::kNone;
 }
 

@@ -8,8 +8,11 @@ namespace {
 
 using namespace heat_object;
 
-/// Butterflies of a call: two transforms are done in 0.4 s, and new ones begin every 0.64 s.
+/// Butterflies of a call: two transforms are done in 0.5 s, and new ones begin every 0.64 s.
 constexpr int kButterflies = 256;
+/// And bands, of a transform that is done: 40 ms for all.
+constexpr int kBandsAtOnce = 40;
+static_assert(kVibrationBands % kBandsAtOnce == 0);
 /// Decimated readings keep three bits of what the mean of 64 weights tells more.
 constexpr int kKept = 3, kWeights = 6;
 constexpr std::uint32_t kFull = std::uint32_t{1} << 31;
@@ -26,11 +29,13 @@ void VibrationMeter::begin(LocalTime now) {
   falling_.fill(0);
   first_block_ = true;
   work_ = Work::kNothing;
+  summed_ = 0;
   for (auto& axis : energy_) axis.fill(0);
   exponent_.fill(0);
 }
 
 void VibrationMeter::end() {
+  while (summed_ != 0) do_work();  // all bands have the same windows
   if (state_ == VibrationState::kMeasures) state_ = VibrationState::kReady;
   work_ = Work::kNothing;
 }
@@ -97,9 +102,10 @@ void VibrationMeter::do_work() {
     work_ = Work::kFirstTwo;
     return;
   }
-  if (!fft_.step(kButterflies)) return;
+  if (summed_ == 0 && !fft_.step(kButterflies)) return;
   // Two of real numbers are in one of complex ones: the even part is the first's, the odd part the second's.
-  for (int band = 0; band < kVibrationBands; ++band) {
+  for (int end = summed_ + kBandsAtOnce; summed_ < end; ++summed_) {
+    const int band = summed_;
     const FixedFft::Complex& a = fft_.output(band);
     const FixedFft::Complex& b = fft_.output((kPoints - band) & (kPoints - 1));
     const auto squares = [](std::int64_t re, std::int64_t im) {
@@ -112,6 +118,8 @@ void VibrationMeter::do_work() {
       add(1, band, squares(std::int64_t{a.im} + b.im, std::int64_t{b.re} - a.re));
     }
   }
+  if (summed_ < kVibrationBands) return;
+  summed_ = 0;
   if (work_ == Work::kFirstTwo) {
     fill(2, -1);
     work_ = Work::kThird;

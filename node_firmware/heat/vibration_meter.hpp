@@ -78,6 +78,7 @@ class VibrationMeter final : public VibrationUnit {
   int at_ = 0, filled_ = 0, fresh_ = 0;
 
   Work work_ = Work::kNothing;
+  int summed_ = 0;  ///< bands of the transform that is done
   FixedFft fft_;
   std::array<std::array<std::uint32_t, kVibrationBands>, 3> energy_{};
   std::array<std::int8_t, 3> exponent_{};

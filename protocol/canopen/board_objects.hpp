@@ -18,10 +18,13 @@ constexpr bool is_sorted(std::span<const ObjectEntry> entries) {
 }
 constexpr bool limits_hold(std::span<const ObjectRow> rows) {
   for (const ObjectRow& e : rows) {
-    const ObjectEntry kept = static_cast<ObjectEntry>(e);
-    if (kept.initial() != e.initial ||
-        kept.size() != (e.type == DataType::kString ? e.text.size() : size_of(e.type)))
+    ObjectEntry kept = static_cast<ObjectEntry>(e);
+    if (kept.type != e.type || kept.code != e.code || kept.axis != e.axis || kept.slot != e.slot)
       return false;
+    if (e.type == DataType::kString ? e.initial != 0 : kept.initial() != e.initial) return false;
+    if (kept.size() != (e.type == DataType::kString ? e.text.size() : size_of(e.type))) return false;
+    const ObjectLimits limits = e.limits();
+    kept.limits = &limits;
     if (e.limited && (kept.low() != e.low || kept.high() != e.high)) return false;
     const auto fits = [&](std::int64_t value) {
       return value_of(e.type, static_cast<std::uint64_t>(value)) == value;
@@ -42,6 +45,25 @@ constexpr bool has_all_heads(std::span<const ObjectEntry> entries) {
   return true;
 }
 
+struct FoundLimits {
+  std::array<ObjectLimits, Rows::kCapacity> limits{};
+  std::size_t count = 0;
+  std::array<std::uint16_t, Rows::kCapacity> which{};  ///< by row
+};
+constexpr FoundLimits find_limits(const Rows& rows) {
+  FoundLimits found;
+  for (std::size_t i = 0; i < rows.count; ++i) {
+    if (!rows.rows[i].limited) continue;
+    const ObjectLimits wanted = rows.rows[i].limits();
+    std::size_t at = 0;
+    while (at < found.count && !(found.limits[at] == wanted)) ++at;
+    found.limits[at] = wanted;
+    if (at == found.count) ++found.count;
+    found.which[i] = static_cast<std::uint16_t>(at);
+  }
+  return found;
+}
+
 }  // namespace object_table
 
 template <typename Board>
@@ -51,16 +73,28 @@ class BoardObjects {
     Board::compose(rows);
     return rows;
   }();
+  static constexpr auto kOrder = kRows.order();
   template <typename Part>
   static constexpr auto part_of_rows() {
     std::array<Part, kRows.count> parts;
-    const auto order = kRows.order();
-    for (std::size_t i = 0; i < parts.size(); ++i) parts[i] = static_cast<Part>(kRows.rows[order[i]]);
+    for (std::size_t i = 0; i < parts.size(); ++i) parts[i] = static_cast<Part>(kRows.rows[kOrder[i]]);
     return parts;
   }
+  // Each pair of limits once, and which of them a row has.
+  static constexpr auto kFound = object_table::find_limits(kRows);
+  static constexpr auto kLimits = [] {
+    std::array<ObjectLimits, kFound.count> limits{};
+    for (std::size_t i = 0; i < limits.size(); ++i) limits[i] = kFound.limits[i];
+    return limits;
+  }();
 
  public:
-  static constexpr auto kEntries = part_of_rows<ObjectEntry>();
+  static constexpr auto kEntries = [] {
+    auto entries = part_of_rows<ObjectEntry>();
+    for (std::size_t i = 0; i < entries.size(); ++i)
+      if (entries[i].limited) entries[i].limits = &kLimits[kFound.which[kOrder[i]]];
+    return entries;
+  }();
   /// The same places, for programs that speak to people: an image that does not name it does not contain it.
   static constexpr auto kNames = part_of_rows<ObjectNames>();
   static constexpr ObjectTable kTable{kEntries};

@@ -96,25 +96,28 @@ struct ObjectSlot {
   std::uint16_t value = 0;
 };
 
+/// What a value has to be within, as ObjectEntry::bits.
+struct ObjectLimits {
+  std::uint32_t low = 0, high = 0;
+  friend constexpr bool operator==(const ObjectLimits&, const ObjectLimits&) = default;
+};
+
 /// One (index, subindex), as small as a node keeps it: boards with two nodes have little flash.
 struct ObjectEntry {
   ObjectAddress address{};
-  std::uint16_t slot = 0;  ///< of its value: the objects' order in the board's units
-  DataType type = DataType::kU32;
-  std::uint8_t text_length = 0;
-  ObjectCode code : 4 = ObjectCode::kVar;
-  Access access : 2 = Access::kReadOnly;
-  Mapping mapping : 2 = Mapping::kNone;
-  std::int8_t axis = -1;  ///< 0, 1; -1: belongs to the node as a whole
-  Binding binding : 2 = Binding::kConstant;
+  std::uint16_t slot : 13 = 0;        ///< of its value: the objects' order in the board's units
+  std::int8_t axis : 2 = -1;          ///< 0, 1; -1: belongs to the node as a whole
   bool node_id_relative : 1 = false;  ///< the value at reset is `initial` + node id
-  bool limited : 1 = false;           ///< low and high are narrower than the type
-  std::uint32_t initial_bits = 0;
+  DataType type : 5 = DataType::kU32;
+  Access access : 2 = Access::kReadOnly;
+  bool limited : 1 = false;  ///< low and high are narrower than the type
+  ObjectCode code : 4 = ObjectCode::kVar;
+  Mapping mapping : 2 = Mapping::kNone;
+  Binding binding : 2 = Binding::kConstant;
+  std::uint32_t initial_bits = 0;  ///< of a string: its length
   union {
-    struct {
-      std::uint32_t low, high;
-    } limit_bits{};
-    const char* text_begin;  ///< of a string
+    const ObjectLimits* limits = nullptr;  ///< when limited; many entries have the same
+    const char* text_begin;                ///< of a string
   };
 
   /// The lower half of a value of this type, and the value again: none of a table needs more.
@@ -124,10 +127,10 @@ struct ObjectEntry {
   }
   constexpr std::int64_t initial() const { return value(initial_bits); }
   // When limited.
-  constexpr std::int64_t low() const { return value(limit_bits.low); }
-  constexpr std::int64_t high() const { return value(limit_bits.high); }
+  constexpr std::int64_t low() const { return value(limits->low); }
+  constexpr std::int64_t high() const { return value(limits->high); }
   /// Of a string.
-  constexpr std::string_view text() const { return {text_begin, text_length}; }
+  constexpr std::string_view text() const { return {text_begin, initial_bits}; }
 
   /// The address with the second axis' offset taken off: what code for either axis switches on.
   constexpr ObjectAddress base() const {
@@ -140,7 +143,9 @@ struct ObjectEntry {
   constexpr bool maps_to(Mapping kind) const {
     return (static_cast<unsigned>(mapping) & static_cast<unsigned>(kind)) != 0;
   }
-  constexpr std::uint8_t size() const { return type == DataType::kString ? text_length : size_of(type); }
+  constexpr std::uint8_t size() const {
+    return type == DataType::kString ? static_cast<std::uint8_t>(initial_bits) : size_of(type);
+  }
 };
 
 /// The objects of one kind of node, in the order of their addresses, each once.

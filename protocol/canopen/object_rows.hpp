@@ -30,25 +30,25 @@ struct ObjectDefinition {
   std::int64_t low = 0, high = 0;
   std::string_view text{};
 
-  /// What does not come out as it went in fails BoardObjects' checks.
+  constexpr ObjectLimits limits() const { return {ObjectEntry::bits(low), ObjectEntry::bits(high)}; }
+  /// What does not come out as it went in fails BoardObjects' checks. Its limits are the board's to keep.
   constexpr explicit operator ObjectEntry() const {
     ObjectEntry entry;
     entry.address = address;
-    entry.slot = slot;
+    entry.slot = slot & 0x1FFF;
     entry.type = type;
-    entry.text_length = static_cast<std::uint8_t>(text.size());
     entry.code = code;
     entry.access = access;
     entry.mapping = mapping;
-    entry.axis = axis;
+    entry.axis = axis < 0 ? -1 : axis == 0 ? 0 : 1;
     entry.binding = binding;
     entry.node_id_relative = node_id_relative;
     entry.limited = limited;
     entry.initial_bits = ObjectEntry::bits(initial);
-    if (type == DataType::kString)
+    if (type == DataType::kString) {
+      entry.initial_bits = static_cast<std::uint32_t>(text.size());
       entry.text_begin = text.data();
-    else
-      entry.limit_bits = {ObjectEntry::bits(low), ObjectEntry::bits(high)};
+    }
     return entry;
   }
 };

@@ -92,6 +92,7 @@ bool update(SocketCan& can, std::uint8_t node, const std::vector<std::uint8_t>& 
   const LocalTime began = monotonic_now();
   ProgramUpdate::Options options;
   options.even_if_same = arguments.force;
+  options.other_kind = arguments.force && !arguments.all;
   options.protect = arguments.protect;
   options.record_revision = static_cast<std::uint32_t>(std::lround(10 * arguments.revision));
   options.answer = answer_time(arguments);
@@ -201,7 +202,9 @@ int run(int argc, char** argv) {
   auto* node =
       app.add_option("-n,--node", arguments.nodes, "Node id; may be given again")->check(CLI::Range(1, 126));
   auto* all = app.add_flag("-a,--all", arguments.all, "Every node that answers")->excludes(node);
-  app.add_flag("-f,--force", arguments.force, "Also when the node runs this program already");
+  app.add_flag("-f,--force", arguments.force,
+               "Also when the node runs this program already; with --node also when its board was another "
+               "kind of node");
   app.add_option("--answer", arguments.answer_s,
                  "Seconds to wait for an answer: an erase takes up to 4, emulated boards may be slow")
       ->check(CLI::Range(0.5, 600.0))

@@ -26,6 +26,11 @@ std::string board_with(std::uint32_t hardware) {
   return "a board with number " + std::to_string(hardware);
 }
 
+std::string mismatch(std::uint32_t found, std::uint32_t wanted) {
+  return "it is " + device_with(found) + ", and the image is for " + device_with(wanted) +
+         " (1018h:2): nothing was written";
+}
+
 std::string what_is_wrong(ImageCheck check) {
   switch (check) {
     case ImageCheck::kNone:
@@ -99,6 +104,7 @@ void ProgramUpdate::go(LocalTime now, Step step) {
       before_ = end_of_transfer(node_);
       return upload(now, kProgramControl);
     case Step::kReadIdentity:
+    case Step::kReadBoard:
       return upload(now, kProduct);
     case Step::kReadProgram:
       return upload(now, kProgramId);
@@ -150,11 +156,7 @@ void ProgramUpdate::on_transfer(LocalTime now) {
       in_boot_loader_ = value_[0] == program_control::kStop;
       return go(now, Step::kReadIdentity);
     case Step::kReadIdentity:
-      if (get_u32_le(value_) != decode_image_header(image_).product_code)
-        return fail("it is " + device_with(get_u32_le(value_)) + ", and the image is for " +
-                    device_with(decode_image_header(image_).product_code) +
-                    " (1018h:2): nothing was written");
-      return go(now, in_boot_loader_ ? Step::kReadRecord : Step::kReadProgram);
+      return on_identity(now, get_u32_le(value_));
     case Step::kReadProgram:
       same_ = get_u32_le(value_) == crc_ && !options_.even_if_same;
       if (same_ && !options_.protect && options_.record_revision == 0) {
@@ -165,6 +167,10 @@ void ProgramUpdate::on_transfer(LocalTime now) {
       return go(now, Step::kStop);
     case Step::kStop:
       return go(now, Step::kAwaitBootLoader);
+    case Step::kReadBoard:
+      if (get_u32_le(value_) == decode_image_header(image_).product_code) return go(now, Step::kReadRecord);
+      refused_ = mismatch(get_u32_le(value_), decode_image_header(image_).product_code);
+      return go(now, Step::kStart);
     case Step::kReadRecord:
       return on_record(now, get_u32_le(value_));
     case Step::kReadRevision:
@@ -199,6 +205,18 @@ void ProgramUpdate::on_transfer(LocalTime now) {
     case Step::kAwaitProgram:
       return;
   }
+}
+
+// What a node is does not say which board it is on where several kinds of boards carry such nodes: then the
+// boot loader is asked, before anything is erased.
+void ProgramUpdate::on_identity(LocalTime now, std::uint32_t product_code) {
+  const ImageHeader header = decode_image_header(image_);
+  const std::uint32_t wanted = in_boot_loader_ ? header.product_code : header.node_product_code();
+  known_board_ = product_code == header.product_code;
+  const bool other_node =
+      options_.other_kind && (known_board_ || product_code == HeatBoard::kFacts.product_code);
+  if (product_code != wanted && !other_node) return fail(mismatch(product_code, wanted));
+  go(now, in_boot_loader_ ? Step::kReadRecord : Step::kReadProgram);
 }
 
 void ProgramUpdate::on_boot_loader(LocalTime now) {
@@ -250,7 +268,8 @@ void ProgramUpdate::on_failed_transfer(LocalTime now) {
                             : go(now, Step::kStart);
   if (step_ == Step::kStop && code == AbortCode::kDeviceState)
     return fail(
-        "its motors have power, or no boot loader started it: switch the drives off, or flash by SWD");
+        "its motors have power, it heats, or no boot loader started it: switch drives and heaters off, or "
+        "flash by SWD");
   if (step_ == Step::kReadControl && code == AbortCode::kTimeout) return fail("does not answer");
   fail(message_ + ": " + reason);
 }
@@ -262,7 +281,9 @@ void ProgramUpdate::on_frame(LocalTime now, const CanFrame& frame) {
   if (heartbeat && heartbeat->node == node_ && heartbeat->state == NmtState::kInitialising &&
       boot_due_ != LocalTime::max()) {
     boot_due_ = LocalTime::max();
-    go(now, step_ == Step::kAwaitProgram ? Step::kVerify : Step::kReadRecord);
+    go(now, step_ == Step::kAwaitProgram ? Step::kVerify
+            : known_board_               ? Step::kReadRecord
+                                         : Step::kReadBoard);
   }
   on_time(now);
 }

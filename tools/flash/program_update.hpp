@@ -30,7 +30,8 @@ class ProgramUpdate {
     LocalTime boot = std::chrono::seconds{3};  ///< from a reset to the boot-up message
     int attempts = 3;  ///< downloads that fail by a timeout or a wrong CRC are repeated
     bool even_if_same = false;
-    bool protect = false;  ///< set what the boot loader finds unprotected (2122h)
+    bool other_kind = false;  ///< the board may become another kind of node: of an axis, of heat
+    bool protect = false;     ///< set what the boot loader finds unprotected (2122h)
     /// The board is recorded (2124h) as the one that the image is for, of this revision in tenths; 0: its
     /// record is only compared.
     std::uint32_t record_revision = 0;
@@ -62,6 +63,7 @@ class ProgramUpdate {
     kReadProgram,
     kStop,
     kAwaitBootLoader,
+    kReadBoard,
     kReadRecord,
     kReadRevision,
     kRecord,
@@ -81,6 +83,7 @@ class ProgramUpdate {
   void download(LocalTime now, ObjectAddress address, std::span<const std::uint8_t> bytes);
   void on_transfer(LocalTime now);
   void on_failed_transfer(LocalTime now);
+  void on_identity(LocalTime now, std::uint32_t product_code);
   void on_boot_loader(LocalTime now);
   void on_record(LocalTime now, std::uint32_t hardware);
   void on_room(LocalTime now, std::uint32_t bytes);
@@ -100,7 +103,8 @@ class ProgramUpdate {
   std::optional<CanFrame> before_;  ///< goes ahead of the transfer that was begun
   LocalTime boot_due_ = LocalTime::max();
   bool in_boot_loader_ = false;
-  bool same_ = false;  ///< the program is there: only protection is wanted
+  bool known_board_ = false;  ///< 1018h:2 was the board's, not that of a node that may be on any
+  bool same_ = false;         ///< the program is there: only protection is wanted
   std::uint8_t unprotected_ = 0;
   std::array<std::uint8_t, 4> signature_{}, revision_{};
   int attempts_left_;

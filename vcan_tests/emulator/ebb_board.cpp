@@ -3,17 +3,29 @@
 #include <algorithm>
 
 #include "node_firmware/port/stm32g0b1_ebb/board.hpp"
+#include "protocol/canopen/boards/heat.hpp"
 #include "protocol/canopen/boards/stm32g0b1_ebb.hpp"
 
 namespace kinebus::emulator {
 namespace {
 
 constexpr std::uint32_t kCrystalHz = 8'000'000;
+// 64 MHz on the time base of all boards: 21 cycles are 8 clocks.
+constexpr Cycle kClockCycles = 21, kClockParts = 8;
+constexpr Rcc::Clock kSpi2Clock{0x3C, 14};
+
 }  // namespace
 
 EbbBoard::EbbBoard(const ElfImage& image, const BoardOptions& options, std::uint32_t device_id)
-    : Stm32g0b1Chip(image, options, kCrystalHz, device_id) {
+    : Stm32g0b1Chip(image, options, kCrystalHz, device_id),
+      spi2_(cpu_.nvic(), 26, kClockCycles, accelerometer_, true, kClockParts) {
+  map(0x40003800, 0x400, spi2_, kSpi2Clock);
   for (GpioPort& port : ports_) port.on_change = [this](Cycle at) { on_pins(at); };
+  // A divider to 3.3 V.
+  adc_.sample = [this](int channel, Cycle) {
+    return channel == ebb::kThermistor ? heated_.hot_end().voltage() : 0;
+  };
+  heated_.set_contactor(true);  // there is none
   start();
 }
 
@@ -21,6 +33,24 @@ EbbBoard::~EbbBoard() = default;
 
 std::uint32_t EbbBoard::product_code() const {
   return Stm32g0b1EbbBoard::kFacts.product_code;
+}
+
+std::uint32_t EbbHeatBoard::product_code() const {
+  return HeatBoard::kFacts.product_code;
+}
+
+bool EbbBoard::heater_on() const {
+  return ports_[static_cast<std::size_t>(ebb::kHeater.port)].output_high(ebb::kHeater.number);
+}
+
+bool EbbBoard::fan_on(int fan) const {
+  const stm32::OutputPin pin = ebb::kFans[static_cast<std::size_t>(fan)];
+  return ports_[static_cast<std::size_t>(pin.port)].output_high(pin.number);
+}
+
+ServoPulses EbbBoard::servo() {
+  constexpr int kServoPort = 1, kServoPin = 9, kTim17 = 2;
+  return servo_pulses(tim17_, ports_[kServoPort], kServoPin, kTim17, true, cpu_.now());
 }
 
 double EbbBoard::true_counts(int axis) const {
@@ -41,7 +71,13 @@ bool EbbBoard::anything_on() const {
   });
 }
 
+void EbbBoard::advance_devices(Cycle now) {
+  spi2_.advance(now);
+  heated_.advance(now);
+}
+
 void EbbBoard::reset_devices(Cycle now) {
+  spi2_.reset();
   on_pins(now);
 }
 
@@ -52,6 +88,11 @@ void EbbBoard::on_pins(Cycle now) {
   // A pin that nobody drives leaves the driver disabled: pulled up on the board.
   const GpioPort& port = ports_[static_cast<std::size_t>(ebb::kEnable.port)];
   const bool enabled = port.mode(ebb::kEnable.number) == GpioPort::Mode::kOutput && !high(ebb::kEnable);
+  const GpioPort& select = ports_[static_cast<std::size_t>(ebb::kAccelerometer.port)];
+  accelerometer_.select(
+      select.mode(ebb::kAccelerometer.number) == GpioPort::Mode::kOutput && !high(ebb::kAccelerometer), now);
+  // A MOSFET with a pull-down: a pin that nobody drives is off.
+  heated_.set_power(high(ebb::kHeater), false, now);
   driver_.on_pins(high(ebb::kStep), high(ebb::kDirection), enabled, now);
 }
 

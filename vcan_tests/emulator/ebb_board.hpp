@@ -1,16 +1,21 @@
 #pragma once
-// The BTT EBB36 or EBB42 v1.2, emulated: one stepper driver that counts steps, and switches,
-// wired as node_firmware/port/stm32g0b1_ebb/board.hpp says.
+// The BTT EBB36 or EBB42 v1.2, emulated: one stepper driver that counts steps, a hot end, and switches, wired
+// as node_firmware/port/stm32g0b1_ebb/board.hpp says.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
 #include "vcan_tests/emulator/octopus_board.hpp"
+#include "vcan_tests/emulator/peripherals/spi.hpp"
+#include "vcan_tests/emulator/physics/adxl345.hpp"
+#include "vcan_tests/emulator/physics/heated_places.hpp"
+#include "vcan_tests/emulator/servo_pulses.hpp"
 #include "vcan_tests/emulator/stm32g0b1_chip.hpp"
 
 namespace kinebus::emulator {
 
-class EbbBoard final : public Stm32g0b1Chip {
+class EbbBoard : public Stm32g0b1Chip {
  public:
   static constexpr double kCountsPerStep = 16;
 
@@ -27,16 +32,33 @@ class EbbBoard final : public Stm32g0b1Chip {
   void set_input(int input, bool level) override;
   const StepDriver& driver() const { return driver_; }
   void clear_edges() { driver_.clear_edges(); }
+  /// The hot end at its clamps and TH0.
+  HeatedPlaces& heated() { return heated_; }
+  bool heater_on() const;
+  Adxl345Chip& accelerometer() { return accelerometer_; }
+  const Spi& spi() const { return spi2_; }
+  bool fan_on(int fan) const;
+  ServoPulses servo();
   /// A pin that gives power to something is driven, and not to its level without.
   bool anything_on() const;
 
  private:
   void reset_devices(Cycle now) override;
-  void advance_devices(Cycle) override {}
-  Cycle next_of_devices() const override { return kNever; }
+  void advance_devices(Cycle now) override;
+  Cycle next_of_devices() const override { return std::min(heated_.next_event(), spi2_.next_event()); }
   void on_pins(Cycle now);
 
   StepDriver driver_;
+  HeatedPlaces heated_;
+  Adxl345Chip accelerometer_;
+  Spi spi2_;
+};
+
+/// With the program of a heat node.
+class EbbHeatBoard final : public EbbBoard {
+ public:
+  using EbbBoard::EbbBoard;
+  std::uint32_t product_code() const override;
 };
 
 }  // namespace kinebus::emulator

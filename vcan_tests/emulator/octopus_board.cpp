@@ -124,15 +124,9 @@ bool OctopusBoard::heater_on(int heater) const {
   return ports_[static_cast<std::size_t>(pin.port)].output_high(pin.number);
 }
 
-OctopusBoard::Pulses OctopusBoard::servo() {
+ServoPulses OctopusBoard::servo() {
   constexpr int kServoPort = 1, kServoPin = 6, kTim4 = 2;
-  constexpr std::uint32_t kReload = 0x2C;
-  const GpioPort& port = ports_[kServoPort];
-  const Timer::Sweep sweep = tim4_.sweep();
-  const bool out = port.mode(kServoPin) == GpioPort::Mode::kAlternate && port.alternate(kServoPin) == kTim4;
-  if (!tim4_.running() || !out || !sweep.enabled[0]) return {};
-  const double period_us = 1e6 * seconds_of(sweep.end - sweep.begin);
-  return {period_us * sweep.compare[0] / (tim4_.read(kReload, cpu_.now()) + 1.0), period_us};
+  return servo_pulses(tim4_, ports_[kServoPort], kServoPin, kTim4, false, cpu_.now());
 }
 
 bool OctopusBoard::anything_on() const {

@@ -12,6 +12,7 @@
 #include "vcan_tests/emulator/peripherals/dma.hpp"
 #include "vcan_tests/emulator/physics/heated_places.hpp"
 #include "vcan_tests/emulator/physics/tmc2209.hpp"
+#include "vcan_tests/emulator/servo_pulses.hpp"
 #include "vcan_tests/emulator/stm32f4_chip.hpp"
 #include "vcan_tests/emulator/usb_socket.hpp"
 
@@ -78,11 +79,7 @@ class OctopusBoard final : public Stm32f4Chip, public UsbSocket {
   HeatedPlaces& heated() { return heated_; }
   /// The pin of one of the heat node's heaters is high now.
   bool heater_on(int heater) const;
-  /// Of the servo output; 0: none come.
-  struct Pulses {
-    double width_us = 0, period_us = 0;
-  };
-  Pulses servo();
+  ServoPulses servo();
   /// A pin that gives power to something is driven, and not to its level without.
   bool anything_on() const;
   /// Pins that the program has made outputs.

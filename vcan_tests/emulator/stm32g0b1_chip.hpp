@@ -9,6 +9,7 @@
 #include "vcan_tests/emulator/peripherals/fdcan.hpp"
 #include "vcan_tests/emulator/peripherals/gpio.hpp"
 #include "vcan_tests/emulator/peripherals/stm32g0.hpp"
+#include "vcan_tests/emulator/peripherals/stm32g0_adc.hpp"
 #include "vcan_tests/emulator/peripherals/timer.hpp"
 
 namespace kinebus::emulator {
@@ -23,6 +24,7 @@ class Stm32g0b1Chip : public Chip {
   std::uint32_t local_counts(Cycle at) override { return tim2_.read(0x24, std::max(at, cpu_.now())); }
   g0::ResetClock& rcc() { return rcc_; }
   const g0::Flash& flash() const { return flash_; }
+  const g0::Adc& adc() const { return adc_; }
   /// Pins that the program has made outputs.
   int outputs() const;
 
@@ -38,7 +40,8 @@ class Stm32g0b1Chip : public Chip {
   g0::Flash flash_;
   std::array<GpioPort, 6> ports_;
   g0::Exti exti_;
-  Timer tim2_, tim1_;
+  Timer tim2_, tim1_, tim17_;
+  g0::Adc adc_;
   g0::Dma dma_;
   Fdcan can_;
   CanMessageRam can_memory_;
@@ -57,7 +60,8 @@ class Stm32g0b1Chip : public Chip {
   void reset_chip(Rcc::ResetCause cause, Cycle now) override;
   void advance_chip(Cycle now) override;
   Cycle next_of_chip() const override {
-    return std::min({tim2_.next_event(), tim1_.next_event(), can_.next_event()});
+    return std::min(
+        {tim2_.next_event(), tim1_.next_event(), tim17_.next_event(), adc_.next_event(), can_.next_event()});
   }
   bool live(const Rcc::Clock& clock, Cycle now) override { return rcc_.live(clock, now); }
   void after_write(Peripheral& written) override;

@@ -51,6 +51,13 @@ inline constexpr std::array kPins = {
   Pin{B, 12, kOutput,    kUp,    0, true,  "ADXL345 select, active low"},
   Pin{D,  3, kOutput,    kDown,  0, false, "RGB"},
 };
+// What the program of the heat node has otherwise.
+inline constexpr std::array kHeatPins = {
+  Pin{B,  9, kAlternate, kDown,  2, false, "PROBE servo (TIM17_CH1)"},
+  Pin{B, 10, kAlternate, kNone,  5, false, "ADXL345 SCK (SPI2)"},
+  Pin{B,  2, kAlternate, kUp,    1, false, "ADXL345 MISO (SPI2)"},
+  Pin{B, 11, kAlternate, kNone,  0, false, "ADXL345 MOSI (SPI2)"},
+};
 // clang-format on
 static_assert(stm32::pins_differ(kPins));
 
@@ -59,6 +66,14 @@ static_assert(stm32::lines_differ(kSwitchPins));
 
 inline constexpr OutputPin kStep{D, 0}, kDirection{D, 1}, kEnable{D, 2};
 inline constexpr std::array<OutputPin, 2> kFans{{{A, 0}, {A, 1}}};
+
+/// The ADXL345's select line, low.
+inline constexpr OutputPin kAccelerometer{B, 12};
+/// ADC input of the thermistor.
+inline constexpr unsigned kThermistor = 3;
+/// Which of kSwitchPins: the line of a probe with a pin, and the heat node's filament sensors.
+inline constexpr std::uint8_t kProbe = 0;
+inline constexpr std::array<std::uint8_t, 2> kFilamentInputs{1, 2};
 
 /// Everything that gives power to something, and its level without.
 struct PowerPin {

@@ -37,9 +37,10 @@ struct Rcc {
                                  kSoftwareReset = bit(28), kWatchdogReset = bit(29),
                                  kWindowWatchdogReset = bit(30);  // CSR
   static constexpr std::uint32_t gpio_clock(stm32::Port port) { return bit(static_cast<int>(port)); }
-  static constexpr std::uint32_t kDma1 = bit(0);                                    // AHBENR
-  static constexpr std::uint32_t kTim2 = bit(0), kCan = bit(12), kDebug = bit(27);  // APBENR1
-  static constexpr std::uint32_t kTim1 = bit(11);                                   // APBENR2
+  static constexpr std::uint32_t kDma1 = bit(0);  // AHBENR
+  static constexpr std::uint32_t kTim2 = bit(0), kCan = bit(12), kSpi2 = bit(14),
+                                 kDebug = bit(27);                                   // APBENR1
+  static constexpr std::uint32_t kTim1 = bit(11), kTim17 = bit(18), kAdc = bit(20);  // APBENR2
 };
 static_assert(offsetof(Rcc, IOPENR) == 0x34 && offsetof(Rcc, APBENR1) == 0x3C &&
               offsetof(Rcc, CCIPR2) == 0x58 && offsetof(Rcc, CSR) == 0x60);
@@ -80,15 +81,47 @@ inline Exti& exti() {
 
 struct Timer {
   Reg CR1, CR2, SMCR, DIER, SR, EGR, CCMR1, CCMR2, CCER, CNT, PSC, ARR, RCR, CCR[4], BDTR;
-  static constexpr std::uint32_t kEnable = bit(0);                                  // CR1
+  static constexpr std::uint32_t kEnable = bit(0), kAutoReloadPreload = bit(7);     // CR1
   static constexpr std::uint32_t kGenerateUpdate = bit(0);                          // EGR
   static constexpr std::uint32_t request(int channel) { return bit(8 + channel); }  // DIER, channel 1..4
+  static constexpr std::uint32_t kPwm1Preload = 6u << 4 | bit(3);                   // CCMR1, channel 1
+  static constexpr std::uint32_t kMainOutput = bit(15);                             // BDTR
 };
 inline Timer& tim1() {
   return peripheral<Timer>(0x4001'2C00);
 }
 inline Timer& tim2() {
   return peripheral<Timer>(0x4000'0000);
+}
+inline Timer& tim17() {
+  return peripheral<Timer>(0x4001'4800);
+}
+
+struct Spi {
+  Reg CR1, CR2, SR, DR;
+  static constexpr std::uint32_t kMode3 = 3, kMaster = bit(2), kDividedBy16 = 3u << 3, kEnable = bit(6),
+                                 kSelected = bit(8) | bit(9);                // CR1: by software
+  static constexpr std::uint32_t kBytes = 7u << 8, kByteReceived = bit(12);  // CR2: told for each byte
+  static constexpr std::uint32_t kReceived = bit(0);                         // SR
+};
+inline Spi& spi2() {
+  return peripheral<Spi>(0x4000'3800);
+}
+
+struct Adc {
+  Reg ISR, IER, CR, CFGR1, CFGR2, SMPR, reserved0[4], CHSELR, reserved1[5], DR;
+  static constexpr std::uint32_t kReady = bit(0), kEndOfConversion = bit(2), kChannelsTaken = bit(13);  // ISR
+  static constexpr std::uint32_t kEnable = bit(0), kStart = bit(2), kRegulator = bit(28),
+                                 kCalibrate = bit(31);                         // CR
+  static constexpr std::uint32_t kOverwrite = bit(12), kContinuous = bit(13);  // CFGR1
+  // CFGR2: sums of 256 conversions without their lowest 4 bits; PCLK / 4.
+  static constexpr std::uint32_t kOversample = bit(0), k256Times = 7u << 2, kShift4 = 4u << 5,
+                                 kClockDividedBy4 = 2u << 30;
+  static constexpr std::uint32_t kSample160 = 7;  // SMPR: 160.5 clocks
+};
+static_assert(offsetof(Adc, CHSELR) == 0x28 && offsetof(Adc, DR) == 0x40);
+inline Adc& adc() {
+  return peripheral<Adc>(0x4001'2400);
 }
 
 /// DMA1: channels 1 to 7 are [0] to [6].

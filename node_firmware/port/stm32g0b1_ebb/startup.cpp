@@ -15,16 +15,16 @@ void kinebus::stm32::record_core(FaultRecord& record) {
   record.reason = g0b1::system_control().ICSR & 0x3F;
 }
 
-// What a program has no handler for.
+// What a program has no handler for. It may lie anywhere: a branch reaches 2 KiB.
 extern "C" {
 [[gnu::weak, gnu::naked]] void isr_tick() {
-  asm("b isr_unexpected");
+  asm("ldr r0, =isr_unexpected\n bx r0");
 }
 [[gnu::weak, gnu::naked]] void isr_switches() {
-  asm("b isr_unexpected");
+  asm("ldr r0, =isr_unexpected\n bx r0");
 }
 [[gnu::weak, gnu::naked]] void isr_control() {
-  asm("b isr_unexpected");
+  asm("ldr r0, =isr_unexpected\n bx r0");
 }
 }
 

@@ -27,6 +27,7 @@ struct HeatBoard {
     object_table::filament_sensors(t);
     object_table::pin_probe(t);
     object_table::accelerometer(t);
+    object_table::program_download(t);
   }
 };
 

@@ -2,11 +2,12 @@
 
 namespace kinebus::emulator {
 namespace {
-constexpr std::uint32_t kMaster = 4, kSpiEnable = 0x40, kFrame16 = 0x800;
+constexpr std::uint32_t kMaster = 4, kSpiEnable = 0x40;
 }
 
 void Spi::reset() {
-  cr1_ = cr2_ = 0;
+  cr1_ = 0;
+  cr2_ = fifo_ ? 0x700 : 0;
   full_ = overrun_ = false;
   waiting_.reset();
   done_ = kNever;
@@ -15,7 +16,7 @@ void Spi::reset() {
 
 void Spi::begin(std::uint16_t value, Cycle now) {
   shifting_ = value;
-  done_ = now + bit_time() * ((cr1_ & kFrame16) != 0 ? 16 : 8);
+  done_ = now + bit_time() * static_cast<Cycle>(frame_bits());
 }
 
 void Spi::advance(Cycle now) {
@@ -37,7 +38,7 @@ void Spi::advance(Cycle now) {
 }
 
 void Spi::update_line() {
-  lines_.set_line(irq_, (full_ && (cr2_ & 0x40) != 0) || (!waiting_ && (cr2_ & 0x80) != 0));
+  lines_.set_line(irq_, (tells() && (cr2_ & 0x40) != 0) || (!waiting_ && (cr2_ & 0x80) != 0));
 }
 
 std::uint32_t Spi::read(std::uint32_t offset, Cycle now) {
@@ -48,7 +49,8 @@ std::uint32_t Spi::read(std::uint32_t offset, Cycle now) {
     case 0x04:
       return cr2_;
     case 0x08:
-      return (full_ ? 1u : 0) | (waiting_ ? 0 : 2u) | (overrun_ ? 0x40u : 0) | (done_ != kNever ? 0x80u : 0);
+      return (tells() ? 1u : 0) | (waiting_ ? 0 : 2u) | (overrun_ ? 0x40u : 0) |
+             (done_ != kNever ? 0x80u : 0);
     case 0x0C:
       full_ = overrun_ = false;
       update_line();

@@ -10,6 +10,7 @@
 
 #include "node_firmware/boot/handover.hpp"
 #include "node_firmware/port/stm32g0b1_ebb/board.hpp"
+#include "protocol/canopen/boards/heat.hpp"
 #include "protocol/canopen/boards/stm32f446_octopus.hpp"
 #include "protocol/canopen/boards/stm32g0b1_ebb.hpp"
 #include "vcan_tests/emulator/ebb_board.hpp"
@@ -67,9 +68,12 @@ struct EbbUpdate : UpdateBench {
       });
     return value;
   }
-  void expect_runs() {
+  bool change_kind(std::span<const std::uint8_t> bytes) {
+    return update(0, kEbbId, bytes, {.other_kind = true}, [](const ProgramUpdate&) { return false; });
+  }
+  void expect_runs(const BoardFacts& node = Stm32g0b1EbbBoard::kFacts) {
     wait(board().boot_time() + 300ms);
-    EXPECT_EQ(read({0x1018, 2}), Stm32g0b1EbbBoard::kFacts.product_code);
+    EXPECT_EQ(read({0x1018, 2}), node.product_code);
     EXPECT_EQ(read({0x1F56, 1}), decode_image_header(program()).crc);
     EXPECT_EQ(board().watchdog_resets(), 0u);
     EXPECT_TRUE(board().strange_accesses().empty());
@@ -123,6 +127,32 @@ TEST(EbbUpdateTest, AnImageForAnotherBoardIsRefusedAndTheProgramRunsOn) {
   EXPECT_FALSE(ebb.update(0, kEbbId, sealed_for(before, Stm32f446OctopusBoard::kFacts)));
   EXPECT_NE(ebb.message.find("Kinebus extruder axis on an EBB"), std::string::npos) << ebb.message;
   EXPECT_EQ(ebb.program(), before);
+  ebb.expect_runs();
+}
+
+// The same board as a heat node: who says no more than "all" gets no other kind of node by that.
+TEST(EbbUpdateTest, BecomesAHeatNodeAndAnAxisAgainOnlyWhenThatIsAskedFor) {
+  EbbUpdate ebb;
+  const auto axis = ebb.program();
+  const auto heat = EbbUpdate(with_boot_loader(KINEBUS_EBB_HEAT_IMAGE, "kinebus-ebb-g0b1-boot.elf"),
+                              &make_board<EbbHeatBoard>)
+                        .program();
+  EXPECT_FALSE(ebb.update(0, kEbbId, heat));
+  EXPECT_NE(ebb.message.find("the image is for a Kinebus heat node"), std::string::npos) << ebb.message;
+  EXPECT_EQ(ebb.program(), axis);
+  EXPECT_TRUE(ebb.change_kind(heat)) << ebb.message;
+  ebb.expect_runs(HeatBoard::kFacts);
+  EXPECT_TRUE(ebb.update(0, kEbbId, another(heat))) << ebb.message;
+  EXPECT_EQ(ebb.program(), another(heat));
+  ebb.expect_runs(HeatBoard::kFacts);
+  EXPECT_FALSE(ebb.update(0, kEbbId, axis));
+  EXPECT_NE(ebb.message.find("it is a Kinebus heat node"), std::string::npos) << ebb.message;
+  // A heat node's program for another board, which only the boot loader can tell.
+  EXPECT_FALSE(ebb.update(0, kEbbId, sealed_for(heat, Stm32f446OctopusBoard::kFacts)));
+  EXPECT_NE(ebb.message.find("Kinebus extruder axis on an EBB"), std::string::npos) << ebb.message;
+  EXPECT_EQ(ebb.program(), another(heat));
+  ebb.expect_runs(HeatBoard::kFacts);
+  EXPECT_TRUE(ebb.change_kind(axis)) << ebb.message;
   ebb.expect_runs();
 }
 

@@ -8,57 +8,31 @@
 #include <cmath>
 
 #include "protocol/canopen/alarm_codes.hpp"
+#include "vcan_tests/emulator/tests/heat_master.hpp"
 #include "vcan_tests/emulator/tests/octopus_bench.hpp"
 
 namespace kinebus::emulator {
 namespace {
 
 constexpr std::uint8_t kHeat = kId + 4;
-constexpr std::uint32_t kDeviceState = 0x0800'0022;
+constexpr std::uint32_t kDeviceState = HeatMaster::kDeviceState;
 
 struct HeatedOctopus : OneOctopus {
-  /// Hot end and bed described, the hot end with the model that a tuning of it finds.
+  /// Hot end and bed described.
   explicit HeatedOctopus(double hot_end_c = 22)
       : OneOctopus({}, &make_board<OctopusBoard>, false, hot_end_c) {
-    bench.send(nmt_frame(NmtCommand::kEnterPreOperational, kHeat));
-    bench.run(5ms);
-    for (const std::uint8_t n : {std::uint8_t{1}, std::uint8_t{2}}) {
-      bench.write(kHeat, 0x220A, n, 2, -50);
-      bench.write(kHeat, 0x6110, n, 2, 10'100);
-    }
-    const std::array<std::uint32_t, 4> model{3006, 5340, 1423, 1998};
-    for (std::size_t i = 0; i < model.size(); ++i)
-      bench.write(kHeat, static_cast<std::uint16_t>(0x2218 + i), 1, 4, model[i]);
+    master.describe(2);
     bench.write(kHeat, 0x2211, 2, 2, 1300);
-    bench.write(kHeat, 0x2243, 0, 4, raw(0x1018, 4));
-    bench.run(300ms);
-    bench.send(nmt_frame(NmtCommand::kStart, kHeat));
-    bench.run(5ms);
+    master.start();
   }
-  std::uint32_t raw(std::uint16_t index, std::uint8_t sub) {
-    const CanFrame reply = bench.upload(kHeat, index, sub);
-    return get_u32_le(reply.bytes().subspan(4));
-  }
-  double measured_c(std::uint8_t sensor = 1) { return static_cast<std::int16_t>(raw(0x7130, sensor)) / 10.0; }
-  /// A master that lives: it asks once a second.
-  double heat_for(BusTime span) {
-    double c = 0;
-    for (BusTime t{0}; t < span; t += 1s) {
-      bench.run(std::min<BusTime>(1s, span - t));
-      c = measured_c();
-    }
-    return c;
-  }
-  /// How long something of the hot end's power still comes after `what`, looked at for a second.
+  std::uint32_t raw(std::uint16_t index, std::uint8_t sub) { return master.raw(index, sub); }
+  double measured_c() { return master.measured_c(); }
+  double heat_for(BusTime span) { return master.heat_for(span); }
+  /// Of the hot end.
   double power_after_s(const std::function<void()>& what) {
-    const BusTime from = bench.now;
-    BusTime last = from;
-    what();
-    bench.run(1s, 500us, [&] {
-      if (board.heater_on(0)) last = bench.now;
-    });
-    return 1e-9 * static_cast<double>((last - from).count());
+    return master.power_after_s([this] { return board.heater_on(0); }, what);
   }
+  HeatMaster master{bench, kHeat};
 };
 
 TEST(OctopusHeat, HeatsTo210HoldsWhileAxesMoveAndAnOpenSensorTakesThePower) {

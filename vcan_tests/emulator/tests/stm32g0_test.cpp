@@ -6,6 +6,7 @@
 
 #include "vcan_tests/emulator/peripherals/fdcan.hpp"
 #include "vcan_tests/emulator/peripherals/stm32g0.hpp"
+#include "vcan_tests/emulator/peripherals/stm32g0_adc.hpp"
 
 namespace kinebus::emulator {
 namespace {
@@ -97,6 +98,72 @@ TEST(G0Flash, TakesDoubleWordsOnceAndTheLowerWordFirst) {
   static_cast<void>(flash.program(kAt, 0, 4, 0));
   EXPECT_FALSE(flash.program(kAt + 4, 2, 4, 0)) << "a second time";
   EXPECT_EQ(flash.errors(), errors + 1);
+}
+
+struct G0Adc : testing::Test {
+  static constexpr std::uint32_t kIsr = 0x00, kCr = 0x08, kCfgr1 = 0x0C, kCfgr2 = 0x10, kSmpr = 0x14,
+                                 kChselr = 0x28, kDr = 0x40;
+  static constexpr std::uint32_t kRegulator = 1u << 28, kCalibrate = 1u << 31;
+  static constexpr Cycle kMicrosecond = kCoreHz / 1'000'000;
+  void write(std::uint32_t offset, std::uint32_t value) { adc.write(offset, value, now); }
+  std::uint32_t read(std::uint32_t offset) { return adc.read(offset, now); }
+  void wait(Cycle us) { now += us * kMicrosecond; }
+  void switch_on() {
+    write(kCr, kRegulator);
+    wait(21);
+    write(kCfgr2, 2u << 30);
+    write(kCr, kRegulator | kCalibrate);
+    wait(10);
+    write(kCr, kRegulator | 1);
+    wait(2);
+    write(kChselr, 1u << 3);
+    wait(2);
+  }
+  g0::Adc adc;
+  Cycle now = 0;
+};
+
+TEST_F(G0Adc, WhatComesTooSoonIsNotDone) {
+  write(kCr, 1);
+  write(kCr, kRegulator);
+  wait(19);
+  write(kCr, kRegulator | kCalibrate);
+  EXPECT_EQ(adc.refused(), 2u) << "no regulator, and not long enough";
+  wait(2);
+  write(kCfgr2, 2u << 30);
+  write(kCr, kRegulator | kCalibrate);
+  write(kCr, kRegulator | 1);
+  EXPECT_EQ(adc.refused(), 3u) << "it calibrates";
+  wait(10);
+  write(kCr, kRegulator | 1);
+  write(kChselr, 1u << 3);
+  write(kCr, kRegulator | 5);
+  EXPECT_EQ(adc.refused(), 4u) << "not ready";
+  wait(2);
+  write(kCr, kRegulator | 5);
+  EXPECT_EQ(adc.refused(), 4u);
+  EXPECT_TRUE(adc.running());
+  write(kSmpr, 7);
+  EXPECT_EQ(adc.refused(), 5u) << "it converts";
+}
+
+TEST_F(G0Adc, AddsUpAndTakesItsTime) {
+  adc.sample = [](int channel, Cycle) { return channel == 3 ? 0.5 : 0; };
+  switch_on();
+  write(kCfgr1, 3u << 12);
+  write(kSmpr, 7);
+  write(kCfgr2, 2u << 30 | 1 | 7u << 2 | 4u << 5);
+  write(kCr, kRegulator | 5);
+  EXPECT_EQ(adc.refused(), 0u);
+  // 256 times 173 clocks of 16 MHz.
+  wait(2767);
+  EXPECT_EQ(read(kIsr) & 4, 0u);
+  wait(2);
+  EXPECT_EQ(read(kIsr) & 4, 4u);
+  EXPECT_EQ(read(kDr), 2048u * 16);
+  EXPECT_EQ(read(kIsr) & 4, 0u);
+  wait(2 * 2768);
+  EXPECT_EQ(read(kIsr) & 16, 16u) << "one was not fetched";
 }
 
 }  // namespace
