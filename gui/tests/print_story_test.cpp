@@ -133,8 +133,10 @@ class PrintStory : public testing::Test {
       return ::testing::AssertionSuccess();
     return ::testing::AssertionFailure() << key << ": " << said();
   }
+  // Without them the scene is not drawn: software takes a core for it.
+  static QString pictures() { return qEnvironmentVariable("KINEBUS_PICTURES"); }
   void picture(const char* name) {
-    const QString where = qEnvironmentVariable("KINEBUS_PICTURES");
+    const QString where = pictures();
     if (where.isEmpty()) return;
     QDir().mkpath(where);
     for (int i = 0; i < 12; ++i) QCoreApplication::processEvents(QEventLoop::AllEvents, 20);
@@ -168,7 +170,7 @@ TEST_F(PrintStory, AnObjectLeftOutAColourAndAnEmptySpoolEndInAWholePrint) {
   window->show_page(MainWindow::kJobs);
   window->jobs_page().select(QStringLiteral("squares.gcode"));
   ASSERT_TRUE(press("Start"));
-  window->show_page(MainWindow::kView);
+  if (!pictures().isEmpty()) window->show_page(MainWindow::kView);
 
   // One object is left out.
   ASSERT_TRUE(wait_until([&] { return state() == joblink::STATE_RUNNING && right_top_mm > 0; }, kPatience_ms))
