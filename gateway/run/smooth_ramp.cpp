@@ -47,7 +47,7 @@ SmoothRamp::Bend SmoothRamp::bend_between(const PathClock& clock, BusTime from, 
 }
 
 SmoothRamp::SmoothRamp(const MachineDescription& machine, const Kinematics& kinematics)
-    : machine_(machine), kinematics_(kinematics), axes_(kTool + machine.joints.size()) {
+    : kinematics_(kinematics), axes_(kTool + machine.joints.size()) {
   for (std::size_t i = 0; i < axes_; ++i) {
     const bool tool = i < kTool;
     const double jerk =

@@ -22,7 +22,7 @@ class SmoothRamp {
   /// What the clock would be with a smooth ramp (RateCommand::Kind::kSmooth) of this `full_ramp`.
   using Trial = std::function<PathClock(std::chrono::milliseconds full_ramp)>;
 
-  /// Both must outlive this.
+  /// The kinematics must outlive this.
   SmoothRamp(const MachineDescription& machine, const Kinematics& kinematics);
 
   /// The shortest `full_ramp`, from `least` (and 20 ms) on, with which what is planned from `from` on keeps
@@ -75,7 +75,6 @@ class SmoothRamp {
   double ratio(const Terms& here, const Row& jerk, const Rate& rate) const;
   double unknown_ratio(const Terms& last, const Rate& rate) const;
 
-  const MachineDescription& machine_;
   const Kinematics& kinematics_;
   std::size_t axes_;
   Row per_jerk_{};        ///< 1 / jerk limit
