@@ -1,6 +1,7 @@
 #include "protocol/motion/path_clock.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
 
 #include "protocol/motion/wide_integer.hpp"
@@ -206,10 +207,15 @@ std::optional<PathClock::Change> PathClock::caught_up(const Change& in_time, std
   return result;
 }
 
-/// In place of all that came after its start.
+/// In place of all that came after its start. A leg is whole before it counts: who stops the program at any
+/// instruction and asks for path time, a debugger or a test, gets what is in force.
 void PathClock::put(const Change& change) {
   while (count_ > 1 && leg(count_ - 1).start >= change.legs[0].start) --count_;
-  for (int i = 0; i < change.count; ++i) leg(count_++) = change.legs[static_cast<std::size_t>(i)];
+  for (int i = 0; i < change.count; ++i) {
+    leg(count_) = change.legs[static_cast<std::size_t>(i)];
+    std::atomic_signal_fence(std::memory_order_seq_cst);
+    ++count_;
+  }
 }
 
 std::optional<PathClock::Outcome> PathClock::change(Wanted wanted, std::int64_t now) {
