@@ -1,8 +1,11 @@
 #include "gateway/sessions/http/gate.hpp"
 
 #include <openssl/crypto.h>
+#include <openssl/rand.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdlib>
 
 namespace kinebus::http {
 namespace {
@@ -35,6 +38,20 @@ bool is_own_origin(std::string_view origin, std::string_view host) {
 
 bool same_key(std::string_view a, std::string_view b) {
   return a.size() == b.size() && CRYPTO_memcmp(a.data(), b.data(), a.size()) == 0;
+}
+
+std::string hexadecimal(std::span<const unsigned char> bytes) {
+  static constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string text;
+  for (const unsigned char byte : bytes) text.append(1, kDigits[byte >> 4U]).append(1, kDigits[byte & 15U]);
+  return text;
+}
+
+std::string unguessable() {
+  std::array<unsigned char, 16> bytes{};
+  // Without randomness nobody may be let in.
+  if (RAND_bytes(bytes.data(), static_cast<int>(bytes.size())) != 1) std::abort();
+  return hexadecimal(bytes);
 }
 
 bool shows_key(const Head& head, std::string_view key) {

@@ -22,5 +22,8 @@ std::optional<GateRefusal> refusal_at_gate(const Head& head, std::span<const std
 bool shows_key(const Head& head, std::string_view key);
 /// Takes as long for a wrong key as for the right one.
 bool same_key(std::string_view a, std::string_view b);
+std::string hexadecimal(std::span<const unsigned char> bytes);
+/// 128 random bits, in hexadecimal digits.
+std::string unguessable();
 
 }  // namespace kinebus::http

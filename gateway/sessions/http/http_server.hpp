@@ -19,8 +19,10 @@
 #include "gateway/jobs/store/job_store.hpp"
 #include "gateway/sessions/byte_session.hpp"
 #include "gateway/sessions/control.hpp"
+#include "gateway/sessions/http/digest.hpp"
 #include "gateway/sessions/http/moonraker/course.hpp"
 #include "gateway/sessions/http/moonraker/moonraker_database.hpp"
+#include "gateway/sessions/http/slicers/login_sessions.hpp"
 #include "gateway/sessions/job_link_server.hpp"
 #include "gateway/sessions/worker.hpp"
 
@@ -88,6 +90,8 @@ class Server {
   const char* job_end() const { return job_end_; }
   bool in_job() const { return in_job_; }
   MoonrakerDatabase& database() { return database_; }
+  LoginSessions& logins() { return logins_; }
+  Digest& digest() { return digest_; }
   const TemperatureCourse& temperatures() const { return temperatures_; }
   const ConsoleCourse& console() const { return console_; }
   /// A line that a client sent, or what it was answered.
@@ -109,6 +113,8 @@ class Server {
   const char* job_end_ = "standby";
   bool in_job_ = false, ran_ = false, cancelled_ = false;
   MoonrakerDatabase database_;
+  LoginSessions logins_;
+  Digest digest_;
   TemperatureCourse temperatures_;
   ConsoleCourse console_;
   std::unique_ptr<Caller> noter_;

@@ -68,6 +68,12 @@ int status_of(joblink::ErrorCode code) {
   }
 }
 
+Answer refusal_of(int status, std::string_view why) {
+  return {
+      .status = status,
+      .body = nlohmann::json{{"error", why}}.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)};
+}
+
 }  // namespace
 
 Session::Session(Server& server, LocalTime now, std::string transport, std::string peer)
@@ -159,8 +165,11 @@ void Session::begin_request() {
   if (!target) return refuse(400, "the target is no path of this server");
   target_ = std::move(*target);
   const Found found = find_route(no_body_ ? "GET" : head().method, target_.path);
-  if ((found.route == nullptr || !found.route->open) && !shows_key(head(), server_.options().key))
-    return refuse(401, "X-Api-Key must be this gateway's key");
+  shown_ = shows_key(head(), server_.options().key)
+               ? Digest::Shown::kKey
+               : server_.digest().shown(head(), server_.options().key, now_);
+  if ((found.route == nullptr || !found.route->open) && shown_ != Digest::Shown::kKey)
+    return refuse_stranger();
   if (found.allowed.empty()) return refuse(404, "there is nothing under this path");
   if (found.route == nullptr) {
     const nlohmann::json body{{"error", "this path does not take the method " + head().method}};
@@ -191,7 +200,7 @@ void Session::become_socket(const Route& route) {
   out_ += "Sec-WebSocket-Accept: " + accepted + "\r\n\r\n";
   auto socket = std::make_unique<Socket>(server_, now_, transport_, std::string(agent()));
   socket->speak(route.speak(*socket));
-  if (shows_key(head(), server_.options().key)) socket->let_in({});
+  if (shown_ == Digest::Shown::kKey) socket->let_in({});
   socket_ = std::move(socket);
 }
 
@@ -265,10 +274,16 @@ void Session::end_exchange() {
 }
 
 void Session::refuse(int status, std::string_view why) {
-  Answer refusal{
-      .status = status,
-      .body = nlohmann::json{{"error", why}}.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)};
-  if (status == 401) refusal.fields.emplace_back("WWW-Authenticate", "Bearer realm=\"kinebus\"");
+  answer(refusal_of(status, why));
+}
+
+void Session::refuse_stranger() {
+  Answer refusal = refusal_of(401, "X-Api-Key must be this gateway's key, or the password of HTTP Digest");
+  // A browser would ask its user for a name and a password, where the page asks for the key.
+  if (head().field("Sec-Fetch-Mode").empty())
+    refusal.fields.emplace_back("WWW-Authenticate",
+                                server_.digest().challenge(now_, shown_ == Digest::Shown::kStale));
+  refusal.fields.emplace_back("WWW-Authenticate", "Bearer realm=\"kinebus\"");
   answer(refusal);
 }
 

@@ -107,6 +107,7 @@ class Session : public ByteSession, public Caller {
   void end_exchange();
   std::string_view agent() const;
   void become_socket(const Route& route);
+  void refuse_stranger();
   std::string_view input() const { return std::string_view(in_).substr(at_); }
 
   std::string transport_, peer_;
@@ -116,6 +117,7 @@ class Session : public ByteSession, public Caller {
 
   Target target_;
   std::unique_ptr<Task> task_, done_task_;
+  Digest::Shown shown_ = Digest::Shown::kNothing;
   bool whole_ = false;      ///< the request's body has come
   bool answered_ = false;   ///< its answer is given
   bool no_body_ = false;    ///< HEAD

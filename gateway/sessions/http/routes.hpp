@@ -30,6 +30,7 @@ std::unique_ptr<Task> make_task(const Route& route, Session& session);
 
 std::span<const Route> octoprint_machine_routes();
 std::span<const Route> octoprint_job_routes();
+std::span<const Route> octoprint_push_routes();
 std::span<const Route> prusalink_routes();
 std::span<const Route> kinebus_routes();
 std::span<const Route> moonraker_routes();

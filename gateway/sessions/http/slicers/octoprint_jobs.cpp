@@ -82,45 +82,12 @@ void file_command(Session& session, std::string_view body) {
 }
 
 void tell_job(Session& session, const joblink::Status& status, const StoredJob* job) {
-  const bool runs = job_is_there(status);
-  Json file = {{"name", nullptr},   {"path", nullptr}, {"display", nullptr},
-               {"origin", nullptr}, {"size", nullptr}, {"date", nullptr}};
-  const std::string& name = runs ? status.job() : session.server().selected;
-  if (!name.empty()) {
-    file["name"] = file["path"] = file["display"] = name;
-    file["origin"] = "local";
-  }
-  Json estimate = nullptr;
-  if (job != nullptr) {
-    file["size"] = job->size_bytes;
-    file["date"] = static_cast<std::int64_t>(job->stored_unix_s);
-  }
-  if (runs) estimate = status.elapsed_s() + status.remaining_s();
-  Json progress = {{"completion", nullptr},
-                   {"filepos", nullptr},
-                   {"printTime", nullptr},
-                   {"printTimeLeft", nullptr},
-                   {"printTimeLeftOrigin", nullptr}};
-  if (runs)
-    progress = {{"completion", 100 * status.progress()},
-                {"filepos", job != nullptr ? Json(static_cast<std::uint64_t>(
-                                                 status.progress() * static_cast<double>(job->size_bytes)))
-                                           : Json(nullptr)},
-                {"printTime", static_cast<std::int64_t>(status.elapsed_s())},
-                {"printTimeLeft", static_cast<std::int64_t>(status.remaining_s())},
-                {"printTimeLeftOrigin", "estimate"}};
-  session.answer(json_answer({{"job",
-                               {{"file", file},
-                                {"estimatedPrintTime", estimate},
-                                {"lastPrintTime", nullptr},
-                                {"filament", nullptr}}},
-                              {"progress", progress},
-                              {"state", octoprint_state(status)}}));
+  session.answer(json_answer(octoprint_job_json(status, session.server().selected, job)));
 }
 
 void job(Session& session, std::string_view) {
   joblink::Status status = machine_status(session);
-  const std::string name = job_is_there(status) ? status.job() : session.server().selected;
+  const std::string name = octoprint_job_name(status, session.server().selected);
   if (name.empty()) return tell_job(session, status, nullptr);
   session.beside([name](JobStore& store) { return store.find(name); },
                  [&session, status = std::move(status)](const std::optional<StoredJob>& found) {

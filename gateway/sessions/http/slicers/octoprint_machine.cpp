@@ -10,66 +10,6 @@
 namespace kinebus::http {
 namespace {
 
-struct Flags {
-  const char* text;  ///< as OctoPrint's clients know it
-  bool operational = true, printing = false, pausing = false, cancelling = false, ready = false,
-       error = false;
-};
-
-Flags flags_of(joblink::State state) {
-  switch (state) {
-    case joblink::STATE_OFF:
-      return {.text = "Offline", .operational = false};
-    case joblink::STATE_BRING_UP:
-      return {.text = "Connecting", .operational = false};
-    case joblink::STATE_READY:
-      return {.text = "Operational", .ready = true};
-    case joblink::STATE_CHECKING:
-      return {.text = "Starting", .printing = true};
-    case joblink::STATE_RUNNING:
-      return {.text = "Printing", .printing = true};
-    case joblink::STATE_HOLDING:
-      return {.text = "Pausing", .printing = true, .pausing = true};
-    case joblink::STATE_HELD:
-      return {.text = "Paused"};
-    case joblink::STATE_CANCELLING:
-      return {.text = "Cancelling", .cancelling = true};
-    case joblink::STATE_STOPPING:
-    case joblink::STATE_STOPPED:
-    case joblink::STATE_ALARM:
-      return {.text = "Error", .operational = false, .error = true};
-    default:
-      return {.text = "Operational"};
-  }
-}
-
-Json state_json(const joblink::Status& status) {
-  const Flags flags = flags_of(status.state());
-  return {{"text", octoprint_state(status)},
-          {"flags",
-           {{"operational", flags.operational},
-            {"paused", is_paused(status)},
-            {"printing", flags.printing},
-            {"pausing", flags.pausing},
-            {"cancelling", flags.cancelling},
-            {"resuming", false},
-            {"finishing", false},
-            {"sdReady", false},
-            {"error", flags.error},
-            {"ready", flags.ready},
-            {"closedOrError", !flags.operational}}},
-          // In Kinebus's own words, for whoever reads them.
-          {"kinebus", {{"state", status.state_words()}, {"doing", status.doing()}}}};
-}
-
-/// "tool0", "bed", "chamber", as OctoPrint names heaters.
-std::string heater_name(const joblink::Heater& heater) {
-  const std::string number = std::to_string(heater.index());
-  if (heater.kind() == joblink::HEATER_HOTEND) return "tool" + number;
-  const std::string kind = heater.kind() == joblink::HEATER_BED ? "bed" : "chamber";
-  return heater.index() == 0 ? kind : kind + number;
-}
-
 void version(Session& session, std::string_view) {
   const auto& options = session.server().link().options();
   session.answer(
@@ -84,7 +24,7 @@ void server(Session& session, std::string_view) {
 }
 
 Json user() {
-  return {{"name", "kinebus"},
+  return {{"name", kOctoPrintUser},
           {"active", true},
           {"user", true},
           {"admin", true},
@@ -102,8 +42,8 @@ void login(Session& session, std::string_view body) {
   if (!asked->value("passive", Json(false)).is_boolean() || !asked->value("passive", Json(false)).get<bool>())
     return session.refuse(403, "there are no names and passwords: clients are let in by X-Api-Key");
   Json answer = user();
-  // A key is shown with every request; this tells nothing and opens nothing.
-  answer["session"] = std::to_string(session.id());
+  // For a websocket, which shows it in its first message (octoprint_socket.cpp); requests show the key.
+  answer["session"] = session.server().logins().begin(session.now());
   answer["_is_external_client"] = false;
   session.answer(json_answer(answer));
 }
@@ -138,12 +78,10 @@ void connection(Session& session, std::string_view) {
 
 void printer(Session& session, std::string_view) {
   const joblink::Status status = machine_status(session);
-  Json temperature = Json::object();
-  for (const joblink::Heater& heater : status.heaters())
-    temperature[heater_name(heater)] = {
-        {"actual", heater.actual_celsius()}, {"target", heater.target_celsius()}, {"offset", 0}};
-  session.answer(
-      json_answer({{"temperature", temperature}, {"sd", {{"ready", false}}}, {"state", state_json(status)}}));
+  Json temperature = octoprint_temperatures(status);
+  for (auto& heater : temperature) heater["offset"] = 0;
+  session.answer(json_answer(
+      {{"temperature", temperature}, {"sd", {{"ready", false}}}, {"state", octoprint_state_json(status)}}));
 }
 
 Json range(const joblink::Range& range) {
@@ -183,10 +121,6 @@ void printer_profiles(Session& session, std::string_view) {
 }
 
 }  // namespace
-
-const char* octoprint_state(const joblink::Status& status) {
-  return is_paused(status) ? "Paused" : flags_of(status.state()).text;
-}
 
 std::span<const Route> octoprint_machine_routes() {
   static constexpr std::array kRoutes{

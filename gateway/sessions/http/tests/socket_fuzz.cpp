@@ -57,7 +57,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     messages +=
         http::message(std::string(line) + std::string(line.size() < 126 ? 126 - line.size() : 0, ' '));
   }
-  for (const char* path : {"/kinebus/v1/socket", "/websocket"}) {
+  for (const char* path :
+       {"/kinebus/v1/socket", "/websocket", "/sockjs/websocket", "/sockjs/1/a/websocket"}) {
     http::FuzzMachine machine;
     machine.talk(http::handshake(path) + std::string(bytes), 61);
     machine.talk(http::handshake(path) + messages, size + 1000);

@@ -1,0 +1,30 @@
+#pragma once
+// Who has shown the key once shows instead, over a websocket, the session that it was given for it.
+
+#include <chrono>
+#include <deque>
+#include <string>
+#include <string_view>
+
+#include "protocol/time.hpp"
+
+namespace kinebus::http {
+
+class LoginSessions {
+ public:
+  static constexpr LocalTime kFor = std::chrono::hours{24};
+  static constexpr std::size_t kMost = 200;  ///< the oldest goes for a new one
+
+  /// A new one, that nobody can guess.
+  std::string begin(LocalTime now);
+  bool knows(std::string_view session, LocalTime now) const;
+
+ private:
+  struct Login {
+    std::string session;
+    LocalTime until;
+  };
+  std::deque<Login> logins_;
+};
+
+}  // namespace kinebus::http
