@@ -78,7 +78,8 @@ TEST_F(VelocityTest, ItsTargetReachedIsToldAtOnce) {
 
 TEST_F(VelocityTest, NoTargetIsFasterThan607Fh) {
   bench.write(kId, 0x607F, 0, 4, 50'000);
-  for (const std::int64_t to : {std::int64_t{90'000}, std::int64_t{0x7FFF'FFFF}, -std::int64_t{0x8000'0000}}) {
+  for (const std::int64_t to :
+       {std::int64_t{90'000}, std::int64_t{0x7FFF'FFFF}, -std::int64_t{0x8000'0000}}) {
     ask(to);
     watch(800ms, 50'000, 800'000);
     EXPECT_NEAR(measured(), to > 0 ? 50'000 : -50'000, 10);
