@@ -87,7 +87,8 @@ class BoardHeat {
     if (!node_ || !hearing_.hears(frame)) return;
     node_->on_frame(at, frame);
     touched_ = true;
-    if (frame.id == cob_id::kSdoRequest + node_->node_id()) hearing_due_ = at;
+    // At once: the frame may have come after this pass began, and its answer goes out in this pass.
+    if (frame.id == cob_id::kSdoRequest + node_->node_id()) hearing_due_ = {};
   }
   /// Of an input of the board.
   void on_edge(std::uint8_t input, bool level) {

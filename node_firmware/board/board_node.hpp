@@ -48,7 +48,8 @@ class BoardNode {
     if (!hearing_.hears(frame) || asks_for_nothing(frame)) return;
     node_.on_frame(at, frame);
     touched_ = true;
-    if (frame.id == cob_id::kSdoRequest + node_.node_id()) hearing_due_ = at;
+    // At once: the frame may have come after this pass began, and its answer goes out in this pass.
+    if (frame.id == cob_id::kSdoRequest + node_.node_id()) hearing_due_ = {};
   }
   void on_switch(LocalTime at, std::uint8_t input, bool level) {
     const int place = inputs_.empty() ? input : inputs_[input];

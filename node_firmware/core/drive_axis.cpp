@@ -80,7 +80,9 @@ void DriveAxis::on_path_stop(LocalTime now) {
   on_time(now);
   if (source_ == Source::kStream) return;
   homing_.abort();
-  profile_position_.reset(word_);  // also of an axis that is halted: what waits there is not to begin later
+  // Also of an axis that is halted: what waits there is not to begin later.
+  profile_position_.reset(word_);
+  objects_.set_value(slot_of_axes(object::kTargetVelocity)[index_], 0);
   halted_ = false;
   if (moving(now)) brake(to_ticks(now), unsigned_parameter(kQuickStop));
 }
@@ -252,9 +254,11 @@ bool DriveAxis::moving(LocalTime at) const {
 LocalTime DriveAxis::next_deadline() const {
   const bool ends = source_ == Source::kProfile || source_ == Source::kLine;
   const bool waits_for_sync = source_ == Source::kLine && line_.end() <= served_until_;
-  const ProfileTicks end = waits_for_sync             ? line_.lost_at()
-                           : source_ == Source::kLine ? line_.end()
-                                                      : profile_.end();
+  // Profile velocity has reached its target where a ramp ends.
+  const ProfileTicks end = waits_for_sync                    ? line_.lost_at()
+                           : source_ == Source::kLine        ? line_.end()
+                           : mode_ == Mode::kProfileVelocity ? profile_.phase_end(served_until_)
+                                                             : profile_.end();
   LocalTime deadline =
       ends && end > served_until_ && end < LinearInterpolator::kNever ? to_local(end) : LocalTime::max();
   if (homing_.waiting()) deadline = std::min(deadline, to_local(served_until_) + kTurn);

@@ -91,6 +91,7 @@ class DriveAxis {
     return static_cast<std::uint32_t>(parameter(slots));
   }
   cia402::StopOptions stop_options() const;
+  ProfileLimits profile_limits(std::uint32_t fastest) const;
   ProfilePosition::SetPoint next_set_point(std::uint16_t word);
   std::int64_t within_limits(std::int64_t target);
   HomingConfig homing_config() const;
@@ -106,6 +107,7 @@ class DriveAxis {
   void serve_homing(LocalTime now);
   void enter_mode(LocalTime now, Mode mode);
   void begin_stream(LocalTime now);
+  void serve_velocity(LocalTime now);
   void follow(LocalTime now, std::int64_t behind);
   void start_or_end_homing(LocalTime now, bool start);
   bool blocked() const { return path_.stop_latched(); }
@@ -122,6 +124,7 @@ class DriveAxis {
   Trapezoid profile_;
   LinearInterpolator line_;
   ProfilePosition profile_position_;
+  std::optional<ProfilePosition::SetPoint> runs_;  ///< mode 3: to where, if nobody stops it, and how fast
   bool homing_turn() const {
     return (word_ & cia402::control::kHomingStay) == 0 &&
            (neighbour_ == nullptr || !neighbour_->homing_.leaving());

@@ -12,6 +12,7 @@ namespace {
 namespace control = cia402::control;
 namespace status = cia402::status;
 
+constexpr auto kTargetVelocity = slot_of_axes(object::kTargetVelocity);
 constexpr auto kSubMode = slot_of_axes(object::kInterpolationSubMode);
 
 /// 60C2h as ticks: value * 10^index seconds, 100 us to 10 s.
@@ -42,6 +43,7 @@ void DriveAxis::serve_mode(LocalTime now) {
     }
   }
   begin_stream(now);
+  serve_velocity(now);
   served_until_ = std::max(served_until_, to_ticks(now));
 }
 
@@ -52,10 +54,35 @@ void DriveAxis::enter_mode(LocalTime now, Mode mode) {
   limited_ = false;
   homing_.abort();
   profile_position_.reset(word_);
+  runs_.reset();
+  // What was asked for before is not to move the axis when the mode comes back.
+  if (mode != Mode::kProfileVelocity) objects_.set_value(kTargetVelocity[index_], 0);
   const std::int32_t here = whole_counts(position(now));
   objects_.set_value(slot_of_axes(object::kInterpolationData)[index_], here);
   if (mode == Mode::kCyclicSynchronousPosition)
     objects_.set_value(slot_of_axes(object::kTargetPosition)[index_], here);
+}
+
+// Profile velocity: on its way to the end of where it may be, at the target velocity, until that is another
+// one. What stops it by 60FFh = 0, at a limit, or in any other way is a ramp like every other.
+void DriveAxis::serve_velocity(LocalTime now) {
+  const bool runs = mode_ == Mode::kProfileVelocity && wanted_mode_ == mode_ && source_ == Source::kProfile &&
+                    power_.moves() && was_enabled_ && !blocked();
+  if (!runs) return runs_.reset();
+  const std::int64_t wanted = parameter(kTargetVelocity);
+  const std::int64_t fastest = unsigned_parameter(slot_of_axes(object::kMaxProfileVelocity));
+  const std::int64_t speed = std::min(wanted < 0 ? -wanted : wanted, fastest);
+  const ProfileTicks t = to_ticks(now);
+  ProfilePosition::SetPoint next{.target = 0, .limits = profile_limits(static_cast<std::uint32_t>(speed))};
+  if (speed != 0) next.target = within_limits(wanted < 0 ? -kPositionBound : kPositionBound);
+  limited_ = speed != 0 && profile_.done(t) && runs_ == next;  // it stands where it may not go on
+  if (speed != (wanted < 0 ? -wanted : wanted)) limited_ = true;
+  if (runs_ == next) return;
+  runs_ = next;
+  if (speed == 0)
+    brake(t, next.limits.deceleration);
+  else
+    profile_.move(t, state_at(t), next.target, next.limits);
 }
 
 // The stream takes over an axis that rests, while the stream rests: both then are at the same place.
@@ -127,14 +154,20 @@ void DriveAxis::follow(LocalTime now, std::int64_t behind) {
   path_.request_stop(StopReason::kAxisFault, static_cast<int>(index_), emcy::kFollowingError, now);
 }
 
-ProfilePosition::SetPoint DriveAxis::next_set_point(std::uint16_t word) {
-  const auto least = [&](AxisSlots a, AxisSlots b) {
-    return std::max<std::uint32_t>(std::min(unsigned_parameter(a), unsigned_parameter(b)), 1);
+ProfileLimits DriveAxis::profile_limits(std::uint32_t fastest) const {
+  const auto least = [&](AxisSlots a, std::uint32_t most) {
+    return std::max<std::uint32_t>(std::min(unsigned_parameter(a), most), 1);
   };
+  return {least(slot_of_axes(object::kMaxProfileVelocity), fastest),
+          least(slot_of_axes(object::kProfileAcceleration),
+                unsigned_parameter(slot_of_axes(object::kMaxAcceleration))),
+          least(slot_of_axes(object::kProfileDeceleration),
+                unsigned_parameter(slot_of_axes(object::kMaxDeceleration)))};
+}
+
+ProfilePosition::SetPoint DriveAxis::next_set_point(std::uint16_t word) {
   ProfilePosition::SetPoint next;
-  next.limits = {least(slot_of_axes(object::kProfileVelocity), slot_of_axes(object::kMaxProfileVelocity)),
-                 least(slot_of_axes(object::kProfileAcceleration), slot_of_axes(object::kMaxAcceleration)),
-                 least(slot_of_axes(object::kProfileDeceleration), slot_of_axes(object::kMaxDeceleration))};
+  next.limits = profile_limits(unsigned_parameter(slot_of_axes(object::kProfileVelocity)));
   const std::int64_t target = parameter(slot_of_axes(object::kTargetPosition));
   const bool relative = (word & control::kRelative) != 0;
   const std::int64_t base = relative ? whole_counts(profile_position_.base(profile_)) : 0;
@@ -242,6 +275,11 @@ std::uint16_t DriveAxis::statusword(LocalTime now) const {
       if (halted_ ? rests : profile_position_.reached(to_ticks(now), profile_))
         word |= status::kTargetReached;
       if (profile_position_.acknowledged()) word |= status::kSetPointAcknowledged;
+      break;
+    case Mode::kProfileVelocity:
+      if (halted_ || parameter(kTargetVelocity) == 0 ? rests : profile_.cruises(to_ticks(now)) && !limited_)
+        word |= status::kTargetReached;
+      if (rests) word |= status::kStands;
       break;
     case Mode::kHoming:
       if (rests && !homing_.running()) word |= status::kTargetReached;

@@ -33,7 +33,7 @@ bool kept_in_motion(const ObjectEntry& entry) {
 }
 
 bool known_mode(std::int64_t mode) {
-  return mode == 0 || mode == 1 || mode == 6 || mode == 7 || mode == 8;
+  return mode == 0 || mode == 1 || mode == 3 || mode == 6 || mode == 7 || mode == 8;
 }
 
 }  // namespace

@@ -201,6 +201,7 @@ bool Node::read_axis_object(const DriveAxis& axis, ObjectAddress base, std::int6
     case 0x6064:  // without encoder the motor is where it is told to be
       value = whole_counts(axis.position(now_)) - feedback.following_error;
       return true;
+    case 0x606B:
     case 0x606C:
       value = axis.velocity(now_);
       return true;

@@ -13,6 +13,7 @@ class ProfilePosition {
   struct SetPoint {
     std::int64_t target = 0;  ///< 32 fractional bits
     ProfileLimits limits;
+    friend bool operator==(const SetPoint&, const SetPoint&) = default;
   };
 
   /// Forgets all set-points; the mode begins, or a stop has ended the motion. `word`: its bit 4 is no edge.

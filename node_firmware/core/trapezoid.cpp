@@ -233,11 +233,21 @@ void Trapezoid::shift(std::int64_t by) {
   end_.position += by;
 }
 
+ProfileTicks Trapezoid::phase_end(ProfileTicks time) const {
+  for (int i = 0; i < count_; ++i)
+    if (const ProfileTicks next = phases_[static_cast<std::size_t>(i)].start; next > time) return next;
+  return end_time_;
+}
+
+const Trapezoid::Phase& Trapezoid::phase_at(ProfileTicks time) const {
+  std::size_t i = count_ > 0 ? static_cast<std::size_t>(count_) - 1 : 0;
+  while (i > 0 && time < phases_[i].start) --i;
+  return phases_[i];
+}
+
 ProfileState Trapezoid::at(ProfileTicks time) const {
   if (time >= end_time_ || count_ == 0) return end_;
-  std::size_t i = static_cast<std::size_t>(count_) - 1;
-  while (i > 0 && time < phases_[i].start) --i;
-  const Phase& phase = phases_[i];
+  const Phase& phase = phase_at(time);
   const ProfileTicks into = std::max<ProfileTicks>(time - phase.start, 0);
   const std::int64_t gained = phase.acceleration * into;
   return {phase.position + distance_of(phase.velocity + (gained >> (phase.shift + 1)), into),

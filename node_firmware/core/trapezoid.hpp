@@ -15,6 +15,7 @@ struct ProfileLimits {
   std::uint32_t velocity = 1;
   std::uint32_t acceleration = 1;
   std::uint32_t deceleration = 1;
+  friend bool operator==(const ProfileLimits&, const ProfileLimits&) = default;
 };
 
 /// In the units of fixed_point.hpp.
@@ -44,6 +45,10 @@ class Trapezoid {
   ProfileTicks end() const { return end_time_; }
   bool done(ProfileTicks time) const { return time >= end_time_; }
   std::int64_t target() const { return end_.position; }
+  /// When what it does at `time` ends: a ramp, a cruise.
+  ProfileTicks phase_end(ProfileTicks time) const;
+  /// Cruises: the speed does not change.
+  bool cruises(ProfileTicks time) const { return !done(time) && phase_at(time).acceleration == 0; }
 
   static constexpr std::uint32_t kCreepSpeed = 1000;  ///< counts/s: 0.8 mm/s on a carriage
 
@@ -56,6 +61,7 @@ class Trapezoid {
         0;  // that of fixed_point.hpp, with `shift` more fractional bits than the velocity
     int shift = 0;
   };
+  const Phase& phase_at(ProfileTicks time) const;
   void begin(ProfileTicks start, ProfileState from);
   void run(ProfileTicks start, ProfileState from, std::int64_t target, const ProfileLimits& limits,
            bool to_rest);

@@ -10,6 +10,7 @@ namespace kinebus::cia402 {
 enum class Mode : std::int8_t {
   kNone = 0,
   kProfilePosition = 1,
+  kProfileVelocity = 3,
   kHoming = 6,
   kInterpolatedPosition = 7,
   kCyclicSynchronousPosition = 8,
@@ -41,6 +42,7 @@ namespace status {
 inline constexpr std::uint16_t kWarning = 1 << 7, kRemote = 1 << 9, kTargetReached = 1 << 10,
                                kInternalLimit = 1 << 11;
 inline constexpr std::uint16_t kSetPointAcknowledged = 1 << 12;                    // mode 1
+inline constexpr std::uint16_t kStands = 1 << 12;                                  // mode 3
 inline constexpr std::uint16_t kHomingAttained = 1 << 12, kHomingError = 1 << 13;  // mode 6
 inline constexpr std::uint16_t kHomingWaits = 1 << 14;  // mode 6, of this manufacturer: stands on its switch
 inline constexpr std::uint16_t kInterpolationActive = 1 << 12;                        // mode 7

@@ -67,18 +67,19 @@ inline constexpr ObjectAddress kErrorCode{0x603F, 0}, kControlword{0x6040, 0}, k
     kDisableOption{0x605C, 0}, kHaltOption{0x605D, 0}, kFaultReactionOption{0x605E, 0},
     kModeOfOperation{0x6060, 0}, kModeDisplay{0x6061, 0}, kPositionDemand{0x6062, 0},
     kPositionActual{0x6064, 0}, kFollowingErrorWindow{0x6065, 0}, kFollowingErrorTimeout{0x6066, 0},
-    kVelocityActual{0x606C, 0}, kTargetPosition{0x607A, 0}, kHomeOffset{0x607C, 0},
-    kMinPositionLimit{0x607D, 1}, kMaxPositionLimit{0x607D, 2}, kMaxProfileVelocity{0x607F, 0},
-    kProfileVelocity{0x6081, 0}, kProfileAcceleration{0x6083, 0}, kProfileDeceleration{0x6084, 0},
-    kQuickStopDeceleration{0x6085, 0}, kHomingMethod{0x6098, 0}, kHomingFastSpeed{0x6099, 1},
-    kHomingSlowSpeed{0x6099, 2}, kHomingAcceleration{0x609A, 0}, kPositionOffset{0x60B0, 0},
-    kVelocityOffset{0x60B1, 0}, kTouchProbeFunction{0x60B8, 0}, kTouchProbeStatus{0x60B9, 0},
-    kTouchProbePositive{0x60BA, 0}, kTouchProbeNegative{0x60BB, 0}, kTouchProbePositiveTime{0x60D1, 0},
-    kTouchProbeNegativeTime{0x60D2, 0}, kInterpolationSubMode{0x60C0, 0}, kInterpolationData{0x60C1, 1},
-    kInterpolationPeriod{0x60C2, 1}, kInterpolationIndex{0x60C2, 2}, kBufferMaximum{0x60C4, 1},
-    kBufferActual{0x60C4, 2}, kBufferPosition{0x60C4, 4}, kBufferClear{0x60C4, 6},
+    kVelocityDemand{0x606B, 0}, kVelocityActual{0x606C, 0}, kTargetPosition{0x607A, 0},
+    kHomeOffset{0x607C, 0}, kMinPositionLimit{0x607D, 1}, kMaxPositionLimit{0x607D, 2},
+    kMaxProfileVelocity{0x607F, 0}, kProfileVelocity{0x6081, 0}, kProfileAcceleration{0x6083, 0},
+    kProfileDeceleration{0x6084, 0}, kQuickStopDeceleration{0x6085, 0}, kHomingMethod{0x6098, 0},
+    kHomingFastSpeed{0x6099, 1}, kHomingSlowSpeed{0x6099, 2}, kHomingAcceleration{0x609A, 0},
+    kPositionOffset{0x60B0, 0}, kVelocityOffset{0x60B1, 0}, kTouchProbeFunction{0x60B8, 0},
+    kTouchProbeStatus{0x60B9, 0}, kTouchProbePositive{0x60BA, 0}, kTouchProbeNegative{0x60BB, 0},
+    kTouchProbePositiveTime{0x60D1, 0}, kTouchProbeNegativeTime{0x60D2, 0}, kInterpolationSubMode{0x60C0, 0},
+    kInterpolationData{0x60C1, 1}, kInterpolationPeriod{0x60C2, 1}, kInterpolationIndex{0x60C2, 2},
+    kBufferMaximum{0x60C4, 1}, kBufferActual{0x60C4, 2}, kBufferPosition{0x60C4, 4}, kBufferClear{0x60C4, 6},
     kMaxAcceleration{0x60C5, 0}, kMaxDeceleration{0x60C6, 0}, kFollowingError{0x60F4, 0},
-    kDigitalInputs{0x60FD, 0}, kDigitalOutputs{0x60FE, 1}, kSupportedModes{0x6502, 0};
+    kDigitalInputs{0x60FD, 0}, kDigitalOutputs{0x60FE, 1}, kTargetVelocity{0x60FF, 0},
+    kSupportedModes{0x6502, 0};
 }  // namespace object
 
 /// 60B8h: switches touch probe 1 on, for every edge or the first of each kind since then.

@@ -141,6 +141,7 @@ constexpr void cia402_axis(Rows& t) {
   t.var(0x6064, "Position actual value", kI32, kReadOnly, kLive).maps(Mapping::kTpdo).in("counts");
   t.var(0x6065, "Following error window", kU32, kReadWrite, kParameter, 1024).in("counts");
   t.var(0x6066, "Following error time out", kU16, kReadWrite, kParameter, 10).in("ms");
+  t.var(0x606B, "Velocity demand value", kI32, kReadOnly, kLive).maps(Mapping::kTpdo).in("counts/s");
   t.var(0x606C, "Velocity actual value", kI32, kReadOnly, kLive).maps(Mapping::kTpdo).in("counts/s");
   t.var(0x6079, "DC link circuit voltage", kU32, kReadOnly, kLive).maps(Mapping::kTpdo).in("mV");
   t.var(0x607A, "Target position", kI32, kReadWrite, kVariable).maps(Mapping::kRpdo).in("counts");
@@ -188,8 +189,9 @@ constexpr void cia402_axis(Rows& t) {
   t.head(0x60FE, "Digital outputs", ObjectCode::kArray, 2);
   t.sub(1, "Physical outputs", kU32, kReadWrite, kVariable).maps(Mapping::kRpdo);
   t.sub(2, "Bit mask", kU32, kReadWrite, kParameter);
+  t.var(0x60FF, "Target velocity", kI32, kReadWrite, kVariable).maps(Mapping::kRpdo).in("counts/s");
   t.var(0x6402, "Motor type", kU16, kReadOnly, kConstant, 9);                // micro-step stepper
-  t.var(0x6502, "Supported drive modes", kU32, kReadOnly, kConstant, 0xE1);  // pp, homing, ip, csp
+  t.var(0x6502, "Supported drive modes", kU32, kReadOnly, kConstant, 0xE5);  // pp, pv, homing, ip, csp
   t.var(0x67FF, "Single device type", kU32, kReadOnly, kConstant, 0x0004'0192);
 }
 

@@ -205,6 +205,7 @@ const ValueNames& mode_names() {
   static const ValueNames names{
       {static_cast<int>(Mode::kNone), "none"},
       {static_cast<int>(Mode::kProfilePosition), "profile position"},
+      {static_cast<int>(Mode::kProfileVelocity), "profile velocity"},
       {static_cast<int>(Mode::kHoming), "homing"},
       {static_cast<int>(Mode::kInterpolatedPosition), "interpolated position"},
       {static_cast<int>(Mode::kCyclicSynchronousPosition), "cyclic synchronous position"}};

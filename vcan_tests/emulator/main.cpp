@@ -6,13 +6,16 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <string_view>
 #include <utility>
 
 #include "protocol/bytes.hpp"
 #include "protocol/canopen/nmt.hpp"
 #include "vcan_tests/emulator/cost_report.hpp"
+#include "vcan_tests/emulator/ebb_board.hpp"
 #include "vcan_tests/emulator/live_boards.hpp"
 #include "vcan_tests/emulator/live_usb.hpp"
+#include "vcan_tests/emulator/octopus_board.hpp"
 #include "vcan_tests/emulator/paced_boards.hpp"
 
 namespace {
@@ -38,6 +41,12 @@ EmulatedNodeOptions board_of(int node) {
     a.active_above = false;
   }
   return options;
+}
+
+BoardMaker maker_of(std::string_view board) {
+  if (board == "stm32f446_octopus") return &make_board<OctopusBoard>;
+  if (board == "stm32g0b1_ebb") return &make_board<EbbBoard>;
+  return &make_board<Board>;
 }
 
 void advance(EmulatedMachine& machine, BusTime& now, BusTime span) {
@@ -108,6 +117,10 @@ int run(int argc, char** argv) {
          "the bus (kinebus-can-port)")
       ->excludes(on_interface);
   bool paced = false;
+  std::string board = "stm32f405";
+  app.add_option("--board", board, "What the image is for; without an interface always the F405")
+      ->check(CLI::IsMember({"stm32f405", "stm32f446_octopus", "stm32g0b1_ebb"}))
+      ->capture_default_str();
   app.add_flag("--paced", paced,
                "Instead of an interface: the program that has started this one sends and reads frames on the "
                "standard streams, and says how much time passes (paced_boards.hpp)")
@@ -142,7 +155,10 @@ int run(int argc, char** argv) {
   if (nodes.empty()) nodes = {1};
   std::vector<EmulatedNodeOptions> boards;
   boards.reserve(nodes.size());
-  for (const int node : nodes) boards.push_back(board_of(node));
+  for (const int node : nodes) {
+    boards.push_back(board_of(node));
+    boards.back().make = maker_of(board);
+  }
   live.most_behind = BusTime{std::llround(late_ms * 1e6)};
   InterfacePort can;
   StreamPort stream;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <memory>
 #include <random>
@@ -30,6 +31,13 @@ inline CanFrame text_frame(std::string_view text) {
 inline int rounds(int usual) {
   const char* text = std::getenv("KINEBUS_ROUNDS");
   return text != nullptr ? std::atoi(text) : usual;
+}
+
+/// So that a long run that is cut short still says how far it came.
+inline void tell_rounds(const char* what, int done) {
+  if (done % 50 != 0) return;
+  std::printf("%s: %d rounds\n", what, done);
+  std::fflush(stdout);
 }
 
 /// A rig whose job has lines that bend, so that no axis stands at a whole count.
@@ -78,6 +86,7 @@ void cancel_and_reference(StrangerOf<Machine>& rig, int times) {
     ASSERT_TRUE(rig.reach(MachineState::kReady, 30s)) << i << rig.story();
     ASSERT_FALSE(rig.told_code(node_emcy::kCheckpoint)) << i << rig.story();
     rig.events.clear();
+    tell_rounds("cancel and reference", i + 1);
   }
 }
 
@@ -106,6 +115,7 @@ void lose_record_and_resume(StrangerOf<Machine>& rig, int times) {
     ASSERT_TRUE(rig.reach(MachineState::kRunning, 30s)) << i << rig.story();
     ASSERT_FALSE(rig.told_code(node_emcy::kCheckpoint)) << i << rig.story();
     rig.events.clear();
+    tell_rounds("lost record and resume", i + 1);
   }
 }
 

@@ -50,6 +50,12 @@ TEST_F(Program, HearsWhatIsItsOwnAndWhatAllHear) {
   program.pass();
   ASSERT_FALSE(can.sent.empty()) << "answered";
   EXPECT_TRUE(can.heard(0x701)) << "a heartbeat that is watched, from the answer on";
+  // One that came while a pass had begun already is answered in that pass, too.
+  can.sent.clear();
+  can.arrive(CanFrame::make(0x605, {0x23, 0x16, 0x10, 2, 100, 0, 2, 0}), fake::Counter::now + 200);
+  program.pass();
+  ASSERT_FALSE(can.sent.empty()) << "answered";
+  EXPECT_TRUE(can.heard(0x702));
 }
 
 TEST_F(Program, TakesFramesAndEdgesInTheOrderInWhichTheyHappened) {
