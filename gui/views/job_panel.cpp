@@ -175,7 +175,7 @@ void JobPanel::choose_object() {
 
 QString JobPanel::doing(bool job, bool report, bool lost) const {
   const joblink::Status& s = desk_.session.status();
-  if (lost && job) return tr("Last known: what the job does now is not.");
+  if (lost && job) return tr("Last known. What the job does now is unknown.");
   if (report) switch (desk_.record.end()) {
       case JobRecord::End::kComplete:
         return tr("Finished.");
