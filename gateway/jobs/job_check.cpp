@@ -85,8 +85,22 @@ void JobCheck::check_pose(const Phase& phase, double before, double s) {
   auto broken =
       way_.broken(phase.piece.frame, before, s, [&phase](double at) { return phase.piece.evaluate(at).x; });
   const bool bad = broken.has_value();
-  if (bad && !bad_pose_) add(Problem::Severity::kError, phase.line, std::move(*broken));
+  if (bad && !bad_pose_) {
+    add(Problem::Severity::kError, phase.line, std::move(*broken));
+    outside_ = Outside{way_.outside(), phase.line, problems_.errors() + problems_.warnings()};
+  } else if (bad && goes_farther_out(phase.line)) {
+    outside_.worst = way_.outside();
+    problems_.reword_last(std::move(*broken));
+  }
   bad_pose_ = bad;
+}
+
+/// The line that has left the workspace is there by more than was said, and nothing was said since.
+bool JobCheck::goes_farther_out(std::uint32_t line) const {
+  const std::optional<PoseError>&now = way_.outside(), &worst = outside_.worst;
+  return now && worst && now->kind == worst->kind && now->joint == worst->joint &&
+         now->amount > worst->amount && outside_.line == line &&
+         outside_.said == problems_.errors() + problems_.warnings();
 }
 
 void JobCheck::check_extrusion(std::uint32_t line, double e_mm) {

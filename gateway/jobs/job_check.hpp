@@ -37,6 +37,7 @@ class JobCheck {
  private:
   void check_way(const Phase& phase, const PosePoint& end);
   void check_pose(const Phase& phase, double before, double s);
+  bool goes_farther_out(std::uint32_t line) const;
   void check_extrusion(std::uint32_t line, double e_mm);
   void check_thermal(const canonical::Thermal& thermal, std::uint32_t line);
   void add(Problem::Severity severity, std::uint32_t line, Sentence words);
@@ -46,7 +47,13 @@ class JobCheck {
   WayRules way_;
   Options options_;
   ProblemList problems_;
-  bool bad_pose_ = false;                    ///< the last pose checked was bad: one report for each way out
+  bool bad_pose_ = false;  ///< the last pose checked was bad: one report for each way out
+  struct Outside {
+    std::optional<PoseError> worst;
+    std::uint32_t line = 0;
+    std::uint64_t said = 0;  ///< problems, with this one
+  };
+  Outside outside_;                          ///< how far the last way out has led so far
   double since_mm_ = 1e9, since_rad_ = 1e9;  ///< travelled since the last check
   std::optional<double> hotend_celsius_;
   double hot_e_mm_ = -1e300;  ///< the farthest that filament was fed hot

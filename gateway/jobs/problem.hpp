@@ -25,6 +25,10 @@ class ProblemList {
     (problem.severity == Problem::Severity::kError ? errors_ : warnings_)++;
     if (problems_.size() < capacity_) problems_.push_back(std::move(problem));
   }
+  /// Says it of the problem added last in other words, where it was kept.
+  void reword_last(Sentence words) {
+    if (!truncated() && !problems_.empty()) problems_.back().words = std::move(words);
+  }
   const std::vector<Problem>& all() const { return problems_; }
   std::uint64_t errors() const { return errors_; }
   std::uint64_t warnings() const { return warnings_; }

@@ -40,8 +40,10 @@ class WayRules {
     const Pose pose = at(to);
     const auto checked = kinematics_.check(frame, pose);
     met_print_ = false;
+    outside_.reset();
     if (!checked) {
       jump();
+      outside_ = checked.error();
       return to_string(checked.error());
     }
     return collision(frame, pose, from, to, at);
@@ -49,6 +51,9 @@ class WayRules {
 
   /// What the last answer was about: what has been printed.
   bool met_print() const { return met_print_; }
+
+  /// What the last answer of broken() was about: the kinematics' limits, or nothing of them.
+  const std::optional<PoseError>& outside() const { return outside_; }
 
   /// The same for bodies alone: poses outside the workspace are taken as well.
   template <typename PoseAt>
@@ -109,6 +114,7 @@ class WayRules {
   const bodies::PrintedPart* printed_;
   std::optional<bodies::PrintWatch> watch_;
   bool met_print_ = false;
+  std::optional<PoseError> outside_;
 };
 
 }  // namespace kinebus

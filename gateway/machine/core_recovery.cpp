@@ -45,6 +45,7 @@ void Gateway::Core::begin_job(const Pose& start) {
         .what = journal::Learned::What::kBeginning, .at = start, .stand = start, .mesh = *mesh});
   heat_.begin_job();
   recovery_.job_begins();
+  position_.show_filament_less(0);
   print_.start(start);
   runner_->set_override(override_);
   journal_.push(journal::Override{override_});
@@ -220,7 +221,7 @@ void Gateway::Core::step_recovery() {
     return enter(MachineState::kReady);
   }
   left->replaying = true;
-  job.start_replay(print_.take_source(), left->state, recovery_.left_tau());
+  print_.replay(left->state, recovery_.left_tau());
 }
 
 /// The tool stands where the job goes on.
@@ -231,6 +232,7 @@ void Gateway::Core::finish_return() {
   if (const double by_mm = recovery_.finish_return(place, here ? std::optional(*here) : std::nullopt);
       by_mm != 0)
     job.shift_extruder(by_mm);
+  position_.show_filament_less(job.extruder_shift_mm());
   heat_.finish_return();
   heat_hold_.forget();
   runner_ = &job;

@@ -26,6 +26,7 @@ void Gateway::Core::report_progress(MachineStatus& s) const {
     done_s = job.done_s(now_);
     all_s = print_.report().motion_s;
     s.elapsed_s = print_.elapsed_s(now_);
+    if (const auto pose = machine_pose()) s.job_filament_mm = print_.filament_mm((*pose)[kE]);
   } else if (runner_->active() && !hand_.leads_to(ManualMotion::Then::kJob)) {
     s.line = runner_->line(now_);
     s.elapsed_s = to_seconds(now_ - started_);

@@ -13,6 +13,7 @@ void Position::take(const Standstill& found) {
   for (std::size_t i = 0; i < rest_.size(); ++i) rest_[i] = found.node(i).position;
   homed_ = found.positions_known();
   stream_lost_ = false;
+  if (!homed_) filament_beside_mm_ = 0;  // the motor counts anew
 }
 
 JointVector Position::joints(const Runner& runner, PathTime tau) const {
@@ -67,6 +68,8 @@ void Position::report(MachineStatus& s, const JointVector& joints, const std::de
     static_cast<void>(kinematics_.forward(Frame::kMachine, joints, s.machine_pose));
     s.pose = s.machine_pose;
     static_cast<void>(kinematics_.forward(Frame::kPart, joints, s.pose));
+    s.pose[kE] -= filament_beside_mm_;
+    s.machine_pose[kE] -= filament_beside_mm_;
   }
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     NodeStatus& node = s.nodes[i];
@@ -89,7 +92,9 @@ void Position::report(MachineStatus& s, const JointVector& joints, const std::de
   }
   if (!by_encoders || !homed_) return;
   Pose pose = s.pose;
-  if (kinematics_.forward(Frame::kPart, measured, pose)) s.measured_pose = pose;
+  if (!kinematics_.forward(Frame::kPart, measured, pose)) return;
+  pose[kE] -= filament_beside_mm_;
+  s.measured_pose = pose;
 }
 
 }  // namespace kinebus

@@ -35,6 +35,9 @@ class Position {
   void take_run_end();
   /// As it was read from the nodes.
   void take(const Standstill& found);
+  /// Filament was moved, or its motor's place lost, beside a job: the job's E stands by so much behind the
+  /// motor's.
+  void show_filament_less(double by_mm) { filament_beside_mm_ = by_mm; }
 
   /// By the records of the run under way, else where the nodes rest.
   JointVector joints(const Runner& runner, PathTime tau) const;
@@ -47,7 +50,7 @@ class Position {
   };
   Distance distance_to(const JointVector& wanted, const PlannedPose& place) const;
 
-  /// Pose, joints, and how far encoders are off.
+  /// Pose, joints, and how far encoders are off. E goes on as the job under way, or the last, counts it.
   void report(MachineStatus& status, const JointVector& joints, const std::deque<NodeLink>& links) const;
 
  private:
@@ -57,6 +60,7 @@ class Position {
   const StreamGroup& group_;
   std::vector<std::array<AxisState, kAxesPerNode>> rest_;  ///< where the nodes rest, by node
   bool homed_ = false, stream_lost_ = false;
+  double filament_beside_mm_ = 0;
 };
 
 }  // namespace kinebus

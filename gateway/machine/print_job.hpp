@@ -72,7 +72,18 @@ class PrintJob {
   journal::JobBegin record(const Pose& start) const;
   void start(const Pose& start) {
     noted_top_mm_.reset();
+    filament_from_mm_ = start[kE];
     runner_.start_job(std::move(source_), start, offsets_);
+  }
+  /// Of a gateway before: its text, which was checked, is read up to its place.
+  void replay(const journal::State& state, PathTime tau) {
+    filament_from_mm_ = state.job->start[kE];
+    runner_.start_replay(std::move(source_), state, tau);
+  }
+  /// What it has fed so far, mm, less what it has drawn back. `motor_mm`: E of the motor.
+  double filament_mm(double motor_mm) const {
+    const double here_mm = runner_.suspended() ? runner_.rest_pose().pose[kE] : motor_mm;
+    return here_mm - runner_.extruder_shift_mm() - filament_from_mm_;
   }
   /// Now and then in motion (`moving`: path time runs) its place is noted.
   bool progress_is_due(BusTime now, bool moving);
@@ -98,6 +109,7 @@ class PrintJob {
   std::optional<double> noted_top_mm_;  ///< none: nothing was noted of this job
   std::optional<BusTime> clock_from_;
   double elapsed_before_s_ = 0;
+  double filament_from_mm_ = 0;
 };
 
 }  // namespace kinebus

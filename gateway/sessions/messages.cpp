@@ -252,6 +252,7 @@ joblink::Status to_message(const MachineStatus& s) {
   m.set_line(s.line);
   m.set_progress(s.progress);
   m.set_elapsed_s(s.elapsed_s);
+  if (s.job_filament_mm) m.set_job_filament_mm(*s.job_filament_mm);
   m.set_remaining_s(s.remaining_s);
   m.set_work_system(s.work_system);
   set_pose(*m.mutable_work_offset(), s.work_offset);

@@ -81,6 +81,8 @@ struct MachineStatus {
   std::uint32_t line = 0;        ///< in motion now
   double progress = 0;           ///< 0..1, by path time
   double elapsed_s = 0;
+  std::optional<double>
+      job_filament_mm;                ///< what `job` has fed, less what it has drawn back; empty: not known
   std::vector<ObjectStatus> objects;  ///< of the job, in its order
   double remaining_s = 0;             ///< estimate at the present override
 

@@ -53,10 +53,7 @@ void JobRecord::take(const joblink::Status& status) {
     problems_ = std::exchange(found_, {});
     emit checked();
   }
-  const double e_mm = status.machine().e_mm();
-  if (runs && feeds_) figures_.filament_mm += e_mm - last_e_mm_;
-  feeds_ = runs;
-  last_e_mm_ = e_mm;
+  if (status.has_job_filament_mm()) figures_.filament_mm = status.job_filament_mm();
   figures_.elapsed_s = std::max(figures_.elapsed_s, status.elapsed_s());
   figures_.stalls = stalls_of(status) >= stalls_before_ ? stalls_of(status) - stalls_before_ : 0;
   if (!runs) return;
@@ -76,7 +73,6 @@ void JobRecord::begin(const joblink::Status& status) {
   problems_.clear();
   found_.clear();
   under_way_ = true;
-  feeds_ = false;
   stalls_before_ = stalls_of(status);
 }
 

@@ -47,8 +47,7 @@ class JobRecord : public QObject {
   Figures figures_;
   QVector<ShownProblem> problems_, found_;
   joblink::State before_ = joblink::STATE_OFF;
-  bool under_way_ = false, feeds_ = false;
-  double last_e_mm_ = 0;
+  bool under_way_ = false;
   std::uint32_t stalls_before_ = 0;
 };
 

@@ -90,25 +90,23 @@ TEST_F(PauseTest, AHeldJobIsSetAsideAndItsFilamentChanged) {
 }
 
 TEST_F(PauseTest, AFinishedJobTellsTimeFilamentAndItsWorstFigures) {
-  gateway.status.mutable_machine()->set_e_mm(100);
+  gateway.status.set_job_filament_mm(0);
   gateway.status.mutable_nodes(0)->set_sync_error_s(1.5e-6);
   gateway.status.set_bus_load(0.1);
   enter(joblink::STATE_CHECKING, "a.gcode");
   enter(joblink::STATE_RUNNING, "a.gcode");
   gateway.status.set_elapsed_s(125);
-  gateway.status.mutable_machine()->set_e_mm(3300);
+  gateway.status.set_job_filament_mm(3200);
   gateway.status.mutable_nodes(0)->set_sync_error_s(7.25e-6);
   gateway.status.set_bus_load(0.42);
   gateway.status.mutable_counters()->set_starvation_holds(2);
   enter(joblink::STATE_RUNNING, "a.gcode");
   gateway.status.mutable_nodes(0)->set_sync_error_s(1e-6);
   gateway.status.set_bus_load(0.05);
-  // Moved by hand in a pause: not the job's.
-  enter(joblink::STATE_HELD, "a.gcode");
-  gateway.status.mutable_machine()->set_e_mm(3400);
   enter(joblink::STATE_HELD, "a.gcode");
   enter(joblink::STATE_RUNNING, "a.gcode");
   gateway.status.set_elapsed_s(0);
+  gateway.status.clear_job_filament_mm();
   enter(joblink::STATE_READY, "");
   EXPECT_TRUE(shows(QStringLiteral("Finished.")));
   EXPECT_TRUE(shows(QStringLiteral("2:05")));

@@ -26,6 +26,7 @@
 #include <functional>
 
 #include "gui/tests/window_fixture.hpp"
+#include "gui/views/heat_plot.hpp"
 #include "gui/views/jobs_page.hpp"
 #include "gui/views/machine_file_editor.hpp"
 #include "gui/views/machine_page.hpp"
@@ -117,6 +118,19 @@ class WordsTest : public WindowTest {
           } else {
             EXPECT_GE(label->width() + 1, label->sizeHint().width()) << where << label->text().toStdString();
           }
+        }
+        for (const auto* tabs : window->findChildren<QTabBar*>()) {
+          if (!tabs->isVisible()) continue;
+          for (int i = 0; i < tabs->count(); ++i)
+            EXPECT_TRUE(tabs->rect().contains(tabs->tabRect(i))) << where << tabs->tabText(i).toStdString();
+        }
+        // Plots and cards stand beside each other, none on another.
+        for (const auto* plot : window->findChildren<HeatPlot*>()) {
+          if (!plot->isVisible()) continue;
+          for (const auto* other : plot->parentWidget()->findChildren<QWidget*>(Qt::FindDirectChildrenOnly))
+            EXPECT_FALSE(other != plot && other->isVisible() &&
+                         other->geometry().intersects(plot->geometry()))
+                << where << other->accessibleName().toStdString();
         }
         // Nothing lies beside the window, or under what scrolls down alone.
         for (const auto* widget : window->findChildren<QWidget*>()) {
@@ -265,13 +279,28 @@ TEST_F(WordsTest, NoButtonAndNoNameIsCutAt1024By640) {
   nothing_is_cut();
 }
 
+TEST_F(WordsTest, APageTurnsWhenItsButtonIsToggledAsAScreenReaderDoes) {
+  fill();
+  if (HasFatalFailure()) return;
+  for (const int page : {MainWindow::kJog, MainWindow::kJobs, MainWindow::kMachine, MainWindow::kView}) {
+    const QString key = QStringLiteral("Ctrl+%1)").arg(page + 1);
+    QAbstractButton* found = nullptr;
+    for (auto* button : window->findChildren<QAbstractButton*>())
+      if (button->toolTip().contains(key)) found = button;
+    ASSERT_NE(found, nullptr) << key.toStdString();
+    QAccessible::queryAccessibleInterface(found)->actionInterface()->doAction(
+        QAccessibleActionInterface::toggleAction());
+    EXPECT_EQ(window->page(), page);
+  }
+}
+
 TEST_F(WordsTest, NothingIsCutWhenAJobTellsWhatItTook) {
   fill();
   if (HasFatalFailure()) return;
   gateway.status.mutable_nodes(0)->set_sync_error_s(17.25e-6);
   gateway.status.set_bus_load(0.42);
   gateway.status.mutable_counters()->set_starvation_holds(2);
-  gateway.status.mutable_machine()->set_e_mm(123456);
+  gateway.status.set_job_filament_mm(123456);
   for (const auto state : {joblink::STATE_CHECKING, joblink::STATE_RUNNING, joblink::STATE_READY}) {
     gateway.status.set_state(state);
     gateway.status.set_job(state == joblink::STATE_READY ? "" : "a.gcode");

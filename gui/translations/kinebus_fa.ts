@@ -5393,7 +5393,7 @@
         <translation>کاری در حال اجرا نیست</translation>
     </message>
     <message>
-        <source>Last known: what the job does now is not.</source>
+        <source>Last known. What the job does now is unknown.</source>
         <translation>آخرین وضعیت دانسته: اکنونِ کار دانسته نیست.</translation>
     </message>
     <message>

@@ -5393,7 +5393,7 @@
         <translation>Çalışan iş yok</translation>
     </message>
     <message>
-        <source>Last known: what the job does now is not.</source>
+        <source>Last known. What the job does now is unknown.</source>
         <translation>Son bilinen durum: işin şu anda ne yaptığı bilinmiyor.</translation>
     </message>
     <message>

@@ -175,7 +175,7 @@ void JobPanel::choose_object() {
 
 QString JobPanel::doing(bool job, bool report, bool lost) const {
   const joblink::Status& s = desk_.session.status();
-  if (lost && job) return tr("Last known: what the job does now is not.");
+  if (lost && job) return tr("Last known. What the job does now is unknown.");
   if (report) switch (desk_.record.end()) {
       case JobRecord::End::kComplete:
         return tr("Finished.");
@@ -210,8 +210,11 @@ std::array<JobPanel::Fact, 6> JobPanel::facts(bool job, bool report) const {
              {},
              {}}};
   const JobRecord::Figures& f = desk_.record.figures();
+  // Three digits say enough, and fit.
+  const int filament_decimals = f.filament_mm < 10e3 ? 2 : f.filament_mm < 100e3 ? 1 : 0;
   return {{{tr("Elapsed"), Format::duration(f.elapsed_s)},
-           {tr("Filament"), Format::isolated(tr("%1 m").arg(Format::number(f.filament_mm * 1e-3, 2)))},
+           {tr("Filament"),
+            Format::isolated(tr("%1 m").arg(Format::number(f.filament_mm * 1e-3, filament_decimals)))},
            {tr("Clock error"), Format::isolated(tr("%1 µs").arg(Format::number(f.clock_error_us, 1)))},
            {tr("Bus load"), Format::percent(f.bus_load, 0)},
            {tr("Least queue"), Format::percent(f.emptiest_queue, 0)},

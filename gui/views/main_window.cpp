@@ -126,6 +126,10 @@ QWidget* MainWindow::make_navigation() {
   column->addStretch(1);
   connect(navigation_, &QButtonGroup::idClicked, this,
           [this](int page) { show_page(static_cast<Page>(page)); });
+  // A screen reader toggles the button, which is no click.
+  connect(navigation_, &QButtonGroup::idToggled, this, [this](int number, bool on) {
+    if (on && number != page()) show_page(static_cast<Page>(number));
+  });
   return bar;
 }
 

@@ -22,7 +22,7 @@ PlotWidget::PlotWidget(const StatusHistory& history, const Theme& theme, StatusH
       series_(series),
       full_scale_(full_scale),
       words_(std::move(words)) {
-  setMinimumHeight(104);
+  setMinimumHeight(86);
   connect(&history, &StatusHistory::changed, this, [this] { update(); });
 }
 

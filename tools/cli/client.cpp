@@ -23,6 +23,8 @@ namespace {
 using joblink::ClientMessage;
 using std::chrono::milliseconds;
 constexpr auto kAnswerWithin = std::chrono::seconds{30};
+/// A busy computer may take that long over a piece of a job: a daemon that has ended closes the link.
+constexpr auto kPieceWithin = std::chrono::seconds{120};
 
 std::string find_socket(const std::string& asked) {
   if (!asked.empty()) return asked;
@@ -242,7 +244,7 @@ void Client::upload(const std::string& file, const std::string& name,
       if (news.received_bytes != received) moved_at = monotonic_now();
       received = news.received_bytes;
     }
-    if (monotonic_now() > moved_at + LocalTime{kAnswerWithin})
+    if (monotonic_now() > moved_at + LocalTime{kPieceWithin})
       throw ClientError("upload: the daemon takes no more");
   }
 }

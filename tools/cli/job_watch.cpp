@@ -62,11 +62,23 @@ void print_event(const Event& event) {
   }
 }
 
+/// So long a daemon may be silent before that is said, and before it is given up: one that has ended closes
+/// the link, so what is silent on a busy computer has only to wait.
+constexpr std::chrono::seconds kSaidAfter{10}, kGivenUpAfter{120};
+
 /// The next status; events that come before it are printed.
 Status next_status(Client& client, ProgressLine& line) {
+  std::chrono::seconds silent{0};
   for (;;) {
-    const auto report = client.next(std::chrono::seconds{10});
-    if (!report) throw ClientError("the daemon has gone silent");
+    const auto report = client.next(kSaidAfter);
+    if (!report) {
+      silent += kSaidAfter;
+      if (silent >= kGivenUpAfter) throw ClientError("the daemon has gone silent");
+      line.end();
+      fmt::print(stderr, "the daemon does not answer yet; what it prints goes on without this command\n");
+      continue;
+    }
+    silent = {};
     if (const auto* status = std::get_if<Status>(&*report)) return *status;
     line.end();
     print_event(std::get<Event>(*report));

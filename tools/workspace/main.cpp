@@ -122,7 +122,8 @@ void print_scan(const Scan& s, const bodies::CollisionModel* model) {
     // Every fifth, and the level one.
     if (tilt % 5 != 0 && tilt != s.tilts - 1) continue;
     char name[16];
-    std::snprintf(name, sizeof name, "%.1f", s.tilt_rad(tilt) / kRadPerDeg);
+    // Rounded first: a tilt of -1e-15 is shown as 0.0, not as -0.0.
+    std::snprintf(name, sizeof name, "%.1f", std::round(s.tilt_rad(tilt) / kRadPerDeg * 10) / 10 + 0.0);
     row(tilt, name);
   }
   row(-1, "every");
@@ -236,7 +237,7 @@ int run(const Arguments& a) {
     std::snprintf(
         subtitle, sizeof subtitle,
         "%g mm and %g deg: %.1f million poses. Colour: share of the tilts allowed. On the table, at every "
-        "tilt: a cylinder of %.0f mm by %.0f mm (white).",
+        "tilt: a cylinder of %.0f mm by %.0f mm (outlined).",
         a.step_mm, a.tilt_step_deg, static_cast<double>(fine.poses) * 1e-6, 2 * standing.radius_mm,
         standing.z_max_mm - standing.z_min_mm);
     write(a.svg, [&](std::ostream& out) {

@@ -123,7 +123,7 @@ void section(Document& document, const Scan& s, const drawing::Box& room, const 
     const drawing::Point corner = chart.at(-always.radius_mm, always.z_max_mm);
     document.rectangle(
         {corner.x, corner.y, 2 * scale * always.radius_mm, scale * (always.z_max_mm - always.z_min_mm)},
-        {.fill = "none", .stroke = "white", .width = 2});
+        {.fill = "none", .stroke = "#1d2733", .width = 2});
     document.text(
         {chart.at(0, 0).x, corner.y + 18},
         words("every tilt: %.0f x %.0f mm", 2 * always.radius_mm, always.z_max_mm - always.z_min_mm),
@@ -184,7 +184,7 @@ std::string draw_workspace(const Scan& fine, const Scan& coarse, const PictureTe
       standing_cylinder(fine, text.table_radius_mm > 0 ? text.table_radius_mm : fine.room.radius_mm);
   if (always.radius_mm > 0)
     for (const double z : {always.z_min_mm, always.z_max_mm})
-      ring(document, view, always.radius_mm, z, {.stroke = "white", .width = 1.4});
+      ring(document, view, always.radius_mm, z, {.stroke = "#1d2733", .width = 1.4});
   const drawing::Box bar{235, 745, 242, 12};
   drawing::colour_bar(document, bar);
   document.text({bar.x, bar.bottom() + 16}, "one tilt", {.size = 12});

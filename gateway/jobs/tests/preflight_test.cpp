@@ -44,6 +44,18 @@ TEST(Preflight, LeavingTheWorkspaceIsReportedOncePerWayOutWithItsLine) {
   EXPECT_EQ(c.problems.all()[1].line, 5u);
 }
 
+TEST(Preflight, HowFarALineLeadsOutIsSaidAndNotWhereItLeaves) {
+  const Checked c = check("G1 X0 F6000\nG1 X200\nG1 X0\nG1 X-170\n");
+  ASSERT_EQ(c.problems.errors(), 2u);
+  const auto outside_mm = [&](std::size_t i) {
+    const std::string said = c.problems.all()[i].words.english();
+    return said.starts_with("X is ") ? std::stod(said.substr(5)) : 0;
+  };
+  // Poses are looked at every millimetre.
+  EXPECT_NEAR(outside_mm(0), 49.5, 0.51);
+  EXPECT_NEAR(outside_mm(1), 19.5, 0.51);
+}
+
 TEST(Preflight, BorderIsFoundWithinAMillimetre) {
   EXPECT_EQ(check("G1 X149.9 F6000\n").problems.errors(), 0u);
   EXPECT_EQ(check("G1 X150.1 F6000\n").problems.errors(), 1u);

@@ -99,7 +99,7 @@ std::string axis_values(const char* code, const Pose& values) {
 std::string Gateway::Core::position_text() {
   const MachineStatus s = status();
   std::optional<Pose> where;
-  if (!lines_open() && s.positions_known) where = s.machine_pose;
+  if (const auto pose = machine_pose(); pose && !lines_open() && s.positions_known) where = *pose;
   Pose at = lines_.program_position(where);
   if (!s.positions_known) {
     at = s.pose;

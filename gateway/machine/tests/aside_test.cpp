@@ -73,6 +73,7 @@ class Aside : public HeatPrinter {
             [&] {
               off = std::max(off, off_the_line());
               fed = std::max(fed, extruder() - from_e);
+              if (const auto shown = rig.gateway->status().job_filament_mm) last_job_filament = *shown;
               return rig.gateway->state() == MachineState::kReady;
             },
             120s))
@@ -94,7 +95,14 @@ class Aside : public HeatPrinter {
   }
 
   Pose line{};
-  double fed_at_last = 0;
+  double fed_at_last = 0, last_job_filament = 0;
+};
+
+/// What is shown of E, and of what the job has fed.
+struct ShownFilament {
+  explicit ShownFilament(const MachineStatus& s)
+      : e_mm(s.machine_pose[kE]), tool_e_mm(s.pose[kE]), job_mm(s.job_filament_mm.value_or(-1)) {}
+  double e_mm, tool_e_mm, job_mm;
 };
 
 TEST_F(Aside, AJobThatIsHeldIsParkedAndJoggedAndGoesOnFromItsExactPlace) {
@@ -104,6 +112,8 @@ TEST_F(Aside, AJobThatIsHeldIsParkedAndJoggedAndGoesOnFromItsExactPlace) {
   EXPECT_EQ(refused.error().words.english(), "cannot set the job aside while the machine is running");
   ASSERT_TRUE(held());
   const double x_mm = tool()[kX], e_mm = extruder();
+  const ShownFilament before(rig.gateway->status());
+  EXPECT_NEAR(before.job_mm, x_mm / 10, 0.05) << "on the way out";
   ASSERT_FALSE(rig.gateway->carry_out(command::Jog{.delta = {5, 0, 0, 0, 0, 0}}));
   ASSERT_TRUE(rig.gateway->carry_out(command::StepAside{}));
   ASSERT_TRUE(parks());
@@ -115,7 +125,14 @@ TEST_F(Aside, AJobThatIsHeldIsParkedAndJoggedAndGoesOnFromItsExactPlace) {
   ASSERT_TRUE(rig.gateway->carry_out(command::Jog{.delta = {0, 0, 0, 0, 0, 8}}));
   ASSERT_TRUE(rig.reach(MachineState::kReady, 20s)) << rig.story();
   EXPECT_NEAR(extruder() - e_mm, 8, 0.01);
+  const ShownFilament beside(rig.gateway->status());
+  EXPECT_NEAR(beside.e_mm - before.e_mm, 8, 0.01) << "the hand's move is shown";
+  EXPECT_NEAR(beside.job_mm, before.job_mm, 1e-3) << "and not taken for the job's";
   ASSERT_TRUE(goes_on_to_the_end(x_mm));
+  const ShownFilament at_end(rig.gateway->status());
+  EXPECT_NEAR(at_end.e_mm - before.e_mm, fed_at_last, 0.05) << "E goes on from the job's value";
+  EXPECT_NEAR(at_end.tool_e_mm, at_end.e_mm, 1e-9);
+  EXPECT_NEAR(last_job_filament, 18, 0.1);
   // To 60 and back: what was extruded by hand is not taken for the job's.
   const double left_e = 18 - (6 * (x_mm + 0) / 60);
   EXPECT_NEAR(fed_at_last, left_e, 0.05);

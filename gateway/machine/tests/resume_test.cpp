@@ -306,6 +306,7 @@ TEST(Resume, PowerLossHomesAndGoesBackFromAbove) {
   ResumeRig rig;
   ASSERT_TRUE(rig.begin(1.0)) << rig.story();
   rig.store();
+  const MachineStatus before = rig.gateway->status();
   // Nodes and gateway lose their power together; the platform stays where it is.
   rig.lose_from_gateway = rig.lose_to_gateway = [](const CanFrame&) { return true; };
   rig.run_for(1s);
@@ -318,6 +319,13 @@ TEST(Resume, PowerLossHomesAndGoesBackFromAbove) {
   std::vector<Pose> track;
   ASSERT_TRUE(rig.run_until([&] { return rig.story().find("goes on") != std::string::npos; }, 120s))
       << rig.story();
+  // What is shown of the filament goes on as the job has it, wherever its motor counts from.
+  const MachineStatus back = rig.gateway->status();
+  ASSERT_TRUE(before.job_filament_mm && back.job_filament_mm);
+  EXPECT_GT(*before.job_filament_mm, 0.5);
+  EXPECT_NEAR(*back.job_filament_mm, *before.job_filament_mm, 0.5);
+  EXPECT_NEAR(back.machine_pose[kE] - *back.job_filament_mm,
+              before.machine_pose[kE] - *before.job_filament_mm, 0.01);
   rig.track_ = &track;
   ASSERT_TRUE(rig.finish()) << rig.story();
   double worst = 0;
