@@ -1,5 +1,5 @@
-// Nothing is fed through a hot end that does not melt it: jobs, lines, and waits that were cut short. Looked at from
-// outside: where the extruder's motor really is, and how hot the block and its sensor really are.
+// Nothing is fed through a hot end that does not melt it: jobs, lines, and waits that were cut short. Looked
+// at from outside: where the extruder's motor really is, and how hot the block and its sensor really are.
 
 #include <gtest/gtest.h>
 

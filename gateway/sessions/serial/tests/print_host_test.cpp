@@ -145,7 +145,7 @@ TEST(PrintHost, M105TellsThePowerOfHotEndAndBed) {
   rig.until([] { return false; }, 1s);
   const std::string full = rig.ask("M105");
   EXPECT_NE(full.find("@:127 B@:0"), std::string::npos) << full;
-  rig.until([&] { return rig.machine.gateway->status().heater(kFirstHotend).actual_celsius > 199; }, 600s);
+  rig.until([] { return false; }, 300s);
   const std::string holds = rig.ask("M105");
   const std::size_t at = holds.find("@:");
   ASSERT_NE(at, std::string::npos) << holds;
