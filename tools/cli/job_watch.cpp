@@ -62,13 +62,26 @@ void print_event(const Event& event) {
   }
 }
 
+/// What became of a job, by the events of it that were seen.
+struct JobEnd {
+  bool ran = false;
+  bool finished = false;  ///< the last word was that it was done, or that it was not begun
+  void note(const Event& event) {
+    if (event.kind() == joblink::EVENT_FINISHED) finished = true;
+    if (event.kind() != joblink::EVENT_STATE || event.state() == joblink::STATE_READY) return;
+    finished = false;
+    ran = ran || event.state() == joblink::STATE_RUNNING;
+  }
+};
+
 /// The next status; events that come before it are printed.
-Status next_status(Client& client, ProgressLine& line) {
+Status next_status(Client& client, ProgressLine& line, JobEnd* end = nullptr) {
   for (;;) {
     const auto report = client.next(std::chrono::seconds{10});
     if (!report) throw ClientError("the daemon has gone silent");
     if (const auto* status = std::get_if<Status>(&*report)) return *status;
     line.end();
+    if (end != nullptr) end->note(std::get<Event>(*report));
     print_event(std::get<Event>(*report));
   }
 }
@@ -84,9 +97,9 @@ joblink::Heater next_heater(Client& client, ProgressLine& line, const std::strin
 
 /// Follows statuses and events until `done(status)`; returns the last status.
 template <typename Done>
-Status follow(Client& client, ProgressLine& line, Done done) {
+Status follow(Client& client, ProgressLine& line, Done done, JobEnd* end = nullptr) {
   for (;;) {
-    Status status = next_status(client, line);
+    Status status = next_status(client, line, end);
     if (!status.job().empty())
       line.show(status.progress(), fmt::format("line {}  {}  {} to go", status.line(), status.doing(),
                                                time_words(status.remaining_s())));
@@ -174,9 +187,19 @@ joblink::Heater watch_tuning(Client& client, const std::string& heater) {
 
 int watch_job(Client& client) {
   ProgressLine line;
-  const Status status =
-      follow(client, line, [](const Status& s) { return s.at_rest() && s.state() != joblink::STATE_HELD; });
-  return status.state() == joblink::STATE_READY ? 0 : 1;
+  JobEnd end;
+  bool rests = false;
+  const Status status = follow(
+      client, line,
+      [&end, &rests](const Status& s) {
+        end.ran = end.ran || s.state() == joblink::STATE_RUNNING;
+        const bool rested = std::exchange(rests, s.at_rest() && s.state() != joblink::STATE_HELD);
+        // A status may come before the events of the same moment: the next one is behind them.
+        return rests && (end.finished || rested);
+      },
+      &end);
+  const bool refused = end.finished && !end.ran, given_up = end.ran && !end.finished;
+  return status.state() == joblink::STATE_READY && !refused && !given_up ? 0 : 1;
 }
 
 std::string upload_job(Client& client, const std::string& file) {
