@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include "gateway/jobs/machine_setup.hpp"
 #include "gateway/jobs/print_trace.hpp"
 
 namespace kinebus {
