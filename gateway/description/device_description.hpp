@@ -245,7 +245,7 @@ struct ThermalDescription {
   /// Without a heartbeat of the gateway for so long heat nodes fall back to what is safe.
   std::chrono::milliseconds gateway_lost{5000};
   enum class After : std::uint8_t { kKeep, kOff };
-  After on_stop = After::kKeep;         ///< what heaters do at STOP; M112 and an E-stop input switch them off
+  After on_stop = After::kOff;          ///< what heaters do at STOP; M112 and an E-stop input switch them off
   After on_cancel = After::kKeep;       ///< and when a job is cancelled
   std::chrono::seconds idle_off{1800};  ///< nothing moves for so long: off
   double lift_mm = 5;  ///< a job held by a heater's fault: the tool rises so far off the part; 0: not at all

@@ -14,6 +14,7 @@ namespace {
 using namespace canonical;
 
 constexpr std::size_t kTextBytes = 16'384;
+constexpr double kNoFilament_mm = 1e-9;
 
 template <typename... Ts>
 bool is_any(const Command& command) {
@@ -67,7 +68,10 @@ void JobPipeline::begin(const Pose& start) {
   path_mode_.reset();
   limits_ = {};
   stage_ = Stage::kFeeding;
-  in_run_ = ends_ = phase_waits_ = probing_ = false;
+  in_run_ = ends_ = phase_waits_ = probing_ = melt_due_ = false;
+  const HeaterDescription* hotend = machine_.heater(kFirstHotend);
+  melt_awaited_ = hotend == nullptr || !hotend->place.on_node();
+  hotend_celsius_.reset();
   barrier_.reset();
   refused_.reset();
   run_s_ = event_s_ = 0;
@@ -91,6 +95,7 @@ void JobPipeline::start_job(ByteSource& source, const Pose& start, const gcode::
 
 void JobPipeline::start_commands(std::vector<canonical::Line> commands, const Pose& start) {
   begin(start);
+  melt_awaited_ = true;  // who moves by hand is told at once
   commands_ = std::move(commands);
   source_ = nullptr;
   text_done_ = true;
@@ -244,6 +249,10 @@ std::optional<JobPipeline::Step> JobPipeline::settle() {
     in_run_ = false;
     return Step::kRunEnd;
   }
+  if (std::exchange(melt_due_, false)) {
+    stage_ = Stage::kFeeding;
+    return Step::kMelt;
+  }
   if (barrier_) {
     command_ = std::move(*barrier_);
     barrier_.reset();
@@ -343,6 +352,7 @@ std::uint32_t JobPipeline::line_of(std::uint32_t place) {
 void JobPipeline::take(const canonical::Line& line) {
   const Command& command = line.command;
   if (is_any<Feed, Traverse, Arc, SetPosition>(command)) return take_motion(line);
+  if (const auto* thermal = std::get_if<Thermal>(&command)) take_thermal(*thermal);
   if (const auto* mode = std::get_if<PathMode>(&command)) path_mode_ = *mode;
   if (const auto* limits = std::get_if<Limits>(&command)) merge_limits(limits_, *limits);
   if (is_any<PathMode, Limits>(command)) return add_to_planner(line);
@@ -360,7 +370,29 @@ void JobPipeline::take(const canonical::Line& line) {
   events_.push_back(line);
 }
 
+void JobPipeline::take_thermal(const Thermal& thermal) {
+  const HeaterDescription* hotend = machine_.heater(kFirstHotend);
+  if (hotend == nullptr || !hotend->place.on_node() || heater_of(thermal) != kFirstHotend) return;
+  hotend_celsius_ = thermal.value;
+  const bool melts = thermal.value >= machine_.thermal.min_extrude_c;
+  melt_awaited_ = melts && (melt_awaited_ || thermal.wait);
+}
+
+/// What is fed behind a target that melts nothing is no matter of waiting: the checks refuse it, or let
+/// filament that was taken back go where it came from.
+bool JobPipeline::feeds_before_it_melts(const canonical::Line& line) const {
+  if (melt_awaited_ || (hotend_celsius_ && *hotend_celsius_ < machine_.thermal.min_extrude_c)) return false;
+  const auto target = target_of(line.command);
+  return is_any<Feed, Traverse, Arc>(line.command) && target &&
+         target->pose[kE] > planner_.end_pose()[kE] + kNoFilament_mm;
+}
+
 void JobPipeline::take_motion(const canonical::Line& line) {
+  if (feeds_before_it_melts(line)) {
+    melt_awaited_ = melt_due_ = true;
+    first_.push_front(line);
+    return drain(std::nullopt);
+  }
   while (!scales_.empty() && scales_.front().move <= moves_taken_) {
     feed_scale_ = scales_.front().scale;
     scales_.pop_front();

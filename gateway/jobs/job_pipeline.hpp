@@ -34,6 +34,7 @@ class JobPipeline {
     kEvent,    ///< command() falls due at event_s() of the run; motion goes on
     kRunEnd,   ///< all phases of the run were given out (only after at least one); it ends at rest
     kBarrier,  ///< command() is to be carried out at rest, before the next step is asked for
+    kMelt,     ///< at rest: filament is fed next, and the text has not waited for the hot end to melt it
     kProbed,   ///< the move of a probe, begun at a barrier, ended at its target, if not before: probed()
     kEnd,      ///< the job is over
     kProblem,  ///< problem(): a line is refused. The next step goes on with the line after it.
@@ -84,6 +85,8 @@ class JobPipeline {
   gcode::ProbeResult assumed_probe() const;
   /// Where the probe touched since a mesh was begun, or since the job was: table coordinates.
   const std::vector<Vector3>& touched() const { return touched_; }
+  /// The text's wait for the hot end was cut short.
+  void melt_not_awaited() { melt_awaited_ = false; }
   /// At rest, behind a command: the tool's place is named so from here on.
   void stands(const Pose& pose, Frame frame);
   /// Where a probe's move ends, or would have.
@@ -145,6 +148,8 @@ class JobPipeline {
   void leave_out_again();
   void take(const canonical::Line& line);
   void take_motion(const canonical::Line& line);
+  void take_thermal(const canonical::Thermal& thermal);
+  bool feeds_before_it_melts(const canonical::Line& line) const;
   void add_to_planner(const canonical::Line& line);
   void drain(std::optional<canonical::Line> barrier);
   void plan_probe();
@@ -192,6 +197,10 @@ class JobPipeline {
   bool text_done_ = true;     ///< nothing more to read
   bool ends_ = false;         ///< draining towards the job's end
   bool phase_waits_ = false;  ///< phase_ was pulled; events due before it go first
+  bool melt_due_ = false;     ///< draining towards kMelt
+  // Of the first hot end, where a node has it: a simulated one stands for heat that others look after.
+  std::optional<double> hotend_celsius_;  ///< by the text; none: it has said nothing
+  bool melt_awaited_ = true;
   std::optional<canonical::Line> barrier_;
   canonical::Probe probe_;
   std::uint32_t probe_line_ = 0;  ///< as a place

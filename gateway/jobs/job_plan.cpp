@@ -180,6 +180,8 @@ bool JobPlan::take(JobPipeline::Step step) {
     case Step::kRunEnd:
       end_run();
       return false;
+    case Step::kMelt:
+      return false;
     case Step::kProbed:
       pipeline_.probed(pipeline_.assumed_probe());
       return false;

@@ -46,6 +46,8 @@ bool Preflight::step(int lines) {
       case Step::kRunEnd:
         ++report_.runs;
         break;
+      case Step::kMelt:
+        break;
       case Step::kProbed:
         pipeline_.probed(pipeline_.assumed_probe());
         break;

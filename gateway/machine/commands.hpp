@@ -54,7 +54,7 @@ struct Resume {};
 struct Cancel {};
 struct Stop {  ///< latched, in every state
   Sentence why = say("stop by command");
-  bool heaters_off = false;  ///< too, as M112; a job that goes on heats again first
+  bool heaters_off = false;  ///< whatever on_stop says, as M112; a job that goes on heats again first
 };
 struct Clear {};  ///< lifts a stop or an alarm
 struct SetFeedOverride {

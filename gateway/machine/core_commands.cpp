@@ -175,7 +175,7 @@ Done Gateway::Core::on(command::Run& asked) {
     return refused(say("the job cannot be read twice: it is checked before it runs"));
   give_up_job();
   print_.rename(std::move(asked.name));
-  print_.begin_check(std::move(asked.job), heat_.hotend_target(), lines_.work_offsets());
+  print_.begin_check(std::move(asked.job), heat_.hotend_found(), lines_.work_offsets());
   enter(MachineState::kChecking);
   return {};
 }

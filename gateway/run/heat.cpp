@@ -126,6 +126,12 @@ std::optional<double> Heat::hotend_target() const {
   return celsius > 0 ? std::optional(celsius) : std::nullopt;
 }
 
+std::optional<double> Heat::hotend_found() const {
+  const HeaterDescription* hotend = machine_.heater(kFirstHotend);
+  const auto target = hotend_target();
+  return target || hotend == nullptr || !hotend->place.on_node() ? target : 0;
+}
+
 void Heat::feed_ahead(const FlowAhead& mm_per_s) {
   const HeaterDescription* hotend = machine_.heater(kFirstHotend);
   if (hotend == nullptr) return;

@@ -59,6 +59,9 @@ class Heat {
   bool spindle_at_speed() const { return devices_.spindle().at_speed(); }
   /// Of the first hot end, deg C; none: off.
   std::optional<double> hotend_target() const;
+  /// What a job finds it set to: 0 when it is off. None: nobody knows, a simulated one stands for heat that
+  /// others look after.
+  std::optional<double> hotend_found() const;
   /// Hot ends that are hotter are to be at `celsius`.
   void stand_by(double celsius);
   /// Why no filament may be fed now; none: it may.

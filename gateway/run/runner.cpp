@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include "gateway/jobs/machine_setup.hpp"
 #include "gateway/jobs/print_trace.hpp"
 
 namespace kinebus {
@@ -308,6 +309,12 @@ Runner::Outcome Runner::take(BusTime now, JobPipeline::Step step) {
     case Step::kBarrier:
       barrier_waits_ = still_;
       return still_ ? Outcome::kBusy : barrier(now);
+    case Step::kMelt:
+      if (!heat_.too_cold()) return Outcome::kBusy;
+      wait_ = Wait::kMelt;
+      doing_ = say("waiting for the %1 at %2", heater_words(kFirstHotend),
+                   printed("%.0f C", machine_.thermal.min_extrude_c));
+      return Outcome::kBusy;
     case Step::kProbed:
       if (ContactProbe* const probe = heat_.probe()) probe->ask();
       wait_ = Wait::kProbeEnd;

@@ -160,6 +160,7 @@ class Runner {
     kRest,
     kDwell,
     kHeating,
+    kMelt,  ///< the hot end is to be hot enough to feed
     kSpindle,
     kPause,
     kPinOut,

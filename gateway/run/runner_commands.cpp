@@ -28,6 +28,9 @@ bool Runner::wait_is_over(BusTime now) {
     case Wait::kHeating:
       if (held_ || !heating_.over(heat_, now)) return false;
       break;
+    case Wait::kMelt:
+      if (held_ || heat_.too_cold()) return false;
+      break;
     case Wait::kSpindle:
       if (held_ || !heat_.spindle_at_speed()) return false;
       break;
@@ -72,7 +75,9 @@ void Runner::end_wait() {
 }
 
 void Runner::skip_heating() {
-  if (wait_ == Wait::kHeating) end_wait();
+  if (wait_ != Wait::kHeating) return;
+  end_wait();
+  pipeline_.melt_not_awaited();
 }
 
 void Runner::execute_due(BusTime now) {

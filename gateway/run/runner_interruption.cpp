@@ -113,6 +113,7 @@ Runner::Outcome Runner::replay(int budget) {
       case Step::kProblem:
         return fail(pipeline_.problem().line, pipeline_.problem().words, false);
       case Step::kEvent:  // what it set is in the journal
+      case Step::kMelt:   // heaters are as hot as they were before it goes on
       case Step::kRunEnd:
       case Step::kProbed:
       case Step::kStarved:

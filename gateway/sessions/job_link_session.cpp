@@ -111,7 +111,7 @@ void JobLinkSession::see_stop() {
     if (frame.session != session_ || text.size() > kStopBytes || !text.ends_with(kStopEnd)) return;
     ClientMessage message;
     if (message.ParseFromArray(text.data(), static_cast<int>(text.size())) && message.has_stop())
-      static_cast<void>(server_.gateway_.carry_out(command::Stop{.heaters_off = true}));
+      static_cast<void>(server_.gateway_.carry_out(command::Stop{}));
   });
 }
 

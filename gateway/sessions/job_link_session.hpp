@@ -28,6 +28,7 @@ class JobLinkSession : public ByteSession, public Requester {
   std::uint64_t id() const { return id_; }
   ClientId client() const override { return client_; }
   void take_reply(joblink::Reply reply) override;
+  bool stop_cuts_heat() const override { return false; }
   const std::string& resume_key() const { return resume_key_; }
   const SessionInfo& info() const { return info_; }
   bool stranger() const { return client_ == 0 && !ended_ && !info_.lasting; }

@@ -39,7 +39,12 @@ bool MachineRequests::take(const Asker& asker, const ClientMessage& message) {
 /// What everyone may ask at any time.
 bool MachineRequests::take_free(const Asker& asker, const ClientMessage& message) {
   if (message.has_stop()) {
-    carry_out(asker, message);
+    command::Stop stop;
+    stop.heaters_off = requester_.stop_cuts_heat();
+    if (const auto done = server_.gateway_.carry_out(std::move(stop)); done)
+      server_.answer(asker, {});
+    else
+      server_.refuse(asker, problem(done.error()));
     return true;
   }
   Reply reply;

@@ -32,6 +32,9 @@ class Requester {
   /// `reply` carries the request's number.
   virtual void take_reply(joblink::Reply reply) = 0;
 
+  /// Its stop is an emergency stop: what the machine file says of STOP and heat is not asked.
+  virtual bool stop_cuts_heat() const { return true; }
+
   /// Bytes of an upload are with the worker.
   void owe(std::size_t bytes) { owed_bytes_ += bytes; }
   void paid(std::size_t bytes) { owed_bytes_ -= bytes; }

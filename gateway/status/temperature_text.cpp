@@ -1,6 +1,8 @@
 #include "gateway/status/temperature_text.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 
 namespace kinebus {
 namespace {
@@ -24,7 +26,11 @@ std::string temperature_text(const MachineStatus& status) {
   if (std::count_if(all.begin(), all.end(), is(HeaterKind::kHotend)) > 1)
     for (const NamedHeaterStatus& h : all)
       if (h.id.kind == HeaterKind::kHotend) text += temperature_of("T" + std::to_string(h.id.index), h);
-  return text + "@:0 B@:0";
+  const auto power = [&status](HeaterId id) {
+    constexpr double kMarlinFull = 127;
+    return std::lround(kMarlinFull * std::clamp(status.heater(id).power.value_or(0), 0.0, 1.0));
+  };
+  return text + "@:" + std::to_string(power(kFirstHotend)) + " B@:" + std::to_string(power(kFirstBed));
 }
 
 }  // namespace kinebus

@@ -66,8 +66,20 @@ void print_event(const Event& event) {
 /// the link, so what is silent on a busy computer has only to wait.
 constexpr std::chrono::seconds kSaidAfter{10}, kGivenUpAfter{120};
 
+/// What became of a job, by the events of it that were seen.
+struct JobEnd {
+  bool ran = false;
+  bool finished = false;  ///< the last word was that it was done, or that it was not begun
+  void note(const Event& event) {
+    if (event.kind() == joblink::EVENT_FINISHED) finished = true;
+    if (event.kind() != joblink::EVENT_STATE || event.state() == joblink::STATE_READY) return;
+    finished = false;
+    ran = ran || event.state() == joblink::STATE_RUNNING;
+  }
+};
+
 /// The next status; events that come before it are printed.
-Status next_status(Client& client, ProgressLine& line) {
+Status next_status(Client& client, ProgressLine& line, JobEnd* end = nullptr) {
   std::chrono::seconds silent{0};
   for (;;) {
     const auto report = client.next(kSaidAfter);
@@ -81,6 +93,7 @@ Status next_status(Client& client, ProgressLine& line) {
     silent = {};
     if (const auto* status = std::get_if<Status>(&*report)) return *status;
     line.end();
+    if (end != nullptr) end->note(std::get<Event>(*report));
     print_event(std::get<Event>(*report));
   }
 }
@@ -96,9 +109,9 @@ joblink::Heater next_heater(Client& client, ProgressLine& line, const std::strin
 
 /// Follows statuses and events until `done(status)`; returns the last status.
 template <typename Done>
-Status follow(Client& client, ProgressLine& line, Done done) {
+Status follow(Client& client, ProgressLine& line, Done done, JobEnd* end = nullptr) {
   for (;;) {
-    Status status = next_status(client, line);
+    Status status = next_status(client, line, end);
     if (!status.job().empty())
       line.show(status.progress(), fmt::format("line {}  {}  {} to go", status.line(), status.doing(),
                                                time_words(status.remaining_s())));
@@ -186,9 +199,19 @@ joblink::Heater watch_tuning(Client& client, const std::string& heater) {
 
 int watch_job(Client& client) {
   ProgressLine line;
-  const Status status =
-      follow(client, line, [](const Status& s) { return s.at_rest() && s.state() != joblink::STATE_HELD; });
-  return status.state() == joblink::STATE_READY ? 0 : 1;
+  JobEnd end;
+  bool rests = false;
+  const Status status = follow(
+      client, line,
+      [&end, &rests](const Status& s) {
+        end.ran = end.ran || s.state() == joblink::STATE_RUNNING;
+        const bool rested = std::exchange(rests, s.at_rest() && s.state() != joblink::STATE_HELD);
+        // A status may come before the events of the same moment: the next one is behind them.
+        return rests && (end.finished || rested);
+      },
+      &end);
+  const bool refused = end.finished && !end.ran, given_up = end.ran && !end.finished;
+  return status.state() == joblink::STATE_READY && !refused && !given_up ? 0 : 1;
 }
 
 std::string upload_job(Client& client, const std::string& file) {

@@ -29,12 +29,19 @@ std::string pose_words(const joblink::Pose& pose) {
                      tidy(pose.c_rad() / kRadians), tidy(pose.e_mm()));
 }
 
+bool measures(const joblink::HeaterTuning& tuning) {
+  return tuning.stage() != joblink::TUNING_NONE && tuning.stage() != joblink::TUNING_DONE &&
+         tuning.stage() != joblink::TUNING_FAILED;
+}
+
 void print_devices(const Status& s) {
   std::string words;
   for (const joblink::Heater& heater : s.heaters())
-    words += fmt::format("{} {:.1f} / {:.0f} C{}   ", heater.name(), heater.actual_celsius(),
-                         heater.target_celsius(),
-                         heater.has_measured() && !heater.measured() ? " (never measured)" : "");
+    words += measures(heater.tuning())
+                 ? fmt::format("{} {:.1f} C, measured now   ", heater.name(), heater.actual_celsius())
+                 : fmt::format("{} {:.1f} / {:.0f} C{}   ", heater.name(), heater.actual_celsius(),
+                               heater.target_celsius(),
+                               heater.has_measured() && !heater.measured() ? " (never measured)" : "");
   for (const joblink::Output& fan : s.fans())
     words += fmt::format("fan {} {:.0f} %   ", fan.name(), 100 * fan.ratio());
   for (const joblink::Output& output : s.outputs())

@@ -207,6 +207,24 @@ TEST(Interpreter, NothingIsAllocatedForALine) {
   EXPECT_EQ(after, before);
 }
 
+TEST(Interpreter, WhatTheMachineFileSaysIsNamedByItsKeyWithAndWithoutWords) {
+  for (const char* words : {"", " P1", " ; a remark"}) {
+    Session session;
+    for (const auto& [code, key] :
+         std::vector<std::pair<std::string, std::string>>{{"M302", "min_extrude_c of [thermal]"},
+                                                          {"M143", "max_c of [heater.NAME]"},
+                                                          {"M301", "[heater.NAME]"},
+                                                          {"M304", "[heater.NAME]"},
+                                                          {"M305", "sensor of [heater.NAME]"},
+                                                          {"M307", "kinebus tune NAME"}}) {
+      session.interpreter.clear_notes();
+      session.must(code + words);
+      ASSERT_EQ(session.interpreter.notes().size(), 1U) << code << words;
+      EXPECT_NE(session.interpreter.notes()[0].text.find(key), std::string::npos) << code << words;
+    }
+  }
+}
+
 TEST(Interpreter, KnownButUselessCodesAreNotedOnce) {
   Session session;
   session.must("M73 P1\nM73 P2\nG29\nM302 P1\nG29 P1");

@@ -17,8 +17,8 @@ using PipelineStep = JobPipeline::Step;
 using job_test::kinematics;
 using job_test::machine;
 
-/// The steps of a job as letters: p phases (a run of them is one letter), e event, r run's end, b barrier, x
-/// problem.
+/// The steps of a job as letters: p phases (a run of them is one letter), e event, r run's end, b barrier, m
+/// melt, x problem.
 struct Trace {
   std::string steps;
   std::vector<double> event_s;
@@ -52,6 +52,9 @@ Trace trace(const std::string& job, Pose start = kinematics().bed_reference(), i
         break;
       case PipelineStep::kBarrier:
         t.steps += 'b';
+        break;
+      case PipelineStep::kMelt:
+        t.steps += 'm';
         break;
       case PipelineStep::kProbed:
         t.steps += 'q';

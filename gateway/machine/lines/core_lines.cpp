@@ -25,7 +25,7 @@ bool Gateway::Core::lines_open() const {
 Done Gateway::Core::on(command::OpenLines& asked) {
   const auto pose = machine_pose();
   if (!pose) return Error<Refusal>(pose.error());
-  const gcode::CommandBuffer& in_force = lines_.open(*pose, heat_.hotend_target());
+  const gcode::CommandBuffer& in_force = lines_.open(*pose, heat_.hotend_found());
   give_up_job();
   Runner& runner = print_.runner();
   runner_ = &runner;

@@ -73,6 +73,37 @@ TEST(JobLink, OneHasControlTheOthersWatchAndAnyoneMayStop) {
   EXPECT_NE(rig.machine.gateway->state(), MachineState::kBringUp);
 }
 
+/// A page or a print host: what it calls stop is an emergency stop.
+class EmergencyStopper : public Requester {
+ public:
+  using Requester::Requester;
+  ClientId client() const override { return 0; }
+  void take_reply(joblink::Reply) override {}
+};
+
+TEST(JobLink, StopDoesWithHeatWhatTheMachineFileSaysAndAnEmergencyStopCutsIt) {
+  using After = ThermalDescription::After;
+  for (const After on_stop : {After::kOff, After::kKeep}) {
+    MachineDescription description = default_m1();
+    description.thermal.on_stop = on_stop;
+    LinkRig rig({}, {}, description);
+    LinkedClient& anna = rig.connect("anna");
+    EXPECT_FALSE(rig.ask(anna, take_control()).has_error());
+    ClientMessage heat;
+    heat.mutable_set_temperature()->set_kind(joblink::HEATER_BED);
+    heat.mutable_set_temperature()->set_celsius(60);
+    const auto target = [&] { return rig.machine.gateway->status().heater(kFirstBed).target_celsius; };
+    EXPECT_FALSE(rig.ask(anna, heat).has_error());
+    EXPECT_FALSE(rig.ask(anna, plain(&ClientMessage::mutable_stop)).has_error());
+    EXPECT_EQ(target(), on_stop == After::kKeep ? 60 : 0);
+    EmergencyStopper page(*rig.store, rig.worker);
+    const std::uint64_t id = rig.server->enter(page);
+    rig.server->request(rig.machine.now, page, {id, 1}, plain(&ClientMessage::mutable_stop));
+    EXPECT_EQ(target(), 0);
+    rig.server->leave(id);
+  }
+}
+
 TEST(JobLink, ControlIsHandedOverAndAllAreTold) {
   LinkRig rig;
   LinkedClient& anna = rig.connect("anna");

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gateway/jobs/store/tests/temporary_folder.hpp"
@@ -95,7 +96,9 @@ struct LinkedClient {
 class LinkRig {
  public:
   /// `stored`: names of jobs that are there already.
-  explicit LinkRig(JobStore::Options options = {}, const std::vector<std::string>& stored = {}) {
+  explicit LinkRig(JobStore::Options options = {}, const std::vector<std::string>& stored = {},
+                   MachineDescription of = default_m1())
+      : machine(std::move(of)) {
     options.folder = folder.path() / "jobs";
     std::filesystem::create_directories(options.folder);
     for (const std::string& name : stored) std::ofstream(options.folder / name) << "G1 X1\n";

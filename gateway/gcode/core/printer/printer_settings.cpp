@@ -24,7 +24,8 @@ bool Core::firmware_setting(Code code) {
                           name));
     return true;
   }
-  if (block_.text.empty() || block_.text.front() == '(') {
+  const bool moves_the_tool = code.number == 206 || code.number == 665 || code.number == 666;
+  if (moves_the_tool && (block_.text.empty() || block_.text.front() == '(')) {
     note(code.number, say("%1 has no effect on this machine", name));
     return true;
   }

@@ -138,6 +138,22 @@ TEST(PrintHost, M108EndsTheWaitForAHeaterInAPrint) {
   EXPECT_EQ(rig.machine.gateway->status().heater(kFirstHotend).target_celsius, 0);
 }
 
+TEST(PrintHost, M105TellsThePowerOfHotEndAndBed) {
+  SerialRig rig;
+  EXPECT_NE(rig.ask("M105").find("@:0 B@:0"), std::string::npos);
+  rig.ask("M104 S200");
+  rig.until([] { return false; }, 1s);
+  const std::string full = rig.ask("M105");
+  EXPECT_NE(full.find("@:127 B@:0"), std::string::npos) << full;
+  rig.until([] { return false; }, 300s);
+  const std::string holds = rig.ask("M105");
+  const std::size_t at = holds.find("@:");
+  ASSERT_NE(at, std::string::npos) << holds;
+  const int power = std::stoi(holds.substr(at + 2));
+  EXPECT_GT(power, 5) << holds;
+  EXPECT_LT(power, 126) << holds;
+}
+
 TEST(PrintHost, M112SwitchesTheHeatersOffAndSaysWhy) {
   SerialRig rig;
   rig.ask("M104 S200");
