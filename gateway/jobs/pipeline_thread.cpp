@@ -1,5 +1,5 @@
-// Threads: where the tool is as fast as the spindle wants it, the pitch is right. A plan that is slower, because
-// of a joint's limit or for want of way, is refused.
+// Threads: where the tool is as fast as the spindle wants it, the pitch is right. A plan that is slower,
+// because of a joint's limit or for want of way, is refused.
 
 #include <algorithm>
 

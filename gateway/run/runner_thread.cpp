@@ -1,6 +1,6 @@
-// Threads: path time begins with an index pulse and goes with the spindle until the pass is over. A hold waits
-// for its end, an override does not count. A stop is one on the path, and ends the job: what goes on within a
-// thread would have to begin at full speed.
+// Threads: path time begins with an index pulse and goes with the spindle until the pass is over. A hold
+// waits for its end, an override does not count. A stop is one on the path, and ends the job: what goes on
+// within a thread would have to begin at full speed.
 
 #include <algorithm>
 #include <cmath>
@@ -62,13 +62,15 @@ void Runner::follow_spindle(BusTime now) {
   if (now < follower_.started() || now - last_rate_change_ < kPeriod) return;
   const double behind = follower_.behind(now + kAhead, rate_.tau(now + kAhead));
   if (std::abs(behind) > kLost_turns) {
-    thread_lost_ = say("the thread is lost: the tool is %1 turns from the spindle's angle; a spindle may be a "
-                       "tenth faster than S",
-                       printed("%.2f", std::abs(behind)));
+    thread_lost_ =
+        say("the thread is lost: the tool is %1 turns from the spindle's angle; a spindle may be a "
+            "tenth faster than S",
+            printed("%.2f", std::abs(behind)));
     return;
   }
   const double present = rate_.target();
-  double wanted = follower_.ratio(now + kAhead + kPeriod / 2) + behind / follower_.planned_turns_per_s() / kCatchUp_s;
+  double wanted =
+      follower_.ratio(now + kAhead + kPeriod / 2) + behind / follower_.planned_turns_per_s() / kCatchUp_s;
   wanted = std::clamp(wanted, present - kMostChange, present + kMostChange);
   const double allowed = group_.allowed_rate(tau);
   wanted = std::clamp(wanted, 0.0, std::min(1.0, allowed));

@@ -99,13 +99,14 @@ bool Core::thread_words(Code code, ThreadCycle& cycle) {
       !take_integer('H', 0, 100, cycle.spring_passes) || !take_integer('L', 0, 3, cycle.tapers))
     return false;
   if (m.incremental) cycle.end += m.program[kAxisZ];
-  for (const auto& [letter, value] : {std::pair{'P', cycle.pitch}, std::pair{'J', cycle.first},
-                                      std::pair{'K', cycle.height}})
+  for (const auto& [letter, value] :
+       {std::pair{'P', cycle.pitch}, std::pair{'J', cycle.first}, std::pair{'K', cycle.height}})
     if (!(value > 0))
       return fail(block_.column_of(letter), say("%1 must be greater than 0", std::string(1, letter)));
   if (cycle.crest == 0)
-    return fail(block_.column_of('I'), say("I of G76 says on which side the thread is: below 0 outside, above "
-                                           "0 inside"));
+    return fail(block_.column_of('I'),
+                say("I of G76 says on which side the thread is: below 0 outside, above "
+                    "0 inside"));
   if (!(cycle.degression >= 1)) return fail(block_.column_of('R'), say("R of G76 is at least 1"));
   if (!(cycle.angle_rad >= 0 && cycle.angle_rad <= kMostAngle_deg))
     return fail(block_.column_of('Q'), say("Q of G76 is 0 to %1 degrees", kMostAngle_deg));

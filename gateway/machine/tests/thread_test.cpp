@@ -1,5 +1,5 @@
-// Threads: where the motors are, against the angle that the simulated spindle's encoder tells. The spindle droops
-// under a load that the planner knows nothing of.
+// Threads: where the motors are, against the angle that the simulated spindle's encoder tells. The spindle
+// droops under a load that the planner knows nothing of.
 
 #include <gtest/gtest.h>
 
