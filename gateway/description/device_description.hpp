@@ -189,7 +189,12 @@ struct SpindleDescription {
   DevicePlace place{};
   double min_rpm = 1000, max_rpm = 24000;
   bool reversible = false;  ///< M4
+  /// Of an encoder on it, which lives where the spindle does, in a turn, with an index pulse; 0: there is
+  /// none.
+  int encoder_counts = 0;
   double sim_rpm_per_s = 6000;
+  double sim_droop_percent = 0;  ///< so much slower under a load that comes and goes ...
+  double sim_load_s = 0;         ///< ... once in this time, for half of it; 0: never
   friend bool operator==(const SpindleDescription&, const SpindleDescription&) = default;
 };
 

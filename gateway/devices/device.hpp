@@ -111,8 +111,18 @@ class Input : public Device {
   virtual Changes changes() const = 0;
 };
 
+/// Of an encoder on the spindle.
+struct SpindleAngle {
+  BusTime at{0};
+  double turns = 0;  ///< whole at each index pulse; grows whichever way it turns
+
+  friend bool operator==(const SpindleAngle&, const SpindleAngle&) = default;
+};
+
 struct SpindleStatus {
   double actual_rpm = 0, target_rpm = 0;  ///< > 0 clockwise
+  std::optional<SpindleAngle> angle{};    ///< none: no encoder, or no index pulse has come yet
+
   /// Under load it is a little slow.
   bool at_speed() const {
     constexpr double kWindow = 0.02;

@@ -42,8 +42,29 @@ void SimulatedHeater::on_time(BusTime now) {
 }
 
 void SimulatedSpindle::on_time(BusTime now) {
-  const double most = rpm_per_s_ * elapsed_s(last_, now);
-  status_.actual_rpm += std::clamp(status_.target_rpm - status_.actual_rpm, -most, most);
+  // Steps that are short beside the load's lag.
+  constexpr double kStep_s = 1e-3;
+  for (double seconds = elapsed_s(last_, now); seconds > 0; seconds -= kStep_s)
+    turn(std::min(seconds, kStep_s));
+  status_.angle.reset();
+  // Where it stands when the program begins nobody knows: the first index pulse is this much away.
+  constexpr double kFirstIndex = 0.37;
+  if (spindle_.encoder_counts == 0 || turns_ < kFirstIndex) return;
+  const double counts = spindle_.encoder_counts;
+  status_.angle = SpindleAngle{now, std::floor((turns_ - kFirstIndex) * counts) / counts};
+}
+
+void SimulatedSpindle::turn(double seconds) {
+  const double most = spindle_.sim_rpm_per_s * seconds;
+  drive_rpm_ += std::clamp(status_.target_rpm - drive_rpm_, -most, most);
+  if (spindle_.sim_load_s > 0) load_s_ = std::fmod(load_s_ + seconds, spindle_.sim_load_s);
+  const bool loaded = load_s_ > spindle_.sim_load_s / 2;
+  constexpr double kLag_s = 0.1;
+  const double taken = loaded ? spindle_.sim_droop_percent / 100 : 0;
+  droop_ = taken + (droop_ - taken) * std::exp(-seconds / kLag_s);
+  const double before = status_.actual_rpm;
+  status_.actual_rpm = drive_rpm_ * (1 - droop_);
+  turns_ += std::abs(before + status_.actual_rpm) / 2 * seconds / 60;
 }
 
 void SimulatedInput::on_time(BusTime now) {
@@ -95,7 +116,7 @@ std::unique_ptr<Sensor> simulate(const SensorDescription& sensor, const MachineD
 }
 
 std::unique_ptr<SpindleDrive> simulate(const SpindleDescription& spindle, const MachineDescription&) {
-  return std::make_unique<SimulatedSpindle>(spindle.sim_rpm_per_s);
+  return std::make_unique<SimulatedSpindle>(spindle);
 }
 
 std::unique_ptr<FilamentSensor> simulate(const FilamentSensorDescription& filament,

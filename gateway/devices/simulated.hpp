@@ -42,16 +42,23 @@ class SimulatedOutput : public Output {
   double ratio_ = 0;
 };
 
+/// A load that comes and goes makes it slow, with a lag; its encoder tells whole counts.
 class SimulatedSpindle : public SpindleDrive {
  public:
-  explicit SimulatedSpindle(double rpm_per_s) : rpm_per_s_(rpm_per_s) {}
+  explicit SimulatedSpindle(const SpindleDescription& spindle) : spindle_(spindle) {}
   void set(double rpm) override { status_.target_rpm = rpm; }
   SpindleStatus status() const override { return status_; }
   void on_time(BusTime now) override;
 
  private:
-  double rpm_per_s_;
+  void turn(double seconds);
+
+  SpindleDescription spindle_;
   SpindleStatus status_;
+  double drive_rpm_ = 0;  ///< without load
+  double droop_ = 0;      ///< what the load takes, of that
+  double turns_ = 0;      ///< since the program began, from where it stood
+  double load_s_ = 0;     ///< into the load's period
   std::optional<BusTime> last_;
 };
 

@@ -108,6 +108,12 @@ struct Thermal {
 struct Spindle {
   double rpm = 0;
 };
+/// A thread: the moves that follow, planned for a spindle of this speed, go with its angle, from an index
+/// pulse on. 0: path time goes by itself again. Motion rests before it.
+struct SpindleSync {
+  double rpm = 0;         ///< a little more than the spindle is told: path time can be slower, not faster
+  double feed_per_s = 0;  ///< of the thread at that speed
+};
 /// M401, M402, M280: of a probe that has a pin. Motion waits at rest until it is there.
 struct ProbePin {
   enum class What : std::uint8_t {
@@ -201,7 +207,7 @@ struct End {};  ///< M2 / M30, or the end of the text
 using Command =
     std::variant<Traverse, Feed, Arc, Dwell, PathMode, SetPosition, Limits, Thermal, Spindle, Home, Pause,
                  MotorsOff, MotorsOn, WaitIdle, Override, Message, Query, EmergencyStop, StoredJob, Settings,
-                 End, PressureAdvance, Probe, InputShaping, Mesh, ProbePin, AwaitInput>;
+                 End, PressureAdvance, Probe, InputShaping, Mesh, ProbePin, AwaitInput, SpindleSync>;
 
 /// One command with the line of the job that it came from (1-based).
 struct Line {

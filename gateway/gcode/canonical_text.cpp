@@ -97,6 +97,9 @@ struct Writer {
     return text;
   }
   std::string operator()(const Spindle& c) const { return "spindle " + number(c.rpm); }
+  std::string operator()(const SpindleSync& c) const {
+    return c.rpm > 0 ? "sync " + number(c.rpm) + feed_text(c.feed_per_s, 0) : "sync off";
+  }
   std::string operator()(const ProbePin& c) const {
     static constexpr std::array<std::string_view, 4> kNames = {"out", "in", "self_test", "reset"};
     return std::string("probe_pin ").append(kNames[static_cast<std::size_t>(c.what)]);

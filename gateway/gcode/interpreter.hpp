@@ -97,6 +97,7 @@ struct Options {
   double arc_radius_tolerance_mm = 0.005;
   double a_min_rad = -0.7853981633974483, a_max_rad = 0.7853981633974483;  ///< what G53.1 may choose from
   bool spindle = false;                                                    ///< there is one: M3, M4, M5 and S
+  bool spindle_encoder = false;                     ///< it tells its angle: G33 and G76
   double spindle_min_rpm = 0, spindle_max_rpm = 0;  ///< what G96 may ask for; 0: no limit
   int tools = 1;                                    ///< T0 .. T(tools - 1)
   int hotends = 1;                                  ///< M104 T0 .. T(hotends - 1)

@@ -26,7 +26,7 @@ bool is_barrier(const Command& command, bool optional_stop) {
   if (const auto* thermal = std::get_if<Thermal>(&command)) return thermal->wait;
   if (const auto* pause = std::get_if<Pause>(&command)) return !pause->optional || optional_stop;
   return is_any<Dwell, Home, MotorsOff, MotorsOn, WaitIdle, canonical::Spindle, canonical::Probe,
-                canonical::Mesh, ProbePin, AwaitInput>(command);
+                canonical::Mesh, ProbePin, AwaitInput, SpindleSync>(command);
 }
 
 /// Target of a motion command.
@@ -56,6 +56,7 @@ void JobPipeline::begin(const Pose& start) {
     planner_.limit_machine(limits_before_shaping(machine_, vibration_));
   }
   asked_shaping_ = {};
+  thread_ = {};
   planner_.reset(start, Frame::kMachine);
   advance_ = machine_.pressure_advance;
   shaper_ = {};
@@ -206,6 +207,7 @@ bool JobPipeline::pull_phase() {
   if (!shaping_) {
     phase_.timed = false;  // a run before this one may have been shaped
     if (!planner_.next(phase_)) return false;
+    if (thread_.sync.rpm > 0) watch_thread(phase_);
     phase_.piece.coefficients[kE][0] += shaper_.filament_offset_mm();
     return true;
   }
@@ -247,6 +249,7 @@ std::optional<JobPipeline::Step> JobPipeline::settle() {
   }
   if (in_run_) {
     in_run_ = false;
+    check_thread();
     return Step::kRunEnd;
   }
   if (std::exchange(melt_due_, false)) {
@@ -274,6 +277,7 @@ std::optional<JobPipeline::Step> JobPipeline::settle() {
       probe_line_ = command_.line;
       stage_ = Stage::kProbes;
     }
+    if (const auto* sync = std::get_if<canonical::SpindleSync>(&command_.command)) thread_ = {*sync};
     const auto* mesh = std::get_if<canonical::Mesh>(&command_.command);
     if (mesh != nullptr && mesh->what == canonical::Mesh::What::kBegin) touched_.clear();
     command_.line = line_of(command_.line);
@@ -398,7 +402,9 @@ void JobPipeline::take_motion(const canonical::Line& line) {
     scales_.pop_front();
   }
   ++moves_taken_;
-  if (feed_scale_ == 1 || !is_any<Feed, Arc>(line.command)) return add_to_planner(line);
+  // The spindle says how fast a thread is.
+  if (feed_scale_ == 1 || thread_.sync.rpm > 0 || !is_any<Feed, Arc>(line.command))
+    return add_to_planner(line);
   canonical::Line scaled = line;
   const auto scale = [this](auto& move) {
     move.feed_per_s *= feed_scale_;

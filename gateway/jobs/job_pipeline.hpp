@@ -153,6 +153,9 @@ class JobPipeline {
   void add_to_planner(const canonical::Line& line);
   void drain(std::optional<canonical::Line> barrier);
   void plan_probe();
+  // pipeline_thread.cpp
+  void watch_thread(const Phase& phase);
+  void check_thread();
   void start_at(const Pose& pose, Frame frame, std::uint32_t line);
   void home(const canonical::Home& home, std::uint32_t line);
 
@@ -171,7 +174,16 @@ class JobPipeline {
   };
   std::deque<AdvanceFrom> advances_;  ///< for the phases of later lines
   Phase planned_{};                   ///< on its way from the planner to the shaper
-  bool over_limit_ = false;           ///< the last shaped phase was: one report for each time
+  /// In force, and how its motion is planned.
+  struct Thread {
+    canonical::SpindleSync sync{};
+    double fastest_per_s = 0;
+    std::uint32_t line = 0;  ///< as a place
+    bool slows = false;      ///< behind its speed, before the end
+    bool slowed = false;     ///< and was as fast again
+    bool corners = false;    ///< more than one move: path mode says how fast they are
+  } thread_;
+  bool over_limit_ = false;  ///< the last shaped phase was: one report for each time
   std::unique_ptr<gcode::Interpreter> interpreter_;
   std::unique_ptr<gcode::JobReader> reader_;
   ByteSource* source_ = nullptr;

@@ -202,6 +202,8 @@ Refused LiveLines::check(const canonical::Command& command) {
     if (auto missing = missing_input(machine_, *wait)) return missing;
     return still_ && wait->until != canonical::AwaitInput::Until::kNow ? still_ : std::nullopt;
   }
+  if (std::holds_alternative<canonical::SpindleSync>(command))
+    return say("a thread belongs to a job: it cannot wait for lines");
   if (std::holds_alternative<canonical::StoredJob>(command))
     return say("stored jobs are managed by the session: M20 to M32 stand alone in a line");
   const auto* feed = std::get_if<canonical::Feed>(&command);

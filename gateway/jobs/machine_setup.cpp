@@ -186,6 +186,7 @@ gcode::Options interpreter_options(const MachineDescription& machine, const Pose
   options.tools = std::max(options.hotends, 1 + static_cast<int>(machine.gcode.tool_length_mm.size()));
   // On a mill the operator puts in whatever tool is asked for.
   if (options.spindle) options.tools = 100'000;
+  options.spindle_encoder = options.spindle && machine.spindle.encoder_counts > 0;
   options.spindle_min_rpm = machine.spindle.min_rpm;
   options.spindle_max_rpm = machine.spindle.max_rpm;
   options.tool_length_mm = machine.gcode.tool_length_mm;

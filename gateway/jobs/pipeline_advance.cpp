@@ -81,6 +81,7 @@ void JobPipeline::begin_shaping(std::uint32_t line) {
 
 bool JobPipeline::push_planned() {
   if (!planner_.next(planned_)) return false;
+  if (thread_.sync.rpm > 0) watch_thread(planned_);
   while (!advances_.empty() && advances_.front().line < planned_.line) {
     shaper_.set_advance(advances_.front().model);
     advances_.pop_front();

@@ -172,6 +172,7 @@ class Gateway::Core {
   void step_after_stall();
   Done resume();
   void finish_motion();
+  void fail_motion();
   void watch_nodes();
   void watch_idle_heat();
   void tell_of_tuning();
@@ -210,6 +211,7 @@ class Gateway::Core {
   void step_probed();
   void finish_probe();
   void give_up_probing();
+  void give_up_thread();
 
   // Interruption and resume (core_recovery.cpp).
   /// A job is interrupted: it can go on, or be cancelled.

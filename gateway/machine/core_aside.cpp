@@ -20,6 +20,7 @@ Done Gateway::Core::step_aside(HeatHold::Aside why) {
   if (!job.active() || job.live()) return refused(say("no job is held that could be set aside"));
   if (hand_.runner().active()) return refused(say("the tool is on its way: resume or cancel first"));
   if (job.probing()) return refused(say("the probe is on its way: resume or cancel first"));
+  if (job.cuts_thread()) return refused(say("the tool is in a thread: resume or cancel first"));
   recovery_.do_not_go_on();
   standby_due_ = false;
   // What a fault holds is off the part already.

@@ -235,7 +235,7 @@ Done Gateway::Core::on(command::Cancel&) {
   if (rest_.reading()) {
     rest_.read_for(Rest::After::kCancel);
   } else {
-    runner_->hold(now_);
+    runner_->hold_at_once(now_);
     rest_.begin(now_);
   }
   enter(MachineState::kCancelling);

@@ -21,7 +21,7 @@ void Gateway::Core::watch_devices() {
   Runner& job = print_.runner();
   if (!job.active() || !state_.is_one_of(MachineState::kRunning, MachineState::kHolding, MachineState::kHeld))
     return heat_hold_.abort();
-  if (job.probing()) return job.keep_still();
+  if (job.probing() || job.cuts_thread()) return job.keep_still();
   const DeviceFault fault = *heat_hold_.is_put_off();
   heat_hold_.abort();
   hold_for(fault);
@@ -44,7 +44,7 @@ bool Gateway::Core::hold_for_heat(const DeviceFault& fault) {
   heat_.note(journal_);
   heat_.keep();
   heat_.heaters_off(Heat::Beds::kStay);
-  if (print_.runner().probing())
+  if (print_.runner().probing() || print_.runner().cuts_thread())
     heat_hold_.put_off(fault);
   else
     hold_for(fault);

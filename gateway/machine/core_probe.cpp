@@ -84,4 +84,13 @@ void Gateway::Core::give_up_probing() {
   recovery_.fail_job();
 }
 
+void Gateway::Core::give_up_thread() {
+  Runner& job = print_.runner();
+  if (!job.cuts_thread()) return;
+  events_.message(now_, say("the job ends: it was stopped in a thread, which has to be cut in one go"),
+                  job.line(now_));
+  position_.lose_stream();
+  recovery_.fail_job();
+}
+
 }  // namespace kinebus

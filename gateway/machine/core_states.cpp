@@ -147,15 +147,18 @@ void Gateway::Core::step_running() {
       events_.alarm(now_, AlarmCode::kEmergencyStop, say("M112 in the job"), 0, runner_->line(now_));
       cut_heat(say("M112 in the job"));
       return stop_all(false);
-    case Runner::Outcome::kFailed: {
-      const Runner::Failure& failure = runner_->failure();
-      position_.lose_stream();
-      if (runner_ == &print_.runner() && !failure.stream) recovery_.fail_job();
-      events_.alarm(now_, failure.stream ? AlarmCode::kStreamLost : AlarmCode::kJobError, failure.words, 0,
-                    failure.line);
-      return stop_all(false, failure.stream);
-    }
+    case Runner::Outcome::kFailed:
+      return fail_motion();
   }
+}
+
+void Gateway::Core::fail_motion() {
+  const Runner::Failure& failure = runner_->failure();
+  position_.lose_stream();
+  if (runner_ == &print_.runner() && !failure.stream) recovery_.fail_job();
+  events_.alarm(now_, failure.stream ? AlarmCode::kStreamLost : AlarmCode::kJobError, failure.words, 0,
+                failure.line);
+  stop_all(false, failure.stream);
 }
 
 void Gateway::Core::finish_motion() {
@@ -196,7 +199,8 @@ void Gateway::Core::step_hold() {
   if (rest_.reading()) return step_standstill();
   if (!heat_hold_.is(HeatHold::Stage::kNone)) return step_heat_hold();
   // A wait between runs stands still at once; planning ahead goes on.
-  static_cast<void>(runner_->on_time(now_, options_.planning_budget));
+  const Runner::Outcome outcome = runner_->on_time(now_, options_.planning_budget);
+  if (outcome == Runner::Outcome::kFailed && runner_->cuts_thread()) return fail_motion();
   if (rest_.standing(now_)) enter(MachineState::kHeld);
 }
 
@@ -216,6 +220,7 @@ void Gateway::Core::stop_all(bool fault, bool by_absence) {
   fault_ = fault_ || fault;
   recovery_.do_not_go_on();
   give_up_probing();
+  give_up_thread();
   heat_hold_.abort();
   if (hand_.leads_to(ManualMotion::Then::kReturn) || hand_.leads_to(ManualMotion::Then::kHeld))
     hand_.forget_then();

@@ -56,6 +56,7 @@ class Heat {
 
   bool reached(const TemperatureWait& wait) const { return wait.over(devices_); }
   bool spindle_on() const { return devices_.spindle().target_rpm != 0; }
+  std::optional<SpindleAngle> spindle_angle() const { return devices_.spindle().angle; }
   bool spindle_at_speed() const { return devices_.spindle().at_speed(); }
   /// Of the first hot end, deg C; none: off.
   std::optional<double> hotend_target() const;

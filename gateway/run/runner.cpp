@@ -61,6 +61,9 @@ void Runner::begin() {
   held_ = still_ = suspended_ = started_ = finished_ = stop_asked_ = barrier_waits_ = live_ = false;
   probing_ = probe_cut_ = false;
   probe_wrong_.reset();
+  follower_.follow(0);
+  hold_waits_ = thread_over_ = false;
+  thread_lost_.reset();
   answers_.clear();
   check_.reset();
   wait_ = Wait::kNone;
@@ -148,6 +151,13 @@ void Runner::set_override(double ratio) {
 }
 
 void Runner::hold(BusTime now) {
+  if (cuts_thread())
+    hold_waits_ = true;
+  else
+    hold_at_once(now);
+}
+
+void Runner::hold_at_once(BusTime now) {
   held_ = true;
   if (feed_.streaming())
     change_rate(0, now);
@@ -170,7 +180,7 @@ void Runner::change_rate(double rate, BusTime now) {
 }
 
 void Runner::resume(BusTime now) {
-  held_ = still_ = false;
+  held_ = still_ = hold_waits_ = false;
   if (wait_ == Wait::kPause) end_wait();
   look_at_input_anew();
   last_time_ = now;  // what a hold has taken is no time of a wait
@@ -248,6 +258,7 @@ Runner::Outcome Runner::on_time(BusTime now, int budget) {
   feed_.forget_before(group_.confirmed(rate_.tau(now)) - kPlannedMemory);
   look_at_probe(now);
   if (probe_wrong_) return fail(last_line_, *std::exchange(probe_wrong_, std::nullopt), false);
+  if (thread_lost_) return fail(last_line_, *std::exchange(thread_lost_, std::nullopt), false);
   if (probe_cut_) return probe_outcome(now);
   Outcome outcome = Outcome::kBusy;
   if (!still_ && std::exchange(barrier_waits_, false)) outcome = barrier(now);
@@ -265,7 +276,7 @@ Runner::Outcome Runner::on_time(BusTime now, int budget) {
     }
     outcome = take(now, step);
   }
-  if (outcome == Outcome::kBusy) control_rate(now);
+  if (outcome == Outcome::kBusy) follower_.follows() ? follow_spindle(now) : control_rate(now);
   if (outcome == Outcome::kBusy && wait_ == Wait::kPause) return Outcome::kPaused;
   return outcome;
 }
@@ -304,6 +315,7 @@ Runner::Outcome Runner::take(BusTime now, JobPipeline::Step step) {
       return stop_asked_ ? Outcome::kEmergencyStop : Outcome::kBusy;
     case Step::kRunEnd:
       finished_ = false;
+      thread_over_ = true;
       if (feed_.streaming()) wait_ = Wait::kRunDone;
       return Outcome::kBusy;
     case Step::kBarrier:
@@ -330,14 +342,18 @@ Runner::Outcome Runner::take(BusTime now, JobPipeline::Step step) {
   return Outcome::kBusy;
 }
 
+/// Another gateway must find in the journal what path time means from here on.
+bool Runner::waits_for_journal(BusTime now) const {
+  return noted_ && !journal_.all_stored() && now - run_noted_ < kJournalPatience;
+}
+
 /// Path time runs while a run's records are in the nodes in time, and no faster than bus and override allow.
 void Runner::control_rate(BusTime now) {
   if (!feed_.streaming() || held_ || rate_.stop_latched()) return;
   const PathTime tau = rate_.tau(now);
   if (!started_) {
     if (!group_.primed(tau)) return;
-    // Another gateway must find in the journal what path time means from here on.
-    if (noted_ && !journal_.all_stored() && now - run_noted_ < kJournalPatience) return;
+    if (waits_for_journal(now)) return;
     started_ = true;
     last_rate_change_ = now;
     const double allowed = group_.allowed_rate(tau);

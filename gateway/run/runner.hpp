@@ -21,6 +21,7 @@
 #include "gateway/run/planned_pose.hpp"
 #include "gateway/run/run_feed.hpp"
 #include "gateway/run/smooth_ramp.hpp"
+#include "gateway/run/spindle_follower.hpp"
 #include "gateway/sentence.hpp"
 #include "gateway/status/event_queue.hpp"
 #include "gateway/stream/path_rate.hpp"
@@ -90,6 +91,10 @@ class Runner {
   };
   std::vector<Answer> take_answers() { return std::exchange(answers_, {}); }
 
+  // Threads.
+  /// The tool goes with the spindle: a hold waits for the end of the pass, and a stop ends the job.
+  bool cuts_thread() const;
+
   // Interruption: the stream is lost, the job is not.
   /// What the job has left from path time `tau` on is kept; nothing happens until go_on().
   void suspend(PathTime tau);
@@ -117,11 +122,12 @@ class Runner {
   Outcome on_time(BusTime now, int budget);
   const Failure& failure() const { return failure_; }
 
-  /// Feed hold: the rate goes to 0 and the waits between runs stand still.
+  /// Feed hold: the rate goes to 0, in a thread behind the pass, and the waits between runs stand still.
   void hold(BusTime now);
+  void hold_at_once(BusTime now);  ///< in a thread, too
   /// The same, and what the job commands besides motion waits for go_on(), too.
   void hold_still(BusTime now) {
-    hold(now);
+    hold_at_once(now);
     keep_still();
   }
   /// The move under way goes on, and nothing else is commanded until go_on().
@@ -181,6 +187,7 @@ class Runner {
   bool waits(const canonical::Line& line) const;
   void end_wait();
   void control_rate(BusTime now);
+  bool waits_for_journal(BusTime now) const;
   /// In motion, as gently as the joints have to be treated.
   void change_rate(double rate, BusTime now);
   void settle_when_late(BusTime now);
@@ -205,6 +212,10 @@ class Runner {
   void look_at_input_anew();
   bool input_has_come(BusTime now);
   void end_input(double value);
+  // runner_thread.cpp
+  void begin_thread(const canonical::SpindleSync& sync);
+  bool is_within_thread() const;
+  void follow_spindle(BusTime now);
   // runner_levelling.cpp
   Outcome level(BusTime now, const canonical::Mesh& mesh, std::uint32_t line);
   void learn(journal::Learned learned);
@@ -228,6 +239,11 @@ class Runner {
   JobPipeline pipeline_;
   RunFeed feed_;
   SmoothRamp smooth_ramp_;
+  SpindleFollower follower_;
+  std::uint64_t thread_from_ = 0;  ///< the pass's first phase
+  bool thread_over_ = false;       ///< its last one came from the pipeline
+  bool hold_waits_ = false;        ///< for its end
+  std::optional<Sentence> thread_lost_;
   std::unique_ptr<ByteSource> source_;
   Pose start_{};
 

@@ -2,6 +2,7 @@
 // the operator. Commands take effect when path time has passed the phase before them.
 
 #include <algorithm>
+#include <utility>
 
 #include "gateway/jobs/machine_setup.hpp"
 #include "gateway/run/runner.hpp"
@@ -16,6 +17,7 @@ bool Runner::wait_is_over(BusTime now) {
       feed_.end_run();
       execute_due(now);
       rate_.request(0, kRampAtRest, now, false);
+      if (std::exchange(hold_waits_, false)) held_ = true;
       wait_ = Wait::kRest;
       return wait_is_over(now);
     case Wait::kRest:
@@ -142,6 +144,8 @@ Runner::Outcome Runner::barrier(BusTime now) {
       wait_ = Wait::kSpindle;
       doing_ = say("waiting for the spindle");
     }
+  } else if (const auto* sync = std::get_if<canonical::SpindleSync>(&line.command)) {
+    begin_thread(*sync);
   } else if (std::holds_alternative<canonical::Probe>(line.command)) {
     begin_probe();
   } else if (const auto* pin = std::get_if<canonical::ProbePin>(&line.command)) {

@@ -29,10 +29,11 @@ void Runner::suspend(PathTime tau) {
 }
 
 void Runner::go_on(BusTime now) {
-  suspended_ = held_ = still_ = false;
+  suspended_ = held_ = still_ = hold_waits_ = false;
   if (wait_ == Wait::kPause) end_wait();
   look_at_input_anew();
-  feed_.go_on(to_seconds(BusTime{machine_.stop.hold_ramp}));
+  // A pass of a thread is the plan from its very beginning.
+  feed_.go_on(follower_.follows() ? 0 : to_seconds(BusTime{machine_.stop.hold_ramp}));
   heating_.restart();
   doing_ = say("moving");
   last_time_ = now;
@@ -92,6 +93,8 @@ Runner::Outcome Runner::replay(int budget) {
         break;
       case Step::kBarrier:
         last_line_ = pipeline_.command().line;
+        if (const auto* sync = std::get_if<canonical::SpindleSync>(&pipeline_.command().command))
+          begin_thread(*sync);
         if (const auto what = learns(pipeline_.command().command)) {
           if (replay_learned(*what)) break;
           // The place is before it: it is done, or done again.
@@ -112,14 +115,19 @@ Runner::Outcome Runner::replay(int budget) {
         break;
       case Step::kProblem:
         return fail(pipeline_.problem().line, pipeline_.problem().words, false);
+      case Step::kRunEnd:
+        thread_over_ = true;
+        break;
       case Step::kEvent:  // what it set is in the journal
       case Step::kMelt:   // heaters are as hot as they were before it goes on
-      case Step::kRunEnd:
       case Step::kProbed:
       case Step::kStarved:
         break;
     }
   }
+  if (is_within_thread())
+    return fail(last_line_, say("the job ends: it was stopped in a thread, which has to be cut in one go"),
+                false);
   suspended_ = true;
   doing_ = say("interrupted");
   return Outcome::kDone;

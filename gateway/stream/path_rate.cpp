@@ -66,6 +66,12 @@ void PathRate::request(double rate, std::chrono::milliseconds full_ramp, BusTime
           hurry && !clock_.at_rest(now) ? options_.lead : options_.start_lead, now);
 }
 
+void PathRate::begin_at(double rate, BusTime start, BusTime now) {
+  constexpr std::chrono::milliseconds kShortest{2};
+  request({.kind = RateCommand::Kind::kRate, .rate_q15 = q15(rate), .full_ramp_2ms = ramp_2ms(kShortest)},
+          std::max(start - now, options_.lead), now);
+}
+
 /// Finding the ramp takes some of it.
 BusTime PathRate::smooth_lead(BusTime now) const {
   return clock_.at_rest(now) ? options_.start_lead : 2 * options_.lead;

@@ -44,6 +44,10 @@ class PathRate {
   /// target already, or while a stop is latched.
   /// `hurry`: false where no joint moves, and so nobody minds a start that is farther ahead.
   void request(double rate, std::chrono::milliseconds full_ramp, BusTime now, bool hurry = true);
+  /// From rest, at `start` or as soon after it as a command can be in time, along the shortest ramp.
+  void begin_at(double rate, BusTime start, BusTime now);
+  /// How far ahead of a start all nodes have heard of it.
+  BusTime start_lead() const { return options_.start_lead; }
   /// The same, along a smooth ramp that takes twice `full_ramp` whatever the change is; named twice as far
   /// ahead.
   void request_smooth(double rate, std::chrono::milliseconds full_ramp, BusTime now);

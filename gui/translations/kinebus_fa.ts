@@ -3325,6 +3325,90 @@
         <translation>برای %1 اسپیندل باید بچرخد (%2)</translation>
     </message>
     <message>
+        <source>the tip of a lathe&apos;s tool counts by its centre: L is 0 or 9</source>
+        <translation>نوک ابزار تراش با مرکز آن حساب می‌شود: L برابر 0 یا 9 است</translation>
+    </message>
+    <message>
+        <source>%1 needs a spindle of even speed: G97 first</source>
+        <translation>%1 به اسپیندل با سرعت یکنواخت نیاز دارد: نخست G97</translation>
+    </message>
+    <message>
+        <source>G33 needs K, the way of a turn</source>
+        <translation>G33 به K، راه یک دور، نیاز دارد</translation>
+    </message>
+    <message>
+        <source>the way of a turn K must be greater than 0</source>
+        <translation>راه یک دور K باید بزرگ‌تر از 0 باشد</translation>
+    </message>
+    <message>
+        <source>%1 has no place in a thread</source>
+        <translation>%1 در رزوه جایی ندارد</translation>
+    </message>
+    <message>
+        <source>G33 needs X, Y or Z, where the thread ends</source>
+        <translation>G33 به X یا Y یا Z، جایی که رزوه پایان می‌یابد، نیاز دارد</translation>
+    </message>
+    <message>
+        <source>G76 needs %1 as P Z I J K: pitch, end, crest, first cut, height of the thread</source>
+        <translation>G76 به %1 نیاز دارد (P Z I J K): گام، پایان، سر دندانه، برش نخست، بلندی رزوه</translation>
+    </message>
+    <message>
+        <source>%1 must be greater than 0</source>
+        <translation>%1 باید بزرگ‌تر از 0 باشد</translation>
+    </message>
+    <message>
+        <source>I of G76 says on which side the thread is: below 0 outside, above 0 inside</source>
+        <translation>I در G76 می‌گوید رزوه در کدام سو است: زیر 0 بیرونی، بالای 0 درونی</translation>
+    </message>
+    <message>
+        <source>R of G76 is at least 1</source>
+        <translation>R در G76 دست‌کم 1 است</translation>
+    </message>
+    <message>
+        <source>Q of G76 is 0 to %1 degrees</source>
+        <translation>Q در G76 از 0 تا %1 درجه است</translation>
+    </message>
+    <message>
+        <source>L of G76 needs E, how long a taper is</source>
+        <translation>L در G76 به E، درازای شیب، نیاز دارد</translation>
+    </message>
+    <message>
+        <source>the first cut J is far too small for this thread</source>
+        <translation>برش نخست J برای این رزوه بسیار کوچک است</translation>
+    </message>
+    <message>
+        <source>the thread of G76 has no length from here to Z</source>
+        <translation>رزوهٔ G76 از اینجا تا Z درازایی ندارد</translation>
+    </message>
+    <message>
+        <source>%1 reverses with the spindle in the hole, which path time cannot: use G84 or G74 with a floating holder</source>
+        <translation>%1 در سوراخ همراه اسپیندل برمی‌گردد و زمان مسیر چنین نمی‌تواند: G84 یا G74 را با نگهدارندهٔ شناور به کار ببرید</translation>
+    </message>
+    <message>
+        <source>a thread belongs to a job: it cannot wait for lines</source>
+        <translation>رزوه از آن یک کار است: نمی‌تواند چشم به راه خط‌ها بماند</translation>
+    </message>
+    <message>
+        <source>the thread needs %1 at %2 rpm, a tenth more than S, and the plan reaches %3: a slower spindle, or more way before and behind the thread</source>
+        <translation>رزوه در %2 دور بر دقیقه، یک‌دهم بیش از S، به %1 نیاز دارد و برنامه به %3 می‌رسد: اسپیندل کندتر، یا راه بیشتر پیش و پس از رزوه</translation>
+    </message>
+    <message>
+        <source>the thread needs %1 at %2 rpm, a tenth more than S, and a limit slows the plan on the way: a slower spindle</source>
+        <translation>رزوه در %2 دور بر دقیقه، یک‌دهم بیش از S، به %1 نیاز دارد و یک حد برنامه را در راه کند می‌کند: اسپیندل کندتر</translation>
+    </message>
+    <message>
+        <source>the tool is in a thread: resume or cancel first</source>
+        <translation>ابزار درون رزوه است: نخست ادامه دهید یا لغو کنید</translation>
+    </message>
+    <message>
+        <source>the job ends: it was stopped in a thread, which has to be cut in one go</source>
+        <translation>کار پایان می‌یابد: درون رزوه‌ای متوقف شد که باید یک‌باره تراشیده شود</translation>
+    </message>
+    <message>
+        <source>the thread is lost: the tool is %1 turns from the spindle&apos;s angle; a spindle may be a tenth faster than S</source>
+        <translation>رزوه از دست رفت: ابزار %1 دور از زاویهٔ اسپیندل دور است؛ اسپیندل می‌تواند تا یک‌دهم تندتر از S باشد</translation>
+    </message>
+    <message>
         <source>the bottom of the hole lies above R: %1 goes from R down</source>
         <translation>ته سوراخ بالای R است: %1 از R پایین می‌رود</translation>
     </message>

@@ -3325,6 +3325,90 @@
         <translation>%1 için iş mili dönmeli (%2)</translation>
     </message>
     <message>
+        <source>the tip of a lathe&apos;s tool counts by its centre: L is 0 or 9</source>
+        <translation>torna takımının ucu merkeziyle sayılır: L 0 ya da 9 olur</translation>
+    </message>
+    <message>
+        <source>%1 needs a spindle of even speed: G97 first</source>
+        <translation>%1 için iş mili sabit hızda dönmeli: önce G97</translation>
+    </message>
+    <message>
+        <source>G33 needs K, the way of a turn</source>
+        <translation>G33 için K, bir dönüşün yolu, gerekir</translation>
+    </message>
+    <message>
+        <source>the way of a turn K must be greater than 0</source>
+        <translation>bir dönüşün yolu K 0&apos;dan büyük olmalı</translation>
+    </message>
+    <message>
+        <source>%1 has no place in a thread</source>
+        <translation>%1 bir dişte yer alamaz</translation>
+    </message>
+    <message>
+        <source>G33 needs X, Y or Z, where the thread ends</source>
+        <translation>G33 için dişin bittiği X, Y ya da Z gerekir</translation>
+    </message>
+    <message>
+        <source>G76 needs %1 as P Z I J K: pitch, end, crest, first cut, height of the thread</source>
+        <translation>G76 için %1 gerekir (P Z I J K): hatve, son, diş tepesi, ilk paso, diş yüksekliği</translation>
+    </message>
+    <message>
+        <source>%1 must be greater than 0</source>
+        <translation>%1 0&apos;dan büyük olmalı</translation>
+    </message>
+    <message>
+        <source>I of G76 says on which side the thread is: below 0 outside, above 0 inside</source>
+        <translation>G76&apos;nın I değeri dişin hangi yanda olduğunu söyler: 0&apos;ın altı dış, 0&apos;ın üstü iç</translation>
+    </message>
+    <message>
+        <source>R of G76 is at least 1</source>
+        <translation>G76&apos;nın R değeri en az 1 olur</translation>
+    </message>
+    <message>
+        <source>Q of G76 is 0 to %1 degrees</source>
+        <translation>G76&apos;nın Q değeri 0 ile %1 derece arasındadır</translation>
+    </message>
+    <message>
+        <source>L of G76 needs E, how long a taper is</source>
+        <translation>G76&apos;nın L değeri için konik kısmın boyu E gerekir</translation>
+    </message>
+    <message>
+        <source>the first cut J is far too small for this thread</source>
+        <translation>ilk paso J bu diş için çok küçük</translation>
+    </message>
+    <message>
+        <source>the thread of G76 has no length from here to Z</source>
+        <translation>G76&apos;nın dişi buradan Z&apos;ye uzunluk bırakmıyor</translation>
+    </message>
+    <message>
+        <source>%1 reverses with the spindle in the hole, which path time cannot: use G84 or G74 with a floating holder</source>
+        <translation>%1 delikte iş mili ile geri döner; yol zamanı bunu yapamaz: esnek tutucuyla G84 ya da G74 kullanın</translation>
+    </message>
+    <message>
+        <source>a thread belongs to a job: it cannot wait for lines</source>
+        <translation>diş bir işe aittir: satırları bekleyemez</translation>
+    </message>
+    <message>
+        <source>the thread needs %1 at %2 rpm, a tenth more than S, and the plan reaches %3: a slower spindle, or more way before and behind the thread</source>
+        <translation>diş için S&apos;den onda bir fazla olan %2 dev/dk&apos;da %1 gerekir, plan ise %3 hıza ulaşıyor: iş mili daha yavaş dönsün ya da dişin önünde ve arkasında daha çok yol olsun</translation>
+    </message>
+    <message>
+        <source>the thread needs %1 at %2 rpm, a tenth more than S, and a limit slows the plan on the way: a slower spindle</source>
+        <translation>diş için S&apos;den onda bir fazla olan %2 dev/dk&apos;da %1 gerekir, bir sınır ise planı yolda yavaşlatıyor: iş mili daha yavaş dönsün</translation>
+    </message>
+    <message>
+        <source>the tool is in a thread: resume or cancel first</source>
+        <translation>takım bir dişin içinde: önce sürdürün ya da iptal edin</translation>
+    </message>
+    <message>
+        <source>the job ends: it was stopped in a thread, which has to be cut in one go</source>
+        <translation>iş bitiyor: tek seferde açılması gereken bir dişin içinde durduruldu</translation>
+    </message>
+    <message>
+        <source>the thread is lost: the tool is %1 turns from the spindle&apos;s angle; a spindle may be a tenth faster than S</source>
+        <translation>diş bozuldu: takım iş milinin açısından %1 dönüş uzakta; iş mili S&apos;den en çok onda bir hızlı olabilir</translation>
+    </message>
+    <message>
         <source>the bottom of the hole lies above R: %1 goes from R down</source>
         <translation>deliğin dibi R&apos;nin üstünde: %1 R&apos;den aşağı gider</translation>
     </message>

@@ -13,9 +13,9 @@ namespace {
 
 constexpr int kNoteForG = 100000;  // keys of notes: tenths of G numbers above this
 
-/// Calibration and its like on printers; on mills pockets and threads, which are not left out in silence.
+/// Calibration and its like on printers; on mills pockets, which are not left out in silence.
 bool moves_on_mills(int g_tenths) {
-  return g_tenths == 120 || g_tenths == 320 || g_tenths == 330 || g_tenths == 340;
+  return g_tenths == 120 || g_tenths == 320 || g_tenths == 340;
 }
 
 }  // namespace
@@ -65,6 +65,10 @@ bool Core::run_block() {
     return false;
   const bool has_content = block_.groups != 0 || block_.m_count != 0 || block_.present != 0;
   if (has_content) state_.modal.content_seen = true;
+  // A thread goes on in the next line with nothing but G33.
+  const bool goes_on = block_.has(GGroup::kMotion) && block_.code(GGroup::kMotion).number == kThread &&
+                       block_.m_count == 0 && !has('S');
+  if ((has_content || !block_.command.empty()) && !goes_on) end_thread();
   for (const std::string_view text : block_.messages) emit(canonical::Message{std::string(text)});
   if (!block_.command.empty() && !run_command()) return false;
   if (options_.spindle && moves_on_mills(block_.harmless_g)) return fail(1, unknown_g(block_.harmless_g));
@@ -88,6 +92,7 @@ bool Core::run_block() {
   for (int i = 0; i < block_.m_count; ++i)
     if (ends_program(block_.m[static_cast<std::size_t>(i)]) && !cutter_off()) return false;
   if (!compensate()) return false;
+  if (profile_.at_work && !take_profile()) return false;
   // Last of what can be refused, so that a refused line assigns nothing.
   if (!assign_parameters()) return false;
   return run_stop() && compensate();

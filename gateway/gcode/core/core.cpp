@@ -30,6 +30,7 @@ Core::Core(Options options) : options_(std::move(options)) {
   m.recover_extra_mm = options_.recover_extra_mm;
   m.recover_mm_per_s = options_.recover_mm_per_s;
   m.coordinate_offsets = options_.work_offsets;
+  m.threads = options_.spindle;
   m.tools = options_.tools, m.hotends = options_.hotends;
   set_dialect(options_.dialect);
   m.e_canonical_base_mm = m.position[kAxisE];
@@ -76,7 +77,7 @@ bool Core::execute(std::string_view line, std::uint32_t line_number, CommandBuff
     return true;
   if (block_.is_plain() && !announce_ && !state_.modal.away && !state_.modal.ended &&
       state_.modal.cutter == CutterSide::kOff && state_.modal.nurbs == 0 && !state_.modal.surface_speed &&
-      (block_.present & ~kStraightWords) == 0 && block_.present != 0) {
+      state_.modal.thread_mm == 0 && (block_.present & ~kStraightWords) == 0 && block_.present != 0) {
     const int g = block_.has(GGroup::kMotion) ? block_.code(GGroup::kMotion).number : -1;
     const Motion motion = g == 10  ? Motion::kFeed
                           : g == 0 ? Motion::kTraverse
@@ -126,6 +127,7 @@ void Core::begin_program() {
   m.tool_length_mm = 0;
   m.tool_xy_mm = {};
   m.spindle_turns = m.cycle = 0;
+  m.thread_mm = 0;
   m.surface_speed = false;
   m.object = -1;
   m.left_out = false;

@@ -80,6 +80,8 @@ class Core {
     Turning turning;
     Point2 start{}, here{};  ///< Z and X, canonical
     std::vector<Curve> moves;
+    bool at_work = false;  ///< one of its lines is
+    std::size_t from = 0;  ///< where the output of that line begins
   };
   struct FeedRate {
     bool known = false;
@@ -156,10 +158,21 @@ class Core {
   bool drill(std::size_t w, double r, double bottom, double clear);
   bool cycle_move(const Vector3& program, bool traverse);
 
+  // threading_codes.cpp
+  struct ThreadCycle;
+  bool may_thread(Code code, const std::string& name);
+  bool thread(Code code);
+  bool threading_cycle(Code code);
+  bool thread_words(Code code, ThreadCycle& cycle);
+  bool thread_pass(const ThreadCycle& cycle, const Vector3& start, double depth);
+  bool thread_move(const Vector3& program, double pitch_mm);
+  void begin_thread(double pitch_mm);
+  void end_thread();  ///< of G33, where one is under way
+
   // turning_codes.cpp
   bool begin_turning(Code code);
   bool turning_words(Code code, Turning& turning);
-  bool take_profile(std::size_t from, CommandBuffer& out);
+  bool take_profile();
 
   // probing.cpp
   bool probe(Code code);

@@ -29,6 +29,10 @@ bool Core::cutter_on(Code code) {
   if (code.number == 411 || code.number == 421) {
     if (!has('D')) return fail(code.column, say("%1 needs D, the tool's diameter", g_name(code.number)));
     if (!take('D', diameter)) return false;
+    int tip = 0;
+    if (!take_integer('L', 0, 9, tip)) return false;
+    if (tip % 9 != 0)
+      return fail(block_.column_of('L'), say("the tip of a lathe's tool counts by its centre: L is 0 or 9"));
     diameter = length(diameter);
   } else {
     int tool = m.tool_in_spindle >= 0 ? m.tool_in_spindle : m.tool;

@@ -62,6 +62,8 @@ bool Core::run_motion() {
   if (block_.has(GGroup::kMotion)) {
     const Code code = block_.code(GGroup::kMotion);
     m.motion = motion_of(code.number);
+    if (machine_coordinates && (code.number == kThread || code.number == kThreadingCycle))
+      return fail(block_.code(GGroup::kNonmodal).column, say("G53 needs G0 or G1, in this line or active"));
     if (code.number == 52 || code.number == 53 || code.number == 62) return run_nurbs();
     if (code.number == 50 || code.number == 51) {
       if (m.cutter != CutterSide::kOff) return refuse_beside_cutter(code, g_name(code.number));
@@ -69,6 +71,8 @@ bool Core::run_motion() {
       m.spline = spline_before;
       return run_spline(code);
     }
+    if (code.number == kThread) return thread(code);
+    if (code.number == kThreadingCycle) return threading_cycle(code);
     if (code.number >= 700 && code.number < 730) return begin_turning(code);
     if (code.number < 730 || code.number == 800) m.cycle = 0;
     if (code.number >= 380 && code.number < 390)

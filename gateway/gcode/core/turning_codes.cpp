@@ -49,7 +49,7 @@ bool Core::begin_turning(Code code) {
   call_ = {};
   call_.what = ProgramCall::What::kProfile;
   call_.column = code.column;
-  Profile profile{true, code.column, line_, m, m, {}, {}, {}, {}};
+  Profile profile{true, code.column, line_, m, m, {}, {}, {}, {}, false, 0};
   if (!take_integer('Q', 0, 999'999'999, call_.number) || !turning_words(code, profile.turning)) return false;
   Vector3 start = xyz(m.program);
   for (const std::size_t axis : {kAxisX, kAxisZ}) {
@@ -68,8 +68,13 @@ bool Core::begin_turning(Code code) {
   return true;
 }
 
-/// Moves that the profile's lines have given out since `from` are its own.
-bool Core::take_profile(std::size_t from, CommandBuffer& out) {
+/// Moves that the profile's line has given out are its own.
+bool Core::take_profile() {
+  const std::size_t from = profile_.from;
+  CommandBuffer& out = *out_;
+  for (int i = 0; i < block_.m_count; ++i)
+    if (m_group(block_.m[static_cast<std::size_t>(i)].number) == MGroup::kStop)
+      return fail(1, say("only G0 to G3 can stand in the profile of a cycle"));
   const auto add = [this](const Pose& target, Curve curve) {
     const Pose& start = profile_.after.position;
     if (std::abs(target[kAxisY] - start[kAxisY]) > kNoMotion)
@@ -112,8 +117,10 @@ bool Core::execute_in_profile(std::string_view line, std::uint32_t line_number, 
   const ModalState before = state_.modal;
   const std::size_t from = out.size(), moves = profile_.moves.size();
   const Point2 here = profile_.here;
-  if (!execute(line, line_number, out)) return false;
-  if (take_profile(from, out)) return true;
+  profile_.from = from;
+  profile_.at_work = true;
+  // A plain line assigns nothing: what it gives out is taken here, that of others before they assign.
+  if (execute(line, line_number, out) && take_profile()) return true;
   state_.modal = before;
   follow_dialect();
   refresh_shift();

@@ -25,7 +25,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   gcode::Options options;
   options.tool_length_mm = {5};
   options.tool_diameter_mm = {3};
-  options.spindle = (data[0] & 4U) != 0;
+  options.spindle = options.spindle_encoder = (data[0] & 4U) != 0;
   options.most_recorded_steps = 20'000;
   options.dialect = static_cast<gcode::Dialect>((data[0] >> 3U) % gcode::dialects().size());
   options.macros = {

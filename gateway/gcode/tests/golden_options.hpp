@@ -9,8 +9,8 @@ namespace kinebus::gcode {
 
 /// Home 200 mm above the table, one spare tool of 12.5 mm, 6 mm wide. A file changes it with "options: word
 /// word" anywhere in its text: block_delete, dwell_seconds, traverse_uses_feed, default_feed, two_tools,
-/// five_tools, spindle, probe, dialect=NAME, macros (prime LENGTH=, square with an argument by number, wipe,
-/// wrong), linuxcnc, printer (macros that profiles of printers call).
+/// five_tools, spindle, encoder (on the spindle), probe, dialect=NAME, macros (prime LENGTH=, square with an
+/// argument by number, wipe, wrong), linuxcnc, printer (macros that profiles of printers call).
 inline Options golden_options(std::string_view text) {
   Options options;
   options.home = {0, 0, 200, 0, 0, 0};
@@ -34,6 +34,7 @@ inline Options golden_options(std::string_view text) {
   if (says("probe")) options.probe = ProbeFitted::kFitted;
   options.probe_pin = says("probe_pin");
   options.spindle = says("spindle");
+  options.spindle_encoder = says("encoder");
   if (options.spindle) options.tools = 100'000;
   if (says("macros"))
     options.macros = {{"prime",
@@ -57,7 +58,7 @@ inline Options golden_options(std::string_view text) {
                       {"wrong", "if true\n  G1 X{var.none}\n"}};
   if (says("linuxcnc")) {  // as tests/linuxcnc_corpus has its peer: T7 is 0.7 mm long and 0.35 mm wide
     options.dialect = Dialect::kLinuxCnc;
-    options.spindle = true;
+    options.spindle = options.spindle_encoder = true;
     options.tools = 100'000;
     options.probe = ProbeFitted::kFitted;
     options.probe_mm_per_s = 1e6;

@@ -9,6 +9,9 @@
 #include <numbers>
 #include <random>
 
+#include "gateway/gcode/programs/job_reader.hpp"
+#include "gateway/gcode/tests/golden_options.hpp"
+
 namespace kinebus::gcode {
 namespace {
 
@@ -250,6 +253,19 @@ TEST(Turning, FinishingKeepsItsDistanceInEachPass) {
   EXPECT_NEAR(heights[0], 0.75, 1e-9);
   EXPECT_NEAR(heights[1], 0.5, 1e-9);
   EXPECT_NEAR(heights[2], 0.25, 1e-9);
+}
+
+TEST(Turning, ARefusedLineOfTheProfileAssignsNothing) {
+  for (const char* wrong : {"#100=3 G1 X4 Y5", "#100=3 G4 P1", "#100=3 M0"}) {
+    Interpreter interpreter(golden_options("options: spindle"));
+    JobReader reader(interpreter);
+    CommandBuffer commands;
+    std::string text = "G18 F100\nG0 X10 Z1\no1 sub\nG0 X5\n#101=2 G1 Z-3\n";
+    text.append(wrong).append("\no1 endsub\nG71 Q1 X10 Z1 I1\n");
+    EXPECT_FALSE(reader.read(text, commands)) << wrong;
+    EXPECT_EQ(interpreter.state().parameters.numbered[101], 2) << wrong;
+    EXPECT_EQ(interpreter.state().parameters.numbered[100], 0) << wrong;
+  }
 }
 
 }  // namespace

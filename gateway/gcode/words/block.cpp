@@ -9,6 +9,7 @@ namespace kinebus::gcode {
 namespace {
 
 constexpr double kLargestWord = 1e9;
+constexpr int kRadiusMode = 80;           // G8
 constexpr double kWholeTolerance = 1e-4;  // RS274/NGC: how near a computed number must be to the code's
 
 bool is_letter(char c) {
@@ -245,11 +246,17 @@ class BlockReader {
     if (!(tenths >= 0 && tenths < 10000) || std::abs(value * 10 - tenths) > kWholeTolerance)
       return fail(column, say("G codes are 0 to 999.9 with one decimal place at most"));
     const int number = static_cast<int>(tenths);
-    const GGroup group = g_group(number);
+    GGroup group = g_group(number);
+    if (number == kThread || number == kThreadingCycle) [[unlikely]]
+      group = state_.modal.threads ? GGroup::kMotion
+              : number == kThread  ? GGroup::kHarmless
+                                   : GGroup::kUnknown;
     if (group >= GGroup::kUnknown) {
       if (group == GGroup::kUnknown) return fail(column, unknown_g(number));
       block_.harmless_g = number;
-      return take_text();
+      block_.plain = false;
+      // A mode of lathes, not a code with words of its own.
+      return number == kRadiusMode || take_text();
     }
     if (block_.has(group)) {
       const Code other = block_.code(group);
@@ -275,7 +282,8 @@ class BlockReader {
     if (group == MGroup::kUnknown) return fail(column, unknown_m(code.number));
     for (int i = 0; i < block_.m_count; ++i) {
       const Code other = block_.m[static_cast<std::size_t>(i)];
-      if (other.number == code.number || (group != MGroup::kOther && m_group(other.number) == group))
+      if (other.number == code.number ||
+          (group != MGroup::kOther && group != MGroup::kHarmless && m_group(other.number) == group))
         return fail(column, say("%1 and M%2 (column %3) exclude one another: only one can stand in a line",
                                 m_name(code.number), other.number, other.column));
     }

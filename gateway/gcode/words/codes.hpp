@@ -12,6 +12,9 @@
 
 namespace kinebus::gcode {
 
+/// Threads, in tenths, on a machine with a spindle; to printers G33 calibrates, and G76 is unknown.
+inline constexpr int kThread = 330, kThreadingCycle = 760;
+
 /// G codes of one group exclude one another in a line.
 enum class GGroup : std::uint8_t {
   kMotion,
@@ -47,7 +50,7 @@ enum class MGroup : std::uint8_t {
   kSettings,
   kQuery,
   kOther,     ///< each excludes only itself
-  kHarmless,  ///< known elsewhere, without effect here
+  kHarmless,  ///< known elsewhere, without effect here; several in a line, too
   kUnknown
 };
 

@@ -56,9 +56,11 @@ struct ModalState {
   bool surface_speed = false;                   ///< G96
   bool content_seen = false;                    ///< a block came before: a % now is the closing one
   bool merge_lines = true;                      ///< not G64 Q0
+  bool threads = false;                         ///< the machine has a spindle: G33 is a thread
   bool a_extrudes = false;                      ///< A of this text is E (Mach3, Machinekit)
   int spindle_turns = 0;                        ///< M3 1, M4 -1, M5 0
   int tool = 0;
+  double thread_mm = 0;                  ///< K of the G33 under way; 0: none is
   double spindle_rpm = 0;                ///< the last S, or what G96 has made of it
   double surface_m_per_min = 0;          ///< the last S under G96
   double surface_most_rpm = 0;           ///< D of G96; 0: the spindle's own limit

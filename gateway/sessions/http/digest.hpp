@@ -1,6 +1,6 @@
 #pragma once
-// HTTP Digest (RFC 7616) with MD5 and qop=auth, as PrusaLink's clients have it: the key is the password of whatever name, and
-// does not go over the wire.
+// HTTP Digest (RFC 7616) with MD5 and qop=auth, as PrusaLink's clients have it: the key is the password of
+// whatever name, and does not go over the wire.
 
 #include <chrono>
 #include <cstdint>
@@ -19,7 +19,8 @@ class Digest {
   static constexpr std::size_t kMostNonces = 200;  ///< the oldest goes for a new one
 
   enum class Shown : std::uint8_t { kNothing, kKey, kWrong, kStale };
-  /// What a request with this head shows. kStale: right, but for its nonce, which is too old or was used already.
+  /// What a request with this head shows. kStale: right, but for its nonce, which is too old or was used
+  /// already.
   Shown shown(const Head& head, std::string_view key, LocalTime now);
   /// The value of WWW-Authenticate.
   std::string challenge(LocalTime now, bool stale);

@@ -13,8 +13,9 @@ std::string LoginSessions::begin(LocalTime now) {
 }
 
 bool LoginSessions::knows(std::string_view session, LocalTime now) const {
-  return std::any_of(logins_.begin(), logins_.end(),
-                     [&](const Login& login) { return now < login.until && same_key(login.session, session); });
+  return std::any_of(logins_.begin(), logins_.end(), [&](const Login& login) {
+    return now < login.until && same_key(login.session, session);
+  });
 }
 
 }  // namespace kinebus::http

@@ -159,9 +159,7 @@ class OctoPrintDialect : public Dialect {
   }
 
   void tell(const char* type, Json payload) { say(text_of(Json::object({{type, std::move(payload)}}))); }
-  void say(const std::string& text) {
-    socket_.say(in_sockjs_ ? "a" + text_of(Json::array({text})) : text);
-  }
+  void say(const std::string& text) { socket_.say(in_sockjs_ ? "a" + text_of(Json::array({text})) : text); }
 
   Socket& socket_;
   bool in_sockjs_;

@@ -111,13 +111,11 @@ Json octoprint_job_json(const joblink::Status& status, const std::string& select
                 {"printTime", static_cast<std::int64_t>(status.elapsed_s())},
                 {"printTimeLeft", static_cast<std::int64_t>(status.remaining_s())},
                 {"printTimeLeftOrigin", "estimate"}};
-  return {{"job",
-           {{"file", file},
-            {"estimatedPrintTime", estimate},
-            {"lastPrintTime", nullptr},
-            {"filament", nullptr}}},
-          {"progress", progress},
-          {"state", octoprint_state(status)}};
+  return {
+      {"job",
+       {{"file", file}, {"estimatedPrintTime", estimate}, {"lastPrintTime", nullptr}, {"filament", nullptr}}},
+      {"progress", progress},
+      {"state", octoprint_state(status)}};
 }
 
 }  // namespace kinebus::http

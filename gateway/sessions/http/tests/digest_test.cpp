@@ -14,12 +14,14 @@ namespace {
 using namespace std::chrono_literals;
 
 TEST(Authorization, ParametersAreReadAsTheyAreWritten) {
-  const auto read = authorization_parameters(R"(digest  UserName="a \"b\", c" ,nc=00000001, qop=auth,x="")", "Digest");
+  const auto read =
+      authorization_parameters(R"(digest  UserName="a \"b\", c" ,nc=00000001, qop=auth,x="")", "Digest");
   ASSERT_TRUE(read);
   EXPECT_EQ(*read, (std::map<std::string, std::string>{
                        {"username", "a \"b\", c"}, {"nc", "00000001"}, {"qop", "auth"}, {"x", ""}}));
-  for (const char* bad : {"", "Bearer a=1", "Digest", "Digest a", "Digest =1", "Digest a=1 b=2", "Digest a=\"1",
-                          "Digest a=\"\\", "Digest a=1,a=2", "Digest a=1,,b=2", "Digest \"a\"=1"})
+  for (const char* bad :
+       {"", "Bearer a=1", "Digest", "Digest a", "Digest =1", "Digest a=1 b=2", "Digest a=\"1",
+        "Digest a=\"\\", "Digest a=1,a=2", "Digest a=1,,b=2", "Digest \"a\"=1"})
     EXPECT_TRUE(std::string(bad) == "Digest" ? authorization_parameters(bad, "Digest")->empty()
                                              : !authorization_parameters(bad, "Digest"))
         << bad;
@@ -37,10 +39,11 @@ struct Client {
   std::string nonce{}, user = "maker", password = kKey, realm = "Printer API", qop = "auth";
 
   std::string field(const std::string& method, const std::string& path, const std::string& count) const {
-    const std::string response = md5(md5(user + ":" + realm + ":" + password) + ":" + nonce + ":" + count + ":abc:" + qop +
-                                     ":" + md5(method + ":" + path));
-    return "Authorization: Digest username=\"" + user + "\", realm=\"" + realm + "\", nonce=\"" + nonce + "\", uri=\"" +
-           path + "\", cnonce=\"abc\", nc=" + count + ", qop=" + qop + ", response=\"" + response + "\"\r\n";
+    const std::string response = md5(md5(user + ":" + realm + ":" + password) + ":" + nonce + ":" + count +
+                                     ":abc:" + qop + ":" + md5(method + ":" + path));
+    return "Authorization: Digest username=\"" + user + "\", realm=\"" + realm + "\", nonce=\"" + nonce +
+           "\", uri=\"" + path + "\", cnonce=\"abc\", nc=" + count + ", qop=" + qop + ", response=\"" +
+           response + "\"\r\n";
   }
   Response ask(const std::string& fields, const std::string& path = "/api/version") const {
     return rig.ask("GET " + path + " HTTP/1.1\r\nHost: localhost\r\n" + fields + "\r\n");
@@ -89,11 +92,12 @@ TEST(Digest, WhatIsWrongIsNotLetIn) {
   EXPECT_EQ(with([](Client& c) { c.realm = "kinebus"; }).status, 401);
   EXPECT_EQ(with([](Client& c) { c.qop = "auth-int"; }).status, 401);
   EXPECT_EQ(with([](Client& c) { c.nonce = "0"; }).status, 401);
-  for (const char* field :
-       {"Authorization: Digest\r\n", "Authorization: Digest response=\"\"\r\n", "Authorization: Basic a2luZTpidXM=\r\n"})
+  for (const char* field : {"Authorization: Digest\r\n", "Authorization: Digest response=\"\"\r\n",
+                            "Authorization: Basic a2luZTpidXM=\r\n"})
     EXPECT_EQ(client.ask(field).status, 401) << field;
   // The page asks for the key itself: no window of the browser.
-  EXPECT_EQ(client.ask("Sec-Fetch-Mode: cors\r\nSec-Fetch-Site: same-origin\r\n").head.find("Digest"), std::string::npos);
+  EXPECT_EQ(client.ask("Sec-Fetch-Mode: cors\r\nSec-Fetch-Site: same-origin\r\n").head.find("Digest"),
+            std::string::npos);
   EXPECT_EQ(with([](Client&) {}).status, 200);
 }
 

@@ -25,7 +25,8 @@ std::vector<Json> of_type(const std::vector<Heard>& heard, const char* type) {
 std::vector<std::string> events_in(const std::vector<Heard>& heard) {
   std::vector<std::string> names;
   for (const Json& event : of_type(heard, "event"))
-    if (event["type"] != "PrinterStateChanged" && event["type"] != "UpdatedFiles") names.push_back(event["type"]);
+    if (event["type"] != "PrinterStateChanged" && event["type"] != "UpdatedFiles")
+      names.push_back(event["type"]);
   return names;
 }
 
@@ -41,7 +42,8 @@ TEST(OctoPrintPush, TellsNothingBeforeItIsLetIn) {
     heard = client.say(Json{{"auth", wrong}, {"throttle", 2}}.dump());
     for (const Heard& one : heard) EXPECT_EQ(one.json()["reauthRequired"]["reason"], "stale") << wrong;
   }
-  for (const char* junk : {"[1]", "null", "{", "{\"auth\":[]}", "{\"throttle\":\"a\"}", "{\"throttle\":1e300}"})
+  for (const char* junk :
+       {"[1]", "null", "{", "{\"auth\":[]}", "{\"throttle\":\"a\"}", "{\"throttle\":1e300}"})
     EXPECT_TRUE(client.say(junk).empty()) << junk;
 
   heard = client.say(Json{{"auth", auth_of(rig)}}.dump());
@@ -81,7 +83,8 @@ TEST(OctoPrintPush, AJobIsToldFromItsStartToItsEnd) {
   rig.ask(rig.head("PUT", "/api/v1/files/local/part.gcode") + rig.with_body("G1 X4 F100\nG1 X0\nM2\n"));
   SocketClient client(rig, "/sockjs/websocket");  // with the key in its request
   client.hear(1s);
-  EXPECT_EQ(rig.send("POST", "/api/files/local/part.gcode", R"({"command":"select","print":true})").status, 204);
+  EXPECT_EQ(rig.send("POST", "/api/files/local/part.gcode", R"({"command":"select","print":true})").status,
+            204);
   auto heard = client.hear(2s);
   EXPECT_EQ(events_in(heard), (std::vector<std::string>{"PrintStarted"}));
   const Json during = of_type(heard, "current").back();
@@ -114,7 +117,8 @@ TEST(OctoPrintPush, ARefusedJobAndAStopFail) {
   SocketClient client(rig, "/sockjs/websocket");
   rig.ask(rig.head("PUT", "/api/v1/files/local/far.gcode") + rig.with_body("G1 X4000 F100\nM2\n"));
   client.hear(1s);
-  EXPECT_EQ(rig.send("POST", "/api/files/local/far.gcode", R"({"command":"select","print":true})").status, 409);
+  EXPECT_EQ(rig.send("POST", "/api/files/local/far.gcode", R"({"command":"select","print":true})").status,
+            409);
   EXPECT_EQ(events_in(client.hear(1s)), (std::vector<std::string>{"PrintFailed"}));
 }
 

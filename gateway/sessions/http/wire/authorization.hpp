@@ -8,8 +8,8 @@
 
 namespace kinebus::http {
 
-/// Parameters by their names in small letters, values without quotes. nullopt: not of this scheme, or malformed, or one is
-/// there twice.
+/// Parameters by their names in small letters, values without quotes. nullopt: not of this scheme, or
+/// malformed, or one is there twice.
 std::optional<std::map<std::string, std::string>> authorization_parameters(std::string_view field,
                                                                            std::string_view scheme);
 
