@@ -2,9 +2,11 @@
 // How far a pose is from the programmed path: the measure of checkers and tests, independent of the planner's
 // own idea of the path. Fed with the same canonical commands; a window moves along with the queries.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <optional>
 
 #include "gateway/gcode/canonical.hpp"
 #include "gateway/kinematics/kinematics.hpp"
@@ -34,12 +36,27 @@ class PathDistance {
     bool arc = false;
     std::array<double, 3> centre{}, normal{};
     double sweep_rad = 0;
+    double length_mm = 0;
     std::uint32_t line = 0;
   };
-  static double distance2_to(const Move& move, const std::array<double, 3>& point);
+  struct Place {
+    double distance2 = 0;  ///< mm^2
+    double part = 0;       ///< of the move, 0 to 1
+  };
+  struct Found {
+    Place place;
+    std::size_t move;
+  };
+  static Place nearest_on_line(const Move& move, const std::array<double, 3>& point);
+  static Place nearest_on(const Move& move, const std::array<double, 3>& point);
+  /// Among the moves around the last place, of which none begins farther along the path than `reach_mm` from
+  /// it.
+  Found search(const std::array<double, 3>& point, std::uint32_t line, double reach_mm) const;
 
   std::deque<Move> moves_;
   std::size_t nearest_ = 0;
+  double part_ = 0;                            // of it, where the last query was
+  std::optional<std::array<double, 3>> last_;  // the last query
   std::uint32_t nearest_line_ = 0;
   Pose end_{};
 };

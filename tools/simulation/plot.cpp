@@ -68,12 +68,22 @@ const drawing::TextStyle kLabel{.size = 12, .fill = drawing::kMuted},
     kRightLabel{.size = 12, .anchor = Anchor::kEnd, .fill = drawing::kMuted},
     kMiddleLabel{.size = 12, .anchor = Anchor::kMiddle, .fill = drawing::kMuted};
 
+/// Of the lines on the table, along X and Y alike.
+double step_on_table(const View& view) {
+  return round_step(std::max(view.box[0].span(), view.box[1].span()), 6);
+}
+
 View make_view(const PlotData& data) {
   View view;
   for (const auto& p : data.points())
     for (std::size_t i = 0; i < 3; ++i) view.box[i].include(p.tool_mm[i]);
   for (std::size_t i = 0; i < 2; ++i) {
-    const double step = round_step(view.box[i].span(), 6);
+    // What lies in a plane (turning) is drawn on a strip of the table.
+    const double middle = (view.box[i].low + view.box[i].high) / 2, least = 2;
+    if (view.box[i].span() < least) view.box[i] = {middle - least / 2, middle + least / 2};
+  }
+  const double step = step_on_table(view);
+  for (std::size_t i = 0; i < 2; ++i) {
     view.box[i].low = step * std::floor(view.box[i].low / step - 0.2);
     view.box[i].high = step * std::ceil(view.box[i].high / step + 0.2);
   }
@@ -88,17 +98,17 @@ void draw_bed(Document& document, const View& view) {
   const std::array<Point, 4> corners{at(x.low, y.low), at(x.high, y.low), at(x.high, y.high),
                                      at(x.low, y.high)};
   document.polygon(corners, {.fill = "#f6f8fa", .stroke = "#afb8c1"});
-  const double sx = round_step(x.span(), 6), sy = round_step(y.span(), 6), sz = round_step(z.span(), 5);
+  const double step = step_on_table(view), sz = round_step(z.span(), 5);
   const drawing::Style grid{.stroke = "#d8dee4", .width = 1};
-  for (const double v : drawing::ticks(x.low, x.high, sx)) {
+  for (const double v : drawing::ticks(x.low, x.high, step)) {
     const Point p = at(v, y.low);
     document.line(p, at(v, y.high), grid);
-    document.text({p.x - 6, p.y + 18}, drawing::tick_words(v, sx), kMiddleLabel);
+    document.text({p.x - 6, p.y + 18}, drawing::tick_words(v, step), kMiddleLabel);
   }
-  for (const double v : drawing::ticks(y.low, y.high, sy)) {
+  for (const double v : drawing::ticks(y.low, y.high, step)) {
     const Point p = at(x.high, v);
     document.line(at(x.low, v), p, grid);
-    document.text({p.x + 22, p.y + 8}, drawing::tick_words(v, sy), kMiddleLabel);
+    document.text({p.x + 22, p.y + 8}, drawing::tick_words(v, step), kMiddleLabel);
   }
   document.line(at(x.low, y.high), view.at(x.low, y.high, z.high), {.stroke = "#afb8c1"});
   for (const double v : drawing::ticks(z.low, z.high, sz)) {
@@ -121,7 +131,7 @@ struct Scale {
   }
 };
 
-bool prints(const PlotData::Point& before, const PlotData::Point& now) {
+bool feeds(const PlotData::Point& before, const PlotData::Point& now) {
   return now.e_mm > before.e_mm + 1e-6f;
 }
 
@@ -130,7 +140,7 @@ Scale make_scale(const PlotData& data) {
   std::vector<float> speeds;
   Range height;
   for (std::size_t i = 1; i < points.size(); ++i) {
-    if (!prints(points[i - 1], points[i])) continue;
+    if (data.prints && !feeds(points[i - 1], points[i])) continue;
     speeds.push_back(points[i].speed_mm_per_s);
     height.include(points[i].tool_mm[2]);
   }
@@ -160,8 +170,9 @@ void draw_path(Document& document, const View& view, const PlotData& data, const
     for (std::size_t i = 1; i < stretch.size(); ++i) {
       const auto& a = stretch[i - 1].mm;
       const auto& b = stretch[i];
-      const int now =
-          b.prints ? static_cast<int>(std::clamp(scale.fraction(b), 0.0, 0.999) * kBands) : kTravel;
+      const int now = b.prints || !data.prints
+                          ? static_cast<int>(std::clamp(scale.fraction(b), 0.0, 0.999) * kBands)
+                          : kTravel;
       if (now != band) {
         flush();
         band = now;
@@ -173,7 +184,7 @@ void draw_path(Document& document, const View& view, const PlotData& data, const
   }
 }
 
-void draw_scale(Document& document, const Scale& scale) {
+void draw_scale(Document& document, const Scale& scale, bool with_travel) {
   const double x = kWidth - 50, top = kTop + 60, height = 260;
   drawing::colour_bar(document, {x - 16, top, 16, height});
   for (int i = 0; i <= 4; ++i)
@@ -181,6 +192,7 @@ void draw_scale(Document& document, const Scale& scale) {
                   fmt::format("{:.0f}", scale.low + (scale.high - scale.low) * i / 4), kRightLabel);
   document.text({x + 2, top - 26}, scale.height ? "height" : "tool speed", kRightLabel);
   document.text({x + 2, top - 10}, scale.height ? "mm" : "mm/s", kRightLabel);
+  if (!with_travel) return;
   document.line({x - 16, top + height + 22}, {x, top + height + 22}, {.stroke = kTravelColour, .width = 1.5});
   document.text({x - 22, top + height + 26}, "travel", kRightLabel);
 }
@@ -275,7 +287,7 @@ std::string draw_plot(const PlotData& data, const MachineDescription& machine, c
                   kLabel);
   draw_bed(document, view);
   draw_path(document, view, data, scale);
-  draw_scale(document, scale);
+  draw_scale(document, scale, data.prints);
 
   static constexpr std::array<const char*, 4> kColours{"#0969da", "#bf3989", "#1a7f37", "#bc4c00"};
   std::vector<Series> carriages;

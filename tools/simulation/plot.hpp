@@ -44,6 +44,7 @@ class PlotData {
   const std::vector<Stretch>& path() const { return path_; }
   std::size_t drawn_stretch() const { return keep_; }
   int joint_count = 0;
+  bool prints = false;  ///< filament was fed: what feeds none is travel then
   bool heated = false;  ///< a heater had a target: temperatures are drawn
 
  private:

@@ -87,7 +87,9 @@ void PlotData::add_to_path(const PathPoint& point) {
 }
 
 void PlotData::add(const Point& point) {
-  add_to_path({point.tool_mm, point.speed_mm_per_s, point.e_mm > last_e_ + 1e-6f});
+  const bool feeds = point.e_mm > last_e_ + 1e-6f;
+  prints = prints || feeds;
+  add_to_path({point.tool_mm, point.speed_mm_per_s, feeds});
   last_e_ = point.e_mm;
   for (const float target : point.heat.target_c) heated = heated || target > 0;
   largest_error_ = std::max(largest_error_, point.error_um);

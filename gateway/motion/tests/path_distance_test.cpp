@@ -57,6 +57,27 @@ TEST(PathDistance, ARowOfRetractionsDoesNotEndTheSearch) {
   EXPECT_NEAR(path.distance_mm({10.01, 1, 0, 0, 0, 0}, 20), 0.01, 1e-12);
 }
 
+TEST(PathDistance, PassesOfACycleThatShareTheirCornersAreNotSkipped) {
+  // Deeper each time, from one corner and back to it, as G71 and G76 cut, all of one line.
+  PathDistance path;
+  std::vector<Pose> corners{{}};
+  for (int pass = 1; pass <= 6; ++pass)
+    for (const Pose& corner :
+         {Pose{0.3 * pass, 0, 0}, Pose{0.3 * pass, 10, 0}, Pose{0, 10, 0}, Pose{0, 0, 0}})
+      corners.push_back(corner);
+  for (std::size_t i = 1; i < corners.size(); ++i)
+    path.add({5, canonical::Feed{corners[i], Frame::kMachine, 10, 0}});
+  constexpr int kSteps = 50;
+  for (std::size_t i = 1; i < corners.size(); ++i)
+    for (int step = 0; step <= kSteps; ++step) {
+      Pose pose{};
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        pose[axis] = std::lerp(corners[i - 1][axis], corners[i][axis], static_cast<double>(step) / kSteps);
+      pose[kZ] = 2e-4;  // as the tool is beside its plan
+      ASSERT_LE(path.distance_mm(pose, 5), 3e-4) << "move " << i << ", step " << step;
+    }
+}
+
 TEST(PathDistance, WithoutMovesThereIsNothingToLeave) {
   PathDistance path;
   EXPECT_EQ(path.distance_mm({1, 2, 3, 0, 0, 0}, 1), 0);
