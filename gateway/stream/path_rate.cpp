@@ -67,8 +67,8 @@ void PathRate::request(double rate, std::chrono::milliseconds full_ramp, BusTime
 }
 
 void PathRate::begin_at(double rate, BusTime start, BusTime now) {
-  constexpr std::chrono::milliseconds kShortest{2};
-  request({.kind = RateCommand::Kind::kRate, .rate_q15 = q15(rate), .full_ramp_2ms = ramp_2ms(kShortest)},
+  constexpr std::chrono::milliseconds kAtOnce{2};
+  request({.kind = RateCommand::Kind::kRate, .rate_q15 = q15(rate), .full_ramp_2ms = ramp_2ms(kAtOnce)},
           std::max(start - now, options_.lead), now);
 }
 
