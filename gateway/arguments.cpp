@@ -34,6 +34,9 @@ void add_options(CLI::App& app, Arguments& arguments) {
       "ADDRESS:PORT; on an address that others can reach by HTTPS (default: off)");
   app.add_option("--http-key", arguments.http_key,
                  "File of the API key that HTTP clients must know (default: http-key beside the token)");
+  app.add_option("--http-users", arguments.http_users,
+                 "File of more users with their roles and keys, and of networks that need none (default: "
+                 "http-users.toml beside the token, where it is there)");
   app.add_option("--http-name", arguments.http_names,
                  "A name by which HTTP clients call this computer, besides its own and its addresses");
   app.add_option("--web", arguments.web,

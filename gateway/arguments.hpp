@@ -28,6 +28,7 @@ struct Arguments {
   std::string credentials;
   std::string http;
   std::string http_key;
+  std::string http_users;
   std::string web;
   std::vector<std::string> http_names;
   double quota_gib = 16;

@@ -228,9 +228,11 @@ void Service::listen_http(const std::string& credentials) {
   const std::filesystem::path pages =
       arguments_.web.empty() ? installed_pages() : std::filesystem::path(arguments_.web);
   const std::filesystem::path kept = beside(jobs_folder_, "web-pages.json");
+  const std::string users =
+      arguments_.http_users.empty() ? credentials + "/http-users.toml" : arguments_.http_users;
   http_.emplace(
       server_, *store_, worker_, control_,
-      http::Server::Options{.key = must(token_of(file), "HTTP "),
+      http::Server::Options{.users = must(http_users(file, users, !arguments_.http_users.empty())),
                             .names = host_names(arguments_.http_names),
                             .pages = pages.empty() ? http::Pages() : must(read_pages(pages), "web page "),
                             .database = read_text(kept),

@@ -18,8 +18,6 @@
 namespace kinebus {
 namespace {
 
-constexpr std::size_t kTokenBytes = 24;
-
 /// What a person chose may be shorter than what is made here, but must not be guessed.
 constexpr std::size_t kShortestToken = 16;
 
@@ -37,7 +35,7 @@ std::string random_bytes(std::size_t size) {
   return bytes;
 }
 
-Result<std::string, std::string> token_of(const std::filesystem::path& path) {
+Result<std::string, std::string> token_of(const std::filesystem::path& path, std::size_t new_bytes) {
   std::string token;
   if (std::ifstream in(path); in >> token) {
     if (std::string loose = loose_secret(path); !loose.empty()) return Error<std::string>(std::move(loose));
@@ -47,7 +45,7 @@ Result<std::string, std::string> token_of(const std::filesystem::path& path) {
                                 "is made");
     return token;
   }
-  token = joblink::to_hex(random_bytes(kTokenBytes));
+  token = joblink::to_hex(random_bytes(new_bytes));
   const int fd = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
   const std::string line = token + "\n";
   const bool written = fd >= 0 && ::write(fd, line.data(), line.size()) == static_cast<ssize_t>(line.size());

@@ -43,8 +43,11 @@ class JobLinkHost : public DaemonPart {
   Listener local_, tcp_;
 };
 
-/// The token in the file; a new one where there is none. Only the owner may read it. Error: in words.
-Result<std::string, std::string> token_of(const std::filesystem::path& path);
+inline constexpr std::size_t kTokenBytes = 24;
+/// The token in the file; a new one of so many bytes, as hexadecimal digits, where there is none. Only the
+/// owner may read it. Error: in words.
+Result<std::string, std::string> token_of(const std::filesystem::path& path,
+                                          std::size_t new_bytes = kTokenBytes);
 
 /// Seconds since 1970 at time 0 of the monotonic clock, by the wall clock as it is now.
 double unix_s_at_zero();

@@ -25,13 +25,13 @@ def until(what, done):
 
 
 class Daemon:
-    def __init__(self, address):
+    def __init__(self, address, *more):
         self.folder = tempfile.TemporaryDirectory()
         self.work = pathlib.Path(self.folder.name)
         self.socket = str(self.work / "kinebus.sock")
         self.log_path = self.work / "log"
         self.arguments = [str(bin_folder / "kinebusd"), "--bus", "inproc", "--jobs", str(self.work / "jobs"), "--socket", self.socket,
-                          "--no-realtime", "--http", address]
+                          "--no-realtime", "--http", address, *more]
 
     def __enter__(self):
         with self.log_path.open("w") as log:

@@ -1,6 +1,7 @@
 #include "gateway/sessions/http/api.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <iterator>
 #include <memory>
 #include <utility>
@@ -29,6 +30,32 @@ std::string first_error(const EventLog& events, std::uint64_t after) {
   return words;
 }
 
+struct ByteRange {
+  std::uint64_t begin, end;
+};
+/// Of "bytes=2-5", "bytes=2-" and "bytes=-3"; empty where it begins behind the end. nullopt: all is wanted,
+/// as where it is malformed or more than one (RFC 9110, 14.2).
+std::optional<ByteRange> byte_range(std::string_view range, std::uint64_t size) {
+  static constexpr std::string_view kUnit = "bytes=";
+  if (!range.starts_with(kUnit)) return std::nullopt;
+  range.remove_prefix(kUnit.size());
+  const std::size_t dash = range.find('-');
+  if (dash == std::string_view::npos) return std::nullopt;
+  const auto number = [](std::string_view digits) -> std::optional<std::uint64_t> {
+    std::uint64_t value = 0;
+    const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (digits.empty() || read.ec != std::errc() || read.ptr != digits.data() + digits.size())
+      return std::nullopt;
+    return value;
+  };
+  const auto first = number(range.substr(0, dash)), last = number(range.substr(dash + 1));
+  if (dash == 0) return last ? std::optional(ByteRange{size - std::min(*last, size), size}) : std::nullopt;
+  if (!first) return std::nullopt;
+  if (dash + 1 == range.size()) return ByteRange{*first, size};
+  if (!last || *last < *first) return std::nullopt;
+  return ByteRange{*first, *last < size ? *last + 1 : size};
+}
+
 class Download : public Task {
  public:
   Download(Session& session, std::string name) : session_(session), name_(std::move(name)) {}
@@ -53,20 +80,48 @@ class Download : public Task {
     if (reply.has_error() && !begun_) return session_.refuse(reply.error());
     if (!begun_) {
       size_ = text.size_bytes();
-      session_.answer_head(200, "text/x.gcode", size_);
-      begun_ = true;
+      end_ = size_;
+      if (!begin_answer()) return;
       if (session_.head().method == "HEAD") return session_.finish();
+      // What was read is not what is wanted.
+      if (offset_ > 0) return read();
     }
     // Replaced or deleted while it was read.
     if (reply.has_error() || text.size_bytes() != size_) return session_.break_off();
-    session_.write(text.data());
-    offset_ += text.data().size();
-    if (offset_ >= size_) return session_.finish();
+    const auto rest = static_cast<std::size_t>(end_ - offset_);
+    session_.write(std::string_view(text.data()).substr(0, rest));
+    offset_ += std::min(text.data().size(), rest);
+    if (offset_ >= end_) return session_.finish();
     if (text.data().empty()) session_.break_off();
+  }
+  /// The answer's head. False: the part that is asked for is not there, and that is said.
+  bool begin_answer() {
+    begun_ = true;
+    Answer head{
+        .type = "text/x.gcode",
+        .fields = {{"Accept-Ranges", "bytes"},
+                   {"Content-Disposition", "attachment; filename*=UTF-8''" + percent_encoded(name_)}}};
+    const auto part = byte_range(session_.head().field("Range"), size_);
+    const std::string of_size = "/" + std::to_string(size_);
+    if (part && part->begin >= part->end) {
+      session_.answer({.status = 416,
+                       .body = R"({"error":"the file does not reach so far"})",
+                       .fields = {{"Content-Range", "bytes *" + of_size}}});
+      return false;
+    }
+    if (part) {
+      offset_ = part->begin;
+      end_ = part->end;
+      head.status = 206;
+      head.fields.emplace_back("Content-Range",
+                               "bytes " + std::to_string(offset_) + "-" + std::to_string(end_ - 1) + of_size);
+    }
+    session_.answer_head(head, end_ - offset_);
+    return true;
   }
   Session& session_;
   std::string name_;
-  std::uint64_t offset_ = 0, size_ = 0;
+  std::uint64_t offset_ = 0, size_ = 0, end_ = 0;  ///< end_: of the part that is wanted
   bool begun_ = false, asked_ = false;
 };
 
@@ -175,10 +230,17 @@ Result<JobListing, StoreError> all_jobs(JobStore& store) {
   return all;
 }
 
+bool may_operate(Session& session) {
+  if (session.role() >= Role::kOperate) return true;
+  session.refuse(403, "this needs the role 'operate'");
+  return false;
+}
+
 void delete_job(Session& session, const std::string& name) {
   joblink::ClientMessage message;
   message.mutable_delete_job()->set_name(name);
-  if (session.server().selected == name) session.server().selected.clear();
+  if (session.role() >= Role::kOperate && session.server().selected == name)
+    session.server().selected.clear();
   command(session, message);
 }
 

@@ -41,6 +41,8 @@ std::string words_of(const joblink::Problem& problem);
 /// Starts a stored job, and tells how that went: `started` is called when it has passed its pre-flight, or
 /// when that takes longer than a client waits; what is wrong with it is the request's answer.
 void start_job(Session& session, const std::string& name, std::function<void()> started);
+/// False: the request is refused, since who asks may only watch.
+bool may_operate(Session& session);
 /// 204, 404 or 409.
 void delete_job(Session& session, const std::string& name);
 /// What is known of a stored job is given to `found`; 404 where there is none.

@@ -2,6 +2,7 @@
 
 #include <cassert>
 
+#include "gateway/sessions/messages.hpp"
 #include "protocol/joblink/shown_text.hpp"
 
 namespace kinebus::http {
@@ -21,7 +22,9 @@ Caller::~Caller() {
 }
 
 void Caller::attach(std::string_view name, const std::string& transport) {
-  const std::string words = shown(name, kMaxNameBytes);
+  const std::string client(name.empty() ? std::string_view("HTTP client") : name);
+  const std::string words =
+      shown(visitor_.name.empty() ? client : visitor_.name + ": " + client, kMaxNameBytes);
   client_ = server_.control().attach(words.empty() ? "HTTP client" : words, transport);
 }
 
@@ -30,7 +33,19 @@ void Caller::detach() {
   client_ = 0;
 }
 
+bool Caller::is_refused(Role needed, const Then& then) const {
+  if (visitor_.role >= needed) return false;
+  joblink::Reply reply;
+  *reply.mutable_error() =
+      problem(joblink::ERROR_NOT_ALLOWED, {},
+              Sentence::verbatim(std::string("this needs the role '") + word_of(needed) +
+                                 "', and the key's is '" + word_of(visitor_.role) + "'"));
+  then(reply);
+  return true;
+}
+
 void Caller::ask(const joblink::ClientMessage& message, Then then) {
+  if (is_refused(role_for(message), then)) return;
   const JobLinkServer::Asker asker{id_, expect(std::move(then))};
   server_.link().request(now_, *this, asker, message);
 }

@@ -28,6 +28,11 @@ class Caller : public Requester {
   LocalTime now() const { return now_; }
   std::uint64_t id() const { return id_; }
 
+  /// Who is asking, and so what is carried out. Nobody may ask for anything.
+  void become(Visitor visitor) { visitor_ = std::move(visitor); }
+  const Visitor& visitor() const { return visitor_; }
+  Role role() const { return visitor_.role; }
+
   using Then = std::function<void(const joblink::Reply&)>;
   /// A request as the job link knows it; `then` is called with its reply unless it is not awaited any more.
   void ask(const joblink::ClientMessage& message, Then then);
@@ -51,9 +56,11 @@ class Caller : public Requester {
   void wait_for(std::function<bool(LocalTime)> look);
 
  protected:
-  /// Among those who may command; "": "HTTP client".
+  /// The client that calls itself `name` is among those who may command; "": "HTTP client".
   void attach(std::string_view name, const std::string& transport);
   void detach();
+  /// Who has not this role hears so. True: that has been said.
+  bool is_refused(Role needed, const Then& then) const;
   /// The number of a request that `then` is to hear of.
   std::uint32_t expect(Then then);
   /// What is asked for beside the loop now.
@@ -68,6 +75,7 @@ class Caller : public Requester {
 
  private:
   std::uint64_t id_;
+  Visitor visitor_;
   ClientId client_ = 0;
   std::map<std::uint32_t, Then> expected_;
   std::uint32_t last_request_ = 0;

@@ -25,9 +25,9 @@ std::string md5(const std::string& text) {
 
 }  // namespace
 
-Digest::Shown Digest::shown(const Head& head, std::string_view key, LocalTime now) {
+Digest::Verdict Digest::look(const Head& head, const Users& users, LocalTime now) {
   const auto found = authorization_parameters(head.field("Authorization"), "Digest");
-  if (!found) return Shown::kNothing;
+  if (!found) return {};
   const auto of = [&](const char* name) {
     const auto parameter = found->find(name);
     return parameter == found->end() ? std::string() : parameter->second;
@@ -38,17 +38,22 @@ Digest::Shown Digest::shown(const Head& head, std::string_view key, LocalTime no
   if (of("realm") != kRealm || of("qop") != "auth" || (!algorithm.empty() && !same_word(algorithm, "MD5")) ||
       of("uri") != head.target || count.size() != 8 || read.ec != std::errc() ||
       read.ptr != count.data() + count.size())
-    return Shown::kWrong;
-  const std::string user = md5(of("username") + ":" + kRealm + ":" + std::string(key));
+    return {.shown = Shown::kWrong};
   const std::string request = md5(head.method + ":" + head.target);
-  if (!same_key(md5(user + ":" + of("nonce") + ":" + count + ":" + of("cnonce") + ":auth:" + request),
-                of("response")))
-    return Shown::kWrong;
+  const User* who = nullptr;
+  for (const User& user : users.all()) {
+    const std::string secret = md5(of("username") + ":" + kRealm + ":" + user.key);
+    if (same_key(md5(secret + ":" + of("nonce") + ":" + count + ":" + of("cnonce") + ":auth:" + request),
+                 of("response")))
+      who = &user;
+  }
+  if (who == nullptr) return {.shown = Shown::kWrong};
   const auto nonce = std::find_if(nonces_.begin(), nonces_.end(),
                                   [text = of("nonce")](const Nonce& one) { return one.text == text; });
-  if (nonce == nonces_.end() || now >= nonce->until || number <= nonce->count) return Shown::kStale;
+  if (nonce == nonces_.end() || now >= nonce->until || number <= nonce->count)
+    return {.shown = Shown::kStale};
   nonce->count = number;
-  return Shown::kKey;
+  return {.shown = Shown::kKey, .user = who};
 }
 
 std::string Digest::challenge(LocalTime now, bool stale) {

@@ -54,11 +54,17 @@ std::string unguessable() {
   return hexadecimal(bytes);
 }
 
-bool shows_key(const Head& head, std::string_view key) {
+bool may_be_of_other_page(const Head& head) {
+  const std::string_view site = head.field("Sec-Fetch-Site");
+  if (site.empty()) return head.field("User-Agent").starts_with("Mozilla/") && head.field("Origin").empty();
+  return site != "same-origin" && site != "none";
+}
+
+std::string_view shown_key(const Head& head) {
   static constexpr std::string_view kBearer = "Bearer ";
   const std::string_view authorization = head.field("Authorization");
-  return same_key(head.field("X-Api-Key"), key) ||
-         (authorization.starts_with(kBearer) && same_key(authorization.substr(kBearer.size()), key));
+  if (const std::string_view key = head.field("X-Api-Key"); !key.empty()) return key;
+  return authorization.starts_with(kBearer) ? authorization.substr(kBearer.size()) : std::string_view();
 }
 
 std::optional<GateRefusal> refusal_at_gate(const Head& head, std::span<const std::string> names) {

@@ -18,8 +18,11 @@ struct GateRefusal {
 /// Why a request with this head is not carried out, whoever sends it; nullopt: it may come in. `names`:
 /// Server::Options::names.
 std::optional<GateRefusal> refusal_at_gate(const Head& head, std::span<const std::string> names);
-/// X-Api-Key, or Authorization: Bearer.
-bool shows_key(const Head& head, std::string_view key);
+/// The request was made by a page of another server, or may have been: of browsers that do not say it, all
+/// are taken for such.
+bool may_be_of_other_page(const Head& head);
+/// What X-Api-Key or Authorization: Bearer says; empty: neither is there.
+std::string_view shown_key(const Head& head);
 /// Takes as long for a wrong key as for the right one.
 bool same_key(std::string_view a, std::string_view b);
 std::string hexadecimal(std::span<const unsigned char> bytes);

@@ -21,7 +21,9 @@ Server::Server(JobLinkServer& link, JobStore& store, Worker& worker, Control& co
       control_(control),
       options_(std::move(options)),
       database_(options_.database),
-      noter_(std::make_unique<Caller>(*this, LocalTime{0})) {}
+      noter_(std::make_unique<Caller>(*this, LocalTime{0})) {
+  noter_->become({.role = Role::kWatch});
+}
 
 Server::~Server() = default;
 
@@ -65,9 +67,11 @@ const std::string& Server::status_json(LocalTime now, Caller& by) {
   return status_json_;
 }
 
-std::unique_ptr<ByteSession> Server::open(LocalTime now, std::string transport, std::string peer) {
+std::unique_ptr<ByteSession> Server::open(LocalTime now, std::string transport, std::string peer,
+                                          std::string_view address) {
   const bool room = make_room(now);
-  auto session = std::make_unique<Session>(*this, now, std::move(transport), std::move(peer));
+  auto session = std::make_unique<Session>(*this, now, std::move(transport), std::move(peer),
+                                           options_.users.role_at(address));
   if (!room) session->turn_away();
   return session;
 }

@@ -5,14 +5,15 @@
 //   open() -> a session for each connection (byte_session.hpp)      on_event: news of the machine
 //   on_time: what is noted for clients that come later
 //
-// Who has the key may do all; who has not, nothing. Nobody can lock others out: connections that wait for
-// nothing give way to new ones.
+// Who shows a key may do what its role is; who shows none and comes from no trusted network, nothing. Nobody
+// can lock others out: connections that wait for nothing give way to new ones.
 
 #include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <vector>
 
@@ -23,6 +24,7 @@
 #include "gateway/sessions/http/moonraker/course.hpp"
 #include "gateway/sessions/http/moonraker/moonraker_database.hpp"
 #include "gateway/sessions/http/slicers/login_sessions.hpp"
+#include "gateway/sessions/http/users.hpp"
 #include "gateway/sessions/job_link_server.hpp"
 #include "gateway/sessions/worker.hpp"
 
@@ -30,6 +32,7 @@ namespace kinebus::http {
 
 class Session;
 class Caller;
+class MoonrakerDialect;
 
 /// A file of the web page.
 struct Page {
@@ -43,7 +46,7 @@ using Pages = std::map<std::string, Page, std::less<>>;
 class Server {
  public:
   struct Options {
-    std::string key;  ///< what X-Api-Key must say; never empty
+    Users users;  ///< who may ask
     /// By which a client may call this computer (Host), besides its addresses and "localhost": a page of
     /// another name that leads here is refused.
     std::vector<std::string> names;
@@ -62,8 +65,9 @@ class Server {
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
-  /// `peer`: whose places it takes.
-  std::unique_ptr<ByteSession> open(LocalTime now, std::string transport, std::string peer);
+  /// `peer`: whose places it takes. `address`: where it comes from, for Users::role_at.
+  std::unique_ptr<ByteSession> open(LocalTime now, std::string transport, std::string peer,
+                                    std::string_view address = {});
   void on_event(const MachineEvent& event);
   void on_time(LocalTime now);
   LocalTime next_deadline() const { return next_note_; }
@@ -89,7 +93,10 @@ class Server {
   /// How the last job ended, as Klipper's print_stats say it: "standby" before any.
   const char* job_end() const { return job_end_; }
   bool in_job() const { return in_job_; }
+  /// Moonraker's clients that hold a websocket, by their numbers: requests subscribe for them.
+  std::unordered_map<std::uint64_t, MoonrakerDialect*>& moonraker_sockets() { return moonraker_sockets_; }
   MoonrakerDatabase& database() { return database_; }
+  const Users& users() const { return options_.users; }
   LoginSessions& logins() { return logins_; }
   Digest& digest() { return digest_; }
   const TemperatureCourse& temperatures() const { return temperatures_; }
@@ -112,6 +119,7 @@ class Server {
   std::uint32_t job_id_ = 0;
   const char* job_end_ = "standby";
   bool in_job_ = false, ran_ = false, cancelled_ = false;
+  std::unordered_map<std::uint64_t, MoonrakerDialect*> moonraker_sockets_;
   MoonrakerDatabase database_;
   LoginSessions logins_;
   Digest digest_;

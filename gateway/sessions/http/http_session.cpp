@@ -24,6 +24,7 @@ std::string_view reason_of(int status) {
       {200, "OK"},
       {201, "Created"},
       {204, "No Content"},
+      {206, "Partial Content"},
       {304, "Not Modified"},
       {400, "Bad Request"},
       {401, "Unauthorized"},
@@ -35,6 +36,7 @@ std::string_view reason_of(int status) {
       {411, "Length Required"},
       {413, "Content Too Large"},
       {415, "Unsupported Media Type"},
+      {416, "Range Not Satisfiable"},
       {417, "Expectation Failed"},
       {426, "Upgrade Required"},
       {431, "Request Header Fields Too Large"},
@@ -55,6 +57,8 @@ int status_of(joblink::ErrorCode code) {
     case joblink::ERROR_JOB_IN_USE:
     case joblink::ERROR_CONFLICT:
       return 409;
+    case joblink::ERROR_NOT_ALLOWED:
+      return 403;
     case joblink::ERROR_NO_SUCH_JOB:
       return 404;
     case joblink::ERROR_QUOTA:
@@ -76,10 +80,11 @@ Answer refusal_of(int status, std::string_view why) {
 
 }  // namespace
 
-Session::Session(Server& server, LocalTime now, std::string transport, std::string peer)
+Session::Session(Server& server, LocalTime now, std::string transport, std::string peer, Role of_network)
     : Caller(server, now),
       transport_(std::move(transport)),
       peer_(std::move(peer)),
+      of_network_(of_network),
       since_(now),
       moved_(now) {
   server_.sessions_[id()] = this;
@@ -165,21 +170,34 @@ void Session::begin_request() {
   if (!target) return refuse(400, "the target is no path of this server");
   target_ = std::move(*target);
   const Found found = find_route(no_body_ ? "GET" : head().method, target_.path);
-  shown_ = shows_key(head(), server_.options().key)
-               ? Digest::Shown::kKey
-               : server_.digest().shown(head(), server_.options().key, now_);
-  if ((found.route == nullptr || !found.route->open) && shown_ != Digest::Shown::kKey)
-    return refuse_stranger();
+  recognise();
+  if ((found.route == nullptr || !found.route->open) && role() == Role::kNobody) return refuse_stranger();
   if (found.allowed.empty()) return refuse(404, "there is nothing under this path");
   if (found.route == nullptr) {
     const nlohmann::json body{{"error", "this path does not take the method " + head().method}};
     return answer({.status = 405, .body = body.dump(), .fields = {{"Allow", found.allowed}}});
   }
   if (found.route->speak != nullptr) return become_socket(*found.route);
-  if (head().method != "GET" && !no_body_) attach(agent(), transport_);
+  if ((head().method != "GET" && !no_body_) || found.route->commands) attach(agent(), transport_);
   task_ = make_task(*found.route, *this);
   task_->begin();
   if (task_ != nullptr && !answered_ && !task_->holds_body()) let_body_come();
+}
+
+/// By what the request shows, or by where it comes from.
+void Session::recognise() {
+  Digest::Verdict verdict{.user = server_.users().by_key(shown_key(head()))};
+  if (verdict.user == nullptr) verdict = server_.digest().look(head(), server_.users(), now_);
+  shown_ = verdict.shown;
+  // A link on another server's page commands nothing, wherever its reader sits.
+  const bool page_is_open = head().method == "GET" && may_be_of_other_page(head());
+  const Role here = page_is_open ? std::min(of_network_, Role::kWatch) : of_network_;
+  const bool by_network = verdict.user == nullptr || verdict.user->role < here;
+  become(by_network ? Visitor{.role = here} : Visitor(*verdict.user));
+}
+
+bool Session::of_prusalink() const {
+  return shown_key(head()).empty();
 }
 
 /// "PrusaSlicer/2.9.4" of what a client calls itself.
@@ -200,7 +218,7 @@ void Session::become_socket(const Route& route) {
   out_ += "Sec-WebSocket-Accept: " + accepted + "\r\n\r\n";
   auto socket = std::make_unique<Socket>(server_, now_, transport_, std::string(agent()));
   socket->speak(route.speak(*socket));
-  if (shown_ == Digest::Shown::kKey) socket->let_in({});
+  if (role() != Role::kNobody) socket->let_in(visitor(), {});
   socket_ = std::move(socket);
 }
 
@@ -210,6 +228,7 @@ void Session::let_body_come() {
 
 void Session::begin_open_ended(const std::string& name, std::uint64_t expected_bytes, bool replace,
                                Then then) {
+  if (is_refused(Role::kOperate, then)) return;
   JobRequests(server_.link(), *this, now_)
       .begin_open_ended({id(), expect(std::move(then))}, name, expected_bytes, replace);
 }
@@ -243,8 +262,8 @@ void Session::answer(const Answer& answer) {
   finish();
 }
 
-void Session::answer_head(int status, const std::string& type, std::uint64_t length) {
-  put_head({.status = status, .type = type}, length);
+void Session::answer_head(const Answer& head, std::uint64_t length) {
+  put_head(head, length);
 }
 
 void Session::write(std::string_view bytes) {
@@ -278,7 +297,7 @@ void Session::refuse(int status, std::string_view why) {
 }
 
 void Session::refuse_stranger() {
-  Answer refusal = refusal_of(401, "X-Api-Key must be this gateway's key, or the password of HTTP Digest");
+  Answer refusal = refusal_of(401, "X-Api-Key must be a key of this gateway, or the password of HTTP Digest");
   // A browser would ask its user for a name and a password, where the page asks for the key.
   if (head().field("Sec-Fetch-Mode").empty())
     refusal.fields.emplace_back("WWW-Authenticate",

@@ -57,7 +57,9 @@ class Session : public ByteSession, public Caller {
   static constexpr LocalTime kStall = std::chrono::seconds{30};
   static constexpr LocalTime kLinger = std::chrono::seconds{2};
 
-  Session(Server& server, LocalTime now, std::string transport, std::string peer);
+  /// `of_network`: what clients from there may do without a key.
+  Session(Server& server, LocalTime now, std::string transport, std::string peer,
+          Role of_network = Role::kNobody);
   ~Session() override;
 
   void on_bytes(LocalTime now, std::span<const std::uint8_t> bytes) override;
@@ -80,6 +82,8 @@ class Session : public ByteSession, public Caller {
   // For tasks.
   const Head& head() const { return reader_.head(); }
   const Target& target() const { return target_; }
+  /// The client is one of PrusaLink's, where OctoPrint has the same path: OctoPrint's show an API key.
+  bool of_prusalink() const;
   /// Bytes of an upload that the worker has not written yet are within their bound.
   bool has_window() const { return owed_bytes() < kUploadWindow; }
 
@@ -92,7 +96,7 @@ class Session : public ByteSession, public Caller {
   void refuse(int status, std::string_view why);
   void refuse(const joblink::Problem& problem, int status = 0);
   /// A long answer: its head, then write() until `length` bytes are written.
-  void answer_head(int status, const std::string& type, std::uint64_t length);
+  void answer_head(const Answer& head, std::uint64_t length);
   void write(std::string_view bytes);
   void finish();
   /// The answer cannot be given as it was begun.
@@ -107,10 +111,12 @@ class Session : public ByteSession, public Caller {
   void end_exchange();
   std::string_view agent() const;
   void become_socket(const Route& route);
+  void recognise();
   void refuse_stranger();
   std::string_view input() const { return std::string_view(in_).substr(at_); }
 
   std::string transport_, peer_;
+  Role of_network_;
   Reader reader_;
   std::string in_, out_;
   std::size_t at_ = 0, sent_ = 0;  ///< of in_ and out_, done with

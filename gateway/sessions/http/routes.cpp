@@ -45,9 +45,9 @@ bool fits(std::string_view pattern, const std::vector<std::string>& path) {
 
 Found find_route(std::string_view method, const std::vector<std::string>& path) {
   Found found;
-  for (const auto routes :
-       {octoprint_machine_routes(), octoprint_job_routes(), octoprint_push_routes(), prusalink_routes(),
-        kinebus_routes(), moonraker_routes(), metrics_routes(), page_routes()})
+  for (const auto routes : {octoprint_machine_routes(), octoprint_control_routes(), octoprint_job_routes(),
+                            octoprint_push_routes(), prusalink_routes(), kinebus_routes(), moonraker_routes(),
+                            metrics_routes(), page_routes()})
     for (const Route& route : routes) {
       if (!fits(route.path, path)) continue;
       if (method == route.method) {

@@ -19,6 +19,7 @@ struct Route {
   std::unique_ptr<Task> (*make)(Session& session) = nullptr;    ///< instead of carry_out
   std::unique_ptr<Dialect> (*speak)(Socket& socket) = nullptr;  ///< instead of both: a websocket
   bool open = false;                                            ///< for who has not shown the key, too
+  bool commands = false;                                        ///< though it is a GET
 };
 
 struct Found {
@@ -29,6 +30,7 @@ Found find_route(std::string_view method, const std::vector<std::string>& path);
 std::unique_ptr<Task> make_task(const Route& route, Session& session);
 
 std::span<const Route> octoprint_machine_routes();
+std::span<const Route> octoprint_control_routes();
 std::span<const Route> octoprint_job_routes();
 std::span<const Route> octoprint_push_routes();
 std::span<const Route> prusalink_routes();

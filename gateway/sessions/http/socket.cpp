@@ -23,7 +23,8 @@ Socket::~Socket() {
   set_uploads_aside();
 }
 
-void Socket::let_in(std::string_view name) {
+void Socket::let_in(const Visitor& visitor, std::string_view name) {
+  if (visitor.role > role()) become(visitor);
   if (!is_in_) attach(name.empty() ? std::string_view(agent_) : name, transport_);
   is_in_ = true;
 }

@@ -39,9 +39,9 @@ class Socket : public ByteSession, public Caller {
   ~Socket() override;
 
   void speak(std::unique_ptr<Dialect> dialect) { dialect_ = std::move(dialect); }
-  /// From here on it may ask for all, and counts among the clients as `name`; "": as it called itself in its
-  /// request.
-  void let_in(std::string_view name);
+  /// From here on it may ask for what `visitor` may, and counts among the clients as `name`; "": as it called
+  /// itself in its request. Who is in already only gains by it.
+  void let_in(const Visitor& visitor, std::string_view name);
   bool is_in() const { return is_in_; }
 
   /// A message.

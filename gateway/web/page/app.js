@@ -12,6 +12,7 @@ let link = null;
 let machine = null;
 let scene = null;
 let status = null;
+let role = '';
 
 /// Why something was refused stands on the page until something else is done.
 function tell(problem) {
@@ -57,7 +58,7 @@ function show_position() {
 
 function show(fresh) {
   status = fresh;
-  const allowed = new Map(status.commands.map((command) => [command.command, command.allowed]));
+  const allowed = new Map(status.commands.map((command) => [command.command, command.allowed && role !== 'watch']));
   show_state();
   show_position();
   for (const panel of all) panel.show?.(status, allowed);
@@ -83,8 +84,10 @@ async function begin() {
 function connect(key) {
   link?.close();
   link = new Link(key);
-  link.addEventListener('open', () => {
+  link.addEventListener('open', (event) => {
     localStorage.setItem('key', key);
+    role = event.detail.role;
+    document.documentElement.dataset.role = role;
     if (at('login').open) at('login').close();
     tell(null);
     begin();
@@ -92,9 +95,9 @@ function connect(key) {
   link.addEventListener('refused', (event) => {
     link.close();
     localStorage.removeItem('key');
-    ask_for_key(event.detail.code === 'ERROR_NOT_ALLOWED' ? t('wrong_key') : event.detail.rule);
+    ask_for_key(event.detail.code !== 'ERROR_NOT_ALLOWED' ? event.detail.rule : key ? t('wrong_key') : '');
   });
-  link.addEventListener('closed', () => link.key && tell({ rule: t('link_lost') }));
+  link.addEventListener('closed', () => link.wanted && tell({ rule: t('link_lost') }));
   link.addEventListener('status', (event) => show(event.detail));
   link.addEventListener('event', (event) => all.forEach((panel) => panel.hear?.(event.detail)));
   link.open();
@@ -139,6 +142,4 @@ at('language').value = present_language();
 // http://ADDRESS/#key=...: a link that lets in; the key does not stay in the address.
 const given = new URLSearchParams(location.hash.slice(1)).get('key');
 if (given) history.replaceState(null, '', location.pathname);
-const key = given ?? localStorage.getItem('key');
-if (key) connect(key);
-else ask_for_key();
+connect(given ?? localStorage.getItem('key') ?? '');

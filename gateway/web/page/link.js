@@ -7,7 +7,13 @@ export class Link extends EventTarget {
   #socket = null;
   #waits = new Map();
   #last = 0;
+  #wanted = true;
 
+  get wanted() {
+    return this.#wanted;
+  }
+
+  /// `key` may be empty: gateways have networks that need none.
   constructor(key) {
     super();
     this.key = key;
@@ -21,7 +27,7 @@ export class Link extends EventTarget {
       try {
         const hello = await this.request('hello', { version_major: kVersionMajor, client_name: 'web page', token: btoa(this.key) });
         await this.request('watch', { status_hz: 5, events: true });
-        this.#tell('open', hello);
+        this.#tell('open', hello.hello);
       } catch (problem) {
         if (problem.code === 'ERROR_NOT_ALLOWED' || problem.code === 'ERROR_VERSION') this.#tell('refused', problem);
       }
@@ -31,12 +37,12 @@ export class Link extends EventTarget {
       for (const wait of this.#waits.values()) wait.reject({ rule: 'the link broke before the answer came', code: 'ERROR_LINK_LOST' });
       this.#waits.clear();
       this.#tell('closed');
-      if (this.key) setTimeout(() => this.key && this.open(), kAgainAfterMs);
+      if (this.#wanted) setTimeout(() => this.#wanted && this.open(), kAgainAfterMs);
     };
   }
 
   close() {
-    this.key = '';
+    this.#wanted = false;
     this.#socket?.close();
   }
 
@@ -61,7 +67,7 @@ export class Link extends EventTarget {
     return new Promise((resolve, reject) => {
       const request = new XMLHttpRequest();
       request.open('PUT', '/api/v1/files/local/' + encodeURIComponent(file.name));
-      request.setRequestHeader('X-Api-Key', this.key);
+      if (this.key) request.setRequestHeader('X-Api-Key', this.key);
       request.setRequestHeader('Overwrite', '?1');
       request.setRequestHeader('Content-Type', 'text/x.gcode');
       request.upload.onprogress = (event) => progress(event.loaded / Math.max(event.total, 1));
@@ -82,7 +88,7 @@ export class Link extends EventTarget {
   }
 
   async #http(method, path) {
-    const response = await fetch(path, { method, headers: { 'X-Api-Key': this.key } });
+    const response = await fetch(path, { method, headers: this.key ? { 'X-Api-Key': this.key } : {} });
     if (!response.ok) throw { rule: (await response.json()).error };
     return response;
   }

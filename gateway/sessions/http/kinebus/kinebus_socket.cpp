@@ -1,10 +1,9 @@
 // Kinebus's own API over a websocket: ClientMessage and ServerMessage of kinebus.proto as JSON. The first
-// message is a hello, whose token is the key unless the request showed it.
+// message is a hello, whose token is a key unless the request showed it or none is needed.
 
 #include <algorithm>
 #include <utility>
 
-#include "gateway/sessions/http/gate.hpp"
 #include "gateway/sessions/http/kinebus/kinebus_api.hpp"
 #include "gateway/sessions/http/kinebus/message_json.hpp"
 #include "gateway/sessions/messages.hpp"
@@ -63,12 +62,13 @@ class KinebusDialect : public Dialect {
                     problem(joblink::ERROR_VERSION, "version",
                             say("the gateway and the client speak different versions of the job link"),
                             say("version %1", joblink::kVersionMajor)));
-    if (!socket_.is_in() && !same_key(hello.token(), socket_.server().options().key)) {
+    const User* const user = socket_.server().users().by_key(hello.token());
+    if (!socket_.is_in() && user == nullptr) {
       refuse(number, problem(joblink::ERROR_NOT_ALLOWED, "token", say("the token is wrong"),
                              say("the token that is set on the gateway")));
       return socket_.end(CloseCode::kPolicy, "the key is wrong");
     }
-    socket_.let_in(hello.client_name());
+    socket_.let_in(user != nullptr ? *user : socket_.visitor(), hello.client_name());
     ClientMessage ask;
     ask.mutable_get_machine();
     Reply answer;
@@ -79,6 +79,7 @@ class KinebusDialect : public Dialect {
     said.set_gateway_id(options.gateway_id);
     said.set_machine_name(socket_.ask_now(ask).machine().name());
     said.set_client_id(socket_.client());
+    said.set_role(word_of(socket_.role()));
     said.set_event_id(socket_.server().link().events().newest());
     reply(std::move(answer), number);
   }

@@ -27,6 +27,12 @@ Json changes(const Json& old, const Json& fresh) {
 
 }  // namespace
 
+bool Call::may_operate() const {
+  if (caller.role() >= Role::kOperate) return true;
+  fail(403, "this needs the role 'operate'");
+  return false;
+}
+
 void Call::command(const joblink::ClientMessage& message) const {
   caller.command(message, [call = *this](const joblink::Reply& reply) {
     if (reply.has_error()) return call.fail(400, words_of(reply.error()));
@@ -64,7 +70,10 @@ std::vector<Method> moonraker_methods() {
 
 class MoonrakerDialect : public Dialect {
  public:
-  explicit MoonrakerDialect(Socket& socket) : socket_(socket) {}
+  explicit MoonrakerDialect(Socket& socket) : socket_(socket) {
+    socket_.server().moonraker_sockets()[socket_.id()] = this;
+  }
+  ~MoonrakerDialect() override { socket_.server().moonraker_sockets().erase(socket_.id()); }
 
   void on_text(std::string_view text) override {
     const Json said = Json::parse(text, nullptr, false);
@@ -101,8 +110,9 @@ class MoonrakerDialect : public Dialect {
     next_update_ = wanted_.empty() ? LocalTime::max() : socket_.now() + kUpdatePeriod;
   }
   bool identify(const std::string& name, const std::string& key) {
-    if (!socket_.is_in() && !same_key(key, socket_.server().options().key)) return false;
-    socket_.let_in(name);
+    const User* const user = socket_.server().users().by_key(key);
+    if (!socket_.is_in() && user == nullptr) return false;
+    socket_.let_in(user != nullptr ? *user : socket_.visitor(), name);
     return true;
   }
 

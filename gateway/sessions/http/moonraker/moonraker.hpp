@@ -33,6 +33,8 @@ struct Call {
   void fail(int code, std::string message) const {
     then(Error<RpcError>(RpcError{code, std::move(message)}));
   }
+  /// False: it has failed, since who asks may only watch.
+  bool may_operate() const;
   /// A request of the job link, answered with "ok" or why not.
   void command(const joblink::ClientMessage& message) const;
   /// The parameter as a text; "": there is none.

@@ -17,10 +17,16 @@ std::string path_of(const Target& target) {
   return path;
 }
 
+/// Names a websocket, where a query otherwise names objects.
+constexpr const char* kConnection = "connection_id";
+/// Clients send scripts by GET, too.
+constexpr std::string_view kScript = "printer/gcode/script";
+
 /// "toolhead&gcode_move=speed_factor,position" names objects; everywhere else a query names parameters.
 Json objects_of(const std::vector<std::pair<std::string, std::string>>& fields) {
   Json objects = Json::object();
   for (const auto& [name, list] : fields) {
+    if (name == kConnection) continue;
     if (list.empty()) {
       objects[name] = nullptr;
       continue;
@@ -50,13 +56,13 @@ void carry_out_method(Session& session, std::string_view body) {
     if (!given) return;
     params = std::move(*given);
   }
-  if (path == "printer/objects/query" && !params.contains("objects"))
-    params["objects"] = objects_of(*fields);
-  else
-    for (const auto& [name, value] : *fields) params[name] = value;
+  const bool names_objects = path == "printer/objects/query" || path == "printer/objects/subscribe";
+  for (const auto& [name, value] : *fields)
+    if (!names_objects || name == kConnection) params[name] = value;
+  if (names_objects && !params.contains("objects")) params["objects"] = objects_of(*fields);
   static const std::vector<Method> methods = moonraker_methods();
   for (const Method& method : methods) {
-    if (method.path == nullptr || method.path != path || method.verb != verb) continue;
+    if (method.path == nullptr || method.path != path || (method.verb != verb && path != kScript)) continue;
     return method.carry_out(
         {.caller = session, .params = std::move(params), .then = [&session](Result<Json, RpcError> result) {
            if (!result) return answer_error(session, result.error().code, result.error().message);
@@ -88,6 +94,7 @@ std::span<const Route> moonraker_routes() {
     for (const Method& method : moonraker_methods())
       if (method.path != nullptr)
         all.push_back({.method = method.verb, .path = method.path, .carry_out = carry_out_method});
+    all.push_back({.method = "GET", .path = kScript.data(), .carry_out = carry_out_method, .commands = true});
     return all;
   }();
   return routes;

@@ -41,11 +41,19 @@ void query_objects(const Call& call) {
 }
 
 void subscribe_objects(const Call& call) {
-  if (call.socket == nullptr) return call.fail(400, "only a websocket can be told of changes");
+  // By a request for a websocket, whose number its client was told.
+  const auto& sockets = call.caller.server().moonraker_sockets();
+  const double number = call.number("connection_id", 0);
+  const auto named = std::find_if(sockets.begin(), sockets.end(), [&](const auto& socket) {
+    return static_cast<double>(socket.first) == number;
+  });
+  MoonrakerDialect* const socket = named != sockets.end() ? named->second : call.socket;
+  if (socket == nullptr)
+    return call.fail(400, "only a websocket can be told of changes: 'connection_id' is its number");
   const auto objects = call.params.find("objects");
   if (objects == call.params.end() || !objects->is_object())
     return call.fail(400, "the parameter 'objects' names the objects that are asked for");
-  subscribe(*call.socket, *objects);
+  subscribe(*socket, *objects);
   call.done({{"eventtime", event_time(call.caller)}, {"status", moonraker_objects(call.caller, *objects)}});
 }
 
@@ -233,7 +241,7 @@ std::span<const Method> moonraker_printer_methods() {
       Method{"printer.objects.list", "GET", "printer/objects/list", list_objects},
       Method{"printer.objects.query", "GET", "printer/objects/query", query_objects},
       Method{"printer.objects.query", "POST", "printer/objects/query", query_objects},
-      Method{"printer.objects.subscribe", nullptr, nullptr, subscribe_objects},
+      Method{"printer.objects.subscribe", "POST", "printer/objects/subscribe", subscribe_objects},
       Method{"printer.query_endstops.status", "GET", "printer/query_endstops/status", endstops},
       Method{"printer.gcode.script", "POST", "printer/gcode/script", run_script},
       Method{"printer.gcode.help", "GET", "printer/gcode/help", gcode_help},

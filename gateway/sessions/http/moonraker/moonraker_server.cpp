@@ -50,7 +50,7 @@ void access_info(const Call& call) {
   call.done({{"default_source", "moonraker"},
              {"available_sources", Json::array()},
              {"login_required", false},
-             {"trusted", true}});
+             {"trusted", call.caller.role() != Role::kNobody}});
 }
 
 void system_info(const Call& call) {
@@ -88,6 +88,7 @@ void database_get(const Call& call) {
   answer_item(call, call.caller.server().database().get(call.text("namespace"), call.text("key")));
 }
 void database_post(const Call& call) {
+  if (!call.may_operate()) return;
   const auto given = call.params.find("value");
   if (given == call.params.end()) return call.fail(400, "the parameter 'value' is missing");
   const auto set = call.caller.server().database().set(call.text("namespace"), call.text("key"), *given);
@@ -96,6 +97,7 @@ void database_post(const Call& call) {
   answer_item(call, Json(*given));
 }
 void database_delete(const Call& call) {
+  if (!call.may_operate()) return;
   auto removed = call.caller.server().database().remove(call.text("namespace"), call.text("key"));
   if (removed) keep_database(call.caller);
   answer_item(call, std::move(removed));

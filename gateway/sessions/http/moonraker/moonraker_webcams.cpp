@@ -66,6 +66,7 @@ void get(const Call& call) {
 }
 
 void post(const Call& call) {
+  if (!call.may_operate()) return;
   const std::string name = call.text("name");
   std::string uid = uid_of(call);
   if (uid.empty() && !call.text("uid").empty()) return no_such_webcam(call);
@@ -90,6 +91,7 @@ void post(const Call& call) {
 }
 
 void remove(const Call& call) {
+  if (!call.may_operate()) return;
   const std::string uid = uid_of(call);
   if (uid.empty()) return no_such_webcam(call);
   auto& server = call.caller.server();

@@ -1,21 +1,23 @@
 #include "gateway/sessions/http/slicers/login_sessions.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "gateway/sessions/http/gate.hpp"
 
 namespace kinebus::http {
 
-std::string LoginSessions::begin(LocalTime now) {
-  logins_.push_back({unguessable(), now + kFor});
+std::string LoginSessions::begin(LocalTime now, Visitor visitor) {
+  logins_.push_back({unguessable(), now + kFor, std::move(visitor)});
   if (logins_.size() > kMost) logins_.pop_front();
   return logins_.back().session;
 }
 
-bool LoginSessions::knows(std::string_view session, LocalTime now) const {
-  return std::any_of(logins_.begin(), logins_.end(), [&](const Login& login) {
+std::optional<Visitor> LoginSessions::find(std::string_view session, LocalTime now) const {
+  const auto found = std::find_if(logins_.begin(), logins_.end(), [&](const Login& login) {
     return now < login.until && same_key(login.session, session);
   });
+  return found == logins_.end() ? std::nullopt : std::optional(found->visitor);
 }
 
 }  // namespace kinebus::http

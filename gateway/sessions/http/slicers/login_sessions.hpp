@@ -3,9 +3,11 @@
 
 #include <chrono>
 #include <deque>
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "gateway/sessions/http/users.hpp"
 #include "protocol/time.hpp"
 
 namespace kinebus::http {
@@ -16,13 +18,15 @@ class LoginSessions {
   static constexpr std::size_t kMost = 200;  ///< the oldest goes for a new one
 
   /// A new one, that nobody can guess.
-  std::string begin(LocalTime now);
-  bool knows(std::string_view session, LocalTime now) const;
+  std::string begin(LocalTime now, Visitor visitor);
+  /// nullopt: there is none, or its time is over.
+  std::optional<Visitor> find(std::string_view session, LocalTime now) const;
 
  private:
   struct Login {
     std::string session;
     LocalTime until;
+    Visitor visitor;
   };
   std::deque<Login> logins_;
 };

@@ -10,8 +10,8 @@
 
 namespace kinebus::http {
 
-/// Whoever has shown the key.
-inline constexpr const char* kOctoPrintUser = "kinebus";
+/// What a visitor is called: users by their names.
+std::string octoprint_user(const Visitor& visitor);
 
 /// The machine's state as OctoPrint's clients know it: "Operational", "Printing".
 const char* octoprint_state(const joblink::Status& status);
@@ -25,6 +25,11 @@ Json octoprint_temperatures(const joblink::Status& status);
 const std::string& octoprint_job_name(const joblink::Status& status, const std::string& selected);
 /// "job", "progress" and "state" of /api/job. `job`: what the store knows of it; nullptr: nothing.
 Json octoprint_job_json(const joblink::Status& status, const std::string& selected, const StoredJob* job);
+
+/// GET /api/files as PrusaLink answers it: one folder.
+void prusalink_files(Session& session);
+/// octoprint_job_json() as PrusaLink has it: completion is a share of 1.
+Json prusalink_job_json(Json octoprint);
 
 /// POST /api/files/local
 std::unique_ptr<Task> octoprint_upload(Session& session);

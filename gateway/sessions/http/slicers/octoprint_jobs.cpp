@@ -36,6 +36,7 @@ Json file_json(const StoredJob& job) {
 }
 
 void files(Session& session, std::string_view) {
+  if (session.of_prusalink()) return prusalink_files(session);
   session.beside(
       [](JobStore& store) {
         const auto listing = all_jobs(store);
@@ -72,6 +73,7 @@ void file_command(Session& session, std::string_view body) {
   if (!asked) return;
   if (word_in(*asked, "command") != "select")
     return session.refuse(400, "the commands of a file are: select");
+  if (!may_operate(session)) return;
   const auto print = asked->find("print");
   const bool prints = print != asked->end() && print->is_boolean() && print->get<bool>();
   with_job(session, file_name(session), [&session, prints](const StoredJob& job) {
@@ -82,7 +84,8 @@ void file_command(Session& session, std::string_view body) {
 }
 
 void tell_job(Session& session, const joblink::Status& status, const StoredJob* job) {
-  session.answer(json_answer(octoprint_job_json(status, session.server().selected, job)));
+  Json told = octoprint_job_json(status, session.server().selected, job);
+  session.answer(json_answer(session.of_prusalink() ? prusalink_job_json(std::move(told)) : told));
 }
 
 void job(Session& session, std::string_view) {

@@ -23,16 +23,20 @@ void server(Session& session, std::string_view) {
   session.answer(json_answer({{"version", kOctoPrintApi}, {"safemode", nullptr}}));
 }
 
-Json user() {
-  return {{"name", kOctoPrintUser},
+Json user_json(const Visitor& visitor) {
+  Json groups = Json::array({"users"}), permissions = Json::array({"STATUS", "FILES_LIST", "FILES_DOWNLOAD"});
+  if (visitor.role >= Role::kOperate)
+    for (const char* more : {"CONNECTION", "FILES_UPLOAD", "FILES_DELETE", "FILES_SELECT", "PRINT"})
+      permissions.push_back(more);
+  const bool administers = visitor.role >= Role::kAdminister;
+  if (administers) groups.push_back("admins");
+  return {{"name", octoprint_user(visitor)},
           {"active", true},
           {"user", true},
-          {"admin", true},
+          {"admin", administers},
           {"apikey", nullptr},
-          {"groups", {"admins", "users"}},
-          {"permissions",
-           {"STATUS", "CONNECTION", "FILES_LIST", "FILES_UPLOAD", "FILES_DOWNLOAD", "FILES_DELETE",
-            "FILES_SELECT", "PRINT"}}};
+          {"groups", std::move(groups)},
+          {"permissions", std::move(permissions)}};
 }
 
 /// Whoever asks has shown the key: nobody logs in by a name.
@@ -41,15 +45,15 @@ void login(Session& session, std::string_view body) {
   if (!asked) return;
   if (!asked->value("passive", Json(false)).is_boolean() || !asked->value("passive", Json(false)).get<bool>())
     return session.refuse(403, "there are no names and passwords: clients are let in by X-Api-Key");
-  Json answer = user();
-  // For a websocket, which shows it in its first message (octoprint_socket.cpp); requests show the key.
-  answer["session"] = session.server().logins().begin(session.now());
+  Json answer = user_json(session.visitor());
+  // For a websocket, which shows it in its first message (octoprint_push.cpp); requests show the key.
+  answer["session"] = session.server().logins().begin(session.now(), session.visitor());
   answer["_is_external_client"] = false;
   session.answer(json_answer(answer));
 }
 
 void current_user(Session& session, std::string_view) {
-  session.answer(json_answer(user()));
+  session.answer(json_answer(user_json(session.visitor())));
 }
 
 void settings(Session& session, std::string_view) {

@@ -85,10 +85,11 @@ class OctoPrintDialect : public Dialect {
     if (!said.is_object()) return;
     if (const std::string auth = word_in(said, "auth"); !auth.empty()) {
       const std::size_t colon = std::min(auth.find(':'), auth.size() - 1);
-      if (auth.substr(0, colon) != kOctoPrintUser ||
-          !socket_.server().logins().knows(std::string_view(auth).substr(colon + 1), socket_.now()))
+      const auto visitor =
+          socket_.server().logins().find(std::string_view(auth).substr(colon + 1), socket_.now());
+      if (!visitor || auth.substr(0, colon) != octoprint_user(*visitor))
         return tell("reauthRequired", Json::object({{"reason", "stale"}}));
-      socket_.let_in({});
+      socket_.let_in(*visitor, {});
     }
     const auto throttle = said.find("throttle");
     if (throttle != said.end() && throttle->is_number_integer())

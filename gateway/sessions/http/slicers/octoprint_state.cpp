@@ -40,6 +40,10 @@ Flags flags_of(joblink::State state) {
 
 }  // namespace
 
+std::string octoprint_user(const Visitor& visitor) {
+  return visitor.name.empty() ? "kinebus" : visitor.name;
+}
+
 const char* octoprint_state(const joblink::Status& status) {
   return is_paused(status) ? "Paused" : flags_of(status.state()).text;
 }
@@ -97,7 +101,10 @@ Json octoprint_job_json(const joblink::Status& status, const std::string& select
     file["size"] = job->size_bytes;
     file["date"] = static_cast<std::int64_t>(job->stored_unix_s);
   }
-  if (runs) estimate = status.elapsed_s() + status.remaining_s();
+  if (job != nullptr && job->preflight)
+    estimate = job->preflight->motion_s + job->preflight->dwell_s;
+  else if (runs)
+    estimate = status.elapsed_s() + status.remaining_s();
   Json progress = {{"completion", nullptr},
                    {"filepos", nullptr},
                    {"printTime", nullptr},

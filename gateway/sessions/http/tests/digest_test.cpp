@@ -101,5 +101,26 @@ TEST(Digest, WhatIsWrongIsNotLetIn) {
   EXPECT_EQ(with([](Client&) {}).status, 200);
 }
 
+/// Where OctoPrint's and PrusaLink's answers differ under one path, who shows no API key has PrusaLink's.
+TEST(Digest, WhoLogsInByItHasPrusaLinksForms) {
+  HttpRig rig;
+  rig.link.machine.make_ready();
+  const std::string put =
+      HttpRig::head("PUT", "/api/v1/files/local/a.gcode") + "Content-Type: text/x.gcode\r\n";
+  ASSERT_EQ(
+      rig.ask(put + "Print-After-Upload: ?1\r\n" + HttpRig::with_body("G4 S1\nG1 X1 F60\nG1 X0\n")).status,
+      201);
+  Client client{rig};
+  ASSERT_TRUE(client.is_challenged());
+  const auto files = client.ask(client.field("GET", "/api/files", "00000001"), "/api/files").json();
+  EXPECT_EQ(files["files"][0]["path"], "/usb");
+  EXPECT_EQ(files["files"][0]["children"][0]["path"], "/usb/a.gcode");
+  EXPECT_EQ(rig.get("/api/files").json()["files"][0]["path"], "a.gcode");
+  EXPECT_TRUE(rig.run_until([&] { return rig.link.machine.gateway->status().progress > 0.5; }, 30s));
+  const double share =
+      client.ask(client.field("GET", "/api/job", "00000002"), "/api/job").json()["progress"]["completion"];
+  EXPECT_NEAR(rig.get("/api/job").json()["progress"]["completion"].get<double>() / share, 100, 5);
+}
+
 }  // namespace
 }  // namespace kinebus::http

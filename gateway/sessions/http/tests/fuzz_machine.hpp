@@ -52,7 +52,7 @@ struct FuzzMachine {
   NoMachineFile file;
   Control control;
   JobLinkServer link{gateway(), machine, *store, worker, file, control, {}};
-  Server server{link, *store, worker, control, {.key = "k", .names = {}}};
+  Server server{link, *store, worker, control, {.users = Users("k"), .names = {}}};
 
   /// Gives a connection `bytes`, `piece` at a time, and its turns until it waits for time or bytes.
   void talk(std::string_view bytes, std::size_t piece) {

@@ -47,10 +47,10 @@ struct Connection {
 
 class HttpRig {
  public:
-  explicit HttpRig(JobStore::Options options = {}, std::size_t max_sessions = 32)
+  explicit HttpRig(JobStore::Options options = {}, std::size_t max_sessions = 32, Users users = Users(kKey))
       : link(std::move(options)),
         server(*link.server, *link.store, link.worker, link.control,
-               {.key = kKey, .names = {"kinebus"}, .max_sessions = max_sessions}) {}
+               {.users = std::move(users), .names = {"kinebus"}, .max_sessions = max_sessions}) {}
   ~HttpRig() {
     connections.clear();
     link.worker.run();
@@ -58,7 +58,7 @@ class HttpRig {
 
   Connection& connect(const std::string& peer = "tcp 10.0.0.7") {
     connections.push_back(std::make_unique<Connection>());
-    connections.back()->session = server.open(link.machine.now, "http 10.0.0.7", peer);
+    connections.back()->session = server.open(link.machine.now, "http 10.0.0.7", peer, address);
     return *connections.back();
   }
   /// The other side is gone.
@@ -137,6 +137,7 @@ class HttpRig {
   LinkRig link;
   Server server;
   std::vector<std::unique_ptr<Connection>> connections;
+  std::string address;  ///< where new connections come from; empty: not known
   std::size_t told = 0;
 
  private:

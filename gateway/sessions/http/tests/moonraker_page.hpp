@@ -10,7 +10,8 @@ namespace kinebus::http {
 
 class WebPage {
  public:
-  explicit WebPage(HttpRig& rig, bool with_key = true) : rig_(rig), client_(rig, "/websocket", with_key) {}
+  explicit WebPage(HttpRig& rig, bool with_key = true)
+      : rig_(rig), client_(rig, "/websocket", with_key ? kKey : "") {}
   /// The whole answer.
   nlohmann::json ask(const std::string& method, const nlohmann::json& params = nlohmann::json::object()) {
     const int id = ++id_;

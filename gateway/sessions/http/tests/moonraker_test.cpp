@@ -234,5 +234,28 @@ TEST(Moonraker, WrongRequestsAreRefusedAndTheSocketStays) {
   EXPECT_FALSE(client.wire.session->ended());
 }
 
+/// As FDM Monster does.
+TEST(Moonraker, ARequestSubscribesForAWebsocket) {
+  HttpRig rig;
+  WebPage page(rig);
+  const auto id = page.result("server.connection.identify", kIdentity)["connection_id"].get<std::uint64_t>();
+  const std::string path = "/printer/objects/subscribe?connection_id=";
+  const auto subscribe = [&](const std::string& number) {
+    return rig.ask(HttpRig::head("POST", path + number + "&print_stats&heater_bed=target") +
+                   "Content-Length: 0\r\n\r\n");
+  };
+  const Response response = subscribe(std::to_string(id));
+  EXPECT_EQ(response.status, 200);
+  EXPECT_EQ(response.json()["result"]["status"]["heater_bed"].size(), 1U) << response.body;
+  EXPECT_EQ(response.json()["result"]["status"].contains("connection_id"), false);
+  EXPECT_EQ(subscribe(std::to_string(id + 1000)).status, 400);
+  page.result("printer.gcode.script", {{"script", "M140 S41"}});
+  page.run(2s);
+  json told = json::object();
+  for (const json& said : page.notified)
+    if (said["method"] == "notify_status_update") told.update(said["params"][0]);
+  EXPECT_EQ(told["heater_bed"]["target"], 41) << told;
+}
+
 }  // namespace
 }  // namespace kinebus::http

@@ -33,7 +33,7 @@ std::vector<std::string> events_in(const std::vector<Heard>& heard) {
 TEST(OctoPrintPush, TellsNothingBeforeItIsLetIn) {
   HttpRig rig;
   ASSERT_TRUE(rig.link.machine.make_ready());
-  SocketClient client(rig, "/sockjs/websocket", false);
+  SocketClient client(rig, "/sockjs/websocket", "");
   auto heard = client.hear(2s);
   ASSERT_EQ(heard.size(), 1U);
   EXPECT_EQ(heard[0].json()["connected"]["version"], "1.9.0");
@@ -53,7 +53,7 @@ TEST(OctoPrintPush, TellsNothingBeforeItIsLetIn) {
   EXPECT_EQ(of_type(heard, "history")[0]["state"]["text"], "Operational");
 
   // Who says nothing of a login is shown the door.
-  SocketClient stranger(rig, "/sockjs/websocket", false);
+  SocketClient stranger(rig, "/sockjs/websocket", "");
   heard = stranger.hear(12s);
   ASSERT_FALSE(heard.empty());
   EXPECT_EQ(heard.back().opcode, Opcode::kClose);
@@ -63,7 +63,7 @@ TEST(OctoPrintPush, TheStateComesAsOftenAsItIsWanted) {
   HttpRig rig;
   ASSERT_TRUE(rig.link.machine.make_ready());
   rig.link.machine.run_for(1s);
-  SocketClient client(rig, "/sockjs/websocket", false);
+  SocketClient client(rig, "/sockjs/websocket", "");
   client.say(Json{{"auth", auth_of(rig)}}.dump());
   client.hear(1s);
   const auto current = of_type(client.hear(5s), "current");
@@ -127,7 +127,7 @@ TEST(OctoPrintPush, SockJsPutsItsFramesAroundAll) {
   ASSERT_TRUE(rig.link.machine.make_ready());
   const Json info = rig.ask("GET /sockjs/info?t=1 HTTP/1.1\r\nHost: localhost\r\n\r\n").json();
   EXPECT_EQ(info["websocket"], true);
-  SocketClient client(rig, "/sockjs/173/abcdefgh/websocket", false);
+  SocketClient client(rig, "/sockjs/173/abcdefgh/websocket", "");
   auto heard = client.hear(100ms);
   ASSERT_GE(heard.size(), 2U);
   EXPECT_EQ(heard[0].payload, "o");

@@ -86,7 +86,7 @@ TEST(WebSocket, TheHandshakeIsAnsweredAsInTheStandard) {
 
 TEST(WebSocket, WhoDoesNotShowTheKeyIsNotHeard) {
   HttpRig rig;
-  SocketClient client(rig, kPath, false);
+  SocketClient client(rig, kPath, "");
   EXPECT_EQ(client.say(R"({"request_id":1,"get_status":{}})").at(0).json()["reply"]["error"]["code"],
             "ERROR_NOT_ALLOWED");
   const auto wrong = client.say(hello("YWJj"));
@@ -95,7 +95,7 @@ TEST(WebSocket, WhoDoesNotShowTheKeyIsNotHeard) {
   EXPECT_EQ(wrong[1].code(), 1008U);
   EXPECT_TRUE(client.wire.session->ended());
 
-  SocketClient silent(rig, kPath, false);
+  SocketClient silent(rig, kPath, "");
   const auto heard = silent.hear(12s);
   ASSERT_FALSE(heard.empty());
   EXPECT_EQ(heard.back().code(), 1008U);
@@ -103,7 +103,7 @@ TEST(WebSocket, WhoDoesNotShowTheKeyIsNotHeard) {
 
 TEST(WebSocket, TheKeyInTheHelloLetsIn) {
   HttpRig rig;
-  SocketClient client(rig, kPath, false);
+  SocketClient client(rig, kPath, "");
   // "0123456789abcdef" in base64.
   const auto heard = client.say(hello("MDEyMzQ1Njc4OWFiY2RlZg=="));
   ASSERT_EQ(heard.size(), 1U);
@@ -187,7 +187,7 @@ TEST(WebSocket, WhoSaysNothingIsPingedAndWhoDoesNotAnswerIsGone) {
 TEST(WebSocket, ThereIsAlwaysRoomForRequestsAndForWhoHasTheKey) {
   HttpRig rig;
   // Without the key they give way.
-  for (int i = 0; i < 30; ++i) SocketClient(rig, kPath, false);
+  for (int i = 0; i < 30; ++i) SocketClient(rig, kPath, "");
   std::vector<std::unique_ptr<SocketClient>> let_in;
   for (int i = 0; i < 20; ++i) let_in.push_back(std::make_unique<SocketClient>(rig, kPath));
   EXPECT_EQ(rig.ask(handshake(kPath, "X-Api-Key: " + std::string(kKey) + "\r\n")).status, 503);

@@ -1,0 +1,199 @@
+#include "gateway/sessions/http/users.hpp"
+
+#include <arpa/inet.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstddef>
+#include <cstring>
+#include <initializer_list>
+#include <optional>
+#include <utility>
+
+#include "gateway/near_word.hpp"
+#include "gateway/sessions/http/gate.hpp"
+#include "gateway/toml.hpp"
+
+namespace kinebus::http {
+namespace {
+
+using Wrong = Error<std::string>;
+constexpr unsigned kMappedBits = 96;
+/// Wider ones hold strangers.
+constexpr unsigned kFewestBits4 = 8, kFewestBits6 = 7;
+
+struct Address {
+  std::array<std::uint8_t, 16> bytes{};
+  bool is_v4 = false;
+};
+
+std::optional<Address> address_of(std::string_view text) {
+  const std::string word(text);
+  Address address;
+  if (::inet_pton(AF_INET, word.c_str(), address.bytes.data() + 12) == 1) {
+    address.bytes[10] = address.bytes[11] = 0xFF;
+    address.is_v4 = true;
+    return address;
+  }
+  if (::inet_pton(AF_INET6, word.c_str(), address.bytes.data()) == 1) return address;
+  return std::nullopt;
+}
+
+bool is_in(const std::array<std::uint8_t, 16>& address, const std::array<std::uint8_t, 16>& network,
+           unsigned bits) {
+  if (!std::equal(address.begin(), address.begin() + bits / 8, network.begin())) return false;
+  if (bits % 8 == 0) return true;
+  const unsigned mask = 0xFF00U >> (bits % 8);
+  return ((address[bits / 8] ^ network[bits / 8]) & mask & 0xFFU) == 0;
+}
+
+std::optional<Role> role_of(std::string_view word) {
+  for (const Role role : {Role::kWatch, Role::kOperate, Role::kAdminister})
+    if (word == word_of(role)) return role;
+  return std::nullopt;
+}
+
+/// "line 3: "
+std::string place(const toml::node& node) {
+  return "line " + std::to_string(node.source().begin.line) + ": ";
+}
+
+/// Why `table` has other keys than these, all of them texts; empty: it has them.
+std::string keys_wrong(const toml::table& table, std::initializer_list<const char*> keys) {
+  for (const auto& [key, value] : table)
+    if (std::none_of(keys.begin(), keys.end(), [&](const char* known) { return key.str() == known; })) {
+      std::string expected;
+      for (const char* known : keys) expected += (expected.empty() ? "" : ", ") + std::string(known);
+      return place(value) + "there is no key '" + std::string(key.str()) + "' here (" + expected + ")";
+    }
+  for (const char* key : keys)
+    if (!table[key].is_string()) return place(table) + "'" + key + "' is missing, or no text";
+  return {};
+}
+
+Result<Role, std::string> role_in(const toml::table& table) {
+  const std::string word = table["role"].value_or(std::string());
+  if (const auto role = role_of(word)) return *role;
+  return Wrong(place(table) + "there is no role '" + word + "' (watch, operate, administer)");
+}
+
+}  // namespace
+
+const char* word_of(Role role) {
+  switch (role) {
+    case Role::kWatch:
+      return "watch";
+    case Role::kOperate:
+      return "operate";
+    case Role::kAdminister:
+      return "administer";
+    case Role::kNobody:
+      break;
+  }
+  return "nobody";
+}
+
+Role role_for(const joblink::ClientMessage& message) {
+  using Message = joblink::ClientMessage;
+  switch (message.request_case()) {
+    case Message::kHello:
+    case Message::kPing:
+    case Message::kWatch:
+    case Message::kGetStatus:
+    case Message::kListJobs:
+    case Message::kReadJob:
+    case Message::kGetHistory:
+    case Message::kGetMachine:
+    case Message::kGetEvents:
+    case Message::kReadMachineFile:
+    case Message::kStop:  // whoever sees that it must
+    case Message::kReleaseControl:
+      return Role::kWatch;
+    case Message::kWriteMachineFile:
+    case Message::kRestartGateway:
+    case Message::kSetMotorCurrents:
+    case Message::kTuneMotor:
+    case Message::kJogMotor:
+    case Message::kTuneHeater:
+      return Role::kAdminister;
+    default:
+      return Role::kOperate;
+  }
+}
+
+Users::Users(std::string key) : users_{{{.role = Role::kAdminister}, std::move(key)}} {}
+
+Result<Users, std::string> Users::read(std::string key, std::string_view toml) {
+  const toml::parse_result parsed = toml::parse(toml);
+  if (!parsed)
+    return Wrong("line " + std::to_string(parsed.error().source().begin.line) + ": " +
+                 std::string(parsed.error().description()));
+  Users users(std::move(key));
+  for (const auto& [name, value] : parsed.table()) {
+    if (name != "user" && name != "trusted")
+      return Wrong(place(value) + "there is no '" + std::string(name.str()) +
+                   "' in such a file ([[user]], [[trusted]])");
+    const toml::array* list = value.as_array();
+    if (list == nullptr || !list->is_homogeneous<toml::table>())
+      return Wrong(place(value) + "expected [[" + std::string(name.str()) + "]]");
+    if (list->size() > kMost) return Wrong(place(value) + "at most 100 of a kind");
+    for (const toml::node& node : *list) {
+      const toml::table& table = *node.as_table();
+      const auto text = [&](const char* word) { return table[word].value_or(std::string()); };
+      const bool is_user = name == "user";
+      if (std::string wrong = is_user ? keys_wrong(table, {"name", "role", "key"})
+                                      : keys_wrong(table, {"network", "role"});
+          !wrong.empty())
+        return Wrong(std::move(wrong));
+      const auto role = role_in(table);
+      if (!role) return Wrong(role.error());
+      if (is_user) {
+        User user{{text("name"), *role}, text("key")};
+        if (user.name.empty()) return Wrong(place(table) + "a user has a name");
+        if (user.key.size() < kShortestKey)
+          return Wrong(place(table) + "the key of '" + user.name +
+                       "' is too short (16 characters or more, such as of 'openssl rand -hex 16')");
+        for (const User& other : users.users_)
+          if (other.key == user.key || other.name == user.name)
+            return Wrong(place(table) + "'" + user.name + "' has the name or the key of another");
+        users.users_.push_back(std::move(user));
+        continue;
+      }
+      const std::string network = text("network");
+      const std::size_t slash = std::min(network.find('/'), network.size());
+      const auto address = address_of(std::string_view(network).substr(0, slash));
+      unsigned bits = 0;
+      const char* const end = network.data() + network.size();
+      const char* const begin = std::min(network.data() + slash + 1, end);
+      const auto number = std::from_chars(begin, end, bits);
+      const bool reads = address && begin != end && number.ec == std::errc() && number.ptr == end &&
+                         bits <= (address->is_v4 ? 32U : 128U);
+      if (!reads)
+        return Wrong(place(table) + "'" + network + "' is no network (such as 192.168.1.0/24 or fd00::/8)");
+      if (bits < (address->is_v4 ? kFewestBits4 : kFewestBits6))
+        return Wrong(place(table) + "'" + network + "' is too wide to be trusted (/8 or narrower)");
+      if (*role == Role::kAdminister)
+        return Wrong(place(table) + "who administers shows a key (watch, operate)");
+      users.networks_.push_back({address->bytes, bits + (address->is_v4 ? kMappedBits : 0U), *role});
+    }
+  }
+  return users;
+}
+
+const User* Users::by_key(std::string_view key) const {
+  const User* found = nullptr;
+  for (const User& user : users_)
+    if (same_key(key, user.key)) found = &user;
+  return found;
+}
+
+Role Users::role_at(std::string_view address) const {
+  const auto from = address_of(address);
+  Role role = Role::kNobody;
+  if (!from) return role;
+  for (const Network& network : networks_)
+    if (is_in(from->bytes, network.address, network.bits)) role = std::max(role, network.role);
+  return role;
+}
+
+}  // namespace kinebus::http

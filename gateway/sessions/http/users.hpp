@@ -1,0 +1,62 @@
+#pragma once
+// Who may ask, and for what: clients that show a key, and those of networks that need none.
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gateway/result.hpp"
+#include "protocol/joblink/kinebus.pb.h"
+
+namespace kinebus::http {
+
+/// Each may do what those before it may.
+enum class Role : std::uint8_t {
+  kNobody,
+  kWatch,       ///< sees all, and may stop the machine in an emergency
+  kOperate,     ///< jobs, moves, heat
+  kAdminister,  ///< machine file, motors, what stays in the nodes
+};
+/// "watch"
+const char* word_of(Role role);
+/// What a request needs.
+Role role_for(const joblink::ClientMessage& message);
+
+struct Visitor {
+  std::string name{};  ///< empty: the holder of the gateway's key, or a client of a trusted network
+  Role role = Role::kNobody;
+};
+struct User : Visitor {
+  std::string key{};
+};
+
+class Users {
+ public:
+  static constexpr std::size_t kShortestKey = 16;
+  static constexpr std::size_t kMost = 100;
+
+  /// One, with the gateway's key, who administers.
+  explicit Users(std::string key);
+  /// And those of a file (TOML): [[user]] name, role, key; [[trusted]] network ("192.168.1.0/24"), role. The
+  /// error names what is wrong and what was expected.
+  static Result<Users, std::string> read(std::string key, std::string_view toml);
+
+  const std::vector<User>& all() const { return users_; }
+  /// Who has this key, which takes as long for each; nullptr: nobody.
+  const User* by_key(std::string_view key) const;
+  /// Of who comes from `address` ("10.0.0.7", "fe80::1"; anything else is trusted by nobody) without a key.
+  Role role_at(std::string_view address) const;
+
+ private:
+  struct Network {
+    std::array<std::uint8_t, 16> address;  ///< of IPv6, or mapped into it
+    unsigned bits;
+    Role role;
+  };
+  std::vector<User> users_;
+  std::vector<Network> networks_;
+};
+
+}  // namespace kinebus::http
