@@ -29,6 +29,7 @@ struct Arguments {
   std::string http;
   std::string http_key;
   std::string web;
+  bool mdns = true;
   std::vector<std::string> http_names;
   double quota_gib = 16;
   std::string log_level = "info";

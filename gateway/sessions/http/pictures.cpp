@@ -58,8 +58,8 @@ const joblink::SlicerPicture* small_picture(const joblink::SlicerNotes& notes) {
 }
 
 void send_picture(Session& session, std::vector<std::string> names, ChoosePicture choose) {
-  session.beside([names = std::move(names), choose = std::move(choose)](
-                     JobStore& store) { return picture_of(store, names, choose); },
+  session.beside([names = std::move(names),
+                  choose = std::move(choose)](JobStore& store) { return picture_of(store, names, choose); },
                  [&session](std::optional<Sent> sent) {
                    if (!sent) return session.refuse(404, "no picture of such a job is here");
                    Answer answer{.type = sent->type, .may_be_kept = true};

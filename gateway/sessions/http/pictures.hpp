@@ -1,5 +1,6 @@
 #pragma once
-// What slicers wrote into stored jobs, as all APIs need it: which picture is meant, and its bytes as an answer.
+// What slicers wrote into stored jobs, as all APIs need it: which picture is meant, and its bytes as an
+// answer.
 
 #include <functional>
 #include <string>

@@ -30,7 +30,8 @@ void JobStore::add_notes(const std::vector<StoredJob*>& unread) {
   static_cast<void>(database_->run("BEGIN IMMEDIATE"));
   for (StoredJob* job : std::span(unread).first(std::min(unread.size(), kTextsAList))) {
     job->notes = look_for_notes(*job);
-    Database::Statement insert(*database_, "INSERT OR REPLACE INTO notes(hash, reader, found) VALUES(?, ?, ?)");
+    Database::Statement insert(*database_,
+                               "INSERT OR REPLACE INTO notes(hash, reader, found) VALUES(?, ?, ?)");
     static_cast<void>(
         insert.bind_blob(job->hash).bind(kNotesReader).bind_blob(job->notes.SerializeAsString()).finish());
   }

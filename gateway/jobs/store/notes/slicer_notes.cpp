@@ -229,7 +229,8 @@ void each_comment(std::string_view text, Take take) {
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
     const std::string_view line = text.substr(at, end - at);
-    if (!line.empty() && line.front() == ';') take(trimmed(line.substr(1)), at, std::min(end + 1, text.size()));
+    if (!line.empty() && line.front() == ';')
+      take(trimmed(line.substr(1)), at, std::min(end + 1, text.size()));
     at = end + 1;
   }
 }

@@ -20,7 +20,8 @@ void look_at(std::string_view head, std::string_view tail) {
     const auto bytes =
         kinebus::decode_picture(head.substr(picture.text_offset_bytes(), picture.text_bytes()), picture);
     check(bytes && bytes->size() == picture.size_bytes());
-    check(picture.width_px() <= kinebus::kMaxPictureSidePx && picture.height_px() <= kinebus::kMaxPictureSidePx);
+    check(picture.width_px() <= kinebus::kMaxPictureSidePx &&
+          picture.height_px() <= kinebus::kMaxPictureSidePx);
   }
   for (const double value : {notes.time_s(), notes.filament_mm(), notes.filament_g(), notes.layer_mm(),
                              notes.first_layer_mm(), notes.object_height_mm(), notes.nozzle_mm(),

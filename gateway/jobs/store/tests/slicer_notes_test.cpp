@@ -36,7 +36,8 @@ TEST(SlicerNotes, OfPrusaSlicer) {
   EXPECT_EQ(picture.height_px(), 124U);
   EXPECT_FALSE(picture.jpeg());
   EXPECT_EQ(picture.size_bytes(), png_of(220, 124, 5000).size());
-  EXPECT_EQ(decode_picture(std::string_view(job).substr(picture.text_offset_bytes(), picture.text_bytes()), picture),
+  EXPECT_EQ(decode_picture(std::string_view(job).substr(picture.text_offset_bytes(), picture.text_bytes()),
+                           picture),
             png_of(220, 124, 5000));
 }
 
@@ -64,15 +65,15 @@ TEST(SlicerNotes, WhatDoesNotHoldIsLeftOut) {
   const std::string png = png_of(32, 24);
   EXPECT_EQ(read(picture_block("thumbnail begin 32x24", png)).pictures_size(), 1);
   for (const std::string& block :
-       {picture_block("thumbnail begin 32x25", png),                     // not its size
+       {picture_block("thumbnail begin 32x25", png),  // not its size
         picture_block("thumbnail begin 32", png), picture_block("thumbnail begin -32x24", png),
-        picture_block("thumbnail begin 32x24", "<html><script>"),        // no picture
-        picture_block("thumbnail_JPG begin 32x24", png),                 // not what it says
-        picture_block("thumbnail begin 32x24", jpeg_of(32, 24)),         //
-        picture_block("thumbnail_QOI begin 32x24", png),                 // a kind that is not shown
+        picture_block("thumbnail begin 32x24", "<html><script>"),  // no picture
+        picture_block("thumbnail_JPG begin 32x24", png),           // not what it says
+        picture_block("thumbnail begin 32x24", jpeg_of(32, 24)),   //
+        picture_block("thumbnail_QOI begin 32x24", png),           // a kind that is not shown
         picture_block("thumbnail begin 30000x30000", png_of(30'000, 30'000)),
-        picture_block("thumbnail begin 32x24 7", png),                   // a lying length
-        picture_block("thumbnail begin 32x24", png.substr(0, 20))}) {    // cut
+        picture_block("thumbnail begin 32x24 7", png),                 // a lying length
+        picture_block("thumbnail begin 32x24", png.substr(0, 20))}) {  // cut
     EXPECT_EQ(read(block).pictures_size(), 0) << block.substr(0, 60);
   }
   std::string broken = picture_block("thumbnail begin 32x24", png);

@@ -16,7 +16,8 @@ class Pictures : public ::testing::Test {
     ASSERT_EQ(response.status, 201) << response.body;
   }
   /// A picture under `path`, as it must be answered.
-  void expect_picture(const std::string& path, const std::string& bytes, const std::string& type = "image/png") {
+  void expect_picture(const std::string& path, const std::string& bytes,
+                      const std::string& type = "image/png") {
     const Response response = rig.get(path);
     EXPECT_EQ(response.status, 200) << path << response.body;
     EXPECT_TRUE(response.body == bytes) << path;
@@ -101,7 +102,8 @@ TEST_F(Pictures, AreSentAgainOnlyWhenTheJobIsAnother) {
   };
   const std::string mark = mark_of(rig.get("/thumb/l/local/a.gcode"));
   const auto ask = [&] {
-    return rig.ask(HttpRig::head("GET", "/thumb/l/local/a.gcode") + "If-None-Match: " + mark + "\r\n\r\n").status;
+    return rig.ask(HttpRig::head("GET", "/thumb/l/local/a.gcode") + "If-None-Match: " + mark + "\r\n\r\n")
+        .status;
   };
   EXPECT_EQ(ask(), 304);
   rig.ask(HttpRig::head("DELETE", "/api/v1/files/local/a.gcode") + "\r\n");
