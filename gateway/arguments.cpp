@@ -39,6 +39,9 @@ void add_options(CLI::App& app, Arguments& arguments) {
                  "http-users.toml beside the token, where it is there)");
   app.add_option("--http-name", arguments.http_names,
                  "A name by which HTTP clients call this computer, besides its own and its addresses");
+  app.add_flag("--mdns,!--no-mdns", arguments.mdns,
+               "Tell the network by mDNS where HTTPS is served (default: yes, on an address that others can "
+               "reach)");
   app.add_option("--web", arguments.web,
                  "Folder of the web page that is served by HTTP (default: the installed one)");
   app.add_option("--quota", arguments.quota_gib, "GiB that stored jobs may take")

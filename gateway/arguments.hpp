@@ -30,6 +30,7 @@ struct Arguments {
   std::string http_key;
   std::string http_users;
   std::string web;
+  bool mdns = true;
   std::vector<std::string> http_names;
   double quota_gib = 16;
   std::string log_level = "info";

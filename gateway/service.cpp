@@ -21,6 +21,7 @@
 #include "gateway/io/service_manager.hpp"
 #include "gateway/io/socketcan_bus.hpp"
 #include "gateway/io/web_folder.hpp"
+#include "gateway/sessions/http/api.hpp"
 #include "protocol/bytes.hpp"
 #include "protocol/host/can_interface.hpp"
 #include "protocol/host/realtime.hpp"
@@ -241,6 +242,14 @@ void Service::listen_http(const std::string& credentials) {
   if (!pages.empty()) spdlog::info("web page from {}", pages.string());
   spdlog::info("{} port {}, API key in {}", http_host_.encrypted() ? "HTTPS" : "HTTP", http_host_.port(),
                file);
+  // Nobody else can reach what is not encrypted.
+  if (!arguments_.mdns || !http_host_.encrypted()) return;
+  if (!Announcer::built_in())
+    return spdlog::info("mDNS: not announced, this kinebusd was built without avahi");
+  announcer_.emplace(Announcer::Options{.name = machine_.name,
+                                        .port = static_cast<std::uint16_t>(http_host_.port()),
+                                        .octoprint = http::kOctoPrintApi,
+                                        .version = KINEBUS_VERSION});
 }
 
 void Service::run(const volatile std::sig_atomic_t* quit) {

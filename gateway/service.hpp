@@ -17,6 +17,7 @@
 #include "gateway/io/job_link_host.hpp"
 #include "gateway/io/journal_file.hpp"
 #include "gateway/io/machine_file_store.hpp"
+#include "gateway/io/mdns/announcer.hpp"
 #include "gateway/io/store_files.hpp"
 #include "gateway/io/stream_hub.hpp"
 #include "gateway/io/usb/function_fs.hpp"
@@ -62,6 +63,7 @@ class Service {
   Control control_;
   JobLinkServer server_;
   std::optional<http::Server> http_;
+  std::optional<Announcer> announcer_;
   StreamHub hub_;
   JobLinkHost host_;
   HttpHost http_host_;

@@ -34,6 +34,7 @@ joblink::Job to_message(const StoredJob& job) {
   if (job.preflight) *m.mutable_preflight() = to_message(*job.preflight);
   m.set_times_run(job.times_run);
   if (job.last_run) *m.mutable_last_run() = to_message(*job.last_run);
+  if (job.notes.ByteSizeLong() > 0) *m.mutable_notes() = job.notes;
   return m;
 }
 

@@ -52,6 +52,14 @@ std::optional<std::string> hash_of_file(const fs::path& path) {
   return sum.finish();
 }
 
+/// From five columns beginning with `column`.
+std::optional<StoredPreflight> preflight_of(const Database::Statement& row, int column) {
+  if (row.null(column)) return std::nullopt;
+  return StoredPreflight{
+      static_cast<std::uint32_t>(row.integer(column)), static_cast<std::uint32_t>(row.integer(column + 1)),
+      static_cast<std::uint32_t>(row.integer(column + 2)), row.real(column + 3), row.real(column + 4)};
+}
+
 Error<StoreError> no_such_job(std::string_view name) {
   return Error<StoreError>({StoreError::Kind::kNoSuchJob, say("no stored job has the name %1", name)});
 }
@@ -165,6 +173,7 @@ Result<void, StoreError> JobStore::make_tables() {
       " changed_ns INTEGER NOT NULL, stored REAL NOT NULL);"
       "CREATE TABLE IF NOT EXISTS preflights(hash BLOB NOT NULL, machine TEXT NOT NULL, errors INTEGER,"
       " warnings INTEGER, lines INTEGER, motion_s REAL, dwell_s REAL, PRIMARY KEY(hash, machine));"
+      "CREATE TABLE IF NOT EXISTS notes(hash BLOB PRIMARY KEY, reader INTEGER NOT NULL, found BLOB NOT NULL);"
       "CREATE TABLE IF NOT EXISTS uploads(partial TEXT PRIMARY KEY, size INTEGER NOT NULL, secured INTEGER "
       "NOT NULL,"
       " begun REAL NOT NULL, name TEXT, hash BLOB);"
@@ -226,6 +235,7 @@ void JobStore::agree_with_files() {
   for (const auto& [name, mark] : files)
     if (const auto hash = hash_of_file(options_.folder / name))
       static_cast<void>(enter(name, *hash, mark.changed_unix_s));
+  static_cast<void>(database_->run("DELETE FROM notes WHERE hash NOT IN (SELECT hash FROM jobs)"));
   static_cast<void>(database_->run("COMMIT"));
 }
 
@@ -272,10 +282,12 @@ Result<JobListing, StoreError> JobStore::list(std::string_view after, std::size_
   Database::Statement rows(
       *database_,
       "SELECT j.name, j.hash, j.size, j.stored, p.errors, p.warnings, p.lines, p.motion_s, p.dwell_s,"
-      " (SELECT COUNT(*) FROM runs r WHERE r.name = j.name)"
-      " FROM jobs j LEFT JOIN preflights p ON p.hash = j.hash AND p.machine = ? WHERE j.name > ?"
+      " (SELECT COUNT(*) FROM runs r WHERE r.name = j.name), n.found"
+      " FROM jobs j LEFT JOIN preflights p ON p.hash = j.hash AND p.machine = ?"
+      " LEFT JOIN notes n ON n.hash = j.hash AND n.reader = ? WHERE j.name > ?"
       " ORDER BY j.name LIMIT ?");
-  rows.bind(machine_).bind(after).bind(static_cast<std::int64_t>(max) + 1);
+  std::vector<bool> read;
+  rows.bind(machine_).bind(kNotesReader).bind(after).bind(static_cast<std::int64_t>(max) + 1);
   while (rows.step()) {
     listing.more = listing.jobs.size() == max;
     if (listing.more) continue;
@@ -284,16 +296,18 @@ Result<JobListing, StoreError> JobStore::list(std::string_view after, std::size_
     job.hash = rows.text(1);
     job.size_bytes = static_cast<std::uint64_t>(rows.integer(2));
     job.stored_unix_s = rows.real(3);
-    if (!rows.null(4))
-      job.preflight = StoredPreflight{
-          static_cast<std::uint32_t>(rows.integer(4)), static_cast<std::uint32_t>(rows.integer(5)),
-          static_cast<std::uint32_t>(rows.integer(6)), rows.real(7), rows.real(8)};
+    job.preflight = preflight_of(rows, 4);
     job.times_run = static_cast<std::uint32_t>(rows.integer(9));
+    read.push_back(!rows.null(10) && job.notes.ParseFromString(rows.text(10)));
     listing.jobs.push_back(std::move(job));
   }
   if (const auto ok = rows.error(); !ok) return Error<StoreError>(ok.error());
   for (StoredJob& job : listing.jobs)
     if (job.times_run > 0) job.last_run = last_run(job.name);
+  std::vector<StoredJob*> unread;
+  for (std::size_t i = 0; i < read.size(); ++i)
+    if (!read[i]) unread.push_back(&listing.jobs[i]);
+  add_notes(unread);
   if (after.empty()) listing.partials = partials();
   listing.used_bytes = used_bytes();
   listing.quota_bytes = options_.quota_bytes;
@@ -304,8 +318,12 @@ Result<JobListing, StoreError> JobStore::list(std::string_view after, std::size_
 }
 
 std::optional<StoredJob> JobStore::find(std::string_view name) {
-  Database::Statement row(*database_, "SELECT hash, size, changed_ns, stored FROM jobs WHERE name = ?");
-  row.bind(name);
+  Database::Statement row(
+      *database_,
+      "SELECT j.hash, j.size, j.changed_ns, j.stored, p.errors, p.warnings, p.lines, p.motion_s, p.dwell_s,"
+      " n.found FROM jobs j LEFT JOIN preflights p ON p.hash = j.hash AND p.machine = ?"
+      " LEFT JOIN notes n ON n.hash = j.hash AND n.reader = ? WHERE j.name = ?");
+  row.bind(machine_).bind(kNotesReader).bind(name);
   if (!check_name(name).empty() || !row.step()) return std::nullopt;
   const auto mark = mark_of(options_.folder / name);
   if (!mark || mark->changed_ns != row.integer(2) ||
@@ -316,6 +334,10 @@ std::optional<StoredJob> JobStore::find(std::string_view name) {
   job.hash = row.text(0);
   job.size_bytes = mark->size_bytes;
   job.stored_unix_s = row.real(3);
+  job.preflight = preflight_of(row, 4);
+  const bool read = !row.null(9) && job.notes.ParseFromString(row.text(9));
+  static_cast<void>(row.finish());
+  if (!read) add_notes({&job});
   return job;
 }
 

@@ -27,6 +27,7 @@
 #include "gateway/jobs/store/store_error.hpp"
 #include "gateway/result.hpp"
 #include "gateway/sentence.hpp"
+#include "protocol/joblink/kinebus.pb.h"
 
 namespace kinebus {
 
@@ -81,6 +82,7 @@ struct StoredJob {
   std::optional<StoredPreflight> preflight;
   std::uint32_t times_run = 0;
   std::optional<StoredRun> last_run;
+  joblink::SlicerNotes notes{};
 };
 /// An upload that is not finished.
 struct PartialUpload {
@@ -152,6 +154,10 @@ class JobStore {
   Result<void, StoreError> adopt(const std::filesystem::path& written, std::string_view name,
                                  double now_unix_s);
 
+  // notes/job_notes.cpp
+  /// One of `job`'s pictures, as find() or list() told of it. nullopt: it cannot be read any more.
+  std::optional<std::string> picture(const StoredJob& job, const joblink::SlicerPicture& picture);
+
   // kept_text.cpp
   /// As open_job(); when the job has really begun, keep_what_runs() keeps just this text.
   Result<std::unique_ptr<ByteSource>, StoreError> open_to_run(std::string_view name);
@@ -175,6 +181,8 @@ class JobStore {
 
  private:
   struct Upload;
+  /// Notes of another reader are read anew: to be counted up when it finds more.
+  static constexpr std::int64_t kNotesReader = 1;
   using Opened = Result<std::unique_ptr<ByteSource>, StoreError>;
   explicit JobStore(Options options);
 
@@ -193,6 +201,8 @@ class JobStore {
   std::filesystem::path kept_of(std::string_view name) const;
   void heal();
   std::optional<StoredRun> last_run(std::string_view name);
+  joblink::SlicerNotes look_for_notes(const StoredJob& job);
+  void add_notes(const std::vector<StoredJob*>& unread);
   std::filesystem::path partial_of(const UploadIdentity& identity) const;
   Result<std::unique_ptr<Upload>, StoreError> reopen(const UploadIdentity& identity);
   Result<UploadProgress, StoreError> open_upload(std::unique_ptr<Upload> upload, bool replace);

@@ -6,6 +6,7 @@ import { Files } from './files.js';
 import { Heaters } from './heaters.js';
 import { Job } from './job.js';
 import { Motion } from './motion.js';
+import { Pictures } from './pictures.js';
 
 const at = (id) => document.getElementById(id);
 let link = null;
@@ -30,8 +31,9 @@ async function ask(name, fields) {
   }
 }
 
-const panels = { ask, tell, link: () => link };
-const all = [new Job(panels), new Heaters(panels), new Motion(panels), new Files(panels), new Console(panels)];
+const panels = { ask, tell, link: () => link, pictures: new Pictures(() => link), job: (name) => files.job(name) };
+const files = new Files(panels);
+const all = [new Job(panels), new Heaters(panels), new Motion(panels), files, new Console(panels)];
 
 const kKind = { STATE_READY: 'good', STATE_HELD: 'work', STATE_STOPPING: 'bad', STATE_STOPPED: 'bad', STATE_ALARM: 'bad', STATE_OFF: 'none', STATE_UNHOMED: 'none' };
 function show_state() {

@@ -2,7 +2,21 @@
 import { date, duration, number, percent, t } from './words.js';
 
 const at = (id) => document.getElementById(id);
-const size = (bytes) => bytes < 1024 ? `${number(bytes)} B` : bytes < 1048576 ? `${number(bytes / 1024, 1)} KiB` : `${number(bytes / 1048576, 1)} MiB`;
+/// A number with its unit: never broken, and from left to right in all languages.
+const measure = (value, unit) => `\u2066${value}\u00A0${unit}\u2069`;
+const size = (bytes) => bytes < 1024 ? measure(number(bytes), 'B') : bytes < 1048576 ? measure(number(bytes / 1024, 1), 'KiB') : measure(number(bytes / 1048576, 1), 'MiB');
+
+/// What the gateway found out, else what the slicer says.
+function time_of(job) {
+  if (job.preflight) return duration(job.preflight.motion_s + job.preflight.dwell_s);
+  return job.notes?.time_s > 0 ? `≈\u00A0${duration(job.notes.time_s)}` : '–';
+}
+export function filament_of({ notes }) {
+  const parts = [];
+  if (notes?.filament_mm > 0) parts.push(measure(number(notes.filament_mm / 1000, 2), 'm'));
+  if (notes?.filament_g > 0) parts.push(measure(number(notes.filament_g, 1), 'g'));
+  return parts.join(' · ') || '–';
+}
 
 function cells(...contents) {
   const row = document.createElement('tr');
@@ -63,6 +77,22 @@ export class Files {
     return button;
   }
 
+  /// As the store knows it; undefined: it is not there.
+  job(name) {
+    return this.#jobs.find((job) => job.name === name);
+  }
+
+  #name(job) {
+    const name = document.createElement('div');
+    name.className = 'job';
+    const image = this.panels.pictures.of(job);
+    if (image) name.append(image);
+    const words = document.createElement('span');
+    words.textContent = job.name;
+    name.append(words);
+    return name;
+  }
+
   #draw() {
     at('jobs').replaceChildren(...this.#jobs.map((job) => {
       const actions = document.createElement('div');
@@ -73,8 +103,7 @@ export class Files {
         start,
         this.#button('download', job.name, () => this.#download(job.name), 'plain'),
         this.#button('remove', job.name, () => confirm(t('really', job.name)) && this.panels.ask('delete_job', { name: job.name }), 'plain'));
-      const time = job.preflight ? duration(job.preflight.motion_s + job.preflight.dwell_s) : '–';
-      return cells(job.name, size(Number(job.size_bytes)), time, actions);
+      return cells(this.#name(job), size(Number(job.size_bytes)), time_of(job), filament_of(job), actions);
     }));
     at('runs').replaceChildren(...this.#runs.map((run) => cells(run.name, date(run.begun_unix_s), duration(run.duration_s), t(run.result))));
   }

@@ -87,6 +87,11 @@ export class Link extends EventTarget {
     return response.blob();
   }
 
+  async picture(name, great) {
+    const response = await this.#http('GET', `/thumb/${great ? 'l' : 's'}/local/${encodeURIComponent(name)}`);
+    return response.blob();
+  }
+
   async #http(method, path) {
     const response = await fetch(path, { method, headers: this.key ? { 'X-Api-Key': this.key } : {} });
     if (!response.ok) throw { rule: (await response.json()).error };

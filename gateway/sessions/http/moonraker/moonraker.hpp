@@ -78,6 +78,9 @@ void newest_run(Caller& caller, std::function<void(Json)> then);
 /// "ready" or "shutdown", as Klipper's clients know it, and why.
 const char* klippy_state(const joblink::Status& status);
 
+/// GET /server/files/gcodes/.thumbs/NAME-WxH.png
+void send_gcode_picture(Session& session, std::string_view body);
+
 /// GET /websocket
 std::unique_ptr<Dialect> moonraker_dialect(Socket& socket);
 void subscribe(MoonrakerDialect& socket, Json wanted);

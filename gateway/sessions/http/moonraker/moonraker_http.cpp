@@ -90,6 +90,7 @@ std::span<const Route> moonraker_routes() {
          .open = true},
         {.method = "POST", .path = "server/files/upload", .carry_out = nullptr, .make = moonraker_upload},
         {.method = "GET", .path = "server/files/gcodes/*", .carry_out = nullptr, .make = download_gcode},
+        {.method = "GET", .path = "server/files/gcodes/.thumbs/*", .carry_out = send_gcode_picture},
         {.method = "DELETE", .path = "server/files/gcodes/*", .carry_out = remove_gcode}};
     for (const Method& method : moonraker_methods())
       if (method.path != nullptr)

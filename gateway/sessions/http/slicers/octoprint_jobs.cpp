@@ -5,11 +5,22 @@
 #include <utility>
 
 #include "gateway/sessions/http/api.hpp"
+#include "gateway/sessions/http/pictures.hpp"
 #include "gateway/sessions/http/routes.hpp"
 #include "gateway/sessions/http/slicers/octoprint.hpp"
 
 namespace kinebus::http {
 namespace {
+
+constexpr std::string_view kEnding = ".gcode";
+
+/// As the plug-in of slicers' pictures has it; the date makes clients read it anew.
+std::string plugin_path(const StoredJob& job) {
+  const std::string_view name = job.name;
+  const std::string_view front = name.substr(0, name.size() - (name.ends_with(kEnding) ? kEnding.size() : 0));
+  return "plugin/prusaslicerthumbnails/thumbnail/" + percent_encoded(front) + ".png?" +
+         std::to_string(static_cast<std::int64_t>(job.stored_unix_s));
+}
 
 Json file_json(const StoredJob& job) {
   Json file = {{"name", job.name},
@@ -23,8 +34,13 @@ Json file_json(const StoredJob& job) {
                {"refs",
                 {{"resource", "/api/files/local/" + percent_encoded(job.name)},
                  {"download", download_path(job.name)}}}};
-  if (job.preflight)
-    file["gcodeAnalysis"] = {{"estimatedPrintTime", job.preflight->motion_s + job.preflight->dwell_s}};
+  if (estimate_s(job) > 0) file["gcodeAnalysis"]["estimatedPrintTime"] = estimate_s(job);
+  if (job.notes.filament_mm() > 0)
+    file["gcodeAnalysis"]["filament"]["tool0"]["length"] = job.notes.filament_mm();
+  if (job.notes.pictures_size() > 0) {
+    file["thumbnail"] = plugin_path(job);
+    file["thumbnail_src"] = "prusaslicerthumbnails";
+  }
   if (job.last_run) {
     const bool success = job.last_run->result == RunResult::kComplete;
     file["prints"] = {{"last",
@@ -62,6 +78,13 @@ const std::string& file_name(Session& session) {
 void file(Session& session, std::string_view) {
   with_job(session, file_name(session),
            [&session](const StoredJob& job) { session.answer(json_answer(file_json(job))); });
+}
+
+void plugin_picture(Session& session, std::string_view) {
+  static constexpr std::string_view kPng = ".png";
+  std::string front = file_name(session);
+  if (front.ends_with(kPng)) front.resize(front.size() - kPng.size());
+  send_picture(session, {front + std::string(kEnding), front}, great_picture);
 }
 
 void remove(Session& session, std::string_view) {
@@ -131,6 +154,7 @@ std::span<const Route> octoprint_job_routes() {
       Route{"GET", "api/files/local/*", file},
       Route{"POST", "api/files/local/*", file_command},
       Route{"DELETE", "api/files/local/*", remove},
+      Route{"GET", "plugin/prusaslicerthumbnails/thumbnail/*", plugin_picture},
       Route{"GET", "downloads/files/local/*", nullptr, download_file},
   };
   return kRoutes;

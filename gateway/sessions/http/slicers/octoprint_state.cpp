@@ -1,5 +1,6 @@
 // The machine and its job as OctoPrint's clients read them, by request and by websocket alike.
 
+#include "gateway/sessions/http/pictures.hpp"
 #include "gateway/sessions/http/slicers/octoprint.hpp"
 
 namespace kinebus::http {
@@ -96,10 +97,12 @@ Json octoprint_job_json(const joblink::Status& status, const std::string& select
     file["name"] = file["path"] = file["display"] = name;
     file["origin"] = "local";
   }
-  Json estimate = nullptr;
+  Json estimate = nullptr, filament = nullptr;
   if (job != nullptr) {
     file["size"] = job->size_bytes;
     file["date"] = static_cast<std::int64_t>(job->stored_unix_s);
+    if (estimate_s(*job) > 0) estimate = estimate_s(*job);
+    if (job->notes.filament_mm() > 0) filament = {{"tool0", {{"length", job->notes.filament_mm()}}}};
   }
   if (job != nullptr && job->preflight)
     estimate = job->preflight->motion_s + job->preflight->dwell_s;
@@ -118,11 +121,13 @@ Json octoprint_job_json(const joblink::Status& status, const std::string& select
                 {"printTime", static_cast<std::int64_t>(status.elapsed_s())},
                 {"printTimeLeft", static_cast<std::int64_t>(status.remaining_s())},
                 {"printTimeLeftOrigin", "estimate"}};
-  return {
-      {"job",
-       {{"file", file}, {"estimatedPrintTime", estimate}, {"lastPrintTime", nullptr}, {"filament", nullptr}}},
-      {"progress", progress},
-      {"state", octoprint_state(status)}};
+  return {{"job",
+           {{"file", file},
+            {"estimatedPrintTime", estimate},
+            {"lastPrintTime", nullptr},
+            {"filament", filament}}},
+          {"progress", progress},
+          {"state", octoprint_state(status)}};
 }
 
 }  // namespace kinebus::http

@@ -9,6 +9,7 @@
 
 #include "gateway/sessions/http/api.hpp"
 #include "gateway/sessions/http/job_stream.hpp"
+#include "gateway/sessions/http/pictures.hpp"
 #include "gateway/sessions/http/routes.hpp"
 
 namespace kinebus::http {
@@ -100,13 +101,15 @@ void status(Session& session, std::string_view) {
 }
 
 Json print_file_json(const StoredJob& job) {
-  return {{"name", job.name},
-          {"display_name", job.name},
-          {"type", "PRINT_FILE"},
-          {"read_only", false},
-          {"size", job.size_bytes},
-          {"m_timestamp", static_cast<std::int64_t>(job.stored_unix_s)},
-          {"refs", {{"download", download_path(job.name)}}}};
+  Json refs = {{"download", download_path(job.name)}};
+  if (job.notes.pictures_size() > 0) {
+    refs["icon"] = "/thumb/s/local/" + percent_encoded(job.name);
+    refs["thumbnail"] = "/thumb/l/local/" + percent_encoded(job.name);
+  }
+  return {{"name", job.name},       {"display_name", job.name},
+          {"type", "PRINT_FILE"},   {"read_only", false},
+          {"size", job.size_bytes}, {"m_timestamp", static_cast<std::int64_t>(job.stored_unix_s)},
+          {"refs", std::move(refs)}};
 }
 
 void present_job(Session& session, std::string_view) {
@@ -183,6 +186,15 @@ void stored_file(Session& session, std::string_view) {
            [&session](const StoredJob& stored) { session.answer(json_answer(print_file_json(stored))); });
 }
 
+/// /thumb/s/local/NAME, /thumb/l/local/NAME
+void thumb(Session& session, std::string_view) {
+  const std::vector<std::string>& path = session.target().path;
+  const bool small = path[1] == "s";
+  if ((!small && path[1] != "l") || !known_storage(path[2]))
+    return session.refuse(404, "pictures are under /thumb/s/local/ and /thumb/l/local/");
+  send_picture(session, {path[3]}, small ? small_picture : great_picture);
+}
+
 void remove_file(Session& session, std::string_view) {
   if (const auto name = file_of(session)) delete_job(session, *name);
 }
@@ -249,12 +261,19 @@ std::unique_ptr<Task> put(Session& session) {
 
 std::span<const Route> prusalink_routes() {
   static constexpr std::array kRoutes{
-      Route{"GET", "api/v1/storage", storage},        Route{"GET", "api/v1/info", info},
-      Route{"GET", "api/v1/status", status},          Route{"GET", "api/v1/job", present_job},
-      Route{"PUT", "api/v1/job/*/pause", pause_job},  Route{"PUT", "api/v1/job/*/resume", resume_job},
-      Route{"DELETE", "api/v1/job/*", cancel_job},    Route{"GET", "api/v1/files/*", folder},
-      Route{"GET", "api/v1/files/*/**", stored_file}, Route{"PUT", "api/v1/files/*/**", nullptr, put},
-      Route{"POST", "api/v1/files/*/**", start},      Route{"DELETE", "api/v1/files/*/**", remove_file},
+      Route{"GET", "api/v1/storage", storage},
+      Route{"GET", "api/v1/info", info},
+      Route{"GET", "api/v1/status", status},
+      Route{"GET", "api/v1/job", present_job},
+      Route{"PUT", "api/v1/job/*/pause", pause_job},
+      Route{"PUT", "api/v1/job/*/resume", resume_job},
+      Route{"DELETE", "api/v1/job/*", cancel_job},
+      Route{"GET", "api/v1/files/*", folder},
+      Route{"GET", "api/v1/files/*/**", stored_file},
+      Route{"PUT", "api/v1/files/*/**", nullptr, put},
+      Route{"POST", "api/v1/files/*/**", start},
+      Route{"DELETE", "api/v1/files/*/**", remove_file},
+      Route{"GET", "thumb/*/*/*", thumb},
   };
   return kRoutes;
 }
