@@ -75,11 +75,11 @@ TEST(Preflight, AJobThatLeavesTheHotEndAsItFindsItIsJudgedByThat) {
            std::to_string(all[0].line) + " " + all[0].words.english();
   };
   const std::string job = "G1 X5 F600\nG1 X10 E3\n";
-  EXPECT_EQ(found(job, std::nullopt),
-            "found: warning 2 filament is fed before the job has set a hotend temperature (M104): it runs only "
-            "while the hotend is set to at least 170 C");
-  EXPECT_EQ(found(job, 0),
-            "found: error 2 filament is fed with the hotend at 0 C; at least 170 C is needed");
+  EXPECT_EQ(
+      found(job, std::nullopt),
+      "found: warning 2 filament is fed before the job has set a hotend temperature (M104): it runs only "
+      "while the hotend is set to at least 170 C");
+  EXPECT_EQ(found(job, 0), "found: error 2 filament is fed with the hotend at 0 C; at least 170 C is needed");
   EXPECT_EQ(found(job, 200), "found: ");
   EXPECT_EQ(found("M104 S200\n" + job, std::nullopt), "own: ");
   EXPECT_EQ(found("M104 S150\n" + job, 200),
