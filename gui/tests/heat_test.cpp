@@ -163,7 +163,7 @@ TEST_F(HeatTest, AHeatNodeIsOperationalWithoutPathTime) {
   gateway.send_status();
   ASSERT_TRUE(wait_until([&] { return nodes.rowCount() == gateway.status.nodes_size(); }));
   const int last = nodes.rowCount() - 1;
-  const auto shown = [&](int row, int column) { return nodes.data(nodes.index(row, column)).toString(); };
+  const auto shown = [&](int row, int column) { return nodes.index(row, column).data().toString(); };
   EXPECT_EQ(shown(last, NodesModel::kState), QStringLiteral("Operational"));
   EXPECT_EQ(shown(last, NodesModel::kSync), QString());
   EXPECT_EQ(shown(last, NodesModel::kQueue), QString());
