@@ -135,6 +135,7 @@ NodeStatus NodeLink::status(BusTime now, BusTime heartbeat_timeout) const {
   NodeStatus status;
   status.id = id_;
   status.has_axes = functions_.has_axes();
+  if (!status.has_axes) status.queue_capacity = 0;
   status.present = heard_ && now - last_heard_ < heartbeat_timeout;
   status.nmt_state = static_cast<std::uint8_t>(nmt_state_);
   status.statusword = statusword_;

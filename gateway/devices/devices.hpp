@@ -47,6 +47,7 @@ struct DeviceFault {
   Sentence words;
   bool heater = false;
   bool filament = false;
+  bool cold = false;  ///< in order, and not hot enough for what is to be fed
 };
 
 class Devices {

@@ -104,11 +104,17 @@ bool JobCheck::goes_farther_out(std::uint32_t line) const {
 }
 
 void JobCheck::check_extrusion(std::uint32_t line, double e_mm) {
-  if (machine_.heater(kFirstHotend) == nullptr) return;
+  const HeaterDescription* const hotend = machine_.heater(kFirstHotend);
+  if (hotend == nullptr) return;
+  by_found_heat_ = by_found_heat_ || !hotend_told_;
   if (!hotend_celsius_) {
     cold_reported_ = true;
     add(Problem::Severity::kWarning, line,
-        say("filament is fed before the job has set a hotend temperature (M104)"));
+        hotend->place.on_node() ? say("filament is fed before the job has set a hotend temperature (M104): "
+                                      "it runs only while the "
+                                      "hotend is set to at least %1",
+                                      celsius(machine_.thermal.min_extrude_c))
+                                : say("filament is fed before the job has set a hotend temperature (M104)"));
   } else if (*hotend_celsius_ >= machine_.thermal.min_extrude_c) {
     hot_e_mm_ = std::max(hot_e_mm_, e_mm);
   } else if (e_mm > hot_e_mm_ + kFedBack_mm) {
@@ -157,7 +163,9 @@ void JobCheck::check_thermal(const canonical::Thermal& thermal, std::uint32_t li
     add(Problem::Severity::kError, line, std::move(*wrong));
   if (auto missing = missing_fan(machine_, thermal); missing && !std::exchange(fan_reported_, true))
     add(Problem::Severity::kWarning, line, std::move(*missing));
-  if (heater_of(thermal) == kFirstHotend) hotend_celsius_ = thermal.value;
+  if (heater_of(thermal) != kFirstHotend) return;
+  hotend_celsius_ = thermal.value;
+  hotend_told_ = true;
 }
 
 }  // namespace kinebus

@@ -33,6 +33,8 @@ class JobCheck {
   void problem(Problem problem) { problems_.add(std::move(problem)); }
 
   const ProblemList& problems() const { return problems_; }
+  /// It feeds filament before it has told the hot end anything.
+  bool feeds_by_found_heat() const { return by_found_heat_; }
 
  private:
   void check_way(const Phase& phase, const PosePoint& end);
@@ -57,6 +59,7 @@ class JobCheck {
   double since_mm_ = 1e9, since_rad_ = 1e9;  ///< travelled since the last check
   std::optional<double> hotend_celsius_;
   double hot_e_mm_ = -1e300;  ///< the farthest that filament was fed hot
+  bool hotend_told_ = false, by_found_heat_ = false;
   bool cold_reported_ = false, fan_reported_ = false, tall_reported_ = false, probes_ = false,
        levels_ = false, awaits_ = false;
 };

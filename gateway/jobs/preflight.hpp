@@ -46,6 +46,8 @@ class Preflight {
   bool step(int lines);
 
   const JobReport& report() const { return report_; }
+  /// What it feeds first depends on the hot end as the job finds it.
+  bool feeds_by_found_heat() const { return check_.feeds_by_found_heat(); }
   const ProblemList& problems() const { return check_.problems(); }
   std::uint64_t bytes() const { return pipeline_.bytes(); }
 

@@ -235,6 +235,7 @@ void Gateway::Core::on_time(BusTime now) {
   watch_nodes();
   watch_devices();
   watch_filament();
+  watch_cold_feed();
   watch_idle_heat();
   watch_standby();
   tell_of_tuning();
@@ -340,7 +341,8 @@ void Gateway::Core::watch_idle_heat() {
   const bool held = state_.is(MachineState::kHeld);
   const bool idle =
       held || state_.idle() || lines_idle() || state_.is_one_of(MachineState::kStopped, MachineState::kAlarm);
-  if (!idle || !heat_.heats()) heat_idle_since_ = now_;
+  // A bed takes its time to be measured; the measurement ends by itself.
+  if (!idle || !heat_.heats() || heat_.tuned() != nullptr) heat_idle_since_ = now_;
   const auto patience = machine_.thermal.idle_off;
   if (now_ - heat_idle_since_ < patience) return;
   cut_heat(say("nothing has moved for %1 minutes",

@@ -74,6 +74,7 @@ class Gateway::Core {
   void skip_heating();
   void forget_line_modes();
   const gcode::WorkOffsets& work_offsets() const { return lines_.work_offsets(); }
+  std::optional<double> hotend_found() const { return heat_.hotend_found(); }
   const BedLevel& bed() const { return bed_; }
 
   // core_recovery.cpp
@@ -123,11 +124,7 @@ class Gateway::Core {
   Done on(command::Clear& asked);
   Done on(command::SetFeedOverride& asked);
   Done on(command::MotorsOff& asked);
-  Done on(command::SetTemperature& asked) {
-    heat_idle_since_ = waits_since_ = now_;
-    stands_by_ = false;
-    return heat_.set_temperature(asked.heater, asked.celsius);
-  }
+  Done on(command::SetTemperature& asked);
   Done on(command::SetFan& asked) { return heat_.set_fan(asked.index, asked.ratio); }
   Done on(command::SetOutput& asked) { return heat_.set_output(asked.index, asked.ratio); }
   Done on(command::SetSpindle& asked) { return heat_.set_spindle(asked.rpm); }
@@ -189,6 +186,7 @@ class Gateway::Core {
   // Faults of devices (core_heat_hold.cpp).
   void watch_devices();
   void watch_filament();
+  void watch_cold_feed();
   bool hold_for_heat(const DeviceFault& fault);
   bool homes_without(const DeviceFault& fault);
   void hold_for(const DeviceFault& fault);

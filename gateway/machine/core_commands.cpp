@@ -189,6 +189,10 @@ Done Gateway::Core::on(command::Hold&) {
 
 Done Gateway::Core::on(command::Resume&) {
   recovery_.commanded();
+  if (const auto celsius = heat_.kept_too_cold();
+      celsius && state_.is(MachineState::kHeld) && heat_hold_.cold())
+    return refused(say("the hotend is set to %1 C: set it to at least %2 C, then resume",
+                       std::lround(*celsius), std::lround(machine_.thermal.min_extrude_c)));
   if (state_.is(MachineState::kHeld) && !heat_hold_.why().empty() && out_of_order()) {
     heat_.clear_faults();
     heat_hold_.await_mended(now_);
@@ -254,6 +258,19 @@ Done Gateway::Core::on(command::Stop& asked) {
   else
     stop_all(false);
   return {};
+}
+
+Done Gateway::Core::on(command::SetTemperature& asked) {
+  const double least = machine_.thermal.min_extrude_c;
+  const bool feeds = state_.is(MachineState::kRunning) && runner_ == &print_.runner() && !runner_->live() &&
+                     runner_->feeds();
+  // Off is off at any time; the job is held before it feeds cold.
+  if (feeds && asked.heater == kFirstHotend && asked.celsius > 0 && asked.celsius < least)
+    return refused(
+        say("the job feeds filament, which needs at least %1 C: hold it first", std::lround(least)));
+  heat_idle_since_ = waits_since_ = now_;
+  stands_by_ = false;
+  return heat_.set_temperature(asked.heater, asked.celsius);
 }
 
 void Gateway::Core::cut_heat(const Sentence& why) {

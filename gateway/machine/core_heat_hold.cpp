@@ -64,6 +64,23 @@ void Gateway::Core::watch_filament() {
   hold_for(*trouble);
 }
 
+/// Whatever has made it so: a target that was lowered by hand, a heater that is too weak.
+void Gateway::Core::watch_cold_feed() {
+  if (!state_.is_one_of(MachineState::kRunning, MachineState::kMoving) || rest_.reading()) return;
+  if (!heat_hold_.is(Stage::kNone) || !runner_->feeds_cold(now_)) return;
+  const DeviceFault cold = heat_.feeds_cold();
+  if (runner_ == &print_.runner()) {
+    tell(cold);
+    heat_.note(journal_);
+    heat_.keep();
+    return hold_for(cold);
+  }
+  // By hand nothing is lost.
+  if (!state_.is(MachineState::kMoving)) return;
+  events_.message(now_, say("%1: %2", cold.device, cold.words));
+  static_cast<void>(carry_out(command::Cancel{}));
+}
+
 void Gateway::Core::tell(const DeviceFault& fault) {
   events_.alarm(now_, fault.filament ? AlarmCode::kFilament : AlarmCode::kThermal,
                 say("%1: %2", fault.device, fault.words), fault.node,

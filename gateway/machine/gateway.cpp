@@ -60,6 +60,9 @@ void Gateway::leave_lines() {
 void Gateway::skip_heating() {
   core_->skip_heating();
 }
+std::optional<double> Gateway::hotend_found() const {
+  return core_->hotend_found();
+}
 const gcode::WorkOffsets& Gateway::work_offsets() const {
   return core_->work_offsets();
 }

@@ -46,7 +46,10 @@ class HeatHold {
 
   /// Of the job; empty: none.
   const Sentence& why() const { return why_; }
+  /// It was about to be fed cold.
+  bool cold() const { return cold_; }
   void note(const DeviceFault& fault) {
+    cold_ = fault.cold;
     why_ = say("%1: %2", fault.device, fault.words);
     aside_ = Aside::kNo;
   }
@@ -54,6 +57,7 @@ class HeatHold {
   void forget() {
     abort();
     why_ = {};
+    cold_ = false;
   }
 
   void await_mended(BusTime now) {
@@ -75,6 +79,7 @@ class HeatHold {
   Stage stage_ = Stage::kNone;
   Aside aside_ = Aside::kNo;
   Sentence why_;
+  bool cold_ = false;
   std::optional<DeviceFault> put_off_;
   BusTime asked_{0}, faulty_{0};
 };

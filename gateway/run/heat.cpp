@@ -16,6 +16,8 @@ using What = canonical::Thermal::What;
 
 /// A node measures a rise of at least so much: K.
 constexpr double kLeastWay = 40;
+/// A hot end without power loses at most so much while a path comes to rest: K.
+constexpr double kFallsMeanwhile = 2;
 
 }  // namespace
 
@@ -158,6 +160,44 @@ std::optional<Sentence> Heat::too_cold() const {
   return say("the hotend is too cold to feed filament: %1 C", std::lround(celsius));
 }
 
+bool Heat::melts() const {
+  const HeaterDescription* hotend = machine_.heater(kFirstHotend);
+  if (hotend == nullptr) return true;
+  const double least = machine_.thermal.min_extrude_c;
+  const HeaterStatus status = devices_.heater(kFirstHotend);
+  // One that is turned down falls on while the path stops; one that is held just there swings.
+  const double limit = status.target_celsius < least
+                           ? least + kFallsMeanwhile
+                           : std::min(least, status.target_celsius - hotend->window_c);
+  return status.actual_celsius >= limit;
+}
+
+DeviceFault Heat::feeds_cold() const {
+  const HeaterDescription* hotend = machine_.heater(kFirstHotend);
+  const HeaterStatus status = devices_.heater(kFirstHotend);
+  const auto least = std::lround(machine_.thermal.min_extrude_c);
+  DeviceFault fault;
+  fault.device = "heater." + (hotend != nullptr ? hotend->name : std::string());
+  fault.cold = true;
+  fault.words = status.target_celsius < machine_.thermal.min_extrude_c
+                    ? say("it is set to %1 C and filament is to be fed: at least %2 C is needed",
+                          std::lround(status.target_celsius), least)
+                    : say("it has only %1 C and filament is to be fed: at least %2 C is needed",
+                          std::lround(status.actual_celsius), least);
+  if (hotend != nullptr && hotend->place.on_node()) fault.node = hotend->place.node_id;
+  return fault;
+}
+
+std::optional<double> Heat::kept_too_cold() const {
+  const double celsius = kept_ ? kept_->heater(kFirstHotend) : machine_.thermal.min_extrude_c;
+  return celsius < machine_.thermal.min_extrude_c ? std::optional(celsius) : std::nullopt;
+}
+
+bool Heat::melts_by_node() const {
+  const HeaterDescription* hotend = machine_.heater(kFirstHotend);
+  return hotend != nullptr && hotend->place.on_node();
+}
+
 void Heat::report(MachineStatus& status) const {
   status.heaters = devices_.heaters();
   status.fans = devices_.fans();
@@ -251,13 +291,16 @@ void Heat::finish_return() {
 // Waits
 // -------------------------------------------------------------------------------------------------------
 
-void HeatWait::begin(const canonical::Thermal& thermal, const HeaterDescription& heater) {
+void HeatWait::begin(const canonical::Thermal& thermal, const HeaterDescription& heater, const Heat& heat) {
   wait_ = {heater.id(), thermal.value, heater.window_c, thermal.wait_cooling};
+  told_ = heat.target(heater.id());
   settle_ = heater.settle;
   since_.reset();
 }
 
 bool HeatWait::over(const Heat& heat, BusTime now) {
+  if (const double target = heat.target(wait_.heater); target > 0 && target != told_)
+    wait_.celsius = told_ = target;
   if (!heat.reached(wait_)) {
     since_.reset();
     return false;

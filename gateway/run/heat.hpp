@@ -67,6 +67,15 @@ class Heat {
   void stand_by(double celsius);
   /// Why no filament may be fed now; none: it may.
   std::optional<Sentence> too_cold() const;
+  /// What is fed melts, and will while the path stops. Without hot end nothing has to.
+  bool melts() const;
+  /// What to say of a hot end that does not.
+  DeviceFault feeds_cold() const;
+  /// The job that is kept feeds filament with the first hot end as cold as this; none: it melts.
+  std::optional<double> kept_too_cold() const;
+  /// What the first hot end's node does not let anybody believe: that others look after its heat.
+  bool melts_by_node() const;
+  double target(HeaterId heater) const { return devices_.heater(heater).target_celsius; }
   void report(MachineStatus& status) const;
   /// What is mended may heat again.
   void clear_faults() { devices_.clear_faults(); }
@@ -114,15 +123,21 @@ class Heat {
   journal::Heat noted_;
 };
 
-/// One wait of a job for a temperature: over when it was within the window for the settling time.
+/// One wait of a job for a temperature: over when it was within the window for the settling time. It goes
+/// with a target that is changed by hand meanwhile.
 class HeatWait {
  public:
-  void begin(const canonical::Thermal& thermal, const HeaterDescription& heater);
+  /// The heater has been told its target.
+  void begin(const canonical::Thermal& thermal, const HeaterDescription& heater, const Heat& heat);
   void restart() { since_.reset(); }
+  /// Somebody has switched the heater off: it does not get there.
+  bool in_vain(const Heat& heat) const { return told_ > 0 && heat.target(wait_.heater) <= 0; }
+  HeaterId heater() const { return wait_.heater; }
   bool over(const Heat& heat, BusTime now);
 
  private:
   TemperatureWait wait_;
+  double told_ = 0;
   BusTime settle_{0};
   std::optional<BusTime> since_;
 };

@@ -62,7 +62,8 @@ void Runner::begin() {
   probing_ = probe_cut_ = false;
   probe_wrong_.reset();
   follower_.follow(0);
-  hold_waits_ = thread_over_ = false;
+  hold_waits_ = thread_over_ = has_melted_ = false;
+  molten_mm_ = start_[kE];
   thread_lost_.reset();
   answers_.clear();
   check_.reset();

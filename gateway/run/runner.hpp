@@ -64,6 +64,12 @@ class Runner {
   std::size_t live_room(BusTime now, std::size_t most);
   /// A wait for a temperature is over, as if it were reached.
   void skip_heating();
+  /// Filament that does not melt is about to be fed, so soon that the path has to stop for it now. Up to
+  /// where it was fed hot, what was drawn back may return. Where nothing tells how hot it is, it is believed
+  /// until it was hot once.
+  bool feeds_cold(BusTime now);
+  /// Filament was fed hot since the beginning.
+  bool feeds() const { return active_ && molten_mm_ > start_[kE] - feed_.extruder_shift_mm(); }
   /// When the next output of the job (M62 to M68) is due by the present rate: it is switched within a
   /// millisecond of its place on the path.
   BusTime next_output(BusTime now) const;
@@ -256,6 +262,8 @@ class Runner {
   std::uint64_t waits_done_ = 0, waits_replayed_ = 0;
   bool stop_asked_ = false;
   bool filament_change_ = false;  ///< the last pause was for one
+  bool has_melted_ = false;       ///< the hot end was hot while this moved
+  double molten_mm_ = 0;          ///< the farthest that filament was fed hot, by the plan
   Wait wait_ = Wait::kNone;
   std::deque<Event> events_;
   HeatWait heating_;

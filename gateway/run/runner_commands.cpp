@@ -28,7 +28,13 @@ bool Runner::wait_is_over(BusTime now) {
       if (dwell_left_ > BusTime{0}) return false;
       break;
     case Wait::kHeating:
-      if (held_ || !heating_.over(heat_, now)) return false;
+      if (held_) return false;
+      if (heating_.in_vain(heat_))
+        events_out_.message(
+            now, say("the %1 was switched off: nothing waits for it", heater_words(heating_.heater())),
+            last_line_);
+      else if (!heating_.over(heat_, now))
+        return false;
       break;
     case Wait::kMelt:
       if (held_ || heat_.too_cold()) return false;
@@ -175,7 +181,7 @@ const HeaterDescription* Runner::awaited(const canonical::Thermal& thermal) cons
 void Runner::begin_heating(const canonical::Thermal& thermal) {
   const HeaterDescription* heater = awaited(thermal);
   if (heater == nullptr) return;
-  heating_.begin(thermal, *heater);
+  heating_.begin(thermal, *heater, heat_);
   wait_ = Wait::kHeating;
   doing_ = say("waiting for the %1 at %2", heater_words(heater->id()), printed("%.0f C", thermal.value));
 }

@@ -12,13 +12,15 @@ constexpr int kLinesPerSlice = 2000;
 }  // namespace
 
 JobCheckTask::JobCheckTask(JobStore& store, const MachineDescription& machine, std::string machine_mark,
-                           std::string name, const gcode::WorkOffsets& offsets, const MeshGrid* mesh)
+                           std::string name, const gcode::WorkOffsets& offsets, const MeshGrid* mesh,
+                           std::optional<double> hotend_celsius)
     : store_(store),
       machine_(machine),
       machine_mark_(std::move(machine_mark)),
       name_(std::move(name)),
       offsets_(offsets),
-      mesh_(mesh != nullptr ? std::optional(*mesh) : std::nullopt) {}
+      mesh_(mesh != nullptr ? std::optional(*mesh) : std::nullopt),
+      hotend_celsius_(hotend_celsius) {}
 
 void JobCheckTask::run(Worker& worker, std::function<void(double)> progress,
                        std::function<void(const Found&)> done) {
@@ -56,8 +58,10 @@ void JobCheckTask::slice() {
     source_ = std::move(*source);
     kinematics_ = std::make_unique<LevelledKinematics>(std::move(*kinematics));
     if (mesh_) kinematics_->set_mesh(std::make_shared<const BedMesh>(*mesh_));
+    JobCheck::Options options;
+    if (hotend_celsius_) options.hotend_celsius = *hotend_celsius_;
     preflight_ = std::make_unique<Preflight>(machine_, *kinematics_, *source_, kinematics_->bed_reference(),
-                                             JobCheck::Options(), offsets_);
+                                             options, offsets_);
   }
   const bool done = preflight_->step(kLinesPerSlice);
   if (const auto size = source_->size(); size && *size > 0)
@@ -68,7 +72,7 @@ void JobCheckTask::slice() {
   joblink::PreflightResult result = to_message(report, problems);
   result.set_name(name_);
   result.set_hash(hash_);
-  if (offsets_ == gcode::WorkOffsets{} && !mesh_)
+  if (offsets_ == gcode::WorkOffsets{} && !mesh_ && !preflight_->feeds_by_found_heat())
     static_cast<void>(store_.save_preflight(hash_, machine_mark_,
                                             {.errors = result.summary().errors(),
                                              .warnings = result.summary().warnings(),

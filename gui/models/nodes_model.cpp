@@ -17,6 +17,11 @@ bool is_figure(int column) {
   return column == NodesModel::kSync || column == NodesModel::kSent || column == NodesModel::kEmergencies;
 }
 
+/// A node without axes, of heat for one, has neither queue nor path time.
+bool keeps_path_time(const joblink::NodeStatus& node) {
+  return node.axes_size() > 0;
+}
+
 }  // namespace
 
 NodesModel::NodesModel(Session& session, QObject* parent) : QAbstractTableModel(parent), session_(session) {
@@ -73,7 +78,8 @@ QString NodesModel::state_of(const joblink::NodeStatus& node) const {
     case 4:
       return tr("Idle");
     case 5:
-      return node.synchronised() ? tr("Operational") : tr("Operational, not in time");
+      return node.synchronised() || !keeps_path_time(node) ? tr("Operational")
+                                                           : tr("Operational, not in time");
     case 127:
       return tr("Waiting");
     default:
@@ -97,8 +103,10 @@ QVariant NodesModel::data(const QModelIndex& index, int role) const {
     case kState:
       return state_of(node);
     case kSync:
+      if (!keeps_path_time(node)) return {};
       return Format::isolated(tr("%1 µs").arg(Format::number(node.sync_error_s() * 1e6, 1)));
     case kQueue:
+      if (!keeps_path_time(node)) return {};
       return Format::isolated(QStringLiteral("%1 / %2").arg(Format::number(node.queue_records(), 0),
                                                             Format::number(node.queue_capacity(), 0)));
     case kInputs: {

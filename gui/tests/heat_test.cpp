@@ -9,6 +9,7 @@
 #include <QString>
 #include <stdexcept>
 
+#include "gui/models/nodes_model.hpp"
 #include "gui/tests/window_fixture.hpp"
 #include "gui/views/heat_panel.hpp"
 #include "gui/views/machine_page.hpp"
@@ -149,6 +150,24 @@ TEST_F(HeatTest, OneThatFailedTellsWhyAndTheNextBeginsACurveOfItsOwn) {
   enter(joblink::TUNING_BEGINS, 40);
   ASSERT_NE(curve(), nullptr);
   EXPECT_DOUBLE_EQ(curve()->points.front().celsius, 40);
+}
+
+// A heat node has no axes: neither path time that it could miss nor a queue.
+TEST_F(HeatTest, AHeatNodeIsOperationalWithoutPathTime) {
+  auto& node = *gateway.status.add_nodes();
+  node.set_id(20);
+  node.set_present(true);
+  node.set_nmt_state(5);
+  gateway.status.mutable_nodes(0)->set_synchronised(false);
+  NodesModel nodes(desk.session);
+  gateway.send_status();
+  ASSERT_TRUE(wait_until([&] { return nodes.rowCount() == gateway.status.nodes_size(); }));
+  const int last = nodes.rowCount() - 1;
+  const auto shown = [&](int row, int column) { return nodes.index(row, column).data().toString(); };
+  EXPECT_EQ(shown(last, NodesModel::kState), QStringLiteral("Operational"));
+  EXPECT_EQ(shown(last, NodesModel::kSync), QString());
+  EXPECT_EQ(shown(last, NodesModel::kQueue), QString());
+  EXPECT_EQ(shown(0, NodesModel::kState), QStringLiteral("Operational, not in time"));
 }
 
 }  // namespace

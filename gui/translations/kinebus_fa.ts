@@ -1505,6 +1505,30 @@
         <translation>حرکت دستی فاصله می‌خواهد</translation>
     </message>
     <message>
+        <source>it is set to %1 C and filament is to be fed: at least %2 C is needed</source>
+        <translation>روی %1 °C تنظیم شده و فیلامنت باید رانده شود: دست‌کم %2 °C لازم است</translation>
+    </message>
+    <message>
+        <source>it has only %1 C and filament is to be fed: at least %2 C is needed</source>
+        <translation>تنها %1 °C است و فیلامنت باید رانده شود: دست‌کم %2 °C لازم است</translation>
+    </message>
+    <message>
+        <source>the %1 was switched off: nothing waits for it</source>
+        <translation>%1 خاموش شد: چیزی منتظر آن نمی‌ماند</translation>
+    </message>
+    <message>
+        <source>the hotend is set to %1 C: set it to at least %2 C, then resume</source>
+        <translation>نازل روی %1 °C تنظیم شده است: آن را دست‌کم روی %2 °C بگذارید، سپس ادامه دهید</translation>
+    </message>
+    <message>
+        <source>the job feeds filament, which needs at least %1 C: hold it first</source>
+        <translation>کار فیلامنت می‌راند و این دست‌کم %1 °C می‌خواهد: نخست آن را نگه دارید</translation>
+    </message>
+    <message>
+        <source>filament is fed before the job has set a hotend temperature (M104): it runs only while the hotend is set to at least %1</source>
+        <translation>پیش از آنکه کار دمای نازل را بدهد (M104) فیلامنت رانده می‌شود: تنها وقتی اجرا می‌شود که نازل دست‌کم روی %1 تنظیم باشد</translation>
+    </message>
+    <message>
         <source>the hotend is too cold to feed filament: %1 C</source>
         <translation>نازل برای راندن فیلامنت بسیار سرد است: %1 °C</translation>
     </message>

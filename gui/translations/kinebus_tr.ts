@@ -1505,6 +1505,30 @@
         <translation>manuel hareket bir uzaklık ister</translation>
     </message>
     <message>
+        <source>it is set to %1 C and filament is to be fed: at least %2 C is needed</source>
+        <translation>%1 °C’ye ayarlı ve filament sürülecek: en az %2 °C gerekir</translation>
+    </message>
+    <message>
+        <source>it has only %1 C and filament is to be fed: at least %2 C is needed</source>
+        <translation>yalnızca %1 °C ve filament sürülecek: en az %2 °C gerekir</translation>
+    </message>
+    <message>
+        <source>the %1 was switched off: nothing waits for it</source>
+        <translation>%1 kapatıldı: hiçbir şey onu beklemiyor</translation>
+    </message>
+    <message>
+        <source>the hotend is set to %1 C: set it to at least %2 C, then resume</source>
+        <translation>nozul %1 °C’ye ayarlı: en az %2 °C’ye ayarlayın, sonra sürdürün</translation>
+    </message>
+    <message>
+        <source>the job feeds filament, which needs at least %1 C: hold it first</source>
+        <translation>iş filament sürüyor, bunun için en az %1 °C gerekir: önce işi bekletin</translation>
+    </message>
+    <message>
+        <source>filament is fed before the job has set a hotend temperature (M104): it runs only while the hotend is set to at least %1</source>
+        <translation>iş nozul sıcaklığını vermeden (M104) filament sürüyor: ancak nozul en az %1’ye ayarlıyken yürür</translation>
+    </message>
+    <message>
         <source>the hotend is too cold to feed filament: %1 C</source>
         <translation>nozul filament sürmek için çok soğuk: %1 °C</translation>
     </message>

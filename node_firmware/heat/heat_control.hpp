@@ -12,7 +12,12 @@ struct PidParameters {
   std::uint32_t band_mc = 30'000;       ///< Xp: error that asks for full power
   std::uint32_t integral_ms = 40'000;   ///< Tn; 0: none
   std::uint32_t derivative_ms = 4'000;  ///< Tv
+  bool operator==(const PidParameters&) const = default;
 };
+
+/// For what gains less than a kelvin a second with full power, beds and chambers: an integral that is faster
+/// than the band would carry them far beyond their target.
+inline constexpr PidParameters kSlowPid{.band_mc = 10'000, .integral_ms = 100'000, .derivative_ms = 6'000};
 
 class PidControl {
  public:

@@ -15,6 +15,8 @@ constexpr std::uint32_t kLowestSupply = 2, kHighestSupply = 2;  // halves to dou
 /// it; of a bed it is hardly a part.
 constexpr std::uint64_t kUsualLoss = 60'000;
 constexpr std::uint64_t kMostUsual = 4'000;  // ppm of full power a K
+/// Who may take so long for 2 K is a bed or a chamber.
+constexpr std::uint16_t kSlowRise = 40;  // s
 
 }  // namespace
 
@@ -42,7 +44,9 @@ void Heater::configure(const HeaterSettings& settings) {
     by_model_.configure(settings.model);
   }
   const std::uint64_t usual = kUsualLoss * 1000 / std::max<std::uint32_t>(settings.nominal_mw, 1);
-  by_pid_.configure(settings.pid, has_model_ ? 0 : static_cast<std::uint32_t>(std::min(usual, kMostUsual)));
+  const bool slow = !has_model_ && settings.watch.rise_s >= kSlowRise && settings.pid == PidParameters{};
+  by_pid_.configure(slow ? kSlowPid : settings.pid,
+                    has_model_ ? 0 : static_cast<std::uint32_t>(std::min(usual, kMostUsual)));
   watch_.configure(settings.watch, has_model_ ? &model_ : nullptr);
   most_ = kFullPower * std::min<std::uint32_t>(settings.most_power, 100) / 100;
   supply_mv_ = 0;

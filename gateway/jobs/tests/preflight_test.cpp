@@ -56,6 +56,36 @@ TEST(Preflight, HowFarALineLeadsOutIsSaidAndNotWhereItLeaves) {
   EXPECT_NEAR(outside_mm(1), 19.5, 0.51);
 }
 
+// With the hot end on a node a run refuses what it would feed cold: the check says as much as it knows.
+TEST(Preflight, AJobThatLeavesTheHotEndAsItFindsItIsJudgedByThat) {
+  MachineDescription on_node = machine();
+  for (HeaterDescription& heater : on_node.heaters)
+    heater.place = {.where = DevicePlace::Where::kNode, .node_id = 20, .channel = 1};
+  const auto found = [&on_node](const std::string& job, std::optional<double> hotend_celsius) {
+    StringSource source(job);
+    JobCheck::Options options;
+    if (hotend_celsius) options.hotend_celsius = *hotend_celsius;
+    Preflight preflight(on_node, kinematics(), source, kinematics().bed_reference(), options);
+    while (!preflight.step(1000)) {
+    }
+    const std::string by_found = preflight.feeds_by_found_heat() ? "found: " : "own: ";
+    const auto& all = preflight.problems().all();
+    if (all.empty()) return by_found;
+    return by_found + (preflight.problems().errors() > 0 ? "error " : "warning ") +
+           std::to_string(all[0].line) + " " + all[0].words.english();
+  };
+  const std::string job = "G1 X5 F600\nG1 X10 E3\n";
+  EXPECT_EQ(
+      found(job, std::nullopt),
+      "found: warning 2 filament is fed before the job has set a hotend temperature (M104): it runs only "
+      "while the hotend is set to at least 170 C");
+  EXPECT_EQ(found(job, 0), "found: error 2 filament is fed with the hotend at 0 C; at least 170 C is needed");
+  EXPECT_EQ(found(job, 200), "found: ");
+  EXPECT_EQ(found("M104 S200\n" + job, std::nullopt), "own: ");
+  EXPECT_EQ(found("M104 S150\n" + job, 200),
+            "own: error 3 filament is fed with the hotend at 150 C; at least 170 C is needed");
+}
+
 TEST(Preflight, BorderIsFoundWithinAMillimetre) {
   EXPECT_EQ(check("G1 X149.9 F6000\n").problems.errors(), 0u);
   EXPECT_EQ(check("G1 X150.1 F6000\n").problems.errors(), 1u);

@@ -66,6 +66,17 @@ bool MarlinSession::machine_stopped() const {
   return state == MachineState::kStopping || state == MachineState::kStopped || state == MachineState::kAlarm;
 }
 
+bool MarlinSession::only_heat_waits() const {
+  const auto comes_first = [](const Line& line) {
+    const Code code = serial::code_of(line.text);
+    const bool heats = code.is('M', 104) || code.is('M', 109) || code.is('M', 140) || code.is('M', 190) ||
+                       code.is('M', 141) || code.is('M', 191);
+    return moves(line.text) || (heats && serial::urgent(line.text) != Urgent::kHeaterOff);
+  };
+  return heats_ && wait_ != Wait::kTuning && !lines_.empty() &&
+         std::none_of(lines_.begin() + 1, lines_.end(), comes_first);
+}
+
 /// The machine is as safe as before: "Error:" would make hosts give up and send M112. A numbered line is one
 /// of a print, which is not whole without it: the host is asked to pause and tell why.
 MarlinSession::Done MarlinSession::refuse(std::string_view words) {

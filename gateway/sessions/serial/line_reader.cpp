@@ -95,6 +95,8 @@ Urgent urgent(std::string_view text) {
   if (code.is('M', 112)) return Urgent::kEmergencyStop;
   if (code.is('M', 108)) return Urgent::kGoOn;
   if (code.is('M', 410)) return Urgent::kQuickStop;
+  const bool heats = code.is('M', 104) || code.is('M', 140) || code.is('M', 141);
+  if (heats && word(text, 'S') == 0.0) return Urgent::kHeaterOff;
   return Urgent::kNone;
 }
 

@@ -23,7 +23,7 @@ struct Line {
 };
 
 /// Codes that must not wait behind other lines; seen as soon as their own line is whole.
-enum class Urgent : std::uint8_t { kNone, kEmergencyStop, kGoOn, kQuickStop };
+enum class Urgent : std::uint8_t { kNone, kEmergencyStop, kGoOn, kQuickStop, kHeaterOff };
 Urgent urgent(std::string_view text);
 
 class LineReader {

@@ -81,7 +81,7 @@ void MarlinSession::on_bytes(LocalTime now, std::span<const std::uint8_t> bytes)
   work(now_);
 }
 
-void MarlinSession::see_urgent(LocalTime now, Urgent what) {
+void MarlinSession::see_urgent(LocalTime now, Urgent what, const std::string& text) {
   switch (what) {
     case Urgent::kNone:
       return;
@@ -105,6 +105,11 @@ void MarlinSession::see_urgent(LocalTime now, Urgent what) {
       if (gateway_.state() == MachineState::kHeld && may_command())
         static_cast<void>(gateway_.carry_out(command::Resume{}));
       next_busy_ = now + options_.keep_alive;
+      return;
+    case Urgent::kHeaterOff:
+      // Of a program that was sent ahead it is a line like others: what stands before it is to be printed
+      // hot.
+      if (only_heat_waits() && may_command()) static_cast<void>(gateway_.text_line(text));
       return;
   }
 }
@@ -144,7 +149,7 @@ void MarlinSession::work(LocalTime now) {
     const Urgent what = line->error.empty() && !line->repeated && writing_.empty()
                             ? serial::urgent(line->text)
                             : Urgent::kNone;
-    see_urgent(now, what);
+    see_urgent(now, what, line->text);
     lines_.push_back(std::move(*line));
   }
   while (!lines_.empty()) {

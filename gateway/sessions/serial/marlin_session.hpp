@@ -6,7 +6,8 @@
 //
 // G-code goes to the gateway line by line (Gateway::take_line): it is checked, planned with look-ahead and
 // moved like a job's. "ok" comes when a line is taken, so it waits while the lead is full; of G28, G4,
-// M109, M190 and M400 when they are carried out. M112, M410 and M108 are seen at once, whatever waits.
+// M109, M190 and M400 when they are carried out. M112, M410 and M108 are seen at once, whatever waits; a
+// heater is switched off (M104 S0, M140 S0) at once while another line waits for a temperature.
 //
 // The host is a client like all others: it has control from its first command that changes the machine until
 // it is silent or its lines are done; while another client has control it may only ask and stop.
@@ -72,7 +73,7 @@ class MarlinSession : public ByteSession {
 
   void say(std::string_view line);
   void say_ok(const serial::Line& line);
-  void see_urgent(LocalTime now, serial::Urgent what);
+  void see_urgent(LocalTime now, serial::Urgent what, const std::string& text);
   void work(LocalTime now);
   void report(LocalTime now);
   void watch_others();
@@ -80,6 +81,8 @@ class MarlinSession : public ByteSession {
 
   // line_codes.cpp: what a line means
   bool machine_stopped() const;  ///< by a stop or an alarm, or about to
+  /// A heater is waited for, and nothing behind that moves or heats before the line that comes now.
+  bool only_heat_waits() const;
   Done carry_out(const serial::Line& line);
   Done carry_out_m(const serial::Line& line, int number);
   Done to_machine(const serial::Line& line);

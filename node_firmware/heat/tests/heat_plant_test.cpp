@@ -48,7 +48,7 @@ TEST(HeatPlant, EveryElementIsReadAsWhatItIsAndAnotherIsNot) {
 
 TEST(HeatPlant, RefusesCommandsThatMeanNothing) {
   HeatPlant plant;
-  for (const char* wrong : {"", "sensor", "sensor 1", "sensor 4 open", "sensor 1 stuck", "heater 3 open",
+  for (const char* wrong : {"", "sensor", "sensor 1", "sensor 4 open", "sensor 1 stuck", "heater 4 open",
                             "fan 1 open", "flow", "flow x", "flow -1", "flow nan", "flow 1e9",
                             "sensor 1 open now", "flow 1 2", "sensor 4 pt100", "sensor 1 pt200"})
     EXPECT_NE(plant.command(wrong), "") << wrong;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <random>
 #include <string>
@@ -320,6 +321,37 @@ TEST(Unmeasured, NothingHealthyIsAccused) {
       "50 hot ends, 50 behind a master that tells, 50 beds, %d changes, seed %u: none accused by the plain "
       "rules\n",
       changes, seed);
+}
+
+// Other ones: --gtest_random_seed=N.
+TEST(Unmeasured, BedsOfAllKindsStayWithin2KAboveTheirTarget) {
+  const auto seed = static_cast<std::uint32_t>(7 + GTEST_FLAG_GET(random_seed));
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937 random(seed);
+  double most = 0, slowest = 0;
+  for (std::uint32_t i = 0; i < 20; ++i)
+    for (const double target : {40.0, 60.0, 100.0}) {
+      const PlantParameters p = random_bed(random);
+      HotEndBench bench(false, i + 1, p);
+      bench.settings.nominal_mw = static_cast<std::uint32_t>(p.power_w * 1000);
+      bench.settings.watch.limit_mc = 140'000;
+      bench.settings.watch.rise_s = 60;
+      bench.heater.configure(bench.settings);
+      bench.run(0.2);
+      bench.heater.set_target(static_cast<std::int32_t>(target * 1000));
+      double since = 0;
+      for (double t = 0; t < 1200; t += 1) {
+        bench.run(1);
+        most = std::max(most, bench.plant.block() - target);
+        if (std::abs(bench.plant.block() - target) > 2) since = t;
+      }
+      ASSERT_EQ(bench.heater.fault(), HeaterFault::kNone) << "bed " << i << ", " << p.power_w << " W";
+      slowest = std::max(slowest, since);
+    }
+  std::printf("60 beds, never measured: at most %.2f K above, within 2 K after at most %.0f s\n", most,
+              slowest);
+  EXPECT_LE(most, 2);
+  EXPECT_LE(slowest, 1100);
 }
 
 }  // namespace

@@ -25,8 +25,17 @@ PlantParameters bed_of_250_w() {
           .sensor_lag_s = 7,
           .dead_s = 3};
 }
+/// Air, and what it warms of the walls. Where nothing heats it only its sensor is looked at.
 PlantParameters chamber() {
-  return {.power_w = 0, .sensor_lag_s = 5, .dead_s = 0, .ambient_c = 24};
+  return {.power_w = 200,
+          .heater_j_per_k = 150,
+          .heater_w_per_k = 8,
+          .block_j_per_k = 1800,
+          .loss_w_per_k = 2.2,
+          .radiation_w_per_k4 = 0,
+          .sensor_lag_s = 5,
+          .dead_s = 0,
+          .ambient_c = 24};
 }
 
 /// From 0 to `most`; none: it is another, or no number.
@@ -73,7 +82,7 @@ void HeatPlant::step(HeatNode& node, LocalTime now) {
     ThermalPlant& place = places_[i];
     const int number = static_cast<int>(i);
     place.contactor = node.contactor();
-    place.step(i < 2 ? node.heater_output(number) / static_cast<double>(kFullPower) : 0);
+    place.step(node.heater_output(number) / static_cast<double>(kFullPower));
     if (!place.silent) node.on_sample(now, number, place.ratio());
   }
 }
@@ -131,7 +140,7 @@ bool HeatPlant::break_sensor(int number, std::string_view how) {
 }
 
 bool HeatPlant::break_heater(int number, std::string_view how) {
-  if (number < 1 || number > 2) return false;
+  if (number < 1 || number > 3) return false;
   ThermalPlant& place = places_[static_cast<std::size_t>(number - 1)];
   if (how == "open") return place.mosfet_open = true;
   if (how == "stuck") return place.mosfet_stuck = true;

@@ -1,12 +1,12 @@
 #pragma once
-// What hangs on a simulated heat node: a hot end, a bed, a chamber's sensor, two fans, filament and its
+// What hangs on a simulated heat node: a hot end, a bed, a chamber, two fans, filament and its
 // sensors, and what can break of them. No clock and no input or output; the numbers are not those that the
 // node assumes.
 //
-//   heater 1, sensor 1   hot end of 40 W          fan 1   the hot end's own, with tacho
+//   heater 1, sensor 1   hot end of 44 W          fan 1   the hot end's own, with tacho
 //   heater 2, sensor 2   bed of 250 W             fan 2   cools the print, and the hot end a little
-//             sensor 3   the chamber's air          filament sensor 1   a switch
-//                                                   filament sensor 2   a wheel, an edge every 2.93 mm
+//   heater 3, sensor 3   chamber of 200 W         filament sensor 1   a switch
+//                                                 filament sensor 2   a wheel, an edge every 2.93 mm
 //   an accelerometer on the tool
 
 #include <array>
@@ -46,9 +46,9 @@ class HeatPlant {
   ///     shake HZ MM_PER_S2
   ///     accelerometer silent | ok
   ///
-  /// Sensors are 1 to 3, the chamber's can be open, short and ok; heaters and fans 1 and 2. A stuck heater's
-  /// MOSFET is always on. ELEMENT plugs another sensor in, by its name in a machine file. A probe's pin stays
-  /// in, or out, or falls out by itself. Flow is that of filament through the hot end, 0 to 100.
+  /// Sensors are 1 to 3, the chamber's can be open, short and ok; heaters 1 to 3, fans 1 and 2. A stuck
+  /// heater's MOSFET is always on. ELEMENT plugs another sensor in, by its name in a machine file. A probe's
+  /// pin stays in, or out, or falls out by itself. Flow is that of filament through the hot end, 0 to 100.
   /// Empty: done. Otherwise what is wrong with the command, and what there is.
   std::string command(std::string_view text);
 

@@ -129,12 +129,48 @@ TEST(PrintHost, M108EndsTheWaitForAHeaterInAPrint) {
   SerialRig rig;
   ASSERT_TRUE(rig.machine.make_ready());
   rig.ask("G1 X1 F600");
-  rig.write("M109 S230\nM104 S0\n");
+  rig.write("M109 S230\nM104 S100\n");
   const std::size_t before = rig.oks();
   rig.until([] { return false; }, 2s);
   EXPECT_EQ(rig.oks(), before);
   rig.write("M108\n");
   ASSERT_TRUE(rig.until([&] { return rig.oks() == before + 3; }, 1s)) << rig.log();
+  EXPECT_EQ(rig.machine.gateway->status().heater(kFirstHotend).target_celsius, 100);
+}
+
+// Switched off is at once, whatever is waited for; of two heaters the other is still waited for.
+TEST(PrintHost, AHeaterIsSwitchedOffWhileATemperatureIsWaitedFor) {
+  for (const bool printing : {false, true}) {
+    SerialRig rig;
+    if (printing) {
+      ASSERT_TRUE(rig.machine.make_ready());
+      rig.ask("G1 X1 F600");
+    }
+    rig.ask("M140 S60");
+    rig.write("M109 S230\n");
+    rig.until([] { return false; }, 2s);
+    const std::size_t before = rig.oks();
+    rig.write("M140 S0\n");
+    rig.turn();
+    EXPECT_EQ(rig.machine.gateway->status().heater(kFirstBed).target_celsius, 0) << rig.log();
+    EXPECT_EQ(rig.machine.gateway->status().heater(kFirstHotend).target_celsius, 230);
+    EXPECT_EQ(rig.oks(), before);
+    rig.write("M104 T0 S0\n");
+    rig.turn();
+    EXPECT_EQ(rig.machine.gateway->status().heater(kFirstHotend).target_celsius, 0) << rig.log();
+    EXPECT_TRUE(rig.until([&] { return rig.oks() == before + 3; }, 1s)) << rig.log();
+  }
+}
+
+// Of a program that was sent ahead it stands where it stands.
+TEST(PrintHost, AProgramSentAheadSwitchesItsHeaterOffBehindItsMoves) {
+  SerialRig rig;
+  ASSERT_TRUE(rig.machine.make_ready());
+  const std::size_t before = rig.oks();
+  rig.write("M109 S200\nG1 X10 F600\nM104 S0\n");
+  rig.until([] { return false; }, 2s);
+  EXPECT_EQ(rig.machine.gateway->status().heater(kFirstHotend).target_celsius, 200) << rig.log();
+  ASSERT_TRUE(rig.until([&] { return rig.oks() == before + 3; }, 300s)) << rig.log();
   EXPECT_EQ(rig.machine.gateway->status().heater(kFirstHotend).target_celsius, 0);
 }
 
