@@ -84,7 +84,7 @@ struct Scene {
     std::vector<drawing::Face> placed = faces;
     for (drawing::Face& face : placed)
       for (Point& p : face.corners) p = at(p);
-    drawing::draw_faces(document, std::move(placed), 1.1);
+    drawing::draw_faces(document, std::move(placed), 0.7);
     for (std::size_t i = 0; i < middles.size() && middles.size() > 1; ++i) {
       const Point p = at(middles[i]);
       document.text(
