@@ -5421,6 +5421,14 @@
 <context>
     <name>kinebus::gui::JobPanel</name>
     <message>
+        <source>Interrupted: clear the stop, then resume goes on from its place.</source>
+        <translation>Yarıda kaldı: durdurmayı kaldırın, sonra Sürdür kaldığı yerden devam eder.</translation>
+    </message>
+    <message>
+        <source>Interrupted: clear the alarm, then resume goes on from its place.</source>
+        <translation>Yarıda kaldı: alarmı kaldırın, sonra Sürdür kaldığı yerden devam eder.</translation>
+    </message>
+    <message>
         <source>Interrupted: resume goes on from its place.</source>
         <translation>Yarıda kaldı: Sürdür, kaldığı yerden devam eder.</translation>
     </message>
