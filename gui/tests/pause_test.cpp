@@ -101,6 +101,7 @@ TEST_F(PauseTest, AFinishedJobTellsTimeFilamentAndItsWorstFigures) {
   enter(joblink::STATE_RUNNING, "a.gcode");
   gateway.status.set_doing("moving");
   gateway.status.set_remaining_s(60);
+  gateway.status.mutable_nodes(0)->set_queue_records(100);
   enter(joblink::STATE_RUNNING, "a.gcode");
   gateway.status.mutable_nodes(0)->set_queue_records(32);
   enter(joblink::STATE_RUNNING, "a.gcode");

@@ -53,6 +53,10 @@ class WordsTest : public WindowTest {
     problem.set_line(1);
     problem.set_words("slow");
     gateway.preflight.mutable_summary()->set_warnings(1);
+    // As after some minutes of a print.
+    gateway.status.mutable_counters()->set_frames_sent(123456);
+    gateway.status.mutable_counters()->set_frames_received(23456);
+    gateway.status.mutable_counters()->set_segments_sent(98765);
   }
   /// One event of each kind, a job that is checked, the machine file read.
   void fill() {

@@ -5576,7 +5576,7 @@
     </message>
     <message>
         <source>Check</source>
-        <translation>Kontrol et</translation>
+        <translation>Kontrol</translation>
     </message>
     <message>
         <source>Time</source>
@@ -6053,11 +6053,11 @@
     </message>
     <message>
         <source>Slowed for the bus</source>
-        <translation>Veri yolu için yavaşlama</translation>
+        <translation>Veri yolu yavaşlatma</translation>
     </message>
     <message>
         <source>Held for planning</source>
-        <translation>Planlama için bekleme</translation>
+        <translation>Planlama beklemesi</translation>
     </message>
     <message>
         <source>Not connected.</source>

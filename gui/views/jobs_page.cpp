@@ -34,6 +34,7 @@ void prepare(QTableView* table) {
   table->setSelectionMode(QAbstractItemView::SingleSelection);
   table->setEditTriggers(QAbstractItemView::NoEditTriggers);
   table->setShowGrid(false);
+  table->setWordWrap(false);  // a row has one line, cut with dots, whole in its tip
   table->setAlternatingRowColors(true);
   table->setTabKeyNavigation(false);
   table->verticalHeader()->hide();

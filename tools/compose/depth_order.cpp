@@ -49,10 +49,11 @@ std::size_t divider(const std::vector<Facet>& facets) {
   const std::size_t step = std::max<std::size_t>(1, facets.size() / kTried);
   for (std::size_t i = 0; i < facets.size(); i += step) {
     const Plane plane = plane_of(facets[i]);
-    const auto cut = static_cast<std::size_t>(std::count_if(facets.begin(), facets.end(), [&](const Facet& f) {
-      const Sides sides = sides_of(plane, f);
-      return sides.before && sides.behind;
-    }));
+    const auto cut =
+        static_cast<std::size_t>(std::count_if(facets.begin(), facets.end(), [&](const Facet& f) {
+          const Sides sides = sides_of(plane, f);
+          return sides.before && sides.behind;
+        }));
     if (cut < fewest) best = i, fewest = cut;
   }
   return best;
