@@ -186,7 +186,7 @@ QVariant AxesModel::data(const QModelIndex& index, int role) const {
       return !has_switch ? QStringLiteral("–") : switch_on ? tr("Hit") : tr("Free");
     case kPlace:
       return Format::isolated(QStringLiteral("%1 %2")
-                                  .arg(joint.node())
+                                  .arg(Format::number(joint.node(), 0))
                                   .arg(joint.axis() == 0 ? QLatin1Char('A') : QLatin1Char('B')));
     default:
       return {};

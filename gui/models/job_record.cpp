@@ -8,6 +8,12 @@
 namespace kinebus::gui {
 namespace {
 
+/// In the midst of motion: queues fill before it and are empty at its end, as they should.
+bool streams(const joblink::Status& status) {
+  constexpr double kEnding_s = 3;
+  return status.doing() == "moving" && status.rate() > 0.99 && status.remaining_s() > kEnding_s;
+}
+
 std::uint32_t stalls_of(const joblink::Status& status) {
   const joblink::Counters& counters = status.counters();
   return counters.starvation_holds() + counters.bus_slowdowns() + counters.underruns();
@@ -56,11 +62,12 @@ void JobRecord::take(const joblink::Status& status) {
   if (status.has_job_filament_mm()) figures_.filament_mm = status.job_filament_mm();
   figures_.elapsed_s = std::max(figures_.elapsed_s, status.elapsed_s());
   figures_.stalls = stalls_of(status) >= stalls_before_ ? stalls_of(status) - stalls_before_ : 0;
+  const bool streamed = std::exchange(streamed_, runs && streams(status));
   if (!runs) return;
   figures_.bus_load = std::max(figures_.bus_load, status.bus_load());
   for (const auto& node : status.nodes()) {
     figures_.clock_error_us = std::max(figures_.clock_error_us, node.sync_error_s() * 1e6);
-    if (node.queue_capacity() > 0 && status.rate() > 0.99)
+    if (node.queue_capacity() > 0 && streamed && streamed_)
       figures_.emptiest_queue = std::min(figures_.emptiest_queue,
                                          static_cast<double>(node.queue_records()) / node.queue_capacity());
   }

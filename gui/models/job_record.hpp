@@ -22,7 +22,7 @@ class JobRecord : public QObject {
     double filament_mm = 0;
     double clock_error_us = 0;  ///< largest
     double bus_load = 0;        ///< largest
-    double emptiest_queue = 1;  ///< share of a node's room
+    double emptiest_queue = 1;  ///< share of a node's room, in the midst of motion; 1: not seen
     std::uint32_t stalls = 0;   ///< holds for planning, slowed for the bus, underruns
   };
 
@@ -47,7 +47,7 @@ class JobRecord : public QObject {
   Figures figures_;
   QVector<ShownProblem> problems_, found_;
   joblink::State before_ = joblink::STATE_OFF;
-  bool under_way_ = false;
+  bool under_way_ = false, streamed_ = false;
   std::uint32_t stalls_before_ = 0;
 };
 

@@ -15,6 +15,7 @@
 #include <QStackedWidget>
 #include <QString>
 #include <QWheelEvent>
+#include <map>
 #include <memory>
 #include <stdexcept>
 
@@ -168,6 +169,34 @@ TEST_F(CalmTest, QuestionsWaitOnTheHarmlessAnswer) {
   EXPECT_EQ(question()->escapeButton()->text(), QStringLiteral("Go on"));
   question()->defaultButton()->click();
   EXPECT_EQ(gateway.count(joblink::ClientMessage::kCancel), 0);
+}
+
+TEST_F(CalmTest, ButtonsStayWhereTheyAreWhateverTheMachineDoes) {
+  window->show_page(MainWindow::kJog);
+  const auto places = [&] {
+    std::map<QString, QPoint> all;
+    for (const auto* button : window->findChildren<QPushButton*>())
+      for (const char* name : {"Cancel", "Clear stop", "Motors off", "Home"})
+        if (button->isVisible() && button->text() == QLatin1String(name))
+          all[button->text()] = button->mapToGlobal(QPoint(0, 0));
+    return all;
+  };
+  gateway.status.set_job("vase.gcode");
+  gateway.status.set_state(joblink::STATE_RUNNING);
+  gateway.send_status();
+  ASSERT_TRUE(wait_until([&] { return desk.session.status().job() == "vase.gcode"; }));
+  QApplication::processEvents();
+  const auto before = places();
+  ASSERT_EQ(before.size(), 4U);
+  for (const auto state : {joblink::STATE_HOLDING, joblink::STATE_HELD, joblink::STATE_STOPPED,
+                           joblink::STATE_ALARM, joblink::STATE_READY}) {
+    gateway.status.set_state(state);
+    gateway.status.set_interrupted(state == joblink::STATE_STOPPED || state == joblink::STATE_READY);
+    gateway.send_status();
+    ASSERT_TRUE(wait_until([&] { return desk.session.status().state() == state; }));
+    QApplication::processEvents();
+    EXPECT_TRUE(places() == before) << state;
+  }
 }
 
 TEST_F(CalmTest, ADemoWithAJobDoesNotEndByASlip) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <QAbstractButton>
+#include <QApplication>
 #include <QCoreApplication>
 #include <QLabel>
 #include <QMessageBox>
@@ -94,7 +95,17 @@ TEST_F(PauseTest, AFinishedJobTellsTimeFilamentAndItsWorstFigures) {
   gateway.status.mutable_nodes(0)->set_sync_error_s(1.5e-6);
   gateway.status.set_bus_load(0.1);
   enter(joblink::STATE_CHECKING, "a.gcode");
+  gateway.status.set_rate(1);
+  for (const int other : {1, 2}) gateway.status.mutable_nodes(other)->set_queue_records(100);
+  // Empty before its motion begins and at its end; in the midst never below a quarter.
   enter(joblink::STATE_RUNNING, "a.gcode");
+  gateway.status.set_doing("moving");
+  gateway.status.set_remaining_s(60);
+  gateway.status.mutable_nodes(0)->set_queue_records(100);
+  enter(joblink::STATE_RUNNING, "a.gcode");
+  gateway.status.mutable_nodes(0)->set_queue_records(32);
+  enter(joblink::STATE_RUNNING, "a.gcode");
+  gateway.status.mutable_nodes(0)->set_queue_records(100);
   gateway.status.set_elapsed_s(125);
   gateway.status.set_job_filament_mm(3200);
   gateway.status.mutable_nodes(0)->set_sync_error_s(7.25e-6);
@@ -105,6 +116,9 @@ TEST_F(PauseTest, AFinishedJobTellsTimeFilamentAndItsWorstFigures) {
   gateway.status.set_bus_load(0.05);
   enter(joblink::STATE_HELD, "a.gcode");
   enter(joblink::STATE_RUNNING, "a.gcode");
+  gateway.status.mutable_nodes(0)->set_queue_records(0);
+  gateway.status.set_remaining_s(1);
+  enter(joblink::STATE_RUNNING, "a.gcode");
   gateway.status.set_elapsed_s(0);
   gateway.status.clear_job_filament_mm();
   enter(joblink::STATE_READY, "");
@@ -113,6 +127,7 @@ TEST_F(PauseTest, AFinishedJobTellsTimeFilamentAndItsWorstFigures) {
   EXPECT_TRUE(shows(QStringLiteral("3.20 m")));
   EXPECT_TRUE(shows(QStringLiteral("7.2 µs")) || shows(QStringLiteral("7.3 µs")));
   EXPECT_TRUE(shows(QStringLiteral("42%")));
+  EXPECT_TRUE(shows(QStringLiteral("25%")));
   EXPECT_EQ(desk.record.figures().stalls, 2U);
   // The next one begins from nothing.
   enter(joblink::STATE_RUNNING, "b.gcode");
@@ -158,6 +173,21 @@ TEST_F(PauseTest, AJobThatIsRefusedAtItsStartSaysWhyAndShowsItsOwnFindings) {
   EXPECT_EQ(findings->model()->rowCount(), 0);
   window->jobs_page().select(QStringLiteral("b.gcode"));
   EXPECT_EQ(findings->model()->rowCount(), 1);
+}
+
+TEST_F(PauseTest, AnotherThemeDoesNotCheckTheMachineFileAnew) {
+  window->show_page(MainWindow::kMachine);
+  window->machine_page().show_tab(2);
+  ASSERT_TRUE(wait_until([&] { return shows(QStringLiteral("The file is right.")); }));
+  // Colours of the text change, which is a change of the document.
+  for (const bool dark : {true, false}) {
+    window->set_theme(dark);
+    QApplication::processEvents();
+    EXPECT_TRUE(shows(QStringLiteral("The file is right."))) << dark;
+  }
+  window->machine_page().editor().text().appendPlainText(QStringLiteral("# mine"));
+  EXPECT_TRUE(shows(QStringLiteral("Checking…")));
+  EXPECT_TRUE(wait_until([&] { return shows(QStringLiteral("The file is right.")); }));
 }
 
 TEST_F(PauseTest, ReadingTheMachineFileAgainAsksBeforeItDiscards) {

@@ -294,6 +294,20 @@ TEST_F(WindowTest, AnInterruptedJobOffersToGoOnOrToBeCancelled) {
   ASSERT_TRUE(wait_until([&] { return desk.session.status().interrupted(); }));
   EXPECT_TRUE(enabled(QStringLiteral("Resume")));
   EXPECT_TRUE(enabled(QStringLiteral("Cancel")));
+  // Before a stop is cleared nothing resumes, and the panel says what comes first.
+  gateway.allow({});
+  gateway.status.set_state(joblink::STATE_STOPPED);
+  gateway.send_status();
+  const auto says = [&](const QString& text) {
+    for (const auto* label : window->findChildren<QLabel*>())
+      if (!label->isHidden() && label->text() == text) return true;
+    return false;
+  };
+  EXPECT_TRUE(wait_until([&] {
+    return says(QStringLiteral("Interrupted: clear the stop, then resume goes on from its place."));
+  }));
+  EXPECT_FALSE(enabled(QStringLiteral("Resume")));
+  EXPECT_FALSE(says(QStringLiteral("Interrupted: resume goes on from its place.")));
 }
 
 TEST_F(WindowTest, AButtonThatCanDoNothingTellsWhyInTheGatewaysWords) {

@@ -9,6 +9,7 @@
 #include <QComboBox>
 #include <QGroupBox>
 #include <QHeaderView>
+#include <QImage>
 #include <QLabel>
 #include <QLineEdit>
 #include <QListView>
@@ -52,6 +53,10 @@ class WordsTest : public WindowTest {
     problem.set_line(1);
     problem.set_words("slow");
     gateway.preflight.mutable_summary()->set_warnings(1);
+    // As after some minutes of a print.
+    gateway.status.mutable_counters()->set_frames_sent(123456);
+    gateway.status.mutable_counters()->set_frames_received(23456);
+    gateway.status.mutable_counters()->set_segments_sent(98765);
   }
   /// One event of each kind, a job that is checked, the machine file read.
   void fill() {
@@ -277,6 +282,30 @@ TEST_F(WordsTest, NoButtonAndNoNameIsCutAt1024By640) {
   fill();
   if (HasFatalFailure()) return;
   nothing_is_cut();
+}
+
+/// The column farthest right of which something is drawn between two rows.
+int rightmost_ink(const QImage& picture, int from, int to) {
+  for (int x = picture.width() - 1; x >= 0; --x)
+    for (int y = from; y < to; ++y)
+      if (qGray(picture.pixel(x, y)) < 128) return x;
+  return -1;
+}
+
+TEST(WrappedWords, BeginAtTheSameEdgeInEveryLineFromTheRight) {
+  QLabel label;
+  label.setLayoutDirection(Qt::RightToLeft);
+  label.setStyleSheet(QStringLiteral("background: white; color: black"));
+  label.setText(QStringLiteral("گام گام گام گام گام گام گام گام گام گام گام گام گام"));
+  wrap_words(label);
+  label.resize(120, label.heightForWidth(120));
+  const int line = label.fontMetrics().lineSpacing();
+  ASSERT_GT(label.height(), 2 * line);
+  const QImage picture = label.grab().toImage().convertToFormat(QImage::Format_RGB32);
+  const int first = rightmost_ink(picture, 0, line);
+  // The space at the end of a line takes no room, and pushes no letter out.
+  EXPECT_EQ(first, rightmost_ink(picture, label.height() - line, label.height()));
+  EXPECT_GE(first, picture.width() - 4);
 }
 
 TEST_F(WordsTest, APageTurnsWhenItsButtonIsToggledAsAScreenReaderDoes) {

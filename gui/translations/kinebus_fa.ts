@@ -1546,7 +1546,7 @@
     </message>
     <message>
         <source>a feed override is 0.01 to 5</source>
-        <translation>ضریب سرعت از 0.01 تا 5 است</translation>
+        <translation>ضریب سرعت از 0.0۱ تا ۵ است</translation>
     </message>
     <message>
         <source>the temperature must be 0 to %1 C</source>
@@ -3506,7 +3506,7 @@
     </message>
     <message>
         <source>a parameter&apos;s number must be a whole number from 1 to 5602</source>
-        <translation>شمارهٔ پارامتر باید عددی صحیح از 1 تا 5602 باشد</translation>
+        <translation>شمارهٔ پارامتر باید عددی صحیح از ۱ تا ۵602 باشد</translation>
     </message>
     <message>
         <source>there is no parameter #%1; they are #1 to #5602</source>
@@ -5445,6 +5445,14 @@
 <context>
     <name>kinebus::gui::JobPanel</name>
     <message>
+        <source>Interrupted: clear the stop, then resume goes on from its place.</source>
+        <translation>نیمه‌کاره: توقف را رفع کنید، سپس ادامه از همان جا پی می‌گیرد.</translation>
+    </message>
+    <message>
+        <source>Interrupted: clear the alarm, then resume goes on from its place.</source>
+        <translation>نیمه‌کاره: هشدار را رفع کنید، سپس ادامه از همان جا پی می‌گیرد.</translation>
+    </message>
+    <message>
         <source>Interrupted: resume goes on from its place.</source>
         <translation>نیمه‌کاره: ادامه، از همان جا پی می‌گیرد.</translation>
     </message>
@@ -5762,7 +5770,7 @@
     </message>
     <message>
         <source>A click is a step; a button or key that is held moves until it is let go. Keys: arrows move X and Y, Page Up and Page Down move Z, A and D tilt, Q and W turn the table, 1 to 5 choose the step.</source>
-        <translation>هر کلیک یک گام است؛ دکمه یا کلیدی که نگه داشته شود تا رها شدن حرکت می‌دهد. کلیدها: پیکان‌ها X و Y را، Page Up و Page Down محور Z را حرکت می‌دهند؛ A و D کج می‌کنند، Q و W میز را می‌چرخانند و 1 تا 5 گام را برمی‌گزینند.</translation>
+        <translation>هر کلیک یک گام است؛ دکمه یا کلیدی که نگه داشته شود تا رها شدن حرکت می‌دهد. کلیدها: پیکان‌ها X و Y را، Page Up و Page Down محور Z را حرکت می‌دهند؛ A و D کج می‌کنند، Q و W میز را می‌چرخانند و ۱ تا ۵ گام را برمی‌گزینند.</translation>
     </message>
     <message>
         <source>Step, mm or °</source>

@@ -5445,6 +5445,14 @@
 <context>
     <name>kinebus::gui::JobPanel</name>
     <message>
+        <source>Interrupted: clear the stop, then resume goes on from its place.</source>
+        <translation>Yarıda kaldı: durdurmayı kaldırın, sonra Sürdür kaldığı yerden devam eder.</translation>
+    </message>
+    <message>
+        <source>Interrupted: clear the alarm, then resume goes on from its place.</source>
+        <translation>Yarıda kaldı: alarmı kaldırın, sonra Sürdür kaldığı yerden devam eder.</translation>
+    </message>
+    <message>
         <source>Interrupted: resume goes on from its place.</source>
         <translation>Yarıda kaldı: Sürdür, kaldığı yerden devam eder.</translation>
     </message>
@@ -5592,7 +5600,7 @@
     </message>
     <message>
         <source>Check</source>
-        <translation>Kontrol et</translation>
+        <translation>Kontrol</translation>
     </message>
     <message>
         <source>Time</source>
@@ -6069,11 +6077,11 @@
     </message>
     <message>
         <source>Slowed for the bus</source>
-        <translation>Veri yolu için yavaşlama</translation>
+        <translation>Veri yolu yavaşlatma</translation>
     </message>
     <message>
         <source>Held for planning</source>
-        <translation>Planlama için bekleme</translation>
+        <translation>Planlama beklemesi</translation>
     </message>
     <message>
         <source>Not connected.</source>

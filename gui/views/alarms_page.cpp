@@ -133,7 +133,7 @@ AlarmsPage::AlarmsPage(Desk& desk, QWidget* parent) : SpeakingWidget(parent), de
   title_ = make_label("title", open_);
   details_ = make_label("muted", open_);
   advice_ = new QLabel(open_);
-  for (QLabel* label : {title_, details_, advice_}) label->setWordWrap(true);
+  for (QLabel* label : {title_, details_, advice_}) wrap_words(*label);
   clear_ = make_button(desk_.theme, QStringLiteral("clear"), "primary", open_);
   auto* row = new QHBoxLayout;
   auto* words = new QVBoxLayout;

@@ -54,10 +54,10 @@ BenchWindow::BenchWindow(const Theme& theme, const QString& program, QWidget* pa
   for (int axis = 0; axis < 2; ++axis) row->addWidget(make_motor(axis), 1);
   column->addLayout(row);
   switches_ = make_label("muted", this);
-  switches_->setWordWrap(true);
+  wrap_words(*switches_);
   column->addWidget(switches_);
   news_ = new QLabel(this);
-  news_->setWordWrap(true);
+  wrap_words(*news_);
   news_->setTextFormat(Qt::PlainText);
   column->addWidget(news_);
   column->addStretch(1);
@@ -116,7 +116,7 @@ QWidget* BenchWindow::make_head() {
   row->addWidget(stop_);
   box->column()->addLayout(row);
   name_ = make_label("muted", box);
-  name_->setWordWrap(true);
+  wrap_words(*name_);
   box->column()->addWidget(name_);
   connect(open_, &QPushButton::clicked, this, &BenchWindow::open_or_close);
   connect(stop_, &QPushButton::clicked, this, [this] { card_.send(QStringLiteral("stop")); });
@@ -145,7 +145,7 @@ QWidget* BenchWindow::make_motor(int axis) {
   m.drive = make_label("muted", box);
   m.place = new QLabel(box);
   m.measured = make_label("muted", box);
-  m.measured->setWordWrap(true);
+  wrap_words(*m.measured);
   for (QLabel* label : {m.heading, m.drive, m.place, m.measured}) box->column()->addWidget(label);
   auto* grid = new QGridLayout;
   grid->setHorizontalSpacing(10);
@@ -261,9 +261,11 @@ void BenchWindow::take_state(const QJsonObject& state) {
   const QJsonArray switches = state.value(QLatin1String("switches")).toArray();
   for (int i = 0; i < switches.size(); ++i) {
     const bool active = switches.at(i).toObject().value(QLatin1String("active")).toBool();
-    dots += QStringLiteral("%1 %2  ").arg(Format::number(i + 1, 0), QChar(active ? 0x25CF : 0x25CB));
+    dots += Format::isolated(
+                QStringLiteral("%1 %2").arg(Format::number(i + 1, 0), QChar(active ? 0x25CF : 0x25CB))) +
+            QStringLiteral("  ");
   }
-  QString words = state.isEmpty() ? QString() : tr("Switches: %1").arg(Format::isolated(dots.trimmed()));
+  QString words = state.isEmpty() ? QString() : tr("Switches: %1").arg(dots.trimmed());
   QString codes;
   for (const auto& code : state.value(QLatin1String("errors")).toArray())
     codes += QStringLiteral("%1h ")

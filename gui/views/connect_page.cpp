@@ -32,7 +32,7 @@ ConnectPage::ConnectPage(Desk& desk, QWidget* parent) : SpeakingWidget(parent), 
   words->setSpacing(2);
   title_ = make_label("title", frame);
   subtitle_ = make_label("muted", frame);
-  subtitle_->setWordWrap(true);
+  wrap_words(*subtitle_);
   words->addWidget(title_);
   words->addWidget(subtitle_);
   head->addWidget(picture);
@@ -43,7 +43,7 @@ ConnectPage::ConnectPage(Desk& desk, QWidget* parent) : SpeakingWidget(parent), 
   link_card_ = new Card(frame);
   auto* link_row = new QHBoxLayout;
   link_words_ = new QLabel(link_card_);
-  link_words_->setWordWrap(true);
+  wrap_words(*link_words_);
   leave_ = make_button(desk_.theme, QStringLiteral("cancel"), "", link_card_);
   link_row->addWidget(link_words_, 1);
   link_row->addWidget(leave_);
@@ -53,7 +53,7 @@ ConnectPage::ConnectPage(Desk& desk, QWidget* parent) : SpeakingWidget(parent), 
   auto* found_card = new Card(frame);
   found_heading_ = make_label("heading", found_card);
   none_ = make_label("muted", found_card);
-  none_->setWordWrap(true);
+  wrap_words(*none_);
   found_ = new QVBoxLayout;
   found_->setSpacing(8);
   found_card->column()->addWidget(found_heading_);
@@ -68,7 +68,7 @@ ConnectPage::ConnectPage(Desk& desk, QWidget* parent) : SpeakingWidget(parent), 
     auto* lines = new QVBoxLayout;
     heading = make_label("heading", card);
     detail = make_label("muted", card);
-    detail->setWordWrap(true);
+    wrap_words(*detail);
     lines->addWidget(heading);
     lines->addWidget(detail);
     QPushButton* button = make_button(desk_.theme, icon, kind, card);
@@ -82,7 +82,7 @@ ConnectPage::ConnectPage(Desk& desk, QWidget* parent) : SpeakingWidget(parent), 
   demo_ = offer(QStringLiteral("demo"), "primary", demo_heading_, demo_words_);
   bench_ = offer(QStringLiteral("machine"), "", bench_heading_, bench_words_);
   problem_ = make_label("danger", frame);
-  problem_->setWordWrap(true);
+  wrap_words(*problem_);
   problem_->hide();
   column->addWidget(problem_);
   column->addStretch(2);

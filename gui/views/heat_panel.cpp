@@ -36,7 +36,7 @@ QWidget* HeatPanel::make_choice() {
   auto* card = new Card(this);
   auto* heading = make_label("heading", card);
   auto* what = make_label("small", card);
-  what->setWordWrap(true);
+  wrap_words(*what);
   card->column()->addWidget(heading);
   card->column()->addWidget(what);
   auto* grid = new QGridLayout;
@@ -89,7 +89,7 @@ QWidget* HeatPanel::make_choice() {
 QWidget* HeatPanel::make_curve() {
   auto* card = new Card(this);
   stage_ = make_label("heading", card);
-  stage_->setWordWrap(true);
+  wrap_words(*stage_);
   progress_ = new QProgressBar(card);
   progress_->setRange(0, 1000);
   progress_->setTextVisible(false);
@@ -115,11 +115,13 @@ QWidget* HeatPanel::make_result() {
   const auto fact = [&](auto title, auto words) {
     auto* name = make_label("muted", card);
     auto* value = new QLabel(card);
-    value->setAlignment(Qt::AlignTrailing);
     grid->addWidget(name, static_cast<int>(facts_.size()), 0);
     grid->addWidget(value, static_cast<int>(facts_.size()), 1);
     facts_.push_back({value, words});
-    says([name, title] { name->setText(title()); });
+    says([name, value, title] {
+      name->setText(title());
+      align_trailing(*value);
+    });
   };
   using T = joblink::HeaterTuning;
   fact([] { return tr("Power, by the machine file"); },
@@ -133,7 +135,7 @@ QWidget* HeatPanel::make_result() {
   fact([] { return tr("Lag"); }, [](const T& t) { return tr("%1 s").arg(Format::number(t.lag_s(), 2)); });
   card->column()->addLayout(grid);
   kept_ = make_label("small", card);
-  kept_->setWordWrap(true);
+  wrap_words(*kept_);
   card->column()->addWidget(kept_);
   card->column()->addStretch(1);
   says([heading] { heading->setText(tr("What was found")); });

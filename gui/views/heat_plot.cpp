@@ -88,18 +88,22 @@ double HeatPlot::draw_legend(QPainter& painter, double top) const {
   const auto& samples = history_.samples(span());
   const QFontMetricsF metrics(painter.font());
   const double line = metrics.height() + 2;
-  double x = kEdge;
+  const bool mirrored = layoutDirection() == Qt::RightToLeft;
+  constexpr double kSwatch = 10, kName = kSwatch + 4;
+  double at = kEdge;  // from the side where the language begins
   const auto put = [&](const QColor& of, const QString& text) {
     const double wide = metrics.horizontalAdvance(text) + 24;
-    if (x + wide > width() - kEdge && x > kEdge) {
-      x = kEdge;
+    if (at + wide > width() - kEdge && at > kEdge) {
+      at = kEdge;
       top += line;
     }
+    const double swatch = mirrored ? width() - at - kSwatch : at;
     painter.setPen(QPen(of, 3));
-    painter.drawLine(QPointF(x, top + line / 2), QPointF(x + 10, top + line / 2));
+    painter.drawLine(QPointF(swatch, top + line / 2), QPointF(swatch + kSwatch, top + line / 2));
     painter.setPen(theme_.colours().text);
-    painter.drawText(QRectF(x + 14, top, wide, line), kLeading, text);
-    x += wide + 8;
+    painter.drawText(QRectF(mirrored ? width() - at - kName - wide : at + kName, top, wide, line),
+                     mirrored ? kTrailing : kLeading, text);
+    at += wide + 8;
   };
   for (std::size_t i = 0; i < history_.heaters().size(); ++i) {
     QString text = QString::fromStdString(history_.heaters()[i]);

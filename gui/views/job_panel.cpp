@@ -33,7 +33,7 @@ JobPanel::JobPanel(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(
   name_ = new ElidedLabel(card);
   name_->setProperty("role", "heading");
   doing_ = make_label("small", card);
-  doing_->setWordWrap(true);
+  wrap_words(*doing_);
   // Buttons below stay where they are, whether there is something to say or not: in the font that is shown.
   doing_->ensurePolished();
   doing_->setMinimumHeight(2 * doing_->fontMetrics().lineSpacing());
@@ -53,7 +53,6 @@ JobPanel::JobPanel(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(
   for (std::size_t i = 0; i < facts_.size(); ++i) {
     const int row = static_cast<int>(i) / 2, column = static_cast<int>(i) % 2 * 2;
     facts_[i] = {make_label("muted", card), new QLabel(card)};
-    facts_[i].value->setAlignment(Qt::AlignTrailing);
     facts->addWidget(facts_[i].name, row, column);
     facts->addWidget(facts_[i].value, row, column + 1);
   }
@@ -71,7 +70,6 @@ JobPanel::JobPanel(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(
   override_text_ = new QLabel(card);
   override_text_->setMinimumWidth(override_text_->fontMetrics().horizontalAdvance(QStringLiteral("%500")) +
                                   6);
-  override_text_->setAlignment(Qt::AlignTrailing);
   speed->addWidget(speed_name);
   speed->addWidget(override_, 1);
   speed->addWidget(override_text_);
@@ -134,6 +132,8 @@ JobPanel::JobPanel(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(
     progress_->setAccessibleName(tr("Progress"));
     override_->setAccessibleName(tr("Feed override in percent"));
     speak_direction(*override_);
+    for (const auto& fact : facts_) align_trailing(*fact.value);
+    align_trailing(*override_text_);
     pause_->setText(tr("Pause"));
     resume_->setText(tr("Resume"));
     cancel_->setText(tr("Cancel"));
@@ -193,6 +193,10 @@ QString JobPanel::doing(bool job, bool report, bool lost) const {
   if (job && (interrupted || s.state() == joblink::STATE_HELD))
     for (const joblink::FilamentSensor& sensor : s.filament_sensors())
       if (sensor.has_words()) return GatewayWords::said(sensor.words(), {});
+  if (interrupted && s.state() == joblink::STATE_STOPPED)
+    return tr("Interrupted: clear the stop, then resume goes on from its place.");
+  if (interrupted && s.state() == joblink::STATE_ALARM)
+    return tr("Interrupted: clear the alarm, then resume goes on from its place.");
   if (interrupted) return tr("Interrupted: resume goes on from its place.");
   // What a job waits for, while nothing moves, is the gateway's to say.
   const bool busy = job && (s.state() == joblink::STATE_RUNNING || s.state() == joblink::STATE_CHECKING);
@@ -217,7 +221,7 @@ std::array<JobPanel::Fact, 6> JobPanel::facts(bool job, bool report) const {
             Format::isolated(tr("%1 m").arg(Format::number(f.filament_mm * 1e-3, filament_decimals)))},
            {tr("Clock error"), Format::isolated(tr("%1 µs").arg(Format::number(f.clock_error_us, 1)))},
            {tr("Bus load"), Format::percent(f.bus_load, 0)},
-           {tr("Least queue"), Format::percent(f.emptiest_queue, 0)},
+           {tr("Least queue"), f.emptiest_queue < 1 ? Format::percent(f.emptiest_queue, 0) : none},
            {tr("Slowed"), Format::number(f.stalls, 0)}}};
 }
 
@@ -252,8 +256,11 @@ void JobPanel::take_status() {
     // Another client may have set more than the slider can.
     override_text_->setText(Format::percent(s.feed_override()));
   }
-  const bool resume = desk_.session.allowed(joblink::COMMAND_RESUME);
+  // What is interrupted has nothing to pause: resume stands there also while a stop is not cleared.
+  const bool resume = desk_.session.allowed(joblink::COMMAND_RESUME) || (connected && job && s.interrupted());
   pause_or_resume_->setCurrentWidget(resume ? resume_ : pause_);
+  set_usable(*resume_, desk_.session.allowed(joblink::COMMAND_RESUME),
+             desk_.session.why_not(joblink::COMMAND_RESUME));
   set_usable(*pause_, desk_.session.allowed(joblink::COMMAND_HOLD),
              desk_.session.why_not(joblink::COMMAND_HOLD));
   set_usable(*cancel_, desk_.session.allowed(joblink::COMMAND_CANCEL),

@@ -34,6 +34,7 @@ void prepare(QTableView* table) {
   table->setSelectionMode(QAbstractItemView::SingleSelection);
   table->setEditTriggers(QAbstractItemView::NoEditTriggers);
   table->setShowGrid(false);
+  table->setWordWrap(false);  // a row has one line, cut with dots, whole in its tip
   table->setAlternatingRowColors(true);
   table->setTabKeyNavigation(false);
   table->verticalHeader()->hide();
@@ -160,7 +161,7 @@ QWidget* JobsPage::make_result() {
   auto* head = new QHBoxLayout;
   result_heading_ = make_label("heading", card);
   result_text_ = make_label("muted", card);
-  result_text_->setWordWrap(true);
+  wrap_words(*result_text_);
   head->addWidget(result_heading_);
   head->addSpacing(10);
   head->addWidget(result_text_, 1);

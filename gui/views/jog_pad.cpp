@@ -49,11 +49,11 @@ JogPad::JogPad(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(desk
   card->column()->addLayout(centred);
   card->column()->addWidget(make_steps());
   hint_ = make_label("small", card);
-  hint_->setWordWrap(true);
+  wrap_words(*hint_);
   card->column()->addWidget(hint_);
   by_hand_ = new QCheckBox(card);
   by_hand_hint_ = make_label("small", card);
-  by_hand_hint_->setWordWrap(true);
+  wrap_words(*by_hand_hint_);
   card->column()->addWidget(by_hand_);
   card->column()->addWidget(by_hand_hint_);
   card->column()->addStretch(1);

@@ -190,7 +190,7 @@ QWidget* JogPage::make_offsets() {
   auto* card = new Card(this);
   auto* heading = make_label("heading", card);
   active_offset_ = make_label("small", card);
-  active_offset_->setWordWrap(true);
+  wrap_words(*active_offset_);
   system_ = new QComboBox(card);
   for (const char* name : kSystems) system_->addItem(QString::fromLatin1(name));
   turn_with_focus_only(*system_);

@@ -97,12 +97,13 @@ MachineFileEditor::MachineFileEditor(Desk& desk, QWidget* parent)
   auto* below_column = new QVBoxLayout(below);
   below_column->setContentsMargins(0, 4, 0, 0);
   verdict_ = new QLabel(below);
-  verdict_->setWordWrap(true);
+  wrap_words(*verdict_);
   table_ = new QTableView(below);
   table_->setModel(&problems_);
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
   table_->setSelectionMode(QAbstractItemView::SingleSelection);
   table_->setShowGrid(false);
+  table_->setWordWrap(false);
   table_->setTabKeyNavigation(false);
   table_->verticalHeader()->hide();
   table_->verticalHeader()->setDefaultSectionSize(30);
@@ -124,9 +125,12 @@ MachineFileEditor::MachineFileEditor(Desk& desk, QWidget* parent)
   check_soon_.setInterval(kCheckAfter_ms);
   connect(&check_soon_, &QTimer::timeout, this, &MachineFileEditor::check);
   connect(text_->document(), &QTextDocument::contentsChanged, this, [this] {
-    say(Said::kNothing);
     // Colouring changes the document too, but not its text.
-    if (text_->document()->revision() != checked_revision_) check_soon_.start();
+    const QString text = text_->toPlainText();
+    if (text == seen_) return;
+    seen_ = text;
+    say(Said::kNothing);
+    check_soon_.start();
     tell();
   });
   const auto go = [this](const QModelIndex& index) {
@@ -190,15 +194,14 @@ void MachineFileEditor::read() {
 void MachineFileEditor::check() {
   if (!desk_.session.connected() || text_->document()->isEmpty() || checking_) return;
   checking_ = true;
-  const int revision = text_->document()->revision();
   joblink::ClientMessage request;
-  request.mutable_check_machine_file()->set_text(text_->toPlainText().toStdString());
+  request.mutable_check_machine_file()->set_text(seen_.toStdString());
   desk_.session.send(std::move(request),
-                     [self = QPointer<MachineFileEditor>(this), revision](const joblink::Reply& reply) {
+                     [self = QPointer<MachineFileEditor>(this), text = seen_](const joblink::Reply& reply) {
                        if (self.isNull()) return;
                        self->checking_ = false;
                        self->checked_ = reply.has_machine_file_check();
-                       self->checked_revision_ = revision;
+                       self->checked_text_ = text;
                        if (self->checked_) {
                          self->problems_.set(ProblemsModel::of(reply.machine_file_check()));
                          QVector<int> lines;
@@ -206,7 +209,7 @@ void MachineFileEditor::check() {
                            lines << self->problems_.at(i).line;
                          self->text_->mark_lines(lines);
                        }
-                       if (self->text_->document()->revision() != revision) self->check_soon_.start();
+                       if (self->seen_ != text) self->check_soon_.start();
                        self->tell();
                      });
   tell();
@@ -274,7 +277,7 @@ void MachineFileEditor::say(Said said, const joblink::Problem& refusal) {
 
 void MachineFileEditor::tell() {
   const bool connected = desk_.session.connected();
-  const bool fresh = checked_ && checked_revision_ == text_->document()->revision();
+  const bool fresh = checked_ && checked_text_ == seen_;
   read_->setEnabled(connected);
   // A file that is newer than what runs is of no use before.
   restart_->setVisible(connected && read_once_ && file_.restart_needed());

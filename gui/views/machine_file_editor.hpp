@@ -61,7 +61,7 @@ class MachineFileEditor : public SpeakingWidget {
   QTimer check_soon_;
   joblink::MachineFile file_;
   bool read_once_ = false, checked_ = false, checking_ = false;
-  int checked_revision_ = -1;
+  QString seen_, checked_text_;
   Said said_ = Said::kNothing;
   joblink::Problem refusal_;  ///< of the last save or restart; without words: none
 };

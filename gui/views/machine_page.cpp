@@ -223,7 +223,6 @@ QWidget* MachinePage::make_numbers() {
   const auto counter = [&](auto title, auto value) {
     auto* name = make_label("muted", card);
     auto* number = new QLabel(card);
-    number->setAlignment(Qt::AlignTrailing);
     counters->addWidget(name, i / 3, i % 3 * 2);
     counters->addWidget(number, i / 3, i % 3 * 2 + 1);
     counters->setColumnStretch(i % 3 * 2 + 1, 1);
@@ -231,7 +230,10 @@ QWidget* MachinePage::make_numbers() {
                           return QLocale().toString(
                               static_cast<qulonglong>(value(desk_.session.status().counters())));
                         }});
-    says([name, title] { name->setText(title()); });
+    says([name, number, title] {
+      name->setText(title());
+      align_trailing(*number);
+    });
     ++i;
   };
   using C = joblink::Counters;

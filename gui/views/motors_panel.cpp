@@ -44,7 +44,7 @@ MotorsPanel::MotorsPanel(Desk& desk, QWidget* parent) : SpeakingWidget(parent), 
   grid->addWidget(make_currents(), 1, 0);
   grid->addWidget(make_trial(), 1, 1);
   bench_ = make_label("small", body);
-  bench_->setWordWrap(true);
+  wrap_words(*bench_);
   grid->addWidget(bench_, 2, 0, 1, 2);
   grid->setRowStretch(0, 1);
   grid->setColumnStretch(0, 1);
@@ -156,7 +156,7 @@ QWidget* MotorsPanel::make_trial() {
   tune_ = make_button(desk_.theme, QStringLiteral("refresh"), "", card);
   card->column()->addWidget(tune_);
   inputs_ = make_label("muted", card);
-  inputs_->setWordWrap(true);
+  wrap_words(*inputs_);
   card->column()->addWidget(inputs_);
   card->column()->addStretch(1);
   connect(less_, &QPushButton::clicked, this, [this] { jog(-1); });
@@ -194,7 +194,7 @@ void MotorsPanel::take_machine() {
   for (const joblink::Joint& each : desk_.session.machine().joints())
     names << QStringLiteral("%1 (%2 %3)")
                  .arg(QString::fromStdString(each.name()))
-                 .arg(each.node())
+                 .arg(Format::number(each.node(), 0))
                  .arg(each.axis() == 0 ? QLatin1Char('A') : QLatin1Char('B'));
   QStringList shown;
   for (int i = 0; i < motor_->count(); ++i) shown << motor_->itemText(i);
@@ -238,11 +238,13 @@ void MotorsPanel::take_status() {
   if (of != nullptr)
     for (const joblink::NodeStatus& node : session.status().nodes())
       for (unsigned i = 0; node.id() == of->node() && i < 7; ++i)
-        dots += QStringLiteral("%1 %2  ").arg(Format::number(i + 1, 0),
-                                              (node.inputs() >> i & 1u) != 0 ? QChar(0x25CF) : QChar(0x25CB));
-  inputs_->setText(of == nullptr ? QString()
-                                 : tr("Switches of node %1: %2")
-                                       .arg(Format::number(of->node(), 0), Format::isolated(dots.trimmed())));
+        dots +=
+            Format::isolated(QStringLiteral("%1 %2").arg(
+                Format::number(i + 1, 0), (node.inputs() >> i & 1u) != 0 ? QChar(0x25CF) : QChar(0x25CB))) +
+            QStringLiteral("  ");
+  inputs_->setText(of == nullptr
+                       ? QString()
+                       : tr("Switches of node %1: %2").arg(Format::number(of->node(), 0), dots.trimmed()));
 }
 
 void MotorsPanel::jog(int sign) {

@@ -17,7 +17,7 @@ Notice::Notice(const Theme& theme, QWidget* room) : SpeakingWidget(room), timer_
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(14, 7, 8, 7);
   text_ = new QLabel(this);
-  text_->setWordWrap(true);
+  wrap_words(*text_);
   auto* close = make_tool(theme, QStringLiteral("cancel"), false, this);
   // What was told once is not told again in another language.
   says([this, close] {

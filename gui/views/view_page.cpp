@@ -22,7 +22,7 @@ ViewPage::ViewPage(Desk& desk, QWidget* parent) : SpeakingWidget(parent), desk_(
   moves_ = new QSlider(Qt::Horizontal, this);
   layer_text_ = make_label("small", this);
   broken_ = make_label("danger", this);
-  broken_->setWordWrap(true);
+  wrap_words(*broken_);
   broken_->hide();
 
   auto* side = new QVBoxLayout;

@@ -3,16 +3,22 @@
 #include <QColor>
 #include <QEvent>
 #include <QIcon>
+#include <QLatin1Char>
 #include <QLatin1String>
 #include <QLocale>
 #include <QObject>
 #include <QPaintEvent>
 #include <QPainter>
 #include <QRect>
+#include <QRectF>
 #include <QSize>
 #include <QStyle>
 #include <QStyleOptionButton>
 #include <QStylePainter>
+#include <QTextDocument>
+#include <QTextLayout>
+#include <QTextLine>
+#include <QTextOption>
 #include <QVBoxLayout>
 #include <QWidget>
 
@@ -33,7 +39,71 @@ class WheelWithFocus : public QObject {
   }
 };
 
+/// Qt draws a wrapped line from right to left with the space that ends it before its first letter: the line
+/// stands too far left, and its last letter outside of the label.
+class LinesFromTheRight : public QObject {
+ public:
+  using QObject::QObject;
+  bool eventFilter(QObject* watched, QEvent* event) override {
+    auto* label = qobject_cast<QLabel*>(watched);
+    if (event->type() != QEvent::Paint || label == nullptr || label->layoutDirection() != Qt::RightToLeft ||
+        Qt::mightBeRichText(label->text()))
+      return false;
+    draw(*label);
+    return true;
+  }
+
+ private:
+  static void draw(QLabel& label) {
+    const QRectF room = label.contentsRect();
+    QString text = label.text();
+    text.replace(QLatin1Char('\n'), QChar(QChar::LineSeparator));
+    QTextOption option;
+    option.setTextDirection(Qt::RightToLeft);
+    option.setWrapMode(QTextOption::WordWrap);
+    QTextLayout layout(text, label.font());
+    layout.setTextOption(option);
+    struct Line {
+      QString words;
+      double height = 0;
+    };
+    std::vector<Line> lines;
+    double height = 0;
+    layout.beginLayout();
+    for (QTextLine line = layout.createLine(); line.isValid(); line = layout.createLine()) {
+      line.setLineWidth(room.width());
+      lines.push_back({text.mid(line.textStart(), line.textLength()).trimmed(), line.height()});
+      height += line.height();
+    }
+    layout.endLayout();
+    const Qt::Alignment wanted = label.alignment();
+    double top = room.top();
+    if ((wanted & Qt::AlignTop) == 0)
+      top += (room.height() - height) / ((wanted & Qt::AlignBottom) != 0 ? 1 : 2);
+    QPainter painter(&label);
+    painter.setPen(label.palette().color(label.foregroundRole()));
+    const Qt::Alignment side = (wanted & Qt::AlignHCenter) != 0 ? Qt::AlignHCenter : Qt::AlignRight;
+    for (const Line& line : lines) {
+      painter.drawText(
+          QRectF(room.left(), top, room.width(), line.height),
+          static_cast<int>(side | Qt::AlignAbsolute | Qt::AlignVCenter) | Qt::TextForceRightToLeft,
+          line.words);
+      top += line.height;
+    }
+  }
+};
+
 }  // namespace
+
+void wrap_words(QLabel& label) {
+  label.setWordWrap(true);
+  label.installEventFilter(new LinesFromTheRight(&label));
+}
+
+void align_trailing(QLabel& label) {
+  const bool mirrored = QLocale().textDirection() == Qt::RightToLeft;
+  label.setAlignment(Qt::AlignAbsolute | Qt::AlignVCenter | (mirrored ? Qt::AlignLeft : Qt::AlignRight));
+}
 
 void turn_with_focus_only(QWidget& widget) {
   widget.setFocusPolicy(Qt::StrongFocus);  // not by the wheel

@@ -50,6 +50,10 @@ class Card : public QFrame {
 /// role: title, heading, muted, small, danger.
 QLabel* make_label(const char* role, QWidget* parent = nullptr);
 void set_role(QWidget* widget, const char* property, const QString& value);
+/// Breaks its lines between words, and shows them whole in languages from right to left, too.
+void wrap_words(QLabel& label);
+/// Puts a value at the end of its column, by the direction of the language at work.
+void align_trailing(QLabel& label);
 /// Fills a horizontal slider from the side where the language at work begins.
 void speak_direction(QSlider& slider);
 

@@ -116,11 +116,21 @@ int wait_until_cleared(Client& client) {
   return 1;
 }
 
+/// A stop that was asked for just now is still under way, and cannot be lifted before it is done.
+void wait_until_stopped(Client& client) {
+  const auto end = std::chrono::steady_clock::now() + kClearedWithin;
+  joblink::State state = client.status().state();
+  while (state == joblink::STATE_STOPPING && std::chrono::steady_clock::now() < end)
+    if (const auto report = client.next(std::chrono::seconds{1}))
+      if (const auto* status = std::get_if<Status>(&*report)) state = status->state();
+}
+
 /// Comes back when the stop is lifted: the next command of a script finds the machine so.
 void add_clear(CLI::App& app, const Options& options, int& exit_code) {
   app.add_subcommand("clear", "Lift a stop or an alarm")->callback([=, &exit_code] {
     Client client(options->reach, kStatusHz, true);
     take_control(client, *options);
+    wait_until_stopped(client);
     client.ask(plain(&ClientMessage::mutable_clear));
     exit_code = wait_until_cleared(client);
   });

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "tools/compose/depth_order.hpp"
 #include "tools/drawing/chart.hpp"
 #include "tools/drawing/faces.hpp"
 
@@ -25,9 +26,13 @@ const Vector kRight = Vector(0, 0, 1).cross(kToEye).normalized();
 const Vector kUp = kToEye.cross(kRight);
 const Vector kLight = Vector(-0.2, -0.6, 0.9).normalized();
 
+// More facets than these are ordered by their middles: they are small then, and hide little that they should
+// not.
+constexpr std::size_t kMostCut = 1500;
+
 struct Scene {
   double longest_edge_mm = 1e300;
-  std::vector<drawing::Face> faces;  // corners in mm, to the right and up
+  std::vector<Facet> facets;
   double left = 1e300, right = -1e300, low = 1e300, high = -1e300;
   std::vector<Point> middles;  // of each piece
 
@@ -36,44 +41,59 @@ struct Scene {
     Vector middle(0, 0, 0);
     for (const Vector& p : piece.mesh.points)
       middle += (p + shift) / static_cast<double>(piece.mesh.points.size());
-    middles.push_back({kRight.dot(middle), kUp.dot(middle)});
+    middles.push_back(seen(middle));
     for (const auto& triangle : piece.mesh.faces) {
       const Vector &a = piece.mesh.points[triangle[0]], &b = piece.mesh.points[triangle[1]],
                    &c = piece.mesh.points[triangle[2]];
       const Vector n = (b - a).cross(c - a).normalized();
-      if (n.dot(kToEye) <= 0) continue;
+      if (!(n.dot(kToEye) > 0)) continue;
       const double light = 0.42 + 0.58 * std::max(0.0, n.dot(kLight));
       const double bright = 255 * light * 1.15;
-      add_face({a + shift, b + shift, c + shift},
-               drawing::rgb(base[0] * bright, base[1] * bright, base[2] * bright));
+      facets.push_back({{a + shift, b + shift, c + shift},
+                        n,
+                        drawing::rgb(base[0] * bright, base[1] * bright, base[2] * bright)});
+      for (const Vector& corner : facets.back().corners) {
+        const Point p = seen(corner);
+        left = std::min(left, p.x), right = std::max(right, p.x);
+        low = std::min(low, p.y), high = std::max(high, p.y);
+      }
     }
   }
 
+  static Point seen(const Vector& p) { return {kRight.dot(p), kUp.dot(p)}; }
+
   /// Halved until it is small: sorted by their middles, large faces would hide what is before them.
-  void add_face(const std::array<Vector, 3>& corners, const std::string& colour) {
+  void halve(const Facet& facet, std::vector<drawing::Face>& to) const {
+    const auto& corners = facet.corners;
     std::size_t longest = 0;
     const auto edge = [&](std::size_t i) { return (corners[(i + 1) % 3] - corners[i]).norm(); };
     for (const std::size_t i : {std::size_t{1}, std::size_t{2}})
       if (edge(i) > edge(longest)) longest = i;
     if (edge(longest) > longest_edge_mm) {
       const Vector middle = (corners[longest] + corners[(longest + 1) % 3]) / 2;
-      std::array<Vector, 3> one = corners, other = corners;
-      one[(longest + 1) % 3] = middle;
-      other[longest] = middle;
-      add_face(one, colour);
-      add_face(other, colour);
+      Facet one = facet, other = facet;
+      one.corners[(longest + 1) % 3] = middle;
+      other.corners[longest] = middle;
+      halve(one, to);
+      halve(other, to);
       return;
     }
-    drawing::Face face;
-    face.depth = kToEye.dot(corners[0] + corners[1] + corners[2]) / 3;
-    face.colour = colour;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Point p{kRight.dot(corners[i]), kUp.dot(corners[i])};
-      face.corners[i] = p;
-      left = std::min(left, p.x), right = std::max(right, p.x);
-      low = std::min(low, p.y), high = std::max(high, p.y);
+    to.push_back({{seen(corners[0]), seen(corners[1]), seen(corners[2])},
+                  kToEye.dot(corners[0] + corners[1] + corners[2]) / 3,
+                  facet.colour});
+  }
+
+  std::vector<drawing::Face> faces() const {
+    std::vector<drawing::Face> all;
+    if (facets.size() > kMostCut) {
+      for (const Facet& facet : facets) halve(facet, all);
+      return all;
     }
-    faces.push_back(std::move(face));
+    for (const Facet& f : from_behind(facets))
+      all.push_back({{seen(f.corners[0]), seen(f.corners[1]), seen(f.corners[2])},
+                     static_cast<double>(all.size()),
+                     f.colour});
+    return all;
   }
 
   void draw(drawing::Document& document, const drawing::Box& box, double scale) const {
@@ -81,10 +101,10 @@ struct Scene {
       return Point{box.x + box.width / 2 + scale * (p.x - (left + right) / 2),
                    box.y + box.height / 2 - scale * (p.y - (low + high) / 2)};
     };
-    std::vector<drawing::Face> placed = faces;
+    std::vector<drawing::Face> placed = faces();
     for (drawing::Face& face : placed)
       for (Point& p : face.corners) p = at(p);
-    drawing::draw_faces(document, std::move(placed), 1.1);
+    drawing::draw_faces(document, std::move(placed), 0.8);
     for (std::size_t i = 0; i < middles.size() && middles.size() > 1; ++i) {
       const Point p = at(middles[i]);
       document.text(

@@ -24,6 +24,8 @@ constexpr double kWidth = 1200, kMargin = 70, kSceneHeight = 620, kChartHeight =
 constexpr const char* kTravelColour = "#c3cad1";
 // Points drawn: enough for any detail that a picture of this size can show.
 constexpr std::size_t kDrawnChart = 1'500;
+// Of a step: what is full ends at 100 %, however a float says it.
+constexpr double kOnTheLine = 1e-6;
 
 struct Range {
   double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
@@ -131,16 +133,12 @@ struct Scale {
   }
 };
 
-bool feeds(const PlotData::Point& before, const PlotData::Point& now) {
-  return now.e_mm > before.e_mm + 1e-6f;
-}
-
 Scale make_scale(const PlotData& data) {
   const auto& points = data.points();
   std::vector<float> speeds;
   Range height;
   for (std::size_t i = 1; i < points.size(); ++i) {
-    if (data.prints && !feeds(points[i - 1], points[i])) continue;
+    if (data.prints && !PlotData::feeds(points[i - 1], points[i])) continue;
     speeds.push_back(points[i].speed_mm_per_s);
     height.include(points[i].tool_mm[2]);
   }
@@ -187,9 +185,12 @@ void draw_path(Document& document, const View& view, const PlotData& data, const
 void draw_scale(Document& document, const Scale& scale, bool with_travel) {
   const double x = kWidth - 50, top = kTop + 60, height = 260;
   drawing::colour_bar(document, {x - 16, top, 16, height});
+  // No two of the five say the same.
+  const int decimals = scale.high - scale.low < 8 ? 1 : 0;
   for (int i = 0; i <= 4; ++i)
     document.text({x - 22, top + height * (1 - i / 4.0) + 4},
-                  fmt::format("{:.0f}", scale.low + (scale.high - scale.low) * i / 4), kRightLabel);
+                  fmt::format("{:.{}f}", scale.low + (scale.high - scale.low) * i / 4, decimals),
+                  kRightLabel);
   document.text({x + 2, top - 26}, scale.height ? "height" : "tool speed", kRightLabel);
   document.text({x + 2, top - 10}, scale.height ? "mm" : "mm/s", kRightLabel);
   if (!with_travel) return;
@@ -215,7 +216,7 @@ void draw_series(Document& document, double top, const PlotData& data, const std
   drawing::Chart chart{.area = {kMargin, top, kWidth - 2 * kMargin, kChartHeight},
                        .x_high = std::max<double>(points.back().time_s, 1e-3),
                        .y_low = step * std::floor(range.low / step),
-                       .y_high = step * std::ceil(range.high / step + 1e-9)};
+                       .y_high = step * std::ceil(range.high / step - kOnTheLine)};
   if (chart.y_high <= chart.y_low) chart.y_high = chart.y_low + step;
   drawing::draw_frame(
       document, chart,

@@ -23,7 +23,7 @@ class PlotData {
   struct Point {
     float time_s = 0, speed_mm_per_s = 0, error_um = 0, bus_load = 0;
     std::array<float, 3> tool_mm{};
-    float e_mm = 0;
+    double e_mm = 0;  // of a long job: a float's steps would be those of a line
     std::array<float, 8> joints{};
     Heat heat{};
   };
@@ -40,6 +40,8 @@ class PlotData {
   static constexpr std::size_t kPathCapacity = 40'000;
 
   void add(const Point& point);
+  /// Filament for a line came on the way from one to the other.
+  static bool feeds(const Point& before, const Point& now);
   const std::vector<Point>& points() const { return points_; }
   const std::vector<Stretch>& path() const { return path_; }
   std::size_t drawn_stretch() const { return keep_; }
@@ -59,7 +61,7 @@ class PlotData {
   std::vector<std::array<float, 3>> passed_;  // since kept_
   bool layer_known_ = false;
   float layer_mm_ = 0;  // where the stretch at hand prints
-  float last_e_ = 0;
+  Point before_{};
 
   std::vector<Point> points_;
   std::size_t every_ = 1, seen_ = 0;

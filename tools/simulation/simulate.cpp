@@ -232,7 +232,7 @@ class Run {
     }
     const double dt = to_seconds(sample.time - last_time_);
     if (dt > 0 && dt < 0.01) point.speed_mm_per_s = static_cast<float>(std::sqrt(square) / dt);
-    point.e_mm = static_cast<float>(sample.pose[kE]);
+    point.e_mm = sample.pose[kE];
     point.error_um = static_cast<float>(checkers_->tracking.last_tool_um());
     point.bus_load = static_cast<float>(checkers_->bus.last_100ms());
     for (std::size_t j = 0; j < machine_.joints.size() && j < point.joints.size(); ++j)

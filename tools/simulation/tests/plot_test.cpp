@@ -67,6 +67,47 @@ TEST(Plot, CurvesStayRoundAndLinesStayShort) {
   EXPECT_LE(straight.path().front().size(), 2u);
 }
 
+TEST(Plot, ATravelIsNoLineThoughEWavers) {
+  PlotData data;
+  PlotData::Point point{.speed_mm_per_s = 30, .e_mm = 5000};
+  const auto go = [&](std::size_t axis, int steps, double filament_mm) {
+    for (int i = 0; i < steps; ++i) {
+      point.tool_mm[axis] += 0.03f;
+      point.e_mm += filament_mm + (i % 2 == 0 ? 5e-5 : -5e-5);  // parts of a count, forth and back
+      data.add(point);
+    }
+  };
+  data.add(point);
+  go(0, 1000, 8e-4);
+  go(2, 1000, 0);
+  int lines = 0, travels = 0;
+  for (const PlotData::Stretch& stretch : data.path())
+    for (std::size_t i = 1; i < stretch.size(); ++i) {
+      if (stretch[i].mm == stretch[i - 1].mm) continue;
+      EXPECT_EQ(stretch[i].prints, stretch[i].mm[2] == 0) << i;
+      ++(stretch[i].prints ? lines : travels);
+    }
+  EXPECT_GT(lines, 0);
+  EXPECT_GT(travels, 0);
+}
+
+TEST(Plot, WhatIsFullEndsAtAHundredPercent) {
+  PlotData data;
+  for (int i = 0; i < 100; ++i) {
+    const auto t = static_cast<float>(i);
+    PlotData::Point point{.time_s = t, .speed_mm_per_s = 1, .tool_mm = {t / 100, 0, 0}};
+    point.heat.target_c[0] = 200;
+    point.heat.power[0] = 1;
+    data.add(point);
+  }
+  MachineDescription machine = default_m1();
+  machine.heaters.push_back({.name = "hotend"});
+  const std::string svg = draw_plot(data, machine, "x", "");
+  const std::string full = svg.substr(svg.find("% of full"));
+  EXPECT_NE(full.find(">100<"), std::string::npos);
+  EXPECT_EQ(full.find(">150<"), std::string::npos);
+}
+
 TEST(Plot, NamesWhatItShowsAndEscapesTheTitle) {
   const std::string svg = draw_plot(spiral(5000), default_m1(), "a<b&c.gcode", "12 lines");
   for (const char* words : {"a&lt;b&amp;c.gcode", "12 lines", "X mm", "Y mm", "Z mm", "tower1", "tower4",
